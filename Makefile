@@ -1,0 +1,119 @@
+# Whirl: energies in, firmware out. `make` lists the targets; the machinery is in mk/.
+#
+# V=1 shows the commands. Nothing is written outside build/.
+
+.DEFAULT_GOAL := help
+.DELETE_ON_ERROR:
+.SUFFIXES:
+MAKEFLAGS += --no-builtin-rules --no-print-directory
+SHELL := /bin/sh
+export LC_ALL := C
+
+# --- settings, for the command line -----------------------------------------------------------
+ifeq ($(origin CC),default)
+CC := gcc
+endif
+OPT ?= -O2
+# Extra compiler and linker flags, such as -Werror or -fsanitize=address.
+EXTRA ?=
+# The board of emulate and size: a folder of boards/ with a board.mk.
+BOARD ?= mps2-an386
+# A checkout of the Unity test framework, instead of Debian's copy.
+UNITY ?=
+# Seconds of each fuzzer.
+FUZZ_SECONDS ?= 20
+# Where one configuration's objects go: the quality gates build with other flags elsewhere.
+B ?= build
+
+include mk/rules.mk
+include mk/whirl.mk
+include mk/tests.mk
+include mk/board.mk
+include mk/price.mk
+include mk/check.mk
+
+##@ Start here
+
+.PHONY: help
+help: ## this list
+	@echo "Whirl: write a mechanism's energies, get its motion and its firmware."
+	@awk 'BEGIN { FS = ":.*## " } \
+	    /^##@ / { printf "\n%s\n", substr($$0, 5) } \
+	    /^[a-z-]+:.*## / { printf "  make %-16s %s\n", $$1, $$2 }' Makefile
+	@echo ""
+	@echo "V=1 shows the commands; -j2 uses two cores. BOARD= names a folder of boards/."
+
+.PHONY: deps
+deps: ## install the Debian packages that are missing for everything below
+	@UNITY="$(UNITY)" CC="$(CC)" host/setup/deps.sh
+	@echo "All packages are there."
+
+.PHONY: run
+run: ## the whole way: a mechanism's energies, its motion, its firmware on an emulated board
+	@CC="$(CC)" host/setup/deps.sh host plot firmware
+	@$(MAKE) run-now
+
+.PHONY: whirl
+whirl: $(B)/whirl ## the command line program, build/whirl
+
+##@ Tests and quality
+
+.PHONY: test
+test: ## every test on this machine and on the emulated board; ends with "N passed, N failed"
+	@UNITY="$(UNITY)" CC="$(CC)" host/setup/deps.sh host plot firmware tests
+	@UNITY="$(UNITY)" host/setup/unity.sh build/unity
+	@$(MAKE) test-now
+
+.PHONY: check
+check: ## the quality gates: warnings, layout, lint, sanitizers, firmware rules, equal bits
+	@UNITY="$(UNITY)" CC="$(CC)" host/setup/deps.sh
+	@UNITY="$(UNITY)" host/setup/unity.sh build/unity
+	@$(MAKE) check-now
+
+.PHONY: hashes
+hashes: ## the same bits from every compiler, optimisation level, board and the interpreter
+	@CC="$(CC)" host/setup/deps.sh host firmware quality
+	@$(MAKE) hashes-now
+
+.PHONY: sine-exhaustive
+sine-exhaustive: $(B)/tools/sine_exhaustive ## the sine's worst error, over all 2^32 angles (minutes)
+	$(Q)$<
+
+.PHONY: fuzz
+fuzz: ## throw broken files at the parser for FUZZ_SECONDS each
+	@CC="$(CC)" host/setup/deps.sh host quality
+	@$(MAKE) fuzz-now
+
+.PHONY: format
+format: ## lay out every C file as .clang-format says
+	@CC="$(CC)" host/setup/deps.sh quality
+	$(Q)clang-format -i $(C_FILES)
+
+##@ Price
+
+.PHONY: bench
+bench: ## instructions a step, counted, on this machine and on the emulated boards
+	@CC="$(CC)" host/setup/deps.sh host firmware bench
+	@$(MAKE) bench-now
+
+.PHONY: size
+size: ## bytes of flash, of memory and of stack of BOARD's images
+	@CC="$(CC)" host/setup/deps.sh host firmware
+	@$(MAKE) size-now
+
+##@ Boards
+
+.PHONY: emulate
+emulate: ## run BOARD's firmware in the emulator
+	@CC="$(CC)" host/setup/deps.sh host firmware
+	@$(MAKE) emulate-now
+
+##@ Cleaning
+
+.PHONY: clean
+clean: ## remove what was built, except the fetched test framework
+	$(Q)[ ! -d build ] || find build -mindepth 1 -maxdepth 1 ! -name unity -exec rm -rf {} +
+
+.PHONY: distclean
+distclean: ## remove build/ altogether
+	$(Q)rm -rf build

@@ -1,0 +1,38 @@
+/* board.h: what every board offers, the PC included. Nothing else differs between them.
+ *
+ * On bare metal the startup code clears and copies memory, switches the FPU on, paints the stack
+ * and calls main(); what main() returns goes to board_exit(). On the PC main() is main().
+ */
+#ifndef BOARDS_BOARD_H
+#define BOARDS_BOARD_H
+
+#include <stdint.h>
+
+/* Name of the board as in boards/NAME, "host" on the PC. */
+extern const char *const board_name;
+
+/* Bring up the console and the free-running clock. Call once, first. */
+void board_start(void);
+
+/* Write `count` bytes to the console, waiting until all are taken. No conversion of line ends. */
+void board_write(const char *bytes, unsigned count);
+
+/* End the program: `code` 0 is success, 1 to 255 failure. Under an emulator the code becomes the
+ * emulator's exit status; on silicon without a debugger the core stops in a loop. */
+_Noreturn void board_exit(int code);
+
+/* A free-running clock: counts up and wraps at 2^32, so differences of two readings below one wrap
+ * are right when taken as uint32_t. board_ticks_per_s is constant. In an emulator it follows the
+ * emulator's idea of time: good for timeouts, worthless for measuring speed. */
+uint32_t board_ticks(void);
+extern const uint32_t board_ticks_per_s;
+
+/* Worst use of the stack. board_stack_paint() marks the part not in use at the moment (the startup
+ * code has done it once); board_stack_used_bytes() is the deepest mark overwritten since, counted
+ * from the top of the stack; board_stack_size_bytes() is what there is. Both are 0 on the PC, where
+ * the stack belongs to the operating system. */
+void board_stack_paint(void);
+unsigned board_stack_used_bytes(void);
+unsigned board_stack_size_bytes(void);
+
+#endif

@@ -1,0 +1,57 @@
+#!/bin/sh
+# check_image.sh ELF...: fail if a firmware image contains what firmware here must not contain:
+# a heap, the C library's mathematics or printing, or double-precision arithmetic in software.
+# NM names the nm to use; it defaults to arm-none-eabi-nm.
+set -u
+NM=${NM:-arm-none-eabi-nm}
+
+if [ $# -eq 0 ]; then
+    echo "usage: $0 ELF..." >&2
+    exit 2
+fi
+
+failed=0
+for elf in "$@"; do
+    if ! symbols=$("$NM" "$elf"); then
+        exit 2
+    fi
+    printf '%s\n' "$symbols" | awk -v elf="$elf" '
+        # Symbol names are the last field; undefined ones have no address before their letter.
+        function found(kind) {
+            printf "%s: %s: %s%s\n", elf, kind, name, undefined ? " (undefined)" : ""
+            bad++
+        }
+        NF >= 2 {
+            name = $NF
+            undefined = NF == 2
+            known += !undefined
+            bare = name
+            sub(/^_+(ieee754_|kernel_|math_)?/, "", bare)
+            sub(/_r$/, "", bare)
+            if (bare ~ /^(m|c|re|mem|posix_mem)?al(loc|ign)$|^(free|cfree|sbrk|brk)$/) {
+                found("heap")
+            } else if (bare ~ /^(sin|cos|sincos|tan|asin|acos|atan|atan2|sinh|cosh|tanh|sqrt|cbrt|hypot|exp|exp2|expm1|log|log2|log10|log1p|pow|fmod|floor|ceil|round|lround|rint|trunc|fabs|ldexp|frexp|remainder|rem_pio2)[fl]?$/) {
+                found("libm")
+            } else if (bare ~ /^v?(f|s|sn|d|as|i|si|sni|fi)?printf$|^(v?s?n?printf_[a-z]+|puts|fputs|putchar|fwrite|scanf|sscanf|dtoa|svfprintf|svfiprintf|vfprintf|vfiprintf)$/) {
+                found("printing")
+            } else if (name ~ /^__aeabi_(d|cd|f2d|h2d|i2d|ui2d|l2d|ul2d)/ ||
+                       name ~ /^__[a-z]+df([23]|[sdh]i|[sh]f2?)?$/ ||
+                       name ~ /^__(extend|float|floatun|fix|fixuns|trunc)[a-z]*df[a-z]*2?$/ ||
+                       name ~ /^__[a-z]*(tf|xf)[23]$/) {
+                found("double in software")
+            } else if (undefined && $1 == "U") {
+                found("unresolved")
+            }
+        }
+        END {
+            if (known == 0) {
+                printf "%s: no symbols: nothing can be said about this image\n", elf
+                exit 1
+            }
+            if (bad) {
+                exit 1
+            }
+            printf "%s: %d symbols, no heap, no libm, no printf, no double\n", elf, known
+        }' || failed=1
+done
+exit $failed

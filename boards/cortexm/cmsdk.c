@@ -1,0 +1,44 @@
+/* cmsdk.c: console and clock on Arm's CMSDK peripherals (Cortex-M System Design Kit Technical
+ * Reference Manual, APB UART and APB timer), as on the MPS2 boards. */
+#include "cortexm.h"
+
+#include "boards/board.h"
+
+#define UART_DATA (BOARD_UART + 0x0U)
+#define UART_STATE (BOARD_UART + 0x4U)
+#define UART_CTRL (BOARD_UART + 0x8U)
+#define UART_BAUDDIV (BOARD_UART + 0x10U)
+#define UART_STATE_TX_FULL 1U
+#define UART_CTRL_TX_ENABLE 1U
+
+#define TIMER_CTRL (BOARD_TIMER + 0x0U)
+#define TIMER_VALUE (BOARD_TIMER + 0x4U)
+#define TIMER_RELOAD (BOARD_TIMER + 0x8U)
+#define TIMER_CTRL_ENABLE 1U
+
+void uart_start(void) {
+    REGISTER(UART_BAUDDIV) = BOARD_UART_DIVISOR;
+    REGISTER(UART_CTRL) = UART_CTRL_TX_ENABLE;
+}
+
+/* The transmitter never gets ready before it is switched on: a program that forgot board_start()
+ * must not hang without a word. */
+void uart_write(const char *bytes, unsigned count) {
+    if ((REGISTER(UART_CTRL) & UART_CTRL_TX_ENABLE) == 0) {
+        uart_start();
+    }
+    for (unsigned i = 0; i < count; i++) {
+        while ((REGISTER(UART_STATE) & UART_STATE_TX_FULL) != 0) {
+        }
+        REGISTER(UART_DATA) = (uint8_t)bytes[i];
+    }
+}
+
+void timer_start(void) {
+    REGISTER(TIMER_RELOAD) = 0xFFFFFFFFU;
+    REGISTER(TIMER_VALUE) = 0xFFFFFFFFU;
+    REGISTER(TIMER_CTRL) = TIMER_CTRL_ENABLE;
+}
+
+/* The timer counts down. */
+uint32_t board_ticks(void) { return ~REGISTER(TIMER_VALUE); }

@@ -1,0 +1,81 @@
+/* angle.h: angles as 2^32 steps a turn, and their sine and cosine.
+ *
+ * An angle that only ever appears inside sine and cosine is kept as a 64-bit integer: the low
+ * 32 bits are the phase within the turn, the high 32 bits count whole turns. It wraps by itself,
+ * is as precise after a million turns as in the first, needs no range reduction, and sums and
+ * integer multiples of phases are integer operations. (float32 radians lose a digit every ten
+ * turns and freeze at 1 ms steps near 512 rad.)
+ *
+ * The double reference build keeps radians: it checks the integer arithmetic instead of sharing it.
+ */
+#ifndef WH_ANGLE_H
+#define WH_ANGLE_H
+
+#include "real.h"
+
+#if WH_DOUBLE
+
+typedef double wh_angle; /* radians, unwrapped */
+typedef double wh_phase; /* radians */
+#define WH_PHASE_PER_RAD 1.0
+/* A step may not turn an angle by more than this: beyond it, direction is lost. */
+#define WH_PHASE_STEP_MAX 3.141592653589793
+
+WH_INLINE wh_phase wh_phase_of(wh_angle angle) { return angle; }
+
+#else
+
+typedef int64_t wh_angle;  /* 2^32 a turn: turns in the high half, phase in the low half */
+typedef uint32_t wh_phase; /* 2^32 a turn */
+#define WH_PHASE_PER_RAD 683565275.576431632f /* 2^32 / (2 pi) */
+#define WH_PHASE_STEP_MAX 2147483520.0f       /* largest float below half a turn */
+
+WH_INLINE wh_phase wh_phase_of(wh_angle angle) { return (wh_phase)(uint64_t)angle; }
+
+#endif
+
+/* A constant angle or phase for generated code: radians for the double build, `units` (2^32 a turn)
+ * for the float build. */
+#if WH_DOUBLE
+#define WH_TURN(rad, units) (rad)
+#else
+#define WH_TURN(rad, units) (units)
+#endif
+
+/* `phase` moved on by `steps` phase units (radians * WH_PHASE_PER_RAD), in float without their
+ * fraction. Half a turn or more, or NaN, clears *sound: the step is to be refused, and the phase
+ * returned means nothing. */
+WH_INLINE wh_phase wh_phase_move(wh_phase phase, wh_real steps, bool *sound) {
+    const bool fits = WH_ABS(steps) < WH_PHASE_STEP_MAX;
+    *sound &= fits;
+#if WH_DOUBLE
+    return phase + steps;
+#else
+    return phase + (wh_phase)(fits ? (int32_t)steps : 0);
+#endif
+}
+
+/* Sine and cosine of a phase together; a caller that drops one pays for one. At most 1 in size,
+ * and exact at quarter turns. Float: the worst error over all 2^32 phases is 6.3e-8 (`make
+ * sine-exhaustive` measures it). Double: 1.4e-16 for |phase| <= 5e8 rad; beyond it, or of NaN, both
+ * are NaN. docs/numerics.md says how and what it costs. */
+WH_INLINE void wh_sincos(wh_phase phase, wh_real *sine, wh_real *cosine);
+
+/* Phase of an angle in radians, for arguments that are not kept as a turn angle. Float: within one
+ * phase unit (1.5e-9 rad) for |rad| < 1e9; larger or NaN gives phase 0. Double: rad itself. */
+WH_INLINE wh_phase wh_phase_from_rad(wh_real rad);
+
+#define wh_angle_from_rad WH_NAME(wh_angle_from_rad)
+#define wh_angle_to_rad WH_NAME(wh_angle_to_rad)
+
+/* The stored angle of unwrapped radians: whole turns are kept. Precision and range as with
+ * wh_phase_from_rad(). */
+wh_angle wh_angle_from_rad(wh_real rad);
+
+/* The unwrapped radians of a stored angle. Float: rounded to the nearest (by 0.504 of the last
+ * place at worst); any angle is in range. */
+wh_real wh_angle_to_rad(wh_angle angle);
+
+#include "sine.h" /* the inline bodies of wh_sincos and wh_phase_from_rad */
+
+#endif

@@ -1,0 +1,38 @@
+/* hash.h: a hash of a state's bits, to compare runs between machines (FNV-1a, 64 bits).
+ *
+ * Words are taken in a fixed byte order, low byte first, so the hash does not depend on the
+ * machine's endianness. */
+#ifndef WH_HASH_H
+#define WH_HASH_H
+
+#include "real.h"
+
+#define WH_HASH_START UINT64_C(0xcbf29ce484222325)
+
+/* Mix the eight bytes of `word` into `hash` and return the new hash. */
+static inline uint64_t wh_hash_u64(uint64_t hash, uint64_t word) {
+    for (unsigned byte = 0; byte < 8; byte++) {
+        hash = (hash ^ (word & 0xffU)) * UINT64_C(0x100000001b3);
+        word >>= 8;
+    }
+    return hash;
+}
+
+/* Mix the bits of a real: 0.0 and -0.0 differ, and so do different NaNs. A float counts as its
+ * 32 bits zero-extended. */
+static inline uint64_t wh_hash_real(uint64_t hash, wh_real value) {
+#if WH_DOUBLE
+    union {
+        double value;
+        uint64_t bits;
+    } as = {.value = value};
+#else
+    union {
+        float value;
+        uint32_t bits;
+    } as = {.value = value};
+#endif
+    return wh_hash_u64(hash, as.bits);
+}
+
+#endif

@@ -1,0 +1,34 @@
+/* datasheet.h: the eccentric-mass rig in numbers, as its controller needs them.
+ *
+ * Weights and radii: Almesallmy (2006), the force formula of I.3.2.1. The rig's physics is not here
+ * but in core/models/eccentric.whirl; tests/core/test_virtual_rig.c compares the two. */
+#ifndef WH_RIG_DATASHEET_H
+#define WH_RIG_DATASHEET_H
+
+#include "core/real.h"
+
+/* Time stamps of the rig are counts of a 1 MHz timer, 32 bits, wrapping. */
+#define WH_RIG_TICKS_PER_S 1000000U
+
+#define WH_RIG_TWO_PI WH_R(6.283185307179586)
+#define WH_RIG_RADPS_PER_RPM WH_R(0.10471975511965977)
+#define WH_RIG_DEG_PER_RAD WH_R(57.29577951308232)
+#define WH_RIG_LBF_PER_N WH_R(0.22480894309971047)
+
+/* Sum of mass times radius over both sets: arm 0.152 lb at 7.25/2 in, discs 0.15 lb at 6.5 in. */
+#define WH_RIG_MASS_MOMENT_KGM \
+    (WH_R(2.0) * (WH_R(0.152) * WH_R(3.625) + WH_R(0.15) * WH_R(6.5)) * \
+     (WH_R(0.45359237) * WH_R(0.0254)))
+
+/* Speed of the measurement (I.3.2.1): 5.5 turns a second. */
+#define WH_RIG_NOMINAL_RPM WH_R(330.0)
+
+/* What a 1/4 in shaft carries for ever (docs/rig.md derives 416 rpm), rounded down: faster than this
+ * the guard stops the rig. Set-points keep a tenth away from it, for the loop's overshoot. */
+#define WH_RIG_SHAFT_LIMIT_RPM WH_R(400.0)
+#define WH_RIG_TARGET_MAX_RPM WH_R(360.0)
+
+/* The motor's speed without load is 600 rpm; pulses that would need more than this are no pulses. */
+#define WH_RIG_IMPOSSIBLE_RPM WH_R(800.0)
+
+#endif

@@ -1,0 +1,41 @@
+/* drive.c: speed drive: a ramp for the set-point and a PI controller with anti-windup. */
+#include "drive.h"
+
+static wh_real clamp(wh_real value, wh_real low, wh_real high) {
+    return value < low ? low : value > high ? high : value;
+}
+
+void wh_drive_start(const wh_drive_config *config, wh_drive *drive, wh_real speed_radps,
+                    wh_real duty) {
+    drive->target_radps = speed_radps;
+    drive->setpoint_radps = speed_radps;
+    drive->integral = clamp(duty, config->duty_min, config->duty_max);
+}
+
+wh_real wh_drive_step(const wh_drive_config *config, wh_drive *drive, wh_real speed_radps,
+                      wh_real step_s) {
+    const wh_real most = config->ramp_radps2 * step_s;
+    const wh_real way = drive->target_radps - drive->setpoint_radps;
+    /* the last stretch lands on the target exactly: at_target() compares for equality */
+    if (WH_ABS(way) <= most) {
+        drive->setpoint_radps = drive->target_radps;
+    } else {
+        drive->setpoint_radps += way < WH_R(0.0) ? -most : most;
+    }
+
+    const wh_real error = drive->setpoint_radps - speed_radps;
+    const wh_real wanted = config->proportional_per_radps * error + drive->integral;
+    const wh_real duty = clamp(wanted, config->duty_min, config->duty_max);
+    const bool pushes_further =
+        wanted > duty ? error > WH_R(0.0) : wanted < duty && error < WH_R(0.0);
+    if (!pushes_further) {
+        drive->integral = clamp(drive->integral + config->integral_per_rad * error * step_s,
+                                config->duty_min, config->duty_max);
+    }
+    return duty;
+}
+
+bool wh_drive_at_target(const wh_drive *drive) {
+    const wh_real way = drive->target_radps - drive->setpoint_radps;
+    return !(way < WH_R(0.0)) && !(way > WH_R(0.0));
+}

@@ -1,0 +1,77 @@
+/* speed.c: speed of the rotor from the pulses of the two slot sensors. */
+#include "speed.h"
+
+#include "datasheet.h"
+
+#define QUARTERS 4U
+
+static wh_real seconds(uint32_t ticks) {
+    return (wh_real)ticks * (WH_R(1.0) / (wh_real)WH_RIG_TICKS_PER_S);
+}
+
+/* Mean speed over `quarters` quarter turns in `ticks` > 0. */
+static wh_real radps(uint32_t quarters, uint32_t ticks) {
+    return (wh_real)quarters * (WH_RIG_TWO_PI / (wh_real)QUARTERS) / seconds(ticks);
+}
+
+static void remember(wh_speed *speed, unsigned sensor, uint32_t ticks) {
+    speed->running = true;
+    speed->ticks = ticks;
+    speed->seen[sensor] = true;
+    speed->seen_ticks[sensor] = ticks;
+    speed->seen_quarter[sensor] = speed->quarter;
+    speed->taken++;
+}
+
+void wh_speed_start(wh_speed *speed, wh_real impossible_radps) {
+    *speed = (wh_speed){.impossible_radps = impossible_radps};
+}
+
+bool wh_speed_pulse(wh_speed *speed, unsigned sensor, uint32_t ticks) {
+    if (sensor >= WH_SPEED_SENSORS) {
+        speed->rejected++;
+        return false;
+    }
+    if (!speed->running) {
+        speed->quarter = sensor;
+        remember(speed, sensor, ticks);
+        return true;
+    }
+    /* On to the next position of this sensor: 1 or 3 quarters, or the whole turn. */
+    const uint32_t ahead = (sensor - speed->quarter) % QUARTERS;
+    const uint32_t moved = ahead == 0 ? QUARTERS : ahead;
+    const uint32_t interval = ticks - speed->ticks;
+    if (interval == 0 || radps(moved, interval) > speed->impossible_radps) {
+        speed->rejected++;
+        return false;
+    }
+    const wh_real interval_radps = radps(moved, interval);
+    if (speed->known && interval_radps < WH_R(0.5) * speed->turn_radps) {
+        speed->lost += 2;
+        speed->seen[0] = false;
+        speed->seen[1] = false;
+        speed->quarter = sensor;
+        remember(speed, sensor, ticks);
+        return true;
+    }
+    if (moved == QUARTERS) {
+        speed->lost++;
+    }
+    speed->quarter += moved;
+    speed->interval_radps = interval_radps;
+    if (speed->seen[sensor]) {
+        speed->turn_radps =
+            radps(speed->quarter - speed->seen_quarter[sensor], ticks - speed->seen_ticks[sensor]);
+        speed->known = true;
+    }
+    remember(speed, sensor, ticks);
+    return true;
+}
+
+wh_real wh_speed_silence_s(const wh_speed *speed, uint32_t now_ticks) {
+    return speed->running ? seconds(now_ticks - speed->ticks) : WH_R(0.0);
+}
+
+bool wh_speed_is_overdue(const wh_speed *speed, uint32_t now_ticks) {
+    return speed->known && wh_speed_silence_s(speed, now_ticks) * speed->turn_radps > WH_RIG_TWO_PI;
+}

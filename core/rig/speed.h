@@ -1,0 +1,53 @@
+/* speed.h: speed of the rotor from the pulses of the two slot sensors.
+ *
+ * Sensor 0 stands at 0, sensor 1 a quarter turn on, so the pulses of a turning rotor alternate and
+ * the rotor moves on by 1, 3, 1, 3, ... quarters. A sensor that fires twice running has lost one
+ * pulse of the other in between. Speed is measured from a sensor's pulse to its next one: a whole
+ * turn, over which the ripple that gravity makes cancels, and twice a turn there is a new value. */
+#ifndef WH_RIG_SPEED_H
+#define WH_RIG_SPEED_H
+
+#include "core/real.h"
+
+#define WH_SPEED_SENSORS 2U
+
+typedef struct wh_speed {
+    wh_real impossible_radps;    /* a pulse that would need more is rejected */
+    wh_real turn_radps;          /* mean over the last whole turn; valid when known */
+    wh_real interval_radps;      /* mean since the pulse before the last; valid when known */
+    bool known;                  /* a whole turn has been measured */
+    bool running;                /* at least one pulse has been taken since the last gap */
+    uint32_t ticks;              /* time of the last pulse taken */
+    uint32_t quarter;            /* rotor's position at it, quarter turns, wrapping */
+    uint32_t taken;              /* pulses taken */
+    uint32_t lost;               /* pulses that must have been there */
+    uint32_t rejected;           /* pulses that cannot be */
+    bool seen[WH_SPEED_SENSORS]; /* the next two are valid */
+    uint32_t seen_ticks[WH_SPEED_SENSORS];
+    uint32_t seen_quarter[WH_SPEED_SENSORS];
+} wh_speed;
+
+#define wh_speed_start WH_NAME(wh_speed_start)
+#define wh_speed_pulse WH_NAME(wh_speed_pulse)
+#define wh_speed_silence_s WH_NAME(wh_speed_silence_s)
+#define wh_speed_is_overdue WH_NAME(wh_speed_is_overdue)
+
+/* Forget everything. impossible_radps > 0: no pulse can come faster than this. */
+void wh_speed_start(wh_speed *speed, wh_real impossible_radps);
+
+/* Take a pulse of `sensor` (0 or 1) captured at `ticks`, in order of time. Returns false when it is
+ * rejected: closer to the last one than impossible_radps allows, or no such sensor.
+ *
+ * A pulse that comes so late that the interval's speed is below half of the turn's is taken for the
+ * first one after a gap in which two or more were lost: they are counted as two, measuring starts
+ * afresh, and the last speed stays until a whole turn has been seen again. */
+bool wh_speed_pulse(wh_speed *speed, unsigned sensor, uint32_t ticks);
+
+/* Seconds since the last pulse taken; 0 when there was none. */
+wh_real wh_speed_silence_s(const wh_speed *speed, uint32_t now_ticks);
+
+/* True when no pulse has come for more than a whole turn at the known speed, so that at least one
+ * was lost (regular intervals are at most three quarters of a turn). */
+bool wh_speed_is_overdue(const wh_speed *speed, uint32_t now_ticks);
+
+#endif

@@ -1,0 +1,82 @@
+/* scene.c: starting, stepping and comparing runs. The arithmetic is in step.h. */
+#include "scene.h"
+
+#include "hash.h"
+
+static size_t carries(const wh_scene *scene) {
+    return scene->compensated ? (size_t)scene->angles + scene->reals : 0U;
+}
+
+wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, size_t bytes) {
+    const size_t need = scene->angles * sizeof(wh_angle) +
+                        (scene->reals + carries(scene) + scene->inputs) * sizeof(wh_real);
+    if (memory == NULL || bytes < need) {
+        return WH_E_MEMORY;
+    }
+    wh_real *reals;
+    state->angle = memory;
+    reals = (wh_real *)(void *)(state->angle + scene->angles);
+    state->real = reals;
+    reals += scene->reals;
+    state->carry = scene->compensated ? reals : NULL;
+    reals += carries(scene);
+    state->input = reals;
+
+    for (unsigned i = 0; i < scene->angles; i++) {
+        state->angle[i] = scene->start_angle[i];
+    }
+    for (unsigned i = 0; i < scene->reals; i++) {
+        state->real[i] = scene->start_real[i];
+    }
+    for (size_t i = 0; i < carries(scene); i++) {
+        state->carry[i] = WH_R(0.0);
+    }
+    for (unsigned i = 0; i < scene->inputs; i++) {
+        state->input[i] = scene->start_input[i];
+    }
+    state->steps = 0;
+    state->fault = -1;
+    return WH_OK;
+}
+
+wh_status wh_scene_step(const wh_scene *scene, wh_state *state) {
+    const wh_status status = scene->advance(scene, state);
+    if (status == WH_OK) {
+        state->steps++;
+    }
+    return status;
+}
+
+wh_real wh_scene_time_s(const wh_scene *scene, const wh_state *state) {
+    return (wh_real)state->steps * scene->step_s;
+}
+
+uint64_t wh_scene_hash(const wh_scene *scene, const wh_state *state) {
+    uint64_t hash = wh_hash_u64(WH_HASH_START, state->steps);
+    for (unsigned i = 0; i < scene->angles; i++) {
+#if WH_DOUBLE
+        hash = wh_hash_real(hash, state->angle[i]);
+#else
+        hash = wh_hash_u64(hash, (uint64_t)state->angle[i]);
+#endif
+    }
+    for (unsigned i = 0; i < scene->reals; i++) {
+        hash = wh_hash_real(hash, state->real[i]);
+    }
+    return hash;
+}
+
+const wh_real *wh_scene_rates(const wh_scene *scene, const wh_state *state) {
+    /* reals = linear + coordinates and coordinates = linear + angles */
+    return state->real + (scene->reals - scene->angles) / 2;
+}
+
+const char *wh_status_text(wh_status status) {
+    switch (status) {
+    case WH_OK: return "ok";
+    case WH_E_DIVERGED: return "the state diverged";
+    case WH_E_MEMORY: return "the memory is too small for this scene";
+    case WH_E_ARGUMENT: return "an argument is out of range";
+    }
+    return "unknown status";
+}

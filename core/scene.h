@@ -1,0 +1,97 @@
+/* scene.h: a scene is one mechanism, compiled with only the effects it names, ready to step.
+ *
+ * A generated file (build/gen/NAME.c) defines one constant `wh_scene`; it lives in flash. What
+ * changes while running lives in a `wh_state` and in memory that the caller owns:
+ *
+ *     static uint64_t memory[WH_STATE_WORDS(2, 4, 1)];      // angles, reals, inputs: see the scene
+ *     wh_state state;
+ *     wh_scene_start(&thomson_a, &state, memory, sizeof memory);
+ *     while (wh_scene_step(&thomson_a, &state) == WH_OK) { ... }
+ *
+ * Verbs follow eFMI's Startup / DoStep. Nothing here allocates, recurses or calls a library.
+ */
+#ifndef WH_SCENE_H
+#define WH_SCENE_H
+
+#include <stddef.h>
+
+#include "angle.h"
+#include "real.h"
+
+/* How a scene's state is arranged.
+ *
+ * Second order (Lagrangian mechanisms, q'' = f(q, q', u)): coordinates are ordered with the
+ * angles first. angle[i] is coordinate i for i < angles; real[] holds the positions of the other
+ * coordinates, then the rates of all coordinates in the same order. reals = 2*coordinates - angles.
+ *
+ * First order (systems given outright): angle[] and real[] are the components of x' = f(x, u). */
+typedef enum wh_form { WH_SECOND_ORDER, WH_FIRST_ORDER } wh_form;
+
+typedef enum wh_method { WH_EULER, WH_SEMI_IMPLICIT_EULER, WH_HEUN, WH_RK4 } wh_method;
+
+/* The changing part of a run. All pointers point into the memory given to wh_scene_start(). */
+typedef struct wh_state {
+    uint64_t steps;  /* steps done; time is steps * step_s, never a running sum */
+    wh_angle *angle; /* [scene->angles] */
+    wh_real *real;   /* [scene->reals] SI units */
+    wh_real *carry;  /* [scene->angles + scene->reals] low parts when compensated, else NULL */
+    wh_real *input;  /* [scene->inputs] SI units; the caller may change them between steps */
+    int fault;       /* component that diverged (angles first, then reals), or -1 */
+} wh_state;
+
+typedef struct wh_scene wh_scene;
+struct wh_scene {
+    const char *name;
+    wh_form form;
+    wh_method method;
+    uint8_t angles;   /* components kept as a turn angle */
+    uint8_t reals;    /* components kept as a real */
+    uint8_t inputs;   /* may change while running */
+    uint8_t outputs;  /* computed by observe(), never in the step */
+    bool compensated; /* sums carry their rounding error along */
+    wh_real step_s;   /* fixed step, seconds, > 0 */
+    uint32_t steps;   /* steps to the scene's end */
+    const wh_angle *start_angle;
+    const wh_real *start_real;
+    const wh_real *start_input;
+    const void *model;   /* the interpreter's operation list; NULL in generated code */
+    uint64_t model_hash; /* of the operation list: which physics this is */
+    /* One step. On divergence returns WH_E_DIVERGED, sets state->fault and leaves the rest as it
+     * was. Does not count the step: wh_scene_step() does. */
+    wh_status (*advance)(const wh_scene *scene, wh_state *state);
+    /* The outputs at the present state: output[scene->outputs], SI units. May be NULL. */
+    void (*observe)(const wh_scene *scene, const wh_state *state, wh_real *output);
+};
+
+/* Eight-byte words of caller memory for a state of so many angles, reals and inputs. */
+#define WH_STATE_WORDS(angles, reals, inputs) \
+    ((size_t)(angles) + (2U * (size_t)(reals) + (size_t)(angles) + (size_t)(inputs)))
+
+#define wh_scene_start WH_NAME(wh_scene_start)
+#define wh_scene_step WH_NAME(wh_scene_step)
+#define wh_scene_time_s WH_NAME(wh_scene_time_s)
+#define wh_scene_hash WH_NAME(wh_scene_hash)
+#define wh_scene_rates WH_NAME(wh_scene_rates)
+#define wh_status_text WH_NAME(wh_status_text)
+
+/* Put `state` at the scene's start. `memory`, of `bytes` bytes and aligned for uint64_t, must
+ * outlive the run. Returns WH_OK, or WH_E_MEMORY with the state untouched. */
+wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, size_t bytes);
+
+/* Do one step. Returns WH_OK; or WH_E_DIVERGED, with the last good state kept and state->fault set
+ * (a further call fails the same way, it does not go on from garbage). */
+wh_status wh_scene_step(const wh_scene *scene, wh_state *state);
+
+/* Time of the state, seconds: steps * step_s. */
+wh_real wh_scene_time_s(const wh_scene *scene, const wh_state *state);
+
+/* Hash of step count, angles and reals: equal runs on any two machines give equal hashes. */
+uint64_t wh_scene_hash(const wh_scene *scene, const wh_state *state);
+
+/* Where the rates of a second-order scene begin in state->real. */
+const wh_real *wh_scene_rates(const wh_scene *scene, const wh_state *state);
+
+/* A status in words, for consoles. */
+const char *wh_status_text(wh_status status);
+
+#endif

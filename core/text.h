@@ -1,0 +1,56 @@
+/* text.h: numbers and words written into a caller's buffer, for consoles without printf.
+ *
+ *     char line[80];
+ *     wh_text text;
+ *     wh_text_start(&text, line, sizeof line);
+ *     wh_text_add(&text, "speed ");
+ *     wh_text_add_fixed(&text, speed_radps, 2);
+ *     board_write(text.bytes, text.length);
+ *
+ * Nothing is ever written beyond the buffer; what does not fit is dropped and `truncated` is set.
+ * The buffer always ends in NUL. Floats are converted exactly, in integers: a single-precision
+ * build needs no double arithmetic for it, and every machine prints the same characters.
+ */
+#ifndef WH_TEXT_H
+#define WH_TEXT_H
+
+#include "real.h"
+
+typedef struct wh_text {
+    char *bytes;     /* the caller's buffer, NUL-terminated */
+    unsigned size;   /* of the buffer, including the NUL */
+    unsigned length; /* characters written so far, without the NUL */
+    bool truncated;  /* something did not fit */
+} wh_text;
+
+#define wh_text_start WH_NAME(wh_text_start)
+#define wh_text_add WH_NAME(wh_text_add)
+#define wh_text_add_char WH_NAME(wh_text_add_char)
+#define wh_text_add_unsigned WH_NAME(wh_text_add_unsigned)
+#define wh_text_add_signed WH_NAME(wh_text_add_signed)
+#define wh_text_add_hex WH_NAME(wh_text_add_hex)
+#define wh_text_add_fixed WH_NAME(wh_text_add_fixed)
+
+/* Most decimals wh_text_add_fixed() prints. */
+#define WH_TEXT_DECIMALS_MAX 18U
+
+/* Begin an empty text in bytes[size], size >= 1. */
+void wh_text_start(wh_text *text, char *bytes, unsigned size);
+
+/* Add one character; a NUL-terminated string. */
+void wh_text_add_char(wh_text *text, char character);
+void wh_text_add(wh_text *text, const char *string);
+
+/* Add a decimal number. */
+void wh_text_add_unsigned(wh_text *text, uint64_t value);
+void wh_text_add_signed(wh_text *text, int64_t value);
+
+/* Add the low `digits` hexadecimal digits of value, lower case, zeros kept. digits is 1 to 16. */
+void wh_text_add_hex(wh_text *text, uint64_t value, unsigned digits);
+
+/* Add value with `decimals` digits after the point (at most WH_TEXT_DECIMALS_MAX), correctly
+ * rounded, ties to even: the characters of C's "%.*f". Not-a-number gives "nan", infinities "inf"
+ * and "-inf"; a double of magnitude 2^128 or more gives "huge" or "-huge" (no float is so large). */
+void wh_text_add_fixed(wh_text *text, wh_real value, unsigned decimals);
+
+#endif

@@ -1,0 +1,29 @@
+/* loadcell.h: the load cell in the loading train and its converter.
+ *
+ * Raw counts are proportional to the force that the rig exerts on the cell along the loading-train
+ * axis; positive towards the mass at theta = 0, which is straight down. The rig's weight is part of
+ * it: removing the tare is the controller's task. */
+#ifndef HAL_LOADCELL_H
+#define HAL_LOADCELL_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* 16-bit converter, full scale +-50 lbf (222.41 N): 6.79 mN a count. */
+#define HAL_LOADCELL_FULL_SCALE_N 222.41108f
+#define HAL_LOADCELL_RAW_MAX 32767
+#define HAL_LOADCELL_N_PER_COUNT (HAL_LOADCELL_FULL_SCALE_N / 32768.0f)
+
+/* Time between samples, as in Almesallmy (2006), I.3.2.1: 2 ms. */
+#define HAL_LOADCELL_PERIOD_TICKS 2000U
+
+typedef struct hal_load_sample {
+    uint32_t ticks; /* of the capture timer (clock.h) when it was taken */
+    int16_t raw;    /* counts; +-full scale when the cell is overloaded */
+} hal_load_sample;
+
+/* Take the oldest sample not yet taken. Returns false when there is none. At least 4 samples are
+ * kept between calls; when more came, the newest are lost. */
+bool hal_loadcell_take(hal_load_sample *sample);
+
+#endif

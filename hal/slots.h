@@ -1,0 +1,25 @@
+/* slots.h: the two infrared slot sensors on the rotor's slotted disc.
+ *
+ * Almesallmy (2006), I.1.1 and I.3.3.2: the slot is in line with the arms; sensor 1 stands on the
+ * loading-train axis (theta = 0), sensor 2 90 degrees on in the sense of rotation. Amplifier, Schmitt
+ * trigger and monostable make one pulse of each passing of the slot, at the slot's leading edge:
+ * the arms are then still HAL_SLOT_LEAD_DEG short of the sensor. A timer captures the pulse. */
+#ifndef HAL_SLOTS_H
+#define HAL_SLOTS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* Half the angle that the slot covers: 2 mm wide at a radius of 57.3 mm. */
+#define HAL_SLOT_LEAD_DEG 1.0f
+
+typedef struct hal_slot_pulse {
+    uint32_t ticks; /* of the capture timer (clock.h) at the leading edge */
+    uint8_t sensor; /* 0: on the loading-train axis; 1: a quarter turn on */
+} hal_slot_pulse;
+
+/* Take the oldest pulse not yet taken, in order of time. Returns false when there is none. At least
+ * 8 pulses are kept between calls; when more came, the newest are lost. */
+bool hal_slots_take(hal_slot_pulse *pulse);
+
+#endif

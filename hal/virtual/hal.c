@@ -1,0 +1,40 @@
+/* hal.c: the hal_ functions, on one virtual rig. */
+#include "hal/clock.h"
+#include "hal/loadcell.h"
+#include "hal/motor.h"
+#include "hal/slots.h"
+#include "hal/watchdog.h"
+#include "virtual_rig.h"
+
+#if !WH_DOUBLE
+
+/* The board's one rig: hardware is global, and so is what plays it. */
+static hal_virtual_rig board_rig;
+
+hal_virtual_rig *hal_virtual_rig_instance(void) { return &board_rig; }
+
+bool hal_clock_start(void) { return hal_virtual_rig_start(&board_rig, &rig_fixed); }
+
+uint32_t hal_clock_ticks(void) { return board_rig.ticks; }
+
+void hal_clock_wait_until(uint32_t ticks) { hal_virtual_rig_advance(&board_rig, ticks); }
+
+void hal_motor_set_duty(float duty) { hal_virtual_rig_set_duty(&board_rig, duty); }
+
+bool hal_slots_take(hal_slot_pulse *pulse) { return hal_virtual_rig_take_pulse(&board_rig, pulse); }
+
+bool hal_loadcell_take(hal_load_sample *sample) {
+    return hal_virtual_rig_take_sample(&board_rig, sample);
+}
+
+void hal_watchdog_start(uint32_t timeout_ticks) {
+    board_rig.watched = true;
+    board_rig.watchdog_ticks = timeout_ticks;
+    board_rig.kicked_ticks = board_rig.ticks;
+}
+
+void hal_watchdog_kick(void) { board_rig.kicked_ticks = board_rig.ticks; }
+
+bool hal_watchdog_has_cut(void) { return board_rig.cut; }
+
+#endif

@@ -1,0 +1,78 @@
+/* virtual_rig.h: hardware played by the core's own model of the eccentric-mass rig.
+ *
+ * All physics is in core/models/eccentric.whirl (scene rig_fixed); here are only the sensors around
+ * it: slot edges located inside the model's step, the load cell's converter, the timer, the
+ * watchdog. One step of the model is one slice of time; between two calls time stands still, so the
+ * same calls give the same bits on every machine. Single precision only.
+ *
+ * The hal_ functions (clock.h, motor.h, ...) act on one board-wide rig, hal_virtual_rig_instance();
+ * the functions below serve any number of rigs in memory of the caller. */
+#ifndef HAL_VIRTUAL_RIG_H
+#define HAL_VIRTUAL_RIG_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "core/scene.h"
+#include "hal/loadcell.h"
+#include "hal/slots.h"
+
+#define HAL_VIRTUAL_PULSES 16U
+#define HAL_VIRTUAL_SAMPLES 8U
+
+/* The timer wraps so long after the start that every run crosses the wrap. */
+#define HAL_VIRTUAL_WRAP_AFTER_S 5U
+
+/* What can be made to fail; all off after hal_virtual_rig_start(). May be set at any time. */
+typedef struct hal_virtual_faults {
+    unsigned lose_pulses; /* so many of the next pulses are swallowed */
+    bool dead_sensor[2];  /* gives no pulse */
+    bool stuck_load_cell; /* repeats its last count */
+    bool runaway_motor;   /* full supply, whatever the duty; the watchdog still cuts it */
+} hal_virtual_faults;
+
+typedef struct hal_virtual_rig {
+    const wh_scene *scene;
+    wh_state state;
+    uint64_t memory[WH_STATE_WORDS(1, 1, 1)];
+    wh_status status;      /* WH_E_DIVERGED: the model gave up; time goes on, nothing moves */
+    uint32_t ticks;        /* now, 1 MHz, wrapping */
+    uint32_t step_ticks;   /* one step of the model */
+    float duty;            /* as commanded */
+    uint32_t sample_ticks; /* the next load sample is due */
+    int16_t last_raw;
+    hal_slot_pulse pulse[HAL_VIRTUAL_PULSES];
+    unsigned pulses;
+    hal_load_sample sample[HAL_VIRTUAL_SAMPLES];
+    unsigned samples;
+    bool watched; /* the watchdog is armed */
+    bool cut;     /* it has cut the motor */
+    uint32_t watchdog_ticks;
+    uint32_t kicked_ticks;
+    hal_virtual_faults faults;
+} hal_virtual_rig;
+
+/* Put the rig at rest at its scene's start, motor off, watchdog off. Returns false when the scene is
+ * not the fixed rig: one angle, one input, at least one output, whole microseconds a step. */
+bool hal_virtual_rig_start(hal_virtual_rig *rig, const wh_scene *scene);
+
+/* Let time pass until `ticks`, in whole steps of the model: may end up to one step later. */
+void hal_virtual_rig_advance(hal_virtual_rig *rig, uint32_t ticks);
+
+/* As hal_motor_set_duty(), hal_slots_take(), hal_loadcell_take() on this rig. */
+void hal_virtual_rig_set_duty(hal_virtual_rig *rig, float duty);
+bool hal_virtual_rig_take_pulse(hal_virtual_rig *rig, hal_slot_pulse *pulse);
+bool hal_virtual_rig_take_sample(hal_virtual_rig *rig, hal_load_sample *sample);
+
+/* Arms' angle (phase within the turn, 2^32 a turn) and speed, for tests: the truth behind the
+ * sensors. */
+uint32_t hal_virtual_rig_phase(const hal_virtual_rig *rig);
+float hal_virtual_rig_speed_radps(const hal_virtual_rig *rig);
+
+/* The rig behind the hal_ functions. */
+hal_virtual_rig *hal_virtual_rig_instance(void);
+
+/* The model that hal_clock_start() starts: core/models/eccentric.whirl, scene rig_fixed. */
+extern const wh_scene rig_fixed;
+
+#endif

@@ -1,0 +1,18 @@
+/* watchdog.h: cuts the motor when the controller falls silent. */
+#ifndef HAL_WATCHDOG_H
+#define HAL_WATCHDOG_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* Arm the watchdog: from now on the motor's duty is cut to zero, for good, when
+ * hal_watchdog_kick() stays away for more than `timeout_ticks`. Cannot be disarmed. */
+void hal_watchdog_start(uint32_t timeout_ticks);
+
+/* The controller is alive. Does not bring a cut motor back. */
+void hal_watchdog_kick(void);
+
+/* True when the watchdog has cut the motor. */
+bool hal_watchdog_has_cut(void);
+
+#endif

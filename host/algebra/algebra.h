@@ -1,0 +1,62 @@
+/* algebra.h: the tables in which the objects of poly.h are interned. For host/algebra only. */
+#ifndef ALGEBRA_ALGEBRA_H
+#define ALGEBRA_ALGEBRA_H
+
+#include <stddef.h>
+
+#include "host/lang/arena.h"
+#include "poly.h"
+
+typedef struct intern_slot {
+    uint64_t hash;
+    const void *object;
+} intern_slot;
+
+typedef struct intern_table {
+    intern_slot *slots;
+    size_t size; /* a power of two, or 0 */
+    size_t count;
+} intern_table;
+
+/* A result that was worked out before. */
+typedef struct memo_pair {
+    const void *left;
+    const void *right;
+    const poly *result;
+} memo_pair;
+
+struct algebra {
+    struct arena *arena;
+    intern_table atoms;
+    intern_table monos;
+    intern_table polys;
+    intern_table products;    /* memo_pair: poly, poly */
+    intern_table derivatives; /* memo_pair: poly, atom */
+    intern_table lets;        /* memo_pair: symbol, NULL */
+    unsigned objects;
+    bool overflow;
+    const poly *zero;
+    const poly *one;
+};
+
+/* Interning (intern.c). Scratch objects are freed by the caller; what is interned lives in the
+ * arena. */
+mono *mono_scratch(int factors);
+const mono *mono_intern(algebra *a, mono *candidate);
+const mono *mono_make(algebra *a, const factor *factors, int count, trig kind, const poly *angle);
+/* The bit of a symbol in Bloom sets. */
+uint64_t symbol_bit(const symbol *sym, int primes);
+poly *poly_scratch(int terms);
+const poly *poly_intern(algebra *a, poly *candidate);
+const atom *atom_of_polys(algebra *a, atom_kind kind, function_id function, const poly *x,
+                          const poly *y);
+
+/* A function's value. */
+double call_number(function_id function, double x, double y);
+
+/* The poly remembered for the pair, or NULL; and remember it. */
+const poly *memo_get(intern_table *table, const void *left, const void *right);
+void memo_put(algebra *a, intern_table *table, const void *left, const void *right,
+              const poly *result);
+
+#endif

@@ -1,0 +1,248 @@
+/* calculus.c: derivatives, substitution, and the way from a parsed expression to its normal form. */
+#include "algebra.h"
+
+#include <stdlib.h>
+
+/* --- derivatives ---------------------------------------------------------------------------------*/
+
+/* d f(x)/dx as a poly in x; `y` is atan2's, min's or max's second argument. */
+static const poly *outer_derivative(algebra *a, const atom *call, int which) {
+    const poly *x = call->argument[0];
+    const poly *y = call->argument[1];
+    const poly *self = poly_of_atom(a, call, 1.0);
+    switch (call->function) {
+    case FN_TAN: return poly_add(a, a->one, poly_of_atom(a, call, 2.0));
+    case FN_ASIN: return poly_pow(a, poly_sub(a, a->one, poly_mul(a, x, x)), -0.5);
+    case FN_ACOS:
+        return poly_scale(a, poly_pow(a, poly_sub(a, a->one, poly_mul(a, x, x)), -0.5), -1.0);
+    case FN_ATAN: return poly_pow(a, poly_add(a, a->one, poly_mul(a, x, x)), -1.0);
+    case FN_ATAN2: { /* atan2(x, y): x is the numerator */
+        const poly *square = poly_add(a, poly_mul(a, x, x), poly_mul(a, y, y));
+        const poly *top = which == 0 ? y : poly_scale(a, x, -1.0);
+        return poly_mul(a, top, poly_pow(a, square, -1.0));
+    }
+    case FN_EXP: return self;
+    case FN_LOG: return poly_pow(a, x, -1.0);
+    case FN_ABS: return poly_call(a, FN_SIGN, x, NULL);
+    case FN_MIN:
+    case FN_MAX: { /* 1 for the one that is taken, 1/2 for each where they meet */
+        const poly *lead = poly_call(a, FN_SIGN, poly_sub(a, x, y), NULL);
+        const double side = (call->function == FN_MAX) == (which == 0) ? 0.5 : -0.5;
+        return poly_add(a, poly_number(a, 0.5), poly_scale(a, lead, side));
+    }
+    default: return a->zero; /* sign; sine, cosine and square root are no calls */
+    }
+}
+
+static const poly *atom_derivative(algebra *a, const atom *x, const symbol *sym, int primes) {
+    const poly *sum = a->zero;
+    if (x->kind == ATOM_SYMBOL) {
+        return x->symbol == sym && x->primes == primes ? a->one : a->zero;
+    }
+    if (x->kind == ATOM_GROUP) {
+        return poly_derivative(a, x->argument[0], sym, primes);
+    }
+    if (x->kind == ATOM_POWER) { /* b^e: e b^(e-1) b' + b^e log(b) e' */
+        const poly *base = x->argument[0];
+        const poly *exponent = x->argument[1];
+        const poly *db = poly_derivative(a, base, sym, primes);
+        const poly *de = poly_derivative(a, exponent, sym, primes);
+        if (!poly_is_zero(db)) {
+            const poly *lower = poly_pow_poly(a, base, poly_sub(a, exponent, a->one));
+            sum = poly_mul(a, poly_mul(a, exponent, lower), db);
+        }
+        if (!poly_is_zero(de)) {
+            const poly *growth = poly_mul(a, poly_of_atom(a, x, 1.0), poly_call(a, FN_LOG, base, NULL));
+            sum = poly_add(a, sum, poly_mul(a, growth, de));
+        }
+        return sum;
+    }
+    for (int i = 0; i < 2 && x->argument[i] != NULL; i++) {
+        const poly *inner = poly_derivative(a, x->argument[i], sym, primes);
+        if (!poly_is_zero(inner)) {
+            sum = poly_add(a, sum, poly_mul(a, outer_derivative(a, x, i), inner));
+        }
+    }
+    return sum;
+}
+
+static const poly *mono_derivative(algebra *a, const mono *m, const symbol *sym, int primes) {
+    const poly *sum = a->zero;
+    for (int i = 0; i < m->count; i++) {
+        const factor *f = &m->factors[i];
+        const poly *inner = atom_derivative(a, f->atom, sym, primes);
+        if (poly_is_zero(inner)) {
+            continue;
+        }
+        mono *rest = mono_scratch(m->count);
+        rest->trig = m->trig;
+        rest->angle = m->angle;
+        for (int j = 0; j < m->count; j++) {
+            if (j != i) {
+                rest->factors[rest->count++] = m->factors[j];
+            }
+        }
+        const poly *others = poly_of_term(a, f->exponent, mono_intern(a, rest));
+        free(rest);
+        const poly *power = poly_pow(a, poly_of_atom(a, f->atom, 1.0), f->exponent - 1.0);
+        if (f->atom->kind == ATOM_GROUP || f->atom->kind == ATOM_CALL) {
+            power = f->exponent == 1.0 ? a->one : poly_of_atom(a, f->atom, f->exponent - 1.0);
+        }
+        sum = poly_add(a, sum, poly_mul(a, poly_mul(a, others, power), inner));
+    }
+    if (m->trig != TRIG_NONE) {
+        const poly *inner = poly_derivative(a, m->angle, sym, primes);
+        if (!poly_is_zero(inner)) {
+            const poly *plain =
+                poly_of_term(a, 1.0, mono_make(a, m->factors, m->count, TRIG_NONE, NULL));
+            const poly *turned = m->trig == TRIG_SIN ? poly_cos(a, m->angle)
+                                                     : poly_scale(a, poly_sin(a, m->angle), -1.0);
+            sum = poly_add(a, sum, poly_mul(a, poly_mul(a, plain, turned), inner));
+        }
+    }
+    return sum;
+}
+
+const poly *poly_derivative(algebra *a, const poly *p, const symbol *sym, int primes) {
+    if (!poly_may_contain(p, sym, primes) || a->overflow) {
+        return a->zero;
+    }
+    const atom *by = atom_symbol(a, sym, primes);
+    const poly *known = memo_get(&a->derivatives, p, by);
+    if (known == NULL) {
+        known = a->zero;
+        for (int i = 0; i < p->count; i++) {
+            const poly *d = mono_derivative(a, p->terms[i].mono, sym, primes);
+            known = poly_add(a, known, poly_scale(a, d, p->terms[i].coefficient));
+        }
+        memo_put(a, &a->derivatives, p, by, known);
+    }
+    return known;
+}
+
+/* --- what is inside ------------------------------------------------------------------------------*/
+
+bool poly_contains(const poly *p, const symbol *sym, int primes) {
+    if (primes >= 0 && !poly_may_contain(p, sym, primes)) {
+        return false;
+    }
+    for (int i = 0; i < p->count; i++) {
+        const mono *m = p->terms[i].mono;
+        if (m->angle != NULL && poly_contains(m->angle, sym, primes)) {
+            return true;
+        }
+        for (int j = 0; j < m->count; j++) {
+            const atom *x = m->factors[j].atom;
+            if (x->kind == ATOM_SYMBOL) {
+                if (x->symbol == sym && (primes < 0 || x->primes == primes)) {
+                    return true;
+                }
+                continue;
+            }
+            for (int k = 0; k < 2 && x->argument[k] != NULL; k++) {
+                if (poly_contains(x->argument[k], sym, primes)) {
+                    return true;
+                }
+            }
+        }
+    }
+    return false;
+}
+
+/* --- substitution --------------------------------------------------------------------------------*/
+
+typedef struct substitution {
+    poly_replacement *replace;
+    void *context;
+    intern_table done; /* memo_pair: poly or atom, NULL */
+} substitution;
+
+static const poly *substitute(algebra *a, const poly *p, substitution *s);
+
+static const poly *substitute_atom(algebra *a, const atom *x, substitution *s) {
+    const poly *known = memo_get(&s->done, x, NULL);
+    if (known != NULL) {
+        return known;
+    }
+    if (x->kind == ATOM_SYMBOL) {
+        known = s->replace(s->context, a, x->symbol, x->primes);
+        if (known == NULL) {
+            known = poly_of_atom(a, x, 1.0);
+        }
+    } else {
+        const poly *first = substitute(a, x->argument[0], s);
+        const poly *second = x->argument[1] == NULL ? NULL : substitute(a, x->argument[1], s);
+        if (x->kind == ATOM_GROUP) {
+            known = first;
+        } else if (x->kind == ATOM_POWER) {
+            known = poly_pow_poly(a, first, second);
+        } else {
+            known = poly_call(a, x->function, first, second);
+        }
+    }
+    memo_put(a, &s->done, x, NULL, known);
+    return known;
+}
+
+static const poly *substitute(algebra *a, const poly *p, substitution *s) {
+    const poly *known = memo_get(&s->done, p, NULL);
+    if (known != NULL) {
+        return known;
+    }
+    known = a->zero;
+    for (int i = 0; i < p->count; i++) {
+        const mono *m = p->terms[i].mono;
+        const poly *product = poly_number(a, p->terms[i].coefficient);
+        for (int j = 0; j < m->count; j++) {
+            const poly *base = substitute_atom(a, m->factors[j].atom, s);
+            product = poly_mul(a, product, poly_pow(a, base, m->factors[j].exponent));
+        }
+        if (m->trig != TRIG_NONE) {
+            const poly *angle = substitute(a, m->angle, s);
+            product = poly_mul(a, product,
+                               m->trig == TRIG_SIN ? poly_sin(a, angle) : poly_cos(a, angle));
+        }
+        known = poly_add(a, known, product);
+    }
+    memo_put(a, &s->done, p, NULL, known);
+    return known;
+}
+
+const poly *poly_substitute(algebra *a, const poly *p, poly_replacement *replace, void *context) {
+    substitution s = {replace, context, {0}};
+    const poly *result = substitute(a, p, &s);
+    free(s.done.slots);
+    return result;
+}
+
+/* --- from a parsed expression --------------------------------------------------------------------*/
+
+const poly *poly_from_expr(algebra *a, const expr *e) {
+    if (a->overflow) {
+        return a->zero;
+    }
+    switch (e->op) {
+    case EXPR_NUMBER: return poly_number(a, e->number);
+    case EXPR_SYMBOL:
+        if (e->symbol->kind == SYM_LET || e->symbol->kind == SYM_OUTPUT) {
+            const poly *known = memo_get(&a->lets, e->symbol, NULL);
+            if (known == NULL) {
+                known = poly_from_expr(a, e->symbol->value);
+                memo_put(a, &a->lets, e->symbol, NULL, known);
+            }
+            return known;
+        }
+        return poly_symbol(a, e->symbol, e->primes);
+    case EXPR_NEG: return poly_scale(a, poly_from_expr(a, e->left), -1.0);
+    case EXPR_ADD: return poly_add(a, poly_from_expr(a, e->left), poly_from_expr(a, e->right));
+    case EXPR_SUB: return poly_sub(a, poly_from_expr(a, e->left), poly_from_expr(a, e->right));
+    case EXPR_MUL: return poly_mul(a, poly_from_expr(a, e->left), poly_from_expr(a, e->right));
+    case EXPR_DIV:
+        return poly_mul(a, poly_from_expr(a, e->left), poly_pow(a, poly_from_expr(a, e->right), -1.0));
+    case EXPR_POW: return poly_pow_poly(a, poly_from_expr(a, e->left), poly_from_expr(a, e->right));
+    case EXPR_CALL:
+        return poly_call(a, e->function, poly_from_expr(a, e->left),
+                         e->right == NULL ? NULL : poly_from_expr(a, e->right));
+    }
+    return a->zero;
+}

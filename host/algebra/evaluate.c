@@ -1,0 +1,37 @@
+/* evaluate.c: the number a poly stands for. For checks and for constants; runs use operation lists. */
+#include <math.h>
+
+#include "algebra.h"
+
+static double atom_value(const atom *x, poly_value *value, void *context) {
+    if (x->kind == ATOM_SYMBOL) {
+        return value(context, x->symbol, x->primes);
+    }
+    const double first = poly_evaluate(x->argument[0], value, context);
+    const double second =
+        x->argument[1] == NULL ? 0.0 : poly_evaluate(x->argument[1], value, context);
+    switch (x->kind) {
+    case ATOM_GROUP: return first;
+    case ATOM_POWER: return pow(first, second);
+    default: return call_number(x->function, first, second);
+    }
+}
+
+double poly_evaluate(const poly *p, poly_value *value, void *context) {
+    double sum = 0.0;
+    for (int i = 0; i < p->count; i++) {
+        const mono *m = p->terms[i].mono;
+        double product = p->terms[i].coefficient;
+        for (int k = 0; k < m->count; k++) {
+            const double base = atom_value(m->factors[k].atom, value, context);
+            const double exponent = m->factors[k].exponent;
+            product *= exponent == 1.0 ? base : pow(base, exponent);
+        }
+        if (m->trig != TRIG_NONE) {
+            const double angle = poly_evaluate(m->angle, value, context);
+            product *= m->trig == TRIG_SIN ? sin(angle) : cos(angle);
+        }
+        sum += product;
+    }
+    return sum;
+}

@@ -1,0 +1,367 @@
+/* poly.c: sums, products and powers in the normal form. */
+#include "poly.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "algebra.h"
+
+/* Sums below this part of what was added are rounding errors of the decimals they came from. */
+#define CANCELLED 1e-14
+/* A product of sums with more terms than this is kept as a product. */
+#define PRODUCT_TERMS_MAX 20000
+/* A whole power of a sum is multiplied out while it stays below so many terms. */
+#define POWER_TERMS_MAX 64
+const poly *poly_of_term(algebra *a, double coefficient, const mono *m) {
+    if (coefficient == 0.0) {
+        return a->zero;
+    }
+    poly *p = poly_scratch(1);
+    p->count = 1;
+    p->terms[0] = (poly_term){coefficient, m};
+    const poly *made = poly_intern(a, p);
+    free(p);
+    return made;
+}
+
+const poly *poly_number(algebra *a, double value) {
+    if (value == 0.0) {
+        poly none = {.count = 0};
+        return poly_intern(a, &none);
+    }
+    return poly_of_term(a, value, mono_make(a, NULL, 0, TRIG_NONE, NULL));
+}
+
+const poly *poly_of_atom(algebra *a, const atom *x, double exponent) {
+    const factor one = {x, exponent};
+    return poly_of_term(a, 1.0, mono_make(a, &one, 1, TRIG_NONE, NULL));
+}
+
+const poly *poly_symbol(algebra *a, const symbol *sym, int primes) {
+    return poly_of_atom(a, atom_symbol(a, sym, primes), 1.0);
+}
+
+bool poly_is_zero(const poly *p) { return p->count == 0; }
+
+bool poly_is_number(const poly *p, double *value) {
+    if (p->count == 0) {
+        *value = 0.0;
+        return true;
+    }
+    if (p->count == 1 && p->terms[0].mono->count == 0 && p->terms[0].mono->trig == TRIG_NONE) {
+        *value = p->terms[0].coefficient;
+        return true;
+    }
+    return false;
+}
+
+bool poly_may_contain(const poly *p, const symbol *sym, int primes) {
+    return (p->symbols & symbol_bit(sym, primes)) != 0;
+}
+
+/* left + factor * right: a merge of two sorted lists. */
+static const poly *merge(algebra *a, const poly *left, const poly *right, double scale) {
+    poly *sum = poly_scratch(left->count + right->count);
+    int i = 0;
+    int j = 0;
+    while (i < left->count || j < right->count) {
+        const mono *l = i < left->count ? left->terms[i].mono : NULL;
+        const mono *r = j < right->count ? right->terms[j].mono : NULL;
+        if (r == NULL || (l != NULL && l->id < r->id)) {
+            sum->terms[sum->count++] = left->terms[i++];
+        } else if (l == NULL || r->id < l->id) {
+            sum->terms[sum->count++] = (poly_term){right->terms[j++].coefficient * scale, r};
+        } else {
+            const double x = left->terms[i++].coefficient;
+            const double y = right->terms[j++].coefficient * scale;
+            if (!(fabs(x + y) <= CANCELLED * fmax(fabs(x), fabs(y)))) {
+                sum->terms[sum->count++] = (poly_term){x + y, l};
+            }
+        }
+    }
+    const poly *made = poly_intern(a, sum);
+    free(sum);
+    return made;
+}
+
+const poly *poly_add(algebra *a, const poly *left, const poly *right) {
+    return merge(a, left, right, 1.0);
+}
+
+const poly *poly_sub(algebra *a, const poly *left, const poly *right) {
+    return merge(a, left, right, -1.0);
+}
+
+const poly *poly_scale(algebra *a, const poly *p, double scale) {
+    if (scale == 0.0) {
+        return a->zero;
+    }
+    return scale == 1.0 ? p : merge(a, a->zero, p, scale);
+}
+
+/* --- sines and cosines ---------------------------------------------------------------------------*/
+
+static const poly *trig_of(algebra *a, trig kind, const poly *angle) {
+    double value;
+    if (poly_is_number(angle, &value)) {
+        return poly_number(a, kind == TRIG_SIN ? sin(value) : cos(value));
+    }
+    double sign = 1.0;
+    if (angle->terms[0].coefficient < 0.0) {
+        angle = poly_scale(a, angle, -1.0);
+        sign = kind == TRIG_SIN ? -1.0 : 1.0;
+    }
+    return poly_of_term(a, sign, mono_make(a, NULL, 0, kind, angle));
+}
+
+const poly *poly_sin(algebra *a, const poly *angle) { return trig_of(a, TRIG_SIN, angle); }
+const poly *poly_cos(algebra *a, const poly *angle) { return trig_of(a, TRIG_COS, angle); }
+
+/* trig(x) * trig(y) as a sum of sines or cosines of x + y and x - y. */
+static const poly *trig_product(algebra *a, trig left, const poly *x, trig right, const poly *y) {
+    const poly *plus = poly_add(a, x, y);
+    const poly *minus = poly_sub(a, x, y);
+    const poly *p;
+    if (left == TRIG_COS && right == TRIG_COS) {
+        p = poly_add(a, poly_cos(a, minus), poly_cos(a, plus));
+    } else if (left == TRIG_SIN && right == TRIG_SIN) {
+        p = poly_sub(a, poly_cos(a, minus), poly_cos(a, plus));
+    } else if (left == TRIG_SIN) {
+        p = poly_add(a, poly_sin(a, plus), poly_sin(a, minus));
+    } else {
+        p = poly_sub(a, poly_sin(a, plus), poly_sin(a, minus));
+    }
+    return poly_scale(a, p, 0.5);
+}
+
+static bool is_whole(double x) { return x == floor(x) && fabs(x) < 1e6; }
+
+/* --- products ------------------------------------------------------------------------------------*/
+
+/* Powers that do not stay a power: |p|^2 = p^2, and a whole power of a group that is small enough to
+ * be multiplied out. Returns NULL for all others. */
+static const poly *power_expands(algebra *a, const factor *f) {
+    if (f->atom->kind == ATOM_CALL && f->atom->function == FN_ABS && f->exponent >= 2.0) {
+        const poly *square = poly_mul(a, f->atom->argument[0], f->atom->argument[0]);
+        return f->exponent == 2.0
+                   ? square
+                   : poly_mul(a, square, poly_of_atom(a, f->atom, f->exponent - 2.0));
+    }
+    if (f->atom->kind == ATOM_GROUP && is_whole(f->exponent) && f->exponent > 0.0) {
+        const poly *inside = f->atom->argument[0];
+        if (f->exponent == 1.0 || pow((double)inside->count, f->exponent) <= POWER_TERMS_MAX) {
+            return poly_pow(a, inside, f->exponent);
+        }
+    }
+    return NULL;
+}
+
+/* The product of two products; more than one term when sines multiply or a group opens. */
+static const poly *mono_product(algebra *a, const mono *left, const mono *right) {
+    mono *product = mono_scratch(left->count + right->count);
+    const poly *extra = NULL;
+    int i = 0;
+    int j = 0;
+    while (i < left->count || j < right->count) {
+        factor f;
+        if (j >= right->count ||
+            (i < left->count && left->factors[i].atom->id < right->factors[j].atom->id)) {
+            f = left->factors[i++];
+        } else if (i >= left->count || right->factors[j].atom->id < left->factors[i].atom->id) {
+            f = right->factors[j++];
+        } else {
+            f = left->factors[i++];
+            f.exponent += right->factors[j++].exponent;
+            if (fabs(f.exponent) < 1e-12) {
+                continue;
+            }
+            const poly *opened = power_expands(a, &f);
+            if (opened != NULL) {
+                extra = extra == NULL ? opened : poly_mul(a, extra, opened);
+                continue;
+            }
+        }
+        product->factors[product->count++] = f;
+    }
+    const bool both = left->trig != TRIG_NONE && right->trig != TRIG_NONE;
+    if (!both) {
+        const mono *with = left->trig != TRIG_NONE ? left : right;
+        product->trig = with->trig;
+        product->angle = with->angle;
+    }
+    const poly *result = poly_of_term(a, 1.0, mono_intern(a, product));
+    free(product);
+    if (both) {
+        const poly *sum = trig_product(a, left->trig, left->angle, right->trig, right->angle);
+        result = poly_mul(a, result, sum);
+    }
+    return extra == NULL ? result : poly_mul(a, result, extra);
+}
+
+static const atom *group_of(algebra *a, const poly *p) {
+    return atom_of_polys(a, ATOM_GROUP, FN_COUNT, p, NULL);
+}
+
+static const poly *product_of(algebra *a, const poly *left, const poly *right) {
+    if ((double)left->count * right->count > PRODUCT_TERMS_MAX) {
+        const factor f = {group_of(a, right), 1.0};
+        return poly_mul(a, left, poly_of_term(a, 1.0, mono_make(a, &f, 1, TRIG_NONE, NULL)));
+    }
+    const poly *sum = a->zero;
+    for (int i = 0; i < left->count && !a->overflow; i++) {
+        const poly *row = a->zero;
+        for (int j = 0; j < right->count && !a->overflow; j++) {
+            const poly *p = mono_product(a, left->terms[i].mono, right->terms[j].mono);
+            const double c = left->terms[i].coefficient * right->terms[j].coefficient;
+            row = merge(a, row, p, c);
+        }
+        sum = poly_add(a, sum, row);
+    }
+    return sum;
+}
+
+const poly *poly_mul(algebra *a, const poly *left, const poly *right) {
+    double value;
+    if (poly_is_number(left, &value)) {
+        return poly_scale(a, right, value);
+    }
+    if (poly_is_number(right, &value)) {
+        return poly_scale(a, left, value);
+    }
+    if (a->overflow) {
+        return a->zero;
+    }
+    if (right->id < left->id) { /* one order, so that rounding does not depend on it */
+        const poly *swap = left;
+        left = right;
+        right = swap;
+    }
+    const poly *known = memo_get(&a->products, left, right);
+    if (known == NULL) {
+        known = product_of(a, left, right);
+        memo_put(a, &a->products, left, right, known);
+    }
+    return known;
+}
+
+/* --- powers and functions ------------------------------------------------------------------------*/
+
+/* A product to a power. Only what is true for every real value of the atoms: (x^2)^(1/2) is not x. */
+static const poly *term_pow(algebra *a, const poly_term *t, double exponent) {
+    const mono *m = t->mono;
+    const bool whole = is_whole(exponent);
+    if (whole && m->trig == TRIG_NONE) {
+        factor *f = calloc((size_t)m->count + 1, sizeof *f);
+        if (f == NULL) {
+            abort();
+        }
+        const poly *extra = a->one;
+        int count = 0;
+        for (int i = 0; i < m->count; i++) {
+            f[count] = (factor){m->factors[i].atom, m->factors[i].exponent * exponent};
+            const poly *opened = power_expands(a, &f[count]);
+            if (opened != NULL) {
+                extra = poly_mul(a, extra, opened);
+            } else {
+                count++;
+            }
+        }
+        const mono *powered = mono_make(a, f, count, TRIG_NONE, NULL);
+        free(f);
+        return poly_mul(a, poly_of_term(a, pow(t->coefficient, exponent), powered), extra);
+    }
+    if (whole && exponent > 0.0 && exponent <= 16.0) {
+        const poly *base = poly_of_term(a, t->coefficient, m);
+        const poly *half = poly_pow(a, base, floor(exponent / 2.0));
+        const poly *even = poly_mul(a, half, half);
+        return fmod(exponent, 2.0) == 0.0 ? even : poly_mul(a, even, base);
+    }
+    if (whole && m->count > 0) { /* 1/(r cos a) = 1/r * 1/(cos a) */
+        const mono *plain = mono_make(a, m->factors, m->count, TRIG_NONE, NULL);
+        const mono *wave = mono_make(a, NULL, 0, m->trig, m->angle);
+        return poly_mul(a, poly_pow(a, poly_of_term(a, t->coefficient, plain), exponent),
+                        poly_pow(a, poly_of_term(a, 1.0, wave), exponent));
+    }
+    /* Take out the size of the number; its sign stays inside unless the exponent is whole. */
+    const double sign = t->coefficient < 0.0 ? -1.0 : 1.0;
+    const double outside = whole ? pow(t->coefficient, exponent) : pow(fabs(t->coefficient), exponent);
+    const poly *inside = poly_of_term(a, whole ? 1.0 : sign, m);
+    if (m->count == 1 && m->trig == TRIG_NONE && m->factors[0].exponent == 1.0 && sign > 0.0) {
+        return poly_scale(a, poly_of_atom(a, m->factors[0].atom, exponent), outside);
+    }
+    return poly_scale(a, poly_of_atom(a, group_of(a, inside), exponent), outside);
+}
+
+const poly *poly_pow(algebra *a, const poly *base, double exponent) {
+    double value;
+    if (exponent == 0.0) {
+        return a->one;
+    }
+    if (exponent == 1.0) {
+        return base;
+    }
+    if (poly_is_number(base, &value)) {
+        return poly_number(a, pow(value, exponent));
+    }
+    if (base->count == 1) {
+        return term_pow(a, &base->terms[0], exponent);
+    }
+    if (is_whole(exponent) && exponent > 0.0 &&
+        pow((double)base->count, exponent) <= POWER_TERMS_MAX) {
+        const poly *p = base;
+        for (int i = 1; i < (int)exponent; i++) {
+            p = poly_mul(a, p, base);
+        }
+        return p;
+    }
+    /* Equal sums should be one group: divide by the first coefficient (by its size, where the sign
+     * cannot leave a broken power). */
+    const double first = base->terms[0].coefficient;
+    const double outside = is_whole(exponent) ? first : fabs(first);
+    const poly *inside = poly_scale(a, base, 1.0 / outside);
+    return poly_scale(a, poly_of_atom(a, group_of(a, inside), exponent), pow(outside, exponent));
+}
+
+const poly *poly_pow_poly(algebra *a, const poly *base, const poly *exponent) {
+    double value;
+    if (poly_is_number(exponent, &value)) {
+        return poly_pow(a, base, value);
+    }
+    return poly_of_atom(a, atom_of_polys(a, ATOM_POWER, FN_COUNT, base, exponent), 1.0);
+}
+
+double call_number(function_id function, double x, double y) {
+    switch (function) {
+    case FN_SIN: return sin(x);
+    case FN_COS: return cos(x);
+    case FN_TAN: return tan(x);
+    case FN_ASIN: return asin(x);
+    case FN_ACOS: return acos(x);
+    case FN_ATAN: return atan(x);
+    case FN_ATAN2: return atan2(x, y);
+    case FN_SQRT: return sqrt(x);
+    case FN_EXP: return exp(x);
+    case FN_LOG: return log(x);
+    case FN_ABS: return fabs(x);
+    case FN_SIGN: return (double)((x > 0.0) - (x < 0.0));
+    case FN_MIN: return y < x ? y : x;
+    case FN_MAX: return y > x ? y : x;
+    case FN_COUNT: break;
+    }
+    return 0.0;
+}
+
+const poly *poly_call(algebra *a, function_id function, const poly *x, const poly *y) {
+    double vx;
+    double vy = 0.0;
+    if (poly_is_number(x, &vx) && (y == NULL || poly_is_number(y, &vy))) {
+        return poly_number(a, call_number(function, vx, vy));
+    }
+    switch (function) {
+    case FN_SIN: return poly_sin(a, x);
+    case FN_COS: return poly_cos(a, x);
+    case FN_SQRT: return poly_pow(a, x, 0.5);
+    default: return poly_of_atom(a, atom_of_polys(a, ATOM_CALL, function, x, y), 1.0);
+    }
+}

@@ -1,0 +1,65 @@
+/* accel.c: `whirl accel`: the highest derivatives at one state, to the last digit. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "commands.h"
+#include "load.h"
+#include "host/run/engine.h"
+#include "options.h"
+
+static const char usage[] =
+    "usage: whirl accel FILE|FILE:NAME|NAME [NAME=VALUE ...]\n"
+    "\n"
+    "Prints the accelerations at one state, a line each, 17 significant digits:\n"
+    "    whirl accel core/models/epicyclic.whirl theta=0.3 \"theta'=1.2\" M=1.5\n"
+    "Coordinates, their rates, inputs and parameters can be set; values are SI, or carry a unit:\n"
+    "    \"theta'=330 [rpm]\". What is left out is 0, or has its declared value.\n";
+
+int command_accel(int count, char **words) {
+    if (options_help(count, words, usage)) {
+        return EXIT_DONE;
+    }
+    if (count < 1) {
+        fputs(usage, stderr);
+        return EXIT_BAD_INPUT;
+    }
+    source_model from;
+    const mechanism *of;
+    const scene *in;
+    int code = source_open(&from, words[0]);
+    if (code == EXIT_DONE) {
+        code = source_pick(&from, false, &of, &in);
+    }
+    if (code == EXIT_DONE) {
+        const overrides changes = {.values = (const char *const *)(words + 1),
+                                   .value_count = count - 1};
+        loaded made;
+        code = load(&made, &from, of, in, &changes);
+        if (code == EXIT_DONE) {
+            const program *p = made.program;
+            double angle_rad[PROGRAM_COMPONENTS_MAX];
+            double real[2 * PROGRAM_COMPONENTS_MAX];
+            double *result = calloc((size_t)p->books->results + 1, sizeof *result);
+            if (result == NULL) {
+                abort();
+            }
+            program_start(p, made.instance, angle_rad, real);
+            evaluator *ev = evaluator_new(p->books);
+            evaluator_run(ev, angle_rad, real, real + (p->count - p->angles), made.instance->input,
+                          result);
+            evaluator_free(ev);
+            for (int i = 0; i < p->count; i++) {
+                printf("%s", made.equations->unknowns[i].symbol->name);
+                for (int k = 0; k < made.equations->unknowns[i].order; k++) {
+                    putchar('\'');
+                }
+                printf(" = %.17g\n", result[i]);
+            }
+            free(result);
+        }
+        unload(&made);
+    }
+    source_close(&from);
+    return code;
+}

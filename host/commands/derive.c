@@ -1,0 +1,113 @@
+/* derive.c: `whirl derive`: the equations of motion, the first-order form, the code. */
+#include <stdio.h>
+#include <string.h>
+
+#include "commands.h"
+#include "host/emit/emit.h"
+#include "load.h"
+#include "options.h"
+
+static const char usage[] =
+    "usage: whirl derive FILE|FILE:NAME|NAME [--as text|latex|octave|c] [--with E,...]\n"
+    "                    [--without E,...] [--set NAME=EXPR]\n"
+    "\n"
+    "Prints the equations of motion of a mechanism (or of a scene, with its effects):\n"
+    "  --as text    one equation a coordinate, as in a textbook, and the first-order form (default)\n"
+    "  --as latex   the same for a paper\n"
+    "  --as octave  a function file that Octave and Matlab integrate as it stands\n"
+    "  --as c       the scene as C for the core\n";
+
+typedef enum form { FORM_TEXT, FORM_LATEX, FORM_OCTAVE, FORM_C, FORMS } form;
+static const char *const form_names[FORMS] = {"text", "latex", "octave", "c"};
+
+static void print(form as, const loaded *made, const char *file) {
+    const engine_settings settings = {WH_RK4, false};
+    switch (as) {
+    case FORM_TEXT: emit_text(stdout, made->equations); break;
+    case FORM_LATEX: emit_latex(stdout, made->equations); break;
+    case FORM_OCTAVE: emit_octave(stdout, made->equations, made->program, file); break;
+    default: emit_c(stdout, made->equations, made->program, &settings, file); break;
+    }
+}
+
+static int derive_one(source_model *from, const mechanism *of, const scene *in,
+                      const overrides *changes, form as) {
+    loaded made;
+    int code = load(&made, from, of, in, changes);
+    if (code == EXIT_DONE && as == FORM_C && program_needs_libm(made.program) != NULL) {
+        fprintf(stderr,
+                "%s: error: '%s' needs %s, which the core does not offer on boards\n"
+                "hint: --as octave and `whirl run --number double` work\n",
+                from->file, made.instance->name, program_needs_libm(made.program));
+        code = EXIT_BAD_INPUT;
+    }
+    if (code == EXIT_DONE) {
+        print(as, &made, from->file);
+    }
+    unload(&made);
+    return code;
+}
+
+int command_derive(int count, char **words) {
+    const char *target = NULL;
+    form as = FORM_TEXT;
+    change_options options = {0};
+    bool bad = false;
+    if (options_help(count, words, usage)) {
+        return EXIT_DONE;
+    }
+    for (int at = 0; at < count && !bad;) {
+        const char *value = options_value(count, words, &at, "--as", &bad);
+        if (value != NULL) {
+            as = FORM_TEXT;
+            while (as < FORMS && strcmp(form_names[as], value) != 0) {
+                as++;
+            }
+            if (as == FORMS) {
+                fprintf(stderr, "whirl derive: error: there is no form '%s'\n"
+                                "hint: text, latex, octave or c\n", value);
+                bad = true;
+            }
+        } else if (!bad && !options_change(count, words, &at, &options, &bad) && !bad) {
+            if (words[at][0] == '-' && words[at][1] != '\0') {
+                options_unknown("derive", words[at],
+                                (const char *const[]){"--as", CHANGE_OPTIONS, "--help", NULL});
+                bad = true;
+            } else if (target != NULL) {
+                fprintf(stderr, "whirl derive: error: more than one thing to derive: %s\n",
+                        words[at]);
+                bad = true;
+            } else {
+                target = words[at++];
+            }
+        }
+    }
+    if (bad || target == NULL) {
+        if (!bad) {
+            fputs(usage, stderr);
+        }
+        change_options_free(&options);
+        return EXIT_BAD_INPUT;
+    }
+    source_model from;
+    int code = source_open(&from, target);
+    const overrides changes = change_options_overrides(&options);
+    if (code == EXIT_DONE && from.name[0] == '\0' && (as == FORM_TEXT || as == FORM_LATEX)) {
+        for (int i = 0; i < from.model->mechanism_count && code == EXIT_DONE; i++) {
+            if (i > 0) {
+                putchar('\n');
+            }
+            code = derive_one(&from, from.model->mechanisms[i], NULL, &changes, as);
+        }
+    } else if (code == EXIT_DONE) {
+        const mechanism *of;
+        const scene *in;
+        code = source_pick(&from, true, &of, &in);
+        if (code == EXIT_DONE) {
+            code = derive_one(&from, of, in, &changes, as);
+        }
+    }
+    source_close(&from);
+    change_options_free(&options);
+    return code;
+}

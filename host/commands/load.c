@@ -1,0 +1,223 @@
+/* load.c: finding, reading and deriving what the user named. */
+#include "load.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "host/lang/builtin.h"
+#include "host/lang/nearest.h"
+
+static char *copy_of(const char *text, size_t length) {
+    char *copy = malloc(length + 1);
+    if (copy == NULL) {
+        abort();
+    }
+    memcpy(copy, text, length);
+    copy[length] = '\0';
+    return copy;
+}
+
+char *read_all(const char *path, size_t *length) {
+    FILE *in = strcmp(path, "-") == 0 ? stdin : fopen(path, "rb");
+    struct stat about;
+    if (in != NULL && in != stdin && fstat(fileno(in), &about) == 0 && S_ISDIR(about.st_mode)) {
+        fclose(in);
+        in = NULL;
+        errno = EISDIR;
+    }
+    if (in == NULL) {
+        fprintf(stderr, "%s: error: cannot be read: %s\n", path, strerror(errno));
+        return NULL;
+    }
+    size_t room = 1U << 16;
+    char *text = malloc(room);
+    *length = 0;
+    while (text != NULL) {
+        *length += fread(text + *length, 1, room - *length - 1, in);
+        if (*length < room - 1 || *length > MODEL_BYTES_MAX) {
+            break; /* the parser says that it is too long */
+        }
+        room *= 2;
+        char *more = realloc(text, room);
+        if (more == NULL) {
+            free(text);
+        }
+        text = more;
+    }
+    if (in != stdin) {
+        fclose(in);
+    }
+    if (text == NULL) {
+        abort();
+    }
+    text[*length] = '\0';
+    return text;
+}
+
+static bool file_exists(const char *path) {
+    struct stat about;
+    return strcmp(path, "-") == 0 || stat(path, &about) == 0;
+}
+
+/* Where FILE ends in FILE:NAME, or the whole length. */
+static size_t file_part(const char *target) {
+    const char *colon = strrchr(target, ':');
+    if (colon == NULL || file_exists(target)) {
+        return strlen(target);
+    }
+    return (size_t)(colon - target);
+}
+
+static bool model_has(const model *m, const char *name) {
+    for (int i = 0; i < m->scene_count; i++) {
+        if (strcmp(m->scenes[i]->name, name) == 0) {
+            return true;
+        }
+    }
+    for (int i = 0; i < m->mechanism_count; i++) {
+        if (strcmp(m->mechanisms[i]->name, name) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static int open_builtin(source_model *s, const char *target) {
+    nearest search = nearest_start(target, strlen(target));
+    char best[128] = "";
+    for (size_t i = 0; i < builtin_model_count; i++) {
+        const struct builtin_model *b = &builtin_models[i];
+        model *m = model_parse(b->file, b->text, b->length, s->errors);
+        if (m == NULL) {
+            diags_flush(s->errors, stderr);
+            return EXIT_BAD_INPUT;
+        }
+        if (model_has(m, target)) {
+            s->model = m;
+            s->file = b->file;
+            s->name = copy_of(target, strlen(target));
+            return EXIT_DONE;
+        }
+        const char *before = search.best;
+        for (int k = 0; k < m->scene_count; k++) {
+            nearest_offer(&search, m->scenes[k]->name);
+        }
+        for (int k = 0; k < m->mechanism_count; k++) {
+            nearest_offer(&search, m->mechanisms[k]->name);
+        }
+        if (search.best != before && search.best != NULL) {
+            snprintf(best, sizeof best, "%s", search.best);
+            search.best = best;
+        }
+        model_free(m);
+    }
+    fprintf(stderr, "whirl: error: there is no file and no built-in scene or mechanism '%s'\n",
+            target);
+    if (search.best != NULL) {
+        fprintf(stderr, "hint: did you mean '%s'? `whirl list` shows all\n", best);
+    } else {
+        fprintf(stderr, "hint: `whirl list` shows the built-in ones\n");
+    }
+    return EXIT_BAD_INPUT;
+}
+
+int source_open(source_model *s, const char *target) {
+    *s = (source_model){.errors = diags_new()};
+    const size_t length = file_part(target);
+    char *path = copy_of(target, length);
+    const bool looks_like_file = strchr(path, '/') != NULL || strstr(path, ".whirl") != NULL;
+    if (!file_exists(path) && !looks_like_file) {
+        free(path);
+        return open_builtin(s, target);
+    }
+    s->path = path;
+    s->file = strcmp(path, "-") == 0 ? "<standard input>" : path;
+    s->name = copy_of(target[length] == ':' ? target + length + 1 : "",
+                      target[length] == ':' ? strlen(target + length + 1) : 0);
+    size_t bytes;
+    s->text = read_all(path, &bytes);
+    if (s->text == NULL) {
+        return EXIT_BAD_INPUT;
+    }
+    s->model = model_parse(s->file, s->text, bytes, s->errors);
+    diags_flush(s->errors, stderr);
+    return s->model == NULL ? EXIT_BAD_INPUT : EXIT_DONE;
+}
+
+void source_close(source_model *s) {
+    model_free(s->model);
+    diags_free(s->errors);
+    free(s->text);
+    free(s->path);
+    free(s->name);
+}
+
+static void say_choices(const source_model *s, bool scenes) {
+    fprintf(stderr, "hint: name one:");
+    for (int i = 0; scenes && i < s->model->scene_count; i++) {
+        fprintf(stderr, " %s:%s", s->file, s->model->scenes[i]->name);
+    }
+    for (int i = 0; i < s->model->mechanism_count; i++) {
+        fprintf(stderr, " %s:%s", s->file, s->model->mechanisms[i]->name);
+    }
+    fprintf(stderr, "\n");
+}
+
+int source_pick(source_model *s, bool prefer_scene, const mechanism **of, const scene **in) {
+    const model *m = s->model;
+    *in = NULL;
+    *of = NULL;
+    for (int i = 0; i < m->scene_count; i++) {
+        if (strcmp(m->scenes[i]->name, s->name) == 0) {
+            *in = m->scenes[i];
+        }
+    }
+    for (int i = 0; i < m->mechanism_count && *in == NULL; i++) {
+        if (strcmp(m->mechanisms[i]->name, s->name) == 0) {
+            *of = m->mechanisms[i];
+        }
+    }
+    if (s->name[0] == '\0' && prefer_scene && m->scene_count == 1) {
+        *in = m->scenes[0];
+    } else if (s->name[0] == '\0' && m->mechanism_count == 1 &&
+               !(prefer_scene && m->scene_count > 1)) {
+        *of = m->mechanisms[0];
+    }
+    if (*in != NULL) {
+        *of = (*in)->mechanism;
+    }
+    if (*of != NULL) {
+        return EXIT_DONE;
+    }
+    if (s->name[0] == '\0') {
+        fprintf(stderr, "%s: error: it has more than one %s\n", s->file,
+                prefer_scene && m->scene_count > 1 ? "scene" : "mechanism");
+    } else {
+        fprintf(stderr, "%s: error: it has no scene or mechanism '%s'\n", s->file, s->name);
+    }
+    say_choices(s, prefer_scene);
+    return EXIT_BAD_INPUT;
+}
+
+int load(loaded *made, source_model *s, const mechanism *of, const scene *in,
+         const overrides *changes) {
+    *made = (loaded){0};
+    made->instance = instance_make(of, in, changes, s->errors);
+    if (made->instance != NULL) {
+        made->equations = equations_derive(made->instance, s->errors);
+    }
+    if (made->equations != NULL) {
+        made->program = program_make(made->equations, s->errors);
+    }
+    diags_flush(s->errors, stderr);
+    return made->program == NULL ? EXIT_BAD_INPUT : EXIT_DONE;
+}
+
+void unload(loaded *made) {
+    program_free(made->program);
+    equations_free(made->equations);
+    instance_free(made->instance);
+}

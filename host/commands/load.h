@@ -1,0 +1,42 @@
+/* load.h: from what the user named to equations and a program. */
+#ifndef COMMANDS_LOAD_H
+#define COMMANDS_LOAD_H
+
+#include "host/derive/program.h"
+
+enum { EXIT_DONE = 0, EXIT_RUN_FAILED = 1, EXIT_BAD_INPUT = 2 };
+
+/* A .whirl file, or the one built-in model that has what was named. Free with source_close(). */
+typedef struct source_model {
+    const char *file; /* as in messages */
+    char *text;       /* owned; NULL for a built-in model */
+    char *path;       /* owned */
+    char *name;       /* owned: what was named behind the ':', or the built-in name; "" if nothing */
+    model *model;
+    diags *errors;
+} source_model;
+
+/* `target` is FILE, FILE:NAME, or the name of a built-in scene or mechanism. On failure the errors
+ * have been printed; returns an exit code. */
+int source_open(source_model *source, const char *target);
+void source_close(source_model *source);
+
+/* What `source->name` means: a scene, or a mechanism (scene NULL). Nothing named: with
+ * `prefer_scene` the file's only scene, else its only mechanism. Returns an exit code. */
+int source_pick(source_model *source, bool prefer_scene, const mechanism **of, const scene **in);
+
+typedef struct loaded {
+    instance *instance;
+    equations *equations;
+    program *program;
+} loaded;
+
+/* Derive one instance and enter its program; errors are printed. Returns an exit code. */
+int load(loaded *made, source_model *source, const mechanism *of, const scene *in,
+         const overrides *changes);
+void unload(loaded *made);
+
+/* The whole of `path` in memory ("-" is standard input), with a zero byte behind; NULL, reported. */
+char *read_all(const char *path, size_t *length);
+
+#endif

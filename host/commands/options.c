@@ -1,0 +1,124 @@
+/* options.c: reading the words of a command line. */
+#include "options.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "host/lang/nearest.h"
+
+bool options_help(int count, char **words, const char *usage) {
+    for (int i = 0; i < count; i++) {
+        if (strcmp(words[i], "--help") == 0 || strcmp(words[i], "-h") == 0) {
+            fputs(usage, stdout);
+            return true;
+        }
+    }
+    return false;
+}
+
+const char *options_value(int count, char **words, int *at, const char *name, bool *bad) {
+    const size_t length = strlen(name);
+    const char *word = words[*at];
+    if (strncmp(word, name, length) != 0) {
+        return NULL;
+    }
+    if (word[length] == '=') {
+        ++*at;
+        return word + length + 1;
+    }
+    if (word[length] != '\0') {
+        return NULL;
+    }
+    if (*at + 1 >= count) {
+        fprintf(stderr, "whirl: error: %s needs a value\n", name);
+        *bad = true;
+        ++*at;
+        return NULL;
+    }
+    *at += 2;
+    return words[*at - 1];
+}
+
+static void push(const char ***list, int *count, const char *text) {
+    const char **longer = realloc(*list, ((size_t)*count + 1) * sizeof **list);
+    if (longer == NULL) {
+        abort();
+    }
+    *list = longer;
+    longer[(*count)++] = text;
+}
+
+/* Each name of a comma list. */
+static void push_names(change_options *c, const char ***list, int *count, const char *text) {
+    while (*text != '\0') {
+        const size_t length = strcspn(text, ",");
+        char *name = calloc(length + 1, 1);
+        char **owned = realloc(c->owned, ((size_t)c->owned_count + 1) * sizeof *owned);
+        if (name == NULL || owned == NULL) {
+            abort();
+        }
+        memcpy(name, text, length);
+        c->owned = owned;
+        c->owned[c->owned_count++] = name;
+        if (length > 0) {
+            push(list, count, name);
+        }
+        text += length + (text[length] == ',' ? 1 : 0);
+    }
+}
+
+bool options_change(int count, char **words, int *at, change_options *c, bool *bad) {
+    const char *value;
+    if ((value = options_value(count, words, at, "--set", bad)) != NULL) {
+        push(&c->sets, &c->set_count, value);
+    } else if (!*bad && (value = options_value(count, words, at, "--start", bad)) != NULL) {
+        push(&c->starts, &c->start_count, value);
+    } else if (!*bad && (value = options_value(count, words, at, "--with", bad)) != NULL) {
+        push_names(c, &c->with, &c->with_count, value);
+    } else if (!*bad && (value = options_value(count, words, at, "--without", bad)) != NULL) {
+        push_names(c, &c->without, &c->without_count, value);
+    } else if (!*bad && (value = options_value(count, words, at, "--step", bad)) != NULL) {
+        c->step = value;
+    } else if (!*bad && (value = options_value(count, words, at, "--until", bad)) != NULL) {
+        c->until = value;
+    }
+    return value != NULL;
+}
+
+overrides change_options_overrides(const change_options *c) {
+    return (overrides){.sets = c->sets,
+                       .set_count = c->set_count,
+                       .starts = c->starts,
+                       .start_count = c->start_count,
+                       .with = c->with,
+                       .with_count = c->with_count,
+                       .without = c->without,
+                       .without_count = c->without_count,
+                       .step = c->step,
+                       .until = c->until};
+}
+
+void change_options_free(change_options *c) {
+    for (int i = 0; i < c->owned_count; i++) {
+        free(c->owned[i]);
+    }
+    free(c->owned);
+    free(c->sets);
+    free(c->starts);
+    free(c->with);
+    free(c->without);
+}
+
+void options_unknown(const char *command, const char *word, const char *const *known) {
+    nearest search = nearest_start(word, strlen(word));
+    for (int i = 0; known[i] != NULL; i++) {
+        nearest_offer(&search, known[i]);
+    }
+    fprintf(stderr, "whirl %s: error: unknown option '%s'\n", command, word);
+    if (search.best != NULL) {
+        fprintf(stderr, "hint: did you mean %s?\n", search.best);
+    } else {
+        fprintf(stderr, "hint: whirl %s --help lists the options\n", command);
+    }
+}

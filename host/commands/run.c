@@ -1,0 +1,209 @@
+/* run.c: `whirl run`: simulate, keep records, balance the books. */
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "commands.h"
+#include "host/run/simulate.h"
+#include "load.h"
+#include "options.h"
+
+static const char usage[] =
+    "usage: whirl run SCENE|FILE[:SCENE] [options]\n"
+    "\n"
+    "Simulates a scene and prints a summary: final state, energy and momentum balance, state hash.\n"
+    "A mechanism without a scene starts at rest at zero.\n"
+    "\n"
+    "  --set NAME=EXPR      a parameter or an input; a bare number is SI (repeatable)\n"
+    "  --start NAME=EXPR    a coordinate or a rate: --start \"theta'=330 [rpm]\" (repeatable)\n"
+    "  --with E,...         effects to add        --without E,...  effects to leave out\n"
+    "  --step 1ms           fixed step            --until 9s       end of the run\n"
+    "  --method M           rk4 (default), heun, semi-implicit-euler, euler\n"
+    "  --number N           double (default, the reference) or float (the boards, to the bit)\n"
+    "  --compensated        carry the rounding error of every sum along\n"
+    "  --csv FILE           records; - is standard output (the summary then goes to standard error)\n"
+    "  --every 2ms          spacing of the records, a whole number of steps (default: every step)\n"
+    "  --plot FILE.svg|.png coordinates and outputs over time, drawn by gnuplot\n"
+    "  --quiet              no summary, no progress\n"
+    "\n"
+    "Exit status: 0 done; 1 the run failed (it says when, where and what to try; the records so far\n"
+    "are kept); 2 bad input; 130 interrupted.\n";
+
+static const char *const method_names[] = {"euler", "semi-implicit-euler", "heun", "rk4"};
+
+static volatile sig_atomic_t interrupted;
+
+static void on_interrupt(int signal_number) {
+    (void)signal_number;
+    interrupted = 1;
+}
+
+typedef struct run_options {
+    change_options changes;
+    const char *target;
+    const char *every;
+    simulation_settings settings;
+} run_options;
+
+static bool choose(const char *what, const char *value, const char *const *names, int count,
+                   int *chosen) {
+    for (int i = 0; i < count; i++) {
+        if (strcmp(value, names[i]) == 0) {
+            *chosen = i;
+            return true;
+        }
+    }
+    fprintf(stderr, "whirl run: error: there is no %s '%s'\nhint: one of", what, value);
+    for (int i = 0; i < count; i++) {
+        fprintf(stderr, "%s %s", i > 0 ? "," : "", names[i]);
+    }
+    fputc('\n', stderr);
+    return false;
+}
+
+static bool take_flag(char **words, int *at, const char *name) {
+    if (strcmp(words[*at], name) != 0) {
+        return false;
+    }
+    ++*at;
+    return true;
+}
+
+/* One word or pair of words that is this command's own; false when it is none of them. */
+static bool take_own(int count, char **words, int *at, run_options *o, bool *bad) {
+    static const char *const numbers[] = {"double", "float"};
+    const char *value;
+    int chosen = 0;
+    if ((value = options_value(count, words, at, "--method", bad)) != NULL) {
+        *bad = !choose("method", value, method_names, 4, &chosen);
+        o->settings.engine.method = (wh_method)chosen;
+    } else if (!*bad && (value = options_value(count, words, at, "--number", bad)) != NULL) {
+        *bad = !choose("number", value, numbers, 2, &chosen);
+        o->settings.kind = chosen == 1 ? &engine_float : &engine_double;
+    } else if (!*bad && (value = options_value(count, words, at, "--csv", bad)) != NULL) {
+        o->settings.csv = value;
+    } else if (!*bad && (value = options_value(count, words, at, "--every", bad)) != NULL) {
+        o->every = value;
+    } else if (!*bad && (value = options_value(count, words, at, "--plot", bad)) != NULL) {
+        o->settings.plot = value;
+    } else if (!*bad && take_flag(words, at, "--compensated")) {
+        o->settings.engine.compensated = true;
+        return true;
+    } else if (!*bad && take_flag(words, at, "--quiet")) {
+        o->settings.quiet = true;
+        return true;
+    }
+    return value != NULL;
+}
+
+static bool read_options(int count, char **words, run_options *o) {
+    bool bad = false;
+    for (int at = 0; at < count && !bad;) {
+        if (take_own(count, words, &at, o, &bad) || bad ||
+            options_change(count, words, &at, &o->changes, &bad) || bad) {
+            continue;
+        }
+        if (words[at][0] == '-' && words[at][1] != '\0') {
+            options_unknown("run", words[at],
+                            (const char *const[]){CHANGE_OPTIONS, "--method", "--number",
+                                                  "--compensated", "--csv", "--every", "--plot",
+                                                  "--quiet", "--help", NULL});
+            return false;
+        }
+        if (o->target != NULL) {
+            fprintf(stderr, "whirl run: error: one scene at a time, not also '%s'\n", words[at]);
+            return false;
+        }
+        o->target = words[at++];
+    }
+    if (!bad && o->target == NULL) {
+        fputs(usage, stderr);
+        return false;
+    }
+    return !bad;
+}
+
+/* --every as a number of steps. */
+static bool read_every(const run_options *o, const mechanism *of, const instance *inst,
+                       unsigned long *steps) {
+    *steps = 1;
+    if (o->every == NULL) {
+        return true;
+    }
+    diags *errors = diags_new();
+    const overrides duration = {.until = o->every};
+    instance *spaced = instance_make(of, NULL, &duration, errors);
+    diags_flush(errors, stderr);
+    diags_free(errors);
+    if (spaced == NULL) {
+        return false;
+    }
+    const double wanted = spaced->until_s / inst->step_s;
+    instance_free(spaced);
+    if (!(wanted > 0.5 && wanted < 1e15) || fabs(wanted - floor(wanted + 0.5)) > 1e-6 * wanted) {
+        fprintf(stderr,
+                "whirl run: error: --every %s is not a whole number of steps\n"
+                "hint: the step is %.9g s\n",
+                o->every, inst->step_s);
+        return false;
+    }
+    *steps = (unsigned long)floor(wanted + 0.5);
+    return true;
+}
+
+static int run_loaded(run_options *o, const source_model *from, const loaded *made) {
+    const char *missing = program_needs_libm(made->program);
+    if (missing != NULL && o->settings.kind == &engine_float) {
+        fprintf(stderr,
+                "%s: error: '%s' needs %s, which the core does not offer in float\n"
+                "hint: run it with --number double\n",
+                from->file, made->instance->name, missing);
+        return EXIT_BAD_INPUT;
+    }
+    if (!read_every(o, made->instance->mechanism, made->instance, &o->settings.every)) {
+        return EXIT_BAD_INPUT;
+    }
+    struct sigaction action = {.sa_handler = on_interrupt};
+    sigaction(SIGINT, &action, NULL);
+    o->settings.stop = &interrupted;
+    o->settings.progress = !o->settings.quiet && isatty(STDERR_FILENO);
+    switch (simulate(made->equations, made->program, &o->settings)) {
+    case SIMULATION_DONE: return EXIT_DONE;
+    case SIMULATION_INTERRUPTED: return 130;
+    case SIMULATION_BAD_FILE: return EXIT_BAD_INPUT;
+    default: return EXIT_RUN_FAILED;
+    }
+}
+
+int command_run(int count, char **words) {
+    run_options o = {.settings = {.kind = &engine_double, .engine = {WH_RK4, false}}};
+    if (options_help(count, words, usage)) {
+        return EXIT_DONE;
+    }
+    if (!read_options(count, words, &o)) {
+        change_options_free(&o.changes);
+        return EXIT_BAD_INPUT;
+    }
+    source_model from;
+    const mechanism *of;
+    const scene *in;
+    int code = source_open(&from, o.target);
+    if (code == EXIT_DONE) {
+        code = source_pick(&from, true, &of, &in);
+    }
+    if (code == EXIT_DONE) {
+        loaded made;
+        const overrides changes = change_options_overrides(&o.changes);
+        code = load(&made, &from, of, in, &changes);
+        if (code == EXIT_DONE) {
+            code = run_loaded(&o, &from, &made);
+        }
+        unload(&made);
+    }
+    source_close(&from);
+    change_options_free(&o.changes);
+    return code;
+}

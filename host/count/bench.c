@@ -1,0 +1,145 @@
+/* bench.c: the program whose instructions are counted: single steps of every generated scene.
+ *
+ * The same source runs on every board under the counting plugin (count_board.sh) and on the PC
+ * under callgrind (count_host.sh). It only says on the console which interval is which:
+ *
+ *     count NAME METHOD NUMBER FIRST LAST    intervals FIRST to LAST hold one step each
+ *     stack NAME BYTES                       deepest stack of the program during those steps
+ *     failed NAME STATUS                     the scene could not be counted
+ *
+ * Interval 0 is around nothing. On a board an interval holds the call too (loading the arguments
+ * and the branch); callgrind counts the called function alone. */
+#include "boards/board.h"
+#include "build/gen/scenes.h"
+#include "core/scene.h"
+#include "core/text.h"
+
+#define WARM_STEPS 20U
+#define COUNTED_STEPS 100U
+#define COUNTED_PAIRS 64U
+
+/* Room for any scene of up to 16 angles, 48 reals and 16 inputs, compensated or not. */
+static uint64_t memory[WH_STATE_WORDS(16, 48, 16)];
+static unsigned intervals;
+
+void wh_count_begin(void);
+void wh_count_end(void);
+void bench_pair(wh_phase phase, wh_real *pair);
+
+/* Nothing but a return. The operands differ so that the compiler does not make one of the two. */
+__attribute__((noinline)) void wh_count_begin(void) { __asm__ volatile("" : : "i"(1) : "memory"); }
+__attribute__((noinline)) void wh_count_end(void) { __asm__ volatile("" : : "i"(2) : "memory"); }
+
+__attribute__((noinline)) void bench_pair(wh_phase phase, wh_real *pair) {
+    wh_sincos(phase, &pair[0], &pair[1]);
+}
+
+static const char *name_of(wh_method method) {
+    switch (method) {
+    case WH_EULER: return "euler";
+    case WH_SEMI_IMPLICIT_EULER: return "semi-implicit-euler";
+    case WH_HEUN: return "heun";
+    case WH_RK4: return "rk4";
+    }
+    return "unknown";
+}
+
+static void say(const wh_text *text) { board_write(text->bytes, text->length); }
+
+static void say_counted(const char *name, const char *method, bool compensated, unsigned first) {
+    char line[160];
+    wh_text text;
+    wh_text_start(&text, line, sizeof line);
+    wh_text_add(&text, "count ");
+    wh_text_add(&text, name);
+    wh_text_add_char(&text, ' ');
+    wh_text_add(&text, method);
+    wh_text_add(&text, compensated ? "-compensated" : "");
+    wh_text_add(&text, WH_DOUBLE ? " double " : " float ");
+    wh_text_add_unsigned(&text, first);
+    wh_text_add_char(&text, ' ');
+    wh_text_add_unsigned(&text, intervals - 1U);
+    wh_text_add_char(&text, '\n');
+    say(&text);
+}
+
+static void say_stack(const char *name) {
+    char line[120];
+    wh_text text;
+    wh_text_start(&text, line, sizeof line);
+    wh_text_add(&text, "stack ");
+    wh_text_add(&text, name);
+    wh_text_add_char(&text, ' ');
+    wh_text_add_unsigned(&text, board_stack_used_bytes());
+    wh_text_add_char(&text, '\n');
+    say(&text);
+}
+
+static void say_failed(const char *name, wh_status status) {
+    char line[160];
+    wh_text text;
+    wh_text_start(&text, line, sizeof line);
+    wh_text_add(&text, "failed ");
+    wh_text_add(&text, name);
+    wh_text_add_char(&text, ' ');
+    wh_text_add(&text, wh_status_text(status));
+    wh_text_add_char(&text, '\n');
+    say(&text);
+}
+
+static void count_nothing(void) {
+    wh_count_begin();
+    wh_count_end();
+    intervals++;
+}
+
+static void count_pairs(void) {
+    const unsigned first = intervals;
+    for (unsigned i = 0; i < COUNTED_PAIRS; i++) {
+        volatile wh_real out[2];
+        wh_real pair[2];
+        const wh_phase phase = wh_phase_from_rad((wh_real)i * WH_R(0.618034) - WH_R(20.0));
+        wh_count_begin();
+        bench_pair(phase, pair);
+        wh_count_end();
+        intervals++;
+        out[0] = pair[0];
+        out[1] = pair[1];
+        (void)out;
+    }
+    say_counted("wh_sincos", "-", false, first);
+}
+
+static bool count_scene(const wh_scene *scene) {
+    wh_state state;
+    wh_status status = wh_scene_start(scene, &state, memory, sizeof memory);
+    for (unsigned i = 0; i < WARM_STEPS && status == WH_OK; i++) {
+        status = wh_scene_step(scene, &state);
+    }
+    const unsigned first = intervals;
+    board_stack_paint();
+    for (unsigned i = 0; i < COUNTED_STEPS && status == WH_OK; i++) {
+        wh_count_begin();
+        status = wh_scene_step(scene, &state);
+        wh_count_end();
+        intervals++;
+    }
+    if (status != WH_OK) {
+        say_failed(scene->name, status);
+        return false;
+    }
+    say_stack(scene->name);
+    say_counted(scene->name, name_of(scene->method), scene->compensated, first);
+    return true;
+}
+
+int main(void) {
+    board_start();
+    count_nothing();
+    count_pairs();
+    bool all = true;
+    for (unsigned i = 0; i < wh_scene_count; i++) {
+        all = count_scene(wh_scenes[i]) && all;
+    }
+    return all ? 0 : 1;
+}

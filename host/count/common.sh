@@ -1,0 +1,39 @@
+# common.sh: what the counting scripts share; to be sourced.
+
+CSV_HEADER="commit,board,compiler,flags,scene,number,method,metric,value"
+
+# The commit the figures belong to, "+" if files differ from it.
+commit_of_checkout() {
+    commit=$(git rev-parse --short HEAD 2>/dev/null) || commit=none
+    if [ "$commit" != none ] && [ -n "$(git status --porcelain 2>/dev/null)" ]; then
+        commit="$commit+"
+    fi
+    echo "$commit"
+}
+
+# "gcc 12.2.0" from the compiler's command.
+compiler_of() {
+    version=$($1 -dumpfullversion 2>/dev/null || $1 -dumpversion)
+    echo "${1##*/} $version"
+}
+
+# CSV rows on stdin as a table: one line a scene.
+table() {
+    awk -F, '
+        # The flags are one quoted field without commas; metric and value come last.
+        {
+            key = $5 " " $6 " " $7
+            if (!(key in seen)) { order[++lines] = key; seen[key] = 1; board[key] = $2 }
+            figure[key, $8 ~ /minimum/ ? 1 : $8 ~ /median/ ? 2 : $8 ~ /maximum/ ? 3 : 4] = $9
+        }
+        END {
+            printf "%-12s %-28s %-7s %-24s %8s %8s %8s %8s\n", "board", "scene", "number",
+                "method", "minimum", "median", "maximum", "stack B"
+            for (i = 1; i <= lines; i++) {
+                key = order[i]
+                split(key, part, " ")
+                printf "%-12s %-28s %-7s %-24s %8s %8s %8s %8s\n", board[key], part[1], part[2],
+                    part[3], figure[key, 1], figure[key, 2], figure[key, 3], figure[key, 4]
+            }
+        }'
+}

@@ -1,0 +1,85 @@
+#!/bin/sh
+# count_board.sh: instructions a step of every scene, on an emulated board.
+#
+#   BOARD=mps2-an386 CC=arm-none-eabi-gcc NM=arm-none-eabi-nm FLAGS="-O2" PLUGIN=count.so \
+#   EMULATE="qemu-system-arm ... -kernel bench.elf" count_board.sh bench.elf figures.csv [SCENE]
+#
+# Appends rows to figures.csv (with a header if it is new) and prints them as a table. With SCENE,
+# prints instead where that scene's instructions go, by function (the one call of the end marker
+# included). Executed instructions, not cycles.
+set -eu
+. "$(dirname "$0")/common.sh"
+
+elf=$1
+csv=$2
+scene=${3:-}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+address_of() {
+    found=$("$NM" "$elf" | awk -v name="$1" '$3 == name { print "0x" $1 }')
+    if [ -z "$found" ]; then
+        echo "count_board.sh: $elf has no function $1" >&2
+        exit 1
+    fi
+    echo "$found"
+}
+
+# count MORE-PLUGIN-ARGUMENTS: one run; console to $work/console, counts to $work/counts.
+count() {
+    status=0
+    sh -c "$EMULATE -plugin $PLUGIN,begin=$begin,end=$end$1 -d plugin -D $work/counts" \
+        >"$work/console" || status=$?
+    if [ "$status" -ne 0 ]; then
+        echo "count_board.sh: the program under the counter ended with $status" >&2
+        cat "$work/console" >&2
+        if ! grep -q '^count ' "$work/console"; then
+            exit 1
+        fi
+    fi
+}
+
+begin=$(address_of wh_count_begin)
+end=$(address_of wh_count_end)
+case $PLUGIN in
+*/*) ;;
+*) PLUGIN=./$PLUGIN ;;
+esac
+count ""
+
+if [ -z "$scene" ]; then
+    awk -v commit="$(commit_of_checkout)" -v board="$BOARD" -v compiler="$(compiler_of "$CC")" \
+        -v flags="$FLAGS" -f "$(dirname "$0")/figures.awk" "$work/console" "$work/counts" \
+        >"$work/rows"
+    [ -s "$csv" ] || echo "$CSV_HEADER" >"$csv"
+    cat "$work/rows" >>"$csv"
+    table <"$work/rows"
+    exit "$status"
+fi
+
+range=$(awk -v scene="$scene" '$1 == "count" && $2 == scene { print ",first=" $5 ",last=" $6 + 0 }' \
+    "$work/console")
+if [ -z "$range" ]; then
+    echo "count_board.sh: there is no scene $scene" >&2
+    exit 1
+fi
+count ",profile=on$range"
+"$NM" -S -t d "$elf" | awk 'NF == 4 && $3 ~ /[tTwW]/ { print "symbol", $1 + 0, $2 + 0, $4 }' |
+    cat - "$work/counts" | awk -v steps="$(echo "$range" | awk -F'[=,]' '{ print $5 - $3 + 1 }')" '
+    $1 == "symbol" { n++; start[n] = $2; size[n] = $3; name[n] = $4 }
+    $1 == "address" {
+        total += $3
+        for (i = 1; i <= n; i++) {
+            if ($2 >= start[i] && $2 < start[i] + size[i]) {
+                of[name[i]] += $3
+                next
+            }
+        }
+        of["(no symbol)"] += $3
+    }
+    END {
+        for (i in of) {
+            printf "%10.1f %5.1f%%  %s\n", of[i] / steps, 100 * of[i] / total, i
+        }
+        printf "%10.1f 100.0%%  instructions a step, all\n", total / steps
+    }' | sort -rn

@@ -1,0 +1,222 @@
+/* count_plugin.c: a QEMU plugin that counts the instructions a program executes between two markers.
+ *
+ *     qemu-system-arm ... -plugin count_plugin.so,begin=0x1a4,end=0x1a6 \
+ *                         -d plugin -D counts.txt
+ *
+ *     begin, end    addresses of two functions without a body, wh_count_begin() and wh_count_end():
+ *                   one return instruction each
+ *     profile=on    also say how often every single address was executed between markers
+ *     first, last   the intervals (numbered from 0) whose instructions go into the profile
+ *
+ * An interval runs from the return instruction of wh_count_begin() to that of wh_count_end(), both
+ * left out; the call of wh_count_end() is inside, which an interval around nothing shows. When the
+ * program ends, the log holds
+ *
+ *     interval NUMBER INSTRUCTIONS             one line each
+ *     address ADDRESS EXECUTIONS               decimal, with profile=on
+ *     unfinished INSTRUCTIONS                  if it ended inside an interval
+ *     intervals TOTAL                          always the last line
+ *
+ * Executed instructions are not cycles. A conditional instruction whose condition fails counts.
+ *
+ * No Debian package ships qemu-plugin.h, so the few calls used are declared here, after QEMU's
+ * "TCG Plugins" chapter (interface version 1, QEMU 6.0 to 8.2). */
+#include <inttypes.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef uint64_t qemu_plugin_id_t;
+struct qemu_plugin_tb;
+struct qemu_plugin_insn;
+struct qemu_info_t;
+enum qemu_plugin_cb_flags { QEMU_PLUGIN_CB_NO_REGS };
+
+#define EXPORT __attribute__((visibility("default")))
+extern EXPORT int qemu_plugin_version;
+EXPORT int qemu_plugin_install(qemu_plugin_id_t id, const struct qemu_info_t *info, int argc,
+                               char **argv);
+
+size_t qemu_plugin_tb_n_insns(const struct qemu_plugin_tb *tb);
+struct qemu_plugin_insn *qemu_plugin_tb_get_insn(const struct qemu_plugin_tb *tb, size_t index);
+uint64_t qemu_plugin_insn_vaddr(const struct qemu_plugin_insn *insn);
+void qemu_plugin_register_vcpu_tb_trans_cb(qemu_plugin_id_t id,
+                                           void (*callback)(qemu_plugin_id_t,
+                                                            struct qemu_plugin_tb *));
+void qemu_plugin_register_vcpu_insn_exec_cb(struct qemu_plugin_insn *insn,
+                                            void (*callback)(unsigned, void *),
+                                            enum qemu_plugin_cb_flags flags, void *data);
+void qemu_plugin_register_atexit_cb(qemu_plugin_id_t id, void (*callback)(qemu_plugin_id_t, void *),
+                                    void *data);
+void qemu_plugin_outs(const char *string);
+
+int qemu_plugin_version = 1;
+
+/* Executions by address: a hash table with chains, one entry an instruction ever translated. */
+typedef struct place {
+    uint64_t address;
+    uint64_t executions;
+    struct place *next;
+} place;
+
+#define BUCKETS 65536U
+static place *buckets[BUCKETS];
+
+static uint64_t begin_address;
+static uint64_t end_address;
+static uint64_t first_profiled;
+static uint64_t last_profiled = UINT64_MAX;
+static bool profile;
+
+static bool counting;
+static bool profiling; /* counting, and this interval goes into the profile */
+static uint64_t count;
+static uint64_t *intervals;
+static size_t interval_count;
+static size_t interval_room;
+
+static void fail(const char *what) {
+    fprintf(stderr, "count_plugin: %s\n", what);
+    exit(EXIT_FAILURE);
+}
+
+static place *place_of(uint64_t address) {
+    place **link = &buckets[(address >> 1) % BUCKETS];
+    while (*link != NULL && (*link)->address != address) {
+        link = &(*link)->next;
+    }
+    if (*link == NULL) {
+        *link = calloc(1, sizeof **link);
+        if (*link == NULL) {
+            fail("out of memory");
+        }
+        (*link)->address = address;
+    }
+    return *link;
+}
+
+static void on_plain(unsigned cpu, void *data) {
+    (void)cpu;
+    if (counting) {
+        count++;
+        if (profiling) {
+            ((place *)data)->executions++;
+        }
+    }
+}
+
+static void on_begin(unsigned cpu, void *data) {
+    (void)cpu;
+    (void)data;
+    if (counting) {
+        fail("an interval begins inside another");
+    }
+    counting = true;
+    profiling = profile && interval_count >= first_profiled && interval_count <= last_profiled;
+    count = 0;
+}
+
+static void on_end(unsigned cpu, void *data) {
+    (void)cpu;
+    (void)data;
+    if (!counting) {
+        fail("an interval ends that never began");
+    }
+    counting = false;
+    if (interval_count == interval_room) {
+        interval_room = interval_room == 0 ? 1024 : 2 * interval_room;
+        intervals = realloc(intervals, interval_room * sizeof *intervals);
+        if (intervals == NULL) {
+            fail("out of memory");
+        }
+    }
+    intervals[interval_count++] = count;
+}
+
+/* Called when QEMU translates a block; what is registered here runs before each instruction. */
+static void on_translate(qemu_plugin_id_t id, struct qemu_plugin_tb *tb) {
+    (void)id;
+    for (size_t i = 0; i < qemu_plugin_tb_n_insns(tb); i++) {
+        struct qemu_plugin_insn *insn = qemu_plugin_tb_get_insn(tb, i);
+        const uint64_t address = qemu_plugin_insn_vaddr(insn);
+        void (*callback)(unsigned, void *) = on_plain;
+        if (address == begin_address) {
+            callback = on_begin;
+        } else if (address == end_address) {
+            callback = on_end;
+        }
+        qemu_plugin_register_vcpu_insn_exec_cb(insn, callback, QEMU_PLUGIN_CB_NO_REGS,
+                                               place_of(address));
+    }
+}
+
+static void report(qemu_plugin_id_t id, void *data) {
+    (void)id;
+    (void)data;
+    char line[80];
+    for (size_t i = 0; i < interval_count; i++) {
+        snprintf(line, sizeof line, "interval %zu %" PRIu64 "\n", i, intervals[i]);
+        qemu_plugin_outs(line);
+    }
+    for (unsigned bucket = 0; bucket < BUCKETS; bucket++) {
+        for (const place *at = buckets[bucket]; at != NULL; at = at->next) {
+            if (at->executions > 0) {
+                snprintf(line, sizeof line, "address %" PRIu64 " %" PRIu64 "\n", at->address,
+                         at->executions);
+                qemu_plugin_outs(line);
+            }
+        }
+    }
+    if (counting) {
+        snprintf(line, sizeof line, "unfinished %" PRIu64 "\n", count);
+        qemu_plugin_outs(line);
+    }
+    snprintf(line, sizeof line, "intervals %zu\n", interval_count);
+    qemu_plugin_outs(line);
+}
+
+/* The value of argument `name`, or NULL if this is another argument. */
+static const char *value_of(const char *argument, const char *name) {
+    const size_t length = strlen(name);
+    return strncmp(argument, name, length) == 0 && argument[length] == '=' ? argument + length + 1
+                                                                           : NULL;
+}
+
+static uint64_t number_of(const char *text) {
+    char *end = NULL;
+    const uint64_t number = strtoull(text, &end, 0);
+    if (end == text || *end != '\0') {
+        fail("an argument is no number");
+    }
+    return number;
+}
+
+int qemu_plugin_install(qemu_plugin_id_t id, const struct qemu_info_t *info, int argc,
+                        char **argv) {
+    (void)info;
+    for (int i = 0; i < argc; i++) {
+        const char *value = NULL;
+        if ((value = value_of(argv[i], "begin")) != NULL) {
+            begin_address = number_of(value);
+        } else if ((value = value_of(argv[i], "end")) != NULL) {
+            end_address = number_of(value);
+        } else if ((value = value_of(argv[i], "first")) != NULL) {
+            first_profiled = number_of(value);
+        } else if ((value = value_of(argv[i], "last")) != NULL) {
+            last_profiled = number_of(value);
+        } else if ((value = value_of(argv[i], "profile")) != NULL) {
+            profile = strcmp(value, "on") == 0;
+        } else {
+            fprintf(stderr, "count_plugin: unknown argument %s\n", argv[i]);
+            return -1;
+        }
+    }
+    if (begin_address == end_address) {
+        fprintf(stderr, "count_plugin: begin= and end= must be two addresses\n");
+        return -1;
+    }
+    qemu_plugin_register_vcpu_tb_trans_cb(id, on_translate);
+    qemu_plugin_register_atexit_cb(id, report, NULL);
+    return 0;
+}

@@ -1,0 +1,69 @@
+# figures.awk: joins what the counted program said (count and stack lines) with what the counter
+# counted (interval lines) and writes rows of
+#     commit,board,compiler,flags,scene,number,method,metric,value
+# Interval 0 is around nothing; its instructions are taken off every other interval.
+# Variables: commit, board, compiler, flags. Fails if an interval is missing.
+
+function row(scene, number, method, metric, value) {
+    printf "%s,%s,%s,\"%s\",%s,%s,%s,%s,%s\n", commit, board, compiler, flags, scene, number,
+        method, metric, value
+}
+
+function fail(what) {
+    print "figures.awk: " what > "/dev/stderr"
+    failed = 1
+    exit 1
+}
+
+# Insertion sort of value[1..n].
+function sort(value, n,    i, j, key) {
+    for (i = 2; i <= n; i++) {
+        key = value[i]
+        for (j = i - 1; j >= 1 && value[j] > key; j--) {
+            value[j + 1] = value[j]
+        }
+        value[j + 1] = key
+    }
+}
+
+{ sub(/\r$/, "") }
+
+$1 == "interval" { counted[$2] = $3 }
+$1 == "unfinished" { fail("the program ended inside an interval") }
+$1 == "failed" { print "figures.awk: " $0 > "/dev/stderr" }
+$1 == "stack" { stack[$2] = $3 }
+
+$1 == "count" {
+    groups++
+    name[groups] = $2
+    method[groups] = $3
+    number[groups] = $4
+    first[groups] = $5
+    last[groups] = $6
+}
+
+END {
+    if (failed) {
+        exit 1
+    }
+    if (groups == 0 || !(0 in counted)) {
+        fail("nothing was counted")
+    }
+    for (g = 1; g <= groups; g++) {
+        n = 0
+        for (i = first[g]; i <= last[g]; i++) {
+            if (!(i in counted)) {
+                fail("interval " i " of " name[g] " is missing")
+            }
+            value[++n] = counted[i] - counted[0]
+        }
+        sort(value, n)
+        what = "instructions per " (name[g] == "wh_sincos" ? "sine-cosine pair" : "step")
+        row(name[g], number[g], method[g], what " (minimum)", value[1])
+        row(name[g], number[g], method[g], what " (median)", value[int((n + 1) / 2)])
+        row(name[g], number[g], method[g], what " (maximum)", value[n])
+        if (name[g] in stack && stack[name[g]] > 0) {
+            row(name[g], number[g], method[g], "stack bytes (measured)", stack[name[g]])
+        }
+    }
+}

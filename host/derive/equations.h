@@ -1,0 +1,48 @@
+/* equations.h: the equations of motion of one instance, in symbols.
+ *
+ * For a mechanism given by energies these are Lagrange's equations (dissertation eq. (1)):
+ *
+ *     d/dt(dL/dq') - dL/dq = -dF/dq' + Q,        L = T - V
+ *
+ * kept in the parts that a reader wants to see apart: sum_j mass[i][j] q_j'' + velocity[i] +
+ * potential[i] = applied[i]. For a system given outright, mass[e][s] is the coefficient of the
+ * highest derivative of unknown s in equation e.
+ */
+#ifndef DERIVE_EQUATIONS_H
+#define DERIVE_EQUATIONS_H
+
+#include "host/algebra/poly.h"
+
+typedef struct unknown {
+    const symbol *symbol;
+    int order; /* of its highest derivative; 2 for a coordinate */
+} unknown;
+
+typedef struct equations {
+    algebra *algebra;
+    const instance *instance;
+    int count;               /* unknowns, and equations */
+    unknown *unknowns;       /* [count] */
+    const poly **mass;       /* [count * count] row by row */
+    const poly **velocity;   /* [count] centrifugal and Coriolis terms; zero for a system */
+    const poly **potential;  /* [count] dV/dq; for a system all else, moved to the left */
+    const poly **applied;    /* [count] Q - dF/dq'; zero for a system */
+    /* Energies and what follows from them; NULL for a system. */
+    const poly *kinetic;
+    const poly *stored;
+    const poly *input_power; /* sum Q q' */
+    const poly *loss_power;  /* sum dF/dq' q' */
+    const poly **momentum;   /* [count] dL/dq' */
+    bool *conserved;         /* [count] momentum[i] is constant: no force, no potential, no loss */
+    const poly **output;     /* [mechanism->output_count] */
+} equations;
+
+/* Derive. Returns NULL on error, reported to `diags` (no kinetic energy for a coordinate, singular
+ * mass matrix, not linear in the highest derivative, an expression that grows out of bounds). */
+equations *equations_derive(const instance *inst, diags *errors);
+void equations_free(equations *e);
+
+/* mass * highest = force: everything but the highest derivatives, on the right. */
+const poly *equations_force(const equations *e, int i);
+
+#endif

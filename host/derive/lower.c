@@ -1,0 +1,369 @@
+/* lower.c: from polys to operations: half angles, factoring, sharing. */
+#include "lower.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "pieces.h"
+#include "waves.h"
+
+/* Coefficients that differ by less than this part count as equal: they come from the same number. */
+#define SAME 1e-13
+
+static piece *piece_room(const poly *p) {
+    piece *pieces = calloc((size_t)p->count + 1, sizeof *pieces);
+    if (pieces == NULL) {
+        abort();
+    }
+    return pieces;
+}
+
+/* --- planning the sines --------------------------------------------------------------------------*/
+
+typedef struct angle_list {
+    const poly **angles;
+    int count;
+    int room;
+} angle_list;
+
+static void collect_angles(algebra *a, const poly *p, angle_list *list) {
+    piece *pieces = piece_room(p);
+    const int count = pieces_of(a, p, pieces);
+    for (int i = 0; i < count; i++) {
+        for (int j = 0; j < pieces[i].mono->count; j++) {
+            const atom *x = pieces[i].mono->factors[j].atom;
+            for (int k = 0; k < 2 && x->kind != ATOM_SYMBOL && x->argument[k] != NULL; k++) {
+                collect_angles(a, x->argument[k], list);
+            }
+            if (x->kind == ATOM_CALL && x->function == FN_TAN) {
+                collect_angles(a, poly_sin(a, x->argument[0]), list);
+            }
+        }
+        if (pieces[i].trig == TRIG_NONE) {
+            continue;
+        }
+        collect_angles(a, pieces[i].angle, list);
+        bool known = false;
+        for (int k = 0; k < list->count; k++) {
+            known = known || list->angles[k] == pieces[i].angle;
+        }
+        if (!known) {
+            if (list->count == list->room) {
+                list->room = list->room == 0 ? 16 : list->room * 2;
+                list->angles = realloc(list->angles, (size_t)list->room * sizeof *list->angles);
+                if (list->angles == NULL) {
+                    abort();
+                }
+            }
+            list->angles[list->count++] = pieces[i].angle;
+        }
+    }
+    free(pieces);
+}
+
+void lower_plan(lowering *l, const poly *const *polys, int count) {
+    angle_list list = {0};
+    for (int i = 0; i < count; i++) {
+        collect_angles(l->algebra, polys[i], &list);
+    }
+    waves_plan(l, list.angles, list.count);
+    free(list.angles);
+}
+
+void lower_done(lowering *l) {
+    free(l->waves);
+    l->waves = NULL;
+    l->wave_count = 0;
+    l->wave_room = 0;
+}
+
+/* --- factoring -----------------------------------------------------------------------------------*/
+
+#define FACTORS_MAX 24
+
+typedef struct power {
+    int node;
+    int exponent; /* positive */
+} power;
+
+typedef struct product {
+    double coefficient;
+    int count;
+    power powers[FACTORS_MAX];
+} product;
+
+static void product_multiply(lowering *l, product *p, int node, int exponent) {
+    double value;
+    if (tape_is_constant(l->tape, node, &value)) {
+        p->coefficient *= pow(value, exponent);
+        return;
+    }
+    for (int i = 0; i < p->count; i++) {
+        if (p->powers[i].node == node) {
+            p->powers[i].exponent += exponent;
+            return;
+        }
+    }
+    if (p->count == FACTORS_MAX) { /* never seen; still correct */
+        const int last = FACTORS_MAX - 1;
+        p->powers[last].node =
+            tape_mul(l->tape, tape_power(l->tape, p->powers[last].node, p->powers[last].exponent),
+                     tape_power(l->tape, node, exponent));
+        p->powers[last].exponent = 1;
+        return;
+    }
+    p->powers[p->count++] = (power){node, exponent};
+}
+
+static int atom_node(lowering *l, const atom *x) {
+    switch (x->kind) {
+    case ATOM_SYMBOL: return l->leaf(l->context, l->tape, x->symbol, x->primes);
+    case ATOM_GROUP: return lower(l, x->argument[0]);
+    case ATOM_POWER:
+        return tape_pow(l->tape, lower(l, x->argument[0]), lower(l, x->argument[1]));
+    case ATOM_CALL: break;
+    }
+    if (x->function == FN_TAN) {
+        const int s = waves_sine(l, x->argument[0]);
+        return tape_div(l->tape, s, waves_cosine(l, x->argument[0]));
+    }
+    const int first = lower(l, x->argument[0]);
+    const int second = x->argument[1] == NULL ? -1 : lower(l, x->argument[1]);
+    return tape_call(l->tape, x->function, first, second);
+}
+
+static void product_factor(lowering *l, product *p, const factor *f) {
+    int node = atom_node(l, f->atom);
+    double size = fabs(f->exponent);
+    if (size != floor(size)) {
+        if (2.0 * size == floor(2.0 * size) && size < 32.0) {
+            node = tape_unary(l->tape, OP_SQRT, node);
+            size *= 2.0;
+        } else {
+            node = tape_power(l->tape, node, size);
+            size = 1.0;
+        }
+    }
+    if (f->exponent < 0.0) {
+        node = tape_div(l->tape, tape_constant(l->tape, 1.0), node);
+    }
+    product_multiply(l, p, node, (int)size);
+}
+
+/* Sum of the products' nodes with one size of coefficient taken out: c (x - y + ...). */
+static int sum_of_like(lowering *l, const product *products, const int *nodes, const bool *member,
+                       int count, double size) {
+    tape *t = l->tape;
+    int sum = tape_constant(t, 0.0);
+    for (int sign = 0; sign < 2; sign++) {
+        for (int i = 0; i < count; i++) {
+            if (member[i] && (products[i].coefficient < 0.0) == (sign == 1)) {
+                sum = sign == 0 ? tape_add(t, sum, nodes[i]) : tape_sub(t, sum, nodes[i]);
+            }
+        }
+    }
+    return tape_mul(t, tape_constant(t, size), sum);
+}
+
+/* Products without a common factor: terms with coefficients of one size are added first. */
+static int sum_flat(lowering *l, const product *products, int count) {
+    tape *t = l->tape;
+    int *nodes = calloc((size_t)count, sizeof *nodes);
+    bool *done = calloc((size_t)count, sizeof *done);
+    bool *member = calloc((size_t)count, sizeof *member);
+    if (nodes == NULL || done == NULL || member == NULL) {
+        abort();
+    }
+    for (int i = 0; i < count; i++) {
+        nodes[i] = tape_constant(t, 1.0);
+        for (int k = 0; k < products[i].count; k++) {
+            const power *p = &products[i].powers[k];
+            nodes[i] = tape_mul(t, nodes[i], tape_power(t, p->node, p->exponent));
+        }
+    }
+    int sum = tape_constant(t, 0.0);
+    for (int i = 0; i < count; i++) {
+        if (done[i]) {
+            continue;
+        }
+        const double size = fabs(products[i].coefficient);
+        bool all_negative = true;
+        for (int k = 0; k < count; k++) {
+            member[k] = !done[k] && fabs(fabs(products[k].coefficient) - size) <= SAME * size;
+            done[k] = done[k] || member[k];
+            all_negative = all_negative && (!member[k] || products[k].coefficient < 0.0);
+        }
+        const int part = sum_of_like(l, products, nodes, member, count, all_negative ? -size : size);
+        /* sum_of_like subtracts negative products; with -size outside they must be added */
+        sum = all_negative ? tape_add(t, sum, tape_unary(t, OP_NEG, part)) : tape_add(t, sum, part);
+    }
+    free(nodes);
+    free(done);
+    free(member);
+    return sum;
+}
+
+/* The node that most products share; rates first, so that sums of sines stay whole. -1: none. */
+static int most_shared(const lowering *l, const product *products, int count) {
+    int best = -1;
+    int best_uses = 1;
+    for (int i = 0; i < count; i++) {
+        for (int k = 0; k < products[i].count; k++) {
+            const int node = products[i].powers[k].node;
+            int uses = 0;
+            for (int j = 0; j < count; j++) {
+                for (int m = 0; m < products[j].count; m++) {
+                    uses += products[j].powers[m].node == node;
+                }
+            }
+            const bool rate = l->tape->ops[node].code == OP_RATE;
+            const bool best_rate = best >= 0 && l->tape->ops[best].code == OP_RATE;
+            if (uses > best_uses || (uses == best_uses && best >= 0 && rate && !best_rate)) {
+                best = node;
+                best_uses = uses;
+            }
+        }
+    }
+    return best;
+}
+
+static int sum_of(lowering *l, product *products, int count) {
+    tape *t = l->tape;
+    if (count == 0) {
+        return tape_constant(t, 0.0);
+    }
+    const int shared = count == 1 ? -1 : most_shared(l, products, count);
+    if (shared < 0) {
+        return sum_flat(l, products, count);
+    }
+    int lowest = 1 << 20;
+    for (int i = 0; i < count; i++) {
+        for (int k = 0; k < products[i].count; k++) {
+            if (products[i].powers[k].node == shared && products[i].powers[k].exponent < lowest) {
+                lowest = products[i].powers[k].exponent;
+            }
+        }
+    }
+    product *with = malloc((size_t)count * sizeof *with);
+    product *without = malloc((size_t)count * sizeof *without);
+    if (with == NULL || without == NULL) {
+        abort();
+    }
+    int in = 0;
+    int out = 0;
+    for (int i = 0; i < count; i++) {
+        product p = products[i];
+        bool has = false;
+        for (int k = 0; k < p.count; k++) {
+            if (p.powers[k].node == shared) {
+                has = true;
+                p.powers[k].exponent -= lowest;
+                if (p.powers[k].exponent == 0) {
+                    p.powers[k] = p.powers[--p.count];
+                }
+                break;
+            }
+        }
+        if (has) {
+            with[in++] = p;
+        } else {
+            without[out++] = p;
+        }
+    }
+    const int inside = sum_of(l, with, in);
+    const int outside = sum_of(l, without, out);
+    free(with);
+    free(without);
+    return tape_add(t, outside, tape_mul(t, inside, tape_power(t, shared, lowest)));
+}
+
+int lower(lowering *l, const poly *p) {
+    piece *pieces = piece_room(p);
+    const int count = pieces_of(l->algebra, p, pieces);
+    product *products = calloc((size_t)count + 1, sizeof *products);
+    if (products == NULL) {
+        abort();
+    }
+    for (int i = 0; i < count; i++) {
+        products[i].coefficient = pieces[i].coefficient;
+        for (int k = 0; k < pieces[i].mono->count; k++) {
+            product_factor(l, &products[i], &pieces[i].mono->factors[k]);
+        }
+        if (pieces[i].trig != TRIG_NONE) {
+            const int node = pieces[i].trig == TRIG_SIN ? waves_sine(l, pieces[i].angle)
+                                                        : waves_cosine(l, pieces[i].angle);
+            product_multiply(l, &products[i], node, pieces[i].squared ? 2 : 1);
+        }
+    }
+    const int result = sum_of(l, products, count);
+    free(products);
+    free(pieces);
+    return result;
+}
+
+/* --- which coordinates can be turn angles --------------------------------------------------------*/
+
+static bool whole_in_angle(const poly *angle, const symbol *sym) {
+    for (int i = 0; i < angle->count; i++) {
+        const poly_term *t = &angle->terms[i];
+        const bool alone = t->mono->trig == TRIG_NONE && t->mono->count == 1 &&
+                           t->mono->factors[0].exponent == 1.0 &&
+                           t->mono->factors[0].atom->kind == ATOM_SYMBOL;
+        if (alone && t->mono->factors[0].atom->symbol == sym &&
+            t->mono->factors[0].atom->primes == 0) {
+            if (t->coefficient != floor(t->coefficient) || fabs(t->coefficient) > 1e6) {
+                return false;
+            }
+            continue;
+        }
+        for (int k = 0; k < t->mono->count; k++) {
+            const atom *x = t->mono->factors[k].atom;
+            if (x->kind == ATOM_SYMBOL) {
+                if (x->symbol == sym && x->primes == 0) {
+                    return false;
+                }
+                continue;
+            }
+            for (int j = 0; j < 2 && x->argument[j] != NULL; j++) {
+                if (!lower_only_in_waves(x->argument[j], sym)) {
+                    return false;
+                }
+            }
+        }
+        if (t->mono->angle != NULL && !whole_in_angle(t->mono->angle, sym)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool lower_only_in_waves(const poly *p, const symbol *sym) {
+    if (!poly_may_contain(p, sym, 0)) {
+        return true;
+    }
+    for (int i = 0; i < p->count; i++) {
+        const mono *m = p->terms[i].mono;
+        for (int k = 0; k < m->count; k++) {
+            const atom *x = m->factors[k].atom;
+            if (x->kind == ATOM_SYMBOL && x->symbol == sym && x->primes == 0) {
+                return false;
+            }
+            if (x->kind == ATOM_CALL && x->function == FN_TAN) {
+                if (!whole_in_angle(x->argument[0], sym)) {
+                    return false;
+                }
+                continue;
+            }
+            for (int j = 0; j < 2 && x->kind != ATOM_SYMBOL && x->argument[j] != NULL; j++) {
+                if (!lower_only_in_waves(x->argument[j], sym)) {
+                    return false;
+                }
+            }
+        }
+        if (m->angle != NULL && !whole_in_angle(m->angle, sym)) {
+            return false;
+        }
+    }
+    return true;
+}

@@ -1,0 +1,37 @@
+/* lower.h: from polys to operations: which sines are evaluated and which follow from them, what is
+ * factored out, what is shared. */
+#ifndef DERIVE_LOWER_H
+#define DERIVE_LOWER_H
+
+#include "host/algebra/poly.h"
+#include "tape.h"
+
+typedef struct wave wave;
+
+typedef struct lowering {
+    algebra *algebra;
+    tape *tape;
+    /* The operation for a symbol that stands outside sines (a leaf of the tape). */
+    int (*leaf)(void *context, tape *t, const symbol *sym, int primes);
+    /* Index of the turn angle that the symbol is kept as, or -1. */
+    int (*turn)(void *context, const symbol *sym);
+    void *context;
+    wave *waves;
+    int wave_count;
+    int wave_room;
+} lowering;
+
+/* Announce everything that will be lowered, before lowering any of it: the choice of which sines to
+ * evaluate looks at all of them. */
+void lower_plan(lowering *l, const poly *const *polys, int count);
+
+/* The operation that computes p. */
+int lower(lowering *l, const poly *p);
+
+void lower_done(lowering *l);
+
+/* True when every place of the symbol (no primes) in p is inside a sine or cosine, with a whole
+ * factor: then it can be kept as a turn angle. */
+bool lower_only_in_waves(const poly *p, const symbol *sym);
+
+#endif

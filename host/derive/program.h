@@ -1,0 +1,52 @@
+/* program.h: an instance as numbers: operation lists with every parameter folded in. */
+#ifndef DERIVE_PROGRAM_H
+#define DERIVE_PROGRAM_H
+
+#include "core/scene.h"
+#include "equations.h"
+#include "tape.h"
+
+/* Most coordinates of a mechanism, or first-order components of a system. */
+#define PROGRAM_COMPONENTS_MAX 64
+
+/* Which unknown, and which of its derivatives, a component of the state is. */
+typedef struct component {
+    int unknown;
+    int primes;
+} component;
+
+typedef struct program {
+    wh_form form;
+    int count;  /* unknowns */
+    int angles; /* components kept as turn angles */
+    int reals;  /* components kept as reals */
+    int inputs;
+    int outputs;
+    component *angle; /* [angles] */
+    component *real;  /* [reals] */
+    int *place;       /* [count] unknown -> coordinate number in the scene's order (second order) */
+    /* Second order: result[i] is the acceleration of scene coordinate i. First order: the slope of
+     * component i, angles first. */
+    tape *step;
+    /* The outputs, in order of declaration. */
+    tape *observe;
+    /* For the host's books: highest derivatives (by unknown), then for a mechanism T, V, input
+     * power, loss power and the momenta (by unknown). */
+    tape *books;
+} program;
+
+enum { BOOK_KINETIC, BOOK_STORED, BOOK_INPUT_POWER, BOOK_LOSS_POWER, BOOK_MOMENTA };
+
+/* NULL on error (too many components), reported to `errors`. */
+program *program_make(const equations *e, diags *errors);
+void program_free(program *p);
+
+/* A function in the list that the core does not offer on boards ("exp"), or NULL. */
+const char *program_needs_libm(const program *p);
+
+uint64_t program_hash(const program *p);
+
+/* The start of the run: angle in radians [angles], reals [reals], SI. */
+void program_start(const program *p, const instance *inst, double *angle_rad, double *real);
+
+#endif

@@ -1,0 +1,12 @@
+/* singular.h: can the equations be solved for the highest derivatives at all? */
+#ifndef DERIVE_SINGULAR_H
+#define DERIVE_SINGULAR_H
+
+#include "equations.h"
+
+/* Tries the mass matrix at a number of generic states. False, with an error that names the cause,
+ * when it is singular at all of them or has no finite value at any. A matrix that is singular only
+ * here and there (a pole of spherical coordinates) passes: such states are found while running. */
+bool equations_check_solvable(const equations *e, diags *errors);
+
+#endif

@@ -1,0 +1,20 @@
+/* solve.h: the operation list for the highest derivatives, M(q) q'' = f, solved for q''. */
+#ifndef DERIVE_SOLVE_H
+#define DERIVE_SOLVE_H
+
+#include "lower.h"
+
+typedef struct linear_system {
+    int n;
+    bool symmetric;      /* a mass matrix: positive definite, so no pivot vanishes */
+    const poly **mass;   /* [n * n], parameters folded */
+    const poly **force;  /* [n] */
+    const bool *turning; /* [n] unknown is an angle: its row keeps the energy's scale */
+} linear_system;
+
+/* Enters the solution into l->tape and stores the operation for each unknown in solution[n].
+ * `leaf`, `turn` and `context` of *l are set by the caller; several arrangements are tried on tapes
+ * of their own and the cheapest is entered. */
+void solve_highest(lowering *l, const linear_system *system, int *solution);
+
+#endif

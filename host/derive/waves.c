@@ -1,0 +1,201 @@
+/* waves.c: which sines are evaluated, and which follow by the addition theorems.
+ *
+ * Evaluating a pair costs some thirty instructions, sin(a + b) from known pairs at most six. So the
+ * angles are taken in order of size, and one that is a sum, a difference or the double of others is
+ * not evaluated. An angle such as theta2 - theta1 that stands alone is evaluated as one phase. */
+#include "waves.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static int find(const lowering *l, const poly *angle) {
+    for (int i = 0; i < l->wave_count; i++) {
+        if (l->waves[i].angle == angle) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+static int append(lowering *l, wave w) {
+    if (l->wave_count == l->wave_room) {
+        l->wave_room = l->wave_room == 0 ? 16 : l->wave_room * 2;
+        l->waves = realloc(l->waves, (size_t)l->wave_room * sizeof *l->waves);
+        if (l->waves == NULL) {
+            abort();
+        }
+    }
+    w.sine = -1;
+    w.cosine = -1;
+    l->waves[l->wave_count] = w;
+    return l->wave_count++;
+}
+
+/* How large an angle is: sum of the factors of its parts. */
+static double size_of(const poly *angle) {
+    double size = 0.0;
+    for (int i = 0; i < angle->count; i++) {
+        size += fabs(angle->terms[i].coefficient);
+    }
+    return size + 0.01 * angle->count;
+}
+
+/* Angles are kept with a positive first factor: cos(-x) = cos(x), sin(-x) = -sin(x). */
+static const poly *upright(lowering *l, const poly *angle, bool *flipped) {
+    *flipped = angle->count > 0 && angle->terms[0].coefficient < 0.0;
+    return *flipped ? poly_scale(l->algebra, angle, -1.0) : angle;
+}
+
+/* A rule that makes `angle` from two known ones, if there is one. */
+static bool rule_for(lowering *l, const poly *angle, wave *w) {
+    for (int i = 0; i < l->wave_count; i++) {
+        bool flipped;
+        const poly *rest = poly_sub(l->algebra, angle, l->waves[i].angle);
+        double number;
+        if (poly_is_number(rest, &number)) {
+            continue; /* equal but for a fixed offset: no help */
+        }
+        rest = upright(l, rest, &flipped);
+        const int other = find(l, rest);
+        if (other == i) {
+            *w = (wave){angle, WAVE_DOUBLE, i, i, -1, -1};
+            return true;
+        }
+        if (other >= 0) {
+            *w = (wave){angle, flipped ? WAVE_DIFFERENCE : WAVE_SUM, i, other, -1, -1};
+            return true;
+        }
+    }
+    return false;
+}
+
+void waves_plan(lowering *l, const poly **angles, int count) {
+    for (int i = 1; i < count; i++) { /* smallest first; stable */
+        const poly *angle = angles[i];
+        int j = i;
+        while (j > 0 && size_of(angles[j - 1]) > size_of(angle)) {
+            angles[j] = angles[j - 1];
+            j--;
+        }
+        angles[j] = angle;
+    }
+    for (int i = 0; i < count; i++) {
+        wave w;
+        if (find(l, angles[i]) >= 0) {
+            continue;
+        }
+        if (rule_for(l, angles[i], &w)) {
+            append(l, w);
+            continue;
+        }
+        /* One step between may do: 3a = 2a + a. */
+        bool made = false;
+        const int known = l->wave_count;
+        for (int k = 0; k < known && !made; k++) {
+            bool flipped;
+            wave between;
+            const poly *rest = poly_sub(l->algebra, angles[i], l->waves[k].angle);
+            rest = upright(l, rest, &flipped);
+            if (rest->count > 0 && rule_for(l, rest, &between)) {
+                append(l, between);
+                made = rule_for(l, angles[i], &w);
+            }
+        }
+        append(l, made ? w : (wave){angles[i], WAVE_EVALUATED, -1, -1, -1, -1});
+    }
+}
+
+/* The phase of an angle: whole multiples of turn angles, a fixed offset, and the rest in radians. */
+static int phase_of(lowering *l, const poly *angle) {
+    int *turns = calloc((size_t)l->tape->angles + 1, sizeof *turns);
+    if (turns == NULL) {
+        abort();
+    }
+    bool turning = false;
+    double offset = 0.0;
+    const poly *rest = poly_number(l->algebra, 0.0);
+    for (int i = 0; i < angle->count; i++) {
+        const poly_term *t = &angle->terms[i];
+        const atom *x = t->mono->count == 1 ? t->mono->factors[0].atom : NULL;
+        int turn = -1;
+        if (t->mono->trig == TRIG_NONE && x != NULL && x->kind == ATOM_SYMBOL && x->primes == 0 &&
+            t->mono->factors[0].exponent == 1.0) {
+            turn = l->turn(l->context, x->symbol);
+        }
+        if (turn >= 0) {
+            turns[turn] += (int)t->coefficient;
+            turning = true;
+        } else if (t->mono->count == 0 && t->mono->trig == TRIG_NONE) {
+            offset += t->coefficient;
+        } else {
+            rest = poly_add(l->algebra, rest, poly_of_term(l->algebra, t->coefficient, t->mono));
+        }
+    }
+    const int radians = poly_is_zero(rest) ? -1 : lower(l, rest);
+    const int phase = tape_phase(l->tape, turning ? turns : NULL, offset, radians);
+    free(turns);
+    return phase;
+}
+
+static int sine_of(lowering *l, int i);
+
+static int cosine_of(lowering *l, int i) {
+    const wave w = l->waves[i];
+    tape *t = l->tape;
+    if (w.cosine >= 0) {
+        return w.cosine;
+    }
+    int result = -1;
+    switch (w.rule) {
+    case WAVE_EVALUATED: result = tape_unary(t, OP_COS, phase_of(l, w.angle)); break;
+    case WAVE_DOUBLE: {
+        const int c = cosine_of(l, w.p);
+        const int twice = tape_mul(t, tape_constant(t, 2.0), c);
+        result = tape_sub(t, tape_mul(t, twice, c), tape_constant(t, 1.0));
+        break;
+    }
+    case WAVE_SUM:
+    case WAVE_DIFFERENCE: {
+        const int cc = tape_mul(t, cosine_of(l, w.p), cosine_of(l, w.q));
+        const int ss = tape_mul(t, sine_of(l, w.p), sine_of(l, w.q));
+        result = w.rule == WAVE_SUM ? tape_sub(t, cc, ss) : tape_add(t, cc, ss);
+        break;
+    }
+    }
+    l->waves[i].cosine = result;
+    return result;
+}
+
+static int sine_of(lowering *l, int i) {
+    const wave w = l->waves[i];
+    tape *t = l->tape;
+    if (w.sine >= 0) {
+        return w.sine;
+    }
+    int result = -1;
+    switch (w.rule) {
+    case WAVE_EVALUATED: result = tape_unary(t, OP_SIN, phase_of(l, w.angle)); break;
+    case WAVE_DOUBLE: {
+        const int twice = tape_mul(t, tape_constant(t, 2.0), cosine_of(l, w.p));
+        result = tape_mul(t, twice, sine_of(l, w.p));
+        break;
+    }
+    case WAVE_SUM:
+    case WAVE_DIFFERENCE: {
+        const int sc = tape_mul(t, sine_of(l, w.p), cosine_of(l, w.q));
+        const int cs = tape_mul(t, cosine_of(l, w.p), sine_of(l, w.q));
+        result = w.rule == WAVE_SUM ? tape_add(t, sc, cs) : tape_sub(t, sc, cs);
+        break;
+    }
+    }
+    l->waves[i].sine = result;
+    return result;
+}
+
+static int planned(lowering *l, const poly *angle) {
+    const int i = find(l, angle);
+    return i >= 0 ? i : append(l, (wave){angle, WAVE_EVALUATED, -1, -1, -1, -1});
+}
+
+int waves_sine(lowering *l, const poly *angle) { return sine_of(l, planned(l, angle)); }
+int waves_cosine(lowering *l, const poly *angle) { return cosine_of(l, planned(l, angle)); }

@@ -1,0 +1,23 @@
+/* emit.h: the equations and the operation lists in other languages. */
+#ifndef EMIT_EMIT_H
+#define EMIT_EMIT_H
+
+#include <stdio.h>
+
+#include "host/derive/program.h"
+#include "host/run/engine.h"
+
+/* The equations of motion, one a coordinate, terms collected by second derivative and factored; then
+ * the first-order form. */
+void emit_text(FILE *out, const equations *e);
+void emit_latex(FILE *out, const equations *e);
+
+/* A function file `function dy = NAME(t, y)` that Octave and Matlab integrate as it stands, with the
+ * run as a comment. `file` is the .whirl file's name, for the banner. */
+void emit_octave(FILE *out, const equations *e, const program *p, const char *file);
+
+/* The scene as C for the core: constants, start, straight-line right-hand side, one step. */
+void emit_c(FILE *out, const equations *e, const program *p, const engine_settings *settings,
+            const char *file);
+
+#endif

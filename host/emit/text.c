@@ -1,0 +1,256 @@
+/* text.c: the equations of motion and the first-order form, for the screen and for a paper. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "emit.h"
+#include "show.h"
+
+/* A closed formula for an acceleration with more terms than this is not read by anyone: the mass
+ * matrix is printed instead. */
+#define READABLE_TERMS 24
+
+/* Inertia, centrifugal and potential terms of equation i, on one side. */
+static const poly *left_side(const equations *e, int i) {
+    algebra *a = e->algebra;
+    const poly *sum = poly_add(a, e->velocity[i], e->potential[i]);
+    for (int j = 0; j < e->count; j++) {
+        const unknown *u = &e->unknowns[j];
+        const poly *highest = poly_symbol(a, u->symbol, u->order);
+        sum = poly_add(a, sum, poly_mul(a, e->mass[i * e->count + j], highest));
+    }
+    return sum;
+}
+
+static void write_names(const show *s, const equations *e) {
+    const mechanism *m = e->instance->mechanism;
+    fprintf(s->out, "%s %s%s%s\n\n", m->is_system ? "system" : "mechanism", m->name,
+            m->title[0] != '\0' ? ": " : "", m->title);
+    for (int i = 0; i < e->count; i++) {
+        const symbol *c = m->coordinates[i];
+        fprintf(s->out, "  %-10s %-10s [%s]%s%s\n", m->is_system ? "state" : "coordinate", c->name,
+                c->unit[0] != '\0' ? c->unit : "1", c->text[0] != '\0' ? "  " : "", c->text);
+    }
+    for (int i = 0; i < m->parameter_count; i++) {
+        const symbol *p = m->parameters[i];
+        if (p->effect < 0 || e->instance->with[p->effect]) {
+            fprintf(s->out, "  parameter  %-10s = %.10g (SI)%s%s\n", p->name,
+                    e->instance->parameter[i], p->text[0] != '\0' ? "  " : "", p->text);
+        }
+    }
+    for (int i = 0; i < m->input_count; i++) {
+        fprintf(s->out, "  input      %-10s = %.10g (SI)%s%s\n", m->inputs[i]->name,
+                e->instance->input[i], m->inputs[i]->text[0] != '\0' ? "  " : "",
+                m->inputs[i]->text);
+    }
+    for (int i = 0; i < m->effect_count; i++) {
+        if (e->instance->with[i]) {
+            fprintf(s->out, "  with       %-10s %s\n", m->effects[i].name, m->effects[i].text);
+        }
+    }
+}
+
+/* y(1) ... y(N): values first, then rates, and so on, as the dissertation numbers them. */
+static int y_number(const equations *e, int unknown_index, int primes) {
+    int number = 1;
+    for (int level = 0; level <= primes; level++) {
+        for (int i = 0; i < e->count; i++) {
+            if (e->unknowns[i].order > level) {
+                if (level == primes && i == unknown_index) {
+                    return number;
+                }
+                number++;
+            }
+        }
+    }
+    return number;
+}
+
+static const poly *determinant(algebra *a, const poly *const *m, int n, unsigned rows,
+                               unsigned columns) {
+    const poly *sum = poly_number(a, 0.0);
+    if (rows == 0) {
+        return poly_number(a, 1.0);
+    }
+    const unsigned row = (unsigned)__builtin_ctz(rows);
+    double sign = 1.0;
+    for (unsigned c = 0; c < (unsigned)n; c++) {
+        if ((columns & (1U << c)) != 0) {
+            const poly *minor =
+                determinant(a, m, n, rows & ~(1U << row), columns & ~(1U << c));
+            const poly *product = poly_mul(a, m[row * (unsigned)n + c], minor);
+            sum = poly_add(a, sum, poly_scale(a, product, sign));
+            sign = -sign;
+        }
+    }
+    return sum;
+}
+
+/* Solve by Cramer's rule in symbols; true when the result is worth reading. */
+static bool closed_form(const equations *e, const poly **top, const poly **bottom) {
+    algebra *a = e->algebra;
+    const int n = e->count;
+    if (n > 2) {
+        return false;
+    }
+    const poly *m[4];
+    *bottom = determinant(a, e->mass, n, (1U << n) - 1, (1U << n) - 1);
+    int size = show_size(*bottom);
+    for (int c = 0; c < n; c++) {
+        for (int i = 0; i < n * n; i++) {
+            m[i] = i % n == c ? equations_force(e, i / n) : e->mass[i];
+        }
+        top[c] = determinant(a, m, n, (1U << n) - 1, (1U << n) - 1);
+        size = show_size(top[c]) > size ? show_size(top[c]) : size;
+    }
+    return size <= READABLE_TERMS;
+}
+
+/* Divide both by the factors they share; 0.7391 keeps equal terms of the two from cancelling. */
+static void reduce(algebra *a, const poly **top, const poly **bottom) {
+    const poly *both = poly_add(a, *top, poly_scale(a, *bottom, 0.7390851332151607));
+    const poly *inverse = poly_pow(a, show_common(a, both), -1.0);
+    double number = INFINITY;
+    for (int i = 0; i < (*top)->count + (*bottom)->count; i++) {
+        const poly_term *t = i < (*top)->count ? &(*top)->terms[i]
+                                               : &(*bottom)->terms[i - (*top)->count];
+        number = fmin(number, fabs(t->coefficient));
+    }
+    *top = poly_scale(a, poly_mul(a, *top, inverse), 1.0 / number);
+    *bottom = poly_scale(a, poly_mul(a, *bottom, inverse), 1.0 / number);
+}
+
+static void write_fraction(const show *s, const poly *top, const poly *bottom) {
+    double value;
+    if (!poly_is_zero(top) && bottom->count > 1) {
+        reduce(s->algebra, &top, &bottom);
+    }
+    if (bottom->count == 1) { /* divide term by term */
+        algebra *a = s->algebra;
+        show_poly(s, poly_mul(a, top, poly_pow(a, bottom, -1.0)));
+    } else if (poly_is_number(top, &value) && value == 0.0) {
+        fputs("0", s->out);
+    } else if (s->style == SHOW_LATEX) {
+        fputs("\\frac{", s->out);
+        show_poly(s, top);
+        fputs("}{", s->out);
+        show_poly(s, bottom);
+        fputs("}", s->out);
+    } else {
+        fputs("(", s->out);
+        show_poly(s, top);
+        fputs(")/(", s->out);
+        show_poly(s, bottom);
+        fputs(")", s->out);
+    }
+}
+
+static void write_highest(const show *s, const equations *e, int i) {
+    show_symbol(s, e->unknowns[i].symbol, e->unknowns[i].order);
+}
+
+static void write_first_order(const show *s, const equations *e) {
+    const poly *top[2];
+    const poly *bottom;
+    const bool readable = closed_form(e, top, &bottom);
+    int highest_order = 0;
+    for (int i = 0; i < e->count; i++) {
+        highest_order = e->unknowns[i].order > highest_order ? e->unknowns[i].order : highest_order;
+    }
+    fprintf(s->out, "\nfirst-order form, y = (");
+    for (int level = 0; level < highest_order; level++) {
+        for (int i = 0; i < e->count; i++) {
+            if (e->unknowns[i].order > level) {
+                fputs(y_number(e, i, level) > 1 ? ", " : "", s->out);
+                show_symbol(s, e->unknowns[i].symbol, level);
+            }
+        }
+    }
+    fprintf(s->out, ")\n\n");
+    for (int level = 1; level <= highest_order; level++) {
+        for (int i = 0; i < e->count; i++) {
+            if (e->unknowns[i].order > level) {
+                fprintf(s->out, "  y%d' = y%d\n", y_number(e, i, level - 1), y_number(e, i, level));
+            }
+        }
+    }
+    for (int i = 0; i < e->count; i++) {
+        fprintf(s->out, "  y%d' = ", y_number(e, i, e->unknowns[i].order - 1));
+        write_highest(s, e, i);
+        if (readable) {
+            fputs(" = ", s->out);
+            write_fraction(s, top[i], bottom);
+        }
+        fputc('\n', s->out);
+    }
+    if (readable) {
+        return;
+    }
+    fprintf(s->out, "\n  with the highest derivatives from A x = b, x = (");
+    for (int i = 0; i < e->count; i++) {
+        fputs(i > 0 ? ", " : "", s->out);
+        write_highest(s, e, i);
+    }
+    fprintf(s->out, "):\n\n");
+    for (int i = 0; i < e->count; i++) {
+        const bool symmetric = !e->instance->mechanism->is_system;
+        for (int j = symmetric ? i : 0; j < e->count; j++) {
+            fprintf(s->out, symmetric && j > i ? "  A%d%d = A%d%d = " : "  A%d%d = ", i + 1, j + 1,
+                    j + 1, i + 1);
+            show_poly(s, e->mass[i * e->count + j]);
+            fputc('\n', s->out);
+        }
+    }
+    for (int i = 0; i < e->count; i++) {
+        fprintf(s->out, "  b%d = ", i + 1);
+        show_poly(s, equations_force(e, i));
+        fputc('\n', s->out);
+    }
+}
+
+void emit_text(FILE *out, const equations *e) {
+    const show s = {out, SHOW_TEXT, e->algebra};
+    const bool system = e->instance->mechanism->is_system;
+    write_names(&s, e);
+    fprintf(out, system ? "\nequations\n\n"
+                        : "\nequations of motion, d/dt(dL/dq') - dL/dq = -dF/dq' + Q\n\n");
+    for (int i = 0; i < e->count; i++) {
+        if (system) {
+            fprintf(out, "  ");
+        } else {
+            fprintf(out, "  %s:  ", e->unknowns[i].symbol->name);
+        }
+        show_poly(&s, left_side(e, i));
+        fputs(" = ", out);
+        show_poly(&s, e->applied[i]);
+        fputc('\n', out);
+    }
+    write_first_order(&s, e);
+}
+
+void emit_latex(FILE *out, const equations *e) {
+    const show s = {out, SHOW_LATEX, e->algebra};
+    const poly *top[2];
+    const poly *bottom;
+    fprintf(out, "%% %s: equations of motion\n\\begin{align}\n", e->instance->mechanism->name);
+    for (int i = 0; i < e->count; i++) {
+        fputs("  ", out);
+        show_poly(&s, left_side(e, i));
+        fputs(" &= ", out);
+        show_poly(&s, e->applied[i]);
+        fputs(i + 1 < e->count ? " \\\\\n" : "\n", out);
+    }
+    fprintf(out, "\\end{align}\n");
+    if (!closed_form(e, top, &bottom)) {
+        return;
+    }
+    fprintf(out, "%% solved for the highest derivatives\n\\begin{align}\n");
+    for (int i = 0; i < e->count; i++) {
+        fputs("  ", out);
+        write_highest(&s, e, i);
+        fputs(" &= ", out);
+        write_fraction(&s, top[i], bottom);
+        fputs(i + 1 < e->count ? " \\\\\n" : "\n", out);
+    }
+    fprintf(out, "\\end{align}\n");
+}

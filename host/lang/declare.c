@@ -1,0 +1,258 @@
+/* declare.c: coordinate, state, parameter, input, let, output. */
+#include <stdio.h>
+#include <string.h>
+
+#include "parser.h"
+
+static const char *const reserved[] = {
+    "mechanism", "coordinate", "state",    "parameter", "input", "let",      "T",    "V",   "F",
+    "Q",         "equation",   "output",   "effect",    "scene", "use",      "with", "set", "start",
+    "step",      "until",      "conserve", "when",      "stop",  "friction", "hold", "pi"};
+
+bool is_reserved(const char *text, size_t length) {
+    for (size_t i = 0; i < sizeof reserved / sizeof reserved[0]; i++) {
+        if (strlen(reserved[i]) == length && memcmp(reserved[i], text, length) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* A fresh symbol under this name, or NULL when it cannot have it (reported). */
+static named *claim_name(parser *in, const token *name) {
+    function_id function = FN_SIN;
+    const int length = (int)name->length;
+    if (is_reserved(name->text, name->length)) {
+        diag_error(in->diags, name->at, NULL, "'%.*s' is a reserved word", length, name->text);
+        return NULL;
+    }
+    if (function_find(name->text, name->length, &function)) {
+        diag_error(in->diags, name->at, NULL, "'%.*s' is a function", length, name->text);
+        return NULL;
+    }
+    if (name->primes > 0) {
+        diag_error(in->diags, name->at, "a prime is a time derivative: it comes with the name",
+                   "a declared name carries no primes");
+        return NULL;
+    }
+    named *found = names_find(in->builder->names, name->text, name->length);
+    if (found != NULL && !found->is_placeholder) {
+        diag_error(in->diags, name->at, NULL, "'%s' was already declared in line %d",
+                   found->symbol.name, found->symbol.at.line);
+        return NULL;
+    }
+    if (found == NULL) {
+        found = names_add(in->builder->names, name->text, name->length);
+    }
+    found->is_placeholder = false;
+    return found;
+}
+
+static void append(parser *in, const symbol ***list, int *count, symbol *made) {
+    const symbol **longer = arena_room(in->arena, *list, *count, sizeof *longer);
+    made->index = *count;
+    longer[(*count)++] = made;
+    *list = longer;
+}
+
+symbol *declare(parser *in, const token *name, symbol_kind kind) {
+    named *entry = claim_name(in, name);
+    if (entry == NULL) {
+        return NULL;
+    }
+    symbol *made = &entry->symbol;
+    mechanism *into = in->builder->made;
+    made->kind = kind;
+    made->dim = dim_none();
+    made->at = name->at;
+    made->effect = in->effect;
+    switch (kind) {
+    case SYM_COORDINATE:
+    case SYM_STATE:
+        made->order = kind == SYM_COORDINATE ? 2 : 0;
+        append(in, &into->coordinates, &into->coordinate_count, made);
+        break;
+    case SYM_PARAMETER: append(in, &into->parameters, &into->parameter_count, made); break;
+    case SYM_INPUT: append(in, &into->inputs, &into->input_count, made); break;
+    case SYM_LET: append(in, &into->lets, &into->let_count, made); break;
+    case SYM_OUTPUT: append(in, &into->outputs, &into->output_count, made); break;
+    }
+    return made;
+}
+
+/* The name after the statement's word. */
+static bool take_name(parser *in, const char *statement, token *name) {
+    char words[80];
+    *name = in->token;
+    if (in->token.kind != TOKEN_NAME) {
+        return parser_fail(in, NULL, "%s needs a name, not %s", statement,
+                           token_words(&in->token, words, sizeof words));
+    }
+    parser_next(in);
+    return true;
+}
+
+static bool parse_unknown(parser *in, symbol_kind kind) {
+    const char *word = kind == SYM_COORDINATE ? "coordinate" : "state";
+    token name;
+    if (!take_name(in, word, &name)) {
+        return false;
+    }
+    if (in->builder->made->coordinate_count == COORDINATES_MAX) {
+        diag_error(in->diags, name.at, NULL, "more than %d coordinates in one mechanism",
+                   COORDINATES_MAX);
+        in->lexer.stopped = true;
+        return false;
+    }
+    if (token_is(&name, "time")) {
+        diag_error(in->diags, name.at, NULL, "'time' is the first column of every record");
+    }
+    symbol *made = declare(in, &name, kind);
+    symbol unused = {0};
+    if (made == NULL) {
+        made = &unused;
+    }
+    if (in->token.kind == TOKEN_UNIT) {
+        unit written;
+        made->is_angle = unit_is_angle(in->token.text, in->token.length);
+        parse_unit(in, &written, &made->unit);
+        made->dim = written.dim;
+    }
+    made->text = parser_title(in);
+    return parser_end_statement(in, "the declaration");
+}
+
+/* = EXPR, after the name; declares it even when the expression fails. */
+static bool parse_value(parser *in, symbol *made, const char *word, expr_context context,
+                        place *value_at) {
+    named *entry = made == NULL ? NULL : (named *)made;
+    if (entry != NULL) {
+        entry->is_open = true;
+        made->dim.unknown = true; /* until its expression is read */
+    }
+    const expr *value = NULL;
+    if (!parser_is_sign(in, '=')) {
+        char words[80];
+        char hint[80];
+        snprintf(hint, sizeof hint, "%s name = expression", word);
+        parser_fail(in, hint, "'=' is missing before %s",
+                    token_words(&in->token, words, sizeof words));
+    } else {
+        parser_next(in);
+        *value_at = in->token.at;
+        value = parse_expression(in, context);
+    }
+    if (entry != NULL) {
+        entry->is_open = false;
+        made->value = value;
+        if (value != NULL) {
+            made->dim = value->dim;
+            made->dim.any &= made->kind == SYM_LET; /* a zero with a name of its own is a number */
+        }
+    }
+    return value != NULL;
+}
+
+static bool parse_constant(parser *in, symbol_kind kind) {
+    const char *word = kind == SYM_PARAMETER ? "parameter" : kind == SYM_INPUT ? "input" : "let";
+    token name;
+    if (!take_name(in, word, &name)) {
+        return false;
+    }
+    symbol *made = declare(in, &name, kind);
+    if (in->token.kind == TOKEN_UNIT) {
+        return parser_fail(in, "the unit belongs to the number: parameter m = 2 [kg]",
+                           "a unit in the wrong place");
+    }
+    place value_at;
+    if (!parse_value(in, made, word, kind == SYM_LET ? CONTEXT_LET : CONTEXT_CONSTANT, &value_at)) {
+        return false;
+    }
+    const char *text = parser_title(in);
+    if (made != NULL) {
+        made->text = text;
+    }
+    return parser_end_statement(in, "the expression");
+}
+
+static bool parse_output(parser *in) {
+    token name;
+    if (!take_name(in, "output", &name)) {
+        return false;
+    }
+    if (token_is(&name, "time")) {
+        diag_error(in->diags, name.at, NULL, "'time' is the first column of every record");
+    }
+    symbol *made = declare(in, &name, SYM_OUTPUT);
+    unit written = {1.0, 1.0, dim_none()};
+    const char *unit_text = "";
+    const bool has_unit = in->token.kind == TOKEN_UNIT;
+    if (has_unit) {
+        parse_unit(in, &written, &unit_text);
+    }
+    place value_at;
+    if (!parse_value(in, made, "output", CONTEXT_OUTPUT, &value_at)) {
+        return false;
+    }
+    const char *text = parser_title(in);
+    if (made != NULL) {
+        made->text = text;
+        made->unit = unit_text;
+        if (has_unit) {
+            char rule[RULE_SIZE];
+            char what[NAME_LENGTH_MAX + 16];
+            snprintf(what, sizeof what, "output '%s'", made->name);
+            dimension_rule(rule, what, "is", written.dim);
+            check_dimension(in, value_at, made->value, written.dim, rule);
+            made->dim = written.dim;
+        }
+    }
+    return parser_end_statement(in, "the expression");
+}
+
+/* Coordinates go with energies, states with equations: one way or the other. */
+void note_way(parser *in, bool by_equations) {
+    builder *into = in->builder;
+    into->has_equations |= by_equations;
+    into->has_energies |= !by_equations;
+    if (into->has_equations && into->has_energies && !into->mixed) {
+        into->mixed = true;
+        parser_fail(in, "write coordinate with T, V, F, Q, or state with equation",
+                    "'%.*s' does not go with what this mechanism began with", (int)in->token.length,
+                    in->token.text);
+    }
+}
+
+bool parse_declaration(parser *in, bool *known) {
+    static const struct {
+        const char *word;
+        symbol_kind kind;
+    } words[] = {{"coordinate", SYM_COORDINATE}, {"state", SYM_STATE}, {"parameter", SYM_PARAMETER},
+                 {"input", SYM_INPUT},           {"let", SYM_LET},     {"output", SYM_OUTPUT}};
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
+        if (!parser_is_word(in, words[i].word)) {
+            continue;
+        }
+        const symbol_kind kind = words[i].kind;
+        *known = true;
+        if (in->effect >= 0 &&
+            (kind == SYM_COORDINATE || kind == SYM_STATE || kind == SYM_OUTPUT)) {
+            return parser_fail(in, "declare it in the mechanism, before the effect",
+                               "'%s' is not possible inside an effect", words[i].word);
+        }
+        if (kind == SYM_COORDINATE || kind == SYM_STATE) {
+            note_way(in, kind == SYM_STATE);
+        }
+        parser_next(in);
+        switch (kind) {
+        case SYM_COORDINATE:
+        case SYM_STATE: return parse_unknown(in, kind);
+        case SYM_PARAMETER:
+        case SYM_INPUT:
+        case SYM_LET: return parse_constant(in, kind);
+        case SYM_OUTPUT: return parse_output(in);
+        }
+    }
+    *known = false;
+    return false;
+}

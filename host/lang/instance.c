@@ -1,0 +1,214 @@
+/* instance.c: a scene, or a bare mechanism, with the command line's changes, in numbers. */
+#include <stdio.h>
+#include <string.h>
+
+#include "arena.h"
+#include "model.h"
+#include "override.h"
+#include "value.h"
+
+#define STEP_DEFAULT_S 1e-3
+#define UNTIL_DEFAULT_S 10.0
+#define STEPS_MAX 1e15 /* step counts stay exact in a double */
+
+enum { WORDS_SIZE = 120 };
+
+/* An expression and where it was given. */
+typedef struct given {
+    const expr *value; /* NULL: nothing given */
+    place at;
+} given;
+
+/* What the scene and the command line give, the later over the earlier. */
+typedef struct plan {
+    valuation values;
+    given *input;  /* [input_count] */
+    given **start; /* [coordinate_count][order] */
+    given step;
+    given until;
+} plan;
+
+static void apply(plan *into, const assignment *change) {
+    const int index = change->symbol->index;
+    const given value = {change->value, change->at};
+    switch (change->symbol->kind) {
+    case SYM_PARAMETER:
+        into->values.parameter_expr[index] = value.value;
+        into->values.parameter_at[index] = value.at;
+        break;
+    case SYM_INPUT: into->input[index] = value; break;
+    case SYM_COORDINATE:
+    case SYM_STATE: into->start[index][change->primes] = value; break;
+    case SYM_LET:
+    case SYM_OUTPUT: break; /* refused when it was read */
+    }
+}
+
+static plan plan_new(const instance *made, diags *all) {
+    const mechanism *of = made->mechanism;
+    plan fresh = {.values = valuation_new(of, made->arena, all)};
+    fresh.input = arena_alloc(made->arena, (size_t)of->input_count * sizeof *fresh.input);
+    for (int i = 0; i < of->input_count; i++) {
+        fresh.input[i] = (given){of->inputs[i]->value, of->inputs[i]->at};
+    }
+    fresh.start = arena_alloc(made->arena, (size_t)of->coordinate_count * sizeof *fresh.start);
+    for (int i = 0; i < of->coordinate_count; i++) {
+        const size_t order = (size_t)of->coordinates[i]->order;
+        fresh.start[i] = arena_alloc(made->arena, order * sizeof **fresh.start);
+    }
+    return fresh;
+}
+
+static void apply_scene(plan *into, const scene *from, bool *with) {
+    for (int i = 0; i < from->mechanism->effect_count; i++) {
+        with[i] = from->with[i];
+    }
+    for (int i = 0; i < from->set_count; i++) {
+        apply(into, &from->sets[i]);
+    }
+    for (int i = 0; i < from->start_count; i++) {
+        apply(into, &from->starts[i]);
+    }
+    if (from->step != NULL) {
+        into->step = (given){from->step, from->step->at};
+    }
+    if (from->until != NULL) {
+        into->until = (given){from->until, from->until->at};
+    }
+}
+
+static void apply_texts(plan *into, instance *made, override_kind kind, const char *const *texts,
+                        int count) {
+    for (int i = 0; i < count; i++) {
+        assignment change;
+        if (override_parse(made->mechanism, kind, texts[i], made->arena, into->values.diags,
+                           &change)) {
+            apply(into, &change);
+        }
+    }
+}
+
+static void apply_effects(plan *into, instance *made, const char *const *texts, int count,
+                          bool wanted) {
+    for (int i = 0; i < count; i++) {
+        const int index =
+            override_effect(made->mechanism, texts[i], made->arena, into->values.diags);
+        if (index >= 0) {
+            made->with[index] = wanted;
+        }
+    }
+}
+
+static void apply_overrides(plan *into, instance *made, const overrides *changes) {
+    const mechanism *of = made->mechanism;
+    diags *all = into->values.diags;
+    apply_texts(into, made, OVERRIDE_SET, changes->sets, changes->set_count);
+    apply_texts(into, made, OVERRIDE_START, changes->starts, changes->start_count);
+    apply_texts(into, made, OVERRIDE_EITHER, changes->values, changes->value_count);
+    apply_effects(into, made, changes->with, changes->with_count, true);
+    apply_effects(into, made, changes->without, changes->without_count, false);
+    if (changes->step != NULL) {
+        const expr *value = override_duration(of, "step", changes->step, made->arena, all);
+        into->step = value == NULL ? into->step : (given){value, value->at};
+    }
+    if (changes->until != NULL) {
+        const expr *value = override_duration(of, "until", changes->until, made->arena, all);
+        into->until = value == NULL ? into->until : (given){value, value->at};
+    }
+}
+
+static void evaluate_durations(plan *from, instance *made) {
+    valuation *values = &from->values;
+    made->step_s = STEP_DEFAULT_S;
+    made->until_s = UNTIL_DEFAULT_S;
+    if (from->step.value != NULL) {
+        made->step_s = finite_value(from->step.value, values, from->step.at, "step");
+        if (!(made->step_s > 0.0)) {
+            diag_error(values->diags, from->step.at, NULL, "step must be above zero");
+        }
+    }
+    if (from->until.value != NULL) {
+        made->until_s = finite_value(from->until.value, values, from->until.at, "until");
+        if (!(made->until_s >= 0.0)) {
+            diag_error(values->diags, from->until.at, NULL, "until must not be negative");
+        }
+    }
+    if (made->step_s > 0.0 && !(made->until_s / made->step_s <= STEPS_MAX)) {
+        diag_error(values->diags, from->until.value != NULL ? from->until.at : from->step.at, NULL,
+                   "more than %g steps", STEPS_MAX);
+    }
+}
+
+static void evaluate(plan *from, instance *made) {
+    const mechanism *of = made->mechanism;
+    char what[WORDS_SIZE];
+    for (int i = 0; i < of->parameter_count; i++) {
+        made->parameter[i] = parameter_value(&from->values, i);
+    }
+    for (int i = 0; i < of->input_count; i++) {
+        snprintf(what, sizeof what, "input '%s'", of->inputs[i]->name);
+        made->input[i] = finite_value(from->input[i].value, &from->values, from->input[i].at, what);
+    }
+    for (int i = 0; i < of->coordinate_count; i++) {
+        for (int k = 0; k < made->start_count[i]; k++) {
+            const given *each = &from->start[i][k];
+            snprintf(what, sizeof what, "the initial value of '%s'", of->coordinates[i]->name);
+            made->start[i][k] = each->value == NULL
+                                    ? 0.0
+                                    : finite_value(each->value, &from->values, each->at, what);
+        }
+    }
+    evaluate_durations(from, made);
+}
+
+static void allocate(instance *made) {
+    const mechanism *of = made->mechanism;
+    struct arena *memory = made->arena;
+    made->with = arena_alloc(memory, (size_t)of->effect_count * sizeof *made->with);
+    made->parameter = arena_alloc(memory, (size_t)of->parameter_count * sizeof *made->parameter);
+    made->input = arena_alloc(memory, (size_t)of->input_count * sizeof *made->input);
+    made->start = arena_alloc(memory, (size_t)of->coordinate_count * sizeof *made->start);
+    made->start_count =
+        arena_alloc(memory, (size_t)of->coordinate_count * sizeof *made->start_count);
+    for (int i = 0; i < of->coordinate_count; i++) {
+        const int order = of->coordinates[i]->order;
+        made->start_count[i] = order;
+        made->start[i] =
+            arena_alloc(memory, (size_t)(order < 2 ? 2 : order) * sizeof **made->start);
+    }
+}
+
+instance *instance_make(const mechanism *of, const scene *from, const overrides *changes,
+                        diags *all) {
+    const int before = diags_count(all);
+    struct arena *memory = arena_new();
+    instance *made = arena_alloc(memory, sizeof *made);
+    made->arena = memory;
+    made->mechanism = of;
+    made->scene = from;
+    made->name = from != NULL ? from->name : of->name;
+    allocate(made);
+    plan what = plan_new(made, all);
+    if (from != NULL) {
+        apply_scene(&what, from, made->with);
+    }
+    if (changes != NULL) {
+        apply_overrides(&what, made, changes);
+    }
+    evaluate(&what, made);
+    if (diags_count(all) != before) {
+        arena_free(memory);
+        return NULL;
+    }
+    return made;
+}
+
+void instance_free(instance *done) {
+    if (done != NULL) {
+        arena_free(done->arena);
+    }
+}
+
+bool instance_has_term(const instance *of, const term *each) {
+    return each->effect < 0 || of->with[each->effect];
+}

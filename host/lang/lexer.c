@@ -1,0 +1,282 @@
+#include "lexer.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "utf8.h"
+
+enum { NUMBER_LENGTH_MAX = 100 };
+
+static int at_offset(const lexer *in, size_t ahead) {
+    const source *text = in->at.source;
+    const size_t offset = in->at.offset + ahead;
+    return offset < text->length ? (unsigned char)text->text[offset] : -1;
+}
+
+/* Move over one byte; columns count characters, so the bytes that continue one do not count. */
+static void step_over(place *at) {
+    const unsigned char c = (unsigned char)at->source->text[at->offset++];
+    if (c == '\n') {
+        at->line++;
+        at->column = 1;
+    } else if (at->offset >= at->source->length ||
+               ((unsigned char)at->source->text[at->offset] & 0xc0) != 0x80) {
+        at->column++;
+    }
+}
+
+static void advance(lexer *in, size_t bytes) {
+    for (size_t i = 0; i < bytes; i++) {
+        step_over(&in->at);
+    }
+}
+
+place place_after(place from, size_t bytes) {
+    for (size_t i = 0; i < bytes && from.offset < from.source->length; i++) {
+        step_over(&from);
+    }
+    return from;
+}
+
+static bool is_letter(int c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+
+static bool is_digit(int c) { return c >= '0' && c <= '9'; }
+
+lexer lexer_start(const source *text, diags *all) {
+    lexer in = {{text, 1, 1, 0}, true, false, all};
+    if (text->length >= 3 && memcmp(text->text, "\xef\xbb\xbf", 3) == 0) {
+        in.at.offset = 3; /* byte order mark */
+    }
+    return in;
+}
+
+static void skip_space(lexer *in) {
+    for (;;) {
+        const int c = at_offset(in, 0);
+        if (c == '#') {
+            while (at_offset(in, 0) != '\n' && at_offset(in, 0) > 0) {
+                advance(in, 1);
+            }
+        } else if (c == ' ' || c == '\t' || c == '\r') {
+            advance(in, 1);
+        } else {
+            return;
+        }
+    }
+}
+
+static void read_number(lexer *in, token *made) {
+    size_t length = 0;
+    while (is_digit(at_offset(in, length))) {
+        length++;
+    }
+    if (at_offset(in, length) == '.') {
+        length++;
+        while (is_digit(at_offset(in, length))) {
+            length++;
+        }
+    }
+    const int mark = at_offset(in, length);
+    if (mark == 'e' || mark == 'E') {
+        const int sign = at_offset(in, length + 1);
+        const size_t digits = length + (sign == '+' || sign == '-' ? 2 : 1);
+        if (is_digit(at_offset(in, digits))) {
+            length = digits;
+            while (is_digit(at_offset(in, length))) {
+                length++;
+            }
+        }
+    }
+    made->kind = TOKEN_NUMBER;
+    made->length = length;
+    char digits[NUMBER_LENGTH_MAX + 1];
+    if (length > NUMBER_LENGTH_MAX) {
+        diag_error(in->diags, made->at, NULL, "this number has more than %d characters",
+                   NUMBER_LENGTH_MAX);
+        made->kind = TOKEN_BAD;
+    } else {
+        memcpy(digits, made->text, length);
+        digits[length] = '\0';
+        errno = 0;
+        made->number = strtod(digits, NULL);
+        if (isinf(made->number)) {
+            diag_error(in->diags, made->at, NULL,
+                       "this number is too large (1.7e308 is the limit)");
+            made->kind = TOKEN_BAD;
+        } else if (errno == ERANGE && made->number == 0.0) {
+            diag_error(in->diags, made->at, "write 0",
+                       "this number is too small to tell from zero");
+            made->kind = TOKEN_BAD;
+        }
+    }
+    advance(in, length);
+}
+
+static void read_name(lexer *in, token *made) {
+    size_t length = 0;
+    while (is_letter(at_offset(in, length)) || is_digit(at_offset(in, length))) {
+        length++;
+    }
+    made->kind = TOKEN_NAME;
+    made->length = length;
+    size_t primes = 0;
+    while (at_offset(in, length + primes) == '\'') {
+        primes++;
+    }
+    made->primes = primes > PRIMES_MAX ? PRIMES_MAX : (int)primes;
+    if (length > NAME_LENGTH_MAX) {
+        diag_error(in->diags, made->at, NULL, "this name is longer than %d characters",
+                   NAME_LENGTH_MAX);
+        made->kind = TOKEN_BAD;
+    } else if (primes > PRIMES_MAX) {
+        diag_error(in->diags, place_after(made->at, length), NULL, "more than %d primes",
+                   PRIMES_MAX);
+        made->kind = TOKEN_BAD;
+    }
+    advance(in, length + primes);
+}
+
+/* A string ends on its line. Its bytes must be UTF-8 text: titles go into records and pictures. */
+static void read_string(lexer *in, token *made) {
+    size_t length = 1;
+    int c = at_offset(in, length);
+    bool is_clean = true;
+    bool is_utf8 = true;
+    while (c > 0 && c != '"' && c != '\n') {
+        const size_t left = in->at.source->length - in->at.offset - length;
+        const size_t bytes = utf8_length(made->text + length, left);
+        is_clean = is_clean && (c >= 0x20 || c == '\t' || c == '\r') && c != 0x7f;
+        is_utf8 = is_utf8 && bytes > 0;
+        length += bytes > 0 ? bytes : 1;
+        c = at_offset(in, length);
+    }
+    made->kind = TOKEN_STRING;
+    made->text++;
+    made->length = length - 1;
+    if (c != '"') {
+        diag_error(in->diags, made->at, "a text ends on the line it begins on, with \"",
+                   "this text is not closed");
+        made->kind = TOKEN_BAD;
+        length--; /* leave what ended it */
+    } else if (!is_clean || !is_utf8) {
+        diag_error(in->diags, made->at, is_clean ? "save the file as UTF-8" : NULL,
+                   is_clean ? "this text is not UTF-8" : "a control character in this text");
+        made->kind = TOKEN_BAD;
+    }
+    advance(in, length + 1);
+}
+
+static void read_unit(lexer *in, token *made) {
+    size_t length = 1;
+    int c = at_offset(in, length);
+    while (c > 0 && strchr("[]#\"={};,", c) == NULL) {
+        c = at_offset(in, ++length);
+    }
+    made->kind = TOKEN_UNIT;
+    made->text++;
+    made->length = length - 1;
+    if (c == ']') {
+        advance(in, length + 1);
+        return;
+    }
+    diag_error(in->diags, made->at, "write the unit like this: 2 [N*s/m]",
+               "this unit is not closed with ']'");
+    made->kind = TOKEN_BAD;
+    while (at_offset(in, 0) > 0 && at_offset(in, 0) != '\n') {
+        advance(in, 1);
+    }
+}
+
+static void read_stray(lexer *in, token *made) {
+    const int c = at_offset(in, 0);
+    made->kind = TOKEN_BAD;
+    if (c >= 0x80) {
+        size_t length = 1;
+        while (length < 4 && (at_offset(in, length) & 0xc0) == 0x80 && at_offset(in, length) > 0) {
+            length++;
+        }
+        diag_error(in->diags, made->at, "other letters may stand in comments and in quoted texts",
+                   "names, numbers and signs are written in ASCII");
+        while (at_offset(in, 0) >= 0x80) {
+            advance(in, 1);
+        }
+        return;
+    }
+    if (c == '\'') {
+        diag_error(in->diags, made->at, "write theta' without a space",
+                   "a prime must follow a name at once");
+    } else if (c == ']') {
+        diag_error(in->diags, made->at, NULL, "']' without '['");
+    } else if (c < 0x20 || c == 0x7f) {
+        diag_error(in->diags, made->at, NULL, "control character %d in the text", c);
+    } else {
+        diag_error(in->diags, made->at, NULL, "unexpected character '%c'", c);
+    }
+    advance(in, 1);
+}
+
+static void read_sign(lexer *in, token *made) {
+    static const struct {
+        char text[3];
+        int sign;
+    } pairs[] = {
+        {"+=", SIGN_PLUS_ASSIGN}, {">=", SIGN_AT_LEAST}, {"<=", SIGN_AT_MOST}, {"==", SIGN_EQUAL}};
+    const int c = at_offset(in, 0);
+    for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
+        if (c == pairs[i].text[0] && at_offset(in, 1) == pairs[i].text[1]) {
+            made->kind = TOKEN_SIGN;
+            made->sign = pairs[i].sign;
+            made->length = 2;
+            advance(in, 2);
+            return;
+        }
+    }
+    if (strchr("+-*/^(){},;=<>", c) == NULL) {
+        read_stray(in, made);
+        return;
+    }
+    made->kind = TOKEN_SIGN;
+    made->sign = c;
+    made->length = 1;
+    advance(in, 1);
+}
+
+token lexer_next(lexer *in) {
+    skip_space(in);
+    token made = {.kind = TOKEN_END, .at = in->at, .starts_line = in->starts_line};
+    made.text = in->at.source->text + in->at.offset;
+    const int c = at_offset(in, 0);
+    if (c < 0 || in->stopped || diags_count(in->diags) > DIAG_MAX) {
+        in->stopped = true;
+        made.starts_line = true;
+        return made;
+    }
+    if (c == 0) {
+        diag_error(in->diags, in->at, NULL, "a zero byte: this is not a text file");
+        in->stopped = true;
+        made.kind = TOKEN_BAD;
+        return made;
+    }
+    in->starts_line = c == '\n';
+    if (c == '\n') {
+        made.kind = TOKEN_NEWLINE;
+        made.length = 1;
+        advance(in, 1);
+    } else if (is_letter(c)) {
+        read_name(in, &made);
+    } else if (is_digit(c) || (c == '.' && is_digit(at_offset(in, 1)))) {
+        read_number(in, &made);
+    } else if (c == '"') {
+        read_string(in, &made);
+    } else if (c == '[') {
+        read_unit(in, &made);
+    } else {
+        read_sign(in, &made);
+    }
+    return made;
+}

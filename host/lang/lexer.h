@@ -1,0 +1,53 @@
+/* lexer.h: a .whirl text cut into tokens. */
+#ifndef LANG_LEXER_H
+#define LANG_LEXER_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "diag.h"
+
+enum {
+    NAME_LENGTH_MAX = 63, /* characters of a name */
+    PRIMES_MAX = 9        /* time derivatives written on one name */
+};
+
+typedef enum token_kind {
+    TOKEN_END,
+    TOKEN_NEWLINE,
+    TOKEN_NAME,   /* letters, digits, underscores, then `primes` primes */
+    TOKEN_NUMBER, /* without unit */
+    TOKEN_UNIT,   /* [ ... ]: `text` is what stands between the brackets */
+    TOKEN_STRING, /* " ... ": `text` is what stands between the quotes */
+    TOKEN_SIGN,   /* one of + - * / ^ ( ) { } , ; = < > or the two-character signs below */
+    TOKEN_BAD     /* unreadable; already reported */
+} token_kind;
+
+enum { SIGN_PLUS_ASSIGN = 256, SIGN_AT_LEAST, SIGN_AT_MOST, SIGN_EQUAL };
+
+typedef struct token {
+    token_kind kind;
+    int sign;
+    place at;
+    const char *text; /* in the source, not terminated */
+    size_t length;
+    int primes;
+    double number;
+    bool starts_line; /* nothing but space before it on its line */
+} token;
+
+typedef struct lexer {
+    place at; /* of the next character */
+    bool starts_line;
+    bool stopped; /* only TOKEN_END from here on */
+    diags *diags;
+} lexer;
+
+/* `source` must outlive the lexer and its text must end with a zero byte (not counted). */
+lexer lexer_start(const source *source, diags *diags);
+token lexer_next(lexer *in);
+
+/* The place `bytes` bytes after `from` in its text. */
+place place_after(place from, size_t bytes);
+
+#endif

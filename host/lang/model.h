@@ -1,0 +1,227 @@
+/* model.h: what a .whirl file says, with names resolved, units converted to SI and dimensions
+ * checked. host/lang fills it; host/derive reads it. Nothing here knows algebra.
+ *
+ * Everything lives in the arena of the `model` and is freed with it.
+ */
+#ifndef LANG_MODEL_H
+#define LANG_MODEL_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "diag.h"
+#include "units.h"
+
+/* --- symbols ----------------------------------------------------------------------------------- */
+
+typedef enum symbol_kind {
+    SYM_COORDINATE, /* generalized coordinate: may carry primes */
+    SYM_STATE,      /* unknown of a system given outright: may carry primes */
+    SYM_PARAMETER,  /* constant of a run; value from an expression of constants */
+    SYM_INPUT,      /* may change while running; declared value from an expression of constants */
+    SYM_LET,        /* shorthand; stands for its expression */
+    SYM_OUTPUT      /* computed for records; may be used by later outputs */
+} symbol_kind;
+
+typedef struct expr expr;
+
+typedef struct symbol {
+    symbol_kind kind;
+    const char *name;
+    const char *text;  /* the description in quotes, or "" */
+    const char *unit;  /* the unit as written between brackets, or "" */
+    dimension dim;     /* of the symbol without primes */
+    bool is_angle;     /* declared [rad] (or [deg], [rev]): coordinate or state */
+    const expr *value; /* parameter, input, let, output: its expression; else NULL */
+    place at;          /* where it was declared */
+    int index;         /* running number within its kind in its mechanism, declaration order */
+    int effect;        /* index of the effect that declared it, or -1 */
+    int order;         /* coordinate: 2; state: its highest derivative in the equations; else 0 */
+} symbol;
+
+/* --- expressions ------------------------------------------------------------------------------- */
+
+typedef enum expr_op {
+    EXPR_NUMBER, /* number, SI */
+    EXPR_SYMBOL, /* symbol with `primes` time derivatives */
+    EXPR_ADD,    /* left + right */
+    EXPR_SUB,
+    EXPR_MUL,
+    EXPR_DIV,
+    EXPR_POW,
+    EXPR_NEG, /* -left */
+    EXPR_CALL /* function(left) or function(left, right) */
+} expr_op;
+
+typedef enum function_id {
+    FN_SIN,
+    FN_COS,
+    FN_TAN,
+    FN_ASIN,
+    FN_ACOS,
+    FN_ATAN,
+    FN_ATAN2,
+    FN_SQRT,
+    FN_EXP,
+    FN_LOG,
+    FN_ABS,
+    FN_SIGN,
+    FN_MIN,
+    FN_MAX,
+    FN_COUNT
+} function_id;
+
+struct expr {
+    expr_op op;
+    function_id function;
+    int primes;    /* time derivatives on a symbol: 0, 1, 2, ... */
+    double number; /* SI value of EXPR_NUMBER */
+    const symbol *symbol;
+    const expr *left;
+    const expr *right;
+    place at; /* for messages: the operator's or the operand's place */
+    dimension dim;
+    int height;    /* 1 for a leaf; a let or output named counts with its expression */
+    int order;     /* most primes on any coordinate or state in it, through lets too */
+    unsigned uses; /* USES_ bits of what it depends on, through lets too */
+};
+
+enum {
+    USES_UNKNOWNS = 1, /* coordinates or states */
+    USES_PARAMETER = 2,
+    USES_INPUT = 4,
+    USES_OUTPUT = 8,
+    USES_UNIT = 16 /* a number in it has a unit */
+};
+
+/* Highest expression tree the parser lets through, lets included: readers may recurse. */
+#define EXPR_HEIGHT_MAX 1000
+
+/* --- mechanisms -------------------------------------------------------------------------------- */
+
+typedef enum term_kind { TERM_T, TERM_V, TERM_F, TERM_Q, TERM_EQUATION } term_kind;
+
+/* One contribution: `T = e`, `V += e`, `Q(c) = e`, `equation left = right`. */
+typedef struct term {
+    term_kind kind;
+    const symbol *coordinate; /* of Q, else NULL */
+    const expr *value;        /* T, V, F, Q; left side of an equation */
+    const expr *right;        /* right side of an equation, else NULL */
+    int effect;               /* index of the effect it belongs to, or -1 */
+    place at;
+} term;
+
+typedef struct effect {
+    const char *name;
+    const char *text;
+    place at;
+} effect;
+
+typedef struct mechanism {
+    const char *name;
+    const char *title;
+    place at;
+    const symbol **coordinates;
+    int coordinate_count; /* coordinates, or states */
+    const symbol **parameters;
+    int parameter_count; /* those of effects too */
+    const symbol **inputs;
+    int input_count;
+    const symbol **outputs;
+    int output_count;
+    const symbol **lets;
+    int let_count; /* each names only earlier ones */
+    const term *terms;
+    int term_count;
+    const effect *effects;
+    int effect_count;
+    bool is_system;            /* given by state/equation instead of T, V, F, Q */
+    const struct names *names; /* of host/lang: finds symbols by name */
+} mechanism;
+
+/* Largest numbers of things in one mechanism or file. */
+enum { COORDINATES_MAX = 64, EFFECTS_MAX = 500, MECHANISMS_MAX = 500, SCENES_MAX = 1000 };
+
+/* --- scenes ------------------------------------------------------------------------------------ */
+
+/* `set NAME = EXPR` or `start NAME' = EXPR`. */
+typedef struct assignment {
+    const symbol *symbol;
+    int primes;
+    const expr *value; /* an expression of constants: numbers and parameters */
+    place at;
+} assignment;
+
+typedef struct scene {
+    const char *name;
+    const char *title;
+    place at;
+    const mechanism *mechanism;
+    const bool *with; /* [mechanism->effect_count] effects called for */
+    const assignment *sets;
+    int set_count;
+    const assignment *starts;
+    int start_count;
+    const bool *conserve; /* [mechanism->coordinate_count] */
+    const expr *step;     /* seconds, or NULL */
+    const expr *until;    /* seconds, or NULL */
+} scene;
+
+typedef struct model {
+    const mechanism *const *mechanisms;
+    int mechanism_count;
+    const scene *const *scenes;
+    int scene_count;
+    struct arena *arena;
+} model;
+
+#define MODEL_BYTES_MAX ((size_t)16 << 20) /* a longer text is refused */
+
+/* Parse and check `text` (`length` bytes, any bytes), called `file` in messages. Returns NULL when
+ * there was an error; all errors (up to 20) are in `diags`. Free the result with model_free(). */
+model *model_parse(const char *file, const char *text, size_t length, diags *diags);
+void model_free(model *model);
+
+/* --- instances: a scene, or a bare mechanism, with the command line's changes, in numbers -------- */
+
+/* Changes from the command line; every `const char *` is text as typed ("m=3 [kg]", "theta'=1.2").
+ * On the command line a bare number is an SI value of whatever dimension is wanted. */
+typedef struct overrides {
+    const char *const *sets;
+    int set_count; /* --set: parameters and inputs */
+    const char *const *starts;
+    int start_count; /* --start: coordinates and rates */
+    const char *const *values;
+    int value_count; /* either kind, told by the name (`accel`) */
+    const char *const *with;
+    int with_count; /* effect names added */
+    const char *const *without;
+    int without_count;
+    const char *step;  /* "1ms", "1 [ms]", "0.001", or NULL */
+    const char *until; /* or NULL */
+} overrides;
+
+typedef struct instance {
+    const mechanism *mechanism;
+    const scene *scene; /* NULL for a bare mechanism */
+    const char *name;   /* scene's name, or the mechanism's */
+    bool *with;         /* [effect_count] */
+    double *parameter;  /* [parameter_count] SI */
+    double *input;      /* [input_count] SI */
+    double **start;     /* [coordinate_count][order] value, rate, ...: SI; order >= 2 */
+    int *start_count;   /* [coordinate_count] entries in start[i] (2 for coordinates) */
+    double step_s;      /* default 1e-3 */
+    double until_s;     /* default 10 */
+    struct arena *arena;
+} instance;
+
+/* Which terms take part: those of the mechanism itself and of the effects in instance->with. */
+bool instance_has_term(const instance *instance, const term *term);
+
+/* Evaluate a scene (or, with scene NULL, the mechanism at rest at zero) to numbers. `changes` may be
+ * NULL. Returns NULL on error, reported to `diags`. */
+instance *instance_make(const mechanism *mechanism, const scene *scene, const overrides *changes,
+                        diags *diags);
+void instance_free(instance *instance);
+
+#endif

@@ -1,0 +1,57 @@
+/* nearest.c: edit distance with swaps of neighbours (optimal string alignment). An edit costs 2, a
+ * change between capital and small letter 1, so that `x` finds `X` before it finds `y`. */
+#include "nearest.h"
+
+#include <string.h>
+
+enum { LENGTH_MAX = 64, OFFERS_MAX = 5000 };
+
+static int lower(char c) { return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c; }
+
+static int smaller(int a, int b) { return a < b ? a : b; }
+
+nearest nearest_start(const char *wanted, size_t length) {
+    nearest search = {wanted, length, NULL, 0, 0};
+    /* One edit in three letters; a single letter only finds itself in the other case. */
+    search.cost = length <= 1 ? 2 : length < 6 ? 3 : 2 * (int)(length / 3) + 1;
+    return search;
+}
+
+void nearest_offer(nearest *search, const char *candidate) {
+    const char *a = search->wanted;
+    const size_t rows = search->length;
+    const size_t columns = strlen(candidate);
+    const size_t gap = rows > columns ? rows - columns : columns - rows;
+    if (rows > LENGTH_MAX || columns > LENGTH_MAX || 2 * gap >= (size_t)search->cost ||
+        search->offers++ > OFFERS_MAX) {
+        return;
+    }
+    int row[3][LENGTH_MAX + 1];
+    int *before = row[0];
+    int *last = row[1];
+    int *now = row[2];
+    for (size_t j = 0; j <= columns; j++) {
+        last[j] = 2 * (int)j;
+        before[j] = 0;
+    }
+    for (size_t i = 1; i <= rows; i++) {
+        now[0] = 2 * (int)i;
+        for (size_t j = 1; j <= columns; j++) {
+            const char b = candidate[j - 1];
+            const int change = a[i - 1] == b ? 0 : lower(a[i - 1]) == lower(b) ? 1 : 2;
+            int cost = smaller(last[j - 1] + change, smaller(last[j], now[j - 1]) + 2);
+            if (i > 1 && j > 1 && a[i - 1] == candidate[j - 2] && a[i - 2] == b) {
+                cost = smaller(cost, before[j - 2] + 2);
+            }
+            now[j] = cost;
+        }
+        int *spare = before;
+        before = last;
+        last = now;
+        now = spare;
+    }
+    if (last[columns] < search->cost) {
+        search->cost = last[columns];
+        search->best = candidate;
+    }
+}

@@ -1,0 +1,251 @@
+/* operators.c: expression nodes, with the dimension rules of each operator and function. */
+#include <stdio.h>
+#include <string.h>
+
+#include "parser.h"
+#include "value.h"
+
+static const struct {
+    const char *name;
+    int arguments;
+} functions[FN_COUNT] = {
+    [FN_SIN] = {"sin", 1},   [FN_COS] = {"cos", 1},     [FN_TAN] = {"tan", 1},
+    [FN_ASIN] = {"asin", 1}, [FN_ACOS] = {"acos", 1},   [FN_ATAN] = {"atan", 1},
+    [FN_SQRT] = {"sqrt", 1}, [FN_EXP] = {"exp", 1},     [FN_LOG] = {"log", 1},
+    [FN_ABS] = {"abs", 1},   [FN_ATAN2] = {"atan2", 2}, [FN_SIGN] = {"sign", 1},
+    [FN_MIN] = {"min", 2},   [FN_MAX] = {"max", 2},
+};
+
+const char *function_name(function_id function) { return functions[function].name; }
+
+int function_arguments(function_id function) { return functions[function].arguments; }
+
+bool function_find(const char *text, size_t length, function_id *function) {
+    for (function_id each = FN_SIN; each < FN_COUNT; each++) {
+        const char *name = functions[each].name;
+        if (strlen(name) == length && memcmp(name, text, length) == 0) {
+            *function = each;
+            return true;
+        }
+    }
+    return false;
+}
+
+expr *expr_new(parser *in, expr_op op, place at) {
+    expr *made = arena_alloc(in->arena, sizeof *made);
+    made->op = op;
+    made->at = at;
+    made->height = 1;
+    return made;
+}
+
+static expr *join(parser *in, expr_op op, place at, const expr *left, const expr *right) {
+    expr *made = expr_new(in, op, at);
+    made->left = left;
+    made->right = right;
+    made->height = left->height + 1;
+    made->order = left->order;
+    made->uses = left->uses;
+    if (right != NULL) {
+        made->height = right->height >= left->height ? right->height + 1 : made->height;
+        made->order = right->order > left->order ? right->order : left->order;
+        made->uses |= right->uses;
+    }
+    if (made->height > EXPR_HEIGHT_MAX) {
+        diag_error(in->diags, at, "group its terms in parentheses, or split it with let",
+                   "this expression is more than %d operators deep", EXPR_HEIGHT_MAX);
+        return NULL;
+    }
+    return made;
+}
+
+bool expr_constant(const expr *tree, double *value) {
+    if (tree->uses != 0 || tree->dim.unknown) {
+        return false;
+    }
+    *value = expr_value(tree, NULL);
+    return *value - *value == 0.0;
+}
+
+/* A number written without unit, perhaps with a sign. */
+static bool is_bare_number(const expr *tree) {
+    while (tree->op == EXPR_NEG) {
+        tree = tree->left;
+    }
+    return tree->op == EXPR_NUMBER && tree->uses == 0;
+}
+
+static void number_hint(char *hint, size_t size, const expr *number, dimension wanted) {
+    char text[DIM_TEXT_SIZE];
+    double value = 0.0;
+    expr_constant(number, &value);
+    snprintf(hint, size, "a bare number is dimensionless: write %.15g [%s]", value,
+             dim_unit(wanted, text, sizeof text));
+}
+
+char *dimension_rule(char *buffer, const char *subject, const char *verb, dimension dim) {
+    char text[DIM_TEXT_SIZE];
+    snprintf(buffer, RULE_SIZE, "%s %s %s", subject, verb, dim_text(dim, text, sizeof text));
+    return buffer;
+}
+
+bool check_dimension(parser *in, place at, const expr *value, dimension wanted, const char *rule) {
+    if (dim_fits(value->dim, wanted)) {
+        return true;
+    }
+    char hint[200] = "";
+    char is[DIM_TEXT_SIZE];
+    if (is_bare_number(value)) {
+        number_hint(hint, sizeof hint, value, wanted);
+    }
+    diag_error(in->diags, at, hint[0] == '\0' ? NULL : hint, "%s, but this is %s", rule,
+               dim_text(value->dim, is, sizeof is));
+    return false;
+}
+
+/* The dimension both have; when they differ, reports "cannot BEFORE left BETWEEN right". */
+static dimension common_dimension(parser *in, place at, const expr *left, const expr *right,
+                                  const char *before, const char *between) {
+    dimension common = left->dim.any ? right->dim : left->dim;
+    common.unknown = left->dim.unknown || right->dim.unknown;
+    if (dim_fits(left->dim, right->dim)) {
+        return common;
+    }
+    char hint[200] = "";
+    char a[DIM_TEXT_SIZE];
+    char b[DIM_TEXT_SIZE];
+    if (is_bare_number(right)) {
+        number_hint(hint, sizeof hint, right, left->dim);
+    } else if (is_bare_number(left)) {
+        number_hint(hint, sizeof hint, left, right->dim);
+    }
+    dim_text(left->dim, a, sizeof a);
+    dim_text(right->dim, b, sizeof b);
+    diag_error(in->diags, at, hint[0] == '\0' ? NULL : hint, "cannot %s %s %s %s", before,
+               dim_is_none(left->dim) ? "a dimensionless number" : a, between,
+               dim_is_none(right->dim) ? "a dimensionless number" : b);
+    common.unknown = true;
+    return common;
+}
+
+static void range_error(parser *in, place at, dimension *dim) {
+    diag_error(in->diags, at, NULL, "the exponents of this dimension are out of range (99)");
+    *dim = dim_none();
+    dim->unknown = true;
+}
+
+static void power_dimension(parser *in, place at, const expr *base, const expr *exponent,
+                            dimension *dim) {
+    char text[DIM_TEXT_SIZE];
+    *dim = dim_none();
+    if (!dim_is_none(exponent->dim)) {
+        diag_error(in->diags, at, NULL, "an exponent must be dimensionless, but this is %s",
+                   dim_text(exponent->dim, text, sizeof text));
+        dim->unknown = true;
+        return;
+    }
+    double value = 0.0;
+    const bool constant = expr_constant(exponent, &value);
+    if (base->dim.unknown || exponent->dim.unknown) {
+        dim->unknown = true;
+    } else if (constant) {
+        if (!dim_power(base->dim, value, dim)) {
+            char base_text[DIM_TEXT_SIZE];
+            diag_error(in->diags, at, NULL, "%s to the power %g is no dimension",
+                       dim_text(base->dim, base_text, sizeof base_text), value);
+            dim->unknown = true;
+        }
+    } else if (!dim_is_none(base->dim)) {
+        diag_error(in->diags, at, "only a dimensionless base takes any exponent: (x/L)^n",
+                   "%s needs a constant number as its exponent",
+                   dim_text(base->dim, text, sizeof text));
+        dim->unknown = true;
+    }
+}
+
+const expr *expr_binary(parser *in, expr_op op, place at, const expr *left, const expr *right) {
+    expr *made = join(in, op, at, left, right);
+    if (made == NULL) {
+        return NULL;
+    }
+    switch (op) {
+    case EXPR_ADD: made->dim = common_dimension(in, at, left, right, "add", "and"); break;
+    case EXPR_SUB: made->dim = common_dimension(in, at, right, left, "subtract", "from"); break;
+    case EXPR_MUL:
+        if (!dim_multiply(left->dim, right->dim, &made->dim)) {
+            range_error(in, at, &made->dim);
+        }
+        break;
+    case EXPR_DIV:
+        if (right->op == EXPR_NUMBER && right->number == 0.0 && !right->dim.unknown) {
+            diag_error(in->diags, at, NULL, "division by zero");
+            made->dim.unknown = true;
+        } else if (!dim_divide(left->dim, right->dim, &made->dim)) {
+            range_error(in, at, &made->dim);
+        }
+        break;
+    case EXPR_POW: power_dimension(in, at, left, right, &made->dim); break;
+    case EXPR_NUMBER:
+    case EXPR_SYMBOL:
+    case EXPR_NEG:
+    case EXPR_CALL: break;
+    }
+    return made;
+}
+
+const expr *expr_negate(parser *in, place at, const expr *operand) {
+    expr *made = join(in, EXPR_NEG, at, operand, NULL);
+    if (made != NULL) {
+        made->dim = operand->dim;
+    }
+    return made;
+}
+
+const expr *expr_call(parser *in, function_id function, place at, const expr *left,
+                      const expr *right) {
+    expr *made = join(in, EXPR_CALL, at, left, right);
+    if (made == NULL) {
+        return NULL;
+    }
+    made->function = function;
+    const char *name = function_name(function);
+    made->dim.unknown = left->dim.unknown || (right != NULL && right->dim.unknown);
+    char text[DIM_TEXT_SIZE];
+    char words[40];
+    snprintf(words, sizeof words, "compare in %s:", name);
+    switch (function) {
+    case FN_ATAN2: common_dimension(in, at, left, right, words, "and"); break;
+    case FN_MIN:
+    case FN_MAX: made->dim = common_dimension(in, at, left, right, words, "and"); break;
+    case FN_ABS: made->dim = left->dim; break;
+    case FN_SIGN: break;
+    case FN_SQRT:
+        if (!dim_power(left->dim, 0.5, &made->dim)) {
+            diag_error(in->diags, at, NULL, "the square root of %s is no dimension",
+                       dim_text(left->dim, text, sizeof text));
+            made->dim.unknown = true;
+        }
+        break;
+    case FN_SIN:
+    case FN_COS:
+    case FN_TAN:
+        if (!dim_is_none(left->dim)) {
+            diag_error(in->diags, at, "an angle in radians is dimensionless, such as arc/radius",
+                       "%s takes an angle, but this is %s", name,
+                       dim_text(left->dim, text, sizeof text));
+        }
+        break;
+    case FN_ASIN:
+    case FN_ACOS:
+    case FN_ATAN:
+    case FN_EXP:
+    case FN_LOG:
+        if (!dim_is_none(left->dim)) {
+            diag_error(in->diags, at, NULL, "%s takes a dimensionless value, but this is %s", name,
+                       dim_text(left->dim, text, sizeof text));
+        }
+        break;
+    case FN_COUNT: break;
+    }
+    return made;
+}

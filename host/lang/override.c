@@ -1,0 +1,178 @@
+#include "override.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "parser.h"
+
+static parser begin(const mechanism *of, const char *text, struct arena *arena, diags *all) {
+    source *typed = arena_alloc(arena, sizeof *typed);
+    typed->file = "<command line>";
+    typed->length = strlen(text);
+    typed->text = arena_copy(arena, text, typed->length);
+    parser in = {.diags = all, .arena = arena, .effect = -1, .all_effects = true};
+    in.names = of->names;
+    in.lexer = lexer_start(typed, all);
+    parser_next(&in);
+    return in;
+}
+
+/* [+|-] NUMBER UNIT up to the end, the unit without brackets: "1ms", "-8.5 rad/s". NULL when the
+ * text has another form: `in` is then unchanged. */
+static const expr *parse_plain_quantity(parser *in) {
+    const parser before = *in;
+    const token first = in->token;
+    if (parser_is_sign(in, '-') || parser_is_sign(in, '+')) {
+        parser_next(in);
+    }
+    const token number = in->token;
+    if (number.kind == TOKEN_NUMBER) {
+        parser_next(in);
+    }
+    if (number.kind != TOKEN_NUMBER || in->token.kind != TOKEN_NAME) {
+        *in = before;
+        return NULL;
+    }
+    const source *typed = first.at.source;
+    const size_t offset = in->token.at.offset;
+    unit written;
+    unit_error error;
+    expr *made = expr_new(in, EXPR_NUMBER, number.at);
+    made->uses = USES_UNIT;
+    if (unit_parse(typed->text + offset, typed->length - offset, &written, &error)) {
+        made->number = number.number * written.scale / written.divisor;
+        made->dim = written.dim;
+    } else {
+        diag_error(in->diags, place_after(in->token.at, error.offset),
+                   error.hint[0] == '\0' ? NULL : error.hint, "%s", error.message);
+        made->dim.unknown = true;
+    }
+    while (in->token.kind != TOKEN_END) {
+        parser_next(in);
+    }
+    return first.sign == '-' && first.kind == TOKEN_SIGN ? expr_negate(in, first.at, made) : made;
+}
+
+/* The rest of the text. A value of bare numbers is SI in whatever dimension is wanted. */
+static const expr *parse_quantity(parser *in, dimension wanted, const char *what) {
+    const place at = in->token.at;
+    const expr *made = parse_plain_quantity(in);
+    if (made == NULL) {
+        made = parse_expression(in, CONTEXT_CONSTANT);
+    }
+    if (made == NULL) {
+        return NULL;
+    }
+    if (in->token.kind != TOKEN_END && !parser_end_statement(in, "the value")) {
+        return NULL;
+    }
+    if (in->token.kind != TOKEN_END) {
+        char words[80];
+        parser_fail(in, NULL, "unexpected %s", token_words(&in->token, words, sizeof words));
+        return NULL;
+    }
+    const bool is_bare = made->uses == 0 && dim_is_none(made->dim);
+    if (!is_bare) {
+        char rule[RULE_SIZE];
+        check_dimension(in, at, made, wanted, dimension_rule(rule, what, "is", wanted));
+    }
+    return made;
+}
+
+static named *find_name(parser *in, const mechanism *of, const token *name) {
+    named *found = names_find(of->names, name->text, name->length);
+    if (found != NULL) {
+        return found;
+    }
+    nearest search = nearest_start(name->text, name->length);
+    char hint[120] = "";
+    char words[80];
+    names_offer(of->names, -2, &search);
+    if (search.best != NULL) {
+        snprintf(hint, sizeof hint, "did you mean '%s'?", search.best);
+    }
+    diag_error(in->diags, name->at, hint[0] == '\0' ? NULL : hint,
+               "%s is unknown in mechanism '%s'", token_words(name, words, sizeof words), of->name);
+    return NULL;
+}
+
+/* May this symbol be changed this way? */
+static bool check_target(parser *in, override_kind kind, const token *name, const symbol *target) {
+    const bool moves = target->kind == SYM_COORDINATE || target->kind == SYM_STATE;
+    const bool is_constant = target->kind == SYM_PARAMETER || target->kind == SYM_INPUT;
+    const char *problem = NULL;
+    const char *hint = NULL;
+    if (!moves && !is_constant) {
+        problem = "follows from the others and cannot be given";
+    } else if (kind == OVERRIDE_SET && moves) {
+        problem = "is no parameter or input";
+        hint = "give its initial value with --start";
+    } else if (kind == OVERRIDE_START && !moves) {
+        problem = "is no coordinate or rate";
+        hint = "change it with --set";
+    } else if (is_constant && name->primes > 0) {
+        problem = "has no derivative";
+    } else if (moves && name->primes >= target->order) {
+        problem = "has no initial value for this derivative: it follows from the equations";
+    }
+    if (problem != NULL) {
+        diag_error(in->diags, name->at, hint, "'%s' %s", target->name, problem);
+    }
+    return problem == NULL;
+}
+
+bool override_parse(const mechanism *of, override_kind kind, const char *text, struct arena *arena,
+                    diags *all, assignment *made) {
+    const int before = diags_count(all);
+    parser in = begin(of, text, arena, all);
+    const token name = in.token;
+    if (name.kind != TOKEN_NAME) {
+        return parser_fail(&in, "NAME=VALUE, such as m=3 or \"theta'=1.2\"", "a name is missing");
+    }
+    parser_next(&in);
+    const named *found = find_name(&in, of, &name);
+    if (found == NULL || !check_target(&in, kind, &name, &found->symbol)) {
+        return false;
+    }
+    if (!parser_is_sign(&in, '=')) {
+        return parser_fail(&in, "NAME=VALUE, such as m=3 or \"theta'=1.2\"",
+                           "'=' is missing after '%s'", found->symbol.name);
+    }
+    parser_next(&in);
+    dimension wanted = dim_none();
+    if (!dim_power(dim_of(0, 0, -1, 0, 0), name.primes, &wanted) ||
+        !dim_multiply(found->symbol.dim, wanted, &wanted)) {
+        return false;
+    }
+    char words[80];
+    token_words(&name, words, sizeof words);
+    *made = (assignment){&found->symbol, name.primes, parse_quantity(&in, wanted, words), name.at};
+    return made->value != NULL && diags_count(all) == before;
+}
+
+const expr *override_duration(const mechanism *of, const char *what, const char *text,
+                              struct arena *arena, diags *all) {
+    const int before = diags_count(all);
+    parser in = begin(of, text, arena, all);
+    const expr *made = parse_quantity(&in, dim_of(0, 0, 1, 0, 0), what);
+    return diags_count(all) == before ? made : NULL;
+}
+
+int override_effect(const mechanism *of, const char *text, struct arena *arena, diags *all) {
+    parser in = begin(of, text, arena, all);
+    nearest search = nearest_start(text, strlen(text));
+    for (int i = 0; i < of->effect_count; i++) {
+        if (strcmp(of->effects[i].name, text) == 0) {
+            return i;
+        }
+        nearest_offer(&search, of->effects[i].name);
+    }
+    char hint[120] = "";
+    if (search.best != NULL) {
+        snprintf(hint, sizeof hint, "did you mean '%s'?", search.best);
+    } else if (of->effect_count == 0) {
+        snprintf(hint, sizeof hint, "the mechanism '%s' has no effects", of->name);
+    }
+    diag_error(all, in.token.at, hint[0] == '\0' ? NULL : hint, "unknown effect '%.60s'", text);
+    return -1;
+}

@@ -1,0 +1,254 @@
+/* reference.c: names inside expressions: what they mean and whether they may stand there. */
+#include <ctype.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "parser.h"
+
+#define PI 3.14159265358979323846
+
+static const char *kind_words(symbol_kind kind) {
+    switch (kind) {
+    case SYM_COORDINATE: return "a coordinate";
+    case SYM_STATE: return "a state";
+    case SYM_PARAMETER: return "a parameter";
+    case SYM_INPUT: return "an input";
+    case SYM_LET: return "a let";
+    case SYM_OUTPUT: break;
+    }
+    return "an output";
+}
+
+static const char *skip_blanks(const char *text) {
+    while (*text == ' ' || *text == '\t') {
+        text++;
+    }
+    return text;
+}
+
+static bool continues_name(char c) { return isalnum((unsigned char)c) || c == '_'; }
+
+/* The line in which a later statement of the same mechanism declares the name, or 0. */
+static int declared_later(const token *name) {
+    static const char *const words[] = {"coordinate", "state", "parameter",
+                                        "input",      "let",   "output"};
+    const source *from = name->at.source;
+    const char *text = from->text + name->at.offset;
+    const char *const end = from->text + from->length;
+    int line = name->at.line;
+    while ((text = memchr(text, '\n', (size_t)(end - text))) != NULL) {
+        line++;
+        text = skip_blanks(text + 1);
+        if (strncmp(text, "mechanism", 9) == 0 && !continues_name(text[9])) {
+            return 0;
+        }
+        for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
+            const size_t length = strlen(words[i]);
+            if (strncmp(text, words[i], length) == 0 && !continues_name(text[length])) {
+                const char *declared = skip_blanks(text + length);
+                if (strncmp(declared, name->text, name->length) == 0 &&
+                    !continues_name(declared[name->length])) {
+                    return line;
+                }
+            }
+        }
+    }
+    return 0;
+}
+
+static void report_unknown(parser *in, const token *name) {
+    char hint[200] = "";
+    char words[80];
+    const int later = in->builder != NULL && !in->all_effects ? declared_later(name) : 0;
+    if (later > 0) {
+        snprintf(hint, sizeof hint, "it is declared later, in line %d: move that line up", later);
+    } else {
+        nearest search = nearest_start(name->text, name->length);
+        names_offer(in->names, in->all_effects ? -2 : in->effect, &search);
+        for (function_id f = FN_SIN; f < FN_COUNT; f++) {
+            if (parser_is_sign(in, '(')) {
+                nearest_offer(&search, function_name(f));
+            }
+        }
+        if (search.best != NULL) {
+            snprintf(hint, sizeof hint, "did you mean '%s'?", search.best);
+        }
+    }
+    token plain = *name;
+    plain.primes = 0;
+    diag_error(in->diags, name->at, hint[0] == '\0' ? NULL : hint, "unknown name %s",
+               token_words(&plain, words, sizeof words));
+}
+
+static void report_reserved(parser *in, const token *name) {
+    static const struct {
+        const char *word;
+        const char *meaning;
+    } quantities[] = {{"T", "the kinetic energy"},
+                      {"V", "the potential energy"},
+                      {"F", "the dissipation function"},
+                      {"Q", "a generalized force"}};
+    for (size_t i = 0; i < sizeof quantities / sizeof quantities[0]; i++) {
+        if (name->length == 1 && name->text[0] == quantities[i].word[0]) {
+            diag_error(in->diags, name->at, "give the expression a name with let",
+                       "%s is %s and cannot be used in an expression", quantities[i].word,
+                       quantities[i].meaning);
+            return;
+        }
+    }
+    diag_error(in->diags, name->at, NULL, "'%.*s' is a reserved word", (int)name->length,
+               name->text);
+}
+
+/* May a symbol of this kind, with so many primes, stand here? */
+static bool allowed_here(parser *in, const token *name, const symbol *found) {
+    const bool is_unknown = found->kind == SYM_COORDINATE || found->kind == SYM_STATE;
+    const bool by_let = found->kind == SYM_LET && found->value != NULL;
+    const int order = is_unknown ? name->primes : by_let ? found->value->order : 0;
+    const unsigned uses = by_let ? found->value->uses : 0;
+    char words[80];
+    token_words(name, words, sizeof words);
+    if (found->effect >= 0 && found->effect != in->effect && !in->all_effects) {
+        diag_error(in->diags, name->at, "declare it in the mechanism to use it elsewhere",
+                   "%s belongs to the effect '%s'", words,
+                   in->builder->made->effects[found->effect].name);
+        return false;
+    }
+    if (name->primes > 0 && !is_unknown) {
+        diag_error(in->diags, name->at, "only coordinates and states take primes",
+                   "'%s' is %s: it has no derivative", found->name, kind_words(found->kind));
+        return false;
+    }
+    if (found->kind == SYM_OUTPUT && in->context != CONTEXT_OUTPUT) {
+        diag_error(in->diags, name->at, "give its expression a name with let",
+                   "%s is an output: only later outputs can use it", words);
+        return false;
+    }
+    switch (in->context) {
+    case CONTEXT_CONSTANT:
+        if (found->kind == SYM_INPUT || (uses & USES_INPUT) != 0) {
+            diag_error(in->diags, name->at, NULL,
+                       "%s changes while running: only numbers and parameters can stand here",
+                       words);
+            return false;
+        }
+        if (is_unknown || (uses & USES_UNKNOWNS) != 0) {
+            diag_error(in->diags, name->at, NULL,
+                       "%s depends on the motion: only numbers and parameters can stand here",
+                       words);
+            return false;
+        }
+        break;
+    case CONTEXT_FORCE:
+        if (order > 1) {
+            diag_error(in->diags, name->at, NULL,
+                       "T, V, F and Q take no second derivative, as %s %s", words,
+                       by_let ? "has" : "is");
+            return false;
+        }
+        break;
+    case CONTEXT_LET:
+    case CONTEXT_OUTPUT:
+        if (found->kind == SYM_COORDINATE && order > 2) {
+            diag_error(in->diags, name->at, NULL, "a coordinate takes at most two primes here");
+            return false;
+        }
+        break;
+    case CONTEXT_EQUATION: break;
+    }
+    return true;
+}
+
+static void set_dimension(parser *in, expr *made, const token *name) {
+    dimension per_time = dim_none();
+    made->dim = made->symbol->dim;
+    if (name->primes > 0 && !made->dim.unknown) {
+        if (!dim_power(dim_of(0, 0, -1, 0, 0), name->primes, &per_time) ||
+            !dim_multiply(made->dim, per_time, &made->dim)) {
+            diag_error(in->diags, name->at, NULL,
+                       "the exponents of this dimension are out of range");
+            made->dim.unknown = true;
+        }
+    }
+}
+
+static const expr *unknown_value(expr *made) {
+    made->dim = dim_none();
+    made->dim.unknown = true;
+    return made;
+}
+
+/* Rules for height, order and uses of a name: those of its expression, where it stands for one. */
+static const expr *take_properties(parser *in, expr *made, const token *name) {
+    const symbol *found = made->symbol;
+    switch (found->kind) {
+    case SYM_COORDINATE:
+    case SYM_STATE:
+        made->uses = USES_UNKNOWNS;
+        made->order = name->primes;
+        break;
+    case SYM_PARAMETER: made->uses = USES_PARAMETER; break;
+    case SYM_INPUT: made->uses = USES_INPUT; break;
+    case SYM_LET:
+    case SYM_OUTPUT:
+        made->uses = found->kind == SYM_OUTPUT ? USES_OUTPUT : 0;
+        if (found->value != NULL) {
+            /* A let of plain numbers is no plain number: its name stands for a quantity. */
+            made->uses |= found->value->uses | (found->kind == SYM_LET ? USES_UNIT : 0);
+            made->order = found->value->order;
+            made->height = found->value->height + 1;
+        }
+        if (made->height > EXPR_HEIGHT_MAX) {
+            diag_error(in->diags, name->at, NULL,
+                       "'%s' and what it stands for are more than %d operators deep", found->name,
+                       EXPR_HEIGHT_MAX);
+            return NULL;
+        }
+        break;
+    }
+    return made;
+}
+
+const expr *expr_name(parser *in, const token *name) {
+    expr *made = expr_new(in, EXPR_SYMBOL, name->at);
+    if (token_is(name, "pi")) {
+        made->op = EXPR_NUMBER;
+        made->number = PI;
+        return made;
+    }
+    if (is_reserved(name->text, name->length)) {
+        report_reserved(in, name);
+        return unknown_value(made);
+    }
+    named *found = in->names == NULL ? NULL : names_find(in->names, name->text, name->length);
+    if (found == NULL) {
+        if (in->names == NULL) {
+            diag_error(in->diags, name->at, NULL, "only numbers can stand here");
+            return unknown_value(made);
+        }
+        report_unknown(in, name);
+        if (in->builder != NULL && !in->all_effects) {
+            /* Told once: the name is known as unknown from here on. */
+            found = names_add(in->builder->names, name->text, name->length);
+            found->is_placeholder = true;
+            found->symbol.kind = SYM_LET;
+            found->symbol.dim.unknown = true;
+        }
+        return unknown_value(made);
+    }
+    if (found->is_placeholder) {
+        return unknown_value(made);
+    }
+    if (found->is_open) {
+        diag_error(in->diags, name->at, NULL, "'%s' is used in its own declaration",
+                   found->symbol.name);
+        return unknown_value(made);
+    }
+    if (!allowed_here(in, name, &found->symbol)) {
+        return unknown_value(made);
+    }
+    made->symbol = &found->symbol;
+    made->primes = name->primes;
+    set_dimension(in, made, name);
+    return take_properties(in, made, name);
+}

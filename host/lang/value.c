@@ -1,0 +1,124 @@
+#include "value.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "arena.h"
+
+enum {
+    NAME_BUFFER = 100,
+    DEPTH_MAX = 20000 /* operators in a chain of values set one from the other: bounds recursion */
+};
+
+valuation valuation_new(const mechanism *of, struct arena *arena, diags *all) {
+    const size_t parameters = (size_t)of->parameter_count;
+    const size_t lets = (size_t)of->let_count;
+    valuation made = {.of = of, .diags = all};
+    made.parameter_expr = arena_alloc(arena, parameters * sizeof *made.parameter_expr);
+    made.parameter_at = arena_alloc(arena, parameters * sizeof *made.parameter_at);
+    made.parameter = arena_alloc(arena, parameters * sizeof *made.parameter);
+    made.parameter_state = arena_alloc(arena, parameters * sizeof *made.parameter_state);
+    made.let = arena_alloc(arena, lets * sizeof *made.let);
+    made.let_known = arena_alloc(arena, lets * sizeof *made.let_known);
+    for (int i = 0; i < of->parameter_count; i++) {
+        made.parameter_expr[i] = of->parameters[i]->value;
+        made.parameter_at[i] = of->parameters[i]->at;
+    }
+    return made;
+}
+
+double parameter_value(valuation *known, int index) {
+    const char *name = known->of->parameters[index]->name;
+    const place at = known->parameter_at[index];
+    if (known->parameter_state[index] == 2) {
+        return known->parameter[index];
+    }
+    known->parameter[index] = 0.0;
+    if (known->parameter_state[index] == 1) {
+        diag_error(known->diags, at, "declared values may be used, but not round in a circle",
+                   "'%s' is set from itself", name);
+        return 0.0;
+    }
+    const int height = known->parameter_expr[index]->height;
+    if (known->depth + height > DEPTH_MAX) {
+        diag_error(known->diags, at, "set some of them to numbers",
+                   "too long a chain of values set one from the other");
+        return 0.0;
+    }
+    known->parameter_state[index] = 1;
+    known->depth += height;
+    char what[NAME_BUFFER];
+    snprintf(what, sizeof what, "parameter '%s'", name);
+    const double value = finite_value(known->parameter_expr[index], known, at, what);
+    known->depth -= height;
+    known->parameter_state[index] = 2;
+    known->parameter[index] = value;
+    return value;
+}
+
+static double symbol_value(const symbol *named, valuation *known) {
+    if (known == NULL || named == NULL) {
+        return (double)NAN;
+    }
+    if (named->kind == SYM_PARAMETER) {
+        return parameter_value(known, named->index);
+    }
+    if (named->kind == SYM_LET && !known->let_known[named->index]) {
+        known->let[named->index] = expr_value(named->value, known);
+        known->let_known[named->index] = true;
+    }
+    return named->kind == SYM_LET ? known->let[named->index] : (double)NAN;
+}
+
+static double call_value(function_id function, double a, double b) {
+    switch (function) {
+    case FN_SIN: return sin(a);
+    case FN_COS: return cos(a);
+    case FN_TAN: return tan(a);
+    case FN_ASIN: return asin(a);
+    case FN_ACOS: return acos(a);
+    case FN_ATAN: return atan(a);
+    case FN_ATAN2: return atan2(a, b);
+    case FN_SQRT: return sqrt(a);
+    case FN_EXP: return exp(a);
+    case FN_LOG: return log(a);
+    case FN_ABS: return fabs(a);
+    case FN_SIGN: return a > 0.0 ? 1.0 : a < 0.0 ? -1.0 : a;
+    case FN_MIN: return b < a ? b : a;
+    case FN_MAX: return b > a ? b : a;
+    case FN_COUNT: break;
+    }
+    return (double)NAN;
+}
+
+double expr_value(const expr *tree, valuation *known) {
+    const double a = tree->left == NULL ? 0.0 : expr_value(tree->left, known);
+    const double b = tree->right == NULL ? 0.0 : expr_value(tree->right, known);
+    switch (tree->op) {
+    case EXPR_NUMBER: return tree->number;
+    case EXPR_SYMBOL: return symbol_value(tree->symbol, known);
+    case EXPR_ADD: return a + b;
+    case EXPR_SUB: return a - b;
+    case EXPR_MUL: return a * b;
+    case EXPR_DIV: return a / b;
+    case EXPR_POW: return pow(a, b);
+    case EXPR_NEG: return -a;
+    case EXPR_CALL: return call_value(tree->function, a, b);
+    }
+    return (double)NAN;
+}
+
+double finite_value(const expr *tree, valuation *known, place at, const char *what) {
+    const int before = diags_count(known->diags);
+    const double value = expr_value(tree, known);
+    if (isfinite(value)) {
+        return value;
+    }
+    if (diags_count(known->diags) == before) {
+        diag_error(known->diags, at, NULL, "%s is not a finite number (%s)", what,
+                   isnan(value)  ? "not a number"
+                   : value > 0.0 ? "infinity"
+                                 : "minus infinity");
+    }
+    return 0.0;
+}

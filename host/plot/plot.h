@@ -1,0 +1,21 @@
+/* plot.h: curves over time as SVG or PNG, drawn by gnuplot. */
+#ifndef PLOT_PLOT_H
+#define PLOT_PLOT_H
+
+#include <stdbool.h>
+
+typedef struct curve {
+    const char *name;
+    const char *unit; /* curves of one unit share a panel */
+    int column;       /* of the data, from 0; column 0 is time */
+} curve;
+
+/* True when the file's ending is one that can be drawn. */
+bool plot_can_draw(const char *file);
+
+/* Draw `rows` rows of `columns` numbers, one panel a unit, to `file` (.svg or .png). False when
+ * gnuplot is missing or failed, reported on standard error. */
+bool plot_draw(const char *file, const char *title, const curve *curves, int curve_count,
+               const double *data, int rows, int columns);
+
+#endif

@@ -1,0 +1,38 @@
+/* books.h: the energy and momentum balance of a run, kept in double beside it.
+ *
+ * Energy: kinetic + stored energy changes by the work of the inputs less the losses. What is left
+ * over is the numerical error of the run (and of the books' own quadrature, Simpson's rule on the
+ * steps, which is of the same order as Runge-Kutta's). */
+#ifndef RUN_BOOKS_H
+#define RUN_BOOKS_H
+
+#include "engine.h"
+
+typedef struct books {
+    const program *program;
+    const equations *equations;
+    const double *input;
+    evaluator *evaluator;
+    double *value;        /* results of the program's books list */
+    double *momentum;     /* [count] at the start */
+    double *drift;        /* [count] largest change since */
+    double angle_rad[PROGRAM_COMPONENTS_MAX];
+    double real[2 * PROGRAM_COMPONENTS_MAX];
+    double kinetic_J[2];  /* start, now */
+    double stored_J[2];
+    double input_J;       /* work of the inputs so far */
+    double loss_J;        /* losses so far */
+    double power_W[2][2]; /* input and loss power at the last two even steps' ends */
+    uint64_t entries;
+    double step_s;
+} books;
+
+/* A run of a system given outright has no books: NULL. */
+books *books_open(const program *p, const equations *e);
+void books_close(books *b);
+/* Enter the state after each step, the start included. */
+void books_enter(books *b, const engine_kind *kind, const void *run);
+/* kinetic + stored - start - work + losses: zero for an exact solution. */
+double books_error_J(const books *b);
+
+#endif

@@ -1,0 +1,47 @@
+/* engine.h: running a program without a compiler: the interpreter of operation lists.
+ *
+ * There is one interpreter source, built in float (the boards' arithmetic, to the bit) and in double
+ * (the reference); both step with core/step.h. The interface speaks double whichever is inside.
+ */
+#ifndef RUN_ENGINE_H
+#define RUN_ENGINE_H
+
+#include "host/derive/program.h"
+
+typedef struct engine_settings {
+    wh_method method;
+    bool compensated;
+} engine_settings;
+
+typedef struct engine_kind {
+    const char *name; /* "float" or "double" */
+    int digits;       /* significant digits that carry a number of this kind through text */
+    void *(*start)(const program *p, const instance *inst, const engine_settings *settings);
+    void (*stop)(void *run);
+    wh_status (*step)(void *run);
+    void (*set_input)(void *run, int input, double value);
+    /* angle_rad[angles] unwrapped, real[reals]; SI */
+    void (*state)(const void *run, double *angle_rad, double *real);
+    void (*outputs)(void *run, double *output);
+    uint64_t (*hash)(const void *run);
+    uint64_t (*steps)(const void *run);
+    /* Component that diverged, angles first, or -1. */
+    int (*fault)(const void *run);
+} engine_kind;
+
+extern const engine_kind engine_float;
+extern const engine_kind engine_double;
+
+/* Evaluates a list in double, again and again. Arrays may be NULL where the list has no such leaves. */
+typedef struct evaluator evaluator;
+evaluator *evaluator_new(const tape *t);
+void evaluator_free(evaluator *ev);
+void evaluator_run(evaluator *ev, const double *angle_rad, const double *linear, const double *rate,
+                   const double *input, double *result);
+
+/* Phase constant of the float build: radians to 2^32 a turn, wrapped and rounded to the nearest. */
+uint32_t engine_phase_of_constant(double rad);
+/* The stored start of a float angle: radians to 2^32 a turn with turns, rounded to the nearest. */
+int64_t engine_angle_of_start(double rad);
+
+#endif

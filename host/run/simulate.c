@@ -1,0 +1,219 @@
+/* simulate.c: the loop of a run and what surrounds it. */
+#include "simulate.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "books.h"
+#include "host/plot/plot.h"
+#include "records.h"
+#include "summary.h"
+
+/* A plot keeps at most so many rows, evenly spaced. */
+#define PLOT_ROWS_MAX 4000U
+
+typedef struct plot_rows {
+    double *data;
+    unsigned count;
+    uint64_t spacing; /* steps */
+} plot_rows;
+
+typedef struct simulation {
+    const equations *equations;
+    const program *program;
+    const simulation_settings *settings;
+    void *run;
+    records *records;
+    books *books;
+    FILE *csv;
+    plot_rows plot;
+    uint64_t steps;      /* wanted */
+    double wall_s;       /* spent stepping */
+    bool write_failed;
+} simulation;
+
+static double now_s(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static bool open_files(simulation *sim) {
+    const simulation_settings *s = sim->settings;
+    if (s->plot != NULL && !plot_can_draw(s->plot)) {
+        fprintf(stderr, "whirl run: error: --plot draws .svg and .png files, not %s\n", s->plot);
+        return false;
+    }
+    if (s->csv != NULL) {
+        sim->csv = strcmp(s->csv, "-") == 0 ? stdout : fopen(s->csv, "wb");
+        if (sim->csv == NULL) {
+            fprintf(stderr, "%s: error: cannot be written: %s\n", s->csv, strerror(errno));
+            return false;
+        }
+    }
+    if (s->plot != NULL) {
+        FILE *try = fopen(s->plot, "wb");
+        if (try == NULL) {
+            fprintf(stderr, "%s: error: cannot be written: %s\n", s->plot, strerror(errno));
+            return false;
+        }
+        fclose(try);
+        sim->plot.spacing = sim->steps / PLOT_ROWS_MAX + 1;
+        sim->plot.data = calloc((size_t)PLOT_ROWS_MAX + 2,
+                                (size_t)sim->records->columns * sizeof *sim->plot.data);
+        if (sim->plot.data == NULL) {
+            abort();
+        }
+    }
+    return true;
+}
+
+/* Enter the present state wherever it belongs. */
+static void enter(simulation *sim, uint64_t step, bool last) {
+    const bool record = sim->csv != NULL && (step % sim->settings->every == 0);
+    const bool point =
+        sim->plot.data != NULL && (step % sim->plot.spacing == 0 || last) &&
+        sim->plot.count < PLOT_ROWS_MAX + 2;
+    if (sim->books != NULL && !last) {
+        books_enter(sim->books, sim->settings->kind, sim->run);
+    }
+    if (!record && !point) {
+        return;
+    }
+    records_read(sim->records, sim->run, (double)step * sim->equations->instance->step_s);
+    if (record && !last) {
+        sim->write_failed = !records_write(sim->records) || sim->write_failed;
+    }
+    if (point) {
+        memcpy(sim->plot.data + (size_t)sim->plot.count * (size_t)sim->records->columns,
+               sim->records->row, (size_t)sim->records->columns * sizeof(double));
+        sim->plot.count++;
+    }
+}
+
+static wh_status loop(simulation *sim, bool *interrupted) {
+    const simulation_settings *s = sim->settings;
+    wh_status status = WH_OK;
+    double shown_s = now_s();
+    uint64_t step = 0;
+    enter(sim, 0, false);
+    while (step < sim->steps && !sim->write_failed) {
+        const double before_s = (step & 63U) == 0 ? now_s() : 0.0;
+        status = s->kind->step(sim->run);
+        if ((step & 63U) == 0) {
+            sim->wall_s += now_s() - before_s;
+        }
+        if (status != WH_OK) {
+            break;
+        }
+        step++;
+        enter(sim, step, false);
+        if ((step & 255U) == 0) {
+            if (s->stop != NULL && *s->stop) {
+                *interrupted = true;
+                break;
+            }
+            if (s->progress && now_s() - shown_s > 0.2) {
+                shown_s = now_s();
+                fprintf(stderr, "\r%5.1f %%", 100.0 * (double)step / (double)sim->steps);
+            }
+        }
+    }
+    if (s->progress) {
+        fprintf(stderr, "\r        \r");
+    }
+    if (step % sim->plot.spacing != 0) {
+        enter(sim, step, true);
+    }
+    return status;
+}
+
+static void say_failure(const simulation *sim) {
+    const program *p = sim->program;
+    const int fault = sim->settings->kind->fault(sim->run);
+    const component c = fault < p->angles ? p->angle[fault < 0 ? 0 : fault]
+                                          : p->real[fault - p->angles];
+    const double time_s =
+        (double)sim->settings->kind->steps(sim->run) * sim->equations->instance->step_s;
+    fprintf(stderr, "whirl run: error: the run diverged in the step after t = %.9g s: %s", time_s,
+            sim->equations->unknowns[c.unknown].symbol->name);
+    for (int k = 0; k < c.primes; k++) {
+        fputc('\'', stderr);
+    }
+    fprintf(stderr, " left all bounds\nhint: a smaller --step may carry it further; if it fails at "
+                    "the same time, look for a singular position there\n");
+}
+
+static bool draw(const simulation *sim) {
+    const program *p = sim->program;
+    const mechanism *m = sim->equations->instance->mechanism;
+    const int states = p->angles + p->reals;
+    curve *curves = calloc((size_t)sim->records->columns, sizeof *curves);
+    char(*labels)[64] = calloc((size_t)sim->records->columns, sizeof *labels);
+    if (curves == NULL || labels == NULL) {
+        abort();
+    }
+    int count = 0;
+    for (int i = 0; i < p->count + p->outputs; i++) {
+        const symbol *s = i < p->count ? m->coordinates[i] : m->outputs[i - p->count];
+        const char *si = dimension_unit(s->dim, s->is_angle, labels[count], sizeof labels[count]);
+        curves[count++] = (curve){s->name, si, i < p->count ? i + 1 : states + 1 + i - p->count};
+    }
+    const char *title = sim->equations->instance->scene != NULL
+                            ? sim->equations->instance->scene->title
+                            : m->title;
+    char full[256];
+    snprintf(full, sizeof full, "%s%s%s", sim->equations->instance->name,
+             title[0] != '\0' ? ": " : "", title);
+    const bool drawn = plot_draw(sim->settings->plot, full, curves, count, sim->plot.data,
+                                 (int)sim->plot.count, sim->records->columns);
+    free(curves);
+    free(labels);
+    return drawn;
+}
+
+simulation_result simulate(const equations *e, const program *p, const simulation_settings *s) {
+    simulation sim = {.equations = e, .program = p, .settings = s, .plot = {.spacing = 1}};
+    sim.steps = (uint64_t)floor(e->instance->until_s / e->instance->step_s + 0.5);
+    sim.records = records_open(NULL, p, e, s->kind);
+    simulation_result result = SIMULATION_BAD_FILE;
+    if (open_files(&sim)) {
+        bool interrupted = false;
+        sim.run = s->kind->start(p, e->instance, &s->engine);
+        sim.books = s->quiet ? NULL : books_open(p, e);
+        sim.records->out = sim.csv;
+        if (sim.csv != NULL) {
+            records_header(sim.records);
+        }
+        const wh_status status = loop(&sim, &interrupted);
+        result = status != WH_OK ? SIMULATION_FAILED
+                                 : interrupted ? SIMULATION_INTERRUPTED : SIMULATION_DONE;
+        if (sim.csv != NULL && (fflush(sim.csv) != 0 || sim.write_failed)) {
+            fprintf(stderr, "%s: error: cannot be written: %s\n", s->csv, strerror(errno));
+            result = SIMULATION_BAD_FILE;
+        }
+        if (status != WH_OK) {
+            say_failure(&sim);
+        }
+        if (!s->quiet) {
+            const uint64_t done = s->kind->steps(sim.run);
+            const double sampled = (double)((done + 63) / 64);
+            summary_print(sim.csv == stdout ? stderr : stdout, e, p, s, sim.run, sim.books,
+                          sampled > 0.0 ? 1e9 * sim.wall_s / sampled : 0.0);
+        }
+        if (s->plot != NULL && result != SIMULATION_BAD_FILE && !draw(&sim)) {
+            result = SIMULATION_BAD_FILE;
+        }
+        s->kind->stop(sim.run);
+    }
+    if (sim.csv != NULL && sim.csv != stdout) {
+        fclose(sim.csv);
+    }
+    books_close(sim.books);
+    records_close(sim.records);
+    free(sim.plot.data);
+    return result;
+}

@@ -1,0 +1,29 @@
+/* simulate.h: one run from start to end, with records, books, progress and summary. */
+#ifndef RUN_SIMULATE_H
+#define RUN_SIMULATE_H
+
+#include <signal.h>
+
+#include "engine.h"
+
+typedef struct simulation_settings {
+    const engine_kind *kind;
+    engine_settings engine;
+    unsigned long every; /* steps between records */
+    const char *csv;     /* file, "-" for standard output, or NULL */
+    const char *plot;    /* .svg or .png, or NULL */
+    bool quiet;
+    bool progress;
+    const volatile sig_atomic_t *stop; /* set from outside to end the run cleanly; may be NULL */
+} simulation_settings;
+
+typedef enum simulation_result {
+    SIMULATION_DONE,
+    SIMULATION_FAILED,      /* diverged; said on standard error, the records so far are kept */
+    SIMULATION_INTERRUPTED, /* by *stop */
+    SIMULATION_BAD_FILE     /* a file could not be written, or gnuplot failed; said */
+} simulation_result;
+
+simulation_result simulate(const equations *e, const program *p, const simulation_settings *s);
+
+#endif

@@ -1,0 +1,137 @@
+/* summary.c: what a run came to, in words. */
+#include "summary.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "records.h"
+
+const char *dimension_unit(dimension dim, bool is_angle, char *text, size_t size) {
+    static const struct {
+        signed char m, kg, s, A;
+        const char *name;
+    } named[] = {{1, 0, 0, 0, "m"},     {1, 0, -1, 0, "m/s"},   {1, 0, -2, 0, "m/s^2"},
+                 {0, 1, 0, 0, "kg"},    {0, 0, 1, 0, "s"},      {0, 0, -1, 0, "1/s"},
+                 {1, 1, -2, 0, "N"},    {2, 1, -2, 0, "N*m"},   {2, 1, -3, 0, "W"},
+                 {0, 0, 0, 1, "A"},     {2, 1, -3, -1, "V"},    {1, 1, -1, 0, "kg*m/s"}};
+    static const char *const bases[DIM_BASES] = {"m", "kg", "s", "A", "K"};
+    bool none = true;
+    for (int i = 0; i < DIM_BASES; i++) {
+        none = none && dim.twelfths[i] == 0;
+    }
+    if (none || dim.any) {
+        snprintf(text, size, "%s", is_angle ? "rad" : "1");
+        return text;
+    }
+    for (size_t i = 0; i < sizeof named / sizeof named[0]; i++) {
+        if (dim.twelfths[DIM_LENGTH] == 12 * named[i].m && dim.twelfths[DIM_MASS] == 12 * named[i].kg &&
+            dim.twelfths[DIM_TIME] == 12 * named[i].s && dim.twelfths[DIM_CURRENT] == 12 * named[i].A &&
+            dim.twelfths[DIM_TEMPERATURE] == 0) {
+            snprintf(text, size, "%s", named[i].name);
+            return text;
+        }
+    }
+    size_t at = 0;
+    text[0] = '\0';
+    for (int i = 0; i < DIM_BASES && at < size; i++) {
+        if (dim.twelfths[i] != 0) {
+            at += (size_t)snprintf(text + at, size - at, "%s%s^%g", at > 0 ? "*" : "", bases[i],
+                                   dim.twelfths[i] / (double)DIM_DENOMINATOR);
+        }
+    }
+    return text;
+}
+
+static void print_value(FILE *out, const char *name, double value, int digits, dimension dim,
+                        bool is_angle, int primes) {
+    char si[64];
+    char text[160];
+    dim.twelfths[DIM_TIME] = (short)(dim.twelfths[DIM_TIME] - DIM_DENOMINATOR * primes);
+    bool plain = is_angle && primes > 0;
+    for (int i = 0; i < DIM_BASES && i != DIM_TIME; i++) {
+        plain = plain && dim.twelfths[i] == 0;
+    }
+    if (plain && primes == 1) {
+        snprintf(si, sizeof si, "rad/s");
+    } else {
+        dimension_unit(dim, is_angle && primes == 0, si, sizeof si);
+    }
+    snprintf(text, sizeof text, "%.*s%.*s", 120, name, primes, "''''''''''''''''");
+    fprintf(out, "  %-16s %*.*g %s\n", text, digits + 8, digits, value, si);
+}
+
+static void print_state(FILE *out, const equations *e, const program *p,
+                        const simulation_settings *s, void *run) {
+    records *r = records_open(NULL, p, e, s->kind);
+    records_read(r, run, 0.0);
+    int column = 1;
+    fprintf(out, "\nfinal state\n");
+    for (int level = 0; column <= p->angles + p->reals; level++) {
+        for (int i = 0; i < e->count; i++) {
+            if (e->unknowns[i].order > level) {
+                const symbol *sym = e->unknowns[i].symbol;
+                print_value(out, sym->name, r->row[column++], s->kind->digits, sym->dim,
+                            sym->is_angle, level);
+            }
+        }
+    }
+    if (p->outputs > 0) {
+        fprintf(out, "outputs\n");
+    }
+    for (int i = 0; i < p->outputs; i++) {
+        const symbol *sym = e->instance->mechanism->outputs[i];
+        print_value(out, sym->name, r->row[column++], s->kind->digits, sym->dim, false, 0);
+    }
+    records_close(r);
+}
+
+static void print_books(FILE *out, const books *b) {
+    const equations *e = b->equations;
+    fprintf(out, "energy [J]\n");
+    fprintf(out, "  kinetic          %.9g -> %.9g\n", b->kinetic_J[0], b->kinetic_J[1]);
+    fprintf(out, "  stored           %.9g -> %.9g\n", b->stored_J[0], b->stored_J[1]);
+    fprintf(out, "  work of inputs   %.9g\n", b->input_J);
+    fprintf(out, "  losses           %.9g\n", b->loss_J);
+    fprintf(out, "  does not balance by %.2e (numerical)\n", books_error_J(b));
+    bool any = false;
+    for (int i = 0; i < e->count; i++) {
+        if (e->conserved[i]) {
+            if (!any) {
+                fprintf(out, "conserved momentum [SI]\n");
+            }
+            any = true;
+            fprintf(out, "  of %-13s %.9g, drift at most %.2e (numerical)\n",
+                    e->unknowns[i].symbol->name, b->momentum[i], b->drift[i]);
+        }
+    }
+    if (!any) {
+        fprintf(out, "no momentum is conserved: every coordinate feels a force\n");
+    }
+}
+
+void summary_print(FILE *out, const equations *e, const program *p, const simulation_settings *s,
+                   void *run, const books *b, double step_ns) {
+    static const char *const methods[] = {"explicit Euler", "semi-implicit Euler", "Heun",
+                                          "Runge-Kutta 4"};
+    const instance *inst = e->instance;
+    const char *title = inst->scene != NULL ? inst->scene->title : inst->mechanism->title;
+    const uint64_t steps = s->kind->steps(run);
+    fprintf(out, "%s%s%s\n", inst->name, title[0] != '\0' ? ": " : "", title);
+    for (int i = 0; i < inst->mechanism->effect_count; i++) {
+        if (inst->with[i]) {
+            fprintf(out, "  with %s: %s\n", inst->mechanism->effects[i].name,
+                    inst->mechanism->effects[i].text);
+        }
+    }
+    fprintf(out, "  %s%s, %s, step %.9g s, %" PRIu64 " steps to t = %.9g s\n",
+            methods[s->engine.method], s->engine.compensated ? " compensated" : "", s->kind->name,
+            inst->step_s, steps, (double)steps * inst->step_s);
+    print_state(out, e, p, s, run);
+    if (b != NULL) {
+        print_books(out, b);
+    }
+    fprintf(out, "state hash         0x%016" PRIx64 "\n", s->kind->hash(run));
+    fprintf(out, "time per step      %.0f ns (interpreted, this machine)\n", step_ns);
+}

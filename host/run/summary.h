@@ -1,0 +1,17 @@
+/* summary.h: what a run came to, in words. */
+#ifndef RUN_SUMMARY_H
+#define RUN_SUMMARY_H
+
+#include <stdio.h>
+
+#include "books.h"
+#include "simulate.h"
+
+/* `books` may be NULL. `step_ns` is the wall time of a step (sampled). */
+void summary_print(FILE *out, const equations *e, const program *p, const simulation_settings *s,
+                   void *run, const books *b, double step_ns);
+
+/* The SI unit of a dimension into text[size]: "rad", "m/s", "kg*m^2/s^2", "1". Returns text. */
+const char *dimension_unit(dimension dim, bool is_angle, char *text, size_t size);
+
+#endif

@@ -1,0 +1,133 @@
+#!/bin/sh
+# deps.sh GROUP...: install the Debian packages that a make target needs, and only those missing.
+#
+# Groups: host (compiler), plot, firmware (Arm compiler and emulator), tests, quality (linters,
+# sanitizers), bench. What is there already is recognised by its command or file, not by its package,
+# so a compiler from elsewhere counts. With nothing missing this says nothing and takes milliseconds.
+# DEPS_DRY_RUN=1 only says what is missing (exit status 1 if anything is).
+set -eu
+
+missing=""      # packages to install
+missing_what="" # what each of them is for, a line each
+
+# want PACKAGE "what for" TEST...: note the package as missing when the test fails.
+want() {
+    package=$1
+    what=$2
+    shift 2
+    "$@" && return 0
+    case " $missing " in
+    *" $package "*) return 0 ;;
+    esac
+    missing="$missing $package"
+    missing_what="$missing_what
+    $package: $what"
+}
+
+have() { command -v "$1" >/dev/null 2>&1; }
+
+# True when the pattern names at least one file.
+have_file() {
+    for file in "$@"; do
+        [ -e "$file" ] && return 0
+    done
+    return 1
+}
+
+# The Arm compiler knows where its C library is, wherever it came from.
+have_arm_library() {
+    have_file /usr/lib/arm-none-eabi/lib/libc.a /usr/lib/arm-none-eabi/newlib/libc.a && return 0
+    have arm-none-eabi-gcc && [ -e "$(arm-none-eabi-gcc -print-file-name=libc.a)" ]
+}
+
+host() {
+    want gcc "the C compiler" have "${CC:-gcc}"
+    want binutils "ar, objdump and size" have ar
+    want libc6-dev "the C library's headers" have_file /usr/include/stdio.h /usr/lib/musl/include/stdio.h
+}
+
+plot() {
+    want gnuplot-nox "plots" have gnuplot
+}
+
+firmware() {
+    want gcc-arm-none-eabi "the compiler for the boards" have arm-none-eabi-gcc
+    want libnewlib-arm-none-eabi "its C library, for the test programs" have_arm_library
+    want qemu-system-arm "the emulated boards" have qemu-system-arm
+}
+
+tests() {
+    if [ -z "${UNITY:-}" ]; then
+        want xz-utils "unpacking the Unity test framework" have xz
+    fi
+}
+
+quality() {
+    want clang "the second compiler" have clang
+    want libclang-rt-dev "clang's sanitizers and fuzzer" \
+        have_file /usr/lib/llvm-*/lib/clang/*/lib/linux/libclang_rt.fuzzer*
+    want clang-format "the layout gate" have clang-format
+    want clang-tidy "the lint gate" have clang-tidy
+    want cppcheck "the second lint gate" have cppcheck
+}
+
+bench() {
+    want valgrind "instruction counts on the PC" have valgrind
+}
+
+[ $# -gt 0 ] || set -- host plot firmware tests quality bench
+for group in "$@"; do
+    case $group in
+    host | plot | firmware | tests | quality | bench) "$group" ;;
+    *)
+        echo "deps.sh: no such group: $group" >&2
+        exit 2
+        ;;
+    esac
+done
+
+[ -n "$missing" ] || exit 0
+echo "Missing on this machine:$missing_what"
+line="apt-get install --no-install-recommends -y$missing"
+[ -z "${DEPS_DRY_RUN:-}" ] || exit 1
+
+give_up() {
+    echo "$1 Please have this done, then try again:" >&2
+    echo >&2
+    echo "    $line" >&2
+    exit 1
+}
+
+have apt-get || give_up "This is no Debian: these are the packages' names there."
+if [ "$(id -u)" -eq 0 ]; then
+    as_root=""
+elif have sudo && { [ -t 0 ] || sudo -n true 2>/dev/null; }; then
+    as_root="sudo"
+else
+    give_up "Installing takes root's rights, and sudo does not give them here."
+fi
+
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+trap 'exit 1' HUP INT TERM
+
+install() {
+    # shellcheck disable=SC2086 # $line and $as_root are lists of words
+    $as_root env DEBIAN_FRONTEND=noninteractive $line >"$log" 2>&1 </dev/null
+}
+
+echo "Installing:$missing"
+# The package lists are fetched only when they are absent or too old to install from.
+if ! install; then
+    echo "Updating the package lists (apt-get update)"
+    $as_root apt-get update >"$log" 2>&1 </dev/null || true
+    if ! install; then
+        tail -n 5 "$log" >&2
+        give_up "Installing did not work."
+    fi
+fi
+
+# Believe the tools, not the package manager.
+if ! DEPS_DRY_RUN=1 "$0" "$@"; then
+    give_up "Still missing after installing."
+fi

@@ -1,0 +1,106 @@
+#!/bin/sh
+# size.sh: flash, memory and worst stack of a board's images.
+#
+#   BOARD=mps2-an386 CC=arm-none-eabi-gcc FLAGS="-O2" SIZE=arm-none-eabi-size \
+#   NM=arm-none-eabi-nm OBJECTS=build/mps2-an386 [EMULATE="qemu-system-arm ... -kernel @"] \
+#   size.sh figures.csv ELF...
+#
+# Appends rows to figures.csv (with a header if it is new; columns as for instruction counts, the
+# program in place of the scene) and prints a table.
+#   flash     code, constants and initial values
+#   ram       variables, without the stack
+#   computed  worst stack from the call graph: OBJECTS holds the objects with gcc's .ci files, and
+#             the linker's map beside the image (.map for .elf) says which of them are in it
+#   measured  deepest painted word overwritten, from the "stack NAME BYTES" lines the program prints
+#             when run by EMULATE, in which @ stands for the image; "-" if it prints none
+# Fails on recursion, on a frame of unbounded size, and if the stack's room is too small for the
+# computed worst case.
+set -eu
+here=$(dirname "$0")
+. "$here/../count/common.sh"
+
+csv=$1
+shift
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+commit=$(commit_of_checkout)
+compiler=$(compiler_of "$CC")
+[ -s "$csv" ] || echo "$CSV_HEADER" >"$csv"
+
+row() {
+    echo "$commit,$BOARD,$compiler,\"$FLAGS\",$name,float,-,$1,$2" >>"$csv"
+}
+
+# graphs: the .ci files of the objects in the image, from its map: objects by their path, members of
+# archives by their name.
+graphs() {
+    map=${elf%.elf}.map
+    sed -n 's/^LOAD \(.*\)\.o$/\1.ci/p' "$map" >"$work/loaded"
+    sed -n 's/^[^ ].*\.a(\([^()]*\)\.o)$/\/\1.ci/p; s/^[^ ].*\.a(\([^()]*\)\.o) .*/\/\1.ci/p' "$map" |
+        sort -u >"$work/members"
+    find "$OBJECTS" -name '*.ci' | sort | awk -v loaded="$work/loaded" -v members="$work/members" '
+        BEGIN {
+            while ((getline line <loaded) > 0) { whole[line] = 1 }
+            while ((getline line <members) > 0) { member[line] = 1 }
+        }
+        {
+            name = $0
+            sub(/^.*\//, "/", name)
+            if ($0 in whole || name in member) { print }
+        }'
+}
+
+# worst_stack ROOT: answers of stack.awk, to $work/stack.
+worst_stack() {
+    { sed 's/^/symbol /' "$work/symbols" && xargs cat <"$work/graphs"; } |
+        awk -v root="$1" -f "$here/stack.awk" | sort -u >"$work/stack"
+    if grep -E '^(recursion|unbounded)' "$work/stack" >&2; then
+        echo "size.sh: $elf: the stack of $1 has no bound" >&2
+        touch "$work/failed"
+    fi
+    sed -n 's/^stack //p' "$work/stack"
+}
+
+printf '%-12s %-12s %8s %8s %9s %9s %9s %11s\n' board program flash ram "stack of" computed \
+    measured "fault stack"
+for elf in "$@"; do
+    name=$(basename "$elf" .elf)
+    "$NM" "$elf" | awk 'NF == 3 && $2 ~ /[tTwW]/ { print $3 }' >"$work/symbols"
+    "$SIZE" -A "$elf" >"$work/sections"
+    bytes_of() {
+        awk -v want="$1" 'index(" " want " ", " " $1 " ") { sum += $2 } END { print sum + 0 }' \
+            "$work/sections"
+    }
+    flash=$(bytes_of ".text .ARM.exidx .data")
+    ram=$(bytes_of ".data .bss")
+    room=$("$NM" -t d "$elf" | awk '
+        $3 == "board_stack_limit" { low = $1 } $3 == "board_stack_top" { top = $1 }
+        END { print top - low }')
+    graphs >"$work/graphs"
+    if ! [ -s "$work/graphs" ]; then
+        echo "size.sh: no call graphs of $elf in $OBJECTS" >&2
+        exit 1
+    fi
+    computed=$(worst_stack board_reset)
+    path=$(sed -n 's/^path //p' "$work/stack")
+    unknown=$(sed -n 's/^unknown //p' "$work/stack" | tr '\n' ' ')
+    fault=$(worst_stack board_fault_report)
+    measured=-
+    if [ -n "${EMULATE:-}" ]; then
+        measured=$(sh -c "$(echo "$EMULATE" | sed "s|@|$elf|")" 2>/dev/null | tr -d '\r' |
+            awk '$1 == "stack" && $NF + 0 > worst { worst = $NF } END { print worst ? worst : "-" }')
+    fi
+    printf '%-12s %-12s %8d %8d %9d %9d %9s %11d\n' "$BOARD" "$name" "$flash" "$ram" "$room" \
+        "$computed" "$measured" "$fault"
+    echo "             deepest: $path"
+    [ -z "$unknown" ] || echo "             without a figure: $unknown"
+    row "flash bytes" "$flash"
+    row "ram bytes (without stack)" "$ram"
+    row "stack bytes (computed)" "$computed"
+    [ "$measured" = - ] || row "stack bytes (measured)" "$measured"
+    if [ "$computed" -gt "$room" ]; then
+        echo "size.sh: $elf: the stack needs $computed bytes and has $room" >&2
+        touch "$work/failed"
+    fi
+done
+[ ! -e "$work/failed" ]

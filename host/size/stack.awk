@@ -1,0 +1,92 @@
+# stack.awk: the worst stack of a program by its call graph, from gcc's -fcallgraph-info=su files.
+#
+# Input: lines "symbol NAME" for what the linker kept, then the .ci files. Variable root: where to
+# begin. Prints "stack BYTES" and "path A > B > C"; "unknown NAME" for each function called on the
+# way without a figure (assembly of libgcc); "unbounded NAME" for a dynamic frame; on recursion
+# "recursion NAME" and fails.
+#
+# A call through a pointer may reach any kept function that nobody calls by name: that is never too
+# little as long as functions whose address is taken are not also called directly.
+
+function plain(title) {
+    sub(/^.*:/, "", title) # file-local functions are titled file:name
+    return title
+}
+
+function text(key,    part) {
+    if (!match($0, key ": \"[^\"]*\"")) {
+        return ""
+    }
+    part = substr($0, RSTART + length(key) + 3, RLENGTH - length(key) - 4)
+    return part
+}
+
+# Bytes from `at` downwards; fills next_of[] with the deepest way on.
+function depth(at,    i, n, callee, deep, best) {
+    if (at in known) {
+        return known[at]
+    }
+    if (at in busy) {
+        print "recursion " plain(at)
+        failed = 1
+        return 0
+    }
+    busy[at] = 1
+    best = 0
+    if (at == "__indirect_call") {
+        for (i = 1; i <= nodes; i++) {
+            callee = node[i]
+            if (!(callee in called) && plain(callee) in kept && callee != root &&
+                plain(callee) !~ /^board_(reset|fault)/) {
+                deep = depth(callee)
+                if (deep >= best) { best = deep; next_of[at] = callee }
+            }
+        }
+    } else {
+        n = edges[at]
+        for (i = 1; i <= n; i++) {
+            deep = depth(edge[at, i])
+            if (deep >= best) { best = deep; next_of[at] = edge[at, i] }
+        }
+        if (!(at in frame)) {
+            print "unknown " plain(at)
+        } else if (at in dynamic) {
+            print "unbounded " plain(at)
+        }
+    }
+    delete busy[at]
+    known[at] = best + frame[at]
+    return known[at]
+}
+
+$1 == "symbol" { kept[$2] = 1 }
+
+$1 == "node:" {
+    title = text("title")
+    label = text("label")
+    if (match(label, /[0-9]+ bytes \([a-z,]+\)/)) {
+        if (!(title in frame)) { node[++nodes] = title }
+        frame[title] = substr(label, RSTART, RLENGTH) + 0
+        if (substr(label, RSTART, RLENGTH) ~ /dynamic\)/) { dynamic[title] = 1 }
+    }
+}
+
+$1 == "edge:" {
+    from = text("sourcename")
+    to = text("targetname")
+    edge[from, ++edges[from]] = to
+    # Only callers that are themselves in the program count as direct callers.
+    if (plain(from) in kept) { called[to] = 1 }
+}
+
+END {
+    bytes = depth(root)
+    path = plain(root)
+    for (at = root; at in next_of && !(at in shown); at = next_of[at]) {
+        shown[at] = 1
+        path = path " > " (next_of[at] == "__indirect_call" ? "(pointer)" : plain(next_of[at]))
+    }
+    print "path " path
+    print "stack " bytes
+    exit failed
+}

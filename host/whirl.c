@@ -1,0 +1,75 @@
+/* whirl.c: the command line. */
+#include <locale.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "commands/commands.h"
+#include "commands/load.h"
+#include "host/lang/nearest.h"
+
+#define VERSION "0.1.0"
+
+static const char usage[] =
+    "usage: whirl COMMAND ...\n"
+    "\n"
+    "From a mechanism's energies to its equations of motion, its motion and its firmware.\n"
+    "\n"
+    "  whirl list                         the built-in mechanisms and scenes\n"
+    "  whirl derive FILE [--as FORM]      equations of motion: text, latex, octave or c\n"
+    "  whirl accel FILE NAME=VALUE ...    accelerations at one state\n"
+    "  whirl run SCENE|FILE[:SCENE] ...   simulate\n"
+    "\n"
+    "`whirl COMMAND --help` says more; --version prints the version.\n"
+    "Exit status: 0 done, 1 the run failed, 2 bad input.\n";
+
+typedef struct command {
+    const char *name;
+    int (*run)(int count, char **words);
+    int hidden; /* for the project's own build */
+} command;
+
+static const command commands[] = {
+    {"list", command_list, 0},
+    {"derive", command_derive, 0},
+    {"accel", command_accel, 0},
+    {"run", command_run, 0},
+    {"emit-scenes", command_emit_scenes, 1},
+    {"hashes", command_hashes, 1},
+};
+
+int main(int count, char **words) {
+    setlocale(LC_ALL, "C");
+    if (count < 2) {
+        fputs(usage, stderr);
+        return EXIT_BAD_INPUT;
+    }
+    if (strcmp(words[1], "--help") == 0 || strcmp(words[1], "-h") == 0 ||
+        strcmp(words[1], "help") == 0) {
+        fputs(usage, stdout);
+        return EXIT_DONE;
+    }
+    if (strcmp(words[1], "--version") == 0) {
+        puts("whirl " VERSION);
+        return EXIT_DONE;
+    }
+    nearest search = nearest_start(words[1], strlen(words[1]));
+    for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++) {
+        if (strcmp(words[1], commands[i].name) == 0) {
+            const int code = commands[i].run(count - 2, words + 2);
+            if (fflush(stdout) != 0) {
+                perror("whirl: error: standard output");
+                return EXIT_RUN_FAILED;
+            }
+            return code;
+        }
+        if (!commands[i].hidden) {
+            nearest_offer(&search, commands[i].name);
+        }
+    }
+    fprintf(stderr, "whirl: error: unknown command '%s'\n", words[1]);
+    if (search.best != NULL) {
+        fprintf(stderr, "hint: did you mean '%s'?\n", search.best);
+    }
+    fputs(usage, stderr);
+    return EXIT_BAD_INPUT;
+}

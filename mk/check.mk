@@ -1,0 +1,98 @@
+# check.mk: the quality gates of `make check`. Each is a target of its own, gate-NAME; tests/gates.sh
+# runs them, keeps what they say in build/check/NAME.log and prints a line for each.
+
+GATES := house gcc clang format cppcheck tidy sanitizers bad-input firmware size hashes
+LINT_FLAGS := -std=c11 $(WARN) -I. $(UNITY_FLAGS) -D_POSIX_C_SOURCE=200809L
+JOBS := 2
+
+.PHONY: check-now
+check-now: build/whirl
+	@$(MAKE) $(GEN)/.stamp
+	@sh tests/gates.sh build/check "$(MAKE)" $(GATES)
+
+.PHONY: $(addprefix gate-,$(GATES))
+
+gate-house:
+	@sh tests/house.sh
+
+# --- warnings are errors, with both compilers, in every build -------------------------------------
+TARGET_C := $(filter boards/cortexm/% boards/$(BOARD)/%,$(BOARD_C))
+PC_BOARD_C := $(wildcard boards/*.c boards/host/*.c)
+
+.PHONY: objects board-objects
+objects: $(call objects,host,$(WHIRL_MAIN_C) $(WHIRL_C) $(GEN)/builtin_models.c $(HOST_TEST_C) \
+        $(wildcard tests/tools/*.c tests/fuzz/*.c) $(HOST_TOOL_C)) \
+    $(call objects,float,$(CORE_C) $(HAL_C) $(PC_BOARD_C) $(CORE_TEST_C) $(SCENE_C)) \
+    $(call objects,double,$(CORE_C) $(CORE_TEST_C))
+board-objects: $(call objects,$(BOARD),$(CORE_C) $(HAL_C) $(wildcard boards/*.c) $(TARGET_C) \
+    $(BOARD_SOURCES) $(CORE_TEST_C) $(SCENE_C))
+
+gate-gcc:
+	@$(MAKE) B=build/check/gcc CC=gcc EXTRA=-Werror BOARD_EXTRA=-Werror objects board-objects
+
+gate-clang:
+	@$(MAKE) B=build/check/clang CC=clang EXTRA=-Werror objects
+
+# --- layout and lint ------------------------------------------------------------------------------
+gate-format:
+	@$(call need,clang-format)
+	@clang-format --dry-run -Werror $(C_FILES)
+
+# One process a file, so that two cores have work to the end. The core is linted as double, too.
+tidy = printf '%s\n' $(1) | xargs -n 1 -P $(JOBS) sh -c 'clang-tidy --quiet "$$1" -- $(2)' _
+TIDY_C := $(filter-out $(TARGET_C),$(filter %.c,$(C_FILES)))
+gate-tidy:
+	@$(call need,clang-tidy)
+	@$(call tidy,$(TIDY_C),$(LINT_FLAGS))
+	@$(call tidy,$(CORE_C),$(LINT_FLAGS) -DWH_DOUBLE=1)
+	@$(call tidy,$(TARGET_C),--target=arm-none-eabi -mcpu=cortex-m4 -ffreestanding \
+	    -Iboards/$(BOARD) $(LINT_FLAGS))
+
+gate-cppcheck:
+	@$(call need,cppcheck)
+	@mkdir -p build/check/cppcheck
+	@cppcheck --quiet --std=c11 --language=c -j $(JOBS) --error-exitcode=1 --inline-suppr \
+	    --cppcheck-build-dir=build/check/cppcheck \
+	    --enable=warning,performance,portability --library=posix \
+	    --suppressions-list=host/setup/cppcheck.txt -I. -Itests -I$(UNITY_DIR) \
+	    $(filter %.c,$(C_FILES))
+
+# --- sanitizers -----------------------------------------------------------------------------------
+ASAN_BUILD = $(MAKE) B=build/asan CC=gcc OPT="-O1 -fno-omit-frame-pointer" \
+    EXTRA="-fsanitize=$(SANITIZE) -fno-sanitize-recover=all"
+
+.PHONY: asan-run
+asan-run: test-programs $(B)/whirl
+	@WHIRL=$(B)/whirl TEST_SECONDS=600 sh tests/run.sh $(B)/tests/log $(RUN_CORE) $(RUN_HOST) $(RUN_CLI)
+
+gate-sanitizers:
+	@$(ASAN_BUILD) asan-run
+
+# Files that are broken in every way: each must be refused with a message, and nothing else.
+gate-bad-input:
+	@$(ASAN_BUILD) build/asan/whirl
+	@sh tests/bad_input.sh build/asan/whirl
+
+# --- firmware -------------------------------------------------------------------------------------
+# No heap, no libm, no double arithmetic and no recursion in any image's symbols.
+gate-firmware:
+	@$(MAKE) B=build board-images
+	@NM=$(BOARD_NM) sh boards/check_image.sh $(IMAGES)
+
+gate-size:
+	@$(MAKE) size-now
+
+# --- one arithmetic everywhere ----------------------------------------------------------------------
+HASH_BUILDS := gcc-O0 gcc-O2 gcc-O3 clang-O0 clang-O2 clang-O3
+
+.PHONY: hashes-now gate-hashes $(addprefix hash-,$(HASH_BUILDS))
+hashes-now gate-hashes: build/whirl
+	@$(MAKE) $(GEN)/.stamp
+	@$(MAKE) $(addprefix hash-,$(HASH_BUILDS)) $(ELF)/scenes.elf
+	@sh tests/hashes.sh build/hash "the interpreter" "build/whirl hashes" \
+	    $(foreach h,$(HASH_BUILDS),$(h) build/hash/$(h)/scenes) \
+	    "$(BOARD)" "$(call emulate,$(ELF)/scenes.elf)"
+
+$(addprefix hash-,$(HASH_BUILDS)): hash-%:
+	@$(MAKE) B=build/hash/$* CC=$(firstword $(subst -, ,$*)) OPT=-$(lastword $(subst -, ,$*)) \
+	    build/hash/$*/scenes

@@ -1,0 +1,81 @@
+# rules.mk: how a C file becomes an object, in each of the builds.
+#
+# $(B)/<build>/<path>.o comes from <path>.c. Builds of one configuration:
+#   host    the programs of this machine, with libc
+#   float   the portable code as boards compute, in single precision
+#   double  the portable code as reference, in double precision
+# mk/board.mk adds one for the chosen board.
+
+ifeq ($(V),1)
+Q :=
+say = @:
+else
+Q := @
+say = @printf '  %-5s %s\n'
+endif
+
+WARN := -Wall -Wextra -Wconversion -Wshadow -Wdouble-promotion
+# One arithmetic everywhere: no contraction to fused multiply-adds, no -ffast-math.
+BASE := -std=c11 -ffp-contract=off -I. $(WARN)
+NATIVE := $(OPT) -g $(EXTRA)
+
+FLAGS_host := $(BASE) $(NATIVE) -D_POSIX_C_SOURCE=200809L
+FLAGS_float := $(BASE) $(NATIVE) -D_POSIX_C_SOURCE=200809L
+FLAGS_double := $(FLAGS_float) -DWH_DOUBLE=1
+
+.PHONY: FORCE
+FORCE:
+
+# need COMMAND: stop with advice, not with a shell error, when a tool is missing.
+need = command -v $(firstword $(1)) >/dev/null 2>&1 || \
+    { echo "make: '$(firstword $(1))' is missing; 'make deps' installs what Whirl needs." >&2; exit 1; }
+
+# build NAME COMPILER FLAGS: the rules of one build. Its .flags file changes when the flags do.
+define build
+$(B)/$(1)/.flags: FORCE
+	@mkdir -p $$(@D)
+	@$$(call need,$(2))
+	@echo '$(2) $(3)' | cmp -s - $$@ || echo '$(2) $(3)' >$$@
+
+$(B)/$(1)/%.o: %.c $(B)/$(1)/.flags
+	@mkdir -p $$(@D)
+	$$(say) CC $$@
+	$$(Q)$(2) $(3) $$(FILE_FLAGS) -MMD -MP -c $$< -o $$@
+endef
+
+$(eval $(call build,host,$(CC),$(FLAGS_host)))
+$(eval $(call build,float,$(CC),$(FLAGS_float)))
+$(eval $(call build,double,$(CC),$(FLAGS_double)))
+
+# objects BUILD FILES: where the objects of these files are.
+objects = $(patsubst %.c,$(B)/$(1)/%.o,$(2))
+
+# archive: replaces the whole archive, so that nothing of a deleted file stays in it.
+define archive
+	$(say) AR $@
+	$(Q)rm -f $@ && ar rcs $@ $^
+endef
+
+define link
+	$(say) LINK $@
+	@mkdir -p $(@D)
+	$(Q)$(CC) $(NATIVE) -o $@ $(filter %.o,$^) -Wl,--start-group $(filter %.a,$^) -Wl,--end-group -lm
+endef
+
+# Generated C: the built-in models and scenes.
+GEN := build/gen
+
+# C files that belong to Whirl, for the gates. The lists follow the folders by themselves.
+CORE_C := $(wildcard core/*.c core/rig/*.c)
+HAL_C := $(wildcard hal/*.c hal/virtual/*.c)
+BOARD_C := $(wildcard boards/*.c boards/*/*.c)
+HOST_TOOL_C := $(wildcard host/count/*.c host/size/*.c host/setup/*.c)
+WHIRL_MAIN_C := $(wildcard host/*.c)
+WHIRL_C := $(filter-out $(HOST_TOOL_C),$(wildcard host/*/*.c))
+TEST_C := $(wildcard tests/*.c tests/*/*.c)
+C_FILES := $(sort $(CORE_C) $(HAL_C) $(BOARD_C) $(HOST_TOOL_C) $(WHIRL_MAIN_C) $(WHIRL_C) $(TEST_C) \
+    $(wildcard core/*.h core/*/*.h hal/*.h hal/*/*.h boards/*.h boards/*/*.h host/*.h host/*/*.h \
+    tests/*.h tests/*/*.h))
+
+-include $(wildcard $(foreach b,host float double, \
+    $(patsubst %.c,$(B)/$(b)/%.d,$(filter %.c,$(C_FILES)) $(wildcard $(GEN)/*.c $(B)/tests/*.c))))

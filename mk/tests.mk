@@ -1,0 +1,103 @@
+# tests.mk: the test programs and running them.
+#
+# tests/core   portable suites: run here in double and in float, and on the emulated board
+# tests/host   suites of the program's own parts, on this machine
+# tests/cli    scripts that drive build/whirl; each prints "ok - ..." or "not ok - ..." lines
+# Suites join by themselves: a file tests/*/test_x.c that defines `void suite_x(void)`.
+
+CORE_TEST_C := $(sort $(wildcard tests/core/*.c))
+HOST_TEST_C := $(sort $(wildcard tests/host/*.c))
+CLI_TESTS := $(sort $(wildcard tests/cli/*.sh))
+
+UNITY_DIR := build/unity
+UNITY_FLAGS := -DUNITY_INCLUDE_CONFIG_H -Itests -isystem $(UNITY_DIR)
+$(B)/%/unity.o: FILE_FLAGS = $(UNITY_FLAGS) -w
+$(foreach b,host float double $(BOARD),$(eval $(B)/$(b)/tests/%.o: FILE_FLAGS = $(UNITY_FLAGS)) \
+    $(eval $(B)/$(b)/$(B)/tests/%.o: FILE_FLAGS = $(UNITY_FLAGS)))
+
+$(UNITY_DIR)/unity.c:
+	@UNITY="$(UNITY)" host/setup/unity.sh $(UNITY_DIR)
+
+# --- programs -----------------------------------------------------------------------------------
+$(B)/tests/core_suites.list $(B)/tests/host_suites.list: $(B)/tests/%_suites.list: FORCE
+	@mkdir -p $(@D)
+	@ls tests/$*/ | cmp -s - $@ || ls tests/$*/ >$@
+
+$(B)/tests/core_suites.c: $(CORE_TEST_C)
+$(B)/tests/host_suites.c: $(HOST_TEST_C)
+$(B)/tests/core_suites.c $(B)/tests/host_suites.c: $(B)/tests/%_suites.c: tests/suites.sh $(B)/tests/%_suites.list
+	$(say) GEN $@
+	$(Q)sh $< tests/$*/test_*.c >$@
+
+CORE_TEST_PARTS := $(CORE_TEST_C) $(B)/tests/core_suites.c $(UNITY_DIR)/unity.c
+HOST_TEST_PARTS := $(HOST_TEST_C) $(B)/tests/host_suites.c $(UNITY_DIR)/unity.c
+$(foreach b,host float double $(BOARD),$(call objects,$(b),$(CORE_TEST_PARTS) $(HOST_TEST_PARTS))): \
+    | $(UNITY_DIR)/unity.c
+
+$(B)/tests/core_float: $(call objects,float,$(CORE_TEST_PARTS)) $(LIB_SCENES) $(LIB_FLOAT)
+	$(link)
+
+$(B)/tests/core_double: $(call objects,double,$(CORE_TEST_PARTS)) $(LIB_DOUBLE)
+	$(link)
+
+$(B)/tests/host: $(call objects,host,$(HOST_TEST_PARTS)) $(LIB_HOST) $(LIB_SCENES) $(LIB_FLOAT) \
+    $(LIB_DOUBLE)
+	$(link)
+
+TEST_PROGRAMS := $(B)/tests/core_double $(B)/tests/core_float $(if $(HOST_TEST_C),$(B)/tests/host)
+
+.PHONY: test-programs
+test-programs: $(TEST_PROGRAMS)
+
+# --- running ------------------------------------------------------------------------------------
+# tests/run.sh takes pairs: what it is, and the command.
+RUN_CORE = "portable suites, double" $(B)/tests/core_double "portable suites, float" $(B)/tests/core_float
+RUN_HOST = $(if $(HOST_TEST_C),"host suites" $(B)/tests/host)
+RUN_CLI = $(foreach t,$(CLI_TESTS),"$(t)" "sh $(t)")
+RUN_BOARD = "portable suites, $(BOARD)" "$(call emulate,$(B)/$(BOARD)/tests.elf)"
+
+.PHONY: test-now test-core test-host test-cli test-board
+test-now: build/whirl
+	@$(MAKE) $(GEN)/.stamp
+	@$(MAKE) test-programs $(B)/$(BOARD)/tests.elf
+	@WHIRL=build/whirl sh tests/run.sh build/tests/log $(RUN_CORE) $(RUN_BOARD) $(RUN_HOST) $(RUN_CLI)
+
+# Parts of it, for while one works on something.
+test-core: build/whirl
+	@$(MAKE) $(GEN)/.stamp
+	@$(MAKE) build/tests/core_double build/tests/core_float
+	@sh tests/run.sh build/tests/log $(RUN_CORE)
+
+test-host: build/whirl
+	@$(MAKE) $(GEN)/.stamp
+	@$(MAKE) build/tests/host
+	@sh tests/run.sh build/tests/log $(RUN_HOST)
+
+test-cli: build/whirl
+	@WHIRL=build/whirl sh tests/run.sh build/tests/log $(RUN_CLI)
+
+test-board: build/whirl
+	@$(MAKE) $(GEN)/.stamp
+	@$(MAKE) $(ELF)/tests.elf
+	@sh tests/run.sh build/tests/log $(RUN_BOARD)
+
+# --- tools --------------------------------------------------------------------------------------
+$(B)/tools/sine_exhaustive: $(call objects,host,tests/tools/sine_exhaustive.c) $(LIB_FLOAT)
+	$(link)
+
+# --- fuzzing ------------------------------------------------------------------------------------
+# Each tests/fuzz/x.c defines LLVMFuzzerTestOneInput(). Findings stay in build/fuzz/x.found.
+FUZZERS := $(patsubst tests/fuzz/%.c,build/fuzz/%.fuzzer,$(wildcard tests/fuzz/*.c))
+SANITIZE := address,undefined,float-cast-overflow
+
+build/fuzz/%.fuzzer: build/fuzz/host/tests/fuzz/%.o $(LIB_HOST) $(LIB_FLOAT) $(LIB_DOUBLE)
+	$(say) LINK $@
+	$(Q)$(CC) $(NATIVE) -fsanitize=fuzzer -o $@ $(filter %.o,$^) \
+	    -Wl,--start-group $(filter %.a,$^) -Wl,--end-group -lm
+
+.PHONY: fuzz-now fuzz-programs
+fuzz-programs: $(FUZZERS)
+fuzz-now:
+	@$(MAKE) B=build/fuzz CC=clang OPT=-O1 \
+	    EXTRA="-fsanitize=fuzzer-no-link,$(SANITIZE) -fno-sanitize-recover=all" fuzz-programs
+	@sh tests/fuzz.sh $(FUZZ_SECONDS) $(FUZZERS)

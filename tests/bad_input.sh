@@ -1,0 +1,26 @@
+#!/bin/sh
+# bad_input.sh WHIRL: every file of tests/bad must be refused by WHIRL with exit status 2 and a message.
+#
+# With the sanitizers' build of whirl any slip in memory or arithmetic shows as another exit status.
+set -u
+
+whirl=${1:?usage: bad_input.sh WHIRL}
+export ASAN_OPTIONS=exitcode=99 UBSAN_OPTIONS=print_stacktrace=1
+count=0
+bad=0
+out=$(mktemp)
+trap 'rm -f "$out"' EXIT
+
+for file in tests/bad/*; do
+    [ -f "$file" ] || continue
+    count=$((count + 1))
+    timeout --kill-after=5 20 "$whirl" derive "$file" >"$out" 2>&1 </dev/null
+    status=$?
+    if [ "$status" -ne 2 ] || ! grep -q 'error:' "$out"; then
+        echo "FAIL $file: exit status $status, wanted 2 and a message; it said:"
+        head -n 5 "$out" | cut -c 1-200 | sed 's/^/    /'
+        bad=$((bad + 1))
+    fi
+done
+echo "$count files, $bad not refused as they should"
+[ "$count" -gt 0 ] && [ "$bad" -eq 0 ]

@@ -1,0 +1,188 @@
+/* test_angle.c: angles moved on, and radians to and fro. WH_TEST_SMALL takes fewer angles. */
+#include "core/angle.h"
+
+#include "unity.h"
+
+#if __STDC_HOSTED__
+#include <math.h>
+#endif
+
+#ifndef WH_TEST_SMALL
+#define WH_TEST_SMALL (!__STDC_HOSTED__)
+#endif
+
+void suite_angle(void);
+
+#if WH_DOUBLE
+
+static void test_radians_are_kept(void) {
+    TEST_ASSERT_TRUE(wh_angle_from_rad(123.456) == 123.456);
+    TEST_ASSERT_TRUE(wh_angle_to_rad(-123.456) == -123.456);
+    TEST_ASSERT_TRUE(wh_phase_from_rad(7.0) == 7.0);
+    TEST_ASSERT_TRUE(wh_phase_of(7.0) == 7.0);
+}
+
+static void test_phase_moves(void) {
+    bool sound = true;
+    TEST_ASSERT_TRUE(wh_phase_move(1.0, -2.5, &sound) == -1.5);
+    TEST_ASSERT_TRUE(wh_phase_move(1e6, 3.0, &sound) == 1000003.0);
+    TEST_ASSERT_TRUE(sound);
+    const double bad[] = {WH_PHASE_STEP_MAX, -4.0, 1e300, __builtin_nan("")};
+    for (unsigned i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        sound = true;
+        (void)wh_phase_move(1.0, bad[i], &sound);
+        TEST_ASSERT_FALSE(sound);
+    }
+}
+
+void suite_angle(void) {
+    UnitySetTestFile(__FILE__);
+    RUN_TEST(test_phase_moves);
+    RUN_TEST(test_radians_are_kept);
+}
+
+#else
+
+#define QUARTER (UINT32_C(1) << 30)
+
+/* A scattered 64-bit number (xorshift; Marsaglia, Journal of Statistical Software 8 (2003) 14). */
+static uint64_t scattered_state;
+static uint64_t scattered(void) {
+    scattered_state ^= scattered_state << 13;
+    scattered_state ^= scattered_state >> 7;
+    scattered_state ^= scattered_state << 17;
+    return scattered_state;
+}
+
+/* --- moving ----------------------------------------------------------------------------------- */
+static void test_phase_moves(void) {
+    bool sound = true;
+    TEST_ASSERT_EQUAL_UINT32(QUARTER + 1000, wh_phase_move(QUARTER, 1000.9f, &sound));
+    TEST_ASSERT_EQUAL_UINT32(QUARTER - 1000, wh_phase_move(QUARTER, -1000.9f, &sound));
+    TEST_ASSERT_EQUAL_UINT32(UINT32_MAX, wh_phase_move(0, -1.0f, &sound));
+    TEST_ASSERT_EQUAL_UINT32(2147483392, wh_phase_move(0, 2147483392.0f, &sound));
+    TEST_ASSERT_TRUE(sound);
+    const float bad[] = {WH_PHASE_STEP_MAX, -2147483648.0f, 1e30f, __builtin_nanf("")};
+    for (unsigned i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        sound = true;
+        (void)wh_phase_move(QUARTER, bad[i], &sound);
+        TEST_ASSERT_FALSE(sound);
+    }
+}
+
+static void test_phase_of_angle(void) {
+    TEST_ASSERT_EQUAL_UINT32(QUARTER, wh_phase_of((INT64_C(1000) << 32) + QUARTER));
+    TEST_ASSERT_EQUAL_UINT32(3 * QUARTER, wh_phase_of(-(int64_t)QUARTER));
+}
+
+/* --- radians ---------------------------------------------------------------------------------- */
+
+/* rad * 2^32/(2 pi), rounded, from the float's own bits: an 86-bit product. */
+static int64_t angle_reference(float rad) {
+    const union {
+        float value;
+        uint32_t bits;
+    } word = {.value = rad};
+    const uint64_t digits = (word.bits & 0x7fffffU) | 0x800000U;
+    const int exponent = (int)((word.bits >> 23) & 0xffU) - 150; /* |rad| = digits 2^exponent */
+    const uint64_t high = digits * UINT64_C(683565275);
+    const uint64_t low = digits * UINT64_C(2475754827); /* 0.576431589782 * 2^32 */
+    uint64_t size = 0;
+    if (exponent > 0) {
+        size = (high << exponent) + (low >> (32 - exponent));
+    } else if (exponent > -60) {
+        const uint64_t all = high + (low >> 32);
+        size = exponent == 0 ? all : (all + (UINT64_C(1) << (-exponent - 1))) >> -exponent;
+    }
+    return rad < 0.0f ? -(int64_t)size : (int64_t)size;
+}
+
+static void expect_from_rad(float rad) {
+    const int64_t wanted = angle_reference(rad);
+    const int64_t angle = wh_angle_from_rad(rad);
+    TEST_ASSERT_INT64_WITHIN(1, wanted, angle);
+    TEST_ASSERT_EQUAL_UINT32(wh_phase_of(angle), wh_phase_from_rad(rad));
+}
+
+static void test_angle_from_rad(void) {
+    TEST_ASSERT_EQUAL_INT64(0, wh_angle_from_rad(0.0f));
+    TEST_ASSERT_EQUAL_INT64(683565276, wh_angle_from_rad(1.0f));
+    TEST_ASSERT_EQUAL_INT64(-683565276, wh_angle_from_rad(-1.0f));
+    /* The float nearest to a turn is 1.7484555e-7 rad more than one. */
+    TEST_ASSERT_INT64_WITHIN(1, INT64_C(4294967296) + 120, wh_angle_from_rad(6.28318531f));
+    const uint32_t many = WH_TEST_SMALL ? 2000 : 200000;
+    const float reach[] = {1e-6f, 1e-2f, 1.0f, 6.3f, 100.0f, 1e4f, 1e6f, 9.9e8f};
+    scattered_state = 4;
+    for (uint32_t i = 0; i < many; i++) {
+        const float fraction = (float)(int32_t)(uint32_t)(scattered() >> 20) * 0x1p-31f;
+        expect_from_rad(fraction * reach[i % 8]);
+    }
+}
+
+static void test_angle_from_rad_out_of_range(void) {
+    const float bad[] = {
+        1e9f, -1e9f, 1e30f, __builtin_inff(), -__builtin_inff(), __builtin_nanf("")};
+    for (unsigned i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        TEST_ASSERT_EQUAL_INT64(0, wh_angle_from_rad(bad[i]));
+        TEST_ASSERT_EQUAL_UINT32(0, wh_phase_from_rad(bad[i]));
+    }
+    expect_from_rad(999999936.0f); /* the last float below */
+    expect_from_rad(-999999936.0f);
+}
+
+static void test_angle_to_rad(void) {
+    const int64_t turn = INT64_C(1) << 32;
+    TEST_ASSERT_TRUE(wh_angle_to_rad(0) == 0.0f);
+    TEST_ASSERT_TRUE(wh_angle_to_rad(1) == 1.46291808e-9f);
+    TEST_ASSERT_TRUE(wh_angle_to_rad(-1) == -1.46291808e-9f);
+    TEST_ASSERT_TRUE(wh_angle_to_rad(turn) == 6.28318531f);
+    TEST_ASSERT_TRUE(wh_angle_to_rad(-turn / 4) == -1.57079633f);
+    TEST_ASSERT_TRUE(wh_angle_to_rad(1000 * turn + turn / 4) == 6284.75610f);
+    TEST_ASSERT_TRUE(wh_angle_to_rad(1000000 * turn + turn / 2) == 6283188.45f);
+    TEST_ASSERT_TRUE(wh_angle_to_rad(INT64_MAX) == 13493037705.0f);
+    TEST_ASSERT_TRUE(wh_angle_to_rad(INT64_MIN) == -13493037705.0f);
+}
+
+static void test_there_and_back(void) {
+    /* The float of an angle, turned back, is within half a unit of the float's last place. */
+    const uint32_t many = WH_TEST_SMALL ? 2000 : 200000;
+    scattered_state = 5;
+    for (uint32_t i = 0; i < many; i++) {
+        const int64_t angle = (int64_t)scattered() >> (7U + i % 50U); /* up to 9e8 rad */
+        const float rad = wh_angle_to_rad(angle);
+        const int64_t back = wh_angle_from_rad(rad);
+        const uint64_t size = (uint64_t)(angle < 0 ? -angle : angle);
+        /* Half a unit is at most 2^-24 of the number. */
+        TEST_ASSERT_INT64_WITHIN(1 + (size >> 24), angle, back);
+    }
+}
+
+#if __STDC_HOSTED__
+static void test_to_rad_is_nearest(void) {
+    scattered_state = 7;
+    for (unsigned i = 0; i < 200000; i++) {
+        const int64_t angle = (int64_t)scattered() >> (i % 63U);
+        const long double exact =
+            (long double)angle * (6.283185307179586476925286766559L / 4294967296.0L);
+        const float rad = wh_angle_to_rad(angle);
+        const long double unit =
+            (long double)nextafterf(fabsf(rad), INFINITY) - (long double)fabsf(rad);
+        TEST_ASSERT_TRUE(fabsl((long double)rad - exact) <= 0.504L * unit);
+    }
+}
+#endif
+
+void suite_angle(void) {
+    UnitySetTestFile(__FILE__);
+    RUN_TEST(test_phase_moves);
+    RUN_TEST(test_phase_of_angle);
+    RUN_TEST(test_angle_from_rad);
+    RUN_TEST(test_angle_from_rad_out_of_range);
+    RUN_TEST(test_angle_to_rad);
+    RUN_TEST(test_there_and_back);
+#if __STDC_HOSTED__
+    RUN_TEST(test_to_rad_is_nearest);
+#endif
+}
+
+#endif

@@ -1,0 +1,314 @@
+/* test_scene.c: starting and stepping scenes, on hand-written ones: a harmonic oscillator, a shaft. */
+#include "core/scene.h"
+#define WH_COORDS 2
+#include "core/step.h"
+
+#include "unity.h"
+
+void suite_scene(void);
+
+/* --- the scenes --------------------------------------------------------------------------------- */
+
+/* x'' = -x + u: from x = 1 at rest and u = 0, x = cos t. */
+static void oscillator_accel(const void *model, const wh_phase *phase, const wh_real *linear,
+                             const wh_real *rate, const wh_real *input, wh_real *accel) {
+    (void)model;
+    (void)phase;
+    (void)rate;
+    accel[0] = input[0] - linear[0];
+}
+
+static wh_status oscillator_advance(const wh_scene *scene, wh_state *state) {
+    return wh_step_second(NULL, oscillator_accel, scene->method, scene->compensated, 0, 1,
+                          scene->step_s, state);
+}
+
+/* A free shaft (angle) beside a carriage whose acceleration is the input. */
+static void shaft_accel(const void *model, const wh_phase *phase, const wh_real *linear,
+                        const wh_real *rate, const wh_real *input, wh_real *accel) {
+    (void)model;
+    (void)phase;
+    (void)linear;
+    (void)rate;
+    accel[0] = WH_R(0.0);
+    accel[1] = input[0];
+}
+
+static wh_status shaft_advance(const wh_scene *scene, wh_state *state) {
+    return wh_step_second(NULL, shaft_accel, scene->method, scene->compensated, 1, 2,
+                          scene->step_s, state);
+}
+
+static const wh_angle shaft_angle[1] = {0};
+static const wh_real shaft_real[3] = {WH_R(0.25), WH_R(100.0), WH_R(0.5)}; /* x; shaft, carriage */
+static const wh_real oscillator_real[2] = {WH_R(1.0), WH_R(0.0)};
+static const wh_real no_input[1] = {WH_R(0.0)};
+
+static wh_scene oscillator(wh_method method, bool compensated, wh_real step_s) {
+    const wh_scene scene = {.name = "oscillator",
+                            .form = WH_SECOND_ORDER,
+                            .method = method,
+                            .reals = 2,
+                            .inputs = 1,
+                            .compensated = compensated,
+                            .step_s = step_s,
+                            .start_real = oscillator_real,
+                            .start_input = no_input,
+                            .advance = oscillator_advance};
+    return scene;
+}
+
+static wh_scene shaft(wh_method method) {
+    const wh_scene scene = {.name = "shaft",
+                            .form = WH_SECOND_ORDER,
+                            .method = method,
+                            .angles = 1,
+                            .reals = 3,
+                            .inputs = 1,
+                            .step_s = WH_R(0.001),
+                            .start_angle = shaft_angle,
+                            .start_real = shaft_real,
+                            .start_input = no_input,
+                            .advance = shaft_advance};
+    return scene;
+}
+
+static uint64_t memory[WH_STATE_WORDS(1, 3, 1)];
+static wh_state state;
+
+static bool start(const wh_scene *scene) {
+    return wh_scene_start(scene, &state, memory, sizeof memory) == WH_OK;
+}
+
+static bool steps(const wh_scene *scene, unsigned count) {
+    for (unsigned i = 0; i < count; i++) {
+        if (wh_scene_step(scene, &state) != WH_OK) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* --- starting ------------------------------------------------------------------------------------- */
+
+static void test_start_refuses_too_little_memory(void) {
+    const wh_scene scene = shaft(WH_RK4);
+    const size_t need = sizeof(wh_angle) + (3 + 1) * sizeof(wh_real);
+    state.steps = 77;
+    state.real = NULL;
+    TEST_ASSERT_TRUE(wh_scene_start(&scene, &state, memory, need - 1) == WH_E_MEMORY);
+    TEST_ASSERT_TRUE(wh_scene_start(&scene, &state, memory, 0) == WH_E_MEMORY);
+    TEST_ASSERT_TRUE(wh_scene_start(&scene, &state, NULL, sizeof memory) == WH_E_MEMORY);
+    TEST_ASSERT_TRUE(state.steps == 77);
+    TEST_ASSERT_TRUE(state.real == NULL);
+    TEST_ASSERT_TRUE(wh_scene_start(&scene, &state, memory, need) == WH_OK);
+    TEST_ASSERT_TRUE(state.steps == 0);
+}
+
+static void test_compensated_scene_needs_more_memory_within_the_macro(void) {
+    wh_scene scene = shaft(WH_RK4);
+    const size_t plain = sizeof(wh_angle) + (3 + 1) * sizeof(wh_real);
+    scene.compensated = true;
+    TEST_ASSERT_TRUE(wh_scene_start(&scene, &state, memory, plain) == WH_E_MEMORY);
+    TEST_ASSERT_TRUE(start(&scene));
+    /* The parts lie one behind the other, and the last ends within the memory. */
+    TEST_ASSERT_TRUE(state.carry == state.real + 3);
+    TEST_ASSERT_TRUE(state.input == state.carry + 4);
+    TEST_ASSERT_TRUE((const char *)(state.input + 1) <= (const char *)memory + sizeof memory);
+}
+
+static void test_start_takes_over_the_start_values_again(void) {
+    const wh_scene scene = shaft(WH_RK4);
+    TEST_ASSERT_TRUE(start(&scene));
+    const uint64_t fresh = wh_scene_hash(&scene, &state);
+    state.input[0] = WH_R(3.0);
+    TEST_ASSERT_TRUE(steps(&scene, 10));
+    TEST_ASSERT_TRUE(wh_scene_hash(&scene, &state) != fresh);
+    TEST_ASSERT_TRUE(start(&scene));
+    TEST_ASSERT_TRUE(wh_scene_hash(&scene, &state) == fresh);
+    TEST_ASSERT_TRUE(state.input[0] == WH_R(0.0));
+    TEST_ASSERT_TRUE(wh_scene_rates(&scene, &state) == state.real + 1);
+}
+
+/* --- stepping ------------------------------------------------------------------------------------- */
+
+static void test_time_is_steps_times_step(void) {
+    const wh_scene scene = oscillator(WH_RK4, false, WH_R(0.001));
+    TEST_ASSERT_TRUE(start(&scene));
+    TEST_ASSERT_TRUE(steps(&scene, 5000));
+    TEST_ASSERT_TRUE(state.steps == 5000);
+    TEST_ASSERT_TRUE(wh_scene_time_s(&scene, &state) == WH_R(5000.0) * WH_R(0.001));
+}
+
+static void test_inputs_act_from_the_next_step_on(void) {
+    const wh_scene scene = shaft(WH_SEMI_IMPLICIT_EULER);
+    TEST_ASSERT_TRUE(start(&scene));
+    TEST_ASSERT_TRUE(steps(&scene, 1));
+    TEST_ASSERT_TRUE(state.real[2] == WH_R(0.5));
+    state.input[0] = WH_R(2.0);
+    TEST_ASSERT_TRUE(steps(&scene, 1));
+    TEST_ASSERT_TRUE(state.real[2] == WH_R(0.5) + WH_R(0.001) * WH_R(2.0));
+}
+
+static void test_angle_keeps_its_precision_over_many_turns(void) {
+    const wh_scene scene = shaft(WH_RK4);
+    TEST_ASSERT_TRUE(start(&scene));
+    TEST_ASSERT_TRUE(steps(&scene, 10000));
+    /* 100 rad/s for 10 s. Each step's 0.1 rad is rounded once to a real: that bounds the sum. */
+#if WH_DOUBLE
+    const double error = state.angle[0] - 1000.0;
+    TEST_ASSERT_TRUE(WH_ABS(error) < 5.7e-10); /* 10000 sums, each off by up to 2^-44 */
+#else
+    const int64_t wanted = INT64_C(683565275576); /* 1000 rad * 2^32 / (2 pi), rounded */
+    const int64_t error = state.angle[0] - wanted;
+    TEST_ASSERT_TRUE(error < 81487 && error > -81487); /* 1000 rad * 2^-23 */
+#endif
+}
+
+/* Distance from (cos t, -sin t) at t = 2 s, squared, with that many steps. */
+static wh_real error_squared_at_2s(wh_method method, unsigned count) {
+    const wh_scene scene = oscillator(method, false, WH_R(2.0) / (wh_real)count);
+    if (!start(&scene) || !steps(&scene, count)) {
+        return WH_R(-1.0);
+    }
+    const wh_real x = state.real[0] - WH_R(-0.41614683654714238700);
+    const wh_real v = state.real[1] - WH_R(-0.90929742682568169540);
+    return x * x + v * v;
+}
+
+/* Half the step divides the error by 2^order. */
+static void expect_order(wh_method method, unsigned order) {
+    /* Float steps stay coarse: the method's error must drown the rounding. */
+    const unsigned count = sizeof(wh_real) == 8 ? 400 : (order < 4 ? 64 : 8);
+    const wh_real ratio =
+        error_squared_at_2s(method, count) / error_squared_at_2s(method, 2 * count);
+    const wh_real wanted = (wh_real)(1U << (2 * order));
+    const wh_real tolerance = sizeof(wh_real) == 8 ? WH_R(0.02) : WH_R(0.15);
+    TEST_ASSERT_TRUE(WH_ABS(ratio - wanted) < tolerance * wanted);
+}
+
+static void test_order_of_euler_is_1(void) { expect_order(WH_EULER, 1); }
+static void test_order_of_semi_implicit_euler_is_1(void) {
+    expect_order(WH_SEMI_IMPLICIT_EULER, 1);
+}
+static void test_order_of_heun_is_2(void) { expect_order(WH_HEUN, 2); }
+static void test_order_of_rk4_is_4(void) { expect_order(WH_RK4, 4); }
+
+#if !WH_DOUBLE
+/* Error after 10 s in steps of 2^-10 s (a step that float holds exactly), where rounding far outweighs
+ * RK4's own error of 1e-13. */
+static wh_real error_at_10s(bool compensated) {
+    const wh_scene scene = oscillator(WH_RK4, compensated, 1.0f / 1024.0f);
+    if (!start(&scene) || !steps(&scene, 10240)) {
+        return 1e9f;
+    }
+    const float x = state.real[0] - -0.83907152907645245f;
+    const float v = state.real[1] - 0.54402111088936981f;
+    return WH_SQRT(x * x + v * v);
+}
+
+static void test_compensated_sums_beat_plain_ones(void) {
+    const float plain = error_at_10s(false);
+    const float compensated = error_at_10s(true);
+    TEST_ASSERT_TRUE(compensated < 2.4e-7f); /* two units in the last place of 1 */
+    TEST_ASSERT_TRUE(20.0f * compensated < plain);
+}
+#endif
+
+/* --- divergence ----------------------------------------------------------------------------------- */
+
+static void expect_refused(const wh_scene *scene, int fault) {
+    const uint64_t before = wh_scene_hash(scene, &state);
+    for (int attempt = 0; attempt < 2; attempt++) { /* a second try does not go on from garbage */
+        TEST_ASSERT_TRUE(wh_scene_step(scene, &state) == WH_E_DIVERGED);
+        TEST_ASSERT_TRUE(state.fault == fault);
+        TEST_ASSERT_TRUE(wh_scene_hash(scene, &state) == before);
+    }
+}
+
+static void test_absurd_rate_keeps_the_last_good_state(void) {
+    const wh_scene scene = shaft(WH_EULER);
+    TEST_ASSERT_TRUE(start(&scene));
+    TEST_ASSERT_TRUE(steps(&scene, 3));
+    state.input[0] = WH_R(1e30);
+    expect_refused(&scene, 3); /* angle, x, shaft's rate, carriage's rate */
+    state.input[0] = WH_R(0.0);
+    TEST_ASSERT_TRUE(steps(&scene, 1)); /* and it goes on once the cause is gone */
+    TEST_ASSERT_TRUE(state.steps == 4);
+    TEST_ASSERT_TRUE(state.fault == -1);
+}
+
+static void test_not_a_number_is_refused(void) {
+    const wh_scene scene = oscillator(WH_RK4, true, WH_R(0.001));
+    TEST_ASSERT_TRUE(start(&scene));
+    TEST_ASSERT_TRUE(steps(&scene, 3));
+    const wh_real zero = WH_R(0.0) * state.input[0];
+    state.input[0] = zero / zero;
+    const uint64_t before = wh_scene_hash(&scene, &state);
+    TEST_ASSERT_TRUE(wh_scene_step(&scene, &state) == WH_E_DIVERGED);
+    TEST_ASSERT_TRUE(state.fault >= 0);
+    TEST_ASSERT_TRUE(wh_scene_hash(&scene, &state) == before);
+}
+
+static void test_half_a_turn_in_a_step_is_refused(void) {
+    static const wh_method methods[] = {WH_EULER, WH_SEMI_IMPLICIT_EULER, WH_HEUN, WH_RK4};
+    for (unsigned i = 0; i < sizeof methods / sizeof methods[0]; i++) {
+        const wh_scene scene = shaft(methods[i]);
+        TEST_ASSERT_TRUE(start(&scene));
+        state.real[1] = WH_R(3100.0); /* 3.1 rad a step */
+        TEST_ASSERT_TRUE(steps(&scene, 1));
+        state.real[1] = WH_R(-3200.0);
+        expect_refused(&scene, 0);
+    }
+}
+
+/* --- comparing ------------------------------------------------------------------------------------ */
+
+static void test_hash_sees_every_part_of_the_state(void) {
+    const wh_scene scene = shaft(WH_RK4);
+    TEST_ASSERT_TRUE(start(&scene));
+    state.real[0] = WH_R(0.0);
+    const uint64_t before = wh_scene_hash(&scene, &state);
+    state.real[0] = -WH_R(0.0);
+    TEST_ASSERT_TRUE(wh_scene_hash(&scene, &state) != before);
+    state.real[0] = WH_R(0.0);
+    state.steps++;
+    TEST_ASSERT_TRUE(wh_scene_hash(&scene, &state) != before);
+    state.steps--;
+    state.angle[0] += 1;
+    TEST_ASSERT_TRUE(wh_scene_hash(&scene, &state) != before);
+    state.angle[0] -= 1;
+    TEST_ASSERT_TRUE(wh_scene_hash(&scene, &state) == before);
+}
+
+static void test_every_status_has_its_own_words(void) {
+    static const wh_status all[] = {WH_OK, WH_E_DIVERGED, WH_E_MEMORY, WH_E_ARGUMENT};
+    for (unsigned i = 0; i < 4; i++) {
+        TEST_ASSERT_TRUE(wh_status_text(all[i])[0] != '\0');
+        for (unsigned j = 0; j < i; j++) {
+            TEST_ASSERT_TRUE(wh_status_text(all[i]) != wh_status_text(all[j]));
+        }
+    }
+}
+
+void suite_scene(void) {
+    UnitySetTestFile(__FILE__);
+    RUN_TEST(test_start_refuses_too_little_memory);
+    RUN_TEST(test_compensated_scene_needs_more_memory_within_the_macro);
+    RUN_TEST(test_start_takes_over_the_start_values_again);
+    RUN_TEST(test_time_is_steps_times_step);
+    RUN_TEST(test_inputs_act_from_the_next_step_on);
+    RUN_TEST(test_angle_keeps_its_precision_over_many_turns);
+    RUN_TEST(test_order_of_euler_is_1);
+    RUN_TEST(test_order_of_semi_implicit_euler_is_1);
+    RUN_TEST(test_order_of_heun_is_2);
+    RUN_TEST(test_order_of_rk4_is_4);
+#if !WH_DOUBLE
+    RUN_TEST(test_compensated_sums_beat_plain_ones);
+#endif
+    RUN_TEST(test_absurd_rate_keeps_the_last_good_state);
+    RUN_TEST(test_not_a_number_is_refused);
+    RUN_TEST(test_half_a_turn_in_a_step_is_refused);
+    RUN_TEST(test_hash_sees_every_part_of_the_state);
+    RUN_TEST(test_every_status_has_its_own_words);
+}

@@ -1,0 +1,277 @@
+/* test_virtual_rig.c: the whole rig on its model: the dissertation's measurement, and its failures.
+ *
+ * The virtual rig computes in single precision only, so the double build has just the formula. */
+#include "core/rig/datasheet.h"
+#include "core/rig/rig.h"
+
+#include "unity.h"
+
+void suite_virtual_rig(void);
+
+#define RPM WH_RIG_RADPS_PER_RPM
+
+/* I.3.2.1's formula in the units it is written in, weights over g, inches: 9.44 lbf at 330 rpm. */
+static void test_mass_moment_gives_the_dissertations_force(void) {
+    const wh_real omega = WH_R(5.5) * WH_RIG_TWO_PI;
+    const wh_real g_inps2 = WH_R(386.0886);
+    const wh_real force_lbf = omega * omega / g_inps2 *
+                              (WH_R(0.152) * (WH_R(7.25) / WH_R(2.0)) + WH_R(0.15) * WH_R(6.5)) *
+                              WH_R(2.0);
+    const wh_real force_N = WH_RIG_MASS_MOMENT_KGM * omega * omega;
+    TEST_ASSERT_FLOAT_WITHIN(0.005f, 9.44f, (float)force_lbf);
+    TEST_ASSERT_FLOAT_WITHIN(0.001f, (float)force_lbf, (float)(force_N * WH_RIG_LBF_PER_N));
+    TEST_ASSERT_FLOAT_WITHIN(0.05f, 42.0f, (float)force_N);
+}
+
+#if !WH_DOUBLE
+
+#include "hal/clock.h"
+#include "hal/loadcell.h"
+#include "hal/motor.h"
+#include "hal/slots.h"
+#include "hal/virtual/virtual_rig.h"
+#include "hal/watchdog.h"
+
+#define CONTROL_TICKS 2000U
+
+static wh_rig rig;
+static wh_rig_config config;
+static float fastest_radps; /* of the rotor itself, not as measured */
+
+static void begin(float target_rpm) {
+    config = wh_rig_standard;
+    config.newton_per_count = HAL_LOADCELL_N_PER_COUNT;
+    config.slot_lead_rad = HAL_SLOT_LEAD_DEG / WH_RIG_DEG_PER_RAD;
+    config.load_period_ticks = HAL_LOADCELL_PERIOD_TICKS;
+    config.guard.load_raw_max = HAL_LOADCELL_RAW_MAX;
+    fastest_radps = 0.0f;
+    TEST_ASSERT_TRUE(hal_clock_start());
+    wh_rig_start(&config, &rig, target_rpm * RPM, hal_clock_ticks());
+    hal_watchdog_start(10U * CONTROL_TICKS);
+}
+
+/* One control step, as boards/main.c does it. */
+static void control(void) {
+    hal_clock_wait_until(hal_clock_ticks() + CONTROL_TICKS);
+    if (rig.guard.trip == WH_TRIP_NONE) {
+        hal_watchdog_kick();
+    }
+    hal_slot_pulse pulse;
+    while (hal_slots_take(&pulse)) {
+        wh_rig_pulse(&rig, pulse.sensor, pulse.ticks);
+    }
+    hal_load_sample sample;
+    while (hal_loadcell_take(&sample)) {
+        wh_rig_load(&config, &rig, sample.ticks, sample.raw);
+    }
+    hal_motor_set_duty(wh_rig_step(&config, &rig, hal_clock_ticks(), hal_watchdog_has_cut()));
+    const float speed = hal_virtual_rig_speed_radps(hal_virtual_rig_instance());
+    fastest_radps = speed > fastest_radps ? speed : fastest_radps;
+}
+
+/* Control until `state` is reached or the run is over; a run that does neither is stopped. */
+static void go_on_until(wh_rig_state state) {
+    for (unsigned i = 0; i < 30000U && rig.state != state && !wh_rig_is_over(&rig); i++) {
+        control();
+    }
+}
+
+/* The rotor ends at rest, hanging, with the motor off. */
+static void check_stopped(void) {
+    TEST_ASSERT_TRUE(wh_rig_is_over(&rig));
+    TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, rig.duty);
+    TEST_ASSERT_FLOAT_WITHIN(0.1f, 0.0f, hal_virtual_rig_speed_radps(hal_virtual_rig_instance()));
+}
+
+static void test_measurement_of_the_force(void) {
+    begin(330.0f);
+    go_on_until(WH_RIG_DONE);
+    TEST_ASSERT_TRUE(rig.state == WH_RIG_DONE);
+    check_stopped();
+    const wh_rig_result *result = &rig.result;
+    const float formula_N = WH_RIG_MASS_MOMENT_KGM * (330.0f * RPM) * (330.0f * RPM);
+    TEST_ASSERT_FLOAT_WITHIN(2.0f, 330.0f, result->speed_radps / RPM);
+    TEST_ASSERT_FLOAT_WITHIN(0.02f * formula_N, formula_N, result->amplitude_N);
+    TEST_ASSERT_FLOAT_WITHIN(2.0f, 0.0f, result->phase_rad * WH_RIG_DEG_PER_RAD);
+    TEST_ASSERT_TRUE(result->turns >= 9U);
+    TEST_ASSERT_EQUAL_UINT32(0, result->lost + result->rejected);
+    /* what moves in circles has no mean acceleration: the tare must come out */
+    TEST_ASSERT_FLOAT_WITHIN(0.1f, 0.0f, result->mean_N);
+    /* 12 lb of frame and 0.604 lb of arms and discs */
+    TEST_ASSERT_FLOAT_WITHIN(0.01f, 12.604f * 4.4482216f, result->tare_N);
+}
+
+/* Gravity speeds the arms up on the way down: both peaks lie 2 S^2 g / I = 4.2 N off the formula,
+ * towards the bottom. Sensor 1's spike sits on the upper peak, sensor 2's near the zero. */
+static void test_gravity_shows_in_the_peaks_and_spikes(void) {
+    const wh_rig_result *result = &rig.result;
+    TEST_ASSERT_FLOAT_WITHIN(0.5f, 42.0f + 4.2f, result->high_N);
+    TEST_ASSERT_FLOAT_WITHIN(0.5f, -42.0f + 4.2f, result->low_N);
+    TEST_ASSERT_FLOAT_WITHIN(0.2f, result->high_N, result->at_spike_N[0]);
+    TEST_ASSERT_FLOAT_WITHIN(2.5f, 0.0f, result->at_spike_N[1]);
+}
+
+/* Once settled, each pulse stands where the rotor is: the phase at the step after it, less what
+ * the rotor turned since. */
+static void test_pulses_stand_at_their_angles(void) {
+    begin(330.0f);
+    go_on_until(WH_RIG_RECORD);
+    TEST_ASSERT_TRUE(rig.state == WH_RIG_RECORD);
+    hal_virtual_rig *plant = hal_virtual_rig_instance();
+    unsigned pulses = 0;
+    for (unsigned i = 0; i < 2000U; i++) {
+        hal_clock_wait_until(hal_clock_ticks() + 1000U);
+        hal_watchdog_kick();
+        hal_slot_pulse pulse;
+        while (hal_slots_take(&pulse)) {
+            const float since_s = (float)(hal_clock_ticks() - pulse.ticks) * 1e-6f;
+            const float speed = hal_virtual_rig_speed_radps(plant);
+            const float turned = speed * since_s * WH_PHASE_PER_RAD;
+            const uint32_t stand = pulse.sensor * 0x40000000U;
+            const float off = (float)(int32_t)(hal_virtual_rig_phase(plant) - stand) - turned;
+            const float off_deg = off / WH_PHASE_PER_RAD * WH_RIG_DEG_PER_RAD;
+            TEST_ASSERT_FLOAT_WITHIN(0.005f, -HAL_SLOT_LEAD_DEG, off_deg);
+            pulses++;
+        }
+    }
+    TEST_ASSERT_TRUE(pulses >= 21U && pulses <= 23U); /* two a turn, 5.5 turns a second */
+}
+
+static void test_one_lost_pulse_does_not_spoil_the_run(void) {
+    begin(330.0f);
+    go_on_until(WH_RIG_RECORD);
+    hal_virtual_rig_instance()->faults.lose_pulses = 1;
+    go_on_until(WH_RIG_DONE);
+    TEST_ASSERT_TRUE(rig.state == WH_RIG_DONE);
+    TEST_ASSERT_EQUAL_UINT32(1, rig.result.lost);
+    TEST_ASSERT_FLOAT_WITHIN(2.0f, 330.0f, rig.result.speed_radps / RPM);
+    TEST_ASSERT_FLOAT_WITHIN(0.84f, 42.0f, rig.result.amplitude_N);
+}
+
+static void test_dead_sensors_stop_the_rig(void) {
+    for (unsigned both = 0; both < 2; both++) {
+        begin(330.0f);
+        go_on_until(WH_RIG_SETTLE);
+        hal_virtual_rig_instance()->faults.dead_sensor[0] = true;
+        hal_virtual_rig_instance()->faults.dead_sensor[1] = both == 1;
+        go_on_until(WH_RIG_DONE);
+        TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_PULSES);
+        TEST_ASSERT_TRUE(fastest_radps < 400.0f * RPM); /* blind, it did not run away */
+        check_stopped();
+    }
+}
+
+/* Once a pulse is overdue the speed is hearsay: the duty stands still, though the ramp goes on. */
+static void test_duty_is_held_while_a_pulse_is_overdue(void) {
+    begin(330.0f);
+    go_on_until(WH_RIG_RAMP);
+    for (unsigned i = 0; i < 800U; i++) {
+        control();
+    }
+    TEST_ASSERT_TRUE(rig.state == WH_RIG_RAMP);
+    hal_virtual_rig_instance()->faults.dead_sensor[0] = true;
+    hal_virtual_rig_instance()->faults.dead_sensor[1] = true;
+    unsigned held = 0;
+    float held_duty = 0.0f;
+    while (rig.guard.trip == WH_TRIP_NONE && held < 1000U) {
+        if (wh_speed_is_overdue(&rig.speed, hal_clock_ticks())) {
+            held_duty = held == 0 ? rig.duty : held_duty;
+            TEST_ASSERT_FLOAT_WITHIN(0.0f, held_duty, rig.duty);
+            held++;
+        }
+        control();
+    }
+    TEST_ASSERT_TRUE(held > 50U && held < 1000U);
+    TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_PULSES);
+}
+
+static void test_stuck_load_cell_stops_the_rig(void) {
+    begin(330.0f);
+    go_on_until(WH_RIG_SETTLE);
+    hal_virtual_rig_instance()->faults.stuck_load_cell = true;
+    go_on_until(WH_RIG_DONE);
+    TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_LOAD_CELL);
+    check_stopped();
+}
+
+/* A drive stage stuck at full supply obeys no duty: the guard trips, the watchdog cuts. */
+static void test_runaway_is_caught(void) {
+    begin(330.0f);
+    go_on_until(WH_RIG_RECORD);
+    hal_virtual_rig_instance()->faults.runaway_motor = true;
+    go_on_until(WH_RIG_DONE);
+    TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_OVERSPEED);
+    TEST_ASSERT_TRUE(hal_watchdog_has_cut());
+    TEST_ASSERT_TRUE(fastest_radps > 400.0f * RPM);
+    TEST_ASSERT_TRUE(fastest_radps < 520.0f * RPM);
+    check_stopped();
+}
+
+/* A controller that falls silent: within 10 control steps the motor is cut, and stays cut. */
+static void test_watchdog_cuts_the_motor(void) {
+    begin(330.0f);
+    go_on_until(WH_RIG_RECORD);
+    TEST_ASSERT_FALSE(hal_watchdog_has_cut());
+    const uint32_t silent = hal_clock_ticks();
+    hal_clock_wait_until(silent + 9U * CONTROL_TICKS);
+    TEST_ASSERT_FALSE(hal_watchdog_has_cut());
+    hal_clock_wait_until(silent + 11U * CONTROL_TICKS);
+    TEST_ASSERT_TRUE(hal_watchdog_has_cut());
+    hal_watchdog_kick();
+    hal_motor_set_duty(1.0f);
+    hal_clock_wait_until(silent + 2500U * CONTROL_TICKS);
+    TEST_ASSERT_FLOAT_WITHIN(0.1f, 0.0f, hal_virtual_rig_speed_radps(hal_virtual_rig_instance()));
+    go_on_until(WH_RIG_DONE);
+    TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_WATCHDOG);
+    check_stopped();
+}
+
+static void test_too_fast_a_target_is_refused(void) {
+    begin(400.0f);
+    go_on_until(WH_RIG_DONE);
+    TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_TARGET);
+    TEST_ASSERT_FLOAT_WITHIN(0.001f, 0.0f, fastest_radps);
+    check_stopped();
+}
+
+/* The controller's data sheet and the model are written down apart: they must say the same. */
+static void test_data_sheet_agrees_with_the_model(void) {
+    wh_real output[8];
+    wh_state state;
+    static uint64_t memory[WH_STATE_WORDS(1, 1, 1)];
+    TEST_ASSERT_EQUAL_UINT(3, rig_fixed.outputs);
+    TEST_ASSERT_TRUE(wh_scene_start(&rig_fixed, &state, memory, sizeof memory) == WH_OK);
+    state.real[0] = 10.0f;
+    rig_fixed.observe(&rig_fixed, &state, output);
+    TEST_ASSERT_FLOAT_WITHIN(1e-5f, 100.0f * WH_RIG_MASS_MOMENT_KGM, output[2]);
+    TEST_ASSERT_FLOAT_WITHIN(1e-5f, output[2], output[1]); /* mass on the axis: all of it shows */
+}
+
+static void test_a_foreign_scene_is_refused(void) {
+    static hal_virtual_rig other;
+    wh_scene scene = rig_fixed;
+    scene.inputs = 2;
+    TEST_ASSERT_FALSE(hal_virtual_rig_start(&other, &scene));
+    TEST_ASSERT_TRUE(hal_virtual_rig_start(&other, &rig_fixed));
+}
+
+#endif
+
+void suite_virtual_rig(void) {
+    UnitySetTestFile(__FILE__);
+    RUN_TEST(test_mass_moment_gives_the_dissertations_force);
+#if !WH_DOUBLE
+    RUN_TEST(test_measurement_of_the_force);
+    RUN_TEST(test_gravity_shows_in_the_peaks_and_spikes);
+    RUN_TEST(test_pulses_stand_at_their_angles);
+    RUN_TEST(test_one_lost_pulse_does_not_spoil_the_run);
+    RUN_TEST(test_dead_sensors_stop_the_rig);
+    RUN_TEST(test_duty_is_held_while_a_pulse_is_overdue);
+    RUN_TEST(test_stuck_load_cell_stops_the_rig);
+    RUN_TEST(test_runaway_is_caught);
+    RUN_TEST(test_watchdog_cuts_the_motor);
+    RUN_TEST(test_too_fast_a_target_is_refused);
+    RUN_TEST(test_data_sheet_agrees_with_the_model);
+    RUN_TEST(test_a_foreign_scene_is_refused);
+#endif
+}

@@ -1,0 +1,25 @@
+#!/bin/sh
+# fuzz.sh SECONDS FUZZER...: run each fuzzer on a copy of the built-in models, for so many seconds.
+set -u
+
+seconds=${1:?usage: fuzz.sh SECONDS FUZZER...}
+shift
+[ $# -gt 0 ] || { echo "fuzz.sh: there is no fuzzer" >&2; exit 1; }
+status=0
+for fuzzer in "$@"; do
+    corpus=${fuzzer%.fuzzer}.corpus
+    found=${fuzzer%.fuzzer}.found
+    mkdir -p "$corpus" "$found"
+    cp core/models/*.whirl "$corpus/"
+    [ ! -d tests/bad ] || cp tests/bad/* "$corpus/"
+    log=${fuzzer%.fuzzer}.log
+    if "$fuzzer" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -max_len=8192 \
+        -artifact_prefix="$found/" "$corpus" >"$log" 2>&1; then
+        printf '  PASS  %-30s %s\n' "$fuzzer" "$(grep '^Done' "$log")"
+    else
+        printf '  FAIL  %-30s see %s and %s\n' "$fuzzer" "$log" "$found"
+        grep -E 'ERROR|SUMMARY' "$log" | head -n 3 | sed 's/^/        /'
+        status=1
+    fi
+done
+exit $status

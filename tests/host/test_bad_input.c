@@ -1,0 +1,327 @@
+/* test_bad_input.c: broken files are refused with all their errors, each at its place.
+ *
+ * Every file of tests/bad says at its top, in lines `# expect: LINE:COLUMN: TEXT`, which errors it
+ * has: all of them, in their order. Run from the root of the project. */
+#define _POSIX_C_SOURCE 200809L
+
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "host/lang/model.h"
+#include "unity.h"
+
+void suite_bad_input(void);
+
+#define FOLDER "tests/bad"
+enum { FILES_MIN = 40, LINE_SIZE = 512 };
+
+/* Everything the language says about a text; free() it. *errors is their number. */
+static char *report_on(const char *file, const char *text, size_t length, int *errors) {
+    diags *all = diags_new();
+    model *parsed = model_parse(file, text, length, all);
+    if (parsed != NULL) {
+        for (int i = 0; i < parsed->mechanism_count; i++) {
+            instance_free(instance_make(parsed->mechanisms[i], NULL, NULL, all));
+        }
+        for (int i = 0; i < parsed->scene_count; i++) {
+            const scene *each = parsed->scenes[i];
+            instance_free(instance_make(each->mechanism, each, NULL, all));
+        }
+    }
+    *errors = diags_count(all);
+    char *report = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&report, &size);
+    TEST_ASSERT_NOT_NULL(out);
+    diags_flush(all, out);
+    fclose(out);
+    diags_free(all);
+    model_free(parsed);
+    return report;
+}
+
+static void expect(const char *text, size_t length, const char *wanted) {
+    int errors = 0;
+    char *report = report_on("x.whirl", text, length, &errors);
+    const bool found = strstr(report, wanted) != NULL;
+    if (!found) {
+        printf("wanted: %s\ngot: %.2000s\n", wanted, report);
+    }
+    free(report);
+    TEST_ASSERT_TRUE(found);
+    TEST_ASSERT_GREATER_THAN_INT(0, errors);
+}
+
+static void expect_text(const char *text, const char *wanted) {
+    expect(text, strlen(text), wanted);
+}
+
+static char *read_whole(const char *path, size_t *length) {
+    FILE *in = fopen(path, "rb");
+    TEST_ASSERT_NOT_NULL_MESSAGE(in, path);
+    char *text = calloc(1, 65536);
+    TEST_ASSERT_NOT_NULL(text);
+    *length = fread(text, 1, 65535, in);
+    fclose(in);
+    return text;
+}
+
+/* Returns false, and says why, when the errors of one file are not those it announces. */
+static bool file_fails_as_announced(const char *path) {
+    static const char mark[] = "# expect: ";
+    size_t length = 0;
+    char *text = read_whole(path, &length);
+    int errors = 0;
+    char *report = report_on(path, text, length, &errors);
+    int announced = 0;
+    bool good = true;
+    const char *from = report;
+    for (const char *line = text; strncmp(line, mark, sizeof mark - 1) == 0;) {
+        const char *end = strchr(line, '\n');
+        TEST_ASSERT_NOT_NULL_MESSAGE(end, path);
+        int row = 0;
+        int column = 0;
+        int used = 0;
+        char where[LINE_SIZE];
+        char words[LINE_SIZE];
+        char whole[2 * LINE_SIZE + 16];
+        line += sizeof mark - 1;
+        if (sscanf(line, "%d:%d: %n", &row, &column, &used) != 2 || used == 0 ||
+            end - line - used >= LINE_SIZE) {
+            good = false;
+            break;
+        }
+        snprintf(where, sizeof where, "%s:%d:%d", path, row, column);
+        snprintf(words, sizeof words, "%.*s", (int)(end - line - used), line + used);
+        snprintf(whole, sizeof whole, "%s: error: %s", where, words);
+        const char *found = strstr(from, whole);
+        if (found == NULL) {
+            printf("%s: not reported in its turn: %s\n", path, whole);
+            good = false;
+            break;
+        }
+        from = found + 1;
+        announced++;
+        line = end + 1;
+    }
+    if (announced != errors || announced == 0) {
+        printf("%s: %d errors announced, %d reported\n", path, announced, errors);
+        good = false;
+    }
+    if (!good) {
+        printf("%s\n", report);
+    }
+    free(report);
+    free(text);
+    return good;
+}
+
+static void test_every_bad_file_has_the_errors_it_announces(void) {
+    DIR *folder = opendir(FOLDER);
+    TEST_ASSERT_NOT_NULL_MESSAGE(folder, "run the tests from the root of the project");
+    int files = 0;
+    int failed = 0;
+    for (struct dirent *each = readdir(folder); each != NULL; each = readdir(folder)) {
+        char path[LINE_SIZE];
+        if (strstr(each->d_name, ".whirl") == NULL) {
+            continue;
+        }
+        snprintf(path, sizeof path, "%s/%s", FOLDER, each->d_name);
+        files++;
+        failed += file_fails_as_announced(path) ? 0 : 1;
+    }
+    closedir(folder);
+    TEST_ASSERT_EQUAL_INT(0, failed);
+    TEST_ASSERT_GREATER_OR_EQUAL_INT(FILES_MIN, files);
+}
+
+static void test_nothing_and_next_to_nothing(void) {
+    expect_text("", "x.whirl:1:1: error: no mechanism here");
+    expect_text("\n\n# only a comment", "x.whirl:1:1: error: no mechanism here");
+    expect_text("\xef\xbb\xbf", "x.whirl:1:1: error: no mechanism here");
+    expect_text("mechanism", "x.whirl:1:10: error: a mechanism needs a name");
+    expect_text("mechanism m", "x.whirl:1:11: error: mechanism 'm' has no coordinate");
+    expect_text("\"", "x.whirl:1:1: error: this text is not closed");
+}
+
+static void test_binary_is_no_text(void) {
+    static const char elf[] = "mechanism m\n\x7f"
+                              "ELF\0\0\1\2";
+    expect(elf, sizeof elf - 1, "x.whirl:2:1: error: control character 127");
+    expect("mechanism m\0\n", 13, "x.whirl:1:12: error: a zero byte: this is not a text file");
+    expect("# x\0", 4, "x.whirl:1:4: error: a zero byte");
+}
+
+static void test_columns_count_characters(void) {
+    expect_text("mechanism m \"\xc3\xa4\xe2\x82\xac\" ?",
+                "x.whirl:1:18: error: unexpected character '?'");
+    expect_text("\xef\xbb\xbfparamter", "x.whirl:1:1: error: unknown statement 'paramter'");
+    expect_text("mechanism m\r\ncoordinate X [m]\r\nT = Y\r\n", "x.whirl:3:5: error: unknown name");
+}
+
+static void test_the_caret_stands_under_the_place(void) {
+    expect_text("mechanism m\ncoordinate \xce\xb1 [m]\n",
+                "  coordinate \xce\xb1 [m]\n             ^\n");
+    expect_text("mechanism m\n\tcoordinate X [q]\n", "   coordinate X [q]\n                 ^\n");
+}
+
+static void test_values_that_are_no_numbers(void) {
+    static const char start[] = "mechanism m\ncoordinate X [m]\nT = 1 [kg]*X'^2\n";
+    char text[LINE_SIZE];
+    snprintf(text, sizeof text, "%sparameter z = log(0)\n", start);
+    expect_text(text, "x.whirl:4:11: error: parameter 'z' is not a finite number (minus infinity)");
+    snprintf(text, sizeof text, "%sparameter z = sqrt(-1)\n", start);
+    expect_text(text, "x.whirl:4:11: error: parameter 'z' is not a finite number (not a number)");
+    snprintf(text, sizeof text, "%sinput z = 1e300*1e300\n", start);
+    expect_text(text, "x.whirl:4:7: error: input 'z' is not a finite number (infinity)");
+    snprintf(text, sizeof text, "%sscene s { step 0 [s] }\n", start);
+    expect_text(text, "x.whirl:4:16: error: step must be above zero");
+    snprintf(text, sizeof text, "%sscene s { until -1 [s] }\n", start);
+    expect_text(text, "x.whirl:4:17: error: until must not be negative");
+    snprintf(text, sizeof text, "%sscene s { until 1e13 [s] }\n", start);
+    expect_text(text, "x.whirl:4:17: error: more than 1e+15 steps");
+    snprintf(text, sizeof text, "%sparameter a = 1\nparameter b = a\nscene s { set a = b }\n",
+             start);
+    expect_text(text, "x.whirl:6:15: error: 'a' is set from itself");
+}
+
+/* `head`, then `piece` so many times, then `tail`; free() it. */
+static char *repeat(const char *head, const char *piece, size_t times, const char *tail,
+                    size_t *length) {
+    const size_t a = strlen(head);
+    const size_t b = strlen(piece);
+    const size_t c = strlen(tail);
+    char *text = malloc(a + b * times + c + 1);
+    TEST_ASSERT_NOT_NULL(text);
+    memcpy(text, head, a);
+    for (size_t i = 0; i < times; i++) {
+        memcpy(text + a + i * b, piece, b);
+    }
+    memcpy(text + a + b * times, tail, c + 1);
+    *length = a + b * times + c;
+    return text;
+}
+
+static void expect_repeated(const char *piece, size_t times, const char *tail, const char *wanted) {
+    size_t length = 0;
+    char *text = repeat("mechanism m\ncoordinate X\nlet a = ", piece, times, tail, &length);
+    const clock_t began = clock();
+    expect(text, length, wanted);
+    const double seconds = (double)(clock() - began) / CLOCKS_PER_SEC;
+    free(text);
+    TEST_ASSERT_TRUE_MESSAGE(seconds < 2.0, wanted);
+}
+
+static void test_ten_thousand_deep(void) {
+    expect_repeated("(", 10000, "1\n", "x.whirl:3:209: error: nested more than 200 deep");
+    expect_repeated("-", 10000, "1\n", "x.whirl:3:209: error: nested more than 200 deep");
+    expect_repeated("2^", 10000, "1\n", "nested more than 200 deep");
+    expect_repeated("sin(", 10000, "1\n", "nested more than 200 deep");
+    expect_repeated("1+", 10000, "1\n", "x.whirl:3:2008: error: this expression is more than 1000");
+    expect_repeated("1*", 10000, "1\n", "this expression is more than 1000 operators deep");
+    expect_repeated("1 [((", 10000, "1\n", "error: this unit is not closed");
+    expect_repeated("1 [", 1, "((((((((((((((((((((((((((((m]\n", "too many parentheses in a unit");
+}
+
+static void test_lets_upon_lets_are_bounded(void) {
+    size_t used = 0;
+    char *text = malloc(200000);
+    TEST_ASSERT_NOT_NULL(text);
+    used += (size_t)sprintf(text, "mechanism m\ncoordinate X\nlet a0 = X\n");
+    for (int i = 1; i <= 1200; i++) {
+        used += (size_t)sprintf(text + used, "let a%d = a%d*a%d\n", i, i - 1, i - 1);
+    }
+    expect(text, used, "what it stands for are more than 1000 operators deep");
+    free(text);
+}
+
+static void test_ten_megabytes_of_garbage(void) {
+    expect_repeated("@", 10000000, "", "unexpected character '@'");
+    expect_repeated("\xff", 10000000, "", "written in ASCII");
+    expect_repeated("\x01\n", 5000000, "", "too many errors: only the first 20 are shown");
+    expect_repeated("x y z {\n", 1250000, "", "error: unknown name 'x'");
+    expect_repeated("1", 10000000, "", "this number has more than 100 characters");
+    expect_repeated("x", 10000000, "", "this name is longer than 63 characters");
+    expect_repeated("'", 10000000, "", "a prime must follow a name");
+    expect_repeated("\"", 10000000, "", "a value is missing before a text in quotes");
+    expect_repeated("X+", 5000000, "", "more than 1000 operators deep");
+}
+
+static void test_very_long_texts(void) {
+    size_t length = 0;
+    char *text = repeat("mechanism m\n", "# 0123456789012345678901234567890123456789\n",
+                        (17U << 20) / 43, "", &length);
+    expect(text, length, "x.whirl:1:1: error: the text is longer than 16777216 bytes");
+    free(text);
+}
+
+static void test_a_thousand_errors_are_told_as_twenty(void) {
+    size_t length = 0;
+    char *text = repeat("mechanism m\n", "what = 3\n", 1000, "", &length);
+    int errors = 0;
+    char *report = report_on("x.whirl", text, length, &errors);
+    int told = 0;
+    for (const char *at = report; (at = strstr(at, ": error: ")) != NULL; at++) {
+        told++;
+    }
+    TEST_ASSERT_EQUAL_INT(20, told);
+    TEST_ASSERT_EQUAL_INT(21, errors);
+    TEST_ASSERT_NOT_NULL(strstr(report, "too many errors: only the first 20 are shown\n"));
+    free(report);
+    free(text);
+}
+
+/* A hundred thousand names must not take quadratic time. */
+static void test_many_names_are_quick(void) {
+    const int count = 100000;
+    char *text = malloc((size_t)count * 40);
+    TEST_ASSERT_NOT_NULL(text);
+    size_t used = (size_t)sprintf(text, "mechanism m\ncoordinate X\n");
+    for (int i = 0; i < count; i++) {
+        used += (size_t)sprintf(text + used, "parameter p%d = %d\n", i, i);
+    }
+    used += (size_t)sprintf(text + used, "T = q%d\n", count);
+    const clock_t began = clock();
+    expect(text, used, "unknown name 'q100000'");
+    free(text);
+    TEST_ASSERT_TRUE((double)(clock() - began) / CLOCKS_PER_SEC < 2.0);
+}
+
+/* No beginning of a good file, and no good file with one byte changed, crashes the language. */
+static void test_every_beginning_and_every_changed_byte(void) {
+    size_t length = 0;
+    char *text = read_whole("core/models/epicyclic.whirl", &length);
+    int refused = 0;
+    for (size_t i = 0; i < length; i++) {
+        int errors = 0;
+        free(report_on("x.whirl", text, i, &errors));
+        refused += errors > 0;
+        static const char changes[] = "\0\n\"'({[)}]=+-#9x\xc3";
+        const char kept = text[i];
+        text[i] = changes[i % (sizeof changes - 1)];
+        free(report_on("x.whirl", text, length, &errors));
+        text[i] = kept;
+    }
+    free(text);
+    TEST_ASSERT_GREATER_THAN_INT((int)length / 3, refused);
+}
+
+void suite_bad_input(void) {
+    UnitySetTestFile(__FILE__);
+    RUN_TEST(test_every_bad_file_has_the_errors_it_announces);
+    RUN_TEST(test_nothing_and_next_to_nothing);
+    RUN_TEST(test_binary_is_no_text);
+    RUN_TEST(test_columns_count_characters);
+    RUN_TEST(test_the_caret_stands_under_the_place);
+    RUN_TEST(test_values_that_are_no_numbers);
+    RUN_TEST(test_ten_thousand_deep);
+    RUN_TEST(test_lets_upon_lets_are_bounded);
+    RUN_TEST(test_ten_megabytes_of_garbage);
+    RUN_TEST(test_very_long_texts);
+    RUN_TEST(test_a_thousand_errors_are_told_as_twenty);
+    RUN_TEST(test_many_names_are_quick);
+    RUN_TEST(test_every_beginning_and_every_changed_byte);
+}

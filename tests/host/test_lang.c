@@ -1,0 +1,454 @@
+/* test_lang.c: what a .whirl file means: units, dimensions, names, scenes in numbers. */
+#define _POSIX_C_SOURCE 200809L
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "host/lang/model.h"
+#include "unity.h"
+
+void suite_lang(void);
+
+#define PI 3.14159265358979323846
+
+static diags *said;
+static model *parsed;
+static instance *made;
+
+static void drop(void) {
+    instance_free(made);
+    model_free(parsed);
+    diags_free(said);
+    made = NULL;
+    parsed = NULL;
+    said = NULL;
+}
+
+/* Parse a good text; the test fails when the language refuses it. */
+static void parse(const char *text) {
+    drop();
+    said = diags_new();
+    parsed = model_parse("x.whirl", text, strlen(text), said);
+    if (diags_count(said) > 0) {
+        diags_flush(said, stdout);
+    }
+    TEST_ASSERT_NOT_NULL(parsed);
+}
+
+/* The first scene (or the first mechanism when there is none) with these changes. */
+static void instantiate(const overrides *changes) {
+    instance_free(made);
+    const scene *first = parsed->scene_count > 0 ? parsed->scenes[0] : NULL;
+    made = instance_make(parsed->mechanisms[0], first, changes, said);
+    if (made == NULL) {
+        diags_flush(said, stdout);
+    }
+    TEST_ASSERT_NOT_NULL(made);
+}
+
+static double parameter(const char *name) {
+    for (int i = 0; i < made->mechanism->parameter_count; i++) {
+        if (strcmp(made->mechanism->parameters[i]->name, name) == 0) {
+            return made->parameter[i];
+        }
+    }
+    TEST_FAIL_MESSAGE(name);
+    return 0.0;
+}
+
+static void expect_exactly(double wanted, double got) {
+    if (wanted != got) {
+        printf("wanted %.17g, got %.17g\n", wanted, got);
+    }
+    TEST_ASSERT_TRUE(wanted == got);
+}
+
+static void expect_nearly(double wanted, double got) {
+    if (!(fabs(got - wanted) <= 4e-16 * fabs(wanted))) {
+        printf("wanted %.17g, got %.17g\n", wanted, got);
+    }
+    TEST_ASSERT_TRUE(fabs(got - wanted) <= 4e-16 * fabs(wanted));
+}
+
+/* The SI value of an expression as a parameter. */
+static double value_of(const char *expression) {
+    char text[300];
+    snprintf(text, sizeof text,
+             "mechanism m\ncoordinate X [m]\nT = 1 [kg]*X'^2\nparameter p = %s\n", expression);
+    parse(text);
+    instantiate(NULL);
+    return parameter("p");
+}
+
+static void test_units(void) {
+    static const struct {
+        const char *written;
+        double si;
+    } cases[] = {
+        {"2 [kg]", 2.0},
+        {"7 [ms]", 0.007},
+        {"3 [g]", 0.003},
+        {"250 [mm]", 0.25},
+        {"2 [cm]", 0.02},
+        {"1 [min]", 60.0},
+        {"1 [us]", 1e-6},
+        {"180 [deg]", PI},
+        {"1 [rev]", 2.0 * PI},
+        {"60 [rpm]", 2.0 * PI},
+        {"1 [in]", 0.0254},
+        {"1 [ft]", 0.3048},
+        {"1 [lb]", 0.45359237},
+        {"1 [oz]", 0.028349523125},
+        {"1 [lbf]", 4.4482216152605},
+        {"1 [slug]", 14.593902937206364},
+        {"50 [lbf/in]", 50.0 * 4.4482216152605 / 0.0254},
+        {"1 [kN]", 1e3},
+        {"1 [lbf*s^2/in]", 4.4482216152605 / 0.0254},
+        {"2 [N*m]", 2.0},
+        {"4 [m^(1/2)]", 4.0},
+        {"3 [1/s]", 3.0},
+        {"3 [s^-1]", 3.0},
+        {"1 [kg*(m/s)^2]", 1.0},
+        {"5 [mA]", 5e-3},
+        {"2 [mH]", 2e-3},
+        {"3 [kohm]", 3e3},
+        {"1 [Hz]", 1.0},
+        {"1 [V*A/W]", 1.0},
+        {"36 [km/h]", 10.0},
+        {"2 [N * s / m]", 2.0},
+        {"1 [1]", 1.0},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        expect_nearly(cases[i].si, value_of(cases[i].written));
+    }
+    expect_exactly(0.007, value_of("7 [ms]"));
+    expect_exactly(0.0254, value_of("1 [in]"));
+}
+
+static void test_a_divided_unit_goes_from_left_to_right(void) {
+    unit read;
+    unit_error error;
+    TEST_ASSERT_TRUE(unit_parse("N*s/m*kg", 8, &read, &error));
+    TEST_ASSERT_TRUE(dim_fits(read.dim, dim_of(0, 2, -1, 0, 0)));
+    TEST_ASSERT_TRUE(unit_parse("m/s/s", 5, &read, &error));
+    TEST_ASSERT_TRUE(dim_fits(read.dim, dim_of(1, 0, -2, 0, 0)));
+    TEST_ASSERT_FALSE(unit_parse("m/s^^2", 6, &read, &error));
+    TEST_ASSERT_EQUAL_UINT(4, error.offset);
+    TEST_ASSERT_FALSE(unit_parse("inches", 6, &read, &error));
+    TEST_ASSERT_EQUAL_STRING("write in", error.hint);
+}
+
+static void test_arithmetic(void) {
+    expect_exactly(-9.0, value_of("-3^2"));
+    expect_exactly(512.0, value_of("2^3^2"));
+    expect_exactly(0.125, value_of("2^-3"));
+    expect_exactly(-1.0, value_of("2 - 1 - 2"));
+    expect_exactly(2.0, value_of("8/2/2"));
+    expect_exactly(-6.0, value_of("2*-3"));
+    expect_exactly(7.0, value_of("1 + 2*3"));
+    expect_exactly(9.0, value_of("(1 + 2)\t*3 # comment"));
+    expect_exactly(3.0, value_of("(1\n + 2\n)"));
+    expect_exactly(1500.0, value_of(".15e+4"));
+    expect_exactly(PI, value_of("pi"));
+    expect_exactly(sin(0.5), value_of("sin(0.5)"));
+    expect_exactly(atan2(1.0, -2.0), value_of("atan2(1, -2)"));
+    expect_exactly(3.0, value_of("max(2, 3)"));
+    expect_exactly(-1.0, value_of("sign(-7 [m])"));
+    expect_exactly(4.0, value_of("abs(-4 [m])"));
+    expect_exactly(2.0, value_of("sqrt(4 [m^2])"));
+}
+
+static void test_dimensions_of_expressions(void) {
+    parse("mechanism m\ncoordinate X [m]\ncoordinate a [rad]\nparameter k = 3 [N/m]\n"
+          "let e = k*X^2/2\nlet root = sqrt(k/(2 [kg]))\nlet z = 0*X + 0\nlet y = atan2(X, 2 [m])\n"
+          "let cube = X^(1/3)\nlet v = X'' + 0\nlet w = a' + 1 [rad/s]\nlet s = 2^a\n"
+          "T = 1 [kg]*X'^2 + 0\nV = 0\nF = -0.0\nQ(a) = 2 [N*m]\nQ(X) = max(0, 3 [N])\n");
+    const mechanism *of = parsed->mechanisms[0];
+    static const struct {
+        int index;
+        const char *text;
+    } cases[] = {{0, "energy or torque [kg*m^2/s^2]"},
+                 {1, "frequency or angular speed [1/s]"},
+                 {3, "dimensionless"},
+                 {4, "[m^(1/3)]"},
+                 {5, "acceleration [m/s^2]"},
+                 {6, "frequency or angular speed [1/s]"}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char text[DIM_TEXT_SIZE];
+        dim_text(of->lets[cases[i].index]->dim, text, sizeof text);
+        TEST_ASSERT_EQUAL_STRING(cases[i].text, text);
+    }
+    TEST_ASSERT_EQUAL_INT(2, of->lets[5]->value->order);
+    TEST_ASSERT_TRUE((of->lets[0]->value->uses & USES_PARAMETER) != 0);
+    TEST_ASSERT_TRUE(of->coordinates[1]->is_angle);
+    TEST_ASSERT_FALSE(of->coordinates[0]->is_angle);
+    TEST_ASSERT_EQUAL_INT(5, of->term_count);
+}
+
+static const char sample[] =
+    "mechanism epicyclic \"Epicyclic gear on a carriage\"\n"
+    "coordinate theta [rad] \"arm AB, from the rail\"\n"
+    "coordinate X     [m]   \"carriage along the rail\"\n"
+    "parameter m = 2 [kg]         \"each gear\"\n"
+    "parameter r = 0.3 [m]\n"
+    "parameter I = m*r^2/2\n"
+    "input     M = 2 [N*m]        \"motor torque on the arm\"   # may change while running\n"
+    "let vx = X' - 2*r*theta'*sin(theta)\n"
+    "let vy =      2*r*theta'*cos(theta)\n"
+    "T = m*X'^2/2 + m*(vx^2 + vy^2)/2 + I*(2*theta')^2/2      # V and F left out are zero\n"
+    "Q(theta) = M\n"
+    "output x_cm [m] = X + r*cos(theta)\n"
+    "scene from_rest \"Example 3\" {\n"
+    "  with rail_drag                # none unless named\n"
+    "  set   m = 3 [kg], M = 2*m*r*9.81 [m/s^2]\n"
+    "  start theta = 30 [deg], X = r,\n    theta' = -8.5 [rad/s]\n"
+    "  step  1 [ms]; conserve X\n"
+    "  until 9 [s]\n"
+    "}\n"
+    "effect rail_drag \"viscous drag on the rail\" {\n"
+    "  parameter b = 0.5 [N*s/m]\n"
+    "  F += b*X'^2/2\n"
+    "}\n"
+    "effect slope { input g = 1 [m/s^2]; V += m*g*X; Q(X) += 0 }\n";
+
+static void test_the_sample(void) {
+    parse(sample);
+    const mechanism *of = parsed->mechanisms[0];
+    TEST_ASSERT_EQUAL_STRING("Epicyclic gear on a carriage", of->title);
+    TEST_ASSERT_EQUAL_INT(2, of->coordinate_count);
+    TEST_ASSERT_EQUAL_INT(4, of->parameter_count);
+    TEST_ASSERT_EQUAL_INT(2, of->input_count);
+    TEST_ASSERT_EQUAL_INT(2, of->effect_count);
+    TEST_ASSERT_EQUAL_INT(5, of->term_count);
+    TEST_ASSERT_EQUAL_STRING("arm AB, from the rail", of->coordinates[0]->text);
+    TEST_ASSERT_EQUAL_STRING("rad", of->coordinates[0]->unit);
+    TEST_ASSERT_EQUAL_INT(0, of->parameters[3]->effect);
+    TEST_ASSERT_EQUAL_INT(1, of->inputs[1]->effect);
+    TEST_ASSERT_FALSE(of->is_system);
+    TEST_ASSERT_FALSE(parsed->scenes[0]->conserve[0]);
+    TEST_ASSERT_TRUE(parsed->scenes[0]->conserve[1]);
+    instantiate(NULL);
+    TEST_ASSERT_EQUAL_STRING("from_rest", made->name);
+    expect_exactly(3.0, parameter("m"));
+    expect_exactly(3.0 * (0.3 * 0.3) / 2.0, parameter("I"));
+    expect_nearly(2.0 * 3.0 * 0.3 * 9.81, made->input[0]);
+    expect_nearly(PI / 6.0, made->start[0][0]);
+    expect_exactly(-8.5, made->start[0][1]);
+    expect_exactly(0.3, made->start[1][0]);
+    expect_exactly(0.0, made->start[1][1]);
+    expect_exactly(1e-3, made->step_s);
+    expect_exactly(9.0, made->until_s);
+    TEST_ASSERT_EQUAL_INT(2, made->start_count[0]);
+    TEST_ASSERT_TRUE(made->with[0]);
+    TEST_ASSERT_FALSE(made->with[1]);
+    int taking_part = 0;
+    for (int i = 0; i < of->term_count; i++) {
+        taking_part += instance_has_term(made, &of->terms[i]);
+    }
+    TEST_ASSERT_EQUAL_INT(3, taking_part);
+}
+
+static void test_a_bare_mechanism_is_at_rest(void) {
+    parse("mechanism m; coordinate X [m]; T = 1 [kg]*X'^2; effect a { F += X'^2*2 [N*s/m] }");
+    instantiate(NULL);
+    TEST_ASSERT_NULL(made->scene);
+    TEST_ASSERT_EQUAL_STRING("m", made->name);
+    expect_exactly(0.0, made->start[0][0]);
+    expect_exactly(1e-3, made->step_s);
+    expect_exactly(10.0, made->until_s);
+    TEST_ASSERT_FALSE(made->with[0]);
+}
+
+static void test_overrides(void) {
+    static const char *const sets[] = {"m=4", "r = 250 mm", "b=2*m/(1 [s])", "M=-1/4"};
+    static const char *const starts[] = {"theta=90 [deg]", "X'=-36 km/h", "X = r"};
+    static const char *const with[] = {"slope"};
+    static const char *const without[] = {"rail_drag"};
+    const overrides changes = {.sets = sets,
+                               .set_count = 4,
+                               .starts = starts,
+                               .start_count = 3,
+                               .with = with,
+                               .with_count = 1,
+                               .without = without,
+                               .without_count = 1,
+                               .step = "2ms",
+                               .until = "1 [min]"};
+    parse(sample);
+    instantiate(&changes);
+    expect_exactly(4.0, parameter("m"));
+    expect_exactly(0.25, parameter("r"));
+    expect_exactly(0.125, parameter("I"));
+    expect_exactly(8.0, parameter("b"));
+    expect_exactly(-0.25, made->input[0]);
+    expect_nearly(PI / 2.0, made->start[0][0]);
+    expect_exactly(0.25, made->start[1][0]);
+    expect_exactly(-10.0, made->start[1][1]);
+    TEST_ASSERT_FALSE(made->with[0]);
+    TEST_ASSERT_TRUE(made->with[1]);
+    expect_exactly(0.002, made->step_s);
+    expect_exactly(60.0, made->until_s);
+}
+
+static void test_step_in_all_its_spellings(void) {
+    static const char *const spellings[] = {"1ms",    "1 ms",   "1 [ms]", "0.001",
+                                            "1e-3 s", "1/1000", "1000us"};
+    parse(sample);
+    for (size_t i = 0; i < sizeof spellings / sizeof spellings[0]; i++) {
+        instantiate(&(overrides){.step = spellings[i]});
+        expect_exactly(0.001, made->step_s);
+    }
+}
+
+static void test_values_of_either_kind(void) {
+    static const char *const values[] = {"theta=0.3", "theta'=1.2", "m=5", "M=7"};
+    parse(sample);
+    instantiate(&(overrides){.values = values, .value_count = 4});
+    expect_exactly(0.3, made->start[0][0]);
+    expect_exactly(1.2, made->start[0][1]);
+    expect_exactly(5.0, parameter("m"));
+    expect_exactly(7.0, made->input[0]);
+}
+
+/* The instance is refused, and the first lines say so. */
+static void expect_refused(const overrides *changes, const char *wanted) {
+    parse(sample);
+    TEST_ASSERT_NULL(instance_make(parsed->mechanisms[0], parsed->scenes[0], changes, said));
+    char *report = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&report, &size);
+    TEST_ASSERT_NOT_NULL(out);
+    diags_flush(said, out);
+    fclose(out);
+    const bool found = strstr(report, wanted) != NULL;
+    if (!found) {
+        printf("wanted: %s\ngot: %s\n", wanted, report);
+    }
+    free(report);
+    TEST_ASSERT_TRUE(found);
+}
+
+static void expect_set_refused(const char *set, const char *wanted) {
+    expect_refused(&(overrides){.sets = &set, .set_count = 1}, wanted);
+}
+
+static void expect_start_refused(const char *start, const char *wanted) {
+    expect_refused(&(overrides){.starts = &start, .start_count = 1}, wanted);
+}
+
+static void test_wrong_overrides(void) {
+    expect_set_refused("m=3 [m]",
+                       "<command line>:1:3: error: 'm' is mass [kg], but this is length");
+    expect_set_refused("m=3 m", "<command line>:1:3: error: 'm' is mass [kg], but this is length");
+    expect_set_refused("m=3 [kgs]", "<command line>:1:6: error: unknown unit 'kgs'");
+    expect_set_refused("mm=3",
+                       "<command line>:1:1: error: 'mm' is unknown in mechanism 'epicyclic'");
+    expect_set_refused("m=", "<command line>:1:3: error: a value is missing before the end");
+    expect_set_refused("m", "<command line>:1:2: error: '=' is missing after 'm'");
+    expect_set_refused("", "<command line>:1:1: error: a name is missing");
+    expect_set_refused("m=1 2", "<command line>:1:5: error: an operator is missing before '2'");
+    expect_set_refused("m=1;r=2", "<command line>:1:4: error: unexpected ';'");
+    expect_set_refused("m=1\n", "<command line>:1:4: error: unexpected the end of the line");
+    expect_set_refused("theta=1", "<command line>:1:1: error: 'theta' is no parameter or input");
+    expect_set_refused("vx=1", "<command line>:1:1: error: 'vx' follows from the others");
+    expect_set_refused("r=theta", "<command line>:1:3: error: 'theta' depends on the motion");
+    expect_set_refused("m=m", "error: 'm' is set from itself");
+    expect_set_refused("m=log(0)", "error: parameter 'm' is not a finite number");
+    expect_start_refused("m=1", "<command line>:1:1: error: 'm' is no coordinate or rate");
+    expect_start_refused("X''=1", "<command line>:1:1: error: 'X' has no initial value for this");
+    expect_start_refused("X'=1 [m]", "<command line>:1:4: error: \"X'\" is speed [m/s]");
+    const char *misspelt = "rail_darg";
+    expect_refused(&(overrides){.with = &misspelt, .with_count = 1},
+                   "hint: did you mean 'rail_drag'?");
+    expect_refused(&(overrides){.without = &misspelt, .without_count = 1},
+                   "<command line>:1:1: error: unknown effect 'rail_darg'");
+    expect_refused(&(overrides){.step = "1 m"}, "error: step is time [s], but this is length [m]");
+    expect_refused(&(overrides){.step = "0"}, "error: step must be above zero");
+    expect_refused(&(overrides){.until = "-1s"}, "error: until must not be negative");
+    expect_refused(&(overrides){.until = "soon"}, "error: unknown name 'soon'");
+}
+
+static void test_sets_may_name_later_parameters(void) {
+    parse("mechanism m\ncoordinate X [m]\nparameter a = 1\nparameter b = 2*a\nparameter c = 3\n"
+          "parameter d = c + 1\nlet e = d*d\nT = a*1 [kg]*X'^2\n"
+          "scene s { set a = d, c = 10; start X = e*1 [m] }\n");
+    instantiate(NULL);
+    expect_exactly(11.0, parameter("a"));
+    expect_exactly(22.0, parameter("b"));
+    expect_exactly(121.0, made->start[0][0]);
+}
+
+/* Without memory each of these sixty lets would double the work. */
+static void test_lets_are_evaluated_once(void) {
+    char text[4000];
+    int used = snprintf(text, sizeof text,
+                        "mechanism m\ncoordinate X [m]\nT = 1 [kg]*X'^2\n"
+                        "parameter one = 1\nlet a0 = one\n");
+    for (int i = 1; i <= 60; i++) {
+        used += snprintf(text + used, sizeof text - (size_t)used, "let a%d = (a%d + a%d)/2\n", i,
+                         i - 1, i - 1);
+    }
+    snprintf(text + used, sizeof text - (size_t)used, "parameter p = a60\n");
+    parse(text);
+    instantiate(NULL);
+    expect_exactly(1.0, parameter("p"));
+}
+
+static void test_systems_given_outright(void) {
+    parse("mechanism jerk\nstate x [m]\nstate y [rad]\nlet j = x'''\n"
+          "equation j + 2 [1/s]*x'' = 3 [m/s^3]*y\nequation y' = -1 [1/s]*y\n"
+          "output a [m/s^2] = x''\noutput b = a*2\n"
+          "scene s { start x'' = 4 [m/s^2], x = 1 [m] }\n");
+    const mechanism *of = parsed->mechanisms[0];
+    TEST_ASSERT_TRUE(of->is_system);
+    TEST_ASSERT_EQUAL_INT(3, of->coordinates[0]->order);
+    TEST_ASSERT_EQUAL_INT(1, of->coordinates[1]->order);
+    TEST_ASSERT_TRUE(of->coordinates[1]->is_angle);
+    TEST_ASSERT_EQUAL_INT(TERM_EQUATION, of->terms[0].kind);
+    TEST_ASSERT_NOT_NULL(of->terms[0].right);
+    instantiate(NULL);
+    TEST_ASSERT_EQUAL_INT(3, made->start_count[0]);
+    TEST_ASSERT_EQUAL_INT(1, made->start_count[1]);
+    expect_exactly(1.0, made->start[0][0]);
+    expect_exactly(0.0, made->start[0][1]);
+    expect_exactly(4.0, made->start[0][2]);
+}
+
+static void test_several_mechanisms_and_uses(void) {
+    parse("mechanism a\ncoordinate X [m]\nT = 1 [kg]*X'^2\n"
+          "mechanism b\ncoordinate X [rad]\nT = 1 [kg*m^2]*X'^2\n"
+          "scene one { use a; start X = 2 [m] }\nscene two\n{\n  with none\n  start X = 2\n}\n"
+          "scene three { use b }\n");
+    TEST_ASSERT_EQUAL_INT(2, parsed->mechanism_count);
+    TEST_ASSERT_EQUAL_INT(3, parsed->scene_count);
+    TEST_ASSERT_EQUAL_PTR(parsed->mechanisms[0], parsed->scenes[0]->mechanism);
+    TEST_ASSERT_EQUAL_PTR(parsed->mechanisms[1], parsed->scenes[1]->mechanism);
+    TEST_ASSERT_EQUAL_PTR(parsed->mechanisms[1], parsed->scenes[2]->mechanism);
+}
+
+static void test_byte_order_mark_and_line_ends(void) {
+    parse("\xef\xbb\xbfmechanism m \"\xc3\xa4\"\r\ncoordinate X [m]\r\nT = 1 [kg]*X'^2\r\n");
+    TEST_ASSERT_EQUAL_STRING("\xc3\xa4", parsed->mechanisms[0]->title);
+}
+
+void suite_lang(void) {
+    UnitySetTestFile(__FILE__);
+    RUN_TEST(test_units);
+    RUN_TEST(test_a_divided_unit_goes_from_left_to_right);
+    RUN_TEST(test_arithmetic);
+    RUN_TEST(test_dimensions_of_expressions);
+    RUN_TEST(test_the_sample);
+    RUN_TEST(test_a_bare_mechanism_is_at_rest);
+    RUN_TEST(test_overrides);
+    RUN_TEST(test_step_in_all_its_spellings);
+    RUN_TEST(test_values_of_either_kind);
+    RUN_TEST(test_wrong_overrides);
+    RUN_TEST(test_sets_may_name_later_parameters);
+    RUN_TEST(test_lets_are_evaluated_once);
+    RUN_TEST(test_systems_given_outright);
+    RUN_TEST(test_several_mechanisms_and_uses);
+    RUN_TEST(test_byte_order_mark_and_line_ends);
+    drop();
+}

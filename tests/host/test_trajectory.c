@@ -1,0 +1,169 @@
+/* test_trajectory.c: `whirl run` in double against end states that were computed independently to
+ * 18 digits (tests/reference/trajectory.txt, made by trajectory.py).
+ *
+ * A fixed-step method has an error of its own, so the test is on how that error falls: halving the
+ * step must divide it by 2^4, the order of RK4, until rounding takes over. Error: the largest
+ * difference of a state, relative to the largest entry of the reference state.
+ *
+ *  - measured order log2(e(h)/e(h/2)) within 3.7 ... 4.3, or e(h/2) below 1e-11 (rounding);
+ *  - e(h/2) below 1e-5 in any case: a wrong trajectory may converge, too.
+ *
+ * The program is build/whirl, or what the environment variable WHIRL names; run from the root. */
+#define _POSIX_C_SOURCE 200809L
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "unity.h"
+
+void suite_trajectory(void);
+
+#define REFERENCE "tests/reference/trajectory.txt"
+#define ORDER_LEAST 3.7
+#define ORDER_MOST 4.3
+#define ROUNDING 1e-11
+#define WORST 1e-5
+#define VALUES_MAX 16
+#define TEXT_MAX 4096
+
+/* The last row of the CSV of a run. Returns false when the run failed or no row came. */
+static bool last_row(const char *scene, const char *until, double step_ms, char header[TEXT_MAX],
+                     char row[TEXT_MAX]) {
+    const char *whirl = getenv("WHIRL");
+    char command[TEXT_MAX];
+    char line[TEXT_MAX];
+    snprintf(command, sizeof command, "%s run \"%s\" --until %ss --step %gms --csv - --quiet",
+             whirl != NULL ? whirl : "build/whirl", scene, until, step_ms);
+    FILE *pipe = popen(command, "r");
+    TEST_ASSERT_NOT_NULL(pipe);
+    header[0] = '\0';
+    row[0] = '\0';
+    while (fgets(line, (int)sizeof line, pipe) != NULL) {
+        strcpy(header[0] == '\0' ? header : row, line);
+    }
+    const int status = pclose(pipe);
+    if (status != 0 || row[0] == '\0') {
+        printf("  %s\n    status %d\n", command, status);
+        return false;
+    }
+    return true;
+}
+
+/* The value of a column. The header's and row's fields need no quotes here. */
+static double column(const char *header, const char *row, const char *name) {
+    const size_t length = strlen(name);
+    for (;;) {
+        const char *next = strpbrk(header, ",\r\n");
+        const size_t width = next != NULL ? (size_t)(next - header) : strlen(header);
+        if (width == length && strncmp(header, name, length) == 0) {
+            return strtod(row, NULL);
+        }
+        const char *comma = strchr(row, ',');
+        if (next == NULL || *next != ',' || comma == NULL) {
+            printf("  no column %s\n", name);
+            return (double)NAN;
+        }
+        header = next + 1;
+        row = comma + 1;
+    }
+}
+
+/* Error of the run against `wanted` ("theta=1 theta'=2"); NaN when it failed. */
+static double run_error(const char *scene, const char *until, double step_ms, const char *wanted) {
+    char header[TEXT_MAX];
+    char row[TEXT_MAX];
+    if (!last_row(scene, until, step_ms, header, row)) {
+        return (double)NAN;
+    }
+    const double late = fabs(column(header, row, "time") - strtod(until, NULL));
+    double largest = late <= 1e-12 ? 0.0 : (double)NAN;
+    double scale = 0.0;
+    char text[TEXT_MAX];
+    snprintf(text, sizeof text, "%s", wanted);
+    char *rest = NULL;
+    for (char *word = strtok_r(text, " \n", &rest); word != NULL;
+         word = strtok_r(NULL, " \n", &rest)) {
+        char *equals = strchr(word, '=');
+        TEST_ASSERT_NOT_NULL(equals);
+        *equals = '\0';
+        char name[80];
+        char *prime = strchr(word, '\'');
+        if (prime != NULL) {
+            *prime = '\0';
+        }
+        snprintf(name, sizeof name, prime != NULL ? "der(%.60s)" : "%.60s", word);
+        const double want = strtod(equals + 1, NULL);
+        const double error = fabs(column(header, row, name) - want);
+        largest = error > largest || isnan(error) ? error : largest;
+        scale = fmax(scale, fabs(want));
+    }
+    return largest / scale;
+}
+
+/* Check the reference lines of one file, of which there must be `lines_wanted`. */
+static void check_model(const char *model, double step_ms, int lines_wanted) {
+    FILE *file = fopen(REFERENCE, "r");
+    TEST_ASSERT_NOT_NULL_MESSAGE(file, REFERENCE " cannot be read: run from the project's root");
+    char line[TEXT_MAX];
+    int lines = 0;
+    int failures = 0;
+    while (fgets(line, (int)sizeof line, file) != NULL) {
+        if (strncmp(line, "core/models/", 12) != 0 || strstr(line, model) == NULL) {
+            continue;
+        }
+        char *rest = NULL;
+        char scene[256];
+        char until[32];
+        TEST_ASSERT_EQUAL_INT(1, sscanf(strtok_r(line, "|", &rest), "%255s", scene));
+        TEST_ASSERT_EQUAL_INT(1, sscanf(strtok_r(NULL, "|", &rest), "%31s", until));
+        const char *wanted = strtok_r(NULL, "|", &rest);
+        /* Real pounds are stiff: their fastest part dies away at 884 per second. */
+        const double h_ms = strstr(scene, "_physical") != NULL ? step_ms / 10.0 : step_ms;
+        const double coarse = run_error(scene, until, h_ms, wanted);
+        const double fine = run_error(scene, until, h_ms / 2.0, wanted);
+        const double order = log2(coarse / fine);
+        const bool falls = (order >= ORDER_LEAST && order <= ORDER_MOST) || fine <= ROUNDING;
+        printf("  %s at %s s: error %.2g at %g ms, %.2g at %g ms, order %.2f\n", scene, until,
+               coarse, h_ms, fine, h_ms / 2.0, order);
+        lines++;
+        if (!(falls && fine <= WORST)) {
+            printf("    FAILED\n");
+            failures++;
+        }
+    }
+    fclose(file);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(0, failures, "a trajectory does not converge to the reference");
+    TEST_ASSERT_EQUAL_INT_MESSAGE(lines_wanted, lines, "reference lines");
+}
+
+static void test_particle_follows_its_parabola(void) {
+    check_model("/spherical_particle.whirl", 1.0, 3);
+}
+
+static void test_two_masses_follow_the_matrix_exponential(void) {
+    check_model("/two_mass.whirl", 1.0, 8);
+}
+
+static void test_epicyclic_gear_follows_the_reference(void) {
+    check_model("/epicyclic.whirl", 1.0, 4);
+}
+
+static void test_driven_hinge_follows_the_reference(void) {
+    check_model("/driven_hinge.whirl", 1.0, 2);
+}
+
+static void test_thomson_device_follows_the_reference(void) {
+    check_model("/thomson.whirl", 1.0, 6);
+}
+
+void suite_trajectory(void) {
+    UnitySetTestFile(__FILE__);
+    RUN_TEST(test_particle_follows_its_parabola);
+    RUN_TEST(test_two_masses_follow_the_matrix_exponential);
+    RUN_TEST(test_epicyclic_gear_follows_the_reference);
+    RUN_TEST(test_driven_hinge_follows_the_reference);
+    RUN_TEST(test_thomson_device_follows_the_reference);
+}

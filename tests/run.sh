@@ -1,0 +1,73 @@
+#!/bin/sh
+# run.sh LOGS [WHAT COMMAND]...: run test programs, keep what they print in the folder LOGS, add up.
+#
+# A program speaks Unity ("3 Tests 0 Failures 0 Ignored") or, as a script, prints "ok - what" and
+# "not ok - what" lines. One that crashes, hangs, fails without saying what, or runs no test counts
+# as a failure. The last line is "N passed, N failed"; the exit status is 0 if none failed.
+# TEST_SECONDS limits each program.
+set -u
+
+logs=${1:?usage: run.sh LOGS [WHAT COMMAND]...}
+shift
+rm -rf "$logs"
+mkdir -p "$logs"
+limit=${TEST_SECONDS:-300}
+all_passed=0
+all_failed=0
+number=0
+
+while [ $# -ge 2 ]; do
+    what=$1
+    command=$2
+    shift 2
+    number=$((number + 1))
+    log=$logs/$number.log
+    start=$(date +%s)
+    timeout --kill-after=5 "$limit" sh -c "$command" </dev/null >"$log.raw" 2>&1
+    status=$?
+    tr -d '\r' <"$log.raw" >"$log" # the emulated console ends its lines with carriage returns
+    rm -f "$log.raw"
+    read -r passed failed skipped <<END
+$(awk '/^[0-9]+ Tests [0-9]+ Failures [0-9]+ Ignored/ { tests += $1; bad += $3; skip += $5 }
+       /^ok( |$)/ { tests++ }
+       /^not ok( |$)/ { tests++; bad++ }
+       END { print tests - bad - skip, bad + 0, skip + 0 }' "$log")
+END
+    why=""
+    if [ "$status" -eq 124 ] || [ "$status" -eq 137 ]; then
+        why="did not end within $limit s"
+    elif [ "$status" -ne 0 ] && [ "$failed" -eq 0 ]; then
+        why="exit status $status, though no test failed"
+    elif [ "$status" -eq 0 ] && [ "$failed" -ne 0 ]; then
+        why="exit status 0, though tests failed"
+    elif [ $((passed + failed)) -eq 0 ]; then
+        why="ran no test"
+    fi
+    [ -z "$why" ] || failed=$((failed + 1))
+    all_passed=$((all_passed + passed))
+    all_failed=$((all_failed + failed))
+
+    if [ "$failed" -eq 0 ]; then
+        word=PASS
+    else
+        word=FAIL
+    fi
+    printf '  %s  %-34s %4d passed %3d failed' "$word" "$what" "$passed" "$failed"
+    [ "$skipped" -eq 0 ] || printf ' %3d skipped' "$skipped"
+    printf ' %4d s\n' "$(($(date +%s) - start))"
+    if [ "$failed" -ne 0 ]; then
+        grep -E ':FAIL|^not ok|ERROR: |runtime error:' "$log" | head -n 20 | sed 's/^/        /'
+        if [ -n "$why" ]; then
+            echo "        $why; its last lines:"
+            tail -n 5 "$log" | sed 's/^/          /'
+        fi
+        echo "        all it said: $log"
+    fi
+done
+
+if [ "$number" -eq 0 ]; then
+    echo "  FAIL  there was nothing to run"
+    all_failed=1
+fi
+echo "$all_passed passed, $all_failed failed"
+[ "$all_failed" -eq 0 ]

@@ -1,0 +1,13 @@
+/* suites.h: the test suites of one test program. The table is generated from the test files. */
+#ifndef TESTS_SUITES_H
+#define TESTS_SUITES_H
+
+struct suite {
+    const char *name;
+    void (*run)(void);
+};
+
+extern const struct suite suites[]; /* [suite_count] */
+extern const unsigned suite_count;
+
+#endif
