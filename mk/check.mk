@@ -28,10 +28,10 @@ board-objects: $(call objects,$(BOARD),$(CORE_C) $(HAL_C) $(wildcard boards/*.c)
     $(BOARD_SOURCES) $(CORE_TEST_C) $(SCENE_C))
 
 gate-gcc:
-	@$(MAKE) B=build/check/gcc CC=gcc EXTRA=-Werror BOARD_EXTRA=-Werror objects board-objects
+	@$(MAKE) -k B=build/check/gcc CC=gcc EXTRA=-Werror BOARD_EXTRA=-Werror objects board-objects
 
 gate-clang:
-	@$(MAKE) B=build/check/clang CC=clang EXTRA=-Werror objects
+	@$(MAKE) -k B=build/check/clang CC=clang EXTRA=-Werror objects
 
 # --- layout and lint ------------------------------------------------------------------------------
 gate-format:
@@ -66,11 +66,11 @@ asan-run: test-programs $(B)/whirl
 	@WHIRL=$(B)/whirl TEST_SECONDS=600 sh tests/run.sh $(B)/tests/log $(RUN_CORE) $(RUN_HOST) $(RUN_CLI)
 
 gate-sanitizers:
-	@$(ASAN_BUILD) asan-run
+	+@$(ASAN_BUILD) asan-run
 
 # Files that are broken in every way: each must be refused with a message, and nothing else.
 gate-bad-input:
-	@$(ASAN_BUILD) build/asan/whirl
+	+@$(ASAN_BUILD) build/asan/whirl
 	@sh tests/bad_input.sh build/asan/whirl
 
 # --- firmware -------------------------------------------------------------------------------------

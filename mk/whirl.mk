@@ -60,4 +60,6 @@ $(B)/scenes: $(call objects,float,boards/scenes_main.c boards/host/board.c) $(LI
 .PHONY: run-now
 run-now: build/whirl
 	@$(MAKE) $(GEN)/.stamp
-	@sh host/demo/run.sh
+	@$(MAKE) $(ELF)/scenes.elf $(ELF)/firmware.elf
+	@sh host/demo/run.sh build/whirl $(ELF)/scenes.elf $(ELF)/firmware.elf \
+	    '$(call BOARD_EMULATE,IMAGE)'

@@ -16,6 +16,8 @@ for gate in "$@"; do
     if $make "gate-$gate" >"$log" 2>&1 </dev/null; then
         passed=$((passed + 1))
         printf '  PASS  %-12s %4d s\n' "$gate" "$(($(date +%s) - start))"
+        # Sizes are worth seeing at every change, not only when the gate fails.
+        [ "$gate" != size ] || grep -v '^ *\(CC\|AR\|LINK\|GEN\) ' "$log" | sed 's/^/        /'
     else
         failed=$((failed + 1))
         printf '  FAIL  %-12s %4d s   make gate-%s; %s\n' "$gate" "$(($(date +%s) - start))" \

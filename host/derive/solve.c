@@ -93,6 +93,21 @@ static double choose_scales(const linear_system *s, double *scale) {
     return common;
 }
 
+/* p * scale, with coefficients that come out a rounding error beside a simple fraction put onto it:
+ * 1.0000000000000002 would cost a product. */
+static const poly *scale_simply(algebra *a, const poly *p, double scale) {
+    const poly *scaled = poly_number(a, 0.0);
+    for (int i = 0; i < p->count; i++) {
+        double c = p->terms[i].coefficient * scale;
+        const double nearest = floor(c * 48.0 + 0.5) / 48.0;
+        if (nearest != 0.0 && fabs(c - nearest) <= 1e-15 * fabs(c)) {
+            c = nearest;
+        }
+        scaled = poly_add(a, scaled, poly_of_term(a, c, p->terms[i].mono));
+    }
+    return scaled;
+}
+
 /* --- symbolic elimination ------------------------------------------------------------------------*/
 
 static bool number_at(const poly *const *mass, int n, int i, double *value) {
@@ -158,9 +173,11 @@ static void enter(const lowering *like, tape *t, const linear_system *s, const a
     }
     for (int i = 0; i < n; i++) {
         for (int j = 0; j < n; j++) {
-            mass[i * n + j] = poly_scale(a, s->mass[i * n + j], scale[i] * scale[j] / common);
+            const double factor_ij = scale[i] * scale[j] / common;
+            mass[i * n + j] = how->scaled ? scale_simply(a, s->mass[i * n + j], factor_ij)
+                                          : s->mass[i * n + j];
         }
-        force[i] = poly_scale(a, s->force[i], scale[i] / common);
+        force[i] = how->scaled ? scale_simply(a, s->force[i], scale[i] / common) : s->force[i];
     }
     int eliminated = 0;
     for (int i = 0; i < n && how->first != -1; i++) {

@@ -31,6 +31,7 @@ struct diags {
     entry *entries;
     int held;
     int reported;
+    size_t calls;
 };
 
 diags *diags_new(void) {
@@ -53,6 +54,8 @@ void diags_free(diags *all) {
 }
 
 int diags_count(const diags *all) { return all->reported; }
+
+size_t diags_calls(const diags *all) { return all->calls; }
 
 /* Copy the line around the place, one shown character for each column, harmless to a terminal. */
 static void copy_line(entry *made, place at) {
@@ -95,43 +98,49 @@ static void copy_line(entry *made, place at) {
     made->caret = before;
 }
 
-void diag_error(diags *all, place at, const char *hint, const char *format, ...) {
+/* Another source may lie where a freed one did, so that the line itself is compared, too. */
+static bool is_repeat(const diags *all, const entry *made) {
     for (int i = 0; i < all->held; i++) {
-        if (all->entries[i].source == at.source && all->entries[i].offset == at.offset) {
-            return;
+        const entry *each = &all->entries[i];
+        if (each->source == made->source && each->offset == made->offset &&
+            strcmp(each->file, made->file) == 0 && strcmp(each->shown, made->shown) == 0) {
+            return true;
         }
+    }
+    return false;
+}
+
+void diag_error(diags *all, place at, const char *hint, const char *format, ...) {
+    entry made = {.source = at.source, .line = at.line, .column = at.column, .offset = at.offset};
+    all->calls++;
+    made.file_order = all->held;
+    for (int i = all->held - 1; i >= 0; i--) {
+        if (all->entries[i].source == at.source) {
+            made.file_order = all->entries[i].file_order;
+        }
+    }
+    made.caret = -1;
+    if (at.source != NULL) {
+        snprintf(made.file, sizeof made.file, "%s", at.source->file);
+        if (at.source->text != NULL && at.offset <= at.source->length) {
+            copy_line(&made, at);
+        }
+    }
+    if (is_repeat(all, &made)) {
+        return;
     }
     all->reported++;
     if (all->held == DIAG_MAX) {
         return;
     }
-    entry *made = &all->entries[all->held];
-    memset(made, 0, sizeof *made);
-    made->source = at.source;
-    made->file_order = all->held;
-    for (int i = all->held - 1; i >= 0; i--) {
-        if (all->entries[i].source == at.source) {
-            made->file_order = all->entries[i].file_order;
-        }
-    }
-    all->held++;
-    made->line = at.line;
-    made->column = at.column;
-    made->offset = at.offset;
-    made->caret = -1;
-    if (at.source != NULL) {
-        snprintf(made->file, sizeof made->file, "%s", at.source->file);
-        if (at.source->text != NULL && at.offset <= at.source->length) {
-            copy_line(made, at);
-        }
-    }
     if (hint != NULL) {
-        snprintf(made->hint, sizeof made->hint, "%s", hint);
+        snprintf(made.hint, sizeof made.hint, "%s", hint);
     }
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(made->message, sizeof made->message, format, arguments);
+    vsnprintf(made.message, sizeof made.message, format, arguments);
     va_end(arguments);
+    all->entries[all->held++] = made;
 }
 
 static bool comes_after(const entry *a, const entry *b) {

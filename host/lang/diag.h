@@ -32,8 +32,11 @@ void diags_free(diags *diags);
 void diag_error(diags *diags, place at, const char *hint, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
-/* Errors reported so far. */
+/* Errors to be printed: repeats do not count, those beyond DIAG_MAX do. */
 int diags_count(const diags *diags);
+
+/* Calls of diag_error() since diags_new(), repeats included: unchanged means that all went well. */
+size_t diags_calls(const diags *diags);
 
 /* Print all, in the order of their places, and forget them:
  *   file:line:column: error: text

@@ -76,17 +76,17 @@ bool parse_effect(parser *in) {
         return false;
     }
     made.text = parser_title(in);
+    effect *longer =
+        arena_room(in->arena, (effect *)into->effects, into->effect_count, sizeof *longer);
+    longer[into->effect_count] = made;
+    into->effects = longer;
+    in->effect = into->effect_count++;
     while (in->token.kind == TOKEN_NEWLINE) {
         parser_next(in);
     }
     if (!parser_expect_sign(in, '{', "after the effect's name")) {
         return false;
     }
-    effect *longer =
-        arena_room(in->arena, (effect *)into->effects, into->effect_count, sizeof *longer);
-    longer[into->effect_count] = made;
-    into->effects = longer;
-    in->effect = into->effect_count++;
     for (;;) {
         parser_skip_lines(in);
         if (parser_is_sign(in, '}')) {

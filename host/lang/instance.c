@@ -180,7 +180,7 @@ static void allocate(instance *made) {
 
 instance *instance_make(const mechanism *of, const scene *from, const overrides *changes,
                         diags *all) {
-    const int before = diags_count(all);
+    const size_t before = diags_calls(all);
     struct arena *memory = arena_new();
     instance *made = arena_alloc(memory, sizeof *made);
     made->arena = memory;
@@ -196,7 +196,7 @@ instance *instance_make(const mechanism *of, const scene *from, const overrides 
         apply_overrides(&what, made, changes);
     }
     evaluate(&what, made);
-    if (diags_count(all) != before) {
+    if (diags_calls(all) != before) {
         arena_free(memory);
         return NULL;
     }

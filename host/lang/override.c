@@ -123,7 +123,7 @@ static bool check_target(parser *in, override_kind kind, const token *name, cons
 
 bool override_parse(const mechanism *of, override_kind kind, const char *text, struct arena *arena,
                     diags *all, assignment *made) {
-    const int before = diags_count(all);
+    const size_t before = diags_calls(all);
     parser in = begin(of, text, arena, all);
     const token name = in.token;
     if (name.kind != TOKEN_NAME) {
@@ -147,15 +147,15 @@ bool override_parse(const mechanism *of, override_kind kind, const char *text, s
     char words[80];
     token_words(&name, words, sizeof words);
     *made = (assignment){&found->symbol, name.primes, parse_quantity(&in, wanted, words), name.at};
-    return made->value != NULL && diags_count(all) == before;
+    return made->value != NULL && diags_calls(all) == before;
 }
 
 const expr *override_duration(const mechanism *of, const char *what, const char *text,
                               struct arena *arena, diags *all) {
-    const int before = diags_count(all);
+    const size_t before = diags_calls(all);
     parser in = begin(of, text, arena, all);
     const expr *made = parse_quantity(&in, dim_of(0, 0, 1, 0, 0), what);
-    return diags_count(all) == before ? made : NULL;
+    return diags_calls(all) == before ? made : NULL;
 }
 
 int override_effect(const mechanism *of, const char *text, struct arena *arena, diags *all) {

@@ -160,7 +160,11 @@ bool statement_unknown(parser *in, const char *const *words, int count) {
     char hint[120] = "";
     token_words(&in->token, name, sizeof name);
     if (in->token.kind != TOKEN_NAME) {
-        return parser_fail(in, NULL, "a statement cannot begin with %s", name);
+        const bool goes_on = parser_is_sign(in, '+') || parser_is_sign(in, '-') ||
+                             parser_is_sign(in, '*') || parser_is_sign(in, '/');
+        return parser_fail(
+            in, goes_on ? "a line goes on only while a parenthesis or brace is open" : NULL,
+            "a statement cannot begin with %s", name);
     }
     const token word = in->token;
     parser_next(in);
@@ -170,10 +174,12 @@ bool statement_unknown(parser *in, const char *const *words, int count) {
     }
     if (search.best != NULL && !parser_is_sign(in, '=')) {
         snprintf(hint, sizeof hint, "did you mean '%s'?", search.best);
+    } else if (parser_is_sign(in, '=') && in->all_effects) {
+        snprintf(hint, sizeof hint, "begin with set or start, or end the line before with a comma");
     } else if (parser_is_sign(in, '=')) {
-        snprintf(hint, sizeof hint, "declare it: parameter %.*s = ..., or let %.*s = ...",
-                 (int)(word.length > 30 ? 30 : word.length), word.text,
-                 (int)(word.length > 30 ? 30 : word.length), word.text);
+        const int length = word.length > 30 ? 30 : (int)word.length;
+        snprintf(hint, sizeof hint, "declare it: parameter %.*s = ..., or let %.*s = ...", length,
+                 word.text, length, word.text);
     }
     diag_error(in->diags, word.at, hint[0] == '\0' ? NULL : hint, "unknown statement %s", name);
     return false;
@@ -319,14 +325,14 @@ model *model_parse(const char *file, const char *text, size_t length, diags *all
     whole->length = too_long ? 0 : length;
     whole->text = arena_copy(memory, text, whole->length);
     parser in = {.diags = all, .arena = memory, .effect = -1};
-    const int before = diags_count(all);
+    const size_t before = diags_calls(all);
     in.lexer = lexer_start(whole, all);
     if (too_long) {
         diag_error(all, in.lexer.at, NULL, "the text is longer than %zu bytes", MODEL_BYTES_MAX);
     } else {
         parse_all(&in, in.lexer.at);
     }
-    if (diags_count(all) != before) {
+    if (diags_calls(all) != before || diags_count(all) > DIAG_MAX) {
         arena_free(memory);
         return NULL;
     }

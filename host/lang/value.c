@@ -109,12 +109,12 @@ double expr_value(const expr *tree, valuation *known) {
 }
 
 double finite_value(const expr *tree, valuation *known, place at, const char *what) {
-    const int before = diags_count(known->diags);
+    const size_t before = diags_calls(known->diags);
     const double value = expr_value(tree, known);
     if (isfinite(value)) {
         return value;
     }
-    if (diags_count(known->diags) == before) {
+    if (diags_calls(known->diags) == before) {
         diag_error(known->diags, at, NULL, "%s is not a finite number (%s)", what,
                    isnan(value)  ? "not a number"
                    : value > 0.0 ? "infinity"

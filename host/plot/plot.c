@@ -74,7 +74,7 @@ bool plot_draw(const char *file, const char *title, const curve *curves, int cou
         return false;
     }
     void (*before)(int) = signal(SIGPIPE, SIG_IGN);
-    FILE *to = popen("gnuplot", "w");
+    FILE *to = popen("LC_ALL=C.UTF-8 gnuplot", "w");
     if (to == NULL) {
         perror("whirl: error: gnuplot");
         signal(SIGPIPE, before);

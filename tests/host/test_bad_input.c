@@ -82,20 +82,21 @@ static bool file_fails_as_announced(const char *path) {
     for (const char *line = text; strncmp(line, mark, sizeof mark - 1) == 0;) {
         const char *end = strchr(line, '\n');
         TEST_ASSERT_NOT_NULL_MESSAGE(end, path);
-        int row = 0;
-        int column = 0;
-        int used = 0;
         char where[LINE_SIZE];
         char words[LINE_SIZE];
         char whole[2 * LINE_SIZE + 16];
         line += sizeof mark - 1;
-        if (sscanf(line, "%d:%d: %n", &row, &column, &used) != 2 || used == 0 ||
-            end - line - used >= LINE_SIZE) {
+        char *after = NULL;
+        const long row = strtol(line, &after, 10);
+        const long column = *after == ':' ? strtol(after + 1, &after, 10) : 0;
+        if (strncmp(after, ": ", 2) != 0 || end - after >= LINE_SIZE) {
+            printf("%s: not LINE:COLUMN: TEXT\n", path);
             good = false;
             break;
         }
-        snprintf(where, sizeof where, "%s:%d:%d", path, row, column);
-        snprintf(words, sizeof words, "%.*s", (int)(end - line - used), line + used);
+        after += 2;
+        snprintf(where, sizeof where, "%s:%ld:%ld", path, row, column);
+        snprintf(words, sizeof words, "%.*s", (int)(end - after), after);
         snprintf(whole, sizeof whole, "%s: error: %s", where, words);
         const char *found = strstr(from, whole);
         if (found == NULL) {
@@ -120,20 +121,21 @@ static bool file_fails_as_announced(const char *path) {
 }
 
 static void test_every_bad_file_has_the_errors_it_announces(void) {
-    DIR *folder = opendir(FOLDER);
-    TEST_ASSERT_NOT_NULL_MESSAGE(folder, "run the tests from the root of the project");
+    struct dirent **entries = NULL;
+    const int count = scandir(FOLDER, &entries, NULL, alphasort);
+    TEST_ASSERT_GREATER_THAN_INT_MESSAGE(0, count, "run the tests from the root of the project");
     int files = 0;
     int failed = 0;
-    for (struct dirent *each = readdir(folder); each != NULL; each = readdir(folder)) {
-        char path[LINE_SIZE];
-        if (strstr(each->d_name, ".whirl") == NULL) {
-            continue;
+    for (int i = 0; i < count; i++) {
+        if (strstr(entries[i]->d_name, ".whirl") != NULL) {
+            char path[LINE_SIZE];
+            snprintf(path, sizeof path, "%s/%s", FOLDER, entries[i]->d_name);
+            files++;
+            failed += file_fails_as_announced(path) ? 0 : 1;
         }
-        snprintf(path, sizeof path, "%s/%s", FOLDER, each->d_name);
-        files++;
-        failed += file_fails_as_announced(path) ? 0 : 1;
+        free(entries[i]);
     }
-    closedir(folder);
+    free(entries);
     TEST_ASSERT_EQUAL_INT(0, failed);
     TEST_ASSERT_GREATER_OR_EQUAL_INT(FILES_MIN, files);
 }
@@ -191,17 +193,14 @@ static void test_values_that_are_no_numbers(void) {
 /* `head`, then `piece` so many times, then `tail`; free() it. */
 static char *repeat(const char *head, const char *piece, size_t times, const char *tail,
                     size_t *length) {
-    const size_t a = strlen(head);
-    const size_t b = strlen(piece);
-    const size_t c = strlen(tail);
-    char *text = malloc(a + b * times + c + 1);
+    *length = strlen(head) + strlen(piece) * times + strlen(tail);
+    char *text = malloc(*length + 1);
     TEST_ASSERT_NOT_NULL(text);
-    memcpy(text, head, a);
+    char *at = stpcpy(text, head);
     for (size_t i = 0; i < times; i++) {
-        memcpy(text + a + i * b, piece, b);
+        at = stpcpy(at, piece);
     }
-    memcpy(text + a + b * times, tail, c + 1);
-    *length = a + b * times + c;
+    stpcpy(at, tail);
     return text;
 }
 

@@ -12,10 +12,12 @@ Only needed to make the references anew; the tests read accel.txt.
 import inspect
 import pathlib
 import random
+import sys
 
 import mpmath as mp
 import sympy as sp
 
+sys.dont_write_bytecode = True  # leave no __pycache__ among the sources
 DIGITS = 25
 STATES = 6  # a mechanism
 HERE = pathlib.Path(__file__).parent

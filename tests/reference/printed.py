@@ -7,9 +7,12 @@ lost in the scanned text and therefore missing here.
 
 Needs python3-sympy. From the project's root: python3 tests/reference/printed.py
 """
+import sys
+
 import sympy as sp
 from sympy import cos, sin
 
+sys.dont_write_bytecode = True  # leave no __pycache__ among the sources
 import dissertation as d
 from derive import Case
 

@@ -11,12 +11,14 @@ Needs python3-sympy and python3-gmpy2.
 From the project's root: python3 tests/reference/trajectory.py
 """
 import pathlib
+import sys
 
 import gmpy2
 import mpmath as mp
 import sympy as sp
 from sympy import Rational as R, pi
 
+sys.dont_write_bytecode = True  # leave no __pycache__ among the sources
 import dissertation as d
 from derive import Case
 from units import INCH

@@ -1,0 +1,219 @@
+/* test_override.c: the command line's changes to a scene. */
+#define _POSIX_C_SOURCE 200809L
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "host/lang/model.h"
+#include "unity.h"
+
+void suite_override(void);
+
+#define PI 3.14159265358979323846
+
+static const char sample[] = "mechanism epicyclic\n"
+                             "coordinate theta [rad]\n"
+                             "coordinate X [m]\n"
+                             "parameter m = 2 [kg]\n"
+                             "parameter r = 0.3 [m]\n"
+                             "parameter I = m*r^2/2\n"
+                             "input M = 2 [N*m]\n"
+                             "let vx = X' - 2*r*theta'*sin(theta)\n"
+                             "T = m*X'^2/2 + m*vx^2/2 + I*theta'^2\n"
+                             "Q(theta) = M\n"
+                             "effect rail_drag { parameter b = 0.5 [N*s/m]; F += b*X'^2/2 }\n"
+                             "effect slope { V += m*X*1 [m/s^2] }\n"
+                             "scene from_rest {\n"
+                             "  with rail_drag\n"
+                             "  set m = 3 [kg], M = 2*m*r*9.81 [m/s^2]\n"
+                             "  start theta = 30 [deg], X = r, theta' = -8.5 [rad/s]\n"
+                             "}\n";
+
+static diags *said;
+static model *parsed;
+static instance *made;
+
+static void drop(void) {
+    instance_free(made);
+    model_free(parsed);
+    diags_free(said);
+    made = NULL;
+    parsed = NULL;
+    said = NULL;
+}
+
+static void parse(void) {
+    drop();
+    said = diags_new();
+    parsed = model_parse("x.whirl", sample, strlen(sample), said);
+    if (diags_count(said) > 0) {
+        diags_flush(said, stdout);
+    }
+    TEST_ASSERT_NOT_NULL(parsed);
+}
+
+/* The scene with these changes. */
+static void instantiate(const overrides *changes) {
+    instance_free(made);
+    made = instance_make(parsed->mechanisms[0], parsed->scenes[0], changes, said);
+    if (made == NULL) {
+        diags_flush(said, stdout);
+    }
+    TEST_ASSERT_NOT_NULL(made);
+}
+
+static double parameter(const char *name) {
+    for (int i = 0; i < made->mechanism->parameter_count; i++) {
+        if (strcmp(made->mechanism->parameters[i]->name, name) == 0) {
+            return made->parameter[i];
+        }
+    }
+    TEST_FAIL_MESSAGE(name);
+    return 0.0;
+}
+
+static void expect_exactly(double wanted, double got) {
+    if (wanted != got) {
+        printf("wanted %.17g, got %.17g\n", wanted, got);
+    }
+    TEST_ASSERT_TRUE(wanted == got);
+}
+
+static void expect_nearly(double wanted, double got) {
+    if (!(fabs(got - wanted) <= 4e-16 * fabs(wanted))) {
+        printf("wanted %.17g, got %.17g\n", wanted, got);
+    }
+    TEST_ASSERT_TRUE(fabs(got - wanted) <= 4e-16 * fabs(wanted));
+}
+
+static void test_overrides(void) {
+    static const char *const sets[] = {"m=4", "r = 250 mm", "b=2*m/(1 [s])", "M=-1/4"};
+    static const char *const starts[] = {"theta=90 [deg]", "X'=-36 km/h", "X = r"};
+    static const char *const with[] = {"slope"};
+    static const char *const without[] = {"rail_drag"};
+    const overrides changes = {.sets = sets,
+                               .set_count = 4,
+                               .starts = starts,
+                               .start_count = 3,
+                               .with = with,
+                               .with_count = 1,
+                               .without = without,
+                               .without_count = 1,
+                               .step = "2ms",
+                               .until = "1 [min]"};
+    parse();
+    instantiate(&changes);
+    expect_exactly(4.0, parameter("m"));
+    expect_exactly(0.25, parameter("r"));
+    expect_exactly(0.125, parameter("I"));
+    expect_exactly(8.0, parameter("b"));
+    expect_exactly(-0.25, made->input[0]);
+    expect_nearly(PI / 2.0, made->start[0][0]);
+    expect_exactly(0.25, made->start[1][0]);
+    expect_exactly(-10.0, made->start[1][1]);
+    TEST_ASSERT_FALSE(made->with[0]);
+    TEST_ASSERT_TRUE(made->with[1]);
+    expect_exactly(0.002, made->step_s);
+    expect_exactly(60.0, made->until_s);
+}
+
+static void test_step_in_all_its_spellings(void) {
+    static const char *const spellings[] = {"1ms",    "1 ms",   "1 [ms]", "0.001",
+                                            "1e-3 s", "1/1000", "1000us"};
+    parse();
+    for (size_t i = 0; i < sizeof spellings / sizeof spellings[0]; i++) {
+        instantiate(&(overrides){.step = spellings[i]});
+        expect_exactly(0.001, made->step_s);
+    }
+}
+
+static void test_values_of_either_kind(void) {
+    static const char *const values[] = {"theta=0.3", "theta'=1.2", "m=5", "M=7"};
+    parse();
+    instantiate(&(overrides){.values = values, .value_count = 4});
+    expect_exactly(0.3, made->start[0][0]);
+    expect_exactly(1.2, made->start[0][1]);
+    expect_exactly(5.0, parameter("m"));
+    expect_exactly(7.0, made->input[0]);
+}
+
+/* The instance is refused, and the first lines say so. */
+static void expect_refused(const overrides *changes, const char *wanted) {
+    parse();
+    TEST_ASSERT_NULL(instance_make(parsed->mechanisms[0], parsed->scenes[0], changes, said));
+    char *report = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&report, &size);
+    TEST_ASSERT_NOT_NULL(out);
+    diags_flush(said, out);
+    fclose(out);
+    const bool found = strstr(report, wanted) != NULL;
+    if (!found) {
+        printf("wanted: %s\ngot: %s\n", wanted, report);
+    }
+    free(report);
+    TEST_ASSERT_TRUE(found);
+}
+
+static void expect_set_refused(const char *set, const char *wanted) {
+    expect_refused(&(overrides){.sets = &set, .set_count = 1}, wanted);
+}
+
+static void expect_start_refused(const char *start, const char *wanted) {
+    expect_refused(&(overrides){.starts = &start, .start_count = 1}, wanted);
+}
+
+static void test_wrong_overrides(void) {
+    expect_set_refused("m=3 [m]",
+                       "<command line>:1:3: error: 'm' is mass [kg], but this is length");
+    expect_set_refused("m=3 m", "<command line>:1:3: error: 'm' is mass [kg], but this is length");
+    expect_set_refused("m=3 [kgs]", "<command line>:1:6: error: unknown unit 'kgs'");
+    expect_set_refused("mm=3",
+                       "<command line>:1:1: error: 'mm' is unknown in mechanism 'epicyclic'");
+    expect_set_refused("m=", "<command line>:1:3: error: a value is missing before the end");
+    expect_set_refused("m", "<command line>:1:2: error: '=' is missing after 'm'");
+    expect_set_refused("", "<command line>:1:1: error: a name is missing");
+    expect_set_refused("m=1 2", "<command line>:1:5: error: an operator is missing before '2'");
+    expect_set_refused("m=1;r=2", "<command line>:1:4: error: unexpected ';'");
+    expect_set_refused("m=1\n", "<command line>:1:4: error: unexpected the end of the line");
+    expect_set_refused("theta=1", "<command line>:1:1: error: 'theta' is no parameter or input");
+    expect_set_refused("vx=1", "<command line>:1:1: error: 'vx' follows from the others");
+    expect_set_refused("r=theta", "<command line>:1:3: error: 'theta' depends on the motion");
+    expect_set_refused("m=m", "error: 'm' is set from itself");
+    expect_set_refused("m=log(0)", "error: parameter 'm' is not a finite number");
+    expect_start_refused("m=1", "<command line>:1:1: error: 'm' is no coordinate or rate");
+    expect_start_refused("X''=1", "<command line>:1:1: error: 'X' has no initial value for this");
+    expect_start_refused("X'=1 [m]", "<command line>:1:4: error: \"X'\" is speed [m/s]");
+    const char *misspelt = "rail_darg";
+    expect_refused(&(overrides){.with = &misspelt, .with_count = 1},
+                   "hint: did you mean 'rail_drag'?");
+    expect_refused(&(overrides){.without = &misspelt, .without_count = 1},
+                   "<command line>:1:1: error: unknown effect 'rail_darg'");
+    expect_refused(&(overrides){.step = "1 m"}, "error: step is time [s], but this is length [m]");
+    expect_refused(&(overrides){.step = "0"}, "error: step must be above zero");
+    expect_refused(&(overrides){.until = "-1s"}, "error: until must not be negative");
+    expect_refused(&(overrides){.until = "soon"}, "error: unknown name 'soon'");
+}
+
+/* Errors are refusals even when they read like one that was told before. */
+static void test_the_same_error_again_is_refused_again(void) {
+    static const char *const wrong[] = {"m=1 [m]", "m=2 [m]", "m=2 [m]"};
+    parse();
+    for (size_t i = 0; i < 3; i++) {
+        const overrides changes = {.sets = &wrong[i], .set_count = 1};
+        TEST_ASSERT_NULL(instance_make(parsed->mechanisms[0], NULL, &changes, said));
+    }
+    TEST_ASSERT_GREATER_OR_EQUAL_INT(2, diags_count(said));
+}
+
+void suite_override(void) {
+    UnitySetTestFile(__FILE__);
+    RUN_TEST(test_overrides);
+    RUN_TEST(test_step_in_all_its_spellings);
+    RUN_TEST(test_values_of_either_kind);
+    RUN_TEST(test_wrong_overrides);
+    RUN_TEST(test_the_same_error_again_is_refused_again);
+    drop();
+}
