@@ -120,6 +120,28 @@ const poly *poly_derivative(algebra *a, const poly *p, const symbol *sym, int pr
     return known;
 }
 
+/* --- determinants --------------------------------------------------------------------------------*/
+
+const poly *poly_determinant(algebra *a, const poly *const *m, int n, unsigned rows,
+                             unsigned columns) {
+    const poly *sum = poly_number(a, 0.0);
+    if (rows == 0) {
+        return poly_number(a, 1.0);
+    }
+    const unsigned row = (unsigned)__builtin_ctz(rows);
+    double sign = 1.0;
+    for (unsigned c = 0; c < (unsigned)n; c++) {
+        if ((columns & (1U << c)) != 0) {
+            const poly *minor =
+                poly_determinant(a, m, n, rows & ~(1U << row), columns & ~(1U << c));
+            const poly *product = poly_mul(a, m[row * (unsigned)n + c], minor);
+            sum = poly_add(a, sum, poly_scale(a, product, sign));
+            sign = -sign;
+        }
+    }
+    return sum;
+}
+
 /* --- what is inside ------------------------------------------------------------------------------*/
 
 bool poly_contains(const poly *p, const symbol *sym, int primes) {

@@ -104,6 +104,11 @@ bool poly_contains(const poly *p, const symbol *sym, int primes);
 
 /* --- calculus.c ---------------------------------------------------------------------------------*/
 
+/* Determinant of the given rows and columns (bit sets, equally many) of the n by n matrix m, n <= 32.
+ * For a few rows: it is expanded by cofactors. */
+const poly *poly_determinant(algebra *a, const poly *const *m, int n, unsigned rows,
+                             unsigned columns);
+
 /* Partial derivative by the symbol with so many primes, all else held. */
 const poly *poly_derivative(algebra *a, const poly *p, const symbol *sym, int primes);
 

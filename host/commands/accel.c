@@ -35,7 +35,7 @@ int command_accel(int count, char **words) {
         const overrides changes = {.values = (const char *const *)(words + 1),
                                    .value_count = count - 1};
         loaded made;
-        code = load(&made, &from, of, in, &changes);
+        code = load(&made, &from, of, in, &changes, false);
         if (code == EXIT_DONE) {
             const program *p = made.program;
             double angle_rad[PROGRAM_COMPONENTS_MAX];
@@ -46,8 +46,8 @@ int command_accel(int count, char **words) {
             }
             program_start(p, made.instance, angle_rad, real);
             evaluator *ev = evaluator_new(p->books);
-            evaluator_run(ev, angle_rad, real, real + (p->count - p->angles), made.instance->input,
-                          result);
+            evaluator_run(ev, 0.0, angle_rad, real, real + (p->coordinates - p->angles),
+                          made.instance->input, result);
             evaluator_free(ev);
             for (int i = 0; i < p->count; i++) {
                 printf("%s", made.equations->unknowns[i].symbol->name);

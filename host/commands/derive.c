@@ -33,7 +33,7 @@ static void print(form as, const loaded *made, const char *file) {
 static int derive_one(source_model *from, const mechanism *of, const scene *in,
                       const overrides *changes, form as) {
     loaded made;
-    int code = load(&made, from, of, in, changes);
+    int code = load(&made, from, of, in, changes, as == FORM_C);
     if (code == EXIT_DONE && as == FORM_C && program_needs_libm(made.program) != NULL) {
         fprintf(stderr,
                 "%s: error: '%s' needs %s, which the core does not offer on boards\n"

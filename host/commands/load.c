@@ -203,14 +203,15 @@ int source_pick(source_model *s, bool prefer_scene, const mechanism **of, const 
 }
 
 int load(loaded *made, source_model *s, const mechanism *of, const scene *in,
-         const overrides *changes) {
+         const overrides *changes, bool conserve) {
     *made = (loaded){0};
     made->instance = instance_make(of, in, changes, s->errors);
     if (made->instance != NULL) {
         made->equations = equations_derive(made->instance, s->errors);
     }
     if (made->equations != NULL) {
-        made->program = program_make(made->equations, s->errors);
+        made->program = program_make(
+            made->equations, conserve && in != NULL ? in->conserve : NULL, s->errors);
     }
     diags_flush(s->errors, stderr);
     return made->program == NULL ? EXIT_BAD_INPUT : EXIT_DONE;

@@ -31,9 +31,10 @@ typedef struct loaded {
     program *program;
 } loaded;
 
-/* Derive one instance and enter its program; errors are printed. Returns an exit code. */
+/* Derive one instance and enter its program; errors are printed. With `conserve`, the coordinates that
+ * the scene names are recovered from their momentum. Returns an exit code. */
 int load(loaded *made, source_model *source, const mechanism *of, const scene *in,
-         const overrides *changes);
+         const overrides *changes, bool conserve);
 void unload(loaded *made);
 
 /* The whole of `path` in memory ("-" is standard input), with a zero byte behind; NULL, reported. */

@@ -197,7 +197,7 @@ int command_run(int count, char **words) {
     if (code == EXIT_DONE) {
         loaded made;
         const overrides changes = change_options_overrides(&o.changes);
-        code = load(&made, &from, of, in, &changes);
+        code = load(&made, &from, of, in, &changes, true);
         if (code == EXIT_DONE) {
             code = run_loaded(&o, &from, &made);
         }

@@ -25,7 +25,7 @@ static int each_scene(scene_visitor *visit, void *context) {
         for (int k = 0; code == EXIT_DONE && k < from.model->scene_count; k++) {
             const scene *in = from.model->scenes[k];
             loaded made;
-            code = load(&made, &from, in->mechanism, in, NULL);
+            code = load(&made, &from, in->mechanism, in, NULL, true);
             if (code == EXIT_DONE && program_needs_libm(made.program) == NULL) {
                 code = visit(context, b->file, &made);
             }

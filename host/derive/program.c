@@ -38,6 +38,9 @@ static int turn_of(void *context, const symbol *s) {
 
 static int leaf_of(void *context, tape *t, const symbol *s, int primes) {
     const place_map *map = context;
+    if (s == &conservation_time) {
+        return tape_leaf(t, OP_TIME, 0);
+    }
     if (s->kind == SYM_INPUT) {
         return tape_leaf(t, OP_INPUT, s->index);
     }
@@ -55,66 +58,80 @@ static int leaf_of(void *context, tape *t, const symbol *s, int primes) {
     return tape_leaf(t, OP_LINEAR, real);
 }
 
+static void *room(int count, size_t size) {
+    void *p = calloc((size_t)count + 1, size);
+    if (p == NULL) {
+        abort();
+    }
+    return p;
+}
+
 /* --- arranging the state -------------------------------------------------------------------------*/
+
+/* Is this derivative of the unknown part of the state? Conserved coordinates are not, but for their
+ * value where it must be integrated. */
+static bool in_state(const program *p, const equations *e, int i, int primes) {
+    if (p->conserved->number[i] < 0) {
+        return primes < e->unknowns[i].order;
+    }
+    return primes == 0 && !p->conserved->closed;
+}
+
+static int add_real(program *p, int i, int primes) {
+    p->real[p->reals] = (component){i, primes};
+    return p->reals++;
+}
 
 static bool arrange(program *p, const equations *e, place_map *map, const poly *const *dynamics,
                     int count) {
     const int n = e->count;
     int components = 0;
-    bool all_second = true;
+    bool second = p->conserved->closed;
     map->order_room = 1;
     for (int i = 0; i < n; i++) {
         const int order = e->unknowns[i].order;
         components += order;
-        all_second = all_second && order == 2;
+        second = second && order == 2;
         map->order_room = order + 1 > map->order_room ? order + 1 : map->order_room;
     }
-    p->form = all_second ? WH_SECOND_ORDER : WH_FIRST_ORDER;
-    if ((all_second ? n : components) > PROGRAM_COMPONENTS_MAX) {
+    p->form = second ? WH_SECOND_ORDER : WH_FIRST_ORDER;
+    if ((second ? n : components) > PROGRAM_COMPONENTS_MAX) {
         return false;
     }
-    p->angle = calloc((size_t)components + 1, sizeof *p->angle);
-    p->real = calloc((size_t)components + 1, sizeof *p->real);
-    p->place = calloc((size_t)n + 1, sizeof *p->place);
-    map->angle_number = calloc((size_t)n + 1, sizeof *map->angle_number);
-    map->real_number =
-        calloc((size_t)n * (size_t)map->order_room + 1, sizeof *map->real_number);
-    if (p->angle == NULL || p->real == NULL || p->place == NULL || map->angle_number == NULL ||
-        map->real_number == NULL) {
-        abort();
-    }
+    p->angle = room(components, sizeof *p->angle);
+    p->real = room(components, sizeof *p->real);
+    p->place = room(n, sizeof *p->place);
+    map->angle_number = room(n, sizeof *map->angle_number);
+    map->real_number = room(n * map->order_room, sizeof *map->real_number);
     for (int i = 0; i < n; i++) {
         const symbol *s = e->unknowns[i].symbol;
-        bool turns = s->is_angle;
+        bool turns = s->is_angle && in_state(p, e, i, 0);
         for (int k = 0; k < count && turns; k++) {
             turns = lower_only_in_waves(dynamics[k], s);
         }
         map->angle_number[i] = turns ? p->angles : -1;
+        p->place[i] = turns ? p->angles : -1;
         if (turns) {
-            p->place[i] = p->angles;
             p->angle[p->angles++] = (component){i, 0};
         }
     }
-    int next = p->angles;
+    p->coordinates = p->angles;
     for (int i = 0; i < n; i++) {
-        if (map->angle_number[i] < 0) {
-            p->place[i] = next++;
-            map->real_number[i * map->order_room] = p->reals;
-            p->real[p->reals++] = (component){i, 0};
+        if (map->angle_number[i] < 0 && in_state(p, e, i, 0)) {
+            p->place[i] = p->coordinates++;
+            map->real_number[i * map->order_room] = add_real(p, i, 0);
         }
     }
-    for (int slot = 0; slot < n && all_second; slot++) {
+    for (int slot = 0; slot < p->coordinates && second; slot++) {
         for (int i = 0; i < n; i++) {
             if (p->place[i] == slot) {
-                map->real_number[i * map->order_room + 1] = p->reals;
-                p->real[p->reals++] = (component){i, 1};
+                map->real_number[i * map->order_room + 1] = add_real(p, i, 1);
             }
         }
     }
-    for (int i = 0; i < n && !all_second; i++) {
-        for (int primes = 1; primes < e->unknowns[i].order; primes++) {
-            map->real_number[i * map->order_room + primes] = p->reals;
-            p->real[p->reals++] = (component){i, primes};
+    for (int i = 0; i < n && !second; i++) {
+        for (int primes = 1; in_state(p, e, i, primes); primes++) {
+            map->real_number[i * map->order_room + primes] = add_real(p, i, primes);
         }
     }
     return true;
@@ -130,27 +147,38 @@ static lowering lowering_on(const equations *e, tape *t, place_map *map) {
                       .context = map};
 }
 
+/* The slope of a component of a first-order scene. */
+static int slope_of(program *p, const equations *e, place_map *map, lowering *l, component of,
+                    const int *highest) {
+    const int k = p->conserved->number[of.unknown];
+    if (k >= 0) {
+        return lower(l, p->conserved->rate[k]);
+    }
+    const int up = of.primes + 1;
+    if (up == e->unknowns[of.unknown].order) {
+        return highest[of.unknown];
+    }
+    return tape_leaf(l->tape, OP_LINEAR, map->real_number[of.unknown * map->order_room + up]);
+}
+
 static tape *make_step(program *p, const equations *e, place_map *map, const linear_system *s) {
     const int n = e->count;
     const int components = p->angles + p->reals;
     const bool second = p->form == WH_SECOND_ORDER;
-    tape *t = tape_new(p->angles, second ? n : components);
-    int *highest = calloc((size_t)n, sizeof *highest);
-    if (highest == NULL) {
-        abort();
-    }
+    tape *t = tape_new(p->angles, second ? p->coordinates : components);
+    int *highest = room(n, sizeof *highest);
     lowering l = lowering_on(e, t, map);
     solve_highest(&l, s, highest);
     for (int i = 0; i < n && second; i++) {
-        t->result[p->place[i]] = highest[i];
+        if (p->place[i] >= 0) {
+            t->result[p->place[i]] = highest[i];
+        }
     }
     for (int c = 0; c < components && !second; c++) {
         const component of = c < p->angles ? p->angle[c] : p->real[c - p->angles];
-        const int up = of.primes + 1;
-        t->result[c] = up == e->unknowns[of.unknown].order
-                           ? highest[of.unknown]
-                           : tape_leaf(t, OP_LINEAR, map->real_number[of.unknown * map->order_room + up]);
+        t->result[c] = slope_of(p, e, map, &l, of, highest);
     }
+    lower_done(&l);
     free(highest);
     tape_prune(t);
     return t;
@@ -163,11 +191,8 @@ static tape *make_observer(program *p, const equations *e, place_map *map, const
     const int n = e->count;
     const int first = keep ? n : 0;
     tape *t = tape_new(p->angles, first + count);
-    int *highest = calloc((size_t)n, sizeof *highest);
-    const poly **folded = calloc((size_t)count + 1, sizeof *folded);
-    if (highest == NULL || folded == NULL) {
-        abort();
-    }
+    int *highest = room(n, sizeof *highest);
+    const poly **folded = room(count, sizeof(const poly *));
     lowering l = lowering_on(e, t, map);
     solve_highest(&l, s, highest);
     map->highest = highest;
@@ -175,7 +200,7 @@ static tape *make_observer(program *p, const equations *e, place_map *map, const
         t->result[i] = highest[i];
     }
     for (int i = 0; i < count; i++) {
-        folded[i] = fold(e, wanted[i]);
+        folded[i] = conservation_settle(e, p->conserved, fold(e, wanted[i]));
     }
     lower_plan(&l, folded, count);
     for (int i = 0; i < count; i++) {
@@ -186,6 +211,23 @@ static tape *make_observer(program *p, const equations *e, place_map *map, const
     free(highest);
     free(folded);
     tape_prune(t);
+    return t;
+}
+
+/* The mechanism's outputs, then value and rate of each conserved coordinate. */
+static tape *make_observe(program *p, const equations *e, place_map *map, const linear_system *s) {
+    const int own = e->instance->mechanism->output_count;
+    const poly **wanted = room(p->outputs, sizeof(const poly *));
+    for (int i = 0; i < own; i++) {
+        wanted[i] = e->output[i];
+    }
+    for (int k = 0; k < p->conserved->count; k++) {
+        const symbol *q = e->unknowns[p->conserved->unknown[k]].symbol;
+        wanted[own + 2 * k] = poly_symbol(e->algebra, q, 0);
+        wanted[own + 2 * k + 1] = poly_symbol(e->algebra, q, 1);
+    }
+    tape *t = make_observer(p, e, map, s, wanted, p->outputs, false);
+    free(wanted);
     return t;
 }
 
@@ -211,31 +253,36 @@ static tape *make_books(program *p, const equations *e, place_map *map, const li
     return t;
 }
 
-program *program_make(const equations *e, diags *errors) {
+program *program_make(const equations *e, const bool *conserve, diags *errors) {
     const int n = e->count;
     const mechanism *m = e->instance->mechanism;
-    program *p = calloc(1, sizeof *p);
-    const poly **dynamics = calloc((size_t)n * (size_t)n + (size_t)n, sizeof *dynamics);
-    bool *turning = calloc((size_t)n + 1, sizeof *turning);
-    if (p == NULL || dynamics == NULL || turning == NULL) {
-        abort();
+    program *p = room(1, sizeof *p);
+    p->conserved = conservation_make(e, conserve, fold, errors);
+    if (p->conserved == NULL) {
+        program_free(p);
+        return NULL;
     }
+    const poly **dynamics = room(n * n + n, sizeof(const poly *));
+    bool *turning = room(n, sizeof *turning);
+    bool *wanted = room(n, sizeof *wanted);
     p->count = n;
     p->inputs = m->input_count;
-    p->outputs = m->output_count;
-    const linear_system s = {n, !m->is_system, dynamics, dynamics + n * n, turning};
+    p->outputs = m->output_count + 2 * p->conserved->count;
+    const linear_system s = {n, !m->is_system, dynamics, dynamics + n * n, turning, wanted};
     for (int i = 0; i < n * n; i++) {
         dynamics[i] = fold(e, e->mass[i]);
     }
     for (int i = 0; i < n; i++) {
-        dynamics[n * n + i] = fold(e, equations_force(e, i));
+        const poly *force = fold(e, equations_force(e, i));
+        dynamics[n * n + i] = conservation_settle(e, p->conserved, force);
         turning[i] = e->unknowns[i].symbol->is_angle;
+        wanted[i] = p->conserved->number[i] < 0;
     }
     place_map map = {.program = p, .equations = e};
     const bool fits = arrange(p, e, &map, dynamics, n * n + n);
     if (fits) {
         p->step = make_step(p, e, &map, &s);
-        p->observe = make_observer(p, e, &map, &s, e->output, p->outputs, false);
+        p->observe = make_observe(p, e, &map, &s);
         p->books = make_books(p, e, &map, &s);
     } else {
         diag_error(errors, m->at, NULL, "'%s' has more than %d components of state", m->name,
@@ -245,6 +292,7 @@ program *program_make(const equations *e, diags *errors) {
     free(map.real_number);
     free(dynamics);
     free(turning);
+    free(wanted);
     if (!fits) {
         program_free(p);
         return NULL;
@@ -262,6 +310,7 @@ void program_free(program *p) {
     free(p->angle);
     free(p->real);
     free(p->place);
+    conservation_free(p->conserved);
     free(p);
 }
 

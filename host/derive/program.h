@@ -2,6 +2,7 @@
 #ifndef DERIVE_PROGRAM_H
 #define DERIVE_PROGRAM_H
 
+#include "conserve.h"
 #include "core/scene.h"
 #include "equations.h"
 #include "tape.h"
@@ -17,18 +18,20 @@ typedef struct component {
 
 typedef struct program {
     wh_form form;
-    int count;  /* unknowns */
+    int count;       /* unknowns */
+    int coordinates; /* integrated coordinates, angles included (second order) */
     int angles; /* components kept as turn angles */
     int reals;  /* components kept as reals */
     int inputs;
-    int outputs;
+    int outputs; /* the mechanism's, then value and rate of each conserved coordinate */
     component *angle; /* [angles] */
     component *real;  /* [reals] */
-    int *place;       /* [count] unknown -> coordinate number in the scene's order (second order) */
+    int *place; /* [count] unknown -> coordinate number in the scene's order, or -1 (second order) */
+    conservation *conserved;
     /* Second order: result[i] is the acceleration of scene coordinate i. First order: the slope of
      * component i, angles first. */
     tape *step;
-    /* The outputs, in order of declaration. */
+    /* The outputs. */
     tape *observe;
     /* For the host's books: highest derivatives (by unknown), then for a mechanism T, V, input
      * power, loss power and the momenta (by unknown). */
@@ -37,8 +40,9 @@ typedef struct program {
 
 enum { BOOK_KINETIC, BOOK_STORED, BOOK_INPUT_POWER, BOOK_LOSS_POWER, BOOK_MOMENTA };
 
-/* NULL on error (too many components), reported to `errors`. */
-program *program_make(const equations *e, diags *errors);
+/* `conserve` [count] names the coordinates to recover from their momentum, or is NULL. NULL on error
+ * (too many components, a momentum that is not conserved), reported to `errors`. */
+program *program_make(const equations *e, const bool *conserve, diags *errors);
 void program_free(program *p);
 
 /* A function in the list that the core does not offer on boards ("exp"), or NULL. */

@@ -213,6 +213,9 @@ static void enter(const lowering *like, tape *t, const linear_system *s, const a
 static int weigh(const lowering *l, const linear_system *s, const arrangement *how) {
     tape *t = tape_new(l->tape->angles, s->n);
     enter(l, t, s, how, t->result);
+    for (int i = 0; i < s->n; i++) {
+        t->result[i] = s->wanted[i] ? t->result[i] : tape_constant(t, 0.0);
+    }
     tape_prune(t);
     const int weight = tape_weight(t);
     tape_free(t);

@@ -10,6 +10,7 @@ typedef struct linear_system {
     const poly **mass;   /* [n * n], parameters folded */
     const poly **force;  /* [n] */
     const bool *turning; /* [n] unknown is an angle: its row keeps the energy's scale */
+    const bool *wanted;  /* [n] unknown's solution is needed: what it costs counts */
 } linear_system;
 
 /* Enters the solution into l->tape and stores the operation for each unknown in solution[n].

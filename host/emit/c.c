@@ -66,6 +66,7 @@ static void write_operation(FILE *out, const tape *t, int i) {
     case OP_LINEAR: fprintf(out, "linear[%d]", o->a); break;
     case OP_RATE: fprintf(out, "rate[%d]", o->a); break;
     case OP_INPUT: fprintf(out, "input[%d]", o->a); break;
+    case OP_TIME: fprintf(out, "wh_scene_time_s(scene, state)"); break;
     case OP_RADIANS: fprintf(out, "wh_angle_to_rad(angle[%d])", o->a); break;
     case OP_SIN: fprintf(out, "s%d", o->a); break;
     case OP_COS: fprintf(out, "c%d", o->a); break;
@@ -146,7 +147,8 @@ static void write_right_hand_side(FILE *out, const program *p) {
 static void write_observer(FILE *out, const program *p) {
     const tape *t = p->observe;
     fprintf(out, "static void observe(const wh_scene *scene, const wh_state *state, "
-                 "wh_real *output) {\n    (void)scene;\n");
+                 "wh_real *output) {\n");
+    write_ignored(out, uses(t, OP_TIME), "scene");
     if (uses_phase(t)) {
         fprintf(out, "    wh_phase phase[%d];\n    for (int i = 0; i < %d; i++) {\n"
                      "        phase[i] = wh_phase_of(state->angle[i]);\n    }\n",
@@ -159,13 +161,13 @@ static void write_observer(FILE *out, const program *p) {
         fprintf(out, "    const wh_real *linear = state->real;\n");
     }
     if (uses(t, OP_RATE)) {
-        fprintf(out, "    const wh_real *rate = state->real + %d;\n", p->count - p->angles);
+        fprintf(out, "    const wh_real *rate = state->real + %d;\n", p->coordinates - p->angles);
     }
     if (uses(t, OP_INPUT)) {
         fprintf(out, "    const wh_real *input = state->input;\n");
     }
     if (!uses_phase(t) && !uses(t, OP_RADIANS) && !uses(t, OP_LINEAR) && !uses(t, OP_RATE) &&
-        !uses(t, OP_INPUT)) {
+        !uses(t, OP_INPUT) && !uses(t, OP_TIME)) {
         fprintf(out, "    (void)state;\n");
     }
     write_body(out, t, "output");
@@ -252,13 +254,19 @@ static void write_banner(FILE *out, const equations *e, const program *p, const 
     for (int i = 0; i < m->output_count; i++) {
         fprintf(out, " *   output[%d] %s\n", i, m->outputs[i]->name);
     }
+    for (int i = m->output_count; i < p->outputs; i++) {
+        const int k = (i - m->output_count) / 2;
+        fprintf(out, " *   output[%d] %s%s, from its momentum\n", i,
+                e->unknowns[p->conserved->unknown[k]].symbol->name,
+                (i - m->output_count) % 2 == 0 ? "" : "'");
+    }
     fprintf(out, " */\n");
 }
 
 void emit_c(FILE *out, const equations *e, const program *p, const engine_settings *settings,
             const char *file) {
     const bool second = p->form == WH_SECOND_ORDER;
-    const int components = second ? p->count : p->angles + p->reals;
+    const int components = second ? p->coordinates : p->angles + p->reals;
     write_banner(out, e, p, file);
     fprintf(out, "#define WH_COORDS %d\n#include \"core/step.h\"\n\nextern const wh_scene %s;\n\n",
             components, e->instance->name);
@@ -269,7 +277,7 @@ void emit_c(FILE *out, const equations *e, const program *p, const engine_settin
                  "                          WH_R(%a), state);\n}\n\n",
             second ? "wh_step_second" : "wh_step_first", second ? "accelerations" : "slopes",
             method_names[settings->method], settings->compensated ? "true" : "false", p->angles,
-            second ? p->count : p->reals, e->instance->step_s);
+            second ? p->coordinates : p->reals, e->instance->step_s);
     if (p->outputs > 0) {
         write_observer(out, p);
     }

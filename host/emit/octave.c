@@ -72,7 +72,7 @@ static void write_operation(FILE *out, const program *p, const equations *e, int
     switch (o->code) {
     case OP_LINEAR: fprintf(out, "y(%d)", y_number(p, e, p->real[o->a])); break;
     case OP_RATE:
-        fprintf(out, "y(%d)", y_number(p, e, p->real[p->count - p->angles + o->a]));
+        fprintf(out, "y(%d)", y_number(p, e, p->real[p->coordinates - p->angles + o->a]));
         break;
     case OP_INPUT: fputs(e->instance->mechanism->inputs[o->a]->name, out); break;
     case OP_PHASE: write_phase(out, p, e, o); break;

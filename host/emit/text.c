@@ -66,26 +66,6 @@ static int y_number(const equations *e, int unknown_index, int primes) {
     return number;
 }
 
-static const poly *determinant(algebra *a, const poly *const *m, int n, unsigned rows,
-                               unsigned columns) {
-    const poly *sum = poly_number(a, 0.0);
-    if (rows == 0) {
-        return poly_number(a, 1.0);
-    }
-    const unsigned row = (unsigned)__builtin_ctz(rows);
-    double sign = 1.0;
-    for (unsigned c = 0; c < (unsigned)n; c++) {
-        if ((columns & (1U << c)) != 0) {
-            const poly *minor =
-                determinant(a, m, n, rows & ~(1U << row), columns & ~(1U << c));
-            const poly *product = poly_mul(a, m[row * (unsigned)n + c], minor);
-            sum = poly_add(a, sum, poly_scale(a, product, sign));
-            sign = -sign;
-        }
-    }
-    return sum;
-}
-
 /* Solve by Cramer's rule in symbols; true when the result is worth reading. */
 static bool closed_form(const equations *e, const poly **top, const poly **bottom) {
     algebra *a = e->algebra;
@@ -94,13 +74,13 @@ static bool closed_form(const equations *e, const poly **top, const poly **botto
         return false;
     }
     const poly *m[4];
-    *bottom = determinant(a, e->mass, n, (1U << n) - 1, (1U << n) - 1);
+    *bottom = poly_determinant(a, e->mass, n, (1U << n) - 1, (1U << n) - 1);
     int size = show_size(*bottom);
     for (int c = 0; c < n; c++) {
         for (int i = 0; i < n * n; i++) {
             m[i] = i % n == c ? equations_force(e, i / n) : e->mass[i];
         }
-        top[c] = determinant(a, m, n, (1U << n) - 1, (1U << n) - 1);
+        top[c] = poly_determinant(a, m, n, (1U << n) - 1, (1U << n) - 1);
         size = show_size(top[c]) > size ? show_size(top[c]) : size;
     }
     return size <= READABLE_TERMS;

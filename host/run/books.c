@@ -52,8 +52,8 @@ static void add_work(books *b, const double power_W[2]) {
 void books_enter(books *b, const engine_kind *kind, const void *run) {
     const program *p = b->program;
     kind->state(run, b->angle_rad, b->real);
-    evaluator_run(b->evaluator, b->angle_rad, b->real, b->real + (p->count - p->angles), b->input,
-                  b->value);
+    evaluator_run(b->evaluator, (double)kind->steps(run) * b->step_s, b->angle_rad, b->real,
+                  b->real + (p->coordinates - p->angles), b->input, b->value);
     const double *entry = b->value + p->count;
     const double power_W[2] = {entry[BOOK_INPUT_POWER], entry[BOOK_LOSS_POWER]};
     b->kinetic_J[1] = entry[BOOK_KINETIC];

@@ -36,8 +36,8 @@ extern const engine_kind engine_double;
 typedef struct evaluator evaluator;
 evaluator *evaluator_new(const tape *t);
 void evaluator_free(evaluator *ev);
-void evaluator_run(evaluator *ev, const double *angle_rad, const double *linear, const double *rate,
-                   const double *input, double *result);
+void evaluator_run(evaluator *ev, double time_s, const double *angle_rad, const double *linear,
+                   const double *rate, const double *input, double *result);
 
 /* Phase constant of the float build: radians to 2^32 a turn, wrapped and rounded to the nearest. */
 uint32_t engine_phase_of_constant(double rad);

@@ -4,14 +4,24 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Columns of the unknowns and their derivatives, integrated or recovered. */
+static int state_columns(const equations *e) {
+    int columns = 0;
+    for (int i = 0; i < e->count; i++) {
+        columns += e->unknowns[i].order;
+    }
+    return columns;
+}
+
 records *records_open(FILE *out, const program *p, const equations *e, const engine_kind *kind) {
     records *r = calloc(1, sizeof *r);
     if (r == NULL) {
         abort();
     }
-    const int columns = 1 + p->angles + p->reals + p->outputs;
-    *r = (records){out, p, e, kind, calloc((size_t)columns, sizeof *r->row), columns};
-    if (r->row == NULL) {
+    const int columns = 1 + state_columns(e) + e->instance->mechanism->output_count;
+    *r = (records){out, p, e, kind, calloc((size_t)columns, sizeof *r->row),
+                   calloc((size_t)p->outputs + 1, sizeof *r->output), columns};
+    if (r->row == NULL || r->output == NULL) {
         abort();
     }
     return r;
@@ -20,6 +30,7 @@ records *records_open(FILE *out, const program *p, const equations *e, const eng
 void records_close(records *r) {
     if (r != NULL) {
         free(r->row);
+        free(r->output);
         free(r);
     }
 }
@@ -41,7 +52,7 @@ static int column_of(const records *r, int unknown_index, int primes) {
 }
 
 void records_name(const records *r, int column, char *text, size_t size) {
-    const int states = r->program->angles + r->program->reals;
+    const int states = state_columns(r->equations);
     if (column == 0) {
         snprintf(text, size, "time");
     } else if (column > states) {
@@ -85,7 +96,16 @@ void records_read(records *r, void *run, double time_s) {
     for (int i = 0; i < p->reals; i++) {
         r->row[column_of(r, p->real[i].unknown, p->real[i].primes)] = real[i];
     }
-    r->kind->outputs(run, r->row + 1 + p->angles + p->reals);
+    const int own = r->equations->instance->mechanism->output_count;
+    r->kind->outputs(run, r->output);
+    for (int i = 0; i < own; i++) {
+        r->row[1 + state_columns(r->equations) + i] = r->output[i];
+    }
+    for (int k = 0; k < p->conserved->count; k++) {
+        const int i = p->conserved->unknown[k];
+        r->row[column_of(r, i, 0)] = r->output[own + 2 * k];
+        r->row[column_of(r, i, 1)] = r->output[own + 2 * k + 1];
+    }
 }
 
 bool records_write(const records *r) {

@@ -13,7 +13,8 @@ typedef struct records {
     const program *program;
     const equations *equations;
     const engine_kind *kind;
-    double *row; /* [columns]: time, values, derivatives, outputs */
+    double *row;    /* [columns]: time, values, derivatives, outputs */
+    double *output; /* [program->outputs] */
     int columns;
 } records;
 

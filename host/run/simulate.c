@@ -150,17 +150,18 @@ static void say_failure(const simulation *sim) {
 static bool draw(const simulation *sim) {
     const program *p = sim->program;
     const mechanism *m = sim->equations->instance->mechanism;
-    const int states = p->angles + p->reals;
+    const int own = m->output_count;
+    const int first_output = sim->records->columns - own;
     curve *curves = calloc((size_t)sim->records->columns, sizeof *curves);
     char(*labels)[64] = calloc((size_t)sim->records->columns, sizeof *labels);
     if (curves == NULL || labels == NULL) {
         abort();
     }
     int count = 0;
-    for (int i = 0; i < p->count + p->outputs; i++) {
+    for (int i = 0; i < p->count + own; i++) {
         const symbol *s = i < p->count ? m->coordinates[i] : m->outputs[i - p->count];
         const char *si = dimension_unit(s->dim, s->is_angle, labels[count], sizeof labels[count]);
-        curves[count++] = (curve){s->name, si, i < p->count ? i + 1 : states + 1 + i - p->count};
+        curves[count++] = (curve){s->name, si, i < p->count ? i + 1 : first_output + i - p->count};
     }
     const char *title = sim->equations->instance->scene != NULL
                             ? sim->equations->instance->scene->title

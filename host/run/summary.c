@@ -68,7 +68,8 @@ static void print_state(FILE *out, const equations *e, const program *p,
     records_read(r, run, 0.0);
     int column = 1;
     fprintf(out, "\nfinal state\n");
-    for (int level = 0; column <= p->angles + p->reals; level++) {
+    const int own = e->instance->mechanism->output_count;
+    for (int level = 0; column < r->columns - own; level++) {
         for (int i = 0; i < e->count; i++) {
             if (e->unknowns[i].order > level) {
                 const symbol *sym = e->unknowns[i].symbol;
@@ -77,10 +78,10 @@ static void print_state(FILE *out, const equations *e, const program *p,
             }
         }
     }
-    if (p->outputs > 0) {
+    if (own > 0) {
         fprintf(out, "outputs\n");
     }
-    for (int i = 0; i < p->outputs; i++) {
+    for (int i = 0; i < own; i++) {
         const symbol *sym = e->instance->mechanism->outputs[i];
         print_value(out, sym->name, r->row[column++], s->kind->digits, sym->dim, false, 0);
     }

@@ -1,0 +1,302 @@
+/* conserve.c: which coordinates can be recovered, and how. */
+#include "conserve.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* --- the start -----------------------------------------------------------------------------------*/
+
+static double start_value(void *context, const symbol *s, int primes) {
+    const instance *inst = context;
+    switch (s->kind) {
+    case SYM_PARAMETER: return inst->parameter[s->index];
+    case SYM_INPUT: return inst->input[s->index];
+    default: return primes < inst->start_count[s->index] ? inst->start[s->index][primes] : 0.0;
+    }
+}
+
+static double at_start(const equations *e, const poly *p) {
+    return poly_evaluate(p, start_value, (void *)(uintptr_t)e->instance);
+}
+
+/* --- integrating a momentum's coefficients -------------------------------------------------------*/
+
+/* Antiderivative by q of one term that is a power of q times what does not contain q, or a sine or
+ * cosine whose angle is linear in q; NULL for any other. */
+static const poly *integrate_term(algebra *a, const poly_term *t, const symbol *q) {
+    const mono *m = t->mono;
+    const poly *factors = poly_number(a, t->coefficient);
+    double power = 0.0;
+    for (int i = 0; i < m->count; i++) {
+        const poly *f = poly_of_atom(a, m->factors[i].atom, m->factors[i].exponent);
+        if (!poly_contains(f, q, 0)) {
+            factors = poly_mul(a, factors, f);
+        } else if (m->factors[i].atom->kind == ATOM_SYMBOL && m->factors[i].exponent != -1.0) {
+            power = m->factors[i].exponent;
+        } else {
+            return NULL;
+        }
+    }
+    const poly *x = poly_symbol(a, q, 0);
+    if (m->trig == TRIG_NONE) {
+        const poly *raised = poly_scale(a, poly_pow(a, x, power + 1.0), 1.0 / (power + 1.0));
+        return poly_mul(a, factors, raised);
+    }
+    const poly *wave = m->trig == TRIG_SIN ? poly_sin(a, m->angle) : poly_cos(a, m->angle);
+    const poly *slope = poly_derivative(a, m->angle, q, 0);
+    double k;
+    if (poly_is_zero(slope)) {
+        const poly *raised = poly_scale(a, poly_pow(a, x, power + 1.0), 1.0 / (power + 1.0));
+        return poly_mul(a, poly_mul(a, factors, wave), raised);
+    }
+    if (power != 0.0 || !poly_is_number(slope, &k)) {
+        return NULL;
+    }
+    const poly *turned = m->trig == TRIG_SIN ? poly_scale(a, poly_cos(a, m->angle), -1.0 / k)
+                                             : poly_scale(a, poly_sin(a, m->angle), 1.0 / k);
+    return poly_mul(a, factors, turned);
+}
+
+/* G with dG/dq_j = mass[j] for every unknown j, or NULL. */
+static const poly *potential_of(const equations *e, const poly *const *mass) {
+    algebra *a = e->algebra;
+    const poly *g = poly_number(a, 0.0);
+    for (int j = 0; j < e->count; j++) {
+        const symbol *q = e->unknowns[j].symbol;
+        const poly *rest = poly_sub(a, mass[j], poly_derivative(a, g, q, 0));
+        for (int i = 0; i < rest->count; i++) {
+            const poly *part = integrate_term(a, &rest->terms[i], q);
+            if (part == NULL) {
+                return NULL;
+            }
+            g = poly_add(a, g, part);
+        }
+    }
+    for (int j = 0; j < e->count; j++) {
+        const poly *slope = poly_derivative(a, g, e->unknowns[j].symbol, 0);
+        if (!poly_is_zero(poly_sub(a, slope, mass[j]))) {
+            return NULL;
+        }
+    }
+    return g;
+}
+
+/* --- both ----------------------------------------------------------------------------------------*/
+
+static bool check_wanted(const equations *e, int i, diags *errors) {
+    algebra *a = e->algebra;
+    const symbol *q = e->unknowns[i].symbol;
+    const scene *s = e->instance->scene;
+    const place at = s != NULL ? s->at : q->at;
+    if (e->kinetic == NULL) {
+        diag_error(errors, at, NULL, "'conserve' needs energies: '%s' is a system of equations",
+                   e->instance->mechanism->name);
+        return false;
+    }
+    if (e->conserved[i]) {
+        return true;
+    }
+    const poly *lagrangian = poly_sub(a, e->kinetic, e->stored);
+    const bool appears = !poly_is_zero(poly_derivative(a, lagrangian, q, 0));
+    diag_error(errors, at,
+               appears ? "only a coordinate that appears in no energy keeps its momentum"
+                       : "leave out the effect or the Q that acts on it, or integrate it",
+               appears ? "the momentum of '%s' is not conserved: the energies depend on %s"
+                       : "the momentum of '%s' is not conserved: a force or a loss acts on %s",
+               q->name, q->name);
+    return false;
+}
+
+static void *room(int count, size_t size) {
+    void *p = calloc((size_t)count + 1, size);
+    if (p == NULL) {
+        abort();
+    }
+    return p;
+}
+
+/* The momentum must be linear in the rates, p = sum m_j q_j', for the algebra above. */
+static bool is_linear(const equations *e, const poly *momentum, const poly *const *mass) {
+    algebra *a = e->algebra;
+    const poly *rest = momentum;
+    for (int j = 0; j < e->count; j++) {
+        rest = poly_sub(a, rest, poly_mul(a, mass[j], poly_symbol(a, e->unknowns[j].symbol, 1)));
+    }
+    return poly_is_zero(rest);
+}
+
+typedef struct momentum_law {
+    double momentum;     /* constant value, SI */
+    double start;        /* G at the start */
+    const poly **mass;   /* [equations->count] coefficients of the rates */
+    const poly *others;  /* G less the conserved coordinates' part */
+} momentum_law;
+
+/* sum over the conserved of m_kl x_l = right_k, solved for x by Cramer's rule. */
+static void solve_conserved(const equations *e, const conservation *c, const momentum_law *laws,
+                            const poly *const *right, const poly **x) {
+    algebra *a = e->algebra;
+    const int k = c->count;
+    const unsigned all = (1U << k) - 1U;
+    const poly *m[CONSERVED_MAX * CONSERVED_MAX];
+    for (int column = -1; column < k; column++) {
+        for (int i = 0; i < k * k; i++) {
+            m[i] = i % k == column ? right[i / k] : laws[i / k].mass[c->unknown[i % k]];
+        }
+        const poly *d = poly_determinant(a, m, k, all, all);
+        if (column < 0) {
+            for (int i = 0; i < k; i++) {
+                x[i] = poly_pow(a, d, -1.0);
+            }
+        } else {
+            x[column] = poly_mul(a, d, x[column]);
+        }
+    }
+}
+
+const symbol conservation_time = {.kind = SYM_INPUT, .name = "time", .text = "", .unit = "s"};
+
+/* Rates from p_k - sum of the free rates; coordinates from G_k(start) + p_k t - others_k. */
+static void recover(const equations *e, conservation *c, const momentum_law *laws) {
+    algebra *a = e->algebra;
+    const poly *rates[CONSERVED_MAX];
+    const poly *values[CONSERVED_MAX];
+    for (int k = 0; k < c->count; k++) {
+        rates[k] = poly_number(a, laws[k].momentum);
+        for (int j = 0; j < e->count; j++) {
+            if (c->number[j] < 0) {
+                const poly *rate = poly_symbol(a, e->unknowns[j].symbol, 1);
+                rates[k] = poly_sub(a, rates[k], poly_mul(a, laws[k].mass[j], rate));
+            }
+        }
+        if (c->closed) {
+            const poly *moved = poly_scale(a, poly_symbol(a, &conservation_time, 0),
+                                           laws[k].momentum);
+            values[k] = poly_add(a, poly_number(a, laws[k].start), moved);
+            values[k] = poly_sub(a, values[k], laws[k].others);
+        }
+    }
+    solve_conserved(e, c, laws, rates, c->rate);
+    if (c->closed) {
+        solve_conserved(e, c, laws, values, c->value);
+    }
+}
+
+static bool make_law(const equations *e, conservation *c, int k, momentum_law *law,
+                     const poly *(*fold)(const equations *, const poly *), diags *errors) {
+    const int n = e->count;
+    const int i = c->unknown[k];
+    const poly *momentum = fold(e, e->momentum[i]);
+    law->mass = room(n, sizeof(const poly *));
+    law->momentum = at_start(e, momentum);
+    for (int j = 0; j < n; j++) {
+        double value;
+        law->mass[j] = fold(e, e->mass[i * n + j]);
+        c->closed = c->closed && (c->number[j] < 0 || poly_is_number(law->mass[j], &value));
+    }
+    if (is_linear(e, momentum, law->mass)) {
+        return true;
+    }
+    diag_error(errors, e->unknowns[i].symbol->at, "integrate it: leave out `conserve`",
+               "the momentum of '%s' is not linear in the rates", e->unknowns[i].symbol->name);
+    return false;
+}
+
+/* G for each law, when there is one; else the coordinates are integrated. */
+static void make_potentials(const equations *e, conservation *c, momentum_law *laws) {
+    algebra *a = e->algebra;
+    for (int k = 0; k < c->count && c->closed; k++) {
+        const poly *g = potential_of(e, laws[k].mass);
+        c->closed = g != NULL;
+        if (g == NULL) {
+            break;
+        }
+        laws[k].start = at_start(e, g);
+        for (int m = 0; m < c->count; m++) {
+            const poly *own = poly_symbol(a, e->unknowns[c->unknown[m]].symbol, 0);
+            g = poly_sub(a, g, poly_mul(a, laws[k].mass[c->unknown[m]], own));
+        }
+        laws[k].others = g;
+    }
+}
+
+conservation *conservation_make(const equations *e, const bool *wanted,
+                                const poly *(*fold)(const equations *, const poly *),
+                                diags *errors) {
+    const int n = e->count;
+    momentum_law laws[CONSERVED_MAX] = {0};
+    conservation *c = room(1, sizeof *c);
+    c->unknown = room(n, sizeof *c->unknown);
+    c->number = room(n, sizeof *c->number);
+    c->rate = room(CONSERVED_MAX, sizeof(const poly *));
+    c->value = room(CONSERVED_MAX, sizeof(const poly *));
+    c->closed = true;
+    bool good = true;
+    for (int i = 0; i < n; i++) {
+        c->number[i] = -1;
+        if (wanted == NULL || !wanted[i]) {
+            continue;
+        }
+        good = check_wanted(e, i, errors) && good;
+        c->number[i] = c->count;
+        c->unknown[c->count++] = i;
+    }
+    if (c->count > CONSERVED_MAX || (c->count == n && n > 0)) {
+        const scene *s = e->instance->scene;
+        diag_error(errors, s != NULL ? s->at : e->instance->mechanism->at,
+                   "integrate one of them: leave it out of `conserve`",
+                   c->count == n ? "no coordinate is left to integrate"
+                                 : "at most %d coordinates can be conserved at once",
+                   CONSERVED_MAX);
+        good = false;
+    }
+    for (int k = 0; k < c->count && good; k++) {
+        good = make_law(e, c, k, &laws[k], fold, errors);
+    }
+    if (good && c->count > 0) {
+        make_potentials(e, c, laws);
+        recover(e, c, laws);
+    }
+    for (int k = 0; k < CONSERVED_MAX; k++) {
+        free(laws[k].mass);
+    }
+    if (!good) {
+        conservation_free(c);
+        return NULL;
+    }
+    return c;
+}
+
+void conservation_free(conservation *c) {
+    if (c == NULL) {
+        return;
+    }
+    free(c->unknown);
+    free(c->number);
+    free(c->rate);
+    free(c->value);
+    free(c);
+}
+
+typedef struct settlement {
+    const equations *equations;
+    const conservation *conservation;
+} settlement;
+
+static const poly *settled_value(void *context, algebra *a, const symbol *s, int primes) {
+    const settlement *of = context;
+    (void)a;
+    if (s->kind != SYM_COORDINATE) {
+        return NULL;
+    }
+    const int k = of->conservation->number[s->index];
+    if (k < 0 || primes > 1) {
+        return NULL;
+    }
+    return primes == 1 ? of->conservation->rate[k] : of->conservation->value[k];
+}
+
+const poly *conservation_settle(const equations *e, const conservation *c, const poly *p) {
+    settlement of = {e, c};
+    return c->count == 0 ? p : poly_substitute(e->algebra, p, settled_value, &of);
+}
