@@ -42,17 +42,18 @@ WH_INLINE wh_phase wh_phase_of(wh_angle angle) { return (wh_phase)(uint64_t)angl
 #define WH_TURN(rad, units) (units)
 #endif
 
-/* `phase` moved on by `steps` phase units (radians * WH_PHASE_PER_RAD), in float without their
- * fraction. Half a turn or more, or NaN, clears *sound: the step is to be refused, and the phase
- * returned means nothing. */
-WH_INLINE wh_phase wh_phase_move(wh_phase phase, wh_real steps, bool *sound) {
-    const bool fits = WH_ABS(steps) < WH_PHASE_STEP_MAX;
-    *sound &= fits;
+/* *moved = `phase` moved on by `steps` phase units (radians * WH_PHASE_PER_RAD), in float without their
+ * fraction. False, with *moved as it was, for half a turn or more, or NaN: the step is to be refused. */
+WH_INLINE bool wh_phase_move(wh_phase phase, wh_real steps, wh_phase *moved) {
+    if (!(WH_ABS(steps) < WH_PHASE_STEP_MAX)) {
+        return false;
+    }
 #if WH_DOUBLE
-    return phase + steps;
+    *moved = phase + steps;
 #else
-    return phase + (wh_phase)(fits ? (int32_t)steps : 0);
+    *moved = phase + (wh_phase)(int32_t)steps;
 #endif
+    return true;
 }
 
 /* Sine and cosine of a phase together; a caller that drops one pays for one. At most 1 in size,

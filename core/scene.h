@@ -36,7 +36,7 @@ typedef struct wh_state {
     wh_real *real;   /* [scene->reals] SI units */
     wh_real *carry;  /* [scene->angles + scene->reals] low parts when compensated, else NULL */
     wh_real *input;  /* [scene->inputs] SI units; the caller may change them between steps */
-    int fault;       /* component that diverged (angles first, then reals), or -1 */
+    int fault;       /* after WH_E_DIVERGED: the component at fault, angles first, then reals */
 } wh_state;
 
 typedef struct wh_scene wh_scene;

@@ -56,28 +56,34 @@ WH_INLINE wh_real wh_sum(wh_real value, wh_real increment, bool compensated, wh_
     return sum;
 }
 
-/* angle moved on by `steps` phase units, rounded to the nearest: dropping the fraction would slow
- * every angle down by half a unit a step. Half a turn or more, or NaN, clears *sound. */
-WH_INLINE wh_angle wh_angle_move(wh_angle angle, wh_real steps, bool compensated, wh_real *carry,
-                                 bool *sound) {
+/* *angle moved on by `steps` phase units, rounded to the nearest: dropping the fraction would slow every
+ * angle down by half a unit a step. False, with *angle as it was, for half a turn or more, or NaN. */
+WH_INLINE bool wh_angle_move(wh_angle *angle, wh_real steps, bool compensated, wh_real *carry) {
 #if WH_DOUBLE
-    *sound &= wh_believable(steps, WH_PHASE_STEP_MAX);
-    return wh_sum(angle, steps, compensated, carry);
+    if (!wh_believable(steps, WH_PHASE_STEP_MAX)) {
+        return false;
+    }
+    *angle = wh_sum(*angle, steps, compensated, carry);
 #else
     if (compensated) {
         steps += *carry;
     }
-    const bool fits = wh_believable(steps, WH_PHASE_STEP_MAX);
-    *sound &= fits;
-    int32_t whole = 0;
-    if (fits) {
-        whole = (int32_t)(steps + (steps < 0.0f ? -0.5f : 0.5f));
+    if (!wh_believable(steps, WH_PHASE_STEP_MAX)) {
+        return false;
     }
+    const int32_t whole = (int32_t)(steps + (steps < 0.0f ? -0.5f : 0.5f));
     if (compensated) {
         *carry = steps - (float)whole;
     }
-    return angle + whole;
+    *angle += whole;
 #endif
+    return true;
+}
+
+/* Refuse the step: component `fault` left all bounds. */
+WH_INLINE wh_status wh_refuse(wh_state *state, unsigned fault) {
+    state->fault = (int)fault;
+    return WH_E_DIVERGED;
 }
 
 /* Where a step's results wait until the whole step is known to be sound. */
@@ -121,14 +127,13 @@ WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_met
 
     wh_phase phase[WH_COORDS] = {0}; /* zeroed for the compiler: a scene may have no angle */
     wh_real at[WH_COORDS] = {0}; /* linear positions of a stage */
-    wh_real v[WH_COORDS];       /* rates of a stage */
+    wh_real v[WH_COORDS] = {0};  /* rates of a stage */
     wh_real v_before[WH_COORDS];
     wh_real a[WH_COORDS];
     wh_real a1[WH_COORDS];
     wh_real a_sum[WH_COORDS];
     wh_real move[WH_COORDS];    /* mean rate that moves the position over this step */
     wh_real kick[WH_COORDS];    /* change of the rate over this step */
-    bool sound = true;
     wh_trial trial;
 
     WH_UNROLL
@@ -156,7 +161,9 @@ WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_met
         }
         WH_UNROLL
         for (unsigned i = 0; i < angles; i++) {
-            phase[i] = wh_phase_move(wh_phase_of(angle[i]), rate[i] * (h * unit), &sound);
+            if (!wh_phase_move(wh_phase_of(angle[i]), rate[i] * (h * unit), &phase[i])) {
+                return wh_refuse(state, i);
+            }
         }
         WH_UNROLL
         for (unsigned i = 0; i < linears; i++) {
@@ -188,7 +195,10 @@ WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_met
             }
             WH_UNROLL
             for (unsigned i = 0; i < angles; i++) {
-                phase[i] = wh_phase_move(wh_phase_of(angle[i]), v_before[i] * (span * unit), &sound);
+                const wh_real turn = v_before[i] * (span * unit);
+                if (!wh_phase_move(wh_phase_of(angle[i]), turn, &phase[i])) {
+                    return wh_refuse(state, i);
+                }
             }
             WH_UNROLL
             for (unsigned i = 0; i < linears; i++) {
@@ -211,61 +221,55 @@ WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_met
         }
     }
 
-    state->fault = -1;
     WH_UNROLL
     for (unsigned i = 0; i < angles; i++) {
-        wh_real carry = compensated ? state->carry[i] : WH_R(0.0);
-        bool moved = true;
-        trial.angle[i] =
-            wh_angle_move(angle[i], move[i] * (h * unit), compensated, &carry, &moved);
-        trial.carry[i] = carry;
-        if (!moved) {
-            state->fault = (int)i;
-            sound = false;
+        trial.angle[i] = angle[i];
+        trial.carry[i] = compensated ? state->carry[i] : WH_R(0.0);
+        const wh_real turn = move[i] * (h * unit);
+        if (!wh_angle_move(&trial.angle[i], turn, compensated, &trial.carry[i])) {
+            return wh_refuse(state, i);
         }
     }
     WH_UNROLL
     for (unsigned i = 0; i < linears; i++) {
-        wh_real carry = compensated ? state->carry[angles + i] : WH_R(0.0);
-        trial.real[i] = wh_sum(linear[i], h * move[angles + i], compensated, &carry);
-        trial.carry[angles + i] = carry;
+        wh_real *carry = &trial.carry[angles + i];
+        *carry = compensated ? state->carry[angles + i] : WH_R(0.0);
+        trial.real[i] = wh_sum(linear[i], h * move[angles + i], compensated, carry);
         if (!wh_believable(trial.real[i], WH_ABSURD)) {
-            state->fault = (int)(angles + i);
-            sound = false;
+            return wh_refuse(state, angles + i);
         }
     }
     WH_UNROLL
     for (unsigned i = 0; i < n; i++) {
-        wh_real carry = compensated ? state->carry[n + i] : WH_R(0.0);
-        trial.real[linears + i] = wh_sum(rate[i], kick[i], compensated, &carry);
-        trial.carry[n + i] = carry;
+        wh_real *carry = &trial.carry[n + i];
+        *carry = compensated ? state->carry[n + i] : WH_R(0.0);
+        trial.real[linears + i] = wh_sum(rate[i], kick[i], compensated, carry);
         if (!wh_believable(trial.real[linears + i], WH_ABSURD)) {
-            state->fault = (int)(n + i);
-            sound = false;
+            return wh_refuse(state, n + i);
         }
-    }
-    if (!sound) {
-        if (state->fault < 0) {
-            state->fault = 0; /* a stage went astray though the sum looks calm */
-        }
-        return WH_E_DIVERGED;
     }
     wh_commit(&trial, angles, linears + n, compensated, state);
     return WH_OK;
 }
 
-/* The state of a stage of a first-order system: start + span * slope. */
-WH_INLINE void wh_stage_first(const wh_state *state, unsigned angles, unsigned reals, wh_real span,
-                              const wh_real *slope, wh_phase *phase, wh_real *real, bool *sound) {
+/* The state of a stage of a first-order system: start + span * slope. False when an angle would move by
+ * half a turn or more; *fault is then its number. */
+WH_INLINE bool wh_stage_first(const wh_state *state, unsigned angles, unsigned reals, wh_real span,
+                              const wh_real *slope, wh_phase *phase, wh_real *real,
+                              unsigned *fault) {
     WH_UNROLL
     for (unsigned i = 0; i < angles; i++) {
-        phase[i] = wh_phase_move(wh_phase_of(state->angle[i]), slope[i] * (span * WH_PHASE_PER_RAD),
-                                 sound);
+        const wh_real turn = slope[i] * (span * WH_PHASE_PER_RAD);
+        if (!wh_phase_move(wh_phase_of(state->angle[i]), turn, &phase[i])) {
+            *fault = i;
+            return false;
+        }
     }
     WH_UNROLL
     for (unsigned i = 0; i < reals; i++) {
         real[i] = state->real[i] + span * slope[angles + i];
     }
+    return true;
 }
 
 /* One step of x' = f(x, u) with `angles` turn angles and `reals` reals, angles + reals <= WH_COORDS.
@@ -283,7 +287,7 @@ WH_INLINE wh_status wh_step_first(const void *model, wh_slope_fn *slope, wh_meth
     wh_real k[WH_COORDS];
     wh_real sum[WH_COORDS];
     wh_real move[WH_COORDS];
-    bool sound = true;
+    unsigned fault = 0;
     wh_trial trial;
 
     WH_UNROLL
@@ -292,26 +296,34 @@ WH_INLINE wh_status wh_step_first(const void *model, wh_slope_fn *slope, wh_meth
     }
     slope(model, phase, state->real, u, k1);
     if (method == WH_HEUN) {
-        wh_stage_first(state, angles, reals, h, k1, phase, at, &sound);
+        if (!wh_stage_first(state, angles, reals, h, k1, phase, at, &fault)) {
+            return wh_refuse(state, fault);
+        }
         slope(model, phase, at, u, k);
         WH_UNROLL
         for (unsigned i = 0; i < n; i++) {
             move[i] = half * (k1[i] + k[i]);
         }
     } else if (method == WH_RK4) {
-        wh_stage_first(state, angles, reals, half, k1, phase, at, &sound);
+        if (!wh_stage_first(state, angles, reals, half, k1, phase, at, &fault)) {
+            return wh_refuse(state, fault);
+        }
         slope(model, phase, at, u, k);
         WH_UNROLL
         for (unsigned i = 0; i < n; i++) {
             sum[i] = k[i];
         }
-        wh_stage_first(state, angles, reals, half, k, phase, at, &sound);
+        if (!wh_stage_first(state, angles, reals, half, k, phase, at, &fault)) {
+            return wh_refuse(state, fault);
+        }
         slope(model, phase, at, u, k);
         WH_UNROLL
         for (unsigned i = 0; i < n; i++) {
             sum[i] = sum[i] + k[i];
         }
-        wh_stage_first(state, angles, reals, h, k, phase, at, &sound);
+        if (!wh_stage_first(state, angles, reals, h, k, phase, at, &fault)) {
+            return wh_refuse(state, fault);
+        }
         slope(model, phase, at, u, k);
         const wh_real sixth = h / WH_R(6.0);
         WH_UNROLL
@@ -325,34 +337,23 @@ WH_INLINE wh_status wh_step_first(const void *model, wh_slope_fn *slope, wh_meth
         }
     }
 
-    state->fault = -1;
     WH_UNROLL
     for (unsigned i = 0; i < angles; i++) {
-        wh_real carry = compensated ? state->carry[i] : WH_R(0.0);
-        bool moved = true;
-        trial.angle[i] = wh_angle_move(state->angle[i], move[i] * WH_PHASE_PER_RAD, compensated,
-                                       &carry, &moved);
-        trial.carry[i] = carry;
-        if (!moved) {
-            state->fault = (int)i;
-            sound = false;
+        trial.angle[i] = state->angle[i];
+        trial.carry[i] = compensated ? state->carry[i] : WH_R(0.0);
+        const wh_real turn = move[i] * WH_PHASE_PER_RAD;
+        if (!wh_angle_move(&trial.angle[i], turn, compensated, &trial.carry[i])) {
+            return wh_refuse(state, i);
         }
     }
     WH_UNROLL
     for (unsigned i = 0; i < reals; i++) {
-        wh_real carry = compensated ? state->carry[angles + i] : WH_R(0.0);
-        trial.real[i] = wh_sum(state->real[i], move[angles + i], compensated, &carry);
-        trial.carry[angles + i] = carry;
+        wh_real *carry = &trial.carry[angles + i];
+        *carry = compensated ? state->carry[angles + i] : WH_R(0.0);
+        trial.real[i] = wh_sum(state->real[i], move[angles + i], compensated, carry);
         if (!wh_believable(trial.real[i], WH_ABSURD)) {
-            state->fault = (int)(angles + i);
-            sound = false;
+            return wh_refuse(state, angles + i);
         }
-    }
-    if (!sound) {
-        if (state->fault < 0) {
-            state->fault = 0;
-        }
-        return WH_E_DIVERGED;
     }
     wh_commit(&trial, angles, reals, compensated, state);
     return WH_OK;

@@ -23,7 +23,7 @@ for gate in "$@"; do
         printf '  FAIL  %-12s %4d s   make gate-%s; %s\n' "$gate" "$(($(date +%s) - start))" \
             "$gate" "$log"
         # What counts comes first in a compiler's log and last in a script's.
-        { grep -E '(error|warning|FAIL|runtime error|differs)' "$log" || tail -n 8 "$log"; } |
+        { grep -E '(error|warning|FAIL|differs)' "$log" | grep -v 'generated\.$' || tail -n 8 "$log"; } |
             head -n 8 | cut -c 1-160 | sed 's/^/        /'
     fi
 done

@@ -33,7 +33,7 @@ struct algebra {
     intern_table products;    /* memo_pair: poly, poly */
     intern_table derivatives; /* memo_pair: poly, atom */
     intern_table lets;        /* memo_pair: symbol, NULL */
-    unsigned objects;
+    size_t work; /* terms handled and bytes kept so far: what bounds time and memory */
     bool overflow;
     const poly *zero;
     const poly *one;
@@ -50,6 +50,31 @@ poly *poly_scratch(int terms);
 const poly *poly_intern(algebra *a, poly *candidate);
 const atom *atom_of_polys(algebra *a, atom_kind kind, function_id function, const poly *x,
                           const poly *y);
+
+/* --- sums of many polys (sum.c) ------------------------------------------------------------------*/
+
+typedef struct sum_item {
+    const mono *mono;
+    double coefficient;
+    size_t turn; /* the order of entering */
+} sum_item;
+
+/* Starts as {0}. */
+typedef struct poly_sum {
+    sum_item *items;
+    size_t count;
+    size_t room;
+} poly_sum;
+
+/* Count work; sets a->overflow when it is too much. */
+void algebra_work(algebra *a, size_t amount);
+/* x + y, or zero when what is left is a rounding error of the decimals they came from. */
+double coefficient_sum(double x, double y);
+void sum_add(algebra *a, poly_sum *s, const poly *p, double scale);
+/* Add up `row` by itself, then add it to `s`; `row` is empty then, its memory is kept. */
+void sum_add_row(poly_sum *s, poly_sum *row);
+/* The sum; frees what `s` holds. */
+const poly *sum_close(algebra *a, poly_sum *s);
 
 /* A function's value. */
 double call_number(function_id function, double x, double y);

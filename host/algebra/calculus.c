@@ -110,11 +110,12 @@ const poly *poly_derivative(algebra *a, const poly *p, const symbol *sym, int pr
     const atom *by = atom_symbol(a, sym, primes);
     const poly *known = memo_get(&a->derivatives, p, by);
     if (known == NULL) {
-        known = a->zero;
-        for (int i = 0; i < p->count; i++) {
+        poly_sum sum = {0};
+        for (int i = 0; i < p->count && !a->overflow; i++) {
             const poly *d = mono_derivative(a, p->terms[i].mono, sym, primes);
-            known = poly_add(a, known, poly_scale(a, d, p->terms[i].coefficient));
+            sum_add(a, &sum, d, p->terms[i].coefficient);
         }
+        known = sum_close(a, &sum);
         memo_put(a, &a->derivatives, p, by, known);
     }
     return known;
@@ -211,8 +212,8 @@ static const poly *substitute(algebra *a, const poly *p, substitution *s) {
     if (known != NULL) {
         return known;
     }
-    known = a->zero;
-    for (int i = 0; i < p->count; i++) {
+    poly_sum sum = {0};
+    for (int i = 0; i < p->count && !a->overflow; i++) {
         const mono *m = p->terms[i].mono;
         const poly *product = poly_number(a, p->terms[i].coefficient);
         for (int j = 0; j < m->count; j++) {
@@ -224,8 +225,9 @@ static const poly *substitute(algebra *a, const poly *p, substitution *s) {
             product = poly_mul(a, product,
                                m->trig == TRIG_SIN ? poly_sin(a, angle) : poly_cos(a, angle));
         }
-        known = poly_add(a, known, product);
+        sum_add(a, &sum, product, 1.0);
     }
+    known = sum_close(a, &sum);
     memo_put(a, &s->done, p, NULL, known);
     return known;
 }

@@ -4,8 +4,10 @@
 
 #include "algebra.h"
 
-/* An expression that needs more objects than this is given up on (some 200 MB). */
-#define OBJECTS_MAX 1000000U
+/* An expression that needs more work than this is given up on: some 300 MB, or a few seconds. */
+#define WORK_MAX ((size_t)1 << 28)
+/* What a term handled counts for, in bytes. */
+#define WORK_OF_TERM 2U
 
 static uint64_t mix(uint64_t hash, uint64_t word) {
     hash ^= word + UINT64_C(0x9e3779b97f4a7c15) + (hash << 6) + (hash >> 2);
@@ -54,10 +56,18 @@ static intern_slot *table_find(intern_table *table, uint64_t hash, const void *c
     return &table->slots[at];
 }
 
-static unsigned next_id(algebra *a, intern_table *table) {
-    if (++a->objects > OBJECTS_MAX) {
+static void count_bytes(algebra *a, size_t bytes) {
+    a->work += bytes;
+    if (a->work > WORK_MAX) {
         a->overflow = true;
     }
+}
+
+void algebra_work(algebra *a, size_t amount) { count_bytes(a, amount * WORK_OF_TERM); }
+
+/* A new object's number. With its slots in the hash table it takes some 48 bytes more than itself. */
+static unsigned next_id(algebra *a, intern_table *table, size_t bytes) {
+    count_bytes(a, bytes + 48);
     return (unsigned)table->count++;
 }
 
@@ -115,7 +125,7 @@ static const atom *atom_intern(algebra *a, const atom *candidate) {
     if (slot->object == NULL) {
         atom *made = arena_alloc(a->arena, sizeof *made);
         *made = *candidate;
-        made->id = next_id(a, &a->atoms);
+        made->id = next_id(a, &a->atoms, sizeof *made);
         *slot = (intern_slot){hash, made};
     }
     return slot->object;
@@ -125,7 +135,8 @@ const atom *atom_symbol(algebra *a, const symbol *sym, int primes) {
     const atom candidate = {.kind = ATOM_SYMBOL,
                             .symbol = sym,
                             .primes = primes,
-                            .symbols = symbol_bit(sym, primes)};
+                            .symbols = symbol_bit(sym, primes),
+                            .size = 1.0};
     return atom_intern(a, &candidate);
 }
 
@@ -134,7 +145,8 @@ const atom *atom_of_polys(algebra *a, atom_kind kind, function_id function, cons
     const atom candidate = {.kind = kind,
                             .function = function,
                             .argument = {x, y},
-                            .symbols = x->symbols | (y == NULL ? 0 : y->symbols)};
+                            .symbols = x->symbols | (y == NULL ? 0 : y->symbols),
+                            .size = 1.0 + x->size + (y == NULL ? 0.0 : y->size)};
     return atom_intern(a, &candidate);
 }
 
@@ -160,17 +172,19 @@ const mono *mono_intern(algebra *a, mono *candidate) {
     uint64_t hash = mix((uint64_t)candidate->trig,
                         candidate->angle == NULL ? 0 : candidate->angle->id + 1U);
     candidate->symbols = candidate->angle == NULL ? 0 : candidate->angle->symbols;
+    candidate->size = candidate->angle == NULL ? 1.0 : 1.0 + candidate->angle->size;
     for (int i = 0; i < candidate->count; i++) {
         hash = mix(mix(hash, candidate->factors[i].atom->id),
                    bits_of(candidate->factors[i].exponent));
         candidate->symbols |= candidate->factors[i].atom->symbols;
+        candidate->size += candidate->factors[i].atom->size;
     }
     intern_slot *slot = table_find(&a->monos, hash, candidate, mono_equal);
     if (slot->object == NULL) {
         const size_t bytes = sizeof *candidate + (size_t)candidate->count * sizeof(factor);
         mono *made = arena_alloc(a->arena, bytes);
         memcpy(made, candidate, bytes);
-        made->id = next_id(a, &a->monos);
+        made->id = next_id(a, &a->monos, bytes);
         *slot = (intern_slot){hash, made};
     }
     return slot->object;
@@ -218,17 +232,22 @@ static bool poly_equal(const void *x, const void *y) {
 const poly *poly_intern(algebra *a, poly *candidate) {
     uint64_t hash = (uint64_t)candidate->count;
     candidate->symbols = 0;
+    candidate->size = 0.0;
     for (int i = 0; i < candidate->count; i++) {
         hash = mix(mix(hash, candidate->terms[i].mono->id),
                    bits_of(candidate->terms[i].coefficient));
         candidate->symbols |= candidate->terms[i].mono->symbols;
+        candidate->size += candidate->terms[i].mono->size;
     }
     intern_slot *slot = table_find(&a->polys, hash, candidate, poly_equal);
     if (slot->object == NULL) {
         const size_t bytes = sizeof *candidate + (size_t)candidate->count * sizeof(poly_term);
         poly *made = arena_alloc(a->arena, bytes);
         memcpy(made, candidate, bytes);
-        made->id = next_id(a, &a->polys);
+        made->id = next_id(a, &a->polys, bytes);
+        if (made->size > POLY_SIZE_MAX) {
+            a->overflow = true;
+        }
         *slot = (intern_slot){hash, made};
     }
     return slot->object;
@@ -269,6 +288,6 @@ void memo_put(algebra *a, intern_table *table, const void *left, const void *rig
         memo_pair *made = arena_alloc(a->arena, sizeof *made);
         *made = key;
         *slot = (intern_slot){hash, made};
-        table->count++;
+        next_id(a, table, sizeof *made);
     }
 }

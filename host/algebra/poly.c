@@ -60,8 +60,13 @@ bool poly_may_contain(const poly *p, const symbol *sym, int primes) {
     return (p->symbols & symbol_bit(sym, primes)) != 0;
 }
 
+double coefficient_sum(double x, double y) {
+    return fabs(x + y) <= CANCELLED * fmax(fabs(x), fabs(y)) ? 0.0 : x + y;
+}
+
 /* left + factor * right: a merge of two sorted lists. */
 static const poly *merge(algebra *a, const poly *left, const poly *right, double scale) {
+    algebra_work(a, (size_t)left->count + (size_t)right->count);
     poly *sum = poly_scratch(left->count + right->count);
     int i = 0;
     int j = 0;
@@ -74,9 +79,9 @@ static const poly *merge(algebra *a, const poly *left, const poly *right, double
             sum->terms[sum->count++] = (poly_term){right->terms[j++].coefficient * scale, r};
         } else {
             const double x = left->terms[i++].coefficient;
-            const double y = right->terms[j++].coefficient * scale;
-            if (!(fabs(x + y) <= CANCELLED * fmax(fabs(x), fabs(y)))) {
-                sum->terms[sum->count++] = (poly_term){x + y, l};
+            const double both = coefficient_sum(x, right->terms[j++].coefficient * scale);
+            if (both != 0.0) {
+                sum->terms[sum->count++] = (poly_term){both, l};
             }
         }
     }
@@ -204,21 +209,22 @@ static const atom *group_of(algebra *a, const poly *p) {
 }
 
 static const poly *product_of(algebra *a, const poly *left, const poly *right) {
-    if ((double)left->count * right->count > PRODUCT_TERMS_MAX) {
+    if (left->count > 1 && right->count > 1 &&
+        (double)left->count * right->count > PRODUCT_TERMS_MAX) {
         const factor f = {group_of(a, right), 1.0};
         return poly_mul(a, left, poly_of_term(a, 1.0, mono_make(a, &f, 1, TRIG_NONE, NULL)));
     }
-    const poly *sum = a->zero;
+    poly_sum sum = {0};
+    poly_sum row = {0};
     for (int i = 0; i < left->count && !a->overflow; i++) {
-        const poly *row = a->zero;
         for (int j = 0; j < right->count && !a->overflow; j++) {
             const poly *p = mono_product(a, left->terms[i].mono, right->terms[j].mono);
-            const double c = left->terms[i].coefficient * right->terms[j].coefficient;
-            row = merge(a, row, p, c);
+            sum_add(a, &row, p, left->terms[i].coefficient * right->terms[j].coefficient);
         }
-        sum = poly_add(a, sum, row);
+        sum_add_row(&sum, &row);
     }
-    return sum;
+    free(row.items);
+    return sum_close(a, &sum);
 }
 
 const poly *poly_mul(algebra *a, const poly *left, const poly *right) {

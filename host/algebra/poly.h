@@ -40,6 +40,7 @@ struct atom {
     function_id function;     /* ATOM_CALL */
     const poly *argument[2];  /* ATOM_CALL; base and exponent of ATOM_POWER; [0] of ATOM_GROUP */
     uint64_t symbols;         /* Bloom set of the symbols inside: see poly_may_contain() */
+    double size;              /* leaves it would have, written out */
 };
 
 typedef enum trig { TRIG_NONE, TRIG_COS, TRIG_SIN } trig;
@@ -55,6 +56,7 @@ struct mono {
     trig trig;
     const poly *angle; /* argument of the sine or cosine, or NULL */
     uint64_t symbols;
+    double size;
     factor factors[]; /* sorted by atom id */
 };
 
@@ -67,11 +69,16 @@ struct poly {
     unsigned id;
     int count;
     uint64_t symbols;
+    double size; /* leaves it would have, written out: what shares is counted as often as it is used */
     poly_term terms[]; /* sorted by mono id; none means zero */
 };
 
 algebra *algebra_new(void);
 void algebra_free(algebra *a);
+
+/* The largest size of an expression: whoever walks through one, shared parts again and again, takes a
+ * bounded time. */
+#define POLY_SIZE_MAX 1e6
 
 /* Set when an expression grew beyond what the algebra takes on; results are then meaningless. */
 bool algebra_overflow(const algebra *a);

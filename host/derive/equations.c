@@ -176,6 +176,24 @@ static const poly **polys(int count) {
     return p;
 }
 
+/* Beyond what the algebra, or those who walk through its results, can do in a reasonable time? */
+static bool too_large(const equations *e) {
+    double size = 0.0;
+    for (int i = 0; i < e->count && !algebra_overflow(e->algebra); i++) {
+        size += e->velocity[i]->size + e->potential[i]->size + e->applied[i]->size;
+        for (int j = 0; j < e->count; j++) {
+            size += e->mass[i * e->count + j]->size;
+        }
+    }
+    return algebra_overflow(e->algebra) || size > POLY_SIZE_MAX;
+}
+
+void equations_report_growth(const equations *e, diags *errors) {
+    const mechanism *m = e->instance->mechanism;
+    diag_error(errors, m->at, "smaller powers of sums, or coordinates nearer to the joints, help",
+               "the equations of '%s' grow beyond what can be handled", m->name);
+}
+
 equations *equations_derive(const instance *inst, diags *errors) {
     const mechanism *m = inst->mechanism;
     const int n = m->coordinate_count;
@@ -211,9 +229,8 @@ equations *equations_derive(const instance *inst, diags *errors) {
     for (int i = 0; i < m->output_count && good; i++) {
         e->output[i] = poly_from_expr(e->algebra, m->outputs[i]->value);
     }
-    if (good && algebra_overflow(e->algebra)) {
-        diag_error(errors, m->at, "smaller powers of sums, or coordinates nearer to the joints, help",
-                   "the equations of '%s' grow beyond what can be handled", m->name);
+    if (good && too_large(e)) {
+        equations_report_growth(e, errors);
         good = false;
     }
     if (good) {

@@ -42,6 +42,9 @@ typedef struct equations {
 equations *equations_derive(const instance *inst, diags *errors);
 void equations_free(equations *e);
 
+/* Report that the equations grew beyond what can be handled. */
+void equations_report_growth(const equations *e, diags *errors);
+
 /* mass * highest = force: everything but the highest derivatives, on the right. */
 const poly *equations_force(const equations *e, int i);
 

@@ -288,12 +288,16 @@ program *program_make(const equations *e, const bool *conserve, diags *errors) {
         diag_error(errors, m->at, NULL, "'%s' has more than %d components of state", m->name,
                    PROGRAM_COMPONENTS_MAX);
     }
+    const bool grown = fits && algebra_overflow(e->algebra);
+    if (grown) {
+        equations_report_growth(e, errors);
+    }
     free(map.angle_number);
     free(map.real_number);
     free(dynamics);
     free(turning);
     free(wanted);
-    if (!fits) {
+    if (!fits || grown) {
         program_free(p);
         return NULL;
     }

@@ -157,9 +157,9 @@ static void enter(const lowering *like, tape *t, const linear_system *s, const a
     const size_t entries = (size_t)n * (size_t)n;
     const poly **mass = calloc(entries + (size_t)n, sizeof *mass);
     int *node = calloc(entries + (size_t)n, sizeof *node);
-    double *scale = calloc((size_t)n, sizeof *scale);
-    bool *gone = calloc((size_t)n, sizeof *gone);
-    int *order = calloc((size_t)n, sizeof *order);
+    double *scale = calloc((size_t)n + 1, sizeof *scale);
+    bool *gone = calloc((size_t)n + 1, sizeof *gone);
+    int *order = calloc((size_t)n + 1, sizeof *order);
     if (mass == NULL || node == NULL || scale == NULL || gone == NULL || order == NULL) {
         abort();
     }

@@ -8,6 +8,10 @@
 #include <math.h>
 #include <stdlib.h>
 
+/* Of many known angles only the first, the smallest, are tried as parts of another. */
+#define PARTS_MAX 96
+#define BETWEEN_MAX 32
+
 static int find(const lowering *l, const poly *angle) {
     for (int i = 0; i < l->wave_count; i++) {
         if (l->waves[i].angle == angle) {
@@ -48,12 +52,16 @@ static const poly *upright(lowering *l, const poly *angle, bool *flipped) {
 
 /* A rule that makes `angle` from two known ones, if there is one. */
 static bool rule_for(lowering *l, const poly *angle, wave *w) {
+    int longest = 0;
     for (int i = 0; i < l->wave_count; i++) {
+        longest = l->waves[i].angle->count > longest ? l->waves[i].angle->count : longest;
+    }
+    for (int i = 0; i < l->wave_count && i < PARTS_MAX; i++) {
         bool flipped;
         const poly *rest = poly_sub(l->algebra, angle, l->waves[i].angle);
         double number;
-        if (poly_is_number(rest, &number)) {
-            continue; /* equal but for a fixed offset: no help */
+        if (poly_is_number(rest, &number) || rest->count > longest) {
+            continue; /* equal but for a fixed offset: no help; or none of those known */
         }
         rest = upright(l, rest, &flipped);
         const int other = find(l, rest);
@@ -91,7 +99,7 @@ void waves_plan(lowering *l, const poly **angles, int count) {
         /* One step between may do: 3a = 2a + a. */
         bool made = false;
         const int known = l->wave_count;
-        for (int k = 0; k < known && !made; k++) {
+        for (int k = 0; k < known && k < BETWEEN_MAX && !made; k++) {
             bool flipped;
             wave between;
             const poly *rest = poly_sub(l->algebra, angles[i], l->waves[k].angle);

@@ -63,7 +63,8 @@ void show_symbol(const show *s, const symbol *sym, int primes) {
 
 /* value = top / bottom with small whole numbers? */
 static bool as_fraction(double value, double *top, double *bottom) {
-    for (double q = 1.0; q <= 360.0; q += 1.0) {
+    for (int whole = 1; whole <= 360; whole++) {
+        const double q = whole;
         const double p = floor(value * q + 0.5);
         if (fabs(value * q - p) <= 1e-13 * fabs(value * q) && fabs(p) < 1e9 && p != 0.0) {
             *top = p;
@@ -86,7 +87,7 @@ static void show_number(const show *s, double value) {
     char *e = strchr(text, 'e');
     if (e != NULL && s->style == SHOW_LATEX) {
         *e = '\0';
-        fprintf(s->out, "%s \\cdot 10^{%d}", text, atoi(e + 1));
+        fprintf(s->out, "%s \\cdot 10^{%d}", text, (int)strtol(e + 1, NULL, 10));
         return;
     }
     fputs(text, s->out);
@@ -274,7 +275,7 @@ static void show_sum(const show *s, const poly *p) {
 
 /* A number that all coefficients are small whole multiples of, or 1. */
 static double common_number(const piece *pieces, int count) {
-    double smallest = INFINITY;
+    double smallest = (double)INFINITY;
     for (int i = 0; i < count; i++) {
         smallest = fmin(smallest, fabs(pieces[i].coefficient));
     }

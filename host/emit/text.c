@@ -70,7 +70,14 @@ static int y_number(const equations *e, int unknown_index, int primes) {
 static bool closed_form(const equations *e, const poly **top, const poly **bottom) {
     algebra *a = e->algebra;
     const int n = e->count;
-    if (n > 2) {
+    int terms = 0;
+    for (int i = 0; i < n && n <= 2; i++) {
+        terms += show_size(equations_force(e, i));
+        for (int j = 0; j < n; j++) {
+            terms += show_size(e->mass[i * n + j]);
+        }
+    }
+    if (n > 2 || terms > 4 * READABLE_TERMS) {
         return false;
     }
     const poly *m[4];
@@ -90,7 +97,7 @@ static bool closed_form(const equations *e, const poly **top, const poly **botto
 static void reduce(algebra *a, const poly **top, const poly **bottom) {
     const poly *both = poly_add(a, *top, poly_scale(a, *bottom, 0.7390851332151607));
     const poly *inverse = poly_pow(a, show_common(a, both), -1.0);
-    double number = INFINITY;
+    double number = (double)INFINITY;
     for (int i = 0; i < (*top)->count + (*bottom)->count; i++) {
         const poly_term *t = i < (*top)->count ? &(*top)->terms[i]
                                                : &(*bottom)->terms[i - (*top)->count];

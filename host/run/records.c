@@ -1,4 +1,4 @@
-/* records.c: writing a run as comma-separated values. */
+/* records.c: writing a run as comma-separated values or plain columns. */
 #include "records.h"
 
 #include <stdlib.h>
@@ -19,7 +19,7 @@ records *records_open(FILE *out, const program *p, const equations *e, const eng
         abort();
     }
     const int columns = 1 + state_columns(e) + e->instance->mechanism->output_count;
-    *r = (records){out, p, e, kind, calloc((size_t)columns, sizeof *r->row),
+    *r = (records){out, NULL, p, e, kind, calloc((size_t)columns, sizeof *r->row),
                    calloc((size_t)p->outputs + 1, sizeof *r->output), columns};
     if (r->row == NULL || r->output == NULL) {
         abort();
@@ -75,13 +75,31 @@ void records_name(const records *r, int column, char *text, size_t size) {
     }
 }
 
-void records_header(records *r) {
+/* What stands around the columns of a line. */
+typedef struct layout {
+    const char *header, *between, *end;
+} layout;
+
+static const layout csv = {"", ",", "\r\n"};
+static const layout plain = {"% ", " ", "\n"};
+
+static void write_header(const records *r, FILE *out, const layout *l) {
     char name[256];
+    fputs(l->header, out);
     for (int i = 0; i < r->columns; i++) {
         records_name(r, i, name, sizeof name);
-        fprintf(r->out, "%s%s", i > 0 ? "," : "", name);
+        fprintf(out, "%s%s", i > 0 ? l->between : "", name);
     }
-    fputs("\r\n", r->out);
+    fputs(l->end, out);
+}
+
+void records_header(records *r) {
+    if (r->out != NULL) {
+        write_header(r, r->out, &csv);
+    }
+    if (r->plain != NULL) {
+        write_header(r, r->plain, &plain);
+    }
 }
 
 void records_read(records *r, void *run, double time_s) {
@@ -108,15 +126,21 @@ void records_read(records *r, void *run, double time_s) {
     }
 }
 
-bool records_write(const records *r) {
+static bool write_row(const records *r, FILE *out, const layout *l) {
     for (int i = 0; i < r->columns; i++) {
         /* time is a whole number of steps: it carries its own digits */
         if (i == 0) {
-            fprintf(r->out, "%.15g", r->row[i]);
+            fprintf(out, "%.15g", r->row[i]);
         } else {
-            fprintf(r->out, ",%.*g", r->kind->digits, r->row[i]);
+            fprintf(out, "%s%.*g", l->between, r->kind->digits, r->row[i]);
         }
     }
-    fputs("\r\n", r->out);
-    return ferror(r->out) == 0;
+    fputs(l->end, out);
+    return ferror(out) == 0;
+}
+
+bool records_write(const records *r) {
+    const bool csv_written = r->out == NULL || write_row(r, r->out, &csv);
+    const bool plain_written = r->plain == NULL || write_row(r, r->plain, &plain);
+    return csv_written && plain_written;
 }

@@ -11,6 +11,7 @@ typedef struct simulation_settings {
     engine_settings engine;
     unsigned long every; /* steps between records */
     const char *csv;     /* file, "-" for standard output, or NULL */
+    const char *columns; /* file of plain columns, "-" for standard output, or NULL */
     const char *plot;    /* .svg or .png, or NULL */
     bool quiet;
     bool progress;

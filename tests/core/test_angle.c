@@ -23,15 +23,13 @@ static void test_radians_are_kept(void) {
 }
 
 static void test_phase_moves(void) {
-    bool sound = true;
-    TEST_ASSERT_TRUE(wh_phase_move(1.0, -2.5, &sound) == -1.5);
-    TEST_ASSERT_TRUE(wh_phase_move(1e6, 3.0, &sound) == 1000003.0);
-    TEST_ASSERT_TRUE(sound);
+    wh_phase moved = 0.0;
+    TEST_ASSERT_TRUE(wh_phase_move(1.0, -2.5, &moved) && moved == -1.5);
+    TEST_ASSERT_TRUE(wh_phase_move(1e6, 3.0, &moved) && moved == 1000003.0);
     const double bad[] = {WH_PHASE_STEP_MAX, -4.0, 1e300, __builtin_nan("")};
     for (unsigned i = 0; i < sizeof bad / sizeof bad[0]; i++) {
-        sound = true;
-        (void)wh_phase_move(1.0, bad[i], &sound);
-        TEST_ASSERT_FALSE(sound);
+        TEST_ASSERT_FALSE(wh_phase_move(1.0, bad[i], &moved));
+        TEST_ASSERT_TRUE(moved == 1000003.0);
     }
 }
 
@@ -56,17 +54,19 @@ static uint64_t scattered(void) {
 
 /* --- moving ----------------------------------------------------------------------------------- */
 static void test_phase_moves(void) {
-    bool sound = true;
-    TEST_ASSERT_EQUAL_UINT32(QUARTER + 1000, wh_phase_move(QUARTER, 1000.9f, &sound));
-    TEST_ASSERT_EQUAL_UINT32(QUARTER - 1000, wh_phase_move(QUARTER, -1000.9f, &sound));
-    TEST_ASSERT_EQUAL_UINT32(UINT32_MAX, wh_phase_move(0, -1.0f, &sound));
-    TEST_ASSERT_EQUAL_UINT32(2147483392, wh_phase_move(0, 2147483392.0f, &sound));
-    TEST_ASSERT_TRUE(sound);
+    wh_phase moved = 0;
+    TEST_ASSERT_TRUE(wh_phase_move(QUARTER, 1000.9f, &moved));
+    TEST_ASSERT_EQUAL_UINT32(QUARTER + 1000, moved);
+    TEST_ASSERT_TRUE(wh_phase_move(QUARTER, -1000.9f, &moved));
+    TEST_ASSERT_EQUAL_UINT32(QUARTER - 1000, moved);
+    TEST_ASSERT_TRUE(wh_phase_move(0, -1.0f, &moved));
+    TEST_ASSERT_EQUAL_UINT32(UINT32_MAX, moved);
+    TEST_ASSERT_TRUE(wh_phase_move(0, 2147483392.0f, &moved));
+    TEST_ASSERT_EQUAL_UINT32(2147483392, moved);
     const float bad[] = {WH_PHASE_STEP_MAX, -2147483648.0f, 1e30f, __builtin_nanf("")};
     for (unsigned i = 0; i < sizeof bad / sizeof bad[0]; i++) {
-        sound = true;
-        (void)wh_phase_move(QUARTER, bad[i], &sound);
-        TEST_ASSERT_FALSE(sound);
+        TEST_ASSERT_FALSE(wh_phase_move(QUARTER, bad[i], &moved));
+        TEST_ASSERT_EQUAL_UINT32(2147483392, moved);
     }
 }
 

@@ -235,7 +235,6 @@ static void test_absurd_rate_keeps_the_last_good_state(void) {
     state.input[0] = WH_R(0.0);
     TEST_ASSERT_TRUE(steps(&scene, 1)); /* and it goes on once the cause is gone */
     TEST_ASSERT_TRUE(state.steps == 4);
-    TEST_ASSERT_TRUE(state.fault == -1);
 }
 
 static void test_not_a_number_is_refused(void) {
