@@ -102,7 +102,8 @@ int command_derive(int count, char **words) {
     } else if (code == EXIT_DONE) {
         const mechanism *of;
         const scene *in;
-        code = source_pick(&from, true, &of, &in);
+        /* the file's only scene; of several, none is meant: the mechanism */
+        code = source_pick(&from, from.model->scene_count == 1, &of, &in);
         if (code == EXIT_DONE) {
             code = derive_one(&from, of, in, &changes, as);
         }

@@ -25,6 +25,7 @@ static const char usage[] =
     "  --number N           double (default, the reference) or float (the boards, to the bit)\n"
     "  --compensated        carry the rounding error of every sum along\n"
     "  --csv FILE           records; - is standard output (the summary then goes to standard error)\n"
+    "  --columns FILE       the same between spaces, for Octave's load; - as for --csv\n"
     "  --every 2ms          spacing of the records, a whole number of steps (default: every step)\n"
     "  --plot FILE.svg|.png coordinates and outputs over time, drawn by gnuplot\n"
     "  --quiet              no summary, no progress\n"
@@ -85,6 +86,8 @@ static bool take_own(int count, char **words, int *at, run_options *o, bool *bad
         o->settings.kind = chosen == 1 ? &engine_float : &engine_double;
     } else if (!*bad && (value = options_value(count, words, at, "--csv", bad)) != NULL) {
         o->settings.csv = value;
+    } else if (!*bad && (value = options_value(count, words, at, "--columns", bad)) != NULL) {
+        o->settings.columns = value;
     } else if (!*bad && (value = options_value(count, words, at, "--every", bad)) != NULL) {
         o->every = value;
     } else if (!*bad && (value = options_value(count, words, at, "--plot", bad)) != NULL) {
@@ -109,8 +112,8 @@ static bool read_options(int count, char **words, run_options *o) {
         if (words[at][0] == '-' && words[at][1] != '\0') {
             options_unknown("run", words[at],
                             (const char *const[]){CHANGE_OPTIONS, "--method", "--number",
-                                                  "--compensated", "--csv", "--every", "--plot",
-                                                  "--quiet", "--help", NULL});
+                                                  "--compensated", "--csv", "--columns", "--every",
+                                                  "--plot", "--quiet", "--help", NULL});
             return false;
         }
         if (o->target != NULL) {
@@ -121,6 +124,11 @@ static bool read_options(int count, char **words, run_options *o) {
     }
     if (!bad && o->target == NULL) {
         fputs(usage, stderr);
+        return false;
+    }
+    if (!bad && o->settings.csv != NULL && o->settings.columns != NULL &&
+        strcmp(o->settings.csv, o->settings.columns) == 0) {
+        fputs("whirl run: error: --csv and --columns cannot share a file\n", stderr);
         return false;
     }
     return !bad;

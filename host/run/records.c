@@ -19,8 +19,14 @@ records *records_open(FILE *out, const program *p, const equations *e, const eng
         abort();
     }
     const int columns = 1 + state_columns(e) + e->instance->mechanism->output_count;
-    *r = (records){out, NULL, p, e, kind, calloc((size_t)columns, sizeof *r->row),
-                   calloc((size_t)p->outputs + 1, sizeof *r->output), columns};
+    *r = (records){out,
+                   NULL,
+                   p,
+                   e,
+                   kind,
+                   calloc((size_t)columns, sizeof *r->row),
+                   calloc((size_t)p->outputs + 1, sizeof *r->output),
+                   columns};
     if (r->row == NULL || r->output == NULL) {
         abort();
     }

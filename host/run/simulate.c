@@ -29,9 +29,10 @@ typedef struct simulation {
     records *records;
     books *books;
     FILE *csv;
+    FILE *columns;
     plot_rows plot;
-    uint64_t steps;      /* wanted */
-    double wall_s;       /* spent stepping */
+    uint64_t steps; /* wanted */
+    double wall_s;  /* spent stepping */
     bool write_failed;
 } simulation;
 
@@ -41,18 +42,39 @@ static double now_s(void) {
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+/* True when the file is open or there is none to open. */
+static bool open_records(const char *name, FILE **file) {
+    if (name != NULL) {
+        *file = strcmp(name, "-") == 0 ? stdout : fopen(name, "wb");
+        if (*file == NULL) {
+            fprintf(stderr, "%s: error: cannot be written: %s\n", name, strerror(errno));
+        }
+    }
+    return name == NULL || *file != NULL;
+}
+
+static bool flush_records(const char *name, FILE *file) {
+    if (file != NULL && (fflush(file) != 0 || ferror(file) != 0)) {
+        fprintf(stderr, "%s: error: cannot be written: %s\n", name, strerror(errno));
+        return false;
+    }
+    return true;
+}
+
+static void close_records(FILE *file) {
+    if (file != NULL && file != stdout) {
+        fclose(file);
+    }
+}
+
 static bool open_files(simulation *sim) {
     const simulation_settings *s = sim->settings;
     if (s->plot != NULL && !plot_can_draw(s->plot)) {
         fprintf(stderr, "whirl run: error: --plot draws .svg and .png files, not %s\n", s->plot);
         return false;
     }
-    if (s->csv != NULL) {
-        sim->csv = strcmp(s->csv, "-") == 0 ? stdout : fopen(s->csv, "wb");
-        if (sim->csv == NULL) {
-            fprintf(stderr, "%s: error: cannot be written: %s\n", s->csv, strerror(errno));
-            return false;
-        }
+    if (!open_records(s->csv, &sim->csv) || !open_records(s->columns, &sim->columns)) {
+        return false;
     }
     if (s->plot != NULL) {
         FILE *try = fopen(s->plot, "wb");
@@ -73,10 +95,10 @@ static bool open_files(simulation *sim) {
 
 /* Enter the present state wherever it belongs. */
 static void enter(simulation *sim, uint64_t step, bool last) {
-    const bool record = sim->csv != NULL && (step % sim->settings->every == 0);
-    const bool point =
-        sim->plot.data != NULL && (step % sim->plot.spacing == 0 || last) &&
-        sim->plot.count < PLOT_ROWS_MAX + 2;
+    const bool record =
+        (sim->csv != NULL || sim->columns != NULL) && (step % sim->settings->every == 0);
+    const bool point = sim->plot.data != NULL && (step % sim->plot.spacing == 0 || last) &&
+                       sim->plot.count < PLOT_ROWS_MAX + 2;
     if (sim->books != NULL && !last) {
         books_enter(sim->books, sim->settings->kind, sim->run);
     }
@@ -134,8 +156,8 @@ static wh_status loop(simulation *sim, bool *interrupted) {
 static void say_failure(const simulation *sim) {
     const program *p = sim->program;
     const int fault = sim->settings->kind->fault(sim->run);
-    const component c = fault < p->angles ? p->angle[fault < 0 ? 0 : fault]
-                                          : p->real[fault - p->angles];
+    const component c =
+        fault < p->angles ? p->angle[fault < 0 ? 0 : fault] : p->real[fault - p->angles];
     const double time_s =
         (double)sim->settings->kind->steps(sim->run) * sim->equations->instance->step_s;
     fprintf(stderr, "whirl run: error: the run diverged in the step after t = %.9g s: %s", time_s,
@@ -163,9 +185,8 @@ static bool draw(const simulation *sim) {
         const char *si = dimension_unit(s->dim, s->is_angle, labels[count], sizeof labels[count]);
         curves[count++] = (curve){s->name, si, i < p->count ? i + 1 : first_output + i - p->count};
     }
-    const char *title = sim->equations->instance->scene != NULL
-                            ? sim->equations->instance->scene->title
-                            : m->title;
+    const char *title =
+        sim->equations->instance->scene != NULL ? sim->equations->instance->scene->title : m->title;
     char full[256];
     snprintf(full, sizeof full, "%s%s%s", sim->equations->instance->name,
              title[0] != '\0' ? ": " : "", title);
@@ -186,14 +207,15 @@ simulation_result simulate(const equations *e, const program *p, const simulatio
         sim.run = s->kind->start(p, e->instance, &s->engine);
         sim.books = s->quiet ? NULL : books_open(p, e);
         sim.records->out = sim.csv;
-        if (sim.csv != NULL) {
-            records_header(sim.records);
-        }
+        sim.records->plain = sim.columns;
+        records_header(sim.records);
         const wh_status status = loop(&sim, &interrupted);
         result = status != WH_OK ? SIMULATION_FAILED
-                                 : interrupted ? SIMULATION_INTERRUPTED : SIMULATION_DONE;
-        if (sim.csv != NULL && (fflush(sim.csv) != 0 || sim.write_failed)) {
-            fprintf(stderr, "%s: error: cannot be written: %s\n", s->csv, strerror(errno));
+                 : interrupted   ? SIMULATION_INTERRUPTED
+                                 : SIMULATION_DONE;
+        const bool csv_written = flush_records(s->csv, sim.csv);
+        const bool columns_written = flush_records(s->columns, sim.columns);
+        if (!csv_written || !columns_written) {
             result = SIMULATION_BAD_FILE;
         }
         if (status != WH_OK) {
@@ -202,17 +224,16 @@ simulation_result simulate(const equations *e, const program *p, const simulatio
         if (!s->quiet) {
             const uint64_t done = s->kind->steps(sim.run);
             const double sampled = (double)((done + 63) / 64);
-            summary_print(sim.csv == stdout ? stderr : stdout, e, p, s, sim.run, sim.books,
-                          sampled > 0.0 ? 1e9 * sim.wall_s / sampled : 0.0);
+            summary_print(sim.csv == stdout || sim.columns == stdout ? stderr : stdout, e, p, s,
+                          sim.run, sim.books, sampled > 0.0 ? 1e9 * sim.wall_s / sampled : 0.0);
         }
         if (s->plot != NULL && result != SIMULATION_BAD_FILE && !draw(&sim)) {
             result = SIMULATION_BAD_FILE;
         }
         s->kind->stop(sim.run);
     }
-    if (sim.csv != NULL && sim.csv != stdout) {
-        fclose(sim.csv);
-    }
+    close_records(sim.csv);
+    close_records(sim.columns);
     books_close(sim.books);
     records_close(sim.records);
     free(sim.plot.data);

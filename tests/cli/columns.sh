@@ -1,0 +1,55 @@
+#!/bin/sh
+# columns.sh: `whirl run --columns` writes the numbers of --csv as plain columns, and says when it cannot.
+set -u
+
+whirl=${WHIRL:-build/whirl}
+scratch=$(mktemp -d) || exit 1
+trap 'rm -rf "$scratch"' EXIT
+failed=0
+
+# check WHAT COMMAND...: the command must succeed.
+check() {
+    what=$1
+    shift
+    if "$@" >/dev/null 2>&1; then
+        echo "ok - $what"
+    else
+        echo "not ok - $what"
+        failed=1
+    fi
+}
+
+"$whirl" run epicyclic_from_rest --until 1s --every 10ms --quiet \
+    --csv "$scratch/run.csv" --columns "$scratch/run.txt"
+
+printf '%% time theta X der(theta) der(X) projection x_2 x_cm\n' >"$scratch/header"
+head -n 1 "$scratch/run.txt" >"$scratch/first"
+check "columns: the header is a comment with the columns' names" \
+    cmp "$scratch/header" "$scratch/first"
+
+tr -d '\r' <"$scratch/run.csv" | tail -n +2 | tr ',' ' ' >"$scratch/csv_numbers"
+tail -n +2 "$scratch/run.txt" >"$scratch/numbers"
+check "columns: the same digits as the CSV" cmp "$scratch/csv_numbers" "$scratch/numbers"
+check "columns: a record for each 10 ms, and one at zero" test "$(wc -l <"$scratch/numbers")" -eq 101
+
+"$whirl" run epicyclic_from_rest --until 1s --every 10ms --columns - \
+    >"$scratch/standard" 2>"$scratch/summary"
+check "columns: - is standard output" cmp "$scratch/run.txt" "$scratch/standard"
+check "columns: the summary then goes to standard error" grep -q '^state hash' "$scratch/summary"
+
+# refused WHAT OPTION...: exit status 2 and a word about it.
+refused() {
+    what=$1
+    shift
+    "$whirl" run epicyclic_from_rest --quiet "$@" >/dev/null 2>"$scratch/said"
+    if [ $? -eq 2 ] && grep -q error: "$scratch/said"; then
+        echo "ok - $what"
+    else
+        echo "not ok - $what"
+        failed=1
+    fi
+}
+refused "columns: a file that cannot be made" --columns "$scratch/missing/run.txt"
+refused "columns: a full disc" --columns /dev/full
+refused "columns: not the same file as --csv" --csv - --columns -
+exit $failed
