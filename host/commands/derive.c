@@ -41,6 +41,11 @@ static int derive_one(source_model *from, const mechanism *of, const scene *in,
                 from->file, made.instance->name, program_needs_libm(made.program));
         code = EXIT_BAD_INPUT;
     }
+    if (code == EXIT_DONE && as == FORM_C && !emit_c_name_is_free(made.instance->name)) {
+        fprintf(stderr, "%s: error: '%s' is a word of C or of the core: the generated scene cannot "
+                        "have that name\nhint: rename it\n", from->file, made.instance->name);
+        code = EXIT_BAD_INPUT;
+    }
     if (code == EXIT_DONE) {
         print(as, &made, from->file);
     }

@@ -4,6 +4,7 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "emit.h"
 
@@ -225,6 +226,22 @@ static void write_scene(FILE *out, const program *p, const instance *inst,
             program_hash(p));
     fprintf(out, "    .advance = advance,\n    .observe = %s,\n};\n",
             p->outputs > 0 ? "observe" : "NULL");
+}
+
+bool emit_c_name_is_free(const char *name) {
+    static const char *const taken[] = {
+        "auto", "break", "case", "char", "const", "continue", "default", "do", "double", "else",
+        "enum", "extern", "float", "for", "goto", "if", "inline", "int", "long", "register",
+        "restrict", "return", "short", "signed", "sizeof", "static", "struct", "switch", "typedef",
+        "union", "unsigned", "void", "volatile", "while", "bool", "true", "false", "main", "NULL",
+        "accelerations", "slopes", "advance", "observe", "start_angle", "start_real",
+        "start_input"};
+    for (size_t i = 0; i < sizeof taken / sizeof taken[0]; i++) {
+        if (strcmp(name, taken[i]) == 0) {
+            return false;
+        }
+    }
+    return strncmp(name, "wh_", 3) != 0 && strncmp(name, "WH_", 3) != 0 && name[0] != '_';
 }
 
 static void write_banner(FILE *out, const equations *e, const program *p, const char *file) {

@@ -16,6 +16,9 @@ void emit_latex(FILE *out, const equations *e);
  * run as a comment. `file` is the .whirl file's name, for the banner. */
 void emit_octave(FILE *out, const equations *e, const program *p, const char *file);
 
+/* False when the generated file could not define an object of that name (a word of C or of the core). */
+bool emit_c_name_is_free(const char *name);
+
 /* The scene as C for the core: constants, start, straight-line right-hand side, one step. */
 void emit_c(FILE *out, const equations *e, const program *p, const engine_settings *settings,
             const char *file);

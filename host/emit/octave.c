@@ -47,14 +47,23 @@ static void write_call(FILE *out, const tape *t, const op *o, const char *name) 
 
 static void write_phase(FILE *out, const program *p, const equations *e, const op *o) {
     const tape *t = p->step;
-    fprintf(out, "%.17g", o->value);
+    const char *plus = "";
+    if (o->value != 0.0) {
+        fprintf(out, "%.17g", o->value);
+        plus = " + ";
+    }
     for (int k = 0; k < t->angles && o->turns != NULL; k++) {
         if (o->turns[k] != 0) {
-            fprintf(out, " + %d*y(%d)", o->turns[k], y_number(p, e, p->angle[k]));
+            fputs(plus, out);
+            if (o->turns[k] != 1) {
+                fprintf(out, "%d*", o->turns[k]);
+            }
+            fprintf(out, "y(%d)", y_number(p, e, p->angle[k]));
+            plus = " + ";
         }
     }
     if (o->b >= 0) {
-        fputs(" + ", out);
+        fputs(plus, out);
         write_operand(out, t, o->b);
     }
 }
@@ -74,7 +83,7 @@ static void write_operation(FILE *out, const program *p, const equations *e, int
     case OP_RATE:
         fprintf(out, "y(%d)", y_number(p, e, p->real[p->coordinates - p->angles + o->a]));
         break;
-    case OP_INPUT: fputs(e->instance->mechanism->inputs[o->a]->name, out); break;
+    case OP_INPUT: fprintf(out, "u_%s", e->instance->mechanism->inputs[o->a]->name); break;
     case OP_PHASE: write_phase(out, p, e, o); break;
     case OP_SIN: fprintf(out, "sin(x%d)", o->a); break;
     case OP_COS: fprintf(out, "cos(x%d)", o->a); break;
@@ -133,7 +142,7 @@ void emit_octave(FILE *out, const equations *e, const program *p, const char *fi
     }
     fprintf(out, "], options);\n%% K = [T Y]; save('%s.txt', 'K', '-ascii')\n", inst->name);
     for (int i = 0; i < m->input_count; i++) {
-        fprintf(out, "  %s = %.17g; %% %s\n", m->inputs[i]->name, inst->input[i],
+        fprintf(out, "  u_%s = %.17g; %% %s\n", m->inputs[i]->name, inst->input[i],
                 m->inputs[i]->text);
     }
     for (int i = 0; i < p->step->count; i++) {

@@ -223,7 +223,8 @@ simulation_result simulate(const equations *e, const program *p, const simulatio
         }
         if (!s->quiet) {
             const uint64_t done = s->kind->steps(sim.run);
-            const double sampled = (double)((done + 63) / 64);
+            const uint64_t samples = (done + 63) / 64;
+            const double sampled = (double)samples;
             summary_print(sim.csv == stdout || sim.columns == stdout ? stderr : stdout, e, p, s,
                           sim.run, sim.books, sampled > 0.0 ? 1e9 * sim.wall_s / sampled : 0.0);
         }

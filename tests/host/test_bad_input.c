@@ -82,9 +82,9 @@ static bool file_fails_as_announced(const char *path) {
     for (const char *line = text; strncmp(line, mark, sizeof mark - 1) == 0;) {
         const char *end = strchr(line, '\n');
         TEST_ASSERT_NOT_NULL_MESSAGE(end, path);
-        char where[LINE_SIZE];
+        char where[2 * LINE_SIZE];
         char words[LINE_SIZE];
-        char whole[2 * LINE_SIZE + 16];
+        char whole[3 * LINE_SIZE + 16];
         line += sizeof mark - 1;
         char *after = NULL;
         const long row = strtol(line, &after, 10);

@@ -1,0 +1,38 @@
+/* point.h: one point of a sweep: one run, and what its measures come to. */
+#ifndef SWEEP_POINT_H
+#define SWEEP_POINT_H
+
+#include <stdio.h>
+
+#include "grid.h"
+#include "host/run/engine.h"
+#include "measures.h"
+
+/* A sweep in numbers. Everything in it outlives the runs and is not changed by them. */
+typedef struct sweep {
+    const grid *grid;
+    const measures *measures;
+    const scene *scene;       /* NULL for a bare mechanism */
+    const overrides *changes; /* the command line's, without what is swept */
+    const engine_kind *kind;
+    engine_settings engine;
+    double from_s; /* measure from this time on */
+    /* The operation lists of every point, or NULL: parameters are folded into them, and so is the
+     * momentum of a conserved coordinate, so a sweep that varies them derives each point anew. A
+     * point's rows do not depend on the points before it: nothing is carried over. */
+    const program *shared;
+} sweep;
+
+/* May the points of the grid share the program of one of them? */
+bool sweep_can_share(const grid *g, const program *p);
+
+/* The CSV fields of the swept values, as header and for one point, without a line's end. */
+void sweep_header(const sweep *s, FILE *out);
+void sweep_swept_fields(const sweep *s, uint64_t point, FILE *out);
+
+/* Run the point and write its row, line's end included. A run that fails leaves its measures empty:
+ * then the result is false and one line on `reason` says why. `abandon` (may be NULL) is asked now
+ * and then whether to give up; the row is then of no use. */
+bool sweep_point(const sweep *s, uint64_t point, bool (*abandon)(void), FILE *row, FILE *reason);
+
+#endif

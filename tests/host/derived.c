@@ -1,0 +1,115 @@
+/* derived.c: see derived.h. */
+#define _POSIX_C_SOURCE 200809L
+
+#include "derived.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "host/lang/builtin.h"
+#include "unity.h"
+
+static const scene *scene_called(const model *m, const char *name) {
+    for (int i = 0; i < m->scene_count; i++) {
+        if (strcmp(m->scenes[i]->name, name) == 0) {
+            return m->scenes[i];
+        }
+    }
+    return NULL;
+}
+
+static const mechanism *mechanism_called(const model *m, const char *name) {
+    for (int i = 0; i < m->mechanism_count; i++) {
+        if (strcmp(m->mechanisms[i]->name, name) == 0) {
+            return m->mechanisms[i];
+        }
+    }
+    return NULL;
+}
+
+/* `name` NULL: the first mechanism. Takes over `all`. */
+static derived derive_model(model *m, const char *name, diags *all) {
+    derived d = {.model = m};
+    if (m != NULL) {
+        const scene *in = name == NULL ? NULL : scene_called(m, name);
+        const mechanism *of = in != NULL     ? in->mechanism
+                              : name == NULL ? m->mechanisms[0]
+                                             : mechanism_called(m, name);
+        d.instance = instance_make(of, in, NULL, all);
+        d.equations = d.instance == NULL ? NULL : equations_derive(d.instance, all);
+        d.program = d.equations == NULL
+                        ? NULL
+                        : program_make(d.equations, in == NULL ? NULL : in->conserve, all);
+    }
+    size_t size = 0;
+    FILE *out = open_memstream(&d.errors, &size);
+    TEST_ASSERT_NOT_NULL(out);
+    diags_flush(all, out);
+    fclose(out);
+    diags_free(all);
+    return d;
+}
+
+derived derived_text(const char *text) {
+    diags *all = diags_new();
+    return derive_model(model_parse("t.whirl", text, strlen(text), all), NULL, all);
+}
+
+derived derived_file(const char *path) {
+    FILE *in = fopen(path, "rb");
+    TEST_ASSERT_NOT_NULL_MESSAGE(in, path);
+    char *text = calloc(1, 1 << 16);
+    TEST_ASSERT_NOT_NULL(text);
+    const size_t length = fread(text, 1, (1 << 16) - 1, in);
+    fclose(in);
+    diags *all = diags_new();
+    derived d = derive_model(model_parse(path, text, length, all), NULL, all);
+    free(text);
+    return d;
+}
+
+derived derived_builtin(const char *name) {
+    for (size_t i = 0; i < builtin_model_count; i++) {
+        const struct builtin_model *b = &builtin_models[i];
+        diags *all = diags_new();
+        model *m = model_parse(b->file, b->text, b->length, all);
+        TEST_ASSERT_NOT_NULL_MESSAGE(m, b->file);
+        if (scene_called(m, name) != NULL || mechanism_called(m, name) != NULL) {
+            return derive_model(m, name, all);
+        }
+        model_free(m);
+        diags_free(all);
+    }
+    TEST_FAIL_MESSAGE(name);
+    return (derived){0};
+}
+
+void derived_free(derived *d) {
+    program_free(d->program);
+    equations_free(d->equations);
+    instance_free(d->instance);
+    model_free(d->model);
+    free(d->errors);
+    *d = (derived){0};
+}
+
+double state_value(void *context, const symbol *sym, int primes) {
+    const state_values *state = context;
+    switch (sym->kind) {
+    case SYM_PARAMETER: return state->instance->parameter[sym->index];
+    case SYM_INPUT: return state->instance->input[sym->index];
+    default: return state->value[sym->index][primes];
+    }
+}
+
+uint64_t random_bits(uint64_t *seed) { /* splitmix64 */
+    uint64_t x = *seed += UINT64_C(0x9e3779b97f4a7c15);
+    x = (x ^ (x >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
+    x = (x ^ (x >> 27)) * UINT64_C(0x94d049bb133111eb);
+    return x ^ (x >> 31);
+}
+
+double random_between(uint64_t *seed, double low, double high) {
+    return low + (high - low) * (double)(random_bits(seed) >> 11) * 0x1p-53;
+}

@@ -1,0 +1,37 @@
+/* derived.h: for the tests of host/algebra, host/derive and host/emit: a text or a built-in name, parsed
+ * and derived, with whatever was reported; and a random generator that is the same everywhere. */
+#ifndef TESTS_HOST_DERIVED_H
+#define TESTS_HOST_DERIVED_H
+
+#include "host/derive/program.h"
+
+typedef struct derived {
+    model *model;
+    instance *instance;
+    equations *equations; /* NULL when it could not be derived */
+    program *program;     /* NULL as well */
+    char *errors;         /* "" when there are none */
+} derived;
+
+/* The first mechanism of a text. */
+derived derived_text(const char *text);
+/* A built-in mechanism or scene. */
+derived derived_builtin(const char *name);
+/* The first mechanism of a file. */
+derived derived_file(const char *path);
+void derived_free(derived *d);
+
+/* Numbers for every symbol, by kind and index: the state of one comparison. */
+typedef struct state_values {
+    const instance *instance;
+    double value[16][3]; /* [coordinate][primes] */
+} state_values;
+
+/* For poly_evaluate(), with a state_values as context. */
+double state_value(void *context, const symbol *sym, int primes);
+
+/* Next random 64 bits; a number between the bounds. */
+uint64_t random_bits(uint64_t *seed);
+double random_between(uint64_t *seed, double low, double high);
+
+#endif

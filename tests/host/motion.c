@@ -1,0 +1,195 @@
+/* motion.c: a built-in scene, stepped inside the test. */
+#include "motion.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "host/lang/builtin.h"
+
+#include "unity.h"
+
+#define REFERENCE "tests/reference/trajectory.txt"
+#define LINE_MAX_BYTES 1024
+#define OUTPUTS_MAX 64
+
+/* --- opening ------------------------------------------------------------------------------------ */
+
+static const scene *scene_named(const model *in, const char *name) {
+    for (int i = 0; i < in->scene_count; i++) {
+        if (strcmp(in->scenes[i]->name, name) == 0) {
+            return in->scenes[i];
+        }
+    }
+    return NULL;
+}
+
+/* From the parsed model to a run that stands at its start. */
+static void start(motion *m, const scene *in, stepping how) {
+    char step[64];
+    snprintf(step, sizeof step, "%.17g", how.step_s);
+    const overrides changes = {.step = how.step_s > 0.0 ? step : NULL,
+                               .sets = &how.set,
+                               .set_count = how.set != NULL ? 1 : 0,
+                               .starts = &how.start,
+                               .start_count = how.start != NULL ? 1 : 0};
+    m->instance = instance_make(in->mechanism, in, &changes, m->errors);
+    m->equations = m->instance != NULL ? equations_derive(m->instance, m->errors) : NULL;
+    if (m->equations != NULL) {
+        m->program = program_make(m->equations, in->conserve, m->errors);
+    }
+    diags_flush(m->errors, stdout);
+    TEST_ASSERT_NOT_NULL_MESSAGE(m->program, in->name);
+    m->kind = how.kind;
+    m->run = how.kind->start(m->program, m->instance,
+                             &(engine_settings){how.method, how.compensated});
+}
+
+void motion_open(motion *m, const char *scene_name, stepping how) {
+    for (size_t i = 0; i < builtin_model_count; i++) {
+        const struct builtin_model *b = &builtin_models[i];
+        *m = (motion){.errors = diags_new()};
+        m->model = model_parse(b->file, b->text, b->length, m->errors);
+        TEST_ASSERT_NOT_NULL_MESSAGE(m->model, b->file);
+        const scene *in = scene_named(m->model, scene_name);
+        if (in != NULL) {
+            start(m, in, how);
+            return;
+        }
+        model_free(m->model);
+        diags_free(m->errors);
+    }
+    TEST_FAIL_MESSAGE(scene_name);
+}
+
+void motion_open_text(motion *m, const char *text, stepping how) {
+    *m = (motion){.errors = diags_new()};
+    m->model = model_parse("test", text, strlen(text), m->errors);
+    diags_flush(m->errors, stdout);
+    TEST_ASSERT_NOT_NULL(m->model);
+    TEST_ASSERT_TRUE(m->model->scene_count > 0);
+    start(m, m->model->scenes[0], how);
+}
+
+void motion_close(motion *m) {
+    m->kind->stop(m->run);
+    program_free(m->program);
+    equations_free(m->equations);
+    instance_free(m->instance);
+    model_free(m->model);
+    diags_free(m->errors);
+}
+
+/* --- running ------------------------------------------------------------------------------------ */
+
+wh_status motion_step(motion *m, uint64_t steps) {
+    wh_status status = WH_OK;
+    for (uint64_t i = 0; i < steps && status == WH_OK; i++) {
+        status = m->kind->step(m->run);
+    }
+    return status;
+}
+
+void motion_to(motion *m, double time_s) {
+    const double steps = time_s / m->instance->step_s;
+    const uint64_t wanted = (uint64_t)floor(steps + 0.5);
+    TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1e-6 * steps, (double)wanted, steps, "not whole steps");
+    TEST_ASSERT_TRUE(wanted >= m->kind->steps(m->run));
+    TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(m, wanted - m->kind->steps(m->run)));
+}
+
+/* --- reading ------------------------------------------------------------------------------------ */
+
+double motion_value(const motion *m, const char *name) {
+    double angle_rad[PROGRAM_COMPONENTS_MAX];
+    double real[2 * PROGRAM_COMPONENTS_MAX];
+    double output[OUTPUTS_MAX];
+    const program *p = m->program;
+    const mechanism *of = m->instance->mechanism;
+    const size_t length = strcspn(name, "'");
+    const int primes = (int)strlen(name + length);
+    m->kind->state(m->run, angle_rad, real);
+    for (int i = 0; i < p->angles + p->reals; i++) {
+        const component c = i < p->angles ? p->angle[i] : p->real[i - p->angles];
+        const char *known = of->coordinates[c.unknown]->name;
+        if (c.primes == primes && strlen(known) == length && strncmp(known, name, length) == 0) {
+            return i < p->angles ? angle_rad[i] : real[i - p->angles];
+        }
+    }
+    TEST_ASSERT_TRUE(p->outputs <= OUTPUTS_MAX);
+    m->kind->outputs(m->run, output);
+    for (int i = 0; i < of->output_count; i++) {
+        if (strcmp(of->outputs[i]->name, name) == 0) {
+            return output[i];
+        }
+    }
+    /* A coordinate recovered from its momentum: value and rate behind the mechanism's outputs. */
+    for (int i = 0; i < p->conserved->count; i++) {
+        const char *known = of->coordinates[p->conserved->unknown[i]]->name;
+        if (primes < 2 && strlen(known) == length && strncmp(known, name, length) == 0) {
+            return output[of->output_count + 2 * i + primes];
+        }
+    }
+    TEST_FAIL_MESSAGE(name);
+    return (double)NAN;
+}
+
+/* The states of the line `core/models/FILE:scene | time | name=value ...`, from behind the second
+ * bar on. */
+static void reference_line(const char *of, const char *time, char line[LINE_MAX_BYTES]) {
+    char wanted[128];
+    snprintf(wanted, sizeof wanted, ":%s | %s | ", of, time);
+    FILE *file = fopen(REFERENCE, "r");
+    TEST_ASSERT_NOT_NULL_MESSAGE(file, REFERENCE " cannot be read: run from the project's root");
+    bool found = false;
+    while (!found && fgets(line, LINE_MAX_BYTES, file) != NULL) {
+        char *states = strstr(line, wanted);
+        found = states != NULL;
+        if (found) {
+            states += strlen(wanted);
+            memmove(line, states, strlen(states) + 1);
+        }
+    }
+    fclose(file);
+    TEST_ASSERT_TRUE_MESSAGE(found, wanted);
+}
+
+static double error_and_scale(const motion *m, const char *of, const char *time,
+                              double *scale) {
+    char line[LINE_MAX_BYTES];
+    char *rest = NULL;
+    double largest = 0.0;
+    int states = 0;
+    reference_line(of, time, line);
+    *scale = 0.0;
+    for (char *word = strtok_r(line, " \n", &rest); word != NULL;
+         word = strtok_r(NULL, " \n", &rest)) {
+        char *equals = strchr(word, '=');
+        TEST_ASSERT_NOT_NULL_MESSAGE(equals, word);
+        *equals = '\0';
+        const double want = strtod(equals + 1, NULL);
+        const double error = fabs(motion_value(m, word) - want);
+        TEST_ASSERT_FALSE(isnan(error));
+        largest = fmax(largest, error);
+        *scale = fmax(*scale, fabs(want));
+        states++;
+    }
+    int wanted = 0;
+    for (int i = 0; i < m->equations->count; i++) {
+        wanted += m->equations->unknowns[i].order;
+    }
+    TEST_ASSERT_EQUAL_INT_MESSAGE(wanted, states, "a state is missing in the reference");
+    return largest;
+}
+
+double motion_error(const motion *m, const char *of, const char *time) {
+    double scale;
+    return error_and_scale(m, of, time, &scale);
+}
+
+double motion_relative_error(const motion *m, const char *of, const char *time) {
+    double scale;
+    const double error = error_and_scale(m, of, time, &scale);
+    return error / scale;
+}

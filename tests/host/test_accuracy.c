@@ -1,0 +1,293 @@
+/* test_accuracy.c: how far the double runs are from the truth: seed values, closed forms, invariants.
+ *
+ * Where a bound has two sides, the lower one says that the method's own error shows: a comparison
+ * that errs by less than Runge-Kutta's truncation compares something with itself. "Printed" numbers
+ * were computed independently of Whirl with SymPy and high-order integration and carry 12 digits. */
+#include "motion.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "unity.h"
+
+void suite_accuracy(void);
+
+typedef struct printed_value {
+    const char *name;
+    double value;
+} printed_value;
+
+static double worst_of(const motion *m, const printed_value *printed, unsigned count) {
+    double worst = 0.0;
+    for (unsigned i = 0; i < count; i++) {
+        worst = fmax(worst, fabs(motion_value(m, printed[i].name) - printed[i].value));
+    }
+    return worst;
+}
+
+static void expect_within(const char *what, double least, double most, double got) {
+    printf("  %-58s %.3g (%.3g ... %.3g)\n", what, got, least, most);
+    TEST_ASSERT_TRUE_MESSAGE(got >= least && got <= most, what);
+}
+
+/* --- the particle: free flight --------------------------------------------------------------------- */
+
+static void test_particle_flies_a_parabola(void) {
+    /* The start of spherical_flight, brought to Cartesian coordinates. */
+    const double r = 5.0, theta = 1.25, phi = 0.5, r_ = 8.0, theta_ = -0.75, phi_ = 0.5, g = 9.81;
+    const double s = sin(theta), c = cos(theta), sp = sin(phi), cp = cos(phi);
+    const double vx = r_ * s * cp + r * theta_ * c * cp - r * phi_ * s * sp;
+    const double vy = r_ * s * sp + r * theta_ * c * sp + r * phi_ * s * cp;
+    const double vz = r_ * c - r * theta_ * s;
+    double worst = 0.0;
+    motion m;
+    motion_open(&m, "spherical_flight", IN_DOUBLE);
+    for (unsigned i = 1; i <= 200; i++) {
+        const double t = 0.01 * i;
+        motion_to(&m, t);
+        worst = fmax(worst, fabs(motion_value(&m, "x") - (r * s * cp + vx * t)));
+        worst = fmax(worst, fabs(motion_value(&m, "y") - (r * s * sp + vy * t)));
+        worst = fmax(worst, fabs(motion_value(&m, "z") - (r * c + vz * t - g * t * t / 2.0)));
+    }
+    motion_close(&m);
+    expect_within("S4 distance from the parabola over 2 s, m", 1e-13, 2e-11, worst);
+}
+
+/* --- two masses ------------------------------------------------------------------------------------ */
+
+static void test_two_masses_at_the_printed_times(void) {
+    static const printed_value at_half_s[] = {{"x_1_in", 2.14780055387}, {"x_2_in", 4.30952721882}};
+    static const printed_value at_2s[] = {{"x_1_in", 2.32102447395}, {"x_2_in", 4.37194168954}};
+    static const char *const sets[] = {"two_mass_absolute", "two_mass_relative"};
+    for (unsigned i = 0; i < 2; i++) {
+        motion m;
+        motion_open(&m, sets[i], IN_DOUBLE);
+        motion_to(&m, 0.5);
+        expect_within("S5 error at 0.5 s, in", 1e-11, 1e-8, worst_of(&m, at_half_s, 2));
+        motion_to(&m, 2.0);
+        expect_within("S5 error at 2 s, in", 1e-11, 1e-8, worst_of(&m, at_2s, 2));
+        motion_close(&m);
+    }
+}
+
+static void test_two_masses_move_alike_in_both_coordinate_sets(void) {
+    motion absolute;
+    motion relative;
+    double apart = 0.0;
+    motion_open(&absolute, "two_mass_absolute", IN_DOUBLE);
+    motion_open(&relative, "two_mass_relative", IN_DOUBLE);
+    for (unsigned i = 0; i < 5000; i++) {
+        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&absolute, 1));
+        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&relative, 1));
+        apart = fmax(apart, fabs(motion_value(&absolute, "x_1") - motion_value(&relative, "x_1")));
+        apart = fmax(apart, fabs(motion_value(&absolute, "x_2") - motion_value(&relative, "x_2")));
+    }
+    motion_close(&absolute);
+    motion_close(&relative);
+    /* Rounding: one of half a unit in the last place of 0.13 m each step would give 7e-14. Damping
+     * forgets the old ones. Zero would mean that both are the same program. */
+    expect_within("S5 both coordinate sets apart by, m", 1e-17, 7e-14, apart);
+}
+
+/* --- epicyclic gear -------------------------------------------------------------------------------- */
+
+static void test_epicyclic_gear_at_9s(void) {
+    static const printed_value at_9s[] = {{"theta", 89.6342558332},
+                                          {"X", 0.329611268310},
+                                          {"theta'", 22.2610447620},
+                                          {"X'", 6.64570198845}};
+    motion m;
+    double off_centre = 0.0;
+    double energy = 0.0;
+    double least = 1.0;
+    double most = 0.0;
+    motion_open(&m, "epicyclic_from_rest", IN_DOUBLE);
+    for (unsigned i = 0; i < 9000; i++) {
+        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
+        const double a = motion_value(&m, "theta");
+        const double v = motion_value(&m, "theta'");
+        const double X = motion_value(&m, "X");
+        const double X_ = motion_value(&m, "X'");
+        const double vx = X_ - 0.6 * v * sin(a);
+        const double vy = 0.6 * v * cos(a);
+        const double T = X_ * X_ + (vx * vx + vy * vy) + 0.09 * 2.0 * v * v;
+        off_centre = fmax(off_centre, fabs(X + 0.3 * cos(a) - 0.3));
+        energy = fmax(energy, fabs(T - 2.0 * a));
+        least = fmin(least, X);
+        most = fmax(most, X);
+    }
+    expect_within("S6 error at 9 s, four states", 1e-9, 5e-8, worst_of(&m, at_9s, 4));
+    expect_within("S6 centre of mass off 0.3 m, m", 1e-12, 1e-9, off_centre);
+    expect_within("S6 T - M theta, J (T reaches 179 J)", 1e-10, 1e-6, energy);
+    expect_within("S6 least X, m", 0.0, 1e-6, least);
+    expect_within("S6 largest X, m", 0.6 - 1e-4, 0.6 + 1e-9, most);
+    motion_close(&m);
+}
+
+/* --- disc on a driven hinge ------------------------------------------------------------------------- */
+
+static void test_driven_hinge_at_5s(void) {
+    static const printed_value at_5s[] = {{"theta1", -48.3378303236}, {"theta2", -47.1025341932}};
+    motion m;
+    motion_open(&m, "driven_hinge_from_rest", IN_DOUBLE);
+    motion_to(&m, 5.0);
+    expect_within("S7 error at 5 s, rad", 1e-6, 3e-5, worst_of(&m, at_5s, 2));
+    motion_close(&m);
+}
+
+/* The swing is told by its turning points: at 6 s sharp it is on its way back from one at 5.997 s,
+ * and 1.287 rad out. */
+static void test_driven_hinge_goes_on_swinging(void) {
+    motion m;
+    double before = 0.0;
+    double last = 0.0;
+    double largest = 0.0;
+    unsigned turns = 0;
+    motion_open(&m, "driven_hinge_from_rest", IN_DOUBLE);
+    motion_to(&m, 6.0);
+    for (unsigned i = 0; i < 4000; i++) {
+        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
+        const double now = fabs(motion_value(&m, "theta1") - motion_value(&m, "theta2"));
+        if (i >= 2 && last > before && last >= now) {
+            largest = fmax(largest, last);
+            turns++;
+        }
+        before = last;
+        last = now;
+    }
+    motion_close(&m);
+    expect_within("S7 largest swing after 6 s, rad", 1.24, 1.28, largest);
+    TEST_ASSERT_TRUE(turns > 40);
+}
+
+/* --- Thomson's device -------------------------------------------------------------------------------- */
+
+/* What the run is held against: momentum gives X, work gives T. m = 2, r = 0.3, M = -2. */
+static double thomson_off_closed_form(const motion *m) {
+    const double a = motion_value(m, "theta1");
+    const double b = motion_value(m, "theta2");
+    return motion_value(m, "X") - 0.1 * (6.0 - 4.0 * cos(a) - cos(2.0 * a) - cos(b));
+}
+
+static double thomson_kinetic_J(const motion *m) {
+    const double a = motion_value(m, "theta1");
+    const double b = motion_value(m, "theta2");
+    const double a_ = motion_value(m, "theta1'");
+    const double b_ = motion_value(m, "theta2'");
+    const double X_ = motion_value(m, "X'");
+    const double bx = X_ - 0.6 * a_ * sin(a);
+    const double by = 0.6 * a_ * cos(a);
+    const double dx = X_ - 0.6 * a_ * (sin(a) + sin(2.0 * a)) - 0.3 * b_ * sin(b);
+    const double dy = 0.6 * a_ * (cos(a) + cos(2.0 * a)) + 0.3 * b_ * cos(b);
+    return X_ * X_ + (bx * bx + by * by) + 2.0 * 0.09 * a_ * a_ + (dx * dx + dy * dy);
+}
+
+static void test_thomson_at_5s_and_8s(void) {
+    motion m;
+    double off = 0.0;
+    double energy = 0.0;
+    motion_open(&m, "thomson_a", IN_DOUBLE);
+    for (unsigned i = 1; i <= 8000; i++) {
+        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
+        off = fmax(off, fabs(thomson_off_closed_form(&m)));
+        energy =
+            fmax(energy, fabs(thomson_kinetic_J(&m) + 2.0 * motion_value(&m, "theta1")));
+        if (i == 5000) {
+            static const printed_value at_5s[] = {
+                {"theta1", -10.6144740124}, {"theta2", -17.0959717051}, {"X", 0.8392858098}};
+            expect_within("S8 error at 5 s, three positions", 1e-8, 5e-6, worst_of(&m, at_5s, 3));
+            expect_within("S8 error at 5 s, six states", 1e-7, 5e-6,
+                          motion_error(&m, "thomson_a", "5.0"));
+        }
+    }
+    expect_within("S8 error at 8 s, six states", 1e-7, 1e-5, motion_error(&m, "thomson_a", "8.0"));
+    expect_within("S8 X off its closed form to 8 s, m", 1e-9, 1e-6, off);
+    expect_within("S8 T - M theta1 to 8 s, J (T reaches 49 J)", 1e-9, 2e-6, energy);
+    motion_close(&m);
+}
+
+/* To 10 s, beyond what a trajectory is good for: the centre of mass stays, and X keeps within what
+ * momentum leaves it, `widest` either side of `middle`. Set B whirls four times as fast. */
+static void thomson_stays(const char *name, double step_s, double centre, double middle,
+                          double widest, double least_width) {
+    motion m;
+    double off = 0.0;
+    double lowest = middle;
+    double highest = middle;
+    motion_open(&m, name, IN_DOUBLE_STEP(step_s));
+    const uint64_t steps = (uint64_t)floor(10.0 / step_s + 0.5);
+    for (uint64_t i = 0; i < steps; i++) {
+        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
+        const double X = motion_value(&m, "X");
+        const double a = motion_value(&m, "theta1");
+        const double b = motion_value(&m, "theta2");
+        const double x_33 = X + 0.6 * cos(a) + 0.3 * cos(2.0 * a) + 0.3 * cos(b);
+        off = fmax(off, fabs((X + (X + 0.6 * cos(a)) + x_33) / 3.0 - centre));
+        lowest = fmin(lowest, X);
+        highest = fmax(highest, X);
+    }
+    motion_close(&m);
+    printf("  %s\n", name);
+    expect_within("S8 centre of mass off its place to 10 s, m", 1e-12, 2e-6, off);
+    expect_within("S8 X to the left, m", least_width, widest + 1e-6, middle - lowest);
+    expect_within("S8 X to the right, m", least_width, widest + 1e-6, highest - middle);
+}
+
+/* X = centre - r/3 (4 cos theta1 + cos 2 theta1 + cos theta2) lies within centre - 0.6 and
+ * centre + 0.4 m. The runs come within 1.4 mm of that on either side; printed for set A: 0.9987 m. */
+static void test_thomson_stays_where_it_is(void) {
+    thomson_stays("thomson_a", 0.5e-3, 0.6, 0.5, 0.5, 0.4986);
+    thomson_stays("thomson_b", 0.125e-3, 0.5, 0.4, 0.5, 0.4986);
+}
+
+/* What an initial change of 1e-9 rad has grown to. Printed: 6e3 by 5 s, 2e4 by 9 s, 1e9 by 10 s. */
+static void test_thomson_is_chaotic(void) {
+    static const char *const names[] = {"theta1", "theta2", "X", "theta1'", "theta2'", "X'"};
+    static const struct {
+        double time_s;
+        double growth;
+    } printed[] = {{5.0, 6e3}, {9.0, 2e4}, {10.0, 1e9}};
+    stepping how = IN_DOUBLE_STEP(0.25e-3);
+    motion m;
+    motion changed;
+    motion_open(&m, "thomson_a", how);
+    how.start = "theta1=1e-9";
+    motion_open(&changed, "thomson_a", how);
+    for (unsigned k = 0; k < 3; k++) {
+        double apart = 0.0;
+        motion_to(&m, printed[k].time_s);
+        motion_to(&changed, printed[k].time_s);
+        for (unsigned i = 0; i < 6; i++) {
+            apart = fmax(apart, fabs(motion_value(&m, names[i]) - motion_value(&changed, names[i])));
+        }
+        printf("  at %g s:", printed[k].time_s);
+        expect_within("S8 growth of a change of 1e-9 rad", printed[k].growth / 2.0,
+                      printed[k].growth * 2.0, apart / 1e-9);
+    }
+    motion_close(&m);
+    motion_close(&changed);
+}
+
+/* The dissertation has theta1' = -8.5 and X' = 0 at 9.4 s; its equations give -5.24 and 2.66. */
+static void test_thomson_at_9_4s(void) {
+    motion m;
+    motion_open(&m, "thomson_a", IN_DOUBLE_STEP(0.125e-3));
+    motion_to(&m, 9.4);
+    TEST_ASSERT_DOUBLE_WITHIN(0.005, -5.24, motion_value(&m, "theta1'"));
+    TEST_ASSERT_DOUBLE_WITHIN(0.005, 2.66, motion_value(&m, "X'"));
+    motion_close(&m);
+}
+
+void suite_accuracy(void) {
+    UnitySetTestFile(__FILE__);
+    RUN_TEST(test_particle_flies_a_parabola);
+    RUN_TEST(test_two_masses_at_the_printed_times);
+    RUN_TEST(test_two_masses_move_alike_in_both_coordinate_sets);
+    RUN_TEST(test_epicyclic_gear_at_9s);
+    RUN_TEST(test_driven_hinge_at_5s);
+    RUN_TEST(test_driven_hinge_goes_on_swinging);
+    RUN_TEST(test_thomson_at_5s_and_8s);
+    RUN_TEST(test_thomson_stays_where_it_is);
+    RUN_TEST(test_thomson_is_chaotic);
+    RUN_TEST(test_thomson_at_9_4s);
+}

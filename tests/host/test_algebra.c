@@ -1,0 +1,396 @@
+/* test_algebra.c: the normal form: what is equal becomes the same object, what is not stays apart,
+ * and values, derivatives and substitutions are right for random expressions. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "derived.h"
+#include "host/algebra/algebra.h"
+#include "host/derive/pieces.h"
+#include "unity.h"
+
+void suite_algebra(void);
+
+/* --- identities, as text -------------------------------------------------------------------------*/
+
+/* Parses both sides as `let`s and compares their normal forms. */
+static bool same_form(const char *left, const char *right) {
+    char text[1024];
+    snprintf(text, sizeof text,
+             "mechanism m\ncoordinate a\ncoordinate b\ncoordinate x\ncoordinate y\n"
+             "T = 1 [kg*m^2]*(a'^2 + b'^2 + x'^2 + y'^2)\n"
+             "let left_side = %s\nlet right_side = %s\n",
+             left, right);
+    diags *all = diags_new();
+    model *m = model_parse("identity", text, strlen(text), all);
+    if (m == NULL) {
+        diags_flush(all, stdout);
+    }
+    TEST_ASSERT_NOT_NULL_MESSAGE(m, left);
+    algebra *a = algebra_new();
+    const poly *p = poly_from_expr(a, m->mechanisms[0]->lets[0]->value);
+    const poly *q = poly_from_expr(a, m->mechanisms[0]->lets[1]->value);
+    const bool same = p == q && !algebra_overflow(a);
+    algebra_free(a);
+    model_free(m);
+    diags_free(all);
+    return same;
+}
+
+typedef struct pair {
+    const char *left;
+    const char *right;
+} pair;
+
+static void test_equal_expressions_are_one_object(void) {
+    static const pair equal[] = {
+        {"sin(a)^2 + cos(a)^2", "1"},
+        {"sin(a)*sin(b)", "cos(a - b)/2 - cos(a + b)/2"},
+        {"cos(a)*cos(b)", "cos(a - b)/2 + cos(a + b)/2"},
+        {"sin(a)*cos(b)", "sin(a + b)/2 + sin(a - b)/2"},
+        {"cos(a)*sin(b)", "sin(a + b)/2 - sin(a - b)/2"},
+        {"sin(a)*cos(b) + cos(a)*sin(b)", "sin(a + b)"},
+        {"cos(a)*cos(b) - sin(a)*sin(b)", "cos(b + a)"},
+        {"2*sin(a)*cos(a)", "sin(2*a)"},
+        {"cos(a)^2 - sin(a)^2", "cos(2*a)"},
+        {"4*sin(a)^3", "3*sin(a) - sin(3*a)"},
+        {"8*cos(a)^4", "3 + 4*cos(2*a) + cos(4*a)"},
+        {"(sin(a)^2 + cos(a)^2)^5*x", "x"},
+        {"sin(-a)", "-sin(a)"},
+        {"cos(b - a)", "cos(a - b)"},
+        {"sin(a)*sin(a + 0.25)", "cos(0.25)/2 - cos(2*a + 0.25)/2"},
+        {"(x + y)^2 - x^2 - 2*x*y - y^2", "0"},
+        {"(x + y)*(x - y)", "x^2 - y^2"},
+        {"0.1*x + 0.2*x - 0.3*x", "0"},
+        {"x/x + y/y", "2"},
+        {"x/(2*x + 2*y)", "0.5*x/(x + y)"},
+        {"1/(-x - y)", "-1/(y + x)"},
+        {"sqrt(x + 1)*sqrt(x + 1)", "1 + x"},
+        {"sqrt(4*x)", "2*sqrt(x)"},
+        {"x^0.5*x^1.5", "x^2"},
+        {"(x^2)^3", "x^6"},
+        {"(2*x*y)^3", "8*x^3*y^3"},
+        {"(x*cos(a))^-1*x", "1/cos(a)"},
+        {"abs(x)^2", "x^2"},
+        {"abs(x)*abs(x)", "x*x"},
+        {"abs(x)^3", "x^2*abs(x)"},
+        {"abs(x - y)^2", "x^2 - 2*x*y + y^2"},
+        {"max(2, 3)*min(2, 3)*x", "6*x"},
+        {"exp(0) + log(1) + atan2(0, 1)", "1"},
+        {"x^y*x^y", "(x^y)^2"},
+    };
+    for (size_t i = 0; i < sizeof equal / sizeof equal[0]; i++) {
+        TEST_ASSERT_TRUE_MESSAGE(same_form(equal[i].left, equal[i].right), equal[i].left);
+    }
+}
+
+static void test_what_differs_somewhere_stays_apart(void) {
+    static const pair different[] = {
+        {"sqrt(x^2)", "x"},        {"sqrt(x^2)", "-x"},       {"abs(x)", "x"},
+        {"(x^4)^0.25", "x"},       {"sqrt(x^4)", "-x^2"},     {"asin(sin(a))", "a"},
+        {"atan2(y, x)", "atan(y/x)"}, {"log(x^2)", "2*log(x)"}, {"sqrt(x*y)", "sqrt(x)*sqrt(y)"},
+        {"sqrt(-x)", "sqrt(x)"},   {"sin(a)", "a"},           {"max(x, y)", "min(x, y)"},
+        {"(x^2)^y", "x^(3*y)"},    {"sin(a)", "cos(a)"},      {"sin(2*a)", "2*sin(a)"},
+        {"1e-13*x + y", "y"},      {"abs(x)^3", "x^3"},       {"sign(x)*x", "x"},
+    };
+    for (size_t i = 0; i < sizeof different / sizeof different[0]; i++) {
+        TEST_ASSERT_FALSE_MESSAGE(same_form(different[i].left, different[i].right),
+                                  different[i].left);
+    }
+}
+
+/* --- random expressions --------------------------------------------------------------------------*/
+
+enum { VARIABLES = 3, NODES = 64 };
+
+/* A tree with its own meaning, computed with libm, independent of the algebra. */
+typedef struct node {
+    expr_op op;
+    function_id function;
+    int variable;
+    double number; /* also the exponent of EXPR_POW */
+    int left;
+    int right;
+} node;
+
+typedef struct tree {
+    node nodes[NODES];
+    int count;
+} tree;
+
+static const symbol variables[VARIABLES] = {
+    {.kind = SYM_COORDINATE, .name = "u", .text = "", .unit = "", .index = 0},
+    {.kind = SYM_COORDINATE, .name = "v", .text = "", .unit = "", .index = 1},
+    {.kind = SYM_COORDINATE, .name = "w", .text = "", .unit = "", .index = 2}};
+
+static int grow(tree *t, uint64_t *seed, int depth) {
+    static const expr_op inner[] = {EXPR_ADD, EXPR_SUB, EXPR_MUL,  EXPR_MUL,
+                                    EXPR_DIV, EXPR_POW, EXPR_CALL, EXPR_CALL};
+    static const double exponents[] = {-2.0, -1.0, -0.5, 0.5, 2.0, 3.0, 1.5, 4.0};
+    node n = {.op = depth <= 0 ? EXPR_SYMBOL : inner[random_bits(seed) % 8], .left = -1, .right = -1};
+    if (depth <= 0 && random_bits(seed) % 3 == 0) {
+        n.op = EXPR_NUMBER;
+        n.number = (double)(random_bits(seed) % 9) / 4.0 - 1.0;
+    }
+    n.variable = (int)(random_bits(seed) % VARIABLES);
+    n.function = (function_id)(random_bits(seed) % FN_COUNT);
+    if (n.op == EXPR_POW) {
+        n.number = exponents[random_bits(seed) % 8];
+    }
+    if (depth > 0) {
+        n.left = grow(t, seed, depth - 1);
+    }
+    if (depth > 0 && n.op != EXPR_POW) {
+        n.right = grow(t, seed, depth - 1);
+    }
+    TEST_ASSERT_TRUE(t->count < NODES);
+    t->nodes[t->count] = n;
+    return t->count++;
+}
+
+/* NaN also where a derivative is infinite, and where atan2 has its cut. */
+static double applied(const node *n, double a, double b, const double x[VARIABLES]) {
+    switch (n->op) {
+    case EXPR_NUMBER: return n->number;
+    case EXPR_SYMBOL: return x[n->variable];
+    case EXPR_ADD: return a + b;
+    case EXPR_SUB: return a - b;
+    case EXPR_MUL: return a * b;
+    case EXPR_DIV: return a / b;
+    case EXPR_POW: return a == 0.0 ? NAN : pow(a, n->number);
+    default: break;
+    }
+    switch (n->function) {
+    case FN_SIN: return sin(a);
+    case FN_COS: return cos(a);
+    case FN_TAN: return tan(a);
+    case FN_ASIN: return fabs(a) == 1.0 ? NAN : asin(a);
+    case FN_ACOS: return fabs(a) == 1.0 ? NAN : acos(a);
+    case FN_ATAN: return atan(a);
+    case FN_ATAN2: return a == 0.0 ? NAN : atan2(a, b);
+    case FN_SQRT: return a == 0.0 ? NAN : sqrt(a);
+    case FN_EXP: return exp(a);
+    case FN_LOG: return log(a);
+    case FN_ABS: return fabs(a);
+    case FN_SIGN: return (double)(a > 0.0) - (double)(a < 0.0);
+    case FN_MIN: return fmin(a, b);
+    default: return fmax(a, b);
+    }
+}
+
+/* NaN as soon as anything inside is not finite: 1/0 may have either sign in the normal form. */
+static double value_of(const tree *t, int i, const double x[VARIABLES]) {
+    const node *n = &t->nodes[i];
+    const double a = n->left < 0 ? 0.0 : value_of(t, n->left, x);
+    const double b = n->right < 0 ? 0.0 : value_of(t, n->right, x);
+    const double value = applied(n, a, b, x);
+    return isfinite(a) && isfinite(b) && isfinite(value) ? value : NAN;
+}
+
+static const poly *poly_of(algebra *a, const tree *t, int i) {
+    const node *n = &t->nodes[i];
+    const poly *x = n->left < 0 ? NULL : poly_of(a, t, n->left);
+    const poly *y = n->right < 0 ? NULL : poly_of(a, t, n->right);
+    switch (n->op) {
+    case EXPR_NUMBER: return poly_number(a, n->number);
+    case EXPR_SYMBOL: return poly_symbol(a, &variables[n->variable], 0);
+    case EXPR_ADD: return poly_add(a, x, y);
+    case EXPR_SUB: return poly_sub(a, x, y);
+    case EXPR_MUL: return poly_mul(a, x, y);
+    case EXPR_DIV: return poly_mul(a, x, poly_pow(a, y, -1.0));
+    case EXPR_POW: return poly_pow(a, x, n->number);
+    default: break;
+    }
+    const bool two = n->function == FN_ATAN2 || n->function == FN_MIN || n->function == FN_MAX;
+    return poly_call(a, n->function, x, two ? y : NULL);
+}
+
+static double variable_value(void *context, const symbol *sym, int primes) {
+    (void)primes;
+    return ((const double *)context)[sym->index];
+}
+
+/* A number to judge differences by: what was lost to cancellation shows as a jump between neighbours.
+ * False where the expression has no smooth finite value around the point. */
+static bool smooth_value(const tree *t, int top, const double at[VARIABLES], double *value,
+                         double *scale) {
+    *value = value_of(t, top, at);
+    *scale = fabs(*value);
+    for (int k = 0; k < 6; k++) {
+        double near[VARIABLES] = {at[0], at[1], at[2]};
+        near[k / 2] += k % 2 == 0 ? 1e-9 : -1e-9;
+        const double v = value_of(t, top, near);
+        if (!isfinite(v) || fabs(v - *value) > 1e-4 * (1.0 + fabs(*value))) {
+            return false;
+        }
+        *scale = fmax(*scale, 1e6 * fabs(v - *value));
+    }
+    return isfinite(*value) && *scale < 1e6;
+}
+
+/* Five-point central difference; false where two spacings do not agree (a kink, a pole near by). */
+static bool difference(const tree *t, int top, const double at[VARIABLES], int by, double *slope) {
+    double estimate[2];
+    for (int k = 0; k < 2; k++) {
+        const double h = k == 0 ? 1e-3 : 5e-4;
+        double v[4];
+        for (int i = 0; i < 4; i++) {
+            static const double steps[4] = {-2.0, -1.0, 1.0, 2.0};
+            double x[VARIABLES] = {at[0], at[1], at[2]};
+            x[by] += steps[i] * h;
+            v[i] = value_of(t, top, x);
+        }
+        estimate[k] = (v[0] - 8.0 * v[1] + 8.0 * v[2] - v[3]) / (12.0 * h);
+    }
+    *slope = estimate[1];
+    return isfinite(*slope) &&
+           fabs(estimate[0] - estimate[1]) <= 1e-8 * (1.0 + fabs(estimate[1]));
+}
+
+static const poly *replace_v(void *context, algebra *a, const symbol *sym, int primes) {
+    (void)a;
+    (void)primes;
+    return sym == &variables[1] ? (const poly *)context : NULL;
+}
+
+typedef struct tally {
+    int values;
+    int slopes;
+    int substitutions;
+    int functions[FN_COUNT];
+} tally;
+
+static void check_random(uint64_t *seed, int depth, tally *score) {
+    algebra *a = algebra_new();
+    tree t = {.count = 0};
+    const int top = grow(&t, seed, depth);
+    const poly *p = poly_of(a, &t, top);
+    double at[VARIABLES];
+    for (int k = 0; k < VARIABLES; k++) {
+        at[k] = random_between(seed, -1.5, 1.5);
+    }
+    double value;
+    double scale;
+    if (!algebra_overflow(a) && smooth_value(&t, top, at, &value, &scale)) {
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9 * (1.0 + scale), value,
+                                  poly_evaluate(p, variable_value, at));
+        score->values++;
+        for (int i = 0; i < t.count; i++) {
+            score->functions[t.nodes[i].function] += t.nodes[i].op == EXPR_CALL;
+        }
+        for (int k = 0; k < VARIABLES; k++) {
+            double slope;
+            if (difference(&t, top, at, k, &slope)) {
+                const poly *d = poly_derivative(a, p, &variables[k], 0);
+                TEST_ASSERT_DOUBLE_WITHIN(1e-6 * (1.0 + scale + fabs(slope)), slope,
+                                          poly_evaluate(d, variable_value, at));
+                score->slopes++;
+            }
+        }
+        /* v := w^2 - u/2, then the value where v has that value */
+        const poly *u = poly_symbol(a, &variables[0], 0);
+        const poly *w = poly_symbol(a, &variables[2], 0);
+        const poly *in = poly_sub(a, poly_mul(a, w, w), poly_scale(a, u, 0.5));
+        const poly *s = poly_substitute(a, p, replace_v, (void *)(uintptr_t)in);
+        double moved[VARIABLES] = {at[0], at[2] * at[2] - 0.5 * at[0], at[2]};
+        if (!algebra_overflow(a) && smooth_value(&t, top, moved, &value, &scale)) {
+            TEST_ASSERT_FALSE(poly_contains(s, &variables[1], 0));
+            TEST_ASSERT_DOUBLE_WITHIN(1e-9 * (1.0 + scale), value,
+                                      poly_evaluate(s, variable_value, at));
+            score->substitutions++;
+        }
+    }
+    algebra_free(a);
+}
+
+static void test_random_expressions_their_derivatives_and_substitutions(void) {
+    uint64_t seed = 20060412;
+    tally score = {0};
+    for (int i = 0; i < 6000; i++) {
+        check_random(&seed, 2 + i % 4, &score);
+    }
+    printf("  %d values, %d derivatives, %d substitutions\n", score.values, score.slopes,
+           score.substitutions);
+    TEST_ASSERT_GREATER_THAN_INT(2000, score.values);
+    TEST_ASSERT_GREATER_THAN_INT(4000, score.slopes);
+    TEST_ASSERT_GREATER_THAN_INT(1500, score.substitutions);
+    for (int f = 0; f < FN_COUNT; f++) {
+        TEST_ASSERT_GREATER_THAN_INT(100, score.functions[f]);
+    }
+}
+
+/* --- half angles ---------------------------------------------------------------------------------*/
+
+static double pieces_value(const piece *pieces, int count, double at[VARIABLES]) {
+    double sum = 0.0;
+    for (int i = 0; i < count; i++) {
+        double product = pieces[i].coefficient;
+        for (int k = 0; k < pieces[i].mono->count; k++) {
+            const factor *f = &pieces[i].mono->factors[k];
+            product *= pow(at[f->atom->symbol->index], f->exponent);
+        }
+        if (pieces[i].trig != TRIG_NONE) {
+            const double angle = poly_evaluate(pieces[i].angle, variable_value, at);
+            const double wave = pieces[i].trig == TRIG_SIN ? sin(angle) : cos(angle);
+            product *= pieces[i].squared ? wave * wave : wave;
+        }
+        sum += product;
+    }
+    return sum;
+}
+
+static void test_squares_of_sines_come_back(void) {
+    algebra *a = algebra_new();
+    const poly *u = poly_symbol(a, &variables[0], 0);
+    const poly *v = poly_symbol(a, &variables[1], 0);
+    const poly *one = poly_number(a, 1.0);
+    const poly *flat = poly_mul(a, poly_mul(a, v, v), poly_sub(a, one, poly_cos(a, poly_scale(a, u, 2.0))));
+    piece pieces[8];
+    TEST_ASSERT_EQUAL_INT(1, pieces_of(a, flat, pieces));
+    TEST_ASSERT_TRUE(pieces[0].squared && pieces[0].trig == TRIG_SIN && pieces[0].angle == u);
+    TEST_ASSERT_TRUE(pieces[0].coefficient == 2.0);
+    const poly *tall = poly_scale(a, poly_add(a, one, poly_cos(a, poly_scale(a, u, 4.0))), -3.0);
+    TEST_ASSERT_EQUAL_INT(1, pieces_of(a, tall, pieces));
+    TEST_ASSERT_TRUE(pieces[0].squared && pieces[0].trig == TRIG_COS);
+    TEST_ASSERT_TRUE(pieces[0].coefficient == -6.0 && pieces[0].angle == poly_scale(a, u, 2.0));
+    /* other factors, other sizes, or an odd multiple: nothing to put back */
+    TEST_ASSERT_EQUAL_INT(2, pieces_of(a, poly_sub(a, v, poly_cos(a, poly_scale(a, u, 2.0))), pieces));
+    TEST_ASSERT_EQUAL_INT(2, pieces_of(a, poly_sub(a, one, poly_cos(a, poly_scale(a, u, 3.0))), pieces));
+    TEST_ASSERT_EQUAL_INT(
+        2, pieces_of(a, poly_sub(a, poly_number(a, 1.5), poly_cos(a, poly_scale(a, u, 2.0))), pieces));
+    algebra_free(a);
+}
+
+static void test_pieces_have_the_sums_value(void) {
+    uint64_t seed = 7;
+    for (int round = 0; round < 500; round++) {
+        algebra *a = algebra_new();
+        const poly *sum = poly_number(a, 0.0);
+        for (int i = 0; i < 5; i++) { /* small whole factors, so that squares do turn up */
+            const poly *u = poly_symbol(a, &variables[0], 0);
+            const poly *v = poly_symbol(a, &variables[1], 0);
+            const poly *angle = poly_add(a, poly_scale(a, u, (double)(random_bits(&seed) % 3)),
+                                         poly_scale(a, v, (double)(random_bits(&seed) % 2)));
+            const poly *wave = random_bits(&seed) % 2 == 0 ? poly_sin(a, angle) : poly_cos(a, angle);
+            const poly *front = random_bits(&seed) % 2 == 0 ? u : poly_number(a, 2.0);
+            sum = poly_add(a, sum, poly_mul(a, front, poly_mul(a, wave, wave)));
+        }
+        double at[VARIABLES] = {random_between(&seed, -3.0, 3.0), random_between(&seed, -3.0, 3.0), 0.0};
+        piece pieces[64];
+        TEST_ASSERT_TRUE(sum->count < 64);
+        const int count = pieces_of(a, sum, pieces);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, poly_evaluate(sum, variable_value, at),
+                                  pieces_value(pieces, count, at));
+        algebra_free(a);
+    }
+}
+
+void suite_algebra(void) {
+    UnitySetTestFile(__FILE__);
+    RUN_TEST(test_equal_expressions_are_one_object);
+    RUN_TEST(test_what_differs_somewhere_stays_apart);
+    RUN_TEST(test_random_expressions_their_derivatives_and_substitutions);
+    RUN_TEST(test_squares_of_sines_come_back);
+    RUN_TEST(test_pieces_have_the_sums_value);
+}

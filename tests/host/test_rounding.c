@@ -1,0 +1,181 @@
+/* test_rounding.c: what float costs: its error at the usual step, how that grows with the number of
+ * steps, what carrying the sums' rounding along gains, and angles after a million turns.
+ *
+ * Bounds come from a model of rounding, not from the runs. u = 2^-24 is half a unit in the last place
+ * of one. A plain sum of N steps walks at random: sqrt(N/3) u times the sum's power of two. A
+ * compensated one keeps the rate to about u of itself, so that an angle is off by u of itself: the
+ * constants of the step (its length, phase units a radian) are rounded that much, too. */
+#include "motion.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "unity.h"
+
+void suite_rounding(void);
+
+#define U 0x1p-24
+
+static void expect_within(const char *what, double least, double most, double got) {
+    printf("  %-62s %.3g (%.3g ... %.3g)\n", what, got, least, most);
+    TEST_ASSERT_TRUE_MESSAGE(got >= least && got <= most, what);
+}
+
+static double error_at(const char *name, const char *time, stepping how) {
+    motion m;
+    motion_open(&m, name, how);
+    motion_to(&m, strtod(time, NULL));
+    const double error = motion_error(&m, name, time);
+    motion_close(&m);
+    return error;
+}
+
+/* Walk of theta' (16 ... 32 rad/s towards the end) over so many steps, integrated to theta at 9 s:
+ * a sum of rates that walk is off by 9 s / sqrt(3) times where the walk ends. */
+static double gear_walk(double steps) { return sqrt(steps / 3.0) * 16.0 * U * 9.0 / sqrt(3.0); }
+
+static void test_float_on_the_epicyclic_gear(void) {
+    const double theta_at_9s = 89.63;
+    const double plain = error_at("epicyclic_from_rest", "9.0", IN_FLOAT);
+    const double compensated = error_at("epicyclic_from_rest", "9.0", IN_FLOAT_COMPENSATED);
+    expect_within("S6 float, 1 ms, error at 9 s, four states", theta_at_9s * U,
+                  2.0 * gear_walk(9000), plain);
+    expect_within("S6 float compensated, the same", 0.1 * theta_at_9s * U, theta_at_9s * U,
+                  compensated);
+    expect_within("S6 gain", 10.0, 1000.0, plain / compensated);
+}
+
+/* The motion amplifies a change made at the start 6e3-fold by 5 s (test_accuracy.c). theta2' goes up
+ * to 16 rad/s: each step rounds it by up to 8 U. */
+static void test_float_on_thomson_device(void) {
+    const double amplified = 6e3 * U;
+    const double plain = error_at("thomson_a", "5.0", IN_FLOAT);
+    const double compensated = error_at("thomson_a", "5.0", IN_FLOAT_COMPENSATED);
+    expect_within("S8 float, 1 ms, error at 5 s, six states", amplified,
+                  amplified * 8.0 * sqrt(5000.0 / 3.0), plain);
+    expect_within("S8 float compensated, the same", 0.01 * amplified, amplified, compensated);
+    expect_within("S8 gain", 10.0, 10000.0, plain / compensated);
+}
+
+/* Root mean square, over eight torques, of what float makes of theta and theta' at 5 s beyond what
+ * double does with the same step. */
+static double rms_of_float(double step_s, bool compensated) {
+    enum { RUNS = 8 };
+    double sum = 0.0;
+    for (unsigned i = 0; i < RUNS; i++) {
+        char torque[32];
+        motion reference;
+        motion m;
+        snprintf(torque, sizeof torque, "M=%g", 1.51 + 0.125 * i);
+        stepping how = {.kind = &engine_double, .method = WH_RK4, .step_s = step_s, .set = torque};
+        motion_open(&reference, "epicyclic_from_rest", how);
+        motion_to(&reference, 5.0);
+        how.kind = &engine_float;
+        how.compensated = compensated;
+        motion_open(&m, "epicyclic_from_rest", how);
+        motion_to(&m, 5.0);
+        const double e = motion_value(&m, "theta") - motion_value(&reference, "theta");
+        const double e_ = motion_value(&m, "theta'") - motion_value(&reference, "theta'");
+        sum += fmax(e * e, e_ * e_);
+        motion_close(&reference);
+        motion_close(&m);
+    }
+    return sqrt(sum / RUNS);
+}
+
+/* 64 times as many steps: a random walk goes 8 times as far. */
+static void test_small_steps_cost_plain_sums_precision_only(void) {
+    const double coarse = rms_of_float(4e-3, false);
+    const double fine = rms_of_float(62.5e-6, false);
+    const double coarse_compensated = rms_of_float(4e-3, true);
+    const double fine_compensated = rms_of_float(62.5e-6, true);
+    printf("  S6 at 5 s, rms of 8: 4 ms %.3g, compensated %.3g; 62.5 us %.3g, compensated %.3g\n",
+           coarse, coarse_compensated, fine, fine_compensated);
+    expect_within("S6 plain: error with 64 times as many steps", 8.0 / 2.0, 8.0 * 2.0,
+                  fine / coarse);
+    expect_within("S6 compensated: error with 64 times as many steps", 0.5, 1.5,
+                  fine_compensated / coarse_compensated);
+}
+
+static void test_a_million_steps(void) {
+    stepping how = IN_FLOAT;
+    how.step_s = 9e-6;
+    const double plain = error_at("epicyclic_from_rest", "9.0", how);
+    how.compensated = true;
+    const double compensated = error_at("epicyclic_from_rest", "9.0", how);
+    expect_within("S6 float, 1e6 steps of 9 us, error at 9 s", 0.1 * gear_walk(1e6),
+                  2.0 * gear_walk(1e6), plain);
+    expect_within("S6 float compensated, the same", 0.1 * 89.63 * U, 89.63 * U, compensated);
+}
+
+/* --- turns ------------------------------------------------------------------------------------------ */
+
+static const char rotor[] = "mechanism rotor\n"
+                            "coordinate theta [rad]\n"
+                            "parameter I = 1 [kg*m^2]\n"
+                            "T = I*theta'^2/2\n"
+                            "scene spin {\n"
+                            "  start theta' = 2500 [rad/s]\n"
+                            "  step 0.9765625 [ms]\n"
+                            "  until 1 [s]\n"
+                            "}\n";
+
+/* Constant rate, theta = rate * time: a million turns are right to the rounding of one product. The
+ * same sum in float radians stops being one: half a radian is the least it can still tell apart. */
+static void test_a_million_turns_at_constant_rate(void) {
+    const double step_rad = 2500.0 / 1024.0; /* exact in float */
+    const unsigned steps = 2573593;
+    const double wanted = step_rad * steps;
+    motion m;
+    motion_open_text(&m, rotor, IN_FLOAT);
+    TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, steps));
+    const double got = motion_value(&m, "theta");
+    const double before = got;
+    TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
+    const double last_step = motion_value(&m, "theta") - before;
+    motion_close(&m);
+
+    float radians = 0.0f;
+    for (unsigned i = 0; i < steps; i++) {
+        radians += (float)step_rad;
+    }
+    expect_within("turns of a free rotor", 1e6, 1.001e6, got / 6.283185307179586);
+    expect_within("relative error of its angle", 0.0, 2.0 * U, fabs(got / wanted - 1.0));
+    expect_within("relative error of its last step", 0.0, 2.0 * U, fabs(last_step / step_rad - 1.0));
+    expect_within("relative error of the sum in float radians", 1e-3, 1.0,
+                  fabs((double)radians / wanted - 1.0));
+}
+
+/* A gear that starts a million turns on moves as one that starts at zero, to the bit. */
+static void test_motion_after_a_million_turns_is_the_same(void) {
+    static const char *const others[] = {"X", "theta'", "X'"};
+    stepping how = IN_FLOAT;
+    motion m;
+    motion turned;
+    motion_open(&m, "epicyclic_from_rest", how);
+    how.start = "theta=1000000 [rev]";
+    motion_open(&turned, "epicyclic_from_rest", how);
+    for (unsigned i = 0; i < 9000; i++) {
+        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
+        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&turned, 1));
+        for (unsigned k = 0; k < 3; k++) {
+            TEST_ASSERT_TRUE(motion_value(&m, others[k]) == motion_value(&turned, others[k]));
+        }
+    }
+    TEST_ASSERT_DOUBLE_WITHIN(2e-9, 1e6 * 6.283185307179586,
+                              motion_value(&turned, "theta") - motion_value(&m, "theta"));
+    TEST_ASSERT_TRUE(motion_value(&m, "theta") > 80.0);
+    motion_close(&m);
+    motion_close(&turned);
+}
+
+void suite_rounding(void) {
+    UnitySetTestFile(__FILE__);
+    RUN_TEST(test_float_on_the_epicyclic_gear);
+    RUN_TEST(test_float_on_thomson_device);
+    RUN_TEST(test_small_steps_cost_plain_sums_precision_only);
+    RUN_TEST(test_a_million_steps);
+    RUN_TEST(test_a_million_turns_at_constant_rate);
+    RUN_TEST(test_motion_after_a_million_turns_is_the_same);
+}
