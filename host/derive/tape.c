@@ -37,7 +37,7 @@ static uint64_t mix(uint64_t hash, uint64_t word) {
     return (hash ^ word) * UINT64_C(0x9e3779b97f4a7c15) + (hash >> 29);
 }
 
-static uint64_t op_hash(const tape *t, const op *o) {
+uint64_t tape_op_hash(const tape *t, const op *o) {
     uint64_t bits;
     memcpy(&bits, &o->value, sizeof bits);
     uint64_t hash = mix(mix((uint64_t)o->code, (uint64_t)o->function), bits);
@@ -58,7 +58,7 @@ static bool op_equal(const tape *t, const op *x, const op *y) {
            memcmp(x->turns, y->turns, (size_t)t->angles * sizeof *x->turns) == 0;
 }
 
-static void index_rebuild(tape *t) {
+void tape_reindex(tape *t) {
     free(t->index);
     t->index_size = t->room * 2;
     t->index = malloc((size_t)t->index_size * sizeof *t->index);
@@ -67,7 +67,7 @@ static void index_rebuild(tape *t) {
     }
     memset(t->index, -1, (size_t)t->index_size * sizeof *t->index);
     for (int i = 0; i < t->count; i++) {
-        size_t at = op_hash(t, &t->ops[i]) % (uint64_t)t->index_size;
+        size_t at = tape_op_hash(t, &t->ops[i]) % (uint64_t)t->index_size;
         while (t->index[at] >= 0) {
             at = (at + 1) % (size_t)t->index_size;
         }
@@ -82,9 +82,9 @@ static int enter(tape *t, op o) {
         if (t->ops == NULL) {
             abort();
         }
-        index_rebuild(t);
+        tape_reindex(t);
     }
-    size_t at = op_hash(t, &o) % (uint64_t)t->index_size;
+    size_t at = tape_op_hash(t, &o) % (uint64_t)t->index_size;
     while (t->index[at] >= 0) {
         if (op_equal(t, &t->ops[t->index[at]], &o)) {
             return t->index[at];
@@ -307,142 +307,4 @@ int tape_power(tape *t, int base, double exponent) {
         return tape_mul(t, tape_power(t, base, floor(exponent)), root);
     }
     return enter_op(t, OP_POW, base, tape_constant(t, exponent));
-}
-
-/* --- looking at a finished list ------------------------------------------------------------------*/
-
-static int operands(const op *o, int operand[2]) {
-    int count = 0;
-    if (o->code == OP_PHASE || o->code >= OP_SIN) {
-        if (o->a >= 0) {
-            operand[count++] = o->a;
-        }
-        if (o->b >= 0) {
-            operand[count++] = o->b;
-        }
-    }
-    return count;
-}
-
-/* x * (1/y) where nothing else wants 1/y is x/y: one rounding and one operation less. */
-static void fuse_reciprocals(tape *t) {
-    int *uses = calloc((size_t)(t->count > 0 ? t->count : 1), sizeof *uses);
-    if (uses == NULL) {
-        abort();
-    }
-    int operand[2];
-    for (int i = 0; i < t->count; i++) {
-        for (int k = operands(&t->ops[i], operand); k > 0; k--) {
-            uses[operand[k - 1]]++;
-        }
-    }
-    for (int i = 0; i < t->results; i++) {
-        uses[t->result[i]]++;
-    }
-    for (int i = 0; i < t->count; i++) {
-        op *o = &t->ops[i];
-        for (int k = 0; k < 2 && o->code == OP_MUL; k++) {
-            const int inverse = k == 0 ? o->a : o->b;
-            const int other = k == 0 ? o->b : o->a;
-            if (t->ops[inverse].code == OP_DIV && is_value(t, t->ops[inverse].a, 1.0) &&
-                uses[inverse] == 1) {
-                *o = (op){.code = OP_DIV, .function = FN_COUNT, .a = other, .b = t->ops[inverse].b};
-            }
-        }
-    }
-    free(uses);
-}
-
-static void drop_unused(tape *t) {
-    int *number = malloc((size_t)(t->count > 0 ? t->count : 1) * sizeof *number);
-    if (number == NULL) {
-        abort();
-    }
-    memset(number, -1, (size_t)t->count * sizeof *number);
-    for (int i = 0; i < t->results; i++) {
-        number[t->result[i]] = 0;
-    }
-    int operand[2];
-    for (int i = t->count - 1; i >= 0; i--) {
-        if (number[i] == 0) {
-            const int count = operands(&t->ops[i], operand);
-            for (int k = 0; k < count; k++) {
-                number[operand[k]] = 0;
-            }
-        }
-    }
-    int kept = 0;
-    for (int i = 0; i < t->count; i++) {
-        if (number[i] < 0) {
-            continue;
-        }
-        op o = t->ops[i];
-        if (o.code == OP_PHASE || o.code >= OP_SIN) {
-            o.a = o.a >= 0 ? number[o.a] : o.a;
-            o.b = o.b >= 0 ? number[o.b] : o.b;
-        }
-        number[i] = kept;
-        t->ops[kept++] = o;
-    }
-    t->count = kept;
-    for (int i = 0; i < t->results; i++) {
-        t->result[i] = number[t->result[i]];
-    }
-    free(number);
-    if (t->room > 0) {
-        index_rebuild(t);
-    }
-}
-
-void tape_prune(tape *t) {
-    drop_unused(t);
-    fuse_reciprocals(t);
-    drop_unused(t);
-}
-
-tape_cost tape_count(const tape *t) {
-    tape_cost cost = {0};
-    for (int i = 0; i < t->count; i++) {
-        switch (t->ops[i].code) {
-        case OP_ADD:
-        case OP_SUB:
-        case OP_MUL:
-        case OP_NEG:
-        case OP_ABS:
-        case OP_SIGN:
-        case OP_MIN:
-        case OP_MAX: cost.arithmetic++; break;
-        case OP_DIV: cost.divisions++; break;
-        case OP_SQRT: cost.roots++; break;
-        case OP_PHASE: cost.waves++; break;
-        case OP_CALL:
-        case OP_POW: cost.calls++; break;
-        default: break;
-        }
-    }
-    return cost;
-}
-
-int tape_weight(const tape *t) {
-    const tape_cost c = tape_count(t);
-    return c.arithmetic + 14 * (c.divisions + c.roots) + 36 * c.waves + 100 * c.calls;
-}
-
-int tape_operations(const tape *t) {
-    int operations = 0;
-    for (int i = 0; i < t->count; i++) {
-        operations += t->ops[i].code >= OP_SIN;
-    }
-    return operations;
-}
-
-uint64_t tape_hash(const tape *t) {
-    uint64_t hash = UINT64_C(0xcbf29ce484222325);
-    for (int i = 0; i < t->count; i++) {
-        hash = mix(hash, op_hash(t, &t->ops[i]));
-    }
-    for (int i = 0; i < t->results; i++) {
-        hash = mix(hash, (uint64_t)t->result[i]);
-    }
-    return hash;
 }

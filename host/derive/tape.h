@@ -76,6 +76,10 @@ int tape_pow(tape *t, int base, int exponent);
 int tape_power(tape *t, int base, double exponent);
 bool tape_is_constant(const tape *t, int a, double *value);
 
+/* After operations were moved: rebuild the index that finds equal ones. */
+void tape_reindex(tape *t);
+uint64_t tape_op_hash(const tape *t, const op *o);
+
 /* Drop what no result needs and renumber. */
 void tape_prune(tape *t);
 

@@ -1,0 +1,142 @@
+/* tape_use.c: looking at a finished list: what is needed, what it costs. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "tape.h"
+
+static int operands(const op *o, int operand[2]) {
+    int count = 0;
+    if (o->code == OP_PHASE || o->code >= OP_SIN) {
+        if (o->a >= 0) {
+            operand[count++] = o->a;
+        }
+        if (o->b >= 0) {
+            operand[count++] = o->b;
+        }
+    }
+    return count;
+}
+
+/* x * (1/y) where nothing else wants 1/y is x/y: one rounding and one operation less. */
+static void fuse_reciprocals(tape *t) {
+    int *uses = calloc((size_t)(t->count > 0 ? t->count : 1), sizeof *uses);
+    if (uses == NULL) {
+        abort();
+    }
+    int operand[2];
+    double one;
+    for (int i = 0; i < t->count; i++) {
+        for (int k = operands(&t->ops[i], operand); k > 0; k--) {
+            uses[operand[k - 1]]++;
+        }
+    }
+    for (int i = 0; i < t->results; i++) {
+        uses[t->result[i]]++;
+    }
+    for (int i = 0; i < t->count; i++) {
+        op *o = &t->ops[i];
+        for (int k = 0; k < 2 && o->code == OP_MUL; k++) {
+            const int inverse = k == 0 ? o->a : o->b;
+            const int other = k == 0 ? o->b : o->a;
+            if (t->ops[inverse].code == OP_DIV && tape_is_constant(t, t->ops[inverse].a, &one) && one == 1.0 &&
+                uses[inverse] == 1) {
+                *o = (op){.code = OP_DIV, .function = FN_COUNT, .a = other, .b = t->ops[inverse].b};
+            }
+        }
+    }
+    free(uses);
+}
+
+static void drop_unused(tape *t) {
+    int *number = malloc((size_t)(t->count > 0 ? t->count : 1) * sizeof *number);
+    if (number == NULL) {
+        abort();
+    }
+    memset(number, -1, (size_t)t->count * sizeof *number);
+    for (int i = 0; i < t->results; i++) {
+        number[t->result[i]] = 0;
+    }
+    int operand[2];
+    for (int i = t->count - 1; i >= 0; i--) {
+        if (number[i] == 0) {
+            const int count = operands(&t->ops[i], operand);
+            for (int k = 0; k < count; k++) {
+                number[operand[k]] = 0;
+            }
+        }
+    }
+    int kept = 0;
+    for (int i = 0; i < t->count; i++) {
+        if (number[i] < 0) {
+            continue;
+        }
+        op o = t->ops[i];
+        if (o.code == OP_PHASE || o.code >= OP_SIN) {
+            o.a = o.a >= 0 ? number[o.a] : o.a;
+            o.b = o.b >= 0 ? number[o.b] : o.b;
+        }
+        number[i] = kept;
+        t->ops[kept++] = o;
+    }
+    t->count = kept;
+    for (int i = 0; i < t->results; i++) {
+        t->result[i] = number[t->result[i]];
+    }
+    free(number);
+    if (t->room > 0) {
+        tape_reindex(t);
+    }
+}
+
+void tape_prune(tape *t) {
+    drop_unused(t);
+    fuse_reciprocals(t);
+    drop_unused(t);
+}
+
+tape_cost tape_count(const tape *t) {
+    tape_cost cost = {0};
+    for (int i = 0; i < t->count; i++) {
+        switch (t->ops[i].code) {
+        case OP_ADD:
+        case OP_SUB:
+        case OP_MUL:
+        case OP_NEG:
+        case OP_ABS:
+        case OP_SIGN:
+        case OP_MIN:
+        case OP_MAX: cost.arithmetic++; break;
+        case OP_DIV: cost.divisions++; break;
+        case OP_SQRT: cost.roots++; break;
+        case OP_PHASE: cost.waves++; break;
+        case OP_CALL:
+        case OP_POW: cost.calls++; break;
+        default: break;
+        }
+    }
+    return cost;
+}
+
+int tape_weight(const tape *t) {
+    const tape_cost c = tape_count(t);
+    return c.arithmetic + 14 * (c.divisions + c.roots) + 36 * c.waves + 100 * c.calls;
+}
+
+int tape_operations(const tape *t) {
+    int operations = 0;
+    for (int i = 0; i < t->count; i++) {
+        operations += t->ops[i].code >= OP_SIN;
+    }
+    return operations;
+}
+
+uint64_t tape_hash(const tape *t) {
+    uint64_t hash = UINT64_C(0xcbf29ce484222325);
+    for (int i = 0; i < t->count; i++) {
+        hash = (hash ^ tape_op_hash(t, &t->ops[i])) * UINT64_C(0x100000001b3);
+    }
+    for (int i = 0; i < t->results; i++) {
+        hash = (hash ^ (uint64_t)t->result[i]) * UINT64_C(0x100000001b3);
+    }
+    return hash;
+}
