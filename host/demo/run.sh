@@ -78,10 +78,12 @@ else
     failed=1
 fi
 cat "$out/rig.txt"
+"$whirl" run rig_fixed --plot "$out/rig_fixed.svg" --csv "$out/rig_fixed.csv" --quiet
+"$whirl" run rig_fixed --plot "$out/rig_fixed.png" --quiet
 
 # --- where to look --------------------------------------------------------------------------------
 title "Plots and records"
-for scene in epicyclic_from_rest thomson_a; do
+for scene in epicyclic_from_rest thomson_a rig_fixed; do
     printf '  %s/%s.svg  .png  .csv\n' "$out" "$scene"
 done
 
