@@ -6,6 +6,8 @@
 #ifndef BOARDS_BOARD_H
 #define BOARDS_BOARD_H
 
+#include "hal/console.h" /* hal_console_write() is the board's as well */
+
 #include <stdint.h>
 
 /* Name of the board as in boards/NAME, "host" on the PC. */
@@ -13,9 +15,6 @@ extern const char *const board_name;
 
 /* Bring up the console and the free-running clock. Call once, first. */
 void board_start(void);
-
-/* Write `count` bytes to the console, waiting until all are taken. No conversion of line ends. */
-void board_write(const char *bytes, unsigned count);
 
 /* End the program: `code` 0 is success, 1 to 255 failure. Under an emulator the code becomes the
  * emulator's exit status; on silicon without a debugger the core stops in a loop. */

@@ -8,6 +8,7 @@
 #include "core/rig/rig.h"
 #include "core/text.h"
 #include "hal/clock.h"
+#include "hal/console.h"
 #include "hal/loadcell.h"
 #include "hal/motor.h"
 #include "hal/slots.h"
@@ -35,7 +36,7 @@ static void put(const char *words) {
     wh_text text;
     wh_text_start(&text, bytes, sizeof bytes);
     wh_text_add(&text, words);
-    board_write(text.bytes, text.length);
+    hal_console_write(text.bytes, text.length);
 }
 
 /* A line "name value unit", the value with its decimals. */
@@ -54,7 +55,7 @@ static void put_value(const char *name, float value, unsigned decimals, const ch
         wh_text_add(&text, unit);
     }
     wh_text_add_char(&text, '\n');
-    board_write(text.bytes, text.length);
+    hal_console_write(text.bytes, text.length);
 }
 
 /* A line of a force: newtons, and pounds-force in brackets. */
@@ -83,7 +84,7 @@ static void put_state(uint32_t started_ticks) {
         wh_text_add_fixed(&text, rig.duty, 3);
     }
     wh_text_add_char(&text, '\n');
-    board_write(text.bytes, text.length);
+    hal_console_write(text.bytes, text.length);
 }
 
 static void put_result(const wh_rig_result *result) {
@@ -122,7 +123,7 @@ static void put_plant_hash(void) {
     wh_text_add(&text, " steps, state hash ");
     wh_text_add_hex(&text, wh_scene_hash(plant->scene, &plant->state), 16);
     wh_text_add_char(&text, '\n');
-    board_write(text.bytes, text.length);
+    hal_console_write(text.bytes, text.length);
 }
 #endif
 

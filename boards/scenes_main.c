@@ -33,7 +33,7 @@ static void run(const wh_scene *scene) {
     wh_text_add_char(&text, ' ');
     wh_text_add(&text, wh_status_text(status));
     wh_text_add_char(&text, '\n');
-    board_write(text.bytes, text.length);
+    hal_console_write(text.bytes, text.length);
 }
 
 int main(void) {

@@ -5,7 +5,7 @@
  *     wh_text_start(&text, line, sizeof line);
  *     wh_text_add(&text, "speed ");
  *     wh_text_add_fixed(&text, speed_radps, 2);
- *     board_write(text.bytes, text.length);
+ *     hal_console_write(text.bytes, text.length);
  *
  * Nothing is ever written beyond the buffer; what does not fit is dropped and `truncated` is set.
  * The buffer always ends in NUL. Floats are converted exactly, in integers: a single-precision

@@ -1,6 +1,6 @@
 /* unity_config.h: how Unity is built, on the PC and on boards (UNITY_INCLUDE_CONFIG_H).
  *
- * Boards compile freestanding: no libm, no double; results go out by board_write(). The jump out of a
+ * Boards compile freestanding: no libm, no double; results go out by hal_console_write(). The jump out of a
  * failed test is the C library's: Unity declares its failure functions as never returning, so without
  * it a failed assertion would run into whatever follows it in flash. */
 #ifndef WH_UNITY_CONFIG_H
@@ -17,7 +17,7 @@
 #define UNITY_OUTPUT_CHAR(character) \
     do { \
         const char byte = (char)(character); \
-        board_write(&byte, 1); \
+        hal_console_write(&byte, 1); \
     } while (0)
 #endif
 

@@ -11,7 +11,7 @@ void board_start(void) {
     timer_start();
 }
 
-void board_write(const char *bytes, unsigned count) { uart_write(bytes, count); }
+void hal_console_write(const char *bytes, unsigned count) { uart_write(bytes, count); }
 
 /* Semihosting's SYS_EXIT_EXTENDED (Arm semihosting specification, 0x20): the emulator or debugger
  * ends with our code. With nobody listening the breakpoint becomes a hard fault, whose handler

@@ -17,7 +17,7 @@ void board_start(void) {
     }
 }
 
-void board_write(const char *bytes, unsigned count) {
+void hal_console_write(const char *bytes, unsigned count) {
     if (fwrite(bytes, 1, count, stdout) != count) {
         exit(EXIT_FAILURE);
     }

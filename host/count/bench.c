@@ -44,7 +44,7 @@ static const char *name_of(wh_method method) {
     return "unknown";
 }
 
-static void say(const wh_text *text) { board_write(text->bytes, text->length); }
+static void say(const wh_text *text) { hal_console_write(text->bytes, text->length); }
 
 static void say_counted(const char *name, const char *method, bool compensated, unsigned first) {
     char line[160];
