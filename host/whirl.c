@@ -18,6 +18,7 @@ static const char usage[] =
     "  whirl derive FILE [--as FORM]      equations of motion: text, latex, octave or c\n"
     "  whirl accel FILE NAME=VALUE ...    accelerations at one state\n"
     "  whirl run SCENE|FILE[:SCENE] ...   simulate\n"
+    "  whirl sweep SCENE|FILE[:SCENE] ... simulate over ranges of parameters\n"
     "\n"
     "`whirl COMMAND --help` says more; --version prints the version.\n"
     "Exit status: 0 done, 1 the run failed, 2 bad input.\n";
@@ -33,6 +34,7 @@ static const command commands[] = {
     {"derive", command_derive, 0},
     {"accel", command_accel, 0},
     {"run", command_run, 0},
+    {"sweep", command_sweep, 0},
     {"emit-scenes", command_emit_scenes, 1},
     {"hashes", command_hashes, 1},
 };

@@ -23,7 +23,7 @@ PC_BOARD_C := $(wildcard boards/*.c boards/host/*.c)
 objects: $(call objects,host,$(WHIRL_MAIN_C) $(WHIRL_C) $(GEN)/builtin_models.c $(HOST_TEST_C) \
         $(wildcard tests/tools/*.c tests/fuzz/*.c) $(HOST_TOOL_C)) \
     $(call objects,float,$(CORE_C) $(HAL_C) $(PC_BOARD_C) $(CORE_TEST_C) $(SCENE_C)) \
-    $(call objects,double,$(CORE_C) $(CORE_TEST_C))
+    $(call objects,double,$(CORE_C) $(CORE_TEST_C) $(SCENE_C))
 board-objects: $(call objects,$(BOARD),$(CORE_C) $(HAL_C) $(wildcard boards/*.c) $(TARGET_C) \
     $(BOARD_SOURCES) $(CORE_TEST_C) $(SCENE_C))
 

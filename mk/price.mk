@@ -3,6 +3,8 @@
 BENCH_C := host/count/bench.c
 PLUGIN := build/count_plugin.so
 FIGURES := build/figures
+# The same mechanisms as one writes them by hand, to compare with.
+BY_HAND := naive_epicyclic naive_thomson careful_thomson
 # What of the flags belongs beside a figure.
 TOLD = $(filter -O% -m%,$(1))
 
@@ -15,6 +17,14 @@ $(PLUGIN): host/count/count_plugin.c
 $(B)/bench: $(call objects,float,$(BENCH_C) boards/host/board.c) $(LIB_SCENES) $(LIB_FLOAT)
 	$(link)
 
+$(B)/bench_double: $(call objects,double,$(BENCH_C) boards/host/board.c) $(LIB_SCENES_DOUBLE) \
+    $(LIB_DOUBLE)
+	$(link)
+
+$(addprefix $(B)/tools/,$(BY_HAND)): $(B)/tools/%: $(B)/host/tests/tools/%.o \
+    $(B)/host/tests/tools/naive_main.o
+	$(link)
+
 $(ELF)/bench.elf: $(call objects,$(BOARD),$(BENCH_C)) $(BOARD_OBJECTS) $(ELF)/libscenes.a \
     $(LIB_BOARD)
 	$(link_board)
@@ -22,10 +32,15 @@ $(ELF)/bench.elf: $(call objects,$(BOARD),$(BENCH_C)) $(BOARD_OBJECTS) $(ELF)/li
 .PHONY: bench-now size-now
 bench-now: build/whirl
 	@$(MAKE) $(GEN)/.stamp
-	@$(MAKE) build/bench $(ELF)/bench.elf $(PLUGIN)
+	@$(MAKE) build/bench build/bench_double $(addprefix build/tools/,$(BY_HAND)) $(ELF)/bench.elf \
+	    $(PLUGIN)
 	@mkdir -p $(FIGURES)
 	@echo "Instructions a step (executed, not cycles):"
 	@CC="$(CC)" FLAGS="$(OPT)" host/count/count_host.sh build/bench $(FIGURES)/bench.csv
+	@CC="$(CC)" FLAGS="$(OPT)" host/count/count_host.sh build/bench_double $(FIGURES)/bench.csv
+	@echo "By hand, with libm:"
+	@for program in $(BY_HAND); do CC="$(CC)" FLAGS="$(OPT)" \
+	    host/count/count_host.sh build/tools/$$program $(FIGURES)/bench.csv || exit 1; done
 	@BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) FLAGS="$(call TOLD,$(BOARD_CFLAGS))" \
 	    PLUGIN=$(PLUGIN) EMULATE="$(call emulate,$(ELF)/bench.elf)" \
 	    host/count/count_board.sh $(ELF)/bench.elf $(FIGURES)/bench.csv

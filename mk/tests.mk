@@ -37,7 +37,7 @@ $(foreach b,host float double $(BOARD),$(call objects,$(b),$(CORE_TEST_PARTS) $(
 $(B)/tests/core_float: $(call objects,float,$(CORE_TEST_PARTS)) $(LIB_SCENES) $(LIB_FLOAT)
 	$(link)
 
-$(B)/tests/core_double: $(call objects,double,$(CORE_TEST_PARTS)) $(LIB_DOUBLE)
+$(B)/tests/core_double: $(call objects,double,$(CORE_TEST_PARTS)) $(LIB_SCENES_DOUBLE) $(LIB_DOUBLE)
 	$(link)
 
 $(B)/tests/host: $(call objects,host,$(HOST_TEST_PARTS)) $(LIB_HOST) $(LIB_SCENES) $(LIB_FLOAT) \

@@ -49,8 +49,12 @@ endif
 # Known only once they are made: what needs them is built by a make of its own, after .stamp.
 SCENE_C = $(filter-out $(GEN)/builtin_models.c,$(sort $(wildcard $(GEN)/*.c)))
 LIB_SCENES := $(B)/float/libscenes.a
+LIB_SCENES_DOUBLE := $(B)/double/libscenes.a
 
 $(LIB_SCENES): $(call objects,float,$(SCENE_C))
+	$(archive)
+
+$(LIB_SCENES_DOUBLE): $(call objects,double,$(SCENE_C))
 	$(archive)
 
 $(B)/scenes: $(call objects,float,boards/scenes_main.c boards/host/board.c) $(LIB_SCENES) $(LIB_FLOAT)

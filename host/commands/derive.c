@@ -9,29 +9,30 @@
 
 static const char usage[] =
     "usage: whirl derive FILE|FILE:NAME|NAME [--as text|latex|octave|c] [--with E,...]\n"
-    "                    [--without E,...] [--set NAME=EXPR]\n"
+    "                    [--without E,...] [--set NAME=EXPR] [--start NAME=EXPR]\n"
+    "                    [--step 1ms] [--until 9s] [--method M] [--compensated]\n"
     "\n"
     "Prints the equations of motion of a mechanism (or of a scene, with its effects):\n"
     "  --as text    one equation a coordinate, as in a textbook, and the first-order form (default)\n"
     "  --as latex   the same for a paper\n"
     "  --as octave  a function file that Octave and Matlab integrate as it stands\n"
-    "  --as c       the scene as C for the core\n";
+    "  --as c       the scene as C for the core\n"
+    "The other options are those of `whirl run`; the method matters to the C form only.\n";
 
 typedef enum form { FORM_TEXT, FORM_LATEX, FORM_OCTAVE, FORM_C, FORMS } form;
 static const char *const form_names[FORMS] = {"text", "latex", "octave", "c"};
 
-static void print(form as, const loaded *made, const char *file) {
-    const engine_settings settings = {WH_RK4, false};
+static void print(form as, const loaded *made, const char *file, const engine_settings *settings) {
     switch (as) {
     case FORM_TEXT: emit_text(stdout, made->equations); break;
     case FORM_LATEX: emit_latex(stdout, made->equations); break;
     case FORM_OCTAVE: emit_octave(stdout, made->equations, made->program, file); break;
-    default: emit_c(stdout, made->equations, made->program, &settings, file); break;
+    default: emit_c(stdout, made->equations, made->program, settings, file); break;
     }
 }
 
 static int derive_one(source_model *from, const mechanism *of, const scene *in,
-                      const overrides *changes, form as) {
+                      const overrides *changes, form as, const engine_settings *settings) {
     loaded made;
     int code = load(&made, from, of, in, changes, as == FORM_C);
     if (code == EXIT_DONE && as == FORM_C && program_needs_libm(made.program) != NULL) {
@@ -47,7 +48,7 @@ static int derive_one(source_model *from, const mechanism *of, const scene *in,
         code = EXIT_BAD_INPUT;
     }
     if (code == EXIT_DONE) {
-        print(as, &made, from->file);
+        print(as, &made, from->file, settings);
     }
     unload(&made);
     return code;
@@ -57,6 +58,7 @@ int command_derive(int count, char **words) {
     const char *target = NULL;
     form as = FORM_TEXT;
     change_options options = {0};
+    engine_settings settings = {WH_RK4, false};
     bool bad = false;
     if (options_help(count, words, usage)) {
         return EXIT_DONE;
@@ -73,10 +75,11 @@ int command_derive(int count, char **words) {
                                 "hint: text, latex, octave or c\n", value);
                 bad = true;
             }
-        } else if (!bad && !options_change(count, words, &at, &options, &bad) && !bad) {
+        } else if (!bad && !options_change(count, words, &at, &options, &bad) && !bad &&
+                   !options_engine("derive", count, words, &at, &settings, &bad) && !bad) {
             if (words[at][0] == '-' && words[at][1] != '\0') {
                 options_unknown("derive", words[at],
-                                (const char *const[]){"--as", CHANGE_OPTIONS, "--help", NULL});
+                                (const char *const[]){"--as", CHANGE_OPTIONS, ENGINE_OPTIONS, "--help", NULL});
                 bad = true;
             } else if (target != NULL) {
                 fprintf(stderr, "whirl derive: error: more than one thing to derive: %s\n",
@@ -102,7 +105,7 @@ int command_derive(int count, char **words) {
             if (i > 0) {
                 putchar('\n');
             }
-            code = derive_one(&from, from.model->mechanisms[i], NULL, &changes, as);
+            code = derive_one(&from, from.model->mechanisms[i], NULL, &changes, as, &settings);
         }
     } else if (code == EXIT_DONE) {
         const mechanism *of;
@@ -110,7 +113,7 @@ int command_derive(int count, char **words) {
         /* the file's only scene; of several, none is meant: the mechanism */
         code = source_pick(&from, from.model->scene_count == 1, &of, &in);
         if (code == EXIT_DONE) {
-            code = derive_one(&from, of, in, &changes, as);
+            code = derive_one(&from, of, in, &changes, as, &settings);
         }
     }
     source_close(&from);

@@ -31,7 +31,8 @@ const char *options_value(int count, char **words, int *at, const char *name, bo
         return NULL;
     }
     if (*at + 1 >= count) {
-        fprintf(stderr, "whirl: error: %s needs a value\n", name);
+        fprintf(stderr, "whirl: error: %s needs a value\nhint: %s VALUE, or %s=VALUE\n", name, name,
+                name);
         *bad = true;
         ++*at;
         return NULL;
@@ -108,6 +109,38 @@ void change_options_free(change_options *c) {
     free(c->starts);
     free(c->with);
     free(c->without);
+}
+
+bool options_choose(const char *command, const char *what, const char *value,
+                    const char *const *names, int count, int *chosen) {
+    for (int i = 0; i < count; i++) {
+        if (strcmp(value, names[i]) == 0) {
+            *chosen = i;
+            return true;
+        }
+    }
+    fprintf(stderr, "whirl %s: error: there is no %s '%s'\nhint: one of", command, what, value);
+    for (int i = 0; i < count; i++) {
+        fprintf(stderr, "%s %s", i > 0 ? "," : "", names[i]);
+    }
+    fputc('\n', stderr);
+    return false;
+}
+
+bool options_engine(const char *command, int count, char **words, int *at,
+                    engine_settings *settings, bool *bad) {
+    static const char *const methods[] = {"euler", "semi-implicit-euler", "heun", "rk4"};
+    int chosen = 0;
+    const char *value = options_value(count, words, at, "--method", bad);
+    if (value != NULL) {
+        *bad = !options_choose(command, "method", value, methods, 4, &chosen);
+        settings->method = (wh_method)chosen;
+    } else if (!*bad && strcmp(words[*at], "--compensated") == 0) {
+        ++*at;
+        settings->compensated = true;
+        return true;
+    }
+    return value != NULL;
 }
 
 void options_unknown(const char *command, const char *word, const char *const *known) {

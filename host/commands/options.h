@@ -5,6 +5,7 @@
 #include <stdbool.h>
 
 #include "host/lang/model.h"
+#include "host/run/engine.h"
 
 /* Prints `usage` and returns true when --help or -h is among the words. */
 bool options_help(int count, char **words, const char *usage);
@@ -35,6 +36,15 @@ typedef struct change_options {
 bool options_change(int count, char **words, int *at, change_options *changes, bool *bad);
 overrides change_options_overrides(const change_options *changes);
 void change_options_free(change_options *changes);
+
+/* How to integrate: --method M and --compensated, as for options_change(). */
+#define ENGINE_OPTIONS "--method", "--compensated"
+bool options_engine(const char *command, int count, char **words, int *at,
+                    engine_settings *settings, bool *bad);
+
+/* `value` among `names`; when it is none of them that is reported, with the names. */
+bool options_choose(const char *command, const char *what, const char *value,
+                    const char *const *names, int count, int *chosen);
 
 /* Report a word that no option takes, with the nearest of `known` (NULL ends the list). */
 void options_unknown(const char *command, const char *word, const char *const *known);

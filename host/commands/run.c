@@ -33,8 +33,6 @@ static const char usage[] =
     "Exit status: 0 done; 1 the run failed (it says when, where and what to try; the records so far\n"
     "are kept); 2 bad input; 130 interrupted.\n";
 
-static const char *const method_names[] = {"euler", "semi-implicit-euler", "heun", "rk4"};
-
 static volatile sig_atomic_t interrupted;
 
 static void on_interrupt(int signal_number) {
@@ -49,22 +47,6 @@ typedef struct run_options {
     simulation_settings settings;
 } run_options;
 
-static bool choose(const char *what, const char *value, const char *const *names, int count,
-                   int *chosen) {
-    for (int i = 0; i < count; i++) {
-        if (strcmp(value, names[i]) == 0) {
-            *chosen = i;
-            return true;
-        }
-    }
-    fprintf(stderr, "whirl run: error: there is no %s '%s'\nhint: one of", what, value);
-    for (int i = 0; i < count; i++) {
-        fprintf(stderr, "%s %s", i > 0 ? "," : "", names[i]);
-    }
-    fputc('\n', stderr);
-    return false;
-}
-
 static bool take_flag(char **words, int *at, const char *name) {
     if (strcmp(words[*at], name) != 0) {
         return false;
@@ -76,13 +58,12 @@ static bool take_flag(char **words, int *at, const char *name) {
 /* One word or pair of words that is this command's own; false when it is none of them. */
 static bool take_own(int count, char **words, int *at, run_options *o, bool *bad) {
     static const char *const numbers[] = {"double", "float"};
-    const char *value;
+    const char *value = NULL;
     int chosen = 0;
-    if ((value = options_value(count, words, at, "--method", bad)) != NULL) {
-        *bad = !choose("method", value, method_names, 4, &chosen);
-        o->settings.engine.method = (wh_method)chosen;
+    if (options_engine("run", count, words, at, &o->settings.engine, bad)) {
+        return true;
     } else if (!*bad && (value = options_value(count, words, at, "--number", bad)) != NULL) {
-        *bad = !choose("number", value, numbers, 2, &chosen);
+        *bad = !options_choose("run", "number", value, numbers, 2, &chosen);
         o->settings.kind = chosen == 1 ? &engine_float : &engine_double;
     } else if (!*bad && (value = options_value(count, words, at, "--csv", bad)) != NULL) {
         o->settings.csv = value;
@@ -92,9 +73,6 @@ static bool take_own(int count, char **words, int *at, run_options *o, bool *bad
         o->every = value;
     } else if (!*bad && (value = options_value(count, words, at, "--plot", bad)) != NULL) {
         o->settings.plot = value;
-    } else if (!*bad && take_flag(words, at, "--compensated")) {
-        o->settings.engine.compensated = true;
-        return true;
     } else if (!*bad && take_flag(words, at, "--quiet")) {
         o->settings.quiet = true;
         return true;
@@ -111,9 +89,9 @@ static bool read_options(int count, char **words, run_options *o) {
         }
         if (words[at][0] == '-' && words[at][1] != '\0') {
             options_unknown("run", words[at],
-                            (const char *const[]){CHANGE_OPTIONS, "--method", "--number",
-                                                  "--compensated", "--csv", "--columns", "--every",
-                                                  "--plot", "--quiet", "--help", NULL});
+                            (const char *const[]){CHANGE_OPTIONS, ENGINE_OPTIONS, "--number", "--csv",
+                                                  "--columns", "--every", "--plot", "--quiet",
+                                                  "--help", NULL});
             return false;
         }
         if (o->target != NULL) {

@@ -84,10 +84,89 @@ static void balance(double *m, int n) {
     }
 }
 
+/* The values of the mass matrix at one try; false when one is not finite. */
+static bool mass_at(const equations *e, int try, double *m) {
+    generic_state state = {e->instance, (uint64_t)try};
+    bool finite = true;
+    for (int i = 0; i < e->count * e->count; i++) {
+        m[i] = poly_evaluate(e->mass[i], generic_value, &state);
+        finite = finite && isfinite(m[i]);
+    }
+    return finite;
+}
+
+/* The first row whose highest derivatives follow from those of the rows above, at the first finite
+ * try; -1 when there is none. */
+static int dependent_row(const equations *e) {
+    const int n = e->count;
+    double *m = calloc(2 * (size_t)n * (size_t)n + 1, sizeof *m);
+    if (m == NULL) {
+        abort();
+    }
+    double *part = m + n * n;
+    int found = -1;
+    bool finite = false;
+    for (int try = 0; try < TRIES && !finite; try++) {
+        finite = mass_at(e, try, m);
+    }
+    balance(m, n);
+    for (int rows = 1; rows <= n && finite && found < 0; rows++) {
+        for (int i = 0; i < n * n; i++) {
+            part[i] = i < rows * n ? m[i] : 0.0;
+        }
+        if (rank_of(part, n) < rows) {
+            found = rows - 1;
+        }
+    }
+    free(m);
+    return found;
+}
+
+/* Where equation `row` of a system stands. */
+static place place_of_equation(const equations *e, int row) {
+    const mechanism *m = e->instance->mechanism;
+    for (int t = 0, at = 0; t < m->term_count; t++) {
+        if (m->terms[t].kind == TERM_EQUATION && instance_has_term(e->instance, &m->terms[t]) &&
+            at++ == row) {
+            return m->terms[t].at;
+        }
+    }
+    return m->at;
+}
+
+/* No highest derivative at all in the row: it binds the states, it does not move them. */
+static bool row_is_empty(const equations *e, int row) {
+    bool empty = true;
+    for (int j = 0; j < e->count; j++) {
+        empty = empty && poly_is_zero(e->mass[row * e->count + j]);
+    }
+    return empty;
+}
+
+static void report_singular_system(const equations *e, diags *errors) {
+    const int row = dependent_row(e);
+    if (row >= 0 && row_is_empty(e, row)) {
+        diag_error(errors, place_of_equation(e, row),
+                   "a constraint between states: differentiate it until a highest derivative appears",
+                   "the equations of '%s' cannot be solved for the highest derivatives: "
+                   "this one contains none",
+                   e->instance->mechanism->name);
+    } else {
+        diag_error(errors, row < 0 ? e->instance->mechanism->at : place_of_equation(e, row),
+                   "two equations may say the same, or one may lack its highest derivative",
+                   "the equations of '%s' cannot be solved for the highest derivatives: "
+                   "this one has the same combination of them as those above it",
+                   e->instance->mechanism->name);
+    }
+}
+
 static void report_singular(const equations *e, diags *errors) {
     const int n = e->count;
-    const bool system = e->instance->mechanism->is_system;
-    for (int i = 0; i < n && !system; i++) {
+    if (e->instance->mechanism->is_system) {
+        report_singular_system(e, errors);
+        return;
+    }
+    for (int i = 0; i < n; i++) {
         bool empty = true;
         for (int j = 0; j < n; j++) {
             empty = empty && poly_is_zero(e->mass[i * n + j]);
@@ -101,12 +180,8 @@ static void report_singular(const equations *e, diags *errors) {
         }
     }
     diag_error(errors, e->instance->mechanism->at,
-               system ? "two equations may say the same, or one may lack its highest derivative"
-                      : "two coordinates may describe the same motion, or a mass may be zero",
-               system ? "the equations of '%s' cannot be solved for the highest derivatives: "
-                        "singular at every state tried"
-                      : "singular mass matrix: '%s' cannot be solved for its accelerations at any "
-                        "state tried",
+               "two coordinates may describe the same motion, or a mass may be zero",
+               "singular mass matrix: '%s' cannot be solved for its accelerations at any state tried",
                e->instance->mechanism->name);
 }
 
@@ -120,11 +195,7 @@ bool equations_check_solvable(const equations *e, diags *errors) {
     bool solvable = false;
     for (int try = 0; try < TRIES && !solvable; try++) {
         generic_state state = {e->instance, (uint64_t)try};
-        bool finite = true;
-        for (int i = 0; i < n * n; i++) {
-            m[i] = poly_evaluate(e->mass[i], generic_value, &state);
-            finite = finite && isfinite(m[i]);
-        }
+        bool finite = mass_at(e, try, m);
         for (int i = 0; i < n && finite; i++) {
             finite = isfinite(poly_evaluate(equations_force(e, i), generic_value, &state));
         }

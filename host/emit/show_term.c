@@ -21,16 +21,25 @@ static bool is_greek(const char *name, size_t length) {
     return false;
 }
 
+static void latex_letters(FILE *out, const char *text) {
+    for (; *text != '\0'; text++) {
+        fprintf(out, *text == '_' ? "\\_" : "%c", *text);
+    }
+}
+
 /* The name's letters, then what stands behind them as an index: theta1 -> \theta_{1}. */
 static void latex_name(FILE *out, const char *name, int primes) {
     size_t stem = 0;
     while (isalpha((unsigned char)name[stem])) {
         stem++;
     }
-    stem = stem == 0 ? strlen(name) : stem;
-    const char *rest = name + stem + (name[stem] == '_' ? 1 : 0);
+    const char *rest = stem == 0 ? "" : name + stem + (name[stem] == '_' ? 1 : 0);
     fprintf(out, "%s", primes == 1 ? "\\dot{" : primes == 2 ? "\\ddot{" : primes > 2 ? "{" : "");
-    if (is_greek(name, stem)) {
+    if (stem == 0) {
+        fprintf(out, "\\mathrm{");
+        latex_letters(out, name);
+        fprintf(out, "}");
+    } else if (is_greek(name, stem)) {
         fprintf(out, "\\%.*s", (int)stem, name);
     } else {
         fprintf(out, stem == 1 ? "%.*s" : "\\mathrm{%.*s}", (int)stem, name);
@@ -38,9 +47,7 @@ static void latex_name(FILE *out, const char *name, int primes) {
     fprintf(out, "%s", primes > 0 ? "}" : "");
     if (*rest != '\0') {
         fprintf(out, "_{");
-        for (; *rest != '\0'; rest++) {
-            fprintf(out, *rest == '_' ? "\\_" : "%c", *rest);
-        }
+        latex_letters(out, rest);
         fprintf(out, "}");
     }
     if (primes > 2) {

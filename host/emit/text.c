@@ -179,11 +179,14 @@ static void write_first_order(const show *s, const equations *e) {
         write_highest(s, e, i);
     }
     fprintf(s->out, "):\n\n");
+    const char *between = e->count > 9 ? "," : ""; /* A12, but A1,12 */
     for (int i = 0; i < e->count; i++) {
         const bool symmetric = !e->instance->mechanism->is_system;
         for (int j = symmetric ? i : 0; j < e->count; j++) {
-            fprintf(s->out, symmetric && j > i ? "  A%d%d = A%d%d = " : "  A%d%d = ", i + 1, j + 1,
-                    j + 1, i + 1);
+            fprintf(s->out, "  A%d%s%d = ", i + 1, between, j + 1);
+            if (symmetric && j > i) {
+                fprintf(s->out, "A%d%s%d = ", j + 1, between, i + 1);
+            }
             show_poly(s, e->mass[i * e->count + j]);
             fputc('\n', s->out);
         }

@@ -50,7 +50,6 @@ BEGIN {
     }
     # Okabe and Ito's colours, apart for the colour-blind as well
     split("#0072B2 #D55E00 #009E73 #CC79A7 #E69F00 #56B4E9 #000000", colour, " ")
-    xlabel = "time [s]"
 }
 
 /^#/ || /^[ \t]*$/ { next }
@@ -63,7 +62,7 @@ $1 == "panel" {
     next
 }
 panels == 0 { wrong("before the first panel: " $0) }
-$1 == "xlabel" { xlabel = after_word($0); next }
+$1 == "xlabel" { xlabel[panels] = after_word($0); next }
 $1 == "set" { text[panels] = text[panels] $0 "\n"; next }
 $1 == "curve" || $1 == "law" {
     n = split(after_word($0), field, "|")
@@ -105,19 +104,14 @@ END {
     print "set datafile separator comma"
     print "set samples 400"
     print "set border lw 1 lc rgb '#444444'"
-    print "set grid lw 0.6 lc rgb '#d8d8d8'"
+    print "set grid lt 1 lw 0.7 lc rgb '#e2e2e2'"
     print "set tics nomirror textcolor rgb '#222222'"
     print "set lmargin 12"
     print "set rmargin 3"
-    if (panels > 1) {
-        print "set multiplot layout " panels ",1 title " quoted(title)
-    }
+    print "set multiplot layout " panels ",1 title " quoted(title)
     for (p = 1; p <= panels; p++) {
-        if (panels == 1) {
-            print "set title " quoted(title)
-        }
         print "set key above center horizontal samplen 3"
-        print "set xlabel " quoted(p == panels ? xlabel : "")
+        print "set xlabel " quoted(p in xlabel ? xlabel[p] : p == panels ? "time [s]" : "")
         print "set ylabel " quoted(ylabel[p])
         if (named[p] == 0) {
             print "unset key"
@@ -126,8 +120,6 @@ END {
         print "unset arrow; unset label; unset logscale; set format"
         print "set xrange [*:*]; set yrange [*:*]; set xtics autofreq; set ytics autofreq"
     }
-    if (panels > 1) {
-        print "unset multiplot"
-    }
+    print "unset multiplot"
     print "unset output"
 }

@@ -12,7 +12,7 @@
 #   table NAME SCRIPT WORDS     what host/figures/SCRIPT prints, a CSV with a header; it is called with
 #                               WHIRL and WORDS
 #   panel YLABEL                begins a panel; panels stand one above the other
-#   xlabel TEXT                 "time [s]" when left out
+#   xlabel TEXT                 of the panel; "time [s]" at the last one when left out
 #   set TEXT                    a gnuplot setting for the panel
 #   curve NAME | X | Y | TITLE [| STYLE]
 #                               X and Y are gnuplot expressions in {column} names, which may hold no

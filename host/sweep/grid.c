@@ -1,6 +1,7 @@
 /* grid.c: reading ranges and numbering points. */
 #include "grid.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -65,10 +66,11 @@ static bool range_split(const char *text, range_text *r) {
         problem = "has three dots in a row";
     }
     if (problem != NULL) {
-        fprintf(stderr,
-                "whirl sweep: error: --over \"%s\" %s\n"
-                "hint: such as --over \"r=10..60 [mm]:11\", or ...:11,log for a logarithmic range\n",
-                text, problem);
+        fprintf(
+            stderr,
+            "whirl sweep: error: --over \"%s\" %s\n"
+            "hint: such as --over \"r=10..60 [mm]:11\", or ...:11,log for a logarithmic range\n",
+            text, problem);
         return false;
     }
     r->name = trimmed(text, (size_t)(equals - text));
@@ -91,11 +93,10 @@ static const char *behind_number(const char *text) {
 /* "10..60 [mm]": FROM is meant in TO's unit. */
 static void share_unit(range_text *r) {
     const char *rest = behind_number(r->from);
-    const char *unit = behind_number(r->to);
+    const char *suffix = behind_number(r->to);
     const bool from_is_bare = rest != NULL && *rest == '\0';
-    if (from_is_bare && unit != NULL &&
-        (*unit == '[' || (*unit >= 'a' && *unit <= 'z') || (*unit >= 'A' && *unit <= 'Z'))) {
-        char *with_unit = joined(r->from, unit);
+    if (from_is_bare && suffix != NULL && (*suffix == '[' || isalpha((unsigned char)*suffix))) {
+        char *with_unit = joined(r->from, suffix);
         free(r->from);
         r->from = with_unit;
     }
@@ -149,13 +150,13 @@ static bool take_ends(const char *over, const expr *from, const expr *to, axis *
     const char *problem = NULL;
     if (((from->uses | to->uses) & ~(unsigned)USES_UNIT) != 0) {
         problem = "FROM and TO must be numbers";
-    } else if (from->uses != to->uses && from->number != 0.0 && to->number != 0.0) {
-        problem = "one end has a unit and the other has not";
     } else {
         made->from = expr_value(from, NULL);
         made->to = expr_value(to, NULL);
         if (!isfinite(made->from) || !isfinite(made->to) || !isfinite(made->to - made->from)) {
             problem = "FROM and TO must be finite numbers";
+        } else if (from->uses != to->uses && made->from != 0.0 && made->to != 0.0) {
+            problem = "one end has a unit and the other has not";
         } else if (made->symbol == NULL && !(made->from > 0.0 && made->to > 0.0)) {
             problem = "step must be above zero";
         }

@@ -1,6 +1,7 @@
 /* measures.c: reading measures and taking them. */
 #include "measures.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,12 +12,9 @@
 
 /* --- reading -------------------------------------------------------------------------------------*/
 
-static const char *const kind_names[] = {[MEASURE_FINAL] = "",
-                                         [MEASURE_MAX] = "max",
-                                         [MEASURE_MIN] = "min",
-                                         [MEASURE_AMPLITUDE] = "amplitude",
-                                         [MEASURE_MEAN] = "mean",
-                                         [MEASURE_PERIOD] = "period"};
+static const char *const kind_names[] = {[MEASURE_FINAL] = "",    [MEASURE_MAX] = "max",
+                                         [MEASURE_MIN] = "min",   [MEASURE_AMPLITUDE] = "amplitude",
+                                         [MEASURE_MEAN] = "mean", [MEASURE_PERIOD] = "period"};
 
 static size_t blanks(const char *text) { return strspn(text, " \t"); }
 
@@ -58,18 +56,45 @@ static measure_kind kind_of(const char *text, const char **inner, size_t *length
     return MEASURE_FINAL;
 }
 
-/* A state may be named with any number of primes; the equations give it no more than its order. */
-static bool check_orders(parser *in, const expr *tree) {
+/* A state may be named with any number of primes; the equations give it no more than its order. Each
+ * let is walked once. */
+static bool check_orders(parser *in, const expr *tree, bool *let_seen) {
     if (tree == NULL) {
         return true;
     }
-    if (tree->op == EXPR_SYMBOL && tree->symbol != NULL && tree->symbol->kind == SYM_STATE &&
-        tree->primes > tree->symbol->order) {
-        diag_error(in->diags, tree->at, NULL, "the equations give '%s' no more than %d primes",
-                   tree->symbol->name, tree->symbol->order);
+    const symbol *found = tree->op == EXPR_SYMBOL ? tree->symbol : NULL;
+    if (found != NULL && found->kind == SYM_STATE && tree->primes > found->order) {
+        diag_error(in->diags, tree->at, NULL, "the equations give '%s' no more than %d prime%s",
+                   found->name, found->order, found->order == 1 ? "" : "s");
         return false;
     }
-    return check_orders(in, tree->left) && check_orders(in, tree->right);
+    if (found != NULL && found->kind == SYM_LET && !let_seen[found->index]) {
+        let_seen[found->index] = true;
+        return check_orders(in, found->value, let_seen);
+    }
+    return check_orders(in, tree->left, let_seen) && check_orders(in, tree->right, let_seen);
+}
+
+/* "amplitude(x)/2": measures are no functions of the language. Reports and returns true when there is
+ * one inside the text. */
+static bool has_measure_inside(const source *typed, diags *errors) {
+    for (measure_kind kind = MEASURE_AMPLITUDE; kind <= MEASURE_PERIOD; kind++) {
+        const size_t length = strlen(kind_names[kind]);
+        const char *at = typed->text;
+        while ((at = strstr(at, kind_names[kind])) != NULL) {
+            const bool begins =
+                at == typed->text || (!isalnum((unsigned char)at[-1]) && at[-1] != '_');
+            if (begins && at[length + blanks(at + length)] == '(') {
+                const size_t offset = (size_t)(at - typed->text);
+                diag_error(errors, (place){typed, 1, (int)offset + 1, offset},
+                           "take it as it is, and reckon with the column afterwards",
+                           "%s() must stand around the whole measure", kind_names[kind]);
+                return true;
+            }
+            at += length;
+        }
+    }
+    return false;
 }
 
 static const expr *read_expression(measures *m, const mechanism *of, const char *text,
@@ -77,6 +102,9 @@ static const expr *read_expression(measures *m, const mechanism *of, const char 
     const size_t before = diags_calls(errors);
     source *typed = arena_alloc(m->arena, sizeof *typed);
     *typed = (source){"<measure>", arena_copy(m->arena, text, length), length};
+    if (has_measure_inside(typed, errors)) {
+        return NULL;
+    }
     parser in = {.diags = errors, .arena = m->arena, .effect = -1, .all_effects = true};
     in.names = of->names;
     in.lexer = lexer_start(typed, errors);
@@ -87,7 +115,9 @@ static const expr *read_expression(measures *m, const mechanism *of, const char 
         parser_fail(&in, "max, min, amplitude, mean and period stand around a whole expression",
                     "unexpected %s", token_words(&in.token, words, sizeof words));
     }
-    return made != NULL && diags_calls(errors) == before && check_orders(&in, made) ? made : NULL;
+    bool *let_seen = arena_alloc(m->arena, (size_t)of->let_count * sizeof *let_seen);
+    const bool good = made != NULL && diags_calls(errors) == before;
+    return good && check_orders(&in, made, let_seen) ? made : NULL;
 }
 
 static void add(measures *m, measure_kind kind, const char *name, const expr *of) {

@@ -106,8 +106,7 @@ static meter meter_open(const sweep *s, const program *p, void *run) {
         m.gauges[i] = gauge_start(each->kind);
         if (each->kind != MEASURE_FINAL) {
             m.series = true;
-            m.series_of_outputs =
-                m.series_of_outputs || m.channels[i].where == FROM_OUTPUT;
+            m.series_of_outputs = m.series_of_outputs || m.channels[i].where == FROM_OUTPUT;
         }
     }
     return m;
@@ -174,8 +173,7 @@ static bool run_through(meter *m, const instance *inst, bool (*abandon)(void), F
             break;
         }
         if (kind->step(m->run) != WH_OK) {
-            fprintf(reason, "diverged in the step after t = %.9g s",
-                    (double)step * inst->step_s);
+            fprintf(reason, "diverged in the step after t = %.9g s", (double)step * inst->step_s);
             return false;
         }
     }
@@ -228,9 +226,8 @@ static bool measure_point(const sweep *s, uint64_t point, bool (*abandon)(void),
     bool good = inst != NULL;
     if (good && s->shared == NULL) {
         e = equations_derive(inst, errors);
-        own = e == NULL
-                  ? NULL
-                  : program_make(e, s->scene != NULL ? s->scene->conserve : NULL, errors);
+        own = e == NULL ? NULL
+                        : program_make(e, s->scene != NULL ? s->scene->conserve : NULL, errors);
         good = own != NULL;
     }
     if (good) {

@@ -21,10 +21,13 @@ derived derived_builtin(const char *name);
 derived derived_file(const char *path);
 void derived_free(derived *d);
 
+/* Derivatives that a state_values has room for, the value included. */
+enum { ORDERS_MAX = 6 };
+
 /* Numbers for every symbol, by kind and index: the state of one comparison. */
 typedef struct state_values {
     const instance *instance;
-    double value[16][3]; /* [coordinate][primes] */
+    double value[16][ORDERS_MAX]; /* [coordinate][primes] */
 } state_values;
 
 /* For poly_evaluate(), with a state_values as context. */

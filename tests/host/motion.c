@@ -42,8 +42,8 @@ static void start(motion *m, const scene *in, stepping how) {
     diags_flush(m->errors, stdout);
     TEST_ASSERT_NOT_NULL_MESSAGE(m->program, in->name);
     m->kind = how.kind;
-    m->run = how.kind->start(m->program, m->instance,
-                             &(engine_settings){how.method, how.compensated});
+    m->run =
+        how.kind->start(m->program, m->instance, &(engine_settings){how.method, how.compensated});
 }
 
 void motion_open(motion *m, const char *scene_name, stepping how) {
@@ -155,8 +155,7 @@ static void reference_line(const char *of, const char *time, char line[LINE_MAX_
     TEST_ASSERT_TRUE_MESSAGE(found, wanted);
 }
 
-static double error_and_scale(const motion *m, const char *of, const char *time,
-                              double *scale) {
+static double error_and_scale(const motion *m, const char *of, const char *time, double *scale) {
     char line[LINE_MAX_BYTES];
     char *rest = NULL;
     double largest = 0.0;

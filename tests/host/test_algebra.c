@@ -151,6 +151,7 @@ static int grow(tree *t, uint64_t *seed, int depth) {
 
 /* NaN also where a derivative is infinite, and where atan2 has its cut. */
 static double applied(const node *n, double a, double b, const double x[VARIABLES]) {
+    const double none = (double)NAN;
     switch (n->op) {
     case EXPR_NUMBER: return n->number;
     case EXPR_SYMBOL: return x[n->variable];
@@ -158,18 +159,18 @@ static double applied(const node *n, double a, double b, const double x[VARIABLE
     case EXPR_SUB: return a - b;
     case EXPR_MUL: return a * b;
     case EXPR_DIV: return a / b;
-    case EXPR_POW: return a == 0.0 ? NAN : pow(a, n->number);
+    case EXPR_POW: return a == 0.0 ? none : pow(a, n->number);
     default: break;
     }
     switch (n->function) {
     case FN_SIN: return sin(a);
     case FN_COS: return cos(a);
     case FN_TAN: return tan(a);
-    case FN_ASIN: return fabs(a) == 1.0 ? NAN : asin(a);
-    case FN_ACOS: return fabs(a) == 1.0 ? NAN : acos(a);
+    case FN_ASIN: return fabs(a) == 1.0 ? none : asin(a);
+    case FN_ACOS: return fabs(a) == 1.0 ? none : acos(a);
     case FN_ATAN: return atan(a);
-    case FN_ATAN2: return a == 0.0 ? NAN : atan2(a, b);
-    case FN_SQRT: return a == 0.0 ? NAN : sqrt(a);
+    case FN_ATAN2: return a == 0.0 ? none : atan2(a, b);
+    case FN_SQRT: return a == 0.0 ? none : sqrt(a);
     case FN_EXP: return exp(a);
     case FN_LOG: return log(a);
     case FN_ABS: return fabs(a);
@@ -185,7 +186,7 @@ static double value_of(const tree *t, int i, const double x[VARIABLES]) {
     const double a = n->left < 0 ? 0.0 : value_of(t, n->left, x);
     const double b = n->right < 0 ? 0.0 : value_of(t, n->right, x);
     const double value = applied(n, a, b, x);
-    return isfinite(a) && isfinite(b) && isfinite(value) ? value : NAN;
+    return isfinite(a) && isfinite(b) && isfinite(value) ? value : (double)NAN;
 }
 
 static const poly *poly_of(algebra *a, const tree *t, int i) {

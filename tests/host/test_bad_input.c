@@ -10,6 +10,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "host/derive/equations.h"
 #include "host/lang/model.h"
 #include "unity.h"
 
@@ -18,17 +19,27 @@ void suite_bad_input(void);
 #define FOLDER "tests/bad"
 enum { FILES_MIN = 40, LINE_SIZE = 512 };
 
-/* Everything the language says about a text; free() it. *errors is their number. */
-static char *report_on(const char *file, const char *text, size_t length, int *errors) {
+/* Make one instance; with `derive`, its equations too, unless something is wrong already. */
+static void try_instance(const mechanism *of, const scene *in, bool derive, diags *all) {
+    instance *made = instance_make(of, in, NULL, all);
+    if (derive && made != NULL && diags_count(all) == 0) {
+        equations_free(equations_derive(made, all));
+    }
+    instance_free(made);
+}
+
+/* Everything that is said about a text; free() it. *errors is their number. */
+static char *full_report_on(const char *file, const char *text, size_t length, bool derive,
+                            int *errors) {
     diags *all = diags_new();
     model *parsed = model_parse(file, text, length, all);
     if (parsed != NULL) {
         for (int i = 0; i < parsed->mechanism_count; i++) {
-            instance_free(instance_make(parsed->mechanisms[i], NULL, NULL, all));
+            try_instance(parsed->mechanisms[i], NULL, derive, all);
         }
         for (int i = 0; i < parsed->scene_count; i++) {
             const scene *each = parsed->scenes[i];
-            instance_free(instance_make(each->mechanism, each, NULL, all));
+            try_instance(each->mechanism, each, derive, all);
         }
     }
     *errors = diags_count(all);
@@ -41,6 +52,11 @@ static char *report_on(const char *file, const char *text, size_t length, int *e
     diags_free(all);
     model_free(parsed);
     return report;
+}
+
+/* What the language says, without deriving anything. */
+static char *report_on(const char *file, const char *text, size_t length, int *errors) {
+    return full_report_on(file, text, length, false, errors);
 }
 
 static void expect(const char *text, size_t length, const char *wanted) {
@@ -75,7 +91,7 @@ static bool file_fails_as_announced(const char *path) {
     size_t length = 0;
     char *text = read_whole(path, &length);
     int errors = 0;
-    char *report = report_on(path, text, length, &errors);
+    char *report = full_report_on(path, text, length, true, &errors);
     int announced = 0;
     bool good = true;
     const char *from = report;

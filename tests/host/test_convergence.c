@@ -21,13 +21,14 @@ static void expect_order(const char *what, const char *name, wh_method method, d
     double errors[HALVINGS];
     double step_s = first_step_s;
     printf("  %-34s", what);
-    for (unsigned i = 0; i < HALVINGS; i++, step_s /= 2.0) {
+    for (unsigned i = 0; i < HALVINGS; i++) {
         motion m;
         const stepping how = {.kind = &engine_double, .method = method, .step_s = step_s};
         motion_open(&m, name, how);
         errors[i] = error(&m, of);
         motion_close(&m);
         printf("  %.3g at %g ms", errors[i], 1e3 * step_s);
+        step_s /= 2.0;
     }
     printf("; order");
     for (unsigned i = 0; i + 1 < HALVINGS; i++) {

@@ -59,10 +59,9 @@ static void test_motion_that_ends_in_infinity(void) {
     for (unsigned k = 0; k < 2; k++) {
         for (unsigned compensated = 0; compensated < 2; compensated++) {
             motion m;
-            motion_open_text(&m, blow_up,
-                             (stepping){.kind = kinds[k],
-                                        .method = WH_RK4,
-                                        .compensated = compensated != 0});
+            motion_open_text(
+                &m, blow_up,
+                (stepping){.kind = kinds[k], .method = WH_RK4, .compensated = compensated != 0});
             motion_to(&m, 0.9);
             /* Right to 1e-4 of itself until then: the run is one, not noise. */
             TEST_ASSERT_DOUBLE_WITHIN(1e-3, 10.0, motion_value(&m, "x"));

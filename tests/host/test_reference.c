@@ -187,11 +187,11 @@ static void check_folder(const char *folder, int states_at_least) {
 }
 
 static void test_accelerations_of_the_dissertations_mechanisms(void) {
-    check_folder("core/models/", 66);
+    check_folder("core/models/", 120);
 }
 
 static void test_accelerations_of_textbook_mechanisms_and_systems(void) {
-    check_folder("tests/mechanisms/", 168);
+    check_folder("tests/mechanisms/", 186);
 }
 
 void suite_reference(void) {

@@ -142,7 +142,8 @@ static void test_a_million_turns_at_constant_rate(void) {
     }
     expect_within("turns of a free rotor", 1e6, 1.001e6, got / 6.283185307179586);
     expect_within("relative error of its angle", 0.0, 2.0 * U, fabs(got / wanted - 1.0));
-    expect_within("relative error of its last step", 0.0, 2.0 * U, fabs(last_step / step_rad - 1.0));
+    expect_within("relative error of its last step", 0.0, 2.0 * U,
+                  fabs(last_step / step_rad - 1.0));
     expect_within("relative error of the sum in float radians", 1e-3, 1.0,
                   fabs((double)radians / wanted - 1.0));
 }

@@ -40,6 +40,28 @@ def dc_motor(s, volts=12):
             R("0.0012") * di + R("0.6") * i + k * w - volts]
 
 
+def dc_motor_pendulum(s, volts=6):
+    (th, w, a), (ph, wp, ap), (i, di) = s["theta"], s["phi"], s["current"]
+    twist = 12 * (ph - th) + R("0.01") * (wp - w)
+    return [R("0.25") * R("0.4") ** 2 * a + R("0.25") * R("9.80665") * R("0.4") * sin(th) - twist,
+            R("0.0005") * ap + R("0.002") * wp + twist - R("0.08") * i,
+            R("0.004") * di + R("0.75") * i + R("0.08") * wp - volts]
+
+
+def beam(s, load=0, P=40):
+    w, _, ddw, _, ddddw = s["w"]
+    return [250 * ddddw + P * ddw + 1000 * w + 5000 * w**3 - load]
+
+
+def coupled_ten(s, k3=150):
+    def at(i, order):
+        return s[f"x{i}"][order] if 0 <= i < 10 else 0
+
+    return [R(1, 2) * (4 * at(i, 2) + at(i - 1, 2) + at(i + 1, 2))
+            + 400 * (2 * at(i, 0) - at(i - 1, 0) - at(i + 1, 0)) + k3 * at(i, 0) ** 3
+            for i in range(10)]
+
+
 def cases():
     def case(build, order, ranges=None, vary=None):
         return Case(f"tests/mechanisms/{build.__name__}.whirl", order, build, ranges, vary, True)
@@ -53,4 +75,8 @@ def cases():
         case(mixed_order, {"x": 3, "y": 2, "z": 1}),
         case(dc_motor, {"theta": 2, "current": 1}, {"theta'": (-99, 99), "current": (-9, 9)},
              {"volts": (-12, 12)}),
+        case(dc_motor_pendulum, {"theta": 2, "phi": 2, "current": 1}, {"current": (-9, 9)},
+             {"volts": (-12, 12)}),
+        case(beam, {"w": 4}, {}, {"load": (-9, 9), "P": (-90, 90)}),
+        case(coupled_ten, {f"x{i}": 2 for i in range(10)}, {}, {"k3": (0, 200)}),
     ]

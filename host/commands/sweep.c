@@ -1,0 +1,330 @@
+/* sweep.c: `whirl sweep`: a run for every point of a grid, a row of measures each. */
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "commands.h"
+#include "host/lang/builtin.h"
+#include "host/sweep/fingerprint.h"
+#include "host/sweep/jobs.h"
+#include "host/sweep/session.h"
+#include "load.h"
+#include "options.h"
+
+static const char usage[] =
+    "usage: whirl sweep SCENE|FILE[:SCENE] --over NAME=FROM..TO:COUNT[,log] ... [options]\n"
+    "\n"
+    "Runs a scene at every point of a grid and writes a row of measures for each.\n"
+    "\n"
+    "  --over RANGE         COUNT values of a parameter, an input, a start value or the step;\n"
+    "                       a bare number is SI: \"r=10..60 [mm]:11\", \"theta'=100..400 [rpm]:7\",\n"
+    "                       \"step=0.1..10 [ms]:9,log\". Repeatable: the full grid, the last fastest\n"
+    "  --measure EXPR       the expression's value at the end; or max(EXPR), min(EXPR), mean(EXPR),\n"
+    "                       amplitude(EXPR), period(EXPR) over the run. Repeatable; without it the\n"
+    "                       final state and the outputs\n"
+    "  --from TIME          measure only from then on (final values stay those of the end)\n"
+    "  --csv FILE           rows by rising point; - is standard output (default). The same command\n"
+    "                       goes on with the FILE of a sweep that was broken off\n"
+    "  --fresh              start FILE anew instead\n"
+    "  --jobs N             processes (default: one a processor); the rows do not depend on it\n"
+    "  --shard K/N          the K-th of N parts: their files, in order, are the whole file\n"
+    "  --quiet              no progress, no summary\n"
+    "\n"
+    "  --set --start --with --without --step --until --method --number --compensated: as for\n"
+    "  `whirl run`\n"
+    "\n"
+    "Exit status: 0 done; 1 points failed (their measures are empty; the others are there) or the file\n"
+    "could not be written; 2 bad input, or FILE is another sweep's; 130 interrupted.\n";
+
+static volatile sig_atomic_t interrupted;
+
+static void on_interrupt(int signal_number) {
+    (void)signal_number;
+    interrupted = 1;
+}
+
+/* --- options -------------------------------------------------------------------------------------*/
+
+typedef struct sweep_options {
+    change_options changes;
+    const char *target;
+    const char **over; /* [word count] */
+    int over_count;
+    const char **measure; /* [word count] */
+    int measure_count;
+    const char *from;
+    const char *csv;
+    shard part;
+    int jobs;
+    bool fresh;
+    bool quiet;
+    const engine_kind *kind;
+    engine_settings engine;
+} sweep_options;
+
+static bool choose(const char *what, const char *value, const char *const *names, int count,
+                   int *chosen) {
+    for (int i = 0; i < count; i++) {
+        if (strcmp(value, names[i]) == 0) {
+            *chosen = i;
+            return true;
+        }
+    }
+    fprintf(stderr, "whirl sweep: error: there is no %s '%s'\nhint: one of", what, value);
+    for (int i = 0; i < count; i++) {
+        fprintf(stderr, "%s %s", i > 0 ? "," : "", names[i]);
+    }
+    fputc('\n', stderr);
+    return false;
+}
+
+/* A whole number from 1 to `limit`, up to the end of the text or `end`. */
+static bool read_whole(const char *text, char end, unsigned long long limit,
+                       unsigned long long *value, const char **rest) {
+    const size_t digits = strspn(text, "0123456789");
+    *value = digits > 0 && digits < 10 ? strtoull(text, NULL, 10) : 0;
+    *rest = text + digits + (text[digits] == '\0' ? 0 : 1);
+    return *value >= 1 && *value <= limit && text[digits] == end;
+}
+
+static bool read_jobs(const char *text, sweep_options *o) {
+    unsigned long long wanted;
+    const char *rest;
+    if (!read_whole(text, '\0', JOBS_WORKERS_MAX, &wanted, &rest)) {
+        fprintf(stderr, "whirl sweep: error: --jobs takes a number from 1 to %d\n",
+                JOBS_WORKERS_MAX);
+        return false;
+    }
+    o->jobs = (int)wanted;
+    return true;
+}
+
+static bool read_shard(const char *text, sweep_options *o) {
+    unsigned long long number;
+    unsigned long long of;
+    const char *rest;
+    if (!read_whole(text, '/', 1000000, &number, &rest) ||
+        !read_whole(rest, '\0', 1000000, &of, &rest) || number > of) {
+        fprintf(stderr, "whirl sweep: error: --shard takes K/N with 1 <= K <= N <= 1000000\n");
+        return false;
+    }
+    o->part = (shard){number, of};
+    return true;
+}
+
+/* One option with a value; false when the word is none of them. */
+static bool take_valued(int count, char **words, int *at, sweep_options *o, bool *bad) {
+    static const char *const methods[] = {[WH_EULER] = "euler",
+                                          [WH_SEMI_IMPLICIT_EULER] = "semi-implicit-euler",
+                                          [WH_HEUN] = "heun",
+                                          [WH_RK4] = "rk4"};
+    static const char *const numbers[] = {"double", "float"};
+    const char *value;
+    int chosen = 0;
+    if ((value = options_value(count, words, at, "--over", bad)) != NULL) {
+        o->over[o->over_count++] = value;
+    } else if (!*bad && (value = options_value(count, words, at, "--measure", bad)) != NULL) {
+        o->measure[o->measure_count++] = value;
+    } else if (!*bad && (value = options_value(count, words, at, "--from", bad)) != NULL) {
+        o->from = value;
+    } else if (!*bad && (value = options_value(count, words, at, "--csv", bad)) != NULL) {
+        o->csv = value;
+    } else if (!*bad && (value = options_value(count, words, at, "--jobs", bad)) != NULL) {
+        *bad = !read_jobs(value, o);
+    } else if (!*bad && (value = options_value(count, words, at, "--shard", bad)) != NULL) {
+        *bad = !read_shard(value, o);
+    } else if (!*bad && (value = options_value(count, words, at, "--method", bad)) != NULL) {
+        *bad = !choose("method", value, methods, 4, &chosen);
+        o->engine.method = (wh_method)chosen;
+    } else if (!*bad && (value = options_value(count, words, at, "--number", bad)) != NULL) {
+        *bad = !choose("number", value, numbers, 2, &chosen);
+        o->kind = chosen == 1 ? &engine_float : &engine_double;
+    }
+    return value != NULL;
+}
+
+static bool take_flag(char **words, int *at, sweep_options *o) {
+    const struct {
+        const char *name;
+        bool *flag;
+    } flags[] = {
+        {"--fresh", &o->fresh}, {"--quiet", &o->quiet}, {"--compensated", &o->engine.compensated}};
+    for (size_t i = 0; i < sizeof flags / sizeof flags[0]; i++) {
+        if (strcmp(words[*at], flags[i].name) == 0) {
+            *flags[i].flag = true;
+            ++*at;
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool read_options(int count, char **words, sweep_options *o) {
+    bool bad = false;
+    for (int at = 0; at < count && !bad;) {
+        if (take_flag(words, &at, o) || take_valued(count, words, &at, o, &bad) || bad ||
+            options_change(count, words, &at, &o->changes, &bad) || bad) {
+            continue;
+        }
+        if (words[at][0] == '-' && words[at][1] != '\0') {
+            options_unknown("sweep", words[at],
+                            (const char *const[]){CHANGE_OPTIONS, "--over", "--measure", "--from",
+                                                  "--csv", "--fresh", "--jobs", "--shard",
+                                                  "--method", "--number", "--compensated",
+                                                  "--quiet", "--help", NULL});
+            return false;
+        }
+        if (o->target != NULL) {
+            fprintf(stderr, "whirl sweep: error: one scene at a time, not also '%s'\n", words[at]);
+            return false;
+        }
+        o->target = words[at++];
+    }
+    if (!bad && o->target == NULL) {
+        fputs(usage, stderr);
+        return false;
+    }
+    if (!bad && o->over_count == 0) {
+        fprintf(stderr, "whirl sweep: error: nothing to sweep over\n"
+                        "hint: such as --over \"r=10..60 [mm]:11\"\n");
+        return false;
+    }
+    return !bad;
+}
+
+/* --- the sweep -----------------------------------------------------------------------------------*/
+
+static const char *model_text(const source_model *from) {
+    for (size_t i = 0; i < builtin_model_count && from->text == NULL; i++) {
+        if (strcmp(builtin_models[i].file, from->file) == 0) {
+            return builtin_models[i].text;
+        }
+    }
+    return from->text != NULL ? from->text : "";
+}
+
+static int sweep_loaded(const sweep_options *o, const source_model *from, const loaded *base,
+                        sweep *s) {
+    const char *missing = program_needs_libm(base->program);
+    if (missing != NULL && s->kind == &engine_float) {
+        fprintf(stderr,
+                "%s: error: '%s' needs %s, which the core does not offer in float\n"
+                "hint: sweep it with --number double\n",
+                from->file, base->instance->name, missing);
+        return EXIT_BAD_INPUT;
+    }
+    s->shared = sweep_can_share(s->grid, base->program) ? base->program : NULL;
+    uint64_t first;
+    uint64_t end;
+    grid_shard(s->grid, o->part.number, o->part.of, &first, &end);
+    char *fingerprint =
+        fingerprint_make(s, model_text(from), base->instance, base->program, o->part);
+    const session_settings settings = {.csv = o->csv,
+                                       .fingerprint = fingerprint,
+                                       .first = first,
+                                       .end = end,
+                                       .header = o->part.number == 1,
+                                       .jobs = o->jobs,
+                                       .fresh = o->fresh,
+                                       .quiet = o->quiet,
+                                       .stop = &interrupted};
+    struct sigaction action = {.sa_handler = on_interrupt};
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+    const int code = session_run(s, &settings);
+    free(fingerprint);
+    return code;
+}
+
+/* --from in seconds: read like --until, so that it may name parameters too. */
+static bool read_from(const sweep_options *o, const mechanism *of, const scene *in,
+                      overrides changes, diags *errors, double *from_s) {
+    *from_s = 0.0;
+    if (o->from == NULL) {
+        return true;
+    }
+    changes.until = o->from;
+    instance *timed = instance_make(of, in, &changes, errors);
+    if (timed == NULL) {
+        diags_flush(errors, stderr);
+        fprintf(stderr, "hint: this is about --from %s\n", o->from);
+        return false;
+    }
+    *from_s = timed->until_s;
+    instance_free(timed);
+    return true;
+}
+
+static int sweep_scene(const sweep_options *o, source_model *from, const mechanism *of,
+                       const scene *in) {
+    grid g = {0};
+    bool good = true;
+    for (int i = 0; i < o->over_count && good; i++) {
+        good = grid_add(&g, of, o->over[i], from->errors);
+    }
+    const overrides changes = change_options_overrides(&o->changes);
+    sweep s = {.grid = &g, .scene = in, .changes = &changes, .kind = o->kind, .engine = o->engine};
+    good = good && read_from(o, of, in, changes, from->errors, &s.from_s);
+    measures *wanted = good ? measures_new(of, o->measure, o->measure_count, from->errors) : NULL;
+    diags_flush(from->errors, stderr);
+    int code = EXIT_BAD_INPUT;
+    if (wanted != NULL) {
+        loaded base;
+        s.measures = wanted;
+        code = load(&base, from, &wanted->mechanism, in, &changes, true);
+        if (code == EXIT_DONE && s.from_s > base.instance->until_s) {
+            fprintf(stderr, "whirl sweep: error: --from %.9g s lies behind the end, %.9g s\n",
+                    s.from_s, base.instance->until_s);
+            code = EXIT_BAD_INPUT;
+        }
+        if (code == EXIT_DONE) {
+            code = sweep_loaded(o, from, &base, &s);
+        }
+        unload(&base);
+    }
+    measures_free(wanted);
+    grid_free(&g);
+    return code;
+}
+
+static int processors(void) {
+    const long online = sysconf(_SC_NPROCESSORS_ONLN);
+    return online < 1 ? 1 : online > JOBS_WORKERS_MAX ? JOBS_WORKERS_MAX : (int)online;
+}
+
+int command_sweep(int count, char **words) {
+    if (options_help(count, words, usage)) {
+        return EXIT_DONE;
+    }
+    sweep_options o = {.csv = "-",
+                       .part = {1, 1},
+                       .jobs = processors(),
+                       .kind = &engine_double,
+                       .engine = {WH_RK4, false}};
+    o.over = calloc((size_t)count + 1, sizeof(const char *));
+    o.measure = calloc((size_t)count + 1, sizeof(const char *));
+    if (o.over == NULL || o.measure == NULL) {
+        abort();
+    }
+    int code = EXIT_BAD_INPUT;
+    if (read_options(count, words, &o)) {
+        source_model from;
+        const mechanism *of;
+        const scene *in;
+        code = source_open(&from, o.target);
+        if (code == EXIT_DONE) {
+            code = source_pick(&from, true, &of, &in);
+        }
+        if (code == EXIT_DONE) {
+            code = sweep_scene(&o, &from, of, in);
+        }
+        source_close(&from);
+    }
+    change_options_free(&o.changes);
+    free(o.over);
+    free(o.measure);
+    return code;
+}

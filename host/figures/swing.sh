@@ -1,0 +1,61 @@
+#!/bin/sh
+# swing.sh WHIRL cycles|law: the swing of disc 33 about the line BC of the driven hinge, cycle by cycle.
+#
+# With phi = theta2 - theta1 the only coordinate besides the cyclic theta1, the total angular momentum
+# is L = M t and phi swings under a Hamiltonian that changes with L alone. If L changes slowly, the
+# action, the integral of p dphi over a cycle, stays. In units with a = m r^2, b = I + m r^2:
+#   p = (b + a cos phi) theta1' + b phi',   L = (a + b + 2 a cos phi) theta1' + (b + a cos phi) phi'
+# "cycles" runs the scene and prints for each cycle its middle time, amplitude [rad], action [J s] and
+# mean energy of the swing [J] (the kinetic energy less that of turning stiffly with the same L).
+#
+# "law" runs nothing: it prints `time,amplitude` for an action that stays at 7 J s. At an amplitude A
+# the action is L times 4 times the integral from 0 to A of
+#   sqrt((b - B^2/C) (1/C(A) - 1/C(phi))),   B = b + a cos phi,   C(phi) = a + b + 2 a cos phi
+set -eu
+if [ "${2:?usage: swing.sh WHIRL cycles|law}" = law ]; then
+    awk 'function C(phi) { return a + b + 2 * a * cos(phi) }
+    BEGIN {
+        a = 2 * 0.3 * 0.3; b = 1.5 * a; n = 2000
+        print "time,amplitude"
+        for (A = 1.04; A < 2.0; A += 0.02) {
+            sum = 0
+            for (i = 0; i < n; i++) { # phi = A sin u takes the root away at the end of the swing
+                u = (i + 0.5) / n * 1.5707963267948966
+                phi = A * sin(u)
+                B = b + a * cos(phi)
+                sum += sqrt((b - B * B / C(phi)) * (1 / C(A) - 1 / C(phi))) * A * cos(u)
+            }
+            printf "%.6f,%.2f\n", 7 / (2 * 4 * sum * 1.5707963267948966 / n), A
+        }
+    }'
+    exit
+fi
+"$1" run driven_hinge_from_rest --quiet --columns - | awk '
+    BEGIN { a = 2 * 0.3 * 0.3; b = 1.5 * a; print "time,amplitude,action,swing_energy" }
+    /^%/ { next }
+    {
+        w = $4; rate = $5 - $4; phi = $3 - $2
+        p = (b + a * cos(phi)) * w + b * rate
+        L = (a + b + 2 * a * cos(phi)) * w + (b + a * cos(phi)) * rate
+        kinetic = (a * w * w + b * $5 * $5) / 2 + a * w * $5 * cos(phi)
+        swing = kinetic - L * L / (2 * (3 * a + b))
+        # a cycle is from one upward passage of phi = 0 to the next
+        if (n > 0 && before < 0 && phi >= 0) {
+            part = -before / (phi - before)
+            area += (p_before + p) / 2 * part * (phi - before)
+            crossed = $1 - (1 - part) * 0.001
+            if (since != "") {
+                printf "%.6f,%.6f,%.8f,%.8f\n", (since + crossed) / 2, (high - low) / 2, area,
+                    sum / points
+            }
+            since = crossed
+            area = (p_before + p) / 2 * (1 - part) * (phi - before)
+            high = low = sum = points = 0
+        } else {
+            area += (p_before + p) / 2 * (phi - before)
+        }
+        if (phi > high) high = phi
+        if (phi < low) low = phi
+        sum += swing; points++; n++
+        before = phi; p_before = p
+    }'

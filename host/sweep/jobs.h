@@ -1,0 +1,43 @@
+/* jobs.h: points worked on by several processes, delivered in order.
+ *
+ * The parent hands numbers out over one pipe; whichever worker is free takes the next. Rows come back
+ * over a pipe for each worker and are delivered by rising number, at once when their turn has come.
+ * What a worker does for a point must depend on nothing but the point: then what is delivered does
+ * not depend on the number of workers. Workers end when the parent does, however it ends. */
+#ifndef SWEEP_JOBS_H
+#define SWEEP_JOBS_H
+
+#include <signal.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+
+typedef struct jobs {
+    int workers; /* >= 1 */
+    uint64_t first;
+    uint64_t end;
+    void *context;
+    /* In a worker: write the point's row, and what is to be said of it. False when it failed. */
+    bool (*work)(void *context, uint64_t point, FILE *row, FILE *reason);
+    /* In the parent, in order. False ends it all. `reason` is "" or one line. */
+    bool (*deliver)(void *context, uint64_t point, bool good, const char *row, const char *reason);
+    /* In the parent, after some rows or a moment: write out what was delivered, show progress. */
+    bool (*pause)(void *context, uint64_t next);
+    const volatile sig_atomic_t *stop; /* set from outside to end it */
+} jobs;
+
+typedef enum jobs_result {
+    JOBS_DONE,
+    JOBS_STOPPED,    /* by *stop */
+    JOBS_REFUSED,    /* deliver or pause said so */
+    JOBS_WORKER_LOST /* a worker ended early, or none could be started (said) */
+} jobs_result;
+
+#define JOBS_WORKERS_MAX 1024
+
+jobs_result jobs_run(const jobs *j);
+
+/* In a worker: has the parent gone? */
+bool jobs_orphaned(void);
+
+#endif

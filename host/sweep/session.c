@@ -1,0 +1,156 @@
+/* session.c: points to rows to a file, with what is to be said meanwhile. */
+#include "session.h"
+
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "jobs.h"
+#include "progress.h"
+#include "sheet.h"
+
+/* What the parent process knows while rows come in. */
+typedef struct sitting {
+    const sweep *sweep;
+    sheet sheet;
+    progress progress;
+    uint64_t first; /* point of the sheet's first row */
+    uint64_t failed;
+    int told; /* failures described */
+} sitting;
+
+enum { TOLD_MAX = 20 };
+
+static bool work(void *context, uint64_t point, FILE *row, FILE *reason) {
+    const sitting *s = context;
+    return sweep_point(s->sweep, point, jobs_orphaned, row, reason);
+}
+
+/* "point 17 (r=0.02, theta'=31.4)" */
+static void name_point(const sweep *s, uint64_t point) {
+    double *value = calloc((size_t)s->grid->count, sizeof *value);
+    char text[NUMBER_SIZE];
+    if (value == NULL) {
+        abort();
+    }
+    grid_values(s->grid, point, value);
+    fprintf(stderr, "whirl sweep: error: point %llu (", (unsigned long long)point + 1);
+    for (int i = 0; i < s->grid->count; i++) {
+        fprintf(stderr, "%s%s=%s", i > 0 ? ", " : "", s->grid->axes[i].name,
+                number_shortest(value[i], text));
+    }
+    fprintf(stderr, ")");
+    free(value);
+}
+
+static bool deliver(void *context, uint64_t point, bool good, const char *row, const char *reason) {
+    sitting *s = context;
+    if (!good) {
+        s->failed++;
+        if (s->told < TOLD_MAX) {
+            progress_clear(&s->progress);
+            name_point(s->sweep, point);
+            fprintf(stderr, ": %s\n", reason);
+        } else if (s->told == TOLD_MAX) {
+            fprintf(stderr, "further failures are not listed: their measures are empty\n");
+        }
+        s->told += s->told <= TOLD_MAX ? 1 : 0;
+    }
+    return fputs(row, s->sheet.out) >= 0;
+}
+
+static bool pause_between(void *context, uint64_t next) {
+    sitting *s = context;
+    progress_show(&s->progress, next - s->first);
+    return fflush(s->sheet.out) == 0;
+}
+
+static void swept(const void *context, uint64_t row, FILE *out) {
+    const sitting *s = context;
+    sweep_swept_fields(s->sweep, s->first + row, out);
+}
+
+static void say_end(const session_settings *o, const sitting *s, int workers) {
+    const uint64_t rows = o->end - o->first;
+    const double seconds = progress_elapsed_s(&s->progress);
+    const uint64_t done = rows - s->sheet.rows;
+    if (s->failed > 0) {
+        fprintf(stderr,
+                "whirl sweep: error: %llu of %llu points failed: their measures are empty\n",
+                (unsigned long long)s->failed, (unsigned long long)rows);
+    }
+    if (o->quiet) {
+        return;
+    }
+    fprintf(stderr, "%llu points", (unsigned long long)rows);
+    if (s->sheet.rows > 0) {
+        fprintf(stderr, ", %llu of them found in %s", (unsigned long long)s->sheet.rows, o->csv);
+    }
+    if (done > 0) {
+        fprintf(stderr, "; %.3g s, %.3g points/s with --jobs %d", seconds, (double)done / seconds,
+                workers);
+    }
+    fputc('\n', stderr);
+}
+
+/* Run what the sheet lacks. */
+static int run_points(const session_settings *o, sitting *s) {
+    const uint64_t next = s->first + s->sheet.rows;
+    const uint64_t missing = o->end - next;
+    const int workers = missing < (uint64_t)o->jobs ? (int)missing : o->jobs;
+    s->failed = s->sheet.failed;
+    s->progress = progress_start(!o->quiet && isatty(STDERR_FILENO) ? stderr : NULL, s->sheet.rows,
+                                 o->end - o->first);
+    const jobs plan = {.workers = workers,
+                       .first = next,
+                       .end = o->end,
+                       .context = s,
+                       .work = work,
+                       .deliver = deliver,
+                       .pause = pause_between,
+                       .stop = o->stop};
+    const jobs_result result = missing > 0 ? jobs_run(&plan) : JOBS_DONE;
+    progress_clear(&s->progress);
+    if (!sheet_close(&s->sheet)) {
+        return SESSION_FAILED;
+    }
+    const char *hint = s->sheet.is_file ? "hint: the same command goes on from there\n" : "";
+    switch (result) {
+    case JOBS_DONE: say_end(o, s, workers); break;
+    case JOBS_STOPPED:
+        fprintf(stderr, "whirl sweep: interrupted\n%s", hint);
+        return SESSION_INTERRUPTED;
+    case JOBS_WORKER_LOST:
+        fprintf(stderr, "whirl sweep: error: a worker process ended early\n%s", hint);
+        return SESSION_FAILED;
+    case JOBS_REFUSED: return SESSION_FAILED;
+    }
+    return s->failed > 0 ? SESSION_FAILED : SESSION_DONE;
+}
+
+int session_run(const sweep *s, const session_settings *o) {
+    sitting here = {.sweep = s, .first = o->first};
+    char *header = NULL;
+    size_t length = 0;
+    FILE *out = open_memstream(&header, &length);
+    if (out == NULL) {
+        abort();
+    }
+    if (o->header) {
+        sweep_header(s, out);
+    }
+    fclose(out);
+    const sheet_settings settings = {.path = o->csv,
+                                     .fingerprint = o->fingerprint,
+                                     .header = header,
+                                     .rows = o->end - o->first,
+                                     .measures = s->measures->count,
+                                     .swept = swept,
+                                     .context = &here,
+                                     .fresh = o->fresh};
+    int code = sheet_open(&here.sheet, &settings);
+    if (code == SESSION_DONE) {
+        code = run_points(o, &here);
+    }
+    free(header);
+    return code;
+}

@@ -1,0 +1,246 @@
+/* sheet.c: opening, checking and continuing a sweep's CSV file. */
+#include "sheet.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { GOOD = 0, CANNOT_WRITE = 1, REFUSED = 2 };
+
+static int refuse(const char *path, const char *why) {
+    fprintf(stderr, "%s: error: %s\nhint: another --csv keeps it; --fresh overwrites it\n", path,
+            why);
+    return REFUSED;
+}
+
+static int cannot_write(const char *path) {
+    fprintf(stderr, "%s: error: cannot be written: %s\n", path, strerror(errno));
+    return CANNOT_WRITE;
+}
+
+static char *beside(const char *path, const char *ending) {
+    const size_t size = strlen(path) + strlen(ending) + 1;
+    char *name = malloc(size);
+    if (name == NULL) {
+        abort();
+    }
+    snprintf(name, size, "%s%s", path, ending);
+    return name;
+}
+
+/* --- the fingerprint -----------------------------------------------------------------------------*/
+
+static char *read_text(const char *path) {
+    FILE *in = fopen(path, "rb");
+    if (in == NULL) {
+        return NULL;
+    }
+    char *text = NULL;
+    size_t length = 0;
+    FILE *copy = open_memstream(&text, &length);
+    if (copy == NULL) {
+        abort();
+    }
+    for (int c = getc(in); c != EOF; c = getc(in)) {
+        putc(c, copy);
+    }
+    fclose(copy);
+    fclose(in);
+    return text;
+}
+
+/* A crash must not leave half of it: written beside, then put in place. */
+static bool write_fingerprint(const sheet_settings *s, const char *path) {
+    char *fresh = beside(path, ".new");
+    FILE *out = fopen(fresh, "wb");
+    bool good = out != NULL && fputs(s->fingerprint, out) >= 0;
+    good = out != NULL && fclose(out) == 0 && good;
+    good = good && rename(fresh, path) == 0;
+    free(fresh);
+    return good;
+}
+
+static int line_length(const char *text) { return (int)strcspn(text, "\n"); }
+
+static int check_fingerprint(const sheet_settings *s, const char *path) {
+    char *there = read_text(path);
+    if (there == NULL) {
+        return refuse(s->path, "it is no sweep's: there is no FILE.sweep beside it");
+    }
+    const char *old = there;
+    const char *new = s->fingerprint;
+    while (*old != '\0' && *new != '\0' && line_length(old) == line_length(new) &&
+           strncmp(old, new, (size_t)line_length(old)) == 0) {
+        old += line_length(old) + (old[line_length(old)] == '\n');
+        new += line_length(new) + (new[line_length(new)] == '\n');
+    }
+    int code = GOOD;
+    if (*old != '\0' || *new != '\0') {
+        code = refuse(s->path, "it belongs to another sweep");
+        fprintf(stderr, "  there: %.*s\n  here:  %.*s\n", line_length(old), old, line_length(new),
+                new);
+    }
+    free(there);
+    return code;
+}
+
+/* --- the rows that are there ---------------------------------------------------------------------*/
+
+static bool ends_whole(const char *line, ssize_t length) {
+    return length >= 2 && line[length - 2] == '\r' && line[length - 1] == '\n';
+}
+
+/* The text of the swept fields with the comma behind them. */
+static char *swept_text(const sheet_settings *s, uint64_t row) {
+    char *text = NULL;
+    size_t length = 0;
+    FILE *out = open_memstream(&text, &length);
+    if (out == NULL) {
+        abort();
+    }
+    s->swept(s->context, row, out);
+    fputc(',', out);
+    fclose(out);
+    return text;
+}
+
+/* Is this the row: its swept fields, and so many numbers or empty fields behind them? */
+static bool is_row(const sheet_settings *s, const char *line, size_t length, uint64_t row,
+                   bool *failed) {
+    char *swept = swept_text(s, row);
+    const size_t start = strlen(swept);
+    bool good = row < s->rows && length > start && strncmp(line, swept, start) == 0;
+    free(swept);
+    int commas = 0;
+    for (size_t i = start; i < length - 2 && good; i++) {
+        good = line[i] != '\0' && strchr("0123456789+-.einfa,", line[i]) != NULL;
+        commas += line[i] == ',';
+    }
+    *failed = good && (line[start] == ',' || line[start] == '\r');
+    return good && commas == s->measures - 1;
+}
+
+/* Walk through the rows; *whole is where the last whole one ends. */
+static int check_rows(sheet *sh, const sheet_settings *s, off_t *whole) {
+    char *line = NULL;
+    size_t size = 0;
+    int code = GOOD;
+    bool in_header = s->header[0] != '\0';
+    *whole = 0;
+    for (;;) {
+        const ssize_t length = getline(&line, &size, sh->out);
+        if (length < 0 || !ends_whole(line, length)) {
+            break;
+        }
+        bool failed = false;
+        if (in_header && strcmp(line, s->header) != 0) {
+            code = refuse(s->path, "its header is another sweep's");
+            break;
+        }
+        if (!in_header && !is_row(s, line, (size_t)length, sh->rows, &failed)) {
+            char why[100];
+            snprintf(why, sizeof why, "its row %llu is not this sweep's",
+                     (unsigned long long)sh->rows + 1);
+            code = refuse(s->path, why);
+            break;
+        }
+        *whole += (off_t)length;
+        sh->rows += in_header ? 0 : 1;
+        sh->failed += failed ? 1 : 0;
+        in_header = false;
+    }
+    free(line);
+    return code;
+}
+
+/* --- opening -------------------------------------------------------------------------------------*/
+
+static int lock(const sheet *sh, const char *path) {
+    struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
+    if (fcntl(fileno(sh->out), F_SETLK, &whole) == 0) {
+        return GOOD;
+    }
+    if (errno != EACCES && errno != EAGAIN) {
+        return GOOD; /* a file system without locks */
+    }
+    fprintf(stderr, "%s: error: another sweep is writing it\n", path);
+    return REFUSED;
+}
+
+static int go_on(sheet *sh, const sheet_settings *s, const char *beside_path, off_t size) {
+    off_t whole = 0;
+    int code = GOOD;
+    if (size > 0 && !s->fresh) {
+        code = check_fingerprint(s, beside_path);
+        code = code == GOOD ? check_rows(sh, s, &whole) : code;
+    }
+    if (code != GOOD) {
+        return code;
+    }
+    /* what the file holds must never be newer than what the fingerprint says */
+    if (whole == 0 && ftruncate(fileno(sh->out), 0) != 0) {
+        return cannot_write(s->path);
+    }
+    if (!write_fingerprint(s, beside_path)) {
+        return cannot_write(beside_path);
+    }
+    if (ftruncate(fileno(sh->out), whole) != 0 || fseeko(sh->out, whole, SEEK_SET) != 0) {
+        return cannot_write(s->path);
+    }
+    if (whole == 0 && (fputs(s->header, sh->out) < 0 || fflush(sh->out) != 0)) {
+        return cannot_write(s->path);
+    }
+    return GOOD;
+}
+
+int sheet_open(sheet *sh, const sheet_settings *s) {
+    *sh = (sheet){0};
+    struct stat about = {0};
+    const bool is_stdout = strcmp(s->path, "-") == 0;
+    const bool exists = !is_stdout && stat(s->path, &about) == 0;
+    if (is_stdout || (exists && !S_ISREG(about.st_mode))) {
+        sh->out = is_stdout ? stdout : fopen(s->path, "wb");
+        if (sh->out == NULL || fputs(s->header, sh->out) < 0) {
+            return cannot_write(s->path);
+        }
+        return GOOD;
+    }
+    sh->is_file = true;
+    const int file = open(s->path, O_RDWR | O_CREAT, 0666);
+    sh->out = file < 0 ? NULL : fdopen(file, "r+b");
+    if (sh->out == NULL) {
+        cannot_write(s->path);
+        return REFUSED; /* a wrong path is bad input, as for `run` */
+    }
+    int code = lock(sh, s->path);
+    if (code == GOOD && fstat(file, &about) != 0) {
+        code = cannot_write(s->path);
+    }
+    if (code == GOOD) {
+        char *path = beside(s->path, ".sweep");
+        code = go_on(sh, s, path, about.st_size);
+        free(path);
+    }
+    if (code != GOOD) {
+        fclose(sh->out);
+        sh->out = NULL;
+    }
+    return code;
+}
+
+bool sheet_close(sheet *s) {
+    if (s->out == NULL) {
+        return true;
+    }
+    const bool good = fflush(s->out) == 0 && ferror(s->out) == 0;
+    const bool closed = s->out == stdout || fclose(s->out) == 0;
+    if (!good || !closed) {
+        fprintf(stderr, "whirl sweep: error: the rows could not all be written: %s\n",
+                strerror(errno));
+    }
+    s->out = NULL;
+    return good && closed;
+}

@@ -1,0 +1,39 @@
+/* sheet.h: the CSV file of a sweep, which a later run of the same sweep goes on with.
+ *
+ * Beside FILE stands FILE.sweep: the sweep's settings, a line each, that decide every byte of FILE.
+ * FILE itself stays plain. A run goes on with a FILE whose settings, header and swept values are its
+ * own, drops a last line that was torn off, and refuses any other. While a sweep writes FILE it holds
+ * a lock on it. */
+#ifndef SWEEP_SHEET_H
+#define SWEEP_SHEET_H
+
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+
+typedef struct sheet {
+    FILE *out;
+    bool is_file;    /* not standard output, a pipe or a device: can be gone on with */
+    uint64_t rows;   /* already there */
+    uint64_t failed; /* of them, with empty measures */
+} sheet;
+
+typedef struct sheet_settings {
+    const char *path;        /* "-" is standard output */
+    const char *fingerprint; /* lines of "what: value" */
+    const char *header;      /* with its line's end; "" for none */
+    uint64_t rows;           /* the whole sheet has, without the header */
+    int measures;            /* fields behind the swept ones */
+    /* The swept fields of row `row`, as they stand in the file. */
+    void (*swept)(const void *context, uint64_t row, FILE *out);
+    const void *context;
+    bool fresh; /* start anew, whatever is there */
+} sheet_settings;
+
+/* Open and check; the header is written when it is not there yet. Returns an exit code: 0 good, 1 the
+ * file could not be written, 2 it is another sweep's or in use (said on standard error). */
+int sheet_open(sheet *s, const sheet_settings *settings);
+/* False when something was not written (said). */
+bool sheet_close(sheet *s);
+
+#endif

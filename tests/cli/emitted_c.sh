@@ -1,0 +1,205 @@
+#!/bin/sh
+# emitted_c.sh: `whirl derive --as c` compiles by itself without a warning, in float and in double, with
+# gcc and with clang, and steps to the same bits as the interpreter: for every built-in scene, every file
+# of tests/mechanisms, and scenes made for the odd corners of the operation list.
+set -u
+
+whirl=${WHIRL:-build/whirl}
+scratch=$(mktemp -d) || exit 1
+trap 'rm -rf "$scratch"' EXIT
+failed=0
+compared=0
+refused=0
+warnings="-std=c11 -ffp-contract=off -I. -Wall -Wextra -Wconversion -Wshadow -Wdouble-promotion -Werror"
+
+verdict() { # verdict GOOD WHAT
+    if [ "$1" -eq 0 ]; then
+        echo "ok - $2"
+    else
+        echo "not ok - $2"
+        failed=1
+    fi
+}
+
+# --- what is to be compared: lines "NUMBER WHAT", options in NUMBER.options --------------------------
+number=0
+add() { # add TARGET OPTION...: what to derive and run
+    number=$((number + 1))
+    echo "$number $1" >>"$scratch/list"
+    printf '%s\n' "$@" >"$scratch/$number.options"
+}
+
+for scene in $("$whirl" list | awk '$1 == "scene" { print $2 }'); do
+    add "$scene" --until 0.3s
+done
+for scene in thomson_b spherical_flight two_mass_relative epicyclic_conserved; do
+    add "$scene" --until 0.3s --compensated
+    for method in heun euler semi-implicit-euler; do
+        add "$scene" --until 0.2s --method "$method"
+    done
+    add "$scene" --until 0.2s --method heun --compensated
+done
+
+# The state of a mechanism's file: every value and rate something of its own.
+start_of() {
+    "$whirl" accel "$1" 2>/dev/null | awk '{
+        name = $1; order = gsub("\047", "", name); rate = name
+        printf "--start\n%s=%s\n", name, 0.35 + 0.11 * NR
+        for (i = 1; i < order; i++) { rate = rate "\047"; printf "--start\n%s=%s\n", rate, 0.4 - 0.17 * NR * i }
+    }'
+}
+add_file() {
+    number=$((number + 1))
+    echo "$number $1" >>"$scratch/list"
+    { echo "$1"; start_of "$1"; printf '%s\n' --until 0.3s; } >"$scratch/$number.options"
+}
+for file in tests/mechanisms/*.whirl; do
+    add_file "$file"
+done
+
+mkdir "$scratch/w"
+cat >"$scratch/w/offsets.whirl" <<'END'
+mechanism offsets "phases with offsets, negative and large multiples, sums"
+coordinate a [rad]
+coordinate b [rad]
+input push = 0.7 [N*m]
+parameter J = 0.3 [kg*m^2]
+T = J*(a'^2 + b'^2 + a'*b'*cos(a - 2*b + 0.7)/3)/2
+V = 1 [J]*(sin(a + 0.3) + cos(0.5 - 3*a) + sin(-2*b - 1.25)*cos(5*a + b) + cos(40*a)/50)
+F = 0.05 [N*m*s]*(a' - b')^2/2
+Q(b) = push*cos(a + 1)
+output height [m] = 1 [m]*sin(a - 0.4)
+output turned [rad] = a + 2*b
+END
+cat >"$scratch/w/outside.whirl" <<'END'
+mechanism outside "an angle outside sines, a sine of a length, half an angle, a tangent"
+coordinate a [rad]
+coordinate c [rad]
+coordinate x [m]
+parameter m = 1.5 [kg]
+parameter L = 0.8 [m]
+T = m*x'^2/2 + m*L^2*(a'^2 + c'^2)/2
+V = 3 [J]*a^2/2 - m*9.81 [m/s^2]*L*cos(a) + 2 [J]*sin(x/L)*cos(c) + 1 [J]*cos(c/2) + 0.1 [J]*tan(x/(2*L))
+END
+cat >"$scratch/w/roots.whirl" <<'END'
+mechanism roots "square roots, absolute values, signs, smaller and larger"
+coordinate x [m]
+coordinate y [m]
+coordinate z [m]
+parameter m = 2 [kg]
+parameter k = 8 [N/m]
+let s = sqrt(x^2 + y^2 + 0.01 [m^2])
+T = m*(x'^2 + y'^2 + z'^2)/2
+V = k*(s - 1 [m])^2/2 + k*abs(z)*z^2/3 [m] + k*max(x, 0 [m])^2 + k*min(z, y)^2/4 + k*s^1.5*1 [m^(1/2)]/9
+F = 0.3 [kg/m]*abs(x')^3/3 + 0.2 [kg/m]*abs(y' - z')^3/3
+Q(z) = -0.1 [N]*sign(z') + 0.2 [N]*sign(x)
+END
+cat >"$scratch/w/first.whirl" <<'END'
+mechanism first "first and second order together, a turning phase, an input"
+state phase [rad]
+state u [V]
+state q
+parameter w = 3 [1/s]
+input drive = 0.25 [V]
+equation phase' = w*(1 + 0.2*sin(phase + 0.3)*sqrt(1 + q^2))
+equation u' = w*(drive - u + 0.5 [V]*cos(2*phase - 1))
+equation q''/w^2 + 0.3*abs(q')/w*q + q = min(u/1 [V], 0.4) + max(0, -q)
+output level [V] = u*cos(phase)
+END
+cat >"$scratch/w/bare.whirl" <<'END'
+mechanism bare "one length, nothing acts"
+coordinate x [m]
+T = 3 [kg]*x'^2/2
+END
+for file in "$scratch"/w/*.whirl; do
+    add_file "$file"
+done
+for file in offsets outside roots first; do
+    add_file "$scratch/w/$file.whirl"
+    echo --compensated >>"$scratch/$number.options"
+done
+
+# --- deriving and interpreting ----------------------------------------------------------------------
+: >"$scratch/numbers"
+while read -r number what; do
+    set --
+    while read -r word; do
+        set -- "$@" "$word"
+    done <"$scratch/$number.options"
+    "$whirl" derive "$@" --as c >"$scratch/emitted" 2>"$scratch/errors"
+    derived=$?
+    "$whirl" run "$@" --number float >"$scratch/$number.float" 2>"$scratch/$number.run"
+    ran=$?
+    if [ $derived -eq 2 ] && [ $ran -eq 2 ] && grep -q 'which the core does not offer' "$scratch/errors" &&
+        grep -q 'which the core does not offer' "$scratch/$number.run"; then
+        refused=$((refused + 1))
+        continue
+    fi
+    # status 1: it diverges, and must do so after the same step in both
+    if [ $derived -ne 0 ] || [ $ran -gt 1 ]; then
+        verdict 1 "$what: derive says $derived, run says $ran"
+        sed 's/^/    /' "$scratch/errors" "$scratch/$number.run" | head -n 5
+        continue
+    fi
+    "$whirl" run "$@" --number double >"$scratch/$number.double" 2>&1
+    name=$(sed -n 's/^extern const wh_scene \(.*\);$/\1/p' "$scratch/emitted")
+    # a name of its own for each, by the preprocessor: what was emitted is compiled as it is
+    { echo "#define $name scene_$number"; cat "$scratch/emitted"; } >"$scratch/scene_$number.c"
+    echo "$number" >>"$scratch/numbers"
+done <"$scratch/list"
+
+# --- one program of all -----------------------------------------------------------------------------
+{
+    echo '#include <inttypes.h>'
+    echo '#include <stdio.h>'
+    echo '#include "core/scene.h"'
+    sed 's/.*/extern const wh_scene scene_&;/' "$scratch/numbers"
+    echo 'static const struct { int number; const wh_scene *scene; } all[] = {'
+    sed 's/.*/    {&, \&scene_&},/' "$scratch/numbers"
+    cat <<'END'
+};
+static uint64_t memory[WH_STATE_WORDS(64, 128, 64)];
+int main(void) {
+    for (unsigned i = 0; i < sizeof all / sizeof all[0]; i++) {
+        wh_state state;
+        wh_status status = wh_scene_start(all[i].scene, &state, memory, sizeof memory);
+        while (status == WH_OK && state.steps < all[i].scene->steps) {
+            status = wh_scene_step(all[i].scene, &state);
+        }
+        wh_real output[64];
+        if (all[i].scene->observe != NULL && all[i].scene->outputs <= 64) {
+            all[i].scene->observe(all[i].scene, &state, output);
+        }
+        printf("%d 0x%016" PRIx64 "\n", all[i].number, wh_scene_hash(all[i].scene, &state));
+    }
+    return 0;
+}
+END
+} >"$scratch/main.c"
+
+build() { # build COMPILER OPTIMISATION REAL WH_DOUBLE
+    # shellcheck disable=SC2086 # lists of words
+    $1 $warnings $2 -DWH_DOUBLE="$4" -o "$scratch/$1_$3" "$scratch"/scene_*.c "$scratch/main.c" \
+        core/scene.c core/angle.c >"$scratch/$1_$3.log" 2>&1
+    status=$?
+    verdict $status "$1 $2 compiles $(wc -l <"$scratch/numbers") emitted scenes in $3 without a warning"
+    [ $status -eq 0 ] || { grep -E 'error|warning' "$scratch/$1_$3.log" | head -n 5; return; }
+    "$scratch/$1_$3" >"$scratch/$1_$3.hashes"
+    while read -r number hash; do
+        compared=$((compared + 1))
+        if ! grep -q "state hash.*$hash" "$scratch/$number.$3"; then
+            verdict 1 "$1 $3: $(tr '\n' ' ' <"$scratch/$number.options"): $hash, interpreted $(sed -n 's/^state hash *//p' "$scratch/$number.$3")"
+        fi
+    done <"$scratch/$1_$3.hashes"
+}
+
+build gcc -O2 float 0
+build gcc -O1 double 1
+if command -v clang >/dev/null 2>&1; then
+    build clang -O1 float 0
+    build clang -O0 double 1
+fi
+
+[ "$compared" -ge 130 ]
+verdict $? "$compared comparisons with the interpreter, $refused refused by both for want of libm"
+exit $failed
