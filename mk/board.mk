@@ -52,7 +52,7 @@ board-images: $(IMAGES)
 
 emulate = $(call BOARD_EMULATE,$(1))
 
--include $(wildcard $(patsubst %.c,$(ELF)/%.d,$(CORE_C) $(HAL_C) $(BOARD_C) $(TEST_C) $(SCENE_C) $(B)/tests/core_suites.c))
+-include $(wildcard $(patsubst %.c,$(ELF)/%.d,$(UNITY_DIR)/unity.c $(CORE_C) $(HAL_C) $(BOARD_C) $(TEST_C) $(SCENE_C) $(B)/tests/core_suites.c))
 
 .PHONY: emulate-now
 emulate-now: build/whirl

@@ -17,10 +17,10 @@ static void look(const motion *m, range *r, unsigned count, bool first) {
     }
 }
 
-void ranges_of(const char *scene, stepping how, double until_s, double every_s, range *r,
+void ranges_of(const char *which, stepping how, double until_s, double every_s, range *r,
                unsigned count) {
     motion m;
-    motion_open(&m, scene, how);
+    motion_open(&m, which, how);
     look(&m, r, count, true);
     const unsigned looks = (unsigned)floor(until_s / every_s + 0.5);
     TEST_ASSERT_TRUE(looks > 0);

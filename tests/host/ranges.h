@@ -15,7 +15,7 @@ typedef struct range {
 } range;
 
 /* The scene's run from its start to `until_s`, looked at every `every_s` and at the start. */
-void ranges_of(const char *scene, stepping how, double until_s, double every_s, range *r,
+void ranges_of(const char *which, stepping how, double until_s, double every_s, range *r,
                unsigned count);
 
 /* largest - smallest */

@@ -63,7 +63,11 @@ static char *printed(const derived *d, language as) {
     case OCTAVE: emit_octave(out, d->equations, d->program, "x.whirl"); break;
     }
     fclose(out);
-    return text;
+    char *copy = malloc(size + 1); /* gcc takes the stream's own for an address of this frame */
+    TEST_ASSERT_NOT_NULL(copy);
+    memcpy(copy, text, size + 1);
+    free(text);
+    return copy;
 }
 
 /* --- reading back --------------------------------------------------------------------------------*/

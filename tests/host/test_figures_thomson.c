@@ -24,10 +24,10 @@ typedef struct turns {
     range first_cycle;
 } turns;
 
-static turns count_turns(const char *scene, double step_s, double until_s) {
+static turns count_turns(const char *which, double step_s, double until_s) {
     turns t = {0};
     motion m;
-    motion_open(&m, scene, IN_DOUBLE_STEP(step_s));
+    motion_open(&m, which, IN_DOUBLE_STEP(step_s));
     const unsigned steps = (unsigned)floor(until_s / step_s + 0.5);
     for (unsigned i = 1; i <= steps; i++) {
         TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
@@ -120,14 +120,14 @@ static void test_figure_57_on_the_slider_as_a_rigid_body(void) {
 
 /* --- figure 58: free in the plane, and the patent's pair -------------------------------------------------- */
 
-static void check_plane(const char *scene, double x_cm, double y_cm) {
+static void check_plane(const char *which, double x_cm, double y_cm) {
     motion m;
     double nearest = 1.0;
     double furthest = 0.0;
     double off = 0.0;
     double turned = 0.0;
     double before = 0.0;
-    motion_open(&m, scene, IN_DOUBLE);
+    motion_open(&m, which, IN_DOUBLE);
     for (unsigned i = 0; i <= 10000; i++) {
         motion_to(&m, 1e-3 * i);
         const double x = motion_value(&m, "X") - x_cm;
@@ -141,7 +141,7 @@ static void check_plane(const char *scene, double x_cm, double y_cm) {
     }
     const double arm = fabs(motion_value(&m, "theta1"));
     motion_close(&m);
-    printf("  %s\n", scene);
+    printf("  %s\n", which);
     expect_between("fig 58: centre of mass off its place in the plane, m", 0.0, 1e-8, off);
     /* closed form: |4 e^(i theta1) + e^(2 i theta1) + e^(i theta2)| r/3 is between 0.2 and 0.6 m */
     expect_between("fig 58: carriage from the centre of mass, nearest, m", 0.2 - 1e-8, 0.21,
@@ -159,10 +159,10 @@ static void test_figure_58_round_and_round_in_the_plane(void) {
     check_plane("thomson_plane_conserved", 0.5, -0.1);
 }
 
-static void check_pair(const char *scene, stepping how, double cm_bound) {
+static void check_pair(const char *which, stepping how, double cm_bound) {
     range r[] = {{.name = "X"}, {.name = "Y"}, {.name = "x_cm"}, {.name = "y_cm"}};
-    ranges_of(scene, how, 10.0, 1e-3, r, 4);
-    printf("  %s\n", scene);
+    ranges_of(which, how, 10.0, 1e-3, r, 4);
+    printf("  %s\n", which);
     /* by symmetry; the bound is the project's */
     expect_between("pair: |Y|, m", 0.0, 1e-12, range_drift(&r[1]));
     expect_between("pair: drift of the centre of mass, m", 0.0, cm_bound, range_drift(&r[2]));

@@ -1,0 +1,266 @@
+/* test_devices.c: the particle in two sets of coordinates (row S4) and the devices with guided weights
+ * (S11 Laskowitz, S13 Cuff); and for every scene without an outside force, that its centre of mass
+ * stays, as well as its step or method promises. Thresholds and sources as in test_dissertation.c. */
+#include "ranges.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "unity.h"
+
+void suite_devices(void);
+
+/* --- one particle, two sets of coordinates -------------------------------------------------------------- */
+
+static double largest_distance(const char *one, const char *other, double until_s) {
+    motion a;
+    motion b;
+    double worst = 0.0;
+    motion_open(&a, one, IN_DOUBLE);
+    motion_open(&b, other, IN_DOUBLE);
+    for (unsigned i = 0; i <= (unsigned)(until_s * 1000.0 + 0.5); i++) {
+        motion_to(&a, 1e-3 * i);
+        motion_to(&b, 1e-3 * i);
+        const double dx = motion_value(&a, "x") - motion_value(&b, "x");
+        const double dy = motion_value(&a, "y") - motion_value(&b, "y");
+        const double dz = motion_value(&a, "z") - motion_value(&b, "z");
+        worst = fmax(worst, sqrt(dx * dx + dy * dy + dz * dz));
+    }
+    motion_close(&a);
+    motion_close(&b);
+    return worst;
+}
+
+static void test_particle_flies_alike_in_both_coordinate_sets(void) {
+    /* the project's bound; from below: the two cannot agree to the last bit by chance */
+    expect_between("S4: spherical - Cartesian over 2 s, m", 1e-14, 1e-9,
+                   largest_distance("spherical_flight", "cartesian_flight", 2.0));
+    /* past the pole at 0.1 m the angle whips round; RK4's own error at 1 ms */
+    expect_between("S4: the same past the pole, m", 1e-12, 1e-8,
+                   largest_distance("spherical_near_pole", "cartesian_near_pole", 1.0));
+}
+
+static void test_cartesian_particle_is_the_parabola(void) {
+    motion m;
+    double worst = 0.0;
+    motion_open(&m, "cartesian_flight", IN_DOUBLE);
+    const double vx = motion_value(&m, "x'");
+    const double vy = motion_value(&m, "y'");
+    const double vz = motion_value(&m, "z'");
+    for (unsigned i = 0; i <= 2000; i++) {
+        const double t = 1e-3 * i;
+        motion_to(&m, t);
+        /* closed form; r = 5 m, theta = 1.25, phi = 0.5, g = 9.81 m/s^2 */
+        worst = fmax(worst, fabs(motion_value(&m, "x") - (5.0 * sin(1.25) * cos(0.5) + vx * t)));
+        worst = fmax(worst, fabs(motion_value(&m, "y") - (5.0 * sin(1.25) * sin(0.5) + vy * t)));
+        worst = fmax(worst, fabs(motion_value(&m, "z") -
+                                 (5.0 * cos(1.25) + vz * t - 9.81 * t * t / 2.0)));
+    }
+    motion_close(&m);
+    /* closed form: v^2 = r'^2 + r^2 theta'^2 + r^2 sin^2 theta phi'^2 */
+    const double s = sin(1.25);
+    expect_between("S4: speed at the start, m/s",
+                   sqrt(64.0 + 14.0625 + 6.25 * s * s) - 1e-12,
+                   sqrt(64.0 + 14.0625 + 6.25 * s * s) + 1e-12, sqrt(vx * vx + vy * vy + vz * vz));
+    /* RK4 integrates a parabola exactly: rounding only */
+    expect_between("S4: Cartesian distance from the parabola, m", 0.0, 1e-12, worst);
+}
+
+/* --- guided weights ------------------------------------------------------------------------------------- */
+
+/* A wheel with its weights, and what is known of it in closed form. */
+typedef struct wheel {
+    const char *equal;  /* scene with equal weights */
+    const char *uneven; /* scene with the first weight a tenth heavier */
+    const char *nearer; /* outputs: radius of the first weight and of the one opposite */
+    const char *further;
+    const char *place; /* output: X of the first weight */
+    unsigned weights;
+    double weight_kg;
+    double rest_kg; /* carriage and wheel */
+    double axle_kg_m2;
+    double ring_m;
+    double shift_m;
+    double torque_Nm;
+} wheel;
+
+static const wheel LASKOWITZ = {"laskowitz_shifted", "laskowitz_uneven", "r_4", "r_1", "x_1",
+                                6, 0.5, 6.0, 0.02, 0.2, 0.05, 0.5};
+static const wheel CUFF = {"cuff_equal", "cuff_uneven", "r_e", "r_a", "x_a",
+                           8, 0.25, 5.0, 0.01125, 0.15, 0.06, 0.3};
+
+/* The weights' kinetic energy on a carriage at rest: the weight at the angle p goes round the ring's
+ * centre at the rate theta' r/s. */
+static double kinetic_J(const wheel *w, double theta, double rate) {
+    double sum = w->axle_kg_m2 * rate * rate / 2.0;
+    for (unsigned i = 0; i < w->weights; i++) {
+        const double p = theta + 2.0 * acos(-1.0) * i / w->weights;
+        const double across = w->shift_m * sin(p);
+        const double s = sqrt(w->ring_m * w->ring_m - across * across);
+        const double speed = w->ring_m * rate * (s + w->shift_m * cos(p)) / s;
+        sum += w->weight_kg * speed * speed / 2.0;
+    }
+    return sum;
+}
+
+static void check_equal_weights(const wheel *w) {
+    range r[] = {{.name = "X"}, {.name = "Y"}, {.name = w->place}, {.name = w->further},
+                 {.name = w->nearer}, {.name = "x_cm"}, {.name = "theta"}, {.name = "theta'"}};
+    ranges_of(w->equal, IN_DOUBLE, 5.0, 1e-3, r, 8);
+    printf("  %s\n", w->equal);
+    /* closed form: every weight swings by the ring's diameter */
+    expect_between("  one weight's swing / diameter of the ring", 0.999, 1.0 + 1e-9,
+                   range_width(&r[2]) / (2.0 * w->ring_m));
+    /* the ring prescribes the radii: R + e on the one side, R - e on the other */
+    for (unsigned i = 3; i < 5; i++) {
+        expect_between("  greatest radius, m", w->ring_m + w->shift_m - 1e-4,
+                       w->ring_m + w->shift_m + 1e-12, r[i].most);
+        expect_between("  least radius, m", w->ring_m - w->shift_m - 1e-12,
+                       w->ring_m - w->shift_m + 1e-4, r[i].least);
+    }
+    /* closed form: the weights' centre of mass does not move on the carriage, so nothing moves it */
+    expect_between("  carriage, |X|, m", 0.0, 1e-12, range_drift(&r[0]));
+    expect_between("  carriage, |Y|, m", 0.0, 1e-12, range_drift(&r[1]));
+    const double all_kg = w->weights * w->weight_kg;
+    const double x_cm = all_kg * w->shift_m / 2.0 / (all_kg + w->rest_kg);
+    expect_between("  centre of mass, m", x_cm - 1e-12, x_cm + 1e-12, r[5].last);
+    /* all of the motor's work is in the wheel and its weights */
+    const double work = w->torque_Nm * r[6].last;
+    expect_between("  wheel's energy / motor's work", 1.0 - 1e-9, 1.0 + 1e-9,
+                   kinetic_J(w, r[6].last, r[7].last) / work);
+    expect_between("  turns of the wheel", 5.0, 20.0, r[6].last / (2.0 * acos(-1.0)));
+}
+
+static void check_uneven_weights(const wheel *w) {
+    range r[] = {{.name = "X"}, {.name = "Y"}, {.name = "x_cm"}, {.name = "y_cm"}};
+    ranges_of(w->uneven, IN_DOUBLE, 5.0, 1e-3, r, 4);
+    printf("  %s\n", w->uneven);
+    /* closed form: peak to peak 2 R (difference)/(all masses), in both directions; the ring's centre
+     * is the middle of every weight's path */
+    const double extra_kg = 0.1 * w->weight_kg;
+    const double all_kg = w->weights * w->weight_kg + extra_kg + w->rest_kg;
+    const double swing = 2.0 * w->ring_m * extra_kg / all_kg;
+    expect_between("  carriage's swing along X / closed form", 0.999, 1.0 + 1e-6,
+                   range_width(&r[0]) / swing);
+    expect_between("  carriage's swing along Y / closed form", 0.999, 1.0 + 1e-6,
+                   range_width(&r[1]) / swing);
+    expect_between("  drift of the centre of mass along X, m", 0.0, 1e-8, range_drift(&r[2]));
+    expect_between("  drift of the centre of mass along Y, m", 0.0, 1e-8, range_drift(&r[3]));
+    /* no net motion: X swings over its start and comes back to it, never to the other side */
+    expect_between("  X's least, m", -1e-8, 1e-8, r[0].least);
+}
+
+static void test_laskowitz_six_weights(void) {
+    check_equal_weights(&LASKOWITZ);
+    check_uneven_weights(&LASKOWITZ);
+}
+
+static void test_cuff_eight_weights(void) {
+    check_equal_weights(&CUFF);
+    check_uneven_weights(&CUFF);
+}
+
+static void test_laskowitz_centred_is_a_flywheel(void) {
+    range r[] = {{.name = "theta"}, {.name = "X"}, {.name = "r_1"}, {.name = "r_4"}};
+    ranges_of("laskowitz_centred", IN_DOUBLE, 5.0, 1e-3, r, 4);
+    /* closed form: torque t^2/2 / (I + 6 m R^2) = 0.5 x 12.5/0.14 */
+    expect_between("S11: theta at 5 s, ring at A, rad", 44.642857142 - 1e-8, 44.642857143 + 1e-8,
+                   r[0].last);
+    expect_between("S11: radius, least, m", 0.2 - 1e-12, 0.2, r[2].least);
+    expect_between("S11: radius opposite, most, m", 0.2, 0.2 + 1e-12, r[3].most);
+    expect_between("S11: carriage, |X|, m", 0.0, 1e-12, range_drift(&r[1]));
+}
+
+/* The ring's spring gives way to the weights: the energy at a shift depends on the angle with six
+ * periods a turn, and that shakes ring and carriage by less than a micrometre. */
+static void test_laskowitz_shifting_moves_the_carriage_once(void) {
+    motion m;
+    double off = 0.0;
+    double across = 0.0;
+    double low = 1.0;
+    double high = -1.0;
+    motion_open(&m, "laskowitz_shift", IN_DOUBLE);
+    for (unsigned i = 0; i <= 5000; i++) {
+        motion_to(&m, 1e-3 * i);
+        const double X = motion_value(&m, "X");
+        /* closed form: centre of mass, (m_r + 3 m) e + 9 X = 0 */
+        off = fmax(off, fabs(X + 2.5 / 9.0 * motion_value(&m, "e")));
+        across = fmax(across, fabs(motion_value(&m, "Y")));
+        low = i >= 2000 ? fmin(low, X) : low;
+        high = i >= 2000 ? fmax(high, X) : high;
+    }
+    const double e = motion_value(&m, "e");
+    const double w = motion_value(&m, "theta'");
+    motion_close(&m);
+    expect_between("S11: centre of mass off its place while the ring moves, m", 0.0, 1e-12, off);
+    expect_between("S11: carriage across, m", 0.0, 1e-12, across);
+    /* closed form to 1 %: the mean of e^2 cos^2/s^2 over a turn is R/sqrt(R^2 - e^2) - 1, so that
+     * k (e - e_B) = 3 m R^2 w^2 R e/(R^2 - e^2)^(3/2) */
+    const double pull = 3.0 * 0.5 * 0.04 * w * w * 0.2 * e / pow(0.04 - e * e, 1.5);
+    expect_between("S11: ring's spring / weights' pull", 0.99, 1.01, 4000.0 * (e - 0.05) / pull);
+    expect_between("S11: carriage's place at last, mm", -16.27, -16.25, 500.0 * (low + high));
+    /* own measure, the same at 1 ms and 0.5 ms: 0.91 um */
+    expect_between("S11: carriage's oscillation after 2 s, um", 0.8, 1.0, 1e6 * (high - low));
+}
+
+/* --- no outside force, no drift ----------------------------------------------------------------------- */
+
+static double drift_of(const char *name, const char *output, double step_s, double until_s) {
+    range r[] = {{.name = output}};
+    ranges_of(name, IN_DOUBLE_STEP(step_s), until_s, 8e-3, r, 1);
+    return range_drift(&r[0]);
+}
+
+static void test_centre_of_mass_stays_at_each_scenes_own_step(void) {
+    static const char *const along[] = {
+        "epicyclic_from_rest", "epicyclic_conserved", "thomson_a_conserved",  "thomson_b_conserved",
+        "thomson_plane_a",     "thomson_plane_b",     "thomson_plane_conserved", "thomson_pair_a",
+        "thomson_pair_b",      "laskowitz_shifted",   "laskowitz_centred",    "laskowitz_uneven",
+        "laskowitz_shift",     "cuff_equal",          "cuff_uneven",          "carriage_free",
+        "carriage_ratio"};
+    for (unsigned i = 0; i < sizeof along / sizeof along[0]; i++) {
+        motion m;
+        motion_open(&m, along[i], IN_DOUBLE);
+        const double until_s = m.instance->until_s;
+        motion_close(&m);
+        expect_between(along[i], 0.0, 1e-8, drift_of(along[i], "x_cm", 0.0, until_s));
+    }
+}
+
+/* Drift at a step and at half of it: RK4 must divide it by 2^4. It is a sum over thousands of steps of
+ * errors that partly cancel, so single halvings scatter about that, as in test_convergence.c. */
+static void check_drift_order(const char *name, const char *output, double step_s,
+                              double until_s) {
+    const double coarse = drift_of(name, output, step_s, until_s);
+    const double fine = drift_of(name, output, step_s / 4.0, until_s);
+    const double order = log2(coarse / fine) / 2.0;
+    printf("  %-24s %-5s %.3g at %g ms, %.3g at %g ms\n", name, output, coarse, 1e3 * step_s, fine,
+           250.0 * step_s);
+    expect_between("  order of the drift", 3.7, 5.5, order);
+}
+
+static void test_drift_falls_at_fourth_order(void) {
+    check_drift_order("thomson_plane_a", "x_cm", 2e-3, 8.0);
+    check_drift_order("thomson_plane_a", "y_cm", 2e-3, 8.0);
+    check_drift_order("thomson_plane_b", "x_cm", 1e-3, 4.0);
+    check_drift_order("thomson_plane_b", "y_cm", 1e-3, 4.0);
+    check_drift_order("thomson_pair_a", "x_cm", 2e-3, 8.0);
+    check_drift_order("thomson_pair_b", "x_cm", 1e-3, 4.0);
+    check_drift_order("laskowitz_uneven", "x_cm", 8e-3, 5.0);
+    check_drift_order("laskowitz_uneven", "y_cm", 8e-3, 5.0);
+    check_drift_order("cuff_uneven", "x_cm", 8e-3, 5.0);
+    check_drift_order("cuff_uneven", "y_cm", 8e-3, 5.0);
+    check_drift_order("carriage_free", "x_cm", 8e-3, 2.0);
+}
+
+void suite_devices(void) {
+    UnitySetTestFile(__FILE__);
+    RUN_TEST(test_particle_flies_alike_in_both_coordinate_sets);
+    RUN_TEST(test_cartesian_particle_is_the_parabola);
+    RUN_TEST(test_laskowitz_six_weights);
+    RUN_TEST(test_cuff_eight_weights);
+    RUN_TEST(test_laskowitz_centred_is_a_flywheel);
+    RUN_TEST(test_laskowitz_shifting_moves_the_carriage_once);
+    RUN_TEST(test_centre_of_mass_stays_at_each_scenes_own_step);
+    RUN_TEST(test_drift_falls_at_fourth_order);
+}
