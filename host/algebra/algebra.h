@@ -33,7 +33,7 @@ struct algebra {
     intern_table products;    /* memo_pair: poly, poly */
     intern_table derivatives; /* memo_pair: poly, atom */
     intern_table lets;        /* memo_pair: symbol, NULL */
-    size_t work; /* terms handled and bytes kept so far: what bounds time and memory */
+    size_t work;              /* terms handled and bytes kept so far: what bounds time and memory */
     bool overflow;
     const poly *zero;
     const poly *one;

@@ -52,7 +52,8 @@ static const poly *atom_derivative(algebra *a, const atom *x, const symbol *sym,
             sum = poly_mul(a, poly_mul(a, exponent, lower), db);
         }
         if (!poly_is_zero(de)) {
-            const poly *growth = poly_mul(a, poly_of_atom(a, x, 1.0), poly_call(a, FN_LOG, base, NULL));
+            const poly *growth =
+                poly_mul(a, poly_of_atom(a, x, 1.0), poly_call(a, FN_LOG, base, NULL));
             sum = poly_add(a, sum, poly_mul(a, growth, de));
         }
         return sum;
@@ -222,8 +223,8 @@ static const poly *substitute(algebra *a, const poly *p, substitution *s) {
         }
         if (m->trig != TRIG_NONE) {
             const poly *angle = substitute(a, m->angle, s);
-            product = poly_mul(a, product,
-                               m->trig == TRIG_SIN ? poly_sin(a, angle) : poly_cos(a, angle));
+            product =
+                poly_mul(a, product, m->trig == TRIG_SIN ? poly_sin(a, angle) : poly_cos(a, angle));
         }
         sum_add(a, &sum, product, 1.0);
     }
@@ -262,7 +263,8 @@ const poly *poly_from_expr(algebra *a, const expr *e) {
     case EXPR_SUB: return poly_sub(a, poly_from_expr(a, e->left), poly_from_expr(a, e->right));
     case EXPR_MUL: return poly_mul(a, poly_from_expr(a, e->left), poly_from_expr(a, e->right));
     case EXPR_DIV:
-        return poly_mul(a, poly_from_expr(a, e->left), poly_pow(a, poly_from_expr(a, e->right), -1.0));
+        return poly_mul(a, poly_from_expr(a, e->left),
+                        poly_pow(a, poly_from_expr(a, e->right), -1.0));
     case EXPR_POW: return poly_pow_poly(a, poly_from_expr(a, e->left), poly_from_expr(a, e->right));
     case EXPR_CALL:
         return poly_call(a, e->function, poly_from_expr(a, e->left),

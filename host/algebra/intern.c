@@ -141,7 +141,7 @@ const atom *atom_symbol(algebra *a, const symbol *sym, int primes) {
 }
 
 const atom *atom_of_polys(algebra *a, atom_kind kind, function_id function, const poly *x,
-                                 const poly *y) {
+                          const poly *y) {
     const atom candidate = {.kind = kind,
                             .function = function,
                             .argument = {x, y},
@@ -169,13 +169,13 @@ static bool mono_equal(const void *x, const void *y) {
 
 /* `candidate` may lie in scratch memory: it is copied when it is new. */
 const mono *mono_intern(algebra *a, mono *candidate) {
-    uint64_t hash = mix((uint64_t)candidate->trig,
-                        candidate->angle == NULL ? 0 : candidate->angle->id + 1U);
+    uint64_t hash =
+        mix((uint64_t)candidate->trig, candidate->angle == NULL ? 0 : candidate->angle->id + 1U);
     candidate->symbols = candidate->angle == NULL ? 0 : candidate->angle->symbols;
     candidate->size = candidate->angle == NULL ? 1.0 : 1.0 + candidate->angle->size;
     for (int i = 0; i < candidate->count; i++) {
-        hash = mix(mix(hash, candidate->factors[i].atom->id),
-                   bits_of(candidate->factors[i].exponent));
+        hash =
+            mix(mix(hash, candidate->factors[i].atom->id), bits_of(candidate->factors[i].exponent));
         candidate->symbols |= candidate->factors[i].atom->symbols;
         candidate->size += candidate->factors[i].atom->size;
     }
@@ -198,8 +198,7 @@ mono *mono_scratch(int factors) {
     return m;
 }
 
-const mono *mono_make(algebra *a, const factor *factors, int count, trig kind,
-                             const poly *angle) {
+const mono *mono_make(algebra *a, const factor *factors, int count, trig kind, const poly *angle) {
     mono *m = mono_scratch(count);
     m->count = count;
     m->trig = kind;
@@ -234,8 +233,8 @@ const poly *poly_intern(algebra *a, poly *candidate) {
     candidate->symbols = 0;
     candidate->size = 0.0;
     for (int i = 0; i < candidate->count; i++) {
-        hash = mix(mix(hash, candidate->terms[i].mono->id),
-                   bits_of(candidate->terms[i].coefficient));
+        hash =
+            mix(mix(hash, candidate->terms[i].mono->id), bits_of(candidate->terms[i].coefficient));
         candidate->symbols |= candidate->terms[i].mono->symbols;
         candidate->size += candidate->terms[i].mono->size;
     }

@@ -291,7 +291,8 @@ static const poly *term_pow(algebra *a, const poly_term *t, double exponent) {
     }
     /* Take out the size of the number; its sign stays inside unless the exponent is whole. */
     const double sign = t->coefficient < 0.0 ? -1.0 : 1.0;
-    const double outside = whole ? pow(t->coefficient, exponent) : pow(fabs(t->coefficient), exponent);
+    const double outside =
+        whole ? pow(t->coefficient, exponent) : pow(fabs(t->coefficient), exponent);
     const poly *inside = poly_of_term(a, whole ? 1.0 : sign, m);
     if (m->count == 1 && m->trig == TRIG_NONE && m->factors[0].exponent == 1.0 && sign > 0.0) {
         return poly_scale(a, poly_of_atom(a, m->factors[0].atom, exponent), outside);

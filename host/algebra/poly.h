@@ -29,7 +29,7 @@ typedef enum atom_kind {
     ATOM_SYMBOL, /* a coordinate, rate, acceleration, parameter or input */
     ATOM_CALL,   /* a function other than sine and cosine, of one or two polys */
     ATOM_POWER,  /* base^exponent with an exponent that is not a number */
-    ATOM_GROUP   /* a sum kept whole, because it is the base of a power or too large to multiply out */
+    ATOM_GROUP /* a sum kept whole, because it is the base of a power or too large to multiply out */
 } atom_kind;
 
 struct atom {
@@ -37,10 +37,10 @@ struct atom {
     unsigned id;          /* order of creation: the canonical order */
     const symbol *symbol; /* ATOM_SYMBOL */
     int primes;
-    function_id function;     /* ATOM_CALL */
-    const poly *argument[2];  /* ATOM_CALL; base and exponent of ATOM_POWER; [0] of ATOM_GROUP */
-    uint64_t symbols;         /* Bloom set of the symbols inside: see poly_may_contain() */
-    double size;              /* leaves it would have, written out */
+    function_id function;    /* ATOM_CALL */
+    const poly *argument[2]; /* ATOM_CALL; base and exponent of ATOM_POWER; [0] of ATOM_GROUP */
+    uint64_t symbols;        /* Bloom set of the symbols inside: see poly_may_contain() */
+    double size;             /* leaves it would have, written out */
 };
 
 typedef enum trig { TRIG_NONE, TRIG_COS, TRIG_SIN } trig;
@@ -69,7 +69,8 @@ struct poly {
     unsigned id;
     int count;
     uint64_t symbols;
-    double size; /* leaves it would have, written out: what shares is counted as often as it is used */
+    double
+        size; /* leaves it would have, written out: what shares is counted as often as it is used */
     poly_term terms[]; /* sorted by mono id; none means zero */
 };
 

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "commands.h"
-#include "load.h"
 #include "host/run/engine.h"
+#include "load.h"
 #include "options.h"
 
 static const char usage[] =

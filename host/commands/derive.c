@@ -43,8 +43,10 @@ static int derive_one(source_model *from, const mechanism *of, const scene *in,
         code = EXIT_BAD_INPUT;
     }
     if (code == EXIT_DONE && as == FORM_C && !emit_c_name_is_free(made.instance->name)) {
-        fprintf(stderr, "%s: error: '%s' is a word of C or of the core: the generated scene cannot "
-                        "have that name\nhint: rename it\n", from->file, made.instance->name);
+        fprintf(stderr,
+                "%s: error: '%s' is a word of C or of the core: the generated scene cannot "
+                "have that name\nhint: rename it\n",
+                from->file, made.instance->name);
         code = EXIT_BAD_INPUT;
     }
     if (code == EXIT_DONE) {
@@ -71,15 +73,18 @@ int command_derive(int count, char **words) {
                 as++;
             }
             if (as == FORMS) {
-                fprintf(stderr, "whirl derive: error: there is no form '%s'\n"
-                                "hint: text, latex, octave or c\n", value);
+                fprintf(stderr,
+                        "whirl derive: error: there is no form '%s'\n"
+                        "hint: text, latex, octave or c\n",
+                        value);
                 bad = true;
             }
         } else if (!bad && !options_change(count, words, &at, &options, &bad) && !bad &&
                    !options_engine("derive", count, words, &at, &settings, &bad) && !bad) {
             if (words[at][0] == '-' && words[at][1] != '\0') {
-                options_unknown("derive", words[at],
-                                (const char *const[]){"--as", CHANGE_OPTIONS, ENGINE_OPTIONS, "--help", NULL});
+                options_unknown(
+                    "derive", words[at],
+                    (const char *const[]){"--as", CHANGE_OPTIONS, ENGINE_OPTIONS, "--help", NULL});
                 bad = true;
             } else if (target != NULL) {
                 fprintf(stderr, "whirl derive: error: more than one thing to derive: %s\n",

@@ -210,8 +210,8 @@ int load(loaded *made, source_model *s, const mechanism *of, const scene *in,
         made->equations = equations_derive(made->instance, s->errors);
     }
     if (made->equations != NULL) {
-        made->program = program_make(
-            made->equations, conserve && in != NULL ? in->conserve : NULL, s->errors);
+        made->program =
+            program_make(made->equations, conserve && in != NULL ? in->conserve : NULL, s->errors);
     }
     diags_flush(s->errors, stderr);
     return made->program == NULL ? EXIT_BAD_INPUT : EXIT_DONE;

@@ -89,9 +89,9 @@ static bool read_options(int count, char **words, run_options *o) {
         }
         if (words[at][0] == '-' && words[at][1] != '\0') {
             options_unknown("run", words[at],
-                            (const char *const[]){CHANGE_OPTIONS, ENGINE_OPTIONS, "--number", "--csv",
-                                                  "--columns", "--every", "--plot", "--quiet",
-                                                  "--help", NULL});
+                            (const char *const[]){CHANGE_OPTIONS, ENGINE_OPTIONS, "--number",
+                                                  "--csv", "--columns", "--every", "--plot",
+                                                  "--quiet", "--help", NULL});
             return false;
         }
         if (o->target != NULL) {

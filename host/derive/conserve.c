@@ -126,10 +126,10 @@ static bool is_linear(const equations *e, const poly *momentum, const poly *cons
 }
 
 typedef struct momentum_law {
-    double momentum;     /* constant value, SI */
-    double start;        /* G at the start */
-    const poly **mass;   /* [equations->count] coefficients of the rates */
-    const poly *others;  /* G less the conserved coordinates' part */
+    double momentum;    /* constant value, SI */
+    double start;       /* G at the start */
+    const poly **mass;  /* [equations->count] coefficients of the rates */
+    const poly *others; /* G less the conserved coordinates' part */
 } momentum_law;
 
 /* sum over the conserved of m_kl x_l = right_k, solved for x by Cramer's rule. */
@@ -170,8 +170,8 @@ static void recover(const equations *e, conservation *c, const momentum_law *law
             }
         }
         if (c->closed) {
-            const poly *moved = poly_scale(a, poly_symbol(a, &conservation_time, 0),
-                                           laws[k].momentum);
+            const poly *moved =
+                poly_scale(a, poly_symbol(a, &conservation_time, 0), laws[k].momentum);
             values[k] = poly_add(a, poly_number(a, laws[k].start), moved);
             values[k] = poly_sub(a, values[k], laws[k].others);
         }

@@ -24,8 +24,8 @@ static void substitute_back(tape *t, int n, const int *mass, const int *force, c
 static void solve_pair(tape *t, int n, const int *mass, const int *force, int i, int j,
                        int *solution) {
     const int mixed = mass[i * n + j];
-    const int determinant = minus_product(
-        t, tape_mul(t, mass[i * n + i], mass[j * n + j]), mixed, mixed);
+    const int determinant =
+        minus_product(t, tape_mul(t, mass[i * n + i], mass[j * n + j]), mixed, mixed);
     const int inverse = tape_div(t, tape_constant(t, 1.0), determinant);
     const int x = minus_product(t, tape_mul(t, force[i], mass[j * n + j]), mixed, force[j]);
     const int y = minus_product(t, tape_mul(t, force[j], mass[i * n + i]), mixed, force[i]);

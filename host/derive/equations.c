@@ -70,8 +70,8 @@ static bool derive_lagrange(equations *e, diags *errors) {
         for (int j = 0; j < n; j++) {
             const symbol *other = e->unknowns[j].symbol;
             e->mass[i * n + j] = poly_derivative(a, momentum, other, 1);
-            const poly *drift = poly_mul(a, poly_derivative(a, momentum, other, 0),
-                                         poly_symbol(a, other, 1));
+            const poly *drift =
+                poly_mul(a, poly_derivative(a, momentum, other, 0), poly_symbol(a, other, 1));
             e->velocity[i] = poly_add(a, e->velocity[i], drift);
         }
         const poly *rate = poly_symbol(a, q, 1);
@@ -132,9 +132,9 @@ static bool derive_system(equations *e, diags *errors) {
             e->unknowns[s].order = order > e->unknowns[s].order ? order : e->unknowns[s].order;
         }
         if (e->unknowns[s].order == 0) {
-            diag_error(errors, e->unknowns[s].symbol->at, "every state needs an equation with its rate",
-                       "no equation contains a derivative of state '%s'",
-                       e->unknowns[s].symbol->name);
+            diag_error(
+                errors, e->unknowns[s].symbol->at, "every state needs an equation with its rate",
+                "no equation contains a derivative of state '%s'", e->unknowns[s].symbol->name);
             good = false;
         }
     }

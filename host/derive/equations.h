@@ -21,12 +21,12 @@ typedef struct unknown {
 typedef struct equations {
     algebra *algebra;
     const instance *instance;
-    int count;               /* unknowns, and equations */
-    unknown *unknowns;       /* [count] */
-    const poly **mass;       /* [count * count] row by row */
-    const poly **velocity;   /* [count] centrifugal and Coriolis terms; zero for a system */
-    const poly **potential;  /* [count] dV/dq; for a system all else, moved to the left */
-    const poly **applied;    /* [count] Q - dF/dq'; zero for a system */
+    int count;              /* unknowns, and equations */
+    unknown *unknowns;      /* [count] */
+    const poly **mass;      /* [count * count] row by row */
+    const poly **velocity;  /* [count] centrifugal and Coriolis terms; zero for a system */
+    const poly **potential; /* [count] dV/dq; for a system all else, moved to the left */
+    const poly **applied;   /* [count] Q - dF/dq'; zero for a system */
     /* Energies and what follows from them; NULL for a system. */
     const poly *kinetic;
     const poly *stored;

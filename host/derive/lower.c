@@ -120,8 +120,7 @@ static int atom_node(lowering *l, const atom *x) {
     switch (x->kind) {
     case ATOM_SYMBOL: return l->leaf(l->context, l->tape, x->symbol, x->primes);
     case ATOM_GROUP: return lower(l, x->argument[0]);
-    case ATOM_POWER:
-        return tape_pow(l->tape, lower(l, x->argument[0]), lower(l, x->argument[1]));
+    case ATOM_POWER: return tape_pow(l->tape, lower(l, x->argument[0]), lower(l, x->argument[1]));
     case ATOM_CALL: break;
     }
     if (x->function == FN_TAN) {
@@ -194,7 +193,8 @@ static int sum_flat(lowering *l, const product *products, int count) {
             done[k] = done[k] || member[k];
             all_negative = all_negative && (!member[k] || products[k].coefficient < 0.0);
         }
-        const int part = sum_of_like(l, products, nodes, member, count, all_negative ? -size : size);
+        const int part =
+            sum_of_like(l, products, nodes, member, count, all_negative ? -size : size);
         /* sum_of_like subtracts negative products; with -size outside they must be added */
         sum = all_negative ? tape_add(t, sum, tape_unary(t, OP_NEG, part)) : tape_add(t, sum, part);
     }

@@ -42,9 +42,9 @@ int pieces_of(algebra *a, const poly *p, piece *pieces) {
                 continue;
             }
             const bool like = (flat->coefficient < 0.0) == (turning->coefficient < 0.0);
-            pieces[count++] = (piece){2.0 * flat->coefficient, turning->mono,
-                                      like ? TRIG_COS : TRIG_SIN,
-                                      poly_scale(a, turning->mono->angle, 0.5), true};
+            pieces[count++] =
+                (piece){2.0 * flat->coefficient, turning->mono, like ? TRIG_COS : TRIG_SIN,
+                        poly_scale(a, turning->mono->angle, 0.5), true};
             used[i] = used[j] = true;
             break;
         }
@@ -58,4 +58,3 @@ int pieces_of(algebra *a, const poly *p, piece *pieces) {
     free(used);
     return count;
 }
-

@@ -140,11 +140,8 @@ static bool arrange(program *p, const equations *e, place_map *map, const poly *
 /* --- the lists -----------------------------------------------------------------------------------*/
 
 static lowering lowering_on(const equations *e, tape *t, place_map *map) {
-    return (lowering){.algebra = e->algebra,
-                      .tape = t,
-                      .leaf = leaf_of,
-                      .turn = turn_of,
-                      .context = map};
+    return (lowering){
+        .algebra = e->algebra, .tape = t, .leaf = leaf_of, .turn = turn_of, .context = map};
 }
 
 /* The slope of a component of a first-order scene. */

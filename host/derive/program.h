@@ -20,13 +20,14 @@ typedef struct program {
     wh_form form;
     int count;       /* unknowns */
     int coordinates; /* integrated coordinates, angles included (second order) */
-    int angles; /* components kept as turn angles */
-    int reals;  /* components kept as reals */
+    int angles;      /* components kept as turn angles */
+    int reals;       /* components kept as reals */
     int inputs;
-    int outputs; /* the mechanism's, then value and rate of each conserved coordinate */
+    int outputs;      /* the mechanism's, then value and rate of each conserved coordinate */
     component *angle; /* [angles] */
     component *real;  /* [reals] */
-    int *place; /* [count] unknown -> coordinate number in the scene's order, or -1 (second order) */
+    int *
+        place; /* [count] unknown -> coordinate number in the scene's order, or -1 (second order) */
     conservation *conserved;
     /* Second order: result[i] is the acceleration of scene coordinate i. First order: the slope of
      * component i, angles first. */

@@ -146,11 +146,12 @@ static bool row_is_empty(const equations *e, int row) {
 static void report_singular_system(const equations *e, diags *errors) {
     const int row = dependent_row(e);
     if (row >= 0 && row_is_empty(e, row)) {
-        diag_error(errors, place_of_equation(e, row),
-                   "a constraint between states: differentiate it until a highest derivative appears",
-                   "the equations of '%s' cannot be solved for the highest derivatives: "
-                   "this one contains none",
-                   e->instance->mechanism->name);
+        diag_error(
+            errors, place_of_equation(e, row),
+            "a constraint between states: differentiate it until a highest derivative appears",
+            "the equations of '%s' cannot be solved for the highest derivatives: "
+            "this one contains none",
+            e->instance->mechanism->name);
     } else {
         diag_error(errors, row < 0 ? e->instance->mechanism->at : place_of_equation(e, row),
                    "two equations may say the same, or one may lack its highest derivative",
@@ -179,10 +180,11 @@ static void report_singular(const equations *e, diags *errors) {
             return;
         }
     }
-    diag_error(errors, e->instance->mechanism->at,
-               "two coordinates may describe the same motion, or a mass may be zero",
-               "singular mass matrix: '%s' cannot be solved for its accelerations at any state tried",
-               e->instance->mechanism->name);
+    diag_error(
+        errors, e->instance->mechanism->at,
+        "two coordinates may describe the same motion, or a mass may be zero",
+        "singular mass matrix: '%s' cannot be solved for its accelerations at any state tried",
+        e->instance->mechanism->name);
 }
 
 bool equations_check_solvable(const equations *e, diags *errors) {

@@ -19,8 +19,8 @@
 
 typedef struct arrangement {
     bool scaled;
-    int first;         /* unknown eliminated symbolically; -1 none; -2 every constant diagonal */
-    int order[64];     /* of elimination */
+    int first;     /* unknown eliminated symbolically; -1 none; -2 every constant diagonal */
+    int order[64]; /* of elimination */
 } arrangement;
 
 /* --- scaling -------------------------------------------------------------------------------------*/
@@ -174,8 +174,8 @@ static void enter(const lowering *like, tape *t, const linear_system *s, const a
     for (int i = 0; i < n; i++) {
         for (int j = 0; j < n; j++) {
             const double factor_ij = scale[i] * scale[j] / common;
-            mass[i * n + j] = how->scaled ? scale_simply(a, s->mass[i * n + j], factor_ij)
-                                          : s->mass[i * n + j];
+            mass[i * n + j] =
+                how->scaled ? scale_simply(a, s->mass[i * n + j], factor_ij) : s->mass[i * n + j];
         }
         force[i] = how->scaled ? scale_simply(a, s->force[i], scale[i] / common) : s->force[i];
     }

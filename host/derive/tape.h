@@ -31,8 +31,8 @@ typedef enum op_code {
     OP_SQRT,
     OP_ABS,
     OP_SIGN,
-    OP_MIN, /* b < a ? b : a */
-    OP_MAX, /* b > a ? b : a */
+    OP_MIN,  /* b < a ? b : a */
+    OP_MAX,  /* b > a ? b : a */
     OP_CALL, /* function(a) or function(a, b): host libm, double only */
     OP_POW   /* a to the b: host libm, double only */
 } op_code;
@@ -42,7 +42,7 @@ typedef struct op {
     function_id function; /* OP_CALL */
     int a;
     int b;
-    double value;    /* OP_CONSTANT, OP_PHASE */
+    double value;     /* OP_CONSTANT, OP_PHASE */
     const int *turns; /* OP_PHASE: [angles], or NULL when there are none */
 } op;
 
@@ -88,8 +88,8 @@ typedef struct tape_cost {
     int arithmetic; /* additions, subtractions, products, negations, comparisons */
     int divisions;
     int roots;
-    int waves;      /* sines and cosines, a pair of one phase counted once */
-    int calls;      /* library functions */
+    int waves; /* sines and cosines, a pair of one phase counted once */
+    int calls; /* library functions */
 } tape_cost;
 
 tape_cost tape_count(const tape *t);

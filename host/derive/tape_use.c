@@ -38,8 +38,8 @@ static void fuse_reciprocals(tape *t) {
         for (int k = 0; k < 2 && o->code == OP_MUL; k++) {
             const int inverse = k == 0 ? o->a : o->b;
             const int other = k == 0 ? o->b : o->a;
-            if (t->ops[inverse].code == OP_DIV && tape_is_constant(t, t->ops[inverse].a, &one) && one == 1.0 &&
-                uses[inverse] == 1) {
+            if (t->ops[inverse].code == OP_DIV && tape_is_constant(t, t->ops[inverse].a, &one) &&
+                one == 1.0 && uses[inverse] == 1) {
                 *o = (op){.code = OP_DIV, .function = FN_COUNT, .a = other, .b = t->ops[inverse].b};
             }
         }

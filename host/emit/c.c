@@ -78,9 +78,7 @@ static void write_operation(FILE *out, const tape *t, int i) {
     case OP_NEG: fprintf(out, "-%s", a); break;
     case OP_SQRT: fprintf(out, "WH_SQRT(%s)", a); break;
     case OP_ABS: fprintf(out, "WH_ABS(%s)", a); break;
-    case OP_SIGN:
-        fprintf(out, "(wh_real)((%s > WH_R(0.0)) - (%s < WH_R(0.0)))", a, a);
-        break;
+    case OP_SIGN: fprintf(out, "(wh_real)((%s > WH_R(0.0)) - (%s < WH_R(0.0)))", a, a); break;
     case OP_MIN: fprintf(out, "%s < %s ? %s : %s", b, a, b, a); break;
     case OP_MAX: fprintf(out, "%s > %s ? %s : %s", b, a, b, a); break;
     default: fprintf(out, "WH_R(0.0) /* not offered by the core */"); break;
@@ -151,8 +149,9 @@ static void write_observer(FILE *out, const program *p) {
                  "wh_real *output) {\n");
     write_ignored(out, uses(t, OP_TIME), "scene");
     if (uses_phase(t)) {
-        fprintf(out, "    wh_phase phase[%d];\n    for (int i = 0; i < %d; i++) {\n"
-                     "        phase[i] = wh_phase_of(state->angle[i]);\n    }\n",
+        fprintf(out,
+                "    wh_phase phase[%d];\n    for (int i = 0; i < %d; i++) {\n"
+                "        phase[i] = wh_phase_of(state->angle[i]);\n    }\n",
                 p->angles, p->angles);
     }
     if (uses(t, OP_RADIANS)) {
@@ -212,7 +211,8 @@ static void write_scene(FILE *out, const program *p, const instance *inst,
                         const engine_settings *settings) {
     const double steps = floor(inst->until_s / inst->step_s + 0.5);
     fprintf(out, "const wh_scene %s = {\n    .name = \"%s\",\n    .form = %s,\n    .method = %s,\n",
-            inst->name, inst->name, p->form == WH_SECOND_ORDER ? "WH_SECOND_ORDER" : "WH_FIRST_ORDER",
+            inst->name, inst->name,
+            p->form == WH_SECOND_ORDER ? "WH_SECOND_ORDER" : "WH_FIRST_ORDER",
             method_names[settings->method]);
     fprintf(out, "    .angles = %d,\n    .reals = %d,\n    .inputs = %d,\n    .outputs = %d,\n",
             p->angles, p->reals, p->inputs, p->outputs);
@@ -230,11 +230,15 @@ static void write_scene(FILE *out, const program *p, const instance *inst,
 
 bool emit_c_name_is_free(const char *name) {
     static const char *const taken[] = {
-        "auto", "break", "case", "char", "const", "continue", "default", "do", "double", "else",
-        "enum", "extern", "float", "for", "goto", "if", "inline", "int", "long", "register",
-        "restrict", "return", "short", "signed", "sizeof", "static", "struct", "switch", "typedef",
-        "union", "unsigned", "void", "volatile", "while", "bool", "true", "false", "main", "NULL",
-        "accelerations", "slopes", "advance", "observe", "start_angle", "start_real",
+        "auto",       "break",   "case",     "char",        "const",
+        "continue",   "default", "do",       "double",      "else",
+        "enum",       "extern",  "float",    "for",         "goto",
+        "if",         "inline",  "int",      "long",        "register",
+        "restrict",   "return",  "short",    "signed",      "sizeof",
+        "static",     "struct",  "switch",   "typedef",     "union",
+        "unsigned",   "void",    "volatile", "while",       "bool",
+        "true",       "false",   "main",     "NULL",        "accelerations",
+        "slopes",     "advance", "observe",  "start_angle", "start_real",
         "start_input"};
     for (size_t i = 0; i < sizeof taken / sizeof taken[0]; i++) {
         if (strcmp(name, taken[i]) == 0) {
@@ -289,9 +293,10 @@ void emit_c(FILE *out, const equations *e, const program *p, const engine_settin
             components, e->instance->name);
     write_starts(out, p, e->instance);
     write_right_hand_side(out, p);
-    fprintf(out, "static wh_status advance(const wh_scene *scene, wh_state *state) {\n"
-                 "    (void)scene;\n    return %s(NULL, %s, %s, %s, %dU, %dU,\n"
-                 "                          WH_R(%a), state);\n}\n\n",
+    fprintf(out,
+            "static wh_status advance(const wh_scene *scene, wh_state *state) {\n"
+            "    (void)scene;\n    return %s(NULL, %s, %s, %s, %dU, %dU,\n"
+            "                          WH_R(%a), state);\n}\n\n",
             second ? "wh_step_second" : "wh_step_first", second ? "accelerations" : "slopes",
             method_names[settings->method], settings->compensated ? "true" : "false", p->angles,
             second ? p->coordinates : p->reals, e->instance->step_s);

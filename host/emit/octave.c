@@ -69,9 +69,9 @@ static void write_phase(FILE *out, const program *p, const equations *e, const o
 }
 
 static void write_operation(FILE *out, const program *p, const equations *e, int i) {
-    static const char *const names[FN_COUNT] = {
-        "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sqrt",
-        "exp", "log", "abs", "sign", "min",  "max"};
+    static const char *const names[FN_COUNT] = {"sin",  "cos",   "tan",  "asin", "acos",
+                                                "atan", "atan2", "sqrt", "exp",  "log",
+                                                "abs",  "sign",  "min",  "max"};
     const tape *t = p->step;
     const op *o = &t->ops[i];
     if (o->code == OP_CONSTANT) {
@@ -135,8 +135,10 @@ void emit_octave(FILE *out, const equations *e, const program *p, const char *fi
             }
         }
     }
-    fprintf(out, ")\n%%\n%% options = odeset('RelTol', 1e-7, 'AbsTol', 1e-9);\n"
-                 "%% [T, Y] = ode45(@%s, [0 %.17g], [", inst->name, inst->until_s);
+    fprintf(out,
+            ")\n%%\n%% options = odeset('RelTol', 1e-7, 'AbsTol', 1e-9);\n"
+            "%% [T, Y] = ode45(@%s, [0 %.17g], [",
+            inst->name, inst->until_s);
     for (int i = 0; i < components; i++) {
         fprintf(out, "%s%.17g", i > 0 ? "; " : "", start[i]);
     }

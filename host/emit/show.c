@@ -107,8 +107,8 @@ static void show_parted(const show *s, const poly *p, bool leading) {
     for (int i = 0; i < p->count; i++) {
         for (int k = 0; k < p->terms[i].mono->count; k++) {
             if (p->terms[i].mono->factors[k].atom == shared) {
-                with = poly_add(a, with,
-                                poly_of_term(a, p->terms[i].coefficient, p->terms[i].mono));
+                with =
+                    poly_add(a, with, poly_of_term(a, p->terms[i].coefficient, p->terms[i].mono));
             }
         }
     }

@@ -10,9 +10,9 @@
 
 static bool is_greek(const char *name, size_t length) {
     static const char *const greek[] = {
-        "alpha", "beta", "gamma", "delta", "epsilon", "zeta",  "eta",   "theta", "iota",  "kappa",
-        "lambda", "mu",  "nu",    "xi",    "rho",     "sigma", "tau",   "phi",   "chi",   "psi",
-        "omega", "Gamma", "Delta", "Theta", "Lambda", "Xi",    "Sigma", "Phi",   "Psi",   "Omega"};
+        "alpha",  "beta",  "gamma", "delta", "epsilon", "zeta",  "eta",   "theta", "iota", "kappa",
+        "lambda", "mu",    "nu",    "xi",    "rho",     "sigma", "tau",   "phi",   "chi",  "psi",
+        "omega",  "Gamma", "Delta", "Theta", "Lambda",  "Xi",    "Sigma", "Phi",   "Psi",  "Omega"};
     for (size_t i = 0; i < sizeof greek / sizeof greek[0]; i++) {
         if (strlen(greek[i]) == length && strncmp(greek[i], name, length) == 0) {
             return true;
@@ -141,9 +141,9 @@ static void show_exponent(const show *s, double exponent) {
 }
 
 static void show_atom(const show *s, const atom *x, double exponent) {
-    static const char *const names[FN_COUNT] = {
-        "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sqrt",
-        "exp", "log", "abs", "sign", "min",  "max"};
+    static const char *const names[FN_COUNT] = {"sin",  "cos",   "tan",  "asin", "acos",
+                                                "atan", "atan2", "sqrt", "exp",  "log",
+                                                "abs",  "sign",  "min",  "max"};
     if (exponent == 0.5) {
         fputs(s->style == SHOW_LATEX ? "\\sqrt{" : "sqrt(", s->out);
         if (x->kind == ATOM_GROUP) {

@@ -99,8 +99,8 @@ static void reduce(algebra *a, const poly **top, const poly **bottom) {
     const poly *inverse = poly_pow(a, show_common(a, both), -1.0);
     double number = (double)INFINITY;
     for (int i = 0; i < (*top)->count + (*bottom)->count; i++) {
-        const poly_term *t = i < (*top)->count ? &(*top)->terms[i]
-                                               : &(*bottom)->terms[i - (*top)->count];
+        const poly_term *t =
+            i < (*top)->count ? &(*top)->terms[i] : &(*bottom)->terms[i - (*top)->count];
         number = fmin(number, fabs(t->coefficient));
     }
     *top = poly_scale(a, poly_mul(a, *top, inverse), 1.0 / number);

@@ -81,9 +81,10 @@ bool plot_draw(const char *file, const char *title, const curve *curves, int cou
         return false;
     }
     const int panels = count_panels(curves, count);
-    fprintf(to, strcmp(ending_of(file), "svg") == 0
-                    ? "set terminal svg size 900,%d dynamic background rgb 'white'\n"
-                    : "set terminal pngcairo size 900,%d\n",
+    fprintf(to,
+            strcmp(ending_of(file), "svg") == 0
+                ? "set terminal svg size 900,%d dynamic background rgb 'white'\n"
+                : "set terminal pngcairo size 900,%d\n",
             120 + 260 * panels);
     fputs("set encoding utf8\nset output ", to);
     write_quoted(to, file);
@@ -96,7 +97,8 @@ bool plot_draw(const char *file, const char *title, const curve *curves, int cou
     }
     fprintf(to, "EOD\nset multiplot layout %d,1 title ", panels);
     write_quoted(to, title);
-    fputs(" noenhanced\nset grid\nset key outside right top noenhanced\nset xlabel 'time [s]'\n", to);
+    fputs(" noenhanced\nset grid\nset key outside right top noenhanced\nset xlabel 'time [s]'\n",
+          to);
     write_panels(to, curves, count);
     fputs("unset multiplot\nset output\n", to);
     const bool written = ferror(to) == 0;

@@ -42,8 +42,7 @@ static void add_work(books *b, const double power_W[2]) {
             b->power_W[1][k] = power_W[k];
         } else {
             *work[k] -= 0.5 * b->step_s * (b->power_W[0][k] + b->power_W[1][k]);
-            *work[k] +=
-                b->step_s / 3.0 * (b->power_W[0][k] + 4.0 * b->power_W[1][k] + power_W[k]);
+            *work[k] += b->step_s / 3.0 * (b->power_W[0][k] + 4.0 * b->power_W[1][k] + power_W[k]);
             b->power_W[0][k] = power_W[k];
         }
     }

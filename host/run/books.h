@@ -13,12 +13,12 @@ typedef struct books {
     const equations *equations;
     const double *input;
     evaluator *evaluator;
-    double *value;        /* results of the program's books list */
-    double *momentum;     /* [count] at the start */
-    double *drift;        /* [count] largest change since */
+    double *value;    /* results of the program's books list */
+    double *momentum; /* [count] at the start */
+    double *drift;    /* [count] largest change since */
     double angle_rad[PROGRAM_COMPONENTS_MAX];
     double real[2 * PROGRAM_COMPONENTS_MAX];
-    double kinetic_J[2];  /* start, now */
+    double kinetic_J[2]; /* start, now */
     double stored_J[2];
     double input_J;       /* work of the inputs so far */
     double loss_J;        /* losses so far */

@@ -2,7 +2,9 @@
 #define WH_DOUBLE 0
 #include "engine.inc"
 
-uint32_t engine_phase_of_constant(double rad) { return (uint32_t)(uint64_t)engine_angle_of_start(rad); }
+uint32_t engine_phase_of_constant(double rad) {
+    return (uint32_t)(uint64_t)engine_angle_of_start(rad);
+}
 
 int64_t engine_angle_of_start(double rad) {
     const double turns = rad / 6.283185307179586477;
