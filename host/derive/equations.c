@@ -178,14 +178,17 @@ static const poly **polys(int count) {
 
 /* Beyond what the algebra, or those who walk through its results, can do in a reasonable time? */
 static bool too_large(const equations *e) {
+    if (algebra_overflow(e->algebra)) {
+        return true; /* and what was not reached is missing */
+    }
     double size = 0.0;
-    for (int i = 0; i < e->count && !algebra_overflow(e->algebra); i++) {
+    for (int i = 0; i < e->count; i++) {
         size += e->velocity[i]->size + e->potential[i]->size + e->applied[i]->size;
         for (int j = 0; j < e->count; j++) {
             size += e->mass[i * e->count + j]->size;
         }
     }
-    return algebra_overflow(e->algebra) || size > POLY_SIZE_MAX;
+    return size > POLY_SIZE_MAX;
 }
 
 void equations_report_growth(const equations *e, diags *errors) {

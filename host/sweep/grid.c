@@ -32,9 +32,11 @@ static char *trimmed(const char *text, size_t length) {
 }
 
 static char *joined(const char *left, const char *right) {
-    char *text = room(strlen(left) + strlen(right), 1);
-    strcpy(text, left);
-    strcat(text, right);
+    const size_t first = strlen(left);
+    const size_t second = strlen(right);
+    char *text = room(first + second, 1);
+    memcpy(text, left, first);
+    memcpy(text + first, right, second);
     return text;
 }
 
@@ -82,8 +84,8 @@ static bool range_split(const char *text, range_text *r) {
 
 /* Where the number at the start of the text ends; NULL when there is none. */
 static const char *behind_number(const char *text) {
-    char *end;
-    strtod(text, &end);
+    char *end = NULL;
+    (void)strtod(text, &end);
     while (*end == ' ' || *end == '\t') {
         end++;
     }

@@ -127,17 +127,17 @@ static void add(measures *m, measure_kind kind, const char *name, const expr *of
 }
 
 static void add_symbol(measures *m, const symbol *s, int primes) {
-    char name[256] = "";
-    for (int k = 0; k < primes; k++) {
-        strcat(name, "der(");
+    const size_t length = strlen(s->name);
+    const size_t depth = (size_t)primes;
+    char *name = arena_alloc(m->arena, length + 5 * depth + 1);
+    for (size_t k = 0; k < depth; k++) {
+        memcpy(name + 4 * k, "der(", 4);
     }
-    strcat(name, s->name);
-    for (int k = 0; k < primes; k++) {
-        strcat(name, ")");
-    }
+    memcpy(name + 4 * depth, s->name, length);
+    memset(name + 4 * depth + length, ')', depth);
     expr *made = arena_alloc(m->arena, sizeof *made);
     *made = (expr){.op = EXPR_SYMBOL, .symbol = s, .primes = primes, .dim = s->dim, .height = 1};
-    add(m, MEASURE_FINAL, arena_copy(m->arena, name, strlen(name)), made);
+    add(m, MEASURE_FINAL, name, made);
 }
 
 /* The columns of `whirl run --csv`, without the time. */

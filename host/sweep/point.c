@@ -38,6 +38,9 @@ static overrides changes_at(const sweep *s, uint64_t point) {
         char *text = room(size, 1);
         if (a->symbol == NULL) {
             snprintf(text, size, "%.17g", value[i]);
+            if (changes.step != s->changes->step) {
+                free((void *)(uintptr_t)changes.step); /* a step swept twice: the last holds */
+            }
             changes.step = text;
         } else {
             snprintf(text, size, "%s=%.17g", a->name, value[i]);

@@ -32,8 +32,8 @@ typedef struct sheet_settings {
 
 /* Open and check; the header is written when it is not there yet. Returns an exit code: 0 good, 1 the
  * file could not be written, 2 it is another sweep's or in use (said on standard error). */
-int sheet_open(sheet *s, const sheet_settings *settings);
+int sheet_open(sheet *sh, const sheet_settings *s);
 /* False when something was not written (said). */
-bool sheet_close(sheet *s);
+bool sheet_close(sheet *sh);
 
 #endif

@@ -131,7 +131,7 @@ static void check_printed(const char *name, printed *as_printed) {
     for (int k = 0; k < STATES; k++) {
         state_values s;
         random_state(&s, &d, &seed);
-        double rest[UNKNOWNS];
+        double rest[UNKNOWNS] = {0.0};
         as_printed((const double (*)[ORDERS_MAX])s.value, d.instance->parameter, rest);
         for (int i = 0; i < d.equations->count; i++) {
             double size;

@@ -346,9 +346,9 @@ static double octave_value(void *context, const char *name, int length) {
         }
     }
     if (*name == 'y' && name[1] == '(') {
-        return w->y[atoi(name + 2) - 1];
+        return w->y[(int)strtol(name + 2, NULL, 10) - 1];
     }
-    return *name == 'x' ? w->x[atoi(name + 1)] : (double)NAN;
+    return *name == 'x' ? w->x[(int)strtol(name + 1, NULL, 10)] : (double)NAN;
 }
 
 /* Run the assignments of the function file. */
@@ -357,11 +357,11 @@ static void run_octave(const char *name, const char *text, workspace *w) {
          line = strchr(line, '\n') == NULL ? NULL : strchr(line, '\n') + 1) {
         double *target = NULL;
         if (strncmp(line, "  x", 3) == 0) {
-            const int number = atoi(line + 3);
+            const int number = (int)strtol(line + 3, NULL, 10);
             TEST_ASSERT_TRUE_MESSAGE(number >= 0 && number < VALUES_MAX, name);
             target = &w->x[number];
         } else if (strncmp(line, "  dy(", 5) == 0) {
-            target = &w->dy[atoi(line + 5) - 1];
+            target = &w->dy[(int)strtol(line + 5, NULL, 10) - 1];
         }
         if (target != NULL) {
             const char *end;

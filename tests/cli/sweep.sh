@@ -1,0 +1,190 @@
+#!/bin/sh
+# sweep.sh: `whirl sweep`: the same bytes from any number of jobs, from shards, and after being killed;
+# files of other sweeps left alone; points that fail; and closed forms of the eccentric-mass rig.
+set -u
+
+whirl=${WHIRL:-build/whirl}
+scratch=$(mktemp -d) || exit 1
+trap 'rm -rf "$scratch"' EXIT
+failed=0
+
+# check WHAT COMMAND...: the command must succeed.
+check() {
+    what=$1
+    shift
+    if "$@" >/dev/null 2>&1; then
+        echo "ok - sweep: $what"
+    else
+        echo "not ok - sweep: $what"
+        failed=1
+    fi
+}
+
+# status WANTED COMMAND...: the exit status; what it said is in $scratch/said.
+status() {
+    wanted=$1
+    shift
+    "$@" >"$scratch/rows" 2>"$scratch/said"
+    [ $? -eq "$wanted" ]
+}
+
+# judge WHAT FILE CONDITION: the awk condition holds for every row behind the header, and there is one.
+judge() {
+    tr -d '\r' <"$2" | tail -n +2 >"$scratch/judged"
+    check "$1" awk -F, "
+        function off(a, b) { return a > b ? a - b : b - a }
+        !($3) { bad = 1; print }
+        END { exit bad || NR == 0 }" "$scratch/judged"
+}
+
+# --- the same bytes ------------------------------------------------------------------------------
+# 10,000 points that share one program, and some that are derived each.
+many() {
+    "$whirl" sweep carriage_free --until 20ms --over "theta'=100..400 [rpm]:100" \
+        --over duty=0..1:100 --measure 'max(pin_force)' --measure 'mean(X)' --measure "theta'" \
+        --quiet "$@"
+}
+derived() {
+    "$whirl" sweep carriage_free --until 0.2s --over ratio=0.01..1:20,log \
+        --over 'r_disc=4..8 [in]:5' --measure 'amplitude(X)' --measure 'max(ratio, 0.5)' --quiet "$@"
+}
+
+many --jobs 1 --csv "$scratch/many1.csv"
+many --jobs 2 --csv "$scratch/many2.csv"
+many --jobs 7 --csv - >"$scratch/many7.csv"
+check "10,000 points and a header" test "$(wc -l <"$scratch/many1.csv")" -eq 10001
+check "the same from 1 job and 2" cmp "$scratch/many1.csv" "$scratch/many2.csv"
+check "the same from 7 jobs on standard output" cmp "$scratch/many1.csv" "$scratch/many7.csv"
+derived --jobs 1 --csv "$scratch/derived1.csv"
+derived --jobs 3 --csv "$scratch/derived3.csv"
+check "the same from 1 job and 3, each point derived" \
+    cmp "$scratch/derived1.csv" "$scratch/derived3.csv"
+printf 'ratio,r_disc,amplitude(X),"max(ratio, 0.5)"\r\n' >"$scratch/header"
+head -n 1 "$scratch/derived1.csv" >"$scratch/first"
+check "the header, quoted where it must be" cmp "$scratch/header" "$scratch/first"
+check "every line ends as RFC 4180 says" \
+    test "$(grep -c "$(printf '\r')\$" "$scratch/many1.csv")" -eq 10001
+
+for k in 1 2 3; do
+    many --shard $k/3 --csv "$scratch/shard$k.csv"
+done
+cat "$scratch"/shard[123].csv >"$scratch/shards.csv"
+check "shards in order are the whole file" cmp "$scratch/many1.csv" "$scratch/shards.csv"
+
+# A point is the run that `whirl run` makes of it.
+"$whirl" run carriage_free --until 0.5s --set ratio=0.25 --csv - --quiet | tail -n 1 |
+    cut -d, -f2-5 >"$scratch/run"
+"$whirl" sweep carriage_free --until 0.5s --over ratio=0.25..0.5:2 --csv - --quiet | sed -n 2p |
+    cut -d, -f2-5 >"$scratch/point"
+check "a point's final state is that of run" cmp "$scratch/run" "$scratch/point"
+
+# --- killed, torn, interrupted -------------------------------------------------------------------
+long() {
+    exec "$whirl" sweep carriage_free --until 1s --over ratio=0.01..1:10 --over duty=0..1:40 \
+        --measure 'max(pin_force)' --measure X --quiet "$@"
+}
+# background ROWS SIGNAL FILE: start it, wait for so many rows, send the signal; its status in $code.
+background() {
+    long --jobs 2 --csv "$3" >/dev/null 2>"$scratch/said" &
+    process=$!
+    while kill -0 $process 2>/dev/null && [ "$(wc -l 2>/dev/null <"$3" || echo 0)" -lt "$1" ]; do
+        sleep 0.01
+    done
+    kill "-$2" $process 2>/dev/null
+    wait $process 2>/dev/null
+    code=$?
+}
+(long --jobs 1 --csv "$scratch/whole.csv")
+: >"$scratch/killed.csv"
+for rows in 20 90 200; do
+    background $rows KILL "$scratch/killed.csv"
+    check "killed at row $rows before its end" test "$code" -eq 137
+    check "killed at row $rows: rows are there" test "$(wc -l <"$scratch/killed.csv")" -ge $rows
+done
+kept=$(wc -l <"$scratch/killed.csv")
+(long --jobs 2 --csv "$scratch/killed.csv")
+check "killed three times: the same in the end" cmp "$scratch/whole.csv" "$scratch/killed.csv"
+check "killed before it was whole" test "$kept" -lt 401
+
+: >"$scratch/stopped.csv"
+background 30 INT "$scratch/stopped.csv"
+check "interrupted: exit status 130" test "$code" -eq 130
+check "interrupted: ends with a whole line" \
+    test "$(tail -c 1 "$scratch/stopped.csv" | od -An -tx1 | tr -d ' ')" = 0a
+(long --csv "$scratch/stopped.csv")
+check "interrupted: the same in the end" cmp "$scratch/whole.csv" "$scratch/stopped.csv"
+
+for bytes in 3 40 5000; do
+    head -c $bytes "$scratch/whole.csv" >"$scratch/torn.csv"
+    cp "$scratch/whole.csv.sweep" "$scratch/torn.csv.sweep"
+    (long --csv "$scratch/torn.csv")
+    check "torn off after $bytes bytes: made whole" cmp "$scratch/whole.csv" "$scratch/torn.csv"
+done
+
+# --- files of other sweeps -----------------------------------------------------------------------
+small() { "$whirl" sweep carriage_free --until 10ms --over ratio=0.1..0.5:5 "$@"; }
+small --csv "$scratch/small.csv" --measure X --quiet
+cp "$scratch/small.csv" "$scratch/kept.csv"
+check "a whole file: nothing to do" status 0 small --csv "$scratch/small.csv" --measure X
+check "a whole file: says so" grep -q '5 of them found' "$scratch/said"
+for other in '--measure theta' '--measure X --step 0.5ms' '--measure X --set duty=0.1' \
+    '--measure X --number float' '--measure X --shard 1/2' '--measure X --over duty=0..1:2'; do
+    # shellcheck disable=SC2086 # several words
+    check "refused: $other" status 2 small --csv "$scratch/small.csv" $other
+    check "refused with a way out: $other" grep -q -e '--fresh' "$scratch/said"
+done
+check "refused: nothing was changed" cmp "$scratch/small.csv" "$scratch/kept.csv"
+sed 's/^0\.2,/0.3,/' "$scratch/kept.csv" >"$scratch/small.csv"
+check "refused: another row" status 2 small --csv "$scratch/small.csv" --measure X
+sed 's/^ratio/radius/' "$scratch/kept.csv" >"$scratch/small.csv"
+check "refused: another header" status 2 small --csv "$scratch/small.csv" --measure X
+echo 'something else' >"$scratch/foreign.csv"
+check "refused: no sweep's file" status 2 small --csv "$scratch/foreign.csv" --measure X
+check "refused: it is still there" grep -q '^something else$' "$scratch/foreign.csv"
+check "--fresh starts anew" status 0 small --csv "$scratch/small.csv" --measure X --fresh
+check "--fresh: the right rows" cmp "$scratch/small.csv" "$scratch/kept.csv"
+
+# --- points that fail ----------------------------------------------------------------------------
+failing() { "$whirl" sweep carriage_free --until 10ms --over ratio=-1..1:5 --measure X "$@"; }
+check "failing points: exit status 1" status 1 failing --csv "$scratch/failing.csv"
+check "failing points: which and why" grep -q 'point 1 (ratio=-1): diverged' "$scratch/said"
+check "failing points: how many" grep -q '2 of 5 points failed' "$scratch/said"
+check "failing points: empty measures" \
+    test "$(tr -d '\r' <"$scratch/failing.csv" | grep -cE '^(-1|0),$')" -eq 2
+check "failing points: the others are there" \
+    test "$(tr -d '\r' <"$scratch/failing.csv" | grep -cE '^(-0\.5|0\.5|1),[-+.e0-9]+$')" -eq 3
+check "failing points found in the file count too" status 1 failing --csv "$scratch/failing.csv"
+check "no period: nan, and no failure" status 0 \
+    "$whirl" sweep carriage_free --until 10ms --over ratio=0.1..0.2:2 --measure 'period(X)'
+check "no period: nan" test "$(grep -c ',nan' "$scratch/rows")" -eq 2
+
+# --- bad input -----------------------------------------------------------------------------------
+for bad in '--over ratio=1..2' '--over ratio=1...2:3' '--over ratio=1..2:0' '--over ratio=1..2:1' \
+    '--over ratio=0..1:3,log' '--over nothing=1..2:3' '--over r_disc=1..2[kg]:3' \
+    '--over r_disc=1[mm]..2:3' '--over step=0..1:3' "--over theta''=1..2:3" \
+    '--over ratio=1..2:2 --over ratio=1..2:2' '--over ratio=1..2:2 --measure amplitude(X)*2' \
+    '--over ratio=1..2:2 --measure Y' '--over ratio=1..2:2 --shard 3/2' '--over ratio=1..2:2 --jobs 0' \
+    '--over ratio=1..2:2 --from 3s' ''; do
+    # shellcheck disable=SC2086 # several words
+    check "bad input: $bad" status 2 "$whirl" sweep carriage_free $bad
+    check "bad input, with a message: $bad" grep -q 'error: ' "$scratch/said"
+done
+
+# --- closed forms --------------------------------------------------------------------------------
+# S16, figure 20: free force / fixed force = 1/(1 + weight ratio).
+"$whirl" sweep carriage_free --until 0.5s --over ratio=0.01..1:12 --quiet \
+    --measure "max(pin_force/(S*theta'^2))" >"$scratch/figure20"
+judge "figure 20: force ratio 1/(1 + weight ratio), to 1e-12" "$scratch/figure20" \
+    'off($2, 1/(1 + $1)) < 1e-12'
+# S18, test 1: speed changes the frequency, not the amplitude S/(m_car + m_ecc).
+"$whirl" sweep carriage_free --step 0.2ms --over "theta'=100..400 [rpm]:4" --quiet \
+    --measure 'amplitude(X)' --measure 'period(X)' --measure 'S/(m_car + m_ecc)' >"$scratch/speed"
+judge "speed does not change the amplitude, to 1e-5" "$scratch/speed" 'off($2/$4, 1) < 1e-5'
+judge "speed changes the frequency: period = 2 pi / speed, to 0.1 %" "$scratch/speed" \
+    'off($3*$1, 6.283185307179586) < 6.3e-3'
+# S18, test 2: the amplitude is proportional to the radius (arms without mass).
+"$whirl" sweep carriage_free --step 0.2ms --over 'r_disc=2..8 [in]:4' --set m_arm=0 --quiet \
+    --measure 'amplitude(X)' --measure 'm_ecc/(m_car + m_ecc)' >"$scratch/radius"
+judge "amplitude = radius m/(m + M), to 1e-5" "$scratch/radius" 'off($2/($1*$3), 1) < 1e-5'
+
+exit $failed

@@ -1,0 +1,346 @@
+/* test_sweep.c: the parts of `whirl sweep`: grids, measures, workers. Files and whole sweeps are
+ * tested by tests/cli/sweep.sh. */
+#define _POSIX_C_SOURCE 200809L
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "host/sweep/grid.h"
+#include "host/sweep/jobs.h"
+#include "host/sweep/measures.h"
+#include "unity.h"
+
+void suite_sweep(void);
+
+#define PI 3.14159265358979323846
+
+static const char sample[] = "mechanism swing\n"
+                             "coordinate theta [rad]\n"
+                             "parameter m = 2 [kg]\n"
+                             "parameter r = 0.3 [m]\n"
+                             "input M = 2 [N*m]\n"
+                             "T = m*r^2*theta'^2/2\n"
+                             "Q(theta) = M\n"
+                             "output height [m] = r*(1 - cos(theta))\n"
+                             "mechanism decay\n"
+                             "state x [m]\n"
+                             "parameter k = 1 [1/s]\n"
+                             "equation x' + k*x = 0\n";
+
+static diags *said;
+static model *parsed;
+static grid points;
+
+static void open_sample(void) {
+    said = diags_new();
+    parsed = model_parse("x.whirl", sample, strlen(sample), said);
+    TEST_ASSERT_NOT_NULL(parsed);
+    points = (grid){0};
+}
+
+static void close_sample(void) {
+    grid_free(&points);
+    model_free(parsed);
+    diags_free(said);
+}
+
+static bool over(const char *text) { return grid_add(&points, parsed->mechanisms[0], text, said); }
+
+/* --- grids ---------------------------------------------------------------------------------------*/
+
+static void test_last_axis_runs_fastest(void) {
+    open_sample();
+    TEST_ASSERT_TRUE(over("m=1..3:3"));
+    TEST_ASSERT_TRUE(over("theta'=10..20:2"));
+    TEST_ASSERT_TRUE(points.points == 6);
+    const double wanted[6][2] = {{1, 10}, {1, 20}, {2, 10}, {2, 20}, {3, 10}, {3, 20}};
+    for (uint64_t i = 0; i < 6; i++) {
+        double value[2];
+        grid_values(&points, i, value);
+        TEST_ASSERT_TRUE(value[0] == wanted[i][0] && value[1] == wanted[i][1]);
+    }
+    TEST_ASSERT_TRUE(grid_varies_parameters(&points));
+    TEST_ASSERT_EQUAL_STRING("start(theta')", points.axes[1].column);
+    close_sample();
+}
+
+static void test_units_and_exact_ends(void) {
+    static const struct {
+        const char *text;
+        double from, middle, to;
+    } cases[] = {{"r=10..70 [mm]:3", 0.01, 0.04, 0.07},
+                 {"r=10 [mm]..7 [cm]:3", 0.01, 0.04, 0.07},
+                 {"r=10mm..70mm:3", 0.01, 0.04, 0.07},
+                 {"r=0..70 mm:3", 0.0, 0.035, 0.07},
+                 {" theta' = -60 .. 60 [rpm] : 3", -2.0 * PI, 0.0, 2.0 * PI},
+                 {"M=0.1..1000:3,log", 0.1, 10.0, 1000.0},
+                 {"M=-0.1..-1000:3,log", -0.1, -10.0, -1000.0},
+                 {"step=0.5..1.5 [ms]:3", 0.5e-3, 1e-3, 1.5e-3},
+                 {"m=0.1..0.3:3", 0.1, 0.2, 0.3}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        open_sample();
+        TEST_ASSERT_TRUE_MESSAGE(over(cases[i].text), cases[i].text);
+        double value[3];
+        for (uint64_t k = 0; k < 3; k++) {
+            grid_values(&points, k, &value[k]);
+        }
+        TEST_ASSERT_TRUE_MESSAGE(value[0] == points.axes[0].from, cases[i].text);
+        TEST_ASSERT_TRUE_MESSAGE(value[2] == points.axes[0].to, cases[i].text);
+        const double most = 1e-15 * fabs(cases[i].to);
+        TEST_ASSERT_TRUE_MESSAGE(fabs(value[0] - cases[i].from) <= most, cases[i].text);
+        TEST_ASSERT_TRUE_MESSAGE(fabs(value[1] - cases[i].middle) <= most, cases[i].text);
+        TEST_ASSERT_TRUE_MESSAGE(fabs(value[2] - cases[i].to) <= most, cases[i].text);
+        close_sample();
+    }
+}
+
+static void test_shards_tile_the_grid(void) {
+    open_sample();
+    TEST_ASSERT_TRUE(over("m=1..3:7"));
+    TEST_ASSERT_TRUE(over("r=1..3:11"));
+    for (uint64_t n = 1; n <= 100; n++) {
+        uint64_t next = 0;
+        for (uint64_t k = 1; k <= n; k++) {
+            uint64_t first;
+            uint64_t end;
+            grid_shard(&points, k, n, &first, &end);
+            TEST_ASSERT_TRUE(first == next && end >= first && end - first <= 77 / n + 1);
+            next = end;
+        }
+        TEST_ASSERT_TRUE(next == 77);
+    }
+    close_sample();
+}
+
+static void test_numbers_come_back(void) {
+    char text[NUMBER_SIZE];
+    TEST_ASSERT_EQUAL_STRING("0.1", number_shortest(0.1, text));
+    TEST_ASSERT_EQUAL_STRING("0.30000000000000004", number_shortest(0.1 + 0.2, text));
+    for (int i = 1; i < 1000; i++) {
+        const double value = sin((double)i) * pow(10.0, (double)(i % 40 - 20));
+        TEST_ASSERT_TRUE(strtod(number_shortest(value, text), NULL) == value);
+    }
+}
+
+/* --- measures ------------------------------------------------------------------------------------*/
+
+/* The measure of offset + size sin(2 pi t / period + 1) over `samples` steps of `step_s`. */
+static double of_sine(measure_kind kind, double offset, double size, double period_s,
+                      uint64_t samples, double step_s) {
+    gauge g = gauge_start(kind);
+    for (uint64_t i = 0; i < samples; i++) {
+        gauge_enter(&g, offset + size * sin(2.0 * PI * (double)i * step_s / period_s + 1.0));
+    }
+    const double result = gauge_result(&g, step_s, DBL_EPSILON);
+    gauge_end(&g);
+    return result;
+}
+
+static void test_series_of_a_sine(void) {
+    /* ten whole periods of 200 steps: sampled peaks miss by at most size (2 pi/200)^2/8 */
+    const double miss = 2.5 * pow(2.0 * PI / 200.0, 2.0) / 8.0;
+    TEST_ASSERT_TRUE(fabs(of_sine(MEASURE_MAX, 1.5, 2.5, 0.2, 2001, 1e-3) - 4.0) <= miss);
+    TEST_ASSERT_TRUE(fabs(of_sine(MEASURE_MIN, 1.5, 2.5, 0.2, 2001, 1e-3) + 1.0) <= miss);
+    TEST_ASSERT_TRUE(fabs(of_sine(MEASURE_AMPLITUDE, 1.5, 2.5, 0.2, 2001, 1e-3) - 2.5) <= miss);
+    TEST_ASSERT_TRUE(fabs(of_sine(MEASURE_MEAN, 1.5, 2.5, 0.2, 2001, 1e-3) - 1.5) <= 1e-13);
+    TEST_ASSERT_TRUE(fabs(of_sine(MEASURE_PERIOD, 1.5, 2.5, 0.2, 2001, 1e-3) - 0.2) <= 1e-13);
+    /* a period that is no whole number of steps: linear interpolation errs by less than 1e-3 steps,
+     * shared by 18 periods */
+    const double odd_s = 0.1 * sqrt(1.23);
+    const double measured_s = of_sine(MEASURE_PERIOD, 0.0, 1.0, odd_s, 2001, 1e-3);
+    TEST_ASSERT_TRUE(fabs(measured_s - odd_s) <= 2e-3 * 1e-3);
+    TEST_ASSERT_TRUE(isfinite(measured_s) && measured_s != odd_s);
+}
+
+static void test_series_without_a_value(void) {
+    TEST_ASSERT_TRUE(isnan(of_sine(MEASURE_PERIOD, 0.0, 1.0, 0.2, 250, 1e-3))); /* one crossing */
+    TEST_ASSERT_FALSE(isnan(of_sine(MEASURE_PERIOD, 0.0, 1.0, 0.2, 500, 1e-3)));
+    TEST_ASSERT_TRUE(isnan(of_sine(MEASURE_PERIOD, 1.0, 1e-15, 0.2, 2001, 1e-3))); /* rounding */
+    TEST_ASSERT_TRUE(isnan(of_sine(MEASURE_MEAN, 0.0, 1.0, 0.2, 0, 1e-3)));
+    TEST_ASSERT_TRUE(of_sine(MEASURE_MEAN, 2.0, 0.0, 0.2, 1, 1e-3) == 2.0);
+    for (measure_kind kind = MEASURE_FINAL; kind <= MEASURE_PERIOD; kind++) {
+        gauge g = gauge_start(kind);
+        gauge_enter(&g, 1.0);
+        gauge_enter(&g, (double)NAN);
+        gauge_enter(&g, 2.0);
+        TEST_ASSERT_TRUE(isnan(gauge_result(&g, 1e-3, DBL_EPSILON)));
+        gauge_end(&g);
+    }
+}
+
+static void test_mean_is_over_time(void) {
+    gauge g = gauge_start(MEASURE_MEAN); /* 0, 1, 4: trapezoids 0.5 and 2.5 over two steps */
+    gauge_enter(&g, 0.0);
+    gauge_enter(&g, 1.0);
+    gauge_enter(&g, 4.0);
+    TEST_ASSERT_TRUE(gauge_result(&g, 1e-3, DBL_EPSILON) == 1.5);
+    gauge_end(&g);
+}
+
+static void test_measures_are_read(void) {
+    static const struct {
+        const char *text;
+        int mechanism;
+        int kind; /* -1: refused */
+    } cases[] = {{"theta", 0, MEASURE_FINAL},
+                 {"max(theta)", 0, MEASURE_MAX},
+                 {" min ( height + r ) ", 0, MEASURE_MIN},
+                 {"max(theta, m/2[kg])", 0, MEASURE_FINAL},
+                 {"max(max(theta, 1))", 0, MEASURE_MAX},
+                 {"amplitude(sin(theta)*theta'')", 0, MEASURE_AMPLITUDE},
+                 {"mean((theta)*(M))", 0, MEASURE_MEAN},
+                 {"period(x')", 1, MEASURE_PERIOD},
+                 {"(theta)*(theta)", 0, MEASURE_FINAL},
+                 {"period(x'')", 1, -1}, /* the equation has x' only */
+                 {"theta'''", 0, -1},
+                 {"2*amplitude(theta)", 0, -1},
+                 {"mean(theta) theta", 0, -1},
+                 {"max(theta)*max(theta)", 0, -1},
+                 {"theta + r", 0, -1}, /* an angle and a length */
+                 {"heigth", 0, -1},
+                 {"mean(theta", 0, -1},
+                 {"", 0, -1}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        open_sample();
+        measures *m = measures_new(parsed->mechanisms[cases[i].mechanism], &cases[i].text, 1, said);
+        TEST_ASSERT_TRUE_MESSAGE((m != NULL) == (cases[i].kind >= 0), cases[i].text);
+        TEST_ASSERT_TRUE_MESSAGE((m == NULL) == (diags_count(said) > 0), cases[i].text);
+        if (m != NULL) {
+            TEST_ASSERT_EQUAL_INT_MESSAGE(cases[i].kind, (int)m->list[0].kind, cases[i].text);
+            TEST_ASSERT_EQUAL_INT(1, m->mechanism.output_count);
+        }
+        measures_free(m);
+        close_sample();
+    }
+}
+
+static void test_default_measures_are_the_columns_of_run(void) {
+    static const char *const wanted[] = {"theta", "der(theta)", "height"};
+    open_sample();
+    measures *m = measures_new(parsed->mechanisms[0], NULL, 0, said);
+    TEST_ASSERT_NOT_NULL(m);
+    TEST_ASSERT_EQUAL_INT(3, m->count);
+    for (int i = 0; i < 3; i++) {
+        TEST_ASSERT_EQUAL_STRING(wanted[i], m->list[i].name);
+        TEST_ASSERT_EQUAL_INT(MEASURE_FINAL, (int)m->list[i].kind);
+    }
+    measures_free(m);
+    close_sample();
+}
+
+/* --- workers -------------------------------------------------------------------------------------*/
+
+enum { FIRST = 5, END = 205, ENOUGH = 40 };
+
+typedef struct log_of_rows {
+    uint64_t next;
+    bool in_order;
+    bool as_worked;
+    uint64_t failed;
+    uint64_t limit; /* refuse the row behind */
+} log_of_rows;
+
+/* Point p sleeps the longer the lower p % 8 is, so that they end out of order; its row has up to
+ * 200 kB, more than a pipe holds. */
+static bool slow_work(void *context, uint64_t point, FILE *row, FILE *reason) {
+    (void)context;
+    const struct timespec nap = {0, (long)(7 - point % 8) * 300000};
+    nanosleep(&nap, NULL);
+    for (uint64_t i = 0; i < (point % 50 == 0 ? 20000U : 1U); i++) {
+        fprintf(row, "%10llu", (unsigned long long)point);
+    }
+    if (point % 10 == 3) {
+        fprintf(reason, "bad %llu", (unsigned long long)point);
+    }
+    return point % 10 != 3;
+}
+
+static bool note(void *context, uint64_t point, bool good, const char *row, const char *reason) {
+    log_of_rows *log = context;
+    char wanted[40];
+    snprintf(wanted, sizeof wanted, "%10llu", (unsigned long long)point);
+    log->in_order = log->in_order && point == log->next;
+    log->as_worked = log->as_worked && strncmp(row, wanted, 10) == 0 &&
+                     strlen(row) == (point % 50 == 0 ? 200000U : 10U);
+    snprintf(wanted, sizeof wanted, "bad %llu", (unsigned long long)point);
+    log->as_worked = log->as_worked && strcmp(reason, good ? "" : wanted) == 0;
+    log->failed += good ? 0 : 1;
+    log->next++;
+    return log->next < log->limit;
+}
+
+static bool go_on(void *context, uint64_t next) {
+    const log_of_rows *log = context;
+    return next == log->next;
+}
+
+static void test_rows_come_in_order_from_any_number_of_workers(void) {
+    static const int workers[] = {1, 2, 3, 16};
+    for (size_t i = 0; i < sizeof workers / sizeof workers[0]; i++) {
+        log_of_rows log = {.next = FIRST, .in_order = true, .as_worked = true, .limit = END + 1};
+        const jobs plan = {.workers = workers[i],
+                           .first = FIRST,
+                           .end = END,
+                           .context = &log,
+                           .work = slow_work,
+                           .deliver = note,
+                           .pause = go_on};
+        TEST_ASSERT_EQUAL_INT(JOBS_DONE, (int)jobs_run(&plan));
+        TEST_ASSERT_TRUE(log.in_order);
+        TEST_ASSERT_TRUE(log.as_worked);
+        TEST_ASSERT_TRUE(log.next == END);
+        TEST_ASSERT_TRUE(log.failed == (END - FIRST) / 10);
+    }
+}
+
+static void test_refused_rows_end_it(void) {
+    log_of_rows log = {.next = FIRST, .in_order = true, .as_worked = true, .limit = ENOUGH};
+    const jobs plan = {.workers = 3,
+                       .first = FIRST,
+                       .end = END,
+                       .context = &log,
+                       .work = slow_work,
+                       .deliver = note,
+                       .pause = go_on};
+    TEST_ASSERT_EQUAL_INT(JOBS_REFUSED, (int)jobs_run(&plan));
+    TEST_ASSERT_TRUE(log.next == ENOUGH);
+}
+
+static bool die_at_20(void *context, uint64_t point, FILE *row, FILE *reason) {
+    if (point == 20) {
+        raise(SIGKILL);
+    }
+    return slow_work(context, point, row, reason);
+}
+
+static void test_a_lost_worker_is_noticed(void) {
+    log_of_rows log = {.next = FIRST, .in_order = true, .as_worked = true, .limit = END + 1};
+    const jobs plan = {.workers = 2,
+                       .first = FIRST,
+                       .end = END,
+                       .context = &log,
+                       .work = die_at_20,
+                       .deliver = note,
+                       .pause = go_on};
+    TEST_ASSERT_EQUAL_INT(JOBS_WORKER_LOST, (int)jobs_run(&plan));
+    TEST_ASSERT_TRUE(log.in_order && log.next <= 20);
+}
+
+void suite_sweep(void) {
+    UnitySetTestFile(__FILE__);
+    RUN_TEST(test_last_axis_runs_fastest);
+    RUN_TEST(test_units_and_exact_ends);
+    RUN_TEST(test_shards_tile_the_grid);
+    RUN_TEST(test_numbers_come_back);
+    RUN_TEST(test_series_of_a_sine);
+    RUN_TEST(test_series_without_a_value);
+    RUN_TEST(test_mean_is_over_time);
+    RUN_TEST(test_measures_are_read);
+    RUN_TEST(test_default_measures_are_the_columns_of_run);
+    RUN_TEST(test_rows_come_in_order_from_any_number_of_workers);
+    RUN_TEST(test_refused_rows_end_it);
+    RUN_TEST(test_a_lost_worker_is_noticed);
+}
