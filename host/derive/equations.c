@@ -183,6 +183,9 @@ static bool too_large(const equations *e) {
     }
     double size = 0.0;
     for (int i = 0; i < e->count; i++) {
+        if (e->velocity[i] == NULL || e->potential[i] == NULL || e->applied[i] == NULL) {
+            return true;
+        }
         size += e->velocity[i]->size + e->potential[i]->size + e->applied[i]->size;
         for (int j = 0; j < e->count; j++) {
             size += e->mass[i * e->count + j]->size;

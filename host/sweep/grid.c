@@ -32,11 +32,9 @@ static char *trimmed(const char *text, size_t length) {
 }
 
 static char *joined(const char *left, const char *right) {
-    const size_t first = strlen(left);
-    const size_t second = strlen(right);
-    char *text = room(first + second, 1);
-    memcpy(text, left, first);
-    memcpy(text + first, right, second);
+    const size_t size = strlen(left) + strlen(right) + 1;
+    char *text = room(size, 1);
+    snprintf(text, size, "%s%s", left, right);
     return text;
 }
 

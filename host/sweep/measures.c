@@ -131,9 +131,9 @@ static void add_symbol(measures *m, const symbol *s, int primes) {
     const size_t depth = (size_t)primes;
     char *name = arena_alloc(m->arena, length + 5 * depth + 1);
     for (size_t k = 0; k < depth; k++) {
-        memcpy(name + 4 * k, "der(", 4);
+        snprintf(name + 4 * k, 5, "der(");
     }
-    memcpy(name + 4 * depth, s->name, length);
+    snprintf(name + 4 * depth, length + 1, "%s", s->name);
     memset(name + 4 * depth + length, ')', depth);
     expr *made = arena_alloc(m->arena, sizeof *made);
     *made = (expr){.op = EXPR_SYMBOL, .symbol = s, .primes = primes, .dim = s->dim, .height = 1};

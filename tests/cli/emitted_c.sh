@@ -183,7 +183,7 @@ build() { # build COMPILER OPTIMISATION REAL WH_DOUBLE
         core/scene.c core/angle.c -lm >"$scratch/$1_$3.log" 2>&1 # libm: a root may be a call
     status=$?
     verdict $status "$1 $2 compiles $(wc -l <"$scratch/numbers") emitted scenes in $3 without a warning"
-    [ $status -eq 0 ] || { grep -E 'error|warning' "$scratch/$1_$3.log" | head -n 5; return; }
+    [ $status -eq 0 ] || { grep -E "error|warning|undefined" "$scratch/$1_$3.log" | head -n 5; return; }
     "$scratch/$1_$3" >"$scratch/$1_$3.hashes"
     while read -r number hash; do
         compared=$((compared + 1))
