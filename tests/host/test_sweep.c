@@ -79,7 +79,8 @@ static void test_units_and_exact_ends(void) {
                  {"M=0.1..1000:3,log", 0.1, 10.0, 1000.0},
                  {"M=-0.1..-1000:3,log", -0.1, -10.0, -1000.0},
                  {"step=0.5..1.5 [ms]:3", 0.5e-3, 1e-3, 1.5e-3},
-                 {"m=0.1..0.3:3", 0.1, 0.2, 0.3}};
+                 {"m=0.1..0.3:3", 0.1, 0.2, 0.3},
+                 {"m=1e16..1:3", 1e16, 5e15, 1.0}}; /* 1e16 + (1 - 1e16) rounds to 0 */
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         open_sample();
         TEST_ASSERT_TRUE_MESSAGE(over(cases[i].text), cases[i].text);
