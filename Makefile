@@ -30,6 +30,7 @@ include mk/whirl.mk
 include mk/tests.mk
 include mk/board.mk
 include mk/price.mk
+include mk/figures.mk
 include mk/check.mk
 
 ##@ Start here
@@ -100,6 +101,18 @@ bench: ## instructions a step, counted, on this machine and on the emulated boar
 size: ## bytes of flash, of memory and of stack of BOARD's images
 	@CC="$(CC)" host/setup/deps.sh host firmware
 	@$(MAKE) size-now
+
+##@ The dissertation
+
+.PHONY: figures
+figures: ## the dissertation's figures and the findings' plots, in build/figures
+	@CC="$(CC)" host/setup/deps.sh host plot
+	@$(MAKE) figures-now
+
+.PHONY: octave-check
+octave-check: ## the generated Octave files under ode45, against whirl run (installs Octave, large)
+	@CC="$(CC)" host/setup/deps.sh host octave
+	@$(MAKE) octave-check-now
 
 ##@ Boards
 

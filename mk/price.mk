@@ -5,6 +5,8 @@ PLUGIN := build/count_plugin.so
 FIGURES := build/figures
 # The same mechanisms as one writes them by hand, to compare with.
 BY_HAND := naive_epicyclic naive_thomson careful_thomson
+# Two scenes again with compensated sums, to see what these cost.
+COMPENSATED_C := $(patsubst %,build/compensated/%.c,scenes epicyclic_from_rest thomson_a)
 # What of the flags belongs beside a figure.
 TOLD = $(filter -O% -m%,$(1))
 
@@ -21,6 +23,22 @@ $(B)/bench_double: $(call objects,double,$(BENCH_C) boards/host/board.c) $(LIB_S
     $(LIB_DOUBLE)
 	$(link)
 
+build/compensated/%.c: $(GEN)/%.c
+	@mkdir -p $(@D)
+	$(say) GEN $@
+	$(Q)sed -e 's/WH_RK4, false/WH_RK4, true/' -e 's/compensated = false/compensated = true/' \
+	    -e 's|"scenes.h"|"$(GEN)/scenes.h"|' \
+	    -e '/^    &/{/&epicyclic_from_rest,/b' -e '/&thomson_a,/b' -e 'd' -e '}' $< >$@
+.SECONDARY: $(COMPENSATED_C)
+
+$(B)/bench_compensated: $(call objects,float,$(BENCH_C) $(COMPENSATED_C) boards/host/board.c) \
+    $(LIB_FLOAT)
+	$(link)
+
+$(ELF)/bench_compensated.elf: $(call objects,$(BOARD),$(BENCH_C) $(COMPENSATED_C)) \
+    $(BOARD_OBJECTS) $(LIB_BOARD)
+	$(link_board)
+
 $(addprefix $(B)/tools/,$(BY_HAND)): $(B)/tools/%: $(B)/host/tests/tools/%.o \
     $(B)/host/tests/tools/naive_main.o
 	$(link)
@@ -29,21 +47,22 @@ $(ELF)/bench.elf: $(call objects,$(BOARD),$(BENCH_C)) $(BOARD_OBJECTS) $(ELF)/li
     $(LIB_BOARD)
 	$(link_board)
 
+count_board = BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) \
+    FLAGS="$(call TOLD,$(BOARD_CFLAGS))" PLUGIN=$(PLUGIN) EMULATE="$(call emulate,$(1))" \
+    host/count/count_board.sh $(1) $(FIGURES)/bench.csv
+
 .PHONY: bench-now size-now
 bench-now: build/whirl
 	@$(MAKE) $(GEN)/.stamp
-	@$(MAKE) build/bench build/bench_double $(addprefix build/tools/,$(BY_HAND)) $(ELF)/bench.elf \
-	    $(PLUGIN)
+	@$(MAKE) build/bench build/bench_compensated build/bench_double \
+	    $(addprefix build/tools/,$(BY_HAND)) $(ELF)/bench.elf $(ELF)/bench_compensated.elf $(PLUGIN)
 	@mkdir -p $(FIGURES)
 	@echo "Instructions a step (executed, not cycles):"
-	@CC="$(CC)" FLAGS="$(OPT)" host/count/count_host.sh build/bench $(FIGURES)/bench.csv
-	@CC="$(CC)" FLAGS="$(OPT)" host/count/count_host.sh build/bench_double $(FIGURES)/bench.csv
-	@echo "By hand, with libm:"
-	@for program in $(BY_HAND); do CC="$(CC)" FLAGS="$(OPT)" \
-	    host/count/count_host.sh build/tools/$$program $(FIGURES)/bench.csv || exit 1; done
-	@BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) FLAGS="$(call TOLD,$(BOARD_CFLAGS))" \
-	    PLUGIN=$(PLUGIN) EMULATE="$(call emulate,$(ELF)/bench.elf)" \
-	    host/count/count_board.sh $(ELF)/bench.elf $(FIGURES)/bench.csv
+	@for program in bench bench_compensated bench_double $(addprefix tools/,$(BY_HAND)); do \
+	    CC="$(CC)" FLAGS="$(OPT)" \
+	        host/count/count_host.sh build/$$program $(FIGURES)/bench.csv || exit 1; done
+	@$(call count_board,$(ELF)/bench.elf)
+	@$(call count_board,$(ELF)/bench_compensated.elf)
 
 size-now: build/whirl
 	@$(MAKE) $(GEN)/.stamp

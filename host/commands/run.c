@@ -122,9 +122,12 @@ static bool read_every(const run_options *o, const mechanism *of, const instance
     diags *errors = diags_new();
     const overrides duration = {.until = o->every};
     instance *spaced = instance_make(of, NULL, &duration, errors);
-    diags_flush(errors, stderr);
-    diags_free(errors);
+    diags_free(errors); /* it would speak of --until */
     if (spaced == NULL) {
+        fprintf(stderr,
+                "whirl run: error: --every %s is not a time\n"
+                "hint: such as 2ms, or 0.002 in seconds; the step is %.9g s\n",
+                o->every, inst->step_s);
         return false;
     }
     const double wanted = spaced->until_s / inst->step_s;

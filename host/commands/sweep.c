@@ -20,14 +20,15 @@ static const char usage[] =
     "Runs a scene at every point of a grid and writes a row of measures for each.\n"
     "\n"
     "  --over RANGE         COUNT values of a parameter, an input, a start value or the step;\n"
-    "                       a bare number is SI: \"r=10..60 [mm]:11\", \"theta'=100..400 [rpm]:7\",\n"
-    "                       \"step=0.1..10 [ms]:9,log\". Repeatable: the full grid, the last fastest\n"
-    "  --measure EXPR       the expression's value at the end; or max(EXPR), min(EXPR), mean(EXPR),\n"
-    "                       amplitude(EXPR), period(EXPR) over the run. Repeatable; without it the\n"
+    "                       a bare number is SI: \"r=10..60 [mm]:11\", \"theta'=1..4 [rpm]:7\",\n"
+    "                       \"step=0.1..10 [ms]:9,log\". Repeatable: the full grid, the last one\n"
+    "                       fastest\n"
+    "  --measure EXPR       the value at the end; or max(EXPR), min(EXPR), amplitude(EXPR),\n"
+    "                       mean(EXPR), period(EXPR) over the run. Repeatable; without it the\n"
     "                       final state and the outputs\n"
     "  --from TIME          measure only from then on (final values stay those of the end)\n"
-    "  --csv FILE           rows by rising point; - is standard output (default). The same command\n"
-    "                       goes on with the FILE of a sweep that was broken off\n"
+    "  --csv FILE           rows by rising point; - is standard output (default). The same\n"
+    "                       command goes on with the FILE of a sweep that was broken off\n"
     "  --fresh              start FILE anew instead\n"
     "  --jobs N             processes (default: one a processor); the rows do not depend on it\n"
     "  --shard K/N          the K-th of N parts: their files, in order, are the whole file\n"
@@ -36,8 +37,8 @@ static const char usage[] =
     "  --set --start --with --without --step --until --method --number --compensated: as for\n"
     "  `whirl run`\n"
     "\n"
-    "Exit status: 0 done; 1 points failed (their measures are empty; the others are there) or the file\n"
-    "could not be written; 2 bad input, or FILE is another sweep's; 130 interrupted.\n";
+    "Exit status: 0 done; 1 points failed (their measures are empty; the others are there) or the\n"
+    "file could not be written; 2 bad input, or FILE is another sweep's; 130 interrupted.\n";
 
 static volatile sig_atomic_t interrupted;
 
@@ -46,7 +47,7 @@ static void on_interrupt(int signal_number) {
     interrupted = 1;
 }
 
-/* --- options -------------------------------------------------------------------------------------*/
+/* --- options -----------------------------------------------------------------------------------*/
 
 typedef struct sweep_options {
     change_options changes;
@@ -195,7 +196,7 @@ static bool read_options(int count, char **words, sweep_options *o) {
     return !bad;
 }
 
-/* --- the sweep -----------------------------------------------------------------------------------*/
+/* --- the sweep ---------------------------------------------------------------------------------*/
 
 static const char *model_text(const source_model *from) {
     for (size_t i = 0; i < builtin_model_count && from->text == NULL; i++) {

@@ -321,12 +321,16 @@ const char *program_needs_libm(const program *p) {
         [FN_ACOS] = "acos", [FN_ATAN] = "atan", [FN_ATAN2] = "atan2", [FN_SQRT] = "sqrt",
         [FN_EXP] = "exp",   [FN_LOG] = "log",   [FN_ABS] = "abs",     [FN_SIGN] = "sign",
         [FN_MIN] = "min",   [FN_MAX] = "max"};
-    for (int i = 0; i < p->step->count; i++) {
-        if (p->step->ops[i].code == OP_CALL) {
-            return names[p->step->ops[i].function];
-        }
-        if (p->step->ops[i].code == OP_POW) {
-            return "a power that is not a multiple of 1/2";
+    const tape *const lists[] = {p->step, p->observe};
+    for (int k = 0; k < 2; k++) {
+        for (int i = 0; i < lists[k]->count; i++) {
+            const op *o = &lists[k]->ops[i];
+            if (o->code == OP_CALL) {
+                return names[o->function];
+            }
+            if (o->code == OP_POW) {
+                return "a power that is not a multiple of 1/2";
+            }
         }
     }
     return NULL;

@@ -46,7 +46,7 @@ enum { BOOK_KINETIC, BOOK_STORED, BOOK_INPUT_POWER, BOOK_LOSS_POWER, BOOK_MOMENT
 program *program_make(const equations *e, const bool *conserve, diags *errors);
 void program_free(program *p);
 
-/* A function in the list that the core does not offer on boards ("exp"), or NULL. */
+/* A function in the step or the outputs that the core does not offer on boards ("exp"), or NULL. */
 const char *program_needs_libm(const program *p);
 
 uint64_t program_hash(const program *p);

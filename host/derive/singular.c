@@ -187,6 +187,12 @@ static void report_singular(const equations *e, diags *errors) {
         e->instance->mechanism->name);
 }
 
+/* An energy's constant part vanishes from the equations, but 1/0 in it is a mistake all the same. */
+static bool energies_finite(const equations *e, generic_state *state) {
+    return e->kinetic == NULL || (isfinite(poly_evaluate(e->kinetic, generic_value, state)) &&
+                                  isfinite(poly_evaluate(e->stored, generic_value, state)));
+}
+
 bool equations_check_solvable(const equations *e, diags *errors) {
     const int n = e->count;
     double *m = calloc((size_t)n * (size_t)n + 1, sizeof *m);
@@ -197,7 +203,7 @@ bool equations_check_solvable(const equations *e, diags *errors) {
     bool solvable = false;
     for (int try = 0; try < TRIES && !solvable; try++) {
         generic_state state = {e->instance, (uint64_t)try};
-        bool finite = mass_at(e, try, m);
+        bool finite = mass_at(e, try, m) && energies_finite(e, &state);
         for (int i = 0; i < n && finite; i++) {
             finite = isfinite(poly_evaluate(equations_force(e, i), generic_value, &state));
         }

@@ -102,13 +102,14 @@ END {
     finish_panel()
     print "set encoding utf8"
     print "set datafile separator comma"
-    print "set samples 400"
+    print "set samples 120"
     print "set border lw 1 lc rgb '#444444'"
     print "set grid lt 1 lw 0.7 lc rgb '#e2e2e2'"
     print "set tics nomirror textcolor rgb '#222222'"
     print "set lmargin 12"
     print "set rmargin 3"
-    print "set multiplot layout " panels ",1 title " quoted(title)
+    # a line of air between the title and a key below it
+    print "set multiplot layout " panels ",1 title " quoted(title) (named[1] > 0 ? ".\"\\n\"" : "")
     for (p = 1; p <= panels; p++) {
         print "set key above center horizontal samplen 3"
         print "set xlabel " quoted(p in xlabel ? xlabel[p] : p == panels ? "time [s]" : "")

@@ -34,6 +34,7 @@ record() {
     shift 3
     file=$out/data/$kind-$(printf '%s' "$*" | tr -c 'A-Za-z0-9.\n' '_').csv
     if [ ! -s "$file" ]; then
+        rm -f "$file.raw" "$file.raw.sweep" # a sweep would go on with it
         case $kind in
         run) "$whirl" run "$@" --quiet --csv "$file.raw" ;;
         sweep) "$whirl" sweep "$@" --csv "$file.raw" >/dev/null ;;
@@ -47,7 +48,7 @@ record() {
             return 1
         }
         tr -d '\r' <"$file.raw" >"$file"
-        rm -f "$file.raw"
+        rm -f "$file.raw" "$file.raw.sweep"
     fi
     printf '%s\n' "$file"
 }

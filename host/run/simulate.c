@@ -55,7 +55,8 @@ static bool open_records(const char *name, FILE **file) {
 
 static bool flush_records(const char *name, FILE *file) {
     if (file != NULL && (fflush(file) != 0 || ferror(file) != 0)) {
-        fprintf(stderr, "%s: error: cannot be written: %s\n", name, strerror(errno));
+        fprintf(stderr, "%s: error: cannot be written: %s\n",
+                file == stdout ? "<standard output>" : name, strerror(errno));
         return false;
     }
     return true;

@@ -2,7 +2,8 @@
 # deps.sh GROUP...: install the Debian packages that a make target needs, and only those missing.
 #
 # Groups: host (compiler), plot, firmware (Arm compiler and emulator), tests, quality (linters,
-# sanitizers), bench. What is there already is recognised by its command or file, not by its package,
+# sanitizers), bench; octave only when it is named. What is there already is recognised by its
+# command or file, not by its package,
 # so a compiler from elsewhere counts. With nothing missing this says nothing and takes milliseconds.
 # DEPS_DRY_RUN=1 only says what is missing (exit status 1 if anything is).
 set -eu
@@ -75,10 +76,14 @@ bench() {
     want valgrind "instruction counts on the PC" have valgrind
 }
 
+octave() {
+    want octave "running the generated Octave files" have octave-cli
+}
+
 [ $# -gt 0 ] || set -- host plot firmware tests quality bench
 for group in "$@"; do
     case $group in
-    host | plot | firmware | tests | quality | bench) "$group" ;;
+    host | plot | firmware | tests | quality | bench | octave) "$group" ;;
     *)
         echo "deps.sh: no such group: $group" >&2
         exit 2

@@ -9,8 +9,8 @@ typedef struct shard {
     uint64_t of;
 } shard;
 
-/* `model_text`: the whole .whirl text; `base` and `p`: the instance without what is swept. The result
- * is the caller's to free. */
+/* `model_text`: the whole .whirl text; `base` and `p`: the instance without what is swept. The
+ * result is the caller's to free. */
 char *fingerprint_make(const sweep *s, const char *model_text, const instance *base,
                        const program *p, shard part);
 

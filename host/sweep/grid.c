@@ -38,7 +38,7 @@ static char *joined(const char *left, const char *right) {
     return text;
 }
 
-/* --- the text of a range -------------------------------------------------------------------------*/
+/* --- the text of a range -----------------------------------------------------------------------*/
 
 typedef struct range_text {
     char *name;
@@ -123,7 +123,7 @@ static bool read_count(const char *over, const char *text, axis *made) {
     return problem == NULL;
 }
 
-/* --- its values ----------------------------------------------------------------------------------*/
+/* --- its values --------------------------------------------------------------------------------*/
 
 /* One end of the range as an expression; fills in the axis's symbol. */
 static const expr *read_end(const mechanism *of, const char *name, const char *text,

@@ -7,7 +7,7 @@
 
 #include "host/lang/model.h"
 
-/* One --over: `count` values from `from` to `to` (SI), evenly spaced, or evenly in the logarithm. */
+/* One --over: `count` values from `from` to `to` (SI), even, or even in the logarithm. */
 typedef struct axis {
     char *name;           /* as typed: "r", "theta'", "step" */
     char *column;         /* its CSV column: the name; "start(theta')" for a start value */
@@ -39,8 +39,8 @@ void grid_values(const grid *g, uint64_t point, double *value);
 /* Does an axis vary a parameter? Then each point has equations of its own. */
 bool grid_varies_parameters(const grid *g);
 
-/* The points of shard k of n (1 <= k <= n): first <= point < end. Shards follow each other without a
- * gap, so that their rows in the order of k are all the rows. */
+/* The points of shard k of n (1 <= k <= n): first <= point < end. Shards follow each other without
+ * a gap, so that their rows in the order of k are all the rows. */
 void grid_shard(const grid *g, uint64_t k, uint64_t n, uint64_t *first, uint64_t *end);
 
 /* A number in as few digits as bring it back exactly. Returns text. */

@@ -55,7 +55,7 @@ static void *room(size_t count, size_t size) {
     return p;
 }
 
-/* --- in a worker ---------------------------------------------------------------------------------*/
+/* --- in a worker -------------------------------------------------------------------------------*/
 
 static pid_t parent;
 
@@ -104,7 +104,7 @@ static void work(const jobs *j, int tickets, int results) {
     }
 }
 
-/* --- in the parent -------------------------------------------------------------------------------*/
+/* --- in the parent -----------------------------------------------------------------------------*/
 
 static bool start_worker(pool *p, int tickets) {
     int results[2];

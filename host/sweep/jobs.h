@@ -1,8 +1,8 @@
 /* jobs.h: points worked on by several processes, delivered in order.
  *
- * The parent hands numbers out over one pipe; whichever worker is free takes the next. Rows come back
- * over a pipe for each worker and are delivered by rising number, at once when their turn has come.
- * What a worker does for a point must depend on nothing but the point: then what is delivered does
+ * The parent hands numbers out over one pipe; whichever worker is free takes the next. Rows come
+ * back over a pipe for each worker and are delivered by rising number, at once when their turn has
+ * come. What a worker does for a point must depend on nothing but the point: then what is delivered does
  * not depend on the number of workers. Workers end when the parent does, however it ends. */
 #ifndef SWEEP_JOBS_H
 #define SWEEP_JOBS_H

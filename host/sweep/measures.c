@@ -10,7 +10,7 @@
 #include "host/lang/arena.h"
 #include "host/lang/parser.h"
 
-/* --- reading -------------------------------------------------------------------------------------*/
+/* --- reading -----------------------------------------------------------------------------------*/
 
 static const char *const kind_names[] = {[MEASURE_FINAL] = "",    [MEASURE_MAX] = "max",
                                          [MEASURE_MIN] = "min",   [MEASURE_AMPLITUDE] = "amplitude",
@@ -56,8 +56,8 @@ static measure_kind kind_of(const char *text, const char **inner, size_t *length
     return MEASURE_FINAL;
 }
 
-/* A state may be named with any number of primes; the equations give it no more than its order. Each
- * let is walked once. */
+/* A state may be named with any number of primes; the equations give it no more than its order.
+ * Each let is walked once. */
 static bool check_orders(parser *in, const expr *tree, bool *let_seen) {
     if (tree == NULL) {
         return true;
@@ -75,8 +75,8 @@ static bool check_orders(parser *in, const expr *tree, bool *let_seen) {
     return check_orders(in, tree->left, let_seen) && check_orders(in, tree->right, let_seen);
 }
 
-/* "amplitude(x)/2": measures are no functions of the language. Reports and returns true when there is
- * one inside the text. */
+/* "amplitude(x)/2": measures are no functions of the language. Reports and returns true when there
+ * is one inside the text. */
 static bool has_measure_inside(const source *typed, diags *errors) {
     for (measure_kind kind = MEASURE_AMPLITUDE; kind <= MEASURE_PERIOD; kind++) {
         const size_t length = strlen(kind_names[kind]);
@@ -211,7 +211,7 @@ void measures_free(measures *m) {
     }
 }
 
-/* --- taking --------------------------------------------------------------------------------------*/
+/* --- taking ------------------------------------------------------------------------------------*/
 
 gauge gauge_start(measure_kind kind) { return (gauge){.kind = kind}; }
 

@@ -8,8 +8,8 @@
  *     amplitude(x)     half the difference of the two
  *     mean(x)          over time, by the trapezoidal rule
  *     period(x)        mean spacing of the upward crossings of the mean, each found by linear
- *                      interpolation between two samples; nan with fewer than two crossings, or when
- *                      x does not vary beyond rounding
+ *                      interpolation between two samples; nan with fewer than two crossings, or
+ *                      when x does not vary beyond rounding
  */
 #ifndef SWEEP_MEASURES_H
 #define SWEEP_MEASURES_H
@@ -37,8 +37,8 @@ typedef struct measures {
     struct arena *arena;
     measure *list; /* [count] */
     int count;
-    /* The mechanism with the measured expressions as its outputs and no others, so that what derives
-     * and computes outputs computes measures, and nothing that was not asked for. */
+    /* The mechanism with the measured expressions as its outputs and no others, so that what
+     * derives and computes outputs computes measures, and nothing that was not asked for. */
     mechanism mechanism;
 } measures;
 

@@ -21,10 +21,10 @@ bool sweep_can_share(const grid *g, const program *p) {
     return !grid_varies_parameters(g) && p->conserved->count == 0;
 }
 
-/* --- the point in numbers ------------------------------------------------------------------------*/
+/* --- the point in numbers ----------------------------------------------------------------------*/
 
-/* The swept values as changes of the command line, behind the others and so over them. Numbers of 17
- * digits: none is lost. Free `.values` and what it points to with forget(). */
+/* The swept values as changes of the command line, behind the others and so over them. Numbers of
+ * 17 digits: none is lost. Free `.values` and what it points to with forget(). */
 static overrides changes_at(const sweep *s, uint64_t point) {
     const grid *g = s->grid;
     overrides changes = *s->changes;
@@ -62,7 +62,7 @@ static void forget(const sweep *s, overrides *changes) {
     }
 }
 
-/* --- measuring -----------------------------------------------------------------------------------*/
+/* --- measuring ---------------------------------------------------------------------------------*/
 
 /* Where a measured expression is read: in the state itself, or among the outputs. */
 typedef struct channel {
@@ -246,7 +246,7 @@ static bool measure_point(const sweep *s, uint64_t point, bool (*abandon)(void),
     return good;
 }
 
-/* --- rows ----------------------------------------------------------------------------------------*/
+/* --- rows --------------------------------------------------------------------------------------*/
 
 /* A field of a header: quoted where RFC 4180 wants it. */
 static void header_field(FILE *out, const char *text) {

@@ -31,7 +31,7 @@ static char *beside(const char *path, const char *ending) {
     return name;
 }
 
-/* --- the fingerprint -----------------------------------------------------------------------------*/
+/* --- the fingerprint ---------------------------------------------------------------------------*/
 
 static char *read_text(const char *path) {
     FILE *in = fopen(path, "rb");
@@ -87,7 +87,7 @@ static int check_fingerprint(const sheet_settings *s, const char *path) {
     return code;
 }
 
-/* --- the rows that are there ---------------------------------------------------------------------*/
+/* --- the rows that are there -------------------------------------------------------------------*/
 
 static bool ends_whole(const char *line, ssize_t length) {
     return length >= 2 && line[length - 2] == '\r' && line[length - 1] == '\n';
@@ -156,7 +156,7 @@ static int check_rows(sheet *sh, const sheet_settings *s, off_t *whole) {
     return code;
 }
 
-/* --- opening -------------------------------------------------------------------------------------*/
+/* --- opening -----------------------------------------------------------------------------------*/
 
 static int lock(const sheet *sh, const char *path) {
     struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};

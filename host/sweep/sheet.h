@@ -1,9 +1,9 @@
 /* sheet.h: the CSV file of a sweep, which a later run of the same sweep goes on with.
  *
  * Beside FILE stands FILE.sweep: the sweep's settings, a line each, that decide every byte of FILE.
- * FILE itself stays plain. A run goes on with a FILE whose settings, header and swept values are its
- * own, drops a last line that was torn off, and refuses any other. While a sweep writes FILE it holds
- * a lock on it. */
+ * FILE itself stays plain. A run goes on with a FILE whose settings, header and swept values are
+ * its own, drops a last line that was torn off, and refuses any other. While a sweep writes FILE it
+ * holds a lock on it. */
 #ifndef SWEEP_SHEET_H
 #define SWEEP_SHEET_H
 
@@ -30,8 +30,8 @@ typedef struct sheet_settings {
     bool fresh; /* start anew, whatever is there */
 } sheet_settings;
 
-/* Open and check; the header is written when it is not there yet. Returns an exit code: 0 good, 1 the
- * file could not be written, 2 it is another sweep's or in use (said on standard error). */
+/* Open and check; the header is written when it is not there yet. Returns an exit code: 0 good,
+ * 1 the file could not be written, 2 it is another sweep's or in use (said on standard error). */
 int sheet_open(sheet *sh, const sheet_settings *s);
 /* False when something was not written (said). */
 bool sheet_close(sheet *sh);

@@ -10,7 +10,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "host/derive/equations.h"
+#include "host/derive/program.h"
 #include "host/lang/model.h"
 #include "unity.h"
 
@@ -19,11 +19,15 @@ void suite_bad_input(void);
 #define FOLDER "tests/bad"
 enum { FILES_MIN = 40, LINE_SIZE = 512 };
 
-/* Make one instance; with `derive`, its equations too, unless something is wrong already. */
+/* Make one instance; with `derive`, its equations and lists too, unless something is wrong already. */
 static void try_instance(const mechanism *of, const scene *in, bool derive, diags *all) {
     instance *made = instance_make(of, in, NULL, all);
     if (derive && made != NULL && diags_count(all) == 0) {
-        equations_free(equations_derive(made, all));
+        equations *derived = equations_derive(made, all);
+        if (derived != NULL) {
+            program_free(program_make(derived, in == NULL ? NULL : in->conserve, all));
+        }
+        equations_free(derived);
     }
     instance_free(made);
 }

@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "unity.h"
 
@@ -15,7 +16,7 @@ enum { HALVINGS = 4 }; /* steps measured, each half of the one before */
 
 typedef double error_of_run(motion *m, const void *of);
 
-/* Errors at HALVINGS steps; every measured order must lie in least ... most. */
+/* Errors at HALVINGS steps of a built-in scene, or of a model's text; every measured order must lie in least ... most. */
 static void expect_order(const char *what, const char *name, wh_method method, double first_step_s,
                          error_of_run *error, const void *of, double least, double most) {
     double errors[HALVINGS];
@@ -24,7 +25,11 @@ static void expect_order(const char *what, const char *name, wh_method method, d
     for (unsigned i = 0; i < HALVINGS; i++) {
         motion m;
         const stepping how = {.kind = &engine_double, .method = method, .step_s = step_s};
-        motion_open(&m, name, how);
+        if (strncmp(name, "mechanism ", 10) == 0) {
+            motion_open_text(&m, name, how);
+        } else {
+            motion_open(&m, name, how);
+        }
         errors[i] = error(&m, of);
         motion_close(&m);
         printf("  %.3g at %g ms", errors[i], 1e3 * step_s);
@@ -234,6 +239,102 @@ static void test_order_of_thomson_energy(void) {
     expect_order("S8 A, T - M theta1 to 8 s", "thomson_a", WH_RK4, 1e-3, book_error, &a, 3.8, 4.2);
 }
 
+/* --- systems given outright: first order ------------------------------------------------------------ */
+
+/* phi' = w sin phi, of which tan(phi/2) = tan(phi0/2) exp(w t), beside an oscillator. phi is kept as a
+ * turn angle, the others as reals. */
+static const char first_order[] = "mechanism pair\n"
+                                  "state phi [rad]\n"
+                                  "state x\n"
+                                  "state v [1/s]\n"
+                                  "parameter w = 2 [rad/s]\n"
+                                  "equation phi' = w*sin(phi)\n"
+                                  "equation x' = v\n"
+                                  "equation v' = -w^2*x\n"
+                                  "scene fall {\n"
+                                  "  start phi = 0.1, x = 1, v = 0\n"
+                                  "  step 1 [ms]\n"
+                                  "  until 1 [s]\n"
+                                  "}\n";
+
+static double angle_error(motion *m, const void *of) {
+    (void)of;
+    motion_to(m, 1.0);
+    return fabs(motion_value(m, "phi") - 2.0 * atan(tan(0.05) * exp(2.0)));
+}
+
+static double oscillator_error(motion *m, const void *of) {
+    (void)of;
+    motion_to(m, 1.0);
+    return hypot(motion_value(m, "x") - cos(2.0), motion_value(m, "v") / 2.0 + sin(2.0));
+}
+
+static void test_order_of_every_method_on_first_order_systems(void) {
+    static const struct {
+        const char *name;
+        wh_method method;
+        double order;
+    } methods[] = {
+        {"Euler", WH_EULER, 1.0}, {"Heun", WH_HEUN, 2.0}, {"Runge-Kutta 4", WH_RK4, 4.0}};
+    for (unsigned i = 0; i < 3; i++) {
+        const double order = methods[i].order;
+        const double step_s = methods[i].method == WH_RK4 ? 20e-3 : 1e-3;
+        printf("  %s\n", methods[i].name);
+        expect_order("first order, a turn angle", first_order, methods[i].method, step_s,
+                     angle_error, NULL, order - 0.1, order + 0.1);
+        expect_order("first order, an oscillator", first_order, methods[i].method, step_s,
+                     oscillator_error, NULL, order - 0.1, order + 0.1);
+    }
+}
+
+/* --- semi-implicit Euler ------------------------------------------------------------------------------ */
+
+static const char oscillator[] = "mechanism oscillator\n"
+                                 "coordinate x [m]\n"
+                                 "parameter m = 1 [kg]\n"
+                                 "parameter k = 1 [N/m]\n"
+                                 "T = m*x'^2/2\n"
+                                 "V = k*x^2/2\n"
+                                 "scene swing {\n"
+                                 "  start x = 1 [m]\n"
+                                 "  step 10 [ms]\n"
+                                 "  until 1000 [s]\n"
+                                 "}\n";
+
+/* Energy after 1e5 steps, 1/2 J at the start. */
+static double oscillator_energy_J(wh_method method, double *least, double *most) {
+    motion m;
+    double energy = 0.5;
+    *least = 0.5;
+    *most = 0.5;
+    motion_open_text(&m, oscillator, (stepping){.kind = &engine_double, .method = method});
+    for (unsigned i = 0; i < 100000; i++) {
+        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
+        const double x = motion_value(&m, "x");
+        const double v = motion_value(&m, "x'");
+        energy = (x * x + v * v) / 2.0;
+        *least = fmin(*least, energy);
+        *most = fmax(*most, energy);
+    }
+    motion_close(&m);
+    return energy;
+}
+
+/* It is symplectic: x^2 + v^2 + h x v, or the same with -h, never changes, so the energy goes up and
+ * down by h/2 of itself for ever (Hairer, Lubich & Wanner, Geometric Numerical Integration, I.1). Euler's
+ * grows by 1 + h^2 a step. Order alone does not tell the two apart. */
+static void test_semi_implicit_euler_keeps_the_energy_for_ever(void) {
+    double least;
+    double most;
+    const double grown = oscillator_energy_J(WH_EULER, &least, &most);
+    printf("  energy after 1e5 steps: Euler %.4g J", grown);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6 * grown, 0.5 * pow(1.0001, 1e5), grown);
+    (void)oscillator_energy_J(WH_SEMI_IMPLICIT_EULER, &least, &most);
+    printf("; semi-implicit Euler between %.6f and %.6f J\n", least, most);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-4, 0.5 - 0.5 * 0.01 / 2.0, least);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-4, 0.5 + 0.5 * 0.01 / 2.0, most);
+}
+
 void suite_convergence(void) {
     UnitySetTestFile(__FILE__);
     RUN_TEST(test_matrix_exponential_gives_the_printed_numbers);
@@ -242,4 +343,6 @@ void suite_convergence(void) {
     RUN_TEST(test_order_on_thomson_device);
     RUN_TEST(test_order_of_thomson_momentum);
     RUN_TEST(test_order_of_thomson_energy);
+    RUN_TEST(test_order_of_every_method_on_first_order_systems);
+    RUN_TEST(test_semi_implicit_euler_keeps_the_energy_for_ever);
 }

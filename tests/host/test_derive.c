@@ -20,8 +20,8 @@ static void random_state(state_values *s, const derived *d, uint64_t *seed) {
     for (int i = 0; i < d->equations->count; i++) {
         for (int primes = 0; primes < ORDERS_MAX; primes++) {
             /* lengths stay positive and angles off the poles: singular points are not the matter here */
-            s->value[i][primes] = primes == 0 ? random_between(seed, 0.2, 1.1)
-                                              : random_between(seed, -2.0, 2.0);
+            s->value[i][primes] =
+                primes == 0 ? random_between(seed, 0.2, 1.1) : random_between(seed, -2.0, 2.0);
         }
     }
 }
@@ -48,7 +48,8 @@ static double residual(const equations *e, state_values *s, int i, double *size)
         *size += fabs(parts[k]);
     }
     for (int j = 0; j < e->count; j++) {
-        const double part = poly_evaluate(e->mass[i * e->count + j], state_value, s) * s->value[j][2];
+        const double part =
+            poly_evaluate(e->mass[i * e->count + j], state_value, s) * s->value[j][2];
         sum += part;
         *size += fabs(part);
     }
@@ -78,7 +79,8 @@ static void two_masses(const double v[][ORDERS_MAX], const double *p, double *re
 
 /* Appendix B, the two accelerations of the absolute set; m1, m2, K1, K2, A, B, L1, L2 */
 static void two_masses_absolute(const double v[][ORDERS_MAX], const double *p, double *rest) {
-    const double m1 = p[0], m2 = p[1], K1 = p[2], K2 = p[3], A = p[4], B = p[5], L1 = p[6], L2 = p[7];
+    const double m1 = p[0], m2 = p[1], K1 = p[2], K2 = p[3], A = p[4], B = p[5], L1 = p[6],
+                 L2 = p[7];
     const double X = v[0][0], Y = v[1][0], vX = v[0][1], vY = v[1][1];
     rest[0] = m1 * v[0][2] + (-B * vY + B * vX + K1 * X - K1 * L1 - K2 * Y + K2 * X + K2 * L2);
     rest[1] = m2 * v[1][2] - (-B * vY - vY * A + B * vX - K2 * Y + K2 * X + K2 * L2);
@@ -97,8 +99,8 @@ static void driven_hinge(const double v[][ORDERS_MAX], const double *p, double *
     const double k = p[0] * p[1] * p[1], I = p[2], M = -2.0;
     const double s1 = sin(v[0][0]), c1 = cos(v[0][0]), s2 = sin(v[1][0]), c2 = cos(v[1][0]);
     const double w1 = v[0][1], w2 = v[1][1];
-    rest[0] = -k * (-c2 * s1 + s2 * c1) * w2 * w2 - k * (-c2 * c1 - s2 * s1) * v[1][2] +
-              k * v[0][2] - M;
+    rest[0] =
+        -k * (-c2 * s1 + s2 * c1) * w2 * w2 - k * (-c2 * c1 - s2 * s1) * v[1][2] + k * v[0][2] - M;
     rest[1] = (I + k) * v[1][2] + (k * c2 * c1 + k * s2 * s1) * v[0][2] - k * c2 * s1 * w1 * w1 +
               k * s2 * c1 * w1 * w1;
 }
@@ -110,15 +112,21 @@ static void thomson(const double v[][ORDERS_MAX], const double *p, double *rest)
     const double w1 = v[0][1], a1 = v[0][2], w2 = v[1][1], a2 = v[1][2], aX = v[2][2];
     rest[0] = (-4 * m * r * s1 * c1 - 4 * m * r * s1) * aX +
               (4 * k * s1 * c1 * s2 - 2 * k * c2 + 2 * k * s1 * s2 + 2 * k * c1 * c2 +
-               4 * k * c1 * c1 * c2) * a2 +
+               4 * k * c1 * c1 * c2) *
+                  a2 +
               (8 * k * c1 + 4 * I + 12 * k) * a1 - 4 * k * s1 * w1 * w1 +
               (2 * k * s2 + 2 * k * s1 * c2 - 2 * k * c1 * s2 - 4 * k * c1 * c1 * s2 +
-               4 * k * c1 * c2 * s1) * w2 * w2 - M;
+               4 * k * c1 * c2 * s1) *
+                  w2 * w2 -
+              M;
     rest[1] = -m * r * s2 * aX + k * a2 +
-              m * r * (4 * r * c1 * c1 * c2 + 2 * r * c1 * c2 + 4 * r * s1 * c1 * s2 - 2 * r * c2 +
-                       2 * r * s1 * s2) * a1 +
-              m * r * w1 * w1 * (-2 * r * s1 * c2 + 8 * r * c1 * c1 * s2 - 4 * r * s2 +
-                                 2 * r * c1 * s2 - 8 * r * c1 * c2 * s1);
+              m * r *
+                  (4 * r * c1 * c1 * c2 + 2 * r * c1 * c2 + 4 * r * s1 * c1 * s2 - 2 * r * c2 +
+                   2 * r * s1 * s2) *
+                  a1 +
+              m * r * w1 * w1 *
+                  (-2 * r * s1 * c2 + 8 * r * c1 * c1 * s2 - 4 * r * s2 + 2 * r * c1 * s2 -
+                   8 * r * c1 * c2 * s1);
     rest[2] = 3 * m * aX - 4 * m * r * (a1 * s1 + w1 * w1 * c1) -
               2 * m * r * (a1 * sin(2 * v[0][0]) + 2 * w1 * w1 * cos(2 * v[0][0])) -
               m * r * (a2 * s2 + w2 * w2 * c2);
@@ -132,7 +140,7 @@ static void check_printed(const char *name, printed *as_printed) {
         state_values s;
         random_state(&s, &d, &seed);
         double rest[UNKNOWNS] = {0.0};
-        as_printed((const double (*)[ORDERS_MAX])s.value, d.instance->parameter, rest);
+        as_printed((const double(*)[ORDERS_MAX])s.value, d.instance->parameter, rest);
         for (int i = 0; i < d.equations->count; i++) {
             double size;
             const double ours = residual(d.equations, &s, i, &size);
@@ -153,12 +161,28 @@ static void test_the_dissertations_equations(void) {
 
 /* --- every mechanism -----------------------------------------------------------------------------*/
 
-static const char *const lagrangian[] = {
-    "bead_on_hoop",  "bead_on_wire",    "cart_pole",        "charged_particle", "contact",
-    "double_pendulum", "elastic_pendulum", "furuta",        "kepler",           "leaking_mass",
-    "mass_chain",    "morse",           "planar_arm",       "quadratic_drag",   "simple_pendulum",
-    "slider_crank",  "spherical_pendulum", "swinging_atwood", "symmetric_top",  "tan_well",
-    "triple_pendulum", "vortex"};
+static const char *const lagrangian[] = {"bead_on_hoop",
+                                         "bead_on_wire",
+                                         "cart_pole",
+                                         "charged_particle",
+                                         "contact",
+                                         "double_pendulum",
+                                         "elastic_pendulum",
+                                         "furuta",
+                                         "kepler",
+                                         "leaking_mass",
+                                         "mass_chain",
+                                         "morse",
+                                         "planar_arm",
+                                         "quadratic_drag",
+                                         "simple_pendulum",
+                                         "slider_crank",
+                                         "spherical_pendulum",
+                                         "swinging_atwood",
+                                         "symmetric_top",
+                                         "tan_well",
+                                         "triple_pendulum",
+                                         "vortex"};
 static const char *const systems[] = {"dc_motor", "implicit_pair", "jerk",
                                       "lorenz",   "mixed_order",   "van_der_pol"};
 
@@ -361,19 +385,22 @@ static void expect_refused(const char *text, const char *wanted) {
 static void test_singular_and_other_impossible_mechanisms(void) {
     expect_refused("mechanism m\ncoordinate x [m]\ncoordinate y [m]\nT = 1 [kg]*(x' + y')^2\n",
                    "t.whirl:1:11: error: singular mass matrix: 'm' cannot be solved");
-    expect_refused("mechanism m\ncoordinate x [m]\ncoordinate y [m]\nT = 1 [kg]*x'^2\n"
-                   "V = 1 [N/m]*y^2\n",
-                   "t.whirl:3:12: error: singular mass matrix: the kinetic energy does not contain y'");
+    expect_refused(
+        "mechanism m\ncoordinate x [m]\ncoordinate y [m]\nT = 1 [kg]*x'^2\n"
+        "V = 1 [N/m]*y^2\n",
+        "t.whirl:3:12: error: singular mass matrix: the kinetic energy does not contain y'");
     expect_refused("mechanism m\nstate x\nequation 1 [s^2]*x'^2 = 1\n",
                    "t.whirl:3:1: error: this equation is not linear in the highest derivatives: x");
-    expect_refused("mechanism m\nstate x\nequation sin(1 [s]*x') = x\n", "not linear in the highest");
+    expect_refused("mechanism m\nstate x\nequation sin(1 [s]*x') = x\n",
+                   "not linear in the highest");
     expect_refused("mechanism m\nstate x\nstate y\nequation x' + y' = 1 [1/s]\n"
                    "equation 2*x' + 2*y' = 3 [1/s]\n",
                    "the equations of 'm' cannot be solved for the highest derivatives");
     expect_refused("mechanism m\ncoordinate x [m]\ninput M = 1 [kg]\nT = M*x'^2/2\n",
                    "the kinetic energy depends on input 'M', whose rate is not known");
-    expect_refused("mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2\nV = 1 [J]*log(0*x/1 [m] - 1)*x/1 [m]\n",
-                   "have no finite value at any state tried");
+    expect_refused(
+        "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2\nV = 1 [J]*log(0*x/1 [m] - 1)*x/1 [m]\n",
+        "have no finite value at any state tried");
     expect_refused("mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2\n"
                    "V = 1 [J]*sqrt(-1 - (x/1 [m])^2)\n",
                    "have no finite value at any state tried");
@@ -409,13 +436,17 @@ static void test_too_many_components(void) {
 static void test_expressions_that_explode_are_refused(void) {
     static const char front[] = "mechanism m\ncoordinate x\ncoordinate y\nlet a0 = x + y + 1\n";
     static const char tail[] = "T = 1 [kg*m^2]*(x'^2 + y'^2)\nV = 1 [J]*a30\n";
-    static const char *const pieces[] = {
-        "let a# = a@*a@ + x\n", "let a# = sin(a@)*a@ + y\n", "let a# = a@^2 + cos(a@)*x\n",
-        "let a# = exp(a@) + a@*y\n", "let a# = a@/(1 + a@^2)\n", "let a# = sqrt(a@*a@ + 1) + a@^3\n",
-        "let a# = atan2(a@, a@ + 2) + max(a@, x)\n"};
+    static const char *const pieces[] = {"let a# = a@*a@ + x\n",
+                                         "let a# = sin(a@)*a@ + y\n",
+                                         "let a# = a@^2 + cos(a@)*x\n",
+                                         "let a# = exp(a@) + a@*y\n",
+                                         "let a# = a@/(1 + a@^2)\n",
+                                         "let a# = sqrt(a@*a@ + 1) + a@^3\n",
+                                         "let a# = atan2(a@, a@ + 2) + max(a@, x)\n"};
     for (size_t i = 0; i < sizeof pieces / sizeof pieces[0]; i++) {
         char *text = repeated(front, pieces[i], 30, tail);
-        expect_refused(text, "t.whirl:1:11: error: the equations of 'm' grow beyond what can be handled");
+        expect_refused(text,
+                       "t.whirl:1:11: error: the equations of 'm' grow beyond what can be handled");
         free(text);
     }
     /* one unknown less deep, so that the algebra gets further before it gives up */
@@ -444,7 +475,8 @@ static void test_large_but_tame_expressions_are_derived(void) {
     TEST_ASSERT_DOUBLE_WITHIN(1e-14, -60.0 * pow(0.9, 59.0), result[3]);
     derived_free(&d);
 
-    char *front = repeated("mechanism m\n", "coordinate x# [m]\n", 64, "let x0 = 0 [m]\nT = 1 [kg]*(0 [m^2/s^2]");
+    char *front = repeated("mechanism m\n", "coordinate x# [m]\n", 64,
+                           "let x0 = 0 [m]\nT = 1 [kg]*(0 [m^2/s^2]");
     char *energy = repeated(front, " + x#'^2", 64, ")/2\nV = 3 [N/m]/2*(0 [m^2]");
     char *whole = repeated(energy, " + (x# - x@)^2", 64, ")\n");
     const clock_t began = clock();

@@ -130,8 +130,7 @@ static void two_windows(const char *which, range early[2], range late[2]) {
 
 static const double FIRST_MASS[4] = {-0.21833082934304, 0.33786709968658, -0.05770491154748,
                                      0.04281500632119};
-static const double SECOND_MASS[4] = {-0.34526931991867, 0.5, -0.09543060600656,
-                                      0.07220046799739};
+static const double SECOND_MASS[4] = {-0.34526931991867, 0.5, -0.09543060600656, 0.07220046799739};
 
 static void test_figures_32_and_34_absolute_positions(void) {
     static const char *const scenes[] = {"two_mass_absolute", "two_mass_relative"};
@@ -159,7 +158,10 @@ static void test_figure_33_stretches(void) {
 /* --- figures 36 to 40: epicyclic gear on a carriage --------------------------------------------------- */
 
 static void test_figures_36_to_40_epicyclic_gear(void) {
-    range r[] = {{.name = "theta"}, {.name = "X"}, {.name = "projection"}, {.name = "x_2"},
+    range r[] = {{.name = "theta"},
+                 {.name = "X"},
+                 {.name = "projection"},
+                 {.name = "x_2"},
                  {.name = "x_cm"}};
     ranges_of("epicyclic_from_rest", IN_DOUBLE, 9.0, 1e-3, r, 5);
     /* independent: 89.6342558332 rad at 9 s; a constant torque never turns the arm back */
@@ -233,8 +235,8 @@ static void test_figure_46_the_swing_falls_without_a_loss(void) {
     const double work = -2.0 * motion_value(&m, "theta1");
     const double a_ = motion_value(&m, "theta1'");
     const double b_ = motion_value(&m, "theta2'");
-    const double kinetic = 0.09 * a_ * a_ + 0.135 * b_ * b_ +
-                           0.18 * a_ * b_ * cos(motion_value(&m, "theta3"));
+    const double kinetic =
+        0.09 * a_ * a_ + 0.135 * b_ * b_ + 0.18 * a_ * b_ * cos(motion_value(&m, "theta3"));
     motion_close(&m);
     /* dissertation: some 1.25 rad to either side at 6.3 s; printed to two decimals of a curve whose
      * peaks alternate between 1.236 and 1.276 there */

@@ -22,9 +22,9 @@ enum { STATES = 10, UNKNOWNS = 16, VALUES_MAX = 4096 };
 typedef void checker(const char *name, derived *d);
 
 static void each_mechanism(checker *check) {
-    static const char *const own[] = {"spherical_particle", "masses_relative", "masses_absolute",
-                                      "epicyclic_rail_drag", "driven_hinge",   "thomson",
-                                      "thomson_a_spin",     "rig_fixed",       "carriage_free"};
+    static const char *const own[] = {"spherical_particle",  "masses_relative", "masses_absolute",
+                                      "epicyclic_rail_drag", "driven_hinge",    "thomson",
+                                      "thomson_a_spin",      "rig_fixed",       "carriage_free"};
     for (size_t i = 0; i < sizeof own / sizeof own[0]; i++) {
         derived d = derived_builtin(own[i]);
         TEST_ASSERT_NOT_NULL_MESSAGE(d.program, own[i]);
@@ -156,9 +156,8 @@ static void check_text(const char *name, derived *d) {
             double size = 1e-30;
             double rest = 0.0;
             for (int j = 0; j < e->count; j++) {
-                const double part =
-                    poly_evaluate(e->mass[i * e->count + j], state_value, &s) *
-                    s.value[j][e->unknowns[j].order];
+                const double part = poly_evaluate(e->mass[i * e->count + j], state_value, &s) *
+                                    s.value[j][e->unknowns[j].order];
                 rest += part;
                 size += fabs(part);
             }
@@ -222,8 +221,8 @@ static void check_first_order(const char *name, derived *d) {
                 const bool twice = low != high && !d->instance->mechanism->is_system;
                 int used = snprintf(label, sizeof label, "  A%d%s%d = ", low + 1, comma, high + 1);
                 if (twice) {
-                    snprintf(label + used, sizeof label - (size_t)used, "A%d%s%d = ", high + 1, comma,
-                             low + 1);
+                    snprintf(label + used, sizeof label - (size_t)used, "A%d%s%d = ", high + 1,
+                             comma, low + 1);
                 }
                 const double shown = labelled(text, label, &s);
                 TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1e-12 * (1.0 + fabs(entry)), entry, shown, name);
@@ -268,12 +267,13 @@ static void test_short_equations_look_as_in_the_dissertation(void) {
                      NULL});
     expect_lines("masses_relative",
                  (const char *const[]){"  X:  (m1 + m2)*X'' + m2*Y'' + K1*X = -A*X' - A*Y'\n",
-                                       "  Y:  m2*X'' + m2*Y'' + K2*Y = -A*X' - (A + B)*Y'\n", NULL});
-    expect_lines("epicyclic",
-                 (const char *const[]){"  theta:  4*(I + m*r^2)*theta'' - 2*m*r*sin(theta)*X'' = M\n",
-                                       "  X:  -2*m*r*sin(theta)*theta'' + 2*m*X'' - "
-                                       "2*m*r*cos(theta)*theta'^2 = 0\n",
+                                       "  Y:  m2*X'' + m2*Y'' + K2*Y = -A*X' - (A + B)*Y'\n",
                                        NULL});
+    expect_lines("epicyclic", (const char *const[]){
+                                  "  theta:  4*(I + m*r^2)*theta'' - 2*m*r*sin(theta)*X'' = M\n",
+                                  "  X:  -2*m*r*sin(theta)*theta'' + 2*m*X'' - "
+                                  "2*m*r*cos(theta)*theta'^2 = 0\n",
+                                  NULL});
     expect_lines("driven_hinge",
                  (const char *const[]){
                      "  theta1:  m*r^2*theta1'' + m*r^2*cos(theta1 - theta2)*theta2'' + "
@@ -303,7 +303,8 @@ static void check_latex(const char *name, derived *d) {
         at += left ? 5 : right ? 6 : 0;
     }
     TEST_ASSERT_EQUAL_INT_MESSAGE(0, depth, name);
-    TEST_ASSERT_TRUE_MESSAGE(lines == d->equations->count || lines == 2 * d->equations->count, name);
+    TEST_ASSERT_TRUE_MESSAGE(lines == d->equations->count || lines == 2 * d->equations->count,
+                             name);
     TEST_ASSERT_NULL_MESSAGE(strstr(text, "*"), name);
     TEST_ASSERT_NULL_MESSAGE(strstr(text, "+ -"), name);
     TEST_ASSERT_NULL_MESSAGE(strstr(text, "\\mathrm{_"), name);
@@ -312,9 +313,10 @@ static void check_latex(const char *name, derived *d) {
 
 static void test_latex_is_balanced(void) {
     each_mechanism(check_latex);
-    derived d = derived_text("mechanism m\ncoordinate phi_1_a [m]\ncoordinate _odd [m]\n"
-                             "parameter mass_of_it = 2 [kg]\n"
-                             "T = mass_of_it*(phi_1_a'^2 + _odd'^2)/2\nV = 1.5e-7 [N/m]*phi_1_a^2/2\n");
+    derived d =
+        derived_text("mechanism m\ncoordinate phi_1_a [m]\ncoordinate _odd [m]\n"
+                     "parameter mass_of_it = 2 [kg]\n"
+                     "T = mass_of_it*(phi_1_a'^2 + _odd'^2)/2\nV = 1.5e-7 [N/m]*phi_1_a^2/2\n");
     TEST_ASSERT_NOT_NULL(d.program);
     {
         check_latex("names", &d);
@@ -429,8 +431,8 @@ static void check_octave(const char *name, derived *d) {
                     const bool highest = level + 1 == e->unknowns[i].order;
                     const double want = highest ? result[i] : s.value[i][level + 1];
                     /* The books may divide in another order: a few units in the last place */
-                    TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1e-12 * (highest ? largest : fabs(want)), want,
-                                                      w.dy[rows], name);
+                    TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1e-12 * (highest ? largest : fabs(want)),
+                                                      want, w.dy[rows], name);
                     rows++;
                 }
             }

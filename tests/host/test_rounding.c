@@ -58,6 +58,44 @@ static void test_float_on_thomson_device(void) {
     expect_within("S8 gain", 10.0, 10000.0, plain / compensated);
 }
 
+/* --- until when a chaotic trajectory is worth something ---------------------------------------------- */
+
+/* First time at which a position of thomson_a is 1e-3 (rad or m) off a run in double with steps of
+ * 0.125 ms, which itself is off by 1e-9 at 8 s (test_convergence.c). */
+static double good_until_s(stepping how) {
+    static const char *const names[] = {"theta1", "theta2", "X"};
+    motion fine;
+    motion m;
+    double apart = 0.0;
+    double time_s = 0.0;
+    motion_open(&fine, "thomson_a", IN_DOUBLE_STEP(0.125e-3));
+    motion_open(&m, "thomson_a", how);
+    for (unsigned i = 1; i <= 10000 && apart < 1e-3; i++) {
+        time_s = 1e-3 * i;
+        motion_to(&fine, time_s);
+        motion_to(&m, time_s);
+        for (unsigned k = 0; k < 3; k++) {
+            const double e = motion_value(&m, names[k]) - motion_value(&fine, names[k]);
+            apart = fmax(apart, fabs(e));
+        }
+    }
+    motion_close(&fine);
+    motion_close(&m);
+    return time_s;
+}
+
+/* The motion amplifies a change made at the start 6e3-fold by 5 s, 2e4-fold by 9 s and 1e9-fold by
+ * 10 s: an error of 200 U in all is 1e-3 at about 5 s, one of U or less gets beyond 9 s, and the
+ * 1e-11 that double's step stands for cannot reach 10 s either. */
+static void test_how_long_a_chaotic_trajectory_is_good(void) {
+    expect_within("S8 good to 1e-3 until, s: float, 1 ms", 4.0, 8.5, good_until_s(IN_FLOAT));
+    expect_within("S8 good to 1e-3 until, s: float compensated", 8.5, 9.6,
+                  good_until_s(IN_FLOAT_COMPENSATED));
+    expect_within("S8 good to 1e-3 until, s: double, 1 ms", 9.2, 9.8, good_until_s(IN_DOUBLE));
+}
+
+/* --- many steps -------------------------------------------------------------------------------------- */
+
 /* Root mean square, over eight torques, of what float makes of theta and theta' at 5 s beyond what
  * double does with the same step. */
 static double rms_of_float(double step_s, bool compensated) {
@@ -148,6 +186,35 @@ static void test_a_million_turns_at_constant_rate(void) {
                   fabs((double)radians / wanted - 1.0));
 }
 
+static const char started[] = "mechanism started_rotor\n"
+                              "coordinate theta [rad]\n"
+                              "parameter I = 1 [kg*m^2]\n"
+                              "parameter M = 0.00006103515625 [N*m]\n"
+                              "T = I*theta'^2/2\n"
+                              "Q(theta) = M\n"
+                              "scene spin_up {\n"
+                              "  step 0.9765625 [ms]\n"
+                              "  until 100 [s]\n"
+                              "}\n";
+
+/* theta = a t^2/2 with a = 2^-14 and h = 2^-10 s: every rate is exact, so the angle's own rounding is
+ * what is left. To the nearest it walks, sqrt(N/12) steps of 1.5e-9 rad; without their fractions
+ * 1e5 steps would lose half of that each, 7e-5 rad. The constants of the step add 2 U of the angle. */
+static void test_angle_steps_are_rounded_not_cut(void) {
+    const double N = 1e5;
+    const double t = N / 1024.0;
+    const double wanted = t * t / 32768.0;
+    for (unsigned compensated = 0; compensated < 2; compensated++) {
+        motion m;
+        motion_open_text(&m, started, compensated ? IN_FLOAT_COMPENSATED : IN_FLOAT);
+        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, (uint64_t)N));
+        const double error = fabs(motion_value(&m, "theta") - wanted);
+        motion_close(&m);
+        expect_within("slow rotor, 1e5 steps, error of the angle, rad", 0.0,
+                      3.0 * sqrt(N / 12.0) * 1.5e-9 + 2.0 * U * wanted, error);
+    }
+}
+
 /* A gear that starts a million turns on moves as one that starts at zero, to the bit. */
 static void test_motion_after_a_million_turns_is_the_same(void) {
     static const char *const others[] = {"X", "theta'", "X'"};
@@ -175,8 +242,10 @@ void suite_rounding(void) {
     UnitySetTestFile(__FILE__);
     RUN_TEST(test_float_on_the_epicyclic_gear);
     RUN_TEST(test_float_on_thomson_device);
+    RUN_TEST(test_how_long_a_chaotic_trajectory_is_good);
     RUN_TEST(test_small_steps_cost_plain_sums_precision_only);
     RUN_TEST(test_a_million_steps);
     RUN_TEST(test_a_million_turns_at_constant_rate);
+    RUN_TEST(test_angle_steps_are_rounded_not_cut);
     RUN_TEST(test_motion_after_a_million_turns_is_the_same);
 }

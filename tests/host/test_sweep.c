@@ -49,7 +49,7 @@ static void close_sample(void) {
 
 static bool over(const char *text) { return grid_add(&points, parsed->mechanisms[0], text, said); }
 
-/* --- grids ---------------------------------------------------------------------------------------*/
+/* --- grids -------------------------------------------------------------------------------------*/
 
 static void test_last_axis_runs_fastest(void) {
     open_sample();
@@ -126,7 +126,7 @@ static void test_numbers_come_back(void) {
     }
 }
 
-/* --- measures ------------------------------------------------------------------------------------*/
+/* --- measures ----------------------------------------------------------------------------------*/
 
 /* The measure of offset + size sin(2 pi t / period + 1) over `samples` steps of `step_s`. */
 static double of_sine(measure_kind kind, double offset, double size, double period_s,
@@ -232,7 +232,7 @@ static void test_default_measures_are_the_columns_of_run(void) {
     close_sample();
 }
 
-/* --- workers -------------------------------------------------------------------------------------*/
+/* --- workers -----------------------------------------------------------------------------------*/
 
 enum { FIRST = 5, END = 205, ENOUGH = 40 };
 

@@ -1,0 +1,160 @@
+#!/bin/sh
+# command_line.sh: what `whirl` says and returns: help, versions, mistakes in every option, broken
+# mechanisms. Exit status 0 done, 2 bad input; errors go to standard error, with a hint where one helps.
+set -u
+
+whirl=${WHIRL:-build/whirl}
+scratch=$(mktemp -d) || exit 1
+trap 'rm -rf "$scratch"' EXIT
+failed=0
+
+complain() {
+    echo "not ok - $1"
+    sed 's/^/    /' "$scratch/out" "$scratch/err" | head -n 6
+    failed=1
+}
+
+# says STATUS PATTERN WORD...: exit status, and a line of standard error that matches the pattern; when
+# refused, nothing goes to standard output.
+says() {
+    status=$1
+    pattern=$2
+    shift 2
+    timeout 60 "$whirl" "$@" >"$scratch/out" 2>"$scratch/err" </dev/null
+    got=$?
+    if [ "$got" -ne "$status" ]; then
+        complain "whirl $*: exit status $got, not $status"
+    elif ! grep -Eq -- "$pattern" "$scratch/err"; then
+        complain "whirl $*: does not say: $pattern"
+    elif [ "$status" -eq 2 ] && [ -s "$scratch/out" ]; then
+        complain "whirl $*: refused, but wrote to standard output"
+    else
+        echo "ok - whirl $*"
+    fi
+}
+
+# prints PATTERN WORD...: exit status 0, a matching line on standard output, nothing on standard error.
+prints() {
+    pattern=$1
+    shift
+    timeout 60 "$whirl" "$@" >"$scratch/out" 2>"$scratch/err" </dev/null
+    got=$?
+    if [ "$got" -ne 0 ] || [ -s "$scratch/err" ] || ! grep -Eq -- "$pattern" "$scratch/out"; then
+        complain "whirl $*: exit status $got, or does not print: $pattern"
+    else
+        echo "ok - whirl $*"
+    fi
+}
+
+# --- help ---------------------------------------------------------------------------------------------
+prints '^usage: whirl COMMAND' --help
+prints '^usage: whirl COMMAND' -h
+prints '^whirl [0-9]+\.[0-9]+\.[0-9]+$' --version
+for command in list derive accel run; do
+    prints "^usage: whirl $command" "$command" --help
+    prints "^usage: whirl $command" "$command" -h
+done
+prints '^usage: whirl run' run thomson_a --bogus --help
+prints '^scene +thomson_a ' list
+says 2 '^usage: whirl COMMAND'
+says 2 "did you mean 'derive'" deriv epicyclic
+says 2 "unknown command 'frobnicate'" frobnicate
+for command in derive accel run; do
+    says 2 "^usage: whirl $command" "$command"
+done
+
+# --- what to work on ----------------------------------------------------------------------------------
+says 2 "did you mean 'epicyclic'" derive epicylic
+says 2 '`whirl list` shows' run nosuchthing
+says 2 'no file and no built-in' run ''
+says 2 'nofile.whirl: error: cannot be read: No such file' derive nofile.whirl
+says 2 'error: cannot be read: Is a directory' derive /tmp
+says 2 'it has more than one scene' run core/models/thomson.whirl
+says 2 'hint: name one: core/models/thomson.whirl:thomson_a ' run core/models/thomson.whirl:foo
+says 2 'no mechanism here' derive -
+says 2 'more than one thing to derive: thomson' derive epicyclic thomson
+says 2 "one scene at a time, not also 'thomson_b'" run thomson_a thomson_b
+prints '^thomson_a: ' run core/models/thomson.whirl:thomson_a --until 2ms
+"$whirl" accel - x=0.5 <<'END' >"$scratch/out" 2>"$scratch/err"
+mechanism oscillator
+coordinate x [m]
+T = 2 [kg]*x'^2/2
+V = 8 [N/m]*x^2/2
+END
+if [ "$(cat "$scratch/out")" = "x'' = -2" ]; then
+    echo "ok - a mechanism from standard input"
+else
+    complain "a mechanism from standard input"
+fi
+
+# --- options ------------------------------------------------------------------------------------------
+says 2 "unknown option '--metod'" run thomson_a --metod rk4
+says 2 'hint: did you mean --method' run thomson_a --metod rk4
+says 2 'hint: whirl run --help lists' run thomson_a --bogus
+says 2 "unknown option '--'" run --
+says 2 'whirl list: error: unknown option' list --all
+says 2 "there is no form 'fortran'" derive epicyclic --as fortran
+says 2 'hint: text, latex, octave or c' derive epicyclic --as fortran
+says 2 "there is no method 'rk5'" run thomson_a --method rk5
+says 2 'hint: one of euler, semi-implicit-euler, heun, rk4' run thomson_a --method rk5
+says 2 'hint: one of double, float' run thomson_a --number half
+for option in --set --start --with --without --step --until --every --method --number --csv --plot; do
+    says 2 "error: $option needs a value" run thomson_a "$option"
+done
+says 2 "hint: --as VALUE" derive epicyclic --as
+
+says 2 "'q' is unknown in mechanism 'thomson'" run thomson_a --set q=3
+says 2 "'=' is missing after 'm'" run thomson_a --set m
+says 2 'hint: NAME=VALUE' run thomson_a --set m
+says 2 'a value is missing' run thomson_a --set m=
+says 2 'division by zero' run thomson_a --set m=1/0
+says 2 "'sqrt' of a negative|not a finite number|finite" run thomson_a --set 'm=sqrt(-1)'
+says 2 "unknown name 'nan'" run thomson_a --set m=nan
+says 2 "unknown name 'inf'" run thomson_a --until inf
+says 2 'too large' run thomson_a --set m=1e400
+says 2 "'foo' is unknown" run thomson_a --start foo=1
+says 2 'follows from the equations' run thomson_a --start "theta1''=1"
+says 2 "unknown effect 'spin'" run thomson_a --with spin
+says 2 "unknown effect 'spin'" run thomson_a --without spin
+says 2 'step must be above zero' run thomson_a --step 0
+says 2 'step must be above zero' run thomson_a --step -1ms
+says 2 'until must not be negative' run thomson_a --until -1s
+says 2 'more than 1e\+15 steps' run thomson_a --until 1e300
+says 2 'more than 1e\+15 steps' run thomson_a --step 1e-300
+says 2 '--every 1.5ms is not a whole number of steps' run thomson_a --every 1.5ms
+says 2 'hint: the step is 0.001 s' run thomson_a --every 1.5ms
+says 2 '--every 0 is not a whole number' run thomson_a --every 0
+says 2 '--every -1ms is not a time' run thomson_a --every -1ms
+says 2 '--every often is not a time' run thomson_a --every often
+says 2 '/nonexistent/x.csv: error: cannot be written' run thomson_a --csv /nonexistent/x.csv
+says 2 'plot draws .svg and .png files, not x.pdf' run thomson_a --plot x.pdf
+says 2 '/nonexistent/x.svg: error: cannot be written' run thomson_a --plot /nonexistent/x.svg
+says 2 'error' accel epicyclic theta
+says 2 "'thetta' is unknown" accel epicyclic thetta=1
+
+# --- what cannot be derived or run --------------------------------------------------------------------
+says 2 'core/models/epicyclic.whirl:[0-9]+:11: error: singular mass matrix' derive epicyclic --set m=0
+for file in tests/bad/derive_*.whirl; do
+    place=$(sed -n '1s/^# expect: \([0-9]*:[0-9]*\): .*/\1/p' "$file")
+    [ -n "$place" ] || place='no expectation on the first line'
+    for call in derive accel run; do
+        says 2 "$file:$place: error: " "$call" "$file"
+    done
+done
+says 2 "needs exp, which the core does not offer" run tests/mechanisms/morse.whirl --number float
+says 2 "needs exp, which the core does not offer" derive tests/mechanisms/morse.whirl --as c
+prints '^function dy = ' derive tests/mechanisms/morse.whirl --as octave
+
+# --- plots --------------------------------------------------------------------------------------------
+if command -v gnuplot >/dev/null 2>&1; then
+    for kind in svg png; do
+        "$whirl" run epicyclic_from_rest --until 50ms --quiet --plot "$scratch/a b'\".$kind" \
+            >"$scratch/out" 2>"$scratch/err"
+        if [ -s "$scratch/a b'\".$kind" ] && [ ! -s "$scratch/err" ]; then
+            echo "ok - --plot FILE.$kind"
+        else
+            complain "--plot FILE.$kind"
+        fi
+    done
+fi
+exit $failed

@@ -1,0 +1,104 @@
+#!/bin/sh
+# figures.sh: the dissertation's figures are drawn, each with its axes and its curves, the same twice
+# over, and a wrong description is refused.
+set -u
+
+whirl=${WHIRL:-build/whirl}
+scratch=$(mktemp -d) || exit 1
+trap 'rm -rf "$scratch"' EXIT
+failed=0
+
+# verdict WHAT STATUS
+verdict() {
+    if [ "$2" -eq 0 ]; then
+        echo "ok - figures: $1"
+    else
+        echo "not ok - figures: $1"
+        failed=1
+    fi
+}
+
+sh host/figures/figures.sh "$whirl" "$scratch/one" host/figures/fig*.fig >"$scratch/log" 2>&1
+verdict "all are drawn" $?
+tail -n 3 "$scratch/log" | sed 's/^/    /'
+
+# Number, what is drawn in all panels (curves and laws), the last panel's x axis, the first's y axis.
+while IFS='|' read -r number drawn x y; do
+    svg=$scratch/one/fig$number.svg
+    png=$scratch/one/fig$number.png
+    wrong=""
+    [ "$(wc -c <"$svg")" -gt 5000 ] || wrong="$wrong, small SVG"
+    [ "$(dd if="$png" bs=1 skip=1 count=3 2>/dev/null)" = PNG ] || wrong="$wrong, no PNG"
+    [ "$(wc -c <"$png")" -gt 5000 ] || wrong="$wrong, small PNG"
+    [ "$(grep -c 'id="gnuplot_plot_' "$svg")" -eq "$drawn" ] || wrong="$wrong, not $drawn curves"
+    grep -qF ">$x</" "$svg" || wrong="$wrong, no axis $x"
+    grep -qF ">$y</" "$svg" || wrong="$wrong, no axis $y"
+    [ -z "$wrong" ]
+    verdict "$number${wrong:- has its curves and axes}" $?
+done <<'END'
+19|2|time [s]|pin force [lbf]
+20|3|eccentric weight / carriage weight|free / fixed pin force
+32|2|time [s]|position [in]
+33|2|time [s]|stretch [in]
+34|2|time [s]|position [in]
+36|1|time [s]|theta [rad]
+37|1|time [s]|X [m]
+38|1|time [s]|2 r cos(theta) [m]
+39|1|time [s]|x of the planet [m]
+40|2|time [s]|x of the centre of mass [m]
+44|1|time [s]|theta1 [rad]
+45|1|time [s]|theta2 [rad]
+46|3|time [s]|theta1 - theta2 [rad]
+50|2|time [s]|theta1 [rad]
+51|1|time [s]|X' [m/s]
+52|1|time [s]|theta1' [rad/s]
+53|2|time [s]|along the slider [m]
+54|2|time [s]|along the slider [m]
+55|2|time [s]|x of the centre of mass [m]
+57|1|time [s]|X [m]
+58|2|X [m]|Y [m]
+END
+
+# The numbers behind a figure: Fig. 20 against its closed form, at every point of the sweep.
+awk -F, 'NR > 1 { n++; d = $2 / $3 * (1 + $1) - 1; if (d < 0) d = -d; if (d > 0.001) bad++ }
+    END { exit !(n == 21 && bad == 0) }' "$scratch"/one/data/sweep-carriage_ratio*.csv
+verdict "20 is 1/(1 + ratio) within 0.1 %, at 21 ratios" $?
+
+# The swing's action stays within 0.5 % from 4 s on, while its energy grows.
+sh host/figures/swing.sh "$whirl" cycles | awk -F, '
+    NR > 1 && $1 > 4 { n++; if ($3 < 6.965 || $3 > 7.035 || $4 <= energy) bad++ }
+    { energy = $4 }
+    END { exit !(n > 20 && bad == 0) }'
+verdict "the swing's action stays, its energy grows" $?
+
+# A billionth grows thousandfold by 5 s and to everything by 10 s.
+sh host/figures/growth.sh "$whirl" thomson_a theta1=1e-9 1e-9 --step 0.25ms --every 1s | awk -F, '
+    $1 == 5 { five = $2 }
+    $1 == 10 { ten = $2 }
+    END { exit !(five > 5e3 && five < 7e3 && ten > 3e8 && ten < 4e9) }'
+verdict "chaos: growth of 6e3 by 5 s, 1e9 by 10 s" $?
+
+sh host/figures/figures.sh "$whirl" "$scratch/two" host/figures/fig46.fig host/figures/fig20.fig \
+    >/dev/null 2>&1
+cmp -s "$scratch/one/fig46.svg" "$scratch/two/fig46.svg" &&
+    cmp -s "$scratch/one/fig20.svg" "$scratch/two/fig20.svg" &&
+    cmp -s "$scratch/one/fig46.png" "$scratch/two/fig46.png"
+verdict "drawn twice, the same files" $?
+
+sh host/figures/page.sh host/figures/fig*.fig | cmp -s - docs/figures.md
+verdict "docs/figures.md is what the descriptions say (make figures-docs)" $?
+
+# refused WHAT LINE...: a description with these lines must not be drawn.
+refused() {
+    what=$1
+    shift
+    printf '%s\n' "$@" >"$scratch/bad.fig"
+    ! sh host/figures/figures.sh "$whirl" "$scratch/bad" "$scratch/bad.fig" >/dev/null 2>&1
+    verdict "$what is refused" $?
+}
+refused "an unknown scene" "title t" "run a no_such_scene" "panel y" "curve a | {time} | {X} | -"
+refused "an unknown run" "title t" "panel y" "curve a | {time} | {X} | -"
+refused "an unknown column" "title t" "run a epicyclic_from_rest --until 1s" "panel y" \
+    "curve a | {time} | {no_such} | -"
+refused "an unknown statement" "title t" "panle y"
+exit $failed

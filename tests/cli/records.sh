@@ -1,0 +1,123 @@
+#!/bin/sh
+# records.sh: the CSV that a run leaves: form (RFC 4180), names, digits, spacing; and what is left of it
+# when the run diverges, is interrupted, or the disc is full.
+set -u
+
+whirl=${WHIRL:-build/whirl}
+scratch=$(mktemp -d) || exit 1
+trap 'rm -rf "$scratch"' EXIT
+failed=0
+
+verdict() { # verdict STATUS WHAT
+    if [ "$1" -eq 0 ]; then
+        echo "ok - $2"
+    else
+        echo "not ok - $2"
+        head -n 4 "$scratch/err" 2>/dev/null | sed 's/^/    /'
+        failed=1
+    fi
+}
+
+# Every line ends in CR LF and has as many fields as the header; every field below it is a finite number.
+well_formed() {
+    awk -F, 'BEGIN { RS = "\r\n" } /\n/ { bad = 1 } NR == 1 { fields = NF }
+        NF != fields { bad = 1 }
+        NR > 1 { for (i = 1; i <= NF; i++) if ($i !~ /^-?[0-9]+(\.[0-9]+)?(e[-+][0-9]+)?$/) bad = 1 }
+        END { exit bad || NR < 2 }' "$1" && [ "$(tail -c 2 "$1" | od -An -tx1 | tr -d ' ')" = 0d0a ]
+}
+
+header_is() { # header_is FILE TEXT
+    [ "$(head -n 1 "$1")" = "$(printf '%s\r' "$2")" ]
+}
+
+run() { "$whirl" run "$@" >"$scratch/out" 2>"$scratch/err" </dev/null; }
+
+# --- form ---------------------------------------------------------------------------------------------
+run thomson_a --until 0.5s --every 2ms --quiet --csv "$scratch/a.csv"
+verdict $? "thomson_a is recorded"
+well_formed "$scratch/a.csv"
+verdict $? "records are well formed"
+header_is "$scratch/a.csv" 'time,theta1,theta2,X,der(theta1),der(theta2),der(X),projection,x_26,x_33,x_cm'
+verdict $? "time, coordinates, rates, outputs"
+awk -F, 'NR > 1 && ($1 - 0.002*(NR - 2))^2 > 1e-24 { bad = 1 } END { exit bad || NR != 252 }' "$scratch/a.csv"
+verdict $? "a record every 2 ms, the start and the end included"
+
+run thomson_a --until 0.5s --quiet --csv - && cmp -s "$scratch/err" /dev/null && well_formed "$scratch/out"
+verdict $? "--csv - writes records, and nothing else, to standard output"
+run thomson_a --until 0 --quiet --csv "$scratch/z.csv" && [ "$(wc -l <"$scratch/z.csv")" -eq 2 ]
+verdict $? "a run of no length records its start"
+
+cat >"$scratch/mixed.whirl" <<'END'
+mechanism mixed "third, second and first order"
+state a
+state b [rad]
+state c [V]
+parameter s = 1 [s]
+equation s^3*a''' + s*a' + a = sin(b)
+equation s^2*b'' + b = c/1 [V]
+equation s*c' + c = 1 [V]*cos(b)
+output twice = 2*a
+END
+run "$scratch/mixed.whirl" --until 10ms --quiet --csv "$scratch/m.csv" &&
+    header_is "$scratch/m.csv" 'time,a,b,c,der(a),der(b),der(der(a)),twice'
+verdict $? "derivatives of higher order are der(der(a))"
+
+# --- digits: what is read back is what was written -------------------------------------------------------
+# The state at 0.25 s given back as a start must lead to the same end as the run that went through it.
+run thomson_plane_b --until 0.25s --quiet --csv "$scratch/h.csv"
+set -- $(awk -F, 'NR == 1 { n = (NF - 1) / 2; for (i = 2; i <= NF; i++) name[i] = $i; next } { last = $0 }
+    END { split(last, v, ",")
+        for (i = 2; i <= 9; i++) { q = name[i]; p = ""
+            if (q ~ /^der\(/) { q = substr(q, 5, length(q) - 5); p = "\047" }
+            print "--start " q p "=" v[i] } }' "$scratch/h.csv" | tr -d '\r')
+run thomson_plane_b --until 0.25s --quiet --csv "$scratch/second.csv" "$@"
+run thomson_plane_b --until 0.5s --quiet --csv "$scratch/whole.csv"
+[ $# -eq 16 ] && [ "$(tail -n 1 "$scratch/second.csv" | cut -d, -f2-)" = "$(tail -n 1 "$scratch/whole.csv" | cut -d, -f2-)" ]
+verdict $? "seventeen digits carry a state through text to the bit"
+run thomson_b --until 0.1s --number float --quiet --csv "$scratch/f.csv" && well_formed "$scratch/f.csv" &&
+    awk -F, 'NR > 1 { for (i = 2; i <= NF; i++) { v = $i; sub(/\r/, "", v); sub(/e.*/, "", v); gsub(/[-.]/, "", v)
+        sub(/^0+/, "", v); if (length(v) > 9) bad = 1; if (length(v) == 9) full = 1 } }
+        END { exit bad || !full }' "$scratch/f.csv"
+verdict $? "nine digits in float"
+
+# --- runs that fail ---------------------------------------------------------------------------------------
+run thomson_b --method euler --step 0.1 --until 100 --csv "$scratch/d.csv"
+[ $? -eq 1 ] && grep -Eq '^whirl run: error: the run diverged in the step after t = 0\.[0-9]+ s: (theta1|theta2|X)' "$scratch/err" &&
+    grep -q '^hint: ' "$scratch/err"
+verdict $? "a step far too long: status 1, when, which coordinate, what to try"
+well_formed "$scratch/d.csv"
+verdict $? "its records so far are well formed and finite"
+run spherical_flight --start theta=0 --csv "$scratch/p.csv" --quiet
+[ $? -eq 1 ] && grep -q 'diverged in the step after t = 0 s: ' "$scratch/err" && well_formed "$scratch/p.csv"
+verdict $? "a start on the pole of spherical coordinates: status 1, the start is recorded"
+run tests/mechanisms/lorenz.whirl --start x=1 --step 1 --method euler --csv "$scratch/l.csv" --quiet --number float
+[ $? -eq 1 ] && grep -Eq 'after t = [0-9]+ s: [xyz] left all bounds' "$scratch/err" && well_formed "$scratch/l.csv"
+verdict $? "a system of first order in float: status 1, records well formed"
+
+if [ -e /dev/full ]; then
+    run thomson_a --until 2s --quiet --csv /dev/full
+    [ $? -eq 2 ] && grep -q '^/dev/full: error: cannot be written: ' "$scratch/err"
+    verdict $? "a full disc is told"
+    "$whirl" run thomson_a --until 2s --quiet --csv - >/dev/full 2>"$scratch/err"
+    [ $? -eq 2 ] && grep -q '^<standard output>: error: cannot be written: ' "$scratch/err"
+    verdict $? "and so is a full standard output"
+    "$whirl" list >/dev/full 2>"$scratch/err"
+    [ $? -eq 1 ] && grep -q 'error: standard output' "$scratch/err"
+    verdict $? "of other commands too"
+fi
+
+# --- interrupted --------------------------------------------------------------------------------------------
+"$whirl" run thomson_b --until 1e6s --csv "$scratch/i.csv" >"$scratch/out" 2>"$scratch/err" &
+pid=$!
+tries=0
+while [ ! -s "$scratch/i.csv" ] && [ $tries -lt 200 ]; do
+    sleep 0.05
+    tries=$((tries + 1))
+done
+kill -INT $pid
+wait $pid
+[ $? -eq 130 ] && grep -q '^state hash ' "$scratch/out"
+verdict $? "an interrupt: status 130, with the summary"
+well_formed "$scratch/i.csv"
+verdict $? "and whole records"
+exit $failed
