@@ -37,4 +37,7 @@ double state_value(void *context, const symbol *sym, int primes);
 uint64_t random_bits(uint64_t *seed);
 double random_between(uint64_t *seed, double low, double high);
 
+/* `front`, then `piece` with its number (twice, if it wants it) so many times, then `tail`. */
+char *repeated(const char *front, const char *piece, int times, const char *tail);
+
 #endif

@@ -1,0 +1,93 @@
+/* test_underivable.c: what cannot be derived is refused with its place and in bounded time. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "derived.h"
+#include "unity.h"
+
+void suite_underivable(void);
+
+static void expect_refused(const char *text, const char *wanted) {
+    const clock_t began = clock();
+    derived d = derived_text(text);
+    const double seconds = (double)(clock() - began) / CLOCKS_PER_SEC;
+    const bool found = strstr(d.errors, wanted) != NULL;
+    if (!found || d.program != NULL) {
+        printf("  wanted: %s\n  got: %.400s\n", wanted, d.errors);
+    }
+    TEST_ASSERT_NULL(d.program);
+    TEST_ASSERT_TRUE(found);
+    TEST_ASSERT_TRUE(seconds < 20.0); /* bounded, sanitizers included */
+    derived_free(&d);
+}
+
+static void test_singular_and_other_impossible_mechanisms(void) {
+    expect_refused("mechanism m\ncoordinate x [m]\ncoordinate y [m]\nT = 1 [kg]*(x' + y')^2\n",
+                   "t.whirl:1:11: error: singular mass matrix: 'm' cannot be solved");
+    expect_refused(
+        "mechanism m\ncoordinate x [m]\ncoordinate y [m]\nT = 1 [kg]*x'^2\n"
+        "V = 1 [N/m]*y^2\n",
+        "t.whirl:3:12: error: singular mass matrix: the kinetic energy does not contain y'");
+    expect_refused("mechanism m\nstate x\nequation 1 [s^2]*x'^2 = 1\n",
+                   "t.whirl:3:1: error: this equation is not linear in the highest derivatives: x");
+    expect_refused("mechanism m\nstate x\nequation sin(1 [s]*x') = x\n",
+                   "not linear in the highest");
+    expect_refused("mechanism m\nstate x\nstate y\nequation x' + y' = 1 [1/s]\n"
+                   "equation 2*x' + 2*y' = 3 [1/s]\n",
+                   "the equations of 'm' cannot be solved for the highest derivatives");
+    expect_refused("mechanism m\ncoordinate x [m]\ninput M = 1 [kg]\nT = M*x'^2/2\n",
+                   "the kinetic energy depends on input 'M', whose rate is not known");
+    expect_refused(
+        "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2\nV = 1 [J]*log(0*x/1 [m] - 1)*x/1 [m]\n",
+        "have no finite value at any state tried");
+    expect_refused("mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2\n"
+                   "V = 1 [J]*sqrt(-1 - (x/1 [m])^2)\n",
+                   "have no finite value at any state tried");
+}
+
+static void test_too_many_components(void) {
+    char *states = repeated("mechanism m\nstate z\n", "state x#\n", 40, "");
+    char *text = repeated(states, "equation 1 [s^2]*x#'' = z\n", 40, "equation 1 [s]*z' = x1\n");
+    expect_refused(text, "t.whirl:1:11: error: 'm' has more than 64 components of state");
+    free(text);
+    free(states);
+}
+
+static void test_expressions_that_explode_are_refused(void) {
+    static const char front[] = "mechanism m\ncoordinate x\ncoordinate y\nlet a0 = x + y + 1\n";
+    static const char tail[] = "T = 1 [kg*m^2]*(x'^2 + y'^2)\nV = 1 [J]*a30\n";
+    static const char *const pieces[] = {"let a# = a@*a@ + x\n",
+                                         "let a# = sin(a@)*a@ + y\n",
+                                         "let a# = a@^2 + cos(a@)*x\n",
+                                         "let a# = exp(a@) + a@*y\n",
+                                         "let a# = a@/(1 + a@^2)\n",
+                                         "let a# = sqrt(a@*a@ + 1) + a@^3\n",
+                                         "let a# = atan2(a@, a@ + 2) + max(a@, x)\n"};
+    for (size_t i = 0; i < sizeof pieces / sizeof pieces[0]; i++) {
+        char *text = repeated(front, pieces[i], 30, tail);
+        expect_refused(text,
+                       "t.whirl:1:11: error: the equations of 'm' grow beyond what can be handled");
+        free(text);
+    }
+    /* one unknown less deep, so that the algebra gets further before it gives up */
+    for (int deep = 4; deep < 12; deep++) {
+        char end[96];
+        snprintf(end, sizeof end, "T = 1 [kg*m^2]*(x'^2 + y'^2)*(1 + a%d^2)\n", deep);
+        char *text = repeated(front, "let a# = a@*sin(a@ + y) + x\n", deep, end);
+        const clock_t began = clock();
+        derived d = derived_text(text);
+        TEST_ASSERT_TRUE((d.program == NULL) == (d.errors[0] != '\0'));
+        derived_free(&d);
+        TEST_ASSERT_TRUE((double)(clock() - began) / CLOCKS_PER_SEC < 60.0);
+        free(text);
+    }
+}
+
+void suite_underivable(void) {
+    UnitySetTestFile(__FILE__);
+    RUN_TEST(test_singular_and_other_impossible_mechanisms);
+    RUN_TEST(test_too_many_components);
+    RUN_TEST(test_expressions_that_explode_are_refused);
+}
