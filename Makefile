@@ -1,6 +1,7 @@
 # Whirl: energies in, firmware out. `make` lists the targets; the machinery is in mk/.
 #
-# V=1 shows the commands. Nothing is written outside build/.
+# V=1 shows the commands. Nothing is written outside build/,
+# but for `make figures-docs`, which copies the figures into docs/.
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
