@@ -7,9 +7,23 @@ static size_t carries(const wh_scene *scene) {
     return scene->compensated ? (size_t)scene->angles + scene->reals : 0U;
 }
 
+/* The contacts' modes are unset: the first step finds them. */
+static void start_contacts(const wh_scene *scene, wh_state *state, wh_contacts *memory) {
+    state->contacts = memory;
+    memory->events = 0;
+    memory->overruns = 0;
+    memory->logged = 0;
+    for (unsigned i = 0; i < scene->contacts; i++) {
+        memory->mode[i] = WH_UNSET;
+    }
+}
+
 wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, size_t bytes) {
-    const size_t need = scene->angles * sizeof(wh_angle) +
-                        (scene->reals + carries(scene) + scene->inputs) * sizeof(wh_real);
+    const size_t numbers = scene->angles * sizeof(wh_angle) +
+                           (scene->reals + carries(scene) + scene->inputs) * sizeof(wh_real);
+    const size_t contacts_at = (numbers + 7U) / 8U * 8U;
+    const size_t need =
+        scene->contacts > 0 ? contacts_at + sizeof(wh_contacts) + scene->contacts : numbers;
     if (memory == NULL || bytes < need) {
         return WH_E_MEMORY;
     }
@@ -33,6 +47,11 @@ wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, s
     }
     for (unsigned i = 0; i < scene->inputs; i++) {
         state->input[i] = scene->start_input[i];
+    }
+    state->contacts = NULL;
+    if (scene->contacts > 0) {
+        start_contacts(scene, state,
+                       (wh_contacts *)(void *)((unsigned char *)memory + contacts_at));
     }
     state->steps = 0;
     state->fault = -1;
@@ -62,6 +81,9 @@ uint64_t wh_scene_hash(const wh_scene *scene, const wh_state *state) {
     }
     for (unsigned i = 0; i < scene->reals; i++) {
         hash = wh_hash_real(hash, state->real[i]);
+    }
+    for (unsigned i = 0; i < scene->contacts; i++) {
+        hash = wh_hash_u64(hash, (uint8_t)state->contacts->mode[i]);
     }
     return hash;
 }

@@ -29,6 +29,29 @@ typedef enum wh_form { WH_SECOND_ORDER, WH_FIRST_ORDER } wh_form;
 
 typedef enum wh_method { WH_EULER, WH_SEMI_IMPLICIT_EULER, WH_HEUN, WH_RK4 } wh_method;
 
+/* Most moments with events in one step, and most events that are logged. */
+#define WH_EVENTS_MAX 8
+#define WH_EVENT_LOG 16
+
+/* An event of a scene with contacts (contact.h). */
+typedef struct wh_event {
+    uint8_t contact;
+    int8_t mode;     /* the contact's mode after it */
+    wh_real at_s;    /* since the step began */
+    wh_real impulse; /* of a stop or a hold, else 0 */
+} wh_event;
+
+/* What of the contacts changes while running. */
+typedef struct wh_contacts {
+    uint32_t events;   /* since the start */
+    uint32_t overruns; /* steps that had WH_EVENTS_MAX moments with events */
+    uint32_t logged;   /* events of the last step, in log[] */
+    wh_event log[WH_EVENT_LOG];
+    int8_t mode[]; /* [scene->contacts] */
+} wh_contacts;
+
+#define WH_UNSET 127 /* a mode before the first step */
+
 /* The changing part of a run. All pointers point into the memory given to wh_scene_start(). */
 typedef struct wh_state {
     uint64_t steps;  /* steps done; time is steps * step_s, never a running sum */
@@ -36,7 +59,8 @@ typedef struct wh_state {
     wh_real *real;   /* [scene->reals] SI units */
     wh_real *carry;  /* [scene->angles + scene->reals] low parts when compensated, else NULL */
     wh_real *input;  /* [scene->inputs] SI units; the caller may change them between steps */
-    int fault;       /* after WH_E_DIVERGED: the component at fault, angles first, then reals */
+    wh_contacts *contacts; /* NULL without contacts */
+    int fault; /* after WH_E_DIVERGED: the component at fault, angles first, then reals */
 } wh_state;
 
 typedef struct wh_scene wh_scene;
@@ -48,6 +72,7 @@ struct wh_scene {
     uint8_t reals;    /* components kept as a real */
     uint8_t inputs;   /* may change while running */
     uint8_t outputs;  /* computed by observe(), never in the step */
+    uint8_t contacts; /* stops, holds, frictions and crossings */
     bool compensated; /* sums carry their rounding error along */
     wh_real step_s;   /* fixed step, seconds, > 0 */
     uint32_t steps;   /* steps to the scene's end */
@@ -67,6 +92,9 @@ struct wh_scene {
 #define WH_STATE_WORDS(angles, reals, inputs) \
     ((size_t)(angles) + (2U * (size_t)(reals) + (size_t)(angles) + (size_t)(inputs)))
 
+/* What a scene with so many contacts needs on top. */
+#define WH_CONTACT_WORDS(contacts) ((sizeof(wh_contacts) + (size_t)(contacts) + 15U) / 8U)
+
 #define wh_scene_start WH_NAME(wh_scene_start)
 #define wh_scene_step WH_NAME(wh_scene_step)
 #define wh_scene_time_s WH_NAME(wh_scene_time_s)
@@ -85,7 +113,7 @@ wh_status wh_scene_step(const wh_scene *scene, wh_state *state);
 /* Time of the state, seconds: steps * step_s. */
 wh_real wh_scene_time_s(const wh_scene *scene, const wh_state *state);
 
-/* Hash of step count, angles and reals: equal runs on any two machines give equal hashes. */
+/* Hash of step count, angles, reals and the contacts' modes: equal runs on any two machines give equal hashes. */
 uint64_t wh_scene_hash(const wh_scene *scene, const wh_state *state);
 
 /* Where the rates of a second-order scene begin in state->real. */

@@ -182,16 +182,15 @@ static void recover(const equations *e, conservation *c, const momentum_law *law
     }
 }
 
-static bool make_law(const equations *e, conservation *c, int k, momentum_law *law,
-                     const poly *(*fold)(const equations *, const poly *), diags *errors) {
+static bool make_law(const equations *e, conservation *c, int k, momentum_law *law, diags *errors) {
     const int n = e->count;
     const int i = c->unknown[k];
-    const poly *momentum = fold(e, e->momentum[i]);
+    const poly *momentum = equations_fold(e, e->momentum[i]);
     law->mass = room(n, sizeof(const poly *));
     law->momentum = at_start(e, momentum);
     for (int j = 0; j < n; j++) {
         double value;
-        law->mass[j] = fold(e, e->mass[i * n + j]);
+        law->mass[j] = equations_fold(e, e->mass[i * n + j]);
         c->closed = c->closed && (c->number[j] < 0 || poly_is_number(law->mass[j], &value));
     }
     if (is_linear(e, momentum, law->mass)) {
@@ -220,9 +219,7 @@ static void make_potentials(const equations *e, conservation *c, momentum_law *l
     }
 }
 
-conservation *conservation_make(const equations *e, const bool *wanted,
-                                const poly *(*fold)(const equations *, const poly *),
-                                diags *errors) {
+conservation *conservation_make(const equations *e, const bool *wanted, diags *errors) {
     const int n = e->count;
     momentum_law laws[CONSERVED_MAX] = {0};
     conservation *c = room(1, sizeof *c);
@@ -251,7 +248,7 @@ conservation *conservation_make(const equations *e, const bool *wanted,
         good = false;
     }
     for (int k = 0; k < c->count && good; k++) {
-        good = make_law(e, c, k, &laws[k], fold, errors);
+        good = make_law(e, c, k, &laws[k], errors);
     }
     if (good && c->count > 0) {
         make_potentials(e, c, laws);

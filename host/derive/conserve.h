@@ -30,10 +30,8 @@ typedef struct conservation {
 extern const symbol conservation_time;
 
 /* What `wanted` [equations->count] asks for (NULL: nothing), checked. NULL with an error when a named
- * coordinate's momentum is not conserved. `fold` puts parameters' values into a poly. */
-conservation *conservation_make(const equations *e, const bool *wanted,
-                                const poly *(*fold)(const equations *, const poly *),
-                                diags *errors);
+ * coordinate's momentum is not conserved. */
+conservation *conservation_make(const equations *e, const bool *wanted, diags *errors);
 void conservation_free(conservation *c);
 
 /* p with the conserved coordinates and rates replaced by what they follow from. */

@@ -81,7 +81,8 @@ static bool derive_lagrange(equations *e, diags *errors) {
         e->input_power = poly_add(a, e->input_power, poly_mul(a, drive, rate));
         e->loss_power = poly_add(a, e->loss_power, poly_mul(a, damping, rate));
         e->conserved[i] = poly_is_zero(poly_derivative(a, lagrangian, q, 0)) &&
-                          poly_is_zero(e->applied[i]) && !poly_is_zero(momentum);
+                          poly_is_zero(e->applied[i]) && !poly_is_zero(momentum) &&
+                          !contact_laws_push(e->contacts, i);
     }
     return true;
 }
@@ -231,6 +232,7 @@ equations *equations_derive(const instance *inst, diags *errors) {
     for (int i = 0; i < n; i++) {
         poly_symbol(e->algebra, m->coordinates[i], 1);
     }
+    e->contacts = contact_laws_make(e->algebra, inst);
     bool good = m->is_system ? derive_system(e, errors) : derive_lagrange(e, errors);
     for (int i = 0; i < m->output_count && good; i++) {
         e->output[i] = poly_from_expr(e->algebra, m->outputs[i]->value);
@@ -261,6 +263,7 @@ void equations_free(equations *e) {
     free(e->momentum);
     free(e->conserved);
     free(e->output);
+    contact_laws_free(e->contacts);
     algebra_free(e->algebra);
     free(e);
 }
@@ -268,4 +271,15 @@ void equations_free(equations *e) {
 const poly *equations_force(const equations *e, int i) {
     algebra *a = e->algebra;
     return poly_sub(a, poly_sub(a, e->applied[i], e->velocity[i]), e->potential[i]);
+}
+
+static const poly *parameter_value(void *context, algebra *a, const symbol *s, int primes) {
+    const instance *inst = context;
+    (void)primes;
+    return s->kind == SYM_PARAMETER ? poly_number(a, inst->parameter[s->index]) : NULL;
+}
+
+const poly *equations_fold(const equations *e, const poly *p) {
+    /* poly_substitute() does not write through its context */
+    return poly_substitute(e->algebra, p, parameter_value, (void *)(uintptr_t)e->instance);
 }

@@ -11,6 +11,7 @@
 #ifndef DERIVE_EQUATIONS_H
 #define DERIVE_EQUATIONS_H
 
+#include "contacts.h"
 #include "host/algebra/poly.h"
 
 typedef struct unknown {
@@ -35,6 +36,7 @@ typedef struct equations {
     const poly **momentum;   /* [count] dL/dq' */
     bool *conserved;         /* [count] momentum[i] is constant: no force, no potential, no loss */
     const poly **output;     /* [mechanism->output_count] */
+    contact_laws *contacts;  /* stops, holds, frictions, crossings; NULL when there are none */
 } equations;
 
 /* Derive. Returns NULL on error, reported to `diags` (no kinetic energy for a coordinate, singular
@@ -47,5 +49,8 @@ void equations_report_growth(const equations *e, diags *errors);
 
 /* mass * highest = force: everything but the highest derivatives, on the right. */
 const poly *equations_force(const equations *e, int i);
+
+/* p with the instance's values put in for its parameters. */
+const poly *equations_fold(const equations *e, const poly *p);
 
 #endif

@@ -16,6 +16,8 @@ typedef struct component {
     int primes;
 } component;
 
+typedef struct contact_lists contact_lists; /* contact_lists.h */
+
 typedef struct program {
     wh_form form;
     int count;       /* unknowns */
@@ -34,6 +36,7 @@ typedef struct program {
     tape *step;
     /* The outputs. */
     tape *observe;
+    contact_lists *contacts; /* NULL without any */
     /* For the host's books: highest derivatives (by unknown), then for a mechanism T, V, input
      * power, loss power and the momenta (by unknown). */
     tape *books;

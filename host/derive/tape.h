@@ -18,6 +18,7 @@ typedef enum op_code {
     OP_LINEAR,   /* real component a: a linear position (second order), any real (first order) */
     OP_RATE,     /* rate of coordinate a (second order only) */
     OP_INPUT,    /* input a */
+    OP_ACCEL,    /* acceleration of coordinate a, contact forces in it: for records */
     OP_TIME,     /* time, s: for records, never in a step */
     OP_RADIANS,  /* unwrapped angle a in radians: for records, never in a step */
     OP_PHASE,    /* a phase: sum turns[i] * angle[i] + value [rad] + (radians from b, if b >= 0) */

@@ -1,176 +1,48 @@
-/* c.c: a scene as C. Every operation of the list becomes one statement, so that the compiler has the
- * same operations in the same order as the interpreter. Constants are written in hexadecimal: the
- * float build rounds the double exactly as the interpreter does. */
+/* c.c: a scene as C for the core. */
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "c_contacts.h"
+#include "c_list.h"
 #include "emit.h"
 
-static const char *const method_names[] = {"WH_EULER", "WH_SEMI_IMPLICIT_EULER", "WH_HEUN",
-                                           "WH_RK4"};
-
-/* An operand: constants stand in place. */
-static const char *operand(const tape *t, int a, char text[static 48]) {
-    if (t->ops[a].code == OP_CONSTANT) {
-        const double value = t->ops[a].value;
-        snprintf(text, 48, value < 0.0 ? "(-WH_R(%a))" : "WH_R(%a)", fabs(value));
-    } else {
-        snprintf(text, 48, "x%d", a);
-    }
-    return text;
-}
-
-static void write_phase(FILE *out, const tape *t, int i) {
-    const op *o = &t->ops[i];
-    char b[48];
-    const char *plus = "";
-    fprintf(out, "    wh_real s%d;\n    wh_real c%d;\n    wh_sincos(", i, i);
-    if (o->value != 0.0) {
-        fprintf(out, "WH_TURN(%a, %" PRIu32 "U)", o->value, engine_phase_of_constant(o->value));
-        plus = " + ";
-    }
-    for (int k = 0; k < t->angles && o->turns != NULL; k++) {
-        if (o->turns[k] == 1) {
-            fprintf(out, "%sphase[%d]", plus, k);
-        } else if (o->turns[k] != 0) {
-            fprintf(out, "%s(wh_phase)%d * phase[%d]", plus, o->turns[k], k);
-        }
-        plus = o->turns[k] != 0 ? " + " : plus;
-    }
-    if (o->b >= 0) {
-        fprintf(out, "%swh_phase_from_rad(%s)", plus, operand(t, o->b, b));
-    }
-    fprintf(out, ", &s%d, &c%d);\n", i, i);
-}
-
-static void write_operation(FILE *out, const tape *t, int i) {
-    const op *o = &t->ops[i];
-    char a[48];
-    char b[48];
-    if (o->code == OP_CONSTANT) {
-        return;
-    }
-    if (o->code == OP_PHASE) {
-        write_phase(out, t, i);
-        return;
-    }
-    if (o->code >= OP_ADD) {
-        operand(t, o->a, a);
-        if (o->b >= 0) {
-            operand(t, o->b, b);
-        }
-    }
-    fprintf(out, "    const wh_real x%d = ", i);
-    switch (o->code) {
-    case OP_LINEAR: fprintf(out, "linear[%d]", o->a); break;
-    case OP_RATE: fprintf(out, "rate[%d]", o->a); break;
-    case OP_INPUT: fprintf(out, "input[%d]", o->a); break;
-    case OP_TIME: fprintf(out, "wh_scene_time_s(scene, state)"); break;
-    case OP_RADIANS: fprintf(out, "wh_angle_to_rad(angle[%d])", o->a); break;
-    case OP_SIN: fprintf(out, "s%d", o->a); break;
-    case OP_COS: fprintf(out, "c%d", o->a); break;
-    case OP_ADD: fprintf(out, "%s + %s", a, b); break;
-    case OP_SUB: fprintf(out, "%s - %s", a, b); break;
-    case OP_MUL: fprintf(out, "%s * %s", a, b); break;
-    case OP_DIV: fprintf(out, "%s / %s", a, b); break;
-    case OP_NEG: fprintf(out, "-%s", a); break;
-    case OP_SQRT: fprintf(out, "WH_SQRT(%s)", a); break;
-    case OP_ABS: fprintf(out, "WH_ABS(%s)", a); break;
-    case OP_SIGN: fprintf(out, "(wh_real)((%s > WH_R(0.0)) - (%s < WH_R(0.0)))", a, a); break;
-    case OP_MIN: fprintf(out, "%s < %s ? %s : %s", b, a, b, a); break;
-    case OP_MAX: fprintf(out, "%s > %s ? %s : %s", b, a, b, a); break;
-    default: fprintf(out, "WH_R(0.0) /* not offered by the core */"); break;
-    }
-    fprintf(out, ";\n");
-}
-
-static bool uses(const tape *t, op_code code) {
-    for (int i = 0; i < t->count; i++) {
-        if (t->ops[i].code == code) {
-            return true;
-        }
-    }
-    return false;
-}
-
-static bool uses_phase(const tape *t) {
-    for (int i = 0; i < t->count; i++) {
-        if (t->ops[i].code == OP_PHASE && t->ops[i].turns != NULL) {
-            return true;
-        }
-    }
-    return false;
-}
-
-static void write_body(FILE *out, const tape *t, const char *result) {
-    char text[48];
-    for (int i = 0; i < t->count; i++) {
-        write_operation(out, t, i);
-    }
-    for (int i = 0; i < t->results; i++) {
-        fprintf(out, "    %s[%d] = %s;\n", result, i, operand(t, t->result[i], text));
-    }
-    fprintf(out, "}\n\n");
-}
-
-static void write_ignored(FILE *out, bool used, const char *name) {
-    if (!used) {
-        fprintf(out, "    (void)%s;\n", name);
-    }
-}
-
-static void write_right_hand_side(FILE *out, const program *p) {
-    const tape *t = p->step;
-    const bool second = p->form == WH_SECOND_ORDER;
-    if (second) {
-        fprintf(out, "WH_INLINE void accelerations(const void *model, const wh_phase *phase,\n"
-                     "                             const wh_real *linear, const wh_real *rate,\n"
-                     "                             const wh_real *input, wh_real *result) {\n");
-    } else {
-        fprintf(out, "WH_INLINE void slopes(const void *model, const wh_phase *phase,\n"
-                     "                      const wh_real *linear, const wh_real *input,\n"
-                     "                      wh_real *result) {\n");
-    }
-    fprintf(out, "    (void)model;\n");
-    write_ignored(out, uses_phase(t), "phase");
-    write_ignored(out, uses(t, OP_LINEAR), "linear");
-    if (second) {
-        write_ignored(out, uses(t, OP_RATE), "rate");
-    }
-    write_ignored(out, uses(t, OP_INPUT), "input");
-    write_body(out, t, "result");
-}
+const char *const c_method_names[] = {"WH_EULER", "WH_SEMI_IMPLICIT_EULER", "WH_HEUN", "WH_RK4"};
 
 static void write_observer(FILE *out, const program *p) {
     const tape *t = p->observe;
     fprintf(out, "static void observe(const wh_scene *scene, const wh_state *state, "
                  "wh_real *output) {\n");
-    write_ignored(out, uses(t, OP_TIME), "scene");
-    if (uses_phase(t)) {
+    c_list_ignore(out, c_list_uses(t, OP_TIME), "scene");
+    if (c_list_uses_phase(t)) {
         fprintf(out,
                 "    wh_phase phase[%d];\n    for (int i = 0; i < %d; i++) {\n"
                 "        phase[i] = wh_phase_of(state->angle[i]);\n    }\n",
                 p->angles, p->angles);
     }
-    if (uses(t, OP_RADIANS)) {
+    if (c_list_uses(t, OP_RADIANS)) {
         fprintf(out, "    const wh_angle *angle = state->angle;\n");
     }
-    if (uses(t, OP_LINEAR)) {
+    if (c_list_uses(t, OP_LINEAR)) {
         fprintf(out, "    const wh_real *linear = state->real;\n");
     }
-    if (uses(t, OP_RATE)) {
+    if (c_list_uses(t, OP_RATE)) {
         fprintf(out, "    const wh_real *rate = state->real + %d;\n", p->coordinates - p->angles);
     }
-    if (uses(t, OP_INPUT)) {
+    if (c_list_uses(t, OP_INPUT)) {
         fprintf(out, "    const wh_real *input = state->input;\n");
     }
-    if (!uses_phase(t) && !uses(t, OP_RADIANS) && !uses(t, OP_LINEAR) && !uses(t, OP_RATE) &&
-        !uses(t, OP_INPUT) && !uses(t, OP_TIME)) {
+    if (c_list_uses(t, OP_ACCEL)) {
+        fprintf(out, "    wh_real accel[%d];\n    wh_contact_observe(&hybrid, state, accel);\n",
+                p->coordinates);
+    }
+    if (!c_list_uses_phase(t) && !c_list_uses(t, OP_RADIANS) && !c_list_uses(t, OP_LINEAR) &&
+        !c_list_uses(t, OP_RATE) && !c_list_uses(t, OP_INPUT) && !c_list_uses(t, OP_TIME) &&
+        !c_list_uses(t, OP_ACCEL)) {
         fprintf(out, "    (void)state;\n");
     }
-    write_body(out, t, "output");
+    c_list_body(out, t, "output");
 }
 
 static void write_starts(FILE *out, const program *p, const instance *inst) {
@@ -213,9 +85,12 @@ static void write_scene(FILE *out, const program *p, const instance *inst,
     fprintf(out, "const wh_scene %s = {\n    .name = \"%s\",\n    .form = %s,\n    .method = %s,\n",
             inst->name, inst->name,
             p->form == WH_SECOND_ORDER ? "WH_SECOND_ORDER" : "WH_FIRST_ORDER",
-            method_names[settings->method]);
+            c_method_names[settings->method]);
     fprintf(out, "    .angles = %d,\n    .reals = %d,\n    .inputs = %d,\n    .outputs = %d,\n",
             p->angles, p->reals, p->inputs, p->outputs);
+    if (p->contacts != NULL) {
+        fprintf(out, "    .contacts = %d,\n", p->contacts->count);
+    }
     fprintf(out, "    .compensated = %s,\n    .step_s = WH_R(%a),\n    .steps = %.0fU,\n",
             settings->compensated ? "true" : "false", inst->step_s,
             steps < 4294967295.0 ? steps : 4294967295.0);
@@ -230,16 +105,17 @@ static void write_scene(FILE *out, const program *p, const instance *inst,
 
 bool emit_c_name_is_free(const char *name) {
     static const char *const taken[] = {
-        "auto",       "break",   "case",     "char",        "const",
-        "continue",   "default", "do",       "double",      "else",
-        "enum",       "extern",  "float",    "for",         "goto",
-        "if",         "inline",  "int",      "long",        "register",
-        "restrict",   "return",  "short",    "signed",      "sizeof",
-        "static",     "struct",  "switch",   "typedef",     "union",
-        "unsigned",   "void",    "volatile", "while",       "bool",
-        "true",       "false",   "main",     "NULL",        "accelerations",
-        "slopes",     "advance", "observe",  "start_angle", "start_real",
-        "start_input"};
+        "auto",        "break",   "case",     "char",        "const",
+        "continue",    "default", "do",       "double",      "else",
+        "enum",        "extern",  "float",    "for",         "goto",
+        "if",          "inline",  "int",      "long",        "register",
+        "restrict",    "return",  "short",    "signed",      "sizeof",
+        "static",      "struct",  "switch",   "typedef",     "union",
+        "unsigned",    "void",    "volatile", "while",       "bool",
+        "true",        "false",   "main",     "NULL",        "accelerations",
+        "slopes",      "advance", "observe",  "start_angle", "start_real",
+        "start_input", "signals", "forces",   "sets",        "contact",
+        "target",      "hybrid"};
     for (size_t i = 0; i < sizeof taken / sizeof taken[0]; i++) {
         if (strcmp(name, taken[i]) == 0) {
             return false;
@@ -289,17 +165,26 @@ void emit_c(FILE *out, const equations *e, const program *p, const engine_settin
     const bool second = p->form == WH_SECOND_ORDER;
     const int components = second ? p->coordinates : p->angles + p->reals;
     write_banner(out, e, p, file);
-    fprintf(out, "#define WH_COORDS %d\n#include \"core/step.h\"\n\nextern const wh_scene %s;\n\n",
-            components, e->instance->name);
+    fprintf(out, "#define WH_COORDS %d\n", components);
+    if (p->contacts != NULL) {
+        c_contacts_include(out, p->contacts);
+    } else {
+        fprintf(out, "#include \"core/step.h\"\n");
+    }
+    fprintf(out, "\nextern const wh_scene %s;\n\n", e->instance->name);
     write_starts(out, p, e->instance);
-    write_right_hand_side(out, p);
-    fprintf(out,
-            "static wh_status advance(const wh_scene *scene, wh_state *state) {\n"
-            "    (void)scene;\n    return %s(NULL, %s, %s, %s, %dU, %dU,\n"
-            "                          WH_R(%a), state);\n}\n\n",
-            second ? "wh_step_second" : "wh_step_first", second ? "accelerations" : "slopes",
-            method_names[settings->method], settings->compensated ? "true" : "false", p->angles,
-            second ? p->coordinates : p->reals, e->instance->step_s);
+    c_list_function(out, p->step, second ? "accelerations" : "slopes", second);
+    if (p->contacts != NULL) {
+        c_contacts_write(out, p, settings, e->instance->step_s);
+    } else {
+        fprintf(out,
+                "static wh_status advance(const wh_scene *scene, wh_state *state) {\n"
+                "    (void)scene;\n    return %s(NULL, %s, %s, %s, %dU, %dU,\n"
+                "                          WH_R(%a), state);\n}\n\n",
+                second ? "wh_step_second" : "wh_step_first", second ? "accelerations" : "slopes",
+                c_method_names[settings->method], settings->compensated ? "true" : "false",
+                p->angles, second ? p->coordinates : p->reals, e->instance->step_s);
+    }
     if (p->outputs > 0) {
         write_observer(out, p);
     }

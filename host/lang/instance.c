@@ -212,3 +212,7 @@ void instance_free(instance *done) {
 bool instance_has_term(const instance *of, const term *each) {
     return each->effect < 0 || of->with[each->effect];
 }
+
+bool instance_has_hybrid(const instance *of, const hybrid *each) {
+    return each->effect < 0 || of->with[each->effect];
+}

@@ -8,6 +8,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 #include "diag.h"
 #include "units.h"
@@ -117,6 +118,48 @@ typedef struct effect {
     place at;
 } effect;
 
+/* `set NAME = EXPR` or `start NAME' = EXPR` of a scene, where the value is an expression of constants;
+ * or one assignment of a `when`, where it may name coordinates, rates, parameters and inputs. */
+typedef struct assignment {
+    const symbol *symbol;
+    int primes;
+    const expr *value;
+    place at;
+} assignment;
+
+typedef enum hybrid_kind { HYBRID_STOP, HYBRID_FRICTION, HYBRID_HOLD, HYBRID_WHEN } hybrid_kind;
+
+/* One event-driven effect, handled inside the step (core/contact.h says how). */
+typedef struct hybrid {
+    hybrid_kind kind;
+    /* stop: left - right, >= 0 when apart (coordinates, no rates); hold: the expression whose rate is
+     * held at zero (coordinates, no rates); when: left - right (rates allowed); friction: NULL. */
+    const expr *value;
+    const symbol *coordinate;    /* friction: acts on its rate; else NULL */
+    const expr *restitution;     /* stop: 0 to 1 */
+    const expr *static_friction; /* friction: coefficients, 0 <= kinetic <= static */
+    const expr *kinetic_friction;
+    const expr *normal;     /* friction: normal force [N]; below zero counts as zero */
+    const expr *condition;  /* hold: true while above zero; `and` is min, `or` is max */
+    int direction;          /* when: +1 rising, -1 falling, 0 both */
+    const assignment *sets; /* when: coordinates and rates, all evaluated before any is set */
+    int set_count;
+    int effect; /* index of the effect it belongs to, or -1 */
+    place at;
+} hybrid;
+
+/* Most stops, frictions, holds and whens in one mechanism or scene. */
+enum { HYBRIDS_MAX = 16 };
+
+/* `noise OUTPUT deviation EXPR seed NUMBER`: Gaussian noise on a recorded output (core/noise.h). */
+typedef struct noise {
+    const symbol *output;
+    const expr *deviation; /* an expression of constants, of the output's dimension, >= 0 */
+    uint32_t seed;
+    int effect;
+    place at;
+} noise;
+
 typedef struct mechanism {
     const char *name;
     const char *title;
@@ -133,6 +176,10 @@ typedef struct mechanism {
     int let_count; /* each names only earlier ones */
     const term *terms;
     int term_count;
+    const hybrid *hybrids;
+    int hybrid_count;
+    const noise *noises;
+    int noise_count;
     const effect *effects;
     int effect_count;
     bool is_system;            /* given by state/equation instead of T, V, F, Q */
@@ -143,14 +190,6 @@ typedef struct mechanism {
 enum { COORDINATES_MAX = 64, EFFECTS_MAX = 500, MECHANISMS_MAX = 500, SCENES_MAX = 1000 };
 
 /* --- scenes ------------------------------------------------------------------------------------ */
-
-/* `set NAME = EXPR` or `start NAME' = EXPR`. */
-typedef struct assignment {
-    const symbol *symbol;
-    int primes;
-    const expr *value; /* an expression of constants: numbers and parameters */
-    place at;
-} assignment;
 
 typedef struct scene {
     const char *name;
@@ -163,8 +202,11 @@ typedef struct scene {
     const assignment *starts;
     int start_count;
     const bool *conserve; /* [mechanism->coordinate_count] */
-    const expr *step;     /* seconds, or NULL */
-    const expr *until;    /* seconds, or NULL */
+    bool ledger;          /* `with ledger`: the books of energy and momentum are kept */
+    const hybrid *whens;  /* `when` statements of the scene's own */
+    int when_count;
+    const expr *step;  /* seconds, or NULL */
+    const expr *until; /* seconds, or NULL */
 } scene;
 
 typedef struct model {
@@ -206,6 +248,7 @@ typedef struct instance {
     const scene *scene; /* NULL for a bare mechanism */
     const char *name;   /* scene's name, or the mechanism's */
     bool *with;         /* [effect_count] */
+    bool ledger;        /* keep the books of energy and momentum */
     double *parameter;  /* [parameter_count] SI */
     double *input;      /* [input_count] SI */
     double **start;     /* [coordinate_count][order] value, rate, ...: SI; order >= 2 */
@@ -217,6 +260,8 @@ typedef struct instance {
 
 /* Which terms take part: those of the mechanism itself and of the effects in instance->with. */
 bool instance_has_term(const instance *instance, const term *term);
+/* The same of an event-driven effect of the mechanism. */
+bool instance_has_hybrid(const instance *instance, const hybrid *hybrid);
 
 /* Evaluate a scene (or, with scene NULL, the mechanism at rest at zero) to numbers. `changes` may be
  * NULL. Returns NULL on error, reported to `diags`. */

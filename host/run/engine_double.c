@@ -22,6 +22,6 @@ void evaluator_free(evaluator *ev) {
 
 void evaluator_run(evaluator *ev, double time_s, const double *angle_rad, const double *linear,
                    const double *rate, const double *input, double *result) {
-    evaluate(ev->tape, ev->registers, (leaves){angle_rad, angle_rad, time_s, linear, rate, input},
-             result);
+    evaluate(ev->tape, ev->registers,
+             (leaves){angle_rad, angle_rad, time_s, linear, rate, input, NULL}, result);
 }

@@ -1,0 +1,97 @@
+/* contact.h: stops, holds, dry friction and located crossings: what happens inside a step.
+ *
+ * Between events a mechanism with contacts is smooth:
+ *
+ *     M(q) q'' = f(q, q', u) + sum_k J_k(q)^T lambda_k,        J_k = d(expression k)/dq
+ *
+ * where lambda_k is the force of contact k: zero for a stop out of touch, -sign(v) mu N for sliding
+ * friction, and otherwise the force that keeps J_k q' at zero (a resting stop, a held expression, a
+ * stuck coordinate), found from J M^-1 J^T lambda = -(J q'' + J' q'). Events change which of these
+ * holds. A step looks for them at its end, locates the first with a fixed number of refinements on the
+ * cubic through the step's ends, steps again to just past it, changes the modes (an impact by an
+ * impulse through the mass matrix, Newton's restitution), and goes on with what is left of the step,
+ * for at most WH_EVENTS_MAX events. Then stops rest and sliding that keeps reversing sticks, the rest
+ * of the step is done, and the state counts an overrun: the cost of a step is bounded, and no step is
+ * skipped. (Brogliato, Nonsmooth Mechanics, chapters 1 and 7; Pfeiffer & Glocker, Multibody Dynamics
+ * with Unilateral Contacts.)
+ *
+ * Contacts are numbered stops first, then holds, frictions and crossings, each in order of
+ * declaration; events at the same instant are taken in this order. Friction's normal force is finite,
+ * so an impact gives it no impulse. A bounce whose flight would be shorter than WH_REST_SHARE of a
+ * step is not made: the stop rests.
+ *
+ * What a scene must offer is in `wh_hybrid`; what changes while running is in `wh_contacts` (scene.h).
+ * contact_forces.h has the forces and impulses, contact_events.h the events and the step. Scenes
+ * without contacts include none of these files.
+ */
+#ifndef WH_CONTACT_H
+#define WH_CONTACT_H
+
+#include "step.h"
+
+/* Most contacts of a scene. A generated scene defines its own. */
+#ifndef WH_CONTACTS_MAX
+#define WH_CONTACTS_MAX 16
+#endif
+
+/* Most values that a scene's crossings assign. A generated scene defines its own. */
+#ifndef WH_SETS_MAX
+#define WH_SETS_MAX 128
+#endif
+
+/* Probes to locate an event: each leaves about 1/64 of the interval. */
+#if WH_DOUBLE
+#define WH_REFINEMENTS 12
+#else
+#define WH_REFINEMENTS 7
+#endif
+
+/* A flight shorter than this share of a step is none. */
+#define WH_REST_SHARE WH_R(0.125)
+
+typedef enum wh_contact_kind { WH_STOP, WH_HOLD, WH_FRICTION, WH_WHEN } wh_contact_kind;
+
+/* Modes. Friction that slides has the sign of its rate, a crossing the side it is on. */
+enum {
+    WH_FREE = 0,   /* stop out of touch; hold let go */
+    WH_ACTIVE = 1, /* stop resting; hold held */
+    WH_STUCK = 0   /* friction */
+};
+
+typedef struct wh_contact {
+    uint8_t kind; /* wh_contact_kind */
+    int8_t
+        pin; /* the one coordinate that J_k has an entry for, and a constant one: its rate is held
+                        * at zero exactly; else -1 */
+    int8_t direction;  /* crossing: +1 rising, -1 falling, 0 both */
+    uint8_t first_set; /* crossing: its assignments */
+    uint8_t sets;
+} wh_contact;
+
+/* Entries per contact in what `forces` computes, before the two rows of n. */
+enum {
+    WH_LAW_FIRST,  /* stop: restitution; friction: mu_static * max(N, 0) */
+    WH_LAW_SECOND, /* friction: mu_kinetic * max(N, 0) */
+    WH_LAW_BIAS,   /* J_k' q' */
+    WH_LAW_ROWS    /* J_k[n], then (M^-1 J_k^T)[n] */
+};
+
+/* A scene's contacts, constant. The functions are lists of operations like the accelerations. */
+typedef struct wh_hybrid {
+    const void *model;    /* first argument of the functions */
+    wh_accel_fn *accel;   /* without contact forces */
+    wh_accel_fn *signals; /* result[2 * contacts]: stop: gap, its rate; hold: condition (> 0: true),
+                            * rate of the held expression; friction: rate, 0; crossing: value, 0 */
+    wh_accel_fn *forces;  /* result[forced * (WH_LAW_ROWS + 2 n)] */
+    wh_accel_fn *sets;    /* result[all sets]: the values that crossings assign, SI; or NULL */
+    const wh_contact *contact; /* [contacts] */
+    const uint8_t *target;     /* [all sets]: component, angles first, then reals */
+    uint8_t contacts;
+    uint8_t forced; /* contacts that have a force: all but crossings */
+    wh_method method;
+    bool compensated;
+    uint8_t angles;
+    uint8_t coordinates;
+} wh_hybrid;
+
+#endif

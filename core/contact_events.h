@@ -1,0 +1,211 @@
+/* contact_events.h: finding and taking the events of a step (see contact.h). */
+#ifndef WH_CONTACT_EVENTS_H
+#define WH_CONTACT_EVENTS_H
+
+#include "contact_forces.h"
+
+/* A place between the ends of a try: positions by the cubic through both ends' positions and rates,
+ * rates by its slope. */
+typedef struct wh_contact_point {
+    wh_phase phase[WH_COORDS];
+    wh_real linear[WH_COORDS];
+    wh_real rate[WH_COORDS];
+} wh_contact_point;
+
+/* What an event search knows of each contact: above zero, its event has not happened. */
+typedef struct wh_margins {
+    wh_real value[WH_CONTACTS_MAX];
+    wh_real signal[2 * WH_CONTACTS_MAX];
+} wh_margins;
+
+WH_INLINE void wh_contact_copy(const wh_hybrid *of, const wh_angle *angle, const wh_real *real,
+                               const wh_real *carry, wh_contact_state *to) {
+    const unsigned reals = 2U * of->coordinates - of->angles;
+    for (unsigned i = 0; i < of->angles; i++) {
+        to->angle[i] = angle[i];
+    }
+    for (unsigned i = 0; i < reals; i++) {
+        to->real[i] = real[i];
+    }
+    for (unsigned i = 0; i < of->angles + reals && of->compensated; i++) {
+        to->carry[i] = carry[i];
+    }
+}
+
+WH_INLINE wh_real *wh_contact_rates(const wh_hybrid *of, wh_contact_state *s) {
+    return s->real + (of->coordinates - of->angles);
+}
+
+/* Step `s` by h in the modes of work. False: *fault left all bounds and s is as it was. */
+static inline bool wh_contact_try(const wh_hybrid *of, wh_contact_work *w, wh_real h,
+                                  wh_real *input, wh_contact_state *s, int *fault) {
+    const wh_contact_model model = {of, w};
+    wh_state view = {0, s->angle, s->real, s->carry, input, NULL, -1};
+    const wh_status status = wh_step_second(&model, wh_contact_accel, of->method, of->compensated,
+                                            of->angles, of->coordinates, h, &view);
+    *fault = view.fault;
+    return status == WH_OK;
+}
+
+WH_INLINE void wh_contact_point_of(const wh_hybrid *of, wh_contact_state *s, wh_contact_point *at) {
+    const wh_real *rate = wh_contact_rates(of, s);
+    for (unsigned i = 0; i < of->angles; i++) {
+        at->phase[i] = wh_phase_of(s->angle[i]);
+    }
+    for (unsigned i = of->angles; i < of->coordinates; i++) {
+        at->linear[i - of->angles] = s->real[i - of->angles];
+    }
+    for (unsigned i = 0; i < of->coordinates; i++) {
+        at->rate[i] = rate[i];
+    }
+}
+
+/* The place at the share `s` of the way from `from` to `to`, which are h apart. */
+static inline void wh_contact_between(const wh_hybrid *of, wh_contact_state *from,
+                                      wh_contact_state *to, wh_real h, wh_real s,
+                                      wh_contact_point *at) {
+    const wh_real *v0 = wh_contact_rates(of, from);
+    const wh_real *v1 = wh_contact_rates(of, to);
+    const wh_real rest = WH_R(1.0) - s;
+    const wh_real far = s * s * (WH_R(3.0) - WH_R(2.0) * s);
+    const wh_real near0 = h * s * rest * rest;
+    const wh_real near1 = -h * s * s * rest;
+    for (unsigned i = 0; i < of->coordinates; i++) {
+        wh_real way; /* rad or m */
+        if (i < of->angles) {
+#if WH_DOUBLE
+            way = to->angle[i] - from->angle[i];
+#else
+            way = (wh_real)(to->angle[i] - from->angle[i]) / WH_PHASE_PER_RAD;
+#endif
+        } else {
+            way = to->real[i - of->angles] - from->real[i - of->angles];
+        }
+        const wh_real moved = way * far + near0 * v0[i] + near1 * v1[i];
+        at->rate[i] = WH_R(6.0) * s * rest * (way / h) +
+                      v0[i] * (rest * (WH_R(1.0) - WH_R(3.0) * s)) +
+                      v1[i] * (s * (WH_R(3.0) * s - WH_R(2.0)));
+        if (i < of->angles) {
+            at->phase[i] = wh_phase_of(from->angle[i]);
+            (void)wh_phase_move(at->phase[i], moved * WH_PHASE_PER_RAD, &at->phase[i]);
+        } else {
+            at->linear[i - of->angles] = from->real[i - of->angles] + moved;
+        }
+    }
+}
+
+/* Does any contact's event depend on its force? */
+WH_INLINE bool wh_contact_watched(const wh_hybrid *of, const wh_contact_work *w) {
+    for (unsigned k = 0; k < of->forced; k++) {
+        if (of->contact[k].kind != WH_HOLD && wh_constrains(of, w, k)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The margins at a place, and work->force with them where it matters. */
+static inline void wh_contact_margins(const wh_hybrid *of, wh_contact_work *w,
+                                      const wh_contact_point *at, const wh_real *input,
+                                      wh_margins *m) {
+    of->signals(of->model, at->phase, at->linear, at->rate, input, m->signal);
+    if (wh_contact_watched(of, w)) {
+        const wh_contact_model model = {of, w};
+        wh_real accel[WH_COORDS];
+        wh_contact_accel(&model, at->phase, at->linear, at->rate, input, accel);
+    }
+    for (unsigned k = 0; k < of->contacts; k++) {
+        const wh_real signal = m->signal[2 * k];
+        const wh_real speed = m->signal[2 * k + 1];
+        const int mode = w->mode[k];
+        wh_real margin = WH_R(1.0);
+        switch (of->contact[k].kind) {
+        case WH_STOP:
+            margin = mode == WH_ACTIVE                          ? w->force[k]
+                     : signal < WH_R(0.0) && speed >= WH_R(0.0) ? -signal /* on its way out */
+                                                                : signal;
+            break;
+        case WH_HOLD: margin = mode == WH_ACTIVE ? signal : -signal; break;
+        case WH_FRICTION:
+            margin = mode == WH_STUCK ? wh_law(of, w, k)[WH_LAW_FIRST] - WH_ABS(w->force[k])
+                     : mode > 0       ? signal
+                                      : -signal;
+            break;
+        default: /* a crossing: only in its direction */
+            if (mode != 0 && of->contact[k].direction != mode) {
+                margin = mode > 0 ? signal : -signal;
+            }
+            break;
+        }
+        m->value[k] = margin;
+    }
+}
+
+/* Contacts whose event has happened, as bits. */
+WH_INLINE unsigned wh_contact_happened(const wh_hybrid *of, const wh_margins *m) {
+    unsigned bits = 0;
+    for (unsigned k = 0; k < of->contacts; k++) {
+        bits |= m->value[k] < WH_R(0.0) ? 1U << k : 0U;
+    }
+    return bits;
+}
+
+/* Where between `from` and `to` the first of the events that have happened at `to` comes: the share of
+ * h, just past it. *events are those that have happened there. */
+static inline wh_real wh_contact_locate(const wh_hybrid *of, wh_contact_work *w,
+                                        wh_contact_state *from, wh_contact_state *to, wh_real h,
+                                        const wh_real *input, const wh_margins *at_end,
+                                        unsigned *events) {
+    wh_contact_point at;
+    wh_margins before;
+    wh_margins after = *at_end;
+    wh_real low = WH_R(0.0);
+    wh_real high = WH_R(1.0);
+    *events = wh_contact_happened(of, at_end);
+
+    /* A force that is out of bounds already, or a gap: at once. Sliding starts at rate zero. */
+    wh_contact_point_of(of, from, &at);
+    wh_contact_margins(of, w, &at, input, &before);
+    unsigned at_once = 0;
+    for (unsigned k = 0; k < of->contacts; k++) {
+        const bool slides = of->contact[k].kind == WH_FRICTION && w->mode[k] != WH_STUCK;
+        if ((*events >> k & 1U) != 0 && !slides && before.value[k] < WH_R(0.0)) {
+            at_once |= 1U << k;
+        }
+    }
+    if (at_once != 0) {
+        *events = at_once;
+        return WH_R(0.0);
+    }
+    for (unsigned i = 1; i <= WH_REFINEMENTS; i++) {
+        wh_real guess = high;
+        for (unsigned k = 0; k < of->contacts; k++) {
+            if ((*events >> k & 1U) != 0 && before.value[k] > WH_R(0.0)) {
+                const wh_real share = before.value[k] / (before.value[k] - after.value[k]);
+                const wh_real root = low + (high - low) * share;
+                guess = root < guess ? root : guess;
+            }
+        }
+        /* a little past it, so that the interval closes from both sides; in the middle now and then,
+         * in case the margins are far from straight */
+        guess += (high - guess) * WH_R(0.015625);
+        if (i % 4U == 0 || !(guess > low && guess < high)) {
+            guess = low + WH_R(0.5) * (high - low);
+        }
+        wh_margins probe;
+        wh_contact_between(of, from, to, h, guess, &at);
+        wh_contact_margins(of, w, &at, input, &probe);
+        const unsigned found = wh_contact_happened(of, &probe);
+        if (found != 0) {
+            high = guess;
+            after = probe;
+            *events = found;
+        } else {
+            low = guess;
+            before = probe;
+        }
+    }
+    return high;
+}
+
+#endif

@@ -1,0 +1,230 @@
+/* contact_lists.c: folding contacts, and entering their lists. */
+#include "contact_lists.h"
+
+#include <stdlib.h>
+
+#include "contacts.h"
+#include "core/contact.h"
+#include "core/hash.h"
+
+static void *room(int count, size_t size) {
+    void *p = calloc((size_t)count + 1, size);
+    if (p == NULL) {
+        abort();
+    }
+    return p;
+}
+
+/* Folded, and free of conserved coordinates. */
+static const poly *ready(const equations *e, const conservation *c, const poly *p) {
+    return conservation_settle(e, c, equations_fold(e, p));
+}
+
+int contact_lists_polys(const equations *e, const conservation *c, const poly **p) {
+    const contact_laws *laws = e->contacts;
+    int count = 0;
+    for (int k = 0; k < (laws != NULL ? laws->count : 0); k++) {
+        const contact_law *law = &laws->law[k];
+        const poly *const fixed[] = {law->value, law->speed, law->first, law->second, law->bias};
+        const int sets = law->row == NULL ? law->from->set_count : 0;
+        for (int i = 0; i < 5 + sets + (law->row != NULL ? e->count : 0); i++) {
+            const poly *each = i < 5          ? fixed[i]
+                               : i < 5 + sets ? laws->sets[k].value[i - 5]
+                                              : law->row[i - 5 - sets];
+            if (p != NULL) {
+                p[count] = ready(e, c, each);
+            }
+            count++;
+        }
+    }
+    return count;
+}
+
+/* A list that computes `wanted` [count]. */
+static tape *enter(layout *map, const equations *e, const conservation *c,
+                   const poly *const *wanted, int count) {
+    tape *t = tape_new(map->program->angles, count);
+    lowering l = layout_lowering(map, t);
+    const poly **p = room(count, sizeof(const poly *));
+    for (int i = 0; i < count; i++) {
+        p[i] = ready(e, c, wanted[i]);
+    }
+    lower_plan(&l, p, count);
+    for (int i = 0; i < count; i++) {
+        t->result[i] = lower(&l, p[i]);
+    }
+    lower_done(&l);
+    free(p);
+    tape_prune(t);
+    return t;
+}
+
+static tape *make_signals(layout *map, const equations *e, const conservation *c) {
+    const contact_laws *laws = e->contacts;
+    const poly **wanted = room(2 * laws->count, sizeof(const poly *));
+    for (int k = 0; k < laws->count; k++) {
+        wanted[2 * k] = laws->law[k].value;
+        wanted[2 * k + 1] = laws->law[k].speed;
+    }
+    tape *t = enter(map, e, c, wanted, 2 * laws->count);
+    free(wanted);
+    return t;
+}
+
+static tape *make_sets(layout *map, const equations *e, const conservation *c) {
+    const contact_laws *laws = e->contacts;
+    if (laws->set_count == 0) {
+        return NULL;
+    }
+    const poly **wanted = room(laws->set_count, sizeof(const poly *));
+    int count = 0;
+    for (int k = laws->forced; k < laws->count; k++) {
+        for (int i = 0; i < laws->law[k].from->set_count; i++) {
+            wanted[count++] = laws->sets[k].value[i];
+        }
+    }
+    tape *t = enter(map, e, c, wanted, count);
+    free(wanted);
+    return t;
+}
+
+/* The rows and what they push: M^-1 J^T by the same elimination as the accelerations. */
+static tape *make_forces(layout *map, const program *p, const equations *e,
+                         const linear_system *s) {
+    const contact_laws *laws = e->contacts;
+    const int n = e->count;
+    const int stride = WH_LAW_ROWS + 2 * p->coordinates;
+    tape *t = tape_new(p->angles, laws->forced * stride);
+    int *pushed = room(n, sizeof *pushed);
+    const poly **row = room(n + 3, sizeof(const poly *));
+    linear_system load = *s;
+    load.force = row;
+    for (int k = 0; k < laws->forced; k++) {
+        const contact_law *law = &laws->law[k];
+        int *result = t->result + k * stride;
+        lowering l = layout_lowering(map, t);
+        for (int i = 0; i < n; i++) {
+            row[i] = ready(e, p->conserved, law->row[i]);
+        }
+        solve_highest(&l, &load, pushed);
+        row[n + WH_LAW_FIRST] = ready(e, p->conserved, law->first);
+        row[n + WH_LAW_SECOND] = ready(e, p->conserved, law->second);
+        row[n + WH_LAW_BIAS] = ready(e, p->conserved, law->bias);
+        lower_plan(&l, row, n + 3);
+        for (int i = 0; i < WH_LAW_ROWS; i++) {
+            result[i] = lower(&l, row[n + i]);
+        }
+        for (int i = 0; i < n; i++) {
+            if (p->place[i] >= 0) {
+                result[WH_LAW_ROWS + p->place[i]] = lower(&l, row[i]);
+                result[WH_LAW_ROWS + p->coordinates + p->place[i]] = pushed[i];
+            }
+        }
+        lower_done(&l);
+    }
+    free(pushed);
+    free(row);
+    tape_prune(t);
+    return t;
+}
+
+/* The coordinate of the scene that alone has an entry in the row, if that is a number; else -1. */
+static int pin_of(const program *p, const equations *e, const contact_law *law) {
+    int pin = -1;
+    for (int i = 0; i < e->count; i++) {
+        const poly *entry = ready(e, p->conserved, law->row[i]);
+        double number;
+        if (poly_is_zero(entry)) {
+            continue;
+        }
+        if (pin >= 0 || !poly_is_number(entry, &number)) {
+            return -1;
+        }
+        pin = p->place[i];
+    }
+    return pin;
+}
+
+/* The state's component that an assignment writes, or -1: a conserved coordinate has none. */
+static int component_of(const program *p, const assignment *set) {
+    const component *const lists[] = {p->angle, p->real};
+    const int counts[] = {p->angles, p->reals};
+    for (int k = 0; k < 2; k++) {
+        for (int i = 0; i < counts[k]; i++) {
+            if (lists[k][i].unknown == set->symbol->index && lists[k][i].primes == set->primes) {
+                return i + (k == 0 ? 0 : p->angles);
+            }
+        }
+    }
+    return -1;
+}
+
+static contact_row make_row(contact_lists *c, const program *p, const equations *e,
+                            const contact_law *law) {
+    static const int kinds[] = {[HYBRID_STOP] = WH_STOP,
+                                [HYBRID_FRICTION] = WH_FRICTION,
+                                [HYBRID_HOLD] = WH_HOLD,
+                                [HYBRID_WHEN] = WH_WHEN};
+    const hybrid *from = law->from;
+    contact_row row = {.from = from, .kind = kinds[from->kind], .pin = -1};
+    row.direction = from->kind == HYBRID_WHEN ? from->direction : 0;
+    row.first_set = c->set_count;
+    if (from->kind != HYBRID_WHEN) {
+        row.pin = pin_of(p, e, law);
+        return row;
+    }
+    row.sets = from->set_count;
+    for (int i = 0; i < from->set_count; i++) {
+        c->target[c->set_count++] = component_of(p, &from->sets[i]);
+    }
+    return row;
+}
+
+contact_lists *contact_lists_make(const program *p, const equations *e, layout *map,
+                                  const linear_system *s, diags *errors) {
+    const contact_laws *laws = e->contacts;
+    if (p->form != WH_SECOND_ORDER) {
+        diag_error(errors, laws->law[0].from->at, "integrate the coordinate: leave out conserve",
+                   "a momentum that is no rate of a function of the coordinates cannot be "
+                   "conserved beside stops, friction, holds or crossings");
+        return NULL;
+    }
+    contact_lists *c = room(1, sizeof *c);
+    c->row = room(laws->count, sizeof *c->row);
+    c->target = room(laws->set_count, sizeof *c->target);
+    c->count = laws->count;
+    c->forced = laws->forced;
+    for (int k = 0; k < laws->count; k++) {
+        c->row[k] = make_row(c, p, e, &laws->law[k]);
+    }
+    c->signals = make_signals(map, e, p->conserved);
+    c->forces = make_forces(map, p, e, s);
+    c->sets = make_sets(map, e, p->conserved);
+    return c;
+}
+
+uint64_t contact_lists_hash(const contact_lists *c, uint64_t hash) {
+    hash = wh_hash_u64(hash, tape_hash(c->signals));
+    hash = wh_hash_u64(hash, tape_hash(c->forces));
+    hash = c->sets != NULL ? wh_hash_u64(hash, tape_hash(c->sets)) : hash;
+    for (int k = 0; k < c->count; k++) {
+        hash = wh_hash_u64(hash, (uint64_t)c->row[k].kind);
+        hash = wh_hash_u64(hash, (uint64_t)(c->row[k].direction + 1));
+    }
+    for (int i = 0; i < c->set_count; i++) {
+        hash = wh_hash_u64(hash, (uint64_t)c->target[i]);
+    }
+    return hash;
+}
+
+void contact_lists_free(contact_lists *c) {
+    if (c == NULL) {
+        return;
+    }
+    tape_free(c->signals);
+    tape_free(c->forces);
+    tape_free(c->sets);
+    free(c->row);
+    free(c->target);
+    free(c);
+}

@@ -1,0 +1,39 @@
+/* contact_lists.h: a scene's contacts as numbers: the lists and the table that core/contact.h takes. */
+#ifndef DERIVE_CONTACT_LISTS_H
+#define DERIVE_CONTACT_LISTS_H
+
+#include "layout.h"
+#include "solve.h"
+
+typedef struct contact_row {
+    const hybrid *from;
+    int kind; /* wh_contact_kind */
+    int pin;
+    int direction;
+    int first_set;
+    int sets;
+} contact_row;
+
+struct contact_lists {
+    int count;
+    int forced;
+    int set_count;
+    contact_row *row; /* [count] */
+    int *target;      /* [set_count] component of the state, angles first */
+    tape *signals;
+    tape *forces;
+    tape *sets; /* NULL without any */
+};
+
+/* Every poly that the step of a scene with these laws computes, folded and settled: p[] is filled (when
+ * not NULL) and the number returned. */
+int contact_lists_polys(const equations *e, const conservation *c, const poly **p);
+
+/* Enter the lists. `s` is the folded system. NULL on error, reported. */
+contact_lists *contact_lists_make(const program *p, const equations *e, layout *map,
+                                  const linear_system *s, diags *errors);
+/* `hash` with the lists and the table mixed in. */
+uint64_t contact_lists_hash(const contact_lists *c, uint64_t hash);
+void contact_lists_free(contact_lists *c);
+
+#endif

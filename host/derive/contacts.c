@@ -1,0 +1,120 @@
+/* contacts.c: collecting an instance's event-driven effects and differentiating them. */
+#include "contacts.h"
+
+#include <stdlib.h>
+
+static void *room(int count, size_t size) {
+    void *p = calloc((size_t)count + 1, size);
+    if (p == NULL) {
+        abort();
+    }
+    return p;
+}
+
+/* sum_i d(value)/dq_i q_i'. */
+static const poly *rate_of(algebra *a, const mechanism *m, const poly *value) {
+    const poly *sum = poly_number(a, 0.0);
+    for (int i = 0; i < m->coordinate_count; i++) {
+        const symbol *q = m->coordinates[i];
+        const poly *slope = poly_derivative(a, value, q, 0);
+        sum = poly_add(a, sum, poly_mul(a, slope, poly_symbol(a, q, 1)));
+    }
+    return sum;
+}
+
+static void make_constraint(algebra *a, const mechanism *m, const poly *held, contact_law *law) {
+    const poly *zero = poly_number(a, 0.0);
+    law->row = room(m->coordinate_count, sizeof(const poly *));
+    law->speed = rate_of(a, m, held);
+    law->bias = zero;
+    for (int i = 0; i < m->coordinate_count; i++) {
+        const symbol *q = m->coordinates[i];
+        law->row[i] = poly_derivative(a, held, q, 0);
+        const poly *turning = rate_of(a, m, law->row[i]);
+        law->bias = poly_add(a, law->bias, poly_mul(a, turning, poly_symbol(a, q, 1)));
+    }
+}
+
+static void make_law(algebra *a, const mechanism *m, const hybrid *from, contact_law *law,
+                     contact_set *set) {
+    const poly *zero = poly_number(a, 0.0);
+    law->from = from;
+    law->first = law->second = law->bias = law->speed = zero;
+    switch (from->kind) {
+    case HYBRID_STOP:
+        law->value = poly_from_expr(a, from->value);
+        law->first = poly_from_expr(a, from->restitution);
+        make_constraint(a, m, law->value, law);
+        break;
+    case HYBRID_HOLD:
+        law->value = poly_from_expr(a, from->condition);
+        make_constraint(a, m, poly_from_expr(a, from->value), law);
+        break;
+    case HYBRID_FRICTION: {
+        const poly *normal = poly_call(a, FN_MAX, poly_from_expr(a, from->normal), zero);
+        law->first = poly_mul(a, poly_from_expr(a, from->static_friction), normal);
+        law->second = poly_mul(a, poly_from_expr(a, from->kinetic_friction), normal);
+        law->value = poly_symbol(a, from->coordinate, 1);
+        make_constraint(a, m, poly_symbol(a, from->coordinate, 0), law);
+        law->speed = zero;
+        break;
+    }
+    case HYBRID_WHEN:
+        law->value = poly_from_expr(a, from->value);
+        set->value = room(from->set_count, sizeof(const poly *));
+        for (int i = 0; i < from->set_count; i++) {
+            set->value[i] = poly_from_expr(a, from->sets[i].value);
+        }
+        break;
+    }
+}
+
+contact_laws *contact_laws_make(algebra *a, const instance *inst) {
+    static const hybrid_kind order[] = {HYBRID_STOP, HYBRID_HOLD, HYBRID_FRICTION, HYBRID_WHEN};
+    const mechanism *m = inst->mechanism;
+    const int own = inst->scene != NULL ? inst->scene->when_count : 0;
+    contact_laws *laws = room(1, sizeof *laws);
+    laws->law = room(m->hybrid_count + own, sizeof *laws->law);
+    laws->sets = room(m->hybrid_count + own, sizeof *laws->sets);
+    for (int k = 0; k < 4; k++) {
+        for (int i = 0; i < m->hybrid_count + own; i++) {
+            const hybrid *h =
+                i < m->hybrid_count ? &m->hybrids[i] : &inst->scene->whens[i - m->hybrid_count];
+            if (h->kind != order[k] || (i < m->hybrid_count && !instance_has_hybrid(inst, h))) {
+                continue;
+            }
+            make_law(a, m, h, &laws->law[laws->count], &laws->sets[laws->count]);
+            laws->count++;
+            laws->forced += h->kind != HYBRID_WHEN;
+            laws->set_count += h->kind == HYBRID_WHEN ? h->set_count : 0;
+        }
+    }
+    if (laws->count == 0) {
+        contact_laws_free(laws);
+        return NULL;
+    }
+    return laws;
+}
+
+void contact_laws_free(contact_laws *laws) {
+    if (laws == NULL) {
+        return;
+    }
+    for (int k = 0; k < laws->count; k++) {
+        free(laws->law[k].row);
+        free(laws->sets[k].value);
+    }
+    free(laws->law);
+    free(laws->sets);
+    free(laws);
+}
+
+bool contact_laws_push(const contact_laws *laws, int i) {
+    for (int k = 0; k < (laws != NULL ? laws->count : 0); k++) {
+        const contact_law *law = &laws->law[k];
+        if (law->row == NULL ? law->from->set_count > 0 : !poly_is_zero(law->row[i])) {
+            return true;
+        }
+    }
+    return false;
+}

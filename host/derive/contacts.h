@@ -1,0 +1,39 @@
+/* contacts.h: the event-driven effects of an instance, in symbols, in the order core/contact.h wants. */
+#ifndef DERIVE_CONTACTS_H
+#define DERIVE_CONTACTS_H
+
+#include "host/algebra/poly.h"
+
+/* One stop, hold, friction or crossing. */
+typedef struct contact_law {
+    const hybrid *from;
+    const poly
+        *value; /* stop: the gap; hold: its condition; friction: the rate; crossing: the value
+                         * that changes its sign */
+    const poly *speed;  /* J q': rate of the gap or of what is held; zero for others */
+    const poly *first;  /* stop: restitution; friction: mu_static * max(N, 0) */
+    const poly *second; /* friction: mu_kinetic * max(N, 0) */
+    const poly *bias;   /* J' q' */
+    const poly **row;   /* [coordinates] J; NULL for a crossing */
+} contact_law;
+
+typedef struct contact_set {
+    const poly **value; /* one for each of from->sets */
+} contact_set;
+
+typedef struct contact_laws {
+    int count;
+    int forced;        /* all but crossings, which come last */
+    contact_law *law;  /* [count] */
+    contact_set *sets; /* [count] */
+    int set_count;     /* of all crossings */
+} contact_laws;
+
+/* Those that the instance calls for; NULL when there are none. */
+contact_laws *contact_laws_make(algebra *a, const instance *inst);
+void contact_laws_free(contact_laws *laws);
+
+/* Can a contact change the momentum of coordinate i? */
+bool contact_laws_push(const contact_laws *laws, int i);
+
+#endif

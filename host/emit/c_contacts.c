@@ -1,0 +1,51 @@
+/* c_contacts.c: the lists and the table of a scene's contacts. */
+#include "c_contacts.h"
+
+#include "c_list.h"
+
+void c_contacts_include(FILE *out, const contact_lists *c) {
+    fprintf(out, "#define WH_CONTACTS_MAX %d\n#define WH_SETS_MAX %d\n", c->count,
+            c->set_count > 0 ? c->set_count : 1);
+    fprintf(out, "#include \"core/contact_step.h\"\n");
+}
+
+static void write_table(FILE *out, const contact_lists *c) {
+    static const char *const kinds[] = {"WH_STOP", "WH_HOLD", "WH_FRICTION", "WH_WHEN"};
+    fprintf(out, "static const wh_contact contact[%d] = {", c->count);
+    for (int k = 0; k < c->count; k++) {
+        const contact_row *row = &c->row[k];
+        fprintf(out, "%s\n    {%s, %d, %d, %d, %d}", k > 0 ? "," : "", kinds[row->kind], row->pin,
+                row->direction, row->first_set, row->sets);
+    }
+    fprintf(out, "};\n");
+    if (c->set_count > 0) {
+        fprintf(out, "static const uint8_t target[%d] = {", c->set_count);
+        for (int i = 0; i < c->set_count; i++) {
+            fprintf(out, "%s%d", i > 0 ? ", " : "", c->target[i]);
+        }
+        fprintf(out, "};\n");
+    }
+}
+
+void c_contacts_write(FILE *out, const program *p, const engine_settings *settings, double step_s) {
+    const contact_lists *c = p->contacts;
+    c_list_function(out, c->signals, "signals", true);
+    c_list_function(out, c->forces, "forces", true);
+    if (c->sets != NULL) {
+        c_list_function(out, c->sets, "sets", true);
+    }
+    write_table(out, c);
+    fprintf(out,
+            "static const wh_hybrid hybrid = {\n    .accel = accelerations,\n"
+            "    .signals = signals,\n    .forces = forces,\n    .sets = %s,\n"
+            "    .contact = contact,\n    .target = %s,\n    .contacts = %d,\n"
+            "    .forced = %d,\n    .method = %s,\n    .compensated = %s,\n"
+            "    .angles = %d,\n    .coordinates = %d,\n};\n\n",
+            c->sets != NULL ? "sets" : "NULL", c->set_count > 0 ? "target" : "NULL", c->count,
+            c->forced, c_method_names[settings->method], settings->compensated ? "true" : "false",
+            p->angles, p->coordinates);
+    fprintf(out,
+            "static wh_status advance(const wh_scene *scene, wh_state *state) {\n"
+            "    (void)scene;\n    return wh_step_contact(&hybrid, WH_R(%a), state);\n}\n\n",
+            step_s);
+}

@@ -1,0 +1,140 @@
+/* c_list.c: an operation list as C. Every operation becomes one statement, so that the compiler has the
+ * same operations in the same order as the interpreter. Constants are written in hexadecimal: the
+ * float build rounds the double exactly as the interpreter does. */
+#include "c_list.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <string.h>
+
+#include "host/run/engine.h"
+
+/* An operand: constants stand in place. */
+static const char *operand(const tape *t, int a, char text[static 48]) {
+    if (t->ops[a].code == OP_CONSTANT) {
+        const double value = t->ops[a].value;
+        snprintf(text, 48, value < 0.0 ? "(-WH_R(%a))" : "WH_R(%a)", fabs(value));
+    } else {
+        snprintf(text, 48, "x%d", a);
+    }
+    return text;
+}
+
+static void write_phase(FILE *out, const tape *t, int i) {
+    const op *o = &t->ops[i];
+    char b[48];
+    const char *plus = "";
+    fprintf(out, "    wh_real s%d;\n    wh_real c%d;\n    wh_sincos(", i, i);
+    if (o->value != 0.0) {
+        fprintf(out, "WH_TURN(%a, %" PRIu32 "U)", o->value, engine_phase_of_constant(o->value));
+        plus = " + ";
+    }
+    for (int k = 0; k < t->angles && o->turns != NULL; k++) {
+        if (o->turns[k] == 1) {
+            fprintf(out, "%sphase[%d]", plus, k);
+        } else if (o->turns[k] != 0) {
+            fprintf(out, "%s(wh_phase)%d * phase[%d]", plus, o->turns[k], k);
+        }
+        plus = o->turns[k] != 0 ? " + " : plus;
+    }
+    if (o->b >= 0) {
+        fprintf(out, "%swh_phase_from_rad(%s)", plus, operand(t, o->b, b));
+    }
+    fprintf(out, ", &s%d, &c%d);\n", i, i);
+}
+
+static void write_operation(FILE *out, const tape *t, int i) {
+    const op *o = &t->ops[i];
+    char a[48];
+    char b[48];
+    if (o->code == OP_CONSTANT) {
+        return;
+    }
+    if (o->code == OP_PHASE) {
+        write_phase(out, t, i);
+        return;
+    }
+    if (o->code >= OP_ADD) {
+        operand(t, o->a, a);
+        if (o->b >= 0) {
+            operand(t, o->b, b);
+        }
+    }
+    fprintf(out, "    const wh_real x%d = ", i);
+    switch (o->code) {
+    case OP_LINEAR: fprintf(out, "linear[%d]", o->a); break;
+    case OP_RATE: fprintf(out, "rate[%d]", o->a); break;
+    case OP_INPUT: fprintf(out, "input[%d]", o->a); break;
+    case OP_ACCEL: fprintf(out, "accel[%d]", o->a); break;
+    case OP_TIME: fprintf(out, "wh_scene_time_s(scene, state)"); break;
+    case OP_RADIANS: fprintf(out, "wh_angle_to_rad(angle[%d])", o->a); break;
+    case OP_SIN: fprintf(out, "s%d", o->a); break;
+    case OP_COS: fprintf(out, "c%d", o->a); break;
+    case OP_ADD: fprintf(out, "%s + %s", a, b); break;
+    case OP_SUB: fprintf(out, "%s - %s", a, b); break;
+    case OP_MUL: fprintf(out, "%s * %s", a, b); break;
+    case OP_DIV: fprintf(out, "%s / %s", a, b); break;
+    case OP_NEG: fprintf(out, "-%s", a); break;
+    case OP_SQRT: fprintf(out, "WH_SQRT(%s)", a); break;
+    case OP_ABS: fprintf(out, "WH_ABS(%s)", a); break;
+    case OP_SIGN: fprintf(out, "(wh_real)((%s > WH_R(0.0)) - (%s < WH_R(0.0)))", a, a); break;
+    case OP_MIN: fprintf(out, "%s < %s ? %s : %s", b, a, b, a); break;
+    case OP_MAX: fprintf(out, "%s > %s ? %s : %s", b, a, b, a); break;
+    default: fprintf(out, "WH_R(0.0) /* not offered by the core */"); break;
+    }
+    fprintf(out, ";\n");
+}
+
+bool c_list_uses(const tape *t, op_code code) {
+    for (int i = 0; i < t->count; i++) {
+        if (t->ops[i].code == code) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool c_list_uses_phase(const tape *t) {
+    for (int i = 0; i < t->count; i++) {
+        if (t->ops[i].code == OP_PHASE && t->ops[i].turns != NULL) {
+            return true;
+        }
+    }
+    return false;
+}
+
+void c_list_body(FILE *out, const tape *t, const char *result) {
+    char text[48];
+    for (int i = 0; i < t->count; i++) {
+        write_operation(out, t, i);
+    }
+    for (int i = 0; i < t->results; i++) {
+        fprintf(out, "    %s[%d] = %s;\n", result, i, operand(t, t->result[i], text));
+    }
+    fprintf(out, "}\n\n");
+}
+
+void c_list_ignore(FILE *out, bool used, const char *name) {
+    if (!used) {
+        fprintf(out, "    (void)%s;\n", name);
+    }
+}
+
+void c_list_function(FILE *out, const tape *t, const char *name, bool second) {
+    const int indent = (int)(sizeof "WH_INLINE void (" - 1) + (int)strlen(name);
+    fprintf(out, "WH_INLINE void %s(const void *model, const wh_phase *phase,\n", name);
+    fprintf(out, "%*sconst wh_real *linear, ", indent, "");
+    if (second) {
+        fprintf(out, "const wh_real *rate,\n%*s", indent, "");
+    }
+    fprintf(out, "const wh_real *input,");
+    fprintf(out, second ? " wh_real *result) {\n" : "\n%*swh_real *result) {\n", indent, "");
+    fprintf(out, "    (void)model;\n");
+    c_list_ignore(out, c_list_uses_phase(t), "phase");
+    c_list_ignore(out, c_list_uses(t, OP_LINEAR), "linear");
+    if (second) {
+        c_list_ignore(out, c_list_uses(t, OP_RATE), "rate");
+    }
+    c_list_ignore(out, c_list_uses(t, OP_INPUT), "input");
+    c_list_body(out, t, "result");
+}

@@ -1,0 +1,18 @@
+/* c_list.h: an operation list as C statements. */
+#ifndef EMIT_C_LIST_H
+#define EMIT_C_LIST_H
+
+#include <stdio.h>
+
+#include "host/derive/tape.h"
+
+bool c_list_uses(const tape *t, op_code code);
+bool c_list_uses_phase(const tape *t);
+/* "(void)NAME;" unless it is used. */
+void c_list_ignore(FILE *out, bool used, const char *name);
+/* The statements, the results stored in the array `result`, and the closing brace. */
+void c_list_body(FILE *out, const tape *t, const char *result);
+/* A whole wh_accel_fn (second order) or wh_slope_fn. */
+void c_list_function(FILE *out, const tape *t, const char *name, bool second);
+
+#endif
