@@ -74,7 +74,7 @@ static inline void wh_contact_solve(const wh_hybrid *of, const wh_contact_work *
                                     wh_real *amount) {
     const wh_real least = WH_DOUBLE ? WH_R(1e-11) : WH_R(1e-5);
     wh_real matrix[WH_CONTACTS_MAX][WH_CONTACTS_MAX];
-    bool idle[WH_CONTACTS_MAX];
+    bool idle[WH_CONTACTS_MAX] = {false};
     for (unsigned r = 0; r < count; r++) {
         for (unsigned c = 0; c < count; c++) {
             matrix[r][c] = wh_along(of, w, member[r],

@@ -34,7 +34,7 @@ static void write_observer(FILE *out, const program *p) {
         fprintf(out, "    const wh_real *input = state->input;\n");
     }
     if (c_list_uses(t, OP_ACCEL)) {
-        fprintf(out, "    wh_real accel[%d];\n    wh_contact_observe(&hybrid, state, accel);\n",
+        fprintf(out, "    wh_real accel[%d];\n    wh_contact_observe(&contacts, state, accel);\n",
                 p->coordinates);
     }
     if (!c_list_uses_phase(t) && !c_list_uses(t, OP_RADIANS) && !c_list_uses(t, OP_LINEAR) &&
@@ -105,17 +105,19 @@ static void write_scene(FILE *out, const program *p, const instance *inst,
 
 bool emit_c_name_is_free(const char *name) {
     static const char *const taken[] = {
-        "auto",        "break",   "case",     "char",        "const",
-        "continue",    "default", "do",       "double",      "else",
-        "enum",        "extern",  "float",    "for",         "goto",
-        "if",          "inline",  "int",      "long",        "register",
-        "restrict",    "return",  "short",    "signed",      "sizeof",
-        "static",      "struct",  "switch",   "typedef",     "union",
-        "unsigned",    "void",    "volatile", "while",       "bool",
-        "true",        "false",   "main",     "NULL",        "accelerations",
-        "slopes",      "advance", "observe",  "start_angle", "start_real",
-        "start_input", "signals", "forces",   "sets",        "contact",
-        "target",      "hybrid"};
+        "auto",           "break",        "case",          "char",
+        "const",          "continue",     "default",       "do",
+        "double",         "else",         "enum",          "extern",
+        "float",          "for",          "goto",          "if",
+        "inline",         "int",          "long",          "register",
+        "restrict",       "return",       "short",         "signed",
+        "sizeof",         "static",       "struct",        "switch",
+        "typedef",        "union",        "unsigned",      "void",
+        "volatile",       "while",        "bool",          "true",
+        "false",          "main",         "NULL",          "accelerations",
+        "slopes",         "advance",      "observe",       "start_angle",
+        "start_real",     "start_input",  "contacts",      "contact_signals",
+        "contact_forces", "contact_sets", "contact_table", "contact_target"};
     for (size_t i = 0; i < sizeof taken / sizeof taken[0]; i++) {
         if (strcmp(name, taken[i]) == 0) {
             return false;

@@ -11,7 +11,7 @@ void c_contacts_include(FILE *out, const contact_lists *c) {
 
 static void write_table(FILE *out, const contact_lists *c) {
     static const char *const kinds[] = {"WH_STOP", "WH_HOLD", "WH_FRICTION", "WH_WHEN"};
-    fprintf(out, "static const wh_contact contact[%d] = {", c->count);
+    fprintf(out, "static const wh_contact contact_table[%d] = {", c->count);
     for (int k = 0; k < c->count; k++) {
         const contact_row *row = &c->row[k];
         fprintf(out, "%s\n    {%s, %d, %d, %d, %d}", k > 0 ? "," : "", kinds[row->kind], row->pin,
@@ -19,7 +19,7 @@ static void write_table(FILE *out, const contact_lists *c) {
     }
     fprintf(out, "};\n");
     if (c->set_count > 0) {
-        fprintf(out, "static const uint8_t target[%d] = {", c->set_count);
+        fprintf(out, "static const uint8_t contact_target[%d] = {", c->set_count);
         for (int i = 0; i < c->set_count; i++) {
             fprintf(out, "%s%d", i > 0 ? ", " : "", c->target[i]);
         }
@@ -29,23 +29,23 @@ static void write_table(FILE *out, const contact_lists *c) {
 
 void c_contacts_write(FILE *out, const program *p, const engine_settings *settings, double step_s) {
     const contact_lists *c = p->contacts;
-    c_list_function(out, c->signals, "signals", true);
-    c_list_function(out, c->forces, "forces", true);
+    c_list_function(out, c->signals, "contact_signals", true);
+    c_list_function(out, c->forces, "contact_forces", true);
     if (c->sets != NULL) {
-        c_list_function(out, c->sets, "sets", true);
+        c_list_function(out, c->sets, "contact_sets", true);
     }
     write_table(out, c);
     fprintf(out,
-            "static const wh_hybrid hybrid = {\n    .accel = accelerations,\n"
-            "    .signals = signals,\n    .forces = forces,\n    .sets = %s,\n"
-            "    .contact = contact,\n    .target = %s,\n    .contacts = %d,\n"
+            "static const wh_hybrid contacts = {\n    .accel = accelerations,\n"
+            "    .signals = contact_signals,\n    .forces = contact_forces,\n    .sets = %s,\n"
+            "    .contact = contact_table,\n    .target = %s,\n    .contacts = %d,\n"
             "    .forced = %d,\n    .method = %s,\n    .compensated = %s,\n"
             "    .angles = %d,\n    .coordinates = %d,\n};\n\n",
-            c->sets != NULL ? "sets" : "NULL", c->set_count > 0 ? "target" : "NULL", c->count,
-            c->forced, c_method_names[settings->method], settings->compensated ? "true" : "false",
-            p->angles, p->coordinates);
+            c->sets != NULL ? "contact_sets" : "NULL", c->set_count > 0 ? "contact_target" : "NULL",
+            c->count, c->forced, c_method_names[settings->method],
+            settings->compensated ? "true" : "false", p->angles, p->coordinates);
     fprintf(out,
             "static wh_status advance(const wh_scene *scene, wh_state *state) {\n"
-            "    (void)scene;\n    return wh_step_contact(&hybrid, WH_R(%a), state);\n}\n\n",
+            "    (void)scene;\n    return wh_step_contact(&contacts, WH_R(%a), state);\n}\n\n",
             step_s);
 }
