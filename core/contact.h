@@ -21,13 +21,21 @@
  * step is not made: the stop rests.
  *
  * What a scene must offer is in `wh_hybrid`; what changes while running is in `wh_contacts` (scene.h).
- * contact_forces.h has the forces and impulses, contact_events.h the events and the step. Scenes
- * without contacts include none of these files.
+ * contact_work.h has what a step works on, contact_forces.h the forces and impulses, contact_ledger.h
+ * what they enter into the books, contact_events.h the search for events, contact_settle.h and
+ * contact_take.h what they change, contact_step.h the step. Scenes without contacts include none of these
+ * files.
  */
 #ifndef WH_CONTACT_H
 #define WH_CONTACT_H
 
+#include "ledger.h"
 #include "step.h"
+
+/* 1: the scene keeps books (ledger.h). A generated scene says. */
+#ifndef WH_LEDGER
+#define WH_LEDGER 0
+#endif
 
 /* Most contacts of a scene. A generated scene defines its own. */
 #ifndef WH_CONTACTS_MAX
@@ -84,8 +92,9 @@ typedef struct wh_hybrid {
                             * rate of the held expression; friction: rate, 0; crossing: value, 0 */
     wh_accel_fn *forces;  /* result[forced * (WH_LAW_ROWS + 2 n)] */
     wh_accel_fn *sets;    /* result[all sets]: the values that crossings assign, SI; or NULL */
-    const wh_contact *contact; /* [contacts] */
-    const uint8_t *target;     /* [all sets]: component, angles first, then reals */
+    const wh_contact *contact;    /* [contacts] */
+    const uint8_t *target;        /* [all sets]: component, angles first, then reals */
+    const wh_ledger_form *ledger; /* or NULL */
     uint8_t contacts;
     uint8_t forced; /* contacts that have a force: all but crossings */
     wh_method method;

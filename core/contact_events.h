@@ -40,9 +40,11 @@ WH_INLINE wh_real *wh_contact_rates(const wh_hybrid *of, wh_contact_state *s) {
 static inline bool wh_contact_try(const wh_hybrid *of, wh_contact_work *w, wh_real h,
                                   wh_real *input, wh_contact_state *s, int *fault) {
     const wh_contact_model model = {of, w};
-    wh_state view = {0, s->angle, s->real, s->carry, input, NULL, -1};
+    wh_state view = {0, s->angle, s->real, s->carry, input, NULL, NULL, -1};
+    wh_books_begin(of, w, h);
     const wh_status status = wh_step_second(&model, wh_contact_accel, of->method, of->compensated,
                                             of->angles, of->coordinates, h, &view);
+    wh_books_end(of, w);
     *fault = view.fault;
     return status == WH_OK;
 }
@@ -121,9 +123,12 @@ static inline void wh_contact_margins(const wh_hybrid *of, wh_contact_work *w,
         wh_real margin = WH_R(1.0);
         switch (of->contact[k].kind) {
         case WH_STOP:
-            margin = mode == WH_ACTIVE                          ? w->force[k]
-                     : signal < WH_R(0.0) && speed >= WH_R(0.0) ? -signal /* on its way out */
-                                                                : signal;
+            if (mode == WH_ACTIVE) {
+                margin = w->force[k];
+            } else { /* one that began closed may be on its way out */
+                const bool leaves = (w->inside >> k & 1U) != 0 && speed >= WH_R(0.0);
+                margin = signal < WH_R(0.0) && leaves ? -signal : signal;
+            }
             break;
         case WH_HOLD: margin = mode == WH_ACTIVE ? signal : -signal; break;
         case WH_FRICTION:

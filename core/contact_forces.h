@@ -2,69 +2,7 @@
 #ifndef WH_CONTACT_FORCES_H
 #define WH_CONTACT_FORCES_H
 
-#include "contact.h"
-
-/* A step in progress: scratch memory, and the modes it tries. */
-typedef struct wh_contact_work {
-    int8_t mode[WH_CONTACTS_MAX];
-    wh_real force[WH_CONTACTS_MAX]; /* lambda at the last evaluation of the accelerations */
-    wh_real law[WH_CONTACTS_MAX * (WH_LAW_ROWS + 2 * WH_COORDS)];
-} wh_contact_work;
-
-/* What the integrator gets as its model. */
-typedef struct wh_contact_model {
-    const wh_hybrid *of;
-    wh_contact_work *work;
-} wh_contact_model;
-
-/* A state that a step tries, with room of its own. */
-typedef struct wh_contact_state {
-    wh_angle angle[WH_COORDS];
-    wh_real real[2 * WH_COORDS];
-    wh_real carry[2 * WH_COORDS];
-} wh_contact_state;
-
-WH_INLINE const wh_real *wh_law(const wh_hybrid *of, const wh_contact_work *w, unsigned k) {
-    return w->law + k * (WH_LAW_ROWS + 2U * of->coordinates);
-}
-
-/* J_k x. */
-WH_INLINE wh_real wh_along(const wh_hybrid *of, const wh_contact_work *w, unsigned k,
-                           const wh_real *x) {
-    const wh_real *row = wh_law(of, w, k) + WH_LAW_ROWS;
-    const int pin = of->contact[k].pin;
-    if (pin >= 0) {
-        return row[pin] * x[pin];
-    }
-    wh_real sum = WH_R(0.0);
-    for (unsigned i = 0; i < of->coordinates; i++) {
-        sum += row[i] * x[i];
-    }
-    return sum;
-}
-
-/* x += M^-1 J_k^T amount. */
-WH_INLINE void wh_push(const wh_hybrid *of, const wh_contact_work *w, unsigned k, wh_real amount,
-                       wh_real *x) {
-    const wh_real *way = wh_law(of, w, k) + WH_LAW_ROWS + of->coordinates;
-    for (unsigned i = 0; i < of->coordinates; i++) {
-        x[i] += way[i] * amount;
-    }
-}
-
-/* Does the contact keep J_k q' at zero? */
-WH_INLINE bool wh_constrains(const wh_hybrid *of, const wh_contact_work *w, unsigned k) {
-    return of->contact[k].kind == WH_FRICTION ? w->mode[k] == WH_STUCK : w->mode[k] == WH_ACTIVE;
-}
-
-WH_INLINE bool wh_feels(const wh_hybrid *of, const wh_contact_work *w) {
-    for (unsigned k = 0; k < of->forced; k++) {
-        if (of->contact[k].kind == WH_FRICTION || w->mode[k] == WH_ACTIVE) {
-            return true;
-        }
-    }
-    return false;
-}
+#include "contact_ledger.h"
 
 /* Solve sum_l (J_k M^-1 J_l^T) amount_l = wanted_k for the `count` contacts in member[], by elimination
  * without pivoting: the matrix is positive definite, but for contacts that repeat what others hold
@@ -115,6 +53,7 @@ static inline void wh_contact_accel(const void *model, const wh_phase *phase, co
 
     of->accel(of->model, phase, linear, rate, input, accel);
     if (!wh_feels(of, w)) {
+        wh_books_stage(of, w, phase, linear, rate, input);
         return;
     }
     of->forces(of->model, phase, linear, rate, input, w->law);
@@ -142,6 +81,7 @@ static inline void wh_contact_accel(const void *model, const wh_phase *phase, co
             accel[pin] = WH_R(0.0);
         }
     }
+    wh_books_stage(of, w, phase, linear, rate, input);
 }
 
 /* Give contact k the impulse that leaves J_k q' = target, with those that hold what they hold; resting
@@ -176,6 +116,9 @@ static inline wh_real wh_contact_impulse(const wh_hybrid *of, wh_contact_work *w
     } while (again);
     wh_real own = WH_R(0.0);
     for (unsigned i = 0; i < count; i++) {
+        wanted[i] = wh_along(of, w, member[i], rate);
+    }
+    for (unsigned i = 0; i < count; i++) {
         wh_push(of, w, member[i], amount[i], rate);
         own = member[i] == k ? amount[i] : own;
     }
@@ -184,6 +127,7 @@ static inline wh_real wh_contact_impulse(const wh_hybrid *of, wh_contact_work *w
         if (pin >= 0 && (member[i] != k || target == WH_R(0.0))) {
             rate[pin] = WH_R(0.0);
         }
+        wh_books_impulse(of, w, member[i], amount[i], wanted[i], wh_along(of, w, member[i], rate));
     }
     return own;
 }

@@ -2,6 +2,7 @@
 #include "scene.h"
 
 #include "hash.h"
+#include "ledger.h"
 
 static size_t carries(const wh_scene *scene) {
     return scene->compensated ? (size_t)scene->angles + scene->reals : 0U;
@@ -18,9 +19,16 @@ static void start_contacts(const wh_scene *scene, wh_state *state, wh_contacts *
     }
 }
 
+/* Reals that the ledger needs. */
+static size_t ledgers(const wh_scene *scene) {
+    return scene->ledger == NULL ? 0U
+                                 : 2U * (size_t)scene->ledger->entries + scene->ledger->accounts;
+}
+
 wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, size_t bytes) {
-    const size_t numbers = scene->angles * sizeof(wh_angle) +
-                           (scene->reals + carries(scene) + scene->inputs) * sizeof(wh_real);
+    const size_t numbers =
+        scene->angles * sizeof(wh_angle) +
+        (scene->reals + carries(scene) + scene->inputs + ledgers(scene)) * sizeof(wh_real);
     const size_t contacts_at = (numbers + 7U) / 8U * 8U;
     const size_t need =
         scene->contacts > 0 ? contacts_at + sizeof(wh_contacts) + scene->contacts : numbers;
@@ -35,6 +43,8 @@ wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, s
     state->carry = scene->compensated ? reals : NULL;
     reals += carries(scene);
     state->input = reals;
+    reals += scene->inputs;
+    state->ledger = scene->ledger != NULL ? reals : NULL;
 
     for (unsigned i = 0; i < scene->angles; i++) {
         state->angle[i] = scene->start_angle[i];
@@ -47,6 +57,9 @@ wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, s
     }
     for (unsigned i = 0; i < scene->inputs; i++) {
         state->input[i] = scene->start_input[i];
+    }
+    for (size_t i = 0; i < ledgers(scene); i++) {
+        state->ledger[i] = WH_R(0.0);
     }
     state->contacts = NULL;
     if (scene->contacts > 0) {

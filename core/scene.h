@@ -60,8 +60,11 @@ typedef struct wh_state {
     wh_real *carry;  /* [scene->angles + scene->reals] low parts when compensated, else NULL */
     wh_real *input;  /* [scene->inputs] SI units; the caller may change them between steps */
     wh_contacts *contacts; /* NULL without contacts */
+    wh_real *ledger;       /* the books' totals, their carries, the levels at the start; or NULL */
     int fault; /* after WH_E_DIVERGED: the component at fault, angles first, then reals */
 } wh_state;
+
+typedef struct wh_ledger_form wh_ledger_form; /* ledger.h */
 
 typedef struct wh_scene wh_scene;
 struct wh_scene {
@@ -79,8 +82,9 @@ struct wh_scene {
     const wh_angle *start_angle;
     const wh_real *start_real;
     const wh_real *start_input;
-    const void *model;   /* the interpreter's operation list; NULL in generated code */
-    uint64_t model_hash; /* of the operation list: which physics this is */
+    const wh_ledger_form *ledger; /* NULL: no books are kept */
+    const void *model;            /* the interpreter's operation list; NULL in generated code */
+    uint64_t model_hash;          /* of the operation list: which physics this is */
     /* One step. On divergence returns WH_E_DIVERGED, sets state->fault and leaves the rest as it
      * was. Does not count the step: wh_scene_step() does. */
     wh_status (*advance)(const wh_scene *scene, wh_state *state);
@@ -94,6 +98,9 @@ struct wh_scene {
 
 /* What a scene with so many contacts needs on top. */
 #define WH_CONTACT_WORDS(contacts) ((sizeof(wh_contacts) + (size_t)(contacts) + 15U) / 8U)
+
+/* And one with a ledger of so many entries and accounts. */
+#define WH_LEDGER_WORDS(entries, accounts) (2U * (size_t)(entries) + (size_t)(accounts))
 
 #define wh_scene_start WH_NAME(wh_scene_start)
 #define wh_scene_step WH_NAME(wh_scene_step)

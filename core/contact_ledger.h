@@ -1,0 +1,96 @@
+/* contact_ledger.h: what contacts enter into the books (see contact.h and ledger.h). Without WH_LEDGER,
+ * nothing. */
+#ifndef WH_CONTACT_LEDGER_H
+#define WH_CONTACT_LEDGER_H
+
+#include "contact_work.h"
+
+#if WH_LEDGER
+
+/* Does this scene keep books, and is this part of its run (and not a look at it)? */
+WH_INLINE bool wh_books_open(const wh_hybrid *of, const wh_contact_work *w) {
+    return of->ledger != NULL && w->books != NULL;
+}
+
+/* Contact k's force (or impulse) `amount`, `share` long (or 1), did this to the rates' mean `rate`. */
+static inline void wh_books_enter(const wh_hybrid *of, const wh_contact_work *w, unsigned k,
+                                  wh_real share, wh_real amount, wh_real speed, wh_real *entry) {
+    const wh_real *row = wh_law(of, w, k) + WH_LAW_ROWS;
+    const unsigned first = wh_ledger_of_contact(of->ledger, k);
+    const wh_real impulse = share * amount;
+    entry[first] += impulse * speed;
+    for (unsigned i = 0; i < of->coordinates; i++) {
+        entry[first + 1U + i] += impulse * row[i];
+    }
+}
+
+/* One stage of a try. */
+static inline void wh_books_stage(const wh_hybrid *of, const wh_contact_work *w,
+                                  const wh_phase *phase, const wh_real *linear, const wh_real *rate,
+                                  const wh_real *input) {
+    if (!wh_books_open(of, w) || !(w->books->span > WH_R(0.0))) {
+        return;
+    }
+    const wh_real share =
+        wh_ledger_stage(of->ledger, of->method, phase, linear, rate, input, w->books);
+    for (unsigned k = 0; k < of->forced && wh_feels(of, w); k++) {
+        if (w->force[k] != WH_R(0.0)) {
+            wh_books_enter(of, w, k, share, w->force[k], wh_along(of, w, k, rate),
+                           w->books->attempt);
+        }
+    }
+}
+
+/* An impulse of contact k, whose speed it changed. Its work is that of the mean speed (Kelvin). */
+WH_INLINE void wh_books_impulse(const wh_hybrid *of, const wh_contact_work *w, unsigned k,
+                                wh_real impulse, wh_real before, wh_real after) {
+    if (wh_books_open(of, w)) {
+        wh_books_enter(of, w, k, WH_R(1.0), impulse, WH_R(0.5) * (before + after), w->books->step);
+    }
+}
+
+/* The accounts, before and after a crossing assigns: what it changes is its entry. */
+static inline void wh_books_levels(const wh_hybrid *of, const wh_contact_work *w,
+                                   const wh_contact_state *s, const wh_real *input, unsigned k,
+                                   wh_real sign) {
+    if (!wh_books_open(of, w)) {
+        return;
+    }
+    wh_real level[WH_ACCOUNTS_MAX];
+    of->ledger->levels(of->ledger->model, s->angle, s->real,
+                       s->real + (of->coordinates - of->angles), input, level);
+    for (unsigned i = 0; i <= of->coordinates; i++) {
+        w->books->step[wh_ledger_of_contact(of->ledger, k) + i] += sign * level[i];
+    }
+}
+
+WH_INLINE void wh_books_begin(const wh_hybrid *of, wh_contact_work *w, wh_real span) {
+    if (wh_books_open(of, w)) {
+        wh_ledger_begin(of->ledger, w->books, span);
+    }
+}
+
+WH_INLINE void wh_books_end(const wh_hybrid *of, wh_contact_work *w) {
+    if (wh_books_open(of, w)) {
+        w->books->span = WH_R(0.0);
+    }
+}
+
+WH_INLINE void wh_books_accept(const wh_hybrid *of, wh_contact_work *w) {
+    if (wh_books_open(of, w)) {
+        wh_ledger_accept(of->ledger, w->books);
+    }
+}
+
+#else
+
+#define wh_books_stage(of, w, phase, linear, rate, input) ((void)0)
+#define wh_books_impulse(of, w, k, impulse, before, after) ((void)0)
+#define wh_books_levels(of, w, s, input, k, sign) ((void)0)
+#define wh_books_begin(of, w, span) ((void)0)
+#define wh_books_end(of, w) ((void)0)
+#define wh_books_accept(of, w) ((void)0)
+
+#endif
+
+#endif

@@ -1,0 +1,157 @@
+/* contact_settle.h: making rates, gaps and modes agree with a state (see contact.h). */
+#ifndef WH_CONTACT_SETTLE_H
+#define WH_CONTACT_SETTLE_H
+
+#include "contact_events.h"
+
+/* The accelerations, forces and signals at a state, in the modes of work. */
+static inline void wh_contact_look(const wh_hybrid *of, wh_contact_work *w, wh_contact_state *s,
+                                   const wh_real *input, wh_real *accel, wh_real *signal) {
+    const wh_contact_model model = {of, w};
+    wh_contact_point at;
+    wh_contact_point_of(of, s, &at);
+    wh_contact_accel(&model, at.phase, at.linear, at.rate, input, accel);
+    if (!wh_feels(of, w)) {
+        of->forces(of->model, at.phase, at.linear, at.rate, input, w->law);
+    }
+    of->signals(of->model, at.phase, at.linear, at.rate, input, signal);
+}
+
+/* Move coordinate i by `by`, rad or m. */
+WH_INLINE void wh_contact_move(const wh_hybrid *of, unsigned i, wh_real by, wh_contact_state *s) {
+    if (i < of->angles) {
+        wh_real none = WH_R(0.0);
+        (void)wh_angle_move(&s->angle[i], by * WH_PHASE_PER_RAD, false, &none);
+    } else {
+        s->real[i - of->angles] += by;
+    }
+}
+
+/* Contacts that hold their J_k q' at zero. Returns how many. */
+WH_INLINE unsigned wh_contact_members(const wh_hybrid *of, const wh_contact_work *w,
+                                      uint8_t *member) {
+    unsigned count = 0;
+    for (unsigned k = 0; k < of->forced; k++) {
+        if (wh_constrains(of, w, k)) {
+            member[count++] = (uint8_t)k;
+        }
+    }
+    return count;
+}
+
+/* Put the gaps of resting stops to zero, while what is stuck or held stays. work->law and signal[] must
+ * belong to this position. */
+static inline void wh_contact_close(const wh_hybrid *of, const wh_contact_work *w,
+                                    const wh_real *signal, wh_contact_state *s) {
+    uint8_t member[WH_CONTACTS_MAX] = {0};
+    wh_real wanted[WH_CONTACTS_MAX];
+    wh_real amount[WH_CONTACTS_MAX];
+    wh_real way[WH_COORDS] = {0};
+    const unsigned count = wh_contact_members(of, w, member);
+    bool together = false;
+    for (unsigned i = 0; i < count; i++) {
+        const unsigned k = member[i];
+        const int pin = of->contact[k].pin;
+        wanted[i] = WH_R(0.0);
+        if (of->contact[k].kind != WH_STOP) {
+            continue;
+        }
+        if (pin >= 0) { /* the others need not move for it */
+            const wh_real entry = wh_law(of, w, k)[WH_LAW_ROWS + pin];
+            wh_contact_move(of, (unsigned)pin, -signal[2 * k] / entry, s);
+        } else {
+            wanted[i] = -signal[2 * k];
+            together = true;
+        }
+    }
+    if (!together) {
+        return;
+    }
+    wh_contact_solve(of, w, member, count, wanted, amount);
+    for (unsigned i = 0; i < count; i++) {
+        wh_push(of, w, member[i], amount[i], way);
+    }
+    for (unsigned i = 0; i < count; i++) {
+        const int pin = of->contact[member[i]].pin;
+        if (pin >= 0) {
+            way[pin] = WH_R(0.0);
+        }
+    }
+    for (unsigned i = 0; i < of->coordinates; i++) {
+        wh_contact_move(of, i, way[i], s);
+    }
+}
+
+/* What the integrator let slip: rates along what is held, and the gaps of resting stops. A pinned
+ * coordinate cannot slip. */
+static inline void wh_contact_tidy(const wh_hybrid *of, wh_contact_work *w, const wh_real *input,
+                                   wh_contact_state *s) {
+    uint8_t member[WH_CONTACTS_MAX] = {0};
+    wh_real wanted[WH_CONTACTS_MAX];
+    wh_real amount[WH_CONTACTS_MAX];
+    const unsigned count = wh_contact_members(of, w, member);
+    bool slips = false;
+    for (unsigned i = 0; i < count; i++) {
+        slips = slips || of->contact[member[i]].pin < 0;
+    }
+    if (!slips) {
+        return;
+    }
+    wh_real accel[WH_COORDS];
+    wh_real signal[2 * WH_CONTACTS_MAX];
+    wh_real *rate = wh_contact_rates(of, s);
+    wh_contact_look(of, w, s, input, accel, signal);
+    for (unsigned i = 0; i < count; i++) {
+        wanted[i] = -wh_along(of, w, member[i], rate);
+    }
+    wh_contact_solve(of, w, member, count, wanted, amount);
+    for (unsigned i = 0; i < count; i++) {
+        wh_push(of, w, member[i], amount[i], rate);
+    }
+    for (unsigned i = 0; i < count; i++) {
+        const int pin = of->contact[member[i]].pin;
+        if (pin >= 0) {
+            rate[pin] = WH_R(0.0);
+        }
+    }
+    wh_contact_close(of, w, signal, s);
+}
+
+/* Bring the modes to agree with the state: which way friction slides, which resting stops would have to
+ * pull, which stuck coordinates (but those in `keep`, as bits) break loose. Each round lets at least one
+ * go. */
+static inline void wh_contact_settle(const wh_hybrid *of, wh_contact_work *w, unsigned keep,
+                                     const wh_real *input, wh_contact_state *s) {
+    wh_real accel[WH_COORDS];
+    wh_real signal[2 * WH_CONTACTS_MAX];
+    const wh_real *rate = wh_contact_rates(of, s);
+    for (unsigned k = 0; k < of->forced; k++) {
+        if (of->contact[k].kind == WH_FRICTION) {
+            const wh_real v = rate[of->contact[k].pin];
+            if (v != WH_R(0.0)) {
+                w->mode[k] = v > WH_R(0.0) ? 1 : -1;
+            }
+        }
+    }
+    bool again = true;
+    while (again && wh_contact_watched(of, w)) {
+        again = false;
+        wh_contact_look(of, w, s, input, accel, signal);
+        for (unsigned k = 0; k < of->forced; k++) {
+            if (of->contact[k].kind == WH_HOLD || !wh_constrains(of, w, k)) {
+                continue;
+            }
+            const wh_real force = w->force[k];
+            if (of->contact[k].kind == WH_STOP && force < WH_R(0.0)) {
+                w->mode[k] = WH_FREE;
+                again = true;
+            } else if (of->contact[k].kind == WH_FRICTION && (keep >> k & 1U) == 0 &&
+                       WH_ABS(force) > wh_law(of, w, k)[WH_LAW_FIRST]) {
+                w->mode[k] = force > WH_R(0.0) ? -1 : 1;
+                again = true;
+            }
+        }
+    }
+}
+
+#endif
