@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "contact_lists.h"
+#include "ledger.h"
 
 static void *room(int count, size_t size) {
     void *p = calloc((size_t)count + 1, size);
@@ -163,6 +164,10 @@ program *program_make(const equations *e, const bool *conserve, diags *errors) {
         p->books = make_books(p, e, &map, &s);
         p->contacts = more > 0 ? contact_lists_make(p, e, &map, &s, errors) : NULL;
         good = more == 0 || p->contacts != NULL;
+        if (good && e->instance->ledger) {
+            p->ledger = ledger_lists_make(p, e, &map, errors);
+            good = p->ledger != NULL;
+        }
     } else {
         diag_error(errors, m->at, NULL, "'%s' has more than %d components of state", m->name,
                    PROGRAM_COMPONENTS_MAX);
@@ -190,6 +195,7 @@ void program_free(program *p) {
     tape_free(p->observe);
     tape_free(p->books);
     contact_lists_free(p->contacts);
+    ledger_lists_free(p->ledger);
     free(p->angle);
     free(p->real);
     free(p->place);
@@ -204,8 +210,14 @@ const char *program_needs_libm(const program *p) {
         [FN_EXP] = "exp",   [FN_LOG] = "log",   [FN_ABS] = "abs",     [FN_SIGN] = "sign",
         [FN_MIN] = "min",   [FN_MAX] = "max"};
     const contact_lists *c = p->contacts;
-    const tape *const lists[] = {p->step, p->observe, c != NULL ? c->signals : NULL,
-                                 c != NULL ? c->forces : NULL, c != NULL ? c->sets : NULL};
+    const ledger_lists *l = p->ledger;
+    const tape *const lists[] = {p->step,
+                                 p->observe,
+                                 c != NULL ? c->signals : NULL,
+                                 c != NULL ? c->forces : NULL,
+                                 c != NULL ? c->sets : NULL,
+                                 l != NULL ? l->powers : NULL,
+                                 l != NULL ? l->levels : NULL};
     for (size_t k = 0; k < sizeof lists / sizeof lists[0]; k++) {
         for (int i = 0; lists[k] != NULL && i < lists[k]->count; i++) {
             const op *o = &lists[k]->ops[i];

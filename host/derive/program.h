@@ -17,6 +17,7 @@ typedef struct component {
 } component;
 
 typedef struct contact_lists contact_lists; /* contact_lists.h */
+typedef struct ledger_lists ledger_lists;   /* ledger.h */
 
 typedef struct program {
     wh_form form;
@@ -37,6 +38,7 @@ typedef struct program {
     /* The outputs. */
     tape *observe;
     contact_lists *contacts; /* NULL without any */
+    ledger_lists *ledger;    /* NULL when no books are kept */
     /* For the host's books: highest derivatives (by unknown), then for a mechanism T, V, input
      * power, loss power and the momenta (by unknown). */
     tape *books;

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "c_contacts.h"
+#include "c_ledger.h"
 #include "c_list.h"
 #include "emit.h"
 
@@ -91,6 +92,9 @@ static void write_scene(FILE *out, const program *p, const instance *inst,
     if (p->contacts != NULL) {
         fprintf(out, "    .contacts = %d,\n", p->contacts->count);
     }
+    if (p->ledger != NULL) {
+        fprintf(out, "    .ledger = &ledger,\n");
+    }
     fprintf(out, "    .compensated = %s,\n    .step_s = WH_R(%a),\n    .steps = %.0fU,\n",
             settings->compensated ? "true" : "false", inst->step_s,
             steps < 4294967295.0 ? steps : 4294967295.0);
@@ -105,19 +109,20 @@ static void write_scene(FILE *out, const program *p, const instance *inst,
 
 bool emit_c_name_is_free(const char *name) {
     static const char *const taken[] = {
-        "auto",           "break",        "case",          "char",
-        "const",          "continue",     "default",       "do",
-        "double",         "else",         "enum",          "extern",
-        "float",          "for",          "goto",          "if",
-        "inline",         "int",          "long",          "register",
-        "restrict",       "return",       "short",         "signed",
-        "sizeof",         "static",       "struct",        "switch",
-        "typedef",        "union",        "unsigned",      "void",
-        "volatile",       "while",        "bool",          "true",
-        "false",          "main",         "NULL",          "accelerations",
-        "slopes",         "advance",      "observe",       "start_angle",
-        "start_real",     "start_input",  "contacts",      "contact_signals",
-        "contact_forces", "contact_sets", "contact_table", "contact_target"};
+        "auto",           "break",         "case",          "char",
+        "const",          "continue",      "default",       "do",
+        "double",         "else",          "enum",          "extern",
+        "float",          "for",           "goto",          "if",
+        "inline",         "int",           "long",          "register",
+        "restrict",       "return",        "short",         "signed",
+        "sizeof",         "static",        "struct",        "switch",
+        "typedef",        "union",         "unsigned",      "void",
+        "volatile",       "while",         "bool",          "true",
+        "false",          "main",          "NULL",          "accelerations",
+        "slopes",         "advance",       "observe",       "start_angle",
+        "start_real",     "start_input",   "contacts",      "contact_signals",
+        "contact_forces", "contact_sets",  "contact_table", "contact_target",
+        "ledger",         "ledger_powers", "ledger_levels", "ledger_accounts"};
     for (size_t i = 0; i < sizeof taken / sizeof taken[0]; i++) {
         if (strcmp(name, taken[i]) == 0) {
             return false;
@@ -168,16 +173,30 @@ void emit_c(FILE *out, const equations *e, const program *p, const engine_settin
     const int components = second ? p->coordinates : p->angles + p->reals;
     write_banner(out, e, p, file);
     fprintf(out, "#define WH_COORDS %d\n", components);
+    if (p->ledger != NULL) {
+        c_ledger_bounds(out, p->ledger);
+    }
     if (p->contacts != NULL) {
         c_contacts_include(out, p->contacts);
     } else {
-        fprintf(out, "#include \"core/step.h\"\n");
+        fprintf(out, "#include \"core/%s.h\"\n", p->ledger != NULL ? "ledger" : "step");
     }
     fprintf(out, "\nextern const wh_scene %s;\n\n", e->instance->name);
     write_starts(out, p, e->instance);
     c_list_function(out, p->step, second ? "accelerations" : "slopes", second);
+    if (p->ledger != NULL) {
+        c_ledger_write(out, p);
+    }
     if (p->contacts != NULL) {
         c_contacts_write(out, p, settings, e->instance->step_s);
+    } else if (p->ledger != NULL) {
+        fprintf(
+            out,
+            "static wh_status advance(const wh_scene *scene, wh_state *state) {\n"
+            "    (void)scene;\n    return wh_step_ledger(&ledger, NULL, accelerations, %s, %s,\n"
+            "                          WH_R(%a), state);\n}\n\n",
+            c_method_names[settings->method], settings->compensated ? "true" : "false",
+            e->instance->step_s);
     } else {
         fprintf(out,
                 "static wh_status advance(const wh_scene *scene, wh_state *state) {\n"

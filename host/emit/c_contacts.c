@@ -35,15 +35,16 @@ void c_contacts_write(FILE *out, const program *p, const engine_settings *settin
         c_list_function(out, c->sets, "contact_sets", true);
     }
     write_table(out, c);
-    fprintf(out,
-            "static const wh_hybrid contacts = {\n    .accel = accelerations,\n"
-            "    .signals = contact_signals,\n    .forces = contact_forces,\n    .sets = %s,\n"
-            "    .contact = contact_table,\n    .target = %s,\n    .contacts = %d,\n"
-            "    .forced = %d,\n    .method = %s,\n    .compensated = %s,\n"
-            "    .angles = %d,\n    .coordinates = %d,\n};\n\n",
-            c->sets != NULL ? "contact_sets" : "NULL", c->set_count > 0 ? "contact_target" : "NULL",
-            c->count, c->forced, c_method_names[settings->method],
-            settings->compensated ? "true" : "false", p->angles, p->coordinates);
+    fprintf(
+        out,
+        "static const wh_hybrid contacts = {\n    .accel = accelerations,\n"
+        "    .signals = contact_signals,\n    .forces = contact_forces,\n    .sets = %s,\n"
+        "    .contact = contact_table,\n    .target = %s,\n    .ledger = %s,\n    .contacts = %d,\n"
+        "    .forced = %d,\n    .method = %s,\n    .compensated = %s,\n"
+        "    .angles = %d,\n    .coordinates = %d,\n};\n\n",
+        c->sets != NULL ? "contact_sets" : "NULL", c->set_count > 0 ? "contact_target" : "NULL",
+        c->count, c->forced, c_method_names[settings->method],
+        settings->compensated ? "true" : "false", p->angles, p->coordinates);
     fprintf(out,
             "static wh_status advance(const wh_scene *scene, wh_state *state) {\n"
             "    (void)scene;\n    return wh_step_contact(&contacts, WH_R(%a), state);\n}\n\n",

@@ -27,6 +27,10 @@ typedef struct engine_kind {
     uint64_t (*steps)(const void *run);
     /* Component that diverged, angles first, or -1. */
     int (*fault)(const void *run);
+    /* Events since the start, and steps with more than WH_EVENTS_MAX moments of them. */
+    uint64_t (*events)(const void *run, uint64_t *overruns);
+    /* The books so far: total[entries], error[accounts] (the numerical drift); SI. */
+    void (*ledger)(const void *run, double *total, double *error);
 } engine_kind;
 
 extern const engine_kind engine_float;

@@ -1,0 +1,166 @@
+/* ledger.c: entering the books' lists. */
+#include "core/ledger.h" /* first: its arguments have names that host/lang has types of */
+
+#include <stdlib.h>
+
+#include "contact_lists.h"
+#include "ledger.h"
+
+static void *room(int count, size_t size) {
+    void *p = calloc((size_t)count + 1, size);
+    if (p == NULL) {
+        abort();
+    }
+    return p;
+}
+
+/* Folded, and free of conserved coordinates. */
+static const poly *ready(const program *p, const equations *e, const poly *wanted) {
+    return conservation_settle(e, p->conserved, equations_fold(e, wanted));
+}
+
+static void add_entry(ledger_lists *l, const poly **power, ledger_kind kind, const term *t,
+                      int account, const poly *what) {
+    if (!poly_is_zero(what)) {
+        l->entry[l->smooth] = (ledger_entry){kind, t, account};
+        power[l->smooth++] = what;
+    }
+}
+
+/* The entries of one term. */
+static void add_term(ledger_lists *l, const program *p, const equations *e, const term *t,
+                     const poly **power) {
+    algebra *a = e->algebra;
+    const poly *value = poly_from_expr(a, t->value);
+    const poly *work = poly_number(a, 0.0);
+    const ledger_kind works = t->kind == TERM_Q ? LEDGER_WORK : LEDGER_LOSS;
+    const ledger_kind pushes = t->kind == TERM_Q ? LEDGER_DRIVE : LEDGER_DAMPING;
+    for (int account = 1; account < l->accounts; account++) {
+        const symbol *q = e->unknowns[l->unknown[account]].symbol;
+        const poly *force = poly_number(a, 0.0);
+        if (t->kind == TERM_F) {
+            force = poly_scale(a, poly_derivative(a, value, q, 1), -1.0);
+        } else if (t->coordinate == q) {
+            force = value;
+        }
+        work = poly_add(a, work, poly_mul(a, force, poly_symbol(a, q, 1)));
+        add_entry(l, power, pushes, t, account, ready(p, e, force));
+    }
+    add_entry(l, power, works, t, 0, ready(p, e, work));
+}
+
+static void order_accounts(ledger_lists *l, const program *p, const equations *e) {
+    int conserved = 1 + p->coordinates;
+    l->unknown[0] = -1;
+    for (int i = 0; i < e->count; i++) {
+        l->unknown[p->place[i] >= 0 ? 1 + p->place[i] : conserved++] = i;
+    }
+}
+
+/* What goes into the accounts while nothing happens. */
+static const poly **smooth_entries(ledger_lists *l, const program *p, const equations *e) {
+    algebra *a = e->algebra;
+    const mechanism *m = e->instance->mechanism;
+    const int most = e->count + m->term_count * (1 + e->count);
+    const poly **power = room(most, sizeof(const poly *));
+    const poly *lagrangian = poly_sub(a, e->kinetic, e->stored);
+    l->entry = room(most, sizeof *l->entry);
+    for (int account = 1; account < l->accounts; account++) {
+        const symbol *q = e->unknowns[l->unknown[account]].symbol;
+        const poly *force = poly_derivative(a, lagrangian, q, 0);
+        add_entry(l, power, LEDGER_ENERGIES, NULL, account, ready(p, e, force));
+    }
+    for (int i = 0; i < m->term_count; i++) {
+        const term *t = &m->terms[i];
+        if ((t->kind == TERM_Q || t->kind == TERM_F) && instance_has_term(e->instance, t)) {
+            add_term(l, p, e, t, power);
+        }
+    }
+    return power;
+}
+
+static tape *enter(const program *p, layout *map, const poly *const *wanted, int count) {
+    tape *t = tape_new(p->angles, count);
+    lowering l = layout_lowering(map, t);
+    lower_plan(&l, wanted, count);
+    for (int i = 0; i < count; i++) {
+        t->result[i] = lower(&l, wanted[i]);
+    }
+    lower_done(&l);
+    tape_prune(t);
+    return t;
+}
+
+static tape *make_levels(const ledger_lists *l, const program *p, const equations *e, layout *map) {
+    const poly **wanted = room(l->accounts, sizeof(const poly *));
+    wanted[0] = ready(p, e, poly_add(e->algebra, e->kinetic, e->stored));
+    for (int account = 1; account < l->accounts; account++) {
+        wanted[account] = ready(p, e, e->momentum[l->unknown[account]]);
+    }
+    tape *t = enter(p, map, wanted, l->accounts);
+    free(wanted);
+    return t;
+}
+
+/* May the books of this scene be kept? */
+static bool can_keep(const program *p, const equations *e, diags *errors) {
+    const mechanism *m = e->instance->mechanism;
+    if (m->is_system) {
+        diag_error(errors, m->at, "leave out the ledger",
+                   "'%s' is given by equations: there are no energies to keep books of", m->name);
+        return false;
+    }
+    if (p->form != WH_SECOND_ORDER) {
+        diag_error(errors, m->at, "integrate the coordinate: leave out conserve",
+                   "a momentum that is no rate of a function of the coordinates cannot be "
+                   "conserved beside a ledger");
+        return false;
+    }
+    return true;
+}
+
+ledger_lists *ledger_lists_make(const program *p, const equations *e, layout *map, diags *errors) {
+    if (!can_keep(p, e, errors)) {
+        return NULL;
+    }
+    ledger_lists *l = room(1, sizeof *l);
+    l->accounts = 1 + e->count;
+    l->unknown = room(l->accounts, sizeof *l->unknown);
+    order_accounts(l, p, e);
+    const poly **power = smooth_entries(l, p, e);
+    l->entries = l->smooth;
+    if (p->contacts != NULL) {
+        l->entries += p->contacts->count * (1 + p->coordinates);
+    }
+    bool good = l->entries <= WH_LEDGER_MAX;
+    if (good) {
+        l->powers = enter(p, map, power, l->smooth);
+        l->levels = make_levels(l, p, e, map);
+        /* an angle that the equations have only inside sines, and a power outside them */
+        for (int i = 0; i < l->powers->count; i++) {
+            good = good && l->powers->ops[i].code != OP_RADIANS;
+        }
+    }
+    if (!good) {
+        diag_error(errors, e->instance->mechanism->at, "leave out the ledger",
+                   "the books of '%s' cannot be kept: %s", e->instance->mechanism->name,
+                   l->entries > WH_LEDGER_MAX
+                       ? "there are too many entries"
+                       : "a power depends on an angle that no equation does");
+        ledger_lists_free(l);
+        l = NULL;
+    }
+    free(power);
+    return l;
+}
+
+void ledger_lists_free(ledger_lists *l) {
+    if (l == NULL) {
+        return;
+    }
+    tape_free(l->powers);
+    tape_free(l->levels);
+    free(l->entry);
+    free(l->unknown);
+    free(l);
+}

@@ -1,0 +1,40 @@
+/* ledger.h: the books of a scene as numbers: the lists that core/ledger.h takes, and what their entries
+ * mean.
+ *
+ * What changes the momentum p_i = dL/dq_i' is, by Lagrange's equations, dL/dq_i (gravity, springs, and
+ * what the other coordinates' motion does), each generalized force, each damper and each contact. What
+ * changes the energy T + V is the work of each generalized force, each damper's loss and each contact. */
+#ifndef DERIVE_LEDGER_H
+#define DERIVE_LEDGER_H
+
+#include "layout.h"
+
+typedef enum ledger_kind {
+    LEDGER_WORK,     /* Q q' of a generalized force */
+    LEDGER_LOSS,     /* -sum dF/dq' q' of a damper */
+    LEDGER_ENERGIES, /* dL/dq_i */
+    LEDGER_DRIVE,    /* a generalized force on coordinate i */
+    LEDGER_DAMPING   /* -dF/dq_i' of a damper */
+} ledger_kind;
+
+typedef struct ledger_entry {
+    ledger_kind kind;
+    const term *term; /* of the mechanism; NULL for LEDGER_ENERGIES */
+    int account;
+} ledger_entry;
+
+struct ledger_lists {
+    ledger_entry *entry; /* [smooth] */
+    int smooth;
+    int entries;  /* smooth, then for each contact its energy and its impulse by coordinate */
+    int accounts; /* 1 + unknowns: the energy, then the momenta */
+    int *unknown; /* [accounts] whose momentum an account is; -1 for the energy */
+    tape *powers;
+    tape *levels;
+};
+
+/* Enter the lists. `p` has its layout and contacts. NULL on error, reported. */
+ledger_lists *ledger_lists_make(const program *p, const equations *e, layout *map, diags *errors);
+void ledger_lists_free(ledger_lists *l);
+
+#endif

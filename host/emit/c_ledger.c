@@ -1,0 +1,49 @@
+/* c_ledger.c: the lists of a scene's books. */
+#include "c_ledger.h"
+
+#include "c_list.h"
+
+void c_ledger_bounds(FILE *out, const ledger_lists *l) {
+    fprintf(out, "#define WH_LEDGER 1\n#define WH_LEDGER_MAX %d\n#define WH_ACCOUNTS_MAX %d\n",
+            l->entries > 0 ? l->entries : 1, l->accounts);
+}
+
+static void write_levels(FILE *out, const program *p) {
+    const tape *t = p->ledger->levels;
+    fprintf(out, "static void ledger_levels(const void *model, const wh_angle *angle,\n"
+                 "                          const wh_real *linear, const wh_real *rate,\n"
+                 "                          const wh_real *input, wh_real *level) {\n"
+                 "    (void)model;\n");
+    if (c_list_uses_phase(t)) {
+        fprintf(out,
+                "    wh_phase phase[%d];\n    for (int i = 0; i < %d; i++) {\n"
+                "        phase[i] = wh_phase_of(angle[i]);\n    }\n",
+                p->angles, p->angles);
+    } else {
+        c_list_ignore(out, c_list_uses(t, OP_RADIANS), "angle");
+    }
+    c_list_ignore(out, c_list_uses(t, OP_LINEAR), "linear");
+    c_list_ignore(out, c_list_uses(t, OP_RATE), "rate");
+    c_list_ignore(out, c_list_uses(t, OP_INPUT), "input");
+    c_list_body(out, t, "level");
+}
+
+void c_ledger_write(FILE *out, const program *p) {
+    const ledger_lists *l = p->ledger;
+    c_list_function(out, l->powers, "ledger_powers", true);
+    write_levels(out, p);
+    if (l->smooth > 0) {
+        fprintf(out, "static const uint8_t ledger_accounts[%d] = {", l->smooth);
+        for (int i = 0; i < l->smooth; i++) {
+            fprintf(out, "%s%d", i > 0 ? ", " : "", l->entry[i].account);
+        }
+        fprintf(out, "};\n");
+    }
+    fprintf(out,
+            "static const wh_ledger_form ledger = {\n    .powers = ledger_powers,\n"
+            "    .levels = ledger_levels,\n    .account = %s,\n    .smooth = %d,\n"
+            "    .entries = %d,\n    .accounts = %d,\n    .coordinates = %d,\n"
+            "    .angles = %d,\n};\n\n",
+            l->smooth > 0 ? "ledger_accounts" : "NULL", l->smooth, l->entries, l->accounts,
+            p->coordinates, p->angles);
+}
