@@ -9,7 +9,7 @@ books *books_open(const program *p, const equations *e) {
         return NULL;
     }
     books *b = calloc(1, sizeof *b);
-    double *numbers = calloc((size_t)p->books->results + 2 * (size_t)p->count, sizeof *numbers);
+    double *numbers = calloc((size_t)p->books->results + 3 * (size_t)p->count, sizeof *numbers);
     if (b == NULL || numbers == NULL) {
         abort();
     }
@@ -20,6 +20,7 @@ books *books_open(const program *p, const equations *e) {
     b->value = numbers;
     b->momentum = numbers + p->books->results;
     b->drift = b->momentum + p->count;
+    b->momentum_now = b->drift + p->count;
     b->step_s = e->instance->step_s;
     return b;
 }
@@ -70,6 +71,7 @@ void books_enter(books *b, const engine_kind *kind, const void *run) {
         add_work(b, power_W);
     }
     for (int i = 0; i < p->count; i++) {
+        b->momentum_now[i] = entry[BOOK_MOMENTA + i];
         b->drift[i] = fmax(b->drift[i], fabs(entry[BOOK_MOMENTA + i] - b->momentum[i]));
     }
     b->entries++;

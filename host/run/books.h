@@ -13,9 +13,10 @@ typedef struct books {
     const equations *equations;
     const double *input;
     evaluator *evaluator;
-    double *value;    /* results of the program's books list */
-    double *momentum; /* [count] at the start */
-    double *drift;    /* [count] largest change since */
+    double *value;        /* results of the program's books list */
+    double *momentum;     /* [count] at the start */
+    double *momentum_now; /* [count] */
+    double *drift;        /* [count] largest change since */
     double angle_rad[PROGRAM_COMPONENTS_MAX];
     double real[2 * PROGRAM_COMPONENTS_MAX];
     double kinetic_J[2]; /* start, now */

@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "host/derive/contact_lists.h"
+#include "ledger_text.h"
 #include "records.h"
 
 const char *dimension_unit(dimension dim, bool is_angle, char *text, size_t size) {
@@ -96,7 +98,13 @@ static void print_books(FILE *out, const books *b) {
     fprintf(out, "  stored           %.9g -> %.9g\n", b->stored_J[0], b->stored_J[1]);
     fprintf(out, "  work of inputs   %.9g\n", b->input_J);
     fprintf(out, "  losses           %.9g\n", b->loss_J);
-    fprintf(out, "  does not balance by %.2e (numerical)\n", books_error_J(b));
+    if (b->program->contacts != NULL) { /* books beside the run do not see the forces inside it */
+        fprintf(out,
+                "  impacts, friction, holds and settings took %.9g (--with ledger says which)\n",
+                -books_error_J(b));
+    } else {
+        fprintf(out, "  does not balance by %.2e (numerical)\n", books_error_J(b));
+    }
     bool any = false;
     for (int i = 0; i < e->count; i++) {
         if (e->conserved[i]) {
@@ -110,6 +118,18 @@ static void print_books(FILE *out, const books *b) {
     }
     if (!any) {
         fprintf(out, "no momentum is conserved: every coordinate feels a force\n");
+    }
+}
+
+static void print_events(FILE *out, const program *p, const engine_kind *kind, const void *run) {
+    uint64_t overruns;
+    const uint64_t events = kind->events(run, &overruns);
+    fprintf(out, "events             %" PRIu64 " of %d contacts\n", events, p->contacts->count);
+    if (overruns > 0) {
+        fprintf(out,
+                "  %" PRIu64 " steps had more than %d moments with events: what was left of them "
+                "counts as rest or sticking; a smaller --step tells more\n",
+                overruns, WH_EVENTS_MAX);
     }
 }
 
@@ -131,7 +151,12 @@ void summary_print(FILE *out, const equations *e, const program *p, const simula
             methods[s->engine.method], s->engine.compensated ? " compensated" : "", s->kind->name,
             inst->step_s, steps, (double)steps * inst->step_s);
     print_state(out, e, p, s, run);
-    if (b != NULL) {
+    if (p->contacts != NULL) {
+        print_events(out, p, s->kind, run);
+    }
+    if (b != NULL && p->ledger != NULL) {
+        ledger_print(out, e, p, s->kind, run, b);
+    } else if (b != NULL) {
         print_books(out, b);
     }
     fprintf(out, "state hash         0x%016" PRIx64 "\n", s->kind->hash(run));
