@@ -84,6 +84,14 @@ enum {
     WH_LAW_ROWS    /* J_k[n], then (M^-1 J_k^T)[n] */
 };
 
+/* Most evaluations of the accelerations in one step, each with at most one of `forces` and two of
+ * `signals`: in each of WH_EVENTS_MAX rounds a try to the step's end and one to the event (`stages` each),
+ * a look at the end of both, the search, two looks a stop that is hit and one for another contact, and
+ * those that settle the modes; then the last try, and on the first step the modes' start. */
+#define WH_CONTACT_EVALUATIONS(stages, stops, forced) \
+    (WH_EVENTS_MAX * (2 * (stages) + WH_REFINEMENTS + 5 + (stops) + 2 * (forced)) + (stages) + 4 + \
+     (stops) + 2 * (forced))
+
 /* A scene's contacts, constant. The functions are lists of operations like the accelerations. */
 typedef struct wh_hybrid {
     const void *model;    /* first argument of the functions */
@@ -96,7 +104,8 @@ typedef struct wh_hybrid {
     const uint8_t *target;        /* [all sets]: component, angles first, then reals */
     const wh_ledger_form *ledger; /* or NULL */
     uint8_t contacts;
-    uint8_t forced; /* contacts that have a force: all but crossings */
+    uint8_t forced;       /* contacts that have a force: all but crossings */
+    uint16_t evaluations; /* WH_CONTACT_EVALUATIONS: declared, and held to by the tests */
     wh_method method;
     bool compensated;
     uint8_t angles;

@@ -9,6 +9,9 @@ void c_contacts_include(FILE *out, const contact_lists *c) {
     fprintf(out, "#include \"core/contact_step.h\"\n");
 }
 
+/* Evaluations that a step of each wh_method takes. */
+static const int c_stages[] = {1, 1, 2, 4};
+
 static void write_table(FILE *out, const contact_lists *c) {
     static const char *const kinds[] = {"WH_STOP", "WH_HOLD", "WH_FRICTION", "WH_WHEN"};
     fprintf(out, "static const wh_contact contact_table[%d] = {", c->count);
@@ -40,12 +43,13 @@ void c_contacts_write(FILE *out, const program *p, const engine_settings *settin
         "static const wh_hybrid contacts = {\n    .accel = accelerations,\n"
         "    .signals = contact_signals,\n    .forces = contact_forces,\n    .sets = %s,\n"
         "    .contact = contact_table,\n    .target = %s,\n    .ledger = %s,\n    .contacts = %d,\n"
-        "    .forced = %d,\n    .method = %s,\n    .compensated = %s,\n"
+        "    .forced = %d,\n    .evaluations = WH_CONTACT_EVALUATIONS(%d, %d, %d),\n"
+        "    .method = %s,\n    .compensated = %s,\n"
         "    .angles = %d,\n    .coordinates = %d,\n};\n\n",
         c->sets != NULL ? "contact_sets" : "NULL", c->set_count > 0 ? "contact_target" : "NULL",
-        p->ledger != NULL ? "&ledger" : "NULL", c->count, c->forced,
-        c_method_names[settings->method], settings->compensated ? "true" : "false", p->angles,
-        p->coordinates);
+        p->ledger != NULL ? "&ledger" : "NULL", c->count, c->forced, c_stages[settings->method],
+        contact_lists_stops(c), c->forced, c_method_names[settings->method],
+        settings->compensated ? "true" : "false", p->angles, p->coordinates);
     fprintf(out,
             "static wh_status advance(const wh_scene *scene, wh_state *state) {\n"
             "    (void)scene;\n    return wh_step_contact(&contacts, WH_R(%a), state);\n}\n\n",

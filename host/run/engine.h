@@ -29,6 +29,8 @@ typedef struct engine_kind {
     int (*fault)(const void *run);
     /* Events since the start, and steps with more than WH_EVENTS_MAX moments of them. */
     uint64_t (*events)(const void *run, uint64_t *overruns);
+    /* Evaluations of the accelerations since the start; *most: declared for one step with contacts. */
+    uint64_t (*evaluations)(const void *run, uint64_t *most);
     /* The books so far: total[entries], error[accounts] (the numerical drift); SI. */
     void (*ledger)(const void *run, double *total, double *error);
 } engine_kind;

@@ -158,7 +158,7 @@ done <"$scratch/list"
     sed 's/.*/    {&, \&scene_&},/' "$scratch/numbers"
     cat <<'END'
 };
-static uint64_t memory[WH_STATE_WORDS(64, 128, 64)];
+static uint64_t memory[WH_STATE_WORDS(64, 128, 64) + WH_CONTACT_WORDS(16) + WH_LEDGER_WORDS(2048, 65)];
 int main(void) {
     for (unsigned i = 0; i < sizeof all / sizeof all[0]; i++) {
         wh_state state;
