@@ -1,0 +1,191 @@
+/* hand.c: see hand.h. */
+#include "hand.h"
+
+#include "unity.h"
+
+/* --- the mechanism ------------------------------------------------------------------------------- */
+
+static void hand_accel(const void *model, const wh_phase *phase, const wh_real *linear,
+                       const wh_real *rate, const wh_real *input, wh_real *accel) {
+    const hand *m = model;
+    (void)phase;
+    (void)rate;
+    (void)input;
+    for (unsigned i = 0; i < m->n; i++) {
+        accel[i] = WH_R(0.0);
+        for (unsigned j = 0; j < m->n; j++) {
+            accel[i] += m->inverse[i][j] * (m->load[j] - m->spring[j] * linear[j]);
+        }
+    }
+}
+
+static wh_real along(const hand *m, unsigned k, const wh_real *x) {
+    wh_real sum = WH_R(0.0);
+    for (unsigned i = 0; i < m->n; i++) {
+        sum += m->law[k].row[i] * x[i];
+    }
+    return sum;
+}
+
+static void hand_signals(const void *model, const wh_phase *phase, const wh_real *linear,
+                         const wh_real *rate, const wh_real *input, wh_real *result) {
+    const hand *m = model;
+    (void)phase;
+    for (unsigned k = 0; k < m->hybrid.contacts; k++) {
+        result[2 * k] = along(m, k, linear) - m->law[k].offset;
+        result[2 * k + 1] = along(m, k, rate);
+        if (m->contact[k].kind == WH_HOLD) {
+            result[2 * k] = input[0];
+        } else if (m->contact[k].kind == WH_FRICTION) {
+            result[2 * k] = along(m, k, rate);
+        }
+    }
+}
+
+static void hand_forces(const void *model, const wh_phase *phase, const wh_real *linear,
+                        const wh_real *rate, const wh_real *input, wh_real *result) {
+    const hand *m = model;
+    (void)phase;
+    (void)linear;
+    (void)rate;
+    (void)input;
+    for (unsigned k = 0; k < m->hybrid.forced; k++) {
+        wh_real *law = result + k * (WH_LAW_ROWS + 2 * m->n);
+        law[WH_LAW_FIRST] = m->law[k].first;
+        law[WH_LAW_SECOND] = m->law[k].second;
+        law[WH_LAW_BIAS] = WH_R(0.0);
+        for (unsigned i = 0; i < m->n; i++) {
+            law[WH_LAW_ROWS + i] = m->law[k].row[i];
+            law[WH_LAW_ROWS + m->n + i] = along(m, k, m->inverse[i]);
+        }
+    }
+}
+
+/* A crossing turns the first rate round and halves it. */
+static void hand_sets(const void *model, const wh_phase *phase, const wh_real *linear,
+                      const wh_real *rate, const wh_real *input, wh_real *result) {
+    (void)model;
+    (void)phase;
+    (void)linear;
+    (void)input;
+    result[0] = WH_R(-0.5) * rate[0];
+}
+
+/* Entries: what the loads and springs put into each momentum, and the loads' work. */
+static void hand_powers(const void *model, const wh_phase *phase, const wh_real *linear,
+                        const wh_real *rate, const wh_real *input, wh_real *result) {
+    const hand *m = model;
+    (void)phase;
+    (void)input;
+    result[0] = WH_R(0.0);
+    for (unsigned i = 0; i < m->n; i++) {
+        result[0] += m->load[i] * rate[i];
+        result[1 + i] = m->load[i] - m->spring[i] * linear[i];
+    }
+}
+
+static void hand_levels(const void *model, const wh_angle *angle, const wh_real *linear,
+                        const wh_real *rate, const wh_real *input, wh_real *level) {
+    const hand *m = model;
+    (void)angle;
+    (void)input;
+    level[0] = WH_R(0.0);
+    for (unsigned i = 0; i < m->n; i++) {
+        level[1 + i] = WH_R(0.0);
+        for (unsigned j = 0; j < m->n; j++) {
+            level[1 + i] += m->mass[i][j] * rate[j];
+        }
+        level[0] += WH_R(0.5) * (level[1 + i] * rate[i] + m->spring[i] * linear[i] * linear[i]);
+    }
+}
+
+static wh_status hand_advance(const wh_scene *scene, wh_state *state) {
+    const hand *m = scene->model;
+    return wh_step_contact(&m->hybrid, scene->step_s, state);
+}
+
+/* --- its scenes ------------------------------------------------------------------------------------ */
+
+hand hand_now;
+static const uint8_t accounts[3] = {0, 1, 2};
+wh_ledger_form hand_books;
+static uint64_t memory[WH_STATE_WORDS(0, 4, 1) + WH_CONTACT_WORDS(3) + WH_LEDGER_WORDS(16, 3)];
+wh_state hand_state;
+wh_real hand_pushed;
+
+/* One body of 1 kg, or two with the given mass matrix; no contact yet. */
+void hand_build(unsigned n, wh_real m00, wh_real m01, wh_real m11) {
+    const wh_real det = m00 * m11 - m01 * m01;
+    hand_now = (hand){.n = n,
+                      .mass = {{m00, m01}, {m01, m11}},
+                      .inverse = {{m11 / det, -m01 / det}, {-m01 / det, m00 / det}}};
+    if (n == 1) {
+        hand_now.inverse[0][0] = WH_R(1.0) / m00;
+    }
+}
+
+unsigned hand_add(wh_contact_kind kind, int pin, wh_real row0, wh_real row1, wh_real offset,
+                  wh_real first, wh_real second) {
+    const unsigned k = hand_now.hybrid.contacts++;
+    hand_now.hybrid.forced = (uint8_t)(hand_now.hybrid.forced + (kind != WH_WHEN));
+    hand_now.contact[k] = (wh_contact){(uint8_t)kind, (int8_t)pin, 0, 0, kind == WH_WHEN};
+    hand_now.law[k].row[0] = row0;
+    hand_now.law[k].row[1] = row1;
+    hand_now.law[k].offset = offset;
+    hand_now.law[k].first = first;
+    hand_now.law[k].second = second;
+    return k;
+}
+
+void hand_start(bool with_books) {
+    static uint8_t target;
+    target = (uint8_t)hand_now.n; /* the first rate */
+    hand_now.hybrid.model = &hand_now;
+    hand_now.hybrid.accel = hand_accel;
+    hand_now.hybrid.signals = hand_signals;
+    hand_now.hybrid.forces = hand_forces;
+    hand_now.hybrid.sets = hand_sets;
+    hand_now.hybrid.contact = hand_now.contact;
+    hand_now.hybrid.target = &target;
+    hand_now.hybrid.method = WH_RK4;
+    hand_now.hybrid.coordinates = (uint8_t)hand_now.n;
+    hand_books = (wh_ledger_form){
+        .model = &hand_now,
+        .powers = hand_powers,
+        .levels = hand_levels,
+        .account = accounts,
+        .smooth = (uint16_t)(1 + hand_now.n),
+        .entries = (uint16_t)(1 + hand_now.n + hand_now.hybrid.contacts * (1 + hand_now.n)),
+        .accounts = (uint8_t)(1 + hand_now.n),
+        .coordinates = (uint8_t)hand_now.n};
+    hand_now.hybrid.ledger = with_books ? &hand_books : NULL;
+    hand_now.scene = (wh_scene){.name = "hand",
+                                .form = WH_SECOND_ORDER,
+                                .reals = (uint8_t)(2 * hand_now.n),
+                                .inputs = 1,
+                                .contacts = hand_now.hybrid.contacts,
+                                .step_s = WH_R(0.001),
+                                .start_real = hand_now.start,
+                                .start_input = &hand_pushed,
+                                .ledger = hand_now.hybrid.ledger,
+                                .model = &hand_now,
+                                .advance = hand_advance};
+    TEST_ASSERT_TRUE(wh_scene_start(&hand_now.scene, &hand_state, memory, sizeof memory) == WH_OK);
+}
+
+void hand_steps(unsigned count) {
+    for (unsigned i = 0; i < count; i++) {
+        TEST_ASSERT_TRUE(wh_scene_step(&hand_now.scene, &hand_state) == WH_OK);
+    }
+}
+
+bool hand_near(wh_real value, wh_real wanted, double bound, double bound_f) {
+    return (double)WH_ABS(value - wanted) <= (WH_DOUBLE ? bound : bound_f);
+}
+
+void hand_build_ball(wh_real restitution) {
+    hand_build(1, WH_R(1.0), WH_R(0.0), WH_R(1.0));
+    hand_now.load[0] = -HAND_G;
+    hand_now.start[0] = WH_R(1.0);
+    hand_add(WH_STOP, 0, WH_R(1.0), WH_R(0.0), WH_R(0.0), restitution, WH_R(0.0));
+}

@@ -1,0 +1,51 @@
+/* hand.h: mechanisms with contacts written by hand: up to two coordinates, a constant mass matrix, constant
+ * loads and springs, so that every result has a closed form. */
+#ifndef TESTS_HAND_H
+#define TESTS_HAND_H
+
+#define WH_LEDGER 1
+#include "core/contact_step.h"
+
+typedef struct hand {
+    unsigned n;
+    wh_real mass[2][2];
+    wh_real inverse[2][2];
+    wh_real load[2];   /* N */
+    wh_real spring[2]; /* N/m, to the origin */
+    struct {
+        wh_real row[2]; /* gap, held or crossing expression: row . x - offset */
+        wh_real offset;
+        wh_real first;  /* restitution, or mu_static N */
+        wh_real second; /* mu_kinetic N */
+    } law[3];
+    wh_contact contact[3];
+    wh_hybrid hybrid;
+    wh_real start[4];
+    wh_scene scene;
+} hand;
+
+extern hand hand_now;             /* the mechanism that the calls below build and run */
+extern wh_ledger_form hand_books; /* its ledger */
+extern wh_state hand_state;
+extern wh_real hand_pushed; /* the scene's input: a hold's condition, true above zero */
+
+/* One body (of m00), or two with the given mass matrix; no contact, load or spring yet. */
+void hand_build(unsigned n, wh_real m00, wh_real m01, wh_real m11);
+/* Add a contact; see hand.law for the numbers. Returns its number. Those with a force come first. */
+unsigned hand_add(wh_contact_kind kind, int pin, wh_real row0, wh_real row1, wh_real offset,
+                  wh_real first, wh_real second);
+/* Put it at its start, with a step of 1 ms. */
+void hand_start(bool with_books);
+/* So many steps, all of which must succeed. */
+void hand_steps(unsigned count);
+/* |value - wanted|, at most `bound` in double and `bound_f` in float. A float sum rounds by up to 3e-8 of
+ * its value a step, so what ran for n steps is bounded by n times that. */
+bool hand_near(wh_real value, wh_real wanted, double bound, double bound_f);
+
+/* Gravity, m/s^2. */
+#define HAND_G WH_R(9.81)
+
+/* A ball of 1 kg, 1 m above a stop. */
+void hand_build_ball(wh_real restitution);
+
+#endif

@@ -1,0 +1,211 @@
+/* test_contact.c: stops, friction, holds and crossings on mechanisms with closed forms (hand.h). */
+#include "hand.h"
+
+#include "unity.h"
+
+void suite_contact(void);
+
+/* --- stops ----------------------------------------------------------------------------------------- */
+
+/* From 1 m, restitution 1/2: bounces end at 3 sqrt(2 h / g), and the ball is where it is for a minute. */
+static void test_ball_comes_to_rest_and_stays(void) {
+    const wh_real rest_s = WH_R(3.0) * WH_SQRT(WH_R(2.0) / HAND_G);
+    hand_build_ball(WH_R(0.5));
+    hand_start(false);
+    unsigned at = 0;
+    while (hand_state.steps < 2000 && at == 0) {
+        hand_steps(1);
+        at = hand_state.contacts->mode[0] == WH_ACTIVE ? (unsigned)hand_state.steps : 0;
+    }
+    TEST_ASSERT_TRUE(hand_near((wh_real)at * WH_R(0.001), rest_s, 1e-3, 1e-3));
+    hand_steps(60000 - at);
+    TEST_ASSERT_TRUE(hand_state.real[0] == WH_R(0.0));
+    TEST_ASSERT_TRUE(hand_state.real[1] == WH_R(0.0));
+    TEST_ASSERT_TRUE(hand_state.contacts->overruns == 0);
+}
+
+/* The first impact: at sqrt(2 h / g), with -(1 + e) times the speed. */
+static void test_first_impact_is_where_and_what_it_must_be(void) {
+    const wh_real fall_s = WH_SQRT(WH_R(2.0) / HAND_G);
+    hand_build_ball(WH_R(0.5));
+    hand_start(false);
+    while (hand_state.contacts->events == 0) {
+        hand_steps(1);
+    }
+    const wh_event event = hand_state.contacts->log[0];
+    const wh_real at_s = (wh_real)(hand_state.steps - 1) * WH_R(0.001) + event.at_s;
+    TEST_ASSERT_TRUE(hand_near(at_s, fall_s, 1e-12, 2e-6));
+    TEST_ASSERT_TRUE(hand_near(event.impulse, WH_R(1.5) * HAND_G * fall_s, 1e-11, 5e-5));
+    TEST_ASSERT_TRUE(event.contact == 0 && event.mode == WH_FREE);
+}
+
+static void test_perfect_bounces_keep_the_height(void) {
+    hand_build_ball(WH_R(1.0));
+    hand_start(false);
+    wh_real highest = WH_R(0.0);
+    for (unsigned i = 0; i < 20000; i++) {
+        hand_steps(1);
+        highest = i > 19000 && hand_state.real[0] > highest ? hand_state.real[0] : highest;
+    }
+    TEST_ASSERT_TRUE(
+        hand_near(highest, WH_R(1.0), 2e-6, 2e-4)); /* a step misses the top by g (h/2)^2/2 */
+    TEST_ASSERT_TRUE(highest <= WH_R(1.0) + (WH_DOUBLE ? WH_R(1e-9) : WH_R(2e-4)));
+}
+
+/* A spring presses the body on the stop, then a load lifts it off again. */
+static void test_resting_stop_lets_go_when_the_force_turns(void) {
+    hand_build(1, WH_R(1.0), WH_R(0.0), WH_R(1.0));
+    hand_now.load[0] = WH_R(-1.0);
+    hand_add(WH_STOP, 0, WH_R(1.0), WH_R(0.0), WH_R(0.25), WH_R(0.0), WH_R(0.0));
+    hand_now.start[0] = WH_R(0.25);
+    hand_start(false);
+    hand_steps(100);
+    TEST_ASSERT_TRUE(hand_state.contacts->mode[0] == WH_ACTIVE);
+    TEST_ASSERT_TRUE(hand_state.real[0] == WH_R(0.25) && hand_state.real[1] == WH_R(0.0));
+    hand_now.load[0] = WH_R(2.0);
+    hand_steps(500);
+    TEST_ASSERT_TRUE(hand_state.contacts->mode[0] == WH_FREE);
+    TEST_ASSERT_TRUE(hand_near(hand_state.real[1], WH_R(1.0), 1e-12, 1e-5)); /* 2 t */
+}
+
+/* M = (2 1; 1 2), v = (-3, 1), a stop on the first coordinate with e = 0.4: the impulse is
+ * (1 + e) 3 / (M^-1)_00 = 6.3; v+ = v + M^-1 (6.3, 0); the second momentum does not change. */
+static void test_coupled_impact_goes_through_the_mass_matrix(void) {
+    hand_build(2, WH_R(2.0), WH_R(1.0), WH_R(2.0));
+    hand_add(WH_STOP, 0, WH_R(1.0), WH_R(0.0), WH_R(0.0), WH_R(0.4), WH_R(0.0));
+    hand_now.start[0] = WH_R(0.0015);
+    hand_now.start[2] = WH_R(-3.0);
+    hand_now.start[3] = WH_R(1.0);
+    hand_start(false);
+    hand_steps(1);
+    TEST_ASSERT_TRUE(hand_state.contacts->events == 1);
+    TEST_ASSERT_TRUE(hand_near(hand_state.contacts->log[0].impulse, WH_R(6.3), 1e-12, 5e-6));
+    TEST_ASSERT_TRUE(hand_near(hand_state.real[2], WH_R(1.2), 1e-12, 5e-6));
+    TEST_ASSERT_TRUE(hand_near(hand_state.real[3], WH_R(-1.1), 1e-12, 5e-6));
+    TEST_ASSERT_TRUE(
+        hand_near(hand_state.real[2] + WH_R(2.0) * hand_state.real[3], WH_R(-1.0), 1e-15, 5e-7));
+}
+
+/* Two stops a micrometre apart and a fast body: far more bounces than a step can hold. */
+static void test_too_many_bounces_are_counted_and_end(void) {
+    hand_build(1, WH_R(1.0), WH_R(0.0), WH_R(1.0));
+    hand_add(WH_STOP, 0, WH_R(1.0), WH_R(0.0), WH_R(0.0), WH_R(1.0), WH_R(0.0));
+    hand_add(WH_STOP, 0, WH_R(-1.0), WH_R(0.0), WH_R(-1e-6), WH_R(1.0), WH_R(0.0));
+    hand_now.start[0] = WH_R(5e-7);
+    hand_now.start[1] = WH_R(1.0);
+    hand_start(false);
+    hand_steps(1);
+    TEST_ASSERT_TRUE(hand_state.contacts->overruns == 1);
+    TEST_ASSERT_TRUE(hand_state.contacts->events >= WH_EVENTS_MAX);
+    hand_steps(100);
+    TEST_ASSERT_TRUE(WH_ABS(hand_state.real[1]) <= WH_R(1.0));
+}
+
+/* --- friction, holds, crossings -------------------------------------------------------------------- */
+
+/* 10 degrees: sin 0.17364818, cos 0.98480775. */
+static void build_block(wh_real coefficient) {
+    const wh_real normal = HAND_G * WH_R(0.984807753);
+    hand_build(1, WH_R(1.0), WH_R(0.0), WH_R(1.0));
+    hand_now.load[0] = HAND_G * WH_R(0.173648178);
+    hand_add(WH_FRICTION, 0, WH_R(1.0), WH_R(0.0), WH_R(0.0), coefficient * normal,
+             coefficient * normal);
+}
+
+static void test_block_sticks_on_the_incline(void) {
+    build_block(WH_R(0.5));
+    hand_start(false);
+    hand_steps(60000);
+    TEST_ASSERT_TRUE(hand_state.real[0] == WH_R(0.0) && hand_state.real[1] == WH_R(0.0));
+}
+
+static void test_block_slides_when_friction_is_too_small(void) {
+    build_block(WH_R(0.15));
+    hand_start(false);
+    hand_steps(1000);
+    const wh_real slope = HAND_G * (WH_R(0.173648178) - WH_R(0.15) * WH_R(0.984807753));
+    TEST_ASSERT_TRUE(hand_near(hand_state.real[1], slope, 1e-12, 2e-5));
+    TEST_ASSERT_TRUE(hand_near(hand_state.real[0], WH_R(0.5) * slope, 1e-12, 2e-5));
+}
+
+/* Thrown at 1 m/s on a level table, mu g = 2: stops after 1/2 s and 1/4 m, and stays. */
+static void test_thrown_block_stops_and_sticks(void) {
+    hand_build(1, WH_R(1.0), WH_R(0.0), WH_R(1.0));
+    hand_add(WH_FRICTION, 0, WH_R(1.0), WH_R(0.0), WH_R(0.0), WH_R(2.0), WH_R(2.0));
+    hand_now.start[1] = WH_R(1.0);
+    hand_start(false);
+    hand_steps(502);
+    TEST_ASSERT_TRUE(hand_state.contacts->mode[0] == WH_STUCK);
+    const wh_real where = hand_state.real[0];
+    TEST_ASSERT_TRUE(hand_near(where, WH_R(0.25), 1e-12, 1.5e-5));
+    hand_steps(1000);
+    TEST_ASSERT_TRUE(hand_state.real[0] == where && hand_state.real[1] == WH_R(0.0));
+}
+
+/* Two bodies of 1 kg at 1 and 3 m/s whose difference is held: both go on at 2 m/s (the momentum), and
+ * when they are let go under a load on the first, only that one is accelerated. */
+static void test_hold_captures_and_lets_go(void) {
+    hand_build(2, WH_R(1.0), WH_R(0.0), WH_R(1.0));
+    hand_add(WH_HOLD, -1, WH_R(1.0), WH_R(-1.0), WH_R(0.0), WH_R(0.0), WH_R(0.0));
+    hand_now.start[2] = WH_R(1.0);
+    hand_now.start[3] = WH_R(3.0);
+    hand_pushed = WH_R(1.0);
+    hand_start(false);
+    hand_steps(100);
+    TEST_ASSERT_TRUE(hand_near(hand_state.real[2], WH_R(2.0), 1e-14, 1e-6));
+    TEST_ASSERT_TRUE(hand_near(hand_state.real[3], WH_R(2.0), 1e-14, 1e-6));
+    hand_now.load[0] = WH_R(4.0);
+    hand_steps(100); /* together: 2 m/s^2 */
+    TEST_ASSERT_TRUE(hand_near(hand_state.real[3], WH_R(2.2), 1e-12, 2e-5));
+    hand_state.input[0] = WH_R(-1.0);
+    hand_steps(100); /* the first alone: 4 m/s^2 */
+    TEST_ASSERT_TRUE(hand_near(hand_state.real[3], WH_R(2.2), 1e-12, 2e-5));
+    TEST_ASSERT_TRUE(hand_near(hand_state.real[2], WH_R(2.6), 1e-12, 2e-5));
+    hand_pushed = WH_R(0.0);
+}
+
+/* At x = 0.1 the rate goes from 1 to -1/2: at 0.2 s the body is at 0.05 m. */
+static void test_crossing_sets_the_rate(void) {
+    hand_build(1, WH_R(1.0), WH_R(0.0), WH_R(1.0));
+    hand_add(WH_WHEN, -1, WH_R(1.0), WH_R(0.0), WH_R(0.1), WH_R(0.0), WH_R(0.0));
+    hand_now.contact[0].direction = 1;
+    hand_now.start[1] = WH_R(1.0);
+    hand_start(false);
+    hand_steps(200);
+    TEST_ASSERT_TRUE(hand_state.contacts->events == 1);
+    TEST_ASSERT_TRUE(hand_state.real[1] == WH_R(-0.5));
+    TEST_ASSERT_TRUE(hand_near(hand_state.real[0], WH_R(0.05), 1e-12, 1e-6));
+}
+
+/* --- refusals -------------------------------------------------------------------------------------- */
+
+/* A load that no body can take: the step is refused, with state, modes and books as they were. */
+static void test_a_refused_step_changes_nothing(void) {
+    hand_build_ball(WH_R(0.5));
+    hand_start(true);
+    hand_steps(500);
+    const uint64_t hash = wh_scene_hash(&hand_now.scene, &hand_state);
+    const wh_real entry = hand_state.ledger[0];
+    const uint32_t events = hand_state.contacts->events;
+    hand_now.load[0] = WH_R(1e30);
+    TEST_ASSERT_TRUE(wh_scene_step(&hand_now.scene, &hand_state) == WH_E_DIVERGED);
+    TEST_ASSERT_TRUE(wh_scene_hash(&hand_now.scene, &hand_state) == hash);
+    TEST_ASSERT_TRUE(hand_state.ledger[0] == entry);
+    TEST_ASSERT_TRUE(hand_state.contacts->events == events);
+    TEST_ASSERT_TRUE(hand_state.fault >= 0);
+}
+
+void suite_contact(void) {
+    RUN_TEST(test_ball_comes_to_rest_and_stays);
+    RUN_TEST(test_first_impact_is_where_and_what_it_must_be);
+    RUN_TEST(test_perfect_bounces_keep_the_height);
+    RUN_TEST(test_resting_stop_lets_go_when_the_force_turns);
+    RUN_TEST(test_coupled_impact_goes_through_the_mass_matrix);
+    RUN_TEST(test_too_many_bounces_are_counted_and_end);
+    RUN_TEST(test_block_sticks_on_the_incline);
+    RUN_TEST(test_block_slides_when_friction_is_too_small);
+    RUN_TEST(test_thrown_block_stops_and_sticks);
+    RUN_TEST(test_hold_captures_and_lets_go);
+    RUN_TEST(test_crossing_sets_the_rate);
+    RUN_TEST(test_a_refused_step_changes_nothing);
+}
