@@ -3,7 +3,12 @@
 #ifndef TESTS_HAND_H
 #define TESTS_HAND_H
 
+/* as a generated scene would: a board's stack is small */
 #define WH_LEDGER 1
+#define WH_LEDGER_MAX 12
+#define WH_ACCOUNTS_MAX 3
+#define WH_CONTACTS_MAX 3
+#define WH_SETS_MAX 1
 #include "core/contact_step.h"
 
 typedef struct hand {
