@@ -98,6 +98,11 @@ bench: ## instructions a step, counted, on this machine and on the emulated boar
 	@CC="$(CC)" host/setup/deps.sh host firmware bench
 	@$(MAKE) bench-now
 
+.PHONY: worst-step
+worst-step: ## the most instructions of a step with events, over a million random steps a scene (minutes)
+	@CC="$(CC)" host/setup/deps.sh host firmware bench
+	@$(MAKE) worst-now
+
 .PHONY: size
 size: ## bytes of flash, of memory and of stack of BOARD's images
 	@CC="$(CC)" host/setup/deps.sh host firmware

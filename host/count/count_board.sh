@@ -4,6 +4,8 @@
 #   BOARD=mps2-an386 CC=arm-none-eabi-gcc NM=arm-none-eabi-nm FLAGS="-O2" PLUGIN=count.so \
 #   EMULATE="qemu-system-arm ... -kernel bench.elf" count_board.sh bench.elf figures.csv [SCENE]
 #
+# MORE is further arguments of the plugin (",every=1000").
+#
 # Appends rows to figures.csv (with a header if it is new) and prints them as a table. With SCENE,
 # prints instead where that scene's instructions go, by function (the one call of the end marker
 # included). Executed instructions, not cycles.
@@ -13,6 +15,7 @@ set -eu
 elf=$1
 csv=$2
 scene=${3:-}
+more=${MORE:-}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -45,7 +48,7 @@ case $PLUGIN in
 */*) ;;
 *) PLUGIN=./$PLUGIN ;;
 esac
-count ""
+count "$more"
 
 if [ -z "$scene" ]; then
     awk -v commit="$(commit_of_checkout)" -v board="$BOARD" -v compiler="$(compiler_of "$CC")" \

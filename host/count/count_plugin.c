@@ -7,6 +7,7 @@
  *                   one return instruction each
  *     profile=on    also say how often every single address was executed between markers
  *     first, last   the intervals (numbered from 0) whose instructions go into the profile
+ *     every=N       N intervals after each other count as one, which has the instructions of the largest
  *
  * An interval runs from the return instruction of wh_count_begin() to that of wh_count_end(), both
  * left out; the call of wh_count_end() is inside, which an interval around nothing shows. When the
@@ -68,10 +69,13 @@ static uint64_t end_address;
 static uint64_t first_profiled;
 static uint64_t last_profiled = UINT64_MAX;
 static bool profile;
+static uint64_t every = 1;
 
 static bool counting;
 static bool profiling; /* counting, and this interval goes into the profile */
 static uint64_t count;
+static uint64_t group_size; /* intervals in the present group, and their largest count */
+static uint64_t group_most;
 static uint64_t *intervals;
 static size_t interval_count;
 static size_t interval_room;
@@ -124,6 +128,10 @@ static void on_end(unsigned cpu, void *data) {
         fail("an interval ends that never began");
     }
     counting = false;
+    group_most = count > group_most ? count : group_most;
+    if (++group_size < every) {
+        return;
+    }
     if (interval_count == interval_room) {
         interval_room = interval_room == 0 ? 1024 : 2 * interval_room;
         intervals = realloc(intervals, interval_room * sizeof *intervals);
@@ -131,7 +139,9 @@ static void on_end(unsigned cpu, void *data) {
             fail("out of memory");
         }
     }
-    intervals[interval_count++] = count;
+    intervals[interval_count++] = group_most;
+    group_size = 0;
+    group_most = 0;
 }
 
 /* Called when QEMU translates a block; what is registered here runs before each instruction. */
@@ -205,6 +215,8 @@ int qemu_plugin_install(qemu_plugin_id_t id, const struct qemu_info_t *info, int
             first_profiled = number_of(value);
         } else if ((value = value_of(argv[i], "last")) != NULL) {
             last_profiled = number_of(value);
+        } else if ((value = value_of(argv[i], "every")) != NULL) {
+            every = number_of(value);
         } else if ((value = value_of(argv[i], "profile")) != NULL) {
             profile = strcmp(value, "on") == 0;
         } else {

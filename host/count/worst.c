@@ -1,0 +1,114 @@
+/* worst.c: the most instructions that a step of a scene with contacts takes, over random states.
+ *
+ * Every scene with stops, friction, holds or crossings runs WORST_STEPS steps. Each RUN steps its state is
+ * thrown: angles anywhere, rates and inputs times a random factor of up to 4 either way, positions moved
+ * by up to the distance of some steps, modes found anew. The counter keeps the largest of the intervals of
+ * a scene (count_plugin.c, every=WORST_STEPS). Says on the console what bench.c says. */
+#include "boards/board.h"
+#include "build/gen/scenes.h"
+#include "core/scene.h"
+#include "core/text.h"
+
+#ifndef WORST_STEPS
+#define WORST_STEPS 1000000U
+#endif
+#define RUN 16U
+
+static uint64_t
+    memory[WH_STATE_WORDS(16, 48, 16) + WH_CONTACT_WORDS(16) + WH_LEDGER_WORDS(128, 17)];
+static uint32_t seed = 1;
+
+void wh_count_begin(void);
+void wh_count_end(void);
+
+/* Nothing but a return. The operands differ so that the compiler does not make one of the two. */
+__attribute__((noinline)) void wh_count_begin(void) { __asm__ volatile("" : : "i"(1) : "memory"); }
+__attribute__((noinline)) void wh_count_end(void) { __asm__ volatile("" : : "i"(2) : "memory"); }
+
+/* The next of a sequence of 32-bit numbers (Marsaglia, Xorshift RNGs, 2003). */
+static uint32_t next(void) {
+    seed ^= seed << 13;
+    seed ^= seed >> 17;
+    seed ^= seed << 5;
+    return seed;
+}
+
+/* Between -size and size. */
+static wh_real within(wh_real size) {
+    return size * ((wh_real)(int32_t)next() / WH_R(2147483648.0));
+}
+
+static void throw_state(const wh_scene *scene, wh_state *state) {
+    const unsigned rates = (scene->reals + scene->angles) / 2U;
+    const unsigned linears = scene->reals - rates;
+    for (unsigned i = 0; i < scene->angles; i++) {
+        state->angle[i] = wh_angle_from_rad(within(WH_R(6.3)));
+    }
+    for (unsigned i = 0; i < rates; i++) {
+        wh_real *rate = &state->real[linears + i];
+        *rate = *rate * within(WH_R(4.0)) + within(WH_R(0.05));
+        if (!(WH_ABS(*rate) < WH_R(1e3))) {
+            *rate = within(WH_R(1.0));
+        }
+        if (i >= scene->angles) {
+            state->real[i - scene->angles] += *rate * within(WH_R(8.0) * scene->step_s);
+        }
+    }
+    for (unsigned i = 0; i < scene->inputs; i++) {
+        state->input[i] = scene->start_input[i] * within(WH_R(4.0));
+    }
+    for (unsigned i = 0; i < scene->contacts; i++) {
+        state->contacts->mode[i] = WH_UNSET;
+    }
+}
+
+static void say(const char *name, unsigned group) {
+    char line[160];
+    wh_text text;
+    wh_text_start(&text, line, sizeof line);
+    wh_text_add(&text, "count ");
+    wh_text_add(&text, name);
+    wh_text_add(&text, WH_DOUBLE ? " rk4 double " : " rk4 float ");
+    wh_text_add_unsigned(&text, group);
+    wh_text_add_char(&text, ' ');
+    wh_text_add_unsigned(&text, group);
+    wh_text_add_char(&text, '\n');
+    hal_console_write(text.bytes, text.length);
+}
+
+static bool run(const wh_scene *scene, unsigned group) {
+    wh_state state;
+    for (unsigned i = 0; i < WORST_STEPS; i++) {
+        if (i % (64U * RUN) == 0 &&
+            wh_scene_start(scene, &state, memory, sizeof memory) != WH_OK) {
+            return false;
+        }
+        if (i % RUN == 0) {
+            throw_state(scene, &state);
+        }
+        wh_count_begin();
+        const wh_status status = wh_scene_step(scene, &state);
+        wh_count_end();
+        if (status != WH_OK) { /* thrown too far */
+            (void)wh_scene_start(scene, &state, memory, sizeof memory);
+        }
+    }
+    say(scene->name, group);
+    return true;
+}
+
+int main(void) {
+    board_start();
+    for (unsigned i = 0; i < WORST_STEPS; i++) {
+        wh_count_begin();
+        wh_count_end();
+    }
+    unsigned group = 1;
+    bool all = true;
+    for (unsigned i = 0; i < wh_scene_count; i++) {
+        if (wh_scenes[i]->contacts > 0) {
+            all = run(wh_scenes[i], group++) && all;
+        }
+    }
+    return all ? 0 : 1;
+}
