@@ -79,8 +79,7 @@ static void say(const char *name, unsigned group) {
 static bool run(const wh_scene *scene, unsigned group) {
     wh_state state;
     for (unsigned i = 0; i < WORST_STEPS; i++) {
-        if (i % (64U * RUN) == 0 &&
-            wh_scene_start(scene, &state, memory, sizeof memory) != WH_OK) {
+        if (i % (64U * RUN) == 0 && wh_scene_start(scene, &state, memory, sizeof memory) != WH_OK) {
             return false;
         }
         if (i % RUN == 0) {
