@@ -67,11 +67,10 @@ enum {
 };
 
 typedef struct wh_contact {
-    uint8_t kind; /* wh_contact_kind */
-    int8_t
-        pin; /* the one coordinate that J_k has an entry for, and a constant one: its rate is held
-                        * at zero exactly; else -1 */
-    int8_t direction;  /* crossing: +1 rising, -1 falling, 0 both */
+    uint8_t kind;     /* wh_contact_kind */
+    int8_t direction; /* crossing: +1 rising, -1 falling, 0 both */
+    int16_t pin;      /* the one coordinate that J_k has an entry for, if that is constant: its rate
+                        * is held at zero exactly; else -1 */
     uint8_t first_set; /* crossing: its assignments */
     uint8_t sets;
 } wh_contact;

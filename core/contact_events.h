@@ -119,7 +119,7 @@ static inline void wh_contact_margins(const wh_hybrid *of, wh_contact_work *w,
     for (unsigned k = 0; k < of->contacts; k++) {
         const wh_real signal = m->signal[2 * k];
         const wh_real speed = m->signal[2 * k + 1];
-        const int mode = w->mode[k];
+        const int8_t mode = w->mode[k];
         wh_real margin = WH_R(1.0);
         switch (of->contact[k].kind) {
         case WH_STOP:

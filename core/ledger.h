@@ -89,6 +89,9 @@ WH_INLINE wh_real wh_ledger_stage(const wh_ledger_form *form, wh_method method,
                                   const wh_phase *phase, const wh_real *linear, const wh_real *rate,
                                   const wh_real *input, wh_ledger_work *w) {
     wh_real power[WH_LEDGER_MAX];
+    for (unsigned i = 0; i < form->smooth; i++) {
+        power[i] = WH_R(0.0);
+    }
     const wh_real share = w->span * wh_ledger_weight(method, w->stage++);
     form->powers(form->model, phase, linear, rate, input, power);
     for (unsigned i = 0; i < form->smooth; i++) {

@@ -17,8 +17,8 @@ static void write_table(FILE *out, const contact_lists *c) {
     fprintf(out, "static const wh_contact contact_table[%d] = {", c->count);
     for (int k = 0; k < c->count; k++) {
         const contact_row *row = &c->row[k];
-        fprintf(out, "%s\n    {%s, %d, %d, %d, %d}", k > 0 ? "," : "", kinds[row->kind], row->pin,
-                row->direction, row->first_set, row->sets);
+        fprintf(out, "%s\n    {%s, %d, %d, %d, %d}", k > 0 ? "," : "", kinds[row->kind],
+                row->direction, row->pin, row->first_set, row->sets);
     }
     fprintf(out, "};\n");
     if (c->set_count > 0) {

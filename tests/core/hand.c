@@ -128,7 +128,7 @@ unsigned hand_add(wh_contact_kind kind, int pin, wh_real row0, wh_real row1, wh_
                   wh_real first, wh_real second) {
     const unsigned k = hand_now.hybrid.contacts++;
     hand_now.hybrid.forced = (uint8_t)(hand_now.hybrid.forced + (kind != WH_WHEN));
-    hand_now.contact[k] = (wh_contact){(uint8_t)kind, (int8_t)pin, 0, 0, kind == WH_WHEN};
+    hand_now.contact[k] = (wh_contact){(uint8_t)kind, 0, (int16_t)pin, 0, kind == WH_WHEN};
     hand_now.law[k].row[0] = row0;
     hand_now.law[k].row[1] = row1;
     hand_now.law[k].offset = offset;
