@@ -1,8 +1,8 @@
 /* worst.c: the most instructions that a step of a scene with contacts takes, over random states.
  *
  * Every scene with stops, friction, holds or crossings runs WORST_STEPS steps. Each RUN steps its state is
- * thrown: angles anywhere, rates and inputs times a random factor of up to 4 either way, positions moved
- * by up to the distance of some steps, modes found anew. The counter keeps the largest of the intervals of
+ * thrown: angles anywhere, rates times a random factor of up to 2 and inputs of up to 4, either way,
+ * positions moved by up to the distance of some steps, modes found anew. The counter keeps the largest of the intervals of
  * a scene (count_plugin.c, every=WORST_STEPS). Says on the console what bench.c says. */
 #include "boards/board.h"
 #include "build/gen/scenes.h"
@@ -12,7 +12,7 @@
 #ifndef WORST_STEPS
 #define WORST_STEPS 1000000U
 #endif
-#define RUN 16U
+#define RUN 32U
 
 static uint64_t
     memory[WH_STATE_WORDS(16, 48, 16) + WH_CONTACT_WORDS(16) + WH_LEDGER_WORDS(128, 17)];
@@ -46,7 +46,7 @@ static void throw_state(const wh_scene *scene, wh_state *state) {
     }
     for (unsigned i = 0; i < rates; i++) {
         wh_real *rate = &state->real[linears + i];
-        *rate = *rate * within(WH_R(4.0)) + within(WH_R(0.05));
+        *rate = *rate * within(WH_R(2.0)) + within(WH_R(0.05));
         if (!(WH_ABS(*rate) < WH_R(1e3))) {
             *rate = within(WH_R(1.0));
         }
@@ -79,7 +79,7 @@ static void say(const char *name, unsigned group) {
 static bool run(const wh_scene *scene, unsigned group) {
     wh_state state;
     for (unsigned i = 0; i < WORST_STEPS; i++) {
-        if (i % (64U * RUN) == 0 && wh_scene_start(scene, &state, memory, sizeof memory) != WH_OK) {
+        if (i % 8192U == 0 && wh_scene_start(scene, &state, memory, sizeof memory) != WH_OK) {
             return false;
         }
         if (i % RUN == 0) {

@@ -1,0 +1,183 @@
+/* test_contact_bound.c: over random states of every built-in scene with contacts, no step evaluates the
+ * accelerations more often than the scene declares, none hangs, and no energy appears from a stop, from
+ * friction or from a hold.
+ *
+ * The suite does RANDOM_STEPS steps a scene; the environment's WHIRL_RANDOM_STEPS asks for more. */
+#include "derived.h"
+#include "host/derive/contact_lists.h"
+#include "host/derive/ledger.h"
+#include "host/lang/builtin.h"
+#include "host/run/engine.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "unity.h"
+
+void suite_contact_bound(void);
+
+enum { RANDOM_STEPS = 20000, RUN = 20, SAMPLES = 200 };
+
+static long random_steps(void) {
+    const char *wanted = getenv("WHIRL_RANDOM_STEPS");
+    const long count = wanted != NULL ? strtol(wanted, NULL, 10) : 0;
+    return count > 0 ? count : RANDOM_STEPS;
+}
+
+/* States of the scene's own run, evenly over it. */
+typedef struct samples {
+    int count;
+    double value[SAMPLES][PROGRAM_COMPONENTS_MAX]; /* by unknown */
+    double rate[SAMPLES][PROGRAM_COMPONENTS_MAX];
+    double rate_scale[PROGRAM_COMPONENTS_MAX]; /* the largest */
+} samples;
+
+static void take_sample(const program *p, const engine_kind *kind, const void *run, samples *s) {
+    double angle_rad[PROGRAM_COMPONENTS_MAX];
+    double real[2 * PROGRAM_COMPONENTS_MAX];
+    kind->state(run, angle_rad, real);
+    for (int i = 0; i < p->angles; i++) {
+        s->value[s->count][p->angle[i].unknown] = angle_rad[i];
+    }
+    for (int i = 0; i < p->reals; i++) {
+        const component c = p->real[i];
+        (c.primes == 0 ? s->value : s->rate)[s->count][c.unknown] = real[i];
+        if (c.primes == 1) {
+            s->rate_scale[c.unknown] = fmax(s->rate_scale[c.unknown], fabs(real[i]));
+        }
+    }
+    s->count++;
+}
+
+static void take_samples(const derived *d, const engine_kind *kind, samples *s) {
+    const engine_settings settings = {WH_RK4, false};
+    const double until_s = fmin(d->instance->until_s, 20.0);
+    const long each = (long)(until_s / d->instance->step_s) / SAMPLES + 1;
+    void *run = kind->start(d->program, d->instance, &settings);
+    *s = (samples){0};
+    for (int i = 0; i < SAMPLES; i++) {
+        take_sample(d->program, kind, run, s);
+        for (long k = 0; k < each; k++) {
+            TEST_ASSERT_EQUAL_INT(WH_OK, kind->step(run));
+        }
+    }
+    kind->stop(run);
+}
+
+/* Throw the start: a state of the run, its rates times a random factor and some more, its linear positions
+ * moved by what they would do in a few steps, the angles anywhere. */
+static void throw_start(const instance *inst, const samples *s, uint64_t *seed) {
+    const mechanism *m = inst->mechanism;
+    const int from = (int)(random_bits(seed) % SAMPLES);
+    for (int i = 0; i < m->coordinate_count; i++) {
+        double *start = inst->start[i];
+        start[1] = random_between(seed, -2.0, 2.0) * s->rate[from][i] +
+                   random_between(seed, -0.2, 0.2) * fmax(s->rate_scale[i], 0.05);
+        start[0] =
+            m->coordinates[i]->is_angle
+                ? random_between(seed, -6.3, 6.3)
+                : s->value[from][i] + random_between(seed, -8.0, 8.0) * start[1] * inst->step_s;
+    }
+}
+
+typedef struct worst {
+    uint64_t evaluations;
+    uint64_t declared;
+    uint64_t events;
+    uint64_t overruns;
+    double gained_J; /* by one contact in one run */
+} worst;
+
+/* Entries of contacts into the energy: all but what crossings set can only take. */
+static void watch_books(const program *p, const engine_kind *kind, const void *run, worst *w) {
+    const ledger_lists *l = p->ledger;
+    double *total = calloc((size_t)(l->entries + l->accounts), sizeof *total);
+    TEST_ASSERT_TRUE(total != NULL);
+    kind->ledger(run, total, total + l->entries);
+    for (int k = 0; k < p->contacts->forced; k++) {
+        w->gained_J = fmax(w->gained_J, total[l->smooth + k * (1 + p->coordinates)]);
+    }
+    free(total);
+}
+
+static worst run_randomly(const derived *d, const engine_kind *kind, long steps) {
+    const engine_settings settings = {WH_RK4, false};
+    uint64_t seed = 20240131;
+    worst w = {0};
+    static samples around;
+    take_samples(d, kind, &around);
+    for (long done = 0; done < steps; done += RUN) {
+        throw_start(d->instance, &around, &seed);
+        void *run = kind->start(d->program, d->instance, &settings);
+        uint64_t before = 0;
+        uint64_t overruns;
+        wh_status status = WH_OK;
+        for (int i = 0; i < RUN && status == WH_OK; i++) {
+            status = kind->step(run); /* a state thrown too far may be refused */
+            const uint64_t now = kind->evaluations(run, &w.declared);
+            w.evaluations = now - before > w.evaluations ? now - before : w.evaluations;
+            before = now;
+        }
+        w.events += kind->events(run, &overruns);
+        w.overruns += overruns;
+        watch_books(d->program, kind, run, &w);
+        kind->stop(run);
+    }
+    return w;
+}
+
+/* One scene, with books, in one arithmetic. */
+static void check_scene(const scene *of, const engine_kind *kind) {
+    diags *errors = diags_new();
+    derived d = {.instance = instance_make(of->mechanism, of, NULL, errors)};
+    TEST_ASSERT_NOT_NULL(d.instance);
+    d.instance->ledger = true;
+    d.equations = equations_derive(d.instance, errors);
+    TEST_ASSERT_NOT_NULL(d.equations);
+    d.program = program_make(d.equations, of->conserve, errors);
+    TEST_ASSERT_NOT_NULL(d.program);
+    const worst w = run_randomly(&d, kind, random_steps());
+    char line[240];
+    snprintf(line, sizeof line,
+             "%s %s: at most %llu evaluations a step, declared %llu; %llu events, %llu overruns; a "
+             "contact gave at most %.1e J",
+             of->name, kind->name, (unsigned long long)w.evaluations,
+             (unsigned long long)w.declared, (unsigned long long)w.events,
+             (unsigned long long)w.overruns, w.gained_J);
+    puts(line);
+    TEST_ASSERT_TRUE_MESSAGE(w.evaluations <= w.declared, line);
+    TEST_ASSERT_TRUE_MESSAGE(w.events > 0, line);
+    if (kind == &engine_double) {
+        TEST_ASSERT_TRUE_MESSAGE(w.gained_J < 1e-9, line);
+    }
+    program_free(d.program);
+    equations_free(d.equations);
+    instance_free(d.instance);
+    diags_free(errors);
+}
+
+static void test_no_step_exceeds_its_declared_bound(void) {
+    int scenes = 0;
+    for (size_t f = 0; f < builtin_model_count; f++) {
+        const struct builtin_model *b = &builtin_models[f];
+        diags *errors = diags_new();
+        model *all = model_parse(b->file, b->text, b->length, errors);
+        TEST_ASSERT_NOT_NULL(all);
+        for (int s = 0; s < all->scene_count; s++) {
+            derived d = derived_builtin(all->scenes[s]->name);
+            const bool contacts = d.program != NULL && d.program->contacts != NULL;
+            derived_free(&d);
+            if (contacts) {
+                check_scene(all->scenes[s], &engine_float);
+                check_scene(all->scenes[s], &engine_double);
+                scenes++;
+            }
+        }
+        model_free(all);
+        diags_free(errors);
+    }
+    TEST_ASSERT_TRUE(scenes >= 5);
+}
+
+void suite_contact_bound(void) { RUN_TEST(test_no_step_exceeds_its_declared_bound); }
