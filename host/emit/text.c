@@ -5,6 +5,7 @@
 
 #include "emit.h"
 #include "show.h"
+#include "show_events.h"
 
 /* A closed formula for an acceleration with more terms than this is not read by anyone: the mass
  * matrix is printed instead. */
@@ -39,9 +40,11 @@ static void write_names(const show *s, const equations *e) {
         }
     }
     for (int i = 0; i < m->input_count; i++) {
-        fprintf(s->out, "  input      %-10s = %.10g (SI)%s%s\n", m->inputs[i]->name,
-                e->instance->input[i], m->inputs[i]->text[0] != '\0' ? "  " : "",
-                m->inputs[i]->text);
+        const symbol *u = m->inputs[i];
+        if (u->effect < 0 || e->instance->with[u->effect]) {
+            fprintf(s->out, "  input      %-10s = %.10g (SI)%s%s\n", u->name, e->instance->input[i],
+                    u->text[0] != '\0' ? "  " : "", u->text);
+        }
     }
     for (int i = 0; i < m->effect_count; i++) {
         if (e->instance->with[i]) {
@@ -215,6 +218,10 @@ void emit_text(FILE *out, const equations *e) {
         show_poly(&s, e->applied[i]);
         fputc('\n', out);
     }
+    if (e->contacts != NULL) {
+        fputc('\n', out);
+    }
+    show_events(out, e, "", "events inside a step, in the order in which they are taken:\n");
     write_first_order(&s, e);
 }
 
@@ -222,7 +229,9 @@ void emit_latex(FILE *out, const equations *e) {
     const show s = {out, SHOW_LATEX, e->algebra};
     const poly *top[2];
     const poly *bottom;
-    fprintf(out, "%% %s: equations of motion\n\\begin{align}\n", e->instance->mechanism->name);
+    fprintf(out, "%% %s: equations of motion\n", e->instance->mechanism->name);
+    show_events(out, e, "% ", "the motion between events; inside a step:");
+    fprintf(out, "\\begin{align}\n");
     for (int i = 0; i < e->count; i++) {
         fputs("  ", out);
         show_poly(&s, left_side(e, i));

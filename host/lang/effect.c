@@ -1,26 +1,8 @@
-/* effect.c: effect blocks, and the hybrid statements this version does not have. */
+/* effect.c: effect blocks. */
 #include <stdio.h>
 #include <string.h>
 
 #include "parser.h"
-
-static const char *const hybrid_words[] = {"stop", "friction", "hold", "when"};
-
-bool is_hybrid(const parser *in) {
-    for (size_t i = 0; i < sizeof hybrid_words / sizeof hybrid_words[0]; i++) {
-        if (parser_is_word(in, hybrid_words[i])) {
-            return true;
-        }
-    }
-    return false;
-}
-
-bool skip_hybrid(parser *in) {
-    parser_fail(in, NULL, "'%.*s' is not available in this version", (int)in->token.length,
-                in->token.text);
-    parser_skip_statement(in);
-    return true;
-}
 
 /* Words that begin something outside: the effect's brace must have been forgotten. */
 static bool leaves_effect(const parser *in) {
@@ -29,16 +11,19 @@ static bool leaves_effect(const parser *in) {
 }
 
 static bool parse_inside(parser *in) {
-    static const char *const words[] = {"parameter", "input", "let",      "T",    "V",   "F",
-                                        "Q",         "stop",  "friction", "hold", "when"};
+    static const char *const words[] = {"parameter", "input", "let",      "T",    "V",    "F",
+                                        "Q",         "stop",  "friction", "hold", "when", "noise"};
     bool known = false;
     in->statement = in->token.at.offset;
-    if (is_hybrid(in)) {
-        return skip_hybrid(in);
-    }
     bool good = parse_declaration(in, &known);
     if (!known) {
         good = parse_term(in, &known);
+    }
+    if (!known) {
+        good = parse_hybrid(in, &known);
+    }
+    if (!known) {
+        good = parse_noise(in, &known);
     }
     return known ? good : statement_unknown(in, words, sizeof words / sizeof words[0]);
 }
@@ -59,6 +44,10 @@ static bool parse_name(parser *in, effect *made) {
     }
     if (token_is(&in->token, "none")) {
         parser_fail(in, NULL, "'none' is a reserved word: `with none` calls for no effect");
+    }
+    if (token_is(&in->token, "ledger")) {
+        parser_fail(in, "`with ledger` keeps the books of energy and momentum: take another name",
+                    "'ledger' is a reserved word");
     }
     parser_next(in);
     return true;

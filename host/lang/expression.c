@@ -60,8 +60,7 @@ static const expr *parse_number(parser *in) {
     return made;
 }
 
-/* The ')' that closes `open`. */
-static bool close_parenthesis(parser *in, place open) {
+bool parse_close(parser *in, place open) {
     if (parser_is_sign(in, ')')) {
         in->parentheses--;
         parser_next(in);
@@ -118,7 +117,7 @@ static const expr *parse_call(parser *in, function_id function, place at) {
         parser_fail(in, NULL, "%s takes %s", name, wanted == 1 ? "one argument" : "two arguments");
         return NULL;
     }
-    if (!close_parenthesis(in, open)) {
+    if (!parse_close(in, open)) {
         return NULL;
     }
     in->nesting--;
@@ -158,6 +157,11 @@ static const expr *parse_named(parser *in) {
 }
 
 static const expr *parse_primary(parser *in) {
+    if (in->ready != NULL) {
+        const expr *taken = in->ready;
+        in->ready = NULL;
+        return taken;
+    }
     if (in->token.kind == TOKEN_NUMBER) {
         return parse_number(in);
     }
@@ -172,7 +176,7 @@ static const expr *parse_primary(parser *in) {
         in->parentheses++;
         parser_next(in);
         const expr *inner = parse_sum(in);
-        if (inner == NULL || !close_parenthesis(in, open)) {
+        if (inner == NULL || !parse_close(in, open)) {
             return NULL;
         }
         in->nesting--;
@@ -207,7 +211,7 @@ static const expr *parse_power(parser *in) {
 }
 
 static const expr *parse_signed(parser *in) {
-    if (!parser_is_sign(in, '-') && !parser_is_sign(in, '+')) {
+    if (in->ready != NULL || (!parser_is_sign(in, '-') && !parser_is_sign(in, '+'))) {
         return parse_power(in);
     }
     const token sign = in->token;

@@ -86,6 +86,9 @@ void finish_mechanism(parser *in, builder *done) {
     }
     if (made->is_system) {
         finish_system(in, done);
+        for (int i = 0; i < made->hybrid_count; i++) {
+            hybrid_on_system(in, &made->hybrids[i]);
+        }
     } else if (made->coordinate_count == 0) {
         diag_error(in->diags, made->at, "declare one with: coordinate theta [rad]",
                    "mechanism '%s' has no coordinate", made->name);

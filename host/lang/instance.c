@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "arena.h"
+#include "limits.h"
 #include "model.h"
 #include "override.h"
 #include "value.h"
@@ -59,10 +60,11 @@ static plan plan_new(const instance *made, diags *all) {
     return fresh;
 }
 
-static void apply_scene(plan *into, const scene *from, bool *with) {
+static void apply_scene(plan *into, const scene *from, instance *made) {
     for (int i = 0; i < from->mechanism->effect_count; i++) {
-        with[i] = from->with[i];
+        made->with[i] = from->with[i];
     }
+    made->ledger = from->ledger;
     for (int i = 0; i < from->set_count; i++) {
         apply(into, &from->sets[i]);
     }
@@ -91,6 +93,10 @@ static void apply_texts(plan *into, instance *made, override_kind kind, const ch
 static void apply_effects(plan *into, instance *made, const char *const *texts, int count,
                           bool wanted) {
     for (int i = 0; i < count; i++) {
+        if (strcmp(texts[i], "ledger") == 0) {
+            made->ledger = wanted;
+            continue;
+        }
         const int index =
             override_effect(made->mechanism, texts[i], made->arena, into->values.diags);
         if (index >= 0) {
@@ -190,12 +196,15 @@ instance *instance_make(const mechanism *of, const scene *from, const overrides 
     allocate(made);
     plan what = plan_new(made, all);
     if (from != NULL) {
-        apply_scene(&what, from, made->with);
+        apply_scene(&what, from, made);
     }
     if (changes != NULL) {
         apply_overrides(&what, made, changes);
     }
     evaluate(&what, made);
+    if (diags_calls(all) == before) {
+        limits_check(made, &what.values);
+    }
     if (diags_calls(all) != before) {
         arena_free(memory);
         return NULL;
@@ -214,5 +223,9 @@ bool instance_has_term(const instance *of, const term *each) {
 }
 
 bool instance_has_hybrid(const instance *of, const hybrid *each) {
+    return each->effect < 0 || of->with[each->effect];
+}
+
+bool instance_has_noise(const instance *of, const noise *each) {
     return each->effect < 0 || of->with[each->effect];
 }

@@ -148,8 +148,8 @@ typedef struct hybrid {
     place at;
 } hybrid;
 
-/* Most stops, frictions, holds and whens in one mechanism or scene. */
-enum { HYBRIDS_MAX = 16 };
+/* Most stops, frictions, holds and whens that take part in one run, and values its whens set. */
+enum { HYBRIDS_MAX = 16, SETS_MAX = 128 };
 
 /* `noise OUTPUT deviation EXPR seed NUMBER`: Gaussian noise on a recorded output (core/noise.h). */
 typedef struct noise {
@@ -262,6 +262,8 @@ typedef struct instance {
 bool instance_has_term(const instance *instance, const term *term);
 /* The same of an event-driven effect of the mechanism. */
 bool instance_has_hybrid(const instance *instance, const hybrid *hybrid);
+/* The same of a noise. */
+bool instance_has_noise(const instance *instance, const noise *noise);
 
 /* Evaluate a scene (or, with scene NULL, the mechanism at rest at zero) to numbers. `changes` may be
  * NULL. Returns NULL on error, reported to `diags`. */

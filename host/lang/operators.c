@@ -193,6 +193,14 @@ const expr *expr_binary(parser *in, expr_op op, place at, const expr *left, cons
     return made;
 }
 
+const expr *expr_difference(parser *in, place at, const expr *left, const expr *right) {
+    expr *made = join(in, EXPR_SUB, at, left, right);
+    if (made != NULL) {
+        made->dim = common_dimension(in, at, left, right, "compare", "with");
+    }
+    return made;
+}
+
 const expr *expr_negate(parser *in, place at, const expr *operand) {
     expr *made = join(in, EXPR_NEG, at, operand, NULL);
     if (made != NULL) {

@@ -167,6 +167,7 @@ int override_effect(const mechanism *of, const char *text, struct arena *arena, 
         }
         nearest_offer(&search, of->effects[i].name);
     }
+    nearest_offer(&search, "ledger");
     char hint[120] = "";
     if (search.best != NULL) {
         snprintf(hint, sizeof hint, "did you mean '%s'?", search.best);

@@ -68,6 +68,25 @@ bool parser_expect_sign(parser *in, int sign, const char *where) {
     return true;
 }
 
+bool parser_expect_word(parser *in, const char *word, const char *form) {
+    if (parser_is_word(in, word)) {
+        parser_next(in);
+        return true;
+    }
+    char words[80];
+    char hint[120];
+    snprintf(hint, sizeof hint, "%s", form);
+    if (in->token.kind == TOKEN_NAME) {
+        nearest search = nearest_start(in->token.text, in->token.length);
+        nearest_offer(&search, word);
+        if (search.best != NULL) {
+            snprintf(hint, sizeof hint, "did you mean '%s'?", word);
+        }
+    }
+    return parser_fail(in, hint, "'%s' is missing before %s", word,
+                       token_words(&in->token, words, sizeof words));
+}
+
 void parser_skip_lines(parser *in) {
     while (in->token.kind == TOKEN_NEWLINE || parser_is_sign(in, ';')) {
         parser_next(in);
@@ -77,7 +96,8 @@ void parser_skip_lines(parser *in) {
 static const char *const top_words[] = {"mechanism", "scene", "effect"};
 static const char *const statement_words[] = {
     "mechanism", "coordinate", "state", "parameter", "input",  "let",    "T",
-    "V",         "F",          "Q",     "equation",  "output", "effect", "scene"};
+    "V",         "F",          "Q",     "equation",  "output", "effect", "scene",
+    "stop",      "friction",   "hold",  "when",      "noise"};
 enum {
     TOP_WORD_COUNT = sizeof top_words / sizeof top_words[0],
     STATEMENT_WORD_COUNT = sizeof statement_words / sizeof statement_words[0]
@@ -270,13 +290,16 @@ static bool parse_statement(parser *in) {
     if (parser_is_word(in, "effect")) {
         return parse_effect(in);
     }
-    if (is_hybrid(in)) {
-        return skip_hybrid(in);
-    }
     bool known = false;
     bool good = parse_declaration(in, &known);
     if (!known) {
         good = parse_term(in, &known);
+    }
+    if (!known) {
+        good = parse_hybrid(in, &known);
+    }
+    if (!known) {
+        good = parse_noise(in, &known);
     }
     return known ? good : statement_unknown(in, statement_words, STATEMENT_WORD_COUNT);
 }

@@ -15,6 +15,8 @@ typedef enum expr_context {
     CONTEXT_CONSTANT, /* parameter, input, set, start, step: numbers and parameters */
     CONTEXT_FORCE,    /* T, V, F, Q: up to first derivatives of coordinates */
     CONTEXT_EQUATION, /* equations of a state system: derivatives of any order */
+    CONTEXT_GAP,      /* what stops and holds act on: coordinates, no rates */
+    CONTEXT_EVENT,    /* the rest of stop, friction, hold, when: up to first derivatives */
     CONTEXT_LET,      /* whatever its users may name */
     CONTEXT_OUTPUT    /* also second derivatives and earlier outputs */
 } expr_context;
@@ -49,6 +51,7 @@ typedef struct parser {
     diags *diags;
     struct arena *arena;
     expr_context context;
+    const expr *ready;         /* read already: the first operand of the expression to be parsed */
     int effect;                /* the one being read, or -1 */
     bool all_effects;          /* a scene may name the parameters of every effect */
     const struct names *names; /* NULL: no names at all */
@@ -67,6 +70,8 @@ bool parser_is_sign(const parser *in, int sign);
 bool parser_is_word(const parser *in, const char *word);
 bool parser_at_end_of_line(const parser *in); /* newline, `;`, end of text */
 bool token_is(const token *each, const char *word);
+/* The word wanted here; if another, it is reported with `form`, the statement's usual look. */
+bool parser_expect_word(parser *in, const char *word, const char *form);
 /* Report at the token in hand (once: an unreadable one was reported by the lexer); returns false. */
 bool parser_fail(parser *in, const char *hint, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
@@ -83,12 +88,19 @@ const char *parser_title(parser *in);
 
 /* --- expressions (expression.c, operators.c) --- */
 const expr *parse_expression(parser *in, expr_context context); /* NULL: gave up */
+bool parse_close(parser *in, place open);                       /* the ')' that closes `open` */
+/* Comparisons joined by `and`, `or` as one expression: true when above zero. `form` as above. */
+const expr *parse_condition(parser *in, const char *form); /* condition.c */
 expr *expr_new(parser *in, expr_op op, place at);
 const expr *expr_binary(parser *in, expr_op op, place at, const expr *left, const expr *right);
+/* left - right of a comparison: both must have one dimension. */
+const expr *expr_difference(parser *in, place at, const expr *left, const expr *right);
 const expr *expr_negate(parser *in, place at, const expr *operand);
 const expr *expr_call(parser *in, function_id function, place at, const expr *left,
                       const expr *right);
 const expr *expr_name(parser *in, const token *name); /* reference.c */
+/* The line in which a later statement of the mechanism declares the name, or 0. */
+int name_declared_later(const token *name);
 const char *function_name(function_id function);
 int function_arguments(function_id function);
 bool function_find(const char *text, size_t length, function_id *function);
@@ -108,10 +120,13 @@ bool parse_declaration(parser *in, bool *known); /* coordinate, parameter, input
 void note_way(parser *in, bool by_equations);    /* the token in hand is the statement's word */
 bool parse_term(parser *in, bool *known);        /* T, V, F, Q, equation: terms.c */
 bool parse_effect(parser *in);                   /* effect.c */
-bool is_hybrid(const parser *in);
-bool skip_hybrid(parser *in);
-void finish_mechanism(parser *in, builder *made);                        /* finish.c */
-bool parse_scene(parser *in, const pending_scene *pending);              /* scene.c */
-bool statement_unknown(parser *in, const char *const *words, int count); /* parser.c */
+bool parse_hybrid(parser *in, bool *known);      /* stop, friction, hold, when: hybrid.c */
+bool parse_when(parser *in, hybrid *made);       /* when.c */
+void hybrid_on_system(parser *in, const hybrid *each);
+bool parse_noise(parser *in, bool *known);                                       /* noise.c */
+const symbol *find_coordinate(parser *in, const token *name, const char *whose); /* terms.c */
+void finish_mechanism(parser *in, builder *made);                                /* finish.c */
+bool parse_scene(parser *in, const pending_scene *pending);                      /* scene.c */
+bool statement_unknown(parser *in, const char *const *words, int count);         /* parser.c */
 
 #endif

@@ -28,8 +28,7 @@ static const char *skip_blanks(const char *text) {
 
 static bool continues_name(char c) { return isalnum((unsigned char)c) || c == '_'; }
 
-/* The line in which a later statement of the same mechanism declares the name, or 0. */
-static int declared_later(const token *name) {
+int name_declared_later(const token *name) {
     static const char *const words[] = {"coordinate", "state", "parameter",
                                         "input",      "let",   "output"};
     const source *from = name->at.source;
@@ -59,7 +58,7 @@ static int declared_later(const token *name) {
 static void report_unknown(parser *in, const token *name) {
     char hint[200] = "";
     char words[80];
-    const int later = in->builder != NULL && !in->all_effects ? declared_later(name) : 0;
+    const int later = in->builder != NULL && !in->all_effects ? name_declared_later(name) : 0;
     if (later > 0) {
         snprintf(hint, sizeof hint, "it is declared later, in line %d: move that line up", later);
     } else {
@@ -143,6 +142,22 @@ static bool allowed_here(parser *in, const token *name, const symbol *found) {
         if (order > 1) {
             diag_error(in->diags, name->at, NULL,
                        "T, V, F and Q take no second derivative, as %s %s", words,
+                       by_let ? "has" : "is");
+            return false;
+        }
+        break;
+    case CONTEXT_GAP:
+        if (order > 0) {
+            diag_error(in->diags, name->at, "write what is to be limited or held, not its rate",
+                       "stop and hold act on coordinates: they take no rate, as %s %s", words,
+                       by_let ? "has" : "is");
+            return false;
+        }
+        break;
+    case CONTEXT_EVENT:
+        if (order > 1) {
+            diag_error(in->diags, name->at, NULL,
+                       "stop, friction, hold and when take no second derivative, as %s %s", words,
                        by_let ? "has" : "is");
             return false;
         }

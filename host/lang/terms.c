@@ -72,20 +72,22 @@ static bool parse_energy(parser *in, term_kind kind) {
     return parser_end_statement(in, "the expression");
 }
 
-static const symbol *find_coordinate(parser *in, const token *name) {
+const symbol *find_coordinate(parser *in, const token *name, const char *whose) {
     const named *found = names_find(in->builder->names, name->text, name->length);
     char words[80];
     token_words(name, words, sizeof words);
     if (found != NULL && !found->is_placeholder &&
         (found->symbol.kind == SYM_COORDINATE || found->symbol.kind == SYM_STATE)) {
         if (name->primes > 0) {
-            diag_error(in->diags, name->at, NULL, "Q belongs to a coordinate, without primes");
+            diag_error(in->diags, name->at, NULL, "%s belongs to a coordinate, without primes",
+                       whose);
             return NULL;
         }
         return &found->symbol;
     }
     if (found != NULL && !found->is_placeholder) {
-        diag_error(in->diags, name->at, NULL, "Q belongs to a coordinate, which %s is not", words);
+        diag_error(in->diags, name->at, NULL, "%s belongs to a coordinate, which %s is not", whose,
+                   words);
         return NULL;
     }
     nearest search = nearest_start(name->text, name->length);
@@ -112,7 +114,7 @@ static bool parse_force(parser *in) {
     if (name.kind != TOKEN_NAME) {
         return parser_fail(in, "write Q(theta) = ...", "Q needs its coordinate in parentheses");
     }
-    const symbol *coordinate = find_coordinate(in, &name);
+    const symbol *coordinate = find_coordinate(in, &name, "Q");
     parser_next(in);
     if (!parser_expect_sign(in, ')', "after the coordinate")) {
         return false;

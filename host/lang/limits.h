@@ -1,0 +1,11 @@
+/* limits.h: what can only be checked with the numbers of one run: the ranges of the event-driven
+ * effects and of noise that take part in it. */
+#ifndef LANG_LIMITS_H
+#define LANG_LIMITS_H
+
+#include "value.h"
+
+/* Report what is out of range in `made`, whose parameters are `known`. */
+void limits_check(const instance *made, valuation *known);
+
+#endif

@@ -1,0 +1,195 @@
+/* scene_items.c: what the lists of a scene hold: with, set, start, conserve. */
+#include <stdio.h>
+#include <string.h>
+
+#include "scene.h"
+
+bool scene_fail_name(parser *in, const char *what) {
+    char words[80];
+    return parser_fail(in, NULL, "%s needs a name, not %s", what,
+                       token_words(&in->token, words, sizeof words));
+}
+
+bool scene_with_item(parser *in, draft *into) {
+    if (in->token.kind != TOKEN_NAME) {
+        return scene_fail_name(in, "with");
+    }
+    const token name = in->token;
+    const mechanism *of = into->made->mechanism;
+    nearest search = nearest_start(name.text, name.length);
+    parser_next(in);
+    if (token_is(&name, "none")) {
+        return true;
+    }
+    if (token_is(&name, "ledger")) {
+        into->made->ledger = true;
+        return true;
+    }
+    for (int i = 0; i < of->effect_count; i++) {
+        if (token_is(&name, of->effects[i].name)) {
+            into->with[i] = true;
+            return true;
+        }
+        nearest_offer(&search, of->effects[i].name);
+    }
+    nearest_offer(&search, "ledger");
+    char hint[120] = "";
+    char words[80];
+    if (search.best != NULL) {
+        snprintf(hint, sizeof hint, "did you mean '%s'?", search.best);
+    } else if (of->effect_count == 0) {
+        snprintf(hint, sizeof hint, "the mechanism '%s' has no effects", of->name);
+    }
+    diag_error(in->diags, name.at, hint[0] == '\0' ? NULL : hint, "unknown effect %s",
+               token_words(&name, words, sizeof words));
+    return true;
+}
+
+/* NAME of a symbol of the mechanism; *found is NULL when it is none (reported). */
+static bool take_symbol(parser *in, draft *into, const char *statement, token *name,
+                        named **found) {
+    if (in->token.kind != TOKEN_NAME) {
+        return scene_fail_name(in, statement);
+    }
+    *name = in->token;
+    parser_next(in);
+    *found = names_find(into->of->names, name->text, name->length);
+    if (*found != NULL) {
+        return true;
+    }
+    nearest search = nearest_start(name->text, name->length);
+    char hint[120] = "";
+    char words[80];
+    names_offer(into->of->names, -2, &search);
+    if (search.best != NULL) {
+        snprintf(hint, sizeof hint, "did you mean '%s'?", search.best);
+    }
+    diag_error(in->diags, name->at, hint[0] == '\0' ? NULL : hint,
+               "%s is unknown in mechanism '%s'", token_words(name, words, sizeof words),
+               into->made->mechanism->name);
+    return true;
+}
+
+/* = EXPR with the wanted dimension (not checked when the name is unknown). */
+static bool parse_assigned(parser *in, const token *name, const dimension *wanted,
+                           const expr **value) {
+    char words[80];
+    token_words(name, words, sizeof words);
+    if (!parser_is_sign(in, '=')) {
+        char next[80];
+        return parser_fail(in, NULL, "'=' is missing after %s, before %s", words,
+                           token_words(&in->token, next, sizeof next));
+    }
+    parser_next(in);
+    const place at = in->token.at;
+    *value = parse_expression(in, CONTEXT_CONSTANT);
+    if (*value == NULL) {
+        return false;
+    }
+    if (wanted != NULL) {
+        char rule[RULE_SIZE];
+        check_dimension(in, at, *value, *wanted, dimension_rule(rule, words, "is", *wanted));
+    }
+    return true;
+}
+
+bool scene_set_item(parser *in, draft *into) {
+    token name;
+    named *found = NULL;
+    const expr *value = NULL;
+    if (!take_symbol(in, into, "set", &name, &found)) {
+        return false;
+    }
+    bool usable = found != NULL && !found->is_placeholder;
+    if (usable && found->symbol.kind != SYM_PARAMETER && found->symbol.kind != SYM_INPUT) {
+        const bool moves = found->symbol.kind == SYM_COORDINATE || found->symbol.kind == SYM_STATE;
+        diag_error(in->diags, name.at, moves ? "give its initial value with start" : NULL,
+                   "only parameters and inputs can be set, and '%s' is none", found->symbol.name);
+        usable = false;
+    } else if (usable && name.primes > 0) {
+        diag_error(in->diags, name.at, NULL, "'%s' has no derivative", found->symbol.name);
+        usable = false;
+    } else if (usable && found->mark == into->number) {
+        diag_error(in->diags, name.at, NULL, "'%s' was already set in line %d", found->symbol.name,
+                   found->mark_at.line);
+    }
+    if (!parse_assigned(in, &name, usable ? &found->symbol.dim : NULL, &value)) {
+        return false;
+    }
+    if (usable) {
+        scene *made = into->made;
+        found->mark = into->number;
+        found->mark_at = name.at;
+        assignment *longer =
+            arena_room(in->arena, (assignment *)made->sets, made->set_count, sizeof *longer);
+        longer[made->set_count++] = (assignment){&found->symbol, 0, value, name.at};
+        made->sets = longer;
+    }
+    return true;
+}
+
+static void check_started_once(parser *in, const scene *made, const symbol *what,
+                               const token *name) {
+    for (int i = 0; i < made->start_count; i++) {
+        if (made->starts[i].symbol == what && made->starts[i].primes == name->primes) {
+            char words[80];
+            diag_error(in->diags, name->at, NULL, "%s was already given in line %d",
+                       token_words(name, words, sizeof words), made->starts[i].at.line);
+        }
+    }
+}
+
+bool scene_start_item(parser *in, draft *into) {
+    token name;
+    named *found = NULL;
+    const expr *value = NULL;
+    dimension wanted = dim_none();
+    if (!take_symbol(in, into, "start", &name, &found)) {
+        return false;
+    }
+    bool usable = found != NULL && !found->is_placeholder;
+    if (usable && found->symbol.kind != SYM_COORDINATE && found->symbol.kind != SYM_STATE) {
+        const bool sets = found->symbol.kind == SYM_PARAMETER || found->symbol.kind == SYM_INPUT;
+        diag_error(in->diags, name.at, sets ? "use set for it" : NULL,
+                   "start takes coordinates and their rates, and '%s' is none", found->symbol.name);
+        usable = false;
+    } else if (usable && name.primes >= found->symbol.order && found->symbol.order > 0) {
+        diag_error(in->diags, name.at, NULL,
+                   "start takes '%s' with at most %d prime%s: the next follows from the equations",
+                   found->symbol.name, found->symbol.order - 1,
+                   found->symbol.order == 2 ? "" : "s");
+        usable = false;
+    } else if (usable) {
+        check_started_once(in, into->made, &found->symbol, &name);
+        usable = dim_power(dim_of(0, 0, -1, 0, 0), name.primes, &wanted) &&
+                 dim_multiply(found->symbol.dim, wanted, &wanted);
+    }
+    if (!parse_assigned(in, &name, usable ? &wanted : NULL, &value)) {
+        return false;
+    }
+    if (usable) {
+        scene *made = into->made;
+        assignment *longer =
+            arena_room(in->arena, (assignment *)made->starts, made->start_count, sizeof *longer);
+        longer[made->start_count++] = (assignment){&found->symbol, name.primes, value, name.at};
+        made->starts = longer;
+    }
+    return true;
+}
+
+bool scene_conserve_item(parser *in, draft *into) {
+    token name;
+    named *found = NULL;
+    if (!take_symbol(in, into, "conserve", &name, &found)) {
+        return false;
+    }
+    if (found == NULL || found->is_placeholder) {
+        return true;
+    }
+    if (found->symbol.kind != SYM_COORDINATE || name.primes > 0) {
+        diag_error(in->diags, name.at, NULL, "conserve takes coordinates, without primes");
+        return true;
+    }
+    into->conserve[found->symbol.index] = true;
+    return true;
+}
