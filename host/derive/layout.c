@@ -17,13 +17,23 @@ int layout_turn(void *context, const symbol *s) {
     return moves ? map->angle_number[s->index] : -1;
 }
 
+/* An input of an effect that is not called for cannot change: a constant. */
+static int input_leaf(const layout *map, tape *t, const symbol *s) {
+    for (int i = 0; i < map->program->inputs; i++) {
+        if (map->program->input[i] == s->index) {
+            return tape_leaf(t, OP_INPUT, i);
+        }
+    }
+    return tape_constant(t, map->equations->instance->input[s->index]);
+}
+
 int layout_leaf(void *context, tape *t, const symbol *s, int primes) {
     const layout *map = context;
     if (s == &conservation_time) {
         return tape_leaf(t, OP_TIME, 0);
     }
     if (s->kind == SYM_INPUT) {
-        return tape_leaf(t, OP_INPUT, s->index);
+        return input_leaf(map, t, s);
     }
     if (primes == map->equations->unknowns[s->index].order && map->highest != NULL) {
         return map->highest[s->index];

@@ -204,19 +204,61 @@ static int sum_flat(lowering *l, const product *products, int count) {
     return sum;
 }
 
+static int by_number(const void *x, const void *y) {
+    const int left = *(const int *)x;
+    const int right = *(const int *)y;
+    return (left > right) - (left < right);
+}
+
+/* The nodes of all products, sorted; *total is their number. */
+static int *sorted_nodes(const product *products, int count, int *total) {
+    *total = 0;
+    for (int i = 0; i < count; i++) {
+        *total += products[i].count;
+    }
+    int *nodes = malloc(((size_t)*total + 1) * sizeof *nodes);
+    if (nodes == NULL) {
+        abort();
+    }
+    int at = 0;
+    for (int i = 0; i < count; i++) {
+        for (int k = 0; k < products[i].count; k++) {
+            nodes[at++] = products[i].powers[k].node;
+        }
+    }
+    qsort(nodes, (size_t)*total, sizeof *nodes, by_number);
+    return nodes;
+}
+
+/* How often `node` is among the sorted nodes. */
+static int times_in(const int *nodes, int total, int node) {
+    int edge[2]; /* the first not below the node, the first above it */
+    for (int side = 0; side < 2; side++) {
+        int low = 0;
+        int high = total;
+        while (low < high) {
+            const int middle = low + (high - low) / 2;
+            if (nodes[middle] < node + side) {
+                low = middle + 1;
+            } else {
+                high = middle;
+            }
+        }
+        edge[side] = low;
+    }
+    return edge[1] - edge[0];
+}
+
 /* The node that most products share; rates first, so that sums of sines stay whole. -1: none. */
 static int most_shared(const lowering *l, const product *products, int count) {
+    int total;
+    int *nodes = sorted_nodes(products, count, &total);
     int best = -1;
     int best_uses = 1;
     for (int i = 0; i < count; i++) {
         for (int k = 0; k < products[i].count; k++) {
             const int node = products[i].powers[k].node;
-            int uses = 0;
-            for (int j = 0; j < count; j++) {
-                for (int m = 0; m < products[j].count; m++) {
-                    uses += products[j].powers[m].node == node;
-                }
-            }
+            const int uses = times_in(nodes, total, node);
             const bool rate = l->tape->ops[node].code == OP_RATE;
             const bool best_rate = best >= 0 && l->tape->ops[best].code == OP_RATE;
             if (uses > best_uses || (uses == best_uses && best >= 0 && rate && !best_rate)) {
@@ -225,12 +267,13 @@ static int most_shared(const lowering *l, const product *products, int count) {
             }
         }
     }
+    free(nodes);
     return best;
 }
 
 static int sum_of(lowering *l, product *products, int count) {
     tape *t = l->tape;
-    if (count == 0) {
+    if (count <= 0) {
         return tape_constant(t, 0.0);
     }
     const int shared = count == 1 ? -1 : most_shared(l, products, count);

@@ -16,6 +16,17 @@ static void *room(int count, size_t size) {
 
 /* --- the lists -----------------------------------------------------------------------------------*/
 
+/* An effect that is not called for leaves no trace: its inputs take no part either. */
+static void arrange_inputs(program *p, const instance *inst) {
+    const mechanism *m = inst->mechanism;
+    p->input = room(m->input_count, sizeof *p->input);
+    for (int i = 0; i < m->input_count; i++) {
+        if (m->inputs[i]->effect < 0 || inst->with[m->inputs[i]->effect]) {
+            p->input[p->inputs++] = i;
+        }
+    }
+}
+
 /* The slope of a component of a first-order scene. */
 static int slope_of(program *p, const equations *e, layout *map, lowering *l, component of,
                     const int *highest) {
@@ -53,6 +64,30 @@ static tape *make_step(program *p, const equations *e, layout *map, const linear
     return t;
 }
 
+/* Outputs with the same seed have noise of their own each: their names' hash (FNV-1a) tells them apart. */
+static uint32_t noise_seed(const noise *of) {
+    uint32_t hash = 2166136261U;
+    for (const char *at = of->output->name; *at != '\0'; at++) {
+        hash = (hash ^ (unsigned char)*at) * 16777619U;
+    }
+    return hash ^ of->seed;
+}
+
+/* Noise on the mechanism's outputs: on what is recorded only, so other outputs do not see it. */
+static void add_noise(const equations *e, lowering *l, int *result) {
+    tape *t = l->tape;
+    const mechanism *m = e->instance->mechanism;
+    for (int k = 0; k < m->noise_count; k++) {
+        const noise *each = &m->noises[k];
+        if (instance_has_noise(e->instance, each)) {
+            const poly *deviation = poly_from_expr(e->algebra, each->deviation);
+            const int size = lower(l, equations_fold(e, deviation));
+            int *at = &result[each->output->index];
+            *at = tape_add(t, *at, tape_mul(t, size, tape_noise(t, noise_seed(each))));
+        }
+    }
+}
+
 /* A list that first solves for the highest derivatives, then computes `wanted`. With `keep`, the
  * highest derivatives are the first results. */
 static tape *make_observer(program *p, const equations *e, layout *map, const linear_system *s,
@@ -79,6 +114,9 @@ static tape *make_observer(program *p, const equations *e, layout *map, const li
     lower_plan(&l, folded, count);
     for (int i = 0; i < count; i++) {
         t->result[first + i] = lower(&l, folded[i]);
+    }
+    if (!keep) {
+        add_noise(e, &l, t->result);
     }
     lower_done(&l);
     map->highest = NULL;
@@ -142,7 +180,7 @@ program *program_make(const equations *e, const bool *conserve, diags *errors) {
     bool *turning = room(n, sizeof *turning);
     bool *wanted = room(n, sizeof *wanted);
     p->count = n;
-    p->inputs = m->input_count;
+    arrange_inputs(p, e->instance);
     p->outputs = m->output_count + 2 * p->conserved->count;
     const linear_system s = {n, !m->is_system, dynamics, dynamics + n * n, turning, wanted};
     for (int i = 0; i < n * n; i++) {
@@ -196,6 +234,7 @@ void program_free(program *p) {
     tape_free(p->books);
     contact_lists_free(p->contacts);
     ledger_lists_free(p->ledger);
+    free(p->input);
     free(p->angle);
     free(p->real);
     free(p->place);
@@ -247,5 +286,11 @@ void program_start(const program *p, const instance *inst, double *angle_rad, do
     for (int i = 0; i < p->reals; i++) {
         const component c = p->real[i];
         real[i] = c.primes < inst->start_count[c.unknown] ? inst->start[c.unknown][c.primes] : 0.0;
+    }
+}
+
+void program_inputs(const program *p, const instance *inst, double *input) {
+    for (int i = 0; i < p->inputs; i++) {
+        input[i] = inst->input[p->input[i]];
     }
 }

@@ -21,12 +21,13 @@ typedef struct ledger_lists ledger_lists;   /* ledger.h */
 
 typedef struct program {
     wh_form form;
-    int count;       /* unknowns */
-    int coordinates; /* integrated coordinates, angles included (second order) */
-    int angles;      /* components kept as turn angles */
-    int reals;       /* components kept as reals */
-    int inputs;
+    int count;        /* unknowns */
+    int coordinates;  /* integrated coordinates, angles included (second order) */
+    int angles;       /* components kept as turn angles */
+    int reals;        /* components kept as reals */
+    int inputs;       /* the mechanism's own and those of the effects called for */
     int outputs;      /* the mechanism's, then value and rate of each conserved coordinate */
+    int *input;       /* [inputs] number in the mechanism */
     component *angle; /* [angles] */
     component *real;  /* [reals] */
     int *
@@ -58,5 +59,8 @@ uint64_t program_hash(const program *p);
 
 /* The start of the run: angle in radians [angles], reals [reals], SI. */
 void program_start(const program *p, const instance *inst, double *angle_rad, double *real);
+
+/* The inputs as the run starts, input[inputs], SI. */
+void program_inputs(const program *p, const instance *inst, double *input);
 
 #endif

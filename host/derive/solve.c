@@ -14,6 +14,8 @@
 
 /* Elimination orders are tried exhaustively up to so many unknowns. */
 #define PERMUTED_MAX 4
+/* ... and while the equations have no more leaves than this: large ones take the first order. */
+#define PERMUTED_SIZE_MAX 4000.0
 /* Symbolic elimination stops when an entry would get more terms than this. */
 #define SYMBOLIC_TERMS_MAX 60
 
@@ -246,6 +248,17 @@ static bool next_order(int *order, int n) {
     return true;
 }
 
+static bool can_be_permuted(const linear_system *s) {
+    double size = 0.0;
+    for (int i = 0; i < s->n; i++) {
+        size += s->force[i]->size;
+        for (int j = 0; j < s->n; j++) {
+            size += s->mass[i * s->n + j]->size;
+        }
+    }
+    return s->n <= PERMUTED_MAX && size <= PERMUTED_SIZE_MAX;
+}
+
 void solve_highest(lowering *l, const linear_system *s, int *solution) {
     const int n = s->n;
     arrangement how = {.first = -1};
@@ -259,12 +272,13 @@ void solve_highest(lowering *l, const linear_system *s, int *solution) {
             }
         }
     }
+    const bool permuted = can_be_permuted(s);
     arrangement best = how;
     int best_weight = -1;
     if (s->symmetric) {
         do {
             for (int scaled = 0; scaled < 2; scaled++) {
-                for (int first = -2; first < (n <= PERMUTED_MAX ? n : 0); first++) {
+                for (int first = -2; first < (permuted ? n : 0); first++) {
                     arrangement candidate = how;
                     candidate.scaled = scaled == 1;
                     candidate.first = first;
@@ -275,7 +289,7 @@ void solve_highest(lowering *l, const linear_system *s, int *solution) {
                     }
                 }
             }
-        } while (n <= PERMUTED_MAX && next_order(how.order, n));
+        } while (permuted && next_order(how.order, n));
     }
     enter(l, l->tape, s, &best, solution);
 }

@@ -122,6 +122,10 @@ int tape_constant(tape *t, double value) {
 
 int tape_leaf(tape *t, op_code code, int which) { return enter_op(t, code, which, -1); }
 
+int tape_noise(tape *t, uint32_t seed) {
+    return enter(t, (op){.code = OP_NOISE, .function = FN_COUNT, .a = -1, .b = -1, .value = seed});
+}
+
 int tape_phase(tape *t, const int *turns, double offset_rad, int radians) {
     int *copy = NULL;
     if (turns != NULL && t->angles > 0) {

@@ -21,6 +21,7 @@ typedef enum op_code {
     OP_ACCEL,    /* acceleration of coordinate a, contact forces in it: for records */
     OP_TIME,     /* time, s: for records, never in a step */
     OP_RADIANS,  /* unwrapped angle a in radians: for records, never in a step */
+    OP_NOISE,    /* Gaussian deviate with seed `value` at this step: for records, never in a step */
     OP_PHASE,    /* a phase: sum turns[i] * angle[i] + value [rad] + (radians from b, if b >= 0) */
     OP_SIN,      /* sine of phase a */
     OP_COS,      /* cosine of phase a */
@@ -43,7 +44,7 @@ typedef struct op {
     function_id function; /* OP_CALL */
     int a;
     int b;
-    double value;     /* OP_CONSTANT, OP_PHASE */
+    double value;     /* OP_CONSTANT, OP_PHASE, OP_NOISE */
     const int *turns; /* OP_PHASE: [angles], or NULL when there are none */
 } op;
 
@@ -64,6 +65,7 @@ void tape_free(tape *t);
 
 int tape_constant(tape *t, double value);
 int tape_leaf(tape *t, op_code code, int which);
+int tape_noise(tape *t, uint32_t seed);
 /* `turns` may be NULL; `radians` an operation or -1. */
 int tape_phase(tape *t, const int *turns, double offset_rad, int radians);
 int tape_unary(tape *t, op_code code, int a);

@@ -40,7 +40,7 @@ static void write_observer(FILE *out, const program *p) {
     }
     if (!c_list_uses_phase(t) && !c_list_uses(t, OP_RADIANS) && !c_list_uses(t, OP_LINEAR) &&
         !c_list_uses(t, OP_RATE) && !c_list_uses(t, OP_INPUT) && !c_list_uses(t, OP_TIME) &&
-        !c_list_uses(t, OP_ACCEL)) {
+        !c_list_uses(t, OP_ACCEL) && !c_list_uses(t, OP_NOISE)) {
         fprintf(out, "    (void)state;\n");
     }
     c_list_body(out, t, "output");
@@ -71,7 +71,7 @@ static void write_starts(FILE *out, const program *p, const instance *inst) {
     if (p->inputs > 0) {
         fprintf(out, "static const wh_real start_input[%d] = {", p->inputs);
         for (int i = 0; i < p->inputs; i++) {
-            fprintf(out, "%sWH_R(%a)", i > 0 ? ", " : "", inst->input[i]);
+            fprintf(out, "%sWH_R(%a)", i > 0 ? ", " : "", inst->input[p->input[i]]);
         }
         fprintf(out, "};\n");
     }
@@ -152,8 +152,8 @@ static void write_banner(FILE *out, const equations *e, const program *p, const 
         fputc('\n', out);
     }
     const mechanism *m = e->instance->mechanism;
-    for (int i = 0; i < m->input_count; i++) {
-        fprintf(out, " *   input[%d]  %s\n", i, m->inputs[i]->name);
+    for (int i = 0; i < p->inputs; i++) {
+        fprintf(out, " *   input[%d]  %s\n", i, m->inputs[p->input[i]]->name);
     }
     for (int i = 0; i < m->output_count; i++) {
         fprintf(out, " *   output[%d] %s\n", i, m->outputs[i]->name);
@@ -180,6 +180,9 @@ void emit_c(FILE *out, const equations *e, const program *p, const engine_settin
         c_contacts_include(out, p->contacts);
     } else {
         fprintf(out, "#include \"core/%s.h\"\n", p->ledger != NULL ? "ledger" : "step");
+    }
+    if (c_list_uses(p->observe, OP_NOISE)) {
+        fprintf(out, "#include \"core/noise.h\"\n");
     }
     fprintf(out, "\nextern const wh_scene %s;\n\n", e->instance->name);
     write_starts(out, p, e->instance);

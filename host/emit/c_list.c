@@ -67,6 +67,7 @@ static void write_operation(FILE *out, const tape *t, int i) {
     case OP_INPUT: fprintf(out, "input[%d]", o->a); break;
     case OP_ACCEL: fprintf(out, "accel[%d]", o->a); break;
     case OP_TIME: fprintf(out, "wh_scene_time_s(scene, state)"); break;
+    case OP_NOISE: fprintf(out, "wh_noise(%.0fU, state->steps)", o->value); break;
     case OP_RADIANS: fprintf(out, "wh_angle_to_rad(angle[%d])", o->a); break;
     case OP_SIN: fprintf(out, "s%d", o->a); break;
     case OP_COS: fprintf(out, "c%d", o->a); break;
@@ -136,5 +137,6 @@ void c_list_function(FILE *out, const tape *t, const char *name, bool second) {
         c_list_ignore(out, c_list_uses(t, OP_RATE), "rate");
     }
     c_list_ignore(out, c_list_uses(t, OP_INPUT), "input");
+    c_list_ignore(out, t->results > 0, "result");
     c_list_body(out, t, "result");
 }

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "emit.h"
+#include "show_events.h"
 
 /* y(k), k from 1: values first, then rates, and so on. */
 static int y_number(const program *p, const equations *e, component of) {
@@ -83,7 +84,9 @@ static void write_operation(FILE *out, const program *p, const equations *e, int
     case OP_RATE:
         fprintf(out, "y(%d)", y_number(p, e, p->real[p->coordinates - p->angles + o->a]));
         break;
-    case OP_INPUT: fprintf(out, "u_%s", e->instance->mechanism->inputs[o->a]->name); break;
+    case OP_INPUT:
+        fprintf(out, "u_%s", e->instance->mechanism->inputs[p->input[o->a]]->name);
+        break;
     case OP_PHASE: write_phase(out, p, e, o); break;
     case OP_SIN: fprintf(out, "sin(x%d)", o->a); break;
     case OP_COS: fprintf(out, "cos(x%d)", o->a); break;
@@ -143,9 +146,10 @@ void emit_octave(FILE *out, const equations *e, const program *p, const char *fi
         fprintf(out, "%s%.17g", i > 0 ? "; " : "", start[i]);
     }
     fprintf(out, "], options);\n%% K = [T Y]; save('%s.txt', 'K', '-ascii')\n", inst->name);
-    for (int i = 0; i < m->input_count; i++) {
-        fprintf(out, "  u_%s = %.17g; %% %s\n", m->inputs[i]->name, inst->input[i],
-                m->inputs[i]->text);
+    show_events(out, e, "% ", "The motion between events. Not in this function:");
+    for (int i = 0; i < p->inputs; i++) {
+        const symbol *u = m->inputs[p->input[i]];
+        fprintf(out, "  u_%s = %.17g; %% %s\n", u->name, inst->input[u->index], u->text);
     }
     for (int i = 0; i < p->step->count; i++) {
         write_operation(out, p, e, i);

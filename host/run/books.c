@@ -9,18 +9,20 @@ books *books_open(const program *p, const equations *e) {
         return NULL;
     }
     books *b = calloc(1, sizeof *b);
-    double *numbers = calloc((size_t)p->books->results + 3 * (size_t)p->count, sizeof *numbers);
+    const size_t count = (size_t)p->books->results + 3 * (size_t)p->count + (size_t)p->inputs;
+    double *numbers = calloc(count, sizeof *numbers);
     if (b == NULL || numbers == NULL) {
         abort();
     }
     b->program = p;
     b->equations = e;
-    b->input = e->instance->input;
     b->evaluator = evaluator_new(p->books);
     b->value = numbers;
     b->momentum = numbers + p->books->results;
     b->drift = b->momentum + p->count;
     b->momentum_now = b->drift + p->count;
+    b->input = b->momentum_now + p->count;
+    program_inputs(p, e->instance, b->input);
     b->step_s = e->instance->step_s;
     return b;
 }

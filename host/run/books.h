@@ -11,7 +11,7 @@
 typedef struct books {
     const program *program;
     const equations *equations;
-    const double *input;
+    double *input; /* of the program */
     evaluator *evaluator;
     double *value;        /* results of the program's books list */
     double *momentum;     /* [count] at the start */

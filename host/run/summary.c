@@ -14,10 +14,11 @@ const char *dimension_unit(dimension dim, bool is_angle, char *text, size_t size
     static const struct {
         signed char m, kg, s, A;
         const char *name;
-    } named[] = {{1, 0, 0, 0, "m"},  {1, 0, -1, 0, "m/s"}, {1, 0, -2, 0, "m/s^2"},
-                 {0, 1, 0, 0, "kg"}, {0, 0, 1, 0, "s"},    {0, 0, -1, 0, "1/s"},
-                 {1, 1, -2, 0, "N"}, {2, 1, -2, 0, "N*m"}, {2, 1, -3, 0, "W"},
-                 {0, 0, 0, 1, "A"},  {2, 1, -3, -1, "V"},  {1, 1, -1, 0, "kg*m/s"}};
+    } named[] = {{1, 0, 0, 0, "m"},     {1, 0, -1, 0, "m/s"}, {1, 0, -2, 0, "m/s^2"},
+                 {0, 1, 0, 0, "kg"},    {0, 0, 1, 0, "s"},    {0, 0, -1, 0, "1/s"},
+                 {1, 1, -2, 0, "N"},    {2, 1, -2, 0, "N*m"}, {2, 1, -3, 0, "W"},
+                 {0, 0, 0, 1, "A"},     {2, 1, -3, -1, "V"},  {1, 1, -1, 0, "kg*m/s"},
+                 {2, 1, -1, 0, "N*m*s"}};
     static const char *const bases[DIM_BASES] = {"m", "kg", "s", "A", "K"};
     bool none = true;
     for (int i = 0; i < DIM_BASES; i++) {

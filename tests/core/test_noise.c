@@ -1,0 +1,113 @@
+/* test_noise.c: noise by seed and index: the same integers everywhere, and distributed as promised.
+ * WH_TEST_SMALL takes fewer draws. */
+#include "core/noise.h"
+
+#include "unity.h"
+
+#ifndef WH_TEST_SMALL
+#define WH_TEST_SMALL (!__STDC_HOSTED__)
+#endif
+
+#define DRAWS (WH_TEST_SMALL ? 4096 : 65536)
+/* Four standard errors of an estimate from DRAWS numbers, relative: 4/sqrt(DRAWS). */
+#define FOUR_SIGMA (WH_TEST_SMALL ? 0.0625 : 0.015625)
+#define ONE 65536 /* a standard deviation */
+
+void suite_noise(void);
+
+/* From a Python program with arbitrary integers, whose splitmix64 gives the published first outputs of
+ * seed 1234567 (6457827717110365317, 3203168211198807973). */
+static void test_fixed_values(void) {
+    static const struct {
+        uint64_t index;
+        uint32_t seed;
+        int32_t raw;
+    } known[] = {{0, 0, 4334},
+                 {1, 0, 6806},
+                 {0, 1, 78427},
+                 {1, 1, 40784},
+                 {2, 1, -57164},
+                 {1000, 7, 98451},
+                 {UINT64_C(1) << 32, 42, -76250},
+                 {0, UINT32_MAX, -49748},
+                 {UINT64_MAX, UINT32_MAX, -80131},
+                 {9000, 123456789, -39050}};
+    for (unsigned i = 0; i < sizeof known / sizeof known[0]; i++) {
+        TEST_ASSERT_EQUAL_INT32(known[i].raw, wh_noise_raw(known[i].seed, known[i].index));
+        const wh_real deviate = wh_noise(known[i].seed, known[i].index);
+        TEST_ASSERT_TRUE(deviate * WH_R(65536.0) == (wh_real)known[i].raw); /* exact */
+    }
+}
+
+/* Mean 0, second moment 1, fourth 2.9: the moments of a sum of twelve uniform numbers, whose excess
+ * kurtosis is -1.2/12. Errors of the estimates by the moments of a Gaussian: 1, sqrt 2, sqrt 96. */
+static void test_moments(void) {
+    for (uint32_t seed = 1; seed <= 4; seed++) {
+        int64_t sum = 0;
+        int64_t squares = 0;
+        int64_t fourths = 0; /* of deviates in 1/256 */
+        for (unsigned i = 0; i < DRAWS; i++) {
+            const int64_t x = wh_noise_raw(seed, i);
+            TEST_ASSERT_TRUE(x >= -393210 && x <= 393210);
+            sum += x;
+            squares += x * x;
+            const int64_t y = (x / 256) * (x / 256);
+            fourths += y * y;
+        }
+        const double mean = (double)sum / DRAWS / ONE;
+        const double second = (double)squares / DRAWS / ((double)ONE * ONE);
+        const double fourth = (double)fourths / DRAWS / (65536.0 * 65536.0);
+        TEST_ASSERT_TRUE(mean > -FOUR_SIGMA && mean < FOUR_SIGMA);
+        TEST_ASSERT_TRUE(second > 1.0 - 1.42 * FOUR_SIGMA && second < 1.0 + 1.42 * FOUR_SIGMA);
+        TEST_ASSERT_TRUE(fourth > 2.9 - 9.8 * FOUR_SIGMA && fourth < 2.9 + 9.8 * FOUR_SIGMA);
+    }
+}
+
+/* Parts beyond one, two and three standard deviations: 0.32145, 0.044551 and 0.0020140, from the
+ * distribution of the sum (Irwin and Hall) in rational numbers; a Gaussian has 0.31731, 0.045500 and
+ * 0.0026998. Bounds: four standard errors of a count, sqrt(p (1 - p)/DRAWS). */
+static void test_tails(void) {
+    static const double part[] = {0.32145, 0.044551, 0.0020140};
+    static const double root[] = {0.46704, 0.20632, 0.044832}; /* sqrt(p (1 - p)) */
+    unsigned beyond[3] = {0};
+    for (unsigned i = 0; i < DRAWS; i++) {
+        const int32_t x = wh_noise_raw(2026, i);
+        for (int k = 0; k < 3; k++) {
+            beyond[k] += x > (k + 1) * ONE || x < -(k + 1) * ONE;
+        }
+    }
+    for (int k = 0; k < 3; k++) {
+        const double found = (double)beyond[k] / DRAWS;
+        TEST_ASSERT_TRUE(found > part[k] - root[k] * FOUR_SIGMA);
+        TEST_ASSERT_TRUE(found < part[k] + root[k] * FOUR_SIGMA);
+    }
+}
+
+/* Correlation of two sequences of unit deviates is within 4/sqrt(DRAWS) if they are independent. */
+static double correlation(uint32_t a, uint32_t b, unsigned lag) {
+    int64_t sum = 0;
+    for (unsigned i = 0; i < DRAWS; i++) {
+        sum += (int64_t)wh_noise_raw(a, i) * wh_noise_raw(b, i + lag);
+    }
+    return (double)sum / DRAWS / ((double)ONE * ONE);
+}
+
+static void test_independence(void) {
+    static const uint32_t seeds[][2] = {{0, 1}, {1, 2}, {1, 0x80000001U}, {7, 70}};
+    for (unsigned i = 0; i < sizeof seeds / sizeof seeds[0]; i++) {
+        for (unsigned lag = 0; lag < 3; lag++) {
+            const double with_other = correlation(seeds[i][0], seeds[i][1], lag);
+            TEST_ASSERT_TRUE(with_other > -FOUR_SIGMA && with_other < FOUR_SIGMA);
+            const double with_itself = correlation(seeds[i][0], seeds[i][0], lag + 1U);
+            TEST_ASSERT_TRUE(with_itself > -FOUR_SIGMA && with_itself < FOUR_SIGMA);
+        }
+    }
+}
+
+void suite_noise(void) {
+    UnitySetTestFile(__FILE__);
+    RUN_TEST(test_fixed_values);
+    RUN_TEST(test_independence);
+    RUN_TEST(test_moments);
+    RUN_TEST(test_tails);
+}
