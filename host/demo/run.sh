@@ -34,8 +34,8 @@ title "3. The motion, on this computer, in double and in the boards' float"
 simulate() {
     scene=$1 cm=$2
     "$whirl" run "$scene" --number float >"$out/$scene.float.txt"
-    "$whirl" run "$scene" --csv "$out/$scene.csv" --plot "$out/$scene.svg" >"$out/$scene.txt"
-    "$whirl" run "$scene" --plot "$out/$scene.png" --quiet
+    "$whirl" run "$scene" --every 1ms --csv "$out/$scene.csv" --plot "$out/$scene.svg" >"$out/$scene.txt"
+    "$whirl" run "$scene" --every 1ms --plot "$out/$scene.png" --quiet
     sed -n '1,2p' "$out/$scene.txt"
     hash=$(sed -n 's/^state hash *//p' "$out/$scene.float.txt")
     eval "hash_$scene=$hash"

@@ -121,8 +121,8 @@ says 2 'step must be above zero' run thomson_a --step -1ms
 says 2 'until must not be negative' run thomson_a --until -1s
 says 2 'more than 1e\+15 steps' run thomson_a --until 1e300
 says 2 'more than 1e\+15 steps' run thomson_a --step 1e-300
-says 2 '--every 1.5ms is not a whole number of steps' run thomson_a --every 1.5ms
-says 2 'hint: the step is 0.001 s' run thomson_a --every 1.5ms
+says 2 '--every 1.5ms is not a whole number of steps' run epicyclic_from_rest --every 1.5ms
+says 2 'hint: the step is 0.001 s' run epicyclic_from_rest --every 1.5ms
 says 2 '--every 0 is not a whole number' run thomson_a --every 0
 says 2 '--every -1ms is not a time' run thomson_a --every -1ms
 says 2 '--every often is not a time' run thomson_a --every often

@@ -72,6 +72,28 @@ void motion_open_text(motion *m, const char *text, stepping how) {
     start(m, m->model->scenes[0], how);
 }
 
+void motion_open_more(motion *m, const char *file, const char *more, stepping how) {
+    for (size_t i = 0; i < builtin_model_count; i++) {
+        const struct builtin_model *b = &builtin_models[i];
+        const char *slash = strrchr(b->file, '/');
+        if (strcmp(slash != NULL ? slash + 1 : b->file, file) != 0) {
+            continue;
+        }
+        const size_t size = b->length + strlen(more) + 1;
+        char *text = malloc(size);
+        TEST_ASSERT_NOT_NULL(text);
+        snprintf(text, size, "%s%s", b->text, more);
+        *m = (motion){.errors = diags_new()};
+        m->model = model_parse(file, text, size - 1, m->errors);
+        diags_flush(m->errors, stdout);
+        TEST_ASSERT_NOT_NULL_MESSAGE(m->model, more);
+        start(m, m->model->scenes[m->model->scene_count - 1], how);
+        free(text);
+        return;
+    }
+    TEST_FAIL_MESSAGE(file);
+}
+
 void motion_close(motion *m) {
     m->kind->stop(m->run);
     program_free(m->program);

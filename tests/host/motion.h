@@ -27,17 +27,22 @@ typedef struct stepping {
     const char *start; /* a coordinate or a rate, "theta'=3", or NULL */
 } stepping;
 
-/* RK4 with the scene's own step, and in double with another. */
+/* RK4 with the scene's own step, or with another. */
 #define IN_DOUBLE ((stepping){.kind = &engine_double, .method = WH_RK4})
 #define IN_DOUBLE_STEP(h) ((stepping){.kind = &engine_double, .method = WH_RK4, .step_s = (h)})
 #define IN_FLOAT ((stepping){.kind = &engine_float, .method = WH_RK4})
+#define IN_FLOAT_STEP(h) ((stepping){.kind = &engine_float, .method = WH_RK4, .step_s = (h)})
 #define IN_FLOAT_COMPENSATED \
     ((stepping){.kind = &engine_float, .method = WH_RK4, .compensated = true})
+#define IN_FLOAT_COMPENSATED_STEP(h) \
+    ((stepping){.kind = &engine_float, .method = WH_RK4, .compensated = true, .step_s = (h)})
 
 /* Start the scene of a built-in model. Close it with motion_close(). */
 void motion_open(motion *m, const char *scene, stepping how);
 /* The same for a model's text: its first scene. */
 void motion_open_text(motion *m, const char *text, stepping how);
+/* The same for a built-in file, "epicyclic.whirl", with more text behind it: the last scene. */
+void motion_open_more(motion *m, const char *file, const char *more, stepping how);
 void motion_close(motion *m);
 
 /* Do `steps` more steps; the status of the last, and no further one after a failure. */

@@ -1,6 +1,5 @@
 /* test_devices.c: the particle in two sets of coordinates (row S4) and the devices with guided weights
- * (S11 Laskowitz, S13 Cuff); and for every scene without an outside force, that its centre of mass
- * stays, as well as its step or method promises. Thresholds and sources as in test_dissertation.c. */
+ * (S11 Laskowitz, S13 Cuff). Thresholds and sources as in test_dissertation.c. */
 #include "ranges.h"
 
 #include <math.h>
@@ -212,68 +211,6 @@ static void test_laskowitz_shifting_moves_the_carriage_once(void) {
     expect_between("S11: carriage's oscillation after 2 s, um", 0.8, 1.0, 1e6 * (high - low));
 }
 
-/* --- no outside force, no drift ----------------------------------------------------------------------- */
-
-static double drift_of(const char *name, const char *output, double step_s, double until_s) {
-    range r[] = {{.name = output}};
-    ranges_of(name, IN_DOUBLE_STEP(step_s), until_s, 8e-3, r, 1);
-    return range_drift(&r[0]);
-}
-
-static void test_centre_of_mass_stays_at_each_scenes_own_step(void) {
-    static const char *const along[] = {
-        "epicyclic_from_rest",     "epicyclic_conserved", "thomson_a_conserved",
-        "thomson_b_conserved",     "thomson_plane_a",     "thomson_plane_b",
-        "thomson_plane_conserved", "thomson_pair_a",      "thomson_pair_b",
-        "laskowitz_shifted",       "laskowitz_centred",   "laskowitz_uneven",
-        "laskowitz_shift",         "cuff_equal",          "cuff_uneven",
-        "carriage_free",           "carriage_ratio"};
-    for (unsigned i = 0; i < sizeof along / sizeof along[0]; i++) {
-        motion m;
-        motion_open(&m, along[i], IN_DOUBLE);
-        const double until_s = m.instance->until_s;
-        motion_close(&m);
-        expect_between(along[i], 0.0, 1e-8, drift_of(along[i], "x_cm", 0.0, until_s));
-    }
-}
-
-/* The scenes of thomson.whirl keep the steps of the dissertation's plots, at which RK4 drifts by up to
- * 1.5e-5 m; these are the steps that earn the bound without `conserve`. */
-static void test_centre_of_mass_stays_on_the_slider_at_finer_steps(void) {
-    expect_between("thomson_a, 0.25 ms", 0.0, 1e-8, drift_of("thomson_a", "x_cm", 0.25e-3, 10.0));
-    expect_between("thomson_a_spin, 0.5 ms", 0.0, 1e-8,
-                   drift_of("thomson_a_spin", "x_cm", 0.5e-3, 10.0));
-    expect_between("thomson_b, 0.03125 ms", 0.0, 1e-8,
-                   drift_of("thomson_b", "x_cm", 0.03125e-3, 10.0));
-    expect_between("thomson_b_spin, 0.125 ms", 0.0, 1e-8,
-                   drift_of("thomson_b_spin", "x_cm", 0.125e-3, 10.0));
-}
-
-/* Drift at a step and at a quarter of it: RK4 must divide it by 2^8. It is a sum over thousands of
- * steps of errors that partly cancel, so the order may scatter about 4, as in test_convergence.c. */
-static void check_drift_order(const char *name, const char *output, double step_s, double until_s) {
-    const double coarse = drift_of(name, output, step_s, until_s);
-    const double fine = drift_of(name, output, step_s / 4.0, until_s);
-    const double order = log2(coarse / fine) / 2.0;
-    printf("  %-24s %-5s %.3g at %g ms, %.3g at %g ms\n", name, output, coarse, 1e3 * step_s, fine,
-           250.0 * step_s);
-    expect_between("  order of the drift", 3.7, 5.5, order);
-}
-
-static void test_drift_falls_at_fourth_order(void) {
-    check_drift_order("thomson_plane_a", "x_cm", 2e-3, 8.0);
-    check_drift_order("thomson_plane_a", "y_cm", 2e-3, 8.0);
-    check_drift_order("thomson_plane_b", "x_cm", 1e-3, 4.0);
-    check_drift_order("thomson_plane_b", "y_cm", 1e-3, 4.0);
-    check_drift_order("thomson_pair_a", "x_cm", 2e-3, 8.0);
-    check_drift_order("thomson_pair_b", "x_cm", 1e-3, 4.0);
-    check_drift_order("laskowitz_uneven", "x_cm", 8e-3, 5.0);
-    check_drift_order("laskowitz_uneven", "y_cm", 8e-3, 5.0);
-    check_drift_order("cuff_uneven", "x_cm", 8e-3, 5.0);
-    check_drift_order("cuff_uneven", "y_cm", 8e-3, 5.0);
-    check_drift_order("carriage_free", "x_cm", 8e-3, 2.0);
-}
-
 void suite_devices(void) {
     UnitySetTestFile(__FILE__);
     RUN_TEST(test_particle_flies_alike_in_both_coordinate_sets);
@@ -282,7 +219,4 @@ void suite_devices(void) {
     RUN_TEST(test_cuff_eight_weights);
     RUN_TEST(test_laskowitz_centred_is_a_flywheel);
     RUN_TEST(test_laskowitz_shifting_moves_the_carriage_once);
-    RUN_TEST(test_centre_of_mass_stays_at_each_scenes_own_step);
-    RUN_TEST(test_centre_of_mass_stays_on_the_slider_at_finer_steps);
-    RUN_TEST(test_drift_falls_at_fourth_order);
 }

@@ -50,8 +50,8 @@ static void test_float_on_the_epicyclic_gear(void) {
  * to 16 rad/s: each step rounds it by up to 8 U. */
 static void test_float_on_thomson_device(void) {
     const double amplified = 6e3 * U;
-    const double plain = error_at("thomson_a", "5.0", IN_FLOAT);
-    const double compensated = error_at("thomson_a", "5.0", IN_FLOAT_COMPENSATED);
+    const double plain = error_at("thomson_a", "5.0", IN_FLOAT_STEP(1e-3));
+    const double compensated = error_at("thomson_a", "5.0", IN_FLOAT_COMPENSATED_STEP(1e-3));
     expect_within("S8 float, 1 ms, error at 5 s, six states", amplified,
                   amplified * 8.0 * sqrt(5000.0 / 3.0), plain);
     expect_within("S8 float compensated, the same", 0.01 * amplified, amplified, compensated);
@@ -88,10 +88,12 @@ static double good_until_s(stepping how) {
  * 10 s: an error of 200 U in all is 1e-3 at about 5 s, one of U or less gets beyond 9 s, and the
  * 1e-11 that double's step stands for cannot reach 10 s either. */
 static void test_how_long_a_chaotic_trajectory_is_good(void) {
-    expect_within("S8 good to 1e-3 until, s: float, 1 ms", 4.0, 8.5, good_until_s(IN_FLOAT));
+    expect_within("S8 good to 1e-3 until, s: float, 1 ms", 4.0, 8.5,
+                  good_until_s(IN_FLOAT_STEP(1e-3)));
     expect_within("S8 good to 1e-3 until, s: float compensated", 8.5, 9.6,
-                  good_until_s(IN_FLOAT_COMPENSATED));
-    expect_within("S8 good to 1e-3 until, s: double, 1 ms", 9.2, 9.8, good_until_s(IN_DOUBLE));
+                  good_until_s(IN_FLOAT_COMPENSATED_STEP(1e-3)));
+    expect_within("S8 good to 1e-3 until, s: double, 1 ms", 9.2, 9.8,
+                  good_until_s(IN_DOUBLE_STEP(1e-3)));
 }
 
 /* --- many steps -------------------------------------------------------------------------------------- */
