@@ -3,10 +3,11 @@
 # tests/core   portable suites: run here in double and in float, and on the emulated board
 # tests/host   suites of the program's own parts, on this machine
 # tests/cli    scripts that drive build/whirl; each prints "ok - ..." or "not ok - ..." lines
-# Suites join by themselves: a file tests/*/test_x.c that defines `void suite_x(void)`.
+# Suites join by themselves: a file tests/*/test_x.c that defines `void suite_x(void)`. A test program takes
+# names of suites (build/tests/host lang) and runs only those.
 
-CORE_TEST_C := $(sort $(wildcard tests/core/*.c))
-HOST_TEST_C := $(sort $(wildcard tests/host/*.c))
+CORE_TEST_C := tests/main.c $(sort $(wildcard tests/core/*.c))
+HOST_TEST_C := tests/main.c $(sort $(wildcard tests/host/*.c))
 CLI_TESTS := $(sort $(wildcard tests/cli/*.sh))
 
 UNITY_DIR := build/unity
@@ -44,7 +45,7 @@ $(B)/tests/host: $(call objects,host,$(HOST_TEST_PARTS)) $(LIB_HOST) $(LIB_SCENE
     $(LIB_DOUBLE)
 	$(link)
 
-TEST_PROGRAMS := $(B)/tests/core_double $(B)/tests/core_float $(if $(HOST_TEST_C),$(B)/tests/host)
+TEST_PROGRAMS := $(B)/tests/core_double $(B)/tests/core_float $(B)/tests/host
 
 .PHONY: test-programs
 test-programs: $(TEST_PROGRAMS)
@@ -52,7 +53,7 @@ test-programs: $(TEST_PROGRAMS)
 # --- running ------------------------------------------------------------------------------------
 # tests/run.sh takes pairs: what it is, and the command.
 RUN_CORE = "portable suites, double" $(B)/tests/core_double "portable suites, float" $(B)/tests/core_float
-RUN_HOST = $(if $(HOST_TEST_C),"host suites" $(B)/tests/host)
+RUN_HOST = "host suites" $(B)/tests/host
 RUN_CLI = $(foreach t,$(CLI_TESTS),"$(t)" "sh $(t)")
 RUN_BOARD = "portable suites, $(BOARD)" "$(call emulate,$(B)/$(BOARD)/tests.elf)"
 
@@ -74,6 +75,8 @@ test-host: build/whirl
 	@sh tests/run.sh build/tests/log $(RUN_HOST)
 
 test-cli: build/whirl
+	@$(MAKE) $(GEN)/.stamp
+	@$(MAKE) test-programs
 	@WHIRL=build/whirl sh tests/run.sh build/tests/log $(RUN_CLI)
 
 test-board: build/whirl

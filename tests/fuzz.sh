@@ -1,5 +1,6 @@
 #!/bin/sh
-# fuzz.sh SECONDS FUZZER...: run each fuzzer on a copy of the built-in models, for so many seconds.
+# fuzz.sh SECONDS FUZZER...: run each fuzzer on a copy of the built-in models, for so many seconds. Words
+# to try are in tests/fuzz/NAME.dict, if there is one.
 set -u
 
 seconds=${1:?usage: fuzz.sh SECONDS FUZZER...}
@@ -13,8 +14,10 @@ for fuzzer in "$@"; do
     cp core/models/*.whirl "$corpus/"
     [ ! -d tests/bad ] || cp tests/bad/* "$corpus/"
     log=${fuzzer%.fuzzer}.log
-    if "$fuzzer" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -max_len=8192 \
-        -artifact_prefix="$found/" "$corpus" >"$log" 2>&1; then
+    words=tests/fuzz/$(basename "$fuzzer" .fuzzer).dict
+    if [ -f "$words" ]; then words=-dict=$words; else words=; fi
+    if "$fuzzer" -max_total_time="$seconds" -timeout=60 -rss_limit_mb=2048 -max_len=8192 \
+        -artifact_prefix="$found/" ${words:+"$words"} "$corpus" >"$log" 2>&1; then
         printf '  PASS  %-30s %s\n' "$fuzzer" "$(grep '^Done' "$log")"
     else
         printf '  FAIL  %-30s see %s and %s\n' "$fuzzer" "$log" "$found"

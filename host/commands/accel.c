@@ -41,13 +41,15 @@ int command_accel(int count, char **words) {
             double angle_rad[PROGRAM_COMPONENTS_MAX];
             double real[2 * PROGRAM_COMPONENTS_MAX];
             double *result = calloc((size_t)p->books->results + 1, sizeof *result);
-            if (result == NULL) {
+            double *input = calloc((size_t)p->inputs + 1, sizeof *input);
+            if (result == NULL || input == NULL) {
                 abort();
             }
             program_start(p, made.instance, angle_rad, real);
+            program_inputs(p, made.instance, input);
             evaluator *ev = evaluator_new(p->books);
-            evaluator_run(ev, 0.0, angle_rad, real, real + (p->coordinates - p->angles),
-                          made.instance->input, result);
+            evaluator_run(ev, 0.0, angle_rad, real, real + (p->coordinates - p->angles), input,
+                          result);
             evaluator_free(ev);
             for (int i = 0; i < p->count; i++) {
                 printf("%s", made.equations->unknowns[i].symbol->name);
@@ -57,6 +59,7 @@ int command_accel(int count, char **words) {
                 printf(" = %.17g\n", result[i]);
             }
             free(result);
+            free(input);
         }
         unload(&made);
     }

@@ -111,8 +111,9 @@ void change_options_free(change_options *c) {
     free(c->without);
 }
 
-bool options_choose(const char *command, const char *what, const char *value,
-                    const char *const *names, int count, int *chosen) {
+/* `value` among `names`; when it is none of them that is reported, with the names. */
+static bool choose(const char *command, const char *what, const char *value,
+                   const char *const *names, int count, int *chosen) {
     for (int i = 0; i < count; i++) {
         if (strcmp(value, names[i]) == 0) {
             *chosen = i;
@@ -129,16 +130,31 @@ bool options_choose(const char *command, const char *what, const char *value,
 
 bool options_engine(const char *command, int count, char **words, int *at,
                     engine_settings *settings, bool *bad) {
-    static const char *const methods[] = {"euler", "semi-implicit-euler", "heun", "rk4"};
+    static const char *const methods[] = {[WH_EULER] = "euler",
+                                          [WH_SEMI_IMPLICIT_EULER] = "semi-implicit-euler",
+                                          [WH_HEUN] = "heun",
+                                          [WH_RK4] = "rk4"};
     int chosen = 0;
     const char *value = options_value(count, words, at, "--method", bad);
     if (value != NULL) {
-        *bad = !options_choose(command, "method", value, methods, 4, &chosen);
+        *bad = !choose(command, "method", value, methods, 4, &chosen);
         settings->method = (wh_method)chosen;
     } else if (!*bad && strcmp(words[*at], "--compensated") == 0) {
         ++*at;
         settings->compensated = true;
         return true;
+    }
+    return value != NULL;
+}
+
+bool options_number(const char *command, int count, char **words, int *at, const engine_kind **kind,
+                    bool *bad) {
+    static const char *const numbers[] = {"double", "float"};
+    int chosen = 0;
+    const char *value = options_value(count, words, at, "--number", bad);
+    if (value != NULL) {
+        *bad = !choose(command, "number", value, numbers, 2, &chosen);
+        *kind = chosen == 1 ? &engine_float : &engine_double;
     }
     return value != NULL;
 }

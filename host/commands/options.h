@@ -42,9 +42,9 @@ void change_options_free(change_options *changes);
 bool options_engine(const char *command, int count, char **words, int *at,
                     engine_settings *settings, bool *bad);
 
-/* `value` among `names`; when it is none of them that is reported, with the names. */
-bool options_choose(const char *command, const char *what, const char *value,
-                    const char *const *names, int count, int *chosen);
+/* What computes: --number N; *kind is left alone without it. */
+bool options_number(const char *command, int count, char **words, int *at, const engine_kind **kind,
+                    bool *bad);
 
 /* Report a word that no option takes, with the nearest of `known` (NULL ends the list). */
 void options_unknown(const char *command, const char *word, const char *const *known);

@@ -57,15 +57,12 @@ static bool take_flag(char **words, int *at, const char *name) {
 
 /* One word or pair of words that is this command's own; false when it is none of them. */
 static bool take_own(int count, char **words, int *at, run_options *o, bool *bad) {
-    static const char *const numbers[] = {"double", "float"};
     const char *value = NULL;
-    int chosen = 0;
-    if (options_engine("run", count, words, at, &o->settings.engine, bad)) {
+    if (options_engine("run", count, words, at, &o->settings.engine, bad) ||
+        (!*bad && options_number("run", count, words, at, &o->settings.kind, bad))) {
         return true;
-    } else if (!*bad && (value = options_value(count, words, at, "--number", bad)) != NULL) {
-        *bad = !options_choose("run", "number", value, numbers, 2, &chosen);
-        o->settings.kind = chosen == 1 ? &engine_float : &engine_double;
-    } else if (!*bad && (value = options_value(count, words, at, "--csv", bad)) != NULL) {
+    }
+    if (!*bad && (value = options_value(count, words, at, "--csv", bad)) != NULL) {
         o->settings.csv = value;
     } else if (!*bad && (value = options_value(count, words, at, "--columns", bad)) != NULL) {
         o->settings.columns = value;

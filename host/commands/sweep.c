@@ -66,22 +66,6 @@ typedef struct sweep_options {
     engine_settings engine;
 } sweep_options;
 
-static bool choose(const char *what, const char *value, const char *const *names, int count,
-                   int *chosen) {
-    for (int i = 0; i < count; i++) {
-        if (strcmp(value, names[i]) == 0) {
-            *chosen = i;
-            return true;
-        }
-    }
-    fprintf(stderr, "whirl sweep: error: there is no %s '%s'\nhint: one of", what, value);
-    for (int i = 0; i < count; i++) {
-        fprintf(stderr, "%s %s", i > 0 ? "," : "", names[i]);
-    }
-    fputc('\n', stderr);
-    return false;
-}
-
 /* A whole number from 1 to `limit`, up to the end of the text or `end`. */
 static bool read_whole(const char *text, char end, unsigned long long limit,
                        unsigned long long *value, const char **rest) {
@@ -118,14 +102,12 @@ static bool read_shard(const char *text, sweep_options *o) {
 
 /* One option with a value; false when the word is none of them. */
 static bool take_valued(int count, char **words, int *at, sweep_options *o, bool *bad) {
-    static const char *const methods[] = {[WH_EULER] = "euler",
-                                          [WH_SEMI_IMPLICIT_EULER] = "semi-implicit-euler",
-                                          [WH_HEUN] = "heun",
-                                          [WH_RK4] = "rk4"};
-    static const char *const numbers[] = {"double", "float"};
-    const char *value;
-    int chosen = 0;
-    if ((value = options_value(count, words, at, "--over", bad)) != NULL) {
+    const char *value = NULL;
+    if (options_engine("sweep", count, words, at, &o->engine, bad) ||
+        (!*bad && options_number("sweep", count, words, at, &o->kind, bad))) {
+        return true;
+    }
+    if (!*bad && (value = options_value(count, words, at, "--over", bad)) != NULL) {
         o->over[o->over_count++] = value;
     } else if (!*bad && (value = options_value(count, words, at, "--measure", bad)) != NULL) {
         o->measure[o->measure_count++] = value;
@@ -137,12 +119,6 @@ static bool take_valued(int count, char **words, int *at, sweep_options *o, bool
         *bad = !read_jobs(value, o);
     } else if (!*bad && (value = options_value(count, words, at, "--shard", bad)) != NULL) {
         *bad = !read_shard(value, o);
-    } else if (!*bad && (value = options_value(count, words, at, "--method", bad)) != NULL) {
-        *bad = !choose("method", value, methods, 4, &chosen);
-        o->engine.method = (wh_method)chosen;
-    } else if (!*bad && (value = options_value(count, words, at, "--number", bad)) != NULL) {
-        *bad = !choose("number", value, numbers, 2, &chosen);
-        o->kind = chosen == 1 ? &engine_float : &engine_double;
     }
     return value != NULL;
 }
@@ -151,8 +127,7 @@ static bool take_flag(char **words, int *at, sweep_options *o) {
     const struct {
         const char *name;
         bool *flag;
-    } flags[] = {
-        {"--fresh", &o->fresh}, {"--quiet", &o->quiet}, {"--compensated", &o->engine.compensated}};
+    } flags[] = {{"--fresh", &o->fresh}, {"--quiet", &o->quiet}};
     for (size_t i = 0; i < sizeof flags / sizeof flags[0]; i++) {
         if (strcmp(words[*at], flags[i].name) == 0) {
             *flags[i].flag = true;
@@ -172,10 +147,10 @@ static bool read_options(int count, char **words, sweep_options *o) {
         }
         if (words[at][0] == '-' && words[at][1] != '\0') {
             options_unknown("sweep", words[at],
-                            (const char *const[]){CHANGE_OPTIONS, "--over", "--measure", "--from",
-                                                  "--csv", "--fresh", "--jobs", "--shard",
-                                                  "--method", "--number", "--compensated",
-                                                  "--quiet", "--help", NULL});
+                            (const char *const[]){CHANGE_OPTIONS, ENGINE_OPTIONS, "--number",
+                                                  "--over", "--measure", "--from", "--csv",
+                                                  "--fresh", "--jobs", "--shard", "--quiet",
+                                                  "--help", NULL});
             return false;
         }
         if (o->target != NULL) {

@@ -7,6 +7,8 @@
  *     stack NAME BYTES                       deepest stack of the program during those steps
  *     failed NAME STATUS                     the scene could not be counted
  *
+ * Built with COUNT_RECORDS=1 it counts the computing of the outputs as well, with "record" as METHOD.
+ *
  * Interval 0 is around nothing. On a board an interval holds the call too (loading the arguments
  * and the branch); callgrind counts the called function alone. */
 #include "boards/board.h"
@@ -15,7 +17,14 @@
 #include "core/text.h"
 
 #define WARM_STEPS 20U
+#ifndef COUNTED_STEPS
 #define COUNTED_STEPS 100U
+#endif
+#ifndef COUNT_RECORDS
+#define COUNT_RECORDS 0
+#endif
+#define COUNTED_RECORDS 100U
+#define OUTPUTS_MAX 64U
 #define COUNTED_PAIRS 64U
 
 /* Room for any scene of up to 16 angles, 48 reals and 16 inputs, compensated or not. */
@@ -111,6 +120,24 @@ static void count_pairs(void) {
     say_counted("wh_sincos", "-", false, first);
 }
 
+#if COUNT_RECORDS
+static void count_records(const wh_scene *scene, wh_state *state) {
+    static wh_real output[OUTPUTS_MAX];
+    const unsigned first = intervals;
+    if (scene->observe == NULL || scene->outputs > OUTPUTS_MAX) {
+        return;
+    }
+    for (unsigned i = 0; i < COUNTED_RECORDS; i++) {
+        wh_count_begin();
+        scene->observe(scene, state, output);
+        wh_count_end();
+        intervals++;
+        state->steps++; /* the noise looks at it */
+    }
+    say_counted(scene->name, "record", false, first);
+}
+#endif
+
 static bool count_scene(const wh_scene *scene) {
     wh_state state;
     wh_status status = wh_scene_start(scene, &state, memory, sizeof memory);
@@ -131,6 +158,9 @@ static bool count_scene(const wh_scene *scene) {
     }
     say_stack(scene->name);
     say_counted(scene->name, name_of(scene->method), scene->compensated, first);
+#if COUNT_RECORDS
+    count_records(scene, &state);
+#endif
     return true;
 }
 

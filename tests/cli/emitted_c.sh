@@ -32,6 +32,10 @@ add() { # add TARGET OPTION...: what to derive and run
 for scene in $("$whirl" list | awk '$1 == "scene" { print $2 }'); do
     add "$scene" --until 0.3s
 done
+# the books leave the bits as they are, and compile
+for scene in thomson_a epicyclic_conserved $("$whirl" list | awk '$1 == "scene" { print $2 }' | grep -E 'ball|walk|magnet|creep'); do
+    add "$scene" --with ledger --until 0.3s
+done
 for scene in thomson_b spherical_flight two_mass_relative epicyclic_conserved; do
     add "$scene" --until 0.3s --compensated
     for method in heun euler semi-implicit-euler; do

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "host/lang/builtin.h"
+#include "host/run/engine.h"
 #include "unity.h"
 
 static const scene *scene_called(const model *m, const char *name) {
@@ -92,6 +93,43 @@ void derived_free(derived *d) {
     model_free(d->model);
     free(d->errors);
     *d = (derived){0};
+}
+
+void derived_expect(const derived *d, const char *what) {
+    if (d->program == NULL) {
+        printf("  %s: %s\n", what, d->errors);
+    }
+    TEST_ASSERT_NOT_NULL_MESSAGE(d->program, what);
+    TEST_ASSERT_EQUAL_STRING_MESSAGE("", d->errors, what);
+}
+
+void random_state(state_values *s, const derived *d, uint64_t *seed) {
+    s->instance = d->instance;
+    TEST_ASSERT_TRUE(d->equations->count <= UNKNOWNS);
+    for (int i = 0; i < d->equations->count; i++) {
+        for (int primes = 0; primes < ORDERS_MAX; primes++) {
+            s->value[i][primes] =
+                primes == 0 ? random_between(seed, 0.2, 1.1) : random_between(seed, -2.0, 2.0);
+        }
+    }
+}
+
+void derived_run(const tape *t, const derived *d, const state_values *s, double *result) {
+    const program *p = d->program;
+    double angle_rad[UNKNOWNS] = {0};
+    double real[4 * UNKNOWNS] = {0};
+    double input[UNKNOWNS] = {0};
+    TEST_ASSERT_TRUE(p->angles <= UNKNOWNS && p->reals <= 4 * UNKNOWNS && p->inputs <= UNKNOWNS);
+    for (int i = 0; i < p->angles; i++) {
+        angle_rad[i] = s->value[p->angle[i].unknown][p->angle[i].primes];
+    }
+    for (int i = 0; i < p->reals; i++) {
+        real[i] = s->value[p->real[i].unknown][p->real[i].primes];
+    }
+    program_inputs(p, d->instance, input);
+    evaluator *ev = evaluator_new(t);
+    evaluator_run(ev, 0.0, angle_rad, real, real + (p->coordinates - p->angles), input, result);
+    evaluator_free(ev);
 }
 
 double state_value(void *context, const symbol *sym, int primes) {

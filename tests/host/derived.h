@@ -20,18 +20,26 @@ derived derived_builtin(const char *name);
 /* The first mechanism of a file. */
 derived derived_file(const char *path);
 void derived_free(derived *d);
+/* Fails the test, with the errors, when it could not be derived. */
+void derived_expect(const derived *d, const char *what);
 
-/* Derivatives that a state_values has room for, the value included. */
-enum { ORDERS_MAX = 6 };
+/* What a state_values has room for: coordinates, and derivatives of each, the value included. */
+enum { UNKNOWNS = 16, ORDERS_MAX = 6 };
 
 /* Numbers for every symbol, by kind and index: the state of one comparison. */
 typedef struct state_values {
     const instance *instance;
-    double value[16][ORDERS_MAX]; /* [coordinate][primes] */
+    double value[UNKNOWNS][ORDERS_MAX]; /* [coordinate][primes] */
 } state_values;
 
 /* For poly_evaluate(), with a state_values as context. */
 double state_value(void *context, const symbol *sym, int primes);
+
+/* A random state: lengths stay positive and angles off the poles; singular points are not the matter. */
+void random_state(state_values *s, const derived *d, uint64_t *seed);
+
+/* What a list of the program gives at a state: result[t->results]. */
+void derived_run(const tape *t, const derived *d, const state_values *s, double *result);
 
 /* Next random 64 bits; a number between the bounds. */
 uint64_t random_bits(uint64_t *seed);

@@ -1,74 +1,17 @@
-/* test_emit.c: what is printed says what was derived: the text's equations and the Octave file are
- * read back and evaluated; the short equations look as a textbook has them; LaTeX is well formed. */
-#define _POSIX_C_SOURCE 200809L
-
-#include <dirent.h>
+/* test_emit.c: what is printed says what was derived: the text's equations are read back and evaluated;
+ * the short ones look as a textbook has them; LaTeX is well formed. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "derived.h"
 #include "formula.h"
-#include "host/emit/emit.h"
+#include "printed.h"
 #include "unity.h"
 
 void suite_emit(void);
 
-enum { STATES = 10, UNKNOWNS = 16, VALUES_MAX = 4096 };
-
-/* --- all mechanisms there are --------------------------------------------------------------------*/
-
-typedef void checker(const char *name, derived *d);
-
-static void each_mechanism(checker *check) {
-    static const char *const own[] = {"spherical_particle",  "masses_relative", "masses_absolute",
-                                      "epicyclic_rail_drag", "driven_hinge",    "thomson",
-                                      "thomson_a_spin",      "rig_fixed",       "carriage_free"};
-    for (size_t i = 0; i < sizeof own / sizeof own[0]; i++) {
-        derived d = derived_builtin(own[i]);
-        TEST_ASSERT_NOT_NULL_MESSAGE(d.program, own[i]);
-        check(own[i], &d);
-        derived_free(&d);
-    }
-    DIR *folder = opendir("tests/mechanisms");
-    TEST_ASSERT_NOT_NULL_MESSAGE(folder, "run from the project's root");
-    int files = 0;
-    for (struct dirent *entry; (entry = readdir(folder)) != NULL;) {
-        char path[512];
-        snprintf(path, sizeof path, "tests/mechanisms/%s", entry->d_name);
-        if (strstr(path, ".whirl") != NULL) {
-            derived d = derived_file(path);
-            TEST_ASSERT_NOT_NULL_MESSAGE(d.program, path);
-            check(path, &d);
-            derived_free(&d);
-            files++;
-        }
-    }
-    closedir(folder);
-    TEST_ASSERT_GREATER_THAN_INT(25, files);
-}
-
-typedef enum language { TEXT, LATEX, OCTAVE } language;
-
-/* What one writer prints; free() it. */
-static char *printed(const derived *d, language as) {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *out = open_memstream(&text, &size);
-    TEST_ASSERT_NOT_NULL(out);
-    switch (as) {
-    case TEXT: emit_text(out, d->equations); break;
-    case LATEX: emit_latex(out, d->equations); break;
-    case OCTAVE: emit_octave(out, d->equations, d->program, "x.whirl"); break;
-    }
-    fclose(out);
-    char *copy = malloc(size + 1); /* gcc takes the stream's own for an address of this frame */
-    TEST_ASSERT_NOT_NULL(copy);
-    memcpy(copy, text, size + 1);
-    free(text);
-    return copy;
-}
+enum { STATES = 10 };
 
 /* --- reading back --------------------------------------------------------------------------------*/
 
@@ -100,16 +43,6 @@ static double value_of_name(void *context, const char *name, int length) {
         }
     }
     return (double)NAN;
-}
-
-static void random_state(state_values *s, const derived *d, uint64_t *seed) {
-    s->instance = d->instance;
-    for (int i = 0; i < d->equations->count; i++) {
-        for (int primes = 0; primes < ORDERS_MAX; primes++) {
-            s->value[i][primes] =
-                random_between(seed, primes == 0 ? 0.2 : -2.0, primes == 0 ? 1.1 : 2.0);
-        }
-    }
 }
 
 /* `formula = formula` (with what stands in front of it): both sides' values. */
@@ -329,125 +262,10 @@ static void test_latex_is_balanced(void) {
     derived_free(&d);
 }
 
-/* --- Octave --------------------------------------------------------------------------------------*/
-
-typedef struct workspace {
-    double x[VALUES_MAX];
-    double y[4 * UNKNOWNS];
-    double dy[4 * UNKNOWNS];
-    const instance *instance;
-} workspace;
-
-static double octave_value(void *context, const char *name, int length) {
-    const workspace *w = context;
-    const mechanism *m = w->instance->mechanism;
-    for (int i = 0; i < m->input_count; i++) { /* u_M: no clash with what else has a name */
-        if (strncmp(name, "u_", 2) == 0 && (int)strlen(m->inputs[i]->name) == length - 2 &&
-            strncmp(m->inputs[i]->name, name + 2, (size_t)(length - 2)) == 0) {
-            return w->instance->input[i];
-        }
-    }
-    if (*name == 'y' && name[1] == '(') {
-        return w->y[(int)strtol(name + 2, NULL, 10) - 1];
-    }
-    return *name == 'x' ? w->x[(int)strtol(name + 1, NULL, 10)] : (double)NAN;
-}
-
-/* Run the assignments of the function file. */
-static void run_octave(const char *name, const char *text, workspace *w) {
-    for (const char *line = text; line != NULL && *line != '\0';
-         line = strchr(line, '\n') == NULL ? NULL : strchr(line, '\n') + 1) {
-        double *target = NULL;
-        if (strncmp(line, "  x", 3) == 0) {
-            const int number = (int)strtol(line + 3, NULL, 10);
-            TEST_ASSERT_TRUE_MESSAGE(number >= 0 && number < VALUES_MAX, name);
-            target = &w->x[number];
-        } else if (strncmp(line, "  dy(", 5) == 0) {
-            target = &w->dy[(int)strtol(line + 5, NULL, 10) - 1];
-        }
-        if (target != NULL) {
-            const char *end;
-            *target = formula_value(strchr(line, '=') + 1, &end, octave_value, w);
-            if (strncmp(end, ";\n", 2) != 0) {
-                printf("  %s: %.80s\n", name, line);
-            }
-            TEST_ASSERT_EQUAL_STRING_LEN_MESSAGE(";\n", end, 2, name);
-        }
-    }
-}
-
-/* dy(y) against the step list at random states; y = values, then rates, and so on. */
-static void check_octave(const char *name, derived *d) {
-    const program *p = d->program;
-    const equations *e = d->equations;
-    if (p->conserved->count > 0) {
-        return; /* recovered coordinates have no slopes */
-    }
-    char *text = printed(d, OCTAVE);
-    TEST_ASSERT_EQUAL_STRING_LEN_MESSAGE("function dy = ", text, 14, name);
-    TEST_ASSERT_EQUAL_STRING_MESSAGE("end\n", text + strlen(text) - 4, name);
-    TEST_ASSERT_NULL_MESSAGE(strstr(text, "OP_"), name);
-    uint64_t seed = 3;
-    for (int k = 0; k < STATES; k++) {
-        state_values s;
-        random_state(&s, d, &seed);
-        workspace w = {.instance = d->instance};
-        int number = 0;
-        int rows = 0;
-        for (int level = 0; level < 8; level++) {
-            for (int i = 0; i < e->count; i++) {
-                if (e->unknowns[i].order > level) {
-                    w.y[number++] = s.value[i][level];
-                }
-            }
-        }
-        run_octave(name, text, &w);
-        double angle_rad[UNKNOWNS] = {0};
-        double real[4 * UNKNOWNS] = {0};
-        double result[4 * UNKNOWNS];
-        for (int i = 0; i < p->angles; i++) {
-            angle_rad[i] = s.value[p->angle[i].unknown][p->angle[i].primes];
-        }
-        for (int i = 0; i < p->reals; i++) {
-            real[i] = s.value[p->real[i].unknown][p->real[i].primes];
-        }
-        evaluator *ev = evaluator_new(p->books);
-        double *books = calloc((size_t)p->books->results + 1, sizeof *books);
-        TEST_ASSERT_NOT_NULL(books);
-        evaluator_run(ev, 0.0, angle_rad, real, real + (p->coordinates - p->angles),
-                      d->instance->input, books);
-        evaluator_free(ev);
-        for (int i = 0; i < e->count; i++) {
-            result[i] = books[i]; /* highest derivatives */
-        }
-        free(books);
-        double largest = 0.0;
-        for (int i = 0; i < e->count; i++) {
-            largest = fmax(largest, fabs(result[i]));
-        }
-        for (int level = 0; level < 8; level++) {
-            for (int i = 0; i < e->count; i++) {
-                if (e->unknowns[i].order > level) {
-                    const bool highest = level + 1 == e->unknowns[i].order;
-                    const double want = highest ? result[i] : s.value[i][level + 1];
-                    /* The books may divide in another order: a few units in the last place */
-                    TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1e-12 * (highest ? largest : fabs(want)),
-                                                      want, w.dy[rows], name);
-                    rows++;
-                }
-            }
-        }
-    }
-    free(text);
-}
-
-static void test_octave_files_compute_the_same(void) { each_mechanism(check_octave); }
-
 void suite_emit(void) {
     UnitySetTestFile(__FILE__);
     RUN_TEST(test_printed_equations_say_what_was_derived);
     RUN_TEST(test_first_order_form_solves_the_equations);
     RUN_TEST(test_short_equations_look_as_in_the_dissertation);
     RUN_TEST(test_latex_is_balanced);
-    RUN_TEST(test_octave_files_compute_the_same);
 }

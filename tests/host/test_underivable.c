@@ -71,6 +71,11 @@ static void test_expressions_that_explode_are_refused(void) {
                        "t.whirl:1:11: error: the equations of 'm' grow beyond what can be handled");
         free(text);
     }
+    /* nothing to multiply out and few objects, but 2^40 leaves for whoever walks through them all */
+    char *doubled = repeated(front, "let a# = exp(a@) + atan(a@)\n", 40,
+                             "T = 1 [kg*m^2]*(x'^2 + y'^2)\noutput o = a40\n");
+    expect_refused(doubled, "error: the equations of 'm' grow beyond what can be handled");
+    free(doubled);
     /* one unknown less deep, so that the algebra gets further before it gives up */
     for (int deep = 4; deep < 12; deep++) {
         char end[96];

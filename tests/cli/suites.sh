@@ -1,0 +1,49 @@
+#!/bin/sh
+# suites.sh: a test program runs the suites that are named, all of them without a name, and refuses a name
+# that is none of them, rather than passing with nothing run.
+set -u
+
+folder=$(dirname "${WHIRL:-build/whirl}")/tests
+scratch=$(mktemp -d) || exit 1
+trap 'rm -rf "$scratch"' EXIT
+failed=0
+
+# verdict STATUS WHAT
+verdict() {
+    if [ "$1" -eq 0 ]; then
+        echo "ok - $2"
+    else
+        echo "not ok - $2"
+        sed 's/^/    /' "$scratch/err" | head -n 3
+        failed=1
+    fi
+}
+
+for name in host core_double core_float; do
+    program=$folder/$name
+    "$program" no_such_suite >"$scratch/out" 2>"$scratch/err"
+    [ $? -eq 2 ] && [ ! -s "$scratch/out" ] &&
+        grep -q "^error: there is no suite 'no_such_suite'$" "$scratch/err"
+    verdict $? "$name refuses a suite that is not there"
+
+    case $name in
+    host) sources=tests/host ;;
+    *) sources=tests/core ;;
+    esac
+    listed=$(sed -n 's/^hint: one of //p' "$scratch/err" | tr -d ',' | tr ' ' '\n' | sort)
+    there=$(sed -n 's/^void suite_\([a-z0-9_]*\)(void) {.*/\1/p' "$sources"/test_*.c | sort)
+    [ -n "$there" ] && [ "$listed" = "$there" ]
+    verdict $? "$name lists the suites of $sources"
+
+    first=$(echo "$there" | head -n 1)
+    "$program" "$first" no_such_suite >"$scratch/out" 2>"$scratch/err"
+    [ $? -eq 2 ] && [ ! -s "$scratch/out" ]
+    verdict $? "$name refuses it beside one that is there, before running any"
+done
+
+for suite in sine suite_sine; do
+    "$folder/core_double" $suite >"$scratch/out" 2>"$scratch/err" &&
+        grep -q 'test_sine.c:.*:PASS$' "$scratch/out" && ! grep -q 'test_angle.c:' "$scratch/out"
+    verdict $? "core_double $suite runs that suite alone"
+done
+exit $failed

@@ -1,0 +1,58 @@
+/* printed.c: see printed.h. */
+#define _POSIX_C_SOURCE 200809L
+
+#include "printed.h"
+
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "host/emit/emit.h"
+#include "unity.h"
+
+void each_mechanism(checker *check) {
+    static const char *const own[] = {"spherical_particle",  "masses_relative", "masses_absolute",
+                                      "epicyclic_rail_drag", "driven_hinge",    "thomson",
+                                      "thomson_a_spin",      "rig_fixed",       "carriage_free"};
+    for (size_t i = 0; i < sizeof own / sizeof own[0]; i++) {
+        derived d = derived_builtin(own[i]);
+        TEST_ASSERT_NOT_NULL_MESSAGE(d.program, own[i]);
+        check(own[i], &d);
+        derived_free(&d);
+    }
+    DIR *folder = opendir("tests/mechanisms");
+    TEST_ASSERT_NOT_NULL_MESSAGE(folder, "run from the project's root");
+    int files = 0;
+    for (struct dirent *entry; (entry = readdir(folder)) != NULL;) {
+        char path[512];
+        snprintf(path, sizeof path, "tests/mechanisms/%s", entry->d_name);
+        if (strstr(path, ".whirl") != NULL) {
+            derived d = derived_file(path);
+            TEST_ASSERT_NOT_NULL_MESSAGE(d.program, path);
+            check(path, &d);
+            derived_free(&d);
+            files++;
+        }
+    }
+    closedir(folder);
+    TEST_ASSERT_GREATER_THAN_INT(25, files);
+}
+
+char *printed(const derived *d, language as) {
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    TEST_ASSERT_NOT_NULL(out);
+    switch (as) {
+    case TEXT: emit_text(out, d->equations); break;
+    case LATEX: emit_latex(out, d->equations); break;
+    case OCTAVE: emit_octave(out, d->equations, d->program, "x.whirl"); break;
+    }
+    fclose(out);
+    char *copy = malloc(size + 1); /* gcc takes the stream's own for an address of this frame */
+    TEST_ASSERT_NOT_NULL(copy);
+    memcpy(copy, text, size + 1);
+    free(text);
+    return copy;
+}

@@ -1,0 +1,114 @@
+/* test_octave.c: the Octave file, read back line by line, computes what the operation lists do. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "formula.h"
+#include "printed.h"
+#include "unity.h"
+
+void suite_octave(void);
+
+enum { STATES = 10, VALUES_MAX = 4096, RESULTS_MAX = 128 };
+
+typedef struct workspace {
+    double x[VALUES_MAX];
+    double y[4 * UNKNOWNS];
+    double dy[4 * UNKNOWNS];
+    const instance *instance;
+} workspace;
+
+static double octave_value(void *context, const char *name, int length) {
+    const workspace *w = context;
+    const mechanism *m = w->instance->mechanism;
+    for (int i = 0; i < m->input_count; i++) { /* u_M: no clash with what else has a name */
+        if (strncmp(name, "u_", 2) == 0 && (int)strlen(m->inputs[i]->name) == length - 2 &&
+            strncmp(m->inputs[i]->name, name + 2, (size_t)(length - 2)) == 0) {
+            return w->instance->input[i];
+        }
+    }
+    if (*name == 'y' && name[1] == '(') {
+        return w->y[(int)strtol(name + 2, NULL, 10) - 1];
+    }
+    return *name == 'x' ? w->x[(int)strtol(name + 1, NULL, 10)] : (double)NAN;
+}
+
+/* Run the assignments of the function file. */
+static void run_octave(const char *name, const char *text, workspace *w) {
+    for (const char *line = text; line != NULL && *line != '\0';
+         line = strchr(line, '\n') == NULL ? NULL : strchr(line, '\n') + 1) {
+        double *target = NULL;
+        if (strncmp(line, "  x", 3) == 0) {
+            const int number = (int)strtol(line + 3, NULL, 10);
+            TEST_ASSERT_TRUE_MESSAGE(number >= 0 && number < VALUES_MAX, name);
+            target = &w->x[number];
+        } else if (strncmp(line, "  dy(", 5) == 0) {
+            target = &w->dy[(int)strtol(line + 5, NULL, 10) - 1];
+        }
+        if (target != NULL) {
+            const char *end;
+            *target = formula_value(strchr(line, '=') + 1, &end, octave_value, w);
+            if (strncmp(end, ";\n", 2) != 0) {
+                printf("  %s: %.80s\n", name, line);
+            }
+            TEST_ASSERT_EQUAL_STRING_LEN_MESSAGE(";\n", end, 2, name);
+        }
+    }
+}
+
+/* dy(y) against the step list at random states; y = values, then rates, and so on. */
+static void check_octave(const char *name, derived *d) {
+    const program *p = d->program;
+    const equations *e = d->equations;
+    if (p->conserved->count > 0) {
+        return; /* recovered coordinates have no slopes */
+    }
+    char *text = printed(d, OCTAVE);
+    TEST_ASSERT_EQUAL_STRING_LEN_MESSAGE("function dy = ", text, 14, name);
+    TEST_ASSERT_EQUAL_STRING_MESSAGE("end\n", text + strlen(text) - 4, name);
+    TEST_ASSERT_NULL_MESSAGE(strstr(text, "OP_"), name);
+    uint64_t seed = 3;
+    for (int k = 0; k < STATES; k++) {
+        state_values s;
+        random_state(&s, d, &seed);
+        workspace w = {.instance = d->instance};
+        int number = 0;
+        int rows = 0;
+        for (int level = 0; level < 8; level++) {
+            for (int i = 0; i < e->count; i++) {
+                if (e->unknowns[i].order > level) {
+                    w.y[number++] = s.value[i][level];
+                }
+            }
+        }
+        run_octave(name, text, &w);
+        double result[RESULTS_MAX]; /* the highest derivatives come first */
+        TEST_ASSERT_TRUE_MESSAGE(p->books->results <= RESULTS_MAX, name);
+        derived_run(p->books, d, &s, result);
+        double largest = 0.0;
+        for (int i = 0; i < e->count; i++) {
+            largest = fmax(largest, fabs(result[i]));
+        }
+        for (int level = 0; level < 8; level++) {
+            for (int i = 0; i < e->count; i++) {
+                if (e->unknowns[i].order > level) {
+                    const bool highest = level + 1 == e->unknowns[i].order;
+                    const double want = highest ? result[i] : s.value[i][level + 1];
+                    /* The books may divide in another order: a few units in the last place */
+                    TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1e-12 * (highest ? largest : fabs(want)),
+                                                      want, w.dy[rows], name);
+                    rows++;
+                }
+            }
+        }
+    }
+    free(text);
+}
+
+static void test_octave_files_compute_the_same(void) { each_mechanism(check_octave); }
+
+void suite_octave(void) {
+    UnitySetTestFile(__FILE__);
+    RUN_TEST(test_octave_files_compute_the_same);
+}
