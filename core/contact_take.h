@@ -66,13 +66,17 @@ static inline void wh_contact_assign(const wh_hybrid *of, wh_contact_work *w, un
     }
 }
 
-/* The rate is zero but for what the location left: take that away and stick. */
+/* The rate is zero but for what the location left: friction, which would take that away in no time, does,
+ * and sticks. */
 WH_INLINE void wh_contact_stick(const wh_hybrid *of, wh_contact_work *w, unsigned k,
                                 wh_real *rate) {
     const int pin = of->contact[k].pin;
     const wh_real *way = wh_law(of, w, k) + WH_LAW_ROWS + of->coordinates;
-    wh_push(of, w, k, -rate[pin] / way[pin], rate);
+    const wh_real left = rate[pin];
+    const wh_real impulse = -left / way[pin];
+    wh_push(of, w, k, impulse, rate);
     rate[pin] = WH_R(0.0);
+    wh_books_impulse(of, w, k, impulse, left, WH_R(0.0));
     w->mode[k] = WH_STUCK;
 }
 
