@@ -35,6 +35,9 @@ static void start(motion *m, const scene *in, stepping how) {
                                .starts = &how.start,
                                .start_count = how.start != NULL ? 1 : 0};
     m->instance = instance_make(in->mechanism, in, &changes, m->errors);
+    if (m->instance != NULL) {
+        m->instance->ledger = m->instance->ledger || how.ledger;
+    }
     m->equations = m->instance != NULL ? equations_derive(m->instance, m->errors) : NULL;
     if (m->equations != NULL) {
         m->program = program_make(m->equations, in->conserve, m->errors);

@@ -25,6 +25,7 @@ typedef struct stepping {
     double step_s;     /* 0: the scene's own. A double; the float engine rounds it once more */
     const char *set;   /* a parameter or an input, "M=1.5", or NULL */
     const char *start; /* a coordinate or a rate, "theta'=3", or NULL */
+    bool ledger;       /* keep the books */
 } stepping;
 
 /* RK4 with the scene's own step, or with another. */
