@@ -174,7 +174,8 @@ static void check_condition(const char *text, truth *wanted) {
         const double x = -0.63 + 0.31 * (i % 6);
         const double y = -0.41 + 0.29 * (i / 6 % 6);
         const double phi = -0.77 + 0.47 * (i / 36 % 6);
-        const double vx = -0.83 + 0.33 * (i / 216);
+        const int last = i / 216;
+        const double vx = -0.83 + 0.33 * last;
         place_at(x, y, phi, vx, 0.0, 0.0);
         const bool is = value(held->condition) > 0.0;
         const bool should = wanted(x, y, phi, vx);
