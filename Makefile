@@ -1,7 +1,7 @@
 # Whirl: energies in, firmware out. `make` lists the targets; the machinery is in mk/.
 #
 # V=1 shows the commands. Nothing is written outside build/,
-# but for `make figures-docs`, which copies the figures into docs/.
+# but for `make figures-docs` and `make price-effects`, which renew their part of docs/.
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
@@ -82,7 +82,7 @@ sine-exhaustive: $(B)/tools/sine_exhaustive ## the sine's worst error, over all 
 	$(Q)$<
 
 .PHONY: fuzz
-fuzz: ## throw broken files at the parser for FUZZ_SECONDS each
+fuzz: ## broken files at the parser, odd mechanisms at the rest, for FUZZ_SECONDS each
 	@CC="$(CC)" host/setup/deps.sh host quality
 	@$(MAKE) fuzz-now
 
@@ -97,6 +97,11 @@ format: ## lay out every C file as .clang-format says
 bench: ## instructions a step, counted, on this machine and on the emulated boards
 	@CC="$(CC)" host/setup/deps.sh host firmware bench
 	@$(MAKE) bench-now
+
+.PHONY: price-effects
+price-effects: ## what each effect costs: instructions, bytes, error; into docs/effects.md (minutes)
+	@CC="$(CC)" host/setup/deps.sh host firmware bench
+	@$(MAKE) price-effects-now
 
 .PHONY: worst-step
 worst-step: ## the most instructions of a step with events, over a million random steps a scene (minutes)

@@ -84,3 +84,16 @@ size-now: build/whirl
 	@BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) SIZE=$(BOARD_SIZE) OBJECTS=$(ELF) \
 	    FLAGS="$(call TOLD,$(BOARD_CFLAGS))" EMULATE="$(call emulate,@)" \
 	    host/size/size.sh $(FIGURES)/size.csv $(IMAGES)
+
+# What each effect costs: build/price/effects.csv, and the tables of docs/effects.md.
+.PHONY: price-effects-now
+price-effects-now: build/whirl
+	@$(MAKE) $(GEN)/.stamp
+	@$(MAKE) $(BOARD_OBJECTS) $(LIB_BOARD) $(PLUGIN)
+	@WHIRL=build/whirl OUT=build/price BOARD=$(BOARD) BOARD_CC=$(BOARD_CC) BOARD_NM=$(BOARD_NM) \
+	    BOARD_SIZE=$(BOARD_SIZE) BOARD_CFLAGS="$(BOARD_CFLAGS)" BOARD_LDFLAGS="$(BOARD_LDFLAGS)" \
+	    BOARD_LDLIBS="$(BOARD_LDLIBS)" BOARD_OBJECTS="$(BOARD_OBJECTS)" LIB_BOARD=$(LIB_BOARD) \
+	    PLUGIN=$(PLUGIN) FLAGS="$(call TOLD,$(BOARD_CFLAGS))" EMULATE="$(call emulate,@)" \
+	    host/price/price.sh $(MODELS)
+	@host/price/into_page.sh build/price/tables.md docs/effects.md
+	@cat build/price/tables.md

@@ -45,7 +45,7 @@ bytes_of() {
     [ -z "$entries" ] || words="$words+WH_LEDGER_WORDS($entries,$accounts)"
     $BOARD_CC $BOARD_CFLAGS -c "$c.c" -o "$c.o"
     $BOARD_CC $BOARD_CFLAGS "-DPRICE_SCENE=p${n}_$1" "-DPRICE_WORDS=($words)" \
-        "-DPRICE_OUTPUTS=$((outputs > 0 ? outputs : 1))" -c host/price/image.c -o "$c.image.o"
+        "-DPRICE_OUTPUTS=$((outputs > 0 ? outputs : 1))" -c host/size/image.c -o "$c.image.o"
     $BOARD_CC $BOARD_LDFLAGS -o "$c.elf" "$c.image.o" "$c.o" $BOARD_OBJECTS "$LIB_BOARD" $BOARD_LDLIBS
     "$BOARD_SIZE" -A "$c.elf" | awk '
         $1 == ".text" || $1 == ".ARM.exidx" { flash += $2 }
@@ -58,7 +58,7 @@ without=$(bytes_of without)
 echo "$without $(bytes_of with)" >"$out/$n.bytes"
 
 # The coordinates after a while, "NAME VALUE" lines: the state's columns stand before their rates.
-last_s=$(awk -v u="$until_s" 'BEGIN { print u < 2 ? u : 2 }')
+last_s=$(awk -v u="$until_s" 'BEGIN { print u < 4 ? u : 4 }')
 state() { # state SIDE STEP_s
     "$WHIRL" run "$model:p${n}_$1" --quiet --csv - --step "$2" --until "$last_s" --every "$last_s" 2>/dev/null |
         tr -d '\r' | awk -F, '

@@ -5,6 +5,12 @@
 #include "boards/board.h"
 #include "core/scene.h"
 
+#ifndef PRICE_SCENE
+#define PRICE_SCENE rig_fixed
+#define PRICE_WORDS 16
+#define PRICE_OUTPUTS 4
+#endif
+
 extern const wh_scene PRICE_SCENE;
 
 static uint64_t memory[PRICE_WORDS];
