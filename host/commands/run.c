@@ -8,6 +8,7 @@
 
 #include "commands.h"
 #include "host/run/simulate.h"
+#include "host/run/start.h"
 #include "load.h"
 #include "options.h"
 
@@ -151,6 +152,10 @@ static int run_loaded(run_options *o, const source_model *from, const loaded *ma
         return EXIT_BAD_INPUT;
     }
     if (!read_every(o, made->instance->mechanism, made->instance, &o->settings.every)) {
+        return EXIT_BAD_INPUT;
+    }
+    if (!start_is_possible(made->program, made->equations, from->errors)) {
+        diags_flush(from->errors, stderr);
         return EXIT_BAD_INPUT;
     }
     struct sigaction action = {.sa_handler = on_interrupt};

@@ -145,6 +145,10 @@ says 2 "needs exp, which the core does not offer" run tests/mechanisms/morse.whi
 says 2 "needs exp, which the core does not offer" derive tests/mechanisms/morse.whirl --as c
 prints '^function dy = ' derive tests/mechanisms/morse.whirl --as octave
 
+# --- starts that cannot be ------------------------------------------------------------------------------
+says 2 'contacts.whirl:[0-9]+:[0-9]+: error: the run starts beyond this stop, by 0.25 m' run ball_bounces --start z=-0.25
+says 0 "" run ball_bounces --start z=0 --until 10ms --csv -
+
 # --- plots --------------------------------------------------------------------------------------------
 if command -v gnuplot >/dev/null 2>&1; then
     for kind in svg png; do

@@ -1,0 +1,55 @@
+/* start.c: whether a run can start where its scene says. */
+#include "start.h"
+
+#include <stdlib.h>
+
+#include "engine.h"
+#include "host/derive/contact_lists.h"
+#include "summary.h"
+
+/* m or rad: what the conversion of a start's units may leave. */
+#define ROUNDING 1e-9
+
+static double *room(int count) {
+    double *p = calloc((size_t)count + 1, sizeof *p);
+    if (p == NULL) {
+        abort();
+    }
+    return p;
+}
+
+static bool outside(const contact_row *row, double gap, diags *errors) {
+    if (row->from->kind != HYBRID_STOP || gap >= -ROUNDING) {
+        return true;
+    }
+    char si[64];
+    diag_error(errors, row->from->at, "start on it or apart from it, or leave the stop out",
+               "the run starts beyond this stop, by %.6g %s", -gap,
+               dimension_unit(row->from->value->dim, false, si, sizeof si));
+    return false;
+}
+
+bool start_is_possible(const program *p, const equations *e, diags *errors) {
+    const contact_lists *c = p->contacts;
+    bool good = true;
+    if (c == NULL) {
+        return true;
+    }
+    double *angle_rad = room(p->angles);
+    double *real = room(p->reals);
+    double *signal = room(2 * c->count);
+    evaluator *ev = evaluator_new(c->signals);
+    double *input = room(p->inputs);
+    program_start(p, e->instance, angle_rad, real);
+    program_inputs(p, e->instance, input);
+    evaluator_run(ev, 0.0, angle_rad, real, real + (p->coordinates - p->angles), input, signal);
+    for (int k = 0; k < c->count; k++) {
+        good = outside(&c->row[k], signal[2 * k], errors) && good;
+    }
+    evaluator_free(ev);
+    free(input);
+    free(signal);
+    free(real);
+    free(angle_rad);
+    return good;
+}
