@@ -11,7 +11,7 @@ static inline void wh_contact_solve(const wh_hybrid *of, const wh_contact_work *
                                     const uint8_t *member, unsigned count, wh_real *wanted,
                                     wh_real *amount) {
     const wh_real least = WH_DOUBLE ? WH_R(1e-11) : WH_R(1e-5);
-    wh_real matrix[WH_CONTACTS_MAX][WH_CONTACTS_MAX];
+    wh_real matrix[WH_CONTACTS_MAX][WH_CONTACTS_MAX] = {{WH_R(0.0)}};
     bool idle[WH_CONTACTS_MAX] = {false};
     for (unsigned r = 0; r < count; r++) {
         for (unsigned c = 0; c < count; c++) {

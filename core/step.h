@@ -125,16 +125,17 @@ WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_met
     const wh_real unit = WH_PHASE_PER_RAD; /* phase units a radian */
     const wh_real half = WH_R(0.5) * h;
 
-    wh_phase phase[WH_COORDS] = {0}; /* zeroed for the compiler: a scene may have no angle */
-    wh_real at[WH_COORDS] = {0};     /* linear positions of a stage */
-    wh_real v[WH_COORDS] = {0};      /* rates of a stage */
-    wh_real v_before[WH_COORDS];
+    /* zeroed for the compiler, which cannot know that no scene uses what it did not fill */
+    wh_phase phase[WH_COORDS] = {0};
+    wh_real at[WH_COORDS] = {0}; /* linear positions of a stage */
+    wh_real v[WH_COORDS] = {0};  /* rates of a stage */
+    wh_real v_before[WH_COORDS] = {0};
     wh_real a[WH_COORDS];
     wh_real a1[WH_COORDS];
     wh_real a_sum[WH_COORDS];
-    wh_real move[WH_COORDS]; /* mean rate that moves the position over this step */
-    wh_real kick[WH_COORDS]; /* change of the rate over this step */
-    wh_trial trial;
+    wh_real move[WH_COORDS] = {0}; /* mean rate that moves the position over this step */
+    wh_real kick[WH_COORDS] = {0}; /* change of the rate over this step */
+    wh_trial trial = {0};
 
     WH_UNROLL
     for (unsigned i = 0; i < angles; i++) {
