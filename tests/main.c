@@ -1,4 +1,4 @@
-/* main.c: runs the suites of a test program, on this machine and on boards. On this machine it takes names
+/* main.c: runs the suites of a test program, on this machine and on boards. Here it takes names
  * ("suite_lang lang") and runs only those; a name that is none of them ends it with status 2. */
 #include "tests/suites.h"
 

@@ -26,6 +26,7 @@ out=${2:?usage: figures.sh WHIRL OUT FIGURE.fig...}
 shift 2
 here=$(dirname "$0")
 mkdir -p "$out/data"
+trap 'rm -f "$out"/data/*.files "$out"/data/*.records' EXIT
 
 # record FIGURE KIND NAME WORDS...: make OUT/data/….csv unless another figure has, and print its path.
 # Files are named after the command, so that figures share their runs.
@@ -44,6 +45,7 @@ record() {
             sh "$here/$script" "$whirl" "$@" >"$file.raw"
             ;;
         esac || {
+            rm -f "$file.raw" "$file.raw.sweep"
             echo "figures.sh: cannot $kind $*" >&2
             return 1
         }
@@ -76,6 +78,5 @@ for fig in "$@"; do
             exit 1
         }
     done
-    rm -f "$files" "$out/data/$name.records"
     echo "  $name"
 done

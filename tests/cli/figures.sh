@@ -101,4 +101,13 @@ refused "an unknown run" "title t" "panel y" "curve a | {time} | {X} | -"
 refused "an unknown column" "title t" "run a epicyclic_from_rest --until 1s" "panel y" \
     "curve a | {time} | {no_such} | -"
 refused "an unknown statement" "title t" "panle y"
+refused "a sweep of which a point fails" "title t" \
+    "sweep a epicyclic_from_rest --over m=0..1:2 --measure X --until 10ms" "panel y" \
+    "curve a | {m} | {X} | -"
+
+# Of what it worked with, only the numbers stay, of good runs and of bad ones.
+left=$(find "$scratch" -path '*/data/*' ! -name '*.csv')
+[ -z "$left" ] || echo "$left"
+[ -z "$left" ] && [ -d "$scratch/one/data" ] && [ -d "$scratch/bad/data" ]
+verdict "nothing half-done is left in data" $?
 exit $failed

@@ -116,7 +116,8 @@ static void rated(writer *w, const char *before, int depth, bool rates) {
 
 static void write_when(writer *w) {
     static const char *const directions[] = {"", " rising", " falling"};
-    rated(w, "when ", 2, true);
+    put_name(w, choose(w, 2) == 1 ? "when u" : "when x", choose(w, (unsigned)w->unknowns));
+    rated(w, " + ", 2, true);
     rated(w, " crosses ", 1, true);
     put(w, directions[choose(w, 3)]);
     put(w, " { set ");
@@ -149,19 +150,21 @@ static void write_hybrid(writer *w) {
     static const char *const parts[] = {"0", "1", "0.5", "p/2"};
     switch (choose(w, 5)) {
     case 0:
-        rated(w, "stop ", 2, false);
+        put_name(w, "stop x", choose(w, (unsigned)w->unknowns));
+        rated(w, " + ", 2, false);
         rated(w, " >= ", 1, false);
         put(w, " restitution ");
         put(w, parts[choose(w, 4)]);
         break;
     case 1:
         put_name(w, "friction x", choose(w, (unsigned)w->unknowns));
-        put(w, " static 0.75 kinetic ");
+        put(w, " static 1 kinetic ");
         put(w, parts[choose(w, 4)]);
         rated(w, " normal 1 [J]*", 2, choose(w, 2) == 1);
         break;
     case 2:
-        rated(w, "hold ", 2, false);
+        put_name(w, "hold x", choose(w, (unsigned)w->unknowns));
+        rated(w, " - ", 2, false);
         put(w, " while ");
         write_condition(w);
         break;
@@ -254,7 +257,7 @@ static void write_scene(writer *w) {
     if (choose(w, 4) == 1) {
         write_when(w);
     }
-    put(w, choose(w, 2) == 1 ? "step 0.25\n}\n" : "}\n");
+    put(w, choose(w, 2) == 1 ? "step 0.25 [s]\n}\n" : "}\n");
 }
 
 static void run(const program *p, const instance *inst, const engine_kind *kind, bool compensated) {

@@ -30,7 +30,8 @@ typedef struct decay {
 static void follow_decay(const decay *d, double viscous_Nspm, double quadratic_kgpm) {
     motion m;
     motion_open_more(&m, d->file, d->scene, IN_DOUBLE_STEP(1e-3));
-    for (double t = 0.5; t < 4.1; t += 0.5) {
+    for (int half = 1; half <= 8; half++) {
+        const double t = 0.5 * half;
         motion_to(&m, t);
         for (int k = 0; k < 2; k++) {
             const double v0 = d->start_mps[k];
@@ -119,7 +120,8 @@ static void test_fall_reaches_the_terminal_velocity(void) {
     const double terminal_mps = sqrt(9.81 / 0.1);
     motion_open_more(&m, "cartesian_particle.whirl",
                      "scene t { with air_drag; set c = 0.1 [kg/m] }\n", IN_DOUBLE_STEP(1e-3));
-    for (double t = 0.25; t < 10.1; t *= 2.0) {
+    for (int k = 1; k <= 32; k *= 2) {
+        const double t = 0.25 * k;
         motion_to(&m, t);
         const double reach = 9.81 * t / terminal_mps;
         TEST_ASSERT_DOUBLE_WITHIN(SMALL, -terminal_mps * tanh(reach), motion_value(&m, "z'"));
@@ -205,7 +207,8 @@ static void test_hanging_gear_swings(void) {
     motion_open_more(&m, "epicyclic.whirl",
                      "scene t { with gravity; set M = 0; start theta = 1e-4 - pi/2 }\n",
                      IN_DOUBLE_STEP(1e-3));
-    for (double t = 0.25; t < 4.1; t += 0.25) {
+    for (int k = 1; k <= 16; k++) {
+        const double t = 0.25 * k;
         motion_to(&m, t);
         TEST_ASSERT_DOUBLE_WITHIN(1e-11, 1e-4 * cos(sqrt(9.81 / 0.6) * t),
                                   motion_value(&m, "theta") + PI / 2.0);
@@ -256,7 +259,8 @@ static void test_coupling_swings(void) {
         &m, "eccentric.whirl",
         "scene t { use eccentric_coupled; set b = 0, c = 0, stall = 0; start motor = 0.01 }\n",
         IN_DOUBLE_STEP(1e-4));
-    for (double t = 0.01; t < 0.205; t += 0.01) {
+    for (int k = 1; k <= 20; k++) {
+        const double t = 0.01 * k;
         motion_to(&m, t);
         TEST_ASSERT_DOUBLE_WITHIN(0.01 * 2e-7, 0.01 * cos(w * t), motion_value(&m, "twist"));
         TEST_ASSERT_DOUBLE_WITHIN(1e-12, rotor * 0.01,

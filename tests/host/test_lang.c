@@ -6,71 +6,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/lang/model.h"
+#include "parsed.h"
 #include "unity.h"
 
 void suite_lang(void);
 
 #define PI 3.14159265358979323846
-
-static diags *said;
-static model *parsed;
-static instance *made;
-
-static void drop(void) {
-    instance_free(made);
-    model_free(parsed);
-    diags_free(said);
-    made = NULL;
-    parsed = NULL;
-    said = NULL;
-}
-
-/* Parse a good text; the test fails when the language refuses it. */
-static void parse(const char *text) {
-    drop();
-    said = diags_new();
-    parsed = model_parse("x.whirl", text, strlen(text), said);
-    if (diags_count(said) > 0) {
-        diags_flush(said, stdout);
-    }
-    TEST_ASSERT_NOT_NULL(parsed);
-}
-
-/* The first scene (or the first mechanism when there is none) with these changes. */
-static void instantiate(const overrides *changes) {
-    instance_free(made);
-    const scene *first = parsed->scene_count > 0 ? parsed->scenes[0] : NULL;
-    made = instance_make(parsed->mechanisms[0], first, changes, said);
-    if (made == NULL) {
-        diags_flush(said, stdout);
-    }
-    TEST_ASSERT_NOT_NULL(made);
-}
-
-static double parameter(const char *name) {
-    for (int i = 0; i < made->mechanism->parameter_count; i++) {
-        if (strcmp(made->mechanism->parameters[i]->name, name) == 0) {
-            return made->parameter[i];
-        }
-    }
-    TEST_FAIL_MESSAGE(name);
-    return 0.0;
-}
-
-static void expect_exactly(double wanted, double got) {
-    if (wanted != got) {
-        printf("wanted %.17g, got %.17g\n", wanted, got);
-    }
-    TEST_ASSERT_TRUE(wanted == got);
-}
-
-static void expect_nearly(double wanted, double got) {
-    if (!(fabs(got - wanted) <= 4e-16 * fabs(wanted))) {
-        printf("wanted %.17g, got %.17g\n", wanted, got);
-    }
-    TEST_ASSERT_TRUE(fabs(got - wanted) <= 4e-16 * fabs(wanted));
-}
 
 /* The SI value of an expression as a parameter. */
 static double value_of(const char *expression) {

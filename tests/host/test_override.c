@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/lang/model.h"
+#include "parsed.h"
 #include "unity.h"
 
 void suite_override(void);
@@ -31,63 +31,6 @@ static const char sample[] = "mechanism epicyclic\n"
                              "  start theta = 30 [deg], X = r, theta' = -8.5 [rad/s]\n"
                              "}\n";
 
-static diags *said;
-static model *parsed;
-static instance *made;
-
-static void drop(void) {
-    instance_free(made);
-    model_free(parsed);
-    diags_free(said);
-    made = NULL;
-    parsed = NULL;
-    said = NULL;
-}
-
-static void parse(void) {
-    drop();
-    said = diags_new();
-    parsed = model_parse("x.whirl", sample, strlen(sample), said);
-    if (diags_count(said) > 0) {
-        diags_flush(said, stdout);
-    }
-    TEST_ASSERT_NOT_NULL(parsed);
-}
-
-/* The scene with these changes. */
-static void instantiate(const overrides *changes) {
-    instance_free(made);
-    made = instance_make(parsed->mechanisms[0], parsed->scenes[0], changes, said);
-    if (made == NULL) {
-        diags_flush(said, stdout);
-    }
-    TEST_ASSERT_NOT_NULL(made);
-}
-
-static double parameter(const char *name) {
-    for (int i = 0; i < made->mechanism->parameter_count; i++) {
-        if (strcmp(made->mechanism->parameters[i]->name, name) == 0) {
-            return made->parameter[i];
-        }
-    }
-    TEST_FAIL_MESSAGE(name);
-    return 0.0;
-}
-
-static void expect_exactly(double wanted, double got) {
-    if (wanted != got) {
-        printf("wanted %.17g, got %.17g\n", wanted, got);
-    }
-    TEST_ASSERT_TRUE(wanted == got);
-}
-
-static void expect_nearly(double wanted, double got) {
-    if (!(fabs(got - wanted) <= 4e-16 * fabs(wanted))) {
-        printf("wanted %.17g, got %.17g\n", wanted, got);
-    }
-    TEST_ASSERT_TRUE(fabs(got - wanted) <= 4e-16 * fabs(wanted));
-}
-
 static void test_overrides(void) {
     static const char *const sets[] = {"m=4", "r = 250 mm", "b=2*m/(1 [s])", "M=-1/4"};
     static const char *const starts[] = {"theta=90 [deg]", "X'=-36 km/h", "X = r"};
@@ -103,7 +46,7 @@ static void test_overrides(void) {
                                .without_count = 1,
                                .step = "2ms",
                                .until = "1 [min]"};
-    parse();
+    parse(sample);
     instantiate(&changes);
     expect_exactly(4.0, parameter("m"));
     expect_exactly(0.25, parameter("r"));
@@ -122,7 +65,7 @@ static void test_overrides(void) {
 static void test_step_in_all_its_spellings(void) {
     static const char *const spellings[] = {"1ms",    "1 ms",   "1 [ms]", "0.001",
                                             "1e-3 s", "1/1000", "1000us"};
-    parse();
+    parse(sample);
     for (size_t i = 0; i < sizeof spellings / sizeof spellings[0]; i++) {
         instantiate(&(overrides){.step = spellings[i]});
         expect_exactly(0.001, made->step_s);
@@ -131,7 +74,7 @@ static void test_step_in_all_its_spellings(void) {
 
 static void test_values_of_either_kind(void) {
     static const char *const values[] = {"theta=0.3", "theta'=1.2", "m=5", "M=7"};
-    parse();
+    parse(sample);
     instantiate(&(overrides){.values = values, .value_count = 4});
     expect_exactly(0.3, made->start[0][0]);
     expect_exactly(1.2, made->start[0][1]);
@@ -141,7 +84,7 @@ static void test_values_of_either_kind(void) {
 
 /* The instance is refused, and the first lines say so. */
 static void expect_refused(const overrides *changes, const char *wanted) {
-    parse();
+    parse(sample);
     TEST_ASSERT_NULL(instance_make(parsed->mechanisms[0], parsed->scenes[0], changes, said));
     char *report = NULL;
     size_t size = 0;
@@ -200,7 +143,7 @@ static void test_wrong_overrides(void) {
 /* Errors are refusals even when they read like one that was told before. */
 static void test_the_same_error_again_is_refused_again(void) {
     static const char *const wrong[] = {"m=1 [m]", "m=2 [m]", "m=2 [m]"};
-    parse();
+    parse(sample);
     for (size_t i = 0; i < 3; i++) {
         const overrides changes = {.sets = &wrong[i], .set_count = 1};
         TEST_ASSERT_NULL(instance_make(parsed->mechanisms[0], NULL, &changes, said));

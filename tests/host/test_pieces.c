@@ -1,5 +1,5 @@
-/* test_pieces.c: a sum taken apart for lowering: half angles put back where they save a term, and the value
- * stays what it was. */
+/* test_pieces.c: a sum taken apart for lowering: half angles put back where they save a term,
+ * and the value stays what it was. */
 #include <math.h>
 
 #include "derived.h"
