@@ -85,10 +85,11 @@ enum {
 
 /* Most evaluations of the accelerations in one step, each with at most one of `forces` and two of
  * `signals`: in each of WH_EVENTS_MAX rounds a try to the step's end and one to the event (`stages` each),
- * a look at the end of both, the search, two looks a stop that is hit and one for another contact, and
- * those that settle the modes; then the last try, and on the first step the modes' start. */
+ * a look at the end of both, the search with the accelerations at both ends, two looks a stop that is hit
+ * and one for another contact, and those that settle the modes; then the last try, and on the first step
+ * the modes' start. */
 #define WH_CONTACT_EVALUATIONS(stages, stops, forced) \
-    (WH_EVENTS_MAX * (2 * (stages) + WH_REFINEMENTS + 5 + (stops) + 2 * (forced)) + (stages) + 4 + \
+    (WH_EVENTS_MAX * (2 * (stages) + WH_REFINEMENTS + 7 + (stops) + 2 * (forced)) + (stages) + 4 + \
      (stops) + 2 * (forced))
 
 /* A scene's contacts, constant. The functions are lists of operations like the accelerations. */

@@ -4,8 +4,7 @@
 
 #include "contact_forces.h"
 
-/* A place between the ends of a try: positions by the cubic through both ends' positions and rates,
- * rates by its slope. */
+/* A place between the ends of a try. */
 typedef struct wh_contact_point {
     wh_phase phase[WH_COORDS];
     wh_real linear[WH_COORDS];
@@ -62,10 +61,12 @@ WH_INLINE void wh_contact_point_of(const wh_hybrid *of, wh_contact_state *s, wh_
     }
 }
 
-/* The place at the share `s` of the way from `from` to `to`, which are h apart. */
+/* The place at the share `s` of the way from `from` to `to`, which are h apart: positions by the cubic
+ * through both ends' positions and rates, rates by the cubic through both ends' rates and accelerations a0
+ * and a1. (The slope of the first would be of an order less, and magnify the positions' rounding by 1/h.) */
 static inline void wh_contact_between(const wh_hybrid *of, wh_contact_state *from,
-                                      wh_contact_state *to, wh_real h, wh_real s,
-                                      wh_contact_point *at) {
+                                      wh_contact_state *to, const wh_real *a0, const wh_real *a1,
+                                      wh_real h, wh_real s, wh_contact_point *at) {
     const wh_real *v0 = wh_contact_rates(of, from);
     const wh_real *v1 = wh_contact_rates(of, to);
     const wh_real rest = WH_R(1.0) - s;
@@ -84,9 +85,7 @@ static inline void wh_contact_between(const wh_hybrid *of, wh_contact_state *fro
             way = to->real[i - of->angles] - from->real[i - of->angles];
         }
         const wh_real moved = way * far + near0 * v0[i] + near1 * v1[i];
-        at->rate[i] = WH_R(6.0) * s * rest * (way / h) +
-                      v0[i] * (rest * (WH_R(1.0) - WH_R(3.0) * s)) +
-                      v1[i] * (s * (WH_R(3.0) * s - WH_R(2.0)));
+        at->rate[i] = v0[i] + (v1[i] - v0[i]) * far + near0 * a0[i] + near1 * a1[i];
         if (i < of->angles) {
             at->phase[i] = wh_phase_of(from->angle[i]);
             (void)wh_phase_move(at->phase[i], moved * WH_PHASE_PER_RAD, &at->phase[i]);
@@ -161,7 +160,10 @@ static inline wh_real wh_contact_locate(const wh_hybrid *of, wh_contact_work *w,
                                         wh_contact_state *from, wh_contact_state *to, wh_real h,
                                         const wh_real *input, const wh_margins *at_end,
                                         unsigned *events) {
+    const wh_contact_model model = {of, w};
     wh_contact_point at;
+    wh_real a0[WH_COORDS];
+    wh_real a1[WH_COORDS];
     wh_margins before;
     wh_margins after = *at_end;
     wh_real low = WH_R(0.0);
@@ -182,6 +184,9 @@ static inline wh_real wh_contact_locate(const wh_hybrid *of, wh_contact_work *w,
         *events = at_once;
         return WH_R(0.0);
     }
+    wh_contact_accel(&model, at.phase, at.linear, at.rate, input, a0);
+    wh_contact_point_of(of, to, &at);
+    wh_contact_accel(&model, at.phase, at.linear, at.rate, input, a1);
     for (unsigned i = 1; i <= WH_REFINEMENTS; i++) {
         wh_real guess = high;
         for (unsigned k = 0; k < of->contacts; k++) {
@@ -198,7 +203,7 @@ static inline wh_real wh_contact_locate(const wh_hybrid *of, wh_contact_work *w,
             guess = low + WH_R(0.5) * (high - low);
         }
         wh_margins probe;
-        wh_contact_between(of, from, to, h, guess, &at);
+        wh_contact_between(of, from, to, a0, a1, h, guess, &at);
         wh_contact_margins(of, w, &at, input, &probe);
         const unsigned found = wh_contact_happened(of, &probe);
         if (found != 0) {

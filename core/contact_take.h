@@ -4,7 +4,16 @@
 
 #include "contact_settle.h"
 
-/* A stop is hit: restitution, or rest when the flight that follows would be too short. */
+/* Would a flight that begins with `speed` be too short, as stop k is pressed? work->law and accel[] must
+ * belong to the state. */
+WH_INLINE bool wh_contact_rests(const wh_hybrid *of, const wh_contact_work *w, unsigned k,
+                                wh_real h, bool rest, wh_real speed, const wh_real *accel) {
+    const wh_real pressing = -(wh_along(of, w, k, accel) + wh_law(of, w, k)[WH_LAW_BIAS]);
+    return pressing > WH_R(0.0) && (rest || speed + speed <= pressing * (h * WH_REST_SHARE));
+}
+
+/* A stop is hit: restitution, or rest when the flight that follows would be too short. What is to rest
+ * gets one impulse: two, there and back, would let stops go that the one holds. */
 static inline wh_real wh_contact_hit(const wh_hybrid *of, wh_contact_work *w, unsigned k, wh_real h,
                                      bool rest, const wh_real *input, wh_contact_state *s) {
     wh_real accel[WH_COORDS];
@@ -14,14 +23,15 @@ static inline wh_real wh_contact_hit(const wh_hybrid *of, wh_contact_work *w, un
     wh_contact_look(of, w, s, input, accel, signal);
     wh_real speed = wh_along(of, w, k, rate);
     if (speed < WH_R(0.0)) {
-        const wh_real restitution = wh_law(of, w, k)[WH_LAW_FIRST];
-        impulse = wh_contact_impulse(of, w, k, -restitution * speed, rate);
-        speed = -restitution * speed;
+        speed *= -wh_law(of, w, k)[WH_LAW_FIRST];
+        speed = wh_contact_rests(of, w, k, h, rest, speed, accel) ? WH_R(0.0) : speed;
+        impulse = wh_contact_impulse(of, w, k, speed, rate);
         wh_contact_look(of, w, s, input, accel, signal);
     }
-    const wh_real pressing = -(wh_along(of, w, k, accel) + wh_law(of, w, k)[WH_LAW_BIAS]);
-    if (pressing > WH_R(0.0) && (rest || speed + speed <= pressing * (h * WH_REST_SHARE))) {
-        impulse += wh_contact_impulse(of, w, k, WH_R(0.0), rate);
+    if (wh_contact_rests(of, w, k, h, rest, speed, accel)) {
+        if (speed > WH_R(0.0)) {
+            impulse += wh_contact_impulse(of, w, k, WH_R(0.0), rate);
+        }
         w->mode[k] = WH_ACTIVE;
         wh_contact_close(of, w, signal, s);
     }
@@ -67,17 +77,30 @@ static inline void wh_contact_assign(const wh_hybrid *of, wh_contact_work *w, un
 }
 
 /* The rate is zero but for what the location left: friction, which would take that away in no time, does,
- * and sticks. */
-WH_INLINE void wh_contact_stick(const wh_hybrid *of, wh_contact_work *w, unsigned k,
-                                wh_real *rate) {
-    const int pin = of->contact[k].pin;
-    const wh_real *way = wh_law(of, w, k) + WH_LAW_ROWS + of->coordinates;
-    const wh_real left = rate[pin];
-    const wh_real impulse = -left / way[pin];
-    wh_push(of, w, k, impulse, rate);
-    rate[pin] = WH_R(0.0);
-    wh_books_impulse(of, w, k, impulse, left, WH_R(0.0));
+ * and sticks. What holds or sticks already stays so: else two frictions would shake each other loose. */
+static inline void wh_contact_stick(const wh_hybrid *of, wh_contact_work *w, unsigned k,
+                                    wh_real *rate) {
+    uint8_t member[WH_CONTACTS_MAX] = {0};
+    wh_real wanted[WH_CONTACTS_MAX];
+    wh_real amount[WH_CONTACTS_MAX];
+    wh_real before[WH_CONTACTS_MAX];
     w->mode[k] = WH_STUCK;
+    const unsigned count = wh_contact_members(of, w, member);
+    for (unsigned i = 0; i < count; i++) {
+        before[i] = wh_along(of, w, member[i], rate);
+        wanted[i] = -before[i];
+    }
+    wh_contact_solve(of, w, member, count, wanted, amount);
+    for (unsigned i = 0; i < count; i++) {
+        wh_push(of, w, member[i], amount[i], rate);
+    }
+    for (unsigned i = 0; i < count; i++) {
+        const int pin = of->contact[member[i]].pin;
+        if (pin >= 0) {
+            rate[pin] = WH_R(0.0);
+        }
+        wh_books_impulse(of, w, member[i], amount[i], before[i], wh_along(of, w, member[i], rate));
+    }
 }
 
 /* Take one event of contact k. `rest`: no more bounces in this step. */

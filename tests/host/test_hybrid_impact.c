@@ -3,8 +3,8 @@
  *
  * Closed form. M = (M + m, m l cos; m l cos, m l^2); a stop with the gradient J leaves
  * v+ = v + M^-1 J^T (1 + e) |J v|/(J M^-1 J^T). Without gravity and with the pendulum at rest nothing
- * moves but uniformly before the impact; the wall is placed so that the cart meets it 1e-13 m before the end
- * of a step, so what the step's state shows is the impact's. */
+ * moves but uniformly before the impact; the wall is placed so that the cart meets it just before the end of a
+ * step, so that what the step's state shows is the impact's. */
 #include "contacts.h"
 
 #include <math.h>
@@ -51,14 +51,14 @@ static velocities impact(velocities v, velocities J) {
 static velocities run(const char *called, const char *distance, double offset, stepping how) {
     motion m;
     char more[400];
-    /* the wall is met in the 250th step of 2 mm, 1e-13 m (in float 1e-7 m) before its end */
-    const double early = how.kind == &engine_double ? 1e-13 : 1e-7;
+    /* the wall is met in the 256th step of 2^-10 s, some 1e-15 s (in float 1e-6 s) before its end */
+    const double early = how.kind == &engine_double ? 2e-15 : 2e-6;
     snprintf(more, sizeof more,
              "\nscene meets {\n  use crash\n  with %s\n  set %s = %.17g [m]\n"
-             "  start X = 0, theta = %.17g, X' = %.17g [m/s], theta' = 0\n  step 1 [ms]\n}\n",
+             "  start X = 0, theta = %.17g, X' = %.17g [m/s], theta' = 0\n  step 1 [s]/1024\n}\n",
              called, distance, 0.5 - early + offset, TILT, SPEED);
     motion_open_more(&m, "contacts.whirl", more, how);
-    motion_to(&m, 0.249);
+    motion_to(&m, 255.0 / 1024.0);
     TEST_ASSERT_EQUAL_UINT64(0, contacts_events(&m));
     motion_to(&m, 0.25);
     TEST_ASSERT_EQUAL_UINT64(1, contacts_events(&m));
@@ -86,18 +86,18 @@ static void check(const char *what, velocities J, velocities got, double bound, 
 
 static void test_cart_meets_the_wall(void) {
     const velocities J = {-1.0, 0.0};
-    /* the project's bound; 4 units in the last place for the momentum's four roundings */
-    check("cart, double", J, run("wall", "d", 0.0, IN_DOUBLE), 1e-12, 9e-16);
-    /* the same in units of a float's last place, 2^-23: the speed's sums of 250 steps and the solution of
-     * a system whose condition is 14 */
-    check("cart, float", J, run("wall", "d", 0.0, IN_FLOAT), 1.2e-5, 1e-6);
+    /* the project's bound; rounding, and the 10 N m that act for 2e-15 s after the impact */
+    check("cart, double", J, run("wall", "d", 0.0, IN_DOUBLE), 1e-12, 2e-14);
+    /* a float's last place is 2^-23: ten of them, times the system's condition, 14; after the impact 20
+     * rad/s^2 act for 2e-6 s */
+    check("cart, float", J, run("wall", "d", 0.0, IN_FLOAT), 6e-5, 2e-5);
 }
 
 static void test_bob_meets_the_wall(void) {
     const velocities J = {-1.0, -ROD_M * cos(TILT)};
     const double offset = ROD_M * sin(TILT);
-    check("bob, double", J, run("bob_wall", "d_b", offset, IN_DOUBLE), 1e-12, 9e-16);
-    check("bob, float", J, run("bob_wall", "d_b", offset, IN_FLOAT), 1.2e-5, 1e-6);
+    check("bob, double", J, run("bob_wall", "d_b", offset, IN_DOUBLE), 1e-12, 2e-14);
+    check("bob, float", J, run("bob_wall", "d_b", offset, IN_FLOAT), 6e-5, 2e-5);
 }
 
 /* The pendulum's own speed counts as well: both swing, with gravity; reference from another program. */
@@ -105,7 +105,7 @@ static void test_impacts_of_a_swinging_pendulum_converge(void) {
     static const char *const names[] = {"crash_cart", "crash_both"};
     for (unsigned i = 0; i < 2; i++) {
         double before = 0.0;
-        double least = INFINITY;
+        double least = HUGE_VAL;
         for (unsigned k = 0; k < 4; k++) {
             motion m;
             const double h = 0.008 / (double)(1U << k);

@@ -125,7 +125,7 @@ static double impact_error(double h, double *speed_error) {
 static void test_impact_time_converges(void) {
     double before = 0.0;
     double before_speed = 0.0;
-    double least = INFINITY;
+    double least = HUGE_VAL;
     for (unsigned i = 0; i < 5; i++) {
         const double h = 0.064 / (double)(1U << i);
         double speed;
@@ -191,7 +191,7 @@ static void test_flight_off_the_table(void) {
     motion m;
     double worst = 0.0;
     motion_open(&m, "hopper_hops", IN_DOUBLE);
-    for (unsigned i = 1; i <= 55; i++) {
+    for (unsigned i = 1; i <= 53; i++) {
         motion_to(&m, 1e-3 * i);
         const double t = 1e-3 * i;
         const double since = t - off;
@@ -205,6 +205,75 @@ static void test_flight_off_the_table(void) {
     motion_to(&m, 10.0);
     TEST_ASSERT_EQUAL_UINT64(200, contacts_events(&m)); /* ten hops a second */
     motion_close(&m);
+}
+
+/* A stop that is curved: a particle slides down a dome of 1 m without friction, in Cartesian coordinates, and
+ * leaves it where the dome would have to pull. */
+static const char DOME[] =
+    "mechanism dome\ncoordinate x [m]\ncoordinate y [m]\nparameter g = 9.81 [m/s^2]\n"
+    "T = 1 [kg]*(x'^2 + y'^2)/2\nV = 1 [kg]*g*y\nstop sqrt(x^2 + y^2) >= 1 [m] restitution 0\n"
+    "scene slide {\n  start x = 0, y = 1 [m], x' = 0.5 [m/s], y' = 0\n  step 1 [ms]\n}\n";
+
+static double check_dome(stepping how, double off_most, double speed_most) {
+    motion m;
+    double off = 0.0;
+    motion_open_text(&m, DOME, how);
+    while (contacts_events(&m) == 0) {
+        off = fmax(off, fabs(hypot(motion_value(&m, "x"), motion_value(&m, "y")) - 1.0));
+        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
+    }
+    /* closed form: at cos = 2/3 + v0^2/(3 g R), with v^2 = g R cos; in flight x' = v cos stays */
+    const double c = 2.0 / 3.0 + 0.25 / (3.0 * G);
+    const double vx = motion_value(&m, "x'");
+    TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 50));
+    TEST_ASSERT_TRUE(motion_value(&m, "x'") == vx);
+    TEST_ASSERT_EQUAL_UINT64(1, contacts_events(&m));
+    const double error = fabs(vx - sqrt(G * c) * c);
+    printf("  %s, %g ms\n", how.kind->name, 1e3 * m.instance->step_s);
+    expect_between("  dome: off it before lifting off, m", 0.0, off_most, off);
+    expect_between("  dome: speed along x after lifting off, off by, m/s", 0.0, speed_most, error);
+    motion_close(&m);
+    return error;
+}
+
+static void test_particle_leaves_the_dome_where_the_force_turns(void) {
+    /* the gap is put to zero after each step: to rounding. RK4 with a motion whose rate constant is
+     * sqrt(g/R) = 3.1: (3.1 h)^4/120, times a second of it and the speed */
+    const double coarse = check_dome(IN_DOUBLE_STEP(8e-3), 1e-12, 1e-7);
+    const double fine = check_dome(IN_DOUBLE_STEP(2e-3), 1e-12, 1e-9);
+    expect_between("  order", 3.0, 5.5, log2(coarse / fine) / 2.0);
+    /* 2^-24 of 1 m; 500 sums of the speed rounded by it */
+    check_dome(IN_FLOAT, 3e-7, 3e-5);
+}
+
+/* Two blocks dropped on top of one another: the lower one rattles between floor and upper one, with more
+ * bounces than a step takes, and both come to rest where they must be. */
+static const char STACK[] =
+    "mechanism stack\ncoordinate a [m]\ncoordinate b [m]\nparameter g = 9.81 [m/s^2]\n"
+    "T = 1 [kg]*a'^2/2 + 2 [kg]*b'^2/2\nV = 1 [kg]*g*a + 2 [kg]*g*b\n"
+    "stop a >= 0 [m] restitution 0.5\nstop b >= a + 0.1 [m] restitution 0.5\n"
+    "scene s {\n  start a = 0.5 [m], b = 1 [m]\n  step 1 [ms]\n}\n";
+
+static void check_stack(stepping how, double height_most) {
+    motion m;
+    motion_open_text(&m, STACK, how);
+    motion_to(&m, 2.0);
+    const uint64_t events = contacts_events(&m);
+    const double height = motion_value(&m, "b");
+    for (unsigned i = 0; i < 10000; i++) {
+        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
+        TEST_ASSERT_TRUE(motion_value(&m, "a") == 0.0 && motion_value(&m, "a'") == 0.0);
+        TEST_ASSERT_TRUE(motion_value(&m, "b") == height && motion_value(&m, "b'") == 0.0);
+    }
+    TEST_ASSERT_EQUAL_UINT64(events, contacts_events(&m));
+    expect_between("stack: overruns", 0.0, 5.0, (double)contacts_overruns(&m));
+    expect_between("stack: upper block's height off 0.1 m", 0.0, height_most, fabs(height - 0.1));
+    motion_close(&m);
+}
+
+static void test_stacked_blocks_come_to_rest(void) {
+    check_stack(IN_DOUBLE, 1e-16); /* the last place of 0.1 m */
+    check_stack(IN_FLOAT, 8e-9);
 }
 
 /* --- more bounces than a step takes -------------------------------------------------------------------- */
@@ -238,5 +307,7 @@ void suite_hybrid_stops(void) {
     RUN_TEST(test_impact_time_converges);
     RUN_TEST(test_ball_lifts_off_where_the_table_falls_faster);
     RUN_TEST(test_flight_off_the_table);
+    RUN_TEST(test_particle_leaves_the_dome_where_the_force_turns);
+    RUN_TEST(test_stacked_blocks_come_to_rest);
     RUN_TEST(test_too_many_bounces_are_told_and_end);
 }
