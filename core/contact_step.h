@@ -146,7 +146,7 @@ static inline wh_status wh_step_contact(const wh_hybrid *of, wh_real h, wh_state
     memory->overruns += round == WH_EVENTS_MAX;
     memory->logged = (uint8_t)logged;
     for (unsigned i = 0; i < logged; i++) {
-        memory->log[i] = log[i];
+        memory->log[i] = log[i]; // cppcheck-suppress uninitvar ; `logged` of them are filled
     }
     for (unsigned i = 0; i < of->angles; i++) {
         state->angle[i] = now.angle[i];

@@ -1,7 +1,7 @@
 # check.mk: the quality gates of `make check`. Each is a target of its own, gate-NAME; tests/gates.sh
 # runs them, keeps what they say in build/check/NAME.log and prints a line for each.
 
-GATES := house gcc clang format cppcheck tidy sanitizers bad-input firmware size hashes
+GATES := house gcc clang format cppcheck tidy sanitizers memcheck bad-input firmware size hashes
 LINT_FLAGS := -std=c11 $(WARN) -I. $(UNITY_FLAGS) -D_POSIX_C_SOURCE=200809L
 JOBS := 2
 
@@ -63,10 +63,20 @@ ASAN_BUILD = $(MAKE) B=build/asan CC=gcc OPT="-O1 -fno-omit-frame-pointer" \
 
 .PHONY: asan-run
 asan-run: test-programs $(B)/whirl
-	@WHIRL=$(B)/whirl TEST_SECONDS=600 sh tests/run.sh $(B)/tests/log $(RUN_CORE) $(RUN_HOST) $(RUN_CLI)
+	@WHIRL=$(B)/whirl TEST_SECONDS=600 sh tests/run.sh $(B)/tests/log $(RUN_CLI) $(RUN_HOST) $(RUN_CORE)
 
 gate-sanitizers:
 	+@$(ASAN_BUILD) asan-run
+
+# Values read before they are written, which the sanitizers do not see.
+MEMCHECK = valgrind -q --error-exitcode=9
+gate-memcheck: test-programs build/whirl
+	@$(call need,valgrind)
+	$(Q)for real in float double; do \
+	    $(MEMCHECK) $(B)/tests/core_$$real contact ledger scene || exit 1; done
+	$(Q)for scene in shuttle_clamped thomson_magnet carriage_stop; do for real in float double; do \
+	    $(MEMCHECK) $(B)/whirl run $$scene --with ledger --number $$real --until 0.5s --quiet \
+	        || exit 1; done; done
 
 # Files that are broken in every way: each must be refused with a message, and nothing else.
 gate-bad-input:

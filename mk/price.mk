@@ -64,7 +64,7 @@ worst-now: build/whirl
 	@$(MAKE) $(ELF)/worst.elf $(PLUGIN)
 	@mkdir -p $(FIGURES)
 	@echo "Worst step of each scene with contacts over $(WORST_STEPS) random steps (minutes):"
-	@MORE=,every=$(WORST_STEPS) $(subst bench.csv,worst.csv,$(call count_board,$(ELF)/worst.elf))
+	@MORE=,every=$(WORST_STEPS) $(subst timeout 60,timeout 3600,$(subst bench.csv,worst.csv,$(call count_board,$(ELF)/worst.elf)))
 bench-now: build/whirl
 	@$(MAKE) $(GEN)/.stamp
 	@$(MAKE) build/bench build/bench_compensated build/bench_double \

@@ -53,15 +53,19 @@ test-programs: $(TEST_PROGRAMS)
 # --- running ------------------------------------------------------------------------------------
 # tests/run.sh takes pairs: what it is, and the command.
 RUN_CORE = "portable suites, double" $(B)/tests/core_double "portable suites, float" $(B)/tests/core_float
-RUN_HOST = "host suites" $(B)/tests/host
-RUN_CLI = $(foreach t,$(CLI_TESTS),"$(t)" "sh $(t)")
+# The host suites in two halves, so that two processors have work.
+half = "host suites, half $(1)" '$(B)/tests/host $$(sh tests/half.sh $(B)/tests/host_suites.list $(1))'
+RUN_HOST = $(call half,0) $(call half,1)
+# What takes longest goes first.
+CLI_LONG := tests/cli/emitted_c.sh tests/cli/effects_cost_nothing.sh
+RUN_CLI = $(foreach t,$(CLI_LONG) $(filter-out $(CLI_LONG),$(CLI_TESTS)),"$(t)" "sh $(t)")
 RUN_BOARD = "portable suites, $(BOARD)" "$(call emulate,$(B)/$(BOARD)/tests.elf)"
 
 .PHONY: test-now test-core test-host test-cli test-board
 test-now: build/whirl
 	@$(MAKE) $(GEN)/.stamp
 	@$(MAKE) test-programs $(B)/$(BOARD)/tests.elf
-	@WHIRL=build/whirl sh tests/run.sh build/tests/log $(RUN_CORE) $(RUN_BOARD) $(RUN_HOST) $(RUN_CLI)
+	@WHIRL=build/whirl sh tests/run.sh build/tests/log $(RUN_CLI) $(RUN_HOST) $(RUN_CORE) $(RUN_BOARD)
 
 # Parts of it, for while one works on something.
 test-core: build/whirl

@@ -4,26 +4,36 @@
 # A program speaks Unity ("3 Tests 0 Failures 0 Ignored") or, as a script, prints "ok - what" and
 # "not ok - what" lines. One that crashes, hangs, fails without saying what, or runs no test counts
 # as a failure. The last line is "N passed, N failed"; the exit status is 0 if none failed.
-# TEST_SECONDS limits each program.
+# TEST_SECONDS limits each program; TEST_JOBS run at the same time, as many as there are processors
+# unless told. Each is reported when it ends.
 set -u
 
-logs=${1:?usage: run.sh LOGS [WHAT COMMAND]...}
-shift
-rm -rf "$logs"
-mkdir -p "$logs"
-limit=${TEST_SECONDS:-300}
-all_passed=0
-all_failed=0
-number=0
+# --- one program, in a process of its own: run.sh LOGS --one NUMBER ----------------------------------
+report() { # what it came to
+    if [ "$failed" -eq 0 ]; then
+        word=PASS
+    else
+        word=FAIL
+    fi
+    printf '  %s  %-34s %4d passed %3d failed' "$word" "$what" "$passed" "$failed"
+    [ "$skipped" -eq 0 ] || printf ' %3d skipped' "$skipped"
+    printf ' %4d s\n' "$(($(date +%s) - start))"
+    if [ "$failed" -ne 0 ]; then
+        grep -E ':FAIL|^not ok|ERROR: |runtime error:' "$log" | head -n 20 | sed 's/^/        /'
+        if [ -n "$why" ]; then
+            echo "        $why; its last lines:"
+            tail -n 5 "$log" | sed 's/^/          /'
+        fi
+        echo "        all it said: $log"
+    fi
+}
 
-while [ $# -ge 2 ]; do
-    what=$1
-    command=$2
-    shift 2
-    number=$((number + 1))
-    log=$logs/$number.log
+run_one() {
+    log=$logs/$1.log
+    what=$(cat "$logs/$1.what")
+    limit=${TEST_SECONDS:-300}
     start=$(date +%s)
-    timeout --kill-after=5 "$limit" sh -c "$command" </dev/null >"$log.raw" 2>&1
+    timeout --kill-after=5 "$limit" sh "$logs/$1.command" </dev/null >"$log.raw" 2>&1
     status=$?
     tr -d '\r' <"$log.raw" >"$log" # the emulated console ends its lines with carriage returns
     rm -f "$log.raw"
@@ -44,30 +54,44 @@ END
         why="ran no test"
     fi
     [ -z "$why" ] || failed=$((failed + 1))
-    all_passed=$((all_passed + passed))
-    all_failed=$((all_failed + failed))
+    report >"$logs/$1.report"
+    cat "$logs/$1.report"
+    echo "$passed $failed" >"$logs/$1.result"
+}
 
-    if [ "$failed" -eq 0 ]; then
-        word=PASS
-    else
-        word=FAIL
-    fi
-    printf '  %s  %-34s %4d passed %3d failed' "$word" "$what" "$passed" "$failed"
-    [ "$skipped" -eq 0 ] || printf ' %3d skipped' "$skipped"
-    printf ' %4d s\n' "$(($(date +%s) - start))"
-    if [ "$failed" -ne 0 ]; then
-        grep -E ':FAIL|^not ok|ERROR: |runtime error:' "$log" | head -n 20 | sed 's/^/        /'
-        if [ -n "$why" ]; then
-            echo "        $why; its last lines:"
-            tail -n 5 "$log" | sed 's/^/          /'
-        fi
-        echo "        all it said: $log"
-    fi
+logs=${1:?usage: run.sh LOGS [WHAT COMMAND]...}
+shift
+if [ "${1:-}" = --one ]; then
+    run_one "$2"
+    exit 0
+fi
+
+# --- all of them -------------------------------------------------------------------------------------
+rm -rf "$logs"
+mkdir -p "$logs"
+number=0
+while [ $# -ge 2 ]; do
+    number=$((number + 1))
+    echo "$1" >"$logs/$number.what"
+    echo "$2" >"$logs/$number.command"
+    shift 2
 done
-
 if [ "$number" -eq 0 ]; then
     echo "  FAIL  there was nothing to run"
-    all_failed=1
+    echo "0 passed, 1 failed"
+    exit 1
 fi
+jobs=${TEST_JOBS:-$(nproc 2>/dev/null || echo 1)}
+seq "$number" | xargs -P "$jobs" -n 1 sh "$0" "$logs" --one
+
+# A program whose result is missing was broken off, and has failed.
+all_passed=0
+all_failed=0
+while [ "$number" -gt 0 ]; do
+    read -r passed failed <"$logs/$number.result" 2>/dev/null || { passed=0 && failed=1; }
+    all_passed=$((all_passed + passed))
+    all_failed=$((all_failed + failed))
+    number=$((number - 1))
+done
 echo "$all_passed passed, $all_failed failed"
 [ "$all_failed" -eq 0 ]

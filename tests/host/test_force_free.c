@@ -135,9 +135,11 @@ static void test_no_force_free_scene_is_forgotten(void) {
         for (int k = 0; k < in->scene_count; k++) {
             const scene *s = in->scenes[k];
             instance *inst = instance_make(s->mechanism, s, &(overrides){0}, errors);
-            TEST_ASSERT_NOT_NULL_MESSAGE(inst, s->name);
-            equations *e = equations_derive(inst, errors);
-            TEST_ASSERT_NOT_NULL_MESSAGE(e, s->name);
+            equations *e = inst == NULL ? NULL : equations_derive(inst, errors);
+            if (e == NULL) {
+                TEST_FAIL_MESSAGE(s->name);
+                return;
+            }
             const bool is_free = is_force_free(e);
             free_scenes += is_free;
             if (is_free != listed(s->name)) {
@@ -212,7 +214,7 @@ static drifts drifts_of(const char *name, double step_s, double until_s) {
         }
     }
     for (int i = 0; i < m.equations->count; i++) {
-        if (is_free_along(m.equations, i)) {
+        if (b != NULL && is_free_along(m.equations, i)) {
             TEST_ASSERT_TRUE(d.count + centres < QUANTITIES_MAX);
             snprintf(d.name[d.count], sizeof d.name[0], "momentum of %.16s",
                      m.equations->unknowns[i].symbol->name);

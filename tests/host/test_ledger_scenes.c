@@ -32,9 +32,9 @@ static account_book book_of(const motion *m, const char *name) {
     TEST_ASSERT_NOT_NULL(l);
     TEST_ASSERT_TRUE(l->entries <= ENTRIES_MAX);
     int account = 0;
-    while (
-        name != NULL &&
-        (account == 0 || strcmp(m->equations->unknowns[l->unknown[account]].symbol->name, name))) {
+    while (name != NULL &&
+           (account == 0 ||
+            strcmp(m->equations->unknowns[l->unknown[account]].symbol->name, name) != 0)) {
         account++;
         TEST_ASSERT_TRUE_MESSAGE(account < l->accounts, name);
     }
