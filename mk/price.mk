@@ -51,20 +51,22 @@ count_board = BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) \
     FLAGS="$(call TOLD,$(BOARD_CFLAGS))" PLUGIN=$(PLUGIN) EMULATE="$(call emulate,$(1))" \
     host/count/count_board.sh $(1) $(FIGURES)/bench.csv
 
-# The worst step of scenes with contacts, over so many random steps.
+# The worst step of scenes with contacts, all effects of their mechanisms on, over so many random steps.
 WORST_STEPS := 1000000
-$(ELF)/worst.elf: $(call objects,$(BOARD),host/count/worst.c) $(BOARD_OBJECTS) $(ELF)/libscenes.a \
-    $(LIB_BOARD)
+WORST_C := host/count/worst.c $(wildcard build/worst/*.c)
+$(ELF)/worst.elf: $(call objects,$(BOARD),$(WORST_C)) $(BOARD_OBJECTS) $(LIB_BOARD)
 	$(link_board)
 $(ELF)/host/count/worst.o: FILE_FLAGS := -DWORST_STEPS=$(WORST_STEPS)U
 
 .PHONY: bench-now size-now worst-now
 worst-now: build/whirl
 	@$(MAKE) $(GEN)/.stamp
+	@CC="$(CC)" sh host/count/all_effects.sh build/whirl build/worst core/models/*.whirl
 	@$(MAKE) $(ELF)/worst.elf $(PLUGIN)
 	@mkdir -p $(FIGURES)
-	@echo "Worst step of each scene with contacts over $(WORST_STEPS) random steps (minutes):"
+	@echo "Worst step of each over $(WORST_STEPS) random steps (minutes):"
 	@MORE=,every=$(WORST_STEPS) $(subst timeout 60,timeout 3600,$(subst bench.csv,worst.csv,$(call count_board,$(ELF)/worst.elf)))
+
 bench-now: build/whirl
 	@$(MAKE) $(GEN)/.stamp
 	@$(MAKE) build/bench build/bench_compensated build/bench_double \
