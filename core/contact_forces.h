@@ -44,7 +44,7 @@ static inline void wh_contact_solve(const wh_hybrid *of, const wh_contact_work *
 static inline void wh_contact_accel(const void *model, const wh_phase *phase, const wh_real *linear,
                                     const wh_real *rate, const wh_real *input, wh_real *accel) {
     const wh_contact_model *m = model;
-    const wh_hybrid *of = m->of;
+    const wh_hybrid *of = WH_CONTACTS_OF(m);
     wh_contact_work *w = m->work;
     uint8_t member[WH_CONTACTS_MAX] = {0};
     wh_real wanted[WH_CONTACTS_MAX];

@@ -47,7 +47,7 @@ static inline void wh_contact_assign(const wh_hybrid *of, wh_contact_work *w, un
     wh_real value[WH_SETS_MAX];
     const wh_contact *c = &of->contact[k];
     w->mode[k] = (int8_t)-w->mode[k];
-    if (c->sets == 0) {
+    if (c->sets == 0 || of->sets == NULL) {
         return;
     }
     wh_contact_point_of(of, s, &at);

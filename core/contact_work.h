@@ -22,6 +22,11 @@ typedef struct wh_contact_model {
     wh_contact_work *work;
 } wh_contact_model;
 
+/* Its contacts. A generated scene says which they are, so that the compiler sees through the pointer. */
+#ifndef WH_CONTACTS_OF
+#define WH_CONTACTS_OF(model) ((model)->of)
+#endif
+
 /* A state that a step tries, with room of its own. */
 typedef struct wh_contact_state {
     wh_angle angle[WH_COORDS];

@@ -1,6 +1,6 @@
 #!/bin/sh
 # all_effects.sh WHIRL OUT MODEL...: every scene with stops, friction, holds or crossings as C into OUT, with all
-# the effects of its mechanism on, and OUT/scenes.c that lists them.
+# the effects of its mechanism on (all_SCENE.c), and OUT/scenes.c that lists them.
 set -eu
 whirl=$1 out=$2
 shift 2
@@ -18,30 +18,31 @@ awk '
 ' "$@" >"$out/list"
 
 while read -r scene effects; do
-    if ! "$whirl" derive "$scene" --with "$effects" --as c >"$out/$scene.c" 2>"$out/errors"; then
+    if ! "$whirl" derive "$scene" --with "$effects" --as c >"$out/all_$scene.c" 2>"$out/errors"; then
         # such as a momentum that is conserved only without drag
         echo "$scene with all effects: $(head -n 1 "$out/errors")" >&2
-        rm "$out/$scene.c"
-    elif ! grep -q 'WH_CONTACT_EVALUATIONS' "$out/$scene.c"; then
-        rm "$out/$scene.c"
+        rm "$out/all_$scene.c"
+    elif ! grep -q 'WH_CONTACT_EVALUATIONS' "$out/all_$scene.c"; then
+        rm "$out/all_$scene.c"
     fi
 done <"$out/list"
 {
     echo '#include "build/gen/scenes.h"'
     echo 'const wh_scene *const wh_scenes[] = {'
-    for file in "$out"/*.c; do
-        [ "$file" = "$out/scenes.c" ] || echo "    &$(basename "$file" .c),"
+    for file in "$out"/all_*.c; do
+        scene=$(basename "$file" .c)
+        echo "    &${scene#all_},"
     done
     echo '};'
     echo 'const unsigned wh_scene_count = sizeof wh_scenes / sizeof wh_scenes[0];'
-} >"$out/scenes.c.new"
-mv "$out/scenes.c.new" "$out/scenes.c"
+} >"$out/scenes.c"
 
 echo "Evaluations of the accelerations that a step may take, as the generated files declare:"
-for file in "$out"/*.c; do
+for file in "$out"/all_*.c; do
+    scene=$(basename "$file" .c)
     sed -n 's/.*WH_CONTACT_EVALUATIONS(\([0-9]*\), \([0-9]*\), \([0-9]*\)).*/\1 \2 \3/p' "$file" |
         while read -r stages stops forced; do
-            printf '  %-28s %s\n' "$(basename "$file" .c)" \
+            printf '  %-28s %s\n' "${scene#all_}" \
                 "$(printf '#define WH_DOUBLE 0\n#include "core/contact.h"\nWH_CONTACT_EVALUATIONS(%s, %s, %s)\n' \
                     "$stages" "$stops" "$forced" | "${CC:-cc}" -E -P -I. - | tail -n 1 |
                     sed 's/^/echo $((/; s/$/))/' | sh)"

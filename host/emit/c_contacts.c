@@ -6,7 +6,8 @@
 void c_contacts_include(FILE *out, const contact_lists *c) {
     fprintf(out, "#define WH_CONTACTS_MAX %d\n#define WH_SETS_MAX %d\n", c->count,
             c->set_count > 0 ? c->set_count : 1);
-    fprintf(out, "#include \"core/contact_step.h\"\n");
+    fprintf(out, "#include \"core/contact.h\"\nstatic const wh_hybrid contacts;\n"
+                 "#define WH_CONTACTS_OF(model) (&contacts)\n#include \"core/contact_step.h\"\n");
 }
 
 /* Evaluations that a step of each wh_method takes. */
