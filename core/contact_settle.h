@@ -82,27 +82,18 @@ static inline void wh_contact_close(const wh_hybrid *of, const wh_contact_work *
     }
 }
 
-/* What the integrator let slip: rates along what is held, and the gaps of resting stops. A pinned
- * coordinate cannot slip. */
-static inline void wh_contact_tidy(const wh_hybrid *of, wh_contact_work *w, const wh_real *input,
-                                   wh_contact_state *s) {
+/* Take the rates along what is held away, of all contacts together; `booked`: as impulses of theirs.
+ * work->law must belong to this position. */
+static inline void wh_contact_still(const wh_hybrid *of, const wh_contact_work *w, bool booked,
+                                    wh_real *rate) {
     uint8_t member[WH_CONTACTS_MAX] = {0};
     wh_real wanted[WH_CONTACTS_MAX];
     wh_real amount[WH_CONTACTS_MAX];
+    wh_real before[WH_CONTACTS_MAX];
     const unsigned count = wh_contact_members(of, w, member);
-    bool slips = false;
     for (unsigned i = 0; i < count; i++) {
-        slips = slips || of->contact[member[i]].pin < 0;
-    }
-    if (!slips) {
-        return;
-    }
-    wh_real accel[WH_COORDS];
-    wh_real signal[2 * WH_CONTACTS_MAX];
-    wh_real *rate = wh_contact_rates(of, s);
-    wh_contact_look(of, w, s, input, accel, signal);
-    for (unsigned i = 0; i < count; i++) {
-        wanted[i] = -wh_along(of, w, member[i], rate);
+        before[i] = wh_along(of, w, member[i], rate);
+        wanted[i] = -before[i];
     }
     wh_contact_solve(of, w, member, count, wanted, amount);
     for (unsigned i = 0; i < count; i++) {
@@ -113,8 +104,28 @@ static inline void wh_contact_tidy(const wh_hybrid *of, wh_contact_work *w, cons
         if (pin >= 0) {
             rate[pin] = WH_R(0.0);
         }
+        if (booked) {
+            wh_books_impulse(of, w, member[i], amount[i], before[i],
+                             wh_along(of, w, member[i], rate));
+        }
     }
-    wh_contact_close(of, w, signal, s);
+}
+
+/* What the integrator let slip: rates along what is held, and the gaps of resting stops. A pinned
+ * coordinate cannot slip. */
+static inline void wh_contact_tidy(const wh_hybrid *of, wh_contact_work *w, const wh_real *input,
+                                   wh_contact_state *s) {
+    wh_real accel[WH_COORDS];
+    wh_real signal[2 * WH_CONTACTS_MAX];
+    bool slips = false;
+    for (unsigned k = 0; k < of->forced; k++) {
+        slips = slips || (of->contact[k].pin < 0 && wh_constrains(of, w, k));
+    }
+    if (slips) {
+        wh_contact_look(of, w, s, input, accel, signal);
+        wh_contact_still(of, w, false, wh_contact_rates(of, s));
+        wh_contact_close(of, w, signal, s);
+    }
 }
 
 /* Bring the modes to agree with the state: which way friction slides, which resting stops would have to

@@ -78,29 +78,10 @@ static inline void wh_contact_assign(const wh_hybrid *of, wh_contact_work *w, un
 
 /* The rate is zero but for what the location left: friction, which would take that away in no time, does,
  * and sticks. What holds or sticks already stays so: else two frictions would shake each other loose. */
-static inline void wh_contact_stick(const wh_hybrid *of, wh_contact_work *w, unsigned k,
-                                    wh_real *rate) {
-    uint8_t member[WH_CONTACTS_MAX] = {0};
-    wh_real wanted[WH_CONTACTS_MAX];
-    wh_real amount[WH_CONTACTS_MAX];
-    wh_real before[WH_CONTACTS_MAX];
+WH_INLINE void wh_contact_stick(const wh_hybrid *of, wh_contact_work *w, unsigned k,
+                                wh_real *rate) {
     w->mode[k] = WH_STUCK;
-    const unsigned count = wh_contact_members(of, w, member);
-    for (unsigned i = 0; i < count; i++) {
-        before[i] = wh_along(of, w, member[i], rate);
-        wanted[i] = -before[i];
-    }
-    wh_contact_solve(of, w, member, count, wanted, amount);
-    for (unsigned i = 0; i < count; i++) {
-        wh_push(of, w, member[i], amount[i], rate);
-    }
-    for (unsigned i = 0; i < count; i++) {
-        const int pin = of->contact[member[i]].pin;
-        if (pin >= 0) {
-            rate[pin] = WH_R(0.0);
-        }
-        wh_books_impulse(of, w, member[i], amount[i], before[i], wh_along(of, w, member[i], rate));
-    }
+    wh_contact_still(of, w, true, rate);
 }
 
 /* Take one event of contact k. `rest`: no more bounces in this step. */

@@ -20,7 +20,7 @@ void drop(void) {
     said = NULL;
 }
 
-void parse(const char *text) {
+const mechanism *parse(const char *text) {
     drop();
     said = diags_new();
     parsed = model_parse("x.whirl", text, strlen(text), said);
@@ -28,6 +28,7 @@ void parse(const char *text) {
         diags_flush(said, stdout);
     }
     TEST_ASSERT_NOT_NULL(parsed);
+    return parsed->mechanisms[0];
 }
 
 void instantiate(const overrides *changes) {

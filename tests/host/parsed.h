@@ -9,8 +9,9 @@ extern diags *said;
 extern model *parsed;
 extern instance *made;
 
-/* Parse a good text, called x.whirl; the test fails when the language refuses it. */
-void parse(const char *text);
+/* Parse a good text, called x.whirl; the test fails when the language refuses it. Returns its first
+ * mechanism. */
+const mechanism *parse(const char *text);
 /* The first scene (or the first mechanism when there is none) with these changes; fails like parse(). */
 void instantiate(const overrides *changes);
 /* Free all three. */

@@ -8,7 +8,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "host/lang/model.h"
+#include "parsed.h"
 #include "unity.h"
 
 void suite_hybrid_lang(void);
@@ -18,27 +18,6 @@ void suite_hybrid_lang(void);
     "parameter m = 2 [kg]\nparameter e = 0.5\nparameter mu = 0.3\ninput push = 3 [N]\n" \
     "let gap = x - y\nlet vx = x' - y'\n" \
     "T = m*(x'^2 + y'^2)/2 + 1 [kg*m^2]*phi'^2/2\noutput x_mm [mm] = x\noutput angle = phi\n"
-
-static diags *said;
-static model *parsed;
-
-static void drop(void) {
-    model_free(parsed);
-    diags_free(said);
-    parsed = NULL;
-    said = NULL;
-}
-
-static const mechanism *parse(const char *text) {
-    drop();
-    said = diags_new();
-    parsed = model_parse("x.whirl", text, strlen(text), said);
-    if (diags_count(said) > 0) {
-        diags_flush(said, stdout);
-    }
-    TEST_ASSERT_NOT_NULL(parsed);
-    return parsed->mechanisms[0];
-}
 
 /* --- values of expressions ---------------------------------------------------------------------- */
 

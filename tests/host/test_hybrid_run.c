@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/lang/model.h"
+#include "parsed.h"
 #include "unity.h"
 
 void suite_hybrid_run(void);
@@ -17,31 +17,7 @@ void suite_hybrid_run(void);
     "let gap = x - y\nlet vx = x' - y'\n" \
     "T = m*(x'^2 + y'^2)/2 + 1 [kg*m^2]*phi'^2/2\noutput x_mm [mm] = x\noutput angle = phi\n"
 
-static diags *said;
-static model *parsed;
-static instance *made;
-
-static void drop(void) {
-    instance_free(made);
-    model_free(parsed);
-    diags_free(said);
-    made = NULL;
-    parsed = NULL;
-    said = NULL;
-}
-
-static const mechanism *parse(const char *text) {
-    drop();
-    said = diags_new();
-    parsed = model_parse("x.whirl", text, strlen(text), said);
-    if (diags_count(said) > 0) {
-        diags_flush(said, stdout);
-    }
-    TEST_ASSERT_NOT_NULL(parsed);
-    return parsed->mechanisms[0];
-}
-
-static instance *instantiate(int scene_number, const overrides *changes) {
+static instance *instance_of(int scene_number, const overrides *changes) {
     instance_free(made);
     const scene *in = scene_number < 0 ? NULL : parsed->scenes[scene_number];
     made = instance_make(parsed->mechanisms[0], in, changes, said);
@@ -52,7 +28,7 @@ static instance *instantiate(int scene_number, const overrides *changes) {
 static void refuse(int scene_number, const overrides *changes, const char *wanted) {
     char *report = NULL;
     size_t size = 0;
-    TEST_ASSERT_NULL(instantiate(scene_number, changes));
+    TEST_ASSERT_NULL(instance_of(scene_number, changes));
     FILE *out = open_memstream(&report, &size);
     TEST_ASSERT_NOT_NULL(out);
     diags_flush(said, out);
@@ -73,12 +49,12 @@ static void test_the_ledger_is_called_for_like_an_effect(void) {
     TEST_ASSERT_TRUE(parsed->scenes[0]->ledger);
     TEST_ASSERT_TRUE(parsed->scenes[0]->with[0]);
     TEST_ASSERT_FALSE(parsed->scenes[1]->ledger);
-    TEST_ASSERT_TRUE(instantiate(0, NULL)->ledger);
-    TEST_ASSERT_FALSE(instantiate(1, NULL)->ledger);
-    TEST_ASSERT_TRUE(instantiate(2, NULL)->ledger);
-    TEST_ASSERT_TRUE(instantiate(1, &(overrides){.with = word, .with_count = 1})->ledger);
-    TEST_ASSERT_FALSE(instantiate(0, &(overrides){.without = word, .without_count = 1})->ledger);
-    TEST_ASSERT_TRUE(instantiate(-1, &(overrides){.with = word, .with_count = 1})->ledger);
+    TEST_ASSERT_TRUE(instance_of(0, NULL)->ledger);
+    TEST_ASSERT_FALSE(instance_of(1, NULL)->ledger);
+    TEST_ASSERT_TRUE(instance_of(2, NULL)->ledger);
+    TEST_ASSERT_TRUE(instance_of(1, &(overrides){.with = word, .with_count = 1})->ledger);
+    TEST_ASSERT_FALSE(instance_of(0, &(overrides){.without = word, .without_count = 1})->ledger);
+    TEST_ASSERT_TRUE(instance_of(-1, &(overrides){.with = word, .with_count = 1})->ledger);
     refuse(1, &(overrides){.with = misspelt, .with_count = 1}, "did you mean 'ledger'?");
 }
 
@@ -86,7 +62,7 @@ static void test_noise_comes_with_its_effect(void) {
     const mechanism *m = parse(BASE "noise x_mm deviation 2 [mm]\n"
                                     "effect hum { noise angle deviation 1 [deg] }\n"
                                     "effect still { noise angle deviation 0 seed 0 }\n");
-    TEST_ASSERT_NOT_NULL(instantiate(-1, NULL));
+    TEST_ASSERT_NOT_NULL(instance_of(-1, NULL));
     TEST_ASSERT_TRUE(instance_has_noise(made, &m->noises[0]));
     TEST_ASSERT_FALSE(instance_has_noise(made, &m->noises[1]));
     const char *both[] = {"hum", "still"};
@@ -102,11 +78,11 @@ static void test_effects_bring_their_events(void) {
     const char *rub[] = {"rub"};
     const char *wall[] = {"wall"};
     const overrides swap = {.with = rub, .with_count = 1, .without = wall, .without_count = 1};
-    TEST_ASSERT_NOT_NULL(instantiate(0, NULL));
+    TEST_ASSERT_NOT_NULL(instance_of(0, NULL));
     TEST_ASSERT_TRUE(instance_has_hybrid(made, &m->hybrids[0]));
     TEST_ASSERT_TRUE(instance_has_hybrid(made, &m->hybrids[1]));
     TEST_ASSERT_FALSE(instance_has_hybrid(made, &m->hybrids[2]));
-    TEST_ASSERT_NOT_NULL(instantiate(0, &swap));
+    TEST_ASSERT_NOT_NULL(instance_of(0, &swap));
     TEST_ASSERT_TRUE(instance_has_hybrid(made, &m->hybrids[0]));
     TEST_ASSERT_FALSE(instance_has_hybrid(made, &m->hybrids[1]));
     TEST_ASSERT_TRUE(instance_has_hybrid(made, &m->hybrids[2]));
@@ -121,14 +97,14 @@ static void test_numbers_of_a_run_must_be_in_range(void) {
                "  friction x static mu kinetic slip normal 1 [N] }\n"
                "effect grain { parameter s = 0 [m]\n  noise x_mm deviation s }\n"
                "scene s { with wall, rub, grain }\nscene none_of_them { until 1 [s] }\n");
-    TEST_ASSERT_NOT_NULL(instantiate(0, NULL));
+    TEST_ASSERT_NOT_NULL(instance_of(0, NULL));
     refuse(0, &(overrides){.sets = bouncy, .set_count = 1},
            "x.whirl:14:39: error: a restitution is from 0 to 1, and this is 1.01");
     refuse(0, &(overrides){.sets = rough, .set_count = 1},
            "x.whirl:16:32: error: kinetic friction 0.31 is above static friction 0.3");
     refuse(0, &(overrides){.sets = negative, .set_count = 1},
            "x.whirl:18:24: error: a standard deviation must not be negative");
-    TEST_ASSERT_NOT_NULL(instantiate(1, &(overrides){.sets = bouncy, .set_count = 1}));
+    TEST_ASSERT_NOT_NULL(instance_of(1, &(overrides){.sets = bouncy, .set_count = 1}));
 }
 
 static void test_what_two_effects_must_not_give_together(void) {
@@ -137,12 +113,12 @@ static void test_what_two_effects_must_not_give_together(void) {
                "effect rail { friction x static mu kinetic mu normal 2 [N] }\n"
                "effect motor { input level = 1 [m]; let half = level/2; parameter p = 1 [m] }\n"
                "scene s { when x crosses p { set x = half } }\n");
-    TEST_ASSERT_NOT_NULL(instantiate(-1, &(overrides){.with = both, .with_count = 1}));
+    TEST_ASSERT_NOT_NULL(instance_of(-1, &(overrides){.with = both, .with_count = 1}));
     refuse(-1, &(overrides){.with = both, .with_count = 2},
            "x.whirl:15:15: error: friction on 'x' was already given in line 14");
     refuse(0, NULL, "x.whirl:17:38: error: 'half' belongs to the effect 'motor', which takes no");
     const char *motor[] = {"motor"};
-    TEST_ASSERT_NOT_NULL(instantiate(0, &(overrides){.with = motor, .with_count = 1}));
+    TEST_ASSERT_NOT_NULL(instance_of(0, &(overrides){.with = motor, .with_count = 1}));
 }
 
 /* The bound is on what takes part, not on what is written. */
@@ -161,7 +137,7 @@ static void test_how_many_events_one_run_takes(void) {
            "}\nscene one { with a }\nscene more { with b; when x crosses 0 { set x = 0 } }\n");
     const mechanism *m = parse(text);
     TEST_ASSERT_EQUAL_INT(2 * HYBRIDS_MAX, m->hybrid_count);
-    TEST_ASSERT_NOT_NULL(instantiate(0, NULL));
+    TEST_ASSERT_NOT_NULL(instance_of(0, NULL));
     refuse(1, NULL, "more than 16 stops, frictions, holds and whens in one run");
 }
 
@@ -184,7 +160,7 @@ static void test_how_many_values_one_run_sets(void) {
     const mechanism *m = parse(text);
     const char *b[] = {"b"};
     TEST_ASSERT_EQUAL_INT(84, m->hybrids[1].set_count);
-    TEST_ASSERT_NOT_NULL(instantiate(-1, NULL));
+    TEST_ASSERT_NOT_NULL(instance_of(-1, NULL));
     refuse(-1, &(overrides){.with = b, .with_count = 1},
            "the whens of one run set more than 128 values");
 }
