@@ -7,8 +7,8 @@
  * where lambda_k is the force of contact k: zero for a stop out of touch, -sign(v) mu N for sliding
  * friction, and otherwise the force that keeps J_k q' at zero (a resting stop, a held expression, a
  * stuck coordinate), found from J M^-1 J^T lambda = -(J q'' + J' q'). Events change which of these
- * holds. A step looks for them at its end, locates the first with a fixed number of refinements on the
- * cubic through the step's ends, steps again to just past it, changes the modes (an impact by an
+ * holds. A step looks for them at its end, locates the first with a fixed number of refinements on
+ * cubics through the step's ends, steps again to just past it, changes the modes (an impact by an
  * impulse through the mass matrix, Newton's restitution), and goes on with what is left of the step,
  * for at most WH_EVENTS_MAX events. Then stops rest and sliding that keeps reversing sticks, the rest
  * of the step is done, and the state counts an overrun: the cost of a step is bounded, and no step is

@@ -13,7 +13,8 @@ void emit_text(FILE *out, const equations *e);
 void emit_latex(FILE *out, const equations *e);
 
 /* A function file `function dy = NAME(t, y)` that Octave and Matlab integrate as it stands, with the
- * run as a comment. `file` is the .whirl file's name, for the banner. */
+ * run as a comment. `p` must integrate every coordinate (no `conserve`). `file` is the .whirl file's name,
+ * for the banner. */
 void emit_octave(FILE *out, const equations *e, const program *p, const char *file);
 
 /* False when the generated file could not define an object of that name (a word of C or of the core). */
