@@ -1,23 +1,6 @@
 #!/bin/sh
 # columns.sh: `whirl run --columns` writes the numbers of --csv as plain columns, and says when it cannot.
-set -u
-
-whirl=${WHIRL:-build/whirl}
-scratch=$(mktemp -d) || exit 1
-trap 'rm -rf "$scratch"' EXIT
-failed=0
-
-# check WHAT COMMAND...: the command must succeed.
-check() {
-    what=$1
-    shift
-    if "$@" >/dev/null 2>&1; then
-        echo "ok - $what"
-    else
-        echo "not ok - $what"
-        failed=1
-    fi
-}
+. "$(dirname "$0")/../checks.sh"
 
 "$whirl" run epicyclic_from_rest --until 1s --every 10ms --quiet \
     --csv "$scratch/run.csv" --columns "$scratch/run.txt"
@@ -41,13 +24,9 @@ check "columns: the summary then goes to standard error" grep -q '^state hash' "
 refused() {
     what=$1
     shift
-    "$whirl" run epicyclic_from_rest --quiet "$@" >/dev/null 2>"$scratch/said"
-    if [ $? -eq 2 ] && grep -q error: "$scratch/said"; then
-        echo "ok - $what"
-    else
-        echo "not ok - $what"
-        failed=1
-    fi
+    "$whirl" run epicyclic_from_rest --quiet "$@" >/dev/null 2>"$scratch/err"
+    [ $? -eq 2 ] && grep -q error: "$scratch/err"
+    verdict $? "$what"
 }
 refused "columns: a file that cannot be made" --columns "$scratch/missing/run.txt"
 refused "columns: a full disc" --columns /dev/full

@@ -1,12 +1,7 @@
 #!/bin/sh
 # command_line.sh: what `whirl` says and returns: help, versions, mistakes in every option, broken
 # mechanisms. Exit status 0 done, 2 bad input; errors go to standard error, with a hint where one helps.
-set -u
-
-whirl=${WHIRL:-build/whirl}
-scratch=$(mktemp -d) || exit 1
-trap 'rm -rf "$scratch"' EXIT
-failed=0
+. "$(dirname "$0")/../checks.sh"
 
 complain() {
     echo "not ok - $1"

@@ -3,26 +3,11 @@
 # none of its effects, compiles to the same object, byte for byte, as a file that never mentions them;
 # and so does every scene that calls for none. Mechanisms also for the board, if its compiler is there.
 # And no effect does nothing: called for, each changes the generated code.
-set -u
+. "$(dirname "$0")/../checks.sh"
 
-whirl=${WHIRL:-build/whirl}
 root=$(pwd)
-scratch=$(mktemp -d) || exit 1
-trap 'rm -rf "$scratch"' EXIT
 mkdir "$scratch/with" "$scratch/without"
-failed=0
 stripped=0
-checks=0
-
-verdict() { # verdict GOOD WHAT
-    checks=$((checks + 1))
-    if [ "$1" -eq 0 ]; then
-        echo "ok - $2"
-    else
-        echo "not ok - $2"
-        failed=1
-    fi
-}
 
 # same NAME BOARD: NAME derived from both folders' model.whirl gives the same objects, with BOARD = yes also
 # for the board.
@@ -120,8 +105,6 @@ for file in core/models/*.whirl "$scratch/everything.whirl"; do
     done
 done
 
-if [ "$stripped" -lt 20 ] || [ "$checks" -lt 60 ]; then
-    echo "not ok - only $stripped effects found in $checks checks: run from the project's root"
-    failed=1
-fi
+[ "$stripped" -ge 20 ] && [ "$checks" -ge 60 ]
+verdict $? "$stripped effects found, in $checks checks (run from the project's root)"
 exit $failed

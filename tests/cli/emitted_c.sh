@@ -2,24 +2,11 @@
 # emitted_c.sh: `whirl derive --as c` compiles by itself without a warning, in float and in double, with
 # gcc and with clang, and steps to the same bits as the interpreter: for every built-in scene, every file
 # of tests/mechanisms, and scenes made for the odd corners of the operation list.
-set -u
+. "$(dirname "$0")/../checks.sh"
 
-whirl=${WHIRL:-build/whirl}
-scratch=$(mktemp -d) || exit 1
-trap 'rm -rf "$scratch"' EXIT
-failed=0
 compared=0
 refused=0
 warnings="-std=c11 -ffp-contract=off -I. -Wall -Wextra -Wconversion -Wshadow -Wdouble-promotion -Werror"
-
-verdict() { # verdict GOOD WHAT
-    if [ "$1" -eq 0 ]; then
-        echo "ok - $2"
-    else
-        echo "not ok - $2"
-        failed=1
-    fi
-}
 
 # --- what is to be compared: lines "NUMBER WHAT", options in NUMBER.options --------------------------
 number=0

@@ -1,26 +1,10 @@
 #!/bin/sh
 # figures.sh: the dissertation's figures are drawn, each with its axes and its curves, the same twice
 # over, and a wrong description is refused.
-set -u
-
-whirl=${WHIRL:-build/whirl}
-scratch=$(mktemp -d) || exit 1
-trap 'rm -rf "$scratch"' EXIT
-failed=0
-
-# verdict WHAT STATUS
-verdict() {
-    if [ "$2" -eq 0 ]; then
-        echo "ok - figures: $1"
-    else
-        echo "not ok - figures: $1"
-        failed=1
-    fi
-}
+. "$(dirname "$0")/../checks.sh"
 
 sh host/figures/figures.sh "$whirl" "$scratch/one" host/figures/fig*.fig >"$scratch/log" 2>&1
-verdict "all are drawn" $?
-[ "$failed" -eq 0 ] || tail -n 3 "$scratch/log" | sed 's/^/    /'
+verdict $? "all are drawn" "$scratch/log"
 
 # Number, what is drawn in all panels (curves and laws), the last panel's x axis, the first's y axis.
 while IFS='|' read -r number drawn x y; do
@@ -34,7 +18,7 @@ while IFS='|' read -r number drawn x y; do
     grep -qF ">$x</" "$svg" || wrong="$wrong, no axis $x"
     grep -qF ">$y</" "$svg" || wrong="$wrong, no axis $y"
     [ -z "$wrong" ]
-    verdict "$number${wrong:- has its curves and axes}" $?
+    verdict $? "$number${wrong:- has its curves and axes}"
 done <<'END'
 19|2|time [s]|pin force [lbf]
 20|3|eccentric weight / carriage weight|free / fixed pin force
@@ -62,31 +46,31 @@ END
 # The numbers behind a figure: Fig. 20 against its closed form, at every point of the sweep.
 awk -F, 'NR > 1 { n++; d = $2 / $3 * (1 + $1) - 1; if (d < 0) d = -d; if (d > 0.001) bad++ }
     END { exit !(n == 21 && bad == 0) }' "$scratch"/one/data/sweep-carriage_ratio*.csv
-verdict "20 is 1/(1 + ratio) within 0.1 %, at 21 ratios" $?
+verdict $? "20 is 1/(1 + ratio) within 0.1 %, at 21 ratios"
 
 # The swing's action stays within 0.5 % from 4 s on, while its energy grows.
 sh host/figures/swing.sh "$whirl" cycles | awk -F, '
     NR > 1 && $1 > 4 { n++; if ($3 < 6.965 || $3 > 7.035 || $4 <= energy) bad++ }
     { energy = $4 }
     END { exit !(n > 20 && bad == 0) }'
-verdict "the swing's action stays, its energy grows" $?
+verdict $? "the swing's action stays, its energy grows"
 
 # A billionth grows thousandfold by 5 s and to everything by 10 s.
 sh host/figures/growth.sh "$whirl" thomson_a theta1=1e-9 1e-9 --step 0.25ms --every 1s | awk -F, '
     $1 == 5 { five = $2 }
     $1 == 10 { ten = $2 }
     END { exit !(five > 5e3 && five < 7e3 && ten > 3e8 && ten < 4e9) }'
-verdict "chaos: growth of 6e3 by 5 s, 1e9 by 10 s" $?
+verdict $? "chaos: growth of 6e3 by 5 s, 1e9 by 10 s"
 
 sh host/figures/figures.sh "$whirl" "$scratch/two" host/figures/fig46.fig host/figures/fig20.fig \
     >"$scratch/log" 2>&1 || sed 's/^/    /' "$scratch/log"
 cmp -s "$scratch/one/fig46.svg" "$scratch/two/fig46.svg" &&
     cmp -s "$scratch/one/fig20.svg" "$scratch/two/fig20.svg" &&
     cmp -s "$scratch/one/fig46.png" "$scratch/two/fig46.png"
-verdict "drawn twice, the same files" $?
+verdict $? "drawn twice, the same files"
 
 sh host/figures/page.sh host/figures/fig*.fig | cmp -s - docs/figures.md
-verdict "docs/figures.md is what the descriptions say (make figures-docs)" $?
+verdict $? "docs/figures.md is what the descriptions say (make figures-docs)"
 
 # refused WHAT LINE...: a description with these lines must not be drawn.
 refused() {
@@ -94,7 +78,7 @@ refused() {
     shift
     printf '%s\n' "$@" >"$scratch/bad.fig"
     ! sh host/figures/figures.sh "$whirl" "$scratch/bad" "$scratch/bad.fig" >/dev/null 2>&1
-    verdict "$what is refused" $?
+    verdict $? "$what is refused"
 }
 refused "an unknown scene" "title t" "run a no_such_scene" "panel y" "curve a | {time} | {X} | -"
 refused "an unknown run" "title t" "panel y" "curve a | {time} | {X} | -"
@@ -109,5 +93,5 @@ refused "a sweep of which a point fails" "title t" \
 left=$(find "$scratch" -path '*/data/*' ! -name '*.csv')
 [ -z "$left" ] || echo "$left"
 [ -z "$left" ] && [ -d "$scratch/one/data" ] && [ -d "$scratch/bad/data" ]
-verdict "nothing half-done is left in data" $?
+verdict $? "nothing half-done is left in data"
 exit $failed

@@ -1,22 +1,7 @@
 #!/bin/sh
 # records.sh: the CSV that a run leaves: form (RFC 4180), names, digits, spacing; and what is left of it
 # when the run diverges, is interrupted, or the disc is full.
-set -u
-
-whirl=${WHIRL:-build/whirl}
-scratch=$(mktemp -d) || exit 1
-trap 'rm -rf "$scratch"' EXIT
-failed=0
-
-verdict() { # verdict STATUS WHAT
-    if [ "$1" -eq 0 ]; then
-        echo "ok - $2"
-    else
-        echo "not ok - $2"
-        head -n 4 "$scratch/err" 2>/dev/null | sed 's/^/    /'
-        failed=1
-    fi
-}
+. "$(dirname "$0")/../checks.sh"
 
 # Every line ends in CR LF and has as many fields as the header; every field below it is a finite number.
 well_formed() {

@@ -1,23 +1,9 @@
 #!/bin/sh
 # suites.sh: a test program runs the suites that are named, all of them without a name, and refuses a name
 # that is none of them, rather than passing with nothing run.
-set -u
+. "$(dirname "$0")/../checks.sh"
 
-folder=$(dirname "${WHIRL:-build/whirl}")/tests
-scratch=$(mktemp -d) || exit 1
-trap 'rm -rf "$scratch"' EXIT
-failed=0
-
-# verdict STATUS WHAT
-verdict() {
-    if [ "$1" -eq 0 ]; then
-        echo "ok - $2"
-    else
-        echo "not ok - $2"
-        sed 's/^/    /' "$scratch/err" | head -n 3
-        failed=1
-    fi
-}
+folder=$(dirname "$whirl")/tests
 
 for name in host core_double core_float; do
     program=$folder/$name

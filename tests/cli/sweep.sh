@@ -1,24 +1,7 @@
 #!/bin/sh
 # sweep.sh: `whirl sweep`: the same bytes from any number of jobs, from shards, and after being killed;
 # files of other sweeps left alone; points that fail; and closed forms of the eccentric-mass rig.
-set -u
-
-whirl=${WHIRL:-build/whirl}
-scratch=$(mktemp -d) || exit 1
-trap 'rm -rf "$scratch"' EXIT
-failed=0
-
-# check WHAT COMMAND...: the command must succeed.
-check() {
-    what=$1
-    shift
-    if "$@" >/dev/null 2>&1; then
-        echo "ok - sweep: $what"
-    else
-        echo "not ok - sweep: $what"
-        failed=1
-    fi
-}
+. "$(dirname "$0")/../checks.sh"
 
 # status WANTED COMMAND...: the exit status; what it said is in $scratch/said.
 status() {

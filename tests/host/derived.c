@@ -70,6 +70,22 @@ derived derived_file(const char *path) {
     return d;
 }
 
+int each_builtin_scene(scene_check *check) {
+    int sum = 0;
+    for (size_t i = 0; i < builtin_model_count; i++) {
+        const struct builtin_model *b = &builtin_models[i];
+        diags *errors = diags_new();
+        model *in = model_parse(b->file, b->text, b->length, errors);
+        TEST_ASSERT_NOT_NULL_MESSAGE(in, b->file);
+        for (int k = 0; k < in->scene_count; k++) {
+            sum += check(in->scenes[k]);
+        }
+        model_free(in);
+        diags_free(errors);
+    }
+    return sum;
+}
+
 derived derived_builtin(const char *name) {
     for (size_t i = 0; i < builtin_model_count; i++) {
         const struct builtin_model *b = &builtin_models[i];

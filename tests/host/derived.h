@@ -17,6 +17,9 @@ typedef struct derived {
 derived derived_text(const char *text);
 /* A built-in mechanism or scene. */
 derived derived_builtin(const char *name);
+/* Calls `check` for every built-in scene; the sum of what it returns. */
+typedef int scene_check(const scene *s);
+int each_builtin_scene(scene_check *check);
 /* The first mechanism of a file. */
 derived derived_file(const char *path);
 void derived_free(derived *d);

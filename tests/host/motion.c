@@ -160,6 +160,19 @@ double motion_value(const motion *m, const char *name) {
     return (double)NAN;
 }
 
+double thomson_kinetic_J(const motion *m) {
+    const double a = motion_value(m, "theta1");
+    const double b = motion_value(m, "theta2");
+    const double a_ = motion_value(m, "theta1'");
+    const double b_ = motion_value(m, "theta2'");
+    const double X_ = motion_value(m, "X'");
+    const double bx = X_ - 0.6 * a_ * sin(a);
+    const double by = 0.6 * a_ * cos(a);
+    const double dx = X_ - 0.6 * a_ * (sin(a) + sin(2.0 * a)) - 0.3 * b_ * sin(b);
+    const double dy = 0.6 * a_ * (cos(a) + cos(2.0 * a)) + 0.3 * b_ * cos(b);
+    return X_ * X_ + (bx * bx + by * by) + 2.0 * 0.09 * a_ * a_ + (dx * dx + dy * dy);
+}
+
 /* The states of the line `core/models/FILE:scene | time | name=value ...`, from behind the second
  * bar on. */
 static void reference_line(const char *of, const char *time, char line[LINE_MAX_BYTES]) {

@@ -54,6 +54,9 @@ void motion_to(motion *m, double time_s);
 /* "theta1", "theta1'" or the name of an output. */
 double motion_value(const motion *m, const char *name);
 
+/* Kinetic energy of Thomson's device with set A, written down by hand: m = 2 kg, r = 0.3 m, M = -2 N m. */
+double thomson_kinetic_J(const motion *m);
+
 /* Largest difference between `m` and the state in tests/reference/trajectory.txt of `scene` at
  * `time` (as written there), over all coordinates and rates; absolute, and relative to the largest
  * entry of the reference. */

@@ -1,8 +1,10 @@
 /* parsed.c: see parsed.h. */
+#define _POSIX_C_SOURCE 200809L
 #include "parsed.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "unity.h"
@@ -39,6 +41,21 @@ void instantiate(const overrides *changes) {
         diags_flush(said, stdout);
     }
     TEST_ASSERT_NOT_NULL(made);
+}
+
+void expect_said(const char *wanted) {
+    char *report = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&report, &size);
+    TEST_ASSERT_NOT_NULL(out);
+    diags_flush(said, out);
+    fclose(out);
+    const bool found = strstr(report, wanted) != NULL;
+    if (!found) {
+        printf("wanted: %s\ngot: %s\n", wanted, report);
+    }
+    free(report);
+    TEST_ASSERT_TRUE(found);
 }
 
 double parameter(const char *name) {

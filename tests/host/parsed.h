@@ -14,6 +14,8 @@ extern instance *made;
 const mechanism *parse(const char *text);
 /* The first scene (or the first mechanism when there is none) with these changes; fails like parse(). */
 void instantiate(const overrides *changes);
+/* What was refused before was refused with these words. */
+void expect_said(const char *wanted);
 /* Free all three. */
 void drop(void);
 

@@ -169,19 +169,6 @@ static double thomson_off_closed_form(const motion *m) {
     return motion_value(m, "X") - 0.1 * (6.0 - 4.0 * cos(a) - cos(2.0 * a) - cos(b));
 }
 
-static double thomson_kinetic_J(const motion *m) {
-    const double a = motion_value(m, "theta1");
-    const double b = motion_value(m, "theta2");
-    const double a_ = motion_value(m, "theta1'");
-    const double b_ = motion_value(m, "theta2'");
-    const double X_ = motion_value(m, "X'");
-    const double bx = X_ - 0.6 * a_ * sin(a);
-    const double by = 0.6 * a_ * cos(a);
-    const double dx = X_ - 0.6 * a_ * (sin(a) + sin(2.0 * a)) - 0.3 * b_ * sin(b);
-    const double dy = 0.6 * a_ * (cos(a) + cos(2.0 * a)) + 0.3 * b_ * cos(b);
-    return X_ * X_ + (bx * bx + by * by) + 2.0 * 0.09 * a_ * a_ + (dx * dx + dy * dy);
-}
-
 typedef struct thomson_error {
     double positions_at_5s;
     double states_at_5s;

@@ -6,7 +6,6 @@
 #include "derived.h"
 #include "host/derive/contact_lists.h"
 #include "host/derive/ledger.h"
-#include "host/lang/builtin.h"
 #include "host/run/engine.h"
 
 #include <math.h>
@@ -166,28 +165,18 @@ static void check_scene(const scene *of, bool all, const engine_kind *kind) {
     diags_free(errors);
 }
 
-static void test_no_step_exceeds_its_declared_bound(void) {
-    int scenes = 0;
-    for (size_t f = 0; f < builtin_model_count; f++) {
-        const struct builtin_model *b = &builtin_models[f];
-        diags *errors = diags_new();
-        model *all = model_parse(b->file, b->text, b->length, errors);
-        TEST_ASSERT_NOT_NULL(all);
-        for (int s = 0; s < all->scene_count; s++) {
-            derived d = derived_builtin(all->scenes[s]->name);
-            const bool contacts = d.program != NULL && d.program->contacts != NULL;
-            derived_free(&d);
-            if (contacts) {
-                for (int k = 0; k < 4; k++) {
-                    check_scene(all->scenes[s], k >= 2, k % 2 ? &engine_double : &engine_float);
-                }
-                scenes++;
-            }
-        }
-        model_free(all);
-        diags_free(errors);
+static int check_if_hybrid(const scene *s) {
+    derived d = derived_builtin(s->name);
+    const bool contacts = d.program != NULL && d.program->contacts != NULL;
+    derived_free(&d);
+    for (int k = 0; k < 4 && contacts; k++) {
+        check_scene(s, k >= 2, k % 2 ? &engine_double : &engine_float);
     }
-    TEST_ASSERT_TRUE(scenes >= 5);
+    return contacts;
+}
+
+static void test_no_step_exceeds_its_declared_bound(void) {
+    TEST_ASSERT_TRUE(each_builtin_scene(check_if_hybrid) >= 5);
 }
 
 void suite_contact_bound(void) { RUN_TEST(test_no_step_exceeds_its_declared_bound); }

@@ -212,17 +212,7 @@ static double x_off(const motion *m, const void *of) {
 /* Kinetic energy against the motor's work, M theta1 from rest. */
 static double work_off(const motion *m, const void *of) {
     (void)of;
-    const double a = motion_value(m, "theta1");
-    const double b = motion_value(m, "theta2");
-    const double a_ = motion_value(m, "theta1'");
-    const double b_ = motion_value(m, "theta2'");
-    const double X_ = motion_value(m, "X'");
-    const double bx = X_ - 0.6 * a_ * sin(a);
-    const double by = 0.6 * a_ * cos(a);
-    const double dx = X_ - 0.6 * a_ * (sin(a) + sin(2.0 * a)) - 0.3 * b_ * sin(b);
-    const double dy = 0.6 * a_ * (cos(a) + cos(2.0 * a)) + 0.3 * b_ * cos(b);
-    const double T = X_ * X_ + (bx * bx + by * by) + 0.18 * a_ * a_ + (dx * dx + dy * dy);
-    return T + 2.0 * a;
+    return thomson_kinetic_J(m) + 2.0 * motion_value(m, "theta1");
 }
 
 static void test_order_of_thomson_momentum(void) {

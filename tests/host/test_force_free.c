@@ -4,13 +4,13 @@
  * Which scenes these are is not the list's word: a scene belongs here when the deriver finds the
  * momentum of a length coordinate conserved (no force, potential, loss or contact acts on it), or,
  * for equations given outright, which have no momenta, when it records its centre of mass. */
+#include "derived.h"
 #include "motion.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "host/lang/builtin.h"
 #include "host/run/books.h"
 
 #include "unity.h"
@@ -124,36 +124,27 @@ static bool listed(const char *name) {
     return false;
 }
 
+/* 1 if it is force-free. Fails if the list says otherwise. */
+static int check_listed(const scene *s) {
+    diags *errors = diags_new();
+    instance *inst = instance_make(s->mechanism, s, &(overrides){0}, errors);
+    equations *e = inst == NULL ? NULL : equations_derive(inst, errors);
+    TEST_ASSERT_NOT_NULL_MESSAGE(e, s->name);
+    const bool is_free = is_force_free(e);
+    if (is_free != listed(s->name)) {
+        printf("  %s: %s\n", s->name,
+               is_free ? "force-free, but not in the list" : "listed, but feels a force");
+    }
+    TEST_ASSERT_EQUAL_MESSAGE(is_free, listed(s->name), s->name);
+    equations_free(e);
+    instance_free(inst);
+    diags_free(errors);
+    return is_free;
+}
+
 /* The list has every scene that is free of outside forces, and no other. */
 static void test_no_force_free_scene_is_forgotten(void) {
-    unsigned free_scenes = 0;
-    for (size_t i = 0; i < builtin_model_count; i++) {
-        const struct builtin_model *b = &builtin_models[i];
-        diags *errors = diags_new();
-        model *in = model_parse(b->file, b->text, b->length, errors);
-        TEST_ASSERT_NOT_NULL_MESSAGE(in, b->file);
-        for (int k = 0; k < in->scene_count; k++) {
-            const scene *s = in->scenes[k];
-            instance *inst = instance_make(s->mechanism, s, &(overrides){0}, errors);
-            equations *e = inst == NULL ? NULL : equations_derive(inst, errors);
-            if (e == NULL) {
-                TEST_FAIL_MESSAGE(s->name);
-                return;
-            }
-            const bool is_free = is_force_free(e);
-            free_scenes += is_free;
-            if (is_free != listed(s->name)) {
-                printf("  %s: %s\n", s->name,
-                       is_free ? "force-free, but not in the list" : "listed, but feels a force");
-            }
-            TEST_ASSERT_EQUAL_MESSAGE(is_free, listed(s->name), s->name);
-            equations_free(e);
-            instance_free(inst);
-        }
-        model_free(in);
-        diags_free(errors);
-    }
-    TEST_ASSERT_EQUAL_UINT(FREE_COUNT, free_scenes);
+    TEST_ASSERT_EQUAL_INT(FREE_COUNT, each_builtin_scene(check_listed));
 }
 
 /* --- drift ------------------------------------------------------------------------------------------- */

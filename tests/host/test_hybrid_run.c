@@ -1,9 +1,6 @@
 /* test_hybrid_run.c: which stops, frictions, holds, whens and noises take part in one run, the ranges of
  * their numbers, and the ledger. */
-#define _POSIX_C_SOURCE 200809L
-
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "parsed.h"
@@ -26,19 +23,8 @@ static instance *instance_of(int scene_number, const overrides *changes) {
 
 /* The instance is refused, and this is said. */
 static void refuse(int scene_number, const overrides *changes, const char *wanted) {
-    char *report = NULL;
-    size_t size = 0;
     TEST_ASSERT_NULL(instance_of(scene_number, changes));
-    FILE *out = open_memstream(&report, &size);
-    TEST_ASSERT_NOT_NULL(out);
-    diags_flush(said, out);
-    fclose(out);
-    const bool found = strstr(report, wanted) != NULL;
-    if (!found) {
-        printf("wanted: %s\ngot: %s\n", wanted, report);
-    }
-    free(report);
-    TEST_ASSERT_TRUE(found);
+    expect_said(wanted);
 }
 
 static void test_the_ledger_is_called_for_like_an_effect(void) {

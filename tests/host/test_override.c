@@ -1,9 +1,5 @@
 /* test_override.c: the command line's changes to a scene. */
-#define _POSIX_C_SOURCE 200809L
-
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "parsed.h"
@@ -86,18 +82,7 @@ static void test_values_of_either_kind(void) {
 static void expect_refused(const overrides *changes, const char *wanted) {
     parse(sample);
     TEST_ASSERT_NULL(instance_make(parsed->mechanisms[0], parsed->scenes[0], changes, said));
-    char *report = NULL;
-    size_t size = 0;
-    FILE *out = open_memstream(&report, &size);
-    TEST_ASSERT_NOT_NULL(out);
-    diags_flush(said, out);
-    fclose(out);
-    const bool found = strstr(report, wanted) != NULL;
-    if (!found) {
-        printf("wanted: %s\ngot: %s\n", wanted, report);
-    }
-    free(report);
-    TEST_ASSERT_TRUE(found);
+    expect_said(wanted);
 }
 
 static void expect_set_refused(const char *set, const char *wanted) {

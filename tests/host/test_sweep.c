@@ -278,18 +278,25 @@ static bool go_on(void *context, uint64_t next) {
     return next == log->next;
 }
 
+/* The result of the rows from FIRST to END; the log begins empty and refuses all after `limit`. */
+static jobs_result run_rows(log_of_rows *log, uint64_t limit, int workers,
+                            bool (*work)(void *, uint64_t, FILE *, FILE *)) {
+    *log = (log_of_rows){.next = FIRST, .in_order = true, .as_worked = true, .limit = limit};
+    const jobs plan = {.workers = workers,
+                       .first = FIRST,
+                       .end = END,
+                       .context = log,
+                       .work = work,
+                       .deliver = note,
+                       .pause = go_on};
+    return jobs_run(&plan);
+}
+
 static void test_rows_come_in_order_from_any_number_of_workers(void) {
     static const int workers[] = {1, 2, 3, 16};
     for (size_t i = 0; i < sizeof workers / sizeof workers[0]; i++) {
-        log_of_rows log = {.next = FIRST, .in_order = true, .as_worked = true, .limit = END + 1};
-        const jobs plan = {.workers = workers[i],
-                           .first = FIRST,
-                           .end = END,
-                           .context = &log,
-                           .work = slow_work,
-                           .deliver = note,
-                           .pause = go_on};
-        TEST_ASSERT_EQUAL_INT(JOBS_DONE, (int)jobs_run(&plan));
+        log_of_rows log;
+        TEST_ASSERT_EQUAL_INT(JOBS_DONE, (int)run_rows(&log, END + 1, workers[i], slow_work));
         TEST_ASSERT_TRUE(log.in_order);
         TEST_ASSERT_TRUE(log.as_worked);
         TEST_ASSERT_TRUE(log.next == END);
@@ -298,15 +305,8 @@ static void test_rows_come_in_order_from_any_number_of_workers(void) {
 }
 
 static void test_refused_rows_end_it(void) {
-    log_of_rows log = {.next = FIRST, .in_order = true, .as_worked = true, .limit = ENOUGH};
-    const jobs plan = {.workers = 3,
-                       .first = FIRST,
-                       .end = END,
-                       .context = &log,
-                       .work = slow_work,
-                       .deliver = note,
-                       .pause = go_on};
-    TEST_ASSERT_EQUAL_INT(JOBS_REFUSED, (int)jobs_run(&plan));
+    log_of_rows log;
+    TEST_ASSERT_EQUAL_INT(JOBS_REFUSED, (int)run_rows(&log, ENOUGH, 3, slow_work));
     TEST_ASSERT_TRUE(log.next == ENOUGH);
 }
 
@@ -318,15 +318,8 @@ static bool die_at_20(void *context, uint64_t point, FILE *row, FILE *reason) {
 }
 
 static void test_a_lost_worker_is_noticed(void) {
-    log_of_rows log = {.next = FIRST, .in_order = true, .as_worked = true, .limit = END + 1};
-    const jobs plan = {.workers = 2,
-                       .first = FIRST,
-                       .end = END,
-                       .context = &log,
-                       .work = die_at_20,
-                       .deliver = note,
-                       .pause = go_on};
-    TEST_ASSERT_EQUAL_INT(JOBS_WORKER_LOST, (int)jobs_run(&plan));
+    log_of_rows log;
+    TEST_ASSERT_EQUAL_INT(JOBS_WORKER_LOST, (int)run_rows(&log, END + 1, 2, die_at_20));
     TEST_ASSERT_TRUE(log.in_order && log.next <= 20);
 }
 

@@ -1,0 +1,30 @@
+# checks.sh: what the scripts of tests/cli share, to be sourced. $whirl is the program under test, $scratch a folder
+# that is gone at the end; a script ends with `exit $failed`.
+set -u
+
+whirl=${WHIRL:-build/whirl}
+scratch=$(mktemp -d) || exit 1
+trap 'rm -rf "$scratch"' EXIT
+failed=0
+checks=0
+
+# verdict STATUS WHAT [FILE]: "ok" if STATUS is 0; else "not ok", with the first lines of FILE, or of what was said
+# on standard error, if the script keeps it in $scratch/err.
+verdict() {
+    checks=$((checks + 1))
+    if [ "$1" -eq 0 ]; then
+        echo "ok - $2"
+    else
+        echo "not ok - $2"
+        head -n 4 "${3:-$scratch/err}" 2>/dev/null | sed 's/^/    /'
+        failed=1
+    fi
+}
+
+# check WHAT COMMAND...: the command must succeed.
+check() {
+    what=$1
+    shift
+    "$@" >"$scratch/check" 2>&1
+    verdict $? "$what" "$scratch/check"
+}
