@@ -83,13 +83,18 @@ enum {
     WH_LAW_ROWS    /* J_k[n], then (M^-1 J_k^T)[n] */
 };
 
-/* Most evaluations of the accelerations in one step, each with at most one of `forces` and two of
- * `signals`: in each of WH_EVENTS_MAX rounds a try to the step's end and one to the event (`stages` each),
- * a look at the end of both, the search with the accelerations at both ends, two looks a stop that is hit
- * and one for another contact, and those that settle the modes; then the last try, and on the first step
- * the modes' start. */
+/* Most evaluations of the accelerations in one step, each with at most one of `forces`: in each of WH_EVENTS_MAX
+ * rounds a try to the step's end and one to the event (`stages` each), a look at the end of both, the search with
+ * the accelerations at both ends, two looks a stop that is hit and one for another contact, and those that settle
+ * the modes; then the last try, and on the first step the modes' start. */
 #define WH_CONTACT_EVALUATIONS(stages, stops, forced) \
     (WH_EVENTS_MAX * (2 * (stages) + WH_REFINEMENTS + 7 + (stops) + 2 * (forced)) + (stages) + 4 + \
+     (stops) + 2 * (forced))
+
+/* Most evaluations of `signals` in one step: one with each of those above but the stages' and the search's two
+ * ends, a second one where a step's end is compared with its begin, and two when a crossing is taken. */
+#define WH_CONTACT_SIGNALS(stops, forced, crossings) \
+    (WH_EVENTS_MAX * (WH_REFINEMENTS + 6 + (stops) + 2 * (forced) + 2 * (crossings)) + 5 + \
      (stops) + 2 * (forced))
 
 /* A scene's contacts, constant. The functions are lists of operations like the accelerations. */

@@ -52,20 +52,24 @@ count_board = BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) \
     host/count/count_board.sh $(1) $(FIGURES)/bench.csv
 
 # The worst step of scenes with contacts, all effects of their mechanisms on, over so many random steps.
-WORST_STEPS := 1000000
+WORST_STEPS ?= 1000000
 WORST_C := host/count/worst.c $(wildcard build/worst/*.c)
 $(ELF)/worst.elf: $(call objects,$(BOARD),$(WORST_C)) $(BOARD_OBJECTS) $(LIB_BOARD)
 	$(link_board)
-$(ELF)/host/count/worst.o: FILE_FLAGS := -DWORST_STEPS=$(WORST_STEPS)U
+$(ELF)/host/count/worst.o: FILE_FLAGS := -DWORST_STEPS=$(WORST_STEPS)U -DWORST_SEEDS=2U
 
 .PHONY: bench-now size-now worst-now
 worst-now: build/whirl
 	@$(MAKE) $(GEN)/.stamp
-	@CC="$(CC)" sh host/count/all_effects.sh build/whirl build/worst core/models/*.whirl
+	@CC="$(CC)" host/count/all_effects.sh build/whirl build/worst core/models/*.whirl
+	@$(RM) $(ELF)/host/count/worst.o
 	@$(MAKE) $(ELF)/worst.elf $(PLUGIN)
 	@mkdir -p $(FIGURES)
-	@echo "Worst step of each over $(WORST_STEPS) random steps (minutes):"
-	@MORE=,every=$(WORST_STEPS) $(subst timeout 60,timeout 3600,$(subst bench.csv,worst.csv,$(call count_board,$(ELF)/worst.elf)))
+	@echo "Two times $(WORST_STEPS) random steps of each scene:"
+	@BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) OBJCOPY=$(BOARD_OBJCOPY) \
+	    FLAGS="$(call TOLD,$(BOARD_CFLAGS))" PLUGIN=$(PLUGIN) \
+	    EMULATE="$(subst timeout 60,timeout 3600,$(call emulate,$(ELF)/worst.elf))" \
+	    host/count/worst.sh $(ELF)/worst.elf $(FIGURES)/worst.csv build/worst/declared $(WORST_STEPS)
 
 bench-now: build/whirl
 	@$(MAKE) $(GEN)/.stamp

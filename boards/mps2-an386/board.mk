@@ -1,7 +1,7 @@
 # mps2-an386: Arm MPS2 with application note 386, Cortex-M4 with single-precision FPU.
 #
 # Every board.mk sets the same variables and holds no rules; paths are from the repository's root:
-#   BOARD_CC       compiler; BOARD_NM, BOARD_SIZE, BOARD_OBJDUMP its tools
+#   BOARD_CC       compiler; BOARD_NM, BOARD_SIZE, BOARD_OBJCOPY, BOARD_OBJDUMP its tools
 #   BOARD_CPU      the flags that name the machine
 #   BOARD_CFLAGS   everything for compiling (BOARD_CPU included), warnings excepted
 #   BOARD_LDFLAGS  everything for linking, before the objects
@@ -13,6 +13,7 @@ BOARD_CROSS    := arm-none-eabi-
 BOARD_CC       := $(BOARD_CROSS)gcc
 BOARD_NM       := $(BOARD_CROSS)nm
 BOARD_SIZE     := $(BOARD_CROSS)size
+BOARD_OBJCOPY  := $(BOARD_CROSS)objcopy
 BOARD_OBJDUMP  := $(BOARD_CROSS)objdump
 BOARD_CPU      := -mcpu=cortex-m4 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard
 BOARD_CFLAGS   := $(BOARD_CPU) -std=c11 -O2 -ffp-contract=off -fno-math-errno -ffreestanding \

@@ -1,6 +1,7 @@
 #!/bin/sh
 # all_effects.sh WHIRL OUT MODEL...: every scene with stops, friction, holds or crossings as C into OUT, with all
-# the effects of its mechanism on (all_SCENE.c), and OUT/scenes.c that lists them.
+# the effects of its mechanism on (all_SCENE.c), OUT/scenes.c that lists them, and OUT/declared: lines "SCENE
+# EVALUATIONS SIGNALS", what a step of it may take. The accelerations are marked as kind 1, the signals as kind 2 (mark.h).
 set -eu
 whirl=$1 out=$2
 shift 2
@@ -24,6 +25,16 @@ while read -r scene effects; do
         rm "$out/all_$scene.c"
     elif ! grep -q 'WH_CONTACT_EVALUATIONS' "$out/all_$scene.c"; then
         rm "$out/all_$scene.c"
+    else
+        sed -e '/^#define WH_COORDS/i #include "host/count/mark.h"' \
+            -e '/^WH_INLINE void accelerations(/,/^}/s/^    (void)model;/    WH_MARK(1);\n&/' \
+            -e '/^WH_INLINE void contact_signals(/,/^}/s/^    (void)model;/    WH_MARK(2);\n&/' \
+            "$out/all_$scene.c" >"$out/marked"
+        if [ "$(grep -c '^    WH_MARK' "$out/marked")" -ne 2 ]; then
+            echo "all_effects.sh: $scene: where are its accelerations and its signals?" >&2
+            exit 1
+        fi
+        mv "$out/marked" "$out/all_$scene.c"
     fi
 done <"$out/list"
 {
@@ -37,14 +48,17 @@ done <"$out/list"
     echo 'const unsigned wh_scene_count = sizeof wh_scenes / sizeof wh_scenes[0];'
 } >"$out/scenes.c"
 
-echo "Evaluations of the accelerations that a step may take, as the generated files declare:"
-for file in "$out"/all_*.c; do
-    scene=$(basename "$file" .c)
-    sed -n 's/.*WH_CONTACT_EVALUATIONS(\([0-9]*\), \([0-9]*\), \([0-9]*\)).*/\1 \2 \3/p' "$file" |
-        while read -r stages stops forced; do
-            printf '  %-28s %s\n' "${scene#all_}" \
-                "$(printf '#define WH_DOUBLE 0\n#include "core/contact.h"\nWH_CONTACT_EVALUATIONS(%s, %s, %s)\n' \
-                    "$stages" "$stops" "$forced" | "${CC:-cc}" -E -P -I. - | tail -n 1 |
-                    sed 's/^/echo $((/; s/$/))/' | sh)"
-        done
-done
+{
+    printf '#define WH_DOUBLE 0\n#include "core/contact.h"\n'
+    for file in "$out"/all_*.c; do
+        scene=$(basename "$file" .c)
+        awk -F '[(,) ]+' -v scene="${scene#all_}" '
+            $2 == ".contacts" { contacts = $4 }
+            $4 == "WH_CONTACT_EVALUATIONS" { stages = $5; stops = $6; forced = $7 }
+            END {
+                printf "declared %s evaluations WH_CONTACT_EVALUATIONS(%d, %d, %d)", scene, stages, stops, forced
+                printf " signals WH_CONTACT_SIGNALS(%d, %d, %d)\n", stops, forced, contacts - forced
+            }' "$file"
+    done
+} | "${CC:-cc}" -E -P -I. - |
+    sed -n 's/^declared \([a-z0-9_]*\) evaluations \(.*\) signals \(.*\)/echo \1 $((\2)) $((\3))/p' | sh >"$out/declared"

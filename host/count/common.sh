@@ -37,3 +37,34 @@ table() {
             }
         }'
 }
+
+# address_of FUNCTION: in $elf.
+address_of() {
+    found=$("$NM" "$elf" | awk -v name="$1" '$3 == name { print "0x" $1 }')
+    if [ -z "$found" ]; then
+        echo "${0##*/}: $elf has no function $1" >&2
+        exit 1
+    fi
+    echo "$found"
+}
+
+# count MORE-PLUGIN-ARGUMENTS: one run of $elf by $EMULATE under $PLUGIN; the console to $work/console, the counts
+# to $work/counts, how it ended to $status.
+count() {
+    begin=$(address_of wh_count_begin)
+    end=$(address_of wh_count_end)
+    case $PLUGIN in
+    */*) ;;
+    *) PLUGIN=./$PLUGIN ;;
+    esac
+    status=0
+    sh -c "$EMULATE -plugin $PLUGIN,begin=$begin,end=$end$1 -d plugin -D $work/counts" \
+        >"$work/console" || status=$?
+    if [ "$status" -ne 0 ]; then
+        echo "${0##*/}: the program under the counter ended with $status" >&2
+        cat "$work/console" >&2
+        if ! grep -q '^count ' "$work/console"; then
+            exit 1
+        fi
+    fi
+}

@@ -19,35 +19,6 @@ more=${MORE:-}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-address_of() {
-    found=$("$NM" "$elf" | awk -v name="$1" '$3 == name { print "0x" $1 }')
-    if [ -z "$found" ]; then
-        echo "count_board.sh: $elf has no function $1" >&2
-        exit 1
-    fi
-    echo "$found"
-}
-
-# count MORE-PLUGIN-ARGUMENTS: one run; console to $work/console, counts to $work/counts.
-count() {
-    status=0
-    sh -c "$EMULATE -plugin $PLUGIN,begin=$begin,end=$end$1 -d plugin -D $work/counts" \
-        >"$work/console" || status=$?
-    if [ "$status" -ne 0 ]; then
-        echo "count_board.sh: the program under the counter ended with $status" >&2
-        cat "$work/console" >&2
-        if ! grep -q '^count ' "$work/console"; then
-            exit 1
-        fi
-    fi
-}
-
-begin=$(address_of wh_count_begin)
-end=$(address_of wh_count_end)
-case $PLUGIN in
-*/*) ;;
-*) PLUGIN=./$PLUGIN ;;
-esac
 count "$more"
 
 if [ -z "$scene" ]; then

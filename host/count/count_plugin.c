@@ -8,12 +8,17 @@
  *     profile=on    also say how often every single address was executed between markers
  *     first, last   the intervals (numbered from 0) whose instructions go into the profile
  *     every=N       N intervals after each other count as one, which has the instructions of the largest
+ *     marks=FILE    lines "ADDRESS KIND": places that cut intervals into stretches. A stretch runs from one
+ *                   mark (or the interval's begin, which is kind 0) to the next, or to the interval's end
  *
  * An interval runs from the return instruction of wh_count_begin() to that of wh_count_end(), both
  * left out; the call of wh_count_end() is inside, which an interval around nothing shows. When the
  * program ends, the log holds
  *
  *     interval NUMBER INSTRUCTIONS             one line each
+ *     stretches NUMBER KIND LONGEST MOST       with marks=FILE, one line an interval and kind: instructions
+ *                                              of the longest stretch of that kind, and how many there were
+ *                                              (the most, where several intervals count as one)
  *     address ADDRESS EXECUTIONS               decimal, with profile=on
  *     unfinished INSTRUCTIONS                  if it ended inside an interval
  *     intervals TOTAL                          always the last line
@@ -58,6 +63,7 @@ int qemu_plugin_version = 1;
 typedef struct place {
     uint64_t address;
     uint64_t executions;
+    unsigned kind; /* of the mark here, or 0 */
     struct place *next;
 } place;
 
@@ -74,9 +80,23 @@ static uint64_t every = 1;
 static bool counting;
 static bool profiling; /* counting, and this interval goes into the profile */
 static uint64_t count;
-static uint64_t group_size; /* intervals in the present group, and their largest count */
-static uint64_t group_most;
-static uint64_t *intervals;
+
+#define KINDS 4U
+static bool marked;
+static uint64_t stretch_begin; /* `count` there */
+static unsigned stretch_kind;
+static uint64_t stretches[KINDS]; /* in this interval, by kind */
+
+/* What is kept of an interval, or of a group of them: the largest of each. */
+typedef struct interval {
+    uint64_t count;
+    uint64_t longest[KINDS]; /* stretch, in instructions */
+    uint64_t most[KINDS];    /* stretches */
+} interval;
+
+static uint64_t group_size; /* intervals in the present group */
+static interval group;
+static interval *intervals;
 static size_t interval_count;
 static size_t interval_room;
 
@@ -100,6 +120,18 @@ static place *place_of(uint64_t address) {
     return *link;
 }
 
+static void keep_larger(uint64_t *most, uint64_t value) { *most = value > *most ? value : *most; }
+
+static void end_stretch(void) {
+    keep_larger(&group.longest[stretch_kind], count - stretch_begin);
+    stretches[stretch_kind]++;
+}
+
+static void begin_stretch(unsigned kind) {
+    stretch_begin = count;
+    stretch_kind = kind;
+}
+
 static void on_plain(unsigned cpu, void *data) {
     (void)cpu;
     if (counting) {
@@ -108,6 +140,14 @@ static void on_plain(unsigned cpu, void *data) {
             ((place *)data)->executions++;
         }
     }
+}
+
+static void on_mark(unsigned cpu, void *data) {
+    if (counting) {
+        end_stretch();
+        begin_stretch(((place *)data)->kind);
+    }
+    on_plain(cpu, data);
 }
 
 static void on_begin(unsigned cpu, void *data) {
@@ -119,6 +159,8 @@ static void on_begin(unsigned cpu, void *data) {
     counting = true;
     profiling = profile && interval_count >= first_profiled && interval_count <= last_profiled;
     count = 0;
+    memset(stretches, 0, sizeof stretches);
+    begin_stretch(0);
 }
 
 static void on_end(unsigned cpu, void *data) {
@@ -128,7 +170,11 @@ static void on_end(unsigned cpu, void *data) {
         fail("an interval ends that never began");
     }
     counting = false;
-    group_most = count > group_most ? count : group_most;
+    end_stretch();
+    keep_larger(&group.count, count);
+    for (unsigned kind = 0; kind < KINDS; kind++) {
+        keep_larger(&group.most[kind], stretches[kind]);
+    }
     if (++group_size < every) {
         return;
     }
@@ -139,9 +185,9 @@ static void on_end(unsigned cpu, void *data) {
             fail("out of memory");
         }
     }
-    intervals[interval_count++] = group_most;
+    intervals[interval_count++] = group;
     group_size = 0;
-    group_most = 0;
+    memset(&group, 0, sizeof group);
 }
 
 /* Called when QEMU translates a block; what is registered here runs before each instruction. */
@@ -150,14 +196,14 @@ static void on_translate(qemu_plugin_id_t id, struct qemu_plugin_tb *tb) {
     for (size_t i = 0; i < qemu_plugin_tb_n_insns(tb); i++) {
         struct qemu_plugin_insn *insn = qemu_plugin_tb_get_insn(tb, i);
         const uint64_t address = qemu_plugin_insn_vaddr(insn);
-        void (*callback)(unsigned, void *) = on_plain;
+        place *here = place_of(address);
+        void (*callback)(unsigned, void *) = here->kind != 0 ? on_mark : on_plain;
         if (address == begin_address) {
             callback = on_begin;
         } else if (address == end_address) {
             callback = on_end;
         }
-        qemu_plugin_register_vcpu_insn_exec_cb(insn, callback, QEMU_PLUGIN_CB_NO_REGS,
-                                               place_of(address));
+        qemu_plugin_register_vcpu_insn_exec_cb(insn, callback, QEMU_PLUGIN_CB_NO_REGS, here);
     }
 }
 
@@ -166,8 +212,13 @@ static void report(qemu_plugin_id_t id, void *data) {
     (void)data;
     char line[80];
     for (size_t i = 0; i < interval_count; i++) {
-        snprintf(line, sizeof line, "interval %zu %" PRIu64 "\n", i, intervals[i]);
+        snprintf(line, sizeof line, "interval %zu %" PRIu64 "\n", i, intervals[i].count);
         qemu_plugin_outs(line);
+        for (unsigned kind = 0; kind < KINDS && marked; kind++) {
+            snprintf(line, sizeof line, "stretches %zu %u %" PRIu64 " %" PRIu64 "\n", i, kind,
+                     intervals[i].longest[kind], intervals[i].most[kind]);
+            qemu_plugin_outs(line);
+        }
     }
     for (unsigned bucket = 0; bucket < BUCKETS; bucket++) {
         for (const place *at = buckets[bucket]; at != NULL; at = at->next) {
@@ -202,6 +253,27 @@ static uint64_t number_of(const char *text) {
     return number;
 }
 
+static void read_marks(const char *path) {
+    FILE *file = fopen(path, "r");
+    uint64_t address = 0;
+    unsigned kind = 0;
+    int fields = 0;
+    if (file == NULL) {
+        fail("cannot open the file of marks");
+    }
+    while ((fields = fscanf(file, "%" SCNu64 " %u", &address, &kind)) == 2) {
+        if (kind == 0 || kind >= KINDS) {
+            fail("a mark's kind is not between 1 and 3");
+        }
+        place_of(address)->kind = kind;
+    }
+    if (fields != EOF) {
+        fail("a line of the file of marks is not ADDRESS KIND");
+    }
+    fclose(file);
+    marked = true;
+}
+
 int qemu_plugin_install(qemu_plugin_id_t id, const struct qemu_info_t *info, int argc,
                         char **argv) {
     (void)info;
@@ -217,6 +289,8 @@ int qemu_plugin_install(qemu_plugin_id_t id, const struct qemu_info_t *info, int
             last_profiled = number_of(value);
         } else if ((value = value_of(argv[i], "every")) != NULL) {
             every = number_of(value);
+        } else if ((value = value_of(argv[i], "marks")) != NULL) {
+            read_marks(value);
         } else if ((value = value_of(argv[i], "profile")) != NULL) {
             profile = strcmp(value, "on") == 0;
         } else {

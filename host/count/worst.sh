@@ -1,0 +1,78 @@
+#!/bin/sh
+# worst.sh: the instructions that a step with events may take against the most that random steps took.
+#
+#   BOARD=... CC=... NM=... OBJCOPY=... FLAGS=... PLUGIN=count.so EMULATE="qemu-system-arm ... -kernel worst.elf" \
+#   worst.sh worst.elf figures.csv DECLARED STEPS
+#
+# worst.elf runs STEPS random steps of each scene with one seed and as many with another (worst.c); DECLARED has how
+# often a step of each may evaluate the accelerations and the signals (all_effects.sh). What runs between two
+# evaluations has no event in it, so its longest stretch is seen soon; how many there can be is known. From the first
+# seed's longest stretches, to the first evaluation (B), after one of the accelerations (A) and after one of the
+# signals (S),
+#
+#   declared instructions = B + evaluations A + signals S
+#
+# and the steps of the second seed, which had no part in it, are held against that. Prints a table, appends rows to
+# figures.csv, and fails if a step took more than declared of anything.
+set -eu
+. "$(dirname "$0")/common.sh"
+
+elf=$1 csv=$2 declared=$3 steps=$4
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+# pairs of words: an address, which the linker may have made one of Thumb code, and a kind
+"$OBJCOPY" --dump-section .wh_marks="$work/section" "$elf" "$work/copy"
+od -A n -v -t u4 -w8 "$work/section" | awk '{ print $1 - $1 % 2, $2 }' >"$work/marks"
+if [ ! -s "$work/marks" ]; then
+    echo "worst.sh: $elf has no marks" >&2
+    exit 1
+fi
+count ",every=$steps,marks=$work/marks"
+
+[ -s "$csv" ] || echo "$CSV_HEADER" >"$csv"
+awk -v commit="$(commit_of_checkout)" -v board="$BOARD" -v compiler="$(compiler_of "$CC")" -v flags="$FLAGS" \
+    -v csv="$csv" -v steps="$steps" '
+    function row(scene, metric, value) {
+        printf "%s,%s,%s,\"%s\",%s,float,rk4,%s,%s\n", commit, board, compiler, flags, scene, metric, value >>csv
+    }
+    function check(scene, what, measured, bound) {
+        checked++
+        if (measured > bound + 0) {
+            print "worst.sh: " scene ": " measured " " what ", above " bound >"/dev/stderr"
+            broken = 1
+        }
+    }
+    { sub(/\r$/, "") }
+    FILENAME ~ /declared$/ { evaluations[$1] = $2; signals[$1] = $3; next }
+    $1 == "interval" { instructions[$2] = $3 }
+    $1 == "stretches" { longest[$2, $3] = $4; most[$2, $3] = $5 }
+    $1 == "unfinished" { broken = 1 }
+    $1 == "count" { group[$2, ++seeds[$2]] = $5; if (seeds[$2] == 1) order[++scenes] = $2 }
+    END {
+        printf "Most of %d random steps, all effects on (executed instructions, not cycles):\n", steps
+        printf "%-24s %16s   %16s   %19s\n", "", "accelerations", "signals", "instructions"
+        printf "%-24s %9s %6s   %9s %6s   %10s %8s\n", "scene", "declared", "most", "declared", "most",
+            "declared", "most"
+        for (i = 1; i <= scenes; i++) {
+            name = order[i]
+            one = group[name, 1]
+            two = group[name, 2]
+            e = evaluations[name]
+            if (e == "" || two == "" || most[two, 1] == "") {
+                print "worst.sh: " name ": a figure is missing" >"/dev/stderr"
+                broken = 1
+                continue
+            }
+            bound = longest[one, 0] + e * longest[one, 1] + signals[name] * longest[one, 2]
+            printf "%-24s %9d %6d   %9d %6d   %10d %8d\n", name, e, most[two, 1], signals[name], most[two, 2],
+                bound, instructions[two]
+            check(name, "evaluations of the accelerations", most[two, 1], e)
+            check(name, "evaluations of the signals", most[two, 2], signals[name])
+            check(name, "instructions", instructions[two], bound)
+            row(name, "instructions per step (declared)", bound)
+            row(name, "instructions per step (maximum)", instructions[two])
+        }
+        exit broken || checked == 0
+    }' "$declared" "$work/counts" "$work/console" || status=1
+exit "$status"
