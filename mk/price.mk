@@ -53,6 +53,7 @@ count_board = BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) \
 
 # The worst step of scenes with contacts, all effects of their mechanisms on, over so many random steps.
 WORST_STEPS ?= 1000000
+WORST_MODELS ?= $(MODELS)
 WORST_C := host/count/worst.c $(wildcard build/worst/*.c)
 $(ELF)/worst.elf: $(call objects,$(BOARD),$(WORST_C)) $(BOARD_OBJECTS) $(LIB_BOARD)
 	$(link_board)
@@ -61,7 +62,7 @@ $(ELF)/host/count/worst.o: FILE_FLAGS := -DWORST_STEPS=$(WORST_STEPS)U -DWORST_S
 .PHONY: bench-now size-now worst-now
 worst-now: build/whirl
 	@$(MAKE) $(GEN)/.stamp
-	@CC="$(CC)" host/count/all_effects.sh build/whirl build/worst core/models/*.whirl
+	@CC="$(CC)" host/count/all_effects.sh build/whirl build/worst $(WORST_MODELS)
 	@$(RM) $(ELF)/host/count/worst.o
 	@$(MAKE) $(ELF)/worst.elf $(PLUGIN)
 	@mkdir -p $(FIGURES)

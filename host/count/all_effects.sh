@@ -1,25 +1,26 @@
 #!/bin/sh
 # all_effects.sh WHIRL OUT MODEL...: every scene with stops, friction, holds or crossings as C into OUT, with all
 # the effects of its mechanism on (all_SCENE.c), OUT/scenes.c that lists them, and OUT/declared: lines "SCENE
-# EVALUATIONS SIGNALS", what a step of it may take. The accelerations are marked as kind 1, the signals as kind 2 (mark.h).
+# EVALUATIONS SIGNALS", what a step of it may take. The accelerations are marked as kind 1, the signals as kind 2
+# (mark.h).
 set -eu
 whirl=$1 out=$2
 shift 2
 rm -rf "$out"
 mkdir -p "$out"
 
-# lines "SCENE EFFECT,EFFECT,..."
+# lines "FILE:SCENE SCENE EFFECT,EFFECT,..."
 awk '
     FNR == 1 { mechanism = "" }
     $1 == "mechanism" { mechanism = $2 }
     $1 == "effect" { effects[mechanism] = effects[mechanism] (mechanism in effects ? "," : "") $2 }
-    $1 == "scene" { scene[++count] = $2; of[count] = mechanism }
+    $1 == "scene" { scene[++count] = $2; file[count] = FILENAME; of[count] = mechanism }
     $1 == "use" { of[count] = $2 }
-    END { for (i = 1; i <= count; i++) if (of[i] in effects) print scene[i], effects[of[i]] }
+    END { for (i = 1; i <= count; i++) print file[i] ":" scene[i], scene[i], effects[of[i]] }
 ' "$@" >"$out/list"
 
-while read -r scene effects; do
-    if ! "$whirl" derive "$scene" --with "$effects" --as c >"$out/all_$scene.c" 2>"$out/errors"; then
+while read -r where scene effects; do
+    if ! "$whirl" derive "$where" ${effects:+--with "$effects"} --as c >"$out/all_$scene.c" 2>"$out/errors"; then
         # such as a momentum that is conserved only without drag
         echo "$scene with all effects: $(head -n 1 "$out/errors")" >&2
         rm "$out/all_$scene.c"
@@ -37,8 +38,18 @@ while read -r scene effects; do
         mv "$out/marked" "$out/all_$scene.c"
     fi
 done <"$out/list"
+if ! ls "$out"/all_*.c >/dev/null 2>&1; then
+    echo "all_effects.sh: no scene has stops, friction, holds or crossings in $*" >&2
+    exit 1
+fi
 {
-    echo '#include "build/gen/scenes.h"'
+    echo '#include "core/scene.h"'
+    echo 'extern const wh_scene *const wh_scenes[];'
+    echo 'extern const unsigned wh_scene_count;'
+    for file in "$out"/all_*.c; do
+        scene=$(basename "$file" .c)
+        echo "extern const wh_scene ${scene#all_};"
+    done
     echo 'const wh_scene *const wh_scenes[] = {'
     for file in "$out"/all_*.c; do
         scene=$(basename "$file" .c)

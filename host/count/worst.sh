@@ -6,7 +6,7 @@
 #
 # worst.elf runs STEPS random steps of each scene with one seed and as many with another (worst.c); DECLARED has how
 # often a step of each may evaluate the accelerations and the signals (all_effects.sh). What runs between two
-# evaluations has no event in it, so its longest stretch is seen soon; how many there can be is known. From the first
+# evaluations is a short piece of code, whose longest way is seen soon; how many there can be is known. From the first
 # seed's longest stretches, to the first evaluation (B), after one of the accelerations (A) and after one of the
 # signals (S),
 #
