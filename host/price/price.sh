@@ -15,7 +15,7 @@ set -eu
 here=$(dirname "$0")
 . "$here/../count/common.sh"
 STEPS=2000
-WORST=10000
+WORST=100000
 export WHIRL OUT BOARD_CC BOARD_CFLAGS BOARD_LDFLAGS BOARD_LDLIBS BOARD_OBJECTS LIB_BOARD BOARD_SIZE
 
 rm -rf "$OUT"
