@@ -248,27 +248,29 @@ static uint64_t number_of(const char *text) {
     char *end = NULL;
     const uint64_t number = strtoull(text, &end, 0);
     if (end == text || *end != '\0') {
-        fail("an argument is no number");
+        fail("what should be a number is none");
     }
     return number;
 }
 
 static void read_marks(const char *path) {
     FILE *file = fopen(path, "r");
-    uint64_t address = 0;
-    unsigned kind = 0;
-    int fields = 0;
+    char line[80];
     if (file == NULL) {
         fail("cannot open the file of marks");
     }
-    while ((fields = fscanf(file, "%" SCNu64 " %u", &address, &kind)) == 2) {
-        if (kind == 0 || kind >= KINDS) {
+    while (fgets(line, sizeof line, file) != NULL) {
+        char *kind = strchr(line, ' ');
+        if (kind == NULL) {
+            fail("a line of the file of marks is not ADDRESS KIND");
+        }
+        *kind++ = '\0';
+        kind[strcspn(kind, "\n")] = '\0';
+        place *here = place_of(number_of(line));
+        here->kind = (unsigned)number_of(kind);
+        if (here->kind == 0 || here->kind >= KINDS) {
             fail("a mark's kind is not between 1 and 3");
         }
-        place_of(address)->kind = kind;
-    }
-    if (fields != EOF) {
-        fail("a line of the file of marks is not ADDRESS KIND");
     }
     fclose(file);
     marked = true;
