@@ -103,6 +103,7 @@ static void put_result(const wh_rig_result *result) {
     put_force("tare taken off", result->tare_N);
     put_value("motor duty", result->duty, 3, "");
     put_value("slot pulses lost", (float)result->lost, 0, "");
+    put_value("slot pulses rejected", (float)result->rejected, 0, "");
     put("Formula, sum of m r w^2 at the nominal speed\n");
     put_value("speed", WH_RIG_NOMINAL_RPM, 2, "rpm");
     put_force("force", formula_N);

@@ -28,6 +28,10 @@
 #define WH_RIG_SHAFT_LIMIT_RPM WH_R(400.0)
 #define WH_RIG_TARGET_MAX_RPM WH_R(360.0)
 
+/* Below some 145 rpm gravity stops the rotor on its way over the top before the pulses can tell the
+ * loop (docs/rig.md). Set-points keep a sixth away from that, as the loop dips. */
+#define WH_RIG_TARGET_MIN_RPM WH_R(170.0)
+
 /* The motor's speed without load is 600 rpm; pulses that would need more than this are no pulses. */
 #define WH_RIG_IMPOSSIBLE_RPM WH_R(800.0)
 

@@ -1,10 +1,14 @@
 /* guard.c: what stops the rig. */
 #include "guard.h"
 
-void wh_guard_start(wh_guard *guard) { *guard = (wh_guard){.trip = WH_TRIP_NONE}; }
+#include "datasheet.h"
+
+void wh_guard_start(wh_guard *guard, uint32_t now_ticks) {
+    *guard = (wh_guard){.trip = WH_TRIP_NONE, .load_ticks = now_ticks};
+}
 
 bool wh_guard_allows(const wh_guard_config *config, wh_real target_radps) {
-    return target_radps >= WH_R(0.0) && target_radps <= config->target_max_radps;
+    return target_radps >= config->target_min_radps && target_radps <= config->target_max_radps;
 }
 
 void wh_guard_trip(wh_guard *guard, wh_trip reason) {
@@ -30,13 +34,26 @@ void wh_guard_speed(const wh_guard_config *config, wh_guard *guard, const wh_spe
     }
 }
 
-void wh_guard_load(const wh_guard_config *config, wh_guard *guard, int16_t raw, bool turning) {
+void wh_guard_load(const wh_guard_config *config, wh_guard *guard, const wh_speed *speed,
+                   uint32_t ticks, int16_t raw, bool turning) {
+    guard->load_ticks = ticks;
     if (raw >= config->load_raw_max || raw <= -config->load_raw_max) {
         wh_guard_trip(guard, WH_TRIP_LOAD_CELL);
     }
-    guard->equal_samples = turning && raw == guard->last_raw ? guard->equal_samples + 1U : 0U;
-    guard->last_raw = raw;
-    if (guard->equal_samples >= config->stuck_samples) {
+    /* measured in turns, not in time: the load of a jammed rotor stands still as well */
+    const int moved = raw - guard->still_raw;
+    if (!turning || moved > config->load_still_raw || moved < -config->load_still_raw) {
+        guard->still_pulses = speed->taken;
+        guard->still_raw = raw;
+    } else if (speed->taken - guard->still_pulses >= config->stuck_pulses) {
+        wh_guard_trip(guard, WH_TRIP_LOAD_CELL);
+    }
+}
+
+void wh_guard_load_silence(const wh_guard_config *config, wh_guard *guard, uint32_t now_ticks) {
+    /* signed: a sample may be stamped later than the step's own reading of the timer */
+    const int32_t age_ticks = (int32_t)(now_ticks - guard->load_ticks);
+    if ((wh_real)age_ticks > config->load_silence_max_s * (wh_real)WH_RIG_TICKS_PER_S) {
         wh_guard_trip(guard, WH_TRIP_LOAD_CELL);
     }
 }
@@ -44,15 +61,16 @@ void wh_guard_load(const wh_guard_config *config, wh_guard *guard, int16_t raw, 
 const char *wh_trip_text(wh_trip reason) {
     switch (reason) {
     case WH_TRIP_NONE: return "no fault";
-    case WH_TRIP_TARGET: return "the set-point is above what the shaft carries";
+    case WH_TRIP_TARGET:
+        return "the set-point is below what the loop can hold or above what the shaft carries";
     case WH_TRIP_OVERSPEED: return "over-speed";
-    case WH_TRIP_PULSES: return "slot pulses are missing";
+    case WH_TRIP_PULSES: return "slot pulses are missing or out of order";
     case WH_TRIP_STALLED: return "the rotor does not start";
-    case WH_TRIP_LOAD_CELL: return "the load cell is stuck or overloaded";
+    case WH_TRIP_LOAD_CELL: return "the load cell is silent, stuck or overloaded";
     case WH_TRIP_WATCHDOG: return "the watchdog cut the motor";
     case WH_TRIP_MOVING: return "the rig was not at rest for the tare";
-    case WH_TRIP_UNSETTLED: return "the speed does not settle";
-    case WH_TRIP_RECORD: return "the record holds no whole turn";
+    case WH_TRIP_UNSETTLED: return "the speed does not settle or stay";
+    case WH_TRIP_RECORD: return "the record lacks load samples or counted turns";
     case WH_TRIP_RUNS_ON: return "the rotor does not come to rest";
     }
     return "unknown reason";

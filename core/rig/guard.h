@@ -6,35 +6,39 @@
 
 typedef enum wh_trip {
     WH_TRIP_NONE,
-    WH_TRIP_TARGET,    /* the set-point is above what the shaft carries */
+    WH_TRIP_TARGET, /* the set-point is below what the loop holds or above what the shaft carries */
     WH_TRIP_OVERSPEED, /* faster than the shaft carries */
-    WH_TRIP_PULSES,    /* slot pulses lost or missing while the motor drives */
+    WH_TRIP_PULSES,    /* slot pulses lost, missing or in the wrong order while the motor drives */
     WH_TRIP_STALLED,   /* the rotor does not start */
-    WH_TRIP_LOAD_CELL, /* stuck, or overloaded */
+    WH_TRIP_LOAD_CELL, /* silent, stuck, or overloaded */
     WH_TRIP_WATCHDOG,  /* the controller was late and the watchdog cut the motor */
     WH_TRIP_MOVING,    /* the tare was not at rest */
-    WH_TRIP_UNSETTLED, /* the speed does not settle */
-    WH_TRIP_RECORD,    /* the record has no whole turn */
+    WH_TRIP_UNSETTLED, /* the speed does not settle, or does not stay during the record */
+    WH_TRIP_RECORD,    /* the record lacks load samples, or the count of its turns */
     WH_TRIP_RUNS_ON    /* the rotor does not stop with the motor off */
 } wh_trip;
 
 typedef struct wh_guard_config {
-    wh_real target_max_radps; /* largest set-point, see docs/rig.md */
-    wh_real limit_radps;      /* largest speed, mean of a turn */
-    wh_real ripple;           /* by how much a part of a turn may be faster, as a fraction */
-    uint32_t lost_max;        /* pulses that may be lost in a run */
-    wh_real silence_max_s;    /* longest time without a pulse while the motor drives */
-    unsigned stuck_samples;   /* equal load samples running, with the rotor turning: stuck */
-    int16_t load_raw_max;     /* counts of a full-scale load, either sign: overloaded */
+    wh_real target_min_radps;   /* smallest set-point, see docs/rig.md */
+    wh_real target_max_radps;   /* largest */
+    wh_real limit_radps;        /* largest speed, mean of a turn */
+    wh_real ripple;             /* by how much a part of a turn may be faster, as a fraction */
+    uint32_t lost_max;          /* pulses that may be lost in a run */
+    wh_real silence_max_s;      /* longest time without a pulse while the motor drives */
+    wh_real load_silence_max_s; /* longest time without a load sample */
+    int16_t load_still_raw;     /* so much, and no more, the counts move when the load does not */
+    uint32_t stuck_pulses;      /* slot pulses that come while the load does not move: stuck */
+    int16_t load_raw_max;       /* counts of a full-scale load, either sign: overloaded */
 } wh_guard_config;
 
 typedef struct wh_guard {
     wh_trip trip;
     unsigned fast_intervals; /* too fast, running */
     uint32_t pulses_seen;
-    uint32_t lost_before;   /* pulses already lost when the motor began to drive */
-    unsigned equal_samples; /* equal load samples, running */
-    int16_t last_raw;
+    uint32_t lost_before;  /* pulses already lost when the motor began to drive */
+    uint32_t load_ticks;   /* of the last load sample; at first, the start */
+    uint32_t still_pulses; /* pulses taken when the load last moved, */
+    int16_t still_raw;     /* and where to */
 } wh_guard;
 
 #define wh_guard_start WH_NAME(wh_guard_start)
@@ -42,11 +46,12 @@ typedef struct wh_guard {
 #define wh_guard_trip WH_NAME(wh_guard_trip)
 #define wh_guard_speed WH_NAME(wh_guard_speed)
 #define wh_guard_load WH_NAME(wh_guard_load)
+#define wh_guard_load_silence WH_NAME(wh_guard_load_silence)
 #define wh_trip_text WH_NAME(wh_trip_text)
 
-void wh_guard_start(wh_guard *guard);
+void wh_guard_start(wh_guard *guard, uint32_t now_ticks);
 
-/* True for set-points that the shaft carries; false for negative ones and NaN too. */
+/* True for set-points that the loop can hold and the shaft carries; false for NaN. */
 bool wh_guard_allows(const wh_guard_config *config, wh_real target_radps);
 
 /* Stop for this reason, unless there is one already. */
@@ -57,8 +62,13 @@ void wh_guard_trip(wh_guard *guard, wh_trip reason);
 void wh_guard_speed(const wh_guard_config *config, wh_guard *guard, const wh_speed *speed,
                     uint32_t now_ticks);
 
-/* Look at a load sample, counts with the tare in them. `turning`: the load must be changing. */
-void wh_guard_load(const wh_guard_config *config, wh_guard *guard, int16_t raw, bool turning);
+/* Look at a load sample taken at `ticks`, counts with the tare in them. `turning`: the load must be
+ * changing with the rotor's turns. */
+void wh_guard_load(const wh_guard_config *config, wh_guard *guard, const wh_speed *speed,
+                   uint32_t ticks, int16_t raw, bool turning);
+
+/* Look whether load samples still come, each control step in which they are needed. */
+void wh_guard_load_silence(const wh_guard_config *config, wh_guard *guard, uint32_t now_ticks);
 
 /* The reason in words, for consoles. */
 const char *wh_trip_text(wh_trip reason);

@@ -53,22 +53,27 @@ bool wh_load_at(const wh_load_record *record, uint32_t ticks, wh_real *counts) {
     return true;
 }
 
-bool wh_lockin(const wh_load_record *record, const uint32_t *marks, unsigned mark_count,
+/* Whole turns from one mark to a later one of the same sensor. */
+static uint32_t turns_between(const wh_mark *from, const wh_mark *to) {
+    return (to->quarter - from->quarter) / 4U;
+}
+
+bool wh_lockin(const wh_load_record *record, const wh_mark *marks, unsigned mark_count,
                wh_real mark_rad, wh_lockin_result *result) {
     unsigned begin = 0;
-    while (begin < mark_count && !within(record, marks[begin])) {
+    while (begin < mark_count && !within(record, marks[begin].ticks)) {
         begin++;
     }
     unsigned end = mark_count;
-    while (end > begin && !within(record, marks[end - 1U])) {
+    while (end > begin && !within(record, marks[end - 1U].ticks)) {
         end--;
     }
     if (end < begin + 2U) {
         return false;
     }
     const unsigned last_mark = end - 1U;
-    const wh_real from = sample_at(record, marks[begin]);
-    const wh_real to = sample_at(record, marks[last_mark]);
+    const wh_real from = sample_at(record, marks[begin].ticks);
+    const wh_real to = sample_at(record, marks[last_mark].ticks);
     unsigned first = (unsigned)from;
     if ((wh_real)first < from) {
         first++;
@@ -92,14 +97,17 @@ bool wh_lockin(const wh_load_record *record, const uint32_t *marks, unsigned mar
 
     wh_real in_phase = WH_R(0.0);
     wh_real quadrature = WH_R(0.0);
-    unsigned turn = begin;
+    unsigned mark = begin;
     for (unsigned i = first; i <= last; i++) {
         const uint32_t ticks = record->first_ticks + i * record->period_ticks;
-        while (turn + 1U < last_mark && (int32_t)(ticks - marks[turn + 1U]) >= 0) {
-            turn++;
+        while (mark + 1U < last_mark && (int32_t)(ticks - marks[mark + 1U].ticks) >= 0) {
+            mark++;
         }
-        const wh_real turned =
-            (wh_real)(int32_t)(ticks - marks[turn]) / (wh_real)(marks[turn + 1U] - marks[turn]);
+        const wh_mark *from_mark = &marks[mark];
+        const wh_mark *to_mark = &marks[mark + 1U];
+        const wh_real turned = (wh_real)turns_between(from_mark, to_mark) *
+                               (wh_real)(int32_t)(ticks - from_mark->ticks) /
+                               (wh_real)(to_mark->ticks - from_mark->ticks);
         wh_real sine;
         wh_real cosine;
         wh_sincos(wh_phase_from_rad(mark_rad + WH_RIG_TWO_PI * turned), &sine, &cosine);
@@ -108,8 +116,8 @@ bool wh_lockin(const wh_load_record *record, const uint32_t *marks, unsigned mar
         in_phase += load * cosine;
         quadrature += load * sine;
     }
-    result->turns = last_mark - begin;
-    result->turn_s = (wh_real)(marks[last_mark] - marks[begin]) /
+    result->turns = turns_between(&marks[begin], &marks[last_mark]);
+    result->turn_s = (wh_real)(marks[last_mark].ticks - marks[begin].ticks) /
                      ((wh_real)result->turns * (wh_real)WH_RIG_TICKS_PER_S);
     result->mean_counts = mean;
     result->in_phase_counts = WH_R(2.0) * in_phase / weights;

@@ -5,8 +5,9 @@
  * averaged over whole turns (lock-in, or order tracking with one mark a turn): what is not once per
  * turn averages out.
  *
- * The reference runs evenly from one mark of sensor 1 to the next, so `amplitude` is the component
- * at the frequency of rotation, as a spectrum of the record would show it. Signs: the load counts
+ * The reference runs evenly from one mark of sensor 1 to the next (over two turns when the mark in
+ * between was lost), so `amplitude` is the component at the frequency of rotation, as a spectrum of
+ * the record would show it. Signs: the load counts
  * positive along the loading-train axis towards the mass at theta = 0, and
  *     load(theta) = mean + amplitude cos(theta + phase) + the rest:
  * phase 0 has the load's peak with the mass on the axis; positive, the peak comes before the mass. */
@@ -23,6 +24,12 @@ typedef struct wh_load_record {
     uint32_t period_ticks;
 } wh_load_record;
 
+/* A passing of a sensor: when, and the count of quarter turns (wrapping) the rotor had made by then. */
+typedef struct wh_mark {
+    uint32_t ticks;
+    uint32_t quarter;
+} wh_mark;
+
 typedef struct wh_lockin_result {
     unsigned turns;            /* whole turns used */
     wh_real turn_s;            /* mean time of one */
@@ -38,9 +45,10 @@ typedef struct wh_lockin_result {
 #define wh_load_at WH_NAME(wh_load_at)
 
 /* Lock in over the turns between marks[0] and marks[mark_count - 1] that lie within the record;
- * marks are rising times, ticks, at which the rotor's angle was mark_rad. Returns false, with
+ * marks are of one sensor, rising in time and by one or more whole turns of four quarters each: at
+ * each the rotor's angle was mark_rad. Returns false, with
  * nothing written, when that is less than one whole turn or the turns have no samples. */
-bool wh_lockin(const wh_load_record *record, const uint32_t *marks, unsigned mark_count,
+bool wh_lockin(const wh_load_record *record, const wh_mark *marks, unsigned mark_count,
                wh_real mark_rad, wh_lockin_result *result);
 
 /* x = radius cos(angle), y = radius sin(angle) without square root and arc tangent: the angle is

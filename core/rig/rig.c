@@ -2,7 +2,6 @@
 #include "rig.h"
 
 #include "datasheet.h"
-#include "lockin.h"
 
 #define RPM(x) (WH_R(x) * WH_RIG_RADPS_PER_RPM)
 
@@ -16,21 +15,24 @@ const wh_rig_config wh_rig_standard = {
               .ramp_radps2 = RPM(60.0),
               .duty_min = WH_R(0.0),
               .duty_max = WH_R(1.0)},
-    .guard = {.target_max_radps = WH_RIG_TARGET_MAX_RPM * WH_RIG_RADPS_PER_RPM,
+    .guard = {.target_min_radps = WH_RIG_TARGET_MIN_RPM * WH_RIG_RADPS_PER_RPM,
+              .target_max_radps = WH_RIG_TARGET_MAX_RPM * WH_RIG_RADPS_PER_RPM,
               .limit_radps = WH_RIG_SHAFT_LIMIT_RPM * WH_RIG_RADPS_PER_RPM,
               .ripple = WH_R(0.1),
               .lost_max = 3,
               .silence_max_s = WH_R(0.5),
-              .stuck_samples = 10},
+              .load_silence_max_s = WH_R(0.02), /* ten samples' periods */
+              .load_still_raw = 8,
+              .stuck_pulses = 3}, /* a whole turn from the first to the last */
     .impossible_radps = WH_RIG_IMPOSSIBLE_RPM * WH_RIG_RADPS_PER_RPM,
     .tare_samples = 250,
-    .tare_spread_raw = 8,
     .spin_up_duty = WH_R(0.4),
     .take_over_radps = RPM(150.0),
     .spin_up_max_s = WH_R(5.0),
     .settle_band_radps = RPM(0.5),
     .settle_s = WH_R(2.5),
     .settle_max_s = WH_R(20.0),
+    .record_band_radps = RPM(2.0),
     .slow_radps = RPM(200.0),
     .rest_s = WH_R(1.5),
     .rest_max_s = WH_R(10.0),
@@ -54,7 +56,7 @@ void wh_rig_start(const wh_rig_config *config, wh_rig *rig, wh_real target_radps
                   uint32_t now_ticks) {
     *rig = (wh_rig){.target_radps = target_radps};
     wh_speed_start(&rig->speed, config->impossible_radps);
-    wh_guard_start(&rig->guard);
+    wh_guard_start(&rig->guard, now_ticks);
     enter(rig, WH_RIG_TARE, now_ticks);
     if (!wh_guard_allows(&config->guard, target_radps)) {
         wh_guard_trip(&rig->guard, WH_TRIP_TARGET);
@@ -62,17 +64,34 @@ void wh_rig_start(const wh_rig_config *config, wh_rig *rig, wh_real target_radps
 }
 
 void wh_rig_pulse(wh_rig *rig, unsigned sensor, uint32_t ticks) {
+    const uint32_t restarts = rig->speed.restarts;
     if (!wh_speed_pulse(&rig->speed, sensor, ticks) || rig->state != WH_RIG_RECORD) {
         return;
     }
-    if (rig->mark_count[sensor] < WH_RIG_MARKS_MAX) {
-        rig->marks[sensor][rig->mark_count[sensor]++] = ticks;
+    if (rig->speed.restarts != restarts) {
+        rig->record_is_broken = true; /* nobody knows how many turns the gap had */
+    } else if (rig->mark_count[sensor] < WH_RIG_MARKS_MAX) {
+        rig->marks[sensor][rig->mark_count[sensor]++] =
+            (wh_mark){.ticks = ticks, .quarter = rig->speed.quarter};
     }
+}
+
+/* Sample i of a record must have been taken i periods after the first: the lock-in counts on it. */
+static void record(const wh_rig_config *config, wh_rig *rig, uint32_t ticks, int16_t raw) {
+    if (rig->samples == 0) {
+        rig->first_ticks = ticks;
+    }
+    const uint32_t due_ticks = rig->first_ticks + rig->samples * config->load_period_ticks;
+    const uint32_t half = config->load_period_ticks / 2U;
+    if (ticks - due_ticks + half > 2U * half) {
+        rig->record_is_broken = true;
+    }
+    rig->raw[rig->samples++] = raw;
 }
 
 void wh_rig_load(const wh_rig_config *config, wh_rig *rig, uint32_t ticks, int16_t raw) {
     const bool turning = rig->state >= WH_RIG_RAMP && rig->state <= WH_RIG_RAMP_DOWN;
-    wh_guard_load(&config->guard, &rig->guard, raw, turning);
+    wh_guard_load(&config->guard, &rig->guard, &rig->speed, ticks, raw, turning);
     if (rig->state == WH_RIG_TARE) {
         const bool first = rig->tare_count == 0;
         rig->tare_low_raw = first || raw < rig->tare_low_raw ? raw : rig->tare_low_raw;
@@ -80,10 +99,7 @@ void wh_rig_load(const wh_rig_config *config, wh_rig *rig, uint32_t ticks, int16
         rig->tare_sum_raw += raw;
         rig->tare_count++;
     } else if (rig->state == WH_RIG_RECORD && rig->samples < WH_RIG_RECORD_SAMPLES) {
-        if (rig->samples == 0) {
-            rig->first_ticks = ticks;
-        }
-        rig->raw[rig->samples++] = raw;
+        record(config, rig, ticks, raw);
     }
 }
 
@@ -119,7 +135,7 @@ static void evaluate(const wh_rig_config *config, wh_rig *rig) {
         unsigned count = 0;
         for (unsigned i = 0; i < rig->mark_count[sensor]; i++) {
             wh_real counts;
-            if (wh_load_at(&record, rig->marks[sensor][i], &counts)) {
+            if (wh_load_at(&record, rig->marks[sensor][i].ticks, &counts)) {
                 sum += counts - rig->tare_raw;
                 count++;
             }
@@ -135,12 +151,14 @@ static void tare(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
     if (rig->tare_count < config->tare_samples) {
         return;
     }
-    if (rig->tare_high_raw - rig->tare_low_raw > config->tare_spread_raw) {
+    if (rig->tare_high_raw - rig->tare_low_raw > config->guard.load_still_raw) {
         wh_guard_trip(&rig->guard, WH_TRIP_MOVING);
         return;
     }
     rig->tare_raw = (wh_real)rig->tare_sum_raw / (wh_real)rig->tare_count;
     rig->duty = config->spin_up_duty;
+    /* the slot of a hanging rotor stands at sensor 1: a shiver gives a pulse, and it grows old */
+    wh_speed_start(&rig->speed, config->impossible_radps);
     enter(rig, WH_RIG_SPIN_UP, now_ticks);
 }
 
@@ -156,8 +174,12 @@ static void spin_up(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks
     }
 }
 
+static wh_real off_target(const wh_rig *rig) {
+    return WH_ABS(rig->speed.turn_radps - rig->target_radps);
+}
+
 static void settle(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
-    if (WH_ABS(rig->speed.turn_radps - rig->target_radps) > config->settle_band_radps) {
+    if (off_target(rig) > config->settle_band_radps) {
         rig->band_ticks = now_ticks;
     }
     if (since_s(rig->band_ticks, now_ticks) >= config->settle_s) {
@@ -197,6 +219,9 @@ wh_real wh_rig_step(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks
     if (watchdog_has_cut) {
         wh_guard_trip(&rig->guard, WH_TRIP_WATCHDOG);
     }
+    if (rig->state < WH_RIG_COAST) {
+        wh_guard_load_silence(&config->guard, &rig->guard, now_ticks);
+    }
     if (motor_drives(rig)) {
         wh_guard_speed(&config->guard, &rig->guard, &rig->speed, now_ticks);
     }
@@ -215,9 +240,17 @@ wh_real wh_rig_step(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks
         break;
     case WH_RIG_RECORD:
         close_loop(config, rig, now_ticks);
+        if (rig->record_is_broken) {
+            wh_guard_trip(&rig->guard, WH_TRIP_RECORD);
+        }
+        if (off_target(rig) > config->record_band_radps) {
+            wh_guard_trip(&rig->guard, WH_TRIP_UNSETTLED);
+        }
         if (rig->samples == WH_RIG_RECORD_SAMPLES) {
             evaluate(config, rig);
-            rig->drive.target_radps = config->slow_radps;
+            if (config->slow_radps < rig->target_radps) {
+                rig->drive.target_radps = config->slow_radps;
+            }
             enter(rig, WH_RIG_RAMP_DOWN, now_ticks);
         }
         break;

@@ -15,6 +15,7 @@
 
 #include "drive.h"
 #include "guard.h"
+#include "lockin.h"
 #include "speed.h"
 
 #define WH_RIG_RECORD_SAMPLES 1000U /* 2 s, a sample every 2 ms */
@@ -41,16 +42,16 @@ typedef struct wh_rig_config {
     wh_real slot_lead_rad;    /* a pulse comes with the arms so far short of the sensor */
     uint32_t load_period_ticks;
     unsigned tare_samples;
-    int16_t tare_spread_raw; /* largest minus smallest count at rest */
     wh_real spin_up_duty;
     wh_real take_over_radps; /* from this speed on the loop is closed */
     wh_real spin_up_max_s;
     wh_real settle_band_radps;
-    wh_real settle_s;     /* so long within the band */
-    wh_real settle_max_s; /* to get there */
-    wh_real slow_radps;   /* ramp down to here, then motor off */
-    wh_real rest_s;       /* so long without a pulse: at rest */
-    wh_real rest_max_s;   /* to get there */
+    wh_real settle_s;          /* so long within the band */
+    wh_real settle_max_s;      /* to get there */
+    wh_real record_band_radps; /* during the record */
+    wh_real slow_radps; /* ramp down to here (or stay, when slower already), then motor off */
+    wh_real rest_s;     /* so long without a pulse: at rest */
+    wh_real rest_max_s; /* to get there */
 } wh_rig_config;
 
 typedef struct wh_rig_result {
@@ -83,12 +84,13 @@ typedef struct wh_rig {
     int16_t tare_low_raw;
     int16_t tare_high_raw;
     wh_real tare_raw;
-    unsigned samples;     /* recorded */
-    uint32_t first_ticks; /* of the record */
+    bool record_is_broken; /* samples or turns are missing in it */
+    unsigned samples;      /* recorded */
+    uint32_t first_ticks;  /* of the record */
     int16_t raw[WH_RIG_RECORD_SAMPLES];
     unsigned mark_count[WH_SPEED_SENSORS];
-    uint32_t marks[WH_SPEED_SENSORS][WH_RIG_MARKS_MAX]; /* pulses during the record */
-    wh_rig_result result;                               /* valid from RAMP_DOWN on */
+    wh_mark marks[WH_SPEED_SENSORS][WH_RIG_MARKS_MAX]; /* pulses during the record */
+    wh_rig_result result;                              /* valid from RAMP_DOWN on */
 } wh_rig;
 
 /* The rig of eccentric.whirl. newton_per_count, slot_lead_rad, load_period_ticks and

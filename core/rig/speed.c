@@ -46,8 +46,12 @@ bool wh_speed_pulse(wh_speed *speed, unsigned sensor, uint32_t ticks) {
         return false;
     }
     const wh_real interval_radps = radps(moved, interval);
-    if (speed->known && interval_radps < WH_R(0.5) * speed->turn_radps) {
+    /* what else it might be is a whole turn further on: four quarters late, or (order reversed) two */
+    const wh_real due_quarters = (wh_real)moved * speed->turn_radps / interval_radps;
+    if (speed->known && due_quarters > (wh_real)(moved + 1U)) {
         speed->lost += 2;
+        speed->restarts++;
+        speed->interval_radps = WH_R(0.0);
         speed->seen[0] = false;
         speed->seen[1] = false;
         speed->quarter = sensor;

@@ -14,13 +14,14 @@
 typedef struct wh_speed {
     wh_real impossible_radps;    /* a pulse that would need more is rejected */
     wh_real turn_radps;          /* mean over the last whole turn; valid when known */
-    wh_real interval_radps;      /* mean since the pulse before the last; valid when known */
+    wh_real interval_radps;      /* mean since the pulse before the last, 0 after a gap; ditto */
     bool known;                  /* a whole turn has been measured */
     bool running;                /* at least one pulse has been taken since the last gap */
     uint32_t ticks;              /* time of the last pulse taken */
     uint32_t quarter;            /* rotor's position at it, quarter turns, wrapping */
     uint32_t taken;              /* pulses taken */
     uint32_t lost;               /* pulses that must have been there */
+    uint32_t restarts;           /* gaps after which `quarter` began afresh */
     uint32_t rejected;           /* pulses that cannot be */
     bool seen[WH_SPEED_SENSORS]; /* the next two are valid */
     uint32_t seen_ticks[WH_SPEED_SENSORS];
@@ -38,9 +39,10 @@ void wh_speed_start(wh_speed *speed, wh_real impossible_radps);
 /* Take a pulse of `sensor` (0 or 1) captured at `ticks`, in order of time. Returns false when it is
  * rejected: closer to the last one than impossible_radps allows, or no such sensor.
  *
- * A pulse that comes so late that the interval's speed is below half of the turn's is taken for the
- * first one after a gap in which two or more were lost: they are counted as two, measuring starts
- * afresh, and the last speed stays until a whole turn has been seen again. */
+ * One lost pulse is bridged. A pulse that comes more than a quarter turn later than the turn's speed
+ * lets expect is taken for the first one after a gap in which two or more were lost: they are counted
+ * as two, measuring starts afresh, and the last speed stays until a whole turn has been seen again.
+ * Sensors in the wrong order, or a rotor turning backwards, look like such a gap each turn. */
 bool wh_speed_pulse(wh_speed *speed, unsigned sensor, uint32_t ticks);
 
 /* Seconds since the last pulse taken; 0 when there was none. */

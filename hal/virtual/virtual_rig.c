@@ -72,8 +72,8 @@ static void add_pulse(hal_virtual_rig *rig, unsigned sensor, uint32_t ticks) {
     if (rig->faults.dead_sensor[sensor]) {
         return;
     }
-    if (rig->faults.lose_pulses > 0) {
-        rig->faults.lose_pulses--;
+    if (rig->faults.lose_pulses[sensor] > 0) {
+        rig->faults.lose_pulses[sensor]--;
         return;
     }
     if (rig->pulses < HAL_VIRTUAL_PULSES) {
@@ -112,6 +112,10 @@ static void read_load_cell(hal_virtual_rig *rig) {
     rig->scene->observe(rig->scene, &rig->state, output);
     if (!rig->faults.stuck_load_cell) {
         rig->last_raw = convert(output[CELL_OUTPUT]);
+    }
+    if (rig->faults.lose_samples > 0) {
+        rig->faults.lose_samples--;
+        return;
     }
     if (rig->samples < HAL_VIRTUAL_SAMPLES) {
         rig->sample[rig->samples++] = (hal_load_sample){.ticks = rig->ticks, .raw = rig->last_raw};

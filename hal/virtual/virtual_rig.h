@@ -25,10 +25,11 @@
 
 /* What can be made to fail; all off after hal_virtual_rig_start(). May be set at any time. */
 typedef struct hal_virtual_faults {
-    unsigned lose_pulses; /* so many of the next pulses are swallowed */
-    bool dead_sensor[2];  /* gives no pulse */
-    bool stuck_load_cell; /* repeats its last count */
-    bool runaway_motor;   /* full supply, whatever the duty; the watchdog still cuts it */
+    unsigned lose_pulses[2]; /* so many of the sensor's next pulses are swallowed */
+    bool dead_sensor[2];     /* gives no pulse */
+    unsigned lose_samples;   /* so many of the next load samples are swallowed */
+    bool stuck_load_cell;    /* repeats its last count */
+    bool runaway_motor;      /* full supply, whatever the duty; the watchdog still cuts it */
 } hal_virtual_faults;
 
 typedef struct hal_virtual_rig {

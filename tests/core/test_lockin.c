@@ -15,7 +15,7 @@ void suite_lockin(void);
 #define PI WH_R(3.141592653589793)
 
 static int16_t raw[SAMPLES];
-static uint32_t marks[MARKS];
+static wh_mark marks[MARKS];
 
 static wh_real cosine_of(wh_real rad) {
     wh_real sine;
@@ -32,7 +32,8 @@ static wh_load_record made_up(uint32_t first_ticks, unsigned order, wh_real mean
                               wh_real phase_rad) {
     const wh_load_record record = {raw, SAMPLES, first_ticks, PERIOD_TICKS};
     for (unsigned i = 0; i < MARKS; i++) {
-        marks[i] = first_ticks + late + i * TURN_TICKS;
+        /* the count of quarters wraps on the way, as it may */
+        marks[i] = (wh_mark){first_ticks + late + i * TURN_TICKS, UINT32_MAX - 15U + 4U * i};
     }
     for (unsigned i = 0; i < SAMPLES; i++) {
         const wh_real turns = ((wh_real)(i * PERIOD_TICKS) - (wh_real)late) / (wh_real)TURN_TICKS;
@@ -92,11 +93,28 @@ static void test_timer_may_wrap_within_the_record(void) {
     wh_load_record record = made_up(0, 1, WH_R(100.0), WH_R(6000.0), WH_R(0.5));
     TEST_ASSERT_TRUE(wh_lockin(&record, marks, MARKS, WH_R(0.0), &plain));
     record = made_up(UINT32_MAX - 900000U, 1, WH_R(100.0), WH_R(6000.0), WH_R(0.5));
-    TEST_ASSERT_TRUE(marks[MARKS - 1U] < marks[0]);
+    TEST_ASSERT_TRUE(marks[MARKS - 1U].ticks < marks[0].ticks);
     TEST_ASSERT_TRUE(wh_lockin(&record, marks, MARKS, WH_R(0.0), &wrapped));
     TEST_ASSERT_TRUE(plain.turns == wrapped.turns);
     TEST_ASSERT_FLOAT_WITHIN(0.0f, (float)plain.amplitude_counts, (float)wrapped.amplitude_counts);
     TEST_ASSERT_FLOAT_WITHIN(0.0f, (float)plain.phase_rad, (float)wrapped.phase_rad);
+}
+
+/* The second mark goes, then the third and so on, until only the record's first and last (the very
+ * last mark lies outside) are left: the same bounds hold, as the made-up rotor turns evenly. */
+static void test_missing_marks_change_nothing(void) {
+    const wh_load_record record = made_up(0, 1, WH_R(8000.0), WH_R(6000.0), WH_R(30.0) * DEG);
+    for (unsigned missing = 1; missing <= MARKS - 3U; missing++) {
+        for (unsigned i = 1; i < MARKS - missing; i++) {
+            marks[i] = marks[i + 1U];
+        }
+        wh_lockin_result found;
+        TEST_ASSERT_TRUE(wh_lockin(&record, marks, MARKS - missing, WH_R(0.0), &found));
+        TEST_ASSERT_EQUAL_UINT(10, found.turns);
+        TEST_ASSERT_FLOAT_WITHIN(0.02f, 30.0f, (float)(found.phase_rad / DEG));
+        TEST_ASSERT_FLOAT_WITHIN(1.5f, 6000.0f, (float)found.amplitude_counts);
+        TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.181818f, (float)found.turn_s);
+    }
 }
 
 static void test_less_than_a_turn_is_refused(void) {
@@ -106,7 +124,7 @@ static void test_less_than_a_turn_is_refused(void) {
     TEST_ASSERT_EQUAL_UINT(1, found.turns);
     TEST_ASSERT_FALSE(wh_lockin(&record, marks, 1, WH_R(0.0), &found));
     TEST_ASSERT_FALSE(wh_lockin(&record, marks, 0, WH_R(0.0), &found));
-    marks[0] += 3000000U; /* outside the record */
+    marks[0].ticks += 3000000U; /* outside the record */
     TEST_ASSERT_FALSE(wh_lockin(&record, marks, 1, WH_R(0.0), &found));
     const wh_load_record empty = {raw, 0, 0, PERIOD_TICKS};
     TEST_ASSERT_FALSE(wh_lockin(&empty, marks, MARKS, WH_R(0.0), &found));
@@ -156,6 +174,7 @@ void suite_lockin(void) {
     RUN_TEST(test_other_orders_are_rejected);
     RUN_TEST(test_a_constant_load_has_no_amplitude);
     RUN_TEST(test_timer_may_wrap_within_the_record);
+    RUN_TEST(test_missing_marks_change_nothing);
     RUN_TEST(test_less_than_a_turn_is_refused);
     RUN_TEST(test_polar_all_around);
     RUN_TEST(test_load_between_samples);

@@ -83,16 +83,22 @@ static void check_stopped(void) {
     TEST_ASSERT_FLOAT_WITHIN(0.1f, 0.0f, hal_virtual_rig_speed_radps(hal_virtual_rig_instance()));
 }
 
+/* The run is done and measured what the formula says: within 2 rpm, 2 %, 2 degrees. */
+static void check_measurement(float target_rpm) {
+    TEST_ASSERT_TRUE(rig.state == WH_RIG_DONE);
+    const wh_rig_result *result = &rig.result;
+    const float formula_N = WH_RIG_MASS_MOMENT_KGM * (target_rpm * RPM) * (target_rpm * RPM);
+    TEST_ASSERT_FLOAT_WITHIN(2.0f, target_rpm, result->speed_radps / RPM);
+    TEST_ASSERT_FLOAT_WITHIN(0.02f * formula_N, formula_N, result->amplitude_N);
+    TEST_ASSERT_FLOAT_WITHIN(2.0f, 0.0f, result->phase_rad * WH_RIG_DEG_PER_RAD);
+}
+
 static void test_measurement_of_the_force(void) {
     begin(330.0f);
     go_on_until(WH_RIG_DONE);
-    TEST_ASSERT_TRUE(rig.state == WH_RIG_DONE);
+    check_measurement(330.0f);
     check_stopped();
     const wh_rig_result *result = &rig.result;
-    const float formula_N = WH_RIG_MASS_MOMENT_KGM * (330.0f * RPM) * (330.0f * RPM);
-    TEST_ASSERT_FLOAT_WITHIN(2.0f, 330.0f, result->speed_radps / RPM);
-    TEST_ASSERT_FLOAT_WITHIN(0.02f * formula_N, formula_N, result->amplitude_N);
-    TEST_ASSERT_FLOAT_WITHIN(2.0f, 0.0f, result->phase_rad * WH_RIG_DEG_PER_RAD);
     TEST_ASSERT_TRUE(result->turns >= 9U);
     TEST_ASSERT_EQUAL_UINT32(0, result->lost + result->rejected);
     /* what moves in circles has no mean acceleration: the tare must come out */
@@ -137,15 +143,53 @@ static void test_pulses_stand_at_their_angles(void) {
     TEST_ASSERT_TRUE(pulses >= 21U && pulses <= 23U); /* two a turn, 5.5 turns a second */
 }
 
-static void test_one_lost_pulse_does_not_spoil_the_run(void) {
+/* In the middle of the record, where the lock-in's turns lie; as good as with none lost. */
+static void test_lost_pulses_do_not_spoil_the_run(void) {
+    for (unsigned lost = 1; lost <= wh_rig_standard.guard.lost_max; lost++) {
+        begin(330.0f);
+        go_on_until(WH_RIG_RECORD);
+        for (unsigned i = 0; i < 250U; i++) {
+            control();
+        }
+        hal_virtual_rig_instance()->faults.lose_pulses[0] = lost;
+        go_on_until(WH_RIG_DONE);
+        check_measurement(330.0f);
+        TEST_ASSERT_EQUAL_UINT32(lost, rig.result.lost);
+        TEST_ASSERT_EQUAL_UINT(10, rig.result.turns);
+    }
+}
+
+/* 2 % of what the formula says, 2 rpm, 2 degrees: also at both ends of the range of set-points. */
+static void test_slowest_and_fastest_set_points_run(void) {
+    static const wh_real targets_rpm[] = {WH_RIG_TARGET_MIN_RPM, WH_RIG_TARGET_MAX_RPM};
+    for (unsigned i = 0; i < 2; i++) {
+        begin(targets_rpm[i]);
+        go_on_until(WH_RIG_DONE);
+        check_measurement(targets_rpm[i]);
+        check_stopped();
+    }
+}
+
+/* With the limit taken away: the slowest set-point has a reserve, and is no mere caution. */
+static void test_slower_set_points_end_at_the_top(void) {
+    static const float targets_rpm[] = {100.0f, 140.0f, 150.0f};
+    for (unsigned i = 0; i < 3; i++) {
+        begin(330.0f);
+        config.guard.target_min_radps = 0.0f;
+        wh_rig_start(&config, &rig, targets_rpm[i] * RPM, hal_clock_ticks());
+        go_on_until(WH_RIG_DONE);
+        TEST_ASSERT_TRUE(rig.guard.trip == (i < 2 ? WH_TRIP_PULSES : WH_TRIP_NONE));
+        check_stopped();
+    }
+}
+
+static void test_a_silent_load_cell_stops_the_rig(void) {
     begin(330.0f);
     go_on_until(WH_RIG_RECORD);
-    hal_virtual_rig_instance()->faults.lose_pulses = 1;
+    hal_virtual_rig_instance()->faults.lose_samples = UINT32_MAX;
     go_on_until(WH_RIG_DONE);
-    TEST_ASSERT_TRUE(rig.state == WH_RIG_DONE);
-    TEST_ASSERT_EQUAL_UINT32(1, rig.result.lost);
-    TEST_ASSERT_FLOAT_WITHIN(2.0f, 330.0f, rig.result.speed_radps / RPM);
-    TEST_ASSERT_FLOAT_WITHIN(0.84f, 42.0f, rig.result.amplitude_N);
+    TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_LOAD_CELL);
+    check_stopped();
 }
 
 static void test_dead_sensors_stop_the_rig(void) {
@@ -194,17 +238,29 @@ static void test_stuck_load_cell_stops_the_rig(void) {
     check_stopped();
 }
 
-/* A drive stage stuck at full supply obeys no duty: the guard trips, the watchdog cuts. */
+/* A drive stage stuck at full supply obeys no duty: the guard trips, the watchdog cuts. How fast the
+ * rotor gets depends on where in a turn it happens. docs/rig.md: the shaft's safety factor is 2 at
+ * 416 rpm and falls with the square, to 1.28 at 520 rpm and 1.5 at 480. */
 static void test_runaway_is_caught(void) {
-    begin(330.0f);
-    go_on_until(WH_RIG_RECORD);
-    hal_virtual_rig_instance()->faults.runaway_motor = true;
-    go_on_until(WH_RIG_DONE);
-    TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_OVERSPEED);
-    TEST_ASSERT_TRUE(hal_watchdog_has_cut());
-    TEST_ASSERT_TRUE(fastest_radps > 400.0f * RPM);
-    TEST_ASSERT_TRUE(fastest_radps < 520.0f * RPM);
-    check_stopped();
+    for (unsigned i = 0; i < 10U; i++) {
+        const bool recording = i % 2U == 1;
+        begin(330.0f);
+        go_on_until(recording ? WH_RIG_RECORD : WH_RIG_SETTLE);
+        for (unsigned step = 0; step < i * 9U; step++) {
+            control();
+        }
+        fastest_radps = 0.0f;
+        hal_virtual_rig_instance()->faults.runaway_motor = true;
+        go_on_until(WH_RIG_DONE);
+        if (!recording) { /* a record does not wait for over-speed */
+            TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_OVERSPEED);
+            TEST_ASSERT_TRUE(fastest_radps > 400.0f * RPM);
+        }
+        TEST_ASSERT_TRUE(rig.guard.trip != WH_TRIP_NONE);
+        TEST_ASSERT_TRUE(fastest_radps < (recording ? 480.0f : 520.0f) * RPM);
+        TEST_ASSERT_TRUE(hal_watchdog_has_cut());
+        check_stopped();
+    }
 }
 
 /* A controller that falls silent: within 10 control steps the motor is cut, and stays cut. */
@@ -226,12 +282,15 @@ static void test_watchdog_cuts_the_motor(void) {
     check_stopped();
 }
 
-static void test_too_fast_a_target_is_refused(void) {
-    begin(400.0f);
-    go_on_until(WH_RIG_DONE);
-    TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_TARGET);
-    TEST_ASSERT_FLOAT_WITHIN(0.001f, 0.0f, fastest_radps);
-    check_stopped();
+static void test_too_slow_and_too_fast_targets_are_refused(void) {
+    static const float targets_rpm[] = {120.0f, 400.0f};
+    for (unsigned i = 0; i < 2; i++) {
+        begin(targets_rpm[i]);
+        go_on_until(WH_RIG_DONE);
+        TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_TARGET);
+        TEST_ASSERT_FLOAT_WITHIN(0.001f, 0.0f, fastest_radps);
+        check_stopped();
+    }
 }
 
 /* The controller's data sheet and the model are written down apart: they must say the same. */
@@ -264,13 +323,16 @@ void suite_virtual_rig(void) {
     RUN_TEST(test_measurement_of_the_force);
     RUN_TEST(test_gravity_shows_in_the_peaks_and_spikes);
     RUN_TEST(test_pulses_stand_at_their_angles);
-    RUN_TEST(test_one_lost_pulse_does_not_spoil_the_run);
+    RUN_TEST(test_lost_pulses_do_not_spoil_the_run);
+    RUN_TEST(test_slowest_and_fastest_set_points_run);
+    RUN_TEST(test_slower_set_points_end_at_the_top);
+    RUN_TEST(test_a_silent_load_cell_stops_the_rig);
     RUN_TEST(test_dead_sensors_stop_the_rig);
     RUN_TEST(test_duty_is_held_while_a_pulse_is_overdue);
     RUN_TEST(test_stuck_load_cell_stops_the_rig);
     RUN_TEST(test_runaway_is_caught);
     RUN_TEST(test_watchdog_cuts_the_motor);
-    RUN_TEST(test_too_fast_a_target_is_refused);
+    RUN_TEST(test_too_slow_and_too_fast_targets_are_refused);
     RUN_TEST(test_data_sheet_agrees_with_the_model);
     RUN_TEST(test_a_foreign_scene_is_refused);
 #endif
