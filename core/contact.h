@@ -21,8 +21,8 @@
  * step is not made: the stop rests.
  *
  * What a scene must offer is in `wh_hybrid`; what changes while running is in `wh_contacts` (scene.h).
- * contact_work.h has what a step works on, contact_forces.h the forces and impulses, contact_ledger.h
- * what they enter into the books, contact_events.h the search for events, contact_settle.h and
+ * contact_work.h has what a step works on, contact_share.h how contacts share a load, contact_forces.h the
+ * forces and impulses, contact_ledger.h what they enter into the books, contact_events.h the search for events, contact_settle.h and
  * contact_take.h what they change, contact_step.h the step. Scenes without contacts include none of these
  * files.
  */
@@ -67,9 +67,10 @@ enum {
 };
 
 typedef struct wh_contact {
-    uint8_t kind;     /* wh_contact_kind */
-    int8_t direction; /* crossing: +1 rising, -1 falling, 0 both */
-    int16_t pin;      /* the one coordinate that J_k has an entry for, if that is constant: its rate
+    uint8_t kind; /* wh_contact_kind */
+    int8_t
+        direction; /* crossing: +1 rising, -1 falling, 0 both; stop: 1 if an input moves it, else 0 */
+    int16_t pin;   /* the one coordinate that J_k has an entry for, if that is constant: its rate
                         * is held at zero exactly; else -1 */
     uint8_t first_set; /* crossing: its assignments */
     uint8_t sets;
@@ -85,16 +86,16 @@ enum {
 
 /* Most evaluations of the accelerations in one step, each with at most one of `forces`: in each of WH_EVENTS_MAX
  * rounds a try to the step's end and one to the event (`stages` each), a look at the end of both, the search with
- * the accelerations at both ends, two looks a stop that is hit and one for another contact, and those that settle
- * the modes; then the last try, and on the first step the modes' start. */
+ * the accelerations at both ends, two looks a stop that is hit and one for another contact, two after assignments,
+ * and those that settle the modes; then the last try, and what finds or follows the modes when the step begins. */
 #define WH_CONTACT_EVALUATIONS(stages, stops, forced) \
-    (WH_EVENTS_MAX * (2 * (stages) + WH_REFINEMENTS + 7 + (stops) + 2 * (forced)) + (stages) + 4 + \
+    (WH_EVENTS_MAX * (2 * (stages) + WH_REFINEMENTS + 9 + (stops) + 2 * (forced)) + (stages) + 4 + \
      (stops) + 2 * (forced))
 
 /* Most evaluations of `signals` in one step: one with each of those above but the stages' and the search's two
  * ends, a second one where a step's end is compared with its begin, and two when a crossing is taken. */
 #define WH_CONTACT_SIGNALS(stops, forced, crossings) \
-    (WH_EVENTS_MAX * (WH_REFINEMENTS + 6 + (stops) + 2 * (forced) + 2 * (crossings)) + 5 + \
+    (WH_EVENTS_MAX * (WH_REFINEMENTS + 8 + (stops) + 2 * (forced) + 2 * (crossings)) + 5 + \
      (stops) + 2 * (forced))
 
 /* A scene's contacts, constant. The functions are lists of operations like the accelerations. */

@@ -174,8 +174,10 @@ static inline wh_real wh_contact_locate(const wh_hybrid *of, wh_contact_work *w,
     wh_contact_point_of(of, from, &at);
     wh_contact_margins(of, w, &at, input, &before);
     unsigned at_once = 0;
+    unsigned sliding = 0;
     for (unsigned k = 0; k < of->contacts; k++) {
         const bool slides = of->contact[k].kind == WH_FRICTION && w->mode[k] != WH_STUCK;
+        sliding |= slides ? 1U << k : 0U;
         if ((*events >> k & 1U) != 0 && !slides && before.value[k] < WH_R(0.0)) {
             at_once |= 1U << k;
         }
@@ -190,7 +192,8 @@ static inline wh_real wh_contact_locate(const wh_hybrid *of, wh_contact_work *w,
     for (unsigned i = 1; i <= WH_REFINEMENTS; i++) {
         wh_real guess = high;
         for (unsigned k = 0; k < of->contacts; k++) {
-            if ((*events >> k & 1U) != 0 && before.value[k] > WH_R(0.0)) {
+            const bool begins = before.value[k] == WH_R(0.0) && !(sliding >> k & 1U);
+            if ((*events >> k & 1U) != 0 && (before.value[k] > WH_R(0.0) || begins)) {
                 const wh_real share = before.value[k] / (before.value[k] - after.value[k]);
                 const wh_real root = low + (high - low) * share;
                 guess = root < guess ? root : guess;

@@ -2,41 +2,29 @@
 #ifndef WH_CONTACT_FORCES_H
 #define WH_CONTACT_FORCES_H
 
-#include "contact_ledger.h"
+#include "contact_share.h"
 
-/* Solve sum_l (J_k M^-1 J_l^T) amount_l = wanted_k for the `count` contacts in member[], by elimination
- * without pivoting: the matrix is positive definite, but for contacts that repeat what others hold
- * already, which get nothing to do. wanted[] is used up. */
-static inline void wh_contact_solve(const wh_hybrid *of, const wh_contact_work *w,
-                                    const uint8_t *member, unsigned count, wh_real *wanted,
-                                    wh_real *amount) {
-    const wh_real least = WH_DOUBLE ? WH_R(1e-11) : WH_R(1e-5);
-    wh_real matrix[WH_CONTACTS_MAX][WH_CONTACTS_MAX] = {{WH_R(0.0)}};
-    bool idle[WH_CONTACTS_MAX] = {false};
-    for (unsigned r = 0; r < count; r++) {
-        for (unsigned c = 0; c < count; c++) {
-            matrix[r][c] = wh_along(of, w, member[r],
-                                    wh_law(of, w, member[c]) + WH_LAW_ROWS + of->coordinates);
-        }
+/* Contacts that repeat what others hold had nothing to do. Where that leaves another with more than it can
+ * take, share the load out: work->force has the shares, those that give way even so beyond their limits by
+ * what they would have to take on top. The accelerations are the same. */
+static inline void wh_contact_redistribute(const wh_hybrid *of, wh_contact_work *w,
+                                           const uint8_t *member, unsigned count) {
+    wh_real amount[WH_CONTACTS_MAX];
+    wh_real left[WH_CONTACTS_MAX];
+    bool exceeds = false;
+    for (unsigned i = 0; i < count; i++) {
+        exceeds = exceeds || wh_contact_exceeds(of, w, member[i], 0, w->force[member[i]]);
     }
-    for (unsigned p = 0; p < count; p++) {
-        const wh_real whole =
-            wh_along(of, w, member[p], wh_law(of, w, member[p]) + WH_LAW_ROWS + of->coordinates);
-        idle[p] = !(matrix[p][p] > least * whole);
-        for (unsigned r = p + 1; r < count && !idle[p]; r++) {
-            const wh_real factor = matrix[r][p] / matrix[p][p];
-            for (unsigned c = p; c < count; c++) {
-                matrix[r][c] -= factor * matrix[p][c];
-            }
-            wanted[r] -= factor * wanted[p];
-        }
+    if (!exceeds) {
+        return;
     }
-    for (unsigned p = count; p-- > 0;) {
-        wh_real sum = wanted[p];
-        for (unsigned c = p + 1; c < count; c++) {
-            sum -= matrix[p][c] * amount[c];
+    const unsigned giving = wh_contact_share(of, w, member, count, w->wanted, 0, amount, left);
+    for (unsigned i = 0; i < count; i++) {
+        const unsigned k = member[i];
+        w->force[k] = amount[i];
+        if ((giving >> k & 1U) != 0) {
+            w->force[k] -= left[i] / wh_contact_yield(of, w, k);
         }
-        amount[p] = idle[p] ? WH_R(0.0) : sum / matrix[p][p];
     }
 }
 
@@ -47,7 +35,6 @@ static inline void wh_contact_accel(const void *model, const wh_phase *phase, co
     const wh_hybrid *of = WH_CONTACTS_OF(m);
     wh_contact_work *w = m->work;
     uint8_t member[WH_CONTACTS_MAX] = {0};
-    wh_real wanted[WH_CONTACTS_MAX];
     wh_real amount[WH_CONTACTS_MAX];
     unsigned count = 0;
 
@@ -68,9 +55,9 @@ static inline void wh_contact_accel(const void *model, const wh_phase *phase, co
         }
     }
     for (unsigned i = 0; i < count; i++) {
-        wanted[i] = -(wh_law(of, w, member[i])[WH_LAW_BIAS] + wh_along(of, w, member[i], accel));
+        w->wanted[i] = -(wh_law(of, w, member[i])[WH_LAW_BIAS] + wh_along(of, w, member[i], accel));
     }
-    wh_contact_solve(of, w, member, count, wanted, amount);
+    const bool repeat = wh_contact_solve(of, w, member, count, NULL, w->wanted, amount);
     for (unsigned i = 0; i < count; i++) {
         w->force[member[i]] = amount[i];
         wh_push(of, w, member[i], amount[i], accel);
@@ -81,6 +68,9 @@ static inline void wh_contact_accel(const void *model, const wh_phase *phase, co
             accel[pin] = WH_R(0.0);
         }
     }
+    if (repeat) {
+        wh_contact_redistribute(of, w, member, count);
+    }
     wh_books_stage(of, w, phase, linear, rate, input);
 }
 
@@ -90,30 +80,25 @@ static inline void wh_contact_accel(const void *model, const wh_phase *phase, co
 static inline wh_real wh_contact_impulse(const wh_hybrid *of, wh_contact_work *w, unsigned k,
                                          wh_real target, wh_real *rate) {
     uint8_t member[WH_CONTACTS_MAX] = {0};
-    wh_real wanted[WH_CONTACTS_MAX];
+    wh_real wanted[WH_CONTACTS_MAX] = {WH_R(0.0)};
     wh_real amount[WH_CONTACTS_MAX];
-    unsigned count;
-    bool again = true;
-    do {
-        again = false;
-        count = 0;
-        for (unsigned l = 0; l < of->forced; l++) {
-            const bool holds = of->contact[l].kind != WH_FRICTION && w->mode[l] == WH_ACTIVE;
-            if (l == k || holds) {
-                const wh_real goal = l == k ? target : WH_R(0.0);
-                wanted[count] = goal - wh_along(of, w, l, rate);
-                member[count++] = (uint8_t)l;
-            }
+    wh_real left[WH_CONTACTS_MAX];
+    unsigned count = 0;
+    for (unsigned l = 0; l < of->forced; l++) {
+        const bool holds = of->contact[l].kind != WH_FRICTION && w->mode[l] == WH_ACTIVE;
+        if (l == k || holds) {
+            const wh_real goal = l == k ? target : WH_R(0.0);
+            wanted[count] = goal - wh_along(of, w, l, rate);
+            member[count++] = (uint8_t)l;
         }
-        wh_contact_solve(of, w, member, count, wanted, amount);
-        for (unsigned i = 0; i < count; i++) {
-            const unsigned l = member[i];
-            if (l != k && of->contact[l].kind == WH_STOP && amount[i] < WH_R(0.0)) {
-                w->mode[l] = WH_FREE;
-                again = true;
-            }
+    }
+    const unsigned giving =
+        wh_contact_share(of, w, member, count, wanted, 1U << k, amount, left) & ~(1U << k);
+    for (unsigned l = 0; l < of->forced; l++) {
+        if ((giving >> l & 1U) != 0) {
+            w->mode[l] = WH_FREE;
         }
-    } while (again);
+    }
     wh_real own = WH_R(0.0);
     for (unsigned i = 0; i < count; i++) {
         wanted[i] = wh_along(of, w, member[i], rate);
@@ -124,7 +109,9 @@ static inline wh_real wh_contact_impulse(const wh_hybrid *of, wh_contact_work *w
     }
     for (unsigned i = 0; i < count; i++) {
         const int pin = of->contact[member[i]].pin;
-        if (pin >= 0 && (member[i] != k || target == WH_R(0.0))) {
+        const bool held =
+            (giving >> member[i] & 1U) == 0 && (member[i] != k || target == WH_R(0.0));
+        if (pin >= 0 && held) {
             rate[pin] = WH_R(0.0);
         }
         wh_books_impulse(of, w, member[i], amount[i], wanted[i], wh_along(of, w, member[i], rate));

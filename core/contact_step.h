@@ -26,6 +26,8 @@ WH_INLINE void wh_contact_work_begin(const wh_hybrid *of, const wh_state *state,
     wh_contact_copy(of, state->angle, state->real, state->carry, now);
     wh_contact_modes(of, state, w);
     w->inside = 0;
+    w->moved = 0;
+    w->mover = 0;
 #if WH_LEDGER
     w->books = NULL;
 #endif
@@ -73,6 +75,36 @@ static inline void wh_contact_margins_end(const wh_hybrid *of, wh_contact_work *
     }
 }
 
+/* Of the events of one moment, those of forces beyond a limit, as bits, if there are several: how many
+ * really give way is to be settled, since the first to do so may relieve the others. */
+WH_INLINE unsigned wh_contact_overloads(const wh_hybrid *of, const wh_contact_work *w,
+                                        unsigned events) {
+    unsigned bits = 0;
+    for (unsigned k = 0; k < of->forced; k++) {
+        const bool gives = of->contact[k].kind != WH_HOLD && wh_constrains(of, w, k);
+        bits |= gives ? events & 1U << k : 0U;
+    }
+    return (bits & (bits - 1U)) != 0 ? bits : 0U;
+}
+
+/* The component that an event left without a believable value, or -1. */
+WH_INLINE int wh_contact_unbelievable(const wh_hybrid *of, const wh_contact_state *s) {
+    const unsigned reals = 2U * of->coordinates - of->angles;
+#if WH_DOUBLE
+    for (unsigned i = 0; i < of->angles; i++) {
+        if (!wh_believable(s->angle[i], WH_ABSURD)) {
+            return (int)i;
+        }
+    }
+#endif
+    for (unsigned i = 0; i < reals; i++) {
+        if (!wh_believable(s->real[i], WH_ABSURD)) {
+            return (int)(of->angles + i);
+        }
+    }
+    return -1;
+}
+
 /* One step with its events. Returns as wh_step_second(). */
 static inline wh_status wh_step_contact(const wh_hybrid *of, wh_real h, wh_state *state) {
     const unsigned reals = 2U * of->coordinates - of->angles;
@@ -95,6 +127,8 @@ static inline wh_status wh_step_contact(const wh_hybrid *of, wh_real h, wh_state
 #endif
     if (work.mode[0] == WH_UNSET) {
         wh_contact_begin(of, &work, h, state->input, &now);
+    } else {
+        wh_contact_follow(of, &work, h, state->input, &now);
     }
     while (left > WH_R(0.0)) {
         wh_margins margins;
@@ -122,8 +156,9 @@ static inline wh_status wh_step_contact(const wh_hybrid *of, wh_real h, wh_state
             left -= span;
         }
         const bool last = ++round == WH_EVENTS_MAX;
+        const unsigned loads = wh_contact_overloads(of, &work, events);
         for (unsigned k = 0; k < of->contacts; k++) {
-            if ((events >> k & 1U) != 0) {
+            if (((events & ~loads) >> k & 1U) != 0) {
                 const wh_real impulse = wh_contact_take(of, &work, k, h, last, state->input, &now);
                 if (logged < WH_EVENT_LOG) {
                     log[logged++] = (wh_event){(uint8_t)k, work.mode[k], h - left, impulse};
@@ -131,6 +166,24 @@ static inline wh_status wh_step_contact(const wh_hybrid *of, wh_real h, wh_state
             }
         }
         wh_contact_settle(of, &work, last ? events : 0, state->input, &now);
+        unsigned given = 0;
+        for (unsigned k = 0; k < of->forced; k++) {
+            given |= (loads >> k & 1U) != 0 && !wh_constrains(of, &work, k) ? 1U << k : 0U;
+        }
+        for (unsigned k = 0; k < of->forced && loads != 0 && given == 0 && !last; k++) {
+            if ((loads >> k & 1U) != 0) { /* by no more than rounding: the first of them */
+                (void)wh_contact_take(of, &work, k, h, last, state->input, &now);
+                given = 1U << k;
+            }
+        }
+        for (unsigned k = 0; k < of->forced; k++) {
+            if ((given >> k & 1U) != 0 && logged < WH_EVENT_LOG) {
+                log[logged++] = (wh_event){(uint8_t)k, work.mode[k], h - left, WH_R(0.0)};
+            }
+        }
+    }
+    if (round > 0 && (fault = wh_contact_unbelievable(of, &now)) >= 0) {
+        return wh_refuse(state, (unsigned)fault);
     }
 
 #if WH_LEDGER

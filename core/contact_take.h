@@ -9,7 +9,39 @@
 WH_INLINE bool wh_contact_rests(const wh_hybrid *of, const wh_contact_work *w, unsigned k,
                                 wh_real h, bool rest, wh_real speed, const wh_real *accel) {
     const wh_real pressing = -(wh_along(of, w, k, accel) + wh_law(of, w, k)[WH_LAW_BIAS]);
+    if (pressing == WH_R(0.0)) {
+        return speed == WH_R(0.0);
+    }
     return pressing > WH_R(0.0) && (rest || speed + speed <= pressing * (h * WH_REST_SHARE));
+}
+
+/* Stops that rest, as bits. */
+WH_INLINE unsigned wh_contact_resting(const wh_hybrid *of, const wh_contact_work *w) {
+    unsigned bits = 0;
+    for (unsigned k = 0; k < of->forced; k++) {
+        bits |= of->contact[k].kind == WH_STOP && w->mode[k] == WH_ACTIVE ? 1U << k : 0U;
+    }
+    return bits;
+}
+
+/* Of the stops `gone`, that an impact let go, those whose flight would be too short rest on, together with
+ * what rests: else a body in a corner would be thrown to and fro without an end. */
+static inline void wh_contact_stay(const wh_hybrid *of, wh_contact_work *w, unsigned gone,
+                                   wh_real h, bool rest, const wh_real *accel,
+                                   const wh_real *signal, wh_contact_state *s) {
+    wh_real *rate = wh_contact_rates(of, s);
+    bool stays = false;
+    for (unsigned k = 0; k < of->forced; k++) {
+        if ((gone >> k & 1U) != 0 &&
+            wh_contact_rests(of, w, k, h, rest, wh_along(of, w, k, rate), accel)) {
+            w->mode[k] = WH_ACTIVE;
+            stays = true;
+        }
+    }
+    if (stays) {
+        wh_contact_still(of, w, true, rate);
+        wh_contact_close(of, w, signal, s);
+    }
 }
 
 /* A stop is hit: restitution, or rest when the flight that follows would be too short. What is to rest
@@ -20,10 +52,14 @@ static inline wh_real wh_contact_hit(const wh_hybrid *of, wh_contact_work *w, un
     wh_real signal[2 * WH_CONTACTS_MAX];
     wh_real *rate = wh_contact_rates(of, s);
     wh_real impulse = WH_R(0.0);
+    const unsigned resting = wh_contact_resting(of, w);
     wh_contact_look(of, w, s, input, accel, signal);
     wh_real speed = wh_along(of, w, k, rate);
     if (speed < WH_R(0.0)) {
-        speed *= -wh_law(of, w, k)[WH_LAW_FIRST];
+        const wh_real given = wh_law(of, w, k)[WH_LAW_FIRST];
+        const wh_real restitution =
+            given > WH_R(0.0) ? (given < WH_R(1.0) ? given : WH_R(1.0)) : WH_R(0.0);
+        speed *= -restitution;
         speed = wh_contact_rests(of, w, k, h, rest, speed, accel) ? WH_R(0.0) : speed;
         impulse = wh_contact_impulse(of, w, k, speed, rate);
         wh_contact_look(of, w, s, input, accel, signal);
@@ -34,6 +70,10 @@ static inline wh_real wh_contact_hit(const wh_hybrid *of, wh_contact_work *w, un
         }
         w->mode[k] = WH_ACTIVE;
         wh_contact_close(of, w, signal, s);
+    }
+    const unsigned gone = resting & ~wh_contact_resting(of, w);
+    if (gone != 0) {
+        wh_contact_stay(of, w, gone, h, rest, accel, signal, s);
     }
     return impulse;
 }
@@ -66,9 +106,14 @@ static inline void wh_contact_assign(const wh_hybrid *of, wh_contact_work *w, un
         }
     }
     wh_books_levels(of, w, s, input, k, WH_R(1.0));
-    /* where the assignment leaves each crossing, if it moved it */
+    /* where the assignment leaves each contact, if it moved it */
     wh_contact_point_of(of, s, &at);
     of->signals(of->model, at.phase, at.linear, at.rate, input, after);
+    w->mover = k;
+    for (unsigned l = 0; l < of->forced; l++) {
+        const bool same = after[2 * l] == before[2 * l] && after[2 * l + 1] == before[2 * l + 1];
+        w->moved |= same ? 0U : 1U << l;
+    }
     for (unsigned l = of->forced; l < of->contacts; l++) {
         if (after[2 * l] != before[2 * l] && after[2 * l] != WH_R(0.0)) {
             w->mode[l] = after[2 * l] > WH_R(0.0) ? 1 : -1;
@@ -118,6 +163,37 @@ static inline wh_real wh_contact_take(const wh_hybrid *of, wh_contact_work *w, u
     default: wh_contact_assign(of, w, k, input, s); break;
     }
     return impulse;
+}
+
+/* Where an input has moved a resting stop since the last step: the body is put back onto it, or falls if
+ * what presses it does not close the gap within the step. The energy is the stop's. */
+static inline void wh_contact_follow(const wh_hybrid *of, wh_contact_work *w, wh_real h,
+                                     const wh_real *input, wh_contact_state *s) {
+    wh_real accel[WH_COORDS];
+    wh_real signal[2 * WH_CONTACTS_MAX];
+    unsigned moved = WH_CONTACTS_MAX;
+    bool falls = false;
+    for (unsigned k = 0; k < of->forced; k++) {
+        const bool rests = of->contact[k].kind == WH_STOP && w->mode[k] == WH_ACTIVE;
+        moved = rests && of->contact[k].direction != 0 ? k : moved;
+    }
+    if (moved == WH_CONTACTS_MAX) {
+        return;
+    }
+    wh_contact_look(of, w, s, input, accel, signal);
+    for (unsigned k = 0; k < of->forced; k++) {
+        const wh_real closes = WH_R(0.5) * h * h * w->force[k] * wh_contact_yield(of, w, k);
+        if (of->contact[k].direction != 0 && wh_constrains(of, w, k) && signal[2 * k] > closes) {
+            w->mode[k] = WH_FREE;
+            falls = true;
+        }
+    }
+    wh_books_levels(of, w, s, input, moved, WH_R(-1.0));
+    wh_contact_close(of, w, signal, s);
+    wh_books_levels(of, w, s, input, moved, WH_R(1.0));
+    if (falls) {
+        wh_contact_settle(of, w, 0, input, s);
+    }
 }
 
 /* Modes at the start of a run: sticks what is at rest, captures what a hold's condition says. */

@@ -159,6 +159,17 @@ static int component_of(const program *p, const assignment *set) {
     return -1;
 }
 
+/* Does the value depend on an input? */
+static bool input_moves(const equations *e, const poly *value) {
+    const mechanism *m = e->instance->mechanism;
+    for (int i = 0; i < m->input_count; i++) {
+        if (!poly_is_zero(poly_derivative(e->algebra, value, m->inputs[i], 0))) {
+            return true;
+        }
+    }
+    return false;
+}
+
 static contact_row make_row(contact_lists *c, const program *p, const equations *e,
                             const contact_law *law) {
     static const int kinds[] = {[HYBRID_STOP] = WH_STOP,
@@ -171,6 +182,7 @@ static contact_row make_row(contact_lists *c, const program *p, const equations 
     row.first_set = c->set_count;
     if (from->kind != HYBRID_WHEN) {
         row.pin = pin_of(p, e, law);
+        row.direction = from->kind == HYBRID_STOP && input_moves(e, law->value);
         return row;
     }
     row.sets = from->set_count;
