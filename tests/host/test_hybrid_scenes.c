@@ -34,6 +34,7 @@ static const reference_case CASES[] = {
     {"table_drifts", "5.0", 5.0, 8e-3, 1e-8, 2e-4},
     {"belt_stick_slip", "5.0", 5.0, 8e-3, 1e-7, 2e-4},
     {"belt_stiffening", "5.0", 5.0, 8e-3, 1e-7, 2e-4},
+    {"plank_shaken", "5.0", 5.0, 4e-3, 1e-8, 1e-2},
     {"crash_cart", "3.0", 3.0, 8e-3, 1e-6, 2e-4},
     {"crash_both", "3.0", 3.0, 8e-3, 1e-6, 2e-4},
     {"shuttle_buffers", "5.0", 5.0, 8e-3, 1e-8, 2e-4},

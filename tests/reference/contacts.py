@@ -74,6 +74,18 @@ def belt(k_3):
     return make
 
 
+def plank(span):
+    parts = lambda q, v: [(1.0, [1.0, 0.0, 0.0], 0.0), (2.0, [1.0, 1.0, 0.0], 0.0)]
+
+    def f(q, v):
+        block = 9.0 * math.sin(1.7 * q[2])
+        return [12.0 * math.sin(q[2]) + block, block - 200.0 * q[1], 0.0]
+    rough = [Friction([1.0, 0.0, 0.0], 0.2, 0.05, lambda q, v: 3.0 * G),
+             Friction([0.0, 1.0, 0.0], 0.25, 0.2, lambda q, v: 2.0 * G)]
+    mass, _ = points(parts, (0.0, 0.0, 1.0))
+    return Run(mass, f, rough, [0.0, 0.0, 0.0], [0.0, 0.0, 7.0], span), "x u p"
+
+
 def crash(both):
     def make(span):
         l, m, M = 0.5, 1.0, 2.0
@@ -206,6 +218,7 @@ SCENES = [
     ("contacts.whirl:table_drifts", shaken_block(0.020, 0.005), [0.3, 5.0, 10.0], 1e-2),
     ("contacts.whirl:belt_stick_slip", belt(0.0), [1.0, 5.0], 1e-2),
     ("contacts.whirl:belt_stiffening", belt(50000.0), [1.0, 5.0], 1e-2),
+    ("contacts_together.whirl:plank_shaken", plank, [1.0, 5.0, 20.0], 5e-3),
     ("contacts.whirl:crash_cart", crash(False), [1.0, 3.0], 1e-2),
     ("contacts.whirl:crash_both", crash(True), [1.0, 3.0], 1e-2),
     ("contacts.whirl:shuttle_buffers", shuttle(False), [1.0, 5.0, 10.0], 1e-2),

@@ -6,6 +6,7 @@ Equations I, section II.9) of order 16, a fresh one for each place that the loca
 for, so that nothing is interpolated, and events are bisected to 1e-17 s. Needs nothing but
 Python 3.
 """
+import itertools
 import math
 
 COLUMNS = 8  # of the extrapolation table: order 16
@@ -176,25 +177,39 @@ class Run:
         return v
 
     def settle(self):
-        """Friction at rest sticks or finds its direction; stops that would pull let go."""
+        """Friction at rest sticks or finds its direction; stops that would pull let go. Of all ways in which
+        contacts may hold or give, one that agrees with its own forces and accelerations, with as many held
+        as can be."""
         q, v = self.y[:self.n], self.y[self.n:]
+        open_ = []  # those that may hold or give
         for c in self.contacts:
             if isinstance(c, Friction):
                 speed = dot(c.row(q), v)
-                if speed != 0.0:
-                    c.mode, c.sign = SLIDES, math.copysign(1, speed)
-                else:
-                    c.mode = STUCK
-        while True:
-            changed = False
-            for c in self.due(self.y):
-                if isinstance(c, Stop) and c.mode == HELD:
-                    c.mode, changed = FREE, True
-                elif isinstance(c, Friction) and c.mode == STUCK:
-                    force = self.accelerations(q, v)[1][c]
-                    c.mode, c.sign, changed = SLIDES, math.copysign(1, -force), True
-            if not changed:
+                c.mode, c.sign = (SLIDES, math.copysign(1, speed)) if speed != 0.0 else (STUCK, 0)
+            if c.mode == STUCK or (isinstance(c, Stop) and c.mode == HELD):
+                open_.append(c)
+        ways = [[(STUCK, 0), (SLIDES, 1), (SLIDES, -1)] if isinstance(c, Friction)
+                else [(HELD, 0), (FREE, 0)] for c in open_]
+        for way in sorted(itertools.product(*ways), key=lambda w: sum(m in (SLIDES, FREE) for m, _ in w)):
+            for c, (c.mode, c.sign) in zip(open_, way):
+                pass
+            if self.agrees(open_, q, v):
                 return
+        raise ArithmeticError("no way for the contacts to hold or give")
+
+    def agrees(self, open_, q, v):
+        accel, forces = self.accelerations(q, v)
+        for c in open_:
+            if c.mode == STUCK:
+                fits = abs(forces[c]) <= c.static * max(c.normal(q, v), 0.0)
+            elif c.mode == HELD:
+                fits = forces[c] >= 0.0
+            else:
+                moves = dot(c.row(q), accel) + c.bias(q, v)
+                fits = moves * c.sign > 0.0 if c.mode == SLIDES else moves > 0.0
+            if not fits:
+                return False
+        return True
 
     def take(self, c):
         q, v = self.y[:self.n], self.y[self.n:]
