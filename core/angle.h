@@ -66,6 +66,10 @@ WH_INLINE void wh_sincos(wh_phase phase, wh_real *sine, wh_real *cosine);
  * phase unit (1.5e-9 rad) for |rad| < 1e9; larger or NaN gives phase 0. Double: rad itself. */
 WH_INLINE wh_phase wh_phase_from_rad(wh_real rad);
 
+/* A float phase has no room for "not a number": where rad has none either, or is too large for a phase,
+ * make sine and cosine NaN, so that the step is refused as it is in double. */
+WH_INLINE void wh_sincos_of_range(wh_real rad, wh_real *sine, wh_real *cosine);
+
 #define wh_angle_from_rad WH_NAME(wh_angle_from_rad)
 #define wh_angle_to_rad WH_NAME(wh_angle_to_rad)
 

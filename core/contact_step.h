@@ -28,6 +28,7 @@ WH_INLINE void wh_contact_work_begin(const wh_hybrid *of, const wh_state *state,
     w->inside = 0;
     w->moved = 0;
     w->mover = 0;
+    w->fault = -1;
 #if WH_LEDGER
     w->books = NULL;
 #endif
@@ -85,24 +86,6 @@ WH_INLINE unsigned wh_contact_overloads(const wh_hybrid *of, const wh_contact_wo
         bits |= gives ? events & 1U << k : 0U;
     }
     return (bits & (bits - 1U)) != 0 ? bits : 0U;
-}
-
-/* The component that an event left without a believable value, or -1. */
-WH_INLINE int wh_contact_unbelievable(const wh_hybrid *of, const wh_contact_state *s) {
-    const unsigned reals = 2U * of->coordinates - of->angles;
-#if WH_DOUBLE
-    for (unsigned i = 0; i < of->angles; i++) {
-        if (!wh_believable(s->angle[i], WH_ABSURD)) {
-            return (int)i;
-        }
-    }
-#endif
-    for (unsigned i = 0; i < reals; i++) {
-        if (!wh_believable(s->real[i], WH_ABSURD)) {
-            return (int)(of->angles + i);
-        }
-    }
-    return -1;
 }
 
 /* One step with its events. Returns as wh_step_second(). */
@@ -182,8 +165,8 @@ static inline wh_status wh_step_contact(const wh_hybrid *of, wh_real h, wh_state
             }
         }
     }
-    if (round > 0 && (fault = wh_contact_unbelievable(of, &now)) >= 0) {
-        return wh_refuse(state, (unsigned)fault);
+    if (work.fault >= 0) {
+        return wh_refuse(state, (unsigned)work.fault);
     }
 
 #if WH_LEDGER

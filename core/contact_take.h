@@ -96,6 +96,9 @@ static inline void wh_contact_assign(const wh_hybrid *of, wh_contact_work *w, un
     wh_books_levels(of, w, s, input, k, WH_R(-1.0));
     for (unsigned i = c->first_set; i < (unsigned)c->first_set + c->sets; i++) {
         const unsigned target = of->target[i];
+        if (!wh_believable(value[i], target < of->angles ? WH_R(1e9) : WH_ABSURD)) {
+            w->fault = (int)target;
+        }
         if (target < of->angles) {
             s->angle[target] = wh_angle_from_rad(value[i]);
         } else {

@@ -8,13 +8,14 @@
 typedef struct wh_contact_work {
     int8_t mode[WH_CONTACTS_MAX];
     wh_real force[WH_CONTACTS_MAX]; /* lambda at the last evaluation of the accelerations */
-    wh_real wanted
-        [WH_CONTACTS_MAX]; /* J q'' + J' q' that the forces of what holds something had to make */
+    /* J q'' + J' q' that the forces of what holds something had to make */
+    wh_real wanted[WH_CONTACTS_MAX];
     wh_real law[WH_CONTACTS_MAX * (WH_LAW_ROWS + 2 * WH_COORDS)];
-    unsigned
-        inside;     /* stops whose gap the try begins closed, as bits: they may be on the way out */
+    /* stops whose gap the try begins closed, as bits: they may be on the way out */
+    unsigned inside;
     unsigned moved; /* contacts whose signals a crossing's assignments changed, as bits */
     unsigned mover; /* that crossing */
+    int fault;      /* component that was assigned what it cannot hold, or -1 */
 #if WH_LEDGER
     wh_ledger_work *books; /* or NULL */
 #endif

@@ -1,9 +1,12 @@
 /* ledger.h: the books of a run: what changed the energy and each momentum, and by how much.
  *
- * Accounts: account 0 is the energy T + V; account 1 + i is the generalized momentum dT/dq_i' of
- * coordinate i (in the scene's order, conserved coordinates last). Entries say what went into an
- * account since the start: the work of each input, the loss of each damper (negative), the impulse of
- * each generalized force, and for each contact its energy and its impulse along each coordinate.
+ * Accounts: account 0 is the energy integral sum q_i' dL/dq_i' - L (Goldstein, Classical Mechanics, section
+ * 2.7), which is T + V where T is a quadratic form of the rates and V free of them; account 1 + i is the
+ * generalized momentum dL/dq_i' of coordinate i (in the scene's order, conserved coordinates last). Entries
+ * say what went into an account since the start: the work of each input, the loss of each damper
+ * (negative), the impulse of each generalized force, for each contact its energy and its impulse along
+ * each coordinate, and, where the energies name an input, what its changes between steps gave: -dL/dt of
+ * an input that stands still within each step.
  *
  * The powers and forces of the smooth entries, and the contacts' forces, are integrated with the weights
  * of the method's own stages, so the books are of the method's order and a step costs one more list of
@@ -26,7 +29,7 @@
 #define WH_ACCOUNTS_MAX 65
 #endif
 
-/* The accounts at a state, SI units. level[accounts]. */
+/* The accounts at a state, SI units. level[1 + all coordinates]. */
 typedef void wh_levels_fn(const void *model, const wh_angle *angle, const wh_real *linear,
                           const wh_real *rate, const wh_real *input, wh_real *level);
 
@@ -34,13 +37,15 @@ typedef void wh_levels_fn(const void *model, const wh_angle *angle, const wh_rea
 struct wh_ledger_form {
     const void *model;      /* first argument of the functions */
     wh_accel_fn *powers;    /* result[smooth]: what goes into the account, a second */
-    wh_levels_fn *levels;   /* result[accounts] */
+    wh_levels_fn *levels;   /* result[1 + all coordinates] */
     const uint8_t *account; /* [smooth] */
-    uint16_t smooth;        /* entries that are not a contact's */
-    uint16_t entries;       /* smooth + contacts * (1 + coordinates), <= WH_LEDGER_MAX */
-    uint8_t accounts;       /* 1 + all coordinates */
+    const uint8_t *input;   /* [inputs] those that the energies name; the last entries are theirs */
+    uint16_t smooth;        /* entries of powers and forces */
+    uint16_t entries;       /* smooth + contacts * (1 + coordinates) + inputs, <= WH_LEDGER_MAX */
+    uint8_t accounts;       /* 1 + all coordinates + inputs: one is kept for each of those */
     uint8_t coordinates;    /* integrated coordinates, of which */
     uint8_t angles;         /* are kept as turn angles */
+    uint8_t inputs;
 };
 
 /* Entry of contact k in the account of its energy; those of its impulses follow, by coordinate. */
@@ -48,9 +53,37 @@ WH_INLINE unsigned wh_ledger_of_contact(const wh_ledger_form *form, unsigned k) 
     return form->smooth + k * (1U + form->coordinates);
 }
 
+/* Entry of the first of form->input, in the energy's account; the others' follow. */
+WH_INLINE unsigned wh_ledger_of_input(const wh_ledger_form *form) {
+    return (unsigned)form->entries - form->inputs;
+}
+
 WH_INLINE unsigned wh_ledger_account(const wh_ledger_form *form, unsigned entry) {
+    if (entry >= wh_ledger_of_input(form)) {
+        return 0;
+    }
     return entry < form->smooth ? form->account[entry]
                                 : (entry - form->smooth) % (1U + form->coordinates);
+}
+
+/* The inputs of the last step, [inputs], behind the levels at the start. */
+WH_INLINE wh_real *wh_ledger_kept(const wh_ledger_form *form, const wh_state *state) {
+    return state->ledger + 2U * form->entries + (unsigned)form->accounts - form->inputs;
+}
+
+/* Exchange input k of form->input and what was kept of it. */
+WH_INLINE void wh_ledger_exchange(const wh_ledger_form *form, const wh_state *state, unsigned k) {
+    wh_real *kept = wh_ledger_kept(form, state);
+    const wh_real input = state->input[form->input[k]];
+    state->input[form->input[k]] = kept[k];
+    kept[k] = input;
+}
+
+/* The accounts at the present state. */
+WH_INLINE void wh_ledger_levels(const wh_ledger_form *form, const wh_state *state, wh_real *level) {
+    const unsigned linears = (unsigned)form->coordinates - form->angles;
+    form->levels(form->model, state->angle, state->real, state->real + linears, state->input,
+                 level);
 }
 
 /* A step of the books in progress. */
@@ -100,6 +133,30 @@ WH_INLINE wh_real wh_ledger_stage(const wh_ledger_form *form, wh_method method,
     return share;
 }
 
+/* Before a step: what inputs that were changed since the last one give, one after another. */
+static inline void wh_ledger_move(const wh_ledger_form *form, const wh_state *state,
+                                  wh_ledger_work *w) {
+    const wh_real *kept = wh_ledger_kept(form, state);
+    wh_real level[WH_ACCOUNTS_MAX];
+    bool changed = false;
+    for (unsigned k = 0; k < form->inputs; k++) {
+        changed = changed || kept[k] != state->input[form->input[k]];
+    }
+    if (!changed) {
+        return;
+    }
+    for (unsigned k = 0; k < form->inputs; k++) {
+        wh_ledger_exchange(form, state, k);
+    }
+    wh_ledger_levels(form, state, level);
+    for (unsigned k = 0; k < form->inputs; k++) {
+        const wh_real before = level[0];
+        wh_ledger_exchange(form, state, k);
+        wh_ledger_levels(form, state, level);
+        w->step[wh_ledger_of_input(form) + k] = level[0] - before;
+    }
+}
+
 /* Before a step: the accounts' levels at the start of the run. */
 WH_INLINE void wh_ledger_open(const wh_ledger_form *form, wh_state *state, wh_ledger_work *w) {
     for (unsigned i = 0; i < form->entries; i++) {
@@ -107,9 +164,9 @@ WH_INLINE void wh_ledger_open(const wh_ledger_form *form, wh_state *state, wh_le
     }
     w->span = WH_R(0.0);
     if (state->steps == 0) {
-        const unsigned linears = (unsigned)form->coordinates - form->angles;
-        form->levels(form->model, state->angle, state->real, state->real + linears, state->input,
-                     state->ledger + 2U * form->entries);
+        wh_ledger_levels(form, state, state->ledger + 2U * form->entries);
+    } else {
+        wh_ledger_move(form, state, w);
     }
 }
 
@@ -120,6 +177,9 @@ WH_INLINE void wh_ledger_commit(const wh_ledger_form *form, const wh_ledger_work
     wh_real *carry = state->ledger + form->entries;
     for (unsigned i = 0; i < form->entries; i++) {
         total[i] = wh_sum(total[i], w->step[i], true, &carry[i]);
+    }
+    for (unsigned k = 0; k < form->inputs; k++) {
+        wh_ledger_kept(form, state)[k] = state->input[form->input[k]];
     }
 }
 
@@ -170,15 +230,20 @@ static inline wh_real wh_ledger_sum(const wh_ledger_form *form, const wh_state *
 }
 
 /* How much more an account changed since the start than its entries say: the run's numerical drift, J
- * or the momentum's unit. `level` [accounts] is room to work in. Zero before the first step. */
+ * or the momentum's unit. `level` [form->accounts] is room to work in. Zero before the first step. Inputs that
+ * were changed since the last step do not count yet: the next step enters them. */
 static inline wh_real wh_ledger_error(const wh_ledger_form *form, const wh_state *state,
                                       unsigned account, wh_real *level) {
     if (state->steps == 0) {
         return WH_R(0.0);
     }
-    const unsigned linears = (unsigned)form->coordinates - form->angles;
-    form->levels(form->model, state->angle, state->real, state->real + linears, state->input,
-                 level);
+    for (unsigned k = 0; k < form->inputs; k++) {
+        wh_ledger_exchange(form, state, k);
+    }
+    wh_ledger_levels(form, state, level);
+    for (unsigned k = 0; k < form->inputs; k++) {
+        wh_ledger_exchange(form, state, k);
+    }
     return (level[account] - state->ledger[2U * form->entries + account]) -
            wh_ledger_sum(form, state, account);
 }

@@ -77,6 +77,12 @@ WH_INLINE void wh_sincos(wh_phase phase, wh_real *sine, wh_real *cosine) {
 
 WH_INLINE wh_phase wh_phase_from_rad(wh_real rad) { return rad; }
 
+WH_INLINE void wh_sincos_of_range(wh_real rad, wh_real *sine, wh_real *cosine) {
+    (void)rad;
+    (void)sine;
+    (void)cosine;
+}
+
 #else
 
 WH_INLINE void wh_sincos(wh_phase phase, wh_real *sine, wh_real *cosine) {
@@ -97,8 +103,9 @@ WH_INLINE void wh_sincos(wh_phase phase, wh_real *sine, wh_real *cosine) {
 /* wh_angle_from_rad(), inline here because a phase needs only its low half: the compiler drops the
  * other. There are 2^32/(2 pi) phase units in a radian: 683565276 - 1819212470/2^32 for the whole
  * radians, 1367130551/2^33 * 2^31 for the fraction. Integers are exact where products round. */
+#define WH_RAD_MOST 1e9f
 WH_INLINE int64_t wh_angle_of_rad(float rad) {
-    const float in_range = WH_ABS(rad) < 1e9f ? rad : 0.0f; /* NaN is not in range */
+    const float in_range = WH_ABS(rad) < WH_RAD_MOST ? rad : 0.0f; /* NaN is not in range */
     const int32_t whole = (int32_t)in_range;
     const int32_t fraction = (int32_t)((in_range - (float)whole) * 0x1p31f);
     const int64_t small = whole * -INT64_C(1819212470) + fraction * INT64_C(1367130551);
@@ -107,6 +114,14 @@ WH_INLINE int64_t wh_angle_of_rad(float rad) {
 }
 
 WH_INLINE wh_phase wh_phase_from_rad(wh_real rad) { return wh_phase_of(wh_angle_of_rad(rad)); }
+
+WH_INLINE void wh_sincos_of_range(wh_real rad, wh_real *sine, wh_real *cosine) {
+    if (!(WH_ABS(rad) < WH_RAD_MOST)) {
+        const float nothing = rad - rad;
+        *sine = nothing / nothing;
+        *cosine = *sine;
+    }
+}
 
 #endif
 #endif

@@ -35,6 +35,7 @@ struct algebra {
     intern_table lets;        /* memo_pair: symbol, NULL */
     size_t work;              /* terms handled and bytes kept so far: what bounds time and memory */
     bool overflow;
+    bool keeps_powers; /* some power of a sum was kept that could have been multiplied out */
     const poly *zero;
     const poly *one;
 };
@@ -75,6 +76,11 @@ void sum_add(algebra *a, poly_sum *s, const poly *p, double scale);
 void sum_add_row(poly_sum *s, poly_sum *row);
 /* The sum; frees what `s` holds. */
 const poly *sum_close(algebra *a, poly_sum *s);
+
+/* A sum of positions, parameters and numbers: no rate, no sine, no function? */
+bool poly_is_place(const poly *p);
+/* base^exponent, where whole powers of such sums stay powers from the exponent `kept` on. */
+const poly *poly_power(algebra *a, const poly *base, double exponent, double kept);
 
 /* A function's value. */
 double call_number(function_id function, double x, double y);

@@ -1,6 +1,7 @@
 /* calculus.c: derivatives, substitution, and the way from a parsed expression to its normal form. */
 #include "algebra.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 /* --- derivatives ---------------------------------------------------------------------------------*/
@@ -88,6 +89,9 @@ static const poly *mono_derivative(algebra *a, const mono *m, const symbol *sym,
         const poly *power = poly_pow(a, poly_of_atom(a, f->atom, 1.0), f->exponent - 1.0);
         if (f->atom->kind == ATOM_GROUP || f->atom->kind == ATOM_CALL) {
             power = f->exponent == 1.0 ? a->one : poly_of_atom(a, f->atom, f->exponent - 1.0);
+        }
+        if (f->atom->kind == ATOM_GROUP && f->exponent == 2.0) {
+            power = f->atom->argument[0];
         }
         sum = poly_add(a, sum, poly_mul(a, poly_mul(a, others, power), inner));
     }
@@ -178,6 +182,7 @@ bool poly_contains(const poly *p, const symbol *sym, int primes) {
 typedef struct substitution {
     poly_replacement *replace;
     void *context;
+    double kept;       /* whole powers of groups stay powers from this one on, where they can */
     intern_table done; /* memo_pair: poly or atom, NULL */
 } substitution;
 
@@ -219,7 +224,11 @@ static const poly *substitute(algebra *a, const poly *p, substitution *s) {
         const poly *product = poly_number(a, p->terms[i].coefficient);
         for (int j = 0; j < m->count; j++) {
             const poly *base = substitute_atom(a, m->factors[j].atom, s);
-            product = poly_mul(a, product, poly_pow(a, base, m->factors[j].exponent));
+            const double exponent = m->factors[j].exponent;
+            product = poly_mul(a, product,
+                               m->factors[j].atom->kind == ATOM_GROUP
+                                   ? poly_power(a, base, exponent, s->kept)
+                                   : poly_pow(a, base, exponent));
         }
         if (m->trig != TRIG_NONE) {
             const poly *angle = substitute(a, m->angle, s);
@@ -234,7 +243,26 @@ static const poly *substitute(algebra *a, const poly *p, substitution *s) {
 }
 
 const poly *poly_substitute(algebra *a, const poly *p, poly_replacement *replace, void *context) {
-    substitution s = {replace, context, {0}};
+    /* (x - b)^2, the slope of (x - b)^3, stays one, too */
+    substitution s = {replace, context, 2.0, {0}};
+    const poly *result = substitute(a, p, &s);
+    free(s.done.slots);
+    return result;
+}
+
+static const poly *replace_none(void *context, algebra *a, const symbol *sym, int primes) {
+    (void)context;
+    (void)a;
+    (void)sym;
+    (void)primes;
+    return NULL;
+}
+
+const poly *poly_expanded(algebra *a, const poly *p) {
+    if (!a->keeps_powers) {
+        return p;
+    }
+    substitution s = {replace_none, NULL, (double)INFINITY, {0}};
     const poly *result = substitute(a, p, &s);
     free(s.done.slots);
     return result;

@@ -3,6 +3,27 @@
 
 #include "algebra.h"
 
+double call_number(function_id function, double x, double y) {
+    switch (function) {
+    case FN_SIN: return sin(x);
+    case FN_COS: return cos(x);
+    case FN_TAN: return tan(x);
+    case FN_ASIN: return asin(x);
+    case FN_ACOS: return acos(x);
+    case FN_ATAN: return atan(x);
+    case FN_ATAN2: return atan2(x, y);
+    case FN_SQRT: return sqrt(x);
+    case FN_EXP: return exp(x);
+    case FN_LOG: return log(x);
+    case FN_ABS: return fabs(x);
+    case FN_SIGN: return (double)((x > 0.0) - (x < 0.0));
+    case FN_MIN: return y < x ? y : x;
+    case FN_MAX: return y > x ? y : x;
+    case FN_COUNT: break;
+    }
+    return 0.0;
+}
+
 static double atom_value(const atom *x, poly_value *value, void *context) {
     if (x->kind == ATOM_SYMBOL) {
         return value(context, x->symbol, x->primes);

@@ -13,6 +13,9 @@
 #define PRODUCT_TERMS_MAX 20000
 /* A whole power of a sum is multiplied out while it stays below so many terms. */
 #define POWER_TERMS_MAX 64
+/* Whole powers of a sum of positions from this one on stay powers: multiplied out, (x - b)^3 would lose
+ * its digits near x = b. Squares do not, for the sake of what is equal only when multiplied out. */
+#define POWER_KEPT 3.0
 const poly *poly_of_term(algebra *a, double coefficient, const mono *m) {
     if (coefficient == 0.0) {
         return a->zero;
@@ -142,6 +145,28 @@ static const poly *trig_product(algebra *a, trig left, const poly *x, trig right
 
 static bool is_whole(double x) { return x == floor(x) && fabs(x) < 1e6; }
 
+bool poly_is_place(const poly *p) {
+    for (int i = 0; i < p->count; i++) {
+        const mono *m = p->terms[i].mono;
+        for (int k = 0; k < m->count; k++) {
+            if (m->factors[k].atom->kind != ATOM_SYMBOL || m->factors[k].atom->primes > 0) {
+                return false;
+            }
+        }
+        if (m->trig != TRIG_NONE) {
+            return false;
+        }
+    }
+    return p->count > 1;
+}
+
+/* Does a power of a sum, from the exponent `kept` on a power if it is one of positions, multiply out? */
+static bool multiplies_out(const poly *base, double exponent, double kept) {
+    return is_whole(exponent) && exponent > 0.0 &&
+           pow((double)base->count, exponent) <= POWER_TERMS_MAX &&
+           !(exponent >= kept && poly_is_place(base));
+}
+
 /* --- products ------------------------------------------------------------------------------------*/
 
 /* Powers that do not stay a power: |p|^2 = p^2, and a whole power of a group that is small enough to
@@ -155,7 +180,7 @@ static const poly *power_expands(algebra *a, const factor *f) {
     }
     if (f->atom->kind == ATOM_GROUP && is_whole(f->exponent) && f->exponent > 0.0) {
         const poly *inside = f->atom->argument[0];
-        if (f->exponent == 1.0 || pow((double)inside->count, f->exponent) <= POWER_TERMS_MAX) {
+        if (f->exponent == 1.0 || multiplies_out(inside, f->exponent, POWER_KEPT)) {
             return poly_pow(a, inside, f->exponent);
         }
     }
@@ -300,7 +325,15 @@ static const poly *term_pow(algebra *a, const poly_term *t, double exponent) {
     return poly_scale(a, poly_of_atom(a, group_of(a, inside), exponent), outside);
 }
 
-const poly *poly_pow(algebra *a, const poly *base, double exponent) {
+/* Equal sums should be one group: by which number to divide. A whole power's is not that of a constant,
+ * so that x - b stays what it is when b becomes a number. */
+static double size_of_sum(const poly *p, double exponent) {
+    const bool constant = p->terms[0].mono->count == 0 && p->terms[0].mono->trig == TRIG_NONE;
+    return constant && is_whole(exponent) && exponent > 0.0 ? p->terms[1].coefficient
+                                                            : p->terms[0].coefficient;
+}
+
+const poly *poly_power(algebra *a, const poly *base, double exponent, double kept) {
     double value;
     if (exponent == 0.0) {
         return a->one;
@@ -314,20 +347,23 @@ const poly *poly_pow(algebra *a, const poly *base, double exponent) {
     if (base->count == 1) {
         return term_pow(a, &base->terms[0], exponent);
     }
-    if (is_whole(exponent) && exponent > 0.0 &&
-        pow((double)base->count, exponent) <= POWER_TERMS_MAX) {
+    if (multiplies_out(base, exponent, kept)) {
         const poly *p = base;
         for (int i = 1; i < (int)exponent; i++) {
             p = poly_mul(a, p, base);
         }
         return p;
     }
-    /* Equal sums should be one group: divide by the first coefficient (by its size, where the sign
-     * cannot leave a broken power). */
-    const double first = base->terms[0].coefficient;
-    const double outside = is_whole(exponent) ? first : fabs(first);
+    a->keeps_powers = a->keeps_powers || multiplies_out(base, exponent, (double)INFINITY);
+    /* The sign stays inside where it cannot leave a broken power. */
+    const double size = size_of_sum(base, exponent);
+    const double outside = is_whole(exponent) ? size : fabs(size);
     const poly *inside = poly_scale(a, base, 1.0 / outside);
     return poly_scale(a, poly_of_atom(a, group_of(a, inside), exponent), pow(outside, exponent));
+}
+
+const poly *poly_pow(algebra *a, const poly *base, double exponent) {
+    return poly_power(a, base, exponent, POWER_KEPT);
 }
 
 const poly *poly_pow_poly(algebra *a, const poly *base, const poly *exponent) {
@@ -336,27 +372,6 @@ const poly *poly_pow_poly(algebra *a, const poly *base, const poly *exponent) {
         return poly_pow(a, base, value);
     }
     return poly_of_atom(a, atom_of_polys(a, ATOM_POWER, FN_COUNT, base, exponent), 1.0);
-}
-
-double call_number(function_id function, double x, double y) {
-    switch (function) {
-    case FN_SIN: return sin(x);
-    case FN_COS: return cos(x);
-    case FN_TAN: return tan(x);
-    case FN_ASIN: return asin(x);
-    case FN_ACOS: return acos(x);
-    case FN_ATAN: return atan(x);
-    case FN_ATAN2: return atan2(x, y);
-    case FN_SQRT: return sqrt(x);
-    case FN_EXP: return exp(x);
-    case FN_LOG: return log(x);
-    case FN_ABS: return fabs(x);
-    case FN_SIGN: return (double)((x > 0.0) - (x < 0.0));
-    case FN_MIN: return y < x ? y : x;
-    case FN_MAX: return y > x ? y : x;
-    case FN_COUNT: break;
-    }
-    return 0.0;
 }
 
 const poly *poly_call(algebra *a, function_id function, const poly *x, const poly *y) {

@@ -6,6 +6,10 @@
  *
  *     sin(a)*sin(b) = cos(a - b)/2 - cos(a + b)/2        sin(a)^2 + cos(a)^2 = 1
  *
+ * Whole powers of sums of positions, from the third on, stay powers, so that (x - b)^3 keeps its digits
+ * near x = b. They are equal to each other, whatever the order, sign and scale of the sum; with what is
+ * multiplied out they compare equal after poly_expanded() only.
+ *
  * All three kinds of object are interned in an `algebra`: equal objects are the same pointer, and
  * results that were asked for before are found again. Nothing is ever changed once made.
  *
@@ -123,6 +127,10 @@ const poly *poly_derivative(algebra *a, const poly *p, const symbol *sym, int pr
 /* Rebuild p with every atom that `replace` answers for (non-NULL) replaced by its answer. */
 typedef const poly *poly_replacement(void *context, algebra *a, const symbol *sym, int primes);
 const poly *poly_substitute(algebra *a, const poly *p, poly_replacement *replace, void *context);
+
+/* p with the powers of sums that were kept multiplied out, where that stays small: for telling whether
+ * it is zero. */
+const poly *poly_expanded(algebra *a, const poly *p);
 
 /* The value of p, with `value` answering for every symbol. */
 typedef double poly_value(void *context, const symbol *sym, int primes);

@@ -2,7 +2,10 @@
 #include "conserve.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
+
+#include "influence.h"
 
 /* --- the start -----------------------------------------------------------------------------------*/
 
@@ -81,6 +84,23 @@ static const poly *potential_of(const equations *e, const poly *const *mass) {
     return g;
 }
 
+/* The same; where powers of sums that were kept are in the way, with them multiplied out. */
+static const poly *potential_of_any(const equations *e, const poly *const *mass) {
+    const poly *g = potential_of(e, mass);
+    if (g == NULL) {
+        const poly **expanded = calloc((size_t)e->count + 1, sizeof(const poly *));
+        if (expanded == NULL) {
+            abort();
+        }
+        for (int j = 0; j < e->count; j++) {
+            expanded[j] = poly_expanded(e->algebra, mass[j]);
+        }
+        g = potential_of(e, expanded);
+        free(expanded);
+    }
+    return g;
+}
+
 /* --- both ----------------------------------------------------------------------------------------*/
 
 static bool check_wanted(const equations *e, int i, diags *errors) {
@@ -97,13 +117,20 @@ static bool check_wanted(const equations *e, int i, diags *errors) {
         return true;
     }
     const poly *lagrangian = poly_sub(a, e->kinetic, e->stored);
-    const bool appears = !poly_is_zero(poly_derivative(a, lagrangian, q, 0));
-    diag_error(errors, at,
-               appears ? "only a coordinate that appears in no energy keeps its momentum"
-                       : "leave out the effect or the Q that acts on it, or integrate it",
-               appears ? "the momentum of '%s' is not conserved: the energies depend on %s"
-                       : "the momentum of '%s' is not conserved: a force or a loss acts on %s",
-               q->name, q->name);
+    if (!poly_is_zero(poly_derivative(a, lagrangian, q, 0))) {
+        diag_error(errors, at, "only a coordinate that appears in no energy keeps its momentum",
+                   "the momentum of '%s' is not conserved: the energies depend on %s", q->name,
+                   q->name);
+        return false;
+    }
+    char text[INFLUENCE_TEXT_SIZE];
+    char hint[160];
+    int count;
+    influence_on(e, i, text, &count);
+    snprintf(hint, sizeof hint, "leave %s out, or integrate %s: leave out `conserve`",
+             count == 1 ? "that" : "those", q->name);
+    diag_error(errors, at, hint, "the momentum of '%s' is not conserved: it is changed by %s",
+               q->name, count > 0 ? text : "a force or a loss");
     return false;
 }
 
@@ -193,6 +220,8 @@ static bool make_law(const equations *e, conservation *c, int k, momentum_law *l
         law->mass[j] = equations_fold(e, e->mass[i * n + j]);
         c->closed = c->closed && (c->number[j] < 0 || poly_is_number(law->mass[j], &value));
     }
+    /* inside a step there is no time from which a place could follow that others depend on */
+    c->closed = c->closed && !influence_of(e, e->unknowns[i].symbol);
     if (is_linear(e, momentum, law->mass)) {
         return true;
     }
@@ -205,7 +234,7 @@ static bool make_law(const equations *e, conservation *c, int k, momentum_law *l
 static void make_potentials(const equations *e, conservation *c, momentum_law *laws) {
     algebra *a = e->algebra;
     for (int k = 0; k < c->count && c->closed; k++) {
-        const poly *g = potential_of(e, laws[k].mass);
+        const poly *g = potential_of_any(e, laws[k].mass);
         c->closed = g != NULL;
         if (g == NULL) {
             break;

@@ -6,6 +6,7 @@
 #include "contact_lists.h"
 #include "contacts.h"
 #include "core/hash.h"
+#include "energy.h"
 
 static void *room(int count, size_t size) {
     void *p = calloc((size_t)count + 1, size);
@@ -192,13 +193,30 @@ static contact_row make_row(contact_lists *c, const program *p, const equations 
     return row;
 }
 
+/* An impulse takes the mass matrix as it is before it, which must be so throughout. */
+static bool have_impulses(const equations *e, diags *errors) {
+    for (int k = 0; k < e->contacts->count; k++) {
+        const hybrid *h = e->contacts->law[k].from;
+        if ((h->kind == HYBRID_STOP || h->kind == HYBRID_HOLD) && energy_mass_has_rates(e)) {
+            diag_error(errors, h->at, "leave it out, or make T quadratic in the rates",
+                       "what an impact does cannot be told: the inertia of '%s' depends on rates",
+                       e->instance->mechanism->name);
+            return false;
+        }
+    }
+    return true;
+}
+
 contact_lists *contact_lists_make(const program *p, const equations *e, layout *map,
                                   const linear_system *s, diags *errors) {
     const contact_laws *laws = e->contacts;
     if (p->form != WH_SECOND_ORDER) {
         diag_error(errors, laws->law[0].from->at, "integrate the coordinate: leave out conserve",
-                   "a momentum that is no rate of a function of the coordinates cannot be "
-                   "conserved beside stops, friction, holds or crossings");
+                   "a coordinate that must be integrated from its momentum cannot be conserved "
+                   "beside stops, friction, holds or crossings");
+        return NULL;
+    }
+    if (!have_impulses(e, errors)) {
         return NULL;
     }
     contact_lists *c = room(1, sizeof *c);

@@ -109,10 +109,13 @@ void contact_laws_free(contact_laws *laws) {
     free(laws);
 }
 
+bool contact_law_pushes(const contact_law *law, int i) {
+    return law->row == NULL ? law->from->set_count > 0 : !poly_is_zero(law->row[i]);
+}
+
 bool contact_laws_push(const contact_laws *laws, int i) {
     for (int k = 0; k < (laws != NULL ? laws->count : 0); k++) {
-        const contact_law *law = &laws->law[k];
-        if (law->row == NULL ? law->from->set_count > 0 : !poly_is_zero(law->row[i])) {
+        if (contact_law_pushes(&laws->law[k], i)) {
             return true;
         }
     }

@@ -33,7 +33,8 @@ typedef struct contact_laws {
 contact_laws *contact_laws_make(algebra *a, const instance *inst);
 void contact_laws_free(contact_laws *laws);
 
-/* Can a contact change the momentum of coordinate i? */
+/* Can this contact, or one of all, change the momentum of coordinate i? */
+bool contact_law_pushes(const contact_law *law, int i);
 bool contact_laws_push(const contact_laws *laws, int i);
 
 #endif

@@ -22,7 +22,7 @@ static const poly *sum_of_terms(algebra *a, const instance *inst, term_kind kind
     return sum;
 }
 
-static place place_of_kinetic(const instance *inst) {
+place equations_kinetic_place(const instance *inst) {
     const mechanism *m = inst->mechanism;
     for (int i = 0; i < m->term_count; i++) {
         if (m->terms[i].kind == TERM_T) {
@@ -37,7 +37,7 @@ static bool momentum_free_of_inputs(const equations *e, const poly *momentum, di
     const mechanism *m = e->instance->mechanism;
     for (int i = 0; i < m->input_count; i++) {
         if (poly_contains(momentum, m->inputs[i], 0)) {
-            diag_error(errors, place_of_kinetic(e->instance),
+            diag_error(errors, equations_kinetic_place(e->instance),
                        "make it a parameter, or a coordinate that follows it",
                        "the kinetic energy depends on input '%s', whose rate is not known",
                        m->inputs[i]->name);
@@ -80,9 +80,9 @@ static bool derive_lagrange(equations *e, diags *errors) {
         e->applied[i] = poly_sub(a, drive, damping);
         e->input_power = poly_add(a, e->input_power, poly_mul(a, drive, rate));
         e->loss_power = poly_add(a, e->loss_power, poly_mul(a, damping, rate));
-        e->conserved[i] = poly_is_zero(poly_derivative(a, lagrangian, q, 0)) &&
-                          poly_is_zero(e->applied[i]) && !poly_is_zero(momentum) &&
-                          !contact_laws_push(e->contacts, i);
+        const poly *slope = poly_expanded(a, poly_derivative(a, lagrangian, q, 0));
+        e->conserved[i] = poly_is_zero(slope) && poly_is_zero(e->applied[i]) &&
+                          !poly_is_zero(momentum) && !contact_laws_push(e->contacts, i);
     }
     return true;
 }

@@ -44,6 +44,9 @@ typedef struct equations {
 equations *equations_derive(const instance *inst, diags *errors);
 void equations_free(equations *e);
 
+/* Where the first kinetic energy stands. */
+place equations_kinetic_place(const instance *inst);
+
 /* Report that the equations grew beyond what can be handled. */
 void equations_report_growth(const equations *e, diags *errors);
 

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "contact_lists.h"
+#include "energy.h"
 #include "ledger.h"
 
 static void *room(int count, size_t size) {
@@ -79,6 +80,19 @@ static const poly **smooth_entries(ledger_lists *l, const program *p, const equa
     return power;
 }
 
+/* Inputs that the energies name: their changes between steps are entries. */
+static void find_inputs(ledger_lists *l, const program *p, const equations *e) {
+    const poly *kinetic = ready(p, e, e->kinetic);
+    const poly *stored = ready(p, e, e->stored);
+    l->input = room(p->inputs, sizeof *l->input);
+    for (int i = 0; i < p->inputs; i++) {
+        const symbol *s = e->instance->mechanism->inputs[p->input[i]];
+        if (poly_contains(kinetic, s, 0) || poly_contains(stored, s, 0)) {
+            l->input[l->inputs++] = i;
+        }
+    }
+}
+
 static tape *enter(const program *p, layout *map, const poly *const *wanted, int count) {
     tape *t = tape_new(p->angles, count);
     lowering l = layout_lowering(map, t);
@@ -93,7 +107,8 @@ static tape *enter(const program *p, layout *map, const poly *const *wanted, int
 
 static tape *make_levels(const ledger_lists *l, const program *p, const equations *e, layout *map) {
     const poly **wanted = room(l->accounts, sizeof(const poly *));
-    wanted[0] = ready(p, e, poly_add(e->algebra, e->kinetic, e->stored));
+    wanted[0] = ready(
+        p, e, p->integral != NULL ? p->integral : poly_add(e->algebra, e->kinetic, e->stored));
     for (int account = 1; account < l->accounts; account++) {
         wanted[account] = ready(p, e, e->momentum[l->unknown[account]]);
     }
@@ -112,8 +127,8 @@ static bool can_keep(const program *p, const equations *e, diags *errors) {
     }
     if (p->form != WH_SECOND_ORDER) {
         diag_error(errors, m->at, "integrate the coordinate: leave out conserve",
-                   "a momentum that is no rate of a function of the coordinates cannot be "
-                   "conserved beside a ledger");
+                   "a coordinate that must be integrated from its momentum cannot be conserved "
+                   "beside a ledger");
         return false;
     }
     return true;
@@ -132,6 +147,8 @@ ledger_lists *ledger_lists_make(const program *p, const equations *e, layout *ma
     if (p->contacts != NULL) {
         l->entries += p->contacts->count * (1 + p->coordinates);
     }
+    find_inputs(l, p, e);
+    l->entries += l->inputs;
     bool good = l->entries <= WH_LEDGER_MAX;
     if (good) {
         l->powers = enter(p, map, power, l->smooth);
@@ -162,5 +179,6 @@ void ledger_lists_free(ledger_lists *l) {
     tape_free(l->levels);
     free(l->entry);
     free(l->unknown);
+    free(l->input);
     free(l);
 }

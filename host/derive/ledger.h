@@ -3,7 +3,8 @@
  *
  * What changes the momentum p_i = dL/dq_i' is, by Lagrange's equations, dL/dq_i (gravity, springs, and
  * what the other coordinates' motion does), each generalized force, each damper and each contact. What
- * changes the energy T + V is the work of each generalized force, each damper's loss and each contact. */
+ * changes the energy, or the energy integral where that is not T + V (energy.h), is the work of each
+ * generalized force, each damper's loss, each contact, and each change of an input that the energies name. */
 #ifndef DERIVE_LEDGER_H
 #define DERIVE_LEDGER_H
 
@@ -26,9 +27,11 @@ typedef struct ledger_entry {
 struct ledger_lists {
     ledger_entry *entry; /* [smooth] */
     int smooth;
-    int entries;  /* smooth, then for each contact its energy and its impulse by coordinate */
+    int entries; /* smooth, then for each contact its energy and its impulse by coordinate, then inputs */
     int accounts; /* 1 + unknowns: the energy, then the momenta */
     int *unknown; /* [accounts] whose momentum an account is; -1 for the energy */
+    int *input;   /* [inputs] of the program: those that the energies name */
+    int inputs;
     tape *powers;
     tape *levels;
 };

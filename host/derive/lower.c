@@ -40,7 +40,7 @@ static void collect_angles(algebra *a, const poly *p, angle_list *list) {
                 collect_angles(a, poly_sin(a, x->argument[0]), list);
             }
         }
-        if (pieces[i].trig == TRIG_NONE) {
+        if (pieces[i].angle == NULL) {
             continue;
         }
         collect_angles(a, pieces[i].angle, list);
@@ -333,10 +333,11 @@ int lower(lowering *l, const poly *p) {
         for (int k = 0; k < pieces[i].mono->count; k++) {
             product_factor(l, &products[i], &pieces[i].mono->factors[k]);
         }
-        if (pieces[i].trig != TRIG_NONE) {
-            const int node = pieces[i].trig == TRIG_SIN ? waves_sine(l, pieces[i].angle)
-                                                        : waves_cosine(l, pieces[i].angle);
-            product_multiply(l, &products[i], node, pieces[i].squared ? 2 : 1);
+        if (pieces[i].sines > 0) {
+            product_multiply(l, &products[i], waves_sine(l, pieces[i].angle), pieces[i].sines);
+        }
+        if (pieces[i].cosines > 0) {
+            product_multiply(l, &products[i], waves_cosine(l, pieces[i].angle), pieces[i].cosines);
         }
     }
     const int result = sum_of(l, products, count);

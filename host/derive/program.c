@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "contact_lists.h"
+#include "energy.h"
 #include "ledger.h"
 
 static void *room(int count, size_t size) {
@@ -145,7 +146,7 @@ static tape *make_observe(program *p, const equations *e, layout *map, const lin
 
 static tape *make_books(program *p, const equations *e, layout *map, const linear_system *s) {
     const int n = e->count;
-    const poly **wanted = calloc((size_t)(BOOK_MOMENTA + n), sizeof *wanted);
+    const poly **wanted = calloc((size_t)(BOOK_MOMENTA + n + 1), sizeof *wanted);
     if (wanted == NULL) {
         abort();
     }
@@ -159,10 +160,42 @@ static tape *make_books(program *p, const equations *e, layout *map, const linea
             wanted[BOOK_MOMENTA + i] = e->momentum[i];
         }
         count = BOOK_MOMENTA + n;
+        if (p->integral != NULL) {
+            wanted[count++] = p->integral;
+        }
     }
     tape *t = make_observer(p, e, map, s, wanted, count, true);
     free(wanted);
     return t;
+}
+
+/* Values put in for the parameters may leave 1/0, or a number too large: nothing runs on that. */
+static bool lists_finite(const program *p, const equations *e, diags *errors) {
+    static const char hint[] =
+        "look for a division by zero, or values that are too large or too small";
+    const mechanism *m = e->instance->mechanism;
+    const contact_lists *c = p->contacts;
+    const ledger_lists *l = p->ledger;
+    const tape *const lists[] = {p->step,
+                                 p->books,
+                                 c != NULL ? c->signals : NULL,
+                                 c != NULL ? c->forces : NULL,
+                                 c != NULL ? c->sets : NULL,
+                                 l != NULL ? l->powers : NULL,
+                                 l != NULL ? l->levels : NULL};
+    bool finite = true;
+    for (size_t i = 0; i < sizeof lists / sizeof lists[0] && finite; i++) {
+        finite = lists[i] == NULL || tape_not_finite(lists[i]) < 0;
+    }
+    const int output = finite ? tape_not_finite(p->observe) : -1;
+    if (output >= 0 && output < m->output_count) {
+        diag_error(errors, m->outputs[output]->at, hint,
+                   "output '%s' contains a number that is not finite", m->outputs[output]->name);
+    } else if (!finite || output >= 0) {
+        diag_error(errors, m->at, hint, "the equations of '%s' contain a number that is not finite",
+                   m->name);
+    }
+    return finite && output < 0;
 }
 
 program *program_make(const equations *e, const bool *conserve, diags *errors) {
@@ -199,6 +232,7 @@ program *program_make(const equations *e, const bool *conserve, diags *errors) {
     if (fits) {
         p->step = make_step(p, e, &map, &s);
         p->observe = make_observe(p, e, &map, &s);
+        p->integral = energy_integral(e);
         p->books = make_books(p, e, &map, &s);
         p->contacts = more > 0 ? contact_lists_make(p, e, &map, &s, errors) : NULL;
         good = more == 0 || p->contacts != NULL;
@@ -206,6 +240,7 @@ program *program_make(const equations *e, const bool *conserve, diags *errors) {
             p->ledger = ledger_lists_make(p, e, &map, errors);
             good = p->ledger != NULL;
         }
+        good = good && lists_finite(p, e, errors);
     } else {
         diag_error(errors, m->at, NULL, "'%s' has more than %d components of state", m->name,
                    PROGRAM_COMPONENTS_MAX);

@@ -40,15 +40,17 @@ typedef struct program {
     tape *observe;
     contact_lists *contacts; /* NULL without any */
     ledger_lists *ledger;    /* NULL when no books are kept */
+    const poly *integral; /* the energy integral where it is not T + V, else NULL: see energy.h */
     /* For the host's books: highest derivatives (by unknown), then for a mechanism T, V, input
-     * power, loss power and the momenta (by unknown). */
+     * power, loss power, the momenta (by unknown) and, if there is one, the integral. */
     tape *books;
 } program;
 
 enum { BOOK_KINETIC, BOOK_STORED, BOOK_INPUT_POWER, BOOK_LOSS_POWER, BOOK_MOMENTA };
 
 /* `conserve` [count] names the coordinates to recover from their momentum, or is NULL. NULL on error
- * (too many components, a momentum that is not conserved), reported to `errors`. */
+ * (too many components, a momentum that is not conserved, a constant that is not finite), reported to
+ * `errors`. */
 program *program_make(const equations *e, const bool *conserve, diags *errors);
 void program_free(program *p);
 

@@ -1,4 +1,4 @@
-/* singular.c: trying the mass matrix at generic states. */
+/* singular.c: trying the mass matrix at generic states, and at the start. */
 #include "singular.h"
 
 #include <math.h>
@@ -6,6 +6,9 @@
 #include <stdlib.h>
 
 #define TRIES 24
+/* The try after those: the state at which a run starts. What is defined in a narrow range only may
+ * be without a value at all the others. */
+#define TRY_START TRIES
 /* A pivot below this part of its row's size counts as zero. */
 #define NO_PIVOT 1e-11
 
@@ -22,6 +25,10 @@ static double generic_value(void *context, const symbol *s, int primes) {
     }
     if (s->kind == SYM_INPUT) {
         return state->instance->input[s->index];
+    }
+    if (state->seed == TRY_START) {
+        const int i = s->index;
+        return primes < state->instance->start_count[i] ? state->instance->start[i][primes] : 0.0;
     }
     uint64_t x = state->seed * UINT64_C(0x9e3779b97f4a7c15) + (uint64_t)s->index * 8191U +
                  (uint64_t)primes * 131071U;
@@ -67,6 +74,22 @@ static int rank_of(double *m, int n) {
         }
     }
     return rank;
+}
+
+/* Is a regular symmetric n by n matrix positive definite (sqrt-free Cholesky, destroys m)? */
+static bool is_positive(double *m, int n) {
+    for (int k = 0; k < n; k++) {
+        if (!(m[k * n + k] > 0.0)) {
+            return false;
+        }
+        for (int i = k + 1; i < n; i++) {
+            const double part = m[k * n + i] / m[k * n + k];
+            for (int j = i; j < n; j++) {
+                m[i * n + j] -= part * m[k * n + j];
+            }
+        }
+    }
+    return true;
 }
 
 /* Rows, then columns, to a largest entry of one: units must not decide. */
@@ -193,37 +216,60 @@ static bool energies_finite(const equations *e, generic_state *state) {
                                   isfinite(poly_evaluate(e->stored, generic_value, state)));
 }
 
+/* What the best of the states tried allows. */
+typedef enum verdict { NOWHERE_FINITE, SINGULAR, NOT_POSITIVE, SOLVABLE } verdict;
+
+/* At one try; m holds 2 n^2 numbers. */
+static verdict verdict_at(const equations *e, int try, double *m) {
+    const int n = e->count;
+    generic_state state = {e->instance, (uint64_t)try};
+    bool finite = mass_at(e, try, m) && energies_finite(e, &state);
+    for (int i = 0; i < n && finite; i++) {
+        finite = isfinite(poly_evaluate(equations_force(e, i), generic_value, &state));
+    }
+    if (!finite) {
+        return NOWHERE_FINITE;
+    }
+    double *kept = m + n * n;
+    for (int i = 0; i < n * n; i++) {
+        kept[i] = m[i];
+    }
+    balance(m, n);
+    if (rank_of(m, n) < n) {
+        return SINGULAR;
+    }
+    /* The elimination of a mechanism relies on it; a system's equations are in any order and sign. */
+    return e->instance->mechanism->is_system || is_positive(kept, n) ? SOLVABLE : NOT_POSITIVE;
+}
+
 bool equations_check_solvable(const equations *e, diags *errors) {
     const int n = e->count;
-    double *m = calloc((size_t)n * (size_t)n + 1, sizeof *m);
+    double *m = calloc(2 * (size_t)n * (size_t)n + 1, sizeof *m);
     if (m == NULL) {
         abort();
     }
-    bool any_finite = false;
-    bool solvable = false;
-    for (int try = 0; try < TRIES && !solvable; try++) {
-        generic_state state = {e->instance, (uint64_t)try};
-        bool finite = mass_at(e, try, m) && energies_finite(e, &state);
-        for (int i = 0; i < n && finite; i++) {
-            finite = isfinite(poly_evaluate(equations_force(e, i), generic_value, &state));
-        }
-        if (finite) {
-            any_finite = true;
-            balance(m, n);
-            solvable = rank_of(m, n) == n;
-        }
+    verdict best = NOWHERE_FINITE;
+    for (int try = 0; try <= TRY_START && best != SOLVABLE; try++) {
+        const verdict found = verdict_at(e, try, m);
+        best = found > best ? found : best;
     }
     free(m);
-    if (solvable) {
-        return true;
-    }
-    if (!any_finite) {
-        diag_error(errors, e->instance->mechanism->at,
+    const mechanism *of = e->instance->mechanism;
+    switch (best) {
+    case NOWHERE_FINITE:
+        diag_error(errors, of->at,
                    "look for a division by zero, or a root or logarithm of a negative number",
-                   "the equations of '%s' have no finite value at any state tried",
-                   e->instance->mechanism->name);
-        return false;
+                   "the equations of '%s' have no finite value at any state tried", of->name);
+        break;
+    case SINGULAR: report_singular(e, errors); break;
+    case NOT_POSITIVE:
+        diag_error(errors, equations_kinetic_place(e->instance),
+                   "a mass below zero? products of different rates alone, as x'*y'? equations "
+                   "that are meant so can be given outright",
+                   "the kinetic energy of '%s' is negative for some motion at every state tried",
+                   of->name);
+        break;
+    case SOLVABLE: break;
     }
-    report_singular(e, errors);
-    return false;
+    return best == SOLVABLE;
 }

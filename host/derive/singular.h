@@ -4,9 +4,11 @@
 
 #include "equations.h"
 
-/* Tries the mass matrix at a number of generic states. False, with an error that names the cause,
- * when it is singular at all of them or has no finite value at any. A matrix that is singular only
- * here and there (a pole of spherical coordinates) passes: such states are found while running. */
+/* Tries the mass matrix at a number of generic states and at the start. False, with an error that
+ * names the cause, when it is singular at all of them, has no finite value at any or, that of a
+ * mechanism given by energies, is positive definite at none (a negative mass). A matrix that is
+ * singular only here and there (a pole of spherical coordinates) passes: such states are found while
+ * running. */
 bool equations_check_solvable(const equations *e, diags *errors);
 
 #endif

@@ -86,6 +86,9 @@ uint64_t tape_op_hash(const tape *t, const op *o);
 /* Drop what no result needs and renumber. */
 void tape_prune(tape *t);
 
+/* The first result in which a constant takes part that is not finite, or -1. */
+int tape_not_finite(const tape *t);
+
 /* What a list costs. */
 typedef struct tape_cost {
     int arithmetic; /* additions, subtractions, products, negations, comparisons */

@@ -1,4 +1,5 @@
 /* tape_use.c: looking at a finished list: what is needed, what it costs. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -92,6 +93,26 @@ void tape_prune(tape *t) {
     drop_unused(t);
     fuse_reciprocals(t);
     drop_unused(t);
+}
+
+int tape_not_finite(const tape *t) {
+    bool *tainted = calloc((size_t)t->count + 1, sizeof *tainted);
+    if (tainted == NULL) {
+        abort();
+    }
+    int operand[2];
+    for (int i = 0; i < t->count; i++) {
+        tainted[i] = !isfinite(t->ops[i].value);
+        for (int k = operands(&t->ops[i], operand); k > 0; k--) {
+            tainted[i] = tainted[i] || tainted[operand[k - 1]];
+        }
+    }
+    int found = -1;
+    for (int i = t->results - 1; i >= 0; i--) {
+        found = tainted[t->result[i]] ? i : found;
+    }
+    free(tainted);
+    return found;
 }
 
 tape_cost tape_count(const tape *t) {

@@ -122,7 +122,8 @@ bool emit_c_name_is_free(const char *name) {
         "slopes",         "advance",       "observe",       "start_angle",
         "start_real",     "start_input",   "contacts",      "contact_signals",
         "contact_forces", "contact_sets",  "contact_table", "contact_target",
-        "ledger",         "ledger_powers", "ledger_levels", "ledger_accounts"};
+        "ledger",         "ledger_powers", "ledger_levels", "ledger_accounts",
+        "ledger_inputs"};
     for (size_t i = 0; i < sizeof taken / sizeof taken[0]; i++) {
         if (strcmp(name, taken[i]) == 0) {
             return false;

@@ -39,11 +39,22 @@ void c_ledger_write(FILE *out, const program *p) {
         }
         fprintf(out, "};\n");
     }
+    if (l->inputs > 0) {
+        fprintf(out, "static const uint8_t ledger_inputs[%d] = {", l->inputs);
+        for (int i = 0; i < l->inputs; i++) {
+            fprintf(out, "%s%d", i > 0 ? ", " : "", l->input[i]);
+        }
+        fprintf(out, "};\n");
+    }
     fprintf(out,
             "static const wh_ledger_form ledger = {\n    .powers = ledger_powers,\n"
             "    .levels = ledger_levels,\n    .account = %s,\n    .smooth = %d,\n"
             "    .entries = %d,\n    .accounts = %d,\n    .coordinates = %d,\n"
-            "    .angles = %d,\n};\n\n",
-            l->smooth > 0 ? "ledger_accounts" : "NULL", l->smooth, l->entries, l->accounts,
-            p->coordinates, p->angles);
+            "    .angles = %d,\n",
+            l->smooth > 0 ? "ledger_accounts" : "NULL", l->smooth, l->entries,
+            l->accounts + l->inputs, p->coordinates, p->angles);
+    if (l->inputs > 0) {
+        fprintf(out, "    .input = ledger_inputs,\n    .inputs = %d,\n", l->inputs);
+    }
+    fputs("};\n\n", out);
 }

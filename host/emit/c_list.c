@@ -41,6 +41,9 @@ static void write_phase(FILE *out, const tape *t, int i) {
         fprintf(out, "%swh_phase_from_rad(%s)", plus, operand(t, o->b, b));
     }
     fprintf(out, ", &s%d, &c%d);\n", i, i);
+    if (o->b >= 0) {
+        fprintf(out, "    wh_sincos_of_range(%s, &s%d, &c%d);\n", b, i, i);
+    }
 }
 
 static void write_operation(FILE *out, const tape *t, int i) {

@@ -160,7 +160,7 @@ static void show_group(const show *s, const poly *p, const poly *key, bool leadi
     double bottom;
     show_as_fraction(number, &top, &bottom);
     show_sign(s, negative, leading);
-    const piece front = {top, outside, TRIG_NONE, NULL, false};
+    const piece front = {top, outside, NULL, 0, 0};
     bool first = true;
     if (top != 1.0) {
         show_separate(s, &first);
@@ -173,7 +173,7 @@ static void show_group(const show *s, const poly *p, const poly *key, bool leadi
     fputs(s->style == SHOW_LATEX ? "\\right)" : ")", s->out);
     if (!bare) {
         show_separate(s, &first);
-        const piece behind = {1.0, key->terms[0].mono, TRIG_NONE, NULL, false};
+        const piece behind = {1.0, key->terms[0].mono, NULL, 0, 0};
         show_product(s, &behind, 1.0);
     }
     const int below = show_count_below(&front) + (bottom != 1.0);

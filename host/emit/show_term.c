@@ -206,11 +206,14 @@ int show_factors(const show *s, const piece *p, int side, bool *first) {
                 count++;
             }
         }
-        if (rank == 3 && side > 0 && p->trig != TRIG_NONE) {
-            show_separate(s, first);
-            show_call(s, p->trig == TRIG_SIN ? "sin" : "cos", p->angle, NULL);
-            show_exponent(s, p->squared ? 2.0 : 1.0);
-            count++;
+        for (int wave = 0; wave < 2 && rank == 3 && side > 0; wave++) {
+            const int exponent = wave == 0 ? p->sines : p->cosines;
+            if (exponent > 0) {
+                show_separate(s, first);
+                show_call(s, wave == 0 ? "sin" : "cos", p->angle, NULL);
+                show_exponent(s, exponent);
+                count++;
+            }
         }
     }
     return count;
@@ -235,7 +238,7 @@ void show_product(const show *s, const piece *p, double size) {
         fputs("\\frac{", s->out);
     }
     bool first = true;
-    const bool has_factors = p->mono->count > below || p->trig != TRIG_NONE;
+    const bool has_factors = p->mono->count > below || p->angle != NULL;
     if (top != 1.0 || !has_factors) {
         show_separate(s, &first);
         show_number(s, top);

@@ -271,4 +271,10 @@ instance *instance_make(const mechanism *mechanism, const scene *scene, const ov
                         diags *diags);
 void instance_free(instance *instance);
 
+/* A time of the command line that is not the run's own, such as `--from 1.5 [s]`: seconds, at
+ * least 0. `text` may name parameters, which have their values in the scene with its changes.
+ * `what` is its name in messages. False on error, reported to `diags`. */
+bool instance_duration(const mechanism *mechanism, const scene *scene, const overrides *changes,
+                       const char *what, const char *text, diags *diags, double *seconds);
+
 #endif

@@ -60,9 +60,12 @@ void books_enter(books *b, const engine_kind *kind, const void *run) {
     const double power_W[2] = {entry[BOOK_INPUT_POWER], entry[BOOK_LOSS_POWER]};
     b->kinetic_J[1] = entry[BOOK_KINETIC];
     b->stored_J[1] = entry[BOOK_STORED];
+    b->energy_J[1] =
+        p->integral != NULL ? entry[BOOK_MOMENTA + p->count] : b->kinetic_J[1] + b->stored_J[1];
     if (b->entries == 0) {
         b->kinetic_J[0] = b->kinetic_J[1];
         b->stored_J[0] = b->stored_J[1];
+        b->energy_J[0] = b->energy_J[1];
         for (int k = 0; k < 2; k++) {
             b->power_W[0][k] = power_W[k];
         }
@@ -80,6 +83,5 @@ void books_enter(books *b, const engine_kind *kind, const void *run) {
 }
 
 double books_error_J(const books *b) {
-    return (b->kinetic_J[1] + b->stored_J[1]) - (b->kinetic_J[0] + b->stored_J[0]) - b->input_J +
-           b->loss_J;
+    return b->energy_J[1] - b->energy_J[0] - b->input_J + b->loss_J;
 }

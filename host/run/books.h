@@ -1,6 +1,7 @@
 /* books.h: the energy and momentum balance of a run, kept in double beside it.
  *
- * Energy: kinetic + stored energy changes by the work of the inputs less the losses. What is left
+ * Energy: kinetic + stored energy, or the energy integral where that is not their sum (energy.h), changes
+ * by the work of the inputs less the losses. The inputs keep the values that they start with. What is left
  * over is the numerical error of the run (and of the books' own quadrature, Simpson's rule on the
  * steps, which is of the same order as Runge-Kutta's). */
 #ifndef RUN_BOOKS_H
@@ -21,6 +22,7 @@ typedef struct books {
     double real[2 * PROGRAM_COMPONENTS_MAX];
     double kinetic_J[2]; /* start, now */
     double stored_J[2];
+    double energy_J[2];   /* what balances: kinetic + stored, or the energy integral */
     double input_J;       /* work of the inputs so far */
     double loss_J;        /* losses so far */
     double power_W[2][2]; /* input and loss power at the last two even steps' ends */
@@ -33,7 +35,7 @@ books *books_open(const program *p, const equations *e);
 void books_close(books *b);
 /* Enter the state after each step, the start included. */
 void books_enter(books *b, const engine_kind *kind, const void *run);
-/* kinetic + stored - start - work + losses: zero for an exact solution. */
+/* energy - start - work + losses: zero for an exact solution. */
 double books_error_J(const books *b);
 
 #endif

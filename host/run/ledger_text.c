@@ -68,6 +68,11 @@ static void print_entries(const ledger_view *v, int account) {
             print_line(v, text, v->total[i]);
         }
     }
+    for (int i = 0; i < l->inputs && account == 0; i++) {
+        const mechanism *m = v->equations->instance->mechanism;
+        statement(m->inputs[v->program->input[l->input[i]]]->at, text);
+        print_line(v, text, v->total[l->entries - l->inputs + i]);
+    }
     for (int k = 0; c != NULL && k < c->count && account <= v->program->coordinates; k++) {
         const double value = v->total[l->smooth + k * (1 + v->program->coordinates) + account];
         if (value != 0.0) {
@@ -111,13 +116,15 @@ void ledger_print(FILE *out, const equations *e, const program *p, const engine_
     double *error = total + l->entries;
     kind->ledger(run, total, error);
     const ledger_view v = {out, e, p, total, error};
-    const double start_J = b->kinetic_J[0] + b->stored_J[0];
-    const double now_J = b->kinetic_J[1] + b->stored_J[1];
     fprintf(out, "energy book [J]\n");
     fprintf(out, "  %-*s %.9g -> %.9g\n", LINE_WIDTH, "kinetic", b->kinetic_J[0], b->kinetic_J[1]);
     fprintf(out, "  %-*s %.9g -> %.9g\n", LINE_WIDTH, "stored", b->stored_J[0], b->stored_J[1]);
+    if (p->integral != NULL) {
+        fprintf(out, "  %-*s %.9g -> %.9g\n", LINE_WIDTH,
+                "booked: h = sum q' dL/dq' - L, not T + V", b->energy_J[0], b->energy_J[1]);
+    }
     print_entries(&v, 0);
-    print_line(&v, "change", now_J - start_J);
+    print_line(&v, "change", b->energy_J[1] - b->energy_J[0]);
     fprintf(out, "  %-*s %+.2e (numerical)\n", LINE_WIDTH, "left over", error[0]);
     for (int account = 1; account < l->accounts; account++) {
         print_momentum(&v, account, b, (double)kind->steps(run) * e->instance->step_s);

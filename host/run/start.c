@@ -1,7 +1,9 @@
 /* start.c: whether a run can start where its scene says. */
 #include "start.h"
 
+#include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "engine.h"
 #include "host/derive/contact_lists.h"
@@ -18,18 +20,25 @@ static double *room(int count) {
     return p;
 }
 
-static bool outside(const contact_row *row, double gap, diags *errors) {
-    if (row->from->kind != HYBRID_STOP || gap >= -ROUNDING) {
+static bool is_apart(const contact_row *row, double gap, diags *errors) {
+    static const char hint[] = "start on it or apart from it, or leave the stop out";
+    const hybrid *stop = row->from;
+    if (stop->kind != HYBRID_STOP || (gap >= -ROUNDING && isfinite(gap))) {
         return true;
     }
     char si[64];
-    diag_error(errors, row->from->at, "start on it or apart from it, or leave the stop out",
-               "the run starts beyond this stop, by %.6g %s", -gap,
-               dimension_unit(row->from->value->dim, false, si, sizeof si));
+    const char *by = dimension_unit(stop->value->dim, false, si, sizeof si);
+    if (!isfinite(gap)) {
+        diag_error(errors, stop->at, hint,
+                   "the distance to this stop is not a finite number where the run starts");
+    } else {
+        diag_error(errors, stop->at, hint, "the run starts beyond this stop, by %.6g%s%s", -gap,
+                   strcmp(by, "1") == 0 ? "" : " ", strcmp(by, "1") == 0 ? "" : by);
+    }
     return false;
 }
 
-bool start_is_possible(const program *p, const equations *e, diags *errors) {
+bool start_is_possible(const program *p, const instance *inst, diags *errors) {
     const contact_lists *c = p->contacts;
     bool good = true;
     if (c == NULL) {
@@ -40,11 +49,11 @@ bool start_is_possible(const program *p, const equations *e, diags *errors) {
     double *signal = room(2 * c->count);
     evaluator *ev = evaluator_new(c->signals);
     double *input = room(p->inputs);
-    program_start(p, e->instance, angle_rad, real);
-    program_inputs(p, e->instance, input);
+    program_start(p, inst, angle_rad, real);
+    program_inputs(p, inst, input);
     evaluator_run(ev, 0.0, angle_rad, real, real + (p->coordinates - p->angles), input, signal);
     for (int k = 0; k < c->count; k++) {
-        good = outside(&c->row[k], signal[2 * k], errors) && good;
+        good = is_apart(&c->row[k], signal[2 * k], errors) && good;
     }
     evaluator_free(ev);
     free(input);

@@ -4,7 +4,8 @@
 
 #include "host/derive/program.h"
 
-/* False, reported at each stop that the run would start beyond, by more than rounding. */
-bool start_is_possible(const program *p, const equations *e, diags *errors);
+/* False, reported at each stop that the run would start beyond, by more than rounding, or where
+ * it has no value. */
+bool start_is_possible(const program *p, const instance *inst, diags *errors);
 
 #endif

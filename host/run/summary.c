@@ -41,8 +41,12 @@ const char *dimension_unit(dimension dim, bool is_angle, char *text, size_t size
     text[0] = '\0';
     for (int i = 0; i < DIM_BASES && at < size; i++) {
         if (dim.twelfths[i] != 0) {
-            at += (size_t)snprintf(text + at, size - at, "%s%s^%g", at > 0 ? "*" : "", bases[i],
-                                   dim.twelfths[i] / (double)DIM_DENOMINATOR);
+            char power[16] = "";
+            if (dim.twelfths[i] != DIM_DENOMINATOR) {
+                snprintf(power, sizeof power, "^%g", dim.twelfths[i] / (double)DIM_DENOMINATOR);
+            }
+            at += (size_t)snprintf(text + at, size - at, "%s%s%s", at > 0 ? "*" : "", bases[i],
+                                   power);
         }
     }
     return text;
@@ -97,6 +101,12 @@ static void print_books(FILE *out, const books *b) {
     fprintf(out, "energy [J]\n");
     fprintf(out, "  kinetic          %.9g -> %.9g\n", b->kinetic_J[0], b->kinetic_J[1]);
     fprintf(out, "  stored           %.9g -> %.9g\n", b->stored_J[0], b->stored_J[1]);
+    if (b->program->integral != NULL) {
+        fprintf(
+            out,
+            "  energy integral  %.9g -> %.9g (h = sum q' dL/dq' - L: booked instead of T + V)\n",
+            b->energy_J[0], b->energy_J[1]);
+    }
     fprintf(out, "  work of inputs   %.9g\n", b->input_J);
     fprintf(out, "  losses           %.9g\n", b->loss_J);
     if (b->program->contacts != NULL) { /* books beside the run do not see the forces inside it */

@@ -128,6 +128,17 @@ static void test_angle_from_rad_out_of_range(void) {
     }
     expect_from_rad(999999936.0f); /* the last float below */
     expect_from_rad(-999999936.0f);
+    /* the sine of such a number is none */
+    for (unsigned i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        wh_real sine = 0.5f;
+        wh_real cosine = 0.5f;
+        wh_sincos_of_range(bad[i], &sine, &cosine);
+        TEST_ASSERT_TRUE(sine != sine && cosine != cosine);
+    }
+    wh_real sine = 0.5f;
+    wh_real cosine = 0.25f;
+    wh_sincos_of_range(9.9e8f, &sine, &cosine);
+    TEST_ASSERT_TRUE(sine == 0.5f && cosine == 0.25f);
 }
 
 static void test_angle_to_rad(void) {

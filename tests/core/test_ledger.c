@@ -1,4 +1,5 @@
-/* test_ledger.c: the books of energy and momentum on mechanisms with closed forms (hand.h). */
+/* test_ledger.c: the books of energy and momentum on mechanisms with closed forms (hand.h), and of a
+ * spring whose rate is changed. */
 #include "hand.h"
 
 #include "unity.h"
@@ -76,9 +77,82 @@ static void test_books_do_not_touch_the_run(void) {
     TEST_ASSERT_TRUE(hash[0] == hash[1]);
 }
 
+/* --- an input that the energy names ----------------------------------------------------------------- */
+
+/* A body of 1 kg on a spring whose rate is the input. */
+static void spring_accel(const void *model, const wh_phase *phase, const wh_real *linear,
+                         const wh_real *rate, const wh_real *input, wh_real *accel) {
+    (void)model;
+    (void)phase;
+    (void)rate;
+    accel[0] = -input[0] * linear[0]; /* also what goes into the momentum, a second */
+}
+
+static void spring_levels(const void *model, const wh_angle *angle, const wh_real *linear,
+                          const wh_real *rate, const wh_real *input, wh_real *level) {
+    (void)model;
+    (void)angle;
+    level[0] = WH_R(0.5) * (rate[0] * rate[0] + input[0] * linear[0] * linear[0]);
+    level[1] = rate[0];
+}
+
+static const uint8_t spring_account[] = {1};
+static const uint8_t spring_input[] = {0};
+static const wh_ledger_form spring_books = {.powers = spring_accel,
+                                            .levels = spring_levels,
+                                            .account = spring_account,
+                                            .input = spring_input,
+                                            .smooth = 1,
+                                            .entries = 2,
+                                            .accounts = 3,
+                                            .coordinates = 1,
+                                            .inputs = 1};
+
+static wh_status spring_advance(const wh_scene *scene, wh_state *state) {
+    return wh_step_ledger(&spring_books, NULL, spring_accel, WH_RK4, false, scene->step_s, state);
+}
+
+/* The spring gets stiffer, then softer: each change gives (k2 - k1) x^2/2. Until the next step it is not
+ * entered, and leaves nothing over. */
+static void test_books_of_a_spring_that_is_changed(void) {
+    static uint64_t memory[WH_STATE_WORDS(0, 2, 1) + WH_LEDGER_WORDS(2, 3)];
+    static const wh_real start[2] = {WH_R(0.5), WH_R(1.0)};
+    static const wh_real rates[4] = {WH_R(4.0), WH_R(25.0), WH_R(1.0), WH_R(9.0)}; /* N/m */
+    const wh_scene scene = {.name = "spring",
+                            .form = WH_SECOND_ORDER,
+                            .reals = 2,
+                            .inputs = 1,
+                            .step_s = WH_R(0.001),
+                            .start_real = start,
+                            .start_input = rates,
+                            .ledger = &spring_books,
+                            .advance = spring_advance};
+    wh_state state;
+    wh_real level[2];
+    wh_real gave = WH_R(0.0);
+    TEST_ASSERT_TRUE(wh_scene_start(&scene, &state, memory, sizeof memory) == WH_OK);
+    for (unsigned k = 0; k < 4; k++) {
+        const wh_real change = k > 0 ? rates[k] - rates[k - 1] : WH_R(0.0);
+        gave += WH_R(0.5) * change * state.real[0] * state.real[0];
+        state.input[0] = rates[k];
+        TEST_ASSERT_TRUE(
+            hand_near(wh_ledger_error(&spring_books, &state, 0, level), WH_R(0.0), 1e-11, 2e-4));
+        for (unsigned step = 0; step < 300; step++) {
+            TEST_ASSERT_TRUE(wh_scene_step(&scene, &state) == WH_OK);
+        }
+        TEST_ASSERT_TRUE(hand_near(state.ledger[1], gave, 1e-14, 1e-5));
+        TEST_ASSERT_TRUE(k == 0 || WH_ABS(change * state.real[0]) > WH_R(0.1));
+        for (unsigned account = 0; account < 2; account++) {
+            const wh_real error = wh_ledger_error(&spring_books, &state, account, level);
+            TEST_ASSERT_TRUE(hand_near(error, WH_R(0.0), 1e-11, 2e-4));
+        }
+    }
+}
+
 void suite_ledger(void) {
     RUN_TEST(test_books_of_the_ball);
     RUN_TEST(test_books_of_the_thrown_block);
     RUN_TEST(test_books_of_impacts_and_settings);
     RUN_TEST(test_books_do_not_touch_the_run);
+    RUN_TEST(test_books_of_a_spring_that_is_changed);
 }

@@ -13,8 +13,13 @@ void suite_algebra(void);
 
 /* --- identities, as text -------------------------------------------------------------------------*/
 
+typedef struct sides {
+    bool same;     /* one object */
+    bool expanded; /* their difference is zero once kept powers are multiplied out */
+} sides;
+
 /* Parses both sides as `let`s and compares their normal forms. */
-static bool same_form(const char *left, const char *right) {
+static sides compare(const char *left, const char *right) {
     char text[1024];
     snprintf(text, sizeof text,
              "mechanism m\ncoordinate a\ncoordinate b\ncoordinate x\ncoordinate y\n"
@@ -30,12 +35,16 @@ static bool same_form(const char *left, const char *right) {
     algebra *a = algebra_new();
     const poly *p = poly_from_expr(a, m->mechanisms[0]->lets[0]->value);
     const poly *q = poly_from_expr(a, m->mechanisms[0]->lets[1]->value);
-    const bool same = p == q && !algebra_overflow(a);
+    const poly *apart = poly_expanded(a, poly_sub(a, p, q));
+    const bool good = !algebra_overflow(a);
+    const sides found = {p == q && good, poly_is_zero(apart) && good};
     algebra_free(a);
     model_free(m);
     diags_free(all);
-    return same;
+    return found;
 }
+
+static bool same_form(const char *left, const char *right) { return compare(left, right).same; }
 
 typedef struct pair {
     const char *left;
@@ -78,6 +87,16 @@ static void test_equal_expressions_are_one_object(void) {
         {"max(2, 3)*min(2, 3)*x", "6*x"},
         {"exp(0) + log(1) + atan2(0, 1)", "1"},
         {"x^y*x^y", "(x^y)^2"},
+        {"(-x - y)^3", "-(y + x)^3"},
+        {"(2*x - 2*y)^4", "16*(y - x)^4"},
+        {"(3 - 2*x)^5", "-32*(x - 1.5)^5"},
+        {"(x + y)^3*(x + y)^4", "(x + y)^7"},
+        {"((x + y)^3)^2", "(x + y)^6"},
+        {"(x + y)^3/(x + y)", "(x + y)^2"},
+        {"(x + y)^4*(x + y)^-3", "x + y"},
+        {"sqrt(x + y)^4", "x^2 + 2*x*y + y^2"},
+        {"sqrt(x^2 + y^2)^6", "(y^2 + x^2)^3"},
+        {"(x + y - x)^3", "y^3"},
     };
     for (size_t i = 0; i < sizeof equal / sizeof equal[0]; i++) {
         TEST_ASSERT_TRUE_MESSAGE(same_form(equal[i].left, equal[i].right), equal[i].left);
@@ -95,6 +114,28 @@ static void test_what_differs_somewhere_stays_apart(void) {
     };
     for (size_t i = 0; i < sizeof different / sizeof different[0]; i++) {
         TEST_ASSERT_FALSE_MESSAGE(same_form(different[i].left, different[i].right),
+                                  different[i].left);
+    }
+}
+
+/* A cube of a sum stays one. What is equal only when it is multiplied out is told by poly_expanded(). */
+static void test_kept_powers_are_equal_when_expanded(void) {
+    static const pair equal[] = {
+        {"(x - y)^3", "x^3 - 3*x^2*y + 3*x*y^2 - y^3"},
+        {"(x + y)^4", "((x + y)^2)^2"},
+        {"(x + 1)^4", "(x + 1)^3*(x + 1)"},
+        {"((x + y)^3 + a)^2", "(x + y)^6 + 2*a*(x + y)^2*(x + y) + a^2"},
+        {"exp((x + y)^3)", "exp(x^3 + 3*x*y*(x + y) + y^3)"},
+        {"sin((x + y)^3)", "sin(x^3 + 3*x*y*(x + y) + y^3)"},
+    };
+    for (size_t i = 0; i < sizeof equal / sizeof equal[0]; i++) {
+        const sides found = compare(equal[i].left, equal[i].right);
+        TEST_ASSERT_FALSE_MESSAGE(found.same, equal[i].left);
+        TEST_ASSERT_TRUE_MESSAGE(found.expanded, equal[i].left);
+    }
+    static const pair different[] = {{"(x - y)^3", "x^3 - y^3"}, {"(x + y)^4", "(x - y)^4"}};
+    for (size_t i = 0; i < sizeof different / sizeof different[0]; i++) {
+        TEST_ASSERT_FALSE_MESSAGE(compare(different[i].left, different[i].right).expanded,
                                   different[i].left);
     }
 }
@@ -324,5 +365,6 @@ void suite_algebra(void) {
     UnitySetTestFile(__FILE__);
     RUN_TEST(test_equal_expressions_are_one_object);
     RUN_TEST(test_what_differs_somewhere_stays_apart);
+    RUN_TEST(test_kept_powers_are_equal_when_expanded);
     RUN_TEST(test_random_expressions_their_derivatives_and_substitutions);
 }

@@ -232,10 +232,30 @@ static void test_large_but_tame_expressions_are_derived(void) {
     free(whole);
 }
 
+/* Powers of sums that were kept hide neither a coordinate that no energy depends on nor the function
+ * whose rate a momentum is. */
+static void test_kept_powers_do_not_hide_conservation(void) {
+    derived d = derived_text("mechanism m\ncoordinate X\ncoordinate x\n"
+                             "T = 1 [kg*m^2]*((X' + 4*(x - 2)^3*x')^2 + x'^2)/2\n"
+                             "V = 1 [J]*((x - 2)^4 + (X + x)^4 - ((X + x)^2)^2)\n");
+    derived_expect(&d, "kept powers");
+    TEST_ASSERT_TRUE(d.equations->conserved[0]);
+    TEST_ASSERT_FALSE(d.equations->conserved[1]);
+    static const bool wanted[] = {true, false};
+    diags *none = diags_new();
+    conservation *c = conservation_make(d.equations, wanted, none);
+    TEST_ASSERT_NOT_NULL(c);
+    TEST_ASSERT_TRUE(c->closed); /* X = P t + G(start) - (x - 2)^4 */
+    conservation_free(c);
+    diags_free(none);
+    derived_free(&d);
+}
+
 void suite_derive(void) {
     UnitySetTestFile(__FILE__);
     RUN_TEST(test_operation_lists_solve_the_equations);
     RUN_TEST(test_power_balances_in_every_mechanism);
+    RUN_TEST(test_kept_powers_do_not_hide_conservation);
     RUN_TEST(test_right_hand_sides_stay_small);
     RUN_TEST(test_large_but_tame_expressions_are_derived);
 }

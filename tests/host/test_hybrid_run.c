@@ -93,6 +93,37 @@ static void test_numbers_of_a_run_must_be_in_range(void) {
     TEST_ASSERT_NOT_NULL(instance_of(1, &(overrides){.sets = bouncy, .set_count = 1}));
 }
 
+/* Inputs count with the value they start with: declared, the scene's, or the command line's. */
+static void test_inputs_must_be_in_range_at_the_start(void) {
+    const char *good[] = {"e_in=1"};
+    const char *bouncy[] = {"e_in=1.01"};
+    const char *slippery[] = {"grip=0.29"};
+    const char *negative[] = {"grip=-0.5"};
+    const char *infinite[] = {"grip=0"};
+    parse(BASE "input e_in = 0.5\ninput grip = 0.3\nlet twice = 2*grip\n"
+               "effect wall { stop x >= 0 restitution e_in^2 }\n"
+               "effect rub { friction x static grip kinetic 0.3 normal 1 [N] }\n"
+               "effect rail { friction y static twice kinetic 0 normal 1 [N] }\n"
+               "effect odd { stop y >= 0 restitution 1/twice - 1 }\n"
+               "effect fast { stop y <= 1 [m] restitution e_in*(1 - y'/1 [m/s]) }\n"
+               "scene s { with wall, rub, rail }\nscene set_wrong { with wall; set e_in = 2 }\n"
+               "scene none_of_them { until 1 [s] }\nscene both { with odd }\n"
+               "scene moving { with fast; set e_in = 2 }\n");
+    TEST_ASSERT_NOT_NULL(instance_of(0, NULL));
+    TEST_ASSERT_NOT_NULL(instance_of(0, &(overrides){.sets = good, .set_count = 1}));
+    refuse(0, &(overrides){.sets = bouncy, .set_count = 1},
+           "x.whirl:17:43: error: a restitution is from 0 to 1, and this is 1.0201");
+    refuse(1, NULL, "x.whirl:17:43: error: a restitution is from 0 to 1, and this is 4");
+    refuse(0, &(overrides){.sets = slippery, .set_count = 1},
+           "x.whirl:18:45: error: kinetic friction 0.3 is above static friction 0.29");
+    refuse(0, &(overrides){.sets = negative, .set_count = 1},
+           "x.whirl:19:33: error: a coefficient of friction must not be negative, and this is -1");
+    refuse(3, &(overrides){.sets = infinite, .set_count = 1},
+           "error: the restitution is not a finite number (infinity)");
+    TEST_ASSERT_NOT_NULL(instance_of(2, &(overrides){.sets = bouncy, .set_count = 1}));
+    TEST_ASSERT_NOT_NULL(instance_of(4, NULL)); /* it depends on the motion: known at the impact */
+}
+
 static void test_what_two_effects_must_not_give_together(void) {
     const char *both[] = {"rub", "rail"};
     parse(BASE "effect rub { friction x static mu kinetic mu normal 1 [N] }\n"
@@ -156,6 +187,7 @@ void suite_hybrid_run(void) {
     RUN_TEST(test_noise_comes_with_its_effect);
     RUN_TEST(test_effects_bring_their_events);
     RUN_TEST(test_numbers_of_a_run_must_be_in_range);
+    RUN_TEST(test_inputs_must_be_in_range_at_the_start);
     RUN_TEST(test_what_two_effects_must_not_give_together);
     RUN_TEST(test_how_many_events_one_run_takes);
     RUN_TEST(test_how_many_values_one_run_sets);

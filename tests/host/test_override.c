@@ -125,6 +125,44 @@ static void test_wrong_overrides(void) {
     expect_refused(&(overrides){.until = "soon"}, "error: unknown name 'soon'");
 }
 
+/* Less than a step would be no step at all, or one too many; none is what until 0 says. */
+static void test_until_holds_a_step(void) {
+    parse(sample);
+    expect_refused(&(overrides){.until = "1s", .step = "3s"},
+                   "<command line>:1:1: error: until 1 s is less than one step of 3 s");
+    expect_refused(&(overrides){.until = "0.99ms", .step = "1ms"},
+                   "error: until 0.00099 s is less than one step of 0.001 s");
+    instantiate(&(overrides){.until = "0", .step = "3s"});
+    expect_exactly(0.0, made->until_s);
+    instantiate(&(overrides){.until = "3", .step = "3s"});
+    expect_exactly(3.0, made->until_s);
+    instantiate(&(overrides){.until = "0.1*3", .step = "0.3"}); /* 0.30000000000000004 */
+    instantiate(&(overrides){.until = "0.3", .step = "0.1*3"});
+    expect_exactly(0.3, made->until_s);
+}
+
+/* A time beside the run's own: with the scene's parameters, not held against its step. */
+static void test_durations_beside_the_run(void) {
+    double seconds = -1.0;
+    const char *sets[] = {"lag=0.25 [ms]"};
+    const overrides changes = {.sets = sets, .set_count = 1};
+    parse("mechanism m\ncoordinate x [m]\nparameter lag = 2 [s]\nT = 1 [kg]*x'^2/2\n"
+          "scene s { set lag = 3 [s] }\n");
+    const mechanism *of = parsed->mechanisms[0];
+    TEST_ASSERT_TRUE(instance_duration(of, NULL, NULL, "from", "lag/2", said, &seconds));
+    expect_exactly(1.0, seconds);
+    TEST_ASSERT_TRUE(
+        instance_duration(of, parsed->scenes[0], NULL, "from", "lag/2", said, &seconds));
+    expect_exactly(1.5, seconds);
+    TEST_ASSERT_TRUE(
+        instance_duration(of, parsed->scenes[0], &changes, "from", "lag", said, &seconds));
+    expect_exactly(0.25e-3, seconds);
+    TEST_ASSERT_FALSE(instance_duration(of, NULL, NULL, "from", "-1ms", said, &seconds));
+    expect_said("error: from must not be negative");
+    TEST_ASSERT_FALSE(instance_duration(of, NULL, NULL, "from", "1 m", said, &seconds));
+    expect_said("error: from is time [s], but this is length [m]");
+}
+
 /* Errors are refusals even when they read like one that was told before. */
 static void test_the_same_error_again_is_refused_again(void) {
     static const char *const wrong[] = {"m=1 [m]", "m=2 [m]", "m=2 [m]"};
@@ -142,6 +180,8 @@ void suite_override(void) {
     RUN_TEST(test_step_in_all_its_spellings);
     RUN_TEST(test_values_of_either_kind);
     RUN_TEST(test_wrong_overrides);
+    RUN_TEST(test_until_holds_a_step);
+    RUN_TEST(test_durations_beside_the_run);
     RUN_TEST(test_the_same_error_again_is_refused_again);
     drop();
 }

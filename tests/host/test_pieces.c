@@ -1,6 +1,7 @@
 /* test_pieces.c: a sum taken apart for lowering: half angles put back where they save a term,
  * and the value stays what it was. */
 #include <math.h>
+#include <stdio.h>
 
 #include "derived.h"
 #include "host/derive/pieces.h"
@@ -27,10 +28,9 @@ static double pieces_value(const piece *pieces, int count, double at[VARIABLES])
             const factor *f = &pieces[i].mono->factors[k];
             product *= pow(at[f->atom->symbol->index], f->exponent);
         }
-        if (pieces[i].trig != TRIG_NONE) {
+        if (pieces[i].angle != NULL) {
             const double angle = poly_evaluate(pieces[i].angle, variable_value, at);
-            const double wave = pieces[i].trig == TRIG_SIN ? sin(angle) : cos(angle);
-            product *= pieces[i].squared ? wave * wave : wave;
+            product *= pow(sin(angle), pieces[i].sines) * pow(cos(angle), pieces[i].cosines);
         }
         sum += product;
     }
@@ -46,11 +46,11 @@ static void test_squares_of_sines_come_back(void) {
         poly_mul(a, poly_mul(a, v, v), poly_sub(a, one, poly_cos(a, poly_scale(a, u, 2.0))));
     piece pieces[8];
     TEST_ASSERT_EQUAL_INT(1, pieces_of(a, flat, pieces));
-    TEST_ASSERT_TRUE(pieces[0].squared && pieces[0].trig == TRIG_SIN && pieces[0].angle == u);
+    TEST_ASSERT_TRUE(pieces[0].sines == 2 && pieces[0].cosines == 0 && pieces[0].angle == u);
     TEST_ASSERT_TRUE(pieces[0].coefficient == 2.0);
     const poly *tall = poly_scale(a, poly_add(a, one, poly_cos(a, poly_scale(a, u, 4.0))), -3.0);
     TEST_ASSERT_EQUAL_INT(1, pieces_of(a, tall, pieces));
-    TEST_ASSERT_TRUE(pieces[0].squared && pieces[0].trig == TRIG_COS);
+    TEST_ASSERT_TRUE(pieces[0].sines == 0 && pieces[0].cosines == 2);
     TEST_ASSERT_TRUE(pieces[0].coefficient == -6.0 && pieces[0].angle == poly_scale(a, u, 2.0));
     /* other factors, other sizes, or an odd multiple: nothing to put back */
     TEST_ASSERT_EQUAL_INT(2,
@@ -63,12 +63,88 @@ static void test_squares_of_sines_come_back(void) {
     algebra_free(a);
 }
 
+/* sin(w)^(2p) cos(w)^(2q) and its slope, of w = 2u - v and times 0.3 v: each comes back as one piece where
+ * the slope is one product, else as two. */
+static void test_even_powers_come_back(void) {
+    for (int p = 0; p <= 8; p++) {
+        for (int q = 0; p + q <= 8; q++) {
+            if (p + q == 0) {
+                continue;
+            }
+            algebra *a = algebra_new();
+            const poly *u = poly_symbol(a, &variables[0], 0);
+            const poly *v = poly_symbol(a, &variables[1], 0);
+            const poly *w = poly_sub(a, poly_scale(a, u, 2.0), v);
+            const poly *power = poly_scale(a,
+                                           poly_mul(a, poly_pow(a, poly_sin(a, w), 2.0 * p),
+                                                    poly_pow(a, poly_cos(a, w), 2.0 * q)),
+                                           0.3);
+            piece pieces[32];
+            TEST_ASSERT_TRUE(power->count <= 32);
+            TEST_ASSERT_EQUAL_INT(1, pieces_of(a, poly_mul(a, power, v), pieces));
+            const bool doubled = p == q; /* sin(w)^2 cos(w)^2 = sin(2w)^2/4 */
+            TEST_ASSERT_EQUAL_INT(2 * p, pieces[0].sines);
+            TEST_ASSERT_EQUAL_INT(doubled ? 0 : 2 * q, pieces[0].cosines);
+            TEST_ASSERT_TRUE(pieces[0].angle == (doubled ? poly_scale(a, w, 2.0) : w));
+            const double size = doubled ? 0.3 * pow(0.25, p) : 0.3;
+            TEST_ASSERT_DOUBLE_WITHIN(1e-13 * size, size, pieces[0].coefficient);
+            const poly *slope = poly_derivative(a, power, &variables[1], 0);
+            const int count = pieces_of(a, slope, pieces);
+            TEST_ASSERT_EQUAL_INT(p > 0 && q > 0 && !doubled ? 2 : 1, count);
+            for (int i = 0; i < count && slope->count > 1; i++) {
+                TEST_ASSERT_TRUE(pieces[i].sines >= 2 * p - 1);
+                TEST_ASSERT_TRUE(doubled || pieces[i].cosines >= 2 * q - 1);
+            }
+            algebra_free(a);
+        }
+    }
+}
+
+static void test_other_rows_stay_as_they_are(void) {
+    algebra *a = algebra_new();
+    const poly *u = poly_symbol(a, &variables[0], 0);
+    const poly *one = poly_number(a, 1.0);
+    const poly *two = poly_cos(a, poly_scale(a, u, 2.0));
+    const poly *four = poly_cos(a, poly_scale(a, u, 4.0));
+    const poly *row =
+        poly_add(a, poly_sub(a, poly_scale(a, one, 3.0), poly_scale(a, two, 4.0)), four);
+    piece pieces[8];
+    TEST_ASSERT_EQUAL_INT(1, pieces_of(a, row, pieces));
+    /* a small part more at the pole is a part more: nothing cancels to less than it */
+    const poly *more = poly_add(a, row, poly_number(a, 1e-12));
+    TEST_ASSERT_EQUAL_INT(3, pieces_of(a, more, pieces));
+    /* 3 - 4 cos a + cos 2a = 8 sin(a/2)^4, but a turn angle has no half */
+    const poly *half =
+        poly_add(a, poly_sub(a, poly_scale(a, one, 3.0), poly_scale(a, poly_cos(a, u), 4.0)), two);
+    TEST_ASSERT_EQUAL_INT(3, pieces_of(a, half, pieces));
+    /* nothing cancels at 0 or pi/2 */
+    const poly *flat =
+        poly_add(a, poly_add(a, one, poly_scale(a, two, 2.0)), poly_scale(a, four, 0.5));
+    TEST_ASSERT_EQUAL_INT(3, pieces_of(a, flat, pieces));
+    for (int i = 0; i < 3; i++) {
+        TEST_ASSERT_TRUE(pieces[i].sines + pieces[i].cosines <= 1);
+    }
+    /* products would have to be large, and cancel elsewhere; or there would be more of them */
+    const poly *tall = poly_sub(a, poly_cos(a, poly_scale(a, u, 16.0)), one);
+    const poly *few = poly_add(a, tall, poly_scale(a, poly_sub(a, two, one), 1e-3));
+    TEST_ASSERT_EQUAL_INT(3, pieces_of(a, few, pieces));
+    const poly *many = tall;
+    for (int k = 1; k < 8; k++) {
+        const poly *wave = poly_cos(a, poly_scale(a, u, 2.0 * k));
+        many = poly_add(a, many, poly_scale(a, poly_sub(a, wave, one), 1e-3));
+    }
+    piece room[16];
+    TEST_ASSERT_EQUAL_INT(9, pieces_of(a, many, room));
+    algebra_free(a);
+}
+
 static void test_pieces_have_the_sums_value(void) {
     uint64_t seed = 7;
-    for (int round = 0; round < 500; round++) {
+    int powers = 0;
+    for (int round = 0; round < 2000; round++) {
         algebra *a = algebra_new();
         const poly *sum = poly_number(a, 0.0);
-        for (int i = 0; i < 5; i++) { /* small whole factors, so that squares do turn up */
+        for (int i = 0; i < 3; i++) { /* small whole factors, so that powers do turn up */
             const poly *u = poly_symbol(a, &variables[0], 0);
             const poly *v = poly_symbol(a, &variables[1], 0);
             const poly *angle = poly_add(a, poly_scale(a, u, (double)(random_bits(&seed) % 3)),
@@ -76,20 +152,32 @@ static void test_pieces_have_the_sums_value(void) {
             const poly *wave =
                 random_bits(&seed) % 2 == 0 ? poly_sin(a, angle) : poly_cos(a, angle);
             const poly *front = random_bits(&seed) % 2 == 0 ? u : poly_number(a, 2.0);
-            sum = poly_add(a, sum, poly_mul(a, front, poly_mul(a, wave, wave)));
+            const double exponent = 2.0 * (double)(1 + random_bits(&seed) % 3);
+            sum = poly_add(a, sum, poly_mul(a, front, poly_pow(a, wave, exponent)));
+        }
+        if (random_bits(&seed) % 2 == 0) {
+            sum = poly_derivative(a, sum, &variables[0], 0);
         }
         double at[VARIABLES] = {random_between(&seed, -3.0, 3.0), random_between(&seed, -3.0, 3.0)};
         piece pieces[64];
         TEST_ASSERT_TRUE(sum->count < 64);
         const int count = pieces_of(a, sum, pieces);
+        TEST_ASSERT_TRUE(count <= sum->count);
+        for (int i = 0; i < count; i++) {
+            powers += pieces[i].sines + pieces[i].cosines > 2;
+        }
         TEST_ASSERT_DOUBLE_WITHIN(1e-12, poly_evaluate(sum, variable_value, at),
                                   pieces_value(pieces, count, at));
         algebra_free(a);
     }
+    printf("  %d powers above the second\n", powers);
+    TEST_ASSERT_GREATER_THAN_INT(500, powers);
 }
 
 void suite_pieces(void) {
     UnitySetTestFile(__FILE__);
     RUN_TEST(test_squares_of_sines_come_back);
+    RUN_TEST(test_even_powers_come_back);
+    RUN_TEST(test_other_rows_stay_as_they_are);
     RUN_TEST(test_pieces_have_the_sums_value);
 }

@@ -47,6 +47,59 @@ static void test_singular_and_other_impossible_mechanisms(void) {
                    "have no finite value at any state tried");
 }
 
+static void test_kinetic_energy_must_be_positive(void) {
+    expect_refused("mechanism m\ncoordinate x [m]\nT = -1 [kg]*x'^2/2\n",
+                   "t.whirl:3:1: error: the kinetic energy of 'm' is negative for some motion");
+    expect_refused("mechanism m\ncoordinate x [m]\ncoordinate y [m]\ncoordinate z [m]\n"
+                   "T = 1 [kg]*(x'*y' + y'*z' + z'^2/2)\n",
+                   "t.whirl:5:1: error: the kinetic energy of 'm' is negative for some motion");
+    expect_refused("mechanism m\ncoordinate a [rad]\ncoordinate b [rad]\n"
+                   "T = 1 [kg*m^2]*(a'^2/2 + b'^2/2 + (2 + cos(a))*a'*b')\n",
+                   "t.whirl:4:1: error: the kinetic energy of 'm' is negative for some motion");
+    /* the same matrix, given outright, is a matter of how the equations are written */
+    derived system = derived_text("mechanism m\nstate x\nstate y\nstate z\n"
+                                  "equation 1 [s]*y' = x\nequation 1 [s]*(x' + z') = y\n"
+                                  "equation 1 [s]*(y' + z') = z\n");
+    derived_expect(&system, "a system");
+    derived_free(&system);
+}
+
+/* What is positive, or finite, in a narrow range only: no generic state lies there, the start does. */
+static void test_the_start_is_tried_too(void) {
+    static const char *const texts[] = {
+        "mechanism m\ncoordinate x [m]\n"
+        "T = (1 [kg] - 1e12 [kg]*(x/1 [m] - 7)^2)*x'^2/2\nV = 1 [N/m]*x^2/2\n",
+        "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 1 [J]*log(x/1 [m] - 5)\n"};
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
+        static const char *const start[] = {"x = 7 [m]"};
+        const overrides changes = {.starts = start, .start_count = 1};
+        for (int moved = 0; moved < 2; moved++) {
+            diags *all = diags_new();
+            model *parsed = model_parse("t.whirl", texts[i], strlen(texts[i]), all);
+            TEST_ASSERT_NOT_NULL(parsed);
+            instance *made =
+                instance_make(parsed->mechanisms[0], NULL, moved == 1 ? &changes : NULL, all);
+            TEST_ASSERT_NOT_NULL(made);
+            equations *e = equations_derive(made, all);
+            TEST_ASSERT_EQUAL_INT(moved == 1 ? 0 : 1, diags_count(all));
+            TEST_ASSERT_TRUE((e != NULL) == (moved == 1));
+            equations_free(e);
+            instance_free(made);
+            model_free(parsed);
+            diags_free(all);
+        }
+    }
+}
+
+static void test_constants_that_are_not_finite(void) {
+    expect_refused("mechanism m\ncoordinate x [m]\nT = 1e-200 [kg]*x'^2/2\n"
+                   "V = 1e200 [N/m]*x^2/2\n",
+                   "t.whirl:1:11: error: the equations of 'm' contain a number that is not finite");
+    expect_refused("mechanism m\ncoordinate x [m]\nparameter a = 0 [m]\nT = 1 [kg]*x'^2/2\n"
+                   "output good = x\noutput bad [1] = sin(x/a)\n",
+                   "t.whirl:6:8: error: output 'bad' contains a number that is not finite");
+}
+
 static void test_too_many_components(void) {
     char *states = repeated("mechanism m\nstate z\n", "state x#\n", 40, "");
     char *text = repeated(states, "equation 1 [s^2]*x#'' = z\n", 40, "equation 1 [s]*z' = x1\n");
@@ -93,6 +146,9 @@ static void test_expressions_that_explode_are_refused(void) {
 void suite_underivable(void) {
     UnitySetTestFile(__FILE__);
     RUN_TEST(test_singular_and_other_impossible_mechanisms);
+    RUN_TEST(test_kinetic_energy_must_be_positive);
+    RUN_TEST(test_the_start_is_tried_too);
+    RUN_TEST(test_constants_that_are_not_finite);
     RUN_TEST(test_too_many_components);
     RUN_TEST(test_expressions_that_explode_are_refused);
 }

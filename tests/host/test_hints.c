@@ -1,0 +1,54 @@
+/* test_hints.c: what is told though it is no error: dry friction written by hand, and nothing
+ * that only looks like it. */
+#include <stdio.h>
+
+#include "host/lang/hints.h"
+#include "parsed.h"
+#include "unity.h"
+
+void suite_hints(void);
+
+/* The line of the Q that is told, or 0. The first Q stands in line 9. */
+static int told(const char *forces) {
+    char text[900];
+    snprintf(text, sizeof text,
+             "mechanism m\ncoordinate x [m]\ncoordinate y [m]\nparameter mu = 0.3\n"
+             "parameter c = 2 [kg/m]\ninput N = 5 [N]\nlet way = sign(x')\n"
+             "T = 1 [kg]*(x'^2 + y'^2)/2\n%s",
+             forces);
+    parse(text);
+    instantiate(NULL);
+    const double before = made->start[0][1];
+    const term *found = hint_friction(made);
+    TEST_ASSERT_TRUE(made->start[0][1] == before);
+    TEST_ASSERT_EQUAL_INT(0, diags_count(said));
+    return found == NULL ? 0 : found->at.line;
+}
+
+static void test_friction_by_hand_is_told(void) {
+    TEST_ASSERT_EQUAL_INT(9, told("Q(x) = -mu*sign(x')*N\n"));
+    TEST_ASSERT_EQUAL_INT(9, told("Q(x) = -mu*way*N\n"));
+    TEST_ASSERT_EQUAL_INT(9, told("Q(x) = 3 [N] - mu*N*sign(2*x'/1 [m/s]) - 1 [N*s/m]*x'\n"));
+    TEST_ASSERT_EQUAL_INT(9, told("Q(x) = -mu*N*way\nscene s { start x' = 2 [m/s] }\n"));
+    TEST_ASSERT_EQUAL_INT(10, told("Q(y) = N\neffect rub { Q(x) += -mu*N*way }\n"
+                                   "scene s { with rub }\n"));
+}
+
+static void test_what_only_looks_like_it_is_not(void) {
+    TEST_ASSERT_EQUAL_INT(0, told("Q(x) = -c*sign(x')*x'^2\n"));    /* drag */
+    TEST_ASSERT_EQUAL_INT(0, told("Q(x) = -c*x'*abs(x')\n"));       /* drag */
+    TEST_ASSERT_EQUAL_INT(0, told("Q(x) = mu*N*way\n"));            /* drives */
+    TEST_ASSERT_EQUAL_INT(0, told("Q(y) = -mu*N*way\n"));           /* another's rate */
+    TEST_ASSERT_EQUAL_INT(0, told("Q(x) = -mu*N*sign(x' - y')\n")); /* between two */
+    TEST_ASSERT_EQUAL_INT(0, told("Q(x) = -mu*N*sign(x/1 [m])\n")); /* of a place */
+    TEST_ASSERT_EQUAL_INT(0, told("effect rub { Q(x) += -mu*N*way }\nscene s { until 1 [s] }\n"));
+    TEST_ASSERT_EQUAL_INT(0, told("Q(x) = -way*N*y/1 [m]/y*0\n")); /* not a number */
+    TEST_ASSERT_EQUAL_INT(0, told("friction x static mu kinetic mu normal N\n"));
+}
+
+void suite_hints(void) {
+    UnitySetTestFile(__FILE__);
+    RUN_TEST(test_friction_by_hand_is_told);
+    RUN_TEST(test_what_only_looks_like_it_is_not);
+    drop();
+}

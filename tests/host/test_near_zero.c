@@ -1,0 +1,174 @@
+/* test_near_zero.c: what is small because it is near its zero keeps its digits, in float too: powers of
+ * sums and of sines are not multiplied out into large numbers that cancel. */
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+
+#include "host/algebra/poly.h"
+#include "motion.h"
+#include "unity.h"
+
+void suite_near_zero(void);
+
+/* --- powers of sums ------------------------------------------------------------------------------*/
+
+/* Whether p is number * (u - v)^exponent, and nothing else. */
+static bool is_power_of_difference(const poly *p, double number, double exponent) {
+    return p->count == 1 && p->terms[0].coefficient == number && p->terms[0].mono->count == 1 &&
+           p->terms[0].mono->factors[0].atom->kind == ATOM_GROUP &&
+           p->terms[0].mono->factors[0].exponent == exponent;
+}
+
+/* v := a number */
+static const poly *replace_by_number(void *context, algebra *a, const symbol *sym, int primes) {
+    (void)primes;
+    return sym->index == 1 ? poly_number(a, *(const double *)context) : NULL;
+}
+
+static void test_slopes_of_kept_powers_stay_powers(void) {
+    algebra *a = algebra_new();
+    static const symbol u = {.kind = SYM_COORDINATE, .name = "u", .text = "", .index = 0};
+    static const symbol v = {.kind = SYM_COORDINATE, .name = "v", .text = "", .index = 1};
+    const poly *first = poly_symbol(a, &u, 0); /* leads the order, and so the difference */
+    const poly *apart = poly_sub(a, first, poly_symbol(a, &v, 0));
+    const poly *energy = poly_pow(a, apart, 4.0);
+    const poly *force = poly_derivative(a, energy, &u, 0);
+    const poly *stiffness = poly_derivative(a, force, &u, 0);
+    TEST_ASSERT_TRUE(is_power_of_difference(energy, 1.0, 4.0));
+    TEST_ASSERT_TRUE(is_power_of_difference(force, 4.0, 3.0));
+    TEST_ASSERT_TRUE(is_power_of_difference(stiffness, 12.0, 2.0));
+    TEST_ASSERT_TRUE(poly_derivative(a, stiffness, &u, 0) == poly_scale(a, apart, 24.0));
+    TEST_ASSERT_TRUE(poly_is_zero(poly_add(a, force, poly_derivative(a, energy, &v, 0))));
+    /* a number in place of v, and what was written stays: neither multiplied out nor scaled by it */
+    double value = 1e-30;
+    for (int i = 0; i < 2; i++) {
+        const poly *folded =
+            poly_substitute(a, i == 0 ? force : stiffness, replace_by_number, &value);
+        TEST_ASSERT_TRUE(is_power_of_difference(folded, i == 0 ? 4.0 : 12.0, i == 0 ? 3.0 : 2.0));
+    }
+    value = 0.0;
+    TEST_ASSERT_TRUE(poly_substitute(a, energy, replace_by_number, &value) ==
+                     poly_pow(a, first, 4.0));
+    algebra_free(a);
+}
+
+/* Roundings of one evaluation, each half a unit: of the constants, the distance, its powers and the sum
+ * of what is multiplied with them. */
+#define ROUNDINGS 16.0
+
+static double worst_float;
+static double worst_double;
+
+static void show_worst(const char *what) {
+    printf("  %s: largest relative error %.1e in float, %.1e in double\n", what, worst_float,
+           worst_double);
+    worst_float = worst_double = 0.0;
+}
+
+/* The relative error of an output at the start, against its closed form at the start as a float has it. */
+static double error_of(const motion *m, const char *output, double want) {
+    const double error = fabs(motion_value(m, output) / want - 1.0);
+    double *worst = m->kind == &engine_float ? &worst_float : &worst_double;
+    *worst = fmax(*worst, error);
+    return error;
+}
+
+static const char springs[] =
+    "mechanism springs \"three that stiffen: against a wall, between two masses, along a law\"\n"
+    "coordinate s [m]\n"
+    "coordinate r [m]\n"
+    "parameter b = 1 [m]\n"
+    "parameter k = 1e6 [N/m^3]\n"
+    "T = 1 [kg]*(s'^2 + r'^2)/2\n"
+    "V = k*(s + b)^4/4 + k*(s - r - b)^3*(1 [m])/3\n"
+    "output push = k*(s + b)^3\n"
+    "output pull [N] = k*(s - r - b)^2*(1 [m])\n"
+    "output left = s''\n"
+    "output right = r''\n"
+    "scene at { }\n";
+
+static void test_stiffening_springs_near_their_rest(void) {
+    static const double distances[] = {0.25, 0.02, 1e-3, 3e-5};
+    for (int number = 0; number < 2; number++) {
+        const double half = number == 0 ? (double)FLT_EPSILON / 2.0 : DBL_EPSILON / 2.0;
+        for (size_t i = 0; i < sizeof distances / sizeof distances[0]; i++) {
+            const double s = (double)(float)(distances[i] - 1.0);
+            const double stretch = s + 1.0; /* exact */
+            char start[64];
+            motion m;
+            stepping how = number == 0 ? IN_FLOAT : IN_DOUBLE;
+            how.start = start;
+            snprintf(start, sizeof start, "s = %.17g", s);
+            motion_open_text(&m, springs, how);
+            const double wall = 1e6 * stretch * stretch * stretch;
+            /* r is 0: between the masses the spring is stretched by s - 1 */
+            const double between = 1e6 * (s - 1.0) * (s - 1.0);
+            TEST_ASSERT_TRUE(error_of(&m, "push", wall) <= ROUNDINGS * half);
+            TEST_ASSERT_TRUE(error_of(&m, "left", -wall - between) <= ROUNDINGS * half);
+            motion_close(&m);
+            /* and the other way round: s - r - b near 0 */
+            snprintf(start, sizeof start, "s = %.17g", (double)(float)(1.0 + distances[i]));
+            motion_open_text(&m, springs, how);
+            const double near = (double)(float)(1.0 + distances[i]) - 1.0; /* exact */
+            TEST_ASSERT_TRUE(error_of(&m, "right", 1e6 * near * near) <= ROUNDINGS * half);
+            motion_close(&m);
+        }
+    }
+    show_worst("springs");
+}
+
+/* --- powers of sines -----------------------------------------------------------------------------*/
+
+/* The same for a sine to the sixth, each with twice its argument's and its own rounding. */
+#define WAVE_ROUNDINGS 48.0
+
+/* Two arms on one shaft, whose inertia about it has a pole of order four or six where they lie in it. */
+static const char poles[] = "mechanism poles\n"
+                            "coordinate th [rad]\n"
+                            "coordinate ph [rad]\n"
+                            "parameter J = 0.3 [kg*m^2]\n"
+                            "T = J*(th'^2 + (%s(th)^%d*ph')^2)/2\n"
+                            "Q(ph) = 1e-9 [N*m]\n"
+                            "output tilt = th''\n"
+                            "output spin = ph''\n"
+                            "scene at { start th' = 0.01 [rad/s], ph' = 2 [rad/s] }\n";
+
+/* (d/dt) of J w^(2n) ph' is the torque, and J th'' = n J w^(2n-1) dw/dth ph'^2. */
+static void check_pole(const char *wave, int n, double th, double w, double slope, stepping how) {
+    char text[512];
+    char start[64];
+    snprintf(text, sizeof text, poles, wave, n);
+    snprintf(start, sizeof start, "th = %.17g", th);
+    how.start = start;
+    motion m;
+    motion_open_text(&m, text, how);
+    const double half = how.kind == &engine_float ? (double)FLT_EPSILON / 2.0 : DBL_EPSILON / 2.0;
+    /* the double sine errs by as much beside its table's angles (tests/core/test_sine.c) */
+    const double sine = how.kind == &engine_float ? 0.0 : 2.0 * n * 1.4e-16 / w;
+    const double tilt = n * pow(w, 2 * n - 1) * slope * 4.0;
+    const double spin = 1e-9 / (0.3 * pow(w, 2 * n)) - 2.0 * n * slope / w * 0.01 * 2.0;
+    TEST_ASSERT_TRUE(error_of(&m, "tilt", tilt) <= WAVE_ROUNDINGS * half + sine);
+    /* the two parts of spin may cancel, but not by much here */
+    TEST_ASSERT_TRUE(error_of(&m, "spin", spin) <= 2.0 * (WAVE_ROUNDINGS * half + sine));
+    motion_close(&m);
+}
+
+static void test_powers_of_sines_near_their_poles(void) {
+    for (int n = 2; n <= 3; n++) {
+        for (int bits = 16; bits <= 28; bits += 4) {
+            /* so many units of 2^-32 turns: no rounding of the start, in float either */
+            const double off = ldexp(2.0 * acos(-1.0), bits - 32);
+            check_pole("sin", n, off, sin(off), cos(off), IN_FLOAT);
+            check_pole("sin", n, off, sin(off), cos(off), IN_DOUBLE);
+            check_pole("cos", n, acos(0.0) - off, sin(off), -cos(off), IN_FLOAT);
+        }
+    }
+    show_worst("poles");
+}
+
+void suite_near_zero(void) {
+    UnitySetTestFile(__FILE__);
+    RUN_TEST(test_slopes_of_kept_powers_stay_powers);
+    RUN_TEST(test_powers_of_sines_near_their_poles);
+    RUN_TEST(test_stiffening_springs_near_their_rest);
+}
