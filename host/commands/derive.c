@@ -50,6 +50,7 @@ static int derive_one(source_model *from, const mechanism *of, const scene *in,
         code = EXIT_BAD_INPUT;
     }
     if (code == EXIT_DONE) {
+        say_hints(&made);
         print(as, &made, from->file, settings);
     }
     unload(&made);

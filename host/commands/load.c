@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 
 #include "host/lang/builtin.h"
+#include "host/lang/hints.h"
 #include "host/lang/nearest.h"
 
 static char *copy_of(const char *text, size_t length) {
@@ -60,6 +61,44 @@ char *read_all(const char *path, size_t *length) {
 static bool file_exists(const char *path) {
     struct stat about;
     return strcmp(path, "-") == 0 || stat(path, &about) == 0;
+}
+
+static bool same_object(const struct stat *one, const struct stat *other) {
+    return one->st_dev == other->st_dev && one->st_ino == other->st_ino;
+}
+
+bool same_file(const char *one, const char *other) {
+    struct stat first;
+    struct stat second;
+    return strcmp(one, other) == 0 || (stat(one, &first) == 0 && stat(other, &second) == 0 &&
+                                       S_ISREG(first.st_mode) && same_object(&first, &second));
+}
+
+bool source_would_be_lost(const source_model *s, const char *option, const char *path,
+                          const char *ending) {
+    struct stat about_model;
+    struct stat about_output;
+    if (path == NULL || strcmp(path, "-") == 0 || s->path == NULL) {
+        return false;
+    }
+    const bool model_known = (strcmp(s->path, "-") == 0 ? fstat(fileno(stdin), &about_model)
+                                                        : stat(s->path, &about_model)) == 0;
+    const size_t size = strlen(path) + strlen(ending) + 1;
+    char *name = malloc(size);
+    if (name == NULL) {
+        abort();
+    }
+    snprintf(name, size, "%s%s", path, ending);
+    const bool lost = model_known && S_ISREG(about_model.st_mode) &&
+                      stat(name, &about_output) == 0 && same_object(&about_model, &about_output);
+    if (lost) {
+        fprintf(stderr,
+                "%s: error: %s would write over the model, which is read from this file\n"
+                "hint: give it another name\n",
+                name, option);
+    }
+    free(name);
+    return lost;
 }
 
 /* Where FILE ends in FILE:NAME, or the whole length. */
@@ -215,6 +254,19 @@ int load(loaded *made, source_model *s, const mechanism *of, const scene *in,
     }
     diags_flush(s->errors, stderr);
     return made->program == NULL ? EXIT_BAD_INPUT : EXIT_DONE;
+}
+
+void say_hints(const loaded *made) {
+    const term *friction = hint_friction(made->instance);
+    if (friction != NULL) {
+        const char *name = friction->coordinate->name;
+        fprintf(
+            stderr,
+            "%s:%d:%d: note: this force changes its sign with %s': at rest it shakes instead of "
+            "sticking\n"
+            "hint: dry friction is: friction %s static EXPR kinetic EXPR normal EXPR\n",
+            friction->at.source->file, friction->at.line, friction->at.column, name, name);
+    }
 }
 
 void unload(loaded *made) {

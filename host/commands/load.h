@@ -21,6 +21,14 @@ typedef struct source_model {
 int source_open(source_model *source, const char *target);
 void source_close(source_model *source);
 
+/* Would writing the file `path` + `ending` write over the model, by whatever name or link it
+ * goes? Then that is said, with the option that asked for it. `path` may be NULL or "-": no
+ * file. */
+bool source_would_be_lost(const source_model *source, const char *option, const char *path,
+                          const char *ending);
+/* Are both the same file, by name or, when they are there, by what the names lead to? */
+bool same_file(const char *one, const char *other);
+
 /* What `source->name` means: a scene, or a mechanism (scene NULL). Nothing named: with
  * `prefer_scene` the file's only scene, else its only mechanism. Returns an exit code. */
 int source_pick(source_model *source, bool prefer_scene, const mechanism **of, const scene **in);
@@ -35,6 +43,8 @@ typedef struct loaded {
  * the scene names are recovered from their momentum. Returns an exit code. */
 int load(loaded *made, source_model *source, const mechanism *of, const scene *in,
          const overrides *changes, bool conserve);
+/* On standard error: what of it is no error, but has a better way. */
+void say_hints(const loaded *made);
 void unload(loaded *made);
 
 /* The whole of `path` in memory ("-" is standard input), with a zero byte behind; NULL, reported. */

@@ -79,6 +79,24 @@ static bool take_own(int count, char **words, int *at, run_options *o, bool *bad
     return value != NULL;
 }
 
+static bool files_are_apart(const simulation_settings *s) {
+    const struct {
+        const char *option;
+        const char *file;
+    } outputs[] = {{"--csv", s->csv}, {"--columns", s->columns}, {"--plot", s->plot}};
+    for (int i = 0; i < 3; i++) {
+        for (int k = i + 1; k < 3; k++) {
+            if (outputs[i].file != NULL && outputs[k].file != NULL &&
+                same_file(outputs[i].file, outputs[k].file)) {
+                fprintf(stderr, "whirl run: error: %s and %s cannot share a file\n",
+                        outputs[i].option, outputs[k].option);
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
 static bool read_options(int count, char **words, run_options *o) {
     bool bad = false;
     for (int at = 0; at < count && !bad;) {
@@ -103,12 +121,13 @@ static bool read_options(int count, char **words, run_options *o) {
         fputs(usage, stderr);
         return false;
     }
-    if (!bad && o->settings.csv != NULL && o->settings.columns != NULL &&
-        strcmp(o->settings.csv, o->settings.columns) == 0) {
-        fputs("whirl run: error: --csv and --columns cannot share a file\n", stderr);
-        return false;
-    }
-    return !bad;
+    return !bad && files_are_apart(&o->settings);
+}
+
+static bool model_would_be_lost(const source_model *from, const simulation_settings *s) {
+    return source_would_be_lost(from, "--csv", s->csv, "") ||
+           source_would_be_lost(from, "--columns", s->columns, "") ||
+           source_would_be_lost(from, "--plot", s->plot, "");
 }
 
 /* --every as a number of steps. */
@@ -119,18 +138,17 @@ static bool read_every(const run_options *o, const mechanism *of, const instance
         return true;
     }
     diags *errors = diags_new();
-    const overrides duration = {.until = o->every};
-    instance *spaced = instance_make(of, NULL, &duration, errors);
-    diags_free(errors); /* it would speak of --until */
-    if (spaced == NULL) {
+    double spacing_s;
+    const bool known = instance_duration(of, NULL, NULL, "every", o->every, errors, &spacing_s);
+    diags_free(errors); /* what it is not says more than why it is not */
+    if (!known) {
         fprintf(stderr,
                 "whirl run: error: --every %s is not a time\n"
                 "hint: such as 2ms, or 0.002 in seconds; the step is %.9g s\n",
                 o->every, inst->step_s);
         return false;
     }
-    const double wanted = spaced->until_s / inst->step_s;
-    instance_free(spaced);
+    const double wanted = spacing_s / inst->step_s;
     if (!(wanted > 0.5 && wanted < 1e15) || fabs(wanted - floor(wanted + 0.5)) > 1e-6 * wanted) {
         fprintf(stderr,
                 "whirl run: error: --every %s is not a whole number of steps\n"
@@ -154,7 +172,7 @@ static int run_loaded(run_options *o, const source_model *from, const loaded *ma
     if (!read_every(o, made->instance->mechanism, made->instance, &o->settings.every)) {
         return EXIT_BAD_INPUT;
     }
-    if (!start_is_possible(made->program, made->equations, from->errors)) {
+    if (!start_is_possible(made->program, made->instance, from->errors)) {
         diags_flush(from->errors, stderr);
         return EXIT_BAD_INPUT;
     }
@@ -186,10 +204,16 @@ int command_run(int count, char **words) {
     if (code == EXIT_DONE) {
         code = source_pick(&from, true, &of, &in);
     }
+    if (code == EXIT_DONE && model_would_be_lost(&from, &o.settings)) {
+        code = EXIT_BAD_INPUT;
+    }
     if (code == EXIT_DONE) {
         loaded made;
         const overrides changes = change_options_overrides(&o.changes);
         code = load(&made, &from, of, in, &changes, true);
+        if (code == EXIT_DONE && !o.settings.quiet) {
+            say_hints(&made);
+        }
         if (code == EXIT_DONE) {
             code = run_loaded(&o, &from, &made);
         }

@@ -217,21 +217,9 @@ static int sweep_loaded(const sweep_options *o, const source_model *from, const 
 
 /* --from in seconds: read like --until, so that it may name parameters too. */
 static bool read_from(const sweep_options *o, const mechanism *of, const scene *in,
-                      overrides changes, diags *errors, double *from_s) {
+                      const overrides *changes, diags *errors, double *from_s) {
     *from_s = 0.0;
-    if (o->from == NULL) {
-        return true;
-    }
-    changes.until = o->from;
-    instance *timed = instance_make(of, in, &changes, errors);
-    if (timed == NULL) {
-        diags_flush(errors, stderr);
-        fprintf(stderr, "hint: this is about --from %s\n", o->from);
-        return false;
-    }
-    *from_s = timed->until_s;
-    instance_free(timed);
-    return true;
+    return o->from == NULL || instance_duration(of, in, changes, "from", o->from, errors, from_s);
 }
 
 static int sweep_scene(const sweep_options *o, source_model *from, const mechanism *of,
@@ -243,7 +231,7 @@ static int sweep_scene(const sweep_options *o, source_model *from, const mechani
     }
     const overrides changes = change_options_overrides(&o->changes);
     sweep s = {.grid = &g, .scene = in, .changes = &changes, .kind = o->kind, .engine = o->engine};
-    good = good && read_from(o, of, in, changes, from->errors, &s.from_s);
+    good = good && read_from(o, of, in, &changes, from->errors, &s.from_s);
     measures *wanted = good ? measures_new(of, o->measure, o->measure_count, from->errors) : NULL;
     diags_flush(from->errors, stderr);
     int code = EXIT_BAD_INPUT;
@@ -256,6 +244,9 @@ static int sweep_scene(const sweep_options *o, source_model *from, const mechani
                     s.from_s, base.instance->until_s);
             code = EXIT_BAD_INPUT;
         }
+        if (code == EXIT_DONE && !o->quiet) {
+            say_hints(&base);
+        }
         if (code == EXIT_DONE) {
             code = sweep_loaded(o, from, &base, &s);
         }
@@ -264,6 +255,13 @@ static int sweep_scene(const sweep_options *o, source_model *from, const mechani
     measures_free(wanted);
     grid_free(&g);
     return code;
+}
+
+/* The rows, and what stands beside them (host/sweep/sheet.h). */
+static bool model_would_be_lost(const source_model *from, const char *csv) {
+    return source_would_be_lost(from, "--csv", csv, "") ||
+           source_would_be_lost(from, "--csv", csv, ".sweep") ||
+           source_would_be_lost(from, "--csv", csv, ".sweep.new");
 }
 
 static int processors(void) {
@@ -293,6 +291,9 @@ int command_sweep(int count, char **words) {
         code = source_open(&from, o.target);
         if (code == EXIT_DONE) {
             code = source_pick(&from, true, &of, &in);
+        }
+        if (code == EXIT_DONE && model_would_be_lost(&from, o.csv)) {
+            code = EXIT_BAD_INPUT;
         }
         if (code == EXIT_DONE) {
             code = sweep_scene(&o, &from, of, in);

@@ -6,8 +6,8 @@
  *
  * so its rate follows algebraically from the others'. Where the momentum is the rate of a function
  * G(q) (a centre of mass times the total mass), X itself follows too: G(q) = G(q0) + p t. Then neither
- * X nor X' is part of the state, and their drift is rounding only. Where it is not, X is integrated
- * from its algebraic rate. (Routh's procedure; Goldstein, Classical Mechanics, section 8.3.)
+ * X nor X' is part of the state, and their drift is rounding only. Where it is not, or where a force or a contact
+ * depends on X (a step knows no time), X is integrated from its algebraic rate. (Routh's procedure; Goldstein, Classical Mechanics, section 8.3.)
  */
 #ifndef DERIVE_CONSERVE_H
 #define DERIVE_CONSERVE_H

@@ -11,6 +11,7 @@
 #define STEP_DEFAULT_S 1e-3
 #define UNTIL_DEFAULT_S 10.0
 #define STEPS_MAX 1e15 /* step counts stay exact in a double */
+#define ROUNDING 1e-9  /* of a step: what the conversion of units may leave */
 
 enum { WORDS_SIZE = 120 };
 
@@ -139,9 +140,13 @@ static void evaluate_durations(plan *from, instance *made) {
             diag_error(values->diags, from->until.at, NULL, "until must not be negative");
         }
     }
+    const place at = from->until.value != NULL ? from->until.at : from->step.at;
     if (made->step_s > 0.0 && !(made->until_s / made->step_s <= STEPS_MAX)) {
-        diag_error(values->diags, from->until.value != NULL ? from->until.at : from->step.at, NULL,
-                   "more than %g steps", STEPS_MAX);
+        diag_error(values->diags, at, NULL, "more than %g steps", STEPS_MAX);
+    }
+    if (made->until_s > 0.0 && made->until_s < made->step_s * (1.0 - ROUNDING)) {
+        diag_error(values->diags, at, "a later until or a shorter step; until 0 takes no step",
+                   "until %.9g s is less than one step of %.9g s", made->until_s, made->step_s);
     }
 }
 
@@ -184,9 +189,9 @@ static void allocate(instance *made) {
     }
 }
 
-instance *instance_make(const mechanism *of, const scene *from, const overrides *changes,
-                        diags *all) {
-    const size_t before = diags_calls(all);
+/* An instance without numbers yet, and the plan they follow from. */
+static instance *begin(const mechanism *of, const scene *from, const overrides *changes, diags *all,
+                       plan *what) {
     struct arena *memory = arena_new();
     instance *made = arena_alloc(memory, sizeof *made);
     made->arena = memory;
@@ -194,19 +199,41 @@ instance *instance_make(const mechanism *of, const scene *from, const overrides 
     made->scene = from;
     made->name = from != NULL ? from->name : of->name;
     allocate(made);
-    plan what = plan_new(made, all);
+    *what = plan_new(made, all);
     if (from != NULL) {
-        apply_scene(&what, from, made);
+        apply_scene(what, from, made);
     }
     if (changes != NULL) {
-        apply_overrides(&what, made, changes);
+        apply_overrides(what, made, changes);
     }
+    return made;
+}
+
+bool instance_duration(const mechanism *of, const scene *from, const overrides *changes,
+                       const char *what, const char *text, diags *all, double *seconds) {
+    const size_t before = diags_calls(all);
+    plan known;
+    instance *made = begin(of, from, changes, all, &known);
+    const expr *value = override_duration(of, what, text, made->arena, all);
+    *seconds = value == NULL ? 0.0 : finite_value(value, &known.values, value->at, what);
+    if (value != NULL && *seconds < 0.0) {
+        diag_error(all, value->at, NULL, "%s must not be negative", what);
+    }
+    instance_free(made);
+    return diags_calls(all) == before;
+}
+
+instance *instance_make(const mechanism *of, const scene *from, const overrides *changes,
+                        diags *all) {
+    const size_t before = diags_calls(all);
+    plan what;
+    instance *made = begin(of, from, changes, all, &what);
     evaluate(&what, made);
     if (diags_calls(all) == before) {
         limits_check(made, &what.values);
     }
     if (diags_calls(all) != before) {
-        arena_free(memory);
+        instance_free(made);
         return NULL;
     }
     return made;

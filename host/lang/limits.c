@@ -3,9 +3,9 @@
 #include <math.h>
 #include <stdio.h>
 
-/* The value, or NAN when it is known only while running, or not finite (reported). */
-static double constant_value(const expr *tree, valuation *known, const char *what) {
-    if ((tree->uses & (USES_UNKNOWNS | USES_INPUT)) != 0) {
+/* The value at the start, or NAN when it changes with the motion, or is not finite (reported). */
+static double value_at_start(const expr *tree, valuation *known, const char *what) {
+    if ((tree->uses & USES_UNKNOWNS) != 0) {
         return (double)NAN;
     }
     const size_t before = diags_calls(known->diags);
@@ -14,7 +14,7 @@ static double constant_value(const expr *tree, valuation *known, const char *wha
 }
 
 static void check_stop(const hybrid *stop, valuation *known) {
-    const double e = constant_value(stop->restitution, known, "the restitution");
+    const double e = value_at_start(stop->restitution, known, "the restitution");
     if (e < 0.0 || e > 1.0) {
         diag_error(known->diags, stop->restitution->at,
                    "0: it stays where it hits; 1: it leaves as fast as it came",
@@ -25,8 +25,8 @@ static void check_stop(const hybrid *stop, valuation *known) {
 static void check_friction(const hybrid *friction, valuation *known) {
     const expr *sticks = friction->static_friction;
     const expr *slides = friction->kinetic_friction;
-    const double most = constant_value(sticks, known, "the coefficient of static friction");
-    const double kinetic = constant_value(slides, known, "the coefficient of kinetic friction");
+    const double most = value_at_start(sticks, known, "the coefficient of static friction");
+    const double kinetic = value_at_start(slides, known, "the coefficient of kinetic friction");
     if (most < 0.0 || kinetic < 0.0) {
         diag_error(known->diags, most < 0.0 ? sticks->at : slides->at, NULL,
                    "a coefficient of friction must not be negative, and this is %g",
@@ -38,7 +38,7 @@ static void check_friction(const hybrid *friction, valuation *known) {
 }
 
 static void check_noise(const noise *each, valuation *known) {
-    const double deviation = constant_value(each->deviation, known, "the deviation");
+    const double deviation = value_at_start(each->deviation, known, "the deviation");
     if (deviation < 0.0) {
         diag_error(known->diags, each->deviation->at, NULL,
                    "a standard deviation must not be negative, and this is %g", deviation);
@@ -111,6 +111,7 @@ static void count_event(const hybrid *each, int *events, int *sets, diags *all) 
 
 void limits_check(const instance *made, valuation *known) {
     const mechanism *of = made->mechanism;
+    known->input = made->input;
     int events = 0;
     int sets = 0;
     for (int i = 0; i < of->hybrid_count; i++) {

@@ -5,7 +5,8 @@
 
 #include "value.h"
 
-/* Report what is out of range in `made`, whose parameters are `known`. */
+/* Report what is out of range in `made`, whose parameters are `known`. Inputs count with the
+ * value they start with: whoever changes them while running answers for what they are then. */
 void limits_check(const instance *made, valuation *known);
 
 #endif

@@ -56,12 +56,18 @@ double parameter_value(valuation *known, int index) {
     return value;
 }
 
-static double symbol_value(const symbol *named, valuation *known) {
+static double symbol_value(const symbol *named, int primes, valuation *known) {
     if (known == NULL || named == NULL) {
         return (double)NAN;
     }
     if (named->kind == SYM_PARAMETER) {
         return parameter_value(known, named->index);
+    }
+    if (named->kind == SYM_INPUT && known->input != NULL) {
+        return known->input[named->index];
+    }
+    if (named->kind == SYM_COORDINATE && known->state != NULL && primes < 2) {
+        return known->state[named->index][primes];
     }
     if (named->kind == SYM_LET && !known->let_known[named->index]) {
         known->let[named->index] = expr_value(named->value, known);
@@ -96,7 +102,7 @@ double expr_value(const expr *tree, valuation *known) {
     const double b = tree->right == NULL ? 0.0 : expr_value(tree->right, known);
     switch (tree->op) {
     case EXPR_NUMBER: return tree->number;
-    case EXPR_SYMBOL: return symbol_value(tree->symbol, known);
+    case EXPR_SYMBOL: return symbol_value(tree->symbol, tree->primes, known);
     case EXPR_ADD: return a + b;
     case EXPR_SUB: return a - b;
     case EXPR_MUL: return a * b;

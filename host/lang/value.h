@@ -14,6 +14,8 @@ typedef struct valuation {
     signed char *parameter_state; /* [parameter_count] 0 not yet, 1 being found, 2 found */
     double *let;                  /* [let_count] */
     bool *let_known;              /* [let_count] */
+    const double *input;          /* [input_count] SI; NULL: not known, expressions may have none */
+    double *const *state;         /* [coordinate_count][primes < 2] SI; NULL like input */
     int depth;                    /* heights of the expressions being evaluated */
     diags *diags;
 } valuation;

@@ -17,9 +17,10 @@ typedef struct jobs {
     uint64_t first;
     uint64_t end;
     void *context;
-    /* In a worker: write the point's row, and what is to be said of it. False when it failed. */
+    /* In a worker: write the point's row, and in `reason` what else deliver() is to know of it,
+     * as one line or nothing. False when it failed. */
     bool (*work)(void *context, uint64_t point, FILE *row, FILE *reason);
-    /* In the parent, in order. False ends it all. `reason` is "" or one line. */
+    /* In the parent, in order. False ends it all. */
     bool (*deliver)(void *context, uint64_t point, bool good, const char *row, const char *reason);
     /* In the parent, after some rows or a moment: write out what was delivered, show progress. */
     bool (*pause)(void *context, uint64_t next);

@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "host/run/start.h"
+
 /* Steps between two questions whether to give up. */
 #define ABANDON_STEPS 4096U
 
@@ -185,7 +187,7 @@ static bool run_through(meter *m, const instance *inst, bool (*abandon)(void), F
 }
 
 static bool measure_run(const sweep *s, const program *p, const instance *inst,
-                        bool (*abandon)(void), double *measured, FILE *reason) {
+                        bool (*abandon)(void), double *measured, FILE *reason, uint64_t *overruns) {
     const char *missing = program_needs_libm(p);
     if (missing != NULL && s->kind == &engine_float) {
         fprintf(reason, "needs %s, which the core does not offer in float", missing);
@@ -197,6 +199,9 @@ static bool measure_run(const sweep *s, const program *p, const instance *inst,
     const bool good = run_through(&m, inst, abandon, reason);
     for (int i = 0; i < s->measures->count && good; i++) {
         measured[i] = gauge_result(&m.gauges[i], inst->step_s, epsilon);
+    }
+    if (good && p->contacts != NULL) {
+        s->kind->events(run, overruns);
     }
     meter_close(&m);
     s->kind->stop(run);
@@ -220,7 +225,7 @@ static void tell_first(diags *errors, FILE *reason) {
 }
 
 static bool measure_point(const sweep *s, uint64_t point, bool (*abandon)(void), double *measured,
-                          FILE *reason) {
+                          FILE *reason, uint64_t *overruns) {
     diags *errors = diags_new();
     overrides changes = changes_at(s, point);
     instance *inst = instance_make(&s->measures->mechanism, s->scene, &changes, errors);
@@ -233,8 +238,10 @@ static bool measure_point(const sweep *s, uint64_t point, bool (*abandon)(void),
                         : program_make(e, s->scene != NULL ? s->scene->conserve : NULL, errors);
         good = own != NULL;
     }
+    const program *p = own != NULL ? own : s->shared;
+    good = good && start_is_possible(p, inst, errors);
     if (good) {
-        good = measure_run(s, own != NULL ? own : s->shared, inst, abandon, measured, reason);
+        good = measure_run(s, p, inst, abandon, measured, reason, overruns);
     } else {
         tell_first(errors, reason);
     }
@@ -285,9 +292,11 @@ void sweep_swept_fields(const sweep *s, uint64_t point, FILE *out) {
     free(value);
 }
 
-bool sweep_point(const sweep *s, uint64_t point, bool (*abandon)(void), FILE *row, FILE *reason) {
+bool sweep_point(const sweep *s, uint64_t point, bool (*abandon)(void), FILE *row, FILE *reason,
+                 uint64_t *overruns) {
     double *measured = room((size_t)s->measures->count, sizeof *measured);
-    const bool good = measure_point(s, point, abandon, measured, reason);
+    *overruns = 0;
+    const bool good = measure_point(s, point, abandon, measured, reason, overruns);
     sweep_swept_fields(s, point, row);
     for (int i = 0; i < s->measures->count; i++) {
         fputc(',', row);

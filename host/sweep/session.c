@@ -15,14 +15,30 @@ typedef struct sitting {
     progress progress;
     uint64_t first; /* point of the sheet's first row */
     uint64_t failed;
-    int told; /* failures described */
+    int told;     /* failures described */
+    uint64_t ran; /* points delivered, now */
+    uint64_t overrun_points;
+    uint64_t overrun_steps;
+    uint64_t overrun_first; /* point */
 } sitting;
 
 enum { TOLD_MAX = 20 };
 
+/* Of a point that did not fail, `reason` is its number of overruns, if there are any. */
 static bool work(void *context, uint64_t point, FILE *row, FILE *reason) {
     const sitting *s = context;
-    return sweep_point(s->sweep, point, jobs_orphaned, row, reason);
+    uint64_t overruns = 0;
+    const bool good = sweep_point(s->sweep, point, jobs_orphaned, row, reason, &overruns);
+    if (good && overruns > 0) {
+        fprintf(reason, "%llu", (unsigned long long)overruns);
+    }
+    return good;
+}
+
+static void count_overruns(sitting *s, uint64_t point, uint64_t steps) {
+    s->overrun_first = s->overrun_points == 0 ? point : s->overrun_first;
+    s->overrun_points++;
+    s->overrun_steps += steps;
 }
 
 /* "point 17 (r=0.02, theta'=31.4)" */
@@ -33,7 +49,7 @@ static void name_point(const sweep *s, uint64_t point) {
         abort();
     }
     grid_values(s->grid, point, value);
-    fprintf(stderr, "whirl sweep: error: point %llu (", (unsigned long long)point + 1);
+    fprintf(stderr, "point %llu (", (unsigned long long)point + 1);
     for (int i = 0; i < s->grid->count; i++) {
         fprintf(stderr, "%s%s=%s", i > 0 ? ", " : "", s->grid->axes[i].name,
                 number_shortest(value[i], text));
@@ -44,16 +60,20 @@ static void name_point(const sweep *s, uint64_t point) {
 
 static bool deliver(void *context, uint64_t point, bool good, const char *row, const char *reason) {
     sitting *s = context;
+    s->ran++;
     if (!good) {
         s->failed++;
         if (s->told < TOLD_MAX) {
             progress_clear(&s->progress);
+            fputs("whirl sweep: error: ", stderr);
             name_point(s->sweep, point);
             fprintf(stderr, ": %s\n", reason);
         } else if (s->told == TOLD_MAX) {
             fprintf(stderr, "further failures are not listed: their measures are empty\n");
         }
         s->told += s->told <= TOLD_MAX ? 1 : 0;
+    } else if (reason[0] != '\0') {
+        count_overruns(s, point, strtoull(reason, NULL, 10));
     }
     return fputs(row, s->sheet.out) >= 0;
 }
@@ -67,6 +87,23 @@ static bool pause_between(void *context, uint64_t next) {
 static void swept(const void *context, uint64_t row, FILE *out) {
     const sitting *s = context;
     sweep_swept_fields(s->sweep, s->first + row, out);
+}
+
+/* What `whirl run` says in its summary; of the points that ran now, as rows found in the file do
+ * not tell. */
+static void say_overruns(const sitting *s) {
+    if (s->overrun_points == 0) {
+        return;
+    }
+    fprintf(stderr,
+            "whirl sweep: note: %llu of %llu points overran the %d moments with events that a step "
+            "takes, in %llu step%s; first: ",
+            (unsigned long long)s->overrun_points, (unsigned long long)s->ran, WH_EVENTS_MAX,
+            (unsigned long long)s->overrun_steps, s->overrun_steps == 1 ? "" : "s");
+    name_point(s->sweep, s->overrun_first);
+    fputs("\nhint: what was left of those steps counts as rest or sticking; "
+          "a smaller --step tells more\n",
+          stderr);
 }
 
 static void say_end(const session_settings *o, const sitting *s, int workers) {
@@ -113,6 +150,7 @@ static int run_points(const session_settings *o, sitting *s) {
     if (!sheet_close(&s->sheet)) {
         return SESSION_FAILED;
     }
+    say_overruns(s);
     const char *hint = s->sheet.is_file ? "hint: the same command goes on from there\n" : "";
     switch (result) {
     case JOBS_DONE: say_end(o, s, workers); break;

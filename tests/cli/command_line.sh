@@ -116,6 +116,14 @@ says 2 'step must be above zero' run thomson_a --step -1ms
 says 2 'until must not be negative' run thomson_a --until -1s
 says 2 'more than 1e\+15 steps' run thomson_a --until 1e300
 says 2 'more than 1e\+15 steps' run thomson_a --step 1e-300
+says 2 'until 1 s is less than one step of 3 s' run thomson_a --until 1s --step 3s
+says 2 'hint: a later until or a shorter step' run thomson_a --until 1s --step 3s
+prints ', 0 steps to t = 0 s' run thomson_a --until 0
+prints ', 1 steps to t = 3 s' run ball_elastic --until 3s --step 3s
+# the nearest whole number of steps
+prints ', 1000 steps to t = 1 s' run ball_elastic --until 1.0005s --step 1ms
+prints ', 1001 steps to t = 1.001 s' run ball_elastic --until 1.0007s --step 1ms
+prints ', 100 steps to t = 0.01 s' run ball_elastic --until 10ms --step 0.1ms --every 0.5ms
 says 2 '--every 1.5ms is not a whole number of steps' run epicyclic_from_rest --every 1.5ms
 says 2 'hint: the step is 0.001 s' run epicyclic_from_rest --every 1.5ms
 says 2 '--every 0 is not a whole number' run thomson_a --every 0
@@ -140,7 +148,78 @@ says 2 "needs exp, which the core does not offer" run tests/mechanisms/morse.whi
 says 2 "needs exp, which the core does not offer" derive tests/mechanisms/morse.whirl --as c
 prints '^function dy = ' derive tests/mechanisms/morse.whirl --as octave
 
+# --- files that are read are not written ------------------------------------------------------------------
+cat >"$scratch/own.whirl" <<'END'
+mechanism own "a mass on a spring"
+coordinate x [m]
+T = 2 [kg]*x'^2/2
+V = 8 [N/m]*x^2/2
+output rate [kg*m/s^3] = 8 [N/m]*x'
+scene own_swings { start x = 1 [m]; step 10 [ms]; until 0.1 [s] }
+END
+cp "$scratch/own.whirl" "$scratch/kept"
+cp "$scratch/own.whirl" "$scratch/own.svg"
+ln -s own.whirl "$scratch/soft"
+ln "$scratch/own.whirl" "$scratch/hard"
+own=$scratch/own.whirl:own_swings
+for file in own.whirl ./own.whirl soft hard; do
+    for option in --csv --columns; do
+        says 2 "$file: error: $option would write over the model" run "$own" "$option" "$scratch/$file"
+    done
+    says 2 "$file: error: --csv would write over the model" \
+        sweep "$own" --over x=1..2:2 --fresh --csv "$scratch/$file"
+done
+says 2 'hint: give it another name' run "$scratch/soft:own_swings" --csv "$scratch/hard"
+says 2 'own.svg: error: --plot would write over the model' run "$scratch/own.svg" --plot "$scratch/own.svg"
+cp "$scratch/own.whirl" "$scratch/x.sweep"
+says 2 'x.sweep: error: --csv would write over the model' \
+    sweep "$scratch/x.sweep" --over x=1..2:2 --csv "$scratch/x"
+"$whirl" run - --csv "$scratch/own.whirl" <"$scratch/own.whirl" >"$scratch/out" 2>"$scratch/err"
+[ $? -eq 2 ] && grep -q 'would write over the model' "$scratch/err"
+verdict $? "nor is what standard input reads"
+cmp -s "$scratch/own.whirl" "$scratch/kept" && cmp -s "$scratch/own.svg" "$scratch/kept" &&
+    cmp -s "$scratch/x.sweep" "$scratch/kept"
+verdict $? "the models are as they were"
+says 2 'error: --csv and --plot cannot share a file' run "$own" --csv "$scratch/a.svg" --plot "$scratch/a.svg"
+says 2 'error: --csv and --columns cannot share a file' run "$own" --csv - --columns -
+echo >"$scratch/b"
+ln "$scratch/b" "$scratch/c"
+says 2 'error: --csv and --columns cannot share a file' run "$own" --csv "$scratch/b" --columns "$scratch/c"
+prints '^own_swings$' run "$own" --csv /dev/null
+prints '^  rate +[-0-9.e]+ m\*kg\*s\^-3$' run "$own"
+
+# --- what has a better way ------------------------------------------------------------------------------------
+cat >"$scratch/hand.whirl" <<'END'
+mechanism hand "friction by hand"
+coordinate x [m]
+T = 2 [kg]*x'^2/2
+Q(x) = -3 [N]*sign(x')
+END
+for call in 'run' 'derive' 'sweep --over x=0..1:2 --until 1s'; do
+    # shellcheck disable=SC2086 # a list of words
+    says 0 "hand.whirl:4:1: note: this force changes its sign with x'" $call "$scratch/hand.whirl"
+done
+says 0 'hint: dry friction is: friction x static EXPR kinetic EXPR normal EXPR' run "$scratch/hand.whirl"
+"$whirl" run "$scratch/hand.whirl" --quiet >"$scratch/out" 2>"$scratch/err"
+[ $? -eq 0 ] && [ ! -s "$scratch/err" ]
+verdict $? "--quiet says nothing of it"
+
 # --- starts that cannot be ------------------------------------------------------------------------------
+cat >"$scratch/starts.whirl" <<'END'
+mechanism starts "distances without a unit, and without end"
+coordinate x [m]
+coordinate n
+T = 2 [kg]*x'^2/2 + 1 [J*s^2]*n'^2/2
+stop 1/(1 [m] + x) >= 0.5 [1/m] restitution 0
+stop n <= 2 restitution 0
+END
+says 2 'starts.whirl:6:1: error: the run starts beyond this stop, by 1.5$' run "$scratch/starts.whirl" --start n=3.5
+says 2 'starts.whirl:5:1: error: the run starts beyond this stop, by 0.25 m\^-1$' run "$scratch/starts.whirl" --start x=3
+says 2 'starts.whirl:5:1: error: the distance to this stop is not a finite number where the run starts' \
+    run "$scratch/starts.whirl" --start x=-1
+says 2 'error: the run starts beyond this stop' run "$scratch/starts.whirl" --start x=-1.5
+says 2 'error: a restitution is from 0 to 1, and this is 1.5' run tests/bad/hybrid_input_restitution.whirl
+prints '^ball: ' run tests/bad/hybrid_input_restitution.whirl --set e=0.5 --until 1s
 says 2 'contacts.whirl:[0-9]+:[0-9]+: error: the run starts beyond this stop, by 0.25 m' run ball_bounces --start z=-0.25
 says 0 "" run ball_bounces --start z=0 --until 10ms --csv -
 

@@ -102,6 +102,17 @@ mechanism bare "one length, nothing acts"
 coordinate x [m]
 T = 3 [kg]*x'^2/2
 END
+# T + V is not what the books keep here, and an input is in the energies
+cat >"$scratch/w/hoop.whirl" <<'END'
+mechanism hoop "a bead on a hoop whose rate is an input"
+coordinate th [rad]
+input push = 0.01 [N*m]
+input w = 10 [rad/s]
+T = 2e-3 [kg*m^2]*(th'^2 + w^2*sin(th)^2)
+V = -0.2 [J]*cos(th)
+Q(th) = push
+stop th <= 0.7 restitution 0.5
+END
 for file in "$scratch"/w/*.whirl; do
     add_file "$file"
 done
@@ -109,6 +120,20 @@ for file in offsets outside roots first; do
     add_file "$scratch/w/$file.whirl"
     echo --compensated >>"$scratch/$number.options"
 done
+add_file "$scratch/w/hoop.whirl"
+printf '%s\n' --with ledger >>"$scratch/$number.options"
+
+# a clock that is conserved, on which a force depends: it is integrated
+cat >"$scratch/w/clock.whirl" <<'END'
+mechanism clock "a force of time"
+coordinate t [s]
+coordinate x [m]
+T = 1e-9 [J]*t'^2/2 + 2 [kg]*x'^2/2
+V = 50 [N/m]*x^2/2
+Q(x) = 4 [N]*sin(3 [rad/s]*t)
+scene clock_drives { start t' = 1; conserve t }
+END
+add "$scratch/w/clock.whirl:clock_drives" --until 0.3s
 
 # --- deriving and interpreting ----------------------------------------------------------------------
 : >"$scratch/numbers"

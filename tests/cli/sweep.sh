@@ -130,16 +130,53 @@ check "--fresh: the right rows" cmp "$scratch/small.csv" "$scratch/kept.csv"
 # --- points that fail ----------------------------------------------------------------------------
 failing() { "$whirl" sweep carriage_free --until 10ms --over ratio=-1..1:5 --measure X "$@"; }
 check "failing points: exit status 1" status 1 failing --csv "$scratch/failing.csv"
-check "failing points: which and why" grep -q 'point 1 (ratio=-1): diverged' "$scratch/said"
-check "failing points: how many" grep -q '2 of 5 points failed' "$scratch/said"
+check "failing points: which and why" grep -q 'point 1 (ratio=-1): the kinetic energy of .* is negative' "$scratch/said"
+check "failing points: how many" grep -q '3 of 5 points failed' "$scratch/said"
 check "failing points: empty measures" \
-    test "$(tr -d '\r' <"$scratch/failing.csv" | grep -cE '^(-1|0),$')" -eq 2
+    test "$(tr -d '\r' <"$scratch/failing.csv" | grep -cE '^(-1|-0\.5|0),$')" -eq 3
 check "failing points: the others are there" \
-    test "$(tr -d '\r' <"$scratch/failing.csv" | grep -cE '^(-0\.5|0\.5|1),[-+.e0-9]+$')" -eq 3
+    test "$(tr -d '\r' <"$scratch/failing.csv" | grep -cE '^(0\.5|1),[-+.e0-9]+$')" -eq 2
 check "failing points found in the file count too" status 1 failing --csv "$scratch/failing.csv"
+check "a point that diverges: exit status 1" status 1 \
+    "$whirl" sweep thomson_b --method euler --until 100s --over step=0.1..50:2 --measure X
+check "a point that diverges: when" grep -q 'point 1 (step=0.1): diverged in the step after t = ' "$scratch/said"
 check "no period: nan, and no failure" status 0 \
     "$whirl" sweep carriage_free --until 10ms --over ratio=0.1..0.2:2 --measure 'period(X)'
 check "no period: nan" test "$(grep -c ',nan' "$scratch/rows")" -eq 2
+
+# --- steps that overran ----------------------------------------------------------------------------
+# Between stops a millimetre apart a ball at v makes v bounces a millisecond: more than the eight a step takes from
+# 8 m/s on. It then rests, so that each such run overruns once, as the summary of `whirl run` says.
+between() {
+    "$whirl" sweep ball_between --until 20ms --over "z'=1..25 [m/s]:5" --measure z "$@"
+}
+check "overruns are no failure" status 0 between --csv "$scratch/between.csv"
+check "overruns: how many, and the first" \
+    grep -q "note: 3 of 5 points overran .* in 3 steps; first: point 3 (z'=13)\$" "$scratch/said"
+check "overruns: with a way out" grep -q '^hint: .* smaller --step' "$scratch/said"
+check "run says the same of one" sh -c "'$whirl' run ball_between --until 20ms --start z\\'=13 | grep -q '^  1 steps had more'"
+check "run says nothing of another" sh -c "! '$whirl' run ball_between --until 20ms --start z\\'=7 | grep -q 'steps had more'"
+check "the rows do not tell" status 0 between --csv -
+check "the rows do not tell" cmp "$scratch/rows" "$scratch/between.csv"
+check "overruns are told with --quiet" status 0 between --quiet --jobs 1
+check "overruns are told with --quiet" grep -q "3 of 5 points overran" "$scratch/said"
+head -n 4 "$scratch/between.csv" >"$scratch/part.csv"
+cp "$scratch/between.csv.sweep" "$scratch/part.csv.sweep"
+check "overruns of the points that ran now" status 0 between --csv "$scratch/part.csv"
+check "overruns of the points that ran now" \
+    grep -q "note: 2 of 2 points overran .* in 2 steps; first: point 4 (z'=19)\$" "$scratch/said"
+check "with a shorter step none" status 0 between --step 0.1ms
+check "with a shorter step none" sh -c "! grep -q overran '$scratch/said'"
+
+# --- starts that cannot be --------------------------------------------------------------------------
+check "a start beyond a stop fails, as in run" status 1 \
+    "$whirl" sweep ball_bounces --until 0.1s --over 'z=-1..1:3' --measure z
+check "a start beyond a stop: why" grep -q 'point 1 (z=-1): the run starts beyond this stop, by 1 m' "$scratch/said"
+check "a start beyond a stop: an empty measure" test "$(tr -d '\r' <"$scratch/rows" | grep -c '^-1,$')" -eq 1
+sed 's/parameter e = 0.5 .*/input e = 0.5/' core/models/contacts.whirl >"$scratch/inputs.whirl"
+check "an input out of range fails, though points share a program" status 1 \
+    "$whirl" sweep "$scratch/inputs.whirl:ball_bounces" --until 0.1s --over 'e=0..2:3' --measure z
+check "an input out of range: why" grep -q 'point 3 (e=2): a restitution is from 0 to 1, and this is 2' "$scratch/said"
 
 # --- bad input -----------------------------------------------------------------------------------
 for bad in '--over ratio=1..2' '--over ratio=1...2:3' '--over ratio=1..2:0' '--over ratio=1..2:1' \

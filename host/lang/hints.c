@@ -1,0 +1,77 @@
+#include "hints.h"
+
+#include <string.h>
+
+#include "arena.h"
+#include "value.h"
+
+/* A rate far below any that matters, SI. A force that vanishes with the rate is ten times
+ * smaller at a tenth of it. */
+#define NEAR_REST 1e-6
+
+/* Does the tree name a coordinate other than `own`, or `own` without a prime? Lets are walked
+ * through; recursion is bounded by EXPR_HEIGHT_MAX. */
+static bool names_others(const expr *tree, const symbol *own) {
+    if (tree == NULL || (tree->uses & USES_UNKNOWNS) == 0) {
+        return false;
+    }
+    if (tree->op == EXPR_SYMBOL) {
+        return tree->symbol->kind == SYM_LET ? names_others(tree->symbol->value, own)
+                                             : tree->symbol != own || tree->primes != 1;
+    }
+    return names_others(tree->left, own) || names_others(tree->right, own);
+}
+
+/* sign(an expression of the coordinate's rate and constants), somewhere in the tree. */
+static bool has_sign_of_rate(const expr *tree, const symbol *own) {
+    if (tree == NULL || (tree->uses & USES_UNKNOWNS) == 0) {
+        return false;
+    }
+    if (tree->op == EXPR_SYMBOL) {
+        return tree->symbol->kind == SYM_LET && has_sign_of_rate(tree->symbol->value, own);
+    }
+    const bool here = tree->op == EXPR_CALL && tree->function == FN_SIGN &&
+                      (tree->left->uses & USES_UNKNOWNS) != 0 && !names_others(tree->left, own);
+    return here || has_sign_of_rate(tree->left, own) || has_sign_of_rate(tree->right, own);
+}
+
+static double force_at(const term *of, valuation *known, double rate) {
+    known->state[of->coordinate->index][1] = rate;
+    memset(known->let_known, 0, (size_t)known->of->let_count * sizeof *known->let_known);
+    return expr_value(of->value, known);
+}
+
+/* Does the force jump against the motion at rest? False where it is not a number. */
+static bool opposes_at_rest(const term *of, valuation *known) {
+    double *rate = &known->state[of->coordinate->index][1];
+    const double start = *rate;
+    const double jump = force_at(of, known, NEAR_REST) - force_at(of, known, -NEAR_REST);
+    const double nearer =
+        force_at(of, known, 0.1 * NEAR_REST) - force_at(of, known, -0.1 * NEAR_REST);
+    *rate = start;
+    return jump < 0.0 && nearer < 0.5 * jump;
+}
+
+const term *hint_friction(const instance *made) {
+    const mechanism *of = made->mechanism;
+    const term *found = NULL;
+    struct arena *memory = arena_new();
+    diags *unsaid = diags_new();
+    valuation known = valuation_new(of, memory, unsaid);
+    for (int i = 0; i < of->parameter_count; i++) {
+        known.parameter[i] = made->parameter[i];
+        known.parameter_state[i] = 2;
+    }
+    known.input = made->input;
+    known.state = made->start;
+    for (int i = 0; i < of->term_count && found == NULL; i++) {
+        const term *each = &of->terms[i];
+        if (each->kind == TERM_Q && each->coordinate != NULL && instance_has_term(made, each) &&
+            has_sign_of_rate(each->value, each->coordinate) && opposes_at_rest(each, &known)) {
+            found = each;
+        }
+    }
+    diags_free(unsaid);
+    arena_free(memory);
+    return found;
+}
