@@ -1,3 +1,4 @@
+/* hints.c: see hints.h. */
 #include "hints.h"
 
 #include <string.h>

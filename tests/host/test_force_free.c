@@ -129,7 +129,10 @@ static int check_listed(const scene *s) {
     diags *errors = diags_new();
     instance *inst = instance_make(s->mechanism, s, &(overrides){0}, errors);
     equations *e = inst == NULL ? NULL : equations_derive(inst, errors);
-    TEST_ASSERT_NOT_NULL_MESSAGE(e, s->name);
+    if (e == NULL) {
+        TEST_FAIL_MESSAGE(s->name);
+        return 0;
+    }
     const bool is_free = is_force_free(e);
     if (is_free != listed(s->name)) {
         printf("  %s: %s\n", s->name,

@@ -27,8 +27,7 @@ static void refused(const char *scene_text, const char *wanted) {
     parse(text);
     instantiate(NULL);
     equations *e = equations_derive(made, said);
-    TEST_ASSERT_NOT_NULL(e);
-    TEST_ASSERT_NULL(program_make(e, parsed->scenes[0]->conserve, said));
+    TEST_ASSERT_TRUE(e != NULL && program_make(e, parsed->scenes[0]->conserve, said) == NULL);
     equations_free(e);
     expect_said(wanted);
 }
@@ -52,10 +51,8 @@ static void test_what_acts_on_others_only_is_no_reason(void) {
     parse(CART "scene s { with own; conserve x }");
     instantiate(NULL);
     equations *e = equations_derive(made, said);
-    TEST_ASSERT_NOT_NULL(e);
-    program *p = program_make(e, parsed->scenes[0]->conserve, said);
-    TEST_ASSERT_NOT_NULL(p);
-    TEST_ASSERT_TRUE(p->conserved->closed);
+    program *p = e == NULL ? NULL : program_make(e, parsed->scenes[0]->conserve, said);
+    TEST_ASSERT_TRUE(p != NULL && p->conserved->closed);
     program_free(p);
     equations_free(e);
 }

@@ -79,8 +79,7 @@ static void test_the_start_is_tried_too(void) {
             TEST_ASSERT_NOT_NULL(parsed);
             instance *made =
                 instance_make(parsed->mechanisms[0], NULL, moved == 1 ? &changes : NULL, all);
-            TEST_ASSERT_NOT_NULL(made);
-            equations *e = equations_derive(made, all);
+            equations *e = made == NULL ? NULL : equations_derive(made, all);
             TEST_ASSERT_EQUAL_INT(moved == 1 ? 0 : 1, diags_count(all));
             TEST_ASSERT_TRUE((e != NULL) == (moved == 1));
             equations_free(e);
