@@ -192,7 +192,9 @@ static inline wh_real wh_contact_locate(const wh_hybrid *of, wh_contact_work *w,
     for (unsigned i = 1; i <= WH_REFINEMENTS; i++) {
         wh_real guess = high;
         for (unsigned k = 0; k < of->contacts; k++) {
-            const bool begins = before.value[k] == WH_R(0.0) && !(sliding >> k & 1U);
+            /* at zero from the start on; later a zero is a load at its limit that others still bear */
+            const bool begins =
+                low == WH_R(0.0) && before.value[k] == WH_R(0.0) && (sliding >> k & 1U) == 0;
             if ((*events >> k & 1U) != 0 && (before.value[k] > WH_R(0.0) || begins)) {
                 const wh_real share = before.value[k] / (before.value[k] - after.value[k]);
                 const wh_real root = low + (high - low) * share;

@@ -42,7 +42,7 @@ static const reference_case CASES[] = {
     {"escapement_ticks", "60.0", 60.0, 8e-3, 1e-5, 1e-2},
     {"carriage_stop", "5.0", 5.0, 4e-3, 1e-6, 1e-2},
     {"carriage_stop_smooth", "5.0", 5.0, 4e-3, 1e-6, 1e-2},
-    {"carriage_stop_start", "5.0", 5.0, 4e-3, 1e-6, 1e-2},
+    {"carriage_stop_start", "5.0", 5.0, 4e-3, 2e-9, 1e-2},
     {"thomson_magnet", "5.0", 5.0, 1e-3, 1e-6, 1e-2},
     {"halvorson_ground", "1.0", 1.0, 4e-4, 1e-5, 1e-2},
     {"halvorson_smooth", "1.0", 1.0, 4e-4, 1e-5, 1e-2},
