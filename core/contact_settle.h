@@ -199,14 +199,17 @@ static inline void wh_contact_settle(const wh_hybrid *of, wh_contact_work *w, un
     if (w->moved != 0) {
         wh_contact_revise(of, w, input, s);
     }
+    unsigned frictions = 0;
     for (unsigned k = 0; k < of->forced; k++) {
         if (of->contact[k].kind == WH_FRICTION) {
             const wh_real v = rate[of->contact[k].pin];
+            frictions |= 1U << k;
             if (v != WH_R(0.0)) {
                 w->mode[k] = v > WH_R(0.0) ? 1 : -1;
             }
         }
     }
+    keep &= frictions;
     bool again = true;
     while (again && wh_contact_watched(of, w)) {
         uint8_t member[WH_CONTACTS_MAX] = {0};

@@ -112,7 +112,7 @@ static void print_books(FILE *out, const books *b) {
     if (b->program->contacts != NULL) { /* books beside the run do not see the forces inside it */
         fprintf(out,
                 "  impacts, friction, holds and settings took %.9g (--with ledger says which)\n",
-                -books_error_J(b));
+                0.0 - books_error_J(b)); /* and not "-0" */
     } else {
         fprintf(out, "  does not balance by %.2e (numerical)\n", books_error_J(b));
     }
