@@ -209,13 +209,18 @@ build() { # build COMPILER OPTIMISATION REAL WH_DOUBLE
     done <"$scratch/$1_$3.hashes"
 }
 
-build gcc -O2 float 0
-build gcc -O1 double 1
-if command -v clang >/dev/null 2>&1; then
-    build clang -O1 float 0
-    build clang -O0 double 1
+# EMITTED=once: where the program is what is tested (sanitizers), one build of what it emits will do
+if [ "${EMITTED:-}" = once ]; then
+    build gcc -O0 double 1
+else
+    build gcc -O2 float 0
+    build gcc -O1 double 1
+    if command -v clang >/dev/null 2>&1; then
+        build clang -O1 float 0
+        build clang -O0 double 1
+    fi
 fi
 
-[ "$compared" -ge 130 ]
+[ "$compared" -ge "$(wc -l <"$scratch/numbers")" ] && [ "$compared" -ge 120 ]
 verdict $? "$compared comparisons with the interpreter, $refused refused by both for want of libm"
 exit $failed
