@@ -61,6 +61,8 @@ $(ELF)/host/count/worst.o: FILE_FLAGS := -DWORST_STEPS=$(WORST_STEPS)U -DWORST_S
 
 .PHONY: bench-now size-now worst-now
 worst-now: build/whirl
+	@[ "$(WORST_STEPS)" -gt 0 ] 2>/dev/null || \
+	    { echo "error: WORST_STEPS=$(WORST_STEPS): a number of steps, 1 or more" >&2; exit 2; }
 	@$(MAKE) $(GEN)/.stamp
 	@CC="$(CC)" host/count/all_effects.sh build/whirl build/worst $(WORST_MODELS)
 	@$(RM) $(ELF)/host/count/worst.o
