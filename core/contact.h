@@ -47,12 +47,23 @@
 #define WH_SETS_MAX 128
 #endif
 
-/* Probes to locate an event: each leaves about 1/64 of the interval. */
+/* Most probes to locate an event, to WH_BRACKET of the interval at worst: halving alone needs all but some
+ * of them, by which WH_PROBES_SPARE is above 1. The usual event takes six to ten probes and is located as
+ * finely as rounding lets it, to WH_BRACKET_FINE. */
 #if WH_DOUBLE
-#define WH_REFINEMENTS 12
+#define WH_PROBES 24
+#define WH_BRACKET WH_R(0x1p-20)
+#define WH_BRACKET_FINE WH_R(0x1p-50)
 #else
-#define WH_REFINEMENTS 7
+#define WH_PROBES 14
+#define WH_BRACKET WH_R(0x1p-10)
+#define WH_BRACKET_FINE WH_R(0x1p-21)
 #endif
+#define WH_PROBES_SPARE WH_R(8.0)
+
+/* What a curved hold or stop has slipped in a step is put back twice where it is more than this share of the
+ * way: what once leaves is of second order in it. */
+#define WH_SLIP_COARSE (WH_DOUBLE ? WH_R(1e-6) : WH_R(1e-3))
 
 /* A flight shorter than this share of a step is none. */
 #define WH_REST_SHARE WH_R(0.125)
@@ -68,35 +79,36 @@ enum {
 
 typedef struct wh_contact {
     uint8_t kind; /* wh_contact_kind */
-    int8_t
-        direction; /* crossing: +1 rising, -1 falling, 0 both; stop: 1 if an input moves it, else 0 */
-    int16_t pin;   /* the one coordinate that J_k has an entry for, if that is constant: its rate
+    int8_t direction;  /* crossing: +1 rising, -1 falling, 0 both; stop: 1 if an input moves it; hold: 1 if
+                        * it is straight, its J_k constant; else 0 */
+    int16_t pin;       /* the one coordinate that J_k has an entry for, if that is constant: its rate
                         * is held at zero exactly; else -1 */
-    uint8_t first_set; /* crossing: its assignments */
+    uint8_t first_set; /* crossing: its assignments; hold without a pin: its place in wh_state's held[] */
     uint8_t sets;
 } wh_contact;
 
 /* Entries per contact in what `forces` computes, before the two rows of n. */
 enum {
-    WH_LAW_FIRST,  /* stop: restitution; friction: mu_static * max(N, 0) */
+    WH_LAW_FIRST,  /* stop: restitution; friction: mu_static * max(N, 0); curved hold: what it holds */
     WH_LAW_SECOND, /* friction: mu_kinetic * max(N, 0) */
     WH_LAW_BIAS,   /* J_k' q' */
     WH_LAW_ROWS    /* J_k[n], then (M^-1 J_k^T)[n] */
 };
 
 /* Most evaluations of the accelerations in one step, each with at most one of `forces`: in each of WH_EVENTS_MAX
- * rounds a try to the step's end and one to the event (`stages` each), a look at the end of both, the search with
- * the accelerations at both ends, two looks a stop that is hit and one for another contact, two after assignments,
- * and those that settle the modes; then the last try, and what finds or follows the modes when the step begins. */
+ * rounds a try to the step's end and one to the event (`stages` each), at the end of both up to three looks that put
+ * back what slipped, one more at the step's end, the search with the accelerations at both ends, two looks a stop
+ * that is hit and one for another contact, two after assignments, and those that settle the modes; then the last
+ * try, and what finds or follows the modes when the step begins. */
 #define WH_CONTACT_EVALUATIONS(stages, stops, forced) \
-    (WH_EVENTS_MAX * (2 * (stages) + WH_REFINEMENTS + 9 + (stops) + 2 * (forced)) + (stages) + 4 + \
+    (WH_EVENTS_MAX * (2 * (stages) + WH_PROBES + 13 + (stops) + 2 * (forced)) + (stages) + 6 + \
      (stops) + 2 * (forced))
 
 /* Most evaluations of `signals` in one step: one with each of those above but the stages' and the search's two
- * ends, a second one where a step's end is compared with its begin, and two when a crossing is taken. */
-#define WH_CONTACT_SIGNALS(stops, forced, crossings) \
-    (WH_EVENTS_MAX * (WH_REFINEMENTS + 8 + (stops) + 2 * (forced) + 2 * (crossings)) + 5 + \
-     (stops) + 2 * (forced))
+ * ends, a second one where a step's end is compared with its begin and where a hold captures, and two when a
+ * crossing is taken. */
+#define WH_CONTACT_SIGNALS(forced, crossings) \
+    (WH_EVENTS_MAX * (WH_PROBES + 12 + 3 * (forced) + 2 * (crossings)) + 7 + 3 * (forced))
 
 /* A scene's contacts, constant. The functions are lists of operations like the accelerations. */
 typedef struct wh_hybrid {
@@ -111,6 +123,7 @@ typedef struct wh_hybrid {
     const wh_ledger_form *ledger; /* or NULL */
     uint8_t contacts;
     uint8_t forced;       /* contacts that have a force: all but crossings */
+    uint8_t held;         /* holds without a pin */
     uint16_t evaluations; /* WH_CONTACT_EVALUATIONS: declared, and held to by the tests */
     wh_method method;
     bool compensated;

@@ -39,7 +39,7 @@ WH_INLINE wh_real *wh_contact_rates(const wh_hybrid *of, wh_contact_state *s) {
 static inline bool wh_contact_try(const wh_hybrid *of, wh_contact_work *w, wh_real h,
                                   wh_real *input, wh_contact_state *s, int *fault) {
     const wh_contact_model model = {of, w};
-    wh_state view = {0, s->angle, s->real, s->carry, input, NULL, NULL, -1};
+    wh_state view = {0, s->angle, s->real, s->carry, input, NULL, NULL, NULL, -1};
     wh_books_begin(of, w, h);
     const wh_status status = wh_step_second(&model, wh_contact_accel, of->method, of->compensated,
                                             of->angles, of->coordinates, h, &view);
@@ -127,13 +127,15 @@ static inline void wh_contact_margins(const wh_hybrid *of, wh_contact_work *w,
             } else { /* one that began closed may be on its way out */
                 const bool leaves = (w->inside >> k & 1U) != 0 && speed >= WH_R(0.0);
                 margin = signal < WH_R(0.0) && leaves ? -signal : signal;
+                if (signal == WH_R(0.0) && speed < WH_R(0.0)) { /* touched, and closing */
+                    margin = WH_R(-1e-30);
+                }
             }
             break;
         case WH_HOLD: margin = mode == WH_ACTIVE ? signal : -signal; break;
         case WH_FRICTION:
             margin = mode == WH_STUCK ? wh_law(of, w, k)[WH_LAW_FIRST] - WH_ABS(w->force[k])
-                     : mode > 0       ? signal
-                                      : -signal;
+                                      : (mode > 0 ? signal : -signal) + w->slack[k];
             break;
         default: /* a crossing: only in its direction */
             if (mode != 0 && of->contact[k].direction != mode) {
@@ -155,7 +157,7 @@ WH_INLINE unsigned wh_contact_happened(const wh_hybrid *of, const wh_margins *m)
 }
 
 /* Where between `from` and `to` the first of the events that have happened at `to` comes: the share of
- * h, just past it. *events are those that have happened there. */
+ * h, just past it, by WH_BRACKET at most. *events are those that have happened there. */
 static inline wh_real wh_contact_locate(const wh_hybrid *of, wh_contact_work *w,
                                         wh_contact_state *from, wh_contact_state *to, wh_real h,
                                         const wh_real *input, const wh_margins *at_end,
@@ -189,28 +191,43 @@ static inline wh_real wh_contact_locate(const wh_hybrid *of, wh_contact_work *w,
     wh_contact_accel(&model, at.phase, at.linear, at.rate, input, a0);
     wh_contact_point_of(of, to, &at);
     wh_contact_accel(&model, at.phase, at.linear, at.rate, input, a1);
-    for (unsigned i = 1; i <= WH_REFINEMENTS; i++) {
-        wh_real guess = high;
+    wh_real reach = WH_R(1.0);
+    wh_real earlier[2] = {WH_R(4.0), WH_R(4.0)}; /* widths, two and one probes ago */
+    wh_real most = WH_PROBES_SPARE; /* what this probe may leave, for halving to get to WH_BRACKET with the rest */
+    for (unsigned i = 0; i < WH_PROBES && high - low > WH_BRACKET_FINE; i++) {
+        const wh_real width = high - low;
+        wh_real root = high;
         for (unsigned k = 0; k < of->contacts; k++) {
-            /* at zero from the start on; later a zero is a load at its limit that others still bear */
-            const bool begins =
-                low == WH_R(0.0) && before.value[k] == WH_R(0.0) && (sliding >> k & 1U) == 0;
+            /* at zero already; but later than at the start a load at its limit may be one that others bear */
+            const bool load = of->contact[k].kind != WH_HOLD && wh_constrains(of, w, k);
+            const bool begins = before.value[k] == WH_R(0.0) && (sliding >> k & 1U) == 0 &&
+                                (low == WH_R(0.0) || !load);
             if ((*events >> k & 1U) != 0 && (before.value[k] > WH_R(0.0) || begins)) {
                 const wh_real share = before.value[k] / (before.value[k] - after.value[k]);
-                const wh_real root = low + (high - low) * share;
-                guess = root < guess ? root : guess;
+                root = low + width * share < root ? low + width * share : root;
             }
         }
-        /* a little past it, so that the interval closes from both sides; in the middle now and then,
-         * in case the margins are far from straight */
-        guess += (high - guess) * WH_R(0.015625);
-        if (i % 4U == 0 || !(guess > low && guess < high)) {
-            guess = low + WH_R(0.5) * (high - low);
+        /* a little over it, towards the end that is further off, so that the interval closes from both sides;
+         * further each time that fails, and in the middle where two probes did not halve it */
+        const wh_real over =
+            width * (width < WH_R(0.015625) ? width : WH_R(0.015625)) * reach + WH_BRACKET_FINE / 4;
+        const bool backward = root - low > high - root;
+        const bool halve = width > WH_R(0.5) * earlier[0];
+        wh_real guess = backward ? root - over : root + over;
+        guess = halve ? low + WH_R(0.5) * width : guess;
+        guess = guess < high - most ? high - most : guess;
+        guess = guess > low + most ? low + most : guess;
+        if (!(guess > low && guess < high)) {
+            guess = low + WH_R(0.5) * width;
         }
+        earlier[0] = earlier[1];
+        earlier[1] = width;
+        most *= WH_R(0.5);
         wh_margins probe;
         wh_contact_between(of, from, to, a0, a1, h, guess, &at);
         wh_contact_margins(of, w, &at, input, &probe);
         const unsigned found = wh_contact_happened(of, &probe);
+        reach = halve ? reach : backward == (found == 0) ? WH_R(1.0) : reach * WH_R(8.0);
         if (found != 0) {
             high = guess;
             after = probe;

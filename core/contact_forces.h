@@ -4,26 +4,51 @@
 
 #include "contact_share.h"
 
-/* Contacts that repeat what others hold had nothing to do. Where that leaves another with more than it can
- * take, share the load out: work->force has the shares, those that give way even so beyond their limits by
- * what they would have to take on top. The accelerations are the same. */
+/* Contacts that repeat what others hold, as bits of places in member[], had nothing to do. Where that leaves
+ * another with more than it can take, or where they contradict the others, share the load out: work->force has
+ * the shares, those that give way even so beyond their limits by what they would have to take on top. Where
+ * they contradict, the accelerations change with that; where they agree, they stay the same to the bit. */
 static inline void wh_contact_redistribute(const wh_hybrid *of, wh_contact_work *w,
-                                           const uint8_t *member, unsigned count) {
+                                           const uint8_t *member, unsigned count, unsigned repeats,
+                                           wh_real *accel) {
     wh_real amount[WH_CONTACTS_MAX];
     wh_real left[WH_CONTACTS_MAX];
+    wh_real way[WH_COORDS] = {WH_R(0.0)};
+    int8_t push[WH_CONTACTS_MAX];
     bool exceeds = false;
+    bool contradicts = false;
     for (unsigned i = 0; i < count; i++) {
         exceeds = exceeds || wh_contact_exceeds(of, w, member[i], 0, w->force[member[i]]);
+        wh_push(of, w, member[i], w->force[member[i]], way);
     }
-    if (!exceeds) {
+    for (unsigned i = 0; i < count; i++) {
+        const wh_real *row = wh_law(of, w, member[i]) + WH_LAW_ROWS;
+        w->rough[i] = WH_ABS(wh_law(of, w, member[i])[WH_LAW_BIAS]);
+        for (unsigned c = 0; c < of->coordinates; c++) {
+            w->rough[i] += WH_ABS(row[c]) * (WH_ABS(accel[c]) + WH_ABS(way[c]));
+        }
+    }
+    wh_contact_contradict(of, w, member, count, NULL, repeats, w->wanted, way, push);
+    for (unsigned i = 0; i < count; i++) {
+        contradicts = contradicts || push[i] != 0;
+    }
+    if (!exceeds && !contradicts) {
         return;
     }
-    const unsigned giving = wh_contact_share(of, w, member, count, w->wanted, 0, amount, left);
+    const unsigned giving =
+        wh_contact_share(of, w, member, count, w->wanted, 0, true, amount, left);
     for (unsigned i = 0; i < count; i++) {
         const unsigned k = member[i];
+        if (contradicts) {
+            wh_push(of, w, k, amount[i] - w->force[k], accel);
+        }
         w->force[k] = amount[i];
         if ((giving >> k & 1U) != 0) {
             w->force[k] -= left[i] / wh_contact_yield(of, w, k);
+            if (!wh_contact_exceeds(of, w, k, 0, w->force[k])) { /* by less than shows */
+                w->force[k] += left[i] < WH_R(0.0) ? WH_CONTACT_SHOWS * WH_ABS(amount[i])
+                                                   : -WH_CONTACT_SHOWS * WH_ABS(amount[i]);
+            }
         }
     }
 }
@@ -57,7 +82,7 @@ static inline void wh_contact_accel(const void *model, const wh_phase *phase, co
     for (unsigned i = 0; i < count; i++) {
         w->wanted[i] = -(wh_law(of, w, member[i])[WH_LAW_BIAS] + wh_along(of, w, member[i], accel));
     }
-    const bool repeat = wh_contact_solve(of, w, member, count, NULL, w->wanted, amount);
+    const unsigned repeats = wh_contact_solve(of, w, member, count, NULL, w->wanted, amount);
     for (unsigned i = 0; i < count; i++) {
         w->force[member[i]] = amount[i];
         wh_push(of, w, member[i], amount[i], accel);
@@ -68,8 +93,8 @@ static inline void wh_contact_accel(const void *model, const wh_phase *phase, co
             accel[pin] = WH_R(0.0);
         }
     }
-    if (repeat) {
-        wh_contact_redistribute(of, w, member, count);
+    if (repeats != 0) {
+        wh_contact_redistribute(of, w, member, count, repeats, accel);
     }
     wh_books_stage(of, w, phase, linear, rate, input);
 }
@@ -93,7 +118,7 @@ static inline wh_real wh_contact_impulse(const wh_hybrid *of, wh_contact_work *w
         }
     }
     const unsigned giving =
-        wh_contact_share(of, w, member, count, wanted, 1U << k, amount, left) & ~(1U << k);
+        wh_contact_share(of, w, member, count, wanted, 1U << k, false, amount, left) & ~(1U << k);
     for (unsigned l = 0; l < of->forced; l++) {
         if ((giving >> l & 1U) != 0) {
             w->mode[l] = WH_FREE;

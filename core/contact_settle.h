@@ -27,70 +27,164 @@ WH_INLINE void wh_contact_move(const wh_hybrid *of, unsigned i, wh_real by, wh_c
     }
 }
 
-/* Contacts that hold their J_k q' at zero. Returns how many. */
-WH_INLINE unsigned wh_contact_members(const wh_hybrid *of, const wh_contact_work *w,
+/* What a straight hold has moved by from one state to the other: J_k, which is constant, times the way. */
+static inline wh_real wh_contact_moved(const wh_hybrid *of, const wh_contact_work *w, unsigned k,
+                                       const wh_contact_state *from, const wh_contact_state *to) {
+    const wh_real *row = wh_law(of, w, k) + WH_LAW_ROWS;
+    wh_real sum = WH_R(0.0);
+    for (unsigned i = 0; i < of->coordinates; i++) {
+        wh_real way; /* rad or m */
+        if (i < of->angles) {
+#if WH_DOUBLE
+            way = to->angle[i] - from->angle[i];
+#else
+            way = (wh_real)(to->angle[i] - from->angle[i]) / WH_PHASE_PER_RAD;
+#endif
+        } else {
+            way = to->real[i - of->angles] - from->real[i - of->angles];
+        }
+        sum += row[i] * way;
+    }
+    return sum;
+}
+
+/* Is contact k a hold that can slip? One with a pin cannot. */
+WH_INLINE bool wh_contact_slips(const wh_hybrid *of, const wh_contact_work *w, unsigned k) {
+    return of->contact[k].kind == WH_HOLD && of->contact[k].pin < 0 && w->mode[k] == WH_ACTIVE;
+}
+
+/* By how much contact k is off the place where it is to be. `from`: where a try to `s` began; NULL: no try. */
+WH_INLINE wh_real wh_contact_off(const wh_hybrid *of, const wh_contact_work *w, unsigned k,
+                                 const wh_real *signal, const wh_contact_state *from,
+                                 const wh_contact_state *s) {
+    if (of->contact[k].kind == WH_STOP) {
+        return signal[2 * k];
+    }
+    if (!wh_contact_slips(of, w, k)) {
+        return WH_R(0.0);
+    }
+    const wh_real held = w->held[of->contact[k].first_set];
+    if (of->contact[k].direction == 0) {
+        return wh_law(of, w, k)[WH_LAW_FIRST] - held;
+    }
+    return from != NULL ? held + wh_contact_moved(of, w, k, from, s) : WH_R(0.0);
+}
+
+/* What a hold that has just been captured, or set, is to keep. work->law must belong to this position. */
+WH_INLINE void wh_contact_capture(const wh_hybrid *of, wh_contact_work *w, unsigned k) {
+    if (wh_contact_slips(of, w, k)) {
+        w->held[of->contact[k].first_set] =
+            of->contact[k].direction == 0 ? wh_law(of, w, k)[WH_LAW_FIRST] : WH_R(0.0);
+    }
+}
+
+/* Stuck frictions that would have to take more than they can, as bits: they are about to slide, and hold
+ * nothing still. work->force must be up to date. */
+WH_INLINE unsigned wh_contact_breaking(const wh_hybrid *of, const wh_contact_work *w) {
+    unsigned bits = 0;
+    for (unsigned k = 0; k < of->forced; k++) {
+        const bool stuck = of->contact[k].kind == WH_FRICTION && w->mode[k] == WH_STUCK;
+        bits |= stuck && wh_contact_exceeds(of, w, k, 0, w->force[k]) ? 1U << k : 0U;
+    }
+    return bits;
+}
+
+/* Contacts that hold their J_k q' at zero, but for those in `but`, as bits. Returns how many. */
+WH_INLINE unsigned wh_contact_members(const wh_hybrid *of, const wh_contact_work *w, unsigned but,
                                       uint8_t *member) {
     unsigned count = 0;
     for (unsigned k = 0; k < of->forced; k++) {
-        if (wh_constrains(of, w, k)) {
+        if ((but >> k & 1U) == 0 && wh_constrains(of, w, k)) {
             member[count++] = (uint8_t)k;
         }
     }
     return count;
 }
 
-/* Put the gaps of resting stops to zero, while what is stuck or held stays. work->law and signal[] must
- * belong to this position. */
-static inline void wh_contact_close(const wh_hybrid *of, const wh_contact_work *w,
-                                    const wh_real *signal, wh_contact_state *s) {
+/* Where the positions of resting stops and of holds are off, and who is to answer for it in the books. */
+typedef struct wh_contact_place {
+    const wh_contact_state *from; /* where a try began, or NULL */
+    wh_real h;                    /* how long it was, s */
+    unsigned but;                 /* contacts that are left out, as bits */
+    unsigned mover;               /* whose the energy is; WH_CONTACTS_MAX: the first that is off */
+} wh_contact_place;
+
+#define WH_CONTACT_HERE ((wh_contact_place){NULL, WH_R(0.0), 0, WH_CONTACTS_MAX})
+
+/* Put resting stops and holds to where they are to be, while what is stuck stays. work->law and signal[] must
+ * belong to this position. True: they were off so far that it must be done once more. */
+static inline bool wh_contact_close(const wh_hybrid *of, const wh_contact_work *w,
+                                    const wh_contact_place *place, const wh_real *signal,
+                                    const wh_real *input, wh_contact_state *s) {
     uint8_t member[WH_CONTACTS_MAX] = {0};
+    wh_real off[WH_CONTACTS_MAX] = {WH_R(0.0)};
     wh_real wanted[WH_CONTACTS_MAX];
     wh_real amount[WH_CONTACTS_MAX];
     wh_real way[WH_COORDS] = {0};
-    const unsigned count = wh_contact_members(of, w, member);
+    const unsigned count = wh_contact_members(of, w, place->but, member);
+    unsigned mover = place->mover;
     bool together = false;
+    bool coarse = false;
     for (unsigned i = 0; i < count; i++) {
         const unsigned k = member[i];
-        const int pin = of->contact[k].pin;
         wanted[i] = WH_R(0.0);
-        if (of->contact[k].kind != WH_STOP) {
+        off[i] = wh_contact_off(of, w, k, signal, place->from, s);
+        if (off[i] == WH_R(0.0)) {
             continue;
         }
-        if (pin >= 0) { /* the others need not move for it */
-            const wh_real entry = wh_law(of, w, k)[WH_LAW_ROWS + pin];
-            wh_contact_move(of, (unsigned)pin, -signal[2 * k] / entry, s);
-        } else {
-            wanted[i] = -signal[2 * k];
+        mover = mover == WH_CONTACTS_MAX ? k : mover;
+        if (of->contact[k].pin < 0) {
+            wanted[i] = -off[i];
             together = true;
         }
     }
-    if (!together) {
-        return;
+    if (mover == WH_CONTACTS_MAX) {
+        return false;
     }
-    (void)wh_contact_solve(of, w, member, count, NULL, wanted, amount);
-    for (unsigned i = 0; i < count; i++) {
-        wh_push(of, w, member[i], amount[i], way);
-    }
+    (void)input; /* only books look at it */
+    wh_books_levels(of, w, s, input, mover, WH_R(-1.0));
     for (unsigned i = 0; i < count; i++) {
         const int pin = of->contact[member[i]].pin;
-        if (pin >= 0) {
-            way[pin] = WH_R(0.0);
+        if (off[i] != WH_R(0.0) && pin >= 0) { /* the others need not move for it */
+            const wh_real entry = wh_law(of, w, member[i])[WH_LAW_ROWS + pin];
+            wh_contact_move(of, (unsigned)pin, -off[i] / entry, s);
         }
     }
-    for (unsigned i = 0; i < of->coordinates; i++) {
-        wh_contact_move(of, i, way[i], s);
+    if (together) {
+        (void)wh_contact_solve(of, w, member, count, NULL, wanted, amount);
+        for (unsigned i = 0; i < count; i++) {
+            wh_push(of, w, member[i], amount[i], way);
+        }
+        for (unsigned i = 0; i < count; i++) {
+            const int pin = of->contact[member[i]].pin;
+            const wh_real *row = wh_law(of, w, member[i]) + WH_LAW_ROWS;
+            const wh_real *rate = wh_contact_rates(of, s);
+            wh_real travel = WH_R(0.0);
+            for (unsigned c = 0; c < of->coordinates; c++) {
+                travel += WH_ABS(row[c] * rate[c]);
+            }
+            coarse = coarse || WH_ABS(wanted[i]) > WH_SLIP_COARSE * place->h * travel;
+            if (pin >= 0) {
+                way[pin] = WH_R(0.0);
+            }
+        }
+        for (unsigned i = 0; i < of->coordinates; i++) {
+            wh_contact_move(of, i, way[i], s);
+        }
     }
+    wh_books_levels(of, w, s, input, mover, WH_R(1.0));
+    return coarse;
 }
 
-/* Take the rates along what is held away, of all contacts together; `booked`: as impulses of theirs.
- * work->law must belong to this position. */
-static inline void wh_contact_still(const wh_hybrid *of, const wh_contact_work *w, bool booked,
-                                    wh_real *rate) {
+/* Take the rates along what is held away, of all contacts together but those in `but`, as bits; `booked`: as
+ * impulses of theirs. work->law must belong to this position. */
+static inline void wh_contact_still(const wh_hybrid *of, const wh_contact_work *w, unsigned but,
+                                    bool booked, wh_real *rate) {
     uint8_t member[WH_CONTACTS_MAX] = {0};
     wh_real wanted[WH_CONTACTS_MAX] = {WH_R(0.0)};
     wh_real amount[WH_CONTACTS_MAX];
     wh_real before[WH_CONTACTS_MAX];
-    const unsigned count = wh_contact_members(of, w, member);
+    const unsigned count = wh_contact_members(of, w, but, member);
     for (unsigned i = 0; i < count; i++) {
         before[i] = wh_along(of, w, member[i], rate);
         wanted[i] = -before[i];
@@ -111,20 +205,36 @@ static inline void wh_contact_still(const wh_hybrid *of, const wh_contact_work *
     }
 }
 
-/* What the integrator let slip: rates along what is held, and the gaps of resting stops. A pinned
- * coordinate cannot slip. */
-static inline void wh_contact_tidy(const wh_hybrid *of, wh_contact_work *w, const wh_real *input,
+/* What the integrator let slip on the way from `from`, h long, to `s`: the places of resting stops and holds,
+ * then rates along what is held. A pinned coordinate cannot slip. */
+static inline void wh_contact_tidy(const wh_hybrid *of, wh_contact_work *w, wh_real h,
+                                   const wh_real *input, const wh_contact_state *from,
                                    wh_contact_state *s) {
     wh_real accel[WH_COORDS];
     wh_real signal[2 * WH_CONTACTS_MAX];
+    wh_contact_place place = {from, h, 0, WH_CONTACTS_MAX};
     bool slips = false;
     for (unsigned k = 0; k < of->forced; k++) {
         slips = slips || (of->contact[k].pin < 0 && wh_constrains(of, w, k));
     }
-    if (slips) {
+    if (!slips) {
+        return;
+    }
+    wh_contact_look(of, w, s, input, accel, signal);
+    place.but = wh_contact_breaking(of, w);
+    for (unsigned pass = 0; pass < 2 && wh_contact_close(of, w, &place, signal, input, s); pass++) {
         wh_contact_look(of, w, s, input, accel, signal);
-        wh_contact_still(of, w, false, wh_contact_rates(of, s));
-        wh_contact_close(of, w, signal, s);
+    }
+    wh_contact_still(of, w, place.but, false, wh_contact_rates(of, s));
+}
+
+/* A try from `from` to `to` is taken: what straight holds have slipped in it stays to be put back. */
+static inline void wh_contact_keep(const wh_hybrid *of, wh_contact_work *w,
+                                   const wh_contact_state *from, const wh_contact_state *to) {
+    for (unsigned k = 0; k < of->forced; k++) {
+        if (wh_contact_slips(of, w, k) && of->contact[k].direction != 0) {
+            w->held[of->contact[k].first_set] += wh_contact_moved(of, w, k, from, to);
+        }
     }
 }
 
@@ -148,13 +258,13 @@ static inline void wh_contact_revise(const wh_hybrid *of, wh_contact_work *w, co
         } else if (of->contact[k].kind == WH_HOLD && moved && w->mode[k] == WH_ACTIVE) {
             w->mode[k] = signal[2 * k] > WH_R(0.0) ? WH_ACTIVE : WH_FREE;
             holds |= w->mode[k] == WH_ACTIVE ? 1U << k : 0U;
+            wh_contact_capture(of, w, k);
         }
     }
     w->moved = 0;
     if (passed) {
-        wh_books_levels(of, w, s, input, w->mover, WH_R(-1.0));
-        wh_contact_close(of, w, signal, s);
-        wh_books_levels(of, w, s, input, w->mover, WH_R(1.0));
+        const wh_contact_place place = {NULL, WH_R(0.0), 0, w->mover};
+        (void)wh_contact_close(of, w, &place, signal, input, s);
         wh_contact_look(of, w, s, input, accel, signal);
     }
     for (unsigned k = 0; k < of->forced; k++) {
@@ -188,6 +298,46 @@ WH_INLINE unsigned wh_contact_first(const wh_hybrid *of, const wh_contact_work *
     return stops != 0 || giving == 0 ? stops : 1U << most;
 }
 
+/* Which way friction slides, as its rate says; where the location left it on the side that it comes from, as was
+ * found there. What has just come to zero stays as it is: the forces have the word. */
+WH_INLINE unsigned wh_contact_slides(const wh_hybrid *of, wh_contact_work *w, const wh_real *rate) {
+    unsigned frictions = 0;
+    for (unsigned k = 0; k < of->forced; k++) {
+        if (of->contact[k].kind != WH_FRICTION) {
+            continue;
+        }
+        frictions |= 1U << k;
+        const wh_real v = rate[of->contact[k].pin];
+        const wh_real forward = w->mode[k] > 0 ? v : -v;
+        const bool left = w->slack[k] > WH_R(0.0) && forward + w->slack[k] >= WH_R(0.0);
+        if (v != WH_R(0.0) && (w->turned >> k & 1U) == 0 && !left) {
+            w->mode[k] = v > WH_R(0.0) ? 1 : -1;
+            w->slack[k] = WH_R(0.0);
+        }
+    }
+    return frictions;
+}
+
+/* Of what has just come to zero, what the forces keep there sticks: friction, which would take the rest of the
+ * rate away in no time, does, together with all else that is held, so that two frictions do not shake each
+ * other loose. What slides on does so the way it is pushed, on whichever side of zero it is. */
+WH_INLINE void wh_contact_stick(const wh_hybrid *of, wh_contact_work *w, wh_real *rate) {
+    bool sticks = false;
+    for (unsigned k = 0; k < of->forced; k++) {
+        if ((w->turned >> k & 1U) != 0) {
+            const wh_real v = rate[of->contact[k].pin];
+            const wh_real forward = w->mode[k] > 0 ? v : -v;
+            sticks = sticks || w->mode[k] == WH_STUCK;
+            w->slack[k] = w->mode[k] != WH_STUCK && forward < WH_R(0.0) ? -(forward + forward)
+                                                                       : WH_R(0.0);
+        }
+    }
+    w->turned = 0;
+    if (sticks) {
+        wh_contact_still(of, w, 0, true, rate);
+    }
+}
+
 /* Bring the modes to agree with the state: which way friction slides, which resting stops would have to
  * pull, which stuck coordinates (but those in `keep`, as bits) break loose. What breaks loose pushes less
  * than before, so others may follow: each round lets at least one go. */
@@ -195,21 +345,11 @@ static inline void wh_contact_settle(const wh_hybrid *of, wh_contact_work *w, un
                                      const wh_real *input, wh_contact_state *s) {
     wh_real accel[WH_COORDS];
     wh_real signal[2 * WH_CONTACTS_MAX];
-    const wh_real *rate = wh_contact_rates(of, s);
+    wh_real *rate = wh_contact_rates(of, s);
     if (w->moved != 0) {
         wh_contact_revise(of, w, input, s);
     }
-    unsigned frictions = 0;
-    for (unsigned k = 0; k < of->forced; k++) {
-        if (of->contact[k].kind == WH_FRICTION) {
-            const wh_real v = rate[of->contact[k].pin];
-            frictions |= 1U << k;
-            if (v != WH_R(0.0)) {
-                w->mode[k] = v > WH_R(0.0) ? 1 : -1;
-            }
-        }
-    }
-    keep &= frictions;
+    keep &= wh_contact_slides(of, w, rate);
     bool again = true;
     while (again && wh_contact_watched(of, w)) {
         uint8_t member[WH_CONTACTS_MAX] = {0};
@@ -217,12 +357,12 @@ static inline void wh_contact_settle(const wh_hybrid *of, wh_contact_work *w, un
         wh_real left[WH_CONTACTS_MAX] = {WH_R(0.0)};
         again = false;
         wh_contact_look(of, w, s, input, accel, signal);
-        const unsigned count = wh_contact_members(of, w, member);
+        const unsigned count = wh_contact_members(of, w, 0, member);
         for (unsigned i = 0; i < count; i++) {
             again = again || wh_contact_exceeds(of, w, member[i], keep, w->force[member[i]]);
         }
         const unsigned giving =
-            again ? wh_contact_share(of, w, member, count, w->wanted, keep, amount, left) : 0;
+            again ? wh_contact_share(of, w, member, count, w->wanted, keep, true, amount, left) : 0;
         const unsigned first = wh_contact_first(of, w, giving);
         for (unsigned i = 0; i < count; i++) {
             const unsigned k = member[i];
@@ -233,6 +373,7 @@ static inline void wh_contact_settle(const wh_hybrid *of, wh_contact_work *w, un
         }
         again = giving != 0;
     }
+    wh_contact_stick(of, w, rate);
 }
 
 #endif

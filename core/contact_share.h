@@ -22,6 +22,9 @@
 /* What counts as rounding beside the terms of a sum. */
 #define WH_CONTACT_ROUNDING (WH_DOUBLE ? WH_R(1e-11) : WH_R(1e-5))
 
+/* By what share of its limit a force that is beyond it by less than its rounding is put beyond it. */
+#define WH_CONTACT_SHOWS WH_R(0.001)
+
 /* The factor of k's own force in its acceleration: J_k M^-1 J_k^T. */
 WH_INLINE wh_real wh_contact_yield(const wh_hybrid *of, const wh_contact_work *w, unsigned k) {
     return wh_along(of, w, k, wh_law(of, w, k) + WH_LAW_ROWS + of->coordinates);
@@ -29,14 +32,14 @@ WH_INLINE wh_real wh_contact_yield(const wh_hybrid *of, const wh_contact_work *w
 
 /* Solve sum_l (J_k M^-1 J_l^T) amount_l = wanted_k for the `count` contacts in member[], by elimination
  * without pivoting: the matrix is positive definite, but for contacts that repeat what others hold
- * already, which get nothing to do. Returns whether there are such. Those with at[] other than zero get
- * nothing, too; at may be NULL. */
-static inline bool wh_contact_solve(const wh_hybrid *of, const wh_contact_work *w,
-                                    const uint8_t *member, unsigned count, const int8_t *at,
-                                    const wh_real *wanted, wh_real *amount) {
+ * already, which get nothing to do. Returns those, as bits of their places in member[]. Those with at[]
+ * other than zero get nothing, too; at may be NULL. */
+static inline unsigned wh_contact_solve(const wh_hybrid *of, const wh_contact_work *w,
+                                        const uint8_t *member, unsigned count, const int8_t *at,
+                                        const wh_real *wanted, wh_real *amount) {
     wh_real matrix[WH_CONTACTS_MAX][WH_CONTACTS_MAX] = {{WH_R(0.0)}};
     bool idle[WH_CONTACTS_MAX] = {false};
-    bool repeat = false;
+    unsigned repeats = 0;
     for (unsigned r = 0; r < count; r++) {
         amount[r] = wanted[r];
         for (unsigned c = 0; c < count; c++) {
@@ -46,10 +49,10 @@ static inline bool wh_contact_solve(const wh_hybrid *of, const wh_contact_work *
     }
     for (unsigned p = 0; p < count; p++) {
         const bool fixed = at != NULL && at[p] != 0;
-        const bool repeats =
+        const bool none =
             !(matrix[p][p] > WH_CONTACT_ROUNDING * wh_contact_yield(of, w, member[p]));
-        idle[p] = fixed || repeats;
-        repeat = repeat || (repeats && !fixed);
+        idle[p] = fixed || none;
+        repeats |= none && !fixed ? 1U << p : 0U;
         for (unsigned r = p + 1; r < count && !idle[p]; r++) {
             const wh_real factor = matrix[r][p] / matrix[p][p];
             for (unsigned c = p; c < count; c++) {
@@ -65,7 +68,47 @@ static inline bool wh_contact_solve(const wh_hybrid *of, const wh_contact_work *
         }
         amount[p] = idle[p] ? WH_R(0.0) : sum / matrix[p][p];
     }
-    return repeat;
+    return repeats;
+}
+
+/* What of a sum whose terms have the sizes a, b and c may be rounding. */
+WH_INLINE wh_real wh_contact_rounding(wh_real a, wh_real b, wh_real c) {
+    return WH_CONTACT_ROUNDING * (WH_ABS(a) + WH_ABS(b) + WH_ABS(c));
+}
+
+/* Contacts that repeat what others hold may still contradict them: at a dead centre two rows are parallel,
+ * but the path that the one keeps bends and that of the other does not, so that the one must let go. Which
+ * way is each of `repeats` (bits of places in member[]) to push: 1, -1, or 0 where it agrees? way[] is what
+ * all forces make of the accelerations. What bends a path, J' q', is looked at by itself too: beside the
+ * other accelerations a slow passage would drown in their rounding. */
+static inline void wh_contact_contradict(const wh_hybrid *of, const wh_contact_work *w,
+                                         const uint8_t *member, unsigned count, const int8_t *at,
+                                         unsigned repeats, const wh_real *wanted,
+                                         const wh_real *way, int8_t *push) {
+    wh_real bend[WH_CONTACTS_MAX] = {WH_R(0.0)};
+    wh_real amount[WH_CONTACTS_MAX];
+    wh_real bent[WH_COORDS] = {WH_R(0.0)};
+    for (unsigned i = 0; i < count; i++) {
+        bend[i] = -wh_law(of, w, member[i])[WH_LAW_BIAS];
+    }
+    (void)wh_contact_solve(of, w, member, count, at, bend, amount);
+    for (unsigned i = 0; i < count; i++) {
+        wh_push(of, w, member[i], amount[i], bent);
+    }
+    for (unsigned i = 0; i < count; i++) {
+        push[i] = 0;
+        if ((repeats >> i & 1U) != 0) {
+            const wh_real made = wh_along(of, w, member[i], way);
+            const wh_real missing = wanted[i] - made;
+            const wh_real made_bent = wh_along(of, w, member[i], bent);
+            const wh_real missing_bend = bend[i] - made_bent;
+            const bool plain = WH_ABS(missing) > wh_contact_rounding(w->rough[i], made, WH_R(0.0));
+            const bool bends =
+                WH_ABS(missing_bend) > wh_contact_rounding(bend[i], made_bent, WH_R(0.0));
+            const wh_real short_of = plain ? missing : bends ? missing_bend : WH_R(0.0);
+            push[i] = (int8_t)((short_of > WH_R(0.0)) - (short_of < WH_R(0.0)));
+        }
+    }
 }
 
 /* Between what and what contact k can push; holds, and contacts in `keep`, as bits, have no limits. */
@@ -87,18 +130,45 @@ WH_INLINE bool wh_contact_exceeds(const wh_hybrid *of, const wh_contact_work *w,
     return amount < wh_contact_low(of, w, k, keep) || amount > wh_contact_high(of, w, k, keep);
 }
 
+/* Which contact gives way to `i`, that repeats what others hold and is to push the way `push`? Friction does so
+ * itself, at its limit, and a stop that would have to pull; for a stop that must push more, or a hold, it is
+ * another stop. Returns its place in member[] and its limit, or count. */
+static inline unsigned wh_contact_yields(const wh_hybrid *of, const wh_contact_work *w,
+                                         const uint8_t *member, unsigned count, const int8_t *at,
+                                         unsigned keep, unsigned i, int8_t push, int8_t *limit) {
+    const uint8_t kind = of->contact[member[i]].kind;
+    const bool kept = (keep >> member[i] & 1U) != 0;
+    *limit = push;
+    if (kind != WH_HOLD && !kept && (kind == WH_FRICTION || push < 0)) {
+        return i;
+    }
+    *limit = -1;
+    for (unsigned j = 0; j < count; j++) {
+        const bool other = j != i && at[j] == 0 && of->contact[member[j]].kind == WH_STOP;
+        if (other && (keep >> member[j] & 1U) == 0 &&
+            wh_along(of, w, member[i], wh_law(of, w, member[j]) + WH_LAW_ROWS + of->coordinates) !=
+                WH_R(0.0)) {
+            return j;
+        }
+    }
+    return count;
+}
+
 /* The forces (or impulses) amount[count] of the contacts in member[] within their limits, and left[count],
- * what they leave of the accelerations (or rates). Returns the contacts that give way, as bits. */
+ * what they leave of the accelerations (or rates). `forces`: not impulses. Returns the contacts that give
+ * way, as bits. */
 static inline unsigned wh_contact_share(const wh_hybrid *of, const wh_contact_work *w,
                                         const uint8_t *member, unsigned count,
-                                        const wh_real *wanted, unsigned keep, wh_real *amount,
-                                        wh_real *left) {
+                                        const wh_real *wanted, unsigned keep, bool forces,
+                                        wh_real *amount, wh_real *left) {
     int8_t at[WH_CONTACTS_MAX] = {0}; /* -1, 1: at the low, at the high limit */
+    unsigned contradicted = 0;        /* those in `at` for what they repeat, as bits of places */
     unsigned giving = 0;
     for (unsigned round = 0; round <= 4U * count; round++) {
         wh_real limit[WH_CONTACTS_MAX] = {WH_R(0.0)};
         wh_real need[WH_CONTACTS_MAX] = {WH_R(0.0)};
         wh_real way[WH_COORDS] = {WH_R(0.0)};
+        int8_t push[WH_CONTACTS_MAX] = {0};
         for (unsigned i = 0; i < count; i++) {
             if (at[i] != 0) {
                 limit[i] = at[i] < 0 ? wh_contact_low(of, w, member[i], keep)
@@ -109,7 +179,7 @@ static inline unsigned wh_contact_share(const wh_hybrid *of, const wh_contact_wo
         for (unsigned i = 0; i < count; i++) {
             need[i] = wanted[i] - wh_along(of, w, member[i], way);
         }
-        (void)wh_contact_solve(of, w, member, count, at, need, amount);
+        const unsigned repeats = wh_contact_solve(of, w, member, count, at, need, amount);
         for (unsigned i = 0; i < count; i++) {
             if (at[i] != 0) {
                 amount[i] = limit[i];
@@ -117,30 +187,48 @@ static inline unsigned wh_contact_share(const wh_hybrid *of, const wh_contact_wo
                 wh_push(of, w, member[i], amount[i], way);
             }
         }
+        if (forces && repeats != 0) {
+            wh_contact_contradict(of, w, member, count, at, repeats, wanted, way, push);
+        }
         unsigned wrong = count;
+        int8_t to = 0;
         giving = 0;
         for (unsigned i = count; i-- > 0;) {
             const unsigned k = member[i];
             left[i] = WH_R(0.0);
             if (at[i] == 0) {
-                wrong = wh_contact_exceeds(of, w, k, keep, amount[i]) ? i : wrong;
+                if (wh_contact_exceeds(of, w, k, keep, amount[i])) {
+                    wrong = i;
+                    to = amount[i] < wh_contact_low(of, w, k, keep) ? -1 : 1;
+                }
                 continue;
             }
             const wh_real made = wh_along(of, w, k, way);
-            const wh_real rounding =
-                WH_CONTACT_ROUNDING *
-                (WH_ABS(wanted[i]) + WH_ABS(made) + WH_ABS(amount[i]) * wh_contact_yield(of, w, k));
+            const wh_real rounding = wh_contact_rounding(
+                wanted[i], made, amount[i] * wh_contact_yield(of, w, k));
             left[i] = made - wanted[i];
             const wh_real outwards = at[i] < 0 ? left[i] : -left[i];
-            wrong = outwards < -rounding ? i : wrong;
-            giving |= outwards > rounding ? 1U << k : 0U;
+            if (outwards < -rounding) {
+                wrong = i;
+                to = 0;
+            } else if (outwards > rounding) {
+                giving |= 1U << k;
+            } else if ((contradicted >> i & 1U) != 0) { /* by less than shows here */
+                left[i] = at[i] < 0 ? rounding : -rounding;
+                giving |= 1U << k;
+            }
+        }
+        for (unsigned i = 0; i < count && wrong == count; i++) {
+            if (push[i] != 0) {
+                wrong = wh_contact_yields(of, w, member, count, at, keep, i, push[i], &to);
+                contradicted |= wrong < count ? 1U << wrong : 0U;
+            }
         }
         if (wrong == count) {
             break;
         }
-        at[wrong] = (int8_t)(at[wrong] != 0                                               ? 0
-                             : amount[wrong] < wh_contact_low(of, w, member[wrong], keep) ? -1
-                                                                                          : 1);
+        at[wrong] = to;
+        contradicted &= to == 0 ? ~(1U << wrong) : ~0U;
     }
     return giving;
 }

@@ -25,7 +25,13 @@ WH_INLINE void wh_contact_work_begin(const wh_hybrid *of, const wh_state *state,
                                      wh_contact_state *now) {
     wh_contact_copy(of, state->angle, state->real, state->carry, now);
     wh_contact_modes(of, state, w);
+    for (unsigned k = 0; k < WH_CONTACTS_MAX; k++) {
+        w->slack[k] = WH_R(0.0);
+        w->held[k] = k < of->held ? state->held[k] : WH_R(0.0);
+    }
     w->inside = 0;
+    w->hit_next = 0;
+    w->turned = 0;
     w->moved = 0;
     w->mover = 0;
     w->fault = -1;
@@ -46,8 +52,8 @@ static inline void wh_contact_observe(const wh_hybrid *of, const wh_state *state
     wh_contact_look(of, &work, &now, state->input, accel, signal);
 }
 
-/* The margins at the end of a try from `from` to `to`: a stop that was open and is closed was hit, even
- * when it is on its way out again. */
+/* The margins at the end of a try from `from` to `to`: a stop that was open, or closing, and is closed was hit,
+ * even when it is on its way out again. */
 static inline void wh_contact_margins_end(const wh_hybrid *of, wh_contact_work *w,
                                           wh_contact_state *from, wh_contact_state *to,
                                           const wh_real *input, wh_margins *m) {
@@ -69,7 +75,8 @@ static inline void wh_contact_margins_end(const wh_hybrid *of, wh_contact_work *
     wh_contact_point_of(of, from, &at);
     of->signals(of->model, at.phase, at.linear, at.rate, input, before);
     for (unsigned k = 0; k < of->forced; k++) {
-        if ((leaving >> k & 1U) != 0 && before[2 * k] > WH_R(0.0)) {
+        const bool closes = before[2 * k] > WH_R(0.0) || before[2 * k + 1] < WH_R(0.0);
+        if ((leaving >> k & 1U) != 0 && closes) {
             w->inside &= ~(1U << k);
             m->value[k] = m->signal[2 * k];
         }
@@ -88,18 +95,103 @@ WH_INLINE unsigned wh_contact_overloads(const wh_hybrid *of, const wh_contact_wo
     return (bits & (bits - 1U)) != 0 ? bits : 0U;
 }
 
+/* What a step writes down of its events. */
+typedef struct wh_contact_log {
+    wh_event event[WH_EVENT_LOG];
+    unsigned count;
+} wh_contact_log;
+
+WH_INLINE void wh_contact_note(const wh_contact_work *w, unsigned k, wh_real at_s, wh_real impulse,
+                               wh_contact_log *log) {
+    if (log->count < WH_EVENT_LOG) {
+        log->event[log->count++] = (wh_event){(uint8_t)k, w->mode[k], at_s, impulse};
+    }
+}
+
+/* All that happens at one moment: `events`, as bits. `last`: no more bounces in this step, of length h, of which
+ * at_s is over. */
+static inline void wh_contact_moment(const wh_hybrid *of, wh_contact_work *w, unsigned events,
+                                     bool last, wh_real h, wh_real at_s, const wh_real *input,
+                                     wh_contact_state *now, wh_contact_log *log) {
+    const wh_real *rate = wh_contact_rates(of, now);
+    const unsigned loads = wh_contact_overloads(of, w, events);
+    for (unsigned i = 0; i < of->coordinates; i++) {
+        w->came[i] = rate[i];
+    }
+    for (unsigned k = 0; k < of->contacts; k++) {
+        if (((events & ~loads) >> k & 1U) != 0) {
+            const wh_real impulse = wh_contact_take(of, w, k, h, last, input, now);
+            wh_contact_note(w, k, at_s, impulse, log);
+        }
+    }
+    wh_contact_settle(of, w, last ? events : 0, input, now);
+    unsigned given = 0;
+    for (unsigned k = 0; k < of->forced; k++) {
+        given |= (loads >> k & 1U) != 0 && !wh_constrains(of, w, k) ? 1U << k : 0U;
+    }
+    for (unsigned k = 0; k < of->forced && loads != 0 && given == 0 && !last; k++) {
+        if ((loads >> k & 1U) != 0) { /* by no more than rounding: the first of them */
+            (void)wh_contact_take(of, w, k, h, last, input, now);
+            given = 1U << k;
+        }
+    }
+    for (unsigned k = 0; k < of->forced; k++) {
+        if ((given >> k & 1U) != 0) {
+            wh_contact_note(w, k, at_s, WH_R(0.0), log);
+        }
+    }
+}
+
+/* Stops that an impact made close, and that are still open, as bits; they are then dealt with. */
+WH_INLINE unsigned wh_contact_next(const wh_hybrid *of, wh_contact_work *w) {
+    unsigned bits = 0;
+    for (unsigned k = 0; k < of->forced; k++) {
+        bits |= w->mode[k] == WH_FREE ? w->hit_next & 1U << k : 0U;
+    }
+    w->hit_next = 0;
+    return bits;
+}
+
+/* A step is done: into the state. */
+static inline void wh_contact_commit(const wh_hybrid *of, const wh_contact_work *w,
+                                     const wh_contact_state *now, const wh_contact_log *log,
+                                     bool overran, wh_state *state) {
+    const unsigned reals = 2U * of->coordinates - of->angles;
+    wh_contacts *memory = state->contacts;
+    for (unsigned k = 0; k < of->contacts; k++) {
+        memory->mode[k] = w->mode[k];
+    }
+    for (unsigned k = 0; k < of->held; k++) {
+        state->held[k] = w->held[k];
+    }
+    memory->events += log->count;
+    memory->overruns += overran;
+    memory->logged = (uint8_t)log->count;
+    for (unsigned i = 0; i < log->count; i++) {
+        memory->log[i] = log->event[i]; // cppcheck-suppress uninitvar ; `count` of them are filled
+    }
+    for (unsigned i = 0; i < of->angles; i++) {
+        state->angle[i] = now->angle[i];
+    }
+    for (unsigned i = 0; i < reals; i++) {
+        state->real[i] = now->real[i];
+    }
+    for (unsigned i = 0; i < of->angles + reals && of->compensated; i++) {
+        state->carry[i] = now->carry[i];
+    }
+}
+
 /* One step with its events. Returns as wh_step_second(). */
 static inline wh_status wh_step_contact(const wh_hybrid *of, wh_real h, wh_state *state) {
-    const unsigned reals = 2U * of->coordinates - of->angles;
     wh_contact_work work;
     wh_contact_state now;
     wh_contact_state next;
-    wh_event log[WH_EVENT_LOG];
-    unsigned logged = 0;
+    wh_contact_log log;
     wh_real left = h;
     unsigned round = 0;
     int fault = -1;
 
+    log.count = 0;
     wh_contact_work_begin(of, state, &work, &now);
 #if WH_LEDGER
     wh_ledger_work books;
@@ -113,86 +205,50 @@ static inline wh_status wh_step_contact(const wh_hybrid *of, wh_real h, wh_state
     } else {
         wh_contact_follow(of, &work, h, state->input, &now);
     }
-    while (left > WH_R(0.0)) {
-        wh_margins margins;
-        next = now;
-        if (!wh_contact_try(of, &work, left, state->input, &next, &fault)) {
-            return wh_refuse(state, (unsigned)fault);
-        }
-        wh_contact_tidy(of, &work, state->input, &next);
-        wh_contact_margins_end(of, &work, &now, &next, state->input, &margins);
-        if (round == WH_EVENTS_MAX || wh_contact_happened(of, &margins) == 0) {
-            wh_contact_pass(of, &margins, &work);
-            wh_books_accept(of, &work);
-            now = next;
-            break;
-        }
-        unsigned events;
-        const wh_real span =
-            left * wh_contact_locate(of, &work, &now, &next, left, state->input, &margins, &events);
-        if (span > WH_R(0.0)) {
-            if (!wh_contact_try(of, &work, span, state->input, &now, &fault)) {
+    while (left > WH_R(0.0) || (work.hit_next != 0 && round < WH_EVENTS_MAX)) {
+        unsigned events = round < WH_EVENTS_MAX ? wh_contact_next(of, &work) : 0;
+        if (events == 0 && left > WH_R(0.0)) {
+            wh_margins margins;
+            next = now;
+            if (!wh_contact_try(of, &work, left, state->input, &next, &fault)) {
                 return wh_refuse(state, (unsigned)fault);
             }
-            wh_books_accept(of, &work);
-            wh_contact_tidy(of, &work, state->input, &now);
-            left -= span;
-        }
-        const bool last = ++round == WH_EVENTS_MAX;
-        const unsigned loads = wh_contact_overloads(of, &work, events);
-        for (unsigned k = 0; k < of->contacts; k++) {
-            if (((events & ~loads) >> k & 1U) != 0) {
-                const wh_real impulse = wh_contact_take(of, &work, k, h, last, state->input, &now);
-                if (logged < WH_EVENT_LOG) {
-                    log[logged++] = (wh_event){(uint8_t)k, work.mode[k], h - left, impulse};
+            wh_contact_tidy(of, &work, left, state->input, &now, &next);
+            wh_contact_margins_end(of, &work, &now, &next, state->input, &margins);
+            if (round == WH_EVENTS_MAX || wh_contact_happened(of, &margins) == 0) {
+                wh_contact_pass(of, &margins, &work);
+                wh_books_accept(of, &work);
+                wh_contact_keep(of, &work, &now, &next);
+                now = next;
+                break;
+            }
+            const wh_real span = left * wh_contact_locate(of, &work, &now, &next, left,
+                                                          state->input, &margins, &events);
+            if (span > WH_R(0.0)) {
+                next = now;
+                if (!wh_contact_try(of, &work, span, state->input, &now, &fault)) {
+                    return wh_refuse(state, (unsigned)fault);
                 }
+                wh_books_accept(of, &work);
+                wh_contact_tidy(of, &work, span, state->input, &next, &now);
+                wh_contact_keep(of, &work, &next, &now);
+                left -= span;
             }
         }
-        wh_contact_settle(of, &work, last ? events : 0, state->input, &now);
-        unsigned given = 0;
-        for (unsigned k = 0; k < of->forced; k++) {
-            given |= (loads >> k & 1U) != 0 && !wh_constrains(of, &work, k) ? 1U << k : 0U;
-        }
-        for (unsigned k = 0; k < of->forced && loads != 0 && given == 0 && !last; k++) {
-            if ((loads >> k & 1U) != 0) { /* by no more than rounding: the first of them */
-                (void)wh_contact_take(of, &work, k, h, last, state->input, &now);
-                given = 1U << k;
-            }
-        }
-        for (unsigned k = 0; k < of->forced; k++) {
-            if ((given >> k & 1U) != 0 && logged < WH_EVENT_LOG) {
-                log[logged++] = (wh_event){(uint8_t)k, work.mode[k], h - left, WH_R(0.0)};
-            }
+        if (events != 0) {
+            const bool last = ++round == WH_EVENTS_MAX;
+            wh_contact_moment(of, &work, events, last, h, h - left, state->input, &now, &log);
         }
     }
     if (work.fault >= 0) {
         return wh_refuse(state, (unsigned)work.fault);
     }
-
 #if WH_LEDGER
     if (of->ledger != NULL) {
         wh_ledger_commit(of->ledger, &books, state);
     }
 #endif
-    wh_contacts *memory = state->contacts;
-    for (unsigned k = 0; k < of->contacts; k++) {
-        memory->mode[k] = work.mode[k];
-    }
-    memory->events += logged;
-    memory->overruns += round == WH_EVENTS_MAX;
-    memory->logged = (uint8_t)logged;
-    for (unsigned i = 0; i < logged; i++) {
-        memory->log[i] = log[i]; // cppcheck-suppress uninitvar ; `logged` of them are filled
-    }
-    for (unsigned i = 0; i < of->angles; i++) {
-        state->angle[i] = now.angle[i];
-    }
-    for (unsigned i = 0; i < reals; i++) {
-        state->real[i] = now.real[i];
-    }
-    for (unsigned i = 0; i < of->angles + reals && of->compensated; i++) {
-        state->carry[i] = now.carry[i];
-    }
+    wh_contact_commit(of, &work, &now, &log, round == WH_EVENTS_MAX, state);
     return WH_OK;
 }
 

@@ -28,7 +28,8 @@ WH_INLINE unsigned wh_contact_resting(const wh_hybrid *of, const wh_contact_work
  * what rests: else a body in a corner would be thrown to and fro without an end. */
 static inline void wh_contact_stay(const wh_hybrid *of, wh_contact_work *w, unsigned gone,
                                    wh_real h, bool rest, const wh_real *accel,
-                                   const wh_real *signal, wh_contact_state *s) {
+                                   const wh_real *signal, const wh_real *input,
+                                   wh_contact_state *s) {
     wh_real *rate = wh_contact_rates(of, s);
     bool stays = false;
     for (unsigned k = 0; k < of->forced; k++) {
@@ -39,8 +40,22 @@ static inline void wh_contact_stay(const wh_hybrid *of, wh_contact_work *w, unsi
         }
     }
     if (stays) {
-        wh_contact_still(of, w, true, rate);
-        wh_contact_close(of, w, signal, s);
+        wh_contact_still(of, w, 0, true, rate);
+        (void)wh_contact_close(of, w, &WH_CONTACT_HERE, signal, input, s);
+    }
+}
+
+/* Free stops, but k, that an impulse made close while they are touched, as near as events are located: they
+ * are hit at the same moment. `before` and `after` are the signals beside it. */
+WH_INLINE void wh_contact_touched(const wh_hybrid *of, wh_contact_work *w, unsigned k, wh_real h,
+                                  const wh_real *before, const wh_real *after) {
+    for (unsigned l = 0; l < of->forced; l++) {
+        const wh_real speed = after[2 * l + 1];
+        const bool free = of->contact[l].kind == WH_STOP && w->mode[l] == WH_FREE && l != k;
+        if (free && speed < WH_R(0.0) && speed < before[2 * l + 1] + before[2 * l + 1] &&
+            after[2 * l] <= -speed * (h * WH_BRACKET)) {
+            w->hit_next |= 1U << l;
+        }
     }
 }
 
@@ -51,6 +66,7 @@ static inline wh_real wh_contact_hit(const wh_hybrid *of, wh_contact_work *w, un
     wh_real accel[WH_COORDS];
     wh_real signal[2 * WH_CONTACTS_MAX];
     wh_real *rate = wh_contact_rates(of, s);
+    wh_real before[2 * WH_CONTACTS_MAX];
     wh_real impulse = WH_R(0.0);
     const unsigned resting = wh_contact_resting(of, w);
     wh_contact_look(of, w, s, input, accel, signal);
@@ -62,18 +78,22 @@ static inline wh_real wh_contact_hit(const wh_hybrid *of, wh_contact_work *w, un
         speed *= -restitution;
         speed = wh_contact_rests(of, w, k, h, rest, speed, accel) ? WH_R(0.0) : speed;
         impulse = wh_contact_impulse(of, w, k, speed, rate);
+        for (unsigned i = 0; i < 2U * of->forced; i++) {
+            before[i] = signal[i];
+        }
         wh_contact_look(of, w, s, input, accel, signal);
+        wh_contact_touched(of, w, k, h, before, signal);
     }
     if (wh_contact_rests(of, w, k, h, rest, speed, accel)) {
         if (speed > WH_R(0.0)) {
             impulse += wh_contact_impulse(of, w, k, WH_R(0.0), rate);
         }
         w->mode[k] = WH_ACTIVE;
-        wh_contact_close(of, w, signal, s);
+        (void)wh_contact_close(of, w, &WH_CONTACT_HERE, signal, input, s);
     }
     const unsigned gone = resting & ~wh_contact_resting(of, w);
     if (gone != 0) {
-        wh_contact_stay(of, w, gone, h, rest, accel, signal, s);
+        wh_contact_stay(of, w, gone, h, rest, accel, signal, input, s);
     }
     return impulse;
 }
@@ -86,6 +106,7 @@ static inline void wh_contact_assign(const wh_hybrid *of, wh_contact_work *w, un
     wh_real after[2 * WH_CONTACTS_MAX];
     wh_real value[WH_SETS_MAX];
     const wh_contact *c = &of->contact[k];
+    bool moves = false;
     w->mode[k] = (int8_t)-w->mode[k];
     if (c->sets == 0 || of->sets == NULL) {
         return;
@@ -99,6 +120,7 @@ static inline void wh_contact_assign(const wh_hybrid *of, wh_contact_work *w, un
         if (!wh_believable(value[i], target < of->angles ? WH_R(1e9) : WH_ABSURD)) {
             w->fault = (int)target;
         }
+        moves = moves || target < of->coordinates;
         if (target < of->angles) {
             s->angle[target] = wh_angle_from_rad(value[i]);
         } else {
@@ -113,6 +135,9 @@ static inline void wh_contact_assign(const wh_hybrid *of, wh_contact_work *w, un
     wh_contact_point_of(of, s, &at);
     of->signals(of->model, at.phase, at.linear, at.rate, input, after);
     w->mover = k;
+    for (unsigned l = 0; l < of->forced && moves; l++) {
+        w->moved |= wh_contact_slips(of, w, l) ? 1U << l : 0U; /* what it keeps from now on */
+    }
     for (unsigned l = 0; l < of->forced; l++) {
         const bool same = after[2 * l] == before[2 * l] && after[2 * l + 1] == before[2 * l + 1];
         w->moved |= same ? 0U : 1U << l;
@@ -124,12 +149,26 @@ static inline void wh_contact_assign(const wh_hybrid *of, wh_contact_work *w, un
     }
 }
 
-/* The rate is zero but for what the location left: friction, which would take that away in no time, does,
- * and sticks. What holds or sticks already stays so: else two frictions would shake each other loose. */
-WH_INLINE void wh_contact_stick(const wh_hybrid *of, wh_contact_work *w, unsigned k,
-                                wh_real *rate) {
-    w->mode[k] = WH_STUCK;
-    wh_contact_still(of, w, true, rate);
+/* Friction breaks loose, or its rate has come to zero; whether that sticks is for settling to decide. Where an
+ * impact of the same moment threw it, its new rate says all. */
+static inline void wh_contact_turn(const wh_hybrid *of, wh_contact_work *w, unsigned k,
+                                   const wh_real *input, wh_contact_state *s) {
+    wh_real accel[WH_COORDS];
+    wh_real signal[2 * WH_CONTACTS_MAX];
+    const unsigned pin = (unsigned)of->contact[k].pin;
+    const wh_real v = wh_contact_rates(of, s)[pin];
+    if (v != w->came[pin]) {
+        return;
+    }
+    if (w->mode[k] != WH_STUCK) {
+        w->mode[k] = WH_STUCK;
+        w->turned |= 1U << k;
+        return;
+    }
+    wh_contact_look(of, w, s, input, accel, signal);
+    w->mode[k] = w->force[k] > WH_R(0.0) ? -1 : 1;
+    const wh_real forward = w->mode[k] > 0 ? v : -v;
+    w->slack[k] = forward < WH_R(0.0) ? -(forward + forward) : WH_R(0.0);
 }
 
 /* Take one event of contact k. `rest`: no more bounces in this step. */
@@ -137,7 +176,9 @@ static inline wh_real wh_contact_take(const wh_hybrid *of, wh_contact_work *w, u
                                       wh_real h, bool rest, const wh_real *input,
                                       wh_contact_state *s) {
     wh_real accel[WH_COORDS];
-    wh_real signal[2 * WH_CONTACTS_MAX];
+    wh_real before[2 * WH_CONTACTS_MAX];
+    wh_real after[2 * WH_CONTACTS_MAX];
+    wh_contact_point at;
     wh_real *rate = wh_contact_rates(of, s);
     wh_real impulse = WH_R(0.0);
     switch (of->contact[k].kind) {
@@ -151,18 +192,15 @@ static inline wh_real wh_contact_take(const wh_hybrid *of, wh_contact_work *w, u
     case WH_HOLD:
         w->mode[k] = w->mode[k] == WH_ACTIVE ? WH_FREE : WH_ACTIVE;
         if (w->mode[k] == WH_ACTIVE) {
-            wh_contact_look(of, w, s, input, accel, signal);
+            wh_contact_look(of, w, s, input, accel, before);
+            wh_contact_capture(of, w, k);
             impulse = wh_contact_impulse(of, w, k, WH_R(0.0), rate);
+            wh_contact_point_of(of, s, &at);
+            of->signals(of->model, at.phase, at.linear, at.rate, input, after);
+            wh_contact_touched(of, w, k, h, before, after);
         }
         break;
-    case WH_FRICTION:
-        wh_contact_look(of, w, s, input, accel, signal);
-        if (w->mode[k] == WH_STUCK) {
-            w->mode[k] = w->force[k] > WH_R(0.0) ? -1 : 1;
-        } else {
-            wh_contact_stick(of, w, k, rate);
-        }
-        break;
+    case WH_FRICTION: wh_contact_turn(of, w, k, input, s); break;
     default: wh_contact_assign(of, w, k, input, s); break;
     }
     return impulse;
@@ -191,9 +229,8 @@ static inline void wh_contact_follow(const wh_hybrid *of, wh_contact_work *w, wh
             falls = true;
         }
     }
-    wh_books_levels(of, w, s, input, moved, WH_R(-1.0));
-    wh_contact_close(of, w, signal, s);
-    wh_books_levels(of, w, s, input, moved, WH_R(1.0));
+    const wh_contact_place place = {NULL, WH_R(0.0), 0, moved};
+    (void)wh_contact_close(of, w, &place, signal, input, s);
     if (falls) {
         wh_contact_settle(of, w, 0, input, s);
     }
@@ -207,6 +244,7 @@ static inline void wh_contact_begin(const wh_hybrid *of, wh_contact_work *w, wh_
     for (unsigned k = 0; k < of->contacts; k++) {
         w->mode[k] = 0; /* free, stuck, on no side */
     }
+    (void)wh_contact_slides(of, w, wh_contact_rates(of, s));
     wh_contact_look(of, w, s, input, accel, signal);
     for (unsigned k = 0; k < of->contacts; k++) {
         const wh_real value = signal[2 * k];

@@ -28,7 +28,8 @@ static size_t ledgers(const wh_scene *scene) {
 wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, size_t bytes) {
     const size_t numbers =
         scene->angles * sizeof(wh_angle) +
-        (scene->reals + carries(scene) + scene->inputs + ledgers(scene)) * sizeof(wh_real);
+        (scene->reals + carries(scene) + scene->inputs + scene->held + ledgers(scene)) *
+            sizeof(wh_real);
     const size_t contacts_at = (numbers + 7U) / 8U * 8U;
     const size_t need =
         scene->contacts > 0 ? contacts_at + sizeof(wh_contacts) + scene->contacts : numbers;
@@ -44,6 +45,8 @@ wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, s
     reals += carries(scene);
     state->input = reals;
     reals += scene->inputs;
+    state->held = reals;
+    reals += scene->held;
     state->ledger = scene->ledger != NULL ? reals : NULL;
 
     for (unsigned i = 0; i < scene->angles; i++) {
@@ -57,6 +60,9 @@ wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, s
     }
     for (unsigned i = 0; i < scene->inputs; i++) {
         state->input[i] = scene->start_input[i];
+    }
+    for (unsigned i = 0; i < scene->held; i++) {
+        state->held[i] = WH_R(0.0);
     }
     for (size_t i = 0; i < ledgers(scene); i++) {
         state->ledger[i] = WH_R(0.0);
@@ -94,6 +100,9 @@ uint64_t wh_scene_hash(const wh_scene *scene, const wh_state *state) {
     }
     for (unsigned i = 0; i < scene->reals; i++) {
         hash = wh_hash_real(hash, state->real[i]);
+    }
+    for (unsigned i = 0; i < scene->held; i++) {
+        hash = wh_hash_real(hash, state->held[i]);
     }
     for (unsigned i = 0; i < scene->contacts; i++) {
         hash = wh_hash_u64(hash, (uint8_t)state->contacts->mode[i]);

@@ -60,6 +60,8 @@ typedef struct wh_state {
     wh_real *carry;  /* [scene->angles + scene->reals] low parts when compensated, else NULL */
     wh_real *input;  /* [scene->inputs] SI units; the caller may change them between steps */
     wh_contacts *contacts; /* NULL without contacts */
+    wh_real *held;         /* [scene->held] what holds keep: curved ones what it is, straight ones by how
+                            * much it has slipped; SI units */
     wh_real *ledger;       /* the books' totals, their carries, the levels at the start; or NULL */
     int fault; /* after WH_E_DIVERGED: the component at fault, angles first, then reals */
 } wh_state;
@@ -76,6 +78,7 @@ struct wh_scene {
     uint8_t inputs;   /* may change while running */
     uint8_t outputs;  /* computed by observe(), never in the step */
     uint8_t contacts; /* stops, holds, frictions and crossings */
+    uint8_t held;     /* holds that could slip: of more than one coordinate, or curved */
     bool compensated; /* sums carry their rounding error along */
     wh_real step_s;   /* fixed step, seconds, > 0 */
     uint32_t steps;   /* steps to the scene's end */
@@ -98,6 +101,9 @@ struct wh_scene {
 
 /* What a scene with so many contacts needs on top. */
 #define WH_CONTACT_WORDS(contacts) ((sizeof(wh_contacts) + (size_t)(contacts) + 15U) / 8U)
+
+/* And one with so many holds that could slip. */
+#define WH_HELD_WORDS(held) ((size_t)(held))
 
 /* And one with a ledger of so many entries and accounts. */
 #define WH_LEDGER_WORDS(entries, accounts) (2U * (size_t)(entries) + (size_t)(accounts))

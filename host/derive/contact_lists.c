@@ -183,7 +183,9 @@ static contact_row make_row(contact_lists *c, const program *p, const equations 
     row.first_set = c->set_count;
     if (from->kind != HYBRID_WHEN) {
         row.pin = pin_of(p, e, law);
-        row.direction = from->kind == HYBRID_STOP && input_moves(e, law->value);
+        row.direction = from->kind == HYBRID_STOP ? input_moves(e, law->value)
+                                                  : from->kind == HYBRID_HOLD && law->straight;
+        row.first_set = from->kind == HYBRID_HOLD && row.pin < 0 ? c->held++ : 0;
         return row;
     }
     row.sets = from->set_count;

@@ -27,11 +27,14 @@ static void make_constraint(algebra *a, const mechanism *m, const poly *held, co
     law->row = room(m->coordinate_count, sizeof(const poly *));
     law->speed = rate_of(a, m, held);
     law->bias = zero;
+    law->straight = true;
     for (int i = 0; i < m->coordinate_count; i++) {
         const symbol *q = m->coordinates[i];
         law->row[i] = poly_derivative(a, held, q, 0);
         const poly *turning = rate_of(a, m, law->row[i]);
         law->bias = poly_add(a, law->bias, poly_mul(a, turning, poly_symbol(a, q, 1)));
+        double number;
+        law->straight = law->straight && poly_is_number(law->row[i], &number);
     }
 }
 
@@ -49,6 +52,7 @@ static void make_law(algebra *a, const mechanism *m, const hybrid *from, contact
     case HYBRID_HOLD:
         law->value = poly_from_expr(a, from->condition);
         make_constraint(a, m, poly_from_expr(a, from->value), law);
+        law->first = law->straight ? zero : poly_from_expr(a, from->value);
         break;
     case HYBRID_FRICTION: {
         const poly *normal = poly_call(a, FN_MAX, poly_from_expr(a, from->normal), zero);

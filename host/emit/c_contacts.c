@@ -44,11 +44,11 @@ void c_contacts_write(FILE *out, const program *p, const engine_settings *settin
         "static const wh_hybrid contacts = {\n    .accel = accelerations,\n"
         "    .signals = contact_signals,\n    .forces = contact_forces,\n    .sets = %s,\n"
         "    .contact = contact_table,\n    .target = %s,\n    .ledger = %s,\n    .contacts = %d,\n"
-        "    .forced = %d,\n    .evaluations = WH_CONTACT_EVALUATIONS(%d, %d, %d),\n"
+        "    .forced = %d,\n    .held = %d,\n    .evaluations = WH_CONTACT_EVALUATIONS(%d, %d, %d),\n"
         "    .method = %s,\n    .compensated = %s,\n"
         "    .angles = %d,\n    .coordinates = %d,\n};\n\n",
         c->sets != NULL ? "contact_sets" : "NULL", c->set_count > 0 ? "contact_target" : "NULL",
-        p->ledger != NULL ? "&ledger" : "NULL", c->count, c->forced, c_stages[settings->method],
+        p->ledger != NULL ? "&ledger" : "NULL", c->count, c->forced, c->held, c_stages[settings->method],
         contact_lists_stops(c), c->forced, c_method_names[settings->method],
         settings->compensated ? "true" : "false", p->angles, p->coordinates);
     fprintf(out,
