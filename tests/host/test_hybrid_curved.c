@@ -44,6 +44,7 @@ static void test_energy_is_accounted_for(void) {
         bool failed;
         const double share = fabs(unbooked(seed, &engine_double, &overruns, &failed));
         over += overruns > 0;
+        if (overruns > 0 && getenv("WHIRL_CURVED_SHOW") != NULL) printf("  seed %llu: %llu overruns, leaves %.1e\n", (unsigned long long)seed, (unsigned long long)overruns, share);
         failures += failed;
         if (!failed && overruns == 0) {
             worst = fmax(worst, share);
