@@ -2,6 +2,7 @@
 #ifndef WH_CONTACT_STEP_H
 #define WH_CONTACT_STEP_H
 
+#include "contact_rank.h"
 #include "contact_take.h"
 
 WH_INLINE void wh_contact_modes(const wh_hybrid *of, const wh_state *state, wh_contact_work *w) {
@@ -181,7 +182,16 @@ static inline void wh_contact_commit(const wh_hybrid *of, const wh_contact_work 
     }
 }
 
-/* One step with its events. Returns as wh_step_second(). */
+/* A try from `from` to `to` is taken. Returns the hold that lost its say in it, or of->contacts. */
+static inline unsigned wh_contact_accept(const wh_hybrid *of, wh_contact_work *w,
+                                         wh_contact_state *from, wh_contact_state *to,
+                                         const wh_real *input) {
+    wh_books_accept(of, w);
+    wh_contact_keep(of, w, from, to);
+    return wh_contact_flat(of, w, from, to, input);
+}
+
+/* One step with its events. Returns as wh_step_second(), or WH_E_SINGULAR with the hold in state->fault. */
 static inline wh_status wh_step_contact(const wh_hybrid *of, wh_real h, wh_state *state) {
     wh_contact_work work;
     wh_contact_state now;
@@ -189,6 +199,7 @@ static inline wh_status wh_step_contact(const wh_hybrid *of, wh_real h, wh_state
     wh_contact_log log;
     wh_real left = h;
     unsigned round = 0;
+    unsigned flat = of->contacts; /* the hold that lost its say */
     int fault = -1;
 
     log.count = 0;
@@ -217,8 +228,7 @@ static inline wh_status wh_step_contact(const wh_hybrid *of, wh_real h, wh_state
             wh_contact_margins_end(of, &work, &now, &next, state->input, &margins);
             if (round == WH_EVENTS_MAX || wh_contact_happened(of, &margins) == 0) {
                 wh_contact_pass(of, &margins, &work);
-                wh_books_accept(of, &work);
-                wh_contact_keep(of, &work, &now, &next);
+                flat = wh_contact_accept(of, &work, &now, &next, state->input);
                 now = next;
                 break;
             }
@@ -229,16 +239,22 @@ static inline wh_status wh_step_contact(const wh_hybrid *of, wh_real h, wh_state
                 if (!wh_contact_try(of, &work, span, state->input, &now, &fault)) {
                     return wh_refuse(state, (unsigned)fault);
                 }
-                wh_books_accept(of, &work);
                 wh_contact_tidy(of, &work, span, state->input, &next, &now);
-                wh_contact_keep(of, &work, &next, &now);
+                flat = wh_contact_accept(of, &work, &next, &now, state->input);
                 left -= span;
             }
+        }
+        if (flat < of->contacts) {
+            break;
         }
         if (events != 0) {
             const bool last = ++round == WH_EVENTS_MAX;
             wh_contact_moment(of, &work, events, last, h, h - left, state->input, &now, &log);
         }
+    }
+    if (flat < of->contacts) {
+        state->fault = (int)flat;
+        return WH_E_SINGULAR;
     }
     if (work.fault >= 0) {
         return wh_refuse(state, (unsigned)work.fault);

@@ -1,0 +1,85 @@
+/* contact_rank.h: do the holds still say what they said? (see contact.h)
+ *
+ * Holds that close a linkage lose rank where it lies flat: what kept two ways of moving apart keeps one, and
+ * from there on there is more than one motion that obeys them. Whoever integrates on takes one by chance. So a
+ * step that reaches such a place, or passes it, is refused. Rows are made independent of the earlier ones, in
+ * the metric of M^-1 (Gram and Schmidt); the place is reached where nothing is left of one, and was passed
+ * where what is left points the other way than before. Holds that repeat each other all the time are none of
+ * this: they had nothing left before.
+ */
+#ifndef WH_CONTACT_RANK_H
+#define WH_CONTACT_RANK_H
+
+#include "contact_settle.h"
+
+/* Of each hold that holds: what the earlier ones leave of its row, and M^-1 times that. */
+typedef struct wh_contact_rows {
+    wh_real row[WH_CONTACTS_MAX][WH_COORDS];
+    wh_real way[WH_CONTACTS_MAX][WH_COORDS];
+    wh_real size[WH_CONTACTS_MAX]; /* row times way; 0: nothing is left, or it holds nothing */
+} wh_contact_rows;
+
+WH_INLINE wh_real wh_contact_dot(const wh_hybrid *of, const wh_real *a, const wh_real *b) {
+    wh_real sum = WH_R(0.0);
+    for (unsigned i = 0; i < of->coordinates; i++) {
+        sum += a[i] * b[i];
+    }
+    return sum;
+}
+
+static inline void wh_contact_rows_of(const wh_hybrid *of, wh_contact_work *w, wh_contact_state *s,
+                                      const wh_real *input, wh_contact_rows *rows) {
+    wh_contact_point at;
+    wh_contact_point_of(of, s, &at);
+    of->forces(of->model, at.phase, at.linear, at.rate, input, w->law);
+    for (unsigned k = 0; k < of->forced; k++) {
+        rows->size[k] = WH_R(0.0);
+        if (of->contact[k].kind != WH_HOLD || w->mode[k] != WH_ACTIVE) {
+            continue;
+        }
+        for (unsigned i = 0; i < of->coordinates; i++) {
+            rows->row[k][i] = wh_law(of, w, k)[WH_LAW_ROWS + i];
+            rows->way[k][i] = wh_law(of, w, k)[WH_LAW_ROWS + of->coordinates + i];
+        }
+        for (unsigned j = 0; j < k; j++) {
+            if (rows->size[j] > WH_R(0.0)) {
+                const wh_real share =
+                    wh_contact_dot(of, rows->row[k], rows->way[j]) / rows->size[j];
+                for (unsigned i = 0; i < of->coordinates; i++) {
+                    rows->row[k][i] -= share * rows->row[j][i];
+                    rows->way[k][i] -= share * rows->way[j][i];
+                }
+            }
+        }
+        const wh_real size = wh_contact_dot(of, rows->row[k], rows->way[k]);
+        const bool is_left = size > WH_CONTACT_ROUNDING * wh_contact_yield(of, w, k);
+        rows->size[k] = is_left ? size : WH_R(0.0);
+    }
+}
+
+/* The hold that lost its say between the ends of a try that is taken, or of->contacts. */
+static inline unsigned wh_contact_flat(const wh_hybrid *of, wh_contact_work *w,
+                                       wh_contact_state *from, wh_contact_state *to,
+                                       const wh_real *input) {
+    wh_contact_rows before;
+    wh_contact_rows after;
+    bool any = false;
+    for (unsigned k = 0; k < of->forced && of->held > 0; k++) {
+        any = any || (wh_contact_slips(of, w, k) && of->contact[k].direction == 0);
+    }
+    if (!any) {
+        return of->contacts;
+    }
+    wh_contact_rows_of(of, w, from, input, &before);
+    wh_contact_rows_of(of, w, to, input, &after);
+    for (unsigned k = 0; k < of->forced; k++) {
+        if (before.size[k] > WH_R(0.0) &&
+            (!(after.size[k] > WH_R(0.0)) ||
+             wh_contact_dot(of, before.row[k], after.way[k]) < WH_R(0.0))) {
+            return k;
+        }
+    }
+    return of->contacts;
+}
+
+#endif
