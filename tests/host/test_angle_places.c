@@ -187,6 +187,46 @@ static void test_recovered_angle(void) {
     drop();
 }
 
+/* A state of a system is kept as a turn angle, too; and multiples too large for a phase's factor are none. */
+static void test_systems_and_large_multiples(void) {
+    parse(
+        "mechanism m\nstate th [rad]\nstate q\nparameter w = 3 [1/s]\n"
+        "equation th' = w*(2 + sin(th))\nequation q' = w*cos(2*th)\n"
+        "output half = cos(th/2)\noutput third = sin(th/3 - 1)\n"
+        "output large = sin(3e9*th)\noutput larger = cos(-4294967299.25*th)\noutput tiny = sin(-1e-13*th)\n"
+        "scene s { start th = -6283 }\n");
+    instantiate(NULL);
+    equations *e = equations_derive(made, said);
+    program *p = program_make(e, NULL, said);
+    TEST_ASSERT_NOT_NULL(p);
+    TEST_ASSERT_EQUAL_INT(1, p->angles);
+    const engine_settings settings = {WH_RK4, false};
+    void *run = engine_float.start(p, made, &settings);
+    for (int i = 0; i < 100; i++) {
+        TEST_ASSERT_TRUE(engine_float.step(run) == WH_OK);
+        double th;
+        double real[4];
+        double output[5];
+        engine_float.state(run, &th, real);
+        engine_float.outputs(run, output);
+        TEST_ASSERT_TRUE(fabs(output[0] - cos(th / 2.0)) < 7e-8);
+        TEST_ASSERT_TRUE(fabs(output[1] - sin(th / 3.0 - 1.0)) < 7e-8);
+        const double two_pi = 6.283185307179586477;
+        const int64_t units = (int64_t)rint(th * (4294967296.0 / two_pi));
+        const uint32_t phase = (uint32_t)((uint64_t)units * UINT64_C(3000000000));
+        TEST_ASSERT_TRUE(fabs(output[2] - sin((double)phase / 4294967296.0 * two_pi)) < 7e-8);
+        /* 2^32 + 3 + 1/4 times the angle */
+        const uint64_t quarters = (uint64_t)units * (4 * UINT64_C(4294967299) + 1);
+        const double turns = (double)(quarters & UINT64_C(0x3ffffffff)) / 17179869184.0;
+        TEST_ASSERT_TRUE(fabs(output[3] - cos(turns * two_pi)) < 7e-8);
+        TEST_ASSERT_TRUE(fabs(output[4] - sin(-1e-13 * th)) < 2e-9);
+    }
+    engine_float.stop(run);
+    program_free(p);
+    equations_free(e);
+    drop();
+}
+
 /* --- the books -----------------------------------------------------------------------------------*/
 
 /* th' cos(th/2) in the kinetic energy is the rate of 2 sin(th/2): it moves nothing, so no equation has half of th. */
@@ -227,6 +267,7 @@ void suite_angle_places(void) {
     RUN_TEST(test_all_that_acts_takes_part);
     RUN_TEST(test_outputs_leave_all_else_alone);
     RUN_TEST(test_recovered_angle);
+    RUN_TEST(test_systems_and_large_multiples);
     RUN_TEST(test_books_of_a_part);
     RUN_TEST(test_ledger_refuses_what_its_powers_cannot_tell);
 }
