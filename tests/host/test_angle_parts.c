@@ -221,7 +221,7 @@ static sample made;
 static void test_made_up_outputs(void) {
     static const engine_kind *const kinds[] = {&engine_double, &engine_float};
     const char *wanted = getenv("WHIRL_RANDOM_OUTPUTS");
-    const int total = wanted != NULL ? atoi(wanted) : 2000;
+    const int total = wanted != NULL ? (int)strtol(wanted, NULL, 10) : 2000;
     tally tallies[2] = {{0}};
     uint64_t seed = first_seed;
     TEST_ASSERT_TRUE(total > 0);

@@ -152,7 +152,7 @@ typedef struct reckoned {
 } reckoned;
 
 static reckoned reckon(const wave_argument *of, const long double *state, const arithmetic *in) {
-    reckoned r = {.value = of->offset_rad, .error = in->phase_rad};
+    reckoned r = {.value = (long double)of->offset_rad, .error = in->phase_rad};
     long double added = fabsl(r.value);
     for (int i = 0; i < of->pieces; i++) {
         const wave_piece *p = &of->piece[i];
@@ -219,7 +219,7 @@ static share factor_share(const wave_factor *f, const long double *state, const 
 }
 
 static share term_share(const wave_term *t, const long double *state, const arithmetic *in) {
-    share all = {t->size, fabsl((long double)t->size), 0.0L};
+    share all = {(long double)t->size, fabsl((long double)t->size), 0.0L};
     for (int k = 0; k < t->factors; k++) {
         reckoned beside = {0};
         const wave_factor *other = t->factors > 1 ? &t->factor[1 - k] : NULL;
