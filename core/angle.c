@@ -67,6 +67,8 @@ wh_angle wh_angle_from_rad(wh_real rad) { return rad; }
 
 wh_real wh_angle_to_rad(wh_angle angle) { return angle; }
 
+wh_phase wh_phase_times(wh_angle angle, wh_factor factor) { return angle * factor; }
+
 #else
 
 wh_angle wh_angle_from_rad(wh_real rad) { return wh_angle_of_rad(rad); }
@@ -89,6 +91,24 @@ wh_real wh_angle_to_rad(wh_angle angle) {
     const uint32_t bits = (uint32_t)(product >> 32) | ((uint32_t)product != 0 ? 1U : 0U);
     const float magnitude = (float)bits * scale;
     return angle < 0 ? -magnitude : magnitude;
+}
+
+/* The low 32 bits in front of the point of a 64 by 64 bit product, the point standing in front of the 64
+ * bits of factor.part, rounded. As unsigned, a negative angle is 2^64 too large. */
+wh_phase wh_phase_times(wh_angle angle, wh_factor factor) {
+    const uint64_t size = (uint64_t)angle;
+    const uint64_t size_low = size & UINT32_MAX;
+    const uint64_t part_low = factor.part & UINT32_MAX;
+    const uint64_t size_high = size >> 32;
+    const uint64_t part_high = factor.part >> 32;
+    const uint64_t low = size_low * part_low;
+    const uint64_t cross = size_high * part_low;
+    const uint64_t mixed = size_low * part_high;
+    const uint64_t carried =
+        (low >> 32) + (cross & UINT32_MAX) + (mixed & UINT32_MAX) + (UINT64_C(1) << 31);
+    const uint64_t high = size_high * part_high + (cross >> 32) + (mixed >> 32) + (carried >> 32);
+    const uint64_t too_much = angle < 0 ? factor.part : 0U;
+    return (uint32_t)(high - too_much) + factor.whole * (uint32_t)size;
 }
 
 #endif

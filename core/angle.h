@@ -15,8 +15,9 @@
 
 #if WH_DOUBLE
 
-typedef double wh_angle; /* radians, unwrapped */
-typedef double wh_phase; /* radians */
+typedef double wh_angle;  /* radians, unwrapped */
+typedef double wh_phase;  /* radians */
+typedef double wh_factor; /* what wh_phase_times() takes */
 #define WH_PHASE_PER_RAD 1.0
 /* A step may not turn an angle by more than this: beyond it, direction is lost. */
 #define WH_PHASE_STEP_MAX 3.141592653589793
@@ -27,6 +28,10 @@ WH_INLINE wh_phase wh_phase_of(wh_angle angle) { return angle; }
 
 typedef int64_t wh_angle;  /* 2^32 a turn: turns in the high half, phase in the low half */
 typedef uint32_t wh_phase; /* 2^32 a turn */
+typedef struct wh_factor { /* whole + part/2^64, modulo 2^32 */
+    uint64_t part;
+    uint32_t whole;
+} wh_factor;
 #define WH_PHASE_PER_RAD 683565275.576431632f /* 2^32 / (2 pi) */
 #define WH_PHASE_STEP_MAX 2147483520.0f       /* largest float below half a turn */
 
@@ -40,6 +45,13 @@ WH_INLINE wh_phase wh_phase_of(wh_angle angle) { return (wh_phase)(uint64_t)angl
 #define WH_TURN(rad, units) (rad)
 #else
 #define WH_TURN(rad, units) (units)
+#endif
+
+/* A constant factor for generated code: `real` for the double build, the others for the float build. */
+#if WH_DOUBLE
+#define WH_FACTOR(real, whole, part) (real)
+#else
+#define WH_FACTOR(real, whole, part) ((wh_factor){part, whole})
 #endif
 
 /* *moved = `phase` moved on by `steps` phase units (radians * WH_PHASE_PER_RAD), in float without their
@@ -72,6 +84,7 @@ WH_INLINE void wh_sincos_of_range(wh_real rad, wh_real *sine, wh_real *cosine);
 
 #define wh_angle_from_rad WH_NAME(wh_angle_from_rad)
 #define wh_angle_to_rad WH_NAME(wh_angle_to_rad)
+#define wh_phase_times WH_NAME(wh_phase_times)
 
 /* The stored angle of unwrapped radians: whole turns are kept. Precision and range as with
  * wh_phase_from_rad(). */
@@ -80,6 +93,11 @@ wh_angle wh_angle_from_rad(wh_real rad);
 /* The unwrapped radians of a stored angle. Float: rounded to the nearest (by 0.504 of the last
  * place at worst); any angle is in range. */
 wh_real wh_angle_to_rad(wh_angle angle);
+
+/* The phase of an angle times a number that need not be whole: half an angle, 1.5 or 0.37 times one. Whole
+ * turns count there, which a phase has lost: half of one turn is half a turn. Float: within 0.75 phase
+ * units (1.1e-9 rad), however many turns. Double: the product, rounded. For records, never in a step. */
+wh_phase wh_phase_times(wh_angle angle, wh_factor factor);
 
 #include "sine.h" /* the inline bodies of wh_sincos and wh_phase_from_rad */
 

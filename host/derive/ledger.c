@@ -153,17 +153,15 @@ ledger_lists *ledger_lists_make(const program *p, const equations *e, layout *ma
     if (good) {
         l->powers = enter(p, map, power, l->smooth);
         l->levels = make_levels(l, p, e, map);
-        /* an angle that the equations have only inside sines, and a power outside them */
-        for (int i = 0; i < l->powers->count; i++) {
-            good = good && l->powers->ops[i].code != OP_RADIANS;
-        }
+        /* an angle that the equations have only inside sines, with whole factors, and a power does not */
+        good = !tape_reads_turns(l->powers);
     }
     if (!good) {
         diag_error(errors, e->instance->mechanism->at, "leave out the ledger",
                    "the books of '%s' cannot be kept: %s", e->instance->mechanism->name,
                    l->entries > WH_LEDGER_MAX
                        ? "there are too many entries"
-                       : "a power depends on an angle that no equation does");
+                       : "a power depends on an angle, or on a part of one, that no equation does");
         ledger_lists_free(l);
         l = NULL;
     }

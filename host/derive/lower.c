@@ -81,6 +81,9 @@ void lower_done(lowering *l) {
 /* --- factoring -----------------------------------------------------------------------------------*/
 
 #define FACTORS_MAX 24
+/* Whole exponents beyond this are no row of products, in tape_power() either. They are taken at once: an int would
+ * cut large ones, and a reciprocal taken before them would have its rounding multiplied. */
+#define EXPONENT_MAX 64.0
 
 typedef struct power {
     int node;
@@ -143,6 +146,10 @@ static void product_factor(lowering *l, product *p, const factor *f) {
             node = tape_power(l->tape, node, size);
             size = 1.0;
         }
+    }
+    if (size > EXPONENT_MAX) {
+        node = tape_power(l->tape, node, size);
+        size = 1.0;
     }
     if (f->exponent < 0.0) {
         node = tape_div(l->tape, tape_constant(l->tape, 1.0), node);

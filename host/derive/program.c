@@ -198,6 +198,23 @@ static bool lists_finite(const program *p, const equations *e, diags *errors) {
     return finite && output < 0;
 }
 
+/* A step knows phases only. The coordinates whose turns its lists would need are reals, so that none does,
+ * unless a factor came out too large while the equations were solved. */
+static bool steps_need_no_turns(const program *p, const equations *e, diags *errors) {
+    const contact_lists *c = p->contacts;
+    const tape *const lists[] = {p->step, c != NULL ? c->signals : NULL,
+                                 c != NULL ? c->forces : NULL, c != NULL ? c->sets : NULL};
+    for (size_t i = 0; i < sizeof lists / sizeof lists[0]; i++) {
+        if (lists[i] != NULL && tape_reads_turns(lists[i])) {
+            diag_error(errors, e->instance->mechanism->at, "take smaller multiples of the angles",
+                       "the equations of '%s' contain too large a multiple of an angle",
+                       e->instance->mechanism->name);
+            return false;
+        }
+    }
+    return true;
+}
+
 program *program_make(const equations *e, const bool *conserve, diags *errors) {
     const int n = e->count;
     const mechanism *m = e->instance->mechanism;
@@ -240,7 +257,7 @@ program *program_make(const equations *e, const bool *conserve, diags *errors) {
             p->ledger = ledger_lists_make(p, e, &map, errors);
             good = p->ledger != NULL;
         }
-        good = good && lists_finite(p, e, errors);
+        good = good && lists_finite(p, e, errors) && steps_need_no_turns(p, e, errors);
     } else {
         diag_error(errors, m->at, NULL, "'%s' has more than %d components of state", m->name,
                    PROGRAM_COMPONENTS_MAX);

@@ -45,17 +45,23 @@ uint64_t tape_op_hash(const tape *t, const op *o) {
     for (int i = 0; i < t->angles && o->turns != NULL; i++) {
         hash = mix(hash, (uint64_t)(unsigned)o->turns[i]);
     }
+    for (int i = 0; i < t->angles && o->parts != NULL; i++) {
+        memcpy(&bits, &o->parts[i], sizeof bits);
+        hash = mix(hash, bits);
+    }
     return hash ^ (hash >> 31);
 }
 
+/* Two arrays [t->angles], either of which may be NULL. */
+static bool same_array(const tape *t, const void *x, const void *y, size_t size) {
+    return x == y || (x != NULL && y != NULL && memcmp(x, y, (size_t)t->angles * size) == 0);
+}
+
 static bool op_equal(const tape *t, const op *x, const op *y) {
-    if (x->code != y->code || x->function != y->function || x->a != y->a || x->b != y->b ||
-        memcmp(&x->value, &y->value, sizeof x->value) != 0 ||
-        (x->turns == NULL) != (y->turns == NULL)) {
-        return false;
-    }
-    return x->turns == NULL ||
-           memcmp(x->turns, y->turns, (size_t)t->angles * sizeof *x->turns) == 0;
+    return x->code == y->code && x->function == y->function && x->a == y->a && x->b == y->b &&
+           memcmp(&x->value, &y->value, sizeof x->value) == 0 &&
+           same_array(t, x->turns, y->turns, sizeof *x->turns) &&
+           same_array(t, x->parts, y->parts, sizeof *x->parts);
 }
 
 void tape_reindex(tape *t) {
@@ -126,18 +132,38 @@ int tape_noise(tape *t, uint32_t seed) {
     return enter(t, (op){.code = OP_NOISE, .function = FN_COUNT, .a = -1, .b = -1, .value = seed});
 }
 
-int tape_phase(tape *t, const int *turns, double offset_rad, int radians) {
-    int *copy = NULL;
-    if (turns != NULL && t->angles > 0) {
-        copy = arena_alloc(t->arena, (size_t)t->angles * sizeof *copy);
-        memcpy(copy, turns, (size_t)t->angles * sizeof *copy);
+bool tape_is_whole(double multiple) {
+    return multiple == floor(multiple) && fabs(multiple) <= 2147483647.0;
+}
+
+/* Nothing is cut here: a number that is not whole goes among the parts. */
+int tape_phase(tape *t, const double *multiple, double offset_rad, int radians) {
+    int *turns = NULL;
+    double *parts = NULL;
+    for (int i = 0; i < t->angles && multiple != NULL; i++) {
+        const bool whole = tape_is_whole(multiple[i]);
+        if (multiple[i] == 0.0) {
+            continue;
+        }
+        if (whole && turns == NULL) {
+            turns = arena_alloc(t->arena, (size_t)t->angles * sizeof *turns);
+        }
+        if (!whole && parts == NULL) {
+            parts = arena_alloc(t->arena, (size_t)t->angles * sizeof *parts);
+        }
+        if (whole) {
+            turns[i] = (int)multiple[i];
+        } else {
+            parts[i] = multiple[i];
+        }
     }
     return enter(t, (op){.code = OP_PHASE,
                          .function = FN_COUNT,
                          .a = -1,
                          .b = radians,
                          .value = offset_rad,
-                         .turns = copy});
+                         .turns = turns,
+                         .parts = parts});
 }
 
 static int negate(tape *t, int a) {

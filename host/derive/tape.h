@@ -22,7 +22,8 @@ typedef enum op_code {
     OP_TIME,     /* time, s: for records, never in a step */
     OP_RADIANS,  /* unwrapped angle a in radians: for records, never in a step */
     OP_NOISE,    /* Gaussian deviate with seed `value` at this step: for records, never in a step */
-    OP_PHASE,    /* a phase: sum turns[i] * angle[i] + value [rad] + (radians from b, if b >= 0) */
+    OP_PHASE,    /* a phase: sum turns[i] * phase[i] + sum parts[i] * angle[i] + value [rad] +
+                  * (radians from b, if b >= 0) */
     OP_SIN,      /* sine of phase a */
     OP_COS,      /* cosine of phase a */
     OP_ADD,
@@ -45,7 +46,10 @@ typedef struct op {
     int a;
     int b;
     double value;     /* OP_CONSTANT, OP_PHASE, OP_NOISE */
-    const int *turns; /* OP_PHASE: [angles], or NULL when there are none */
+    const int *turns; /* OP_PHASE: [angles] whole factors, or NULL when there are none */
+    /* OP_PHASE: [angles] factors that take the whole angle, not only its phase; or NULL. For records,
+     * never in a step. */
+    const double *parts;
 } op;
 
 typedef struct tape {
@@ -66,8 +70,11 @@ void tape_free(tape *t);
 int tape_constant(tape *t, double value);
 int tape_leaf(tape *t, op_code code, int which);
 int tape_noise(tape *t, uint32_t seed);
-/* `turns` may be NULL; `radians` an operation or -1. */
-int tape_phase(tape *t, const int *turns, double offset_rad, int radians);
+/* `multiple` [t->angles] of each turn angle may be NULL, and holds any numbers: those that are whole
+ * multiply phases, the others whole angles. `radians` is an operation or -1. */
+int tape_phase(tape *t, const double *multiple, double offset_rad, int radians);
+/* Can a phase be multiplied by this number? Whole numbers, within bounds, can. */
+bool tape_is_whole(double multiple);
 int tape_unary(tape *t, op_code code, int a);
 int tape_add(tape *t, int a, int b);
 int tape_sub(tape *t, int a, int b);
@@ -85,6 +92,9 @@ uint64_t tape_op_hash(const tape *t, const op *o);
 
 /* Drop what no result needs and renumber. */
 void tape_prune(tape *t);
+
+/* Does the list want whole angles, turns included, and not only their phases? No step has those. */
+bool tape_reads_turns(const tape *t);
 
 /* The first result in which a constant takes part that is not finite, or -1. */
 int tape_not_finite(const tape *t);

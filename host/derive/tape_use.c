@@ -95,6 +95,23 @@ void tape_prune(tape *t) {
     drop_unused(t);
 }
 
+bool tape_reads_turns(const tape *t) {
+    for (int i = 0; i < t->count; i++) {
+        if (t->ops[i].code == OP_RADIANS || t->ops[i].parts != NULL) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool has_finite_numbers(const tape *t, const op *o) {
+    bool finite = isfinite(o->value);
+    for (int i = 0; i < t->angles && o->parts != NULL; i++) {
+        finite = finite && isfinite(o->parts[i]);
+    }
+    return finite;
+}
+
 int tape_not_finite(const tape *t) {
     bool *tainted = calloc((size_t)t->count + 1, sizeof *tainted);
     if (tainted == NULL) {
@@ -102,7 +119,7 @@ int tape_not_finite(const tape *t) {
     }
     int operand[2];
     for (int i = 0; i < t->count; i++) {
-        tainted[i] = !isfinite(t->ops[i].value);
+        tainted[i] = !has_finite_numbers(t, &t->ops[i]);
         for (int k = operands(&t->ops[i], operand); k > 0; k--) {
             tainted[i] = tainted[i] || tainted[operand[k - 1]];
         }

@@ -77,7 +77,38 @@ static bool rule_for(lowering *l, const poly *angle, wave *w) {
     return false;
 }
 
+/* The turn angle that the term is a number times of, or -1. */
+static int turn_of(const lowering *l, const poly_term *t) {
+    const mono *m = t->mono;
+    const bool alone = m->trig == TRIG_NONE && m->count == 1 && m->factors[0].exponent == 1.0;
+    const atom *x = alone ? m->factors[0].atom : NULL;
+    return alone && x->kind == ATOM_SYMBOL && x->primes == 0 ? l->turn(l->context, x->symbol) : -1;
+}
+
+/* Is a part of a turn angle in it, such as half of one? */
+static bool has_part(const lowering *l, const poly *angle) {
+    for (int i = 0; i < angle->count; i++) {
+        if (!tape_is_whole(angle->terms[i].coefficient) && turn_of(l, &angle->terms[i]) >= 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* What has parts of turn angles stands in records only: it is evaluated, so that it is as precise as a
+ * sine can be, and nothing follows from it, so that whoever stands beside it keeps its bits. */
+static int without_parts(const lowering *l, const poly **angles, int count) {
+    int kept = 0;
+    for (int i = 0; i < count; i++) {
+        if (!has_part(l, angles[i])) {
+            angles[kept++] = angles[i];
+        }
+    }
+    return kept;
+}
+
 void waves_plan(lowering *l, const poly **angles, int count) {
+    count = without_parts(l, angles, count);
     for (int i = 1; i < count; i++) { /* smallest first; stable */
         const poly *angle = angles[i];
         int j = i;
@@ -113,26 +144,19 @@ void waves_plan(lowering *l, const poly **angles, int count) {
     }
 }
 
-/* The phase of an angle: whole multiples of turn angles, a fixed offset, and the rest in radians. */
+/* The phase of an angle: numbers times turn angles, a fixed offset, and the rest in radians. */
 static int phase_of(lowering *l, const poly *angle) {
-    int *turns = calloc((size_t)l->tape->angles + 1, sizeof *turns);
-    if (turns == NULL) {
+    double *multiple = calloc((size_t)l->tape->angles + 1, sizeof *multiple);
+    if (multiple == NULL) {
         abort();
     }
-    bool turning = false;
     double offset = 0.0;
     const poly *rest = poly_number(l->algebra, 0.0);
     for (int i = 0; i < angle->count; i++) {
         const poly_term *t = &angle->terms[i];
-        const atom *x = t->mono->count == 1 ? t->mono->factors[0].atom : NULL;
-        int turn = -1;
-        if (t->mono->trig == TRIG_NONE && x != NULL && x->kind == ATOM_SYMBOL && x->primes == 0 &&
-            t->mono->factors[0].exponent == 1.0) {
-            turn = l->turn(l->context, x->symbol);
-        }
+        const int turn = turn_of(l, t);
         if (turn >= 0) {
-            turns[turn] += (int)t->coefficient;
-            turning = true;
+            multiple[turn] += t->coefficient;
         } else if (t->mono->count == 0 && t->mono->trig == TRIG_NONE) {
             offset += t->coefficient;
         } else {
@@ -140,8 +164,8 @@ static int phase_of(lowering *l, const poly *angle) {
         }
     }
     const int radians = poly_is_zero(rest) ? -1 : lower(l, rest);
-    const int phase = tape_phase(l->tape, turning ? turns : NULL, offset, radians);
-    free(turns);
+    const int phase = tape_phase(l->tape, multiple, offset, radians);
+    free(multiple);
     return phase;
 }
 

@@ -22,7 +22,7 @@ static void write_observer(FILE *out, const program *p) {
                 "        phase[i] = wh_phase_of(state->angle[i]);\n    }\n",
                 p->angles, p->angles);
     }
-    if (c_list_uses(t, OP_RADIANS)) {
+    if (tape_reads_turns(t)) {
         fprintf(out, "    const wh_angle *angle = state->angle;\n");
     }
     if (c_list_uses(t, OP_LINEAR)) {
@@ -38,7 +38,7 @@ static void write_observer(FILE *out, const program *p) {
         fprintf(out, "    wh_real accel[%d];\n    wh_contact_observe(&contacts, state, accel);\n",
                 p->coordinates);
     }
-    if (!c_list_uses_phase(t) && !c_list_uses(t, OP_RADIANS) && !c_list_uses(t, OP_LINEAR) &&
+    if (!c_list_uses_phase(t) && !tape_reads_turns(t) && !c_list_uses(t, OP_LINEAR) &&
         !c_list_uses(t, OP_RATE) && !c_list_uses(t, OP_INPUT) && !c_list_uses(t, OP_TIME) &&
         !c_list_uses(t, OP_ACCEL) && !c_list_uses(t, OP_NOISE)) {
         fprintf(out, "    (void)state;\n");

@@ -20,7 +20,7 @@ static void write_levels(FILE *out, const program *p) {
                 "        phase[i] = wh_phase_of(angle[i]);\n    }\n",
                 p->angles, p->angles);
     } else {
-        c_list_ignore(out, c_list_uses(t, OP_RADIANS), "angle");
+        c_list_ignore(out, tape_reads_turns(t), "angle");
     }
     c_list_ignore(out, c_list_uses(t, OP_LINEAR), "linear");
     c_list_ignore(out, c_list_uses(t, OP_RATE), "rate");

@@ -20,12 +20,23 @@ static const char *operand(const tape *t, int a, char text[static 48]) {
     return text;
 }
 
+/* "wh_phase_times(...)": what the float build takes as integers is computed here. */
+static void write_part(FILE *out, int angle, double multiple) {
+    uint32_t whole;
+    uint64_t part;
+    engine_factor(multiple, &whole, &part);
+    fprintf(out,
+            "wh_phase_times(angle[%d], WH_FACTOR(%a, %" PRIu32 "U,\n"
+            "        UINT64_C(%" PRIu64 ")))",
+            angle, multiple, whole, part);
+}
+
 static void write_phase(FILE *out, const tape *t, int i) {
     const op *o = &t->ops[i];
     char b[48];
     const char *plus = "";
     fprintf(out, "    wh_real s%d;\n    wh_real c%d;\n    wh_sincos(", i, i);
-    if (o->value != 0.0) {
+    if (o->value != 0.0 || (o->turns == NULL && o->parts == NULL && o->b < 0)) {
         fprintf(out, "WH_TURN(%a, %" PRIu32 "U)", o->value, engine_phase_of_constant(o->value));
         plus = " + ";
     }
@@ -36,6 +47,13 @@ static void write_phase(FILE *out, const tape *t, int i) {
             fprintf(out, "%s(wh_phase)%d * phase[%d]", plus, o->turns[k], k);
         }
         plus = o->turns[k] != 0 ? " + " : plus;
+    }
+    for (int k = 0; k < t->angles && o->parts != NULL; k++) {
+        if (o->parts[k] != 0.0) {
+            fputs(plus, out);
+            write_part(out, k, o->parts[k]);
+            plus = " + ";
+        }
     }
     if (o->b >= 0) {
         fprintf(out, "%swh_phase_from_rad(%s)", plus, operand(t, o->b, b));

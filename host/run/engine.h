@@ -49,5 +49,7 @@ void evaluator_run(evaluator *ev, double time_s, const double *angle_rad, const 
 uint32_t engine_phase_of_constant(double rad);
 /* The stored start of a float angle: radians to 2^32 a turn with turns, rounded to the nearest. */
 int64_t engine_angle_of_start(double rad);
+/* A multiple as wh_phase_times() takes it in float: modulo 2^32, rounded to 2^-64. */
+void engine_factor(double multiple, uint32_t *whole, uint64_t *part);
 
 #endif

@@ -168,6 +168,40 @@ check "overruns of the points that ran now" \
 check "with a shorter step none" status 0 between --step 0.1ms
 check "with a shorter step none" sh -c "! grep -q overran '$scratch/said'"
 
+# --- noise ------------------------------------------------------------------------------------------
+# Measured as it is, an output has the noise of its records, wherever it stands; what is made of it has none.
+cat >"$scratch/noisy.whirl" <<'END'
+mechanism noisy
+coordinate x [m]
+T = 1 [kg]*x'^2/2
+output u = 1
+output v = 2
+output w [m] = 3 [m]
+noise w deviation 0.5 [m] seed 7
+noise u deviation 1 seed 3
+scene noisy_rests { step 1 [ms]; until 10 [ms] }
+END
+"$whirl" run "$scratch/noisy.whirl" --until 10ms --quiet --csv - | tail -n 1 | tr -d '\r' >"$scratch/noisy"
+noisy() { # noisy COLUMNS MEASURE...: those columns of the run are the measures of its sweep
+    columns=$1
+    shift
+    for measure; do
+        set -- "$@" --measure "$measure"
+        shift
+    done
+    "$whirl" sweep "$scratch/noisy.whirl" --until 10ms --over 'x=0..1:2' "$@" --quiet 2>"$scratch/err" |
+        sed -n 2p | tr -d '\r' | cut -d, -f2- >"$scratch/measured"
+    tr ',' '\n' <"$scratch/noisy" | awk -v columns="$columns" '{ value[NR] = $0 } END {
+        n = split(columns, c, " ")
+        for (i = 1; i <= n; i++) printf("%s%s", (c[i] > 0) ? value[c[i]] : -c[i], (i < n) ? "," : "\n") }' >"$scratch/columns"
+    check "noise on measures: $columns" cmp "$scratch/measured" "$scratch/columns"
+}
+noisy '6' w
+noisy '4' u
+noisy '5 6 4' v w u
+noisy '-6 6 -3 4 4' '2*w' w '3*u' u u
+noisy '2 3 4 5 6'
+
 # --- starts that cannot be --------------------------------------------------------------------------
 check "a start beyond a stop fails, as in run" status 1 \
     "$whirl" sweep ball_bounces --until 0.1s --over 'z=-1..1:3' --measure z

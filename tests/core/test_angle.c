@@ -22,6 +22,11 @@ static void test_radians_are_kept(void) {
     TEST_ASSERT_TRUE(wh_phase_of(7.0) == 7.0);
 }
 
+static void test_parts_of_angles(void) {
+    TEST_ASSERT_TRUE(wh_phase_times(7.0, WH_FACTOR(1.5, 1U, 0U)) == 10.5);
+    TEST_ASSERT_TRUE(wh_phase_times(-7.0, WH_FACTOR(0.5, 0U, 0U)) == -3.5);
+}
+
 static void test_phase_moves(void) {
     wh_phase moved = 0.0;
     TEST_ASSERT_TRUE(wh_phase_move(1.0, -2.5, &moved) && moved == -1.5);
@@ -37,6 +42,7 @@ void suite_angle(void) {
     UnitySetTestFile(__FILE__);
     RUN_TEST(test_phase_moves);
     RUN_TEST(test_radians_are_kept);
+    RUN_TEST(test_parts_of_angles);
 }
 
 #else
@@ -168,6 +174,51 @@ static void test_there_and_back(void) {
     }
 }
 
+/* --- parts of angles --------------------------------------------------------------------------- */
+
+/* The low half in front of the point of angle * factor, rounded: 128 bits, added up bit by bit. */
+static uint32_t times_reference(int64_t angle, wh_factor factor) {
+    uint64_t shifted_high = angle < 0 ? UINT64_MAX : 0U;
+    uint64_t shifted_low = (uint64_t)angle;
+    uint64_t high = 0;
+    uint64_t low = UINT64_C(1) << 63;
+    for (unsigned k = 0; k < 64; k++) {
+        if (factor.part >> k & 1U) {
+            low += shifted_low;
+            high += shifted_high + (low < shifted_low ? 1U : 0U);
+        }
+        shifted_high = shifted_high << 1 | shifted_low >> 63;
+        shifted_low <<= 1;
+    }
+    for (uint32_t i = 0; i < 32; i++) {
+        high += factor.whole >> i & 1U ? (uint64_t)angle << i : 0U;
+    }
+    return (uint32_t)high;
+}
+
+static void test_parts_of_angles(void) {
+    const int64_t turn = INT64_C(1) << 32;
+    const wh_factor half = WH_FACTOR(0.5, 0U, UINT64_C(1) << 63);
+    const wh_factor more = WH_FACTOR(1.5, 1U, UINT64_C(1) << 63);
+    const wh_factor less = WH_FACTOR(-0.5, UINT32_MAX, UINT64_C(1) << 63);
+    const wh_factor third = WH_FACTOR(1.0 / 3.0, 0U, UINT64_C(6148914691236517205));
+    /* a turn more is half a turn of the half */
+    TEST_ASSERT_EQUAL_UINT32(2 * QUARTER, wh_phase_times(turn, half));
+    TEST_ASSERT_EQUAL_UINT32(0, wh_phase_times(2000 * turn, half));
+    TEST_ASSERT_EQUAL_UINT32(2 * QUARTER, wh_phase_times(-2001 * turn, half));
+    TEST_ASSERT_EQUAL_UINT32(3 * QUARTER, wh_phase_times(turn / 2, more));
+    TEST_ASSERT_EQUAL_UINT32(3 * QUARTER, wh_phase_times(turn / 2, less));
+    TEST_ASSERT_EQUAL_UINT32(QUARTER, wh_phase_times(-turn / 2, less));
+    TEST_ASSERT_EQUAL_UINT32(QUARTER, wh_phase_times(3000000 * turn + 3 * QUARTER, third));
+    const uint32_t many = WH_TEST_SMALL ? 500 : 100000;
+    scattered_state = 8;
+    for (uint32_t i = 0; i < many; i++) {
+        const int64_t angle = (int64_t)scattered() >> (i % 63U);
+        const wh_factor factor = {.part = scattered(), .whole = (uint32_t)scattered()};
+        TEST_ASSERT_EQUAL_UINT32(times_reference(angle, factor), wh_phase_times(angle, factor));
+    }
+}
+
 #if __STDC_HOSTED__
 static void test_to_rad_is_nearest(void) {
     scattered_state = 7;
@@ -191,6 +242,7 @@ void suite_angle(void) {
     RUN_TEST(test_angle_from_rad_out_of_range);
     RUN_TEST(test_angle_to_rad);
     RUN_TEST(test_there_and_back);
+    RUN_TEST(test_parts_of_angles);
 #if __STDC_HOSTED__
     RUN_TEST(test_to_rad_is_nearest);
 #endif

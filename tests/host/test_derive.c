@@ -251,11 +251,37 @@ static void test_kept_powers_do_not_hide_conservation(void) {
     derived_free(&d);
 }
 
+/* x^e and x^e (1 + x), for whole and half exponents of every size, x so near 1 that they stay small. */
+static void test_large_exponents_are_not_cut(void) {
+    uint64_t seed = 20;
+    for (int i = 0; i < 200; i++) {
+        const double size = pow(10.0, random_between(&seed, 0.0, 14.0));
+        const double e = (i % 4 < 2 ? floor(size) : floor(size) + 0.5) * (i % 2 == 0 ? 1.0 : -1.0);
+        char text[256];
+        snprintf(text, sizeof text,
+                 "mechanism m\ncoordinate x\nT = 1 [kg*m^2]*x'^2/2\n"
+                 "output a = x^(%.17g)\noutput b = x^(%.17g)*(1 + x)\n",
+                 e, e);
+        derived d = derived_text(text);
+        derived_expect(&d, text);
+        state_values s = {.instance = d.instance};
+        const double x = 1.0 + random_between(&seed, -1.0, 1.0) / (1.0 + size);
+        double result[2];
+        s.value[0][0] = x;
+        derived_run(d.program->observe, &d, &s, result);
+        const double wanted = pow(x, e);
+        TEST_ASSERT_TRUE_MESSAGE(fabs(result[0] - wanted) <= 3e-14 * wanted, text);
+        TEST_ASSERT_TRUE_MESSAGE(fabs(result[1] - wanted * (1.0 + x)) <= 6e-14 * wanted, text);
+        derived_free(&d);
+    }
+}
+
 void suite_derive(void) {
     UnitySetTestFile(__FILE__);
     RUN_TEST(test_operation_lists_solve_the_equations);
     RUN_TEST(test_power_balances_in_every_mechanism);
     RUN_TEST(test_kept_powers_do_not_hide_conservation);
+    RUN_TEST(test_large_exponents_are_not_cut);
     RUN_TEST(test_right_hand_sides_stay_small);
     RUN_TEST(test_large_but_tame_expressions_are_derived);
 }

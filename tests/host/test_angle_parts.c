@@ -1,0 +1,295 @@
+/* test_angle_parts.c: outputs and measures that hold parts and multiples of turn angles (cos(th/2),
+ * sin(1.5*th), tan(th/3 - 0.37*ph)), thousands of turns from zero, against libm.
+ *
+ * WHIRL_RANDOM_OUTPUTS=N takes that many made-up outputs instead of 2000; WHIRL_OUTPUTS_TO=FOLDER keeps the mechanisms
+ * there, for tests/cli/angle_parts.sh to compile. */
+#define _POSIX_C_SOURCE 200809L
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "derived.h"
+#include "host/run/engine.h"
+#include "host/sweep/point.h"
+#include "unity.h"
+#include "wave_exprs.h"
+
+void suite_angle_parts(void);
+
+enum { OUTPUTS = 25, STEPS = 40, TEXT_ROOM = 64 + OUTPUTS * (WAVE_TEXT + 32) };
+static const uint64_t first_seed = UINT64_C(20261121);
+
+/* X keeps its momentum 3 X' + a' cos(a)/2. */
+static const char front[] =
+    "mechanism parts\n"
+    "coordinate a [rad]\ncoordinate b [rad]\ncoordinate c [rad]\n"
+    "coordinate x [m]\ncoordinate X [m]\n"
+    "let u = x/(1 [m])\n"
+    "T = 0.4 [kg*m^2]*(a'^2 + b'^2 + c'^2)/2 + 0.1 [kg*m^2]*a'*b'*cos(a - b) + x'^2*1 [kg]"
+    " + 1.5 [kg]*X'^2 + 0.5 [kg*m]*X'*a'*cos(a)\n"
+    "V = -0.7 [J]*cos(a) - 0.2 [J]*sin(2*b + c) + 5 [N/m]*x^2/2\n";
+
+typedef struct sample {
+    wave_expr expr[OUTPUTS];
+    double start[5];
+    bool conserves;
+    char text[TEXT_ROOM + 2048];
+    model *model;
+    instance *instance;
+    equations *equations;
+    program *program;
+} sample;
+
+static void must(bool good, diags *errors, const char *text) {
+    if (!good) {
+        diags_flush(errors, stdout);
+        puts(text);
+    }
+    TEST_ASSERT_TRUE(good);
+}
+
+/* `outputs` of the made-up expressions, `plain` or not. */
+static void open_sample(sample *s, uint64_t *seed, bool plain, int outputs) {
+    char *at = s->text;
+    at += sprintf(at, "%s", front);
+    for (int i = 0; i < outputs; i++) {
+        s->expr[i] = plain ? wave_expr_plain(seed) : wave_expr_make(seed);
+        at += sprintf(at, "output h%d = %s\n", i, s->expr[i].text);
+    }
+    at += sprintf(at, "scene parts_turn {\n%s", s->conserves ? "  conserve X\n" : "");
+    for (int i = 0; i < 5; i++) {
+        static const char *const symbols[] = {"a", "b", "c", "x", "X"};
+        const bool turns = i < WAVE_ANGLES;
+        /* some near zero, some ten thousand turns away */
+        const double most = turns ? pow(10.0, random_between(seed, 0.0, 4.8)) : 0.9;
+        s->start[i] = random_between(seed, -most, most);
+        at += sprintf(at, "  start %s = %.17g [%s], %s' = %.9g [%s/s]\n", symbols[i], s->start[i],
+                      turns ? "rad" : "m", symbols[i], random_between(seed, -20.0, 20.0),
+                      turns ? "rad" : "m");
+    }
+    sprintf(at, "  step 1 [ms]\n  until %d [ms]\n}\n", STEPS);
+    diags *errors = diags_new();
+    s->model = model_parse("parts.whirl", s->text, strlen(s->text), errors);
+    must(s->model != NULL, errors, s->text);
+    const scene *in = s->model->scenes[0];
+    s->instance = instance_make(in->mechanism, in, NULL, errors);
+    must(s->instance != NULL, errors, s->text);
+    s->equations = equations_derive(s->instance, errors);
+    must(s->equations != NULL, errors, s->text);
+    s->program = program_make(s->equations, in->conserve, errors);
+    must(s->program != NULL, errors, s->text);
+    diags_free(errors);
+    TEST_ASSERT_EQUAL_INT(WAVE_ANGLES, s->program->angles);
+}
+
+static void close_sample(sample *s) {
+    program_free(s->program);
+    equations_free(s->equations);
+    instance_free(s->instance);
+    model_free(s->model);
+}
+
+/* The exact state that the run is in: float angles are integers, 2^32 a turn. */
+static void exact_state(const sample *s, const engine_kind *kind, void *run, long double *state) {
+    static const long double two_pi = 6.28318530717958647692528676655900577L;
+    const program *p = s->program;
+    double angle_rad[WAVE_ANGLES];
+    double real[16];
+    TEST_ASSERT_TRUE(p->reals <= 16);
+    kind->state(run, angle_rad, real);
+    for (int i = 0; i < WAVE_ANGLES; i++) {
+        TEST_ASSERT_EQUAL_INT(i, p->angle[i].unknown);
+        const double units = rint(angle_rad[i] * (4294967296.0 / 6.283185307179586477));
+        state[i] = kind == &engine_float ? (long double)units * (two_pi / 4294967296.0L)
+                                         : (long double)angle_rad[i];
+    }
+    TEST_ASSERT_TRUE(p->real[0].unknown == WAVE_ANGLES && p->real[0].primes == 0);
+    state[WAVE_ANGLES] = (long double)real[0];
+}
+
+typedef struct tally {
+    int compared;
+    int skipped;          /* a tangent so near its pole that rounding is all of it */
+    long double ratio;    /* worst difference, of what rounding may make */
+    long double relative; /* worst difference, of what is added up */
+} tally;
+
+static void compare(const sample *s, const engine_kind *kind, void *run, int count, tally *t) {
+    long double state[WAVE_SYMBOLS];
+    double output[OUTPUTS + 8];
+    TEST_ASSERT_TRUE(s->program->outputs <= OUTPUTS + 8);
+    exact_state(s, kind, run, state);
+    kind->outputs(run, output);
+    for (int i = 0; i < count; i++) {
+        const wave_value wanted = wave_expr_value(&s->expr[i], state, kind == &engine_float);
+        if (!(wanted.bound < 0.01L * wanted.scale)) {
+            t->skipped++;
+            continue;
+        }
+        const long double off = fabsl((long double)output[i] - wanted.value);
+        t->compared++;
+        t->ratio = fmaxl(t->ratio, off / wanted.bound);
+        t->relative = fmaxl(t->relative, off / wanted.scale);
+        if (!(off <= wanted.bound)) {
+            printf(
+                "%s: %s = %.17g, wanted %.19Lg +- %.3Lg at\n  a = %.19Lg, b = %.19Lg, c = %.19Lg, "
+                "u = %.19Lg\n",
+                kind->name, s->expr[i].text, output[i], wanted.value, wanted.bound, state[0],
+                state[1], state[2], state[3]);
+            TEST_FAIL_MESSAGE("an output is wrong by more than rounding");
+        }
+    }
+    if (!s->conserves) {
+        return;
+    }
+    /* X from its momentum, which an output's part of an angle must not disturb */
+    double angle_rad[WAVE_ANGLES];
+    double real[16];
+    kind->state(run, angle_rad, real);
+    const double rounding = kind == &engine_float ? 0x1p-23 : 0x1p-52;
+    const double *start = s->instance->start[WAVE_ANGLES + 1];
+    const double momentum = 3.0 * start[1] + 0.5 * cos(s->start[0]) * s->instance->start[0][1];
+    const double time_s = (double)kind->steps(run) * 1e-3;
+    const double X =
+        start[0] + (momentum * time_s + 0.5 * (sin(s->start[0]) - (double)sinl(state[0]))) / 3.0;
+    TEST_ASSERT_TRUE(fabs(output[count] - X) <= 8.0 * rounding * (1.0 + fabs(momentum * time_s)));
+}
+
+/* The measures of a sweep, from the texts of the outputs: the numbers of the records, as printed. */
+static void check_sweep(const sample *s, const engine_kind *kind, int count, const double *output) {
+    diags *errors = diags_new();
+    const char *texts[OUTPUTS];
+    for (int i = 0; i < count; i++) {
+        texts[i] = s->expr[i].text;
+    }
+    const scene *in = s->model->scenes[0];
+    measures *taken = measures_new(in->mechanism, texts, count, errors);
+    must(taken != NULL, errors, s->text);
+    grid over = {0};
+    overrides none = {0};
+    char swept[64];
+    snprintf(swept, sizeof swept, "x=%.17g..2:2", s->start[WAVE_ANGLES]);
+    must(grid_add(&over, in->mechanism, swept, errors), errors, s->text);
+    const sweep of = {.grid = &over,
+                      .measures = taken,
+                      .scene = in,
+                      .changes = &none,
+                      .kind = kind,
+                      .engine = {WH_RK4, false}};
+    char *row = NULL;
+    size_t length = 0;
+    uint64_t overruns;
+    FILE *out = open_memstream(&row, &length);
+    TEST_ASSERT_NOT_NULL(out);
+    TEST_ASSERT_TRUE(sweep_point(&of, 0, NULL, out, stdout, &overruns));
+    fclose(out);
+    const char *at = strchr(row, ',');
+    for (int i = 0; i < count; i++) {
+        char wanted[64];
+        TEST_ASSERT_NOT_NULL(at);
+        snprintf(wanted, sizeof wanted, "%.*g", kind->digits, output[i]);
+        const size_t size = strcspn(at + 1, ",\r");
+        if (strncmp(wanted, at + 1, size) != 0 || wanted[size] != '\0') {
+            printf("%s: %s: measured %.*s, recorded %s\n", kind->name, texts[i], (int)size, at + 1,
+                   wanted);
+            TEST_FAIL_MESSAGE("a measure is not what is recorded");
+        }
+        at = strchr(at + 1, ',');
+    }
+    free(row);
+    grid_free(&over);
+    measures_free(taken);
+    diags_free(errors);
+}
+
+static void keep(const sample *s, int number) {
+    const char *folder = getenv("WHIRL_OUTPUTS_TO");
+    if (folder != NULL) {
+        char path[1024];
+        snprintf(path, sizeof path, "%s/parts_%d.whirl", folder, number);
+        FILE *out = fopen(path, "w");
+        TEST_ASSERT_NOT_NULL_MESSAGE(out, path);
+        fputs(s->text, out);
+        TEST_ASSERT_EQUAL_INT(0, fclose(out));
+    }
+}
+
+static sample made;
+
+static void test_made_up_outputs(void) {
+    static const engine_kind *const kinds[] = {&engine_double, &engine_float};
+    const char *wanted = getenv("WHIRL_RANDOM_OUTPUTS");
+    const int total = wanted != NULL ? (int)strtol(wanted, NULL, 10) : 2000;
+    tally tallies[2] = {{0}};
+    uint64_t seed = first_seed;
+    TEST_ASSERT_TRUE(total > 0);
+    for (int done = 0, number = 0; done < total; number++) {
+        const int count = total - done < OUTPUTS ? total - done : OUTPUTS;
+        made.conserves = number % 2 == 1;
+        open_sample(&made, &seed, false, count);
+        keep(&made, number);
+        for (int k = 0; k < 2; k++) {
+            const engine_settings settings = {WH_RK4, false};
+            void *run = kinds[k]->start(made.program, made.instance, &settings);
+            compare(&made, kinds[k], run, count, &tallies[k]);
+            for (int step = 0; step < STEPS; step++) {
+                TEST_ASSERT_TRUE(kinds[k]->step(run) == WH_OK);
+            }
+            compare(&made, kinds[k], run, count, &tallies[k]);
+            double output[OUTPUTS + 8];
+            kinds[k]->outputs(run, output);
+            check_sweep(&made, kinds[k], count, output);
+            kinds[k]->stop(run);
+        }
+        close_sample(&made);
+        done += count;
+    }
+    for (int k = 0; k < 2; k++) {
+        const tally *t = &tallies[k];
+        printf(
+            "  %d outputs from seed %llu in %s, at two states each: worst difference %.2Lg of what "
+            "is added up, %.2Lg of the bound; %d skipped\n",
+            total, (unsigned long long)first_seed, kinds[k]->name, t->relative, t->ratio,
+            t->skipped);
+        TEST_ASSERT_TRUE(t->skipped * 20 < t->compared);
+    }
+}
+
+/* One sine or cosine of one multiple of one angle, up to ten thousand turns from zero: in float as good as
+ * any sine (6.3e-8; docs/numerics.md), with a phase unit (1.5e-9 rad) for the multiple. */
+static void test_float_sines_of_parts(void) {
+    uint64_t seed = first_seed;
+    double worst = 0.0;
+    int parts = 0;
+    made.conserves = false;
+    for (int number = 0; number < 40; number++) {
+        open_sample(&made, &seed, true, OUTPUTS);
+        const engine_settings settings = {WH_RK4, false};
+        void *run = engine_float.start(made.program, made.instance, &settings);
+        long double state[WAVE_SYMBOLS];
+        double output[OUTPUTS + 8];
+        exact_state(&made, &engine_float, run, state);
+        engine_float.outputs(run, output);
+        for (int i = 0; i < OUTPUTS; i++) {
+            const wave_piece *p = &made.expr[i].term[0].factor[0].argument.piece[0];
+            if (p->number != rintl(p->number)) { /* others may follow from each other */
+                const long double value = wave_expr_value(&made.expr[i], state, true).value;
+                worst = fmax(worst, fabs((double)((long double)output[i] - value)));
+                parts++;
+            }
+        }
+        engine_float.stop(run);
+        close_sample(&made);
+    }
+    printf("  %d sines of parts of angles in float, to 1e4 turns: worst error %.3g\n", parts,
+           worst);
+    TEST_ASSERT_TRUE(parts > 500 && worst < 6.6e-8 && worst > 3e-8);
+}
+
+void suite_angle_parts(void) {
+    UnitySetTestFile(__FILE__);
+    RUN_TEST(test_made_up_outputs);
+    RUN_TEST(test_float_sines_of_parts);
+}

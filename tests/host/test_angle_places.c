@@ -1,0 +1,272 @@
+/* test_angle_places.c: every place of the language that can hold a part of an angle: those that act on the motion
+ * make the coordinate a real, the others leave the run and their neighbours as they are. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "derived.h"
+#include "host/derive/contact_lists.h"
+#include "host/run/engine.h"
+#include "parsed.h"
+#include "unity.h"
+
+void suite_angle_places(void);
+
+/* --- what acts on the motion ---------------------------------------------------------------------*/
+
+static const struct {
+    const char *text;
+    double times;
+} multiples[] = {{"th", 1},           {"2*th", 2},       {"-3*th", -3},
+                 {"th/2", 0.5},       {"3*th/2", 1.5},   {"th/3", 1.0 / 3},
+                 {"1.5*th", 1.5},     {"0.37*th", 0.37}, {"th*sqrt(2)", 1.4142135623730951},
+                 {"100.5*th", 100.5}, {"th/1000", 1e-3}};
+enum { MULTIPLES = sizeof multiples / sizeof multiples[0] };
+
+enum { NOWHERE, IN_STEP, IN_SIGNALS };
+
+/* @ is the multiple; what is found at result 0 of the list is scale * function(multiple) + offset. */
+static const struct {
+    const char *text;
+    int list;
+    bool sine;
+    bool scaled; /* by the multiple's number */
+    double offset;
+} places[] = {
+    {"V = 1 [J]*cos(@)\n", IN_STEP, true, true, 0},
+    {"Q(th) = 1 [N*m]*cos(@)\n", IN_STEP, false, false, 0},
+    {"Q(x) = 1 [N]*abs(cos(@))\n", NOWHERE, false, false, 0},
+    {"V = 1 [J]*tan(@)/(3 + cos(@))\n", NOWHERE, false, false, 0},
+    {"F = 0.1 [N*s/m]*x'^2*(2 + sin(@))\n", NOWHERE, false, false, 0},
+    {"stop cos(@) >= -2 restitution 0.5\n", IN_SIGNALS, false, false, 2},
+    {"stop x <= 1e6 [m] restitution (2 + sin(@))/4\n", NOWHERE, false, false, 0},
+    {"hold x while cos(@) > 5\n", IN_SIGNALS, false, false, -5},
+    {"hold x - sin(@)*1 [m] while x > 1e6 [m]\n", NOWHERE, false, false, 0},
+    {"when cos(@) crosses 5 { set x = 0 }\n", IN_SIGNALS, false, false, -5},
+    {"when x crosses 1e6 [m] { set x' = sin(@)*1 [m/s] }\n", NOWHERE, false, false, 0},
+    {"friction x static 0.4 kinetic 0.3 normal 2 [N]*(2 + cos(@))\n", NOWHERE, false, false, 0},
+    {"friction x static 0.5 + 0.1*cos(@) kinetic 0.3 normal 2 [N]\n", NOWHERE, false, false, 0},
+    {"friction x static 0.5 kinetic 0.3 + 0.1*cos(@) normal 2 [N]\n", NOWHERE, false, false, 0}};
+
+static void check_place(const derived *d, size_t which, double times, const char *text) {
+    const bool in_step = places[which].list == IN_STEP;
+    double result[64];
+    state_values s = {.instance = d->instance};
+    uint64_t seed = which;
+    for (int i = 0; i < 10; i++) {
+        const double th = random_between(&seed, -5000.0, 5000.0);
+        s.value[0][0] = th;
+        derived_run(in_step ? d->program->step : d->program->contacts->signals, d, &s, result);
+        /* th is the only angle, if it is one, and the other accelerations follow */
+        const double got = result[in_step ? d->program->place[0] : 0];
+        const double trig_value = places[which].sine ? sin(times * th) : cos(times * th);
+        const double wanted =
+            (places[which].scaled ? times : 1.0) * trig_value + places[which].offset;
+        TEST_ASSERT_TRUE_MESSAGE(fabs(got - wanted) <=
+                                     1e-15 * (8.0 + 4.0 * fabs(times * th)) * (1.0 + fabs(times)),
+                                 text);
+    }
+}
+
+/* A coordinate is kept as a turn angle if whatever acts on the motion holds whole multiples of it only. */
+static void test_all_that_acts_takes_part(void) {
+    for (size_t k = 0; k < sizeof places / sizeof places[0]; k++) {
+        for (int i = 0; i < MULTIPLES; i++) {
+            char text[512];
+            char *at = text;
+            at += sprintf(at, "mechanism m\ncoordinate th [rad]\ncoordinate x [m]\n"
+                              "T = 0.5 [kg*m^2]*th'^2 + 0.5 [kg]*x'^2\n");
+            for (const char *c = places[k].text; *c != '\0'; c++) {
+                at += *c == '@' ? sprintf(at, "%s", multiples[i].text) : sprintf(at, "%c", *c);
+            }
+            derived d = derived_text(text);
+            derived_expect(&d, text);
+            const bool whole = multiples[i].times == floor(multiples[i].times);
+            TEST_ASSERT_EQUAL_INT_MESSAGE(whole ? 1 : 0, d.program->angles, text);
+            TEST_ASSERT_FALSE_MESSAGE(tape_reads_turns(d.program->step), text);
+            if (places[k].list != NOWHERE) {
+                check_place(&d, k, multiples[i].times, text);
+            }
+            derived_free(&d);
+        }
+    }
+}
+
+/* --- what only looks on --------------------------------------------------------------------------*/
+
+static const char pendulums[] =
+    "mechanism m\ncoordinate th [rad]\ncoordinate ph [rad]\n"
+    "T = 0.5 [kg*m^2]*(th'^2 + ph'^2) + 0.1 [kg*m^2]*th'*ph'*cos(th - ph)\nV = -2 [J]*cos(th)\n"
+    "output double_angle = sin(2*th)\noutput sum = cos(th + 3*ph)*sin(ph)\n"
+    "output small = 1 - cos(2*ph)\n";
+static const char scene_of_them[] =
+    "scene s { start th = 6283, ph = -4e4, th' = 3 [rad/s], ph' = -40 [rad/s]; until 0.2 [s] }\n";
+enum { NEIGHBOURS = 3 };
+
+static uint64_t run_to(const char *more, const engine_kind *kind, double *output) {
+    char text[1200];
+    snprintf(text, sizeof text, "%s%s%s", pendulums, more, scene_of_them);
+    parse(text);
+    instantiate(NULL);
+    equations *e = equations_derive(made, said);
+    program *p = program_make(e, NULL, said);
+    TEST_ASSERT_NOT_NULL_MESSAGE(p, more);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(2, p->angles, more);
+    const engine_settings settings = {WH_RK4, false};
+    void *run = kind->start(p, made, &settings);
+    for (int i = 0; i < 200; i++) {
+        TEST_ASSERT_TRUE(kind->step(run) == WH_OK);
+    }
+    TEST_ASSERT_TRUE(p->outputs <= 16);
+    kind->outputs(run, output);
+    const uint64_t hash = kind->hash(run) ^ program_hash(p);
+    kind->stop(run);
+    program_free(p);
+    equations_free(e);
+    return hash;
+}
+
+static void test_outputs_leave_all_else_alone(void) {
+    static const engine_kind *const kinds[] = {&engine_double, &engine_float};
+    static const char *const outputs[] = {
+        "output h = cos(th/2)\n",
+        "output h = sin(1.5*th)\n",
+        "output h = sin(1.5*th)\noutput g = cos(th/2)\n", /* 2 th is their sum */
+        "output h = tan(th/2) + tan(ph/3)\n",
+        "output h = sin(th/3 + 2*ph)*exp(1)\n",
+        "output h = cos(sqrt(2)*(th + ph))^2\n",
+        "output h = th/2*sin(th/4 + 0.1*cos(0.37*ph))/(2 + cos(ph/7))\n",
+        "output h = sin(th/2)\noutput g = h*th\noutput k = cos(2.5*ph - th/2)\n"};
+    for (int k = 0; k < 2; k++) {
+        double alone[16];
+        const uint64_t hash = run_to("", kinds[k], alone);
+        for (size_t i = 0; i < sizeof outputs / sizeof outputs[0]; i++) {
+            double beside[16];
+            TEST_ASSERT_TRUE_MESSAGE(run_to(outputs[i], kinds[k], beside) == hash, outputs[i]);
+            TEST_ASSERT_TRUE_MESSAGE(memcmp(alone, beside, NEIGHBOURS * sizeof *alone) == 0,
+                                     outputs[i]);
+        }
+    }
+    drop();
+}
+
+/* An angle from its momentum: ph = ph0 + p t - 0.37 (th - th0), whatever the user takes of it. */
+static void test_recovered_angle(void) {
+    static const engine_kind *const kinds[] = {&engine_double, &engine_float};
+    parse(
+        "mechanism m\ncoordinate th [rad]\ncoordinate ph [rad]\n"
+        "T = 0.5 [kg*m^2]*th'^2 + 0.5 [kg*m^2]*(ph' + 0.37*th')^2\nV = -2 [J]*cos(th)\n"
+        "output one = sin(ph)\noutput half = cos(ph/2)\noutput both = sin(th/2 + ph)\n"
+        "scene s { conserve ph; start th = 6283, ph = 0.5, th' = 3 [rad/s], ph' = -2 [rad/s] }\n");
+    instantiate(NULL);
+    equations *e = equations_derive(made, said);
+    program *p = program_make(e, made->scene->conserve, said);
+    TEST_ASSERT_NOT_NULL(p);
+    TEST_ASSERT_EQUAL_INT(1, p->angles);
+    for (int k = 0; k < 2; k++) {
+        const engine_settings settings = {WH_RK4, false};
+        void *run = kinds[k]->start(p, made, &settings);
+        for (int i = 0; i < 50; i++) {
+            TEST_ASSERT_TRUE(kinds[k]->step(run) == WH_OK);
+        }
+        double th;
+        double real[8];
+        double output[8];
+        kinds[k]->state(run, &th, real);
+        kinds[k]->outputs(run, output);
+        const double ph = 0.5 + (-2.0 + 0.37 * 3.0) * 0.05 - 0.37 * (th - 6283.0);
+        const double bound =
+            k == 0 ? 4e-12 : 3e-7; /* roundings of 6283 * 0.37; of t, and of sines */
+        TEST_ASSERT_TRUE(fabs(output[0] - sin(ph)) <= bound);
+        TEST_ASSERT_TRUE(fabs(output[1] - cos(ph / 2.0)) <= bound);
+        TEST_ASSERT_TRUE(fabs(output[2] - sin(th / 2.0 + ph)) <= bound);
+        kinds[k]->stop(run);
+    }
+    program_free(p);
+    equations_free(e);
+    drop();
+}
+
+/* A state of a system is kept as a turn angle, too; and multiples too large for a phase's factor are none. */
+static void test_systems_and_large_multiples(void) {
+    parse(
+        "mechanism m\nstate th [rad]\nstate q\nparameter w = 3 [1/s]\n"
+        "equation th' = w*(2 + sin(th))\nequation q' = w*cos(2*th)\n"
+        "output half = cos(th/2)\noutput third = sin(th/3 - 1)\n"
+        "output large = sin(3e9*th)\noutput larger = cos(-4294967299.25*th)\noutput tiny = sin(-1e-13*th)\n"
+        "scene s { start th = -6283 }\n");
+    instantiate(NULL);
+    equations *e = equations_derive(made, said);
+    program *p = program_make(e, NULL, said);
+    TEST_ASSERT_NOT_NULL(p);
+    TEST_ASSERT_EQUAL_INT(1, p->angles);
+    const engine_settings settings = {WH_RK4, false};
+    void *run = engine_float.start(p, made, &settings);
+    for (int i = 0; i < 100; i++) {
+        TEST_ASSERT_TRUE(engine_float.step(run) == WH_OK);
+        double th;
+        double real[4];
+        double output[5];
+        engine_float.state(run, &th, real);
+        engine_float.outputs(run, output);
+        TEST_ASSERT_TRUE(fabs(output[0] - cos(th / 2.0)) < 7e-8);
+        TEST_ASSERT_TRUE(fabs(output[1] - sin(th / 3.0 - 1.0)) < 7e-8);
+        const double two_pi = 6.283185307179586477;
+        const int64_t units = (int64_t)rint(th * (4294967296.0 / two_pi));
+        const uint32_t phase = (uint32_t)((uint64_t)units * UINT64_C(3000000000));
+        TEST_ASSERT_TRUE(fabs(output[2] - sin((double)phase / 4294967296.0 * two_pi)) < 7e-8);
+        /* 2^32 + 3 + 1/4 times the angle */
+        const uint64_t quarters = (uint64_t)units * (4 * UINT64_C(4294967299) + 1);
+        const double turns = (double)(quarters & UINT64_C(0x3ffffffff)) / 17179869184.0;
+        TEST_ASSERT_TRUE(fabs(output[3] - cos(turns * two_pi)) < 7e-8);
+        TEST_ASSERT_TRUE(fabs(output[4] - sin(-1e-13 * th)) < 2e-9);
+    }
+    engine_float.stop(run);
+    program_free(p);
+    equations_free(e);
+    drop();
+}
+
+/* --- the books -----------------------------------------------------------------------------------*/
+
+/* th' cos(th/2) in the kinetic energy is the rate of 2 sin(th/2): it moves nothing, so no equation has half of th. */
+static const char gauge[] =
+    "mechanism m\ncoordinate th [rad]\n"
+    "T = 0.5 [kg*m^2]*th'^2 + 0.7 [kg*m^2/s]*th'*cos(th/2)\nV = -2 [J]*cos(th)\n";
+
+static void test_books_of_a_part(void) {
+    derived d = derived_text(gauge);
+    derived_expect(&d, gauge);
+    TEST_ASSERT_EQUAL_INT(1, d.program->angles);
+    state_values s = {.instance = d.instance};
+    s.value[0][0] = 6283.0;
+    s.value[0][1] = 1.5;
+    double result[16];
+    derived_run(d.program->books, &d, &s, result);
+    const double extra = 0.7 * cos(6283.0 / 2.0);
+    TEST_ASSERT_TRUE(fabs(result[1 + BOOK_MOMENTA] - (1.5 + extra)) < 1e-12);
+    TEST_ASSERT_TRUE(fabs(result[1 + BOOK_KINETIC] - (1.125 + 1.5 * extra)) < 1e-12);
+    derived_free(&d);
+}
+
+static void test_ledger_refuses_what_its_powers_cannot_tell(void) {
+    char text[1024];
+    snprintf(text, sizeof text, "%sscene s { with ledger; start th = 1; until 1 [s] }\n", gauge);
+    parse(text);
+    instantiate(NULL);
+    equations *e = equations_derive(made, said);
+    TEST_ASSERT_NULL(program_make(e, NULL, said));
+    expect_said("a power depends on an angle, or on a part of one, that no equation does");
+    equations_free(e);
+    drop();
+}
+
+void suite_angle_places(void) {
+    UnitySetTestFile(__FILE__);
+    RUN_TEST(test_all_that_acts_takes_part);
+    RUN_TEST(test_outputs_leave_all_else_alone);
+    RUN_TEST(test_recovered_angle);
+    RUN_TEST(test_systems_and_large_multiples);
+    RUN_TEST(test_books_of_a_part);
+    RUN_TEST(test_ledger_refuses_what_its_powers_cannot_tell);
+}

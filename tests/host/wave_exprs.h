@@ -1,0 +1,64 @@
+/* wave_exprs.h: made-up expressions over turn angles and a length, as texts of the language and as what they are
+ * worth: the long double value by libm, and the most that rounding may do to it. */
+#ifndef TESTS_HOST_WAVE_EXPRS_H
+#define TESTS_HOST_WAVE_EXPRS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* The angles a, b, c and the number u that the texts name. */
+enum { WAVE_ANGLES = 3, WAVE_SYMBOLS = WAVE_ANGLES + 1 };
+
+enum { WAVE_PIECES = 3, WAVE_FACTORS = 2, WAVE_TERMS = 3, WAVE_TEXT = 1600 };
+
+/* number * symbol */
+typedef struct wave_piece {
+    int symbol;
+    int form; /* how the number is written */
+    long double number;
+} wave_piece;
+
+typedef struct wave_argument {
+    wave_piece piece[WAVE_PIECES];
+    int pieces;
+    double offset_rad;
+} wave_argument;
+
+/* sine, cosine or tangent of the argument + 0.3 sin(inner) + u * (a symbol)/100 */
+typedef struct wave_factor {
+    enum { WAVE_SIN, WAVE_COS, WAVE_TAN } function;
+    wave_argument argument;
+    bool has_inner;
+    wave_argument inner;
+    int product; /* the symbol times u, or -1 */
+} wave_factor;
+
+/* size * factors / (2 + cos(below)) * (outside, unwrapped) */
+typedef struct wave_term {
+    double size;
+    wave_factor factor[WAVE_FACTORS];
+    int factors;
+    bool divided;
+    wave_argument below;
+    int outside; /* a symbol, or -1 */
+} wave_term;
+
+typedef struct wave_expr {
+    wave_term term[WAVE_TERMS];
+    int terms;
+    char text[WAVE_TEXT];
+} wave_expr;
+
+typedef struct wave_value {
+    long double value;
+    long double bound; /* of the difference that rounding makes */
+    long double scale; /* of what was added up */
+} wave_value;
+
+wave_expr wave_expr_make(uint64_t *seed);
+/* The sine or cosine of one multiple of one angle. */
+wave_expr wave_expr_plain(uint64_t *seed);
+/* At the exact `state` [WAVE_SYMBOLS], computed in double or in float with 64-bit angles. */
+wave_value wave_expr_value(const wave_expr *e, const long double *state, bool is_float);
+
+#endif
