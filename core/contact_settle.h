@@ -27,25 +27,43 @@ WH_INLINE void wh_contact_move(const wh_hybrid *of, unsigned i, wh_real by, wh_c
     }
 }
 
-/* What a straight hold has moved by from one state to the other: J_k, which is constant, times the way. */
+/* *sum + *rest += a b, without the product's rounding, which would add up over the steps (Dekker's product, Veltkamp's
+ * split: Muller et al., Handbook of Floating-Point Arithmetic, section 4.4). */
+WH_INLINE void wh_contact_add_product(wh_real a, wh_real b, wh_real *sum, wh_real *rest) {
+    const wh_real split = WH_DOUBLE ? WH_R(134217729.0) : WH_R(4097.0);
+    const wh_real product = a * b;
+    const wh_real a_wide = split * a;
+    const wh_real a_high = a_wide - (a_wide - a);
+    const wh_real b_wide = split * b;
+    const wh_real b_high = b_wide - (b_wide - b);
+    const wh_real a_low = a - a_high;
+    const wh_real b_low = b - b_high;
+    *rest += ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low;
+    *sum += product; /* what turns against each other cancels exactly */
+}
+
+/* What a straight hold has moved by from one state to the other: J_k, which is constant, times the way; rad or m. */
 static inline wh_real wh_contact_moved(const wh_hybrid *of, const wh_contact_work *w, unsigned k,
                                        const wh_contact_state *from, const wh_contact_state *to) {
     const wh_real *row = wh_law(of, w, k) + WH_LAW_ROWS;
-    wh_real sum = WH_R(0.0);
-    for (unsigned i = 0; i < of->coordinates; i++) {
-        wh_real way; /* rad or m */
-        if (i < of->angles) {
+    wh_real turns = WH_R(0.0); /* phase units */
+    wh_real ways = WH_R(0.0);
+    wh_real rests[2] = {WH_R(0.0), WH_R(0.0)};
+    for (unsigned i = 0; i < of->angles; i++) {
 #if WH_DOUBLE
-            way = to->angle[i] - from->angle[i];
+        wh_contact_add_product(row[i], to->angle[i] - from->angle[i], &turns, &rests[0]);
 #else
-            way = (wh_real)(to->angle[i] - from->angle[i]) / WH_PHASE_PER_RAD;
+        const int64_t way = to->angle[i] - from->angle[i];
+        const wh_real high = (wh_real)way;
+        wh_contact_add_product(row[i], high, &turns, &rests[0]);
+        rests[0] += row[i] * (wh_real)(way - (int64_t)high);
 #endif
-        } else {
-            way = to->real[i - of->angles] - from->real[i - of->angles];
-        }
-        sum += row[i] * way;
     }
-    return sum;
+    for (unsigned i = of->angles; i < of->coordinates; i++) {
+        const unsigned l = i - of->angles;
+        wh_contact_add_product(row[i], to->real[l] - from->real[l], &ways, &rests[1]);
+    }
+    return (turns + rests[0]) / WH_PHASE_PER_RAD + (ways + rests[1]);
 }
 
 /* Is contact k a hold that can slip? One with a pin cannot. */
