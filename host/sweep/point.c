@@ -158,7 +158,7 @@ static bool keeps_samples(const measures *m) {
 /* Step to the end. False when the run failed, said on `reason`. */
 static bool run_through(meter *m, const instance *inst, bool (*abandon)(void), FILE *reason) {
     const engine_kind *kind = m->sweep->kind;
-    const uint64_t steps = (uint64_t)floor(inst->until_s / inst->step_s + 0.5);
+    const uint64_t steps = inst->steps;
     /* the first step at or after from_s, which rounding may put just beside a step */
     const double from = ceil(m->sweep->from_s / inst->step_s * (1.0 - 1e-12));
     if (m->series && from > (double)steps) {
@@ -178,7 +178,7 @@ static bool run_through(meter *m, const instance *inst, bool (*abandon)(void), F
             break;
         }
         if (kind->step(m->run) != WH_OK) {
-            fprintf(reason, "diverged in the step after t = %.9g s", (double)step * inst->step_s);
+            fprintf(reason, "diverged in the step after t = %.9g s", ratio_times(step, inst->step));
             return false;
         }
     }

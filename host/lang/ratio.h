@@ -1,0 +1,30 @@
+/* ratio.h: steps and ends of runs as fractions of whole numbers, so that counts and times are exact. */
+#ifndef LANG_RATIO_H
+#define LANG_RATIO_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* What a duration above zero must lie between, s. */
+#define RATIO_LEAST 1e-18
+#define RATIO_MOST 1e18
+
+/* numerator / denominator, in lowest terms; their product is below 2^63. */
+typedef struct ratio {
+    uint64_t numerator;
+    uint64_t denominator; /* > 0 */
+} ratio;
+
+/* The simplest fraction (of least denominator) within 2^-51 of `value`, relatively, or a little less: what a decimal of up to
+ * 14 digits was before units and doubles rounded it. 0.0011000000000000001 is 11/10000. `value` is 0, or
+ * from RATIO_LEAST to RATIO_MOST. */
+ratio ratio_of(double value);
+
+/* The nearest whole number to whole / part, the lower one of two that are as near; false when that is
+ * more than 2^63. `part` is above zero. */
+bool ratio_count(ratio whole, ratio part, uint64_t *count);
+
+/* count * each, to the nearest double. */
+double ratio_times(uint64_t count, ratio each);
+
+#endif
