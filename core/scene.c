@@ -32,6 +32,9 @@ wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, s
     const size_t contacts_at = (numbers + 7U) / 8U * 8U;
     const size_t need =
         scene->contacts > 0 ? contacts_at + sizeof(wh_contacts) + scene->contacts : numbers;
+    if (scene->form == WH_FIRST_ORDER && scene->method == WH_SEMI_IMPLICIT_EULER) {
+        return WH_E_ARGUMENT;
+    }
     if (memory == NULL || bytes < need) {
         return WH_E_MEMORY;
     }

@@ -27,6 +27,7 @@
  * First order (systems given outright): angle[] and real[] are the components of x' = f(x, u). */
 typedef enum wh_form { WH_SECOND_ORDER, WH_FIRST_ORDER } wh_form;
 
+/* Semi-implicit Euler (the new rates move the positions) takes a second-order form. */
 typedef enum wh_method { WH_EULER, WH_SEMI_IMPLICIT_EULER, WH_HEUN, WH_RK4 } wh_method;
 
 /* Most moments with events in one step, and most events that are logged. */
@@ -124,7 +125,8 @@ struct wh_scene {
 #define wh_status_text WH_NAME(wh_status_text)
 
 /* Put `state` at the scene's start. `memory`, of `bytes` bytes and aligned for uint64_t, must
- * outlive the run. Returns WH_OK, or WH_E_MEMORY with the state untouched. */
+ * outlive the run. Returns WH_OK, or with the state untouched WH_E_MEMORY, or WH_E_ARGUMENT for a method that
+ * the scene's form does not have (generated scenes never do that). */
 wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, size_t bytes);
 
 /* Do one step. Returns WH_OK; or WH_E_DIVERGED, with the last good state kept and state->fault set

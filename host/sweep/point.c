@@ -239,7 +239,8 @@ static bool measure_point(const sweep *s, uint64_t point, bool (*abandon)(void),
         good = own != NULL;
     }
     const program *p = own != NULL ? own : s->shared;
-    good = good && start_is_possible(p, inst, errors);
+    good = good && start_has_method(p, inst, s->engine.method, errors) &&
+           start_is_possible(p, inst, errors);
     if (good) {
         good = measure_run(s, p, inst, abandon, measured, reason, overruns);
     } else {
