@@ -114,9 +114,21 @@ wh_time wh_scene_time(const wh_scene *scene, const wh_state *state) {
         time.fraction_s -= (wh_real)time.whole_s;
         return time;
     }
-    const uint64_t rest = state->steps % step.denominator * step.numerator;
-    time.whole_s = state->steps / step.denominator * step.numerator + rest / step.denominator;
-    time.fraction_s = rounded(rest % step.denominator, step.denominator);
+    /* steps * numerator / denominator, bit by bit: their product may have 128 bits */
+    const uint64_t whole = step.numerator / step.denominator;
+    const uint64_t more = step.numerator % step.denominator;
+    uint64_t rest = 0;
+    time.whole_s = 0;
+    for (unsigned bit = 64; bit-- > 0;) {
+        const uint64_t one = state->steps >> bit & 1U;
+        rest <<= 1;
+        time.whole_s = (time.whole_s << 1) + one * whole + (rest >= step.denominator);
+        rest -= rest >= step.denominator ? step.denominator : 0;
+        rest += one * more;
+        time.whole_s += rest >= step.denominator;
+        rest -= rest >= step.denominator ? step.denominator : 0;
+    }
+    time.fraction_s = rounded(rest, step.denominator);
     if (time.fraction_s == WH_R(1.0)) {
         time.whole_s++;
         time.fraction_s = WH_R(0.0);

@@ -65,7 +65,7 @@ typedef struct wh_state {
     int fault; /* after WH_E_DIVERGED: the component at fault, angles first, then reals */
 } wh_state;
 
-/* numerator / denominator; their product is below 2^64. */
+/* numerator / denominator, both below 2^63. */
 typedef struct wh_fraction {
     uint64_t numerator;
     uint64_t denominator;

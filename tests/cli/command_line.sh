@@ -114,8 +114,10 @@ says 2 "unknown effect 'spin'" run thomson_a --without spin
 says 2 'step must be above zero' run thomson_a --step 0
 says 2 'step must be above zero' run thomson_a --step -1ms
 says 2 'until must not be negative' run thomson_a --until -1s
-says 2 'more than 1e\+15 steps' run thomson_a --until 1e300
-says 2 'more than 1e\+15 steps' run thomson_a --step 1e-300
+says 2 'until must be at most 1e\+18 s, and this is 1e\+300 s' run thomson_a --until 1e300
+says 2 'a step must be from 1e-18 s to 1e\+18 s, and this is 1e-300 s' run thomson_a --step 1e-300
+says 2 'more than 2\^63 steps of 1e-09 s' run thomson_a --step 1ns --until 1e11
+says 2 'hint: a larger step or an earlier until' run thomson_a --step 1ns --until 1e11
 says 2 'until 1 s is less than one step of 3 s' run thomson_a --until 1s --step 3s
 says 2 'hint: a later until or a shorter step' run thomson_a --until 1s --step 3s
 prints ', 0 steps to t = 0 s' run thomson_a --until 0
