@@ -81,6 +81,12 @@ WH_INLINE bool wh_angle_move(wh_angle *angle, wh_real steps, bool compensated, w
     return true;
 }
 
+/* Whoever defines this is told what rounding took from the step of turn angle i, h long, in units: the interpreter
+ * (host/run/loss.inc). Nothing else does, and then nothing is left of it. */
+#ifndef WH_ANGLE_LOST
+#define WH_ANGLE_LOST(i, h, lost) ((void)0)
+#endif
+
 /* Refuse the step: component `fault` left all bounds. */
 WH_INLINE wh_status wh_refuse(wh_state *state, unsigned fault) {
     state->fault = (int)fault;
@@ -231,6 +237,7 @@ WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_met
         if (!wh_angle_move(&trial.angle[i], turn, compensated, &trial.carry[i])) {
             return wh_refuse(state, i);
         }
+        WH_ANGLE_LOST(i, h, turn - (wh_real)(trial.angle[i] - angle[i]));
     }
     WH_UNROLL
     for (unsigned i = 0; i < linears; i++) {
@@ -350,6 +357,7 @@ WH_INLINE wh_status wh_step_first(const void *model, wh_slope_fn *slope, wh_meth
         if (!wh_angle_move(&trial.angle[i], turn, compensated, &trial.carry[i])) {
             return wh_refuse(state, i);
         }
+        WH_ANGLE_LOST(i, h, turn - (wh_real)(trial.angle[i] - state->angle[i]));
     }
     WH_UNROLL
     for (unsigned i = 0; i < reals; i++) {

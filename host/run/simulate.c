@@ -9,6 +9,7 @@
 #include "books.h"
 #include "host/plot/plot.h"
 #include "records.h"
+#include "slow.h"
 #include "summary.h"
 
 /* A plot keeps at most so many rows, evenly spaced. */
@@ -222,6 +223,7 @@ simulation_result simulate(const equations *e, const program *p, const simulatio
             say_failure(&sim);
         }
         if (!s->quiet) {
+            slow_say(stderr, e, p, s->kind, sim.run);
             const uint64_t done = s->kind->steps(sim.run);
             const uint64_t samples = (done + 63) / 64;
             const double sampled = (double)samples;
