@@ -222,8 +222,8 @@ simulation_result simulate(const equations *e, const program *p, const simulatio
         if (status != WH_OK) {
             say_failure(&sim);
         }
+        slow_say(stderr, e, p, s->kind, sim.run);
         if (!s->quiet) {
-            slow_say(stderr, e, p, s->kind, sim.run);
             const uint64_t done = s->kind->steps(sim.run);
             const uint64_t samples = (done + 63) / 64;
             const double sampled = (double)samples;

@@ -168,6 +168,21 @@ check "overruns of the points that ran now" \
 check "with a shorter step none" status 0 between --step 0.1ms
 check "with a shorter step none" sh -c "! grep -q overran '$scratch/said'"
 
+# --- float angles that turn too slowly -------------------------------------------------------------
+cat >"$scratch/rotor.whirl" <<'END'
+mechanism rotor
+coordinate a [rad]
+T = 1 [kg*m^2]*a'^2/2
+scene drift { step 1 [ms]; until 1 [s] }
+END
+drift() { "$whirl" sweep "$scratch/rotor.whirl" --over "a'=1e-7..1e-1 [rad/s]:4,log" --measure a --number float "$@"; }
+check "slow angles are no failure" status 0 drift
+check "slow angles: how many, and the first" \
+    grep -q "note: at 2 of 4 points an angle turns so slowly .* first: point 1 (a'=1e-07)\$" "$scratch/said"
+check "slow angles: with a way out" grep -q '^hint: --compensated' "$scratch/said"
+check "compensated there are none" status 0 drift --compensated
+check "compensated there are none" sh -c "! grep -q slowly '$scratch/said'"
+
 # --- starts that cannot be --------------------------------------------------------------------------
 check "a start beyond a stop fails, as in run" status 1 \
     "$whirl" sweep ball_bounces --until 0.1s --over 'z=-1..1:3' --measure z
