@@ -71,7 +71,7 @@ static bool decimal(double value, whole_ratio *found, uint64_t *said) {
         if (!(fabs(strtod(text, NULL) - value) <= 0x1p-52 * value)) {
             continue;
         }
-        int power = atoi(strchr(text, 'e') + 1) - (digits - 1);
+        int power = (int)strtol(strchr(text, 'e') + 1, NULL, 10) - (digits - 1);
         wide of = 0;
         for (const char *at = text; *at != 'e'; at++) {
             of = *at == '.' ? of : 10 * of + (unsigned)(*at - '0');

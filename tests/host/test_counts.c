@@ -98,7 +98,7 @@ static void test_counts_are_exact(void) {
         uint64_t per;
     } units[] = {{"ns", 1000000000}, {"us", 1000000}, {"ms", 1000}, {"s", 1}};
     const char *wanted = getenv("WH_COUNTS");
-    const int pairs = wanted != NULL ? atoi(wanted) : 400;
+    const int pairs = wanted != NULL ? (int)strtol(wanted, NULL, 10) : 400;
     const uint64_t seed = UINT64_C(0x5eed0010);
     seed_now = seed;
     printf("  %d pairs, seed %" PRIx64 "\n", pairs, seed);

@@ -57,7 +57,7 @@ static const char rotor[] = "mechanism m\ncoordinate a [rad]\nT = 1 [kg*m^2]*a'^
 static void test_slow_rates_are_told_and_others_are_not(void) {
     static const wh_method methods[] = {WH_EULER, WH_SEMI_IMPLICIT_EULER, WH_HEUN, WH_RK4};
     const char *wanted = getenv("WH_SLOW");
-    const int count = wanted != NULL ? atoi(wanted) : 300;
+    const int count = wanted != NULL ? (int)strtol(wanted, NULL, 10) : 300;
     int told = 0;
     int silent = 0;
     seed_now = UINT64_C(0x510a);
