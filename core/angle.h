@@ -26,7 +26,9 @@ WH_INLINE wh_phase wh_phase_of(wh_angle angle) { return angle; }
 
 #else
 
-typedef int64_t wh_angle;  /* 2^32 a turn: turns in the high half, phase in the low half */
+/* 2^32 a turn: turns in the high half, phase in the low half. The count of turns wraps at 2^31 of them (50 days
+ * of half a turn a millisecond, twelve years at 330 rpm); the phase, and so sine and cosine, stay right. */
+typedef int64_t wh_angle;
 typedef uint32_t wh_phase; /* 2^32 a turn */
 typedef struct wh_factor { /* whole + part/2^64, modulo 2^32 */
     uint64_t part;

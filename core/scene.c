@@ -33,6 +33,9 @@ wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, s
     const size_t contacts_at = (numbers + 7U) / 8U * 8U;
     const size_t need =
         scene->contacts > 0 ? contacts_at + sizeof(wh_contacts) + scene->contacts : numbers;
+    if (scene->form == WH_FIRST_ORDER && scene->method == WH_SEMI_IMPLICIT_EULER) {
+        return WH_E_ARGUMENT;
+    }
     if (memory == NULL || bytes < need) {
         return WH_E_MEMORY;
     }
@@ -83,6 +86,60 @@ wh_status wh_scene_step(const wh_scene *scene, wh_state *state) {
         state->steps++;
     }
     return status;
+}
+
+/* part / of, 0 <= part < of < 2^63, to the nearest real: long division, with one bit more than a real has
+ * and a mark for what lies below them. May round up to one. */
+static wh_real rounded(uint64_t part, uint64_t of) {
+    const unsigned bits = sizeof(wh_real) == sizeof(float) ? 25 : 54;
+    wh_real unit = WH_R(1.0); /* in the end of the last bit, the mark */
+    uint64_t quotient = 0;
+    if (part == 0) {
+        return WH_R(0.0);
+    }
+    for (; part < of; part <<= 1) {
+        unit *= WH_R(0.5);
+    }
+    for (unsigned i = 0; i < bits; i++) {
+        quotient <<= 1;
+        if (part >= of) {
+            quotient |= 1U;
+            part -= of;
+        }
+        part <<= 1;
+        unit *= WH_R(0.5);
+    }
+    return (wh_real)(quotient << 1 | (part != 0)) * unit;
+}
+
+wh_time wh_scene_time(const wh_scene *scene, const wh_state *state) {
+    const wh_fraction step = scene->step;
+    wh_time time = {0, wh_scene_time_s(scene, state)};
+    if (step.denominator == 0) {
+        time.whole_s = (uint64_t)time.fraction_s;
+        time.fraction_s -= (wh_real)time.whole_s;
+        return time;
+    }
+    /* steps * numerator / denominator, bit by bit: their product may have 128 bits */
+    const uint64_t whole = step.numerator / step.denominator;
+    const uint64_t more = step.numerator % step.denominator;
+    uint64_t rest = 0;
+    time.whole_s = 0;
+    for (unsigned bit = 64; bit-- > 0;) {
+        const uint64_t one = state->steps >> bit & 1U;
+        rest <<= 1;
+        time.whole_s = (time.whole_s << 1) + one * whole + (rest >= step.denominator);
+        rest -= rest >= step.denominator ? step.denominator : 0;
+        rest += one * more;
+        time.whole_s += rest >= step.denominator;
+        rest -= rest >= step.denominator ? step.denominator : 0;
+    }
+    time.fraction_s = rounded(rest, step.denominator);
+    if (time.fraction_s == WH_R(1.0)) {
+        time.whole_s++;
+        time.fraction_s = WH_R(0.0);
+    }
+    return time;
 }
 
 wh_real wh_scene_time_s(const wh_scene *scene, const wh_state *state) {

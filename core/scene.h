@@ -27,6 +27,7 @@
  * First order (systems given outright): angle[] and real[] are the components of x' = f(x, u). */
 typedef enum wh_form { WH_SECOND_ORDER, WH_FIRST_ORDER } wh_form;
 
+/* Semi-implicit Euler (the new rates move the positions) takes a second-order form. */
 typedef enum wh_method { WH_EULER, WH_SEMI_IMPLICIT_EULER, WH_HEUN, WH_RK4 } wh_method;
 
 /* Most moments with events in one step, and most events that are logged. */
@@ -43,8 +44,8 @@ typedef struct wh_event {
 
 /* What of the contacts changes while running. */
 typedef struct wh_contacts {
-    uint32_t events;   /* since the start */
-    uint32_t overruns; /* steps that had WH_EVENTS_MAX moments with events */
+    uint64_t events;   /* since the start */
+    uint64_t overruns; /* steps that had WH_EVENTS_MAX moments with events */
     uint32_t logged;   /* events of the last step, in log[] */
     wh_event log[WH_EVENT_LOG];
     int8_t mode[]; /* [scene->contacts] */
@@ -54,7 +55,7 @@ typedef struct wh_contacts {
 
 /* The changing part of a run. All pointers point into the memory given to wh_scene_start(). */
 typedef struct wh_state {
-    uint64_t steps;  /* steps done; time is steps * step_s, never a running sum */
+    uint64_t steps;  /* steps done; time follows from them and is never a running sum */
     wh_angle *angle; /* [scene->angles] */
     wh_real *real;   /* [scene->reals] SI units */
     wh_real *carry;  /* [scene->angles + scene->reals] low parts when compensated, else NULL */
@@ -65,6 +66,18 @@ typedef struct wh_state {
     wh_real *ledger;       /* the books' totals, their carries, the levels at the start; or NULL */
     int fault; /* after WH_E_DIVERGED: the component at fault, angles first, then reals */
 } wh_state;
+
+/* numerator / denominator, both below 2^63. */
+typedef struct wh_fraction {
+    uint64_t numerator;
+    uint64_t denominator;
+} wh_fraction;
+
+/* A time, seconds: whole_s + fraction_s. */
+typedef struct wh_time {
+    uint64_t whole_s;
+    wh_real fraction_s; /* 0 <= fraction_s < 1 */
+} wh_time;
 
 typedef struct wh_ledger_form wh_ledger_form; /* ledger.h */
 
@@ -81,7 +94,8 @@ struct wh_scene {
     uint8_t held;     /* holds that could slip: of more than one coordinate, or curved */
     bool compensated; /* sums carry their rounding error along */
     wh_real step_s;   /* fixed step, seconds, > 0 */
-    uint32_t steps;   /* steps to the scene's end */
+    wh_fraction step; /* the same exactly, for wh_scene_time(); {0, 0}: not known */
+    uint64_t steps;   /* steps to the scene's end, at most 2^63 */
     const wh_angle *start_angle;
     const wh_real *start_real;
     const wh_real *start_input;
@@ -110,20 +124,28 @@ struct wh_scene {
 
 #define wh_scene_start WH_NAME(wh_scene_start)
 #define wh_scene_step WH_NAME(wh_scene_step)
+#define wh_scene_time WH_NAME(wh_scene_time)
 #define wh_scene_time_s WH_NAME(wh_scene_time_s)
 #define wh_scene_hash WH_NAME(wh_scene_hash)
 #define wh_scene_rates WH_NAME(wh_scene_rates)
 #define wh_status_text WH_NAME(wh_status_text)
 
 /* Put `state` at the scene's start. `memory`, of `bytes` bytes and aligned for uint64_t, must
- * outlive the run. Returns WH_OK, or WH_E_MEMORY with the state untouched. */
+ * outlive the run. Returns WH_OK, or with the state untouched WH_E_MEMORY, or WH_E_ARGUMENT for a method that
+ * the scene's form does not have (generated scenes never do that). */
 wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, size_t bytes);
 
 /* Do one step. Returns WH_OK; or WH_E_DIVERGED, with the last good state kept and state->fault set
  * (a further call fails the same way, it does not go on from garbage). */
 wh_status wh_scene_step(const wh_scene *scene, wh_state *state);
 
-/* Time of the state, seconds: steps * step_s. */
+/* Time of the state: state->steps * scene->step, exact but for one rounding of the fraction to the nearest
+ * real. Good for all times below 2^64 s: float holds a microsecond of a run of years. Where the scene does
+ * not say its step as a fraction: wh_scene_time_s(), split. */
+wh_time wh_scene_time(const wh_scene *scene, const wh_state *state);
+
+/* The same as one real: steps * step_s, off by at most 1.5 U of itself and by what step_s is off (U = 2^-24
+ * in float: a millisecond at 4.7 h). What the outputs of generated scenes compute with. */
 wh_real wh_scene_time_s(const wh_scene *scene, const wh_state *state);
 
 /* Hash of step count, angles, reals and the contacts' modes: equal runs on any two machines give equal hashes. */

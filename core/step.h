@@ -75,10 +75,17 @@ WH_INLINE bool wh_angle_move(wh_angle *angle, wh_real steps, bool compensated, w
     if (compensated) {
         *carry = steps - (float)whole;
     }
-    *angle += whole;
+    /* turns beyond 2^31 wrap like the phase, and are no undefined behaviour */
+    *angle = (wh_angle)((uint64_t)*angle + (uint64_t)(int64_t)whole);
 #endif
     return true;
 }
+
+/* Whoever defines this is told what rounding took from the step of turn angle i, h long, in units: the interpreter
+ * (host/run/loss.inc). Nothing else does, and then nothing is left of it. */
+#ifndef WH_ANGLE_LOST
+#define WH_ANGLE_LOST(i, h, lost) ((void)0)
+#endif
 
 /* Refuse the step: component `fault` left all bounds. */
 WH_INLINE wh_status wh_refuse(wh_state *state, unsigned fault) {
@@ -230,6 +237,7 @@ WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_met
         if (!wh_angle_move(&trial.angle[i], turn, compensated, &trial.carry[i])) {
             return wh_refuse(state, i);
         }
+        WH_ANGLE_LOST(i, h, turn - (wh_real)(trial.angle[i] - angle[i]));
     }
     WH_UNROLL
     for (unsigned i = 0; i < linears; i++) {
@@ -274,8 +282,8 @@ WH_INLINE bool wh_stage_first(const wh_state *state, unsigned angles, unsigned r
 }
 
 /* One step of x' = f(x, u) with `angles` turn angles and `reals` reals, angles + reals <= WH_COORDS.
- * The classic Runge-Kutta method, Heun's, or Euler's; semi-implicit Euler is for second-order scenes
- * and steps like Euler here. Returns as wh_step_second(). */
+ * The classic Runge-Kutta method, Heun's, or Euler's. Semi-implicit Euler moves rates before positions, and
+ * here is no telling them apart: WH_E_ARGUMENT, with the state as it was. Else returns as wh_step_second(). */
 WH_INLINE wh_status wh_step_first(const void *model, wh_slope_fn *slope, wh_method method,
                                   bool compensated, unsigned angles, unsigned reals, wh_real h,
                                   wh_state *state) {
@@ -291,6 +299,9 @@ WH_INLINE wh_status wh_step_first(const void *model, wh_slope_fn *slope, wh_meth
     unsigned fault = 0;
     wh_trial trial;
 
+    if (method == WH_SEMI_IMPLICIT_EULER) {
+        return WH_E_ARGUMENT;
+    }
     WH_UNROLL
     for (unsigned i = 0; i < angles; i++) {
         phase[i] = wh_phase_of(state->angle[i]);
@@ -346,6 +357,7 @@ WH_INLINE wh_status wh_step_first(const void *model, wh_slope_fn *slope, wh_meth
         if (!wh_angle_move(&trial.angle[i], turn, compensated, &trial.carry[i])) {
             return wh_refuse(state, i);
         }
+        WH_ANGLE_LOST(i, h, turn - (wh_real)(trial.angle[i] - state->angle[i]));
     }
     WH_UNROLL
     for (unsigned i = 0; i < reals; i++) {

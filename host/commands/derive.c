@@ -4,6 +4,7 @@
 
 #include "commands.h"
 #include "host/emit/emit.h"
+#include "host/run/start.h"
 #include "load.h"
 #include "options.h"
 
@@ -47,6 +48,11 @@ static int derive_one(source_model *from, const mechanism *of, const scene *in,
                 "%s: error: '%s' is a word of C or of the core: the generated scene cannot "
                 "have that name\nhint: rename it\n",
                 from->file, made.instance->name);
+        code = EXIT_BAD_INPUT;
+    }
+    if (code == EXIT_DONE && as == FORM_C &&
+        !start_has_method(made.program, made.instance, settings->method, from->errors)) {
+        diags_flush(from->errors, stderr);
         code = EXIT_BAD_INPUT;
     }
     if (code == EXIT_DONE) {

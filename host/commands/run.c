@@ -23,7 +23,7 @@ static const char usage[] =
     "  --with E,...         effects to add; 'ledger': books of energy and momentum\n"
     "  --without E,...      effects to leave out\n"
     "  --step 1ms           fixed step            --until 9s       end of the run\n"
-    "  --method M           rk4 (default), heun, semi-implicit-euler, euler\n"
+    "  --method M           rk4 (default), heun, euler; semi-implicit-euler, for second order only\n"
     "  --number N           double (default, the reference) or float (the boards, to the bit)\n"
     "  --compensated        carry the rounding error of every sum along\n"
     "  --csv FILE           records; - is standard output (the summary then goes to standard error)\n"
@@ -172,7 +172,8 @@ static int run_loaded(run_options *o, const source_model *from, const loaded *ma
     if (!read_every(o, made->instance->mechanism, made->instance, &o->settings.every)) {
         return EXIT_BAD_INPUT;
     }
-    if (!start_is_possible(made->program, made->instance, from->errors)) {
+    if (!start_has_method(made->program, made->instance, o->settings.engine.method, from->errors) ||
+        !start_is_possible(made->program, made->instance, from->errors)) {
         diags_flush(from->errors, stderr);
         return EXIT_BAD_INPUT;
     }

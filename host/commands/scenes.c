@@ -1,7 +1,6 @@
 /* scenes.c: for the project's own build: every built-in scene as C, and its state hash. */
 #include <errno.h>
 #include <inttypes.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -106,9 +105,8 @@ static int hash_one(void *context, const char *file, const loaded *made) {
     (void)file;
     const engine_settings settings = {WH_RK4, false};
     void *run = engine_float.start(made->program, made->instance, &settings);
-    const uint64_t steps = (uint64_t)floor(made->instance->until_s / made->instance->step_s + 0.5);
     wh_status status = WH_OK;
-    while (engine_float.steps(run) < steps && status == WH_OK) {
+    while (engine_float.steps(run) < made->instance->steps && status == WH_OK) {
         status = engine_float.step(run);
     }
     printf("scene %s steps %" PRIu64 " hash 0x%016" PRIx64 " %s\n", made->instance->name,

@@ -8,6 +8,7 @@
 
 #include "commands.h"
 #include "host/lang/builtin.h"
+#include "host/run/start.h"
 #include "host/sweep/fingerprint.h"
 #include "host/sweep/jobs.h"
 #include "host/sweep/session.h"
@@ -190,6 +191,10 @@ static int sweep_loaded(const sweep_options *o, const source_model *from, const 
                 "%s: error: '%s' needs %s, which the core does not offer in float\n"
                 "hint: sweep it with --number double\n",
                 from->file, base->instance->name, missing);
+        return EXIT_BAD_INPUT;
+    }
+    if (!start_has_method(base->program, base->instance, s->engine.method, from->errors)) {
+        diags_flush(from->errors, stderr);
         return EXIT_BAD_INPUT;
     }
     s->shared = sweep_can_share(s->grid, base->program) ? base->program : NULL;

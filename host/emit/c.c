@@ -1,6 +1,5 @@
 /* c.c: a scene as C for the core. */
 #include <inttypes.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -82,7 +81,6 @@ static void write_starts(FILE *out, const program *p, const instance *inst) {
 
 static void write_scene(FILE *out, const program *p, const instance *inst,
                         const engine_settings *settings) {
-    const double steps = floor(inst->until_s / inst->step_s + 0.5);
     fprintf(out, "const wh_scene %s = {\n    .name = \"%s\",\n    .form = %s,\n    .method = %s,\n",
             inst->name, inst->name,
             p->form == WH_SECOND_ORDER ? "WH_SECOND_ORDER" : "WH_FIRST_ORDER",
@@ -95,9 +93,12 @@ static void write_scene(FILE *out, const program *p, const instance *inst,
     if (p->ledger != NULL) {
         fprintf(out, "    .ledger = &ledger,\n");
     }
-    fprintf(out, "    .compensated = %s,\n    .step_s = WH_R(%a),\n    .steps = %.0fU,\n",
-            settings->compensated ? "true" : "false", inst->step_s,
-            steps < 4294967295.0 ? steps : 4294967295.0);
+    fprintf(out,
+            "    .compensated = %s,\n    .step_s = WH_R(%a),\n"
+            "    .step = {UINT64_C(%" PRIu64 "), UINT64_C(%" PRIu64 ")},\n"
+            "    .steps = UINT64_C(%" PRIu64 "),\n",
+            settings->compensated ? "true" : "false", inst->step_s, inst->step.numerator,
+            inst->step.denominator, inst->steps);
     fprintf(out, "    .start_angle = %s,\n", p->angles > 0 ? "start_angle" : "NULL");
     fprintf(out, "    .start_real = %s,\n", p->reals > 0 ? "start_real" : "NULL");
     fprintf(out, "    .start_input = %s,\n", p->inputs > 0 ? "start_input" : "NULL");

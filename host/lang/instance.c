@@ -10,8 +10,7 @@
 
 #define STEP_DEFAULT_S 1e-3
 #define UNTIL_DEFAULT_S 10.0
-#define STEPS_MAX 1e15 /* step counts stay exact in a double */
-#define ROUNDING 1e-9  /* of a step: what the conversion of units may leave */
+#define ROUNDING 1e-9 /* of a step: what the conversion of units may leave */
 
 enum { WORDS_SIZE = 120 };
 
@@ -126,23 +125,36 @@ static void apply_overrides(plan *into, instance *made, const overrides *changes
 
 static void evaluate_durations(plan *from, instance *made) {
     valuation *values = &from->values;
+    const size_t before = diags_calls(values->diags);
     made->step_s = STEP_DEFAULT_S;
     made->until_s = UNTIL_DEFAULT_S;
     if (from->step.value != NULL) {
         made->step_s = finite_value(from->step.value, values, from->step.at, "step");
         if (!(made->step_s > 0.0)) {
             diag_error(values->diags, from->step.at, NULL, "step must be above zero");
+        } else if (made->step_s < RATIO_LEAST || made->step_s > RATIO_MOST) {
+            diag_error(values->diags, from->step.at, NULL,
+                       "a step must be from %g s to %g s, and this is %.9g s", RATIO_LEAST,
+                       RATIO_MOST, made->step_s);
         }
     }
     if (from->until.value != NULL) {
         made->until_s = finite_value(from->until.value, values, from->until.at, "until");
         if (!(made->until_s >= 0.0)) {
             diag_error(values->diags, from->until.at, NULL, "until must not be negative");
+        } else if (made->until_s > RATIO_MOST) {
+            diag_error(values->diags, from->until.at, NULL,
+                       "until must be at most %g s, and this is %.9g s", RATIO_MOST, made->until_s);
         }
     }
+    if (diags_calls(values->diags) != before) {
+        return;
+    }
     const place at = from->until.value != NULL ? from->until.at : from->step.at;
-    if (made->step_s > 0.0 && !(made->until_s / made->step_s <= STEPS_MAX)) {
-        diag_error(values->diags, at, NULL, "more than %g steps", STEPS_MAX);
+    made->step = ratio_of(made->step_s);
+    if (!ratio_count(ratio_of(made->until_s), made->step, &made->steps)) {
+        diag_error(values->diags, at, "a larger step or an earlier until",
+                   "more than 2^63 steps of %.9g s", made->step_s);
     }
     if (made->until_s > 0.0 && made->until_s < made->step_s * (1.0 - ROUNDING)) {
         diag_error(values->diags, at, "a later until or a shorter step; until 0 takes no step",

@@ -11,6 +11,7 @@
 #include <stdint.h>
 
 #include "diag.h"
+#include "ratio.h"
 #include "units.h"
 
 /* --- symbols ----------------------------------------------------------------------------------- */
@@ -255,6 +256,8 @@ typedef struct instance {
     int *start_count;   /* [coordinate_count] entries in start[i] (2 for coordinates) */
     double step_s;      /* default 1e-3 */
     double until_s;     /* default 10 */
+    whole_ratio step;   /* step_s, as it was written */
+    uint64_t steps;     /* to the end: until_s / step_s to the nearest, at most 2^63 */
     struct arena *arena;
 } instance;
 

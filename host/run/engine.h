@@ -33,6 +33,9 @@ typedef struct engine_kind {
     uint64_t (*evaluations)(const void *run, uint64_t *most);
     /* The books so far: total[entries], error[accounts] (the numerical drift); SI. */
     void (*ledger)(const void *run, double *total, double *error);
+    /* Of turn angle i: the most that rounding its steps to whole units (2^32 a turn) has put it off what its rates
+     * asked for, since the start, and the span that these asked for; rad. 0 in double, and compensated. */
+    double (*angle_off)(const void *run, int i, double *span_rad);
 } engine_kind;
 
 extern const engine_kind engine_float;

@@ -2,7 +2,6 @@
 #include "simulate.h"
 
 #include <errno.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -10,6 +9,7 @@
 #include "books.h"
 #include "host/plot/plot.h"
 #include "records.h"
+#include "slow.h"
 #include "summary.h"
 
 /* A plot keeps at most so many rows, evenly spaced. */
@@ -106,7 +106,7 @@ static void enter(simulation *sim, uint64_t step, bool last) {
     if (!record && !point) {
         return;
     }
-    records_read(sim->records, sim->run, (double)step * sim->equations->instance->step_s);
+    records_read(sim->records, sim->run, ratio_times(step, sim->equations->instance->step));
     if (record && !last) {
         sim->write_failed = !records_write(sim->records) || sim->write_failed;
     }
@@ -160,7 +160,7 @@ static void say_failure(const simulation *sim) {
     const component c =
         fault < p->angles ? p->angle[fault < 0 ? 0 : fault] : p->real[fault - p->angles];
     const double time_s =
-        (double)sim->settings->kind->steps(sim->run) * sim->equations->instance->step_s;
+        ratio_times(sim->settings->kind->steps(sim->run), sim->equations->instance->step);
     fprintf(stderr, "whirl run: error: the run diverged in the step after t = %.9g s: %s", time_s,
             sim->equations->unknowns[c.unknown].symbol->name);
     for (int k = 0; k < c.primes; k++) {
@@ -200,7 +200,7 @@ static bool draw(const simulation *sim) {
 
 simulation_result simulate(const equations *e, const program *p, const simulation_settings *s) {
     simulation sim = {.equations = e, .program = p, .settings = s, .plot = {.spacing = 1}};
-    sim.steps = (uint64_t)floor(e->instance->until_s / e->instance->step_s + 0.5);
+    sim.steps = e->instance->steps;
     sim.records = records_open(NULL, p, e, s->kind);
     simulation_result result = SIMULATION_BAD_FILE;
     if (open_files(&sim)) {
@@ -222,6 +222,7 @@ simulation_result simulate(const equations *e, const program *p, const simulatio
         if (status != WH_OK) {
             say_failure(&sim);
         }
+        slow_say(stderr, e, p, s->kind, sim.run);
         if (!s->quiet) {
             const uint64_t done = s->kind->steps(sim.run);
             const uint64_t samples = (done + 63) / 64;

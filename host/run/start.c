@@ -1,4 +1,4 @@
-/* start.c: whether a run can start where its scene says. */
+/* start.c: whether a run can start where its scene says, and by the method that is asked for. */
 #include "start.h"
 
 #include <math.h>
@@ -61,4 +61,29 @@ bool start_is_possible(const program *p, const instance *inst, diags *errors) {
     free(real);
     free(angle_rad);
     return good;
+}
+
+bool start_has_method(const program *p, const instance *inst, wh_method method, diags *errors) {
+    const mechanism *m = inst->mechanism;
+    if (p->form == WH_SECOND_ORDER || method != WH_SEMI_IMPLICIT_EULER) {
+        return true;
+    }
+    for (int i = 0; i < m->coordinate_count; i++) {
+        const symbol *s = m->coordinates[i];
+        if (s->order != 2) {
+            diag_error(
+                errors, s->at,
+                "it moves the rates first, then the positions by them: every unknown must be "
+                "of order 2; choose --method euler, heun or rk4",
+                "semi-implicit Euler is not defined here: '%s' is of order %d", s->name, s->order);
+            return false;
+        }
+    }
+    diag_error(
+        errors, inst->scene != NULL ? inst->scene->at : m->at,
+        "integrate the coordinate: leave out conserve; or choose --method euler, heun or rk4",
+        "semi-implicit Euler is not defined here: '%s', which is conserved, is integrated "
+        "from its momentum",
+        m->coordinates[p->conserved->unknown[0]]->name);
+    return false;
 }

@@ -1,4 +1,4 @@
-/* start.h: whether a run can start where its scene says. */
+/* start.h: whether a run can start where its scene says, and by the method that is asked for. */
 #ifndef RUN_START_H
 #define RUN_START_H
 
@@ -7,5 +7,9 @@
 /* False, reported at each stop that the run would start beyond, by more than rounding, or where
  * it has no value. */
 bool start_is_possible(const program *p, const instance *inst, diags *errors);
+
+/* False, reported, when the method is not defined for the form that the program runs in: semi-implicit Euler
+ * for what is not of second order. */
+bool start_has_method(const program *p, const instance *inst, wh_method method, diags *errors);
 
 #endif

@@ -158,9 +158,9 @@ void summary_print(FILE *out, const equations *e, const program *p, const simula
                     inst->mechanism->effects[i].text);
         }
     }
-    fprintf(out, "  %s%s, %s, step %.9g s, %" PRIu64 " steps to t = %.9g s\n",
+    fprintf(out, "  %s%s, %s, step %.9g s, %" PRIu64 " steps to t = %.15g s\n",
             methods[s->engine.method], s->engine.compensated ? " compensated" : "", s->kind->name,
-            inst->step_s, steps, (double)steps * inst->step_s);
+            inst->step_s, steps, ratio_times(steps, inst->step));
     print_state(out, e, p, s, run);
     if (p->contacts != NULL) {
         print_events(out, p, s->kind, run);

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "host/run/slow.h"
 #include "host/run/start.h"
 
 /* Steps between two questions whether to give up. */
@@ -158,7 +159,7 @@ static bool keeps_samples(const measures *m) {
 /* Step to the end. False when the run failed, said on `reason`. */
 static bool run_through(meter *m, const instance *inst, bool (*abandon)(void), FILE *reason) {
     const engine_kind *kind = m->sweep->kind;
-    const uint64_t steps = (uint64_t)floor(inst->until_s / inst->step_s + 0.5);
+    const uint64_t steps = inst->steps;
     /* the first step at or after from_s, which rounding may put just beside a step */
     const double from = ceil(m->sweep->from_s / inst->step_s * (1.0 - 1e-12));
     if (m->series && from > (double)steps) {
@@ -178,7 +179,7 @@ static bool run_through(meter *m, const instance *inst, bool (*abandon)(void), F
             break;
         }
         if (kind->step(m->run) != WH_OK) {
-            fprintf(reason, "diverged in the step after t = %.9g s", (double)step * inst->step_s);
+            fprintf(reason, "diverged in the step after t = %.9g s", ratio_times(step, inst->step));
             return false;
         }
     }
@@ -187,7 +188,7 @@ static bool run_through(meter *m, const instance *inst, bool (*abandon)(void), F
 }
 
 static bool measure_run(const sweep *s, const program *p, const instance *inst,
-                        bool (*abandon)(void), double *measured, FILE *reason, uint64_t *overruns) {
+                        bool (*abandon)(void), double *measured, FILE *reason, point_notes *notes) {
     const char *missing = program_needs_libm(p);
     if (missing != NULL && s->kind == &engine_float) {
         fprintf(reason, "needs %s, which the core does not offer in float", missing);
@@ -201,8 +202,9 @@ static bool measure_run(const sweep *s, const program *p, const instance *inst,
         measured[i] = gauge_result(&m.gauges[i], inst->step_s, epsilon);
     }
     if (good && p->contacts != NULL) {
-        s->kind->events(run, overruns);
+        s->kind->events(run, &notes->overruns);
     }
+    notes->slow = good ? slow_count(s->kind, p, run) : 0;
     meter_close(&m);
     s->kind->stop(run);
     return good;
@@ -225,7 +227,7 @@ static void tell_first(diags *errors, FILE *reason) {
 }
 
 static bool measure_point(const sweep *s, uint64_t point, bool (*abandon)(void), double *measured,
-                          FILE *reason, uint64_t *overruns) {
+                          FILE *reason, point_notes *notes) {
     diags *errors = diags_new();
     overrides changes = changes_at(s, point);
     instance *inst = instance_make(&s->measures->mechanism, s->scene, &changes, errors);
@@ -239,9 +241,10 @@ static bool measure_point(const sweep *s, uint64_t point, bool (*abandon)(void),
         good = own != NULL;
     }
     const program *p = own != NULL ? own : s->shared;
-    good = good && start_is_possible(p, inst, errors);
+    good = good && start_has_method(p, inst, s->engine.method, errors) &&
+           start_is_possible(p, inst, errors);
     if (good) {
-        good = measure_run(s, p, inst, abandon, measured, reason, overruns);
+        good = measure_run(s, p, inst, abandon, measured, reason, notes);
     } else {
         tell_first(errors, reason);
     }
@@ -293,10 +296,10 @@ void sweep_swept_fields(const sweep *s, uint64_t point, FILE *out) {
 }
 
 bool sweep_point(const sweep *s, uint64_t point, bool (*abandon)(void), FILE *row, FILE *reason,
-                 uint64_t *overruns) {
+                 point_notes *notes) {
     double *measured = room((size_t)s->measures->count, sizeof *measured);
-    *overruns = 0;
-    const bool good = measure_point(s, point, abandon, measured, reason, overruns);
+    *notes = (point_notes){0, 0};
+    const bool good = measure_point(s, point, abandon, measured, reason, notes);
     sweep_swept_fields(s, point, row);
     for (int i = 0; i < s->measures->count; i++) {
         fputc(',', row);

@@ -30,11 +30,16 @@ bool sweep_can_share(const grid *g, const program *p);
 void sweep_header(const sweep *s, FILE *out);
 void sweep_swept_fields(const sweep *s, uint64_t point, FILE *out);
 
+/* What is to be told of a run that did not fail. */
+typedef struct point_notes {
+    uint64_t overruns; /* steps with more events than a step takes */
+    int slow;          /* float angles that turn too slowly (host/run/slow.h) */
+} point_notes;
+
 /* Run the point and write its row, line's end included. A run that fails leaves its measures
  * empty: then the result is false and one line on `reason` says why. `abandon` (may be NULL) is
- * asked now and then whether to give up; the row is then of no use. *overruns: steps of a run
- * that did not fail which had more events than a step takes. */
+ * asked now and then whether to give up; the row is then of no use. */
 bool sweep_point(const sweep *s, uint64_t point, bool (*abandon)(void), FILE *row, FILE *reason,
-                 uint64_t *overruns);
+                 point_notes *notes);
 
 #endif

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include "host/run/slow.h"
 #include "jobs.h"
 #include "progress.h"
 #include "sheet.h"
@@ -20,25 +21,35 @@ typedef struct sitting {
     uint64_t overrun_points;
     uint64_t overrun_steps;
     uint64_t overrun_first; /* point */
+    uint64_t slow_points;   /* with float angles that turn too slowly */
+    uint64_t slow_first;    /* point */
 } sitting;
 
 enum { TOLD_MAX = 20 };
 
-/* Of a point that did not fail, `reason` is its number of overruns, if there are any. */
+/* Of a point that did not fail, `reason` is its numbers of overruns and slow angles, if there are any. */
 static bool work(void *context, uint64_t point, FILE *row, FILE *reason) {
     const sitting *s = context;
-    uint64_t overruns = 0;
-    const bool good = sweep_point(s->sweep, point, jobs_orphaned, row, reason, &overruns);
-    if (good && overruns > 0) {
-        fprintf(reason, "%llu", (unsigned long long)overruns);
+    point_notes notes;
+    const bool good = sweep_point(s->sweep, point, jobs_orphaned, row, reason, &notes);
+    if (good && (notes.overruns > 0 || notes.slow > 0)) {
+        fprintf(reason, "%llu %d", (unsigned long long)notes.overruns, notes.slow);
     }
     return good;
 }
 
-static void count_overruns(sitting *s, uint64_t point, uint64_t steps) {
-    s->overrun_first = s->overrun_points == 0 ? point : s->overrun_first;
-    s->overrun_points++;
-    s->overrun_steps += steps;
+static void count_notes(sitting *s, uint64_t point, const char *numbers) {
+    char *rest;
+    const uint64_t overruns = strtoull(numbers, &rest, 10);
+    if (overruns > 0) {
+        s->overrun_first = s->overrun_points == 0 ? point : s->overrun_first;
+        s->overrun_points++;
+        s->overrun_steps += overruns;
+    }
+    if (strtol(rest, NULL, 10) > 0) {
+        s->slow_first = s->slow_points == 0 ? point : s->slow_first;
+        s->slow_points++;
+    }
 }
 
 /* "point 17 (r=0.02, theta'=31.4)" */
@@ -73,7 +84,7 @@ static bool deliver(void *context, uint64_t point, bool good, const char *row, c
         }
         s->told += s->told <= TOLD_MAX ? 1 : 0;
     } else if (reason[0] != '\0') {
-        count_overruns(s, point, strtoull(reason, NULL, 10));
+        count_notes(s, point, reason);
     }
     return fputs(row, s->sheet.out) >= 0;
 }
@@ -104,6 +115,20 @@ static void say_overruns(const sitting *s) {
     fputs("\nhint: what was left of those steps counts as rest or sticking; "
           "a smaller --step tells more\n",
           stderr);
+}
+
+/* The same of angles that turn too slowly. */
+static void say_slow(const sitting *s) {
+    if (s->slow_points == 0) {
+        return;
+    }
+    fprintf(
+        stderr,
+        "whirl sweep: note: at %llu of %llu points an angle turns so slowly that rounding its steps to "
+        "1.5e-9 rad, as float does, puts it off by more than %g of its way; first: ",
+        (unsigned long long)s->slow_points, (unsigned long long)s->ran, SLOW_SHARE);
+    name_point(s->sweep, s->slow_first);
+    fputs("\nhint: --compensated carries what is rounded; a larger --step rounds less\n", stderr);
 }
 
 static void say_end(const session_settings *o, const sitting *s, int workers) {
@@ -151,6 +176,7 @@ static int run_points(const session_settings *o, sitting *s) {
         return SESSION_FAILED;
     }
     say_overruns(s);
+    say_slow(s);
     const char *hint = s->sheet.is_file ? "hint: the same command goes on from there\n" : "";
     switch (result) {
     case JOBS_DONE: say_end(o, s, workers); break;

@@ -92,6 +92,16 @@ says 2 "there is no form 'fortran'" derive epicyclic --as fortran
 says 2 'hint: text, latex, octave or c' derive epicyclic --as fortran
 says 2 "there is no method 'rk5'" run thomson_a --method rk5
 says 2 'hint: one of euler, semi-implicit-euler, heun, rk4' run thomson_a --method rk5
+# a method that the form does not have: before anything runs, with a place and a way out
+for command in run "sweep --over step=1..2[ms]:2" "derive --as c"; do
+    # shellcheck disable=SC2086 # a command and its options
+    says 2 "lorenz.whirl:2:7: error: semi-implicit Euler is not defined here: 'x' is of order 1" $command \
+        tests/mechanisms/lorenz.whirl --method semi-implicit-euler
+    # shellcheck disable=SC2086
+    says 2 'hint: .* choose --method euler, heun or rk4' $command tests/mechanisms/lorenz.whirl --method semi-implicit-euler
+done
+prints 'semi-implicit Euler, double' run thomson_b --method semi-implicit-euler --until 10ms
+prints '^system lorenz' derive tests/mechanisms/lorenz.whirl --method semi-implicit-euler
 says 2 'hint: one of double, float' run thomson_a --number half
 for option in --set --start --with --without --step --until --every --method --number --csv --plot; do
     says 2 "error: $option needs a value" run thomson_a "$option"
@@ -114,15 +124,21 @@ says 2 "unknown effect 'spin'" run thomson_a --without spin
 says 2 'step must be above zero' run thomson_a --step 0
 says 2 'step must be above zero' run thomson_a --step -1ms
 says 2 'until must not be negative' run thomson_a --until -1s
-says 2 'more than 1e\+15 steps' run thomson_a --until 1e300
-says 2 'more than 1e\+15 steps' run thomson_a --step 1e-300
+says 2 'until must be at most 1e\+18 s, and this is 1e\+300 s' run thomson_a --until 1e300
+says 2 'a step must be from 1e-18 s to 1e\+18 s, and this is 1e-300 s' run thomson_a --step 1e-300
+says 2 'more than 2\^63 steps of 1e-09 s' run thomson_a --step 1ns --until 1e11
+says 2 'hint: a larger step or an earlier until' run thomson_a --step 1ns --until 1e11
 says 2 'until 1 s is less than one step of 3 s' run thomson_a --until 1s --step 3s
 says 2 'hint: a later until or a shorter step' run thomson_a --until 1s --step 3s
 prints ', 0 steps to t = 0 s' run thomson_a --until 0
 prints ', 1 steps to t = 3 s' run ball_elastic --until 3s --step 3s
-# the nearest whole number of steps
+# the nearest whole number of steps; the lower one of two that are as near
 prints ', 1000 steps to t = 1 s' run ball_elastic --until 1.0005s --step 1ms
 prints ', 1001 steps to t = 1.001 s' run ball_elastic --until 1.0007s --step 1ms
+# what 32 bits do not hold: a year at 1 ms, 50 years at 1 ns
+prints 'steps = UINT64_C\(31536000000\),' derive ball_elastic --as c --step 1ms --until 31536000s
+prints 'step = \{UINT64_C\(1\), UINT64_C\(1000000000\)\},' derive ball_elastic --as c --step 1ns --until 1577880000s
+prints 'steps = UINT64_C\(1577880000000000000\),' derive ball_elastic --as c --step 1ns --until 1577880000s
 prints ', 100 steps to t = 0.01 s' run ball_elastic --until 10ms --step 0.1ms --every 0.5ms
 says 2 '--every 1.5ms is not a whole number of steps' run epicyclic_from_rest --every 1.5ms
 says 2 'hint: the step is 0.001 s' run epicyclic_from_rest --every 1.5ms
@@ -222,6 +238,24 @@ says 2 'error: a restitution is from 0 to 1, and this is 1.5' run tests/bad/hybr
 prints '^ball: ' run tests/bad/hybrid_input_restitution.whirl --set e=0.5 --until 1s
 says 2 'contacts.whirl:[0-9]+:[0-9]+: error: the run starts beyond this stop, by 0.25 m' run ball_bounces --start z=-0.25
 says 0 "" run ball_bounces --start z=0 --until 10ms --csv -
+
+# --- float angles that turn too slowly ------------------------------------------------------------------
+cat >"$scratch/rotor.whirl" <<'END'
+mechanism rotor
+coordinate a [rad]
+coordinate b [rad]
+T = 1 [kg*m^2]*(a'^2 + b'^2)/2
+scene drift { start a' = 1e-7 [rad/s], b' = 3 [rad/s]; step 1 [ms]; until 3 [s] }
+END
+says 0 "note: 'a' turns so slowly .* off by up to 3e-07 rad, 1e\+02 % of the 3e-07 rad" run "$scratch/rotor.whirl" --number float
+says 0 '^hint: --compensated carries' run "$scratch/rotor.whirl" --number float
+says 0 "note: 'a' turns so slowly" run "$scratch/rotor.whirl" --number float --quiet
+prints 'float' run "$scratch/rotor.whirl" --number float --compensated
+prints 'float' run "$scratch/rotor.whirl" --number float --start "a'=0.1"
+prints 'double' run "$scratch/rotor.whirl"
+if "$whirl" run "$scratch/rotor.whirl" --number float 2>&1 | grep -q "note: 'b'"; then
+    complain "an angle that is fast is told of, too"
+fi
 
 # --- plots --------------------------------------------------------------------------------------------
 if command -v gnuplot >/dev/null 2>&1; then

@@ -202,6 +202,21 @@ noisy '5 6 4' v w u
 noisy '-6 6 -3 4 4' '2*w' w '3*u' u u
 noisy '2 3 4 5 6'
 
+# --- float angles that turn too slowly -------------------------------------------------------------
+cat >"$scratch/rotor.whirl" <<'END'
+mechanism rotor
+coordinate a [rad]
+T = 1 [kg*m^2]*a'^2/2
+scene drift { step 1 [ms]; until 1 [s] }
+END
+drift() { "$whirl" sweep "$scratch/rotor.whirl" --over "a'=1e-7..1e-1 [rad/s]:4,log" --measure a --number float "$@"; }
+check "slow angles are no failure" status 0 drift
+check "slow angles: how many, and the first" \
+    grep -q "note: at 2 of 4 points an angle turns so slowly .* first: point 1 (a'=1e-07)\$" "$scratch/said"
+check "slow angles: with a way out" grep -q '^hint: --compensated' "$scratch/said"
+check "compensated there are none" status 0 drift --compensated
+check "compensated there are none" sh -c "! grep -q slowly '$scratch/said'"
+
 # --- starts that cannot be --------------------------------------------------------------------------
 check "a start beyond a stop fails, as in run" status 1 \
     "$whirl" sweep ball_bounces --until 0.1s --over 'z=-1..1:3' --measure z

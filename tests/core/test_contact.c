@@ -186,7 +186,7 @@ static void test_a_refused_step_changes_nothing(void) {
     hand_steps(500);
     const uint64_t hash = wh_scene_hash(&hand_now.scene, &hand_state);
     const wh_real entry = hand_state.ledger[0];
-    const uint32_t events = hand_state.contacts->events;
+    const uint64_t events = hand_state.contacts->events;
     hand_now.load[0] = WH_R(1e30);
     TEST_ASSERT_TRUE(wh_scene_step(&hand_now.scene, &hand_state) == WH_E_DIVERGED);
     TEST_ASSERT_TRUE(wh_scene_hash(&hand_now.scene, &hand_state) == hash);

@@ -117,6 +117,40 @@ static void test_compensated_scene_needs_more_memory_within_the_macro(void) {
     TEST_ASSERT_TRUE((const char *)(state.input + 1) <= (const char *)memory + sizeof memory);
 }
 
+/* x' = u, given as first order: no rate to move first. */
+static void constant_slope(const void *model, const wh_phase *phase, const wh_real *real,
+                           const wh_real *input, wh_real *slope) {
+    (void)model;
+    (void)phase;
+    (void)real;
+    slope[0] = input[0] + WH_R(1.0);
+}
+
+static wh_status first_order_advance(const wh_scene *scene, wh_state *of) {
+    return wh_step_first(NULL, constant_slope, scene->method, scene->compensated, 0, 1,
+                         scene->step_s, of);
+}
+
+static void test_a_method_that_the_form_does_not_have_is_refused(void) {
+    static const wh_method methods[] = {WH_EULER, WH_SEMI_IMPLICIT_EULER, WH_HEUN, WH_RK4};
+    for (unsigned i = 0; i < sizeof methods / sizeof methods[0]; i++) {
+        wh_scene scene = oscillator(WH_RK4, false, WH_R(0.25));
+        scene.form = WH_FIRST_ORDER;
+        scene.reals = 1;
+        scene.advance = first_order_advance;
+        TEST_ASSERT_TRUE(start(&scene));
+        scene.method = methods[i]; /* even when it slips in behind the start */
+        const bool has = methods[i] != WH_SEMI_IMPLICIT_EULER;
+        const uint64_t before = wh_scene_hash(&scene, &state);
+        TEST_ASSERT_TRUE(wh_scene_step(&scene, &state) == (has ? WH_OK : WH_E_ARGUMENT));
+        TEST_ASSERT_TRUE((wh_scene_hash(&scene, &state) == before) == !has);
+        state.steps = 77;
+        TEST_ASSERT_TRUE(wh_scene_start(&scene, &state, memory, sizeof memory) ==
+                         (has ? WH_OK : WH_E_ARGUMENT));
+        TEST_ASSERT_TRUE((state.steps == 77) == !has);
+    }
+}
+
 static void test_start_takes_over_the_start_values_again(void) {
     const wh_scene scene = shaft(WH_RK4);
     TEST_ASSERT_TRUE(start(&scene));
@@ -294,6 +328,7 @@ void suite_scene(void) {
     UnitySetTestFile(__FILE__);
     RUN_TEST(test_start_refuses_too_little_memory);
     RUN_TEST(test_compensated_scene_needs_more_memory_within_the_macro);
+    RUN_TEST(test_a_method_that_the_form_does_not_have_is_refused);
     RUN_TEST(test_start_takes_over_the_start_values_again);
     RUN_TEST(test_time_is_steps_times_step);
     RUN_TEST(test_inputs_act_from_the_next_step_on);

@@ -23,7 +23,7 @@ static void start(const wh_scene *scene) {
     TEST_ASSERT_TRUE(wh_scene_start(scene, &state, memory, sizeof memory) == WH_OK);
 }
 
-static void step_to(const wh_scene *scene, uint32_t steps) {
+static void step_to(const wh_scene *scene, uint64_t steps) {
     while (state.steps < steps) {
         TEST_ASSERT_TRUE_MESSAGE(wh_scene_step(scene, &state) == WH_OK, scene->name);
     }
@@ -145,7 +145,7 @@ static void test_books_of_the_epicyclic_gear(void) {
     wh_real off_work = WH_R(0.0);
     start(&epicyclic_from_rest);
     while (state.steps < 9000) {
-        step_to(&epicyclic_from_rest, (uint32_t)state.steps + 10);
+        step_to(&epicyclic_from_rest, state.steps + 10);
         const wh_real s = sine(state.angle[0]);
         const wh_real c = cosine(state.angle[0]);
         const wh_real v = state.real[1];
@@ -169,7 +169,7 @@ static void expect_centre_of_mass(const wh_scene *scene, wh_real centre, wh_real
     wh_real off = WH_R(0.0);
     start(scene);
     while (state.steps < scene->steps) {
-        step_to(scene, (uint32_t)state.steps + 20);
+        step_to(scene, state.steps + 20);
         const wh_real a = cosine(state.angle[0]);
         const wh_real twice = WH_R(2.0) * a * a - WH_R(1.0);
         const wh_real b = cosine(state.angle[1]);

@@ -76,6 +76,4 @@ uint64_t contacts_overruns(const motion *m) {
     return overruns;
 }
 
-uint64_t contacts_steps(const motion *m) {
-    return (uint64_t)floor(m->instance->until_s / m->instance->step_s + 0.5);
-}
+uint64_t contacts_steps(const motion *m) { return m->instance->steps; }

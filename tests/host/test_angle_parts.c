@@ -180,10 +180,10 @@ static void check_sweep(const sample *s, const engine_kind *kind, int count, con
                       .engine = {WH_RK4, false}};
     char *row = NULL;
     size_t length = 0;
-    uint64_t overruns;
+    point_notes notes = {0};
     FILE *out = open_memstream(&row, &length);
     TEST_ASSERT_NOT_NULL(out);
-    TEST_ASSERT_TRUE(sweep_point(&of, 0, NULL, out, stdout, &overruns));
+    TEST_ASSERT_TRUE(sweep_point(&of, 0, NULL, out, stdout, &notes));
     fclose(out);
     const char *at = strchr(row, ',');
     for (int i = 0; i < count; i++) {

@@ -203,8 +203,14 @@ static void test_values_that_are_no_numbers(void) {
     expect_text(text, "x.whirl:4:16: error: step must be above zero");
     snprintf(text, sizeof text, "%sscene s { until -1 [s] }\n", start);
     expect_text(text, "x.whirl:4:17: error: until must not be negative");
-    snprintf(text, sizeof text, "%sscene s { until 1e13 [s] }\n", start);
-    expect_text(text, "x.whirl:4:17: error: more than 1e+15 steps");
+    snprintf(text, sizeof text, "%sscene s { until 1e17 [s] }\n", start);
+    expect_text(text, "x.whirl:4:17: error: more than 2^63 steps of 0.001 s");
+    snprintf(text, sizeof text, "%sscene s { step 1e-18 [s] }\n", start);
+    expect_text(text, "x.whirl:4:16: error: more than 2^63 steps of 1e-18 s");
+    snprintf(text, sizeof text, "%sscene s { until 1.1e18 [s] }\n", start);
+    expect_text(text, "x.whirl:4:17: error: until must be at most 1e+18 s, and this is 1.1e+18 s");
+    snprintf(text, sizeof text, "%sscene s { step 1e-19 [s] }\n", start);
+    expect_text(text, "x.whirl:4:16: error: a step must be from 1e-18 s to 1e+18 s");
     snprintf(text, sizeof text, "%sparameter a = 1\nparameter b = a\nscene s { set a = b }\n",
              start);
     expect_text(text, "x.whirl:6:15: error: 'a' is set from itself");

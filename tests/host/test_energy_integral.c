@@ -101,7 +101,7 @@ static remainders book(const char *text, by_hand *energy_J, double step_s) {
     motion_open_text(&m, text, how);
     TEST_ASSERT_NOT_NULL(m.program->integral);
     books *b = books_open(m.program, m.equations);
-    const uint64_t steps = (uint64_t)floor(m.instance->until_s / m.instance->step_s + 0.5);
+    const uint64_t steps = m.instance->steps;
     remainders r = {.change_J = -energy_J(&m)};
     books_enter(b, m.kind, m.run);
     for (uint64_t step = 1; step <= steps; step++) {

@@ -1,0 +1,27 @@
+/* slow.h: float turn angles that turn too slowly for their steps' units: to be told, with the way out.
+ *
+ * A float turn angle moves by whole units, 2^32 a turn, 1.5e-9 rad. Below half of one a step it stands still, and
+ * near that its rate is off. It is told of an angle when what rounding took from its steps, summed since the start,
+ * was at some time more than SLOW_SHARE of the span that they asked for, and more than SLOW_LEAST_RAD. So one that
+ * swings or turns and is slow only now and then is not: what its slow steps lose is little beside its span. */
+#ifndef RUN_SLOW_H
+#define RUN_SLOW_H
+
+#include <stdio.h>
+
+#include "engine.h"
+
+#define SLOW_SHARE 1e-3
+#define SLOW_LEAST_RAD 3e-9 /* two units: what an angle that hardly moves may show of rounding */
+
+/* Is turn angle i one of those? */
+bool slow_angle(const engine_kind *kind, const void *run, int i);
+
+/* How many of the turn angles are. */
+int slow_count(const engine_kind *kind, const program *p, const void *run);
+
+/* A note for each, and how to cure them. */
+void slow_say(FILE *out, const equations *e, const program *p, const engine_kind *kind,
+              const void *run);
+
+#endif

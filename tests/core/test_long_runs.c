@@ -1,0 +1,209 @@
+/* test_long_runs.c: counts and times of runs of years: nothing wraps, and times are right to one rounding. */
+#include "core/angle.h"
+#include "hand.h"
+
+#include "unity.h"
+
+void suite_long_runs(void);
+
+/* --- whole numbers of 128 bits, by hand: boards have none ------------------------------------------- */
+
+typedef struct wide {
+    uint64_t high, low;
+} wide;
+
+static wide product(uint64_t a, uint64_t b) {
+    const uint64_t mask = UINT32_MAX;
+    const uint64_t low = (a & mask) * (b & mask);
+    const uint64_t one = (a >> 32) * (b & mask) + (low >> 32);
+    const uint64_t two = (a & mask) * (b >> 32) + (one & mask);
+    return (wide){(a >> 32) * (b >> 32) + (one >> 32) + (two >> 32), two << 32 | (low & mask)};
+}
+
+static wide twice(wide a) { return (wide){a.high << 1 | a.low >> 63, a.low << 1}; }
+
+static bool less(wide a, wide b) { return a.high < b.high || (a.high == b.high && a.low < b.low); }
+
+static wide difference(wide a, wide b) {
+    return less(a, b) ? difference(b, a) : (wide){a.high - b.high - (a.low < b.low), a.low - b.low};
+}
+
+/* The quotient's low 64 bits, bit by bit; *rest is what is left. */
+static uint64_t quotient(wide a, uint64_t by, uint64_t *rest) {
+    uint64_t result = 0;
+    *rest = 0;
+    for (unsigned i = 0; i < 128; i++) {
+        *rest = *rest << 1 | a.high >> 63; /* by is below 2^63 */
+        a = twice(a);
+        result <<= 1;
+        if (*rest >= by) {
+            *rest -= by;
+            result |= 1U;
+        }
+    }
+    return result;
+}
+
+/* --- times ------------------------------------------------------------------------------------------ */
+
+#define DIGITS (sizeof(wh_real) == sizeof(float) ? 24 : 53)
+
+/* Is `value`, of [0, 1), a real nearest to part / of, with part < of < 2^30? */
+static bool is_nearest(wh_real value, uint64_t part, uint64_t of) {
+    int places = 0; /* value = digits / 2^places, all digits of a real used */
+    if (part == 0 || !(value > WH_R(0.0))) {
+        return part == 0 && value == WH_R(0.0);
+    }
+    while (value < (wh_real)(UINT64_C(1) << (DIGITS - 1))) {
+        value *= WH_R(2.0);
+        places++;
+    }
+    wide exact = {0, part}; /* part 2^places against digits of; half a digit is of / 2 */
+    for (int i = 0; i < places; i++) {
+        exact = twice(exact);
+    }
+    const wide off = difference(exact, product((uint64_t)value, of));
+    return !less((wide){0, of}, twice(off));
+}
+
+static uint64_t random_state;
+
+static uint64_t random_bits(void) { /* xorshift64 (Marsaglia, 2003) */
+    random_state ^= random_state << 13;
+    random_state ^= random_state >> 7;
+    random_state ^= random_state << 17;
+    return random_state;
+}
+
+/* Is the time of step `steps` right? Where it is beyond 2^64 s there is nothing to say. */
+static bool time_is_right(wh_fraction step, uint64_t steps) {
+    const wh_scene scene = {.step_s = (wh_real)step.numerator / (wh_real)step.denominator,
+                            .step = step};
+    const wh_state state = {.steps = steps};
+    const wide all = product(steps, step.numerator);
+    if (all.high >= step.denominator) {
+        return true;
+    }
+    uint64_t rest;
+    const uint64_t whole = quotient(all, step.denominator, &rest);
+    const wh_time time = wh_scene_time(&scene, &state);
+    if (time.whole_s == whole + 1) { /* nearest to the fraction is one */
+        const wide left = product(step.denominator - rest, UINT64_C(2) << DIGITS);
+        return time.fraction_s == WH_R(0.0) && !less((wide){0, step.denominator}, left);
+    }
+    return time.whole_s == whole &&
+           (step.denominator >> 30 != 0 || is_nearest(time.fraction_s, rest, step.denominator));
+}
+
+static void test_times_are_right_to_one_rounding(void) {
+    static const wh_fraction known[] = {
+        {1, 1000},      {1, 1000000},  {1, 1000000000},    {1, 3},         {11, 10000},
+        {1, 44100},     {1001, 30000}, {3600, 1},          {1, 1U << 10U}, {999, 1000},
+        {1, 536870911}, {7, 5},        {123457, 1U << 29U}};
+    static const uint64_t near[] = {0,
+                                    UINT64_C(1) << 24,
+                                    UINT64_C(1) << 32,
+                                    UINT64_C(1) << 53,
+                                    UINT64_C(1) << 63,
+                                    UINT64_C(1577880000000)}; /* 50 years of milliseconds */
+    const unsigned each = __STDC_HOSTED__ ? 200 : 4;
+    random_state = UINT64_C(0x20261121);
+    for (unsigned i = 0; i < 3 * sizeof known / sizeof known[0]; i++) {
+        wh_fraction step = {random_bits() % 1000000 + 1, random_bits() % 1000000000 + 1};
+        if (i % 3 == 0) { /* as large as they come */
+            step.numerator = (random_bits() >> random_bits() % 63 >> 4) + 1;
+            step.denominator = (random_bits() >> random_bits() % 63 >> 4) + 1;
+        }
+        step = i < sizeof known / sizeof known[0] ? known[i] : step;
+        for (unsigned k = 0; k < sizeof near / sizeof near[0]; k++) {
+            for (unsigned j = 0; j < each; j++) {
+                const uint64_t off = j < 3 ? j : random_bits() % 100000;
+                TEST_ASSERT_TRUE(time_is_right(step, near[k] + off));
+                TEST_ASSERT_TRUE(near[k] < off || time_is_right(step, near[k] - off));
+            }
+        }
+        for (unsigned j = 0; j < each; j++) {
+            TEST_ASSERT_TRUE(time_is_right(step, random_bits() >> random_bits() % 64));
+        }
+    }
+}
+
+/* A fraction that rounds to one is the next second; one that does not stays below it. */
+static void test_a_fraction_stays_below_one(void) {
+    const uint64_t in = UINT64_C(1) << 60;
+    wh_scene scene = {.step_s = WH_R(1.0), .step = {1, in}};
+    wh_state state = {.steps = in - 1};
+    wh_time time = wh_scene_time(&scene, &state);
+    TEST_ASSERT_TRUE(time.whole_s == 1 && time.fraction_s == WH_R(0.0));
+    state.steps = in - (in >> 20);
+    time = wh_scene_time(&scene, &state);
+    TEST_ASSERT_TRUE(time.whole_s == 0 && time.fraction_s == WH_R(1.0) - WH_R(0x1p-20));
+    state.steps = 1;
+    time = wh_scene_time(&scene, &state);
+    TEST_ASSERT_TRUE(time.whole_s == 0 && time.fraction_s == WH_R(0x1p-60));
+}
+
+/* One that does not say its step exactly has the time of its real step. */
+static void test_time_without_a_fraction(void) {
+    const wh_scene scene = {.step_s = WH_R(0.25)};
+    const wh_state state = {.steps = 4 * 100000 + 3};
+    const wh_time time = wh_scene_time(&scene, &state);
+    TEST_ASSERT_TRUE(time.whole_s == 100000 && time.fraction_s == WH_R(0.75));
+}
+
+/* --- counts ----------------------------------------------------------------------------------------- */
+
+static void test_steps_do_not_wrap(void) {
+    hand_build_ball(WH_R(0.5));
+    hand_start(false);
+    hand_now.scene.step = (wh_fraction){1, 1000};
+    hand_now.scene.steps = (UINT64_C(1) << 32) + 5;
+    hand_state.steps = UINT32_MAX;
+    while (hand_state.steps < hand_now.scene.steps) {
+        hand_steps(1);
+    }
+    TEST_ASSERT_TRUE(hand_state.steps == (UINT64_C(1) << 32) + 5);
+    const wh_time time = wh_scene_time(&hand_now.scene, &hand_state);
+    TEST_ASSERT_TRUE(time.whole_s == 4294967 && is_nearest(time.fraction_s, 301, 1000));
+}
+
+/* Two stops a micrometre apart and a fast body: every step overruns. */
+static void test_events_and_overruns_do_not_wrap(void) {
+    hand_build(1, WH_R(1.0), WH_R(0.0), WH_R(1.0));
+    hand_add(WH_STOP, 0, WH_R(1.0), WH_R(0.0), WH_R(0.0), WH_R(1.0), WH_R(0.0));
+    hand_add(WH_STOP, 0, WH_R(-1.0), WH_R(0.0), WH_R(-1e-6), WH_R(1.0), WH_R(0.0));
+    hand_now.start[0] = WH_R(5e-7);
+    hand_now.start[1] = WH_R(1.0);
+    hand_start(false);
+    hand_state.contacts->events = UINT32_MAX;
+    hand_state.contacts->overruns = UINT32_MAX;
+    hand_steps(1);
+    TEST_ASSERT_TRUE(hand_state.contacts->overruns == UINT64_C(1) << 32);
+    TEST_ASSERT_TRUE(hand_state.contacts->events >= (uint64_t)UINT32_MAX + WH_EVENTS_MAX);
+}
+
+#if !WH_DOUBLE
+/* The count of turns wraps at 2^31 of them, in whole turns, and the phase goes on. */
+static void test_turns_wrap_and_the_phase_goes_on(void) {
+    wh_angle angle = INT64_MAX - 100;
+    wh_real carry = 0.0f;
+    const wh_phase before = wh_phase_of(angle);
+    TEST_ASSERT_TRUE(wh_angle_move(&angle, 1000.0f, false, &carry));
+    TEST_ASSERT_TRUE(wh_phase_of(angle) == before + 1000U);
+    TEST_ASSERT_TRUE(angle == INT64_MIN + 899);
+    TEST_ASSERT_TRUE(wh_angle_move(&angle, -1000.0f, false, &carry));
+    TEST_ASSERT_TRUE(angle == INT64_MAX - 100);
+}
+#endif
+
+void suite_long_runs(void) {
+    UnitySetTestFile(__FILE__);
+    RUN_TEST(test_times_are_right_to_one_rounding);
+    RUN_TEST(test_a_fraction_stays_below_one);
+    RUN_TEST(test_time_without_a_fraction);
+    RUN_TEST(test_steps_do_not_wrap);
+    RUN_TEST(test_events_and_overruns_do_not_wrap);
+#if !WH_DOUBLE
+    RUN_TEST(test_turns_wrap_and_the_phase_goes_on);
+#endif
+}

@@ -1,0 +1,201 @@
+/* test_methods.c: every method does what its name says, in every form a scene can take, with compensated sums,
+ * books and contacts; or it is refused. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "host/run/start.h"
+#include "motion.h"
+
+#include "unity.h"
+
+void suite_methods(void);
+
+/* A form, by a mechanism that runs in it. `until` is a power of two of seconds, steps are its halves. */
+typedef struct form {
+    const char *name;
+    wh_form form;
+    bool ledger;      /* has energies */
+    const char *kind; /* what a first-order form is refused for, or NULL */
+    const char *text;
+} form;
+
+#define PENDULUM \
+    "mechanism m\ncoordinate a [rad]\ncoordinate x [m]\n" \
+    "T = 2 [kg]*x'^2/2 + 1 [kg]*0.5 [m]*cos(a)*a'*x' + 0.5 [kg*m^2]*a'^2/2\n" \
+    "V = -4 [J]*cos(a) + 3 [N/m]*x^2/2\nF = 0.2 [N*s/m]*x'^2/2\n"
+#define SWING \
+    "{ start a = 0.7, x = 0.3 [m], a' = 0.4 [rad/s], x' = -0.2 [m/s]; step 1 [s]; until 1 [s] }\n"
+#define OSCILLATOR \
+    "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 4 [N/m]*x^2/2 + 1 [N/m^3]*x^4/4\n"
+
+static const form forms[] = {
+    {"second order, turn angle and length", WH_SECOND_ORDER, true, NULL, PENDULUM "scene s " SWING},
+    {"second order, an angle outside sines", WH_SECOND_ORDER, true, NULL,
+     PENDULUM
+     "effect spring \"\" { V += 0.5 [J]*a^2 }\nscene s "
+     "{ with spring; start a = 0.7, x = 0.3 [m], a' = 0.4 [rad/s]; step 1 [s]; until 1 [s] }\n"},
+    {"second order, given outright", WH_SECOND_ORDER, false, NULL,
+     "mechanism m\nstate x [m]\nstate a [rad]\n"
+     "equation x'' + 4 [1/s^2]*x + 0.3 [1/s]*x' = 0.2 [m/s^2]*cos(a)\n"
+     "equation a'' = -3 [1/s^2]*sin(a) - 0.5 [1/(m*s^2)]*x\n"
+     "scene s { start a = 0.7, x = 0.3 [m], a' = 0.4 [rad/s], x' = -0.2 [m/s]; step 1 [s]; until 1 [s] }\n"},
+    {"conserved, closed", WH_SECOND_ORDER, true, NULL,
+     "mechanism m\ncoordinate a [rad]\ncoordinate x [m]\n"
+     "T = 2 [kg]*x'^2/2 + 1 [kg]*0.5 [m]*cos(a)*a'*x' + 0.5 [kg*m^2]*a'^2/2\nV = -4 [J]*cos(a)\n"
+     "scene s { conserve x; start a = 0.7, a' = 0.4 [rad/s], x' = 0.2 [m/s]; step 1 [s]; until 1 [s] }\n"},
+    {"a stop out of reach, friction that slides", WH_SECOND_ORDER, true, NULL,
+     PENDULUM
+     "friction x static 0.2 kinetic 0.1 normal 1 [N]\nstop x <= 20 [m] restitution 0.5\n"
+     "scene s { start a = 0.7, x = 0.3 [m], a' = 0.4 [rad/s], x' = -2 [m/s]; step 0.25 [s]; until 0.25 [s] }\n"},
+    {"a crossing that is taken", WH_SECOND_ORDER, true, NULL,
+     OSCILLATOR
+     "input u = 0 [N]\nQ(x) = u\nscene s { when x crosses 0 [m] falling { set x' = 0.5*x' }\n"
+     "start x = 0.3 [m], x' = -0.8 [m/s]; step 1 [s]; until 1 [s] }\n"},
+    {"first order", WH_FIRST_ORDER, false, "'x' is of order 1",
+     "mechanism m\nstate x\nstate a [rad]\nequation x' = 1 [1/s]*(cos(a) - x^2)\n"
+     "equation a' = 2 [1/s]*(1 + 0.4*x*sin(a))\n"
+     "scene s { start x = 0.4, a = 0.3; step 1 [s]; until 1 [s] }\n"},
+    {"orders one and two", WH_FIRST_ORDER, false, "'i' is of order 1",
+     "mechanism m\nstate a [rad]\nstate i [A]\n"
+     "equation a'' = -3 [1/s^2]*sin(a) + 1 [1/(A*s^2)]*i\n"
+     "equation i' = -2 [1/s]*i - 0.5 [A]*a'\n"
+     "scene s { start a = 0.7, a' = 0.4 [rad/s], i = 1 [A]; step 1 [s]; until 1 [s] }\n"},
+    {"order three", WH_FIRST_ORDER, false, "'x' is of order 3",
+     "mechanism m\nstate x [m]\nequation x''' = -1 [1/s]*x'' - 2 [1/s^2]*x' - 1 [1/s^3]*x\n"
+     "scene s { start x = 0.7 [m], x' = 0.4 [m/s], x'' = 1 [m/s^2]; step 1 [s]; until 1 [s] }\n"},
+    {"conserved, integrated", WH_FIRST_ORDER, false, "'t', which is conserved, is integrated",
+     "mechanism m\ncoordinate t [s]\ncoordinate x [m]\n"
+     "T = 1e-9 [J]*t'^2/2 + 2 [kg]*x'^2/2\nV = 5 [N/m]*x^2/2\nQ(x) = 4 [N]*sin(3 [rad/s]*t)\n"
+     "scene s { start t' = 1, x = 0.3 [m]; conserve t; step 1 [s]; until 1 [s] }\n"},
+};
+enum { FORMS = sizeof forms / sizeof forms[0], METHODS = 4, VALUES = 64 };
+
+static const char *const names[METHODS] = {"euler", "semi-implicit-euler", "heun", "rk4"};
+static const double orders[METHODS] = {1.0, 1.0, 2.0, 4.0};
+static const int first_halvings[METHODS] = {10, 10, 8, 4};
+
+/* --- orders ---------------------------------------------------------------------------------------- */
+
+/* The state at the end, by so many halvings of a second. */
+static int end_of(const form *f, stepping how, int halvings, double value[VALUES]) {
+    motion m;
+    how.step_s = ldexp(1.0, -halvings);
+    motion_open_text(&m, f->text, how);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(f->form, m.program->form, f->name);
+    TEST_ASSERT_TRUE_MESSAGE(start_has_method(m.program, m.instance, how.method, m.errors),
+                             f->name);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(WH_OK, motion_step(&m, m.instance->steps), f->name);
+    const int angles = m.program->angles;
+    const int count = angles + m.program->reals;
+    m.kind->state(m.run, value, value + angles);
+    motion_close(&m);
+    return count;
+}
+
+static double distance(const form *f, stepping how, int halvings) {
+    double coarse[VALUES];
+    double fine[VALUES];
+    double sum = 0.0;
+    const int count = end_of(f, how, halvings, coarse);
+    end_of(f, how, halvings + 1, fine);
+    for (int i = 0; i < count; i++) {
+        sum = hypot(sum, coarse[i] - fine[i]);
+    }
+    return sum;
+}
+
+static void test_orders_are_those_of_the_names(void) {
+    int measured = 0;
+    for (int i = 0; i < FORMS; i++) {
+        const form *f = &forms[i];
+        for (int k = 0; k < 4 * METHODS; k++) {
+            const wh_method method = (wh_method)(k % METHODS);
+            const bool compensated = (k / METHODS) % 2 != 0;
+            const bool ledger = k / METHODS >= 2;
+            if ((ledger && !f->ledger) ||
+                (f->form == WH_FIRST_ORDER && method == WH_SEMI_IMPLICIT_EULER)) {
+                continue;
+            }
+            const stepping how = {.kind = &engine_double,
+                                  .method = method,
+                                  .compensated = compensated,
+                                  .ledger = ledger};
+            const int halvings = first_halvings[method];
+            const double order = log2(distance(f, how, halvings) / distance(f, how, halvings + 1));
+            char what[160];
+            snprintf(what, sizeof what, "%s, %s%s%s: order %.3f", f->name, names[method],
+                     compensated ? ", compensated" : "", ledger ? ", ledger" : "", order);
+            TEST_ASSERT_TRUE_MESSAGE(fabs(order - orders[method]) < 0.2, what);
+            measured++;
+        }
+    }
+    printf("  %d orders measured\n", measured);
+}
+
+/* --- Euler's two ----------------------------------------------------------------------------------- */
+
+/* Both are of order one: what tells them apart is which rate moves the position. */
+static void test_semi_implicit_euler_moves_by_the_new_rates(void) {
+    const double h = 1.0 / 256.0;
+    for (int i = 0; i < FORMS; i++) {
+        const form *f = &forms[i];
+        for (int k = 0; k < 8 && f->form == WH_SECOND_ORDER; k++) {
+            motion m;
+            const bool semi = k % 2 != 0;
+            const bool ledger = k >= 4 && f->ledger;
+            motion_open_text(&m, f->text,
+                             (stepping){.kind = &engine_double,
+                                        .method = semi ? WH_SEMI_IMPLICIT_EULER : WH_EULER,
+                                        .compensated = k / 2 % 2 != 0,
+                                        .step_s = h,
+                                        .ledger = ledger});
+            double before[VALUES];
+            double after[VALUES];
+            const int n = m.program->coordinates; /* positions, then rates, in the same order */
+            m.kind->state(m.run, before, before + m.program->angles);
+            TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
+            m.kind->state(m.run, after, after + m.program->angles);
+            for (int c = 0; c < n; c++) {
+                const double by = h * (semi ? after : before)[n + c];
+                TEST_ASSERT_TRUE(fabs(after[n + c] - before[n + c]) > 1e-6);
+                TEST_ASSERT_TRUE_MESSAGE(fabs(after[c] - before[c] - by) < 1e-15, f->name);
+            }
+            motion_close(&m);
+        }
+    }
+}
+
+static void test_semi_implicit_euler_is_refused_where_there_is_none(void) {
+    int refused = 0;
+    for (int i = 0; i < FORMS; i++) {
+        motion m;
+        motion_open_text(&m, forms[i].text, IN_DOUBLE);
+        for (int method = 0; method < METHODS; method++) {
+            char *text = NULL;
+            size_t length = 0;
+            FILE *out = open_memstream(&text, &length);
+            const bool has = start_has_method(m.program, m.instance, (wh_method)method, m.errors);
+            diags_flush(m.errors, out);
+            fclose(out);
+            const bool wanted =
+                method != WH_SEMI_IMPLICIT_EULER || forms[i].form == WH_SECOND_ORDER;
+            TEST_ASSERT_TRUE_MESSAGE(has == wanted, forms[i].name);
+            TEST_ASSERT_TRUE_MESSAGE(has == (length == 0), text);
+            TEST_ASSERT_TRUE_MESSAGE(has || strstr(text, forms[i].kind) != NULL, text);
+            TEST_ASSERT_TRUE_MESSAGE(has || strstr(text, "hint: ") != NULL, text);
+            refused += !has;
+            free(text);
+        }
+        motion_close(&m);
+    }
+    TEST_ASSERT_EQUAL_INT(4, refused);
+}
+
+void suite_methods(void) {
+    UnitySetTestFile(__FILE__);
+    RUN_TEST(test_orders_are_those_of_the_names);
+    RUN_TEST(test_semi_implicit_euler_moves_by_the_new_rates);
+    RUN_TEST(test_semi_implicit_euler_is_refused_where_there_is_none);
+}
