@@ -7,8 +7,8 @@
  * where lambda_k is the force of contact k: zero for a stop out of touch, -sign(v) mu N for sliding
  * friction, and otherwise the force that keeps J_k q' at zero (a resting stop, a held expression, a
  * stuck coordinate), found from J M^-1 J^T lambda = -(J q'' + J' q'). Events change which of these
- * holds. A step looks for them at its end, locates the first with a fixed number of refinements on
- * cubics through the step's ends, steps again to just past it, changes the modes (an impact by an
+ * holds. A step looks for them at its end, locates the first with a bounded number of probes on cubics
+ * through the step's ends, steps again to just past it, changes the modes (an impact by an
  * impulse through the mass matrix, Newton's restitution), and goes on with what is left of the step,
  * for at most WH_EVENTS_MAX events. Then stops rest and sliding that keeps reversing sticks, the rest
  * of the step is done, and the state counts an overrun: the cost of a step is bounded, and no step is
@@ -22,9 +22,10 @@
  *
  * What a scene must offer is in `wh_hybrid`; what changes while running is in `wh_contacts` (scene.h).
  * contact_work.h has what a step works on, contact_share.h how contacts share a load, contact_forces.h the
- * forces and impulses, contact_ledger.h what they enter into the books, contact_events.h the search for events, contact_settle.h and
- * contact_take.h what they change, contact_step.h the step. Scenes without contacts include none of these
- * files.
+ * forces and impulses, contact_ledger.h what they enter into the books, contact_events.h the search for
+ * events, contact_settle.h and contact_take.h what they change, contact_place.h where they belong,
+ * contact_rank.h whether the holds still determine the motion, contact_step.h the step. Scenes without
+ * contacts include none of these files.
  */
 #ifndef WH_CONTACT_H
 #define WH_CONTACT_H
@@ -79,17 +80,19 @@ enum {
 
 typedef struct wh_contact {
     uint8_t kind; /* wh_contact_kind */
-    int8_t direction;  /* crossing: +1 rising, -1 falling, 0 both; stop: 1 if an input moves it; hold: 1 if
+    int8_t
+        direction; /* crossing: +1 rising, -1 falling, 0 both; stop: 1 if an input moves it; hold: 1 if
                         * it is straight, its J_k constant; else 0 */
-    int16_t pin;       /* the one coordinate that J_k has an entry for, if that is constant: its rate
+    int16_t pin; /* the one coordinate that J_k has an entry for, if that is constant: its rate
                         * is held at zero exactly; else -1 */
-    uint8_t first_set; /* crossing: its assignments; hold without a pin: its place in wh_state's held[] */
+    uint8_t
+        first_set; /* crossing: its assignments; hold without a pin: its place in wh_state's held[] */
     uint8_t sets;
 } wh_contact;
 
 /* Entries per contact in what `forces` computes, before the two rows of n. */
 enum {
-    WH_LAW_FIRST,  /* stop: restitution; friction: mu_static * max(N, 0); curved hold: what it holds */
+    WH_LAW_FIRST, /* stop: restitution; friction: mu_static * max(N, 0); curved hold: what it holds */
     WH_LAW_SECOND, /* friction: mu_kinetic * max(N, 0) */
     WH_LAW_BIAS,   /* J_k' q' */
     WH_LAW_ROWS    /* J_k[n], then (M^-1 J_k^T)[n] */

@@ -193,7 +193,8 @@ static inline wh_real wh_contact_locate(const wh_hybrid *of, wh_contact_work *w,
     wh_contact_accel(&model, at.phase, at.linear, at.rate, input, a1);
     wh_real reach = WH_R(1.0);
     wh_real earlier[2] = {WH_R(4.0), WH_R(4.0)}; /* widths, two and one probes ago */
-    wh_real most = WH_PROBES_SPARE; /* what this probe may leave, for halving to get to WH_BRACKET with the rest */
+    wh_real most =
+        WH_PROBES_SPARE; /* what this probe may leave, for halving to get to WH_BRACKET with the rest */
     for (unsigned i = 0; i < WH_PROBES && high - low > WH_BRACKET_FINE; i++) {
         const wh_real width = high - low;
         wh_real root = high;

@@ -204,8 +204,8 @@ static inline unsigned wh_contact_share(const wh_hybrid *of, const wh_contact_wo
                 continue;
             }
             const wh_real made = wh_along(of, w, k, way);
-            const wh_real rounding = wh_contact_rounding(
-                wanted[i], made, amount[i] * wh_contact_yield(of, w, k));
+            const wh_real rounding =
+                wh_contact_rounding(wanted[i], made, amount[i] * wh_contact_yield(of, w, k));
             left[i] = made - wanted[i];
             const wh_real outwards = at[i] < 0 ? left[i] : -left[i];
             if (outwards < -rounding) {

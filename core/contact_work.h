@@ -14,11 +14,14 @@ typedef struct wh_contact_work {
     wh_real law[WH_CONTACTS_MAX * (WH_LAW_ROWS + 2 * WH_COORDS)];
     /* stops whose gap the try begins closed, as bits: they may be on the way out */
     unsigned inside;
-    unsigned hit_next; /* stops that are touched and that an impact of this moment makes close, as bits */
-    unsigned turned;   /* frictions whose rate has just come to zero, as bits: whether they stick is open */
-    wh_real slack[WH_CONTACTS_MAX]; /* of those that slide on: what the location left of the rate, rad/s or m/s */
-    wh_real came[WH_COORDS];        /* rates when the present moment began */
-    wh_real held[WH_CONTACTS_MAX];  /* what holds keep, by place: see wh_contact */
+    unsigned
+        hit_next; /* stops that are touched and that an impact of this moment makes close, as bits */
+    unsigned
+        turned; /* frictions whose rate has just come to zero, as bits: whether they stick is open */
+    wh_real slack
+        [WH_CONTACTS_MAX]; /* of those that slide on: what the location left of the rate, rad/s or m/s */
+    wh_real came[WH_COORDS];       /* rates when the present moment began */
+    wh_real held[WH_CONTACTS_MAX]; /* what holds keep, by place: see wh_contact */
     unsigned moved; /* contacts whose signals a crossing's assignments changed, as bits */
     unsigned mover; /* that crossing */
     int fault;      /* component that was assigned what it cannot hold, or -1 */

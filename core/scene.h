@@ -61,10 +61,10 @@ typedef struct wh_state {
     wh_real *carry;  /* [scene->angles + scene->reals] low parts when compensated, else NULL */
     wh_real *input;  /* [scene->inputs] SI units; the caller may change them between steps */
     wh_contacts *contacts; /* NULL without contacts */
-    wh_real *held;         /* [scene->held] what holds keep: curved ones what it is, straight ones by how
+    wh_real *held;   /* [scene->held] what holds keep: curved ones what it is, straight ones by how
                             * much it has slipped; SI units */
-    wh_real *ledger;       /* the books' totals, their carries, the levels at the start; or NULL */
-    int fault; /* after WH_E_DIVERGED: the component at fault, angles first, then reals */
+    wh_real *ledger; /* the books' totals, their carries, the levels at the start; or NULL */
+    int fault;       /* after WH_E_DIVERGED: the component at fault, angles first, then reals */
 } wh_state;
 
 /* numerator / denominator, both below 2^63. */

@@ -68,7 +68,7 @@ fi
             $4 == "WH_CONTACT_EVALUATIONS" { stages = $5; stops = $6; forced = $7 }
             END {
                 printf "declared %s evaluations WH_CONTACT_EVALUATIONS(%d, %d, %d)", scene, stages, stops, forced
-                printf " signals WH_CONTACT_SIGNALS(%d, %d, %d)\n", stops, forced, contacts - forced
+                printf " signals WH_CONTACT_SIGNALS(%d, %d)\n", forced, contacts - forced
             }' "$file"
     done
 } | "${CC:-cc}" -E -P -I. - |

@@ -10,8 +10,9 @@ typedef struct contact_law {
     const poly
         *value; /* stop: the gap; hold: its condition; friction: the rate; crossing: the value
                          * that changes its sign */
-    const poly *speed;  /* J q': rate of the gap or of what is held; zero for others */
-    const poly *first;  /* stop: restitution; friction: mu_static * max(N, 0); curved hold: what it holds */
+    const poly *speed; /* J q': rate of the gap or of what is held; zero for others */
+    const poly
+        *first; /* stop: restitution; friction: mu_static * max(N, 0); curved hold: what it holds */
     const poly *second; /* friction: mu_kinetic * max(N, 0) */
     const poly *bias;   /* J' q' */
     const poly **row;   /* [coordinates] J; NULL for a crossing */

@@ -88,7 +88,8 @@ static void write_scene(FILE *out, const program *p, const instance *inst,
     fprintf(out, "    .angles = %d,\n    .reals = %d,\n    .inputs = %d,\n    .outputs = %d,\n",
             p->angles, p->reals, p->inputs, p->outputs);
     if (p->contacts != NULL) {
-        fprintf(out, "    .contacts = %d,\n    .held = %d,\n", p->contacts->count, p->contacts->held);
+        fprintf(out, "    .contacts = %d,\n    .held = %d,\n", p->contacts->count,
+                p->contacts->held);
     }
     if (p->ledger != NULL) {
         fprintf(out, "    .ledger = &ledger,\n");

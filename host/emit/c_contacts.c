@@ -48,9 +48,10 @@ void c_contacts_write(FILE *out, const program *p, const engine_settings *settin
         "    .method = %s,\n    .compensated = %s,\n"
         "    .angles = %d,\n    .coordinates = %d,\n};\n\n",
         c->sets != NULL ? "contact_sets" : "NULL", c->set_count > 0 ? "contact_target" : "NULL",
-        p->ledger != NULL ? "&ledger" : "NULL", c->count, c->forced, c->held, c_stages[settings->method],
-        contact_lists_stops(c), c->forced, c_method_names[settings->method],
-        settings->compensated ? "true" : "false", p->angles, p->coordinates);
+        p->ledger != NULL ? "&ledger" : "NULL", c->count, c->forced, c->held,
+        c_stages[settings->method], contact_lists_stops(c), c->forced,
+        c_method_names[settings->method], settings->compensated ? "true" : "false", p->angles,
+        p->coordinates);
     fprintf(out,
             "static wh_status advance(const wh_scene *scene, wh_state *state) {\n"
             "    (void)scene;\n    return wh_step_contact(&contacts, WH_R(%a), state);\n}\n\n",

@@ -101,13 +101,13 @@ double curved_text(uint64_t of, double step_s, double until_s, char *text, size_
     const bool above = random_bits(&seed) % 2U != 0;
     const bool touching = random_bits(&seed) % 2U != 0;
     const double gap = touching ? 0.0 : random_between(&seed, 0.0, 0.1);
-    const double restitution =
-        random_bits(&seed) % 2U != 0 ? 0.0 : random_between(&seed, 0.0, 1.0);
+    const double restitution = random_bits(&seed) % 2U != 0 ? 0.0 : random_between(&seed, 0.0, 1.0);
     if (holds) {
         put(&w, "hold %s while %s\n", s.text, touching ? "b > -100 [m]" : "a' > 0 or b > 0");
     } else {
-        put(&w, "stop %s %s %.17g [m] restitution %.17g\n", s.text, above ? ">=" : "<=",
-            above ? s.value - gap - 1e-15 : s.value + gap + 1e-15, restitution);
+        put(&w, "stop %s %s %.17g [m] restitution %.17g\n", s.text,
+            above ? ">=" : "<=", above ? s.value - gap - 1e-15 : s.value + gap + 1e-15,
+            restitution);
     }
     const double mu = random_between(&seed, 0.05, 0.6);
     const char *const on[] = {"b", "c", "a"};
@@ -125,8 +125,8 @@ double curved_text(uint64_t of, double step_s, double until_s, char *text, size_
         put(&w, "  start c = %.17g [m], c' = %.17g [m/s]\n", q[2], v[2]);
     }
     put(&w, "  step %.17g [s]\n  until %.17g [s]\n}\n", step_s, until_s);
-    double energy = 0.5 * (J * v[0] * v[0] + m * v[1] * v[1]) + ab * v[0] * v[1] * (turning ? cos(q[0]) : 1.0) +
-                    0.5 * kb * q[1] * q[1];
+    double energy = 0.5 * (J * v[0] * v[0] + m * v[1] * v[1]) +
+                    ab * v[0] * v[1] * (turning ? cos(q[0]) : 1.0) + 0.5 * kb * q[1] * q[1];
     if (n == 3) {
         energy += 0.5 * (mc * v[2] * v[2] + kc * q[2] * q[2]) + bc * v[1] * v[2];
     }

@@ -111,7 +111,8 @@ static worst run_randomly(const derived *d, const engine_kind *kind, long steps)
     take_samples(d, kind, &around);
     for (long done = 0; done < steps; done += RUN) {
         throw_start(d->instance, &around, &seed);
-        diags *beyond = diags_new(); /* what is thrown beyond a stop is put back by it: that takes energy */
+        diags *beyond =
+            diags_new(); /* what is thrown beyond a stop is put back by it: that takes energy */
         const bool apart = start_is_possible(d->program, d->instance, beyond);
         diags_free(beyond);
         void *run = kind->start(d->program, d->instance, &settings);

@@ -25,7 +25,7 @@ static const char *const NAMES[MACHINES] = {"cam", "yoke", "slider", "linkage", 
 typedef struct machine {
     machine_kind kind;
     double J, m, e, k, friction_N, torque_Nm;
-    double J_rod; /* of the linkage, else 0 */
+    double J_rod;   /* of the linkage, else 0 */
     double a, rate; /* at the start */
 } machine;
 
@@ -61,7 +61,8 @@ static long double acceleration(const machine *c, long double a, long double v, 
     const long double s = sinl(a) / 4;
     const long double root = sqrtl(1 - s * s);
     const long double p1 = cosl(a) / 4 / root;
-    const long double p2 = -s / root + s * p1 * p1 / root; /* cos(p) p'' - sin(p) p'^2 = -sin(a)/4 */
+    const long double p2 =
+        -s / root + s * p1 * p1 / root; /* cos(p) p'' - sin(p) p'^2 = -sin(a)/4 */
     const long double push = c->m * G + c->k * (f[0] + 2.0L * c->e) + c->friction_N * way;
     const long double inertia = c->J + c->m * f[1] * f[1] + c->J_rod * p1 * p1;
     const long double turning = c->m * f[1] * f[2] + c->J_rod * p1 * p2;
@@ -137,8 +138,7 @@ static bool reference(const machine *c, long double until_s, long double s[2]) {
 
 static void write_machine(const machine *c, char *text, size_t size) {
     static const char *const closed[MACHINES] = {
-        "stop b - e*cos(a) >= 0 restitution 0\n",
-        "hold b - e*cos(a) while b > -100 [m]\n",
+        "stop b - e*cos(a) >= 0 restitution 0\n", "hold b - e*cos(a) while b > -100 [m]\n",
         "hold b - e*cos(a) - sqrt(16*e^2 - e^2*sin(a)^2) while b > -100 [m]\n",
         "hold b - e*cos(a) - 4*e*cos(psi) while b > -100 [m]\n"
         "hold e*sin(a) - 4*e*sin(psi) while b > -100 [m]\n",
@@ -162,10 +162,10 @@ static void write_machine(const machine *c, char *text, size_t size) {
              "friction b static %.17g kinetic %.17g normal 5 [N]\n"
              "scene s {\n  with ledger\n  start a = %.17g, a' = %.17g [rad/s]\n"
              "  start b = %.17g [m], b' = %.17g [m/s]\n%s  until 2 [s]\n}\n",
-             NAMES[c->kind], linkage ? "coordinate psi [rad]\n" : "", c->e, c->J, c->m,
-             rod_T, c->m * (double)G, c->k, c->torque_Nm,
-             closed[c->kind], c->friction_N / 5.0, c->friction_N / 5.0, c->a, c->rate, (double)f[0],
-             (double)f[1] * c->rate, linkage ? rod : "");
+             NAMES[c->kind], linkage ? "coordinate psi [rad]\n" : "", c->e, c->J, c->m, rod_T,
+             c->m * (double)G, c->k, c->torque_Nm, closed[c->kind], c->friction_N / 5.0,
+             c->friction_N / 5.0, c->a, c->rate, (double)f[0], (double)f[1] * c->rate,
+             linkage ? rod : "");
 }
 
 typedef struct outcome {
@@ -180,8 +180,7 @@ static outcome run(const machine *c, const engine_kind *kind, double h, double u
     double total[64] = {0.0};
     double left[8] = {0.0};
     write_machine(c, text, sizeof text);
-    motion_open_text(&m, text,
-                     (stepping){.kind = kind, .method = WH_RK4, .step_s = h});
+    motion_open_text(&m, text, (stepping){.kind = kind, .method = WH_RK4, .step_s = h});
     TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, (uint64_t)(until_s / h + 0.5)));
     m.kind->ledger(m.run, total, left);
     const outcome o = {fabs(motion_value(&m, "a") - (double)s[0]), fabs(left[0]),
@@ -253,9 +252,10 @@ static void check_machines(int how, const char *words, double until_s, int each)
                 worst[n].overruns += o.overruns;
             }
         }
-        printf("  %s, %s: %d, worst %.1e rad, left over %.1e J; float %.1e rad, %.1e J; overruns %d, %d\n",
-               NAMES[kind], words, done, worst[0].off_rad, worst[0].left_J, worst[1].off_rad,
-               worst[1].left_J, (int)worst[0].overruns, (int)worst[1].overruns);
+        printf(
+            "  %s, %s: %d, worst %.1e rad, left over %.1e J; float %.1e rad, %.1e J; overruns %d, %d\n",
+            NAMES[kind], words, done, worst[0].off_rad, worst[0].left_J, worst[1].off_rad,
+            worst[1].left_J, (int)worst[0].overruns, (int)worst[1].overruns);
         TEST_ASSERT_TRUE_MESSAGE(done >= 1, words);
         TEST_ASSERT_TRUE(worst[0].off_rad < 1e-6);
         TEST_ASSERT_TRUE(worst[1].off_rad < 1e-2);

@@ -65,10 +65,11 @@ static void test_energy_is_accounted_for(void) {
         }
     }
     char line[200];
-    snprintf(line, sizeof line,
-             "seeds 1 to %ld: %d leave more than 1e-4 of the energy, %d more for a coarse step; else "
-             "at most %.1e; %d with overruns",
-             runs, beyond, coarse, worst, over);
+    snprintf(
+        line, sizeof line,
+        "seeds 1 to %ld: %d leave more than 1e-4 of the energy, %d more for a coarse step; else "
+        "at most %.1e; %d with overruns",
+        runs, beyond, coarse, worst, over);
     puts(line);
     TEST_ASSERT_EQUAL_INT_MESSAGE(0, beyond, line);
     TEST_ASSERT_TRUE_MESSAGE(coarse <= runs / 100 && over <= runs / 20, line);

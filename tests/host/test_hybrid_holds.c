@@ -50,15 +50,16 @@ static void test_rods_keep_their_length(void) {
         const double angle = random_between(&seed, -3.0, 3.0);
         const double rate = random_between(&seed, 5.0, 20.0); /* with 10 ms: h omega up to 0.2 */
         const bool square = i % 2 != 0;
-        snprintf(text, sizeof text,
-                 "mechanism rod\ncoordinate x [m]\ncoordinate y [m]\nparameter l = %.17g [m]\n"
-                 "T = %.17g [kg]*(x'^2 + y'^2)/2\nV = %.17g [N]*y\n"
-                 "hold %s while x > -1e9 [m]\noutput off [m] = sqrt(x^2 + y^2) - l\n"
-                 "scene s {\n  start x = %.17g [m], y = %.17g [m], x' = %.17g [m/s], y' = %.17g [m/s]\n"
-                 "  step 10 [ms]\n  until 3600 [s]\n}\n",
-                 length, exp(random_between(&seed, -2.0, 2.0)), random_between(&seed, 0.0, 1.0),
-                 square ? "x^2 + y^2" : "sqrt(x^2 + y^2)", length * cos(angle), length * sin(angle),
-                 -length * rate * sin(angle), length * rate * cos(angle));
+        snprintf(
+            text, sizeof text,
+            "mechanism rod\ncoordinate x [m]\ncoordinate y [m]\nparameter l = %.17g [m]\n"
+            "T = %.17g [kg]*(x'^2 + y'^2)/2\nV = %.17g [N]*y\n"
+            "hold %s while x > -1e9 [m]\noutput off [m] = sqrt(x^2 + y^2) - l\n"
+            "scene s {\n  start x = %.17g [m], y = %.17g [m], x' = %.17g [m/s], y' = %.17g [m/s]\n"
+            "  step 10 [ms]\n  until 3600 [s]\n}\n",
+            length, exp(random_between(&seed, -2.0, 2.0)), random_between(&seed, 0.0, 1.0),
+            square ? "x^2 + y^2" : "sqrt(x^2 + y^2)", length * cos(angle), length * sin(angle),
+            -length * rate * sin(angle), length * rate * cos(angle));
         expect_kept(square ? "rod, as x^2 + y^2" : "rod", text, 100000, length, length);
     }
 }
@@ -76,8 +77,8 @@ static bool close_linkage(linkage *l) {
     const double x = l->side[3] - l->side[0] * cos(l->angle[0]);
     const double y = -l->side[0] * sin(l->angle[0]);
     const double way = hypot(x, y);
-    const double c = (l->side[1] * l->side[1] + way * way - l->side[2] * l->side[2]) /
-                     (2.0 * l->side[1] * way);
+    const double c =
+        (l->side[1] * l->side[1] + way * way - l->side[2] * l->side[2]) / (2.0 * l->side[1] * way);
     if (!(fabs(c) < 0.999)) {
         return false;
     }
@@ -222,15 +223,16 @@ static void test_an_assignment_gives_it_anew(void) {
         char text[900];
         const double to = random_between(&seed, 0.3, 2.0);
         const double angle = random_between(&seed, -1.0, 1.0);
-        snprintf(text, sizeof text,
-                 "mechanism rod\ncoordinate x [m]\ncoordinate y [m]\ncoordinate clock [rad]\n"
-                 "T = 1 [kg]*(x'^2 + y'^2)/2 + 1 [kg*m^2]*clock'^2/2\nV = 3 [N]*y\n"
-                 "hold sqrt(x^2 + y^2) while x > -1e9 [m]\noutput off [m] = sqrt(x^2 + y^2)\n"
-                 "scene s {\n  with ledger\n  start x = 1 [m], y' = %.17g [m/s], clock' = 1 [rad/s]\n"
-                 "  when clock crosses %.17g rising { set x = %.17g [m], y = %.17g [m] }\n"
-                 "  step 2 [ms]\n  until 20 [s]\n}\n",
-                 random_between(&seed, 1.0, 8.0), random_between(&seed, 1.0, 5.0), to * cos(angle),
-                 to * sin(angle));
+        snprintf(
+            text, sizeof text,
+            "mechanism rod\ncoordinate x [m]\ncoordinate y [m]\ncoordinate clock [rad]\n"
+            "T = 1 [kg]*(x'^2 + y'^2)/2 + 1 [kg*m^2]*clock'^2/2\nV = 3 [N]*y\n"
+            "hold sqrt(x^2 + y^2) while x > -1e9 [m]\noutput off [m] = sqrt(x^2 + y^2)\n"
+            "scene s {\n  with ledger\n  start x = 1 [m], y' = %.17g [m/s], clock' = 1 [rad/s]\n"
+            "  when clock crosses %.17g rising { set x = %.17g [m], y = %.17g [m] }\n"
+            "  step 2 [ms]\n  until 20 [s]\n}\n",
+            random_between(&seed, 1.0, 8.0), random_between(&seed, 1.0, 5.0), to * cos(angle),
+            to * sin(angle));
         for (int n = 0; n < 2; n++) {
             double total[32] = {0.0};
             double left[8] = {0.0};

@@ -23,11 +23,12 @@ static void hop(double share, double mass, double gravity, const engine_kind *ki
     double left[4] = {0.0};
     const double h = 1e-3;
     const double speed = 0.5 * gravity * share * h;
-    snprintf(text, sizeof text,
-             "mechanism ball\ncoordinate y [m]\nT = %.17g [kg]*y'^2/2\nV = %.17g [N]*y\n"
-             "stop y >= 0 restitution 1\n"
-             "scene s {\n  with ledger\n  start y' = %.17g [m/s]\n  step 1 [ms]\n  until 5 [s]\n}\n",
-             mass, mass * gravity, speed);
+    snprintf(
+        text, sizeof text,
+        "mechanism ball\ncoordinate y [m]\nT = %.17g [kg]*y'^2/2\nV = %.17g [N]*y\n"
+        "stop y >= 0 restitution 1\n"
+        "scene s {\n  with ledger\n  start y' = %.17g [m/s]\n  step 1 [ms]\n  until 5 [s]\n}\n",
+        mass, mass * gravity, speed);
     motion_open_text(&m, text, (stepping){.kind = kind, .method = WH_RK4});
     motion_to(&m, 5.0);
     const double hops = 5.0 / (share * h);
@@ -114,12 +115,13 @@ static int collide(chain *c, double *first_Ns) {
  * others, which are about to part: no stop rests. */
 static void write_chain(const chain *c, bool at_start, char *text, size_t size) {
     const char *const name = "abcd";
-    int at = snprintf(text, size,
-                      "mechanism row\ncoordinate a [m]\ncoordinate b [m]\ncoordinate c [m]\n"
-                      "coordinate d [m]\ncoordinate clock [rad]\n"
-                      "T = (%.17g [kg]*a'^2 + %.17g [kg]*b'^2 + %.17g [kg]*c'^2 + %.17g [kg]*d'^2)/2"
-                      " + 1 [kg*m^2]*clock'^2/2\n",
-                      c->mass[0], c->mass[1], c->mass[2], c->mass[3]);
+    int at =
+        snprintf(text, size,
+                 "mechanism row\ncoordinate a [m]\ncoordinate b [m]\ncoordinate c [m]\n"
+                 "coordinate d [m]\ncoordinate clock [rad]\n"
+                 "T = (%.17g [kg]*a'^2 + %.17g [kg]*b'^2 + %.17g [kg]*c'^2 + %.17g [kg]*d'^2)/2"
+                 " + 1 [kg*m^2]*clock'^2/2\n",
+                 c->mass[0], c->mass[1], c->mass[2], c->mass[3]);
     for (int i = 0; i + 1 < BODIES; i++) {
         const int k = c->order[i];
         at += snprintf(text + at, size - (size_t)at, "stop %c - %c >= 0.25 [m] restitution %.17g\n",
@@ -132,12 +134,13 @@ static void write_chain(const chain *c, bool at_start, char *text, size_t size) 
                  "  step 1 [ms]\n  until 1 [s]\n}\n",
                  c->speed[0], c->speed[1], c->speed[2], c->speed[3]);
     } else {
-        snprintf(text + at, size - (size_t)at,
-                 "scene s {\n  start a = -1 [m], b = 0.25 [m], c = 0.5 [m], d = 0.75 [m], clock' = 1 "
-                 "[rad/s]\n  when clock crosses 0.0003 rising { set a = 0, b = 0.25 [m], c = 0.5 [m], "
-                 "d = 0.75 [m], a' = %.17g [m/s], b' = %.17g [m/s], c' = %.17g [m/s], d' = %.17g [m/s] }\n"
-                 "  step 1 [ms]\n  until 1 [s]\n}\n",
-                 c->speed[0], c->speed[1], c->speed[2], c->speed[3]);
+        snprintf(
+            text + at, size - (size_t)at,
+            "scene s {\n  start a = -1 [m], b = 0.25 [m], c = 0.5 [m], d = 0.75 [m], clock' = 1 "
+            "[rad/s]\n  when clock crosses 0.0003 rising { set a = 0, b = 0.25 [m], c = 0.5 [m], "
+            "d = 0.75 [m], a' = %.17g [m/s], b' = %.17g [m/s], c' = %.17g [m/s], d' = %.17g [m/s] }\n"
+            "  step 1 [ms]\n  until 1 [s]\n}\n",
+            c->speed[0], c->speed[1], c->speed[2], c->speed[3]);
     }
 }
 
@@ -199,7 +202,8 @@ static void test_an_impact_that_is_over_within_the_step(void) {
         const double u = random_between(&seed, 0.2, 1.0);
         const double e = random_between(&seed, 0.2, 0.9);
         double mass[2] = {exp(random_between(&seed, -1.0, 1.0)), 0.0};
-        mass[1] = random_between(&seed, 0.05, 0.3) * e * mass[0]; /* it flies off, and does not come back */
+        mass[1] = random_between(&seed, 0.05, 0.3) * e *
+                  mass[0]; /* it flies off, and does not come back */
         chain c = {{1e300, mass[0], mass[1], 1.0}, {0.0, 0.0, -u, 1e300}, e, {0}};
         double floor_Ns;
         if (collide(&c, &floor_Ns) > 6) {
