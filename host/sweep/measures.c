@@ -158,30 +158,6 @@ static void add_all(measures *m, const mechanism *of) {
     }
 }
 
-/* An output that is measured as it is has its noise, as in the records of `whirl run`: the same numbers, which
- * follow from the output's name. An expression that uses it has none; nor has any other measure, whose numbers
- * are not those of the outputs. */
-static void make_noises(measures *m, const mechanism *of) {
-    noise *noises = NULL;
-    int count = 0;
-    for (int i = 0; i < m->count; i++) {
-        const expr *e = m->list[i].of;
-        const bool is_output = e->op == EXPR_SYMBOL && e->symbol->kind == SYM_OUTPUT;
-        symbol *measured = arena_alloc(m->arena, sizeof *measured);
-        for (int k = 0; k < of->noise_count && is_output; k++) {
-            if (of->noises[k].output == e->symbol) {
-                *measured = *e->symbol;
-                measured->index = i;
-                noises = arena_room(m->arena, noises, count, sizeof *noises);
-                noises[count] = of->noises[k];
-                noises[count++].output = measured;
-            }
-        }
-    }
-    m->mechanism.noises = noises;
-    m->mechanism.noise_count = count;
-}
-
 static void make_outputs(measures *m, const mechanism *of) {
     const symbol **outputs = arena_alloc(m->arena, (size_t)m->count * sizeof(const symbol *));
     for (int i = 0; i < m->count; i++) {
@@ -200,7 +176,6 @@ static void make_outputs(measures *m, const mechanism *of) {
     m->mechanism = *of;
     m->mechanism.outputs = outputs;
     m->mechanism.output_count = m->count;
-    make_noises(m, of);
 }
 
 measures *measures_new(const mechanism *of, const char *const *texts, int count, diags *errors) {

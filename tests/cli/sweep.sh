@@ -168,40 +168,6 @@ check "overruns of the points that ran now" \
 check "with a shorter step none" status 0 between --step 0.1ms
 check "with a shorter step none" sh -c "! grep -q overran '$scratch/said'"
 
-# --- noise ------------------------------------------------------------------------------------------
-# Measured as it is, an output has the noise of its records, wherever it stands; what is made of it has none.
-cat >"$scratch/noisy.whirl" <<'END'
-mechanism noisy
-coordinate x [m]
-T = 1 [kg]*x'^2/2
-output u = 1
-output v = 2
-output w [m] = 3 [m]
-noise w deviation 0.5 [m] seed 7
-noise u deviation 1 seed 3
-scene noisy_rests { step 1 [ms]; until 10 [ms] }
-END
-"$whirl" run "$scratch/noisy.whirl" --until 10ms --quiet --csv - | tail -n 1 | tr -d '\r' >"$scratch/noisy"
-noisy() { # noisy COLUMNS MEASURE...: those columns of the run are the measures of its sweep
-    columns=$1
-    shift
-    for measure; do
-        set -- "$@" --measure "$measure"
-        shift
-    done
-    "$whirl" sweep "$scratch/noisy.whirl" --until 10ms --over 'x=0..1:2' "$@" --quiet 2>"$scratch/err" |
-        sed -n 2p | tr -d '\r' | cut -d, -f2- >"$scratch/measured"
-    tr ',' '\n' <"$scratch/noisy" | awk -v columns="$columns" '{ value[NR] = $0 } END {
-        n = split(columns, c, " ")
-        for (i = 1; i <= n; i++) printf("%s%s", (c[i] > 0) ? value[c[i]] : -c[i], (i < n) ? "," : "\n") }' >"$scratch/columns"
-    check "noise on measures: $columns" cmp "$scratch/measured" "$scratch/columns"
-}
-noisy '6' w
-noisy '4' u
-noisy '5 6 4' v w u
-noisy '-6 6 -3 4 4' '2*w' w '3*u' u u
-noisy '2 3 4 5 6'
-
 # --- float angles that turn too slowly -------------------------------------------------------------
 cat >"$scratch/rotor.whirl" <<'END'
 mechanism rotor
@@ -217,43 +183,3 @@ check "slow angles: with a way out" grep -q '^hint: --compensated' "$scratch/sai
 check "compensated there are none" status 0 drift --compensated
 check "compensated there are none" sh -c "! grep -q slowly '$scratch/said'"
 
-# --- starts that cannot be --------------------------------------------------------------------------
-check "a start beyond a stop fails, as in run" status 1 \
-    "$whirl" sweep ball_bounces --until 0.1s --over 'z=-1..1:3' --measure z
-check "a start beyond a stop: why" grep -q 'point 1 (z=-1): the run starts beyond this stop, by 1 m' "$scratch/said"
-check "a start beyond a stop: an empty measure" test "$(tr -d '\r' <"$scratch/rows" | grep -c '^-1,$')" -eq 1
-sed 's/parameter e = 0.5 .*/input e = 0.5/' core/models/contacts.whirl >"$scratch/inputs.whirl"
-check "an input out of range fails, though points share a program" status 1 \
-    "$whirl" sweep "$scratch/inputs.whirl:ball_bounces" --until 0.1s --over 'e=0..2:3' --measure z
-check "an input out of range: why" grep -q 'point 3 (e=2): a restitution is from 0 to 1, and this is 2' "$scratch/said"
-
-# --- bad input -----------------------------------------------------------------------------------
-for bad in '--over ratio=1..2' '--over ratio=1...2:3' '--over ratio=1..2:0' '--over ratio=1..2:1' \
-    '--over ratio=0..1:3,log' '--over nothing=1..2:3' '--over r_disc=1..2[kg]:3' \
-    '--over r_disc=1[mm]..2:3' '--over step=0..1:3' "--over theta''=1..2:3" \
-    '--over ratio=1..2:2 --over ratio=1..2:2' '--over ratio=1..2:2 --measure amplitude(X)*2' \
-    '--over ratio=1..2:2 --measure Y' '--over ratio=1..2:2 --shard 3/2' '--over ratio=1..2:2 --jobs 0' \
-    '--over ratio=1..2:2 --from 3s' ''; do
-    # shellcheck disable=SC2086 # several words
-    check "bad input: $bad" status 2 "$whirl" sweep carriage_free $bad
-    check "bad input, with a message: $bad" grep -q 'error: ' "$scratch/said"
-done
-
-# --- closed forms --------------------------------------------------------------------------------
-# S16, figure 20: free force / fixed force = 1/(1 + weight ratio).
-"$whirl" sweep carriage_free --until 0.5s --over ratio=0.01..1:12 --quiet \
-    --measure "max(pin_force/(S*theta'^2))" >"$scratch/figure20"
-judge "figure 20: force ratio 1/(1 + weight ratio), to 1e-12" "$scratch/figure20" \
-    'off($2, 1/(1 + $1)) < 1e-12'
-# S18, test 1: speed changes the frequency, not the amplitude S/(m_car + m_ecc).
-"$whirl" sweep carriage_free --step 0.2ms --over "theta'=100..400 [rpm]:4" --quiet \
-    --measure 'amplitude(X)' --measure 'period(X)' --measure 'S/(m_car + m_ecc)' >"$scratch/speed"
-judge "speed does not change the amplitude, to 1e-5" "$scratch/speed" 'off($2/$4, 1) < 1e-5'
-judge "speed changes the frequency: period = 2 pi / speed, to 0.1 %" "$scratch/speed" \
-    'off($3*$1, 6.283185307179586) < 6.3e-3'
-# S18, test 2: the amplitude is proportional to the radius (arms without mass).
-"$whirl" sweep carriage_free --step 0.2ms --over 'r_disc=2..8 [in]:4' --set m_arm=0 --quiet \
-    --measure 'amplitude(X)' --measure 'm_ecc/(m_car + m_ecc)' >"$scratch/radius"
-judge "amplitude = radius m/(m + M), to 1e-5" "$scratch/radius" 'off($2/($1*$3), 1) < 1e-5'
-
-exit $failed
