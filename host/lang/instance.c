@@ -42,7 +42,8 @@ static void apply(plan *into, const assignment *change) {
     case SYM_COORDINATE:
     case SYM_STATE: into->start[index][change->primes] = value; break;
     case SYM_LET:
-    case SYM_OUTPUT: break; /* refused when it was read */
+    case SYM_OUTPUT:
+    case SYM_RECORD: break; /* refused when it was read */
     }
 }
 

@@ -21,7 +21,8 @@ typedef enum symbol_kind {
     SYM_PARAMETER,  /* constant of a run; value from an expression of constants */
     SYM_INPUT,      /* may change while running; declared value from an expression of constants */
     SYM_LET,        /* shorthand; stands for its expression */
-    SYM_OUTPUT      /* computed for records; may be used by later outputs */
+    SYM_OUTPUT,     /* computed for records; may be used by later outputs */
+    SYM_RECORD      /* an output as it is recorded, noise included: in a sweep's measures only */
 } symbol_kind;
 
 typedef struct expr expr;
@@ -33,7 +34,7 @@ typedef struct symbol {
     const char *unit;  /* the unit as written between brackets, or "" */
     dimension dim;     /* of the symbol without primes */
     bool is_angle;     /* declared [rad] (or [deg], [rev]): coordinate or state */
-    const expr *value; /* parameter, input, let, output: its expression; else NULL */
+    const expr *value; /* parameter, input, let, output, record: its expression; else NULL */
     place at;          /* where it was declared */
     int index;         /* running number within its kind in its mechanism, declaration order */
     int effect;        /* index of the effect that declared it, or -1 */
@@ -154,6 +155,7 @@ enum { HYBRIDS_MAX = 16, SETS_MAX = 128 };
 /* `noise OUTPUT deviation EXPR seed NUMBER`: Gaussian noise on a recorded output (core/noise.h). */
 typedef struct noise {
     const symbol *output;
+    const symbol *record;  /* the output with its noise, SYM_RECORD: one for each output */
     const expr *deviation; /* an expression of constants, of the output's dimension, >= 0 */
     uint32_t seed;
     int effect;
