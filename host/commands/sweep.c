@@ -182,6 +182,22 @@ static const char *model_text(const source_model *from) {
     return from->text != NULL ? from->text : "";
 }
 
+/* A sweep over what takes no part would write the same row again and again. */
+static bool axes_take_part(const grid *g, const instance *base) {
+    for (int i = 0; i < g->count; i++) {
+        const symbol *swept = g->axes[i].symbol;
+        const effect *missing = swept != NULL ? instance_lacks(base, swept) : NULL;
+        if (missing != NULL) {
+            fprintf(stderr,
+                    "whirl sweep: error: '%s' belongs to the effect '%s', which takes no part here\n"
+                    "hint: add --with %s\n",
+                    swept->name, missing->name, missing->name);
+            return false;
+        }
+    }
+    return true;
+}
+
 static int sweep_loaded(const sweep_options *o, const source_model *from, const loaded *base,
                         sweep *s) {
     const char *missing = program_needs_libm(base->program);
@@ -190,6 +206,9 @@ static int sweep_loaded(const sweep_options *o, const source_model *from, const 
                 "%s: error: '%s' needs %s, which the core does not offer in float\n"
                 "hint: sweep it with --number double\n",
                 from->file, base->instance->name, missing);
+        return EXIT_BAD_INPUT;
+    }
+    if (!axes_take_part(s->grid, base->instance)) {
         return EXIT_BAD_INPUT;
     }
     s->shared = sweep_can_share(s->grid, base->program) ? base->program : NULL;

@@ -267,6 +267,10 @@ bool instance_has_hybrid(const instance *instance, const hybrid *hybrid);
 /* The same of a noise. */
 bool instance_has_noise(const instance *instance, const noise *noise);
 
+/* The effect that declared this parameter or input, where it takes no part in the instance; NULL where it
+ * does, and for what belongs to no effect. */
+const effect *instance_lacks(const instance *instance, const symbol *what);
+
 /* Evaluate a scene (or, with scene NULL, the mechanism at rest at zero) to numbers. `changes` may be
  * NULL. Returns NULL on error, reported to `diags`. */
 instance *instance_make(const mechanism *mechanism, const scene *scene, const overrides *changes,
