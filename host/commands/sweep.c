@@ -15,9 +15,11 @@
 #include "options.h"
 
 static const char usage[] =
-    "usage: whirl sweep SCENE|FILE[:SCENE] --over NAME=FROM..TO:COUNT[,log] ... [options]\n"
+    "usage: whirl sweep SCENE|MECHANISM[:SCENE]|FILE[:SCENE] --over NAME=FROM..TO:COUNT[,log] ...\n"
+    "                   [options]\n"
     "\n"
     "Runs a scene at every point of a grid and writes a row of measures for each.\n"
+    "What is run is named as for `whirl run`.\n"
     "\n"
     "  --over RANGE         COUNT values of a parameter, an input, a start value or the step;\n"
     "                       a bare number is SI: \"r=10..60 [mm]:11\", \"theta'=1..4 [rpm]:7\",\n"
