@@ -5,6 +5,7 @@
 
 #include "commands.h"
 #include "host/run/engine.h"
+#include "host/run/number.h"
 #include "load.h"
 #include "options.h"
 
@@ -57,7 +58,7 @@ int command_accel(int count, char **words) {
                 for (int k = 0; k < made.equations->unknowns[i].order; k++) {
                     putchar('\'');
                 }
-                printf(" = %.17g\n", result[i]);
+                printf(" = %.17g\n", number_shown(result[i]));
             }
             free(result);
             free(input);

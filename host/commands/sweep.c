@@ -190,10 +190,11 @@ static bool axes_take_part(const grid *g, const instance *base) {
         const symbol *swept = g->axes[i].symbol;
         const effect *missing = swept != NULL ? instance_lacks(base, swept) : NULL;
         if (missing != NULL) {
-            fprintf(stderr,
-                    "whirl sweep: error: '%s' belongs to the effect '%s', which takes no part here\n"
-                    "hint: add --with %s\n",
-                    swept->name, missing->name, missing->name);
+            fprintf(
+                stderr,
+                "whirl sweep: error: '%s' belongs to the effect '%s', which takes no part here\n"
+                "hint: add --with %s\n",
+                swept->name, missing->name, missing->name);
             return false;
         }
     }

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "host/run/number.h"
 #include "host/run/start.h"
 
 /* Steps between two questions whether to give up. */
@@ -303,7 +304,7 @@ bool sweep_point(const sweep *s, uint64_t point, bool (*abandon)(void), FILE *ro
         if (good && isnan(measured[i])) {
             fputs("nan", row); /* never "-nan" */
         } else if (good) {
-            fprintf(row, "%.*g", s->kind->digits, measured[i]);
+            fprintf(row, "%.*g", s->kind->digits, number_shown(measured[i]));
         }
     }
     fputs("\r\n", row);
