@@ -178,8 +178,11 @@ static int run_loaded(run_options *o, const source_model *from, const loaded *ma
         diags_flush(from->errors, stderr);
         return EXIT_BAD_INPUT;
     }
-    struct sigaction action = {.sa_handler = on_interrupt};
+    /* records go on being written; a second Ctrl-C ends it at once, whatever it waits for */
+    struct sigaction action = {.sa_handler = on_interrupt,
+                               .sa_flags = SA_RESTART | (int)SA_RESETHAND};
     sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
     o->settings.stop = &interrupted;
     o->settings.progress = !o->settings.quiet && isatty(STDERR_FILENO);
     switch (simulate(made->equations, made->program, &o->settings)) {

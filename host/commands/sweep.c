@@ -229,7 +229,8 @@ static int sweep_loaded(const sweep_options *o, const source_model *from, const 
                                        .fresh = o->fresh,
                                        .quiet = o->quiet,
                                        .stop = &interrupted};
-    struct sigaction action = {.sa_handler = on_interrupt};
+    struct sigaction action = {.sa_handler = on_interrupt,
+                               .sa_flags = SA_RESTART | (int)SA_RESETHAND};
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
     const int code = session_run(s, &settings);
