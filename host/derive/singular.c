@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #define TRIES 24
@@ -11,6 +12,8 @@
 #define TRY_START TRIES
 /* A pivot below this part of its row's size counts as zero. */
 #define NO_PIVOT 1e-11
+
+enum { HINT_SIZE = 320 };
 
 typedef struct generic_state {
     const instance *instance;
@@ -184,7 +187,21 @@ static void report_singular_system(const equations *e, diags *errors) {
     }
 }
 
+/* An effect that takes no part here and whose T contains the rate of `s`; NULL: none. */
+static const char *effect_with_inertia(const equations *e, const symbol *s) {
+    const mechanism *m = e->instance->mechanism;
+    for (int i = 0; i < m->term_count; i++) {
+        const term *t = &m->terms[i];
+        if (t->kind == TERM_T && !instance_has_term(e->instance, t) &&
+            poly_contains(poly_from_expr(e->algebra, t->value), s, 1)) {
+            return m->effects[t->effect].name;
+        }
+    }
+    return NULL;
+}
+
 static void report_singular(const equations *e, diags *errors) {
+    char hint[HINT_SIZE] = "give it a mass or an inertia, or remove the coordinate";
     const int n = e->count;
     if (e->instance->mechanism->is_system) {
         report_singular_system(e, errors);
@@ -196,16 +213,35 @@ static void report_singular(const equations *e, diags *errors) {
             empty = empty && poly_is_zero(e->mass[i * n + j]);
         }
         if (empty) {
-            diag_error(errors, e->unknowns[i].symbol->at,
-                       "give it a mass or an inertia, or remove the coordinate",
+            const char *giver = effect_with_inertia(e, e->unknowns[i].symbol);
+            if (giver != NULL) {
+                snprintf(
+                    hint, sizeof hint,
+                    "the effect '%.60s' gives it one: name it in the scene: with %.60s, or add "
+                    "--with %.60s",
+                    giver, giver, giver);
+            }
+            diag_error(errors, e->unknowns[i].symbol->at, hint,
                        "singular mass matrix: the kinetic energy does not contain %s'",
                        e->unknowns[i].symbol->name);
             return;
         }
     }
+    snprintf(hint, sizeof hint,
+             "two coordinates may describe the same motion, or a mass may be zero");
+    for (int i = 0; i < n; i++) {
+        const char *giver = effect_with_inertia(e, e->unknowns[i].symbol);
+        if (giver != NULL) {
+            snprintf(
+                hint, sizeof hint,
+                "the effect '%.60s', which adds to the kinetic energy, takes no part here: name "
+                "it in the scene: with %.60s, or add --with %.60s",
+                giver, giver, giver);
+            break;
+        }
+    }
     diag_error(
-        errors, e->instance->mechanism->at,
-        "two coordinates may describe the same motion, or a mass may be zero",
+        errors, e->instance->mechanism->at, hint,
         "singular mass matrix: '%s' cannot be solved for its accelerations at any state tried",
         e->instance->mechanism->name);
 }
