@@ -149,21 +149,19 @@ ledger_lists *ledger_lists_make(const program *p, const equations *e, layout *ma
     }
     find_inputs(l, p, e);
     l->entries += l->inputs;
-    bool good = l->entries <= WH_LEDGER_MAX;
+    const bool good = l->entries <= WH_LEDGER_MAX;
     if (good) {
         l->powers = enter(p, map, power, l->smooth);
         l->levels = make_levels(l, p, e, map);
         /* an angle that the equations have only inside sines, and a power outside them */
         for (int i = 0; i < l->powers->count; i++) {
-            good = good && l->powers->ops[i].code != OP_RADIANS;
+            l->turned = l->turned || l->powers->ops[i].code == OP_RADIANS;
         }
     }
     if (!good) {
         diag_error(errors, e->instance->mechanism->at, "leave out the ledger",
-                   "the books of '%s' cannot be kept: %s", e->instance->mechanism->name,
-                   l->entries > WH_LEDGER_MAX
-                       ? "there are too many entries"
-                       : "a power depends on an angle that no equation does");
+                   "the books of '%s' cannot be kept: there are too many entries",
+                   e->instance->mechanism->name);
         ledger_lists_free(l);
         l = NULL;
     }
