@@ -43,15 +43,29 @@ static bool is_noisy(const equations *e, const symbol *record) {
     return false;
 }
 
+typedef struct recording {
+    const equations *equations;
+    const conservation *conserved;
+} recording;
+
+/* The output of a record, as lists want it. */
+static const poly *exact_output(const recording *r, const symbol *record) {
+    const equations *e = r->equations;
+    const poly *output = poly_from_expr(e->algebra, record->value);
+    return conservation_settle(e, r->conserved, equations_fold(e, output));
+}
+
 static const poly *quiet_record(void *context, algebra *a, const symbol *s, int primes) {
-    const equations *e = context;
+    const recording *r = context;
+    (void)a;
     (void)primes;
-    return s->kind == SYM_RECORD && !is_noisy(e, s) ? poly_from_expr(a, s->value) : NULL;
+    return s->kind == SYM_RECORD && !is_noisy(r->equations, s) ? exact_output(r, s) : NULL;
 }
 
 noise_records noise_records_find(const equations *e, const conservation *conserved,
                                  const poly **wanted, int count) {
     const mechanism *m = e->instance->mechanism;
+    recording of = {e, conserved};
     noise_records r = {calloc((size_t)m->noise_count + 1, sizeof(const poly *)),
                        calloc((size_t)m->noise_count + 1, sizeof(int)), 0};
     if (r.exact == NULL || r.node == NULL) {
@@ -64,13 +78,11 @@ noise_records noise_records_find(const equations *e, const conservation *conserv
             named = named || poly_contains(wanted[i], record, 0);
         }
         if (named && is_noisy(e, record)) {
-            const poly *output = poly_from_expr(e->algebra, record->value);
-            r.exact[k] = conservation_settle(e, conserved, equations_fold(e, output));
+            r.exact[k] = exact_output(&of, record);
             r.count++;
         } else if (named) {
             for (int i = 0; i < count; i++) {
-                wanted[i] =
-                    poly_substitute(e->algebra, wanted[i], quiet_record, (void *)(uintptr_t)e);
+                wanted[i] = poly_substitute(e->algebra, wanted[i], quiet_record, &of);
             }
         }
     }

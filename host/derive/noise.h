@@ -15,7 +15,7 @@ typedef struct noise_records {
     int count;          /* of exact that are not NULL */
 } noise_records;
 
-/* Replace in wanted [count] the records that no noise takes part in by their outputs, and find the others. Free
+/* Replace in wanted [count], folded and settled, the records that no noise takes part in by their outputs, and find the others. Free
  * with noise_records_free(). */
 noise_records noise_records_find(const equations *e, const conservation *conserved,
                                  const poly **wanted, int count);

@@ -26,10 +26,11 @@ typedef struct made_up {
  * scene names or does not name. */
 static made_up make_up(uint64_t *seed) {
     made_up m = {.text = "mechanism noisy\ncoordinate th [rad]\ncoordinate x [m]\n"
+                         "parameter l = 0.7 [m]\n"
                          "T = 1 [kg*m^2]*th'^2 + 1 [kg]*x'^2 + 0.5 [kg*m]*x'*th'*cos(th)\n"
                          "V = 3 [J]*(1 - cos(th)) + 2 [N/m]*x^2\n"};
-    static const char *const values[] = {"x",           "1 [m]*sin(th)",      "0.3*x + 1 [m]",
-                                         "1 [s]*x'",    "x*cos(th)^2",        "1 [m]*th'*1 [s]",
+    static const char *const values[] = {"x",           "l*sin(th)",          "0.3*x + 1 [m]",
+                                         "1 [s]*x'",    "x*cos(th)^2 - l",    "1 [m]*th'*1 [s]",
                                          "1 [s^2]*x''", "x^2/1 [m] - 0.2 [m]"};
     char effects[1500] = "effect called { parameter sigma = 2 [mm]\n";
     char silent[1500] = "effect silent { parameter tau = 50 [mm]\n";
