@@ -301,9 +301,7 @@ bool sweep_point(const sweep *s, uint64_t point, bool (*abandon)(void), FILE *ro
     sweep_swept_fields(s, point, row);
     for (int i = 0; i < s->measures->count; i++) {
         fputc(',', row);
-        if (good && isnan(measured[i])) {
-            fputs("nan", row); /* never "-nan" */
-        } else if (good) {
+        if (good) {
             fprintf(row, "%.*g", s->kind->digits, number_shown(measured[i]));
         }
     }

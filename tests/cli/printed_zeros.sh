@@ -1,15 +1,15 @@
 #!/bin/sh
-# printed_zeros.sh: nothing that is printed says "-0": summaries, books, records, rows of sweeps, accelerations, derived
+# printed_zeros.sh: nothing that is printed says "-0" or "-nan": summaries, books, records, rows of sweeps, accelerations, derived
 # text, for every built-in scene, from zeros with a sign too. The state keeps its own sign.
 . "$(dirname "$0")/../checks.sh"
 
 # signed FILE...: lines with a zero that has a sign. "-0.5" and "1e-05" have none.
 signed() {
-    grep -nE '(^|[^0-9A-Za-z_.)-])-0(\.0*)?(e[-+]?[0-9]+)?($|[^0-9.e])' "$@"
+    grep -nE -e '-nan|(^|[^0-9A-Za-z_.)-])-0(\.0*)?(e[-+]?[0-9]+)?($|[^0-9.e])' "$@"
 }
 
-printf '%s\n' '-0' 'x = -0' 'a,-0,b' ' -0 J' '-0.000' '-0.00e+00' '-0 -> 1' >"$scratch/probe"
-[ "$(signed "$scratch/probe" | wc -l)" -eq 7 ]
+printf '%s\n' '-0' 'x = -0' 'a,-0,b' ' -0 J' '-0.000' '-0.00e+00' '-0 -> 1' 'x -nan' >"$scratch/probe"
+[ "$(signed "$scratch/probe" | wc -l)" -eq 8 ]
 verdict $? "the check knows a zero with a sign"
 printf '%s\n' '-0.5' '1e-05' '-0.01e-3' 'x-0' '2-0' '0' '-1' '1.5e-0' >"$scratch/probe"
 ! signed "$scratch/probe" >/dev/null
@@ -42,6 +42,8 @@ F = 0.1 [kg/s]*x'^2/2
 Q(x) = push - k*x
 output mirrored [m] = -x
 output pull [N] = -3 [N/m]*x
+output none [m] = sqrt(x^2 - 1 [m^2])
+output neither [m] = -none
 effect drag { Q(th) += -1 [N*m*s]*th' }
 scene still_rests { start x = -0, th = -0, x' = -0 [m/s], th' = -0 [rad/s]; with drag; until 10 [ms] }
 END
@@ -56,7 +58,7 @@ for number in double float; do
         } >>"$scratch/still.out"
     done
     "$whirl" sweep "$still" --number $number --over x=-0..-0:1 --over push=-1..0:2 --over "th'=-0..1:2" --quiet \
-        --measure mirrored --measure 'min(pull)' --measure 'mean(mirrored)' --measure "x''" >>"$scratch/still.out"
+        --measure mirrored --measure 'min(pull)' --measure 'mean(mirrored)' --measure none --measure neither --measure "x''" >>"$scratch/still.out"
     "$whirl" sweep "$still" --number $number --over x=-0..-0:1 --quiet >>"$scratch/still.out"
 done
 "$whirl" accel "$still" x=-0 "th'=-0" >>"$scratch/still.out"
