@@ -80,6 +80,7 @@ verdict $? "run without records: its books are there" "$scratch/out"
 
 # a second one ends what waits: here for a reader that never comes
 mkfifo "$scratch/pipe"
+# shellcheck disable=SC2217 # it holds the pipe open and reads nothing
 sleep 100 <"$scratch/pipe" &
 reader=$!
 "$whirl" run epicyclic_from_rest --until 1000000s --csv "$scratch/pipe" --quiet 2>/dev/null &

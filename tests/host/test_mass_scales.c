@@ -83,7 +83,7 @@ static void mass_matrix(const bodies *b, long double *mass) {
             for (int k = 0; k < b->count; k++) {
                 sum += (long double)b->mass_kg[k] * b->part[k * b->n + i] * b->part[k * b->n + j];
             }
-            mass[i * b->n + j] = sum * b->unit[i] * b->unit[j];
+            mass[i * b->n + j] = sum * (long double)b->unit[i] * (long double)b->unit[j];
         }
     }
 }
@@ -151,7 +151,7 @@ static double check_right(const bodies *b, uint64_t *seed) {
     mass_matrix(b, mass);
     for (int i = 0; i < n; i++) {
         force[i] = random_between(seed, -1.0, 1.0) * sqrt((double)mass[i * n + i]);
-        right[i] = force[i];
+        right[i] = (long double)force[i];
     }
     solve(mass, right, n, wanted);
     char *text = text_of(b, force);
