@@ -70,6 +70,16 @@ WH_INLINE bool wh_phase_move(wh_phase phase, wh_real steps, wh_phase *moved) {
     return true;
 }
 
+/* The angle of this phase that is less than half a turn from `angle`: where a stage of a step stands. */
+WH_INLINE wh_angle wh_angle_near(wh_angle angle, wh_phase phase) {
+#if WH_DOUBLE
+    (void)angle;
+    return phase;
+#else
+    return angle + (int32_t)(phase - wh_phase_of(angle));
+#endif
+}
+
 /* Sine and cosine of a phase together; a caller that drops one pays for one. At most 1 in size,
  * and exact at quarter turns. Float: the worst error over all 2^32 phases is 6.3e-8 (`make
  * sine-exhaustive` measures it). Double: 1.4e-16 for |phase| <= 5e8 rad; beyond it, or of NaN, both

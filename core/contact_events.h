@@ -40,7 +40,7 @@ static inline bool wh_contact_try(const wh_hybrid *of, wh_contact_work *w, wh_re
                                   wh_real *input, wh_contact_state *s, int *fault) {
     const wh_contact_model model = {of, w};
     wh_state view = {0, s->angle, s->real, s->carry, input, NULL, NULL, NULL, -1};
-    wh_books_begin(of, w, h);
+    wh_books_begin(of, w, s->angle, h);
     const wh_status status = wh_step_second(&model, wh_contact_accel, of->method, of->compensated,
                                             of->angles, of->coordinates, h, &view);
     wh_books_end(of, w);

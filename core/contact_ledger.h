@@ -64,9 +64,10 @@ static inline void wh_books_levels(const wh_hybrid *of, const wh_contact_work *w
     }
 }
 
-WH_INLINE void wh_books_begin(const wh_hybrid *of, wh_contact_work *w, wh_real span) {
+WH_INLINE void wh_books_begin(const wh_hybrid *of, wh_contact_work *w, const wh_angle *angle,
+                              wh_real span) {
     if (wh_books_open(of, w)) {
-        wh_ledger_begin(of->ledger, w->books, span);
+        wh_ledger_begin(of->ledger, angle, w->books, span);
     }
 }
 
@@ -87,7 +88,7 @@ WH_INLINE void wh_books_accept(const wh_hybrid *of, wh_contact_work *w) {
 #define wh_books_stage(of, w, phase, linear, rate, input) ((void)0)
 #define wh_books_impulse(of, w, k, impulse, before, after) ((void)0)
 #define wh_books_levels(of, w, s, input, k, sign) ((void)0)
-#define wh_books_begin(of, w, span) ((void)0)
+#define wh_books_begin(of, w, angle, span) ((void)0)
 #define wh_books_end(of, w) ((void)0)
 #define wh_books_accept(of, w) ((void)0)
 

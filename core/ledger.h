@@ -35,9 +35,12 @@ typedef void wh_levels_fn(const void *model, const wh_angle *angle, const wh_rea
 
 /* A scene's ledger, constant. The functions are lists of operations like the accelerations. */
 struct wh_ledger_form {
-    const void *model;      /* first argument of the functions */
-    wh_accel_fn *powers;    /* result[smooth]: what goes into the account, a second */
-    wh_levels_fn *levels;   /* result[1 + all coordinates] */
+    const void *model;    /* first argument of the functions */
+    wh_accel_fn *powers;  /* result[smooth]: what goes into the account, a second */
+    wh_levels_fn *levels; /* result[1 + all coordinates] */
+    /* in place of powers where one needs a turn angle itself, in radians, which no acceleration does: a
+     * total derivative in the energies, as th^2 th', drops out of the equations and not of dL/dth; or NULL */
+    wh_levels_fn *turned;
     const uint8_t *account; /* [smooth] */
     const uint8_t *input;   /* [inputs] those that the energies name; the last entries are theirs */
     uint16_t smooth;        /* entries of powers and forces */
@@ -91,6 +94,7 @@ typedef struct wh_ledger_work {
     wh_real attempt[WH_LEDGER_MAX]; /* of the present try */
     wh_real step[WH_LEDGER_MAX];    /* of the whole step so far */
     wh_real span;                   /* length of the present try, s; zero: there is none */
+    const wh_angle *angle;          /* where it begins */
     unsigned stage;
 } wh_ledger_work;
 
@@ -102,11 +106,14 @@ WH_INLINE wh_real wh_ledger_weight(wh_method method, unsigned stage) {
     return method == WH_HEUN ? WH_R(0.5) : WH_R(1.0);
 }
 
-WH_INLINE void wh_ledger_begin(const wh_ledger_form *form, wh_ledger_work *w, wh_real span) {
+/* A try from `angle` on, [form->angles], which stays as it is until the last stage has been. */
+WH_INLINE void wh_ledger_begin(const wh_ledger_form *form, const wh_angle *angle, wh_ledger_work *w,
+                               wh_real span) {
     for (unsigned i = 0; i < form->entries; i++) {
         w->attempt[i] = WH_R(0.0);
     }
     w->span = span;
+    w->angle = angle;
     w->stage = 0;
 }
 
@@ -126,7 +133,15 @@ WH_INLINE wh_real wh_ledger_stage(const wh_ledger_form *form, wh_method method,
         power[i] = WH_R(0.0);
     }
     const wh_real share = w->span * wh_ledger_weight(method, w->stage++);
-    form->powers(form->model, phase, linear, rate, input, power);
+    if (form->turned != NULL) {
+        wh_angle angle[WH_COORDS];
+        for (unsigned i = 0; i < form->angles; i++) {
+            angle[i] = wh_angle_near(w->angle[i], phase[i]);
+        }
+        form->turned(form->model, angle, linear, rate, input, power);
+    } else {
+        form->powers(form->model, phase, linear, rate, input, power);
+    }
     for (unsigned i = 0; i < form->smooth; i++) {
         w->attempt[i] += share * power[i];
     }
@@ -206,7 +221,7 @@ WH_INLINE wh_status wh_step_ledger(const wh_ledger_form *form, const void *model
     wh_ledger_work work;
     const wh_ledger_model with = {form, model, accel, method, &work};
     wh_ledger_open(form, state, &work);
-    wh_ledger_begin(form, &work, h);
+    wh_ledger_begin(form, state->angle, &work, h);
     const wh_status status = wh_step_second(&with, wh_ledger_accel, method, compensated,
                                             form->angles, form->coordinates, h, state);
     if (status == WH_OK) {

@@ -20,6 +20,7 @@ static const char usage[] =
     "  whirl run SCENE|FILE[:SCENE] ...   simulate\n"
     "  whirl sweep SCENE|FILE[:SCENE] ... simulate over ranges of parameters\n"
     "\n"
+    "For FILE[:SCENE] the built-in MECHANISM[:SCENE] can stand everywhere.\n"
     "`whirl COMMAND --help` says more; --version prints the version.\n"
     "Exit status: 0 done, 1 the run failed, 2 bad input.\n";
 

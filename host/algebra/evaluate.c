@@ -56,3 +56,22 @@ double poly_evaluate(const poly *p, poly_value *value, void *context) {
     }
     return sum;
 }
+
+double poly_magnitude(const poly *p, poly_value *value, void *context) {
+    double sum = 0.0;
+    for (int i = 0; i < p->count; i++) {
+        const mono *m = p->terms[i].mono;
+        double product = fabs(p->terms[i].coefficient);
+        for (int k = 0; k < m->count; k++) {
+            const atom *x = m->factors[k].atom;
+            const double exponent = m->factors[k].exponent;
+            double base = fabs(atom_value(x, value, context));
+            if (x->kind == ATOM_GROUP && exponent > 0.0) {
+                base = fmax(base, poly_magnitude(x->argument[0], value, context));
+            }
+            product *= pow(base, exponent);
+        }
+        sum += product;
+    }
+    return sum;
+}

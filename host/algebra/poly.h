@@ -135,6 +135,9 @@ const poly *poly_expanded(algebra *a, const poly *p);
 /* The value of p, with `value` answering for every symbol. */
 typedef double poly_value(void *context, const symbol *sym, int primes);
 double poly_evaluate(const poly *p, poly_value *value, void *context);
+/* The sum of the sizes of its terms: what the rounding of poly_evaluate() is a part of. Sines and cosines
+ * count as one, as their errors do. */
+double poly_magnitude(const poly *p, poly_value *value, void *context);
 
 /* The poly of a parsed expression; lets are replaced by what they stand for. */
 const poly *poly_from_expr(algebra *a, const expr *e);

@@ -5,16 +5,18 @@
 
 #include "commands.h"
 #include "host/run/engine.h"
+#include "host/run/number.h"
 #include "load.h"
 #include "options.h"
 
 static const char usage[] =
-    "usage: whirl accel FILE|FILE:NAME|NAME [NAME=VALUE ...]\n"
+    "usage: whirl accel FILE[:NAME]|SCENE|MECHANISM[:SCENE] [NAME=VALUE ...]\n"
     "\n"
     "Prints the accelerations at one state, a line each, 17 significant digits:\n"
     "    whirl accel core/models/epicyclic.whirl theta=0.3 \"theta'=1.2\" M=1.5\n"
     "Coordinates, their rates, inputs and parameters can be set; values are SI, or carry a unit:\n"
-    "    \"theta'=330 [rpm]\". What is left out is 0, or has its declared value.\n";
+    "    \"theta'=330 [rpm]\". What is left out is 0, or has its declared value. SCENE and MECHANISM are\n"
+    "built in (`whirl list`). A scene brings its effects, whose parameters can be set then.\n";
 
 int command_accel(int count, char **words) {
     if (options_help(count, words, usage)) {
@@ -56,7 +58,7 @@ int command_accel(int count, char **words) {
                 for (int k = 0; k < made.equations->unknowns[i].order; k++) {
                     putchar('\'');
                 }
-                printf(" = %.17g\n", result[i]);
+                printf(" = %.17g\n", number_shown(result[i]));
             }
             free(result);
             free(input);

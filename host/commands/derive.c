@@ -9,11 +9,12 @@
 #include "options.h"
 
 static const char usage[] =
-    "usage: whirl derive FILE|FILE:NAME|NAME [--as text|latex|octave|c] [--with E,...]\n"
-    "                    [--without E,...] [--set NAME=EXPR] [--start NAME=EXPR]\n"
+    "usage: whirl derive FILE[:NAME]|SCENE|MECHANISM[:SCENE] [--as text|latex|octave|c]\n"
+    "                    [--with E,...] [--without E,...] [--set NAME=EXPR] [--start NAME=EXPR]\n"
     "                    [--step 1ms] [--until 9s] [--method M] [--compensated]\n"
     "\n"
-    "Prints the equations of motion of a mechanism (or of a scene, with its effects):\n"
+    "Prints the equations of motion of a mechanism (or of a scene, with its effects), of a FILE or\n"
+    "built in (`whirl list`):\n"
     "  --as text    one equation a coordinate, as in a textbook, and the first-order form (default)\n"
     "  --as latex   the same for a paper\n"
     "  --as octave  a function file that Octave and Matlab integrate as it stands\n"

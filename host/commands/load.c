@@ -7,9 +7,9 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "host/lang/builtin.h"
+#include "files.h"
+#include "find.h"
 #include "host/lang/hints.h"
-#include "host/lang/nearest.h"
 
 static char *copy_of(const char *text, size_t length) {
     char *copy = malloc(length + 1);
@@ -63,17 +63,6 @@ static bool file_exists(const char *path) {
     return strcmp(path, "-") == 0 || stat(path, &about) == 0;
 }
 
-static bool same_object(const struct stat *one, const struct stat *other) {
-    return one->st_dev == other->st_dev && one->st_ino == other->st_ino;
-}
-
-bool same_file(const char *one, const char *other) {
-    struct stat first;
-    struct stat second;
-    return strcmp(one, other) == 0 || (stat(one, &first) == 0 && stat(other, &second) == 0 &&
-                                       S_ISREG(first.st_mode) && same_object(&first, &second));
-}
-
 bool source_would_be_lost(const source_model *s, const char *option, const char *path,
                           const char *ending) {
     struct stat about_model;
@@ -81,8 +70,9 @@ bool source_would_be_lost(const source_model *s, const char *option, const char 
     if (path == NULL || strcmp(path, "-") == 0 || s->path == NULL) {
         return false;
     }
-    const bool model_known = (strcmp(s->path, "-") == 0 ? fstat(fileno(stdin), &about_model)
-                                                        : stat(s->path, &about_model)) == 0;
+    const bool from_stdin = strcmp(s->path, "-") == 0;
+    const bool model_known =
+        (from_stdin ? fstat(fileno(stdin), &about_model) : stat(s->path, &about_model)) == 0;
     const size_t size = strlen(path) + strlen(ending) + 1;
     char *name = malloc(size);
     if (name == NULL) {
@@ -90,7 +80,8 @@ bool source_would_be_lost(const source_model *s, const char *option, const char 
     }
     snprintf(name, size, "%s%s", path, ending);
     const bool lost = model_known && S_ISREG(about_model.st_mode) &&
-                      stat(name, &about_output) == 0 && same_object(&about_model, &about_output);
+                      stat(name, &about_output) == 0 &&
+                      files_are_one(&about_model, from_stdin ? NULL : s->path, &about_output, name);
     if (lost) {
         fprintf(stderr,
                 "%s: error: %s would write over the model, which is read from this file\n"
@@ -110,57 +101,16 @@ static size_t file_part(const char *target) {
     return (size_t)(colon - target);
 }
 
-static bool model_has(const model *m, const char *name) {
-    for (int i = 0; i < m->scene_count; i++) {
-        if (strcmp(m->scenes[i]->name, name) == 0) {
-            return true;
-        }
-    }
-    for (int i = 0; i < m->mechanism_count; i++) {
-        if (strcmp(m->mechanisms[i]->name, name) == 0) {
-            return true;
-        }
-    }
-    return false;
-}
-
 static int open_builtin(source_model *s, const char *target) {
-    nearest search = nearest_start(target, strlen(target));
-    char best[128] = "";
-    for (size_t i = 0; i < builtin_model_count; i++) {
-        const struct builtin_model *b = &builtin_models[i];
-        model *m = model_parse(b->file, b->text, b->length, s->errors);
-        if (m == NULL) {
-            diags_flush(s->errors, stderr);
-            return EXIT_BAD_INPUT;
-        }
-        if (model_has(m, target)) {
-            s->model = m;
-            s->file = b->file;
-            s->name = copy_of(target, strlen(target));
-            return EXIT_DONE;
-        }
-        const char *before = search.best;
-        for (int k = 0; k < m->scene_count; k++) {
-            nearest_offer(&search, m->scenes[k]->name);
-        }
-        for (int k = 0; k < m->mechanism_count; k++) {
-            nearest_offer(&search, m->mechanisms[k]->name);
-        }
-        if (search.best != before && search.best != NULL) {
-            snprintf(best, sizeof best, "%s", search.best);
-            search.best = best;
-        }
-        model_free(m);
+    const struct builtin_model *from;
+    const char *name;
+    const int code = find_builtin(builtin_models, builtin_model_count, target, s->errors, &s->model,
+                                  &from, &name);
+    if (code == EXIT_DONE) {
+        s->file = from->file;
+        s->name = copy_of(name, strlen(name));
     }
-    fprintf(stderr, "whirl: error: there is no file and no built-in scene or mechanism '%s'\n",
-            target);
-    if (search.best != NULL) {
-        fprintf(stderr, "hint: did you mean '%s'? `whirl list` shows all\n", best);
-    } else {
-        fprintf(stderr, "hint: `whirl list` shows the built-in ones\n");
-    }
-    return EXIT_BAD_INPUT;
+    return code;
 }
 
 int source_open(source_model *s, const char *target) {

@@ -16,7 +16,7 @@ typedef struct source_model {
     diags *errors;
 } source_model;
 
-/* `target` is FILE, FILE:NAME, or the name of a built-in scene or mechanism. On failure the errors
+/* `target` is FILE, FILE:NAME, or a built-in SCENE, MECHANISM or MECHANISM:SCENE. On failure the errors
  * have been printed; returns an exit code. */
 int source_open(source_model *source, const char *target);
 void source_close(source_model *source);
@@ -26,8 +26,6 @@ void source_close(source_model *source);
  * file. */
 bool source_would_be_lost(const source_model *source, const char *option, const char *path,
                           const char *ending);
-/* Are both the same file, by name or, when they are there, by what the names lead to? */
-bool same_file(const char *one, const char *other);
 
 /* What `source->name` means: a scene, or a mechanism (scene NULL). Nothing named: with
  * `prefer_scene` the file's only scene, else its only mechanism. Returns an exit code. */

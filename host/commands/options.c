@@ -50,22 +50,57 @@ static void push(const char ***list, int *count, const char *text) {
     longer[(*count)++] = text;
 }
 
-/* Each name of a comma list. */
-static void push_names(change_options *c, const char ***list, int *count, const char *text) {
-    while (*text != '\0') {
-        const size_t length = strcspn(text, ",");
-        char *name = calloc(length + 1, 1);
-        char **owned = realloc(c->owned, ((size_t)c->owned_count + 1) * sizeof *owned);
-        if (name == NULL || owned == NULL) {
-            abort();
+/* A copy of text[length], which the options keep. */
+static const char *keep(change_options *c, const char *text, size_t length) {
+    char *name = calloc(length + 1, 1);
+    char **owned = realloc(c->owned, ((size_t)c->owned_count + 1) * sizeof *owned);
+    if (name == NULL || owned == NULL) {
+        abort();
+    }
+    memcpy(name, text, length);
+    c->owned = owned;
+    c->owned[c->owned_count++] = name;
+    return name;
+}
+
+static bool is_in(const char *const *list, int count, const char *name) {
+    for (int i = 0; i < count; i++) {
+        if (strcmp(list[i], name) == 0) {
+            return true;
         }
-        memcpy(name, text, length);
-        c->owned = owned;
-        c->owned[c->owned_count++] = name;
-        if (length > 0) {
-            push(list, count, name);
+    }
+    return false;
+}
+
+/* Each name of "E, E,...", with blanks around it or none. False when one is missing or there twice, within
+ * the list or since the command began (reported). */
+static bool push_names(change_options *c, const char ***list, int *count, const char *option,
+                       const char *text) {
+    static const char blank[] = " \t\r\n";
+    for (const char *at = text;; at++) {
+        const size_t field = strcspn(at, ",");
+        const size_t before = strspn(at, blank);
+        size_t end = field;
+        while (end > before && strchr(blank, at[end - 1]) != NULL) {
+            end--;
         }
-        text += length + (text[length] == ',' ? 1 : 0);
+        if (end <= before) {
+            fprintf(stderr,
+                    "whirl: error: a name is missing in %s \"%s\"\n"
+                    "hint: names with commas between them: %s drag,ledger\n",
+                    option, text, option);
+            return false;
+        }
+        const char *name = keep(c, at + before, end - before);
+        if (is_in(*list, *count, name)) {
+            fprintf(stderr, "whirl: error: %s names '%s' twice\n", option, name);
+            return false;
+        }
+        push(list, count, name);
+        at += field;
+        if (*at == '\0') {
+            return true;
+        }
     }
 }
 
@@ -76,9 +111,9 @@ bool options_change(int count, char **words, int *at, change_options *c, bool *b
     } else if (!*bad && (value = options_value(count, words, at, "--start", bad)) != NULL) {
         push(&c->starts, &c->start_count, value);
     } else if (!*bad && (value = options_value(count, words, at, "--with", bad)) != NULL) {
-        push_names(c, &c->with, &c->with_count, value);
+        *bad = !push_names(c, &c->with, &c->with_count, "--with", value);
     } else if (!*bad && (value = options_value(count, words, at, "--without", bad)) != NULL) {
-        push_names(c, &c->without, &c->without_count, value);
+        *bad = !push_names(c, &c->without, &c->without_count, "--without", value);
     } else if (!*bad && (value = options_value(count, words, at, "--step", bad)) != NULL) {
         c->step = value;
     } else if (!*bad && (value = options_value(count, words, at, "--until", bad)) != NULL) {

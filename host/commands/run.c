@@ -7,16 +7,18 @@
 #include <unistd.h>
 
 #include "commands.h"
+#include "files.h"
 #include "host/run/simulate.h"
 #include "host/run/start.h"
 #include "load.h"
 #include "options.h"
 
 static const char usage[] =
-    "usage: whirl run SCENE|FILE[:SCENE] [options]\n"
+    "usage: whirl run SCENE|MECHANISM[:SCENE]|FILE[:SCENE] [options]\n"
     "\n"
     "Simulates a scene and prints a summary: final state, energy and momentum balance, state hash.\n"
-    "A mechanism without a scene starts at rest at zero.\n"
+    "SCENE and MECHANISM are built in (`whirl list`), FILE is yours. A mechanism without a scene starts\n"
+    "at rest at zero; of a FILE with one scene, that is run.\n"
     "\n"
     "  --set NAME=EXPR      a parameter or an input; a bare number is SI (repeatable)\n"
     "  --start NAME=EXPR    a coordinate or a rate: --start \"theta'=330 [rpm]\" (repeatable)\n"
@@ -87,7 +89,7 @@ static bool files_are_apart(const simulation_settings *s) {
     for (int i = 0; i < 3; i++) {
         for (int k = i + 1; k < 3; k++) {
             if (outputs[i].file != NULL && outputs[k].file != NULL &&
-                same_file(outputs[i].file, outputs[k].file)) {
+                files_same(outputs[i].file, outputs[k].file)) {
                 fprintf(stderr, "whirl run: error: %s and %s cannot share a file\n",
                         outputs[i].option, outputs[k].option);
                 return false;
@@ -177,8 +179,11 @@ static int run_loaded(run_options *o, const source_model *from, const loaded *ma
         diags_flush(from->errors, stderr);
         return EXIT_BAD_INPUT;
     }
-    struct sigaction action = {.sa_handler = on_interrupt};
+    /* records go on being written; a second Ctrl-C ends it at once, whatever it waits for */
+    struct sigaction action = {.sa_handler = on_interrupt,
+                               .sa_flags = SA_RESTART | (int)SA_RESETHAND};
     sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
     o->settings.stop = &interrupted;
     o->settings.progress = !o->settings.quiet && isatty(STDERR_FILENO);
     switch (simulate(made->equations, made->program, &o->settings)) {

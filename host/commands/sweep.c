@@ -16,9 +16,11 @@
 #include "options.h"
 
 static const char usage[] =
-    "usage: whirl sweep SCENE|FILE[:SCENE] --over NAME=FROM..TO:COUNT[,log] ... [options]\n"
+    "usage: whirl sweep SCENE|MECHANISM[:SCENE]|FILE[:SCENE] --over NAME=FROM..TO:COUNT[,log] ...\n"
+    "                   [options]\n"
     "\n"
     "Runs a scene at every point of a grid and writes a row of measures for each.\n"
+    "What is run is named as for `whirl run`.\n"
     "\n"
     "  --over RANGE         COUNT values of a parameter, an input, a start value or the step;\n"
     "                       a bare number is SI: \"r=10..60 [mm]:11\", \"theta'=1..4 [rpm]:7\",\n"
@@ -183,6 +185,23 @@ static const char *model_text(const source_model *from) {
     return from->text != NULL ? from->text : "";
 }
 
+/* A sweep over what takes no part would write the same row again and again. */
+static bool axes_take_part(const grid *g, const instance *base) {
+    for (int i = 0; i < g->count; i++) {
+        const symbol *swept = g->axes[i].symbol;
+        const effect *missing = swept != NULL ? instance_lacks(base, swept) : NULL;
+        if (missing != NULL) {
+            fprintf(
+                stderr,
+                "whirl sweep: error: '%s' belongs to the effect '%s', which takes no part here\n"
+                "hint: add --with %s\n",
+                swept->name, missing->name, missing->name);
+            return false;
+        }
+    }
+    return true;
+}
+
 static int sweep_loaded(const sweep_options *o, const source_model *from, const loaded *base,
                         sweep *s) {
     const char *missing = program_needs_libm(base->program);
@@ -195,6 +214,9 @@ static int sweep_loaded(const sweep_options *o, const source_model *from, const 
     }
     if (!start_has_method(base->program, base->instance, s->engine.method, from->errors)) {
         diags_flush(from->errors, stderr);
+        return EXIT_BAD_INPUT;
+    }
+    if (!axes_take_part(s->grid, base->instance)) {
         return EXIT_BAD_INPUT;
     }
     s->shared = sweep_can_share(s->grid, base->program) ? base->program : NULL;
@@ -212,7 +234,8 @@ static int sweep_loaded(const sweep_options *o, const source_model *from, const 
                                        .fresh = o->fresh,
                                        .quiet = o->quiet,
                                        .stop = &interrupted};
-    struct sigaction action = {.sa_handler = on_interrupt};
+    struct sigaction action = {.sa_handler = on_interrupt,
+                               .sa_flags = SA_RESTART | (int)SA_RESETHAND};
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
     const int code = session_run(s, &settings);

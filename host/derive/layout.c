@@ -3,6 +3,8 @@
 
 #include <stdlib.h>
 
+#include "noise.h"
+
 static void *room(int count, size_t size) {
     void *p = calloc((size_t)count + 1, size);
     if (p == NULL) {
@@ -34,6 +36,9 @@ int layout_leaf(void *context, tape *t, const symbol *s, int primes) {
     }
     if (s->kind == SYM_INPUT) {
         return input_leaf(map, t, s);
+    }
+    if (s->kind == SYM_RECORD) {
+        return noise_record_node(map->equations, map->record, s);
     }
     if (primes == map->equations->unknowns[s->index].order && map->highest != NULL) {
         return map->highest[s->index];

@@ -149,19 +149,17 @@ ledger_lists *ledger_lists_make(const program *p, const equations *e, layout *ma
     }
     find_inputs(l, p, e);
     l->entries += l->inputs;
-    bool good = l->entries <= WH_LEDGER_MAX;
+    const bool good = l->entries <= WH_LEDGER_MAX;
     if (good) {
         l->powers = enter(p, map, power, l->smooth);
         l->levels = make_levels(l, p, e, map);
-        /* an angle that the equations have only inside sines, with whole factors, and a power does not */
-        good = !tape_reads_turns(l->powers);
+        /* an angle that the equations have only inside sines with whole factors, and a power does not */
+        l->turned = tape_reads_turns(l->powers);
     }
     if (!good) {
         diag_error(errors, e->instance->mechanism->at, "leave out the ledger",
-                   "the books of '%s' cannot be kept: %s", e->instance->mechanism->name,
-                   l->entries > WH_LEDGER_MAX
-                       ? "there are too many entries"
-                       : "a power depends on an angle, or on a part of one, that no equation does");
+                   "the books of '%s' cannot be kept: there are too many entries",
+                   e->instance->mechanism->name);
         ledger_lists_free(l);
         l = NULL;
     }

@@ -32,6 +32,7 @@ struct ledger_lists {
     int *unknown; /* [accounts] whose momentum an account is; -1 for the energy */
     int *input;   /* [inputs] of the program: those that the energies name */
     int inputs;
+    bool turned; /* a power names a turn angle outside sines and cosines */
     tape *powers;
     tape *levels;
 };

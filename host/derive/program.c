@@ -6,6 +6,7 @@
 #include "contact_lists.h"
 #include "energy.h"
 #include "ledger.h"
+#include "noise.h"
 
 static void *room(int count, size_t size) {
     void *p = calloc((size_t)count + 1, size);
@@ -65,30 +66,6 @@ static tape *make_step(program *p, const equations *e, layout *map, const linear
     return t;
 }
 
-/* Outputs with the same seed have noise of their own each: their names' hash (FNV-1a) tells them apart. */
-static uint32_t noise_seed(const noise *of) {
-    uint32_t hash = 2166136261U;
-    for (const char *at = of->output->name; *at != '\0'; at++) {
-        hash = (hash ^ (unsigned char)*at) * 16777619U;
-    }
-    return hash ^ of->seed;
-}
-
-/* Noise on the mechanism's outputs: on what is recorded only, so other outputs do not see it. */
-static void add_noise(const equations *e, lowering *l, int *result) {
-    tape *t = l->tape;
-    const mechanism *m = e->instance->mechanism;
-    for (int k = 0; k < m->noise_count; k++) {
-        const noise *each = &m->noises[k];
-        if (instance_has_noise(e->instance, each)) {
-            const poly *deviation = poly_from_expr(e->algebra, each->deviation);
-            const int size = lower(l, equations_fold(e, deviation));
-            int *at = &result[each->output->index];
-            *at = tape_add(t, *at, tape_mul(t, size, tape_noise(t, noise_seed(each))));
-        }
-    }
-}
-
 /* A list that first solves for the highest derivatives, then computes `wanted`. With `keep`, the
  * highest derivatives are the first results. */
 static tape *make_observer(program *p, const equations *e, layout *map, const linear_system *s,
@@ -97,7 +74,7 @@ static tape *make_observer(program *p, const equations *e, layout *map, const li
     const int first = keep ? n : 0;
     tape *t = tape_new(p->angles, first + count);
     int *highest = room(n, sizeof *highest);
-    const poly **folded = room(count, sizeof(const poly *));
+    const poly **folded = room(count + e->instance->mechanism->noise_count, sizeof(const poly *));
     lowering l = layout_lowering(map, t);
     solve_highest(&l, s, highest);
     map->highest = highest;
@@ -112,15 +89,26 @@ static tape *make_observer(program *p, const equations *e, layout *map, const li
     for (int i = 0; i < count; i++) {
         folded[i] = conservation_settle(e, p->conserved, equations_fold(e, wanted[i]));
     }
-    lower_plan(&l, folded, count);
+    noise_records recorded = noise_records_find(e, p->conserved, folded, count);
+    int planned = count;
+    for (int k = 0; k < e->instance->mechanism->noise_count; k++) {
+        if (recorded.exact[k] != NULL) {
+            folded[planned++] = recorded.exact[k];
+        }
+    }
+    lower_plan(&l, folded, planned);
+    noise_records_lower(e, &l, &recorded);
+    map->record = recorded.node;
     for (int i = 0; i < count; i++) {
         t->result[first + i] = lower(&l, folded[i]);
     }
     if (!keep) {
-        add_noise(e, &l, t->result);
+        noise_on_outputs(e, &l, t->result);
     }
     lower_done(&l);
     map->highest = NULL;
+    map->record = NULL;
+    noise_records_free(&recorded);
     free(highest);
     free(folded);
     tape_prune(t);

@@ -3,14 +3,19 @@
 
 #include <math.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
+
+#include "rank.h"
 
 #define TRIES 24
 /* The try after those: the state at which a run starts. What is defined in a narrow range only may
  * be without a value at all the others. */
 #define TRY_START TRIES
-/* A pivot below this part of its row's size counts as zero. */
-#define NO_PIVOT 1e-11
+/* Rounding of an entry, as part of the sizes of its terms. */
+#define ENTRY_ROUNDING 4e-16
+
+enum { HINT_SIZE = 320 };
 
 typedef struct generic_state {
     const instance *instance;
@@ -38,82 +43,23 @@ static double generic_value(void *context, const symbol *s, int primes) {
     return (state->seed % 2 == 0 ? 0.1 : -0.9) + 1.7 * part;
 }
 
-/* Rank of the n by n matrix m (destroyed), by elimination with full pivoting. */
-static int rank_of(double *m, int n) {
-    int rank = 0;
-    for (int step = 0; step < n; step++) {
-        int row = step;
-        int column = step;
-        for (int i = step; i < n; i++) {
-            for (int j = step; j < n; j++) {
-                if (fabs(m[i * n + j]) > fabs(m[row * n + column])) {
-                    row = i;
-                    column = j;
-                }
-            }
-        }
-        if (fabs(m[row * n + column]) < NO_PIVOT) {
-            break;
-        }
-        rank++;
-        for (int j = 0; j < n; j++) {
-            const double swap = m[step * n + j];
-            m[step * n + j] = m[row * n + j];
-            m[row * n + j] = swap;
-        }
-        for (int i = 0; i < n; i++) {
-            const double swap = m[i * n + step];
-            m[i * n + step] = m[i * n + column];
-            m[i * n + column] = swap;
-        }
-        for (int i = step + 1; i < n; i++) {
-            const double part = m[i * n + step] / m[step * n + step];
-            for (int j = step; j < n; j++) {
-                m[i * n + j] -= part * m[step * n + j];
-            }
-        }
+/* Four n by n matrices. */
+static double *room_for(int n) {
+    double *m = calloc(4 * (size_t)n * (size_t)n + 1, sizeof *m);
+    if (m == NULL) {
+        abort();
     }
-    return rank;
+    return m;
 }
 
-/* Is a regular symmetric n by n matrix positive definite (sqrt-free Cholesky, destroys m)? */
-static bool is_positive(double *m, int n) {
-    for (int k = 0; k < n; k++) {
-        if (!(m[k * n + k] > 0.0)) {
-            return false;
-        }
-        for (int i = k + 1; i < n; i++) {
-            const double part = m[k * n + i] / m[k * n + k];
-            for (int j = i; j < n; j++) {
-                m[i * n + j] -= part * m[k * n + j];
-            }
-        }
-    }
-    return true;
-}
-
-/* Rows, then columns, to a largest entry of one: units must not decide. */
-static void balance(double *m, int n) {
-    for (int pass = 0; pass < 2; pass++) {
-        for (int i = 0; i < n; i++) {
-            double largest = 0.0;
-            for (int j = 0; j < n; j++) {
-                largest = fmax(largest, fabs(pass == 0 ? m[i * n + j] : m[j * n + i]));
-            }
-            for (int j = 0; j < n && largest > 0.0; j++) {
-                *(pass == 0 ? &m[i * n + j] : &m[j * n + i]) /= largest;
-            }
-        }
-    }
-}
-
-/* The values of the mass matrix at one try; false when one is not finite. */
-static bool mass_at(const equations *e, int try, double *m) {
+/* The values of the mass matrix at one try, and how well they are known; false when one is not finite. */
+static bool mass_at(const equations *e, int try, double *m, double *error) {
     generic_state state = {e->instance, (uint64_t)try};
     bool finite = true;
     for (int i = 0; i < e->count * e->count; i++) {
         m[i] = poly_evaluate(e->mass[i], generic_value, &state);
-        finite = finite && isfinite(m[i]);
+        error[i] = ENTRY_ROUNDING * poly_magnitude(e->mass[i], generic_value, &state);
+        finite = finite && isfinite(m[i]) && isfinite(error[i]);
     }
     return finite;
 }
@@ -122,22 +68,21 @@ static bool mass_at(const equations *e, int try, double *m) {
  * try; -1 when there is none. */
 static int dependent_row(const equations *e) {
     const int n = e->count;
-    double *m = calloc(2 * (size_t)n * (size_t)n + 1, sizeof *m);
-    if (m == NULL) {
-        abort();
-    }
-    double *part = m + n * n;
+    double *m = room_for(n);
+    double *error = m + n * n;
+    double *part = error + n * n;
+    double *part_error = part + n * n;
     int found = -1;
     bool finite = false;
     for (int try = 0; try < TRIES && !finite; try++) {
-        finite = mass_at(e, try, m);
+        finite = mass_at(e, try, m, error);
     }
-    balance(m, n);
     for (int rows = 1; rows <= n && finite && found < 0; rows++) {
         for (int i = 0; i < n * n; i++) {
             part[i] = i < rows * n ? m[i] : 0.0;
+            part_error[i] = i < rows * n ? error[i] : 0.0;
         }
-        if (rank_of(part, n) < rows) {
+        if (rank_of(part, part_error, n, false) < rows) {
             found = rows - 1;
         }
     }
@@ -184,7 +129,21 @@ static void report_singular_system(const equations *e, diags *errors) {
     }
 }
 
+/* An effect that takes no part here and whose T contains the rate of `s`; NULL: none. */
+static const char *effect_with_inertia(const equations *e, const symbol *s) {
+    const mechanism *m = e->instance->mechanism;
+    for (int i = 0; i < m->term_count; i++) {
+        const term *t = &m->terms[i];
+        if (t->kind == TERM_T && !instance_has_term(e->instance, t) &&
+            poly_contains(poly_from_expr(e->algebra, t->value), s, 1)) {
+            return m->effects[t->effect].name;
+        }
+    }
+    return NULL;
+}
+
 static void report_singular(const equations *e, diags *errors) {
+    char hint[HINT_SIZE] = "give it a mass or an inertia, or remove the coordinate";
     const int n = e->count;
     if (e->instance->mechanism->is_system) {
         report_singular_system(e, errors);
@@ -196,16 +155,35 @@ static void report_singular(const equations *e, diags *errors) {
             empty = empty && poly_is_zero(e->mass[i * n + j]);
         }
         if (empty) {
-            diag_error(errors, e->unknowns[i].symbol->at,
-                       "give it a mass or an inertia, or remove the coordinate",
+            const char *giver = effect_with_inertia(e, e->unknowns[i].symbol);
+            if (giver != NULL) {
+                snprintf(
+                    hint, sizeof hint,
+                    "the effect '%.60s' gives it one: name it in the scene: with %.60s, or add "
+                    "--with %.60s",
+                    giver, giver, giver);
+            }
+            diag_error(errors, e->unknowns[i].symbol->at, hint,
                        "singular mass matrix: the kinetic energy does not contain %s'",
                        e->unknowns[i].symbol->name);
             return;
         }
     }
+    snprintf(hint, sizeof hint,
+             "two coordinates may describe the same motion, or a mass may be zero");
+    for (int i = 0; i < n; i++) {
+        const char *giver = effect_with_inertia(e, e->unknowns[i].symbol);
+        if (giver != NULL) {
+            snprintf(
+                hint, sizeof hint,
+                "the effect '%.60s', which adds to the kinetic energy, takes no part here: name "
+                "it in the scene: with %.60s, or add --with %.60s",
+                giver, giver, giver);
+            break;
+        }
+    }
     diag_error(
-        errors, e->instance->mechanism->at,
-        "two coordinates may describe the same motion, or a mass may be zero",
+        errors, e->instance->mechanism->at, hint,
         "singular mass matrix: '%s' cannot be solved for its accelerations at any state tried",
         e->instance->mechanism->name);
 }
@@ -219,35 +197,33 @@ static bool energies_finite(const equations *e, generic_state *state) {
 /* What the best of the states tried allows. */
 typedef enum verdict { NOWHERE_FINITE, SINGULAR, NOT_POSITIVE, SOLVABLE } verdict;
 
-/* At one try; m holds 2 n^2 numbers. */
+/* At one try; m is of room_for(n). */
 static verdict verdict_at(const equations *e, int try, double *m) {
     const int n = e->count;
     generic_state state = {e->instance, (uint64_t)try};
-    bool finite = mass_at(e, try, m) && energies_finite(e, &state);
+    double *error = m + n * n;
+    bool finite = mass_at(e, try, m, error) && energies_finite(e, &state);
     for (int i = 0; i < n && finite; i++) {
         finite = isfinite(poly_evaluate(equations_force(e, i), generic_value, &state));
     }
     if (!finite) {
         return NOWHERE_FINITE;
     }
-    double *kept = m + n * n;
+    double *kept = error + n * n;
     for (int i = 0; i < n * n; i++) {
         kept[i] = m[i];
     }
-    balance(m, n);
-    if (rank_of(m, n) < n) {
+    const bool is_system = e->instance->mechanism->is_system;
+    if (rank_of(m, error, n, !is_system) < n) {
         return SINGULAR;
     }
     /* The elimination of a mechanism relies on it; a system's equations are in any order and sign. */
-    return e->instance->mechanism->is_system || is_positive(kept, n) ? SOLVABLE : NOT_POSITIVE;
+    return is_system || rank_is_positive(kept, n) ? SOLVABLE : NOT_POSITIVE;
 }
 
 bool equations_check_solvable(const equations *e, diags *errors) {
     const int n = e->count;
-    double *m = calloc(2 * (size_t)n * (size_t)n + 1, sizeof *m);
-    if (m == NULL) {
-        abort();
-    }
+    double *m = room_for(n);
     verdict best = NOWHERE_FINITE;
     for (int try = 0; try <= TRY_START && best != SOLVABLE; try++) {
         const verdict found = verdict_at(e, try, m);

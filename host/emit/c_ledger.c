@@ -8,12 +8,15 @@ void c_ledger_bounds(FILE *out, const ledger_lists *l) {
             l->entries > 0 ? l->entries : 1, l->accounts);
 }
 
-static void write_levels(FILE *out, const program *p) {
-    const tape *t = p->ledger->levels;
-    fprintf(out, "static void ledger_levels(const void *model, const wh_angle *angle,\n"
-                 "                          const wh_real *linear, const wh_real *rate,\n"
-                 "                          const wh_real *input, wh_real *level) {\n"
-                 "    (void)model;\n");
+/* A wh_levels_fn: "ledger_levels" and "ledger_powers" are of one length. */
+static void write_of_angles(FILE *out, const program *p, const tape *t, const char *name,
+                            const char *result) {
+    fprintf(out,
+            "static void %s(const void *model, const wh_angle *angle,\n"
+            "                          const wh_real *linear, const wh_real *rate,\n"
+            "                          const wh_real *input, wh_real *%s) {\n"
+            "    (void)model;\n",
+            name, result);
     if (c_list_uses_phase(t)) {
         fprintf(out,
                 "    wh_phase phase[%d];\n    for (int i = 0; i < %d; i++) {\n"
@@ -25,13 +28,18 @@ static void write_levels(FILE *out, const program *p) {
     c_list_ignore(out, c_list_uses(t, OP_LINEAR), "linear");
     c_list_ignore(out, c_list_uses(t, OP_RATE), "rate");
     c_list_ignore(out, c_list_uses(t, OP_INPUT), "input");
-    c_list_body(out, t, "level");
+    c_list_ignore(out, t->results > 0, result);
+    c_list_body(out, t, result);
 }
 
 void c_ledger_write(FILE *out, const program *p) {
     const ledger_lists *l = p->ledger;
-    c_list_function(out, l->powers, "ledger_powers", true);
-    write_levels(out, p);
+    if (l->turned) {
+        write_of_angles(out, p, l->powers, "ledger_powers", "power");
+    } else {
+        c_list_function(out, l->powers, "ledger_powers", true);
+    }
+    write_of_angles(out, p, l->levels, "ledger_levels", "level");
     if (l->smooth > 0) {
         fprintf(out, "static const uint8_t ledger_accounts[%d] = {", l->smooth);
         for (int i = 0; i < l->smooth; i++) {
@@ -47,12 +55,12 @@ void c_ledger_write(FILE *out, const program *p) {
         fprintf(out, "};\n");
     }
     fprintf(out,
-            "static const wh_ledger_form ledger = {\n    .powers = ledger_powers,\n"
+            "static const wh_ledger_form ledger = {\n    .%s = ledger_powers,\n"
             "    .levels = ledger_levels,\n    .account = %s,\n    .smooth = %d,\n"
             "    .entries = %d,\n    .accounts = %d,\n    .coordinates = %d,\n"
             "    .angles = %d,\n",
-            l->smooth > 0 ? "ledger_accounts" : "NULL", l->smooth, l->entries,
-            l->accounts + l->inputs, p->coordinates, p->angles);
+            l->turned ? "turned" : "powers", l->smooth > 0 ? "ledger_accounts" : "NULL", l->smooth,
+            l->entries, l->accounts + l->inputs, p->coordinates, p->angles);
     if (l->inputs > 0) {
         fprintf(out, "    .input = ledger_inputs,\n    .inputs = %d,\n", l->inputs);
     }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "emit.h"
+#include "host/run/number.h"
 #include "show.h"
 #include "show_events.h"
 
@@ -36,14 +37,15 @@ static void write_names(const show *s, const equations *e) {
         const symbol *p = m->parameters[i];
         if (p->effect < 0 || e->instance->with[p->effect]) {
             fprintf(s->out, "  parameter  %-10s = %.10g (SI)%s%s\n", p->name,
-                    e->instance->parameter[i], p->text[0] != '\0' ? "  " : "", p->text);
+                    number_shown(e->instance->parameter[i]), p->text[0] != '\0' ? "  " : "",
+                    p->text);
         }
     }
     for (int i = 0; i < m->input_count; i++) {
         const symbol *u = m->inputs[i];
         if (u->effect < 0 || e->instance->with[u->effect]) {
-            fprintf(s->out, "  input      %-10s = %.10g (SI)%s%s\n", u->name, e->instance->input[i],
-                    u->text[0] != '\0' ? "  " : "", u->text);
+            fprintf(s->out, "  input      %-10s = %.10g (SI)%s%s\n", u->name,
+                    number_shown(e->instance->input[i]), u->text[0] != '\0' ? "  " : "", u->text);
         }
     }
     for (int i = 0; i < m->effect_count; i++) {

@@ -76,6 +76,7 @@ symbol *declare(parser *in, const token *name, symbol_kind kind) {
     case SYM_INPUT: append(in, &into->inputs, &into->input_count, made); break;
     case SYM_LET: append(in, &into->lets, &into->let_count, made); break;
     case SYM_OUTPUT: append(in, &into->outputs, &into->output_count, made); break;
+    case SYM_RECORD: break; /* never declared: noise makes it */
     }
     return made;
 }
@@ -251,6 +252,7 @@ bool parse_declaration(parser *in, bool *known) {
         case SYM_INPUT:
         case SYM_LET: return parse_constant(in, kind);
         case SYM_OUTPUT: return parse_output(in);
+        case SYM_RECORD: break;
         }
     }
     *known = false;

@@ -78,6 +78,16 @@ static void finish_system(parser *in, builder *done) {
     }
 }
 
+/* All of T may come from effects: which scene has any is seen when its equations are derived. */
+static bool has_kinetic_energy(const mechanism *made) {
+    for (int i = 0; i < made->term_count; i++) {
+        if (made->terms[i].kind == TERM_T) {
+            return true;
+        }
+    }
+    return false;
+}
+
 void finish_mechanism(parser *in, builder *done) {
     mechanism *made = done->made;
     made->is_system = done->has_equations;
@@ -92,7 +102,7 @@ void finish_mechanism(parser *in, builder *done) {
     } else if (made->coordinate_count == 0) {
         diag_error(in->diags, made->at, "declare one with: coordinate theta [rad]",
                    "mechanism '%s' has no coordinate", made->name);
-    } else if (done->energy_at[0].line == 0) {
+    } else if (done->energy_at[0].line == 0 && !has_kinetic_energy(made)) {
         diag_error(in->diags, made->at, "T = m*X'^2/2", "mechanism '%s' has no kinetic energy T",
                    made->name);
     }

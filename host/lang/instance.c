@@ -41,7 +41,8 @@ static void apply(plan *into, const assignment *change) {
     case SYM_COORDINATE:
     case SYM_STATE: into->start[index][change->primes] = value; break;
     case SYM_LET:
-    case SYM_OUTPUT: break; /* refused when it was read */
+    case SYM_OUTPUT:
+    case SYM_RECORD: break; /* refused when it was read */
     }
 }
 
@@ -79,12 +80,36 @@ static void apply_scene(plan *into, const scene *from, instance *made) {
     }
 }
 
+const effect *instance_lacks(const instance *of, const symbol *what) {
+    return what->effect < 0 || of->with[what->effect] ? NULL
+                                                      : &of->mechanism->effects[what->effect];
+}
+
+/* A change that could change nothing is a mistake. */
+static bool takes_part(const instance *made, override_kind kind, const assignment *change,
+                       diags *all) {
+    const effect *missing = instance_lacks(made, change->symbol);
+    char hint[WORDS_SIZE];
+    if (missing == NULL) {
+        return true;
+    }
+    if (kind == OVERRIDE_SET) {
+        snprintf(hint, sizeof hint, "add --with %.80s", missing->name);
+    } else {
+        snprintf(hint, sizeof hint, "name a scene that calls for %.60s", missing->name);
+    }
+    diag_error(all, change->at, hint, "'%s' belongs to the effect '%s', which takes no part here",
+               change->symbol->name, missing->name);
+    return false;
+}
+
 static void apply_texts(plan *into, instance *made, override_kind kind, const char *const *texts,
                         int count) {
     for (int i = 0; i < count; i++) {
         assignment change;
-        if (override_parse(made->mechanism, kind, texts[i], made->arena, into->values.diags,
-                           &change)) {
+        diags *all = into->values.diags;
+        if (override_parse(made->mechanism, kind, texts[i], made->arena, all, &change) &&
+            takes_part(made, kind, &change, all)) {
             apply(into, &change);
         }
     }
@@ -108,11 +133,11 @@ static void apply_effects(plan *into, instance *made, const char *const *texts, 
 static void apply_overrides(plan *into, instance *made, const overrides *changes) {
     const mechanism *of = made->mechanism;
     diags *all = into->values.diags;
+    apply_effects(into, made, changes->with, changes->with_count, true);
+    apply_effects(into, made, changes->without, changes->without_count, false);
     apply_texts(into, made, OVERRIDE_SET, changes->sets, changes->set_count);
     apply_texts(into, made, OVERRIDE_START, changes->starts, changes->start_count);
     apply_texts(into, made, OVERRIDE_EITHER, changes->values, changes->value_count);
-    apply_effects(into, made, changes->with, changes->with_count, true);
-    apply_effects(into, made, changes->without, changes->without_count, false);
     if (changes->step != NULL) {
         const expr *value = override_duration(of, "step", changes->step, made->arena, all);
         into->step = value == NULL ? into->step : (given){value, value->at};

@@ -22,7 +22,8 @@ typedef enum symbol_kind {
     SYM_PARAMETER,  /* constant of a run; value from an expression of constants */
     SYM_INPUT,      /* may change while running; declared value from an expression of constants */
     SYM_LET,        /* shorthand; stands for its expression */
-    SYM_OUTPUT      /* computed for records; may be used by later outputs */
+    SYM_OUTPUT,     /* computed for records; may be used by later outputs */
+    SYM_RECORD      /* an output as it is recorded, noise included: in a sweep's measures only */
 } symbol_kind;
 
 typedef struct expr expr;
@@ -34,7 +35,7 @@ typedef struct symbol {
     const char *unit;  /* the unit as written between brackets, or "" */
     dimension dim;     /* of the symbol without primes */
     bool is_angle;     /* declared [rad] (or [deg], [rev]): coordinate or state */
-    const expr *value; /* parameter, input, let, output: its expression; else NULL */
+    const expr *value; /* parameter, input, let, output, record: its expression; else NULL */
     place at;          /* where it was declared */
     int index;         /* running number within its kind in its mechanism, declaration order */
     int effect;        /* index of the effect that declared it, or -1 */
@@ -155,6 +156,7 @@ enum { HYBRIDS_MAX = 16, SETS_MAX = 128 };
 /* `noise OUTPUT deviation EXPR seed NUMBER`: Gaussian noise on a recorded output (core/noise.h). */
 typedef struct noise {
     const symbol *output;
+    const symbol *record;  /* the output with its noise, SYM_RECORD: one for each output */
     const expr *deviation; /* an expression of constants, of the output's dimension, >= 0 */
     uint32_t seed;
     int effect;
@@ -267,6 +269,10 @@ bool instance_has_term(const instance *instance, const term *term);
 bool instance_has_hybrid(const instance *instance, const hybrid *hybrid);
 /* The same of a noise. */
 bool instance_has_noise(const instance *instance, const noise *noise);
+
+/* The effect that declared this parameter or input, where it takes no part in the instance; NULL where it
+ * does, and for what belongs to no effect. */
+const effect *instance_lacks(const instance *instance, const symbol *what);
 
 /* Evaluate a scene (or, with scene NULL, the mechanism at rest at zero) to numbers. `changes` may be
  * NULL. Returns NULL on error, reported to `diags`. */

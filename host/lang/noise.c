@@ -49,6 +49,20 @@ static bool parse_seed(parser *in, uint32_t *seed) {
     return true;
 }
 
+/* The output as it is recorded; noises of several effects on one output share it. */
+static const symbol *record_of(parser *in, const symbol *output) {
+    const mechanism *inside = in->builder->made;
+    for (int i = 0; i < inside->noise_count; i++) {
+        if (inside->noises[i].output == output) {
+            return inside->noises[i].record;
+        }
+    }
+    symbol *record = arena_alloc(in->arena, sizeof *record);
+    *record = *output;
+    record->kind = SYM_RECORD;
+    return record;
+}
+
 /* Both take part whenever one of them does. */
 static bool always_meet(const noise *a, const noise *b) {
     return a->effect == b->effect || a->effect < 0 || b->effect < 0;
@@ -83,6 +97,7 @@ bool parse_noise(parser *in, bool *known) {
                            token_words(&in->token, words, sizeof words));
     }
     made.output = find_output(in, &name);
+    made.record = made.output == NULL ? NULL : record_of(in, made.output);
     parser_next(in);
     if (!parser_expect_word(in, "deviation", form)) {
         return false;

@@ -14,7 +14,8 @@ static const char *kind_words(symbol_kind kind) {
     case SYM_PARAMETER: return "a parameter";
     case SYM_INPUT: return "an input";
     case SYM_LET: return "a let";
-    case SYM_OUTPUT: break;
+    case SYM_OUTPUT:
+    case SYM_RECORD: break;
     }
     return "an output";
 }
@@ -206,6 +207,7 @@ static const expr *take_properties(parser *in, expr *made, const token *name) {
     case SYM_INPUT: made->uses = USES_INPUT; break;
     case SYM_LET:
     case SYM_OUTPUT:
+    case SYM_RECORD:
         made->uses = found->kind == SYM_OUTPUT ? USES_OUTPUT : 0;
         if (found->value != NULL) {
             /* A let of plain numbers is no plain number: its name stands for a quantity. */

@@ -217,6 +217,9 @@ bool parse_scene(parser *in, const pending_scene *pending) {
         diag_error(in->diags, into.made->at, "name its mechanism with: use NAME",
                    "scene '%s' stands in no mechanism", into.made->name);
     }
+    if (good && into.of != NULL) {
+        scene_check_sets(in, &into);
+    }
     into.made->with = into.with;
     into.made->conserve = into.conserve;
     return good;

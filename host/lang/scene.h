@@ -24,6 +24,9 @@ bool scene_set_item(parser *in, draft *into);
 bool scene_start_item(parser *in, draft *into);
 bool scene_conserve_item(parser *in, draft *into);
 
+/* When the scene has been read: what it sets must belong to effects that it names, which may stand behind. */
+void scene_check_sets(parser *in, const draft *read);
+
 /* "WHAT needs a name": the token in hand is none. */
 bool scene_fail_name(parser *in, const char *what);
 

@@ -128,6 +128,22 @@ bool scene_set_item(parser *in, draft *into) {
     return true;
 }
 
+void scene_check_sets(parser *in, const draft *read) {
+    const scene *made = read->made;
+    for (int i = 0; i < made->set_count; i++) {
+        const assignment *each = &made->sets[i];
+        const int of = each->symbol->effect;
+        if (of >= 0 && !read->with[of]) {
+            const char *name = made->mechanism->effects[of].name;
+            char hint[120];
+            snprintf(hint, sizeof hint, "add to the scene: with %.80s", name);
+            diag_error(in->diags, each->at, hint,
+                       "'%s' belongs to the effect '%s', which this scene does not name",
+                       each->symbol->name, name);
+        }
+    }
+}
+
 static void check_started_once(parser *in, const scene *made, const symbol *what,
                                const token *name) {
     for (int i = 0; i < made->start_count; i++) {

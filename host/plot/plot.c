@@ -1,10 +1,12 @@
 /* plot.c: handing curves to gnuplot. */
 #include "plot.h"
 
+#include <math.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static const char *ending_of(const char *file) {
     const char *dot = strrchr(file, '.');
@@ -43,7 +45,65 @@ static int count_panels(const curve *curves, int count) {
     return panels;
 }
 
-static void write_panels(FILE *to, const curve *curves, int count) {
+/* Characters: y tics as wide as -2.5x10^-300 and the axis's label stand left of all panels, the longest
+ * name and its line right of them, so that their time axes stand below each other. */
+#define LEFT_MARGIN 15
+#define KEY_LINE 9
+#define NAME_MOST 40
+
+static int right_margin(const curve *curves, int count) {
+    size_t longest = 0;
+    for (int i = 0; i < count; i++) {
+        const size_t length = strlen(curves[i].name);
+        longest = length > longest ? length : longest;
+    }
+    return (int)(longest < NAME_MOST ? longest : NAME_MOST) + KEY_LINE;
+}
+
+/* A part of its size below which a curve counts as flat: the tics could not tell it. */
+#define FLAT 1e-10
+
+/* The range of an axis that gnuplot would warn of, or fail at: of one value, or of none. */
+static void write_range(FILE *to, const char *axis, double least, double most) {
+    if (!(least <= most)) {
+        fprintf(to, "set %srange [-1:1]\n", axis);
+        return;
+    }
+    const double size = fmax(fabs(least), fabs(most));
+    if (most - least > FLAT * size) {
+        fprintf(to, "set %srange [*:*]\n", axis);
+        return;
+    }
+    const double room = size > 0.0 ? 0.1 * size : 1.0;
+    fprintf(to, "set %srange [%.17g:%.17g]\n", axis, least - room, most + room);
+}
+
+typedef struct plot_table {
+    const double *data;
+    int rows;
+    int columns;
+} plot_table;
+
+/* Least and most of the finite values of one panel's curves; least above most where there are none. */
+static void range_of(const plot_table *t, const curve *curves, int count, const curve *panel,
+                     double *least, double *most) {
+    *least = (double)INFINITY;
+    *most = -(double)INFINITY;
+    for (int k = 0; k < count; k++) {
+        for (int r = 0; r < t->rows && same_panel(&curves[k], panel); r++) {
+            const double value = t->data[(size_t)r * (size_t)t->columns + (size_t)curves[k].column];
+            *least = isfinite(value) ? fmin(*least, value) : *least;
+            *most = isfinite(value) ? fmax(*most, value) : *most;
+        }
+    }
+}
+
+static void write_panels(FILE *to, const plot_table *t, const curve *curves, int count) {
+    const curve time = {"", "", 0};
+    double least;
+    double most;
+    range_of(t, &time, 1, &time, &least, &most);
+    write_range(to, "x", least, most);
     for (int i = 0; i < count; i++) {
         bool first = true;
         for (int k = 0; k < i; k++) {
@@ -52,6 +112,8 @@ static void write_panels(FILE *to, const curve *curves, int count) {
         if (!first) {
             continue;
         }
+        range_of(t, curves, count, &curves[i], &least, &most);
+        write_range(to, "y", least, most);
         fputs("set ylabel ", to);
         write_quoted(to, curves[i].unit);
         fputs("\nplot ", to);
@@ -66,6 +128,28 @@ static void write_panels(FILE *to, const curve *curves, int count) {
     }
 }
 
+/* gnuplot with what it says kept in `said`: it is shown only when it fails. */
+static FILE *start_gnuplot(FILE *said) {
+    fflush(stderr);
+    const int before = said == NULL ? -1 : dup(STDERR_FILENO);
+    if (before >= 0) {
+        dup2(fileno(said), STDERR_FILENO);
+    }
+    FILE *to = popen("LC_ALL=C.UTF-8 gnuplot", "w");
+    if (before >= 0) {
+        dup2(before, STDERR_FILENO);
+        close(before);
+    }
+    return to;
+}
+
+static void show_said(FILE *said) {
+    rewind(said);
+    for (int c = fgetc(said); c != EOF; c = fgetc(said)) {
+        fputc(c, stderr);
+    }
+}
+
 bool plot_draw(const char *file, const char *title, const curve *curves, int count,
                const double *data, int rows, int columns) {
     if (system("command -v gnuplot >/dev/null 2>&1") != 0) {
@@ -74,9 +158,13 @@ bool plot_draw(const char *file, const char *title, const curve *curves, int cou
         return false;
     }
     void (*before)(int) = signal(SIGPIPE, SIG_IGN);
-    FILE *to = popen("LC_ALL=C.UTF-8 gnuplot", "w");
+    FILE *said = tmpfile(); /* without one, gnuplot says it itself */
+    FILE *to = start_gnuplot(said);
     if (to == NULL) {
         perror("whirl: error: gnuplot");
+        if (said != NULL) {
+            fclose(said);
+        }
         signal(SIGPIPE, before);
         return false;
     }
@@ -91,7 +179,7 @@ bool plot_draw(const char *file, const char *title, const curve *curves, int cou
     fputs("\n$data << EOD\n", to);
     for (int r = 0; r < rows; r++) {
         for (int c = 0; c < columns; c++) {
-            fprintf(to, "%.9g ", data[(size_t)r * (size_t)columns + (size_t)c]);
+            fprintf(to, "%.17g ", data[(size_t)r * (size_t)columns + (size_t)c]);
         }
         fputc('\n', to);
     }
@@ -99,14 +187,21 @@ bool plot_draw(const char *file, const char *title, const curve *curves, int cou
     write_quoted(to, title);
     fputs(" noenhanced\nset grid\nset key outside right top noenhanced\nset xlabel 'time [s]'\n",
           to);
-    write_panels(to, curves, count);
+    fprintf(to, "set lmargin %d\nset rmargin %d\n", LEFT_MARGIN, right_margin(curves, count));
+    write_panels(to, &(plot_table){data, rows, columns}, curves, count);
     fputs("unset multiplot\nset output\n", to);
     const bool written = ferror(to) == 0;
     const int code = pclose(to);
     signal(SIGPIPE, before);
-    if (!written || code != 0) {
-        fprintf(stderr, "whirl: error: gnuplot could not draw %s\n", file);
-        return false;
+    const bool drawn = written && code == 0;
+    if (said != NULL) {
+        if (!drawn) {
+            show_said(said);
+        }
+        fclose(said);
     }
-    return true;
+    if (!drawn) {
+        fprintf(stderr, "whirl: error: gnuplot could not draw %s\n", file);
+    }
+    return drawn;
 }

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "number.h"
+
 books *books_open(const program *p, const equations *e) {
     if (e->kinetic == NULL) {
         return NULL;
@@ -56,6 +58,9 @@ void books_enter(books *b, const engine_kind *kind, const void *run) {
     kind->state(run, b->angle_rad, b->real);
     evaluator_run(b->evaluator, (double)kind->steps(run) * b->step_s, b->angle_rad, b->real,
                   b->real + (p->coordinates - p->angles), b->input, b->value);
+    for (int i = 0; i < p->books->results; i++) {
+        b->value[i] = number_shown(b->value[i]);
+    }
     const double *entry = b->value + p->count;
     const double power_W[2] = {entry[BOOK_INPUT_POWER], entry[BOOK_LOSS_POWER]};
     b->kinetic_J[1] = entry[BOOK_KINETIC];

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "number.h"
+
 /* Columns of the unknowns and their derivatives, integrated or recovered. */
 static int state_columns(const equations *e) {
     int columns = 0;
@@ -129,6 +131,9 @@ void records_read(records *r, void *run, double time_s) {
         const int i = p->conserved->unknown[k];
         r->row[column_of(r, i, 0)] = r->output[own + 2 * k];
         r->row[column_of(r, i, 1)] = r->output[own + 2 * k + 1];
+    }
+    for (int i = 0; i < r->columns; i++) {
+        r->row[i] = number_shown(r->row[i]);
     }
 }
 

@@ -170,6 +170,15 @@ static void say_failure(const simulation *sim) {
                     "the same time, look for a singular position there\n");
 }
 
+/* Said with --quiet, too: what was asked for is not what there is. */
+static void say_interrupted(const simulation *sim) {
+    const uint64_t done = sim->settings->kind->steps(sim->run);
+    const double step_s = sim->equations->instance->step_s;
+    fprintf(stderr, "whirl run: interrupted at t = %.9g s of %.9g s%s\n", (double)done * step_s,
+            (double)sim->steps * step_s,
+            sim->csv != NULL || sim->columns != NULL ? "; the records so far are kept" : "");
+}
+
 static bool draw(const simulation *sim) {
     const program *p = sim->program;
     const mechanism *m = sim->equations->instance->mechanism;
@@ -221,6 +230,8 @@ simulation_result simulate(const equations *e, const program *p, const simulatio
         }
         if (status != WH_OK) {
             say_failure(&sim);
+        } else if (interrupted) {
+            say_interrupted(&sim);
         }
         slow_say(stderr, e, p, s->kind, sim.run);
         if (!s->quiet) {

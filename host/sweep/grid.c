@@ -8,6 +8,7 @@
 
 #include "host/lang/override.h"
 #include "host/lang/value.h"
+#include "host/run/number.h"
 
 static void *room(size_t count, size_t size) {
     void *p = calloc(count + 1, size);
@@ -267,6 +268,7 @@ void grid_shard(const grid *g, uint64_t k, uint64_t n, uint64_t *first, uint64_t
 }
 
 char *number_shortest(double value, char text[NUMBER_SIZE]) {
+    value = number_shown(value);
     for (int digits = 15; digits <= 17; digits++) {
         snprintf(text, NUMBER_SIZE, "%.*g", digits, value);
         if (strtod(text, NULL) == value) {

@@ -97,6 +97,28 @@ static bool has_measure_inside(const source *typed, diags *errors) {
     return false;
 }
 
+/* The expression with outputs that have noise as they are recorded. Noise stays out of other outputs
+ * that use them, as in the records. */
+static const expr *as_recorded(measures *m, const mechanism *of, const expr *tree) {
+    if (tree == NULL) {
+        return NULL;
+    }
+    expr made = *tree;
+    for (int k = 0; k < of->noise_count && tree->op == EXPR_SYMBOL; k++) {
+        if (of->noises[k].output == tree->symbol) {
+            made.symbol = of->noises[k].record;
+        }
+    }
+    made.left = as_recorded(m, of, tree->left);
+    made.right = as_recorded(m, of, tree->right);
+    if (made.symbol == tree->symbol && made.left == tree->left && made.right == tree->right) {
+        return tree;
+    }
+    expr *kept = arena_alloc(m->arena, sizeof *kept);
+    *kept = made;
+    return kept;
+}
+
 static const expr *read_expression(measures *m, const mechanism *of, const char *text,
                                    size_t length, diags *errors) {
     const size_t before = diags_calls(errors);
@@ -117,7 +139,7 @@ static const expr *read_expression(measures *m, const mechanism *of, const char 
     }
     bool *let_seen = arena_alloc(m->arena, (size_t)of->let_count * sizeof *let_seen);
     const bool good = made != NULL && diags_calls(errors) == before;
-    return good && check_orders(&in, made, let_seen) ? made : NULL;
+    return good && check_orders(&in, made, let_seen) ? as_recorded(m, of, made) : NULL;
 }
 
 static void add(measures *m, measure_kind kind, const char *name, const expr *of) {
@@ -126,7 +148,7 @@ static void add(measures *m, measure_kind kind, const char *name, const expr *of
     m->list[m->count++] = (measure){kind, name, of};
 }
 
-static void add_symbol(measures *m, const symbol *s, int primes) {
+static void add_symbol(measures *m, const mechanism *of, const symbol *s, int primes) {
     const size_t length = strlen(s->name);
     const size_t depth = (size_t)primes;
     char *name = arena_alloc(m->arena, length + 5 * depth + 1);
@@ -137,7 +159,7 @@ static void add_symbol(measures *m, const symbol *s, int primes) {
     memset(name + 4 * depth + length, ')', depth);
     expr *made = arena_alloc(m->arena, sizeof *made);
     *made = (expr){.op = EXPR_SYMBOL, .symbol = s, .primes = primes, .dim = s->dim, .height = 1};
-    add(m, MEASURE_FINAL, name, made);
+    add(m, MEASURE_FINAL, name, as_recorded(m, of, made));
 }
 
 /* The columns of `whirl run --csv`, without the time. */
@@ -149,12 +171,12 @@ static void add_all(measures *m, const mechanism *of) {
     for (int primes = 0; primes < highest; primes++) {
         for (int i = 0; i < of->coordinate_count; i++) {
             if (primes < of->coordinates[i]->order) {
-                add_symbol(m, of->coordinates[i], primes);
+                add_symbol(m, of, of->coordinates[i], primes);
             }
         }
     }
     for (int i = 0; i < of->output_count; i++) {
-        add_symbol(m, of->outputs[i], 0);
+        add_symbol(m, of, of->outputs[i], 0);
     }
 }
 

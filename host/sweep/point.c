@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "host/run/number.h"
 #include "host/run/slow.h"
 #include "host/run/start.h"
 
@@ -303,10 +304,8 @@ bool sweep_point(const sweep *s, uint64_t point, bool (*abandon)(void), FILE *ro
     sweep_swept_fields(s, point, row);
     for (int i = 0; i < s->measures->count; i++) {
         fputc(',', row);
-        if (good && isnan(measured[i])) {
-            fputs("nan", row); /* never "-nan" */
-        } else if (good) {
-            fprintf(row, "%.*g", s->kind->digits, measured[i]);
+        if (good) {
+            fprintf(row, "%.*g", s->kind->digits, number_shown(measured[i]));
         }
     }
     fputs("\r\n", row);

@@ -181,7 +181,10 @@ static int run_points(const session_settings *o, sitting *s) {
     switch (result) {
     case JOBS_DONE: say_end(o, s, workers); break;
     case JOBS_STOPPED:
-        fprintf(stderr, "whirl sweep: interrupted\n%s", hint);
+        fprintf(stderr, "whirl sweep: interrupted after %llu of %llu points%s\n%s",
+                (unsigned long long)(s->sheet.rows + s->ran),
+                (unsigned long long)(o->end - o->first),
+                s->sheet.is_file ? "; their rows are kept" : "", hint);
         return SESSION_INTERRUPTED;
     case JOBS_WORKER_LOST:
         fprintf(stderr, "whirl sweep: error: a worker process ended early\n%s", hint);

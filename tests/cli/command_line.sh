@@ -70,6 +70,11 @@ says 2 'no mechanism here' derive -
 says 2 'more than one thing to derive: thomson' derive epicyclic thomson
 says 2 "one scene at a time, not also 'thomson_b'" run thomson_a thomson_b
 prints '^thomson_a: ' run core/models/thomson.whirl:thomson_a --until 2ms
+prints '^thomson_a: ' run thomson:thomson_a --until 2ms
+prints '^mechanism thomson' derive thomson:thomson_a
+prints "^theta1'' = " accel thomson:thomson_a
+prints '^start[(]theta1[)],' sweep thomson:thomson_a --until 2ms --over theta1=0..1:2 --quiet
+says 2 "the built-in mechanism 'thomson' has no scene 'foo'" run thomson:foo
 "$whirl" accel - x=0.5 <<'END' >"$scratch/out" 2>"$scratch/err"
 mechanism oscillator
 coordinate x [m]
@@ -121,6 +126,25 @@ says 2 "'foo' is unknown" run thomson_a --start foo=1
 says 2 'follows from the equations' run thomson_a --start "theta1''=1"
 says 2 "unknown effect 'spin'" run thomson_a --with spin
 says 2 "unknown effect 'spin'" run thomson_a --without spin
+# what belongs to an effect is changed where that takes part
+for call in 'run --set b=1' 'derive --set b=1' 'sweep --over b=1..2:2' 'sweep --over X=0..0:1 --set b=1'; do
+    # shellcheck disable=SC2086 # lists of words
+    says 2 "'b' belongs to the effect 'rail_drag', which takes no part here" $call epicyclic_from_rest
+    # shellcheck disable=SC2086
+    says 2 'hint: add --with rail_drag' $call epicyclic_from_rest
+    # shellcheck disable=SC2086
+    says 2 "'b' belongs to the effect" $call epicyclic_rail_drag --without rail_drag
+    # shellcheck disable=SC2086
+    check "$call --with E: accepted" "$whirl" $call epicyclic_from_rest --with ' rail_drag , ledger'
+done
+says 2 "'b' belongs to the effect 'rail_drag'" accel epicyclic b=1
+says 2 'hint: name a scene that calls for rail_drag' accel epicyclic_from_rest b=1
+prints "^X'' = " accel epicyclic_rail_drag b=1
+for list in '' ' ' , 'rail_drag,' ',rail_drag' 'rail_drag, ,ledger'; do
+    says 2 'a name is missing in --with "' run epicyclic_from_rest --with "$list"
+    says 2 'a name is missing in --without "' sweep epicyclic_rail_drag --over X=0..0:1 "--without=$list"
+done
+says 2 "names 'ledger' twice" run epicyclic_from_rest --with ledger --with 'rail_drag, ledger'
 says 2 'step must be above zero' run thomson_a --step 0
 says 2 'step must be above zero' run thomson_a --step -1ms
 says 2 'until must not be negative' run thomson_a --until -1s

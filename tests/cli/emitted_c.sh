@@ -113,6 +113,15 @@ V = -0.2 [J]*cos(th)
 Q(th) = push
 stop th <= 0.7 restitution 0.5
 END
+# angles that only the books need outside sines
+cat >"$scratch/w/gauge.whirl" <<'END'
+mechanism gauge "a total derivative in the energies"
+coordinate a [rad]
+coordinate b [rad]
+T = 1 [kg*m^2]*(2*a'^2 + b'^2 + 2*a'*b'*cos(a - b))/2 + 0.3 [N*m*s]*(2*a*b*a' + a^2*b')
+V = -9 [J]*(2*cos(a) + cos(b))
+stop sin(b) >= -0.9 restitution 0.5
+END
 for file in "$scratch"/w/*.whirl; do
     add_file "$file"
 done
@@ -120,8 +129,10 @@ for file in offsets outside roots first; do
     add_file "$scratch/w/$file.whirl"
     echo --compensated >>"$scratch/$number.options"
 done
-add_file "$scratch/w/hoop.whirl"
-printf '%s\n' --with ledger >>"$scratch/$number.options"
+for file in hoop gauge; do
+    add_file "$scratch/w/$file.whirl"
+    printf '%s\n' --with ledger >>"$scratch/$number.options"
+done
 
 # a clock that is conserved, on which a force depends: it is integrated
 cat >"$scratch/w/clock.whirl" <<'END'

@@ -31,15 +31,12 @@ static void test_overrides(void) {
     static const char *const sets[] = {"m=4", "r = 250 mm", "b=2*m/(1 [s])", "M=-1/4"};
     static const char *const starts[] = {"theta=90 [deg]", "X'=-36 km/h", "X = r"};
     static const char *const with[] = {"slope"};
-    static const char *const without[] = {"rail_drag"};
     const overrides changes = {.sets = sets,
                                .set_count = 4,
                                .starts = starts,
                                .start_count = 3,
                                .with = with,
                                .with_count = 1,
-                               .without = without,
-                               .without_count = 1,
                                .step = "2ms",
                                .until = "1 [min]"};
     parse(sample);
@@ -52,10 +49,21 @@ static void test_overrides(void) {
     expect_nearly(PI / 2.0, made->start[0][0]);
     expect_exactly(0.25, made->start[1][0]);
     expect_exactly(-10.0, made->start[1][1]);
-    TEST_ASSERT_FALSE(made->with[0]);
+    TEST_ASSERT_TRUE(made->with[0]);
     TEST_ASSERT_TRUE(made->with[1]);
     expect_exactly(0.002, made->step_s);
     expect_exactly(60.0, made->until_s);
+}
+
+static void test_effects_added_and_taken_away(void) {
+    static const char *const with[] = {"slope"};
+    static const char *const without[] = {"rail_drag"};
+    parse(sample);
+    instantiate(
+        &(overrides){.with = with, .with_count = 1, .without = without, .without_count = 1});
+    TEST_ASSERT_FALSE(made->with[0]);
+    TEST_ASSERT_TRUE(made->with[1]);
+    expect_exactly(0.5, parameter("b")); /* declared, though nothing uses it */
 }
 
 static void test_step_in_all_its_spellings(void) {
@@ -177,6 +185,7 @@ static void test_the_same_error_again_is_refused_again(void) {
 void suite_override(void) {
     UnitySetTestFile(__FILE__);
     RUN_TEST(test_overrides);
+    RUN_TEST(test_effects_added_and_taken_away);
     RUN_TEST(test_step_in_all_its_spellings);
     RUN_TEST(test_values_of_either_kind);
     RUN_TEST(test_wrong_overrides);

@@ -1,0 +1,144 @@
+/* rank.c: scaling, then elimination with full pivoting. */
+#include "rank.h"
+
+#include <math.h>
+
+/* Passes over rows and columns; each halves what is wrong with the logarithms of the scales. */
+#define PASSES 16
+/* Part of the scaled size below which a pivot is rounding, however exact the entries are: of about four times
+ * what the algebra takes for zero in a sum. */
+#define NO_PIVOT 4e-14
+
+/* The power of two next to 1/sqrt(x); 1 for what has no size. */
+static double scale_for(double x) {
+    int exponent = 0;
+    if (!(x > 0.0) || !isfinite(x)) {
+        return 1.0;
+    }
+    (void)frexp(x, &exponent);
+    return ldexp(1.0, -(exponent / 2));
+}
+
+static void scale_row(double *m, int n, int i, double by) {
+    for (int j = 0; j < n; j++) {
+        m[i * n + j] *= by;
+    }
+}
+
+static void scale_column(double *m, int n, int j, double by) {
+    for (int i = 0; i < n; i++) {
+        m[i * n + j] *= by;
+    }
+}
+
+static bool has_positive_diagonal(const double *m, int n) {
+    for (int i = 0; i < n; i++) {
+        if (!(m[i * n + i] > 0.0)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static double largest_of_row(const double *m, int n, int i) {
+    double largest = 0.0;
+    for (int j = 0; j < n; j++) {
+        largest = fmax(largest, fabs(m[i * n + j]));
+    }
+    return largest;
+}
+
+static double largest_of_column(const double *m, int n, int j) {
+    double largest = 0.0;
+    for (int i = 0; i < n; i++) {
+        largest = fmax(largest, fabs(m[i * n + j]));
+    }
+    return largest;
+}
+
+/* Rows are scaled by one pass, columns by the next: roots of the largest, so that neither side decides. */
+static void scale_general(double *m, double *error, int n) {
+    for (int pass = 0; pass < 2 * PASSES; pass++) {
+        for (int i = 0; i < n; i++) {
+            const double by =
+                scale_for(pass % 2 == 0 ? largest_of_row(m, n, i) : largest_of_column(m, n, i));
+            void (*const scale)(double *, int, int, double) =
+                pass % 2 == 0 ? scale_row : scale_column;
+            scale(m, n, i, by);
+            scale(error, n, i, by);
+        }
+    }
+}
+
+static void scale_symmetric(double *m, double *error, int n) {
+    for (int i = 0; i < n; i++) {
+        const double by = scale_for(m[i * n + i]);
+        scale_row(m, n, i, by);
+        scale_column(m, n, i, by);
+        scale_row(error, n, i, by);
+        scale_column(error, n, i, by);
+    }
+}
+
+/* Bring the largest of what is left to m[step][step]; its size. */
+static double bring_pivot(double *m, int n, int step) {
+    int row = step;
+    int column = step;
+    for (int i = step; i < n; i++) {
+        for (int j = step; j < n; j++) {
+            if (fabs(m[i * n + j]) > fabs(m[row * n + column])) {
+                row = i;
+                column = j;
+            }
+        }
+    }
+    for (int j = 0; j < n; j++) {
+        const double swap = m[step * n + j];
+        m[step * n + j] = m[row * n + j];
+        m[row * n + j] = swap;
+    }
+    for (int i = 0; i < n; i++) {
+        const double swap = m[i * n + step];
+        m[i * n + step] = m[i * n + column];
+        m[i * n + column] = swap;
+    }
+    return fabs(m[step * n + step]);
+}
+
+int rank_of(double *m, double *error, int n, bool symmetric) {
+    if (symmetric && has_positive_diagonal(m, n)) {
+        scale_symmetric(m, error, n);
+    } else {
+        scale_general(m, error, n);
+    }
+    double blur = NO_PIVOT;
+    for (int i = 0; i < n * n; i++) {
+        blur = fmax(blur, (double)n * error[i]);
+    }
+    int rank = 0;
+    while (rank < n && bring_pivot(m, n, rank) > blur) {
+        for (int i = rank + 1; i < n; i++) {
+            const double part = m[i * n + rank] / m[rank * n + rank];
+            for (int j = rank; j < n; j++) {
+                m[i * n + j] -= part * m[rank * n + j];
+            }
+        }
+        rank++;
+    }
+    return rank;
+}
+
+bool rank_is_positive(double *m, int n) {
+    for (int k = 0; k < n; k++) {
+        if (!(m[k * n + k] > 0.0)) {
+            return false;
+        }
+        for (int i = k + 1; i < n; i++) {
+            const double part = m[k * n + i] / m[k * n + k];
+            for (int j = i; j < n; j++) {
+                m[i * n + j] -= part * m[k * n + j];
+            }
+        }
+    }
+    return true;
+}

@@ -1,0 +1,107 @@
+#!/bin/sh
+# interrupt.sh: `whirl run` and `whirl sweep`, interrupted by real signals: exit status 130, what was reached is said, the
+# records up to there and the summary are whole.
+. "$(dirname "$0")/../checks.sh"
+
+# stop SIGNAL FILE WORD...: start whirl, send the signal when FILE has grown; $code is its exit status.
+stop() {
+    signal=$1
+    grows=$2
+    shift 2
+    "$whirl" "$@" >"$scratch/out" 2>"$scratch/err" &
+    process=$!
+    tries=0
+    while [ "$(wc -c 2>/dev/null <"$grows" || echo 0)" -lt 20000 ] && [ $tries -lt 1000 ]; do
+        sleep 0.01
+        tries=$((tries + 1))
+    done
+    kill "-$signal" $process
+    wait $process
+    code=$?
+}
+
+# said TEXT: standard error has the time of the last record, and nothing else.
+said() {
+    last=$(tail -n 1 "$1" | tr -d '\r' | sed 's/[, ].*//')
+    printf 'whirl run: interrupted at t = %s s of %s s; the records so far are kept\n' "$last" "$2" >"$scratch/wanted"
+    cmp -s "$scratch/wanted" "$scratch/err"
+}
+
+# whole FILE SEPARATOR STEP: every line of records has all columns, a step after the one before.
+whole() {
+    tr -d '\r' <"$1" | awk -F"$2" -v step="$3" '
+        /^%/ { next }
+        NR == 1 { columns = NF; next }
+        NF < 5 || (columns && NF != columns) { bad = 1 }
+        { late = $1 - seen * step; if (late > 1e-9 * (1 + $1) || late < -1e-9 * (1 + $1)) bad = 1; seen++ }
+        END { exit bad || seen < 100 }'
+}
+
+for signal in INT TERM; do
+    for quiet in '' --quiet; do
+        # shellcheck disable=SC2086 # perhaps no word
+        stop $signal "$scratch/r.csv" run epicyclic_from_rest --until 1000000s --csv "$scratch/r.csv" $quiet
+        name="run, $signal${quiet:+, }$quiet"
+        [ "$code" -eq 130 ]
+        verdict $? "$name: exit status 130"
+        said "$scratch/r.csv" 1000000
+        verdict $? "$name: says at what time, which is the last record's"
+        check "$name: the records are whole" whole "$scratch/r.csv" , 0.001
+        if [ -n "$quiet" ]; then
+            [ ! -s "$scratch/out" ]
+            verdict $? "$name: no summary"
+        else
+            grep -q "steps to t = $last s\$" "$scratch/out" && grep -q '^state hash' "$scratch/out"
+            verdict $? "$name: the summary of what was reached" "$scratch/out"
+        fi
+        rm -f "$scratch/r.csv"
+    done
+done
+
+# the state that was reached is that of a run to there
+stop INT "$scratch/r.dat" run epicyclic_from_rest --until 1000000s --columns "$scratch/r.dat"
+said "$scratch/r.dat" 1000000
+verdict $? "run, columns: says at what time"
+check "run, columns: the records are whole" whole "$scratch/r.dat" ' ' 0.001
+"$whirl" run epicyclic_from_rest --until "$last" >"$scratch/again"
+[ "$(grep '^state hash' "$scratch/again")" = "$(grep '^state hash' "$scratch/out")" ]
+verdict $? "run, columns: the state of a run that ends there"
+
+# without records there are none to keep
+"$whirl" run epicyclic_from_rest --until 1000000s --with ledger >"$scratch/out" 2>"$scratch/err" &
+process=$!
+sleep 0.3
+kill -INT $process
+wait $process
+[ $? -eq 130 ] && grep -Eq '^whirl run: interrupted at t = [0-9.]+ s of 1000000 s$' "$scratch/err"
+verdict $? "run without records: exit status 130, and when"
+grep -q '^energy book' "$scratch/out"
+verdict $? "run without records: its books are there" "$scratch/out"
+
+# a second one ends what waits: here for a reader that never comes
+mkfifo "$scratch/pipe"
+# shellcheck disable=SC2217 # it holds the pipe open and reads nothing
+sleep 100 <"$scratch/pipe" &
+reader=$!
+"$whirl" run epicyclic_from_rest --until 1000000s --csv "$scratch/pipe" --quiet 2>/dev/null &
+process=$!
+sleep 0.3
+kill -INT $process
+sleep 0.2
+kill -INT $process
+wait $process
+[ $? -eq 130 ] # ended by signal 2
+verdict $? "a second Ctrl-C ends a run that cannot write"
+kill $reader
+
+for signal in INT TERM; do
+    stop $signal "$scratch/s.csv" sweep carriage_free --until 50ms --over duty=0..1:1000000 --measure X --measure "X'" \
+        --measure 'max(pin_force)' --jobs 2 --csv "$scratch/s.csv"
+    rows=$(($(wc -l <"$scratch/s.csv") - 1))
+    [ "$code" -eq 130 ]
+    verdict $? "sweep, $signal: exit status 130"
+    grep -q "^whirl sweep: interrupted after $rows of 1000000 points; their rows are kept\$" "$scratch/err"
+    verdict $? "sweep, $signal: says how far it came: $rows rows"
+    rm -f "$scratch/s.csv" "$scratch/s.csv.sweep"
+done
+exit $failed

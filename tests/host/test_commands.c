@@ -1,0 +1,262 @@
+/* test_commands.c: parts of the command line that need no process: lists of effects, built-in names, and whether two
+ * names are one file where a file system knows no inodes. */
+#define _XOPEN_SOURCE 700 /* symlink(), mkdtemp() */
+
+#include "derived.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "host/commands/files.h"
+#include "host/commands/find.h"
+#include "host/commands/load.h"
+#include "host/commands/options.h"
+#include "unity.h"
+
+void suite_commands(void);
+
+/* Standard error into a file, until said() gives it back. */
+static FILE *listening;
+static int before;
+
+static void listen_to_errors(void) {
+    fflush(stderr);
+    listening = tmpfile();
+    TEST_ASSERT_NOT_NULL(listening);
+    before = dup(STDERR_FILENO);
+    dup2(fileno(listening), STDERR_FILENO);
+}
+
+static const char *said(void) {
+    static char text[4000];
+    fflush(stderr);
+    dup2(before, STDERR_FILENO);
+    close(before);
+    rewind(listening);
+    const size_t length = fread(text, 1, sizeof text - 1, listening);
+    text[length] = '\0';
+    fclose(listening);
+    return text;
+}
+
+/* --- lists of effects ---------------------------------------------------------------------------- */
+
+static const char *blanks_of(uint64_t *seed) {
+    static const char *const some[] = {"", "", " ", "  ", "\t", " \t "};
+    return some[random_bits(seed) % (sizeof some / sizeof some[0])];
+}
+
+/* Take `text` as the value of --with (or --without); its names in *c. */
+static bool take(change_options *c, bool with, const char *text, bool joined) {
+    char option[20];
+    char whole[400];
+    char value[400];
+    int at = 0;
+    bool bad = false;
+    snprintf(option, sizeof option, with ? "--with" : "--without");
+    snprintf(whole, sizeof whole, "%s=%s", option, text);
+    snprintf(value, sizeof value, "%s", text);
+    char *words[] = {joined ? whole : option, value};
+    *c = (change_options){0};
+    listen_to_errors();
+    const bool taken = options_change(2, words, &at, c, &bad);
+    TEST_ASSERT_TRUE(taken);
+    TEST_ASSERT_EQUAL_INT(joined ? 1 : 2, at);
+    const char *complaint = said();
+    TEST_ASSERT_TRUE_MESSAGE(bad == (complaint[0] != '\0'), complaint);
+    if (bad) {
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(complaint, option), complaint);
+    }
+    return !bad;
+}
+
+static void test_lists_of_effects(void) {
+    uint64_t seed = 5050;
+    for (int i = 0; i < 400; i++) {
+        static const char *const names[] = {"a", "c", "rail_drag", "ledger", "b2"};
+        const int count = 1 + (int)(random_bits(&seed) % 5);
+        const int mistake = (int)(random_bits(&seed) % 3); /* 1: a name is missing, 2: one twice */
+        const int which = (int)(random_bits(&seed) % (unsigned)count);
+        const bool with = random_bits(&seed) % 2 == 0;
+        char text[300] = "";
+        for (int k = 0; k < count; k++) {
+            const bool gone = mistake == 1 && k == which;
+            const char *name = gone ? "" : names[mistake == 2 && k == which ? (k + 1) % count : k];
+            strcat(text, blanks_of(&seed));
+            strcat(text, name);
+            strcat(text, blanks_of(&seed));
+            strcat(text, k + 1 < count ? "," : "");
+        }
+        change_options c;
+        const bool good = mistake == 0 || (mistake == 2 && count == 1);
+        TEST_ASSERT_TRUE_MESSAGE(take(&c, with, text, i % 2 == 0) == good, text);
+        const char **list = with ? c.with : c.without;
+        if (good) {
+            TEST_ASSERT_EQUAL_INT(count, with ? c.with_count : c.without_count);
+            TEST_ASSERT_EQUAL_INT(0, with ? c.without_count : c.with_count);
+            for (int k = 0; k < count; k++) {
+                TEST_ASSERT_EQUAL_STRING(names[k], list[k]);
+            }
+        }
+        change_options_free(&c);
+    }
+}
+
+/* --- built-in names ------------------------------------------------------------------------------ */
+
+typedef struct found {
+    int code;
+    char file[40];
+    char name[80];
+    char said[4000];
+} found;
+
+static found look(const struct builtin_model *models, size_t count, const char *target) {
+    found f = {0};
+    diags *errors = diags_new();
+    model *m = NULL;
+    const struct builtin_model *from = NULL;
+    const char *name = NULL;
+    listen_to_errors();
+    f.code = find_builtin(models, count, target, errors, &m, &from, &name);
+    snprintf(f.said, sizeof f.said, "%s", said());
+    TEST_ASSERT_TRUE_MESSAGE((f.code == EXIT_DONE) == (f.said[0] == '\0'), f.said);
+    if (f.code == EXIT_DONE) {
+        snprintf(f.file, sizeof f.file, "%s", from->file);
+        snprintf(f.name, sizeof f.name, "%s", name);
+        model_free(m);
+    }
+    diags_free(errors);
+    return f;
+}
+
+#define BODY "\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n"
+#define MODEL(file, text) \
+    { file, text, sizeof(text) - 1 }
+
+static const struct builtin_model made_up[] = {
+    MODEL("one.whirl", "mechanism gear" BODY "scene rest { }\nscene spun { }\nmechanism rod" BODY
+                       "scene rod { }\nscene falls { }\n"),
+    MODEL("two.whirl", "mechanism lever" BODY "scene rest { }\nscene only { }\n"),
+    MODEL("three.whirl", "mechanism gear" BODY "scene slow { }\n")};
+
+static void test_built_in_names(void) {
+    static const struct {
+        const char *target;
+        const char *file; /* NULL: refused */
+        const char *name; /* or what is said */
+    } all[] = {{"spun", "one.whirl", "spun"},
+               {"gear:spun", "one.whirl", "spun"},
+               {"gear:slow", "three.whirl", "slow"},
+               {"gear:rest", "one.whirl", "rest"},
+               {"lever:rest", "two.whirl", "rest"},
+               {"lever", "two.whirl", "lever"},
+               {"lever:lever", "two.whirl", "lever"},
+               {"rod", "one.whirl", "rod"}, /* the scene is meant, as in a file */
+               {"rod:falls", "one.whirl", "falls"},
+               {"rest", NULL, "hint: one of: gear:rest (one.whirl) lever:rest (two.whirl)"},
+               {"gear", NULL, "hint: one of: gear:gear (one.whirl) gear:gear (three.whirl)"},
+               {"gear:only", NULL, "the built-in mechanism 'gear' has no scene 'only'"},
+               {"gear:spum", NULL, "hint: did you mean 'spun'?"},
+               {"rod:xyzzy", NULL, "hint: one of: rod falls, or the mechanism alone"},
+               {"gaer:spun", NULL, "hint: did you mean 'gear'?"},
+               {"onyl", NULL, "hint: did you mean 'only'?"},
+               {"", NULL, "no file and no built-in"},
+               {":", NULL, "no file and no built-in"},
+               {":rest", NULL, "no file and no built-in"},
+               {"lever:", NULL, "has no scene ''"},
+               {"gear:spun:spun", NULL, "no file and no built-in"}};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
+        const found f = look(made_up, 3, all[i].target);
+        if (all[i].file != NULL) {
+            TEST_ASSERT_EQUAL_INT_MESSAGE(EXIT_DONE, f.code, all[i].target);
+            TEST_ASSERT_EQUAL_STRING(all[i].file, f.file);
+            TEST_ASSERT_EQUAL_STRING(all[i].name, f.name);
+        } else {
+            TEST_ASSERT_EQUAL_INT_MESSAGE(EXIT_BAD_INPUT, f.code, all[i].target);
+            TEST_ASSERT_NOT_NULL_MESSAGE(strstr(f.said, all[i].name), f.said);
+        }
+    }
+}
+
+/* Every built-in scene goes by both its names, and both lead to the same one. */
+static int check_both_names(const scene *s) {
+    char both[200];
+    snprintf(both, sizeof both, "%s:%s", s->mechanism->name, s->name);
+    const found alone = look(builtin_models, builtin_model_count, s->name);
+    const found whole = look(builtin_models, builtin_model_count, both);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(EXIT_DONE, alone.code, alone.said);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(EXIT_DONE, whole.code, whole.said);
+    TEST_ASSERT_EQUAL_STRING(alone.file, whole.file);
+    TEST_ASSERT_EQUAL_STRING(alone.name, whole.name);
+    return 1;
+}
+
+static void test_every_built_in_scene_by_both_names(void) {
+    TEST_ASSERT_TRUE(each_builtin_scene(check_both_names) > 40);
+}
+
+/* --- files --------------------------------------------------------------------------------------- */
+
+static void write_file(const char *path, const char *text) {
+    FILE *out = fopen(path, "w");
+    TEST_ASSERT_NOT_NULL(out);
+    fputs(text, out);
+    fclose(out);
+}
+
+/* With inodes and without, by every pair of names; the latter as a network file system or WASI has it. */
+static void test_one_file_or_two(void) {
+    char folder[] = "/tmp/whirl_files_XXXXXX";
+    TEST_ASSERT_NOT_NULL(mkdtemp(folder));
+    enum { NAMES = 6 };
+    static const char *const names[NAMES] = {"a", "./a", "soft", "hard", "twin", "b"};
+    static const int file[NAMES] = {0, 0, 0, 0, 1, 2}; /* which file that is */
+    char path[NAMES][100];
+    for (int i = 0; i < NAMES; i++) {
+        snprintf(path[i], sizeof path[i], "%s/%s", folder, names[i]);
+    }
+    write_file(path[0], "model");
+    write_file(path[4], "model"); /* the same size and, likely, the same time */
+    write_file(path[5], "another");
+    TEST_ASSERT_EQUAL_INT(0, symlink("a", path[2]));
+    TEST_ASSERT_EQUAL_INT(0, link(path[0], path[3]));
+    for (int i = 0; i < NAMES; i++) {
+        for (int k = 0; k < NAMES; k++) {
+            struct stat one;
+            struct stat other;
+            TEST_ASSERT_EQUAL_INT(0, stat(path[i], &one));
+            TEST_ASSERT_EQUAL_INT(0, stat(path[k], &other));
+            const bool same = file[i] == file[k];
+            TEST_ASSERT_TRUE(files_are_one(&one, path[i], &other, path[k]) == same);
+            TEST_ASSERT_TRUE(files_same(path[i], path[k]) == same);
+            for (int without = 1; without < 4; without++) { /* one has no inode, the other, both */
+                struct stat left = one;
+                struct stat right = other;
+                left.st_ino = (without & 1) != 0 ? 0 : left.st_ino;
+                right.st_ino = (without & 2) != 0 ? 0 : right.st_ino;
+                TEST_ASSERT_TRUE_MESSAGE(files_are_one(&left, path[i], &right, path[k]) == same,
+                                         path[k]);
+                /* what came through standard input has no name: the file itself must be found */
+                if (same || one.st_size != other.st_size) {
+                    TEST_ASSERT_TRUE(files_are_one(&left, NULL, &right, path[k]) == same);
+                }
+            }
+        }
+    }
+    for (int i = NAMES - 1; i >= 0; i--) {
+        if (i != 1) {
+            TEST_ASSERT_EQUAL_INT(0, unlink(path[i]));
+        }
+    }
+    TEST_ASSERT_EQUAL_INT(0, rmdir(folder));
+}
+
+void suite_commands(void) {
+    RUN_TEST(test_lists_of_effects);
+    RUN_TEST(test_built_in_names);
+    RUN_TEST(test_every_built_in_scene_by_both_names);
+    RUN_TEST(test_one_file_or_two);
+}

@@ -1,0 +1,267 @@
+/* test_effect_parts.c: what belongs to an effect goes with it: its parameters and inputs can be changed only where it
+ * takes part, and inertia may come from effects alone. Every effect of every built-in mechanism; generated
+ * mechanisms. */
+#define _POSIX_C_SOURCE 200809L
+
+#include "derived.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "host/lang/builtin.h"
+#include "unity.h"
+
+void suite_effect_parts(void);
+
+/* What an instance with one change says; "" when it is accepted. Free it. */
+static char *said_of(const mechanism *of, const scene *in, const char *set, bool as_value,
+                     const char *with) {
+    const char *const sets[] = {set};
+    const char *const effects[] = {with};
+    const overrides changes = {.sets = sets,
+                               .set_count = as_value ? 0 : 1,
+                               .values = sets,
+                               .value_count = as_value ? 1 : 0,
+                               .with = effects,
+                               .with_count = with != NULL ? 1 : 0};
+    diags *errors = diags_new();
+    instance *inst = instance_make(of, in, &changes, errors);
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    TEST_ASSERT_NOT_NULL(out);
+    diags_flush(errors, out);
+    fclose(out);
+    TEST_ASSERT_TRUE((inst == NULL) == (text[0] != '\0'));
+    instance_free(inst);
+    diags_free(errors);
+    return text;
+}
+
+/* The effect's name in the message and, for --set, what to add. */
+static void expect_refused(const mechanism *of, const scene *in, const symbol *s, double value) {
+    char set[200];
+    char wanted[200];
+    const char *owner = of->effects[s->effect].name;
+    snprintf(set, sizeof set, "%s=%.17g", s->name, value);
+    for (int as_value = 0; as_value < 2; as_value++) {
+        char *said = said_of(of, in, set, as_value != 0, NULL);
+        snprintf(wanted, sizeof wanted, "'%s' belongs to the effect '%s'", s->name, owner);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(said, wanted), said);
+        snprintf(wanted, sizeof wanted, "hint: add --with %s", owner);
+        TEST_ASSERT_TRUE_MESSAGE((strstr(said, wanted) != NULL) == (as_value == 0), said);
+        free(said);
+    }
+    char *said = said_of(of, in, set, false, owner);
+    TEST_ASSERT_EQUAL_STRING("", said);
+    free(said);
+}
+
+/* A value that the parameter or input can have: its own. */
+static double own_value(const mechanism *of, const symbol *s) {
+    diags *errors = diags_new();
+    instance *inst = instance_make(of, NULL, NULL, errors);
+    TEST_ASSERT_NOT_NULL(inst);
+    const double value =
+        s->kind == SYM_PARAMETER ? inst->parameter[s->index] : inst->input[s->index];
+    instance_free(inst);
+    diags_free(errors);
+    return value;
+}
+
+static int check_symbols(const model *m, const mechanism *of, const symbol *const *symbols,
+                         int count) {
+    int checked = 0;
+    for (int i = 0; i < count; i++) {
+        const symbol *s = symbols[i];
+        if (s->effect < 0) {
+            continue;
+        }
+        const double value = own_value(of, s);
+        expect_refused(of, NULL, s, value);
+        checked++;
+        for (int k = 0; k < m->scene_count; k++) {
+            if (m->scenes[k]->mechanism == of && !m->scenes[k]->with[s->effect]) {
+                expect_refused(of, m->scenes[k], s, value);
+            }
+        }
+    }
+    return checked;
+}
+
+static void test_changes_of_what_takes_no_part_are_refused(void) {
+    int checked = 0;
+    for (size_t i = 0; i < builtin_model_count; i++) {
+        diags *errors = diags_new();
+        model *m = model_parse(builtin_models[i].file, builtin_models[i].text,
+                               builtin_models[i].length, errors);
+        TEST_ASSERT_NOT_NULL(m);
+        for (int k = 0; k < m->mechanism_count; k++) {
+            const mechanism *of = m->mechanisms[k];
+            checked += check_symbols(m, of, of->parameters, of->parameter_count);
+            checked += check_symbols(m, of, of->inputs, of->input_count);
+        }
+        model_free(m);
+        diags_free(errors);
+    }
+    printf("  %d parameters and inputs of effects\n", checked);
+    TEST_ASSERT_TRUE(checked > 30);
+}
+
+/* A scene's own `set`, before or behind its `with`. */
+static void test_a_scene_sets_what_it_names(void) {
+    static const struct {
+        const char *scene;
+        const char *said; /* NULL: accepted */
+    } all[] = {{"scene s { set b = 3 }",
+                "t.whirl:5:15: error: 'b' belongs to the effect 'drag', which this "
+                "scene does not name"},
+               {"scene s { set b = 3\nwith drag }", NULL},
+               {"scene s { with drag\nset b = 3, m = 2 [kg] }", NULL},
+               {"scene s { set m = 2 [kg], push = 1 [N]\nwith drag }",
+                "'push' belongs to the effect 'motor'"},
+               {"scene s { with drag, motor\nset push = 1 [N], b = 2 }", NULL}};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
+        char text[600];
+        snprintf(
+            text, sizeof text,
+            "mechanism m\ncoordinate x [m]\nparameter m = 1 [kg]\nT = m*x'^2/2; effect drag { "
+            "parameter b = 1; F += b*1 [kg/s]*x'^2/2 }; effect motor { input push = 0 [N]; Q(x) += "
+            "push }\n%s\n",
+            all[i].scene);
+        derived d = derived_text(text);
+        TEST_ASSERT_TRUE_MESSAGE((d.model != NULL) == (all[i].said == NULL), d.errors);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(d.errors, all[i].said != NULL ? all[i].said : ""),
+                                     d.errors);
+        derived_free(&d);
+    }
+}
+
+/* `--without E` leaves a scene that sets something of E usable. */
+static void test_a_scene_without_an_effect_that_it_sets(void) {
+    static const char text[] = "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n"
+                               "effect drag { parameter b = 1 [kg/s]; F += b*x'^2/2 }\n"
+                               "scene s { with drag; set b = 3 [kg/s] }\n";
+    static const char *const drag[] = {"drag"};
+    diags *errors = diags_new();
+    model *m = model_parse("t.whirl", text, strlen(text), errors);
+    TEST_ASSERT_NOT_NULL(m);
+    const overrides changes = {.without = drag, .without_count = 1};
+    instance *inst = instance_make(m->mechanisms[0], m->scenes[0], &changes, errors);
+    TEST_ASSERT_NOT_NULL(inst);
+    TEST_ASSERT_FALSE(inst->with[0]);
+    instance_free(inst);
+    model_free(m);
+    diags_free(errors);
+}
+
+/* --- inertia from effects ------------------------------------------------------------------------ */
+
+enum { COORDINATES = 3 };
+
+/* Coordinate i has its inertia from the mechanism (giver[i] = 0) or from effect e1, e2, e3. Derived with the
+ * effects in `with`. */
+static derived derive_with(const int *giver, unsigned with) {
+    char text[2000] = "mechanism parts\n";
+    char line[160];
+    bool none = true;
+    for (int i = 0; i < COORDINATES; i++) {
+        snprintf(line, sizeof line, "coordinate q%d [m]\n", i);
+        strcat(text, line);
+    }
+    for (int of = 0; of <= 3; of++) {
+        if (of > 0) {
+            snprintf(line, sizeof line, "effect e%d {\n", of);
+            strcat(text, line);
+        }
+        for (int i = 0; i < COORDINATES; i++) {
+            if (giver[i] == of) {
+                snprintf(line, sizeof line, "%s %d [kg]*q%d'^2/2\n",
+                         of > 0 ? "T +="
+                         : none ? "T ="
+                                : "  +",
+                         i + 2, i);
+                if (of == 0 && !none) { /* one statement holds the sum */
+                    text[strlen(text) - 1] = '\0';
+                }
+                none = of == 0 ? false : none;
+                strcat(text, line);
+            }
+        }
+        strcat(text, of > 0 ? "V += 0 [J]\n}\n" : "");
+    }
+    strcat(text, "V = 3 [N/m]*(q0 + q1 + q2)^2/2\nscene s {\n");
+    for (int of = 1; of <= 3; of++) {
+        if ((with >> of & 1U) != 0) {
+            snprintf(line, sizeof line, "with e%d\n", of);
+            strcat(text, line);
+        }
+    }
+    strcat(text, "with ledger\nstart q0 = 0.1 [m]\n}\n");
+    derived d = {0};
+    diags *errors = diags_new();
+    d.model = model_parse("t.whirl", text, strlen(text), errors);
+    if (d.model != NULL) {
+        d.instance = instance_make(d.model->mechanisms[0], d.model->scenes[0], NULL, errors);
+        d.equations = d.instance == NULL ? NULL : equations_derive(d.instance, errors);
+        d.program = d.equations == NULL ? NULL : program_make(d.equations, NULL, errors);
+    }
+    size_t size = 0;
+    FILE *out = open_memstream(&d.errors, &size);
+    TEST_ASSERT_NOT_NULL(out);
+    diags_flush(errors, out);
+    fclose(out);
+    diags_free(errors);
+    return d;
+}
+
+static void test_inertia_of_effects(void) {
+    for (int way = 0; way < 64; way++) { /* every giver of every coordinate */
+        int giver[COORDINATES];
+        for (int i = 0; i < COORDINATES; i++) {
+            giver[i] = way >> (2 * i) & 3;
+        }
+        for (unsigned with = 0; with < 16; with += 2) { /* every choice of effects */
+            derived d = derive_with(giver, with);
+            int missing = -1;
+            for (int i = COORDINATES - 1; i >= 0; i--) {
+                missing = giver[i] > 0 && (with >> giver[i] & 1U) == 0 ? i : missing;
+            }
+            if (missing < 0) {
+                TEST_ASSERT_NOT_NULL_MESSAGE(d.program, d.errors);
+            } else {
+                char wanted[120];
+                TEST_ASSERT_NULL(d.program);
+                snprintf(wanted, sizeof wanted, "the kinetic energy does not contain q%d'",
+                         missing);
+                TEST_ASSERT_NOT_NULL_MESSAGE(strstr(d.errors, wanted), d.errors);
+                snprintf(wanted, sizeof wanted, "hint: the effect 'e%d' gives it one",
+                         giver[missing]);
+                TEST_ASSERT_NOT_NULL_MESSAGE(strstr(d.errors, wanted), d.errors);
+            }
+            derived_free(&d);
+        }
+    }
+}
+
+/* Without any T at all the mechanism itself is wrong. */
+static void test_no_inertia_anywhere(void) {
+    derived d =
+        derived_text("mechanism m\ncoordinate x [m]\nV = 1 [N]*x\neffect e { V += 1 [N]*x }\n");
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(d.errors, "mechanism 'm' has no kinetic energy T"),
+                                 d.errors);
+    derived_free(&d);
+    d = derived_text("mechanism m\ncoordinate x [m]\ncoordinate y [m]\nV = 1 [N]*x\n"
+                     "effect e { T += 1 [kg]*x'^2/2 }\n");
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(d.errors, "hint: the effect 'e' gives it one"), d.errors);
+    derived_free(&d);
+}
+
+void suite_effect_parts(void) {
+    RUN_TEST(test_changes_of_what_takes_no_part_are_refused);
+    RUN_TEST(test_a_scene_sets_what_it_names);
+    RUN_TEST(test_a_scene_without_an_effect_that_it_sets);
+    RUN_TEST(test_inertia_of_effects);
+    RUN_TEST(test_no_inertia_anywhere);
+}

@@ -1,0 +1,226 @@
+/* test_ledger_turns.c: books of energies that are linear in rates. A total derivative of a function of the coordinates,
+ * dG/dt, changes no motion, but the momenta by dG/dq, and every dL/dq: then the books need angles of which the
+ * equations know only the sines. Closed forms, and generated mechanisms. */
+#include "derived.h"
+#include "motion.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "host/derive/ledger.h"
+#include "unity.h"
+
+void suite_ledger_turns(void);
+
+static const stepping booked = {.kind = &engine_double, .method = WH_RK4, .ledger = true};
+static const stepping booked_float = {.kind = &engine_float, .method = WH_RK4, .ledger = true};
+
+enum { ENTRIES_MAX = 200 };
+
+/* Everything that the ledger says. */
+typedef struct account_book {
+    double total[ENTRIES_MAX];
+    double left_over[8]; /* by account */
+} account_book;
+
+static account_book read_book(const motion *m) {
+    account_book book;
+    TEST_ASSERT_TRUE(m->program->ledger->entries <= ENTRIES_MAX);
+    TEST_ASSERT_TRUE(m->program->ledger->accounts <= 8);
+    m->kind->ledger(m->run, book.total, book.left_over);
+    return book;
+}
+
+/* The entry of dL/dq of the coordinate called `name`. */
+static double of_energies(const motion *m, const account_book *book, const char *name) {
+    const ledger_lists *l = m->program->ledger;
+    for (int i = 0; i < l->smooth; i++) {
+        const int account = l->entry[i].account;
+        if (l->entry[i].kind == LEDGER_ENERGIES && account > 0 &&
+            strcmp(m->equations->unknowns[l->unknown[account]].symbol->name, name) == 0) {
+            return book->total[i];
+        }
+    }
+    TEST_FAIL_MESSAGE("no such entry");
+    return 0.0;
+}
+
+/* L = th'^2/2 + k th^2 th': free, th = w t; dL/dth = 2 k th th' adds up to k (w t)^2. */
+static void test_a_free_wheel(void) {
+    static const char text[] = "mechanism wheel\ncoordinate th [rad]\nparameter k = 3 [N*m*s]\n"
+                               "T = 1 [kg*m^2]*th'^2/2 + k*th^2*th'\n"
+                               "scene s { start th = 0.5, th' = 7 [rad/s]\nuntil 3 [s] }\n";
+    motion m;
+    motion_open_text(&m, text, booked);
+    TEST_ASSERT_EQUAL_INT(1, m.program->angles); /* it does turn */
+    TEST_ASSERT_TRUE(m.program->ledger->turned);
+    motion_to(&m, 3.0);
+    const account_book book = read_book(&m);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-10, 3.0 * (21.5 * 21.5 - 0.25), of_energies(&m, &book, "th"));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.0, book.left_over[0]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-10, 0.0, book.left_over[1]);
+    motion_close(&m);
+    motion_open_text(&m, text,
+                     booked_float); /* over three turns, of which an integer keeps the phase */
+    motion_to(&m, 3.0);
+    const account_book coarse = read_book(&m);
+    TEST_ASSERT_DOUBLE_WITHIN(0.01, 1386.0, of_energies(&m, &coarse, "th"));
+    TEST_ASSERT_DOUBLE_WITHIN(0.01, 0.0, coarse.left_over[1]);
+    motion_close(&m);
+}
+
+/* Two wheels with gyroscopic coupling, L = (a'^2 + b'^2)/2 + B a b': their rates turn with B, a' = v cos(B t), b' = -v
+ * sin(B t); p_b = b' + B a stays, p_a = a' changes by dL/da = B b'. */
+static void test_gyroscopic_coupling(void) {
+    static const char text[] =
+        "mechanism wheels\ncoordinate a [rad]\ncoordinate b [rad]\nparameter B = 2 [N*m*s]\n"
+        "T = 1 [kg*m^2]*(a'^2 + b'^2)/2 + B*a*b'\n"
+        "scene s { start a' = 5 [rad/s]\nuntil 4 [s] }\n";
+    motion m;
+    motion_open_text(&m, text, booked);
+    motion_to(&m, 1.0);
+    const account_book book = read_book(&m);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 5.0 * cos(2.0), motion_value(&m, "a'"));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, -5.0 * sin(2.0), motion_value(&m, "b'"));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 5.0 * cos(2.0) - 5.0, of_energies(&m, &book, "a"));
+    for (int account = 0; account < 3; account++) {
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.0, book.left_over[account]);
+    }
+    motion_close(&m);
+}
+
+/* A charge in a uniform field, in polar coordinates and with the gauge in which its angle stands: A = B r^2/2 dphi +
+ * d(c phi^2)/2. It goes round a circle with the angular frequency B/m; h = m v^2/2. */
+static void test_a_charge_in_a_uniform_field(void) {
+    static const char text[] =
+        "mechanism charge\ncoordinate r [m]\ncoordinate phi [rad]\nparameter m = 2 [kg]\n"
+        "parameter B = 3 [kg/s]\nparameter c = 0.7 [N*m*s]\nT = m*(r'^2 + r^2*phi'^2)/2\n"
+        "V = -B*r^2*phi'/2 - c*phi*phi'\n"
+        "scene s { start r = 2 [m], r' = 0.3 [m/s], phi' = 0.4 [rad/s]\nuntil 2 [s] }\n";
+    double left[2] = {0};
+    for (int k = 0; k < 2; k++) {
+        stepping how = booked;
+        motion m;
+        how.step_s = 0.04 / (1 << k);
+        motion_open_text(&m, text, how);
+        motion_to(&m, 2.0);
+        const account_book book = read_book(&m);
+        const double phi = motion_value(&m, "phi");
+        /* p_phi stays but for the gauge: its entry is that of c phi phi' */
+        TEST_ASSERT_DOUBLE_WITHIN(2e-6 / (1 << (4 * k)), 0.7 * phi, of_energies(&m, &book, "phi"));
+        left[k] =
+            fmax(fabs(book.left_over[0]), fmax(fabs(book.left_over[1]), fabs(book.left_over[2])));
+        motion_close(&m);
+    }
+    char line[100];
+    snprintf(line, sizeof line, "left over %.2e, then %.2e: order %.2f", left[0], left[1],
+             log2(left[0] / left[1]));
+    printf("  %s\n", line);
+    TEST_ASSERT_TRUE_MESSAGE(left[1] < 1e-6 && log2(left[0] / left[1]) > 3.7, line);
+}
+
+/* --- generated ----------------------------------------------------------------------------------- */
+
+/* A function of the angles a and b, and its rate by hand. */
+typedef struct gauge {
+    char rate[400];
+    double factor[3];
+    int power[3][2];
+} gauge;
+
+static gauge random_gauge(uint64_t *seed) {
+    gauge g = {.rate = ""};
+    for (int k = 0; k < 3; k++) {
+        char line[160];
+        const int p = (int)(random_bits(seed) % 4);
+        const int q = (int)(random_bits(seed) % 3);
+        g.factor[k] = floor(random_between(seed, -20.0, 20.0)) / 8.0;
+        g.power[k][0] = p;
+        g.power[k][1] = q;
+        snprintf(line, sizeof line, " + (%.17g [N*m*s])*(%d*a^%d*b^%d*a' + %d*a^%d*b^%d*b')",
+                 g.factor[k], p, p > 0 ? p - 1 : 0, q, q, p, q > 0 ? q - 1 : 0);
+        strcat(g.rate, line);
+    }
+    return g;
+}
+
+/* dG/da and dG/db. */
+static void slopes(const gauge *g, double a, double b, double slope[2]) {
+    slope[0] = slope[1] = 0.0;
+    for (int k = 0; k < 3; k++) {
+        const int p = g->power[k][0];
+        const int q = g->power[k][1];
+        slope[0] += p > 0 ? g->factor[k] * p * pow(a, p - 1) * pow(b, q) : 0.0;
+        slope[1] += q > 0 ? g->factor[k] * q * pow(a, p) * pow(b, q - 1) : 0.0;
+    }
+}
+
+/* A double pendulum with drag, a motor and a stop, with and without the total derivative. */
+static void open_pendulum(motion *m, const char *rate, stepping how) {
+    char text[1500];
+    snprintf(text, sizeof text,
+             "mechanism pair\ncoordinate a [rad]\ncoordinate b [rad]\ninput M = 1 [N*m]\n"
+             "T = 1 [kg*m^2]*(2*a'^2 + b'^2 + 2*a'*b'*cos(a - b))/2%s\n"
+             "V = -9 [J]*(2*cos(a) + cos(b))\nF = 0.1 [N*m*s]*(a' - b')^2/2\nQ(a) = M\n"
+             "stop sin(a) <= 0.6 restitution 0.5\n"
+             "scene s { start a = 0.3, b = -0.4, b' = 9 [rad/s]\nuntil 1 [s] }\n",
+             rate);
+    motion_open_text(m, text, how);
+}
+
+static void compare(const gauge *g, stepping how, double tolerance) {
+    motion with;
+    motion without;
+    double before[2];
+    double after[2];
+    open_pendulum(&with, g->rate, how);
+    open_pendulum(&without, "", how);
+    motion_to(&with, 1.0);
+    motion_to(&without, 1.0);
+    TEST_ASSERT_TRUE(with.kind->hash(with.run) == without.kind->hash(without.run));
+    uint64_t overruns;
+    TEST_ASSERT_TRUE(with.kind->events(with.run, &overruns) > 0);
+    const account_book plain = read_book(&without);
+    const account_book book = read_book(&with);
+    slopes(g, 0.3, -0.4, before);
+    slopes(g, motion_value(&with, "a"), motion_value(&with, "b"), after);
+    /* d/dt dG/dq' = dG/dq for G's rate: what is entered more is what the momentum has more */
+    const char *const names[] = {"a", "b"};
+    for (int i = 0; i < 2; i++) {
+        const double size = 1.0 + fabs(after[i]) + fabs(before[i]);
+        TEST_ASSERT_DOUBLE_WITHIN(tolerance * size, after[i] - before[i],
+                                  of_energies(&with, &book, names[i]) -
+                                      of_energies(&without, &plain, names[i]));
+        TEST_ASSERT_DOUBLE_WITHIN(tolerance * size, 0.0, book.left_over[1 + i]);
+    }
+    TEST_ASSERT_DOUBLE_WITHIN(tolerance, 0.0, book.left_over[0]);
+    motion_close(&with);
+    motion_close(&without);
+}
+
+static void test_total_derivatives_change_no_motion(void) {
+    uint64_t seed = 20110;
+    const char *more = getenv("WHIRL_GAUGE_CASES");
+    const int cases = more != NULL ? (int)strtol(more, NULL, 10) : 30;
+    int turned = 0;
+    for (int i = 0; i < cases; i++) {
+        const gauge g = random_gauge(&seed);
+        compare(&g, booked, 2e-8);
+        compare(&g, booked_float, 2e-4);
+        motion m;
+        open_pendulum(&m, g.rate, booked);
+        turned += m.program->ledger->turned;
+        motion_close(&m);
+    }
+    printf("  %d mechanisms from seed 20110, %d with angles outside sines\n", cases, turned);
+    TEST_ASSERT_TRUE(turned > cases / 2);
+}
+
+void suite_ledger_turns(void) {
+    RUN_TEST(test_a_free_wheel);
+    RUN_TEST(test_gyroscopic_coupling);
+    RUN_TEST(test_a_charge_in_a_uniform_field);
+    RUN_TEST(test_total_derivatives_change_no_motion);
+}

@@ -1,0 +1,303 @@
+/* test_mass_scales.c: whether a mass matrix is singular is a matter of its directions, not of units and mass
+ * ratios. Generated matrices, on their own and as mechanisms, against elimination in exact order in long double. */
+#define _POSIX_C_SOURCE 200809L
+
+#include "derived.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "host/derive/rank.h"
+#include "unity.h"
+
+void suite_mass_scales(void);
+
+enum { MOST = 6, ROOM = MOST * MOST };
+
+static int cases(int usual) {
+    const char *more = getenv("WHIRL_MASS_CASES");
+    return more != NULL ? (int)strtol(more, NULL, 10) : usual;
+}
+
+/* x of M x = b, with the largest pivots. */
+static void solve(const long double *mass, const long double *b, int n, long double *x) {
+    long double a[MOST][MOST + 1];
+    for (int i = 0; i < n; i++) {
+        for (int j = 0; j < n; j++) {
+            a[i][j] = mass[i * n + j];
+        }
+        a[i][n] = b[i];
+    }
+    for (int k = 0; k < n; k++) {
+        int best = k;
+        for (int i = k; i < n; i++) {
+            best = fabsl(a[i][k]) > fabsl(a[best][k]) ? i : best;
+        }
+        for (int j = 0; j <= n; j++) {
+            const long double swap = a[k][j];
+            a[k][j] = a[best][j];
+            a[best][j] = swap;
+        }
+        for (int i = 0; i < n; i++) {
+            const long double part = i == k ? 0.0L : a[i][k] / a[k][k];
+            for (int j = k; j <= n; j++) {
+                a[i][j] -= part * a[k][j];
+            }
+        }
+    }
+    for (int i = 0; i < n; i++) {
+        x[i] = a[i][n] / a[i][i];
+    }
+}
+
+/* Bodies whose speeds are whole multiples of the coordinates' rates, and how large their masses are. */
+typedef struct bodies {
+    int n;                /* coordinates */
+    int count;            /* bodies */
+    int part[ROOM];       /* [count][n] */
+    double mass_kg[MOST]; /* [count] */
+    double unit[MOST];    /* [n] a coordinate is measured in so many metres: a power of ten */
+} bodies;
+
+static bodies random_bodies(uint64_t *seed, int n, int count, double decades) {
+    bodies b = {.n = n, .count = count};
+    for (int k = 0; k < count; k++) {
+        b.mass_kg[k] = pow(10.0, random_between(seed, -decades / 2.0, decades / 2.0));
+        for (int i = 0; i < n; i++) {
+            b.part[k * n + i] = i == k % n ? 1 : i < k % n ? (int)(random_bits(seed) % 3) - 1 : 0;
+        }
+    }
+    for (int i = 0; i < n; i++) {
+        b.unit[i] = pow(10.0, (double)(int)random_between(seed, -6.0, 7.0));
+    }
+    return b;
+}
+
+static void mass_matrix(const bodies *b, long double *mass) {
+    for (int i = 0; i < b->n; i++) {
+        for (int j = 0; j < b->n; j++) {
+            long double sum = 0.0L;
+            for (int k = 0; k < b->count; k++) {
+                sum += (long double)b->mass_kg[k] * b->part[k * b->n + i] * b->part[k * b->n + j];
+            }
+            mass[i * b->n + j] = sum * (long double)b->unit[i] * (long double)b->unit[j];
+        }
+    }
+}
+
+/* The mechanism, with its forces. */
+static char *text_of(const bodies *b, const double *force) {
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    TEST_ASSERT_NOT_NULL(out);
+    fprintf(out, "mechanism bodies\n");
+    for (int i = 0; i < b->n; i++) {
+        fprintf(out, "coordinate q%d [m]\n", i);
+    }
+    for (int k = 0; k < b->count; k++) {
+        fprintf(out, "let v%d = 0", k);
+        for (int i = 0; i < b->n; i++) {
+            if (b->part[k * b->n + i] != 0) {
+                fprintf(out, " %c %.17g*q%d'", b->part[k * b->n + i] > 0 ? '+' : '-', b->unit[i],
+                        i);
+            }
+        }
+        fputc('\n', out);
+    }
+    fprintf(out, "T = ");
+    for (int k = 0; k < b->count; k++) {
+        fprintf(out, "%s%.17g [kg]*v%d^2/2", k > 0 ? " + " : "", b->mass_kg[k], k);
+    }
+    fputc('\n', out);
+    for (int i = 0; i < b->n; i++) {
+        fprintf(out, "Q(q%d) = %.17g [N]\n", i, force[i]);
+    }
+    fclose(out);
+    return text;
+}
+
+/* The largest sum of a column of the inverse, units taken out: what rounding is multiplied by. */
+static double inverse_size(const long double *mass, int n) {
+    long double scaled[ROOM];
+    double most = 0.0;
+    for (int i = 0; i < n * n; i++) {
+        scaled[i] = mass[i] / sqrtl(mass[i / n * (n + 1)] * mass[i % n * (n + 1)]);
+    }
+    for (int j = 0; j < n; j++) {
+        long double one[MOST] = {0};
+        long double x[MOST];
+        double sum = 0.0;
+        one[j] = 1.0L;
+        solve(scaled, one, n, x);
+        for (int i = 0; i < n; i++) {
+            sum += (double)fabsl(x[i]);
+        }
+        most = fmax(most, sum);
+    }
+    return most;
+}
+
+/* Accepted, and the accelerations are right to what rounding makes of the matrix: the worst part of that. */
+static double check_right(const bodies *b, uint64_t *seed) {
+    long double mass[ROOM];
+    long double wanted[MOST];
+    long double right[MOST];
+    double force[MOST];
+    const int n = b->n;
+    mass_matrix(b, mass);
+    for (int i = 0; i < n; i++) {
+        force[i] = random_between(seed, -1.0, 1.0) * sqrt((double)mass[i * n + i]);
+        right[i] = (long double)force[i];
+    }
+    solve(mass, right, n, wanted);
+    char *text = text_of(b, force);
+    derived d = derived_text(text);
+    TEST_ASSERT_NOT_NULL_MESSAGE(d.program, d.errors[0] != '\0' ? d.errors : text);
+    double result[64];
+    state_values at = {.instance = d.instance};
+    TEST_ASSERT_TRUE(d.program->books->results <= 64);
+    derived_run(d.program->books, &d, &at, result);
+    double size = 0.0;
+    double off = 0.0;
+    for (int i = 0; i < n; i++) {
+        const double scale = sqrt((double)mass[i * n + i]);
+        size = fmax(size, scale * (double)fabsl(wanted[i]));
+        off = fmax(off, scale * fabs(result[i] - (double)wanted[i]));
+    }
+    const double worst = off / (size * (double)n * DBL_EPSILON * inverse_size(mass, n));
+    if (!(worst < 4.0)) {
+        printf("%s", text);
+        TEST_FAIL_MESSAGE("accelerations are further off than rounding makes them");
+    }
+    free(text);
+    derived_free(&d);
+    return worst;
+}
+
+/* Mass ratios of up to 1e12, coordinates in units from micrometres to thousands of kilometres. */
+static void test_mixed_masses_and_units_are_right(void) {
+    uint64_t seed = 90210;
+    double worst = 0.0;
+    const int all = cases(150);
+    for (int i = 0; i < all; i++) {
+        const int n = 2 + (int)(random_bits(&seed) % 4);
+        const bodies b = random_bodies(&seed, n, n, i % 2 == 0 ? 12.0 : 3.0);
+        worst = fmax(worst, check_right(&b, &seed));
+    }
+    printf("  %d mechanisms from seed 90210: at most %.2f of n eps |inverse|\n", all, worst);
+}
+
+/* The ratio of 1e12 itself: the light body rides on the heavy one, or the other way round. */
+static void test_a_ratio_of_a_million_millions(void) {
+    uint64_t seed = 5;
+    for (int way = 0; way < 2; way++) {
+        for (int power = -7; power <= 7; power++) {
+            bodies b = {.n = 2, .count = 2, .part = {1, 0, 1, 1}, .mass_kg = {1.0, 1e12}};
+            b.mass_kg[0] = way == 0 ? 1.0 : 1e12;
+            b.mass_kg[1] = way == 0 ? 1e12 : 1.0;
+            b.unit[0] = 1.0;
+            b.unit[1] = pow(10.0, power);
+            check_right(&b, &seed);
+        }
+    }
+}
+
+/* Fewer bodies than coordinates: singular, whatever rounding leaves. */
+static void test_fewer_bodies_than_coordinates_are_refused(void) {
+    uint64_t seed = 77;
+    for (int i = 0; i < cases(150); i++) {
+        const int n = 2 + (int)(random_bits(&seed) % 4);
+        bodies b = random_bodies(&seed, n, n - 1, i % 2 == 0 ? 3.0 : 12.0);
+        for (int k = 0; k < b.count * n; k++) { /* every body moves with every coordinate */
+            b.part[k] = 1 + (int)(random_bits(&seed) % 7);
+        }
+        const double force[MOST] = {0};
+        char *text = text_of(&b, force);
+        derived d = derived_text(text);
+        TEST_ASSERT_NULL_MESSAGE(d.program, text);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(d.errors, "singular mass matrix"), d.errors);
+        free(text);
+        derived_free(&d);
+    }
+}
+
+/* The same through sines: a body that moves along a turning line, its speed a sum of two rates with one factor. */
+static void test_one_speed_through_sines_is_refused(void) {
+    uint64_t seed = 31;
+    for (int i = 0; i < 60; i++) {
+        char text[600];
+        const double small = pow(10.0, random_between(&seed, -6.0, 6.0));
+        snprintf(text, sizeof text,
+                 "mechanism one\ncoordinate a [rad]\ncoordinate b [rad]\ncoordinate c [rad]\n"
+                 "let s = %.17g*a'*sin(b + %.3g) + %.17g*b'*cos(%d*a - c) + c'*cos(a)^2*sin(c)\n"
+                 "let t = %.17g*a'*sin(b + %.3g) + %.17g*b'*cos(%d*a - c) - c'\n"
+                 "T = %.17g [kg*m^2]*s^2 + 1 [kg*m^2]*t^2\n",
+                 small, 0.3 * i, 1.0 / small, 1 + i % 3, small, 0.3 * i, 1.0 / small, 1 + i % 3,
+                 random_between(&seed, 0.1, 3.0));
+        derived d = derived_text(text);
+        TEST_ASSERT_NULL_MESSAGE(d.program, text);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(d.errors, "singular mass matrix"), d.errors);
+        derived_free(&d);
+    }
+}
+
+/* Matrices on their own: D A D and D A E of any scales have the rank of A. */
+static void test_scales_do_not_change_the_rank(void) {
+    uint64_t seed = 1969;
+    const int all = cases(4000);
+    for (int i = 0; i < all; i++) {
+        const int n = 1 + (int)(random_bits(&seed) % MOST);
+        const int rank = (int)(random_bits(&seed) % (unsigned)(n + 1));
+        const bool symmetric = i % 2 == 0;
+        double left[ROOM] = {0};
+        double right[ROOM] = {0};
+        double m[ROOM] = {0};
+        double error[ROOM] = {0};
+        double row[MOST];
+        double column[MOST];
+        for (int k = 0; k < n; k++) {
+            row[k] = pow(10.0, random_between(&seed, -7.0, 7.0));
+            column[k] = symmetric ? row[k] : pow(10.0, random_between(&seed, -7.0, 7.0));
+            for (int j = 0; j < n; j++) { /* unit triangles: well conditioned enough */
+                left[k * n + j] = j < k ? random_between(&seed, -0.5, 0.5) : j == k ? 1.0 : 0.0;
+                right[k * n + j] = j < k ? random_between(&seed, -0.5, 0.5) : j == k ? 1.0 : 0.0;
+            }
+        }
+        for (int k = 0; k < n; k++) {
+            for (int j = 0; j < n; j++) {
+                for (int h = 0; h < rank; h++) {
+                    m[k * n + j] += left[k * n + h] * (symmetric ? left : right)[j * n + h];
+                }
+                m[k * n + j] *= row[k] * column[j];
+            }
+        }
+        TEST_ASSERT_EQUAL_INT(rank, rank_of(m, error, n, symmetric));
+    }
+    printf("  %d matrices from seed 1969\n", all);
+}
+
+/* Entries that are known badly hide what is smaller. */
+static void test_a_pivot_within_the_errors_is_none(void) {
+    for (int power = -10; power <= 10; power += 5) {
+        const double scale = pow(10.0, power);
+        double m[4] = {1.0, scale, scale, scale * scale * (1.0 + 1e-9)};
+        double error[4] = {1e-12, 0.0, 0.0, 1e-12 * scale * scale};
+        TEST_ASSERT_EQUAL_INT(2, rank_of(m, error, 2, true));
+        double again[4] = {1.0, scale, scale, scale * scale * (1.0 + 1e-9)};
+        double coarse[4] = {1e-8, 0.0, 0.0, 1e-8 * scale * scale};
+        TEST_ASSERT_EQUAL_INT(1, rank_of(again, coarse, 2, true));
+    }
+}
+
+void suite_mass_scales(void) {
+    RUN_TEST(test_mixed_masses_and_units_are_right);
+    RUN_TEST(test_a_ratio_of_a_million_millions);
+    RUN_TEST(test_fewer_bodies_than_coordinates_are_refused);
+    RUN_TEST(test_one_speed_through_sines_is_refused);
+    RUN_TEST(test_scales_do_not_change_the_rank);
+    RUN_TEST(test_a_pivot_within_the_errors_is_none);
+}
