@@ -30,7 +30,9 @@ typedef struct symbol {
     symbol_kind kind;
     const char *name;
     const char *text;  /* the description in quotes, or "" */
-    const char *unit;  /* the unit as written between brackets, or "" */
+    const char *unit;  /* the declared unit, without blanks, or ""; of a parameter or input, the one
+                          behind the only number of its value */
+    struct unit declared; /* what that unit is; divisor 0 when there is none */
     dimension dim;     /* of the symbol without primes */
     bool is_angle;     /* declared [rad] (or [deg], [rev]): coordinate or state */
     const expr *value; /* parameter, input, let, output: its expression; else NULL */
