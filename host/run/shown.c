@@ -52,13 +52,14 @@ static char *copy_of(const char *text) {
 static char *si_name(const symbol *s, int primes) {
     char text[DIM_TEXT_SIZE];
     dimension dim = s->dim;
-    if (s->is_angle && primes > 0) {
+    const bool is_angle = s->is_angle || unit_is_angle(s->unit, strlen(s->unit));
+    if (is_angle && primes > 0) {
         snprintf(text, sizeof text, primes > 1 ? "rad/s^%d" : "rad/s", primes);
         return copy_of(text);
     }
     dim.twelfths[DIM_TIME] = (short)(dim.twelfths[DIM_TIME] - DIM_DENOMINATOR * primes);
     dim.any = dim.any && primes == 0;
-    return copy_of(dimension_unit(dim, s->is_angle, text, sizeof text));
+    return copy_of(dimension_unit(dim, is_angle, text, sizeof text));
 }
 
 char *shown_unit_name(const symbol *s, int primes) {
@@ -76,4 +77,15 @@ char *shown_unit_name(const symbol *s, int primes) {
     }
     snprintf(text, size, "%s%s", s->unit, per);
     return text;
+}
+
+void shown_note_bare(const char *typed, const symbol *s, int primes) {
+    char *name = shown_unit_name(s, primes);
+    char *si = si_name(s, primes);
+    fprintf(stderr,
+            "note: %s has no unit and counts as %s: '%s' is declared in [%s]\n"
+            "hint: write the unit behind the number: [%s] or [%s]\n",
+            typed, si, s->name, s->unit, name, si);
+    free(si);
+    free(name);
 }

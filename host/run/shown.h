@@ -12,6 +12,10 @@ struct unit shown_unit(const symbol *s, int primes);
 /* Its name: "deg/s", "kg*m/s^2", "rad", "1". The caller frees it. */
 char *shown_unit_name(const symbol *s, int primes);
 
+/* On standard error: a note that `typed`, such as "theta=80", is in SI although the symbol is declared in
+ * another unit. For what override_is_bare(). */
+void shown_note_bare(const char *typed, const symbol *s, int primes);
+
 /* The SI unit of a dimension into text[size]: "rad", "m/s", "kg*m^2/s^2", "1". Returns text. */
 const char *dimension_unit(dimension dim, bool is_angle, char *text, size_t size);
 

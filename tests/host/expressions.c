@@ -32,11 +32,11 @@ static void leaf(writer *w) {
     static const char *const numbers[] = {"2",    "3",    "0.5",     "1.5", "0.1", "7",
                                           "0.05", "0.37", "12.0625", "25",  "1",   "2.718281828"};
     const expression_names *n = w->names;
-    switch (draw(w, 6)) {
+    switch (draw(w, n->rates ? 6 : 5)) {
     case 0: put(w, "%s", numbers[draw(w, sizeof numbers / sizeof numbers[0])]); break;
-    case 1: put(w, "(%s'*1 [s])", n->coordinates[draw(w, (unsigned)n->coordinate_count)]); break;
-    case 2:
-    case 3: put(w, "%s", n->coordinates[draw(w, (unsigned)n->coordinate_count)]); break;
+    case 5: put(w, "(%s'*1 [s])", n->coordinates[draw(w, (unsigned)n->coordinate_count)]); break;
+    case 1:
+    case 2: put(w, "%s", n->coordinates[draw(w, (unsigned)n->coordinate_count)]); break;
     default: put(w, "%s", n->constants[draw(w, (unsigned)n->constant_count)]); break;
     }
 }
@@ -155,4 +155,43 @@ void expression_write(const expression_names *names, int depth, int tame, uint64
     writer w = {names, tame, seed, text, size, 0};
     text[0] = '\0';
     expression(&w, depth);
+}
+
+/* TEXT with every %e an expression of these names. */
+static void filled(writer *w, const expression_names *names, const char *text, int depth) {
+    for (; *text != '\0'; text++) {
+        if (text[0] == '%' && text[1] == 'e') {
+            w->names = names;
+            expression(w, depth);
+            text++;
+        } else {
+            put(w, "%c", *text);
+        }
+    }
+}
+
+void expression_mechanism(int depth, uint64_t *seed, char *text, size_t size) {
+    static const char *const own[] = {"theta1", "x"};
+    static const char *const all[] = {"a1", "n_1", "mass_of_it", "Omega_", "x__2", "y1"};
+    const expression_names constant = {own, 2, 0, all,
+                                       3}; /* no inputs: they would change T's inertia */
+    const expression_names still = {own, 2, 0, all, 6};
+    const expression_names force = {own, 2, 1, all, 6};
+    writer w = {&still, 1, seed, text, size, 0};
+    put(&w, "mechanism m\nparameter a1 = 0.8\nparameter n_1 = 2.5\nparameter mass_of_it = 1.3\n"
+            "input Omega_ = 1.2\ninput x__2 = 0.4\ninput y1 = 3\n");
+    if (draw(&w, 3) == 0) {
+        put(&w, "state theta1\nstate x\n");
+        filled(&w, &still, "equation 1 [s^2]*theta1''*(2.5 + sin(%e)) + 1 [s]*x'*cos(%e) = %e\n",
+               depth);
+        filled(&w, &still, "equation 1 [s]*x'*(3 + sin(%e)) = %e - 1 [s]*theta1'\n", depth);
+    } else {
+        put(&w, "coordinate theta1\ncoordinate x\n");
+        filled(
+            &w, &constant,
+            "T = 1 [kg*m^2]*((2.5 + sin(%e))*theta1'^2 + cos(%e)*theta1'*x' + (3 + cos(%e))*x'^2)\n",
+            depth - 1);
+        filled(&w, &still, "V = 1 [J]*(%e)\n", depth);
+        filled(&w, &force, "Q(theta1) = 1 [N*m]*(%e)\n", depth);
+    }
 }

@@ -17,17 +17,17 @@
 
 void suite_show(void);
 
-enum { TEXT_SIZE = 1 << 16, STATES = 4, COORDINATES = 4, CONSTANTS = 6, NAME_SIZE = 80 };
+enum { TEXT_SIZE = 1 << 16, STATES = 4, COORDINATES = 4, CONSTANTS = 6, PARAMETERS = 3 };
 
 /* Names as people give them, Greek, of TeX's own words, with indices and underscores in odd places. */
 static const char *const coordinates[COORDINATES] = {"theta1", "x", "phi_1_a", "_odd"};
-static const char *const constants[CONSTANTS] = {"n", "mass_of_it", "frac", "Omega_", "x__2", "y1"};
-static const expression_names names = {coordinates, COORDINATES, constants, CONSTANTS};
+static const char *const constants[CONSTANTS] = {"a1", "n_1", "mass_of_it", "Omega_", "x__2", "y1"};
+static const expression_names names = {coordinates, COORDINATES, 1, constants, CONSTANTS};
 
 static const char front[] =
     "mechanism m\ncoordinate theta1\ncoordinate x\ncoordinate phi_1_a\ncoordinate _odd\n"
-    "input n = 2\ninput mass_of_it = 1.5\ninput frac = 0.7\ninput Omega_ = 1.2\ninput x__2 = 0.4\n"
-    "input y1 = 3\n";
+    "parameter a1 = 2\nparameter n_1 = 1.5\nparameter mass_of_it = 0.7\ninput Omega_ = 1.2\n"
+    "input x__2 = 0.4\ninput y1 = 3\n";
 
 static int cases(int usual) {
     const char *wanted = getenv("SHOW_CASES");
@@ -70,7 +70,15 @@ static state nudged(const state *from, uint64_t *seed) {
 
 static double value_here(void *context, const symbol *sym, int primes) {
     const state *s = context;
-    return sym->kind == SYM_INPUT ? s->constant[sym->index] : s->q[sym->index][primes];
+    switch (sym->kind) {
+    case SYM_PARAMETER: return s->constant[sym->index];
+    case SYM_INPUT: return s->constant[PARAMETERS + sym->index];
+    case SYM_COORDINATE:
+    case SYM_STATE: return s->q[sym->index][primes];
+    case SYM_LET:
+    case SYM_OUTPUT: break;
+    }
+    return (double)NAN;
 }
 
 /* --- reading back ----------------------------------------------------------------------------------*/
@@ -180,26 +188,60 @@ static bool is_ever_finite(const poly *p, uint64_t *seed) {
     return finite;
 }
 
-/* The printed text's value is that of the poly at random states; returns at how many it had one. */
-static int compare(algebra *a, const poly *p, const char *text, const read_back *b, int which,
+/* What a formula should be: its value at a state, and the size of what it is the sum of. */
+typedef struct quantity {
+    double (*value)(const struct quantity *of, const state *at, double *size);
+    algebra *algebra;
+    const poly *poly;
+    const equations *equations;
+    int unknown;
+} quantity;
+
+/* No part of it is out of range there: 1/(1 + x) hides that x was infinite. */
+static bool is_in_range(const poly *p, state *s) {
+    bool good = fabs(poly_evaluate(p, value_here, s)) < 1e60;
+    for (int i = 0; i < p->count; i++) {
+        const mono *m = p->terms[i].mono;
+        good = good && (m->angle == NULL || is_in_range(m->angle, s));
+        for (int k = 0; k < m->count; k++) {
+            for (int j = 0; j < 2 && m->factors[k].atom->argument[j] != NULL; j++) {
+                good = good && is_in_range(m->factors[k].atom->argument[j], s);
+            }
+        }
+    }
+    return good;
+}
+
+static double poly_here(const quantity *of, const state *at, double *size) {
+    state s = *at;
+    *size = 0.0;
+    for (int i = 0; i < of->poly->count; i++) {
+        const poly_term *t = &of->poly->terms[i];
+        const poly *part = poly_of_term(of->algebra, t->coefficient, t->mono);
+        *size += fabs(poly_evaluate(part, value_here, &s));
+    }
+    return is_in_range(of->poly, &s) ? poly_evaluate(of->poly, value_here, &s) : (double)NAN;
+}
+
+/* The printed text's value (less that of `right`, if not -1) is that of the quantity at random states;
+ * returns at how many it had one. */
+static int compare(const quantity *q, const char *text, const read_back *b, int which, int right,
                    uint64_t *seed) {
     int compared = 0;
     for (int k = 0; k < STATES; k++) {
+        double size;
+        double unused;
         state s = random_values(seed);
-        const double wanted = poly_evaluate(p, value_here, &s);
-        double spread = 1e-12;
-        for (int i = 0; i < p->count; i++) {
-            const poly *term = poly_of_term(a, p->terms[i].coefficient, p->terms[i].mono);
-            spread += 1e-13 * fabs(poly_evaluate(term, value_here, &s));
-        }
+        const double wanted = q->value(q, &s, &size);
+        double spread = 1e-12 + 1e-13 * size;
         for (int i = 0; i < 3; i++) {
             state other = nudged(&s, seed);
-            spread = fmax(spread, fabs(poly_evaluate(p, value_here, &other) - wanted));
+            spread = fmax(spread, fabs(q->value(q, &other, &unused) - wanted));
         }
         if (!(fabs(wanted) < 1e60 && spread < 1e-6 * (1.0 + fabs(wanted)))) {
             continue;
         }
-        const double got = back_value(b, which, &s);
+        const double got = back_value(b, which, &s) - (right < 0 ? 0.0 : back_value(b, right, &s));
         if (!(fabs(got - wanted) <= 1000.0 * spread)) {
             printf("  %s\n  is %.17g as derived, %.17g as printed (known to %.1e)\n", text, wanted,
                    got, spread);
@@ -227,7 +269,7 @@ static int check_batch(uint64_t *seed, int depth, int tame) {
     const mechanism *m = parse(text);
     algebra *a = algebra_new();
     const poly *p[FORMULAS];
-    char *printed_text[FORMULAS];
+    char *printed_text[FORMULAS] = {NULL};
     int count = 0;
     for (int i = 0; i < BATCH; i++) {
         p[count++] = poly_from_expr(a, m->outputs[i]->value);
@@ -260,7 +302,8 @@ static int check_batch(uint64_t *seed, int depth, int tame) {
     TEST_ASSERT_NOT_NULL_MESSAGE(b.instance, "what was printed is not read back");
     int compared = 0;
     for (int i = 0; i < kept; i++) {
-        compared += compare(a, p[i], printed_text[i], &b, i, seed) > 0;
+        const quantity q = {poly_here, a, p[i], NULL, 0};
+        compared += compare(&q, printed_text[i], &b, i, -1, seed) > 0;
         free(printed_text[i]);
     }
     drop_back(&b);
@@ -286,7 +329,140 @@ static void test_expressions_are_read_back_as_printed(void) {
     TEST_ASSERT_TRUE(10 * compared > 6 * made_up);
 }
 
+/* --- whole mechanisms ------------------------------------------------------------------------------*/
+
+/* The formulas between `from` and the line's end, parted by " = ": their copies, to be freed. */
+static int formulas_of(char *line, char **formula) {
+    int count = 0;
+    for (char *next = line; next != NULL; line = next) {
+        next = strstr(line, " = ");
+        if (next != NULL) {
+            *next = '\0';
+            next += 3;
+        }
+        formula[count++] = line;
+    }
+    return count;
+}
+
+/* Both sides of an equation as printed against what was derived: A q'' - f. */
+static int compare_sides(const equations *e, int row, const read_back *b, const char *text,
+                         uint64_t *seed) {
+    algebra *a = e->algebra;
+    const poly *rest = poly_scale(a, equations_force(e, row), -1.0);
+    for (int j = 0; j < e->count; j++) {
+        const poly *highest = poly_symbol(a, e->unknowns[j].symbol, e->unknowns[j].order);
+        rest = poly_add(a, rest, poly_mul(a, e->mass[row * e->count + j], highest));
+    }
+    const quantity q = {poly_here, a, rest, NULL, 0};
+    return compare(&q, text, b, 2 * row, 2 * row + 1, seed) > 0;
+}
+
+/* A highest derivative, from two equations. */
+static double solution_here(const quantity *of, const state *at, double *size) {
+    const equations *e = of->equations;
+    double m[4];
+    double f[2];
+    state s = *at;
+    for (int i = 0; i < 2; i++) {
+        f[i] = poly_evaluate(equations_force(e, i), value_here, &s);
+        m[2 * i] = poly_evaluate(e->mass[2 * i], value_here, &s);
+        m[2 * i + 1] = poly_evaluate(e->mass[2 * i + 1], value_here, &s);
+    }
+    const double bottom = m[0] * m[3] - m[1] * m[2];
+    const int k = of->unknown;
+    const double top = k == 0 ? f[0] * m[3] - m[1] * f[1] : m[0] * f[1] - f[0] * m[2];
+    *size = (fabs(m[0] * m[3]) + fabs(m[1] * m[2])) * fabs(top / bottom / bottom) +
+            (fabs(f[0]) + fabs(f[1])) * (fabs(m[k == 0 ? 3 : 0]) + fabs(m[1 + k])) / fabs(bottom);
+    return top / bottom;
+}
+
+/* LaTeX: what stands between \begin{align} and \end{align}. */
+static void check_align(const derived *d) {
+    char *text = printed(d, LATEX);
+    int blocks = 0;
+    for (char *at = text; (at = strstr(at, "\\begin{align}")) != NULL; blocks++) {
+        char *end = strstr(at, "\\end{align}");
+        TEST_ASSERT_NOT_NULL(end);
+        *end = '\0';
+        expect_compiles(at + strlen("\\begin{align}"));
+        at = end + 1;
+    }
+    TEST_ASSERT_TRUE(blocks == 1 || blocks == 2);
+    free(text);
+}
+
+static int check_mechanism(int depth, uint64_t *seed) {
+    char *source_text = malloc(TEXT_SIZE);
+    TEST_ASSERT_NOT_NULL(source_text);
+    expression_mechanism(depth, seed, source_text, TEXT_SIZE);
+    derived d = derived_text(source_text);
+    if (d.equations == NULL) { /* never finite, say */
+        TEST_ASSERT_NULL_MESSAGE(strstr(d.errors, "x.whirl:1:1: error: 'm'"), d.errors);
+        derived_free(&d);
+        free(source_text);
+        return 0;
+    }
+    check_align(&d);
+    char *text = printed(&d, TEXT);
+    char *formula[64];
+    int count = 0;
+    int solved[2] = {-1, -1};
+    char *line = strstr(strstr(text, "\nequations"), "\n\n") + 2;
+    for (int i = 0; i < d.equations->count; i++) {
+        char *end = strchr(line, '\n');
+        char *label = strstr(line, ":  ");
+        *end = '\0';
+        TEST_ASSERT_EQUAL_INT(2, formulas_of(label != NULL ? label + 3 : line, formula + count));
+        count += 2;
+        line = end + 1;
+    }
+    for (int i = 0; i < d.equations->count; i++) { /* s3' = theta1'' = FORMULA */
+        char wanted[32];
+        const unknown *u = &d.equations->unknowns[i];
+        snprintf(wanted, sizeof wanted, " = %s%.*s = ", u->symbol->name, u->order, "''''");
+        char *at = strstr(line, wanted);
+        if (at != NULL) {
+            char *end = strchr(at, '\n');
+            *end = '\0';
+            solved[i] = count;
+            formula[count++] = at + strlen(wanted);
+            line = end + 1;
+        }
+    }
+    read_back b = parse_back((const char *const *)formula, count);
+    if (b.instance == NULL) {
+        printf("%s", source_text);
+    }
+    TEST_ASSERT_NOT_NULL_MESSAGE(b.instance, "what was printed is not read back");
+    int compared = 0;
+    for (int i = 0; i < d.equations->count; i++) {
+        compared += compare_sides(d.equations, i, &b, formula[2 * i], seed);
+        const quantity q = {solution_here, NULL, NULL, d.equations, i};
+        if (solved[i] >= 0) {
+            compared += compare(&q, formula[solved[i]], &b, solved[i], -1, seed) > 0;
+        }
+    }
+    drop_back(&b);
+    free(text);
+    derived_free(&d);
+    free(source_text);
+    return compared;
+}
+
+static void test_mechanisms_are_read_back_as_printed(void) {
+    const int wanted = cases(600) / 10;
+    uint64_t seed = 21;
+    int compared = 0;
+    for (int i = 0; i < wanted; i++) {
+        compared += check_mechanism(1 + i % 4, &seed);
+    }
+    printf("  seed 21: %d formulas of %d mechanisms compared\n", compared, wanted);
+    TEST_ASSERT_TRUE(compared > wanted);
+}
+
 void suite_show(void) {
     UnitySetTestFile(__FILE__);
     RUN_TEST(test_expressions_are_read_back_as_printed);
+    RUN_TEST(test_mechanisms_are_read_back_as_printed);
 }
