@@ -364,7 +364,7 @@ bool unit_parse(const char *text, size_t length, unit *result, unit_error *error
     return true;
 }
 
-bool unit_is_si(unit u) { return u.scale == u.divisor; }
+bool unit_is_si(unit u) { return fabs(u.scale - u.divisor) <= 1e-14 * u.divisor; }
 
 double unit_number(unit u, double si) { return unit_is_si(u) ? si : si * u.divisor / u.scale; }
 

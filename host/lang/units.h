@@ -56,7 +56,8 @@ typedef struct unit_error {
  * taken from left to right. Returns false and fills `error` when it is none. */
 bool unit_parse(const char *text, size_t length, unit *result, unit_error *error);
 
-/* Is one of this unit one of SI: no need to say which? Also true of {0}, no unit. */
+/* Is one of this unit one of SI, but for the rounding of its factors: no need to say which? Also true of {0},
+ * no unit. */
 bool unit_is_si(unit u);
 /* The number in unit u of an SI value; the value itself when unit_is_si(u). */
 double unit_number(unit u, double si);
