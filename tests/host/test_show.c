@@ -197,15 +197,16 @@ typedef struct quantity {
     int unknown;
 } quantity;
 
-/* No part of it is out of range there: 1/(1 + x) hides that x was infinite. */
-static bool is_in_range(const poly *p, state *s) {
-    bool good = fabs(poly_evaluate(p, value_here, s)) < 1e60;
+/* No part of it is out of range there: 1/(1 + x) hides that x was infinite, sin(x) that no digit of a large x was
+ * left. */
+static bool is_in_range(const poly *p, double most, state *s) {
+    bool good = fabs(poly_evaluate(p, value_here, s)) < most;
     for (int i = 0; i < p->count; i++) {
         const mono *m = p->terms[i].mono;
-        good = good && (m->angle == NULL || is_in_range(m->angle, s));
+        good = good && (m->angle == NULL || is_in_range(m->angle, 1e5, s));
         for (int k = 0; k < m->count; k++) {
             for (int j = 0; j < 2 && m->factors[k].atom->argument[j] != NULL; j++) {
-                good = good && is_in_range(m->factors[k].atom->argument[j], s);
+                good = good && is_in_range(m->factors[k].atom->argument[j], 1e5, s);
             }
         }
     }
@@ -220,7 +221,7 @@ static double poly_here(const quantity *of, const state *at, double *size) {
         const poly *part = poly_of_term(of->algebra, t->coefficient, t->mono);
         *size += fabs(poly_evaluate(part, value_here, &s));
     }
-    return is_in_range(of->poly, &s) ? poly_evaluate(of->poly, value_here, &s) : (double)NAN;
+    return is_in_range(of->poly, 1e60, &s) ? poly_evaluate(of->poly, value_here, &s) : (double)NAN;
 }
 
 /* The printed text's value (less that of `right`, if not -1) is that of the quantity at random states;
@@ -364,7 +365,10 @@ static double solution_here(const quantity *of, const state *at, double *size) {
     double m[4];
     double f[2];
     state s = *at;
+    bool good = true;
     for (int i = 0; i < 2; i++) {
+        good = good && is_in_range(equations_force(e, i), 1e5, &s) &&
+               is_in_range(e->mass[2 * i], 1e5, &s) && is_in_range(e->mass[2 * i + 1], 1e15, &s);
         f[i] = poly_evaluate(equations_force(e, i), value_here, &s);
         m[2 * i] = poly_evaluate(e->mass[2 * i], value_here, &s);
         m[2 * i + 1] = poly_evaluate(e->mass[2 * i + 1], value_here, &s);
@@ -374,7 +378,7 @@ static double solution_here(const quantity *of, const state *at, double *size) {
     const double top = k == 0 ? f[0] * m[3] - m[1] * f[1] : m[0] * f[1] - f[0] * m[2];
     *size = (fabs(m[0] * m[3]) + fabs(m[1] * m[2])) * fabs(top / bottom / bottom) +
             (fabs(f[0]) + fabs(f[1])) * (fabs(m[k == 0 ? 3 : 0]) + fabs(m[1 + k])) / fabs(bottom);
-    return top / bottom;
+    return good ? top / bottom : (double)NAN; /* it has products of these */
 }
 
 /* LaTeX: what stands between \begin{align} and \end{align}. */
