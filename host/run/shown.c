@@ -41,11 +41,13 @@ struct unit shown_unit(const symbol *s, int primes) {
 }
 
 static char *copy_of(const char *text) {
-    char *copy = malloc(strlen(text) + 1);
+    const size_t size = strlen(text) + 1;
+    char *copy = malloc(size);
     if (copy == NULL) {
         abort();
     }
-    return strcpy(copy, text);
+    memcpy(copy, text, size);
+    return copy;
 }
 
 /* The derivative's SI unit. */

@@ -204,18 +204,21 @@ static int check_mechanism(int depth, uint64_t *seed) {
     expression_mechanism(depth, seed, source_text, TEXT_SIZE);
     derived d = derived_text(source_text);
     if (d.equations == NULL) { /* never finite, say */
-        TEST_ASSERT_NULL_MESSAGE(strstr(d.errors, "x.whirl:1:1: error: 'm'"), d.errors);
+        TEST_ASSERT_TRUE_MESSAGE(strstr(d.errors, "finite") != NULL ||
+                                     strstr(d.errors, "grow beyond") != NULL,
+                                 d.errors);
         derived_free(&d);
         free(source_text);
         return 0;
     }
+    TEST_ASSERT_EQUAL_INT(2, d.equations->count);
     check_align(&d);
     char *text = printed(&d, TEXT);
     char *formula[64];
     int count = 0;
     int solved[2] = {-1, -1};
     char *line = strstr(strstr(text, "\nequations"), "\n\n") + 2;
-    for (int i = 0; i < d.equations->count; i++) {
+    for (int i = 0; i < 2; i++) {
         char *end = strchr(line, '\n');
         char *label = strstr(line, ":  ");
         *end = '\0';
@@ -223,7 +226,7 @@ static int check_mechanism(int depth, uint64_t *seed) {
         count += 2;
         line = end + 1;
     }
-    for (int i = 0; i < d.equations->count; i++) { /* s3' = theta1'' = FORMULA */
+    for (int i = 0; i < 2; i++) { /* s3' = theta1'' = FORMULA */
         char wanted[32];
         const unknown *u = &d.equations->unknowns[i];
         snprintf(wanted, sizeof wanted, " = %s%.*s = ", u->symbol->name, u->order, "''''");
@@ -242,7 +245,7 @@ static int check_mechanism(int depth, uint64_t *seed) {
     }
     TEST_ASSERT_NOT_NULL_MESSAGE(b.instance, "what was printed is not read back");
     int compared = 0;
-    for (int i = 0; i < d.equations->count; i++) {
+    for (int i = 0; i < 2; i++) {
         compared += compare_sides(d.equations, i, &b, formula[2 * i], seed);
         const quantity q = {solution_here, NULL, NULL, d.equations, i};
         if (solved[i] >= 0) {
