@@ -15,8 +15,9 @@ static const char usage[] =
     "Prints the accelerations at one state, a line each, 17 significant digits:\n"
     "    whirl accel core/models/epicyclic.whirl theta=0.3 \"theta'=1.2\" M=1.5\n"
     "Coordinates, their rates, inputs and parameters can be set; values are SI, or carry a unit:\n"
-    "    \"theta'=330 [rpm]\". What is left out is 0, or has its declared value. SCENE and MECHANISM are\n"
-    "built in (`whirl list`). A scene brings its effects, whose parameters can be set then.\n";
+    "    \"theta'=330 [rpm]\". What is left out is 0, or has its declared value. The results are SI.\n"
+    "SCENE and MECHANISM are built in (`whirl list`). A scene brings its effects, whose parameters can\n"
+    "be set then.\n";
 
 int command_accel(int count, char **words) {
     if (options_help(count, words, usage)) {

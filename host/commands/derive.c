@@ -16,10 +16,10 @@ static const char usage[] =
     "Prints the equations of motion of a mechanism (or of a scene, with its effects), of a FILE or\n"
     "built in (`whirl list`):\n"
     "  --as text    one equation a coordinate, as in a textbook, and the first-order form (default)\n"
-    "  --as latex   the same for a paper\n"
+    "  --as latex   the same for a paper (with amsmath)\n"
     "  --as octave  a function file that Octave and Matlab integrate as it stands\n"
     "  --as c       the scene as C for the core\n"
-    "The other options are those of `whirl run`; the method matters to the C form only.\n";
+    "Numbers in formulas are SI. The other options are those of `whirl run`; the method matters to the C form only.\n";
 
 typedef enum form { FORM_TEXT, FORM_LATEX, FORM_OCTAVE, FORM_C, FORMS } form;
 static const char *const form_names[FORMS] = {"text", "latex", "octave", "c"};

@@ -10,6 +10,9 @@
 #include "files.h"
 #include "find.h"
 #include "host/lang/hints.h"
+#include "host/lang/nearest.h"
+#include "host/lang/override.h"
+#include "host/run/shown.h"
 
 static char *copy_of(const char *text, size_t length) {
     char *copy = malloc(length + 1);
@@ -191,6 +194,20 @@ int source_pick(source_model *s, bool prefer_scene, const mechanism **of, const 
     return EXIT_BAD_INPUT;
 }
 
+static void say_bare(const mechanism *of, override_kind kind, const char *const *texts, int count) {
+    struct arena *memory = arena_new();
+    diags *unsaid = diags_new();
+    for (int i = 0; i < count; i++) {
+        assignment change;
+        if (override_parse(of, kind, texts[i], memory, unsaid, &change) &&
+            override_is_bare(&change)) {
+            shown_note_bare(texts[i], change.symbol, change.primes);
+        }
+    }
+    diags_free(unsaid);
+    arena_free(memory);
+}
+
 int load(loaded *made, source_model *s, const mechanism *of, const scene *in,
          const overrides *changes, bool conserve) {
     *made = (loaded){0};
@@ -203,6 +220,10 @@ int load(loaded *made, source_model *s, const mechanism *of, const scene *in,
             program_make(made->equations, conserve && in != NULL ? in->conserve : NULL, s->errors);
     }
     diags_flush(s->errors, stderr);
+    if (made->program != NULL && changes != NULL) {
+        say_bare(of, OVERRIDE_SET, changes->sets, changes->set_count);
+        say_bare(of, OVERRIDE_START, changes->starts, changes->start_count);
+    }
     return made->program == NULL ? EXIT_BAD_INPUT : EXIT_DONE;
 }
 

@@ -38,7 +38,9 @@ typedef struct loaded {
 } loaded;
 
 /* Derive one instance and enter its program; errors are printed. With `conserve`, the coordinates that
- * the scene names are recovered from their momentum. Returns an exit code. */
+ * the scene names are recovered from their momentum. A note tells of bare numbers to `set` and `start`
+ * what is declared in another unit than SI; `values` are SI without a word, as what `accel` prints. Returns an
+ * exit code. */
 int load(loaded *made, source_model *source, const mechanism *of, const scene *in,
          const overrides *changes, bool conserve);
 /* On standard error: what of it is no error, but has a better way. */

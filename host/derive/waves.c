@@ -50,6 +50,32 @@ static const poly *upright(lowering *l, const poly *angle, bool *flipped) {
     return *flipped ? poly_scale(l->algebra, angle, -1.0) : angle;
 }
 
+/* How many sines stand inside one another in it. */
+static int sines_inside(const poly *p) {
+    int most = 0;
+    for (int i = 0; i < p->count; i++) {
+        const mono *m = p->terms[i].mono;
+        int here = m->angle == NULL ? 0 : 1 + sines_inside(m->angle);
+        most = here > most ? here : most;
+        for (int k = 0; k < m->count; k++) {
+            const atom *x = m->factors[k].atom;
+            const int own = x->kind == ATOM_CALL && x->function == FN_TAN;
+            for (int j = 0; j < 2 && x->kind != ATOM_SYMBOL && x->argument[j] != NULL; j++) {
+                here = own + sines_inside(x->argument[j]);
+                most = here > most ? here : most;
+            }
+        }
+    }
+    return most;
+}
+
+/* May a wave be part of this angle's rule? Not if more sines are inside it: the angle's own could be one of
+ * them, and each would be made from the other. Rules lead to earlier waves, evaluating one to fewer sines
+ * inside: so there is an end. */
+static bool may_be_part(const lowering *l, int part, const poly *angle) {
+    return sines_inside(l->waves[part].angle) <= sines_inside(angle);
+}
+
 /* A rule that makes `angle` from two known ones, if there is one. */
 static bool rule_for(lowering *l, const poly *angle, wave *w) {
     int longest = 0;
@@ -65,14 +91,15 @@ static bool rule_for(lowering *l, const poly *angle, wave *w) {
         }
         rest = upright(l, rest, &flipped);
         const int other = find(l, rest);
+        if (other < 0 || !may_be_part(l, i, angle) || !may_be_part(l, other, angle)) {
+            continue;
+        }
         if (other == i) {
             *w = (wave){angle, WAVE_DOUBLE, i, i, -1, -1};
             return true;
         }
-        if (other >= 0) {
-            *w = (wave){angle, flipped ? WAVE_DIFFERENCE : WAVE_SUM, i, other, -1, -1};
-            return true;
-        }
+        *w = (wave){angle, flipped ? WAVE_DIFFERENCE : WAVE_SUM, i, other, -1, -1};
+        return true;
     }
     return false;
 }

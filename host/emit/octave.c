@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "emit.h"
+#include "host/lang/parser.h"
 #include "show_events.h"
 
 /* y(k), k from 1: values first, then rates, and so on. */
@@ -70,9 +71,6 @@ static void write_phase(FILE *out, const program *p, const equations *e, const o
 }
 
 static void write_operation(FILE *out, const program *p, const equations *e, int i) {
-    static const char *const names[FN_COUNT] = {"sin",  "cos",   "tan",  "asin", "acos",
-                                                "atan", "atan2", "sqrt", "exp",  "log",
-                                                "abs",  "sign",  "min",  "max"};
     const tape *t = p->step;
     const op *o = &t->ops[i];
     if (o->code == OP_CONSTANT) {
@@ -104,10 +102,23 @@ static void write_operation(FILE *out, const program *p, const equations *e, int
     case OP_SIGN: write_call(out, t, o, "sign"); break;
     case OP_MIN: write_call(out, t, o, "min"); break;
     case OP_MAX: write_call(out, t, o, "max"); break;
-    case OP_CALL: write_call(out, t, o, names[o->function]); break;
+    case OP_CALL: write_call(out, t, o, function_name(o->function)); break;
     default: break;
     }
     fputs(";\n", out);
+}
+
+/* Does a list hold what is not a number in C where Octave goes on with a complex one? */
+static bool may_be_complex(const tape *t) {
+    bool found = false;
+    for (int i = 0; i < t->count; i++) {
+        const op *o = &t->ops[i];
+        const bool inverse =
+            o->code == OP_CALL &&
+            (o->function == FN_LOG || o->function == FN_ASIN || o->function == FN_ACOS);
+        found = found || o->code == OP_SQRT || o->code == OP_POW || inverse;
+    }
+    return found;
 }
 
 void emit_octave(FILE *out, const equations *e, const program *p, const char *file) {
@@ -173,6 +184,9 @@ void emit_octave(FILE *out, const equations *e, const program *p, const char *fi
             }
             fputs(";\n", out);
         }
+    }
+    if (may_be_complex(p->step)) {
+        fprintf(out, "  if ~isreal(dy), dy(:) = NaN; end %% outside a function's real values\n");
     }
     fprintf(out, "end\n");
     free(start);

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "host/lang/lexer.h"
 #include "show_term.h"
 
 /* --- sums ----------------------------------------------------------------------------------------*/
@@ -16,14 +17,14 @@ static void show_sign(const show *s, bool negative, bool first) {
     }
 }
 
-static void show_sum(const show *s, const poly *p) {
+static void show_sum(const show *s, const poly *p, bool leading) {
     piece *pieces = calloc((size_t)p->count + 1, sizeof *pieces);
     if (pieces == NULL) {
         abort();
     }
     const int count = pieces_of(s->algebra, p, pieces);
     for (int i = 0; i < count; i++) {
-        show_sign(s, pieces[i].coefficient < 0.0, i == 0);
+        show_sign(s, pieces[i].coefficient < 0.0, leading && i == 0);
         show_product(s, &pieces[i], fabs(pieces[i].coefficient));
     }
     free(pieces);
@@ -118,10 +119,17 @@ static void show_parted(const show *s, const poly *p, bool leading) {
         show_group(s, without, one, false);
         return;
     }
-    if (!leading) {
-        fputs(" + ", s->out);
+    show_sum(s, p, leading); /* every term has it, in powers of different signs */
+}
+
+/* * key, unless that is one. */
+static void show_behind(const show *s, const poly *key) {
+    if (key->terms[0].mono->count > 0) {
+        bool first = false;
+        const piece behind = {1.0, key->terms[0].mono, NULL, 0, 0};
+        show_separate(s, &first);
+        show_product(s, &behind, 1.0);
     }
-    show_sum(s, p); /* every term has it, in powers of different signs */
 }
 
 /* sign and size * common * (inside) * key / below, each part left out where it is one. */
@@ -139,7 +147,7 @@ static void show_group(const show *s, const poly *p, const poly *key, bool leadi
     }
     if (count == 1) { /* a single product: write it with its key */
         const poly *whole = poly_mul(a, p, key);
-        if (pieces_of(a, whole, pieces) == 1) {
+        if (!algebra_overflow(a) && pieces_of(a, whole, pieces) == 1) {
             show_sign(s, pieces[0].coefficient < 0.0, leading);
             show_product(s, &pieces[0], fabs(pieces[0].coefficient));
             free(pieces);
@@ -148,14 +156,20 @@ static void show_group(const show *s, const poly *p, const poly *key, bool leadi
     }
     free(pieces);
     const poly *common = show_common(a, p);
-    const mono *outside = common->terms[0].mono;
+    const poly *inside = poly_mul(a, p, poly_pow(a, common, -1.0));
+    inside = poly_scale(a, inside, (negative ? -1.0 : 1.0) / number);
     const bool bare = key->terms[0].mono->count == 0;
+    if (algebra_overflow(a)) { /* nothing is factored any more */
+        show_sign(s, false, leading);
+        show_grouped(s, p);
+        show_behind(s, key);
+        return;
+    }
+    const mono *outside = common->terms[0].mono;
     if (bare && outside->count == 0 && number == 1.0 && !negative) {
         show_parted(s, p, leading);
         return;
     }
-    const poly *inside = poly_mul(a, p, poly_pow(a, common, -1.0));
-    inside = poly_scale(a, inside, (negative ? -1.0 : 1.0) / number);
     double top;
     double bottom;
     show_as_fraction(number, &top, &bottom);
@@ -169,13 +183,9 @@ static void show_group(const show *s, const poly *p, const poly *key, bool leadi
     show_factors(s, &front, 1, &first);
     show_separate(s, &first);
     fputs(s->style == SHOW_LATEX ? "\\left(" : "(", s->out);
-    show_sum(s, inside);
+    show_sum(s, inside, true);
     fputs(s->style == SHOW_LATEX ? "\\right)" : ")", s->out);
-    if (!bare) {
-        show_separate(s, &first);
-        const piece behind = {1.0, key->terms[0].mono, NULL, 0, 0};
-        show_product(s, &behind, 1.0);
-    }
+    show_behind(s, key);
     const int below = show_count_below(&front) + (bottom != 1.0);
     if (below > 0) {
         fputs(below > 1 ? "/(" : "/", s->out);
@@ -203,6 +213,32 @@ static const poly *motion_of(algebra *a, const mono *m, int *highest) {
     return key;
 }
 
+/* The terms with the same rates and accelerations, without these. */
+typedef struct collected {
+    const poly *key;
+    const poly *terms;
+    int highest; /* most primes in the key */
+} collected;
+
+/* Returns how many groups there are. */
+static int collect(algebra *a, const poly *p, collected *groups) {
+    int count = 0;
+    for (int i = 0; i < p->count; i++) {
+        int highest;
+        int at = 0;
+        const poly *key = motion_of(a, p->terms[i].mono, &highest);
+        while (at < count && groups[at].key != key) {
+            at++;
+        }
+        if (at == count) {
+            groups[count++] = (collected){key, poly_number(a, 0.0), highest};
+        }
+        const poly *t = poly_of_term(a, p->terms[i].coefficient, p->terms[i].mono);
+        groups[at].terms = poly_add(a, groups[at].terms, poly_mul(a, t, poly_pow(a, key, -1.0)));
+    }
+    return count;
+}
+
 int show_size(const poly *p) { return p->count; }
 
 void show_poly(const show *s, const poly *p) {
@@ -211,33 +247,23 @@ void show_poly(const show *s, const poly *p) {
         fputs("0", s->out);
         return;
     }
-    const poly **keys = calloc((size_t)p->count, sizeof *keys);
-    int *highest = calloc((size_t)p->count, sizeof *highest);
-    if (keys == NULL || highest == NULL) {
+    collected *groups = calloc((size_t)p->count, sizeof *groups);
+    if (groups == NULL) {
         abort();
     }
-    for (int i = 0; i < p->count; i++) {
-        keys[i] = motion_of(a, p->terms[i].mono, &highest[i]);
-    }
-    bool leading = true;
-    for (int rank = 9; rank >= 0; rank--) {
-        for (int i = 0; i < p->count; i++) {
-            if (keys[i] == NULL || highest[i] != rank) {
-                continue;
-            }
-            const poly *key = keys[i];
-            const poly *group = poly_number(a, 0.0);
-            for (int j = i; j < p->count; j++) {
-                if (keys[j] == key) {
-                    const poly *t = poly_of_term(a, p->terms[j].coefficient, p->terms[j].mono);
-                    group = poly_add(a, group, poly_mul(a, t, poly_pow(a, key, -1.0)));
-                    keys[j] = NULL;
+    const int count = collect(a, p, groups);
+    if (algebra_overflow(a)) { /* products are not to be had any more: the terms as they are */
+        show_sum(s, p, true);
+    } else {
+        bool leading = true;
+        for (int rank = PRIMES_MAX; rank >= 0; rank--) {
+            for (int i = 0; i < count; i++) {
+                if (groups[i].highest == rank) {
+                    show_group(s, groups[i].terms, groups[i].key, leading);
+                    leading = false;
                 }
             }
-            show_group(s, group, key, leading);
-            leading = false;
         }
     }
-    free(keys);
-    free(highest);
+    free(groups);
 }

@@ -18,7 +18,8 @@ typedef struct show {
 void show_symbol(const show *s, const symbol *sym, int primes);
 
 /* Terms with the same rates and accelerations are collected and their coefficients factored;
- * accelerations first, then rates, then the rest. Zero is "0". */
+ * accelerations first, then rates, then the rest. Zero is "0". Collecting and factoring makes products: where
+ * the algebra overflows with them, or has before, the terms are printed as they are. */
 void show_poly(const show *s, const poly *p);
 
 /* Terms that show_poly() would print, before factoring: to judge whether a formula is readable. */

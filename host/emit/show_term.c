@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "host/lang/parser.h"
+
 /* --- names and numbers ---------------------------------------------------------------------------*/
 
 static bool is_greek(const char *name, size_t length) {
@@ -33,7 +35,8 @@ static void latex_name(FILE *out, const char *name, int primes) {
     while (isalpha((unsigned char)name[stem])) {
         stem++;
     }
-    const char *rest = stem == 0 ? "" : name + stem + (name[stem] == '_' ? 1 : 0);
+    const bool index = name[stem] == '_' && name[stem + 1] != '\0';
+    const char *rest = stem == 0 ? "" : name + stem + (index ? 1 : 0);
     fprintf(out, "%s", primes == 1 ? "\\dot{" : primes == 2 ? "\\ddot{" : primes > 2 ? "{" : "");
     if (stem == 0) {
         fprintf(out, "\\mathrm{");
@@ -100,6 +103,9 @@ void show_number(const show *s, double value) {
 
 /* --- factors -------------------------------------------------------------------------------------*/
 
+static void show_open(const show *s) { fputs(s->style == SHOW_LATEX ? "\\left(" : "(", s->out); }
+static void show_close(const show *s) { fputs(s->style == SHOW_LATEX ? "\\right)" : ")", s->out); }
+
 static void show_call(const show *s, const char *name, const poly *x, const poly *y) {
     static const char *const own[] = {"sin", "cos", "tan", "exp", "min", "max"};
     bool has_own = false;
@@ -116,13 +122,53 @@ static void show_call(const show *s, const char *name, const poly *x, const poly
         fputs(", ", s->out);
         show_poly(s, y);
     }
-    fputs(s->style == SHOW_LATEX ? "\\right)" : ")", s->out);
+    show_close(s);
 }
 
 void show_grouped(const show *s, const poly *p) {
-    fputs(s->style == SHOW_LATEX ? "\\left(" : "(", s->out);
+    show_open(s);
     show_poly(s, p);
-    fputs(s->style == SHOW_LATEX ? "\\right)" : ")", s->out);
+    show_close(s);
+}
+
+/* A name, a whole number, one call: what takes an exponent without parentheses. */
+static bool is_primary(const poly *p) {
+    double value;
+    if (poly_is_number(p, &value)) {
+        return value >= 0.0 && value < 1e5 && value == floor(value);
+    }
+    const mono *m = p->terms[0].mono;
+    if (p->count > 1 || p->terms[0].coefficient != 1.0) {
+        return false;
+    }
+    if (m->trig != TRIG_NONE) {
+        return m->count == 0;
+    }
+    return m->count == 1 && m->factors[0].exponent == 1.0 &&
+           (m->factors[0].atom->kind == ATOM_SYMBOL || m->factors[0].atom->kind == ATOM_CALL);
+}
+
+/* base^exponent, both expressions. In text `^` binds from the right: what is not a primary stands in
+ * parentheses on either side. LaTeX takes one superscript on a base: braces keep those of primes and
+ * dots inside. */
+static void show_power(const show *s, const poly *base, const poly *exponent) {
+    const bool latex = s->style == SHOW_LATEX;
+    if (is_primary(base)) {
+        const mono *m = base->count == 0 ? NULL : base->terms[0].mono;
+        const bool dotted = latex && m != NULL && m->count == 1 && m->factors[0].atom->primes > 0;
+        fputs(dotted ? "{" : "", s->out);
+        show_poly(s, base);
+        fputs(dotted ? "}" : "", s->out);
+    } else {
+        show_grouped(s, base);
+    }
+    fputs(latex ? "^{" : "^", s->out);
+    if (latex || is_primary(exponent)) {
+        show_poly(s, exponent);
+    } else {
+        show_grouped(s, exponent);
+    }
+    fputs(latex ? "}" : "", s->out);
 }
 
 static void show_exponent(const show *s, double exponent) {
@@ -133,7 +179,11 @@ static void show_exponent(const show *s, double exponent) {
     }
     fputs(s->style == SHOW_LATEX ? "^{" : "^", s->out);
     if (show_as_fraction(exponent, &top, &bottom) && bottom != 1.0) {
-        fprintf(s->out, s->style == SHOW_LATEX ? "%g/%g" : "(%g/%g)", top, bottom);
+        fputs(s->style == SHOW_LATEX ? "" : "(", s->out);
+        show_number(s, top);
+        fputs("/", s->out);
+        show_number(s, bottom);
+        fputs(s->style == SHOW_LATEX ? "" : ")", s->out);
     } else {
         show_number(s, exponent);
     }
@@ -141,9 +191,6 @@ static void show_exponent(const show *s, double exponent) {
 }
 
 static void show_atom(const show *s, const atom *x, double exponent) {
-    static const char *const names[FN_COUNT] = {"sin",  "cos",   "tan",  "asin", "acos",
-                                                "atan", "atan2", "sqrt", "exp",  "log",
-                                                "abs",  "sign",  "min",  "max"};
     if (exponent == 0.5) {
         fputs(s->style == SHOW_LATEX ? "\\sqrt{" : "sqrt(", s->out);
         if (x->kind == ATOM_GROUP) {
@@ -154,22 +201,25 @@ static void show_atom(const show *s, const atom *x, double exponent) {
         fputs(s->style == SHOW_LATEX ? "}" : ")", s->out);
         return;
     }
+    const bool raised = exponent != 1.0;
+    bool braced = false;
     switch (x->kind) {
     case ATOM_SYMBOL:
-        if (x->primes > 0 && exponent != 1.0 && s->style == SHOW_LATEX) {
-            fputs("{", s->out);
-        }
+        braced = raised && x->primes > 0 && s->style == SHOW_LATEX;
+        fputs(braced ? "{" : "", s->out);
         show_symbol(s, x->symbol, x->primes);
-        if (x->primes > 0 && exponent != 1.0 && s->style == SHOW_LATEX) {
-            fputs("}", s->out);
-        }
+        fputs(braced ? "}" : "", s->out);
         break;
-    case ATOM_CALL: show_call(s, names[x->function], x->argument[0], x->argument[1]); break;
+    case ATOM_CALL: show_call(s, function_name(x->function), x->argument[0], x->argument[1]); break;
     case ATOM_GROUP: show_grouped(s, x->argument[0]); break;
     case ATOM_POWER:
-        show_grouped(s, x->argument[0]);
-        fputs("^", s->out);
-        show_grouped(s, x->argument[1]);
+        if (raised) {
+            show_open(s);
+        }
+        show_power(s, x->argument[0], x->argument[1]);
+        if (raised) {
+            show_close(s);
+        }
         break;
     }
     show_exponent(s, exponent);

@@ -5,8 +5,10 @@
 
 #include "emit.h"
 #include "host/run/number.h"
+#include "host/run/shown.h"
 #include "show.h"
 #include "show_events.h"
+#include "show_term.h"
 
 /* A closed formula for an acceleration with more terms than this is not read by anyone: the mass
  * matrix is printed instead. */
@@ -24,14 +26,45 @@ static const poly *left_side(const equations *e, int i) {
     return sum;
 }
 
+static void write_left_side(const show *s, const equations *e, int i) {
+    algebra *a = s->algebra;
+    const poly *sum = left_side(e, i);
+    if (!algebra_overflow(a)) {
+        show_poly(s, sum);
+        return;
+    }
+    const poly *rest = poly_add(a, e->velocity[i], e->potential[i]); /* no products: A q'' + rest */
+    bool leading = true;
+    for (int j = 0; j < e->count; j++) {
+        if (!poly_is_zero(e->mass[i * e->count + j])) {
+            bool first = false;
+            fputs(leading ? "" : " + ", s->out);
+            show_grouped(s, e->mass[i * e->count + j]);
+            show_separate(s, &first);
+            show_symbol(s, e->unknowns[j].symbol, e->unknowns[j].order);
+            leading = false;
+        }
+    }
+    if (!poly_is_zero(rest) || leading) {
+        fputs(leading ? "" : " + ", s->out);
+        show_poly(s, rest);
+    }
+}
+
+/* What the records of a run show, and its unit there. */
+static void write_shown(const show *s, const char *kind, const symbol *what) {
+    char *unit_name = shown_unit_name(what, 0);
+    fprintf(s->out, "  %-10s %-10s [%s]%s%s\n", kind, what->name, unit_name,
+            what->text[0] != '\0' ? "  " : "", what->text);
+    free(unit_name);
+}
+
 static void write_names(const show *s, const equations *e) {
     const mechanism *m = e->instance->mechanism;
     fprintf(s->out, "%s %s%s%s\n\n", m->is_system ? "system" : "mechanism", m->name,
             m->title[0] != '\0' ? ": " : "", m->title);
     for (int i = 0; i < e->count; i++) {
-        const symbol *c = m->coordinates[i];
-        fprintf(s->out, "  %-10s %-10s [%s]%s%s\n", m->is_system ? "state" : "coordinate", c->name,
-                c->unit[0] != '\0' ? c->unit : "1", c->text[0] != '\0' ? "  " : "", c->text);
+        write_shown(s, m->is_system ? "state" : "coordinate", m->coordinates[i]);
     }
     for (int i = 0; i < m->parameter_count; i++) {
         const symbol *p = m->parameters[i];
@@ -53,6 +86,37 @@ static void write_names(const show *s, const equations *e) {
             fprintf(s->out, "  with       %-10s %s\n", m->effects[i].name, m->effects[i].text);
         }
     }
+    for (int i = 0; i < m->output_count; i++) {
+        write_shown(s, "output", m->outputs[i]);
+    }
+}
+
+/* Is the name this letter and a number, as those that are made up here? */
+static bool is_numbered(const char *name, const char *letter) {
+    const size_t length = strlen(letter);
+    return strncmp(name, letter, length) == 0 && name[length] != '\0' &&
+           strspn(name + length, "0123456789") == strlen(name + length);
+}
+
+/* The first of the letters, ended by NULL, that no symbol of the mechanism has with a number behind it,
+ * so that y1 means one thing; or the last. */
+static const char *free_letter(const mechanism *m, const char *const *letters) {
+    for (; letters[1] != NULL; letters++) {
+        bool taken = false;
+        for (int i = 0; i < m->coordinate_count; i++) {
+            taken = taken || is_numbered(m->coordinates[i]->name, *letters);
+        }
+        for (int i = 0; i < m->parameter_count; i++) {
+            taken = taken || is_numbered(m->parameters[i]->name, *letters);
+        }
+        for (int i = 0; i < m->input_count; i++) {
+            taken = taken || is_numbered(m->inputs[i]->name, *letters);
+        }
+        if (!taken) {
+            break;
+        }
+    }
+    return *letters;
 }
 
 /* y(1) ... y(N): values first, then rates, and so on, as the dissertation numbers them. */
@@ -95,7 +159,7 @@ static bool closed_form(const equations *e, const poly **top, const poly **botto
         top[c] = poly_determinant(a, m, n, (1U << n) - 1, (1U << n) - 1);
         size = show_size(top[c]) > size ? show_size(top[c]) : size;
     }
-    return size <= READABLE_TERMS;
+    return size <= READABLE_TERMS && !algebra_overflow(a);
 }
 
 /* Divide both by the factors they share; 0.7391 keeps equal terms of the two from cancelling. */
@@ -113,15 +177,21 @@ static void reduce(algebra *a, const poly **top, const poly **bottom) {
 }
 
 static void write_fraction(const show *s, const poly *top, const poly *bottom) {
-    double value;
+    algebra *a = s->algebra;
+    const poly *shorter[2] = {top, bottom};
     if (!poly_is_zero(top) && bottom->count > 1) {
-        reduce(s->algebra, &top, &bottom);
+        reduce(a, &shorter[0], &shorter[1]);
+    } else { /* divide term by term */
+        shorter[0] = poly_mul(a, top, poly_pow(a, bottom, -1.0));
+        shorter[1] = poly_number(a, 1.0);
     }
-    if (bottom->count == 1) { /* divide term by term */
-        algebra *a = s->algebra;
-        show_poly(s, poly_mul(a, top, poly_pow(a, bottom, -1.0)));
-    } else if (poly_is_number(top, &value) && value == 0.0) {
-        fputs("0", s->out);
+    if (!algebra_overflow(a)) {
+        top = shorter[0];
+        bottom = shorter[1];
+    }
+    double value;
+    if (poly_is_number(bottom, &value) && value == 1.0) {
+        show_poly(s, top);
     } else if (s->style == SHOW_LATEX) {
         fputs("\\frac{", s->out);
         show_poly(s, top);
@@ -129,11 +199,9 @@ static void write_fraction(const show *s, const poly *top, const poly *bottom) {
         show_poly(s, bottom);
         fputs("}", s->out);
     } else {
-        fputs("(", s->out);
-        show_poly(s, top);
-        fputs(")/(", s->out);
-        show_poly(s, bottom);
-        fputs(")", s->out);
+        show_grouped(s, top);
+        fputs("/", s->out);
+        show_grouped(s, bottom);
     }
 }
 
@@ -149,7 +217,13 @@ static void write_first_order(const show *s, const equations *e) {
     for (int i = 0; i < e->count; i++) {
         highest_order = e->unknowns[i].order > highest_order ? e->unknowns[i].order : highest_order;
     }
-    fprintf(s->out, "\nfirst-order form, y = (");
+    static const char *const states[] = {"y", "s", "w", "state", NULL};
+    static const char *const matrices[] = {"A", "M", "matrix", NULL};
+    static const char *const forces[] = {"b", "f", "right", NULL};
+    const char *y = free_letter(e->instance->mechanism, states);
+    const char *A = free_letter(e->instance->mechanism, matrices);
+    const char *b = free_letter(e->instance->mechanism, forces);
+    fprintf(s->out, "\nfirst-order form, %s = (", y);
     for (int level = 0; level < highest_order; level++) {
         for (int i = 0; i < e->count; i++) {
             if (e->unknowns[i].order > level) {
@@ -162,12 +236,13 @@ static void write_first_order(const show *s, const equations *e) {
     for (int level = 1; level <= highest_order; level++) {
         for (int i = 0; i < e->count; i++) {
             if (e->unknowns[i].order > level) {
-                fprintf(s->out, "  y%d' = y%d\n", y_number(e, i, level - 1), y_number(e, i, level));
+                fprintf(s->out, "  %s%d' = %s%d\n", y, y_number(e, i, level - 1), y,
+                        y_number(e, i, level));
             }
         }
     }
     for (int i = 0; i < e->count; i++) {
-        fprintf(s->out, "  y%d' = ", y_number(e, i, e->unknowns[i].order - 1));
+        fprintf(s->out, "  %s%d' = ", y, y_number(e, i, e->unknowns[i].order - 1));
         write_highest(s, e, i);
         if (readable) {
             fputs(" = ", s->out);
@@ -178,7 +253,7 @@ static void write_first_order(const show *s, const equations *e) {
     if (readable) {
         return;
     }
-    fprintf(s->out, "\n  with the highest derivatives from A x = b, x = (");
+    fprintf(s->out, "\n  with the highest derivatives from %s x = %s, x = (", A, b);
     for (int i = 0; i < e->count; i++) {
         fputs(i > 0 ? ", " : "", s->out);
         write_highest(s, e, i);
@@ -188,16 +263,16 @@ static void write_first_order(const show *s, const equations *e) {
     for (int i = 0; i < e->count; i++) {
         const bool symmetric = !e->instance->mechanism->is_system;
         for (int j = symmetric ? i : 0; j < e->count; j++) {
-            fprintf(s->out, "  A%d%s%d = ", i + 1, between, j + 1);
+            fprintf(s->out, "  %s%d%s%d = ", A, i + 1, between, j + 1);
             if (symmetric && j > i) {
-                fprintf(s->out, "A%d%s%d = ", j + 1, between, i + 1);
+                fprintf(s->out, "%s%d%s%d = ", A, j + 1, between, i + 1);
             }
             show_poly(s, e->mass[i * e->count + j]);
             fputc('\n', s->out);
         }
     }
     for (int i = 0; i < e->count; i++) {
-        fprintf(s->out, "  b%d = ", i + 1);
+        fprintf(s->out, "  %s%d = ", b, i + 1);
         show_poly(s, equations_force(e, i));
         fputc('\n', s->out);
     }
@@ -215,7 +290,7 @@ void emit_text(FILE *out, const equations *e) {
         } else {
             fprintf(out, "  %s:  ", e->unknowns[i].symbol->name);
         }
-        show_poly(&s, left_side(e, i));
+        write_left_side(&s, e, i);
         fputs(" = ", out);
         show_poly(&s, e->applied[i]);
         fputc('\n', out);
@@ -236,7 +311,7 @@ void emit_latex(FILE *out, const equations *e) {
     fprintf(out, "\\begin{align}\n");
     for (int i = 0; i < e->count; i++) {
         fputs("  ", out);
-        show_poly(&s, left_side(e, i));
+        write_left_side(&s, e, i);
         fputs(" &= ", out);
         show_poly(&s, e->applied[i]);
         fputs(i + 1 < e->count ? " \\\\\n" : "\n", out);

@@ -117,6 +117,7 @@ static bool parse_unknown(parser *in, symbol_kind kind) {
         unit written;
         made->is_angle = unit_is_angle(in->token.text, in->token.length);
         parse_unit(in, &written, &made->unit);
+        made->declared = written;
         made->dim = written.dim;
     }
     made->text = parser_title(in);
@@ -172,6 +173,11 @@ static bool parse_constant(parser *in, symbol_kind kind) {
     const char *text = parser_title(in);
     if (made != NULL) {
         made->text = text;
+        const expr *number = made->value->op == EXPR_NEG ? made->value->left : made->value;
+        if (number->op == EXPR_NUMBER && (number->uses & USES_UNIT) != 0) {
+            made->unit = in->number_unit_text;
+            made->declared = in->number_unit;
+        }
     }
     return parser_end_statement(in, "the expression");
 }
@@ -200,6 +206,7 @@ static bool parse_output(parser *in) {
         made->text = text;
         made->unit = unit_text;
         if (has_unit) {
+            made->declared = written;
             char rule[RULE_SIZE];
             char what[NAME_LENGTH_MAX + 16];
             snprintf(what, sizeof what, "output '%s'", made->name);

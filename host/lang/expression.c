@@ -33,9 +33,15 @@ bool parse_unit(parser *in, unit *result, const char **text) {
         *result = (unit){1.0, 1.0, dim_none()};
         result->dim.unknown = true;
     }
-    if (text != NULL) {
-        *text = parser_copy_text(in, &bracket);
+    char *bare = parser_copy_text(in, &bracket);
+    size_t length = 0;
+    for (const char *from = bare; *from != '\0'; from++) {
+        if (strchr(" \t\r\n", *from) == NULL) {
+            bare[length++] = *from;
+        }
     }
+    bare[length] = '\0';
+    *text = bare;
     parser_next(in);
     return good;
 }
@@ -48,7 +54,8 @@ static const expr *parse_number(parser *in) {
     if (in->token.kind == TOKEN_UNIT) {
         const place bracket = in->token.at;
         unit written;
-        parse_unit(in, &written, NULL);
+        parse_unit(in, &written, &in->number_unit_text);
+        in->number_unit = written;
         made->number = made->number * written.scale / written.divisor;
         made->dim = written.dim;
         made->uses = USES_UNIT;

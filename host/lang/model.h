@@ -31,15 +31,17 @@ typedef struct expr expr;
 typedef struct symbol {
     symbol_kind kind;
     const char *name;
-    const char *text;  /* the description in quotes, or "" */
-    const char *unit;  /* the unit as written between brackets, or "" */
-    dimension dim;     /* of the symbol without primes */
-    bool is_angle;     /* declared [rad] (or [deg], [rev]): coordinate or state */
-    const expr *value; /* parameter, input, let, output, record: its expression; else NULL */
-    place at;          /* where it was declared */
-    int index;         /* running number within its kind in its mechanism, declaration order */
-    int effect;        /* index of the effect that declared it, or -1 */
-    int order;         /* coordinate: 2; state: its highest derivative in the equations; else 0 */
+    const char *text; /* the description in quotes, or "" */
+    const char *unit; /* the declared unit, without blanks, or ""; of a parameter or input, the one
+                          behind the only number of its value */
+    struct unit declared; /* what that unit is; divisor 0 when there is none */
+    dimension dim;        /* of the symbol without primes */
+    bool is_angle;        /* declared [rad] (or [deg], [rev]): coordinate or state */
+    const expr *value;    /* parameter, input, let, output, record: its expression; else NULL */
+    place at;             /* where it was declared */
+    int index;            /* running number within its kind in its mechanism, declaration order */
+    int effect;           /* index of the effect that declared it, or -1 */
+    int order; /* coordinate: 2; state: its highest derivative in the equations; else 0 */
 } symbol;
 
 /* --- expressions ------------------------------------------------------------------------------- */

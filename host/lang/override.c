@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "parser.h"
+#include "value.h"
 
 static parser begin(const mechanism *of, const char *text, struct arena *arena, diags *all) {
     source *typed = arena_alloc(arena, sizeof *typed);
@@ -148,6 +149,11 @@ bool override_parse(const mechanism *of, override_kind kind, const char *text, s
     token_words(&name, words, sizeof words);
     *made = (assignment){&found->symbol, name.primes, parse_quantity(&in, wanted, words), name.at};
     return made->value != NULL && diags_calls(all) == before;
+}
+
+bool override_is_bare(const assignment *made) {
+    return made->value->uses == 0 && dim_is_none(made->value->dim) &&
+           !unit_is_si(made->symbol->declared) && expr_value(made->value, NULL) != 0.0;
 }
 
 const expr *override_duration(const mechanism *of, const char *what, const char *text,

@@ -12,6 +12,10 @@ typedef enum override_kind { OVERRIDE_SET, OVERRIDE_START, OVERRIDE_EITHER } ove
 bool override_parse(const mechanism *of, override_kind kind, const char *text, struct arena *arena,
                     diags *diags, assignment *made);
 
+/* Does it give a number without a unit, not 0, to what was declared in a unit that is not SI? The number
+ * is SI all the same. */
+bool override_is_bare(const assignment *made);
+
 /* "1ms", "1 [ms]", "0.001": seconds; NULL when it was wrong. `what` is "step" or "until". */
 const expr *override_duration(const mechanism *of, const char *what, const char *text,
                               struct arena *arena, diags *diags);

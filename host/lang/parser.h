@@ -51,6 +51,8 @@ typedef struct parser {
     diags *diags;
     struct arena *arena;
     expr_context context;
+    unit number_unit; /* the last one behind a number, and its text */
+    const char *number_unit_text;
     const expr *ready;         /* read already: the first operand of the expression to be parsed */
     int effect;                /* the one being read, or -1 */
     bool all_effects;          /* a scene may name the parameters of every effect */
@@ -111,7 +113,8 @@ bool check_dimension(parser *in, place at, const expr *value, dimension wanted, 
 /* "SUBJECT is mass [kg]", the rule for something that has its dimension already. */
 enum { RULE_SIZE = 300 };
 char *dimension_rule(char *buffer, const char *subject, const char *verb, dimension dim);
-bool parse_unit(parser *in, unit *result, const char **text); /* the unit token in hand */
+/* The unit token in hand; *text is set to what it says, without blanks. */
+bool parse_unit(parser *in, unit *result, const char **text);
 
 /* --- statements --- */
 bool is_reserved(const char *text, size_t length); /* declare.c */

@@ -357,11 +357,16 @@ bool unit_parse(const char *text, size_t length, unit *result, unit_error *error
         return fail(&in, in.at, "this does not belong into a unit", "write it like N*s/m");
     }
     if (!(result->scale > 1e-200 && result->scale < 1e200 && result->divisor > 1e-200 &&
-          result->divisor < 1e200)) {
+          result->divisor < 1e200 && result->scale / result->divisor > 1e-200 &&
+          result->scale / result->divisor < 1e200)) {
         return fail(&in, 0, "this unit is out of range", "");
     }
     return true;
 }
+
+bool unit_is_si(unit u) { return fabs(u.scale - u.divisor) <= 1e-14 * u.divisor; }
+
+double unit_number(unit u, double si) { return unit_is_si(u) ? si : si * u.divisor / u.scale; }
 
 bool unit_is_angle(const char *text, size_t length) {
     return length == 3 && (memcmp(text, "rad", 3) == 0 || memcmp(text, "deg", 3) == 0 ||

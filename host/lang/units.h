@@ -38,7 +38,8 @@ char *dim_symbols(dimension dim, char *buffer, size_t size);
 char *dim_unit(dimension dim, char *buffer, size_t size);
 #define DIM_TEXT_SIZE 128
 
-/* SI value = number * scale / divisor. Two factors, so that 7 [ms] is 7/1000, correctly rounded. */
+/* SI value = number * scale / divisor. Two factors, so that 7 [ms] is 7/1000, correctly rounded.
+ * scale/divisor lies between 1e-200 and 1e200. */
 typedef struct unit {
     double scale;
     double divisor;
@@ -54,6 +55,12 @@ typedef struct unit_error {
 /* Read a unit expression such as `N*s/m`, `lbf*s^2/in`, `kg*(m/s)^2`, `1/s`, `m^(1/2)`: factors are
  * taken from left to right. Returns false and fills `error` when it is none. */
 bool unit_parse(const char *text, size_t length, unit *result, unit_error *error);
+
+/* Is one of this unit one of SI, but for the rounding of its factors: no need to say which? Also true of {0},
+ * no unit. */
+bool unit_is_si(unit u);
+/* The number in unit u of an SI value; the value itself when unit_is_si(u). */
+double unit_number(unit u, double si);
 
 /* True when the text names an angle by itself: rad, deg or rev. */
 bool unit_is_angle(const char *text, size_t length);

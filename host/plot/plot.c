@@ -31,6 +31,24 @@ static void write_quoted(FILE *to, const char *text) {
     fputc('"', to);
 }
 
+/* A unit in gnuplot's enhanced text: what follows a ^ is raised, "m^(1/2)" whole and without its
+ * parentheses. */
+static void write_unit(FILE *to, const char *unit) {
+    fputc('"', to);
+    for (const char *at = unit; *at != '\0'; at++) {
+        fputc(*at, to);
+        if (*at != '^') {
+            continue;
+        }
+        const bool open = at[1] == '(';
+        const char *from = at + (open ? 2 : 1);
+        const size_t length = strspn(from, open ? "-0123456789/" : "-0123456789");
+        fprintf(to, "{%.*s}", (int)length, from);
+        at = from + length - (open && from[length] == ')' ? 0 : 1);
+    }
+    fputc('"', to);
+}
+
 static bool same_panel(const curve *x, const curve *y) { return strcmp(x->unit, y->unit) == 0; }
 
 static int count_panels(const curve *curves, int count) {
@@ -115,7 +133,7 @@ static void write_panels(FILE *to, const plot_table *t, const curve *curves, int
         range_of(t, curves, count, &curves[i], &least, &most);
         write_range(to, "y", least, most);
         fputs("set ylabel ", to);
-        write_quoted(to, curves[i].unit);
+        write_unit(to, curves[i].unit);
         fputs("\nplot ", to);
         for (int k = i; k < count; k++) {
             if (same_panel(&curves[k], &curves[i])) {

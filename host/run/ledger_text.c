@@ -8,7 +8,7 @@
 
 #include "host/derive/contact_lists.h"
 #include "host/derive/ledger.h"
-#include "summary.h"
+#include "shown.h"
 
 /* The columns that a line of the source gets. */
 #define LINE_WIDTH 44

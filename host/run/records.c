@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "number.h"
+#include "shown.h"
 
 /* Columns of the unknowns and their derivatives, integrated or recovered. */
 static int state_columns(const equations *e) {
@@ -13,6 +14,25 @@ static int state_columns(const equations *e) {
         columns += e->unknowns[i].order;
     }
     return columns;
+}
+
+/* All values first, then all rates, and so on; then the outputs. */
+static void name_columns(records *r) {
+    const equations *e = r->equations;
+    const mechanism *m = e->instance->mechanism;
+    int column = 1;
+    for (int primes = 0; column <= state_columns(e); primes++) {
+        for (int i = 0; i < e->count; i++) {
+            if (e->unknowns[i].order > primes) {
+                const symbol *of = e->unknowns[i].symbol;
+                r->column[column++] = (record_column){of, i, primes, shown_unit(of, primes)};
+            }
+        }
+    }
+    for (int i = 0; i < m->output_count; i++) {
+        const symbol *of = m->outputs[i];
+        r->column[column++] = (record_column){of, -1, 0, shown_unit(of, 0)};
+    }
 }
 
 records *records_open(FILE *out, const program *p, const equations *e, const engine_kind *kind) {
@@ -28,10 +48,12 @@ records *records_open(FILE *out, const program *p, const equations *e, const eng
                    kind,
                    calloc((size_t)columns, sizeof *r->row),
                    calloc((size_t)p->outputs + 1, sizeof *r->output),
+                   calloc((size_t)columns, sizeof *r->column),
                    columns};
-    if (r->row == NULL || r->output == NULL) {
+    if (r->row == NULL || r->output == NULL || r->column == NULL) {
         abort();
     }
+    name_columns(r);
     return r;
 }
 
@@ -39,64 +61,50 @@ void records_close(records *r) {
     if (r != NULL) {
         free(r->row);
         free(r->output);
+        free(r->column);
         free(r);
     }
 }
 
-/* Column (from 1) of an unknown's derivative: all values first, then all rates, and so on. */
+/* Column of an unknown's derivative. */
 static int column_of(const records *r, int unknown_index, int primes) {
     int column = 1;
-    for (int level = 0; level <= primes; level++) {
-        for (int i = 0; i < r->equations->count; i++) {
-            if (r->equations->unknowns[i].order > level) {
-                if (level == primes && i == unknown_index) {
-                    return column;
-                }
-                column++;
-            }
-        }
+    while (r->column[column].unknown != unknown_index || r->column[column].primes != primes) {
+        column++;
     }
     return column;
-}
-
-void records_name(const records *r, int column, char *text, size_t size) {
-    const int states = state_columns(r->equations);
-    if (column == 0) {
-        snprintf(text, size, "time");
-    } else if (column > states) {
-        snprintf(text, size, "%s",
-                 r->equations->instance->mechanism->outputs[column - states - 1]->name);
-    }
-    for (int i = 0; i < r->equations->count; i++) {
-        const unknown *u = &r->equations->unknowns[i];
-        for (int primes = 0; primes < u->order; primes++) {
-            if (column_of(r, i, primes) != column || column > states) {
-                continue;
-            }
-            size_t at = 0;
-            text[0] = '\0';
-            for (int k = 0; k < primes && at + 4 < size; k++, at += 4) {
-                memcpy(text + at, "der(", 5);
-            }
-            snprintf(text + at, size - at, "%s%.*s", u->symbol->name, primes, "))))))))))))))))");
-        }
-    }
 }
 
 /* What stands around the columns of a line. */
 typedef struct layout {
     const char *header, *between, *end;
+    const char *unit; /* before a unit's bracket: a blank would part columns */
 } layout;
 
-static const layout csv = {"", ",", "\r\n"};
-static const layout plain = {"% ", " ", "\n"};
+static const layout csv = {"", ",", "\r\n", " "};
+static const layout plain = {"% ", " ", "\n", ""};
+
+static void write_name(const record_column *c, FILE *out, const layout *l) {
+    for (int k = 0; k < c->primes; k++) {
+        fputs("der(", out);
+    }
+    fputs(c->symbol->name, out);
+    for (int k = 0; k < c->primes; k++) {
+        fputc(')', out);
+    }
+    if (!unit_is_si(c->unit)) {
+        char *name = shown_unit_name(c->symbol, c->primes);
+        fprintf(out, "%s[%s]", l->unit, name);
+        free(name);
+    }
+}
 
 static void write_header(const records *r, FILE *out, const layout *l) {
-    char name[256];
     fputs(l->header, out);
-    for (int i = 0; i < r->columns; i++) {
-        records_name(r, i, name, sizeof name);
-        fprintf(out, "%s%s", i > 0 ? l->between : "", name);
+    fputs("time", out);
+    for (int i = 1; i < r->columns; i++) {
+        fputs(l->between, out);
+        write_name(&r->column[i], out, l);
     }
     fputs(l->end, out);
 }
@@ -125,15 +133,15 @@ void records_read(records *r, void *run, double time_s) {
     const int own = r->equations->instance->mechanism->output_count;
     r->kind->outputs(run, r->output);
     for (int i = 0; i < own; i++) {
-        r->row[1 + state_columns(r->equations) + i] = r->output[i];
+        r->row[r->columns - own + i] = r->output[i];
     }
     for (int k = 0; k < p->conserved->count; k++) {
         const int i = p->conserved->unknown[k];
         r->row[column_of(r, i, 0)] = r->output[own + 2 * k];
         r->row[column_of(r, i, 1)] = r->output[own + 2 * k + 1];
     }
-    for (int i = 0; i < r->columns; i++) {
-        r->row[i] = number_shown(r->row[i]);
+    for (int i = 0; i < r->columns; i++) { /* here, and nowhere else, SI becomes what people read */
+        r->row[i] = number_shown(i > 0 ? unit_number(r->column[i].unit, r->row[i]) : r->row[i]);
     }
 }
 

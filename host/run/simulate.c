@@ -9,6 +9,7 @@
 #include "books.h"
 #include "host/plot/plot.h"
 #include "records.h"
+#include "shown.h"
 #include "slow.h"
 #include "summary.h"
 
@@ -180,20 +181,21 @@ static void say_interrupted(const simulation *sim) {
 }
 
 static bool draw(const simulation *sim) {
-    const program *p = sim->program;
     const mechanism *m = sim->equations->instance->mechanism;
-    const int own = m->output_count;
-    const int first_output = sim->records->columns - own;
-    curve *curves = calloc((size_t)sim->records->columns, sizeof *curves);
-    char(*labels)[64] = calloc((size_t)sim->records->columns, sizeof *labels);
-    if (curves == NULL || labels == NULL) {
+    const records *r = sim->records;
+    curve *curves = calloc((size_t)r->columns, sizeof *curves);
+    char **units = calloc((size_t)r->columns, sizeof *units);
+    if (curves == NULL || units == NULL) {
         abort();
     }
     int count = 0;
-    for (int i = 0; i < p->count + own; i++) {
-        const symbol *s = i < p->count ? m->coordinates[i] : m->outputs[i - p->count];
-        const char *si = dimension_unit(s->dim, s->is_angle, labels[count], sizeof labels[count]);
-        curves[count++] = (curve){s->name, si, i < p->count ? i + 1 : first_output + i - p->count};
+    for (int i = 1; i < r->columns; i++) { /* coordinates and outputs: no rates */
+        const record_column *c = &r->column[i];
+        if (c->primes == 0) {
+            units[count] = shown_unit_name(c->symbol, 0);
+            curves[count] = (curve){c->symbol->name, units[count], i};
+            count++;
+        }
     }
     const char *title =
         sim->equations->instance->scene != NULL ? sim->equations->instance->scene->title : m->title;
@@ -202,8 +204,11 @@ static bool draw(const simulation *sim) {
              title[0] != '\0' ? ": " : "", title);
     const bool drawn = plot_draw(sim->settings->plot, full, curves, count, sim->plot.data,
                                  (int)sim->plot.count, sim->records->columns);
+    for (int i = 0; i < count; i++) {
+        free(units[i]);
+    }
+    free(units);
     free(curves);
-    free(labels);
     return drawn;
 }
 

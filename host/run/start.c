@@ -7,7 +7,7 @@
 
 #include "engine.h"
 #include "host/derive/contact_lists.h"
-#include "summary.h"
+#include "shown.h"
 
 /* m or rad: what the conversion of a start's units may leave. */
 #define ROUNDING 1e-9

@@ -9,89 +9,29 @@
 #include "host/derive/contact_lists.h"
 #include "ledger_text.h"
 #include "records.h"
+#include "shown.h"
 
-const char *dimension_unit(dimension dim, bool is_angle, char *text, size_t size) {
-    static const struct {
-        signed char m, kg, s, A;
-        const char *name;
-    } named[] = {{1, 0, 0, 0, "m"},     {1, 0, -1, 0, "m/s"}, {1, 0, -2, 0, "m/s^2"},
-                 {0, 1, 0, 0, "kg"},    {0, 0, 1, 0, "s"},    {0, 0, -1, 0, "1/s"},
-                 {1, 1, -2, 0, "N"},    {2, 1, -2, 0, "N*m"}, {2, 1, -3, 0, "W"},
-                 {0, 0, 0, 1, "A"},     {2, 1, -3, -1, "V"},  {1, 1, -1, 0, "kg*m/s"},
-                 {2, 1, -1, 0, "N*m*s"}};
-    static const char *const bases[DIM_BASES] = {"m", "kg", "s", "A", "K"};
-    bool none = true;
-    for (int i = 0; i < DIM_BASES; i++) {
-        none = none && dim.twelfths[i] == 0;
-    }
-    if (none || dim.any) {
-        snprintf(text, size, "%s", is_angle ? "rad" : "1");
-        return text;
-    }
-    for (size_t i = 0; i < sizeof named / sizeof named[0]; i++) {
-        if (dim.twelfths[DIM_LENGTH] == 12 * named[i].m &&
-            dim.twelfths[DIM_MASS] == 12 * named[i].kg &&
-            dim.twelfths[DIM_TIME] == 12 * named[i].s &&
-            dim.twelfths[DIM_CURRENT] == 12 * named[i].A && dim.twelfths[DIM_TEMPERATURE] == 0) {
-            snprintf(text, size, "%s", named[i].name);
-            return text;
-        }
-    }
-    size_t at = 0;
-    text[0] = '\0';
-    for (int i = 0; i < DIM_BASES && at < size; i++) {
-        if (dim.twelfths[i] != 0) {
-            char power[16] = "";
-            if (dim.twelfths[i] != DIM_DENOMINATOR) {
-                snprintf(power, sizeof power, "^%g", dim.twelfths[i] / (double)DIM_DENOMINATOR);
-            }
-            at += (size_t)snprintf(text + at, size - at, "%s%s%s", at > 0 ? "*" : "", bases[i],
-                                   power);
-        }
-    }
-    return text;
-}
-
-static void print_value(FILE *out, const char *name, double value, int digits, dimension dim,
-                        bool is_angle, int primes) {
-    char si[64];
+static void print_value(FILE *out, const records *r, int column) {
+    const record_column *c = &r->column[column];
+    char *in = shown_unit_name(c->symbol, c->primes);
+    const int digits = r->kind->digits;
     char text[160];
-    dim.twelfths[DIM_TIME] = (short)(dim.twelfths[DIM_TIME] - DIM_DENOMINATOR * primes);
-    bool plain = is_angle && primes > 0;
-    for (int i = 0; i < DIM_BASES && i != DIM_TIME; i++) {
-        plain = plain && dim.twelfths[i] == 0;
-    }
-    if (plain && primes == 1) {
-        snprintf(si, sizeof si, "rad/s");
-    } else {
-        dimension_unit(dim, is_angle && primes == 0, si, sizeof si);
-    }
-    snprintf(text, sizeof text, "%.*s%.*s", 120, name, primes, "''''''''''''''''");
-    fprintf(out, "  %-16s %*.*g %s\n", text, digits + 8, digits, value, si);
+    snprintf(text, sizeof text, "%.*s%.*s", 120, c->symbol->name, c->primes, "''''''''''''''''");
+    fprintf(out, "  %-16s %*.*g %s\n", text, digits + 8, digits, r->row[column], in);
+    free(in);
 }
 
 static void print_state(FILE *out, const equations *e, const program *p,
                         const simulation_settings *s, void *run) {
     records *r = records_open(NULL, p, e, s->kind);
     records_read(r, run, 0.0);
-    int column = 1;
+    const int first_output = r->columns - e->instance->mechanism->output_count;
     fprintf(out, "\nfinal state\n");
-    const int own = e->instance->mechanism->output_count;
-    for (int level = 0; column < r->columns - own; level++) {
-        for (int i = 0; i < e->count; i++) {
-            if (e->unknowns[i].order > level) {
-                const symbol *sym = e->unknowns[i].symbol;
-                print_value(out, sym->name, r->row[column++], s->kind->digits, sym->dim,
-                            sym->is_angle, level);
-            }
+    for (int column = 1; column < r->columns; column++) {
+        if (column == first_output) {
+            fprintf(out, "outputs\n");
         }
-    }
-    if (own > 0) {
-        fprintf(out, "outputs\n");
-    }
-    for (int i = 0; i < own; i++) {
-        const symbol *sym = e->instance->mechanism->outputs[i];
-        print_value(out, sym->name, r->row[column++], s->kind->digits, sym->dim, false, 0);
+        print_value(out, r, column);
     }
     records_close(r);
 }

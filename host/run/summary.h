@@ -11,7 +11,4 @@
 void summary_print(FILE *out, const equations *e, const program *p, const simulation_settings *s,
                    void *run, const books *b, double step_ns);
 
-/* The SI unit of a dimension into text[size]: "rad", "m/s", "kg*m^2/s^2", "1". Returns text. */
-const char *dimension_unit(dimension dim, bool is_angle, char *text, size_t size);
-
 #endif

@@ -9,6 +9,7 @@
 #include "host/lang/override.h"
 #include "host/lang/value.h"
 #include "host/run/number.h"
+#include "host/run/shown.h"
 
 static void *room(size_t count, size_t size) {
     void *p = calloc(count + 1, size);
@@ -176,6 +177,14 @@ static bool read_axis(const mechanism *of, const char *over, const range_text *r
     diags_flush(errors, stderr);
     const bool good =
         to != NULL && take_ends(over, from, to, made) && read_count(over, r->count, made);
+    const assignment last = {made->symbol, made->primes, to, {0}};
+    if (good && made->symbol != NULL && override_is_bare(&last)) {
+        char *name = joined(r->name, "=");
+        char *typed = joined(name, r->to);
+        shown_note_bare(typed, made->symbol, made->primes);
+        free(name);
+        free(typed);
+    }
     arena_free(arena);
     return good;
 }

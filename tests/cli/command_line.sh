@@ -226,7 +226,7 @@ echo >"$scratch/b"
 ln "$scratch/b" "$scratch/c"
 says 2 'error: --csv and --columns cannot share a file' run "$own" --csv "$scratch/b" --columns "$scratch/c"
 prints '^own_swings$' run "$own" --csv /dev/null
-prints '^  rate +[-0-9.e]+ m\*kg\*s\^-3$' run "$own"
+prints '^  rate +[-0-9.e]+ kg\*m/s\^3$' run "$own"
 
 # --- what has a better way ------------------------------------------------------------------------------------
 cat >"$scratch/hand.whirl" <<'END'
@@ -254,7 +254,7 @@ stop 1/(1 [m] + x) >= 0.5 [1/m] restitution 0
 stop n <= 2 restitution 0
 END
 says 2 'starts.whirl:6:1: error: the run starts beyond this stop, by 1.5$' run "$scratch/starts.whirl" --start n=3.5
-says 2 'starts.whirl:5:1: error: the run starts beyond this stop, by 0.25 m\^-1$' run "$scratch/starts.whirl" --start x=3
+says 2 'starts.whirl:5:1: error: the run starts beyond this stop, by 0.25 1/m$' run "$scratch/starts.whirl" --start x=3
 says 2 'starts.whirl:5:1: error: the distance to this stop is not a finite number where the run starts' \
     run "$scratch/starts.whirl" --start x=-1
 says 2 'error: the run starts beyond this stop' run "$scratch/starts.whirl" --start x=-1.5

@@ -1,0 +1,187 @@
+#!/bin/sh
+# units.sh: what is declared in a unit is shown in it, everywhere and nowhere else: coordinates, their rates and
+# outputs in random units of all names there are, in the CSV, the plain columns and the summary, against the same
+# mechanism declared in SI. UNITS_CASES=N in the environment makes N mechanisms.
+. "$(dirname "$0")/../checks.sh"
+
+seed=${UNITS_SEED:-5}
+cases=${UNITS_CASES:-16}
+echo "seed $seed"
+
+# "NAME SI": every unit the language knows, and the SI unit of its dimension.
+awk '/^static const unit_entry units/ { on = 1; next } on && /^};/ { exit }
+    on {
+        split("LENGTH m MASS kg TIME s NUMBER rad FREQUENCY Hz FORCE N ENERGY J POWER W PRESSURE Pa CURRENT A CHARGE C" \
+            " VOLTAGE V RESISTANCE ohm CAPACITANCE F INDUCTANCE H FLUX Wb FLUX_DENSITY T", word, " ")
+        for (i = 1; i in word; i += 2) { si[word[i]] = word[i + 1] }
+        split($0, part, "\"")
+        line = $0
+        gsub(/[ },]+$/, "", line)
+        sub(/.* /, "", line)
+        print part[2], (line in si) ? si[line] : "K"
+    }' host/lang/units.c >"$scratch/names"
+[ "$(wc -l <"$scratch/names")" -ge 60 ] && ! grep -qv '^[A-Za-z]* [A-Za-z]*$' "$scratch/names"
+verdict $? "the table of units is read" "$scratch/names"
+
+# Writes CASES pairs of files, N.declared.whirl and N.si.whirl, that are the same but for declarations.
+awk -v seed="$seed" -v cases="$cases" -v folder="$scratch" '
+function pick(n) { return int(rand() * n) }
+function one(bound,    k, e) { # one factor more of as_is and as_si; each name has its turn
+    do { # coordinates beyond 1e15 are refused
+        k = !bound && used < names ? used++ : pick(names)
+    } while (bound && name[k] ~ /^[GMnpu]./)
+    e = pick(6)
+    e = e == 0 ? "^2" : e == 1 ? "^(1/2)" : e == 2 && !bound ? "^-3" : ""
+    as_is = as_is name[k] e
+    as_si = as_si si[k] e
+}
+function some(most,    parts, i, sign) { # a unit of up to so many factors
+    as_is = as_si = ""
+    parts = 1 + pick(most)
+    for (i = 0; i < parts; i++) {
+        sign = i == 0 ? "" : pick(2) ? "*" : "/"
+        as_is = as_is (sign == "" ? "" : (pick(3) ? sign : " " sign " "))
+        as_si = as_si sign
+        one(most < 3)
+    }
+}
+{ name[NR - 1] = $1; si[NR - 1] = $2; names = NR }
+END {
+    srand(seed)
+    for (n = 0; n < cases; n++) {
+        declared = folder "/" n ".declared.whirl"
+        plain = folder "/" n ".si.whirl"
+        T = V = start = outputs = ""
+        print "mechanism m" >declared
+        print "mechanism m" >plain
+        for (i = 0; i < 6; i++) {
+            some(2)
+            q = "q" i
+            first = i == 0 ? as_is : first
+            print "coordinate " q " [" as_is "]" >declared
+            print "coordinate " q " [" as_si "]" >plain
+            T = T (i ? " + " : "T = ") "1 [J*s^2]*(" q "\047/1 [" as_is "])^2/2"
+            V = V (i ? " + " : "V = ") (i + 1) " [J]*(" q "/1 [" as_is "])^2"
+            start = start (i ? ", " : "start ") q " = " 0.1 + rand() " [" as_is "]"
+            outputs = outputs "output f_" q " = 1 [" as_is "]\n"
+        }
+        print T "\n" V >declared
+        print T "\n" V >plain
+        for (i = 0; i < 10; i++) {
+            some(3)
+            value = " = " rand() - 0.5 " [" as_is "]*cos(q0/1 [" first "])"
+            print "output o" i " [" as_is "]" value >declared
+            print "output o" i value >plain
+            outputs = outputs "output f_o" i " = 1 [" as_is "]\n"
+        }
+        printf "%s", outputs >declared
+        printf "%s", outputs >plain
+        print "scene s {\n" start "\nuntil 20 [ms] }" >declared
+        print "scene s {\n" start "\nuntil 20 [ms] }" >plain
+        close(declared)
+        close(plain)
+    }
+}' "$scratch/names"
+verdict $? "mechanisms are made up" "$scratch/names"
+
+# agree DECLARED SI EPSILON: the last rows of two runs, tab-separated columns behind a header. Columns f_NAME hold
+# what one of NAME's units is; der(NAME) is in NAME's unit a second.
+cat >"$scratch/agree.awk" <<'END'
+function abs(x) { return x < 0 ? -x : x }
+FNR == 1 { run++; columns[run] = NF; for (i = 1; i <= NF; i++) head[run, i] = $i }
+{ for (i = 1; i <= NF; i++) last[run, i] = $i }
+function wrong(what) { print what; bad = 1 }
+END {
+    for (i = 1; i <= columns[2]; i++) { factor[head[2, i]] = last[2, i] }
+    for (i = 1; i <= columns[2]; i++) {
+        name = head[2, i]
+        rate = name ~ /^der/
+        base = rate ? substr(name, 5, length(name) - 5) : name
+        f = ("f_" base) in factor ? factor["f_" base] : 1
+        known = head[1, i]
+        if (sub(/\].*/, "", known)) { sub(/ ?\[.*/, "", known) }
+        if (known != name) { wrong(head[1, i] " is no " name) }
+        has_unit = head[1, i] ~ /\[.*\]$/
+        if (has_unit != (abs(f - 1) > 1e-12)) { wrong(head[1, i] ", where one is " f) }
+        if (rate && has_unit && head[1, i] !~ /\/s\]$/) { wrong(head[1, i] " is no rate") }
+        shown += has_unit
+        if (epsilon > 1e-10 && abs(last[2, i]) < 1e-36) { continue } # too small for a float
+        if (abs(last[1, i]*f - last[2, i]) > epsilon*abs(last[2, i])) {
+            wrong(head[1, i] " = " last[1, i] " of " f ", but in SI " last[2, i])
+        }
+    }
+    exit bad || columns[1] != columns[2] || shown < 10
+}
+END
+to_tabs() { tr -d '\r' <"$1" | tr ',' '\t'; }
+n=0
+while [ $n -lt "$cases" ]; do
+    number=double epsilon=1e-14
+    [ $((n % 2)) -eq 0 ] || number=float epsilon=2e-7 # f_NAME is a float
+    for kind in declared si; do
+        "$whirl" run "$scratch/$n.$kind.whirl" --number $number --csv "$scratch/$kind.csv" \
+            --columns "$scratch/$kind.txt" >"$scratch/$kind.out" 2>"$scratch/err" || verdict 1 "case $n runs"
+        to_tabs "$scratch/$kind.csv" >"$scratch/$kind.tab"
+        sed '1s/^% //' "$scratch/$kind.txt" | tr ' ' '\t' >"$scratch/$kind.columns"
+    done
+    bad=0
+    awk -F '\t' -v epsilon=$epsilon -f "$scratch/agree.awk" "$scratch/declared.tab" "$scratch/si.tab" >"$scratch/why" || bad=1
+    # plain columns: the same without the blank before a unit
+    sed '1s/ \[/[/g' "$scratch/declared.tab" | cmp -s - "$scratch/declared.columns" || { echo columns >>"$scratch/why"; bad=1; }
+    # the summary: the last row, with each unit; and the same motion, to the bit
+    awk -F '\t' 'FNR == NR { for (i = 1; i <= NF; i++) { if (FNR == 1) head[i] = $i; else last[i] = $i }; n = NF; next }
+        /^  [a-z]/ && seen < n - 1 && state {
+            split($0, part, " ")
+            i = ++seen + 1
+            name = head[i]
+            has_unit = sub(/ \[.*/, "", name)
+            if (name ~ /^der/) { name = substr(name, 5, length(name) - 5) "\047" }
+            unit = head[i]
+            gsub(/.* \[|\]$/, "", unit)
+            if (part[1] != name || part[2] != last[i] || (has_unit && part[3] != unit)) { print $0 " // " head[i] " = " last[i]; bad = 1 }
+        }
+        /^final state/ { state = 1 }
+        END { exit bad || seen != n - 1 }' "$scratch/declared.tab" "$scratch/declared.out" >>"$scratch/why" || bad=1
+    [ "$(grep '^state hash' "$scratch/declared.out")" = "$(grep '^state hash' "$scratch/si.out")" ] || { echo hash >>"$scratch/why"; bad=1; }
+    [ $bad -eq 0 ]
+    verdict $? "case $n, $number: CSV, columns and summary" "$scratch/why"
+    n=$((n + 1))
+done
+
+# --- by hand ------------------------------------------------------------------------------------------------
+cat >"$scratch/hand.whirl" <<'END'
+mechanism hand
+coordinate theta [deg]
+coordinate z [ mm ]
+parameter m = 400 [g]
+parameter l = 0.6 [m]
+T = m*l^2*theta'^2/2 + m*z'^2/2
+output speed [rpm] = theta'
+output turned [rev/min] = theta'
+output angle [deg] = theta
+output energy [J] = m*z'^2/2
+output plain = z
+scene hand_turning { start theta = 90 [deg], theta' = 90 [rpm], z = 2 [mm], z' = 5 [mm/s]
+    until 0 }
+END
+run() { "$whirl" run "$scratch/hand.whirl" "$@" >"$scratch/out" 2>"$scratch/err"; }
+run --quiet --csv "$scratch/h.csv" && printf '%s\r\n' \
+    'time,theta [deg],z [mm],der(theta) [deg/s],der(z) [mm/s],speed [rpm],turned [rev/min],angle [deg],energy,plain' \
+    '0,90,2,540,5,90,90,90,5.0000000000000004e-06,0.002' | cmp -s - "$scratch/h.csv"
+verdict $? "the CSV of a simple case" "$scratch/h.csv"
+run && grep -q '^  theta  *90 deg$' "$scratch/out" && grep -q "^  theta'  *540 deg/s\$" "$scratch/out" &&
+    grep -q '^  speed  *90 rpm$' "$scratch/out" && grep -q '^  energy  *5.0000000000000004e-06 J$' "$scratch/out" &&
+    grep -q '^  plain  *0.002 m$' "$scratch/out"
+verdict $? "and its summary" "$scratch/out"
+"$whirl" derive "$scratch/hand.whirl:hand" >"$scratch/out" && grep -q '^  coordinate z  *\[mm\]$' "$scratch/out" &&
+    grep -q '^  output  *turned  *\[rev/min\]$' "$scratch/out" && grep -q '^  output  *plain  *\[m\]$' "$scratch/out"
+verdict $? "derive lists units as declared, without blanks" "$scratch/out"
+
+# A bare number is SI, and that is said where something else may have been meant.
+run --quiet --start theta=2 && grep -q "^note: theta=2 has no unit and counts as rad: 'theta' is declared in \[deg\]$" "$scratch/err"
+verdict $? "a bare number for an angle in degrees gets a note"
+run --quiet --set m=2 --start "z'=1" && [ "$(grep -c '^note: ' "$scratch/err")" -eq 2 ] && grep -q 'counts as m/s' "$scratch/err"
+verdict $? "and one for a mass in grams, and for a rate"
+run --quiet --set l=2 --set "m=2 [kg]" --start theta=2rad --start z=0 && [ ! -s "$scratch/err" ]
+verdict $? "none where SI is declared or a unit is given, and none for 0"
+exit $failed

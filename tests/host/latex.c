@@ -1,0 +1,140 @@
+/* latex.c: see latex.h. */
+#include "latex.h"
+
+#include <ctype.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <string.h>
+
+/* TeX's own limit on groups is 255, with a few for the page around. */
+enum { DEPTH_MAX = 240 };
+
+typedef struct reader {
+    const char *at;
+    const char *problem;
+    int depth;
+} reader;
+
+static void list(reader *r, char until);
+
+static void fail(reader *r, const char *problem) {
+    if (r->problem == NULL) {
+        r->problem = problem;
+    }
+}
+
+static void skip(reader *r) {
+    while (*r->at == ' ' || *r->at == '\n') {
+        r->at++;
+    }
+}
+
+static void argument(reader *r) {
+    skip(r);
+    if (*r->at != '{') {
+        fail(r, "an argument without braces");
+        return;
+    }
+    r->at++;
+    list(r, '}');
+    if (r->problem == NULL) {
+        r->at++;
+    }
+}
+
+/* The name behind the backslash is in hand. */
+static void command(reader *r, const char *name, size_t length) {
+    static const struct {
+        const char *name;
+        int arguments;
+    } known[] = {{"frac", 2},         {"sqrt", 1}, {"dot", 1}, {"ddot", 1}, {"mathrm", 1},
+                 {"operatorname", 1}, {"sin", 0},  {"cos", 0}, {"tan", 0},  {"exp", 0},
+                 {"min", 0},          {"max", 0},  {"cdot", 0}};
+    static const char greek[] =
+        " alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi rho sigma tau phi chi "
+        "psi omega Gamma Delta Theta Lambda Xi Sigma Phi Psi Omega ";
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
+        if (strlen(known[i].name) == length && memcmp(known[i].name, name, length) == 0) {
+            for (int k = 0; k < known[i].arguments && r->problem == NULL; k++) {
+                argument(r);
+            }
+            return;
+        }
+    }
+    for (const char *at = greek; at != NULL; at = strchr(at + 1, ' ')) {
+        if (strncmp(at + 1, name, length) == 0 && at[1 + length] == ' ') {
+            return;
+        }
+    }
+    fail(r, "an unknown command");
+}
+
+/* What may carry scripts. */
+static void nucleus(reader *r) {
+    const char c = *r->at;
+    if (c == '{') {
+        argument(r);
+    } else if (c == '\\' && isalpha((unsigned char)r->at[1])) {
+        const char *name = r->at + 1;
+        size_t length = 0;
+        while (isalpha((unsigned char)name[length])) {
+            length++;
+        }
+        r->at = name + length;
+        if (length == 4 && memcmp(name, "left", 4) == 0) {
+            if (*r->at++ != '(') {
+                fail(r, "\\left without a parenthesis");
+            }
+            list(r, ')');
+            r->at += r->problem == NULL ? strlen("\\right)") : 0;
+        } else {
+            command(r, name, length);
+        }
+    } else if (c == '\\' && (r->at[1] == '_' || r->at[1] == ',')) {
+        r->at += 2;
+    } else if (isalnum((unsigned char)c) || (c != '\0' && strchr("+-=/.,()", c) != NULL)) {
+        r->at++;
+    } else {
+        fail(r, "a character that means something else here");
+    }
+}
+
+/* Up to the '}', the \right) or (until 0) the end, which is left in hand. */
+static void list(reader *r, char until) {
+    if (++r->depth > DEPTH_MAX) {
+        fail(r, "nested too deep for TeX");
+    }
+    for (skip(r); r->problem == NULL; skip(r)) {
+        const bool closes = strncmp(r->at, "\\right)", 7) == 0;
+        if (closes || *r->at == '}' || *r->at == '\0') {
+            if (until != (closes ? ')' : *r->at)) {
+                fail(r, "something is not closed, or closed twice");
+            }
+            break;
+        }
+        if (until == '\0' && (*r->at == '&' || strncmp(r->at, "\\\\", 2) == 0)) {
+            r->at += *r->at == '&' ? 1 : 2;
+            continue;
+        }
+        nucleus(r);
+        bool has[2] = {false, false};
+        for (skip(r); r->problem == NULL && (*r->at == '^' || *r->at == '_'); skip(r)) {
+            bool *mine = &has[*r->at == '^'];
+            if (*mine) {
+                fail(r, *r->at == '^' ? "a double superscript" : "a double subscript");
+                break;
+            }
+            *mine = true;
+            r->at++;
+            argument(r);
+        }
+    }
+    r->depth--;
+}
+
+const char *latex_problem(const char *text, const char **at) {
+    reader r = {text, NULL, 0};
+    list(&r, '\0');
+    *at = r.at;
+    return r.problem;
+}

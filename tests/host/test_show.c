@@ -1,0 +1,315 @@
+/* test_show.c: every expression of the language, printed, is read back by the language's own parser as the
+ * same thing, and is LaTeX that compiles (latex.h). Random expressions and mechanisms, the same ones every
+ * time; SHOW_CASES=N in the environment takes N of them instead of some hundreds. */
+#define _POSIX_C_SOURCE 200809L
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "expressions.h"
+#include "formula.h"
+#include "host/emit/show.h"
+#include "parsed.h"
+#include "printed.h"
+#include "reread.h"
+#include "unity.h"
+
+void suite_show(void);
+
+enum { TEXT_SIZE = 1 << 16 };
+
+static const expression_names names = {reread_coordinates, REREAD_COORDINATES, 1, reread_constants,
+                                       REREAD_CONSTANTS};
+
+static const char front[] =
+    "mechanism m\ncoordinate theta1\ncoordinate x\ncoordinate phi_1_a\ncoordinate _odd\n"
+    "parameter a1 = 2\nparameter n_1 = 1.5\nparameter mass_of_it = 0.7\ninput Omega_ = 1.2\n"
+    "input x__2 = 0.4\ninput y1 = 3\n";
+
+static int cases(int usual) {
+    const char *wanted = getenv("SHOW_CASES");
+    return wanted != NULL ? (int)strtol(wanted, NULL, 10) : usual;
+}
+
+/* --- one expression --------------------------------------------------------------------------------*/
+
+static char *shown(algebra *a, const poly *p, show_style style) {
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    TEST_ASSERT_NOT_NULL(out);
+    const show s = {out, style, a};
+    show_poly(&s, p);
+    fclose(out);
+    return text;
+}
+
+/* What never is, a derivation refuses. */
+static bool is_ever_finite(const poly *p, uint64_t *seed) {
+    bool finite = false;
+    for (int k = 0; k < 8 && !finite; k++) {
+        state s = random_values(seed);
+        finite = isfinite(poly_evaluate(p, value_here, &s));
+    }
+    return finite;
+}
+
+/* Each expression and its slope, which has more powers still. */
+enum { BATCH = 10, FORMULAS = 2 * BATCH };
+
+static int check_batch(uint64_t *seed, int depth, int tame) {
+    char *text = malloc((size_t)BATCH * TEXT_SIZE);
+    TEST_ASSERT_NOT_NULL(text);
+    size_t at = (size_t)sprintf(text, "%s", front);
+    for (int i = 0; i < BATCH; i++) {
+        at += (size_t)sprintf(text + at, "output f%d = ", i);
+        expression_write(&names, depth, tame, seed, text + at, TEXT_SIZE / 2);
+        at += strlen(text + at);
+        at += (size_t)sprintf(text + at, "\n");
+    }
+    sprintf(text + at, "T = 1 [kg*m^2]*(theta1'^2 + x'^2 + phi_1_a'^2 + _odd'^2)\n");
+    const mechanism *m = parse(text);
+    algebra *a = algebra_new();
+    const poly *p[FORMULAS];
+    char *printed_text[FORMULAS] = {NULL};
+    int count = 0;
+    for (int i = 0; i < BATCH; i++) {
+        p[count++] = poly_from_expr(a, m->outputs[i]->value);
+        p[count] = poly_derivative(a, p[count - 1],
+                                   m->coordinates[random_bits(seed) % REREAD_COORDINATES], 0);
+        count++;
+    }
+    int kept = 0;
+    const bool overflowed =
+        algebra_overflow(a); /* before printing; printing may overflow as well */
+    for (int i = 0; i < count && !overflowed; i++) {
+        if (!is_ever_finite(p[i], seed)) {
+            continue;
+        }
+        char *one = shown(a, p[i], SHOW_TEXT);
+        if (strlen(one) > TEXT_SIZE || strstr(one, "inf") != NULL || strstr(one, "nan") != NULL) {
+            free(one); /* a derivation would have refused it */
+            continue;
+        }
+        char *latex = shown(a, p[i], SHOW_LATEX);
+        expect_compiles(latex);
+        free(latex);
+        p[kept] = p[i];
+        printed_text[kept++] = one;
+    }
+    read_back b = parse_back((const char *const *)printed_text, kept);
+    if (b.instance == NULL) {
+        printf("%s", text);
+    }
+    TEST_ASSERT_NOT_NULL_MESSAGE(b.instance, "what was printed is not read back");
+    int compared = 0;
+    for (int i = 0; i < kept; i++) {
+        const quantity q = {poly_here, a, p[i], NULL, 0};
+        compared += compare(&q, printed_text[i], &b, i, -1, seed) > 0;
+        free(printed_text[i]);
+    }
+    drop_back(&b);
+    algebra_free(a);
+    free(text);
+    drop();
+    return compared;
+}
+
+static void test_expressions_are_read_back_as_printed(void) {
+    const int wanted = cases(600);
+    uint64_t seed = 20;
+    int compared = 0;
+    int made_up = 0;
+    for (; made_up < wanted; made_up += FORMULAS) {
+        const uint64_t before = seed;
+        const int here =
+            check_batch(&seed, 1 + made_up / FORMULAS % 5, made_up / FORMULAS % 3 != 0);
+        compared += here;
+        (void)before;
+    }
+    printf("  seed 20: %d of %d expressions compared\n", compared, made_up);
+    TEST_ASSERT_TRUE(10 * compared > 6 * made_up);
+}
+
+/* --- whole mechanisms ------------------------------------------------------------------------------*/
+
+/* The formulas between `from` and the line's end, parted by " = ": their copies, to be freed. */
+static int formulas_of(char *line, char **formula) {
+    int count = 0;
+    for (char *next = line; next != NULL; line = next) {
+        next = strstr(line, " = ");
+        if (next != NULL) {
+            *next = '\0';
+            next += 3;
+        }
+        formula[count++] = line;
+    }
+    return count;
+}
+
+/* Both sides of an equation as printed against what was derived: A q'' - f. */
+static int compare_sides(const equations *e, int row, const read_back *b, const char *text,
+                         uint64_t *seed) {
+    algebra *a = e->algebra;
+    const poly *rest = poly_scale(a, equations_force(e, row), -1.0);
+    for (int j = 0; j < e->count; j++) {
+        const poly *highest = poly_symbol(a, e->unknowns[j].symbol, e->unknowns[j].order);
+        rest = poly_add(a, rest, poly_mul(a, e->mass[row * e->count + j], highest));
+    }
+    const quantity q = {poly_here, a, rest, NULL, 0};
+    return compare(&q, text, b, 2 * row, 2 * row + 1, seed) > 0;
+}
+
+/* A highest derivative, from two equations. */
+static double solution_here(const quantity *of, const state *at, double *size) {
+    const equations *e = of->equations;
+    double m[4];
+    double f[2];
+    state s = *at;
+    bool good = true;
+    for (int i = 0; i < 2; i++) {
+        good = good && is_in_range(equations_force(e, i), 1e5, &s) &&
+               is_in_range(e->mass[2 * i], 1e5, &s) && is_in_range(e->mass[2 * i + 1], 1e15, &s);
+        f[i] = poly_evaluate(equations_force(e, i), value_here, &s);
+        m[2 * i] = poly_evaluate(e->mass[2 * i], value_here, &s);
+        m[2 * i + 1] = poly_evaluate(e->mass[2 * i + 1], value_here, &s);
+    }
+    const double bottom = m[0] * m[3] - m[1] * m[2];
+    const int k = of->unknown;
+    const double top = k == 0 ? f[0] * m[3] - m[1] * f[1] : m[0] * f[1] - f[0] * m[2];
+    *size = (fabs(m[0] * m[3]) + fabs(m[1] * m[2])) * fabs(top / bottom / bottom) +
+            (fabs(f[0]) + fabs(f[1])) * (fabs(m[k == 0 ? 3 : 0]) + fabs(m[1 + k])) / fabs(bottom);
+    return good ? top / bottom : (double)NAN; /* it has products of these */
+}
+
+/* LaTeX: what stands between \begin{align} and \end{align}. */
+static void check_align(const derived *d) {
+    char *text = printed(d, LATEX);
+    int blocks = 0;
+    for (char *at = text; (at = strstr(at, "\\begin{align}")) != NULL; blocks++) {
+        char *end = strstr(at, "\\end{align}");
+        TEST_ASSERT_NOT_NULL(end);
+        *end = '\0';
+        expect_compiles(at + strlen("\\begin{align}"));
+        at = end + 1;
+    }
+    TEST_ASSERT_TRUE(blocks == 1 || blocks == 2);
+    free(text);
+}
+
+static int check_mechanism(int depth, uint64_t *seed) {
+    char *source_text = malloc(TEXT_SIZE);
+    TEST_ASSERT_NOT_NULL(source_text);
+    expression_mechanism(depth, seed, source_text, TEXT_SIZE);
+    derived d = derived_text(source_text);
+    if (d.equations == NULL) { /* never finite, say */
+        TEST_ASSERT_TRUE_MESSAGE(strstr(d.errors, "finite") != NULL ||
+                                     strstr(d.errors, "grow beyond") != NULL,
+                                 d.errors);
+        derived_free(&d);
+        free(source_text);
+        return 0;
+    }
+    TEST_ASSERT_EQUAL_INT(2, d.equations->count);
+    check_align(&d);
+    char *text = printed(&d, TEXT);
+    char *formula[64];
+    int count = 0;
+    int solved[2] = {-1, -1};
+    char *line = strstr(strstr(text, "\nequations"), "\n\n") + 2;
+    for (int i = 0; i < 2; i++) {
+        char *end = strchr(line, '\n');
+        char *label = strstr(line, ":  ");
+        *end = '\0';
+        TEST_ASSERT_EQUAL_INT(2, formulas_of(label != NULL ? label + 3 : line, formula + count));
+        count += 2;
+        line = end + 1;
+    }
+    for (int i = 0; i < 2; i++) { /* s3' = theta1'' = FORMULA */
+        char wanted[32];
+        const unknown *u = &d.equations->unknowns[i];
+        snprintf(wanted, sizeof wanted, " = %s%.*s = ", u->symbol->name, u->order, "''''");
+        char *at = strstr(line, wanted);
+        if (at != NULL) {
+            char *end = strchr(at, '\n');
+            *end = '\0';
+            solved[i] = count;
+            formula[count++] = at + strlen(wanted);
+            line = end + 1;
+        }
+    }
+    read_back b = parse_back((const char *const *)formula, count);
+    if (b.instance == NULL) {
+        printf("%s", source_text);
+    }
+    TEST_ASSERT_NOT_NULL_MESSAGE(b.instance, "what was printed is not read back");
+    int compared = 0;
+    for (int i = 0; i < 2; i++) {
+        compared += compare_sides(d.equations, i, &b, formula[2 * i], seed);
+        const quantity q = {solution_here, NULL, NULL, d.equations, i};
+        if (solved[i] >= 0) {
+            compared += compare(&q, formula[solved[i]], &b, solved[i], -1, seed) > 0;
+        }
+    }
+    drop_back(&b);
+    free(text);
+    derived_free(&d);
+    free(source_text);
+    return compared;
+}
+
+static void test_mechanisms_are_read_back_as_printed(void) {
+    const int wanted = cases(600) / 10;
+    uint64_t seed = 21;
+    int compared = 0;
+    for (int i = 0; i < wanted; i++) {
+        compared += check_mechanism(1 + i % 4, &seed);
+    }
+    printf("  seed 21: %d formulas of %d mechanisms compared\n", compared, wanted);
+    TEST_ASSERT_TRUE(compared > wanted);
+}
+
+/* --- more than the algebra takes on ----------------------------------------------------------------*/
+
+static double q_or_n(void *context, const char *name, int length) {
+    const state_values *s = context;
+    return length != 1 ? (double)NAN : *name == 'q' ? s->value[0][0] : s->instance->parameter[0];
+}
+
+/* Factored, this right side would have a square of a large sum in it, multiplied out: that overflows. It used to be
+ * printed without what overflowed. */
+static void test_printing_outlives_an_overflow(void) {
+    char *source_text =
+        repeated("mechanism m\ncoordinate q\nparameter n = 0.1\nlet a0 = q\n",
+                 "let a# = exp(-abs(a@*q + a@ + n))\n", 13,
+                 "let g = tan(a13) + tan(2*a13) + tan(3*a13) + tan(4*a13) + tan(5*a13)\n"
+                 "T = 1 [kg*m^2]*q'^2/2\nQ(q) = 1 [N*m]*(g^3*q + g^5*n)\n");
+    derived d = derived_text(source_text);
+    derived_expect(&d, "a large force");
+    TEST_ASSERT_FALSE(algebra_overflow(d.equations->algebra));
+    char *text = printed(&d, TEXT);
+    TEST_ASSERT_TRUE_MESSAGE(algebra_overflow(d.equations->algebra), "a larger one is needed");
+    const char *right = strstr(text, "  q:  q'' = ");
+    TEST_ASSERT_NOT_NULL(right);
+    uint64_t seed = 23;
+    for (int k = 0; k < REREAD_STATES; k++) {
+        state_values s;
+        const char *end;
+        random_state(&s, &d, &seed);
+        const double wanted = poly_evaluate(d.equations->applied[0], state_value, &s);
+        const double got = formula_value(right + strlen("  q:  q'' = "), &end, q_or_n, &s);
+        TEST_ASSERT_EQUAL_INT('\n', *end);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9 * fabs(wanted), wanted, got);
+    }
+    free(text);
+    derived_free(&d);
+    free(source_text);
+}
+
+void suite_show(void) {
+    UnitySetTestFile(__FILE__);
+    RUN_TEST(test_expressions_are_read_back_as_printed);
+    RUN_TEST(test_mechanisms_are_read_back_as_printed);
+    RUN_TEST(test_printing_outlives_an_overflow);
+}
