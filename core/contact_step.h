@@ -29,6 +29,7 @@ WH_INLINE void wh_contact_work_begin(const wh_hybrid *of, const wh_state *state,
     w->moved = 0;
     w->mover = 0;
     w->fault = -1;
+    w->undefined = -1;
 #if WH_LEDGER
     w->books = NULL;
 #endif
@@ -88,7 +89,14 @@ WH_INLINE unsigned wh_contact_overloads(const wh_hybrid *of, const wh_contact_wo
     return (bits & (bits - 1U)) != 0 ? bits : 0U;
 }
 
-/* One step with its events. Returns as wh_step_second(). */
+/* Refuse the step: a contact's expression is no finite number, or component `fault` left all bounds. */
+WH_INLINE wh_status wh_contact_refuse(const wh_contact_work *w, int fault, wh_state *state) {
+    state->fault = w->undefined >= 0 ? w->undefined : fault;
+    return w->undefined >= 0 ? WH_E_UNDEFINED : WH_E_DIVERGED;
+}
+
+/* One step with its events. Returns as wh_step_second(), or WH_E_UNDEFINED. Only what the step builds on must
+ * be a number: a try that is cut short at an event may have looked beyond where an expression ends. */
 static inline wh_status wh_step_contact(const wh_hybrid *of, wh_real h, wh_state *state) {
     const unsigned reals = 2U * of->coordinates - of->angles;
     wh_contact_work work;
@@ -115,9 +123,12 @@ static inline wh_status wh_step_contact(const wh_hybrid *of, wh_real h, wh_state
     }
     while (left > WH_R(0.0)) {
         wh_margins margins;
+        if (work.undefined >= 0) {
+            return wh_contact_refuse(&work, fault, state);
+        }
         next = now;
         if (!wh_contact_try(of, &work, left, state->input, &next, &fault)) {
-            return wh_refuse(state, (unsigned)fault);
+            return wh_contact_refuse(&work, fault, state);
         }
         wh_contact_tidy(of, &work, state->input, &next);
         wh_contact_margins_end(of, &work, &now, &next, state->input, &margins);
@@ -130,9 +141,10 @@ static inline wh_status wh_step_contact(const wh_hybrid *of, wh_real h, wh_state
         unsigned events;
         const wh_real span =
             left * wh_contact_locate(of, &work, &now, &next, left, state->input, &margins, &events);
+        work.undefined = -1;
         if (span > WH_R(0.0)) {
             if (!wh_contact_try(of, &work, span, state->input, &now, &fault)) {
-                return wh_refuse(state, (unsigned)fault);
+                return wh_contact_refuse(&work, fault, state);
             }
             wh_books_accept(of, &work);
             wh_contact_tidy(of, &work, state->input, &now);
@@ -165,8 +177,8 @@ static inline wh_status wh_step_contact(const wh_hybrid *of, wh_real h, wh_state
             }
         }
     }
-    if (work.fault >= 0) {
-        return wh_refuse(state, (unsigned)work.fault);
+    if (work.fault >= 0 || work.undefined >= 0) {
+        return wh_contact_refuse(&work, work.fault, state);
     }
 
 #if WH_LEDGER
