@@ -4,6 +4,7 @@
 
 #include "commands.h"
 #include "host/emit/emit.h"
+#include "host/run/start.h"
 #include "load.h"
 #include "options.h"
 
@@ -40,6 +41,11 @@ static int derive_one(source_model *from, const mechanism *of, const scene *in,
                 "%s: error: '%s' needs %s, which the core does not offer on boards\n"
                 "hint: --as octave and `whirl run --number double` work\n",
                 from->file, made.instance->name, program_needs_libm(made.program));
+        code = EXIT_BAD_INPUT;
+    }
+    if (code == EXIT_DONE && as == FORM_C &&
+        !start_angles_are_held(made.program, made.instance, from->errors)) {
+        diags_flush(from->errors, stderr);
         code = EXIT_BAD_INPUT;
     }
     if (code == EXIT_DONE && as == FORM_C && !emit_c_name_is_free(made.instance->name)) {

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include "host/run/belief.h"
 #include "jobs.h"
 #include "progress.h"
 #include "sheet.h"
@@ -20,25 +21,36 @@ typedef struct sitting {
     uint64_t overrun_points;
     uint64_t overrun_steps;
     uint64_t overrun_first; /* point */
+    uint64_t unbelieved;    /* points whose energies do not balance */
+    uint64_t unbelieved_first;
 } sitting;
 
 enum { TOLD_MAX = 20 };
 
-/* Of a point that did not fail, `reason` is its number of overruns, if there are any. */
+/* Of a point that did not fail, `reason` is what is to be told of it, if there is anything: its number of overruns,
+ * and behind a blank whether its energies do not balance. */
 static bool work(void *context, uint64_t point, FILE *row, FILE *reason) {
     const sitting *s = context;
-    uint64_t overruns = 0;
-    const bool good = sweep_point(s->sweep, point, jobs_orphaned, row, reason, &overruns);
-    if (good && overruns > 0) {
-        fprintf(reason, "%llu", (unsigned long long)overruns);
+    point_notes notes;
+    const bool good = sweep_point(s->sweep, point, jobs_orphaned, row, reason, &notes);
+    if (good && (notes.overruns > 0 || notes.unbelieved)) {
+        fprintf(reason, "%llu %d", (unsigned long long)notes.overruns, notes.unbelieved ? 1 : 0);
     }
     return good;
 }
 
-static void count_overruns(sitting *s, uint64_t point, uint64_t steps) {
-    s->overrun_first = s->overrun_points == 0 ? point : s->overrun_first;
-    s->overrun_points++;
-    s->overrun_steps += steps;
+static void count_notes(sitting *s, uint64_t point, const char *notes) {
+    char *rest;
+    const uint64_t steps = strtoull(notes, &rest, 10);
+    if (steps > 0) {
+        s->overrun_first = s->overrun_points == 0 ? point : s->overrun_first;
+        s->overrun_points++;
+        s->overrun_steps += steps;
+    }
+    if (strtol(rest, NULL, 10) != 0) {
+        s->unbelieved_first = s->unbelieved == 0 ? point : s->unbelieved_first;
+        s->unbelieved++;
+    }
 }
 
 /* "point 17 (r=0.02, theta'=31.4)" */
@@ -73,7 +85,7 @@ static bool deliver(void *context, uint64_t point, bool good, const char *row, c
         }
         s->told += s->told <= TOLD_MAX ? 1 : 0;
     } else if (reason[0] != '\0') {
-        count_overruns(s, point, strtoull(reason, NULL, 10));
+        count_notes(s, point, reason);
     }
     return fputs(row, s->sheet.out) >= 0;
 }
@@ -104,6 +116,20 @@ static void say_overruns(const sitting *s) {
     fputs("\nhint: what was left of those steps counts as rest or sticking; "
           "a smaller --step tells more\n",
           stderr);
+}
+
+/* The same of energies that do not balance. */
+static void say_unbelieved(const sitting *s) {
+    if (s->unbelieved == 0) {
+        return;
+    }
+    fprintf(
+        stderr,
+        "whirl sweep: warning: %llu of %llu points cannot be believed: more than %g of the largest "
+        "entry of their energy books is left over (" BELIEF_COLUMN "); first: ",
+        (unsigned long long)s->unbelieved, (unsigned long long)s->ran, BELIEF_LIMIT);
+    name_point(s->sweep, s->unbelieved_first);
+    fputs("\nhint: a smaller --step; `whirl run` of the point says more\n", stderr);
 }
 
 static void say_end(const session_settings *o, const sitting *s, int workers) {
@@ -151,6 +177,7 @@ static int run_points(const session_settings *o, sitting *s) {
         return SESSION_FAILED;
     }
     say_overruns(s);
+    say_unbelieved(s);
     const char *hint = s->sheet.is_file ? "hint: the same command goes on from there\n" : "";
     switch (result) {
     case JOBS_DONE: say_end(o, s, workers); break;
@@ -181,7 +208,7 @@ int session_run(const sweep *s, const session_settings *o) {
                                      .fingerprint = o->fingerprint,
                                      .header = header,
                                      .rows = o->end - o->first,
-                                     .measures = s->measures->count,
+                                     .measures = sweep_columns(s),
                                      .swept = swept,
                                      .context = &here,
                                      .fresh = o->fresh};
