@@ -87,7 +87,8 @@ void belief_print(FILE *out, const belief *b) {
     }
 }
 
-void belief_say(FILE *out, const char *who, const belief *b, const engine_kind *kind) {
+void belief_say(FILE *out, const char *who, const belief *b, const engine_kind *kind,
+                wh_method method) {
     fprintf(
         out,
         "%s: this run cannot be believed: %.3g J of its energy is left over, %.2e of the largest "
@@ -107,9 +108,8 @@ void belief_say(FILE *out, const char *who, const belief *b, const engine_kind *
             "singular position none helps\n",
             b->jump_s);
     } else {
-        fprintf(
-            out,
-            "hint: the step is too coarse for this motion: a smaller --step, or --method rk4%s\n",
-            kind == &engine_float ? "; --number double tells what float's rounding does" : "");
+        fprintf(out, "hint: the step is too coarse for this motion: a smaller --step%s%s\n",
+                method != WH_RK4 ? ", or --method rk4" : "",
+                kind == &engine_float ? "; --number double tells what float's rounding does" : "");
     }
 }

@@ -47,6 +47,7 @@ bool belief_lost(const belief *b, double limit);
 /* The line of the summary; nothing when it is not known. */
 void belief_print(FILE *out, const belief *b);
 /* `who` "whirl run: warning": that it is not believed, the likely cause and the cure. */
-void belief_say(FILE *out, const char *who, const belief *b, const engine_kind *kind);
+void belief_say(FILE *out, const char *who, const belief *b, const engine_kind *kind,
+                wh_method method);
 
 #endif

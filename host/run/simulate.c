@@ -269,7 +269,8 @@ static simulation_result judge(simulation *sim, wh_status status, bool interrupt
     }
     const bool fails = s->strict > 0.0 && belief_lost(balance, s->strict);
     if (fails || belief_lost(balance, BELIEF_LIMIT)) {
-        belief_say(stderr, fails ? "whirl run: error" : "whirl run: warning", balance, s->kind);
+        belief_say(stderr, fails ? "whirl run: error" : "whirl run: warning", balance, s->kind,
+                   s->engine.method);
     }
     return interrupted ? SIMULATION_INTERRUPTED : fails ? SIMULATION_FAILED : SIMULATION_DONE;
 }
