@@ -64,6 +64,33 @@ static inline void wh_books_levels(const wh_hybrid *of, const wh_contact_work *w
     }
 }
 
+/* The accounts, before a contact's place is put right, and after: the difference is contact k's entry. One that is
+ * within the accounts' own rounding is none: in float, noise of many steps would add up to more than they move. */
+static inline void wh_books_look(const wh_hybrid *of, wh_contact_work *w, const wh_contact_state *s,
+                                 const wh_real *input) {
+    if (wh_books_open(of, w)) {
+        of->ledger->levels(of->ledger->model, s->angle, s->real,
+                           s->real + (of->coordinates - of->angles), input, w->level);
+    }
+}
+
+static inline void wh_books_moved(const wh_hybrid *of, const wh_contact_work *w,
+                                  const wh_contact_state *s, const wh_real *input, unsigned k) {
+    const wh_real rounding = WH_DOUBLE ? WH_R(0x1p-49) : WH_R(0x1p-20);
+    wh_real level[WH_ACCOUNTS_MAX];
+    if (!wh_books_open(of, w)) {
+        return;
+    }
+    of->ledger->levels(of->ledger->model, s->angle, s->real,
+                       s->real + (of->coordinates - of->angles), input, level);
+    for (unsigned i = 0; i <= of->coordinates; i++) {
+        const wh_real change = level[i] - w->level[i];
+        if (WH_ABS(change) > rounding * WH_ABS(level[i])) {
+            w->books->step[wh_ledger_of_contact(of->ledger, k) + i] += change;
+        }
+    }
+}
+
 WH_INLINE void wh_books_begin(const wh_hybrid *of, wh_contact_work *w, const wh_angle *angle,
                               wh_real span) {
     if (wh_books_open(of, w)) {
@@ -88,6 +115,8 @@ WH_INLINE void wh_books_accept(const wh_hybrid *of, wh_contact_work *w) {
 #define wh_books_stage(of, w, phase, linear, rate, input) ((void)0)
 #define wh_books_impulse(of, w, k, impulse, before, after) ((void)0)
 #define wh_books_levels(of, w, s, input, k, sign) ((void)0)
+#define wh_books_look(of, w, s, input) ((void)0)
+#define wh_books_moved(of, w, s, input, k) ((void)0)
 #define wh_books_begin(of, w, angle, span) ((void)0)
 #define wh_books_end(of, w) ((void)0)
 #define wh_books_accept(of, w) ((void)0)

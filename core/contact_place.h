@@ -131,7 +131,7 @@ typedef struct wh_contact_place {
 
 /* Put resting stops and holds to where they are to be, while what is stuck stays. work->law and signal[] must
  * belong to this position. True: they were off so far that it must be done once more. */
-static inline bool wh_contact_close(const wh_hybrid *of, const wh_contact_work *w,
+static inline bool wh_contact_close(const wh_hybrid *of, wh_contact_work *w,
                                     const wh_contact_place *place, const wh_real *signal,
                                     const wh_real *input, wh_contact_state *s) {
     uint8_t member[WH_CONTACTS_MAX] = {0};
@@ -160,7 +160,7 @@ static inline bool wh_contact_close(const wh_hybrid *of, const wh_contact_work *
         return false;
     }
     (void)input; /* only books look at it */
-    wh_books_levels(of, w, s, input, mover, WH_R(-1.0));
+    wh_books_look(of, w, s, input);
     for (unsigned i = 0; i < count; i++) {
         const int pin = of->contact[member[i]].pin;
         if (off[i] != WH_R(0.0) && pin >= 0) { /* the others need not move for it */
@@ -190,7 +190,7 @@ static inline bool wh_contact_close(const wh_hybrid *of, const wh_contact_work *
             wh_contact_move(of, i, way[i], s);
         }
     }
-    wh_books_levels(of, w, s, input, mover, WH_R(1.0));
+    wh_books_moved(of, w, s, input, mover);
     return coarse;
 }
 

@@ -36,6 +36,7 @@ WH_INLINE void wh_contact_work_begin(const wh_hybrid *of, const wh_state *state,
     w->moved = 0;
     w->mover = 0;
     w->fault = -1;
+    w->undefined = -1;
 #if WH_LEDGER
     w->books = NULL;
 #endif
@@ -94,6 +95,12 @@ WH_INLINE unsigned wh_contact_overloads(const wh_hybrid *of, const wh_contact_wo
         bits |= gives ? events & 1U << k : 0U;
     }
     return (bits & (bits - 1U)) != 0 ? bits : 0U;
+}
+
+/* Refuse the step: a contact's expression is no finite number, or component `fault` left all bounds. */
+WH_INLINE wh_status wh_contact_refuse(const wh_contact_work *w, int fault, wh_state *state) {
+    state->fault = w->undefined >= 0 ? w->undefined : fault;
+    return w->undefined >= 0 ? WH_E_UNDEFINED : WH_E_DIVERGED;
 }
 
 /* What a step writes down of its events. */
@@ -191,7 +198,9 @@ static inline unsigned wh_contact_accept(const wh_hybrid *of, wh_contact_work *w
     return wh_contact_flat(of, w, from, to, input);
 }
 
-/* One step with its events. Returns as wh_step_second(), or WH_E_SINGULAR with the hold in state->fault. */
+/* One step with its events. Returns as wh_step_second(), or WH_E_UNDEFINED or WH_E_SINGULAR with the contact in
+ * state->fault. Only what the step builds on must be a number: a try that is cut short at an event may have
+ * looked beyond where an expression ends. */
 static inline wh_status wh_step_contact(const wh_hybrid *of, wh_real h, wh_state *state) {
     wh_contact_work work;
     wh_contact_state now;
@@ -217,12 +226,16 @@ static inline wh_status wh_step_contact(const wh_hybrid *of, wh_real h, wh_state
         wh_contact_follow(of, &work, h, state->input, &now);
     }
     while (left > WH_R(0.0) || (work.hit_next != 0 && round < WH_EVENTS_MAX)) {
-        unsigned events = round < WH_EVENTS_MAX ? wh_contact_next(of, &work) : 0;
+        unsigned events =
+            work.hit_next != 0 && round < WH_EVENTS_MAX ? wh_contact_next(of, &work) : 0;
+        if (work.undefined >= 0) {
+            return wh_contact_refuse(&work, fault, state);
+        }
         if (events == 0 && left > WH_R(0.0)) {
             wh_margins margins;
             next = now;
             if (!wh_contact_try(of, &work, left, state->input, &next, &fault)) {
-                return wh_refuse(state, (unsigned)fault);
+                return wh_contact_refuse(&work, fault, state);
             }
             wh_contact_tidy(of, &work, left, state->input, &now, &next);
             wh_contact_margins_end(of, &work, &now, &next, state->input, &margins);
@@ -234,10 +247,11 @@ static inline wh_status wh_step_contact(const wh_hybrid *of, wh_real h, wh_state
             }
             const wh_real span = left * wh_contact_locate(of, &work, &now, &next, left,
                                                           state->input, &margins, &events);
+            work.undefined = -1; /* what lies behind the event is none of ours */
             if (span > WH_R(0.0)) {
                 next = now;
                 if (!wh_contact_try(of, &work, span, state->input, &now, &fault)) {
-                    return wh_refuse(state, (unsigned)fault);
+                    return wh_contact_refuse(&work, fault, state);
                 }
                 wh_contact_tidy(of, &work, span, state->input, &next, &now);
                 flat = wh_contact_accept(of, &work, &next, &now, state->input);
@@ -256,8 +270,8 @@ static inline wh_status wh_step_contact(const wh_hybrid *of, wh_real h, wh_state
         state->fault = (int)flat;
         return WH_E_SINGULAR;
     }
-    if (work.fault >= 0) {
-        return wh_refuse(state, (unsigned)work.fault);
+    if (work.fault >= 0 || work.undefined >= 0) {
+        return wh_contact_refuse(&work, work.fault, state);
     }
 #if WH_LEDGER
     if (of->ledger != NULL) {

@@ -73,6 +73,7 @@ static inline wh_real wh_contact_hit(const wh_hybrid *of, wh_contact_work *w, un
     wh_real speed = wh_along(of, w, k, rate);
     if (speed < WH_R(0.0)) {
         const wh_real given = wh_law(of, w, k)[WH_LAW_FIRST];
+        wh_contact_expect(w, k, given);
         const wh_real restitution =
             given > WH_R(0.0) ? (given < WH_R(1.0) ? given : WH_R(1.0)) : WH_R(0.0);
         speed *= -restitution;
@@ -246,6 +247,7 @@ static inline void wh_contact_begin(const wh_hybrid *of, wh_contact_work *w, wh_
     }
     (void)wh_contact_slides(of, w, wh_contact_rates(of, s));
     wh_contact_look(of, w, s, input, accel, signal);
+    wh_contact_expect_signals(of, w, signal);
     for (unsigned k = 0; k < of->contacts; k++) {
         const wh_real value = signal[2 * k];
         switch (of->contact[k].kind) {

@@ -4,6 +4,13 @@
 
 #include "contact.h"
 
+/* For what is seldom called and would only be in the way. */
+#if defined(__GNUC__)
+#define WH_APART static __attribute__((noinline, cold, unused))
+#else
+#define WH_APART static inline
+#endif
+
 /* A step in progress: scratch memory, and the modes it tries. */
 typedef struct wh_contact_work {
     int8_t mode[WH_CONTACTS_MAX];
@@ -25,8 +32,10 @@ typedef struct wh_contact_work {
     unsigned moved; /* contacts whose signals a crossing's assignments changed, as bits */
     unsigned mover; /* that crossing */
     int fault;      /* component that was assigned what it cannot hold, or -1 */
+    int undefined;  /* contact with an expression that was no finite number, or -1 */
 #if WH_LEDGER
     wh_ledger_work *books; /* or NULL */
+    wh_real level[WH_ACCOUNTS_MAX];
 #endif
 } wh_contact_work;
 
@@ -76,9 +85,50 @@ WH_INLINE void wh_push(const wh_hybrid *of, const wh_contact_work *w, unsigned k
     }
 }
 
+/* What a step builds on must be finite numbers: a NaN compares as "not yet" with everything, and the contact would
+ * be as good as gone. Of several, their sum tells at first; which it was is looked up then. */
+WH_INLINE bool wh_finite(wh_real value) { return value - value == WH_R(0.0); }
+
+/* `value` is of contact k. */
+WH_INLINE void wh_contact_expect(wh_contact_work *w, unsigned k, wh_real value) {
+    if (!wh_finite(value) && w->undefined < 0) {
+        w->undefined = (int)k;
+    }
+}
+
+WH_APART void wh_contact_find_signal(const wh_hybrid *of, wh_contact_work *w,
+                                     const wh_real *signal) {
+    for (unsigned i = 0; i < 2U * of->contacts; i++) {
+        wh_contact_expect(w, i / 2U, signal[i]);
+    }
+}
+
+/* The signals of all contacts. */
+WH_INLINE void wh_contact_expect_signals(const wh_hybrid *of, wh_contact_work *w,
+                                         const wh_real *signal) {
+    wh_real sum = WH_R(0.0);
+    for (unsigned i = 0; i < 2U * of->contacts; i++) {
+        sum += signal[i];
+    }
+    if (!wh_finite(sum)) {
+        wh_contact_find_signal(of, w, signal);
+    }
+}
+
 /* Does the contact keep J_k q' at zero? */
 WH_INLINE bool wh_constrains(const wh_hybrid *of, const wh_contact_work *w, unsigned k) {
     return of->contact[k].kind == WH_FRICTION ? w->mode[k] == WH_STUCK : w->mode[k] == WH_ACTIVE;
+}
+
+/* The limit of each friction that sticks, the force of each that slides. (What a stop gives back counts at an
+ * impact only, and is none of these.) Seldom called: kept out of the way. */
+WH_APART void wh_contact_expect_frictions(const wh_hybrid *of, wh_contact_work *w) {
+    for (unsigned k = 0; k < of->forced; k++) {
+        const bool sticks = w->mode[k] == WH_STUCK;
+        if (of->contact[k].kind == WH_FRICTION) {
+            wh_contact_expect(w, k, wh_law(of, w, k)[sticks ? WH_LAW_FIRST : WH_LAW_SECOND]);
+        }
+    }
 }
 
 WH_INLINE bool wh_feels(const wh_hybrid *of, const wh_contact_work *w) {

@@ -46,6 +46,8 @@ typedef enum wh_status {
     WH_E_DIVERGED = -1, /* a step gave a non-finite or absurd state; the last good one is kept */
     WH_E_MEMORY = -2,   /* the caller's memory is too small for this scene */
     WH_E_ARGUMENT = -3, /* an argument is outside its documented range */
+    WH_E_UNDEFINED =
+        -4, /* a contact's expression is no finite number; the last good state is kept */
     WH_E_SINGULAR =
         -5 /* holds came to where they leave more than one motion; the last good state is kept */
 } wh_status;

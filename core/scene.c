@@ -179,6 +179,7 @@ const char *wh_status_text(wh_status status) {
     case WH_E_MEMORY: return "the memory is too small for this scene";
     case WH_E_ARGUMENT: return "an argument is out of range";
     case WH_E_SINGULAR: return "holds leave more than one motion";
+    case WH_E_UNDEFINED: return "an expression of a contact is not a finite number";
     }
     return "unknown status";
 }

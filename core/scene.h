@@ -62,9 +62,11 @@ typedef struct wh_state {
     wh_real *input;  /* [scene->inputs] SI units; the caller may change them between steps */
     wh_contacts *contacts; /* NULL without contacts */
     wh_real *held;   /* [scene->held] what holds keep: curved ones what it is, straight ones by how
-                            * much it has slipped; SI units */
+                      * much it has slipped; SI units */
     wh_real *ledger; /* the books' totals, their carries, the levels at the start; or NULL */
-    int fault;       /* after WH_E_DIVERGED: the component at fault, angles first, then reals */
+    /* after WH_E_DIVERGED: the component at fault, angles first, then reals; after WH_E_UNDEFINED or
+     * WH_E_SINGULAR: the contact, in the order of contact.h */
+    int fault;
 } wh_state;
 
 /* numerator / denominator, both below 2^63. */
@@ -102,8 +104,8 @@ struct wh_scene {
     const wh_ledger_form *ledger; /* NULL: no books are kept */
     const void *model;            /* the interpreter's operation list; NULL in generated code */
     uint64_t model_hash;          /* of the operation list: which physics this is */
-    /* One step. On divergence returns WH_E_DIVERGED, sets state->fault and leaves the rest as it
-     * was. Does not count the step: wh_scene_step() does. */
+    /* One step. On divergence returns WH_E_DIVERGED, where a contact's gap, condition, value, friction or
+     * restitution is no finite number WH_E_UNDEFINED; sets state->fault and leaves the rest as it was. Does not count the step: wh_scene_step() does. */
     wh_status (*advance)(const wh_scene *scene, wh_state *state);
     /* The outputs at the present state: output[scene->outputs], SI units. May be NULL. */
     void (*observe)(const wh_scene *scene, const wh_state *state, wh_real *output);
@@ -135,8 +137,8 @@ struct wh_scene {
  * the scene's form does not have (generated scenes never do that). */
 wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, size_t bytes);
 
-/* Do one step. Returns WH_OK; or WH_E_DIVERGED, with the last good state kept and state->fault set
- * (a further call fails the same way, it does not go on from garbage). */
+/* Do one step. Returns WH_OK; or WH_E_DIVERGED or WH_E_UNDEFINED, with the last good state kept and
+ * state->fault set (a further call fails the same way, it does not go on from garbage). */
 wh_status wh_scene_step(const wh_scene *scene, wh_state *state);
 
 /* Time of the state: state->steps * scene->step, exact but for one rounding of the fraction to the nearest

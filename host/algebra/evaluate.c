@@ -17,8 +17,8 @@ double call_number(function_id function, double x, double y) {
     case FN_LOG: return log(x);
     case FN_ABS: return fabs(x);
     case FN_SIGN: return x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : x; /* what is no number stays none */
-    case FN_MIN: return y < x ? y : x;
-    case FN_MAX: return y > x ? y : x;
+    case FN_MIN: return y < x || isnan(y) ? y : x;
+    case FN_MAX: return y > x || isnan(y) ? y : x;
     case FN_COUNT: break;
     }
     return 0.0;

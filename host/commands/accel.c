@@ -1,4 +1,5 @@
 /* accel.c: `whirl accel`: the highest derivatives at one state, to the last digit. */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -6,6 +7,7 @@
 #include "commands.h"
 #include "host/run/engine.h"
 #include "host/run/number.h"
+#include "host/run/undefined.h"
 #include "load.h"
 #include "options.h"
 
@@ -17,7 +19,49 @@ static const char usage[] =
     "Coordinates, their rates, inputs and parameters can be set; values are SI, or carry a unit:\n"
     "    \"theta'=330 [rpm]\". What is left out is 0, or has its declared value. The results are SI.\n"
     "SCENE and MECHANISM are built in (`whirl list`). A scene brings its effects, whose parameters can\n"
-    "be set then.\n";
+    "be set then.\n"
+    "\n"
+    "Exit status: 0 done; 1 they are not finite numbers there (it says which expression is not); 2 bad\n"
+    "input.\n";
+
+static bool is_finite(const loaded *made, const double *result) {
+    for (int i = 0; i < made->program->count; i++) {
+        if (!isfinite(result[i])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static void print(const loaded *made, const double *result) {
+    for (int i = 0; i < made->program->count; i++) {
+        printf("%s", made->equations->unknowns[i].symbol->name);
+        for (int k = 0; k < made->equations->unknowns[i].order; k++) {
+            putchar('\'');
+        }
+        printf(" = %.17g\n", number_shown(result[i]));
+    }
+}
+
+/* Which expression it is that is no number at this state. */
+static void tell_undefined(const loaded *made, const char *file, const double *angle_rad,
+                           const double *real) {
+    diags *errors = diags_new();
+    const undefined_at at = {.equations = made->equations,
+                             .program = made->program,
+                             .instance = made->instance,
+                             .angle_rad = angle_rad,
+                             .real = real,
+                             .when = "at this state"};
+    if (!undefined_angle(&at, errors) && !undefined_term(&at, errors)) {
+        fprintf(stderr,
+                "%s: error: at this state the accelerations of '%s' are not finite numbers\n"
+                "hint: look for a singular position: an inertia that vanishes there\n",
+                file, made->instance->name);
+    }
+    diags_flush(errors, stderr);
+    diags_free(errors);
+}
 
 int command_accel(int count, char **words) {
     if (options_help(count, words, usage)) {
@@ -54,12 +98,11 @@ int command_accel(int count, char **words) {
             evaluator_run(ev, 0.0, angle_rad, real, real + (p->coordinates - p->angles), input,
                           result);
             evaluator_free(ev);
-            for (int i = 0; i < p->count; i++) {
-                printf("%s", made.equations->unknowns[i].symbol->name);
-                for (int k = 0; k < made.equations->unknowns[i].order; k++) {
-                    putchar('\'');
-                }
-                printf(" = %.17g\n", number_shown(result[i]));
+            if (!is_finite(&made, result)) {
+                tell_undefined(&made, from.file, angle_rad, real);
+                code = EXIT_RUN_FAILED;
+            } else {
+                print(&made, result);
             }
             free(result);
             free(input);

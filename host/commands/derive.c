@@ -44,6 +44,11 @@ static int derive_one(source_model *from, const mechanism *of, const scene *in,
                 from->file, made.instance->name, program_needs_libm(made.program));
         code = EXIT_BAD_INPUT;
     }
+    if (code == EXIT_DONE && as == FORM_C &&
+        !start_angles_are_held(made.program, made.instance, from->errors)) {
+        diags_flush(from->errors, stderr);
+        code = EXIT_BAD_INPUT;
+    }
     if (code == EXIT_DONE && as == FORM_C && !emit_c_name_is_free(made.instance->name)) {
         fprintf(stderr,
                 "%s: error: '%s' is a word of C or of the core: the generated scene cannot "

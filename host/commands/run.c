@@ -8,6 +8,7 @@
 
 #include "commands.h"
 #include "files.h"
+#include "host/run/belief.h"
 #include "host/run/simulate.h"
 #include "host/run/start.h"
 #include "load.h"
@@ -33,13 +34,16 @@ static const char usage[] =
     "  --columns FILE       the same between spaces, for Octave's load; - as for --csv\n"
     "  --every 2ms          spacing of the records, a whole number of steps (default: every step)\n"
     "  --plot FILE.svg|.png coordinates and outputs over time, drawn by gnuplot\n"
+    "  --strict[=LIMIT]     fail when more than LIMIT (1e-3) of the largest entry of the energy books\n"
+    "                       is left over; without it such a run is only warned of\n"
     "  --quiet              no summary, no progress\n"
     "\n"
     "Summary, records and plot are in the units that the file declares; a record's column whose name\n"
     "has no unit is SI: theta [deg] is in degrees, theta in radians.\n"
     "\n"
-    "Exit status: 0 done; 1 the run failed (it says when, where and what to try; the records so far\n"
-    "are kept); 2 bad input; 130 interrupted.\n";
+    "Exit status: 0 done; 1 the run failed (it diverged, or something was not a finite number: it says\n"
+    "when, where and what to try; the records so far are kept), or --strict does not believe it; 2 bad\n"
+    "input; 130 interrupted.\n";
 
 static volatile sig_atomic_t interrupted;
 
@@ -63,11 +67,36 @@ static bool take_flag(char **words, int *at, const char *name) {
     return true;
 }
 
+/* --strict or --strict=LIMIT; *bad when the limit is none. */
+static bool take_strict(char **words, int *at, double *limit, bool *bad) {
+    static const char name[] = "--strict";
+    const size_t length = sizeof name - 1;
+    const char *word = words[*at];
+    if (strncmp(word, name, length) != 0 || (word[length] != '\0' && word[length] != '=')) {
+        return false;
+    }
+    ++*at;
+    *limit = BELIEF_LIMIT;
+    if (word[length] == '=') {
+        char *end;
+        *limit = strtod(word + length + 1, &end);
+        *bad = end == word + length + 1 || *end != '\0' || !(*limit > 0.0 && *limit <= 1.0);
+    }
+    if (*bad) {
+        fprintf(stderr,
+                "whirl run: error: %s takes a part of the largest entry of the books\n"
+                "hint: such as --strict=1e-6; above 0, at most 1; %g when left out\n",
+                name, BELIEF_LIMIT);
+    }
+    return true;
+}
+
 /* One word or pair of words that is this command's own; false when it is none of them. */
 static bool take_own(int count, char **words, int *at, run_options *o, bool *bad) {
     const char *value = NULL;
     if (options_engine("run", count, words, at, &o->settings.engine, bad) ||
-        (!*bad && options_number("run", count, words, at, &o->settings.kind, bad))) {
+        (!*bad && options_number("run", count, words, at, &o->settings.kind, bad)) ||
+        (!*bad && take_strict(words, at, &o->settings.strict, bad))) {
         return true;
     }
     if (!*bad && (value = options_value(count, words, at, "--csv", bad)) != NULL) {
@@ -114,7 +143,7 @@ static bool read_options(int count, char **words, run_options *o) {
             options_unknown("run", words[at],
                             (const char *const[]){CHANGE_OPTIONS, ENGINE_OPTIONS, "--number",
                                                   "--csv", "--columns", "--every", "--plot",
-                                                  "--quiet", "--help", NULL});
+                                                  "--strict", "--quiet", "--help", NULL});
             return false;
         }
         if (o->target != NULL) {
@@ -179,7 +208,7 @@ static int run_loaded(run_options *o, const source_model *from, const loaded *ma
         return EXIT_BAD_INPUT;
     }
     if (!start_has_method(made->program, made->instance, o->settings.engine.method, from->errors) ||
-        !start_is_possible(made->program, made->instance, from->errors)) {
+        !start_is_possible(made->program, made->instance, o->settings.kind, from->errors)) {
         diags_flush(from->errors, stderr);
         return EXIT_BAD_INPUT;
     }
@@ -194,8 +223,9 @@ static int run_loaded(run_options *o, const source_model *from, const loaded *ma
     case SIMULATION_DONE: return EXIT_DONE;
     case SIMULATION_INTERRUPTED: return 130;
     case SIMULATION_BAD_FILE: return EXIT_BAD_INPUT;
-    default: return EXIT_RUN_FAILED;
+    case SIMULATION_FAILED: break;
     }
+    return EXIT_RUN_FAILED;
 }
 
 int command_run(int count, char **words) {
@@ -219,7 +249,8 @@ int command_run(int count, char **words) {
     }
     if (code == EXIT_DONE) {
         loaded made;
-        const overrides changes = change_options_overrides(&o.changes);
+        overrides changes = change_options_overrides(&o.changes);
+        changes.balance = true;
         code = load(&made, &from, of, in, &changes, true);
         if (code == EXIT_DONE && !o.settings.quiet) {
             say_hints(&made);

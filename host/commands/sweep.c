@@ -221,6 +221,7 @@ static int sweep_loaded(const sweep_options *o, const source_model *from, const 
         return EXIT_BAD_INPUT;
     }
     s->shared = sweep_can_share(s->grid, base->program) ? base->program : NULL;
+    s->equations = base->equations;
     uint64_t first;
     uint64_t end;
     grid_shard(s->grid, o->part.number, o->part.of, &first, &end);
@@ -258,7 +259,8 @@ static int sweep_scene(const sweep_options *o, source_model *from, const mechani
     for (int i = 0; i < o->over_count && good; i++) {
         good = grid_add(&g, of, o->over[i], from->errors);
     }
-    const overrides changes = change_options_overrides(&o->changes);
+    overrides changes = change_options_overrides(&o->changes);
+    changes.balance = true;
     sweep s = {.grid = &g, .scene = in, .changes = &changes, .kind = o->kind, .engine = o->engine};
     good = good && read_from(o, of, in, &changes, from->errors, &s.from_s);
     measures *wanted = good ? measures_new(of, o->measure, o->measure_count, from->errors) : NULL;

@@ -241,9 +241,14 @@ program *program_make(const equations *e, const bool *conserve, diags *errors) {
         p->books = make_books(p, e, &map, &s);
         p->contacts = more > 0 ? contact_lists_make(p, e, &map, &s, errors) : NULL;
         good = more == 0 || p->contacts != NULL;
-        if (good && e->instance->ledger) {
+        p->ledger_asked = e->instance->ledger;
+        if (good && p->ledger_asked) {
             p->ledger = ledger_lists_make(p, e, &map, errors);
             good = p->ledger != NULL;
+        } else if (good && p->contacts != NULL && e->instance->balance) {
+            diags *unsaid = diags_new();
+            p->ledger = ledger_lists_make(p, e, &map, unsaid);
+            diags_free(unsaid);
         }
         good = good && lists_finite(p, e, errors) && steps_need_no_turns(p, e, errors);
     } else {
@@ -289,7 +294,8 @@ const char *program_needs_libm(const program *p) {
         [FN_EXP] = "exp",   [FN_LOG] = "log",   [FN_ABS] = "abs",     [FN_SIGN] = "sign",
         [FN_MIN] = "min",   [FN_MAX] = "max"};
     const contact_lists *c = p->contacts;
-    const ledger_lists *l = p->ledger;
+    const ledger_lists *l =
+        p->ledger_asked ? p->ledger : NULL; /* the others never leave the host */
     const tape *const lists[] = {p->step,
                                  p->observe,
                                  c != NULL ? c->signals : NULL,

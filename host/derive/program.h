@@ -40,6 +40,7 @@ typedef struct program {
     tape *observe;
     contact_lists *contacts; /* NULL without any */
     ledger_lists *ledger;    /* NULL when no books are kept */
+    bool ledger_asked;       /* by `with ledger`: else they only balance the run */
     const poly *integral; /* the energy integral where it is not T + V, else NULL: see energy.h */
     /* For the host's books: highest derivatives (by unknown), then for a mechanism T, V, input
      * power, loss power, the momenta (by unknown) and, if there is one, the integral. */

@@ -33,9 +33,9 @@ typedef enum op_code {
     OP_NEG,
     OP_SQRT,
     OP_ABS,
-    OP_SIGN,
-    OP_MIN,  /* b < a ? b : a */
-    OP_MAX,  /* b > a ? b : a */
+    OP_SIGN, /* these three give NaN of NaN: nothing that is no number may vanish in a comparison */
+    OP_MIN,  /* b < a || b != b ? b : a */
+    OP_MAX,  /* b > a || b != b ? b : a */
     OP_CALL, /* function(a) or function(a, b): host libm, double only */
     OP_POW   /* a to the b: host libm, double only */
 } op_code;

@@ -99,9 +99,18 @@ static void write_operation(FILE *out, const tape *t, int i) {
     case OP_NEG: fprintf(out, "-%s", a); break;
     case OP_SQRT: fprintf(out, "WH_SQRT(%s)", a); break;
     case OP_ABS: fprintf(out, "WH_ABS(%s)", a); break;
-    case OP_SIGN: fprintf(out, "(wh_real)((%s > WH_R(0.0)) - (%s < WH_R(0.0)))", a, a); break;
-    case OP_MIN: fprintf(out, "%s < %s ? %s : %s", b, a, b, a); break;
-    case OP_MAX: fprintf(out, "%s > %s ? %s : %s", b, a, b, a); break;
+    case OP_SIGN:
+        fprintf(out, "%s == %s ? (wh_real)((%s > WH_R(0.0)) - (%s < WH_R(0.0))) : %s", a, a, a, a,
+                a);
+        break;
+    case OP_MIN:
+    case OP_MAX: /* a constant is a number */
+        fprintf(out, "%s %c %s", b, o->code == OP_MIN ? '<' : '>', a);
+        if (t->ops[o->b].code != OP_CONSTANT) {
+            fprintf(out, " || %s != %s", b, b);
+        }
+        fprintf(out, " ? %s : %s", b, a);
+        break;
     default: fprintf(out, "WH_R(0.0) /* not offered by the core */"); break;
     }
     fprintf(out, ";\n");

@@ -65,6 +65,7 @@ const term *hint_friction(const instance *made) {
     }
     known.input = made->input;
     known.state = made->start;
+    known.primes_most = 1;
     for (int i = 0; i < of->term_count && found == NULL; i++) {
         const term *each = &of->terms[i];
         if (each->kind == TERM_Q && each->coordinate != NULL && instance_has_term(made, each) &&

@@ -133,6 +133,7 @@ static void apply_effects(plan *into, instance *made, const char *const *texts, 
 static void apply_overrides(plan *into, instance *made, const overrides *changes) {
     const mechanism *of = made->mechanism;
     diags *all = into->values.diags;
+    made->balance = changes->balance;
     apply_effects(into, made, changes->with, changes->with_count, true);
     apply_effects(into, made, changes->without, changes->without_count, false);
     apply_texts(into, made, OVERRIDE_SET, changes->sets, changes->set_count);
@@ -201,6 +202,7 @@ static void evaluate(plan *from, instance *made) {
         for (int k = 0; k < made->start_count[i]; k++) {
             const given *each = &from->start[i][k];
             snprintf(what, sizeof what, "the initial value of '%s'", of->coordinates[i]->name);
+            made->start_at[i][k] = each->at;
             made->start[i][k] = each->value == NULL
                                     ? 0.0
                                     : finite_value(each->value, &from->values, each->at, what);
@@ -216,6 +218,7 @@ static void allocate(instance *made) {
     made->parameter = arena_alloc(memory, (size_t)of->parameter_count * sizeof *made->parameter);
     made->input = arena_alloc(memory, (size_t)of->input_count * sizeof *made->input);
     made->start = arena_alloc(memory, (size_t)of->coordinate_count * sizeof *made->start);
+    made->start_at = arena_alloc(memory, (size_t)of->coordinate_count * sizeof *made->start_at);
     made->start_count =
         arena_alloc(memory, (size_t)of->coordinate_count * sizeof *made->start_count);
     for (int i = 0; i < of->coordinate_count; i++) {
@@ -223,6 +226,7 @@ static void allocate(instance *made) {
         made->start_count[i] = order;
         made->start[i] =
             arena_alloc(memory, (size_t)(order < 2 ? 2 : order) * sizeof **made->start);
+        made->start_at[i] = arena_alloc(memory, (size_t)order * sizeof **made->start_at);
     }
 }
 

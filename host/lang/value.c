@@ -66,7 +66,8 @@ static double symbol_value(const symbol *named, int primes, valuation *known) {
     if (named->kind == SYM_INPUT && known->input != NULL) {
         return known->input[named->index];
     }
-    if (named->kind == SYM_COORDINATE && known->state != NULL && primes < 2) {
+    const bool moves = named->kind == SYM_COORDINATE || named->kind == SYM_STATE;
+    if (moves && known->state != NULL && primes <= known->primes_most) {
         return known->state[named->index][primes];
     }
     if (named->kind == SYM_LET && !known->let_known[named->index]) {
@@ -90,8 +91,8 @@ static double call_value(function_id function, double a, double b) {
     case FN_LOG: return log(a);
     case FN_ABS: return fabs(a);
     case FN_SIGN: return a > 0.0 ? 1.0 : a < 0.0 ? -1.0 : a;
-    case FN_MIN: return b < a ? b : a;
-    case FN_MAX: return b > a ? b : a;
+    case FN_MIN: return b < a || isnan(b) ? b : a;
+    case FN_MAX: return b > a || isnan(b) ? b : a;
     case FN_COUNT: break;
     }
     return (double)NAN;

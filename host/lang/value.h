@@ -15,8 +15,9 @@ typedef struct valuation {
     double *let;                  /* [let_count] */
     bool *let_known;              /* [let_count] */
     const double *input;          /* [input_count] SI; NULL: not known, expressions may have none */
-    double *const *state;         /* [coordinate_count][primes < 2] SI; NULL like input */
-    int depth;                    /* heights of the expressions being evaluated */
+    double *const *state; /* [coordinate_count][primes <= primes_most] SI; NULL like input */
+    int primes_most;
+    int depth; /* heights of the expressions being evaluated */
     diags *diags;
 } valuation;
 

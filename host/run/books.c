@@ -3,15 +3,18 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "number.h"
 
-books *books_open(const program *p, const equations *e) {
+books *books_open(const program *p, const equations *e) { return books_open_of(p, e, e->instance); }
+
+books *books_open_of(const program *p, const equations *e, const instance *inst) {
     if (e->kinetic == NULL) {
         return NULL;
     }
     books *b = calloc(1, sizeof *b);
-    const size_t count = (size_t)p->books->results + 3 * (size_t)p->count + (size_t)p->inputs;
+    const size_t count = (size_t)p->books->results + 4 * (size_t)p->count + (size_t)p->inputs;
     double *numbers = calloc(count, sizeof *numbers);
     if (b == NULL || numbers == NULL) {
         abort();
@@ -23,9 +26,14 @@ books *books_open(const program *p, const equations *e) {
     b->momentum = numbers + p->books->results;
     b->drift = b->momentum + p->count;
     b->momentum_now = b->drift + p->count;
-    b->input = b->momentum_now + p->count;
-    program_inputs(p, e->instance, b->input);
-    b->step_s = e->instance->step_s;
+    b->momentum_2 = b->momentum_now + p->count;
+    b->input = b->momentum_2 + p->count;
+    b->rate = calloc((size_t)p->count + 1, sizeof *b->rate);
+    if (b->rate == NULL) {
+        abort();
+    }
+    program_inputs(p, inst, b->input);
+    b->step_s = inst->step_s;
     return b;
 }
 
@@ -33,9 +41,89 @@ void books_close(books *b) {
     if (b != NULL) {
         evaluator_free(b->evaluator);
         free(b->value);
+        free(b->rate);
         free(b);
     }
 }
+
+/* --- how far it went to and fro ----------------------------------------------------------------*/
+
+static void spread_enter(spread *s, double value, uint64_t before) {
+    if (before == 0) {
+        s->first = value;
+    }
+    const double off = value - s->first - s->mean;
+    s->mean += off / (double)(before + 1);
+    s->squares += off * (value - s->first - s->mean);
+}
+
+/* sqrt(8) standard deviations: the range of a sine. */
+static double swing(const spread *s, uint64_t entries) {
+    return entries > 0 ? sqrt(8.0 * s->squares / (double)entries) : 0.0;
+}
+
+double books_swing_J(const books *b) {
+    double most = fmax(swing(&b->kinetic, b->entries), swing(&b->stored, b->entries));
+    for (int i = 0; i < b->program->count && b->entries > 0; i++) {
+        const double momentum = sqrt(b->momentum_2[i] / (double)b->entries);
+        most = fmax(most, 0.5 * momentum * swing(&b->rate[i], b->entries));
+    }
+    return most;
+}
+
+/* --- what rounding does ------------------------------------------------------------------------*/
+
+/* A change of a component by which the energy's slope is taken. */
+#define SLOPE_SHARE 0x1p-20
+
+static void evaluate_now(const books *b, const double *angle_rad, const double *real,
+                         double time_s) {
+    const program *p = b->program;
+    evaluator_run(b->evaluator, time_s, angle_rad, real, real + (p->coordinates - p->angles),
+                  b->input, b->value);
+}
+
+static double energy_of(const program *p, const double *value) {
+    const double *entry = value + p->count;
+    return p->integral != NULL ? entry[BOOK_MOMENTA + p->count]
+                               : entry[BOOK_KINETIC] + entry[BOOK_STORED];
+}
+
+/* By how much the energy changes when each component of the state is rounded once. */
+static double rounding_now(const books *b, const engine_kind *kind) {
+    const program *p = b->program;
+    const bool is_float = kind == &engine_float;
+    const double share = is_float ? 0x1p-24 : 0x1p-53;
+    double angle_rad[PROGRAM_COMPONENTS_MAX];
+    double real[2 * PROGRAM_COMPONENTS_MAX];
+    double sum = 0.0;
+    memcpy(angle_rad, b->angle_rad, sizeof angle_rad);
+    memcpy(real, b->real, sizeof real);
+    for (int i = 0; i < p->angles + p->reals; i++) {
+        double *at = i < p->angles ? &angle_rad[i] : &real[i - p->angles];
+        const double kept = *at;
+        const bool turns = is_float && i < p->angles;
+        const double rounding = turns ? 0x1p-33 * 6.283185307179586 : share * fabs(kept);
+        const double change = turns ? SLOPE_SHARE : SLOPE_SHARE * kept;
+        const component c = i < p->angles ? p->angle[i] : p->real[i - p->angles];
+        /* a rate that nothing ever changed, as a clock's, was never rounded */
+        const spread *rate = &b->rate[c.unknown];
+        const bool still = c.primes == 1 && !rate->pushed && rate->squares == 0.0;
+        if (change != 0.0 && !still) {
+            *at = kept + change;
+            evaluate_now(b, angle_rad, real, b->time_s);
+            sum += fabs((energy_of(p, b->value) - b->energy_J[1]) * (rounding / change));
+            *at = kept;
+        }
+    }
+    return isfinite(sum) ? sum : 0.0;
+}
+
+double books_rounding_J(const books *b, const engine_kind *kind) {
+    return fmax(b->rounding_J, rounding_now(b, kind)) + 0x1p-52 * b->size_J;
+}
+
+/* --- the balance -------------------------------------------------------------------------------*/
 
 /* Simpson's rule needs pairs of steps: between them, the last step counts as a trapezoid, which the
  * next entry takes back. */
@@ -56,17 +144,16 @@ static void add_work(books *b, const double power_W[2]) {
 void books_enter(books *b, const engine_kind *kind, const void *run) {
     const program *p = b->program;
     kind->state(run, b->angle_rad, b->real);
-    evaluator_run(b->evaluator, (double)kind->steps(run) * b->step_s, b->angle_rad, b->real,
-                  b->real + (p->coordinates - p->angles), b->input, b->value);
-    for (int i = 0; i < p->books->results; i++) {
-        b->value[i] = number_shown(b->value[i]);
+    if (b->entries == 0 && kind == &engine_float) {
+        evaluator_wrap(b->evaluator);
     }
+    b->time_s = (double)kind->steps(run) * b->step_s;
+    evaluate_now(b, b->angle_rad, b->real, b->time_s);
     const double *entry = b->value + p->count;
     const double power_W[2] = {entry[BOOK_INPUT_POWER], entry[BOOK_LOSS_POWER]};
     b->kinetic_J[1] = entry[BOOK_KINETIC];
     b->stored_J[1] = entry[BOOK_STORED];
-    b->energy_J[1] =
-        p->integral != NULL ? entry[BOOK_MOMENTA + p->count] : b->kinetic_J[1] + b->stored_J[1];
+    b->energy_J[1] = energy_of(p, b->value);
     if (b->entries == 0) {
         b->kinetic_J[0] = b->kinetic_J[1];
         b->stored_J[0] = b->stored_J[1];
@@ -80,11 +167,38 @@ void books_enter(books *b, const engine_kind *kind, const void *run) {
     } else {
         add_work(b, power_W);
     }
+    spread_enter(&b->kinetic, b->kinetic_J[1], b->entries);
+    spread_enter(&b->stored, b->stored_J[1], b->entries);
+    b->size_J = fmax(b->size_J, fabs(b->kinetic_J[1]) + fabs(b->stored_J[1]));
+    double all = b->energy_J[1] + power_W[0] + power_W[1];
+    for (int i = 0; i < p->reals; i++) {
+        if (p->real[i].primes == 1) {
+            spread_enter(&b->rate[p->real[i].unknown], b->real[i], b->entries);
+        }
+    }
     for (int i = 0; i < p->count; i++) {
+        b->rate[i].pushed = b->rate[i].pushed || b->value[i] != 0.0;
+        all += entry[BOOK_MOMENTA + i];
+        b->momentum_2[i] += entry[BOOK_MOMENTA + i] * entry[BOOK_MOMENTA + i];
         b->momentum_now[i] = entry[BOOK_MOMENTA + i];
         b->drift[i] = fmax(b->drift[i], fabs(entry[BOOK_MOMENTA + i] - b->momentum[i]));
     }
+    if (!isfinite(all) && !b->undefined) {
+        b->undefined = true;
+        b->undefined_s = b->time_s;
+    }
+    if ((b->entries & (b->entries - 1)) == 0 && b->entries % 3 == 1) { /* 1, 4, 16, ...: seldom */
+        b->rounding_J = fmax(b->rounding_J, rounding_now(b, kind));
+    }
     b->entries++;
+    if (b->entries % 2 == 1) { /* Simpson's rule is complete */
+        const double error = books_error_J(b);
+        if (fabs(error - b->kept_J) > fabs(b->jump_J)) {
+            b->jump_J = error - b->kept_J;
+            b->jump_s = b->time_s;
+        }
+        b->kept_J = error;
+    }
 }
 
 double books_error_J(const books *b) {

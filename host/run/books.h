@@ -9,6 +9,14 @@
 
 #include "engine.h"
 
+/* Mean and spread of a series, by Welford's recurrence, from its first value on. */
+typedef struct spread {
+    double first;
+    double mean;    /* less `first` */
+    double squares; /* sum of (value - mean)^2 */
+    bool pushed;    /* of a rate: its acceleration was not zero throughout */
+} spread;
+
 typedef struct books {
     const program *program;
     const equations *equations;
@@ -26,16 +34,35 @@ typedef struct books {
     double input_J;       /* work of the inputs so far */
     double loss_J;        /* losses so far */
     double power_W[2][2]; /* input and loss power at the last two even steps' ends */
+    spread kinetic;       /* over the steps */
+    spread stored;
+    spread *rate;       /* [count] */
+    double *momentum_2; /* [count] sum of squares */
+    double size_J;      /* largest |T| + |V| */
+    double
+        rounding_J; /* what rounding the state once changes the energy by, at most of those looked at */
+    double kept_J;      /* error at the last even step */
+    double jump_J;      /* its largest change between two even steps, */
+    double jump_s;      /* which ended here */
+    bool undefined;     /* an energy, a power or a momentum was not a finite number */
+    double undefined_s; /* there first */
     uint64_t entries;
+    double time_s; /* of the last */
     double step_s;
 } books;
 
 /* A run of a system given outright has no books: NULL. */
 books *books_open(const program *p, const equations *e);
+/* The same of another instance that shares the program: other inputs, another step. */
+books *books_open_of(const program *p, const equations *e, const instance *inst);
 void books_close(books *b);
 /* Enter the state after each step, the start included. */
 void books_enter(books *b, const engine_kind *kind, const void *run);
 /* energy - start - work + losses: zero for an exact solution. */
 double books_error_J(const books *b);
+/* How far energy went to and fro, and what rounding the state to numbers of this kind once changes the energy
+ * by: see belief.h. */
+double books_swing_J(const books *b);
+double books_rounding_J(const books *b, const engine_kind *kind);
 
 #endif

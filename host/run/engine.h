@@ -45,14 +45,20 @@ extern const engine_kind engine_double;
 typedef struct evaluator evaluator;
 evaluator *evaluator_new(const tape *t);
 void evaluator_free(evaluator *ev);
+/* From now on sines are those of the angles within a turn: for the state of a float run, whose turn angles go
+ * beyond what the double build knows a sine of. */
+void evaluator_wrap(evaluator *ev);
 void evaluator_run(evaluator *ev, double time_s, const double *angle_rad, const double *linear,
                    const double *rate, const double *input, double *result);
 
 /* Phase constant of the float build: radians to 2^32 a turn, wrapped and rounded to the nearest. */
 uint32_t engine_phase_of_constant(double rad);
-/* The stored start of a float angle: radians to 2^32 a turn with turns, rounded to the nearest. */
+/* The stored start of a float angle: radians to 2^32 a turn with turns, rounded to the nearest. Below
+ * ENGINE_ANGLE_MOST_RAD in size: beyond it, 0, which start_angles_are_held() refuses. */
+#define ENGINE_ANGLE_MOST_RAD 6.28e9
 int64_t engine_angle_of_start(double rad);
 /* A multiple as wh_phase_times() takes it in float: modulo 2^32, rounded to 2^-64. */
 void engine_factor(double multiple, uint32_t *whole, uint64_t *part);
+bool engine_angle_is_held(double rad);
 
 #endif

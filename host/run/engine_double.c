@@ -5,11 +5,12 @@
 struct evaluator {
     const tape *tape;
     registers registers;
+    bool wraps;
 };
 
 evaluator *evaluator_new(const tape *t) {
     evaluator *ev = room(1, sizeof *ev);
-    *ev = (evaluator){t, registers_new(t)};
+    *ev = (evaluator){t, registers_new(t), false};
     return ev;
 }
 
@@ -20,8 +21,15 @@ void evaluator_free(evaluator *ev) {
     }
 }
 
+void evaluator_wrap(evaluator *ev) { ev->wraps = true; }
+
 void evaluator_run(evaluator *ev, double time_s, const double *angle_rad, const double *linear,
                    const double *rate, const double *input, double *result) {
+    double phase[PROGRAM_COMPONENTS_MAX];
+    for (int i = 0; i < ev->tape->angles && ev->wraps; i++) {
+        phase[i] = remainder(angle_rad[i], 6.283185307179586477);
+    }
     evaluate(ev->tape, ev->registers,
-             (leaves){angle_rad, angle_rad, time_s, linear, rate, input, NULL}, result);
+             (leaves){ev->wraps ? phase : angle_rad, angle_rad, time_s, linear, rate, input, NULL},
+             result);
 }

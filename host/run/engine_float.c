@@ -20,5 +20,7 @@ void engine_factor(double multiple, uint32_t *whole, uint64_t *part) {
 
 int64_t engine_angle_of_start(double rad) {
     const double turns = rad / 6.283185307179586477;
-    return fabs(turns) < 1e9 ? (int64_t)llround(turns * 4294967296.0) : 0;
+    return engine_angle_is_held(rad) ? (int64_t)llround(turns * 4294967296.0) : 0;
 }
+
+bool engine_angle_is_held(double rad) { return fabs(rad) < ENGINE_ANGLE_MOST_RAD; }

@@ -4,11 +4,12 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "host/derive/contact_lists.h"
 #include "host/derive/ledger.h"
 #include "shown.h"
+#include "statement.h"
+#include "summary.h"
 
 /* The columns that a line of the source gets. */
 #define LINE_WIDTH 44
@@ -20,33 +21,6 @@ typedef struct ledger_view {
     const double *total; /* [entries] */
     const double *error; /* [accounts] */
 } ledger_view;
-
-/* The statement at a place: its line of the source, without indentation and comment. */
-static void statement(place at, char text[LINE_WIDTH + 1]) {
-    const source *from = at.source;
-    text[0] = '\0';
-    if (from == NULL || from->text == NULL) {
-        return;
-    }
-    size_t start = at.offset < from->length ? at.offset : from->length;
-    while (start > 0 && from->text[start - 1] != '\n' && from->text[start - 1] != '{') {
-        start--;
-    }
-    size_t end = start;
-    while (end < from->length && strchr("\n#}", from->text[end]) == NULL) {
-        end++;
-    }
-    while (start < end && (from->text[start] == ' ' || from->text[start] == '\t')) {
-        start++;
-    }
-    while (end > start && strchr(" \t\r", from->text[end - 1]) != NULL) {
-        end--;
-    }
-    snprintf(text, LINE_WIDTH + 1, "%.*s", (int)(end - start), from->text + start);
-    if (end - start > LINE_WIDTH) {
-        memcpy(text + LINE_WIDTH - 3, "...", 3);
-    }
-}
 
 static void print_line(const ledger_view *v, const char *name, double value) {
     fprintf(v->out, "  %-*s %+.9g\n", LINE_WIDTH, name, value);
@@ -60,7 +34,7 @@ static void print_entries(const ledger_view *v, int account) {
     for (int i = 0; i < l->smooth; i++) {
         if (l->entry[i].account == account) {
             if (l->entry[i].term != NULL) {
-                statement(l->entry[i].term->at, text);
+                statement_text(l->entry[i].term->at, text, sizeof text);
             } else {
                 snprintf(text, sizeof text, "of the energies: dL/d%.20s",
                          v->equations->unknowns[l->unknown[account]].symbol->name);
@@ -70,13 +44,13 @@ static void print_entries(const ledger_view *v, int account) {
     }
     for (int i = 0; i < l->inputs && account == 0; i++) {
         const mechanism *m = v->equations->instance->mechanism;
-        statement(m->inputs[v->program->input[l->input[i]]]->at, text);
+        statement_text(m->inputs[v->program->input[l->input[i]]]->at, text, sizeof text);
         print_line(v, text, v->total[l->entries - l->inputs + i]);
     }
     for (int k = 0; c != NULL && k < c->count && account <= v->program->coordinates; k++) {
         const double value = v->total[l->smooth + k * (1 + v->program->coordinates) + account];
         if (value != 0.0) {
-            statement(c->row[k].from->at, text);
+            statement_text(c->row[k].from->at, text, sizeof text);
             print_line(v, text, value);
         }
     }

@@ -2,16 +2,19 @@
 #include "simulate.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
-#include "books.h"
+#include "belief.h"
 #include "host/plot/plot.h"
 #include "records.h"
 #include "shown.h"
 #include "slow.h"
+#include "statement.h"
 #include "summary.h"
+#include "undefined.h"
 
 /* A plot keeps at most so many rows, evenly spaced. */
 #define PLOT_ROWS_MAX 4000U
@@ -35,6 +38,11 @@ typedef struct simulation {
     uint64_t steps; /* wanted */
     double wall_s;  /* spent stepping */
     bool write_failed;
+    diags *undefined; /* what was not a finite number beside the motion */
+    bool energies_told;
+    int output;           /* the first output that was not a finite number, or -1, */
+    double output_s;      /* when, */
+    uint64_t output_rows; /* in how many of the records and points */
 } simulation;
 
 static double now_s(void) {
@@ -95,6 +103,63 @@ static bool open_files(simulation *sim) {
     return true;
 }
 
+/* Energies that are no numbers end as a failed run: the motion goes on, and so do its records. */
+static void tell_energies(simulation *sim) {
+    const books *b = sim->books;
+    char when[60];
+    if (b == NULL || !b->undefined || sim->energies_told) {
+        return;
+    }
+    sim->energies_told = true;
+    snprintf(when, sizeof when, "at t = %.9g s", b->undefined_s);
+    const undefined_at at = {.equations = sim->equations,
+                             .program = sim->program,
+                             .instance = sim->equations->instance,
+                             .angle_rad = b->angle_rad,
+                             .real = b->real,
+                             .turns = sim->settings->kind == &engine_float,
+                             .when = when};
+    if (!undefined_angle(&at, sim->undefined) && !undefined_term(&at, sim->undefined)) {
+        const mechanism *m = sim->equations->instance->mechanism;
+        diag_error(sim->undefined, m->at, NULL,
+                   "%s the energies and powers of '%s' are not finite numbers", when, m->name);
+    }
+}
+
+/* The same of the outputs, where they are recorded or drawn, and at the end. */
+static void watch_outputs(simulation *sim, double time_s) {
+    const int own = sim->equations->instance->mechanism->output_count;
+    const double *value = sim->records->row + (sim->records->columns - own);
+    bool finite = true;
+    for (int i = 0; i < own; i++) {
+        if (!isfinite(value[i])) {
+            finite = false;
+            if (sim->output < 0) {
+                sim->output = i;
+                sim->output_s = time_s;
+            }
+        }
+    }
+    sim->output_rows += finite ? 0 : 1;
+}
+
+static void tell_outputs(simulation *sim) {
+    if (sim->output < 0) {
+        return;
+    }
+    const symbol *s = sim->equations->instance->mechanism->outputs[sim->output];
+    char text[STATEMENT_SIZE];
+    char rows[80] = "";
+    statement_text(s->at, text, sizeof text);
+    if (sim->output_rows > 1) {
+        snprintf(rows, sizeof rows, " (and in %llu more records)",
+                 (unsigned long long)sim->output_rows - 1);
+    }
+    diag_error(sim->undefined, s->at, "give it a value wherever the run goes",
+               "at t = %.9g s%s the output '%s' is not a finite number: %s", sim->output_s, rows,
+               s->name, text);
+}
+
 /* Enter the present state wherever it belongs. */
 static void enter(simulation *sim, uint64_t step, bool last) {
     const bool record =
@@ -103,11 +168,15 @@ static void enter(simulation *sim, uint64_t step, bool last) {
                        sim->plot.count < PLOT_ROWS_MAX + 2;
     if (sim->books != NULL && !last) {
         books_enter(sim->books, sim->settings->kind, sim->run);
+        tell_energies(sim);
     }
     if (!record && !point) {
         return;
     }
     records_read(sim->records, sim->run, ratio_times(step, sim->equations->instance->step));
+    if (!last) {
+        watch_outputs(sim, sim->records->row[0]);
+    }
     if (record && !last) {
         sim->write_failed = !records_write(sim->records) || sim->write_failed;
     }
@@ -155,13 +224,21 @@ static wh_status loop(simulation *sim, bool *interrupted) {
     return status;
 }
 
-static void say_failure(const simulation *sim) {
+static void say_failure(const simulation *sim, wh_status status) {
     const program *p = sim->program;
-    const int fault = sim->settings->kind->fault(sim->run);
+    const engine_kind *kind = sim->settings->kind;
+    const instance *inst = sim->equations->instance;
+    diags *errors = diags_new();
+    const bool known = undefined_step(sim->equations, p, inst, kind, sim->run, status, errors);
+    diags_flush(errors, stderr);
+    diags_free(errors);
+    if (known) {
+        return;
+    }
+    const int fault = kind->fault(sim->run);
     const component c =
         fault < p->angles ? p->angle[fault < 0 ? 0 : fault] : p->real[fault - p->angles];
-    const double time_s =
-        ratio_times(sim->settings->kind->steps(sim->run), sim->equations->instance->step);
+    const double time_s = ratio_times(kind->steps(sim->run), inst->step);
     fprintf(stderr, "whirl run: error: the run diverged in the step after t = %.9g s: %s", time_s,
             sim->equations->unknowns[c.unknown].symbol->name);
     for (int k = 0; k < c.primes; k++) {
@@ -178,6 +255,35 @@ static void say_interrupted(const simulation *sim) {
     fprintf(stderr, "whirl run: interrupted at t = %.9g s of %.9g s%s\n", (double)done * step_s,
             (double)sim->steps * step_s,
             sim->csv != NULL || sim->columns != NULL ? "; the records so far are kept" : "");
+}
+
+/* What the run came to, and the words for it. */
+static simulation_result judge(simulation *sim, wh_status status, bool interrupted,
+                               const belief *balance) {
+    const simulation_settings *s = sim->settings;
+    if (status != WH_OK) { /* which says why the energies are no numbers either */
+        say_failure(sim, status);
+        diags_free(sim->undefined);
+        sim->undefined = diags_new();
+    } else { /* an output is watched at the end, too, recorded or not */
+        records_read(sim->records, sim->run,
+                     ratio_times(s->kind->steps(sim->run), sim->equations->instance->step));
+        if (sim->output < 0) {
+            watch_outputs(sim, sim->records->row[0]);
+        }
+    }
+    tell_outputs(sim);
+    const bool undefined = diags_count(sim->undefined) > 0;
+    diags_flush(sim->undefined, stderr);
+    if (status != WH_OK || undefined) {
+        return SIMULATION_FAILED;
+    }
+    const bool fails = s->strict > 0.0 && belief_lost(balance, s->strict);
+    if (fails || belief_lost(balance, BELIEF_LIMIT)) {
+        belief_say(stderr, fails ? "whirl run: error" : "whirl run: warning", balance, s->kind,
+                   s->engine.method);
+    }
+    return interrupted ? SIMULATION_INTERRUPTED : fails ? SIMULATION_FAILED : SIMULATION_DONE;
 }
 
 static bool draw(const simulation *sim) {
@@ -213,29 +319,28 @@ static bool draw(const simulation *sim) {
 }
 
 simulation_result simulate(const equations *e, const program *p, const simulation_settings *s) {
-    simulation sim = {.equations = e, .program = p, .settings = s, .plot = {.spacing = 1}};
+    simulation sim = {
+        .equations = e, .program = p, .settings = s, .plot = {.spacing = 1}, .output = -1};
     sim.steps = e->instance->steps;
     sim.records = records_open(NULL, p, e, s->kind);
     simulation_result result = SIMULATION_BAD_FILE;
     if (open_files(&sim)) {
         bool interrupted = false;
         sim.run = s->kind->start(p, e->instance, &s->engine);
-        sim.books = s->quiet ? NULL : books_open(p, e);
+        sim.books = books_open(p, e);
+        sim.undefined = diags_new();
         sim.records->out = sim.csv;
         sim.records->plain = sim.columns;
         records_header(sim.records);
         const wh_status status = loop(&sim, &interrupted);
-        result = status != WH_OK ? SIMULATION_FAILED
-                 : interrupted   ? SIMULATION_INTERRUPTED
-                                 : SIMULATION_DONE;
+        const belief balance = belief_of(sim.books, s->kind, sim.run);
+        result = judge(&sim, status, interrupted, &balance);
         const bool csv_written = flush_records(s->csv, sim.csv);
         const bool columns_written = flush_records(s->columns, sim.columns);
         if (!csv_written || !columns_written) {
             result = SIMULATION_BAD_FILE;
         }
-        if (status != WH_OK) {
-            say_failure(&sim);
-        } else if (interrupted) {
+        if (status == WH_OK && interrupted) {
             say_interrupted(&sim);
         }
         slow_say(stderr, e, p, s->kind, sim.run);
@@ -244,12 +349,14 @@ simulation_result simulate(const equations *e, const program *p, const simulatio
             const uint64_t samples = (done + 63) / 64;
             const double sampled = (double)samples;
             summary_print(sim.csv == stdout || sim.columns == stdout ? stderr : stdout, e, p, s,
-                          sim.run, sim.books, sampled > 0.0 ? 1e9 * sim.wall_s / sampled : 0.0);
+                          sim.run, sim.books, &balance,
+                          sampled > 0.0 ? 1e9 * sim.wall_s / sampled : 0.0);
         }
         if (s->plot != NULL && result != SIMULATION_BAD_FILE && !draw(&sim)) {
             result = SIMULATION_BAD_FILE;
         }
         s->kind->stop(sim.run);
+        diags_free(sim.undefined);
     }
     close_records(sim.csv);
     close_records(sim.columns);

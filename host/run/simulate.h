@@ -14,13 +14,16 @@ typedef struct simulation_settings {
     const char *columns; /* file of plain columns, "-" for standard output, or NULL */
     const char *plot;    /* .svg or .png, or NULL */
     bool quiet;
+    double
+        strict; /* a run that is out of balance by more (belief.h) has failed; 0: it is only told */
     bool progress;
     const volatile sig_atomic_t *stop; /* set from outside to end the run cleanly; may be NULL */
 } simulation_settings;
 
 typedef enum simulation_result {
     SIMULATION_DONE,
-    SIMULATION_FAILED,      /* diverged; said on standard error, the records so far are kept */
+    SIMULATION_FAILED, /* diverged, not a number somewhere, or not believed with `strict`; said on
+                             * standard error, the records so far are kept */
     SIMULATION_INTERRUPTED, /* by *stop */
     SIMULATION_BAD_FILE     /* a file could not be written, or gnuplot failed; said */
 } simulation_result;

@@ -38,11 +38,29 @@ static bool is_apart(const contact_row *row, double gap, diags *errors) {
     return false;
 }
 
-bool start_is_possible(const program *p, const instance *inst, diags *errors) {
+bool start_angles_are_held(const program *p, const instance *inst, diags *errors) {
+    bool held = true;
+    for (int i = 0; i < p->angles; i++) {
+        const int k = p->angle[i].unknown;
+        const symbol *s = inst->mechanism->coordinates[k];
+        const place given = inst->start_at[k][0];
+        if (!engine_angle_is_held(inst->start[k][0])) {
+            diag_error(errors, given.source != NULL ? given : s->at,
+                       "start it within a turn: whole turns change nothing in a sine",
+                       "'%s' starts at %.9g rad: float counts turns up to %g rad only", s->name,
+                       inst->start[k][0], ENGINE_ANGLE_MOST_RAD);
+            held = false;
+        }
+    }
+    return held;
+}
+
+bool start_is_possible(const program *p, const instance *inst, const engine_kind *kind,
+                       diags *errors) {
     const contact_lists *c = p->contacts;
-    bool good = true;
-    if (c == NULL) {
-        return true;
+    bool good = kind != &engine_float || start_angles_are_held(p, inst, errors);
+    if (c == NULL || !good) {
+        return good;
     }
     double *angle_rad = room(p->angles);
     double *real = room(p->reals);

@@ -36,7 +36,7 @@ static void print_state(FILE *out, const equations *e, const program *p,
     records_close(r);
 }
 
-static void print_books(FILE *out, const books *b) {
+static void print_books(FILE *out, const books *b, const belief *balance) {
     const equations *e = b->equations;
     fprintf(out, "energy [J]\n");
     fprintf(out, "  kinetic          %.9g -> %.9g\n", b->kinetic_J[0], b->kinetic_J[1]);
@@ -49,12 +49,21 @@ static void print_books(FILE *out, const books *b) {
     }
     fprintf(out, "  work of inputs   %.9g\n", b->input_J);
     fprintf(out, "  losses           %.9g\n", b->loss_J);
-    if (b->program->contacts != NULL) { /* books beside the run do not see the forces inside it */
+    if (b->program->contacts != NULL && balance->known) {
         fprintf(out,
                 "  impacts, friction, holds and settings took %.9g (--with ledger says which)\n",
-                0.0 - books_error_J(b)); /* and not "-0" */
-    } else {
-        fprintf(out, "  does not balance by %.2e (numerical)\n", books_error_J(b));
+                balance->contacts_J + 0.0); /* and not "-0" */
+    }
+    if (balance->known) {
+        fprintf(out, "  does not balance by %.2e (numerical)\n", balance->left_J);
+    } else if (!isfinite(books_error_J(b))) {
+        fprintf(out, "  no balance: the energies are not finite numbers\n");
+    } else { /* the run's own books cannot be kept, and those beside it do not see the forces inside */
+        fprintf(
+            out,
+            "  impacts, friction, holds, settings and numerical errors took %.9g: what of it is "
+            "which is not known here\n",
+            0.0 - books_error_J(b));
     }
     bool any = false;
     for (int i = 0; i < e->count; i++) {
@@ -85,7 +94,7 @@ static void print_events(FILE *out, const program *p, const engine_kind *kind, c
 }
 
 void summary_print(FILE *out, const equations *e, const program *p, const simulation_settings *s,
-                   void *run, const books *b, double step_ns) {
+                   void *run, const books *b, const belief *balance, double step_ns) {
     static const char *const methods[] = {"explicit Euler", "semi-implicit Euler", "Heun",
                                           "Runge-Kutta 4"};
     const instance *inst = e->instance;
@@ -105,11 +114,12 @@ void summary_print(FILE *out, const equations *e, const program *p, const simula
     if (p->contacts != NULL) {
         print_events(out, p, s->kind, run);
     }
-    if (b != NULL && p->ledger != NULL) {
+    if (b != NULL && p->ledger_asked) {
         ledger_print(out, e, p, s->kind, run, b);
     } else if (b != NULL) {
-        print_books(out, b);
+        print_books(out, b, balance);
     }
+    belief_print(out, balance);
     fprintf(out, "state hash         0x%016" PRIx64 "\n", s->kind->hash(run));
     fprintf(out, "time per step      %.0f ns (interpreted, this machine)\n", step_ns);
 }

@@ -4,11 +4,11 @@
 
 #include <stdio.h>
 
-#include "books.h"
+#include "belief.h"
 #include "simulate.h"
 
-/* `books` may be NULL. `step_ns` is the wall time of a step (sampled). */
+/* `books` may be NULL; `balance` is theirs. `step_ns` is the wall time of a step (sampled). */
 void summary_print(FILE *out, const equations *e, const program *p, const simulation_settings *s,
-                   void *run, const books *b, double step_ns);
+                   void *run, const books *b, const belief *balance, double step_ns);
 
 #endif

@@ -45,7 +45,7 @@ char *fingerprint_make(const sweep *s, const char *model_text, const instance *b
     if (out == NULL) {
         abort();
     }
-    fprintf(out, "whirl sweep: settings of the CSV beside this file, format 1\n");
+    fprintf(out, "whirl sweep: settings of the CSV beside this file, format 2\n");
     fprintf(out, "scene: %s\n", base->name);
     fprintf(out, "model text: 0x%016" PRIx64 "\n", hash_text(model_text));
     fprintf(out, "number: %s%s\n", s->kind->name, s->engine.compensated ? ", compensated" : "");

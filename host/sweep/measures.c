@@ -240,7 +240,7 @@ gauge gauge_start(measure_kind kind) { return (gauge){.kind = kind}; }
 void gauge_end(gauge *g) { free(g->kept); }
 
 void gauge_enter(gauge *g, double value) {
-    if (isnan(value)) {
+    if (!isfinite(value)) {
         g->undefined = true;
         return;
     }

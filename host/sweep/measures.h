@@ -56,7 +56,7 @@ typedef struct gauge {
     double sum;
     double first;
     double last;
-    bool undefined; /* a sample was not a number */
+    bool undefined; /* a sample was not a finite number */
     double *kept;   /* every sample, for MEASURE_PERIOD */
     size_t kept_room;
 } gauge;

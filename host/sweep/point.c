@@ -6,9 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "host/run/belief.h"
 #include "host/run/number.h"
 #include "host/run/slow.h"
 #include "host/run/start.h"
+#include "host/run/undefined.h"
 
 /* Steps between two questions whether to give up. */
 #define ABANDON_STEPS 4096U
@@ -19,6 +21,10 @@ static void *room(size_t count, size_t size) {
         abort();
     }
     return p;
+}
+
+int sweep_columns(const sweep *s) {
+    return s->measures->count + (s->measures->mechanism.is_system ? 0 : 1);
 }
 
 bool sweep_can_share(const grid *g, const program *p) {
@@ -93,7 +99,9 @@ static channel channel_of(const program *p, const expr *e, int output) {
 typedef struct meter {
     const sweep *sweep;
     const program *program;
+    const equations *equations;
     void *run;
+    books *books;      /* NULL without energies */
     channel *channels; /* [measures] */
     gauge *gauges;     /* [measures] */
     double *output;
@@ -101,9 +109,11 @@ typedef struct meter {
     bool series_of_outputs; /* and one of those reads an output */
 } meter;
 
-static meter meter_open(const sweep *s, const program *p, void *run) {
+static meter meter_open(const sweep *s, const program *p, const equations *e, const instance *inst,
+                        void *run) {
     const int count = s->measures->count;
-    meter m = {.sweep = s, .program = p, .run = run};
+    meter m = {.sweep = s, .program = p, .equations = e, .run = run};
+    m.books = books_open_of(p, e, inst);
     m.channels = room((size_t)count, sizeof *m.channels);
     m.gauges = room((size_t)count, sizeof *m.gauges);
     m.output = room((size_t)p->outputs, sizeof *m.output);
@@ -123,6 +133,7 @@ static void meter_close(meter *m) {
     for (int i = 0; i < m->sweep->measures->count; i++) {
         gauge_end(&m->gauges[i]);
     }
+    books_close(m->books);
     free(m->channels);
     free(m->gauges);
     free(m->output);
@@ -157,8 +168,39 @@ static bool keeps_samples(const measures *m) {
     return false;
 }
 
-/* Step to the end. False when the run failed, said on `reason`. */
-static bool run_through(meter *m, const instance *inst, bool (*abandon)(void), FILE *reason) {
+/* Why the step or the energies are no numbers, if it can be told. */
+static bool tell_undefined(const meter *m, const instance *inst, wh_status status, diags *errors) {
+    const engine_kind *kind = m->sweep->kind;
+    if (status != WH_OK) {
+        return undefined_step(m->equations, m->program, inst, kind, m->run, status, errors);
+    }
+    char when[60];
+    snprintf(when, sizeof when, "at t = %.9g s", m->books->undefined_s);
+    const undefined_at at = {.equations = m->equations,
+                             .program = m->program,
+                             .instance = inst,
+                             .angle_rad = m->books->angle_rad,
+                             .real = m->books->real,
+                             .turns = kind == &engine_float,
+                             .when = when};
+    return undefined_angle(&at, errors) || undefined_term(&at, errors);
+}
+
+/* Enter the books. False when an energy is not a finite number, said. */
+static bool balance(meter *m, const instance *inst, diags *errors, FILE *reason) {
+    if (m->books == NULL) {
+        return true;
+    }
+    books_enter(m->books, m->sweep->kind, m->run);
+    if (m->books->undefined && !tell_undefined(m, inst, WH_OK, errors)) {
+        fprintf(reason, "the energies are not finite numbers at t = %.9g s", m->books->undefined_s);
+    }
+    return !m->books->undefined;
+}
+
+/* Step to the end. False when the run failed, said on `reason` or reported. */
+static bool run_through(meter *m, const instance *inst, bool (*abandon)(void), diags *errors,
+                        FILE *reason) {
     const engine_kind *kind = m->sweep->kind;
     const uint64_t steps = inst->steps;
     /* the first step at or after from_s, which rounding may put just beside a step */
@@ -173,14 +215,21 @@ static bool run_through(meter *m, const instance *inst, bool (*abandon)(void), F
         return false;
     }
     for (uint64_t step = 0;; step++) {
+        if (!balance(m, inst, errors, reason)) {
+            return false;
+        }
         if (m->series && (double)step >= from) {
             meter_enter(m, false);
         }
         if (step == steps || (step % ABANDON_STEPS == 0 && abandon != NULL && abandon())) {
             break;
         }
-        if (kind->step(m->run) != WH_OK) {
-            fprintf(reason, "diverged in the step after t = %.9g s", ratio_times(step, inst->step));
+        const wh_status status = kind->step(m->run);
+        if (status != WH_OK) {
+            if (!tell_undefined(m, inst, status, errors)) {
+                fprintf(reason, "diverged in the step after t = %.9g s",
+                        ratio_times(step, inst->step));
+            }
             return false;
         }
     }
@@ -188,20 +237,37 @@ static bool run_through(meter *m, const instance *inst, bool (*abandon)(void), F
     return true;
 }
 
-static bool measure_run(const sweep *s, const program *p, const instance *inst,
-                        bool (*abandon)(void), double *measured, FILE *reason, point_notes *notes) {
+/* The measures, and behind them the balance; NAN where it is not known. */
+static bool read_measures(const meter *m, const instance *inst, double *measured, FILE *reason,
+                          point_notes *notes) {
+    const sweep *s = m->sweep;
+    const double epsilon = s->kind == &engine_float ? (double)FLT_EPSILON : DBL_EPSILON;
+    for (int i = 0; i < s->measures->count; i++) {
+        if (m->gauges[i].undefined) {
+            fprintf(reason, "what the measure '%s' takes is not a finite number throughout",
+                    s->measures->list[i].name);
+            return false;
+        }
+        measured[i] = gauge_result(&m->gauges[i], inst->step_s, epsilon);
+    }
+    const belief kept = belief_of(m->books, s->kind, m->run);
+    measured[s->measures->count] = kept.known ? kept.ratio : (double)NAN;
+    notes->unbelieved = belief_lost(&kept, BELIEF_LIMIT);
+    return true;
+}
+
+static bool measure_run(const sweep *s, const program *p, const equations *e, const instance *inst,
+                        bool (*abandon)(void), double *measured, diags *errors, FILE *reason,
+                        point_notes *notes) {
     const char *missing = program_needs_libm(p);
     if (missing != NULL && s->kind == &engine_float) {
         fprintf(reason, "needs %s, which the core does not offer in float", missing);
         return false;
     }
-    const double epsilon = s->kind == &engine_float ? (double)FLT_EPSILON : DBL_EPSILON;
     void *run = s->kind->start(p, inst, &s->engine);
-    meter m = meter_open(s, p, run);
-    const bool good = run_through(&m, inst, abandon, reason);
-    for (int i = 0; i < s->measures->count && good; i++) {
-        measured[i] = gauge_result(&m.gauges[i], inst->step_s, epsilon);
-    }
+    meter m = meter_open(s, p, e, inst, run);
+    const bool good = run_through(&m, inst, abandon, errors, reason) &&
+                      read_measures(&m, inst, measured, reason, notes);
     if (good && p->contacts != NULL) {
         s->kind->events(run, &notes->overruns);
     }
@@ -243,10 +309,12 @@ static bool measure_point(const sweep *s, uint64_t point, bool (*abandon)(void),
     }
     const program *p = own != NULL ? own : s->shared;
     good = good && start_has_method(p, inst, s->engine.method, errors) &&
-           start_is_possible(p, inst, errors);
+           start_is_possible(p, inst, s->kind, errors);
     if (good) {
-        good = measure_run(s, p, inst, abandon, measured, reason, notes);
-    } else {
+        good = measure_run(s, p, own != NULL ? e : s->equations, inst, abandon, measured, errors,
+                           reason, notes);
+    }
+    if (diags_count(errors) > 0) {
         tell_first(errors, reason);
     }
     program_free(own);
@@ -282,7 +350,10 @@ void sweep_header(const sweep *s, FILE *out) {
     }
     for (int i = 0; i < s->measures->count; i++) {
         header_field(out, s->measures->list[i].name);
-        fputs(i + 1 < s->measures->count ? "," : "\r\n", out);
+        fputs(i + 1 < sweep_columns(s) ? "," : "\r\n", out);
+    }
+    if (sweep_columns(s) > s->measures->count) {
+        fputs(BELIEF_COLUMN "\r\n", out);
     }
 }
 
@@ -298,14 +369,20 @@ void sweep_swept_fields(const sweep *s, uint64_t point, FILE *out) {
 
 bool sweep_point(const sweep *s, uint64_t point, bool (*abandon)(void), FILE *row, FILE *reason,
                  point_notes *notes) {
-    double *measured = room((size_t)s->measures->count, sizeof *measured);
-    *notes = (point_notes){0, 0};
+    double *measured = room((size_t)s->measures->count + 1, sizeof *measured);
+    *notes = (point_notes){0};
     const bool good = measure_point(s, point, abandon, measured, reason, notes);
     sweep_swept_fields(s, point, row);
     for (int i = 0; i < s->measures->count; i++) {
         fputc(',', row);
         if (good) {
             fprintf(row, "%.*g", s->kind->digits, number_shown(measured[i]));
+        }
+    }
+    if (sweep_columns(s) > s->measures->count) {
+        fputc(',', row);
+        if (good && !isnan(measured[s->measures->count])) {
+            fprintf(row, "%.3e", measured[s->measures->count]);
         }
     }
     fputs("\r\n", row);

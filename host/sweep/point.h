@@ -21,7 +21,12 @@ typedef struct sweep {
      * momentum of a conserved coordinate, so a sweep that varies them derives each point anew. A
      * point's rows do not depend on the points before it: nothing is carried over. */
     const program *shared;
+    const equations *equations; /* of the shared program */
 } sweep;
+
+/* Columns behind the swept values: the measures, and of a mechanism with energies how well they balance
+ * (host/run/belief.h; empty where that is not known). */
+int sweep_columns(const sweep *s);
 
 /* May the points of the grid share the program of one of them? */
 bool sweep_can_share(const grid *g, const program *p);
@@ -30,14 +35,16 @@ bool sweep_can_share(const grid *g, const program *p);
 void sweep_header(const sweep *s, FILE *out);
 void sweep_swept_fields(const sweep *s, uint64_t point, FILE *out);
 
-/* What is to be told of a run that did not fail. */
+/* What is to be told of a point that did not fail. */
 typedef struct point_notes {
-    uint64_t overruns; /* steps with more events than a step takes */
+    uint64_t overruns; /* steps that had more events than a step takes */
     int slow;          /* float angles that turn too slowly (host/run/slow.h) */
+    bool unbelieved;   /* its energies do not balance (host/run/belief.h) */
 } point_notes;
 
-/* Run the point and write its row, line's end included. A run that fails leaves its measures
- * empty: then the result is false and one line on `reason` says why. `abandon` (may be NULL) is
+/* Run the point and write its row, line's end included. A run that fails, or has a measure, an energy or a
+ * contact's expression that is not a finite number, leaves its columns empty: then the result is false and
+ * one line on `reason` says why. `abandon` (may be NULL) is
  * asked now and then whether to give up; the row is then of no use. */
 bool sweep_point(const sweep *s, uint64_t point, bool (*abandon)(void), FILE *row, FILE *reason,
                  point_notes *notes);

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include "host/run/belief.h"
 #include "host/run/slow.h"
 #include "jobs.h"
 #include "progress.h"
@@ -23,32 +24,40 @@ typedef struct sitting {
     uint64_t overrun_first; /* point */
     uint64_t slow_points;   /* with float angles that turn too slowly */
     uint64_t slow_first;    /* point */
+    uint64_t unbelieved;    /* points whose energies do not balance */
+    uint64_t unbelieved_first;
 } sitting;
 
 enum { TOLD_MAX = 20 };
 
-/* Of a point that did not fail, `reason` is its numbers of overruns and slow angles, if there are any. */
+/* Of a point that did not fail, `reason` is what is to be told of it, if there is anything: its numbers of
+ * overruns and of slow angles, and whether its energies do not balance, blanks between. */
 static bool work(void *context, uint64_t point, FILE *row, FILE *reason) {
     const sitting *s = context;
     point_notes notes;
     const bool good = sweep_point(s->sweep, point, jobs_orphaned, row, reason, &notes);
-    if (good && (notes.overruns > 0 || notes.slow > 0)) {
-        fprintf(reason, "%llu %d", (unsigned long long)notes.overruns, notes.slow);
+    if (good && (notes.overruns > 0 || notes.slow > 0 || notes.unbelieved)) {
+        fprintf(reason, "%llu %d %d", (unsigned long long)notes.overruns, notes.slow,
+                notes.unbelieved ? 1 : 0);
     }
     return good;
 }
 
-static void count_notes(sitting *s, uint64_t point, const char *numbers) {
+static void count_notes(sitting *s, uint64_t point, const char *notes) {
     char *rest;
-    const uint64_t overruns = strtoull(numbers, &rest, 10);
+    const uint64_t overruns = strtoull(notes, &rest, 10);
     if (overruns > 0) {
         s->overrun_first = s->overrun_points == 0 ? point : s->overrun_first;
         s->overrun_points++;
         s->overrun_steps += overruns;
     }
-    if (strtol(rest, NULL, 10) > 0) {
+    if (strtol(rest, &rest, 10) > 0) {
         s->slow_first = s->slow_points == 0 ? point : s->slow_first;
         s->slow_points++;
+    }
+    if (strtol(rest, NULL, 10) != 0) {
+        s->unbelieved_first = s->unbelieved == 0 ? point : s->unbelieved_first;
+        s->unbelieved++;
     }
 }
 
@@ -131,6 +140,20 @@ static void say_slow(const sitting *s) {
     fputs("\nhint: --compensated carries what is rounded; a larger --step rounds less\n", stderr);
 }
 
+/* The same of energies that do not balance. */
+static void say_unbelieved(const sitting *s) {
+    if (s->unbelieved == 0) {
+        return;
+    }
+    fprintf(
+        stderr,
+        "whirl sweep: warning: %llu of %llu points cannot be believed: more than %g of the largest "
+        "entry of their energy books is left over (" BELIEF_COLUMN "); first: ",
+        (unsigned long long)s->unbelieved, (unsigned long long)s->ran, BELIEF_LIMIT);
+    name_point(s->sweep, s->unbelieved_first);
+    fputs("\nhint: a smaller --step; `whirl run` of the point says more\n", stderr);
+}
+
 static void say_end(const session_settings *o, const sitting *s, int workers) {
     const uint64_t rows = o->end - o->first;
     const double seconds = progress_elapsed_s(&s->progress);
@@ -177,6 +200,7 @@ static int run_points(const session_settings *o, sitting *s) {
     }
     say_overruns(s);
     say_slow(s);
+    say_unbelieved(s);
     const char *hint = s->sheet.is_file ? "hint: the same command goes on from there\n" : "";
     switch (result) {
     case JOBS_DONE: say_end(o, s, workers); break;
@@ -210,7 +234,7 @@ int session_run(const sweep *s, const session_settings *o) {
                                      .fingerprint = o->fingerprint,
                                      .header = header,
                                      .rows = o->end - o->first,
-                                     .measures = s->measures->count,
+                                     .measures = sweep_columns(s),
                                      .swept = swept,
                                      .context = &here,
                                      .fresh = o->fresh};

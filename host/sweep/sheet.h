@@ -23,7 +23,7 @@ typedef struct sheet_settings {
     const char *fingerprint; /* lines of "what: value" */
     const char *header;      /* with its line's end; "" for none */
     uint64_t rows;           /* the whole sheet has, without the header */
-    int measures;            /* fields behind the swept ones */
+    int measures; /* fields behind the swept ones; the first is empty where a point failed */
     /* The swept fields of row `row`, as they stand in the file. */
     void (*swept)(const void *context, uint64_t row, FILE *out);
     const void *context;

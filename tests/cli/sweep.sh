@@ -42,7 +42,7 @@ derived --jobs 1 --csv "$scratch/derived1.csv"
 derived --jobs 3 --csv "$scratch/derived3.csv"
 check "the same from 1 job and 3, each point derived" \
     cmp "$scratch/derived1.csv" "$scratch/derived3.csv"
-printf 'ratio,r_disc,amplitude(X),"max(ratio, 0.5)"\r\n' >"$scratch/header"
+printf 'ratio,r_disc,amplitude(X),"max(ratio, 0.5)",energy_left_over\r\n' >"$scratch/header"
 head -n 1 "$scratch/derived1.csv" >"$scratch/first"
 check "the header, quoted where it must be" cmp "$scratch/header" "$scratch/first"
 check "every line ends as RFC 4180 says" \
@@ -133,13 +133,37 @@ check "failing points: exit status 1" status 1 failing --csv "$scratch/failing.c
 check "failing points: which and why" grep -q 'point 1 (ratio=-1): the kinetic energy of .* is negative' "$scratch/said"
 check "failing points: how many" grep -q '3 of 5 points failed' "$scratch/said"
 check "failing points: empty measures" \
-    test "$(tr -d '\r' <"$scratch/failing.csv" | grep -cE '^(-1|-0\.5|0),$')" -eq 3
+    test "$(tr -d '\r' <"$scratch/failing.csv" | grep -cE '^(-1|-0\.5|0),,$')" -eq 3
 check "failing points: the others are there" \
-    test "$(tr -d '\r' <"$scratch/failing.csv" | grep -cE '^(0\.5|1),[-+.e0-9]+$')" -eq 2
+    test "$(tr -d '\r' <"$scratch/failing.csv" | grep -cE '^(0\.5|1),[-+.e0-9]+,[-+.e0-9]+$')" -eq 2
 check "failing points found in the file count too" status 1 failing --csv "$scratch/failing.csv"
 check "a point that diverges: exit status 1" status 1 \
     "$whirl" sweep thomson_b --method euler --until 100s --over step=0.1..50:2 --measure X
 check "a point that diverges: when" grep -q 'point 1 (step=0.1): diverged in the step after t = ' "$scratch/said"
+cat >"$scratch/ends.whirl" <<'END'
+mechanism ends "a measure and a contact that end at x = c"
+coordinate x [m]
+coordinate y [m]
+parameter c = 1 [m]
+T = 1 [kg]*(x'^2 + y'^2)/2
+effect latch "held while it has a value" { hold y while sqrt((c - x)/1 [m]) > 2 }
+scene ends_at_c { start x' = 1 [m/s]; until 1 [s] }
+END
+ends() { "$whirl" sweep "$scratch/ends.whirl" --over 'c=0.5..2:4' --measure y "$@"; }
+check "a measure that is no number fails" status 1 ends --measure 'max(sqrt((c - x)/1 [m]))'
+check "a measure that is no number: which" grep -q "point 1 (c=0.5): what the measure 'max(sqrt((c - x)/1 \[m\]))' takes is not a finite number" "$scratch/said"
+check "a measure that is no number: empty" test "$(tr -d '\r' <"$scratch/rows" | grep -c '^0.5,,,$')" -eq 1
+check "a condition that is no number fails" status 1 ends --with latch
+check "a condition that is no number: which, and when" grep -q 'point 1 (c=0.5): in the step after t = 0.499 s the condition of this hold is not a finite number: hold y while sqrt' "$scratch/said"
+check "a condition that is no number: the others are there" test "$(tr -d '\r' <"$scratch/rows" | grep -cE '^[.0-9]+,0,0.000e\+00$')" -eq 2
+check "the balance of each point" sh -c "'$whirl' sweep epicyclic_from_rest --until 2s --over 'step=1..200 [ms]:2' --measure X --quiet |
+    tr -d '\r' | awk -F, 'NR == 1 { bad = \$3 != \"energy_left_over\" } NR == 2 { bad = bad || !(\$3 < 1e-9) }
+    NR == 3 { bad = bad || !(\$3 > 1e-3) } END { exit bad }'"
+check "points that cannot be believed are no failure" status 0 \
+    "$whirl" sweep epicyclic_from_rest --until 2s --over 'step=1..200 [ms]:2' --measure X --quiet
+check "points that cannot be believed: how many, and the first" \
+    grep -qF 'warning: 1 of 2 points cannot be believed: more than 0.001 of the largest entry of their energy books is left over (energy_left_over); first: point 2 (step=0.2)' "$scratch/said"
+check "no balance without energies" sh -c "! '$whirl' sweep carriage_ratio --until 0.1s --over ratio=0.1..0.2:2 --quiet | grep -q energy_left_over"
 check "no period: nan, and no failure" status 0 \
     "$whirl" sweep carriage_free --until 10ms --over ratio=0.1..0.2:2 --measure 'period(X)'
 check "no period: nan" test "$(grep -c ',nan' "$scratch/rows")" -eq 2
@@ -182,4 +206,14 @@ check "slow angles: how many, and the first" \
 check "slow angles: with a way out" grep -q '^hint: --compensated' "$scratch/said"
 check "compensated there are none" status 0 drift --compensated
 check "compensated there are none" sh -c "! grep -q slowly '$scratch/said'"
+
+# --- starts that cannot be --------------------------------------------------------------------------
+check "a start beyond a stop fails, as in run" status 1 \
+    "$whirl" sweep ball_bounces --until 0.1s --over 'z=-1..1:3' --measure z
+check "a start beyond a stop: why" grep -q 'point 1 (z=-1): the run starts beyond this stop, by 1 m' "$scratch/said"
+check "a start beyond a stop: an empty measure" test "$(tr -d '\r' <"$scratch/rows" | grep -c '^-1,,$')" -eq 1
+sed 's/parameter e = 0.5 .*/input e = 0.5/' core/models/contacts.whirl >"$scratch/inputs.whirl"
+check "an input out of range fails, though points share a program" status 1 \
+    "$whirl" sweep "$scratch/inputs.whirl:ball_bounces" --until 0.1s --over 'e=0..2:3' --measure z
+check "an input out of range: why" grep -q 'point 3 (e=2): a restitution is from 0 to 1, and this is 2' "$scratch/said"
 

@@ -113,7 +113,7 @@ static worst run_randomly(const derived *d, const engine_kind *kind, long steps)
         throw_start(d->instance, &around, &seed);
         diags *beyond =
             diags_new(); /* what is thrown beyond a stop is put back by it: that takes energy */
-        const bool apart = start_is_possible(d->program, d->instance, beyond);
+        const bool apart = start_is_possible(d->program, d->instance, kind, beyond);
         diags_free(beyond);
         void *run = kind->start(d->program, d->instance, &settings);
         uint64_t before = 0;

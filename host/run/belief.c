@@ -1,0 +1,115 @@
+/* belief.c: measuring what is left over. */
+#include "belief.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "host/derive/contact_lists.h"
+#include "host/derive/ledger.h"
+
+/* Roundings of the whole state that a run of one step may be off by. Of N steps it is so many times the root of N:
+ * that is also N of the same sign, as a rate that grows evenly has, for runs of a thousand steps. */
+#define ROUNDINGS 32.0
+
+static double larger(double a, double b) { return fabs(b) > a ? fabs(b) : a; }
+
+/* The entries that the run itself kept; returns their sum. */
+static double kept_entries(const program *p, const engine_kind *kind, const void *run,
+                           belief *made) {
+    const ledger_lists *l = p->ledger;
+    const int contacts = p->contacts != NULL ? p->contacts->count : 0;
+    double *total = calloc((size_t)(l->entries + l->accounts) + 1, sizeof *total);
+    double sum = 0.0;
+    if (total == NULL) {
+        abort();
+    }
+    if (kind->steps(run) > 0) {
+        kind->ledger(run, total, total + l->entries);
+    }
+    for (int i = 0; i < l->smooth; i++) {
+        if (l->entry[i].account == 0) {
+            made->largest_J = larger(made->largest_J, total[i]);
+            sum += total[i];
+        }
+    }
+    for (int k = 0; k < contacts; k++) {
+        const double given = total[l->smooth + k * (1 + p->coordinates)];
+        made->largest_J = larger(made->largest_J, given);
+        made->contacts_J -= given;
+        sum += given;
+    }
+    for (int i = l->entries - l->inputs; i < l->entries; i++) {
+        made->largest_J = larger(made->largest_J, total[i]);
+        sum += total[i];
+    }
+    free(total);
+    return sum;
+}
+
+/* The books beside the run see no force of a contact, and across an impact no rule of theirs holds: with contacts
+ * the entries are the run's own. The levels are always those of the books, which have them in double. */
+belief belief_of(const books *b, const engine_kind *kind, const void *run) {
+    belief made = {.jump_s = -1.0};
+    if (b == NULL || (b->program->contacts != NULL && b->program->ledger == NULL)) {
+        return made;
+    }
+    made.known = true;
+    made.left_J = books_error_J(b);
+    if (b->program->contacts != NULL) {
+        made.left_J = b->energy_J[1] - b->energy_J[0] - kept_entries(b->program, kind, run, &made);
+        kind->events(run, &made.overruns);
+    } else {
+        made.largest_J = larger(fabs(b->input_J), b->loss_J);
+        made.jump_s = fabs(b->jump_J) > 0.5 * fabs(made.left_J) ? b->jump_s : -1.0;
+    }
+    made.largest_J = larger(made.largest_J, b->kinetic_J[1] - b->kinetic_J[0]);
+    made.largest_J = larger(made.largest_J, b->stored_J[1] - b->stored_J[0]);
+    made.largest_J = larger(made.largest_J, books_swing_J(b));
+    made.rounding_J = ROUNDINGS * sqrt((double)b->entries) * books_rounding_J(b, kind);
+    made.rounded = made.rounding_J / BELIEF_LIMIT > made.largest_J;
+    made.largest_J = fmax(made.largest_J, made.rounding_J / BELIEF_LIMIT);
+    made.known = isfinite(made.left_J);
+    made.ratio = made.left_J == 0.0 ? 0.0 : fabs(made.left_J) / made.largest_J;
+    return made;
+}
+
+bool belief_lost(const belief *b, double limit) {
+    return b->known && fabs(b->left_J) > b->rounding_J && !(b->ratio <= limit);
+}
+
+void belief_print(FILE *out, const belief *b) {
+    if (b->known) {
+        fprintf(out, "energy left over   %.2e of %s, %.3g J\n", b->ratio,
+                b->rounded ? "the least entry that rounding lets one tell"
+                           : "the largest entry of the books",
+                b->largest_J);
+    }
+}
+
+void belief_say(FILE *out, const char *who, const belief *b, const engine_kind *kind,
+                wh_method method) {
+    fprintf(
+        out,
+        "%s: this run cannot be believed: %.3g J of its energy is left over, %.2e of the largest "
+        "entry of its books\n",
+        who, b->left_J, b->ratio);
+    if (b->overruns > 0) {
+        fprintf(out,
+                "hint: %" PRIu64
+                " steps had more moments with events than a step takes, and what was "
+                "left of them counts as rest or sticking: a smaller --step\n",
+                b->overruns);
+    } else if (b->jump_s >= 0.0) {
+        fprintf(
+            out,
+            "hint: most of it was lost about t = %.9g s: a singular position was passed there, or "
+            "the step is too coarse for what happens: a smaller --step tells which, since at a "
+            "singular position none helps\n",
+            b->jump_s);
+    } else {
+        fprintf(out, "hint: the step is too coarse for this motion: a smaller --step%s%s\n",
+                method != WH_RK4 ? ", or --method rk4" : "",
+                kind == &engine_float ? "; --number double tells what float's rounding does" : "");
+    }
+}

@@ -1,0 +1,53 @@
+/* belief.h: can a run be believed? The one place of the limit, the measure and the words.
+ *
+ * Left over is what the books do not account for at the end of a run: the change of the energy (T + V, or the
+ * energy integral where that is not the same) less the work of the inputs, the losses and what contacts took. An
+ * exact solution leaves nothing. It is measured by the largest entry of the books:
+ *
+ *   - the net change of the kinetic and of the stored energy, the work of the inputs, the losses, and what
+ *     each contact took;
+ *   - how far kinetic and stored energy swung: sqrt(8) times their standard deviation over the steps, which of a
+ *     sine is its range;
+ *   - for each coordinate, half the root mean square of its momentum times the swing of its rate: the energy that
+ *     its changes of speed passed on, where kinetic energy only moves from one coordinate to another.
+ *
+ * All of them are changes: neither a constant in V nor a heavy clock that turns evenly counts. They are means over
+ * time where they are no sums, so that the moment at which a singular position is passed does not set the measure.
+ * What the rounding of the state to the run's numbers explains (below) is no fault of the step: an entry counts as
+ * at least 1/BELIEF_LIMIT times that. With nothing left over, the ratio is 0. */
+#ifndef RUN_BELIEF_H
+#define RUN_BELIEF_H
+
+#include <stdio.h>
+
+#include "books.h"
+
+/* Beyond this ratio a run is not believed. */
+#define BELIEF_LIMIT 1e-3
+
+/* The name of the ratio where it is a column. */
+#define BELIEF_COLUMN "energy_left_over"
+
+typedef struct belief {
+    bool known; /* false: no energies, no finite ones, or books of contacts that cannot be kept */
+    double left_J;    /* left over, signed */
+    double largest_J; /* the largest entry, or what rounding makes of it */
+    bool rounded;     /* it is rounding that sets it */
+    double
+        rounding_J; /* what rounding explains of it: of the state by one unit, by the root of the steps */
+    double contacts_J; /* what contacts took, in all; positive: a loss */
+    double ratio;      /* |left| / largest, >= 0; infinite with something left over of nothing */
+    uint64_t overruns; /* steps with more moments with events than a step takes */
+    double jump_s;     /* where the balance was lost at one go; below 0: nowhere */
+} belief;
+
+belief belief_of(const books *b, const engine_kind *kind, const void *run);
+/* Is it beyond the limit? What is not known is not. */
+bool belief_lost(const belief *b, double limit);
+/* The line of the summary; nothing when it is not known. */
+void belief_print(FILE *out, const belief *b);
+/* `who` "whirl run: warning": that it is not believed, the likely cause and the cure. */
+void belief_say(FILE *out, const char *who, const belief *b, const engine_kind *kind,
+                wh_method method);
+
+#endif

@@ -1,0 +1,41 @@
+/* undefined.h: which expression of a scene is not a finite number, for messages.
+ *
+ * A step that fails keeps the last good state, so what failed lies ahead of it: the expressions are looked at
+ * there and at a few places on the way that the state was about to go. */
+#ifndef RUN_UNDEFINED_H
+#define RUN_UNDEFINED_H
+
+#include "engine.h"
+
+/* Radians beyond which neither build knows the sine of a real (core/angle.h); float keeps turn angles beyond. */
+#define ANGLE_SINE_MOST_RAD 5e8
+#define ANGLE_SINE_MOST_FLOAT_RAD 1e9
+
+/* Where to look: of one run. `equations` may be of another instance of the same mechanism and scene. */
+typedef struct undefined_at {
+    const equations *equations;
+    const program *program;
+    const instance *instance; /* its parameters, inputs and step count */
+    const double *angle_rad;  /* [angles] the last good state */
+    const double *real;       /* [reals] */
+    bool turns;               /* angles are integers (float): their sine is known everywhere */
+    double ahead_steps;       /* look so far ahead: 0 for the state itself */
+    const char *when;         /* begins the message: "in the step after t = 1.2 s" */
+} undefined_at;
+
+/* Each reports the first that it finds, with its place and its statement's text; false when it finds none. */
+
+/* An angle whose sine is not known. */
+bool undefined_angle(const undefined_at *at, diags *errors);
+/* A kinetic or stored energy, a loss, a force or an equation, or its slope. */
+bool undefined_term(const undefined_at *at, diags *errors);
+/* What a crossing sets. */
+bool undefined_set(const undefined_at *at, diags *errors);
+/* Of contact k. Always reports: when the expression cannot be told, the contact as a whole. */
+void undefined_contact(const undefined_at *at, int k, diags *errors);
+
+/* Why a step of this run did not come about, if it is for an expression or an angle of the model. */
+bool undefined_step(const equations *e, const program *p, const instance *inst,
+                    const engine_kind *kind, const void *run, wh_status status, diags *errors);
+
+#endif

@@ -1,0 +1,93 @@
+/* command.c: see command.h. */
+#define _POSIX_C_SOURCE 200809L
+#include "command.h"
+
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "unity.h"
+
+enum { WORDS_MAX = 32 };
+
+static void read_back(FILE *from, char text[SAID_SIZE]) {
+    rewind(from);
+    const size_t length = fread(text, 1, SAID_SIZE - 1, from);
+    text[length] = '\0';
+    fclose(from);
+}
+
+void command_say(int (*command)(int count, char **words), const char *const *words, said *what) {
+    FILE *out = tmpfile();
+    FILE *err = tmpfile();
+    TEST_ASSERT_TRUE(out != NULL && err != NULL);
+    fflush(NULL);
+    const pid_t child = fork();
+    TEST_ASSERT_TRUE(child >= 0);
+    if (child == 0) {
+        char *copies[WORDS_MAX + 1] = {NULL};
+        int count = 0;
+        while (words[count] != NULL && count < WORDS_MAX) {
+            copies[count] = strdup(words[count]);
+            count++;
+        }
+        const bool good =
+            dup2(fileno(out), STDOUT_FILENO) >= 0 && dup2(fileno(err), STDERR_FILENO) >= 0;
+        const int status = good ? command(count, copies) : 99;
+        fflush(NULL);
+        _exit(status);
+    }
+    int status = 0;
+    TEST_ASSERT_TRUE(waitpid(child, &status, 0) == child);
+    what->status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    read_back(out, what->out);
+    read_back(err, what->err);
+}
+
+static char kept[] = "build/tests/model-XXXXXX";
+static bool is_kept;
+
+const char *model_keep(const char *text) {
+    model_drop();
+    snprintf(kept, sizeof kept, "build/tests/model-XXXXXX");
+    const int file = mkstemp(kept);
+    TEST_ASSERT_TRUE_MESSAGE(file >= 0, "run from the project's root");
+    is_kept = true;
+    const size_t length = strlen(text);
+    TEST_ASSERT_TRUE(write(file, text, length) == (ssize_t)length);
+    close(file);
+    return kept;
+}
+
+void model_drop(void) {
+    if (is_kept) {
+        unlink(kept);
+        is_kept = false;
+    }
+}
+
+dice dice_of(const char *suite, unsigned long seed) {
+    const char *given = getenv("WHIRL_SEED");
+    const unsigned long long used = given != NULL ? strtoull(given, NULL, 10) : seed;
+    printf("  %s: seed %llu\n", suite, used);
+    return (dice){used * 2862933555777941757ULL + 3037000493ULL};
+}
+
+static unsigned long long roll(dice *d) { /* Knuth's MMIX; the high bits are good */
+    d->state = d->state * 6364136223846793005ULL + 1442695040888963407ULL;
+    return d->state >> 11;
+}
+
+double dice_between(dice *d, double low, double high) {
+    return low + (high - low) * (double)roll(d) * 0x1p-53;
+}
+
+unsigned dice_one_of(dice *d, unsigned count) { return (unsigned)(roll(d) >> 20) % count; }
+
+unsigned dice_cases(unsigned usual) {
+    const char *given = getenv("WHIRL_CASES");
+    return given != NULL ? (unsigned)strtoul(given, NULL, 10) : usual;
+}

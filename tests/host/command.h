@@ -1,0 +1,33 @@
+/* command.h: a command of `whirl` run in a process of its own, and what it said. */
+#ifndef TESTS_HOST_COMMAND_H
+#define TESTS_HOST_COMMAND_H
+
+#include <stddef.h>
+
+#define SAID_SIZE 8192
+
+typedef struct said {
+    int status;          /* exit status; -1 when a signal ended it */
+    char out[SAID_SIZE]; /* standard output, cut */
+    char err[SAID_SIZE]; /* standard error, cut */
+} said;
+
+/* Runs `command` (command_run, ...) on the words, the last of which is followed by NULL. */
+void command_say(int (*command)(int count, char **words), const char *const *words, said *what);
+
+/* Writes a model's text into a file of its own, whose name it returns; static. Gone with model_drop(). */
+const char *model_keep(const char *text);
+void model_drop(void);
+
+/* Numbers for generated cases: from `seed` on, evenly in [low, high), and a whole number in [0, count). */
+typedef struct dice {
+    unsigned long long state;
+} dice;
+dice dice_of(const char *suite, unsigned long seed); /* WHIRL_SEED changes it; printed */
+double dice_between(dice *d, double low, double high);
+unsigned dice_one_of(dice *d, unsigned count);
+
+/* `usual`, or what the environment variable WHIRL_CASES says. */
+unsigned dice_cases(unsigned usual);
+
+#endif

@@ -1,0 +1,327 @@
+/* test_undefined.c: nothing that is no number passes for nothing. In generated mechanisms one expression of a
+ * contact, an energy, a force or an output stops being a number at a known moment; the run must end then, with
+ * status 1, and name the expression's line and text. */
+#include "command.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "host/commands/commands.h"
+
+#include "unity.h"
+
+void suite_undefined(void);
+
+/* Where each kind of expression stands; the others of its mechanism are numbers throughout. */
+typedef enum victim {
+    GAP,
+    CONDITION,
+    CONDITION_AND,
+    CONDITION_OR,
+    HELD,
+    CROSSING,
+    SETTING,
+    NORMAL_STUCK,
+    NORMAL_SLIDING,
+    STATIC,
+    KINETIC,
+    RESTITUTION,
+    FORCE,
+    STORED,
+    OUTPUT,
+    VICTIMS
+} victim;
+
+/* `d` falls through zero at a known moment; no numbers behind it. */
+static const char *const forms[] = {"sqrt(d)",     "1/(sign(d) + 1)",     "sqrt(sign(d))",
+                                    "d^1.5",       "min(2, sqrt(d))",     "max(sqrt(d), 0.25)",
+                                    "log(d)",      "asin(1 - min(d, 1))", "acos(2*sqrt(d)/(1 + d))",
+                                    "exp(sqrt(d))"};
+enum { FORMS = sizeof forms / sizeof forms[0], FORMS_IN_FLOAT = 6 };
+
+typedef struct trial {
+    victim victim;
+    char text[2048];
+    char statement[160]; /* what the message must quote */
+    int line;            /* where it stands */
+    double end_s;        /* the moment */
+    double step_s;
+    bool is_float;
+    bool
+        is_infinite; /* behind the end: an event may come before it in the same step, and end that */
+    bool ends_later; /* a restitution counts when the stop is hit */
+} trial;
+
+/* The statement with `form` in it. `y` is free, at rest (or sliding), and nothing else happens to it. */
+static void state(trial *t, const char *form, dice *d) {
+    const double a = dice_between(d, 0.1, 0.9);
+    char *s = t->statement;
+    const size_t size = sizeof t->statement;
+    switch (t->victim) {
+    case GAP:
+        snprintf(s, size, "stop y + (%s)*u >= -%.3f [m] restitution 0.5", form, 90.0 + a);
+        break;
+    case CONDITION:
+        snprintf(s, size, "hold y while %s > %s%.2f", form, a > 0.5 ? "-9" : "9", a);
+        break;
+    case CONDITION_AND: snprintf(s, size, "hold y while y > -%.2f [m] and %s > -9", a, form); break;
+    case CONDITION_OR: snprintf(s, size, "hold y while %s > 9 or y > %.2f [m]", form, a); break;
+    case HELD: snprintf(s, size, "hold y + (%s)*%.2f*u while y > 5 [m]", form, a); break;
+    case CROSSING:
+        snprintf(s, size, "when %s crosses %.2f rising { set y' = 1 [m/s]", form, 19.0 + a);
+        break;
+    case SETTING: snprintf(s, size, "set y = (%s)*%.2f*u", form, a); break;
+    case NORMAL_STUCK:
+    case NORMAL_SLIDING:
+        snprintf(s, size, "friction y static 0.4 kinetic 0.3 normal (%s)*%.2f [N]", form, a);
+        break;
+    case STATIC:
+        snprintf(s, size, "friction y static %.2f + %s kinetic 0.05 normal 2 [N]", a, form);
+        break;
+    case KINETIC:
+        snprintf(s, size, "friction y static 5 kinetic %.2f*(%s) normal 1 [N]", a, form);
+        break;
+    case RESTITUTION:
+        snprintf(s, size, "stop x <= c + %.3f [m] restitution abs(cos(%s))*%.2f", 0.05 + a, form,
+                 a);
+        break;
+    case FORCE: snprintf(s, size, "Q(y) = (%s)*%.2f [N]", form, a); break;
+    case STORED: snprintf(s, size, "V = (%s)*%.2fe-6 [J]*y/u", form, a); break;
+    case OUTPUT: snprintf(s, size, "output odd = %.2f*(%s)", a, form); break;
+    case VICTIMS: break;
+    }
+}
+
+static void make(trial *t, dice *d) {
+    const double v = dice_between(d, 0.3, 2.0);
+    const double c = dice_between(d, 0.2, 1.5) * v; /* 0.2 to 1.5 s */
+    unsigned form = dice_one_of(d, t->is_float ? FORMS_IN_FLOAT : FORMS);
+    if (t->victim == CONDITION_AND || t->victim == CONDITION_OR) {
+        form += form == 1; /* infinity takes part in `and` and `or` like any number */
+    } else if (t->victim == HELD && (form == 1 || form == 2 || form == 6)) {
+        form =
+            0; /* of what is held only the rate counts: that of a logarithm has a value everywhere */
+    }
+    t->is_infinite = form == 1;
+    const bool slides = t->victim == NORMAL_SLIDING || t->victim == KINETIC;
+    t->step_s = 1e-3 * (1.0 + dice_one_of(d, 5));
+    t->end_s = c / v;
+    t->ends_later = t->victim == RESTITUTION;
+    state(t, forms[form], d);
+    char around[200];
+    if (t->victim == SETTING) { /* is taken at a moment behind the end */
+        snprintf(around, sizeof around, "when x crosses c + 0.1 [m] { %s }", t->statement);
+        t->end_s = (c + 0.1) / v;
+    } else {
+        snprintf(around, sizeof around, "%s%s", t->statement, t->victim == CROSSING ? " }" : "");
+    }
+    const int blank = (int)dice_one_of(d, 4);
+    snprintf(t->text, sizeof t->text,
+             "mechanism trial\n" /* 1 */
+             "coordinate x [m]\ncoordinate y [m]\n"
+             "parameter c = %.9f [m]\nparameter u = 1 [m]\n"
+             "let d = (c - x)/u\n"
+             "T = 1 [kg]*(x'^2 + 2*y'^2)/2\n"
+             "%.*s%s\n"
+             "scene moves { start x' = %.9f [m/s], y' = %s\n step %.6f [s]\n until 5 [s] }\n",
+             c, blank, "\n\n\n\n", around, v, slides ? "30 [m/s]" : "0", t->step_s);
+    t->line = 8 + blank;
+}
+
+/* "... after t = 1.2 s": the number, or -1. */
+static double time_told(const char *text) {
+    const char *at = strstr(text, "t = ");
+    return at != NULL ? strtod(at + 4, NULL) : -1.0;
+}
+
+static void check(const trial *t, const char *file) {
+    const char *words[] = {file, "--csv", "/dev/null", "--number", t->is_float ? "float" : "double",
+                           NULL};
+    said what;
+    char place[80];
+    char note[4096];
+    command_say(command_run, words, &what);
+    snprintf(note, sizeof note, "case %d, %s\n%.2000s\n%.1000s", (int)t->victim, words[4], t->text,
+             what.err);
+    snprintf(place, sizeof place, "%s:%d:", file, t->line);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(1, what.status, note);
+    TEST_ASSERT_TRUE_MESSAGE(strncmp(what.err, place, strlen(place)) == 0, note);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, "is not a finite number"), note);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, t->statement), note);
+    /* The step after which it happened begins at most a step before; an output is seen at the step's end. */
+    const double late_s = time_told(what.err) - t->end_s;
+    const double most = t->ends_later                           ? 5.0
+                        : t->victim == OUTPUT || t->is_infinite ? 1.01 * t->step_s
+                                                                : 1e-3 * t->step_s;
+    const double rounding_s = t->is_float ? 1e-3 : 0.0; /* of x, summed up in float */
+    TEST_ASSERT_TRUE_MESSAGE(
+        late_s <= most + rounding_s && late_s >= -1.01 * t->step_s - rounding_s, note);
+}
+
+static void test_expressions_that_stop_being_numbers(void) {
+    dice d = dice_of("undefined", 20261);
+    const unsigned rounds = dice_cases(6);
+    unsigned tried = 0;
+    for (unsigned i = 0; i < rounds; i++) {
+        for (victim v = 0; v < VICTIMS; v++) {
+            for (int k = 0; k < 2; k++) {
+                trial t = {.victim = v, .is_float = k == 1};
+                make(&t, &d);
+                check(&t, model_keep(t.text));
+                tried++;
+            }
+        }
+    }
+    model_drop();
+    printf("  %u runs ended with the expression's name\n", tried);
+}
+
+/* The same mechanisms are left before that: not a word. */
+static void test_expressions_that_are_numbers_throughout(void) {
+    dice d = dice_of("defined", 20262);
+    const unsigned rounds = dice_cases(3);
+    for (unsigned i = 0; i < rounds; i++) {
+        for (victim v = 0; v < VICTIMS; v++) {
+            trial t = {.victim = v, .is_float = i % 2 == 1};
+            char until[40];
+            said what;
+            make(&t, &d);
+            snprintf(until, sizeof until, "%.6f", 0.9 * t.end_s - 0.1);
+            const char *words[] = {model_keep(t.text),
+                                   "--until",
+                                   until,
+                                   "--number",
+                                   t.is_float ? "float" : "double",
+                                   "--csv",
+                                   "/dev/null",
+                                   NULL};
+            if (0.9 * t.end_s - 0.1 > t.step_s) {
+                command_say(command_run, words, &what);
+                TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, t.text);
+                TEST_ASSERT_NULL_MESSAGE(strstr(what.err, "error"), t.text);
+            }
+        }
+    }
+    model_drop();
+}
+
+/* A stop ends where the motion ends, and an expression may end there too: the step looks beyond it, the motion
+ * does not go there. */
+static void test_expressions_that_end_where_a_stop_is(void) {
+    static const char *const effects[] = {"hold y while sqrt(x/u) > 9",
+                                          "when sqrt(x/u) crosses 9 { set y = 1 [m] }",
+                                          "stop y + u*sqrt(x/u) >= -9 [m] restitution 0"};
+    for (int i = 0; i < 6; i++) {
+        char text[600];
+        said what;
+        snprintf(text, sizeof text,
+                 "mechanism ends\ncoordinate x [m]\ncoordinate y [m]\nparameter u = 1 [m]\n"
+                 "T = 1 [kg]*(x'^2 + y'^2)/2\nV = 9.81 [N]*x\nstop x >= 0 restitution 0.8\n%s\n"
+                 "scene s { start x = 1 [m]\n until 4 [s] }\n",
+                 effects[i % 3]);
+        const char *words[] = {model_keep(text), "--number", i < 3 ? "double" : "float", NULL};
+        command_say(command_run, words, &what);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, what.err);
+    }
+    model_drop();
+}
+
+/* `whirl accel` at states where something of the equations is no number. */
+static void test_accelerations_that_are_no_numbers(void) {
+    static const char *const terms[] = {"V = 1 [J]*log(x/u)", "V = 1 [J]*u/x",
+                                        "Q(x) = 1 [N]*sqrt(x/u - 1)", "F = 1 [N*s/m]*x'^2/(x/u)",
+                                        "V = 1 [J]*sqrt(x/u)"};
+    for (size_t i = 0; i < sizeof terms / sizeof terms[0]; i++) {
+        char text[300];
+        said what;
+        snprintf(text, sizeof text,
+                 "mechanism m\ncoordinate x [m]\nparameter u = 1 [m]\nT = 1 [kg]*x'^2/2\n%s\n",
+                 terms[i]);
+        const char *words[] = {model_keep(text), "x=0", "x'=1", NULL};
+        command_say(command_accel, words, &what);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(1, what.status, terms[i]);
+        TEST_ASSERT_EQUAL_STRING("", what.out);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, ":5:"), what.err);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, terms[i]), what.err);
+        const char *sound[] = {words[0], "x=2", "x'=1", NULL};
+        command_say(command_accel, sound, &what);
+        TEST_ASSERT_EQUAL_INT(0, what.status);
+    }
+    model_drop();
+}
+
+/* A step over a pole leaves the force a number and the energy none: the books say so. */
+static void test_energies_that_are_no_numbers(void) {
+    dice d = dice_of("energies", 20263);
+    for (unsigned i = 0; i < dice_cases(10); i++) {
+        char text[400];
+        said what;
+        const double h = dice_between(&d, 1e-4, 1e-2);
+        const double v = dice_between(&d, 5.0, 20.0) / sqrt(h);
+        snprintf(text, sizeof text,
+                 "mechanism m\ncoordinate x [m]\nparameter u = 1 [m]\nT = 1 [kg]*x'^2/2\n"
+                 "V = -1e-3 [J]*log(x/u)\nscene s { start x = %.9f [m], x' = -%.9f [m/s]\n"
+                 "step %.9f [s]\nuntil 1 [s] }\n",
+                 0.7 * v * h, v, h);
+        for (int quiet = 0; quiet < 2; quiet++) {
+            const char *words[] = {model_keep(text), quiet != 0 ? "--quiet" : NULL, NULL};
+            command_say(command_run, words, &what);
+            TEST_ASSERT_EQUAL_INT_MESSAGE(1, what.status, text);
+            TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, ":5:"), what.err);
+            TEST_ASSERT_NOT_NULL(
+                strstr(what.err, "the stored energy is not a finite number: V = -1e-3 [J]*log"));
+            TEST_ASSERT_TRUE(quiet != 0 || strstr(what.out, "no balance") != NULL);
+        }
+    }
+    model_drop();
+}
+
+static void test_angles_beyond_what_a_run_knows(void) {
+    static const char text[] =
+        "mechanism m\ncoordinate th [rad]\nT = 1 [kg*m^2]*th'^2/2\nV = 1 [J]*cos(th)\n"
+        "scene s { start th = 7e9\n until 1 [s] }\n";
+    said what;
+    const char *file = model_keep(text);
+    const char *in_scene[] = {file, "--number", "float", NULL};
+    command_say(command_run, in_scene, &what);
+    TEST_ASSERT_EQUAL_INT(2, what.status);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, ":5:17: error: 'th' starts at 7e+09 rad"),
+                                 what.err);
+    const char *given[] = {file, "--number", "float", "--start", "th=-6.3e9", NULL};
+    command_say(command_run, given, &what);
+    TEST_ASSERT_EQUAL_INT(2, what.status);
+    TEST_ASSERT_NOT_NULL_MESSAGE(
+        strstr(what.err, "<command line>:1:1: error: 'th' starts at -6.3e+09"), what.err);
+    const char *held[] = {file, "--number", "float", "--start", "th=6.2e9", NULL};
+    command_say(command_run, held, &what);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, what.err);
+    const char *swept[] = {file, "--number", "float", "--over", "th=0..7e9:2", "--quiet", NULL};
+    command_say(command_sweep, swept, &what);
+    TEST_ASSERT_EQUAL_INT(1, what.status);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, "point 2 (th=7000000000): 'th' starts at 7e+09"),
+                                 what.err);
+    const char *derived[] = {file, "--as", "c", NULL};
+    command_say(command_derive, derived, &what);
+    TEST_ASSERT_EQUAL_INT(2, what.status);
+    const char *in_double[] = {file, "--start", "th=5.1e8", NULL};
+    command_say(command_run, in_double, &what);
+    TEST_ASSERT_EQUAL_INT(1, what.status);
+    TEST_ASSERT_NOT_NULL_MESSAGE(
+        strstr(what.err,
+               "the angle 'th' is at 510000000 rad: sine and cosine are known up to 5e+08"),
+        what.err);
+    model_drop();
+}
+
+void suite_undefined(void) {
+    UnitySetTestFile(__FILE__);
+    RUN_TEST(test_expressions_that_stop_being_numbers);
+    RUN_TEST(test_expressions_that_are_numbers_throughout);
+    RUN_TEST(test_expressions_that_end_where_a_stop_is);
+    RUN_TEST(test_accelerations_that_are_no_numbers);
+    RUN_TEST(test_energies_that_are_no_numbers);
+    RUN_TEST(test_angles_beyond_what_a_run_knows);
+}
