@@ -289,6 +289,17 @@ bool undefined_angle(const undefined_at *at, diags *errors) {
 
 /* --- a step that failed ------------------------------------------------------------------------*/
 
+/* Holds that close a linkage leave it more than one motion where it lies flat (core/contact_rank.h). */
+static void say_flat(const undefined_at *at, place where, diags *errors) {
+    char text[STATEMENT_SIZE];
+    statement_text(where, text, sizeof text);
+    diag_error(errors, where,
+               "give the linkage lengths with which it cannot lie flat, or hold one coordinate more there",
+               "%s the holds leave more than one way to go on, this one says no more than the others: "
+               "%s",
+               at->when, text);
+}
+
 bool undefined_step(const equations *e, const program *p, const instance *inst,
                     const engine_kind *kind, const void *run, wh_status status, diags *errors) {
     double angle_rad[PROGRAM_COMPONENTS_MAX];
@@ -296,7 +307,7 @@ bool undefined_step(const equations *e, const program *p, const instance *inst,
     char when[80];
     const int fault = kind->fault(run);
     snprintf(when, sizeof when, "in the step after t = %.9g s",
-             (double)kind->steps(run) * inst->step_s);
+             ratio_times(kind->steps(run), inst->step));
     kind->state(run, angle_rad, real);
     const undefined_at at = {.equations = e,
                              .program = p,
@@ -311,6 +322,10 @@ bool undefined_step(const equations *e, const program *p, const instance *inst,
     }
     if (status == WH_E_UNDEFINED) {
         undefined_contact(&at, fault, errors);
+        return true;
+    }
+    if (status == WH_E_SINGULAR) {
+        say_flat(&at, p->contacts->row[fault].from->at, errors);
         return true;
     }
     return undefined_set(&at, errors) || undefined_term(&at, errors);
