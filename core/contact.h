@@ -82,7 +82,7 @@ typedef struct wh_contact {
     uint8_t kind; /* wh_contact_kind */
     int8_t
         direction; /* crossing: +1 rising, -1 falling, 0 both; stop: 1 if an input moves it; hold: 1 if
-                        * it is straight, its J_k constant; else 0 */
+                        * it is straight, its J_k constant, -1 if an input moves a curved one; else 0 */
     int16_t pin; /* the one coordinate that J_k has an entry for, if that is constant: its rate
                         * is held at zero exactly; else -1 */
     uint8_t

@@ -83,7 +83,7 @@ static inline void wh_contact_accel(const void *model, const wh_phase *phase, co
         }
     }
     if (!wh_finite(limits)) {
-        wh_contact_expect_frictions(of, w);
+        wh_contact_expect_laws(of, w);
     }
     for (unsigned i = 0; i < count; i++) {
         w->wanted[i] = -(wh_law(of, w, member[i])[WH_LAW_BIAS] + wh_along(of, w, member[i], accel));

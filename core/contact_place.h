@@ -82,7 +82,7 @@ WH_INLINE wh_real wh_contact_off(const wh_hybrid *of, const wh_contact_work *w, 
         return WH_R(0.0);
     }
     const wh_real held = w->held[of->contact[k].first_set];
-    if (of->contact[k].direction == 0) {
+    if (of->contact[k].direction <= 0) {
         return wh_law(of, w, k)[WH_LAW_FIRST] - held;
     }
     return from != NULL ? held + wh_contact_moved(of, w, k, from, s) : WH_R(0.0);
@@ -92,7 +92,7 @@ WH_INLINE wh_real wh_contact_off(const wh_hybrid *of, const wh_contact_work *w, 
 WH_INLINE void wh_contact_capture(const wh_hybrid *of, wh_contact_work *w, unsigned k) {
     if (wh_contact_slips(of, w, k)) {
         w->held[of->contact[k].first_set] =
-            of->contact[k].direction == 0 ? wh_law(of, w, k)[WH_LAW_FIRST] : WH_R(0.0);
+            of->contact[k].direction <= 0 ? wh_law(of, w, k)[WH_LAW_FIRST] : WH_R(0.0);
     }
 }
 
@@ -250,7 +250,7 @@ static inline void wh_contact_tidy(const wh_hybrid *of, wh_contact_work *w, wh_r
 static inline void wh_contact_keep(const wh_hybrid *of, wh_contact_work *w,
                                    const wh_contact_state *from, const wh_contact_state *to) {
     for (unsigned k = 0; k < of->forced; k++) {
-        if (wh_contact_slips(of, w, k) && of->contact[k].direction != 0) {
+        if (wh_contact_slips(of, w, k) && of->contact[k].direction > 0) {
             w->held[of->contact[k].first_set] += wh_contact_moved(of, w, k, from, to);
         }
     }

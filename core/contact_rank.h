@@ -65,7 +65,7 @@ static inline unsigned wh_contact_flat(const wh_hybrid *of, wh_contact_work *w,
     wh_contact_rows after;
     bool any = false;
     for (unsigned k = 0; k < of->forced && of->held > 0; k++) {
-        any = any || (wh_contact_slips(of, w, k) && of->contact[k].direction == 0);
+        any = any || (wh_contact_slips(of, w, k) && of->contact[k].direction <= 0);
     }
     if (!any) {
         return of->contacts;

@@ -208,27 +208,36 @@ static inline wh_real wh_contact_take(const wh_hybrid *of, wh_contact_work *w, u
 }
 
 /* Where an input has moved a resting stop since the last step: the body is put back onto it, or falls if
- * what presses it does not close the gap within the step. The energy is the stop's. */
+ * what presses it does not close the gap within the step. The energy is the stop's. What an input does to a held
+ * expression moves nobody: the hold keeps the new value. */
 static inline void wh_contact_follow(const wh_hybrid *of, wh_contact_work *w, wh_real h,
                                      const wh_real *input, wh_contact_state *s) {
     wh_real accel[WH_COORDS];
     wh_real signal[2 * WH_CONTACTS_MAX];
     unsigned moved = WH_CONTACTS_MAX;
+    bool held = false;
     bool falls = false;
     for (unsigned k = 0; k < of->forced; k++) {
         const bool rests = of->contact[k].kind == WH_STOP && w->mode[k] == WH_ACTIVE;
         moved = rests && of->contact[k].direction != 0 ? k : moved;
+        held = held || (wh_contact_slips(of, w, k) && of->contact[k].direction < 0);
     }
-    if (moved == WH_CONTACTS_MAX) {
+    if (moved == WH_CONTACTS_MAX && !held) {
         return;
     }
     wh_contact_look(of, w, s, input, accel, signal);
     for (unsigned k = 0; k < of->forced; k++) {
-        const wh_real closes = WH_R(0.5) * h * h * w->force[k] * wh_contact_yield(of, w, k);
-        if (of->contact[k].direction != 0 && wh_constrains(of, w, k) && signal[2 * k] > closes) {
-            w->mode[k] = WH_FREE;
-            falls = true;
+        const wh_contact *c = &of->contact[k];
+        if (c->kind == WH_STOP && c->direction != 0 && w->mode[k] == WH_ACTIVE) {
+            const wh_real closes = WH_R(0.5) * h * h * w->force[k] * wh_contact_yield(of, w, k);
+            w->mode[k] = signal[2 * k] > closes ? WH_FREE : WH_ACTIVE;
+            falls = falls || w->mode[k] == WH_FREE;
+        } else if (c->direction < 0) {
+            wh_contact_capture(of, w, k);
         }
+    }
+    if (moved == WH_CONTACTS_MAX) {
+        return;
     }
     const wh_contact_place place = {NULL, WH_R(0.0), 0, moved};
     (void)wh_contact_close(of, w, &place, signal, input, s);

@@ -120,13 +120,14 @@ WH_INLINE bool wh_constrains(const wh_hybrid *of, const wh_contact_work *w, unsi
     return of->contact[k].kind == WH_FRICTION ? w->mode[k] == WH_STUCK : w->mode[k] == WH_ACTIVE;
 }
 
-/* The limit of each friction that sticks, the force of each that slides. (What a stop gives back counts at an
- * impact only, and is none of these.) Seldom called: kept out of the way. */
-WH_APART void wh_contact_expect_frictions(const wh_hybrid *of, wh_contact_work *w) {
+/* The limit of each friction that sticks, the force of each that slides, what each hold holds. (What a stop gives
+ * back counts at an impact only, and is none of these.) Seldom called: kept out of the way. */
+WH_APART void wh_contact_expect_laws(const wh_hybrid *of, wh_contact_work *w) {
     for (unsigned k = 0; k < of->forced; k++) {
-        const bool sticks = w->mode[k] == WH_STUCK;
-        if (of->contact[k].kind == WH_FRICTION) {
-            wh_contact_expect(w, k, wh_law(of, w, k)[sticks ? WH_LAW_FIRST : WH_LAW_SECOND]);
+        const wh_contact_kind kind = (wh_contact_kind)of->contact[k].kind;
+        const bool slides = kind == WH_FRICTION && w->mode[k] != WH_STUCK;
+        if (kind == WH_FRICTION || (kind == WH_HOLD && w->mode[k] == WH_ACTIVE)) {
+            wh_contact_expect(w, k, wh_law(of, w, k)[slides ? WH_LAW_SECOND : WH_LAW_FIRST]);
         }
     }
 }

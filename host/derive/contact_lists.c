@@ -183,8 +183,11 @@ static contact_row make_row(contact_lists *c, const program *p, const equations 
     row.first_set = c->set_count;
     if (from->kind != HYBRID_WHEN) {
         row.pin = pin_of(p, e, law);
-        row.direction = from->kind == HYBRID_STOP ? input_moves(e, law->value)
-                                                  : from->kind == HYBRID_HOLD && law->straight;
+        const bool moves = input_moves(e, from->kind == HYBRID_HOLD ? law->first : law->value);
+        row.direction = from->kind == HYBRID_STOP                    ? moves
+                        : from->kind == HYBRID_HOLD && law->straight ? 1
+                        : from->kind == HYBRID_HOLD && moves         ? -1
+                                                                     : 0;
         row.first_set = from->kind == HYBRID_HOLD && row.pin < 0 ? c->held++ : 0;
         return row;
     }
