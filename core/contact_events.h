@@ -15,6 +15,7 @@ typedef struct wh_contact_point {
 typedef struct wh_margins {
     wh_real value[WH_CONTACTS_MAX];
     wh_real signal[2 * WH_CONTACTS_MAX];
+    wh_real all; /* sum of all that is looked at: no finite number if one of it is none */
 } wh_margins;
 
 WH_INLINE void wh_contact_copy(const wh_hybrid *of, const wh_angle *angle, const wh_real *real,
@@ -110,12 +111,12 @@ static inline void wh_contact_margins(const wh_hybrid *of, wh_contact_work *w,
                                       const wh_contact_point *at, const wh_real *input,
                                       wh_margins *m) {
     of->signals(of->model, at->phase, at->linear, at->rate, input, m->signal);
-    wh_contact_expect_signals(of, w, m->signal);
     if (wh_contact_watched(of, w)) {
         const wh_contact_model model = {of, w};
         wh_real accel[WH_COORDS];
         wh_contact_accel(&model, at->phase, at->linear, at->rate, input, accel);
     }
+    wh_real all = WH_R(0.0);
     for (unsigned k = 0; k < of->contacts; k++) {
         const wh_real signal = m->signal[2 * k];
         const wh_real speed = m->signal[2 * k + 1];
@@ -128,15 +129,16 @@ static inline void wh_contact_margins(const wh_hybrid *of, wh_contact_work *w,
             } else { /* one that began closed may be on its way out */
                 const bool leaves = (w->inside >> k & 1U) != 0 && speed >= WH_R(0.0);
                 margin = signal < WH_R(0.0) && leaves ? -signal : signal;
-                if (signal == WH_R(0.0) && speed < WH_R(0.0)) { /* touched, and closing */
-                    margin = WH_R(-1e-30);
-                }
             }
             break;
         case WH_HOLD: margin = mode == WH_ACTIVE ? signal : -signal; break;
         case WH_FRICTION:
-            margin = mode == WH_STUCK ? wh_law(of, w, k)[WH_LAW_FIRST] - WH_ABS(w->force[k])
-                                      : (mode > 0 ? signal : -signal) + w->slack[k];
+            if (mode == WH_STUCK) {
+                all += wh_law(of, w, k)[WH_LAW_FIRST];
+                margin = wh_law(of, w, k)[WH_LAW_FIRST] - WH_ABS(w->force[k]);
+            } else {
+                margin = (mode > 0 ? signal : -signal) + w->slack[k];
+            }
             break;
         default: /* a crossing: only in its direction */
             if (mode != 0 && of->contact[k].direction != mode) {
@@ -144,7 +146,34 @@ static inline void wh_contact_margins(const wh_hybrid *of, wh_contact_work *w,
             }
             break;
         }
+        all += signal + speed;
         m->value[k] = margin;
+    }
+    m->all = all;
+}
+
+/* Has no event happened, and is all a finite number? A NaN compares as "not yet" with everything, and its contact
+ * would be as good as gone. */
+WH_INLINE bool wh_contact_calm(const wh_hybrid *of, const wh_margins *m) {
+    bool calm = wh_finite(m->all);
+    for (unsigned k = 0; k < of->contacts; k++) {
+        calm = calm && m->value[k] >= WH_R(0.0);
+    }
+    return calm;
+}
+
+/* Of margins that are not calm, the contact whose signal or limit is no finite number, into work->undefined. */
+WH_APART void wh_contact_find_undefined(const wh_hybrid *of, wh_contact_work *w,
+                                        const wh_margins *m) {
+    for (unsigned k = 0; k < of->contacts; k++) {
+        wh_contact_expect(w, k, m->signal[2 * k]);
+        wh_contact_expect(w, k, m->signal[2 * k + 1]);
+    }
+    if (wh_feels(of, w)) {
+        wh_contact_expect_laws(of, w);
+    }
+    for (unsigned k = 0; k < of->contacts; k++) {
+        wh_contact_expect(w, k, m->value[k]);
     }
 }
 

@@ -61,7 +61,6 @@ static inline void wh_contact_accel(const void *model, const wh_phase *phase, co
     wh_contact_work *w = m->work;
     uint8_t member[WH_CONTACTS_MAX] = {0};
     wh_real amount[WH_CONTACTS_MAX];
-    wh_real limits = WH_R(0.0); /* of what holds or rubs */
     unsigned count = 0;
 
     of->accel(of->model, phase, linear, rate, input, accel);
@@ -74,16 +73,11 @@ static inline void wh_contact_accel(const void *model, const wh_phase *phase, co
         w->force[k] = WH_R(0.0);
         if (wh_constrains(of, w, k)) {
             member[count++] = (uint8_t)k;
-            limits += wh_law(of, w, k)[WH_LAW_FIRST];
         } else if (of->contact[k].kind == WH_FRICTION) {
             const wh_real size = wh_law(of, w, k)[WH_LAW_SECOND];
-            limits += size;
             w->force[k] = w->mode[k] > 0 ? -size : size;
             wh_push(of, w, k, w->force[k], accel);
         }
-    }
-    if (!wh_finite(limits)) {
-        wh_contact_expect_laws(of, w);
     }
     for (unsigned i = 0; i < count; i++) {
         w->wanted[i] = -(wh_law(of, w, member[i])[WH_LAW_BIAS] + wh_along(of, w, member[i], accel));

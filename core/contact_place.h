@@ -147,6 +147,10 @@ static inline bool wh_contact_close(const wh_hybrid *of, wh_contact_work *w,
         const unsigned k = member[i];
         wanted[i] = WH_R(0.0);
         off[i] = wh_contact_off(of, w, k, signal, place->from, s);
+        if (!wh_finite(off[i])) {
+            wh_contact_expect(w, k, off[i]);
+            off[i] = WH_R(0.0);
+        }
         if (off[i] == WH_R(0.0)) {
             continue;
         }
@@ -223,21 +227,12 @@ static inline void wh_contact_still(const wh_hybrid *of, const wh_contact_work *
     }
 }
 
-/* What the integrator let slip on the way from `from`, h long, to `s`: the places of resting stops and holds,
- * then rates along what is held. A pinned coordinate cannot slip. */
-static inline void wh_contact_tidy(const wh_hybrid *of, wh_contact_work *w, wh_real h,
-                                   const wh_real *input, const wh_contact_state *from,
-                                   wh_contact_state *s) {
+static inline void wh_contact_put_back(const wh_hybrid *of, wh_contact_work *w, wh_real h,
+                                       const wh_real *input, const wh_contact_state *from,
+                                       wh_contact_state *s) {
     wh_real accel[WH_COORDS];
     wh_real signal[2 * WH_CONTACTS_MAX];
     wh_contact_place place = {from, h, 0, WH_CONTACTS_MAX};
-    bool slips = false;
-    for (unsigned k = 0; k < of->forced; k++) {
-        slips = slips || (of->contact[k].pin < 0 && wh_constrains(of, w, k));
-    }
-    if (!slips) {
-        return;
-    }
     wh_contact_look(of, w, s, input, accel, signal);
     place.but = wh_contact_breaking(of, w);
     for (unsigned pass = 0; pass < 2 && wh_contact_close(of, w, &place, signal, input, s); pass++) {
@@ -246,9 +241,26 @@ static inline void wh_contact_tidy(const wh_hybrid *of, wh_contact_work *w, wh_r
     wh_contact_still(of, w, place.but, false, wh_contact_rates(of, s));
 }
 
+/* What the integrator let slip on the way from `from`, h long, to `s`: the places of resting stops and holds,
+ * then rates along what is held. A pinned coordinate cannot slip. */
+WH_INLINE void wh_contact_tidy(const wh_hybrid *of, wh_contact_work *w, wh_real h,
+                               const wh_real *input, const wh_contact_state *from,
+                               wh_contact_state *s) {
+    bool slips = false;
+    for (unsigned k = 0; k < of->forced; k++) {
+        slips = slips || (of->contact[k].pin < 0 && wh_constrains(of, w, k));
+    }
+    if (slips) {
+        wh_contact_put_back(of, w, h, input, from, s);
+    }
+}
+
 /* A try from `from` to `to` is taken: what straight holds have slipped in it stays to be put back. */
-static inline void wh_contact_keep(const wh_hybrid *of, wh_contact_work *w,
-                                   const wh_contact_state *from, const wh_contact_state *to) {
+WH_INLINE void wh_contact_keep(const wh_hybrid *of, wh_contact_work *w,
+                               const wh_contact_state *from, const wh_contact_state *to) {
+    if (of->held == 0) {
+        return;
+    }
     for (unsigned k = 0; k < of->forced; k++) {
         if (wh_contact_slips(of, w, k) && of->contact[k].direction > 0) {
             w->held[of->contact[k].first_set] += wh_contact_moved(of, w, k, from, to);

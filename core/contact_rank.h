@@ -57,19 +57,12 @@ static inline void wh_contact_rows_of(const wh_hybrid *of, wh_contact_work *w, w
     }
 }
 
-/* The hold that lost its say between the ends of a try that is taken, or of->contacts. */
-static inline unsigned wh_contact_flat(const wh_hybrid *of, wh_contact_work *w,
-                                       wh_contact_state *from, wh_contact_state *to,
-                                       const wh_real *input) {
+/* Any of these, or of->contacts. */
+static inline unsigned wh_contact_fallen(const wh_hybrid *of, wh_contact_work *w,
+                                         wh_contact_state *from, wh_contact_state *to,
+                                         const wh_real *input) {
     wh_contact_rows before;
     wh_contact_rows after;
-    bool any = false;
-    for (unsigned k = 0; k < of->forced && of->held > 0; k++) {
-        any = any || (wh_contact_slips(of, w, k) && of->contact[k].direction <= 0);
-    }
-    if (!any) {
-        return of->contacts;
-    }
     wh_contact_rows_of(of, w, from, input, &before);
     wh_contact_rows_of(of, w, to, input, &after);
     for (unsigned k = 0; k < of->forced; k++) {
@@ -80,6 +73,16 @@ static inline unsigned wh_contact_flat(const wh_hybrid *of, wh_contact_work *w,
         }
     }
     return of->contacts;
+}
+
+/* The hold that lost its say between the ends of a try that is taken, or of->contacts. */
+WH_INLINE unsigned wh_contact_flat(const wh_hybrid *of, wh_contact_work *w, wh_contact_state *from,
+                                   wh_contact_state *to, const wh_real *input) {
+    bool any = false;
+    for (unsigned k = 0; k < of->forced && of->held > 0; k++) {
+        any = any || (wh_contact_slips(of, w, k) && of->contact[k].direction <= 0);
+    }
+    return any ? wh_contact_fallen(of, w, from, to, input) : of->contacts;
 }
 
 #endif

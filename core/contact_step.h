@@ -6,6 +6,7 @@
 #include "contact_take.h"
 
 WH_INLINE void wh_contact_modes(const wh_hybrid *of, const wh_state *state, wh_contact_work *w) {
+    WH_UNROLL
     for (unsigned k = 0; k < WH_CONTACTS_MAX; k++) {
         w->mode[k] = k < of->contacts ? state->contacts->mode[k] : (int8_t)0;
     }
@@ -26,9 +27,14 @@ WH_INLINE void wh_contact_work_begin(const wh_hybrid *of, const wh_state *state,
                                      wh_contact_state *now) {
     wh_contact_copy(of, state->angle, state->real, state->carry, now);
     wh_contact_modes(of, state, w);
+    WH_UNROLL
     for (unsigned k = 0; k < WH_CONTACTS_MAX; k++) {
-        w->slack[k] = WH_R(0.0);
-        w->held[k] = k < of->held ? state->held[k] : WH_R(0.0);
+        if (k < of->forced && of->contact[k].kind == WH_FRICTION) {
+            w->slack[k] = WH_R(0.0);
+        }
+    }
+    for (unsigned k = 0; k < of->held; k++) {
+        w->held[k] = state->held[k];
     }
     w->inside = 0;
     w->hit_next = 0;
@@ -97,6 +103,25 @@ WH_INLINE unsigned wh_contact_overloads(const wh_hybrid *of, const wh_contact_wo
     return (bits & (bits - 1U)) != 0 ? bits : 0U;
 }
 
+/* A try from `from`, h long, failed: for a friction or a hold that had no number on the way? It is looked for where
+ * the rates lead. */
+WH_APART void wh_contact_blame(const wh_hybrid *of, wh_contact_work *w, wh_real h,
+                               const wh_real *input, wh_contact_state *from) {
+    wh_contact_point at;
+    for (unsigned part = 0; part <= 2; part++) {
+        const wh_real span = WH_R(0.5) * (wh_real)part * h;
+        wh_contact_point_of(of, from, &at);
+        for (unsigned i = 0; i < of->angles; i++) {
+            (void)wh_phase_move(at.phase[i], span * at.rate[i] * WH_PHASE_PER_RAD, &at.phase[i]);
+        }
+        for (unsigned i = of->angles; i < of->coordinates; i++) {
+            at.linear[i - of->angles] += span * at.rate[i];
+        }
+        of->forces(of->model, at.phase, at.linear, at.rate, input, w->law);
+        wh_contact_expect_laws(of, w);
+    }
+}
+
 /* Refuse the step: a contact's expression is no finite number, or component `fault` left all bounds. */
 WH_INLINE wh_status wh_contact_refuse(const wh_contact_work *w, int fault, wh_state *state) {
     state->fault = w->undefined >= 0 ? w->undefined : fault;
@@ -161,9 +186,9 @@ WH_INLINE unsigned wh_contact_next(const wh_hybrid *of, wh_contact_work *w) {
 }
 
 /* A step is done: into the state. */
-static inline void wh_contact_commit(const wh_hybrid *of, const wh_contact_work *w,
-                                     const wh_contact_state *now, const wh_contact_log *log,
-                                     bool overran, wh_state *state) {
+WH_INLINE void wh_contact_commit(const wh_hybrid *of, const wh_contact_work *w,
+                                 const wh_contact_state *now, const wh_contact_log *log,
+                                 bool overran, wh_state *state) {
     const unsigned reals = 2U * of->coordinates - of->angles;
     wh_contacts *memory = state->contacts;
     for (unsigned k = 0; k < of->contacts; k++) {
@@ -190,9 +215,9 @@ static inline void wh_contact_commit(const wh_hybrid *of, const wh_contact_work 
 }
 
 /* A try from `from` to `to` is taken. Returns the hold that lost its say in it, or of->contacts. */
-static inline unsigned wh_contact_accept(const wh_hybrid *of, wh_contact_work *w,
-                                         wh_contact_state *from, wh_contact_state *to,
-                                         const wh_real *input) {
+WH_INLINE unsigned wh_contact_accept(const wh_hybrid *of, wh_contact_work *w,
+                                     wh_contact_state *from, wh_contact_state *to,
+                                     const wh_real *input) {
     wh_books_accept(of, w);
     wh_contact_keep(of, w, from, to);
     return wh_contact_flat(of, w, from, to, input);
@@ -205,6 +230,7 @@ static inline wh_status wh_step_contact(const wh_hybrid *of, wh_real h, wh_state
     wh_contact_work work;
     wh_contact_state now;
     wh_contact_state next;
+    const wh_contact_state *end = &now;
     wh_contact_log log;
     wh_real left = h;
     unsigned round = 0;
@@ -235,14 +261,19 @@ static inline wh_status wh_step_contact(const wh_hybrid *of, wh_real h, wh_state
             wh_margins margins;
             next = now;
             if (!wh_contact_try(of, &work, left, state->input, &next, &fault)) {
+                wh_contact_blame(of, &work, left, state->input, &now);
                 return wh_contact_refuse(&work, fault, state);
             }
             wh_contact_tidy(of, &work, left, state->input, &now, &next);
             wh_contact_margins_end(of, &work, &now, &next, state->input, &margins);
-            if (round == WH_EVENTS_MAX || wh_contact_happened(of, &margins) == 0) {
+            const bool calm = wh_contact_calm(of, &margins);
+            if (!calm && (round == WH_EVENTS_MAX || wh_contact_happened(of, &margins) == 0)) {
+                wh_contact_find_undefined(of, &work, &margins);
+            }
+            if (calm || round == WH_EVENTS_MAX || work.undefined >= 0) {
                 wh_contact_pass(of, &margins, &work);
                 flat = wh_contact_accept(of, &work, &now, &next, state->input);
-                now = next;
+                end = &next;
                 break;
             }
             const wh_real span = left * wh_contact_locate(of, &work, &now, &next, left,
@@ -251,6 +282,7 @@ static inline wh_status wh_step_contact(const wh_hybrid *of, wh_real h, wh_state
             if (span > WH_R(0.0)) {
                 next = now;
                 if (!wh_contact_try(of, &work, span, state->input, &now, &fault)) {
+                    wh_contact_blame(of, &work, span, state->input, &next);
                     return wh_contact_refuse(&work, fault, state);
                 }
                 wh_contact_tidy(of, &work, span, state->input, &next, &now);
@@ -278,7 +310,7 @@ static inline wh_status wh_step_contact(const wh_hybrid *of, wh_real h, wh_state
         wh_ledger_commit(of->ledger, &books, state);
     }
 #endif
-    wh_contact_commit(of, &work, &now, &log, round == WH_EVENTS_MAX, state);
+    wh_contact_commit(of, &work, end, &log, round == WH_EVENTS_MAX, state);
     return WH_OK;
 }
 

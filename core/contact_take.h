@@ -256,7 +256,9 @@ static inline void wh_contact_begin(const wh_hybrid *of, wh_contact_work *w, wh_
     }
     (void)wh_contact_slides(of, w, wh_contact_rates(of, s));
     wh_contact_look(of, w, s, input, accel, signal);
-    wh_contact_expect_signals(of, w, signal);
+    for (unsigned k = 0; k < of->contacts; k++) {
+        wh_contact_expect(w, k, signal[2 * k] + signal[2 * k + 1]);
+    }
     for (unsigned k = 0; k < of->contacts; k++) {
         const wh_real value = signal[2 * k];
         switch (of->contact[k].kind) {

@@ -85,33 +85,13 @@ WH_INLINE void wh_push(const wh_hybrid *of, const wh_contact_work *w, unsigned k
     }
 }
 
-/* What a step builds on must be finite numbers: a NaN compares as "not yet" with everything, and the contact would
- * be as good as gone. Of several, their sum tells at first; which it was is looked up then. */
+/* What a step builds on must be finite numbers. */
 WH_INLINE bool wh_finite(wh_real value) { return value - value == WH_R(0.0); }
 
 /* `value` is of contact k. */
 WH_INLINE void wh_contact_expect(wh_contact_work *w, unsigned k, wh_real value) {
     if (!wh_finite(value) && w->undefined < 0) {
         w->undefined = (int)k;
-    }
-}
-
-WH_APART void wh_contact_find_signal(const wh_hybrid *of, wh_contact_work *w,
-                                     const wh_real *signal) {
-    for (unsigned i = 0; i < 2U * of->contacts; i++) {
-        wh_contact_expect(w, i / 2U, signal[i]);
-    }
-}
-
-/* The signals of all contacts. */
-WH_INLINE void wh_contact_expect_signals(const wh_hybrid *of, wh_contact_work *w,
-                                         const wh_real *signal) {
-    wh_real sum = WH_R(0.0);
-    for (unsigned i = 0; i < 2U * of->contacts; i++) {
-        sum += signal[i];
-    }
-    if (!wh_finite(sum)) {
-        wh_contact_find_signal(of, w, signal);
     }
 }
 
