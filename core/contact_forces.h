@@ -8,9 +8,9 @@
  * another with more than it can take, or where they contradict the others, share the load out: work->force has
  * the shares, those that give way even so beyond their limits by what they would have to take on top. Where
  * they contradict, the accelerations change with that; where they agree, they stay the same to the bit. */
-static inline void wh_contact_redistribute(const wh_hybrid *of, wh_contact_work *w,
-                                           const uint8_t *member, unsigned count, unsigned repeats,
-                                           wh_real *accel) {
+WH_APART void wh_contact_redistribute(const wh_hybrid *of, wh_contact_work *w,
+                                      const uint8_t *member, unsigned count, unsigned repeats,
+                                      wh_real *accel) {
     wh_real amount[WH_CONTACTS_MAX];
     wh_real left[WH_CONTACTS_MAX];
     wh_real way[WH_COORDS] = {WH_R(0.0)};

@@ -34,9 +34,9 @@ WH_INLINE wh_real wh_contact_yield(const wh_hybrid *of, const wh_contact_work *w
  * without pivoting: the matrix is positive definite, but for contacts that repeat what others hold
  * already, which get nothing to do. Returns those, as bits of their places in member[]. Those with at[]
  * other than zero get nothing, too; at may be NULL. */
-static inline unsigned wh_contact_solve(const wh_hybrid *of, const wh_contact_work *w,
-                                        const uint8_t *member, unsigned count, const int8_t *at,
-                                        const wh_real *wanted, wh_real *amount) {
+static inline unsigned wh_contact_eliminate(const wh_hybrid *of, const wh_contact_work *w,
+                                            const uint8_t *member, unsigned count, const int8_t *at,
+                                            const wh_real *wanted, wh_real *amount) {
     wh_real matrix[WH_CONTACTS_MAX][WH_CONTACTS_MAX] = {{WH_R(0.0)}};
     bool idle[WH_CONTACTS_MAX] = {false};
     unsigned repeats = 0;
@@ -69,6 +69,21 @@ static inline unsigned wh_contact_solve(const wh_hybrid *of, const wh_contact_wo
         amount[p] = idle[p] ? WH_R(0.0) : sum / matrix[p][p];
     }
     return repeats;
+}
+
+/* The same, without the machinery where nothing or one thing is held: most steps of most scenes. */
+WH_INLINE unsigned wh_contact_solve(const wh_hybrid *of, const wh_contact_work *w,
+                                    const uint8_t *member, unsigned count, const int8_t *at,
+                                    const wh_real *wanted, wh_real *amount) {
+    if (count == 0) {
+        return 0;
+    }
+    if (count == 1 && at == NULL) {
+        const wh_real yield = wh_contact_yield(of, w, member[0]);
+        amount[0] = yield > WH_R(0.0) ? wanted[0] / yield : WH_R(0.0);
+        return yield > WH_R(0.0) ? 0U : 1U;
+    }
+    return wh_contact_eliminate(of, w, member, count, at, wanted, amount);
 }
 
 /* What of a sum whose terms have the sizes a, b and c may be rounding. */

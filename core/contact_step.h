@@ -143,9 +143,9 @@ WH_INLINE void wh_contact_note(const wh_contact_work *w, unsigned k, wh_real at_
 
 /* All that happens at one moment: `events`, as bits. `last`: no more bounces in this step, of length h, of which
  * at_s is over. */
-static inline void wh_contact_moment(const wh_hybrid *of, wh_contact_work *w, unsigned events,
-                                     bool last, wh_real h, wh_real at_s, const wh_real *input,
-                                     wh_contact_state *now, wh_contact_log *log) {
+WH_APART void wh_contact_moment(const wh_hybrid *of, wh_contact_work *w, unsigned events, bool last,
+                                wh_real h, wh_real at_s, const wh_real *input,
+                                wh_contact_state *now, wh_contact_log *log) {
     const wh_real *rate = wh_contact_rates(of, now);
     const unsigned loads = wh_contact_overloads(of, w, events);
     for (unsigned i = 0; i < of->coordinates; i++) {
@@ -248,15 +248,15 @@ static inline wh_status wh_step_contact(const wh_hybrid *of, wh_real h, wh_state
 #endif
     if (work.mode[0] == WH_UNSET) {
         wh_contact_begin(of, &work, h, state->input, &now);
+        if (work.undefined >= 0) {
+            return wh_contact_refuse(&work, fault, state);
+        }
     } else {
         wh_contact_follow(of, &work, h, state->input, &now);
     }
     while (left > WH_R(0.0) || (work.hit_next != 0 && round < WH_EVENTS_MAX)) {
         unsigned events =
             work.hit_next != 0 && round < WH_EVENTS_MAX ? wh_contact_next(of, &work) : 0;
-        if (work.undefined >= 0) {
-            return wh_contact_refuse(&work, fault, state);
-        }
         if (events == 0 && left > WH_R(0.0)) {
             wh_margins margins;
             next = now;
@@ -296,6 +296,9 @@ static inline wh_status wh_step_contact(const wh_hybrid *of, wh_real h, wh_state
         if (events != 0) {
             const bool last = ++round == WH_EVENTS_MAX;
             wh_contact_moment(of, &work, events, last, h, h - left, state->input, &now, &log);
+            if (work.undefined >= 0) {
+                break;
+            }
         }
     }
     if (flat < of->contacts) {
