@@ -21,9 +21,11 @@ typedef struct wh_margins {
 WH_INLINE void wh_contact_copy(const wh_hybrid *of, const wh_angle *angle, const wh_real *real,
                                const wh_real *carry, wh_contact_state *to) {
     const unsigned reals = 2U * of->coordinates - of->angles;
+    WH_UNROLL
     for (unsigned i = 0; i < of->angles; i++) {
         to->angle[i] = angle[i];
     }
+    WH_UNROLL
     for (unsigned i = 0; i < reals; i++) {
         to->real[i] = real[i];
     }
@@ -51,12 +53,15 @@ static inline bool wh_contact_try(const wh_hybrid *of, wh_contact_work *w, wh_re
 
 WH_INLINE void wh_contact_point_of(const wh_hybrid *of, wh_contact_state *s, wh_contact_point *at) {
     const wh_real *rate = wh_contact_rates(of, s);
+    WH_UNROLL
     for (unsigned i = 0; i < of->angles; i++) {
         at->phase[i] = wh_phase_of(s->angle[i]);
     }
+    WH_UNROLL
     for (unsigned i = of->angles; i < of->coordinates; i++) {
         at->linear[i - of->angles] = s->real[i - of->angles];
     }
+    WH_UNROLL
     for (unsigned i = 0; i < of->coordinates; i++) {
         at->rate[i] = rate[i];
     }
@@ -98,6 +103,7 @@ static inline void wh_contact_between(const wh_hybrid *of, wh_contact_state *fro
 
 /* Does any contact's event depend on its force? */
 WH_INLINE bool wh_contact_watched(const wh_hybrid *of, const wh_contact_work *w) {
+    WH_UNROLL
     for (unsigned k = 0; k < of->forced; k++) {
         if (of->contact[k].kind != WH_HOLD && wh_constrains(of, w, k)) {
             return true;
@@ -117,6 +123,7 @@ static inline void wh_contact_margins(const wh_hybrid *of, wh_contact_work *w,
         wh_contact_accel(&model, at->phase, at->linear, at->rate, input, accel);
     }
     wh_real all = WH_R(0.0);
+    WH_UNROLL
     for (unsigned k = 0; k < of->contacts; k++) {
         const wh_real signal = m->signal[2 * k];
         const wh_real speed = m->signal[2 * k + 1];
@@ -146,7 +153,7 @@ static inline void wh_contact_margins(const wh_hybrid *of, wh_contact_work *w,
             }
             break;
         }
-        all += signal + speed;
+        all += of->contact[k].kind <= WH_HOLD ? signal + speed : signal;
         m->value[k] = margin;
     }
     m->all = all;
@@ -156,6 +163,7 @@ static inline void wh_contact_margins(const wh_hybrid *of, wh_contact_work *w,
  * would be as good as gone. */
 WH_INLINE bool wh_contact_calm(const wh_hybrid *of, const wh_margins *m) {
     bool calm = wh_finite(m->all);
+    WH_UNROLL
     for (unsigned k = 0; k < of->contacts; k++) {
         calm = calm && m->value[k] >= WH_R(0.0);
     }

@@ -14,7 +14,7 @@ WH_APART void wh_contact_redistribute(const wh_hybrid *of, wh_contact_work *w,
     wh_real amount[WH_CONTACTS_MAX];
     wh_real left[WH_CONTACTS_MAX];
     wh_real way[WH_COORDS] = {WH_R(0.0)};
-    int8_t push[WH_CONTACTS_MAX];
+    int8_t push[WH_CONTACTS_MAX] = {0};
     bool exceeds = false;
     bool contradicts = false;
     for (unsigned i = 0; i < count; i++) {
@@ -93,7 +93,7 @@ static inline void wh_contact_accel(const void *model, const wh_phase *phase, co
             accel[pin] = amount[i] - amount[i];
         }
     }
-    if (repeats != 0) {
+    if (repeats != 0 && of->forced > 1) {
         wh_contact_redistribute(of, w, member, count, repeats, accel);
     }
     wh_books_stage(of, w, phase, linear, rate, input);

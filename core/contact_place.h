@@ -247,6 +247,7 @@ WH_INLINE void wh_contact_tidy(const wh_hybrid *of, wh_contact_work *w, wh_real 
                                const wh_real *input, const wh_contact_state *from,
                                wh_contact_state *s) {
     bool slips = false;
+    WH_UNROLL
     for (unsigned k = 0; k < of->forced; k++) {
         slips = slips || (of->contact[k].pin < 0 && wh_constrains(of, w, k));
     }

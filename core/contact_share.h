@@ -202,7 +202,7 @@ static inline unsigned wh_contact_share(const wh_hybrid *of, const wh_contact_wo
                 wh_push(of, w, member[i], amount[i], way);
             }
         }
-        if (forces && repeats != 0) {
+        if (forces && repeats != 0 && of->forced > 1) {
             wh_contact_contradict(of, w, member, count, at, repeats, wanted, way, push);
         }
         unsigned wrong = count;
@@ -233,7 +233,7 @@ static inline unsigned wh_contact_share(const wh_hybrid *of, const wh_contact_wo
                 giving |= 1U << k;
             }
         }
-        for (unsigned i = 0; i < count && wrong == count; i++) {
+        for (unsigned i = 0; i < count && wrong == count && of->forced > 1; i++) {
             if (push[i] != 0) {
                 wrong = wh_contact_yields(of, w, member, count, at, keep, i, push[i], &to);
                 contradicted |= wrong < count ? 1U << wrong : 0U;

@@ -15,6 +15,7 @@ WH_INLINE void wh_contact_modes(const wh_hybrid *of, const wh_state *state, wh_c
 /* Crossings that went against their direction, or left the value they started at, are on the other
  * side without an event. */
 WH_INLINE void wh_contact_pass(const wh_hybrid *of, const wh_margins *m, wh_contact_work *w) {
+    WH_UNROLL
     for (unsigned k = of->forced; k < of->contacts; k++) {
         const wh_real value = m->signal[2 * k];
         if (value != WH_R(0.0) && m->value[k] >= WH_R(0.0)) {
@@ -36,9 +37,11 @@ WH_INLINE void wh_contact_work_begin(const wh_hybrid *of, const wh_state *state,
     for (unsigned k = 0; k < of->held; k++) {
         w->held[k] = state->held[k];
     }
-    w->inside = 0;
-    w->hit_next = 0;
-    w->turned = 0;
+    if (of->forced > 0) { /* crossings alone touch nothing */
+        w->inside = 0;
+        w->hit_next = 0;
+        w->turned = 0;
+    }
     w->moved = 0;
     w->mover = 0;
     w->fault = -1;
@@ -71,6 +74,7 @@ static inline void wh_contact_margins_end(const wh_hybrid *of, wh_contact_work *
     w->inside = ~0U;
     wh_contact_point_of(of, to, &at);
     wh_contact_margins(of, w, &at, input, m);
+    WH_UNROLL
     for (unsigned k = 0; k < of->forced; k++) {
         const bool free = of->contact[k].kind == WH_STOP && w->mode[k] == WH_FREE;
         if (free && m->signal[2 * k] < WH_R(0.0) && m->value[k] > WH_R(0.0)) {
@@ -191,6 +195,7 @@ WH_INLINE void wh_contact_commit(const wh_hybrid *of, const wh_contact_work *w,
                                  bool overran, wh_state *state) {
     const unsigned reals = 2U * of->coordinates - of->angles;
     wh_contacts *memory = state->contacts;
+    WH_UNROLL
     for (unsigned k = 0; k < of->contacts; k++) {
         memory->mode[k] = w->mode[k];
     }
@@ -203,9 +208,11 @@ WH_INLINE void wh_contact_commit(const wh_hybrid *of, const wh_contact_work *w,
     for (unsigned i = 0; i < log->count; i++) {
         memory->log[i] = log->event[i]; // cppcheck-suppress uninitvar ; `count` of them are filled
     }
+    WH_UNROLL
     for (unsigned i = 0; i < of->angles; i++) {
         state->angle[i] = now->angle[i];
     }
+    WH_UNROLL
     for (unsigned i = 0; i < reals; i++) {
         state->real[i] = now->real[i];
     }
@@ -254,9 +261,12 @@ static inline wh_status wh_step_contact(const wh_hybrid *of, wh_real h, wh_state
     } else {
         wh_contact_follow(of, &work, h, state->input, &now);
     }
-    while (left > WH_R(0.0) || (work.hit_next != 0 && round < WH_EVENTS_MAX)) {
-        unsigned events =
-            work.hit_next != 0 && round < WH_EVENTS_MAX ? wh_contact_next(of, &work) : 0;
+    bool more = true;
+    while (more) {
+        unsigned events = 0;
+        if (of->forced > 1 && work.hit_next != 0 && round < WH_EVENTS_MAX) {
+            events = wh_contact_next(of, &work);
+        }
         if (events == 0 && left > WH_R(0.0)) {
             wh_margins margins;
             next = now;
@@ -300,6 +310,7 @@ static inline wh_status wh_step_contact(const wh_hybrid *of, wh_real h, wh_state
                 break;
             }
         }
+        more = left > WH_R(0.0) || (of->forced > 1 && work.hit_next != 0 && round < WH_EVENTS_MAX);
     }
     if (flat < of->contacts) {
         state->fault = (int)flat;

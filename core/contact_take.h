@@ -49,7 +49,7 @@ static inline void wh_contact_stay(const wh_hybrid *of, wh_contact_work *w, unsi
  * are hit at the same moment. `before` and `after` are the signals beside it. */
 WH_INLINE void wh_contact_touched(const wh_hybrid *of, wh_contact_work *w, unsigned k, wh_real h,
                                   const wh_real *before, const wh_real *after) {
-    for (unsigned l = 0; l < of->forced; l++) {
+    for (unsigned l = 0; l < of->forced && of->forced > 1; l++) {
         const wh_real speed = after[2 * l + 1];
         const bool free = of->contact[l].kind == WH_STOP && w->mode[l] == WH_FREE && l != k;
         if (free && speed < WH_R(0.0) && speed < before[2 * l + 1] + before[2 * l + 1] &&

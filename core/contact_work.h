@@ -113,6 +113,7 @@ WH_APART void wh_contact_expect_laws(const wh_hybrid *of, wh_contact_work *w) {
 }
 
 WH_INLINE bool wh_feels(const wh_hybrid *of, const wh_contact_work *w) {
+    WH_UNROLL
     for (unsigned k = 0; k < of->forced; k++) {
         if (of->contact[k].kind == WH_FRICTION || w->mode[k] == WH_ACTIVE) {
             return true;
