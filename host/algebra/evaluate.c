@@ -75,3 +75,21 @@ double poly_magnitude(const poly *p, poly_value *value, void *context) {
     }
     return sum;
 }
+
+bool poly_is_finite(const poly *p) {
+    for (int i = 0; i < p->count; i++) {
+        const mono *m = p->terms[i].mono;
+        if (!isfinite(p->terms[i].coefficient) || (m->angle != NULL && !poly_is_finite(m->angle))) {
+            return false;
+        }
+        for (int k = 0; k < m->count; k++) {
+            const atom *x = m->factors[k].atom;
+            for (int j = 0; j < 2 && x->kind != ATOM_SYMBOL && x->argument[j] != NULL; j++) {
+                if (!poly_is_finite(x->argument[j])) {
+                    return false;
+                }
+            }
+        }
+    }
+    return true;
+}

@@ -64,6 +64,9 @@ bool poly_may_contain(const poly *p, const symbol *sym, int primes) {
 }
 
 double coefficient_sum(double x, double y) {
+    if (!isfinite(x + y)) { /* infinity is not small beside itself */
+        return x + y;
+    }
     return fabs(x + y) <= CANCELLED * fmax(fabs(x), fabs(y)) ? 0.0 : x + y;
 }
 

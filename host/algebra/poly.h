@@ -138,6 +138,8 @@ double poly_evaluate(const poly *p, poly_value *value, void *context);
 /* The sum of the sizes of its terms: what the rounding of poly_evaluate() is a part of. Sines and cosines
  * count as one, as their errors do. */
 double poly_magnitude(const poly *p, poly_value *value, void *context);
+/* Are all numbers in it finite, inside functions too? */
+bool poly_is_finite(const poly *p);
 
 /* The poly of a parsed expression; lets are replaced by what they stand for. */
 const poly *poly_from_expr(algebra *a, const expr *e);

@@ -198,6 +198,41 @@ static contact_row make_row(contact_lists *c, const program *p, const equations 
     return row;
 }
 
+/* Are these expressions free of numbers that are not finite, with the parameters put in? `max` may have swallowed
+ * one: what is asked is each expression as it was written. */
+static bool are_finite(const equations *e, const expr *const *each, int count) {
+    for (int i = 0; i < count; i++) {
+        if (each[i] != NULL &&
+            !poly_is_finite(equations_fold(e, poly_from_expr(e->algebra, each[i])))) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Values put in for the parameters may leave 1/0: a contact would be on no side of anything. */
+static bool have_finite_laws(const equations *e, diags *errors) {
+    static const char hint[] = "look for a division by zero, a root or logarithm of what is below it, "
+                               "or values that are too large";
+    bool finite = true;
+    for (int k = 0; k < e->contacts->count; k++) {
+        const hybrid *h = e->contacts->law[k].from;
+        const expr *const each[] = {h->value,           h->restitution,      h->condition,
+                                    h->static_friction, h->kinetic_friction, h->normal};
+        if (!are_finite(e, each, (int)(sizeof each / sizeof each[0]))) {
+            diag_error(errors, h->at, hint, "there is a number here that is not finite");
+            finite = false;
+        }
+        for (int i = 0; i < h->set_count; i++) {
+            if (!are_finite(e, &h->sets[i].value, 1)) {
+                diag_error(errors, h->sets[i].at, hint, "there is a number here that is not finite");
+                finite = false;
+            }
+        }
+    }
+    return finite;
+}
+
 /* An impulse takes the mass matrix as it is before it, which must be so throughout. */
 static bool have_impulses(const equations *e, diags *errors) {
     for (int k = 0; k < e->contacts->count; k++) {
@@ -221,7 +256,7 @@ contact_lists *contact_lists_make(const program *p, const equations *e, layout *
                    "beside stops, friction, holds or crossings");
         return NULL;
     }
-    if (!have_impulses(e, errors)) {
+    if (!have_impulses(e, errors) || !have_finite_laws(e, errors)) {
         return NULL;
     }
     contact_lists *c = room(1, sizeof *c);
