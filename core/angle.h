@@ -76,7 +76,8 @@ WH_INLINE wh_angle wh_angle_near(wh_angle angle, wh_phase phase) {
     (void)angle;
     return phase;
 #else
-    return angle + (int32_t)(phase - wh_phase_of(angle));
+    const int64_t way = (int32_t)(phase - wh_phase_of(angle));
+    return (wh_angle)((uint64_t)angle + (uint64_t)way); /* wraps like the angle itself */
 #endif
 }
 

@@ -85,7 +85,8 @@ static inline void wh_contact_between(const wh_hybrid *of, wh_contact_state *fro
 #if WH_DOUBLE
             way = to->angle[i] - from->angle[i];
 #else
-            way = (wh_real)(to->angle[i] - from->angle[i]) / WH_PHASE_PER_RAD;
+            way = (wh_real)(int64_t)((uint64_t)to->angle[i] - (uint64_t)from->angle[i]) /
+                  WH_PHASE_PER_RAD;
 #endif
         } else {
             way = to->real[i - of->angles] - from->real[i - of->angles];
@@ -99,6 +100,15 @@ static inline void wh_contact_between(const wh_hybrid *of, wh_contact_state *fro
             at->linear[i - of->angles] = from->real[i - of->angles] + moved;
         }
     }
+}
+
+/* What of the force of a contact may be rounding of the others'. */
+WH_INLINE wh_real wh_contact_quiet(const wh_hybrid *of, const wh_contact_work *w, unsigned k) {
+    wh_real sum = WH_R(0.0);
+    for (unsigned l = 0; l < of->forced && of->forced > 1; l++) {
+        sum += l != k ? WH_ABS(w->force[l]) : WH_R(0.0);
+    }
+    return WH_CONTACT_QUIET * sum;
 }
 
 /* Does any contact's event depend on its force? */
@@ -132,7 +142,7 @@ static inline void wh_contact_margins(const wh_hybrid *of, wh_contact_work *w,
         switch (of->contact[k].kind) {
         case WH_STOP:
             if (mode == WH_ACTIVE) {
-                margin = w->force[k];
+                margin = w->force[k] + wh_contact_quiet(of, w, k);
             } else { /* one that began closed may be on its way out */
                 const bool leaves = (w->inside >> k & 1U) != 0 && speed >= WH_R(0.0);
                 margin = signal < WH_R(0.0) && leaves ? -signal : signal;
@@ -142,7 +152,8 @@ static inline void wh_contact_margins(const wh_hybrid *of, wh_contact_work *w,
         case WH_FRICTION:
             if (mode == WH_STUCK) {
                 all += wh_law(of, w, k)[WH_LAW_FIRST];
-                margin = wh_law(of, w, k)[WH_LAW_FIRST] - WH_ABS(w->force[k]);
+                margin = wh_law(of, w, k)[WH_LAW_FIRST] - WH_ABS(w->force[k]) +
+                         wh_contact_quiet(of, w, k);
             } else {
                 margin = (mode > 0 ? signal : -signal) + w->slack[k];
             }

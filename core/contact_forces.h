@@ -21,13 +21,7 @@ WH_APART void wh_contact_redistribute(const wh_hybrid *of, wh_contact_work *w,
         exceeds = exceeds || wh_contact_exceeds(of, w, member[i], 0, w->force[member[i]]);
         wh_push(of, w, member[i], w->force[member[i]], way);
     }
-    for (unsigned i = 0; i < count; i++) {
-        const wh_real *row = wh_law(of, w, member[i]) + WH_LAW_ROWS;
-        w->rough[i] = WH_ABS(wh_law(of, w, member[i])[WH_LAW_BIAS]);
-        for (unsigned c = 0; c < of->coordinates; c++) {
-            w->rough[i] += WH_ABS(row[c]) * (WH_ABS(accel[c]) + WH_ABS(way[c]));
-        }
-    }
+    wh_contact_sizes(of, w, member, count, accel);
     wh_contact_contradict(of, w, member, count, NULL, repeats, w->wanted, way, push);
     for (unsigned i = 0; i < count; i++) {
         contradicts = contradicts || push[i] != 0;

@@ -53,10 +53,11 @@ static inline wh_real wh_contact_moved(const wh_hybrid *of, const wh_contact_wor
 #if WH_DOUBLE
         wh_contact_add_product(row[i], to->angle[i] - from->angle[i], &turns, &rests[0]);
 #else
-        const int64_t way = to->angle[i] - from->angle[i];
-        const wh_real high = (wh_real)way;
-        wh_contact_add_product(row[i], high, &turns, &rests[0]);
-        rests[0] += row[i] * (wh_real)(way - (int64_t)high);
+        const uint64_t turned = (uint64_t)to->angle[i] - (uint64_t)from->angle[i];
+        const int32_t way =
+            (int32_t)(uint32_t)turned; /* less than half a turn: in two exact parts */
+        wh_contact_add_product(row[i], (wh_real)(way >> 8) * WH_R(256.0), &turns, &rests[0]);
+        rests[0] += row[i] * (wh_real)(way & 255);
 #endif
     }
     for (unsigned i = of->angles; i < of->coordinates; i++) {

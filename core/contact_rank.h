@@ -17,6 +17,7 @@ typedef struct wh_contact_rows {
     wh_real row[WH_CONTACTS_MAX][WH_COORDS];
     wh_real way[WH_CONTACTS_MAX][WH_COORDS];
     wh_real size[WH_CONTACTS_MAX]; /* row times way; 0: nothing is left, or it holds nothing */
+    unsigned holds;                /* that hold */
 } wh_contact_rows;
 
 WH_INLINE wh_real wh_contact_dot(const wh_hybrid *of, const wh_real *a, const wh_real *b) {
@@ -32,11 +33,13 @@ static inline void wh_contact_rows_of(const wh_hybrid *of, wh_contact_work *w, w
     wh_contact_point at;
     wh_contact_point_of(of, s, &at);
     of->forces(of->model, at.phase, at.linear, at.rate, input, w->law);
+    rows->holds = 0;
     for (unsigned k = 0; k < of->forced; k++) {
         rows->size[k] = WH_R(0.0);
         if (of->contact[k].kind != WH_HOLD || w->mode[k] != WH_ACTIVE) {
             continue;
         }
+        rows->holds++;
         for (unsigned i = 0; i < of->coordinates; i++) {
             rows->row[k][i] = wh_law(of, w, k)[WH_LAW_ROWS + i];
             rows->way[k][i] = wh_law(of, w, k)[WH_LAW_ROWS + of->coordinates + i];
@@ -66,9 +69,12 @@ static inline unsigned wh_contact_fallen(const wh_hybrid *of, wh_contact_work *w
     wh_contact_rows_of(of, w, from, input, &before);
     wh_contact_rows_of(of, w, to, input, &after);
     for (unsigned k = 0; k < of->forced; k++) {
-        if (before.size[k] > WH_R(0.0) &&
-            (!(after.size[k] > WH_R(0.0)) ||
-             wh_contact_dot(of, before.row[k], after.way[k]) < WH_R(0.0))) {
+        const wh_real along = wh_contact_dot(of, before.row[k], after.way[k]);
+        const wh_real against = along < WH_R(0.0) ? along * along : WH_R(0.0);
+        /* one hold alone must point right back: a row that has only turned far is too coarse a step's */
+        const wh_real least = before.holds > 1 ? WH_R(0.0) : WH_R(0.9);
+        const bool passed = against > least * before.size[k] * after.size[k];
+        if (before.size[k] > WH_R(0.0) && (passed || !(after.size[k] > WH_R(0.0)))) {
             return k;
         }
     }

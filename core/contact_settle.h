@@ -64,9 +64,14 @@ WH_INLINE unsigned wh_contact_first(const wh_hybrid *of, const wh_contact_work *
     return stops != 0 || giving == 0 ? stops : 1U << most;
 }
 
+/* A rate that friction takes away in this share of the step is none: whether it sticks is for the forces to say. */
+#define WH_CONTACT_STILL (WH_DOUBLE ? WH_R(1e-9) : WH_R(1e-4))
+
 /* Which way friction slides, as its rate says; where the location left it on the side that it comes from, as was
- * found there. What has just come to zero stays as it is: the forces have the word. */
-WH_INLINE unsigned wh_contact_slides(const wh_hybrid *of, wh_contact_work *w, const wh_real *rate) {
+ * found there. What has just come to zero, or is left there by the rounding of what others did, waits for the
+ * forces' word. `h`: the step; work->law must belong to this position, but for h = 0. */
+WH_INLINE unsigned wh_contact_slides(const wh_hybrid *of, wh_contact_work *w, wh_real h,
+                                     const wh_real *rate) {
     unsigned frictions = 0;
     for (unsigned k = 0; k < of->forced; k++) {
         if (of->contact[k].kind != WH_FRICTION) {
@@ -76,7 +81,16 @@ WH_INLINE unsigned wh_contact_slides(const wh_hybrid *of, wh_contact_work *w, co
         const wh_real v = rate[of->contact[k].pin];
         const wh_real forward = w->mode[k] > 0 ? v : -v;
         const bool left = w->slack[k] > WH_R(0.0) && forward + w->slack[k] >= WH_R(0.0);
-        if (v != WH_R(0.0) && (w->turned >> k & 1U) == 0 && !left) {
+        if (v == WH_R(0.0) || (w->turned >> k & 1U) != 0) {
+            continue;
+        }
+        const wh_real none = h > WH_R(0.0) ? WH_CONTACT_STILL * h * wh_law(of, w, k)[WH_LAW_FIRST] *
+                                                 wh_contact_yield(of, w, k)
+                                           : WH_R(0.0);
+        if (WH_ABS(v) <= none) {
+            w->mode[k] = WH_STUCK;
+            w->turned |= 1U << k;
+        } else if (!left) {
             w->mode[k] = v > WH_R(0.0) ? 1 : -1;
             w->slack[k] = WH_R(0.0);
         }
@@ -107,15 +121,15 @@ WH_INLINE void wh_contact_stick(const wh_hybrid *of, wh_contact_work *w, wh_real
 /* Bring the modes to agree with the state: which way friction slides, which resting stops would have to
  * pull, which stuck coordinates (but those in `keep`, as bits) break loose. What breaks loose pushes less
  * than before, so others may follow: each round lets at least one go. */
-static inline void wh_contact_settle(const wh_hybrid *of, wh_contact_work *w, unsigned keep,
-                                     const wh_real *input, wh_contact_state *s) {
+static inline void wh_contact_settle(const wh_hybrid *of, wh_contact_work *w, wh_real h,
+                                     unsigned keep, const wh_real *input, wh_contact_state *s) {
     wh_real accel[WH_COORDS];
     wh_real signal[2 * WH_CONTACTS_MAX];
     wh_real *rate = wh_contact_rates(of, s);
     if (w->moved != 0) {
         wh_contact_revise(of, w, input, s);
     }
-    keep &= wh_contact_slides(of, w, rate);
+    keep &= wh_contact_slides(of, w, h, rate);
     bool again = true;
     while (again && wh_contact_watched(of, w)) {
         uint8_t member[WH_CONTACTS_MAX] = {0};
@@ -126,6 +140,9 @@ static inline void wh_contact_settle(const wh_hybrid *of, wh_contact_work *w, un
         const unsigned count = wh_contact_members(of, w, 0, member);
         for (unsigned i = 0; i < count; i++) {
             again = again || wh_contact_exceeds(of, w, member[i], keep, w->force[member[i]]);
+        }
+        if (again) {
+            wh_contact_sizes(of, w, member, count, accel);
         }
         const unsigned giving =
             again ? wh_contact_share(of, w, member, count, w->wanted, keep, true, amount, left) : 0;

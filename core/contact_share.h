@@ -22,6 +22,14 @@
 /* What counts as rounding beside the terms of a sum. */
 #define WH_CONTACT_ROUNDING (WH_DOUBLE ? WH_R(1e-11) : WH_R(1e-5))
 
+/* Forces and accelerations below this share of what they are the difference of are none: what rests beside others
+ * with nothing that presses it would be let go and hit again for ever, by rounding. */
+#define WH_CONTACT_QUIET (WH_DOUBLE ? WH_R(1e-13) : WH_R(2e-6))
+
+/* A path that bends by less than this share of the accelerations there are is followed by nobody: what is left of a
+ * rate that has come to zero, squared. */
+#define WH_CONTACT_CREEP (WH_DOUBLE ? WH_R(1e-22) : WH_R(1e-12))
+
 /* By what share of its limit a force that is beyond it by less than its rounding is put beyond it. */
 #define WH_CONTACT_SHOWS WH_R(0.001)
 
@@ -119,7 +127,8 @@ static inline void wh_contact_contradict(const wh_hybrid *of, const wh_contact_w
             const wh_real missing_bend = bend[i] - made_bent;
             const bool plain = WH_ABS(missing) > wh_contact_rounding(w->rough[i], made, WH_R(0.0));
             const bool bends =
-                WH_ABS(missing_bend) > wh_contact_rounding(bend[i], made_bent, WH_R(0.0));
+                WH_ABS(missing_bend) > wh_contact_rounding(bend[i], made_bent, WH_R(0.0)) &&
+                WH_ABS(missing_bend) > WH_CONTACT_CREEP * w->rough[i];
             const wh_real short_of = plain ? missing : bends ? missing_bend : WH_R(0.0);
             push[i] = (int8_t)((short_of > WH_R(0.0)) - (short_of < WH_R(0.0)));
         }
@@ -143,6 +152,35 @@ WH_INLINE wh_real wh_contact_low(const wh_hybrid *of, const wh_contact_work *w, 
 WH_INLINE bool wh_contact_exceeds(const wh_hybrid *of, const wh_contact_work *w, unsigned k,
                                   unsigned keep, wh_real amount) {
     return amount < wh_contact_low(of, w, k, keep) || amount > wh_contact_high(of, w, k, keep);
+}
+
+/* Beside what sizes the accelerations along each member's row are rounding, into work->rough: its own terms, and what
+ * the rounding of the others' forces makes of it. accel[] is what all forces together leave. */
+static inline void wh_contact_sizes(const wh_hybrid *of, wh_contact_work *w, const uint8_t *member,
+                                    unsigned count, const wh_real *accel) {
+    wh_real own[WH_CONTACTS_MAX];
+    for (unsigned i = 0; i < count; i++) {
+        const wh_real *row = wh_law(of, w, member[i]) + WH_LAW_ROWS;
+        own[i] = WH_ABS(wh_law(of, w, member[i])[WH_LAW_BIAS]);
+        for (unsigned c = 0; c < of->coordinates; c++) {
+            wh_real size = WH_ABS(accel[c]);
+            for (unsigned l = 0; l < of->forced; l++) {
+                const wh_real *way = wh_law(of, w, l) + WH_LAW_ROWS + of->coordinates;
+                size += WH_ABS(way[c] * w->force[l]);
+            }
+            own[i] += WH_ABS(row[c]) * size;
+        }
+    }
+    for (unsigned i = 0; i < count; i++) {
+        w->rough[i] = own[i];
+        for (unsigned l = 0; l < count; l++) {
+            const wh_real yield = wh_contact_yield(of, w, member[l]);
+            const wh_real *way = wh_law(of, w, member[l]) + WH_LAW_ROWS + of->coordinates;
+            if (l != i && yield > WH_R(0.0)) {
+                w->rough[i] += WH_ABS(wh_along(of, w, member[i], way)) * (own[l] / yield);
+            }
+        }
+    }
 }
 
 /* Which contact gives way to `i`, that repeats what others hold and is to push the way `push`? Friction does so
@@ -220,7 +258,8 @@ static inline unsigned wh_contact_share(const wh_hybrid *of, const wh_contact_wo
             }
             const wh_real made = wh_along(of, w, k, way);
             const wh_real rounding =
-                wh_contact_rounding(wanted[i], made, amount[i] * wh_contact_yield(of, w, k));
+                wh_contact_rounding(wanted[i], made, amount[i] * wh_contact_yield(of, w, k)) +
+                (forces ? WH_CONTACT_QUIET * w->rough[i] : WH_R(0.0));
             left[i] = made - wanted[i];
             const wh_real outwards = at[i] < 0 ? left[i] : -left[i];
             if (outwards < -rounding) {

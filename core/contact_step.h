@@ -161,7 +161,7 @@ WH_APART void wh_contact_moment(const wh_hybrid *of, wh_contact_work *w, unsigne
             wh_contact_note(w, k, at_s, impulse, log);
         }
     }
-    wh_contact_settle(of, w, last ? events : 0, input, now);
+    wh_contact_settle(of, w, h, last ? events : 0, input, now);
     unsigned given = 0;
     for (unsigned k = 0; k < of->forced; k++) {
         given |= (loads >> k & 1U) != 0 && !wh_constrains(of, w, k) ? 1U << k : 0U;

@@ -242,7 +242,7 @@ static inline void wh_contact_follow(const wh_hybrid *of, wh_contact_work *w, wh
     const wh_contact_place place = {NULL, WH_R(0.0), 0, moved};
     (void)wh_contact_close(of, w, &place, signal, input, s);
     if (falls) {
-        wh_contact_settle(of, w, 0, input, s);
+        wh_contact_settle(of, w, h, 0, input, s);
     }
 }
 
@@ -254,7 +254,7 @@ static inline void wh_contact_begin(const wh_hybrid *of, wh_contact_work *w, wh_
     for (unsigned k = 0; k < of->contacts; k++) {
         w->mode[k] = 0; /* free, stuck, on no side */
     }
-    (void)wh_contact_slides(of, w, wh_contact_rates(of, s));
+    (void)wh_contact_slides(of, w, WH_R(0.0), wh_contact_rates(of, s));
     wh_contact_look(of, w, s, input, accel, signal);
     for (unsigned k = 0; k < of->contacts; k++) {
         wh_contact_expect(w, k, signal[2 * k] + signal[2 * k + 1]);
@@ -276,7 +276,7 @@ static inline void wh_contact_begin(const wh_hybrid *of, wh_contact_work *w, wh_
         default: w->mode[k] = (int8_t)((value > WH_R(0.0)) - (value < WH_R(0.0))); break;
         }
     }
-    wh_contact_settle(of, w, 0, input, s);
+    wh_contact_settle(of, w, h, 0, input, s);
 }
 
 #endif

@@ -115,9 +115,14 @@ static wh_real rounded(uint64_t part, uint64_t of) {
 wh_time wh_scene_time(const wh_scene *scene, const wh_state *state) {
     const wh_fraction step = scene->step;
     wh_time time = {0, wh_scene_time_s(scene, state)};
-    if (step.denominator == 0) {
-        time.whole_s = (uint64_t)time.fraction_s;
-        time.fraction_s -= (wh_real)time.whole_s;
+    if (step.denominator ==
+        0) { /* in two parts: 64-bit conversions are double arithmetic on small cores */
+        const wh_real high = time.fraction_s * WH_R(0x1p-24);
+        const uint32_t upper = high < WH_R(0x1p32) ? (uint32_t)high : UINT32_MAX;
+        time.fraction_s -= (wh_real)upper * WH_R(0x1p24);
+        const uint32_t lower = (uint32_t)time.fraction_s;
+        time.fraction_s -= (wh_real)lower;
+        time.whole_s = ((uint64_t)upper << 24) + lower;
         return time;
     }
     /* steps * numerator / denominator, bit by bit: their product may have 128 bits */

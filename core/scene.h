@@ -150,7 +150,7 @@ wh_time wh_scene_time(const wh_scene *scene, const wh_state *state);
  * in float: a millisecond at 4.7 h). What the outputs of generated scenes compute with. */
 wh_real wh_scene_time_s(const wh_scene *scene, const wh_state *state);
 
-/* Hash of step count, angles, reals and the contacts' modes: equal runs on any two machines give equal hashes. */
+/* Hash of step count, angles, reals, what holds keep and the contacts' modes: equal runs on any two machines give equal hashes. */
 uint64_t wh_scene_hash(const wh_scene *scene, const wh_state *state);
 
 /* Where the rates of a second-order scene begin in state->real. */

@@ -5,9 +5,9 @@
 #include <string.h>
 
 #include "derived.h"
-#include "motion.h"
 #include "host/derive/contact_lists.h"
 #include "host/run/engine.h"
+#include "motion.h"
 #include "parsed.h"
 #include "unity.h"
 
