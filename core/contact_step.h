@@ -261,6 +261,7 @@ static inline wh_status wh_step_contact(const wh_hybrid *of, wh_real h, wh_state
     } else {
         wh_contact_follow(of, &work, h, state->input, &now);
     }
+    bool sound = false; /* ended calmly, with all that was looked at a number */
     bool more = true;
     while (more) {
         unsigned events = 0;
@@ -276,11 +277,15 @@ static inline wh_status wh_step_contact(const wh_hybrid *of, wh_real h, wh_state
             }
             wh_contact_tidy(of, &work, left, state->input, &now, &next);
             wh_contact_margins_end(of, &work, &now, &next, state->input, &margins);
-            const bool calm = wh_contact_calm(of, &margins);
-            if (!calm && (round == WH_EVENTS_MAX || wh_contact_happened(of, &margins) == 0)) {
-                wh_contact_find_undefined(of, &work, &margins);
+            if (wh_contact_calm(of, &margins) && (of->held == 0 || work.undefined < 0)) {
+                wh_contact_pass(of, &margins, &work);
+                flat = wh_contact_accept(of, &work, &now, &next, state->input);
+                end = &next;
+                sound = true;
+                break;
             }
-            if (calm || round == WH_EVENTS_MAX || work.undefined >= 0) {
+            if (round == WH_EVENTS_MAX || wh_contact_happened(of, &margins) == 0) {
+                wh_contact_find_undefined(of, &work, &margins);
                 wh_contact_pass(of, &margins, &work);
                 flat = wh_contact_accept(of, &work, &now, &next, state->input);
                 end = &next;
@@ -306,7 +311,7 @@ static inline wh_status wh_step_contact(const wh_hybrid *of, wh_real h, wh_state
         if (events != 0) {
             const bool last = ++round == WH_EVENTS_MAX;
             wh_contact_moment(of, &work, events, last, h, h - left, state->input, &now, &log);
-            if (work.undefined >= 0) {
+            if (work.undefined >= 0 || work.fault >= 0) {
                 break;
             }
         }
@@ -316,7 +321,7 @@ static inline wh_status wh_step_contact(const wh_hybrid *of, wh_real h, wh_state
         state->fault = (int)flat;
         return WH_E_SINGULAR;
     }
-    if (work.fault >= 0 || work.undefined >= 0) {
+    if (!sound && (work.fault >= 0 || work.undefined >= 0)) {
         return wh_contact_refuse(&work, work.fault, state);
     }
 #if WH_LEDGER
