@@ -223,6 +223,7 @@ int load(loaded *made, source_model *s, const mechanism *of, const scene *in,
     if (made->program != NULL && changes != NULL) {
         say_bare(of, OVERRIDE_SET, changes->sets, changes->set_count);
         say_bare(of, OVERRIDE_START, changes->starts, changes->start_count);
+        say_bare(of, OVERRIDE_EITHER, changes->values, changes->value_count);
     }
     return made->program == NULL ? EXIT_BAD_INPUT : EXIT_DONE;
 }

@@ -22,7 +22,7 @@ static const char usage[] =
     "at rest at zero; of a FILE with one scene, that is run.\n"
     "\n"
     "  --set NAME=EXPR      a parameter or an input; a bare number is SI, whatever unit is declared\n"
-    "                       (repeatable)\n"
+    "                       (repeatable, each name once)\n"
     "  --start NAME=EXPR    a coordinate or a rate: --start \"theta'=330 [rpm]\" (repeatable)\n"
     "  --with E,...         effects to add; 'ledger': books of energy and momentum\n"
     "  --without E,...      effects to leave out\n"

@@ -103,13 +103,29 @@ static bool takes_part(const instance *made, override_kind kind, const assignmen
     return false;
 }
 
+/* Given twice, one of the two would change nothing. */
+static bool is_first(const assignment *before, int count, const assignment *change, diags *all) {
+    for (int i = 0; i < count; i++) {
+        if (before[i].symbol == change->symbol && before[i].primes == change->primes) {
+            diag_error(all, change->at, "once is enough: leave one of them out",
+                       "'%s%.*s' is given twice on the command line", change->symbol->name,
+                       change->primes, "'''''''''");
+            return false;
+        }
+    }
+    return true;
+}
+
 static void apply_texts(plan *into, instance *made, override_kind kind, const char *const *texts,
                         int count) {
+    assignment *taken = arena_alloc(made->arena, ((size_t)count + 1) * sizeof *taken);
+    int taken_count = 0;
     for (int i = 0; i < count; i++) {
         assignment change;
         diags *all = into->values.diags;
         if (override_parse(made->mechanism, kind, texts[i], made->arena, all, &change) &&
-            takes_part(made, kind, &change, all)) {
+            takes_part(made, kind, &change, all) && is_first(taken, taken_count, &change, all)) {
+            taken[taken_count++] = change;
             apply(into, &change);
         }
     }

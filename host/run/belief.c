@@ -8,7 +8,7 @@
 #include "host/derive/contact_lists.h"
 #include "host/derive/ledger.h"
 
-/* Roundings of the whole state that a run of one step may be off by. Of N steps it is so many times the root of N:
+/* Roundings of a whole step that a run of one step may be off by. Of N steps it is so many times the root of N:
  * that is also N of the same sign, as a rate that grows evenly has, for runs of a thousand steps. */
 #define ROUNDINGS 32.0
 
@@ -49,7 +49,7 @@ static double kept_entries(const program *p, const engine_kind *kind, const void
 
 /* The books beside the run see no force of a contact, and across an impact no rule of theirs holds: with contacts
  * the entries are the run's own. The levels are always those of the books, which have them in double. */
-belief belief_of(const books *b, const engine_kind *kind, const void *run) {
+belief belief_of(books *b, const engine_kind *kind, const void *run) {
     belief made = {.jump_s = -1.0};
     if (b == NULL || (b->program->contacts != NULL && b->program->ledger == NULL)) {
         return made;
@@ -66,7 +66,9 @@ belief belief_of(const books *b, const engine_kind *kind, const void *run) {
     made.largest_J = larger(made.largest_J, b->kinetic_J[1] - b->kinetic_J[0]);
     made.largest_J = larger(made.largest_J, b->stored_J[1] - b->stored_J[0]);
     made.largest_J = larger(made.largest_J, books_swing_J(b));
-    made.rounding_J = ROUNDINGS * sqrt((double)b->entries) * books_rounding_J(b, kind);
+    double computing_J;
+    const double step_J = books_rounding_J(b, kind, &computing_J);
+    made.rounding_J = ROUNDINGS * sqrt((double)b->entries) * step_J + 2.0 * computing_J;
     made.rounded = made.rounding_J / BELIEF_LIMIT > made.largest_J;
     made.largest_J = fmax(made.largest_J, made.rounding_J / BELIEF_LIMIT);
     made.known = isfinite(made.left_J);

@@ -13,8 +13,10 @@
  *
  * All of them are changes: neither a constant in V nor a heavy clock that turns evenly counts. They are means over
  * time where they are no sums, so that the moment at which a singular position is passed does not set the measure.
- * What the rounding of the state to the run's numbers explains (below) is no fault of the step: an entry counts as
- * at least 1/BELIEF_LIMIT times that. With nothing left over, the ratio is 0. */
+ * What rounding explains (below) is no fault of the step: an entry counts as at least 1/BELIEF_LIMIT times that.
+ * It is the rounding of the state and of the accelerations to the run's numbers at each step, and that of the
+ * energy's own computation at the start and at the end: of the terms in which it is computed, which are large where
+ * a sum such as V = k (x - b)^2/2 is multiplied out and x is far from the origin. With nothing left over, the ratio is 0. */
 #ifndef RUN_BELIEF_H
 #define RUN_BELIEF_H
 
@@ -34,14 +36,14 @@ typedef struct belief {
     double largest_J; /* the largest entry, or what rounding makes of it */
     bool rounded;     /* it is rounding that sets it */
     double
-        rounding_J; /* what rounding explains of it: of the state by one unit, by the root of the steps */
+        rounding_J; /* what rounding explains of it: of a step, by the root of the steps, and of the energy itself */
     double contacts_J; /* what contacts took, in all; positive: a loss */
     double ratio;      /* |left| / largest, >= 0; infinite with something left over of nothing */
     uint64_t overruns; /* steps with more moments with events than a step takes */
     double jump_s;     /* where the balance was lost at one go; below 0: nowhere */
 } belief;
 
-belief belief_of(const books *b, const engine_kind *kind, const void *run);
+belief belief_of(books *b, const engine_kind *kind, const void *run);
 /* Is it beyond the limit? What is not known is not. */
 bool belief_lost(const belief *b, double limit);
 /* The line of the summary; nothing when it is not known. */

@@ -14,7 +14,7 @@ books *books_open_of(const program *p, const equations *e, const instance *inst)
         return NULL;
     }
     books *b = calloc(1, sizeof *b);
-    const size_t count = (size_t)p->books->results + 4 * (size_t)p->count + (size_t)p->inputs;
+    const size_t count = 2 * (size_t)p->books->results + 4 * (size_t)p->count + (size_t)p->inputs;
     double *numbers = calloc(count, sizeof *numbers);
     if (b == NULL || numbers == NULL) {
         abort();
@@ -23,7 +23,8 @@ books *books_open_of(const program *p, const equations *e, const instance *inst)
     b->equations = e;
     b->evaluator = evaluator_new(p->books);
     b->value = numbers;
-    b->momentum = numbers + p->books->results;
+    b->off = numbers + p->books->results;
+    b->momentum = b->off + p->books->results;
     b->drift = b->momentum + p->count;
     b->momentum_now = b->drift + p->count;
     b->momentum_2 = b->momentum_now + p->count;
@@ -83,17 +84,21 @@ static void evaluate_now(const books *b, const double *angle_rad, const double *
                   b->input, b->value);
 }
 
+/* Of the values; of what each is off, how far that is off. */
 static double energy_of(const program *p, const double *value) {
     const double *entry = value + p->count;
     return p->integral != NULL ? entry[BOOK_MOMENTA + p->count]
                                : entry[BOOK_KINETIC] + entry[BOOK_STORED];
 }
 
+static double unit_rounding(const engine_kind *kind) {
+    return kind == &engine_float ? 0x1p-24 : 0x1p-53;
+}
+
 /* By how much the energy changes when each component of the state is rounded once. */
-static double rounding_now(const books *b, const engine_kind *kind) {
+static double state_rounding_J(const books *b, const engine_kind *kind) {
     const program *p = b->program;
     const bool is_float = kind == &engine_float;
-    const double share = is_float ? 0x1p-24 : 0x1p-53;
     double angle_rad[PROGRAM_COMPONENTS_MAX];
     double real[2 * PROGRAM_COMPONENTS_MAX];
     double sum = 0.0;
@@ -103,7 +108,8 @@ static double rounding_now(const books *b, const engine_kind *kind) {
         double *at = i < p->angles ? &angle_rad[i] : &real[i - p->angles];
         const double kept = *at;
         const bool turns = is_float && i < p->angles;
-        const double rounding = turns ? 0x1p-33 * 6.283185307179586 : share * fabs(kept);
+        const double rounding =
+            turns ? 0x1p-33 * 6.283185307179586 : unit_rounding(kind) * fabs(kept);
         const double change = turns ? SLOPE_SHARE : SLOPE_SHARE * kept;
         const component c = i < p->angles ? p->angle[i] : p->real[i - p->angles];
         /* a rate that nothing ever changed, as a clock's, was never rounded */
@@ -119,8 +125,37 @@ static double rounding_now(const books *b, const engine_kind *kind) {
     return isfinite(sum) ? sum : 0.0;
 }
 
-double books_rounding_J(const books *b, const engine_kind *kind) {
-    return fmax(b->rounding_J, rounding_now(b, kind)) + 0x1p-52 * b->size_J;
+/* By how much a step changes the energy that its accelerations are rounded, and the work of a step that the powers
+ * are: small differences of large terms, as of forces that balance, are off by parts of these. */
+static double step_rounding_J(const books *b, const engine_kind *kind) {
+    const program *p = b->program;
+    const double *entry = b->value + p->count;
+    double sum_W = 0.0;
+    for (int i = 0; i < p->count; i++) {
+        const double power_W = entry[BOOK_MOMENTA + i] * b->off[i];
+        sum_W += isfinite(power_W) ? unit_rounding(kind) * fabs(power_W) : 0.0;
+    }
+    for (int k = BOOK_INPUT_POWER; k <= BOOK_LOSS_POWER; k++) {
+        const double off_W = b->off[p->count + k];
+        sum_W += isfinite(off_W) ? 0x1p-53 * off_W : 0.0;
+    }
+    return sum_W * b->step_s;
+}
+
+/* Look at the present state. */
+static void look_at_rounding(books *b, const engine_kind *kind) {
+    const double state_J = state_rounding_J(b, kind);
+    evaluate_now(b, b->angle_rad, b->real, b->time_s);
+    evaluator_rounding(b->evaluator, b->angle_rad, b->off);
+    const double off_J = energy_of(b->program, b->off);
+    b->rounding_J = fmax(b->rounding_J, state_J + step_rounding_J(b, kind));
+    b->computing_J = fmax(b->computing_J, isfinite(off_J) ? 0x1p-53 * off_J : 0.0);
+}
+
+double books_rounding_J(books *b, const engine_kind *kind, double *computing_J) {
+    look_at_rounding(b, kind);
+    *computing_J = b->computing_J;
+    return b->rounding_J + 0x1p-52 * b->size_J;
 }
 
 /* --- the balance -------------------------------------------------------------------------------*/
@@ -187,8 +222,9 @@ void books_enter(books *b, const engine_kind *kind, const void *run) {
         b->undefined = true;
         b->undefined_s = b->time_s;
     }
-    if ((b->entries & (b->entries - 1)) == 0 && b->entries % 3 == 1) { /* 1, 4, 16, ...: seldom */
-        b->rounding_J = fmax(b->rounding_J, rounding_now(b, kind));
+    if (b->entries == 0 || ((b->entries & (b->entries - 1)) == 0 && b->entries % 3 == 1)) {
+        /* the start, 1, 4, 16, ...: seldom */
+        look_at_rounding(b, kind);
     }
     b->entries++;
     if (b->entries % 2 == 1) { /* Simpson's rule is complete */

@@ -38,9 +38,12 @@ typedef struct books {
     spread stored;
     spread *rate;       /* [count] */
     double *momentum_2; /* [count] sum of squares */
+    double *off;        /* how far off each of value[] may be, in units of rounding */
     double size_J;      /* largest |T| + |V| */
     double
-        rounding_J; /* what rounding the state once changes the energy by, at most of those looked at */
+        rounding_J; /* what rounding a step once changes the energy by, at most of those looked at */
+    double
+        computing_J; /* what rounding may leave of the energy's computation, at most of those looked at */
     double kept_J;      /* error at the last even step */
     double jump_J;      /* its largest change between two even steps, */
     double jump_s;      /* which ended here */
@@ -60,9 +63,10 @@ void books_close(books *b);
 void books_enter(books *b, const engine_kind *kind, const void *run);
 /* energy - start - work + losses: zero for an exact solution. */
 double books_error_J(const books *b);
-/* How far energy went to and fro, and what rounding the state to numbers of this kind once changes the energy
- * by: see belief.h. */
+/* How far energy went to and fro: see belief.h. */
 double books_swing_J(const books *b);
-double books_rounding_J(const books *b, const engine_kind *kind);
+/* What a step's roundings to numbers of this kind change the energy by: of the state, of the accelerations and of the
+ * powers that the books add up. *computing_J: what those of the energy itself, in double, leave at one time. */
+double books_rounding_J(books *b, const engine_kind *kind, double *computing_J);
 
 #endif

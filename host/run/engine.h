@@ -50,6 +50,9 @@ void evaluator_free(evaluator *ev);
 void evaluator_wrap(evaluator *ev);
 void evaluator_run(evaluator *ev, double time_s, const double *angle_rad, const double *linear,
                    const double *rate, const double *input, double *result);
+/* How far off the results of the evaluator_run() just done, with the same angles, may be for the rounding of the list's
+ * operations: error[results], in units of the numbers' rounding (rounding.h). */
+void evaluator_rounding(const evaluator *ev, const double *angle_rad, double *error);
 
 /* Phase constant of the float build: radians to 2^32 a turn, wrapped and rounded to the nearest. */
 uint32_t engine_phase_of_constant(double rad);

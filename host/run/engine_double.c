@@ -1,6 +1,7 @@
 /* engine_double.c: the interpreter in the reference arithmetic. */
 #define WH_DOUBLE 1
 #include "engine.inc"
+#include "rounding.h"
 
 struct evaluator {
     const tape *tape;
@@ -23,13 +24,26 @@ void evaluator_free(evaluator *ev) {
 
 void evaluator_wrap(evaluator *ev) { ev->wraps = true; }
 
+/* The angles as the list's phases take them. */
+static const double *phases_of(const evaluator *ev, const double *angle_rad, double *wrapped) {
+    for (int i = 0; i < ev->tape->angles && ev->wraps; i++) {
+        wrapped[i] = remainder(angle_rad[i], 6.283185307179586477);
+    }
+    return ev->wraps ? wrapped : angle_rad;
+}
+
 void evaluator_run(evaluator *ev, double time_s, const double *angle_rad, const double *linear,
                    const double *rate, const double *input, double *result) {
-    double phase[PROGRAM_COMPONENTS_MAX];
-    for (int i = 0; i < ev->tape->angles && ev->wraps; i++) {
-        phase[i] = remainder(angle_rad[i], 6.283185307179586477);
-    }
-    evaluate(ev->tape, ev->registers,
-             (leaves){ev->wraps ? phase : angle_rad, angle_rad, time_s, linear, rate, input, NULL},
+    double wrapped[PROGRAM_COMPONENTS_MAX];
+    const double *phase = phases_of(ev, angle_rad, wrapped);
+    evaluate(ev->tape, ev->registers, (leaves){phase, angle_rad, time_s, linear, rate, input, NULL},
              result);
+}
+
+void evaluator_rounding(const evaluator *ev, const double *angle_rad, double *error) {
+    double wrapped[PROGRAM_COMPONENTS_MAX];
+    const registers *r = &ev->registers;
+    const double *phase = phases_of(ev, angle_rad, wrapped);
+    rounding_of(ev->tape, &(rounding_values){r->value, r->sine, r->cosine, phase, angle_rad},
+                error);
 }

@@ -8,6 +8,7 @@
 #include <time.h>
 
 #include "belief.h"
+#include "envelope.h"
 #include "host/plot/plot.h"
 #include "records.h"
 #include "shown.h"
@@ -15,15 +16,6 @@
 #include "statement.h"
 #include "summary.h"
 #include "undefined.h"
-
-/* A plot keeps at most so many rows, evenly spaced. */
-#define PLOT_ROWS_MAX 4000U
-
-typedef struct plot_rows {
-    double *data;
-    unsigned count;
-    uint64_t spacing; /* steps */
-} plot_rows;
 
 typedef struct simulation {
     const equations *equations;
@@ -34,7 +26,7 @@ typedef struct simulation {
     books *books;
     FILE *csv;
     FILE *columns;
-    plot_rows plot;
+    envelope *plot; /* NULL without --plot */
     uint64_t steps; /* wanted */
     double wall_s;  /* spent stepping */
     bool write_failed;
@@ -93,12 +85,7 @@ static bool open_files(simulation *sim) {
             return false;
         }
         fclose(try);
-        sim->plot.spacing = sim->steps / PLOT_ROWS_MAX + 1;
-        sim->plot.data = calloc((size_t)PLOT_ROWS_MAX + 2,
-                                (size_t)sim->records->columns * sizeof *sim->plot.data);
-        if (sim->plot.data == NULL) {
-            abort();
-        }
+        sim->plot = envelope_new(sim->records->columns);
     }
     return true;
 }
@@ -161,29 +148,23 @@ static void tell_outputs(simulation *sim) {
 }
 
 /* Enter the present state wherever it belongs. */
-static void enter(simulation *sim, uint64_t step, bool last) {
+static void enter(simulation *sim, uint64_t step) {
     const bool record =
         (sim->csv != NULL || sim->columns != NULL) && (step % sim->settings->every == 0);
-    const bool point = sim->plot.data != NULL && (step % sim->plot.spacing == 0 || last) &&
-                       sim->plot.count < PLOT_ROWS_MAX + 2;
-    if (sim->books != NULL && !last) {
+    if (sim->books != NULL) {
         books_enter(sim->books, sim->settings->kind, sim->run);
         tell_energies(sim);
     }
-    if (!record && !point) {
+    if (!record && sim->plot == NULL) {
         return;
     }
     records_read(sim->records, sim->run, ratio_times(step, sim->equations->instance->step));
-    if (!last) {
-        watch_outputs(sim, sim->records->row[0]);
-    }
-    if (record && !last) {
+    watch_outputs(sim, sim->records->row[0]);
+    if (record) {
         sim->write_failed = !records_write(sim->records) || sim->write_failed;
     }
-    if (point) {
-        memcpy(sim->plot.data + (size_t)sim->plot.count * (size_t)sim->records->columns,
-               sim->records->row, (size_t)sim->records->columns * sizeof(double));
-        sim->plot.count++;
+    if (sim->plot != NULL) {
+        envelope_enter(sim->plot, sim->records->row);
     }
 }
 
@@ -192,7 +173,7 @@ static wh_status loop(simulation *sim, bool *interrupted) {
     wh_status status = WH_OK;
     double shown_s = now_s();
     uint64_t step = 0;
-    enter(sim, 0, false);
+    enter(sim, 0);
     while (step < sim->steps && !sim->write_failed) {
         const double before_s = (step & 63U) == 0 ? now_s() : 0.0;
         status = s->kind->step(sim->run);
@@ -203,7 +184,7 @@ static wh_status loop(simulation *sim, bool *interrupted) {
             break;
         }
         step++;
-        enter(sim, step, false);
+        enter(sim, step);
         if ((step & 255U) == 0) {
             if (s->stop != NULL && *s->stop) {
                 *interrupted = true;
@@ -217,9 +198,6 @@ static wh_status loop(simulation *sim, bool *interrupted) {
     }
     if (s->progress) {
         fprintf(stderr, "\r        \r");
-    }
-    if (step % sim->plot.spacing != 0) {
-        enter(sim, step, true);
     }
     return status;
 }
@@ -305,11 +283,19 @@ static bool draw(const simulation *sim) {
     }
     const char *title =
         sim->equations->instance->scene != NULL ? sim->equations->instance->scene->title : m->title;
-    char full[256];
-    snprintf(full, sizeof full, "%s%s%s", sim->equations->instance->name,
-             title[0] != '\0' ? ": " : "", title);
-    const bool drawn = plot_draw(sim->settings->plot, full, curves, count, sim->plot.data,
-                                 (int)sim->plot.count, sim->records->columns);
+    const char *name = sim->equations->instance->name;
+    const size_t size = strlen(name) + strlen(title) + 3;
+    char *full = calloc(size, 1);
+    if (full == NULL) {
+        abort();
+    }
+    snprintf(full, size, "%s%s%s", name, title[0] != '\0' ? ": " : "", title);
+    int rows;
+    double *data = envelope_rows(sim->plot, &rows);
+    const bool drawn =
+        plot_draw(sim->settings->plot, full, curves, count, data, rows, sim->records->columns);
+    free(data);
+    free(full);
     for (int i = 0; i < count; i++) {
         free(units[i]);
     }
@@ -319,8 +305,7 @@ static bool draw(const simulation *sim) {
 }
 
 simulation_result simulate(const equations *e, const program *p, const simulation_settings *s) {
-    simulation sim = {
-        .equations = e, .program = p, .settings = s, .plot = {.spacing = 1}, .output = -1};
+    simulation sim = {.equations = e, .program = p, .settings = s, .output = -1};
     sim.steps = e->instance->steps;
     sim.records = records_open(NULL, p, e, s->kind);
     simulation_result result = SIMULATION_BAD_FILE;
@@ -362,6 +347,6 @@ simulation_result simulate(const equations *e, const program *p, const simulatio
     close_records(sim.columns);
     books_close(sim.books);
     records_close(sim.records);
-    free(sim.plot.data);
+    envelope_free(sim.plot);
     return result;
 }

@@ -277,6 +277,9 @@ static double mean_of(const gauge *g) {
 static double period_of(const gauge *g, double step_s, double epsilon) {
     const double level = mean_of(g);
     const double size = fmax(fabs(g->least), fabs(g->most));
+    if (!isfinite(level) || !isfinite(g->most - g->least)) {
+        return (double)INFINITY;
+    }
     if (!(g->most - g->least > 64.0 * epsilon * size)) {
         return (double)NAN;
     }

@@ -66,7 +66,8 @@ typedef struct gauge {
 
 gauge gauge_start(measure_kind kind);
 void gauge_enter(gauge *g, double value);
-/* `epsilon`: relative rounding error of a sample. nan when the measure has no value. */
+/* `epsilon`: relative rounding error of a sample. nan when the measure has no value, of a period also when nothing
+ * swings; infinite or nan when finite samples are too large for it, of a period always infinite. */
 double gauge_result(const gauge *g, double step_s, double epsilon);
 void gauge_end(gauge *g);
 

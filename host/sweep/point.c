@@ -249,6 +249,12 @@ static bool read_measures(const meter *m, const instance *inst, double *measured
             return false;
         }
         measured[i] = gauge_result(&m->gauges[i], inst->step_s, epsilon);
+        const bool no_period = isnan(measured[i]) && m->gauges[i].kind == MEASURE_PERIOD;
+        if (!isfinite(measured[i]) && !no_period) {
+            fprintf(reason, "the measure '%s' is not a finite number: what it takes is too large",
+                    s->measures->list[i].name);
+            return false;
+        }
     }
     const belief kept = belief_of(m->books, s->kind, m->run);
     measured[s->measures->count] = kept.known ? kept.ratio : (double)NAN;

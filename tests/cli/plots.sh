@@ -44,12 +44,63 @@ for number in 1 2 3 4 5 6; do
             "$whirl" run "$scratch/drawn.whirl" --until $until $quiet --plot "$scratch/drawn.svg" \
                 >"$scratch/out" 2>"$scratch/err"
             code=$?
-            [ $code -eq 0 ] && [ ! -s "$scratch/err" ]
-            verdict $? "mechanism $number until $until $quiet: drawn without a word"
+            # an output without a value is told by the run, which then has failed; gnuplot has nothing to add
+            sed '/: error: at t = .* is not a finite number: output /,/^hint: give it a value/d' "$scratch/err" >"$scratch/more"
+            [ $code -eq "$(grep -c ': error: ' "$scratch/err")" ] && [ ! -s "$scratch/more" ]
+            verdict $? "mechanism $number until $until $quiet: drawn without a word of gnuplot's"
             check "mechanism $number until $until $quiet: the time axes stand below each other" aligned "$scratch/drawn.svg"
         done
     done
 done
+
+# --- what a model says is no command, and stands as it is written -------------------------------------
+# Generated titles and file names of what gnuplot, a shell or XML could take for their own. Each contains what would
+# make a file; titles without their controls, which are blanks in the picture.
+case $whirl in /*) ;; *) whirl=$PWD/$whirl ;; esac
+pieces='` $( ) ${ \ \\ \n \" _ ^ { } @ & &amp; &#65; < > ]]> ~ % %d # ; | ! ~a{.8b} a^2 a_{i} {/=30 @x ä µ → ° 𝄞 word'
+mkdir "$scratch/in"
+nasty() { # nasty NUMBER: a title
+    printf '%s\n' "$pieces" | awk -v seed="$seed" -v number="$1" '{
+        srand(seed * 1000 + number)
+        made = ""
+        for (i = 0; i < 9; i++) made = made $(1 + int(rand() * NF)) (rand() < 0.5 ? " " : "")
+        split("`touch made`,\047.system(\"touch made\").\047,\"\n!touch made\n\",$(touch made),\\\047`touch made`", command, ",")
+        gsub(/"/, "", command[1 + number % 5])
+        print made command[1 + number % 5] "w\047s" made "x"
+    }' | tr -d '"' | tr '\n' ' ' | sed 's/ $//'
+}
+number=0
+while [ $number -lt "${PLOT_CASES:-24}" ]; do
+    number=$((number + 1))
+    title=$(nasty $number)
+    printf 'mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'"'"'^2/2\noutput k_x [m^(1/2)*kg] = 1 [m^(1/2)*kg]\nscene s "' >"$scratch/in/m.whirl"
+    printf '%s" { until 10 [ms] }\n' "$title" >>"$scratch/in/m.whirl"
+    file=$(printf '%s' "$title" | tr '/' '-').svg
+    case $number in
+    *[02468]) file="|touch made;$file" ;;
+    *5) file="~$file" ;;
+    esac
+    (cd "$scratch/in" && "$whirl" run m.whirl --quiet --plot "$file") >"$scratch/out" 2>"$scratch/err"
+    code=$?
+    [ $code -eq 0 ] && [ ! -s "$scratch/err" ] && [ ! -e "$scratch/in/made" ] && [ -s "$scratch/in/$file" ]
+    verdict $? "title $number: drawn, nothing is executed"
+    wanted=$(printf '<text>s: %s</text>' "$(printf '%s' "$title" | sed 's/&/\&amp;/g; s/</\&lt;/g')")
+    sed 's/'"$(printf '\342\201\240')"'//g; s/<text xml:space="preserve">/<text>/' "$scratch/in/$file" >"$scratch/svg"
+    grep -qF -- "$wanted" "$scratch/svg" && ! grep -qF ']]>' "$scratch/in/$file" && grep -qF '<text>k_x</text>' "$scratch/svg"
+    verdict $? "title $number: stands as it is written"
+    rm -rf "$scratch/in"
+    mkdir "$scratch/in"
+done
+
+# --- all of a run is in its picture -------------------------------------------------------------------
+# Every stretch of swings that are too many to be told apart reaches the top and the bottom of its frame.
+printf 'mechanism swings\ncoordinate x [m]\nT = 1 [kg]*x'"'"'^2/2\nV = 39.4784176 [N/m]*x^2/2\nscene s { start x = 1 [m]\nstep 10 [ms]\nuntil 4000 [s] }\n' >"$scratch/swings.whirl"
+"$whirl" run "$scratch/swings.whirl" --quiet --plot "$scratch/swings.svg"
+tr ' ' '\n' <"$scratch/swings.svg" | sed -n 's/^L*\([0-9.][0-9.]*\),\([0-9.][0-9.]*\)$/\1 \2/p' |
+    awk '{ n++; if ($2 < 80) top++; if ($2 > 280) bottom++ } END { print n, top, bottom; exit !(top >= 2000 && bottom >= 2000 && n - top - bottom < 200) }' >"$scratch/swings"
+verdict $? "4000 swings in 400000 steps: drawn as the band that they fill ($(cat "$scratch/swings"))"
+"$whirl" run "$scratch/swings.whirl" --quiet --until 0 --plot "$scratch/point.svg"
+check "a single point is drawn" grep -q "<use xlink:href='#gpPt6'.*/>" "$scratch/point.svg"
 
 # --- gnuplot's own words: a stand-in that warns, and one that fails -----------------------------------
 mkdir "$scratch/bin"

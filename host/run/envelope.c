@@ -1,0 +1,111 @@
+/* envelope.c: see envelope.h. */
+#include "envelope.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* One column's part of a bucket. */
+typedef struct extent {
+    double least;
+    double most;
+    bool falls; /* the greatest value came before the least */
+} extent;
+
+struct envelope {
+    int columns;
+    uint64_t size;   /* steps a bucket */
+    uint64_t filled; /* steps in the last bucket */
+    unsigned count;  /* buckets, the last one included */
+    extent *extents; /* [ENVELOPE_ROOM * columns], bucket by bucket */
+};
+
+static void *room(size_t count, size_t size) {
+    void *p = calloc(count, size);
+    if (p == NULL) {
+        abort();
+    }
+    return p;
+}
+
+envelope *envelope_new(int columns) {
+    envelope *v = room(1, sizeof *v);
+    v->columns = columns;
+    v->size = 1;
+    v->extents = room((size_t)ENVELOPE_ROOM * (size_t)columns, sizeof *v->extents);
+    return v;
+}
+
+void envelope_free(envelope *v) {
+    if (v != NULL) {
+        free(v->extents);
+        free(v);
+    }
+}
+
+/* Both, of which `later` came behind. Of equals the first counts; what is not finite gives way. */
+static extent joined(extent earlier, extent later) {
+    if (!isfinite(later.least) || !isfinite(later.most)) {
+        return earlier;
+    }
+    if (!isfinite(earlier.least) || !isfinite(earlier.most)) {
+        return later;
+    }
+    const bool least_later = later.least < earlier.least;
+    const bool most_later = later.most > earlier.most;
+    extent made = {.least = least_later ? later.least : earlier.least,
+                   .most = most_later ? later.most : earlier.most};
+    made.falls = least_later && most_later     ? later.falls
+                 : !least_later && !most_later ? earlier.falls
+                                               : least_later;
+    return made;
+}
+
+static extent *bucket(const envelope *v, unsigned number) {
+    return v->extents + (size_t)number * (size_t)v->columns;
+}
+
+static void merge_pairs(envelope *v) {
+    for (unsigned k = 0; k < ENVELOPE_ROOM / 2; k++) {
+        for (int i = 0; i < v->columns; i++) {
+            bucket(v, k)[i] = joined(bucket(v, 2 * k)[i], bucket(v, 2 * k + 1)[i]);
+        }
+    }
+    v->count = ENVELOPE_ROOM / 2;
+    v->size *= 2;
+    v->filled = v->size;
+}
+
+void envelope_enter(envelope *v, const double *row) {
+    if (v->count == ENVELOPE_ROOM && v->filled == v->size) {
+        merge_pairs(v);
+    }
+    const bool fresh = v->count == 0 || v->filled == v->size;
+    if (fresh) {
+        v->count++;
+        v->filled = 0;
+    }
+    extent *last = bucket(v, v->count - 1);
+    for (int i = 0; i < v->columns; i++) {
+        const extent one = {row[i], row[i], false};
+        last[i] = fresh ? one : joined(last[i], one);
+    }
+    v->filled++;
+}
+
+double *envelope_rows(const envelope *v, int *rows) {
+    const unsigned each = v->size == 1 ? 1 : 2;
+    double *made = room((size_t)each * v->count * (size_t)v->columns + 1, sizeof *made);
+    double *to = made;
+    for (unsigned k = 0; k < v->count; k++) {
+        for (unsigned half = 0; half < each; half++) {
+            for (int i = 0; i < v->columns; i++) {
+                const extent *e = &bucket(v, k)[i];
+                *to++ = e->falls == (half == 0) ? e->most : e->least;
+            }
+        }
+    }
+    *rows = (int)(each * v->count);
+    return made;
+}

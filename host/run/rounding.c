@@ -1,0 +1,101 @@
+/* rounding.c: see rounding.h. */
+#include "rounding.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* A constant that float holds is exact in either number. */
+static double of_constant(double value) {
+    return (double)(float)value == value ? 0.0 : fabs(value);
+}
+
+/* The sizes of what is added up, each of which is rounded. */
+static double of_phase(const tape *t, const op *o, const rounding_values *at, double more) {
+    double size = fabs(o->value);
+    for (int i = 0; i < t->angles; i++) {
+        if (o->turns != NULL) {
+            size += fabs(o->turns[i] * at->phase_rad[i]);
+        }
+        if (o->parts != NULL) {
+            size += fabs(o->parts[i] * at->angle_rad[i]);
+        }
+    }
+    return size + (o->b >= 0 ? fabs(at->value[o->b]) + more : 0.0);
+}
+
+/* By the function's slopes at (x, y), which are off by `a` and `b`. */
+static double of_call(function_id function, double x, double y, double a, double b) {
+    switch (function) {
+    case FN_ASIN:
+    case FN_ACOS: return a / sqrt(1.0 - x * x);
+    case FN_ATAN: return a / (1.0 + x * x);
+    case FN_ATAN2: return (fabs(y) * a + fabs(x) * b) / (x * x + y * y);
+    case FN_EXP: return a * exp(x);
+    case FN_LOG: return a / fabs(x);
+    case FN_TAN: return a * (1.0 + tan(x) * tan(x));
+    case FN_SQRT: return a / (2.0 * sqrt(x));
+    case FN_SIN:
+    case FN_COS:
+    case FN_ABS:
+    case FN_SIGN:
+    case FN_MIN:
+    case FN_MAX:
+    case FN_COUNT: break;
+    }
+    return a + b;
+}
+
+/* What the operands' errors a and b become; *rounds: is the result rounded, too? */
+static double carried(const tape *t, const op *o, const rounding_values *at, const double *error,
+                      double v, bool *rounds) {
+    const double x = o->a >= 0 && o->code >= OP_SIN ? at->value[o->a] : 0.0;
+    const double y = o->b >= 0 && o->code >= OP_SIN ? at->value[o->b] : 0.0;
+    const double a = o->a >= 0 && o->code >= OP_SIN ? error[o->a] : 0.0;
+    const double b = o->b >= 0 && o->code >= OP_SIN ? error[o->b] : 0.0;
+    *rounds = false;
+    switch (o->code) {
+    case OP_CONSTANT: return of_constant(o->value);
+    case OP_LINEAR:
+    case OP_RATE:
+    case OP_INPUT:
+    case OP_ACCEL:
+    case OP_TIME:
+    case OP_RADIANS:
+    case OP_NOISE: return 0.0;
+    case OP_PHASE: return of_phase(t, o, at, o->b >= 0 ? error[o->b] : 0.0);
+    case OP_SIN: return 1.0 + a * fabs(at->cosine[o->a]);
+    case OP_COS: return 1.0 + a * fabs(at->sine[o->a]);
+    case OP_NEG:
+    case OP_ABS: return a;
+    case OP_SIGN: return 0.0; /* but for where it jumps */
+    case OP_MIN:
+    case OP_MAX: return v == x ? a : b;
+    case OP_ADD:
+    case OP_SUB: *rounds = true; return a + b;
+    case OP_MUL: *rounds = true; return fabs(y) * a + fabs(x) * b;
+    case OP_DIV: *rounds = true; return (a + fabs(v) * b) / fabs(y);
+    case OP_SQRT: *rounds = true; return a == 0.0 ? 0.0 : a / (2.0 * v);
+    case OP_CALL: *rounds = true; return of_call(o->function, x, y, a, b);
+    case OP_POW:
+        *rounds = true;
+        return fabs(v) * ((a == 0.0 ? 0.0 : fabs(y) * a / fabs(x)) +
+                          (b == 0.0 ? 0.0 : fabs(log(fabs(x))) * b));
+    }
+    return 0.0;
+}
+
+void rounding_of(const tape *t, const rounding_values *at, double *error) {
+    double *each = calloc((size_t)t->count + 1, sizeof *each);
+    if (each == NULL) {
+        abort();
+    }
+    for (int i = 0; i < t->count; i++) {
+        bool rounds;
+        each[i] = carried(t, &t->ops[i], at, each, at->value[i], &rounds);
+        each[i] += rounds ? fabs(at->value[i]) : 0.0;
+    }
+    for (int i = 0; i < t->results; i++) {
+        error[i] = each[t->result[i]];
+    }
+    free(each);
+}

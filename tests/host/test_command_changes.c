@@ -1,0 +1,152 @@
+/* test_command_changes.c: what every command makes of its changes: a bare number for what is declared in a unit is
+ * noted, a name given twice is refused, and a sweep's measure that overflows has failed. */
+#include "command.h"
+
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "host/commands/commands.h"
+
+#include "unity.h"
+
+void suite_command_changes(void);
+
+static const char model[] =
+    "mechanism m\ncoordinate th [deg]\ncoordinate x [mm]\nparameter b = 2 [kg]\n"
+    "input M = 3 [N*m]\nT = 1 [kg*m^2]*th'^2/2 + b*x'^2/2\n"
+    "V = 5 [N*m]*th^2/2 + 700 [N/m]*x^2/2\nQ(th) = M\n"
+    "scene s { start th = 0.1\nuntil 50 [ms] }\n";
+
+/* How a command is told of a change: by --set and --start, or, "accel", by the bare words. */
+typedef struct way {
+    const char *name;
+    int (*command)(int count, char **words);
+    const char *more[2]; /* words that it needs */
+    bool bare;
+} way;
+
+static const way ways[] = {{"accel", command_accel, {NULL}, true},
+                           {"run", command_run, {"--quiet", NULL}, false},
+                           {"derive", command_derive, {NULL}, false},
+                           {"sweep", command_sweep, {"--over", "step=1..2 [ms]:2"}, false}};
+enum { WAYS = sizeof ways / sizeof ways[0] };
+
+static void tell(const way *w, const char *const *changes, int count, said *what) {
+    const char *words[24] = {model_keep(model)};
+    int used = 1;
+    for (int k = 0; k < 2 && w->more[k] != NULL; k++) {
+        words[used++] = w->more[k];
+    }
+    for (int i = 0; i < count; i++) {
+        if (!w->bare) {
+            words[used++] = changes[i][0] == 't' || changes[i][0] == 'x' ? "--start" : "--set";
+        }
+        words[used++] = changes[i];
+    }
+    words[used] = NULL;
+    command_say(w->command, words, what);
+}
+
+static void test_bare_numbers_are_noted_by_every_command(void) {
+    static const char *const bare[] = {"th=20", "th'=-1", "x=1e-3", "x'=2"};
+    static const char *const with_unit[] = {"th=20 [deg]", "th'=1 [rpm]", "x=1 mm",
+                                            "th=0",        "b=3",         "M=1"};
+    for (int w = 0; w < WAYS; w++) {
+        said what;
+        for (size_t i = 0; i < sizeof bare / sizeof bare[0]; i++) {
+            char wanted[60];
+            snprintf(wanted, sizeof wanted, "note: %s has no unit and counts as ", bare[i]);
+            tell(&ways[w], &bare[i], 1, &what);
+            TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, ways[w].name);
+            TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, wanted), ways[w].name);
+        }
+        for (size_t i = 0; i < sizeof with_unit / sizeof with_unit[0]; i++) {
+            tell(&ways[w], &with_unit[i], 1, &what);
+            TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, ways[w].name);
+            TEST_ASSERT_NULL_MESSAGE(strstr(what.err, "note:"), ways[w].name);
+        }
+    }
+    model_drop();
+}
+
+static void test_a_name_given_twice_is_refused_by_every_command(void) {
+    static const char *const names[] = {"th", "th'", "x", "x'", "b", "M"};
+    enum { NAMES = sizeof names / sizeof names[0] };
+    dice d = dice_of("twice", 4301);
+    for (int w = 0; w < WAYS; w++) {
+        for (int i = 0; i < NAMES; i++) {
+            char text[NAMES + 1][40];
+            const char *changes[NAMES + 1];
+            char wanted[80];
+            said what;
+            for (int k = 0; k < NAMES; k++) { /* all of them once: good */
+                snprintf(text[k], sizeof text[k], "%s=%.3f", names[k], dice_between(&d, 0.1, 1.0));
+                changes[k] = text[k];
+            }
+            tell(&ways[w], changes, NAMES, &what);
+            TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, what.err);
+            const bool same = dice_one_of(&d, 2) == 0; /* also when both say the same */
+            snprintf(text[NAMES], sizeof text[NAMES], "%s = %s", names[i],
+                     same ? strchr(text[i], '=') + 1 : "7");
+            changes[NAMES] = text[NAMES];
+            tell(&ways[w], changes, NAMES + 1, &what);
+            snprintf(wanted, sizeof wanted, "<command line>:1:1: error: '%s' is given twice",
+                     names[i]);
+            TEST_ASSERT_EQUAL_INT_MESSAGE(2, what.status, wanted);
+            TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, wanted), what.err);
+            TEST_ASSERT_EQUAL_STRING("", what.out);
+        }
+    }
+    model_drop();
+}
+
+/* Finite samples whose measure is too large for a number, and the same ones small enough. */
+static void test_measures_that_overflow_fail_their_points(void) {
+    static const struct {
+        const char *measure; /* of x swinging over +-1 */
+        double most;         /* of the factor, in 1e308, for which it is finite */
+        double least;        /* for which it is not */
+    } cases[] = {{"mean", 1e-8, 0.1}, {"amplitude", 0.8, 1.5}, {"period", 1e-8, 1.5}};
+    dice d = dice_of("overflows", 4302);
+    for (unsigned i = 0; i < 30; i++) {
+        const unsigned which = i % 3;
+        const bool fails = i / 3 % 2 == 0;
+        const double factor = fails ? dice_between(&d, cases[which].least, 1.7)
+                                    : dice_between(&d, 0.0, cases[which].most);
+        char measure[80];
+        said what;
+        /* 4.1 ms a swing; squared, the mean is not zero, and the sum of its samples grows */
+        snprintf(measure, sizeof measure, "%s(%.9e*%s)", cases[which].measure, 1e308 * factor,
+                 which == 0 ? "(x/1 [m])^2" : "x/1 [m]");
+        const char *words[] = {model_keep(model),
+                               "--over",
+                               "M=1..2 [N*m]:2",
+                               "--start",
+                               "x=1 [m]",
+                               "--step",
+                               "0.1ms",
+                               "--set",
+                               "b=0.0003 [kg]",
+                               "--measure",
+                               measure,
+                               "--measure",
+                               "x",
+                               NULL};
+        command_say(command_sweep, words, &what);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(fails ? 1 : 0, what.status, measure);
+        TEST_ASSERT_NULL_MESSAGE(strstr(strchr(what.out, '\n'), "nan"), what.out);
+        TEST_ASSERT_NULL_MESSAGE(strstr(what.out, "inf"), what.out);
+        TEST_ASSERT_TRUE_MESSAGE((strstr(what.out, "\n1,,,\r\n2,,,\r\n") != NULL) == fails, what.out);
+        TEST_ASSERT_TRUE_MESSAGE((strstr(what.err, "' is not a finite number") != NULL) == fails,
+                                 what.err);
+    }
+    model_drop();
+}
+
+void suite_command_changes(void) {
+    UnitySetTestFile(__FILE__);
+    RUN_TEST(test_bare_numbers_are_noted_by_every_command);
+    RUN_TEST(test_a_name_given_twice_is_refused_by_every_command);
+    RUN_TEST(test_measures_that_overflow_fail_their_points);
+}
