@@ -82,6 +82,9 @@ static void evaluate_now(const books *b, const double *angle_rad, const double *
     const program *p = b->program;
     evaluator_run(b->evaluator, time_s, angle_rad, real, real + (p->coordinates - p->angles),
                   b->input, b->value);
+    for (int i = 0; i < p->books->results; i++) {
+        b->value[i] = number_shown(b->value[i]); /* an energy of nothing has no sign */
+    }
 }
 
 /* Of the values; of what each is off, how far that is off. */

@@ -105,7 +105,7 @@ for command in run "sweep --over step=1..2[ms]:2" "derive --as c"; do
     # shellcheck disable=SC2086
     says 2 'hint: .* choose --method euler, heun or rk4' $command tests/mechanisms/lorenz.whirl --method semi-implicit-euler
 done
-prints 'semi-implicit Euler, double' run thomson_b --method semi-implicit-euler --until 10ms
+prints 'semi-implicit Euler, double' run epicyclic_from_rest --method semi-implicit-euler --until 100ms
 prints '^system lorenz' derive tests/mechanisms/lorenz.whirl --method semi-implicit-euler
 says 2 'hint: one of double, float' run thomson_a --number half
 for option in --set --start --with --without --step --until --every --method --number --csv --plot; do
