@@ -16,7 +16,8 @@
  * What rounding explains (below) is no fault of the step: an entry counts as at least 1/BELIEF_LIMIT times that.
  * It is the rounding of the state and of the accelerations to the run's numbers at each step, and that of the
  * energy's own computation at the start and at the end: of the terms in which it is computed, which are large where
- * a sum such as V = k (x - b)^2/2 is multiplied out and x is far from the origin. With nothing left over, the ratio is 0. */
+ * a sum such as V = k (x - b)^2/2 is multiplied out and x is far from the origin.
+ * With nothing left over, the ratio is 0. */
 #ifndef RUN_BELIEF_H
 #define RUN_BELIEF_H
 

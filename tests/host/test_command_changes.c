@@ -137,7 +137,8 @@ static void test_measures_that_overflow_fail_their_points(void) {
         TEST_ASSERT_EQUAL_INT_MESSAGE(fails ? 1 : 0, what.status, measure);
         TEST_ASSERT_NULL_MESSAGE(strstr(strchr(what.out, '\n'), "nan"), what.out);
         TEST_ASSERT_NULL_MESSAGE(strstr(what.out, "inf"), what.out);
-        TEST_ASSERT_TRUE_MESSAGE((strstr(what.out, "\n1,,,\r\n2,,,\r\n") != NULL) == fails, what.out);
+        TEST_ASSERT_TRUE_MESSAGE((strstr(what.out, "\n1,,,\r\n2,,,\r\n") != NULL) == fails,
+                                 what.out);
         TEST_ASSERT_TRUE_MESSAGE((strstr(what.err, "' is not a finite number") != NULL) == fails,
                                  what.err);
     }
