@@ -220,10 +220,10 @@ int load(loaded *made, source_model *s, const mechanism *of, const scene *in,
             program_make(made->equations, conserve && in != NULL ? in->conserve : NULL, s->errors);
     }
     diags_flush(s->errors, stderr);
-    if (made->program != NULL && changes != NULL) {
+    if (made->program != NULL &&
+        changes != NULL) { /* accel, which prints SI, takes SI without a word */
         say_bare(of, OVERRIDE_SET, changes->sets, changes->set_count);
         say_bare(of, OVERRIDE_START, changes->starts, changes->start_count);
-        say_bare(of, OVERRIDE_EITHER, changes->values, changes->value_count);
     }
     return made->program == NULL ? EXIT_BAD_INPUT : EXIT_DONE;
 }

@@ -18,8 +18,8 @@
 #endif
 #define RUN 32U
 
-static uint64_t
-    memory[WH_STATE_WORDS(16, 48, 16) + WH_CONTACT_WORDS(16) + WH_HELD_WORDS(16) + WH_LEDGER_WORDS(128, 17)];
+static uint64_t memory[WH_STATE_WORDS(16, 48, 16) + WH_CONTACT_WORDS(16) + WH_HELD_WORDS(16) +
+                       WH_LEDGER_WORDS(128, 17)];
 static uint32_t seed;
 
 void wh_count_begin(void);

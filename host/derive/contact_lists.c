@@ -212,8 +212,9 @@ static bool are_finite(const equations *e, const expr *const *each, int count) {
 
 /* Values put in for the parameters may leave 1/0: a contact would be on no side of anything. */
 static bool have_finite_laws(const equations *e, diags *errors) {
-    static const char hint[] = "look for a division by zero, a root or logarithm of what is below it, "
-                               "or values that are too large";
+    static const char hint[] =
+        "look for a division by zero, a root or logarithm of what is below it, "
+        "or values that are too large";
     bool finite = true;
     for (int k = 0; k < e->contacts->count; k++) {
         const hybrid *h = e->contacts->law[k].from;
@@ -225,7 +226,8 @@ static bool have_finite_laws(const equations *e, diags *errors) {
         }
         for (int i = 0; i < h->set_count; i++) {
             if (!are_finite(e, &h->sets[i].value, 1)) {
-                diag_error(errors, h->sets[i].at, hint, "there is a number here that is not finite");
+                diag_error(errors, h->sets[i].at, hint,
+                           "there is a number here that is not finite");
                 finite = false;
             }
         }

@@ -255,16 +255,16 @@ typedef struct instance {
     const char *name;   /* scene's name, or the mechanism's */
     bool *with;         /* [effect_count] */
     bool ledger;        /* keep the books of energy and momentum */
-    bool balance;       /* the same where there are contacts and it can be done, to balance the run */
-    double *parameter;  /* [parameter_count] SI */
-    double *input;      /* [input_count] SI */
-    double **start;     /* [coordinate_count][order] value, rate, ...: SI; order >= 2 */
-    place **start_at;   /* like start: where it was given; no source where it was not */
-    int *start_count;   /* [coordinate_count] entries in start[i] (2 for coordinates) */
-    double step_s;      /* default 1e-3 */
-    double until_s;     /* default 10 */
-    whole_ratio step;   /* step_s, as it was written */
-    uint64_t steps;     /* to the end: until_s / step_s to the nearest, at most 2^63 */
+    bool balance; /* the same where there are contacts and it can be done, to balance the run */
+    double *parameter; /* [parameter_count] SI */
+    double *input;     /* [input_count] SI */
+    double **start;    /* [coordinate_count][order] value, rate, ...: SI; order >= 2 */
+    place **start_at;  /* like start: where it was given; no source where it was not */
+    int *start_count;  /* [coordinate_count] entries in start[i] (2 for coordinates) */
+    double step_s;     /* default 1e-3 */
+    double until_s;    /* default 10 */
+    whole_ratio step;  /* step_s, as it was written */
+    uint64_t steps;    /* to the end: until_s / step_s to the nearest, at most 2^63 */
     struct arena *arena;
 } instance;
 

@@ -293,11 +293,12 @@ bool undefined_angle(const undefined_at *at, diags *errors) {
 static void say_flat(const undefined_at *at, place where, diags *errors) {
     char text[STATEMENT_SIZE];
     statement_text(where, text, sizeof text);
-    diag_error(errors, where,
-               "give the linkage lengths with which it cannot lie flat, or hold one coordinate more there",
-               "%s the holds leave more than one way to go on, this one says no more than the others: "
-               "%s",
-               at->when, text);
+    diag_error(
+        errors, where,
+        "give the linkage lengths with which it cannot lie flat, or hold one coordinate more there",
+        "%s the holds leave more than one way to go on, this one says no more than the others: "
+        "%s",
+        at->when, text);
 }
 
 bool undefined_step(const equations *e, const program *p, const instance *inst,

@@ -30,7 +30,7 @@ void command_say(int (*command)(int count, char **words), const char *const *wor
     if (child == 0) {
         char *copies[WORDS_MAX + 1] = {NULL};
         int count = 0;
-        while (words[count] != NULL && count < WORDS_MAX) {
+        while (count < WORDS_MAX && words[count] != NULL) {
             copies[count] = strdup(words[count]);
             count++;
         }
@@ -57,7 +57,7 @@ const char *model_keep(const char *text) {
     TEST_ASSERT_TRUE_MESSAGE(file >= 0, "run from the project's root");
     is_kept = true;
     const size_t length = strlen(text);
-    TEST_ASSERT_TRUE(write(file, text, length) == (ssize_t)length);
+    TEST_ASSERT_TRUE(file >= 0 && write(file, text, length) == (ssize_t)length);
     close(file);
     return kept;
 }

@@ -245,7 +245,9 @@ static void test_built_in_scenes_are_believed(void) {
     const char *until = given != NULL ? given : "2s";
     unsigned scenes = 0;
     command_say(command_list, none, &list);
-    for (char *line = strtok(list.out, "\n"); line != NULL; line = strtok(NULL, "\n")) {
+    char *rest = NULL;
+    for (char *line = strtok_r(list.out, "\n", &rest); line != NULL;
+         line = strtok_r(NULL, "\n", &rest)) {
         char name[80];
         if (sscanf(line, "scene %79s", name) != 1) {
             continue;

@@ -33,9 +33,11 @@ typedef struct machine {
 
 /* --- the reference ------------------------------------------------------------------------------------- */
 
+static long double wide(double x) { return (long double)x; }
+
 /* f, f', f''. The hill of height e is a bell over a, 1 rad wide; the rod is 4 e long. */
 static void law(const machine *c, long double a, long double f[3]) {
-    const long double e = c->e;
+    const long double e = wide(c->e);
     if (c->kind == HILL) {
         const long double q = 1.0L + a * a;
         f[0] = e / q;
@@ -63,10 +65,11 @@ static long double acceleration(const machine *c, long double a, long double v, 
     const long double p1 = cosl(a) / 4 / root;
     const long double p2 =
         -s / root + s * p1 * p1 / root; /* cos(p) p'' - sin(p) p'^2 = -sin(a)/4 */
-    const long double push = c->m * G + c->k * (f[0] + 2.0L * c->e) + c->friction_N * way;
-    const long double inertia = c->J + c->m * f[1] * f[1] + c->J_rod * p1 * p1;
-    const long double turning = c->m * f[1] * f[2] + c->J_rod * p1 * p2;
-    return (c->torque_Nm - turning * v * v - f[1] * push) / inertia;
+    const long double push =
+        wide(c->m) * G + wide(c->k) * (f[0] + 2.0L * wide(c->e)) + wide(c->friction_N) * way;
+    const long double inertia = wide(c->J) + wide(c->m) * f[1] * f[1] + wide(c->J_rod) * p1 * p1;
+    const long double turning = wide(c->m) * f[1] * f[2] + wide(c->J_rod) * p1 * p2;
+    return (wide(c->torque_Nm) - turning * v * v - f[1] * push) / inertia;
 }
 
 static void rk4(const machine *c, long double h, long double way, long double s[2]) {
@@ -95,8 +98,8 @@ static long double way_of(const machine *c, const long double s[2]) {
 static bool reference(const machine *c, long double until_s, long double s[2]) {
     const long double h = 5e-5L;
     long double t = 0.0L;
-    s[0] = c->a;
-    s[1] = c->rate;
+    s[0] = wide(c->a);
+    s[1] = wide(c->rate);
     long double way = way_of(c, s);
     while (t < until_s) {
         long double next[2] = {s[0], s[1]};
@@ -117,7 +120,8 @@ static bool reference(const machine *c, long double until_s, long double s[2]) {
             rk4(c, span, way, next);
             way = -way;
             law(c, next[0], f);
-            if (fabsl(f[1]) > 1e-9L * c->e) { /* a' turns: whether it stays is another question */
+            if (fabsl(f[1]) >
+                1e-9L * wide(c->e)) { /* a' turns: whether it stays is another question */
                 return false;
             }
         }
@@ -125,8 +129,9 @@ static bool reference(const machine *c, long double until_s, long double s[2]) {
         t += span;
         law(c, s[0], f);
         const long double bends = f[1] * acceleration(c, s[0], s[1], way) + f[2] * s[1] * s[1];
-        const long double presses =
-            c->m * bends + c->m * G + c->k * (f[0] + 2.0L * c->e) + c->friction_N * way;
+        const long double presses = wide(c->m) * bends + wide(c->m) * G +
+                                    wide(c->k) * (f[0] + 2.0L * wide(c->e)) +
+                                    wide(c->friction_N) * way;
         if ((c->kind == CAM || c->kind == HILL) && presses < 0.0L) {
             return false;
         }
@@ -140,11 +145,11 @@ static void write_machine(const machine *c, char *text, size_t size) {
     static const char *const closed[MACHINES] = {
         "stop b - e*cos(a) >= 0 restitution 0\n", "hold b - e*cos(a) while b > -100 [m]\n",
         "hold b - e*cos(a) - sqrt(16*e^2 - e^2*sin(a)^2) while b > -100 [m]\n",
-        "hold b - e*cos(a) - 4*e*cos(psi) while b > -100 [m]\n"
-        "hold e*sin(a) - 4*e*sin(psi) while b > -100 [m]\n",
+        ("hold b - e*cos(a) - 4*e*cos(psi) while b > -100 [m]\n"
+         "hold e*sin(a) - 4*e*sin(psi) while b > -100 [m]\n"),
         "stop b - e/(1 + a^2) >= 0 restitution 0\n"};
     long double f[3];
-    law(c, c->a, f);
+    law(c, wide(c->a), f);
     const bool linkage = c->kind == LINKAGE;
     const double psi = asin(sin(c->a) / 4.0);
     char rod[160];
@@ -236,7 +241,7 @@ static void check_machines(int how, const char *words, double until_s, int each)
         for (int i = 0; i < each; i++) {
             const machine c = random_machine(&seed, (machine_kind)kind, how);
             long double s[2];
-            if (!reference(&c, until_s, s)) {
+            if (!reference(&c, wide(until_s), s)) {
                 continue; /* it comes to rest, or leaves its stop: of another class */
             }
             done++;

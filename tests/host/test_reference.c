@@ -79,19 +79,12 @@ static int parse_wanted(char *text, named_value wanted[VALUES_MAX]) {
     return count;
 }
 
-/* Read lines `theta'' = 1.25`. Returns how many; the first other line goes to `complaint`, but for a note, that a bare
- * number is SI, and its hint: the reference is SI. */
+/* Read lines `theta'' = 1.25`. Returns how many; the first other line goes to `complaint`. */
 static int read_answer(FILE *pipe, named_value got[VALUES_MAX], char complaint[TEXT_MAX]) {
     char line[TEXT_MAX];
     int count = 0;
-    bool noted = false;
     complaint[0] = '\0';
     while (fgets(line, (int)sizeof line, pipe) != NULL) {
-        const bool hint = noted && strncmp(line, "hint: ", 6) == 0;
-        noted = strncmp(line, "note: ", 6) == 0;
-        if (noted || hint) {
-            continue;
-        }
         named_value value;
         char number[64];
         char *end = number;
