@@ -102,13 +102,20 @@ static inline void wh_contact_between(const wh_hybrid *of, wh_contact_state *fro
     }
 }
 
-/* What of the force of a contact may be rounding of the others'. */
-WH_INLINE wh_real wh_contact_quiet(const wh_hybrid *of, const wh_contact_work *w, unsigned k) {
-    wh_real sum = WH_R(0.0);
-    for (unsigned l = 0; l < of->forced && of->forced > 1; l++) {
-        sum += l != k ? WH_ABS(w->force[l]) : WH_R(0.0);
+/* The margin of a force that is beyond its limit, or zero where that may be the rounding of the others' forces, as
+ * far as they act along k: asked only where it is. */
+static inline wh_real wh_contact_beyond(const wh_hybrid *of, const wh_contact_work *w, unsigned k,
+                                        wh_real margin) {
+    wh_real others = WH_R(0.0);
+    if (margin < WH_R(0.0)) {
+        for (unsigned l = 0; l < of->forced && of->forced > 1; l++) {
+            const wh_real *way = wh_law(of, w, l) + WH_LAW_ROWS + of->coordinates;
+            others += l != k ? WH_ABS(wh_along(of, w, k, way) * w->force[l]) : WH_R(0.0);
+        }
+        const bool rounding = -margin * wh_contact_yield(of, w, k) <= WH_CONTACT_QUIET * others;
+        return rounding ? WH_R(0.0) : margin;
     }
-    return WH_CONTACT_QUIET * sum;
+    return margin;
 }
 
 /* Does any contact's event depend on its force? */
@@ -142,9 +149,9 @@ static inline void wh_contact_margins(const wh_hybrid *of, wh_contact_work *w,
         switch (of->contact[k].kind) {
         case WH_STOP:
             if (mode == WH_ACTIVE) {
-                margin = w->force[k] + wh_contact_quiet(of, w, k);
+                margin = wh_contact_beyond(of, w, k, w->force[k]);
             } else { /* one that began closed may be on its way out */
-                const bool leaves = (w->inside >> k & 1U) != 0 && speed >= WH_R(0.0);
+                const bool leaves = (w->inside >> k & 1U) != 0 && speed > WH_R(0.0);
                 margin = signal < WH_R(0.0) && leaves ? -signal : signal;
             }
             break;
@@ -152,8 +159,8 @@ static inline void wh_contact_margins(const wh_hybrid *of, wh_contact_work *w,
         case WH_FRICTION:
             if (mode == WH_STUCK) {
                 all += wh_law(of, w, k)[WH_LAW_FIRST];
-                margin = wh_law(of, w, k)[WH_LAW_FIRST] - WH_ABS(w->force[k]) +
-                         wh_contact_quiet(of, w, k);
+                margin = wh_contact_beyond(of, w, k,
+                                           wh_law(of, w, k)[WH_LAW_FIRST] - WH_ABS(w->force[k]));
             } else {
                 margin = (mode > 0 ? signal : -signal) + w->slack[k];
             }

@@ -93,11 +93,11 @@ static inline void wh_contact_accel(const void *model, const wh_phase *phase, co
     wh_books_stage(of, w, phase, linear, rate, input);
 }
 
-/* Give contact k the impulse that leaves J_k q' = target, with those that hold what they hold; resting
- * stops push but do not pull: those that would are let go. work->law must belong to this position.
- * Returns the impulse of k. */
+/* Give contact k the impulse that leaves J_k q' = target, with those that hold what they hold; resting stops, and
+ * those in `beside`, as bits, push but do not pull: those that would are let go. work->law must belong to this
+ * position. Returns the impulse of k. */
 static inline wh_real wh_contact_impulse(const wh_hybrid *of, wh_contact_work *w, unsigned k,
-                                         wh_real target, wh_real *rate) {
+                                         unsigned beside, wh_real target, wh_real *rate) {
     uint8_t member[WH_CONTACTS_MAX] = {0};
     wh_real wanted[WH_CONTACTS_MAX] = {WH_R(0.0)};
     wh_real amount[WH_CONTACTS_MAX];
@@ -105,7 +105,7 @@ static inline wh_real wh_contact_impulse(const wh_hybrid *of, wh_contact_work *w
     unsigned count = 0;
     for (unsigned l = 0; l < of->forced; l++) {
         const bool holds = of->contact[l].kind != WH_FRICTION && w->mode[l] == WH_ACTIVE;
-        if (l == k || holds) {
+        if (l == k || holds || (beside >> l & 1U) != 0) {
             const wh_real goal = l == k ? target : WH_R(0.0);
             wanted[count] = goal - wh_along(of, w, l, rate);
             member[count++] = (uint8_t)l;

@@ -38,7 +38,7 @@ static inline void wh_contact_revise(const wh_hybrid *of, wh_contact_work *w, co
     }
     for (unsigned k = 0; k < of->forced; k++) {
         if ((holds >> k & 1U) != 0) {
-            (void)wh_contact_impulse(of, w, k, WH_R(0.0), wh_contact_rates(of, s));
+            (void)wh_contact_impulse(of, w, k, 0, WH_R(0.0), wh_contact_rates(of, s));
         }
     }
 }

@@ -59,6 +59,27 @@ WH_INLINE void wh_contact_touched(const wh_hybrid *of, wh_contact_work *w, unsig
     }
 }
 
+/* Free stops without restitution that are touched and at rest when k's speed is to change so: nothing presses
+ * them, but they are in the way of what the impact moves. One after the other, two plastic impacts would go on
+ * for ever; with restitution they do not, and are taken so. */
+static inline unsigned wh_contact_beside(const wh_hybrid *of, const wh_contact_work *w, unsigned k,
+                                         wh_real h, wh_real change, const wh_real *signal,
+                                         const wh_real *rate) {
+    const wh_real *way = wh_law(of, w, k) + WH_LAW_ROWS + of->coordinates;
+    unsigned bits = 0;
+    for (unsigned l = 0; l < of->forced && of->forced > 1; l++) {
+        const bool free = of->contact[l].kind == WH_STOP && w->mode[l] == WH_FREE && l != k;
+        if (free && !(wh_law(of, w, l)[WH_LAW_FIRST] > WH_R(0.0))) {
+            const wh_real passed_on =
+                WH_ABS(wh_along(of, w, l, way) * change) / wh_contact_yield(of, w, k);
+            const bool touched = signal[2 * l] <= passed_on * (h * WH_BRACKET);
+            const bool rests = WH_ABS(wh_along(of, w, l, rate)) <= WH_CONTACT_STILL * passed_on;
+            bits |= touched && rests && passed_on > WH_R(0.0) ? 1U << l : 0U;
+        }
+    }
+    return bits;
+}
+
 /* A stop is hit: restitution, or rest when the flight that follows would be too short. What is to rest
  * gets one impulse: two, there and back, would let stops go that the one holds. */
 static inline wh_real wh_contact_hit(const wh_hybrid *of, wh_contact_work *w, unsigned k, wh_real h,
@@ -71,6 +92,8 @@ static inline wh_real wh_contact_hit(const wh_hybrid *of, wh_contact_work *w, un
     const unsigned resting = wh_contact_resting(of, w);
     wh_contact_look(of, w, s, input, accel, signal);
     wh_real speed = wh_along(of, w, k, rate);
+    const wh_real before_speed = speed;
+    unsigned beside = 0;
     if (speed < WH_R(0.0)) {
         const wh_real given = wh_law(of, w, k)[WH_LAW_FIRST];
         wh_contact_expect(w, k, given);
@@ -78,7 +101,8 @@ static inline wh_real wh_contact_hit(const wh_hybrid *of, wh_contact_work *w, un
             given > WH_R(0.0) ? (given < WH_R(1.0) ? given : WH_R(1.0)) : WH_R(0.0);
         speed *= -restitution;
         speed = wh_contact_rests(of, w, k, h, rest, speed, accel) ? WH_R(0.0) : speed;
-        impulse = wh_contact_impulse(of, w, k, speed, rate);
+        beside = wh_contact_beside(of, w, k, h, speed - before_speed, signal, rate);
+        impulse = wh_contact_impulse(of, w, k, beside, speed, rate);
         for (unsigned i = 0; i < 2U * of->forced; i++) {
             before[i] = signal[i];
         }
@@ -87,7 +111,7 @@ static inline wh_real wh_contact_hit(const wh_hybrid *of, wh_contact_work *w, un
     }
     if (wh_contact_rests(of, w, k, h, rest, speed, accel)) {
         if (speed > WH_R(0.0)) {
-            impulse += wh_contact_impulse(of, w, k, WH_R(0.0), rate);
+            impulse += wh_contact_impulse(of, w, k, beside, WH_R(0.0), rate);
         }
         w->mode[k] = WH_ACTIVE;
         (void)wh_contact_close(of, w, &WH_CONTACT_HERE, signal, input, s);
@@ -195,7 +219,7 @@ static inline wh_real wh_contact_take(const wh_hybrid *of, wh_contact_work *w, u
         if (w->mode[k] == WH_ACTIVE) {
             wh_contact_look(of, w, s, input, accel, before);
             wh_contact_capture(of, w, k);
-            impulse = wh_contact_impulse(of, w, k, WH_R(0.0), rate);
+            impulse = wh_contact_impulse(of, w, k, 0, WH_R(0.0), rate);
             wh_contact_point_of(of, s, &at);
             of->signals(of->model, at.phase, at.linear, at.rate, input, after);
             wh_contact_touched(of, w, k, h, before, after);
