@@ -158,26 +158,28 @@ WH_INLINE bool wh_contact_exceeds(const wh_hybrid *of, const wh_contact_work *w,
  * the rounding of the others' forces makes of it. accel[] is what all forces together leave. */
 static inline void wh_contact_sizes(const wh_hybrid *of, wh_contact_work *w, const uint8_t *member,
                                     unsigned count, const wh_real *accel) {
-    wh_real own[WH_CONTACTS_MAX];
     for (unsigned i = 0; i < count; i++) {
         const wh_real *row = wh_law(of, w, member[i]) + WH_LAW_ROWS;
-        own[i] = WH_ABS(wh_law(of, w, member[i])[WH_LAW_BIAS]);
+        w->rough[i] = WH_ABS(wh_law(of, w, member[i])[WH_LAW_BIAS]);
         for (unsigned c = 0; c < of->coordinates; c++) {
             wh_real size = WH_ABS(accel[c]);
             for (unsigned l = 0; l < of->forced; l++) {
                 const wh_real *way = wh_law(of, w, l) + WH_LAW_ROWS + of->coordinates;
                 size += WH_ABS(way[c] * w->force[l]);
             }
-            own[i] += WH_ABS(row[c]) * size;
+            w->rough[i] += WH_ABS(row[c]) * size;
         }
     }
-    for (unsigned i = 0; i < count; i++) {
-        w->rough[i] = own[i];
-        for (unsigned l = 0; l < count; l++) {
-            const wh_real yield = wh_contact_yield(of, w, member[l]);
-            const wh_real *way = wh_law(of, w, member[l]) + WH_LAW_ROWS + of->coordinates;
-            if (l != i && yield > WH_R(0.0)) {
-                w->rough[i] += WH_ABS(wh_along(of, w, member[i], way)) * (own[l] / yield);
+    /* from one to the next, through chains of bodies; no round makes more of what comes back (Cauchy, Schwarz) */
+    for (unsigned round = 0; round < count; round++) {
+        for (unsigned i = 0; i < count; i++) {
+            for (unsigned l = 0; l < count; l++) {
+                const wh_real yield = wh_contact_yield(of, w, member[l]);
+                const wh_real *way = wh_law(of, w, member[l]) + WH_LAW_ROWS + of->coordinates;
+                const wh_real along = WH_ABS(wh_along(of, w, member[i], way)) * w->rough[l];
+                if (l != i && along > w->rough[i] * yield) {
+                    w->rough[i] = along / yield;
+                }
             }
         }
     }
