@@ -228,6 +228,27 @@ static inline void wh_contact_still(const wh_hybrid *of, const wh_contact_work *
     }
 }
 
+/* Frictions that stick, as bits. */
+WH_INLINE unsigned wh_contact_stuck(const wh_hybrid *of, const wh_contact_work *w) {
+    unsigned bits = 0;
+    for (unsigned k = 0; k < of->forced; k++) {
+        bits |= of->contact[k].kind == WH_FRICTION && w->mode[k] == WH_STUCK ? 1U << k : 0U;
+    }
+    return bits;
+}
+
+/* Is stop k passed by more than rounding, as after a step with too many events? Friction does not keep a body
+ * there. */
+static inline bool wh_contact_far(const wh_hybrid *of, const wh_contact_work *w, unsigned k,
+                                  const wh_real *signal, const wh_contact_state *s) {
+    const wh_real *row = wh_law(of, w, k) + WH_LAW_ROWS;
+    wh_real size = WH_R(0.0);
+    for (unsigned i = 0; i < of->coordinates; i++) {
+        size += WH_ABS(row[i] * (i < of->angles ? WH_R(1.0) : s->real[i - of->angles]));
+    }
+    return signal[2 * k] < (WH_DOUBLE ? WH_R(-1e-9) : WH_R(-1e-5)) * size;
+}
+
 static inline void wh_contact_put_back(const wh_hybrid *of, wh_contact_work *w, wh_real h,
                                        const wh_real *input, const wh_contact_state *from,
                                        wh_contact_state *s) {
@@ -236,6 +257,10 @@ static inline void wh_contact_put_back(const wh_hybrid *of, wh_contact_work *w, 
     wh_contact_place place = {from, h, 0, WH_CONTACTS_MAX};
     wh_contact_look(of, w, s, input, accel, signal);
     place.but = wh_contact_breaking(of, w);
+    for (unsigned k = 0; k < of->forced; k++) {
+        const bool rests = of->contact[k].kind == WH_STOP && w->mode[k] == WH_ACTIVE;
+        place.but |= rests && wh_contact_far(of, w, k, signal, s) ? wh_contact_stuck(of, w) : 0U;
+    }
     for (unsigned pass = 0; pass < 2 && wh_contact_close(of, w, &place, signal, input, s); pass++) {
         wh_contact_look(of, w, s, input, accel, signal);
     }

@@ -113,8 +113,13 @@ static inline wh_real wh_contact_hit(const wh_hybrid *of, wh_contact_work *w, un
         if (speed > WH_R(0.0)) {
             impulse += wh_contact_impulse(of, w, k, beside, WH_R(0.0), rate);
         }
+        wh_contact_place place = WH_CONTACT_HERE;
+        if (before_speed == WH_R(0.0) && signal[2 * k] < WH_R(0.0)) {
+            place.but =
+                wh_contact_stuck(of, w); /* at rest beyond it: friction does not keep it there */
+        }
         w->mode[k] = WH_ACTIVE;
-        (void)wh_contact_close(of, w, &WH_CONTACT_HERE, signal, input, s);
+        (void)wh_contact_close(of, w, &place, signal, input, s);
     }
     const unsigned gone = resting & ~wh_contact_resting(of, w);
     if (gone != 0) {
