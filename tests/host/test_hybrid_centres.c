@@ -141,12 +141,13 @@ static bool reference(const machine *c, long double until_s, long double s[2]) {
 
 /* --- Whirl's ------------------------------------------------------------------------------------------------ */
 
+static const char two_holds[] = "hold b - e*cos(a) - 4*e*cos(psi) while b > -100 [m]\n"
+                                "hold e*sin(a) - 4*e*sin(psi) while b > -100 [m]\n";
+
 static void write_machine(const machine *c, char *text, size_t size) {
     static const char *const closed[MACHINES] = {
         "stop b - e*cos(a) >= 0 restitution 0\n", "hold b - e*cos(a) while b > -100 [m]\n",
-        "hold b - e*cos(a) - sqrt(16*e^2 - e^2*sin(a)^2) while b > -100 [m]\n",
-        ("hold b - e*cos(a) - 4*e*cos(psi) while b > -100 [m]\n"
-         "hold e*sin(a) - 4*e*sin(psi) while b > -100 [m]\n"),
+        "hold b - e*cos(a) - sqrt(16*e^2 - e^2*sin(a)^2) while b > -100 [m]\n", two_holds,
         "stop b - e/(1 + a^2) >= 0 restitution 0\n"};
     long double f[3];
     law(c, wide(c->a), f);
