@@ -180,7 +180,8 @@ static void test_rows_of_wagons(void) {
 static void test_a_force_elsewhere_holds_nothing(void) {
     for (int i = 0; i < 8; i++) {
         char text[700];
-        const double large = pow(10.0, 2.0 + i / 2);
+        const int digits = 2 + i / 2;
+        const double large = pow(10.0, digits);
         snprintf(text, sizeof text,
                  "mechanism beside\ncoordinate y [m]\ncoordinate z [m]\ncoordinate c [rad]\n"
                  "T = 0.5 [kg]*y'^2/2 + 2 [kg]*z'^2/2 + 1e6 [kg*m^2]*c'^2/2\n"

@@ -16,11 +16,11 @@ void suite_plot(void);
 #define PICTURE "build/tests/drawn.svg"
 #define MADE "build/tests/made" /* what a command would make */
 
-static const char *const pieces[] = {"`touch " MADE "`",
-                                     "'.system('touch " MADE "').'",
-                                     "\n!touch " MADE "\n",
-                                     "$(touch " MADE ")",
-                                     "\"`touch " MADE "`\"",
+static const char *const pieces[] = {"`touch build/tests/made`",
+                                     "'.system('touch build/tests/made').'",
+                                     "\n!touch build/tests/made\n",
+                                     "$(touch build/tests/made)",
+                                     "\"`touch build/tests/made`\"",
                                      "\\",
                                      "\\\\",
                                      "\\n",
