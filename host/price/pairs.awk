@@ -16,8 +16,9 @@ function seconds(line,    part) {
     return part[3] * (line ~ /\[ms\]/ ? 1e-3 : line ~ /\[min\]/ ? 60 : 1)
 }
 
-# The assignments of a set line but those of names in `own` (of effects).
-function sets_without(line,    part, count, i, kept, name) {
+# The assignments of a set line but those of names that other effects than `effect` own: a scene may set only what
+# takes part in it.
+function sets_of(line, effect,    part, count, i, kept, name) {
     sub(/^ *set */, "", line)
     sub(/ *#.*$/, "", line)
     count = split(line, part, /, */)
@@ -25,7 +26,7 @@ function sets_without(line,    part, count, i, kept, name) {
     for (i = 1; i <= count; i++) {
         name = part[i]
         sub(/ *=.*/, "", name)
-        if (!((mechanism_of_scene, name) in own)) {
+        if (!((mechanism_of_scene, name) in own) || own[mechanism_of_scene, name] == effect) {
             kept = kept (kept == "" ? "" : ", ") part[i]
         }
     }
@@ -53,7 +54,7 @@ inside == "effect" {
         kind[mechanism, effect] = "noise"
     }
     if ($1 == "parameter" || $1 == "input") {
-        own[mechanism, $2] = 1
+        own[mechanism, $2] = effect
     }
     if (/^}/) {
         inside = ""
@@ -89,7 +90,7 @@ inside == "scene" {
     }
 }
 
-function write_scene(path, name, s, effect, bare,    i, line) {
+function write_scene(path, name, s, effect,    i, line) {
     print "scene " name " \"price\" {\n  use " use[s] >path
     if (effect != "") {
         print "  with " effect >path
@@ -97,8 +98,8 @@ function write_scene(path, name, s, effect, bare,    i, line) {
     mechanism_of_scene = use[s]
     for (i = 1; i <= body_lines[s]; i++) {
         line = body[s, i]
-        if (bare && line ~ /^ *set /) {
-            line = sets_without(line)
+        if (line ~ /^ *set /) {
+            line = sets_of(line, effect)
         }
         print line >path
     }
@@ -116,9 +117,9 @@ function pair(mechanism, effect, kind,    s, found) {
     if (found == 0) {
         return
     }
-    write_scene(out "/" first ".scenes", "p" first "_without", found, "", 0)
-    write_scene(out "/" first ".scenes", "p" first "_with", found, effect, 0)
-    write_scene(out "/" first ".bare", "p" first "_without", found, "", 1)
+    write_scene(out "/" first ".scenes", "p" first "_without", found, "")
+    write_scene(out "/" first ".scenes", "p" first "_with", found, effect)
+    write_scene(out "/" first ".bare", "p" first "_without", found, "")
     close(out "/" first ".scenes")
     close(out "/" first ".bare")
     print first, mechanism, effect, kind, step_s[found], until_s[found], FILENAME
