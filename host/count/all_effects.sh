@@ -13,7 +13,10 @@ mkdir -p "$out"
 awk '
     FNR == 1 { mechanism = "" }
     $1 == "mechanism" { mechanism = $2 }
-    $1 == "effect" { effects[mechanism] = (mechanism in effects ? effects[mechanism] "," : "") $2 }
+    $1 == "effect" { # some awks make the element that is assigned to before they ask whether it is there
+        before = mechanism in effects ? effects[mechanism] "," : ""
+        effects[mechanism] = before $2
+    }
     $1 == "scene" { scene[++count] = $2; file[count] = FILENAME; of[count] = mechanism }
     $1 == "use" { of[count] = $2 }
     END { for (i = 1; i <= count; i++) print file[i] ":" scene[i], scene[i], effects[of[i]] }
