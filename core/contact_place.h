@@ -69,7 +69,8 @@ static inline wh_real wh_contact_moved(const wh_hybrid *of, const wh_contact_wor
 
 /* Is contact k a hold that can slip? One with a pin cannot. */
 WH_INLINE bool wh_contact_slips(const wh_hybrid *of, const wh_contact_work *w, unsigned k) {
-    return of->contact[k].kind == WH_HOLD && of->contact[k].pin < 0 && w->mode[k] == WH_ACTIVE;
+    return of->held > 0 && of->contact[k].kind == WH_HOLD && of->contact[k].pin < 0 &&
+           w->mode[k] == WH_ACTIVE;
 }
 
 /* By how much contact k is off the place where it is to be. `from`: where a try to `s` began; NULL: no try. */
