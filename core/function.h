@@ -1,0 +1,36 @@
+/* function.h: the functions of the language beside sine, cosine and square root, by the core itself.
+ *
+ * Every operation in them is an IEEE 754 addition, multiplication, division, root or conversion of wh_real,
+ * or one of integers: the same bits on every machine, and no library's. Float computes in float alone.
+ *
+ * Special cases as in C's Annex F: infinities, NaN, signed zeros and subnormals included.
+ */
+#ifndef WH_FUNCTION_H
+#define WH_FUNCTION_H
+
+#include "real.h"
+
+#define wh_exp WH_NAME(wh_exp)
+#define wh_log WH_NAME(wh_log)
+#define wh_tan WH_NAME(wh_tan)
+#define wh_asin WH_NAME(wh_asin)
+#define wh_acos WH_NAME(wh_acos)
+#define wh_atan WH_NAME(wh_atan)
+#define wh_atan2 WH_NAME(wh_atan2)
+#define wh_pow WH_NAME(wh_pow)
+
+/* Within one unit in the last place: e^x, the natural logarithm, and the angles in radians. */
+wh_real wh_exp(wh_real x);
+wh_real wh_log(wh_real x);
+wh_real wh_asin(wh_real x);
+wh_real wh_acos(wh_real x);
+wh_real wh_atan(wh_real x);
+
+/* Within two units in float, one in double. Radians, of any size. */
+wh_real wh_tan(wh_real rad);
+/* The angle of the point (x, y), -pi to pi. */
+wh_real wh_atan2(wh_real y, wh_real x);
+/* base^exponent; exact where the result is a number of wh_real. */
+wh_real wh_pow(wh_real base, wh_real exponent);
+
+#endif
