@@ -182,7 +182,7 @@ void emit_c(FILE *out, const equations *e, const program *p, const engine_settin
     if (p->contacts != NULL) {
         c_contacts_include(out, p->contacts);
     } else {
-        fprintf(out, "#include \"core/%s.h\"\n", p->ledger != NULL ? "ledger" : "step");
+        fprintf(out, "#include \"core/%s.h\"\n", p->ledger != NULL ? "ledger_step" : "step");
     }
     if (c_list_uses(p->observe, OP_NOISE)) {
         fprintf(out, "#include \"core/noise.h\"\n");
