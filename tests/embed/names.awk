@@ -80,6 +80,8 @@ BEGIN {
         print "Q(" x[1] ") = " u[1] (given > 1 ? " + " u[2] : "") >file
         if (number % 2 == 1)
             print "stop " x[1] " >= -5 [m] restitution 0.5" >file
+        else if (lengths > 1) # keeps by how much it has slipped
+            print "hold " x[1] " + " x[2] " while " x[1] " > 5 [m]" >file
     }
     for (i = 1; i <= shown; i++)
         print "output " o[i] " [mm] = " x[1] " + " i " [m]" >file
