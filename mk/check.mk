@@ -1,7 +1,7 @@
 # check.mk: the quality gates of `make check`. Each is a target of its own, gate-NAME; tests/gates.sh
 # runs them, keeps what they say in build/check/NAME.log and prints a line for each.
 
-GATES := house gcc clang format cppcheck tidy sanitizers memcheck bad-input firmware size hashes
+GATES := house gcc clang format cppcheck tidy sanitizers memcheck bad-input firmware size hashes avr
 LINT_FLAGS := -std=c11 $(WARN) -I. $(UNITY_FLAGS) -D_POSIX_C_SOURCE=200809L
 JOBS := 2
 
@@ -93,6 +93,12 @@ gate-firmware:
 
 gate-size:
 	@$(MAKE) size-now
+
+# --- AVR: the table in flash, and equal bits, in every dialect; from C++, too ------------------------
+gate-avr: build/whirl
+	@$(call need,avr-gcc)
+	@$(call need,simavr)
+	@sh tests/embed/avr.sh build/whirl build/check/avr
 
 # --- one arithmetic everywhere ----------------------------------------------------------------------
 HASH_BUILDS := gcc-O0 gcc-O2 gcc-O3 clang-O0 clang-O2 clang-O3
