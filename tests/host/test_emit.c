@@ -192,8 +192,8 @@ static void expect_lines(const char *name, const char *const *lines) {
 static void test_short_equations_look_as_in_the_dissertation(void) {
     expect_lines("spherical_particle",
                  (const char *const[]){
-                     "  r:  m*r'' - m*r*sin(theta)^2*phi'^2 - m*r*theta'^2 + m*g*cos(theta) = 0\n",
-                     "  theta:  m*r^2*theta'' - m*r^2*sin(2*theta)*phi'^2/2 + 2*m*r*r'*theta' - "
+                     "  r:  m*r'' - m*r*theta'^2 - m*r*sin(theta)^2*phi'^2 + m*g*cos(theta) = 0\n",
+                     "  theta:  m*r^2*theta'' + 2*m*r*r'*theta' - m*r^2*sin(2*theta)*phi'^2/2 - "
                      "m*g*r*sin(theta) = 0\n",
                      "  phi:  m*r^2*sin(theta)^2*phi'' + 2*m*r*sin(theta)^2*r'*phi' + "
                      "m*r^2*sin(2*theta)*theta'*phi' = 0\n",
