@@ -50,15 +50,15 @@ int mono_order(const mono *x, const mono *y) {
     if (x == y) {
         return 0;
     }
-    for (int i = 0; i < x->count && i < y->count; i++) {
+    if (x->count != y->count) {
+        return of_ints(x->count, y->count);
+    }
+    for (int i = 0; i < x->count; i++) {
         int order = atom_order(x->factors[i].atom, y->factors[i].atom);
         order = order != 0 ? order : of_numbers(x->factors[i].exponent, y->factors[i].exponent);
         if (order != 0) {
             return order;
         }
-    }
-    if (x->count != y->count) {
-        return of_ints(x->count, y->count);
     }
     if (x->trig != y->trig || x->angle == NULL) {
         return of_ints((int)x->trig, (int)y->trig);
