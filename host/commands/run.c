@@ -184,14 +184,15 @@ static bool read_every(const run_options *o, const mechanism *of, const instance
         return false;
     }
     const double wanted = spacing_s / inst->step_s;
-    if (!(wanted > 0.5 && wanted < 1e15) || fabs(wanted - floor(wanted + 0.5)) > 1e-6 * wanted) {
+    if (!(wanted > 0.5 && wanted < 1e15) ||
+        fabs(wanted - number_floor(wanted + 0.5)) > 1e-6 * wanted) {
         fprintf(stderr,
                 "whirl run: error: --every %s is not a whole number of steps\n"
                 "hint: the step is %.9g s\n",
                 o->every, inst->step_s);
         return false;
     }
-    *steps = (unsigned long)floor(wanted + 0.5);
+    *steps = (unsigned long)number_floor(wanted + 0.5);
     return true;
 }
 

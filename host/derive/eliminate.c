@@ -81,8 +81,10 @@ static double *sample(const tape *t) {
         case OP_MUL: v[i] = a * b; break;
         case OP_DIV: v[i] = a / b; break;
         case OP_NEG: v[i] = -a; break;
-        case OP_SQRT: v[i] = sqrt(fabs(a)); break;
-        default: v[i] = 0.3 + 0.37 * fmod((double)i * 0.6180339887, 1.0) + 0.01 * a; break;
+        case OP_SQRT: v[i] = number_root(fabs(a)); break;
+        default:
+            v[i] = 0.3 + 0.37 * number_remainder((double)i * 0.6180339887, 1.0) + 0.01 * a;
+            break;
         }
     }
     return v;

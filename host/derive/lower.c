@@ -99,7 +99,7 @@ typedef struct product {
 static void product_multiply(lowering *l, product *p, int node, int exponent) {
     double value;
     if (tape_is_constant(l->tape, node, &value)) {
-        p->coefficient *= pow(value, exponent);
+        p->coefficient *= number_power(value, exponent);
         return;
     }
     for (int i = 0; i < p->count; i++) {
@@ -138,8 +138,8 @@ static int atom_node(lowering *l, const atom *x) {
 static void product_factor(lowering *l, product *p, const factor *f) {
     int node = atom_node(l, f->atom);
     double size = fabs(f->exponent);
-    if (size != floor(size)) {
-        if (2.0 * size == floor(2.0 * size) && size < 32.0) {
+    if (size != number_floor(size)) {
+        if (2.0 * size == number_floor(2.0 * size) && size < 32.0) {
             node = tape_unary(l->tape, OP_SQRT, node);
             size *= 2.0;
         } else {

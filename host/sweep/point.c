@@ -204,7 +204,7 @@ static bool run_through(meter *m, const instance *inst, bool (*abandon)(void), d
     const engine_kind *kind = m->sweep->kind;
     const uint64_t steps = inst->steps;
     /* the first step at or after from_s, which rounding may put just beside a step */
-    const double from = ceil(m->sweep->from_s / inst->step_s * (1.0 - 1e-12));
+    const double from = number_ceiling(m->sweep->from_s / inst->step_s * (1.0 - 1e-12));
     if (m->series && from > (double)steps) {
         fprintf(reason, "--from %.9g s lies behind the last step", m->sweep->from_s);
         return false;
