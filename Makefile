@@ -113,7 +113,7 @@ worst-step: ## the most instructions of a step with events, over a million rando
 	@$(MAKE) worst-now
 
 .PHONY: size
-size: ## bytes of flash, of memory and of stack of BOARD's images
+size: ## bytes of flash, of memory and of stack of BOARD's images, and of the functions
 	@CC="$(CC)" host/setup/deps.sh host firmware
 	@$(MAKE) size-now
 
