@@ -81,6 +81,10 @@ hashes: ## the same bits from every compiler, optimisation level, board and the 
 sine-exhaustive: $(B)/tools/sine_exhaustive ## the sine's worst error, over all 2^32 angles (minutes)
 	$(Q)$<
 
+.PHONY: root-exhaustive
+root-exhaustive: $(B)/tools/root_exhaustive ## the square root in integers, over all 2^32 numbers (a minute)
+	$(Q)$<
+
 .PHONY: fuzz
 fuzz: ## broken files at the parser, odd mechanisms at the rest, for FUZZ_SECONDS each
 	@CC="$(CC)" host/setup/deps.sh host quality
