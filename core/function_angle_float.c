@@ -23,16 +23,16 @@ static float angle_sum(uint32_t sign, uint32_t base, bool minus, wh_digits angle
 
 /* The arc whose tangent is t, for 0 < t <= 1: by at most 5e-10 of it. */
 static wh_digits arc_of_tangent(wh_digits t) {
-    static const WH_SINE_FLASH uint32_t series[] = {
-        4758830U,   31312263U,  96570224U,  191677941U, 289373305U,
-        378361278U, 474929245U, 613311670U, 858979164U, 1431655485U}; /* Q32, signs alternate */
+    static const uint32_t series[] WH_FLASH = {4758830U,   31312263U,  96570224U,  191677941U,
+                                               289373305U, 378361278U, 474929245U, 613311670U,
+                                               858979164U, 1431655485U}; /* Q32, signs alternate */
     if (t.exponent == 0) { /* t is one, whose square would overflow */
         t = (wh_digits){UINT32_MAX, -1};
     }
     const uint32_t square = wh_square(t);
-    uint32_t sum = series[0];
+    uint32_t sum = wh_flash_word(&series[0]);
     for (unsigned i = 1; i < sizeof series / sizeof series[0]; i++) {
-        sum = series[i] - wh_high(sum, square);
+        sum = wh_flash_word(&series[i]) - wh_high(sum, square);
     }
     t.size -= wh_high(t.size, wh_high(sum, square));
     return t;
@@ -83,8 +83,8 @@ static uint32_t root_of(uint32_t size) {
  * quarter turn, by the sine of that: sqrt((1 - x)/2). By at most 5e-10 of it. A magnitude of 0 or one gives
  * size 0. */
 static wh_digits arc_of_sine(uint32_t magnitude) {
-    static const WH_SINE_FLASH uint32_t series[] = {161131133U, 62013972U,  136612917U,
-                                                    191198894U, 322144200U, 715827596U}; /* Q32 */
+    static const uint32_t series[] WH_FLASH = {161131133U, 62013972U,  136612917U,
+                                               191198894U, 322144200U, 715827596U}; /* Q32 */
     wh_digits s = {0U, -64};
     if (magnitude <= UINT32_C(0x3f000000)) {
         if (magnitude != 0U) {
@@ -97,9 +97,9 @@ static wh_digits arc_of_sine(uint32_t magnitude) {
         s = (wh_digits){root_of(missing << shift), 2 - (int32_t)((shift - 1U) / 2U)};
     }
     const uint32_t square = wh_square(s);
-    uint32_t sum = series[0];
+    uint32_t sum = wh_flash_word(&series[0]);
     for (unsigned i = 1; i < sizeof series / sizeof series[0]; i++) {
-        sum = series[i] + wh_high(sum, square);
+        sum = wh_flash_word(&series[i]) + wh_high(sum, square);
     }
     s.size = (s.size >> 1) + (wh_high(s.size, wh_high(sum, square)) >> 1);
     s.exponent++;

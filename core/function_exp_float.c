@@ -12,11 +12,11 @@
 
 /* 2^fraction in Q31, for a fraction in Q32: by at most 1.2e-10 of it, and never falling as the fraction grows. */
 static uint32_t exp2_of(uint32_t fraction) {
-    static const WH_SINE_FLASH uint32_t slope[] = {89165U,     627085U,     5751038U,   41300811U,
-                                                   238389830U, 1031764893U, 2977044473U};
-    uint32_t sum = slope[0];
+    static const uint32_t slope[] WH_FLASH = {89165U,     627085U,     5751038U,   41300811U,
+                                              238389830U, 1031764893U, 2977044473U};
+    uint32_t sum = wh_flash_word(&slope[0]);
     for (unsigned i = 1; i < sizeof slope / sizeof slope[0]; i++) {
-        sum = slope[i] + wh_high(sum, fraction);
+        sum = wh_flash_word(&slope[i]) + wh_high(sum, fraction);
     }
     return WH_TOP_BIT + (wh_high(sum, fraction) >> 1);
 }
@@ -36,42 +36,35 @@ static uint64_t shifted(uint64_t size, int32_t shift) { return ((size >> (shift 
  * z, has the polynomial log2(e) z - z^2 (...). Between 31/32 and 17/16 nothing else is added, so that small
  * logarithms are as exact as large ones. */
 static int64_t log2_of(uint32_t magnitude) {
-    static const WH_SINE_FLASH uint8_t inverse[16] = {128, 117, 111, 105, 100, 95, 91, 87,
-                                                      84,  80,  77,  74,  72,  69, 67, 64};
-    static const WH_SINE_FLASH uint64_t less[16] = {
-        /* -log2(inverse/128) */
-        UINT64_C(0),
-        UINT64_C(0x1097e38ce60649),
-        UINT64_C(0x1a5094b54d2828),
-        UINT64_C(0x24939a56279ad9),
-        UINT64_C(0x2d961ed0cb91d4),
-        UINT64_C(0x370ef8af6360e0),
-        UINT64_C(0x3f0095d1a19a03),
-        UINT64_C(0x474da0a5ad4953),
-        UINT64_C(0x4dc88aedc1d1ef),
-        UINT64_C(0x56cb0f6865c8ea),
-        UINT64_C(0x5dd9f04a59e914),
-        UINT64_C(0x6530a1d24b136c),
-        UINT64_C(0x6a3fe5c6042978),
-        UINT64_C(0x721bdedfa92a23),
-        UINT64_C(0x778a63b02eb033),
-        UINT64_C(0x80000000000000),
-    };
-    static const WH_SINE_FLASH int32_t bend[] = {-422085684, 517401452,   -619679893, /* Q31 */
-                                                 774539989,  -1032721315, 1549082005};
+    /* A sector's number in Q7 in the upper 8 bits; -log2 of it in Q55 in the others. */
+    static const uint32_t inverses[] WH_FLASH = {
+        UINT32_C(0x80000000), UINT32_C(0x00000000), UINT32_C(0x751097e3), UINT32_C(0x8ce60649),
+        UINT32_C(0x6f1a5094), UINT32_C(0xb54d2828), UINT32_C(0x6924939a), UINT32_C(0x56279ad9),
+        UINT32_C(0x642d961e), UINT32_C(0xd0cb91d4), UINT32_C(0x5f370ef8), UINT32_C(0xaf6360e0),
+        UINT32_C(0x5b3f0095), UINT32_C(0xd1a19a03), UINT32_C(0x57474da0), UINT32_C(0xa5ad4953),
+        UINT32_C(0x544dc88a), UINT32_C(0xedc1d1ef), UINT32_C(0x5056cb0f), UINT32_C(0x6865c8ea),
+        UINT32_C(0x4d5dd9f0), UINT32_C(0x4a59e914), UINT32_C(0x4a6530a1), UINT32_C(0xd24b136c),
+        UINT32_C(0x486a3fe5), UINT32_C(0xc6042978), UINT32_C(0x45721bde), UINT32_C(0xdfa92a23),
+        UINT32_C(0x43778a63), UINT32_C(0xb02eb033), UINT32_C(0x40800000), UINT32_C(0x00000000)};
+    /* Q31; their signs alternate. */
+    static const uint32_t bend[] WH_FLASH = {422085684U, 517401452U,  619679893U,
+                                             774539989U, 1032721315U, 1549082005U};
     const int64_t log2_e = INT64_C(99141248300); /* Q36 */
 
     const wh_digits x = wh_digits_of(magnitude);
     const uint32_t sector = (x.size >> 27) & 15U;
-    const int32_t rest = (int32_t)((x.size >> 8) * inverse[sector]) - (INT32_C(1) << 30); /* Q30 */
-    const int32_t z = rest * 4;                                                           /* Q32 */
-    int32_t sum = bend[0];
-    for (unsigned i = 1; i < sizeof bend / sizeof bend[0]; i++) {
-        sum = bend[i] + (int32_t)(((int64_t)sum * z) >> 32);
+    const uint32_t high = wh_flash_word(&inverses[2U * sector]);
+    const uint32_t low = wh_flash_word(&inverses[2U * sector + 1U]);
+    const int64_t less = (int64_t)(((uint64_t)(high & UINT32_C(0xffffff)) << 32) | low);
+    const int32_t rest = (int32_t)((x.size >> 8) * (high >> 24)) - (INT32_C(1) << 30); /* Q30 */
+    const int32_t z = rest * 4;                                                        /* Q32 */
+    int32_t sum = 0;
+    for (unsigned i = 0; i < sizeof bend / sizeof bend[0]; i++) {
+        sum = (int32_t)wh_flash_word(&bend[i]) - (int32_t)(((int64_t)sum * z) >> 32);
     }
     const int32_t bent = (int32_t)(((int64_t)sum * z) >> 28); /* Q35 */
     const int64_t straight = (log2_e * rest) >> 11;
-    return (int64_t)x.exponent * (INT64_C(1) << POINT) + (int64_t)less[sector] + straight -
+    return (int64_t)x.exponent * (INT64_C(1) << POINT) + less + straight -
            (((int64_t)bent * z) >> 12);
 }
 

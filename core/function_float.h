@@ -9,8 +9,8 @@
 #ifndef WH_FUNCTION_FLOAT_H
 #define WH_FUNCTION_FLOAT_H
 
+#include "flash.h"
 #include "function.h"
-#include "sine.h"
 
 /* Magnitudes of a float as bits: order as integers is order as numbers. */
 #define WH_BITS_SIGN UINT32_C(0x80000000)
@@ -33,6 +33,15 @@ typedef struct wh_digits {
 WH_INLINE uint32_t wh_bits_of(float x) { return (wh_word){.value = x}.bits; }
 
 WH_INLINE float wh_float_of_bits(uint32_t bits) { return (wh_word){.bits = bits}.value; }
+
+/* A number of a table that is WH_FLASH: on an AVR that takes instructions that take floats here. */
+WH_INLINE uint32_t wh_flash_word(const uint32_t *from) {
+#if defined(__AVR__)
+    return wh_bits_of(wh_flash_real((const float *)(const void *)from));
+#else
+    return *from;
+#endif
+}
 
 /* The upper half of a product. */
 WH_INLINE uint32_t wh_high(uint32_t a, uint32_t b) { return (uint32_t)(((uint64_t)a * b) >> 32); }

@@ -11,7 +11,7 @@
 #define EIGHTH_TURN UINT32_C(0x3f490fda) /* the largest float below pi/4 */
 
 /* 2/pi; 32 binary digits a word, the first word in front of the point. */
-static const WH_SINE_FLASH uint32_t two_over_pi[] = {
+static const uint32_t two_over_pi[] WH_FLASH = {
     UINT32_C(0x00000000), UINT32_C(0xa2f9836e), UINT32_C(0x4e441529), UINT32_C(0xfc2757d1),
     UINT32_C(0xf534ddc0), UINT32_C(0xdb629599), UINT32_C(0x3c439041), UINT32_C(0xfe5163ab)};
 
@@ -20,11 +20,13 @@ static const WH_SINE_FLASH uint32_t two_over_pi[] = {
 static wh_digits rest_of_quarters(uint32_t magnitude, bool *odd, bool *below) {
     /* A float is digits 2^(exponent - 150): digits of 2/pi that only make multiples of two are skipped. */
     const uint32_t skip = (magnitude >> 23) - (150U - 31U);
-    const WH_SINE_FLASH uint32_t *word = &two_over_pi[skip >> 5];
+    const uint32_t *word = &two_over_pi[skip >> 5];
     const uint32_t shift = skip & 31U;
     uint32_t window[3];
     for (unsigned i = 0; i < 3; i++) {
-        window[i] = (uint32_t)((((uint64_t)word[i] << 32) | word[i + 1]) >> (32U - shift));
+        window[i] =
+            (uint32_t)((((uint64_t)wh_flash_word(&word[i]) << 32) | wh_flash_word(&word[i + 1])) >>
+                       (32U - shift));
     }
     const uint32_t digits = (magnitude & UINT32_C(0x7fffff)) | UINT32_C(0x800000);
     const uint64_t quarters =
@@ -44,12 +46,12 @@ static wh_digits rest_of_quarters(uint32_t magnitude, bool *odd, bool *below) {
 
 /* The tangent of up to an eighth of a turn: by at most 1.5e-9 of it. */
 static wh_digits tangent_of(wh_digits rad) {
-    static const WH_SINE_FLASH uint32_t series[] = {18797842U,  380841U,    46542290U,  91405258U,
-                                                    232185762U, 572633515U, 1431656471U}; /* Q32 */
+    static const uint32_t series[] WH_FLASH = {18797842U,  380841U,    46542290U,  91405258U,
+                                               232185762U, 572633515U, 1431656471U}; /* Q32 */
     const uint32_t square = wh_square(rad);
-    uint32_t sum = series[0];
+    uint32_t sum = wh_flash_word(&series[0]);
     for (unsigned i = 1; i < sizeof series / sizeof series[0]; i++) {
-        sum = series[i] + wh_high(sum, square);
+        sum = wh_flash_word(&series[i]) + wh_high(sum, square);
     }
     rad.size = (rad.size >> 1) + (wh_high(rad.size, wh_high(sum, square)) >> 1);
     rad.exponent++;
