@@ -197,14 +197,6 @@ static bool read_every(const run_options *o, const mechanism *of, const instance
 }
 
 static int run_loaded(run_options *o, const source_model *from, const loaded *made) {
-    const char *missing = program_needs_libm(made->program);
-    if (missing != NULL && o->settings.kind == &engine_float) {
-        fprintf(stderr,
-                "%s: error: '%s' needs %s, which the core does not offer in float\n"
-                "hint: run it with --number double\n",
-                from->file, made->instance->name, missing);
-        return EXIT_BAD_INPUT;
-    }
     if (!read_every(o, made->instance->mechanism, made->instance, &o->settings.every)) {
         return EXIT_BAD_INPUT;
     }

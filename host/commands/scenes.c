@@ -12,7 +12,7 @@
 
 typedef int scene_visitor(void *context, const char *file, const loaded *made);
 
-/* Visit every built-in scene that the core can run on boards. Returns an exit code. */
+/* Visit every built-in scene. Returns an exit code. */
 static int each_scene(scene_visitor *visit, void *context) {
     int code = EXIT_DONE;
     for (size_t i = 0; i < builtin_model_count && code == EXIT_DONE; i++) {
@@ -25,7 +25,7 @@ static int each_scene(scene_visitor *visit, void *context) {
             const scene *in = from.model->scenes[k];
             loaded made;
             code = load(&made, &from, in->mechanism, in, NULL, true);
-            if (code == EXIT_DONE && program_needs_libm(made.program) == NULL) {
+            if (code == EXIT_DONE) {
                 code = visit(context, b->file, &made);
             }
             unload(&made);

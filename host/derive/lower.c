@@ -27,23 +27,24 @@ typedef struct angle_list {
     int room;
 } angle_list;
 
-static void collect_angles(algebra *a, const poly *p, angle_list *list) {
+static void collect_angles(const lowering *l, const poly *p, angle_list *list) {
+    algebra *a = l->algebra;
     piece *pieces = piece_room(p);
     const int count = pieces_of(a, p, pieces);
     for (int i = 0; i < count; i++) {
         for (int j = 0; j < pieces[i].mono->count; j++) {
             const atom *x = pieces[i].mono->factors[j].atom;
             for (int k = 0; k < 2 && x->kind != ATOM_SYMBOL && x->argument[k] != NULL; k++) {
-                collect_angles(a, x->argument[k], list);
+                collect_angles(l, x->argument[k], list);
             }
-            if (x->kind == ATOM_CALL && x->function == FN_TAN) {
-                collect_angles(a, poly_sin(a, x->argument[0]), list);
+            if (x->kind == ATOM_CALL && x->function == FN_TAN && waves_turns(l, x->argument[0])) {
+                collect_angles(l, poly_sin(a, x->argument[0]), list);
             }
         }
         if (pieces[i].angle == NULL) {
             continue;
         }
-        collect_angles(a, pieces[i].angle, list);
+        collect_angles(l, pieces[i].angle, list);
         bool known = false;
         for (int k = 0; k < list->count; k++) {
             known = known || list->angles[k] == pieces[i].angle;
@@ -65,7 +66,7 @@ static void collect_angles(algebra *a, const poly *p, angle_list *list) {
 void lower_plan(lowering *l, const poly *const *polys, int count) {
     angle_list list = {0};
     for (int i = 0; i < count; i++) {
-        collect_angles(l->algebra, polys[i], &list);
+        collect_angles(l, polys[i], &list);
     }
     waves_plan(l, list.angles, list.count);
     free(list.angles);
@@ -126,7 +127,8 @@ static int atom_node(lowering *l, const atom *x) {
     case ATOM_POWER: return tape_pow(l->tape, lower(l, x->argument[0]), lower(l, x->argument[1]));
     case ATOM_CALL: break;
     }
-    if (x->function == FN_TAN) {
+    /* a phase has 1.5e-9 rad: enough for a turn angle, whose own digits these are, not for a small number */
+    if (x->function == FN_TAN && waves_turns(l, x->argument[0])) {
         const int s = waves_sine(l, x->argument[0]);
         return tape_div(l->tape, s, waves_cosine(l, x->argument[0]));
     }

@@ -187,6 +187,9 @@ void emit_c(FILE *out, const equations *e, const program *p, const engine_settin
     } else {
         fprintf(out, "#include \"core/%s.h\"\n", p->ledger != NULL ? "ledger_step" : "step");
     }
+    if (program_calls(p)) {
+        fprintf(out, "#include \"core/function.h\"\n");
+    }
     if (c_list_uses(p->observe, OP_NOISE)) {
         fprintf(out, "#include \"core/noise.h\"\n");
     }

@@ -265,11 +265,6 @@ static bool read_measures(const meter *m, const instance *inst, double *measured
 static bool measure_run(const sweep *s, const program *p, const equations *e, const instance *inst,
                         bool (*abandon)(void), double *measured, diags *errors, FILE *reason,
                         point_notes *notes) {
-    const char *missing = program_needs_libm(p);
-    if (missing != NULL && s->kind == &engine_float) {
-        fprintf(reason, "needs %s, which the core does not offer in float", missing);
-        return false;
-    }
     void *run = s->kind->start(p, inst, &s->engine);
     meter m = meter_open(s, p, e, inst, run);
     const bool good = run_through(&m, inst, abandon, errors, reason) &&
