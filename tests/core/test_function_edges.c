@@ -242,6 +242,10 @@ static void test_ends_of_the_range(void) {
 #if WH_DOUBLE
     EXPECT(wh_exp, {0x1.62e42fefa39efp9, 0x1.fffffffffff2ap1023}, {0x1.62e42fefa39fp9, INF},
            {-0x1.74910d52d3051p9, TINY}, {-0x1.74910d52d3052p9, ZERO});
+    /* The double that comes nearest to a multiple of a quarter turn. */
+    EXPECT(wh_cosine, {0x1.6ac5b262ca1ffp849, -0x1.14ae72e6ba22fp-61});
+    EXPECT(wh_sine, {-0x1.6ac5b262ca1ffp849, -1.0});
+    EXPECT(wh_tan, {0x1.6ac5b262ca1ffp849, -0x1.d9ba9a7975636p60});
     TEST_ASSERT_TRUE(wh_pow(2.0, 0x1.fffffffffffffp9) < INF);
     TEST_ASSERT_TRUE(wh_pow(2.0, -1075.0) == 0.0); /* a half unit: to even */
     TEST_ASSERT_TRUE(wh_pow(2.0, -0x1.0cbffffffffffp10) == TINY);
