@@ -85,6 +85,10 @@ sine-exhaustive: $(B)/tools/sine_exhaustive ## the sine's worst error, over all 
 functions-exhaustive: $(B)/tools/functions_exhaustive ## the float functions' worst errors, over all 2^32 floats (half an hour)
 	$(Q)$<
 
+.PHONY: root-exhaustive
+root-exhaustive: $(B)/tools/root_exhaustive ## the square root in integers, over all 2^32 numbers (a minute)
+	$(Q)$<
+
 .PHONY: fuzz
 fuzz: ## broken files at the parser, odd mechanisms at the rest, for FUZZ_SECONDS each
 	@CC="$(CC)" host/setup/deps.sh host quality

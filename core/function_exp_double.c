@@ -9,7 +9,7 @@
 
 #define STEPS_PER_LN2 0x1.71547652b82fep6
 #define STEP_HIGH 0x1.62e42fefcp-7 /* 35 bits: its product with k is exact */
-#define STEP_LOW -0x1.c610ca86c3899p-43
+#define STEP_LOW (-0x1.c610ca86c3899p-43)
 
 /* 2^(i/64). */
 static const wh_pair fraction[64] = {

@@ -74,11 +74,11 @@ static turned reduced(double rad) {
     if (rad <= QUARTER_OF_PI) {
         return (turned){{rad, 0.0}, 0};
     }
-    /* rad = mantissa 2^exponent; bits of 2/pi that make whole turns with it are left out. */
+    /* rad = mantissa 2^(field - 1075); bits of 2/pi that make whole turns with it are left out. */
     const uint64_t bits = wh_bits(rad);
     const uint64_t mantissa = (bits & (UINT64_MAX >> 12)) | (UINT64_C(1) << 52);
-    const int exponent = (int)(bits >> 52) - 1075;
-    const unsigned first = (unsigned)(exponent + 62);
+    const unsigned field = (unsigned)(bits >> 52) & 2047U;
+    const unsigned first = field > 1013U ? field - 1013U : 0U; /* 9 to 1033 */
     uint64_t word[3];
     uint64_t carry = 0;
     for (unsigned i = 3; i-- > 0;) {

@@ -113,16 +113,16 @@ static uint64_t whole_of(double size, int *exponent) {
 double number_remainder(double x, double y) {
     const double size = WH_ABS(x);
     const double by = WH_ABS(y);
-    if (!(size < WH_INFINITY) || !(by > 0.0)) {
+    int exponent;
+    int by_exponent;
+    uint64_t rest = whole_of(size, &exponent);
+    const uint64_t divisor = whole_of(by, &by_exponent);
+    if (!(size < WH_INFINITY) || wh_is_nan(y) || divisor == 0) {
         return WH_NAN;
     }
     if (size < by) {
         return x;
     }
-    int exponent;
-    int by_exponent;
-    uint64_t rest = whole_of(size, &exponent);
-    const uint64_t divisor = whole_of(by, &by_exponent);
     rest %= divisor;
     while (exponent > by_exponent) { /* 53 bits and 11 more have room */
         const int bits = exponent - by_exponent < 11 ? exponent - by_exponent : 11;
