@@ -13,6 +13,10 @@
 
 #include "real.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 #if WH_DOUBLE
 
 typedef double wh_angle;  /* radians, unwrapped */
@@ -53,7 +57,11 @@ WH_INLINE wh_phase wh_phase_of(wh_angle angle) { return (wh_phase)(uint64_t)angl
 #if WH_DOUBLE
 #define WH_FACTOR(real, whole, part) (real)
 #else
-#define WH_FACTOR(real, whole, part) ((wh_factor){part, whole})
+#define WH_FACTOR(real, whole, part) wh_factor_of(whole, part)
+WH_INLINE wh_factor wh_factor_of(uint32_t whole, uint64_t part) {
+    const wh_factor made = {part, whole};
+    return made;
+}
 #endif
 
 #if !WH_DOUBLE
@@ -140,6 +148,10 @@ wh_real wh_angle_to_rad(wh_angle angle);
  * turns count there, which a phase has lost: half of one turn is half a turn. Float: within 0.75 phase
  * units (1.1e-9 rad), however many turns. Double: the product, rounded. For records, never in a step. */
 wh_phase wh_phase_times(wh_angle angle, wh_factor factor);
+
+#ifdef __cplusplus
+}
+#endif
 
 #include "sine.h" /* the inline bodies of wh_sincos and wh_phase_from_rad */
 

@@ -22,17 +22,12 @@ static inline uint64_t wh_hash_u64(uint64_t hash, uint64_t word) {
  * 32 bits zero-extended. */
 static inline uint64_t wh_hash_real(uint64_t hash, wh_real value) {
 #if WH_DOUBLE
-    union {
-        double value;
-        uint64_t bits;
-    } as = {.value = value};
+    uint64_t bits;
 #else
-    union {
-        float value;
-        uint32_t bits;
-    } as = {.value = value};
+    uint32_t bits;
 #endif
-    return wh_hash_u64(hash, as.bits);
+    __builtin_memcpy(&bits, &value, sizeof bits);
+    return wh_hash_u64(hash, bits);
 }
 
 #endif

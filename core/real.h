@@ -19,12 +19,10 @@
 typedef double wh_real;
 #define WH_R(x) x
 #define WH_ABS(x) __builtin_fabs(x)
-#define WH_SQRT(x) __builtin_sqrt(x)
 #else
 typedef float wh_real;
 #define WH_R(x) x##f
 #define WH_ABS(x) __builtin_fabsf(x)
-#define WH_SQRT(x) __builtin_sqrtf(x)
 #endif
 
 /* The host links both builds of the core into one program, so the double one carries a suffix. */
@@ -51,5 +49,7 @@ typedef enum wh_status {
     WH_E_SINGULAR =
         -5 /* holds came to where they leave more than one motion; the last good state is kept */
 } wh_status;
+
+#include "root.h" /* WH_SQRT */
 
 #endif

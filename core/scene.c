@@ -25,19 +25,42 @@ static size_t ledgers(const wh_scene *scene) {
                                  : 2U * (size_t)scene->ledger->entries + scene->ledger->accounts;
 }
 
-wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, size_t bytes) {
-    const size_t numbers =
-        scene->angles * sizeof(wh_angle) +
-        (scene->reals + carries(scene) + scene->inputs + scene->held + ledgers(scene)) *
-            sizeof(wh_real);
-    const size_t contacts_at = (numbers + 7U) / 8U * 8U;
-    const size_t need =
-        scene->contacts > 0 ? contacts_at + sizeof(wh_contacts) + scene->contacts : numbers;
-    if (scene->form == WH_FIRST_ORDER && scene->method == WH_SEMI_IMPLICIT_EULER) {
+static size_t all_reals(const wh_scene *scene) {
+    return scene->reals + carries(scene) + scene->inputs + scene->held + ledgers(scene);
+}
+
+/* Whatever lies in a state's memory may begin here: at an address that is a multiple of what the compiler puts
+ * them at in a struct, which on some machines (i386, AVR) is less than their size. */
+static bool is_aligned(const void *memory) {
+    struct behind_a_byte {
+        char byte;
+        union {
+            wh_angle angle;
+            wh_real real;
+            wh_contacts contacts;
+        } behind;
+    };
+    return (uintptr_t)memory % offsetof(struct behind_a_byte, behind) == 0;
+}
+
+static wh_status refusal(const wh_scene *scene, const wh_state *state, const void *memory,
+                         size_t bytes) {
+    if (scene == NULL || state == NULL || scene->contacts > WH_CONTACTS_LIMIT ||
+        (scene->form == WH_FIRST_ORDER && scene->method == WH_SEMI_IMPLICIT_EULER) ||
+        !is_aligned(memory)) {
         return WH_E_ARGUMENT;
     }
-    if (memory == NULL || bytes < need) {
+    if (memory == NULL ||
+        bytes < WH_MEMORY_BYTES(scene->angles, all_reals(scene), scene->contacts)) {
         return WH_E_MEMORY;
+    }
+    return WH_OK;
+}
+
+wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, size_t bytes) {
+    const wh_status refused = refusal(scene, state, memory, bytes);
+    if (refused != WH_OK) {
+        return refused;
     }
     wh_real *reals;
     state->angle = memory;
@@ -72,8 +95,8 @@ wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, s
     }
     state->contacts = NULL;
     if (scene->contacts > 0) {
-        start_contacts(scene, state,
-                       (wh_contacts *)(void *)((unsigned char *)memory + contacts_at));
+        const size_t at = (WH_NUMBER_BYTES(scene->angles, all_reals(scene)) + 7U) / 8U * 8U;
+        start_contacts(scene, state, (wh_contacts *)(void *)((unsigned char *)memory + at));
     }
     state->steps = 0;
     state->fault = -1;

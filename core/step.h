@@ -3,7 +3,8 @@
  * A generated scene and the host's interpreter both include this file. In a generated scene the
  * counts, the method and `compensated` are constants and the right-hand side is inlined, so the
  * compiler unrolls the loops and drops whatever the scene does not call for; the order of the
- * floating-point operations, and so every bit of the result, is the same in both.
+ * floating-point operations, and so every bit of the result, is the same in both. Neither is C++: what
+ * embeds a scene includes scene.h and the generated header.
  *
  * For q'' = f(q, q', u) the position stages of the Runge-Kutta methods are written out, which gives
  * the classic method's numbers to rounding with fewer operations (Hairer, Norsett & Wanner,
@@ -17,14 +18,20 @@
 #ifndef WH_STEP_H
 #define WH_STEP_H
 
+#ifdef __cplusplus
+#error \
+    "core/step.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
+#endif
+
 #include "scene.h"
+#include "sum.h"
 
 /* Most coordinates (second order) or components (first order). A generated scene defines its own
  * and has its loops unrolled: gcc -O2 would not, and arrays indexed by a counter stay in memory. */
 #ifndef WH_COORDS
 #define WH_COORDS 64
 #define WH_UNROLL
-#elif defined(__GNUC__) && !defined(__clang__)
+#elif defined(__GNUC__) && __GNUC__ >= 8 && !defined(__clang__) /* which older ones do not know */
 #define WH_UNROLL _Pragma("GCC unroll 64")
 #else
 #define WH_UNROLL
@@ -33,28 +40,12 @@
 /* A linear position or a rate beyond this is no mechanism's: the step is refused. */
 #define WH_ABSURD WH_R(1e15)
 
-/* Accelerations of a second-order system. accel[coordinates]. */
-typedef void wh_accel_fn(const void *model, const wh_phase *phase, const wh_real *linear,
-                         const wh_real *rate, const wh_real *input, wh_real *accel);
-
 /* Derivatives of a first-order system: slope[angles + reals], angles first (rad/s). */
 typedef void wh_slope_fn(const void *model, const wh_phase *phase, const wh_real *real,
                          const wh_real *input, wh_real *slope);
 
 /* True for finite numbers of a believable size; false for NaN. */
 WH_INLINE bool wh_believable(wh_real value, wh_real limit) { return WH_ABS(value) < limit; }
-
-/* value + increment. When compensated, *carry goes into the sum and is replaced by the sum's rounding
- * error (Kahan; Higham, Accuracy and Stability of Numerical Algorithms, section 4.3). */
-WH_INLINE wh_real wh_sum(wh_real value, wh_real increment, bool compensated, wh_real *carry) {
-    if (!compensated) {
-        return value + increment;
-    }
-    const wh_real wanted = increment + *carry;
-    const wh_real sum = value + wanted;
-    *carry = wanted - (sum - value);
-    return sum;
-}
 
 /* *angle moved on by `steps` phase units, rounded to the nearest: dropping the fraction would slow every
  * angle down by half a unit a step. False, with *angle as it was, for half a turn or more, or NaN. */

@@ -56,10 +56,13 @@ define archive
 	$(Q)rm -f $@ && ar rcs $@ $^
 endef
 
+# What Whirl makes needs no mathematical library. Tests and tools compare with one.
+LIBM = $(if $(filter $(B)/tests/% $(B)/tools/%,$@),-lm)
+
 define link
 	$(say) LINK $@
 	@mkdir -p $(@D)
-	$(Q)$(CC) $(NATIVE) -o $@ $(filter %.o,$^) -Wl,--start-group $(filter %.a,$^) -Wl,--end-group -lm
+	$(Q)$(CC) $(NATIVE) -o $@ $(filter %.o,$^) -Wl,--start-group $(filter %.a,$^) -Wl,--end-group $(LIBM)
 endef
 
 # Generated C: the built-in models and scenes.

@@ -92,6 +92,12 @@ test-board: build/whirl
 $(B)/tools/sine_exhaustive: $(call objects,host,tests/tools/sine_exhaustive.c) $(LIB_FLOAT)
 	$(link)
 
+$(B)/tools/functions_exhaustive: $(call objects,host,tests/tools/functions_exhaustive.c) $(LIB_FLOAT)
+	$(link)
+
+$(B)/tools/root_exhaustive: $(call objects,host,tests/tools/root_exhaustive.c) $(LIB_FLOAT)
+	$(link)
+
 # --- fuzzing ------------------------------------------------------------------------------------
 # Each tests/fuzz/x.c defines LLVMFuzzerTestOneInput(). Findings stay in build/fuzz/x.found.
 FUZZERS := $(patsubst tests/fuzz/%.c,build/fuzz/%.fuzzer,$(wildcard tests/fuzz/*.c))

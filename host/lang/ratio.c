@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "host/number/functions.h"
+
 __extension__ typedef unsigned __int128 wide;
 
 enum { MANTISSA = 53, DIGITS_MOST = 15 };
@@ -44,8 +46,9 @@ static whole_ratio between(end low, end high) {
 /* The simplest fraction within 2^-51 of the value, or a little less. */
 static whole_ratio simplest(double value) {
     int exponent;
-    const double mantissa = frexp(value, &exponent); /* below one: 53 bits behind the point */
-    const wide digits = (wide)ldexp(mantissa, MANTISSA);
+    const double mantissa =
+        number_split(value, &exponent); /* below one: 53 bits behind the point */
+    const wide digits = (wide)number_scaled(mantissa, MANTISSA);
     const int scale = exponent - MANTISSA; /* value = digits * 2^scale, digits from 2^52 on */
     const wide off = 2;
     const wide up = scale > 0 ? (wide)1 << scale : 1;
@@ -131,5 +134,5 @@ double ratio_times(uint64_t count, whole_ratio each) {
         quotient >>= 1;
         shift--;
     }
-    return ldexp((double)((uint64_t)quotient | (uint64_t)(rest != 0)), -shift);
+    return number_scaled((double)((uint64_t)quotient | (uint64_t)(rest != 0)), -shift);
 }
