@@ -92,6 +92,9 @@ test-board: build/whirl
 $(B)/tools/sine_exhaustive: $(call objects,host,tests/tools/sine_exhaustive.c) $(LIB_FLOAT)
 	$(link)
 
+$(B)/tools/functions_exhaustive: $(call objects,host,tests/tools/functions_exhaustive.c) $(LIB_FLOAT)
+	$(link)
+
 $(B)/tools/root_exhaustive: $(call objects,host,tests/tools/root_exhaustive.c) $(LIB_FLOAT)
 	$(link)
 

@@ -144,8 +144,12 @@ static void write_banner(FILE *out, const equations *e, const program *p, const 
             program_hash(p));
     fprintf(out,
             " * a right-hand side: %d additions and products, %d divisions, %d square roots,\n"
-            " *                    %d pairs of sine and cosine\n *\n",
+            " *                    %d pairs of sine and cosine",
             cost.arithmetic, cost.divisions, cost.roots, cost.waves);
+    if (cost.calls > 0) {
+        fprintf(out, ", %d functions of core/function.h", cost.calls);
+    }
+    fprintf(out, "\n *\n");
     fprintf(out, " * Components of the state, SI units, angles in turns (2^32 steps each):\n");
     for (int i = 0; i < p->angles; i++) {
         fprintf(out, " *   angle[%d]  %s\n", i, e->unknowns[p->angle[i].unknown].symbol->name);

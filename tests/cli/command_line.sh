@@ -185,7 +185,7 @@ for file in tests/bad/derive_*.whirl; do
     done
 done
 prints 'state hash' run tests/mechanisms/morse.whirl --number float
-prints 'wh_exp(x' derive tests/mechanisms/morse.whirl --as c
+prints 'wh_exp\(' derive tests/mechanisms/morse.whirl --as c
 prints '^function dy = ' derive tests/mechanisms/morse.whirl --as octave
 
 # --- files that are read are not written ------------------------------------------------------------------
