@@ -92,6 +92,11 @@ test-board: build/whirl
 $(B)/tools/sine_exhaustive: $(call objects,host,tests/tools/sine_exhaustive.c) $(LIB_FLOAT)
 	$(link)
 
+# Generated mechanisms, all of which derive.
+$(B)/tools/mechanisms: $(call objects,host,tests/tools/mechanisms.c tests/tools/mechanism.c) $(LIB_HOST) \
+    $(LIB_FLOAT) $(LIB_DOUBLE)
+	$(link)
+
 # --- fuzzing ------------------------------------------------------------------------------------
 # Each tests/fuzz/x.c defines LLVMFuzzerTestOneInput(). Findings stay in build/fuzz/x.found.
 FUZZERS := $(patsubst tests/fuzz/%.c,build/fuzz/%.fuzzer,$(wildcard tests/fuzz/*.c))
