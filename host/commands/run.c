@@ -8,6 +8,7 @@
 
 #include "commands.h"
 #include "files.h"
+#include "host/number/decimal.h"
 #include "host/run/belief.h"
 #include "host/run/simulate.h"
 #include "host/run/start.h"
@@ -78,8 +79,8 @@ static bool take_strict(char **words, int *at, double *limit, bool *bad) {
     ++*at;
     *limit = BELIEF_LIMIT;
     if (word[length] == '=') {
-        char *end;
-        *limit = strtod(word + length + 1, &end);
+        const char *end;
+        *limit = decimal_read(word + length + 1, &end);
         *bad = end == word + length + 1 || *end != '\0' || !(*limit > 0.0 && *limit <= 1.0);
     }
     if (*bad) {

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "host/number/decimal.h"
 #include "host/number/wide.h"
 
 enum { MANTISSA = 53, DIGITS_MOST = 15 };
@@ -72,7 +73,7 @@ static bool decimal(double value, whole_ratio *found, uint64_t *said) {
     char text[40];
     for (int digits = 1; digits <= DIGITS_MOST; digits++) {
         snprintf(text, sizeof text, "%.*e", digits - 1, value);
-        if (!(fabs(strtod(text, NULL) - value) <= 0x1p-52 * value)) {
+        if (!(fabs(decimal_read(text, NULL) - value) <= 0x1p-52 * value)) {
             continue;
         }
         int power = (int)strtol(strchr(text, 'e') + 1, NULL, 10) - (digits - 1);
