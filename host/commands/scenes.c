@@ -66,10 +66,23 @@ typedef struct emission {
     const char *folder;
     FILE *declarations;
     FILE *index;
-    bool all_forms; /* text, LaTeX and Octave too */
+    bool all_forms; /* text, LaTeX, Octave and the runs' hashes too */
 } emission;
 
-/* Of a file's scene, what is not for boards: every function is in it. */
+/* The scene's run, as a line with the hash of its last state. */
+static void write_hash(FILE *out, const char *what, const engine_kind *kind, const loaded *made) {
+    const engine_settings settings = {WH_RK4, false};
+    void *run = kind->start(made->program, made->instance, &settings);
+    wh_status status = WH_OK;
+    while (kind->steps(run) < made->instance->steps && status == WH_OK) {
+        status = kind->step(run);
+    }
+    fprintf(out, "%s %s steps %" PRIu64 " hash 0x%016" PRIx64 " %s\n", what, made->instance->name,
+            kind->steps(run), kind->hash(run), wh_status_text(status));
+    kind->stop(run);
+}
+
+/* Of a file's scene, the other forms, and what it comes to. */
 static int emit_other_forms(const emission *to, const char *file, const loaded *made) {
     FILE *out = open_in(to->folder, made->instance->name, ".txt");
     if (out == NULL) {
@@ -80,6 +93,10 @@ static int emit_other_forms(const emission *to, const char *file, const loaded *
     if (made->program->conserved == NULL) {
         emit_octave(out, made->equations, made->program, file);
     }
+    if (program_needs_libm(made->program) == NULL) {
+        write_hash(out, "scene", &engine_float, made);
+    }
+    write_hash(out, "double", &engine_double, made);
     fclose(out);
     return EXIT_DONE;
 }
@@ -142,19 +159,17 @@ int command_emit_scenes(int count, char **words) {
 static int hash_one(void *context, const char *file, const loaded *made) {
     (void)context;
     (void)file;
-    if (program_needs_libm(made->program) != NULL) {
-        return EXIT_DONE;
+    if (program_needs_libm(made->program) == NULL) {
+        write_hash(stdout, "scene", &engine_float, made);
     }
-    const engine_settings settings = {WH_RK4, false};
-    void *run = engine_float.start(made->program, made->instance, &settings);
-    wh_status status = WH_OK;
-    while (engine_float.steps(run) < made->instance->steps && status == WH_OK) {
-        status = engine_float.step(run);
-    }
-    printf("scene %s steps %" PRIu64 " hash 0x%016" PRIx64 " %s\n", made->instance->name,
-           engine_float.steps(run), engine_float.hash(run), wh_status_text(status));
-    engine_float.stop(run);
     return EXIT_DONE;
 }
 
-int command_hashes(int count, char **words) { return each_scene(count, words, hash_one, NULL); }
+int command_hashes(int count, char **words) {
+    (void)words;
+    if (count != 0) {
+        fputs("usage: whirl hashes\n", stderr);
+        return EXIT_BAD_INPUT;
+    }
+    return each_scene(0, NULL, hash_one, NULL);
+}

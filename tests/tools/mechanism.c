@@ -443,7 +443,8 @@ static void system_of(writer *w, unsigned name) {
 void mechanism_write(unsigned name, uint64_t seed, char text[static MECHANISM_SIZE]) {
     writer w = {.seed = seed, .text = text};
     put(&w, "mechanism m%u \"Generated from seed %" PRIu64 "\"\n", name, seed);
-    w.coordinates = 1 + (int)draw(&w, COORDINATES_MAX);
+    static const int coordinates[] = {1, 1, 2, 2, 2, 3, 3, COORDINATES_MAX};
+    w.coordinates = coordinates[draw(&w, 8)];
     w.functions = draw(&w, 2) == 0;
     if (draw(&w, 8) == 0) {
         system_of(&w, name);
