@@ -93,7 +93,7 @@ $(B)/tools/sine_exhaustive: $(call objects,host,tests/tools/sine_exhaustive.c) $
 	$(link)
 
 # Generated mechanisms, all of which derive.
-$(B)/tools/mechanisms: $(call objects,host,tests/tools/mechanisms.c tests/tools/mechanism.c) $(LIB_HOST) \
+$(B)/tools/mechanisms: $(call objects,host,tests/tools/mechanisms.c tests/host/mechanism.c) $(LIB_HOST) \
     $(LIB_FLOAT) $(LIB_DOUBLE)
 	$(link)
 

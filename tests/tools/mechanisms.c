@@ -8,7 +8,7 @@
 
 #include "host/derive/program.h"
 #include "host/lang/model.h"
-#include "mechanism.h"
+#include "tests/host/mechanism.h"
 
 static bool derives(const char *text, bool *for_boards, diags *all) {
     model *parsed = model_parse("generated", text, strlen(text), all);

@@ -1,6 +1,6 @@
 /* mechanism.h: generated mechanisms, as text, for what must hold for any mechanism. */
-#ifndef TOOLS_MECHANISM_H
-#define TOOLS_MECHANISM_H
+#ifndef TESTS_HOST_MECHANISM_H
+#define TESTS_HOST_MECHANISM_H
 
 #include <stddef.h>
 #include <stdint.h>
