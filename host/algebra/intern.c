@@ -1,4 +1,5 @@
 /* intern.c: one object for equal things: atoms, products and sums are looked up before they are made. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -103,8 +104,8 @@ bool algebra_overflow(const algebra *a) { return a->overflow; }
 /* --- atoms ---------------------------------------------------------------------------------------*/
 
 uint64_t symbol_bit(const symbol *sym, int primes) {
-    const uint64_t hash = mix((uint64_t)(uintptr_t)sym, (uint64_t)primes + 1);
-    return UINT64_C(1) << (hash >> 58);
+    const uint64_t which = (uint64_t)sym->kind * 1024U + (uint64_t)sym->index;
+    return UINT64_C(1) << (mix(which, (uint64_t)primes + 1) >> 58);
 }
 
 static bool atom_equal(const void *x, const void *y) {
@@ -126,6 +127,7 @@ static const atom *atom_intern(algebra *a, const atom *candidate) {
         atom *made = arena_alloc(a->arena, sizeof *made);
         *made = *candidate;
         made->id = next_id(a, &a->atoms, sizeof *made);
+        made->rank = atom_rank(made);
         *slot = (intern_slot){hash, made};
     }
     return slot->object;
@@ -146,6 +148,7 @@ const atom *atom_of_polys(algebra *a, atom_kind kind, function_id function, cons
                             .function = function,
                             .argument = {x, y},
                             .symbols = x->symbols | (y == NULL ? 0 : y->symbols),
+                            .keeps_powers = x->keeps_powers || (y != NULL && y->keeps_powers),
                             .size = 1.0 + x->size + (y == NULL ? 0.0 : y->size)};
     return atom_intern(a, &candidate);
 }
@@ -172,8 +175,13 @@ const mono *mono_intern(algebra *a, mono *candidate) {
     uint64_t hash =
         mix((uint64_t)candidate->trig, candidate->angle == NULL ? 0 : candidate->angle->id + 1U);
     candidate->symbols = candidate->angle == NULL ? 0 : candidate->angle->symbols;
+    candidate->keeps_powers = candidate->angle != NULL && candidate->angle->keeps_powers;
     candidate->size = candidate->angle == NULL ? 1.0 : 1.0 + candidate->angle->size;
     for (int i = 0; i < candidate->count; i++) {
+        const factor *f = &candidate->factors[i];
+        const bool kept = f->atom->kind == ATOM_GROUP && f->exponent > 1.0 &&
+                          power_multiplies_out(f->atom->argument[0], f->exponent, (double)INFINITY);
+        candidate->keeps_powers = candidate->keeps_powers || f->atom->keeps_powers || kept;
         hash =
             mix(mix(hash, candidate->factors[i].atom->id), bits_of(candidate->factors[i].exponent));
         candidate->symbols |= candidate->factors[i].atom->symbols;
@@ -231,8 +239,10 @@ static bool poly_equal(const void *x, const void *y) {
 const poly *poly_intern(algebra *a, poly *candidate) {
     uint64_t hash = (uint64_t)candidate->count;
     candidate->symbols = 0;
+    candidate->keeps_powers = false;
     candidate->size = 0.0;
     for (int i = 0; i < candidate->count; i++) {
+        candidate->keeps_powers = candidate->keeps_powers || candidate->terms[i].mono->keeps_powers;
         hash =
             mix(mix(hash, candidate->terms[i].mono->id), bits_of(candidate->terms[i].coefficient));
         candidate->symbols |= candidate->terms[i].mono->symbols;

@@ -319,7 +319,8 @@ int tape_pow(tape *t, int base, int exponent) {
 
 int tape_power(tape *t, int base, double exponent) {
     if (exponent < 0.0) {
-        return tape_div(t, tape_constant(t, 1.0), tape_power(t, base, -exponent));
+        const int inverse = tape_power(t, base, -exponent);
+        return tape_div(t, tape_constant(t, 1.0), inverse);
     }
     if (exponent == floor(exponent) && exponent <= 64.0) {
         int result = tape_constant(t, 1.0);
