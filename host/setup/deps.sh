@@ -70,6 +70,7 @@ quality() {
     want clang-format "the layout gate" have clang-format
     want clang-tidy "the lint gate" have clang-tidy
     want cppcheck "the second lint gate" have cppcheck
+    want musl-tools "another C library" have musl-gcc
 }
 
 bench() {
@@ -84,7 +85,6 @@ can_m32() {
 
 hosts() {
     major=$(gcc -dumpversion 2>/dev/null | cut -d . -f 1)
-    want musl-tools "another C library" have musl-gcc
     want "lib32gcc-${major:-12}-dev" "32-bit programs" can_m32
     want libc6-dev-i386 "32-bit programs" can_m32
     want gcc-aarch64-linux-gnu "the compiler for aarch64" have aarch64-linux-gnu-gcc
