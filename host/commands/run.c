@@ -168,7 +168,7 @@ static bool model_would_be_lost(const source_model *from, const simulation_setti
 
 /* --every as a number of steps. */
 static bool read_every(const run_options *o, const mechanism *of, const instance *inst,
-                       unsigned long *steps) {
+                       uint64_t *steps) {
     *steps = 1;
     if (o->every == NULL) {
         return true;
@@ -192,7 +192,7 @@ static bool read_every(const run_options *o, const mechanism *of, const instance
                 o->every, inst->step_s);
         return false;
     }
-    *steps = (unsigned long)floor(wanted + 0.5);
+    *steps = (uint64_t)floor(wanted + 0.5);
     return true;
 }
 
