@@ -45,7 +45,7 @@ $(B)/tests/host: $(call objects,host,$(HOST_TEST_PARTS)) $(LIB_HOST) $(LIB_SCENE
     $(LIB_DOUBLE)
 	$(link)
 
-TEST_PROGRAMS := $(B)/tests/core_double $(B)/tests/core_float $(B)/tests/host
+TEST_PROGRAMS := $(B)/tests/core_double $(B)/tests/core_float $(B)/tests/host $(B)/tools/mechanisms
 
 .PHONY: test-programs
 test-programs: $(TEST_PROGRAMS)

@@ -35,7 +35,7 @@ while [ $# -ge 2 ]; do
     mechanisms=$(wc -l <"$here/mechanisms.differ")
     hashes=$(wc -l <"$here/hashes.differ")
     written=$(find "$here/mechanisms" -name '*.txt' | wc -l)
-    if [ -e "$here/failed" ] || [ "$written" -eq 0 ]; then
+    if [ -e "$here/failed" ] || [ ! -s "$here/seconds" ] || [ "$written" -eq 0 ]; then
         { echo "$name failed:"; grep -B 2 '^exit status' "$here/log.txt" | head -n 8; } | sed '2,$s/^/    /' >>"$notes"
         bad=1
     fi
