@@ -56,8 +56,16 @@ WH_INLINE wh_phase wh_phase_of(wh_angle angle) { return (wh_phase)(uint64_t)angl
 #define WH_FACTOR(real, whole, part) ((wh_factor){part, whole})
 #endif
 
-/* *moved = `phase` moved on by `steps` phase units (radians * WH_PHASE_PER_RAD), in float without their
- * fraction. False, with *moved as it was, for half a turn or more, or NaN: the step is to be refused. */
+#if !WH_DOUBLE
+/* The nearest whole number of |steps| < WH_PHASE_STEP_MAX, halves away from zero. What is added is the number
+ * below 1/2: with 1/2 itself, odd numbers between 2^23 and 2^24 would tie with the next. */
+WH_INLINE int32_t wh_whole(float steps) {
+    return (int32_t)(steps + (steps < 0.0f ? -0x1.fffffep-2f : 0x1.fffffep-2f));
+}
+#endif
+
+/* *moved = `phase` moved on by `steps` phase units (radians * WH_PHASE_PER_RAD), in float rounded to the
+ * nearest. False, with *moved as it was, for half a turn or more, or NaN: the step is to be refused. */
 WH_INLINE bool wh_phase_move(wh_phase phase, wh_real steps, wh_phase *moved) {
     if (!(WH_ABS(steps) < WH_PHASE_STEP_MAX)) {
         return false;
@@ -65,7 +73,7 @@ WH_INLINE bool wh_phase_move(wh_phase phase, wh_real steps, wh_phase *moved) {
 #if WH_DOUBLE
     *moved = phase + steps;
 #else
-    *moved = phase + (wh_phase)(int32_t)steps;
+    *moved = phase + (wh_phase)wh_whole(steps);
 #endif
     return true;
 }

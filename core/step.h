@@ -71,7 +71,7 @@ WH_INLINE bool wh_angle_move(wh_angle *angle, wh_real steps, bool compensated, w
     if (!wh_believable(steps, WH_PHASE_STEP_MAX)) {
         return false;
     }
-    const int32_t whole = (int32_t)(steps + (steps < 0.0f ? -0.5f : 0.5f));
+    const int32_t whole = wh_whole(steps);
     if (compensated) {
         *carry = steps - (float)whole;
     }
