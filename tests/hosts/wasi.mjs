@@ -1,4 +1,5 @@
-// wasi.mjs PROGRAM.wasm WORD...: runs a WebAssembly program with the files of this machine. The exit status is its own.
+// wasi.mjs PROGRAM WORD...: runs a WebAssembly program with the files below the working folder. The exit status is its
+// own.
 import { readFile } from 'node:fs/promises';
 import { WASI } from 'node:wasi';
 
@@ -7,7 +8,7 @@ const wasi = new WASI({
   version: 'preview1',
   args: [program, ...words],
   env: {},
-  preopens: { '.': '.', '/': '/' },
+  preopens: { '.': '.' },
   returnOnExit: true,
 });
 const module = await WebAssembly.compile(await readFile(program));
