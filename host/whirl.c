@@ -31,9 +31,14 @@ typedef struct command {
 } command;
 
 static const command commands[] = {
-    {"list", command_list, 0},     {"derive", command_derive, 0},
-    {"accel", command_accel, 0},   {"run", command_run, 0},
-    {"sweep", command_sweep, 0},   {"emit-scenes", command_emit_scenes, 1},
+    {"list", command_list, 0},
+    {"derive", command_derive, 0},
+    {"accel", command_accel, 0},
+#ifndef WHIRL_NO_SYSTEM /* no processes and no signals */
+    {"run", command_run, 0},
+    {"sweep", command_sweep, 0},
+#endif
+    {"emit-scenes", command_emit_scenes, 1},
     {"hashes", command_hashes, 1},
 };
 

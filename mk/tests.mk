@@ -45,7 +45,7 @@ $(B)/tests/host: $(call objects,host,$(HOST_TEST_PARTS)) $(LIB_HOST) $(LIB_SCENE
     $(LIB_DOUBLE)
 	$(link)
 
-TEST_PROGRAMS := $(B)/tests/core_double $(B)/tests/core_float $(B)/tests/host
+TEST_PROGRAMS := $(B)/tests/core_double $(B)/tests/core_float $(B)/tests/host $(B)/tools/mechanisms
 
 .PHONY: test-programs
 test-programs: $(TEST_PROGRAMS)
@@ -96,6 +96,11 @@ $(B)/tools/functions_exhaustive: $(call objects,host,tests/tools/functions_exhau
 	$(link)
 
 $(B)/tools/root_exhaustive: $(call objects,host,tests/tools/root_exhaustive.c) $(LIB_FLOAT)
+	$(link)
+
+# Generated mechanisms, all of which derive.
+$(B)/tools/mechanisms: $(call objects,host,tests/tools/mechanisms.c tests/host/mechanism.c) $(LIB_HOST) \
+    $(LIB_FLOAT) $(LIB_DOUBLE)
 	$(link)
 
 # --- fuzzing ------------------------------------------------------------------------------------

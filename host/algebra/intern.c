@@ -9,6 +9,8 @@
 #define WORK_MAX ((size_t)1 << 28)
 /* What a term handled counts for, in bytes. */
 #define WORK_OF_TERM 2U
+/* What objects count for, in bytes: their sizes on a host of 64 bits. What is given up on must not depend on the host. */
+enum { ATOM_BYTES = 72, MONO_BYTES = 48, POLY_BYTES = 32, PART_BYTES = 16, PAIR_BYTES = 24 };
 
 static uint64_t mix(uint64_t hash, uint64_t word) {
     hash ^= word + UINT64_C(0x9e3779b97f4a7c15) + (hash << 6) + (hash >> 2);
@@ -126,7 +128,7 @@ static const atom *atom_intern(algebra *a, const atom *candidate) {
     if (slot->object == NULL) {
         atom *made = arena_alloc(a->arena, sizeof *made);
         *made = *candidate;
-        made->id = next_id(a, &a->atoms, sizeof *made);
+        made->id = next_id(a, &a->atoms, ATOM_BYTES);
         made->rank = atom_rank(made);
         *slot = (intern_slot){hash, made};
     }
@@ -192,7 +194,7 @@ const mono *mono_intern(algebra *a, mono *candidate) {
         const size_t bytes = sizeof *candidate + (size_t)candidate->count * sizeof(factor);
         mono *made = arena_alloc(a->arena, bytes);
         memcpy(made, candidate, bytes);
-        made->id = next_id(a, &a->monos, bytes);
+        made->id = next_id(a, &a->monos, MONO_BYTES + (size_t)candidate->count * PART_BYTES);
         *slot = (intern_slot){hash, made};
     }
     return slot->object;
@@ -253,7 +255,7 @@ const poly *poly_intern(algebra *a, poly *candidate) {
         const size_t bytes = sizeof *candidate + (size_t)candidate->count * sizeof(poly_term);
         poly *made = arena_alloc(a->arena, bytes);
         memcpy(made, candidate, bytes);
-        made->id = next_id(a, &a->polys, bytes);
+        made->id = next_id(a, &a->polys, POLY_BYTES + (size_t)candidate->count * PART_BYTES);
         if (made->size > POLY_SIZE_MAX) {
             a->overflow = true;
         }
@@ -297,6 +299,6 @@ void memo_put(algebra *a, intern_table *table, const void *left, const void *rig
         memo_pair *made = arena_alloc(a->arena, sizeof *made);
         *made = key;
         *slot = (intern_slot){hash, made};
-        next_id(a, table, sizeof *made);
+        next_id(a, table, PAIR_BYTES);
     }
 }
