@@ -17,6 +17,7 @@
 #ifndef WH_STEP_H
 #define WH_STEP_H
 
+#include "arithmetic.h"
 #include "scene.h"
 
 /* Most coordinates (second order) or components (first order). A generated scene defines its own
