@@ -23,6 +23,7 @@
     "core/step.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
 #endif
 
+#include "arithmetic.h"
 #include "scene.h"
 #include "sum.h"
 

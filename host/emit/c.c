@@ -109,7 +109,8 @@ static void write_scene(FILE *out, const program *p, const instance *inst,
     fprintf(out, "    .start_input = %s,\n", p->inputs > 0 ? "start_input" : "NULL");
     fprintf(out, "    .model = NULL,\n    .model_hash = UINT64_C(0x%016" PRIx64 "),\n",
             program_hash(p));
-    fprintf(out, "    .advance = advance,\n    .observe = %s,\n};\n",
+    fprintf(out,
+            "    .advance = advance,\n    .observe = %s,\n    .arithmetic = wh_arithmetic,\n};\n",
             p->outputs > 0 ? "observe" : "NULL");
 }
 
