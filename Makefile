@@ -14,6 +14,9 @@ export LC_ALL := C
 ifeq ($(origin CC),default)
 CC := gcc
 endif
+ifeq ($(origin AR),default)
+AR := ar
+endif
 OPT ?= -O2
 # Extra compiler and linker flags, such as -Werror or -fsanitize=address.
 EXTRA ?=
@@ -25,6 +28,10 @@ UNITY ?=
 FUZZ_SECONDS ?= 20
 # Where one configuration's objects go: the quality gates build with other flags elsewhere.
 B ?= build
+# Flags for linking only, such as -static.
+LINK_EXTRA ?=
+# "none" leaves out the commands that need processes and signals, for hosts without (WebAssembly).
+SYSTEM ?= posix
 
 include mk/rules.mk
 include mk/whirl.mk
@@ -32,6 +39,7 @@ include mk/tests.mk
 include mk/board.mk
 include mk/price.mk
 include mk/figures.mk
+include mk/hosts.mk
 include mk/check.mk
 
 ##@ Start here
@@ -77,8 +85,21 @@ hashes: ## the same bits from every compiler, optimisation level, board and the 
 	@CC="$(CC)" host/setup/deps.sh host firmware quality
 	@$(MAKE) hashes-now
 
+.PHONY: hosts
+hosts: ## the same generated code from whirl built by other compilers, C libraries and processors (minutes)
+	@CC="$(CC)" host/setup/deps.sh host quality hosts
+	@$(MAKE) hosts-now
+
 .PHONY: sine-exhaustive
 sine-exhaustive: $(B)/tools/sine_exhaustive ## the sine's worst error, over all 2^32 angles (minutes)
+	$(Q)$<
+
+.PHONY: functions-exhaustive
+functions-exhaustive: $(B)/tools/functions_exhaustive ## the float functions' worst errors, over all 2^32 floats (half an hour)
+	$(Q)$<
+
+.PHONY: root-exhaustive
+root-exhaustive: $(B)/tools/root_exhaustive ## the square root in integers, over all 2^32 numbers (a minute)
 	$(Q)$<
 
 .PHONY: fuzz
@@ -109,7 +130,7 @@ worst-step: ## the most instructions of a step with events, over a million rando
 	@$(MAKE) worst-now
 
 .PHONY: size
-size: ## bytes of flash, of memory and of stack of BOARD's images
+size: ## bytes of flash, of memory and of stack of BOARD's images, and of the functions
 	@CC="$(CC)" host/setup/deps.sh host firmware
 	@$(MAKE) size-now
 

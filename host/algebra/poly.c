@@ -67,7 +67,7 @@ double coefficient_sum(double x, double y) {
     if (!isfinite(x + y)) { /* infinity is not small beside itself */
         return x + y;
     }
-    return fabs(x + y) <= CANCELLED * fmax(fabs(x), fabs(y)) ? 0.0 : x + y;
+    return fabs(x + y) <= CANCELLED * number_most(fabs(x), fabs(y)) ? 0.0 : x + y;
 }
 
 /* left + factor * right: a merge of two sorted lists. */
@@ -79,9 +79,10 @@ static const poly *merge(algebra *a, const poly *left, const poly *right, double
     while (i < left->count || j < right->count) {
         const mono *l = i < left->count ? left->terms[i].mono : NULL;
         const mono *r = j < right->count ? right->terms[j].mono : NULL;
-        if (r == NULL || (l != NULL && l->id < r->id)) {
+        const int order = l == NULL ? 1 : r == NULL ? -1 : mono_order(l, r);
+        if (order < 0) {
             sum->terms[sum->count++] = left->terms[i++];
-        } else if (l == NULL || r->id < l->id) {
+        } else if (order > 0) {
             sum->terms[sum->count++] = (poly_term){right->terms[j++].coefficient * scale, r};
         } else {
             const double x = left->terms[i++].coefficient;
@@ -116,7 +117,7 @@ const poly *poly_scale(algebra *a, const poly *p, double scale) {
 static const poly *trig_of(algebra *a, trig kind, const poly *angle) {
     double value;
     if (poly_is_number(angle, &value)) {
-        return poly_number(a, kind == TRIG_SIN ? sin(value) : cos(value));
+        return poly_number(a, kind == TRIG_SIN ? number_sine(value) : number_cosine(value));
     }
     double sign = 1.0;
     if (angle->terms[0].coefficient < 0.0) {
@@ -146,7 +147,7 @@ static const poly *trig_product(algebra *a, trig left, const poly *x, trig right
     return poly_scale(a, p, 0.5);
 }
 
-static bool is_whole(double x) { return x == floor(x) && fabs(x) < 1e6; }
+static bool is_whole(double x) { return x == number_floor(x) && fabs(x) < 1e6; }
 
 bool poly_is_place(const poly *p) {
     for (int i = 0; i < p->count; i++) {
@@ -163,10 +164,9 @@ bool poly_is_place(const poly *p) {
     return p->count > 1;
 }
 
-/* Does a power of a sum, from the exponent `kept` on a power if it is one of positions, multiply out? */
-static bool multiplies_out(const poly *base, double exponent, double kept) {
+bool power_multiplies_out(const poly *base, double exponent, double kept) {
     return is_whole(exponent) && exponent > 0.0 &&
-           pow((double)base->count, exponent) <= POWER_TERMS_MAX &&
+           number_power((double)base->count, exponent) <= POWER_TERMS_MAX &&
            !(exponent >= kept && poly_is_place(base));
 }
 
@@ -183,7 +183,7 @@ static const poly *power_expands(algebra *a, const factor *f) {
     }
     if (f->atom->kind == ATOM_GROUP && is_whole(f->exponent) && f->exponent > 0.0) {
         const poly *inside = f->atom->argument[0];
-        if (f->exponent == 1.0 || multiplies_out(inside, f->exponent, POWER_KEPT)) {
+        if (f->exponent == 1.0 || power_multiplies_out(inside, f->exponent, POWER_KEPT)) {
             return poly_pow(a, inside, f->exponent);
         }
     }
@@ -197,11 +197,14 @@ static const poly *mono_product(algebra *a, const mono *left, const mono *right)
     int i = 0;
     int j = 0;
     while (i < left->count || j < right->count) {
+        const int order = i >= left->count ? 1
+                          : j >= right->count
+                              ? -1
+                              : atom_order(left->factors[i].atom, right->factors[j].atom);
         factor f;
-        if (j >= right->count ||
-            (i < left->count && left->factors[i].atom->id < right->factors[j].atom->id)) {
+        if (order < 0) {
             f = left->factors[i++];
-        } else if (i >= left->count || right->factors[j].atom->id < left->factors[i].atom->id) {
+        } else if (order > 0) {
             f = right->factors[j++];
         } else {
             f = left->factors[i++];
@@ -266,7 +269,7 @@ const poly *poly_mul(algebra *a, const poly *left, const poly *right) {
     if (a->overflow) {
         return a->zero;
     }
-    if (right->id < left->id) { /* one order, so that rounding does not depend on it */
+    if (poly_order(right, left) < 0) { /* one order, so that rounding does not depend on it */
         const poly *swap = left;
         left = right;
         right = swap;
@@ -303,13 +306,13 @@ static const poly *term_pow(algebra *a, const poly_term *t, double exponent) {
         }
         const mono *powered = mono_make(a, f, count, TRIG_NONE, NULL);
         free(f);
-        return poly_mul(a, poly_of_term(a, pow(t->coefficient, exponent), powered), extra);
+        return poly_mul(a, poly_of_term(a, number_power(t->coefficient, exponent), powered), extra);
     }
     if (whole && exponent > 0.0 && exponent <= 16.0) {
         const poly *base = poly_of_term(a, t->coefficient, m);
-        const poly *half = poly_pow(a, base, floor(exponent / 2.0));
+        const poly *half = poly_pow(a, base, number_floor(exponent / 2.0));
         const poly *even = poly_mul(a, half, half);
-        return fmod(exponent, 2.0) == 0.0 ? even : poly_mul(a, even, base);
+        return number_remainder(exponent, 2.0) == 0.0 ? even : poly_mul(a, even, base);
     }
     if (whole && m->count > 0) { /* 1/(r cos a) = 1/r * 1/(cos a) */
         const mono *plain = mono_make(a, m->factors, m->count, TRIG_NONE, NULL);
@@ -319,8 +322,8 @@ static const poly *term_pow(algebra *a, const poly_term *t, double exponent) {
     }
     /* Take out the size of the number; its sign stays inside unless the exponent is whole. */
     const double sign = t->coefficient < 0.0 ? -1.0 : 1.0;
-    const double outside =
-        whole ? pow(t->coefficient, exponent) : pow(fabs(t->coefficient), exponent);
+    const double outside = whole ? number_power(t->coefficient, exponent)
+                                 : number_power(fabs(t->coefficient), exponent);
     const poly *inside = poly_of_term(a, whole ? 1.0 : sign, m);
     if (m->count == 1 && m->trig == TRIG_NONE && m->factors[0].exponent == 1.0 && sign > 0.0) {
         return poly_scale(a, poly_of_atom(a, m->factors[0].atom, exponent), outside);
@@ -345,24 +348,24 @@ const poly *poly_power(algebra *a, const poly *base, double exponent, double kep
         return base;
     }
     if (poly_is_number(base, &value)) {
-        return poly_number(a, pow(value, exponent));
+        return poly_number(a, number_power(value, exponent));
     }
     if (base->count == 1) {
         return term_pow(a, &base->terms[0], exponent);
     }
-    if (multiplies_out(base, exponent, kept)) {
+    if (power_multiplies_out(base, exponent, kept)) {
         const poly *p = base;
         for (int i = 1; i < (int)exponent; i++) {
             p = poly_mul(a, p, base);
         }
         return p;
     }
-    a->keeps_powers = a->keeps_powers || multiplies_out(base, exponent, (double)INFINITY);
     /* The sign stays inside where it cannot leave a broken power. */
     const double size = size_of_sum(base, exponent);
     const double outside = is_whole(exponent) ? size : fabs(size);
     const poly *inside = poly_scale(a, base, 1.0 / outside);
-    return poly_scale(a, poly_of_atom(a, group_of(a, inside), exponent), pow(outside, exponent));
+    return poly_scale(a, poly_of_atom(a, group_of(a, inside), exponent),
+                      number_power(outside, exponent));
 }
 
 const poly *poly_pow(algebra *a, const poly *base, double exponent) {
@@ -381,7 +384,7 @@ const poly *poly_call(algebra *a, function_id function, const poly *x, const pol
     double vx;
     double vy = 0.0;
     if (poly_is_number(x, &vx) && (y == NULL || poly_is_number(y, &vy))) {
-        return poly_number(a, call_number(function, vx, vy));
+        return poly_number(a, number_call(function, vx, vy));
     }
     switch (function) {
     case FN_SIN: return poly_sin(a, x);

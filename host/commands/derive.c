@@ -82,13 +82,6 @@ static bool write_header(const loaded *made, const char *file, const engine_sett
 static bool has_c_form(const loaded *made, source_model *from, const engine_settings *settings,
                        const char *header) {
     const char *name = made->instance->name;
-    if (program_needs_libm(made->program) != NULL) {
-        fprintf(stderr,
-                "%s: error: '%s' needs %s, which the core does not offer on boards\n"
-                "hint: --as octave and `whirl run --number double` work\n",
-                from->file, name, program_needs_libm(made->program));
-        return false;
-    }
     if (!start_angles_are_held(made->program, made->instance, from->errors)) {
         diags_flush(from->errors, stderr);
         return false;

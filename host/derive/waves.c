@@ -112,6 +112,15 @@ static int turn_of(const lowering *l, const poly_term *t) {
     return alone && x->kind == ATOM_SYMBOL && x->primes == 0 ? l->turn(l->context, x->symbol) : -1;
 }
 
+bool waves_turns(const lowering *l, const poly *angle) {
+    for (int i = 0; i < angle->count; i++) {
+        if (turn_of(l, &angle->terms[i]) >= 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /* Is a part of a turn angle in it, such as half of one? */
 static bool has_part(const lowering *l, const poly *angle) {
     for (int i = 0; i < angle->count; i++) {
@@ -196,6 +205,8 @@ static int phase_of(lowering *l, const poly *angle) {
     return phase;
 }
 
+/* Each operation stands in a statement of its own here and in lower.c: C leaves open which argument of a call
+ * is entered first, and that would be the order of the list. */
 static int sine_of(lowering *l, int i);
 
 static int cosine_of(lowering *l, int i) {
@@ -210,13 +221,18 @@ static int cosine_of(lowering *l, int i) {
     case WAVE_DOUBLE: {
         const int c = cosine_of(l, w.p);
         const int twice = tape_mul(t, tape_constant(t, 2.0), c);
-        result = tape_sub(t, tape_mul(t, twice, c), tape_constant(t, 1.0));
+        const int squares = tape_mul(t, twice, c);
+        result = tape_sub(t, squares, tape_constant(t, 1.0));
         break;
     }
     case WAVE_SUM:
     case WAVE_DIFFERENCE: {
-        const int cc = tape_mul(t, cosine_of(l, w.p), cosine_of(l, w.q));
-        const int ss = tape_mul(t, sine_of(l, w.p), sine_of(l, w.q));
+        const int cos_p = cosine_of(l, w.p);
+        const int cos_q = cosine_of(l, w.q);
+        const int cc = tape_mul(t, cos_p, cos_q);
+        const int sin_p = sine_of(l, w.p);
+        const int sin_q = sine_of(l, w.q);
+        const int ss = tape_mul(t, sin_p, sin_q);
         result = w.rule == WAVE_SUM ? tape_sub(t, cc, ss) : tape_add(t, cc, ss);
         break;
     }
@@ -235,14 +251,19 @@ static int sine_of(lowering *l, int i) {
     switch (w.rule) {
     case WAVE_EVALUATED: result = tape_unary(t, OP_SIN, phase_of(l, w.angle)); break;
     case WAVE_DOUBLE: {
-        const int twice = tape_mul(t, tape_constant(t, 2.0), cosine_of(l, w.p));
+        const int c = cosine_of(l, w.p);
+        const int twice = tape_mul(t, tape_constant(t, 2.0), c);
         result = tape_mul(t, twice, sine_of(l, w.p));
         break;
     }
     case WAVE_SUM:
     case WAVE_DIFFERENCE: {
-        const int sc = tape_mul(t, sine_of(l, w.p), cosine_of(l, w.q));
-        const int cs = tape_mul(t, cosine_of(l, w.p), sine_of(l, w.q));
+        const int sin_p = sine_of(l, w.p);
+        const int cos_q = cosine_of(l, w.q);
+        const int sc = tape_mul(t, sin_p, cos_q);
+        const int cos_p = cosine_of(l, w.p);
+        const int sin_q = sine_of(l, w.q);
+        const int cs = tape_mul(t, cos_p, sin_q);
         result = w.rule == WAVE_SUM ? tape_add(t, sc, cs) : tape_sub(t, sc, cs);
         break;
     }
