@@ -14,6 +14,9 @@ export LC_ALL := C
 ifeq ($(origin CC),default)
 CC := gcc
 endif
+ifeq ($(origin AR),default)
+AR := ar
+endif
 OPT ?= -O2
 # Extra compiler and linker flags, such as -Werror or -fsanitize=address.
 EXTRA ?=
@@ -25,6 +28,10 @@ UNITY ?=
 FUZZ_SECONDS ?= 20
 # Where one configuration's objects go: the quality gates build with other flags elsewhere.
 B ?= build
+# Flags for linking only, such as -static.
+LINK_EXTRA ?=
+# "none" leaves out the commands that need processes and signals, for hosts without (WebAssembly).
+SYSTEM ?= posix
 
 include mk/rules.mk
 include mk/whirl.mk
@@ -32,6 +39,7 @@ include mk/tests.mk
 include mk/board.mk
 include mk/price.mk
 include mk/figures.mk
+include mk/hosts.mk
 include mk/check.mk
 
 ##@ Start here
@@ -76,6 +84,11 @@ check: ## the quality gates: warnings, layout, lint, sanitizers, firmware rules,
 hashes: ## the same bits from every compiler, optimisation level, board and the interpreter
 	@CC="$(CC)" host/setup/deps.sh host firmware quality
 	@$(MAKE) hashes-now
+
+.PHONY: hosts
+hosts: ## the same generated code from whirl built by other compilers, C libraries and processors (minutes)
+	@CC="$(CC)" host/setup/deps.sh host quality hosts
+	@$(MAKE) hosts-now
 
 .PHONY: sine-exhaustive
 sine-exhaustive: $(B)/tools/sine_exhaustive ## the sine's worst error, over all 2^32 angles (minutes)

@@ -64,8 +64,24 @@ WH_INLINE wh_factor wh_factor_of(uint32_t whole, uint64_t part) {
 }
 #endif
 
-/* *moved = `phase` moved on by `steps` phase units (radians * WH_PHASE_PER_RAD), in float without their
- * fraction. False, with *moved as it was, for half a turn or more, or NaN: the step is to be refused. */
+#if !WH_DOUBLE
+/* The nearest whole number of |steps| < WH_PHASE_STEP_MAX, halves away from zero. The rest is exact; adding a
+ * half before cutting would not be: odd numbers between 2^23 and 2^24 would tie with the next. */
+WH_INLINE int32_t wh_whole(float steps) {
+    const int32_t whole = (int32_t)steps;
+    const float rest = steps - (float)whole;
+    return whole + (int32_t)(rest + rest);
+}
+
+/* The same of steps/2, from the whole part of steps: 1, -1 and what lies beyond are rounded away from zero. */
+WH_INLINE int32_t wh_half_whole(float steps) {
+    const int32_t whole = (int32_t)steps;
+    return (whole - (~whole >> 31)) >> 1; /* gcc and clang define >> of a negative number */
+}
+#endif
+
+/* *moved = `phase` moved on by `steps` phase units (radians * WH_PHASE_PER_RAD), in float rounded to the
+ * nearest. False, with *moved as it was, for half a turn or more, or NaN: the step is to be refused. */
 WH_INLINE bool wh_phase_move(wh_phase phase, wh_real steps, wh_phase *moved) {
     if (!(WH_ABS(steps) < WH_PHASE_STEP_MAX)) {
         return false;
@@ -73,7 +89,20 @@ WH_INLINE bool wh_phase_move(wh_phase phase, wh_real steps, wh_phase *moved) {
 #if WH_DOUBLE
     *moved = phase + steps;
 #else
-    *moved = phase + (wh_phase)(int32_t)steps;
+    *moved = phase + (wh_phase)wh_whole(steps);
+#endif
+    return true;
+}
+
+/* The same by half of `steps`: where the middle of a step that moves by all of them stands. */
+WH_INLINE bool wh_phase_move_half(wh_phase phase, wh_real steps, wh_phase *moved) {
+    if (!(WH_ABS(steps) < WH_PHASE_STEP_MAX)) {
+        return false;
+    }
+#if WH_DOUBLE
+    *moved = phase + 0.5 * steps;
+#else
+    *moved = phase + (wh_phase)wh_half_whole(steps);
 #endif
     return true;
 }

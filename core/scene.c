@@ -1,8 +1,62 @@
 /* scene.c: starting, stepping and comparing runs. The arithmetic is in step.h. */
 #include "scene.h"
 
+#include "arithmetic.h"
 #include "hash.h"
 #include "ledger.h"
+
+#if WH_DOUBLE
+#define UNIT 0x1p-52
+#define FACTOR_LESS_ONE 0x1p-27
+#define LEAST 0x1p-1022
+#else
+#define UNIT 0x1p-23f
+#define FACTOR_LESS_ONE 0x1p-12f
+#define LEAST 0x1p-126f
+#endif
+const wh_probes wh_probe = {
+    .factor = WH_R(1.0) + FACTOR_LESS_ONE,
+    .square = WH_R(1.0) + WH_R(2.0) * FACTOR_LESS_ONE,
+    .one = WH_R(1.0),
+    .quarter_unit = WH_R(0.25) * UNIT,
+    .half_unit = WH_R(0.5) * UNIT * (WH_R(1.0) + UNIT),
+    .least = LEAST,
+    .half = WH_R(0.5),
+    .two = WH_R(2.0),
+    .three = WH_R(3.0),
+    .five = WH_R(5.0),
+    .seven = WH_R(7.0),
+    .ten = WH_R(10.0),
+    .minus_zero = -WH_R(0.0),
+};
+
+static const wh_real probed[WH_PROBED_COUNT] = {
+    [WH_PROBED_ROUNDING] = UNIT,
+    [WH_PROBED_SUBNORMAL] = LEAST,
+    [WH_PROBED_FIVE] = WH_R(0x1.aaaaaaaaaaaabp0),
+    [WH_PROBED_SEVEN] = WH_R(0x1.2aaaaaaaaaaabp1),
+    [WH_PROBED_TEN] = WH_R(0x1.aaaaaaaaaaaabp1),
+    [WH_PROBED_THIRD] = WH_R(0x1.2aaaaaaaaaaabp1),
+};
+
+/* By their bits: nothing is computed here that could hide it. */
+wh_probed wh_arithmetic_wrong(void (*compute)(wh_real *result)) {
+    wh_real result[WH_PROBED_COUNT];
+    unsigned i = 0;
+    compute(result);
+    while (i < WH_PROBED_COUNT && wh_real_bits(result[i]) == wh_real_bits(probed[i])) {
+        i++;
+    }
+    return (wh_probed)i;
+}
+
+/* The core's own arithmetic, and that of the scene's file, which may have been compiled with other flags. */
+static wh_probed first_wrong(const wh_scene *scene) {
+    const wh_probed wrong = wh_arithmetic_wrong(wh_arithmetic);
+    return wrong != WH_PROBED_COUNT || scene->arithmetic == NULL
+               ? wrong
+               : wh_arithmetic_wrong(scene->arithmetic);
+}
 
 static size_t carries(const wh_scene *scene) {
     return scene->compensated ? (size_t)scene->angles + scene->reals : 0U;
@@ -61,6 +115,11 @@ wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, s
     const wh_status refused = refusal(scene, state, memory, bytes);
     if (refused != WH_OK) {
         return refused;
+    }
+    const wh_probed wrong = first_wrong(scene);
+    if (wrong != WH_PROBED_COUNT) {
+        state->fault = (int)wrong;
+        return WH_E_ARITHMETIC;
     }
     wh_real *reals;
     state->angle = memory;
@@ -207,6 +266,7 @@ const char *wh_status_text(wh_status status) {
     case WH_E_MEMORY: return "the memory is too small for this scene";
     case WH_E_ARGUMENT: return "an argument is out of range";
     case WH_E_SINGULAR: return "holds leave more than one motion";
+    case WH_E_ARITHMETIC: return "compiled or set up for other arithmetic than IEEE 754";
     case WH_E_UNDEFINED: return "an expression of a contact is not a finite number";
     }
     return "unknown status";

@@ -80,7 +80,8 @@ typedef struct wh_state {
                       * much it has slipped; SI units */
     wh_real *ledger; /* the books' totals, their carries, the levels at the start; or NULL */
     /* after WH_E_DIVERGED: the component at fault, angles first, then reals; after WH_E_UNDEFINED or
-     * WH_E_SINGULAR: the contact, in the order of contact.h */
+     * WH_E_SINGULAR: the contact, in the order of contact.h; after WH_E_ARITHMETIC: what is wrong, a
+     * wh_probed (arithmetic.h) */
     int fault;
 } wh_state;
 
@@ -128,6 +129,8 @@ struct wh_scene {
     wh_status (*advance)(const wh_scene *scene, wh_state *state);
     /* The outputs at the present state: output[scene->outputs], SI units. May be NULL. */
     void (*observe)(const wh_scene *scene, const wh_state *state, wh_real *output);
+    /* Shows how the file of advance() was compiled: wh_arithmetic() of arithmetic.h, or NULL. */
+    void (*arithmetic)(wh_real *result);
 };
 
 /* Bytes of caller memory that wh_scene_start() takes for so many angles, so many reals in all (those of the
@@ -163,7 +166,8 @@ struct wh_scene {
 /* Put `state` at the scene's start. `memory`, of `bytes` bytes and aligned as a uint64_t in a struct is, must
  * outlive the run. Returns WH_OK; or, with state and memory untouched, WH_E_MEMORY when it is too little or NULL, and
  * WH_E_ARGUMENT when it is not aligned, when scene or state is NULL, and for a scene that no generator writes: a
- * method that its form does not have, too many contacts. */
+ * method that its form does not have, too many contacts; or WH_E_ARITHMETIC where compiler flags or the machine's
+ * modes make other bits than those of every other machine: state->fault then says how. */
 wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, size_t bytes);
 
 /* Do one step. Returns WH_OK; or WH_E_DIVERGED or WH_E_UNDEFINED, with the last good state kept and

@@ -23,6 +23,7 @@
     "core/step.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
 #endif
 
+#include "arithmetic.h"
 #include "scene.h"
 #include "sum.h"
 
@@ -62,7 +63,7 @@ WH_INLINE bool wh_angle_move(wh_angle *angle, wh_real steps, bool compensated, w
     if (!wh_believable(steps, WH_PHASE_STEP_MAX)) {
         return false;
     }
-    const int32_t whole = (int32_t)(steps + (steps < 0.0f ? -0.5f : 0.5f));
+    const int32_t whole = wh_whole(steps);
     if (compensated) {
         *carry = steps - (float)whole;
     }
@@ -108,6 +109,12 @@ WH_INLINE void wh_commit(const wh_trial *trial, unsigned angles, unsigned reals,
             state->carry[i] = trial->carry[i];
         }
     }
+}
+
+/* Where an angle stands at a stage, in the middle of a step or at its end, that moves it by `steps`. */
+WH_INLINE bool wh_stage_angle(wh_angle angle, wh_real steps, bool middle, wh_phase *phase) {
+    return middle ? wh_phase_move_half(wh_phase_of(angle), steps, phase)
+                  : wh_phase_move(wh_phase_of(angle), steps, phase);
 }
 
 /* One step of q'' = f(q, q', u). angles <= n <= WH_COORDS. Returns WH_OK, or WH_E_DIVERGED with
@@ -160,7 +167,7 @@ WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_met
         }
         WH_UNROLL
         for (unsigned i = 0; i < angles; i++) {
-            if (!wh_phase_move(wh_phase_of(angle[i]), rate[i] * (h * unit), &phase[i])) {
+            if (!wh_stage_angle(angle[i], rate[i] * (h * unit), false, &phase[i])) {
                 return wh_refuse(state, i);
             }
         }
@@ -194,8 +201,7 @@ WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_met
             }
             WH_UNROLL
             for (unsigned i = 0; i < angles; i++) {
-                const wh_real turn = v_before[i] * (span * unit);
-                if (!wh_phase_move(wh_phase_of(angle[i]), turn, &phase[i])) {
+                if (!wh_stage_angle(angle[i], v_before[i] * (h * unit), stage != 4, &phase[i])) {
                     return wh_refuse(state, i);
                 }
             }
@@ -252,15 +258,16 @@ WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_met
     return WH_OK;
 }
 
-/* The state of a stage of a first-order system: start + span * slope. False when an angle would move by
- * half a turn or more; *fault is then its number. */
-WH_INLINE bool wh_stage_first(const wh_state *state, unsigned angles, unsigned reals, wh_real span,
-                              const wh_real *slope, wh_phase *phase, wh_real *real,
+/* The state of a stage of a first-order system: start + h * slope, or half of that in the middle. False when
+ * h * slope would move an angle by half a turn or more; *fault is then its number. */
+WH_INLINE bool wh_stage_first(const wh_state *state, unsigned angles, unsigned reals, wh_real h,
+                              bool middle, const wh_real *slope, wh_phase *phase, wh_real *real,
                               unsigned *fault) {
+    const wh_real span = middle ? WH_R(0.5) * h : h;
     WH_UNROLL
     for (unsigned i = 0; i < angles; i++) {
-        const wh_real turn = slope[i] * (span * WH_PHASE_PER_RAD);
-        if (!wh_phase_move(wh_phase_of(state->angle[i]), turn, &phase[i])) {
+        if (!wh_stage_angle(state->angle[i], slope[i] * (h * WH_PHASE_PER_RAD), middle,
+                            &phase[i])) {
             *fault = i;
             return false;
         }
@@ -299,7 +306,7 @@ WH_INLINE wh_status wh_step_first(const void *model, wh_slope_fn *slope, wh_meth
     }
     slope(model, phase, state->real, u, k1);
     if (method == WH_HEUN) {
-        if (!wh_stage_first(state, angles, reals, h, k1, phase, at, &fault)) {
+        if (!wh_stage_first(state, angles, reals, h, false, k1, phase, at, &fault)) {
             return wh_refuse(state, fault);
         }
         slope(model, phase, at, u, k);
@@ -308,7 +315,7 @@ WH_INLINE wh_status wh_step_first(const void *model, wh_slope_fn *slope, wh_meth
             move[i] = half * (k1[i] + k[i]);
         }
     } else if (method == WH_RK4) {
-        if (!wh_stage_first(state, angles, reals, half, k1, phase, at, &fault)) {
+        if (!wh_stage_first(state, angles, reals, h, true, k1, phase, at, &fault)) {
             return wh_refuse(state, fault);
         }
         slope(model, phase, at, u, k);
@@ -316,7 +323,7 @@ WH_INLINE wh_status wh_step_first(const void *model, wh_slope_fn *slope, wh_meth
         for (unsigned i = 0; i < n; i++) {
             sum[i] = k[i];
         }
-        if (!wh_stage_first(state, angles, reals, half, k, phase, at, &fault)) {
+        if (!wh_stage_first(state, angles, reals, h, true, k, phase, at, &fault)) {
             return wh_refuse(state, fault);
         }
         slope(model, phase, at, u, k);
@@ -324,7 +331,7 @@ WH_INLINE wh_status wh_step_first(const void *model, wh_slope_fn *slope, wh_meth
         for (unsigned i = 0; i < n; i++) {
             sum[i] = sum[i] + k[i];
         }
-        if (!wh_stage_first(state, angles, reals, h, k, phase, at, &fault)) {
+        if (!wh_stage_first(state, angles, reals, h, false, k, phase, at, &fault)) {
             return wh_refuse(state, fault);
         }
         slope(model, phase, at, u, k);

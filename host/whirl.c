@@ -5,6 +5,7 @@
 
 #include "commands/commands.h"
 #include "commands/load.h"
+#include "core/arithmetic.h"
 #include "host/lang/nearest.h"
 
 #define VERSION "0.1.0"
@@ -31,14 +32,26 @@ typedef struct command {
 } command;
 
 static const command commands[] = {
-    {"list", command_list, 0},     {"derive", command_derive, 0},
-    {"accel", command_accel, 0},   {"run", command_run, 0},
-    {"sweep", command_sweep, 0},   {"emit-scenes", command_emit_scenes, 1},
+    {"list", command_list, 0},
+    {"derive", command_derive, 0},
+    {"accel", command_accel, 0},
+#ifndef WHIRL_NO_SYSTEM /* no processes and no signals */
+    {"run", command_run, 0},
+    {"sweep", command_sweep, 0},
+#endif
+    {"emit-scenes", command_emit_scenes, 1},
     {"hashes", command_hashes, 1},
 };
 
 int main(int count, char **words) {
     setlocale(LC_ALL, "C");
+    if (wh_arithmetic_wrong(wh_arithmetic) != WH_PROBED_COUNT) {
+        fputs(
+            "whirl: error: this program was compiled, or is run, with other arithmetic than IEEE 754\n"
+            "hint: build it without fast-math, and load no library that was linked with it\n",
+            stderr);
+        return EXIT_RUN_FAILED;
+    }
     if (count < 2) {
         fputs(usage, stderr);
         return EXIT_BAD_INPUT;

@@ -14,12 +14,13 @@ Q := @
 say = @printf '  %-5s %s\n'
 endif
 
+comma := ,
 WARN := -Wall -Wextra -Wconversion -Wshadow -Wdouble-promotion
 # One arithmetic everywhere: no contraction to fused multiply-adds, no -ffast-math.
 BASE := -std=c11 -ffp-contract=off -I. $(WARN)
 NATIVE := $(OPT) -g $(EXTRA)
 
-FLAGS_host := $(BASE) $(NATIVE) -D_POSIX_C_SOURCE=200809L
+FLAGS_host := $(BASE) $(NATIVE) -D_POSIX_C_SOURCE=200809L $(if $(filter none,$(SYSTEM)),-DWHIRL_NO_SYSTEM=1)
 FLAGS_float := $(BASE) $(NATIVE) -D_POSIX_C_SOURCE=200809L
 FLAGS_double := $(FLAGS_float) -DWH_DOUBLE=1
 
@@ -53,16 +54,19 @@ objects = $(patsubst %.c,$(B)/$(1)/%.o,$(2))
 # archive: replaces the whole archive, so that nothing of a deleted file stays in it.
 define archive
 	$(say) AR $@
-	$(Q)rm -f $@ && ar rcs $@ $^
+	$(Q)rm -f $@ && $(AR) rcs $@ $^
 endef
 
 # What Whirl makes needs no mathematical library. Tests and tools compare with one.
 LIBM = $(if $(filter $(B)/tests/% $(B)/tools/%,$@),-lm)
+# The linker for WebAssembly looks through all archives anyway, and knows no groups.
+GROUP := $(if $(filter none,$(SYSTEM)),,-Wl$(comma)--start-group)
+GROUP_END := $(if $(filter none,$(SYSTEM)),,-Wl$(comma)--end-group)
 
 define link
 	$(say) LINK $@
 	@mkdir -p $(@D)
-	$(Q)$(CC) $(NATIVE) -o $@ $(filter %.o,$^) -Wl,--start-group $(filter %.a,$^) -Wl,--end-group $(LIBM)
+	$(Q)$(CC) $(NATIVE) $(LINK_EXTRA) -o $@ $(filter %.o,$^) $(GROUP) $(filter %.a,$^) $(GROUP_END) $(LIBM)
 endef
 
 # Generated C: the built-in models and scenes.
@@ -75,6 +79,9 @@ BOARD_C := $(wildcard boards/*.c boards/*/*.c)
 HOST_TOOL_C := $(wildcard host/count/*.c host/size/*.c host/setup/*.c)
 WHIRL_MAIN_C := $(wildcard host/*.c)
 WHIRL_C := $(filter-out $(HOST_TOOL_C),$(wildcard host/*/*.c))
+ifeq ($(SYSTEM),none)
+WHIRL_C := $(filter-out host/commands/run.c host/commands/sweep.c host/sweep/% host/plot/%,$(WHIRL_C))
+endif
 TEST_C := $(wildcard tests/*.c tests/*/*.c)
 C_FILES := $(sort $(CORE_C) $(HAL_C) $(BOARD_C) $(HOST_TOOL_C) $(WHIRL_MAIN_C) $(WHIRL_C) $(TEST_C) \
     $(wildcard core/*.h core/*/*.h hal/*.h hal/*/*.h boards/*.h boards/*/*.h host/*.h host/*/*.h \

@@ -45,7 +45,7 @@ $(B)/tests/host: $(call objects,host,$(HOST_TEST_PARTS)) $(LIB_HOST) $(LIB_SCENE
     $(LIB_DOUBLE)
 	$(link)
 
-TEST_PROGRAMS := $(B)/tests/core_double $(B)/tests/core_float $(B)/tests/host
+TEST_PROGRAMS := $(B)/tests/core_double $(B)/tests/core_float $(B)/tests/host $(B)/tools/mechanisms
 
 .PHONY: test-programs
 test-programs: $(TEST_PROGRAMS)
@@ -59,13 +59,18 @@ RUN_HOST = $(call half,0) $(call half,1)
 # What takes longest goes first.
 CLI_LONG := tests/cli/emitted_c.sh tests/cli/effects_cost_nothing.sh
 RUN_CLI = $(foreach t,$(CLI_LONG) $(filter-out $(CLI_LONG),$(CLI_TESTS)),"$(t)" "sh $(t)")
-RUN_BOARD = "portable suites, $(BOARD)" "$(call emulate,$(B)/$(BOARD)/tests.elf)"
+RUN_BOARD = "portable suites, $(BOARD)" "$(call emulate,$(B)/$(BOARD)/tests.elf)" \
+    $(foreach b,$(OTHER_BOARDS),"portable suites$(comma) $(b)" \
+    "$(call on_board,$(b),run-image IMAGE=$(B)/$(b)/tests.elf)")
+comma := ,
+build_other_tests = $(foreach b,$(OTHER_BOARDS),$(call on_board,$(b),board-tests) &&) true
 
 .PHONY: test-now test-core test-host test-cli test-board
 test-now: build/whirl
 	@$(MAKE) $(GEN)/.stamp
 	@$(MAKE) test-programs $(B)/$(BOARD)/tests.elf
-	@WHIRL=build/whirl sh tests/run.sh build/tests/log $(RUN_CLI) $(RUN_HOST) $(RUN_CORE) $(RUN_BOARD)
+	@$(build_other_tests)
+	@WHIRL=build/whirl sh tests/run.sh build/tests/log $(RUN_CLI) $(RUN_BOARD) $(RUN_HOST) $(RUN_CORE)
 
 # Parts of it, for while one works on something.
 test-core: build/whirl
@@ -86,6 +91,7 @@ test-cli: build/whirl
 test-board: build/whirl
 	@$(MAKE) $(GEN)/.stamp
 	@$(MAKE) $(ELF)/tests.elf
+	@$(build_other_tests)
 	@sh tests/run.sh build/tests/log $(RUN_BOARD)
 
 # --- tools --------------------------------------------------------------------------------------
@@ -96,6 +102,11 @@ $(B)/tools/functions_exhaustive: $(call objects,host,tests/tools/functions_exhau
 	$(link)
 
 $(B)/tools/root_exhaustive: $(call objects,host,tests/tools/root_exhaustive.c) $(LIB_FLOAT)
+	$(link)
+
+# Generated mechanisms, all of which derive.
+$(B)/tools/mechanisms: $(call objects,host,tests/tools/mechanisms.c tests/host/mechanism.c) $(LIB_HOST) \
+    $(LIB_FLOAT) $(LIB_DOUBLE)
 	$(link)
 
 # --- fuzzing ------------------------------------------------------------------------------------

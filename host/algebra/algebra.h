@@ -35,7 +35,6 @@ struct algebra {
     intern_table lets;        /* memo_pair: symbol, NULL */
     size_t work;              /* terms handled and bytes kept so far: what bounds time and memory */
     bool overflow;
-    bool keeps_powers; /* some power of a sum was kept that could have been multiplied out */
     const poly *zero;
     const poly *one;
 };
@@ -51,6 +50,14 @@ poly *poly_scratch(int terms);
 const poly *poly_intern(algebra *a, poly *candidate);
 const atom *atom_of_polys(algebra *a, atom_kind kind, function_id function, const poly *x,
                           const poly *y);
+
+/* --- the order of the normal form (order.c): negative, 0 for the same, positive -------------------*/
+
+/* What decides between two atoms, but for their arguments. */
+uint64_t atom_rank(const atom *x);
+int atom_order(const atom *x, const atom *y);
+int mono_order(const mono *x, const mono *y);
+int poly_order(const poly *x, const poly *y);
 
 /* --- sums of many polys (sum.c) ------------------------------------------------------------------*/
 
@@ -77,6 +84,8 @@ void sum_add_row(poly_sum *s, poly_sum *row);
 /* The sum; frees what `s` holds. */
 const poly *sum_close(algebra *a, poly_sum *s);
 
+/* Does a power of a sum, from the exponent `kept` on a power if it is one of positions, multiply out? */
+bool power_multiplies_out(const poly *base, double exponent, double kept);
 /* A sum of positions, parameters and numbers: no rate, no sine, no function? */
 bool poly_is_place(const poly *p);
 /* base^exponent, where whole powers of such sums stay powers from the exponent `kept` on. */

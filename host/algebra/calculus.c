@@ -259,7 +259,7 @@ static const poly *replace_none(void *context, algebra *a, const symbol *sym, in
 }
 
 const poly *poly_expanded(algebra *a, const poly *p) {
-    if (!a->keeps_powers) {
+    if (!p->keeps_powers) {
         return p;
     }
     substitution s = {replace_none, NULL, (double)INFINITY, {0}};

@@ -1,4 +1,5 @@
 /* intern.c: one object for equal things: atoms, products and sums are looked up before they are made. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -8,6 +9,8 @@
 #define WORK_MAX ((size_t)1 << 28)
 /* What a term handled counts for, in bytes. */
 #define WORK_OF_TERM 2U
+/* What objects count for, in bytes: their sizes on a host of 64 bits. What is given up on must not depend on the host. */
+enum { ATOM_BYTES = 72, MONO_BYTES = 48, POLY_BYTES = 32, PART_BYTES = 16, PAIR_BYTES = 24 };
 
 static uint64_t mix(uint64_t hash, uint64_t word) {
     hash ^= word + UINT64_C(0x9e3779b97f4a7c15) + (hash << 6) + (hash >> 2);
@@ -103,8 +106,8 @@ bool algebra_overflow(const algebra *a) { return a->overflow; }
 /* --- atoms ---------------------------------------------------------------------------------------*/
 
 uint64_t symbol_bit(const symbol *sym, int primes) {
-    const uint64_t hash = mix((uint64_t)(uintptr_t)sym, (uint64_t)primes + 1);
-    return UINT64_C(1) << (hash >> 58);
+    const uint64_t which = (uint64_t)sym->kind * 1024U + (uint64_t)sym->index;
+    return UINT64_C(1) << (mix(which, (uint64_t)primes + 1) >> 58);
 }
 
 static bool atom_equal(const void *x, const void *y) {
@@ -125,7 +128,8 @@ static const atom *atom_intern(algebra *a, const atom *candidate) {
     if (slot->object == NULL) {
         atom *made = arena_alloc(a->arena, sizeof *made);
         *made = *candidate;
-        made->id = next_id(a, &a->atoms, sizeof *made);
+        made->id = next_id(a, &a->atoms, ATOM_BYTES);
+        made->rank = atom_rank(made);
         *slot = (intern_slot){hash, made};
     }
     return slot->object;
@@ -146,6 +150,7 @@ const atom *atom_of_polys(algebra *a, atom_kind kind, function_id function, cons
                             .function = function,
                             .argument = {x, y},
                             .symbols = x->symbols | (y == NULL ? 0 : y->symbols),
+                            .keeps_powers = x->keeps_powers || (y != NULL && y->keeps_powers),
                             .size = 1.0 + x->size + (y == NULL ? 0.0 : y->size)};
     return atom_intern(a, &candidate);
 }
@@ -172,8 +177,13 @@ const mono *mono_intern(algebra *a, mono *candidate) {
     uint64_t hash =
         mix((uint64_t)candidate->trig, candidate->angle == NULL ? 0 : candidate->angle->id + 1U);
     candidate->symbols = candidate->angle == NULL ? 0 : candidate->angle->symbols;
+    candidate->keeps_powers = candidate->angle != NULL && candidate->angle->keeps_powers;
     candidate->size = candidate->angle == NULL ? 1.0 : 1.0 + candidate->angle->size;
     for (int i = 0; i < candidate->count; i++) {
+        const factor *f = &candidate->factors[i];
+        const bool kept = f->atom->kind == ATOM_GROUP && f->exponent > 1.0 &&
+                          power_multiplies_out(f->atom->argument[0], f->exponent, (double)INFINITY);
+        candidate->keeps_powers = candidate->keeps_powers || f->atom->keeps_powers || kept;
         hash =
             mix(mix(hash, candidate->factors[i].atom->id), bits_of(candidate->factors[i].exponent));
         candidate->symbols |= candidate->factors[i].atom->symbols;
@@ -184,7 +194,7 @@ const mono *mono_intern(algebra *a, mono *candidate) {
         const size_t bytes = sizeof *candidate + (size_t)candidate->count * sizeof(factor);
         mono *made = arena_alloc(a->arena, bytes);
         memcpy(made, candidate, bytes);
-        made->id = next_id(a, &a->monos, bytes);
+        made->id = next_id(a, &a->monos, MONO_BYTES + (size_t)candidate->count * PART_BYTES);
         *slot = (intern_slot){hash, made};
     }
     return slot->object;
@@ -231,8 +241,10 @@ static bool poly_equal(const void *x, const void *y) {
 const poly *poly_intern(algebra *a, poly *candidate) {
     uint64_t hash = (uint64_t)candidate->count;
     candidate->symbols = 0;
+    candidate->keeps_powers = false;
     candidate->size = 0.0;
     for (int i = 0; i < candidate->count; i++) {
+        candidate->keeps_powers = candidate->keeps_powers || candidate->terms[i].mono->keeps_powers;
         hash =
             mix(mix(hash, candidate->terms[i].mono->id), bits_of(candidate->terms[i].coefficient));
         candidate->symbols |= candidate->terms[i].mono->symbols;
@@ -243,7 +255,7 @@ const poly *poly_intern(algebra *a, poly *candidate) {
         const size_t bytes = sizeof *candidate + (size_t)candidate->count * sizeof(poly_term);
         poly *made = arena_alloc(a->arena, bytes);
         memcpy(made, candidate, bytes);
-        made->id = next_id(a, &a->polys, bytes);
+        made->id = next_id(a, &a->polys, POLY_BYTES + (size_t)candidate->count * PART_BYTES);
         if (made->size > POLY_SIZE_MAX) {
             a->overflow = true;
         }
@@ -287,6 +299,6 @@ void memo_put(algebra *a, intern_table *table, const void *left, const void *rig
         memo_pair *made = arena_alloc(a->arena, sizeof *made);
         *made = key;
         *slot = (intern_slot){hash, made};
-        next_id(a, table, sizeof *made);
+        next_id(a, table, PAIR_BYTES);
     }
 }

@@ -79,9 +79,10 @@ static const poly *merge(algebra *a, const poly *left, const poly *right, double
     while (i < left->count || j < right->count) {
         const mono *l = i < left->count ? left->terms[i].mono : NULL;
         const mono *r = j < right->count ? right->terms[j].mono : NULL;
-        if (r == NULL || (l != NULL && l->id < r->id)) {
+        const int order = l == NULL ? 1 : r == NULL ? -1 : mono_order(l, r);
+        if (order < 0) {
             sum->terms[sum->count++] = left->terms[i++];
-        } else if (l == NULL || r->id < l->id) {
+        } else if (order > 0) {
             sum->terms[sum->count++] = (poly_term){right->terms[j++].coefficient * scale, r};
         } else {
             const double x = left->terms[i++].coefficient;
@@ -163,8 +164,7 @@ bool poly_is_place(const poly *p) {
     return p->count > 1;
 }
 
-/* Does a power of a sum, from the exponent `kept` on a power if it is one of positions, multiply out? */
-static bool multiplies_out(const poly *base, double exponent, double kept) {
+bool power_multiplies_out(const poly *base, double exponent, double kept) {
     return is_whole(exponent) && exponent > 0.0 &&
            number_power((double)base->count, exponent) <= POWER_TERMS_MAX &&
            !(exponent >= kept && poly_is_place(base));
@@ -183,7 +183,7 @@ static const poly *power_expands(algebra *a, const factor *f) {
     }
     if (f->atom->kind == ATOM_GROUP && is_whole(f->exponent) && f->exponent > 0.0) {
         const poly *inside = f->atom->argument[0];
-        if (f->exponent == 1.0 || multiplies_out(inside, f->exponent, POWER_KEPT)) {
+        if (f->exponent == 1.0 || power_multiplies_out(inside, f->exponent, POWER_KEPT)) {
             return poly_pow(a, inside, f->exponent);
         }
     }
@@ -197,11 +197,14 @@ static const poly *mono_product(algebra *a, const mono *left, const mono *right)
     int i = 0;
     int j = 0;
     while (i < left->count || j < right->count) {
+        const int order = i >= left->count ? 1
+                          : j >= right->count
+                              ? -1
+                              : atom_order(left->factors[i].atom, right->factors[j].atom);
         factor f;
-        if (j >= right->count ||
-            (i < left->count && left->factors[i].atom->id < right->factors[j].atom->id)) {
+        if (order < 0) {
             f = left->factors[i++];
-        } else if (i >= left->count || right->factors[j].atom->id < left->factors[i].atom->id) {
+        } else if (order > 0) {
             f = right->factors[j++];
         } else {
             f = left->factors[i++];
@@ -266,7 +269,7 @@ const poly *poly_mul(algebra *a, const poly *left, const poly *right) {
     if (a->overflow) {
         return a->zero;
     }
-    if (right->id < left->id) { /* one order, so that rounding does not depend on it */
+    if (poly_order(right, left) < 0) { /* one order, so that rounding does not depend on it */
         const poly *swap = left;
         left = right;
         right = swap;
@@ -350,14 +353,13 @@ const poly *poly_power(algebra *a, const poly *base, double exponent, double kep
     if (base->count == 1) {
         return term_pow(a, &base->terms[0], exponent);
     }
-    if (multiplies_out(base, exponent, kept)) {
+    if (power_multiplies_out(base, exponent, kept)) {
         const poly *p = base;
         for (int i = 1; i < (int)exponent; i++) {
             p = poly_mul(a, p, base);
         }
         return p;
     }
-    a->keeps_powers = a->keeps_powers || multiplies_out(base, exponent, (double)INFINITY);
     /* The sign stays inside where it cannot leave a broken power. */
     const double size = size_of_sum(base, exponent);
     const double outside = is_whole(exponent) ? size : fabs(size);

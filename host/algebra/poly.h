@@ -38,12 +38,14 @@ typedef enum atom_kind {
 
 struct atom {
     atom_kind kind;
-    unsigned id;          /* order of creation: the canonical order */
+    unsigned id;          /* for hash tables; orders nothing (order.c does) */
+    uint64_t rank;        /* where it stands among others: order.c */
     const symbol *symbol; /* ATOM_SYMBOL */
     int primes;
     function_id function;    /* ATOM_CALL */
     const poly *argument[2]; /* ATOM_CALL; base and exponent of ATOM_POWER; [0] of ATOM_GROUP */
     uint64_t symbols;        /* Bloom set of the symbols inside: see poly_may_contain() */
+    bool keeps_powers;       /* a power of a sum is inside that could be multiplied out */
     double size;             /* leaves it would have, written out */
 };
 
@@ -60,8 +62,9 @@ struct mono {
     trig trig;
     const poly *angle; /* argument of the sine or cosine, or NULL */
     uint64_t symbols;
+    bool keeps_powers;
     double size;
-    factor factors[]; /* sorted by atom id */
+    factor factors[]; /* in atom_order() */
 };
 
 typedef struct term_of_poly {
@@ -73,9 +76,10 @@ struct poly {
     unsigned id;
     int count;
     uint64_t symbols;
+    bool keeps_powers;
     double
         size; /* leaves it would have, written out: what shares is counted as often as it is used */
-    poly_term terms[]; /* sorted by mono id; none means zero */
+    poly_term terms[]; /* in mono_order(); none means zero */
 };
 
 algebra *algebra_new(void);

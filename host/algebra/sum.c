@@ -25,8 +25,8 @@ void sum_add(algebra *a, poly_sum *s, const poly *p, double scale) {
 static int by_mono(const void *x, const void *y) {
     const sum_item *left = x;
     const sum_item *right = y;
-    if (left->mono->id != right->mono->id) {
-        return left->mono->id < right->mono->id ? -1 : 1;
+    if (left->mono != right->mono) {
+        return mono_order(left->mono, right->mono);
     }
     return left->turn < right->turn ? -1 : 1;
 }

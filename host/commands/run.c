@@ -8,6 +8,7 @@
 
 #include "commands.h"
 #include "files.h"
+#include "host/number/decimal.h"
 #include "host/run/belief.h"
 #include "host/run/simulate.h"
 #include "host/run/start.h"
@@ -78,8 +79,8 @@ static bool take_strict(char **words, int *at, double *limit, bool *bad) {
     ++*at;
     *limit = BELIEF_LIMIT;
     if (word[length] == '=') {
-        char *end;
-        *limit = strtod(word + length + 1, &end);
+        const char *end;
+        *limit = decimal_read(word + length + 1, &end);
         *bad = end == word + length + 1 || *end != '\0' || !(*limit > 0.0 && *limit <= 1.0);
     }
     if (*bad) {
@@ -167,7 +168,7 @@ static bool model_would_be_lost(const source_model *from, const simulation_setti
 
 /* --every as a number of steps. */
 static bool read_every(const run_options *o, const mechanism *of, const instance *inst,
-                       unsigned long *steps) {
+                       uint64_t *steps) {
     *steps = 1;
     if (o->every == NULL) {
         return true;
@@ -192,7 +193,7 @@ static bool read_every(const run_options *o, const mechanism *of, const instance
                 o->every, inst->step_s);
         return false;
     }
-    *steps = (unsigned long)number_floor(wanted + 0.5);
+    *steps = (uint64_t)number_floor(wanted + 0.5);
     return true;
 }
 

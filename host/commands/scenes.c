@@ -1,4 +1,5 @@
-/* scenes.c: for the project's own build: every built-in scene as C, and its state hash. */
+/* scenes.c: for the project's own build: every built-in scene, or every scene of some files, as C, and its
+ * state hash. */
 #include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
@@ -12,24 +13,37 @@
 
 typedef int scene_visitor(void *context, const char *file, const loaded *made);
 
-/* Visit every built-in scene. Returns an exit code. */
-static int each_scene(scene_visitor *visit, void *context) {
+/* Visit every scene of an opened source, also behind one that is refused. Returns an exit code. */
+static int each_scene_of(source_model *from, scene_visitor *visit, void *context) {
     int code = EXIT_DONE;
-    for (size_t i = 0; i < builtin_model_count && code == EXIT_DONE; i++) {
+    for (int k = 0; k < from->model->scene_count; k++) {
+        const scene *in = from->model->scenes[k];
+        loaded made;
+        int one = load(&made, from, in->mechanism, in, NULL, true);
+        if (one == EXIT_DONE) {
+            one = visit(context, from->file, &made);
+        }
+        unload(&made);
+        code = one > code ? one : code;
+    }
+    return code;
+}
+
+/* The scenes of the files, or, where there are none, every built-in one. Returns an exit code. */
+static int each_scene(int files, char **file, scene_visitor *visit, void *context) {
+    int code = EXIT_DONE;
+    for (int i = 0; i < files && code == EXIT_DONE; i++) {
+        source_model from;
+        code = source_open(&from, file[i]);
+        code = code == EXIT_DONE ? each_scene_of(&from, visit, context) : code;
+        source_close(&from);
+    }
+    for (size_t i = 0; files == 0 && i < builtin_model_count && code == EXIT_DONE; i++) {
         const struct builtin_model *b = &builtin_models[i];
         source_model from = {.file = b->file, .errors = diags_new()};
         from.model = model_parse(b->file, b->text, b->length, from.errors);
         diags_flush(from.errors, stderr);
-        code = from.model == NULL ? EXIT_BAD_INPUT : EXIT_DONE;
-        for (int k = 0; code == EXIT_DONE && k < from.model->scene_count; k++) {
-            const scene *in = from.model->scenes[k];
-            loaded made;
-            code = load(&made, &from, in->mechanism, in, NULL, true);
-            if (code == EXIT_DONE) {
-                code = visit(context, b->file, &made);
-            }
-            unload(&made);
-        }
+        code = from.model == NULL ? EXIT_BAD_INPUT : each_scene_of(&from, visit, context);
         source_close(&from);
     }
     return code;
@@ -52,11 +66,48 @@ typedef struct emission {
     const char *folder;
     FILE *declarations;
     FILE *index;
+    bool all_forms; /* text, LaTeX, Octave and the runs' hashes too */
 } emission;
+
+/* The scene's run, as a line with the hash of its last state. */
+static void write_hash(FILE *out, const char *what, const engine_kind *kind, const loaded *made) {
+    const engine_settings settings = {WH_RK4, false};
+    void *run = kind->start(made->program, made->instance, &settings);
+    wh_status status = WH_OK;
+    while (kind->steps(run) < made->instance->steps && status == WH_OK) {
+        status = kind->step(run);
+    }
+    fprintf(out, "%s %s steps %" PRIu64 " hash 0x%016" PRIx64 " %s\n", what, made->instance->name,
+            kind->steps(run), kind->hash(run), wh_status_text(status));
+    kind->stop(run);
+}
+
+/* Of a file's scene, the other forms, and what it comes to. */
+static int emit_other_forms(const emission *to, const char *file, const loaded *made) {
+    FILE *out = open_in(to->folder, made->instance->name, ".txt");
+    if (out == NULL) {
+        return EXIT_RUN_FAILED;
+    }
+    emit_text(out, made->equations);
+    emit_latex(out, made->equations);
+    if (made->program->conserved == NULL) {
+        emit_octave(out, made->equations, made->program, file);
+    }
+    write_hash(out, "scene", &engine_float, made);
+    write_hash(out, "double", &engine_double, made);
+    fclose(out);
+    return EXIT_DONE;
+}
 
 static int emit_one(void *context, const char *file, const loaded *made) {
     const emission *to = context;
     const engine_settings settings = {WH_RK4, false};
+    if (to->all_forms) {
+        const int code = emit_other_forms(to, file, made);
+        if (code != EXIT_DONE) {
+            return code;
+        }
+    }
     FILE *out = open_in(to->folder, made->instance->name, ".c");
     if (out == NULL) {
         return EXIT_RUN_FAILED;
@@ -75,11 +126,11 @@ static int emit_one(void *context, const char *file, const loaded *made) {
 }
 
 int command_emit_scenes(int count, char **words) {
-    if (count != 1) {
-        fputs("usage: whirl emit-scenes FOLDER\n", stderr);
+    if (count < 1) {
+        fputs("usage: whirl emit-scenes FOLDER [FILE ...]\n", stderr);
         return EXIT_BAD_INPUT;
     }
-    emission to = {.folder = words[0]};
+    emission to = {.folder = words[0], .all_forms = count > 1};
     to.declarations = open_in(to.folder, "scenes", ".h");
     to.index = open_in(to.folder, "scenes", ".c");
     int code = to.declarations == NULL || to.index == NULL ? EXIT_RUN_FAILED : EXIT_DONE;
@@ -93,7 +144,7 @@ int command_emit_scenes(int count, char **words) {
         fputs("/* Generated by whirl from the built-in models: do not edit. */\n"
               "#include \"scenes.h\"\n\nconst wh_scene *const wh_scenes[] = {\n",
               to.index);
-        code = each_scene(emit_one, &to);
+        code = each_scene(count - 1, words + 1, emit_one, &to);
         fputs("\n#ifdef __cplusplus\n}\n#endif\n\n#endif\n", to.declarations);
         fputs("};\n\nconst unsigned wh_scene_count = sizeof wh_scenes / sizeof wh_scenes[0];\n",
               to.index);
@@ -110,15 +161,7 @@ int command_emit_scenes(int count, char **words) {
 static int hash_one(void *context, const char *file, const loaded *made) {
     (void)context;
     (void)file;
-    const engine_settings settings = {WH_RK4, false};
-    void *run = engine_float.start(made->program, made->instance, &settings);
-    wh_status status = WH_OK;
-    while (engine_float.steps(run) < made->instance->steps && status == WH_OK) {
-        status = engine_float.step(run);
-    }
-    printf("scene %s steps %" PRIu64 " hash 0x%016" PRIx64 " %s\n", made->instance->name,
-           engine_float.steps(run), engine_float.hash(run), wh_status_text(status));
-    engine_float.stop(run);
+    write_hash(stdout, "scene", &engine_float, made);
     return EXIT_DONE;
 }
 
@@ -128,5 +171,5 @@ int command_hashes(int count, char **words) {
         fputs("usage: whirl hashes\n", stderr);
         return EXIT_BAD_INPUT;
     }
-    return each_scene(hash_one, NULL);
+    return each_scene(0, NULL, hash_one, NULL);
 }

@@ -64,6 +64,12 @@ static void eliminate_symmetric(tape *t, int n, int *mass, int *force, const int
 
 /* --- any regular matrix --------------------------------------------------------------------------*/
 
+/* A number between 0.3 and 0.67, another for each leaf: it depends on what the leaf is, not on its place in
+ * the list. */
+static double generic(double of) {
+    return 0.3 + 0.37 * number_remainder(fabs(of) * 0.6180339887, 1.0);
+}
+
 /* What every operation gives at a made-up generic state: tells vanishing pivots from others. */
 static double *sample(const tape *t) {
     double *v = calloc((size_t)t->count + 1, sizeof *v);
@@ -73,18 +79,36 @@ static double *sample(const tape *t) {
     for (int i = 0; i < t->count; i++) {
         const op *o = &t->ops[i];
         const double a = o->a >= 0 && o->code >= OP_SIN ? v[o->a] : 0.0;
-        const double b = o->b >= 0 && o->code >= OP_SIN ? v[o->b] : 0.0;
+        const double b = o->b >= 0 && o->code >= OP_PHASE ? v[o->b] : 0.0;
         switch (o->code) {
         case OP_CONSTANT: v[i] = o->value; break;
+        case OP_LINEAR:
+        case OP_RATE:
+        case OP_INPUT:
+        case OP_ACCEL:
+        case OP_TIME:
+        case OP_RADIANS:
+        case OP_NOISE: v[i] = generic(1.0 + 31.0 * (double)o->code + o->a); break;
+        case OP_PHASE:
+            v[i] = o->value + b;
+            for (int k = 0; k < t->angles && o->turns != NULL; k++) {
+                v[i] += o->turns[k] * generic(1.0 + k);
+            }
+            break;
         case OP_ADD: v[i] = a + b; break;
         case OP_SUB: v[i] = a - b; break;
         case OP_MUL: v[i] = a * b; break;
         case OP_DIV: v[i] = a / b; break;
         case OP_NEG: v[i] = -a; break;
         case OP_SQRT: v[i] = number_root(fabs(a)); break;
-        default:
-            v[i] = 0.3 + 0.37 * number_remainder((double)i * 0.6180339887, 1.0) + 0.01 * a;
-            break;
+        case OP_SIN:
+        case OP_COS:
+        case OP_ABS:
+        case OP_SIGN:
+        case OP_MIN:
+        case OP_MAX:
+        case OP_CALL:
+        case OP_POW: v[i] = generic(31.0 * (double)o->code + 7.0 * a + 3.0 * b); break;
         }
     }
     return v;

@@ -202,6 +202,11 @@ void equations_report_growth(const equations *e, diags *errors) {
 }
 
 equations *equations_derive(const instance *inst, diags *errors) {
+    return equations_derive_after(inst, NULL, NULL, errors);
+}
+
+equations *equations_derive_after(const instance *inst, equations_question *before, void *context,
+                                  diags *errors) {
     const mechanism *m = inst->mechanism;
     const int n = m->coordinate_count;
     equations *e = calloc(1, sizeof *e);
@@ -209,6 +214,9 @@ equations *equations_derive(const instance *inst, diags *errors) {
         abort();
     }
     e->algebra = algebra_new();
+    if (before != NULL) {
+        before(context, e->algebra, inst);
+    }
     e->instance = inst;
     e->count = n;
     e->unknowns = calloc((size_t)n, sizeof *e->unknowns);

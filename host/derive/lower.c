@@ -111,9 +111,9 @@ static void product_multiply(lowering *l, product *p, int node, int exponent) {
     }
     if (p->count == FACTORS_MAX) { /* never seen; still correct */
         const int last = FACTORS_MAX - 1;
-        p->powers[last].node =
-            tape_mul(l->tape, tape_power(l->tape, p->powers[last].node, p->powers[last].exponent),
-                     tape_power(l->tape, node, exponent));
+        const int first = tape_power(l->tape, p->powers[last].node, p->powers[last].exponent);
+        const int more = tape_power(l->tape, node, exponent);
+        p->powers[last].node = tape_mul(l->tape, first, more);
         p->powers[last].exponent = 1;
         return;
     }
@@ -121,20 +121,23 @@ static void product_multiply(lowering *l, product *p, int node, int exponent) {
 }
 
 static int atom_node(lowering *l, const atom *x) {
-    switch (x->kind) {
-    case ATOM_SYMBOL: return l->leaf(l->context, l->tape, x->symbol, x->primes);
-    case ATOM_GROUP: return lower(l, x->argument[0]);
-    case ATOM_POWER: return tape_pow(l->tape, lower(l, x->argument[0]), lower(l, x->argument[1]));
-    case ATOM_CALL: break;
+    if (x->kind == ATOM_SYMBOL) {
+        return l->leaf(l->context, l->tape, x->symbol, x->primes);
     }
     /* a phase has 1.5e-9 rad: enough for a turn angle, whose own digits these are, not for a small number */
-    if (x->function == FN_TAN && waves_turns(l, x->argument[0])) {
+    if (x->kind == ATOM_CALL && x->function == FN_TAN && waves_turns(l, x->argument[0])) {
         const int s = waves_sine(l, x->argument[0]);
         return tape_div(l->tape, s, waves_cosine(l, x->argument[0]));
     }
     const int first = lower(l, x->argument[0]);
     const int second = x->argument[1] == NULL ? -1 : lower(l, x->argument[1]);
-    return tape_call(l->tape, x->function, first, second);
+    switch (x->kind) {
+    case ATOM_SYMBOL:
+    case ATOM_GROUP: break;
+    case ATOM_POWER: return tape_pow(l->tape, first, second);
+    case ATOM_CALL: return tape_call(l->tape, x->function, first, second);
+    }
+    return first;
 }
 
 static void product_factor(lowering *l, product *p, const factor *f) {

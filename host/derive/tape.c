@@ -73,7 +73,7 @@ void tape_reindex(tape *t) {
     }
     memset(t->index, -1, (size_t)t->index_size * sizeof *t->index);
     for (int i = 0; i < t->count; i++) {
-        size_t at = tape_op_hash(t, &t->ops[i]) % (uint64_t)t->index_size;
+        size_t at = (size_t)(tape_op_hash(t, &t->ops[i]) % (uint64_t)t->index_size);
         while (t->index[at] >= 0) {
             at = (at + 1) % (size_t)t->index_size;
         }
@@ -90,7 +90,7 @@ static int enter(tape *t, op o) {
         }
         tape_reindex(t);
     }
-    size_t at = tape_op_hash(t, &o) % (uint64_t)t->index_size;
+    size_t at = (size_t)(tape_op_hash(t, &o) % (uint64_t)t->index_size);
     while (t->index[at] >= 0) {
         if (op_equal(t, &t->ops[t->index[at]], &o)) {
             return t->index[at];
@@ -319,7 +319,8 @@ int tape_pow(tape *t, int base, int exponent) {
 
 int tape_power(tape *t, int base, double exponent) {
     if (exponent < 0.0) {
-        return tape_div(t, tape_constant(t, 1.0), tape_power(t, base, -exponent));
+        const int inverse = tape_power(t, base, -exponent);
+        return tape_div(t, tape_constant(t, 1.0), inverse);
     }
     if (exponent == number_floor(exponent) && exponent <= 64.0) {
         int result = tape_constant(t, 1.0);

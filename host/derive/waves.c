@@ -205,6 +205,8 @@ static int phase_of(lowering *l, const poly *angle) {
     return phase;
 }
 
+/* Each operation stands in a statement of its own here and in lower.c: C leaves open which argument of a call
+ * is entered first, and that would be the order of the list. */
 static int sine_of(lowering *l, int i);
 
 static int cosine_of(lowering *l, int i) {
@@ -219,13 +221,18 @@ static int cosine_of(lowering *l, int i) {
     case WAVE_DOUBLE: {
         const int c = cosine_of(l, w.p);
         const int twice = tape_mul(t, tape_constant(t, 2.0), c);
-        result = tape_sub(t, tape_mul(t, twice, c), tape_constant(t, 1.0));
+        const int squares = tape_mul(t, twice, c);
+        result = tape_sub(t, squares, tape_constant(t, 1.0));
         break;
     }
     case WAVE_SUM:
     case WAVE_DIFFERENCE: {
-        const int cc = tape_mul(t, cosine_of(l, w.p), cosine_of(l, w.q));
-        const int ss = tape_mul(t, sine_of(l, w.p), sine_of(l, w.q));
+        const int cos_p = cosine_of(l, w.p);
+        const int cos_q = cosine_of(l, w.q);
+        const int cc = tape_mul(t, cos_p, cos_q);
+        const int sin_p = sine_of(l, w.p);
+        const int sin_q = sine_of(l, w.q);
+        const int ss = tape_mul(t, sin_p, sin_q);
         result = w.rule == WAVE_SUM ? tape_sub(t, cc, ss) : tape_add(t, cc, ss);
         break;
     }
@@ -244,14 +251,19 @@ static int sine_of(lowering *l, int i) {
     switch (w.rule) {
     case WAVE_EVALUATED: result = tape_unary(t, OP_SIN, phase_of(l, w.angle)); break;
     case WAVE_DOUBLE: {
-        const int twice = tape_mul(t, tape_constant(t, 2.0), cosine_of(l, w.p));
+        const int c = cosine_of(l, w.p);
+        const int twice = tape_mul(t, tape_constant(t, 2.0), c);
         result = tape_mul(t, twice, sine_of(l, w.p));
         break;
     }
     case WAVE_SUM:
     case WAVE_DIFFERENCE: {
-        const int sc = tape_mul(t, sine_of(l, w.p), cosine_of(l, w.q));
-        const int cs = tape_mul(t, cosine_of(l, w.p), sine_of(l, w.q));
+        const int sin_p = sine_of(l, w.p);
+        const int cos_q = cosine_of(l, w.q);
+        const int sc = tape_mul(t, sin_p, cos_q);
+        const int cos_p = cosine_of(l, w.p);
+        const int sin_q = sine_of(l, w.q);
+        const int cs = tape_mul(t, cos_p, sin_q);
         result = w.rule == WAVE_SUM ? tape_add(t, sc, cs) : tape_sub(t, sc, cs);
         break;
     }

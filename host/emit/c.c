@@ -8,6 +8,7 @@
 #include "c_ledger.h"
 #include "c_list.h"
 #include "emit.h"
+#include "host/number/hex.h"
 
 const char *const c_method_names[] = {"WH_EULER", "WH_SEMI_IMPLICIT_EULER", "WH_HEUN", "WH_RK4"};
 
@@ -47,6 +48,7 @@ static void write_observer(FILE *out, const program *p) {
 }
 
 static void write_starts(FILE *out, const program *p, const instance *inst) {
+    char hex[HEX_SIZE];
     double *angle_rad = calloc((size_t)p->angles + 1, sizeof *angle_rad);
     double *real = calloc((size_t)p->reals + 1, sizeof *real);
     if (angle_rad == NULL || real == NULL) {
@@ -56,22 +58,22 @@ static void write_starts(FILE *out, const program *p, const instance *inst) {
     if (p->angles > 0) {
         fprintf(out, "static const wh_angle start_angle[%d] = {", p->angles);
         for (int i = 0; i < p->angles; i++) {
-            fprintf(out, "%sWH_TURN(%a, INT64_C(%" PRId64 "))", i > 0 ? ", " : "", angle_rad[i],
-                    engine_angle_of_start(angle_rad[i]));
+            fprintf(out, "%sWH_TURN(%s, INT64_C(%" PRId64 "))", i > 0 ? ", " : "",
+                    hex_write(angle_rad[i], hex), engine_angle_of_start(angle_rad[i]));
         }
         fprintf(out, "};\n");
     }
     if (p->reals > 0) {
         fprintf(out, "static const wh_real start_real[%d] = {", p->reals);
         for (int i = 0; i < p->reals; i++) {
-            fprintf(out, "%sWH_R(%a)", i > 0 ? ", " : "", real[i]);
+            fprintf(out, "%sWH_R(%s)", i > 0 ? ", " : "", hex_write(real[i], hex));
         }
         fprintf(out, "};\n");
     }
     if (p->inputs > 0) {
         fprintf(out, "static const wh_real start_input[%d] = {", p->inputs);
         for (int i = 0; i < p->inputs; i++) {
-            fprintf(out, "%sWH_R(%a)", i > 0 ? ", " : "", inst->input[p->input[i]]);
+            fprintf(out, "%sWH_R(%s)", i > 0 ? ", " : "", hex_write(inst->input[p->input[i]], hex));
         }
         fprintf(out, "};\n");
     }
@@ -82,6 +84,7 @@ static void write_starts(FILE *out, const program *p, const instance *inst) {
 
 static void write_scene(FILE *out, const program *p, const instance *inst,
                         const engine_settings *settings) {
+    char hex[HEX_SIZE];
     fprintf(out, "const wh_scene %s = {\n    .name = \"%s\",\n    .form = %s,\n    .method = %s,\n",
             inst->name, inst->name,
             p->form == WH_SECOND_ORDER ? "WH_SECOND_ORDER" : "WH_FIRST_ORDER",
@@ -96,17 +99,18 @@ static void write_scene(FILE *out, const program *p, const instance *inst,
         fprintf(out, "    .ledger = &ledger,\n");
     }
     fprintf(out,
-            "    .compensated = %s,\n    .step_s = WH_R(%a),\n"
+            "    .compensated = %s,\n    .step_s = WH_R(%s),\n"
             "    .step = {UINT64_C(%" PRIu64 "), UINT64_C(%" PRIu64 ")},\n"
             "    .steps = UINT64_C(%" PRIu64 "),\n",
-            settings->compensated ? "true" : "false", inst->step_s, inst->step.numerator,
-            inst->step.denominator, inst->steps);
+            settings->compensated ? "true" : "false", hex_write(inst->step_s, hex),
+            inst->step.numerator, inst->step.denominator, inst->steps);
     fprintf(out, "    .start_angle = %s,\n", p->angles > 0 ? "start_angle" : "NULL");
     fprintf(out, "    .start_real = %s,\n", p->reals > 0 ? "start_real" : "NULL");
     fprintf(out, "    .start_input = %s,\n", p->inputs > 0 ? "start_input" : "NULL");
     fprintf(out, "    .model = NULL,\n    .model_hash = UINT64_C(0x%016" PRIx64 "),\n",
             program_hash(p));
-    fprintf(out, "    .advance = advance,\n    .observe = %s,\n};\n",
+    fprintf(out,
+            "    .advance = advance,\n    .observe = %s,\n    .arithmetic = wh_arithmetic,\n};\n",
             p->outputs > 0 ? "observe" : "NULL");
 }
 
@@ -180,6 +184,7 @@ static void write_banner(FILE *out, const equations *e, const program *p, const 
 void emit_c(FILE *out, const equations *e, const program *p, const engine_settings *settings,
             const char *file) {
     const bool second = p->form == WH_SECOND_ORDER;
+    char hex[HEX_SIZE];
     const int components = second ? p->coordinates : p->angles + p->reals;
     write_banner(out, e, p, file);
     fprintf(out, "#define WH_COORDS %d\n", components);
@@ -210,17 +215,17 @@ void emit_c(FILE *out, const equations *e, const program *p, const engine_settin
             out,
             "static wh_status advance(const wh_scene *scene, wh_state *state) {\n"
             "    (void)scene;\n    return wh_step_ledger(&ledger, NULL, accelerations, %s, %s,\n"
-            "                          WH_R(%a), state);\n}\n\n",
+            "                          WH_R(%s), state);\n}\n\n",
             c_method_names[settings->method], settings->compensated ? "true" : "false",
-            e->instance->step_s);
+            hex_write(e->instance->step_s, hex));
     } else {
         fprintf(out,
                 "static wh_status advance(const wh_scene *scene, wh_state *state) {\n"
                 "    (void)scene;\n    return %s(NULL, %s, %s, %s, %dU, %dU,\n"
-                "                          WH_R(%a), state);\n}\n\n",
+                "                          WH_R(%s), state);\n}\n\n",
                 second ? "wh_step_second" : "wh_step_first", second ? "accelerations" : "slopes",
                 c_method_names[settings->method], settings->compensated ? "true" : "false",
-                p->angles, second ? p->coordinates : p->reals, e->instance->step_s);
+                p->angles, second ? p->coordinates : p->reals, hex_write(e->instance->step_s, hex));
     }
     if (p->outputs > 0) {
         write_observer(out, p);

@@ -2,6 +2,7 @@
 #include "c_contacts.h"
 
 #include "c_list.h"
+#include "host/number/hex.h"
 
 void c_contacts_include(FILE *out, const contact_lists *c) {
     fprintf(out, "#define WH_CONTACTS_MAX %d\n#define WH_SETS_MAX %d\n", c->count,
@@ -32,6 +33,7 @@ static void write_table(FILE *out, const contact_lists *c) {
 }
 
 void c_contacts_write(FILE *out, const program *p, const engine_settings *settings, double step_s) {
+    char hex[HEX_SIZE];
     const contact_lists *c = p->contacts;
     c_list_function(out, c->signals, "contact_signals", true);
     c_list_function(out, c->forces, "contact_forces", true);
@@ -54,6 +56,6 @@ void c_contacts_write(FILE *out, const program *p, const engine_settings *settin
         p->coordinates);
     fprintf(out,
             "static wh_status advance(const wh_scene *scene, wh_state *state) {\n"
-            "    (void)scene;\n    return wh_step_contact(&contacts, WH_R(%a), state);\n}\n\n",
-            step_s);
+            "    (void)scene;\n    return wh_step_contact(&contacts, WH_R(%s), state);\n}\n\n",
+            hex_write(step_s, hex));
 }

@@ -8,13 +8,15 @@
 #include <string.h>
 
 #include "host/lang/parser.h"
+#include "host/number/hex.h"
 #include "host/run/engine.h"
 
 /* An operand: constants stand in place. */
 static const char *operand(const tape *t, int a, char text[static 48]) {
     if (t->ops[a].code == OP_CONSTANT) {
         const double value = t->ops[a].value;
-        snprintf(text, 48, value < 0.0 ? "(-WH_R(%a))" : "WH_R(%a)", fabs(value));
+        char hex[HEX_SIZE];
+        snprintf(text, 48, value < 0.0 ? "(-WH_R(%s))" : "WH_R(%s)", hex_write(fabs(value), hex));
     } else {
         snprintf(text, 48, "x%d", a);
     }
@@ -25,11 +27,12 @@ static const char *operand(const tape *t, int a, char text[static 48]) {
 static void write_part(FILE *out, int angle, double multiple) {
     uint32_t whole;
     uint64_t part;
+    char hex[HEX_SIZE];
     engine_factor(multiple, &whole, &part);
     fprintf(out,
-            "wh_phase_times(angle[%d], WH_FACTOR(%a, %" PRIu32 "U,\n"
+            "wh_phase_times(angle[%d], WH_FACTOR(%s, %" PRIu32 "U,\n"
             "        UINT64_C(%" PRIu64 ")))",
-            angle, multiple, whole, part);
+            angle, hex_write(multiple, hex), whole, part);
 }
 
 static void write_phase(FILE *out, const tape *t, int i) {
@@ -38,7 +41,9 @@ static void write_phase(FILE *out, const tape *t, int i) {
     const char *plus = "";
     fprintf(out, "    wh_real s%d;\n    wh_real c%d;\n    wh_sincos(", i, i);
     if (o->value != 0.0 || (o->turns == NULL && o->parts == NULL && o->b < 0)) {
-        fprintf(out, "WH_TURN(%a, %" PRIu32 "U)", o->value, engine_phase_of_constant(o->value));
+        char hex[HEX_SIZE];
+        fprintf(out, "WH_TURN(%s, %" PRIu32 "U)", hex_write(o->value, hex),
+                engine_phase_of_constant(o->value));
         plus = " + ";
     }
     for (int k = 0; k < t->angles && o->turns != NULL; k++) {

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "host/lang/parser.h"
+#include "host/number/decimal.h"
 
 /* --- names and numbers ---------------------------------------------------------------------------*/
 
@@ -91,7 +92,7 @@ void show_number(const show *s, double value) {
     do { /* the fewest digits that give the number back */
         snprintf(text, sizeof text, "%.*g", digits, value);
         digits++;
-    } while (strtod(text, NULL) != value && digits <= 17);
+    } while (decimal_read(text, NULL) != value && digits <= 17);
     char *e = strchr(text, 'e');
     if (e != NULL && s->style == SHOW_LATEX) {
         *e = '\0';

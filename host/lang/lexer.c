@@ -1,11 +1,11 @@
 #include "lexer.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "host/number/decimal.h"
 #include "utf8.h"
 
 enum { NUMBER_LENGTH_MAX = 100 };
@@ -102,13 +102,12 @@ static void read_number(lexer *in, token *made) {
     } else {
         memcpy(digits, made->text, length);
         digits[length] = '\0';
-        errno = 0;
-        made->number = strtod(digits, NULL);
+        made->number = decimal_read(digits, NULL);
         if (isinf(made->number)) {
             diag_error(in->diags, made->at, NULL,
                        "this number is too large (1.7e308 is the limit)");
             made->kind = TOKEN_BAD;
-        } else if (errno == ERANGE && made->number == 0.0) {
+        } else if (made->number == 0.0 && strcspn(digits, "123456789") < strcspn(digits, "eE")) {
             diag_error(in->diags, made->at, "write 0",
                        "this number is too small to tell from zero");
             made->kind = TOKEN_BAD;

@@ -6,11 +6,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "host/number/decimal.h"
 #include "host/number/functions.h"
-
-__extension__ typedef unsigned __int128 wide;
+#include "host/number/wide.h"
 
 enum { MANTISSA = 53, DIGITS_MOST = 15 };
+#define TENTH (UINT64_MAX / 10) /* below it, ten times as much fits */
 
 /* A rational number; `in` may be 0: infinity. */
 typedef struct end {
@@ -20,26 +21,28 @@ typedef struct end {
 /* The fraction of least denominator strictly between two ends (Graham, Knuth & Patashnik, Concrete
  * Mathematics, section 4.5): as long as no whole number lies between them, both begin with the same. */
 static whole_ratio between(end low, end high) {
-    wide p = 1; /* convergents: the last, and the one before */
-    wide q = 0;
-    wide p_before = 0;
-    wide q_before = 1;
+    wide p = wide_of(1); /* convergents: the last, and the one before */
+    wide q = wide_of(0);
+    wide p_before = wide_of(0);
+    wide q_before = wide_of(1);
     for (;;) {
-        const wide whole = low.of / low.in;
-        const bool last = high.in == 0 || (whole + 1) * high.in < high.of;
-        const wide term = last ? whole + 1 : whole;
-        const wide p_next = term * p + p_before;
-        const wide q_next = term * q + q_before;
+        wide low_rest;
+        const wide whole = wide_over(low.of, low.in, &low_rest);
+        const wide above = wide_plus(whole, wide_of(1));
+        const bool last = wide_is_zero(high.in) || wide_below(wide_times(above, high.in), high.of);
+        const wide term = last ? above : whole;
+        const wide p_next = wide_plus(wide_times(term, p), p_before);
+        const wide q_next = wide_plus(wide_times(term, q), q_before);
         if (last) {
-            return (whole_ratio){(uint64_t)p_next, (uint64_t)q_next};
+            return (whole_ratio){p_next.low, q_next.low};
         }
         p_before = p;
         q_before = q;
         p = p_next;
         q = q_next;
-        const end rest = {low.of - whole * low.in, low.in};
-        low = (end){high.in, high.of - whole * high.in};
-        high = (end){rest.in, rest.of};
+        const wide low_in = low.in;
+        low = (end){high.in, wide_minus(high.of, wide_times(whole, high.in))};
+        high = (end){low_in, low_rest};
     }
 }
 
@@ -48,12 +51,13 @@ static whole_ratio simplest(double value) {
     int exponent;
     const double mantissa =
         number_split(value, &exponent); /* below one: 53 bits behind the point */
-    const wide digits = (wide)number_scaled(mantissa, MANTISSA);
+    const uint64_t digits = (uint64_t)number_scaled(mantissa, MANTISSA);
     const int scale = exponent - MANTISSA; /* value = digits * 2^scale, digits from 2^52 on */
-    const wide off = 2;
-    const wide up = scale > 0 ? (wide)1 << scale : 1;
-    const wide down = scale < 0 ? (wide)1 << -scale : 1;
-    return between((end){(digits - off) * up, down}, (end){(digits + off) * up, down});
+    const uint64_t off = 2;
+    const int up = scale > 0 ? scale : 0;
+    const wide down = wide_left(wide_of(1), scale < 0 ? -scale : 0);
+    return between((end){wide_left(wide_of(digits - off), up), down},
+                   (end){wide_left(wide_of(digits + off), up), down});
 }
 
 static uint64_t common_divisor(uint64_t a, uint64_t b) {
@@ -71,30 +75,30 @@ static bool decimal(double value, whole_ratio *found, uint64_t *said) {
     char text[40];
     for (int digits = 1; digits <= DIGITS_MOST; digits++) {
         snprintf(text, sizeof text, "%.*e", digits - 1, value);
-        if (!(fabs(strtod(text, NULL) - value) <= 0x1p-52 * value)) {
+        if (!(fabs(decimal_read(text, NULL) - value) <= 0x1p-52 * value)) {
             continue;
         }
         int power = (int)strtol(strchr(text, 'e') + 1, NULL, 10) - (digits - 1);
-        wide of = 0;
+        uint64_t of = 0;
         for (const char *at = text; *at != 'e'; at++) {
-            of = *at == '.' ? of : 10 * of + (unsigned)(*at - '0');
+            of = *at == '.' ? of : 10 * of + (unsigned)(*at - '0'); /* 15 digits */
         }
-        wide in = 1;
+        uint64_t in = 1;
         *said = 1;
         for (int i = 0; i < digits; i++) {
             *said *= 10;
         }
-        for (; power > 0 && of >> 63 == 0; power--) {
+        for (; power > 0 && of < TENTH; power--) {
             of *= 10;
         }
-        for (; power < 0 && in >> 63 == 0; power++) {
+        for (; power < 0 && in < TENTH; power++) {
             in *= 10;
         }
         if (power != 0 || of >> 63 != 0 || in >> 63 != 0) {
             return false;
         }
-        const uint64_t by = common_divisor((uint64_t)of, (uint64_t)in);
-        *found = (whole_ratio){(uint64_t)of / by, (uint64_t)in / by};
+        const uint64_t by = common_divisor(of, in);
+        *found = (whole_ratio){of / by, in / by};
         return found->numerator >> 60 == 0 && found->denominator >> 60 == 0;
     }
     return false;
@@ -107,32 +111,38 @@ whole_ratio ratio_of(double value) {
     whole_ratio plain;
     uint64_t said;
     const whole_ratio fraction = simplest(value);
-    const bool shorter = decimal(value, &plain, &said) &&
-                         said <= (wide)10 * fraction.numerator * fraction.denominator;
+    const bool shorter =
+        decimal(value, &plain, &said) &&
+        !wide_below(wide_times(wide_times(wide_of(10), wide_of(fraction.numerator)),
+                               wide_of(fraction.denominator)),
+                    wide_of(said));
     return shorter ? plain : fraction;
 }
 
 bool ratio_count(whole_ratio whole, whole_ratio part, uint64_t *count) {
-    const wide over = (wide)whole.numerator * part.denominator;
-    const wide under = (wide)whole.denominator * part.numerator;
-    const wide nearest = (2 * over + under - 1) / (2 * under);
-    *count = (uint64_t)nearest;
-    return nearest <= (wide)1 << 63;
+    const wide over = wide_times(wide_of(whole.numerator), wide_of(part.denominator));
+    const wide under = wide_times(wide_of(whole.denominator), wide_of(part.numerator));
+    const wide twice = wide_minus(wide_plus(wide_left(over, 1), under), wide_of(1));
+    const wide nearest = wide_over(twice, wide_left(under, 1), NULL);
+    *count = nearest.low;
+    return !wide_below(wide_left(wide_of(1), 63), nearest);
 }
 
 double ratio_times(uint64_t count, whole_ratio each) {
-    wide of = (wide)count * each.numerator;
+    wide of = wide_times(wide_of(count), wide_of(each.numerator));
     int shift = 0;
-    while (of != 0 && of >> 126 == 0) { /* a denominator has 60 bits at most: 66 are left */
-        of <<= 1;
+    while (!wide_is_zero(of) &&
+           of.high >> 62 == 0) { /* a denominator has 60 bits at most: 66 are left */
+        of = wide_left(of, 1);
         shift++;
     }
-    wide quotient = of / each.denominator;
-    wide rest = of % each.denominator;
-    while (quotient >> 63 != 0) { /* rounded once, so with a mark for what lies below */
-        rest |= quotient & 1U;
-        quotient >>= 1;
+    wide rest;
+    wide quotient = wide_over(of, wide_of(each.denominator), &rest);
+    bool below = !wide_is_zero(rest); /* rounded once, so with a mark for what lies below */
+    while (quotient.high != 0 || quotient.low >> 63 != 0) {
+        below = below || (quotient.low & 1U) != 0;
+        quotient = wide_right(quotient, 1);
         shift--;
     }
-    return number_scaled((double)((uint64_t)quotient | (uint64_t)(rest != 0)), -shift);
+    return number_scaled((double)(quotient.low | (below ? 1U : 0U)), -shift);
 }

@@ -2,9 +2,9 @@
 # deps.sh GROUP...: install the Debian packages that a make target needs, and only those missing.
 #
 # Groups: host (compiler), plot, firmware (Arm compiler and emulator), tests, quality (linters,
-# sanitizers), bench; octave only when it is named. What is there already is recognised by its
-# command or file, not by its package,
-# so a compiler from elsewhere counts. With nothing missing this says nothing and takes milliseconds.
+# sanitizers, AVR), bench; hosts (other compilers, C libraries and processors) and octave only when they are named.
+# What is there already is recognised by its command or file, not by its package, so a compiler from elsewhere
+# counts. With nothing missing this says nothing and takes milliseconds.
 # DEPS_DRY_RUN=1 only says what is missing (exit status 1 if anything is).
 set -eu
 
@@ -61,6 +61,7 @@ tests() {
     if [ -z "${UNITY:-}" ]; then
         want xz-utils "unpacking the Unity test framework" have xz
     fi
+    want g++ "embedding scenes in C++" have g++
 }
 
 quality() {
@@ -70,10 +71,37 @@ quality() {
     want clang-format "the layout gate" have clang-format
     want clang-tidy "the lint gate" have clang-tidy
     want cppcheck "the second lint gate" have cppcheck
+    want musl-tools "another C library" have musl-gcc
+    want gcc-avr "the AVR gate" have avr-gcc
+    want avr-libc "its C library, for the gate's own program" have_file /usr/lib/avr/include/avr/io.h
+    want simavr "the emulated AVR" have simavr
 }
 
 bench() {
     want valgrind "instruction counts on the PC" have valgrind
+}
+
+# The compilers and emulators of `make hosts`. gcc-multilib would do for -m32, but cannot be installed beside the
+# cross compilers.
+can_m32() {
+    have gcc && echo 'int main(void) { return 0; }' | gcc -m32 -x c - -o /dev/null 2>/dev/null
+}
+
+hosts() {
+    major=$(gcc -dumpversion 2>/dev/null | cut -d . -f 1)
+    want "lib32gcc-${major:-12}-dev" "32-bit programs" can_m32
+    want libc6-dev-i386 "32-bit programs" can_m32
+    want gcc-aarch64-linux-gnu "the compiler for aarch64" have aarch64-linux-gnu-gcc
+    want libc6-dev-arm64-cross "its C library" have_file /usr/aarch64-linux-gnu/lib/libc.a
+    want gcc-arm-linux-gnueabihf "the compiler for armhf" have arm-linux-gnueabihf-gcc
+    want libc6-dev-armhf-cross "its C library" have_file /usr/arm-linux-gnueabihf/lib/libc.a
+    want qemu-user "running programs for these" have qemu-aarch64
+    want wasi-libc "the C library of WebAssembly" have_file /usr/lib/wasm32-wasi/libc.a
+    want libclang-rt-dev-wasm32 "clang's support code for WebAssembly" \
+        have_file /usr/lib/llvm-*/lib/clang/*/lib/wasi/libclang_rt.builtins-wasm32.a
+    want llvm "its archiver" have llvm-ar
+    want lld "the linker for WebAssembly" have wasm-ld
+    want nodejs "running WebAssembly" have node
 }
 
 octave() {
@@ -83,7 +111,7 @@ octave() {
 [ $# -gt 0 ] || set -- host plot firmware tests quality bench
 for group in "$@"; do
     case $group in
-    host | plot | firmware | tests | quality | bench | octave) "$group" ;;
+    host | plot | firmware | tests | quality | bench | hosts | octave) "$group" ;;
     *)
         echo "deps.sh: no such group: $group" >&2
         exit 2

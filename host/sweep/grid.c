@@ -8,6 +8,7 @@
 
 #include "host/lang/override.h"
 #include "host/lang/value.h"
+#include "host/number/decimal.h"
 #include "host/run/number.h"
 #include "host/run/shown.h"
 
@@ -84,12 +85,13 @@ static bool range_split(const char *text, range_text *r) {
 
 /* Where the number at the start of the text ends; NULL when there is none. */
 static const char *behind_number(const char *text) {
-    char *end = NULL;
-    (void)strtod(text, &end);
+    const char *end;
+    (void)decimal_read(text, &end);
+    const bool none = end == text;
     while (*end == ' ' || *end == '\t') {
         end++;
     }
-    return end == text ? NULL : end;
+    return none ? NULL : end;
 }
 
 /* "10..60 [mm]": FROM is meant in TO's unit. */
@@ -280,7 +282,7 @@ char *number_shortest(double value, char text[NUMBER_SIZE]) {
     value = number_shown(value);
     for (int digits = 15; digits <= 17; digits++) {
         snprintf(text, NUMBER_SIZE, "%.*g", digits, value);
-        if (strtod(text, NULL) == value) {
+        if (decimal_read(text, NULL) == value) {
             break;
         }
     }

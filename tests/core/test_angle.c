@@ -62,9 +62,9 @@ static uint64_t scattered(void) {
 static void test_phase_moves(void) {
     wh_phase moved = 0;
     TEST_ASSERT_TRUE(wh_phase_move(QUARTER, 1000.9f, &moved));
-    TEST_ASSERT_EQUAL_UINT32(QUARTER + 1000, moved);
+    TEST_ASSERT_EQUAL_UINT32(QUARTER + 1001, moved);
     TEST_ASSERT_TRUE(wh_phase_move(QUARTER, -1000.9f, &moved));
-    TEST_ASSERT_EQUAL_UINT32(QUARTER - 1000, moved);
+    TEST_ASSERT_EQUAL_UINT32(QUARTER - 1001, moved);
     TEST_ASSERT_TRUE(wh_phase_move(0, -1.0f, &moved));
     TEST_ASSERT_EQUAL_UINT32(UINT32_MAX, moved);
     TEST_ASSERT_TRUE(wh_phase_move(0, 2147483392.0f, &moved));
@@ -73,6 +73,37 @@ static void test_phase_moves(void) {
     for (unsigned i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         TEST_ASSERT_FALSE(wh_phase_move(QUARTER, bad[i], &moved));
         TEST_ASSERT_EQUAL_UINT32(2147483392, moved);
+    }
+}
+
+/* Steps of every size: rounded to the nearest, halves away from zero, as integers say it. */
+static void test_phase_moves_to_the_nearest(void) {
+    for (unsigned i = 0; i < 20000; i++) {
+        const uint32_t digits = (uint32_t)(scattered() & 0xffffffU);
+        const int down = (int)(scattered() % 32U) - 7; /* digits / 2^down */
+        float steps = (float)digits;
+        for (int k = 0; k < down; k++) {
+            steps *= 0.5f;
+        }
+        for (int k = down; k < 0; k++) {
+            steps *= 2.0f;
+        }
+        const uint32_t whole =
+            down > 0 ? (digits + (UINT32_C(1) << (down - 1))) >> down : digits << (unsigned)-down;
+        wh_phase moved = 0;
+        TEST_ASSERT_EQUAL(steps < WH_PHASE_STEP_MAX, wh_phase_move(QUARTER, steps, &moved));
+        TEST_ASSERT_EQUAL_UINT32(steps < WH_PHASE_STEP_MAX ? QUARTER + whole : 0, moved);
+        moved = 0;
+        TEST_ASSERT_EQUAL(steps < WH_PHASE_STEP_MAX, wh_phase_move(QUARTER, -steps, &moved));
+        TEST_ASSERT_EQUAL_UINT32(steps < WH_PHASE_STEP_MAX ? QUARTER - whole : 0, moved);
+        if (2.0f * steps < WH_PHASE_STEP_MAX) {
+            TEST_ASSERT_TRUE(wh_phase_move_half(QUARTER, 2.0f * steps, &moved));
+            TEST_ASSERT_EQUAL_UINT32(QUARTER + whole, moved);
+            TEST_ASSERT_TRUE(wh_phase_move_half(QUARTER, -2.0f * steps, &moved));
+            TEST_ASSERT_EQUAL_UINT32(QUARTER - whole, moved);
+        } else {
+            TEST_ASSERT_FALSE(wh_phase_move_half(QUARTER, 2.0f * steps, &moved));
+        }
     }
 }
 
@@ -237,6 +268,7 @@ static void test_to_rad_is_nearest(void) {
 void suite_angle(void) {
     UnitySetTestFile(__FILE__);
     RUN_TEST(test_phase_moves);
+    RUN_TEST(test_phase_moves_to_the_nearest);
     RUN_TEST(test_phase_of_angle);
     RUN_TEST(test_angle_from_rad);
     RUN_TEST(test_angle_from_rad_out_of_range);

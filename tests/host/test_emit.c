@@ -192,7 +192,7 @@ static void expect_lines(const char *name, const char *const *lines) {
 static void test_short_equations_look_as_in_the_dissertation(void) {
     expect_lines("spherical_particle",
                  (const char *const[]){
-                     "  r:  m*r'' - m*r*sin(theta)^2*phi'^2 - m*r*theta'^2 + m*g*cos(theta) = 0\n",
+                     "  r:  m*r'' - m*r*theta'^2 - m*r*sin(theta)^2*phi'^2 + m*g*cos(theta) = 0\n",
                      "  theta:  m*r^2*theta'' - m*r^2*sin(2*theta)*phi'^2/2 + 2*m*r*r'*theta' - "
                      "m*g*r*sin(theta) = 0\n",
                      "  phi:  m*r^2*sin(theta)^2*phi'' + 2*m*r*sin(theta)^2*r'*phi' + "
@@ -204,14 +204,14 @@ static void test_short_equations_look_as_in_the_dissertation(void) {
                                        NULL});
     expect_lines("epicyclic", (const char *const[]){
                                   "  theta:  4*(I + m*r^2)*theta'' - 2*m*r*sin(theta)*X'' = M\n",
-                                  "  X:  -2*m*r*sin(theta)*theta'' + 2*m*X'' - "
+                                  "  X:  2*m*X'' - 2*m*r*sin(theta)*theta'' - "
                                   "2*m*r*cos(theta)*theta'^2 = 0\n",
                                   NULL});
     expect_lines("driven_hinge",
                  (const char *const[]){
                      "  theta1:  m*r^2*theta1'' + m*r^2*cos(theta1 - theta2)*theta2'' + "
                      "m*r^2*sin(theta1 - theta2)*theta2'^2 = M\n",
-                     "  theta2:  m*r^2*cos(theta1 - theta2)*theta1'' + (I + m*r^2)*theta2'' - "
+                     "  theta2:  (I + m*r^2)*theta2'' + m*r^2*cos(theta1 - theta2)*theta1'' - "
                      "m*r^2*sin(theta1 - theta2)*theta1'^2 = 0\n",
                      NULL});
 }

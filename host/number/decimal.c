@@ -1,0 +1,221 @@
+/* decimal.c: see decimal.h. The number is a fraction of two whole numbers of any size; its first 63 bits come from a long
+ * division, and whether anything is left over decides the rounding where these do not. Nothing here is
+ * floating-point arithmetic, so nothing of it depends on the host's. */
+#include "decimal.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+#include <string.h>
+
+enum {
+    /* What lies halfway between two doubles has at most 768 significant digits (next to 2^-1074 and 2^-1022): a number of
+     * more is on the same side of it as its first DIGITS_MAX and, unless the rest are zeros, a digit behind. */
+    DIGITS_MAX = 780,
+    /* The place of the first digit: 10^-324 and above is not below half of 2^-1074, 10^309 is infinity. */
+    PLACE_LEAST = -324,
+    PLACE_MOST = 308,
+    /* 5^1106 has 2569 bits, 781 digits have 2595; both may be moved up to the other's length, and by one bit. */
+    WORDS = 84,
+    FIVES = 13, /* 5^13 is the largest power in a word */
+    QUOTIENT_BITS = 64,
+    MANTISSA = 53,
+    EXPONENT_LEAST = -1022,
+};
+#define POWER_OF_FIVE UINT32_C(1220703125) /* 5^FIVES */
+#define INFINITY_BITS (UINT64_C(0x7ff) << 52)
+
+/* A whole number: word[0] is the lowest, word[count - 1] is not 0. */
+typedef struct big {
+    int count;
+    uint32_t word[WORDS];
+} big;
+
+/* n = n * factor + more */
+static void times(big *n, uint32_t factor, uint32_t more) {
+    uint64_t carry = more;
+    for (int i = 0; i < n->count; i++) {
+        carry += (uint64_t)n->word[i] * factor;
+        n->word[i] = (uint32_t)carry;
+        carry >>= 32;
+    }
+    if (carry != 0) {
+        n->word[n->count++] = (uint32_t)carry;
+    }
+}
+
+static void times_fives(big *n, int power) {
+    for (; power >= FIVES; power -= FIVES) {
+        times(n, POWER_OF_FIVE, 0);
+    }
+    for (; power > 0; power--) {
+        times(n, 5, 0);
+    }
+}
+
+static int length_in_bits(const big *n) {
+    int bits = 32 * (n->count - 1);
+    for (uint32_t top = n->word[n->count - 1]; top != 0; top >>= 1) {
+        bits++;
+    }
+    return bits;
+}
+
+static void shift_left(big *n, int bits) {
+    const int words = bits / 32;
+    memmove(n->word + words, n->word, (size_t)n->count * sizeof n->word[0]);
+    memset(n->word, 0, (size_t)words * sizeof n->word[0]);
+    n->count += words;
+    times(n, UINT32_C(1) << bits % 32, 0);
+}
+
+static bool below(const big *a, const big *b) {
+    if (a->count != b->count) {
+        return a->count < b->count;
+    }
+    for (int i = a->count - 1; i >= 0; i--) {
+        if (a->word[i] != b->word[i]) {
+            return a->word[i] < b->word[i];
+        }
+    }
+    return false;
+}
+
+/* a -= b, which is not above it */
+static void take_away(big *a, const big *b) {
+    uint64_t borrow = 0;
+    for (int i = 0; i < a->count; i++) {
+        const uint64_t part = (i < b->count ? b->word[i] : 0) + borrow;
+        borrow = a->word[i] < part ? 1 : 0;
+        a->word[i] = (uint32_t)(a->word[i] - part);
+    }
+    while (a->count > 0 && a->word[a->count - 1] == 0) {
+        a->count--;
+    }
+}
+
+/* The significant digits of a number as a whole one, times 10^exponent. */
+typedef struct digits {
+    big whole; /* count 0: zero */
+    int held;  /* significant digits taken */
+    bool more; /* behind them comes something other than zeros */
+    int64_t exponent;
+} digits;
+
+static void take_digit(digits *d, int digit, bool behind_point) {
+    if (d->held == DIGITS_MAX) {
+        d->more = d->more || digit != 0;
+        d->exponent += behind_point ? 0 : 1;
+        return;
+    }
+    if (d->held > 0 || digit != 0) {
+        times(&d->whole, 10, (uint32_t)digit);
+        d->held++;
+    }
+    d->exponent -= behind_point ? 1 : 0;
+}
+
+/* The exponent behind an e at `text`, with no bound but that of what is sensible; NULL when there is none. */
+static const char *read_exponent(const char *text, int64_t *exponent) {
+    const bool negative = text[1] == '-';
+    const char *at = text + (negative || text[1] == '+' ? 2 : 1);
+    if (*at < '0' || *at > '9') {
+        return NULL;
+    }
+    int64_t value = 0;
+    for (; *at >= '0' && *at <= '9'; at++) {
+        value = value < INT64_C(1000000000000) ? 10 * value + (*at - '0') : value;
+    }
+    *exponent += negative ? -value : value;
+    return at;
+}
+
+/* floor(n / m * 2^63) with n / m between 1/2 and 2; is anything left over? Both are used up. */
+static uint64_t divide(big *n, const big *m, bool *rest) {
+    uint64_t quotient = 0;
+    for (int i = 0; i < QUOTIENT_BITS; i++) {
+        quotient <<= 1;
+        if (!below(n, m)) {
+            take_away(n, m);
+            quotient |= 1U;
+        }
+        times(n, 2, 0);
+    }
+    *rest = n->count != 0;
+    return quotient;
+}
+
+/* The bits of the double nearest to quotient * 2^exponent and, if `rest`, a little more. The quotient's highest bit
+ * is 62 or 63. */
+static uint64_t rounded(uint64_t quotient, int exponent, bool rest) {
+    const int bits = quotient >> (QUOTIENT_BITS - 1) != 0 ? QUOTIENT_BITS : QUOTIENT_BITS - 1;
+    const int power = exponent + bits - 1; /* of the highest bit */
+    const int kept = power >= EXPONENT_LEAST ? MANTISSA : MANTISSA - (EXPONENT_LEAST - power);
+    if (kept < 0) {
+        return 0;
+    }
+    const int dropped = bits - kept;
+    const uint64_t whole = dropped < QUOTIENT_BITS ? quotient >> dropped : 0;
+    const uint64_t half = UINT64_C(1) << (dropped - 1);
+    const uint64_t left = quotient & (half | (half - 1));
+    const bool up = left > half || (left == half && (rest || (whole & 1U) != 0));
+    /* a normal number's highest bit, and a carry, count into the exponent above it */
+    const uint64_t scale =
+        power >= EXPONENT_LEAST ? (uint64_t)(power - EXPONENT_LEAST) << (MANTISSA - 1) : 0;
+    const uint64_t made = scale + whole + (up ? 1U : 0U);
+    return made < INFINITY_BITS ? made : INFINITY_BITS;
+}
+
+static uint64_t nearest(digits *d) {
+    if (d->whole.count == 0) {
+        return 0;
+    }
+    const int64_t first = d->exponent + d->held - 1; /* 10^first <= the number */
+    if (first > PLACE_MOST) {
+        return INFINITY_BITS;
+    }
+    if (first < PLACE_LEAST) {
+        return 0;
+    }
+    if (d->more) {
+        times(&d->whole, 10, 1);
+        d->exponent--;
+    }
+    const int exponent = (int)d->exponent;
+    big under = {1, {1}};
+    times_fives(exponent < 0 ? &under : &d->whole, exponent < 0 ? -exponent : exponent);
+    const int longer = length_in_bits(&d->whole) - length_in_bits(&under);
+    shift_left(longer > 0 ? &under : &d->whole, longer > 0 ? longer : -longer);
+    bool rest;
+    const uint64_t quotient = divide(&d->whole, &under, &rest);
+    return rounded(quotient, longer + exponent - (QUOTIENT_BITS - 1), rest);
+}
+
+double decimal_read(const char *text, const char **end) {
+    const bool negative = *text == '-';
+    const char *at = text + (negative || *text == '+' ? 1 : 0);
+    digits d = {.held = 0};
+    bool found = false;
+    bool behind_point = false;
+    for (; (*at >= '0' && *at <= '9') || (*at == '.' && !behind_point); at++) {
+        if (*at == '.') {
+            behind_point = true;
+        } else {
+            found = true;
+            take_digit(&d, *at - '0', behind_point);
+        }
+    }
+    if (found && (*at == 'e' || *at == 'E')) {
+        const char *behind = read_exponent(at, &d.exponent);
+        at = behind != NULL ? behind : at;
+    }
+    if (end != NULL) {
+        *end = found ? at : text;
+    }
+    if (!found) {
+        return 0.0;
+    }
+    const uint64_t bits = nearest(&d) | (negative ? UINT64_C(1) << 63 : 0);
+    double value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}

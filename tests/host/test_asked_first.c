@@ -1,0 +1,239 @@
+/* test_asked_first.c: what is derived does not depend on what was asked before: not on what else was made in the same
+ * algebra (symbols in another order, sums, products, functions, derivatives that are thrown away), not on what was
+ * printed, and not on other mechanisms derived in the same program. Every built-in scene, and generated mechanisms
+ * (WHIRL_CASES of them); the generated C, and where the core lacks a function the Octave form, equal to the byte. */
+#define _POSIX_C_SOURCE 200809L /* open_memstream() */
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "command.h"
+#include "derived.h"
+#include "host/emit/emit.h"
+#include "mechanism.h"
+#include "unity.h"
+
+void suite_asked_first(void);
+
+enum { POOL = 24, QUESTIONS = 60, SIZE_MAX_ASKED = 60, MECHANISMS = 30 };
+
+static uint64_t seed = 20261122;
+
+static unsigned draw(uint64_t *from, unsigned bound) {
+    return (unsigned)(random_bits(from) % bound);
+}
+
+/* --- questions ----------------------------------------------------------------------------------*/
+
+static const poly *any_symbol(algebra *a, const mechanism *m, uint64_t *from) {
+    const unsigned which =
+        draw(from, (unsigned)(3 * m->coordinate_count + m->parameter_count + m->input_count));
+    const unsigned rates = 3 * (unsigned)m->coordinate_count;
+    if (which < rates) {
+        return poly_symbol(a, m->coordinates[which / 3], (int)which % 3);
+    }
+    return which - rates < (unsigned)m->parameter_count
+               ? poly_symbol(a, m->parameters[which - rates], 0)
+               : poly_symbol(a, m->inputs[which - rates - (unsigned)m->parameter_count], 0);
+}
+
+static const poly *any_result(algebra *a, const poly *x, const poly *y, const mechanism *m,
+                              uint64_t *from) {
+    static const double exponents[] = {2.0, 3.0, -1.0, 0.5, -2.0, 4.0};
+    static const function_id functions[] = {FN_TAN, FN_ATAN, FN_EXP, FN_ABS, FN_SQRT, FN_SIGN};
+    switch (draw(from, 9)) {
+    case 0: return poly_add(a, x, y);
+    case 1: return poly_sub(a, x, y);
+    case 2: return poly_mul(a, x, y);
+    case 3: return poly_sin(a, x);
+    case 4: return poly_cos(a, poly_add(a, x, y));
+    case 5: return poly_is_zero(x) ? x : poly_pow(a, x, exponents[draw(from, 6)]);
+    case 6: return poly_call(a, functions[draw(from, 6)], x, NULL);
+    case 7:
+        return poly_derivative(a, x, m->coordinates[draw(from, (unsigned)m->coordinate_count)],
+                               (int)draw(from, 2));
+    default: return poly_scale(a, x, 0.5 * (1.0 + draw(from, 7)));
+    }
+}
+
+/* The first uses of symbols, outputs and energies in any order, and what can be made of them. */
+static void ask(void *context, algebra *a, const instance *inst) {
+    uint64_t *from = context;
+    const mechanism *m = inst->mechanism;
+    const poly *pool[POOL];
+    for (int i = 0; i < POOL; i++) {
+        pool[i] = any_symbol(a, m, from);
+    }
+    for (int k = (int)draw(from, 3); k > 0 && m->output_count > 0; k--) {
+        pool[draw(from, POOL)] =
+            poly_from_expr(a, m->outputs[draw(from, (unsigned)m->output_count)]->value);
+    }
+    for (int k = (int)draw(from, 3); k > 0 && m->term_count > 0; k--) {
+        pool[draw(from, POOL)] =
+            poly_from_expr(a, m->terms[draw(from, (unsigned)m->term_count)].value);
+    }
+    for (int k = 0; k < QUESTIONS; k++) {
+        const poly *made = any_result(a, pool[draw(from, POOL)], pool[draw(from, POOL)], m, from);
+        if (made->size < SIZE_MAX_ASKED && poly_is_finite(made)) {
+            pool[draw(from, POOL)] = made;
+        }
+    }
+}
+
+/* --- answers --------------------------------------------------------------------------------------*/
+
+typedef enum before { ALONE, OTHER_THINGS, OTHER_FORMS, OTHER_PROGRAM, WAYS } before;
+static const char *const way_names[WAYS] = {"alone", "other things made", "other forms printed",
+                                            "another program made"};
+
+static void print_forms(const equations *e, uint64_t *from) {
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    TEST_ASSERT_NOT_NULL(out);
+    emit_latex(out, e);
+    emit_text(out, e);
+    fclose(out);
+    free(text);
+    const int i = (int)draw(from, (unsigned)e->count);
+    if (e->kinetic != NULL) { /* one more derivative, thrown away */
+        poly_derivative(e->algebra,
+                        poly_derivative(e->algebra, e->kinetic, e->unknowns[i].symbol, 1),
+                        e->unknowns[i].symbol, 0);
+    }
+    poly_derivative(e->algebra, equations_force(e, i), e->unknowns[i].symbol, 0);
+}
+
+/* As C; to be freed, NULL when it cannot be derived. */
+static char *written(const scene *in, before way, uint64_t from) {
+    diags *errors = diags_new();
+    instance *inst = instance_make(in->mechanism, in, NULL, errors);
+    equations *e = NULL;
+    program *p = NULL;
+    if (inst != NULL) {
+        e = equations_derive_after(inst, way == OTHER_THINGS ? ask : NULL, &from, errors);
+    }
+    if (e != NULL && way == OTHER_FORMS) {
+        print_forms(e, &from);
+    }
+    if (e != NULL && way == OTHER_PROGRAM) {
+        program_free(program_make(e, NULL, errors));
+    }
+    if (e != NULL) {
+        p = program_make(e, in->conserve, errors);
+    }
+    char *text = NULL;
+    if (p != NULL) {
+        size_t size = 0;
+        FILE *out = open_memstream(&text, &size);
+        TEST_ASSERT_NOT_NULL(out);
+        const engine_settings settings = {WH_RK4, false};
+        emit_c(out, e, p, &settings, "asked.whirl");
+        fclose(out);
+    }
+    program_free(p);
+    equations_free(e);
+    instance_free(inst);
+    diags_free(errors);
+    return text;
+}
+
+static int differing[WAYS];
+static char first_differing[WAYS][64];
+
+static void compare(const scene *in) {
+    char *alone = written(in, ALONE, 0);
+    TEST_ASSERT_NOT_NULL_MESSAGE(alone, in->name);
+    for (before way = OTHER_THINGS; way < WAYS; way++) {
+        char *after = written(in, way, random_bits(&seed));
+        TEST_ASSERT_NOT_NULL_MESSAGE(after, in->name);
+        if (strcmp(alone, after) != 0) {
+            if (differing[way]++ == 0) {
+                snprintf(first_differing[way], sizeof first_differing[way], "%s", in->name);
+            }
+        }
+        free(after);
+    }
+    free(alone);
+}
+
+static void expect_none(int of) {
+    int sum = 0;
+    for (before way = OTHER_THINGS; way < WAYS; way++) {
+        printf("  after %-22s %d of %d differ %s\n", way_names[way], differing[way], of,
+               first_differing[way]);
+        sum += differing[way];
+        differing[way] = 0;
+        first_differing[way][0] = '\0';
+    }
+    TEST_ASSERT_EQUAL_INT(0, sum);
+}
+
+static int compare_scene(const scene *in) {
+    compare(in);
+    return 1;
+}
+
+static void test_built_in_scenes(void) { expect_none(each_builtin_scene(compare_scene)); }
+
+static void test_generated_mechanisms(void) {
+    const int wanted = (int)dice_cases(MECHANISMS);
+    int done = 0;
+    for (uint64_t number = 0; done < wanted; number++) {
+        char text[MECHANISM_SIZE];
+        diags *errors = diags_new();
+        mechanism_write((unsigned)number, seed + number, text);
+        model *made = model_parse("generated", text, strlen(text), errors);
+        char *alone = made != NULL ? written(made->scenes[0], ALONE, 0) : NULL;
+        if (alone != NULL) {
+            compare(made->scenes[0]);
+            done++;
+        }
+        free(alone);
+        model_free(made);
+        diags_free(errors);
+    }
+    expect_none(wanted);
+}
+
+/* One scene after all others of the program were derived, and are still there. */
+static void test_among_others(void) {
+    static derived others[3];
+    char *text = NULL;
+    size_t size = 0;
+    const char *const names[] = {"thomson_b", "carriage_stop", "laskowitz_uneven"};
+    char *alone[3];
+    for (int i = 0; i < 3; i++) {
+        others[i] = derived_builtin(names[i]);
+        derived_expect(&others[i], names[i]);
+    }
+    const engine_settings settings = {WH_RK4, false};
+    for (int i = 0; i < 3; i++) {
+        FILE *out = open_memstream(&text, &size);
+        emit_c(out, others[i].equations, others[i].program, &settings, "others.whirl");
+        fclose(out);
+        alone[i] = text;
+    }
+    for (int i = 0; i < 3; i++) {
+        derived again = derived_builtin(names[i]);
+        FILE *out = open_memstream(&text, &size);
+        emit_c(out, again.equations, again.program, &settings, "others.whirl");
+        fclose(out);
+        TEST_ASSERT_EQUAL_STRING(alone[i], text);
+        free(text);
+        derived_free(&again);
+    }
+    for (int i = 0; i < 3; i++) {
+        free(alone[i]);
+        derived_free(&others[i]);
+    }
+}
+
+void suite_asked_first(void) {
+    printf("asked_first: seed %" PRIu64 "\n", seed);
+    RUN_TEST(test_among_others);
+    RUN_TEST(test_built_in_scenes);
+    RUN_TEST(test_generated_mechanisms);
+}

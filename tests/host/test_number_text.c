@@ -1,0 +1,233 @@
+/* test_number_text.c: decimals are read as the nearest double, hexadecimal ones are written to the bit. What is compared
+ * with is the C library's strtod() and printf("%a"), which glibc rounds correctly. WHIRL_NUMBERS is the number of
+ * texts of each kind. */
+#include <float.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "derived.h"
+#include "host/number/decimal.h"
+#include "host/number/hex.h"
+#include "unity.h"
+
+void suite_number_text(void);
+
+enum { TEXT = 2048 };
+
+static uint64_t seed = 20261121;
+
+static int count_of(int least) {
+    const char *set = getenv("WHIRL_NUMBERS");
+    const int count = set != NULL ? atoi(set) : 0;
+    return count > least ? count : least;
+}
+
+static uint64_t bits_of(double value) {
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+
+static double of_bits(uint64_t bits) {
+    double value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+static int draw(int bound) { return (int)(random_bits(&seed) % (unsigned)bound); }
+
+static void agrees(const char *text) {
+    char *wanted_end;
+    const char *end;
+    const double wanted = strtod(text, &wanted_end);
+    const double got = decimal_read(text, &end);
+    if (bits_of(wanted) != bits_of(got) || end != wanted_end) {
+        char message[2 * TEXT];
+        snprintf(message, sizeof message, "%.300s: %a instead of %a, %d characters instead of %d",
+                 text, got, wanted, (int)(end - text), (int)(wanted_end - text));
+        TEST_FAIL_MESSAGE(message);
+    }
+}
+
+static size_t put_digits(char *text, size_t at, int count) {
+    for (; count > 0; count--) {
+        text[at++] = (char)('0' + draw(10));
+    }
+    text[at] = '\0';
+    return at;
+}
+
+static void test_any_digits(void) {
+    static const int longest[] = {3, 20, 40, 900};
+    for (int i = 0; i < count_of(100000); i++) {
+        char text[TEXT] = "";
+        const int most = longest[i % 100 == 0 ? 3 : draw(3)];
+        size_t at = put_digits(text, (size_t)snprintf(text, TEXT, "%s", draw(4) == 0 ? "-" : ""),
+                               1 + draw(most));
+        if (draw(3) > 0) {
+            at += (size_t)snprintf(text + at, TEXT - at, ".");
+            at = put_digits(text, at, draw(most));
+        }
+        if (draw(3) > 0) {
+            snprintf(text + at, TEXT - at, "e%d", draw(700) - 360);
+        }
+        agrees(text);
+    }
+}
+
+/* Any double at all, with 1 to 20 digits. */
+static void test_doubles_again(void) {
+    for (int i = 0; i < count_of(100000); i++) {
+        const double value = of_bits(random_bits(&seed));
+        char text[64];
+        if (isfinite(value)) {
+            snprintf(text, sizeof text, "%.*e", draw(20), value);
+            agrees(text);
+            snprintf(text, sizeof text, "%.17g", value);
+            TEST_ASSERT_TRUE_MESSAGE(decimal_read(text, NULL) == value, text);
+        }
+    }
+}
+
+/* Exactly between two doubles, written in full; and just beside it, near and far behind the last digit. */
+static void around_middle(uint64_t lower_bits) {
+    char text[TEXT];
+    const long double lower = of_bits(lower_bits);
+    const long double upper =
+        lower_bits + 1 == UINT64_C(0x7ff) << 52 ? ldexpl(1.0L, 1024) : of_bits(lower_bits + 1);
+    snprintf(text, TEXT, "%.1100Lf", (lower + upper) / 2.0L);
+    size_t last = strlen(text) - 1;
+    for (; text[last] == '0'; last--) {
+        text[last] = '\0';
+    }
+    agrees(text);
+    char beside[2 * TEXT];
+    snprintf(beside, sizeof beside, "%s%0*d", text, 1 + draw(600), 1);
+    agrees(beside);
+    last -= text[last] == '.' ? 1 : 0;
+    snprintf(beside, sizeof beside, "%s", text);
+    beside[last]++; /* a 5 behind the point; before it, an even digit */
+    agrees(beside);
+    beside[last] = (char)(text[last] - 1);
+    if (text[last] > '0') {
+        agrees(beside);
+        if (strchr(beside, '.') != NULL) {
+            memset(beside + strlen(text), '9', 30);
+            beside[strlen(text) + 30] = '\0';
+            agrees(beside);
+        }
+    }
+}
+
+static void test_halfway(void) {
+    for (int i = 0; i < count_of(4000); i++) {
+        around_middle(random_bits(&seed) % (UINT64_C(0x7ff) << 52));
+        around_middle(random_bits(&seed) >> (12 + draw(52))); /* below 2^-1022 */
+        around_middle((UINT64_C(1) << 52) - 3 + (uint64_t)draw(6));
+        around_middle((UINT64_C(0x7ff) << 52) - 1 -
+                      (uint64_t)draw(3)); /* next to DBL_MAX, and beyond */
+    }
+    around_middle(0);
+}
+
+static void test_places_and_ends(void) {
+    static const char *const texts[] = {"0",
+                                        "-0",
+                                        "0.0",
+                                        "0e5",
+                                        "0e-99999999999999999999",
+                                        "1e-400",
+                                        "-1e-400",
+                                        "1e400",
+                                        "-1e400",
+                                        "1e99999999999999999999",
+                                        "1e-99999999999999999999",
+                                        "2.4703282292062327e-324",
+                                        "2.4703282292062328e-324",
+                                        "4.9406564584124654e-324",
+                                        "2.2250738585072011e-308",
+                                        "2.2250738585072014e-308",
+                                        "1.7976931348623157e308",
+                                        "1.7976931348623158e308",
+                                        "1.7976931348623159e308",
+                                        "9007199254740993",
+                                        "9007199254740993.0000000000000000001",
+                                        "1.e3",
+                                        ".5",
+                                        "-.5e1",
+                                        "+7",
+                                        "",
+                                        "-",
+                                        ".",
+                                        "e5",
+                                        "-.e5",
+                                        "1e",
+                                        "1e+",
+                                        "1e-x",
+                                        "1..2",
+                                        "1.5.5",
+                                        "12abc",
+                                        "3 4",
+                                        "00000000000000000000000000000001",
+                                        "0.1",
+                                        "1e23",
+                                        "8.5e22"};
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
+        agrees(texts[i]);
+    }
+    char text[TEXT];
+    snprintf(text, TEXT, "0.%0*d", 400, 1); /* zeros that count for the place only */
+    agrees(text);
+    snprintf(text, TEXT, "1%0*de-1400", 1400, 0);
+    agrees(text);
+    snprintf(text, TEXT, "0.%0*de1400", 1400, 1);
+    agrees(text);
+    const char *end;
+    TEST_ASSERT_TRUE(decimal_read("inf", &end) == 0.0 && *end == 'i');
+    TEST_ASSERT_TRUE(decimal_read("0x10", &end) == 0.0 && *end == 'x');
+    TEST_ASSERT_TRUE(decimal_read(" 1", &end) == 0.0 && *end == ' ');
+}
+
+static void hex_agrees(uint64_t bits) {
+    char text[HEX_SIZE];
+    const double value = of_bits(bits);
+    char *end;
+    const double back = strtod(hex_write(value, text), &end);
+    TEST_ASSERT_TRUE_MESSAGE(bits_of(back) == bits && *end == '\0', text);
+#ifdef __GLIBC__ /* the others normalise what is below 2^-1022 */
+    char wanted[64];
+    snprintf(wanted, sizeof wanted, "%a", value);
+    TEST_ASSERT_EQUAL_STRING(wanted, text);
+#endif
+}
+
+static void test_hexadecimal(void) {
+    const uint64_t infinite = UINT64_C(0x7ff) << 52;
+    for (int i = 0; i < count_of(100000); i++) {
+        const uint64_t bits = random_bits(&seed);
+        hex_agrees((bits & ~(bits >> 63 << 63)) % infinite | bits >> 63 << 63);
+        hex_agrees(bits >> (12 + draw(52)));
+        hex_agrees((uint64_t)draw(2047) << 52 | random_bits(&seed) >> 12 >> draw(52));
+        hex_agrees(bits_of((double)draw(1000) / 8.0));
+    }
+    hex_agrees(0);
+    hex_agrees(UINT64_C(1) << 63);
+    hex_agrees(bits_of(DBL_MAX));
+    hex_agrees(bits_of(DBL_MIN));
+    hex_agrees(infinite);
+    char text[HEX_SIZE];
+    TEST_ASSERT_EQUAL_STRING("nan", hex_write(of_bits(infinite | 1), text));
+    TEST_ASSERT_EQUAL_STRING("nan", hex_write(of_bits(~UINT64_C(0)), text));
+}
+
+void suite_number_text(void) {
+    printf("number_text: seed %" PRIu64 "\n", seed);
+    RUN_TEST(test_any_digits);
+    RUN_TEST(test_doubles_again);
+    RUN_TEST(test_halfway);
+    RUN_TEST(test_places_and_ends);
+    RUN_TEST(test_hexadecimal);
+}

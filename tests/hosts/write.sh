@@ -1,0 +1,21 @@
+#!/bin/sh
+# write.sh FOLDER MECHANISMS WHIRL...: what one build of whirl writes, into FOLDER: scenes/ (every built-in scene as C),
+# mechanisms/ (every scene of the file MECHANISMS, in all forms), hashes.txt (of the float states after their runs) and
+# seconds. WHIRL is the command, with an emulator in front where it needs one. What it says stays in log.txt.
+set -u
+folder=${1:?usage: write.sh FOLDER MECHANISMS WHIRL...}
+mechanisms=${2:?usage: write.sh FOLDER MECHANISMS WHIRL...}
+shift 2
+rm -rf "$folder"
+mkdir -p "$folder/scenes" "$folder/mechanisms"
+start=$(date +%s)
+{
+    timeout 1800 "$@" emit-scenes "$folder/scenes" || echo "exit status $?: emit-scenes of the built-in scenes"
+    timeout 1800 "$@" emit-scenes "$folder/mechanisms" "$mechanisms" || echo "exit status $?: emit-scenes $mechanisms"
+    timeout 1800 "$@" hashes >"$folder/hashes.txt" || echo "exit status $?: hashes"
+    cat "$folder"/mechanisms/*.txt | grep '^scene ' >>"$folder/hashes.txt"
+} >"$folder/log.txt" 2>&1
+echo "$(($(date +%s) - start))" >"$folder/seconds"
+if grep -q '^exit status' "$folder/log.txt"; then
+    touch "$folder/failed"
+fi

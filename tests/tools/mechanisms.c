@@ -1,0 +1,67 @@
+/* mechanisms.c: `mechanisms COUNT SEED` writes COUNT generated mechanisms with a scene each on standard output, all of
+ * which derive; on standard error it says how many were refused and replaced. */
+#include <inttypes.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "host/derive/program.h"
+#include "host/lang/model.h"
+#include "tests/host/mechanism.h"
+
+static bool derives(const char *text, diags *all) {
+    model *parsed = model_parse("generated", text, strlen(text), all);
+    instance *inst = NULL;
+    equations *e = NULL;
+    program *p = NULL;
+    if (parsed != NULL) {
+        inst = instance_make(parsed->mechanisms[0], parsed->scenes[0], NULL, all);
+    }
+    if (inst != NULL) {
+        e = equations_derive(inst, all);
+    }
+    if (e != NULL) {
+        p = program_make(e, parsed->scenes[0]->conserve, all);
+    }
+    const bool done = p != NULL;
+    program_free(p);
+    equations_free(e);
+    instance_free(inst);
+    model_free(parsed);
+    return done;
+}
+
+int main(int count, char **words) {
+    if (count != 3) {
+        fputs("usage: mechanisms COUNT SEED\n", stderr);
+        return 2;
+    }
+    const bool tells = getenv("MECHANISMS_SHOW") != NULL; /* the refused ones, with their errors */
+    const unsigned wanted = (unsigned)strtoul(words[1], NULL, 10);
+    uint64_t seed = strtoull(words[2], NULL, 10);
+    unsigned refused = 0;
+    for (unsigned made = 0; made < wanted; seed++) {
+        char text[MECHANISM_SIZE];
+        diags *all = diags_new();
+        mechanism_write(made, seed, text);
+        if (derives(text, all)) {
+            fputs(text, stdout);
+            made++;
+        } else {
+            refused++;
+            if (tells) {
+                fputs(text, stderr);
+                diags_flush(all, stderr);
+            }
+        }
+        diags_free(all);
+        if (refused > 10 * wanted + 100) {
+            fputs("mechanisms: error: nearly all are refused\n", stderr);
+            return 1;
+        }
+    }
+    fprintf(stderr, "%u mechanisms from seed %s on, %u refused and replaced\n", wanted, words[2],
+            refused);
+    return fflush(stdout) == 0 ? 0 : 1;
+}
