@@ -94,6 +94,14 @@ hosts: ## the same generated code from whirl built by other compilers, C librari
 sine-exhaustive: $(B)/tools/sine_exhaustive ## the sine's worst error, over all 2^32 angles (minutes)
 	$(Q)$<
 
+.PHONY: functions-exhaustive
+functions-exhaustive: $(B)/tools/functions_exhaustive ## the float functions' worst errors, over all 2^32 floats (half an hour)
+	$(Q)$<
+
+.PHONY: root-exhaustive
+root-exhaustive: $(B)/tools/root_exhaustive ## the square root in integers, over all 2^32 numbers (a minute)
+	$(Q)$<
+
 .PHONY: fuzz
 fuzz: ## broken files at the parser, odd mechanisms at the rest, for FUZZ_SECONDS each
 	@CC="$(CC)" host/setup/deps.sh host quality
@@ -122,7 +130,7 @@ worst-step: ## the most instructions of a step with events, over a million rando
 	@$(MAKE) worst-now
 
 .PHONY: size
-size: ## bytes of flash, of memory and of stack of BOARD's images
+size: ## bytes of flash, of memory and of stack of BOARD's images, and of the functions
 	@CC="$(CC)" host/setup/deps.sh host firmware
 	@$(MAKE) size-now
 

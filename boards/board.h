@@ -10,6 +10,10 @@
 
 #include <stdint.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* Name of the board as in boards/NAME, "host" on the PC. */
 extern const char *const board_name;
 
@@ -18,7 +22,11 @@ void board_start(void);
 
 /* End the program: `code` 0 is success, 1 to 255 failure. Under an emulator the code becomes the
  * emulator's exit status; on silicon without a debugger the core stops in a loop. */
+#ifdef __cplusplus
+[[noreturn]] void board_exit(int code);
+#else
 _Noreturn void board_exit(int code);
+#endif
 
 /* A free-running clock: counts up and wraps at 2^32, so differences of two readings below one wrap
  * are right when taken as uint32_t. board_ticks_per_s is constant. In an emulator it follows the
@@ -33,5 +41,9 @@ extern const uint32_t board_ticks_per_s;
 void board_stack_paint(void);
 unsigned board_stack_used_bytes(void);
 unsigned board_stack_size_bytes(void);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -2,8 +2,10 @@
  *
  * One test run as core/rig/rig.h describes it, on whatever hardware hal/ offers: tare, ramp to
  * 330 rpm in closed loop on the slot pulses, record the load cell for 2 s, report, stop. Exit status
- * 0: done; 1: the guard tripped, the report says why; 2: the hardware does not answer. */
+ * 0: done; 1: the guard tripped, the report says why; 2: not started, for the hardware does not answer or
+ * the arithmetic is not that of the tests. */
 #include "boards/board.h"
+#include "core/arithmetic.h"
 #include "core/rig/datasheet.h"
 #include "core/rig/rig.h"
 #include "core/text.h"
@@ -159,14 +161,36 @@ static void run(const wh_rig_config *config) {
     hal_motor_set_duty(0.0f);
 }
 
+/* Why hal_clock_start() failed. */
+static const char *why_no_hardware(void) {
+#if HAL_VIRTUAL
+    const wh_status status = hal_virtual_rig_instance()->status;
+    if (status != WH_OK) {
+        return wh_status_text(status);
+    }
+#endif
+    return "the hardware does not answer";
+}
+
+/* Before anything has moved. */
+static void refuse(const char *why) {
+    put("NOT STARTED: ");
+    put(why);
+    put("; the motor is off\n");
+    board_exit(2);
+}
+
 int main(void) {
     board_start();
     put("Eccentric-mass rig on board ");
     put(board_name);
     put("\n");
     if (!hal_clock_start()) {
-        put("The hardware does not answer.\n");
-        board_exit(2);
+        refuse(why_no_hardware());
+    }
+    if (wh_arithmetic_wrong(wh_arithmetic) != WH_PROBED_COUNT) {
+        hal_motor_set_duty(0.0f);
+        refuse(wh_status_text(WH_E_ARITHMETIC));
     }
     wh_rig_config config = wh_rig_standard;
     config.newton_per_count = HAL_LOADCELL_N_PER_COUNT;

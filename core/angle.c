@@ -2,7 +2,7 @@
 #include "angle.h"
 
 /* sin(2 pi i/128) to 17 digits; the nearest number of either build (tests/core/test_angle.c). */
-const WH_SINE_FLASH wh_real wh_sine_table[] = {
+const wh_real wh_sine_table[(1U << WH_SINE_BITS) + WH_SINE_QUARTER] WH_FLASH = {
     /* clang-format off */
     WH_R(0.0), WH_R(0.049067674327418015), WH_R(0.098017140329560604),
     WH_R(0.14673047445536175), WH_R(0.19509032201612828), WH_R(0.2429801799032639),

@@ -13,6 +13,10 @@
 
 #include "real.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 #if WH_DOUBLE
 
 typedef double wh_angle;  /* radians, unwrapped */
@@ -53,14 +57,26 @@ WH_INLINE wh_phase wh_phase_of(wh_angle angle) { return (wh_phase)(uint64_t)angl
 #if WH_DOUBLE
 #define WH_FACTOR(real, whole, part) (real)
 #else
-#define WH_FACTOR(real, whole, part) ((wh_factor){part, whole})
+#define WH_FACTOR(real, whole, part) wh_factor_of(whole, part)
+WH_INLINE wh_factor wh_factor_of(uint32_t whole, uint64_t part) {
+    const wh_factor made = {part, whole};
+    return made;
+}
 #endif
 
 #if !WH_DOUBLE
-/* The nearest whole number of |steps| < WH_PHASE_STEP_MAX, halves away from zero. What is added is the number
- * below 1/2: with 1/2 itself, odd numbers between 2^23 and 2^24 would tie with the next. */
+/* The nearest whole number of |steps| < WH_PHASE_STEP_MAX, halves away from zero. The rest is exact; adding a
+ * half before cutting would not be: odd numbers between 2^23 and 2^24 would tie with the next. */
 WH_INLINE int32_t wh_whole(float steps) {
-    return (int32_t)(steps + (steps < 0.0f ? -0x1.fffffep-2f : 0x1.fffffep-2f));
+    const int32_t whole = (int32_t)steps;
+    const float rest = steps - (float)whole;
+    return whole + (int32_t)(rest + rest);
+}
+
+/* The same of steps/2, from the whole part of steps: 1, -1 and what lies beyond are rounded away from zero. */
+WH_INLINE int32_t wh_half_whole(float steps) {
+    const int32_t whole = (int32_t)steps;
+    return (whole - (~whole >> 31)) >> 1; /* gcc and clang define >> of a negative number */
 }
 #endif
 
@@ -74,6 +90,19 @@ WH_INLINE bool wh_phase_move(wh_phase phase, wh_real steps, wh_phase *moved) {
     *moved = phase + steps;
 #else
     *moved = phase + (wh_phase)wh_whole(steps);
+#endif
+    return true;
+}
+
+/* The same by half of `steps`: where the middle of a step that moves by all of them stands. */
+WH_INLINE bool wh_phase_move_half(wh_phase phase, wh_real steps, wh_phase *moved) {
+    if (!(WH_ABS(steps) < WH_PHASE_STEP_MAX)) {
+        return false;
+    }
+#if WH_DOUBLE
+    *moved = phase + 0.5 * steps;
+#else
+    *moved = phase + (wh_phase)wh_half_whole(steps);
 #endif
     return true;
 }
@@ -119,6 +148,10 @@ wh_real wh_angle_to_rad(wh_angle angle);
  * turns count there, which a phase has lost: half of one turn is half a turn. Float: within 0.75 phase
  * units (1.1e-9 rad), however many turns. Double: the product, rounded. For records, never in a step. */
 wh_phase wh_phase_times(wh_angle angle, wh_factor factor);
+
+#ifdef __cplusplus
+}
+#endif
 
 #include "sine.h" /* the inline bodies of wh_sincos and wh_phase_from_rad */
 

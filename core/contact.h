@@ -25,12 +25,17 @@
  * forces and impulses, contact_ledger.h what they enter into the books, contact_events.h the search for
  * events, contact_settle.h and contact_take.h what they change, contact_place.h where they belong,
  * contact_rank.h whether the holds still determine the motion, contact_step.h the step. Scenes without
- * contacts include none of these files.
+ * contacts include none of these files. All are C only.
  */
 #ifndef WH_CONTACT_H
 #define WH_CONTACT_H
 
-#include "ledger.h"
+#ifdef __cplusplus
+#error \
+    "core/contact.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
+#endif
+
+#include "ledger_step.h"
 #include "step.h"
 
 /* 1: the scene keeps books (ledger.h). A generated scene says. */
@@ -40,7 +45,7 @@
 
 /* Most contacts of a scene. A generated scene defines its own. */
 #ifndef WH_CONTACTS_MAX
-#define WH_CONTACTS_MAX 16
+#define WH_CONTACTS_MAX WH_CONTACTS_LIMIT
 #endif
 
 /* Most values that a scene's crossings assign. A generated scene defines its own. */
@@ -70,13 +75,6 @@
 #define WH_REST_SHARE WH_R(0.125)
 
 typedef enum wh_contact_kind { WH_STOP, WH_HOLD, WH_FRICTION, WH_WHEN } wh_contact_kind;
-
-/* Modes. Friction that slides has the sign of its rate, a crossing the side it is on. */
-enum {
-    WH_FREE = 0,   /* stop out of touch; hold let go */
-    WH_ACTIVE = 1, /* stop resting; hold held */
-    WH_STUCK = 0   /* friction */
-};
 
 typedef struct wh_contact {
     uint8_t kind; /* wh_contact_kind */

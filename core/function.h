@@ -10,6 +10,10 @@
 
 #include "real.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 #define wh_exp WH_NAME(wh_exp)
 #define wh_log WH_NAME(wh_log)
 #define wh_tan WH_NAME(wh_tan)
@@ -32,5 +36,9 @@ wh_real wh_tan(wh_real rad);
 wh_real wh_atan2(wh_real y, wh_real x);
 /* base^exponent; exact where the result is a number of wh_real. */
 wh_real wh_pow(wh_real base, wh_real exponent);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

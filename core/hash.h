@@ -18,21 +18,20 @@ static inline uint64_t wh_hash_u64(uint64_t hash, uint64_t word) {
     return hash;
 }
 
-/* Mix the bits of a real: 0.0 and -0.0 differ, and so do different NaNs. A float counts as its
- * 32 bits zero-extended. */
-static inline uint64_t wh_hash_real(uint64_t hash, wh_real value) {
+/* The bits of a real; a float's 32 are extended by zeros. */
+static inline uint64_t wh_real_bits(wh_real value) {
 #if WH_DOUBLE
-    union {
-        double value;
-        uint64_t bits;
-    } as = {.value = value};
+    uint64_t bits;
 #else
-    union {
-        float value;
-        uint32_t bits;
-    } as = {.value = value};
+    uint32_t bits;
 #endif
-    return wh_hash_u64(hash, as.bits);
+    __builtin_memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+
+/* Mix the bits of a real: 0.0 and -0.0 differ, and so do different NaNs. */
+static inline uint64_t wh_hash_real(uint64_t hash, wh_real value) {
+    return wh_hash_u64(hash, wh_real_bits(value));
 }
 
 #endif

@@ -15,15 +15,23 @@
 
 #include "real.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 #define wh_noise_raw WH_NAME(wh_noise_raw)
 
 /* The deviate of `seed` at `index` in units of 2^-16: -393210 to 393210. Other seeds give sequences that
  * have nothing to do with each other; equal ones the same. */
 int32_t wh_noise_raw(uint32_t seed, uint64_t index);
 
-/* The same as a number of standard deviations, exactly. */
+/* The same as a number of standard deviations, exactly: times 2^-16. */
 WH_INLINE wh_real wh_noise(uint32_t seed, uint64_t index) {
-    return (wh_real)wh_noise_raw(seed, index) * WH_R(0x1p-16);
+    return (wh_real)wh_noise_raw(seed, index) * WH_R(1.52587890625e-05);
 }
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

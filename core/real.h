@@ -1,9 +1,11 @@
 /* real.h: the number the core computes with, and the words every core file needs.
  *
  * Boards and `whirl run --number float` use float. Compiling with WH_DOUBLE=1 gives the reference
- * build in double. Both are freestanding and neither calls libm: with contraction switched off
- * (-ffp-contract=off) only IEEE 754 additions, multiplications, divisions, square roots and
- * conversions are left, so the same source gives the same bits on every machine.
+ * build in double. Both are freestanding and neither calls libm: only IEEE 754 additions, multiplications,
+ * divisions, square roots and conversions are left, so the same source gives the same bits on every
+ * machine, if the compiler leaves them what they are. It is told so here, for every function of a file that
+ * stands behind the #include: no contraction to fused multiply-adds, whatever the flags. What cannot be
+ * switched off is refused here, as far as macros tell, and else by wh_scene_start() (arithmetic.h).
  */
 #ifndef WH_REAL_H
 #define WH_REAL_H
@@ -15,16 +17,38 @@
 #define WH_DOUBLE 0
 #endif
 
+#if defined(__clang__)
+#pragma STDC FP_CONTRACT OFF
+#elif defined(__GNUC__)
+#pragma GCC optimize("fp-contract=off")
+#endif
+
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || \
+    defined(__NO_SIGNED_ZEROS__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ > 0)
+#error \
+    "Whirl computes the same bits everywhere, which fast-math forbids: compile this file without -ffast-math, -Ofast, -funsafe-math-optimizations and their parts."
+#endif
+
+/* 16, 32: what is smaller than float is computed as it is. */
+#if defined(__FLT_EVAL_METHOD__) && __FLT_EVAL_METHOD__ != 0 && __FLT_EVAL_METHOD__ != 16 && \
+    __FLT_EVAL_METHOD__ != 32 && \
+    !(WH_DOUBLE && (__FLT_EVAL_METHOD__ == 1 || __FLT_EVAL_METHOD__ == 64))
+#error \
+    "Whirl computes the same bits everywhere, and this compiler keeps more of them in between: on x86 use -msse2 -mfpmath=sse, on s390x -std=gnu11."
+#endif
+
+#if __FLT_RADIX__ != 2 || __FLT_MANT_DIG__ != 24 || (WH_DOUBLE && __DBL_MANT_DIG__ != 53)
+#error "Whirl needs IEEE 754 numbers: float of 32 bits and, with WH_DOUBLE=1, double of 64 bits."
+#endif
+
 #if WH_DOUBLE
 typedef double wh_real;
 #define WH_R(x) x
 #define WH_ABS(x) __builtin_fabs(x)
-#define WH_SQRT(x) __builtin_sqrt(x)
 #else
 typedef float wh_real;
 #define WH_R(x) x##f
 #define WH_ABS(x) __builtin_fabsf(x)
-#define WH_SQRT(x) __builtin_sqrtf(x)
 #endif
 
 /* The host links both builds of the core into one program, so the double one carries a suffix. */
@@ -49,7 +73,10 @@ typedef enum wh_status {
     WH_E_UNDEFINED =
         -4, /* a contact's expression is no finite number; the last good state is kept */
     WH_E_SINGULAR =
-        -5 /* holds came to where they leave more than one motion; the last good state is kept */
+        -5, /* holds came to where they leave more than one motion; the last good state is kept */
+    WH_E_ARITHMETIC = -6 /* compiled or set up to compute other bits (arithmetic.h says why) */
 } wh_status;
+
+#include "root.h" /* WH_SQRT */
 
 #endif

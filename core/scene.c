@@ -1,8 +1,62 @@
 /* scene.c: starting, stepping and comparing runs. The arithmetic is in step.h. */
 #include "scene.h"
 
+#include "arithmetic.h"
 #include "hash.h"
 #include "ledger.h"
+
+#if WH_DOUBLE
+#define UNIT 0x1p-52
+#define FACTOR_LESS_ONE 0x1p-27
+#define LEAST 0x1p-1022
+#else
+#define UNIT 0x1p-23f
+#define FACTOR_LESS_ONE 0x1p-12f
+#define LEAST 0x1p-126f
+#endif
+const wh_probes wh_probe = {
+    .factor = WH_R(1.0) + FACTOR_LESS_ONE,
+    .square = WH_R(1.0) + WH_R(2.0) * FACTOR_LESS_ONE,
+    .one = WH_R(1.0),
+    .quarter_unit = WH_R(0.25) * UNIT,
+    .half_unit = WH_R(0.5) * UNIT * (WH_R(1.0) + UNIT),
+    .least = LEAST,
+    .half = WH_R(0.5),
+    .two = WH_R(2.0),
+    .three = WH_R(3.0),
+    .five = WH_R(5.0),
+    .seven = WH_R(7.0),
+    .ten = WH_R(10.0),
+    .minus_zero = -WH_R(0.0),
+};
+
+static const wh_real probed[WH_PROBED_COUNT] = {
+    [WH_PROBED_ROUNDING] = UNIT,
+    [WH_PROBED_SUBNORMAL] = LEAST,
+    [WH_PROBED_FIVE] = WH_R(0x1.aaaaaaaaaaaabp0),
+    [WH_PROBED_SEVEN] = WH_R(0x1.2aaaaaaaaaaabp1),
+    [WH_PROBED_TEN] = WH_R(0x1.aaaaaaaaaaaabp1),
+    [WH_PROBED_THIRD] = WH_R(0x1.2aaaaaaaaaaabp1),
+};
+
+/* By their bits: nothing is computed here that could hide it. */
+wh_probed wh_arithmetic_wrong(void (*compute)(wh_real *result)) {
+    wh_real result[WH_PROBED_COUNT];
+    unsigned i = 0;
+    compute(result);
+    while (i < WH_PROBED_COUNT && wh_real_bits(result[i]) == wh_real_bits(probed[i])) {
+        i++;
+    }
+    return (wh_probed)i;
+}
+
+/* The core's own arithmetic, and that of the scene's file, which may have been compiled with other flags. */
+static wh_probed first_wrong(const wh_scene *scene) {
+    const wh_probed wrong = wh_arithmetic_wrong(wh_arithmetic);
+    return wrong != WH_PROBED_COUNT || scene->arithmetic == NULL
+               ? wrong
+               : wh_arithmetic_wrong(scene->arithmetic);
+}
 
 static size_t carries(const wh_scene *scene) {
     return scene->compensated ? (size_t)scene->angles + scene->reals : 0U;
@@ -25,19 +79,47 @@ static size_t ledgers(const wh_scene *scene) {
                                  : 2U * (size_t)scene->ledger->entries + scene->ledger->accounts;
 }
 
-wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, size_t bytes) {
-    const size_t numbers =
-        scene->angles * sizeof(wh_angle) +
-        (scene->reals + carries(scene) + scene->inputs + scene->held + ledgers(scene)) *
-            sizeof(wh_real);
-    const size_t contacts_at = (numbers + 7U) / 8U * 8U;
-    const size_t need =
-        scene->contacts > 0 ? contacts_at + sizeof(wh_contacts) + scene->contacts : numbers;
-    if (scene->form == WH_FIRST_ORDER && scene->method == WH_SEMI_IMPLICIT_EULER) {
+static size_t all_reals(const wh_scene *scene) {
+    return scene->reals + carries(scene) + scene->inputs + scene->held + ledgers(scene);
+}
+
+/* Whatever lies in a state's memory may begin here: at an address that is a multiple of what the compiler puts
+ * them at in a struct, which on some machines (i386, AVR) is less than their size. */
+static bool is_aligned(const void *memory) {
+    struct behind_a_byte {
+        char byte;
+        union {
+            wh_angle angle;
+            wh_real real;
+            wh_contacts contacts;
+        } behind;
+    };
+    return (uintptr_t)memory % offsetof(struct behind_a_byte, behind) == 0;
+}
+
+static wh_status refusal(const wh_scene *scene, const wh_state *state, const void *memory,
+                         size_t bytes) {
+    if (scene == NULL || state == NULL || scene->contacts > WH_CONTACTS_LIMIT ||
+        (scene->form == WH_FIRST_ORDER && scene->method == WH_SEMI_IMPLICIT_EULER) ||
+        !is_aligned(memory)) {
         return WH_E_ARGUMENT;
     }
-    if (memory == NULL || bytes < need) {
+    if (memory == NULL ||
+        bytes < WH_MEMORY_BYTES(scene->angles, all_reals(scene), scene->contacts)) {
         return WH_E_MEMORY;
+    }
+    return WH_OK;
+}
+
+wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, size_t bytes) {
+    const wh_status refused = refusal(scene, state, memory, bytes);
+    if (refused != WH_OK) {
+        return refused;
+    }
+    const wh_probed wrong = first_wrong(scene);
+    if (wrong != WH_PROBED_COUNT) {
+        state->fault = (int)wrong;
+        return WH_E_ARITHMETIC;
     }
     wh_real *reals;
     state->angle = memory;
@@ -72,8 +154,8 @@ wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, s
     }
     state->contacts = NULL;
     if (scene->contacts > 0) {
-        start_contacts(scene, state,
-                       (wh_contacts *)(void *)((unsigned char *)memory + contacts_at));
+        const size_t at = (WH_NUMBER_BYTES(scene->angles, all_reals(scene)) + 7U) / 8U * 8U;
+        start_contacts(scene, state, (wh_contacts *)(void *)((unsigned char *)memory + at));
     }
     state->steps = 0;
     state->fault = -1;
@@ -184,6 +266,7 @@ const char *wh_status_text(wh_status status) {
     case WH_E_MEMORY: return "the memory is too small for this scene";
     case WH_E_ARGUMENT: return "an argument is out of range";
     case WH_E_SINGULAR: return "holds leave more than one motion";
+    case WH_E_ARITHMETIC: return "compiled or set up for other arithmetic than IEEE 754";
     case WH_E_UNDEFINED: return "an expression of a contact is not a finite number";
     }
     return "unknown status";

@@ -1,14 +1,16 @@
 /* scene.h: a scene is one mechanism, compiled with only the effects it names, ready to step.
  *
  * A generated file (build/gen/NAME.c) defines one constant `wh_scene`; it lives in flash. What
- * changes while running lives in a `wh_state` and in memory that the caller owns:
+ * changes while running lives in a `wh_state` and in memory that the caller owns, whose size the generated
+ * header (build/gen/NAME.h) tells beside the places of coordinates, inputs and outputs:
  *
- *     static uint64_t memory[WH_STATE_WORDS(2, 4, 1)];      // angles, reals, inputs: see the scene
+ *     static uint64_t memory[thomson_a_MEMORY_WORDS];
  *     wh_state state;
  *     wh_scene_start(&thomson_a, &state, memory, sizeof memory);
  *     while (wh_scene_step(&thomson_a, &state) == WH_OK) { ... }
  *
- * Verbs follow eFMI's Startup / DoStep. Nothing here allocates, recurses or calls a library.
+ * Verbs follow eFMI's Startup / DoStep. Nothing here allocates, recurses or calls a library. This file,
+ * the generated header, and what they include are C11 and C++11; generated .c files and the core's own are C.
  */
 #ifndef WH_SCENE_H
 #define WH_SCENE_H
@@ -17,6 +19,10 @@
 
 #include "angle.h"
 #include "real.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 /* How a scene's state is arranged.
  *
@@ -34,6 +40,17 @@ typedef enum wh_method { WH_EULER, WH_SEMI_IMPLICIT_EULER, WH_HEUN, WH_RK4 } wh_
 #define WH_EVENTS_MAX 8
 #define WH_EVENT_LOG 16
 
+/* Most contacts of any scene. */
+#define WH_CONTACTS_LIMIT 16
+
+/* Modes of a contact. Friction that slides has the sign of its rate, a crossing the side it is on. */
+enum {
+    WH_FREE = 0,   /* stop out of touch; hold let go */
+    WH_ACTIVE = 1, /* stop resting; hold held */
+    WH_STUCK = 0,  /* friction */
+    WH_UNSET = 127 /* before the first step */
+};
+
 /* An event of a scene with contacts (contact.h). */
 typedef struct wh_event {
     uint8_t contact;
@@ -48,10 +65,8 @@ typedef struct wh_contacts {
     uint64_t overruns; /* steps that had WH_EVENTS_MAX moments with events */
     uint32_t logged;   /* events of the last step, in log[] */
     wh_event log[WH_EVENT_LOG];
-    int8_t mode[]; /* [scene->contacts] */
+    int8_t mode[WH_CONTACTS_LIMIT]; /* [scene->contacts] are in use */
 } wh_contacts;
-
-#define WH_UNSET 127 /* a mode before the first step */
 
 /* The changing part of a run. All pointers point into the memory given to wh_scene_start(). */
 typedef struct wh_state {
@@ -65,7 +80,8 @@ typedef struct wh_state {
                       * much it has slipped; SI units */
     wh_real *ledger; /* the books' totals, their carries, the levels at the start; or NULL */
     /* after WH_E_DIVERGED: the component at fault, angles first, then reals; after WH_E_UNDEFINED or
-     * WH_E_SINGULAR: the contact, in the order of contact.h */
+     * WH_E_SINGULAR: the contact, in the order of contact.h; after WH_E_ARITHMETIC: what is wrong, a
+     * wh_probed (arithmetic.h) */
     int fault;
 } wh_state;
 
@@ -81,6 +97,10 @@ typedef struct wh_time {
     wh_real fraction_s; /* 0 <= fraction_s < 1 */
 } wh_time;
 
+/* Accelerations of a second-order system. accel[coordinates]. */
+typedef void wh_accel_fn(const void *model, const wh_phase *phase, const wh_real *linear,
+                         const wh_real *rate, const wh_real *input, wh_real *accel);
+
 typedef struct wh_ledger_form wh_ledger_form; /* ledger.h */
 
 typedef struct wh_scene wh_scene;
@@ -92,7 +112,7 @@ struct wh_scene {
     uint8_t reals;    /* components kept as a real */
     uint8_t inputs;   /* may change while running */
     uint8_t outputs;  /* computed by observe(), never in the step */
-    uint8_t contacts; /* stops, holds, frictions and crossings */
+    uint8_t contacts; /* stops, holds, frictions and crossings, <= WH_CONTACTS_LIMIT */
     uint8_t held;     /* holds that could slip: of more than one coordinate, or curved */
     bool compensated; /* sums carry their rounding error along */
     wh_real step_s;   /* fixed step, seconds, > 0 */
@@ -109,14 +129,25 @@ struct wh_scene {
     wh_status (*advance)(const wh_scene *scene, wh_state *state);
     /* The outputs at the present state: output[scene->outputs], SI units. May be NULL. */
     void (*observe)(const wh_scene *scene, const wh_state *state, wh_real *output);
+    /* Shows how the file of advance() was compiled: wh_arithmetic() of arithmetic.h, or NULL. */
+    void (*arithmetic)(wh_real *result);
 };
 
-/* Eight-byte words of caller memory for a state of so many angles, reals and inputs. */
+/* Bytes of caller memory that wh_scene_start() takes for so many angles, so many reals in all (those of the
+ * state, a low part for each component when compensated, inputs, what is held, the ledger's) and contacts. A
+ * constant where they are; generated headers have it with the scene's own. */
+#define WH_MEMORY_BYTES(angles, all_reals, contacts) \
+    ((contacts) > 0 ? (WH_NUMBER_BYTES(angles, all_reals) + 7U) / 8U * 8U + sizeof(wh_contacts) \
+                    : WH_NUMBER_BYTES(angles, all_reals))
+#define WH_NUMBER_BYTES(angles, all_reals) \
+    ((size_t)(angles) * sizeof(wh_angle) + (size_t)(all_reals) * sizeof(wh_real))
+
+/* By hand, enough for either: eight-byte words of caller memory for a state of so many angles, reals and inputs. */
 #define WH_STATE_WORDS(angles, reals, inputs) \
     ((size_t)(angles) + (2U * (size_t)(reals) + (size_t)(angles) + (size_t)(inputs)))
 
 /* What a scene with so many contacts needs on top. */
-#define WH_CONTACT_WORDS(contacts) ((sizeof(wh_contacts) + (size_t)(contacts) + 15U) / 8U)
+#define WH_CONTACT_WORDS(contacts) ((contacts) > 0 ? (sizeof(wh_contacts) + 7U) / 8U : 0U)
 
 /* And one with so many holds that could slip. */
 #define WH_HELD_WORDS(held) ((size_t)(held))
@@ -132,9 +163,11 @@ struct wh_scene {
 #define wh_scene_rates WH_NAME(wh_scene_rates)
 #define wh_status_text WH_NAME(wh_status_text)
 
-/* Put `state` at the scene's start. `memory`, of `bytes` bytes and aligned for uint64_t, must
- * outlive the run. Returns WH_OK, or with the state untouched WH_E_MEMORY, or WH_E_ARGUMENT for a method that
- * the scene's form does not have (generated scenes never do that). */
+/* Put `state` at the scene's start. `memory`, of `bytes` bytes and aligned as a uint64_t in a struct is, must
+ * outlive the run. Returns WH_OK; or, with state and memory untouched, WH_E_MEMORY when it is too little or NULL, and
+ * WH_E_ARGUMENT when it is not aligned, when scene or state is NULL, and for a scene that no generator writes: a
+ * method that its form does not have, too many contacts; or WH_E_ARITHMETIC where compiler flags or the machine's
+ * modes make other bits than those of every other machine: state->fault then says how. */
 wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, size_t bytes);
 
 /* Do one step. Returns WH_OK; or WH_E_DIVERGED or WH_E_UNDEFINED, with the last good state kept and
@@ -158,5 +191,9 @@ const wh_real *wh_scene_rates(const wh_scene *scene, const wh_state *state);
 
 /* A status in words, for consoles. */
 const char *wh_status_text(wh_status status);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -18,29 +18,26 @@
 #define WH_SINE_H
 
 #include "angle.h"
+#include "flash.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 /* Sectors of a turn, as a power of two, and how many of them make a quarter turn. */
 #define WH_SINE_BITS 7
 #define WH_SINE_QUARTER (1U << (WH_SINE_BITS - 2))
 
-/* avr-gcc copies constants to its scarce memory unless told to leave them in flash, which it can be
- * in its GNU dialects only (-std=gnu99). */
-#if defined(__FLASH) && !defined(__STRICT_ANSI__)
-#define WH_SINE_FLASH __flash
-#else
-#define WH_SINE_FLASH
-#endif
-
 /* Sine of the sectors' middles, a turn and a quarter, so that the cosine is WH_SINE_QUARTER on. */
 #define wh_sine_table WH_NAME(wh_sine_table)
-extern const WH_SINE_FLASH wh_real wh_sine_table[(1U << WH_SINE_BITS) + WH_SINE_QUARTER];
+extern const wh_real wh_sine_table[(1U << WH_SINE_BITS) + WH_SINE_QUARTER] WH_FLASH;
 
 /* Sine and cosine of `sector`'s middle turned on by r, from sin r and cos r - 1. */
 WH_INLINE void wh_sine_turn_on(uint32_t sector, wh_real sin_r, wh_real cos_r_less_1, wh_real *sine,
                                wh_real *cosine) {
-    const WH_SINE_FLASH wh_real *middle = &wh_sine_table[sector];
-    const wh_real s = middle[0];
-    const wh_real c = middle[WH_SINE_QUARTER];
+    const wh_real *middle = &wh_sine_table[sector];
+    const wh_real s = wh_flash_real(&middle[0]);
+    const wh_real c = wh_flash_real(&middle[WH_SINE_QUARTER]);
     *sine = s + (s * cos_r_less_1 + c * sin_r);
     *cosine = c + (c * cos_r_less_1 - s * sin_r);
 }
@@ -53,25 +50,25 @@ WH_INLINE void wh_sincos(wh_phase phase, wh_real *sine, wh_real *cosine) {
 
     /* Adding 1.5 * 2^52 rounds to an integer and leaves it in the low bits of the sum. */
     const double to_integer = 6755399441055744.0;
-    const union {
-        double value;
-        uint64_t bits;
-    } sum = {.value = angle * 20.371832715762604 + to_integer}; /* 64/pi */
-    const double sectors = sum.value - to_integer;
+    const double sum = angle * 20.371832715762604 + to_integer; /* 64/pi */
+    const double sectors = sum - to_integer;
+    uint64_t bits;
+    __builtin_memcpy(&bits, &sum, sizeof bits);
 
     /* pi/64 in three parts (Cody & Waite, Software Manual for the Elementary Functions, chapter 8):
      * the first two have 18 and 16 bits, so that their products with up to 2^34 sectors are exact
-     * and so are the differences. */
-    double r = angle - sectors * 0x1.921f8p-5;
-    r = r - sectors * 0x1.aa22p-24;
-    r = r - sectors * 0x1.68c234c4c6629p-44;
+     * and so are the differences. 0x1.921f8p-5, 0x1.aa22p-24 and 0x1.68c234c4c6629p-44: C++11 has no such
+     * numbers, and to 17 digits decimal ones are the same. */
+    double r = angle - sectors * 0.049087285995483398;
+    r = r - sectors * 9.9216777016408741e-08;
+    r = r - sectors * 8.0104504737328716e-14;
 
     /* Minimax for |r| <= pi/128: sin r to 2.8e-17, cos r to 3e-20. */
     const double z = r * r;
     const double sin_r = r + r * z * (-0.1666666666295987 + z * 0.0083331554016490665);
     const double cos_r_less_1 =
         z * (-0.499999999999999 + z * (0.041666666656645597 + z * -0.0013888601908200115));
-    const uint32_t sector = (uint32_t)sum.bits & ((1U << WH_SINE_BITS) - 1U);
+    const uint32_t sector = (uint32_t)bits & ((1U << WH_SINE_BITS) - 1U);
     wh_sine_turn_on(sector, sin_r, cos_r_less_1, sine, cosine);
 }
 
@@ -93,10 +90,11 @@ WH_INLINE void wh_sincos(wh_phase phase, wh_real *sine, wh_real *cosine) {
      * significant bits convert exactly. The scale, 2^39 a turn, is hidden in the constants. */
     const float y = (float)(int32_t)(phase << WH_SINE_BITS);
 
-    /* Minimax for |r| <= pi/128: sin r to 5e-12, cos r to 2.6e-9. */
+    /* Minimax for |r| <= pi/128: sin r to 5e-12, cos r to 2.6e-9. The numbers are 0x1.921fb6p-37,
+     * -0x1.4ab89ep-112 and -0x1.3bd07p-74, which C++11 cannot write so. */
     const float z = y * y;
-    const float sin_r = y * (0x1.921fb6p-37f + z * -0x1.4ab89ep-112f);
-    const float cos_r_less_1 = z * -0x1.3bd07p-74f;
+    const float sin_r = y * (1.14290478e-11f + z * -2.48806948e-34f);
+    const float cos_r_less_1 = z * -6.53088477e-23f;
     wh_sine_turn_on(sector, sin_r, cos_r_less_1, sine, cosine);
 }
 
@@ -107,7 +105,7 @@ WH_INLINE void wh_sincos(wh_phase phase, wh_real *sine, wh_real *cosine) {
 WH_INLINE int64_t wh_angle_of_rad(float rad) {
     const float in_range = WH_ABS(rad) < WH_RAD_MOST ? rad : 0.0f; /* NaN is not in range */
     const int32_t whole = (int32_t)in_range;
-    const int32_t fraction = (int32_t)((in_range - (float)whole) * 0x1p31f);
+    const int32_t fraction = (int32_t)((in_range - (float)whole) * 2147483648.0f);
     const int64_t small = whole * -INT64_C(1819212470) + fraction * INT64_C(1367130551);
     /* gcc and clang define >> of a negative number: it keeps the sign. */
     return whole * INT64_C(683565276) + ((small + (INT64_C(1) << 31)) >> 32);
@@ -123,5 +121,9 @@ WH_INLINE void wh_sincos_of_range(wh_real rad, wh_real *sine, wh_real *cosine) {
     }
 }
 
+#endif
+
+#ifdef __cplusplus
+}
 #endif
 #endif

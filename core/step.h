@@ -3,7 +3,8 @@
  * A generated scene and the host's interpreter both include this file. In a generated scene the
  * counts, the method and `compensated` are constants and the right-hand side is inlined, so the
  * compiler unrolls the loops and drops whatever the scene does not call for; the order of the
- * floating-point operations, and so every bit of the result, is the same in both.
+ * floating-point operations, and so every bit of the result, is the same in both. Neither is C++: what
+ * embeds a scene includes scene.h and the generated header.
  *
  * For q'' = f(q, q', u) the position stages of the Runge-Kutta methods are written out, which gives
  * the classic method's numbers to rounding with fewer operations (Hairer, Norsett & Wanner,
@@ -17,14 +18,21 @@
 #ifndef WH_STEP_H
 #define WH_STEP_H
 
+#ifdef __cplusplus
+#error \
+    "core/step.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
+#endif
+
+#include "arithmetic.h"
 #include "scene.h"
+#include "sum.h"
 
 /* Most coordinates (second order) or components (first order). A generated scene defines its own
  * and has its loops unrolled: gcc -O2 would not, and arrays indexed by a counter stay in memory. */
 #ifndef WH_COORDS
 #define WH_COORDS 64
 #define WH_UNROLL
-#elif defined(__GNUC__) && !defined(__clang__)
+#elif defined(__GNUC__) && __GNUC__ >= 8 && !defined(__clang__) /* which older ones do not know */
 #define WH_UNROLL _Pragma("GCC unroll 64")
 #else
 #define WH_UNROLL
@@ -33,28 +41,12 @@
 /* A linear position or a rate beyond this is no mechanism's: the step is refused. */
 #define WH_ABSURD WH_R(1e15)
 
-/* Accelerations of a second-order system. accel[coordinates]. */
-typedef void wh_accel_fn(const void *model, const wh_phase *phase, const wh_real *linear,
-                         const wh_real *rate, const wh_real *input, wh_real *accel);
-
 /* Derivatives of a first-order system: slope[angles + reals], angles first (rad/s). */
 typedef void wh_slope_fn(const void *model, const wh_phase *phase, const wh_real *real,
                          const wh_real *input, wh_real *slope);
 
 /* True for finite numbers of a believable size; false for NaN. */
 WH_INLINE bool wh_believable(wh_real value, wh_real limit) { return WH_ABS(value) < limit; }
-
-/* value + increment. When compensated, *carry goes into the sum and is replaced by the sum's rounding
- * error (Kahan; Higham, Accuracy and Stability of Numerical Algorithms, section 4.3). */
-WH_INLINE wh_real wh_sum(wh_real value, wh_real increment, bool compensated, wh_real *carry) {
-    if (!compensated) {
-        return value + increment;
-    }
-    const wh_real wanted = increment + *carry;
-    const wh_real sum = value + wanted;
-    *carry = wanted - (sum - value);
-    return sum;
-}
 
 /* *angle moved on by `steps` phase units, rounded to the nearest: dropping the fraction would slow every
  * angle down by half a unit a step. False, with *angle as it was, for half a turn or more, or NaN. */
@@ -119,6 +111,12 @@ WH_INLINE void wh_commit(const wh_trial *trial, unsigned angles, unsigned reals,
     }
 }
 
+/* Where an angle stands at a stage, in the middle of a step or at its end, that moves it by `steps`. */
+WH_INLINE bool wh_stage_angle(wh_angle angle, wh_real steps, bool middle, wh_phase *phase) {
+    return middle ? wh_phase_move_half(wh_phase_of(angle), steps, phase)
+                  : wh_phase_move(wh_phase_of(angle), steps, phase);
+}
+
 /* One step of q'' = f(q, q', u). angles <= n <= WH_COORDS. Returns WH_OK, or WH_E_DIVERGED with
  * state->fault set and the rest of the state as it was. */
 WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_method method,
@@ -169,7 +167,7 @@ WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_met
         }
         WH_UNROLL
         for (unsigned i = 0; i < angles; i++) {
-            if (!wh_phase_move(wh_phase_of(angle[i]), rate[i] * (h * unit), &phase[i])) {
+            if (!wh_stage_angle(angle[i], rate[i] * (h * unit), false, &phase[i])) {
                 return wh_refuse(state, i);
             }
         }
@@ -203,8 +201,7 @@ WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_met
             }
             WH_UNROLL
             for (unsigned i = 0; i < angles; i++) {
-                const wh_real turn = v_before[i] * (span * unit);
-                if (!wh_phase_move(wh_phase_of(angle[i]), turn, &phase[i])) {
+                if (!wh_stage_angle(angle[i], v_before[i] * (h * unit), stage != 4, &phase[i])) {
                     return wh_refuse(state, i);
                 }
             }
@@ -261,15 +258,16 @@ WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_met
     return WH_OK;
 }
 
-/* The state of a stage of a first-order system: start + span * slope. False when an angle would move by
- * half a turn or more; *fault is then its number. */
-WH_INLINE bool wh_stage_first(const wh_state *state, unsigned angles, unsigned reals, wh_real span,
-                              const wh_real *slope, wh_phase *phase, wh_real *real,
+/* The state of a stage of a first-order system: start + h * slope, or half of that in the middle. False when
+ * h * slope would move an angle by half a turn or more; *fault is then its number. */
+WH_INLINE bool wh_stage_first(const wh_state *state, unsigned angles, unsigned reals, wh_real h,
+                              bool middle, const wh_real *slope, wh_phase *phase, wh_real *real,
                               unsigned *fault) {
+    const wh_real span = middle ? WH_R(0.5) * h : h;
     WH_UNROLL
     for (unsigned i = 0; i < angles; i++) {
-        const wh_real turn = slope[i] * (span * WH_PHASE_PER_RAD);
-        if (!wh_phase_move(wh_phase_of(state->angle[i]), turn, &phase[i])) {
+        if (!wh_stage_angle(state->angle[i], slope[i] * (h * WH_PHASE_PER_RAD), middle,
+                            &phase[i])) {
             *fault = i;
             return false;
         }
@@ -308,7 +306,7 @@ WH_INLINE wh_status wh_step_first(const void *model, wh_slope_fn *slope, wh_meth
     }
     slope(model, phase, state->real, u, k1);
     if (method == WH_HEUN) {
-        if (!wh_stage_first(state, angles, reals, h, k1, phase, at, &fault)) {
+        if (!wh_stage_first(state, angles, reals, h, false, k1, phase, at, &fault)) {
             return wh_refuse(state, fault);
         }
         slope(model, phase, at, u, k);
@@ -317,7 +315,7 @@ WH_INLINE wh_status wh_step_first(const void *model, wh_slope_fn *slope, wh_meth
             move[i] = half * (k1[i] + k[i]);
         }
     } else if (method == WH_RK4) {
-        if (!wh_stage_first(state, angles, reals, half, k1, phase, at, &fault)) {
+        if (!wh_stage_first(state, angles, reals, h, true, k1, phase, at, &fault)) {
             return wh_refuse(state, fault);
         }
         slope(model, phase, at, u, k);
@@ -325,7 +323,7 @@ WH_INLINE wh_status wh_step_first(const void *model, wh_slope_fn *slope, wh_meth
         for (unsigned i = 0; i < n; i++) {
             sum[i] = k[i];
         }
-        if (!wh_stage_first(state, angles, reals, half, k, phase, at, &fault)) {
+        if (!wh_stage_first(state, angles, reals, h, true, k, phase, at, &fault)) {
             return wh_refuse(state, fault);
         }
         slope(model, phase, at, u, k);
@@ -333,7 +331,7 @@ WH_INLINE wh_status wh_step_first(const void *model, wh_slope_fn *slope, wh_meth
         for (unsigned i = 0; i < n; i++) {
             sum[i] = sum[i] + k[i];
         }
-        if (!wh_stage_first(state, angles, reals, h, k, phase, at, &fault)) {
+        if (!wh_stage_first(state, angles, reals, h, false, k, phase, at, &fault)) {
             return wh_refuse(state, fault);
         }
         slope(model, phase, at, u, k);

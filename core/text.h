@@ -16,6 +16,10 @@
 
 #include "real.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 typedef struct wh_text {
     char *bytes;     /* the caller's buffer, NUL-terminated */
     unsigned size;   /* of the buffer, including the NUL */
@@ -52,5 +56,9 @@ void wh_text_add_hex(wh_text *text, uint64_t value, unsigned digits);
  * rounded, ties to even: the characters of C's "%.*f". Not-a-number gives "nan", infinities "inf"
  * and "-inf"; a double of magnitude 2^128 or more gives "huge" or "-huge" (no float is so large). */
 void wh_text_add_fixed(wh_text *text, wh_real value, unsigned decimals);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -9,6 +9,10 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 #define HAL_TICKS_PER_S 1000000U
 
 /* Start the timer, and with it whatever else the rig's hardware needs before its first use. To be
@@ -21,5 +25,9 @@ uint32_t hal_clock_ticks(void);
 /* Wait until the timer has reached `ticks` (which must be less than half the timer's range ahead);
  * return at once when it has already. May return late by up to a millisecond. */
 void hal_clock_wait_until(uint32_t ticks);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

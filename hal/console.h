@@ -5,7 +5,15 @@
 #ifndef HAL_CONSOLE_H
 #define HAL_CONSOLE_H
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* Write `count` bytes, waiting until all are taken. No conversion of line ends. */
 void hal_console_write(const char *bytes, unsigned count);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

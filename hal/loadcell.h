@@ -9,6 +9,10 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* 16-bit converter, full scale +-50 lbf (222.41 N): 6.79 mN a count. */
 #define HAL_LOADCELL_FULL_SCALE_N 222.41108f
 #define HAL_LOADCELL_RAW_MAX 32767
@@ -25,5 +29,9 @@ typedef struct hal_load_sample {
 /* Take the oldest sample not yet taken. Returns false when there is none. At least 4 samples are
  * kept between calls; when more came, the newest are lost. */
 bool hal_loadcell_take(hal_load_sample *sample);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

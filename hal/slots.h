@@ -10,6 +10,10 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* Half the angle that the slot covers: 2 mm wide at a radius of 57.3 mm. */
 #define HAL_SLOT_LEAD_DEG 1.0f
 
@@ -21,5 +25,9 @@ typedef struct hal_slot_pulse {
 /* Take the oldest pulse not yet taken, in order of time. Returns false when there is none. At least
  * 8 pulses are kept between calls; when more came, the newest are lost. */
 bool hal_slots_take(hal_slot_pulse *pulse);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

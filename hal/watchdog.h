@@ -5,6 +5,10 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* Arm the watchdog: from now on the motor's duty is cut to zero, for good, when
  * hal_watchdog_kick() stays away for more than `timeout_ticks`. Cannot be disarmed. */
 void hal_watchdog_start(uint32_t timeout_ticks);
@@ -14,5 +18,9 @@ void hal_watchdog_kick(void);
 
 /* True when the watchdog has cut the motor. */
 bool hal_watchdog_has_cut(void);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -5,6 +5,7 @@
 
 #include "commands/commands.h"
 #include "commands/load.h"
+#include "core/arithmetic.h"
 #include "host/lang/nearest.h"
 
 #define VERSION "0.1.0"
@@ -44,6 +45,13 @@ static const command commands[] = {
 
 int main(int count, char **words) {
     setlocale(LC_ALL, "C");
+    if (wh_arithmetic_wrong(wh_arithmetic) != WH_PROBED_COUNT) {
+        fputs(
+            "whirl: error: this program was compiled, or is run, with other arithmetic than IEEE 754\n"
+            "hint: build it without fast-math, and load no library that was linked with it\n",
+            stderr);
+        return EXIT_RUN_FAILED;
+    }
     if (count < 2) {
         fputs(usage, stderr);
         return EXIT_BAD_INPUT;

@@ -47,10 +47,19 @@ $(B)/firmware: $(call objects,float,boards/main.c boards/host/board.c) $(LIB_SCE
 # The images that are held to the firmware rules and whose sizes are told.
 IMAGES := $(ELF)/scenes.elf $(if $(wildcard boards/main.c),$(ELF)/firmware.elf)
 
-.PHONY: board-images
+.PHONY: board-images board-tests
 board-images: $(IMAGES)
+board-tests: $(ELF)/tests.elf
 
 emulate = $(call BOARD_EMULATE,$(1))
+
+# The boards beside BOARD are built and run by a make of their own: $(call on_board,NAME,TARGET).
+BOARDS := $(patsubst boards/%/board.mk,%,$(wildcard boards/*/board.mk))
+OTHER_BOARDS := $(filter-out $(BOARD),$(BOARDS))
+on_board = $(MAKE) -s BOARD=$(1) $(2)
+.PHONY: run-image
+run-image:
+	@$(call emulate,$(IMAGE))
 
 -include $(wildcard $(patsubst %.c,$(ELF)/%.d,$(UNITY_DIR)/unity.c $(CORE_C) $(HAL_C) $(BOARD_C) $(TEST_C) $(SCENE_C) $(B)/tests/core_suites.c))
 

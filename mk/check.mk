@@ -1,7 +1,7 @@
 # check.mk: the quality gates of `make check`. Each is a target of its own, gate-NAME; tests/gates.sh
 # runs them, keeps what they say in build/check/NAME.log and prints a line for each.
 
-GATES := house gcc clang format cppcheck tidy sanitizers memcheck bad-input firmware size hashes hosts
+GATES := house gcc clang format cppcheck tidy sanitizers memcheck bad-input firmware size libm hashes hosts
 LINT_FLAGS := -std=c11 $(WARN) -I. $(UNITY_FLAGS) -D_POSIX_C_SOURCE=200809L
 JOBS := 2
 
@@ -87,12 +87,21 @@ gate-bad-input:
 
 # --- firmware -------------------------------------------------------------------------------------
 # No heap, no libm, no double arithmetic and no recursion in any image's symbols.
+.PHONY: image-rules
 gate-firmware:
-	@$(MAKE) B=build board-images
+	@for board in $(BOARDS); do $(MAKE) B=build BOARD=$$board image-rules || exit 1; done
+image-rules: board-images
 	@NM=$(BOARD_NM) sh boards/check_image.sh $(IMAGES)
 
 gate-size:
-	@$(MAKE) size-now
+	@for board in $(BOARDS); do $(MAKE) BOARD=$$board size-now || exit 1; done
+
+# --- no mathematical library ----------------------------------------------------------------------
+# Unoptimised, where compilers put in nothing of their own for a library's function.
+gate-libm:
+	@$(MAKE) B=build/libm/gcc CC=gcc OPT=-O0 build/libm/gcc/whirl
+	@$(MAKE) B=build/libm/clang CC=clang OPT=-O0 build/libm/clang/whirl
+	@sh tests/no_libm.sh build/libm/gcc/whirl build/libm/clang/whirl
 
 # --- one arithmetic everywhere ----------------------------------------------------------------------
 HASH_BUILDS := gcc-O0 gcc-O2 gcc-O3 clang-O0 clang-O2 clang-O3
@@ -101,9 +110,11 @@ HASH_BUILDS := gcc-O0 gcc-O2 gcc-O3 clang-O0 clang-O2 clang-O3
 hashes-now gate-hashes: build/whirl
 	@$(MAKE) $(GEN)/.stamp
 	@$(MAKE) $(addprefix hash-,$(HASH_BUILDS)) $(ELF)/scenes.elf
+	@$(foreach b,$(OTHER_BOARDS),$(call on_board,$(b),board-images) &&) true
 	@sh tests/hashes.sh build/hash "the interpreter" "build/whirl hashes" \
 	    $(foreach h,$(HASH_BUILDS),$(h) build/hash/$(h)/scenes) \
-	    "$(BOARD)" "$(call emulate,$(ELF)/scenes.elf)"
+	    "$(BOARD)" "$(call emulate,$(ELF)/scenes.elf)" \
+	    $(foreach b,$(OTHER_BOARDS),"$(b)" "$(call on_board,$(b),run-image IMAGE=build/$(b)/scenes.elf)")
 
 $(addprefix hash-,$(HASH_BUILDS)): hash-%:
 	@$(MAKE) B=build/hash/$* CC=$(firstword $(subst -, ,$*)) OPT=-$(lastword $(subst -, ,$*)) \

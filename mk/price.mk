@@ -93,6 +93,7 @@ size-now: build/whirl
 	@BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) SIZE=$(BOARD_SIZE) OBJECTS=$(ELF) \
 	    FLAGS="$(call TOLD,$(BOARD_CFLAGS))" EMULATE="$(call emulate,@)" \
 	    host/size/size.sh $(FIGURES)/size.csv $(IMAGES)
+	@CC=$(BOARD_CC) CPU="$(BOARD_CPU)" SIZE=$(BOARD_SIZE) host/size/functions.sh $(LIB_BOARD)
 
 # What each effect costs: build/price/effects.csv, and the tables of docs/effects.md.
 .PHONY: price-effects-now

@@ -57,13 +57,16 @@ define archive
 	$(Q)rm -f $@ && $(AR) rcs $@ $^
 endef
 
+# What Whirl makes needs no mathematical library. Tests and tools compare with one.
+LIBM = $(if $(filter $(B)/tests/% $(B)/tools/%,$@),-lm)
 # The linker for WebAssembly looks through all archives anyway, and knows no groups.
 GROUP := $(if $(filter none,$(SYSTEM)),,-Wl$(comma)--start-group)
 GROUP_END := $(if $(filter none,$(SYSTEM)),,-Wl$(comma)--end-group)
+
 define link
 	$(say) LINK $@
 	@mkdir -p $(@D)
-	$(Q)$(CC) $(NATIVE) $(LINK_EXTRA) -o $@ $(filter %.o,$^) $(GROUP) $(filter %.a,$^) $(GROUP_END) -lm
+	$(Q)$(CC) $(NATIVE) $(LINK_EXTRA) -o $@ $(filter %.o,$^) $(GROUP) $(filter %.a,$^) $(GROUP_END) $(LIBM)
 endef
 
 # Generated C: the built-in models and scenes.

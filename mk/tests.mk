@@ -59,13 +59,18 @@ RUN_HOST = $(call half,0) $(call half,1)
 # What takes longest goes first.
 CLI_LONG := tests/cli/emitted_c.sh tests/cli/effects_cost_nothing.sh
 RUN_CLI = $(foreach t,$(CLI_LONG) $(filter-out $(CLI_LONG),$(CLI_TESTS)),"$(t)" "sh $(t)")
-RUN_BOARD = "portable suites, $(BOARD)" "$(call emulate,$(B)/$(BOARD)/tests.elf)"
+RUN_BOARD = "portable suites, $(BOARD)" "$(call emulate,$(B)/$(BOARD)/tests.elf)" \
+    $(foreach b,$(OTHER_BOARDS),"portable suites$(comma) $(b)" \
+    "$(call on_board,$(b),run-image IMAGE=$(B)/$(b)/tests.elf)")
+comma := ,
+build_other_tests = $(foreach b,$(OTHER_BOARDS),$(call on_board,$(b),board-tests) &&) true
 
 .PHONY: test-now test-core test-host test-cli test-board
 test-now: build/whirl
 	@$(MAKE) $(GEN)/.stamp
 	@$(MAKE) test-programs $(B)/$(BOARD)/tests.elf
-	@WHIRL=build/whirl sh tests/run.sh build/tests/log $(RUN_CLI) $(RUN_HOST) $(RUN_CORE) $(RUN_BOARD)
+	@$(build_other_tests)
+	@WHIRL=build/whirl sh tests/run.sh build/tests/log $(RUN_CLI) $(RUN_BOARD) $(RUN_HOST) $(RUN_CORE)
 
 # Parts of it, for while one works on something.
 test-core: build/whirl
@@ -86,10 +91,17 @@ test-cli: build/whirl
 test-board: build/whirl
 	@$(MAKE) $(GEN)/.stamp
 	@$(MAKE) $(ELF)/tests.elf
+	@$(build_other_tests)
 	@sh tests/run.sh build/tests/log $(RUN_BOARD)
 
 # --- tools --------------------------------------------------------------------------------------
 $(B)/tools/sine_exhaustive: $(call objects,host,tests/tools/sine_exhaustive.c) $(LIB_FLOAT)
+	$(link)
+
+$(B)/tools/functions_exhaustive: $(call objects,host,tests/tools/functions_exhaustive.c) $(LIB_FLOAT)
+	$(link)
+
+$(B)/tools/root_exhaustive: $(call objects,host,tests/tools/root_exhaustive.c) $(LIB_FLOAT)
 	$(link)
 
 # Generated mechanisms, all of which derive.

@@ -17,7 +17,7 @@ while [ $# -ge 2 ]; do
     command=$2
     shift 2
     file=$logs/$(echo "$name" | tr ' ' '_').txt
-    timeout --kill-after=5 300 sh -c "$command" </dev/null >"$file.raw" 2>"$file.err"
+    timeout --kill-after=5 900 sh -c "$command" </dev/null >"$file.raw" 2>"$file.err"
     status=$?
     tr -d '\r' <"$file.raw" | grep '^scene ' | sort >"$file"
     [ -n "$first" ] || first=$file

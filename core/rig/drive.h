@@ -4,6 +4,10 @@
 
 #include "core/real.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 typedef struct wh_drive_config {
     wh_real proportional_per_radps; /* duty per rad/s of error */
     wh_real integral_per_rad;       /* duty per second, per rad/s of error */
@@ -36,5 +40,9 @@ wh_real wh_drive_step(const wh_drive_config *config, wh_drive *drive, wh_real sp
 
 /* True when the set-point has arrived. */
 bool wh_drive_at_target(const wh_drive *drive);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

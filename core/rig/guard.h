@@ -4,6 +4,10 @@
 
 #include "speed.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 typedef enum wh_trip {
     WH_TRIP_NONE,
     WH_TRIP_TARGET, /* the set-point is below what the loop holds or above what the shaft carries */
@@ -72,5 +76,9 @@ void wh_guard_load_silence(const wh_guard_config *config, wh_guard *guard, uint3
 
 /* The reason in words, for consoles. */
 const char *wh_trip_text(wh_trip reason);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -16,6 +16,10 @@
 
 #include "core/real.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* Evenly sampled load: sample i was taken at first_ticks + i period_ticks. */
 typedef struct wh_load_record {
     const int16_t *raw; /* [samples] counts */
@@ -59,5 +63,9 @@ void wh_polar(wh_real x, wh_real y, wh_real *radius, wh_real *angle_rad);
 /* Load at a time within the record, counts, on the straight line between two samples; *counts is
  * left alone and false returned outside it. */
 bool wh_load_at(const wh_load_record *record, uint32_t ticks, wh_real *counts);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

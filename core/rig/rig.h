@@ -18,6 +18,10 @@
 #include "lockin.h"
 #include "speed.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 #define WH_RIG_RECORD_SAMPLES 1000U /* 2 s, a sample every 2 ms */
 #define WH_RIG_MARKS_MAX 16U        /* pulses of one sensor in a record, up to 420 rpm */
 
@@ -124,5 +128,9 @@ bool wh_rig_is_over(const wh_rig *rig);
 
 /* The state in words, for consoles. */
 const char *wh_rig_state_text(wh_rig_state state);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

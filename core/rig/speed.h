@@ -9,6 +9,10 @@
 
 #include "core/real.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 #define WH_SPEED_SENSORS 2U
 
 typedef struct wh_speed {
@@ -51,5 +55,9 @@ wh_real wh_speed_silence_s(const wh_speed *speed, uint32_t now_ticks);
 /* True when no pulse has come for more than a whole turn at the known speed, so that at least one
  * was lost (regular intervals are at most three quarters of a turn). */
 bool wh_speed_is_overdue(const wh_speed *speed, uint32_t now_ticks);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -17,6 +17,10 @@
 #include "hal/loadcell.h"
 #include "hal/slots.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 #define HAL_VIRTUAL_PULSES 16U
 #define HAL_VIRTUAL_SAMPLES 8U
 
@@ -75,5 +79,9 @@ hal_virtual_rig *hal_virtual_rig_instance(void);
 
 /* The model that hal_clock_start() starts: core/models/eccentric.whirl, scene rig_fixed. */
 extern const wh_scene rig_fixed;
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

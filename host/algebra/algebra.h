@@ -91,9 +91,6 @@ bool poly_is_place(const poly *p);
 /* base^exponent, where whole powers of such sums stay powers from the exponent `kept` on. */
 const poly *poly_power(algebra *a, const poly *base, double exponent, double kept);
 
-/* A function's value. */
-double call_number(function_id function, double x, double y);
-
 /* The poly remembered for the pair, or NULL; and remember it. */
 const poly *memo_get(intern_table *table, const void *left, const void *right);
 void memo_put(algebra *a, intern_table *table, const void *left, const void *right,

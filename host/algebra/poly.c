@@ -67,7 +67,7 @@ double coefficient_sum(double x, double y) {
     if (!isfinite(x + y)) { /* infinity is not small beside itself */
         return x + y;
     }
-    return fabs(x + y) <= CANCELLED * fmax(fabs(x), fabs(y)) ? 0.0 : x + y;
+    return fabs(x + y) <= CANCELLED * number_most(fabs(x), fabs(y)) ? 0.0 : x + y;
 }
 
 /* left + factor * right: a merge of two sorted lists. */
@@ -117,7 +117,7 @@ const poly *poly_scale(algebra *a, const poly *p, double scale) {
 static const poly *trig_of(algebra *a, trig kind, const poly *angle) {
     double value;
     if (poly_is_number(angle, &value)) {
-        return poly_number(a, kind == TRIG_SIN ? sin(value) : cos(value));
+        return poly_number(a, kind == TRIG_SIN ? number_sine(value) : number_cosine(value));
     }
     double sign = 1.0;
     if (angle->terms[0].coefficient < 0.0) {
@@ -147,7 +147,7 @@ static const poly *trig_product(algebra *a, trig left, const poly *x, trig right
     return poly_scale(a, p, 0.5);
 }
 
-static bool is_whole(double x) { return x == floor(x) && fabs(x) < 1e6; }
+static bool is_whole(double x) { return x == number_floor(x) && fabs(x) < 1e6; }
 
 bool poly_is_place(const poly *p) {
     for (int i = 0; i < p->count; i++) {
@@ -166,7 +166,7 @@ bool poly_is_place(const poly *p) {
 
 bool power_multiplies_out(const poly *base, double exponent, double kept) {
     return is_whole(exponent) && exponent > 0.0 &&
-           pow((double)base->count, exponent) <= POWER_TERMS_MAX &&
+           number_power((double)base->count, exponent) <= POWER_TERMS_MAX &&
            !(exponent >= kept && poly_is_place(base));
 }
 
@@ -306,13 +306,13 @@ static const poly *term_pow(algebra *a, const poly_term *t, double exponent) {
         }
         const mono *powered = mono_make(a, f, count, TRIG_NONE, NULL);
         free(f);
-        return poly_mul(a, poly_of_term(a, pow(t->coefficient, exponent), powered), extra);
+        return poly_mul(a, poly_of_term(a, number_power(t->coefficient, exponent), powered), extra);
     }
     if (whole && exponent > 0.0 && exponent <= 16.0) {
         const poly *base = poly_of_term(a, t->coefficient, m);
-        const poly *half = poly_pow(a, base, floor(exponent / 2.0));
+        const poly *half = poly_pow(a, base, number_floor(exponent / 2.0));
         const poly *even = poly_mul(a, half, half);
-        return fmod(exponent, 2.0) == 0.0 ? even : poly_mul(a, even, base);
+        return number_remainder(exponent, 2.0) == 0.0 ? even : poly_mul(a, even, base);
     }
     if (whole && m->count > 0) { /* 1/(r cos a) = 1/r * 1/(cos a) */
         const mono *plain = mono_make(a, m->factors, m->count, TRIG_NONE, NULL);
@@ -322,8 +322,8 @@ static const poly *term_pow(algebra *a, const poly_term *t, double exponent) {
     }
     /* Take out the size of the number; its sign stays inside unless the exponent is whole. */
     const double sign = t->coefficient < 0.0 ? -1.0 : 1.0;
-    const double outside =
-        whole ? pow(t->coefficient, exponent) : pow(fabs(t->coefficient), exponent);
+    const double outside = whole ? number_power(t->coefficient, exponent)
+                                 : number_power(fabs(t->coefficient), exponent);
     const poly *inside = poly_of_term(a, whole ? 1.0 : sign, m);
     if (m->count == 1 && m->trig == TRIG_NONE && m->factors[0].exponent == 1.0 && sign > 0.0) {
         return poly_scale(a, poly_of_atom(a, m->factors[0].atom, exponent), outside);
@@ -348,7 +348,7 @@ const poly *poly_power(algebra *a, const poly *base, double exponent, double kep
         return base;
     }
     if (poly_is_number(base, &value)) {
-        return poly_number(a, pow(value, exponent));
+        return poly_number(a, number_power(value, exponent));
     }
     if (base->count == 1) {
         return term_pow(a, &base->terms[0], exponent);
@@ -364,7 +364,8 @@ const poly *poly_power(algebra *a, const poly *base, double exponent, double kep
     const double size = size_of_sum(base, exponent);
     const double outside = is_whole(exponent) ? size : fabs(size);
     const poly *inside = poly_scale(a, base, 1.0 / outside);
-    return poly_scale(a, poly_of_atom(a, group_of(a, inside), exponent), pow(outside, exponent));
+    return poly_scale(a, poly_of_atom(a, group_of(a, inside), exponent),
+                      number_power(outside, exponent));
 }
 
 const poly *poly_pow(algebra *a, const poly *base, double exponent) {
@@ -383,7 +384,7 @@ const poly *poly_call(algebra *a, function_id function, const poly *x, const pol
     double vx;
     double vy = 0.0;
     if (poly_is_number(x, &vx) && (y == NULL || poly_is_number(y, &vy))) {
-        return poly_number(a, call_number(function, vx, vy));
+        return poly_number(a, number_call(function, vx, vy));
     }
     switch (function) {
     case FN_SIN: return poly_sin(a, x);

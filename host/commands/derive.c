@@ -1,8 +1,11 @@
 /* derive.c: `whirl derive`: the equations of motion, the first-order form, the code. */
+#include <errno.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "commands.h"
+#include "files.h"
 #include "host/emit/emit.h"
 #include "host/run/start.h"
 #include "load.h"
@@ -11,7 +14,7 @@
 static const char usage[] =
     "usage: whirl derive FILE[:NAME]|SCENE|MECHANISM[:SCENE] [--as text|latex|octave|c]\n"
     "                    [--with E,...] [--without E,...] [--set NAME=EXPR] [--start NAME=EXPR]\n"
-    "                    [--step 1ms] [--until 9s] [--method M] [--compensated]\n"
+    "                    [--step 1ms] [--until 9s] [--method M] [--compensated] [--header FILE]\n"
     "\n"
     "Prints the equations of motion of a mechanism (or of a scene, with its effects), of a FILE or\n"
     "built in (`whirl list`):\n"
@@ -19,6 +22,8 @@ static const char usage[] =
     "  --as latex   the same for a paper (with amsmath)\n"
     "  --as octave  a function file that Octave and Matlab integrate as it stands\n"
     "  --as c       the scene as C for the core\n"
+    "  --header FILE, with --as c: its header, for C and C++: names of components, inputs and outputs,\n"
+    "               their units, the memory that it takes\n"
     "Numbers in formulas are SI. The other options are those of `whirl run`; the method matters to the C form only.\n";
 
 typedef enum form { FORM_TEXT, FORM_LATEX, FORM_OCTAVE, FORM_C, FORMS } form;
@@ -33,32 +38,76 @@ static void print(form as, const loaded *made, const char *file, const engine_se
     }
 }
 
+/* The files that --header must not be, which are read and written at the same time. */
+static bool header_is_apart(const source_model *from, const char *header) {
+    struct stat about_output;
+    struct stat about_header;
+    if (strcmp(header, "-") == 0) {
+        fputs("whirl derive: error: --header takes a file: standard output has the C\n", stderr);
+        return false;
+    }
+    if (source_would_be_lost(from, "--header", header, "")) {
+        return false;
+    }
+    if (fstat(STDOUT_FILENO, &about_output) == 0 && S_ISREG(about_output.st_mode) &&
+        stat(header, &about_header) == 0 &&
+        files_are_one(&about_output, NULL, &about_header, header)) {
+        fprintf(stderr,
+                "%s: error: --header and standard output cannot share a file\n"
+                "hint: give it another name\n",
+                header);
+        return false;
+    }
+    return true;
+}
+
+static bool write_header(const loaded *made, const char *file, const engine_settings *settings,
+                         const char *header) {
+    FILE *out = fopen(header, "w");
+    bool written = out != NULL;
+    if (written) {
+        emit_c_header(out, made->equations, made->program, settings, file);
+        written = fflush(out) == 0 && ferror(out) == 0;
+    }
+    if (!written) {
+        fprintf(stderr, "%s: error: cannot be written: %s\n", header, strerror(errno));
+    }
+    if (out != NULL) {
+        fclose(out);
+    }
+    return written;
+}
+
+/* Can this be C for the core? Else it is said why. */
+static bool has_c_form(const loaded *made, source_model *from, const engine_settings *settings,
+                       const char *header) {
+    const char *name = made->instance->name;
+    if (!start_angles_are_held(made->program, made->instance, from->errors)) {
+        diags_flush(from->errors, stderr);
+        return false;
+    }
+    if (!emit_c_name_is_free(name) || (header != NULL && !emit_c_name_is_free_in_cpp(name))) {
+        fprintf(stderr,
+                "%s: error: '%s' is a word of C%s or of the core: the generated scene cannot "
+                "have that name\nhint: rename it\n",
+                from->file, name, emit_c_name_is_free(name) ? "++" : "");
+        return false;
+    }
+    if (!start_has_method(made->program, made->instance, settings->method, from->errors)) {
+        diags_flush(from->errors, stderr);
+        return false;
+    }
+    return true;
+}
+
 static int derive_one(source_model *from, const mechanism *of, const scene *in,
-                      const overrides *changes, form as, const engine_settings *settings) {
+                      const overrides *changes, form as, const engine_settings *settings,
+                      const char *header) {
     loaded made;
     int code = load(&made, from, of, in, changes, as == FORM_C);
-    if (code == EXIT_DONE && as == FORM_C && program_needs_libm(made.program) != NULL) {
-        fprintf(stderr,
-                "%s: error: '%s' needs %s, which the core does not offer on boards\n"
-                "hint: --as octave and `whirl run --number double` work\n",
-                from->file, made.instance->name, program_needs_libm(made.program));
-        code = EXIT_BAD_INPUT;
-    }
     if (code == EXIT_DONE && as == FORM_C &&
-        !start_angles_are_held(made.program, made.instance, from->errors)) {
-        diags_flush(from->errors, stderr);
-        code = EXIT_BAD_INPUT;
-    }
-    if (code == EXIT_DONE && as == FORM_C && !emit_c_name_is_free(made.instance->name)) {
-        fprintf(stderr,
-                "%s: error: '%s' is a word of C or of the core: the generated scene cannot "
-                "have that name\nhint: rename it\n",
-                from->file, made.instance->name);
-        code = EXIT_BAD_INPUT;
-    }
-    if (code == EXIT_DONE && as == FORM_C &&
-        !start_has_method(made.program, made.instance, settings->method, from->errors)) {
-        diags_flush(from->errors, stderr);
+        (!has_c_form(&made, from, settings, header) ||
+         (header != NULL && !write_header(&made, from->file, settings, header)))) {
         code = EXIT_BAD_INPUT;
     }
     if (code == EXIT_DONE) {
@@ -71,6 +120,7 @@ static int derive_one(source_model *from, const mechanism *of, const scene *in,
 
 int command_derive(int count, char **words) {
     const char *target = NULL;
+    const char *header = NULL;
     form as = FORM_TEXT;
     change_options options = {0};
     engine_settings settings = {WH_RK4, false};
@@ -92,12 +142,14 @@ int command_derive(int count, char **words) {
                         value);
                 bad = true;
             }
+        } else if (!bad && (value = options_value(count, words, &at, "--header", &bad)) != NULL) {
+            header = value;
         } else if (!bad && !options_change(count, words, &at, &options, &bad) && !bad &&
                    !options_engine("derive", count, words, &at, &settings, &bad) && !bad) {
             if (words[at][0] == '-' && words[at][1] != '\0') {
-                options_unknown(
-                    "derive", words[at],
-                    (const char *const[]){"--as", CHANGE_OPTIONS, ENGINE_OPTIONS, "--help", NULL});
+                options_unknown("derive", words[at],
+                                (const char *const[]){"--as", "--header", CHANGE_OPTIONS,
+                                                      ENGINE_OPTIONS, "--help", NULL});
                 bad = true;
             } else if (target != NULL) {
                 fprintf(stderr, "whirl derive: error: more than one thing to derive: %s\n",
@@ -107,6 +159,11 @@ int command_derive(int count, char **words) {
                 target = words[at++];
             }
         }
+    }
+    if (!bad && header != NULL && as != FORM_C) {
+        fputs("whirl derive: error: --header goes with the C form\nhint: --as c --header FILE\n",
+              stderr);
+        bad = true;
     }
     if (bad || target == NULL) {
         if (!bad) {
@@ -123,7 +180,8 @@ int command_derive(int count, char **words) {
             if (i > 0) {
                 putchar('\n');
             }
-            code = derive_one(&from, from.model->mechanisms[i], NULL, &changes, as, &settings);
+            code =
+                derive_one(&from, from.model->mechanisms[i], NULL, &changes, as, &settings, NULL);
         }
     } else if (code == EXIT_DONE) {
         const mechanism *of;
@@ -131,7 +189,9 @@ int command_derive(int count, char **words) {
         /* the file's only scene; of several, none is meant: the mechanism */
         code = source_pick(&from, from.model->scene_count == 1, &of, &in);
         if (code == EXIT_DONE) {
-            code = derive_one(&from, of, in, &changes, as, &settings);
+            code = header != NULL && !header_is_apart(&from, header)
+                       ? EXIT_BAD_INPUT
+                       : derive_one(&from, of, in, &changes, as, &settings, header);
         }
     }
     source_close(&from);

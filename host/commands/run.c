@@ -185,26 +185,19 @@ static bool read_every(const run_options *o, const mechanism *of, const instance
         return false;
     }
     const double wanted = spacing_s / inst->step_s;
-    if (!(wanted > 0.5 && wanted < 1e15) || fabs(wanted - floor(wanted + 0.5)) > 1e-6 * wanted) {
+    if (!(wanted > 0.5 && wanted < 1e15) ||
+        fabs(wanted - number_floor(wanted + 0.5)) > 1e-6 * wanted) {
         fprintf(stderr,
                 "whirl run: error: --every %s is not a whole number of steps\n"
                 "hint: the step is %.9g s\n",
                 o->every, inst->step_s);
         return false;
     }
-    *steps = (uint64_t)floor(wanted + 0.5);
+    *steps = (uint64_t)number_floor(wanted + 0.5);
     return true;
 }
 
 static int run_loaded(run_options *o, const source_model *from, const loaded *made) {
-    const char *missing = program_needs_libm(made->program);
-    if (missing != NULL && o->settings.kind == &engine_float) {
-        fprintf(stderr,
-                "%s: error: '%s' needs %s, which the core does not offer in float\n"
-                "hint: run it with --number double\n",
-                from->file, made->instance->name, missing);
-        return EXIT_BAD_INPUT;
-    }
     if (!read_every(o, made->instance->mechanism, made->instance, &o->settings.every)) {
         return EXIT_BAD_INPUT;
     }

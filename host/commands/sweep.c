@@ -205,14 +205,6 @@ static bool axes_take_part(const grid *g, const instance *base) {
 
 static int sweep_loaded(const sweep_options *o, const source_model *from, const loaded *base,
                         sweep *s) {
-    const char *missing = program_needs_libm(base->program);
-    if (missing != NULL && s->kind == &engine_float) {
-        fprintf(stderr,
-                "%s: error: '%s' needs %s, which the core does not offer in float\n"
-                "hint: sweep it with --number double\n",
-                from->file, base->instance->name, missing);
-        return EXIT_BAD_INPUT;
-    }
     if (!start_has_method(base->program, base->instance, s->engine.method, from->errors)) {
         diags_flush(from->errors, stderr);
         return EXIT_BAD_INPUT;

@@ -13,6 +13,7 @@
  * and the branch); callgrind counts the called function alone. */
 #include "boards/board.h"
 #include "build/gen/scenes.h"
+#include "core/function.h"
 #include "core/scene.h"
 #include "core/text.h"
 
@@ -35,6 +36,8 @@ static unsigned intervals;
 void wh_count_begin(void);
 void wh_count_end(void);
 void bench_pair(wh_phase phase, wh_real *pair);
+wh_real bench_one(wh_real (*function)(wh_real x), wh_real x);
+wh_real bench_two(wh_real (*function)(wh_real x, wh_real y), wh_real x, wh_real y);
 
 /* Nothing but a return. The operands differ so that the compiler does not make one of the two. */
 __attribute__((noinline)) void wh_count_begin(void) { __asm__ volatile("" : : "i"(1) : "memory"); }
@@ -42,6 +45,15 @@ __attribute__((noinline)) void wh_count_end(void) { __asm__ volatile("" : : "i"(
 
 __attribute__((noinline)) void bench_pair(wh_phase phase, wh_real *pair) {
     wh_sincos(phase, &pair[0], &pair[1]);
+}
+
+__attribute__((noinline)) wh_real bench_one(wh_real (*function)(wh_real x), wh_real x) {
+    return function(x);
+}
+
+__attribute__((noinline)) wh_real bench_two(wh_real (*function)(wh_real x, wh_real y), wh_real x,
+                                            wh_real y) {
+    return function(x, y);
 }
 
 static const char *name_of(wh_method method) {
@@ -138,6 +150,47 @@ static void count_records(const wh_scene *scene, wh_state *state) {
 }
 #endif
 
+static const struct {
+    const char *name;
+    wh_real (*one)(wh_real x);
+    wh_real (*two)(wh_real x, wh_real y);
+    wh_real scale;  /* of arguments from -1 to 1 */
+    wh_real offset; /* and what is added */
+} functions[] = {
+    {"wh_exp", wh_exp, NULL, WH_R(20.0), WH_R(0.0)},
+    {"wh_log", wh_log, NULL, WH_R(20.0), WH_R(20.01)},
+    {"wh_tan", wh_tan, NULL, WH_R(20.0), WH_R(0.0)},
+    {"wh_asin", wh_asin, NULL, WH_R(1.0), WH_R(0.0)},
+    {"wh_acos", wh_acos, NULL, WH_R(1.0), WH_R(0.0)},
+    {"wh_atan", wh_atan, NULL, WH_R(4.0), WH_R(0.0)},
+    {"wh_atan2", NULL, wh_atan2, WH_R(4.0), WH_R(0.0)},
+    {"wh_pow", NULL, wh_pow, WH_R(20.0), WH_R(20.01)},
+};
+
+static void count_functions(void) {
+    for (unsigned k = 0; k < sizeof functions / sizeof functions[0]; k++) {
+        const unsigned first = intervals;
+        for (unsigned i = 0; i < COUNTED_PAIRS; i++) {
+            volatile wh_real out;
+            wh_real result;
+            const wh_real part = ((wh_real)i + WH_R(0.3)) * WH_R(0.03125) - WH_R(1.0);
+            const wh_real x = part * functions[k].scale + functions[k].offset;
+            const wh_real y = (wh_real)(i * 37U % COUNTED_PAIRS) * WH_R(0.0618034) - WH_R(2.0);
+            wh_count_begin();
+            if (functions[k].one != NULL) {
+                result = bench_one(functions[k].one, x);
+            } else {
+                result = bench_two(functions[k].two, x, y);
+            }
+            wh_count_end();
+            intervals++;
+            out = result;
+            (void)out;
+        }
+        say_counted(functions[k].name, "-", false, first);
+    }
+}
+
 static bool count_scene(const wh_scene *scene) {
     wh_state state;
     wh_status status = wh_scene_start(scene, &state, memory, sizeof memory);
@@ -168,6 +221,7 @@ int main(void) {
     board_start();
     count_nothing();
     count_pairs();
+    count_functions();
     bool all = true;
     for (unsigned i = 0; i < wh_scene_count; i++) {
         all = count_scene(wh_scenes[i]) && all;

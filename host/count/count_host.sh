@@ -7,7 +7,7 @@
 # tests/tools with a naive_step(). Appends rows to figures.csv (with a header if it is new) and prints
 # them as a table.
 #
-# Only wh_scene_step(), bench_pair() and naive_step() are collected; a part is dumped and cleared at
+# Only wh_scene_step(), bench_pair(), bench_one(), bench_two() and naive_step() are collected; a part is dumped and cleared at
 # either end of each interval, so every second part is one interval.
 set -eu
 . "$(dirname "$0")/common.sh"
@@ -20,7 +20,7 @@ trap 'rm -rf "$work"' EXIT
 status=0
 valgrind --tool=callgrind --callgrind-out-file="$work/parts" --combine-dumps=yes \
     --toggle-collect=wh_scene_step --toggle-collect=wh_scene_step_d --toggle-collect=bench_pair \
-    --toggle-collect=naive_step \
+    --toggle-collect=bench_one --toggle-collect=bench_two --toggle-collect=naive_step \
     --dump-before=wh_count_begin --dump-after=wh_count_end \
     "$bench" >"$work/console" 2>"$work/log" || status=$?
 if ! grep -q '^count ' "$work/console"; then

@@ -66,7 +66,9 @@ static void eliminate_symmetric(tape *t, int n, int *mass, int *force, const int
 
 /* A number between 0.3 and 0.67, another for each leaf: it depends on what the leaf is, not on its place in
  * the list. */
-static double generic(double of) { return 0.3 + 0.37 * fmod(fabs(of) * 0.6180339887, 1.0); }
+static double generic(double of) {
+    return 0.3 + 0.37 * number_remainder(fabs(of) * 0.6180339887, 1.0);
+}
 
 /* What every operation gives at a made-up generic state: tells vanishing pivots from others. */
 static double *sample(const tape *t) {
@@ -98,7 +100,7 @@ static double *sample(const tape *t) {
         case OP_MUL: v[i] = a * b; break;
         case OP_DIV: v[i] = a / b; break;
         case OP_NEG: v[i] = -a; break;
-        case OP_SQRT: v[i] = sqrt(fabs(a)); break;
+        case OP_SQRT: v[i] = number_root(fabs(a)); break;
         case OP_SIN:
         case OP_COS:
         case OP_ABS:

@@ -27,7 +27,7 @@ static double trial_value(void *context, const symbol *s, int primes) {
     }
     const double turns = 0.6180339887498949 * (double)(state->number + 1U) +
                          0.4142135623730950 * (double)(s->index + 1) * (double)(primes + 1);
-    const double size = 0.2 + 1.6 * (turns - floor(turns));
+    const double size = 0.2 + 1.6 * (turns - number_floor(turns));
     if (primes == 0) {
         return size;
     }

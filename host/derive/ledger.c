@@ -1,5 +1,5 @@
 /* ledger.c: entering the books' lists. */
-#include "core/ledger.h" /* first: its arguments have names that host/lang has types of */
+#include "core/ledger_step.h" /* first: its arguments have names that host/lang has types of */
 
 #include <stdlib.h>
 

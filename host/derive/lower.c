@@ -27,23 +27,24 @@ typedef struct angle_list {
     int room;
 } angle_list;
 
-static void collect_angles(algebra *a, const poly *p, angle_list *list) {
+static void collect_angles(const lowering *l, const poly *p, angle_list *list) {
+    algebra *a = l->algebra;
     piece *pieces = piece_room(p);
     const int count = pieces_of(a, p, pieces);
     for (int i = 0; i < count; i++) {
         for (int j = 0; j < pieces[i].mono->count; j++) {
             const atom *x = pieces[i].mono->factors[j].atom;
             for (int k = 0; k < 2 && x->kind != ATOM_SYMBOL && x->argument[k] != NULL; k++) {
-                collect_angles(a, x->argument[k], list);
+                collect_angles(l, x->argument[k], list);
             }
-            if (x->kind == ATOM_CALL && x->function == FN_TAN) {
-                collect_angles(a, poly_sin(a, x->argument[0]), list);
+            if (x->kind == ATOM_CALL && x->function == FN_TAN && waves_turns(l, x->argument[0])) {
+                collect_angles(l, poly_sin(a, x->argument[0]), list);
             }
         }
         if (pieces[i].angle == NULL) {
             continue;
         }
-        collect_angles(a, pieces[i].angle, list);
+        collect_angles(l, pieces[i].angle, list);
         bool known = false;
         for (int k = 0; k < list->count; k++) {
             known = known || list->angles[k] == pieces[i].angle;
@@ -65,7 +66,7 @@ static void collect_angles(algebra *a, const poly *p, angle_list *list) {
 void lower_plan(lowering *l, const poly *const *polys, int count) {
     angle_list list = {0};
     for (int i = 0; i < count; i++) {
-        collect_angles(l->algebra, polys[i], &list);
+        collect_angles(l, polys[i], &list);
     }
     waves_plan(l, list.angles, list.count);
     free(list.angles);
@@ -99,7 +100,7 @@ typedef struct product {
 static void product_multiply(lowering *l, product *p, int node, int exponent) {
     double value;
     if (tape_is_constant(l->tape, node, &value)) {
-        p->coefficient *= pow(value, exponent);
+        p->coefficient *= number_power(value, exponent);
         return;
     }
     for (int i = 0; i < p->count; i++) {
@@ -123,7 +124,8 @@ static int atom_node(lowering *l, const atom *x) {
     if (x->kind == ATOM_SYMBOL) {
         return l->leaf(l->context, l->tape, x->symbol, x->primes);
     }
-    if (x->kind == ATOM_CALL && x->function == FN_TAN) {
+    /* a phase has 1.5e-9 rad: enough for a turn angle, whose own digits these are, not for a small number */
+    if (x->kind == ATOM_CALL && x->function == FN_TAN && waves_turns(l, x->argument[0])) {
         const int s = waves_sine(l, x->argument[0]);
         return tape_div(l->tape, s, waves_cosine(l, x->argument[0]));
     }
@@ -141,8 +143,8 @@ static int atom_node(lowering *l, const atom *x) {
 static void product_factor(lowering *l, product *p, const factor *f) {
     int node = atom_node(l, f->atom);
     double size = fabs(f->exponent);
-    if (size != floor(size)) {
-        if (2.0 * size == floor(2.0 * size) && size < 32.0) {
+    if (size != number_floor(size)) {
+        if (2.0 * size == number_floor(2.0 * size) && size < 32.0) {
             node = tape_unary(l->tape, OP_SQRT, node);
             size *= 2.0;
         } else {

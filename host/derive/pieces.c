@@ -32,7 +32,7 @@ static bool same_factors(const mono *x, const mono *y) {
 
 static bool halves_to_whole(const poly *angle) {
     for (int i = 0; i < angle->count; i++) {
-        if (fmod(angle->terms[i].coefficient, 2.0) != 0.0) {
+        if (number_remainder(angle->terms[i].coefficient, 2.0) != 0.0) {
             return false;
         }
     }
@@ -55,7 +55,7 @@ static int multiple_of(const poly *angle, const poly *base) {
         return 0;
     }
     const double m = angle->terms[0].coefficient / base->terms[0].coefficient;
-    bool good = m == floor(m) && m >= 1.0 && m <= MULTIPLE_MAX;
+    bool good = m == number_floor(m) && m >= 1.0 && m <= MULTIPLE_MAX;
     for (int i = 0; i < angle->count && good; i++) {
         good = angle->terms[i].mono == base->terms[i].mono &&
                angle->terms[i].coefficient == m * base->terms[i].coefficient;
@@ -141,7 +141,7 @@ static products expand(const family *f) {
 /* The largest value of |sin x|^a |cos x|^b. */
 static double largest_product(int a, int b) {
     const double share = a + b > 0 ? (double)a / (a + b) : 0.0;
-    return pow(share, a / 2.0) * pow(1.0 - share, b / 2.0);
+    return number_power(share, a / 2.0) * number_power(1.0 - share, b / 2.0);
 }
 
 /* Put the family's products into pieces[]; returns how many, 0 when it should stay as it is. */

@@ -287,34 +287,22 @@ void program_free(program *p) {
     free(p);
 }
 
-const char *program_needs_libm(const program *p) {
-    static const char *const names[FN_COUNT] = {
-        [FN_SIN] = "sin",   [FN_COS] = "cos",   [FN_TAN] = "tan",     [FN_ASIN] = "asin",
-        [FN_ACOS] = "acos", [FN_ATAN] = "atan", [FN_ATAN2] = "atan2", [FN_SQRT] = "sqrt",
-        [FN_EXP] = "exp",   [FN_LOG] = "log",   [FN_ABS] = "abs",     [FN_SIGN] = "sign",
-        [FN_MIN] = "min",   [FN_MAX] = "max"};
-    const contact_lists *c = p->contacts;
-    const ledger_lists *l =
-        p->ledger_asked ? p->ledger : NULL; /* the others never leave the host */
-    const tape *const lists[] = {p->step,
-                                 p->observe,
-                                 c != NULL ? c->signals : NULL,
-                                 c != NULL ? c->forces : NULL,
-                                 c != NULL ? c->sets : NULL,
-                                 l != NULL ? l->powers : NULL,
-                                 l != NULL ? l->levels : NULL};
-    for (size_t k = 0; k < sizeof lists / sizeof lists[0]; k++) {
-        for (int i = 0; lists[k] != NULL && i < lists[k]->count; i++) {
-            const op *o = &lists[k]->ops[i];
-            if (o->code == OP_CALL) {
-                return names[o->function];
-            }
-            if (o->code == OP_POW) {
-                return "a power that is not a multiple of 1/2";
-            }
+static bool list_calls(const tape *t) {
+    for (int i = 0; t != NULL && i < t->count; i++) {
+        if (t->ops[i].code == OP_CALL || t->ops[i].code == OP_POW) {
+            return true;
         }
     }
-    return NULL;
+    return false;
+}
+
+bool program_calls(const program *p) {
+    const contact_lists *c = p->contacts;
+    const ledger_lists *l = p->ledger;
+    return list_calls(p->step) || list_calls(p->observe) ||
+           (c != NULL &&
+            (list_calls(c->signals) || list_calls(c->forces) || list_calls(c->sets))) ||
+           (l != NULL && (list_calls(l->powers) || list_calls(l->levels)));
 }
 
 uint64_t program_hash(const program *p) {

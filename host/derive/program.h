@@ -55,8 +55,8 @@ enum { BOOK_KINETIC, BOOK_STORED, BOOK_INPUT_POWER, BOOK_LOSS_POWER, BOOK_MOMENT
 program *program_make(const equations *e, const bool *conserve, diags *errors);
 void program_free(program *p);
 
-/* A function in the step or the outputs that the core does not offer on boards ("exp"), or NULL. */
-const char *program_needs_libm(const program *p);
+/* Does what runs on a board call functions of core/function.h? */
+bool program_calls(const program *p);
 
 uint64_t program_hash(const program *p);
 

@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "host/number/functions.h"
+
 /* Passes over rows and columns; each halves what is wrong with the logarithms of the scales. */
 #define PASSES 16
 /* Part of the scaled size below which a pivot is rounding, however exact the entries are: of about four times
@@ -15,8 +17,8 @@ static double scale_for(double x) {
     if (!(x > 0.0) || !isfinite(x)) {
         return 1.0;
     }
-    (void)frexp(x, &exponent);
-    return ldexp(1.0, -(exponent / 2));
+    (void)number_split(x, &exponent);
+    return number_scaled(1.0, -(exponent / 2));
 }
 
 static void scale_row(double *m, int n, int i, double by) {
@@ -43,7 +45,7 @@ static bool has_positive_diagonal(const double *m, int n) {
 static double largest_of_row(const double *m, int n, int i) {
     double largest = 0.0;
     for (int j = 0; j < n; j++) {
-        largest = fmax(largest, fabs(m[i * n + j]));
+        largest = number_most(largest, fabs(m[i * n + j]));
     }
     return largest;
 }
@@ -51,7 +53,7 @@ static double largest_of_row(const double *m, int n, int i) {
 static double largest_of_column(const double *m, int n, int j) {
     double largest = 0.0;
     for (int i = 0; i < n; i++) {
-        largest = fmax(largest, fabs(m[i * n + j]));
+        largest = number_most(largest, fabs(m[i * n + j]));
     }
     return largest;
 }
@@ -113,7 +115,7 @@ int rank_of(double *m, double *error, int n, bool symmetric) {
     }
     double blur = NO_PIVOT;
     for (int i = 0; i < n * n; i++) {
-        blur = fmax(blur, (double)n * error[i]);
+        blur = number_most(blur, (double)n * error[i]);
     }
     int rank = 0;
     while (rank < n && bring_pivot(m, n, rank) > blur) {

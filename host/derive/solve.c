@@ -101,7 +101,7 @@ static const poly *scale_simply(algebra *a, const poly *p, double scale) {
     const poly *scaled = poly_number(a, 0.0);
     for (int i = 0; i < p->count; i++) {
         double c = p->terms[i].coefficient * scale;
-        const double nearest = floor(c * 48.0 + 0.5) / 48.0;
+        const double nearest = number_floor(c * 48.0 + 0.5) / 48.0;
         if (nearest != 0.0 && fabs(c - nearest) <= 1e-15 * fabs(c)) {
             c = nearest;
         }

@@ -133,7 +133,7 @@ int tape_noise(tape *t, uint32_t seed) {
 }
 
 bool tape_is_whole(double multiple) {
-    return multiple == floor(multiple) && fabs(multiple) <= 2147483647.0;
+    return multiple == number_floor(multiple) && fabs(multiple) <= 2147483647.0;
 }
 
 /* Nothing is cut here: a number that is not whole goes among the parts. */
@@ -187,9 +187,9 @@ int tape_unary(tape *t, op_code code, int a) {
     }
     if (tape_is_constant(t, a, &x)) {
         switch (code) {
-        case OP_SQRT: return tape_constant(t, sqrt(x));
-        case OP_ABS: return tape_constant(t, fabs(x));
-        case OP_SIGN: return tape_constant(t, (double)((x > 0.0) - (x < 0.0)));
+        case OP_SQRT: return tape_constant(t, number_call(FN_SQRT, x, 0.0));
+        case OP_ABS: return tape_constant(t, number_call(FN_ABS, x, 0.0));
+        case OP_SIGN: return tape_constant(t, number_call(FN_SIGN, x, 0.0));
         default: break;
         }
     }
@@ -322,7 +322,7 @@ int tape_power(tape *t, int base, double exponent) {
         const int inverse = tape_power(t, base, -exponent);
         return tape_div(t, tape_constant(t, 1.0), inverse);
     }
-    if (exponent == floor(exponent) && exponent <= 64.0) {
+    if (exponent == number_floor(exponent) && exponent <= 64.0) {
         int result = tape_constant(t, 1.0);
         int square = base;
         for (unsigned left = (unsigned)exponent; left != 0; left >>= 1U) {
@@ -333,9 +333,9 @@ int tape_power(tape *t, int base, double exponent) {
         }
         return result;
     }
-    if (2.0 * exponent == floor(2.0 * exponent) && exponent <= 32.0) {
+    if (2.0 * exponent == number_floor(2.0 * exponent) && exponent <= 32.0) {
         const int root = tape_unary(t, OP_SQRT, base);
-        return tape_mul(t, tape_power(t, base, floor(exponent)), root);
+        return tape_mul(t, tape_power(t, base, number_floor(exponent)), root);
     }
     return enter_op(t, OP_POW, base, tape_constant(t, exponent));
 }

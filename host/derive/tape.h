@@ -36,8 +36,8 @@ typedef enum op_code {
     OP_SIGN, /* these three give NaN of NaN: nothing that is no number may vanish in a comparison */
     OP_MIN,  /* b < a || b != b ? b : a */
     OP_MAX,  /* b > a || b != b ? b : a */
-    OP_CALL, /* function(a) or function(a, b): host libm, double only */
-    OP_POW   /* a to the b: host libm, double only */
+    OP_CALL, /* function(a) or function(a, b), of core/function.h */
+    OP_POW   /* a to the b, likewise */
 } op_code;
 
 typedef struct op {
@@ -105,7 +105,7 @@ typedef struct tape_cost {
     int divisions;
     int roots;
     int waves; /* sines and cosines, a pair of one phase counted once */
-    int calls; /* library functions */
+    int calls; /* of core/function.h */
 } tape_cost;
 
 tape_cost tape_count(const tape *t);

@@ -12,7 +12,7 @@ static bool whole_in_angle(const poly *angle, const symbol *sym) {
                            t->mono->factors[0].atom->kind == ATOM_SYMBOL;
         if (alone && t->mono->factors[0].atom->symbol == sym &&
             t->mono->factors[0].atom->primes == 0) {
-            if (t->coefficient != floor(t->coefficient) || fabs(t->coefficient) > 1e6) {
+            if (t->coefficient != number_floor(t->coefficient) || fabs(t->coefficient) > 1e6) {
                 return false;
             }
             continue;

@@ -112,6 +112,15 @@ static int turn_of(const lowering *l, const poly_term *t) {
     return alone && x->kind == ATOM_SYMBOL && x->primes == 0 ? l->turn(l->context, x->symbol) : -1;
 }
 
+bool waves_turns(const lowering *l, const poly *angle) {
+    for (int i = 0; i < angle->count; i++) {
+        if (turn_of(l, &angle->terms[i]) >= 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /* Is a part of a turn angle in it, such as half of one? */
 static bool has_part(const lowering *l, const poly *angle) {
     for (int i = 0; i < angle->count; i++) {

@@ -21,6 +21,8 @@ struct wave {
     int cosine;
 };
 
+/* Does a turn angle stand in this angle, times a number? */
+bool waves_turns(const lowering *l, const poly *angle);
 /* Choose rules for `count` angles (no duplicates). */
 void waves_plan(lowering *l, const poly **angles, int count);
 /* The operation for the sine or cosine of an angle; an angle that was not planned is evaluated. */

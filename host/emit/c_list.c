@@ -7,6 +7,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "host/lang/parser.h"
 #include "host/number/hex.h"
 #include "host/run/engine.h"
 
@@ -116,7 +117,16 @@ static void write_operation(FILE *out, const tape *t, int i) {
         }
         fprintf(out, " ? %s : %s", b, a);
         break;
-    default: fprintf(out, "WH_R(0.0) /* not offered by the core */"); break;
+    case OP_CALL:
+        fprintf(out, "wh_%s(%s", function_name(o->function), a);
+        if (o->b >= 0) {
+            fprintf(out, ", %s", b);
+        }
+        fputc(')', out);
+        break;
+    case OP_POW: fprintf(out, "wh_pow(%s, %s)", a, b); break;
+    case OP_CONSTANT: /* both above */
+    case OP_PHASE: break;
     }
     fprintf(out, ";\n");
 }

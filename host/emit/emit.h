@@ -20,6 +20,13 @@ void emit_octave(FILE *out, const equations *e, const program *p, const char *fi
 /* False when the generated file could not define an object of that name (a word of C or of the core). */
 bool emit_c_name_is_free(const char *name);
 
+/* False when a C++ program could not name an object so. */
+bool emit_c_name_is_free_in_cpp(const char *name);
+
+/* The scene's header, for C and C++: names of its components, inputs and outputs, their units, its memory. */
+void emit_c_header(FILE *out, const equations *e, const program *p, const engine_settings *settings,
+                   const char *file);
+
 /* The scene as C for the core: constants, start, straight-line right-hand side, one step. */
 void emit_c(FILE *out, const equations *e, const program *p, const engine_settings *settings,
             const char *file);

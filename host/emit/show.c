@@ -34,11 +34,11 @@ static void show_sum(const show *s, const poly *p, bool leading) {
 static double common_number(const piece *pieces, int count) {
     double smallest = (double)INFINITY;
     for (int i = 0; i < count; i++) {
-        smallest = fmin(smallest, fabs(pieces[i].coefficient));
+        smallest = number_least(smallest, fabs(pieces[i].coefficient));
     }
     for (int i = 0; i < count; i++) {
         const double ratio = fabs(pieces[i].coefficient) / smallest;
-        if (fabs(ratio - floor(ratio + 0.5)) > 1e-12 * ratio || ratio > 100.0) {
+        if (fabs(ratio - number_floor(ratio + 0.5)) > 1e-12 * ratio || ratio > 100.0) {
             return 1.0;
         }
     }

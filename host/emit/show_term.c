@@ -74,7 +74,7 @@ void show_symbol(const show *s, const symbol *sym, int primes) {
 bool show_as_fraction(double value, double *top, double *bottom) {
     for (int whole = 1; whole <= 360; whole++) {
         const double q = whole;
-        const double p = floor(value * q + 0.5);
+        const double p = number_floor(value * q + 0.5);
         if (fabs(value * q - p) <= 1e-13 * fabs(value * q) && fabs(p) < 1e9 && p != 0.0) {
             *top = p;
             *bottom = q;
@@ -136,7 +136,7 @@ void show_grouped(const show *s, const poly *p) {
 static bool is_primary(const poly *p) {
     double value;
     if (poly_is_number(p, &value)) {
-        return value >= 0.0 && value < 1e5 && value == floor(value);
+        return value >= 0.0 && value < 1e5 && value == number_floor(value);
     }
     const mono *m = p->terms[0].mono;
     if (p->count > 1 || p->terms[0].coefficient != 1.0) {

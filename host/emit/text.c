@@ -170,7 +170,7 @@ static void reduce(algebra *a, const poly **top, const poly **bottom) {
     for (int i = 0; i < (*top)->count + (*bottom)->count; i++) {
         const poly_term *t =
             i < (*top)->count ? &(*top)->terms[i] : &(*bottom)->terms[i - (*top)->count];
-        number = fmin(number, fabs(t->coefficient));
+        number = number_least(number, fabs(t->coefficient));
     }
     *top = poly_scale(a, poly_mul(a, *top, inverse), 1.0 / number);
     *bottom = poly_scale(a, poly_mul(a, *bottom, inverse), 1.0 / number);

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "host/number/functions.h"
 #include "units.h"
 
 enum { EXPONENT_MAX = 99 * DIM_DENOMINATOR };
@@ -68,7 +69,7 @@ bool dim_power(dimension base, double exponent, dimension *power) {
         if (!(fabs(wanted) <= EXPONENT_MAX)) {
             return false;
         }
-        const double whole = nearbyint(wanted);
+        const double whole = number_even(wanted);
         if (fabs(wanted - whole) > 1e-9) {
             return false;
         }

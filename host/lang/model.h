@@ -11,6 +11,7 @@
 #include <stdint.h>
 
 #include "diag.h"
+#include "host/number/functions.h"
 #include "ratio.h"
 #include "units.h"
 
@@ -57,24 +58,6 @@ typedef enum expr_op {
     EXPR_NEG, /* -left */
     EXPR_CALL /* function(left) or function(left, right) */
 } expr_op;
-
-typedef enum function_id {
-    FN_SIN,
-    FN_COS,
-    FN_TAN,
-    FN_ASIN,
-    FN_ACOS,
-    FN_ATAN,
-    FN_ATAN2,
-    FN_SQRT,
-    FN_EXP,
-    FN_LOG,
-    FN_ABS,
-    FN_SIGN,
-    FN_MIN,
-    FN_MAX,
-    FN_COUNT
-} function_id;
 
 struct expr {
     expr_op op;

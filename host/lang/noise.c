@@ -40,7 +40,8 @@ static const symbol *find_output(parser *in, const token *name) {
 static bool parse_seed(parser *in, uint32_t *seed) {
     const double number = in->token.number;
     char words[80];
-    if (in->token.kind != TOKEN_NUMBER || !(number <= UINT32_MAX) || number != floor(number)) {
+    if (in->token.kind != TOKEN_NUMBER || !(number <= UINT32_MAX) ||
+        number != number_floor(number)) {
         return parser_fail(in, form, "a seed is a whole number from 0 to %u, not %s", UINT32_MAX,
                            token_words(&in->token, words, sizeof words));
     }

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "host/number/decimal.h"
+#include "host/number/functions.h"
 #include "host/number/wide.h"
 
 enum { MANTISSA = 53, DIGITS_MOST = 15 };
@@ -48,8 +49,9 @@ static whole_ratio between(end low, end high) {
 /* The simplest fraction within 2^-51 of the value, or a little less. */
 static whole_ratio simplest(double value) {
     int exponent;
-    const double mantissa = frexp(value, &exponent); /* below one: 53 bits behind the point */
-    const uint64_t digits = (uint64_t)ldexp(mantissa, MANTISSA);
+    const double mantissa =
+        number_split(value, &exponent); /* below one: 53 bits behind the point */
+    const uint64_t digits = (uint64_t)number_scaled(mantissa, MANTISSA);
     const int scale = exponent - MANTISSA; /* value = digits * 2^scale, digits from 2^52 on */
     const uint64_t off = 2;
     const int up = scale > 0 ? scale : 0;
@@ -142,5 +144,5 @@ double ratio_times(uint64_t count, whole_ratio each) {
         quotient = wide_right(quotient, 1);
         shift--;
     }
-    return ldexp((double)(quotient.low | (below ? 1U : 0U)), -shift);
+    return number_scaled((double)(quotient.low | (below ? 1U : 0U)), -shift);
 }

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "host/number/functions.h"
 #include "nearest.h"
 
 #define PI 3.14159265358979323846
@@ -303,8 +304,9 @@ static bool read_factor(reader *in, unit *result) {
             return false;
         }
         const unit base = *result;
-        result->scale = exponent == 1.0 ? base.scale : pow(base.scale, exponent);
-        result->divisor = exponent == 1.0 ? base.divisor : pow(base.divisor, exponent);
+        const double size = fabs(exponent); /* 1/ms is 1000/s: its factors change places */
+        result->scale = number_power(exponent < 0.0 ? base.divisor : base.scale, size);
+        result->divisor = number_power(exponent < 0.0 ? base.scale : base.divisor, size);
         if (!dim_power(base.dim, exponent, &result->dim)) {
             return fail(in, sign_at, "this exponent gives no dimension we can keep", "");
         }

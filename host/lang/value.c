@@ -77,27 +77,6 @@ static double symbol_value(const symbol *named, int primes, valuation *known) {
     return named->kind == SYM_LET ? known->let[named->index] : (double)NAN;
 }
 
-static double call_value(function_id function, double a, double b) {
-    switch (function) {
-    case FN_SIN: return sin(a);
-    case FN_COS: return cos(a);
-    case FN_TAN: return tan(a);
-    case FN_ASIN: return asin(a);
-    case FN_ACOS: return acos(a);
-    case FN_ATAN: return atan(a);
-    case FN_ATAN2: return atan2(a, b);
-    case FN_SQRT: return sqrt(a);
-    case FN_EXP: return exp(a);
-    case FN_LOG: return log(a);
-    case FN_ABS: return fabs(a);
-    case FN_SIGN: return a > 0.0 ? 1.0 : a < 0.0 ? -1.0 : a;
-    case FN_MIN: return b < a || isnan(b) ? b : a;
-    case FN_MAX: return b > a || isnan(b) ? b : a;
-    case FN_COUNT: break;
-    }
-    return (double)NAN;
-}
-
 double expr_value(const expr *tree, valuation *known) {
     const double a = tree->left == NULL ? 0.0 : expr_value(tree->left, known);
     const double b = tree->right == NULL ? 0.0 : expr_value(tree->right, known);
@@ -108,9 +87,9 @@ double expr_value(const expr *tree, valuation *known) {
     case EXPR_SUB: return a - b;
     case EXPR_MUL: return a * b;
     case EXPR_DIV: return a / b;
-    case EXPR_POW: return pow(a, b);
+    case EXPR_POW: return number_power(a, b);
     case EXPR_NEG: return -a;
-    case EXPR_CALL: return call_value(tree->function, a, b);
+    case EXPR_CALL: return number_call(tree->function, a, b);
     }
     return (double)NAN;
 }

@@ -9,6 +9,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "host/number/functions.h"
+
 static const char *ending_of(const char *file) {
     const char *dot = strrchr(file, '.');
     return dot == NULL ? "" : dot + 1;
@@ -101,7 +103,7 @@ static void write_range(FILE *to, const char *axis, double least, double most) {
         fprintf(to, "set %srange [-1:1]\n", axis);
         return;
     }
-    const double size = fmax(fabs(least), fabs(most));
+    const double size = number_most(fabs(least), fabs(most));
     if (most - least > FLAT * size) {
         fprintf(to, "set %srange [*:*]\n", axis);
         return;
@@ -124,8 +126,8 @@ static void range_of(const plot_table *t, const curve *curves, int count, const 
     for (int k = 0; k < count; k++) {
         for (int r = 0; r < t->rows && same_panel(&curves[k], panel); r++) {
             const double value = t->data[(size_t)r * (size_t)t->columns + (size_t)curves[k].column];
-            *least = isfinite(value) ? fmin(*least, value) : *least;
-            *most = isfinite(value) ? fmax(*most, value) : *most;
+            *least = isfinite(value) ? number_least(*least, value) : *least;
+            *most = isfinite(value) ? number_most(*most, value) : *most;
         }
     }
 }

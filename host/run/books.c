@@ -60,14 +60,14 @@ static void spread_enter(spread *s, double value, uint64_t before) {
 
 /* sqrt(8) standard deviations: the range of a sine. */
 static double swing(const spread *s, uint64_t entries) {
-    return entries > 0 ? sqrt(8.0 * s->squares / (double)entries) : 0.0;
+    return entries > 0 ? number_root(8.0 * s->squares / (double)entries) : 0.0;
 }
 
 double books_swing_J(const books *b) {
-    double most = fmax(swing(&b->kinetic, b->entries), swing(&b->stored, b->entries));
+    double most = number_most(swing(&b->kinetic, b->entries), swing(&b->stored, b->entries));
     for (int i = 0; i < b->program->count && b->entries > 0; i++) {
-        const double momentum = sqrt(b->momentum_2[i] / (double)b->entries);
-        most = fmax(most, 0.5 * momentum * swing(&b->rate[i], b->entries));
+        const double momentum = number_root(b->momentum_2[i] / (double)b->entries);
+        most = number_most(most, 0.5 * momentum * swing(&b->rate[i], b->entries));
     }
     return most;
 }
@@ -151,8 +151,8 @@ static void look_at_rounding(books *b, const engine_kind *kind) {
     evaluate_now(b, b->angle_rad, b->real, b->time_s);
     evaluator_rounding(b->evaluator, b->angle_rad, b->off);
     const double off_J = energy_of(b->program, b->off);
-    b->rounding_J = fmax(b->rounding_J, state_J + step_rounding_J(b, kind));
-    b->computing_J = fmax(b->computing_J, isfinite(off_J) ? 0x1p-53 * off_J : 0.0);
+    b->rounding_J = number_most(b->rounding_J, state_J + step_rounding_J(b, kind));
+    b->computing_J = number_most(b->computing_J, isfinite(off_J) ? 0x1p-53 * off_J : 0.0);
 }
 
 double books_rounding_J(books *b, const engine_kind *kind, double *computing_J) {
@@ -207,7 +207,7 @@ void books_enter(books *b, const engine_kind *kind, const void *run) {
     }
     spread_enter(&b->kinetic, b->kinetic_J[1], b->entries);
     spread_enter(&b->stored, b->stored_J[1], b->entries);
-    b->size_J = fmax(b->size_J, fabs(b->kinetic_J[1]) + fabs(b->stored_J[1]));
+    b->size_J = number_most(b->size_J, fabs(b->kinetic_J[1]) + fabs(b->stored_J[1]));
     double all = b->energy_J[1] + power_W[0] + power_W[1];
     for (int i = 0; i < p->reals; i++) {
         if (p->real[i].primes == 1) {
@@ -219,7 +219,7 @@ void books_enter(books *b, const engine_kind *kind, const void *run) {
         all += entry[BOOK_MOMENTA + i];
         b->momentum_2[i] += entry[BOOK_MOMENTA + i] * entry[BOOK_MOMENTA + i];
         b->momentum_now[i] = entry[BOOK_MOMENTA + i];
-        b->drift[i] = fmax(b->drift[i], fabs(entry[BOOK_MOMENTA + i] - b->momentum[i]));
+        b->drift[i] = number_most(b->drift[i], fabs(entry[BOOK_MOMENTA + i] - b->momentum[i]));
     }
     if (!isfinite(all) && !b->undefined) {
         b->undefined = true;

@@ -27,7 +27,7 @@ void evaluator_wrap(evaluator *ev) { ev->wraps = true; }
 /* The angles as the list's phases take them. */
 static const double *phases_of(const evaluator *ev, const double *angle_rad, double *wrapped) {
     for (int i = 0; i < ev->tape->angles && ev->wraps; i++) {
-        wrapped[i] = remainder(angle_rad[i], 6.283185307179586477);
+        wrapped[i] = number_centred(angle_rad[i], 6.283185307179586477);
     }
     return ev->wraps ? wrapped : angle_rad;
 }

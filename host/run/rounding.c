@@ -27,13 +27,13 @@ static double of_phase(const tape *t, const op *o, const rounding_values *at, do
 static double of_call(function_id function, double x, double y, double a, double b) {
     switch (function) {
     case FN_ASIN:
-    case FN_ACOS: return a / sqrt(1.0 - x * x);
+    case FN_ACOS: return a / number_root(1.0 - x * x);
     case FN_ATAN: return a / (1.0 + x * x);
     case FN_ATAN2: return (fabs(y) * a + fabs(x) * b) / (x * x + y * y);
-    case FN_EXP: return a * exp(x);
+    case FN_EXP: return a * number_call(FN_EXP, x, 0.0);
     case FN_LOG: return a / fabs(x);
-    case FN_TAN: return a * (1.0 + tan(x) * tan(x));
-    case FN_SQRT: return a / (2.0 * sqrt(x));
+    case FN_TAN: return a * (1.0 + number_power(number_call(FN_TAN, x, 0.0), 2.0));
+    case FN_SQRT: return a / (2.0 * number_root(x));
     case FN_SIN:
     case FN_COS:
     case FN_ABS:
@@ -79,7 +79,7 @@ static double carried(const tape *t, const op *o, const rounding_values *at, con
     case OP_POW:
         *rounds = true;
         return fabs(v) * ((a == 0.0 ? 0.0 : fabs(y) * a / fabs(x)) +
-                          (b == 0.0 ? 0.0 : fabs(log(fabs(x))) * b));
+                          (b == 0.0 ? 0.0 : fabs(number_call(FN_LOG, fabs(x), 0.0)) * b));
     }
     return 0.0;
 }

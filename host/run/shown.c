@@ -50,8 +50,7 @@ static char *copy_of(const char *text) {
     return copy;
 }
 
-/* The derivative's SI unit. */
-static char *si_name(const symbol *s, int primes) {
+char *shown_si_name(const symbol *s, int primes) {
     char text[DIM_TEXT_SIZE];
     dimension dim = s->dim;
     const bool is_angle = s->is_angle || unit_is_angle(s->unit, strlen(s->unit));
@@ -66,7 +65,7 @@ static char *si_name(const symbol *s, int primes) {
 
 char *shown_unit_name(const symbol *s, int primes) {
     if (s->unit[0] == '\0' || (primes > 0 && unit_is_si(s->declared))) {
-        return si_name(s, primes);
+        return shown_si_name(s, primes);
     }
     char per[16] = "";
     if (primes > 0) {
@@ -83,7 +82,7 @@ char *shown_unit_name(const symbol *s, int primes) {
 
 void shown_note_bare(const char *typed, const symbol *s, int primes) {
     char *name = shown_unit_name(s, primes);
-    char *si = si_name(s, primes);
+    char *si = shown_si_name(s, primes);
     fprintf(stderr,
             "note: %s has no unit and counts as %s: '%s' is declared in [%s]\n"
             "hint: write the unit behind the number: [%s] or [%s]\n",

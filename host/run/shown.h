@@ -12,6 +12,9 @@ struct unit shown_unit(const symbol *s, int primes);
 /* Its name: "deg/s", "kg*m/s^2", "rad", "1". The caller frees it. */
 char *shown_unit_name(const symbol *s, int primes);
 
+/* The name of the SI unit of the same. The caller frees it. */
+char *shown_si_name(const symbol *s, int primes);
+
 /* On standard error: a note that `typed`, such as "theta=80", is in SI although the symbol is declared in
  * another unit. For what override_is_bare(). */
 void shown_note_bare(const char *typed, const symbol *s, int primes);

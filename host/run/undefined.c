@@ -252,7 +252,7 @@ static double largest_phase(const tape *t, const double *angle_rad) {
         for (int k = 0; k < t->angles && o->code == OP_PHASE && o->turns != NULL; k++) {
             sum += o->turns[k] * angle_rad[k];
         }
-        most = fmax(most, fabs(sum));
+        most = number_most(most, fabs(sum));
     }
     return most;
 }

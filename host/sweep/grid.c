@@ -251,7 +251,7 @@ static double axis_value(const axis *a, uint64_t i) {
     }
     const double last = (double)(a->count - 1);
     if (a->is_log) {
-        return a->from * pow(a->to / a->from, (double)i / last);
+        return a->from * number_power(a->to / a->from, (double)i / last);
     }
     return a->from + (a->to - a->from) * (double)i / last;
 }

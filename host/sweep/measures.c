@@ -276,7 +276,7 @@ static double mean_of(const gauge *g) {
 
 static double period_of(const gauge *g, double step_s, double epsilon) {
     const double level = mean_of(g);
-    const double size = fmax(fabs(g->least), fabs(g->most));
+    const double size = number_most(fabs(g->least), fabs(g->most));
     if (!isfinite(level) || !isfinite(g->most - g->least)) {
         return (double)INFINITY;
     }

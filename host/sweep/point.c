@@ -204,7 +204,7 @@ static bool run_through(meter *m, const instance *inst, bool (*abandon)(void), d
     const engine_kind *kind = m->sweep->kind;
     const uint64_t steps = inst->steps;
     /* the first step at or after from_s, which rounding may put just beside a step */
-    const double from = ceil(m->sweep->from_s / inst->step_s * (1.0 - 1e-12));
+    const double from = number_ceiling(m->sweep->from_s / inst->step_s * (1.0 - 1e-12));
     if (m->series && from > (double)steps) {
         fprintf(reason, "--from %.9g s lies behind the last step", m->sweep->from_s);
         return false;
@@ -265,11 +265,6 @@ static bool read_measures(const meter *m, const instance *inst, double *measured
 static bool measure_run(const sweep *s, const program *p, const equations *e, const instance *inst,
                         bool (*abandon)(void), double *measured, diags *errors, FILE *reason,
                         point_notes *notes) {
-    const char *missing = program_needs_libm(p);
-    if (missing != NULL && s->kind == &engine_float) {
-        fprintf(reason, "needs %s, which the core does not offer in float", missing);
-        return false;
-    }
     void *run = s->kind->start(p, inst, &s->engine);
     meter m = meter_open(s, p, e, inst, run);
     const bool good = run_through(&m, inst, abandon, errors, reason) &&

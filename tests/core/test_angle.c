@@ -96,6 +96,14 @@ static void test_phase_moves_to_the_nearest(void) {
         moved = 0;
         TEST_ASSERT_EQUAL(steps < WH_PHASE_STEP_MAX, wh_phase_move(QUARTER, -steps, &moved));
         TEST_ASSERT_EQUAL_UINT32(steps < WH_PHASE_STEP_MAX ? QUARTER - whole : 0, moved);
+        if (2.0f * steps < WH_PHASE_STEP_MAX) {
+            TEST_ASSERT_TRUE(wh_phase_move_half(QUARTER, 2.0f * steps, &moved));
+            TEST_ASSERT_EQUAL_UINT32(QUARTER + whole, moved);
+            TEST_ASSERT_TRUE(wh_phase_move_half(QUARTER, -2.0f * steps, &moved));
+            TEST_ASSERT_EQUAL_UINT32(QUARTER - whole, moved);
+        } else {
+            TEST_ASSERT_FALSE(wh_phase_move_half(QUARTER, 2.0f * steps, &moved));
+        }
     }
 }
 

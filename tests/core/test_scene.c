@@ -315,9 +315,9 @@ static void test_hash_sees_every_part_of_the_state(void) {
 }
 
 static void test_every_status_has_its_own_words(void) {
-    static const wh_status all[] = {WH_OK, WH_E_DIVERGED, WH_E_MEMORY, WH_E_ARGUMENT,
-                                    WH_E_UNDEFINED};
-    for (unsigned i = 0; i < 5; i++) {
+    static const wh_status all[] = {WH_OK,          WH_E_DIVERGED, WH_E_MEMORY,    WH_E_ARGUMENT,
+                                    WH_E_UNDEFINED, WH_E_SINGULAR, WH_E_ARITHMETIC};
+    for (unsigned i = 0; i < sizeof all / sizeof all[0]; i++) {
         TEST_ASSERT_TRUE(wh_status_text(all[i])[0] != '\0');
         for (unsigned j = 0; j < i; j++) {
             TEST_ASSERT_TRUE(wh_status_text(all[i]) != wh_status_text(all[j]));

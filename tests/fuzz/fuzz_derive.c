@@ -291,12 +291,10 @@ static void use(const equations *e, const bool *conserve, diags *all, FILE *nowh
         emit_octave(nowhere, e, p, "fuzz.whirl");
     }
     run(p, inst, &engine_double, false);
-    if (program_needs_libm(p) == NULL) {
-        const engine_settings settings = {WH_RK4, false};
-        emit_c(nowhere, e, p, &settings, "fuzz.whirl");
-        run(p, inst, &engine_float, false);
-        run(p, inst, &engine_float, true);
-    }
+    const engine_settings settings = {WH_RK4, false};
+    emit_c(nowhere, e, p, &settings, "fuzz.whirl");
+    run(p, inst, &engine_float, false);
+    run(p, inst, &engine_float, true);
     program_free(p);
 }
 

@@ -106,7 +106,7 @@ static void print_forms(const equations *e, uint64_t *from) {
     poly_derivative(e->algebra, equations_force(e, i), e->unknowns[i].symbol, 0);
 }
 
-/* As C or, where the core lacks a function, for Octave; to be freed, NULL when it cannot be derived. */
+/* As C; to be freed, NULL when it cannot be derived. */
 static char *written(const scene *in, before way, uint64_t from) {
     diags *errors = diags_new();
     instance *inst = instance_make(in->mechanism, in, NULL, errors);
@@ -129,12 +129,8 @@ static char *written(const scene *in, before way, uint64_t from) {
         size_t size = 0;
         FILE *out = open_memstream(&text, &size);
         TEST_ASSERT_NOT_NULL(out);
-        if (program_needs_libm(p) == NULL) {
-            const engine_settings settings = {WH_RK4, false};
-            emit_c(out, e, p, &settings, "asked.whirl");
-        } else {
-            emit_octave(out, e, p, "asked.whirl");
-        }
+        const engine_settings settings = {WH_RK4, false};
+        emit_c(out, e, p, &settings, "asked.whirl");
         fclose(out);
     }
     program_free(p);

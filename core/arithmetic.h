@@ -1,0 +1,68 @@
+/* arithmetic.h: whether the file that includes this computes as Whirl must, on the machine that it runs on.
+ *
+ * real.h refuses what the compiler tells about other people's flags. What no macro tells (contraction that the
+ * pragmas do not reach, clang's -fassociative-math and -freciprocal-math, a start-up file that makes subnormals
+ * zero, another rounding) shows in numbers that the compiler cannot know. The file computes them here, so that
+ * its own flags count; scene.c compares them with what they must be, at every wh_scene_start(). C only. */
+#ifndef WH_ARITHMETIC_H
+#define WH_ARITHMETIC_H
+
+#include "real.h"
+
+/* The numbers, in flash (scene.c). */
+typedef struct wh_probes {
+    wh_real factor; /* 1 + r: of its square 1 + 2 r + r^2 the last is lost in rounding */
+    wh_real square; /* 1 + 2 r */
+    wh_real one;
+    wh_real quarter_unit; /* a quarter of one's last place */
+    wh_real half_unit;    /* half of it, and as little more as there is */
+    wh_real least;        /* the smallest normal number */
+    wh_real half;
+    wh_real two;
+    wh_real three;
+    wh_real five;
+    wh_real seven;
+    wh_real ten;
+    wh_real minus_zero;
+} wh_probes;
+#define wh_probe WH_NAME(wh_probe)
+extern const wh_probes wh_probe;
+
+/* What is made of them. */
+typedef enum wh_probed {
+    WH_PROBED_PRODUCT, /* not 0 where products are not rounded before a sum: contraction, x87 */
+    WH_PROBED_ORDER,   /* not 0 where a sum is put into another order */
+    WH_PROBED_ROUNDING, /* not one's last place where a sum is not rounded to the nearest, or twice */
+    WH_PROBED_SUBNORMAL, /* 0 where numbers below the smallest normal one are */
+    WH_PROBED_FIVE, /* three thirds, rounded otherwise where division is a product with a reciprocal */
+    WH_PROBED_SEVEN,
+    WH_PROBED_TEN,
+    WH_PROBED_THIRD, /* the same, where the compiler knows the divisor */
+    WH_PROBED_ZERO,  /* has a sign where zeros do not keep theirs */
+    WH_PROBED_COUNT
+} wh_probed;
+
+/* For wh_scene.arithmetic. */
+static inline void wh_arithmetic(wh_real result[WH_PROBED_COUNT]) {
+    const volatile wh_probes *probe = &wh_probe;
+    const wh_real squared = probe->factor;
+    const wh_real one = probe->one;
+    const wh_real three = probe->three;
+    const wh_real seven = probe->seven;
+    result[WH_PROBED_PRODUCT] = squared * squared - probe->square;
+    result[WH_PROBED_ORDER] = (one + probe->quarter_unit) - one;
+    result[WH_PROBED_ROUNDING] = (one + probe->half_unit) - one;
+    result[WH_PROBED_SUBNORMAL] = probe->least * probe->half * probe->two;
+    result[WH_PROBED_FIVE] = probe->five / three;
+    result[WH_PROBED_SEVEN] = seven / three;
+    result[WH_PROBED_TEN] = probe->ten / three;
+    result[WH_PROBED_THIRD] = seven / WH_R(3.0);
+    result[WH_PROBED_ZERO] = probe->minus_zero + WH_R(0.0);
+}
+
+/* The first of what compute() gives that is not what it must be, or WH_PROBED_COUNT. With wh_arithmetic it
+ * judges the file that calls it. */
+#define wh_arithmetic_wrong WH_NAME(wh_arithmetic_wrong)
+wh_probed wh_arithmetic_wrong(void (*compute)(wh_real *result));
+
+#endif

@@ -1,0 +1,45 @@
+/* flash.h: constant tables that stay in flash.
+ *
+ * An AVR reads its flash with an instruction of its own, and what is only `const` there is copied to its
+ * scarce memory. avr-gcc's __flash says otherwise, but neither in strict C11 nor in C++; so the attribute
+ * and the instruction are written out here. Elsewhere nothing is special about a constant. (The newest
+ * small ones, __AVR_TINY__, have no such instruction; their constants stay where they are.)
+ *
+ *     const wh_real table[] WH_FLASH = {WH_R(1.0), WH_R(0.5)};
+ *     wh_real half = wh_flash_real(&table[1]);
+ */
+#ifndef WH_FLASH_H
+#define WH_FLASH_H
+
+#include "real.h"
+
+#if defined(__AVR__) && !defined(__AVR_TINY__) && !WH_DOUBLE
+
+#if defined(__clang__)
+#define WH_FLASH __attribute__((__section__(".progmem.data")))
+#else
+#define WH_FLASH __attribute__((__progmem__))
+#endif
+
+/* A number of a table that is WH_FLASH, in the lowest 64 kB, where linkers put them. */
+WH_INLINE wh_real wh_flash_real(const wh_real *from) {
+    wh_real value;
+#if defined(__AVR_HAVE_LPMX__)
+    __asm__("lpm %A0, Z+\n\tlpm %B0, Z+\n\tlpm %C0, Z+\n\tlpm %D0, Z" : "=&r"(value), "+z"(from));
+#else
+    __asm__("lpm\n\tmov %A0, r0\n\tadiw r30, 1\n\tlpm\n\tmov %B0, r0\n\tadiw r30, 1\n\t"
+            "lpm\n\tmov %C0, r0\n\tadiw r30, 1\n\tlpm\n\tmov %D0, r0"
+            : "=&r"(value), "+z"(from)
+            :
+            : "r0");
+#endif
+    return value;
+}
+
+#else
+
+#define WH_FLASH
+WH_INLINE wh_real wh_flash_real(const wh_real *from) { return *from; }
+
+#endif
+#endif

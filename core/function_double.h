@@ -1,0 +1,100 @@
+/* function_double.h: what the double build of function.h computes with; private to core/function_*_double.c.
+ *
+ * A pair holds a number as the sum of two doubles, the second at most half a unit of the first: some
+ * hundred bits. It is made of additions, products and quotients alone. Results leave as the rounded
+ * sum of a pair, so that they err by little more than half a unit in the last place.
+ */
+#ifndef WH_FUNCTION_DOUBLE_H
+#define WH_FUNCTION_DOUBLE_H
+
+#include "function.h"
+
+#if WH_DOUBLE
+
+#define wh_sine WH_NAME(wh_sine)
+#define wh_cosine WH_NAME(wh_cosine)
+#define wh_log_pair WH_NAME(wh_log_pair)
+#define wh_exp_pair WH_NAME(wh_exp_pair)
+
+#define WH_NAN __builtin_nan("") /* one NaN, with the same bits everywhere */
+#define WH_INFINITY __builtin_inf()
+
+typedef struct wh_pair {
+    double high;
+    double low;
+} wh_pair;
+
+/* Within one unit in the last place for all angles. The core's wh_sincos() has an absolute error, and a range. */
+double wh_sine(double rad);
+double wh_cosine(double rad);
+
+/* The logarithm of a positive finite number, to 70 bits and more. */
+wh_pair wh_log_pair(double x);
+/* e^exponent, rounded once, subnormals too. |exponent| < 1e4. */
+double wh_exp_pair(wh_pair exponent);
+
+WH_INLINE uint64_t wh_bits(double x) {
+    const union {
+        double number;
+        uint64_t bits;
+    } both = {x};
+    return both.bits;
+}
+
+WH_INLINE double wh_of_bits(uint64_t bits) {
+    const union {
+        uint64_t bits;
+        double number;
+    } both = {bits};
+    return both.number;
+}
+
+WH_INLINE bool wh_is_nan(double x) { return x != x; }
+
+WH_INLINE double wh_signed(double size, bool negative) { return negative ? -size : size; }
+
+/* 2^exponent, -1022 to 1023. */
+WH_INLINE double wh_power_of_two(int exponent) {
+    return wh_of_bits((uint64_t)(exponent + 1023) << 52);
+}
+
+/* a + b without loss, for |a| >= |b| and for any two (Dekker, Knuth). */
+WH_INLINE wh_pair wh_pair_of(double a, double b) {
+    const double sum = a + b;
+    return (wh_pair){sum, b - (sum - a)};
+}
+
+WH_INLINE wh_pair wh_sum(double a, double b) {
+    const double sum = a + b;
+    const double of_b = sum - a;
+    return (wh_pair){sum, (a - (sum - of_b)) + (b - of_b)};
+}
+
+/* The upper 26 bits of a number's 53. */
+WH_INLINE double wh_upper(double x) { return wh_of_bits(wh_bits(x) & ~UINT64_C(0x7ffffff)); }
+
+/* a b to 106 bits. */
+WH_INLINE wh_pair wh_product(double a, double b) {
+    const double product = a * b;
+    const double a_high = wh_upper(a);
+    const double b_high = wh_upper(b);
+    const double a_low = a - a_high;
+    const double b_low = b - b_high;
+    return (wh_pair){product, ((a_high * b_high - product) + a_high * b_low + a_low * b_high) +
+                                  a_low * b_low};
+}
+
+WH_INLINE wh_pair wh_quotient(wh_pair a, wh_pair b) {
+    const double high = a.high / b.high;
+    const wh_pair back = wh_product(high, b.high);
+    const double rest = ((a.high - back.high) - back.low) + a.low - high * b.low;
+    return wh_pair_of(high, rest / b.high);
+}
+
+WH_INLINE wh_pair wh_difference(wh_pair a, wh_pair b) {
+    const wh_pair high = wh_sum(a.high, -b.high);
+    return wh_pair_of(high.high, high.low + (a.low - b.low));
+}
+
+#endif
+#endif

@@ -1,0 +1,167 @@
+/* function_exp_float.c: exp, log and power in float, by way of 2^x and the logarithm to base 2.
+ *
+ * The logarithm is kept with 55 digits behind the point, of which 39 and more are right, so that a power
+ * is nearly as exact as its one rounding: a result that is a float comes out as that float.
+ * Polynomials: minimax, with coefficients that are integers.
+ */
+#include "function_float.h"
+
+#if !WH_DOUBLE
+
+#define POINT 55 /* digits behind the point of a logarithm */
+
+/* 2^fraction in Q31, for a fraction in Q32: by at most 1.2e-10 of it, and never falling as the fraction grows. */
+static uint32_t exp2_of(uint32_t fraction) {
+    static const uint32_t slope[] WH_FLASH = {89165U,     627085U,     5751038U,   41300811U,
+                                              238389830U, 1031764893U, 2977044473U};
+    uint32_t sum = wh_flash_word(&slope[0]);
+    for (unsigned i = 1; i < sizeof slope / sizeof slope[0]; i++) {
+        sum = wh_flash_word(&slope[i]) + wh_high(sum, fraction);
+    }
+    return WH_TOP_BIT + (wh_high(sum, fraction) >> 1);
+}
+
+/* 2^(size/2^32) with a sign, size/2^32 below 2^10. */
+static float exp2_signed(uint32_t sign, uint64_t size, bool below_one) {
+    const uint64_t power = below_one ? 0U - size : size;
+    return wh_float_round(sign, exp2_of((uint32_t)power), (int32_t)(uint32_t)(power >> 32));
+}
+
+/* size/2^shift, rounded. */
+static uint64_t shifted(uint64_t size, int32_t shift) { return ((size >> (shift - 1)) + 1U) >> 1; }
+
+/* The logarithm to base 2, times 2^POINT, of a finite magnitude above zero.
+ *
+ * A number of 7 binary digits near 1/size takes size to within 1/16 of one, without rounding. What is left,
+ * z, has the polynomial log2(e) z - z^2 (...). Between 31/32 and 17/16 nothing else is added, so that small
+ * logarithms are as exact as large ones. */
+static int64_t log2_of(uint32_t magnitude) {
+    /* A sector's number in Q7 in the upper 8 bits; -log2 of it in Q55 in the others. */
+    static const uint32_t inverses[] WH_FLASH = {
+        UINT32_C(0x80000000), UINT32_C(0x00000000), UINT32_C(0x751097e3), UINT32_C(0x8ce60649),
+        UINT32_C(0x6f1a5094), UINT32_C(0xb54d2828), UINT32_C(0x6924939a), UINT32_C(0x56279ad9),
+        UINT32_C(0x642d961e), UINT32_C(0xd0cb91d4), UINT32_C(0x5f370ef8), UINT32_C(0xaf6360e0),
+        UINT32_C(0x5b3f0095), UINT32_C(0xd1a19a03), UINT32_C(0x57474da0), UINT32_C(0xa5ad4953),
+        UINT32_C(0x544dc88a), UINT32_C(0xedc1d1ef), UINT32_C(0x5056cb0f), UINT32_C(0x6865c8ea),
+        UINT32_C(0x4d5dd9f0), UINT32_C(0x4a59e914), UINT32_C(0x4a6530a1), UINT32_C(0xd24b136c),
+        UINT32_C(0x486a3fe5), UINT32_C(0xc6042978), UINT32_C(0x45721bde), UINT32_C(0xdfa92a23),
+        UINT32_C(0x43778a63), UINT32_C(0xb02eb033), UINT32_C(0x40800000), UINT32_C(0x00000000)};
+    /* Q31; their signs alternate. */
+    static const uint32_t bend[] WH_FLASH = {422085684U, 517401452U,  619679893U,
+                                             774539989U, 1032721315U, 1549082005U};
+    const int64_t log2_e = INT64_C(99141248300); /* Q36 */
+
+    const wh_digits x = wh_digits_of(magnitude);
+    const uint32_t sector = (x.size >> 27) & 15U;
+    const uint32_t high = wh_flash_word(&inverses[2U * sector]);
+    const uint32_t low = wh_flash_word(&inverses[2U * sector + 1U]);
+    const int64_t less = (int64_t)(((uint64_t)(high & UINT32_C(0xffffff)) << 32) | low);
+    const int32_t rest = (int32_t)((x.size >> 8) * (high >> 24)) - (INT32_C(1) << 30); /* Q30 */
+    const int32_t z = rest * 4;                                                        /* Q32 */
+    int32_t sum = 0;
+    for (unsigned i = 0; i < sizeof bend / sizeof bend[0]; i++) {
+        sum = (int32_t)wh_flash_word(&bend[i]) - (int32_t)(((int64_t)sum * z) >> 32);
+    }
+    const int32_t bent = (int32_t)(((int64_t)sum * z) >> 28); /* Q35 */
+    const int64_t straight = (log2_e * rest) >> 11;
+    return (int64_t)x.exponent * (INT64_C(1) << POINT) + less + straight -
+           (((int64_t)bent * z) >> 12);
+}
+
+float wh_exp(float x) {
+    const uint64_t log2_e = UINT64_C(793129986396); /* Q39 */
+    const uint32_t bits = wh_bits_of(x);
+    const uint32_t magnitude = bits & ~WH_BITS_SIGN;
+    if (magnitude > WH_BITS_INFINITE) {
+        return wh_float_of_bits(WH_BITS_NAN);
+    }
+    if (magnitude >= UINT32_C(0x42d00000)) { /* 104 */
+        return wh_float_of_bits(bits == magnitude ? WH_BITS_INFINITE : 0U);
+    }
+    if (magnitude < UINT32_C(0x32000000)) { /* 2^-27 */
+        return 1.0f;
+    }
+    const wh_digits d = wh_digits_of(magnitude);
+    const uint64_t product = log2_e * (d.size >> 8);
+    return exp2_signed(0U, shifted(product, 30 - d.exponent), bits != magnitude);
+}
+
+float wh_log(float x) {
+    const uint32_t ln_2 = UINT32_C(2977044472); /* Q32 */
+    const uint32_t bits = wh_bits_of(x);
+    if ((bits & ~WH_BITS_SIGN) == 0U) {
+        return wh_float_of_bits(WH_BITS_SIGN | WH_BITS_INFINITE);
+    }
+    if (bits >= WH_BITS_INFINITE) { /* below zero, infinite or not a number */
+        return wh_float_of_bits(bits == WH_BITS_INFINITE ? bits : WH_BITS_NAN);
+    }
+    const int64_t log2 = log2_of(bits);
+    if (log2 == 0) {
+        return 0.0f;
+    }
+    const uint64_t size = log2 < 0 ? 0U - (uint64_t)log2 : (uint64_t)log2;
+    const uint32_t zeros = wh_leading_zeros_64(size);
+    const uint32_t digits = (uint32_t)((size << zeros) >> 32);
+    return wh_float_round(log2 < 0 ? WH_BITS_SIGN : 0U, wh_high(digits, ln_2),
+                          (int32_t)(63 - POINT) - (int32_t)zeros);
+}
+
+/* 0: no whole number, 1: odd, 2: even. Infinity is even. */
+static uint32_t wholeness(uint32_t magnitude) {
+    const uint32_t exponent = magnitude >> 23;
+    if (exponent < 127U) {
+        return 0U;
+    }
+    if (exponent > 150U) {
+        return 2U;
+    }
+    const uint32_t digits = (magnitude & UINT32_C(0x7fffff)) | UINT32_C(0x800000);
+    const uint32_t behind = digits
+                            << (exponent - 119U); /* from the last digit before the point on */
+    return (behind & ~WH_TOP_BIT) != 0U ? 0U : (behind != 0U ? 1U : 2U);
+}
+
+float wh_pow(float base, float exponent) {
+    const uint32_t base_bits = wh_bits_of(base);
+    const uint32_t exponent_bits = wh_bits_of(exponent);
+    const uint32_t x = base_bits & ~WH_BITS_SIGN;
+    const uint32_t y = exponent_bits & ~WH_BITS_SIGN;
+    if (y == 0U || base_bits == WH_BITS_ONE) {
+        return 1.0f; /* even of what is not a number */
+    }
+    if (x > WH_BITS_INFINITE || y > WH_BITS_INFINITE) {
+        return wh_float_of_bits(WH_BITS_NAN);
+    }
+    const bool below_zero = exponent_bits != y;
+    uint32_t sign = 0U;
+    if (base_bits != x) {
+        const uint32_t whole = wholeness(y);
+        if (whole == 0U && x != 0U && x != WH_BITS_INFINITE) {
+            return wh_float_of_bits(WH_BITS_NAN);
+        }
+        sign = whole == 1U ? WH_BITS_SIGN : 0U;
+    }
+    const uint32_t least = sign;
+    const uint32_t most = sign | WH_BITS_INFINITE;
+    if (x == 0U || x == WH_BITS_INFINITE) {
+        return wh_float_of_bits((x == 0U) == below_zero ? most : least);
+    }
+    const int64_t log2 = log2_of(x);
+    if (log2 == 0) {
+        return wh_float_of_bits(sign | WH_BITS_ONE);
+    }
+    const bool below_one = (log2 < 0) != below_zero;
+    const uint64_t size = log2 < 0 ? 0U - (uint64_t)log2 : (uint64_t)log2;
+    const uint32_t zeros = wh_leading_zeros_64(size);
+    const wh_digits d = wh_digits_of(y);
+    const uint64_t product = ((size << zeros) >> 24) * (d.size >> 8);
+    /* product 2^(exponent - 23 + 24 - zeros - POINT) is the logarithm of the result */
+    const int32_t shift = POINT - 33 + (int32_t)zeros - d.exponent;
+    if (shift < 23) { /* beyond 2^8 */
+        return wh_float_of_bits(below_one ? least : most);
+    }
+    return shift > 63 ? wh_float_of_bits(sign | WH_BITS_ONE)
+                      : exp2_signed(sign, shifted(product, shift), below_one);
+}
+
+#endif

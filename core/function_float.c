@@ -1,0 +1,41 @@
+/* function_float.c: rounding and division for the float build's own functions. */
+#include "function_float.h"
+
+#if !WH_DOUBLE
+
+float wh_float_round(uint32_t sign, uint32_t size, int32_t exponent) {
+    const uint32_t zeros = wh_leading_zeros(size);
+    size <<= zeros;
+    exponent -= (int32_t)zeros;
+    if (exponent > 127) {
+        return wh_float_of_bits(sign | WH_BITS_INFINITE);
+    }
+    uint32_t drop = 8U; /* digits that a float has no room for */
+    uint32_t start = 0U;
+    if (exponent >= -126) {
+        start = (uint32_t)(exponent + 126) << 23; /* the leading digit adds the last one */
+    } else if (exponent > -151) {
+        drop = (uint32_t)(-118 - exponent);
+    } else {
+        return wh_float_of_bits(sign);
+    }
+    const uint32_t kept = drop < 32U ? size >> drop : 0U;
+    const uint32_t rest = size << (32U - drop);
+    const uint32_t up = rest > WH_TOP_BIT || (rest == WH_TOP_BIT && (kept & 1U) != 0U) ? 1U : 0U;
+    return wh_float_of_bits(sign | (start + kept + up)); /* a carry goes on into the exponent */
+}
+
+/* Long division, eight digits at a time, so that what 32 bits divide by 32 is enough. */
+uint32_t wh_float_ratio(uint32_t num, uint32_t den) {
+    const uint32_t by = den >> 8;
+    uint32_t rest = num < den ? num : num >> 1;
+    uint32_t ratio = 0U;
+    for (int digit = 0; digit < 4; digit++) {
+        const uint32_t part = rest / by;
+        ratio = (ratio << 8) | part;
+        rest = (rest - part * by) << 8;
+    }
+    return ratio;
+}
+
+#endif

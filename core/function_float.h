@@ -1,0 +1,84 @@
+/* function_float.h: the arithmetic of the float build's own functions (function_*_float.c alone include it).
+ *
+ * All of it is integers: a number is taken apart into a sign, 32 binary digits and an exponent, the function is
+ * computed of these with some 30 digits, and one rounding makes a float of it. That costs less than pairs of
+ * floats would, also where there is no hardware for floats, and leaves compilers nothing to reorder or fuse.
+ *
+ * Fixed point: "Q31" is a uint32_t that counts 2^-31, and so on.
+ */
+#ifndef WH_FUNCTION_FLOAT_H
+#define WH_FUNCTION_FLOAT_H
+
+#include "flash.h"
+#include "function.h"
+
+/* Magnitudes of a float as bits: order as integers is order as numbers. */
+#define WH_BITS_SIGN UINT32_C(0x80000000)
+#define WH_BITS_ONE UINT32_C(0x3f800000)
+#define WH_BITS_INFINITE UINT32_C(0x7f800000)
+#define WH_BITS_NAN UINT32_C(0x7fc00000)
+#define WH_TOP_BIT UINT32_C(0x80000000)
+
+typedef union wh_word {
+    float value;
+    uint32_t bits;
+} wh_word;
+
+/* size/2^31 * 2^exponent; the top bit of size is set. */
+typedef struct wh_digits {
+    uint32_t size;
+    int32_t exponent;
+} wh_digits;
+
+WH_INLINE uint32_t wh_bits_of(float x) { return (wh_word){.value = x}.bits; }
+
+WH_INLINE float wh_float_of_bits(uint32_t bits) { return (wh_word){.bits = bits}.value; }
+
+/* A number of a table that is WH_FLASH: on an AVR that takes instructions that take floats here. */
+WH_INLINE uint32_t wh_flash_word(const uint32_t *from) {
+#if defined(__AVR__)
+    return wh_bits_of(wh_flash_real((const float *)(const void *)from));
+#else
+    return *from;
+#endif
+}
+
+/* The upper half of a product. */
+WH_INLINE uint32_t wh_high(uint32_t a, uint32_t b) { return (uint32_t)(((uint64_t)a * b) >> 32); }
+
+/* Zeros in front of the first digit of x > 0. An int has 16 bits on the smallest machines. */
+WH_INLINE uint32_t wh_leading_zeros(uint32_t x) {
+    return (uint32_t)(sizeof(int) >= 4 ? __builtin_clz((unsigned)x)
+                                       : __builtin_clzl((unsigned long)x));
+}
+
+WH_INLINE uint32_t wh_leading_zeros_64(uint64_t x) { return (uint32_t)__builtin_clzll(x); }
+
+/* Of a finite magnitude that is not zero, subnormal ones included. */
+WH_INLINE wh_digits wh_digits_of(uint32_t magnitude) {
+    wh_digits d = {(magnitude << 8) | WH_TOP_BIT, (int32_t)(magnitude >> 23) - 127};
+    if (magnitude < UINT32_C(0x00800000)) {
+        const uint32_t zeros = wh_leading_zeros(magnitude);
+        d = (wh_digits){magnitude << zeros, -118 - (int32_t)zeros};
+    }
+    return d;
+}
+
+/* size^2 2^(2 exponent) as Q32, for a value below one. */
+WH_INLINE uint32_t wh_square(wh_digits x) {
+    const int32_t shift = -2 * x.exponent - 2;
+    return shift > 31 ? 0U : wh_high(x.size, x.size) >> shift;
+}
+
+#define wh_float_round WH_NAME(wh_float_round)
+#define wh_float_ratio WH_NAME(wh_float_ratio)
+
+/* The float nearest to size/2^31 * 2^exponent, for size > 0 and whatever exponent: ties to even, infinite
+ * beyond the largest float, subnormal and zero below the least. sign is WH_BITS_SIGN or 0. */
+float wh_float_round(uint32_t sign, uint32_t size, int32_t exponent);
+
+/* num/den, or twice that where it is below one, in Q31, rounded down; num and den have their top bit set and
+ * the 8 lowest not. */
+uint32_t wh_float_ratio(uint32_t num, uint32_t den);
+
+#endif

@@ -1,0 +1,95 @@
+/* function_tan_float.c: the tangent in float, of radians of any size.
+ *
+ * Quarter turns are taken away in integers, with as many digits of 2/pi as it takes: no float is nearer to one
+ * than 2^-30 of a quarter turn, and some 60 digits behind the point are kept (M. Payne and R. Hanek, "Radian
+ * reduction for trigonometric functions", SIGNUM Newsletter 18 (1983) 1).
+ */
+#include "function_float.h"
+
+#if !WH_DOUBLE
+
+#define EIGHTH_TURN UINT32_C(0x3f490fda) /* the largest float below pi/4 */
+
+/* 2/pi; 32 binary digits a word, the first word in front of the point. */
+static const uint32_t two_over_pi[] WH_FLASH = {
+    UINT32_C(0x00000000), UINT32_C(0xa2f9836e), UINT32_C(0x4e441529), UINT32_C(0xfc2757d1),
+    UINT32_C(0xf534ddc0), UINT32_C(0xdb629599), UINT32_C(0x3c439041), UINT32_C(0xfe5163ab)};
+
+/* Takes the nearest whole number of quarter turns from a magnitude: *odd tells whether that number is odd,
+ * *below whether the rest, which is returned in radians, is below zero. */
+static wh_digits rest_of_quarters(uint32_t magnitude, bool *odd, bool *below) {
+    /* A float is digits 2^(exponent - 150): digits of 2/pi that only make multiples of two are skipped. */
+    const uint32_t skip = (magnitude >> 23) - (150U - 31U);
+    const uint32_t *word = &two_over_pi[skip >> 5];
+    const uint32_t shift = skip & 31U;
+    uint32_t window[3];
+    for (unsigned i = 0; i < 3; i++) {
+        window[i] =
+            (uint32_t)((((uint64_t)wh_flash_word(&word[i]) << 32) | wh_flash_word(&word[i + 1])) >>
+                       (32U - shift));
+    }
+    const uint32_t digits = (magnitude & UINT32_C(0x7fffff)) | UINT32_C(0x800000);
+    const uint64_t quarters =
+        ((uint64_t)(digits * window[0]) << 32) + /* 63 digits behind the point */
+        (uint64_t)digits * window[1] + wh_high(digits, window[2]);
+    const uint64_t rest = quarters << 1; /* Q64 */
+    *below = rest >> 63 != 0U;
+    *odd = (quarters >> 63 != 0U) != *below;
+    const uint64_t size = *below ? 0U - rest : rest;
+    const uint32_t zeros = wh_leading_zeros_64(size);
+    const uint32_t half_pi = UINT32_C(3373259426); /* Q31 */
+    const uint32_t rad = wh_high((uint32_t)((size << zeros) >> 32), half_pi);
+    const int32_t exponent =
+        -(int32_t)zeros; /* rad is Q31 2^exponent, its top bit perhaps not set */
+    return rad < WH_TOP_BIT ? (wh_digits){rad << 1, exponent - 1} : (wh_digits){rad, exponent};
+}
+
+/* The tangent of up to an eighth of a turn: by at most 1.5e-9 of it. */
+static wh_digits tangent_of(wh_digits rad) {
+    static const uint32_t series[] WH_FLASH = {18797842U,  380841U,    46542290U,  91405258U,
+                                               232185762U, 572633515U, 1431656471U}; /* Q32 */
+    const uint32_t square = wh_square(rad);
+    uint32_t sum = wh_flash_word(&series[0]);
+    for (unsigned i = 1; i < sizeof series / sizeof series[0]; i++) {
+        sum = wh_flash_word(&series[i]) + wh_high(sum, square);
+    }
+    rad.size = (rad.size >> 1) + (wh_high(rad.size, wh_high(sum, square)) >> 1);
+    rad.exponent++;
+    return rad;
+}
+
+/* 1/x: division has room for 24 digits, and the slope tells what the others make of it. */
+static wh_digits inverse_of(wh_digits x) {
+    const uint32_t zeros = wh_leading_zeros(x.size);
+    const uint32_t size = x.size << zeros;
+    const uint32_t first = size & ~UINT32_C(255);
+    const bool power_of_two = first == WH_TOP_BIT;
+    const uint32_t inverse = wh_float_ratio(WH_TOP_BIT, first); /* Q31, or Q32 below one */
+    const uint32_t others = (size - first) << (power_of_two ? 2 : 1);
+    return (wh_digits){inverse - wh_high(inverse, wh_high(inverse, others)),
+                       (int32_t)zeros - x.exponent - (power_of_two ? 0 : 1)};
+}
+
+float wh_tan(float rad) {
+    const uint32_t bits = wh_bits_of(rad);
+    const uint32_t magnitude = bits & ~WH_BITS_SIGN;
+    uint32_t sign = bits & WH_BITS_SIGN;
+    if (magnitude >= WH_BITS_INFINITE) {
+        return wh_float_of_bits(WH_BITS_NAN);
+    }
+    if (magnitude == 0U) {
+        return rad;
+    }
+    if (magnitude <= EIGHTH_TURN) {
+        const wh_digits t = tangent_of(wh_digits_of(magnitude));
+        return wh_float_round(sign, t.size, t.exponent);
+    }
+    bool odd;
+    bool below;
+    wh_digits t = tangent_of(rest_of_quarters(magnitude, &odd, &below));
+    sign ^= odd != below ? WH_BITS_SIGN : 0U;
+    t = odd ? inverse_of(t) : t;
+    return wh_float_round(sign, t.size, t.exponent);
+}
+
+#endif

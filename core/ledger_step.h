@@ -1,0 +1,160 @@
+/* ledger_step.h: keeping the books of ledger.h while a scene steps. C only, as step.h is. */
+#ifndef WH_LEDGER_STEP_H
+#define WH_LEDGER_STEP_H
+
+#include "ledger.h"
+#include "step.h"
+
+/* Most entries. A generated scene defines its own. */
+#ifndef WH_LEDGER_MAX
+#define WH_LEDGER_MAX 2048
+#endif
+
+/* Most accounts. A generated scene defines its own. */
+#ifndef WH_ACCOUNTS_MAX
+#define WH_ACCOUNTS_MAX 65
+#endif
+
+/* A step of the books in progress. */
+typedef struct wh_ledger_work {
+    wh_real attempt[WH_LEDGER_MAX]; /* of the present try */
+    wh_real step[WH_LEDGER_MAX];    /* of the whole step so far */
+    wh_real span;                   /* length of the present try, s; zero: there is none */
+    const wh_angle *angle;          /* where it begins */
+    unsigned stage;
+} wh_ledger_work;
+
+/* Share of the step that stage `stage` of the method counts for in its quadrature. */
+WH_INLINE wh_real wh_ledger_weight(wh_method method, unsigned stage) {
+    if (method == WH_RK4) {
+        return stage == 1 || stage == 2 ? WH_R(1.0) / WH_R(3.0) : WH_R(1.0) / WH_R(6.0);
+    }
+    return method == WH_HEUN ? WH_R(0.5) : WH_R(1.0);
+}
+
+/* A try from `angle` on, [form->angles], which stays as it is until the last stage has been. */
+WH_INLINE void wh_ledger_begin(const wh_ledger_form *form, const wh_angle *angle, wh_ledger_work *w,
+                               wh_real span) {
+    for (unsigned i = 0; i < form->entries; i++) {
+        w->attempt[i] = WH_R(0.0);
+    }
+    w->span = span;
+    w->angle = angle;
+    w->stage = 0;
+}
+
+/* The try is part of the run: its entries count. */
+WH_INLINE void wh_ledger_accept(const wh_ledger_form *form, wh_ledger_work *w) {
+    for (unsigned i = 0; i < form->entries; i++) {
+        w->step[i] += w->attempt[i];
+    }
+}
+
+/* Enter the smooth entries at one stage. Returns the time that the stage counts for, s. */
+WH_INLINE wh_real wh_ledger_stage(const wh_ledger_form *form, wh_method method,
+                                  const wh_phase *phase, const wh_real *linear, const wh_real *rate,
+                                  const wh_real *input, wh_ledger_work *w) {
+    wh_real power[WH_LEDGER_MAX];
+    for (unsigned i = 0; i < form->smooth; i++) {
+        power[i] = WH_R(0.0);
+    }
+    const wh_real share = w->span * wh_ledger_weight(method, w->stage++);
+    if (form->turned != NULL) {
+        wh_angle angle[WH_COORDS];
+        for (unsigned i = 0; i < form->angles; i++) {
+            angle[i] = wh_angle_near(w->angle[i], phase[i]);
+        }
+        form->turned(form->model, angle, linear, rate, input, power);
+    } else {
+        form->powers(form->model, phase, linear, rate, input, power);
+    }
+    for (unsigned i = 0; i < form->smooth; i++) {
+        w->attempt[i] += share * power[i];
+    }
+    return share;
+}
+
+/* Before a step: what inputs that were changed since the last one give, one after another. */
+static inline void wh_ledger_move(const wh_ledger_form *form, const wh_state *state,
+                                  wh_ledger_work *w) {
+    const wh_real *kept = wh_ledger_kept(form, state);
+    wh_real level[WH_ACCOUNTS_MAX];
+    bool changed = false;
+    for (unsigned k = 0; k < form->inputs; k++) {
+        changed = changed || kept[k] != state->input[form->input[k]];
+    }
+    if (!changed) {
+        return;
+    }
+    for (unsigned k = 0; k < form->inputs; k++) {
+        wh_ledger_exchange(form, state, k);
+    }
+    wh_ledger_levels(form, state, level);
+    for (unsigned k = 0; k < form->inputs; k++) {
+        const wh_real before = level[0];
+        wh_ledger_exchange(form, state, k);
+        wh_ledger_levels(form, state, level);
+        w->step[wh_ledger_of_input(form) + k] = level[0] - before;
+    }
+}
+
+/* Before a step: the accounts' levels at the start of the run. */
+WH_INLINE void wh_ledger_open(const wh_ledger_form *form, wh_state *state, wh_ledger_work *w) {
+    for (unsigned i = 0; i < form->entries; i++) {
+        w->step[i] = WH_R(0.0);
+    }
+    w->span = WH_R(0.0);
+    if (state->steps == 0) {
+        wh_ledger_levels(form, state, state->ledger + 2U * form->entries);
+    } else {
+        wh_ledger_move(form, state, w);
+    }
+}
+
+/* After a step: its entries join the totals. */
+WH_INLINE void wh_ledger_commit(const wh_ledger_form *form, const wh_ledger_work *w,
+                                wh_state *state) {
+    wh_real *total = state->ledger;
+    wh_real *carry = state->ledger + form->entries;
+    for (unsigned i = 0; i < form->entries; i++) {
+        total[i] = wh_sum(total[i], w->step[i], true, &carry[i]);
+    }
+    for (unsigned k = 0; k < form->inputs; k++) {
+        wh_ledger_kept(form, state)[k] = state->input[form->input[k]];
+    }
+}
+
+typedef struct wh_ledger_model {
+    const wh_ledger_form *form;
+    const void *model;
+    wh_accel_fn *accel;
+    wh_method method;
+    wh_ledger_work *work;
+} wh_ledger_model;
+
+/* The accelerations, with a stage of the books. A wh_accel_fn. */
+WH_INLINE void wh_ledger_accel(const void *of, const wh_phase *phase, const wh_real *linear,
+                               const wh_real *rate, const wh_real *input, wh_real *accel) {
+    const wh_ledger_model *m = of;
+    m->accel(m->model, phase, linear, rate, input, accel);
+    (void)wh_ledger_stage(m->form, m->method, phase, linear, rate, input, m->work);
+}
+
+/* wh_step_second() with books. */
+WH_INLINE wh_status wh_step_ledger(const wh_ledger_form *form, const void *model,
+                                   wh_accel_fn *accel, wh_method method, bool compensated,
+                                   wh_real h, wh_state *state) {
+    wh_ledger_work work;
+    const wh_ledger_model with = {form, model, accel, method, &work};
+    wh_ledger_open(form, state, &work);
+    wh_ledger_begin(form, state->angle, &work, h);
+    const wh_status status = wh_step_second(&with, wh_ledger_accel, method, compensated,
+                                            form->angles, form->coordinates, h, state);
+    if (status == WH_OK) {
+        wh_ledger_accept(form, &work);
+        wh_ledger_commit(form, &work, state);
+    }
+    return status;
+}
+
+#endif

@@ -1,0 +1,99 @@
+/* root.c: the square root in integers.
+ *
+ * The number is x * 4^k, 1 <= x < 4, and the root's bits are those of sqrt(x) with k for an exponent. No root
+ * lies halfway between two numbers (its square would have more bits than x can), so rounding to the nearest
+ * knows no ties. */
+#include "root.h"
+
+#if WH_DOUBLE
+typedef uint64_t word;
+#define FRACTION_BITS 52
+#define BIAS 1023
+#else
+typedef uint32_t word;
+#define FRACTION_BITS 23
+#define BIAS 127
+#endif
+
+#define ONE ((word)1 << FRACTION_BITS) /* 1 as a fraction with its leading bit */
+#define INFINITE (((word)2 * BIAS + 1) << FRACTION_BITS)
+#define SIGN ((word)1 << (sizeof(word) * 8U - 1U))
+
+typedef union real_bits {
+    wh_real real;
+    word bits;
+} real_bits;
+
+#if WH_DOUBLE
+
+/* sqrt(x) * 2^52 to the nearest, of x * 2^52: one bit after the other, the highest first. */
+static word root_of(word x) {
+    word rest = x << 1;
+    word twice = 0; /* the root so far, two times, in the place of the next bit */
+    word root = 0;
+    for (word bit = ONE << 1; bit != 0; bit >>= 1) {
+        if (twice + bit <= rest) {
+            rest -= twice + bit;
+            twice += bit << 1;
+            root += bit;
+        }
+        rest <<= 1;
+    }
+    return (root + 1U) >> 1; /* its last bit is half a unit */
+}
+
+#else
+
+/* 2^8/sqrt(x) for the sixteenths of 1 to 2, behind them those of 2 to 4: each the best for its stretch. */
+static const uint8_t reciprocal_root[32] = {
+    252, 245, 238, 232, 226, 221, 216, 211, 207, 203, 199, 195, 192, 189, 185, 182,
+    178, 173, 168, 164, 160, 156, 153, 149, 146, 143, 141, 138, 136, 133, 131, 129,
+};
+
+static uint32_t high_half(uint32_t a, uint32_t b) { return (uint32_t)((uint64_t)a * b >> 32); }
+
+/* sqrt(x) * 2^23 to the nearest, of x * 2^23: two Newton steps for the reciprocal root, one for the root. */
+static word root_of(word x) {
+    const bool two = x >= ONE << 1; /* 2 <= x < 4 */
+    const unsigned stretch = two ? 16U + (x >> 20 & 15U) : x >> 19 & 15U;
+    const uint32_t scaled = x << 7;                                /* x * 2^30 */
+    uint32_t r = (uint32_t)reciprocal_root[stretch] << 23;         /* 2^31/sqrt(x) */
+    for (unsigned i = 0; i < 2; i++) {                             /* r' = r (3 - x r^2) / 2 */
+        const uint32_t x_r_r = high_half(scaled, high_half(r, r)); /* times 2^28 */
+        r = high_half(r, ((UINT32_C(3) << 28) - x_r_r) << 2) << 1;
+    }
+    uint32_t root = high_half(scaled, r) >> 6;
+    /* x * 2^46 less the root's square: small, so that its low half is all of it */
+    const int32_t rest = (int32_t)((x << 23) - root * root);
+    root += (uint32_t)(((int64_t)rest * r + (INT64_C(1) << 54)) >> 55);
+    return root;
+}
+
+#endif
+
+wh_real wh_sqrt(wh_real x) {
+    real_bits as = {.real = x};
+    if (as.bits - ONE >= INFINITE - ONE) { /* no normal positive number */
+        if ((as.bits & ~SIGN) == 0 || as.bits == INFINITE) {
+            return x;
+        }
+        if (as.bits > INFINITE) {
+            as.bits |= INFINITE | ONE >> 1; /* not a number */
+            return as.real;
+        }
+    }
+    int exponent = (int)(as.bits >> FRACTION_BITS);
+    word fraction = as.bits & (ONE - 1U);
+    if (exponent == 0) { /* subnormal */
+        for (exponent = 1; fraction < ONE; exponent--) {
+            fraction <<= 1;
+        }
+    }
+    fraction |= ONE;
+    if (exponent % 2 == 0) { /* the bias is odd */
+        fraction <<= 1;
+    }
+    /* the root's leading bit is one exponent more */
+    as.bits = ((word)((exponent + BIAS) / 2 - 1) << FRACTION_BITS) + root_of(fraction);
+    return as.real;
+}

@@ -1,0 +1,19 @@
+/* sum.h: sums that may carry their rounding error along. */
+#ifndef WH_SUM_H
+#define WH_SUM_H
+
+#include "real.h"
+
+/* value + increment. When compensated, *carry goes into the sum and is replaced by the sum's rounding
+ * error (Kahan; Higham, Accuracy and Stability of Numerical Algorithms, section 4.3). */
+WH_INLINE wh_real wh_sum(wh_real value, wh_real increment, bool compensated, wh_real *carry) {
+    if (!compensated) {
+        return value + increment;
+    }
+    const wh_real wanted = increment + *carry;
+    const wh_real sum = value + wanted;
+    *carry = wanted - (sum - value);
+    return sum;
+}
+
+#endif

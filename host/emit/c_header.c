@@ -1,0 +1,251 @@
+/* c_header.c: a scene's C header: where its components, inputs and outputs are, by name, with their units,
+ * and the memory that it takes. C11 and C++11.
+ *
+ * Every name is SCENE_KIND_NAME, with scene and name as the file has them: no two of a scene are equal,
+ * since no KIND begins with another one and an underscore, and none is a word of C or C++. All are enumerators of one
+ * type (adding two of several is deprecated in C++20) or macros: nothing is stored unless it is used. */
+#include "c_header.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "emit.h"
+#include "host/derive/contact_lists.h"
+#include "host/derive/ledger.h"
+#include "host/run/shown.h"
+
+/* Bytes of the character at `text` that changes the direction of writing, or 0: compilers warn of these. */
+static size_t turns_direction(const char *text) {
+    const unsigned char *c = (const unsigned char *)text;
+    if (c[0] == 0xe2 && ((c[1] == 0x80 && c[2] >= 0x8e && c[2] <= 0xae) ||
+                         (c[1] == 0x81 && c[2] >= 0xa6 && c[2] <= 0xa9))) {
+        return 3;
+    }
+    return c[0] == 0xd8 && c[1] == 0x9c ? 2 : 0;
+}
+
+void c_comment(FILE *out, const char *text) {
+    for (size_t i = 0; text[i] != '\0'; i++) {
+        const size_t turning = turns_direction(text + i);
+        if (turning > 0) {
+            i += turning - 1;
+            fputc(' ', out);
+            continue;
+        }
+        fputc((unsigned char)text[i] < ' ' || text[i] == 0x7f ? ' ' : text[i], out);
+        if ((text[i] == '*' && text[i + 1] == '/') || (text[i] == '/' && text[i + 1] == '*') ||
+            (text[i] == '?' && text[i + 1] == '?') || text[i] == '\\') {
+            fputc(' ', out);
+        }
+    }
+}
+
+/* --- what there is in an array of the state, or behind observe() ---------------------------------- */
+
+typedef enum list { LIST_ANGLES, LIST_REALS, LIST_INPUTS, LIST_OUTPUTS, LISTS } list;
+
+static const struct {
+    const char *counted; /* SCENE_ANGLES, SCENE_NAMES_OF_ANGLES */
+    const char *value;   /* KIND without primes, with one */
+    const char *rate;
+    const char *where;
+} lists[LISTS] = {
+    [LIST_ANGLES] = {"ANGLES", "ANGLE", "ANGLERATE",
+                     "state.angle[], read with wh_angle_to_rad(): unwrapped"},
+    [LIST_REALS] = {"REALS", "REAL", "RATE", "state.real[]"},
+    [LIST_INPUTS] = {"INPUTS", "INPUT", "INPUTRATE", "state.input[], may change between steps"},
+    [LIST_OUTPUTS] = {"OUTPUTS", "OUTPUT", "OUTPUTRATE", "what the scene's observe() fills"},
+};
+
+typedef struct item {
+    const symbol *symbol;
+    int primes;
+} item;
+
+static int count_of(const program *p, list of) {
+    switch (of) {
+    case LIST_ANGLES: return p->angles;
+    case LIST_REALS: return p->reals;
+    case LIST_INPUTS: return p->inputs;
+    case LIST_OUTPUTS: return p->outputs;
+    case LISTS: break;
+    }
+    return 0;
+}
+
+static item item_of(const equations *e, const program *p, list of, int i) {
+    const mechanism *m = e->instance->mechanism;
+    switch (of) {
+    case LIST_ANGLES: return (item){e->unknowns[p->angle[i].unknown].symbol, p->angle[i].primes};
+    case LIST_REALS: return (item){e->unknowns[p->real[i].unknown].symbol, p->real[i].primes};
+    case LIST_INPUTS: return (item){m->inputs[p->input[i]], 0};
+    case LIST_OUTPUTS:
+        if (i >= m->output_count) { /* value and rate of what is recovered from its momentum */
+            const int k = i - m->output_count;
+            return (item){e->unknowns[p->conserved->unknown[k / 2]].symbol, k % 2};
+        }
+        return (item){m->outputs[i], 0};
+    case LISTS: break;
+    }
+    return (item){NULL, 0};
+}
+
+static void write_items(FILE *out, const equations *e, const program *p, list of) {
+    const char *prefix = e->instance->name;
+    fprintf(out, "    /* %s */\n", lists[of].where);
+    for (int i = 0; i < count_of(p, of); i++) {
+        const item it = item_of(e, p, of, i);
+        char *in = shown_si_name(it.symbol, it.primes);
+        fprintf(out, "    %s_%s", prefix, it.primes > 0 ? lists[of].rate : lists[of].value);
+        if (it.primes > 1) {
+            fprintf(out, "%d", it.primes);
+        }
+        fprintf(out, "_%s = %d, /* ", it.symbol->name, i);
+        c_comment(out, in);
+        if (it.symbol->text[0] != '\0') {
+            fputs(it.primes > 0 ? ": rate of: " : ": ", out);
+            c_comment(out, it.symbol->text);
+        }
+        fputs(" */\n", out);
+        free(in);
+    }
+    fprintf(out, "    %s_%s = %d,\n\n", prefix, lists[of].counted, count_of(p, of));
+}
+
+/* Names and units as strings: what stands between the braces of an array. */
+static void write_strings(FILE *out, const equations *e, const program *p, list of) {
+    if (count_of(p, of) == 0) {
+        return;
+    }
+    fprintf(out, "#define %s_NAMES_OF_%s {", e->instance->name, lists[of].counted);
+    for (int i = 0; i < count_of(p, of); i++) {
+        const item it = item_of(e, p, of, i);
+        fprintf(out, "%s\"%s", i > 0 ? ", " : "", it.symbol->name);
+        for (int k = 0; k < it.primes; k++) {
+            fputc('\'', out);
+        }
+        fputc('"', out);
+    }
+    fprintf(out, "}\n#define %s_UNITS_OF_%s {", e->instance->name, lists[of].counted);
+    for (int i = 0; i < count_of(p, of); i++) {
+        const item it = item_of(e, p, of, i);
+        char *in = shown_si_name(it.symbol, it.primes);
+        fprintf(out, "%s\"%s\"", i > 0 ? ", " : "", in);
+        free(in);
+    }
+    fputs("}\n", out);
+}
+
+static void write_memory(FILE *out, const program *p, const char *prefix,
+                         const engine_settings *settings) {
+    const int carried = settings->compensated ? p->angles + p->reals : 0;
+    const int held = p->contacts != NULL ? p->contacts->held : 0;
+    const int books =
+        p->ledger != NULL ? 2 * p->ledger->entries + p->ledger->accounts + p->ledger->inputs : 0;
+    fprintf(
+        out,
+        "/* What wh_scene_start() takes, of either number: bytes; words for an array of uint64_t. */\n"
+        "#define %s_MEMORY_BYTES WH_MEMORY_BYTES(%d, %d, %d)\n"
+        "#define %s_MEMORY_WORDS ((%s_MEMORY_BYTES + 7U) / 8U)\n\n",
+        prefix, p->angles, p->reals + carried + p->inputs + held + books,
+        p->contacts != NULL ? p->contacts->count : 0, prefix, prefix);
+}
+
+void emit_c_header(FILE *out, const equations *e, const program *p, const engine_settings *settings,
+                   const char *file) {
+    const instance *inst = e->instance;
+    const char *title = inst->scene != NULL ? inst->scene->title : inst->mechanism->title;
+    fputs("/* Generated by whirl from ", out);
+    c_comment(out, file);
+    fprintf(out, ": do not edit.\n *\n * scene        %s%s", inst->name,
+            title[0] != '\0' ? ": " : "");
+    c_comment(out, title);
+    fprintf(out,
+            "\n * model hash   0x%016" PRIx64 "\n *\n"
+            " * Values are SI, whatever the model shows them in. */\n"
+            "#ifndef WHIRL_SCENE_%s_H\n#define WHIRL_SCENE_%s_H\n\n#include \"core/scene.h\"\n\n"
+            "#ifdef __cplusplus\nextern \"C\" {\n#endif\n\nextern const wh_scene %s;\n\n",
+            program_hash(p), inst->name, inst->name, inst->name);
+    write_memory(out, p, inst->name, settings);
+    fputs("enum {\n", out);
+    for (int of = 0; of < LISTS; of++) {
+        write_items(out, e, p, (list)of);
+    }
+    fprintf(out,
+            "    /* state.contacts->mode[]; levels that wh_ledger_error() takes */\n"
+            "    %s_CONTACTS = %d,\n    %s_ACCOUNTS = %d\n};\n\n",
+            inst->name, p->contacts != NULL ? p->contacts->count : 0, inst->name,
+            p->ledger != NULL ? p->ledger->accounts : 0);
+    fprintf(out, "/* For arrays: static const char *const unit[] = %s_UNITS_OF_%s; */\n",
+            inst->name, p->outputs > 0 ? "OUTPUTS" : "REALS");
+    for (int of = 0; of < LISTS; of++) {
+        write_strings(out, e, p, (list)of);
+    }
+    fputs("\n#ifdef __cplusplus\n}\n#endif\n\n#endif\n", out);
+}
+
+bool emit_c_name_is_free_in_cpp(const char *name) {
+    static const char *const taken[] = {"alignas",
+                                        "alignof",
+                                        "and",
+                                        "and_eq",
+                                        "asm",
+                                        "bitand",
+                                        "bitor",
+                                        "catch",
+                                        "char16_t",
+                                        "char32_t",
+                                        "char8_t",
+                                        "class",
+                                        "co_await",
+                                        "co_return",
+                                        "co_yield",
+                                        "compl",
+                                        "concept",
+                                        "const_cast",
+                                        "consteval",
+                                        "constexpr",
+                                        "constinit",
+                                        "decltype",
+                                        "delete",
+                                        "dynamic_cast",
+                                        "explicit",
+                                        "export",
+                                        "friend",
+                                        "mutable",
+                                        "namespace",
+                                        "new",
+                                        "noexcept",
+                                        "not",
+                                        "not_eq",
+                                        "nullptr",
+                                        "operator",
+                                        "or",
+                                        "or_eq",
+                                        "private",
+                                        "protected",
+                                        "public",
+                                        "reinterpret_cast",
+                                        "requires",
+                                        "static_assert",
+                                        "static_cast",
+                                        "template",
+                                        "this",
+                                        "thread_local",
+                                        "throw",
+                                        "try",
+                                        "typeid",
+                                        "typename",
+                                        "using",
+                                        "virtual",
+                                        "wchar_t",
+                                        "xor",
+                                        "xor_eq"};
+    for (size_t i = 0; i < sizeof taken / sizeof taken[0]; i++) {
+        if (strcmp(name, taken[i]) == 0) {
+            return false;
+        }
+    }
+    return true;
+}

@@ -1,0 +1,10 @@
+/* c_header.h: a scene's C header, and texts of the user in comments. */
+#ifndef EMIT_C_HEADER_H
+#define EMIT_C_HEADER_H
+
+#include <stdio.h>
+
+/* `text` as part of a comment that it cannot end, nor have compilers warn of: on one line. */
+void c_comment(FILE *out, const char *text);
+
+#endif

@@ -1,0 +1,152 @@
+/* functions.c: see functions.h. The core's double build computes what is rounded. */
+#define WH_DOUBLE 1
+#include "functions.h"
+
+#include "core/function_double.h"
+
+double number_sine(double rad) { return wh_sine(rad); }
+double number_cosine(double rad) { return wh_cosine(rad); }
+double number_root(double x) { return x < 0.0 || wh_is_nan(x) ? WH_NAN : WH_SQRT(x); }
+double number_power(double base, double exponent) { return wh_pow(base, exponent); }
+
+double number_call(function_id function, double x, double y) {
+    switch (function) {
+    case FN_SIN: return wh_sine(x);
+    case FN_COS: return wh_cosine(x);
+    case FN_TAN: return wh_tan(x);
+    case FN_ASIN: return wh_asin(x);
+    case FN_ACOS: return wh_acos(x);
+    case FN_ATAN: return wh_atan(x);
+    case FN_ATAN2: return wh_atan2(x, y);
+    case FN_SQRT: return number_root(x);
+    case FN_EXP: return wh_exp(x);
+    case FN_LOG: return wh_log(x);
+    case FN_ABS: return WH_ABS(x);
+    case FN_SIGN: return x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : x; /* what is no number stays none */
+    case FN_MIN: return y < x || wh_is_nan(y) ? y : x;
+    case FN_MAX: return y > x || wh_is_nan(y) ? y : x;
+    case FN_COUNT: break;
+    }
+    return WH_NAN;
+}
+
+/* --- whole numbers ------------------------------------------------------------------------------- */
+#define ALL_WHOLE 0x1p52 /* no number from here on has a fraction */
+
+/* The whole part of a size below ALL_WHOLE. */
+static double whole_part(double size) { return (double)(int64_t)size; }
+
+/* With the sign of x, zeros too. NaN and infinities come out as they are. */
+static double like(double size, double x) { return wh_signed(size, wh_bits(x) >> 63 != 0); }
+
+double number_floor(double x) {
+    const double size = WH_ABS(x);
+    if (!(size < ALL_WHOLE)) {
+        return x;
+    }
+    const double whole = like(whole_part(size), x);
+    return whole > x ? whole - 1.0 : whole;
+}
+
+double number_ceiling(double x) { return -number_floor(-x); }
+
+double number_nearest(double x) {
+    const double size = WH_ABS(x);
+    if (!(size < ALL_WHOLE)) {
+        return x;
+    }
+    const double whole = whole_part(size);
+    return like(size - whole >= 0.5 ? whole + 1.0 : whole, x);
+}
+
+double number_even(double x) {
+    const double size = WH_ABS(x);
+    if (!(size < ALL_WHOLE)) {
+        return x;
+    }
+    const double whole = whole_part(size);
+    const double rest = size - whole;
+    const bool up = rest > 0.5 || (rest == 0.5 && (int64_t)whole % 2 != 0);
+    return like(up ? whole + 1.0 : whole, x);
+}
+
+/* --- exponents ----------------------------------------------------------------------------------- */
+double number_scaled(double x, int exponent) {
+    while (exponent > 1023) {
+        if (x == 0.0 || !(WH_ABS(x) < WH_INFINITY)) {
+            return x;
+        }
+        x *= 0x1p1023;
+        exponent -= 1023;
+    }
+    while (exponent < -1022) { /* leaves 53 bits of the way, so that only the last step rounds */
+        if (x == 0.0 || !(WH_ABS(x) < WH_INFINITY)) {
+            return x;
+        }
+        x *= 0x1p-969;
+        exponent += 969;
+    }
+    return x * wh_power_of_two(exponent);
+}
+
+double number_split(double x, int *exponent) {
+    const double size = WH_ABS(x);
+    *exponent = 0;
+    if (size == 0.0 || !(size < WH_INFINITY)) {
+        return x;
+    }
+    const bool subnormal = size < 0x1p-1022;
+    const uint64_t bits = wh_bits(subnormal ? x * 0x1p54 : x);
+    *exponent = (int)(bits >> 52 & 2047U) - 1022 - (subnormal ? 54 : 0);
+    return wh_of_bits((bits & ~(UINT64_C(2047) << 52)) | (UINT64_C(1022) << 52));
+}
+
+/* --- remainders ---------------------------------------------------------------------------------- */
+/* A size as a whole number and an exponent of two, -1074 or more. */
+static uint64_t whole_of(double size, int *exponent) {
+    const uint64_t bits = wh_bits(size);
+    const int field = (int)(bits >> 52);
+    *exponent = field == 0 ? -1074 : field - 1075;
+    return field == 0 ? bits : (bits & (UINT64_MAX >> 12)) | (UINT64_C(1) << 52);
+}
+
+double number_remainder(double x, double y) {
+    const double size = WH_ABS(x);
+    const double by = WH_ABS(y);
+    int exponent;
+    int by_exponent;
+    uint64_t rest = whole_of(size, &exponent);
+    const uint64_t divisor = whole_of(by, &by_exponent);
+    if (!(size < WH_INFINITY) || wh_is_nan(y) || divisor == 0) {
+        return WH_NAN;
+    }
+    if (size < by) {
+        return x;
+    }
+    rest %= divisor;
+    while (exponent > by_exponent) { /* 53 bits and 11 more have room */
+        const int bits = exponent - by_exponent < 11 ? exponent - by_exponent : 11;
+        rest = (rest << bits) % divisor;
+        exponent -= bits;
+    }
+    return like(number_scaled((double)(int64_t)rest, by_exponent), x);
+}
+
+double number_centred(double x, double y) {
+    const double by = WH_ABS(y);
+    if (!(WH_ABS(x) < WH_INFINITY) || !(by > 0.0)) {
+        return WH_NAN;
+    }
+    /* less than twice y is left of it, so the quotient is even so far: a half of y stays, unless once y is off */
+    double rest = WH_ABS(by < 0x1p1023 ? number_remainder(x, 2.0 * by) : x);
+    const bool twice = by < 0x1p-1021; /* a half of y may be no number */
+    if (twice ? rest + rest > by : rest > 0.5 * by) {
+        rest -= by;
+        rest = (twice ? rest + rest >= by : rest >= 0.5 * by) ? rest - by : rest;
+    }
+    return wh_signed(rest, wh_bits(x) >> 63 != 0);
+}
+
+/* --- sizes --------------------------------------------------------------------------------------- */
+double number_least(double a, double b) { return b < a || wh_is_nan(a) ? b : a; }
+double number_most(double a, double b) { return b > a || wh_is_nan(a) ? b : a; }

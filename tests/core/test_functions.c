@@ -1,0 +1,356 @@
+/* test_functions.c: the core's own functions: edges, exact results, order, symmetry, and the same bits on every
+ * machine. Their errors are measured on this machine (tests/host/test_function_accuracy.c,
+ * test_double_functions.c, and make functions-exhaustive). */
+#include "core/function.h"
+
+#include "core/hash.h"
+#include "unity.h"
+
+void suite_functions(void);
+
+#define PI WH_R(3.14159265358979323846)
+#if WH_DOUBLE
+#define INFINITE __builtin_inf()
+#define NO_NUMBER __builtin_nan("")
+#define LARGEST 1.7976931348623157e308
+#define SMALLEST 4.9406564584124654e-324 /* subnormal */
+#define NORMAL 2.2250738585072014e-308   /* the smallest of all digits */
+#define LEAST_POWER (-1074)
+#define MOST_POWER 1023
+#define DIGITS 53
+#else
+#define INFINITE __builtin_inff()
+#define NO_NUMBER __builtin_nanf("")
+#define LARGEST 3.40282347e38f
+#define SMALLEST 1.40129846e-45f
+#define NORMAL 1.17549435e-38f
+#define LEAST_POWER (-149)
+#define MOST_POWER 127
+#define DIGITS 24
+#endif
+#define ZERO WH_R(0.0)
+#define ONE WH_R(1.0)
+#define TWO WH_R(2.0)
+#define HALF WH_R(0.5)
+#define THREE WH_R(3.0)
+
+static uint64_t bits_of(wh_real x) { return wh_hash_real(0, x); }
+
+/* Equal bits, or both no number. */
+static bool same(wh_real a, wh_real b) { return bits_of(a) == bits_of(b) || (a != a && b != b); }
+
+/* --- edges, after C11's Annex F -------------------------------------------------------------------------- */
+typedef wh_real function_of_one(wh_real x);
+typedef wh_real function_of_two(wh_real x, wh_real y);
+
+typedef struct edge {
+    wh_real x;
+    wh_real wanted;
+} edge;
+
+typedef struct edge_of_two {
+    wh_real x;
+    wh_real y;
+    wh_real wanted;
+} edge_of_two;
+
+static void expect_edges(function_of_one *f, const edge *edges, unsigned count, bool is_odd) {
+    for (unsigned i = 0; i < count; i++) {
+        TEST_ASSERT_TRUE(same(f(edges[i].x), edges[i].wanted));
+        TEST_ASSERT_TRUE(!is_odd || same(f(-edges[i].x), -edges[i].wanted));
+    }
+}
+#define EXPECT_EDGES(f, edges, is_odd) \
+    expect_edges(f, edges, sizeof edges / sizeof edges[0], is_odd)
+
+static void test_edges(void) {
+    static const edge of_exp[] = {
+        {ZERO, ONE},         {-ZERO, ONE},          {SMALLEST, ONE},
+        {-SMALLEST, ONE},    {-NORMAL, ONE},        {ONE, WH_R(2.71828182845904523536)},
+        {LARGEST, INFINITE}, {-LARGEST, ZERO},      {INFINITE, INFINITE},
+        {-INFINITE, ZERO},   {NO_NUMBER, NO_NUMBER}};
+    static const edge of_log[] = {{ONE, ZERO},           {ZERO, -INFINITE},
+                                  {-ZERO, -INFINITE},    {-SMALLEST, NO_NUMBER},
+                                  {-ONE, NO_NUMBER},     {-INFINITE, NO_NUMBER},
+                                  {INFINITE, INFINITE},  {TWO, WH_R(0.69314718055994530942)},
+                                  {NO_NUMBER, NO_NUMBER}};
+    static const edge of_tan[] = {{ZERO, ZERO},
+                                  {SMALLEST, SMALLEST},
+                                  {NORMAL, NORMAL},
+                                  {INFINITE, NO_NUMBER},
+                                  {NO_NUMBER, NO_NUMBER}};
+    static const edge of_asin[] = {{ZERO, ZERO},
+                                   {SMALLEST, SMALLEST},
+                                   {NORMAL, NORMAL},
+                                   {ONE, PI / TWO},
+                                   {HALF, WH_R(0.52359877559829887308)},
+                                   {TWO, NO_NUMBER},
+                                   {INFINITE, NO_NUMBER},
+                                   {NO_NUMBER, NO_NUMBER}};
+    static const edge of_acos[] = {{ONE, ZERO},
+                                   {-ONE, PI},
+                                   {ZERO, PI / TWO},
+                                   {-ZERO, PI / TWO},
+                                   {TWO, NO_NUMBER},
+                                   {-TWO, NO_NUMBER},
+                                   {HALF, WH_R(1.0471975511965977462)},
+                                   {SMALLEST, PI / TWO},
+                                   {INFINITE, NO_NUMBER},
+                                   {NO_NUMBER, NO_NUMBER}};
+    static const edge of_atan[] = {
+        {ZERO, ZERO},        {SMALLEST, SMALLEST}, {NORMAL, NORMAL},      {ONE, PI / WH_R(4.0)},
+        {LARGEST, PI / TWO}, {INFINITE, PI / TWO}, {NO_NUMBER, NO_NUMBER}};
+    EXPECT_EDGES(wh_exp, of_exp, false);
+    EXPECT_EDGES(wh_log, of_log, false);
+    EXPECT_EDGES(wh_tan, of_tan, true);
+    EXPECT_EDGES(wh_asin, of_asin, true);
+    EXPECT_EDGES(wh_acos, of_acos, false);
+    EXPECT_EDGES(wh_atan, of_atan, true);
+}
+
+static void test_edges_of_atan2(void) {
+    static const edge_of_two edges[] = {/* y, x; the upper half */
+                                        {ZERO, ZERO, ZERO},
+                                        {ZERO, -ZERO, PI},
+                                        {ZERO, ONE, ZERO},
+                                        {ZERO, -ONE, PI},
+                                        {ZERO, INFINITE, ZERO},
+                                        {ZERO, -INFINITE, PI},
+                                        {ONE, ZERO, PI / TWO},
+                                        {ONE, -ZERO, PI / TWO},
+                                        {SMALLEST, ZERO, PI / TWO},
+                                        {ONE, INFINITE, ZERO},
+                                        {ONE, -INFINITE, PI},
+                                        {INFINITE, ONE, PI / TWO},
+                                        {INFINITE, -LARGEST, PI / TWO},
+                                        {INFINITE, INFINITE, PI / WH_R(4.0)},
+                                        {INFINITE, -INFINITE, THREE * PI / WH_R(4.0)},
+                                        {ONE, ONE, PI / WH_R(4.0)},
+                                        {ONE, -ONE, THREE * PI / WH_R(4.0)},
+                                        {SMALLEST, SMALLEST, PI / WH_R(4.0)},
+                                        {SMALLEST, LARGEST, ZERO},
+                                        {SMALLEST, -LARGEST, PI},
+                                        {LARGEST, SMALLEST, PI / TWO},
+                                        {SMALLEST, ONE, SMALLEST},
+                                        {THREE * SMALLEST, ONE, THREE * SMALLEST},
+                                        {NO_NUMBER, ONE, NO_NUMBER},
+                                        {ONE, NO_NUMBER, NO_NUMBER}};
+    for (unsigned i = 0; i < sizeof edges / sizeof edges[0]; i++) {
+        const edge_of_two *e = &edges[i];
+        TEST_ASSERT_TRUE(same(wh_atan2(e->x, e->y), e->wanted));
+        TEST_ASSERT_TRUE(same(wh_atan2(-e->x, e->y), -e->wanted));
+    }
+}
+
+static void test_edges_of_power(void) {
+    static const edge_of_two edges[] = {
+        {ZERO, THREE, ZERO},
+        {-ZERO, THREE, -ZERO},
+        {ZERO, -THREE, INFINITE},
+        {-ZERO, -THREE, -INFINITE},
+        {ZERO, TWO, ZERO},
+        {-ZERO, TWO, ZERO},
+        {-ZERO, -TWO, INFINITE},
+        {-ZERO, HALF, ZERO},
+        {-ZERO, -HALF, INFINITE},
+        {ZERO, INFINITE, ZERO},
+        {-ZERO, -INFINITE, INFINITE},
+        {-ONE, INFINITE, ONE},
+        {-ONE, -INFINITE, ONE},
+        {ONE, INFINITE, ONE},
+        {ONE, NO_NUMBER, ONE},
+        {NO_NUMBER, ZERO, ONE},
+        {NO_NUMBER, -ZERO, ONE},
+        {INFINITE, ZERO, ONE},
+        {-TWO, HALF, NO_NUMBER},
+        {-LARGEST, WH_R(1.5), NO_NUMBER},
+        {HALF, INFINITE, ZERO},
+        {-HALF, INFINITE, ZERO},
+        {HALF, -INFINITE, INFINITE},
+        {TWO, INFINITE, INFINITE},
+        {-TWO, -INFINITE, ZERO},
+        {-INFINITE, -THREE, -ZERO},
+        {-INFINITE, -TWO, ZERO},
+        {-INFINITE, -HALF, ZERO},
+        {-INFINITE, THREE, -INFINITE},
+        {-INFINITE, TWO, INFINITE},
+        {-INFINITE, HALF, INFINITE},
+        {INFINITE, -HALF, ZERO},
+        {INFINITE, HALF, INFINITE},
+        {-INFINITE, INFINITE, INFINITE},
+        {NO_NUMBER, ONE, NO_NUMBER},
+        {TWO, NO_NUMBER, NO_NUMBER},
+        {LARGEST, ONE, LARGEST},
+        {-LARGEST, ONE, -LARGEST},
+        {LARGEST, TWO, INFINITE},
+        {-LARGEST, THREE, -INFINITE},
+        {LARGEST, -TWO, ZERO},
+        {-LARGEST, -THREE, -ZERO},
+        {SMALLEST, ONE, SMALLEST},
+        {SMALLEST, TWO, ZERO},
+        {-ONE, LARGEST, ONE},
+        {-ONE, SMALLEST, NO_NUMBER},
+        {TWO, SMALLEST, ONE},
+        {LARGEST, SMALLEST, ONE},
+        {HALF, LARGEST, ZERO},
+        {TWO, LARGEST, INFINITE},
+    };
+    for (unsigned i = 0; i < sizeof edges / sizeof edges[0]; i++) {
+        TEST_ASSERT_TRUE(same(wh_pow(edges[i].x, edges[i].y), edges[i].wanted));
+    }
+}
+
+/* --- results that are numbers ---------------------------------------------------------------------------- */
+static void test_exact_powers_of_two(void) {
+    wh_real wanted = SMALLEST;
+    for (int n = LEAST_POWER; n <= MOST_POWER; n++) {
+        const wh_real power = (wh_real)n;
+        TEST_ASSERT_TRUE(wh_pow(TWO, power) == wanted);
+        TEST_ASSERT_TRUE(wh_pow(HALF, -power) == wanted);
+        TEST_ASSERT_TRUE(wh_pow(WH_R(4.0), power * HALF) == wanted);
+        TEST_ASSERT_TRUE(wh_pow(WH_R(0.0625), power * WH_R(-0.25)) == wanted);
+        TEST_ASSERT_TRUE(wh_pow(-TWO, power) == (n % 2 == 0 ? wanted : -wanted));
+        wanted *= TWO;
+    }
+}
+
+static void test_exact_powers(void) {
+    const wh_real limit = wh_pow(TWO, (wh_real)DIGITS);
+    const wh_real quarter = WH_R(0.25);
+    for (int base = 2; base <= 40; base++) {
+        const wh_real b = (wh_real)base;
+        wh_real wanted = ONE;
+        for (int n = 0; wanted < limit; n++) {
+            const wh_real power = (wh_real)n;
+            TEST_ASSERT_TRUE(wh_pow(b, power) == wanted);
+            TEST_ASSERT_TRUE(wh_pow(-b, power) == (n % 2 == 0 ? wanted : -wanted));
+            TEST_ASSERT_TRUE(wh_pow(b * WH_R(0.125), power) ==
+                             wanted * wh_pow(TWO, WH_R(-3.0) * power));
+            TEST_ASSERT_TRUE(wh_pow(b * b, power * HALF) == wanted);
+            TEST_ASSERT_TRUE(b * b * b * b >= limit ||
+                             wh_pow(b * b * b * b, power * quarter) == wanted);
+            wanted *= b;
+        }
+    }
+}
+
+/* --- order and symmetry ------------------------------------------------------------------------------------ */
+/* A scattered 64-bit number (xorshift; Marsaglia, Journal of Statistical Software 8 (2003) 14). */
+static uint64_t scattered_state;
+static uint64_t scattered(void) {
+    scattered_state ^= scattered_state << 13;
+    scattered_state ^= scattered_state >> 7;
+    scattered_state ^= scattered_state << 17;
+    return scattered_state;
+}
+
+/* -1 to 1. */
+static wh_real part(void) { return (wh_real)(int32_t)(scattered() >> 32) * WH_R(0x1p-31); }
+
+static void test_never_falls(void) {
+    wh_real last[4] = {-INFINITE, -INFINITE, -INFINITE, -INFINITE};
+    wh_real last_cosine = INFINITE;
+    for (int i = 1; i <= 4000; i++) {
+        const wh_real x = (wh_real)i * WH_R(0x1p-12) - WH_R(0.48828125); /* 2^-12 apart */
+        const wh_real now[4] = {wh_exp(x), wh_log(x + HALF), wh_asin(x), wh_atan(x)};
+        for (int k = 0; k < 4; k++) {
+            TEST_ASSERT_TRUE(now[k] > last[k]);
+            last[k] = now[k];
+        }
+        const wh_real arc = wh_acos(x);
+        TEST_ASSERT_TRUE(arc < last_cosine);
+        last_cosine = arc;
+    }
+}
+
+static void test_symmetry(void) {
+    scattered_state = 5;
+    for (int i = 0; i < 1000; i++) {
+        const wh_real x = part();
+        const wh_real y = part() * WH_R(100.0);
+        TEST_ASSERT_TRUE(same(wh_tan(-y), -wh_tan(y)));
+        TEST_ASSERT_TRUE(same(wh_asin(-x), -wh_asin(x)));
+        TEST_ASSERT_TRUE(same(wh_atan(-y), -wh_atan(y)));
+        TEST_ASSERT_TRUE(same(wh_atan2(-x, y), -wh_atan2(x, y)));
+        TEST_ASSERT_TRUE(same(wh_pow(-x, THREE), -wh_pow(x, THREE)));
+        TEST_ASSERT_TRUE(same(wh_pow(-x, WH_R(-2.0)), wh_pow(x, WH_R(-2.0))));
+        TEST_ASSERT_TRUE(wh_pow(x, ONE) == x);
+    }
+}
+
+/* Each undoes the other, to what the rounding of what is between them makes. */
+static void test_inverses(void) {
+    const wh_real unit = wh_pow(TWO, (wh_real)(1 - DIGITS));
+    scattered_state = 6;
+    for (int i = 0; i < 1000; i++) {
+        const wh_real x = part();
+        const wh_real positive = x * x + WH_R(0.001);
+        const wh_real log_size = wh_log(positive) < ZERO ? -wh_log(positive) : wh_log(positive);
+        const wh_real back = wh_exp(wh_log(positive)) / positive - ONE;
+        TEST_ASSERT_TRUE(WH_ABS(back) <= (log_size + TWO) * unit);
+        TEST_ASSERT_TRUE(WH_ABS(wh_tan(wh_atan(x)) - x) <= WH_R(4.0) * WH_ABS(x) * unit);
+        TEST_ASSERT_TRUE(WH_ABS(wh_asin(x) + wh_acos(x) - PI / TWO) <= WH_R(4.0) * unit);
+        TEST_ASSERT_TRUE(WH_ABS(wh_atan2(x, positive) - wh_atan(x / positive)) <= TWO * unit);
+    }
+}
+
+/* --- the same bits everywhere -------------------------------------------------------------------------------- */
+static wh_real any(void) {
+    const uint64_t word = scattered();
+#if WH_DOUBLE
+    const union {
+        uint64_t bits;
+        double value;
+    } as = {.bits = word};
+#else
+    const union {
+        uint32_t bits;
+        float value;
+    } as = {.bits = (uint32_t)(word >> 32)};
+#endif
+    return as.value;
+}
+
+/* What is no number counts alike: its bits tell where it came from. */
+static uint64_t mixed(uint64_t hash, wh_real x) { return wh_hash_real(hash, x != x ? ONE : x); }
+
+static uint64_t mixed_of_all(uint64_t hash, wh_real x, wh_real y) {
+    hash = mixed(hash, wh_exp(x));
+    hash = mixed(hash, wh_log(x));
+    hash = mixed(hash, wh_tan(x));
+    hash = mixed(hash, wh_asin(x));
+    hash = mixed(hash, wh_acos(x));
+    hash = mixed(hash, wh_atan(x));
+    hash = mixed(hash, wh_atan2(x, y));
+    return mixed(hash, wh_pow(x, y));
+}
+
+static void test_same_bits_everywhere(void) {
+    scattered_state = 7;
+    uint64_t hash = WH_HASH_START;
+    for (int i = 0; i < 1500; i++) {
+        const wh_real x = any();
+        const wh_real y = any();
+        const wh_real p = part();
+        const wh_real q = part();
+        hash = mixed_of_all(hash, x, y);                                   /* all sizes alike */
+        hash = mixed_of_all(hash, p, q * WH_R(20.0));                      /* asin, acos */
+        hash = mixed_of_all(hash, p * WH_R(90.0), q);                      /* exp, tan */
+        hash = mixed_of_all(hash, ONE + p * WH_R(0.01), q * WH_R(5000.0)); /* powers near one */
+    }
+    TEST_ASSERT_EQUAL_HEX64(WH_DOUBLE ? UINT64_C(0x4de95b45dd636336) : UINT64_C(0x631ccc03b4a2e5b8),
+                            hash);
+}
+
+void suite_functions(void) {
+    UnitySetTestFile(__FILE__);
+    RUN_TEST(test_edges);
+    RUN_TEST(test_edges_of_atan2);
+    RUN_TEST(test_edges_of_power);
+    RUN_TEST(test_exact_powers_of_two);
+    RUN_TEST(test_exact_powers);
+    RUN_TEST(test_never_falls);
+    RUN_TEST(test_symmetry);
+    RUN_TEST(test_inverses);
+    RUN_TEST(test_same_bits_everywhere);
+}
