@@ -2,10 +2,10 @@
  *
  * An AVR reads its flash with an instruction of its own, and what is only `const` there is copied to its
  * scarce memory. avr-gcc's __flash says otherwise, but neither in strict C11 nor in C++; so the attribute
- * and the instruction are written out here. Elsewhere nothing is special about a constant. (The newest
- * small ones, __AVR_TINY__, have no such instruction; their constants stay where they are.)
+ * and the instruction are written out here. Elsewhere nothing is special about a constant. (The smallest
+ * ones, __AVR_TINY__, have no such instruction; their constants stay where they are.)
  *
- *     const wh_real table[] WH_FLASH = {WH_R(1.0), WH_R(0.5)};
+ *     const wh_real table[2] WH_FLASH = {WH_R(1.0), WH_R(0.5)};
  *     wh_real half = wh_flash_real(&table[1]);
  */
 #ifndef WH_FLASH_H
@@ -13,15 +13,22 @@
 
 #include "real.h"
 
-#if defined(__AVR__) && !defined(__AVR_TINY__) && !WH_DOUBLE
+#if !defined(__AVR__) || defined(__AVR_TINY__) || WH_DOUBLE
 
-#if defined(__clang__)
+#define WH_FLASH
+/* A number of a table that is WH_FLASH; on AVR in the lowest 64 kB, where linkers put such tables. */
+WH_INLINE wh_real wh_flash_real(const wh_real *from) { return *from; }
+
+#elif defined(__clang__)
+
 #define WH_FLASH __attribute__((__section__(".progmem.data")))
-#else
-#define WH_FLASH __attribute__((__progmem__))
-#endif
+WH_INLINE wh_real wh_flash_real(const wh_real *from) {
+    return *(const __attribute__((__address_space__(1))) wh_real *)(uintptr_t)from;
+}
 
-/* A number of a table that is WH_FLASH, in the lowest 64 kB, where linkers put them. */
+#else
+
+#define WH_FLASH __attribute__((__progmem__))
 WH_INLINE wh_real wh_flash_real(const wh_real *from) {
     wh_real value;
 #if defined(__AVR_HAVE_LPMX__)
@@ -35,11 +42,6 @@ WH_INLINE wh_real wh_flash_real(const wh_real *from) {
 #endif
     return value;
 }
-
-#else
-
-#define WH_FLASH
-WH_INLINE wh_real wh_flash_real(const wh_real *from) { return *from; }
 
 #endif
 #endif

@@ -46,7 +46,7 @@ static unsigned divide_by_ten(uint16_t *limb, unsigned limbs) {
         limb[i] = (uint16_t)(value / 10U);
         rest = value % 10U;
     }
-    return rest;
+    return (unsigned)rest;
 }
 
 /* limb[] * 10 in place; returns what overflows at the top, 0 to 9. */
@@ -57,7 +57,7 @@ static unsigned multiply_by_ten(uint16_t *limb, unsigned limbs) {
         limb[i] = (uint16_t)value;
         carry = value >> 16;
     }
-    return carry;
+    return (unsigned)carry;
 }
 
 /* Digits of limb[] into digit[WHOLE_DIGITS], lowest first, destroying limb[]; at least one. */

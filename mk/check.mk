@@ -1,7 +1,7 @@
 # check.mk: the quality gates of `make check`. Each is a target of its own, gate-NAME; tests/gates.sh
 # runs them, keeps what they say in build/check/NAME.log and prints a line for each.
 
-GATES := house gcc clang format cppcheck tidy sanitizers memcheck bad-input firmware size libm hashes hosts
+GATES := house gcc clang format cppcheck tidy sanitizers memcheck bad-input firmware size libm avr hashes hosts
 LINT_FLAGS := -std=c11 $(WARN) -I. $(UNITY_FLAGS) -D_POSIX_C_SOURCE=200809L
 JOBS := 2
 
@@ -102,6 +102,12 @@ gate-libm:
 	@$(MAKE) B=build/libm/gcc CC=gcc OPT=-O0 build/libm/gcc/whirl
 	@$(MAKE) B=build/libm/clang CC=clang OPT=-O0 build/libm/clang/whirl
 	@sh tests/no_libm.sh build/libm/gcc/whirl build/libm/clang/whirl
+
+# --- AVR: the table in flash, and equal bits, in every dialect; from C++, too ------------------------
+gate-avr: build/whirl
+	@$(call need,avr-gcc)
+	@$(call need,simavr)
+	@sh tests/embed/avr.sh build/whirl build/check/avr
 
 # --- one arithmetic everywhere ----------------------------------------------------------------------
 HASH_BUILDS := gcc-O0 gcc-O2 gcc-O3 clang-O0 clang-O2 clang-O3

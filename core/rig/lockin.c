@@ -116,7 +116,7 @@ bool wh_lockin(const wh_load_record *record, const wh_mark *marks, unsigned mark
         in_phase += load * cosine;
         quadrature += load * sine;
     }
-    result->turns = turns_between(&marks[begin], &marks[last_mark]);
+    result->turns = (unsigned)turns_between(&marks[begin], &marks[last_mark]);
     result->turn_s = (wh_real)(marks[last_mark].ticks - marks[begin].ticks) /
                      ((wh_real)result->turns * (wh_real)WH_RIG_TICKS_PER_S);
     result->mean_counts = mean;

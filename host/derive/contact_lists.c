@@ -8,6 +8,8 @@
 #include "core/hash.h"
 #include "energy.h"
 
+_Static_assert((int)HYBRIDS_MAX <= WH_CONTACTS_LIMIT, "the core has room for what a run may have");
+
 static void *room(int count, size_t size) {
     void *p = calloc((size_t)count + 1, size);
     if (p == NULL) {

@@ -2,7 +2,7 @@
 # deps.sh GROUP...: install the Debian packages that a make target needs, and only those missing.
 #
 # Groups: host (compiler), plot, firmware (Arm compiler and emulator), tests, quality (linters,
-# sanitizers), bench; hosts (other compilers, C libraries and processors) and octave only when they are named.
+# sanitizers, AVR), bench; hosts (other compilers, C libraries and processors) and octave only when they are named.
 # What is there already is recognised by its command or file, not by its package, so a compiler from elsewhere
 # counts. With nothing missing this says nothing and takes milliseconds.
 # DEPS_DRY_RUN=1 only says what is missing (exit status 1 if anything is).
@@ -61,6 +61,7 @@ tests() {
     if [ -z "${UNITY:-}" ]; then
         want xz-utils "unpacking the Unity test framework" have xz
     fi
+    want g++ "embedding scenes in C++" have g++
 }
 
 quality() {
@@ -71,6 +72,9 @@ quality() {
     want clang-tidy "the lint gate" have clang-tidy
     want cppcheck "the second lint gate" have cppcheck
     want musl-tools "another C library" have musl-gcc
+    want gcc-avr "the AVR gate" have avr-gcc
+    want avr-libc "its C library, for the gate's own program" have_file /usr/lib/avr/include/avr/io.h
+    want simavr "the emulated AVR" have simavr
 }
 
 bench() {

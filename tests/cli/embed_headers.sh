@@ -1,0 +1,143 @@
+#!/bin/sh
+# embed_headers.sh: what firmware includes compiles without a word as C11 and later and as C++11 and later, strict and
+# GNU, in float and in double, among a framework's macros; every function declared there has C's linkage; what is
+# C only says so; the core's names tell the two builds apart; no compiler gets a pragma that it does not know.
+. "$(dirname "$0")/../checks.sh"
+
+root=$(pwd)
+gen="$(dirname "$whirl")/gen"
+[ -d "$gen" ] || gen=build/gen
+warnings="-Wall -Wextra -Wconversion -Wshadow -Wdouble-promotion -Wundef -pedantic -Werror -ffp-contract=off"
+
+only_c=$(ls core/step.h core/ledger_step.h core/contact*.h)
+public=$( (ls core/*.h core/rig/*.h hal/*.h hal/virtual/*.h boards/board.h; echo "$only_c" "$only_c") |
+    tr ' ' '\n' | sort | uniq -u)
+scenes=$(cd "$gen" && ls ./*.h | sed 's|^\./||')
+
+have() { command -v "$1" >/dev/null 2>&1; }
+
+{
+    echo '#include "tests/embed/Arduino.h"'
+    printf '#include "%s"\n' $public $scenes
+    printf '#include "%s"\n' $public # twice does no harm
+} >"$scratch/all.c"
+cp "$scratch/all.c" "$scratch/all.cpp"
+
+# quiet WHAT COMPILER FLAG...: succeeds, and says nothing.
+quiet() {
+    what=$1
+    shift
+    # shellcheck disable=SC2086 # a list of words
+    "$@" $warnings -I. -I"$gen" -I"$scratch" >"$scratch/err" 2>&1 && [ ! -s "$scratch/err" ]
+    verdict $? "$what"
+}
+
+for real in 0 1; do
+    for standard in c11 gnu11 gnu17; do
+        for compiler in gcc clang arm-none-eabi-gcc; do
+            ! have $compiler || quiet "all headers, $compiler -std=$standard, WH_DOUBLE=$real" \
+                $compiler -std=$standard -DWH_DOUBLE=$real -fsyntax-only "$scratch/all.c"
+        done
+    done
+    for standard in c++11 gnu++11 c++17 c++20; do
+        for compiler in g++ clang++ arm-none-eabi-g++; do
+            ! have $compiler || quiet "all headers, $compiler -std=$standard, WH_DOUBLE=$real" \
+                $compiler -std=$standard -DWH_DOUBLE=$real -fsyntax-only "$scratch/all.cpp"
+        done
+    done
+done
+
+# --- each by itself ---------------------------------------------------------------------------------
+alone=0
+: >"$scratch/err"
+for header in $public $scenes; do
+    echo "#include \"$header\"" | tee "$scratch/one.c" >"$scratch/one.cpp"
+    # shellcheck disable=SC2086
+    { gcc -std=c11 $warnings -I. -I"$gen" -fsyntax-only "$scratch/one.c" &&
+        g++ -std=c++11 $warnings -I. -I"$gen" -fsyntax-only "$scratch/one.cpp"; } >>"$scratch/err" 2>&1 &&
+        alone=$((alone + 1))
+done
+[ "$alone" -eq "$(echo "$public $scenes" | wc -w)" ] && [ "$alone" -gt 80 ] && [ ! -s "$scratch/err" ]
+verdict $? "$alone headers compile each by itself, as C11 and as C++11"
+
+# --- C only -----------------------------------------------------------------------------------------
+for header in $only_c; do
+    echo "#include \"$header\"" >"$scratch/one.cpp"
+    g++ -std=c++11 -I. -fsyntax-only "$scratch/one.cpp" 2>&1 | grep -m 1 'error' >"$scratch/err"
+    grep -q '#error "core/.*\.h is C only' "$scratch/err"
+    verdict $? "$header says first of all that it is C only"
+done
+
+# --- names ------------------------------------------------------------------------------------------
+mkdir "$scratch/float" "$scratch/double"
+for real in float double; do
+    [ $real = double ] && double=1 || double=0
+    for file in core/*.c core/rig/*.c; do
+        gcc -std=c11 -ffp-contract=off -I. -DWH_DOUBLE=$double -O1 -c "$file" \
+            -o "$scratch/$real/$(basename "$file" .c).o" 2>"$scratch/err" || verdict 1 "$file compiles in $real"
+    done
+done
+
+# names FOLDER: what its objects define for others.
+names() {
+    nm -g --defined-only "$1"/*.o | awk 'NF == 3 && $3 !~ /^__/ { print $3 }' | sort -u
+}
+# apart: are the double build's names those of the float build with _d behind?
+apart() {
+    names "$scratch/float" >"$scratch/float.names"
+    names "$scratch/double" >"$scratch/double.names"
+    grep '_d$' "$scratch/float.names"
+    grep -v '_d$' "$scratch/double.names"
+    sed 's/$/_d/' "$scratch/float.names" | sort | comm -3 - "$scratch/double.names"
+}
+apart >"$scratch/err"
+[ "$(wc -l <"$scratch/float.names")" -ge 40 ] && [ ! -s "$scratch/err" ]
+verdict $? "every name of the double core ends in _d, none of the float core: $(wc -l <"$scratch/float.names") of each"
+gcc -r -nostdlib -o "$scratch/both.o" "$scratch"/float/*.o "$scratch"/double/*.o 2>"$scratch/err"
+verdict $? "both cores link into one program"
+echo 'int wh_planted(void); int wh_planted(void) { return 1; }' >"$scratch/planted.c"
+for real in float double; do
+    gcc -c "$scratch/planted.c" -o "$scratch/$real/planted.o"
+done
+apart | grep -q wh_planted
+verdict $? "a function without WH_NAME is noticed"
+rm "$scratch"/*/planted.o
+
+# Every one of them is declared in what C++ includes, and found by C++ under its name: C's linkage.
+for real in float double; do
+    [ $real = double ] && double=1 || double=0
+    {
+        printf '#include "%s"\n' $(ls core/*.h core/rig/*.h | grep -vxF "$only_c")
+        echo 'typedef void any(); extern const volatile void *const data[]; extern any *const code[];'
+        echo 'const volatile void *const data[] = {'
+        nm -g --defined-only "$scratch/$real"/*.o | awk '$2 ~ /[RD]/ { print "    &" $3 "," }'
+        echo '    0}; any *const code[] = {'
+        nm -g --defined-only "$scratch/$real"/*.o | awk '$2 == "T" { print "    reinterpret_cast<any *>(&" $3 ")," }'
+        echo '    0}; int main() { return data[0] == 0 || code[0] == 0; }'
+    } >"$scratch/linked.cpp"
+    g++ -std=c++11 -DWH_DOUBLE=$double -I. -o "$scratch/linked" "$scratch/linked.cpp" "$scratch/$real"/*.o \
+        >"$scratch/err" 2>&1 && "$scratch/linked"
+    verdict $? "C++ finds every function and constant of the core, $real"
+done
+
+# --- pragmas ----------------------------------------------------------------------------------------
+# Older compilers are asked by the number that they call themselves; avr-gcc 5.4 is one.
+"$whirl" derive thomson_a --as c >"$scratch/scene.c"
+for version in 5 6 7 8 12; do
+    gcc -std=c11 -U__GNUC__ -D__GNUC__=$version -w -I. -E "$scratch/scene.c" >"$scratch/preprocessed" 2>"$scratch/err"
+    unrolls=$(grep -c 'pragma GCC unroll' "$scratch/preprocessed")
+    if [ $version -lt 8 ]; then [ "$unrolls" -eq 0 ]; else [ "$unrolls" -gt 0 ]; fi
+    verdict $? "gcc $version sees $unrolls pragmas that unroll: they came with gcc 8"
+done
+
+# --- and all C is what it says: the core's own and generated files, strict and GNU ---------------------
+for standard in c11 gnu11 gnu17; do
+    : >"$scratch/err"
+    for file in core/*.c core/rig/*.c "$scratch/scene.c" "$gen/thomson_magnet.c" "$gen/carriage_stop.c"; do
+        # shellcheck disable=SC2086
+        gcc -std=$standard $warnings -I. -I"$root" -fsyntax-only "$file" >>"$scratch/err" 2>&1
+    done
+    [ ! -s "$scratch/err" ]
+    verdict $? "the core and generated C, -std=$standard -pedantic"
+done
+exit $failed

@@ -1,0 +1,69 @@
+#!/bin/sh
+# embed_sketch.sh: the sketch of docs/embedding.md, in C++ with two scenes, one of them twice: built as a framework builds
+# it, run with a small host program, equal hashes. Built for boards, too, with each compiler that is there.
+. "$(dirname "$0")/../checks.sh"
+
+awk '/^```cpp$/ { into = 1; next } /^```/ { into = 0 } into' docs/embedding.md >"$scratch/body"
+{ echo '#include "Arduino.h"'; cat "$scratch/body"; } >"$scratch/sketch.cpp" # as a framework adds it
+[ "$(wc -l <"$scratch/body")" -gt 30 ]
+verdict $? "docs/embedding.md has a sketch"
+for scene in epicyclic_from_rest thomson_a; do
+    "$whirl" derive $scene --as c --header "$scratch/$scene.h" >"$scratch/$scene.c" 2>"$scratch/err"
+    verdict $? "$scene is derived"
+done
+sources="core/scene.c core/angle.c core/text.c $scratch/epicyclic_from_rest.c $scratch/thomson_a.c"
+
+# build CC CXX FLAGS...: the C as gnu11, the sketch as gnu++11; objects in $scratch.
+build() {
+    cc=$1
+    cxx=$2
+    shift 2
+    : >"$scratch/err"
+    for file in $sources; do
+        $cc -std=gnu11 "$@" -Wall -Wextra -Werror -I. -c "$file" -o "$scratch/$(basename "$file" .c).o" 2>>"$scratch/err" ||
+            return 1
+    done
+    $cxx -std=gnu++11 -fno-exceptions -fno-rtti "$@" -Wall -Wextra -Wconversion -Wshadow -pedantic -Werror -I. -Itests/embed \
+        -I"$scratch" -c "$scratch/sketch.cpp" -o "$scratch/sketch.o" 2>>"$scratch/err"
+}
+
+hash_of() { sed -n "s/^$1 0x/0x/p" "$scratch/said"; }
+"$whirl" run epicyclic_from_rest --number float >"$scratch/gear"
+"$whirl" run epicyclic_from_rest --set M=1.5 --number float >"$scratch/second"
+"$whirl" run thomson_a --number float >"$scratch/device"
+wanted_of() { sed -n 's/^state hash *//p' "$scratch/$1"; }
+
+for compiler in "gcc g++" "clang clang++"; do
+    # shellcheck disable=SC2086 # two words
+    set -- $compiler
+    command -v "$2" >/dev/null 2>&1 || continue
+    for level in -Os -O2; do
+        build "$1" "$2" $level -ffp-contract=off &&
+            "$2" -std=gnu++11 -Itests/embed -o "$scratch/program" tests/embed/arduino_main.cpp "$scratch/sketch.o" "$scratch/scene.o" \
+                "$scratch/angle.o" "$scratch/text.o" "$scratch/epicyclic_from_rest.o" "$scratch/thomson_a.o" 2>"$scratch/err"
+        verdict $? "$2 $level builds the sketch without a warning"
+        "$scratch/program" 50001 >"$scratch/said" 2>"$scratch/err"
+        [ "$(hash_of gear)" = "$(wanted_of gear)" ] && [ -n "$(hash_of gear)" ] &&
+            [ "$(hash_of 'gear with 1.5 N\*m')" = "$(wanted_of second)" ] && [ "$(wanted_of gear)" != "$(wanted_of second)" ] &&
+            [ "$(hash_of device)" = "$(wanted_of device)" ] && [ -n "$(hash_of device)" ]
+        verdict $? "$2 $level: three runs at once end in the interpreter's bits" "$scratch/said"
+        grep -Eq '^x_cm = -?[0-9.]+ m$' "$scratch/said"
+        verdict $? "$2 $level: an output by its name and unit"
+    done
+done
+if [ "${EMITTED:-}" != once ]; then # where the program is slow
+    "$whirl" hashes >"$scratch/hashes" 2>"$scratch/err"
+    grep -q "^scene epicyclic_from_rest .*$(wanted_of gear) ok" "$scratch/hashes" &&
+        grep -q "^scene thomson_a .*$(wanted_of device) ok" "$scratch/hashes"
+    verdict $? "whirl hashes has the same"
+fi
+
+! command -v arm-none-eabi-g++ >/dev/null 2>&1 || {
+    build arm-none-eabi-gcc arm-none-eabi-g++ -Os -mcpu=cortex-m4 -mthumb -mfloat-abi=hard -mfpu=fpv4-sp-d16 -fno-math-errno
+    verdict $? "arm-none-eabi-g++ compiles it for a Cortex-M4F"
+}
+! command -v avr-g++ >/dev/null 2>&1 || {
+    build avr-gcc avr-g++ -Os -mmcu=atmega2560
+    verdict $? "avr-g++ compiles it for an ATmega2560"
+}
+exit $failed

@@ -1,0 +1,159 @@
+/* test_memory.c: what wh_scene_start() takes and refuses: too little memory, memory that is not aligned, nothing at
+ * all; for scenes of every shape. What is refused leaves state and memory as they were. */
+#include "core/ledger.h"
+#include "core/scene.h"
+
+#include "unity.h"
+
+void suite_memory(void);
+
+#define ROOM (WH_MEMORY_BYTES(3, 40, WH_CONTACTS_LIMIT) + 2U * sizeof(uint64_t))
+#define FILLED 0xa5U
+
+static uint64_t words[(ROOM + 7U) / 8U];
+static unsigned char *const room = (unsigned char *)words;
+static wh_state state;
+
+static const wh_angle no_angles[3];
+static const wh_real no_reals[8];
+
+static void fill(void) {
+    unsigned char *byte = (unsigned char *)&state;
+    for (size_t i = 0; i < sizeof state; i++) {
+        byte[i] = FILLED;
+    }
+    for (size_t i = 0; i < sizeof words; i++) {
+        room[i] = FILLED;
+    }
+}
+
+/* Is all as fill() left it, in the state and outside room[from] to room[to]? */
+static bool is_filled(bool state_too, size_t from, size_t to) {
+    const unsigned char *byte = (const unsigned char *)&state;
+    bool all = true;
+    for (size_t i = 0; i < sizeof state && state_too; i++) {
+        all = all && byte[i] == FILLED;
+    }
+    for (size_t i = 0; i < sizeof words; i++) {
+        all = all && (room[i] == FILLED || (i >= from && i < to));
+    }
+    return all;
+}
+
+static void must_refuse(const wh_scene *scene, void *memory, size_t bytes, wh_status why) {
+    fill();
+    TEST_ASSERT_TRUE(wh_scene_start(scene, &state, memory, bytes) == why);
+    TEST_ASSERT_TRUE(is_filled(true, 0, 0));
+}
+
+/* The last byte of each part of the state lies within the memory. */
+static bool ends_within(const wh_scene *scene, size_t first, size_t bytes) {
+    const unsigned char *end = room + first + bytes;
+    const size_t carries = scene->compensated ? (size_t)scene->angles + scene->reals : 0U;
+    const size_t books =
+        scene->ledger == NULL ? 0U : 2U * (size_t)scene->ledger->entries + scene->ledger->accounts;
+    return (const unsigned char *)(state.angle + scene->angles) <= end &&
+           (const unsigned char *)(state.real + scene->reals) <= end &&
+           (carries == 0 || (const unsigned char *)(state.carry + carries) <= end) &&
+           (const unsigned char *)(state.input + scene->inputs) <= end &&
+           (const unsigned char *)(state.held + scene->held) <= end &&
+           (books == 0 || (const unsigned char *)(state.ledger + books) <= end) &&
+           (scene->contacts == 0 || (const unsigned char *)(state.contacts + 1) <= end);
+}
+
+/* By the compiler, not by the core: where a struct has its 64-bit integer behind a byte. */
+typedef struct behind {
+    char byte;
+    uint64_t word;
+} behind;
+
+static void every_place(const wh_scene *scene, size_t need) {
+    for (size_t at = 0; at < 2U * sizeof(uint64_t); at++) {
+        if (at % offsetof(behind, word) != 0) {
+            must_refuse(scene, room + at, need, WH_E_ARGUMENT);
+            continue;
+        }
+        fill();
+        TEST_ASSERT_TRUE(wh_scene_start(scene, &state, room + at, need) == WH_OK);
+        TEST_ASSERT_TRUE(is_filled(false, at, at + need));
+        TEST_ASSERT_TRUE(ends_within(scene, at, need));
+        TEST_ASSERT_TRUE(state.steps == 0 && state.fault == -1);
+    }
+}
+
+static wh_scene shape(unsigned angles, unsigned reals, unsigned inputs, unsigned contacts) {
+    const wh_scene scene = {.name = "shape",
+                            .method = WH_RK4,
+                            .angles = (uint8_t)angles,
+                            .reals = (uint8_t)reals,
+                            .inputs = (uint8_t)inputs,
+                            .contacts = (uint8_t)contacts,
+                            .start_angle = no_angles,
+                            .start_real = no_reals,
+                            .start_input = no_reals};
+    return scene;
+}
+
+/* Scenes of all shapes: so many reals beside those of the state as `more` says. */
+static void every_shape(void (*see)(const wh_scene *scene, size_t need)) {
+    static const uint8_t contacts[] = {0, 1, 7, WH_CONTACTS_LIMIT};
+    static const wh_ledger_form books[] = {{.entries = 1, .accounts = 1},
+                                           {.entries = 4, .accounts = 3}};
+    for (unsigned i = 0; i < 4U * 4U * 2U * 4U * 2U * 2U * 3U; i++) {
+        unsigned k = i;
+        wh_scene scene = shape(k % 4U, k / 4U % 4U * 2U, k / 16U % 2U, contacts[k / 32U % 4U]);
+        k /= 128U;
+        scene.held = (uint8_t)(k % 2U);
+        scene.compensated = k / 2U % 2U == 1;
+        scene.ledger = k / 4U == 0 ? NULL : &books[k / 4U - 1U];
+        const unsigned own = (unsigned)scene.reals + scene.inputs + scene.held;
+        const unsigned carries = scene.compensated ? (unsigned)scene.angles + scene.reals : 0U;
+        const unsigned kept =
+            scene.ledger == NULL ? 0U : 2U * scene.ledger->entries + scene.ledger->accounts;
+        see(&scene, WH_MEMORY_BYTES(scene.angles, own + carries + kept, scene.contacts));
+    }
+}
+
+static void the_last_byte(const wh_scene *scene, size_t need) {
+    if (need > 0) {
+        must_refuse(scene, room, need - 1U, WH_E_MEMORY);
+        must_refuse(scene, room, 0, WH_E_MEMORY);
+    }
+    must_refuse(scene, NULL, need, WH_E_MEMORY);
+}
+
+static void test_one_byte_less_than_the_macro_says_is_refused(void) { every_shape(the_last_byte); }
+
+static void test_memory_is_taken_where_it_is_aligned_and_nowhere_else(void) {
+    every_shape(every_place);
+}
+
+static void the_words(const wh_scene *scene, size_t need) {
+    const size_t books = scene->ledger == NULL
+                             ? 0U
+                             : WH_LEDGER_WORDS(scene->ledger->entries, scene->ledger->accounts);
+    const size_t enough = WH_STATE_WORDS(scene->angles, scene->reals, scene->inputs) +
+                          WH_CONTACT_WORDS(scene->contacts) + WH_HELD_WORDS(scene->held) + books;
+    TEST_ASSERT_TRUE(enough * sizeof(uint64_t) >= need);
+}
+
+static void test_the_words_counted_by_hand_are_enough(void) { every_shape(the_words); }
+
+static void test_nothing_and_too_much_are_refused(void) {
+    const wh_scene scene = shape(1, 2, 1, WH_CONTACTS_LIMIT);
+    wh_scene many = scene;
+    many.contacts = WH_CONTACTS_LIMIT + 1;
+    must_refuse(&many, words, sizeof words, WH_E_ARGUMENT);
+    must_refuse(NULL, words, sizeof words, WH_E_ARGUMENT);
+    fill();
+    TEST_ASSERT_TRUE(wh_scene_start(&scene, NULL, words, sizeof words) == WH_E_ARGUMENT);
+    TEST_ASSERT_TRUE(wh_scene_start(NULL, NULL, NULL, 0) == WH_E_ARGUMENT);
+    TEST_ASSERT_TRUE(is_filled(true, 0, 0));
+}
+
+void suite_memory(void) {
+    RUN_TEST(test_one_byte_less_than_the_macro_says_is_refused);
+    RUN_TEST(test_memory_is_taken_where_it_is_aligned_and_nowhere_else);
+    RUN_TEST(test_the_words_counted_by_hand_are_enough);
+    RUN_TEST(test_nothing_and_too_much_are_refused);
+}

@@ -1,0 +1,89 @@
+#!/bin/sh
+# avr.sh WHIRL FOLDER: the core on an ATmega2560, as simavr plays it, built in FOLDER: without a warning in strict and in
+# GNU C, used from strict and from GNU C++; the sine's table is in flash in all of them, whether or not the processor
+# has the newer instruction that reads it; the bits are those of this machine. Prints what is wrong.
+set -u
+
+whirl=$1
+folder=$2
+bad=0
+rm -rf "$folder"
+mkdir -p "$folder"
+
+wrong() {
+    echo "error: $1"
+    shift
+    [ $# -eq 0 ] || head -n 5 "$@" | sed 's/^/    /'
+    bad=1
+}
+
+# gcc 5 takes arrays that are filled up to a count for arrays that are not
+flags="-mmcu=atmega2560 -Os -ffp-contract=off -I. -I$folder -Wall -Wextra -pedantic -Werror -Wno-maybe-uninitialized"
+
+# The sine's hash on this machine.
+cat >"$folder/pc.c" <<'END'
+#include <stdio.h>
+
+#include "core/angle.h"
+#include "core/hash.h"
+
+int main(void) {
+    uint64_t hash = WH_HASH_START;
+    for (uint32_t i = 0; i < 1000; i++) {
+        wh_real sine;
+        wh_real cosine;
+        wh_sincos(i * UINT32_C(4294967), &sine, &cosine);
+        hash = wh_hash_real(wh_hash_real(hash, sine), cosine);
+    }
+    printf("%016llx\n", (unsigned long long)hash);
+    return 0;
+}
+END
+${CC:-cc} -std=c11 -ffp-contract=off -I. -o "$folder/pc" "$folder/pc.c" core/angle.c || exit 1
+sines=$("$folder/pc")
+
+# Scenes: sines of phases; an angle in radians; contacts; books and compensated sums.
+compared=0
+while read -r scene until options; do
+    # shellcheck disable=SC2086 # a list of words
+    "$whirl" derive "$scene" --as c --until "$until" $options --header "$folder/$scene.h" >"$folder/generated.c" || exit 1
+    # shellcheck disable=SC2086
+    run=$("$whirl" run "$scene" --until "$until" $options --number float | sed -n 's/^state hash *0x//p')
+    { echo "#define tested $scene"; sed "s/\\b${scene}_/tested_/g" "$folder/$scene.h"; } >"$folder/generated.h"
+    for dialect in "c11 c++11" "c11 gnu++11" "gnu11 c++11" "gnu11 gnu++11" "c11 c++11 -U__AVR_HAVE_LPMX__"; do
+        # shellcheck disable=SC2086
+        set -- $dialect
+        what="$scene, -std=$1, from -std=$2 ${3:-}"
+        objects=""
+        for file in core/scene.c core/angle.c core/text.c core/noise.c "$folder/generated.c"; do
+            object=$folder/$(basename "$file" .c).o
+            # shellcheck disable=SC2086
+            avr-gcc -std="$1" ${3:-} $flags -c "$file" -o "$object" >"$folder/log" 2>&1 || wrong "$what: $file" "$folder/log"
+            objects="$objects $object"
+        done
+        # shellcheck disable=SC2086
+        avr-g++ -std="$2" ${3:-} -fno-exceptions -Wconversion $flags -o "$folder/image.elf" tests/embed/avr_main.cpp $objects \
+            >"$folder/log" 2>&1 || { wrong "$what: it does not link" "$folder/log"; continue; }
+        # memory begins at 0x800000 in these files
+        at=$(avr-nm "$folder/image.elf" | awk '$3 == "wh_sine_table" { print $1 }')
+        case $at in
+        0000*) ;;
+        *) wrong "$what: the sine's table is at $at, not in flash" ;;
+        esac
+        timeout 60 simavr -m atmega2560 -f 16000000 "$folder/image.elf" 2>&1 | tr -dc '0-9a-f.\n' |
+            grep -Eo '[0-9a-f]{16}\.' | tr -d '.' >"$folder/said"
+        if [ "$(tr '\n' ' ' <"$folder/said")" = "$run $sines " ]; then
+            compared=$((compared + 1))
+        else
+            wrong "$what: hashes are not $run and $sines" "$folder/said"
+        fi
+    done
+done <<END
+thomson_a 4ms
+rig_fixed 20ms
+ball_bounces 20ms --with ledger
+epicyclic_from_rest 20ms --compensated
+END
+[ "$compared" -ge 20 ] || wrong "only $compared images had the right bits"
+[ $bad -ne 0 ] || echo "$compared images on an ATmega2560 have this machine's bits, their table in flash"
+exit $bad
