@@ -21,7 +21,7 @@ static uint64_t seed = 20261121;
 
 static int count_of(int least) {
     const char *set = getenv("WHIRL_NUMBERS");
-    const int count = set != NULL ? atoi(set) : 0;
+    const int count = set != NULL ? (int)strtol(set, NULL, 10) : 0;
     return count > least ? count : least;
 }
 
