@@ -77,6 +77,11 @@ hashes: ## the same bits from every compiler, optimisation level, board and the 
 	@CC="$(CC)" host/setup/deps.sh host firmware quality
 	@$(MAKE) hashes-now
 
+.PHONY: flags
+flags: ## other people's compiler flags: the same bits or a refusal (a minute or two)
+	@CC="$(CC)" host/setup/deps.sh host firmware quality
+	@$(MAKE) flags-now
+
 .PHONY: sine-exhaustive
 sine-exhaustive: $(B)/tools/sine_exhaustive ## the sine's worst error, over all 2^32 angles (minutes)
 	$(Q)$<
