@@ -56,10 +56,14 @@ define archive
 	$(Q)rm -f $@ && ar rcs $@ $^
 endef
 
+# Programs of scenes and core take nothing from libm.
+LIBM := -lm
+$(addprefix $(B)/,scenes firmware bench bench_double bench_compensated): LIBM :=
+
 define link
 	$(say) LINK $@
 	@mkdir -p $(@D)
-	$(Q)$(CC) $(NATIVE) -o $@ $(filter %.o,$^) -Wl,--start-group $(filter %.a,$^) -Wl,--end-group -lm
+	$(Q)$(CC) $(NATIVE) -o $@ $(filter %.o,$^) -Wl,--start-group $(filter %.a,$^) -Wl,--end-group $(LIBM)
 endef
 
 # Generated C: the built-in models and scenes.
