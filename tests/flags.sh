@@ -21,7 +21,7 @@ same -std=gnu11 -O0
 same -std=gnu11 -O2
 same -std=gnu17 -O3
 same -std=gnu17 -Os
-same* -std=gnu11 -O2 -march=haswell
+same -std=gnu11 -O2 -march=haswell
 same -std=gnu17 -O3 -march=haswell
 same -std=gnu11 -Os -march=haswell
 same -std=c11 -O2 -march=haswell -ffp-contract=fast
@@ -206,6 +206,14 @@ for compiler in gcc clang arm-none-eabi-gcc; do
     while read -r must flags; do
         [ "$part" != fast ] || [ "$must" != "${must%\*}" ] || continue
         must=${must%\*}
+        case " $flags " in
+        *" -m32 "*)
+            echo 'int main(void) { return 0; }' >"$scratch/empty.c"
+            "$compiler" -m32 -o "$scratch/empty" "$scratch/empty.c" 2>/dev/null || {
+                echo "| $compiler | \`$flags\` | no 32-bit library here | |"
+                continue
+            } ;;
+        esac
         row="| $compiler | \`$flags\` |"
         for real in $reals; do
             # shellcheck disable=SC2086 # a list of words
