@@ -67,6 +67,18 @@ WH_INLINE void wh_contact_point_of(const wh_hybrid *of, wh_contact_state *s, wh_
     }
 }
 
+/* Where the rates at `s` alone lead in a time. */
+static inline void wh_contact_point_ahead(const wh_hybrid *of, wh_contact_state *s, wh_real span,
+                                          wh_contact_point *at) {
+    wh_contact_point_of(of, s, at);
+    for (unsigned i = 0; i < of->angles; i++) {
+        (void)wh_phase_move(at->phase[i], span * at->rate[i] * WH_PHASE_PER_RAD, &at->phase[i]);
+    }
+    for (unsigned i = of->angles; i < of->coordinates; i++) {
+        at->linear[i - of->angles] += span * at->rate[i];
+    }
+}
+
 /* The place at the share `s` of the way from `from` to `to`, which are h apart: positions by the cubic
  * through both ends' positions and rates, rates by the cubic through both ends' rates and accelerations a0
  * and a1. (The slope of the first would be of an order less, and magnify the positions' rounding by 1/h.) */

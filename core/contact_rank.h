@@ -28,14 +28,17 @@ WH_INLINE wh_real wh_contact_dot(const wh_hybrid *of, const wh_real *a, const wh
     return sum;
 }
 
-static inline void wh_contact_rows_of(const wh_hybrid *of, wh_contact_work *w, wh_contact_state *s,
-                                      const wh_real *input, wh_contact_rows *rows) {
-    wh_contact_point at;
-    wh_contact_point_of(of, s, &at);
-    of->forces(of->model, at.phase, at.linear, at.rate, input, w->law);
+static inline void wh_contact_rows_of(const wh_hybrid *of, wh_contact_work *w,
+                                      const wh_contact_point *at, const wh_real *input,
+                                      wh_contact_rows *rows) {
+    of->forces(of->model, at->phase, at->linear, at->rate, input, w->law);
     rows->holds = 0;
     for (unsigned k = 0; k < of->forced; k++) {
         rows->size[k] = WH_R(0.0);
+        for (unsigned i = 0; i < of->coordinates; i++) {
+            rows->row[k][i] = WH_R(0.0);
+            rows->way[k][i] = WH_R(0.0);
+        }
         if (of->contact[k].kind != WH_HOLD || w->mode[k] != WH_ACTIVE) {
             continue;
         }
@@ -60,35 +63,53 @@ static inline void wh_contact_rows_of(const wh_hybrid *of, wh_contact_work *w, w
     }
 }
 
-/* Any of these, or of->contacts. */
-static inline unsigned wh_contact_fallen(const wh_hybrid *of, wh_contact_work *w,
-                                         wh_contact_state *from, wh_contact_state *to,
-                                         const wh_real *input) {
-    wh_contact_rows before;
-    wh_contact_rows after;
-    wh_contact_rows_of(of, w, from, input, &before);
-    wh_contact_rows_of(of, w, to, input, &after);
+/* The first hold that has nothing left in `after`, or points back, and did not before; or of->contacts. */
+static inline unsigned wh_contact_fallen(const wh_hybrid *of, const wh_contact_rows *before,
+                                         const wh_contact_rows *after) {
     for (unsigned k = 0; k < of->forced; k++) {
-        const wh_real along = wh_contact_dot(of, before.row[k], after.way[k]);
+        const wh_real along = wh_contact_dot(of, before->row[k], after->way[k]);
         const wh_real against = along < WH_R(0.0) ? along * along : WH_R(0.0);
         /* one hold alone must point right back: a row that has only turned far is too coarse a step's */
-        const wh_real least = before.holds > 1 ? WH_R(0.0) : WH_R(0.9);
-        const bool passed = against > least * before.size[k] * after.size[k];
-        if (before.size[k] > WH_R(0.0) && (passed || !(after.size[k] > WH_R(0.0)))) {
+        const wh_real least = before->holds > 1 ? WH_R(0.0) : WH_R(0.9);
+        const bool passed = against > least * before->size[k] * after->size[k];
+        if (before->size[k] > WH_R(0.0) && (passed || !(after->size[k] > WH_R(0.0)))) {
             return k;
         }
     }
     return of->contacts;
 }
 
+/* The hold that lost its say in a step of `span`, or of->contacts; `to` is NULL where it could not be taken. Where it ends does not always tell:
+ * accelerations have no bound near such a place, and may have thrown it anywhere. So where the rates alone would
+ * have led is looked at, too. */
+static inline unsigned wh_contact_lost(const wh_hybrid *of, wh_contact_work *w, wh_real span,
+                                       wh_contact_state *from, wh_contact_state *to,
+                                       const wh_real *input) {
+    wh_contact_point at;
+    wh_contact_rows before;
+    wh_contact_rows after;
+    wh_contact_point_of(of, from, &at);
+    wh_contact_rows_of(of, w, &at, input, &before);
+    wh_contact_point_ahead(of, from, span, &at);
+    wh_contact_rows_of(of, w, &at, input, &after);
+    const unsigned ahead = wh_contact_fallen(of, &before, &after);
+    if (ahead < of->contacts || to == NULL) {
+        return ahead;
+    }
+    wh_contact_point_of(of, to, &at);
+    wh_contact_rows_of(of, w, &at, input, &after);
+    return wh_contact_fallen(of, &before, &after);
+}
+
 /* The hold that lost its say between the ends of a try that is taken, or of->contacts. */
-WH_INLINE unsigned wh_contact_flat(const wh_hybrid *of, wh_contact_work *w, wh_contact_state *from,
-                                   wh_contact_state *to, const wh_real *input) {
+WH_INLINE unsigned wh_contact_flat(const wh_hybrid *of, wh_contact_work *w, wh_real span,
+                                   wh_contact_state *from, wh_contact_state *to,
+                                   const wh_real *input) {
     bool any = false;
     for (unsigned k = 0; k < of->forced && of->held > 0; k++) {
         any = any || (wh_contact_slips(of, w, k) && of->contact[k].direction <= 0);
     }
-    return any ? wh_contact_fallen(of, w, from, to, input) : of->contacts;
+    return any ? wh_contact_lost(of, w, span, from, to, input) : of->contacts;
 }
 
 #endif

@@ -113,14 +113,7 @@ WH_APART void wh_contact_blame(const wh_hybrid *of, wh_contact_work *w, wh_real 
                                const wh_real *input, wh_contact_state *from) {
     wh_contact_point at;
     for (unsigned part = 0; part <= 2; part++) {
-        const wh_real span = WH_R(0.5) * (wh_real)part * h;
-        wh_contact_point_of(of, from, &at);
-        for (unsigned i = 0; i < of->angles; i++) {
-            (void)wh_phase_move(at.phase[i], span * at.rate[i] * WH_PHASE_PER_RAD, &at.phase[i]);
-        }
-        for (unsigned i = of->angles; i < of->coordinates; i++) {
-            at.linear[i - of->angles] += span * at.rate[i];
-        }
+        wh_contact_point_ahead(of, from, WH_R(0.5) * (wh_real)part * h, &at);
         of->forces(of->model, at.phase, at.linear, at.rate, input, w->law);
         wh_contact_expect_laws(of, w);
     }
@@ -221,13 +214,13 @@ WH_INLINE void wh_contact_commit(const wh_hybrid *of, const wh_contact_work *w,
     }
 }
 
-/* A try from `from` to `to` is taken. Returns the hold that lost its say in it, or of->contacts. */
-WH_INLINE unsigned wh_contact_accept(const wh_hybrid *of, wh_contact_work *w,
+/* A try from `from` to `to`, `span` long, is taken. Returns the hold that lost its say in it, or of->contacts. */
+WH_INLINE unsigned wh_contact_accept(const wh_hybrid *of, wh_contact_work *w, wh_real span,
                                      wh_contact_state *from, wh_contact_state *to,
                                      const wh_real *input) {
     wh_books_accept(of, w);
     wh_contact_keep(of, w, from, to);
-    return wh_contact_flat(of, w, from, to, input);
+    return wh_contact_flat(of, w, span, from, to, input);
 }
 
 /* One step with its events. Returns as wh_step_second(), or WH_E_UNDEFINED or WH_E_SINGULAR with the contact in
@@ -272,6 +265,11 @@ static inline wh_status wh_step_contact(const wh_hybrid *of, wh_real h, wh_state
             wh_margins margins;
             next = now;
             if (!wh_contact_try(of, &work, left, state->input, &next, &fault)) {
+                /* what diverges does so in front of such a place, not only at it */
+                flat = wh_contact_flat(of, &work, WH_R(4.0) * left, &now, NULL, state->input);
+                if (flat < of->contacts) {
+                    break;
+                }
                 wh_contact_blame(of, &work, left, state->input, &now);
                 return wh_contact_refuse(&work, fault, state);
             }
@@ -279,7 +277,7 @@ static inline wh_status wh_step_contact(const wh_hybrid *of, wh_real h, wh_state
             wh_contact_margins_end(of, &work, &now, &next, state->input, &margins);
             if (wh_contact_calm(of, &margins) && (of->held == 0 || work.undefined < 0)) {
                 wh_contact_pass(of, &margins, &work);
-                flat = wh_contact_accept(of, &work, &now, &next, state->input);
+                flat = wh_contact_accept(of, &work, left, &now, &next, state->input);
                 end = &next;
                 sound = true;
                 break;
@@ -287,7 +285,7 @@ static inline wh_status wh_step_contact(const wh_hybrid *of, wh_real h, wh_state
             if (round == WH_EVENTS_MAX || wh_contact_happened(of, &margins) == 0) {
                 wh_contact_find_undefined(of, &work, &margins);
                 wh_contact_pass(of, &margins, &work);
-                flat = wh_contact_accept(of, &work, &now, &next, state->input);
+                flat = wh_contact_accept(of, &work, left, &now, &next, state->input);
                 end = &next;
                 break;
             }
@@ -301,7 +299,7 @@ static inline wh_status wh_step_contact(const wh_hybrid *of, wh_real h, wh_state
                     return wh_contact_refuse(&work, fault, state);
                 }
                 wh_contact_tidy(of, &work, span, state->input, &next, &now);
-                flat = wh_contact_accept(of, &work, &next, &now, state->input);
+                flat = wh_contact_accept(of, &work, span, &next, &now, state->input);
                 left -= span;
             }
         }

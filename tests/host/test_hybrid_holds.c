@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "unity.h"
 
@@ -144,8 +145,11 @@ static void test_linkages_stay_closed(void) {
 /* Where the shortest and the longest side make as much as the others, a linkage lies flat once a turn, and has two
  * ways to go on from there. */
 static void test_a_flat_linkage_is_refused(void) {
+    const char *asked = getenv("WHIRL_FLAT_RUNS");
+    const int runs = asked != NULL ? atoi(asked) : 12;
+    int missed[2] = {0, 0}; /* in double, in float */
     uint64_t seed = 13;
-    for (int i = 0; i < 12; i++) {
+    for (int i = 0; i < runs; i++) {
         const double crank = random_between(&seed, 0.05, 0.15);
         const double coupler = random_between(&seed, 0.2, 0.4);
         linkage l = {.side = {crank, coupler, crank, coupler},
@@ -176,11 +180,15 @@ static void test_a_flat_linkage_is_refused(void) {
                 printf("%sstatus %d, a = %g, %s\n", text, (int)status, motion_value(&m, "a"),
                        KINDS[n]->name);
             }
-            TEST_ASSERT_EQUAL_INT(WH_E_SINGULAR, status);
-            TEST_ASSERT_TRUE(flat < 0.1); /* not long before, and the last good state is kept */
+            /* not long before, and the last good state is kept */
+            missed[n] += status != WH_E_SINGULAR || flat > 0.1;
             motion_close(&m);
         }
     }
+    printf("  %d flat linkages: %d missed in double, %d in float\n", runs, missed[0], missed[1]);
+    TEST_ASSERT_EQUAL_INT(0, missed[0]);
+    /* a float's closure is as good as a gap of 1e-8 of the sides: some pass that, and turn back */
+    TEST_ASSERT_LESS_OR_EQUAL_INT(runs / 100, missed[1]);
 }
 
 /* --- gears ------------------------------------------------------------------------------------------------------ */
