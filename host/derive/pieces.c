@@ -20,9 +20,14 @@
  * angle, than the sum it replaces: more would lose elsewhere what is won near the zero. */
 #define GROWTH_MAX 8.0
 
+/* One by one: between a pointer of 32 bits and a double there may be bytes that belong to neither. */
 static bool same_factors(const mono *x, const mono *y) {
-    return x->count == y->count &&
-           memcmp(x->factors, y->factors, (size_t)x->count * sizeof(factor)) == 0;
+    bool same = x->count == y->count;
+    for (int i = 0; i < x->count && same; i++) {
+        same = x->factors[i].atom == y->factors[i].atom &&
+               x->factors[i].exponent == y->factors[i].exponent;
+    }
+    return same;
 }
 
 static bool halves_to_whole(const poly *angle) {

@@ -9,7 +9,7 @@
 typedef struct simulation_settings {
     const engine_kind *kind;
     engine_settings engine;
-    uint64_t every; /* steps between records */
+    uint64_t every;      /* steps between records */
     const char *csv;     /* file, "-" for standard output, or NULL */
     const char *columns; /* file of plain columns, "-" for standard output, or NULL */
     const char *plot;    /* .svg or .png, or NULL */

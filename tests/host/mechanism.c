@@ -413,7 +413,7 @@ static void scene_of(writer *w, unsigned name, bool contacts) {
 /* --- systems -----------------------------------------------------------------------------------------*/
 
 static void system_of(writer *w, unsigned name) {
-    bool second[COORDINATES_MAX];
+    bool second[COORDINATES_MAX] = {false};
     for (int i = 0; i < w->coordinates; i++) {
         w->is_angle[i] = true;
         second[i] = draw(w, 2) == 0;

@@ -216,7 +216,7 @@ static void keep(const sample *s, int number) {
     }
 }
 
-static sample made;
+static sample drawn;
 
 static void test_made_up_outputs(void) {
     static const engine_kind *const kinds[] = {&engine_double, &engine_float};
@@ -227,23 +227,23 @@ static void test_made_up_outputs(void) {
     TEST_ASSERT_TRUE(total > 0);
     for (int done = 0, number = 0; done < total; number++) {
         const int count = total - done < OUTPUTS ? total - done : OUTPUTS;
-        made.conserves = number % 2 == 1;
-        open_sample(&made, &seed, false, count);
-        keep(&made, number);
+        drawn.conserves = number % 2 == 1;
+        open_sample(&drawn, &seed, false, count);
+        keep(&drawn, number);
         for (int k = 0; k < 2; k++) {
             const engine_settings settings = {WH_RK4, false};
-            void *run = kinds[k]->start(made.program, made.instance, &settings);
-            compare(&made, kinds[k], run, count, &tallies[k]);
+            void *run = kinds[k]->start(drawn.program, drawn.instance, &settings);
+            compare(&drawn, kinds[k], run, count, &tallies[k]);
             for (int step = 0; step < STEPS; step++) {
                 TEST_ASSERT_TRUE(kinds[k]->step(run) == WH_OK);
             }
-            compare(&made, kinds[k], run, count, &tallies[k]);
+            compare(&drawn, kinds[k], run, count, &tallies[k]);
             double output[OUTPUTS + 8];
             kinds[k]->outputs(run, output);
-            check_sweep(&made, kinds[k], count, output);
+            check_sweep(&drawn, kinds[k], count, output);
             kinds[k]->stop(run);
         }
-        close_sample(&made);
+        close_sample(&drawn);
         done += count;
     }
     for (int k = 0; k < 2; k++) {
@@ -263,25 +263,25 @@ static void test_float_sines_of_parts(void) {
     uint64_t seed = first_seed;
     double worst = 0.0;
     int parts = 0;
-    made.conserves = false;
+    drawn.conserves = false;
     for (int number = 0; number < 40; number++) {
-        open_sample(&made, &seed, true, OUTPUTS);
+        open_sample(&drawn, &seed, true, OUTPUTS);
         const engine_settings settings = {WH_RK4, false};
-        void *run = engine_float.start(made.program, made.instance, &settings);
+        void *run = engine_float.start(drawn.program, drawn.instance, &settings);
         long double state[WAVE_SYMBOLS];
         double output[OUTPUTS + 8];
-        exact_state(&made, &engine_float, run, state);
+        exact_state(&drawn, &engine_float, run, state);
         engine_float.outputs(run, output);
         for (int i = 0; i < OUTPUTS; i++) {
-            const wave_piece *p = &made.expr[i].term[0].factor[0].argument.piece[0];
+            const wave_piece *p = &drawn.expr[i].term[0].factor[0].argument.piece[0];
             if (p->number != rintl(p->number)) { /* others may follow from each other */
-                const long double value = wave_expr_value(&made.expr[i], state, true).value;
+                const long double value = wave_expr_value(&drawn.expr[i], state, true).value;
                 worst = fmax(worst, fabs((double)((long double)output[i] - value)));
                 parts++;
             }
         }
         engine_float.stop(run);
-        close_sample(&made);
+        close_sample(&drawn);
     }
     printf("  %d sines of parts of angles in float, to 1e4 turns: worst error %.3g\n", parts,
            worst);

@@ -21,7 +21,7 @@ static uint64_t seed = 20261121;
 
 static int count_of(int least) {
     const char *set = getenv("WHIRL_NUMBERS");
-    const int count = set != NULL ? atoi(set) : 0;
+    const int count = set != NULL ? (int)strtol(set, NULL, 10) : 0;
     return count > least ? count : least;
 }
 
@@ -95,9 +95,10 @@ static void test_doubles_again(void) {
 /* Exactly between two doubles, written in full; and just beside it, near and far behind the last digit. */
 static void around_middle(uint64_t lower_bits) {
     char text[TEXT];
-    const long double lower = of_bits(lower_bits);
-    const long double upper =
-        lower_bits + 1 == UINT64_C(0x7ff) << 52 ? ldexpl(1.0L, 1024) : of_bits(lower_bits + 1);
+    const long double lower = (long double)of_bits(lower_bits);
+    const long double upper = lower_bits + 1 == UINT64_C(0x7ff) << 52
+                                  ? ldexpl(1.0L, 1024)
+                                  : (long double)of_bits(lower_bits + 1);
     snprintf(text, TEXT, "%.1100Lf", (lower + upper) / 2.0L);
     size_t last = strlen(text) - 1;
     for (; text[last] == '0'; last--) {
