@@ -61,7 +61,7 @@ static void expect_edges(function_of_one *f, const edge *edges, unsigned count, 
     }
 }
 #define EXPECT_EDGES(f, edges, is_odd) \
-    expect_edges(f, edges, sizeof edges / sizeof edges[0], is_odd)
+    expect_edges(f, edges, sizeof(edges) / sizeof((edges)[0]), is_odd)
 
 static void test_edges(void) {
     static const edge of_exp[] = {
