@@ -90,6 +90,11 @@ hosts: ## the same generated code from whirl built by other compilers, C librari
 	@CC="$(CC)" host/setup/deps.sh host quality hosts
 	@$(MAKE) hosts-now
 
+.PHONY: flags
+flags: ## other people's compiler flags: the same bits or a refusal (a minute or two)
+	@CC="$(CC)" host/setup/deps.sh host firmware quality
+	@$(MAKE) flags-now
+
 .PHONY: sine-exhaustive
 sine-exhaustive: $(B)/tools/sine_exhaustive ## the sine's worst error, over all 2^32 angles (minutes)
 	$(Q)$<

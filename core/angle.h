@@ -59,8 +59,8 @@ WH_INLINE wh_phase wh_phase_of(wh_angle angle) { return (wh_phase)(uint64_t)angl
 #else
 #define WH_FACTOR(real, whole, part) wh_factor_of(whole, part)
 WH_INLINE wh_factor wh_factor_of(uint32_t whole, uint64_t part) {
-    const wh_factor made = {part, whole};
-    return made;
+    const wh_factor both = {part, whole};
+    return both;
 }
 #endif
 

@@ -7,6 +7,10 @@
 #ifndef WH_ARITHMETIC_H
 #define WH_ARITHMETIC_H
 
+#ifdef __cplusplus
+#error "core/arithmetic.h is C only, as the core's own files and generated .c files are: C++ includes core/scene.h"
+#endif
+
 #include "real.h"
 
 /* The numbers, in flash (scene.c). */

@@ -7,6 +7,10 @@
 #ifndef WH_FUNCTION_DOUBLE_H
 #define WH_FUNCTION_DOUBLE_H
 
+#ifdef __cplusplus
+#error "core/function_double.h is C only, as the core's own files and generated .c files are: C++ includes core/function.h"
+#endif
+
 #include "function.h"
 
 #if WH_DOUBLE

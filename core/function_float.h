@@ -9,6 +9,10 @@
 #ifndef WH_FUNCTION_FLOAT_H
 #define WH_FUNCTION_FLOAT_H
 
+#ifdef __cplusplus
+#error "core/function_float.h is C only, as the core's own files and generated .c files are: C++ includes core/function.h"
+#endif
+
 #include "flash.h"
 #include "function.h"
 

@@ -94,6 +94,11 @@ test-board: build/whirl
 	@$(build_other_tests)
 	@sh tests/run.sh build/tests/log $(RUN_BOARD)
 
+# The flag matrix: other people's flags give the interpreter's bits or are refused.
+.PHONY: flags-now
+flags-now: build/whirl
+	@WHIRL=build/whirl sh tests/flags.sh
+
 # --- tools --------------------------------------------------------------------------------------
 $(B)/tools/sine_exhaustive: $(call objects,host,tests/tools/sine_exhaustive.c) $(LIB_FLOAT)
 	$(link)

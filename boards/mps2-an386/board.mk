@@ -7,8 +7,9 @@
 #   BOARD_LDFLAGS  everything for linking, before the objects
 #   BOARD_LDLIBS   after the objects
 #   BOARD_SOURCES  the board's own code, to be linked with every program
-#   BOARD_EMULATE  $(call BOARD_EMULATE,program.elf) runs it for at most a minute; console on stdout,
+#   BOARD_EMULATE  $(call BOARD_EMULATE,program.elf) runs it for a minute or so at most; console on stdout,
 #                  exit status the program's; more emulator options may be appended
+# -fno-math-errno lets a square root be the instruction (core/root.h); the bits are the same without it.
 BOARD_CROSS    := arm-none-eabi-
 BOARD_CC       := $(BOARD_CROSS)gcc
 BOARD_NM       := $(BOARD_CROSS)nm

@@ -9,7 +9,7 @@ gen="$(dirname "$whirl")/gen"
 [ -d "$gen" ] || gen=build/gen
 warnings="-Wall -Wextra -Wconversion -Wshadow -Wdouble-promotion -Wundef -pedantic -Werror -ffp-contract=off"
 
-only_c=$(ls core/step.h core/ledger_step.h core/contact*.h)
+only_c=$(ls core/step.h core/ledger_step.h core/arithmetic.h core/contact*.h core/function_*.h)
 public=$( (ls core/*.h core/rig/*.h hal/*.h hal/virtual/*.h boards/board.h; echo "$only_c" "$only_c") |
     tr ' ' '\n' | sort | uniq -u)
 scenes=$(cd "$gen" && ls ./*.h | sed 's|^\./||')
@@ -82,17 +82,16 @@ done
 names() {
     nm -g --defined-only "$1"/*.o | awk 'NF == 3 && $3 !~ /^__/ { print $3 }' | sort -u
 }
-# apart: are the double build's names those of the float build with _d behind?
+# apart: says which names of the double build do not end in _d, and which of the float build do.
 apart() {
     names "$scratch/float" >"$scratch/float.names"
     names "$scratch/double" >"$scratch/double.names"
     grep '_d$' "$scratch/float.names"
     grep -v '_d$' "$scratch/double.names"
-    sed 's/$/_d/' "$scratch/float.names" | sort | comm -3 - "$scratch/double.names"
 }
 apart >"$scratch/err"
 [ "$(wc -l <"$scratch/float.names")" -ge 40 ] && [ ! -s "$scratch/err" ]
-verdict $? "every name of the double core ends in _d, none of the float core: $(wc -l <"$scratch/float.names") of each"
+verdict $? "every name of the double core ends in _d, none of the float core: $(wc -l <"$scratch/double.names") and $(wc -l <"$scratch/float.names")"
 gcc -r -nostdlib -o "$scratch/both.o" "$scratch"/float/*.o "$scratch"/double/*.o 2>"$scratch/err"
 verdict $? "both cores link into one program"
 echo 'int wh_planted(void); int wh_planted(void) { return 1; }' >"$scratch/planted.c"
@@ -103,21 +102,29 @@ apart | grep -q wh_planted
 verdict $? "a function without WH_NAME is noticed"
 rm "$scratch"/*/planted.o
 
-# Every one of them is declared in what C++ includes, and found by C++ under its name: C's linkage.
+# Every one of them that is declared in what C++ includes is found by C++ under its name: C's linkage.
+declared() { # declared REAL KIND: names of this build that a public header has
+    nm -g --defined-only "$scratch/$1"/*.o | awk -v kind="$2" '$2 ~ "^" kind "$" { print $3 }' | while read -r name; do
+        # shellcheck disable=SC2086 # a list of files
+        ! grep -qw -- "${name%_d}" $public || echo "$name"
+    done
+}
 for real in float double; do
     [ $real = double ] && double=1 || double=0
     {
         printf '#include "%s"\n' $(ls core/*.h core/rig/*.h | grep -vxF "$only_c")
         echo 'typedef void any(); extern const volatile void *const data[]; extern any *const code[];'
         echo 'const volatile void *const data[] = {'
-        nm -g --defined-only "$scratch/$real"/*.o | awk '$2 ~ /[RD]/ { print "    &" $3 "," }'
+        declared "$real" '[RD]' | sed 's/.*/    \&&,/'
         echo '    0}; any *const code[] = {'
-        nm -g --defined-only "$scratch/$real"/*.o | awk '$2 == "T" { print "    reinterpret_cast<any *>(&" $3 ")," }'
+        declared "$real" T | sed 's/.*/    reinterpret_cast<any *>(\&&),/'
         echo '    0}; int main() { return data[0] == 0 || code[0] == 0; }'
     } >"$scratch/linked.cpp"
     g++ -std=c++11 -DWH_DOUBLE=$double -I. -o "$scratch/linked" "$scratch/linked.cpp" "$scratch/$real"/*.o \
         >"$scratch/err" 2>&1 && "$scratch/linked"
-    verdict $? "C++ finds every function and constant of the core, $real"
+    status=$?
+    [ "$(declared $real '[RDT]' | wc -l)" -ge 40 ] || status=1
+    verdict $status "C++ finds every function and constant that the headers declare, $real: $(declared $real '[RDT]' | wc -l)"
 done
 
 # --- pragmas ----------------------------------------------------------------------------------------

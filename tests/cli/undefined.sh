@@ -44,7 +44,7 @@ scene trial { start x' = 1 [m/s]${2:-}; step 1 [ms]; until 3 [s] }
 END
 }
 
-for part in scene angle; do
+for part in scene angle root; do
     ${CC:-cc} -std=c11 -O1 -ffp-contract=off -I. -c -o "$scratch/$part.o" core/$part.c || exit 1
 done
 
@@ -59,7 +59,7 @@ try() { # try NAME NUMBER STATEMENT [MORE]
     hash=$(awk '/state hash/ { print $3 }' "$scratch/out")
     "$whirl" derive "$scratch/$1.whirl:trial" --as c >"$scratch/$1.c" 2>"$scratch/err"
     ${CC:-cc} -std=c11 -O1 -ffp-contract=off -I. -o "$scratch/$1" "$scratch/main.c" "$scratch/$1.c" \
-        "$scratch/scene.o" "$scratch/angle.o" -lm 2>"$scratch/err"
+        "$scratch/scene.o" "$scratch/angle.o" "$scratch/root.o" 2>"$scratch/err"
     verdict $? "$1: generated C compiles"
     "$scratch/$1" >"$scratch/got"
     echo "1 $2 1 1 $hash" >"$scratch/wanted"

@@ -293,6 +293,7 @@ static void use(const equations *e, const bool *conserve, diags *all, FILE *nowh
     run(p, inst, &engine_double, false);
     const engine_settings settings = {WH_RK4, false};
     emit_c(nowhere, e, p, &settings, "fuzz.whirl");
+    emit_c_header(nowhere, e, p, &settings, "fuzz.whirl");
     run(p, inst, &engine_float, false);
     run(p, inst, &engine_float, true);
     program_free(p);
