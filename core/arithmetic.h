@@ -8,7 +8,7 @@
 #define WH_ARITHMETIC_H
 
 #ifdef __cplusplus
-#error "core/arithmetic.h is C only, as the core's own files and generated .c files are: C++ includes core/scene.h"
+#error "core/arithmetic.h is C only: C++ includes core/scene.h"
 #endif
 
 #include "real.h"

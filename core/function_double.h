@@ -8,7 +8,7 @@
 #define WH_FUNCTION_DOUBLE_H
 
 #ifdef __cplusplus
-#error "core/function_double.h is C only, as the core's own files and generated .c files are: C++ includes core/function.h"
+#error "core/function_double.h is C only: C++ includes core/function.h"
 #endif
 
 #include "function.h"

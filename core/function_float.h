@@ -10,7 +10,7 @@
 #define WH_FUNCTION_FLOAT_H
 
 #ifdef __cplusplus
-#error "core/function_float.h is C only, as the core's own files and generated .c files are: C++ includes core/function.h"
+#error "core/function_float.h is C only: C++ includes core/function.h"
 #endif
 
 #include "flash.h"
