@@ -49,6 +49,17 @@ gate-hosts:
 	+@$(MAKE) -j $(JOBS) MECHANISMS=100 $(addprefix host-,$(HOSTS_CI))
 	@sh tests/hosts/compare.sh build/hosts/out $(foreach h,$(HOSTS_CI),$(h) "$(host_is_$(h))")
 
+# The portable suites on the foreign processors, in float and in double (many minutes: every scene is compiled).
+HOSTS_SUITES ?= m32 aarch64 armhf
+.PHONY: hosts-suites $(addprefix suites-,$(HOSTS))
+hosts-suites: $(addprefix suites-,$(HOSTS_SUITES))
+$(addprefix suites-,$(HOSTS)): suites-%: build/whirl $(UNITY_DIR)/unity.c
+	@$(MAKE) $(GEN)/.stamp
+	@$(MAKE) B=build/hosts/$* CC="$(host_cc_$*)" OPT=-O1 $(host_set_$*) \
+	    build/hosts/$*/tests/core_float build/hosts/$*/tests/core_double
+	@sh tests/run.sh build/hosts/$*/log $(foreach r,float double,"$(host_is_$*): portable suites, $(r)" \
+	    "$(host_run_$*) build/hosts/$*/tests/core_$(r)")
+
 MECHANISMS_FILE = build/hosts/mechanisms_$(MECHANISMS)_$(SEED).whirl
 $(MECHANISMS_FILE): build/tools/mechanisms
 	@mkdir -p $(@D)
