@@ -100,7 +100,7 @@ sine-exhaustive: $(B)/tools/sine_exhaustive ## the sine's worst error, over all 
 	$(Q)$<
 
 .PHONY: functions-exhaustive
-functions-exhaustive: $(B)/tools/functions_exhaustive ## the float functions' worst errors, over all 2^32 floats (half an hour)
+functions-exhaustive: $(B)/tools/functions_exhaustive ## the float functions' worst errors, over all 2^32 floats (half an hour at most)
 	$(Q)$<
 
 .PHONY: root-exhaustive
