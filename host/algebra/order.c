@@ -9,15 +9,17 @@
 
 static int of_ints(int x, int y) { return (x > y) - (x < y); }
 
-/* A total order of doubles: zeros of two signs and what is no number have a place, too. */
+/* A number's bits, so that they are in the order of what they say: a total one, zeros of two signs and what is no
+ * number included. */
+static uint64_t place_of(double x) {
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits >> 63 != 0 ? ~bits : bits | UINT64_C(1) << 63;
+}
+
 static int of_numbers(double x, double y) {
-    uint64_t left;
-    uint64_t right;
-    if (x < y || x > y) {
-        return x < y ? -1 : 1;
-    }
-    memcpy(&left, &x, sizeof left);
-    memcpy(&right, &y, sizeof right);
+    const uint64_t left = place_of(x);
+    const uint64_t right = place_of(y);
     return (left > right) - (left < right);
 }
 
