@@ -28,6 +28,7 @@ typedef struct wh_probes {
     wh_real seven;
     wh_real ten;
     wh_real minus_zero;
+    wh_real infinity;
 } wh_probes;
 #define wh_probe WH_NAME(wh_probe)
 extern const wh_probes wh_probe;
@@ -43,6 +44,8 @@ typedef enum wh_probed {
     WH_PROBED_TEN,
     WH_PROBED_THIRD, /* the same, where the compiler knows the divisor */
     WH_PROBED_ZERO,  /* has a sign where zeros do not keep theirs */
+    WH_PROBED_NAN, /* 0 where the compiler believes that all is a number: no guard would notice one that is none */
+    WH_PROBED_LITERAL, /* seventy, but for what is divided by a tenth that was cut to float */
     WH_PROBED_COUNT
 } wh_probed;
 
@@ -62,6 +65,11 @@ static inline void wh_arithmetic(wh_real result[WH_PROBED_COUNT]) {
     result[WH_PROBED_TEN] = probe->ten / three;
     result[WH_PROBED_THIRD] = seven / WH_R(3.0);
     result[WH_PROBED_ZERO] = probe->minus_zero + WH_R(0.0);
+    const wh_real infinite = probe->infinity;
+    const wh_real none = infinite - infinite;
+    const bool noticed = !(WH_ABS(none) < one) && !(WH_ABS(infinite) < three);
+    result[WH_PROBED_NAN] = noticed ? one : WH_R(0.0);
+    result[WH_PROBED_LITERAL] = seven / WH_R(0.1);
 }
 
 /* The first of what compute() gives that is not what it must be, or WH_PROBED_COUNT. With wh_arithmetic it

@@ -44,8 +44,8 @@ static inline void wh_contact_rows_of(const wh_hybrid *of, wh_contact_work *w,
         }
         rows->holds++;
         for (unsigned i = 0; i < of->coordinates; i++) {
-            rows->row[k][i] = wh_law(of, w, k)[WH_LAW_ROWS + i];
-            rows->way[k][i] = wh_law(of, w, k)[WH_LAW_ROWS + of->coordinates + i];
+            rows->row[k][i] = wh_law(of, w, k)[(unsigned)WH_LAW_ROWS + i];
+            rows->way[k][i] = wh_law(of, w, k)[(unsigned)WH_LAW_ROWS + of->coordinates + i];
         }
         for (unsigned j = 0; j < k; j++) {
             if (rows->size[j] > WH_R(0.0)) {

@@ -55,7 +55,7 @@ static uint32_t high_half(uint32_t a, uint32_t b) { return (uint32_t)((uint64_t)
 /* sqrt(x) * 2^23 to the nearest, of x * 2^23: two Newton steps for the reciprocal root, one for the root. */
 static word root_of(word x) {
     const bool two = x >= ONE << 1; /* 2 <= x < 4 */
-    const unsigned stretch = two ? 16U + (x >> 20 & 15U) : x >> 19 & 15U;
+    const unsigned stretch = (unsigned)(two ? 16U + (x >> 20 & 15U) : x >> 19 & 15U);
     const uint32_t scaled = x << 7;                                /* x * 2^30 */
     uint32_t r = (uint32_t)reciprocal_root[stretch] << 23;         /* 2^31/sqrt(x) */
     for (unsigned i = 0; i < 2; i++) {                             /* r' = r (3 - x r^2) / 2 */

@@ -28,6 +28,11 @@ const wh_probes wh_probe = {
     .seven = WH_R(7.0),
     .ten = WH_R(10.0),
     .minus_zero = -WH_R(0.0),
+#if WH_DOUBLE
+    .infinity = __builtin_inf(),
+#else
+    .infinity = __builtin_inff(),
+#endif
 };
 
 static const wh_real probed[WH_PROBED_COUNT] = {
@@ -37,6 +42,8 @@ static const wh_real probed[WH_PROBED_COUNT] = {
     [WH_PROBED_SEVEN] = WH_R(0x1.2aaaaaaaaaaabp1),
     [WH_PROBED_TEN] = WH_R(0x1.aaaaaaaaaaaabp1),
     [WH_PROBED_THIRD] = WH_R(0x1.2aaaaaaaaaaabp1),
+    [WH_PROBED_NAN] = WH_R(1.0),
+    [WH_PROBED_LITERAL] = WH_R(70.0),
 };
 
 /* By their bits: nothing is computed here that could hide it. */

@@ -112,6 +112,9 @@ static int derive_one(source_model *from, const mechanism *of, const scene *in,
     }
     if (code == EXIT_DONE) {
         say_hints(&made);
+        if (as == FORM_C) {
+            say_float_range(&made);
+        }
         print(as, &made, from->file, settings);
     }
     unload(&made);
@@ -143,6 +146,10 @@ int command_derive(int count, char **words) {
                 bad = true;
             }
         } else if (!bad && (value = options_value(count, words, &at, "--header", &bad)) != NULL) {
+            if (header != NULL) {
+                fputs("whirl derive: error: --header is given twice\n", stderr);
+                bad = true;
+            }
             header = value;
         } else if (!bad && !options_change(count, words, &at, &options, &bad) && !bad &&
                    !options_engine("derive", count, words, &at, &settings, &bad) && !bad) {

@@ -2,6 +2,7 @@
 #include "load.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -238,6 +239,19 @@ void say_hints(const loaded *made) {
             "sticking\n"
             "hint: dry friction is: friction %s static EXPR kinetic EXPR normal EXPR\n",
             friction->at.source->file, friction->at.line, friction->at.column, name, name);
+    }
+}
+
+void say_float_range(const loaded *made) {
+    const double number = program_out_of_float(made->program, made->instance);
+    if (number != 0.0) {
+        fprintf(
+            stderr,
+            "warning: float has no room for %.6g, a constant or an input of '%s' in SI units: what "
+            "depends on it is %s\n"
+            "hint: float holds sizes from 1.2e-38 to 3.4e+38, and (s/r)^12 is computed as s^12 times r^-12: "
+            "measure in larger or smaller units, or run in double\n",
+            number, made->instance->name, fabs(number) < 1.0 ? "cut or lost" : "infinite");
     }
 }
 

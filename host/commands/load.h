@@ -45,6 +45,8 @@ int load(loaded *made, source_model *source, const mechanism *of, const scene *i
          const overrides *changes, bool conserve);
 /* On standard error: what of it is no error, but has a better way. */
 void say_hints(const loaded *made);
+/* Warns of what a run in float has no room for. */
+void say_float_range(const loaded *made);
 void unload(loaded *made);
 
 /* The whole of `path` in memory ("-" is standard input), with a zero byte behind; NULL, reported. */

@@ -249,6 +249,9 @@ int command_run(int count, char **words) {
         if (code == EXIT_DONE && !o.settings.quiet) {
             say_hints(&made);
         }
+        if (code == EXIT_DONE && o.settings.kind == &engine_float) {
+            say_float_range(&made);
+        }
         if (code == EXIT_DONE) {
             code = run_loaded(&o, &from, &made);
         }

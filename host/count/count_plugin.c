@@ -180,10 +180,11 @@ static void on_end(unsigned cpu, void *data) {
     }
     if (interval_count == interval_room) {
         interval_room = interval_room == 0 ? 1024 : 2 * interval_room;
-        intervals = realloc(intervals, interval_room * sizeof *intervals);
-        if (intervals == NULL) {
+        interval *const more = realloc(intervals, interval_room * sizeof *intervals);
+        if (more == NULL) {
             fail("out of memory");
         }
+        intervals = more;
     }
     intervals[interval_count++] = group;
     group_size = 0;

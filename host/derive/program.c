@@ -305,6 +305,20 @@ bool program_calls(const program *p) {
            (l != NULL && (list_calls(l->powers) || list_calls(l->levels)));
 }
 
+double program_out_of_float(const program *p, const instance *inst) {
+    const contact_lists *c = p->contacts;
+    const tape *const lists[] = {p->step, c != NULL ? c->signals : NULL,
+                                 c != NULL ? c->forces : NULL, c != NULL ? c->sets : NULL};
+    double found = 0.0;
+    for (size_t k = 0; k < sizeof lists / sizeof lists[0] && found == 0.0; k++) {
+        found = lists[k] != NULL ? tape_out_of_float(lists[k]) : 0.0;
+    }
+    for (int i = 0; i < p->inputs && found == 0.0; i++) {
+        found = fits_float(inst->input[p->input[i]]) ? 0.0 : inst->input[p->input[i]];
+    }
+    return found;
+}
+
 uint64_t program_hash(const program *p) {
     uint64_t hash = tape_hash(p->step);
     if (p->contacts != NULL) {

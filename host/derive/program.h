@@ -58,6 +58,10 @@ void program_free(program *p);
 /* Does what runs on a board call functions of core/function.h? */
 bool program_calls(const program *p);
 
+/* The first constant of what moves the scene, or input, that float has no room for, or 0: a run in float would go
+ * on with a digit or two of it, or with nothing. */
+double program_out_of_float(const program *p, const instance *inst);
+
 uint64_t program_hash(const program *p);
 
 /* The start of the run: angle in radians [angles], reals [reals], SI. */

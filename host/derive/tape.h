@@ -99,6 +99,11 @@ bool tape_reads_turns(const tape *t);
 /* The first result in which a constant takes part that is not finite, or -1. */
 int tape_not_finite(const tape *t);
 
+/* Is a number zero, or within float's normal numbers? */
+bool fits_float(double value);
+/* The first constant that float keeps with fewer digits than it has, as zero or as infinite; 0: there is none. */
+double tape_out_of_float(const tape *t);
+
 /* What a list costs. */
 typedef struct tape_cost {
     int arithmetic; /* additions, subtractions, products, negations, comparisons */

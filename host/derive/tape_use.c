@@ -132,6 +132,20 @@ int tape_not_finite(const tape *t) {
     return found;
 }
 
+bool fits_float(double value) {
+    const double size = fabs(value);
+    return size == 0.0 || (size >= 0x1p-126 && size < 0x1.ffffffp127);
+}
+
+double tape_out_of_float(const tape *t) {
+    for (int i = 0; i < t->count; i++) {
+        if (t->ops[i].code == OP_CONSTANT && !fits_float(t->ops[i].value)) {
+            return t->ops[i].value;
+        }
+    }
+    return 0.0;
+}
+
 tape_cost tape_count(const tape *t) {
     tape_cost cost = {0};
     for (int i = 0; i < t->count; i++) {

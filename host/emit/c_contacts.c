@@ -35,10 +35,10 @@ static void write_table(FILE *out, const contact_lists *c) {
 void c_contacts_write(FILE *out, const program *p, const engine_settings *settings, double step_s) {
     char hex[HEX_SIZE];
     const contact_lists *c = p->contacts;
-    c_list_function(out, c->signals, "contact_signals", true);
-    c_list_function(out, c->forces, "contact_forces", true);
+    c_list_function(out, c->signals, "contact_signals", true, true);
+    c_list_function(out, c->forces, "contact_forces", true, true);
     if (c->sets != NULL) {
-        c_list_function(out, c->sets, "contact_sets", true);
+        c_list_function(out, c->sets, "contact_sets", true, true);
     }
     write_table(out, c);
     fprintf(

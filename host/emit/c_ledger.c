@@ -37,7 +37,7 @@ void c_ledger_write(FILE *out, const program *p) {
     if (l->turned) {
         write_of_angles(out, p, l->powers, "ledger_powers", "power");
     } else {
-        c_list_function(out, l->powers, "ledger_powers", true);
+        c_list_function(out, l->powers, "ledger_powers", true, true);
     }
     write_of_angles(out, p, l->levels, "ledger_levels", "level");
     if (l->smooth > 0) {

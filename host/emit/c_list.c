@@ -166,9 +166,10 @@ void c_list_ignore(FILE *out, bool used, const char *name) {
     }
 }
 
-void c_list_function(FILE *out, const tape *t, const char *name, bool second) {
-    const int indent = (int)(sizeof "WH_INLINE void (" - 1) + (int)strlen(name);
-    fprintf(out, "WH_INLINE void %s(const void *model, const wh_phase *phase,\n", name);
+void c_list_function(FILE *out, const tape *t, const char *name, bool second, bool by_pointer) {
+    const char *linkage = by_pointer ? "static inline" : "WH_INLINE";
+    const int indent = (int)(strlen(linkage) + sizeof " void (" - 1 + strlen(name));
+    fprintf(out, "%s void %s(const void *model, const wh_phase *phase,\n", linkage, name);
     fprintf(out, "%*sconst wh_real *linear, ", indent, "");
     if (second) {
         fprintf(out, "const wh_real *rate,\n%*s", indent, "");

@@ -12,7 +12,8 @@ bool c_list_uses_phase(const tape *t);
 void c_list_ignore(FILE *out, bool used, const char *name);
 /* The statements, the results stored in the array `result`, and the closing brace. */
 void c_list_body(FILE *out, const tape *t, const char *result);
-/* A whole wh_accel_fn (second order) or wh_slope_fn. */
-void c_list_function(FILE *out, const tape *t, const char *name, bool second);
+/* A whole wh_accel_fn (second order) or wh_slope_fn. What core/ calls by a pointer in a constant must not have to be
+ * inlined: gcc -Og sees through the pointer when it is too late for that, and refuses. */
+void c_list_function(FILE *out, const tape *t, const char *name, bool second, bool by_pointer);
 
 #endif

@@ -1,0 +1,44 @@
+#!/bin/sh
+# float_range.sh: constants and inputs that float has no room for are warned of, others are not.
+. "$(dirname "$0")/../checks.sh"
+
+# model EXPONENT WHAT: a spring of 3eEXPONENT N/m on a kilogram, as a parameter or as an input.
+model() {
+    echo "mechanism spring
+coordinate x [m]
+$2 k = 3e$1 [N/m]
+T = 1 [kg]*x'^2/2
+Q(x) = -k*x
+scene a {
+  start x = 1 [m]
+  step 1 [ms]
+  until 2 [ms]
+}"
+}
+
+wrong=""
+for what in parameter input; do
+    for exponent in -60 -46 -45 -44 -40 -39 -38 -37 -30 -10 0 10 30 37 38 39 45; do
+        model $exponent $what >"$scratch/spring.whirl"
+        wanted=0
+        [ $exponent -gt -39 ] && [ $exponent -lt 39 ] || wanted=1
+        [ $exponent -ne 38 ] || wanted=0 # 3e38 is below 3.4e38
+        for command in "run --number float" "run --number float --quiet" "derive --as c"; do
+            # shellcheck disable=SC2086 # words of a command
+            "$whirl" ${command%% *} "$scratch/spring.whirl" ${command#* } >"$scratch/out" 2>"$scratch/err"
+            [ "$(grep -c 'warning: float has no room for -*3e' "$scratch/err")" -eq $wanted ] ||
+                wrong="$wrong $what:$exponent:$command"
+        done
+        "$whirl" run "$scratch/spring.whirl" --quiet 2>"$scratch/err" # the stiff ones diverge
+        ! grep -q 'no room' "$scratch/err" || wrong="$wrong $what:$exponent:double"
+    done
+done
+echo "$wrong" >"$scratch/err"
+[ -z "$wrong" ]
+verdict $? "sizes that float has no room for are warned of, in runs and in C, and no others"
+
+mkdir "$scratch/scenes"
+"$whirl" emit-scenes "$scratch/scenes" 2>"$scratch/err" && "$whirl" run springs_ring --number float --quiet 2>>"$scratch/err" &&
+    "$whirl" derive thomson_a --as c >"$scratch/out" 2>>"$scratch/err" && [ ! -s "$scratch/err" ]
+verdict $? "built-in scenes have room"
+exit $failed
