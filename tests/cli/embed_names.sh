@@ -60,10 +60,31 @@ for word in alignas alignof and and_eq asm bitand bitor catch char16_t char32_t 
     "$whirl" derive "$scratch/word.whirl" --as c --header "$scratch/word.h" >/dev/null 2>"$scratch/said"
     status=$?
     if g++ -std=c++20 -fsyntax-only "$scratch/word.cpp" 2>/dev/null; then wanted=0; else wanted=2; fi
-    [ $status -eq $wanted ] && { [ $status -eq 0 ] || grep -q "'$word' is a word of C++" "$scratch/said"; } ||
+    [ $status -eq $wanted ] && { [ $status -eq 0 ] || grep -q "'$word' is a word of C" "$scratch/said"; } ||
         verdict 1 "a scene of the name '$word': exit status $status, not $wanted" "$scratch/said"
 done
 verdict 0 "scenes with names that are words of C++ are refused, where a header is asked for"
+
+# And what C compilers know, by their own judgement: refused, or without a word in every dialect.
+known=0
+for word in int8_t int32_t uint8_t uint64_t intptr_t uintmax_t size_t ptrdiff_t offsetof typeof unix linux i386 abs abort acosh \
+    atan2 calloc cbrt ceil cos erf exit exp exp2 fabs floor fma fmod fputs free hypot index isnan j0 jn labs ldexp lgamma log \
+    log10 lround malloc memcpy memset pow printf putchar realloc rint round scalbn sin sincos snprintf sqrt strcmp strlen \
+    tan tgamma toupper trunc y0 yn spring rig motor first_turn; do
+    printf 'mechanism %s\ncoordinate x [m]\nT = 2 [kg]*x'"'"'^2/2\n' "$word" >"$scratch/word.whirl"
+    if "$whirl" derive "$scratch/word.whirl" --as c --header "$scratch/word.h" >"$scratch/word.c" 2>"$scratch/said"; then
+        echo '#include "word.h"' >"$scratch/uses.cpp"
+        for standard in c11 gnu17; do
+            gcc -std=$standard -Werror -I. -fsyntax-only "$scratch/word.c" 2>"$scratch/said" &&
+                clang -std=$standard -Werror -I. -fsyntax-only "$scratch/word.c" 2>>"$scratch/said" &&
+                g++ -std=gnu++17 -I. -I"$scratch" -fsyntax-only "$scratch/uses.cpp" 2>>"$scratch/said" ||
+                verdict 1 "a scene of the name '$word' does not compile as $standard" "$scratch/said"
+        done
+        known=$((known + 1))
+    fi
+done
+[ $known -ge 4 ] && [ $known -lt 20 ]
+verdict $? "scenes with names that C compilers know are refused, others compile"
 
 # --- every built-in scene ------------------------------------------------------------------------------------
 scenes=$("$whirl" list | awk '$1 == "scene" { print $2 }')
