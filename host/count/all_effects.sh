@@ -31,8 +31,8 @@ while read -r where scene effects; do
         rm "$out/all_$scene.c"
     else
         sed -e '/^#define WH_COORDS/i #include "host/count/mark.h"' \
-            -e '/^WH_INLINE void accelerations(/,/^}/s/^    (void)model;/    WH_MARK(1);\n&/' \
-            -e '/^WH_INLINE void contact_signals(/,/^}/s/^    (void)model;/    WH_MARK(2);\n&/' \
+            -e '/^static inline void accelerations(/,/^}/s/^    (void)model;/    WH_MARK(1);\n&/' \
+            -e '/^static inline void contact_signals(/,/^}/s/^    (void)model;/    WH_MARK(2);\n&/' \
             "$out/all_$scene.c" >"$out/marked"
         if [ "$(grep -c '^    WH_MARK' "$out/marked")" -ne 2 ]; then
             echo "all_effects.sh: $scene: where are its accelerations and its signals?" >&2
