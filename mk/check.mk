@@ -65,7 +65,7 @@ ASAN_BUILD = $(MAKE) B=build/asan CC=gcc OPT="-O1 -fno-omit-frame-pointer" SCENE
 
 .PHONY: asan-run
 asan-run: test-programs $(B)/whirl
-	@EMITTED=once WHIRL=$(B)/whirl TEST_SECONDS=600 sh tests/run.sh $(B)/tests/log $(RUN_CLI) $(RUN_HOST) $(RUN_CORE)
+	@EMITTED=once WHIRL=$(B)/whirl TEST_SECONDS=900 sh tests/run.sh $(B)/tests/log $(RUN_CLI) $(RUN_HOST) $(RUN_CORE)
 
 gate-sanitizers:
 	+@$(ASAN_BUILD) asan-run
