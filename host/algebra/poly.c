@@ -112,6 +112,21 @@ const poly *poly_scale(algebra *a, const poly *p, double scale) {
     return scale == 1.0 ? p : merge(a, a->zero, p, scale);
 }
 
+const poly *poly_each_number(algebra *a, const poly *p, double (*change)(double number, double by),
+                             double by) {
+    algebra_work(a, (size_t)p->count);
+    poly *changed = poly_scratch(p->count);
+    for (int i = 0; i < p->count; i++) { /* the order is one of the products alone */
+        const double number = change(p->terms[i].coefficient, by);
+        if (number != 0.0) {
+            changed->terms[changed->count++] = (poly_term){number, p->terms[i].mono};
+        }
+    }
+    const poly *made = poly_intern(a, changed);
+    free(changed);
+    return made;
+}
+
 /* --- sines and cosines ---------------------------------------------------------------------------*/
 
 static const poly *trig_of(algebra *a, trig kind, const poly *angle) {
@@ -165,9 +180,14 @@ bool poly_is_place(const poly *p) {
 }
 
 bool power_multiplies_out(const poly *base, double exponent, double kept) {
-    return is_whole(exponent) && exponent > 0.0 &&
-           number_power((double)base->count, exponent) <= POWER_TERMS_MAX &&
-           !(exponent >= kept && poly_is_place(base));
+    if (exponent <= 0.0 || !is_whole(exponent) || (exponent >= kept && poly_is_place(base))) {
+        return false;
+    }
+    int terms = 1; /* asked for each product that holds a power: no pow() for it */
+    for (int i = 0; i < (int)exponent && base->count > 1 && terms <= POWER_TERMS_MAX; i++) {
+        terms *= base->count;
+    }
+    return terms <= POWER_TERMS_MAX;
 }
 
 /* --- products ------------------------------------------------------------------------------------*/

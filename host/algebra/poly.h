@@ -100,6 +100,9 @@ const atom *atom_symbol(algebra *a, const symbol *sym, int primes);
 const poly *poly_add(algebra *a, const poly *left, const poly *right);
 const poly *poly_sub(algebra *a, const poly *left, const poly *right);
 const poly *poly_scale(algebra *a, const poly *p, double scale);
+/* p with the number of each term changed: change(number, by). */
+const poly *poly_each_number(algebra *a, const poly *p, double (*change)(double number, double by),
+                             double by);
 const poly *poly_mul(algebra *a, const poly *left, const poly *right);
 const poly *poly_pow(algebra *a, const poly *base, double exponent);
 const poly *poly_pow_poly(algebra *a, const poly *base, const poly *exponent);

@@ -95,19 +95,16 @@ static double choose_scales(const linear_system *s, double *scale) {
     return common;
 }
 
-/* p * scale, with coefficients that come out a rounding error beside a simple fraction put onto it:
- * 1.0000000000000002 would cost a product. */
+/* c * scale, put onto a simple fraction where it comes out a rounding error beside one: 1.0000000000000002 would
+ * cost a product. */
+static double scale_number(double c, double scale) {
+    const double scaled = c * scale;
+    const double nearest = number_floor(scaled * 48.0 + 0.5) / 48.0;
+    return nearest != 0.0 && fabs(scaled - nearest) <= 1e-15 * fabs(scaled) ? nearest : scaled;
+}
+
 static const poly *scale_simply(algebra *a, const poly *p, double scale) {
-    const poly *scaled = poly_number(a, 0.0);
-    for (int i = 0; i < p->count; i++) {
-        double c = p->terms[i].coefficient * scale;
-        const double nearest = number_floor(c * 48.0 + 0.5) / 48.0;
-        if (nearest != 0.0 && fabs(c - nearest) <= 1e-15 * fabs(c)) {
-            c = nearest;
-        }
-        scaled = poly_add(a, scaled, poly_of_term(a, c, p->terms[i].mono));
-    }
-    return scaled;
+    return poly_each_number(a, p, scale_number, scale);
 }
 
 /* --- symbolic elimination ------------------------------------------------------------------------*/
