@@ -13,8 +13,10 @@ static double atom_value(const atom *x, poly_value *value, void *context) {
     switch (x->kind) {
     case ATOM_GROUP: return first;
     case ATOM_POWER: return number_power(first, second);
-    default: return number_call(x->function, first, second);
+    case ATOM_CALL: return number_call(x->function, first, second);
+    case ATOM_SYMBOL: break; /* answered above */
     }
+    return 0.0;
 }
 
 double poly_evaluate(const poly *p, poly_value *value, void *context) {
