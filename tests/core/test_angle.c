@@ -1,6 +1,7 @@
 /* test_angle.c: angles moved on, and radians to and fro. WH_TEST_SMALL takes fewer angles. */
 #include "core/angle.h"
 
+#include "tests/scattered.h"
 #include "unity.h"
 
 #if __STDC_HOSTED__
@@ -48,15 +49,6 @@ void suite_angle(void) {
 #else
 
 #define QUARTER (UINT32_C(1) << 30)
-
-/* A scattered 64-bit number (xorshift; Marsaglia, Journal of Statistical Software 8 (2003) 14). */
-static uint64_t scattered_state;
-static uint64_t scattered(void) {
-    scattered_state ^= scattered_state << 13;
-    scattered_state ^= scattered_state >> 7;
-    scattered_state ^= scattered_state << 17;
-    return scattered_state;
-}
 
 /* --- moving ----------------------------------------------------------------------------------- */
 static void test_phase_moves(void) {

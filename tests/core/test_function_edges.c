@@ -8,6 +8,7 @@
 #include "core/function_double.h"
 #endif
 
+#include "tests/scattered.h"
 #include "unity.h"
 
 #include <stddef.h>
@@ -261,14 +262,6 @@ static void test_ends_of_the_range(void) {
 #if WH_DOUBLE
 /* --- the same bits everywhere -------------------------------------------------------------------- */
 #define EACH 20000
-
-static uint64_t scattered_state;
-static uint64_t scattered(void) {
-    scattered_state ^= scattered_state << 13;
-    scattered_state ^= scattered_state >> 7;
-    scattered_state ^= scattered_state << 17;
-    return scattered_state;
-}
 
 /* Any bits every fourth time; otherwise of all sizes from 2^least to below 2^most as often, of both signs. */
 static double argument(unsigned i, int least, int most) {

@@ -4,6 +4,7 @@
 #include "core/function.h"
 
 #include "core/hash.h"
+#include "tests/scattered.h"
 #include "unity.h"
 
 void suite_functions(void);
@@ -235,15 +236,6 @@ static void test_exact_powers(void) {
 }
 
 /* --- order and symmetry ------------------------------------------------------------------------------------ */
-/* A scattered 64-bit number (xorshift; Marsaglia, Journal of Statistical Software 8 (2003) 14). */
-static uint64_t scattered_state;
-static uint64_t scattered(void) {
-    scattered_state ^= scattered_state << 13;
-    scattered_state ^= scattered_state >> 7;
-    scattered_state ^= scattered_state << 17;
-    return scattered_state;
-}
-
 /* -1 to 1. */
 static wh_real part(void) { return (wh_real)(int32_t)(scattered() >> 32) * WH_R(0x1p-31); }
 

@@ -5,6 +5,7 @@
  * fewer angles. */
 #include "core/angle.h"
 
+#include "tests/scattered.h"
 #include "unity.h"
 
 #if __STDC_HOSTED__
@@ -19,15 +20,6 @@
 #define SECTOR (UINT32_C(1) << 25) /* of the table behind the sine */
 
 void suite_sine(void);
-
-/* A scattered 64-bit number (xorshift; Marsaglia, Journal of Statistical Software 8 (2003) 14). */
-static uint64_t scattered_state;
-static uint64_t scattered(void) {
-    scattered_state ^= scattered_state << 13;
-    scattered_state ^= scattered_state >> 7;
-    scattered_state ^= scattered_state << 17;
-    return scattered_state;
-}
 
 static wh_real sine_of(wh_phase phase) {
     wh_real s;

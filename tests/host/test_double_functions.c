@@ -10,6 +10,7 @@
 #define WH_DOUBLE 1
 #include "core/function_double.h"
 
+#include "tests/scattered.h"
 #include "unity.h"
 
 #include <float.h>
@@ -22,14 +23,6 @@ void suite_double_functions(void);
 #if LDBL_MANT_DIG >= 64
 
 #define PI_L 3.141592653589793238462643383279502884L
-
-static uint64_t scattered_state;
-static uint64_t scattered(void) {
-    scattered_state ^= scattered_state << 13;
-    scattered_state ^= scattered_state >> 7;
-    scattered_state ^= scattered_state << 17;
-    return scattered_state;
-}
 
 static unsigned long cases(void) {
     const char *asked = getenv("WHIRL_FUNCTION_CASES");

@@ -8,6 +8,7 @@
  * being looked at. */
 #include "core/function.h"
 
+#include "tests/scattered.h"
 #include "unity.h"
 
 #include <math.h>
@@ -17,14 +18,6 @@
 void suite_function_accuracy(void);
 
 #define SEED UINT64_C(10)
-static uint64_t scattered_state;
-static uint64_t scattered(void) {
-    scattered_state ^= scattered_state << 13;
-    scattered_state ^= scattered_state >> 7;
-    scattered_state ^= scattered_state << 17;
-    return scattered_state;
-}
-
 static unsigned long cases(void) {
     const char *asked = getenv("WHIRL_FUNCTION_CASES");
     return asked != NULL ? strtoul(asked, NULL, 10) : 30000UL;

@@ -1,8 +1,10 @@
 /* test_number.c: what the host computes numbers with, against the machine's library, whose functions of these
  * are exact. Seeds are fixed. */
+#include "bits.h"
 #include "host/lang/units.h"
 #include "host/number/functions.h"
 
+#include "tests/scattered.h"
 #include "unity.h"
 
 #include <math.h>
@@ -13,26 +15,6 @@
 void suite_number(void);
 
 #define MANY 400000
-
-static uint64_t scattered_state;
-static uint64_t scattered(void) {
-    scattered_state ^= scattered_state << 13;
-    scattered_state ^= scattered_state >> 7;
-    scattered_state ^= scattered_state << 17;
-    return scattered_state;
-}
-
-static double of_bits(uint64_t bits) {
-    double value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
-
-static uint64_t bits_of(double value) {
-    uint64_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    return bits;
-}
 
 /* Any bits, small and large whole numbers, halves and what is next to them. */
 static double any(void) {

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "bits.h"
 #include "derived.h"
 #include "host/number/decimal.h"
 #include "host/number/hex.h"
@@ -23,18 +24,6 @@ static int count_of(int least) {
     const char *set = getenv("WHIRL_NUMBERS");
     const int count = set != NULL ? (int)strtol(set, NULL, 10) : 0;
     return count > least ? count : least;
-}
-
-static uint64_t bits_of(double value) {
-    uint64_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    return bits;
-}
-
-static double of_bits(uint64_t bits) {
-    double value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
 }
 
 static int draw(int bound) { return (int)(random_bits(&seed) % (unsigned)bound); }
