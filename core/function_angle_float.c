@@ -97,13 +97,8 @@ static wh_digits arc_of_sine(uint32_t magnitude) {
         s = (wh_digits){root_of(missing << shift), 2 - (int32_t)((shift - 1U) / 2U)};
     }
     const uint32_t square = wh_square(s);
-    uint32_t sum = wh_flash_word(&series[0]);
-    for (unsigned i = 1; i < sizeof series / sizeof series[0]; i++) {
-        sum = wh_flash_word(&series[i]) + wh_high(sum, square);
-    }
-    s.size = (s.size >> 1) + (wh_high(s.size, wh_high(sum, square)) >> 1);
-    s.exponent++;
-    return s;
+    const uint32_t sum = wh_series(series, sizeof series / sizeof series[0], square);
+    return wh_longer(s, wh_high(sum, square));
 }
 
 float wh_asin(float x) {

@@ -14,10 +14,7 @@
 static uint32_t exp2_of(uint32_t fraction) {
     static const uint32_t slope[] WH_FLASH = {89165U,     627085U,     5751038U,   41300811U,
                                               238389830U, 1031764893U, 2977044473U};
-    uint32_t sum = wh_flash_word(&slope[0]);
-    for (unsigned i = 1; i < sizeof slope / sizeof slope[0]; i++) {
-        sum = wh_flash_word(&slope[i]) + wh_high(sum, fraction);
-    }
+    const uint32_t sum = wh_series(slope, sizeof slope / sizeof slope[0], fraction);
     return WH_TOP_BIT + (wh_high(sum, fraction) >> 1);
 }
 

@@ -74,6 +74,22 @@ WH_INLINE uint32_t wh_square(wh_digits x) {
     return shift > 31 ? 0U : wh_high(x.size, x.size) >> shift;
 }
 
+/* series[0] x^(count - 1) + ... + series[count - 1], of fractions of 2^32. */
+WH_INLINE uint32_t wh_series(const uint32_t *series, unsigned count, uint32_t x) {
+    uint32_t sum = wh_flash_word(&series[0]);
+    for (unsigned i = 1; i < count; i++) {
+        sum = wh_flash_word(&series[i]) + wh_high(sum, x);
+    }
+    return sum;
+}
+
+/* x (1 + more/2^32). */
+WH_INLINE wh_digits wh_longer(wh_digits x, uint32_t more) {
+    x.size = (x.size >> 1) + (wh_high(x.size, more) >> 1);
+    x.exponent++;
+    return x;
+}
+
 #define wh_float_round WH_NAME(wh_float_round)
 #define wh_float_ratio WH_NAME(wh_float_ratio)
 

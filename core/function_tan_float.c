@@ -49,13 +49,8 @@ static wh_digits tangent_of(wh_digits rad) {
     static const uint32_t series[] WH_FLASH = {18797842U,  380841U,    46542290U,  91405258U,
                                                232185762U, 572633515U, 1431656471U}; /* Q32 */
     const uint32_t square = wh_square(rad);
-    uint32_t sum = wh_flash_word(&series[0]);
-    for (unsigned i = 1; i < sizeof series / sizeof series[0]; i++) {
-        sum = wh_flash_word(&series[i]) + wh_high(sum, square);
-    }
-    rad.size = (rad.size >> 1) + (wh_high(rad.size, wh_high(sum, square)) >> 1);
-    rad.exponent++;
-    return rad;
+    const uint32_t sum = wh_series(series, sizeof series / sizeof series[0], square);
+    return wh_longer(rad, wh_high(sum, square));
 }
 
 /* 1/x: division has room for 24 digits, and the slope tells what the others make of it. */
