@@ -1,4 +1,4 @@
-# board.mk: images for BOARD, from its boards/<board>/board.mk (variables only, explained there).
+# board.mk: images for BOARD, from its boards/<board>/board.mk (variables only, explained in boards/cortexm/cortexm.mk).
 
 ifeq ($(wildcard boards/$(BOARD)/board.mk),)
 $(error There is no boards/$(BOARD)/board.mk. Boards: $(patsubst boards/%/board.mk,%,$(wildcard boards/*/board.mk)))

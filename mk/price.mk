@@ -71,7 +71,7 @@ worst-now: build/whirl
 	@echo "Two times $(WORST_STEPS) random steps of each scene:"
 	@BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) OBJCOPY=$(BOARD_OBJCOPY) \
 	    FLAGS="$(call TOLD,$(BOARD_CFLAGS))" PLUGIN=$(PLUGIN) \
-	    EMULATE="$(subst timeout 60,timeout 3600,$(call emulate,$(ELF)/worst.elf))" \
+	    EMULATE="$(subst timeout $(BOARD_SECONDS),timeout 3600,$(call emulate,$(ELF)/worst.elf))" \
 	    host/count/worst.sh $(ELF)/worst.elf $(FIGURES)/worst.csv build/worst/declared $(WORST_STEPS)
 
 bench-now: build/whirl
