@@ -42,7 +42,7 @@ static void print(form as, const loaded *made, const char *file, const engine_se
 static bool header_is_apart(const source_model *from, const char *header) {
     struct stat about_output;
     struct stat about_header;
-    if (strcmp(header, "-") == 0) {
+    if (strcmp(header, "-") == 0 || header[0] == '\0') {
         fputs("whirl derive: error: --header takes a file: standard output has the C\n", stderr);
         return false;
     }

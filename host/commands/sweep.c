@@ -270,6 +270,9 @@ static int sweep_scene(const sweep_options *o, source_model *from, const mechani
         if (code == EXIT_DONE && !o->quiet) {
             say_hints(&base);
         }
+        if (code == EXIT_DONE && o->kind == &engine_float) {
+            say_float_range(&base);
+        }
         if (code == EXIT_DONE) {
             code = sweep_loaded(o, from, &base, &s);
         }

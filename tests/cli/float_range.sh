@@ -37,6 +37,14 @@ echo "$wrong" >"$scratch/err"
 [ -z "$wrong" ]
 verdict $? "sizes that float has no room for are warned of, in runs and in C, and no others"
 
+model -44 parameter >"$scratch/spring.whirl"
+for number in float double; do
+    "$whirl" sweep "$scratch/spring.whirl" --number $number --over "x=1..2:2" --measure "max(x)" --csv "$scratch/$number.csv" \
+        2>"$scratch/$number.err" >"$scratch/out"
+done
+grep -q 'no room for -*3e-44' "$scratch/float.err" && ! grep -q 'no room' "$scratch/double.err"
+verdict $? "and in sweeps"
+
 mkdir "$scratch/scenes"
 "$whirl" emit-scenes "$scratch/scenes" 2>"$scratch/err" && "$whirl" run springs_ring --number float --quiet 2>>"$scratch/err" &&
     "$whirl" derive thomson_a --as c >"$scratch/out" 2>>"$scratch/err" && [ ! -s "$scratch/err" ]
