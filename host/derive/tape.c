@@ -37,10 +37,14 @@ static uint64_t mix(uint64_t hash, uint64_t word) {
     return (hash ^ word) * UINT64_C(0x9e3779b97f4a7c15) + (hash >> 29);
 }
 
+/* How hashes of models have counted operations that are no call since there were 14 functions. */
+#define HASHED_NO_FUNCTION UINT64_C(14)
+
 uint64_t tape_op_hash(const tape *t, const op *o) {
     uint64_t bits;
     memcpy(&bits, &o->value, sizeof bits);
-    uint64_t hash = mix(mix((uint64_t)o->code, (uint64_t)o->function), bits);
+    const uint64_t function = o->code == OP_CALL ? (uint64_t)o->function : HASHED_NO_FUNCTION;
+    uint64_t hash = mix(mix((uint64_t)o->code, function), bits);
     hash = mix(mix(hash, (uint64_t)(unsigned)o->a), (uint64_t)(unsigned)o->b);
     for (int i = 0; i < t->angles && o->turns != NULL; i++) {
         hash = mix(hash, (uint64_t)(unsigned)o->turns[i]);
@@ -103,7 +107,7 @@ static int enter(tape *t, op o) {
 }
 
 static int enter_op(tape *t, op_code code, int a, int b) {
-    return enter(t, (op){.code = code, .function = FN_COUNT, .a = a, .b = b});
+    return enter(t, (op){.code = code, .function = FUNCTION_NONE, .a = a, .b = b});
 }
 
 bool tape_is_constant(const tape *t, int a, double *value) {
@@ -120,7 +124,7 @@ static bool is_value(const tape *t, int a, double value) {
 
 int tape_constant(tape *t, double value) {
     return enter(t, (op){.code = OP_CONSTANT,
-                         .function = FN_COUNT,
+                         .function = FUNCTION_NONE,
                          .a = -1,
                          .b = -1,
                          .value = value == 0.0 ? 0.0 : value}); /* one zero */
@@ -129,7 +133,7 @@ int tape_constant(tape *t, double value) {
 int tape_leaf(tape *t, op_code code, int which) { return enter_op(t, code, which, -1); }
 
 int tape_noise(tape *t, uint32_t seed) {
-    return enter(t, (op){.code = OP_NOISE, .function = FN_COUNT, .a = -1, .b = -1, .value = seed});
+    return enter(t, (op){.code = OP_NOISE, .function = FUNCTION_NONE, .a = -1, .b = -1, .value = seed});
 }
 
 bool tape_is_whole(double multiple) {
@@ -158,7 +162,7 @@ int tape_phase(tape *t, const double *multiple, double offset_rad, int radians) 
         }
     }
     return enter(t, (op){.code = OP_PHASE,
-                         .function = FN_COUNT,
+                         .function = FUNCTION_NONE,
                          .a = -1,
                          .b = radians,
                          .value = offset_rad,

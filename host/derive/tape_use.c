@@ -41,7 +41,7 @@ static void fuse_reciprocals(tape *t) {
             const int other = k == 0 ? o->b : o->a;
             if (t->ops[inverse].code == OP_DIV && tape_is_constant(t, t->ops[inverse].a, &one) &&
                 one == 1.0 && uses[inverse] == 1) {
-                *o = (op){.code = OP_DIV, .function = FN_COUNT, .a = other, .b = t->ops[inverse].b};
+                *o = (op){.code = OP_DIV, .function = FUNCTION_NONE, .a = other, .b = t->ops[inverse].b};
             }
         }
     }

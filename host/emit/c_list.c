@@ -7,7 +7,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "host/lang/parser.h"
 #include "host/number/hex.h"
 #include "host/run/engine.h"
 

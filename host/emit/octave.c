@@ -3,7 +3,6 @@
 #include <stdlib.h>
 
 #include "emit.h"
-#include "host/lang/parser.h"
 #include "show_events.h"
 
 /* y(k), k from 1: values first, then rates, and so on. */
@@ -113,10 +112,8 @@ static bool may_be_complex(const tape *t) {
     bool found = false;
     for (int i = 0; i < t->count; i++) {
         const op *o = &t->ops[i];
-        const bool inverse =
-            o->code == OP_CALL &&
-            (o->function == FN_LOG || o->function == FN_ASIN || o->function == FN_ACOS);
-        found = found || o->code == OP_SQRT || o->code == OP_POW || inverse;
+        found = found || o->code == OP_SQRT || o->code == OP_POW ||
+                (o->code == OP_CALL && !function_is_real(o->function));
     }
     return found;
 }

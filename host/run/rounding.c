@@ -25,24 +25,9 @@ static double of_phase(const tape *t, const op *o, const rounding_values *at, do
 
 /* By the function's slopes at (x, y), which are off by `a` and `b`. */
 static double of_call(function_id function, double x, double y, double a, double b) {
-    switch (function) {
-    case FN_ASIN:
-    case FN_ACOS: return a / number_root(1.0 - x * x);
-    case FN_ATAN: return a / (1.0 + x * x);
-    case FN_ATAN2: return (fabs(y) * a + fabs(x) * b) / (x * x + y * y);
-    case FN_EXP: return a * number_call(FN_EXP, x, 0.0);
-    case FN_LOG: return a / fabs(x);
-    case FN_TAN: return a * (1.0 + number_power(number_call(FN_TAN, x, 0.0), 2.0));
-    case FN_SQRT: return a / (2.0 * number_root(x));
-    case FN_SIN:
-    case FN_COS:
-    case FN_ABS:
-    case FN_SIGN:
-    case FN_MIN:
-    case FN_MAX:
-    case FN_COUNT: break;
-    }
-    return a + b;
+    const double by_x = fabs(number_slope(function, 0, x, y)) * a;
+    return function_arguments(function) == 1 ? by_x
+                                             : by_x + fabs(number_slope(function, 1, x, y)) * b;
 }
 
 /* What the operands' errors a and b become; *rounds: is the result rounded, too? */
