@@ -1,7 +1,7 @@
 #include "show_events.h"
 
 static void show_crossing(const show *s, const contact_law *law, const contact_set *set) {
-    const hybrid *from = law->from;
+    const contact_statement *from = law->from;
     fputs("when ", s->out);
     show_poly(s, law->value);
     fputs(" crosses 0", s->out);
@@ -34,21 +34,21 @@ void show_events(FILE *out, const equations *e, const char *prefix, const char *
         const contact_law *law = &laws->law[k];
         fprintf(out, "%s  ", prefix);
         switch (law->from->kind) {
-        case HYBRID_STOP:
+        case CONTACT_STOP:
             fputs("stop ", out);
             show_poly(&s, law->value);
             fputs(" >= 0, restitution ", out);
             show_poly(&s, law->first);
             break;
-        case HYBRID_FRICTION: show_friction(&s, law); break;
-        case HYBRID_HOLD:
+        case CONTACT_FRICTION: show_friction(&s, law); break;
+        case CONTACT_HOLD:
             fputs("hold ", out);
             show_poly(&s, law->speed);
             fputs(" = 0 while ", out);
             show_poly(&s, law->value);
             fputs(" > 0", out);
             break;
-        case HYBRID_WHEN: show_crossing(&s, law, &laws->sets[k]); break;
+        case CONTACT_WHEN: show_crossing(&s, law, &laws->sets[k]); break;
         }
         fputc('\n', out);
     }

@@ -5,7 +5,7 @@
 #include "host/derive/equations.h"
 #include "show.h"
 
-/* A heading, then a line for each event-driven effect that takes part, in the order in which events at
+/* A heading, then a line for each contact that takes part, in the order in which events at
  * one instant are taken; nothing when there are none. Every line begins with `prefix`. */
 void show_events(FILE *out, const equations *e, const char *prefix, const char *heading);
 

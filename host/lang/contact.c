@@ -1,4 +1,4 @@
-/* hybrid.c: stop, friction and hold; `when` has its own file. */
+/* contact.c: stop, friction and hold; `when` has its own file. */
 #include <stdio.h>
 #include <string.h>
 
@@ -25,7 +25,7 @@ static const expr *parse_number_between(parser *in, const char *what) {
     return value;
 }
 
-static bool parse_stop(parser *in, hybrid *made) {
+static bool parse_stop(parser *in, contact_statement *made) {
     char words[80];
     const place at = in->token.at;
     const expr *left = parse_expression(in, CONTEXT_GAP);
@@ -80,7 +80,7 @@ static const expr *parse_normal(parser *in, const symbol *coordinate) {
     return value;
 }
 
-static bool parse_friction(parser *in, hybrid *made) {
+static bool parse_friction(parser *in, contact_statement *made) {
     char words[80];
     const token name = in->token;
     if (name.kind != TOKEN_NAME ||
@@ -105,7 +105,7 @@ static bool parse_friction(parser *in, hybrid *made) {
     return made->normal != NULL && parser_end_statement(in, "the normal force");
 }
 
-static bool parse_hold(parser *in, hybrid *made) {
+static bool parse_hold(parser *in, contact_statement *made) {
     const place at = in->token.at;
     made->value = parse_expression(in, CONTEXT_GAP);
     if (made->value == NULL) {
@@ -120,15 +120,15 @@ static bool parse_hold(parser *in, hybrid *made) {
 }
 
 /* Both take part whenever one of them does. */
-static bool always_meet(const hybrid *a, const hybrid *b) {
+static bool always_meet(const contact_statement *a, const contact_statement *b) {
     return a->effect == b->effect || a->effect < 0 || b->effect < 0;
 }
 
-static void add_hybrid(parser *in, const hybrid *made) {
+static void add_contact(parser *in, const contact_statement *made) {
     mechanism *into = in->builder->made;
-    for (int i = 0; i < into->hybrid_count && made->kind == HYBRID_FRICTION; i++) {
-        const hybrid *each = &into->hybrids[i];
-        if (each->kind == HYBRID_FRICTION && each->coordinate == made->coordinate &&
+    for (int i = 0; i < into->contact_count && made->kind == CONTACT_FRICTION; i++) {
+        const contact_statement *each = &into->contacts[i];
+        if (each->kind == CONTACT_FRICTION && each->coordinate == made->coordinate &&
             made->coordinate != NULL && always_meet(each, made)) {
             diag_error(in->diags, made->at, "add its normal forces up in one statement",
                        "friction on '%s' was already given in line %d", made->coordinate->name,
@@ -136,29 +136,30 @@ static void add_hybrid(parser *in, const hybrid *made) {
             break;
         }
     }
-    hybrid *longer =
-        arena_room(in->arena, (hybrid *)into->hybrids, into->hybrid_count, sizeof *longer);
-    longer[into->hybrid_count++] = *made;
-    into->hybrids = longer;
+    contact_statement *longer = arena_room(in->arena, (contact_statement *)into->contacts,
+                                           into->contact_count, sizeof *longer);
+    longer[into->contact_count++] = *made;
+    into->contacts = longer;
 }
 
-bool parse_hybrid(parser *in, bool *known) {
+bool parse_contact(parser *in, bool *known) {
     static const struct {
         const char *word;
-        hybrid_kind kind;
-        bool (*read)(parser *, hybrid *);
-    } words[] = {{"stop", HYBRID_STOP, parse_stop},
-                 {"friction", HYBRID_FRICTION, parse_friction},
-                 {"hold", HYBRID_HOLD, parse_hold},
-                 {"when", HYBRID_WHEN, parse_when}};
+        contact_kind kind;
+        bool (*read)(parser *, contact_statement *);
+    } words[] = {{"stop", CONTACT_STOP, parse_stop},
+                 {"friction", CONTACT_FRICTION, parse_friction},
+                 {"hold", CONTACT_HOLD, parse_hold},
+                 {"when", CONTACT_WHEN, parse_when}};
     for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
         if (parser_is_word(in, words[i].word)) {
             *known = true;
-            hybrid made = {.kind = words[i].kind, .effect = in->effect, .at = in->token.at};
+            contact_statement made = {
+                .kind = words[i].kind, .effect = in->effect, .at = in->token.at};
             parser_next(in);
             const bool good = words[i].read(in, &made);
             if (good) {
-                add_hybrid(in, &made);
+                add_contact(in, &made);
             }
             return good;
         }
@@ -167,11 +168,11 @@ bool parse_hybrid(parser *in, bool *known) {
     return false;
 }
 
-void hybrid_on_system(parser *in, const hybrid *each) {
-    static const char *const words[] = {[HYBRID_STOP] = "stop",
-                                        [HYBRID_FRICTION] = "friction",
-                                        [HYBRID_HOLD] = "hold",
-                                        [HYBRID_WHEN] = "when"};
+void contact_on_system(parser *in, const contact_statement *each) {
+    static const char *const words[] = {[CONTACT_STOP] = "stop",
+                                        [CONTACT_FRICTION] = "friction",
+                                        [CONTACT_HOLD] = "hold",
+                                        [CONTACT_WHEN] = "when"};
     diag_error(in->diags, each->at, "write the mechanism with coordinate, T, V, F and Q",
                "'%s' does not go with state and equation", words[each->kind]);
 }

@@ -22,8 +22,8 @@ static double *room(int count) {
 
 static bool is_apart(const contact_row *row, double gap, diags *errors) {
     static const char hint[] = "start on it or apart from it, or leave the stop out";
-    const hybrid *stop = row->from;
-    if (stop->kind != HYBRID_STOP || (gap >= -ROUNDING && isfinite(gap))) {
+    const contact_statement *stop = row->from;
+    if (stop->kind != CONTACT_STOP || (gap >= -ROUNDING && isfinite(gap))) {
         return true;
     }
     char si[64];

@@ -12,7 +12,7 @@
 #include "host/emit/emit.h"
 #include "host/run/engine.h"
 
-enum { TEXT_SIZE = 16384, UNKNOWNS_MAX = 4, LETS_MAX = 8, HYBRIDS = 3, STEPS = 3 };
+enum { TEXT_SIZE = 16384, UNKNOWNS_MAX = 4, LETS_MAX = 8, CONTACTS = 3, STEPS = 3 };
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
@@ -146,7 +146,7 @@ static void write_condition(writer *w) {
 }
 
 /* One stop, hold, friction or crossing, or noise on the output. */
-static void write_hybrid(writer *w) {
+static void write_contact(writer *w) {
     static const char *const parts[] = {"0", "1", "0.5", "p/2"};
     switch (choose(w, 5)) {
     case 0:
@@ -228,8 +228,8 @@ static void write_mechanism(writer *w) {
     }
     rated(w, "output o = ", 3, true);
     put(w, "\n");
-    for (unsigned left = choose(w, 2) == 1 ? choose(w, HYBRIDS + 1) : 0; left > 0; left--) {
-        write_hybrid(w);
+    for (unsigned left = choose(w, 2) == 1 ? choose(w, CONTACTS + 1) : 0; left > 0; left--) {
+        write_contact(w);
     }
 }
 

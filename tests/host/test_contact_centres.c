@@ -1,4 +1,4 @@
-/* test_hybrid_centres.c: machines with dry friction on a coordinate whose rate passes zero where another contact
+/* test_contact_centres.c: machines with dry friction on a coordinate whose rate passes zero where another contact
  * turns it: cam, Scotch yoke, slider-crank, bead over a hill. Each has one degree of freedom, a, with b = f(a), so
  * that its reference is one equation, integrated here in long double from dead centre to dead centre:
  *
@@ -16,7 +16,7 @@
 
 #include "unity.h"
 
-void suite_hybrid_centres(void);
+void suite_contact_centres(void);
 
 typedef enum machine_kind { CAM, YOKE, SLIDER, LINKAGE, HILL, MACHINES } machine_kind;
 
@@ -274,7 +274,7 @@ static void test_centres_from_rest(void) { check_machines(1, "from rest at the c
 static void test_centres_from_motion(void) { check_machines(2, "in motion at the centre", 2.0, 6); }
 static void test_centres_crept_over(void) { check_machines(3, "creeping over the centre", 2.0, 6); }
 
-void suite_hybrid_centres(void) {
+void suite_contact_centres(void) {
     RUN_TEST(test_the_cam_goes_on);
     RUN_TEST(test_centres_passed);
     RUN_TEST(test_centres_from_rest);

@@ -1,4 +1,4 @@
-/* test_hybrid_curved.c: random curved hybrids: whatever happens at dead centres, the energy is accounted for. */
+/* test_contact_curved.c: random curved contacts: whatever happens at dead centres, the energy is accounted for. */
 #include "contacts.h"
 #include "curved.h"
 
@@ -8,7 +8,7 @@
 
 #include "unity.h"
 
-void suite_hybrid_curved(void);
+void suite_contact_curved(void);
 
 static long wanted_runs(long usual) {
     const char *wanted = getenv("WHIRL_CURVED_RUNS");
@@ -97,7 +97,7 @@ static void test_energy_is_accounted_for_in_float(void) {
     TEST_ASSERT_EQUAL_INT_MESSAGE(0, beyond, line);
 }
 
-void suite_hybrid_curved(void) {
+void suite_contact_curved(void) {
     RUN_TEST(test_energy_is_accounted_for);
     RUN_TEST(test_energy_is_accounted_for_in_float);
 }

@@ -1,4 +1,4 @@
-/* test_hybrid_devices.c: the devices of the dissertation that need a stop, friction or a hold: the carriage
+/* test_contact_devices.c: the devices of the dissertation that need a stop, friction or a hold: the carriage
  * beside a stop (row S18, test 3), Thomson's magnet (S10), Halvorson's vehicle (S12). */
 #include "contacts.h"
 
@@ -7,7 +7,7 @@
 
 #include "unity.h"
 
-void suite_hybrid_devices(void);
+void suite_contact_devices(void);
 
 /* What the project asks of a centre of mass that nothing pushes, m. */
 #define DRIFT_MOST 1e-8
@@ -279,7 +279,7 @@ static void test_normal_force_pulsates_round_the_weight(void) {
                    sum / looks / (1.33 * 9.81));
 }
 
-void suite_hybrid_devices(void) {
+void suite_contact_devices(void) {
     UnitySetTestFile(__FILE__);
     RUN_TEST(test_carriage_walks_away_from_the_stop_and_then_only_swings);
     RUN_TEST(test_without_friction_it_walks_on);

@@ -1,4 +1,4 @@
-/* test_hybrid_friction.c: blocks that stick and slip (core/models/contacts.whirl). */
+/* test_contact_friction.c: blocks that stick and slip (core/models/contacts.whirl). */
 #include "contacts.h"
 
 #include <math.h>
@@ -6,7 +6,7 @@
 
 #include "unity.h"
 
-void suite_hybrid_friction(void);
+void suite_contact_friction(void);
 
 #define G 9.81
 
@@ -244,7 +244,7 @@ static void test_stick_slip_period(void) {
     check_belt("belt_stiffening", stiffer, IN_DOUBLE, 1e-8);
 }
 
-void suite_hybrid_friction(void) {
+void suite_contact_friction(void) {
     UnitySetTestFile(__FILE__);
     RUN_TEST(test_block_sticks_for_ten_minutes);
     RUN_TEST(test_block_sticks_up_to_the_slope);

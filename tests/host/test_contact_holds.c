@@ -1,4 +1,4 @@
-/* test_hybrid_holds.c: holds keep their place, over 1e5 steps and more: rods, linkages, gears. What they keep is
+/* test_contact_holds.c: holds keep their place, over 1e5 steps and more: rods, linkages, gears. What they keep is
  * state: an assignment gives it anew. Linkages that lie flat are refused. */
 #include "contacts.h"
 #include "derived.h"
@@ -9,7 +9,7 @@
 
 #include "unity.h"
 
-void suite_hybrid_holds(void);
+void suite_contact_holds(void);
 
 static const engine_kind *const KINDS[] = {&engine_double, &engine_float};
 
@@ -277,7 +277,7 @@ static void test_an_input_moves_nobody(void) {
     }
 }
 
-void suite_hybrid_holds(void) {
+void suite_contact_holds(void) {
     RUN_TEST(test_an_input_moves_nobody);
     RUN_TEST(test_rods_keep_their_length);
     RUN_TEST(test_linkages_stay_closed);

@@ -1,4 +1,4 @@
-/* test_hybrid_impact.c: impacts through a coupled mass matrix: a cart with a pendulum, and either of them
+/* test_contact_impact.c: impacts through a coupled mass matrix: a cart with a pendulum, and either of them
  * against a wall (core/models/contacts.whirl, `crash`).
  *
  * Closed form. M = (M + m, m l cos; m l cos, m l^2); a stop with the gradient J leaves
@@ -12,7 +12,7 @@
 
 #include "unity.h"
 
-void suite_hybrid_impact(void);
+void suite_contact_impact(void);
 
 #define CART_KG 2.0
 #define BOB_KG 1.0
@@ -128,7 +128,7 @@ static void test_impacts_of_a_swinging_pendulum_converge(void) {
     }
 }
 
-void suite_hybrid_impact(void) {
+void suite_contact_impact(void) {
     UnitySetTestFile(__FILE__);
     RUN_TEST(test_cart_meets_the_wall);
     RUN_TEST(test_bob_meets_the_wall);

@@ -1,4 +1,4 @@
-/* test_hybrid_lang.c: what stop, friction, hold, when and noise mean, as the structs say.
+/* test_contact_lang.c: what stop, friction, hold, when and noise mean, as the structs say.
  * Expressions are judged by their values at states chosen here, against the same formula in C. */
 #define _POSIX_C_SOURCE 200809L
 
@@ -11,7 +11,7 @@
 #include "parsed.h"
 #include "unity.h"
 
-void suite_hybrid_lang(void);
+void suite_contact_lang(void);
 
 #define BASE \
     "mechanism m\ncoordinate x [m]\ncoordinate y [m]\ncoordinate phi [rad]\n" \
@@ -72,17 +72,17 @@ static void expect(double wanted, const expr *e) {
 static void test_a_stop_is_the_distance_left(void) {
     const mechanism *m = parse(BASE "stop gap >= 25 [cm] restitution e/2\n"
                                     "effect wall { stop 2*x <= 3 [m] + y restitution 0 }\n");
-    TEST_ASSERT_EQUAL_INT(2, m->hybrid_count);
+    TEST_ASSERT_EQUAL_INT(2, m->contact_count);
     place_at(1.0, 0.5, 0.0, 0.0, 0.0, 0.0);
-    const hybrid *own = &m->hybrids[0];
-    TEST_ASSERT_EQUAL_INT(HYBRID_STOP, own->kind);
+    const contact_statement *own = &m->contacts[0];
+    TEST_ASSERT_EQUAL_INT(CONTACT_STOP, own->kind);
     TEST_ASSERT_EQUAL_INT(-1, own->effect);
     TEST_ASSERT_EQUAL_INT(14, own->at.line);
     TEST_ASSERT_TRUE(dim_fits(own->value->dim, dim_of(1, 0, 0, 0, 0)));
     TEST_ASSERT_FALSE(dim_fits(own->value->dim, dim_none()));
     expect(1.0 - 0.5 - 0.25, own->value);
     expect(0.25, own->restitution);
-    const hybrid *wall = &m->hybrids[1];
+    const contact_statement *wall = &m->contacts[1];
     TEST_ASSERT_EQUAL_INT(0, wall->effect);
     expect(3.0 + 0.5 - 2.0, wall->value); /* `<=`: right - left */
     TEST_ASSERT_TRUE(wall->coordinate == NULL && wall->condition == NULL && wall->sets == NULL);
@@ -93,14 +93,14 @@ static void test_friction_takes_a_force_or_a_torque(void) {
         parse(BASE "friction x static 2*mu kinetic mu normal m*9.81 [m/s^2]*abs(cos(phi))\n"
                    "friction phi static 0.2 kinetic 0.1 normal 7 [N*mm]\n");
     place_at(0.0, 0.0, 3.0, 0.0, 0.0, 0.0);
-    const hybrid *slide = &m->hybrids[0];
-    TEST_ASSERT_EQUAL_INT(HYBRID_FRICTION, slide->kind);
+    const contact_statement *slide = &m->contacts[0];
+    TEST_ASSERT_EQUAL_INT(CONTACT_FRICTION, slide->kind);
     TEST_ASSERT_EQUAL_PTR(m->coordinates[0], slide->coordinate);
     TEST_ASSERT_NULL(slide->value);
     expect(0.6, slide->static_friction);
     expect(0.3, slide->kinetic_friction);
     expect(2.0 * 9.81 * fabs(cos(3.0)), slide->normal);
-    const hybrid *turn = &m->hybrids[1];
+    const contact_statement *turn = &m->contacts[1];
     TEST_ASSERT_EQUAL_PTR(m->coordinates[2], turn->coordinate);
     expect(0.007, turn->normal);
     TEST_ASSERT_TRUE(dim_fits(turn->normal->dim, dim_energy()));
@@ -145,10 +145,10 @@ static void check_condition(const char *text, truth *wanted) {
     char all[900];
     snprintf(all, sizeof all, "%shold x while %s\n", BASE, text);
     const mechanism *m = parse(all);
-    const hybrid *held = &m->hybrids[0];
+    const contact_statement *held = &m->contacts[0];
     int trues = 0;
     int falses = 0;
-    TEST_ASSERT_EQUAL_INT(HYBRID_HOLD, held->kind);
+    TEST_ASSERT_EQUAL_INT(CONTACT_HOLD, held->kind);
     for (int i = 0; i < 6 * 6 * 6 * 6; i++) {
         const double x = -0.63 + 0.31 * (i % 6);
         const double y = -0.41 + 0.29 * (i / 6 % 6);
@@ -209,10 +209,10 @@ static void test_a_crossing_and_what_it_sets(void) {
                                     "when gap crosses 1 [m] falling\n{\nset phi = 90 [deg],\n"
                                     " x = 2 [cm];\n}\n"
                                     "when phi crosses 0 { set phi = 1 }\n");
-    TEST_ASSERT_EQUAL_INT(3, m->hybrid_count);
+    TEST_ASSERT_EQUAL_INT(3, m->contact_count);
     place_at(1.0, 0.25, 0.5, 3.0, 1.25, 0.0);
-    const hybrid *kick = &m->hybrids[0];
-    TEST_ASSERT_EQUAL_INT(HYBRID_WHEN, kick->kind);
+    const contact_statement *kick = &m->contacts[0];
+    TEST_ASSERT_EQUAL_INT(CONTACT_WHEN, kick->kind);
     TEST_ASSERT_EQUAL_INT(1, kick->direction);
     expect(3.0 - 2.5, kick->value);
     TEST_ASSERT_EQUAL_INT(3, kick->set_count);
@@ -225,13 +225,13 @@ static void test_a_crossing_and_what_it_sets(void) {
     TEST_ASSERT_EQUAL_PTR(m->coordinates[2], kick->sets[2].symbol);
     TEST_ASSERT_EQUAL_INT(1, kick->sets[2].primes);
     expect(1.0, kick->sets[2].value);
-    const hybrid *jump = &m->hybrids[1];
+    const contact_statement *jump = &m->contacts[1];
     TEST_ASSERT_EQUAL_INT(-1, jump->direction);
     expect(1.0 - 0.25 - 1.0, jump->value);
     TEST_ASSERT_EQUAL_INT(2, jump->set_count);
     expect(1.57079632679489662, jump->sets[0].value);
     expect(0.02, jump->sets[1].value);
-    TEST_ASSERT_EQUAL_INT(0, m->hybrids[2].direction);
+    TEST_ASSERT_EQUAL_INT(0, m->contacts[2].direction);
 }
 
 static void test_a_scene_has_crossings_of_its_own(void) {
@@ -239,14 +239,14 @@ static void test_a_scene_has_crossings_of_its_own(void) {
         parse(BASE "effect kick { parameter v = 2 [m/s]; when x crosses 0 { set x' = v } }\n"
                    "scene a { when x crosses y rising { set y' = v }\n"
                    "  when phi crosses 1 { set phi = 0 }; until 1 [s] }\nscene b { with kick }\n");
-    TEST_ASSERT_EQUAL_INT(1, m->hybrid_count);
+    TEST_ASSERT_EQUAL_INT(1, m->contact_count);
     const scene *a = parsed->scenes[0];
     TEST_ASSERT_EQUAL_INT(2, a->when_count);
     TEST_ASSERT_EQUAL_INT(0, parsed->scenes[1]->when_count);
     place_at(1.0, 0.25, 0.5, 0.0, 0.0, 0.0);
     expect(0.75, a->whens[0].value);
     expect(2.0, a->whens[0].sets[0].value);
-    TEST_ASSERT_EQUAL_INT(HYBRID_WHEN, a->whens[1].kind);
+    TEST_ASSERT_EQUAL_INT(CONTACT_WHEN, a->whens[1].kind);
     TEST_ASSERT_EQUAL_INT(-1, a->whens[1].effect);
     expect(-0.5, a->whens[1].value);
 }
@@ -284,18 +284,18 @@ static void test_words_of_the_statements_may_be_names(void) {
         "when crosses crosses rising rising { set static = or, and' = while }\n"
         "noise deviation deviation noise seed 5\n");
     place_at(0.5, 2.0, 0.0, 0.125, 0.0, 0.0);
-    TEST_ASSERT_EQUAL_INT(5, m->hybrid_count);
-    expect(-0.5, m->hybrids[0].value);
-    expect(0.25, m->hybrids[0].restitution);
-    expect(0.4, m->hybrids[1].static_friction);
-    expect(0.125, m->hybrids[3].condition); /* max(min(0.125, 2 - 1), 0.5 - 1) */
-    expect(-2.5, m->hybrids[4].value);
-    TEST_ASSERT_EQUAL_INT(1, m->hybrids[4].direction);
+    TEST_ASSERT_EQUAL_INT(5, m->contact_count);
+    expect(-0.5, m->contacts[0].value);
+    expect(0.25, m->contacts[0].restitution);
+    expect(0.4, m->contacts[1].static_friction);
+    expect(0.125, m->contacts[3].condition); /* max(min(0.125, 2 - 1), 0.5 - 1) */
+    expect(-2.5, m->contacts[4].value);
+    TEST_ASSERT_EQUAL_INT(1, m->contacts[4].direction);
     expect(0.003, m->noises[0].deviation);
     TEST_ASSERT_EQUAL_UINT32(5, m->noises[0].seed);
 }
 
-void suite_hybrid_lang(void) {
+void suite_contact_lang(void) {
     RUN_TEST(test_a_stop_is_the_distance_left);
     RUN_TEST(test_friction_takes_a_force_or_a_torque);
     RUN_TEST(test_conditions_are_true_where_they_should);

@@ -1,4 +1,4 @@
-/* test_hybrid_load.c: contacts that share one load (core/models/contacts_together.whirl), and resting contacts
+/* test_contact_load.c: contacts that share one load (core/models/contacts_together.whirl), and resting contacts
  * that something other than a force disturbs: an assignment, an input. */
 #include "contacts.h"
 
@@ -7,7 +7,7 @@
 
 #include "unity.h"
 
-void suite_hybrid_load(void);
+void suite_contact_load(void);
 
 #define G 9.81
 
@@ -264,7 +264,7 @@ static void test_a_crossing_at_a_steps_end_is_located(void) {
     }
 }
 
-void suite_hybrid_load(void) {
+void suite_contact_load(void) {
     RUN_TEST(test_the_weaker_friction_protects_the_other);
     RUN_TEST(test_leaning_blocks_rest_exactly);
     RUN_TEST(test_frictions_add_up_through_a_hold);

@@ -1,4 +1,4 @@
-/* test_hybrid_moments.c: events that come thick: hops shorter than a step, and impacts that an impact of the same
+/* test_contact_moments.c: events that come thick: hops shorter than a step, and impacts that an impact of the same
  * moment causes. */
 #include "contacts.h"
 #include "derived.h"
@@ -8,7 +8,7 @@
 
 #include "unity.h"
 
-void suite_hybrid_moments(void);
+void suite_contact_moments(void);
 
 static const engine_kind *const KINDS[] = {&engine_double, &engine_float};
 
@@ -244,7 +244,7 @@ static void test_an_impact_that_is_over_within_the_step(void) {
     }
 }
 
-void suite_hybrid_moments(void) {
+void suite_contact_moments(void) {
     RUN_TEST(test_hops_shorter_than_a_step);
     RUN_TEST(test_the_last_gap_is_booked);
     RUN_TEST(test_touching_bodies_pass_an_impact_on);

@@ -1,4 +1,4 @@
-/* test_hybrid_rest.c: bodies that come to rest together, pressed upon each other by nothing but their braking: what
+/* test_contact_rest.c: bodies that come to rest together, pressed upon each other by nothing but their braking: what
  * static friction can keep stays at rest, whatever rounding leaves of forces and rates there. */
 #include "contacts.h"
 #include "derived.h"
@@ -9,7 +9,7 @@
 
 #include "unity.h"
 
-void suite_hybrid_rest(void);
+void suite_contact_rest(void);
 
 static const engine_kind *const KINDS[] = {&engine_double, &engine_float};
 
@@ -207,7 +207,7 @@ static void test_a_force_elsewhere_holds_nothing(void) {
     }
 }
 
-void suite_hybrid_rest(void) {
+void suite_contact_rest(void) {
     RUN_TEST(test_rows_of_wagons);
     RUN_TEST(test_a_force_elsewhere_holds_nothing);
     RUN_TEST(test_wagons_with_a_straight_buffer);

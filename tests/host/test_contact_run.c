@@ -1,4 +1,4 @@
-/* test_hybrid_run.c: which stops, frictions, holds, whens and noises take part in one run, the ranges of
+/* test_contact_run.c: which stops, frictions, holds, whens and noises take part in one run, the ranges of
  * their numbers, and the ledger. */
 #include <stdio.h>
 #include <string.h>
@@ -6,7 +6,7 @@
 #include "parsed.h"
 #include "unity.h"
 
-void suite_hybrid_run(void);
+void suite_contact_run(void);
 
 #define BASE \
     "mechanism m\ncoordinate x [m]\ncoordinate y [m]\ncoordinate phi [rad]\n" \
@@ -65,13 +65,13 @@ static void test_effects_bring_their_events(void) {
     const char *wall[] = {"wall"};
     const overrides swap = {.with = rub, .with_count = 1, .without = wall, .without_count = 1};
     TEST_ASSERT_NOT_NULL(instance_of(0, NULL));
-    TEST_ASSERT_TRUE(instance_has_hybrid(made, &m->hybrids[0]));
-    TEST_ASSERT_TRUE(instance_has_hybrid(made, &m->hybrids[1]));
-    TEST_ASSERT_FALSE(instance_has_hybrid(made, &m->hybrids[2]));
+    TEST_ASSERT_TRUE(instance_has_contact(made, &m->contacts[0]));
+    TEST_ASSERT_TRUE(instance_has_contact(made, &m->contacts[1]));
+    TEST_ASSERT_FALSE(instance_has_contact(made, &m->contacts[2]));
     TEST_ASSERT_NOT_NULL(instance_of(0, &swap));
-    TEST_ASSERT_TRUE(instance_has_hybrid(made, &m->hybrids[0]));
-    TEST_ASSERT_FALSE(instance_has_hybrid(made, &m->hybrids[1]));
-    TEST_ASSERT_TRUE(instance_has_hybrid(made, &m->hybrids[2]));
+    TEST_ASSERT_TRUE(instance_has_contact(made, &m->contacts[0]));
+    TEST_ASSERT_FALSE(instance_has_contact(made, &m->contacts[1]));
+    TEST_ASSERT_TRUE(instance_has_contact(made, &m->contacts[2]));
 }
 
 static void test_numbers_of_a_run_must_be_in_range(void) {
@@ -141,19 +141,19 @@ static void test_what_two_effects_must_not_give_together(void) {
 /* The bound is on what takes part, not on what is written. */
 static void test_how_many_events_one_run_takes(void) {
     char text[4000] = BASE;
-    for (int i = 0; i < 2 * HYBRIDS_MAX; i++) {
+    for (int i = 0; i < 2 * CONTACTS_MAX; i++) {
         char line[80];
         snprintf(line, sizeof line, "%sstop x >= -%d [m] restitution 0\n",
-                 i == 0             ? "effect a {\n"
-                 : i == HYBRIDS_MAX ? "}\neffect b {\n"
-                                    : "",
+                 i == 0              ? "effect a {\n"
+                 : i == CONTACTS_MAX ? "}\neffect b {\n"
+                                     : "",
                  i + 1);
         strcat(text, line);
     }
     strcat(text,
            "}\nscene one { with a }\nscene more { with b; when x crosses 0 { set x = 0 } }\n");
     const mechanism *m = parse(text);
-    TEST_ASSERT_EQUAL_INT(2 * HYBRIDS_MAX, m->hybrid_count);
+    TEST_ASSERT_EQUAL_INT(2 * CONTACTS_MAX, m->contact_count);
     TEST_ASSERT_NOT_NULL(instance_of(0, NULL));
     refuse(1, NULL, "more than 16 stops, frictions, holds and whens in one run");
 }
@@ -176,13 +176,13 @@ static void test_how_many_values_one_run_sets(void) {
     }
     const mechanism *m = parse(text);
     const char *b[] = {"b"};
-    TEST_ASSERT_EQUAL_INT(84, m->hybrids[1].set_count);
+    TEST_ASSERT_EQUAL_INT(84, m->contacts[1].set_count);
     TEST_ASSERT_NOT_NULL(instance_of(-1, NULL));
     refuse(-1, &(overrides){.with = b, .with_count = 1},
            "the whens of one run set more than 128 values");
 }
 
-void suite_hybrid_run(void) {
+void suite_contact_run(void) {
     RUN_TEST(test_the_ledger_is_called_for_like_an_effect);
     RUN_TEST(test_noise_comes_with_its_effect);
     RUN_TEST(test_effects_bring_their_events);

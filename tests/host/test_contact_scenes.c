@@ -1,4 +1,4 @@
-/* test_hybrid_scenes.c: every scene with contacts against a reference that another program located event by
+/* test_contact_scenes.c: every scene with contacts against a reference that another program located event by
  * event (tests/reference/contacts.txt), and how its error falls with the step; several contacts at once on
  * one mechanism among them.
  *
@@ -12,7 +12,7 @@
 
 #include "unity.h"
 
-void suite_hybrid_scenes(void);
+void suite_contact_scenes(void);
 
 /* The references' own digits: two runs of theirs differ by at most 5e-10 (contacts.py prints it). */
 #define REFERENCE_ERROR 1e-9
@@ -207,7 +207,7 @@ static void test_escapement_reaches_its_amplitude(void) {
     motion_close(&m);
 }
 
-void suite_hybrid_scenes(void) {
+void suite_contact_scenes(void) {
     UnitySetTestFile(__FILE__);
     RUN_TEST(test_every_scene_meets_its_reference);
     RUN_TEST(test_every_scene_runs_in_float);

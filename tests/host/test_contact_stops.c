@@ -1,4 +1,4 @@
-/* test_hybrid_stops.c: balls on stops (core/models/contacts.whirl), each with a closed form. */
+/* test_contact_stops.c: balls on stops (core/models/contacts.whirl), each with a closed form. */
 #include "contacts.h"
 
 #include <math.h>
@@ -6,7 +6,7 @@
 
 #include "unity.h"
 
-void suite_hybrid_stops(void);
+void suite_contact_stops(void);
 
 #define G 9.81
 
@@ -300,7 +300,7 @@ static void test_too_many_bounces_are_told_and_end(void) {
     motion_close(&m);
 }
 
-void suite_hybrid_stops(void) {
+void suite_contact_stops(void) {
     UnitySetTestFile(__FILE__);
     RUN_TEST(test_ball_comes_to_rest_and_stays_for_a_minute);
     RUN_TEST(test_perfect_bounces_gain_no_energy);

@@ -1,4 +1,4 @@
-"""hybrid.py: mechanisms with stops, friction, holds and crossings, integrated from event to event.
+"""events.py: mechanisms with stops, friction, holds and crossings, integrated from event to event.
 
 Independent of Whirl in every part: modes are told apart by conditions of this file's own, a smooth
 stretch is integrated by Gragg's extrapolation (Hairer, Norsett & Wanner, Solving Ordinary Differential
