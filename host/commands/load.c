@@ -10,8 +10,8 @@
 
 #include "files.h"
 #include "find.h"
+#include "host/base/nearest.h"
 #include "host/lang/hints.h"
-#include "host/lang/nearest.h"
 #include "host/lang/override.h"
 #include "host/run/shown.h"
 

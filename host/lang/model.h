@@ -10,7 +10,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "diag.h"
+#include "host/base/diag.h"
 #include "host/number/functions.h"
 #include "ratio.h"
 #include "units.h"

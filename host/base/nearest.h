@@ -1,6 +1,6 @@
 /* nearest.h: which known name a misspelt one is closest to. */
-#ifndef LANG_NEAREST_H
-#define LANG_NEAREST_H
+#ifndef BASE_NEAREST_H
+#define BASE_NEAREST_H
 
 #include <stddef.h>
 
