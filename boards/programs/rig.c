@@ -1,4 +1,4 @@
-/* main.c: the firmware of the eccentric-mass rig, the same on every board.
+/* rig.c: the firmware of the eccentric-mass rig, the same on every board.
  *
  * One test run as core/rig/rig.h describes it, on whatever hardware hal/ offers: tare, ramp to
  * 330 rpm in closed loop on the slot pulses, record the load cell for 2 s, report, stop. Exit status

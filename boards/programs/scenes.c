@@ -1,4 +1,4 @@
-/* scenes_main.c: runs every generated scene to its end and prints the hash of its last state:
+/* scenes.c: runs every generated scene to its end and prints the hash of its last state:
  *
  *     scene NAME steps N hash 0x0123456789abcdef ok
  *

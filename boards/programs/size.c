@@ -1,4 +1,4 @@
-/* image.c: the smallest firmware around one scene, whose size is told: it steps, and computes the outputs.
+/* size.c: the smallest firmware around one scene, whose size is told: it steps, and computes the outputs.
  *
  * Built once a scene with PRICE_SCENE its name, PRICE_WORDS the eight-byte words of its state and
  * PRICE_OUTPUTS how many outputs it has, at least 1. It is linked, never run. */

@@ -30,7 +30,7 @@ while read -r where scene effects; do
     elif ! grep -q 'WH_CONTACT_EVALUATIONS' "$out/all_$scene.c"; then
         rm "$out/all_$scene.c"
     else
-        sed -e '/^#define WH_COORDS/i #include "host/count/mark.h"' \
+        sed -e '/^#define WH_COORDS/i #include "boards/programs/mark.h"' \
             -e '/^static inline void accelerations(/,/^}/s/^    (void)model;/    WH_MARK(1);\n&/' \
             -e '/^static inline void contact_signals(/,/^}/s/^    (void)model;/    WH_MARK(2);\n&/' \
             "$out/all_$scene.c" >"$out/marked"

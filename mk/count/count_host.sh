@@ -3,7 +3,7 @@
 #
 #   CC=gcc FLAGS="-O2" count_host.sh bench figures.csv
 #
-# bench is host/count/bench.c with boards/host, built in float or in double, or a program of
+# bench is boards/programs/bench.c with boards/host, built in float or in double, or a program of
 # tests/tools with a naive_step(). Appends rows to figures.csv (with a header if it is new) and prints
 # them as a table.
 #

@@ -2,7 +2,7 @@
 # run.sh: the whole way once, for someone who sees Whirl for the first time: energies, equations,
 # motion, firmware. Called by `make run`, which has built everything that is used here.
 #
-#     sh host/demo/run.sh WHIRL SCENES_ELF FIRMWARE_ELF EMULATE...
+#     sh mk/demo/run.sh WHIRL SCENES_ELF FIRMWARE_ELF EMULATE...
 #
 # WHIRL is the program, the two images are for the emulated board, and EMULATE is the command that
 # runs an image, with IMAGE where its path belongs. Exit status 0 when everything agreed.

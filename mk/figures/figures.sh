@@ -9,7 +9,7 @@
 #   caption TEXT                for docs/figures.md; more lines go on with the text
 #   run NAME SCENE OPTIONS      records of `whirl run`, known below as NAME
 #   sweep NAME SCENE OPTIONS    records of `whirl sweep`
-#   table NAME SCRIPT WORDS     what host/figures/SCRIPT prints, a CSV with a header; it is called with
+#   table NAME SCRIPT WORDS     what mk/figures/SCRIPT prints, a CSV with a header; it is called with
 #                               WHIRL and WORDS
 #   panel YLABEL                begins a panel; panels stand one above the other
 #   xlabel TEXT                 of the panel; "time [s]" at the last one when left out

@@ -9,7 +9,7 @@ the same quantities on the axes, units labelled, captions our own. What follows 
 [findings.md](findings.md), the mechanisms are in [models.md](models.md).
 
 `make figures` draws each as SVG and PNG in `build/figures/`; `make figures-docs` also copies the SVGs
-and this page, which is made from the descriptions `host/figures/*.fig`, into `docs/`. The drawings hold
+and this page, which is made from the descriptions `mk/figures/*.fig`, into `docs/`. The drawings hold
 no date and no machine's name: drawn twice, they are the same files. The commands below print the
 numbers behind each figure.
 

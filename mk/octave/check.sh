@@ -19,6 +19,6 @@ for scene in two_mass_absolute two_mass_relative epicyclic_from_rest driven_hing
     }
     "$whirl" run "$scene" --step 0.25ms --every 5ms --quiet --columns "$out/whirl_$scene.txt"
 done
-cp host/octave/check.m "$out/check.m"
+cp mk/octave/check.m "$out/check.m"
 cd "$out"
 octave-cli --norc --no-history --quiet check.m

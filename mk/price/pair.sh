@@ -45,7 +45,7 @@ bytes_of() {
     [ -z "$entries" ] || words="$words+WH_LEDGER_WORDS($entries,$accounts)"
     $BOARD_CC $BOARD_CFLAGS -c "$c.c" -o "$c.o"
     $BOARD_CC $BOARD_CFLAGS "-DPRICE_SCENE=p${n}_$1" "-DPRICE_WORDS=($words)" \
-        "-DPRICE_OUTPUTS=$((outputs > 0 ? outputs : 1))" -c host/size/image.c -o "$c.image.o"
+        "-DPRICE_OUTPUTS=$((outputs > 0 ? outputs : 1))" -c boards/programs/size.c -o "$c.image.o"
     $BOARD_CC $BOARD_LDFLAGS -o "$c.elf" "$c.image.o" "$c.o" $BOARD_OBJECTS "$LIB_BOARD" $BOARD_LDLIBS
     "$BOARD_SIZE" -A "$c.elf" | awk '
         $1 == ".text" || $1 == ".ARM.exidx" { flash += $2 }

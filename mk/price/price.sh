@@ -58,7 +58,7 @@ tr '\n' '\0' <"$OUT/pairs" | xargs -0 -n 1 -P 2 sh "$here/pair.sh"
 } >"$OUT/scenes.c"
 count() { # count PROGRAM DEFINES MORE: to OUT/PROGRAM.csv
     # shellcheck disable=SC2086
-    $BOARD_CC $BOARD_CFLAGS $2 -c "host/count/$1.c" -o "$OUT/$1.o"
+    $BOARD_CC $BOARD_CFLAGS $2 -c "boards/programs/$1.c" -o "$OUT/$1.o"
     $BOARD_CC $BOARD_CFLAGS -c "$OUT/scenes.c" -o "$OUT/scenes.o"
     $BOARD_CC $BOARD_LDFLAGS -o "$OUT/$1.elf" "$OUT/$1.o" "$OUT/scenes.o" "$OUT"/p*_with*.o $BOARD_OBJECTS \
         "$LIB_BOARD" $BOARD_LDLIBS
