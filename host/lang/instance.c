@@ -2,7 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "arena.h"
+#include "host/base/arena.h"
 #include "limits.h"
 #include "model.h"
 #include "override.h"

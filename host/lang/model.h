@@ -10,9 +10,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "diag.h"
+#include "host/base/diag.h"
 #include "host/number/functions.h"
-#include "ratio.h"
+#include "host/number/ratio.h"
 #include "units.h"
 
 /* --- symbols ----------------------------------------------------------------------------------- */

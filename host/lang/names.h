@@ -2,7 +2,7 @@
 #ifndef LANG_NAMES_H
 #define LANG_NAMES_H
 
-#include "arena.h"
+#include "host/base/arena.h"
 #include "model.h"
 #include "nearest.h"
 

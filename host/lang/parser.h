@@ -3,7 +3,7 @@
 #ifndef LANG_PARSER_H
 #define LANG_PARSER_H
 
-#include "arena.h"
+#include "host/base/arena.h"
 #include "lexer.h"
 #include "model.h"
 #include "names.h"

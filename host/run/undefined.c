@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "host/base/arena.h"
 #include "host/derive/contact_lists.h"
-#include "host/lang/arena.h"
 #include "host/lang/value.h"
 #include "statement.h"
 

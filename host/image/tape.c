@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/lang/arena.h"
+#include "host/base/arena.h"
 
 tape *tape_new(int angles, int results) {
     tape *t = calloc(1, sizeof *t);

@@ -1,6 +1,6 @@
 /* arena.h: memory that is handed out piece by piece and given back all at once. */
-#ifndef LANG_ARENA_H
-#define LANG_ARENA_H
+#ifndef BASE_ARENA_H
+#define BASE_ARENA_H
 
 #include <stddef.h>
 

@@ -1,6 +1,6 @@
 /* utf8.h: well-formed, printable UTF-8 characters. */
-#ifndef LANG_UTF8_H
-#define LANG_UTF8_H
+#ifndef BASE_UTF8_H
+#define BASE_UTF8_H
 
 #include <stddef.h>
 

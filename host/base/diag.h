@@ -1,6 +1,6 @@
 /* diag.h: errors in a user's file, each with its place, the source line, a caret and a hint. */
-#ifndef LANG_DIAG_H
-#define LANG_DIAG_H
+#ifndef BASE_DIAG_H
+#define BASE_DIAG_H
 
 #include <stddef.h>
 #include <stdio.h>
