@@ -55,12 +55,12 @@ help: ## this list
 
 .PHONY: deps
 deps: ## install the Debian packages that are missing for everything below
-	@UNITY="$(UNITY)" CC="$(CC)" host/setup/deps.sh
+	@UNITY="$(UNITY)" CC="$(CC)" mk/setup/deps.sh
 	@echo "All packages are there."
 
 .PHONY: run
 run: ## the whole way: a mechanism's energies, its motion, its firmware on an emulated board
-	@CC="$(CC)" host/setup/deps.sh host plot firmware
+	@CC="$(CC)" mk/setup/deps.sh host plot firmware
 	@$(MAKE) run-now
 
 .PHONY: whirl
@@ -70,29 +70,29 @@ whirl: $(B)/whirl ## the command line program, build/whirl
 
 .PHONY: test
 test: ## every test on this machine and on the emulated board; ends with "N passed, N failed"
-	@UNITY="$(UNITY)" CC="$(CC)" host/setup/deps.sh host plot firmware tests
-	@UNITY="$(UNITY)" host/setup/unity.sh build/unity
+	@UNITY="$(UNITY)" CC="$(CC)" mk/setup/deps.sh host plot firmware tests
+	@UNITY="$(UNITY)" mk/setup/unity.sh build/unity
 	@$(MAKE) test-now
 
 .PHONY: check
 check: ## the quality gates: warnings, layout, lint, sanitizers, firmware rules, equal bits
-	@UNITY="$(UNITY)" CC="$(CC)" host/setup/deps.sh
-	@UNITY="$(UNITY)" host/setup/unity.sh build/unity
+	@UNITY="$(UNITY)" CC="$(CC)" mk/setup/deps.sh
+	@UNITY="$(UNITY)" mk/setup/unity.sh build/unity
 	@$(MAKE) check-now
 
 .PHONY: hashes
 hashes: ## the same bits from every compiler, optimisation level, board and the interpreter
-	@CC="$(CC)" host/setup/deps.sh host firmware quality
+	@CC="$(CC)" mk/setup/deps.sh host firmware quality
 	@$(MAKE) hashes-now
 
 .PHONY: hosts
 hosts: ## the same generated code from whirl built by other compilers, C libraries and processors (minutes)
-	@CC="$(CC)" host/setup/deps.sh host quality hosts
+	@CC="$(CC)" mk/setup/deps.sh host quality hosts
 	@$(MAKE) hosts-now
 
 .PHONY: flags
 flags: ## other people's compiler flags: the same bits or a refusal (a minute or two)
-	@CC="$(CC)" host/setup/deps.sh host firmware quality
+	@CC="$(CC)" mk/setup/deps.sh host firmware quality
 	@$(MAKE) flags-now
 
 .PHONY: sine-exhaustive
@@ -109,53 +109,53 @@ root-exhaustive: $(B)/tools/root_exhaustive ## the square root in integers, over
 
 .PHONY: fuzz
 fuzz: ## broken files at the parser, odd mechanisms at the rest, for FUZZ_SECONDS each
-	@CC="$(CC)" host/setup/deps.sh host quality
+	@CC="$(CC)" mk/setup/deps.sh host quality
 	@$(MAKE) fuzz-now
 
 .PHONY: format
 format: ## lay out every C file as .clang-format says
-	@CC="$(CC)" host/setup/deps.sh quality
+	@CC="$(CC)" mk/setup/deps.sh quality
 	$(Q)clang-format -i $(C_FILES)
 
 ##@ Price
 
 .PHONY: bench
 bench: ## instructions a step, counted, on this machine and on the emulated boards
-	@CC="$(CC)" host/setup/deps.sh host firmware bench
+	@CC="$(CC)" mk/setup/deps.sh host firmware bench
 	@$(MAKE) bench-now
 
 .PHONY: price-effects
 price-effects: ## what each effect costs: instructions, bytes, error; into docs/effects.md (minutes)
-	@CC="$(CC)" host/setup/deps.sh host firmware bench
+	@CC="$(CC)" mk/setup/deps.sh host firmware bench
 	@$(MAKE) price-effects-now
 
 .PHONY: worst-step
 worst-step: ## the most instructions of a step with events, over a million random steps a scene (minutes)
-	@CC="$(CC)" host/setup/deps.sh host firmware bench
+	@CC="$(CC)" mk/setup/deps.sh host firmware bench
 	@$(MAKE) worst-now
 
 .PHONY: size
 size: ## bytes of flash, of memory and of stack of BOARD's images, and of the functions
-	@CC="$(CC)" host/setup/deps.sh host firmware
+	@CC="$(CC)" mk/setup/deps.sh host firmware
 	@$(MAKE) size-now
 
 ##@ The dissertation
 
 .PHONY: figures
 figures: ## the dissertation's figures and the findings' plots, in build/figures
-	@CC="$(CC)" host/setup/deps.sh host plot
+	@CC="$(CC)" mk/setup/deps.sh host plot
 	@$(MAKE) figures-now
 
 .PHONY: octave-check
 octave-check: ## the generated Octave files under ode45, against whirl run (installs Octave, large)
-	@CC="$(CC)" host/setup/deps.sh host octave
+	@CC="$(CC)" mk/setup/deps.sh host octave
 	@$(MAKE) octave-check-now
 
 ##@ Boards
 
 .PHONY: emulate
 emulate: ## run BOARD's firmware in the emulator
-	@CC="$(CC)" host/setup/deps.sh host firmware
+	@CC="$(CC)" mk/setup/deps.sh host firmware
 	@$(MAKE) emulate-now
 
 ##@ Cleaning

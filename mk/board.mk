@@ -31,21 +31,21 @@ $(ELF)/tests.elf: $(call objects,$(BOARD),$(CORE_TEST_PARTS)) $(BOARD_OBJECTS) $
     $(LIB_BOARD)
 	$(link_board)
 
-$(ELF)/scenes.elf: $(call objects,$(BOARD),boards/scenes_main.c) $(BOARD_OBJECTS) \
+$(ELF)/scenes.elf: $(call objects,$(BOARD),boards/programs/scenes.c) $(BOARD_OBJECTS) \
     $(ELF)/libscenes.a $(LIB_BOARD)
 	$(link_board)
 
-$(ELF)/firmware.elf: $(call objects,$(BOARD),boards/main.c) $(BOARD_OBJECTS) $(ELF)/libscenes.a \
+$(ELF)/firmware.elf: $(call objects,$(BOARD),boards/programs/rig.c) $(BOARD_OBJECTS) $(ELF)/libscenes.a \
     $(LIB_BOARD)
 	$(link_board)
 
 # The same firmware as a program of this machine, with the hardware played by hal/virtual.
-$(B)/firmware: $(call objects,float,boards/main.c boards/host/board.c) $(LIB_SCENES) \
+$(B)/firmware: $(call objects,float,boards/programs/rig.c boards/host/board.c) $(LIB_SCENES) \
     $(LIB_FLOAT)
 	$(link)
 
 # The images that are held to the firmware rules and whose sizes are told.
-IMAGES := $(ELF)/scenes.elf $(if $(wildcard boards/main.c),$(ELF)/firmware.elf)
+IMAGES := $(ELF)/scenes.elf $(ELF)/firmware.elf
 
 .PHONY: board-images board-tests
 board-images: $(IMAGES)

@@ -17,14 +17,15 @@ gate-house:
 
 # --- warnings are errors, with both compilers, in every build -------------------------------------
 TARGET_C := $(filter boards/cortexm/% boards/$(BOARD)/%,$(BOARD_C))
-PC_BOARD_C := $(wildcard boards/*.c boards/host/*.c)
+PROGRAM_C := $(wildcard boards/programs/*.c)
+PC_BOARD_C := $(PROGRAM_C) $(wildcard boards/host/*.c)
 
 .PHONY: objects board-objects
 objects: $(call objects,host,$(WHIRL_MAIN_C) $(WHIRL_C) $(GEN)/builtin_models.c $(HOST_TEST_C) \
         $(wildcard tests/tools/*.c tests/fuzz/*.c) $(HOST_TOOL_C)) \
     $(call objects,float,$(CORE_C) $(HAL_C) $(PC_BOARD_C) $(CORE_TEST_C) $(SCENE_C)) \
     $(call objects,double,$(CORE_C) $(CORE_TEST_C) $(SCENE_C))
-board-objects: $(call objects,$(BOARD),$(CORE_C) $(HAL_C) $(wildcard boards/*.c) $(TARGET_C) \
+board-objects: $(call objects,$(BOARD),$(CORE_C) $(HAL_C) $(PROGRAM_C) $(TARGET_C) \
     $(BOARD_SOURCES) $(CORE_TEST_C) $(SCENE_C))
 
 gate-gcc:
@@ -54,7 +55,7 @@ gate-cppcheck:
 	@cppcheck --quiet --std=c11 --language=c -j $(JOBS) --error-exitcode=1 --inline-suppr \
 	    --cppcheck-build-dir=build/check/cppcheck \
 	    --enable=warning,performance,portability --library=posix \
-	    --suppressions-list=host/setup/cppcheck.txt -I. -Itests -I$(UNITY_DIR) \
+	    --suppressions-list=mk/setup/cppcheck.txt -I. -Itests -I$(UNITY_DIR) \
 	    $(filter %.c,$(C_FILES))
 
 # --- sanitizers -----------------------------------------------------------------------------------

@@ -1,21 +1,21 @@
 # figures.mk: the dissertation's figures and findings, and the generated Octave files under Octave.
 
-FIGS := $(sort $(wildcard host/figures/fig*.fig))
-FINDINGS := $(sort $(wildcard host/figures/finding_*.fig))
+FIGS := $(sort $(wildcard mk/figures/fig*.fig))
+FINDINGS := $(sort $(wildcard mk/figures/finding_*.fig))
 
 .PHONY: figures-now figures-docs octave-check-now
 figures-now: build/whirl
 	@$(call need,gnuplot)
 	@rm -rf $(FIGURES)/data
-	@sh host/figures/figures.sh build/whirl $(FIGURES) $(FIGS) $(FINDINGS)
-	@sh host/figures/page.sh $(FIGS) >$(FIGURES)/figures.md
+	@sh mk/figures/figures.sh build/whirl $(FIGURES) $(FIGS) $(FINDINGS)
+	@sh mk/figures/page.sh $(FIGS) >$(FIGURES)/figures.md
 	@echo "Drawn: $(FIGURES)/*.svg and *.png"
 
 figures-docs: figures
 	@mkdir -p docs/figures
-	@cp $(patsubst host/figures/%.fig,$(FIGURES)/%.svg,$(FIGS) $(FINDINGS)) docs/figures/
+	@cp $(patsubst mk/figures/%.fig,$(FIGURES)/%.svg,$(FIGS) $(FINDINGS)) docs/figures/
 	@cp $(FIGURES)/figures.md docs/figures.md
 	@echo "Copied to docs/figures.md and docs/figures/"
 
 octave-check-now: build/whirl
-	@sh host/octave/check.sh build/whirl build/octave
+	@sh mk/octave/check.sh build/whirl build/octave

@@ -1,6 +1,6 @@
 # price.mk: instructions a step (bench) and bytes (size). Figures are added to build/figures/*.csv.
 
-BENCH_C := host/count/bench.c
+BENCH_C := boards/programs/bench.c
 PLUGIN := build/count_plugin.so
 FIGURES := build/figures
 # The same mechanisms as one writes them by hand, to compare with.
@@ -10,7 +10,7 @@ COMPENSATED_C := $(patsubst %,build/compensated/%.c,scenes epicyclic_from_rest t
 # What of the flags belongs beside a figure.
 TOLD = $(filter -O% -m%,$(1))
 
-$(PLUGIN): host/count/count_plugin.c
+$(PLUGIN): mk/count/count_plugin.c
 	@$(call need,$(CC))
 	@mkdir -p $(@D)
 	$(say) LINK $@
@@ -49,30 +49,30 @@ $(ELF)/bench.elf: $(call objects,$(BOARD),$(BENCH_C)) $(BOARD_OBJECTS) $(ELF)/li
 
 count_board = BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) \
     FLAGS="$(call TOLD,$(BOARD_CFLAGS))" PLUGIN=$(PLUGIN) EMULATE="$(call emulate,$(1))" \
-    host/count/count_board.sh $(1) $(FIGURES)/bench.csv
+    mk/count/count_board.sh $(1) $(FIGURES)/bench.csv
 
 # The worst step of scenes with contacts, all effects of their mechanisms on, over so many random steps.
 WORST_STEPS ?= 1000000
 WORST_MODELS ?= $(MODELS)
-WORST_C := host/count/worst.c $(wildcard build/worst/*.c)
+WORST_C := boards/programs/worst.c $(wildcard build/worst/*.c)
 $(ELF)/worst.elf: $(call objects,$(BOARD),$(WORST_C)) $(BOARD_OBJECTS) $(LIB_BOARD)
 	$(link_board)
-$(ELF)/host/count/worst.o: FILE_FLAGS := -DWORST_STEPS=$(WORST_STEPS)U -DWORST_SEEDS=2U
+$(ELF)/boards/programs/worst.o: FILE_FLAGS := -DWORST_STEPS=$(WORST_STEPS)U -DWORST_SEEDS=2U
 
 .PHONY: bench-now size-now worst-now
 worst-now: build/whirl
 	@[ "$(WORST_STEPS)" -gt 0 ] 2>/dev/null || \
 	    { echo "error: WORST_STEPS=$(WORST_STEPS): a number of steps, 1 or more" >&2; exit 2; }
 	@$(MAKE) $(GEN)/.stamp
-	@CC="$(CC)" host/count/all_effects.sh build/whirl build/worst $(WORST_MODELS)
-	@$(RM) $(ELF)/host/count/worst.o
+	@CC="$(CC)" mk/count/all_effects.sh build/whirl build/worst $(WORST_MODELS)
+	@$(RM) $(ELF)/boards/programs/worst.o
 	@$(MAKE) $(ELF)/worst.elf $(PLUGIN)
 	@mkdir -p $(FIGURES)
 	@echo "Two times $(WORST_STEPS) random steps of each scene:"
 	@BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) OBJCOPY=$(BOARD_OBJCOPY) \
 	    FLAGS="$(call TOLD,$(BOARD_CFLAGS))" PLUGIN=$(PLUGIN) \
 	    EMULATE="$(subst timeout $(BOARD_SECONDS),timeout 3600,$(call emulate,$(ELF)/worst.elf))" \
-	    host/count/worst.sh $(ELF)/worst.elf $(FIGURES)/worst.csv build/worst/declared $(WORST_STEPS)
+	    mk/count/worst.sh $(ELF)/worst.elf $(FIGURES)/worst.csv build/worst/declared $(WORST_STEPS)
 
 bench-now: build/whirl
 	@$(MAKE) $(GEN)/.stamp
@@ -82,7 +82,7 @@ bench-now: build/whirl
 	@echo "Instructions a step (executed, not cycles):"
 	@for program in bench bench_compensated bench_double $(addprefix tools/,$(BY_HAND)); do \
 	    CC="$(CC)" FLAGS="$(OPT)" \
-	        host/count/count_host.sh build/$$program $(FIGURES)/bench.csv || exit 1; done
+	        mk/count/count_host.sh build/$$program $(FIGURES)/bench.csv || exit 1; done
 	@$(call count_board,$(ELF)/bench.elf)
 	@$(call count_board,$(ELF)/bench_compensated.elf)
 
@@ -92,8 +92,8 @@ size-now: build/whirl
 	@mkdir -p $(FIGURES)
 	@BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) SIZE=$(BOARD_SIZE) OBJECTS=$(ELF) \
 	    FLAGS="$(call TOLD,$(BOARD_CFLAGS))" EMULATE="$(call emulate,@)" \
-	    host/size/size.sh $(FIGURES)/size.csv $(IMAGES)
-	@CC=$(BOARD_CC) CPU="$(BOARD_CPU)" SIZE=$(BOARD_SIZE) host/size/functions.sh $(LIB_BOARD)
+	    mk/size/size.sh $(FIGURES)/size.csv $(IMAGES)
+	@CC=$(BOARD_CC) CPU="$(BOARD_CPU)" SIZE=$(BOARD_SIZE) mk/size/functions.sh $(LIB_BOARD)
 
 # What each effect costs: build/price/effects.csv, and the tables of docs/effects.md.
 .PHONY: price-effects-now
@@ -104,6 +104,6 @@ price-effects-now: build/whirl
 	    BOARD_SIZE=$(BOARD_SIZE) BOARD_CFLAGS="$(BOARD_CFLAGS)" BOARD_LDFLAGS="$(BOARD_LDFLAGS)" \
 	    BOARD_LDLIBS="$(BOARD_LDLIBS)" BOARD_OBJECTS="$(BOARD_OBJECTS)" LIB_BOARD=$(LIB_BOARD) \
 	    PLUGIN=$(PLUGIN) FLAGS="$(call TOLD,$(BOARD_CFLAGS))" EMULATE="$(call emulate,@)" \
-	    host/price/price.sh $(MODELS)
-	@host/price/into_page.sh build/price/tables.md docs/effects.md
+	    mk/price/price.sh $(MODELS)
+	@mk/price/into_page.sh build/price/tables.md docs/effects.md
 	@cat build/price/tables.md

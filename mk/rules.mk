@@ -75,10 +75,10 @@ GEN := build/gen
 # C files that belong to Whirl, for the gates. The lists follow the folders by themselves.
 CORE_C := $(wildcard core/*.c core/rig/*.c)
 HAL_C := $(wildcard hal/*.c hal/virtual/*.c)
-BOARD_C := $(wildcard boards/*.c boards/*/*.c)
-HOST_TOOL_C := $(wildcard host/count/*.c host/size/*.c host/setup/*.c)
+BOARD_C := $(wildcard boards/*/*.c)
+HOST_TOOL_C := $(wildcard mk/*/*.c)
 WHIRL_MAIN_C := $(wildcard host/*.c)
-WHIRL_C := $(filter-out $(HOST_TOOL_C),$(wildcard host/*/*.c))
+WHIRL_C := $(wildcard host/*/*.c)
 ifeq ($(SYSTEM),none)
 WHIRL_C := $(filter-out host/commands/run.c host/commands/sweep.c host/sweep/% host/plot/%,$(WHIRL_C))
 endif

@@ -17,7 +17,7 @@ $(foreach b,host float double $(BOARD),$(eval $(B)/$(b)/tests/%.o: FILE_FLAGS = 
     $(eval $(B)/$(b)/$(B)/tests/%.o: FILE_FLAGS = $(UNITY_FLAGS)))
 
 $(UNITY_DIR)/unity.c:
-	@UNITY="$(UNITY)" host/setup/unity.sh $(UNITY_DIR)
+	@UNITY="$(UNITY)" mk/setup/unity.sh $(UNITY_DIR)
 
 # --- programs -----------------------------------------------------------------------------------
 $(B)/tests/core_suites.list $(B)/tests/host_suites.list: $(B)/tests/%_suites.list: FORCE

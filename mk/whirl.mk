@@ -30,7 +30,7 @@ $(GEN)/models.list: FORCE
 	@mkdir -p $(@D)
 	@echo '$(MODELS)' | cmp -s - $@ || echo '$(MODELS)' >$@
 
-$(GEN)/builtin_models.c: host/setup/embed_models.sh $(GEN)/models.list $(MODELS)
+$(GEN)/builtin_models.c: mk/setup/embed_models.sh $(GEN)/models.list $(MODELS)
 	$(say) GEN $@
 	$(Q)sh $< $(MODELS) >$@
 
@@ -39,10 +39,10 @@ $(GEN)/builtin_models.c: host/setup/embed_models.sh $(GEN)/models.list $(MODELS)
 # them; the gates compile the same files with other compilers and flags. Files that come out as they
 # were are left alone, so that a change in the program does not compile every scene anew.
 ifeq ($(B),build)
-$(GEN)/.stamp: build/whirl $(MODELS) host/setup/update_files.sh
+$(GEN)/.stamp: build/whirl $(MODELS) mk/setup/update_files.sh
 	$(say) GEN "$(GEN)/*.c (scenes)"
 	$(Q)rm -rf build/gen.new && mkdir build/gen.new && build/whirl emit-scenes build/gen.new
-	$(Q)sh host/setup/update_files.sh build/gen.new $(GEN) builtin_models.c
+	$(Q)sh mk/setup/update_files.sh build/gen.new $(GEN) builtin_models.c
 	@touch $@
 endif
 
@@ -57,7 +57,7 @@ $(LIB_SCENES): $(call objects,float,$(SCENE_C))
 $(LIB_SCENES_DOUBLE): $(call objects,double,$(SCENE_C))
 	$(archive)
 
-$(B)/scenes: $(call objects,float,boards/scenes_main.c boards/host/board.c) $(LIB_SCENES) $(LIB_FLOAT)
+$(B)/scenes: $(call objects,float,boards/programs/scenes.c boards/host/board.c) $(LIB_SCENES) $(LIB_FLOAT)
 	$(link)
 
 # --- make run -----------------------------------------------------------------------------------
@@ -65,5 +65,5 @@ $(B)/scenes: $(call objects,float,boards/scenes_main.c boards/host/board.c) $(LI
 run-now: build/whirl
 	@$(MAKE) $(GEN)/.stamp
 	@$(MAKE) $(ELF)/scenes.elf $(ELF)/firmware.elf
-	@sh host/demo/run.sh build/whirl $(ELF)/scenes.elf $(ELF)/firmware.elf \
+	@sh mk/demo/run.sh build/whirl $(ELF)/scenes.elf $(ELF)/firmware.elf \
 	    '$(call BOARD_EMULATE,IMAGE)'

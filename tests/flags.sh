@@ -151,13 +151,13 @@ compile() { # compile COMPILER REAL FLAGS...: $scratch/program, with what was sa
     # shellcheck disable=SC2086 # lists of words
     if [ "$by" = arm-none-eabi-gcc ]; then
         $by $own $board_flags "$@" -nostdlib -T$board/board.ld -L. -o "$scratch/program" \
-            "$scratch"/build/gen/*.c core/*.c boards/scenes_main.c boards/cortexm/*.c -lgcc
+            "$scratch"/build/gen/*.c core/*.c boards/programs/scenes.c boards/cortexm/*.c -lgcc
     elif [ "$link" = "$all" ]; then
         $by $own "$@" -o "$scratch/program" "$scratch"/build/gen/*.c core/*.c \
-            boards/scenes_main.c boards/host/board.c
+            boards/programs/scenes.c boards/host/board.c
     else
         mkdir -p "$scratch/objects" && rm -f "$scratch"/objects/*
-        for file in "$scratch"/build/gen/*.c core/*.c boards/scenes_main.c boards/host/board.c; do
+        for file in "$scratch"/build/gen/*.c core/*.c boards/programs/scenes.c boards/host/board.c; do
             $by $own "$@" -c -o "$scratch/objects/$(echo "$file" | tr '/' '_').o" "$file" || return 1
         done
         $by $link -o "$scratch/program" "$scratch"/objects/*.o

@@ -19,7 +19,7 @@ files() { find "$@" -type f \( -name '*.c' -o -name '*.h' \) 2>/dev/null | sort;
 core=$(files core)
 hal=$(files hal)
 target=$(files boards | grep -v '^boards/host/')
-all=$(files core hal boards host tests)
+all=$(files core hal boards host mk tests)
 
 # shellcheck disable=SC2086 # lists of files
 {

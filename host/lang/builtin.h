@@ -1,5 +1,5 @@
 /* builtin.h: the models that are part of the program: the files of core/models, as they were when it
- * was built. The definitions are generated (host/setup/embed_models.sh). */
+ * was built. The definitions are generated (mk/setup/embed_models.sh). */
 #ifndef LANG_BUILTIN_H
 #define LANG_BUILTIN_H
 

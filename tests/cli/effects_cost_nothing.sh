@@ -75,7 +75,7 @@ for file in core/models/*.whirl "$scratch/everything.whirl"; do
             inside && $1 == "with" { with = 1 }
             END { if (found && !with) print scene }' "$file"
     done)
-    awk -v drop="effect" -f host/price/strip.awk "$file" >"$scratch/stripped.whirl"
+    awk -v drop="effect" -f mk/price/strip.awk "$file" >"$scratch/stripped.whirl"
     awk -v keep=" $(echo "$plain" | tr '\n' ' ') " '
         $1 == "scene" { dropping = index(keep, " " $2 " ") == 0 }
         !dropping { print }

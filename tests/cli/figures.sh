@@ -3,7 +3,7 @@
 # over, and a wrong description is refused.
 . "$(dirname "$0")/../checks.sh"
 
-sh host/figures/figures.sh "$whirl" "$scratch/one" host/figures/fig*.fig >"$scratch/log" 2>&1
+sh mk/figures/figures.sh "$whirl" "$scratch/one" mk/figures/fig*.fig >"$scratch/log" 2>&1
 verdict $? "all are drawn" "$scratch/log"
 
 # Number, what is drawn in all panels (curves and laws), the last panel's x axis, the first's y axis.
@@ -49,27 +49,27 @@ awk -F, 'NR > 1 { n++; d = $2 / $3 * (1 + $1) - 1; if (d < 0) d = -d; if (d > 0.
 verdict $? "20 is 1/(1 + ratio) within 0.1 %, at 21 ratios"
 
 # The swing's action stays within 0.5 % from 4 s on, while its energy grows.
-sh host/figures/swing.sh "$whirl" cycles | awk -F, '
+sh mk/figures/swing.sh "$whirl" cycles | awk -F, '
     NR > 1 && $1 > 4 { n++; if ($3 < 6.965 || $3 > 7.035 || $4 <= energy) bad++ }
     { energy = $4 }
     END { exit !(n > 20 && bad == 0) }'
 verdict $? "the swing's action stays, its energy grows"
 
 # A billionth grows thousandfold by 5 s and to everything by 10 s.
-sh host/figures/growth.sh "$whirl" thomson_a theta1=1e-9 1e-9 --step 0.25ms --every 1s | awk -F, '
+sh mk/figures/growth.sh "$whirl" thomson_a theta1=1e-9 1e-9 --step 0.25ms --every 1s | awk -F, '
     $1 == 5 { five = $2 }
     $1 == 10 { ten = $2 }
     END { exit !(five > 5e3 && five < 7e3 && ten > 3e8 && ten < 4e9) }'
 verdict $? "chaos: growth of 6e3 by 5 s, 1e9 by 10 s"
 
-sh host/figures/figures.sh "$whirl" "$scratch/two" host/figures/fig46.fig host/figures/fig20.fig \
+sh mk/figures/figures.sh "$whirl" "$scratch/two" mk/figures/fig46.fig mk/figures/fig20.fig \
     >"$scratch/log" 2>&1 || sed 's/^/    /' "$scratch/log"
 cmp -s "$scratch/one/fig46.svg" "$scratch/two/fig46.svg" &&
     cmp -s "$scratch/one/fig20.svg" "$scratch/two/fig20.svg" &&
     cmp -s "$scratch/one/fig46.png" "$scratch/two/fig46.png"
 verdict $? "drawn twice, the same files"
 
-sh host/figures/page.sh host/figures/fig*.fig | cmp -s - docs/figures.md
+sh mk/figures/page.sh mk/figures/fig*.fig | cmp -s - docs/figures.md
 verdict $? "docs/figures.md is what the descriptions say (make figures-docs)"
 
 # refused WHAT LINE...: a description with these lines must not be drawn.
@@ -77,7 +77,7 @@ refused() {
     what=$1
     shift
     printf '%s\n' "$@" >"$scratch/bad.fig"
-    ! sh host/figures/figures.sh "$whirl" "$scratch/bad" "$scratch/bad.fig" >/dev/null 2>&1
+    ! sh mk/figures/figures.sh "$whirl" "$scratch/bad" "$scratch/bad.fig" >/dev/null 2>&1
     verdict $? "$what is refused"
 }
 refused "an unknown scene" "title t" "run a no_such_scene" "panel y" "curve a | {time} | {X} | -"

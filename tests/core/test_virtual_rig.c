@@ -50,7 +50,7 @@ static void begin(float target_rpm) {
     hal_watchdog_start(10U * CONTROL_TICKS);
 }
 
-/* One control step, as boards/main.c does it. */
+/* One control step, as boards/programs/rig.c does it. */
 static void control(void) {
     hal_clock_wait_until(hal_clock_ticks() + CONTROL_TICKS);
     if (rig.guard.trip == WH_TRIP_NONE) {

@@ -1,5 +1,5 @@
-/* naive_main.c: lets host/count/count_host.sh count the steps of a naive mechanism, once it has shown
- * that it computes the right motion. It speaks as host/count/bench.c does. */
+/* naive_main.c: lets mk/count/count_host.sh count the steps of a naive mechanism, once it has shown
+ * that it computes the right motion. It speaks as boards/programs/bench.c does. */
 #include <math.h>
 #include <stdio.h>
 

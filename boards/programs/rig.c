@@ -1,0 +1,214 @@
+/* rig.c: the firmware of the eccentric-mass rig, the same on every board.
+ *
+ * One test run as core/rig/rig.h describes it, on whatever hardware hal/ offers: tare, ramp to
+ * 330 rpm in closed loop on the slot pulses, record the load cell for 2 s, report, stop. Exit status
+ * 0: done; 1: the guard tripped, the report says why; 2: not started, for the hardware does not answer or
+ * the arithmetic is not that of the tests. */
+#include "boards/board.h"
+#include "core/arithmetic.h"
+#include "core/rig/datasheet.h"
+#include "core/rig/rig.h"
+#include "core/text.h"
+#include "hal/clock.h"
+#include "hal/console.h"
+#include "hal/loadcell.h"
+#include "hal/motor.h"
+#include "hal/slots.h"
+#include "hal/watchdog.h"
+
+/* The rig's only hardware so far is played by the model; a real one comes with its own hal. */
+#ifndef HAL_VIRTUAL
+#define HAL_VIRTUAL 1
+#endif
+#if HAL_VIRTUAL
+#include "hal/virtual/virtual_rig.h"
+#endif
+
+_Static_assert(HAL_TICKS_PER_S == WH_RIG_TICKS_PER_S, "one clock");
+
+#define CONTROL_TICKS 2000U /* 500 Hz, as wh_rig_standard.step_s */
+#define WATCHDOG_TICKS (10U * CONTROL_TICKS)
+#define RPM_PER_RADPS (1.0f / WH_RIG_RADPS_PER_RPM)
+
+/* Static, not on the stack: a run holds its two seconds of record. */
+static wh_rig rig;
+
+static void put(const char *words) {
+    char bytes[96];
+    wh_text text;
+    wh_text_start(&text, bytes, sizeof bytes);
+    wh_text_add(&text, words);
+    hal_console_write(text.bytes, text.length);
+}
+
+/* A line "name value unit", the value with its decimals. */
+static void put_value(const char *name, float value, unsigned decimals, const char *unit) {
+    char bytes[96];
+    wh_text text;
+    wh_text_start(&text, bytes, sizeof bytes);
+    wh_text_add(&text, "  ");
+    wh_text_add(&text, name);
+    while (text.length < 32U) {
+        wh_text_add_char(&text, ' ');
+    }
+    wh_text_add_fixed(&text, value, decimals);
+    if (unit[0] != '\0') {
+        wh_text_add_char(&text, ' ');
+        wh_text_add(&text, unit);
+    }
+    wh_text_add_char(&text, '\n');
+    hal_console_write(text.bytes, text.length);
+}
+
+/* A line of a force: newtons, and pounds-force in brackets. */
+static void put_force(const char *name, float force_N) {
+    char bytes[96];
+    wh_text text;
+    wh_text_start(&text, bytes, sizeof bytes);
+    wh_text_add(&text, "N (");
+    wh_text_add_fixed(&text, force_N * WH_RIG_LBF_PER_N, 2);
+    wh_text_add(&text, " lbf)");
+    put_value(name, force_N, 2, text.bytes);
+}
+
+static void put_state(uint32_t started_ticks) {
+    char bytes[96];
+    wh_text text;
+    wh_text_start(&text, bytes, sizeof bytes);
+    wh_text_add_fixed(&text, (float)(hal_clock_ticks() - started_ticks) / (float)HAL_TICKS_PER_S,
+                      3);
+    wh_text_add(&text, " s  ");
+    wh_text_add(&text, wh_rig_state_text(rig.state));
+    if (rig.state >= WH_RIG_RAMP && rig.state <= WH_RIG_RAMP_DOWN) {
+        wh_text_add(&text, ", ");
+        wh_text_add_fixed(&text, rig.speed.turn_radps * RPM_PER_RADPS, 1);
+        wh_text_add(&text, " rpm, duty ");
+        wh_text_add_fixed(&text, rig.duty, 3);
+    }
+    wh_text_add_char(&text, '\n');
+    hal_console_write(text.bytes, text.length);
+}
+
+static void put_result(const wh_rig_result *result) {
+    const float nominal_radps = WH_RIG_NOMINAL_RPM * WH_RIG_RADPS_PER_RPM;
+    const float formula_N = WH_RIG_MASS_MOMENT_KGM * nominal_radps * nominal_radps;
+    put("Measured, over whole turns of a 2 s record at 500 samples/s\n");
+    put_value("turns", (float)result->turns, 0, "");
+    put_value("speed", result->speed_radps * RPM_PER_RADPS, 2, "rpm");
+    put_force("force, once per turn", result->amplitude_N);
+    put_value("its phase to the masses", result->phase_rad * WH_RIG_DEG_PER_RAD, 2, "deg");
+    put_force("mean force", result->mean_N);
+    put_force("lowest peak", result->low_N);
+    put_force("highest peak", result->high_N);
+    put_force("load at sensor 1's spikes", result->at_spike_N[0]);
+    put_force("load at sensor 2's spikes", result->at_spike_N[1]);
+    put_force("tare taken off", result->tare_N);
+    put_value("motor duty", result->duty, 3, "");
+    put_value("slot pulses lost", (float)result->lost, 0, "");
+    put_value("slot pulses rejected", (float)result->rejected, 0, "");
+    put("Formula, sum of m r w^2 at the nominal speed\n");
+    put_value("speed", WH_RIG_NOMINAL_RPM, 2, "rpm");
+    put_force("force", formula_N);
+    put_value("phase", 0.0f, 2, "deg");
+    put_value("measured / formula", 100.0f * result->amplitude_N / formula_N, 2, "%");
+}
+
+#if HAL_VIRTUAL
+static void put_plant_hash(void) {
+    const hal_virtual_rig *plant = hal_virtual_rig_instance();
+    char bytes[96];
+    wh_text text;
+    wh_text_start(&text, bytes, sizeof bytes);
+    wh_text_add(&text, "Virtual rig: model ");
+    wh_text_add_hex(&text, rig_fixed.model_hash, 16);
+    wh_text_add(&text, ", ");
+    wh_text_add_unsigned(&text, plant->state.steps);
+    wh_text_add(&text, " steps, state hash ");
+    wh_text_add_hex(&text, wh_scene_hash(plant->scene, &plant->state), 16);
+    wh_text_add_char(&text, '\n');
+    hal_console_write(text.bytes, text.length);
+}
+#endif
+
+/* The control loop, until the run is over. */
+static void run(const wh_rig_config *config) {
+    const uint32_t started = hal_clock_ticks();
+    uint32_t due = started;
+    wh_rig_start(config, &rig, WH_RIG_NOMINAL_RPM * WH_RIG_RADPS_PER_RPM, started);
+    wh_rig_state shown = rig.state;
+    put_state(started);
+    hal_watchdog_start(WATCHDOG_TICKS);
+    while (!wh_rig_is_over(&rig)) {
+        due += CONTROL_TICKS;
+        hal_clock_wait_until(due);
+        if (rig.guard.trip == WH_TRIP_NONE) {
+            hal_watchdog_kick(); /* tripped, let the watchdog cut the motor too: a second way off */
+        }
+        hal_slot_pulse pulse;
+        while (hal_slots_take(&pulse)) {
+            wh_rig_pulse(&rig, pulse.sensor, pulse.ticks);
+        }
+        hal_load_sample sample;
+        while (hal_loadcell_take(&sample)) {
+            wh_rig_load(config, &rig, sample.ticks, sample.raw);
+        }
+        hal_motor_set_duty(wh_rig_step(config, &rig, hal_clock_ticks(), hal_watchdog_has_cut()));
+        if (rig.state != shown) {
+            shown = rig.state;
+            put_state(started);
+        }
+    }
+    hal_motor_set_duty(0.0f);
+}
+
+/* Why hal_clock_start() failed. */
+static const char *why_no_hardware(void) {
+#if HAL_VIRTUAL
+    const wh_status status = hal_virtual_rig_instance()->status;
+    if (status != WH_OK) {
+        return wh_status_text(status);
+    }
+#endif
+    return "the hardware does not answer";
+}
+
+/* Before anything has moved. */
+static void refuse(const char *why) {
+    put("NOT STARTED: ");
+    put(why);
+    put("; the motor is off\n");
+    board_exit(2);
+}
+
+int main(void) {
+    board_start();
+    put("Eccentric-mass rig on board ");
+    put(board_name);
+    put("\n");
+    if (!hal_clock_start()) {
+        refuse(why_no_hardware());
+    }
+    if (wh_arithmetic_wrong(wh_arithmetic) != WH_PROBED_COUNT) {
+        hal_motor_set_duty(0.0f);
+        refuse(wh_status_text(WH_E_ARITHMETIC));
+    }
+    wh_rig_config config = wh_rig_standard;
+    config.newton_per_count = HAL_LOADCELL_N_PER_COUNT;
+    config.slot_lead_rad = HAL_SLOT_LEAD_DEG / WH_RIG_DEG_PER_RAD;
+    config.load_period_ticks = HAL_LOADCELL_PERIOD_TICKS;
+    config.guard.load_raw_max = HAL_LOADCELL_RAW_MAX;
+    run(&config);
+
+    const bool tripped = rig.guard.trip != WH_TRIP_NONE;
+    if (tripped) {
+        put("TRIPPED: ");
+        put(wh_trip_text(rig.guard.trip));
+        put("; the motor is off\n");
+    } else {
+        put_result(&rig.result);
+    }
+#if HAL_VIRTUAL
+    put_plant_hash();
+#endif
+    board_exit(tripped ? 1 : 0);
+}

@@ -1,0 +1,46 @@
+/* scenes.c: runs every generated scene to its end and prints the hash of its last state:
+ *
+ *     scene NAME steps N hash 0x0123456789abcdef ok
+ *
+ * The same lines must come out on the PC and on every board. A scene that diverges says so in the
+ * last words, with the hash of its last good state; the others still run. Fails if none is there. */
+#include "boards/board.h"
+#include "build/gen/scenes.h"
+#include "core/scene.h"
+#include "core/text.h"
+
+/* Room for any scene of up to 16 angles, 48 reals and 16 inputs, compensated or not. */
+static uint64_t memory[WH_STATE_WORDS(16, 48, 16) + WH_CONTACT_WORDS(16) + WH_HELD_WORDS(16) +
+                       WH_LEDGER_WORDS(128, 17)];
+
+static void run(const wh_scene *scene) {
+    char line[200];
+    wh_text text;
+    wh_state state;
+    wh_text_start(&text, line, sizeof line);
+    wh_text_add(&text, "scene ");
+    wh_text_add(&text, scene->name);
+
+    wh_status status = wh_scene_start(scene, &state, memory, sizeof memory);
+    if (status == WH_OK) {
+        while (state.steps < scene->steps && status == WH_OK) {
+            status = wh_scene_step(scene, &state);
+        }
+        wh_text_add(&text, " steps ");
+        wh_text_add_unsigned(&text, state.steps);
+        wh_text_add(&text, " hash 0x");
+        wh_text_add_hex(&text, wh_scene_hash(scene, &state), 16);
+    }
+    wh_text_add_char(&text, ' ');
+    wh_text_add(&text, wh_status_text(status));
+    wh_text_add_char(&text, '\n');
+    hal_console_write(text.bytes, text.length);
+}
+
+int main(void) {
+    board_start();
+    for (unsigned i = 0; i < wh_scene_count; i++) {
+        run(wh_scenes[i]);
+    }
+    board_exit(wh_scene_count > 0 ? 0 : 1);
+}

@@ -1,0 +1,82 @@
+#!/bin/sh
+# figures.sh WHIRL OUT FIGURE.fig...: draw each figure as OUT/FIGURE.svg and OUT/FIGURE.png, from runs
+# of the program WHIRL. gnuplot draws; OUT/data keeps the numbers, OUT/FIGURE.gp the drawing's script,
+# so that any figure can be drawn again by hand.
+#
+# A .fig file describes one figure, a statement a line, # begins a comment:
+#
+#   title TEXT                  above the figure
+#   caption TEXT                for docs/figures.md; more lines go on with the text
+#   run NAME SCENE OPTIONS      records of `whirl run`, known below as NAME
+#   sweep NAME SCENE OPTIONS    records of `whirl sweep`
+#   table NAME SCRIPT WORDS     what mk/figures/SCRIPT prints, a CSV with a header; it is called with
+#                               WHIRL and WORDS
+#   panel YLABEL                begins a panel; panels stand one above the other
+#   xlabel TEXT                 of the panel; "time [s]" at the last one when left out
+#   set TEXT                    a gnuplot setting for the panel
+#   curve NAME | X | Y | TITLE [| STYLE]
+#                               X and Y are gnuplot expressions in {column} names, which may hold no
+#                               brace; TITLE is the curve's name, - for none; STYLE is gnuplot's, when
+#                               it is not a line
+#   law X-EXPRESSION | TITLE    a function of x, drawn thin and dashed
+set -eu
+
+whirl=${1:?usage: figures.sh WHIRL OUT FIGURE.fig...}
+out=${2:?usage: figures.sh WHIRL OUT FIGURE.fig...}
+shift 2
+here=$(dirname "$0")
+mkdir -p "$out/data"
+trap 'rm -f "$out"/data/*.files "$out"/data/*.records' EXIT
+
+# record FIGURE KIND NAME WORDS...: make OUT/data/….csv unless another figure has, and print its path.
+# Files are named after the command, so that figures share their runs.
+record() {
+    kind=$2
+    shift 3
+    file=$out/data/$kind-$(printf '%s' "$*" | tr -c 'A-Za-z0-9.\n' '_').csv
+    if [ ! -s "$file" ]; then
+        rm -f "$file.raw" "$file.raw.sweep" # a sweep would go on with it
+        case $kind in
+        run) "$whirl" run "$@" --quiet --csv "$file.raw" ;;
+        sweep) "$whirl" sweep "$@" --csv "$file.raw" >/dev/null ;;
+        table)
+            script=$1
+            shift
+            sh "$here/$script" "$whirl" "$@" >"$file.raw"
+            ;;
+        esac || {
+            rm -f "$file.raw" "$file.raw.sweep"
+            echo "figures.sh: cannot $kind $*" >&2
+            return 1
+        }
+        tr -d '\r' <"$file.raw" >"$file"
+        rm -f "$file.raw" "$file.raw.sweep"
+    fi
+    printf '%s\n' "$file"
+}
+
+for fig in "$@"; do
+    name=$(basename "$fig" .fig)
+    files=$out/data/$name.files # NAME FILE, a line each
+    : >"$files"
+    grep -E '^(run|sweep|table) ' "$fig" >"$out/data/$name.records" || true
+    while read -r kind label words; do
+        eval "set -- $words" # the words may be quoted
+        file=$(record "$fig" "$kind" "$label" "$@")
+        printf '%s %s\n' "$label" "$file" >>"$files"
+    done <"$out/data/$name.records"
+    awk -v files="$files" -f "$here/figure.awk" "$fig" >"$out/$name.gp"
+    height=$(awk '$1 == "panel" { n++ } END { print n == 1 ? 480 : 90 + 270 * n }' "$fig")
+    for kind in svg png; do
+        case $kind in
+        svg) terminal="svg size 900,$height dynamic font 'sans-serif,15' background rgb 'white'" ;;
+        png) terminal="pngcairo size 900,$height font 'Sans,12' background rgb 'white'" ;;
+        esac
+        LC_ALL=C.UTF-8 gnuplot -e "set terminal $terminal noenhanced; set output '$out/$name.$kind'" \
+            "$out/$name.gp" || {
+            echo "figures.sh: gnuplot cannot draw $out/$name.gp" >&2
+            exit 1
+        }
+    done
+    echo "  $name"
+done

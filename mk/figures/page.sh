@@ -1,0 +1,29 @@
+#!/bin/sh
+# page.sh FIGURE.fig...: print docs/figures.md, the page with every figure of the dissertation.
+set -eu
+cat <<'END'
+# Figures
+
+The dissertation's simulated figures, drawn anew from Whirl's runs, to be scrolled through beside it:
+the same quantities on the axes, units labelled, captions our own. What follows from them is in
+[findings.md](findings.md), the mechanisms are in [models.md](models.md).
+
+`make figures` draws each as SVG and PNG in `build/figures/`; `make figures-docs` also copies the SVGs
+and this page, which is made from the descriptions `mk/figures/*.fig`, into `docs/`. The drawings hold
+no date and no machine's name: drawn twice, they are the same files. The commands below print the
+numbers behind each figure.
+
+Not here: figures 1 to 18, 21 to 31, 35, 41 to 43, 47 to 49 and 56 are drawings, photographs and
+measurements; those of the rig (17, 24 to 26) are a matter of [rig.md](rig.md).
+END
+for fig in "$@"; do
+    name=$(basename "$fig" .fig)
+    printf '\n## Figure %s: %s\n\n' "${name#fig}" "$(sed -n 's/^title //p' "$fig")"
+    printf '![figure %s](figures/%s.svg)\n\n' "${name#fig}" "$name"
+    sed -n 's/^caption //p' "$fig"
+    printf '\n```sh\n'
+    sed -n -e 's/^run [a-z0-9]* \(.*\)/build\/whirl run \1 --csv -/p' \
+        -e 's/^sweep [a-z0-9]* \(.*\)/build\/whirl sweep \1/p' \
+        -e 's/^table [a-z0-9]* \([a-z]*\.sh\)\(.*\)/sh host\/figures\/\1 build\/whirl\2/p' "$fig"
+    printf '```\n'
+done
