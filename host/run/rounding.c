@@ -33,10 +33,11 @@ static double of_call(function_id function, double x, double y, double a, double
 /* What the operands' errors a and b become; *rounds: is the result rounded, too? */
 static double carried(const tape *t, const op *o, const rounding_values *at, const double *error,
                       double v, bool *rounds) {
-    const double x = o->a >= 0 && o->code >= OP_SIN ? at->value[o->a] : 0.0;
-    const double y = o->b >= 0 && o->code >= OP_SIN ? at->value[o->b] : 0.0;
-    const double a = o->a >= 0 && o->code >= OP_SIN ? error[o->a] : 0.0;
-    const double b = o->b >= 0 && o->code >= OP_SIN ? error[o->b] : 0.0;
+    const int values = op_rows[o->code].values;
+    const double x = values > 0 ? at->value[o->a] : 0.0;
+    const double y = values > 1 && o->b >= 0 ? at->value[o->b] : 0.0;
+    const double a = values > 0 ? error[o->a] : 0.0;
+    const double b = values > 1 && o->b >= 0 ? error[o->b] : 0.0;
     *rounds = false;
     switch (o->code) {
     case OP_CONSTANT: return of_constant(o->value);
