@@ -6,8 +6,8 @@
 
 #include "commands.h"
 #include "host/base/room.h"
+#include "host/number/zero.h"
 #include "host/run/engine.h"
-#include "host/run/number.h"
 #include "host/run/undefined.h"
 #include "load.h"
 #include "options.h"

@@ -14,7 +14,7 @@
 #include "host/base/room.h"
 #include "host/lang/hints.h"
 #include "host/lang/override.h"
-#include "host/run/shown.h"
+#include "host/lang/shown.h"
 
 static char *copy_of(const char *text, size_t length) { return room_copy(text, length); }
 

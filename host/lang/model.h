@@ -12,7 +12,7 @@
 
 #include "host/base/diag.h"
 #include "host/number/functions.h"
-#include "ratio.h"
+#include "host/number/ratio.h"
 #include "units.h"
 
 /* --- symbols ----------------------------------------------------------------------------------- */

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "host/base/room.h"
-#include "number.h"
+#include "host/number/zero.h"
 
 books *books_open(const program *p, const equations *e) { return books_open_of(p, e, e->instance); }
 

@@ -8,7 +8,7 @@
 #include "host/base/room.h"
 #include "host/derive/contact_lists.h"
 #include "host/derive/ledger.h"
-#include "shown.h"
+#include "host/lang/shown.h"
 #include "statement.h"
 #include "summary.h"
 

@@ -8,7 +8,8 @@
 #include "engine.h"
 #include "host/base/room.h"
 #include "host/derive/contact_lists.h"
-#include "shown.h"
+#include "host/lang/shown.h"
+#include "host/number/phase.h"
 
 /* m or rad: what the conversion of a start's units may leave. */
 #define ROUNDING 1e-9
@@ -37,11 +38,11 @@ bool start_angles_are_held(const program *p, const instance *inst, diags *errors
         const int k = p->angle[i].unknown;
         const symbol *s = inst->mechanism->coordinates[k];
         const place given = inst->start_at[k][0];
-        if (!engine_angle_is_held(inst->start[k][0])) {
+        if (!phase_holds_start(inst->start[k][0])) {
             diag_error(errors, given.source != NULL ? given : s->at,
                        "start it within a turn: whole turns change nothing in a sine",
                        "'%s' starts at %.9g rad: float counts turns up to %g rad only", s->name,
-                       inst->start[k][0], ENGINE_ANGLE_MOST_RAD);
+                       inst->start[k][0], PHASE_START_MOST_RAD);
             held = false;
         }
     }

@@ -8,10 +8,10 @@
 
 #include "host/base/room.h"
 #include "host/lang/override.h"
+#include "host/lang/shown.h"
 #include "host/lang/value.h"
 #include "host/number/decimal.h"
-#include "host/run/number.h"
-#include "host/run/shown.h"
+#include "host/number/zero.h"
 
 /* A copy of text[length] without blanks at its ends. */
 static char *trimmed(const char *text, size_t length) {

@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "host/base/room.h"
+#include "host/number/zero.h"
 #include "host/run/belief.h"
-#include "host/run/number.h"
 #include "host/run/slow.h"
 #include "host/run/start.h"
 #include "host/run/undefined.h"

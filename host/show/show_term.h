@@ -1,6 +1,6 @@
-/* show_term.h: one product for readers. For host/emit's show.c. */
-#ifndef EMIT_SHOW_TERM_H
-#define EMIT_SHOW_TERM_H
+/* show_term.h: one product for readers. For host/show's own files. */
+#ifndef SHOW_SHOW_TERM_H
+#define SHOW_SHOW_TERM_H
 
 #include "host/derive/pieces.h"
 #include "show.h"

@@ -1,6 +1,6 @@
-/* contact_events.h: finding and taking the events of a step (see contact.h). */
-#ifndef WH_CONTACT_EVENTS_H
-#define WH_CONTACT_EVENTS_H
+/* contact_locate.h: finding and taking the events of a step (see contact.h). */
+#ifndef WH_CONTACT_LOCATE_H
+#define WH_CONTACT_LOCATE_H
 
 #include "contact_forces.h"
 

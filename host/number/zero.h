@@ -1,6 +1,6 @@
-/* number.h: numbers for readers. */
-#ifndef RUN_NUMBER_H
-#define RUN_NUMBER_H
+/* zero.h: zeros for readers. */
+#ifndef NUMBER_ZERO_H
+#define NUMBER_ZERO_H
 
 #include <math.h>
 

@@ -1,6 +1,6 @@
-/* contact_take.h: what an event does (see contact.h). */
-#ifndef WH_CONTACT_TAKE_H
-#define WH_CONTACT_TAKE_H
+/* contact_resolve.h: what an event does (see contact.h). */
+#ifndef WH_CONTACT_RESOLVE_H
+#define WH_CONTACT_RESOLVE_H
 
 #include "contact_settle.h"
 

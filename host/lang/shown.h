@@ -1,8 +1,8 @@
 /* shown.h: the units in which people read numbers: the declared one, or SI. */
-#ifndef RUN_SHOWN_H
-#define RUN_SHOWN_H
+#ifndef LANG_SHOWN_H
+#define LANG_SHOWN_H
 
-#include "host/lang/model.h"
+#include "model.h"
 
 /* The unit in which a coordinate or state (its derivative with so many primes) or an output is shown.
  * It is the declared one, for a derivative per second: [deg] makes deg/s, deg/s^2. What has none is

@@ -5,13 +5,13 @@
  * operations are entered once; constants are folded; signs are pulled outwards, where they vanish
  * into subtractions.
  */
-#ifndef DERIVE_TAPE_H
-#define DERIVE_TAPE_H
+#ifndef IMAGE_TAPE_H
+#define IMAGE_TAPE_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "host/lang/model.h"
+#include "host/number/functions.h"
 
 typedef enum op_code {
     OP_CONSTANT, /* value */

@@ -1,8 +1,8 @@
-/* contact_place.h: keeping resting stops and holds where they are, and their rates at zero (see contact.h). */
-#ifndef WH_CONTACT_PLACE_H
-#define WH_CONTACT_PLACE_H
+/* contact_project.h: keeping resting stops and holds where they are, and their rates at zero (see contact.h). */
+#ifndef WH_CONTACT_PROJECT_H
+#define WH_CONTACT_PROJECT_H
 
-#include "contact_events.h"
+#include "contact_locate.h"
 
 /* The accelerations, forces and signals at a state, in the modes of work. */
 static inline void wh_contact_look(const wh_hybrid *of, wh_contact_work *w, wh_contact_state *s,

@@ -1,6 +1,6 @@
 /* show.h: polys as a reader of textbooks wants them: collected, factored, fractions as fractions. */
-#ifndef EMIT_SHOW_H
-#define EMIT_SHOW_H
+#ifndef SHOW_SHOW_H
+#define SHOW_SHOW_H
 
 #include <stdio.h>
 

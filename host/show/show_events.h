@@ -1,6 +1,6 @@
 /* show_events.h: stops, frictions, holds and crossings, for readers. */
-#ifndef EMIT_SHOW_EVENTS_H
-#define EMIT_SHOW_EVENTS_H
+#ifndef SHOW_SHOW_EVENTS_H
+#define SHOW_SHOW_EVENTS_H
 
 #include "host/derive/equations.h"
 #include "show.h"

@@ -1,11 +1,12 @@
 /* text.c: the equations of motion and the first-order form, for the screen and for a paper. */
+#include "text.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "emit.h"
-#include "host/run/number.h"
-#include "host/run/shown.h"
+#include "host/lang/shown.h"
+#include "host/number/zero.h"
 #include "show.h"
 #include "show_events.h"
 #include "show_term.h"
@@ -278,7 +279,7 @@ static void write_first_order(const show *s, const equations *e) {
     }
 }
 
-void emit_text(FILE *out, const equations *e) {
+void show_text(FILE *out, const equations *e) {
     const show s = {out, SHOW_TEXT, e->algebra};
     const bool system = e->instance->mechanism->is_system;
     write_names(&s, e);
@@ -302,7 +303,7 @@ void emit_text(FILE *out, const equations *e) {
     write_first_order(&s, e);
 }
 
-void emit_latex(FILE *out, const equations *e) {
+void show_latex(FILE *out, const equations *e) {
     const show s = {out, SHOW_LATEX, e->algebra};
     const poly *top[2];
     const poly *bottom;

@@ -1,4 +1,4 @@
-/* contact_share.h: how contacts share a load, each within what it can take (see contact.h).
+/* contact_lcp.h: how contacts share a load, each within what it can take (see contact.h).
  *
  * A resting stop pushes and does not pull, and what sticks takes no more than its static friction. So the
  * forces of the contacts that hold something solve
@@ -11,8 +11,8 @@
  * index first (Murty, Linear Complementarity, Linear and Nonlinear Programming, chapters 2 to 4; Judice &
  * Pires 1994 for limits on both sides). With impulses for forces and rates for accelerations it is the
  * impact's problem. */
-#ifndef WH_CONTACT_SHARE_H
-#define WH_CONTACT_SHARE_H
+#ifndef WH_CONTACT_LCP_H
+#define WH_CONTACT_LCP_H
 
 #include "contact_ledger.h"
 

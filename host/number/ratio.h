@@ -1,6 +1,6 @@
 /* ratio.h: steps and ends of runs as fractions of whole numbers, so that counts and times are exact. */
-#ifndef LANG_RATIO_H
-#define LANG_RATIO_H
+#ifndef NUMBER_RATIO_H
+#define NUMBER_RATIO_H
 
 #include <stdbool.h>
 #include <stdint.h>
