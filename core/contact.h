@@ -21,9 +21,9 @@
  * step is not made: the stop rests.
  *
  * What a scene must offer is in `wh_hybrid`; what changes while running is in `wh_contacts` (scene.h).
- * contact_work.h has what a step works on, contact_share.h how contacts share a load, contact_forces.h the
- * forces and impulses, contact_ledger.h what they enter into the books, contact_events.h the search for
- * events, contact_settle.h and contact_take.h what they change, contact_place.h where they belong,
+ * contact_work.h has what a step works on, contact_lcp.h how contacts share a load, contact_forces.h the
+ * forces and impulses, contact_ledger.h what they enter into the books, contact_locate.h the search for
+ * events, contact_settle.h and contact_resolve.h what they change, contact_project.h where they belong,
  * contact_rank.h whether the holds still determine the motion, contact_step.h the step. Scenes without
  * contacts include none of these files. All are C only.
  */

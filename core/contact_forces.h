@@ -2,7 +2,7 @@
 #ifndef WH_CONTACT_FORCES_H
 #define WH_CONTACT_FORCES_H
 
-#include "contact_share.h"
+#include "contact_lcp.h"
 
 /* Contacts that repeat what others hold, as bits of places in member[], had nothing to do. Where that leaves
  * another with more than it can take, or where they contradict the others, share the load out: work->force has

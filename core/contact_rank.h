@@ -10,7 +10,7 @@
 #ifndef WH_CONTACT_RANK_H
 #define WH_CONTACT_RANK_H
 
-#include "contact_place.h"
+#include "contact_project.h"
 
 /* Of each hold that holds: what the earlier ones leave of its row, and M^-1 times that. */
 typedef struct wh_contact_rows {

@@ -2,7 +2,7 @@
 #ifndef WH_CONTACT_SETTLE_H
 #define WH_CONTACT_SETTLE_H
 
-#include "contact_place.h"
+#include "contact_project.h"
 
 /* After a crossing's assignments changed the gaps, conditions or rates of the contacts in work->moved: a
  * stop that was passed has its gap closed, and rests no longer, as one that was left; what a hold still

@@ -3,7 +3,7 @@
 #define WH_CONTACT_STEP_H
 
 #include "contact_rank.h"
-#include "contact_take.h"
+#include "contact_resolve.h"
 
 WH_INLINE void wh_contact_modes(const wh_hybrid *of, const wh_state *state, wh_contact_work *w) {
     WH_UNROLL

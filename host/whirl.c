@@ -6,7 +6,7 @@
 #include "commands/commands.h"
 #include "commands/load.h"
 #include "core/arithmetic.h"
-#include "host/lang/nearest.h"
+#include "host/base/nearest.h"
 
 #define VERSION "0.1.0"
 

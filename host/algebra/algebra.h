@@ -4,7 +4,7 @@
 
 #include <stddef.h>
 
-#include "host/lang/arena.h"
+#include "host/base/arena.h"
 #include "poly.h"
 
 typedef struct intern_slot {

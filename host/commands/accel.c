@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "commands.h"
+#include "host/number/zero.h"
 #include "host/run/engine.h"
-#include "host/run/number.h"
 #include "host/run/undefined.h"
 #include "load.h"
 #include "options.h"

@@ -8,6 +8,7 @@
 #include "files.h"
 #include "host/emit/emit.h"
 #include "host/run/start.h"
+#include "host/show/text.h"
 #include "load.h"
 #include "options.h"
 
@@ -31,8 +32,8 @@ static const char *const form_names[FORMS] = {"text", "latex", "octave", "c"};
 
 static void print(form as, const loaded *made, const char *file, const engine_settings *settings) {
     switch (as) {
-    case FORM_TEXT: emit_text(stdout, made->equations); break;
-    case FORM_LATEX: emit_latex(stdout, made->equations); break;
+    case FORM_TEXT: show_text(stdout, made->equations); break;
+    case FORM_LATEX: show_latex(stdout, made->equations); break;
     case FORM_OCTAVE: emit_octave(stdout, made->equations, made->program, file); break;
     default: emit_c(stdout, made->equations, made->program, settings, file); break;
     }

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/lang/nearest.h"
+#include "host/base/nearest.h"
 #include "load.h"
 
 /* What is looked for. */

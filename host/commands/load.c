@@ -10,10 +10,10 @@
 
 #include "files.h"
 #include "find.h"
+#include "host/base/nearest.h"
 #include "host/lang/hints.h"
-#include "host/lang/nearest.h"
 #include "host/lang/override.h"
-#include "host/run/shown.h"
+#include "host/lang/shown.h"
 
 static char *copy_of(const char *text, size_t length) {
     char *copy = malloc(length + 1);

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/lang/nearest.h"
+#include "host/base/nearest.h"
 
 bool options_help(int count, char **words, const char *usage) {
     for (int i = 0; i < count; i++) {

@@ -8,7 +8,7 @@
 #include "core/hash.h"
 #include "energy.h"
 
-_Static_assert((int)HYBRIDS_MAX <= WH_CONTACTS_LIMIT, "the core has room for what a run may have");
+_Static_assert((int)CONTACTS_MAX <= WH_CONTACTS_LIMIT, "the core has room for what a run may have");
 
 static void *room(int count, size_t size) {
     void *p = calloc((size_t)count + 1, size);
@@ -175,22 +175,22 @@ static bool input_moves(const equations *e, const poly *value) {
 
 static contact_row make_row(contact_lists *c, const program *p, const equations *e,
                             const contact_law *law) {
-    static const int kinds[] = {[HYBRID_STOP] = WH_STOP,
-                                [HYBRID_FRICTION] = WH_FRICTION,
-                                [HYBRID_HOLD] = WH_HOLD,
-                                [HYBRID_WHEN] = WH_WHEN};
-    const hybrid *from = law->from;
+    static const int kinds[] = {[CONTACT_STOP] = WH_STOP,
+                                [CONTACT_FRICTION] = WH_FRICTION,
+                                [CONTACT_HOLD] = WH_HOLD,
+                                [CONTACT_WHEN] = WH_WHEN};
+    const contact_statement *from = law->from;
     contact_row row = {.from = from, .kind = kinds[from->kind], .pin = -1};
-    row.direction = from->kind == HYBRID_WHEN ? from->direction : 0;
+    row.direction = from->kind == CONTACT_WHEN ? from->direction : 0;
     row.first_set = c->set_count;
-    if (from->kind != HYBRID_WHEN) {
+    if (from->kind != CONTACT_WHEN) {
         row.pin = pin_of(p, e, law);
-        const bool moves = input_moves(e, from->kind == HYBRID_HOLD ? law->first : law->value);
-        row.direction = from->kind == HYBRID_STOP                    ? moves
-                        : from->kind == HYBRID_HOLD && law->straight ? 1
-                        : from->kind == HYBRID_HOLD && moves         ? -1
-                                                                     : 0;
-        row.first_set = from->kind == HYBRID_HOLD && row.pin < 0 ? c->held++ : 0;
+        const bool moves = input_moves(e, from->kind == CONTACT_HOLD ? law->first : law->value);
+        row.direction = from->kind == CONTACT_STOP                    ? moves
+                        : from->kind == CONTACT_HOLD && law->straight ? 1
+                        : from->kind == CONTACT_HOLD && moves         ? -1
+                                                                      : 0;
+        row.first_set = from->kind == CONTACT_HOLD && row.pin < 0 ? c->held++ : 0;
         return row;
     }
     row.sets = from->set_count;
@@ -219,7 +219,7 @@ static bool have_finite_laws(const equations *e, diags *errors) {
         "or values that are too large";
     bool finite = true;
     for (int k = 0; k < e->contacts->count; k++) {
-        const hybrid *h = e->contacts->law[k].from;
+        const contact_statement *h = e->contacts->law[k].from;
         const expr *const each[] = {h->value,           h->restitution,      h->condition,
                                     h->static_friction, h->kinetic_friction, h->normal};
         if (!are_finite(e, each, (int)(sizeof each / sizeof each[0]))) {
@@ -240,8 +240,8 @@ static bool have_finite_laws(const equations *e, diags *errors) {
 /* An impulse takes the mass matrix as it is before it, which must be so throughout. */
 static bool have_impulses(const equations *e, diags *errors) {
     for (int k = 0; k < e->contacts->count; k++) {
-        const hybrid *h = e->contacts->law[k].from;
-        if ((h->kind == HYBRID_STOP || h->kind == HYBRID_HOLD) && energy_mass_has_rates(e)) {
+        const contact_statement *h = e->contacts->law[k].from;
+        if ((h->kind == CONTACT_STOP || h->kind == CONTACT_HOLD) && energy_mass_has_rates(e)) {
             diag_error(errors, h->at, "leave it out, or make T quadratic in the rates",
                        "what an impact does cannot be told: the inertia of '%s' depends on rates",
                        e->instance->mechanism->name);

@@ -6,7 +6,7 @@
 #include "solve.h"
 
 typedef struct contact_row {
-    const hybrid *from;
+    const contact_statement *from;
     int kind; /* wh_contact_kind */
     int pin;
     int direction;

@@ -1,4 +1,4 @@
-/* contacts.c: collecting an instance's event-driven effects and differentiating them. */
+/* contacts.c: collecting an instance's contacts and differentiating them. */
 #include "contacts.h"
 
 #include <stdlib.h>
@@ -38,23 +38,23 @@ static void make_constraint(algebra *a, const mechanism *m, const poly *held, co
     }
 }
 
-static void make_law(algebra *a, const mechanism *m, const hybrid *from, contact_law *law,
-                     contact_set *set) {
+static void make_law(algebra *a, const mechanism *m, const contact_statement *from,
+                     contact_law *law, contact_set *set) {
     const poly *zero = poly_number(a, 0.0);
     law->from = from;
     law->first = law->second = law->bias = law->speed = zero;
     switch (from->kind) {
-    case HYBRID_STOP:
+    case CONTACT_STOP:
         law->value = poly_from_expr(a, from->value);
         law->first = poly_from_expr(a, from->restitution);
         make_constraint(a, m, law->value, law);
         break;
-    case HYBRID_HOLD:
+    case CONTACT_HOLD:
         law->value = poly_from_expr(a, from->condition);
         make_constraint(a, m, poly_from_expr(a, from->value), law);
         law->first = law->straight ? zero : poly_from_expr(a, from->value);
         break;
-    case HYBRID_FRICTION: {
+    case CONTACT_FRICTION: {
         const poly *normal = poly_call(a, FN_MAX, poly_from_expr(a, from->normal), zero);
         law->first = poly_mul(a, poly_from_expr(a, from->static_friction), normal);
         law->second = poly_mul(a, poly_from_expr(a, from->kinetic_friction), normal);
@@ -63,7 +63,7 @@ static void make_law(algebra *a, const mechanism *m, const hybrid *from, contact
         law->speed = zero;
         break;
     }
-    case HYBRID_WHEN:
+    case CONTACT_WHEN:
         law->value = poly_from_expr(a, from->value);
         set->value = room(from->set_count, sizeof(const poly *));
         for (int i = 0; i < from->set_count; i++) {
@@ -74,23 +74,24 @@ static void make_law(algebra *a, const mechanism *m, const hybrid *from, contact
 }
 
 contact_laws *contact_laws_make(algebra *a, const instance *inst) {
-    static const hybrid_kind order[] = {HYBRID_STOP, HYBRID_HOLD, HYBRID_FRICTION, HYBRID_WHEN};
+    static const contact_kind order[] = {CONTACT_STOP, CONTACT_HOLD, CONTACT_FRICTION,
+                                         CONTACT_WHEN};
     const mechanism *m = inst->mechanism;
     const int own = inst->scene != NULL ? inst->scene->when_count : 0;
     contact_laws *laws = room(1, sizeof *laws);
-    laws->law = room(m->hybrid_count + own, sizeof *laws->law);
-    laws->sets = room(m->hybrid_count + own, sizeof *laws->sets);
+    laws->law = room(m->contact_count + own, sizeof *laws->law);
+    laws->sets = room(m->contact_count + own, sizeof *laws->sets);
     for (int k = 0; k < 4; k++) {
-        for (int i = 0; i < m->hybrid_count + own; i++) {
-            const hybrid *h =
-                i < m->hybrid_count ? &m->hybrids[i] : &inst->scene->whens[i - m->hybrid_count];
-            if (h->kind != order[k] || (i < m->hybrid_count && !instance_has_hybrid(inst, h))) {
+        for (int i = 0; i < m->contact_count + own; i++) {
+            const contact_statement *h =
+                i < m->contact_count ? &m->contacts[i] : &inst->scene->whens[i - m->contact_count];
+            if (h->kind != order[k] || (i < m->contact_count && !instance_has_contact(inst, h))) {
                 continue;
             }
             make_law(a, m, h, &laws->law[laws->count], &laws->sets[laws->count]);
             laws->count++;
-            laws->forced += h->kind != HYBRID_WHEN;
-            laws->set_count += h->kind == HYBRID_WHEN ? h->set_count : 0;
+            laws->forced += h->kind != CONTACT_WHEN;
+            laws->set_count += h->kind == CONTACT_WHEN ? h->set_count : 0;
         }
     }
     if (laws->count == 0) {

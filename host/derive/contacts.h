@@ -1,4 +1,4 @@
-/* contacts.h: the event-driven effects of an instance, in symbols, in the order core/contact.h wants. */
+/* contacts.h: the contacts of an instance, in symbols, in the order core/contact.h wants. */
 #ifndef DERIVE_CONTACTS_H
 #define DERIVE_CONTACTS_H
 
@@ -6,7 +6,7 @@
 
 /* One stop, hold, friction or crossing. */
 typedef struct contact_law {
-    const hybrid *from;
+    const contact_statement *from;
     const poly
         *value; /* stop: the gap; hold: its condition; friction: the rate; crossing: the value
                          * that changes its sign */

@@ -19,10 +19,10 @@ static void tell(char text[INFLUENCE_TEXT_SIZE], int *count, const char *what, p
 }
 
 const char *influence_on(const equations *e, int i, char text[INFLUENCE_TEXT_SIZE], int *count) {
-    static const char *const words[] = {[HYBRID_STOP] = "the stop",
-                                        [HYBRID_FRICTION] = "the friction",
-                                        [HYBRID_HOLD] = "the hold",
-                                        [HYBRID_WHEN] = "the crossing"};
+    static const char *const words[] = {[CONTACT_STOP] = "the stop",
+                                        [CONTACT_FRICTION] = "the friction",
+                                        [CONTACT_HOLD] = "the hold",
+                                        [CONTACT_WHEN] = "the crossing"};
     algebra *a = e->algebra;
     const mechanism *m = e->instance->mechanism;
     const symbol *q = e->unknowns[i].symbol;

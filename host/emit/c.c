@@ -9,6 +9,7 @@
 #include "c_list.h"
 #include "emit.h"
 #include "host/number/hex.h"
+#include "host/number/phase.h"
 
 const char *const c_method_names[] = {"WH_EULER", "WH_SEMI_IMPLICIT_EULER", "WH_HEUN", "WH_RK4"};
 
@@ -59,7 +60,7 @@ static void write_starts(FILE *out, const program *p, const instance *inst) {
         fprintf(out, "static const wh_angle start_angle[%d] = {", p->angles);
         for (int i = 0; i < p->angles; i++) {
             fprintf(out, "%sWH_TURN(%s, INT64_C(%" PRId64 "))", i > 0 ? ", " : "",
-                    hex_write(angle_rad[i], hex), engine_angle_of_start(angle_rad[i]));
+                    hex_write(angle_rad[i], hex), phase_of_start(angle_rad[i]));
         }
         fprintf(out, "};\n");
     }

@@ -13,7 +13,7 @@
 #include "emit.h"
 #include "host/derive/contact_lists.h"
 #include "host/derive/ledger.h"
-#include "host/run/shown.h"
+#include "host/lang/shown.h"
 
 /* Bytes of the character at `text` that changes the direction of writing, or 0: compilers warn of these. */
 static size_t turns_direction(const char *text) {

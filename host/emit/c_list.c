@@ -9,7 +9,7 @@
 
 #include "host/lang/parser.h"
 #include "host/number/hex.h"
-#include "host/run/engine.h"
+#include "host/number/phase.h"
 
 /* An operand: constants stand in place. */
 static const char *operand(const tape *t, int a, char text[static 48]) {
@@ -28,7 +28,7 @@ static void write_part(FILE *out, int angle, double multiple) {
     uint32_t whole;
     uint64_t part;
     char hex[HEX_SIZE];
-    engine_factor(multiple, &whole, &part);
+    phase_factor(multiple, &whole, &part);
     fprintf(out,
             "wh_phase_times(angle[%d], WH_FACTOR(%s, %" PRIu32 "U,\n"
             "        UINT64_C(%" PRIu64 ")))",
@@ -43,7 +43,7 @@ static void write_phase(FILE *out, const tape *t, int i) {
     if (o->value != 0.0 || (o->turns == NULL && o->parts == NULL && o->b < 0)) {
         char hex[HEX_SIZE];
         fprintf(out, "WH_TURN(%s, %" PRIu32 "U)", hex_write(o->value, hex),
-                engine_phase_of_constant(o->value));
+                phase_of_constant(o->value));
         plus = " + ";
     }
     for (int k = 0; k < t->angles && o->turns != NULL; k++) {

@@ -4,7 +4,7 @@
 
 #include "emit.h"
 #include "host/lang/parser.h"
-#include "show_events.h"
+#include "host/show/show_events.h"
 
 /* y(k), k from 1: values first, then rates, and so on. */
 static int y_number(const program *p, const equations *e, component of) {

@@ -96,8 +96,8 @@ void finish_mechanism(parser *in, builder *done) {
     }
     if (made->is_system) {
         finish_system(in, done);
-        for (int i = 0; i < made->hybrid_count; i++) {
-            hybrid_on_system(in, &made->hybrids[i]);
+        for (int i = 0; i < made->contact_count; i++) {
+            contact_on_system(in, &made->contacts[i]);
         }
     } else if (made->coordinate_count == 0) {
         diag_error(in->diags, made->at, "declare one with: coordinate theta [rad]",

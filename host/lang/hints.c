@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "arena.h"
+#include "host/base/arena.h"
 #include "value.h"
 
 /* A rate far below any that matters, SI. A force that vanishes with the rate is ten times

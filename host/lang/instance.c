@@ -2,7 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "arena.h"
+#include "host/base/arena.h"
 #include "limits.h"
 #include "model.h"
 #include "override.h"
@@ -306,7 +306,7 @@ bool instance_has_term(const instance *of, const term *each) {
     return each->effect < 0 || of->with[each->effect];
 }
 
-bool instance_has_hybrid(const instance *of, const hybrid *each) {
+bool instance_has_contact(const instance *of, const contact_statement *each) {
     return each->effect < 0 || of->with[each->effect];
 }
 

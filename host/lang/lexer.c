@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "host/base/utf8.h"
 #include "host/number/decimal.h"
-#include "utf8.h"
 
 enum { NUMBER_LENGTH_MAX = 100 };
 

@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "diag.h"
+#include "host/base/diag.h"
 
 enum {
     NAME_LENGTH_MAX = 63, /* characters of a name */

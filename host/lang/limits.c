@@ -13,7 +13,7 @@ static double value_at_start(const expr *tree, valuation *known, const char *wha
     return diags_calls(known->diags) == before ? value : (double)NAN;
 }
 
-static void check_stop(const hybrid *stop, valuation *known) {
+static void check_stop(const contact_statement *stop, valuation *known) {
     const double e = value_at_start(stop->restitution, known, "the restitution");
     if (e < 0.0 || e > 1.0) {
         diag_error(known->diags, stop->restitution->at,
@@ -22,7 +22,7 @@ static void check_stop(const hybrid *stop, valuation *known) {
     }
 }
 
-static void check_friction(const hybrid *friction, valuation *known) {
+static void check_friction(const contact_statement *friction, valuation *known) {
     const expr *sticks = friction->static_friction;
     const expr *slides = friction->kinetic_friction;
     const double most = value_at_start(sticks, known, "the coefficient of static friction");
@@ -48,12 +48,13 @@ static void check_noise(const noise *each, valuation *known) {
 /* What two effects give separately, they must not give together. */
 static void check_pairs(const instance *made, diags *all) {
     const mechanism *of = made->mechanism;
-    for (int i = 0; i < of->hybrid_count; i++) {
-        const hybrid *a = &of->hybrids[i];
-        for (int k = 0; k < i && a->kind == HYBRID_FRICTION && instance_has_hybrid(made, a); k++) {
-            const hybrid *b = &of->hybrids[k];
-            if (b->kind == HYBRID_FRICTION && b->coordinate == a->coordinate &&
-                instance_has_hybrid(made, b)) {
+    for (int i = 0; i < of->contact_count; i++) {
+        const contact_statement *a = &of->contacts[i];
+        for (int k = 0; k < i && a->kind == CONTACT_FRICTION && instance_has_contact(made, a);
+             k++) {
+            const contact_statement *b = &of->contacts[k];
+            if (b->kind == CONTACT_FRICTION && b->coordinate == a->coordinate &&
+                instance_has_contact(made, b)) {
                 diag_error(all, a->at, "call for one of these effects",
                            "friction on '%s' was already given in line %d", a->coordinate->name,
                            b->at.line);
@@ -97,12 +98,12 @@ static void check_inputs(const instance *made, const expr *tree, diags *all) {
 }
 
 /* The numbers of events and of what they set are bounded. */
-static void count_event(const hybrid *each, int *events, int *sets, diags *all) {
+static void count_event(const contact_statement *each, int *events, int *sets, diags *all) {
     *events += 1;
     *sets += each->set_count;
-    if (*events == HYBRIDS_MAX + 1) {
+    if (*events == CONTACTS_MAX + 1) {
         diag_error(all, each->at, NULL, "more than %d stops, frictions, holds and whens in one run",
-                   HYBRIDS_MAX);
+                   CONTACTS_MAX);
     }
     if (*sets > SETS_MAX && *sets - each->set_count <= SETS_MAX) {
         diag_error(all, each->at, NULL, "the whens of one run set more than %d values", SETS_MAX);
@@ -114,20 +115,20 @@ void limits_check(const instance *made, valuation *known) {
     known->input = made->input;
     int events = 0;
     int sets = 0;
-    for (int i = 0; i < of->hybrid_count; i++) {
-        const hybrid *each = &of->hybrids[i];
-        if (!instance_has_hybrid(made, each)) {
+    for (int i = 0; i < of->contact_count; i++) {
+        const contact_statement *each = &of->contacts[i];
+        if (!instance_has_contact(made, each)) {
             continue;
         }
         count_event(each, &events, &sets, known->diags);
-        if (each->kind == HYBRID_STOP) {
+        if (each->kind == CONTACT_STOP) {
             check_stop(each, known);
-        } else if (each->kind == HYBRID_FRICTION) {
+        } else if (each->kind == CONTACT_FRICTION) {
             check_friction(each, known);
         }
     }
     for (int i = 0; made->scene != NULL && i < made->scene->when_count; i++) {
-        const hybrid *each = &made->scene->whens[i];
+        const contact_statement *each = &made->scene->whens[i];
         count_event(each, &events, &sets, known->diags);
         check_inputs(made, each->value, known->diags);
         for (int k = 0; k < each->set_count; k++) {

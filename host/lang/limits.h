@@ -1,5 +1,5 @@
-/* limits.h: what can only be checked with the numbers of one run: the ranges of the event-driven
- * effects and of noise that take part in it. */
+/* limits.h: what can only be checked with the numbers of one run: the ranges of contacts
+ * and of noise that take part in it. */
 #ifndef LANG_LIMITS_H
 #define LANG_LIMITS_H
 

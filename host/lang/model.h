@@ -10,9 +10,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "diag.h"
+#include "host/base/diag.h"
 #include "host/number/functions.h"
-#include "ratio.h"
+#include "host/number/ratio.h"
 #include "units.h"
 
 /* --- symbols ----------------------------------------------------------------------------------- */
@@ -114,11 +114,16 @@ typedef struct assignment {
     place at;
 } assignment;
 
-typedef enum hybrid_kind { HYBRID_STOP, HYBRID_FRICTION, HYBRID_HOLD, HYBRID_WHEN } hybrid_kind;
+typedef enum contact_kind {
+    CONTACT_STOP,
+    CONTACT_FRICTION,
+    CONTACT_HOLD,
+    CONTACT_WHEN
+} contact_kind;
 
-/* One event-driven effect, handled inside the step (core/contact.h says how). */
-typedef struct hybrid {
-    hybrid_kind kind;
+/* One contact, handled inside the step (core/contact.h says how). */
+typedef struct contact_statement {
+    contact_kind kind;
     /* stop: left - right, >= 0 when apart (coordinates, no rates); hold: the expression whose rate is
      * held at zero (coordinates, no rates); when: left - right (rates allowed); friction: NULL. */
     const expr *value;
@@ -133,10 +138,10 @@ typedef struct hybrid {
     int set_count;
     int effect; /* index of the effect it belongs to, or -1 */
     place at;
-} hybrid;
+} contact_statement;
 
 /* Most stops, frictions, holds and whens that take part in one run, and values its whens set. */
-enum { HYBRIDS_MAX = 16, SETS_MAX = 128 };
+enum { CONTACTS_MAX = 16, SETS_MAX = 128 };
 
 /* `noise OUTPUT deviation EXPR seed NUMBER`: Gaussian noise on a recorded output (core/noise.h). */
 typedef struct noise {
@@ -164,8 +169,8 @@ typedef struct mechanism {
     int let_count; /* each names only earlier ones */
     const term *terms;
     int term_count;
-    const hybrid *hybrids;
-    int hybrid_count;
+    const contact_statement *contacts;
+    int contact_count;
     const noise *noises;
     int noise_count;
     const effect *effects;
@@ -189,9 +194,9 @@ typedef struct scene {
     int set_count;
     const assignment *starts;
     int start_count;
-    const bool *conserve; /* [mechanism->coordinate_count] */
-    bool ledger;          /* `with ledger`: the books of energy and momentum are kept */
-    const hybrid *whens;  /* `when` statements of the scene's own */
+    const bool *conserve;           /* [mechanism->coordinate_count] */
+    bool ledger;                    /* `with ledger`: the books of energy and momentum are kept */
+    const contact_statement *whens; /* `when` statements of the scene's own */
     int when_count;
     const expr *step;  /* seconds, or NULL */
     const expr *until; /* seconds, or NULL */
@@ -253,8 +258,8 @@ typedef struct instance {
 
 /* Which terms take part: those of the mechanism itself and of the effects in instance->with. */
 bool instance_has_term(const instance *instance, const term *term);
-/* The same of an event-driven effect of the mechanism. */
-bool instance_has_hybrid(const instance *instance, const hybrid *hybrid);
+/* The same of a contact of the mechanism. */
+bool instance_has_contact(const instance *instance, const contact_statement *contact);
 /* The same of a noise. */
 bool instance_has_noise(const instance *instance, const noise *noise);
 

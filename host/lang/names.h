@@ -2,9 +2,9 @@
 #ifndef LANG_NAMES_H
 #define LANG_NAMES_H
 
-#include "arena.h"
+#include "host/base/arena.h"
+#include "host/base/nearest.h"
 #include "model.h"
-#include "nearest.h"
 
 typedef struct named {
     symbol symbol;       /* first: a `const symbol *` of a mechanism is the address of a `named` */

@@ -296,7 +296,7 @@ static bool parse_statement(parser *in) {
         good = parse_term(in, &known);
     }
     if (!known) {
-        good = parse_hybrid(in, &known);
+        good = parse_contact(in, &known);
     }
     if (!known) {
         good = parse_noise(in, &known);

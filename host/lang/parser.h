@@ -3,7 +3,7 @@
 #ifndef LANG_PARSER_H
 #define LANG_PARSER_H
 
-#include "arena.h"
+#include "host/base/arena.h"
 #include "lexer.h"
 #include "model.h"
 #include "names.h"
@@ -123,9 +123,9 @@ bool parse_declaration(parser *in, bool *known); /* coordinate, parameter, input
 void note_way(parser *in, bool by_equations);    /* the token in hand is the statement's word */
 bool parse_term(parser *in, bool *known);        /* T, V, F, Q, equation: terms.c */
 bool parse_effect(parser *in);                   /* effect.c */
-bool parse_hybrid(parser *in, bool *known);      /* stop, friction, hold, when: hybrid.c */
-bool parse_when(parser *in, hybrid *made);       /* when.c */
-void hybrid_on_system(parser *in, const hybrid *each);
+bool parse_contact(parser *in, bool *known);     /* stop, friction, hold, when: contact.c */
+bool parse_when(parser *in, contact_statement *made); /* when.c */
+void contact_on_system(parser *in, const contact_statement *each);
 bool parse_noise(parser *in, bool *known);                                       /* noise.c */
 const symbol *find_coordinate(parser *in, const token *name, const char *whose); /* terms.c */
 void finish_mechanism(parser *in, builder *made);                                /* finish.c */

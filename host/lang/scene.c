@@ -77,15 +77,16 @@ static bool parse_duration(parser *in, place word_at, const char *word, place *f
 
 static bool parse_scene_when(parser *in, draft *into) {
     scene *made = into->made;
-    hybrid each = {.kind = HYBRID_WHEN, .effect = -1, .at = in->token.at};
+    contact_statement each = {.kind = CONTACT_WHEN, .effect = -1, .at = in->token.at};
     parser_next(in);
     if (!parse_when(in, &each)) {
         return false;
     }
     if (made->mechanism->is_system) {
-        hybrid_on_system(in, &each);
+        contact_on_system(in, &each);
     }
-    hybrid *longer = arena_room(in->arena, (hybrid *)made->whens, made->when_count, sizeof *longer);
+    contact_statement *longer =
+        arena_room(in->arena, (contact_statement *)made->whens, made->when_count, sizeof *longer);
     longer[made->when_count++] = each;
     made->whens = longer;
     return true;

@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "host/base/nearest.h"
 #include "host/number/functions.h"
-#include "nearest.h"
 
 #define PI 3.14159265358979323846
 

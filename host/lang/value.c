@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "arena.h"
+#include "host/base/arena.h"
 
 enum {
     NAME_BUFFER = 100,

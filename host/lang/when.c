@@ -7,7 +7,7 @@
 static const char form[] = "when x crosses 0 [m] rising { set x' = 0 [m/s] }";
 
 /* The coordinate or rate to be set; *usable is false when it is none (reported). */
-static bool take_target(parser *in, const hybrid *made, assignment *set, bool *usable) {
+static bool take_target(parser *in, const contact_statement *made, assignment *set, bool *usable) {
     char words[80];
     const token name = in->token;
     token_words(&name, words, sizeof words);
@@ -56,7 +56,7 @@ static bool take_target(parser *in, const hybrid *made, assignment *set, bool *u
     return true;
 }
 
-static bool parse_set(parser *in, hybrid *made) {
+static bool parse_set(parser *in, contact_statement *made) {
     assignment set = {.symbol = NULL};
     bool usable = false;
     char words[80];
@@ -93,7 +93,7 @@ static bool parse_set(parser *in, hybrid *made) {
 }
 
 /* set ITEM {, ITEM}: a line may end after a comma. */
-static bool parse_sets(parser *in, hybrid *made) {
+static bool parse_sets(parser *in, contact_statement *made) {
     if (!parser_expect_word(in, "set", form)) {
         return false;
     }
@@ -123,7 +123,7 @@ static bool leaves_block(const parser *in) {
     return in->token.kind == TOKEN_END;
 }
 
-static bool parse_block(parser *in, hybrid *made) {
+static bool parse_block(parser *in, contact_statement *made) {
     const size_t before = diags_calls(in->diags);
     for (;;) {
         parser_skip_lines(in);
@@ -147,7 +147,7 @@ static bool parse_block(parser *in, hybrid *made) {
 }
 
 /* False when what stands there is neither direction nor brace, nor nearly so. */
-static bool take_direction(parser *in, hybrid *made) {
+static bool take_direction(parser *in, contact_statement *made) {
     if (parser_is_word(in, "rising") || parser_is_word(in, "falling")) {
         made->direction = parser_is_word(in, "rising") ? 1 : -1;
         parser_next(in);
@@ -167,7 +167,7 @@ static bool take_direction(parser *in, hybrid *made) {
     return true;
 }
 
-bool parse_when(parser *in, hybrid *made) {
+bool parse_when(parser *in, contact_statement *made) {
     const place at = in->token.at;
     const expr *left = parse_expression(in, CONTEXT_EVENT);
     if (left == NULL || !parser_expect_word(in, "crosses", form)) {

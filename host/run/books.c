@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "number.h"
+#include "host/number/zero.h"
 
 books *books_open(const program *p, const equations *e) { return books_open_of(p, e, e->instance); }
 

@@ -7,7 +7,7 @@
 
 #include "host/derive/contact_lists.h"
 #include "host/derive/ledger.h"
-#include "shown.h"
+#include "host/lang/shown.h"
 #include "statement.h"
 #include "summary.h"
 

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "number.h"
-#include "shown.h"
+#include "host/lang/shown.h"
+#include "host/number/zero.h"
 
 /* Columns of the unknowns and their derivatives, integrated or recovered. */
 static int state_columns(const equations *e) {

@@ -9,9 +9,9 @@
 
 #include "belief.h"
 #include "envelope.h"
+#include "host/lang/shown.h"
 #include "host/plot/plot.h"
 #include "records.h"
-#include "shown.h"
 #include "slow.h"
 #include "statement.h"
 #include "summary.h"

@@ -7,7 +7,8 @@
 
 #include "engine.h"
 #include "host/derive/contact_lists.h"
-#include "shown.h"
+#include "host/lang/shown.h"
+#include "host/number/phase.h"
 
 /* m or rad: what the conversion of a start's units may leave. */
 #define ROUNDING 1e-9
@@ -22,8 +23,8 @@ static double *room(int count) {
 
 static bool is_apart(const contact_row *row, double gap, diags *errors) {
     static const char hint[] = "start on it or apart from it, or leave the stop out";
-    const hybrid *stop = row->from;
-    if (stop->kind != HYBRID_STOP || (gap >= -ROUNDING && isfinite(gap))) {
+    const contact_statement *stop = row->from;
+    if (stop->kind != CONTACT_STOP || (gap >= -ROUNDING && isfinite(gap))) {
         return true;
     }
     char si[64];
@@ -44,11 +45,11 @@ bool start_angles_are_held(const program *p, const instance *inst, diags *errors
         const int k = p->angle[i].unknown;
         const symbol *s = inst->mechanism->coordinates[k];
         const place given = inst->start_at[k][0];
-        if (!engine_angle_is_held(inst->start[k][0])) {
+        if (!phase_holds_start(inst->start[k][0])) {
             diag_error(errors, given.source != NULL ? given : s->at,
                        "start it within a turn: whole turns change nothing in a sine",
                        "'%s' starts at %.9g rad: float counts turns up to %g rad only", s->name,
-                       inst->start[k][0], ENGINE_ANGLE_MOST_RAD);
+                       inst->start[k][0], PHASE_START_MOST_RAD);
             held = false;
         }
     }

@@ -2,7 +2,7 @@
 #ifndef RUN_STATEMENT_H
 #define RUN_STATEMENT_H
 
-#include "host/lang/diag.h"
+#include "host/base/diag.h"
 
 /* Room for what a message quotes. */
 #define STATEMENT_SIZE 161

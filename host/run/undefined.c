@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "host/base/arena.h"
 #include "host/derive/contact_lists.h"
-#include "host/lang/arena.h"
 #include "host/lang/value.h"
 #include "statement.h"
 
@@ -182,43 +182,43 @@ bool undefined_term(const undefined_at *at, diags *errors) {
 /* --- contacts ----------------------------------------------------------------------------------*/
 
 static bool find_contact(view *v, int k, diags *errors) {
-    const hybrid *h = v->at->program->contacts->row[k].from;
+    const contact_statement *h = v->at->program->contacts->row[k].from;
     switch (h->kind) {
-    case HYBRID_STOP:
+    case CONTACT_STOP:
         return check(v, h->at, h->value, "the gap of this stop", errors) ||
                check_slopes(v, h->at, h->value, "the rate of the gap of this stop", false, errors);
-    case HYBRID_HOLD:
+    case CONTACT_HOLD:
         return check(v, h->at, h->condition, "the condition of this hold", errors) ||
                check(v, h->at, h->value, "what this hold holds", errors) ||
                check_slopes(v, h->at, h->value, "the rate of what this hold holds", false, errors);
-    case HYBRID_FRICTION:
+    case CONTACT_FRICTION:
         return check(v, h->at, h->normal, "the normal force of this friction", errors) ||
                check(v, h->at, h->static_friction, "the static coefficient of this friction",
                      errors) ||
                check(v, h->at, h->kinetic_friction, "the kinetic coefficient of this friction",
                      errors);
-    case HYBRID_WHEN: return check(v, h->at, h->value, "the value of this crossing", errors);
+    case CONTACT_WHEN: return check(v, h->at, h->value, "the value of this crossing", errors);
     }
     return false;
 }
 
 /* Of a stop whose gap is a number: a restitution counts at an impact only, so it comes last. */
 static bool find_restitution(view *v, int k, diags *errors) {
-    const hybrid *h = v->at->program->contacts->row[k].from;
-    return h->kind == HYBRID_STOP &&
+    const contact_statement *h = v->at->program->contacts->row[k].from;
+    return h->kind == CONTACT_STOP &&
            check(v, h->at, h->restitution, "the restitution of this stop", errors);
 }
 
 void undefined_contact(const undefined_at *at, int k, diags *errors) {
     static const char *const whole[] = {
-        [HYBRID_STOP] = "the restitution, or the gap, of this stop",
-        [HYBRID_HOLD] = "the condition of this hold, or what it holds,",
-        [HYBRID_FRICTION] = "the normal force, or a coefficient, of this friction",
-        [HYBRID_WHEN] = "the value of this crossing"};
+        [CONTACT_STOP] = "the restitution, or the gap, of this stop",
+        [CONTACT_HOLD] = "the condition of this hold, or what it holds,",
+        [CONTACT_FRICTION] = "the normal force, or a coefficient, of this friction",
+        [CONTACT_WHEN] = "the value of this crossing"};
     if (look_ahead(at, find_contact, k, errors) || look_ahead(at, find_restitution, k, errors)) {
         return;
     }
-    const hybrid *h = at->program->contacts->row[k].from;
+    const contact_statement *h = at->program->contacts->row[k].from;
     const view v = {.at = at};
     report(&v, h->at, NULL, whole[h->kind], errors);
 }
@@ -227,8 +227,8 @@ static bool find_set(view *v, int which, diags *errors) {
     const contact_lists *c = v->at->program->contacts;
     (void)which;
     for (int k = 0; k < c->count; k++) {
-        const hybrid *h = c->row[k].from;
-        for (int i = 0; i < h->set_count && h->kind == HYBRID_WHEN; i++) {
+        const contact_statement *h = c->row[k].from;
+        for (int i = 0; i < h->set_count && h->kind == CONTACT_WHEN; i++) {
             if (check(v, h->sets[i].at, h->sets[i].value, "the value that is set", errors)) {
                 return true;
             }

@@ -7,10 +7,10 @@
 #include <string.h>
 
 #include "host/lang/override.h"
+#include "host/lang/shown.h"
 #include "host/lang/value.h"
 #include "host/number/decimal.h"
-#include "host/run/number.h"
-#include "host/run/shown.h"
+#include "host/number/zero.h"
 
 static void *room(size_t count, size_t size) {
     void *p = calloc(count + 1, size);

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/lang/arena.h"
+#include "host/base/arena.h"
 #include "host/lang/parser.h"
 
 /* --- reading -----------------------------------------------------------------------------------*/

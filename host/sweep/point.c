@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "host/number/zero.h"
 #include "host/run/belief.h"
-#include "host/run/number.h"
 #include "host/run/slow.h"
 #include "host/run/start.h"
 #include "host/run/undefined.h"

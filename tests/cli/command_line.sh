@@ -258,8 +258,8 @@ says 2 'starts.whirl:5:1: error: the run starts beyond this stop, by 0.25 1/m$' 
 says 2 'starts.whirl:5:1: error: the distance to this stop is not a finite number where the run starts' \
     run "$scratch/starts.whirl" --start x=-1
 says 2 'error: the run starts beyond this stop' run "$scratch/starts.whirl" --start x=-1.5
-says 2 'error: a restitution is from 0 to 1, and this is 1.5' run tests/bad/hybrid_input_restitution.whirl
-prints '^ball: ' run tests/bad/hybrid_input_restitution.whirl --set e=0.5 --until 1s
+says 2 'error: a restitution is from 0 to 1, and this is 1.5' run tests/bad/contact_input_restitution.whirl
+prints '^ball: ' run tests/bad/contact_input_restitution.whirl --set e=0.5 --until 1s
 says 2 'contacts.whirl:[0-9]+:[0-9]+: error: the run starts beyond this stop, by 0.25 m' run ball_bounces --start z=-0.25
 says 0 "" run ball_bounces --start z=0 --until 10ms --csv -
 

@@ -11,8 +11,9 @@
 
 #include "host/emit/emit.h"
 #include "host/run/engine.h"
+#include "host/show/text.h"
 
-enum { TEXT_SIZE = 16384, UNKNOWNS_MAX = 4, LETS_MAX = 8, HYBRIDS = 3, STEPS = 3 };
+enum { TEXT_SIZE = 16384, UNKNOWNS_MAX = 4, LETS_MAX = 8, CONTACTS = 3, STEPS = 3 };
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
@@ -146,7 +147,7 @@ static void write_condition(writer *w) {
 }
 
 /* One stop, hold, friction or crossing, or noise on the output. */
-static void write_hybrid(writer *w) {
+static void write_contact(writer *w) {
     static const char *const parts[] = {"0", "1", "0.5", "p/2"};
     switch (choose(w, 5)) {
     case 0:
@@ -228,8 +229,8 @@ static void write_mechanism(writer *w) {
     }
     rated(w, "output o = ", 3, true);
     put(w, "\n");
-    for (unsigned left = choose(w, 2) == 1 ? choose(w, HYBRIDS + 1) : 0; left > 0; left--) {
-        write_hybrid(w);
+    for (unsigned left = choose(w, 2) == 1 ? choose(w, CONTACTS + 1) : 0; left > 0; left--) {
+        write_contact(w);
     }
 }
 
@@ -305,8 +306,8 @@ static void derive(const scene *in, const instance *inst, diags *all, FILE *nowh
         abort();
     }
     if (e != NULL) {
-        emit_text(nowhere, e);
-        emit_latex(nowhere, e);
+        show_text(nowhere, e);
+        show_latex(nowhere, e);
         use(e, NULL, all, nowhere);
         if (in != NULL && diags_count(all) == 0) {
             use(e, in->conserve, all, nowhere);

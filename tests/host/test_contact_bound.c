@@ -172,7 +172,7 @@ static void check_scene(const scene *of, bool all, const engine_kind *kind) {
     diags_free(errors);
 }
 
-static int check_if_hybrid(const scene *s) {
+static int check_if_contact(const scene *s) {
     derived d = derived_builtin(s->name);
     const bool contacts = d.program != NULL && d.program->contacts != NULL;
     derived_free(&d);
@@ -183,7 +183,7 @@ static int check_if_hybrid(const scene *s) {
 }
 
 static void test_no_step_exceeds_its_declared_bound(void) {
-    TEST_ASSERT_TRUE(each_builtin_scene(check_if_hybrid) >= 5);
+    TEST_ASSERT_TRUE(each_builtin_scene(check_if_contact) >= 5);
 }
 
 void suite_contact_bound(void) { RUN_TEST(test_no_step_exceeds_its_declared_bound); }

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """References for the scenes with stops, friction, holds and crossings: writes contacts.txt.
 
-The mechanisms are written here by hand, as point masses with Jacobians and not as energies; hybrid.py
+The mechanisms are written here by hand, as point masses with Jacobians and not as energies; events.py
 integrates them. Every scene runs twice, with stretches of two lengths, and what the two differ by is
 printed: at most 5e-10 in any number.
 
@@ -12,7 +12,7 @@ import pathlib
 import sys
 
 sys.dont_write_bytecode = True  # leave no __pycache__ among the sources
-from hybrid import STUCK, Crossing, Friction, Hold, Run, Stop
+from events import STUCK, Crossing, Friction, Hold, Run, Stop
 
 HERE = pathlib.Path(__file__).parent
 

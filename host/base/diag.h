@@ -1,0 +1,48 @@
+/* diag.h: errors in a user's file, each with its place, the source line, a caret and a hint. */
+#ifndef BASE_DIAG_H
+#define BASE_DIAG_H
+
+#include <stddef.h>
+#include <stdio.h>
+
+#define DIAG_MAX 20 /* errors told of one file; a last line says when there were more */
+
+/* A place in a source text: line and column count from 1, the column in characters. `text` is the
+ * whole text it lies in (NULL when there is none), so that the line can be shown. */
+typedef struct source {
+    const char *file;
+    const char *text;
+    size_t length;
+} source;
+
+typedef struct place {
+    const source *source;
+    int line;
+    int column;
+    size_t offset; /* bytes from the start of the text */
+} place;
+
+typedef struct diags diags;
+
+/* Errors go to `out` (standard error in the program) when diags_flush() is called. */
+diags *diags_new(void);
+void diags_free(diags *diags);
+
+/* Report an error at `at`; `hint` may be NULL. Copies its texts. Repeats at one place are dropped. */
+void diag_error(diags *diags, place at, const char *hint, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+
+/* Errors to be printed: repeats do not count, those beyond DIAG_MAX do. */
+int diags_count(const diags *diags);
+
+/* Calls of diag_error() since diags_new(), repeats included: unchanged means that all went well. */
+size_t diags_calls(const diags *diags);
+
+/* Print all, in the order of their places, and forget them:
+ *   file:line:column: error: text
+ *       source line
+ *            ^
+ *   hint: ...                                                                              */
+void diags_flush(diags *diags, FILE *out);
+
+#endif

@@ -1,0 +1,18 @@
+/* nearest.h: which known name a misspelt one is closest to. */
+#ifndef BASE_NEAREST_H
+#define BASE_NEAREST_H
+
+#include <stddef.h>
+
+typedef struct nearest {
+    const char *wanted;
+    size_t length;
+    const char *best; /* NULL: nothing near enough */
+    int cost;
+    int offers;
+} nearest;
+
+nearest nearest_start(const char *wanted, size_t length);
+void nearest_offer(nearest *search, const char *candidate);
+
+#endif

@@ -1,0 +1,308 @@
+/* test_contact_lang.c: what stop, friction, hold, when and noise mean, as the structs say.
+ * Expressions are judged by their values at states chosen here, against the same formula in C. */
+#define _POSIX_C_SOURCE 200809L
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "parsed.h"
+#include "unity.h"
+
+void suite_contact_lang(void);
+
+#define BASE \
+    "mechanism m\ncoordinate x [m]\ncoordinate y [m]\ncoordinate phi [rad]\n" \
+    "parameter m = 2 [kg]\nparameter e = 0.5\nparameter mu = 0.3\ninput push = 3 [N]\n" \
+    "let gap = x - y\nlet vx = x' - y'\n" \
+    "T = m*(x'^2 + y'^2)/2 + 1 [kg*m^2]*phi'^2/2\noutput x_mm [mm] = x\noutput angle = phi\n"
+
+/* --- values of expressions ---------------------------------------------------------------------- */
+
+/* [coordinate][primes] */
+static double state[3][2];
+
+static double call(const expr *e, double a, double b) {
+    switch (e->function) {
+    case FN_SIN: return sin(a);
+    case FN_COS: return cos(a);
+    case FN_ABS: return fabs(a);
+    case FN_MIN: return a < b ? a : b;
+    case FN_MAX: return a > b ? a : b;
+    default: TEST_FAIL_MESSAGE("a function that no text here has");
+    }
+    return 0.0;
+}
+
+static double value(const expr *e) {
+    const double a = e->left == NULL ? 0.0 : value(e->left);
+    const double b = e->right == NULL ? 0.0 : value(e->right);
+    switch (e->op) {
+    case EXPR_NUMBER: return e->number;
+    case EXPR_ADD: return a + b;
+    case EXPR_SUB: return a - b;
+    case EXPR_MUL: return a * b;
+    case EXPR_DIV: return a / b;
+    case EXPR_POW: return pow(a, b);
+    case EXPR_NEG: return -a;
+    case EXPR_CALL: return call(e, a, b);
+    case EXPR_SYMBOL: break;
+    }
+    const symbol *named = e->symbol;
+    return named->kind == SYM_COORDINATE ? state[named->index][e->primes] : value(named->value);
+}
+
+static void place_at(double x, double y, double phi, double vx, double vy, double w) {
+    const double all[3][2] = {{x, vx}, {y, vy}, {phi, w}};
+    memcpy(state, all, sizeof state);
+}
+
+static void expect(double wanted, const expr *e) {
+    TEST_ASSERT_NOT_NULL(e);
+    if (!(fabs(value(e) - wanted) <= 1e-15)) { /* a few roundings of numbers near 1 */
+        printf("wanted %.17g, got %.17g\n", wanted, value(e));
+    }
+    TEST_ASSERT_TRUE(fabs(value(e) - wanted) <= 1e-15);
+}
+
+/* --- the statements ------------------------------------------------------------------------------ */
+
+static void test_a_stop_is_the_distance_left(void) {
+    const mechanism *m = parse(BASE "stop gap >= 25 [cm] restitution e/2\n"
+                                    "effect wall { stop 2*x <= 3 [m] + y restitution 0 }\n");
+    TEST_ASSERT_EQUAL_INT(2, m->contact_count);
+    place_at(1.0, 0.5, 0.0, 0.0, 0.0, 0.0);
+    const contact_statement *own = &m->contacts[0];
+    TEST_ASSERT_EQUAL_INT(CONTACT_STOP, own->kind);
+    TEST_ASSERT_EQUAL_INT(-1, own->effect);
+    TEST_ASSERT_EQUAL_INT(14, own->at.line);
+    TEST_ASSERT_TRUE(dim_fits(own->value->dim, dim_of(1, 0, 0, 0, 0)));
+    TEST_ASSERT_FALSE(dim_fits(own->value->dim, dim_none()));
+    expect(1.0 - 0.5 - 0.25, own->value);
+    expect(0.25, own->restitution);
+    const contact_statement *wall = &m->contacts[1];
+    TEST_ASSERT_EQUAL_INT(0, wall->effect);
+    expect(3.0 + 0.5 - 2.0, wall->value); /* `<=`: right - left */
+    TEST_ASSERT_TRUE(wall->coordinate == NULL && wall->condition == NULL && wall->sets == NULL);
+}
+
+static void test_friction_takes_a_force_or_a_torque(void) {
+    const mechanism *m =
+        parse(BASE "friction x static 2*mu kinetic mu normal m*9.81 [m/s^2]*abs(cos(phi))\n"
+                   "friction phi static 0.2 kinetic 0.1 normal 7 [N*mm]\n");
+    place_at(0.0, 0.0, 3.0, 0.0, 0.0, 0.0);
+    const contact_statement *slide = &m->contacts[0];
+    TEST_ASSERT_EQUAL_INT(CONTACT_FRICTION, slide->kind);
+    TEST_ASSERT_EQUAL_PTR(m->coordinates[0], slide->coordinate);
+    TEST_ASSERT_NULL(slide->value);
+    expect(0.6, slide->static_friction);
+    expect(0.3, slide->kinetic_friction);
+    expect(2.0 * 9.81 * fabs(cos(3.0)), slide->normal);
+    const contact_statement *turn = &m->contacts[1];
+    TEST_ASSERT_EQUAL_PTR(m->coordinates[2], turn->coordinate);
+    expect(0.007, turn->normal);
+    TEST_ASSERT_TRUE(dim_fits(turn->normal->dim, dim_energy()));
+}
+
+/* --- conditions ---------------------------------------------------------------------------------- */
+
+typedef bool truth(double x, double y, double phi, double vx);
+
+static bool one(double x, double y, double phi, double vx) {
+    (void)y;
+    (void)phi;
+    (void)vx;
+    return x > 0.5;
+}
+
+static bool and_first(double x, double y, double phi, double vx) {
+    (void)vx;
+    return x > 0.5 || (y < 0.25 && phi >= 1.0);
+}
+
+static bool and_then_or(double x, double y, double phi, double vx) {
+    (void)vx;
+    return (x > 0.5 && y < 0.25) || phi >= 1.0;
+}
+
+static bool grouped(double x, double y, double phi, double vx) {
+    return (x > 0.5 || y < 0.25) && (phi >= 1.0 || vx < 0.0);
+}
+
+static bool sums(double x, double y, double phi, double vx) {
+    (void)phi;
+    return (x + y) * 2.0 > 1.5 && -(x) < y - 0.1 && (vx - 0.1) * (vx + 0.3) > 0.0;
+}
+
+static bool four(double x, double y, double phi, double vx) {
+    return (x > 0.5 || y > 0.25 || vx > 0.0) && phi > 0.0 && x - y < 0.7;
+}
+
+/* The condition is true where the formula is, on a grid that has no tie in it. */
+static void check_condition(const char *text, truth *wanted) {
+    char all[900];
+    snprintf(all, sizeof all, "%shold x while %s\n", BASE, text);
+    const mechanism *m = parse(all);
+    const contact_statement *held = &m->contacts[0];
+    int trues = 0;
+    int falses = 0;
+    TEST_ASSERT_EQUAL_INT(CONTACT_HOLD, held->kind);
+    for (int i = 0; i < 6 * 6 * 6 * 6; i++) {
+        const double x = -0.63 + 0.31 * (i % 6);
+        const double y = -0.41 + 0.29 * (i / 6 % 6);
+        const double phi = -0.77 + 0.47 * (i / 36 % 6);
+        const int last = i / 216;
+        const double vx = -0.83 + 0.33 * last;
+        place_at(x, y, phi, vx, 0.0, 0.0);
+        const bool is = value(held->condition) > 0.0;
+        const bool should = wanted(x, y, phi, vx);
+        if (is != should) {
+            printf("%s is %d at x=%g y=%g phi=%g x'=%g\n", text, is, x, y, phi, vx);
+        }
+        TEST_ASSERT_EQUAL_INT(should, is);
+        trues += is;
+        falses += !is;
+    }
+    TEST_ASSERT_TRUE(trues > 0 && falses > 0);
+}
+
+static void test_conditions_are_true_where_they_should(void) {
+    check_condition("x > 0.5 [m]", one);
+    check_condition("0.5 [m] < x", one);
+    check_condition("((x)) >= ((0.5 [m]))", one);
+    check_condition("(x) - 0.1 [m] > 0.4 [m]", one);
+    check_condition("x > 0.5 [m] or y < 0.25 [m] and phi >= 1", and_first);
+    check_condition("x > 0.5 [m] and y < 0.25 [m] or phi >= 1", and_then_or);
+    check_condition("phi >= 1 or (x > 0.5 [m] and y <= 0.25 [m])", and_then_or);
+    check_condition("(x > 0.5 [m] or y < 0.25 [m]) and (phi >= 1 or x' < 0 [m/s])", grouped);
+    check_condition("(\n(x > 0.5 [m]\n or y < 0.25 [m])\n and (phi >= 1 or x' < 0))", grouped);
+    check_condition("(x + y)*2 > 1.5 [m] and -(x) < (y) - 0.1 [m] and "
+                    "(x' - 0.1 [m/s])*(x' + 0.3 [m/s]) > 0",
+                    sums);
+    check_condition("((x > 0.5 [m] or y > 0.25 [m]) or x' > 0) and phi > 0 and gap < 0.7 [m]",
+                    four);
+}
+
+static void test_deep_parentheses_are_bounded_and_quick(void) {
+    enum { DEEP = 20000 };
+    const size_t head = strlen(BASE "hold x while ");
+    char *text = malloc(head + DEEP + 1);
+    TEST_ASSERT_NOT_NULL(text);
+    memcpy(text, BASE "hold x while ", head);
+    memset(text + head, '(', DEEP);
+    text[head + DEEP] = '\0';
+    diags *all = diags_new();
+    const clock_t began = clock();
+    TEST_ASSERT_NULL(model_parse("x.whirl", text, head + DEEP, all));
+    TEST_ASSERT_TRUE((double)(clock() - began) / CLOCKS_PER_SEC < 1.0);
+    diags_free(all);
+    free(text);
+}
+
+/* --- crossings ----------------------------------------------------------------------------------- */
+
+static void test_a_crossing_and_what_it_sets(void) {
+    const mechanism *m = parse(BASE "when x' crosses 2*y' rising { set x' = -e*x', y = x\n"
+                                    "  set phi' = push/3 [N*s] }\n"
+                                    "when gap crosses 1 [m] falling\n{\nset phi = 90 [deg],\n"
+                                    " x = 2 [cm];\n}\n"
+                                    "when phi crosses 0 { set phi = 1 }\n");
+    TEST_ASSERT_EQUAL_INT(3, m->contact_count);
+    place_at(1.0, 0.25, 0.5, 3.0, 1.25, 0.0);
+    const contact_statement *kick = &m->contacts[0];
+    TEST_ASSERT_EQUAL_INT(CONTACT_WHEN, kick->kind);
+    TEST_ASSERT_EQUAL_INT(1, kick->direction);
+    expect(3.0 - 2.5, kick->value);
+    TEST_ASSERT_EQUAL_INT(3, kick->set_count);
+    TEST_ASSERT_EQUAL_PTR(m->coordinates[0], kick->sets[0].symbol);
+    TEST_ASSERT_EQUAL_INT(1, kick->sets[0].primes);
+    expect(-1.5, kick->sets[0].value);
+    TEST_ASSERT_EQUAL_PTR(m->coordinates[1], kick->sets[1].symbol);
+    TEST_ASSERT_EQUAL_INT(0, kick->sets[1].primes);
+    expect(1.0, kick->sets[1].value);
+    TEST_ASSERT_EQUAL_PTR(m->coordinates[2], kick->sets[2].symbol);
+    TEST_ASSERT_EQUAL_INT(1, kick->sets[2].primes);
+    expect(1.0, kick->sets[2].value);
+    const contact_statement *jump = &m->contacts[1];
+    TEST_ASSERT_EQUAL_INT(-1, jump->direction);
+    expect(1.0 - 0.25 - 1.0, jump->value);
+    TEST_ASSERT_EQUAL_INT(2, jump->set_count);
+    expect(1.57079632679489662, jump->sets[0].value);
+    expect(0.02, jump->sets[1].value);
+    TEST_ASSERT_EQUAL_INT(0, m->contacts[2].direction);
+}
+
+static void test_a_scene_has_crossings_of_its_own(void) {
+    const mechanism *m =
+        parse(BASE "effect kick { parameter v = 2 [m/s]; when x crosses 0 { set x' = v } }\n"
+                   "scene a { when x crosses y rising { set y' = v }\n"
+                   "  when phi crosses 1 { set phi = 0 }; until 1 [s] }\nscene b { with kick }\n");
+    TEST_ASSERT_EQUAL_INT(1, m->contact_count);
+    const scene *a = parsed->scenes[0];
+    TEST_ASSERT_EQUAL_INT(2, a->when_count);
+    TEST_ASSERT_EQUAL_INT(0, parsed->scenes[1]->when_count);
+    place_at(1.0, 0.25, 0.5, 0.0, 0.0, 0.0);
+    expect(0.75, a->whens[0].value);
+    expect(2.0, a->whens[0].sets[0].value);
+    TEST_ASSERT_EQUAL_INT(CONTACT_WHEN, a->whens[1].kind);
+    TEST_ASSERT_EQUAL_INT(-1, a->whens[1].effect);
+    expect(-0.5, a->whens[1].value);
+}
+
+/* --- noise and words ---------------------------------------------------------------------- */
+
+static void test_noise(void) {
+    const mechanism *m = parse(BASE "noise x_mm deviation 2 [mm]\n"
+                                    "effect hum { parameter s = 0.1 [deg]\n"
+                                    "  noise angle deviation 2*s seed 4294967295 }\n"
+                                    "effect still { noise angle deviation 0 seed 0 }\n");
+    TEST_ASSERT_EQUAL_INT(3, m->noise_count);
+    TEST_ASSERT_EQUAL_PTR(m->outputs[0], m->noises[0].output);
+    TEST_ASSERT_EQUAL_UINT32(1, m->noises[0].seed);
+    TEST_ASSERT_EQUAL_INT(-1, m->noises[0].effect);
+    expect(0.002, m->noises[0].deviation);
+    TEST_ASSERT_EQUAL_PTR(m->outputs[1], m->noises[1].output);
+    TEST_ASSERT_EQUAL_UINT32(4294967295U, m->noises[1].seed);
+    TEST_ASSERT_EQUAL_INT(0, m->noises[1].effect);
+    expect(0.2 * 3.14159265358979324 / 180.0, m->noises[1].deviation);
+    TEST_ASSERT_EQUAL_UINT32(0, m->noises[2].seed);
+}
+
+static void test_words_of_the_statements_may_be_names(void) {
+    const mechanism *m = parse(
+        "mechanism m\ncoordinate static [m]\ncoordinate and [m]\nparameter restitution = 0.25\n"
+        "parameter kinetic = 0.2\nparameter normal = 2 [N]\nparameter or = 1 [m]\n"
+        "parameter noise = 3 [mm]\nparameter seed = 1\nparameter ledger = 1\n"
+        "input rising = 1 [m]\nlet crosses = static - and\nlet while = static'\n"
+        "output deviation [mm] = static\nT = 1 [kg]*(static'^2 + and'^2)/2\n"
+        "stop static >= or restitution restitution\n"
+        "friction static static 2*kinetic kinetic kinetic normal normal\n"
+        "friction and static 1 kinetic kinetic normal normal\n"
+        "hold and - static while while > 0 and and > or or or < static\n"
+        "when crosses crosses rising rising { set static = or, and' = while }\n"
+        "noise deviation deviation noise seed 5\n");
+    place_at(0.5, 2.0, 0.0, 0.125, 0.0, 0.0);
+    TEST_ASSERT_EQUAL_INT(5, m->contact_count);
+    expect(-0.5, m->contacts[0].value);
+    expect(0.25, m->contacts[0].restitution);
+    expect(0.4, m->contacts[1].static_friction);
+    expect(0.125, m->contacts[3].condition); /* max(min(0.125, 2 - 1), 0.5 - 1) */
+    expect(-2.5, m->contacts[4].value);
+    TEST_ASSERT_EQUAL_INT(1, m->contacts[4].direction);
+    expect(0.003, m->noises[0].deviation);
+    TEST_ASSERT_EQUAL_UINT32(5, m->noises[0].seed);
+}
+
+void suite_contact_lang(void) {
+    RUN_TEST(test_a_stop_is_the_distance_left);
+    RUN_TEST(test_friction_takes_a_force_or_a_torque);
+    RUN_TEST(test_conditions_are_true_where_they_should);
+    RUN_TEST(test_deep_parentheses_are_bounded_and_quick);
+    RUN_TEST(test_a_crossing_and_what_it_sets);
+    RUN_TEST(test_a_scene_has_crossings_of_its_own);
+    RUN_TEST(test_noise);
+    RUN_TEST(test_words_of_the_statements_may_be_names);
+    drop();
+}

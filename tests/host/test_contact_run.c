@@ -1,0 +1,195 @@
+/* test_contact_run.c: which stops, frictions, holds, whens and noises take part in one run, the ranges of
+ * their numbers, and the ledger. */
+#include <stdio.h>
+#include <string.h>
+
+#include "parsed.h"
+#include "unity.h"
+
+void suite_contact_run(void);
+
+#define BASE \
+    "mechanism m\ncoordinate x [m]\ncoordinate y [m]\ncoordinate phi [rad]\n" \
+    "parameter m = 2 [kg]\nparameter e = 0.5\nparameter mu = 0.3\ninput push = 3 [N]\n" \
+    "let gap = x - y\nlet vx = x' - y'\n" \
+    "T = m*(x'^2 + y'^2)/2 + 1 [kg*m^2]*phi'^2/2\noutput x_mm [mm] = x\noutput angle = phi\n"
+
+static instance *instance_of(int scene_number, const overrides *changes) {
+    instance_free(made);
+    const scene *in = scene_number < 0 ? NULL : parsed->scenes[scene_number];
+    made = instance_make(parsed->mechanisms[0], in, changes, said);
+    return made;
+}
+
+/* The instance is refused, and this is said. */
+static void refuse(int scene_number, const overrides *changes, const char *wanted) {
+    TEST_ASSERT_NULL(instance_of(scene_number, changes));
+    expect_said(wanted);
+}
+
+static void test_the_ledger_is_called_for_like_an_effect(void) {
+    const char *word[] = {"ledger"};
+    const char *misspelt[] = {"ledgr"};
+    parse(BASE "effect drag { F += 1 [N*s/m]*x'^2 }\nscene a { with drag, ledger }\n"
+               "scene b { with drag }\nscene c { with ledger; with none }\n");
+    TEST_ASSERT_TRUE(parsed->scenes[0]->ledger);
+    TEST_ASSERT_TRUE(parsed->scenes[0]->with[0]);
+    TEST_ASSERT_FALSE(parsed->scenes[1]->ledger);
+    TEST_ASSERT_TRUE(instance_of(0, NULL)->ledger);
+    TEST_ASSERT_FALSE(instance_of(1, NULL)->ledger);
+    TEST_ASSERT_TRUE(instance_of(2, NULL)->ledger);
+    TEST_ASSERT_TRUE(instance_of(1, &(overrides){.with = word, .with_count = 1})->ledger);
+    TEST_ASSERT_FALSE(instance_of(0, &(overrides){.without = word, .without_count = 1})->ledger);
+    TEST_ASSERT_TRUE(instance_of(-1, &(overrides){.with = word, .with_count = 1})->ledger);
+    refuse(1, &(overrides){.with = misspelt, .with_count = 1}, "did you mean 'ledger'?");
+}
+
+static void test_noise_comes_with_its_effect(void) {
+    const mechanism *m = parse(BASE "noise x_mm deviation 2 [mm]\n"
+                                    "effect hum { noise angle deviation 1 [deg] }\n"
+                                    "effect still { noise angle deviation 0 seed 0 }\n");
+    TEST_ASSERT_NOT_NULL(instance_of(-1, NULL));
+    TEST_ASSERT_TRUE(instance_has_noise(made, &m->noises[0]));
+    TEST_ASSERT_FALSE(instance_has_noise(made, &m->noises[1]));
+    const char *both[] = {"hum", "still"};
+    refuse(-1, &(overrides){.with = both, .with_count = 2},
+           "noise on 'angle' was already given in line 15");
+}
+
+static void test_effects_bring_their_events(void) {
+    const mechanism *m = parse(BASE "stop x >= 0 restitution e\n"
+                                    "effect wall { stop x <= 1 [m] restitution e }\n"
+                                    "effect rub { friction x static mu kinetic mu normal 1 [N] }\n"
+                                    "scene s { with wall }\n");
+    const char *rub[] = {"rub"};
+    const char *wall[] = {"wall"};
+    const overrides swap = {.with = rub, .with_count = 1, .without = wall, .without_count = 1};
+    TEST_ASSERT_NOT_NULL(instance_of(0, NULL));
+    TEST_ASSERT_TRUE(instance_has_contact(made, &m->contacts[0]));
+    TEST_ASSERT_TRUE(instance_has_contact(made, &m->contacts[1]));
+    TEST_ASSERT_FALSE(instance_has_contact(made, &m->contacts[2]));
+    TEST_ASSERT_NOT_NULL(instance_of(0, &swap));
+    TEST_ASSERT_TRUE(instance_has_contact(made, &m->contacts[0]));
+    TEST_ASSERT_FALSE(instance_has_contact(made, &m->contacts[1]));
+    TEST_ASSERT_TRUE(instance_has_contact(made, &m->contacts[2]));
+}
+
+static void test_numbers_of_a_run_must_be_in_range(void) {
+    const char *bouncy[] = {"e=1.01"};
+    const char *rough[] = {"slip=0.31"};
+    const char *negative[] = {"s=-1e-9"};
+    parse(BASE "effect wall { stop x >= 0 restitution e }\n"
+               "effect rub { parameter slip = 0.1\n"
+               "  friction x static mu kinetic slip normal 1 [N] }\n"
+               "effect grain { parameter s = 0 [m]\n  noise x_mm deviation s }\n"
+               "scene s { with wall, rub, grain }\nscene none_of_them { until 1 [s] }\n");
+    TEST_ASSERT_NOT_NULL(instance_of(0, NULL));
+    refuse(0, &(overrides){.sets = bouncy, .set_count = 1},
+           "x.whirl:14:39: error: a restitution is from 0 to 1, and this is 1.01");
+    refuse(0, &(overrides){.sets = rough, .set_count = 1},
+           "x.whirl:16:32: error: kinetic friction 0.31 is above static friction 0.3");
+    refuse(0, &(overrides){.sets = negative, .set_count = 1},
+           "x.whirl:18:24: error: a standard deviation must not be negative");
+    TEST_ASSERT_NOT_NULL(instance_of(1, &(overrides){.sets = bouncy, .set_count = 1}));
+}
+
+/* Inputs count with the value they start with: declared, the scene's, or the command line's. */
+static void test_inputs_must_be_in_range_at_the_start(void) {
+    const char *good[] = {"e_in=1"};
+    const char *bouncy[] = {"e_in=1.01"};
+    const char *slippery[] = {"grip=0.29"};
+    const char *negative[] = {"grip=-0.5"};
+    const char *infinite[] = {"grip=0"};
+    parse(BASE "input e_in = 0.5\ninput grip = 0.3\nlet twice = 2*grip\n"
+               "effect wall { stop x >= 0 restitution e_in^2 }\n"
+               "effect rub { friction x static grip kinetic 0.3 normal 1 [N] }\n"
+               "effect rail { friction y static twice kinetic 0 normal 1 [N] }\n"
+               "effect odd { stop y >= 0 restitution 1/twice - 1 }\n"
+               "effect fast { stop y <= 1 [m] restitution e_in*(1 - y'/1 [m/s]) }\n"
+               "scene s { with wall, rub, rail }\nscene set_wrong { with wall; set e_in = 2 }\n"
+               "scene none_of_them { until 1 [s] }\nscene both { with odd }\n"
+               "scene moving { with fast; set e_in = 2 }\n");
+    TEST_ASSERT_NOT_NULL(instance_of(0, NULL));
+    TEST_ASSERT_NOT_NULL(instance_of(0, &(overrides){.sets = good, .set_count = 1}));
+    refuse(0, &(overrides){.sets = bouncy, .set_count = 1},
+           "x.whirl:17:43: error: a restitution is from 0 to 1, and this is 1.0201");
+    refuse(1, NULL, "x.whirl:17:43: error: a restitution is from 0 to 1, and this is 4");
+    refuse(0, &(overrides){.sets = slippery, .set_count = 1},
+           "x.whirl:18:45: error: kinetic friction 0.3 is above static friction 0.29");
+    refuse(0, &(overrides){.sets = negative, .set_count = 1},
+           "x.whirl:19:33: error: a coefficient of friction must not be negative, and this is -1");
+    refuse(3, &(overrides){.sets = infinite, .set_count = 1},
+           "error: the restitution is not a finite number (infinity)");
+    TEST_ASSERT_NOT_NULL(instance_of(2, &(overrides){.sets = bouncy, .set_count = 1}));
+    TEST_ASSERT_NOT_NULL(instance_of(4, NULL)); /* it depends on the motion: known at the impact */
+}
+
+static void test_what_two_effects_must_not_give_together(void) {
+    const char *both[] = {"rub", "rail"};
+    parse(BASE "effect rub { friction x static mu kinetic mu normal 1 [N] }\n"
+               "effect rail { friction x static mu kinetic mu normal 2 [N] }\n"
+               "effect motor { input level = 1 [m]; let half = level/2; parameter p = 1 [m] }\n"
+               "scene s { when x crosses p { set x = half } }\n");
+    TEST_ASSERT_NOT_NULL(instance_of(-1, &(overrides){.with = both, .with_count = 1}));
+    refuse(-1, &(overrides){.with = both, .with_count = 2},
+           "x.whirl:15:15: error: friction on 'x' was already given in line 14");
+    refuse(0, NULL, "x.whirl:17:38: error: 'half' belongs to the effect 'motor', which takes no");
+    const char *motor[] = {"motor"};
+    TEST_ASSERT_NOT_NULL(instance_of(0, &(overrides){.with = motor, .with_count = 1}));
+}
+
+/* The bound is on what takes part, not on what is written. */
+static void test_how_many_events_one_run_takes(void) {
+    char text[4000] = BASE;
+    for (int i = 0; i < 2 * CONTACTS_MAX; i++) {
+        char line[80];
+        snprintf(line, sizeof line, "%sstop x >= -%d [m] restitution 0\n",
+                 i == 0              ? "effect a {\n"
+                 : i == CONTACTS_MAX ? "}\neffect b {\n"
+                                     : "",
+                 i + 1);
+        strcat(text, line);
+    }
+    strcat(text,
+           "}\nscene one { with a }\nscene more { with b; when x crosses 0 { set x = 0 } }\n");
+    const mechanism *m = parse(text);
+    TEST_ASSERT_EQUAL_INT(2 * CONTACTS_MAX, m->contact_count);
+    TEST_ASSERT_NOT_NULL(instance_of(0, NULL));
+    refuse(1, NULL, "more than 16 stops, frictions, holds and whens in one run");
+}
+
+static void test_how_many_values_one_run_sets(void) {
+    char text[12000] = BASE;
+    for (int i = 0; i < 42; i++) { /* with x, y and phi: 45 coordinates, 90 values each time */
+        char line[80];
+        snprintf(line, sizeof line, "coordinate z%d [m]\n", i);
+        strcat(text, line);
+    }
+    for (int k = 0; k < 2; k++) {
+        strcat(text, k == 0 ? "when x crosses 0 {\n" : "effect b {\nwhen y crosses 0 {\n");
+        for (int i = 0; i < 42; i++) {
+            char line[80];
+            snprintf(line, sizeof line, "set z%d = 1 [m], z%d' = 1 [m/s]\n", i, i);
+            strcat(text, line);
+        }
+        strcat(text, k == 0 ? "}\n" : "}\n}\n");
+    }
+    const mechanism *m = parse(text);
+    const char *b[] = {"b"};
+    TEST_ASSERT_EQUAL_INT(84, m->contacts[1].set_count);
+    TEST_ASSERT_NOT_NULL(instance_of(-1, NULL));
+    refuse(-1, &(overrides){.with = b, .with_count = 1},
+           "the whens of one run set more than 128 values");
+}
+
+void suite_contact_run(void) {
+    RUN_TEST(test_the_ledger_is_called_for_like_an_effect);
+    RUN_TEST(test_noise_comes_with_its_effect);
+    RUN_TEST(test_effects_bring_their_events);
+    RUN_TEST(test_numbers_of_a_run_must_be_in_range);
+    RUN_TEST(test_inputs_must_be_in_range_at_the_start);
+    RUN_TEST(test_what_two_effects_must_not_give_together);
+    RUN_TEST(test_how_many_events_one_run_takes);
+    RUN_TEST(test_how_many_values_one_run_sets);
+    drop();
+}

@@ -1,0 +1,313 @@
+/* test_contact_stops.c: balls on stops (core/models/contacts.whirl), each with a closed form. */
+#include "contacts.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "unity.h"
+
+void suite_contact_stops(void);
+
+#define G 9.81
+
+/* --- bouncing to rest --------------------------------------------------------------------------------- */
+
+/* The first moment at which the ball is where it stays, then a minute of staying there. */
+static void check_rest(stepping how, double height_most) {
+    motion m;
+    double rest_s = 0.0;
+    double worst = 0.0;
+    double bounced = 1.0;
+    unsigned bounces = 0;
+    motion_open(&m, "ball_bounces", how);
+    const uint64_t steps = contacts_steps(&m);
+    uint64_t events = 0;
+    for (uint64_t i = 1; i <= steps; i++) {
+        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
+        const double z = motion_value(&m, "z");
+        const double v = motion_value(&m, "z'");
+        const bool rests = z == 0.0 && v == 0.0;
+        if (rests && rest_s <= 0.0) {
+            rest_s = (double)i * 1e-3;
+        }
+        TEST_ASSERT_TRUE_MESSAGE(rests || rest_s <= 0.0, "left the stop again");
+        if (contacts_events(&m) != events && !rests) {
+            /* energy says how high this bounce goes; the closed form: e^2 of the height before */
+            TEST_ASSERT_EQUAL_UINT64_MESSAGE(1, contacts_events(&m) - events, "two bounces a step");
+            bounced *= 0.25;
+            bounces++;
+            worst = fmax(worst, fabs(z + v * v / (2.0 * G) - bounced));
+        }
+        events = contacts_events(&m);
+    }
+    TEST_ASSERT_EQUAL_UINT64(0, contacts_overruns(&m));
+    motion_close(&m);
+    printf("  %s\n", how.kind->name);
+    /* closed form: the bounces' times are a geometric series, sqrt(2 h/g) (1 + e)/(1 - e) */
+    const double closed = 3.0 * sqrt(2.0 / G);
+    expect_between("  at rest after, s", closed - 1e-3, closed + 1e-3, rest_s);
+    expect_between("  bounces whose height was looked at", 8.0, 14.0, bounces);
+    expect_between("  height after a bounce, off by, m", 0.0, height_most, worst);
+}
+
+static void test_ball_comes_to_rest_and_stays_for_a_minute(void) {
+    check_rest(IN_DOUBLE, 1e-6); /* the project's bound */
+    /* 450 sums of the first fall, each rounded by at most 2^-24 of 4.4 m/s: 1.2e-4 m/s, times v/g */
+    check_rest(IN_FLOAT, 5.3e-5);
+}
+
+/* --- no energy gained ---------------------------------------------------------------------------------- */
+
+/* Restitution 1 for a minute. Most and least energy over the start's, after each step. */
+static void elastic(stepping how, double *most, double *least) {
+    motion m;
+    motion_open(&m, "ball_elastic", how);
+    const double start = motion_value(&m, "energy");
+    *most = -1.0;
+    *least = 1.0;
+    for (uint64_t i = 0; i < contacts_steps(&m); i++) {
+        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
+        const double change = motion_value(&m, "energy") / start - 1.0;
+        *most = fmax(*most, change);
+        *least = fmin(*least, change);
+    }
+    /* closed form: a bounce at (2 n + 1) sqrt(2 h/g) */
+    const uint64_t bounces = (uint64_t)floor((60.0 / sqrt(2.0 / G) + 1.0) / 2.0);
+    TEST_ASSERT_EQUAL_UINT64(bounces, contacts_events(&m));
+    motion_close(&m);
+}
+
+static void test_perfect_bounces_gain_no_energy(void) {
+    double most;
+    double least;
+    elastic(IN_DOUBLE, &most, &least);
+    /* the project's bound above; below, the same: nothing may be lost either */
+    expect_between("double: energy gained in a minute, relative", -1e-9, 1e-9, most);
+    expect_between("double: energy lost in a minute, relative", -1e-9, 1e-9, least);
+    elastic(IN_FLOAT, &most, &least);
+    /* 60000 sums, each rounded by at most 2^-24 of 4.4 m/s, of which a change in energy is twice as
+     * much: 7.2e-3 if all went one way; they do not: the square root of their number, 5.8e-5, times
+     * four */
+    expect_between("float: energy gained in a minute, relative", -2.4e-4, 2.4e-4, most);
+    expect_between("float: energy lost in a minute, relative", -2.4e-4, 2.4e-4, least);
+}
+
+/* --- impact located inside the step -------------------------------------------------------------------- */
+
+/* With drag c v^2 on the way up: k = sqrt(c g/m), v in units of g/k. The moment of the impact follows from
+ * any state on the way up in closed form: (g + c v^2/m) exp(2 c z/m) stays, and v = (g/k) tan(k (t1 -
+ * t)). */
+static double impact_s(const motion *m, double now_s, double *speed) {
+    const double c = 0.1;
+    const double k = sqrt(c * G);
+    const double z = motion_value(m, "z");
+    const double v = motion_value(m, "z'");
+    *speed = sqrt(((G + c * v * v) * exp(2.0 * c * z) - G) / c);
+    return now_s - (atan(*speed * k / G) - atan(v * k / G)) / k;
+}
+
+static double impact_error(double h, double *speed_error) {
+    motion m;
+    motion_open(&m, "ball_in_air", IN_DOUBLE_STEP(h));
+    while (contacts_events(&m) == 0) {
+        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
+    }
+    double speed;
+    const double t = impact_s(&m, (double)m.kind->steps(m.run) * h, &speed);
+    motion_close(&m);
+    /* closed form: falls 2 m with v = (g/k) tanh k t, z = 2 - ln(cosh k t)/c */
+    const double k = sqrt(0.1 * G);
+    const double closed = acosh(exp(2.0 * 0.1)) / k;
+    *speed_error = fabs(speed - 0.8 * G / k * tanh(k * closed));
+    return fabs(t - closed);
+}
+
+static void test_impact_time_converges(void) {
+    double before = 0.0;
+    double before_speed = 0.0;
+    double least = HUGE_VAL;
+    for (unsigned i = 0; i < 5; i++) {
+        const double h = 0.064 / (double)(1U << i);
+        double speed;
+        const double error = impact_error(h, &speed);
+        printf("  h = %4g ms: impact off by %.2e s, its speed by %.2e m/s", 1e3 * h, error, speed);
+        if (i > 0) {
+            printf(", orders %.2f, %.2f", log2(before / error), log2(before_speed / speed));
+        }
+        printf("\n");
+        if (i > 0) {
+            least = fmin(least, log2(before / error));
+        }
+        before = error;
+        before_speed = speed;
+    }
+    /* the project's bound: third order. Above: the location is a cubic's and the method's is 4, whose
+     * errors may cancel at one step */
+    expect_between("least order of the impact's time", 3.0, 7.0, least);
+    /* rounding is far below: the last error must be the method's */
+    expect_between("impact's time off at 4 ms, s", 1e-15, 1e-9, before);
+}
+
+/* --- resting and lifting off --------------------------------------------------------------------------- */
+
+static void check_hopper_rests(stepping how) {
+    motion m;
+    motion_open(&m, "hopper_rests", how);
+    for (uint64_t i = 0; i < contacts_steps(&m); i++) {
+        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
+        TEST_ASSERT_TRUE(motion_value(&m, "z") == 0.0 && motion_value(&m, "z'") == 0.0);
+    }
+    TEST_ASSERT_EQUAL_UINT64(0, contacts_events(&m));
+    motion_close(&m);
+}
+
+/* Amplitudes to either side of g/w^2. */
+static void test_ball_lifts_off_where_the_table_falls_faster(void) {
+    const double w = 20.0 * acos(-1.0);
+    for (int side = -1; side <= 1; side += 2) {
+        motion m;
+        char set[64];
+        stepping how = IN_DOUBLE;
+        snprintf(set, sizeof set, "A=%.17g", G / (w * w) * (1.0 + 1e-4 * side));
+        how.set = set;
+        motion_open(&m, "hopper_rests", how);
+        motion_to(&m, 1.0);
+        if (side < 0) {
+            TEST_ASSERT_EQUAL_UINT64(0, contacts_events(&m));
+        } else {
+            TEST_ASSERT_EQUAL_UINT64(20, contacts_events(&m)); /* off and on, ten times */
+        }
+        motion_close(&m);
+    }
+    check_hopper_rests(IN_DOUBLE);
+    check_hopper_rests(IN_FLOAT);
+}
+
+/* The flight in closed form: off at sin(w t) = g/(A w^2) with the table's speed. */
+static void test_flight_off_the_table(void) {
+    const double w = 20.0 * acos(-1.0);
+    const double A = 0.003;
+    const double off = asin(G / (A * w * w)) / w;
+    motion m;
+    double worst = 0.0;
+    motion_open(&m, "hopper_hops", IN_DOUBLE);
+    for (unsigned i = 1; i <= 53; i++) {
+        motion_to(&m, 1e-3 * i);
+        const double t = 1e-3 * i;
+        const double since = t - off;
+        const double flight = A * sin(w * off) + A * w * cos(w * off) * since -
+                              G * since * since / 2.0 - A * sin(w * t);
+        worst = fmax(worst, fabs(motion_value(&m, "z") - (since > 0.0 ? flight : 0.0)));
+    }
+    TEST_ASSERT_EQUAL_UINT64(1, contacts_events(&m));
+    /* RK4's own error with w h = 0.063: (w h)^4/120 of the 3 mm a radian, 4e-10, and 3 radians */
+    expect_between("flight off its closed form, m", 1e-14, 1.5e-9, worst);
+    motion_to(&m, 10.0);
+    TEST_ASSERT_EQUAL_UINT64(200, contacts_events(&m)); /* ten hops a second */
+    motion_close(&m);
+}
+
+/* A stop that is curved: a particle slides down a dome of 1 m without friction, in Cartesian coordinates, and
+ * leaves it where the dome would have to pull. */
+static const char DOME[] =
+    "mechanism dome\ncoordinate x [m]\ncoordinate y [m]\nparameter g = 9.81 [m/s^2]\n"
+    "T = 1 [kg]*(x'^2 + y'^2)/2\nV = 1 [kg]*g*y\nstop sqrt(x^2 + y^2) >= 1 [m] restitution 0\n"
+    "scene slide {\n  start x = 0, y = 1 [m], x' = 0.5 [m/s], y' = 0\n  step 1 [ms]\n}\n";
+
+static double check_dome(stepping how, double off_most, double speed_most) {
+    motion m;
+    double off = 0.0;
+    motion_open_text(&m, DOME, how);
+    while (contacts_events(&m) == 0) {
+        off = fmax(off, fabs(hypot(motion_value(&m, "x"), motion_value(&m, "y")) - 1.0));
+        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
+    }
+    /* closed form: at cos = 2/3 + v0^2/(3 g R), with v^2 = g R cos; in flight x' = v cos stays */
+    const double c = 2.0 / 3.0 + 0.25 / (3.0 * G);
+    const double vx = motion_value(&m, "x'");
+    TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 50));
+    TEST_ASSERT_TRUE(motion_value(&m, "x'") == vx);
+    TEST_ASSERT_EQUAL_UINT64(1, contacts_events(&m));
+    const double error = fabs(vx - sqrt(G * c) * c);
+    printf("  %s, %g ms\n", how.kind->name, 1e3 * m.instance->step_s);
+    expect_between("  dome: off it before lifting off, m", 0.0, off_most, off);
+    expect_between("  dome: speed along x after lifting off, off by, m/s", 0.0, speed_most, error);
+    motion_close(&m);
+    return error;
+}
+
+static void test_particle_leaves_the_dome_where_the_force_turns(void) {
+    /* the gap is put to zero after each step: to rounding. RK4 with a motion whose rate constant is
+     * sqrt(g/R) = 3.1: (3.1 h)^4/120, times a second of it and the speed */
+    const double coarse = check_dome(IN_DOUBLE_STEP(8e-3), 1e-12, 1e-7);
+    const double fine = check_dome(IN_DOUBLE_STEP(2e-3), 1e-12, 1e-9);
+    expect_between("  order", 3.0, 5.5, log2(coarse / fine) / 2.0);
+    /* 2^-24 of 1 m; 500 sums of the speed rounded by it */
+    check_dome(IN_FLOAT, 3e-7, 3e-5);
+}
+
+/* Two blocks dropped on top of one another: the lower one rattles between floor and upper one, with more
+ * bounces than a step takes, and both come to rest where they must be. */
+static const char STACK[] =
+    "mechanism stack\ncoordinate a [m]\ncoordinate b [m]\nparameter g = 9.81 [m/s^2]\n"
+    "T = 1 [kg]*a'^2/2 + 2 [kg]*b'^2/2\nV = 1 [kg]*g*a + 2 [kg]*g*b\n"
+    "stop a >= 0 [m] restitution 0.5\nstop b >= a + 0.1 [m] restitution 0.5\n"
+    "scene s {\n  start a = 0.5 [m], b = 1 [m]\n  step 1 [ms]\n}\n";
+
+static void check_stack(stepping how, double height_most) {
+    motion m;
+    motion_open_text(&m, STACK, how);
+    motion_to(&m, 2.0);
+    const uint64_t events = contacts_events(&m);
+    const double height = motion_value(&m, "b");
+    for (unsigned i = 0; i < 10000; i++) {
+        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
+        TEST_ASSERT_TRUE(motion_value(&m, "a") == 0.0 && motion_value(&m, "a'") == 0.0);
+        TEST_ASSERT_TRUE(motion_value(&m, "b") == height && motion_value(&m, "b'") == 0.0);
+    }
+    TEST_ASSERT_EQUAL_UINT64(events, contacts_events(&m));
+    expect_between("stack: overruns", 0.0, 5.0, (double)contacts_overruns(&m));
+    expect_between("stack: upper block's height off 0.1 m", 0.0, height_most, fabs(height - 0.1));
+    motion_close(&m);
+}
+
+static void test_stacked_blocks_come_to_rest(void) {
+    check_stack(IN_DOUBLE, 1e-16); /* the last place of 0.1 m */
+    check_stack(IN_FLOAT, 8e-9);
+}
+
+/* --- more bounces than a step takes -------------------------------------------------------------------- */
+
+static void test_too_many_bounces_are_told_and_end(void) {
+    motion m;
+    motion_open(&m, "ball_between", IN_DOUBLE);
+    const double start = motion_value(&m, "energy");
+    for (uint64_t i = 0; i < contacts_steps(&m); i++) {
+        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
+        const double z = motion_value(&m, "z");
+        TEST_ASSERT_TRUE(z >= -1e-12 && z <= 1e-3 + 1e-12);
+        TEST_ASSERT_TRUE(motion_value(&m, "energy") <= start * (1.0 + 1e-9));
+    }
+    TEST_ASSERT_TRUE(contacts_overruns(&m) >= 1);
+    motion_close(&m);
+    /* a step that has room for its bounces: none is lost. 25 m/s over 1 mm, 25000 a second */
+    motion_open(&m, "ball_between", IN_DOUBLE_STEP(2e-5));
+    motion_to(&m, 0.1);
+    TEST_ASSERT_EQUAL_UINT64(0, contacts_overruns(&m));
+    /* closed form: E goes as v^2, and 1 mm of height takes 4e-4 m/s: 2500 to the bounce */
+    expect_between("bounces in 0.1 s", 2498.0, 2502.0, (double)contacts_events(&m));
+    expect_between("energy kept", 1.0 - 1e-9, 1.0 + 1e-9, motion_value(&m, "energy") / start);
+    motion_close(&m);
+}
+
+void suite_contact_stops(void) {
+    UnitySetTestFile(__FILE__);
+    RUN_TEST(test_ball_comes_to_rest_and_stays_for_a_minute);
+    RUN_TEST(test_perfect_bounces_gain_no_energy);
+    RUN_TEST(test_impact_time_converges);
+    RUN_TEST(test_ball_lifts_off_where_the_table_falls_faster);
+    RUN_TEST(test_flight_off_the_table);
+    RUN_TEST(test_particle_leaves_the_dome_where_the_force_turns);
+    RUN_TEST(test_stacked_blocks_come_to_rest);
+    RUN_TEST(test_too_many_bounces_are_told_and_end);
+}
