@@ -77,8 +77,9 @@ static double *sample(const tape *t) {
     double *v = room(t->count, sizeof *v);
     for (int i = 0; i < t->count; i++) {
         const op *o = &t->ops[i];
-        const double a = o->a >= 0 && o->code >= OP_SIN ? v[o->a] : 0.0;
-        const double b = o->b >= 0 && o->code >= OP_PHASE ? v[o->b] : 0.0;
+        const int values = op_rows[o->code].values;
+        const double a = values > 0 ? v[o->a] : 0.0;
+        const double b = (values > 1 || o->code == OP_PHASE) && o->b >= 0 ? v[o->b] : 0.0;
         switch (o->code) {
         case OP_CONSTANT: v[i] = o->value; break;
         case OP_LINEAR:

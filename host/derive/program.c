@@ -279,7 +279,7 @@ void program_free(program *p) {
 
 static bool list_calls(const tape *t) {
     for (int i = 0; t != NULL && i < t->count; i++) {
-        if (t->ops[i].code == OP_CALL || t->ops[i].code == OP_POW) {
+        if (op_rows[t->ops[i].code].cost == OP_COSTS_CALL) {
             return true;
         }
     }
