@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "algebra.h"
+#include "host/base/room.h"
 
 /* An expression that needs more work than this is given up on: some 300 MB, or a few seconds. */
 #define WORK_MAX ((size_t)1 << 28)
@@ -27,10 +28,7 @@ static uint64_t bits_of(double value) {
 
 static void table_grow(intern_table *table) {
     const size_t size = table->size == 0 ? 1024 : table->size * 2;
-    intern_slot *slots = calloc(size, sizeof *slots);
-    if (slots == NULL) {
-        abort();
-    }
+    intern_slot *slots = room((int64_t)size, sizeof *slots);
     for (size_t i = 0; i < table->size; i++) {
         if (table->slots[i].object != NULL) {
             size_t at = (size_t)table->slots[i].hash & (size - 1);
@@ -77,10 +75,7 @@ static unsigned next_id(algebra *a, intern_table *table, size_t bytes) {
 /* --- life ----------------------------------------------------------------------------------------*/
 
 algebra *algebra_new(void) {
-    algebra *a = calloc(1, sizeof *a);
-    if (a == NULL) {
-        abort();
-    }
+    algebra *a = room(1, sizeof *a);
     a->arena = arena_new();
     a->zero = poly_number(a, 0.0);
     a->one = poly_number(a, 1.0);
@@ -201,10 +196,7 @@ const mono *mono_intern(algebra *a, mono *candidate) {
 }
 
 mono *mono_scratch(int factors) {
-    mono *m = calloc(1, sizeof *m + (size_t)factors * sizeof(factor));
-    if (m == NULL) {
-        abort();
-    }
+    mono *m = room_tail(sizeof *m, factors, sizeof(factor));
     return m;
 }
 
@@ -265,10 +257,7 @@ const poly *poly_intern(algebra *a, poly *candidate) {
 }
 
 poly *poly_scratch(int terms) {
-    poly *p = calloc(1, sizeof *p + (size_t)terms * sizeof(poly_term));
-    if (p == NULL) {
-        abort();
-    }
+    poly *p = room_tail(sizeof *p, terms, sizeof(poly_term));
     return p;
 }
 

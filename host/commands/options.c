@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "host/base/nearest.h"
+#include "host/base/room.h"
 
 bool options_help(int count, char **words, const char *usage) {
     for (int i = 0; i < count; i++) {
@@ -42,23 +43,15 @@ const char *options_value(int count, char **words, int *at, const char *name, bo
 }
 
 static void push(const char ***list, int *count, const char *text) {
-    const char **longer = realloc(*list, ((size_t)*count + 1) * sizeof **list);
-    if (longer == NULL) {
-        abort();
-    }
+    const char **longer = room_more(*list, *count + 1, sizeof **list);
     *list = longer;
     longer[(*count)++] = text;
 }
 
 /* A copy of text[length], which the options keep. */
 static const char *keep(change_options *c, const char *text, size_t length) {
-    char *name = calloc(length + 1, 1);
-    char **owned = realloc(c->owned, ((size_t)c->owned_count + 1) * sizeof *owned);
-    if (name == NULL || owned == NULL) {
-        abort();
-    }
-    memcpy(name, text, length);
-    c->owned = owned;
+    char *name = room_copy(text, length);
+    c->owned = room_more(c->owned, c->owned_count + 1, sizeof *c->owned);
     c->owned[c->owned_count++] = name;
     return name;
 }

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "host/base/room.h"
 #include "influence.h"
 
 /* --- the start -----------------------------------------------------------------------------------*/
@@ -88,10 +89,7 @@ static const poly *potential_of(const equations *e, const poly *const *mass) {
 static const poly *potential_of_any(const equations *e, const poly *const *mass) {
     const poly *g = potential_of(e, mass);
     if (g == NULL) {
-        const poly **expanded = calloc((size_t)e->count + 1, sizeof(const poly *));
-        if (expanded == NULL) {
-            abort();
-        }
+        const poly **expanded = room(e->count, sizeof(const poly *));
         for (int j = 0; j < e->count; j++) {
             expanded[j] = poly_expanded(e->algebra, mass[j]);
         }
@@ -132,14 +130,6 @@ static bool check_wanted(const equations *e, int i, diags *errors) {
     diag_error(errors, at, hint, "the momentum of '%s' is not conserved: it is changed by %s",
                q->name, count > 0 ? text : "a force or a loss");
     return false;
-}
-
-static void *room(int count, size_t size) {
-    void *p = calloc((size_t)count + 1, size);
-    if (p == NULL) {
-        abort();
-    }
-    return p;
 }
 
 /* The momentum must be linear in the rates, p = sum m_j q_j', for the algebra above. */

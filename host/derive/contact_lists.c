@@ -7,16 +7,9 @@
 #include "contacts.h"
 #include "core/hash.h"
 #include "energy.h"
+#include "host/base/room.h"
 
 _Static_assert((int)CONTACTS_MAX <= WH_CONTACTS_LIMIT, "the core has room for what a run may have");
-
-static void *room(int count, size_t size) {
-    void *p = calloc((size_t)count + 1, size);
-    if (p == NULL) {
-        abort();
-    }
-    return p;
-}
 
 /* Folded, and free of conserved coordinates. */
 static const poly *ready(const equations *e, const conservation *c, const poly *p) {

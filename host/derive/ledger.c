@@ -5,15 +5,8 @@
 
 #include "contact_lists.h"
 #include "energy.h"
+#include "host/base/room.h"
 #include "ledger.h"
-
-static void *room(int count, size_t size) {
-    void *p = calloc((size_t)count + 1, size);
-    if (p == NULL) {
-        abort();
-    }
-    return p;
-}
 
 /* Folded, and free of conserved coordinates. */
 static const poly *ready(const program *p, const equations *e, const poly *wanted) {

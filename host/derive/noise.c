@@ -3,6 +3,8 @@
 
 #include <stdlib.h>
 
+#include "host/base/room.h"
+
 /* Outputs with the same seed have noise of their own each: their names' hash (FNV-1a) tells them apart. */
 static uint32_t seed_of(const noise *of) {
     uint32_t hash = 2166136261U;
@@ -66,11 +68,8 @@ noise_records noise_records_find(const equations *e, const conservation *conserv
                                  const poly **wanted, int count) {
     const mechanism *m = e->instance->mechanism;
     recording of = {e, conserved};
-    noise_records r = {calloc((size_t)m->noise_count + 1, sizeof(const poly *)),
-                       calloc((size_t)m->noise_count + 1, sizeof(int)), 0};
-    if (r.exact == NULL || r.node == NULL) {
-        abort();
-    }
+    noise_records r = {room(m->noise_count, sizeof(const poly *)),
+                       room(m->noise_count, sizeof(int)), 0};
     for (int k = 0; k < m->noise_count; k++) {
         const symbol *record = m->noises[k].record;
         bool named = false;

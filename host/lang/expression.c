@@ -148,8 +148,8 @@ static const expr *parse_named(parser *in) {
         char words[80];
         char hint[120];
         nearest search = nearest_start(name.text, name.length);
-        for (function_id f = FN_SIN; f < FN_COUNT; f++) {
-            nearest_offer(&search, function_name(f));
+        for (int f = 0; f < FUNCTIONS; f++) {
+            nearest_offer(&search, function_name((function_id)f));
         }
         if (search.best != NULL) {
             snprintf(hint, sizeof hint, "did you mean '%s'?", search.best);

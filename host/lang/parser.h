@@ -103,9 +103,6 @@ const expr *expr_call(parser *in, function_id function, place at, const expr *le
 const expr *expr_name(parser *in, const token *name); /* reference.c */
 /* The line in which a later statement of the mechanism declares the name, or 0. */
 int name_declared_later(const token *name);
-const char *function_name(function_id function);
-int function_arguments(function_id function);
-bool function_find(const char *text, size_t length, function_id *function);
 /* The value when only numbers and operators are in it. */
 bool expr_constant(const expr *tree, double *value);
 /* Report at `at` "RULE, but this is ..." when `value` has not the dimension `wanted`. */

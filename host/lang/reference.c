@@ -65,9 +65,9 @@ static void report_unknown(parser *in, const token *name) {
     } else {
         nearest search = nearest_start(name->text, name->length);
         names_offer(in->names, in->all_effects ? -2 : in->effect, &search);
-        for (function_id f = FN_SIN; f < FN_COUNT; f++) {
+        for (int f = 0; f < FUNCTIONS; f++) {
             if (parser_is_sign(in, '(')) {
-                nearest_offer(&search, function_name(f));
+                nearest_offer(&search, function_name((function_id)f));
             }
         }
         if (search.best != NULL) {

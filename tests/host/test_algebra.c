@@ -175,7 +175,7 @@ static int grow(tree *t, uint64_t *seed, int depth) {
         n.number = (double)(random_bits(seed) % 9) / 4.0 - 1.0;
     }
     n.variable = (int)(random_bits(seed) % VARIABLES);
-    n.function = (function_id)(random_bits(seed) % FN_COUNT);
+    n.function = (function_id)(random_bits(seed) % FUNCTIONS);
     if (n.op == EXPR_POW) {
         n.number = exponents[random_bits(seed) % 8];
     }
@@ -299,7 +299,7 @@ typedef struct tally {
     int values;
     int slopes;
     int substitutions;
-    int functions[FN_COUNT];
+    int functions[FUNCTIONS];
 } tally;
 
 static void check_random(uint64_t *seed, int depth, tally *score) {
@@ -356,7 +356,7 @@ static void test_random_expressions_their_derivatives_and_substitutions(void) {
     TEST_ASSERT_GREATER_THAN_INT(2000, score.values);
     TEST_ASSERT_GREATER_THAN_INT(4000, score.slopes);
     TEST_ASSERT_GREATER_THAN_INT(1500, score.substitutions);
-    for (int f = 0; f < FN_COUNT; f++) {
+    for (int f = 0; f < FUNCTIONS; f++) {
         TEST_ASSERT_GREATER_THAN_INT(100, score.functions[f]);
     }
 }
