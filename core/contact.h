@@ -20,7 +20,7 @@
  * so an impact gives it no impulse. A bounce whose flight would be shorter than WH_REST_SHARE of a
  * step is not made: the stop rests.
  *
- * What a scene must offer is in `wh_hybrid`; what changes while running is in `wh_contacts` (scene.h).
+ * What a scene must offer is in `wh_contact_system`; what changes while running is in `wh_contacts` (scene.h).
  * contact_work.h has what a step works on, contact_lcp.h how contacts share a load, contact_forces.h the
  * forces and impulses, contact_ledger.h what they enter into the books, contact_locate.h the search for
  * events, contact_settle.h and contact_resolve.h what they change, contact_project.h where they belong,
@@ -112,7 +112,7 @@ enum {
     (WH_EVENTS_MAX * (WH_PROBES + 12 + 3 * (forced) + 2 * (crossings)) + 7 + 3 * (forced))
 
 /* A scene's contacts, constant. The functions are lists of operations like the accelerations. */
-typedef struct wh_hybrid {
+typedef struct wh_contact_system {
     const void *model;    /* first argument of the functions */
     wh_accel_fn *accel;   /* without contact forces */
     wh_accel_fn *signals; /* result[2 * contacts]: stop: gap, its rate; hold: condition (> 0: true),
@@ -130,6 +130,6 @@ typedef struct wh_hybrid {
     bool compensated;
     uint8_t angles;
     uint8_t coordinates;
-} wh_hybrid;
+} wh_contact_system;
 
 #endif

@@ -34,31 +34,33 @@
 #define WH_CONTACT_SHOWS WH_R(0.001)
 
 /* The factor of k's own force in its acceleration: J_k M^-1 J_k^T. */
-WH_INLINE wh_real wh_contact_yield(const wh_hybrid *of, const wh_contact_work *w, unsigned k) {
-    return wh_along(of, w, k, wh_law(of, w, k) + WH_LAW_ROWS + of->coordinates);
+WH_INLINE wh_real wh_delassus_diagonal(const wh_contact_system *of, const wh_contact_work *w,
+                                       unsigned k) {
+    return wh_jacobian_times(of, w, k, wh_contact_law(of, w, k) + WH_LAW_ROWS + of->coordinates);
 }
 
 /* Solve sum_l (J_k M^-1 J_l^T) amount_l = wanted_k for the `count` contacts in member[], by elimination
  * without pivoting: the matrix is positive definite, but for contacts that repeat what others hold
  * already, which get nothing to do. Returns those, as bits of their places in member[]. Those with at[]
  * other than zero get nothing, too; at may be NULL. */
-static inline unsigned wh_contact_eliminate(const wh_hybrid *of, const wh_contact_work *w,
-                                            const uint8_t *member, unsigned count, const int8_t *at,
-                                            const wh_real *wanted, wh_real *amount) {
+static inline unsigned wh_delassus_eliminate(const wh_contact_system *of, const wh_contact_work *w,
+                                             const uint8_t *member, unsigned count,
+                                             const int8_t *at, const wh_real *wanted,
+                                             wh_real *lambda) {
     wh_real matrix[WH_CONTACTS_MAX][WH_CONTACTS_MAX] = {{WH_R(0.0)}};
     bool idle[WH_CONTACTS_MAX] = {false};
     unsigned repeats = 0;
     for (unsigned r = 0; r < count; r++) {
-        amount[r] = wanted[r];
+        lambda[r] = wanted[r];
         for (unsigned c = 0; c < count; c++) {
-            matrix[r][c] = wh_along(of, w, member[r],
-                                    wh_law(of, w, member[c]) + WH_LAW_ROWS + of->coordinates);
+            matrix[r][c] = wh_jacobian_times(
+                of, w, member[r], wh_contact_law(of, w, member[c]) + WH_LAW_ROWS + of->coordinates);
         }
     }
     for (unsigned p = 0; p < count; p++) {
         const bool fixed = at != NULL && at[p] != 0;
         const bool none =
-            !(matrix[p][p] > WH_CONTACT_ROUNDING * wh_contact_yield(of, w, member[p]));
+            !(matrix[p][p] > WH_CONTACT_ROUNDING * wh_delassus_diagonal(of, w, member[p]));
         idle[p] = fixed || none;
         repeats |= none && !fixed ? 1U << p : 0U;
         for (unsigned r = p + 1; r < count && !idle[p]; r++) {
@@ -66,32 +68,32 @@ static inline unsigned wh_contact_eliminate(const wh_hybrid *of, const wh_contac
             for (unsigned c = p; c < count; c++) {
                 matrix[r][c] -= factor * matrix[p][c];
             }
-            amount[r] -= factor * amount[p];
+            lambda[r] -= factor * lambda[p];
         }
     }
     for (unsigned p = count; p-- > 0;) {
-        wh_real sum = amount[p];
+        wh_real sum = lambda[p];
         for (unsigned c = p + 1; c < count; c++) {
-            sum -= matrix[p][c] * amount[c];
+            sum -= matrix[p][c] * lambda[c];
         }
-        amount[p] = idle[p] ? WH_R(0.0) : sum / matrix[p][p];
+        lambda[p] = idle[p] ? WH_R(0.0) : sum / matrix[p][p];
     }
     return repeats;
 }
 
 /* The same, without the machinery where nothing or one thing is held: most steps of most scenes. */
-WH_INLINE unsigned wh_contact_solve(const wh_hybrid *of, const wh_contact_work *w,
-                                    const uint8_t *member, unsigned count, const int8_t *at,
-                                    const wh_real *wanted, wh_real *amount) {
+WH_INLINE unsigned wh_delassus_solve(const wh_contact_system *of, const wh_contact_work *w,
+                                     const uint8_t *member, unsigned count, const int8_t *at,
+                                     const wh_real *wanted, wh_real *lambda) {
     if (count == 0) {
         return 0;
     }
     if (count == 1 && at == NULL) {
-        const wh_real yield = wh_contact_yield(of, w, member[0]);
-        amount[0] = yield > WH_R(0.0) ? wanted[0] / yield : WH_R(0.0);
+        const wh_real yield = wh_delassus_diagonal(of, w, member[0]);
+        lambda[0] = yield > WH_R(0.0) ? wanted[0] / yield : WH_R(0.0);
         return yield > WH_R(0.0) ? 0U : 1U;
     }
-    return wh_contact_eliminate(of, w, member, count, at, wanted, amount);
+    return wh_delassus_eliminate(of, w, member, count, at, wanted, lambda);
 }
 
 /* What of a sum whose terms have the sizes a, b and c may be rounding. */
@@ -104,26 +106,26 @@ WH_INLINE wh_real wh_contact_rounding(wh_real a, wh_real b, wh_real c) {
  * way is each of `repeats` (bits of places in member[]) to push: 1, -1, or 0 where it agrees? way[] is what
  * all forces make of the accelerations. What bends a path, J' q', is looked at by itself too: beside the
  * other accelerations a slow passage would drown in their rounding. */
-static inline void wh_contact_contradict(const wh_hybrid *of, const wh_contact_work *w,
-                                         const uint8_t *member, unsigned count, const int8_t *at,
-                                         unsigned repeats, const wh_real *wanted,
-                                         const wh_real *way, int8_t *push) {
+static inline void wh_contact_contradicts(const wh_contact_system *of, const wh_contact_work *w,
+                                          const uint8_t *member, unsigned count, const int8_t *at,
+                                          unsigned repeats, const wh_real *wanted,
+                                          const wh_real *way, int8_t *push) {
     wh_real bend[WH_CONTACTS_MAX] = {WH_R(0.0)};
-    wh_real amount[WH_CONTACTS_MAX];
+    wh_real lambda[WH_CONTACTS_MAX];
     wh_real bent[WH_COORDS] = {WH_R(0.0)};
     for (unsigned i = 0; i < count; i++) {
-        bend[i] = -wh_law(of, w, member[i])[WH_LAW_BIAS];
+        bend[i] = -wh_contact_law(of, w, member[i])[WH_LAW_BIAS];
     }
-    (void)wh_contact_solve(of, w, member, count, at, bend, amount);
+    (void)wh_delassus_solve(of, w, member, count, at, bend, lambda);
     for (unsigned i = 0; i < count; i++) {
-        wh_push(of, w, member[i], amount[i], bent);
+        wh_contact_apply(of, w, member[i], lambda[i], bent);
     }
     for (unsigned i = 0; i < count; i++) {
         push[i] = 0;
         if ((repeats >> i & 1U) != 0) {
-            const wh_real made = wh_along(of, w, member[i], way);
+            const wh_real made = wh_jacobian_times(of, w, member[i], way);
             const wh_real missing = wanted[i] - made;
-            const wh_real made_bent = wh_along(of, w, member[i], bent);
+            const wh_real made_bent = wh_jacobian_times(of, w, member[i], bent);
             const wh_real missing_bend = bend[i] - made_bent;
             const bool plain = WH_ABS(missing) > wh_contact_rounding(w->rough[i], made, WH_R(0.0));
             const bool bends =
@@ -136,35 +138,36 @@ static inline void wh_contact_contradict(const wh_hybrid *of, const wh_contact_w
 }
 
 /* Between what and what contact k can push; holds, and contacts in `keep`, as bits, have no limits. */
-WH_INLINE wh_real wh_contact_high(const wh_hybrid *of, const wh_contact_work *w, unsigned k,
+WH_INLINE wh_real wh_contact_high(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
                                   unsigned keep) {
     const bool limited = of->contact[k].kind == WH_FRICTION && (keep >> k & 1U) == 0;
-    return limited ? wh_law(of, w, k)[WH_LAW_FIRST] : WH_LIMITLESS;
+    return limited ? wh_contact_law(of, w, k)[WH_LAW_FIRST] : WH_LIMITLESS;
 }
 
-WH_INLINE wh_real wh_contact_low(const wh_hybrid *of, const wh_contact_work *w, unsigned k,
+WH_INLINE wh_real wh_contact_low(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
                                  unsigned keep) {
     const bool pushes = of->contact[k].kind == WH_STOP && (keep >> k & 1U) == 0;
     return pushes ? WH_R(0.0) : -wh_contact_high(of, w, k, keep);
 }
 
 /* Is contact k's share beyond what it can take? */
-WH_INLINE bool wh_contact_exceeds(const wh_hybrid *of, const wh_contact_work *w, unsigned k,
-                                  unsigned keep, wh_real amount) {
-    return amount < wh_contact_low(of, w, k, keep) || amount > wh_contact_high(of, w, k, keep);
+WH_INLINE bool wh_contact_exceeds(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
+                                  unsigned keep, wh_real lambda) {
+    return lambda < wh_contact_low(of, w, k, keep) || lambda > wh_contact_high(of, w, k, keep);
 }
 
 /* Beside what sizes the accelerations along each member's row are rounding, into work->rough: its own terms, and what
  * the rounding of the others' forces makes of it. accel[] is what all forces together leave. */
-static inline void wh_contact_sizes(const wh_hybrid *of, wh_contact_work *w, const uint8_t *member,
-                                    unsigned count, const wh_real *accel) {
+static inline void wh_contact_magnitudes(const wh_contact_system *of, wh_contact_work *w,
+                                         const uint8_t *member, unsigned count,
+                                         const wh_real *accel) {
     for (unsigned i = 0; i < count; i++) {
-        const wh_real *row = wh_law(of, w, member[i]) + WH_LAW_ROWS;
-        w->rough[i] = WH_ABS(wh_law(of, w, member[i])[WH_LAW_BIAS]);
+        const wh_real *row = wh_contact_law(of, w, member[i]) + WH_LAW_ROWS;
+        w->rough[i] = WH_ABS(wh_contact_law(of, w, member[i])[WH_LAW_BIAS]);
         for (unsigned c = 0; c < of->coordinates; c++) {
             wh_real size = WH_ABS(accel[c]);
             for (unsigned l = 0; l < of->forced; l++) {
-                const wh_real *way = wh_law(of, w, l) + WH_LAW_ROWS + of->coordinates;
+                const wh_real *way = wh_contact_law(of, w, l) + WH_LAW_ROWS + of->coordinates;
                 size += WH_ABS(way[c] * w->force[l]);
             }
             w->rough[i] += WH_ABS(row[c]) * size;
@@ -174,9 +177,11 @@ static inline void wh_contact_sizes(const wh_hybrid *of, wh_contact_work *w, con
     for (unsigned round = 0; round < count; round++) {
         for (unsigned i = 0; i < count; i++) {
             for (unsigned l = 0; l < count; l++) {
-                const wh_real yield = wh_contact_yield(of, w, member[l]);
-                const wh_real *way = wh_law(of, w, member[l]) + WH_LAW_ROWS + of->coordinates;
-                const wh_real along = WH_ABS(wh_along(of, w, member[i], way)) * w->rough[l];
+                const wh_real yield = wh_delassus_diagonal(of, w, member[l]);
+                const wh_real *way =
+                    wh_contact_law(of, w, member[l]) + WH_LAW_ROWS + of->coordinates;
+                const wh_real along =
+                    WH_ABS(wh_jacobian_times(of, w, member[i], way)) * w->rough[l];
                 if (l != i && along > w->rough[i] * yield) {
                     w->rough[i] = along / yield;
                 }
@@ -188,9 +193,9 @@ static inline void wh_contact_sizes(const wh_hybrid *of, wh_contact_work *w, con
 /* Which contact gives way to `i`, that repeats what others hold and is to push the way `push`? Friction does so
  * itself, at its limit, and a stop that would have to pull; for a stop that must push more, or a hold, it is
  * another stop. Returns its place in member[] and its limit, or count. */
-static inline unsigned wh_contact_yields(const wh_hybrid *of, const wh_contact_work *w,
-                                         const uint8_t *member, unsigned count, const int8_t *at,
-                                         unsigned keep, unsigned i, int8_t push, int8_t *limit) {
+static inline unsigned wh_contact_gives_way(const wh_contact_system *of, const wh_contact_work *w,
+                                            const uint8_t *member, unsigned count, const int8_t *at,
+                                            unsigned keep, unsigned i, int8_t push, int8_t *limit) {
     const uint8_t kind = of->contact[member[i]].kind;
     const bool kept = (keep >> member[i] & 1U) != 0;
     *limit = push;
@@ -201,7 +206,8 @@ static inline unsigned wh_contact_yields(const wh_hybrid *of, const wh_contact_w
     for (unsigned j = 0; j < count; j++) {
         const bool other = j != i && at[j] == 0 && of->contact[member[j]].kind == WH_STOP;
         if (other && (keep >> member[j] & 1U) == 0 &&
-            wh_along(of, w, member[i], wh_law(of, w, member[j]) + WH_LAW_ROWS + of->coordinates) !=
+            wh_jacobian_times(of, w, member[i],
+                              wh_contact_law(of, w, member[j]) + WH_LAW_ROWS + of->coordinates) !=
                 WH_R(0.0)) {
             return j;
         }
@@ -209,13 +215,12 @@ static inline unsigned wh_contact_yields(const wh_hybrid *of, const wh_contact_w
     return count;
 }
 
-/* The forces (or impulses) amount[count] of the contacts in member[] within their limits, and left[count],
+/* The forces (or impulses) lambda[count] of the contacts in member[] within their limits, and left[count],
  * what they leave of the accelerations (or rates). `forces`: not impulses. Returns the contacts that give
  * way, as bits. */
-static inline unsigned wh_contact_share(const wh_hybrid *of, const wh_contact_work *w,
-                                        const uint8_t *member, unsigned count,
-                                        const wh_real *wanted, unsigned keep, bool forces,
-                                        wh_real *amount, wh_real *left) {
+static inline unsigned wh_contact_lcp(const wh_contact_system *of, const wh_contact_work *w,
+                                      const uint8_t *member, unsigned count, const wh_real *wanted,
+                                      unsigned keep, bool forces, wh_real *lambda, wh_real *left) {
     int8_t at[WH_CONTACTS_MAX] = {0}; /* -1, 1: at the low, at the high limit */
     unsigned contradicted = 0;        /* those in `at` for what they repeat, as bits of places */
     unsigned giving = 0;
@@ -228,22 +233,22 @@ static inline unsigned wh_contact_share(const wh_hybrid *of, const wh_contact_wo
             if (at[i] != 0) {
                 limit[i] = at[i] < 0 ? wh_contact_low(of, w, member[i], keep)
                                      : wh_contact_high(of, w, member[i], keep);
-                wh_push(of, w, member[i], limit[i], way);
+                wh_contact_apply(of, w, member[i], limit[i], way);
             }
         }
         for (unsigned i = 0; i < count; i++) {
-            need[i] = wanted[i] - wh_along(of, w, member[i], way);
+            need[i] = wanted[i] - wh_jacobian_times(of, w, member[i], way);
         }
-        const unsigned repeats = wh_contact_solve(of, w, member, count, at, need, amount);
+        const unsigned repeats = wh_delassus_solve(of, w, member, count, at, need, lambda);
         for (unsigned i = 0; i < count; i++) {
             if (at[i] != 0) {
-                amount[i] = limit[i];
+                lambda[i] = limit[i];
             } else {
-                wh_push(of, w, member[i], amount[i], way);
+                wh_contact_apply(of, w, member[i], lambda[i], way);
             }
         }
         if (forces && repeats != 0 && of->forced > 1) {
-            wh_contact_contradict(of, w, member, count, at, repeats, wanted, way, push);
+            wh_contact_contradicts(of, w, member, count, at, repeats, wanted, way, push);
         }
         unsigned wrong = count;
         int8_t to = 0;
@@ -252,15 +257,15 @@ static inline unsigned wh_contact_share(const wh_hybrid *of, const wh_contact_wo
             const unsigned k = member[i];
             left[i] = WH_R(0.0);
             if (at[i] == 0) {
-                if (wh_contact_exceeds(of, w, k, keep, amount[i])) {
+                if (wh_contact_exceeds(of, w, k, keep, lambda[i])) {
                     wrong = i;
-                    to = amount[i] < wh_contact_low(of, w, k, keep) ? -1 : 1;
+                    to = lambda[i] < wh_contact_low(of, w, k, keep) ? -1 : 1;
                 }
                 continue;
             }
-            const wh_real made = wh_along(of, w, k, way);
+            const wh_real made = wh_jacobian_times(of, w, k, way);
             const wh_real rounding =
-                wh_contact_rounding(wanted[i], made, amount[i] * wh_contact_yield(of, w, k)) +
+                wh_contact_rounding(wanted[i], made, lambda[i] * wh_delassus_diagonal(of, w, k)) +
                 (forces ? WH_CONTACT_QUIET * w->rough[i] : WH_R(0.0));
             left[i] = made - wanted[i];
             const wh_real outwards = at[i] < 0 ? left[i] : -left[i];
@@ -276,7 +281,7 @@ static inline unsigned wh_contact_share(const wh_hybrid *of, const wh_contact_wo
         }
         for (unsigned i = 0; i < count && wrong == count && of->forced > 1; i++) {
             if (push[i] != 0) {
-                wrong = wh_contact_yields(of, w, member, count, at, keep, i, push[i], &to);
+                wrong = wh_contact_gives_way(of, w, member, count, at, keep, i, push[i], &to);
                 contradicted |= wrong < count ? 1U << wrong : 0U;
             }
         }

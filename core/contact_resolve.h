@@ -6,9 +6,10 @@
 
 /* Would a flight that begins with `speed` be too short, as stop k is pressed? work->law and accel[] must
  * belong to the state. */
-WH_INLINE bool wh_contact_rests(const wh_hybrid *of, const wh_contact_work *w, unsigned k,
+WH_INLINE bool wh_contact_rests(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
                                 wh_real h, bool rest, wh_real speed, const wh_real *accel) {
-    const wh_real pressing = -(wh_along(of, w, k, accel) + wh_law(of, w, k)[WH_LAW_BIAS]);
+    const wh_real pressing =
+        -(wh_jacobian_times(of, w, k, accel) + wh_contact_law(of, w, k)[WH_LAW_BIAS]);
     if (pressing == WH_R(0.0)) {
         return speed == WH_R(0.0);
     }
@@ -16,7 +17,7 @@ WH_INLINE bool wh_contact_rests(const wh_hybrid *of, const wh_contact_work *w, u
 }
 
 /* Stops that rest, as bits. */
-WH_INLINE unsigned wh_contact_resting(const wh_hybrid *of, const wh_contact_work *w) {
+WH_INLINE unsigned wh_contact_resting(const wh_contact_system *of, const wh_contact_work *w) {
     unsigned bits = 0;
     for (unsigned k = 0; k < of->forced; k++) {
         bits |= of->contact[k].kind == WH_STOP && w->mode[k] == WH_ACTIVE ? 1U << k : 0U;
@@ -26,7 +27,7 @@ WH_INLINE unsigned wh_contact_resting(const wh_hybrid *of, const wh_contact_work
 
 /* Of the stops `gone`, that an impact let go, those whose flight would be too short rest on, together with
  * what rests: else a body in a corner would be thrown to and fro without an end. */
-static inline void wh_contact_stay(const wh_hybrid *of, wh_contact_work *w, unsigned gone,
+static inline void wh_contact_stay(const wh_contact_system *of, wh_contact_work *w, unsigned gone,
                                    wh_real h, bool rest, const wh_real *accel,
                                    const wh_real *signal, const wh_real *input,
                                    wh_contact_state *s) {
@@ -34,21 +35,21 @@ static inline void wh_contact_stay(const wh_hybrid *of, wh_contact_work *w, unsi
     bool stays = false;
     for (unsigned k = 0; k < of->forced; k++) {
         if ((gone >> k & 1U) != 0 &&
-            wh_contact_rests(of, w, k, h, rest, wh_along(of, w, k, rate), accel)) {
+            wh_contact_rests(of, w, k, h, rest, wh_jacobian_times(of, w, k, rate), accel)) {
             w->mode[k] = WH_ACTIVE;
             stays = true;
         }
     }
     if (stays) {
-        wh_contact_still(of, w, 0, true, rate);
-        (void)wh_contact_close(of, w, &WH_CONTACT_HERE, signal, input, s);
+        wh_contact_project_rates(of, w, 0, true, rate);
+        (void)wh_contact_project_places(of, w, &WH_CONTACT_HERE, signal, input, s);
     }
 }
 
 /* Free stops, but k, that an impulse made close while they are touched, as near as events are located: they
  * are hit at the same moment. `before` and `after` are the signals beside it. */
-WH_INLINE void wh_contact_touched(const wh_hybrid *of, wh_contact_work *w, unsigned k, wh_real h,
-                                  const wh_real *before, const wh_real *after) {
+WH_INLINE void wh_contact_touched(const wh_contact_system *of, wh_contact_work *w, unsigned k,
+                                  wh_real h, const wh_real *before, const wh_real *after) {
     for (unsigned l = 0; l < of->forced && of->forced > 1; l++) {
         const wh_real speed = after[2 * l + 1];
         const bool free = of->contact[l].kind == WH_STOP && w->mode[l] == WH_FREE && l != k;
@@ -62,18 +63,19 @@ WH_INLINE void wh_contact_touched(const wh_hybrid *of, wh_contact_work *w, unsig
 /* Free stops without restitution that are touched and at rest when k's speed is to change so: nothing presses
  * them, but they are in the way of what the impact moves. One after the other, two plastic impacts would go on
  * for ever; with restitution they do not, and are taken so. */
-static inline unsigned wh_contact_beside(const wh_hybrid *of, const wh_contact_work *w, unsigned k,
-                                         wh_real h, wh_real change, const wh_real *signal,
-                                         const wh_real *rate) {
-    const wh_real *way = wh_law(of, w, k) + WH_LAW_ROWS + of->coordinates;
+static inline unsigned wh_contact_beside(const wh_contact_system *of, const wh_contact_work *w,
+                                         unsigned k, wh_real h, wh_real change,
+                                         const wh_real *signal, const wh_real *rate) {
+    const wh_real *way = wh_contact_law(of, w, k) + WH_LAW_ROWS + of->coordinates;
     unsigned bits = 0;
     for (unsigned l = 0; l < of->forced && of->forced > 1; l++) {
         const bool free = of->contact[l].kind == WH_STOP && w->mode[l] == WH_FREE && l != k;
-        if (free && !(wh_law(of, w, l)[WH_LAW_FIRST] > WH_R(0.0))) {
+        if (free && !(wh_contact_law(of, w, l)[WH_LAW_FIRST] > WH_R(0.0))) {
             const wh_real passed_on =
-                WH_ABS(wh_along(of, w, l, way) * change) / wh_contact_yield(of, w, k);
+                WH_ABS(wh_jacobian_times(of, w, l, way) * change) / wh_delassus_diagonal(of, w, k);
             const bool touched = signal[2 * l] <= passed_on * (h * WH_BRACKET);
-            const bool rests = WH_ABS(wh_along(of, w, l, rate)) <= WH_CONTACT_STILL * passed_on;
+            const bool rests =
+                WH_ABS(wh_jacobian_times(of, w, l, rate)) <= WH_CONTACT_STILL * passed_on;
             bits |= touched && rests && passed_on > WH_R(0.0) ? 1U << l : 0U;
         }
     }
@@ -82,8 +84,9 @@ static inline unsigned wh_contact_beside(const wh_hybrid *of, const wh_contact_w
 
 /* A stop is hit: restitution, or rest when the flight that follows would be too short. What is to rest
  * gets one impulse: two, there and back, would let stops go that the one holds. */
-static inline wh_real wh_contact_hit(const wh_hybrid *of, wh_contact_work *w, unsigned k, wh_real h,
-                                     bool rest, const wh_real *input, wh_contact_state *s) {
+static inline wh_real wh_contact_hit(const wh_contact_system *of, wh_contact_work *w, unsigned k,
+                                     wh_real h, bool rest, const wh_real *input,
+                                     wh_contact_state *s) {
     wh_real accel[WH_COORDS];
     wh_real signal[2 * WH_CONTACTS_MAX];
     wh_real *rate = wh_contact_rates(of, s);
@@ -91,11 +94,11 @@ static inline wh_real wh_contact_hit(const wh_hybrid *of, wh_contact_work *w, un
     wh_real impulse = WH_R(0.0);
     const unsigned resting = wh_contact_resting(of, w);
     wh_contact_look(of, w, s, input, accel, signal);
-    wh_real speed = wh_along(of, w, k, rate);
+    wh_real speed = wh_jacobian_times(of, w, k, rate);
     const wh_real before_speed = speed;
     unsigned beside = 0;
     if (speed < WH_R(0.0)) {
-        const wh_real given = wh_law(of, w, k)[WH_LAW_FIRST];
+        const wh_real given = wh_contact_law(of, w, k)[WH_LAW_FIRST];
         wh_contact_expect(w, k, given);
         const wh_real restitution =
             given > WH_R(0.0) ? (given < WH_R(1.0) ? given : WH_R(1.0)) : WH_R(0.0);
@@ -119,7 +122,7 @@ static inline wh_real wh_contact_hit(const wh_hybrid *of, wh_contact_work *w, un
                 wh_contact_stuck(of, w); /* at rest beyond it: friction does not keep it there */
         }
         w->mode[k] = WH_ACTIVE;
-        (void)wh_contact_close(of, w, &place, signal, input, s);
+        (void)wh_contact_project_places(of, w, &place, signal, input, s);
     }
     const unsigned gone = resting & ~wh_contact_resting(of, w);
     if (gone != 0) {
@@ -129,7 +132,7 @@ static inline wh_real wh_contact_hit(const wh_hybrid *of, wh_contact_work *w, un
 }
 
 /* A crossing's assignments, all evaluated before any is made. */
-static inline void wh_contact_assign(const wh_hybrid *of, wh_contact_work *w, unsigned k,
+static inline void wh_contact_assign(const wh_contact_system *of, wh_contact_work *w, unsigned k,
                                      const wh_real *input, wh_contact_state *s) {
     wh_contact_point at;
     wh_real before[2 * WH_CONTACTS_MAX];
@@ -181,7 +184,7 @@ static inline void wh_contact_assign(const wh_hybrid *of, wh_contact_work *w, un
 
 /* Friction breaks loose, or its rate has come to zero; whether that sticks is for settling to decide. Where an
  * impact of the same moment threw it, its new rate says all. */
-static inline void wh_contact_turn(const wh_hybrid *of, wh_contact_work *w, unsigned k,
+static inline void wh_contact_turn(const wh_contact_system *of, wh_contact_work *w, unsigned k,
                                    const wh_real *input, wh_contact_state *s) {
     wh_real accel[WH_COORDS];
     wh_real signal[2 * WH_CONTACTS_MAX];
@@ -202,7 +205,7 @@ static inline void wh_contact_turn(const wh_hybrid *of, wh_contact_work *w, unsi
 }
 
 /* Take one event of contact k. `rest`: no more bounces in this step. */
-static inline wh_real wh_contact_take(const wh_hybrid *of, wh_contact_work *w, unsigned k,
+static inline wh_real wh_contact_take(const wh_contact_system *of, wh_contact_work *w, unsigned k,
                                       wh_real h, bool rest, const wh_real *input,
                                       wh_contact_state *s) {
     wh_real accel[WH_COORDS];
@@ -239,7 +242,7 @@ static inline wh_real wh_contact_take(const wh_hybrid *of, wh_contact_work *w, u
 /* Where an input has moved a resting stop since the last step: the body is put back onto it, or falls if
  * what presses it does not close the gap within the step. The energy is the stop's. What an input does to a held
  * expression moves nobody: the hold keeps the new value. */
-static inline void wh_contact_follow(const wh_hybrid *of, wh_contact_work *w, wh_real h,
+static inline void wh_contact_follow(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                      const wh_real *input, wh_contact_state *s) {
     wh_real accel[WH_COORDS];
     wh_real signal[2 * WH_CONTACTS_MAX];
@@ -258,7 +261,7 @@ static inline void wh_contact_follow(const wh_hybrid *of, wh_contact_work *w, wh
     for (unsigned k = 0; k < of->forced; k++) {
         const wh_contact *c = &of->contact[k];
         if (c->kind == WH_STOP && c->direction != 0 && w->mode[k] == WH_ACTIVE) {
-            const wh_real closes = WH_R(0.5) * h * h * w->force[k] * wh_contact_yield(of, w, k);
+            const wh_real closes = WH_R(0.5) * h * h * w->force[k] * wh_delassus_diagonal(of, w, k);
             w->mode[k] = signal[2 * k] > closes ? WH_FREE : WH_ACTIVE;
             falls = falls || w->mode[k] == WH_FREE;
         } else if (c->direction < 0) {
@@ -269,14 +272,14 @@ static inline void wh_contact_follow(const wh_hybrid *of, wh_contact_work *w, wh
         return;
     }
     const wh_contact_place place = {NULL, WH_R(0.0), 0, moved};
-    (void)wh_contact_close(of, w, &place, signal, input, s);
+    (void)wh_contact_project_places(of, w, &place, signal, input, s);
     if (falls) {
         wh_contact_settle(of, w, h, 0, input, s);
     }
 }
 
 /* Modes at the start of a run: sticks what is at rest, captures what a hold's condition says. */
-static inline void wh_contact_begin(const wh_hybrid *of, wh_contact_work *w, wh_real h,
+static inline void wh_contact_begin(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                     const wh_real *input, wh_contact_state *s) {
     wh_real accel[WH_COORDS];
     wh_real signal[2 * WH_CONTACTS_MAX];

@@ -7,8 +7,8 @@
 /* After a crossing's assignments changed the gaps, conditions or rates of the contacts in work->moved: a
  * stop that was passed has its gap closed, and rests no longer, as one that was left; what a hold still
  * keeps is captured again. The gaps are the crossing's doing, and so is their energy. */
-static inline void wh_contact_revise(const wh_hybrid *of, wh_contact_work *w, const wh_real *input,
-                                     wh_contact_state *s) {
+static inline void wh_contact_revise(const wh_contact_system *of, wh_contact_work *w,
+                                     const wh_real *input, wh_contact_state *s) {
     wh_real accel[WH_COORDS];
     wh_real signal[2 * WH_CONTACTS_MAX];
     wh_contact_look(of, w, s, input, accel, signal);
@@ -30,7 +30,7 @@ static inline void wh_contact_revise(const wh_hybrid *of, wh_contact_work *w, co
     w->moved = 0;
     if (passed) {
         const wh_contact_place place = {NULL, WH_R(0.0), 0, w->mover};
-        (void)wh_contact_close(of, w, &place, signal, input, s);
+        (void)wh_contact_project_places(of, w, &place, signal, input, s);
         wh_contact_look(of, w, s, input, accel, signal);
     }
     for (unsigned k = 0; k < of->forced; k++) {
@@ -46,7 +46,7 @@ static inline void wh_contact_revise(const wh_hybrid *of, wh_contact_work *w, co
 /* Of the contacts that give way, those that do so first, as bits: all stops; else, since what slides pushes
  * less than what sticks and may relieve the others, the friction whose load is most above its limit: the first
  * to reach it, if the load grew from nothing. */
-WH_INLINE unsigned wh_contact_first(const wh_hybrid *of, const wh_contact_work *w,
+WH_INLINE unsigned wh_contact_first(const wh_contact_system *of, const wh_contact_work *w,
                                     unsigned giving) {
     unsigned stops = 0;
     unsigned most = WH_CONTACTS_MAX;
@@ -55,9 +55,10 @@ WH_INLINE unsigned wh_contact_first(const wh_hybrid *of, const wh_contact_work *
             continue;
         }
         stops |= of->contact[k].kind == WH_STOP ? 1U << k : 0U;
-        const wh_real limit = wh_law(of, w, k)[WH_LAW_FIRST];
-        if (most == WH_CONTACTS_MAX || WH_ABS(w->force[k]) * wh_law(of, w, most)[WH_LAW_FIRST] >
-                                           WH_ABS(w->force[most]) * limit) {
+        const wh_real limit = wh_contact_law(of, w, k)[WH_LAW_FIRST];
+        if (most == WH_CONTACTS_MAX ||
+            WH_ABS(w->force[k]) * wh_contact_law(of, w, most)[WH_LAW_FIRST] >
+                WH_ABS(w->force[most]) * limit) {
             most = k;
         }
     }
@@ -70,7 +71,7 @@ WH_INLINE unsigned wh_contact_first(const wh_hybrid *of, const wh_contact_work *
 /* Which way friction slides, as its rate says; where the location left it on the side that it comes from, as was
  * found there. What has just come to zero, or is left there by the rounding of what others did, waits for the
  * forces' word. `h`: the step; work->law must belong to this position, but for h = 0. */
-WH_INLINE unsigned wh_contact_slides(const wh_hybrid *of, wh_contact_work *w, wh_real h,
+WH_INLINE unsigned wh_contact_slides(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                      const wh_real *rate) {
     unsigned frictions = 0;
     for (unsigned k = 0; k < of->forced; k++) {
@@ -84,9 +85,10 @@ WH_INLINE unsigned wh_contact_slides(const wh_hybrid *of, wh_contact_work *w, wh
         if (v == WH_R(0.0) || (w->turned >> k & 1U) != 0) {
             continue;
         }
-        const wh_real none = h > WH_R(0.0) ? WH_CONTACT_STILL * h * wh_law(of, w, k)[WH_LAW_FIRST] *
-                                                 wh_contact_yield(of, w, k)
-                                           : WH_R(0.0);
+        const wh_real none = h > WH_R(0.0)
+                                 ? WH_CONTACT_STILL * h * wh_contact_law(of, w, k)[WH_LAW_FIRST] *
+                                       wh_delassus_diagonal(of, w, k)
+                                 : WH_R(0.0);
         if (WH_ABS(v) <= none) {
             w->mode[k] = WH_STUCK;
             w->turned |= 1U << k;
@@ -101,7 +103,7 @@ WH_INLINE unsigned wh_contact_slides(const wh_hybrid *of, wh_contact_work *w, wh
 /* Of what has just come to zero, what the forces keep there sticks: friction, which would take the rest of the
  * rate away in no time, does, together with all else that is held, so that two frictions do not shake each
  * other loose. What slides on does so the way it is pushed, on whichever side of zero it is. */
-WH_INLINE void wh_contact_stick(const wh_hybrid *of, wh_contact_work *w, wh_real *rate) {
+WH_INLINE void wh_contact_stick(const wh_contact_system *of, wh_contact_work *w, wh_real *rate) {
     bool sticks = false;
     for (unsigned k = 0; k < of->forced; k++) {
         if ((w->turned >> k & 1U) != 0) {
@@ -114,14 +116,14 @@ WH_INLINE void wh_contact_stick(const wh_hybrid *of, wh_contact_work *w, wh_real
     }
     w->turned = 0;
     if (sticks) {
-        wh_contact_still(of, w, 0, true, rate);
+        wh_contact_project_rates(of, w, 0, true, rate);
     }
 }
 
 /* Bring the modes to agree with the state: which way friction slides, which resting stops would have to
  * pull, which stuck coordinates (but those in `keep`, as bits) break loose. What breaks loose pushes less
  * than before, so others may follow: each round lets at least one go. */
-static inline void wh_contact_settle(const wh_hybrid *of, wh_contact_work *w, wh_real h,
+static inline void wh_contact_settle(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                      unsigned keep, const wh_real *input, wh_contact_state *s) {
     wh_real accel[WH_COORDS];
     wh_real signal[2 * WH_CONTACTS_MAX];
@@ -133,7 +135,7 @@ static inline void wh_contact_settle(const wh_hybrid *of, wh_contact_work *w, wh
     bool again = true;
     while (again && wh_contact_watched(of, w)) {
         uint8_t member[WH_CONTACTS_MAX] = {0};
-        wh_real amount[WH_CONTACTS_MAX];
+        wh_real lambda[WH_CONTACTS_MAX];
         wh_real left[WH_CONTACTS_MAX] = {WH_R(0.0)};
         again = false;
         wh_contact_look(of, w, s, input, accel, signal);
@@ -142,10 +144,10 @@ static inline void wh_contact_settle(const wh_hybrid *of, wh_contact_work *w, wh
             again = again || wh_contact_exceeds(of, w, member[i], keep, w->force[member[i]]);
         }
         if (again) {
-            wh_contact_sizes(of, w, member, count, accel);
+            wh_contact_magnitudes(of, w, member, count, accel);
         }
         const unsigned giving =
-            again ? wh_contact_share(of, w, member, count, w->wanted, keep, true, amount, left) : 0;
+            again ? wh_contact_lcp(of, w, member, count, w->wanted, keep, true, lambda, left) : 0;
         const unsigned first = wh_contact_first(of, w, giving);
         for (unsigned i = 0; i < count; i++) {
             const unsigned k = member[i];

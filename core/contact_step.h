@@ -5,7 +5,8 @@
 #include "contact_rank.h"
 #include "contact_resolve.h"
 
-WH_INLINE void wh_contact_modes(const wh_hybrid *of, const wh_state *state, wh_contact_work *w) {
+WH_INLINE void wh_contact_modes(const wh_contact_system *of, const wh_state *state,
+                                wh_contact_work *w) {
     WH_UNROLL
     for (unsigned k = 0; k < WH_CONTACTS_MAX; k++) {
         w->mode[k] = k < of->contacts ? state->contacts->mode[k] : (int8_t)0;
@@ -14,7 +15,8 @@ WH_INLINE void wh_contact_modes(const wh_hybrid *of, const wh_state *state, wh_c
 
 /* Crossings that went against their direction, or left the value they started at, are on the other
  * side without an event. */
-WH_INLINE void wh_contact_pass(const wh_hybrid *of, const wh_margins *m, wh_contact_work *w) {
+WH_INLINE void wh_contact_pass(const wh_contact_system *of, const wh_margins *m,
+                               wh_contact_work *w) {
     WH_UNROLL
     for (unsigned k = of->forced; k < of->contacts; k++) {
         const wh_real value = m->signal[2 * k];
@@ -24,8 +26,8 @@ WH_INLINE void wh_contact_pass(const wh_hybrid *of, const wh_margins *m, wh_cont
     }
 }
 
-WH_INLINE void wh_contact_work_begin(const wh_hybrid *of, const wh_state *state, wh_contact_work *w,
-                                     wh_contact_state *now) {
+WH_INLINE void wh_contact_work_begin(const wh_contact_system *of, const wh_state *state,
+                                     wh_contact_work *w, wh_contact_state *now) {
     wh_contact_copy(of, state->angle, state->real, state->carry, now);
     wh_contact_modes(of, state, w);
     WH_UNROLL
@@ -52,7 +54,8 @@ WH_INLINE void wh_contact_work_begin(const wh_hybrid *of, const wh_state *state,
 }
 
 /* The accelerations at the state, with the contacts' forces, for records. accel[coordinates]. */
-static inline void wh_contact_observe(const wh_hybrid *of, const wh_state *state, wh_real *accel) {
+static inline void wh_contact_observe(const wh_contact_system *of, const wh_state *state,
+                                      wh_real *accel) {
     wh_contact_work work;
     wh_contact_state now;
     wh_real signal[2 * WH_CONTACTS_MAX];
@@ -65,7 +68,7 @@ static inline void wh_contact_observe(const wh_hybrid *of, const wh_state *state
 
 /* The margins at the end of a try from `from` to `to`: a stop that was open, or closing, and is closed was hit,
  * even when it is on its way out again. */
-static inline void wh_contact_margins_end(const wh_hybrid *of, wh_contact_work *w,
+static inline void wh_contact_margins_end(const wh_contact_system *of, wh_contact_work *w,
                                           wh_contact_state *from, wh_contact_state *to,
                                           const wh_real *input, wh_margins *m) {
     wh_contact_point at;
@@ -97,11 +100,11 @@ static inline void wh_contact_margins_end(const wh_hybrid *of, wh_contact_work *
 
 /* Of the events of one moment, those of forces beyond a limit, as bits, if there are several: how many
  * really give way is to be settled, since the first to do so may relieve the others. */
-WH_INLINE unsigned wh_contact_overloads(const wh_hybrid *of, const wh_contact_work *w,
+WH_INLINE unsigned wh_contact_overloads(const wh_contact_system *of, const wh_contact_work *w,
                                         unsigned events) {
     unsigned bits = 0;
     for (unsigned k = 0; k < of->forced; k++) {
-        const bool gives = of->contact[k].kind != WH_HOLD && wh_constrains(of, w, k);
+        const bool gives = of->contact[k].kind != WH_HOLD && wh_contact_constrains(of, w, k);
         bits |= gives ? events & 1U << k : 0U;
     }
     return (bits & (bits - 1U)) != 0 ? bits : 0U;
@@ -109,7 +112,7 @@ WH_INLINE unsigned wh_contact_overloads(const wh_hybrid *of, const wh_contact_wo
 
 /* A try from `from`, h long, failed: for a friction or a hold that had no number on the way? It is looked for where
  * the rates lead. */
-WH_APART void wh_contact_blame(const wh_hybrid *of, wh_contact_work *w, wh_real h,
+WH_APART void wh_contact_blame(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                const wh_real *input, wh_contact_state *from) {
     wh_contact_point at;
     for (unsigned part = 0; part <= 2; part++) {
@@ -140,8 +143,8 @@ WH_INLINE void wh_contact_note(const wh_contact_work *w, unsigned k, wh_real at_
 
 /* All that happens at one moment: `events`, as bits. `last`: no more bounces in this step, of length h, of which
  * at_s is over. */
-WH_APART void wh_contact_moment(const wh_hybrid *of, wh_contact_work *w, unsigned events, bool last,
-                                wh_real h, wh_real at_s, const wh_real *input,
+WH_APART void wh_contact_moment(const wh_contact_system *of, wh_contact_work *w, unsigned events,
+                                bool last, wh_real h, wh_real at_s, const wh_real *input,
                                 wh_contact_state *now, wh_contact_log *log) {
     const wh_real *rate = wh_contact_rates(of, now);
     const unsigned loads = wh_contact_overloads(of, w, events);
@@ -157,7 +160,7 @@ WH_APART void wh_contact_moment(const wh_hybrid *of, wh_contact_work *w, unsigne
     wh_contact_settle(of, w, h, last ? events : 0, input, now);
     unsigned given = 0;
     for (unsigned k = 0; k < of->forced; k++) {
-        given |= (loads >> k & 1U) != 0 && !wh_constrains(of, w, k) ? 1U << k : 0U;
+        given |= (loads >> k & 1U) != 0 && !wh_contact_constrains(of, w, k) ? 1U << k : 0U;
     }
     for (unsigned k = 0; k < of->forced && loads != 0 && given == 0 && !last; k++) {
         if ((loads >> k & 1U) != 0) { /* by no more than rounding: the first of them */
@@ -173,7 +176,7 @@ WH_APART void wh_contact_moment(const wh_hybrid *of, wh_contact_work *w, unsigne
 }
 
 /* Stops that an impact made close, and that are still open, as bits; they are then dealt with. */
-WH_INLINE unsigned wh_contact_next(const wh_hybrid *of, wh_contact_work *w) {
+WH_INLINE unsigned wh_contact_next(const wh_contact_system *of, wh_contact_work *w) {
     unsigned bits = 0;
     for (unsigned k = 0; k < of->forced; k++) {
         bits |= w->mode[k] == WH_FREE ? w->hit_next & 1U << k : 0U;
@@ -183,7 +186,7 @@ WH_INLINE unsigned wh_contact_next(const wh_hybrid *of, wh_contact_work *w) {
 }
 
 /* A step is done: into the state. */
-WH_INLINE void wh_contact_commit(const wh_hybrid *of, const wh_contact_work *w,
+WH_INLINE void wh_contact_commit(const wh_contact_system *of, const wh_contact_work *w,
                                  const wh_contact_state *now, const wh_contact_log *log,
                                  bool overran, wh_state *state) {
     const unsigned reals = 2U * of->coordinates - of->angles;
@@ -215,7 +218,7 @@ WH_INLINE void wh_contact_commit(const wh_hybrid *of, const wh_contact_work *w,
 }
 
 /* A try from `from` to `to`, `span` long, is taken. Returns the hold that lost its say in it, or of->contacts. */
-WH_INLINE unsigned wh_contact_accept(const wh_hybrid *of, wh_contact_work *w, wh_real span,
+WH_INLINE unsigned wh_contact_accept(const wh_contact_system *of, wh_contact_work *w, wh_real span,
                                      wh_contact_state *from, wh_contact_state *to,
                                      const wh_real *input) {
     wh_books_accept(of, w);
@@ -226,7 +229,7 @@ WH_INLINE unsigned wh_contact_accept(const wh_hybrid *of, wh_contact_work *w, wh
 /* One step with its events. Returns as wh_step_second(), or WH_E_UNDEFINED or WH_E_SINGULAR with the contact in
  * state->fault. Only what the step builds on must be a number: a try that is cut short at an event may have
  * looked beyond where an expression ends. */
-static inline wh_status wh_step_contact(const wh_hybrid *of, wh_real h, wh_state *state) {
+static inline wh_status wh_step_contact(const wh_contact_system *of, wh_real h, wh_state *state) {
     wh_contact_work work;
     wh_contact_state now;
     wh_contact_state next;
@@ -273,7 +276,7 @@ static inline wh_status wh_step_contact(const wh_hybrid *of, wh_real h, wh_state
                 wh_contact_blame(of, &work, left, state->input, &now);
                 return wh_contact_refuse(&work, fault, state);
             }
-            wh_contact_tidy(of, &work, left, state->input, &now, &next);
+            wh_contact_stabilise(of, &work, left, state->input, &now, &next);
             wh_contact_margins_end(of, &work, &now, &next, state->input, &margins);
             if (wh_contact_calm(of, &margins) && (of->held == 0 || work.undefined < 0)) {
                 wh_contact_pass(of, &margins, &work);
@@ -298,7 +301,7 @@ static inline wh_status wh_step_contact(const wh_hybrid *of, wh_real h, wh_state
                     wh_contact_blame(of, &work, span, state->input, &next);
                     return wh_contact_refuse(&work, fault, state);
                 }
-                wh_contact_tidy(of, &work, span, state->input, &next, &now);
+                wh_contact_stabilise(of, &work, span, state->input, &next, &now);
                 flat = wh_contact_accept(of, &work, span, &next, &now, state->input);
                 left -= span;
             }

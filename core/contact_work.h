@@ -41,7 +41,7 @@ typedef struct wh_contact_work {
 
 /* What the integrator gets as its model. */
 typedef struct wh_contact_model {
-    const wh_hybrid *of;
+    const wh_contact_system *of;
     wh_contact_work *work;
 } wh_contact_model;
 
@@ -57,14 +57,15 @@ typedef struct wh_contact_state {
     wh_real carry[2 * WH_COORDS];
 } wh_contact_state;
 
-WH_INLINE const wh_real *wh_law(const wh_hybrid *of, const wh_contact_work *w, unsigned k) {
+WH_INLINE const wh_real *wh_contact_law(const wh_contact_system *of, const wh_contact_work *w,
+                                        unsigned k) {
     return w->law + k * (WH_LAW_ROWS + 2U * of->coordinates);
 }
 
 /* J_k x. */
-WH_INLINE wh_real wh_along(const wh_hybrid *of, const wh_contact_work *w, unsigned k,
-                           const wh_real *x) {
-    const wh_real *row = wh_law(of, w, k) + WH_LAW_ROWS;
+WH_INLINE wh_real wh_jacobian_times(const wh_contact_system *of, const wh_contact_work *w,
+                                    unsigned k, const wh_real *x) {
+    const wh_real *row = wh_contact_law(of, w, k) + WH_LAW_ROWS;
     const int pin = of->contact[k].pin;
     if (pin >= 0) {
         return row[pin] * x[pin];
@@ -76,12 +77,12 @@ WH_INLINE wh_real wh_along(const wh_hybrid *of, const wh_contact_work *w, unsign
     return sum;
 }
 
-/* x += M^-1 J_k^T amount. */
-WH_INLINE void wh_push(const wh_hybrid *of, const wh_contact_work *w, unsigned k, wh_real amount,
-                       wh_real *x) {
-    const wh_real *way = wh_law(of, w, k) + WH_LAW_ROWS + of->coordinates;
+/* x += M^-1 J_k^T lambda. */
+WH_INLINE void wh_contact_apply(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
+                                wh_real lambda, wh_real *x) {
+    const wh_real *way = wh_contact_law(of, w, k) + WH_LAW_ROWS + of->coordinates;
     for (unsigned i = 0; i < of->coordinates; i++) {
-        x[i] += way[i] * amount;
+        x[i] += way[i] * lambda;
     }
 }
 
@@ -96,23 +97,25 @@ WH_INLINE void wh_contact_expect(wh_contact_work *w, unsigned k, wh_real value) 
 }
 
 /* Does the contact keep J_k q' at zero? */
-WH_INLINE bool wh_constrains(const wh_hybrid *of, const wh_contact_work *w, unsigned k) {
+WH_INLINE bool wh_contact_constrains(const wh_contact_system *of, const wh_contact_work *w,
+                                     unsigned k) {
     return of->contact[k].kind == WH_FRICTION ? w->mode[k] == WH_STUCK : w->mode[k] == WH_ACTIVE;
 }
 
 /* The limit of each friction that sticks, the force of each that slides, what each hold holds. (What a stop gives
  * back counts at an impact only, and is none of these.) Seldom called: kept out of the way. */
-WH_APART void wh_contact_expect_laws(const wh_hybrid *of, wh_contact_work *w) {
+WH_APART void wh_contact_expect_laws(const wh_contact_system *of, wh_contact_work *w) {
     for (unsigned k = 0; k < of->forced; k++) {
         const wh_contact_kind kind = (wh_contact_kind)of->contact[k].kind;
         const bool slides = kind == WH_FRICTION && w->mode[k] != WH_STUCK;
         if (kind == WH_FRICTION || (kind == WH_HOLD && w->mode[k] == WH_ACTIVE)) {
-            wh_contact_expect(w, k, wh_law(of, w, k)[slides ? WH_LAW_SECOND : WH_LAW_FIRST]);
+            wh_contact_expect(w, k,
+                              wh_contact_law(of, w, k)[slides ? WH_LAW_SECOND : WH_LAW_FIRST]);
         }
     }
 }
 
-WH_INLINE bool wh_feels(const wh_hybrid *of, const wh_contact_work *w) {
+WH_INLINE bool wh_contact_any_acts(const wh_contact_system *of, const wh_contact_work *w) {
     WH_UNROLL
     for (unsigned k = 0; k < of->forced; k++) {
         if (of->contact[k].kind == WH_FRICTION || w->mode[k] == WH_ACTIVE) {

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "algebra.h"
+#include "host/base/room.h"
 
 /* Sums below this part of what was added are rounding errors of the decimals they came from. */
 #define CANCELLED 1e-14
@@ -309,10 +310,7 @@ static const poly *term_pow(algebra *a, const poly_term *t, double exponent) {
     const mono *m = t->mono;
     const bool whole = is_whole(exponent);
     if (whole && m->trig == TRIG_NONE) {
-        factor *f = calloc((size_t)m->count + 1, sizeof *f);
-        if (f == NULL) {
-            abort();
-        }
+        factor *f = room(m->count, sizeof *f);
         const poly *extra = a->one;
         int count = 0;
         for (int i = 0; i < m->count; i++) {

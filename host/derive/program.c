@@ -5,16 +5,9 @@
 
 #include "contact_lists.h"
 #include "energy.h"
+#include "host/base/room.h"
 #include "ledger.h"
 #include "noise.h"
-
-static void *room(int count, size_t size) {
-    void *p = calloc((size_t)count + 1, size);
-    if (p == NULL) {
-        abort();
-    }
-    return p;
-}
 
 /* --- the lists -----------------------------------------------------------------------------------*/
 
@@ -134,10 +127,7 @@ static tape *make_observe(program *p, const equations *e, layout *map, const lin
 
 static tape *make_books(program *p, const equations *e, layout *map, const linear_system *s) {
     const int n = e->count;
-    const poly **wanted = calloc((size_t)(BOOK_MOMENTA + n + 1), sizeof *wanted);
-    if (wanted == NULL) {
-        abort();
-    }
+    const poly **wanted = room(BOOK_MOMENTA + n + 1, sizeof *wanted);
     int count = 0;
     if (!e->instance->mechanism->is_system) {
         wanted[BOOK_KINETIC] = e->kinetic;

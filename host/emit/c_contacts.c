@@ -7,7 +7,7 @@
 void c_contacts_include(FILE *out, const contact_lists *c) {
     fprintf(out, "#define WH_CONTACTS_MAX %d\n#define WH_SETS_MAX %d\n", c->count,
             c->set_count > 0 ? c->set_count : 1);
-    fprintf(out, "#include \"core/contact.h\"\nstatic const wh_hybrid contacts;\n"
+    fprintf(out, "#include \"core/contact.h\"\nstatic const wh_contact_system contacts;\n"
                  "#define WH_CONTACTS_OF(model) (&contacts)\n#include \"core/contact_step.h\"\n");
 }
 
@@ -43,7 +43,7 @@ void c_contacts_write(FILE *out, const program *p, const engine_settings *settin
     write_table(out, c);
     fprintf(
         out,
-        "static const wh_hybrid contacts = {\n    .accel = accelerations,\n"
+        "static const wh_contact_system contacts = {\n    .accel = accelerations,\n"
         "    .signals = contact_signals,\n    .forces = contact_forces,\n    .sets = %s,\n"
         "    .contact = contact_table,\n    .target = %s,\n    .ledger = %s,\n    .contacts = %d,\n"
         "    .forced = %d,\n    .held = %d,\n    .evaluations = WH_CONTACT_EVALUATIONS(%d, %d, %d),\n"

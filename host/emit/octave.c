@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "emit.h"
+#include "host/base/room.h"
 #include "host/show/show_events.h"
 #include "op_text.h"
 
@@ -105,12 +106,9 @@ void emit_octave(FILE *out, const equations *e, const program *p, const char *fi
     const instance *inst = e->instance;
     const mechanism *m = inst->mechanism;
     const int components = p->angles + p->reals;
-    double *start = calloc((size_t)components + 1, sizeof *start);
-    double *angle_rad = calloc((size_t)components + 1, sizeof *angle_rad);
-    double *real = calloc((size_t)components + 1, sizeof *real);
-    if (start == NULL || angle_rad == NULL || real == NULL) {
-        abort();
-    }
+    double *start = room(components, sizeof *start);
+    double *angle_rad = room(components, sizeof *angle_rad);
+    double *real = room(components, sizeof *real);
     program_start(p, inst, angle_rad, real);
     for (int i = 0; i < components; i++) {
         const component of = i < p->angles ? p->angle[i] : p->real[i - p->angles];

@@ -6,16 +6,13 @@
 #include <string.h>
 
 #include "host/base/arena.h"
+#include "host/base/room.h"
 
 tape *tape_new(int angles, int results) {
-    tape *t = calloc(1, sizeof *t);
-    int *result = calloc((size_t)(results > 0 ? results : 1), sizeof *result);
-    if (t == NULL || result == NULL) {
-        abort();
-    }
+    tape *t = room(1, sizeof *t);
     t->angles = angles;
     t->results = results;
-    t->result = result;
+    t->result = room(results, sizeof *t->result);
     t->arena = arena_new();
     return t;
 }
@@ -105,10 +102,7 @@ static bool op_equal(const tape *t, const op *x, const op *y) {
 void tape_reindex(tape *t) {
     free(t->index);
     t->index_size = t->room * 2;
-    t->index = malloc((size_t)t->index_size * sizeof *t->index);
-    if (t->index == NULL) {
-        abort();
-    }
+    t->index = room(t->index_size, sizeof *t->index);
     memset(t->index, -1, (size_t)t->index_size * sizeof *t->index);
     for (int i = 0; i < t->count; i++) {
         size_t at = (size_t)(tape_op_hash(t, &t->ops[i]) % (uint64_t)t->index_size);
@@ -122,10 +116,7 @@ void tape_reindex(tape *t) {
 static int enter(tape *t, op o) {
     if (t->count == t->room) {
         t->room = t->room == 0 ? 128 : t->room * 2;
-        t->ops = realloc(t->ops, (size_t)t->room * sizeof *t->ops);
-        if (t->ops == NULL) {
-            abort();
-        }
+        t->ops = room_more(t->ops, t->room, sizeof *t->ops);
         tape_reindex(t);
     }
     size_t at = (size_t)(tape_op_hash(t, &o) % (uint64_t)t->index_size);

@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "host/base/hash.h"
+#include "host/base/room.h"
 #include "tape.h"
 
 static int operands(const op *o, int operand[2]) {
@@ -26,10 +28,7 @@ static void renumber(op *o, const int *number) {
 
 /* x * (1/y) where nothing else wants 1/y is x/y: one rounding and one operation less. */
 static void fuse_reciprocals(tape *t) {
-    int *uses = calloc((size_t)(t->count > 0 ? t->count : 1), sizeof *uses);
-    if (uses == NULL) {
-        abort();
-    }
+    int *uses = room(t->count, sizeof *uses);
     int operand[2];
     double one;
     for (int i = 0; i < t->count; i++) {
@@ -56,10 +55,7 @@ static void fuse_reciprocals(tape *t) {
 }
 
 static void drop_unused(tape *t) {
-    int *number = malloc((size_t)(t->count > 0 ? t->count : 1) * sizeof *number);
-    if (number == NULL) {
-        abort();
-    }
+    int *number = room(t->count, sizeof *number);
     memset(number, -1, (size_t)t->count * sizeof *number);
     for (int i = 0; i < t->results; i++) {
         number[t->result[i]] = 0;
@@ -117,10 +113,7 @@ static bool has_finite_numbers(const tape *t, const op *o) {
 }
 
 int tape_not_finite(const tape *t) {
-    bool *tainted = calloc((size_t)t->count + 1, sizeof *tainted);
-    if (tainted == NULL) {
-        abort();
-    }
+    bool *tainted = room(t->count, sizeof *tainted);
     int operand[2];
     for (int i = 0; i < t->count; i++) {
         tainted[i] = !has_finite_numbers(t, &t->ops[i]);
@@ -179,12 +172,12 @@ int tape_operations(const tape *t) {
 }
 
 uint64_t tape_hash(const tape *t) {
-    uint64_t hash = UINT64_C(0xcbf29ce484222325);
+    uint64_t hash = WH_HASH_START;
     for (int i = 0; i < t->count; i++) {
-        hash = (hash ^ tape_op_hash(t, &t->ops[i])) * UINT64_C(0x100000001b3);
+        hash = hash_of_hashes(hash, tape_op_hash(t, &t->ops[i]));
     }
     for (int i = 0; i < t->results; i++) {
-        hash = (hash ^ (uint64_t)t->result[i]) * UINT64_C(0x100000001b3);
+        hash = hash_of_hashes(hash, (uint64_t)t->result[i]);
     }
     return hash;
 }

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "host/base/room.h"
+
 /* A constant that float holds is exact in either number. */
 static double of_constant(double value) {
     return (double)(float)value == value ? 0.0 : fabs(value);
@@ -71,10 +73,7 @@ static double carried(const tape *t, const op *o, const rounding_values *at, con
 }
 
 void rounding_of(const tape *t, const rounding_values *at, double *error) {
-    double *each = calloc((size_t)t->count + 1, sizeof *each);
-    if (each == NULL) {
-        abort();
-    }
+    double *each = room(t->count, sizeof *each);
     for (int i = 0; i < t->count; i++) {
         bool rounds;
         each[i] = carried(t, &t->ops[i], at, each, at->value[i], &rounds);

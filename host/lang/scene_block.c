@@ -1,5 +1,5 @@
 /* scene.c: scene blocks. They are read last, so that they may name effects that follow them. */
-#include "scene.h"
+#include "scene_block.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -160,6 +160,7 @@ static bool parse_body(parser *in, draft *into) {
     for (;;) {
         parser_skip_lines(in);
         if (parser_is_sign(in, '}')) {
+            into->made->last_line = in->token.at.line;
             parser_next(in);
             return parser_end_statement(in, "the scene");
         }

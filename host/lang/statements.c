@@ -29,6 +29,14 @@ static bool parse_inside(parser *in) {
 }
 
 static bool parse_name(parser *in, effect *made) {
+    /* words that stand where effects are called for */
+    static const struct {
+        const char *word;
+        const char *as;
+    } meant[] = {{"none", "`with none` calls for no effect"},
+                 {"ledger", "`with ledger` keeps the books of energy and momentum"},
+                 {"all", "`--with all` calls for every effect"},
+                 {"conserve", "`--without conserve` integrates what a scene conserves"}};
     const mechanism *into = in->builder->made;
     if (in->token.kind != TOKEN_NAME || in->token.primes > 0) {
         return parser_fail(in, "effect drag \"viscous drag\" { F += b*X'^2/2 }",
@@ -42,12 +50,12 @@ static bool parse_name(parser *in, effect *made) {
                        made->name, into->effects[i].at.line);
         }
     }
-    if (token_is(&in->token, "none")) {
-        parser_fail(in, NULL, "'none' is a reserved word: `with none` calls for no effect");
-    }
-    if (token_is(&in->token, "ledger")) {
-        parser_fail(in, "`with ledger` keeps the books of energy and momentum: take another name",
-                    "'ledger' is a reserved word");
+    for (size_t i = 0; i < sizeof meant / sizeof meant[0]; i++) {
+        if (token_is(&in->token, meant[i].word)) {
+            char hint[120];
+            snprintf(hint, sizeof hint, "%s: take another name", meant[i].as);
+            parser_fail(in, hint, "'%s' is a reserved word", meant[i].word);
+        }
     }
     parser_next(in);
     return true;
@@ -55,7 +63,7 @@ static bool parse_name(parser *in, effect *made) {
 
 bool parse_effect(parser *in) {
     mechanism *into = in->builder->made;
-    effect made = {"", "", in->token.at};
+    effect made = {"", "", in->token.at, 0};
     parser_next(in);
     if (into->effect_count == EFFECTS_MAX) {
         in->lexer.stopped = true;
@@ -79,6 +87,7 @@ bool parse_effect(parser *in) {
     for (;;) {
         parser_skip_lines(in);
         if (parser_is_sign(in, '}')) {
+            longer[in->effect].last_line = in->token.at.line;
             parser_next(in);
             in->effect = -1;
             return parser_end_statement(in, "the effect");
