@@ -266,7 +266,7 @@ static void test_ends_of_the_range(void) {
     EXPECT(wh_sinh, {0x1.65a9f8p+6f, 0x1.ffffd8p+127f}, {0x1.65a9fap+6f, INF},
            {-0x1.65a9f8p+6f, -0x1.ffffd8p+127f});
     EXPECT(wh_cosh, {0x1.65a9f8p+6f, 0x1.ffffd8p+127f}, {-0x1.65a9fap+6f, INF});
-    EXPECT(wh_tanh, {0x1.205p+3f, 0x1.fffffep-1f}, {0x1.206p+3f, ONE});
+    EXPECT(wh_tanh, {0x1.2p+3f, 0x1.fffffep-1f}, {0x1.206p+3f, ONE});
     TEST_ASSERT_TRUE(wh_pow(2.0f, 0x1.fffffep6f) < INF);
     TEST_ASSERT_TRUE(wh_pow(2.0f, -150.0f) == 0.0f);
     TEST_ASSERT_TRUE(wh_pow(2.0f, -0x1.2bfffep7f) == TINY);
