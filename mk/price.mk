@@ -44,6 +44,7 @@ WORST_STEPS ?= 1000000
 WORST_MODELS ?= $(MODELS)
 WORST_C := boards/programs/worst.c $(wildcard build/worst_step/*.c)
 $(eval $(call program,worst,$(WORST_C),whirl))
+$(ELF)/build/worst_step/%.o: FILE_FLAGS := -include boards/programs/mark.h
 $(ELF)/boards/programs/worst.o: FILE_FLAGS := -DWORST_STEPS=$(WORST_STEPS)U -DWORST_SEEDS=2U
 
 .PHONY: bench-now size-now worst-now
@@ -51,7 +52,7 @@ worst-now: build/whirl
 	@[ "$(WORST_STEPS)" -gt 0 ] 2>/dev/null || \
 	    { echo "error: WORST_STEPS=$(WORST_STEPS): a number of steps, 1 or more" >&2; exit 2; }
 	@$(MAKE) $(GEN)/.stamp
-	@CC="$(CC)" mk/count/all_effects.sh build/whirl build/worst_step $(WORST_MODELS)
+	@mk/count/all_effects.sh build/whirl build/worst_step $(WORST_MODELS)
 	@$(RM) $(ELF)/boards/programs/worst.o
 	@$(MAKE) $(ELF)/worst.elf $(PLUGIN)
 	@mkdir -p $(FIGURES)
@@ -59,7 +60,7 @@ worst-now: build/whirl
 	@BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) OBJCOPY=$(BOARD_OBJCOPY) \
 	    FLAGS="$(call TOLD,$(BOARD_CFLAGS))" PLUGIN=$(PLUGIN) \
 	    EMULATE="$(subst timeout $(BOARD_SECONDS),timeout 3600,$(call emulate,$(ELF)/worst.elf))" \
-	    mk/count/worst.sh $(ELF)/worst.elf $(FIGURES)/worst.csv build/worst_step/declared $(WORST_STEPS)
+	    mk/count/worst.sh $(ELF)/worst.elf $(FIGURES)/worst.csv $(WORST_STEPS)
 
 bench-now: build/whirl
 	@$(MAKE) $(GEN)/.stamp
