@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "host/base/arena.h"
-#include "limits.h"
+#include "instance_limits.h"
 #include "model.h"
 #include "override.h"
 #include "value.h"

@@ -2,7 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "scene.h"
+#include "scene_block.h"
 
 bool scene_fail_name(parser *in, const char *what) {
     char words[80];

@@ -1,5 +1,5 @@
 /* scene.c: scene blocks. They are read last, so that they may name effects that follow them. */
-#include "scene.h"
+#include "scene_block.h"
 
 #include <stdio.h>
 #include <string.h>
