@@ -6,7 +6,8 @@ FIGURES := build/figures
 # The same mechanisms as one writes them by hand, to compare with.
 BY_HAND := naive_epicyclic naive_thomson careful_thomson
 # Two scenes again with compensated sums, to see what these cost.
-COMPENSATED_C := $(patsubst %,build/compensated/%.c,scenes epicyclic_from_rest thomson_a)
+COMPENSATED := epicyclic_from_rest thomson_a
+COMPENSATED_C := $(patsubst %,build/compensated/%.c,scenes $(COMPENSATED))
 # What of the flags belongs beside a figure.
 TOLD = $(filter -O% -m%,$(1))
 
@@ -23,12 +24,14 @@ $(B)/bench_double: $(call objects,double,$(BENCH_C) boards/host/board.c) \
     $(call libraries,double,scenes whirl)
 	$(link)
 
-build/compensated/%.c: $(GEN)/%.c
+$(patsubst %,build/compensated/%.c,$(COMPENSATED)): build/compensated/%.c: build/whirl mk/price.mk
 	@mkdir -p $(@D)
 	$(say) GEN $@
-	$(Q)sed -e 's/WH_RK4, false/WH_RK4, true/' -e 's/compensated = false/compensated = true/' \
-	    -e 's|"scenes.h"|"$(GEN)/scenes.h"|' \
-	    -e '/^    &/{/&epicyclic_from_rest,/b' -e '/&thomson_a,/b' -e 'd' -e '}' $< >$@
+	$(Q)build/whirl derive $* --as c --compensated --header $(@:.c=.h) >$@
+build/compensated/scenes.c: mk/count/index.sh $(patsubst %,build/compensated/%.c,$(COMPENSATED))
+	@mkdir -p $(@D)
+	$(say) GEN $@
+	$(Q)$< $(COMPENSATED) >$@
 .SECONDARY: $(COMPENSATED_C)
 
 $(addprefix $(B)/tools/,$(BY_HAND)): $(B)/tools/%: $(B)/host/tests/tools/%.o \
