@@ -80,11 +80,6 @@ static void apply_scene(plan *into, const scene *from, instance *made) {
     }
 }
 
-const effect *instance_lacks(const instance *of, const symbol *what) {
-    return what->effect < 0 || of->with[what->effect] ? NULL
-                                                      : &of->mechanism->effects[what->effect];
-}
-
 /* A change that could change nothing is a mistake. */
 static bool takes_part(const instance *made, override_kind kind, const assignment *change,
                        diags *all) {
@@ -300,16 +295,4 @@ void instance_free(instance *done) {
     if (done != NULL) {
         arena_free(done->arena);
     }
-}
-
-bool instance_has_term(const instance *of, const term *each) {
-    return each->effect < 0 || of->with[each->effect];
-}
-
-bool instance_has_contact(const instance *of, const contact_statement *each) {
-    return each->effect < 0 || of->with[each->effect];
-}
-
-bool instance_has_noise(const instance *of, const noise *each) {
-    return each->effect < 0 || of->with[each->effect];
 }
