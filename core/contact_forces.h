@@ -56,6 +56,7 @@ static inline void wh_contact_accel(const void *model, const wh_phase *phase, co
     wh_real lambda[WH_CONTACTS_MAX];
     unsigned count = 0;
 
+    WH_MARK(WH_MARK_ACCEL);
     of->accel(of->model, phase, linear, rate, input, accel);
     if (!wh_contact_any_acts(of, w)) {
         wh_books_stage(of, w, phase, linear, rate, input);

@@ -15,7 +15,7 @@ static inline void wh_contact_look(const wh_contact_system *of, wh_contact_work 
     if (!wh_contact_any_acts(of, w)) {
         of->forces(of->model, at.phase, at.linear, at.rate, input, w->law);
     }
-    of->signals(of->model, at.phase, at.linear, at.rate, input, signal);
+    wh_contact_signals(of, at.phase, at.linear, at.rate, input, signal);
 }
 
 /* Move coordinate i by `by`, rad or m. */

@@ -145,7 +145,7 @@ static inline void wh_contact_assign(const wh_contact_system *of, wh_contact_wor
         return;
     }
     wh_contact_point_of(of, s, &at);
-    of->signals(of->model, at.phase, at.linear, at.rate, input, before);
+    wh_contact_signals(of, at.phase, at.linear, at.rate, input, before);
     of->sets(of->model, at.phase, at.linear, at.rate, input, value);
     wh_books_levels(of, w, s, input, k, WH_R(-1.0));
     for (unsigned i = c->first_set; i < (unsigned)c->first_set + c->sets; i++) {
@@ -166,7 +166,7 @@ static inline void wh_contact_assign(const wh_contact_system *of, wh_contact_wor
     wh_books_levels(of, w, s, input, k, WH_R(1.0));
     /* where the assignment leaves each contact, if it moved it */
     wh_contact_point_of(of, s, &at);
-    of->signals(of->model, at.phase, at.linear, at.rate, input, after);
+    wh_contact_signals(of, at.phase, at.linear, at.rate, input, after);
     w->mover = k;
     for (unsigned l = 0; l < of->forced && moves; l++) {
         w->moved |= wh_contact_slips(of, w, l) ? 1U << l : 0U; /* what it keeps from now on */
@@ -229,7 +229,7 @@ static inline wh_real wh_contact_take(const wh_contact_system *of, wh_contact_wo
             wh_contact_capture(of, w, k);
             impulse = wh_contact_impulse(of, w, k, 0, WH_R(0.0), rate);
             wh_contact_point_of(of, s, &at);
-            of->signals(of->model, at.phase, at.linear, at.rate, input, after);
+            wh_contact_signals(of, at.phase, at.linear, at.rate, input, after);
             wh_contact_touched(of, w, k, h, before, after);
         }
         break;

@@ -199,7 +199,7 @@ int load(loaded *made, source_model *s, const mechanism *of, const scene *in,
     }
     if (made->equations != NULL) {
         made->program =
-            program_make(made->equations, conserve && in != NULL ? in->conserve : NULL, s->errors);
+            program_make(made->equations, conserve ? made->instance->conserve : NULL, s->errors);
     }
     diags_flush(s->errors, stderr);
     if (made->program != NULL &&

@@ -7,6 +7,7 @@
 #include "model.h"
 #include "override.h"
 #include "value.h"
+#include "words.h"
 
 #define STEP_DEFAULT_S 1e-3
 #define UNTIL_DEFAULT_S 10.0
@@ -66,6 +67,7 @@ static void apply_scene(plan *into, const scene *from, instance *made) {
         made->with[i] = from->with[i];
     }
     made->ledger = from->ledger;
+    made->conserve = from->conserve;
     for (int i = 0; i < from->set_count; i++) {
         apply(into, &from->sets[i]);
     }
@@ -126,11 +128,29 @@ static void apply_texts(plan *into, instance *made, override_kind kind, const ch
     }
 }
 
+/* "all" comes before the names beside it, which take away or add. */
+static void apply_all(instance *made, const char *const *texts, int count, bool wanted) {
+    bool found = false;
+    for (int i = 0; i < count && !found; i++) {
+        found = strcmp(texts[i], word_row(WORD_ALL)->text) == 0;
+    }
+    for (int i = 0; i < made->mechanism->effect_count && found; i++) {
+        made->with[i] = wanted;
+    }
+}
+
 static void apply_effects(plan *into, instance *made, const char *const *texts, int count,
                           bool wanted) {
     for (int i = 0; i < count; i++) {
-        if (strcmp(texts[i], "ledger") == 0) {
+        if (strcmp(texts[i], word_row(WORD_ALL)->text) == 0) {
+            continue;
+        }
+        if (strcmp(texts[i], word_row(WORD_LEDGER)->text) == 0) {
             made->ledger = wanted;
+            continue;
+        }
+        if (strcmp(texts[i], word_row(WORD_CONSERVE)->text) == 0 && !wanted) {
+            made->conserve = NULL;
             continue;
         }
         const int index =
@@ -145,6 +165,8 @@ static void apply_overrides(plan *into, instance *made, const overrides *changes
     const mechanism *of = made->mechanism;
     diags *all = into->values.diags;
     made->balance = changes->balance;
+    apply_all(made, changes->with, changes->with_count, true);
+    apply_all(made, changes->without, changes->without_count, false);
     apply_effects(into, made, changes->with, changes->with_count, true);
     apply_effects(into, made, changes->without, changes->without_count, false);
     apply_texts(into, made, OVERRIDE_SET, changes->sets, changes->set_count);
@@ -257,6 +279,7 @@ static instance *begin(const mechanism *of, const scene *from, const overrides *
     }
     if (changes != NULL) {
         apply_overrides(what, made, changes);
+        made->name = changes->name != NULL ? changes->name : made->name;
     }
     return made;
 }

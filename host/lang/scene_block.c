@@ -103,6 +103,7 @@ static bool parse_body(parser *in) {
     for (;;) {
         parser_skip_lines(in);
         if (parser_is_sign(in, '}')) {
+            into->made->last_line = in->token.at.line;
             parser_next(in);
             return parser_end_statement(in, "the scene");
         }

@@ -7,6 +7,14 @@
 static bool read_statement(parser *in, unsigned where);
 
 static bool parse_name(parser *in, effect *made) {
+    /* words that stand where effects are called for */
+    static const struct {
+        word_id word;
+        const char *as;
+    } meant[] = {{WORD_NONE, "`with none` calls for no effect"},
+                 {WORD_LEDGER, "`with ledger` keeps the books of energy and momentum"},
+                 {WORD_ALL, "`--with all` calls for every effect"},
+                 {WORD_CONSERVE, "`--without conserve` integrates what a scene conserves"}};
     const mechanism *into = in->builder->made;
     if (in->token.kind != TOKEN_NAME || in->token.primes > 0) {
         return parser_fail(in, word_row(WORD_EFFECT)->form, "an effect needs a name");
@@ -19,12 +27,12 @@ static bool parse_name(parser *in, effect *made) {
                        made->name, into->effects[i].at.line);
         }
     }
-    if (token_is_word(&in->token, WORD_NONE)) {
-        parser_fail(in, NULL, "'none' is a reserved word: `with none` calls for no effect");
-    }
-    if (token_is_word(&in->token, WORD_LEDGER)) {
-        parser_fail(in, "`with ledger` keeps the books of energy and momentum: take another name",
-                    "'ledger' is a reserved word");
+    for (size_t i = 0; i < sizeof meant / sizeof meant[0]; i++) {
+        if (token_is_word(&in->token, meant[i].word)) {
+            char hint[120];
+            snprintf(hint, sizeof hint, "%s: take another name", meant[i].as);
+            parser_fail(in, hint, "'%s' is a reserved word", word_row(meant[i].word)->text);
+        }
     }
     parser_next(in);
     return true;
@@ -33,7 +41,7 @@ static bool parse_name(parser *in, effect *made) {
 static bool read_effect(parser *in, const statement_word *word) {
     (void)word;
     mechanism *into = in->builder->made;
-    effect made = {"", "", in->statement_at};
+    effect made = {"", "", in->statement_at, 0};
     if (into->effect_count == EFFECTS_MAX) {
         in->lexer.stopped = true;
         return parser_fail(in, NULL, "more than %d effects in one mechanism", EFFECTS_MAX);
@@ -56,6 +64,7 @@ static bool read_effect(parser *in, const statement_word *word) {
     for (;;) {
         parser_skip_lines(in);
         if (parser_is_sign(in, '}')) {
+            longer[in->effect].last_line = in->token.at.line;
             parser_next(in);
             in->effect = -1;
             return parser_end_statement(in, "the effect");

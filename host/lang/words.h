@@ -109,6 +109,7 @@ enum {
     X(SEED, "seed", 0) \
     X(NONE, "none", 0) \
     X(LEDGER, "ledger", 0) \
+    X(ALL, "all", 0) \
     X(PI, "pi", RESERVED)
 
 #define WORD_ID(id, ...) WORD_##id,

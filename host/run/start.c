@@ -93,7 +93,7 @@ bool start_has_method(const program *p, const instance *inst, wh_method method, 
     }
     diag_error(
         errors, inst->scene != NULL ? inst->scene->at : m->at,
-        "integrate the coordinate: leave out conserve; or choose --method euler, heun or rk4",
+        "integrate the coordinate, --without conserve; or choose --method euler, heun or rk4",
         "semi-implicit Euler is not defined here: '%s', which is conserved, is integrated "
         "from its momentum",
         m->coordinates[p->conserved->unknown[0]]->name);

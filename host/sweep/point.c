@@ -294,8 +294,7 @@ static bool measure_point(const sweep *s, uint64_t point, bool (*abandon)(void),
     bool good = inst != NULL;
     if (good && s->shared == NULL) {
         e = equations_derive(inst, errors);
-        own = e == NULL ? NULL
-                        : program_make(e, s->scene != NULL ? s->scene->conserve : NULL, errors);
+        own = e == NULL ? NULL : program_make(e, inst->conserve, errors);
         good = own != NULL;
     }
     const program *p = own != NULL ? own : s->shared;
