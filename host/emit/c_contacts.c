@@ -1,6 +1,7 @@
 /* c_contacts.c: the lists and the table of a scene's contacts. */
 #include "c_contacts.h"
 
+#include "c_bounds.h"
 #include "c_list.h"
 #include "host/number/hex.h"
 
@@ -58,4 +59,15 @@ void c_contacts_write(FILE *out, const program *p, const engine_settings *settin
             "static wh_status advance(const wh_scene *scene, wh_state *state) {\n"
             "    (void)scene;\n    return wh_step_contact(&contacts, WH_R(%s), state);\n}\n\n",
             hex_write(step_s, hex));
+}
+
+int c_contacts_evaluations(const program *p, const engine_settings *settings) {
+    const contact_lists *c = p->contacts;
+    const int stages = c_stages[settings->method];
+    return c == NULL ? stages : c_bound_evaluations(stages, contact_lists_stops(c), c->forced);
+}
+
+int c_contacts_signals(const program *p) {
+    const contact_lists *c = p->contacts;
+    return c == NULL ? 0 : c_bound_signals(c->forced, c->count - c->forced);
 }

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/lang/parser.h"
+#include "host/number/functions.h"
 #include "host/number/decimal.h"
 
 /* --- names and numbers ---------------------------------------------------------------------------*/
