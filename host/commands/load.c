@@ -228,7 +228,7 @@ int load(loaded *made, source_model *s, const mechanism *of, const scene *in,
         made->equations = equations_derive(made->instance, s->errors);
     }
     if (made->equations != NULL) {
-        const bool *conserve = wish->conserve && in != NULL ? in->conserve : NULL;
+        const bool *conserve = wish->conserve ? made->instance->conserve : NULL;
         made->image = image_make(made->equations, conserve, &wish->settings, wish->use, s->errors);
     }
     diags_flush(s->errors, stderr);

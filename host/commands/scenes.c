@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "commands.h"
-#include "host/emit/emit.h"
 #include "host/base/room.h"
+#include "host/emit/emit.h"
 #include "host/lang/builtin.h"
 #include "host/run/engine.h"
 #include "host/show/text.h"

@@ -248,7 +248,7 @@ contact_lists *contact_lists_make(const program *p, const equations *e, layout *
                                   const linear_system *s, diags *errors) {
     const contact_laws *laws = e->contacts;
     if (p->form != WH_SECOND_ORDER) {
-        diag_error(errors, laws->law[0].from->at, "integrate the coordinate: leave out conserve",
+        diag_error(errors, laws->law[0].from->at, "integrate the coordinate: --without conserve",
                    "a coordinate that must be integrated from its momentum cannot be conserved "
                    "beside stops, friction, holds or crossings");
         return NULL;

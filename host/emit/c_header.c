@@ -165,10 +165,14 @@ void emit_c_header(FILE *out, const image *im, const char *file) {
     for (int of = 0; of < LISTS; of++) {
         write_items(out, im, (list)of);
     }
-    fprintf(out,
-            "    /* state.contacts->mode[]; levels that wh_ledger_error() takes */\n"
-            "    %s_CONTACTS = %d,\n    %s_ACCOUNTS = %d\n};\n\n",
-            im->name, im->contacts, im->name, im->ledger.accounts);
+    fprintf(
+        out,
+        "    /* state.contacts->mode[]; levels that wh_ledger_error() takes; the ledger's entries */\n"
+        "    %s_CONTACTS = %d,\n    %s_ACCOUNTS = %d,\n    %s_ENTRIES = %d,\n\n"
+        "    /* the most that a step evaluates: accelerations, what tells contacts' modes */\n"
+        "    %s_EVALUATIONS = %d,\n    %s_SIGNALS = %d\n};\n\n",
+        im->name, im->contacts, im->name, im->ledger.accounts, im->name, im->ledger.entries,
+        im->name, core_evaluations(im), im->name, core_signals(im));
     fprintf(out, "/* For arrays: static const char *const unit[] = %s_UNITS_OF_%s; */\n", im->name,
             im->outputs > 0 ? "OUTPUTS" : "REALS");
     for (int of = 0; of < LISTS; of++) {

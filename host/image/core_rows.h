@@ -45,6 +45,16 @@ static inline int core_stops(const image *im) {
     return stops;
 }
 
+/* The most that a step evaluates: the accelerations (or slopes), and the contacts' signals. */
+static inline int core_evaluations(const image *im) {
+    const int stages = core_stages(im);
+    return im->contacts == 0 ? stages : WH_CONTACT_EVALUATIONS(stages, core_stops(im), im->forced);
+}
+
+static inline int core_signals(const image *im) {
+    return im->contacts == 0 ? 0 : WH_CONTACT_SIGNALS(im->forced, im->contacts - im->forced);
+}
+
 /* But for the functions. `account` [smooth] and `input` [inputs] are the caller's. */
 static inline wh_ledger_form core_ledger_form(const image *im, const uint8_t *account,
                                               const uint8_t *input) {

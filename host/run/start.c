@@ -81,7 +81,7 @@ bool start_has_method(const image *im, wh_method method, diags *errors) {
     }
     diag_error(
         errors, im->at,
-        "integrate the coordinate: leave out conserve; or choose --method euler, heun or rk4",
+        "integrate the coordinate, --without conserve; or choose --method euler, heun or rk4",
         "semi-implicit Euler is not defined here: '%s', which is conserved, is integrated "
         "from its momentum",
         im->unknown[im->from_momentum[0]].name);

@@ -95,8 +95,7 @@ static image *image_at(const sweep *s, const instance *inst, diags *errors) {
         return image_again(s->shared, inst);
     }
     equations *e = equations_derive(inst, errors);
-    const bool *conserve = s->scene != NULL ? s->scene->conserve : NULL;
-    image *im = e == NULL ? NULL : image_make(e, conserve, &s->engine, IMAGE_TO_RUN, errors);
+    image *im = e == NULL ? NULL : image_make(e, inst->conserve, &s->engine, IMAGE_TO_RUN, errors);
     equations_free(e);
     return im;
 }
