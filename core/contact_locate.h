@@ -4,13 +4,6 @@
 
 #include "contact_forces.h"
 
-/* A place between the ends of a try. */
-typedef struct wh_contact_point {
-    wh_phase phase[WH_COORDS];
-    wh_real linear[WH_COORDS];
-    wh_real rate[WH_COORDS];
-} wh_contact_point;
-
 /* What an event search knows of each contact: above zero, its event has not happened. */
 typedef struct wh_margins {
     wh_real value[WH_CONTACTS_MAX];
@@ -18,71 +11,10 @@ typedef struct wh_margins {
     wh_real all; /* sum of all that is looked at: no finite number if one of it is none */
 } wh_margins;
 
-WH_INLINE void wh_contact_copy(const wh_hybrid *of, const wh_angle *angle, const wh_real *real,
-                               const wh_real *carry, wh_contact_state *to) {
-    const unsigned reals = 2U * of->coordinates - of->angles;
-    WH_UNROLL
-    for (unsigned i = 0; i < of->angles; i++) {
-        to->angle[i] = angle[i];
-    }
-    WH_UNROLL
-    for (unsigned i = 0; i < reals; i++) {
-        to->real[i] = real[i];
-    }
-    for (unsigned i = 0; i < of->angles + reals && of->compensated; i++) {
-        to->carry[i] = carry[i];
-    }
-}
-
-WH_INLINE wh_real *wh_contact_rates(const wh_hybrid *of, wh_contact_state *s) {
-    return s->real + (of->coordinates - of->angles);
-}
-
-/* Step `s` by h in the modes of work. False: *fault left all bounds and s is as it was. */
-static inline bool wh_contact_try(const wh_hybrid *of, wh_contact_work *w, wh_real h,
-                                  wh_real *input, wh_contact_state *s, int *fault) {
-    const wh_contact_model model = {of, w};
-    wh_state view = {0, s->angle, s->real, s->carry, input, NULL, NULL, NULL, -1};
-    wh_books_begin(of, w, s->angle, h);
-    const wh_status status = wh_step_second(&model, wh_contact_accel, of->method, of->compensated,
-                                            of->angles, of->coordinates, h, &view);
-    wh_books_end(of, w);
-    *fault = view.fault;
-    return status == WH_OK;
-}
-
-WH_INLINE void wh_contact_point_of(const wh_hybrid *of, wh_contact_state *s, wh_contact_point *at) {
-    const wh_real *rate = wh_contact_rates(of, s);
-    WH_UNROLL
-    for (unsigned i = 0; i < of->angles; i++) {
-        at->phase[i] = wh_phase_of(s->angle[i]);
-    }
-    WH_UNROLL
-    for (unsigned i = of->angles; i < of->coordinates; i++) {
-        at->linear[i - of->angles] = s->real[i - of->angles];
-    }
-    WH_UNROLL
-    for (unsigned i = 0; i < of->coordinates; i++) {
-        at->rate[i] = rate[i];
-    }
-}
-
-/* Where the rates at `s` alone lead in a time. */
-static inline void wh_contact_point_ahead(const wh_hybrid *of, wh_contact_state *s, wh_real span,
-                                          wh_contact_point *at) {
-    wh_contact_point_of(of, s, at);
-    for (unsigned i = 0; i < of->angles; i++) {
-        (void)wh_phase_move(at->phase[i], span * at->rate[i] * WH_PHASE_PER_RAD, &at->phase[i]);
-    }
-    for (unsigned i = of->angles; i < of->coordinates; i++) {
-        at->linear[i - of->angles] += span * at->rate[i];
-    }
-}
-
 /* The place at the share `s` of the way from `from` to `to`, which are h apart: positions by the cubic
  * through both ends' positions and rates, rates by the cubic through both ends' rates and accelerations a0
  * and a1. (The slope of the first would be of an order less, and magnify the positions' rounding by 1/h.) */
-static inline void wh_contact_between(const wh_hybrid *of, wh_contact_state *from,
+static inline void wh_contact_between(const wh_contact_system *of, wh_contact_state *from,
                                       wh_contact_state *to, const wh_real *a0, const wh_real *a1,
                                       wh_real h, wh_real s, wh_contact_point *at) {
     const wh_real *v0 = wh_contact_rates(of, from);
@@ -116,25 +48,25 @@ static inline void wh_contact_between(const wh_hybrid *of, wh_contact_state *fro
 
 /* The margin of a force that is beyond its limit, or zero where that may be the rounding of the others' forces, as
  * far as they act along k: asked only where it is. */
-static inline wh_real wh_contact_beyond(const wh_hybrid *of, const wh_contact_work *w, unsigned k,
-                                        wh_real margin) {
+static inline wh_real wh_contact_beyond(const wh_contact_system *of, const wh_contact_work *w,
+                                        unsigned k, wh_real margin) {
     wh_real others = WH_R(0.0);
     if (margin < WH_R(0.0)) {
         for (unsigned l = 0; l < of->forced && of->forced > 1; l++) {
-            const wh_real *way = wh_law(of, w, l) + WH_LAW_ROWS + of->coordinates;
-            others += l != k ? WH_ABS(wh_along(of, w, k, way) * w->force[l]) : WH_R(0.0);
+            const wh_real *way = wh_contact_law(of, w, l) + WH_LAW_ROWS + of->coordinates;
+            others += l != k ? WH_ABS(wh_jacobian_times(of, w, k, way) * w->force[l]) : WH_R(0.0);
         }
-        const bool rounding = -margin * wh_contact_yield(of, w, k) <= WH_CONTACT_QUIET * others;
+        const bool rounding = -margin * wh_delassus_diagonal(of, w, k) <= WH_CONTACT_QUIET * others;
         return rounding ? WH_R(0.0) : margin;
     }
     return margin;
 }
 
 /* Does any contact's event depend on its force? */
-WH_INLINE bool wh_contact_watched(const wh_hybrid *of, const wh_contact_work *w) {
+WH_INLINE bool wh_contact_watched(const wh_contact_system *of, const wh_contact_work *w) {
     WH_UNROLL
     for (unsigned k = 0; k < of->forced; k++) {
-        if (of->contact[k].kind != WH_HOLD && wh_constrains(of, w, k)) {
+        if (of->contact[k].kind != WH_HOLD && wh_contact_constrains(of, w, k)) {
             return true;
         }
     }
@@ -142,10 +74,10 @@ WH_INLINE bool wh_contact_watched(const wh_hybrid *of, const wh_contact_work *w)
 }
 
 /* The margins at a place, and work->force with them where it matters. */
-static inline void wh_contact_margins(const wh_hybrid *of, wh_contact_work *w,
+static inline void wh_contact_margins(const wh_contact_system *of, wh_contact_work *w,
                                       const wh_contact_point *at, const wh_real *input,
                                       wh_margins *m) {
-    of->signals(of->model, at->phase, at->linear, at->rate, input, m->signal);
+    wh_contact_signals(of, at->phase, at->linear, at->rate, input, m->signal);
     if (wh_contact_watched(of, w)) {
         const wh_contact_model model = {of, w};
         wh_real accel[WH_COORDS];
@@ -170,9 +102,9 @@ static inline void wh_contact_margins(const wh_hybrid *of, wh_contact_work *w,
         case WH_HOLD: margin = mode == WH_ACTIVE ? signal : -signal; break;
         case WH_FRICTION:
             if (mode == WH_STUCK) {
-                all += wh_law(of, w, k)[WH_LAW_FIRST];
-                margin = wh_contact_beyond(of, w, k,
-                                           wh_law(of, w, k)[WH_LAW_FIRST] - WH_ABS(w->force[k]));
+                all += wh_contact_law(of, w, k)[WH_LAW_FIRST];
+                margin = wh_contact_beyond(
+                    of, w, k, wh_contact_law(of, w, k)[WH_LAW_FIRST] - WH_ABS(w->force[k]));
             } else {
                 margin = (mode > 0 ? signal : -signal) + w->slack[k];
             }
@@ -191,7 +123,7 @@ static inline void wh_contact_margins(const wh_hybrid *of, wh_contact_work *w,
 
 /* Has no event happened, and is all a finite number? A NaN compares as "not yet" with everything, and its contact
  * would be as good as gone. */
-WH_INLINE bool wh_contact_calm(const wh_hybrid *of, const wh_margins *m) {
+WH_INLINE bool wh_contact_calm(const wh_contact_system *of, const wh_margins *m) {
     bool calm = wh_finite(m->all);
     WH_UNROLL
     for (unsigned k = 0; k < of->contacts; k++) {
@@ -201,13 +133,13 @@ WH_INLINE bool wh_contact_calm(const wh_hybrid *of, const wh_margins *m) {
 }
 
 /* Of margins that are not calm, the contact whose signal or limit is no finite number, into work->undefined. */
-WH_APART void wh_contact_find_undefined(const wh_hybrid *of, wh_contact_work *w,
+WH_APART void wh_contact_find_undefined(const wh_contact_system *of, wh_contact_work *w,
                                         const wh_margins *m) {
     for (unsigned k = 0; k < of->contacts; k++) {
         wh_contact_expect(w, k, m->signal[2 * k]);
         wh_contact_expect(w, k, m->signal[2 * k + 1]);
     }
-    if (wh_feels(of, w)) {
+    if (wh_contact_any_acts(of, w)) {
         wh_contact_expect_laws(of, w);
     }
     for (unsigned k = 0; k < of->contacts; k++) {
@@ -216,7 +148,7 @@ WH_APART void wh_contact_find_undefined(const wh_hybrid *of, wh_contact_work *w,
 }
 
 /* Contacts whose event has happened, as bits. */
-WH_INLINE unsigned wh_contact_happened(const wh_hybrid *of, const wh_margins *m) {
+WH_INLINE unsigned wh_contact_happened(const wh_contact_system *of, const wh_margins *m) {
     unsigned bits = 0;
     for (unsigned k = 0; k < of->contacts; k++) {
         bits |= m->value[k] < WH_R(0.0) ? 1U << k : 0U;
@@ -226,7 +158,7 @@ WH_INLINE unsigned wh_contact_happened(const wh_hybrid *of, const wh_margins *m)
 
 /* Where between `from` and `to` the first of the events that have happened at `to` comes: the share of
  * h, just past it, by WH_BRACKET at most. *events are those that have happened there. */
-static inline wh_real wh_contact_locate(const wh_hybrid *of, wh_contact_work *w,
+static inline wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work *w,
                                         wh_contact_state *from, wh_contact_state *to, wh_real h,
                                         const wh_real *input, const wh_margins *at_end,
                                         unsigned *events) {
@@ -268,7 +200,7 @@ static inline wh_real wh_contact_locate(const wh_hybrid *of, wh_contact_work *w,
         wh_real root = high;
         for (unsigned k = 0; k < of->contacts; k++) {
             /* at zero already; but later than at the start a load at its limit may be one that others bear */
-            const bool load = of->contact[k].kind != WH_HOLD && wh_constrains(of, w, k);
+            const bool load = of->contact[k].kind != WH_HOLD && wh_contact_constrains(of, w, k);
             const bool begins = before.value[k] == WH_R(0.0) && (sliding >> k & 1U) == 0 &&
                                 (low == WH_R(0.0) || !load);
             if ((*events >> k & 1U) != 0 && (before.value[k] > WH_R(0.0) || begins)) {

@@ -2,23 +2,11 @@
 #ifndef WH_CONTACT_PROJECT_H
 #define WH_CONTACT_PROJECT_H
 
-#include "contact_locate.h"
-
-/* The accelerations, forces and signals at a state, in the modes of work. */
-static inline void wh_contact_look(const wh_hybrid *of, wh_contact_work *w, wh_contact_state *s,
-                                   const wh_real *input, wh_real *accel, wh_real *signal) {
-    const wh_contact_model model = {of, w};
-    wh_contact_point at;
-    wh_contact_point_of(of, s, &at);
-    wh_contact_accel(&model, at.phase, at.linear, at.rate, input, accel);
-    if (!wh_feels(of, w)) {
-        of->forces(of->model, at.phase, at.linear, at.rate, input, w->law);
-    }
-    of->signals(of->model, at.phase, at.linear, at.rate, input, signal);
-}
+#include "contact_forces.h"
 
 /* Move coordinate i by `by`, rad or m. */
-WH_INLINE void wh_contact_move(const wh_hybrid *of, unsigned i, wh_real by, wh_contact_state *s) {
+WH_INLINE void wh_contact_move(const wh_contact_system *of, unsigned i, wh_real by,
+                               wh_contact_state *s) {
     if (i < of->angles) {
         wh_real none = WH_R(0.0);
         (void)wh_angle_move(&s->angle[i], by * WH_PHASE_PER_RAD, false, &none);
@@ -43,9 +31,10 @@ WH_INLINE void wh_contact_add_product(wh_real a, wh_real b, wh_real *sum, wh_rea
 }
 
 /* What a straight hold has moved by from one state to the other: J_k, which is constant, times the way; rad or m. */
-static inline wh_real wh_contact_moved(const wh_hybrid *of, const wh_contact_work *w, unsigned k,
-                                       const wh_contact_state *from, const wh_contact_state *to) {
-    const wh_real *row = wh_law(of, w, k) + WH_LAW_ROWS;
+static inline wh_real wh_contact_moved(const wh_contact_system *of, const wh_contact_work *w,
+                                       unsigned k, const wh_contact_state *from,
+                                       const wh_contact_state *to) {
+    const wh_real *row = wh_contact_law(of, w, k) + WH_LAW_ROWS;
     wh_real turns = WH_R(0.0); /* phase units */
     wh_real ways = WH_R(0.0);
     wh_real rests[2] = {WH_R(0.0), WH_R(0.0)};
@@ -68,15 +57,15 @@ static inline wh_real wh_contact_moved(const wh_hybrid *of, const wh_contact_wor
 }
 
 /* Is contact k a hold that can slip? One with a pin cannot. */
-WH_INLINE bool wh_contact_slips(const wh_hybrid *of, const wh_contact_work *w, unsigned k) {
+WH_INLINE bool wh_contact_slips(const wh_contact_system *of, const wh_contact_work *w, unsigned k) {
     return of->held > 0 && of->contact[k].kind == WH_HOLD && of->contact[k].pin < 0 &&
            w->mode[k] == WH_ACTIVE;
 }
 
 /* By how much contact k is off the place where it is to be. `from`: where a try to `s` began; NULL: no try. */
-WH_INLINE wh_real wh_contact_off(const wh_hybrid *of, const wh_contact_work *w, unsigned k,
-                                 const wh_real *signal, const wh_contact_state *from,
-                                 const wh_contact_state *s) {
+WH_INLINE wh_real wh_contact_drift(const wh_contact_system *of, const wh_contact_work *w,
+                                   unsigned k, const wh_real *signal, const wh_contact_state *from,
+                                   const wh_contact_state *s) {
     if (of->contact[k].kind == WH_STOP) {
         return signal[2 * k];
     }
@@ -85,36 +74,36 @@ WH_INLINE wh_real wh_contact_off(const wh_hybrid *of, const wh_contact_work *w, 
     }
     const wh_real held = w->held[of->contact[k].first_set];
     if (of->contact[k].direction <= 0) {
-        return wh_law(of, w, k)[WH_LAW_FIRST] - held;
+        return wh_contact_law(of, w, k)[WH_LAW_FIRST] - held;
     }
     return from != NULL ? held + wh_contact_moved(of, w, k, from, s) : WH_R(0.0);
 }
 
 /* What a hold that has just been captured, or set, is to keep. work->law must belong to this position. */
-WH_INLINE void wh_contact_capture(const wh_hybrid *of, wh_contact_work *w, unsigned k) {
+WH_INLINE void wh_contact_capture(const wh_contact_system *of, wh_contact_work *w, unsigned k) {
     if (wh_contact_slips(of, w, k)) {
         w->held[of->contact[k].first_set] =
-            of->contact[k].direction <= 0 ? wh_law(of, w, k)[WH_LAW_FIRST] : WH_R(0.0);
+            of->contact[k].direction <= 0 ? wh_contact_law(of, w, k)[WH_LAW_FIRST] : WH_R(0.0);
     }
 }
 
 /* Stuck frictions that would have to take more than they can, as bits: they are about to slide, and hold
  * nothing still. work->force must be up to date. */
-WH_INLINE unsigned wh_contact_breaking(const wh_hybrid *of, const wh_contact_work *w) {
+WH_INLINE unsigned wh_contact_breaking(const wh_contact_system *of, const wh_contact_work *w) {
     unsigned bits = 0;
     for (unsigned k = 0; k < of->forced; k++) {
         const bool stuck = of->contact[k].kind == WH_FRICTION && w->mode[k] == WH_STUCK;
-        bits |= stuck && wh_contact_exceeds(of, w, k, 0, w->force[k]) ? 1U << k : 0U;
+        bits |= stuck && wh_contact_exceeds(of, w, k, w->force[k]) ? 1U << k : 0U;
     }
     return bits;
 }
 
 /* Contacts that hold their J_k q' at zero, but for those in `but`, as bits. Returns how many. */
-WH_INLINE unsigned wh_contact_members(const wh_hybrid *of, const wh_contact_work *w, unsigned but,
-                                      uint8_t *member) {
+WH_INLINE unsigned wh_contact_members(const wh_contact_system *of, const wh_contact_work *w,
+                                      unsigned but, uint8_t *member) {
     unsigned count = 0;
     for (unsigned k = 0; k < of->forced; k++) {
-        if ((but >> k & 1U) == 0 && wh_constrains(of, w, k)) {
+        if ((but >> k & 1U) == 0 && wh_contact_constrains(of, w, k)) {
             member[count++] = (uint8_t)k;
         }
     }
@@ -133,13 +122,13 @@ typedef struct wh_contact_place {
 
 /* Put resting stops and holds to where they are to be, while what is stuck stays. work->law and signal[] must
  * belong to this position. True: they were off so far that it must be done once more. */
-static inline bool wh_contact_close(const wh_hybrid *of, wh_contact_work *w,
-                                    const wh_contact_place *place, const wh_real *signal,
-                                    const wh_real *input, wh_contact_state *s) {
+static inline bool wh_contact_project_places(const wh_contact_system *of, wh_contact_work *w,
+                                             const wh_contact_place *place, const wh_real *signal,
+                                             const wh_real *input, wh_contact_state *s) {
     uint8_t member[WH_CONTACTS_MAX] = {0};
     wh_real off[WH_CONTACTS_MAX] = {WH_R(0.0)};
     wh_real wanted[WH_CONTACTS_MAX];
-    wh_real amount[WH_CONTACTS_MAX];
+    wh_real lambda[WH_CONTACTS_MAX];
     wh_real way[WH_COORDS] = {0};
     const unsigned count = wh_contact_members(of, w, place->but, member);
     unsigned mover = place->mover;
@@ -148,7 +137,7 @@ static inline bool wh_contact_close(const wh_hybrid *of, wh_contact_work *w,
     for (unsigned i = 0; i < count; i++) {
         const unsigned k = member[i];
         wanted[i] = WH_R(0.0);
-        off[i] = wh_contact_off(of, w, k, signal, place->from, s);
+        off[i] = wh_contact_drift(of, w, k, signal, place->from, s);
         if (!wh_finite(off[i])) {
             wh_contact_expect(w, k, off[i]);
             off[i] = WH_R(0.0);
@@ -170,18 +159,18 @@ static inline bool wh_contact_close(const wh_hybrid *of, wh_contact_work *w,
     for (unsigned i = 0; i < count; i++) {
         const int pin = of->contact[member[i]].pin;
         if (off[i] != WH_R(0.0) && pin >= 0) { /* the others need not move for it */
-            const wh_real entry = wh_law(of, w, member[i])[WH_LAW_ROWS + pin];
+            const wh_real entry = wh_contact_law(of, w, member[i])[WH_LAW_ROWS + pin];
             wh_contact_move(of, (unsigned)pin, -off[i] / entry, s);
         }
     }
     if (together) {
-        (void)wh_contact_solve(of, w, member, count, NULL, wanted, amount);
+        (void)wh_delassus_solve(of, w, member, count, NULL, wanted, lambda);
         for (unsigned i = 0; i < count; i++) {
-            wh_push(of, w, member[i], amount[i], way);
+            wh_contact_apply(of, w, member[i], lambda[i], way);
         }
         for (unsigned i = 0; i < count; i++) {
             const int pin = of->contact[member[i]].pin;
-            const wh_real *row = wh_law(of, w, member[i]) + WH_LAW_ROWS;
+            const wh_real *row = wh_contact_law(of, w, member[i]) + WH_LAW_ROWS;
             const wh_real *rate = wh_contact_rates(of, s);
             wh_real travel = WH_R(0.0);
             for (unsigned c = 0; c < of->coordinates; c++) {
@@ -202,20 +191,20 @@ static inline bool wh_contact_close(const wh_hybrid *of, wh_contact_work *w,
 
 /* Take the rates along what is held away, of all contacts together but those in `but`, as bits; `booked`: as
  * impulses of theirs. work->law must belong to this position. */
-static inline void wh_contact_still(const wh_hybrid *of, const wh_contact_work *w, unsigned but,
-                                    bool booked, wh_real *rate) {
+static inline void wh_contact_project_rates(const wh_contact_system *of, const wh_contact_work *w,
+                                            unsigned but, bool booked, wh_real *rate) {
     uint8_t member[WH_CONTACTS_MAX] = {0};
     wh_real wanted[WH_CONTACTS_MAX] = {WH_R(0.0)};
-    wh_real amount[WH_CONTACTS_MAX];
+    wh_real lambda[WH_CONTACTS_MAX];
     wh_real before[WH_CONTACTS_MAX];
     const unsigned count = wh_contact_members(of, w, but, member);
     for (unsigned i = 0; i < count; i++) {
-        before[i] = wh_along(of, w, member[i], rate);
+        before[i] = wh_jacobian_times(of, w, member[i], rate);
         wanted[i] = -before[i];
     }
-    (void)wh_contact_solve(of, w, member, count, NULL, wanted, amount);
+    (void)wh_delassus_solve(of, w, member, count, NULL, wanted, lambda);
     for (unsigned i = 0; i < count; i++) {
-        wh_push(of, w, member[i], amount[i], rate);
+        wh_contact_apply(of, w, member[i], lambda[i], rate);
     }
     for (unsigned i = 0; i < count; i++) {
         const int pin = of->contact[member[i]].pin;
@@ -223,14 +212,14 @@ static inline void wh_contact_still(const wh_hybrid *of, const wh_contact_work *
             rate[pin] = WH_R(0.0);
         }
         if (booked) {
-            wh_books_impulse(of, w, member[i], amount[i], before[i],
-                             wh_along(of, w, member[i], rate));
+            wh_books_impulse(of, w, member[i], lambda[i], before[i],
+                             wh_jacobian_times(of, w, member[i], rate));
         }
     }
 }
 
 /* Frictions that stick, as bits. */
-WH_INLINE unsigned wh_contact_stuck(const wh_hybrid *of, const wh_contact_work *w) {
+WH_INLINE unsigned wh_contact_stuck(const wh_contact_system *of, const wh_contact_work *w) {
     unsigned bits = 0;
     for (unsigned k = 0; k < of->forced; k++) {
         bits |= of->contact[k].kind == WH_FRICTION && w->mode[k] == WH_STUCK ? 1U << k : 0U;
@@ -238,19 +227,25 @@ WH_INLINE unsigned wh_contact_stuck(const wh_hybrid *of, const wh_contact_work *
     return bits;
 }
 
-/* Is stop k passed by more than rounding, as after a step with too many events? Friction does not keep a body
- * there. */
-static inline bool wh_contact_far(const wh_hybrid *of, const wh_contact_work *w, unsigned k,
-                                  const wh_real *signal, const wh_contact_state *s) {
-    const wh_real *row = wh_law(of, w, k) + WH_LAW_ROWS;
+/* The terms that a stop's gap is the difference of, in size. */
+WH_INLINE wh_real wh_contact_extent(const wh_contact_system *of, const wh_contact_work *w,
+                                    unsigned k, const wh_contact_state *s) {
+    const wh_real *row = wh_contact_law(of, w, k) + WH_LAW_ROWS;
     wh_real size = WH_R(0.0);
     for (unsigned i = 0; i < of->coordinates; i++) {
         size += WH_ABS(row[i] * (i < of->angles ? WH_R(1.0) : s->real[i - of->angles]));
     }
-    return signal[2 * k] < (WH_DOUBLE ? WH_R(-1e-9) : WH_R(-1e-5)) * size;
+    return size;
 }
 
-static inline void wh_contact_put_back(const wh_hybrid *of, wh_contact_work *w, wh_real h,
+/* Is stop k passed by more than rounding, as after a step with too many events? Friction does not keep a body
+ * there. */
+WH_INLINE bool wh_contact_far(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
+                              const wh_real *signal, const wh_contact_state *s) {
+    return signal[2 * k] < (WH_DOUBLE ? WH_R(-1e-9) : WH_R(-1e-5)) * wh_contact_extent(of, w, k, s);
+}
+
+static inline void wh_contact_put_back(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                        const wh_real *input, const wh_contact_state *from,
                                        wh_contact_state *s) {
     wh_real accel[WH_COORDS];
@@ -262,21 +257,22 @@ static inline void wh_contact_put_back(const wh_hybrid *of, wh_contact_work *w, 
         const bool rests = of->contact[k].kind == WH_STOP && w->mode[k] == WH_ACTIVE;
         place.but |= rests && wh_contact_far(of, w, k, signal, s) ? wh_contact_stuck(of, w) : 0U;
     }
-    for (unsigned pass = 0; pass < 2 && wh_contact_close(of, w, &place, signal, input, s); pass++) {
+    for (unsigned pass = 0; pass < 2 && wh_contact_project_places(of, w, &place, signal, input, s);
+         pass++) {
         wh_contact_look(of, w, s, input, accel, signal);
     }
-    wh_contact_still(of, w, place.but, false, wh_contact_rates(of, s));
+    wh_contact_project_rates(of, w, place.but, false, wh_contact_rates(of, s));
 }
 
 /* What the integrator let slip on the way from `from`, h long, to `s`: the places of resting stops and holds,
  * then rates along what is held. A pinned coordinate cannot slip. */
-WH_INLINE void wh_contact_tidy(const wh_hybrid *of, wh_contact_work *w, wh_real h,
-                               const wh_real *input, const wh_contact_state *from,
-                               wh_contact_state *s) {
+WH_INLINE void wh_contact_stabilise(const wh_contact_system *of, wh_contact_work *w, wh_real h,
+                                    const wh_real *input, const wh_contact_state *from,
+                                    wh_contact_state *s) {
     bool slips = false;
     WH_UNROLL
     for (unsigned k = 0; k < of->forced; k++) {
-        slips = slips || (of->contact[k].pin < 0 && wh_constrains(of, w, k));
+        slips = slips || (of->contact[k].pin < 0 && wh_contact_constrains(of, w, k));
     }
     if (slips) {
         wh_contact_put_back(of, w, h, input, from, s);
@@ -284,7 +280,7 @@ WH_INLINE void wh_contact_tidy(const wh_hybrid *of, wh_contact_work *w, wh_real 
 }
 
 /* A try from `from` to `to` is taken: what straight holds have slipped in it stays to be put back. */
-WH_INLINE void wh_contact_keep(const wh_hybrid *of, wh_contact_work *w,
+WH_INLINE void wh_contact_keep(const wh_contact_system *of, wh_contact_work *w,
                                const wh_contact_state *from, const wh_contact_state *to) {
     if (of->held == 0) {
         return;

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "algebra.h"
+#include "host/base/room.h"
 
 /* Sums below this part of what was added are rounding errors of the decimals they came from. */
 #define CANCELLED 1e-14
@@ -192,14 +193,16 @@ bool power_multiplies_out(const poly *base, double exponent, double kept) {
 
 /* --- products ------------------------------------------------------------------------------------*/
 
-/* Powers that do not stay a power: |p|^2 = p^2, and a whole power of a group that is small enough to
+/* Powers that do not stay a power: |p|^n = p^n for an even n, and a whole power of a group that is small enough to
  * be multiplied out. Returns NULL for all others. */
 static const poly *power_expands(algebra *a, const factor *f) {
     if (f->atom->kind == ATOM_CALL && f->atom->function == FN_ABS && f->exponent >= 2.0) {
-        const poly *square = poly_mul(a, f->atom->argument[0], f->atom->argument[0]);
-        return f->exponent == 2.0
-                   ? square
-                   : poly_mul(a, square, poly_of_atom(a, f->atom, f->exponent - 2.0));
+        const poly *inside = f->atom->argument[0];
+        const double even = 2.0 * number_floor(f->exponent / 2.0);
+        const poly *opened = even == 2.0 ? poly_mul(a, inside, inside) : poly_pow(a, inside, even);
+        return f->exponent == even
+                   ? opened
+                   : poly_mul(a, opened, poly_of_atom(a, f->atom, f->exponent - even));
     }
     if (f->atom->kind == ATOM_GROUP && is_whole(f->exponent) && f->exponent > 0.0) {
         const poly *inside = f->atom->argument[0];
@@ -256,7 +259,7 @@ static const poly *mono_product(algebra *a, const mono *left, const mono *right)
 }
 
 static const atom *group_of(algebra *a, const poly *p) {
-    return atom_of_polys(a, ATOM_GROUP, FN_COUNT, p, NULL);
+    return atom_of_polys(a, ATOM_GROUP, FUNCTION_NONE, p, NULL);
 }
 
 static const poly *product_of(algebra *a, const poly *left, const poly *right) {
@@ -309,10 +312,7 @@ static const poly *term_pow(algebra *a, const poly_term *t, double exponent) {
     const mono *m = t->mono;
     const bool whole = is_whole(exponent);
     if (whole && m->trig == TRIG_NONE) {
-        factor *f = calloc((size_t)m->count + 1, sizeof *f);
-        if (f == NULL) {
-            abort();
-        }
+        factor *f = room(m->count, sizeof *f);
         const poly *extra = a->one;
         int count = 0;
         for (int i = 0; i < m->count; i++) {
@@ -397,7 +397,7 @@ const poly *poly_pow_poly(algebra *a, const poly *base, const poly *exponent) {
     if (poly_is_number(exponent, &value)) {
         return poly_pow(a, base, value);
     }
-    return poly_of_atom(a, atom_of_polys(a, ATOM_POWER, FN_COUNT, base, exponent), 1.0);
+    return poly_of_atom(a, atom_of_polys(a, ATOM_POWER, FUNCTION_NONE, base, exponent), 1.0);
 }
 
 const poly *poly_call(algebra *a, function_id function, const poly *x, const poly *y) {
@@ -406,10 +406,15 @@ const poly *poly_call(algebra *a, function_id function, const poly *x, const pol
     if (poly_is_number(x, &vx) && (y == NULL || poly_is_number(y, &vy))) {
         return poly_number(a, number_call(function, vx, vy));
     }
-    switch (function) {
-    case FN_SIN: return poly_sin(a, x);
-    case FN_COS: return poly_cos(a, x);
-    case FN_SQRT: return poly_pow(a, x, 0.5);
-    default: return poly_of_atom(a, atom_of_polys(a, ATOM_CALL, function, x, y), 1.0);
+    /* The normal form has these three itself; all others are atoms. */
+    if (function == FN_SIN) {
+        return poly_sin(a, x);
     }
+    if (function == FN_COS) {
+        return poly_cos(a, x);
+    }
+    if (function == FN_SQRT) {
+        return poly_pow(a, x, 0.5);
+    }
+    return poly_of_atom(a, atom_of_polys(a, ATOM_CALL, function, x, y), 1.0);
 }

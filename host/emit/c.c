@@ -8,6 +8,7 @@
 #include "c_ledger.h"
 #include "c_list.h"
 #include "emit.h"
+#include "host/base/room.h"
 #include "host/number/hex.h"
 #include "host/number/phase.h"
 
@@ -50,11 +51,8 @@ static void write_observer(FILE *out, const program *p) {
 
 static void write_starts(FILE *out, const program *p, const instance *inst) {
     char hex[HEX_SIZE];
-    double *angle_rad = calloc((size_t)p->angles + 1, sizeof *angle_rad);
-    double *real = calloc((size_t)p->reals + 1, sizeof *real);
-    if (angle_rad == NULL || real == NULL) {
-        abort();
-    }
+    double *angle_rad = room(p->angles, sizeof *angle_rad);
+    double *real = room(p->reals, sizeof *real);
     program_start(p, inst, angle_rad, real);
     if (p->angles > 0) {
         fprintf(out, "static const wh_angle start_angle[%d] = {", p->angles);

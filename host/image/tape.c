@@ -6,16 +6,13 @@
 #include <string.h>
 
 #include "host/base/arena.h"
+#include "host/base/room.h"
 
 tape *tape_new(int angles, int results) {
-    tape *t = calloc(1, sizeof *t);
-    int *result = calloc((size_t)(results > 0 ? results : 1), sizeof *result);
-    if (t == NULL || result == NULL) {
-        abort();
-    }
+    tape *t = room(1, sizeof *t);
     t->angles = angles;
     t->results = results;
-    t->result = result;
+    t->result = room(results, sizeof *t->result);
     t->arena = arena_new();
     return t;
 }
@@ -31,16 +28,54 @@ void tape_free(tape *t) {
     free(t);
 }
 
+/* --- the rows of operations ----------------------------------------------------------------------*/
+
+const op_row op_rows[OPS] = {
+#define VALUES_CONSTANT 0
+#define VALUES_LEAF 0
+#define VALUES_PHASE 0
+#define VALUES_WAVE 1
+#define VALUES_UNARY 1
+#define VALUES_BINARY 2
+#define VALUES_CALL 2
+#define ROW(id, kind, cost, c, octave, ...) \
+    [OP_##id] = {OP_IS_##kind, OP_COSTS_##cost, VALUES_##kind, c, octave},
+    OP_ROWS(ROW)
+#undef ROW
+};
+
+/* The operation that a function of the language is. */
+static const op_code operation_of[FUNCTIONS] = {
+#define FUNCTION_CORE(value) OP_CALL
+#define FUNCTION_OWN(operation, value) OP_##operation
+#define ROW(id, word, arguments, dimensions, range, latex, value, ...) [FN_##id] = value,
+    FUNCTION_ROWS(ROW)
+#undef ROW
+};
+
+/* The function of the language that an operation of its own is, or FUNCTION_NONE. */
+static function_id function_of(op_code code) {
+    int f = 0;
+    while (f < FUNCTIONS && operation_of[f] != code) {
+        f++;
+    }
+    return code == OP_CALL ? FUNCTION_NONE : (function_id)f;
+}
+
 /* --- entering ------------------------------------------------------------------------------------*/
 
 static uint64_t mix(uint64_t hash, uint64_t word) {
     return (hash ^ word) * UINT64_C(0x9e3779b97f4a7c15) + (hash >> 29);
 }
 
+/* How hashes of models have counted operations that are no call since there were 14 functions. */
+#define HASHED_NO_FUNCTION UINT64_C(14)
+
 uint64_t tape_op_hash(const tape *t, const op *o) {
     uint64_t bits;
     memcpy(&bits, &o->value, sizeof bits);
-    uint64_t hash = mix(mix((uint64_t)o->code, (uint64_t)o->function), bits);
+    const uint64_t function = o->code == OP_CALL ? (uint64_t)o->function : HASHED_NO_FUNCTION;
+    uint64_t hash = mix(mix((uint64_t)o->code, function), bits);
     hash = mix(mix(hash, (uint64_t)(unsigned)o->a), (uint64_t)(unsigned)o->b);
     for (int i = 0; i < t->angles && o->turns != NULL; i++) {
         hash = mix(hash, (uint64_t)(unsigned)o->turns[i]);
@@ -67,10 +102,7 @@ static bool op_equal(const tape *t, const op *x, const op *y) {
 void tape_reindex(tape *t) {
     free(t->index);
     t->index_size = t->room * 2;
-    t->index = malloc((size_t)t->index_size * sizeof *t->index);
-    if (t->index == NULL) {
-        abort();
-    }
+    t->index = room(t->index_size, sizeof *t->index);
     memset(t->index, -1, (size_t)t->index_size * sizeof *t->index);
     for (int i = 0; i < t->count; i++) {
         size_t at = (size_t)(tape_op_hash(t, &t->ops[i]) % (uint64_t)t->index_size);
@@ -84,10 +116,7 @@ void tape_reindex(tape *t) {
 static int enter(tape *t, op o) {
     if (t->count == t->room) {
         t->room = t->room == 0 ? 128 : t->room * 2;
-        t->ops = realloc(t->ops, (size_t)t->room * sizeof *t->ops);
-        if (t->ops == NULL) {
-            abort();
-        }
+        t->ops = room_more(t->ops, t->room, sizeof *t->ops);
         tape_reindex(t);
     }
     size_t at = (size_t)(tape_op_hash(t, &o) % (uint64_t)t->index_size);
@@ -103,7 +132,7 @@ static int enter(tape *t, op o) {
 }
 
 static int enter_op(tape *t, op_code code, int a, int b) {
-    return enter(t, (op){.code = code, .function = FN_COUNT, .a = a, .b = b});
+    return enter(t, (op){.code = code, .function = FUNCTION_NONE, .a = a, .b = b});
 }
 
 bool tape_is_constant(const tape *t, int a, double *value) {
@@ -120,7 +149,7 @@ static bool is_value(const tape *t, int a, double value) {
 
 int tape_constant(tape *t, double value) {
     return enter(t, (op){.code = OP_CONSTANT,
-                         .function = FN_COUNT,
+                         .function = FUNCTION_NONE,
                          .a = -1,
                          .b = -1,
                          .value = value == 0.0 ? 0.0 : value}); /* one zero */
@@ -129,7 +158,8 @@ int tape_constant(tape *t, double value) {
 int tape_leaf(tape *t, op_code code, int which) { return enter_op(t, code, which, -1); }
 
 int tape_noise(tape *t, uint32_t seed) {
-    return enter(t, (op){.code = OP_NOISE, .function = FN_COUNT, .a = -1, .b = -1, .value = seed});
+    return enter(
+        t, (op){.code = OP_NOISE, .function = FUNCTION_NONE, .a = -1, .b = -1, .value = seed});
 }
 
 bool tape_is_whole(double multiple) {
@@ -158,7 +188,7 @@ int tape_phase(tape *t, const double *multiple, double offset_rad, int radians) 
         }
     }
     return enter(t, (op){.code = OP_PHASE,
-                         .function = FN_COUNT,
+                         .function = FUNCTION_NONE,
                          .a = -1,
                          .b = radians,
                          .value = offset_rad,
@@ -185,13 +215,9 @@ int tape_unary(tape *t, op_code code, int a) {
     if (code == OP_NEG) {
         return negate(t, a);
     }
-    if (tape_is_constant(t, a, &x)) {
-        switch (code) {
-        case OP_SQRT: return tape_constant(t, number_call(FN_SQRT, x, 0.0));
-        case OP_ABS: return tape_constant(t, number_call(FN_ABS, x, 0.0));
-        case OP_SIGN: return tape_constant(t, number_call(FN_SIGN, x, 0.0));
-        default: break;
-        }
+    const function_id function = function_of(code);
+    if (function != FUNCTION_NONE && tape_is_constant(t, a, &x)) {
+        return tape_constant(t, number_call(function, x, 0.0));
     }
     return enter_op(t, code, a, -1);
 }
@@ -300,13 +326,17 @@ int tape_div(tape *t, int a, int b) {
 }
 
 int tape_call(tape *t, function_id function, int a, int b) {
-    if (function == FN_MIN || function == FN_MAX) {
-        return enter_op(t, function == FN_MIN ? OP_MIN : OP_MAX, a, b);
+    const op_code code = operation_of[function];
+    switch (op_rows[code].kind) {
+    case OP_IS_WAVE: return enter_op(t, code, tape_phase(t, NULL, 0.0, a), -1);
+    case OP_IS_UNARY: return tape_unary(t, code, a);
+    case OP_IS_BINARY: return enter_op(t, code, a, b);
+    case OP_IS_CALL: return enter(t, (op){.code = code, .function = function, .a = a, .b = b});
+    case OP_IS_CONSTANT: /* no function is one of these */
+    case OP_IS_LEAF:
+    case OP_IS_PHASE: break;
     }
-    if (function == FN_ABS || function == FN_SIGN) {
-        return tape_unary(t, function == FN_ABS ? OP_ABS : OP_SIGN, a);
-    }
-    return enter(t, (op){.code = OP_CALL, .function = function, .a = a, .b = b});
+    abort();
 }
 
 int tape_pow(tape *t, int base, int exponent) {

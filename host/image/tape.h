@@ -13,32 +13,45 @@
 
 #include "host/number/functions.h"
 
-typedef enum op_code {
-    OP_CONSTANT, /* value */
-    OP_LINEAR,   /* real component a: a linear position (second order), any real (first order) */
-    OP_RATE,     /* rate of coordinate a (second order only) */
-    OP_INPUT,    /* input a */
-    OP_ACCEL,    /* acceleration of coordinate a, contact forces in it: for records */
-    OP_TIME,     /* time, s: for records, never in a step */
-    OP_RADIANS,  /* unwrapped angle a in radians: for records, never in a step */
-    OP_NOISE,    /* Gaussian deviate with seed `value` at this step: for records, never in a step */
-    OP_PHASE,    /* a phase: sum turns[i] * phase[i] + sum parts[i] * angle[i] + value [rad] +
-                  * (radians from b, if b >= 0) */
-    OP_SIN,      /* sine of phase a */
-    OP_COS,      /* cosine of phase a */
-    OP_ADD,
-    OP_SUB,
-    OP_MUL,
-    OP_DIV,
-    OP_NEG,
-    OP_SQRT,
-    OP_ABS,
-    OP_SIGN, /* these three give NaN of NaN: nothing that is no number may vanish in a comparison */
-    OP_MIN,  /* b < a || b != b ? b : a */
-    OP_MAX,  /* b > a || b != b ? b : a */
-    OP_CALL, /* function(a) or function(a, b), of core/function.h */
-    OP_POW   /* a to the b, likewise */
-} op_code;
+#include "op_rows.h"
+
+/* OP_CONSTANT, OP_LINEAR, ... */
+#define OP_ID(id, ...) OP_##id,
+typedef enum op_code { OP_ROWS(OP_ID) } op_code;
+#undef OP_ID
+
+#define OP_ONE(...) +1
+enum { OPS = 0 OP_ROWS(OP_ONE) }; /* how many there are */
+#undef OP_ONE
+
+typedef enum op_kind {
+    OP_IS_CONSTANT,
+    OP_IS_LEAF,   /* a is an index, or nothing */
+    OP_IS_PHASE,  /* b is an operation or -1 */
+    OP_IS_WAVE,   /* a is a phase */
+    OP_IS_UNARY,  /* a is an operation */
+    OP_IS_BINARY, /* a and b are */
+    OP_IS_CALL    /* a is; b is, or -1 */
+} op_kind;
+
+typedef enum op_cost {
+    OP_COSTS_NOTHING,
+    OP_COSTS_ARITHMETIC,
+    OP_COSTS_DIVISION,
+    OP_COSTS_ROOT,
+    OP_COSTS_WAVE,
+    OP_COSTS_CALL
+} op_cost;
+
+typedef struct op_row {
+    op_kind kind;
+    op_cost cost;
+    int values;    /* most earlier values that it takes: a, a and b; none of a leaf or a phase */
+    const char *c; /* NULL: not written so */
+    const char *octave; /* NULL */
+} op_row;
+
+extern const op_row op_rows[OPS]; /* [op_code] */
 
 typedef struct op {
     op_code code;
@@ -80,6 +93,7 @@ int tape_add(tape *t, int a, int b);
 int tape_sub(tape *t, int a, int b);
 int tape_mul(tape *t, int a, int b);
 int tape_div(tape *t, int a, int b);
+/* A function of what operations a and b (or -1) give: whichever operation that is. */
 int tape_call(tape *t, function_id function, int a, int b);
 int tape_pow(tape *t, int base, int exponent);
 /* base to a fixed power, by products and square roots where that is possible. */

@@ -3,27 +3,32 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "host/base/hash.h"
+#include "host/base/room.h"
 #include "tape.h"
 
 static int operands(const op *o, int operand[2]) {
+    const bool values = op_rows[o->code].values > 0;
     int count = 0;
-    if (o->code == OP_PHASE || o->code >= OP_SIN) {
-        if (o->a >= 0) {
-            operand[count++] = o->a;
-        }
-        if (o->b >= 0) {
-            operand[count++] = o->b;
-        }
+    if (values && o->a >= 0) {
+        operand[count++] = o->a;
+    }
+    if ((values || o->code == OP_PHASE) && o->b >= 0) {
+        operand[count++] = o->b;
     }
     return count;
 }
 
+/* The same, to be changed. */
+static void renumber(op *o, const int *number) {
+    const bool values = op_rows[o->code].values > 0;
+    o->a = values && o->a >= 0 ? number[o->a] : o->a;
+    o->b = (values || o->code == OP_PHASE) && o->b >= 0 ? number[o->b] : o->b;
+}
+
 /* x * (1/y) where nothing else wants 1/y is x/y: one rounding and one operation less. */
 static void fuse_reciprocals(tape *t) {
-    int *uses = calloc((size_t)(t->count > 0 ? t->count : 1), sizeof *uses);
-    if (uses == NULL) {
-        abort();
-    }
+    int *uses = room(t->count, sizeof *uses);
     int operand[2];
     double one;
     for (int i = 0; i < t->count; i++) {
@@ -41,7 +46,8 @@ static void fuse_reciprocals(tape *t) {
             const int other = k == 0 ? o->b : o->a;
             if (t->ops[inverse].code == OP_DIV && tape_is_constant(t, t->ops[inverse].a, &one) &&
                 one == 1.0 && uses[inverse] == 1) {
-                *o = (op){.code = OP_DIV, .function = FN_COUNT, .a = other, .b = t->ops[inverse].b};
+                *o = (op){
+                    .code = OP_DIV, .function = FUNCTION_NONE, .a = other, .b = t->ops[inverse].b};
             }
         }
     }
@@ -49,10 +55,7 @@ static void fuse_reciprocals(tape *t) {
 }
 
 static void drop_unused(tape *t) {
-    int *number = malloc((size_t)(t->count > 0 ? t->count : 1) * sizeof *number);
-    if (number == NULL) {
-        abort();
-    }
+    int *number = room(t->count, sizeof *number);
     memset(number, -1, (size_t)t->count * sizeof *number);
     for (int i = 0; i < t->results; i++) {
         number[t->result[i]] = 0;
@@ -72,10 +75,7 @@ static void drop_unused(tape *t) {
             continue;
         }
         op o = t->ops[i];
-        if (o.code == OP_PHASE || o.code >= OP_SIN) {
-            o.a = o.a >= 0 ? number[o.a] : o.a;
-            o.b = o.b >= 0 ? number[o.b] : o.b;
-        }
+        renumber(&o, number);
         number[i] = kept;
         t->ops[kept++] = o;
     }
@@ -113,10 +113,7 @@ static bool has_finite_numbers(const tape *t, const op *o) {
 }
 
 int tape_not_finite(const tape *t) {
-    bool *tainted = calloc((size_t)t->count + 1, sizeof *tainted);
-    if (tainted == NULL) {
-        abort();
-    }
+    bool *tainted = room(t->count, sizeof *tainted);
     int operand[2];
     for (int i = 0; i < t->count; i++) {
         tainted[i] = !has_finite_numbers(t, &t->ops[i]);
@@ -149,21 +146,13 @@ double tape_out_of_float(const tape *t) {
 tape_cost tape_count(const tape *t) {
     tape_cost cost = {0};
     for (int i = 0; i < t->count; i++) {
-        switch (t->ops[i].code) {
-        case OP_ADD:
-        case OP_SUB:
-        case OP_MUL:
-        case OP_NEG:
-        case OP_ABS:
-        case OP_SIGN:
-        case OP_MIN:
-        case OP_MAX: cost.arithmetic++; break;
-        case OP_DIV: cost.divisions++; break;
-        case OP_SQRT: cost.roots++; break;
-        case OP_PHASE: cost.waves++; break;
-        case OP_CALL:
-        case OP_POW: cost.calls++; break;
-        default: break;
+        switch (op_rows[t->ops[i].code].cost) {
+        case OP_COSTS_NOTHING: break;
+        case OP_COSTS_ARITHMETIC: cost.arithmetic++; break;
+        case OP_COSTS_DIVISION: cost.divisions++; break;
+        case OP_COSTS_ROOT: cost.roots++; break;
+        case OP_COSTS_WAVE: cost.waves++; break;
+        case OP_COSTS_CALL: cost.calls++; break;
         }
     }
     return cost;
@@ -177,18 +166,18 @@ int tape_weight(const tape *t) {
 int tape_operations(const tape *t) {
     int operations = 0;
     for (int i = 0; i < t->count; i++) {
-        operations += t->ops[i].code >= OP_SIN;
+        operations += op_rows[t->ops[i].code].values > 0;
     }
     return operations;
 }
 
 uint64_t tape_hash(const tape *t) {
-    uint64_t hash = UINT64_C(0xcbf29ce484222325);
+    uint64_t hash = WH_HASH_START;
     for (int i = 0; i < t->count; i++) {
-        hash = (hash ^ tape_op_hash(t, &t->ops[i])) * UINT64_C(0x100000001b3);
+        hash = hash_of_hashes(hash, tape_op_hash(t, &t->ops[i]));
     }
     for (int i = 0; i < t->results; i++) {
-        hash = (hash ^ (uint64_t)t->result[i]) * UINT64_C(0x100000001b3);
+        hash = hash_of_hashes(hash, (uint64_t)t->result[i]);
     }
     return hash;
 }

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "host/base/room.h"
+
 const char *dimension_unit(dimension dim, bool is_angle, char *text, size_t size) {
     static const struct {
         signed char m, kg, s, A;
@@ -40,15 +42,7 @@ struct unit shown_unit(const symbol *s, int primes) {
     return s->unit[0] == '\0' || unit_is_si(s->declared) ? si : s->declared;
 }
 
-static char *copy_of(const char *text) {
-    const size_t size = strlen(text) + 1;
-    char *copy = malloc(size);
-    if (copy == NULL) {
-        abort();
-    }
-    memcpy(copy, text, size);
-    return copy;
-}
+static char *copy_of(const char *text) { return room_copy(text, strlen(text)); }
 
 char *shown_si_name(const symbol *s, int primes) {
     char text[DIM_TEXT_SIZE];
@@ -71,13 +65,7 @@ char *shown_unit_name(const symbol *s, int primes) {
     if (primes > 0) {
         snprintf(per, sizeof per, primes > 1 ? "/s^%d" : "/s", primes);
     }
-    const size_t size = strlen(s->unit) + sizeof per;
-    char *text = malloc(size);
-    if (text == NULL) {
-        abort();
-    }
-    snprintf(text, size, "%s%s", s->unit, per);
-    return text;
+    return room_words("%s%s", s->unit, per);
 }
 
 void shown_note_bare(const char *typed, const symbol *s, int primes) {

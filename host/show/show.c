@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "host/base/room.h"
 #include "host/lang/lexer.h"
 #include "show_term.h"
 
@@ -18,10 +19,7 @@ static void show_sign(const show *s, bool negative, bool first) {
 }
 
 static void show_sum(const show *s, const poly *p, bool leading) {
-    piece *pieces = calloc((size_t)p->count + 1, sizeof *pieces);
-    if (pieces == NULL) {
-        abort();
-    }
+    piece *pieces = room(p->count, sizeof *pieces);
     const int count = pieces_of(s->algebra, p, pieces);
     for (int i = 0; i < count; i++) {
         show_sign(s, pieces[i].coefficient < 0.0, leading && i == 0);
@@ -135,10 +133,7 @@ static void show_behind(const show *s, const poly *key) {
 /* sign and size * common * (inside) * key / below, each part left out where it is one. */
 static void show_group(const show *s, const poly *p, const poly *key, bool leading) {
     algebra *a = s->algebra;
-    piece *pieces = calloc((size_t)p->count + 1, sizeof *pieces);
-    if (pieces == NULL) {
-        abort();
-    }
+    piece *pieces = room(p->count, sizeof *pieces);
     const int count = pieces_of(a, p, pieces);
     const double number = common_number(pieces, count);
     bool negative = true;
@@ -247,10 +242,7 @@ void show_poly(const show *s, const poly *p) {
         fputs("0", s->out);
         return;
     }
-    collected *groups = calloc((size_t)p->count, sizeof *groups);
-    if (groups == NULL) {
-        abort();
-    }
+    collected *groups = room(p->count, sizeof *groups);
     const int count = collect(a, p, groups);
     if (algebra_overflow(a)) { /* products are not to be had any more: the terms as they are */
         show_sum(s, p, true);

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/lang/parser.h"
+#include "host/number/functions.h"
 #include "host/number/decimal.h"
 
 /* --- names and numbers ---------------------------------------------------------------------------*/
@@ -107,17 +107,10 @@ void show_number(const show *s, double value) {
 static void show_open(const show *s) { fputs(s->style == SHOW_LATEX ? "\\left(" : "(", s->out); }
 static void show_close(const show *s) { fputs(s->style == SHOW_LATEX ? "\\right)" : ")", s->out); }
 
-static void show_call(const show *s, const char *name, const poly *x, const poly *y) {
-    static const char *const own[] = {"sin", "cos", "tan", "exp", "min", "max"};
-    bool has_own = false;
-    for (size_t i = 0; i < sizeof own / sizeof own[0]; i++) {
-        has_own = has_own || strcmp(name, own[i]) == 0;
-    }
-    if (s->style == SHOW_LATEX) {
-        fprintf(s->out, has_own ? "\\%s\\left(" : "\\operatorname{%s}\\left(", name);
-    } else {
-        fprintf(s->out, "%s(", name);
-    }
+static void show_call(const show *s, function_id function, const poly *x, const poly *y) {
+    const bool latex = s->style == SHOW_LATEX;
+    fputs(latex ? function_latex(function) : function_name(function), s->out);
+    show_open(s);
     show_poly(s, x);
     if (y != NULL) {
         fputs(", ", s->out);
@@ -211,7 +204,7 @@ static void show_atom(const show *s, const atom *x, double exponent) {
         show_symbol(s, x->symbol, x->primes);
         fputs(braced ? "}" : "", s->out);
         break;
-    case ATOM_CALL: show_call(s, function_name(x->function), x->argument[0], x->argument[1]); break;
+    case ATOM_CALL: show_call(s, x->function, x->argument[0], x->argument[1]); break;
     case ATOM_GROUP: show_grouped(s, x->argument[0]); break;
     case ATOM_POWER:
         if (raised) {
@@ -234,8 +227,13 @@ int show_rank(const atom *x) {
     switch (x->symbol->kind) {
     case SYM_PARAMETER: return 0;
     case SYM_INPUT: return 1;
-    default: return x->primes == 0 ? 2 : 3 + x->primes; /* sines stand at 3 */
+    case SYM_COORDINATE:
+    case SYM_STATE: return x->primes == 0 ? 2 : 3 + x->primes; /* sines stand at 3 */
+    case SYM_LET:                                              /* expressions: no atoms */
+    case SYM_OUTPUT:
+    case SYM_RECORD: break;
     }
+    return 2;
 }
 
 void show_separate(const show *s, bool *first) {
@@ -261,7 +259,7 @@ int show_factors(const show *s, const piece *p, int side, bool *first) {
             const int exponent = wave == 0 ? p->sines : p->cosines;
             if (exponent > 0) {
                 show_separate(s, first);
-                show_call(s, wave == 0 ? "sin" : "cos", p->angle, NULL);
+                show_call(s, wave == 0 ? FN_SIN : FN_COS, p->angle, NULL);
                 show_exponent(s, exponent);
                 count++;
             }
