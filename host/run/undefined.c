@@ -149,11 +149,6 @@ static bool look_ahead(const undefined_at *at, bool (*find)(view *v, int which, 
 }
 
 static bool find_term(view *v, int which, diags *errors) {
-    static const char *const names[] = {[TERM_T] = "the kinetic energy",
-                                        [TERM_V] = "the stored energy",
-                                        [TERM_F] = "the dissipation",
-                                        [TERM_Q] = "the force",
-                                        [TERM_EQUATION] = "the equation"};
     const mechanism *m = v->at->instance->mechanism;
     (void)which;
     for (int i = 0; i < m->term_count; i++) {
@@ -162,11 +157,11 @@ static bool find_term(view *v, int which, diags *errors) {
         if (!instance_has_term(v->at->instance, t)) {
             continue;
         }
-        if (check(v, t->at, t->value, names[t->kind], errors) ||
-            (t->right != NULL && check(v, t->at, t->right, names[t->kind], errors))) {
+        if (check(v, t->at, t->value, term_part(t->kind), errors) ||
+            (t->right != NULL && check(v, t->at, t->right, term_part(t->kind), errors))) {
             return true;
         }
-        snprintf(slope, sizeof slope, "the slope of %s", names[t->kind]);
+        snprintf(slope, sizeof slope, "the slope of %s", term_part(t->kind));
         const bool energy = t->kind == TERM_T || t->kind == TERM_V || t->kind == TERM_F;
         if (energy && check_slopes(v, t->at, t->value, slope, true, errors)) {
             return true;
@@ -210,17 +205,12 @@ static bool find_restitution(view *v, int k, diags *errors) {
 }
 
 void undefined_contact(const undefined_at *at, int k, diags *errors) {
-    static const char *const whole[] = {
-        [CONTACT_STOP] = "the restitution, or the gap, of this stop",
-        [CONTACT_HOLD] = "the condition of this hold, or what it holds,",
-        [CONTACT_FRICTION] = "the normal force, or a coefficient, of this friction",
-        [CONTACT_WHEN] = "the value of this crossing"};
     if (look_ahead(at, find_contact, k, errors) || look_ahead(at, find_restitution, k, errors)) {
         return;
     }
     const contact_statement *h = at->program->contacts->row[k].from;
     const view v = {.at = at};
-    report(&v, h->at, NULL, whole[h->kind], errors);
+    report(&v, h->at, NULL, contact_undefined(h->kind), errors);
 }
 
 static bool find_set(view *v, int which, diags *errors) {
