@@ -74,7 +74,30 @@
 /* A flight shorter than this share of a step is none. */
 #define WH_REST_SHARE WH_R(0.125)
 
-typedef enum wh_contact_kind { WH_STOP, WH_HOLD, WH_FRICTION, WH_WHEN } wh_contact_kind;
+/* What a kind of contact is. */
+enum {
+    WH_FORCED = 1,     /* it has a force, and a row of the Jacobian */
+    WH_UNILATERAL = 2, /* which pushes and does not pull */
+    WH_LIMITED = 4     /* which has a limit, slides at it, and is too small to give an impulse */
+};
+
+/* The kinds, in the order in which contacts are numbered and their events at one moment are taken: name, the word of
+ * the language, what it is. What each does at its events differs: the switches over the kinds have no default, so
+ * that the compiler names them to whoever adds one. */
+#define WH_CONTACT_KINDS(X) \
+    X(WH_STOP, "stop", WH_FORCED | WH_UNILATERAL) \
+    X(WH_HOLD, "hold", WH_FORCED) \
+    X(WH_FRICTION, "friction", WH_FORCED | WH_LIMITED) \
+    X(WH_WHEN, "when", 0)
+
+#define WH_KIND_NAME(name, word, is) name,
+#define WH_KIND_BIT(name, word, is) | ((((is)&trait) != 0) ? 1U << name : 0U)
+typedef enum wh_contact_kind {
+    WH_CONTACT_KINDS(WH_KIND_NAME) WH_CONTACT_KIND_COUNT
+} wh_contact_kind;
+
+/* The kinds that are `trait`, as bits. */
+WH_INLINE unsigned wh_contact_kinds(unsigned trait) { return 0U WH_CONTACT_KINDS(WH_KIND_BIT); }
 
 typedef struct wh_contact {
     uint8_t kind; /* wh_contact_kind */

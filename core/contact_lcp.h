@@ -1,16 +1,23 @@
 /* contact_lcp.h: how contacts share a load, each within what it can take (see contact.h).
  *
  * A resting stop pushes and does not pull, and what sticks takes no more than its static friction. So the
- * forces of the contacts that hold something solve
+ * forces of the contacts that hold something solve a linear complementarity problem with limits on both sides,
  *
  *     a = J M^-1 J^T lambda - wanted,   low <= lambda <= high,
  *     a_k = 0 between the limits, a_k >= 0 at the low one (it gives way), a_k <= 0 at the high one
  *
- * Normal forces do not depend on lambda, so this is a convex problem: its accelerations are unique. Its
- * forces are, too, unless contacts repeat what others hold. It is solved by principal pivoting, the least
- * index first (Murty, Linear Complementarity, Linear and Nonlinear Programming, chapters 2 to 4; Judice &
- * Pires 1994 for limits on both sides). With impulses for forces and rates for accelerations it is the
- * impact's problem. */
+ * with the Delassus matrix J M^-1 J^T. Normal forces do not depend on lambda, so this is a convex problem: its
+ * accelerations are unique. Its forces are, too, unless contacts repeat what others hold. With impulses for forces and
+ * rates for accelerations it is the impact's problem (Moreau; Pfeiffer & Glocker, chapter 8).
+ *
+ * It is solved by principal pivoting, the least index first (Murty, Linear Complementarity, Linear and Nonlinear
+ * Programming, chapters 2 to 4; Judice & Pires 1994 for limits on both sides), from the modes as they are: in the
+ * first round all that holds goes on holding. That is proved to end where the matrix is a P-matrix, which it is if no
+ * rows repeat each other. Where they do it is only semidefinite: what repeats is then left out of the round's
+ * elimination, which makes each round well posed, but which rows those are changes from round to round and the
+ * proof does not carry over (Lemke's method or Cottle and Dantzig's would be proved there, for more rounds and other
+ * forces among those that are possible). So the rounds are capped at 4 n + 1, and a step that meets the cap counts as
+ * an overrun; none was seen (tests/core/test_lcp.c). */
 #ifndef WH_CONTACT_LCP_H
 #define WH_CONTACT_LCP_H
 
@@ -33,13 +40,13 @@
 /* By what share of its limit a force that is beyond it by less than its rounding is put beyond it. */
 #define WH_CONTACT_SHOWS WH_R(0.001)
 
-/* The factor of k's own force in its acceleration: J_k M^-1 J_k^T. */
+/* Its diagonal: the factor of k's own force in its acceleration. */
 WH_INLINE wh_real wh_delassus_diagonal(const wh_contact_system *of, const wh_contact_work *w,
                                        unsigned k) {
-    return wh_jacobian_times(of, w, k, wh_contact_law(of, w, k) + WH_LAW_ROWS + of->coordinates);
+    return wh_delassus(of, w, k, k);
 }
 
-/* Solve sum_l (J_k M^-1 J_l^T) amount_l = wanted_k for the `count` contacts in member[], by elimination
+/* Solve sum_l (J_k M^-1 J_l^T) lambda_l = wanted_k for the `count` contacts in member[], by elimination
  * without pivoting: the matrix is positive definite, but for contacts that repeat what others hold
  * already, which get nothing to do. Returns those, as bits of their places in member[]. Those with at[]
  * other than zero get nothing, too; at may be NULL. */
@@ -53,8 +60,7 @@ static inline unsigned wh_delassus_eliminate(const wh_contact_system *of, const 
     for (unsigned r = 0; r < count; r++) {
         lambda[r] = wanted[r];
         for (unsigned c = 0; c < count; c++) {
-            matrix[r][c] = wh_jacobian_times(
-                of, w, member[r], wh_contact_law(of, w, member[c]) + WH_LAW_ROWS + of->coordinates);
+            matrix[r][c] = wh_delassus(of, w, member[r], member[c]);
         }
     }
     for (unsigned p = 0; p < count; p++) {
@@ -88,7 +94,7 @@ WH_INLINE unsigned wh_delassus_solve(const wh_contact_system *of, const wh_conta
     if (count == 0) {
         return 0;
     }
-    if (count == 1 && at == NULL) {
+    if (of->forced == 1 || count == 1) {
         const wh_real yield = wh_delassus_diagonal(of, w, member[0]);
         lambda[0] = yield > WH_R(0.0) ? wanted[0] / yield : WH_R(0.0);
         return yield > WH_R(0.0) ? 0U : 1U;
@@ -102,58 +108,60 @@ WH_INLINE wh_real wh_contact_rounding(wh_real a, wh_real b, wh_real c) {
 }
 
 /* Contacts that repeat what others hold may still contradict them: at a dead centre two rows are parallel,
- * but the path that the one keeps bends and that of the other does not, so that the one must let go. Which
- * way is each of `repeats` (bits of places in member[]) to push: 1, -1, or 0 where it agrees? way[] is what
- * all forces make of the accelerations. What bends a path, J' q', is looked at by itself too: beside the
- * other accelerations a slow passage would drown in their rounding. */
+ * but the path that the one keeps bends and that of the other does not, so that the one must let go; in an impact
+ * two stops on one path may bounce differently. Which way is each of `repeats` (bits of places in member[]) to push:
+ * 1, -1, or 0 where it agrees? way[] is what all forces (or impulses) make of the accelerations (or rates). What
+ * bends a path, J' q', is looked at by itself too: beside the other accelerations a slow passage would drown in
+ * their rounding. */
 static inline void wh_contact_contradicts(const wh_contact_system *of, const wh_contact_work *w,
                                           const uint8_t *member, unsigned count, const int8_t *at,
-                                          unsigned repeats, const wh_real *wanted,
+                                          unsigned repeats, bool forces, const wh_real *wanted,
                                           const wh_real *way, int8_t *push) {
     wh_real bend[WH_CONTACTS_MAX] = {WH_R(0.0)};
     wh_real lambda[WH_CONTACTS_MAX];
     wh_real bent[WH_COORDS] = {WH_R(0.0)};
-    for (unsigned i = 0; i < count; i++) {
-        bend[i] = -wh_contact_law(of, w, member[i])[WH_LAW_BIAS];
-    }
-    (void)wh_delassus_solve(of, w, member, count, at, bend, lambda);
-    for (unsigned i = 0; i < count; i++) {
-        wh_contact_apply(of, w, member[i], lambda[i], bent);
+    if (forces) {
+        for (unsigned i = 0; i < count; i++) {
+            bend[i] = -wh_contact_law(of, w, member[i])[WH_LAW_BIAS];
+        }
+        (void)wh_delassus_solve(of, w, member, count, at, bend, lambda);
+        for (unsigned i = 0; i < count; i++) {
+            wh_contact_apply(of, w, member[i], lambda[i], bent);
+        }
     }
     for (unsigned i = 0; i < count; i++) {
         push[i] = 0;
         if ((repeats >> i & 1U) != 0) {
+            const wh_real size = forces ? w->rough[i] : wanted[i];
             const wh_real made = wh_jacobian_times(of, w, member[i], way);
             const wh_real missing = wanted[i] - made;
             const wh_real made_bent = wh_jacobian_times(of, w, member[i], bent);
             const wh_real missing_bend = bend[i] - made_bent;
-            const bool plain = WH_ABS(missing) > wh_contact_rounding(w->rough[i], made, WH_R(0.0));
+            const bool plain = WH_ABS(missing) > wh_contact_rounding(size, made, WH_R(0.0));
             const bool bends =
                 WH_ABS(missing_bend) > wh_contact_rounding(bend[i], made_bent, WH_R(0.0)) &&
-                WH_ABS(missing_bend) > WH_CONTACT_CREEP * w->rough[i];
+                WH_ABS(missing_bend) > WH_CONTACT_CREEP * size;
             const wh_real short_of = plain ? missing : bends ? missing_bend : WH_R(0.0);
             push[i] = (int8_t)((short_of > WH_R(0.0)) - (short_of < WH_R(0.0)));
         }
     }
 }
 
-/* Between what and what contact k can push; holds, and contacts in `keep`, as bits, have no limits. */
-WH_INLINE wh_real wh_contact_high(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
-                                  unsigned keep) {
-    const bool limited = of->contact[k].kind == WH_FRICTION && (keep >> k & 1U) == 0;
-    return limited ? wh_contact_law(of, w, k)[WH_LAW_FIRST] : WH_LIMITLESS;
+/* Between what and what contact k can push. */
+WH_INLINE wh_real wh_contact_high(const wh_contact_system *of, const wh_contact_work *w,
+                                  unsigned k) {
+    return wh_contact_is(of, k, WH_LIMITED) ? wh_contact_law(of, w, k)[WH_LAW_FIRST] : WH_LIMITLESS;
 }
 
-WH_INLINE wh_real wh_contact_low(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
-                                 unsigned keep) {
-    const bool pushes = of->contact[k].kind == WH_STOP && (keep >> k & 1U) == 0;
-    return pushes ? WH_R(0.0) : -wh_contact_high(of, w, k, keep);
+WH_INLINE wh_real wh_contact_low(const wh_contact_system *of, const wh_contact_work *w,
+                                 unsigned k) {
+    return wh_contact_is(of, k, WH_UNILATERAL) ? WH_R(0.0) : -wh_contact_high(of, w, k);
 }
 
-/* Is contact k's share beyond what it can take? */
+/* Is contact k's force beyond what it can take? */
 WH_INLINE bool wh_contact_exceeds(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
-                                  unsigned keep, wh_real lambda) {
-    return lambda < wh_contact_low(of, w, k, keep) || lambda > wh_contact_high(of, w, k, keep);
+                                  wh_real lambda) {
+    return lambda < wh_contact_low(of, w, k) || lambda > wh_contact_high(of, w, k);
 }
 
 /* Beside what sizes the accelerations along each member's row are rounding, into work->rough: its own terms, and what
@@ -195,78 +203,116 @@ static inline void wh_contact_magnitudes(const wh_contact_system *of, wh_contact
  * another stop. Returns its place in member[] and its limit, or count. */
 static inline unsigned wh_contact_gives_way(const wh_contact_system *of, const wh_contact_work *w,
                                             const uint8_t *member, unsigned count, const int8_t *at,
-                                            unsigned keep, unsigned i, int8_t push, int8_t *limit) {
-    const uint8_t kind = of->contact[member[i]].kind;
-    const bool kept = (keep >> member[i] & 1U) != 0;
+                                            unsigned i, int8_t push, int8_t *limit) {
+    const bool pulls = wh_contact_is(of, member[i], WH_UNILATERAL) && push < 0;
     *limit = push;
-    if (kind != WH_HOLD && !kept && (kind == WH_FRICTION || push < 0)) {
+    if (wh_contact_is(of, member[i], WH_LIMITED) || pulls) {
         return i;
     }
     *limit = -1;
     for (unsigned j = 0; j < count; j++) {
-        const bool other = j != i && at[j] == 0 && of->contact[member[j]].kind == WH_STOP;
-        if (other && (keep >> member[j] & 1U) == 0 &&
-            wh_jacobian_times(of, w, member[i],
-                              wh_contact_law(of, w, member[j]) + WH_LAW_ROWS + of->coordinates) !=
-                WH_R(0.0)) {
+        const bool other = j != i && at[j] == 0 && wh_contact_is(of, member[j], WH_UNILATERAL);
+        if (other && wh_delassus(of, w, member[i], member[j]) != WH_R(0.0)) {
             return j;
         }
     }
     return count;
 }
 
+/* One round of the pivoting: the forces lambda[] of those within their limits, with the others at theirs, which
+ * at[] says (-1: the low, 1: the high one), and `way`, what all of them make of the accelerations. Returns those
+ * that repeat what others hold, as bits of places. */
+static inline unsigned wh_contact_lcp_round(const wh_contact_system *of, const wh_contact_work *w,
+                                            const uint8_t *member, unsigned count, const int8_t *at,
+                                            const wh_real *wanted, wh_real *lambda, wh_real *way) {
+    wh_real limit[WH_CONTACTS_MAX] = {WH_R(0.0)};
+    wh_real need[WH_CONTACTS_MAX] = {WH_R(0.0)};
+    for (unsigned i = 0; i < count; i++) {
+        if (at[i] != 0) {
+            limit[i] =
+                at[i] < 0 ? wh_contact_low(of, w, member[i]) : wh_contact_high(of, w, member[i]);
+            wh_contact_apply(of, w, member[i], limit[i], way);
+        }
+    }
+    for (unsigned i = 0; i < count; i++) {
+        need[i] = wanted[i] - wh_jacobian_times(of, w, member[i], way);
+    }
+    const unsigned repeats = wh_delassus_solve(of, w, member, count, at, need, lambda);
+    for (unsigned i = 0; i < count; i++) {
+        if (at[i] != 0) {
+            lambda[i] = limit[i];
+        } else {
+            wh_contact_apply(of, w, member[i], lambda[i], way);
+        }
+    }
+    return repeats;
+}
+
+/* What of the residual of member[i], k, which is at a limit, may be rounding. */
+WH_INLINE wh_real wh_contact_residual_rounding(const wh_contact_system *of,
+                                               const wh_contact_work *w, unsigned i, unsigned k,
+                                               bool forces, wh_real wanted, wh_real made,
+                                               wh_real lambda) {
+    return wh_contact_rounding(wanted, made, lambda * wh_delassus_diagonal(of, w, k)) +
+           (forces ? WH_CONTACT_QUIET * w->rough[i] : WH_R(0.0));
+}
+
+/* The problem of one contact: within its limits, or at the nearer. */
+WH_INLINE unsigned wh_contact_lcp_one(const wh_contact_system *of, const wh_contact_work *w,
+                                      unsigned k, wh_real wanted, bool forces, wh_real *lambda,
+                                      wh_real *left) {
+    const uint8_t member[1] = {(uint8_t)k};
+    (void)wh_delassus_solve(of, w, member, 1, NULL, &wanted, lambda);
+    *left = WH_R(0.0);
+    if (!wh_contact_exceeds(of, w, k, *lambda)) {
+        return 0;
+    }
+    const bool low = *lambda < wh_contact_low(of, w, k);
+    *lambda = low ? wh_contact_low(of, w, k) : wh_contact_high(of, w, k);
+    const wh_real made = wh_delassus_diagonal(of, w, k) * *lambda;
+    const wh_real rounding =
+        wh_contact_residual_rounding(of, w, 0, k, forces, wanted, made, *lambda);
+    *left = made - wanted;
+    return (low ? *left : -*left) > rounding ? 1U << k : 0U;
+}
+
 /* The forces (or impulses) lambda[count] of the contacts in member[] within their limits, and left[count],
  * what they leave of the accelerations (or rates). `forces`: not impulses. Returns the contacts that give
  * way, as bits. */
-static inline unsigned wh_contact_lcp(const wh_contact_system *of, const wh_contact_work *w,
+static inline unsigned wh_contact_lcp(const wh_contact_system *of, wh_contact_work *w,
                                       const uint8_t *member, unsigned count, const wh_real *wanted,
-                                      unsigned keep, bool forces, wh_real *lambda, wh_real *left) {
+                                      bool forces, wh_real *lambda, wh_real *left) {
+    if (of->forced == 1 || count == 1) {
+        return wh_contact_lcp_one(of, w, member[0], wanted[0], forces, lambda, left);
+    }
     int8_t at[WH_CONTACTS_MAX] = {0}; /* -1, 1: at the low, at the high limit */
     unsigned contradicted = 0;        /* those in `at` for what they repeat, as bits of places */
     unsigned giving = 0;
-    for (unsigned round = 0; round <= 4U * count; round++) {
-        wh_real limit[WH_CONTACTS_MAX] = {WH_R(0.0)};
-        wh_real need[WH_CONTACTS_MAX] = {WH_R(0.0)};
+    unsigned wrong = 0;
+    for (unsigned round = 0; wrong < count; round++) {
         wh_real way[WH_COORDS] = {WH_R(0.0)};
         int8_t push[WH_CONTACTS_MAX] = {0};
-        for (unsigned i = 0; i < count; i++) {
-            if (at[i] != 0) {
-                limit[i] = at[i] < 0 ? wh_contact_low(of, w, member[i], keep)
-                                     : wh_contact_high(of, w, member[i], keep);
-                wh_contact_apply(of, w, member[i], limit[i], way);
-            }
+        const unsigned repeats =
+            wh_contact_lcp_round(of, w, member, count, at, wanted, lambda, way);
+        if (repeats != 0) {
+            wh_contact_contradicts(of, w, member, count, at, repeats, forces, wanted, way, push);
         }
-        for (unsigned i = 0; i < count; i++) {
-            need[i] = wanted[i] - wh_jacobian_times(of, w, member[i], way);
-        }
-        const unsigned repeats = wh_delassus_solve(of, w, member, count, at, need, lambda);
-        for (unsigned i = 0; i < count; i++) {
-            if (at[i] != 0) {
-                lambda[i] = limit[i];
-            } else {
-                wh_contact_apply(of, w, member[i], lambda[i], way);
-            }
-        }
-        if (forces && repeats != 0 && of->forced > 1) {
-            wh_contact_contradicts(of, w, member, count, at, repeats, wanted, way, push);
-        }
-        unsigned wrong = count;
         int8_t to = 0;
+        wrong = count;
         giving = 0;
         for (unsigned i = count; i-- > 0;) {
             const unsigned k = member[i];
             left[i] = WH_R(0.0);
             if (at[i] == 0) {
-                if (wh_contact_exceeds(of, w, k, keep, lambda[i])) {
+                if (wh_contact_exceeds(of, w, k, lambda[i])) {
                     wrong = i;
-                    to = lambda[i] < wh_contact_low(of, w, k, keep) ? -1 : 1;
+                    to = lambda[i] < wh_contact_low(of, w, k) ? -1 : 1;
                 }
                 continue;
             }
             const wh_real made = wh_jacobian_times(of, w, k, way);
             const wh_real rounding =
-                wh_contact_rounding(wanted[i], made, lambda[i] * wh_delassus_diagonal(of, w, k)) +
-                (forces ? WH_CONTACT_QUIET * w->rough[i] : WH_R(0.0));
+                wh_contact_residual_rounding(of, w, i, k, forces, wanted[i], made, lambda[i]);
             left[i] = made - wanted[i];
             const wh_real outwards = at[i] < 0 ? left[i] : -left[i];
             if (outwards < -rounding) {
@@ -279,17 +325,20 @@ static inline unsigned wh_contact_lcp(const wh_contact_system *of, const wh_cont
                 giving |= 1U << k;
             }
         }
-        for (unsigned i = 0; i < count && wrong == count && of->forced > 1; i++) {
+        for (unsigned i = 0; i < count && wrong == count; i++) {
             if (push[i] != 0) {
-                wrong = wh_contact_gives_way(of, w, member, count, at, keep, i, push[i], &to);
+                wrong = wh_contact_gives_way(of, w, member, count, at, i, push[i], &to);
                 contradicted |= wrong < count ? 1U << wrong : 0U;
             }
         }
-        if (wrong == count) {
+        if (wrong < count && round == 4U * count) {
+            w->capped = true;
             break;
         }
-        at[wrong] = to;
-        contradicted &= to == 0 ? ~(1U << wrong) : ~0U;
+        if (wrong < count) {
+            at[wrong] = to;
+            contradicted &= to == 0 ? ~(1U << wrong) : ~0U;
+        }
     }
     return giving;
 }

@@ -4,81 +4,12 @@
 
 #include "contact_forces.h"
 
-/* A place between the ends of a try. */
-typedef struct wh_contact_point {
-    wh_phase phase[WH_COORDS];
-    wh_real linear[WH_COORDS];
-    wh_real rate[WH_COORDS];
-} wh_contact_point;
-
 /* What an event search knows of each contact: above zero, its event has not happened. */
 typedef struct wh_margins {
     wh_real value[WH_CONTACTS_MAX];
     wh_real signal[2 * WH_CONTACTS_MAX];
     wh_real all; /* sum of all that is looked at: no finite number if one of it is none */
 } wh_margins;
-
-WH_INLINE void wh_contact_copy(const wh_contact_system *of, const wh_angle *angle,
-                               const wh_real *real, const wh_real *carry, wh_contact_state *to) {
-    const unsigned reals = 2U * of->coordinates - of->angles;
-    WH_UNROLL
-    for (unsigned i = 0; i < of->angles; i++) {
-        to->angle[i] = angle[i];
-    }
-    WH_UNROLL
-    for (unsigned i = 0; i < reals; i++) {
-        to->real[i] = real[i];
-    }
-    for (unsigned i = 0; i < of->angles + reals && of->compensated; i++) {
-        to->carry[i] = carry[i];
-    }
-}
-
-WH_INLINE wh_real *wh_contact_rates(const wh_contact_system *of, wh_contact_state *s) {
-    return s->real + (of->coordinates - of->angles);
-}
-
-/* Step `s` by h in the modes of work. False: *fault left all bounds and s is as it was. */
-static inline bool wh_contact_try(const wh_contact_system *of, wh_contact_work *w, wh_real h,
-                                  wh_real *input, wh_contact_state *s, int *fault) {
-    const wh_contact_model model = {of, w};
-    wh_state view = {0, s->angle, s->real, s->carry, input, NULL, NULL, NULL, -1};
-    wh_books_begin(of, w, s->angle, h);
-    const wh_status status = wh_step_second(&model, wh_contact_accel, of->method, of->compensated,
-                                            of->angles, of->coordinates, h, &view);
-    wh_books_end(of, w);
-    *fault = view.fault;
-    return status == WH_OK;
-}
-
-WH_INLINE void wh_contact_point_of(const wh_contact_system *of, wh_contact_state *s,
-                                   wh_contact_point *at) {
-    const wh_real *rate = wh_contact_rates(of, s);
-    WH_UNROLL
-    for (unsigned i = 0; i < of->angles; i++) {
-        at->phase[i] = wh_phase_of(s->angle[i]);
-    }
-    WH_UNROLL
-    for (unsigned i = of->angles; i < of->coordinates; i++) {
-        at->linear[i - of->angles] = s->real[i - of->angles];
-    }
-    WH_UNROLL
-    for (unsigned i = 0; i < of->coordinates; i++) {
-        at->rate[i] = rate[i];
-    }
-}
-
-/* Where the rates at `s` alone lead in a time. */
-static inline void wh_contact_point_ahead(const wh_contact_system *of, wh_contact_state *s,
-                                          wh_real span, wh_contact_point *at) {
-    wh_contact_point_of(of, s, at);
-    for (unsigned i = 0; i < of->angles; i++) {
-        (void)wh_phase_move(at->phase[i], span * at->rate[i] * WH_PHASE_PER_RAD, &at->phase[i]);
-    }
-    for (unsigned i = of->angles; i < of->coordinates; i++) {
-        at->linear[i - of->angles] += span * at->rate[i];
-    }
-}
 
 /* The place at the share `s` of the way from `from` to `to`, which are h apart: positions by the cubic
  * through both ends' positions and rates, rates by the cubic through both ends' rates and accelerations a0

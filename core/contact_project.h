@@ -2,21 +2,7 @@
 #ifndef WH_CONTACT_PROJECT_H
 #define WH_CONTACT_PROJECT_H
 
-#include "contact_locate.h"
-
-/* The accelerations, forces and signals at a state, in the modes of work. */
-static inline void wh_contact_look(const wh_contact_system *of, wh_contact_work *w,
-                                   wh_contact_state *s, const wh_real *input, wh_real *accel,
-                                   wh_real *signal) {
-    const wh_contact_model model = {of, w};
-    wh_contact_point at;
-    wh_contact_point_of(of, s, &at);
-    wh_contact_accel(&model, at.phase, at.linear, at.rate, input, accel);
-    if (!wh_contact_any_acts(of, w)) {
-        of->forces(of->model, at.phase, at.linear, at.rate, input, w->law);
-    }
-    wh_contact_signals(of, at.phase, at.linear, at.rate, input, signal);
-}
+#include "contact_forces.h"
 
 /* Move coordinate i by `by`, rad or m. */
 WH_INLINE void wh_contact_move(const wh_contact_system *of, unsigned i, wh_real by,
@@ -107,7 +93,7 @@ WH_INLINE unsigned wh_contact_breaking(const wh_contact_system *of, const wh_con
     unsigned bits = 0;
     for (unsigned k = 0; k < of->forced; k++) {
         const bool stuck = of->contact[k].kind == WH_FRICTION && w->mode[k] == WH_STUCK;
-        bits |= stuck && wh_contact_exceeds(of, w, k, 0, w->force[k]) ? 1U << k : 0U;
+        bits |= stuck && wh_contact_exceeds(of, w, k, w->force[k]) ? 1U << k : 0U;
     }
     return bits;
 }
@@ -241,16 +227,22 @@ WH_INLINE unsigned wh_contact_stuck(const wh_contact_system *of, const wh_contac
     return bits;
 }
 
-/* Is stop k passed by more than rounding, as after a step with too many events? Friction does not keep a body
- * there. */
-static inline bool wh_contact_far(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
-                                  const wh_real *signal, const wh_contact_state *s) {
+/* The terms that a stop's gap is the difference of, in size. */
+WH_INLINE wh_real wh_contact_extent(const wh_contact_system *of, const wh_contact_work *w,
+                                    unsigned k, const wh_contact_state *s) {
     const wh_real *row = wh_contact_law(of, w, k) + WH_LAW_ROWS;
     wh_real size = WH_R(0.0);
     for (unsigned i = 0; i < of->coordinates; i++) {
         size += WH_ABS(row[i] * (i < of->angles ? WH_R(1.0) : s->real[i - of->angles]));
     }
-    return signal[2 * k] < (WH_DOUBLE ? WH_R(-1e-9) : WH_R(-1e-5)) * size;
+    return size;
+}
+
+/* Is stop k passed by more than rounding, as after a step with too many events? Friction does not keep a body
+ * there. */
+WH_INLINE bool wh_contact_far(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
+                              const wh_real *signal, const wh_contact_state *s) {
+    return signal[2 * k] < (WH_DOUBLE ? WH_R(-1e-9) : WH_R(-1e-5)) * wh_contact_extent(of, w, k, s);
 }
 
 static inline void wh_contact_put_back(const wh_contact_system *of, wh_contact_work *w, wh_real h,

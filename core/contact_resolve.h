@@ -1,135 +1,30 @@
-/* contact_resolve.h: what an event does (see contact.h). */
+/* contact_resolve.h: what happens at a moment: the one place where modes change (see contact.h).
+ *
+ * wh_contact_resolve() takes the contacts that have an event, all of them at once, so that nothing depends on the order
+ * of the file (but crossings', which are assignments):
+ *
+ *   1. velocities: the stops that are hit get their impulses, then the holds that capture theirs, each by one linear
+ *      complementarity problem with what holds already. Friction's normal force is finite: it gives no impulse.
+ *   2. crossings assign, and what that disturbs is seen to.
+ *   3. accelerations: of the stops that rest and the frictions whose rate is zero, those give way that would have to
+ *      pull, or take more than they can, until none has to.
+ *   4. the rates along what has just come to stick, and all else that holds, are projected to zero.
+ *
+ * The law of impacts is Newton's, for all stops that are hit at the moment together: with J v the rates of their gaps,
+ *
+ *     v+ = v- + M^-1 J^T Lambda,   0 <= Lambda_k,   J_k v+ >= -e_k J_k v-,   one of both with equality,
+ *
+ * beside what rests or is held, which has J_k v- = 0 and e_k = 0 (Moreau; Pfeiffer & Glocker, chapter 8). The energy
+ * changes by 1/2 sum Lambda_k (1 - e_k) J_k v-, which is never above zero as only stops that close take part: with
+ * stops of different restitutions, too. What an impact makes close, while it is touched, is hit in the next
+ * round of the same moment: so an impact runs through a row of balls. */
 #ifndef WH_CONTACT_RESOLVE_H
 #define WH_CONTACT_RESOLVE_H
 
-#include "contact_settle.h"
+#include "contact_impact.h"
+#include "contact_locate.h"
 
-/* Would a flight that begins with `speed` be too short, as stop k is pressed? work->law and accel[] must
- * belong to the state. */
-WH_INLINE bool wh_contact_rests(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
-                                wh_real h, bool rest, wh_real speed, const wh_real *accel) {
-    const wh_real pressing =
-        -(wh_jacobian_times(of, w, k, accel) + wh_contact_law(of, w, k)[WH_LAW_BIAS]);
-    if (pressing == WH_R(0.0)) {
-        return speed == WH_R(0.0);
-    }
-    return pressing > WH_R(0.0) && (rest || speed + speed <= pressing * (h * WH_REST_SHARE));
-}
-
-/* Stops that rest, as bits. */
-WH_INLINE unsigned wh_contact_resting(const wh_contact_system *of, const wh_contact_work *w) {
-    unsigned bits = 0;
-    for (unsigned k = 0; k < of->forced; k++) {
-        bits |= of->contact[k].kind == WH_STOP && w->mode[k] == WH_ACTIVE ? 1U << k : 0U;
-    }
-    return bits;
-}
-
-/* Of the stops `gone`, that an impact let go, those whose flight would be too short rest on, together with
- * what rests: else a body in a corner would be thrown to and fro without an end. */
-static inline void wh_contact_stay(const wh_contact_system *of, wh_contact_work *w, unsigned gone,
-                                   wh_real h, bool rest, const wh_real *accel,
-                                   const wh_real *signal, const wh_real *input,
-                                   wh_contact_state *s) {
-    wh_real *rate = wh_contact_rates(of, s);
-    bool stays = false;
-    for (unsigned k = 0; k < of->forced; k++) {
-        if ((gone >> k & 1U) != 0 &&
-            wh_contact_rests(of, w, k, h, rest, wh_jacobian_times(of, w, k, rate), accel)) {
-            w->mode[k] = WH_ACTIVE;
-            stays = true;
-        }
-    }
-    if (stays) {
-        wh_contact_project_rates(of, w, 0, true, rate);
-        (void)wh_contact_project_places(of, w, &WH_CONTACT_HERE, signal, input, s);
-    }
-}
-
-/* Free stops, but k, that an impulse made close while they are touched, as near as events are located: they
- * are hit at the same moment. `before` and `after` are the signals beside it. */
-WH_INLINE void wh_contact_touched(const wh_contact_system *of, wh_contact_work *w, unsigned k,
-                                  wh_real h, const wh_real *before, const wh_real *after) {
-    for (unsigned l = 0; l < of->forced && of->forced > 1; l++) {
-        const wh_real speed = after[2 * l + 1];
-        const bool free = of->contact[l].kind == WH_STOP && w->mode[l] == WH_FREE && l != k;
-        if (free && speed < WH_R(0.0) && speed < before[2 * l + 1] + before[2 * l + 1] &&
-            after[2 * l] <= -speed * (h * WH_BRACKET)) {
-            w->hit_next |= 1U << l;
-        }
-    }
-}
-
-/* Free stops without restitution that are touched and at rest when k's speed is to change so: nothing presses
- * them, but they are in the way of what the impact moves. One after the other, two plastic impacts would go on
- * for ever; with restitution they do not, and are taken so. */
-static inline unsigned wh_contact_beside(const wh_contact_system *of, const wh_contact_work *w,
-                                         unsigned k, wh_real h, wh_real change,
-                                         const wh_real *signal, const wh_real *rate) {
-    const wh_real *way = wh_contact_law(of, w, k) + WH_LAW_ROWS + of->coordinates;
-    unsigned bits = 0;
-    for (unsigned l = 0; l < of->forced && of->forced > 1; l++) {
-        const bool free = of->contact[l].kind == WH_STOP && w->mode[l] == WH_FREE && l != k;
-        if (free && !(wh_contact_law(of, w, l)[WH_LAW_FIRST] > WH_R(0.0))) {
-            const wh_real passed_on =
-                WH_ABS(wh_jacobian_times(of, w, l, way) * change) / wh_delassus_diagonal(of, w, k);
-            const bool touched = signal[2 * l] <= passed_on * (h * WH_BRACKET);
-            const bool rests =
-                WH_ABS(wh_jacobian_times(of, w, l, rate)) <= WH_CONTACT_STILL * passed_on;
-            bits |= touched && rests && passed_on > WH_R(0.0) ? 1U << l : 0U;
-        }
-    }
-    return bits;
-}
-
-/* A stop is hit: restitution, or rest when the flight that follows would be too short. What is to rest
- * gets one impulse: two, there and back, would let stops go that the one holds. */
-static inline wh_real wh_contact_hit(const wh_contact_system *of, wh_contact_work *w, unsigned k,
-                                     wh_real h, bool rest, const wh_real *input,
-                                     wh_contact_state *s) {
-    wh_real accel[WH_COORDS];
-    wh_real signal[2 * WH_CONTACTS_MAX];
-    wh_real *rate = wh_contact_rates(of, s);
-    wh_real before[2 * WH_CONTACTS_MAX];
-    wh_real impulse = WH_R(0.0);
-    const unsigned resting = wh_contact_resting(of, w);
-    wh_contact_look(of, w, s, input, accel, signal);
-    wh_real speed = wh_jacobian_times(of, w, k, rate);
-    const wh_real before_speed = speed;
-    unsigned beside = 0;
-    if (speed < WH_R(0.0)) {
-        const wh_real given = wh_contact_law(of, w, k)[WH_LAW_FIRST];
-        wh_contact_expect(w, k, given);
-        const wh_real restitution =
-            given > WH_R(0.0) ? (given < WH_R(1.0) ? given : WH_R(1.0)) : WH_R(0.0);
-        speed *= -restitution;
-        speed = wh_contact_rests(of, w, k, h, rest, speed, accel) ? WH_R(0.0) : speed;
-        beside = wh_contact_beside(of, w, k, h, speed - before_speed, signal, rate);
-        impulse = wh_contact_impulse(of, w, k, beside, speed, rate);
-        for (unsigned i = 0; i < 2U * of->forced; i++) {
-            before[i] = signal[i];
-        }
-        wh_contact_look(of, w, s, input, accel, signal);
-        wh_contact_touched(of, w, k, h, before, signal);
-    }
-    if (wh_contact_rests(of, w, k, h, rest, speed, accel)) {
-        if (speed > WH_R(0.0)) {
-            impulse += wh_contact_impulse(of, w, k, beside, WH_R(0.0), rate);
-        }
-        wh_contact_place place = WH_CONTACT_HERE;
-        if (before_speed == WH_R(0.0) && signal[2 * k] < WH_R(0.0)) {
-            place.but =
-                wh_contact_stuck(of, w); /* at rest beyond it: friction does not keep it there */
-        }
-        w->mode[k] = WH_ACTIVE;
-        (void)wh_contact_project_places(of, w, &place, signal, input, s);
-    }
-    const unsigned gone = resting & ~wh_contact_resting(of, w);
-    if (gone != 0) {
-        wh_contact_stay(of, w, gone, h, rest, accel, signal, input, s);
-    }
-    return impulse;
-}
+/* --- crossings ----------------------------------------------------------------------------------- */
 
 /* A crossing's assignments, all evaluated before any is made. */
 static inline void wh_contact_assign(const wh_contact_system *of, wh_contact_work *w, unsigned k,
@@ -140,6 +35,7 @@ static inline void wh_contact_assign(const wh_contact_system *of, wh_contact_wor
     wh_real value[WH_SETS_MAX];
     const wh_contact *c = &of->contact[k];
     bool moves = false;
+    unsigned sides = 0;
     w->mode[k] = (int8_t)-w->mode[k];
     if (c->sets == 0 || of->sets == NULL) {
         return;
@@ -168,75 +64,223 @@ static inline void wh_contact_assign(const wh_contact_system *of, wh_contact_wor
     wh_contact_point_of(of, s, &at);
     wh_contact_signals(of, at.phase, at.linear, at.rate, input, after);
     w->mover = k;
-    for (unsigned l = 0; l < of->forced && moves; l++) {
-        w->moved |= wh_contact_slips(of, w, l) ? 1U << l : 0U; /* what it keeps from now on */
-    }
     for (unsigned l = 0; l < of->forced; l++) {
         const bool same = after[2 * l] == before[2 * l] && after[2 * l + 1] == before[2 * l + 1];
-        w->moved |= same ? 0U : 1U << l;
+        /* what a hold keeps from now on, too */
+        w->moved |= same && !(moves && wh_contact_slips(of, w, l)) ? 0U : 1U << l;
     }
     for (unsigned l = of->forced; l < of->contacts; l++) {
-        if (after[2 * l] != before[2 * l] && after[2 * l] != WH_R(0.0)) {
-            w->mode[l] = after[2 * l] > WH_R(0.0) ? 1 : -1;
-        }
+        sides |= after[2 * l] != before[2 * l] ? 1U << l : 0U;
     }
+    wh_contact_set_sides(of, w, sides, after);
 }
 
-/* Friction breaks loose, or its rate has come to zero; whether that sticks is for settling to decide. Where an
- * impact of the same moment threw it, its new rate says all. */
-static inline void wh_contact_turn(const wh_contact_system *of, wh_contact_work *w, unsigned k,
-                                   const wh_real *input, wh_contact_state *s) {
+/* After a crossing's assignments changed the gaps, conditions or rates of the contacts in work->moved: a
+ * stop that was passed has its gap closed, and rests no longer, as one that was left; what a hold still
+ * keeps is captured again. The gaps are the crossing's doing, and so is their energy. */
+static inline void wh_contact_revise(const wh_contact_system *of, wh_contact_work *w,
+                                     const wh_real *input, wh_contact_state *s) {
     wh_real accel[WH_COORDS];
     wh_real signal[2 * WH_CONTACTS_MAX];
-    const unsigned pin = (unsigned)of->contact[k].pin;
-    const wh_real v = wh_contact_rates(of, s)[pin];
-    if (v != w->came[pin]) {
-        return;
-    }
-    if (w->mode[k] != WH_STUCK) {
-        w->mode[k] = WH_STUCK;
-        w->turned |= 1U << k;
-        return;
-    }
+    wh_real zero[WH_CONTACTS_MAX] = {WH_R(0.0)};
+    wh_real impulse[WH_CONTACTS_MAX] = {WH_R(0.0)};
     wh_contact_look(of, w, s, input, accel, signal);
-    w->mode[k] = w->force[k] > WH_R(0.0) ? -1 : 1;
-    const wh_real forward = w->mode[k] > 0 ? v : -v;
-    w->slack[k] = forward < WH_R(0.0) ? -(forward + forward) : WH_R(0.0);
+    wh_contact_place place = {NULL, WH_R(0.0), 0, w->mover};
+    const unsigned stops = w->moved & (wh_contact_which(of, w, WH_STOP, true) |
+                                       wh_contact_which(of, w, WH_STOP, false));
+    const unsigned holds = w->moved & wh_contact_which(of, w, WH_HOLD, true);
+    unsigned kept = 0;
+    unsigned passed = 0;
+    for (unsigned k = 0; k < of->forced; k++) {
+        const bool below = signal[2 * k] < WH_R(0.0);
+        passed |= below ? stops & 1U << k : 0U;
+        kept |= signal[2 * k] > WH_R(0.0) ? holds & 1U << k : 0U;
+    }
+    w->moved = 0;
+    wh_contact_set_modes(of, w, holds & ~kept, WH_FREE);
+    for (unsigned k = 0; k < of->forced; k++) {
+        if ((kept >> k & 1U) != 0) {
+            wh_contact_capture(of, w, k);
+        }
+    }
+    wh_contact_set_modes(of, w, stops, WH_FREE);
+    if (passed != 0) {
+        wh_contact_set_modes(of, w, passed, WH_ACTIVE); /* only as long as it is put back */
+        (void)wh_contact_project_places(of, w, &place, signal, input, s);
+        wh_contact_look(of, w, s, input, accel, signal);
+        wh_contact_set_modes(of, w, passed, WH_FREE);
+    }
+    if (kept != 0) {
+        const unsigned released =
+            wh_contact_impulses(of, w, kept, 0, zero, wh_contact_rates(of, s), impulse);
+        wh_contact_set_modes(of, w, released, WH_FREE);
+    }
 }
 
-/* Take one event of contact k. `rest`: no more bounces in this step. */
-static inline wh_real wh_contact_take(const wh_contact_system *of, wh_contact_work *w, unsigned k,
-                                      wh_real h, bool rest, const wh_real *input,
-                                      wh_contact_state *s) {
-    wh_real accel[WH_COORDS];
-    wh_real before[2 * WH_CONTACTS_MAX];
-    wh_real after[2 * WH_CONTACTS_MAX];
-    wh_contact_point at;
-    wh_real *rate = wh_contact_rates(of, s);
-    wh_real impulse = WH_R(0.0);
-    switch (of->contact[k].kind) {
-    case WH_STOP:
-        if (w->mode[k] == WH_ACTIVE) {
-            w->mode[k] = WH_FREE;
-        } else {
-            impulse = wh_contact_hit(of, w, k, h, rest, input, s);
-        }
-        break;
-    case WH_HOLD:
-        w->mode[k] = w->mode[k] == WH_ACTIVE ? WH_FREE : WH_ACTIVE;
-        if (w->mode[k] == WH_ACTIVE) {
-            wh_contact_look(of, w, s, input, accel, before);
-            wh_contact_capture(of, w, k);
-            impulse = wh_contact_impulse(of, w, k, 0, WH_R(0.0), rate);
-            wh_contact_point_of(of, s, &at);
-            wh_contact_signals(of, at.phase, at.linear, at.rate, input, after);
-            wh_contact_touched(of, w, k, h, before, after);
-        }
-        break;
-    case WH_FRICTION: wh_contact_turn(of, w, k, input, s); break;
-    default: wh_contact_assign(of, w, k, input, s); break;
+/* --- accelerations ------------------------------------------------------------------------------- */
+
+/* Of the contacts that give way, those that do so first, as bits: all stops; else, since what slides pushes
+ * less than what sticks and may relieve the others, the friction whose load is most above its limit: the first
+ * to reach it, if the load grew from nothing. Those that reach it together slide together. */
+WH_INLINE unsigned wh_contact_first(const wh_contact_system *of, const wh_contact_work *w,
+                                    unsigned giving) {
+    const unsigned stops = giving & wh_contact_which(of, w, WH_STOP, true);
+    if (stops != 0 || (giving & (giving - 1U)) == 0 || of->forced == 1) {
+        return stops != 0 ? stops : giving;
     }
-    return impulse;
+    unsigned bits = 0;
+    for (unsigned k = 0; k < of->forced; k++) {
+        bool most = (giving >> k & 1U) != 0;
+        for (unsigned l = 0; l < of->forced && most; l++) {
+            const wh_real above = WH_ABS(w->force[l]) * wh_contact_law(of, w, k)[WH_LAW_FIRST];
+            const wh_real own = WH_ABS(w->force[k]) * wh_contact_law(of, w, l)[WH_LAW_FIRST];
+            most = (giving >> l & 1U) == 0 || !(above - own > WH_CONTACT_ROUNDING * above);
+        }
+        bits |= most ? 1U << k : 0U;
+    }
+    return bits;
+}
+
+/* Which way friction slides, as its rate says; where the location left it on the side that it comes from, as was
+ * found there. What has just come to zero (`zeros`, as bits, unless an impact of the same moment threw it), or is left
+ * there by the rounding of what others did, waits for the forces' word. `h`: the step; work->law must belong to this
+ * position, but for h = 0. */
+WH_INLINE void wh_contact_slide(const wh_contact_system *of, wh_contact_work *w, unsigned zeros,
+                                wh_real h, const wh_real *rate) {
+    unsigned stick = 0;
+    unsigned slides[2] = {0, 0}; /* backward, forward */
+    for (unsigned k = 0; k < of->forced; k++) {
+        if (of->contact[k].kind != WH_FRICTION) {
+            continue;
+        }
+        const wh_real v = rate[of->contact[k].pin];
+        const wh_real forward = w->mode[k] > 0 ? v : -v;
+        const bool left = w->slack[k] > WH_R(0.0) && forward + w->slack[k] >= WH_R(0.0);
+        const wh_real none = h > WH_R(0.0)
+                                 ? WH_CONTACT_STILL * h * wh_contact_law(of, w, k)[WH_LAW_FIRST] *
+                                       wh_delassus_diagonal(of, w, k)
+                                 : WH_R(0.0);
+        const bool zero = (zeros >> k & 1U) != 0 && v == w->came[of->contact[k].pin];
+        if (zero || (v != WH_R(0.0) && WH_ABS(v) <= none)) {
+            stick |= 1U << k;
+        } else if (v != WH_R(0.0) && !left) {
+            slides[v > WH_R(0.0)] |= 1U << k;
+            w->slack[k] = WH_R(0.0);
+        }
+    }
+    w->turned |= stick;
+    wh_contact_set_modes(of, w, stick, WH_STUCK);
+    wh_contact_set_modes(of, w, slides[0], -1);
+    wh_contact_set_modes(of, w, slides[1], 1);
+}
+
+/* Which resting stops would have to pull and fly, which stuck coordinates break loose? What breaks loose pushes less
+ * than before, so others may follow: each round lets at least one go. Of those in `must`, as bits, whose force was
+ * found beyond its limit, one does at least, if only by rounding. */
+static inline void wh_contact_give_way(const wh_contact_system *of, wh_contact_work *w,
+                                       unsigned must, const wh_real *input, wh_contact_state *s) {
+    wh_real accel[WH_COORDS];
+    wh_real signal[2 * WH_CONTACTS_MAX];
+    unsigned first = ~0U;
+    while (first != 0 && wh_contact_watched(of, w)) {
+        uint8_t member[WH_CONTACTS_MAX] = {0};
+        wh_real lambda[WH_CONTACTS_MAX];
+        wh_real left[WH_CONTACTS_MAX] = {WH_R(0.0)};
+        unsigned giving = 0;
+        unsigned slides[2] = {0, 0}; /* backward, forward */
+        bool exceeds = false;
+        wh_contact_look(of, w, s, input, accel, signal);
+        const unsigned count = wh_contact_members(of, w, 0, member);
+        for (unsigned i = 0; i < count; i++) {
+            exceeds = exceeds || wh_contact_exceeds(of, w, member[i], w->force[member[i]]);
+        }
+        if (exceeds) {
+            wh_contact_magnitudes(of, w, member, count, accel);
+            giving = wh_contact_lcp(of, w, member, count, w->wanted, true, lambda, left);
+        }
+        for (unsigned i = 0; i < count && giving == 0; i++) {
+            left[i] = -w->force[member[i]];
+        }
+        giving = giving != 0 ? giving : must;
+        first = wh_contact_first(of, w, giving);
+        for (unsigned i = 0; i < count; i++) {
+            const unsigned bit = first & 1U << member[i];
+            slides[left[i] > WH_R(0.0)] |= of->contact[member[i]].kind == WH_FRICTION ? bit : 0U;
+            must &= bit != 0 ? 0U : ~0U;
+        }
+        wh_contact_set_modes(of, w, first, WH_FREE);
+        wh_contact_set_modes(of, w, slides[0], -1);
+        wh_contact_set_modes(of, w, slides[1], 1);
+    }
+}
+
+/* Of what has just come to zero, what the forces keep there sticks: friction, which would take the rest of the
+ * rate away in no time, does, together with all else that is held, so that two frictions do not shake each
+ * other loose. What slides on does so the way it is pushed, on whichever side of zero it is. */
+WH_INLINE void wh_contact_stick(const wh_contact_system *of, wh_contact_work *w, wh_real *rate) {
+    bool sticks = false;
+    for (unsigned k = 0; k < of->forced; k++) {
+        if ((w->turned >> k & 1U) != 0) {
+            const wh_real v = rate[of->contact[k].pin];
+            const wh_real forward = w->mode[k] > 0 ? v : -v;
+            sticks = sticks || w->mode[k] == WH_STUCK;
+            w->slack[k] =
+                w->mode[k] != WH_STUCK && forward < WH_R(0.0) ? -(forward + forward) : WH_R(0.0);
+        }
+    }
+    w->turned = 0;
+    if (sticks) {
+        wh_contact_project_rates(of, w, 0, true, rate);
+    }
+}
+
+/* --- all that happens at one moment -------------------------------------------------------------- */
+
+/* Returns what had an event, as bits; impulse[forced]: what each got. */
+WH_APART unsigned wh_contact_resolve(const wh_contact_system *of, wh_contact_work *w,
+                                     const wh_contact_moment *m, const wh_real *input,
+                                     wh_contact_state *now, wh_real *impulse) {
+    wh_real *rate = wh_contact_rates(of, now);
+    unsigned events = m->events;
+    const unsigned loads = events & (wh_contact_which(of, w, WH_STOP, true) |
+                                     wh_contact_which(of, w, WH_FRICTION, true));
+    const unsigned hits = events & wh_contact_which(of, w, WH_STOP, false);
+    const unsigned let_go = events & wh_contact_which(of, w, WH_HOLD, true);
+    const unsigned captures = events & wh_contact_which(of, w, WH_HOLD, false);
+    const unsigned zeros = events & wh_contact_which(of, w, WH_FRICTION, false);
+    for (unsigned i = 0; i < of->coordinates; i++) {
+        w->came[i] = rate[i];
+    }
+    for (unsigned k = 0; k < of->forced; k++) {
+        impulse[k] = WH_R(0.0);
+    }
+    wh_contact_set_modes(of, w, m->falls, WH_FREE);
+    if (hits != 0) {
+        events |= wh_contact_hit(of, w, hits, m, input, now, impulse);
+    }
+    wh_contact_set_modes(of, w, let_go, WH_FREE);
+    if (captures != 0) {
+        wh_contact_captures(of, w, captures, m->h, input, now, impulse);
+    }
+    for (unsigned k = of->forced; k < of->contacts; k++) {
+        if ((events >> k & 1U) != 0) {
+            wh_contact_assign(of, w, k, input, now);
+        }
+    }
+    if (w->moved != 0) {
+        wh_contact_revise(of, w, input, now);
+    }
+    wh_contact_slide(of, w, zeros, m->h, rate);
+    unsigned must = 0;
+    for (unsigned k = 0; k < of->forced; k++) {
+        must |= wh_contact_constrains(of, w, k) ? loads & 1U << k : 0U;
+    }
+    wh_contact_give_way(of, w, must, input, now);
+    wh_contact_stick(of, w, rate);
+    for (unsigned k = 0; k < of->forced; k++) { /* others relieved it */
+        events &= (must >> k & 1U) != 0 && wh_contact_constrains(of, w, k) ? ~(1U << k) : ~0U;
+    }
+    return events;
 }
 
 /* Where an input has moved a resting stop since the last step: the body is put back onto it, or falls if
@@ -247,8 +291,8 @@ static inline void wh_contact_follow(const wh_contact_system *of, wh_contact_wor
     wh_real accel[WH_COORDS];
     wh_real signal[2 * WH_CONTACTS_MAX];
     unsigned moved = WH_CONTACTS_MAX;
+    wh_contact_place place = WH_CONTACT_HERE;
     bool held = false;
-    bool falls = false;
     for (unsigned k = 0; k < of->forced; k++) {
         const bool rests = of->contact[k].kind == WH_STOP && w->mode[k] == WH_ACTIVE;
         moved = rests && of->contact[k].direction != 0 ? k : moved;
@@ -262,8 +306,7 @@ static inline void wh_contact_follow(const wh_contact_system *of, wh_contact_wor
         const wh_contact *c = &of->contact[k];
         if (c->kind == WH_STOP && c->direction != 0 && w->mode[k] == WH_ACTIVE) {
             const wh_real closes = WH_R(0.5) * h * h * w->force[k] * wh_delassus_diagonal(of, w, k);
-            w->mode[k] = signal[2 * k] > closes ? WH_FREE : WH_ACTIVE;
-            falls = falls || w->mode[k] == WH_FREE;
+            place.but |= signal[2 * k] > closes ? 1U << k : 0U;
         } else if (c->direction < 0) {
             wh_contact_capture(of, w, k);
         }
@@ -271,10 +314,12 @@ static inline void wh_contact_follow(const wh_contact_system *of, wh_contact_wor
     if (moved == WH_CONTACTS_MAX) {
         return;
     }
-    const wh_contact_place place = {NULL, WH_R(0.0), 0, moved};
+    place.mover = moved;
     (void)wh_contact_project_places(of, w, &place, signal, input, s);
-    if (falls) {
-        wh_contact_settle(of, w, h, 0, input, s);
+    if (place.but != 0) {
+        const wh_contact_moment m = {0, place.but, h, false};
+        wh_real impulse[WH_CONTACTS_MAX];
+        (void)wh_contact_resolve(of, w, &m, input, s, impulse);
     }
 }
 
@@ -283,32 +328,25 @@ static inline void wh_contact_begin(const wh_contact_system *of, wh_contact_work
                                     const wh_real *input, wh_contact_state *s) {
     wh_real accel[WH_COORDS];
     wh_real signal[2 * WH_CONTACTS_MAX];
+    wh_real impulse[WH_CONTACTS_MAX];
+    wh_contact_moment m = {0, 0, h, false};
     for (unsigned k = 0; k < of->contacts; k++) {
         w->mode[k] = 0; /* free, stuck, on no side */
     }
-    (void)wh_contact_slides(of, w, WH_R(0.0), wh_contact_rates(of, s));
+    wh_contact_slide(of, w, 0, WH_R(0.0), wh_contact_rates(of, s));
     wh_contact_look(of, w, s, input, accel, signal);
     for (unsigned k = 0; k < of->contacts; k++) {
         wh_contact_expect(w, k, signal[2 * k] + signal[2 * k + 1]);
     }
-    for (unsigned k = 0; k < of->contacts; k++) {
+    for (unsigned k = 0; k < of->forced; k++) {
         const wh_real value = signal[2 * k];
-        switch (of->contact[k].kind) {
-        case WH_STOP:
-            if (value <= WH_R(0.0) && signal[2 * k + 1] <= WH_R(0.0)) {
-                (void)wh_contact_take(of, w, k, h, false, input, s);
-            }
-            break;
-        case WH_HOLD:
-            if (value > WH_R(0.0)) {
-                (void)wh_contact_take(of, w, k, h, false, input, s);
-            }
-            break;
-        case WH_FRICTION: break;
-        default: w->mode[k] = (int8_t)((value > WH_R(0.0)) - (value < WH_R(0.0))); break;
-        }
+        const bool closed =
+            of->contact[k].kind == WH_STOP && value <= WH_R(0.0) && signal[2 * k + 1] <= WH_R(0.0);
+        const bool holds = of->contact[k].kind == WH_HOLD && value > WH_R(0.0);
+        m.events |= closed || holds ? 1U << k : 0U;
     }
-    wh_contact_settle(of, w, h, 0, input, s);
+    wh_contact_set_sides(of, w, ~0U, signal);
+    (void)wh_contact_resolve(of, w, &m, input, s, impulse);
 }
 
 #endif

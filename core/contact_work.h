@@ -39,6 +39,7 @@ typedef struct wh_contact_work {
     wh_real held[WH_CONTACTS_MAX]; /* what holds keep, by place: see wh_contact */
     unsigned moved; /* contacts whose signals a crossing's assignments changed, as bits */
     unsigned mover; /* that crossing */
+    bool capped;    /* a load was shared as far as the pivoting's cap lets it */
     int fault;      /* component that was assigned what it cannot hold, or -1 */
     int undefined;  /* contact with an expression that was no finite number, or -1 */
 #if WH_LEDGER
@@ -72,6 +73,62 @@ WH_INLINE void wh_contact_signals(const wh_contact_system *of, const wh_phase *p
     of->signals(of->model, phase, linear, rate, input, signal);
 }
 
+/* A place between the ends of a try. */
+typedef struct wh_contact_point {
+    wh_phase phase[WH_COORDS];
+    wh_real linear[WH_COORDS];
+    wh_real rate[WH_COORDS];
+} wh_contact_point;
+
+WH_INLINE void wh_contact_copy(const wh_contact_system *of, const wh_angle *angle,
+                               const wh_real *real, const wh_real *carry, wh_contact_state *to) {
+    const unsigned reals = 2U * of->coordinates - of->angles;
+    WH_UNROLL
+    for (unsigned i = 0; i < of->angles; i++) {
+        to->angle[i] = angle[i];
+    }
+    WH_UNROLL
+    for (unsigned i = 0; i < reals; i++) {
+        to->real[i] = real[i];
+    }
+    for (unsigned i = 0; i < of->angles + reals && of->compensated; i++) {
+        to->carry[i] = carry[i];
+    }
+}
+
+WH_INLINE wh_real *wh_contact_rates(const wh_contact_system *of, wh_contact_state *s) {
+    return s->real + (of->coordinates - of->angles);
+}
+
+WH_INLINE void wh_contact_point_of(const wh_contact_system *of, wh_contact_state *s,
+                                   wh_contact_point *at) {
+    const wh_real *rate = wh_contact_rates(of, s);
+    WH_UNROLL
+    for (unsigned i = 0; i < of->angles; i++) {
+        at->phase[i] = wh_phase_of(s->angle[i]);
+    }
+    WH_UNROLL
+    for (unsigned i = of->angles; i < of->coordinates; i++) {
+        at->linear[i - of->angles] = s->real[i - of->angles];
+    }
+    WH_UNROLL
+    for (unsigned i = 0; i < of->coordinates; i++) {
+        at->rate[i] = rate[i];
+    }
+}
+
+/* Where the rates at `s` alone lead in a time. */
+static inline void wh_contact_point_ahead(const wh_contact_system *of, wh_contact_state *s,
+                                          wh_real span, wh_contact_point *at) {
+    wh_contact_point_of(of, s, at);
+    for (unsigned i = 0; i < of->angles; i++) {
+        (void)wh_phase_move(at->phase[i], span * at->rate[i] * WH_PHASE_PER_RAD, &at->phase[i]);
+    }
+    for (unsigned i = of->angles; i < of->coordinates; i++) {
+        at->linear[i - of->angles] += span * at->rate[i];
+    }
+}
+
 WH_INLINE const wh_real *wh_contact_law(const wh_contact_system *of, const wh_contact_work *w,
                                         unsigned k) {
     return w->law + k * (WH_LAW_ROWS + 2U * of->coordinates);
@@ -99,6 +156,17 @@ WH_INLINE void wh_contact_apply(const wh_contact_system *of, const wh_contact_wo
     for (unsigned i = 0; i < of->coordinates; i++) {
         x[i] += way[i] * lambda;
     }
+}
+
+/* J_k M^-1 J_l^T, an entry of the Delassus matrix: what a force of l makes of the acceleration along k. */
+WH_INLINE wh_real wh_delassus(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
+                              unsigned l) {
+    return wh_jacobian_times(of, w, k, wh_contact_law(of, w, l) + WH_LAW_ROWS + of->coordinates);
+}
+
+/* Is contact k of a kind that is `trait`? */
+WH_INLINE bool wh_contact_is(const wh_contact_system *of, unsigned k, unsigned trait) {
+    return (wh_contact_kinds(trait) >> of->contact[k].kind & 1U) != 0;
 }
 
 /* What a step builds on must be finite numbers. */

@@ -193,14 +193,16 @@ bool power_multiplies_out(const poly *base, double exponent, double kept) {
 
 /* --- products ------------------------------------------------------------------------------------*/
 
-/* Powers that do not stay a power: |p|^2 = p^2, and a whole power of a group that is small enough to
+/* Powers that do not stay a power: |p|^n = p^n for an even n, and a whole power of a group that is small enough to
  * be multiplied out. Returns NULL for all others. */
 static const poly *power_expands(algebra *a, const factor *f) {
     if (f->atom->kind == ATOM_CALL && f->atom->function == FN_ABS && f->exponent >= 2.0) {
-        const poly *square = poly_mul(a, f->atom->argument[0], f->atom->argument[0]);
-        return f->exponent == 2.0
-                   ? square
-                   : poly_mul(a, square, poly_of_atom(a, f->atom, f->exponent - 2.0));
+        const poly *inside = f->atom->argument[0];
+        const double even = 2.0 * number_floor(f->exponent / 2.0);
+        const poly *opened = even == 2.0 ? poly_mul(a, inside, inside) : poly_pow(a, inside, even);
+        return f->exponent == even
+                   ? opened
+                   : poly_mul(a, opened, poly_of_atom(a, f->atom, f->exponent - even));
     }
     if (f->atom->kind == ATOM_GROUP && is_whole(f->exponent) && f->exponent > 0.0) {
         const poly *inside = f->atom->argument[0];

@@ -15,8 +15,14 @@ static double start_value(void *context, const symbol *s, int primes) {
     switch (s->kind) {
     case SYM_PARAMETER: return inst->parameter[s->index];
     case SYM_INPUT: return inst->input[s->index];
-    default: return primes < inst->start_count[s->index] ? inst->start[s->index][primes] : 0.0;
+    case SYM_COORDINATE:
+    case SYM_STATE:
+        return primes < inst->start_count[s->index] ? inst->start[s->index][primes] : 0.0;
+    case SYM_LET: /* expressions: none stands in a poly */
+    case SYM_OUTPUT:
+    case SYM_RECORD: break;
     }
+    return (double)NAN;
 }
 
 static double at_start(const equations *e, const poly *p) {

@@ -1,12 +1,59 @@
-/* contact.c: stop, friction and hold; `when` has its own file. */
+/* contact_statement.c: stop, friction and hold; `when` has its own file. */
 #include <stdio.h>
 #include <string.h>
 
-#include "parser.h"
+#include "statements.h"
 
-static const char stop_form[] = "stop x >= 0 [m] restitution 0.5";
-static const char friction_form[] = "friction x static 0.3 kinetic 0.2 normal m*g";
-static const char hold_form[] = "hold x - y while x > 0 [m] and x' > 0 [m/s]";
+void contact_on_system(parser *in, const contact_statement *each) {
+    diag_error(in->diags, each->at, "write the mechanism with coordinate, T, V, F and Q",
+               "'%s' does not go with state and equation", contact_word(each->kind));
+}
+
+/* Both take part whenever one of them does. */
+static bool always_meet(const contact_statement *a, const contact_statement *b) {
+    return a->effect == b->effect || a->effect < 0 || b->effect < 0;
+}
+
+static void check_friction_once(parser *in, const contact_statement *made) {
+    const mechanism *into = in->builder->made;
+    for (int i = 0; i < into->contact_count && made->kind == CONTACT_FRICTION; i++) {
+        const contact_statement *each = &into->contacts[i];
+        if (each->kind == CONTACT_FRICTION && each->coordinate == made->coordinate &&
+            made->coordinate != NULL && always_meet(each, made)) {
+            diag_error(in->diags, made->at, "add its normal forces up in one statement",
+                       "friction on '%s' was already given in line %d", made->coordinate->name,
+                       each->at.line);
+            break;
+        }
+    }
+}
+
+static void append(parser *in, const contact_statement **list, int *count,
+                   const contact_statement *made) {
+    contact_statement *longer =
+        arena_room(in->arena, (contact_statement *)*list, *count, sizeof *longer);
+    longer[(*count)++] = *made;
+    *list = longer;
+}
+
+bool add_contact(parser *in, const contact_statement *made) {
+    mechanism *into = in->builder->made;
+    if (in->draft == NULL) {
+        check_friction_once(in, made);
+        append(in, &into->contacts, &into->contact_count, made);
+        return true;
+    }
+    if (into->is_system) {
+        contact_on_system(in, made);
+    }
+    append(in, &in->draft->made->whens, &in->draft->made->when_count, made);
+    return true;
+}
+
+contact_statement contact_begun(const parser *in, const statement_word *word) {
+    return (contact_statement){
+        .kind = (contact_kind)word->kind, .effect = in->effect, .at = in->statement_at};
+}
 
 /* What a stop or a hold acts on must move. */
 static void check_moves(parser *in, place at, const expr *value, const char *what) {
@@ -25,7 +72,8 @@ static const expr *parse_number_between(parser *in, const char *what) {
     return value;
 }
 
-static bool parse_stop(parser *in, contact_statement *made) {
+bool read_stop(parser *in, const statement_word *word) {
+    contact_statement made = contact_begun(in, word);
     char words[80];
     const place at = in->token.at;
     const expr *left = parse_expression(in, CONTEXT_GAP);
@@ -38,7 +86,7 @@ static bool parse_stop(parser *in, contact_statement *made) {
         parser_fail(in, sign.sign == '>' ? "write >=" : "write <=",
                     "a stop is touched where both sides are equal");
     } else if (!above && !parser_is_sign(in, SIGN_AT_MOST)) {
-        return parser_fail(in, stop_form, "'>=' or '<=' is missing before %s",
+        return parser_fail(in, word->form, "'>=' or '<=' is missing before %s",
                            token_words(&in->token, words, sizeof words));
     }
     parser_next(in);
@@ -46,16 +94,17 @@ static bool parse_stop(parser *in, contact_statement *made) {
     if (right == NULL) {
         return false;
     }
-    made->value = expr_difference(in, sign.at, above ? left : right, above ? right : left);
-    if (made->value == NULL) {
+    made.value = expr_difference(in, sign.at, above ? left : right, above ? right : left);
+    if (made.value == NULL) {
         return false;
     }
-    check_moves(in, at, made->value, "what a stop limits");
-    if (!parser_expect_word(in, "restitution", stop_form)) {
+    check_moves(in, at, made.value, "what a stop limits");
+    if (!parser_expect_word(in, WORD_RESTITUTION, WORD_STOP)) {
         return false;
     }
-    made->restitution = parse_number_between(in, "the restitution");
-    return made->restitution != NULL && parser_end_statement(in, "the restitution");
+    made.restitution = parse_number_between(in, "the restitution");
+    return made.restitution != NULL && parser_end_statement(in, "the restitution") &&
+           add_contact(in, &made);
 }
 
 /* The coordinate's generalized force: a force for a length, a torque for an angle. */
@@ -80,99 +129,45 @@ static const expr *parse_normal(parser *in, const symbol *coordinate) {
     return value;
 }
 
-static bool parse_friction(parser *in, contact_statement *made) {
+bool read_friction(parser *in, const statement_word *word) {
+    contact_statement made = contact_begun(in, word);
     char words[80];
     const token name = in->token;
-    if (name.kind != TOKEN_NAME ||
-        (token_is(&name, "static") && names_find(in->names, "static", 6) == NULL)) {
-        return parser_fail(in, friction_form, "friction needs its coordinate, not %s",
+    if (name.kind != TOKEN_NAME || (token_is_word(&name, WORD_STATIC) &&
+                                    names_find(in->names, name.text, name.length) == NULL)) {
+        return parser_fail(in, word->form, "friction needs its coordinate, not %s",
                            token_words(&in->token, words, sizeof words));
     }
-    made->coordinate = find_coordinate(in, &name, "friction");
+    made.coordinate = find_coordinate(in, &name, "friction");
     parser_next(in);
-    if (!parser_expect_word(in, "static", friction_form)) {
+    if (!parser_expect_word(in, WORD_STATIC, WORD_FRICTION)) {
         return false;
     }
-    made->static_friction = parse_number_between(in, "the coefficient of static friction");
-    if (made->static_friction == NULL || !parser_expect_word(in, "kinetic", friction_form)) {
+    made.static_friction = parse_number_between(in, "the coefficient of static friction");
+    if (made.static_friction == NULL || !parser_expect_word(in, WORD_KINETIC, WORD_FRICTION)) {
         return false;
     }
-    made->kinetic_friction = parse_number_between(in, "the coefficient of kinetic friction");
-    if (made->kinetic_friction == NULL || !parser_expect_word(in, "normal", friction_form)) {
+    made.kinetic_friction = parse_number_between(in, "the coefficient of kinetic friction");
+    if (made.kinetic_friction == NULL || !parser_expect_word(in, WORD_NORMAL, WORD_FRICTION)) {
         return false;
     }
-    made->normal = parse_normal(in, made->coordinate);
-    return made->normal != NULL && parser_end_statement(in, "the normal force");
+    made.normal = parse_normal(in, made.coordinate);
+    return made.normal != NULL && parser_end_statement(in, "the normal force") &&
+           add_contact(in, &made);
 }
 
-static bool parse_hold(parser *in, contact_statement *made) {
+bool read_hold(parser *in, const statement_word *word) {
+    contact_statement made = contact_begun(in, word);
     const place at = in->token.at;
-    made->value = parse_expression(in, CONTEXT_GAP);
-    if (made->value == NULL) {
+    made.value = parse_expression(in, CONTEXT_GAP);
+    if (made.value == NULL) {
         return false;
     }
-    check_moves(in, at, made->value, "what is held");
-    if (!parser_expect_word(in, "while", hold_form)) {
+    check_moves(in, at, made.value, "what is held");
+    if (!parser_expect_word(in, WORD_WHILE, WORD_HOLD)) {
         return false;
     }
-    made->condition = parse_condition(in, hold_form);
-    return made->condition != NULL && parser_end_statement(in, "the condition");
-}
-
-/* Both take part whenever one of them does. */
-static bool always_meet(const contact_statement *a, const contact_statement *b) {
-    return a->effect == b->effect || a->effect < 0 || b->effect < 0;
-}
-
-static void add_contact(parser *in, const contact_statement *made) {
-    mechanism *into = in->builder->made;
-    for (int i = 0; i < into->contact_count && made->kind == CONTACT_FRICTION; i++) {
-        const contact_statement *each = &into->contacts[i];
-        if (each->kind == CONTACT_FRICTION && each->coordinate == made->coordinate &&
-            made->coordinate != NULL && always_meet(each, made)) {
-            diag_error(in->diags, made->at, "add its normal forces up in one statement",
-                       "friction on '%s' was already given in line %d", made->coordinate->name,
-                       each->at.line);
-            break;
-        }
-    }
-    contact_statement *longer = arena_room(in->arena, (contact_statement *)into->contacts,
-                                           into->contact_count, sizeof *longer);
-    longer[into->contact_count++] = *made;
-    into->contacts = longer;
-}
-
-bool parse_contact(parser *in, bool *known) {
-    static const struct {
-        const char *word;
-        contact_kind kind;
-        bool (*read)(parser *, contact_statement *);
-    } words[] = {{"stop", CONTACT_STOP, parse_stop},
-                 {"friction", CONTACT_FRICTION, parse_friction},
-                 {"hold", CONTACT_HOLD, parse_hold},
-                 {"when", CONTACT_WHEN, parse_when}};
-    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
-        if (parser_is_word(in, words[i].word)) {
-            *known = true;
-            contact_statement made = {
-                .kind = words[i].kind, .effect = in->effect, .at = in->token.at};
-            parser_next(in);
-            const bool good = words[i].read(in, &made);
-            if (good) {
-                add_contact(in, &made);
-            }
-            return good;
-        }
-    }
-    *known = false;
-    return false;
-}
-
-void contact_on_system(parser *in, const contact_statement *each) {
-    static const char *const words[] = {[CONTACT_STOP] = "stop",
-                                        [CONTACT_FRICTION] = "friction",
-                                        [CONTACT_HOLD] = "hold",
-                                        [CONTACT_WHEN] = "when"};
-    diag_error(in->diags, each->at, "write the mechanism with coordinate, T, V, F and Q",
-               "'%s' does not go with state and equation", words[each->kind]);
+    made.condition = parse_condition(in, WORD_HOLD);
+    return made.condition != NULL && parser_end_statement(in, "the condition") &&
+           add_contact(in, &made);
 }

@@ -7,6 +7,7 @@
 #include "model.h"
 #include "override.h"
 #include "value.h"
+#include "words.h"
 
 #define STEP_DEFAULT_S 1e-3
 #define UNTIL_DEFAULT_S 10.0
@@ -81,11 +82,6 @@ static void apply_scene(plan *into, const scene *from, instance *made) {
     }
 }
 
-const effect *instance_lacks(const instance *of, const symbol *what) {
-    return what->effect < 0 || of->with[what->effect] ? NULL
-                                                      : &of->mechanism->effects[what->effect];
-}
-
 /* A change that could change nothing is a mistake. */
 static bool takes_part(const instance *made, override_kind kind, const assignment *change,
                        diags *all) {
@@ -136,7 +132,7 @@ static void apply_texts(plan *into, instance *made, override_kind kind, const ch
 static void apply_all(instance *made, const char *const *texts, int count, bool wanted) {
     bool found = false;
     for (int i = 0; i < count && !found; i++) {
-        found = strcmp(texts[i], "all") == 0;
+        found = strcmp(texts[i], word_row(WORD_ALL)->text) == 0;
     }
     for (int i = 0; i < made->mechanism->effect_count && found; i++) {
         made->with[i] = wanted;
@@ -146,14 +142,14 @@ static void apply_all(instance *made, const char *const *texts, int count, bool 
 static void apply_effects(plan *into, instance *made, const char *const *texts, int count,
                           bool wanted) {
     for (int i = 0; i < count; i++) {
-        if (strcmp(texts[i], "all") == 0) {
+        if (strcmp(texts[i], word_row(WORD_ALL)->text) == 0) {
             continue;
         }
-        if (strcmp(texts[i], "ledger") == 0) {
+        if (strcmp(texts[i], word_row(WORD_LEDGER)->text) == 0) {
             made->ledger = wanted;
             continue;
         }
-        if (strcmp(texts[i], "conserve") == 0 && !wanted) {
+        if (strcmp(texts[i], word_row(WORD_CONSERVE)->text) == 0 && !wanted) {
             made->conserve = NULL;
             continue;
         }
@@ -322,16 +318,4 @@ void instance_free(instance *done) {
     if (done != NULL) {
         arena_free(done->arena);
     }
-}
-
-bool instance_has_term(const instance *of, const term *each) {
-    return each->effect < 0 || of->with[each->effect];
-}
-
-bool instance_has_contact(const instance *of, const contact_statement *each) {
-    return each->effect < 0 || of->with[each->effect];
-}
-
-bool instance_has_noise(const instance *of, const noise *each) {
-    return each->effect < 0 || of->with[each->effect];
 }

@@ -13,19 +13,10 @@
 #include "host/base/diag.h"
 #include "host/number/functions.h"
 #include "host/number/ratio.h"
+#include "kinds.h"
 #include "units.h"
 
 /* --- symbols ----------------------------------------------------------------------------------- */
-
-typedef enum symbol_kind {
-    SYM_COORDINATE, /* generalized coordinate: may carry primes */
-    SYM_STATE,      /* unknown of a system given outright: may carry primes */
-    SYM_PARAMETER,  /* constant of a run; value from an expression of constants */
-    SYM_INPUT,      /* may change while running; declared value from an expression of constants */
-    SYM_LET,        /* shorthand; stands for its expression */
-    SYM_OUTPUT,     /* computed for records; may be used by later outputs */
-    SYM_RECORD      /* an output as it is recorded, noise included: in a sweep's measures only */
-} symbol_kind;
 
 typedef struct expr expr;
 
@@ -87,8 +78,6 @@ enum {
 
 /* --- mechanisms -------------------------------------------------------------------------------- */
 
-typedef enum term_kind { TERM_T, TERM_V, TERM_F, TERM_Q, TERM_EQUATION } term_kind;
-
 /* One contribution: `T = e`, `V += e`, `Q(c) = e`, `equation left = right`. */
 typedef struct term {
     term_kind kind;
@@ -114,13 +103,6 @@ typedef struct assignment {
     const expr *value;
     place at;
 } assignment;
-
-typedef enum contact_kind {
-    CONTACT_STOP,
-    CONTACT_FRICTION,
-    CONTACT_HOLD,
-    CONTACT_WHEN
-} contact_kind;
 
 /* One contact, handled inside the step (core/contact.h says how). */
 typedef struct contact_statement {

@@ -9,7 +9,8 @@
 
 #include "host/base/arena.h"
 #include "host/base/room.h"
-#include "host/lang/parser.h"
+#include "host/lang/cursor.h"
+#include "host/lang/expression.h"
 
 /* --- reading -----------------------------------------------------------------------------------*/
 
