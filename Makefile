@@ -95,6 +95,12 @@ flags: ## other people's compiler flags: the same bits or a refusal (a minute or
 	@CC="$(CC)" mk/setup/deps.sh host firmware quality
 	@$(MAKE) flags-now
 
+.PHONY: mutants
+mutants: ## small changes of the code, and whether the tests notice: MUTANTS, SEED, FOLDERS (an hour or two)
+	@UNITY="$(UNITY)" CC="$(CC)" mk/setup/deps.sh host plot tests
+	@UNITY="$(UNITY)" mk/setup/unity.sh build/unity
+	@MAKE="$(MAKE)" sh mk/mutants/mutants.sh
+
 .PHONY: sine-exhaustive
 sine-exhaustive: $(B)/tools/sine_exhaustive ## the sine's worst error, over all 2^32 angles (minutes)
 	$(Q)$<

@@ -56,6 +56,7 @@ static inline void wh_contact_accel(const void *model, const wh_phase *phase, co
     wh_real lambda[WH_CONTACTS_MAX];
     unsigned count = 0;
 
+    WH_MARK(WH_MARK_ACCEL);
     of->accel(of->model, phase, linear, rate, input, accel);
     if (!wh_contact_any_acts(of, w)) {
         wh_books_stage(of, w, phase, linear, rate, input);
@@ -104,7 +105,7 @@ static inline void wh_contact_look(const wh_contact_system *of, wh_contact_work 
     if (!wh_contact_any_acts(of, w)) {
         of->forces(of->model, at.phase, at.linear, at.rate, input, w->law);
     }
-    of->signals(of->model, at.phase, at.linear, at.rate, input, signal);
+    wh_contact_signals(of, at.phase, at.linear, at.rate, input, signal);
 }
 
 /* Impulses, all at once: each contact in `set` (bits) gets the one that leaves J_k q' = target[k] (or more, a

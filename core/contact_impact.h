@@ -251,7 +251,7 @@ static inline void wh_contact_captures(const wh_contact_system *of, wh_contact_w
         wh_contact_impulses(of, w, holds, 0, zero, wh_contact_rates(of, s), impulse);
     wh_contact_set_modes(of, w, released, WH_FREE);
     wh_contact_point_of(of, s, &at);
-    of->signals(of->model, at.phase, at.linear, at.rate, input, after);
+    wh_contact_signals(of, at.phase, at.linear, at.rate, input, after);
     wh_contact_passed_on(of, w, 0, h, before, after);
 }
 

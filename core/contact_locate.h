@@ -77,7 +77,7 @@ WH_INLINE bool wh_contact_watched(const wh_contact_system *of, const wh_contact_
 static inline void wh_contact_margins(const wh_contact_system *of, wh_contact_work *w,
                                       const wh_contact_point *at, const wh_real *input,
                                       wh_margins *m) {
-    of->signals(of->model, at->phase, at->linear, at->rate, input, m->signal);
+    wh_contact_signals(of, at->phase, at->linear, at->rate, input, m->signal);
     if (wh_contact_watched(of, w)) {
         const wh_contact_model model = {of, w};
         wh_real accel[WH_COORDS];

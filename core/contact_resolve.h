@@ -41,7 +41,7 @@ static inline void wh_contact_assign(const wh_contact_system *of, wh_contact_wor
         return;
     }
     wh_contact_point_of(of, s, &at);
-    of->signals(of->model, at.phase, at.linear, at.rate, input, before);
+    wh_contact_signals(of, at.phase, at.linear, at.rate, input, before);
     of->sets(of->model, at.phase, at.linear, at.rate, input, value);
     wh_books_levels(of, w, s, input, k, WH_R(-1.0));
     for (unsigned i = c->first_set; i < (unsigned)c->first_set + c->sets; i++) {
@@ -62,7 +62,7 @@ static inline void wh_contact_assign(const wh_contact_system *of, wh_contact_wor
     wh_books_levels(of, w, s, input, k, WH_R(1.0));
     /* where the assignment leaves each contact, if it moved it */
     wh_contact_point_of(of, s, &at);
-    of->signals(of->model, at.phase, at.linear, at.rate, input, after);
+    wh_contact_signals(of, at.phase, at.linear, at.rate, input, after);
     w->mover = k;
     for (unsigned l = 0; l < of->forced; l++) {
         const bool same = after[2 * l] == before[2 * l] && after[2 * l + 1] == before[2 * l + 1];

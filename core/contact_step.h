@@ -101,7 +101,7 @@ static inline void wh_contact_margins_end(const wh_contact_system *of, wh_contac
         return;
     }
     wh_contact_point_of(of, from, &at);
-    of->signals(of->model, at.phase, at.linear, at.rate, input, before);
+    wh_contact_signals(of, at.phase, at.linear, at.rate, input, before);
     for (unsigned k = 0; k < of->forced; k++) {
         const bool closes = before[2 * k] > WH_R(0.0) || before[2 * k + 1] < WH_R(0.0);
         if ((leaving >> k & 1U) != 0 && closes) {

@@ -11,6 +11,14 @@
 #define WH_APART static inline
 #endif
 
+/* What a step of a scene with contacts is made of, for a program that counts instructions between such places
+ * (boards/programs/mark.h); nothing in every other. */
+#define WH_MARK_ACCEL 1   /* the accelerations are evaluated next */
+#define WH_MARK_SIGNALS 2 /* the signals are */
+#ifndef WH_MARK
+#define WH_MARK(kind)
+#endif
+
 /* A step in progress: scratch memory, and the modes it tries. */
 typedef struct wh_contact_work {
     int8_t mode[WH_CONTACTS_MAX];
@@ -57,6 +65,13 @@ typedef struct wh_contact_state {
     wh_real real[2 * WH_COORDS];
     wh_real carry[2 * WH_COORDS];
 } wh_contact_state;
+
+WH_INLINE void wh_contact_signals(const wh_contact_system *of, const wh_phase *phase,
+                                  const wh_real *linear, const wh_real *rate, const wh_real *input,
+                                  wh_real *signal) {
+    WH_MARK(WH_MARK_SIGNALS);
+    of->signals(of->model, phase, linear, rate, input, signal);
+}
 
 /* A place between the ends of a try. */
 typedef struct wh_contact_point {

@@ -6,7 +6,8 @@ FIGURES := build/figures
 # The same mechanisms as one writes them by hand, to compare with.
 BY_HAND := naive_epicyclic naive_thomson careful_thomson
 # Two scenes again with compensated sums, to see what these cost.
-COMPENSATED_C := $(patsubst %,build/compensated/%.c,scenes epicyclic_from_rest thomson_a)
+COMPENSATED := epicyclic_from_rest thomson_a
+COMPENSATED_C := $(patsubst %,build/compensated/%.c,scenes $(COMPENSATED))
 # What of the flags belongs beside a figure.
 TOLD = $(filter -O% -m%,$(1))
 
@@ -23,12 +24,14 @@ $(B)/bench_double: $(call objects,double,$(BENCH_C) boards/host/board.c) \
     $(call libraries,double,scenes whirl)
 	$(link)
 
-build/compensated/%.c: $(GEN)/%.c
+$(patsubst %,build/compensated/%.c,$(COMPENSATED)): build/compensated/%.c: build/whirl mk/price.mk
 	@mkdir -p $(@D)
 	$(say) GEN $@
-	$(Q)sed -e 's/WH_RK4, false/WH_RK4, true/' -e 's/compensated = false/compensated = true/' \
-	    -e 's|"scenes.h"|"$(GEN)/scenes.h"|' \
-	    -e '/^    &/{/&epicyclic_from_rest,/b' -e '/&thomson_a,/b' -e 'd' -e '}' $< >$@
+	$(Q)build/whirl derive $* --as c --compensated --header $(@:.c=.h) >$@
+build/compensated/scenes.c: mk/count/index.sh $(patsubst %,build/compensated/%.c,$(COMPENSATED))
+	@mkdir -p $(@D)
+	$(say) GEN $@
+	$(Q)$< $(COMPENSATED) >$@
 .SECONDARY: $(COMPENSATED_C)
 
 $(addprefix $(B)/tools/,$(BY_HAND)): $(B)/tools/%: $(B)/host/tests/tools/%.o \
@@ -44,6 +47,7 @@ WORST_STEPS ?= 1000000
 WORST_MODELS ?= $(MODELS)
 WORST_C := boards/programs/worst.c $(wildcard build/worst_step/*.c)
 $(eval $(call program,worst,$(WORST_C),whirl))
+$(ELF)/build/worst_step/%.o: FILE_FLAGS := -include boards/programs/mark.h
 $(ELF)/boards/programs/worst.o: FILE_FLAGS := -DWORST_STEPS=$(WORST_STEPS)U -DWORST_SEEDS=2U
 
 .PHONY: bench-now size-now worst-now
@@ -51,7 +55,7 @@ worst-now: build/whirl
 	@[ "$(WORST_STEPS)" -gt 0 ] 2>/dev/null || \
 	    { echo "error: WORST_STEPS=$(WORST_STEPS): a number of steps, 1 or more" >&2; exit 2; }
 	@$(MAKE) $(GEN)/.stamp
-	@CC="$(CC)" mk/count/all_effects.sh build/whirl build/worst_step $(WORST_MODELS)
+	@mk/count/all_effects.sh build/whirl build/worst_step $(WORST_MODELS)
 	@$(RM) $(ELF)/boards/programs/worst.o
 	@$(MAKE) $(ELF)/worst.elf $(PLUGIN)
 	@mkdir -p $(FIGURES)
@@ -59,7 +63,7 @@ worst-now: build/whirl
 	@BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) OBJCOPY=$(BOARD_OBJCOPY) \
 	    FLAGS="$(call TOLD,$(BOARD_CFLAGS))" PLUGIN=$(PLUGIN) \
 	    EMULATE="$(subst timeout $(BOARD_SECONDS),timeout 3600,$(call emulate,$(ELF)/worst.elf))" \
-	    mk/count/worst.sh $(ELF)/worst.elf $(FIGURES)/worst.csv build/worst_step/declared $(WORST_STEPS)
+	    mk/count/worst.sh $(ELF)/worst.elf $(FIGURES)/worst.csv $(WORST_STEPS)
 
 bench-now: build/whirl
 	@$(MAKE) $(GEN)/.stamp

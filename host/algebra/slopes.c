@@ -85,6 +85,22 @@ static const poly *slope_of_abs(algebra *a, const call *of, int which) {
     return poly_call(a, FN_SIGN, of->x, NULL);
 }
 
+static const poly *slope_of_sinh(algebra *a, const call *of, int which) {
+    (void)which;
+    return poly_call(a, FN_COSH, of->x, NULL);
+}
+
+static const poly *slope_of_cosh(algebra *a, const call *of, int which) {
+    (void)which;
+    return poly_call(a, FN_SINH, of->x, NULL);
+}
+
+/* cosh(x)^-2, which keeps its digits where the tangent is near one. */
+static const poly *slope_of_tanh(algebra *a, const call *of, int which) {
+    (void)which;
+    return poly_pow(a, poly_call(a, FN_COSH, of->x, NULL), -2.0);
+}
+
 /* But for where it jumps. */
 static const poly *slope_of_sign(algebra *a, const call *of, int which) {
     (void)of;

@@ -85,11 +85,20 @@ static bool push_names(change_options *c, const char ***list, int *count, const 
             return false;
         }
         const char *name = keep(c, at + before, end - before);
+        if (strcmp(name, "conserve") == 0 && list == &c->with) {
+            fputs("whirl: error: --with takes effects: a scene says itself what it conserves\n",
+                  stderr);
+            return false;
+        }
         if (is_in(*list, *count, name)) {
             fprintf(stderr, "whirl: error: %s names '%s' twice\n", option, name);
             return false;
         }
         push(list, count, name);
+        if (is_in(c->with, c->with_count, "all") && is_in(c->without, c->without_count, "all")) {
+            fputs("whirl: error: --with all and --without all: which?\n", stderr);
+            return false;
+        }
         at += field;
         if (*at == '\0') {
             return true;
@@ -125,7 +134,8 @@ overrides change_options_overrides(const change_options *c) {
                        .without = c->without,
                        .without_count = c->without_count,
                        .step = c->step,
-                       .until = c->until};
+                       .until = c->until,
+                       .name = c->name};
 }
 
 void change_options_free(change_options *c) {
@@ -156,8 +166,8 @@ static bool choose(const char *command, const char *what, const char *value,
     return false;
 }
 
-bool options_engine(const char *command, int count, char **words, int *at,
-                    engine_settings *settings, bool *bad) {
+bool options_engine(const char *command, int count, char **words, int *at, image_settings *settings,
+                    bool *bad) {
     static const char *const methods[] = {[WH_EULER] = "euler",
                                           [WH_SEMI_IMPLICIT_EULER] = "semi-implicit-euler",
                                           [WH_HEUN] = "heun",

@@ -15,8 +15,14 @@ static double start_value(void *context, const symbol *s, int primes) {
     switch (s->kind) {
     case SYM_PARAMETER: return inst->parameter[s->index];
     case SYM_INPUT: return inst->input[s->index];
-    default: return primes < inst->start_count[s->index] ? inst->start[s->index][primes] : 0.0;
+    case SYM_COORDINATE:
+    case SYM_STATE:
+        return primes < inst->start_count[s->index] ? inst->start[s->index][primes] : 0.0;
+    case SYM_LET: /* expressions: none stands in a poly */
+    case SYM_OUTPUT:
+    case SYM_RECORD: break;
     }
+    return (double)NAN;
 }
 
 static double at_start(const equations *e, const poly *p) {
@@ -125,7 +131,7 @@ static bool check_wanted(const equations *e, int i, diags *errors) {
     char hint[160];
     int count;
     influence_on(e, i, text, &count);
-    snprintf(hint, sizeof hint, "leave %s out, or integrate %s: leave out `conserve`",
+    snprintf(hint, sizeof hint, "leave %s out, or integrate %s: --without conserve",
              count == 1 ? "that" : "those", q->name);
     diag_error(errors, at, hint, "the momentum of '%s' is not conserved: it is changed by %s",
                q->name, count > 0 ? text : "a force or a loss");
@@ -215,7 +221,7 @@ static bool make_law(const equations *e, conservation *c, int k, momentum_law *l
     if (is_linear(e, momentum, law->mass)) {
         return true;
     }
-    diag_error(errors, e->unknowns[i].symbol->at, "integrate it: leave out `conserve`",
+    diag_error(errors, e->unknowns[i].symbol->at, "integrate it: --without conserve",
                "the momentum of '%s' is not linear in the rates", e->unknowns[i].symbol->name);
     return false;
 }

@@ -119,7 +119,7 @@ static bool can_keep(const program *p, const equations *e, diags *errors) {
         return false;
     }
     if (p->form != WH_SECOND_ORDER) {
-        diag_error(errors, m->at, "integrate the coordinate: leave out conserve",
+        diag_error(errors, m->at, "integrate the coordinate: --without conserve",
                    "a coordinate that must be integrated from its momentum cannot be conserved "
                    "beside a ledger");
         return false;

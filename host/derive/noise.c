@@ -2,16 +2,14 @@
 #include "noise.h"
 
 #include <stdlib.h>
+#include <string.h>
 
+#include "host/base/hash.h"
 #include "host/base/room.h"
 
 /* Outputs with the same seed have noise of their own each: their names' hash (FNV-1a) tells them apart. */
 static uint32_t seed_of(const noise *of) {
-    uint32_t hash = 2166136261U;
-    for (const char *at = of->output->name; *at != '\0'; at++) {
-        hash = (hash ^ (unsigned char)*at) * 16777619U;
-    }
-    return hash ^ of->seed;
+    return hash_text(of->output->name, strlen(of->output->name)) ^ of->seed;
 }
 
 /* The operation that adds noise k to `node`. */

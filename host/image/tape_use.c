@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "host/base/hash.h"
 #include "host/base/room.h"
 #include "tape.h"
 
@@ -171,12 +172,12 @@ int tape_operations(const tape *t) {
 }
 
 uint64_t tape_hash(const tape *t) {
-    uint64_t hash = UINT64_C(0xcbf29ce484222325);
+    uint64_t hash = WH_HASH_START;
     for (int i = 0; i < t->count; i++) {
-        hash = (hash ^ tape_op_hash(t, &t->ops[i])) * UINT64_C(0x100000001b3);
+        hash = hash_of_hashes(hash, tape_op_hash(t, &t->ops[i]));
     }
     for (int i = 0; i < t->results; i++) {
-        hash = (hash ^ (uint64_t)t->result[i]) * UINT64_C(0x100000001b3);
+        hash = hash_of_hashes(hash, (uint64_t)t->result[i]);
     }
     return hash;
 }

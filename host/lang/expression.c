@@ -10,7 +10,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "parser.h"
+#include "expression.h"
+
+#include "cursor.h"
 
 static const expr *parse_sum(parser *in);
 static const expr *parse_signed(parser *in);
@@ -144,7 +146,7 @@ static const expr *parse_named(parser *in) {
                    function_name(function));
         return NULL;
     }
-    if (parser_is_sign(in, '(') && !is_reserved(name.text, name.length)) {
+    if (parser_is_sign(in, '(') && !word_is_reserved(name.text, name.length)) {
         char words[80];
         char hint[120];
         nearest search = nearest_start(name.text, name.length);

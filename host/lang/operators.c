@@ -1,7 +1,7 @@
 /* operators.c: expression nodes, with the dimension rules of each operator and function. */
 #include <stdio.h>
 
-#include "parser.h"
+#include "expression.h"
 #include "value.h"
 
 expr *expr_new(parser *in, expr_op op, place at) {

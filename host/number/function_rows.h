@@ -48,7 +48,13 @@
     X(MIN,   min,   2, CHOICE,  EVERYWHERE, "\\min", \
       FUNCTION_OWN(MIN, y < x || wh_is_nan(y) ? y : x), share_of(y - x), share_of(x - y)) \
     X(MAX,   max,   2, CHOICE,  EVERYWHERE, "\\max", \
-      FUNCTION_OWN(MAX, y > x || wh_is_nan(y) ? y : x), share_of(x - y), share_of(y - x))
+      FUNCTION_OWN(MAX, y > x || wh_is_nan(y) ? y : x), share_of(x - y), share_of(y - x)) \
+    X(SINH,  sinh,  1, NUMBER,  EVERYWHERE, "\\sinh", \
+      FUNCTION_CORE(wh_sinh(x)), wh_cosh(x), 0.0) \
+    X(COSH,  cosh,  1, NUMBER,  EVERYWHERE, "\\cosh", \
+      FUNCTION_CORE(wh_cosh(x)), wh_sinh(x), 0.0) \
+    X(TANH,  tanh,  1, NUMBER,  EVERYWHERE, "\\tanh", \
+      FUNCTION_CORE(wh_tanh(x)), 1.0 / (wh_cosh(x) * wh_cosh(x)), 0.0)
 /* clang-format on */
 
 #endif

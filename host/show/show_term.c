@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/lang/parser.h"
+#include "host/number/functions.h"
 #include "host/number/decimal.h"
 
 /* --- names and numbers ---------------------------------------------------------------------------*/
@@ -227,8 +227,13 @@ int show_rank(const atom *x) {
     switch (x->symbol->kind) {
     case SYM_PARAMETER: return 0;
     case SYM_INPUT: return 1;
-    default: return x->primes == 0 ? 2 : 3 + x->primes; /* sines stand at 3 */
+    case SYM_COORDINATE:
+    case SYM_STATE: return x->primes == 0 ? 2 : 3 + x->primes; /* sines stand at 3 */
+    case SYM_LET:                                              /* expressions: no atoms */
+    case SYM_OUTPUT:
+    case SYM_RECORD: break;
     }
+    return 2;
 }
 
 void show_separate(const show *s, bool *first) {

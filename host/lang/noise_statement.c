@@ -1,11 +1,9 @@
-/* noise.c: `noise OUTPUT deviation EXPR [seed N]`. */
+/* noise_statement.c: `noise OUTPUT deviation EXPR [seed N]`. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "parser.h"
-
-static const char form[] = "noise angle_read deviation 0.1 [deg] seed 7";
+#include "statements.h"
 
 /* NULL: unknown, or no output (reported). */
 static const symbol *find_output(parser *in, const token *name) {
@@ -42,7 +40,8 @@ static bool parse_seed(parser *in, uint32_t *seed) {
     char words[80];
     if (in->token.kind != TOKEN_NUMBER || !(number <= UINT32_MAX) ||
         number != number_floor(number)) {
-        return parser_fail(in, form, "a seed is a whole number from 0 to %u, not %s", UINT32_MAX,
+        return parser_fail(in, word_row(WORD_NOISE)->form,
+                           "a seed is a whole number from 0 to %u, not %s", UINT32_MAX,
                            token_words(&in->token, words, sizeof words));
     }
     *seed = (uint32_t)number;
@@ -84,23 +83,18 @@ static void add_noise(parser *in, const noise *made) {
     into->noises = longer;
 }
 
-bool parse_noise(parser *in, bool *known) {
-    *known = parser_is_word(in, "noise");
-    if (!*known) {
-        return false;
-    }
+bool read_noise(parser *in, const statement_word *word) {
     char words[80];
-    noise made = {.seed = 1, .effect = in->effect, .at = in->token.at};
-    parser_next(in);
+    noise made = {.seed = 1, .effect = in->effect, .at = in->statement_at};
     const token name = in->token;
     if (name.kind != TOKEN_NAME) {
-        return parser_fail(in, form, "noise needs its output, not %s",
+        return parser_fail(in, word->form, "noise needs its output, not %s",
                            token_words(&in->token, words, sizeof words));
     }
     made.output = find_output(in, &name);
     made.record = made.output == NULL ? NULL : record_of(in, made.output);
     parser_next(in);
-    if (!parser_expect_word(in, "deviation", form)) {
+    if (!parser_expect_word(in, WORD_DEVIATION, WORD_NOISE)) {
         return false;
     }
     const place at = in->token.at;
@@ -115,7 +109,7 @@ bool parse_noise(parser *in, bool *known) {
                         dimension_rule(rule, words, "is", made.output->dim));
     }
     if (!parser_at_end_of_line(in) && !parser_is_sign(in, '}')) {
-        if (!parser_expect_word(in, "seed", form) || !parse_seed(in, &made.seed)) {
+        if (!parser_expect_word(in, WORD_SEED, WORD_NOISE) || !parse_seed(in, &made.seed)) {
             return false;
         }
     }

@@ -1,0 +1,94 @@
+#!/bin/sh
+# mutants.sh: how many small changes of the code do the tests notice? For each folder of FOLDERS, MUTANTS changes
+# are drawn at random (SEED; candidates.awk, draw.awk), built and tested one by one (one.sh) in copies of the
+# tree under build/mutants; the table at the end is table.awk's. The tree itself is only read.
+#
+# FOLDERS   folders whose own .c and .h files are changed
+# MUTANTS   changes a folder that compile to another object
+# SEED      of the draw; printed
+# EXCEPT    an extended regular expression: files that it matches are left alone
+# LONGEST   seconds: a suite or script that takes longer on the tree as it is, is not run
+# JOBS      how many work at the same time, each in a copy of its own, with niceness NICE
+#
+# What was found stays in build/mutants/FOLDER.SEED.*: broken off, it goes on where it was. When tests change,
+# only what had survived is tried again; when the folder's code changes, it starts anew.
+set -eu
+
+: "${FOLDERS:=core core/rig host/algebra host/derive}" "${MUTANTS:=80}" "${EXCEPT:=^$}" "${LONGEST:=10}" "${JOBS:=2}"
+: "${SEED:=$(date +%s)}" "${NICE:=19}" "${MAKE:=make}"
+top=build/mutants
+here=mk/mutants
+export LONGEST
+
+# --- copies -------------------------------------------------------------------------------------------
+# Times are kept, so that nothing is compiled that is up to date. The first copy is never changed; the
+# others, one a job, are put back from it after each change.
+sum_of() { cat "$@" | cksum | tr -d ' '; }
+sum_of_all() { find "$@" -type f | sort | xargs cat | cksum | tr -d ' '; }
+sum=$(sum_of_all Makefile core hal boards host tests docs)
+copy() { # copy FROM TO
+    rm -rf "$2"
+    mkdir -p "$2/build"
+    for part in Makefile README.md mk core hal boards host tests docs; do
+        cp -a "$1/$part" "$2/"
+    done
+    for part in host float double gen unity tests tools whirl; do
+        [ ! -e "$1/build/$part" ] || cp -a "$1/build/$part" "$2/build/"
+    done
+}
+mkdir -p "$top"
+if [ "$(cat "$top/sum" 2>/dev/null || true)" != "$sum" ]; then
+    rm -rf "$top/sum" "$top"/src*
+    copy . "$top/src"
+    (cd "$top/src" && $MAKE build/whirl && $MAKE build/gen/.stamp && $MAKE test-programs) >"$top/build.log" 2>&1 || {
+        tail "$top/build.log" >&2
+        exit 1
+    }
+    echo "$sum" >"$top/sum"
+fi
+for job in $(seq "$JOBS"); do
+    if [ -e "$top/src$job/.changed" ] || [ ! -e "$top/src$job/build/tests/host" ]; then
+        copy "$top/src" "$top/src$job"
+    fi
+done
+
+# --- what every test takes on the tree as it is ---------------------------------------------------------
+# Lines: seconds of a processor, "host", "float", "double" or "cli", the suite's or script's name.
+if [ "$(cat "$top/times.sum" 2>/dev/null || true)" != "$sum" ]; then
+    touch "$top/times"
+    sh "$here/times.sh" "$top/src" "$PWD/$top/times" >"$top/times.new"
+    mv "$top/times.new" "$top/times"
+    echo "$sum" >"$top/times.sum"
+fi
+# What survived is tried again when there are other tests or more of them.
+tests_sum=$(sum_of_all tests).$LONGEST
+
+# --- the draw, the work, the table ----------------------------------------------------------------------
+echo "Mutants drawn with SEED=$SEED, $MUTANTS a folder; tests of up to $LONGEST s."
+tables=""
+for folder in $FOLDERS; do
+    files=$(ls "$folder"/*.c "$folder"/*.h 2>/dev/null | grep -vE "$EXCEPT")
+    name=$top/$(echo "$folder" | tr / _).$SEED.$(sum_of $files)
+    awk -f "$here/candidates.awk" $files |
+        awk -v seed="$SEED" -v count=$((MUTANTS * 4)) -f "$here/draw.awk" >"$name.drawn"
+    touch "$name.found"
+    # What had survived other tests is tried again.
+    awk -F '\t' -v sum="$tests_sum" '$2 != "survived" || $4 == sum' "$name.found" >"$name.kept"
+    mv "$name.kept" "$name.found"
+    rm -rf "$name.claims"
+    mkdir "$name.claims"
+    tables="$tables $name"
+done
+workers=""
+trap 'kill $workers 2>/dev/null; exit 130' INT TERM
+for job in $(seq "$JOBS"); do
+    # The first begins with the first folder, the second with the last, and so on in turns.
+    nice -n "$NICE" sh "$here/work.sh" "$top" "$job" "$MUTANTS" "$tests_sum" $tables &
+    workers="$workers $!"
+    tables=$(printf '%s\n' $tables | tac)
+done
+wait
+for name in $tables; do
+    rm -rf "$name.claims"
+    awk -v wanted="$MUTANTS" -f "$here/table.awk" "$name.drawn" "$name.found"
+done

@@ -1,0 +1,42 @@
+#!/bin/sh
+# times.sh TREE KNOWN: what each suite and each script takes in a built tree, quickest first, as far as the file
+# KNOWN does not say so already:
+#   seconds of a processor, "host", "float", "double" or "cli", its name
+# Scripts that say nothing about the folders that are changed, or that need other compilers, are left out.
+set -eu
+known=$2
+cd "$1"
+export WHIRL=build/whirl
+
+used() { # used COMMAND...: seconds of a processor, of it and its children
+    sh -c '"$@" >/dev/null 2>&1 </dev/null; status=$?; times; exit $status' sh "$@" |
+        awk 'NR == 2 { split($1, user, /[ms]/); split($2, sys, /[ms]/)
+                       print user[1] * 60 + user[2] + sys[1] * 60 + sys[2] }'
+}
+
+told() { # told KIND NAME PROGRAM...
+    line="$1 $2"
+    shift 2
+    grep -E "^[0-9.]+ $line\$" "$known" || echo "$(used "$@") $line"
+}
+
+{
+    for build in host float double; do
+        program=build/tests/core_$build
+        list=build/tests/core_suites.c
+        if [ "$build" = host ]; then
+            program=build/tests/host
+            list=build/tests/host_suites.c
+        fi
+        for suite in $(sed -n 's/^void suite_\([a-z0-9_]*\)(void);/\1/p' "$list"); do
+            told "$build" "$suite" "$program" "$suite"
+        done
+    done
+    for script in tests/cli/*.sh; do
+        case $script in
+        */embed_* | */emitted_c.sh | */effects_cost_nothing.sh | */flags.sh | */interrupt.sh | */no_libm.sh) continue ;;
+        */suites.sh | */worst_step_marks.sh | */columns.sh) continue ;;
+        esac
+        told cli "$script" sh "$script"
+    done
+} | sort -n
