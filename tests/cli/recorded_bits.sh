@@ -8,7 +8,7 @@ record=$(dirname "$0")/../reference/bits.txt
 
 "$whirl" hashes >"$scratch/all" 2>"$scratch/err"
 verdict $? "every scene runs"
-sort "$scratch/all" >"$scratch/now"
+LC_ALL=C sort "$scratch/all" >"$scratch/now"
 if [ "${1:-}" = --write ]; then
     cp "$scratch/now" "$record"
 fi
