@@ -20,10 +20,10 @@
  * so an impact gives it no impulse. A bounce whose flight would be shorter than WH_REST_SHARE of a
  * step is not made: the stop rests.
  *
- * What a scene must offer is in `wh_hybrid`; what changes while running is in `wh_contacts` (scene.h).
- * contact_work.h has what a step works on, contact_share.h how contacts share a load, contact_forces.h the
- * forces and impulses, contact_ledger.h what they enter into the books, contact_events.h the search for
- * events, contact_settle.h and contact_take.h what they change, contact_place.h where they belong,
+ * What a scene must offer is in `wh_contact_system`; what changes while running is in `wh_contacts` (scene.h).
+ * contact_work.h has what a step works on, contact_lcp.h how contacts share a load, contact_forces.h the
+ * forces and impulses, contact_ledger.h what they enter into the books, contact_locate.h the search for
+ * events, contact_settle.h and contact_resolve.h what they change, contact_project.h where they belong,
  * contact_rank.h whether the holds still determine the motion, contact_step.h the step. Scenes without
  * contacts include none of these files. All are C only.
  */
@@ -74,7 +74,30 @@
 /* A flight shorter than this share of a step is none. */
 #define WH_REST_SHARE WH_R(0.125)
 
-typedef enum wh_contact_kind { WH_STOP, WH_HOLD, WH_FRICTION, WH_WHEN } wh_contact_kind;
+/* What a kind of contact is. */
+enum {
+    WH_FORCED = 1,     /* it has a force, and a row of the Jacobian */
+    WH_UNILATERAL = 2, /* which pushes and does not pull */
+    WH_LIMITED = 4     /* which has a limit, slides at it, and is too small to give an impulse */
+};
+
+/* The kinds, in the order in which contacts are numbered and their events at one moment are taken: name, the word of
+ * the language, what it is. What each does at its events differs: the switches over the kinds have no default, so
+ * that the compiler names them to whoever adds one. */
+#define WH_CONTACT_KINDS(X) \
+    X(WH_STOP, "stop", WH_FORCED | WH_UNILATERAL) \
+    X(WH_HOLD, "hold", WH_FORCED) \
+    X(WH_FRICTION, "friction", WH_FORCED | WH_LIMITED) \
+    X(WH_WHEN, "when", 0)
+
+#define WH_KIND_NAME(name, word, is) name,
+#define WH_KIND_BIT(name, word, is) | ((((is)&trait) != 0) ? 1U << name : 0U)
+typedef enum wh_contact_kind {
+    WH_CONTACT_KINDS(WH_KIND_NAME) WH_CONTACT_KIND_COUNT
+} wh_contact_kind;
+
+/* The kinds that are `trait`, as bits. */
+WH_INLINE unsigned wh_contact_kinds(unsigned trait) { return 0U WH_CONTACT_KINDS(WH_KIND_BIT); }
 
 typedef struct wh_contact {
     uint8_t kind; /* wh_contact_kind */
@@ -112,7 +135,7 @@ enum {
     (WH_EVENTS_MAX * (WH_PROBES + 12 + 3 * (forced) + 2 * (crossings)) + 7 + 3 * (forced))
 
 /* A scene's contacts, constant. The functions are lists of operations like the accelerations. */
-typedef struct wh_hybrid {
+typedef struct wh_contact_system {
     const void *model;    /* first argument of the functions */
     wh_accel_fn *accel;   /* without contact forces */
     wh_accel_fn *signals; /* result[2 * contacts]: stop: gap, its rate; hold: condition (> 0: true),
@@ -130,6 +153,6 @@ typedef struct wh_hybrid {
     bool compensated;
     uint8_t angles;
     uint8_t coordinates;
-} wh_hybrid;
+} wh_contact_system;
 
 #endif

@@ -2,46 +2,45 @@
 #ifndef WH_CONTACT_FORCES_H
 #define WH_CONTACT_FORCES_H
 
-#include "contact_share.h"
+#include "contact_lcp.h"
 
 /* Contacts that repeat what others hold, as bits of places in member[], had nothing to do. Where that leaves
  * another with more than it can take, or where they contradict the others, share the load out: work->force has
  * the shares, those that give way even so beyond their limits by what they would have to take on top. Where
  * they contradict, the accelerations change with that; where they agree, they stay the same to the bit. */
-WH_APART void wh_contact_redistribute(const wh_hybrid *of, wh_contact_work *w,
+WH_APART void wh_contact_redistribute(const wh_contact_system *of, wh_contact_work *w,
                                       const uint8_t *member, unsigned count, unsigned repeats,
                                       wh_real *accel) {
-    wh_real amount[WH_CONTACTS_MAX];
+    wh_real lambda[WH_CONTACTS_MAX];
     wh_real left[WH_CONTACTS_MAX];
     wh_real way[WH_COORDS] = {WH_R(0.0)};
     int8_t push[WH_CONTACTS_MAX] = {0};
     bool exceeds = false;
     bool contradicts = false;
     for (unsigned i = 0; i < count; i++) {
-        exceeds = exceeds || wh_contact_exceeds(of, w, member[i], 0, w->force[member[i]]);
-        wh_push(of, w, member[i], w->force[member[i]], way);
+        exceeds = exceeds || wh_contact_exceeds(of, w, member[i], w->force[member[i]]);
+        wh_contact_apply(of, w, member[i], w->force[member[i]], way);
     }
-    wh_contact_sizes(of, w, member, count, accel);
-    wh_contact_contradict(of, w, member, count, NULL, repeats, w->wanted, way, push);
+    wh_contact_magnitudes(of, w, member, count, accel);
+    wh_contact_contradicts(of, w, member, count, NULL, repeats, true, w->wanted, way, push);
     for (unsigned i = 0; i < count; i++) {
         contradicts = contradicts || push[i] != 0;
     }
     if (!exceeds && !contradicts) {
         return;
     }
-    const unsigned giving =
-        wh_contact_share(of, w, member, count, w->wanted, 0, true, amount, left);
+    const unsigned giving = wh_contact_lcp(of, w, member, count, w->wanted, true, lambda, left);
     for (unsigned i = 0; i < count; i++) {
         const unsigned k = member[i];
         if (contradicts) {
-            wh_push(of, w, k, amount[i] - w->force[k], accel);
+            wh_contact_apply(of, w, k, lambda[i] - w->force[k], accel);
         }
-        w->force[k] = amount[i];
+        w->force[k] = lambda[i];
         if ((giving >> k & 1U) != 0) {
-            w->force[k] -= left[i] / wh_contact_yield(of, w, k);
-            if (!wh_contact_exceeds(of, w, k, 0, w->force[k])) { /* by less than shows */
-                w->force[k] += left[i] < WH_R(0.0) ? WH_CONTACT_SHOWS * WH_ABS(amount[i])
-                                                   : -WH_CONTACT_SHOWS * WH_ABS(amount[i]);
+            w->force[k] -= left[i] / wh_delassus_diagonal(of, w, k);
+            if (!wh_contact_exceeds(of, w, k, w->force[k])) { /* by less than shows */
+                w->force[k] += left[i] < WH_R(0.0) ? WH_CONTACT_SHOWS * WH_ABS(lambda[i])
+                                                   : -WH_CONTACT_SHOWS * WH_ABS(lambda[i]);
             }
         }
     }
@@ -51,40 +50,42 @@ WH_APART void wh_contact_redistribute(const wh_hybrid *of, wh_contact_work *w,
 static inline void wh_contact_accel(const void *model, const wh_phase *phase, const wh_real *linear,
                                     const wh_real *rate, const wh_real *input, wh_real *accel) {
     const wh_contact_model *m = model;
-    const wh_hybrid *of = WH_CONTACTS_OF(m);
+    const wh_contact_system *of = WH_CONTACTS_OF(m);
     wh_contact_work *w = m->work;
     uint8_t member[WH_CONTACTS_MAX] = {0};
-    wh_real amount[WH_CONTACTS_MAX];
+    wh_real lambda[WH_CONTACTS_MAX];
     unsigned count = 0;
 
+    WH_MARK(WH_MARK_ACCEL);
     of->accel(of->model, phase, linear, rate, input, accel);
-    if (!wh_feels(of, w)) {
+    if (!wh_contact_any_acts(of, w)) {
         wh_books_stage(of, w, phase, linear, rate, input);
         return;
     }
     of->forces(of->model, phase, linear, rate, input, w->law);
     for (unsigned k = 0; k < of->forced; k++) {
         w->force[k] = WH_R(0.0);
-        if (wh_constrains(of, w, k)) {
+        if (wh_contact_constrains(of, w, k)) {
             member[count++] = (uint8_t)k;
         } else if (of->contact[k].kind == WH_FRICTION) {
-            const wh_real size = wh_law(of, w, k)[WH_LAW_SECOND];
+            const wh_real size = wh_contact_law(of, w, k)[WH_LAW_SECOND];
             w->force[k] = w->mode[k] > 0 ? -size : size;
-            wh_push(of, w, k, w->force[k], accel);
+            wh_contact_apply(of, w, k, w->force[k], accel);
         }
     }
     for (unsigned i = 0; i < count; i++) {
-        w->wanted[i] = -(wh_law(of, w, member[i])[WH_LAW_BIAS] + wh_along(of, w, member[i], accel));
+        w->wanted[i] = -(wh_contact_law(of, w, member[i])[WH_LAW_BIAS] +
+                         wh_jacobian_times(of, w, member[i], accel));
     }
-    const unsigned repeats = wh_contact_solve(of, w, member, count, NULL, w->wanted, amount);
+    const unsigned repeats = wh_delassus_solve(of, w, member, count, NULL, w->wanted, lambda);
     for (unsigned i = 0; i < count; i++) {
-        w->force[member[i]] = amount[i];
-        wh_push(of, w, member[i], amount[i], accel);
+        w->force[member[i]] = lambda[i];
+        wh_contact_apply(of, w, member[i], lambda[i], accel);
     }
     for (unsigned i = 0; i < count; i++) {
         const int pin = of->contact[member[i]].pin;
         if (pin >= 0) { /* zero, unless what is held back is no number */
-            accel[pin] = amount[i] - amount[i];
+            accel[pin] = lambda[i] - lambda[i];
         }
     }
     if (repeats != 0 && of->forced > 1) {
@@ -93,49 +94,58 @@ static inline void wh_contact_accel(const void *model, const wh_phase *phase, co
     wh_books_stage(of, w, phase, linear, rate, input);
 }
 
-/* Give contact k the impulse that leaves J_k q' = target, with those that hold what they hold; resting stops, and
- * those in `beside`, as bits, push but do not pull: those that would are let go. work->law must belong to this
- * position. Returns the impulse of k. */
-static inline wh_real wh_contact_impulse(const wh_hybrid *of, wh_contact_work *w, unsigned k,
-                                         unsigned beside, wh_real target, wh_real *rate) {
+/* The accelerations, forces and signals at a state, in the modes of work. */
+static inline void wh_contact_look(const wh_contact_system *of, wh_contact_work *w,
+                                   wh_contact_state *s, const wh_real *input, wh_real *accel,
+                                   wh_real *signal) {
+    const wh_contact_model model = {of, w};
+    wh_contact_point at;
+    wh_contact_point_of(of, s, &at);
+    wh_contact_accel(&model, at.phase, at.linear, at.rate, input, accel);
+    if (!wh_contact_any_acts(of, w)) {
+        of->forces(of->model, at.phase, at.linear, at.rate, input, w->law);
+    }
+    wh_contact_signals(of, at.phase, at.linear, at.rate, input, signal);
+}
+
+/* Impulses, all at once: each contact in `set` (bits) gets the one that leaves J_k q' = target[k] (or more, a
+ * stop that others push further), those that hold keep what they hold; resting stops, and those in `beside`, push but
+ * do not pull. work->law must belong to this position. impulse[forced] gets theirs on top. Returns the stops that
+ * would have had to pull, as bits. */
+static inline unsigned wh_contact_impulses(const wh_contact_system *of, wh_contact_work *w,
+                                           unsigned set, unsigned beside, const wh_real *target,
+                                           wh_real *rate, wh_real *impulse) {
     uint8_t member[WH_CONTACTS_MAX] = {0};
     wh_real wanted[WH_CONTACTS_MAX] = {WH_R(0.0)};
-    wh_real amount[WH_CONTACTS_MAX];
+    wh_real before[WH_CONTACTS_MAX];
+    wh_real lambda[WH_CONTACTS_MAX];
     wh_real left[WH_CONTACTS_MAX];
     unsigned count = 0;
     for (unsigned l = 0; l < of->forced; l++) {
-        const bool holds = of->contact[l].kind != WH_FRICTION && w->mode[l] == WH_ACTIVE;
-        if (l == k || holds || (beside >> l & 1U) != 0) {
-            const wh_real goal = l == k ? target : WH_R(0.0);
-            wanted[count] = goal - wh_along(of, w, l, rate);
+        const bool holds = !wh_contact_is(of, l, WH_LIMITED) && wh_contact_constrains(of, w, l);
+        if (holds || ((set | beside) >> l & 1U) != 0) {
+            const wh_real goal = (set >> l & 1U) != 0 ? target[l] : WH_R(0.0);
+            before[count] = wh_jacobian_times(of, w, l, rate);
+            wanted[count] = goal - before[count];
             member[count++] = (uint8_t)l;
         }
     }
-    const unsigned giving =
-        wh_contact_share(of, w, member, count, wanted, 1U << k, false, amount, left) & ~(1U << k);
-    for (unsigned l = 0; l < of->forced; l++) {
-        if ((giving >> l & 1U) != 0) {
-            w->mode[l] = WH_FREE;
-        }
-    }
-    wh_real own = WH_R(0.0);
+    const unsigned giving = wh_contact_lcp(of, w, member, count, wanted, false, lambda, left);
     for (unsigned i = 0; i < count; i++) {
-        wanted[i] = wh_along(of, w, member[i], rate);
+        wh_contact_apply(of, w, member[i], lambda[i], rate);
     }
     for (unsigned i = 0; i < count; i++) {
-        wh_push(of, w, member[i], amount[i], rate);
-        own = member[i] == k ? amount[i] : own;
-    }
-    for (unsigned i = 0; i < count; i++) {
-        const int pin = of->contact[member[i]].pin;
-        const bool held =
-            (giving >> member[i] & 1U) == 0 && (member[i] != k || target == WH_R(0.0));
-        if (pin >= 0 && held) {
+        const unsigned l = member[i];
+        const int pin = of->contact[l].pin;
+        const bool stays =
+            (giving >> l & 1U) == 0 && ((set >> l & 1U) == 0 || target[l] == WH_R(0.0));
+        if (pin >= 0 && stays) {
             rate[pin] = WH_R(0.0);
         }
-        wh_books_impulse(of, w, member[i], amount[i], wanted[i], wh_along(of, w, member[i], rate));
+        impulse[l] += lambda[i];
+        wh_books_impulse(of, w, l, lambda[i], before[i], wh_jacobian_times(of, w, l, rate));
     }
-    return own;
+    return giving;
 }
 
 #endif

@@ -8,16 +8,16 @@
 #if WH_LEDGER
 
 /* Does this scene keep books, and is this part of its run (and not a look at it)? */
-WH_INLINE bool wh_books_open(const wh_hybrid *of, const wh_contact_work *w) {
+WH_INLINE bool wh_books_open(const wh_contact_system *of, const wh_contact_work *w) {
     return of->ledger != NULL && w->books != NULL;
 }
 
-/* Contact k's force (or impulse) `amount`, `share` long (or 1), did this to the rates' mean `rate`. */
-static inline void wh_books_enter(const wh_hybrid *of, const wh_contact_work *w, unsigned k,
-                                  wh_real share, wh_real amount, wh_real speed, wh_real *entry) {
-    const wh_real *row = wh_law(of, w, k) + WH_LAW_ROWS;
+/* Contact k's force (or impulse) `lambda`, `share` long (or 1), did this to the rates' mean `rate`. */
+static inline void wh_books_enter(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
+                                  wh_real share, wh_real lambda, wh_real speed, wh_real *entry) {
+    const wh_real *row = wh_contact_law(of, w, k) + WH_LAW_ROWS;
     const unsigned first = wh_ledger_of_contact(of->ledger, k);
-    const wh_real impulse = share * amount;
+    const wh_real impulse = share * lambda;
     entry[first] += impulse * speed;
     for (unsigned i = 0; i < of->coordinates; i++) {
         entry[first + 1U + i] += impulse * row[i];
@@ -25,7 +25,7 @@ static inline void wh_books_enter(const wh_hybrid *of, const wh_contact_work *w,
 }
 
 /* One stage of a try. */
-static inline void wh_books_stage(const wh_hybrid *of, const wh_contact_work *w,
+static inline void wh_books_stage(const wh_contact_system *of, const wh_contact_work *w,
                                   const wh_phase *phase, const wh_real *linear, const wh_real *rate,
                                   const wh_real *input) {
     if (!wh_books_open(of, w) || !(w->books->span > WH_R(0.0))) {
@@ -33,16 +33,16 @@ static inline void wh_books_stage(const wh_hybrid *of, const wh_contact_work *w,
     }
     const wh_real share =
         wh_ledger_stage(of->ledger, of->method, phase, linear, rate, input, w->books);
-    for (unsigned k = 0; k < of->forced && wh_feels(of, w); k++) {
+    for (unsigned k = 0; k < of->forced && wh_contact_any_acts(of, w); k++) {
         if (w->force[k] != WH_R(0.0)) {
-            wh_books_enter(of, w, k, share, w->force[k], wh_along(of, w, k, rate),
+            wh_books_enter(of, w, k, share, w->force[k], wh_jacobian_times(of, w, k, rate),
                            w->books->attempt);
         }
     }
 }
 
 /* An impulse of contact k, whose speed it changed. Its work is that of the mean speed (Kelvin). */
-WH_INLINE void wh_books_impulse(const wh_hybrid *of, const wh_contact_work *w, unsigned k,
+WH_INLINE void wh_books_impulse(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
                                 wh_real impulse, wh_real before, wh_real after) {
     if (wh_books_open(of, w)) {
         wh_books_enter(of, w, k, WH_R(1.0), impulse, WH_R(0.5) * (before + after), w->books->step);
@@ -50,7 +50,7 @@ WH_INLINE void wh_books_impulse(const wh_hybrid *of, const wh_contact_work *w, u
 }
 
 /* The accounts, before and after a crossing assigns: what it changes is its entry. */
-static inline void wh_books_levels(const wh_hybrid *of, const wh_contact_work *w,
+static inline void wh_books_levels(const wh_contact_system *of, const wh_contact_work *w,
                                    const wh_contact_state *s, const wh_real *input, unsigned k,
                                    wh_real sign) {
     if (!wh_books_open(of, w)) {
@@ -66,15 +66,15 @@ static inline void wh_books_levels(const wh_hybrid *of, const wh_contact_work *w
 
 /* The accounts, before a contact's place is put right, and after: the difference is contact k's entry. One that is
  * within the accounts' own rounding is none: in float, noise of many steps would add up to more than they move. */
-static inline void wh_books_look(const wh_hybrid *of, wh_contact_work *w, const wh_contact_state *s,
-                                 const wh_real *input) {
+static inline void wh_books_look(const wh_contact_system *of, wh_contact_work *w,
+                                 const wh_contact_state *s, const wh_real *input) {
     if (wh_books_open(of, w)) {
         of->ledger->levels(of->ledger->model, s->angle, s->real,
                            s->real + (of->coordinates - of->angles), input, w->level);
     }
 }
 
-static inline void wh_books_moved(const wh_hybrid *of, const wh_contact_work *w,
+static inline void wh_books_moved(const wh_contact_system *of, const wh_contact_work *w,
                                   const wh_contact_state *s, const wh_real *input, unsigned k) {
     const wh_real rounding = WH_DOUBLE ? WH_R(0x1p-49) : WH_R(0x1p-20);
     wh_real level[WH_ACCOUNTS_MAX];
@@ -91,20 +91,20 @@ static inline void wh_books_moved(const wh_hybrid *of, const wh_contact_work *w,
     }
 }
 
-WH_INLINE void wh_books_begin(const wh_hybrid *of, wh_contact_work *w, const wh_angle *angle,
-                              wh_real span) {
+WH_INLINE void wh_books_begin(const wh_contact_system *of, wh_contact_work *w,
+                              const wh_angle *angle, wh_real span) {
     if (wh_books_open(of, w)) {
         wh_ledger_begin(of->ledger, angle, w->books, span);
     }
 }
 
-WH_INLINE void wh_books_end(const wh_hybrid *of, wh_contact_work *w) {
+WH_INLINE void wh_books_end(const wh_contact_system *of, wh_contact_work *w) {
     if (wh_books_open(of, w)) {
         w->books->span = WH_R(0.0);
     }
 }
 
-WH_INLINE void wh_books_accept(const wh_hybrid *of, wh_contact_work *w) {
+WH_INLINE void wh_books_accept(const wh_contact_system *of, wh_contact_work *w) {
     if (wh_books_open(of, w)) {
         wh_ledger_accept(of->ledger, w->books);
     }

@@ -10,7 +10,7 @@
 #ifndef WH_CONTACT_RANK_H
 #define WH_CONTACT_RANK_H
 
-#include "contact_place.h"
+#include "contact_project.h"
 
 /* Of each hold that holds: what the earlier ones leave of its row, and M^-1 times that. */
 typedef struct wh_contact_rows {
@@ -20,7 +20,7 @@ typedef struct wh_contact_rows {
     unsigned holds;                /* that hold */
 } wh_contact_rows;
 
-WH_INLINE wh_real wh_contact_dot(const wh_hybrid *of, const wh_real *a, const wh_real *b) {
+WH_INLINE wh_real wh_contact_dot(const wh_contact_system *of, const wh_real *a, const wh_real *b) {
     wh_real sum = WH_R(0.0);
     for (unsigned i = 0; i < of->coordinates; i++) {
         sum += a[i] * b[i];
@@ -28,7 +28,7 @@ WH_INLINE wh_real wh_contact_dot(const wh_hybrid *of, const wh_real *a, const wh
     return sum;
 }
 
-static inline void wh_contact_rows_of(const wh_hybrid *of, wh_contact_work *w,
+static inline void wh_contact_rows_of(const wh_contact_system *of, wh_contact_work *w,
                                       const wh_contact_point *at, const wh_real *input,
                                       wh_contact_rows *rows) {
     of->forces(of->model, at->phase, at->linear, at->rate, input, w->law);
@@ -44,8 +44,8 @@ static inline void wh_contact_rows_of(const wh_hybrid *of, wh_contact_work *w,
         }
         rows->holds++;
         for (unsigned i = 0; i < of->coordinates; i++) {
-            rows->row[k][i] = wh_law(of, w, k)[(unsigned)WH_LAW_ROWS + i];
-            rows->way[k][i] = wh_law(of, w, k)[(unsigned)WH_LAW_ROWS + of->coordinates + i];
+            rows->row[k][i] = wh_contact_law(of, w, k)[(unsigned)WH_LAW_ROWS + i];
+            rows->way[k][i] = wh_contact_law(of, w, k)[(unsigned)WH_LAW_ROWS + of->coordinates + i];
         }
         for (unsigned j = 0; j < k; j++) {
             if (rows->size[j] > WH_R(0.0)) {
@@ -58,13 +58,13 @@ static inline void wh_contact_rows_of(const wh_hybrid *of, wh_contact_work *w,
             }
         }
         const wh_real size = wh_contact_dot(of, rows->row[k], rows->way[k]);
-        const bool is_left = size > WH_CONTACT_ROUNDING * wh_contact_yield(of, w, k);
+        const bool is_left = size > WH_CONTACT_ROUNDING * wh_delassus_diagonal(of, w, k);
         rows->size[k] = is_left ? size : WH_R(0.0);
     }
 }
 
 /* The first hold that has nothing left in `after`, or points back, and did not before; or of->contacts. */
-static inline unsigned wh_contact_fallen(const wh_hybrid *of, const wh_contact_rows *before,
+static inline unsigned wh_contact_fallen(const wh_contact_system *of, const wh_contact_rows *before,
                                          const wh_contact_rows *after) {
     for (unsigned k = 0; k < of->forced; k++) {
         const wh_real along = wh_contact_dot(of, before->row[k], after->way[k]);
@@ -82,8 +82,8 @@ static inline unsigned wh_contact_fallen(const wh_hybrid *of, const wh_contact_r
 /* The hold that lost its say in a step of `span`, or of->contacts; `to` is NULL where it could not be taken. Where it ends does not always tell:
  * accelerations have no bound near such a place, and may have thrown it anywhere. So where the rates alone would
  * have led is looked at, too. */
-static inline unsigned wh_contact_lost(const wh_hybrid *of, wh_contact_work *w, wh_real span,
-                                       wh_contact_state *from, wh_contact_state *to,
+static inline unsigned wh_contact_lost(const wh_contact_system *of, wh_contact_work *w,
+                                       wh_real span, wh_contact_state *from, wh_contact_state *to,
                                        const wh_real *input) {
     wh_contact_point at;
     wh_contact_rows before;
@@ -102,7 +102,7 @@ static inline unsigned wh_contact_lost(const wh_hybrid *of, wh_contact_work *w, 
 }
 
 /* The hold that lost its say between the ends of a try that is taken, or of->contacts. */
-WH_INLINE unsigned wh_contact_flat(const wh_hybrid *of, wh_contact_work *w, wh_real span,
+WH_INLINE unsigned wh_contact_flat(const wh_contact_system *of, wh_contact_work *w, wh_real span,
                                    wh_contact_state *from, wh_contact_state *to,
                                    const wh_real *input) {
     bool any = false;

@@ -3,9 +3,10 @@
 #define WH_CONTACT_STEP_H
 
 #include "contact_rank.h"
-#include "contact_take.h"
+#include "contact_resolve.h"
 
-WH_INLINE void wh_contact_modes(const wh_hybrid *of, const wh_state *state, wh_contact_work *w) {
+WH_INLINE void wh_contact_modes(const wh_contact_system *of, const wh_state *state,
+                                wh_contact_work *w) {
     WH_UNROLL
     for (unsigned k = 0; k < WH_CONTACTS_MAX; k++) {
         w->mode[k] = k < of->contacts ? state->contacts->mode[k] : (int8_t)0;
@@ -14,18 +15,18 @@ WH_INLINE void wh_contact_modes(const wh_hybrid *of, const wh_state *state, wh_c
 
 /* Crossings that went against their direction, or left the value they started at, are on the other
  * side without an event. */
-WH_INLINE void wh_contact_pass(const wh_hybrid *of, const wh_margins *m, wh_contact_work *w) {
+WH_INLINE void wh_contact_pass(const wh_contact_system *of, const wh_margins *m,
+                               wh_contact_work *w) {
+    unsigned passed = 0;
     WH_UNROLL
     for (unsigned k = of->forced; k < of->contacts; k++) {
-        const wh_real value = m->signal[2 * k];
-        if (value != WH_R(0.0) && m->value[k] >= WH_R(0.0)) {
-            w->mode[k] = value > WH_R(0.0) ? 1 : -1;
-        }
+        passed |= m->value[k] >= WH_R(0.0) ? 1U << k : 0U;
     }
+    wh_contact_set_sides(of, w, passed, m->signal);
 }
 
-WH_INLINE void wh_contact_work_begin(const wh_hybrid *of, const wh_state *state, wh_contact_work *w,
-                                     wh_contact_state *now) {
+WH_INLINE void wh_contact_work_begin(const wh_contact_system *of, const wh_state *state,
+                                     wh_contact_work *w, wh_contact_state *now) {
     wh_contact_copy(of, state->angle, state->real, state->carry, now);
     wh_contact_modes(of, state, w);
     WH_UNROLL
@@ -42,6 +43,7 @@ WH_INLINE void wh_contact_work_begin(const wh_hybrid *of, const wh_state *state,
         w->hit_next = 0;
         w->turned = 0;
     }
+    w->capped = false;
     w->moved = 0;
     w->mover = 0;
     w->fault = -1;
@@ -52,7 +54,8 @@ WH_INLINE void wh_contact_work_begin(const wh_hybrid *of, const wh_state *state,
 }
 
 /* The accelerations at the state, with the contacts' forces, for records. accel[coordinates]. */
-static inline void wh_contact_observe(const wh_hybrid *of, const wh_state *state, wh_real *accel) {
+static inline void wh_contact_observe(const wh_contact_system *of, const wh_state *state,
+                                      wh_real *accel) {
     wh_contact_work work;
     wh_contact_state now;
     wh_real signal[2 * WH_CONTACTS_MAX];
@@ -63,9 +66,22 @@ static inline void wh_contact_observe(const wh_hybrid *of, const wh_state *state
     wh_contact_look(of, &work, &now, state->input, accel, signal);
 }
 
+/* Step `s` by h in the modes of work. False: *fault left all bounds and s is as it was. */
+static inline bool wh_contact_try(const wh_contact_system *of, wh_contact_work *w, wh_real h,
+                                  wh_real *input, wh_contact_state *s, int *fault) {
+    const wh_contact_model model = {of, w};
+    wh_state view = {0, s->angle, s->real, s->carry, input, NULL, NULL, NULL, -1};
+    wh_books_begin(of, w, s->angle, h);
+    const wh_status status = wh_step_second(&model, wh_contact_accel, of->method, of->compensated,
+                                            of->angles, of->coordinates, h, &view);
+    wh_books_end(of, w);
+    *fault = view.fault;
+    return status == WH_OK;
+}
+
 /* The margins at the end of a try from `from` to `to`: a stop that was open, or closing, and is closed was hit,
  * even when it is on its way out again. */
-static inline void wh_contact_margins_end(const wh_hybrid *of, wh_contact_work *w,
+static inline void wh_contact_margins_end(const wh_contact_system *of, wh_contact_work *w,
                                           wh_contact_state *from, wh_contact_state *to,
                                           const wh_real *input, wh_margins *m) {
     wh_contact_point at;
@@ -85,7 +101,7 @@ static inline void wh_contact_margins_end(const wh_hybrid *of, wh_contact_work *
         return;
     }
     wh_contact_point_of(of, from, &at);
-    of->signals(of->model, at.phase, at.linear, at.rate, input, before);
+    wh_contact_signals(of, at.phase, at.linear, at.rate, input, before);
     for (unsigned k = 0; k < of->forced; k++) {
         const bool closes = before[2 * k] > WH_R(0.0) || before[2 * k + 1] < WH_R(0.0);
         if ((leaving >> k & 1U) != 0 && closes) {
@@ -95,21 +111,9 @@ static inline void wh_contact_margins_end(const wh_hybrid *of, wh_contact_work *
     }
 }
 
-/* Of the events of one moment, those of forces beyond a limit, as bits, if there are several: how many
- * really give way is to be settled, since the first to do so may relieve the others. */
-WH_INLINE unsigned wh_contact_overloads(const wh_hybrid *of, const wh_contact_work *w,
-                                        unsigned events) {
-    unsigned bits = 0;
-    for (unsigned k = 0; k < of->forced; k++) {
-        const bool gives = of->contact[k].kind != WH_HOLD && wh_constrains(of, w, k);
-        bits |= gives ? events & 1U << k : 0U;
-    }
-    return (bits & (bits - 1U)) != 0 ? bits : 0U;
-}
-
 /* A try from `from`, h long, failed: for a friction or a hold that had no number on the way? It is looked for where
  * the rates lead. */
-WH_APART void wh_contact_blame(const wh_hybrid *of, wh_contact_work *w, wh_real h,
+WH_APART void wh_contact_blame(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                const wh_real *input, wh_contact_state *from) {
     wh_contact_point at;
     for (unsigned part = 0; part <= 2; part++) {
@@ -138,42 +142,21 @@ WH_INLINE void wh_contact_note(const wh_contact_work *w, unsigned k, wh_real at_
     }
 }
 
-/* All that happens at one moment: `events`, as bits. `last`: no more bounces in this step, of length h, of which
- * at_s is over. */
-WH_APART void wh_contact_moment(const wh_hybrid *of, wh_contact_work *w, unsigned events, bool last,
-                                wh_real h, wh_real at_s, const wh_real *input,
-                                wh_contact_state *now, wh_contact_log *log) {
-    const wh_real *rate = wh_contact_rates(of, now);
-    const unsigned loads = wh_contact_overloads(of, w, events);
-    for (unsigned i = 0; i < of->coordinates; i++) {
-        w->came[i] = rate[i];
-    }
+/* What happens at one moment, which is at_s after the step's begin, is noted. */
+WH_INLINE void wh_contact_happen(const wh_contact_system *of, wh_contact_work *w,
+                                 const wh_contact_moment *m, wh_real at_s, const wh_real *input,
+                                 wh_contact_state *now, wh_contact_log *log) {
+    wh_real impulse[WH_CONTACTS_MAX] = {WH_R(0.0)};
+    const unsigned events = wh_contact_resolve(of, w, m, input, now, impulse);
     for (unsigned k = 0; k < of->contacts; k++) {
-        if (((events & ~loads) >> k & 1U) != 0) {
-            const wh_real impulse = wh_contact_take(of, w, k, h, last, input, now);
-            wh_contact_note(w, k, at_s, impulse, log);
-        }
-    }
-    wh_contact_settle(of, w, h, last ? events : 0, input, now);
-    unsigned given = 0;
-    for (unsigned k = 0; k < of->forced; k++) {
-        given |= (loads >> k & 1U) != 0 && !wh_constrains(of, w, k) ? 1U << k : 0U;
-    }
-    for (unsigned k = 0; k < of->forced && loads != 0 && given == 0 && !last; k++) {
-        if ((loads >> k & 1U) != 0) { /* by no more than rounding: the first of them */
-            (void)wh_contact_take(of, w, k, h, last, input, now);
-            given = 1U << k;
-        }
-    }
-    for (unsigned k = 0; k < of->forced; k++) {
-        if ((given >> k & 1U) != 0) {
-            wh_contact_note(w, k, at_s, WH_R(0.0), log);
+        if ((events >> k & 1U) != 0) {
+            wh_contact_note(w, k, at_s, impulse[k], log);
         }
     }
 }
 
 /* Stops that an impact made close, and that are still open, as bits; they are then dealt with. */
-WH_INLINE unsigned wh_contact_next(const wh_hybrid *of, wh_contact_work *w) {
+WH_INLINE unsigned wh_contact_next(const wh_contact_system *of, wh_contact_work *w) {
     unsigned bits = 0;
     for (unsigned k = 0; k < of->forced; k++) {
         bits |= w->mode[k] == WH_FREE ? w->hit_next & 1U << k : 0U;
@@ -183,7 +166,7 @@ WH_INLINE unsigned wh_contact_next(const wh_hybrid *of, wh_contact_work *w) {
 }
 
 /* A step is done: into the state. */
-WH_INLINE void wh_contact_commit(const wh_hybrid *of, const wh_contact_work *w,
+WH_INLINE void wh_contact_commit(const wh_contact_system *of, const wh_contact_work *w,
                                  const wh_contact_state *now, const wh_contact_log *log,
                                  bool overran, wh_state *state) {
     const unsigned reals = 2U * of->coordinates - of->angles;
@@ -215,7 +198,7 @@ WH_INLINE void wh_contact_commit(const wh_hybrid *of, const wh_contact_work *w,
 }
 
 /* A try from `from` to `to`, `span` long, is taken. Returns the hold that lost its say in it, or of->contacts. */
-WH_INLINE unsigned wh_contact_accept(const wh_hybrid *of, wh_contact_work *w, wh_real span,
+WH_INLINE unsigned wh_contact_accept(const wh_contact_system *of, wh_contact_work *w, wh_real span,
                                      wh_contact_state *from, wh_contact_state *to,
                                      const wh_real *input) {
     wh_books_accept(of, w);
@@ -226,7 +209,7 @@ WH_INLINE unsigned wh_contact_accept(const wh_hybrid *of, wh_contact_work *w, wh
 /* One step with its events. Returns as wh_step_second(), or WH_E_UNDEFINED or WH_E_SINGULAR with the contact in
  * state->fault. Only what the step builds on must be a number: a try that is cut short at an event may have
  * looked beyond where an expression ends. */
-static inline wh_status wh_step_contact(const wh_hybrid *of, wh_real h, wh_state *state) {
+static inline wh_status wh_step_contact(const wh_contact_system *of, wh_real h, wh_state *state) {
     wh_contact_work work;
     wh_contact_state now;
     wh_contact_state next;
@@ -273,7 +256,7 @@ static inline wh_status wh_step_contact(const wh_hybrid *of, wh_real h, wh_state
                 wh_contact_blame(of, &work, left, state->input, &now);
                 return wh_contact_refuse(&work, fault, state);
             }
-            wh_contact_tidy(of, &work, left, state->input, &now, &next);
+            wh_contact_stabilise(of, &work, left, state->input, &now, &next);
             wh_contact_margins_end(of, &work, &now, &next, state->input, &margins);
             if (wh_contact_calm(of, &margins) && (of->held == 0 || work.undefined < 0)) {
                 wh_contact_pass(of, &margins, &work);
@@ -298,7 +281,7 @@ static inline wh_status wh_step_contact(const wh_hybrid *of, wh_real h, wh_state
                     wh_contact_blame(of, &work, span, state->input, &next);
                     return wh_contact_refuse(&work, fault, state);
                 }
-                wh_contact_tidy(of, &work, span, state->input, &next, &now);
+                wh_contact_stabilise(of, &work, span, state->input, &next, &now);
                 flat = wh_contact_accept(of, &work, span, &next, &now, state->input);
                 left -= span;
             }
@@ -308,7 +291,8 @@ static inline wh_status wh_step_contact(const wh_hybrid *of, wh_real h, wh_state
         }
         if (events != 0) {
             const bool last = ++round == WH_EVENTS_MAX;
-            wh_contact_moment(of, &work, events, last, h, h - left, state->input, &now, &log);
+            const wh_contact_moment moment = {events, 0, h, last};
+            wh_contact_happen(of, &work, &moment, h - left, state->input, &now, &log);
             if (work.undefined >= 0 || work.fault >= 0) {
                 break;
             }
@@ -327,7 +311,7 @@ static inline wh_status wh_step_contact(const wh_hybrid *of, wh_real h, wh_state
         wh_ledger_commit(of->ledger, &books, state);
     }
 #endif
-    wh_contact_commit(of, &work, end, &log, round == WH_EVENTS_MAX, state);
+    wh_contact_commit(of, &work, end, &log, round == WH_EVENTS_MAX || work.capped, state);
     return WH_OK;
 }
 

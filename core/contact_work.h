@@ -11,6 +11,14 @@
 #define WH_APART static inline
 #endif
 
+/* What a step of a scene with contacts is made of, for a program that counts instructions between such places
+ * (boards/programs/mark.h); nothing in every other. */
+#define WH_MARK_ACCEL 1   /* the accelerations are evaluated next */
+#define WH_MARK_SIGNALS 2 /* the signals are */
+#ifndef WH_MARK
+#define WH_MARK(kind)
+#endif
+
 /* A step in progress: scratch memory, and the modes it tries. */
 typedef struct wh_contact_work {
     int8_t mode[WH_CONTACTS_MAX];
@@ -31,6 +39,7 @@ typedef struct wh_contact_work {
     wh_real held[WH_CONTACTS_MAX]; /* what holds keep, by place: see wh_contact */
     unsigned moved; /* contacts whose signals a crossing's assignments changed, as bits */
     unsigned mover; /* that crossing */
+    bool capped;    /* a load was shared as far as the pivoting's cap lets it */
     int fault;      /* component that was assigned what it cannot hold, or -1 */
     int undefined;  /* contact with an expression that was no finite number, or -1 */
 #if WH_LEDGER
@@ -41,7 +50,7 @@ typedef struct wh_contact_work {
 
 /* What the integrator gets as its model. */
 typedef struct wh_contact_model {
-    const wh_hybrid *of;
+    const wh_contact_system *of;
     wh_contact_work *work;
 } wh_contact_model;
 
@@ -57,14 +66,78 @@ typedef struct wh_contact_state {
     wh_real carry[2 * WH_COORDS];
 } wh_contact_state;
 
-WH_INLINE const wh_real *wh_law(const wh_hybrid *of, const wh_contact_work *w, unsigned k) {
+WH_INLINE void wh_contact_signals(const wh_contact_system *of, const wh_phase *phase,
+                                  const wh_real *linear, const wh_real *rate, const wh_real *input,
+                                  wh_real *signal) {
+    WH_MARK(WH_MARK_SIGNALS);
+    of->signals(of->model, phase, linear, rate, input, signal);
+}
+
+/* A place between the ends of a try. */
+typedef struct wh_contact_point {
+    wh_phase phase[WH_COORDS];
+    wh_real linear[WH_COORDS];
+    wh_real rate[WH_COORDS];
+} wh_contact_point;
+
+WH_INLINE void wh_contact_copy(const wh_contact_system *of, const wh_angle *angle,
+                               const wh_real *real, const wh_real *carry, wh_contact_state *to) {
+    const unsigned reals = 2U * of->coordinates - of->angles;
+    WH_UNROLL
+    for (unsigned i = 0; i < of->angles; i++) {
+        to->angle[i] = angle[i];
+    }
+    WH_UNROLL
+    for (unsigned i = 0; i < reals; i++) {
+        to->real[i] = real[i];
+    }
+    for (unsigned i = 0; i < of->angles + reals && of->compensated; i++) {
+        to->carry[i] = carry[i];
+    }
+}
+
+WH_INLINE wh_real *wh_contact_rates(const wh_contact_system *of, wh_contact_state *s) {
+    return s->real + (of->coordinates - of->angles);
+}
+
+WH_INLINE void wh_contact_point_of(const wh_contact_system *of, wh_contact_state *s,
+                                   wh_contact_point *at) {
+    const wh_real *rate = wh_contact_rates(of, s);
+    WH_UNROLL
+    for (unsigned i = 0; i < of->angles; i++) {
+        at->phase[i] = wh_phase_of(s->angle[i]);
+    }
+    WH_UNROLL
+    for (unsigned i = of->angles; i < of->coordinates; i++) {
+        at->linear[i - of->angles] = s->real[i - of->angles];
+    }
+    WH_UNROLL
+    for (unsigned i = 0; i < of->coordinates; i++) {
+        at->rate[i] = rate[i];
+    }
+}
+
+/* Where the rates at `s` alone lead in a time. */
+static inline void wh_contact_point_ahead(const wh_contact_system *of, wh_contact_state *s,
+                                          wh_real span, wh_contact_point *at) {
+    wh_contact_point_of(of, s, at);
+    for (unsigned i = 0; i < of->angles; i++) {
+        (void)wh_phase_move(at->phase[i], span * at->rate[i] * WH_PHASE_PER_RAD, &at->phase[i]);
+    }
+    for (unsigned i = of->angles; i < of->coordinates; i++) {
+        at->linear[i - of->angles] += span * at->rate[i];
+    }
+}
+
+WH_INLINE const wh_real *wh_contact_law(const wh_contact_system *of, const wh_contact_work *w,
+                                        unsigned k) {
     return w->law + k * (WH_LAW_ROWS + 2U * of->coordinates);
 }
 
 /* J_k x. */
-WH_INLINE wh_real wh_along(const wh_hybrid *of, const wh_contact_work *w, unsigned k,
-                           const wh_real *x) {
-    const wh_real *row = wh_law(of, w, k) + WH_LAW_ROWS;
+WH_INLINE wh_real wh_jacobian_times(const wh_contact_system *of, const wh_contact_work *w,
+                                    unsigned k, const wh_real *x) {
+    const wh_real *row = wh_contact_law(of, w, k) + WH_LAW_ROWS;
     const int pin = of->contact[k].pin;
     if (pin >= 0) {
         return row[pin] * x[pin];
@@ -76,13 +149,24 @@ WH_INLINE wh_real wh_along(const wh_hybrid *of, const wh_contact_work *w, unsign
     return sum;
 }
 
-/* x += M^-1 J_k^T amount. */
-WH_INLINE void wh_push(const wh_hybrid *of, const wh_contact_work *w, unsigned k, wh_real amount,
-                       wh_real *x) {
-    const wh_real *way = wh_law(of, w, k) + WH_LAW_ROWS + of->coordinates;
+/* x += M^-1 J_k^T lambda. */
+WH_INLINE void wh_contact_apply(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
+                                wh_real lambda, wh_real *x) {
+    const wh_real *way = wh_contact_law(of, w, k) + WH_LAW_ROWS + of->coordinates;
     for (unsigned i = 0; i < of->coordinates; i++) {
-        x[i] += way[i] * amount;
+        x[i] += way[i] * lambda;
     }
+}
+
+/* J_k M^-1 J_l^T, an entry of the Delassus matrix: what a force of l makes of the acceleration along k. */
+WH_INLINE wh_real wh_delassus(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
+                              unsigned l) {
+    return wh_jacobian_times(of, w, k, wh_contact_law(of, w, l) + WH_LAW_ROWS + of->coordinates);
+}
+
+/* Is contact k of a kind that is `trait`? */
+WH_INLINE bool wh_contact_is(const wh_contact_system *of, unsigned k, unsigned trait) {
+    return (wh_contact_kinds(trait) >> of->contact[k].kind & 1U) != 0;
 }
 
 /* What a step builds on must be finite numbers. */
@@ -96,23 +180,25 @@ WH_INLINE void wh_contact_expect(wh_contact_work *w, unsigned k, wh_real value) 
 }
 
 /* Does the contact keep J_k q' at zero? */
-WH_INLINE bool wh_constrains(const wh_hybrid *of, const wh_contact_work *w, unsigned k) {
+WH_INLINE bool wh_contact_constrains(const wh_contact_system *of, const wh_contact_work *w,
+                                     unsigned k) {
     return of->contact[k].kind == WH_FRICTION ? w->mode[k] == WH_STUCK : w->mode[k] == WH_ACTIVE;
 }
 
 /* The limit of each friction that sticks, the force of each that slides, what each hold holds. (What a stop gives
  * back counts at an impact only, and is none of these.) Seldom called: kept out of the way. */
-WH_APART void wh_contact_expect_laws(const wh_hybrid *of, wh_contact_work *w) {
+WH_APART void wh_contact_expect_laws(const wh_contact_system *of, wh_contact_work *w) {
     for (unsigned k = 0; k < of->forced; k++) {
         const wh_contact_kind kind = (wh_contact_kind)of->contact[k].kind;
         const bool slides = kind == WH_FRICTION && w->mode[k] != WH_STUCK;
         if (kind == WH_FRICTION || (kind == WH_HOLD && w->mode[k] == WH_ACTIVE)) {
-            wh_contact_expect(w, k, wh_law(of, w, k)[slides ? WH_LAW_SECOND : WH_LAW_FIRST]);
+            wh_contact_expect(w, k,
+                              wh_contact_law(of, w, k)[slides ? WH_LAW_SECOND : WH_LAW_FIRST]);
         }
     }
 }
 
-WH_INLINE bool wh_feels(const wh_hybrid *of, const wh_contact_work *w) {
+WH_INLINE bool wh_contact_any_acts(const wh_contact_system *of, const wh_contact_work *w) {
     WH_UNROLL
     for (unsigned k = 0; k < of->forced; k++) {
         if (of->contact[k].kind == WH_FRICTION || w->mode[k] == WH_ACTIVE) {

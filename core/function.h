@@ -22,13 +22,26 @@ extern "C" {
 #define wh_atan WH_NAME(wh_atan)
 #define wh_atan2 WH_NAME(wh_atan2)
 #define wh_pow WH_NAME(wh_pow)
+#define wh_sinh WH_NAME(wh_sinh)
+#define wh_cosh WH_NAME(wh_cosh)
+#define wh_tanh WH_NAME(wh_tanh)
 
-/* Within one unit in the last place: e^x, the natural logarithm, and the angles in radians. */
+/* All of them, once more, for who lists them: ONE(name) of one argument, TWO(name) of two. */
+#define WH_FUNCTIONS(ONE, TWO) \
+    ONE(exp) \
+    ONE(log) \
+    ONE(tan) ONE(asin) ONE(acos) ONE(atan) TWO(atan2) TWO(pow) ONE(sinh) ONE(cosh) ONE(tanh)
+
+/* Within one unit in the last place: e^x, the natural logarithm, the angles in radians, and the hyperbolic sine,
+ * cosine and tangent. */
 wh_real wh_exp(wh_real x);
 wh_real wh_log(wh_real x);
 wh_real wh_asin(wh_real x);
 wh_real wh_acos(wh_real x);
 wh_real wh_atan(wh_real x);
+wh_real wh_sinh(wh_real x);
+wh_real wh_cosh(wh_real x);
+wh_real wh_tanh(wh_real x);
 
 /* Within two units in float, one in double. Radians, of any size. */
 wh_real wh_tan(wh_real rad);

@@ -19,6 +19,8 @@
 #define wh_cosine WH_NAME(wh_cosine)
 #define wh_log_pair WH_NAME(wh_log_pair)
 #define wh_exp_pair WH_NAME(wh_exp_pair)
+#define wh_exp_parts WH_NAME(wh_exp_parts)
+#define wh_scaled_pair WH_NAME(wh_scaled_pair)
 
 #define WH_NAN __builtin_nan("") /* one NaN, with the same bits everywhere */
 #define WH_INFINITY __builtin_inf()
@@ -36,6 +38,10 @@ double wh_cosine(double rad);
 wh_pair wh_log_pair(double x);
 /* e^exponent, rounded once, subnormals too. |exponent| < 1e4. */
 double wh_exp_pair(wh_pair exponent);
+/* The same as a pair from 0.99 to 2, to 60 bits, and a power of two. */
+wh_pair wh_exp_parts(wh_pair exponent, int *power_of_two);
+/* A pair from 0.99 to 2 times 2^exponent, rounded once, infinite and subnormal where it must be. */
+double wh_scaled_pair(wh_pair x, int exponent);
 
 WH_INLINE uint64_t wh_bits(double x) {
     const union {

@@ -51,7 +51,7 @@ static const wh_pair fraction[64] = {
 
 /* A pair times 2^exponent. Where that is subnormal, a large number added takes the bits off that have no
  * room, in one rounding, and what is left is counted in units of 2^-1074. */
-static double scaled(wh_pair x, int exponent) {
+double wh_scaled_pair(wh_pair x, int exponent) {
     if (exponent > 1023) {
         return exponent > 1024 ? WH_INFINITY : x.high * 2.0 * 0x1p1023;
     }
@@ -67,7 +67,7 @@ static double scaled(wh_pair x, int exponent) {
     return wh_of_bits((uint64_t)((kept - large) * wh_power_of_two(exponent + 1074)));
 }
 
-double wh_exp_pair(wh_pair x) {
+wh_pair wh_exp_parts(wh_pair x, int *power_of_two) {
     const double steps = x.high * STEPS_PER_LN2;
     const int32_t k = (int32_t)(steps < 0.0 ? steps - 0.5 : steps + 0.5);
     const unsigned i = (uint32_t)k & 63U;
@@ -78,7 +78,14 @@ double wh_exp_pair(wh_pair x) {
         r * (1.0 / 6.0 + r * (1.0 / 24.0 + r * (1.0 / 120.0 + r * (1.0 / 720.0 + r / 5040.0))));
     const double growth = r + (rest.low + r * r * series); /* e^r - 1 */
     const wh_pair f = fraction[i];
-    return scaled(wh_pair_of(f.high, f.low + f.high * growth), (k - (int32_t)i) / 64);
+    *power_of_two = (k - (int32_t)i) / 64;
+    return wh_pair_of(f.high, f.low + f.high * growth);
+}
+
+double wh_exp_pair(wh_pair x) {
+    int power_of_two;
+    const wh_pair parts = wh_exp_parts(x, &power_of_two);
+    return wh_scaled_pair(parts, power_of_two);
 }
 
 double wh_exp(double x) {

@@ -18,10 +18,14 @@ static uint32_t exp2_of(uint32_t fraction) {
     return WH_TOP_BIT + (wh_high(sum, fraction) >> 1);
 }
 
+wh_digits wh_float_exp2(uint64_t power) {
+    return (wh_digits){exp2_of((uint32_t)power), (int32_t)(uint32_t)(power >> 32)};
+}
+
 /* 2^(size/2^32) with a sign, size/2^32 below 2^10. */
 static float exp2_signed(uint32_t sign, uint64_t size, bool below_one) {
-    const uint64_t power = below_one ? 0U - size : size;
-    return wh_float_round(sign, exp2_of((uint32_t)power), (int32_t)(uint32_t)(power >> 32));
+    const wh_digits power = wh_float_exp2(below_one ? 0U - size : size);
+    return wh_float_round(sign, power.size, power.exponent);
 }
 
 /* size/2^shift, rounded. */
@@ -65,8 +69,12 @@ static int64_t log2_of(uint32_t magnitude) {
            (((int64_t)bent * z) >> 12);
 }
 
-float wh_exp(float x) {
+uint64_t wh_float_octaves(wh_digits x) {
     const uint64_t log2_e = UINT64_C(793129986396); /* Q39 */
+    return shifted(log2_e * (x.size >> 8), 30 - x.exponent);
+}
+
+float wh_exp(float x) {
     const uint32_t bits = wh_bits_of(x);
     const uint32_t magnitude = bits & ~WH_BITS_SIGN;
     if (magnitude > WH_BITS_INFINITE) {
@@ -78,9 +86,7 @@ float wh_exp(float x) {
     if (magnitude < UINT32_C(0x32000000)) { /* 2^-27 */
         return 1.0f;
     }
-    const wh_digits d = wh_digits_of(magnitude);
-    const uint64_t product = log2_e * (d.size >> 8);
-    return exp2_signed(0U, shifted(product, 30 - d.exponent), bits != magnitude);
+    return exp2_signed(0U, wh_float_octaves(wh_digits_of(magnitude)), bits != magnitude);
 }
 
 float wh_log(float x) {

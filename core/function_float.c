@@ -38,4 +38,16 @@ uint32_t wh_float_ratio(uint32_t num, uint32_t den) {
     return ratio;
 }
 
+/* Division has room for 24 digits, and the slope tells what the others make of it. */
+wh_digits wh_float_inverse(wh_digits x) {
+    const uint32_t zeros = wh_leading_zeros(x.size);
+    const uint32_t size = x.size << zeros;
+    const uint32_t first = size & ~UINT32_C(255);
+    const bool power_of_two = first == WH_TOP_BIT;
+    const uint32_t inverse = wh_float_ratio(WH_TOP_BIT, first); /* Q31, or Q32 below one */
+    const uint32_t others = (size - first) << (power_of_two ? 2 : 1);
+    return (wh_digits){inverse - wh_high(inverse, wh_high(inverse, others)),
+                       (int32_t)zeros - x.exponent - (power_of_two ? 0 : 1)};
+}
+
 #endif

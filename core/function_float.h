@@ -92,6 +92,9 @@ WH_INLINE wh_digits wh_longer(wh_digits x, uint32_t more) {
 
 #define wh_float_round WH_NAME(wh_float_round)
 #define wh_float_ratio WH_NAME(wh_float_ratio)
+#define wh_float_inverse WH_NAME(wh_float_inverse)
+#define wh_float_octaves WH_NAME(wh_float_octaves)
+#define wh_float_exp2 WH_NAME(wh_float_exp2)
 
 /* The float nearest to size/2^31 * 2^exponent, for size > 0 and whatever exponent: ties to even, infinite
  * beyond the largest float, subnormal and zero below the least. sign is WH_BITS_SIGN or 0. */
@@ -100,5 +103,14 @@ float wh_float_round(uint32_t sign, uint32_t size, int32_t exponent);
 /* num/den, or twice that where it is below one, in Q31, rounded down; num and den have their top bit set and
  * the 8 lowest not. */
 uint32_t wh_float_ratio(uint32_t num, uint32_t den);
+
+/* 1/x, x > 0: by at most 1e-9 of it. */
+wh_digits wh_float_inverse(wh_digits x);
+
+/* x log2(e) as Q32, rounded, for x of 24 digits from 2^-27 to below 2^9. */
+uint64_t wh_float_octaves(wh_digits x);
+
+/* 2^(power/2^32), the power below 2^10 in size and negative as integers are: by at most 6e-10 of it. */
+wh_digits wh_float_exp2(uint64_t power);
 
 #endif

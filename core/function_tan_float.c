@@ -53,18 +53,6 @@ static wh_digits tangent_of(wh_digits rad) {
     return wh_longer(rad, wh_high(sum, square));
 }
 
-/* 1/x: division has room for 24 digits, and the slope tells what the others make of it. */
-static wh_digits inverse_of(wh_digits x) {
-    const uint32_t zeros = wh_leading_zeros(x.size);
-    const uint32_t size = x.size << zeros;
-    const uint32_t first = size & ~UINT32_C(255);
-    const bool power_of_two = first == WH_TOP_BIT;
-    const uint32_t inverse = wh_float_ratio(WH_TOP_BIT, first); /* Q31, or Q32 below one */
-    const uint32_t others = (size - first) << (power_of_two ? 2 : 1);
-    return (wh_digits){inverse - wh_high(inverse, wh_high(inverse, others)),
-                       (int32_t)zeros - x.exponent - (power_of_two ? 0 : 1)};
-}
-
 float wh_tan(float rad) {
     const uint32_t bits = wh_bits_of(rad);
     const uint32_t magnitude = bits & ~WH_BITS_SIGN;
@@ -83,7 +71,7 @@ float wh_tan(float rad) {
     bool below;
     wh_digits t = tangent_of(rest_of_quarters(magnitude, &odd, &below));
     sign ^= odd != below ? WH_BITS_SIGN : 0U;
-    t = odd ? inverse_of(t) : t;
+    t = odd ? wh_float_inverse(t) : t;
     return wh_float_round(sign, t.size, t.exponent);
 }
 

@@ -8,11 +8,12 @@
 #include "real.h"
 
 #define WH_HASH_START UINT64_C(0xcbf29ce484222325)
+#define WH_HASH_PRIME UINT64_C(0x100000001b3)
 
 /* Mix the eight bytes of `word` into `hash` and return the new hash. */
 static inline uint64_t wh_hash_u64(uint64_t hash, uint64_t word) {
     for (unsigned byte = 0; byte < 8; byte++) {
-        hash = (hash ^ (word & 0xffU)) * UINT64_C(0x100000001b3);
+        hash = (hash ^ (word & 0xffU)) * WH_HASH_PRIME;
         word >>= 8;
     }
     return hash;

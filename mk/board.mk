@@ -11,13 +11,7 @@ $(eval $(call build,$(BOARD),$(BOARD_CC),$(BOARD_CFLAGS) $(WARN) $(BOARD_EXTRA))
 
 ELF := $(B)/$(BOARD)
 BOARD_OBJECTS := $(call objects,$(BOARD),$(BOARD_SOURCES))
-LIB_BOARD := $(ELF)/libwhirl.a
-
-$(LIB_BOARD): $(call objects,$(BOARD),$(CORE_C) $(HAL_C))
-	$(archive)
-
-$(ELF)/libscenes.a: $(call objects,$(BOARD),$(SCENE_C))
-	$(archive)
+$(eval $(call portable_libraries,$(BOARD)))
 
 define link_board
 	$(say) LINK $@
@@ -25,24 +19,23 @@ define link_board
 	    -Wl,--start-group $(filter %.a,$^) -Wl,--end-group $(IMAGE_LIBS) $(BOARD_LDLIBS)
 endef
 
+# program NAME SOURCES LIBRARIES: the program NAME of this machine, in float, and the board's NAME.elf.
+define program
+$(B)/$(1): $(call objects,float,$(2) boards/host/board.c) $(call libraries,float,$(3))
+	$$(link)
+$(ELF)/$(1).elf: $(call objects,$(BOARD),$(2)) $(BOARD_OBJECTS) $(call libraries,$(BOARD),$(3))
+	$$(link_board)
+endef
+
+# Every scene; and the rig's firmware, whose hardware hal/virtual plays.
+$(eval $(call program,scenes,boards/programs/scenes.c,scenes whirl))
+$(eval $(call program,firmware,boards/programs/rig.c,scenes rig virtual whirl))
+
 # Only the test framework takes something from a C library: the jump out of a failed test.
 $(ELF)/tests.elf: IMAGE_LIBS := -lc
-$(ELF)/tests.elf: $(call objects,$(BOARD),$(CORE_TEST_PARTS)) $(BOARD_OBJECTS) $(ELF)/libscenes.a \
-    $(LIB_BOARD)
+$(ELF)/tests.elf: $(call objects,$(BOARD),$(CORE_TEST_PARTS)) $(BOARD_OBJECTS) \
+    $(call libraries,$(BOARD),scenes rig virtual whirl)
 	$(link_board)
-
-$(ELF)/scenes.elf: $(call objects,$(BOARD),boards/programs/scenes.c) $(BOARD_OBJECTS) \
-    $(ELF)/libscenes.a $(LIB_BOARD)
-	$(link_board)
-
-$(ELF)/firmware.elf: $(call objects,$(BOARD),boards/programs/rig.c) $(BOARD_OBJECTS) $(ELF)/libscenes.a \
-    $(LIB_BOARD)
-	$(link_board)
-
-# The same firmware as a program of this machine, with the hardware played by hal/virtual.
-$(B)/firmware: $(call objects,float,boards/programs/rig.c boards/host/board.c) $(LIB_SCENES) \
-    $(LIB_FLOAT)
-	$(link)
 
 # The images that are held to the firmware rules and whose sizes are told.
 IMAGES := $(ELF)/scenes.elf $(ELF)/firmware.elf
@@ -61,7 +54,7 @@ on_board = $(MAKE) -s BOARD=$(1) $(2)
 run-image:
 	@$(call emulate,$(IMAGE))
 
--include $(wildcard $(patsubst %.c,$(ELF)/%.d,$(UNITY_DIR)/unity.c $(CORE_C) $(HAL_C) $(BOARD_C) $(TEST_C) $(SCENE_C) $(B)/tests/core_suites.c))
+-include $(wildcard $(patsubst %.c,$(ELF)/%.d,$(UNITY_DIR)/unity.c $(PORTABLE_C) $(BOARD_C) $(TEST_C) $(SCENE_C) $(B)/tests/core_suites.c))
 
 .PHONY: emulate-now
 emulate-now: build/whirl

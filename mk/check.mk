@@ -17,15 +17,14 @@ gate-house:
 
 # --- warnings are errors, with both compilers, in every build -------------------------------------
 TARGET_C := $(filter boards/cortexm/% boards/$(BOARD)/%,$(BOARD_C))
-PROGRAM_C := $(wildcard boards/programs/*.c)
 PC_BOARD_C := $(PROGRAM_C) $(wildcard boards/host/*.c)
 
 .PHONY: objects board-objects
 objects: $(call objects,host,$(WHIRL_MAIN_C) $(WHIRL_C) $(GEN)/builtin_models.c $(HOST_TEST_C) \
         $(wildcard tests/tools/*.c tests/fuzz/*.c) $(HOST_TOOL_C)) \
-    $(call objects,float,$(CORE_C) $(HAL_C) $(PC_BOARD_C) $(CORE_TEST_C) $(SCENE_C)) \
-    $(call objects,double,$(CORE_C) $(CORE_TEST_C) $(SCENE_C))
-board-objects: $(call objects,$(BOARD),$(CORE_C) $(HAL_C) $(PROGRAM_C) $(TARGET_C) \
+    $(call objects,float,$(PORTABLE_C) $(PC_BOARD_C) $(CORE_TEST_C) $(SCENE_C)) \
+    $(call objects,double,$(CORE_C) $(RIG_C) $(CORE_TEST_C) $(SCENE_C))
+board-objects: $(call objects,$(BOARD),$(PORTABLE_C) $(PROGRAM_C) $(TARGET_C) \
     $(BOARD_SOURCES) $(CORE_TEST_C) $(SCENE_C))
 
 gate-gcc:
@@ -45,7 +44,7 @@ TIDY_C := $(filter-out $(TARGET_C),$(filter %.c,$(C_FILES)))
 gate-tidy:
 	@$(call need,clang-tidy)
 	@$(call tidy,$(TIDY_C),$(LINT_FLAGS))
-	@$(call tidy,$(CORE_C),$(LINT_FLAGS) -DWH_DOUBLE=1)
+	@$(call tidy,$(CORE_C) $(RIG_C),$(LINT_FLAGS) -DWH_DOUBLE=1)
 	@$(call tidy,$(TARGET_C),--target=arm-none-eabi -mcpu=cortex-m4 -ffreestanding \
 	    -Iboards/$(BOARD) $(LINT_FLAGS))
 

@@ -6,7 +6,8 @@ FIGURES := build/figures
 # The same mechanisms as one writes them by hand, to compare with.
 BY_HAND := naive_epicyclic naive_thomson careful_thomson
 # Two scenes again with compensated sums, to see what these cost.
-COMPENSATED_C := $(patsubst %,build/compensated/%.c,scenes epicyclic_from_rest thomson_a)
+COMPENSATED := epicyclic_from_rest thomson_a
+COMPENSATED_C := $(patsubst %,build/compensated/%.c,scenes $(COMPENSATED))
 # What of the flags belongs beside a figure.
 TOLD = $(filter -O% -m%,$(1))
 
@@ -16,36 +17,26 @@ $(PLUGIN): mk/count/count_plugin.c
 	$(say) LINK $@
 	$(Q)$(CC) -std=c11 $(WARN) -O2 -fPIC -shared -fvisibility=hidden -o $@ $<
 
-$(B)/bench: $(call objects,float,$(BENCH_C) boards/host/board.c) $(LIB_SCENES) $(LIB_FLOAT)
+$(eval $(call program,bench,$(BENCH_C),scenes whirl))
+$(eval $(call program,bench_compensated,$(BENCH_C) $(COMPENSATED_C),whirl))
+
+$(B)/bench_double: $(call objects,double,$(BENCH_C) boards/host/board.c) \
+    $(call libraries,double,scenes whirl)
 	$(link)
 
-$(B)/bench_double: $(call objects,double,$(BENCH_C) boards/host/board.c) $(LIB_SCENES_DOUBLE) \
-    $(LIB_DOUBLE)
-	$(link)
-
-build/compensated/%.c: $(GEN)/%.c
+$(patsubst %,build/compensated/%.c,$(COMPENSATED)): build/compensated/%.c: build/whirl mk/price.mk
 	@mkdir -p $(@D)
 	$(say) GEN $@
-	$(Q)sed -e 's/WH_RK4, false/WH_RK4, true/' -e 's/compensated = false/compensated = true/' \
-	    -e 's|"scenes.h"|"$(GEN)/scenes.h"|' \
-	    -e '/^    &/{/&epicyclic_from_rest,/b' -e '/&thomson_a,/b' -e 'd' -e '}' $< >$@
+	$(Q)build/whirl derive $* --as c --compensated --header $(@:.c=.h) >$@
+build/compensated/scenes.c: mk/count/index.sh $(patsubst %,build/compensated/%.c,$(COMPENSATED))
+	@mkdir -p $(@D)
+	$(say) GEN $@
+	$(Q)$< $(COMPENSATED) >$@
 .SECONDARY: $(COMPENSATED_C)
-
-$(B)/bench_compensated: $(call objects,float,$(BENCH_C) $(COMPENSATED_C) boards/host/board.c) \
-    $(LIB_FLOAT)
-	$(link)
-
-$(ELF)/bench_compensated.elf: $(call objects,$(BOARD),$(BENCH_C) $(COMPENSATED_C)) \
-    $(BOARD_OBJECTS) $(LIB_BOARD)
-	$(link_board)
 
 $(addprefix $(B)/tools/,$(BY_HAND)): $(B)/tools/%: $(B)/host/tests/tools/%.o \
     $(B)/host/tests/tools/naive_main.o
 	$(link)
-
-$(ELF)/bench.elf: $(call objects,$(BOARD),$(BENCH_C)) $(BOARD_OBJECTS) $(ELF)/libscenes.a \
-    $(LIB_BOARD)
-	$(link_board)
 
 count_board = BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) \
     FLAGS="$(call TOLD,$(BOARD_CFLAGS))" PLUGIN=$(PLUGIN) EMULATE="$(call emulate,$(1))" \
@@ -54,9 +45,9 @@ count_board = BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) \
 # The worst step of scenes with contacts, all effects of their mechanisms on, over so many random steps.
 WORST_STEPS ?= 1000000
 WORST_MODELS ?= $(MODELS)
-WORST_C := boards/programs/worst.c $(wildcard build/worst/*.c)
-$(ELF)/worst.elf: $(call objects,$(BOARD),$(WORST_C)) $(BOARD_OBJECTS) $(LIB_BOARD)
-	$(link_board)
+WORST_C := boards/programs/worst.c $(wildcard build/worst_step/*.c)
+$(eval $(call program,worst,$(WORST_C),whirl))
+$(ELF)/build/worst_step/%.o: FILE_FLAGS := -include boards/programs/mark.h
 $(ELF)/boards/programs/worst.o: FILE_FLAGS := -DWORST_STEPS=$(WORST_STEPS)U -DWORST_SEEDS=2U
 
 .PHONY: bench-now size-now worst-now
@@ -64,7 +55,7 @@ worst-now: build/whirl
 	@[ "$(WORST_STEPS)" -gt 0 ] 2>/dev/null || \
 	    { echo "error: WORST_STEPS=$(WORST_STEPS): a number of steps, 1 or more" >&2; exit 2; }
 	@$(MAKE) $(GEN)/.stamp
-	@CC="$(CC)" mk/count/all_effects.sh build/whirl build/worst $(WORST_MODELS)
+	@mk/count/all_effects.sh build/whirl build/worst_step $(WORST_MODELS)
 	@$(RM) $(ELF)/boards/programs/worst.o
 	@$(MAKE) $(ELF)/worst.elf $(PLUGIN)
 	@mkdir -p $(FIGURES)
@@ -72,7 +63,7 @@ worst-now: build/whirl
 	@BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) OBJCOPY=$(BOARD_OBJCOPY) \
 	    FLAGS="$(call TOLD,$(BOARD_CFLAGS))" PLUGIN=$(PLUGIN) \
 	    EMULATE="$(subst timeout $(BOARD_SECONDS),timeout 3600,$(call emulate,$(ELF)/worst.elf))" \
-	    mk/count/worst.sh $(ELF)/worst.elf $(FIGURES)/worst.csv build/worst/declared $(WORST_STEPS)
+	    mk/count/worst.sh $(ELF)/worst.elf $(FIGURES)/worst.csv $(WORST_STEPS)
 
 bench-now: build/whirl
 	@$(MAKE) $(GEN)/.stamp
@@ -91,18 +82,18 @@ size-now: build/whirl
 	@$(MAKE) board-images
 	@mkdir -p $(FIGURES)
 	@BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) SIZE=$(BOARD_SIZE) OBJECTS=$(ELF) \
-	    FLAGS="$(call TOLD,$(BOARD_CFLAGS))" EMULATE="$(call emulate,@)" \
-	    mk/size/size.sh $(FIGURES)/size.csv $(IMAGES)
-	@CC=$(BOARD_CC) CPU="$(BOARD_CPU)" SIZE=$(BOARD_SIZE) mk/size/functions.sh $(LIB_BOARD)
+	    FLAGS="$(call TOLD,$(BOARD_CFLAGS))" mk/size/size.sh $(FIGURES)/size.csv $(IMAGES)
+	@SIZE=$(BOARD_SIZE) mk/size/libraries.sh $(call libraries,$(BOARD),whirl rig virtual scenes)
+	@CC=$(BOARD_CC) CPU="$(BOARD_CPU)" SIZE=$(BOARD_SIZE) mk/size/functions.sh $(call libraries,$(BOARD),whirl)
 
 # What each effect costs: build/price/effects.csv, and the tables of docs/effects.md.
 .PHONY: price-effects-now
 price-effects-now: build/whirl
 	@$(MAKE) $(GEN)/.stamp
-	@$(MAKE) $(BOARD_OBJECTS) $(LIB_BOARD) $(PLUGIN)
+	@$(MAKE) $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl) $(PLUGIN)
 	@WHIRL=build/whirl OUT=build/price BOARD=$(BOARD) BOARD_CC=$(BOARD_CC) BOARD_NM=$(BOARD_NM) \
 	    BOARD_SIZE=$(BOARD_SIZE) BOARD_CFLAGS="$(BOARD_CFLAGS)" BOARD_LDFLAGS="$(BOARD_LDFLAGS)" \
-	    BOARD_LDLIBS="$(BOARD_LDLIBS)" BOARD_OBJECTS="$(BOARD_OBJECTS)" LIB_BOARD=$(LIB_BOARD) \
+	    BOARD_LDLIBS="$(BOARD_LDLIBS)" BOARD_OBJECTS="$(BOARD_OBJECTS)" LIB_BOARD=$(call libraries,$(BOARD),whirl) \
 	    PLUGIN=$(PLUGIN) FLAGS="$(call TOLD,$(BOARD_CFLAGS))" EMULATE="$(call emulate,@)" \
 	    mk/price/price.sh $(MODELS)
 	@mk/price/into_page.sh build/price/tables.md docs/effects.md

@@ -31,6 +31,13 @@ FORCE:
 need = command -v $(firstword $(1)) >/dev/null 2>&1 || \
     { echo "make: '$(firstword $(1))' is missing; 'make deps' installs what Whirl needs." >&2; exit 1; }
 
+# listed FILE WORDS: a file that holds these words, and is new only when they are others.
+define listed
+$(1): FORCE
+	@mkdir -p $$(@D)
+	@echo '$(2)' | cmp -s - $$@ || echo '$(2)' >$$@
+endef
+
 # build NAME COMPILER FLAGS: the rules of one build. Its .flags file changes when the flags do.
 define build
 $(B)/$(1)/.flags: FORCE
@@ -51,10 +58,12 @@ $(eval $(call build,double,$(CC),$(FLAGS_double)))
 # objects BUILD FILES: where the objects of these files are.
 objects = $(patsubst %.c,$(B)/$(1)/%.o,$(2))
 
-# archive: replaces the whole archive, so that nothing of a deleted file stays in it.
-define archive
-	$(say) AR $@
-	$(Q)rm -f $@ && $(AR) rcs $@ $^
+# library ARCHIVE OBJECTS: made anew as a whole, also when a file joins or leaves.
+define library
+$(1): $(2) $(1:.a=.list)
+	$$(say) AR $$@
+	$$(Q)rm -f $$@ && $$(AR) rcs $$@ $$(filter %.o,$$^)
+$(call listed,$(1:.a=.list),$(2))
 endef
 
 # What Whirl makes needs no mathematical library. Tests and tools compare with one.
@@ -73,8 +82,11 @@ endef
 GEN := build/gen
 
 # C files that belong to Whirl, for the gates. The lists follow the folders by themselves.
-CORE_C := $(wildcard core/*.c core/rig/*.c)
-HAL_C := $(wildcard hal/*.c hal/virtual/*.c)
+CORE_C := $(wildcard core/*.c)
+RIG_C := $(wildcard core/rig/*.c)
+VIRTUAL_C := $(wildcard hal/virtual/*.c)
+PORTABLE_C := $(CORE_C) $(RIG_C) $(VIRTUAL_C)
+PROGRAM_C := $(wildcard boards/programs/*.c)
 BOARD_C := $(wildcard boards/*/*.c)
 HOST_TOOL_C := $(wildcard mk/*/*.c)
 WHIRL_MAIN_C := $(wildcard host/*.c)
@@ -83,7 +95,7 @@ ifeq ($(SYSTEM),none)
 WHIRL_C := $(filter-out host/commands/run.c host/commands/sweep.c host/sweep/% host/plot/%,$(WHIRL_C))
 endif
 TEST_C := $(wildcard tests/*.c tests/*/*.c)
-C_FILES := $(sort $(CORE_C) $(HAL_C) $(BOARD_C) $(HOST_TOOL_C) $(WHIRL_MAIN_C) $(WHIRL_C) $(TEST_C) \
+C_FILES := $(sort $(PORTABLE_C) $(BOARD_C) $(HOST_TOOL_C) $(WHIRL_MAIN_C) $(WHIRL_C) $(TEST_C) \
     $(wildcard core/*.h core/*/*.h hal/*.h hal/*/*.h boards/*.h boards/*/*.h host/*.h host/*/*.h \
     tests/*.h tests/*/*.h))
 

@@ -35,14 +35,15 @@ HOST_TEST_PARTS := $(HOST_TEST_C) $(B)/tests/host_suites.c $(UNITY_DIR)/unity.c
 $(foreach b,host float double $(BOARD),$(call objects,$(b),$(CORE_TEST_PARTS) $(HOST_TEST_PARTS))): \
     | $(UNITY_DIR)/unity.c
 
-$(B)/tests/core_float: $(call objects,float,$(CORE_TEST_PARTS)) $(LIB_SCENES) $(LIB_FLOAT)
+$(B)/tests/core_float: $(call objects,float,$(CORE_TEST_PARTS)) \
+    $(call libraries,float,scenes rig virtual whirl)
 	$(link)
 
-$(B)/tests/core_double: $(call objects,double,$(CORE_TEST_PARTS)) $(LIB_SCENES_DOUBLE) $(LIB_DOUBLE)
+$(B)/tests/core_double: $(call objects,double,$(CORE_TEST_PARTS)) $(call libraries,double,scenes rig whirl)
 	$(link)
 
-$(B)/tests/host: $(call objects,host,$(HOST_TEST_PARTS)) $(LIB_HOST) $(LIB_SCENES) $(LIB_FLOAT) \
-    $(LIB_DOUBLE)
+$(B)/tests/host: $(call objects,host,$(HOST_TEST_PARTS)) $(LIB_HOST) \
+    $(call libraries,float,scenes whirl) $(LIB_DOUBLE)
 	$(link)
 
 TEST_PROGRAMS := $(B)/tests/core_double $(B)/tests/core_float $(B)/tests/host $(B)/tools/mechanisms

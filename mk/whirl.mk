@@ -4,20 +4,31 @@ MODELS := $(sort $(wildcard core/models/*.whirl))
 
 
 # --- libraries ----------------------------------------------------------------------------------
+# Of every build of the portable code:
+#   libwhirl    the core, all that a scene needs
+#   librig      the rig's controller
+#   libvirtual  the rig's hardware, played by a scene
+#   libscenes   the generated scenes
 # Archives, so that a program takes only what it calls. The double build's exported names carry a
-# suffix (core/real.h), so one program may hold both.
-LIB_FLOAT := $(B)/float/libwhirl.a
-LIB_DOUBLE := $(B)/double/libwhirl.a
+# suffix (core/real.h), so one program may hold both numbers.
+libraries = $(patsubst %,$(B)/$(1)/lib%.a,$(2))
+
+define portable_libraries
+$(call library,$(B)/$(1)/libwhirl.a,$(call objects,$(1),$(CORE_C)))
+$(call library,$(B)/$(1)/librig.a,$(call objects,$(1),$(RIG_C)))
+$(call library,$(B)/$(1)/libvirtual.a,$(call objects,$(1),$(VIRTUAL_C)))
+$(call library,$(B)/$(1)/libscenes.a,$(call objects,$(1),$(SCENE_C)))
+endef
+
+# Known only once they are made: what needs them is built by a make of its own, after .stamp.
+SCENE_C = $(filter-out $(GEN)/builtin_models.c,$(sort $(wildcard $(GEN)/*.c)))
+$(foreach b,float double,$(eval $(call portable_libraries,$(b))))
+
+LIB_FLOAT := $(call libraries,float,whirl)
+LIB_DOUBLE := $(call libraries,double,whirl)
 LIB_HOST := $(B)/host/libwhirl.a
 
-$(LIB_FLOAT): $(call objects,float,$(CORE_C) $(HAL_C))
-	$(archive)
-
-$(LIB_DOUBLE): $(call objects,double,$(CORE_C))
-	$(archive)
-
-$(LIB_HOST): $(call objects,host,$(WHIRL_C) $(GEN)/builtin_models.c)
-	$(archive)
+$(eval $(call library,$(LIB_HOST),$(call objects,host,$(WHIRL_C) $(GEN)/builtin_models.c)))
 
 # --- the program --------------------------------------------------------------------------------
 # The libraries of the host first: they call the two cores.
@@ -26,9 +37,7 @@ $(B)/whirl: $(call objects,host,$(WHIRL_MAIN_C)) $(LIB_HOST) $(LIB_FLOAT) $(LIB_
 
 # --- built-in models ----------------------------------------------------------------------------
 # Follows the list of models too: a model taken away must leave the program.
-$(GEN)/models.list: FORCE
-	@mkdir -p $(@D)
-	@echo '$(MODELS)' | cmp -s - $@ || echo '$(MODELS)' >$@
+$(eval $(call listed,$(GEN)/models.list,$(MODELS)))
 
 $(GEN)/builtin_models.c: mk/setup/embed_models.sh $(GEN)/models.list $(MODELS)
 	$(say) GEN $@
@@ -45,20 +54,6 @@ $(GEN)/.stamp: build/whirl $(MODELS) mk/setup/update_files.sh
 	$(Q)sh mk/setup/update_files.sh build/gen.new $(GEN) builtin_models.c
 	@touch $@
 endif
-
-# Known only once they are made: what needs them is built by a make of its own, after .stamp.
-SCENE_C = $(filter-out $(GEN)/builtin_models.c,$(sort $(wildcard $(GEN)/*.c)))
-LIB_SCENES := $(B)/float/libscenes.a
-LIB_SCENES_DOUBLE := $(B)/double/libscenes.a
-
-$(LIB_SCENES): $(call objects,float,$(SCENE_C))
-	$(archive)
-
-$(LIB_SCENES_DOUBLE): $(call objects,double,$(SCENE_C))
-	$(archive)
-
-$(B)/scenes: $(call objects,float,boards/programs/scenes.c boards/host/board.c) $(LIB_SCENES) $(LIB_FLOAT)
-	$(link)
 
 # --- make run -----------------------------------------------------------------------------------
 .PHONY: run-now

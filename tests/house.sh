@@ -31,6 +31,9 @@ all=$(files core hal boards host mk tests)
     rule "the core depends on nothing of ours" '^#include "(hal|boards|host|tests|build)/' $core
     rule "hal depends on the core only" '^#include "(boards|host|tests|build)/' $hal
     rule "boards do not depend on the host's program" '^#include "(host|tests)/' $target
+    rule "memory from the heap comes from host/base/room.c" \
+        '\b(malloc|calloc|realloc|aligned_alloc|strdup|strndup|open_memstream) *\(' \
+        $(files host | grep -v '^host/base/room\.c$')
     rule "white space at a line's end" '[[:space:]]$' $all
     rule "a tab" '	' $all
     for file in $all; do

@@ -24,6 +24,6 @@ BOARD_LDFLAGS  := $(BOARD_CPU) -nostdlib -Tboards/$(BOARD_MACHINE)/board.ld -L. 
                   -Wl,--fatal-warnings
 BOARD_LDLIBS   := -lgcc
 BOARD_SOURCES  := boards/cortexm/startup.c boards/cortexm/board.c boards/cortexm/fault.c \
-                  boards/cortexm/cmsdk.c boards/cortexm/mem.c core/text.c
+                  boards/cortexm/cmsdk.c boards/cortexm/mem.c
 BOARD_EMULATE   = timeout $(BOARD_SECONDS) qemu-system-arm -M $(BOARD_MACHINE) -nographic \
                   -semihosting-config enable=on,target=native -kernel $(1) </dev/null

@@ -7,8 +7,10 @@
 #define WH_MARK_H
 
 #define WH_MARK(kind) \
-    __asm__ inline volatile("0: .pushsection .wh_marks,\"R\",%progbits\n" \
-                            ".word 0b, " #kind "\n" \
-                            ".popsection")
+    __asm__ inline volatile("0: .pushsection .wh_marks,\"R\",%%progbits\n" \
+                            ".word 0b, %c0\n" \
+                            ".popsection" \
+                            : \
+                            : "i"(kind))
 
 #endif

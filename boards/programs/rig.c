@@ -4,10 +4,10 @@
  * 330 rpm in closed loop on the slot pulses, record the load cell for 2 s, report, stop. Exit status
  * 0: done; 1: the guard tripped, the report says why; 2: not started, for the hardware does not answer or
  * the arithmetic is not that of the tests. */
+#include "core/rig/rig.h"
 #include "boards/board.h"
 #include "core/arithmetic.h"
 #include "core/rig/datasheet.h"
-#include "core/rig/rig.h"
 #include "core/text.h"
 #include "hal/clock.h"
 #include "hal/console.h"

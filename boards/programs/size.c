@@ -1,20 +1,23 @@
 /* size.c: the smallest firmware around one scene, whose size is told: it steps, and computes the outputs.
  *
- * Built once a scene with PRICE_SCENE its name, PRICE_WORDS the eight-byte words of its state and
- * PRICE_OUTPUTS how many outputs it has, at least 1. It is linked, never run. */
+ * Built once a scene with PRICE_SCENE its name, and the scene's header included first. Its memory is of a size that does
+ * in either number, compensated or not. It is linked, never run. */
 #include "boards/board.h"
 #include "core/scene.h"
 
 #ifndef PRICE_SCENE
+#include "build/gen/rig_fixed.h"
 #define PRICE_SCENE rig_fixed
-#define PRICE_WORDS 16
-#define PRICE_OUTPUTS 4
 #endif
 
-extern const wh_scene PRICE_SCENE;
+#define JOIN(scene, kind) scene##kind
+#define OF(scene, kind) JOIN(scene, kind)
+#define COUNT(kind) OF(PRICE_SCENE, kind)
 
-static uint64_t memory[PRICE_WORDS];
-static wh_real output[PRICE_OUTPUTS];
+static uint64_t memory[WH_STATE_WORDS(COUNT(_ANGLES), COUNT(_REALS), COUNT(_INPUTS)) +
+                       WH_CONTACT_WORDS(COUNT(_CONTACTS)) +
+                       WH_LEDGER_WORDS(COUNT(_ENTRIES), COUNT(_ACCOUNTS))];
+static wh_real output[COUNT(_OUTPUTS) > 0 ? COUNT(_OUTPUTS) : 1];
 
 int main(void) {
     wh_state state;

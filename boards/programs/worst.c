@@ -4,9 +4,11 @@
  * thrown: angles anywhere, rates times a random factor of up to 2 and inputs of up to 4, either way,
  * positions moved by up to the distance of some steps, modes found anew. All that WORST_SEEDS times over, with
  * other numbers. The counter keeps the largest of the intervals of a scene and seed (count_plugin.c,
- * every=WORST_STEPS). Says on the console what bench.c says. */
+ * every=WORST_STEPS). Says on the console what bench.c says, and before that
+ *
+ *     declared NAME EVALUATIONS SIGNALS    the most of these that one step of it may take */
 #include "boards/board.h"
-#include "build/gen/scenes.h"
+#include "boards/programs/table.h"
 #include "core/scene.h"
 #include "core/text.h"
 
@@ -66,6 +68,20 @@ static void throw_state(const wh_scene *scene, wh_state *state) {
     }
 }
 
+static void say_declared(const char *name, const wh_scene_bound *most) {
+    char line[160];
+    wh_text text;
+    wh_text_start(&text, line, sizeof line);
+    wh_text_add(&text, "declared ");
+    wh_text_add(&text, name);
+    wh_text_add_char(&text, ' ');
+    wh_text_add_unsigned(&text, most->evaluations);
+    wh_text_add_char(&text, ' ');
+    wh_text_add_unsigned(&text, most->signals);
+    wh_text_add_char(&text, '\n');
+    hal_console_write(text.bytes, text.length);
+}
+
 static void say(const char *name, unsigned group) {
     char line[160];
     wh_text text;
@@ -110,6 +126,9 @@ int main(void) {
     unsigned group = 1;
     bool all = true;
     for (unsigned i = 0; i < wh_scene_count; i++) {
+        if (wh_scenes[i]->contacts > 0) {
+            say_declared(wh_scenes[i]->name, &wh_scene_bounds[i]);
+        }
         for (uint32_t s = 1; s <= WORST_SEEDS && wh_scenes[i]->contacts > 0; s++) {
             all = run(wh_scenes[i], s, group++) && all;
         }

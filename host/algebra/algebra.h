@@ -51,6 +51,11 @@ const poly *poly_intern(algebra *a, poly *candidate);
 const atom *atom_of_polys(algebra *a, atom_kind kind, function_id function, const poly *x,
                           const poly *y);
 
+/* The derivative of a function by x (which = 0) or y (1), of whatever stands in these places; y may be NULL
+ * where the function takes one (slopes.c). */
+const poly *function_slope(algebra *a, function_id function, int which, const poly *x,
+                           const poly *y);
+
 /* --- the order of the normal form (order.c): negative, 0 for the same, positive -------------------*/
 
 /* What decides between two atoms, but for their arguments. */

@@ -6,35 +6,6 @@
 
 /* --- derivatives ---------------------------------------------------------------------------------*/
 
-/* d f(x)/dx as a poly in x; `y` is atan2's, min's or max's second argument. */
-static const poly *outer_derivative(algebra *a, const atom *call, int which) {
-    const poly *x = call->argument[0];
-    const poly *y = call->argument[1];
-    const poly *self = poly_of_atom(a, call, 1.0);
-    switch (call->function) {
-    case FN_TAN: return poly_add(a, a->one, poly_of_atom(a, call, 2.0));
-    case FN_ASIN: return poly_pow(a, poly_sub(a, a->one, poly_mul(a, x, x)), -0.5);
-    case FN_ACOS:
-        return poly_scale(a, poly_pow(a, poly_sub(a, a->one, poly_mul(a, x, x)), -0.5), -1.0);
-    case FN_ATAN: return poly_pow(a, poly_add(a, a->one, poly_mul(a, x, x)), -1.0);
-    case FN_ATAN2: { /* atan2(x, y): x is the numerator */
-        const poly *square = poly_add(a, poly_mul(a, x, x), poly_mul(a, y, y));
-        const poly *top = which == 0 ? y : poly_scale(a, x, -1.0);
-        return poly_mul(a, top, poly_pow(a, square, -1.0));
-    }
-    case FN_EXP: return self;
-    case FN_LOG: return poly_pow(a, x, -1.0);
-    case FN_ABS: return poly_call(a, FN_SIGN, x, NULL);
-    case FN_MIN:
-    case FN_MAX: { /* 1 for the one that is taken, 1/2 for each where they meet */
-        const poly *lead = poly_call(a, FN_SIGN, poly_sub(a, x, y), NULL);
-        const double side = (call->function == FN_MAX) == (which == 0) ? 0.5 : -0.5;
-        return poly_add(a, poly_number(a, 0.5), poly_scale(a, lead, side));
-    }
-    default: return a->zero; /* sign; sine, cosine and square root are no calls */
-    }
-}
-
 static const poly *atom_derivative(algebra *a, const atom *x, const symbol *sym, int primes) {
     const poly *sum = a->zero;
     if (x->kind == ATOM_SYMBOL) {
@@ -62,7 +33,8 @@ static const poly *atom_derivative(algebra *a, const atom *x, const symbol *sym,
     for (int i = 0; i < 2 && x->argument[i] != NULL; i++) {
         const poly *inner = poly_derivative(a, x->argument[i], sym, primes);
         if (!poly_is_zero(inner)) {
-            sum = poly_add(a, sum, poly_mul(a, outer_derivative(a, x, i), inner));
+            const poly *outer = function_slope(a, x->function, i, x->argument[0], x->argument[1]);
+            sum = poly_add(a, sum, poly_mul(a, outer, inner));
         }
     }
     return sum;

@@ -4,6 +4,8 @@
 #include <string.h>
 
 #include "algebra.h"
+#include "host/base/hash.h"
+#include "host/base/room.h"
 
 /* An expression that needs more work than this is given up on: some 300 MB, or a few seconds. */
 #define WORK_MAX ((size_t)1 << 28)
@@ -11,11 +13,6 @@
 #define WORK_OF_TERM 2U
 /* What objects count for, in bytes: their sizes on a host of 64 bits. What is given up on must not depend on the host. */
 enum { ATOM_BYTES = 72, MONO_BYTES = 48, POLY_BYTES = 32, PART_BYTES = 16, PAIR_BYTES = 24 };
-
-static uint64_t mix(uint64_t hash, uint64_t word) {
-    hash ^= word + UINT64_C(0x9e3779b97f4a7c15) + (hash << 6) + (hash >> 2);
-    return hash * UINT64_C(0xff51afd7ed558ccd);
-}
 
 static uint64_t bits_of(double value) {
     uint64_t bits;
@@ -27,10 +24,7 @@ static uint64_t bits_of(double value) {
 
 static void table_grow(intern_table *table) {
     const size_t size = table->size == 0 ? 1024 : table->size * 2;
-    intern_slot *slots = calloc(size, sizeof *slots);
-    if (slots == NULL) {
-        abort();
-    }
+    intern_slot *slots = room((int64_t)size, sizeof *slots);
     for (size_t i = 0; i < table->size; i++) {
         if (table->slots[i].object != NULL) {
             size_t at = (size_t)table->slots[i].hash & (size - 1);
@@ -77,10 +71,7 @@ static unsigned next_id(algebra *a, intern_table *table, size_t bytes) {
 /* --- life ----------------------------------------------------------------------------------------*/
 
 algebra *algebra_new(void) {
-    algebra *a = calloc(1, sizeof *a);
-    if (a == NULL) {
-        abort();
-    }
+    algebra *a = room(1, sizeof *a);
     a->arena = arena_new();
     a->zero = poly_number(a, 0.0);
     a->one = poly_number(a, 1.0);
@@ -107,7 +98,7 @@ bool algebra_overflow(const algebra *a) { return a->overflow; }
 
 uint64_t symbol_bit(const symbol *sym, int primes) {
     const uint64_t which = (uint64_t)sym->kind * 1024U + (uint64_t)sym->index;
-    return UINT64_C(1) << (mix(which, (uint64_t)primes + 1) >> 58);
+    return UINT64_C(1) << (hash_mix(which, (uint64_t)primes + 1) >> 58);
 }
 
 static bool atom_equal(const void *x, const void *y) {
@@ -119,10 +110,11 @@ static bool atom_equal(const void *x, const void *y) {
 }
 
 static const atom *atom_intern(algebra *a, const atom *candidate) {
-    uint64_t hash = mix((uint64_t)candidate->kind, (uint64_t)candidate->function);
-    hash = mix(mix(hash, (uint64_t)(uintptr_t)candidate->symbol), (uint64_t)candidate->primes);
+    uint64_t hash = hash_mix((uint64_t)candidate->kind, (uint64_t)candidate->function);
+    hash = hash_mix(hash_mix(hash, (uint64_t)(uintptr_t)candidate->symbol),
+                    (uint64_t)candidate->primes);
     for (int i = 0; i < 2; i++) {
-        hash = mix(hash, candidate->argument[i] == NULL ? 0 : candidate->argument[i]->id + 1U);
+        hash = hash_mix(hash, candidate->argument[i] == NULL ? 0 : candidate->argument[i]->id + 1U);
     }
     intern_slot *slot = table_find(&a->atoms, hash, candidate, atom_equal);
     if (slot->object == NULL) {
@@ -174,8 +166,8 @@ static bool mono_equal(const void *x, const void *y) {
 
 /* `candidate` may lie in scratch memory: it is copied when it is new. */
 const mono *mono_intern(algebra *a, mono *candidate) {
-    uint64_t hash =
-        mix((uint64_t)candidate->trig, candidate->angle == NULL ? 0 : candidate->angle->id + 1U);
+    uint64_t hash = hash_mix((uint64_t)candidate->trig,
+                             candidate->angle == NULL ? 0 : candidate->angle->id + 1U);
     candidate->symbols = candidate->angle == NULL ? 0 : candidate->angle->symbols;
     candidate->keeps_powers = candidate->angle != NULL && candidate->angle->keeps_powers;
     candidate->size = candidate->angle == NULL ? 1.0 : 1.0 + candidate->angle->size;
@@ -184,8 +176,8 @@ const mono *mono_intern(algebra *a, mono *candidate) {
         const bool kept = f->atom->kind == ATOM_GROUP && f->exponent > 1.0 &&
                           power_multiplies_out(f->atom->argument[0], f->exponent, (double)INFINITY);
         candidate->keeps_powers = candidate->keeps_powers || f->atom->keeps_powers || kept;
-        hash =
-            mix(mix(hash, candidate->factors[i].atom->id), bits_of(candidate->factors[i].exponent));
+        hash = hash_mix(hash_mix(hash, candidate->factors[i].atom->id),
+                        bits_of(candidate->factors[i].exponent));
         candidate->symbols |= candidate->factors[i].atom->symbols;
         candidate->size += candidate->factors[i].atom->size;
     }
@@ -201,10 +193,7 @@ const mono *mono_intern(algebra *a, mono *candidate) {
 }
 
 mono *mono_scratch(int factors) {
-    mono *m = calloc(1, sizeof *m + (size_t)factors * sizeof(factor));
-    if (m == NULL) {
-        abort();
-    }
+    mono *m = room_tail(sizeof *m, factors, sizeof(factor));
     return m;
 }
 
@@ -245,8 +234,8 @@ const poly *poly_intern(algebra *a, poly *candidate) {
     candidate->size = 0.0;
     for (int i = 0; i < candidate->count; i++) {
         candidate->keeps_powers = candidate->keeps_powers || candidate->terms[i].mono->keeps_powers;
-        hash =
-            mix(mix(hash, candidate->terms[i].mono->id), bits_of(candidate->terms[i].coefficient));
+        hash = hash_mix(hash_mix(hash, candidate->terms[i].mono->id),
+                        bits_of(candidate->terms[i].coefficient));
         candidate->symbols |= candidate->terms[i].mono->symbols;
         candidate->size += candidate->terms[i].mono->size;
     }
@@ -265,10 +254,7 @@ const poly *poly_intern(algebra *a, poly *candidate) {
 }
 
 poly *poly_scratch(int terms) {
-    poly *p = calloc(1, sizeof *p + (size_t)terms * sizeof(poly_term));
-    if (p == NULL) {
-        abort();
-    }
+    poly *p = room_tail(sizeof *p, terms, sizeof(poly_term));
     return p;
 }
 
@@ -281,7 +267,7 @@ static bool pair_equal(const void *x, const void *y) {
 }
 
 static uint64_t pair_hash(const void *left, const void *right) {
-    return mix((uint64_t)(uintptr_t)left, (uint64_t)(uintptr_t)right);
+    return hash_mix((uint64_t)(uintptr_t)left, (uint64_t)(uintptr_t)right);
 }
 
 const poly *memo_get(intern_table *table, const void *left, const void *right) {

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "algebra.h"
+#include "host/base/room.h"
 
 /* Sums below this part of what was added are rounding errors of the decimals they came from. */
 #define CANCELLED 1e-14
@@ -258,7 +259,7 @@ static const poly *mono_product(algebra *a, const mono *left, const mono *right)
 }
 
 static const atom *group_of(algebra *a, const poly *p) {
-    return atom_of_polys(a, ATOM_GROUP, FN_COUNT, p, NULL);
+    return atom_of_polys(a, ATOM_GROUP, FUNCTION_NONE, p, NULL);
 }
 
 static const poly *product_of(algebra *a, const poly *left, const poly *right) {
@@ -311,10 +312,7 @@ static const poly *term_pow(algebra *a, const poly_term *t, double exponent) {
     const mono *m = t->mono;
     const bool whole = is_whole(exponent);
     if (whole && m->trig == TRIG_NONE) {
-        factor *f = calloc((size_t)m->count + 1, sizeof *f);
-        if (f == NULL) {
-            abort();
-        }
+        factor *f = room(m->count, sizeof *f);
         const poly *extra = a->one;
         int count = 0;
         for (int i = 0; i < m->count; i++) {
@@ -399,7 +397,7 @@ const poly *poly_pow_poly(algebra *a, const poly *base, const poly *exponent) {
     if (poly_is_number(exponent, &value)) {
         return poly_pow(a, base, value);
     }
-    return poly_of_atom(a, atom_of_polys(a, ATOM_POWER, FN_COUNT, base, exponent), 1.0);
+    return poly_of_atom(a, atom_of_polys(a, ATOM_POWER, FUNCTION_NONE, base, exponent), 1.0);
 }
 
 const poly *poly_call(algebra *a, function_id function, const poly *x, const poly *y) {
@@ -408,10 +406,15 @@ const poly *poly_call(algebra *a, function_id function, const poly *x, const pol
     if (poly_is_number(x, &vx) && (y == NULL || poly_is_number(y, &vy))) {
         return poly_number(a, number_call(function, vx, vy));
     }
-    switch (function) {
-    case FN_SIN: return poly_sin(a, x);
-    case FN_COS: return poly_cos(a, x);
-    case FN_SQRT: return poly_pow(a, x, 0.5);
-    default: return poly_of_atom(a, atom_of_polys(a, ATOM_CALL, function, x, y), 1.0);
+    /* The normal form has these three itself; all others are atoms. */
+    if (function == FN_SIN) {
+        return poly_sin(a, x);
     }
+    if (function == FN_COS) {
+        return poly_cos(a, x);
+    }
+    if (function == FN_SQRT) {
+        return poly_pow(a, x, 0.5);
+    }
+    return poly_of_atom(a, atom_of_polys(a, ATOM_CALL, function, x, y), 1.0);
 }

@@ -42,7 +42,7 @@ struct atom {
     uint64_t rank;        /* where it stands among others: order.c */
     const symbol *symbol; /* ATOM_SYMBOL */
     int primes;
-    function_id function;    /* ATOM_CALL */
+    function_id function;    /* ATOM_CALL, else FUNCTION_NONE or unused */
     const poly *argument[2]; /* ATOM_CALL; base and exponent of ATOM_POWER; [0] of ATOM_GROUP */
     uint64_t symbols;        /* Bloom set of the symbols inside: see poly_may_contain() */
     bool keeps_powers;       /* a power of a sum is inside that could be multiplied out */

@@ -2,14 +2,12 @@
 #include <stdlib.h>
 
 #include "algebra.h"
+#include "host/base/room.h"
 
 static void push(poly_sum *s, const mono *m, double coefficient) {
     if (s->count == s->room) {
         s->room = s->room == 0 ? 64 : s->room * 2;
-        s->items = realloc(s->items, s->room * sizeof *s->items);
-        if (s->items == NULL) {
-            abort();
-        }
+        s->items = room_more(s->items, (int64_t)s->room, sizeof *s->items);
     }
     s->items[s->count] = (sum_item){m, coefficient, s->count};
     s->count++;

@@ -1,9 +1,11 @@
 #include "arena.h"
 
 #include <stdalign.h>
-#include <stdio.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "room.h"
 
 enum { BLOCK_BYTES = 64 * 1024 };
 
@@ -18,18 +20,8 @@ struct arena {
     block *last;
 };
 
-static void *checked_malloc(size_t size) {
-    void *memory = malloc(size);
-    if (memory == NULL) {
-        fputs("whirl: out of memory\n", stderr);
-        exit(1);
-    }
-    return memory;
-}
-
 struct arena *arena_new(void) {
-    struct arena *fresh = checked_malloc(sizeof *fresh);
-    fresh->last = NULL;
+    struct arena *fresh = room(1, sizeof *fresh);
     return fresh;
 }
 
@@ -48,14 +40,17 @@ void arena_free(struct arena *arena) {
 
 void *arena_alloc(struct arena *arena, size_t size) {
     const size_t grain = alignof(max_align_t);
+    if (size > SIZE_MAX - sizeof(block) - grain) {
+        room_none();
+    }
     size = (size + grain - 1) / grain * grain;
     block *last = arena->last;
     if (last == NULL || last->size - last->used < size) {
-        const size_t room = size > BLOCK_BYTES ? size : BLOCK_BYTES;
-        block *fresh = checked_malloc(sizeof *fresh + room);
+        const size_t whole = size > BLOCK_BYTES ? size : BLOCK_BYTES;
+        block *fresh = room_more(NULL, 1, sizeof *fresh + whole);
         fresh->before = last;
         fresh->used = 0;
-        fresh->size = room;
+        fresh->size = whole;
         arena->last = fresh;
         last = fresh;
     }

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "room.h"
 #include "utf8.h"
 
 enum {
@@ -35,14 +36,8 @@ struct diags {
 };
 
 diags *diags_new(void) {
-    diags *all = calloc(1, sizeof *all);
-    if (all != NULL) {
-        all->entries = calloc(DIAG_MAX, sizeof *all->entries);
-    }
-    if (all == NULL || all->entries == NULL) {
-        fputs("whirl: out of memory\n", stderr);
-        exit(1);
-    }
+    diags *all = room(1, sizeof *all);
+    all->entries = room(DIAG_MAX, sizeof *all->entries);
     return all;
 }
 

@@ -5,8 +5,9 @@
 #include <string.h>
 
 #include "commands.h"
+#include "host/base/room.h"
+#include "host/number/zero.h"
 #include "host/run/engine.h"
-#include "host/run/number.h"
 #include "host/run/undefined.h"
 #include "load.h"
 #include "options.h"
@@ -87,11 +88,8 @@ int command_accel(int count, char **words) {
             const program *p = made.program;
             double angle_rad[PROGRAM_COMPONENTS_MAX];
             double real[2 * PROGRAM_COMPONENTS_MAX];
-            double *result = calloc((size_t)p->books->results + 1, sizeof *result);
-            double *input = calloc((size_t)p->inputs + 1, sizeof *input);
-            if (result == NULL || input == NULL) {
-                abort();
-            }
+            double *result = room(p->books->results, sizeof *result);
+            double *input = room(p->inputs, sizeof *input);
             program_start(p, made.instance, angle_rad, real);
             program_inputs(p, made.instance, input);
             evaluator *ev = evaluator_new(p->books);

@@ -7,14 +7,17 @@
 #include "commands.h"
 #include "files.h"
 #include "host/emit/emit.h"
+#include "host/lang/lexer.h"
 #include "host/run/start.h"
+#include "host/show/text.h"
 #include "load.h"
 #include "options.h"
 
 static const char usage[] =
     "usage: whirl derive FILE[:NAME]|SCENE|MECHANISM[:SCENE] [--as text|latex|octave|c]\n"
     "                    [--with E,...] [--without E,...] [--set NAME=EXPR] [--start NAME=EXPR]\n"
-    "                    [--step 1ms] [--until 9s] [--method M] [--compensated] [--header FILE]\n"
+    "                    [--step 1ms] [--until 9s] [--method M] [--compensated]\n"
+    "                    [--name NAME] [--header FILE]\n"
     "\n"
     "Prints the equations of motion of a mechanism (or of a scene, with its effects), of a FILE or\n"
     "built in (`whirl list`):\n"
@@ -24,6 +27,8 @@ static const char usage[] =
     "  --as c       the scene as C for the core\n"
     "  --header FILE, with --as c: its header, for C and C++: names of components, inputs and outputs,\n"
     "               their units, the memory that it takes\n"
+    "  --name NAME, with --as c or octave: what the scene is called there, so that one program can hold\n"
+    "               it twice: with and without an effect, compensated and not\n"
     "Numbers in formulas are SI. The other options are those of `whirl run`; the method matters to the C form only.\n";
 
 typedef enum form { FORM_TEXT, FORM_LATEX, FORM_OCTAVE, FORM_C, FORMS } form;
@@ -31,8 +36,8 @@ static const char *const form_names[FORMS] = {"text", "latex", "octave", "c"};
 
 static void print(form as, const loaded *made, const char *file, const engine_settings *settings) {
     switch (as) {
-    case FORM_TEXT: emit_text(stdout, made->equations); break;
-    case FORM_LATEX: emit_latex(stdout, made->equations); break;
+    case FORM_TEXT: show_text(stdout, made->equations); break;
+    case FORM_LATEX: show_latex(stdout, made->equations); break;
     case FORM_OCTAVE: emit_octave(stdout, made->equations, made->program, file); break;
     default: emit_c(stdout, made->equations, made->program, settings, file); break;
     }
@@ -89,7 +94,7 @@ static bool has_c_form(const loaded *made, source_model *from, const engine_sett
     if (!emit_c_name_is_free(name) || (header != NULL && !emit_c_name_is_free_in_cpp(name))) {
         fprintf(stderr,
                 "%s: error: '%s' is a word of C%s or of the core: the generated scene cannot "
-                "have that name\nhint: rename it\n",
+                "have that name\nhint: rename it, or give it another for this: --name NAME\n",
                 from->file, name, emit_c_name_is_free(name) ? "++" : "");
         return false;
     }
@@ -119,6 +124,26 @@ static int derive_one(source_model *from, const mechanism *of, const scene *in,
     }
     unload(&made);
     return code;
+}
+
+/* The scene's name in generated code: as a name in a .whirl file. */
+static bool take_name(change_options *options, const char *name) {
+    static const char letters[] = "_ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789";
+    const size_t length = strlen(name);
+    if (options->name != NULL) {
+        fputs("whirl derive: error: --name is given twice\n", stderr);
+        return false;
+    }
+    if (length == 0 || length > NAME_LENGTH_MAX || strspn(name, letters) != length ||
+        (name[0] >= '0' && name[0] <= '9')) {
+        fprintf(stderr,
+                "whirl derive: error: --name '%.70s' is no name\n"
+                "hint: letters, digits and _, no digit first, at most %d of them\n",
+                name, NAME_LENGTH_MAX);
+        return false;
+    }
+    options->name = name;
+    return true;
 }
 
 int command_derive(int count, char **words) {
@@ -151,11 +176,13 @@ int command_derive(int count, char **words) {
                 bad = true;
             }
             header = value;
+        } else if (!bad && (value = options_value(count, words, &at, "--name", &bad)) != NULL) {
+            bad = !take_name(&options, value);
         } else if (!bad && !options_change(count, words, &at, &options, &bad) && !bad &&
                    !options_engine("derive", count, words, &at, &settings, &bad) && !bad) {
             if (words[at][0] == '-' && words[at][1] != '\0') {
                 options_unknown("derive", words[at],
-                                (const char *const[]){"--as", "--header", CHANGE_OPTIONS,
+                                (const char *const[]){"--as", "--header", "--name", CHANGE_OPTIONS,
                                                       ENGINE_OPTIONS, "--help", NULL});
                 bad = true;
             } else if (target != NULL) {
@@ -170,6 +197,10 @@ int command_derive(int count, char **words) {
     if (!bad && header != NULL && as != FORM_C) {
         fputs("whirl derive: error: --header goes with the C form\nhint: --as c --header FILE\n",
               stderr);
+        bad = true;
+    }
+    if (!bad && options.name != NULL && as != FORM_C && as != FORM_OCTAVE) {
+        fputs("whirl derive: error: --name goes with the C form and Octave's\n", stderr);
         bad = true;
     }
     if (bad || target == NULL) {

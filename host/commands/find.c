@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "host/base/nearest.h"
+#include "host/base/room.h"
 #include "load.h"
 
 /* What is looked for. */
@@ -116,10 +117,7 @@ int find_builtin(const struct builtin_model *models, size_t count, const char *t
                  diags *errors, model **found, const struct builtin_model **from,
                  const char **name) {
     const wish w = wish_of(target);
-    model **read = calloc(count + 1, sizeof(model *));
-    if (read == NULL) {
-        abort();
-    }
+    model **read = room((int64_t)count, sizeof(model *));
     size_t hits = 0;
     size_t hit = 0;
     size_t good = 0;

@@ -1,4 +1,4 @@
-/* list.c: `whirl list`: the built-in mechanisms and scenes. */
+/* list.c: `whirl list`: mechanisms, their effects and scenes. */
 #include <stdio.h>
 #include <string.h>
 
@@ -7,38 +7,227 @@
 #include "load.h"
 #include "options.h"
 
-static const char usage[] = "usage: whirl list\n"
-                            "\n"
-                            "The built-in mechanisms and scenes, a line each: kind, name, title.\n";
+static const char usage[] =
+    "usage: whirl list [FILE ...] [--as text|table]\n"
+    "\n"
+    "The mechanisms and scenes of FILEs, or the built-in ones:\n"
+    "  --as text    a line each: kind, name, title (default)\n"
+    "  --as table   for programs: also the effects, a line each, fields between tabs, the names of the\n"
+    "               fields first; '-' stands for nothing. What it holds is terms, contacts, noise\n"
+    "               and conserve; lines are those of its block, of a mechanism the one of its name.\n";
 
-int command_list(int count, char **words) {
-    if (options_help(count, words, usage)) {
-        return EXIT_DONE;
+typedef enum form { FORM_TEXT, FORM_TABLE, FORMS } form;
+static const char *const form_names[FORMS] = {[FORM_TEXT] = "text", [FORM_TABLE] = "table"};
+
+enum { OUTSIDE = -1 }; /* of every effect */
+
+/* --- the table ------------------------------------------------------------------------------------- */
+
+/* WORD behind what there is, with a comma between them. */
+static void add_word(bool *any, const char *word) {
+    printf("%s%s", *any ? "," : "", word);
+    *any = true;
+}
+
+static void end_words(bool any) { fputs(any ? "\t" : "-\t", stdout); }
+
+static void put_effects(const mechanism *m, const bool *with, bool ledger) {
+    bool any = false;
+    for (int i = 0; i < m->effect_count; i++) {
+        if (with == NULL || with[i]) {
+            add_word(&any, m->effects[i].name);
+        }
     }
-    if (count > 0) {
-        options_unknown("list", words[0], (const char *const[]){"--help", NULL});
-        return EXIT_BAD_INPUT;
+    if (ledger) {
+        add_word(&any, "ledger");
     }
-    diags *errors = diags_new();
+    end_words(any);
+}
+
+/* What the mechanism's statements in `effect`, or outside of every effect, are. */
+static void put_what_is_in(const mechanism *m, int within) {
+    bool any = false;
+    bool has_terms = false;
+    bool has_contacts = false;
+    bool has_noise = false;
+    for (int i = 0; i < m->term_count; i++) {
+        has_terms = has_terms || m->terms[i].effect == within;
+    }
+    for (int i = 0; i < m->contact_count; i++) {
+        has_contacts = has_contacts || m->contacts[i].effect == within;
+    }
+    for (int i = 0; i < m->noise_count; i++) {
+        has_noise = has_noise || m->noises[i].effect == within;
+    }
+    if (has_terms) {
+        add_word(&any, "terms");
+    }
+    if (has_contacts) {
+        add_word(&any, "contacts");
+    }
+    if (has_noise) {
+        add_word(&any, "noise");
+    }
+    end_words(any);
+}
+
+static void put_what_is_in_scene(const scene *in) {
+    bool any = false;
+    bool conserves = false;
+    if (in->when_count > 0) {
+        add_word(&any, "contacts");
+    }
+    for (int i = 0; i < in->mechanism->coordinate_count; i++) {
+        conserves = conserves || in->conserve[i];
+    }
+    if (conserves) {
+        add_word(&any, "conserve");
+    }
+    end_words(any);
+}
+
+/* A title is one line, without tabs. */
+static void put_title(const char *title) {
+    for (const char *at = title; *at != '\0'; at++) {
+        putchar(*at == '\t' ? ' ' : *at);
+    }
+    fputs(title[0] == '\0' ? "-\n" : "\n", stdout);
+}
+
+static void put_place(const char *kind, const char *name, const mechanism *of, const char *file,
+                      int first_line, int last_line) {
+    printf("%s\t%s\t%s\t%s\t%d\t%d\t", kind, name, of->name, file, first_line, last_line);
+}
+
+/* Step and length of a scene, or of the mechanism at rest; false when they are wrong (reported). */
+static bool put_times(const mechanism *of, const scene *in, diags *errors) {
+    instance *made = instance_make(of, in, NULL, errors);
+    if (made == NULL) {
+        return false;
+    }
+    printf("%.15g\t%.15g\t", made->step_s, made->until_s);
+    instance_free(made);
+    return true;
+}
+
+static bool put_rows(const source_model *from, const mechanism *m) {
+    put_place("mechanism", m->name, m, from->file, m->at.line, m->at.line);
+    put_effects(m, NULL, false);
+    put_what_is_in(m, OUTSIDE);
+    fputs("-\t-\t", stdout);
+    put_title(m->title);
+    for (int i = 0; i < m->effect_count; i++) {
+        const effect *each = &m->effects[i];
+        put_place("effect", each->name, m, from->file, each->at.line, each->last_line);
+        fputs("-\t", stdout);
+        put_what_is_in(m, i);
+        fputs("-\t-\t", stdout);
+        put_title(each->text);
+    }
+    for (int i = 0; i < from->model->scene_count; i++) {
+        const scene *each = from->model->scenes[i];
+        if (each->mechanism == m) {
+            put_place("scene", each->name, m, from->file, each->at.line, each->last_line);
+            put_effects(m, each->with, each->ledger);
+            put_what_is_in_scene(each);
+            if (!put_times(m, each, from->errors)) {
+                return false;
+            }
+            put_title(each->title);
+        }
+    }
+    return true;
+}
+
+/* --- the text -------------------------------------------------------------------------------------- */
+
+static void put_lines(const model *m, const mechanism *of) {
+    printf("mechanism  %-24s %s\n", of->name, of->title);
+    for (int i = 0; i < m->scene_count; i++) {
+        if (m->scenes[i]->mechanism == of) {
+            printf("scene      %-24s %s\n", m->scenes[i]->name, m->scenes[i]->title);
+        }
+    }
+}
+
+static void put_fields(void) {
+    puts("kind\tname\tmechanism\tfile\tfirst_line\tlast_line\teffects\tholds\tstep_s\tuntil_s\t"
+         "title");
+}
+
+/* `first`: nothing was listed before. */
+static int list_one(const source_model *from, form as, bool first) {
+    bool good = from->model != NULL;
+    if (good && first && as == FORM_TABLE) {
+        put_fields();
+    }
+    for (int i = 0; good && i < from->model->mechanism_count; i++) {
+        switch (as) {
+        case FORM_TEXT: put_lines(from->model, from->model->mechanisms[i]); break;
+        case FORM_TABLE: good = put_rows(from, from->model->mechanisms[i]); break;
+        case FORMS: break;
+        }
+    }
+    diags_flush(from->errors, stderr);
+    return good ? EXIT_DONE : EXIT_BAD_INPUT;
+}
+
+static int list_builtin(form as) {
     int code = EXIT_DONE;
     for (size_t i = 0; i < builtin_model_count; i++) {
         const struct builtin_model *b = &builtin_models[i];
-        model *m = model_parse(b->file, b->text, b->length, errors);
-        if (m == NULL) {
-            diags_flush(errors, stderr);
-            code = EXIT_BAD_INPUT;
-            continue;
-        }
-        for (int k = 0; k < m->mechanism_count; k++) {
-            printf("mechanism  %-24s %s\n", m->mechanisms[k]->name, m->mechanisms[k]->title);
-            for (int s = 0; s < m->scene_count; s++) {
-                if (m->scenes[s]->mechanism == m->mechanisms[k]) {
-                    printf("scene      %-24s %s\n", m->scenes[s]->name, m->scenes[s]->title);
-                }
-            }
-        }
-        model_free(m);
+        source_model from = {.file = b->file, .errors = diags_new()};
+        from.model = model_parse(b->file, b->text, b->length, from.errors);
+        const int one = list_one(&from, as, i == 0);
+        code = one > code ? one : code;
+        source_close(&from);
     }
-    diags_free(errors);
+    return code;
+}
+
+static int list_file(const char *file, form as, bool first) {
+    source_model from;
+    int code = source_open(&from, file);
+    if (code == EXIT_DONE && from.name[0] != '\0') {
+        fprintf(stderr, "whirl list: error: %s is no file\nhint: FILE, of which all is listed\n",
+                file);
+        code = EXIT_BAD_INPUT;
+    }
+    if (code == EXIT_DONE) {
+        code = list_one(&from, as, first);
+    }
+    source_close(&from);
+    return code;
+}
+
+int command_list(int count, char **words) {
+    form as = FORM_TEXT;
+    int files = 0; /* words[0..files-1] */
+    bool bad = false;
+    if (options_help(count, words, usage)) {
+        return EXIT_DONE;
+    }
+    for (int at = 0; at < count && !bad;) {
+        const char *value = options_value(count, words, &at, "--as", &bad);
+        if (value != NULL) {
+            for (as = FORM_TEXT; as < FORMS && strcmp(form_names[as], value) != 0; as++) {
+            }
+            if (as == FORMS) {
+                fprintf(stderr, "whirl list: error: there is no form '%s'\nhint: text or table\n",
+                        value);
+                bad = true;
+            }
+        } else if (!bad && words[at][0] == '-' && words[at][1] != '\0') {
+            options_unknown("list", words[at], (const char *const[]){"--as", "--help", NULL});
+            bad = true;
+        } else if (!bad) {
+            words[files++] = words[at++];
+        }
+    }
+    int code = bad ? EXIT_BAD_INPUT : files == 0 ? list_builtin(as) : EXIT_DONE;
+    for (int i = 0; i < files && !bad; i++) {
+        const int one = list_file(words[i], as, i == 0);
+        code = one > code ? one : code;
+    }
     return code;
 }

@@ -11,19 +11,12 @@
 #include "files.h"
 #include "find.h"
 #include "host/base/nearest.h"
+#include "host/base/room.h"
 #include "host/lang/hints.h"
 #include "host/lang/override.h"
-#include "host/run/shown.h"
+#include "host/lang/shown.h"
 
-static char *copy_of(const char *text, size_t length) {
-    char *copy = malloc(length + 1);
-    if (copy == NULL) {
-        abort();
-    }
-    memcpy(copy, text, length);
-    copy[length] = '\0';
-    return copy;
-}
+static char *copy_of(const char *text, size_t length) { return room_copy(text, length); }
 
 char *read_all(const char *path, size_t *length) {
     FILE *in = strcmp(path, "-") == 0 ? stdin : fopen(path, "rb");
@@ -37,26 +30,19 @@ char *read_all(const char *path, size_t *length) {
         fprintf(stderr, "%s: error: cannot be read: %s\n", path, strerror(errno));
         return NULL;
     }
-    size_t room = 1U << 16;
-    char *text = malloc(room);
+    size_t size = 1U << 16;
+    char *text = room((int64_t)size, 1);
     *length = 0;
-    while (text != NULL) {
-        *length += fread(text + *length, 1, room - *length - 1, in);
-        if (*length < room - 1 || *length > MODEL_BYTES_MAX) {
+    for (;;) {
+        *length += fread(text + *length, 1, size - *length - 1, in);
+        if (*length < size - 1 || *length > MODEL_BYTES_MAX) {
             break; /* the parser says that it is too long */
         }
-        room *= 2;
-        char *more = realloc(text, room);
-        if (more == NULL) {
-            free(text);
-        }
-        text = more;
+        size *= 2;
+        text = room_more(text, (int64_t)size, 1);
     }
     if (in != stdin) {
         fclose(in);
-    }
-    if (text == NULL) {
-        abort();
     }
     text[*length] = '\0';
     return text;
@@ -77,12 +63,7 @@ bool source_would_be_lost(const source_model *s, const char *option, const char 
     const bool from_stdin = strcmp(s->path, "-") == 0;
     const bool model_known =
         (from_stdin ? fstat(fileno(stdin), &about_model) : stat(s->path, &about_model)) == 0;
-    const size_t size = strlen(path) + strlen(ending) + 1;
-    char *name = malloc(size);
-    if (name == NULL) {
-        abort();
-    }
-    snprintf(name, size, "%s%s", path, ending);
+    char *name = room_words("%s%s", path, ending);
     const bool lost = model_known && S_ISREG(about_model.st_mode) &&
                       stat(name, &about_output) == 0 &&
                       files_are_one(&about_model, from_stdin ? NULL : s->path, &about_output, name);
@@ -218,7 +199,7 @@ int load(loaded *made, source_model *s, const mechanism *of, const scene *in,
     }
     if (made->equations != NULL) {
         made->program =
-            program_make(made->equations, conserve && in != NULL ? in->conserve : NULL, s->errors);
+            program_make(made->equations, conserve ? made->instance->conserve : NULL, s->errors);
     }
     diags_flush(s->errors, stderr);
     if (made->program != NULL &&

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "host/base/nearest.h"
+#include "host/base/room.h"
 
 bool options_help(int count, char **words, const char *usage) {
     for (int i = 0; i < count; i++) {
@@ -42,23 +43,15 @@ const char *options_value(int count, char **words, int *at, const char *name, bo
 }
 
 static void push(const char ***list, int *count, const char *text) {
-    const char **longer = realloc(*list, ((size_t)*count + 1) * sizeof **list);
-    if (longer == NULL) {
-        abort();
-    }
+    const char **longer = room_more(*list, *count + 1, sizeof **list);
     *list = longer;
     longer[(*count)++] = text;
 }
 
 /* A copy of text[length], which the options keep. */
 static const char *keep(change_options *c, const char *text, size_t length) {
-    char *name = calloc(length + 1, 1);
-    char **owned = realloc(c->owned, ((size_t)c->owned_count + 1) * sizeof *owned);
-    if (name == NULL || owned == NULL) {
-        abort();
-    }
-    memcpy(name, text, length);
-    c->owned = owned;
+    char *name = room_copy(text, length);
+    c->owned = room_more(c->owned, c->owned_count + 1, sizeof *c->owned);
     c->owned[c->owned_count++] = name;
     return name;
 }
@@ -92,11 +85,20 @@ static bool push_names(change_options *c, const char ***list, int *count, const 
             return false;
         }
         const char *name = keep(c, at + before, end - before);
+        if (strcmp(name, "conserve") == 0 && list == &c->with) {
+            fputs("whirl: error: --with takes effects: a scene says itself what it conserves\n",
+                  stderr);
+            return false;
+        }
         if (is_in(*list, *count, name)) {
             fprintf(stderr, "whirl: error: %s names '%s' twice\n", option, name);
             return false;
         }
         push(list, count, name);
+        if (is_in(c->with, c->with_count, "all") && is_in(c->without, c->without_count, "all")) {
+            fputs("whirl: error: --with all and --without all: which?\n", stderr);
+            return false;
+        }
         at += field;
         if (*at == '\0') {
             return true;
@@ -132,7 +134,8 @@ overrides change_options_overrides(const change_options *c) {
                        .without = c->without,
                        .without_count = c->without_count,
                        .step = c->step,
-                       .until = c->until};
+                       .until = c->until,
+                       .name = c->name};
 }
 
 void change_options_free(change_options *c) {

@@ -26,7 +26,8 @@ typedef struct change_options {
     int without_count;
     const char *step;
     const char *until;
-    char **owned; /* pieces of comma lists */
+    const char *name; /* --name, where a command has it; else NULL */
+    char **owned;     /* pieces of comma lists */
     int owned_count;
 } change_options;
 

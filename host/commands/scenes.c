@@ -9,6 +9,7 @@
 #include "commands.h"
 #include "host/emit/emit.h"
 #include "host/lang/builtin.h"
+#include "host/show/text.h"
 #include "load.h"
 
 typedef int scene_visitor(void *context, const char *file, const loaded *made);
@@ -88,8 +89,8 @@ static int emit_other_forms(const emission *to, const char *file, const loaded *
     if (out == NULL) {
         return EXIT_RUN_FAILED;
     }
-    emit_text(out, made->equations);
-    emit_latex(out, made->equations);
+    show_text(out, made->equations);
+    show_latex(out, made->equations);
     if (made->program->conserved == NULL) {
         emit_octave(out, made->equations, made->program, file);
     }

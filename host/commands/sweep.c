@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "commands.h"
+#include "host/base/room.h"
 #include "host/lang/builtin.h"
 #include "host/run/start.h"
 #include "host/sweep/fingerprint.h"
@@ -304,11 +305,8 @@ int command_sweep(int count, char **words) {
                        .jobs = processors(),
                        .kind = &engine_double,
                        .engine = {WH_RK4, false}};
-    o.over = calloc((size_t)count + 1, sizeof(const char *));
-    o.measure = calloc((size_t)count + 1, sizeof(const char *));
-    if (o.over == NULL || o.measure == NULL) {
-        abort();
-    }
+    o.over = room(count, sizeof(const char *));
+    o.measure = room(count, sizeof(const char *));
     int code = EXIT_BAD_INPUT;
     if (read_options(count, words, &o)) {
         source_model from;

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "host/base/room.h"
 #include "influence.h"
 
 /* --- the start -----------------------------------------------------------------------------------*/
@@ -14,8 +15,14 @@ static double start_value(void *context, const symbol *s, int primes) {
     switch (s->kind) {
     case SYM_PARAMETER: return inst->parameter[s->index];
     case SYM_INPUT: return inst->input[s->index];
-    default: return primes < inst->start_count[s->index] ? inst->start[s->index][primes] : 0.0;
+    case SYM_COORDINATE:
+    case SYM_STATE:
+        return primes < inst->start_count[s->index] ? inst->start[s->index][primes] : 0.0;
+    case SYM_LET: /* expressions: none stands in a poly */
+    case SYM_OUTPUT:
+    case SYM_RECORD: break;
     }
+    return (double)NAN;
 }
 
 static double at_start(const equations *e, const poly *p) {
@@ -88,10 +95,7 @@ static const poly *potential_of(const equations *e, const poly *const *mass) {
 static const poly *potential_of_any(const equations *e, const poly *const *mass) {
     const poly *g = potential_of(e, mass);
     if (g == NULL) {
-        const poly **expanded = calloc((size_t)e->count + 1, sizeof(const poly *));
-        if (expanded == NULL) {
-            abort();
-        }
+        const poly **expanded = room(e->count, sizeof(const poly *));
         for (int j = 0; j < e->count; j++) {
             expanded[j] = poly_expanded(e->algebra, mass[j]);
         }
@@ -127,19 +131,11 @@ static bool check_wanted(const equations *e, int i, diags *errors) {
     char hint[160];
     int count;
     influence_on(e, i, text, &count);
-    snprintf(hint, sizeof hint, "leave %s out, or integrate %s: leave out `conserve`",
+    snprintf(hint, sizeof hint, "leave %s out, or integrate %s: --without conserve",
              count == 1 ? "that" : "those", q->name);
     diag_error(errors, at, hint, "the momentum of '%s' is not conserved: it is changed by %s",
                q->name, count > 0 ? text : "a force or a loss");
     return false;
-}
-
-static void *room(int count, size_t size) {
-    void *p = calloc((size_t)count + 1, size);
-    if (p == NULL) {
-        abort();
-    }
-    return p;
 }
 
 /* The momentum must be linear in the rates, p = sum m_j q_j', for the algebra above. */
@@ -225,7 +221,7 @@ static bool make_law(const equations *e, conservation *c, int k, momentum_law *l
     if (is_linear(e, momentum, law->mass)) {
         return true;
     }
-    diag_error(errors, e->unknowns[i].symbol->at, "integrate it: leave out `conserve`",
+    diag_error(errors, e->unknowns[i].symbol->at, "integrate it: --without conserve",
                "the momentum of '%s' is not linear in the rates", e->unknowns[i].symbol->name);
     return false;
 }

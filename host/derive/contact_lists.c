@@ -7,16 +7,9 @@
 #include "contacts.h"
 #include "core/hash.h"
 #include "energy.h"
+#include "host/base/room.h"
 
 _Static_assert((int)CONTACTS_MAX <= WH_CONTACTS_LIMIT, "the core has room for what a run may have");
-
-static void *room(int count, size_t size) {
-    void *p = calloc((size_t)count + 1, size);
-    if (p == NULL) {
-        abort();
-    }
-    return p;
-}
 
 /* Folded, and free of conserved coordinates. */
 static const poly *ready(const equations *e, const conservation *c, const poly *p) {
@@ -255,7 +248,7 @@ contact_lists *contact_lists_make(const program *p, const equations *e, layout *
                                   const linear_system *s, diags *errors) {
     const contact_laws *laws = e->contacts;
     if (p->form != WH_SECOND_ORDER) {
-        diag_error(errors, laws->law[0].from->at, "integrate the coordinate: leave out conserve",
+        diag_error(errors, laws->law[0].from->at, "integrate the coordinate: --without conserve",
                    "a coordinate that must be integrated from its momentum cannot be conserved "
                    "beside stops, friction, holds or crossings");
         return NULL;

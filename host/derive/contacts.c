@@ -3,13 +3,7 @@
 
 #include <stdlib.h>
 
-static void *room(int count, size_t size) {
-    void *p = calloc((size_t)count + 1, size);
-    if (p == NULL) {
-        abort();
-    }
-    return p;
-}
+#include "host/base/room.h"
 
 /* sum_i d(value)/dq_i q_i'. */
 static const poly *rate_of(algebra *a, const mechanism *m, const poly *value) {

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "host/base/room.h"
+
 static int minus_product(tape *t, int from, int x, int y) {
     return tape_sub(t, from, tape_mul(t, x, y));
 }
@@ -72,14 +74,12 @@ static double generic(double of) {
 
 /* What every operation gives at a made-up generic state: tells vanishing pivots from others. */
 static double *sample(const tape *t) {
-    double *v = calloc((size_t)t->count + 1, sizeof *v);
-    if (v == NULL) {
-        abort();
-    }
+    double *v = room(t->count, sizeof *v);
     for (int i = 0; i < t->count; i++) {
         const op *o = &t->ops[i];
-        const double a = o->a >= 0 && o->code >= OP_SIN ? v[o->a] : 0.0;
-        const double b = o->b >= 0 && o->code >= OP_PHASE ? v[o->b] : 0.0;
+        const int values = op_rows[o->code].values;
+        const double a = values > 0 ? v[o->a] : 0.0;
+        const double b = (values > 1 || o->code == OP_PHASE) && o->b >= 0 ? v[o->b] : 0.0;
         switch (o->code) {
         case OP_CONSTANT: v[i] = o->value; break;
         case OP_LINEAR:
@@ -140,10 +140,7 @@ static void solve_cramer(tape *t, int n, const int *mass, const int *force, cons
                          const int *columns, int size, int *solution) {
     const int all = determinant(t, n, mass, rows, columns, size);
     const int inverse = tape_div(t, tape_constant(t, 1.0), all);
-    int *swapped = calloc((size_t)n * (size_t)n, sizeof *swapped);
-    if (swapped == NULL) {
-        abort();
-    }
+    int *swapped = room((int64_t)n * n, sizeof *swapped);
     for (int c = 0; c < size; c++) {
         for (int i = 0; i < n * n; i++) {
             swapped[i] = mass[i];
@@ -189,10 +186,7 @@ static bool bring_pivot(const tape *t, int n, const int *mass, int *rows, int *c
 }
 
 static void eliminate_general(tape *t, int n, int *mass, int *force, int *solution) {
-    int *rows = calloc(2 * (size_t)n, sizeof *rows);
-    if (rows == NULL) {
-        abort();
-    }
+    int *rows = room(2 * (int64_t)n, sizeof *rows);
     int *columns = rows + n;
     for (int i = 0; i < n; i++) {
         rows[i] = columns[i] = i;

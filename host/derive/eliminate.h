@@ -2,7 +2,7 @@
 #ifndef DERIVE_ELIMINATE_H
 #define DERIVE_ELIMINATE_H
 
-#include "tape.h"
+#include "host/image/tape.h"
 
 /* mass[n * n] and force[n] are operations (overwritten). order[n] is the order of elimination; the
  * first `done` of it have been eliminated from the others already, in symbols, and only need their

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "host/base/room.h"
 #include "singular.h"
 
 /* --- energies ------------------------------------------------------------------------------------*/
@@ -112,11 +113,8 @@ static bool derive_system(equations *e, diags *errors) {
     algebra *a = e->algebra;
     const mechanism *m = e->instance->mechanism;
     const int n = e->count;
-    const poly **left = calloc((size_t)n, sizeof *left);
-    const term **term_at = calloc((size_t)n, sizeof *term_at);
-    if (left == NULL || term_at == NULL) {
-        abort();
-    }
+    const poly **left = room(n, sizeof *left);
+    const term **term_at = room(n, sizeof *term_at);
     bool good = true;
     int rows = 0;
     for (int t = 0; t < m->term_count && rows < n; t++) {
@@ -169,13 +167,7 @@ static bool derive_system(equations *e, diags *errors) {
 
 /* --- both ----------------------------------------------------------------------------------------*/
 
-static const poly **polys(int count) {
-    const poly **p = calloc((size_t)(count > 0 ? count : 1), sizeof(const poly *));
-    if (p == NULL) {
-        abort();
-    }
-    return p;
-}
+static const poly **polys(int count) { return room(count, sizeof(const poly *)); }
 
 /* Beyond what the algebra, or those who walk through its results, can do in a reasonable time? */
 static bool too_large(const equations *e) {
@@ -209,21 +201,15 @@ equations *equations_derive_after(const instance *inst, equations_question *befo
                                   diags *errors) {
     const mechanism *m = inst->mechanism;
     const int n = m->coordinate_count;
-    equations *e = calloc(1, sizeof *e);
-    if (e == NULL) {
-        abort();
-    }
+    equations *e = room(1, sizeof *e);
     e->algebra = algebra_new();
     if (before != NULL) {
         before(context, e->algebra, inst);
     }
     e->instance = inst;
     e->count = n;
-    e->unknowns = calloc((size_t)n, sizeof *e->unknowns);
-    e->conserved = calloc((size_t)n, sizeof *e->conserved);
-    if (e->unknowns == NULL || e->conserved == NULL) {
-        abort();
-    }
+    e->unknowns = room(n, sizeof *e->unknowns);
+    e->conserved = room(n, sizeof *e->conserved);
     e->mass = polys(n * n);
     e->velocity = polys(n);
     e->potential = polys(n);

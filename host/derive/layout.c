@@ -3,15 +3,8 @@
 
 #include <stdlib.h>
 
+#include "host/base/room.h"
 #include "noise.h"
-
-static void *room(int count, size_t size) {
-    void *p = calloc((size_t)count + 1, size);
-    if (p == NULL) {
-        abort();
-    }
-    return p;
-}
 
 int layout_turn(void *context, const symbol *s) {
     const layout *map = context;

@@ -5,15 +5,8 @@
 
 #include "contact_lists.h"
 #include "energy.h"
+#include "host/base/room.h"
 #include "ledger.h"
-
-static void *room(int count, size_t size) {
-    void *p = calloc((size_t)count + 1, size);
-    if (p == NULL) {
-        abort();
-    }
-    return p;
-}
 
 /* Folded, and free of conserved coordinates. */
 static const poly *ready(const program *p, const equations *e, const poly *wanted) {
@@ -126,7 +119,7 @@ static bool can_keep(const program *p, const equations *e, diags *errors) {
         return false;
     }
     if (p->form != WH_SECOND_ORDER) {
-        diag_error(errors, m->at, "integrate the coordinate: leave out conserve",
+        diag_error(errors, m->at, "integrate the coordinate: --without conserve",
                    "a coordinate that must be integrated from its momentum cannot be conserved "
                    "beside a ledger");
         return false;

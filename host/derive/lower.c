@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "host/base/room.h"
 #include "pieces.h"
 #include "waves.h"
 
@@ -12,10 +13,7 @@
 #define SAME 1e-13
 
 static piece *piece_room(const poly *p) {
-    piece *pieces = calloc((size_t)p->count + 1, sizeof *pieces);
-    if (pieces == NULL) {
-        abort();
-    }
+    piece *pieces = room(p->count, sizeof *pieces);
     return pieces;
 }
 
@@ -52,10 +50,7 @@ static void collect_angles(const lowering *l, const poly *p, angle_list *list) {
         if (!known) {
             if (list->count == list->room) {
                 list->room = list->room == 0 ? 16 : list->room * 2;
-                list->angles = realloc(list->angles, (size_t)list->room * sizeof *list->angles);
-                if (list->angles == NULL) {
-                    abort();
-                }
+                list->angles = room_more(list->angles, list->room, sizeof *list->angles);
             }
             list->angles[list->count++] = pieces[i].angle;
         }
@@ -180,12 +175,9 @@ static int sum_of_like(lowering *l, const product *products, const int *nodes, c
 /* Products without a common factor: terms with coefficients of one size are added first. */
 static int sum_flat(lowering *l, const product *products, int count) {
     tape *t = l->tape;
-    int *nodes = calloc((size_t)count, sizeof *nodes);
-    bool *done = calloc((size_t)count, sizeof *done);
-    bool *member = calloc((size_t)count, sizeof *member);
-    if (nodes == NULL || done == NULL || member == NULL) {
-        abort();
-    }
+    int *nodes = room(count, sizeof *nodes);
+    bool *done = room(count, sizeof *done);
+    bool *member = room(count, sizeof *member);
     for (int i = 0; i < count; i++) {
         nodes[i] = tape_constant(t, 1.0);
         for (int k = 0; k < products[i].count; k++) {
@@ -228,10 +220,7 @@ static int *sorted_nodes(const product *products, int count, int *total) {
     for (int i = 0; i < count; i++) {
         *total += products[i].count;
     }
-    int *nodes = malloc(((size_t)*total + 1) * sizeof *nodes);
-    if (nodes == NULL) {
-        abort();
-    }
+    int *nodes = room(*total, sizeof *nodes);
     int at = 0;
     for (int i = 0; i < count; i++) {
         for (int k = 0; k < products[i].count; k++) {
@@ -300,11 +289,8 @@ static int sum_of(lowering *l, product *products, int count) {
             }
         }
     }
-    product *with = malloc((size_t)count * sizeof *with);
-    product *without = malloc((size_t)count * sizeof *without);
-    if (with == NULL || without == NULL) {
-        abort();
-    }
+    product *with = room(count, sizeof *with);
+    product *without = room(count, sizeof *without);
     int in = 0;
     int out = 0;
     for (int i = 0; i < count; i++) {
@@ -336,10 +322,7 @@ static int sum_of(lowering *l, product *products, int count) {
 int lower(lowering *l, const poly *p) {
     piece *pieces = piece_room(p);
     const int count = pieces_of(l->algebra, p, pieces);
-    product *products = calloc((size_t)count + 1, sizeof *products);
-    if (products == NULL) {
-        abort();
-    }
+    product *products = room(count, sizeof *products);
     for (int i = 0; i < count; i++) {
         products[i].coefficient = pieces[i].coefficient;
         for (int k = 0; k < pieces[i].mono->count; k++) {

@@ -4,7 +4,7 @@
 #define DERIVE_LOWER_H
 
 #include "host/algebra/poly.h"
-#include "tape.h"
+#include "host/image/tape.h"
 
 typedef struct wave wave;
 

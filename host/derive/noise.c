@@ -2,14 +2,14 @@
 #include "noise.h"
 
 #include <stdlib.h>
+#include <string.h>
+
+#include "host/base/hash.h"
+#include "host/base/room.h"
 
 /* Outputs with the same seed have noise of their own each: their names' hash (FNV-1a) tells them apart. */
 static uint32_t seed_of(const noise *of) {
-    uint32_t hash = 2166136261U;
-    for (const char *at = of->output->name; *at != '\0'; at++) {
-        hash = (hash ^ (unsigned char)*at) * 16777619U;
-    }
-    return hash ^ of->seed;
+    return hash_text(of->output->name, strlen(of->output->name)) ^ of->seed;
 }
 
 /* The operation that adds noise k to `node`. */
@@ -66,11 +66,8 @@ noise_records noise_records_find(const equations *e, const conservation *conserv
                                  const poly **wanted, int count) {
     const mechanism *m = e->instance->mechanism;
     recording of = {e, conserved};
-    noise_records r = {calloc((size_t)m->noise_count + 1, sizeof(const poly *)),
-                       calloc((size_t)m->noise_count + 1, sizeof(int)), 0};
-    if (r.exact == NULL || r.node == NULL) {
-        abort();
-    }
+    noise_records r = {room(m->noise_count, sizeof(const poly *)),
+                       room(m->noise_count, sizeof(int)), 0};
     for (int k = 0; k < m->noise_count; k++) {
         const symbol *record = m->noises[k].record;
         bool named = false;

@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "host/base/room.h"
+
 /* Coefficients that differ by less than this part count as equal: they come from the same number. */
 #define SAME 1e-13
 /* What is left of a sum below this part of what was added counts as cancelled, as in the algebra. */
@@ -224,10 +226,7 @@ static int find_squares(algebra *a, const poly *p, bool *used, piece *pieces) {
 }
 
 int pieces_of(algebra *a, const poly *p, piece *pieces) {
-    bool *used = calloc((size_t)p->count + 1, sizeof *used);
-    if (used == NULL) {
-        abort();
-    }
+    bool *used = room(p->count, sizeof *used);
     int count = find_families(a, p, used, pieces);
     count += find_squares(a, p, used, pieces + count);
     for (int i = 0; i < p->count; i++) {

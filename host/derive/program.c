@@ -5,16 +5,9 @@
 
 #include "contact_lists.h"
 #include "energy.h"
+#include "host/base/room.h"
 #include "ledger.h"
 #include "noise.h"
-
-static void *room(int count, size_t size) {
-    void *p = calloc((size_t)count + 1, size);
-    if (p == NULL) {
-        abort();
-    }
-    return p;
-}
 
 /* --- the lists -----------------------------------------------------------------------------------*/
 
@@ -134,10 +127,7 @@ static tape *make_observe(program *p, const equations *e, layout *map, const lin
 
 static tape *make_books(program *p, const equations *e, layout *map, const linear_system *s) {
     const int n = e->count;
-    const poly **wanted = calloc((size_t)(BOOK_MOMENTA + n + 1), sizeof *wanted);
-    if (wanted == NULL) {
-        abort();
-    }
+    const poly **wanted = room(BOOK_MOMENTA + n + 1, sizeof *wanted);
     int count = 0;
     if (!e->instance->mechanism->is_system) {
         wanted[BOOK_KINETIC] = e->kinetic;
@@ -289,7 +279,7 @@ void program_free(program *p) {
 
 static bool list_calls(const tape *t) {
     for (int i = 0; t != NULL && i < t->count; i++) {
-        if (t->ops[i].code == OP_CALL || t->ops[i].code == OP_POW) {
+        if (op_rows[t->ops[i].code].cost == OP_COSTS_CALL) {
             return true;
         }
     }

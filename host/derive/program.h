@@ -5,7 +5,7 @@
 #include "conserve.h"
 #include "core/scene.h"
 #include "equations.h"
-#include "tape.h"
+#include "host/image/tape.h"
 
 /* Most coordinates of a mechanism, or first-order components of a system. */
 #define PROGRAM_COMPONENTS_MAX 64

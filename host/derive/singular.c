@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "host/base/room.h"
 #include "rank.h"
 
 #define TRIES 24
@@ -44,13 +45,7 @@ static double generic_value(void *context, const symbol *s, int primes) {
 }
 
 /* Four n by n matrices. */
-static double *room_for(int n) {
-    double *m = calloc(4 * (size_t)n * (size_t)n + 1, sizeof *m);
-    if (m == NULL) {
-        abort();
-    }
-    return m;
-}
+static double *room_for(int n) { return room(4 * (int64_t)n * n, sizeof(double)); }
 
 /* The values of the mass matrix at one try, and how well they are known; false when one is not finite. */
 static bool mass_at(const equations *e, int try, double *m, double *error) {

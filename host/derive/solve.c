@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "eliminate.h"
+#include "host/base/room.h"
 
 /* Elimination orders are tried exhaustively up to so many unknowns. */
 #define PERMUTED_MAX 4
@@ -153,15 +154,12 @@ static void enter(const lowering *like, tape *t, const linear_system *s, const a
     l.tape = t;
     l.waves = NULL;
     l.wave_count = l.wave_room = 0;
-    const size_t entries = (size_t)n * (size_t)n;
-    const poly **mass = calloc(entries + (size_t)n, sizeof *mass);
-    int *node = calloc(entries + (size_t)n, sizeof *node);
-    double *scale = calloc((size_t)n + 1, sizeof *scale);
-    bool *gone = calloc((size_t)n + 1, sizeof *gone);
-    int *order = calloc((size_t)n + 1, sizeof *order);
-    if (mass == NULL || node == NULL || scale == NULL || gone == NULL || order == NULL) {
-        abort();
-    }
+    const int64_t entries = (int64_t)n * n;
+    const poly **mass = room(entries + n, sizeof *mass);
+    int *node = room(entries + n, sizeof *node);
+    double *scale = room(n, sizeof *scale);
+    bool *gone = room(n, sizeof *gone);
+    int *order = room(n, sizeof *order);
     const poly **force = mass + entries;
     double common = 1.0;
     for (int i = 0; i < n; i++) {

@@ -8,6 +8,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "host/base/room.h"
+
 /* Of many known angles only the first, the smallest, are tried as parts of another. */
 #define PARTS_MAX 96
 #define BETWEEN_MAX 32
@@ -24,10 +26,7 @@ static int find(const lowering *l, const poly *angle) {
 static int append(lowering *l, wave w) {
     if (l->wave_count == l->wave_room) {
         l->wave_room = l->wave_room == 0 ? 16 : l->wave_room * 2;
-        l->waves = realloc(l->waves, (size_t)l->wave_room * sizeof *l->waves);
-        if (l->waves == NULL) {
-            abort();
-        }
+        l->waves = room_more(l->waves, l->wave_room, sizeof *l->waves);
     }
     w.sine = -1;
     w.cosine = -1;
@@ -182,10 +181,7 @@ void waves_plan(lowering *l, const poly **angles, int count) {
 
 /* The phase of an angle: numbers times turn angles, a fixed offset, and the rest in radians. */
 static int phase_of(lowering *l, const poly *angle) {
-    double *multiple = calloc((size_t)l->tape->angles + 1, sizeof *multiple);
-    if (multiple == NULL) {
-        abort();
-    }
+    double *multiple = room(l->tape->angles, sizeof *multiple);
     double offset = 0.0;
     const poly *rest = poly_number(l->algebra, 0.0);
     for (int i = 0; i < angle->count; i++) {

@@ -8,7 +8,9 @@
 #include "c_ledger.h"
 #include "c_list.h"
 #include "emit.h"
+#include "host/base/room.h"
 #include "host/number/hex.h"
+#include "host/number/phase.h"
 
 const char *const c_method_names[] = {"WH_EULER", "WH_SEMI_IMPLICIT_EULER", "WH_HEUN", "WH_RK4"};
 
@@ -49,17 +51,14 @@ static void write_observer(FILE *out, const program *p) {
 
 static void write_starts(FILE *out, const program *p, const instance *inst) {
     char hex[HEX_SIZE];
-    double *angle_rad = calloc((size_t)p->angles + 1, sizeof *angle_rad);
-    double *real = calloc((size_t)p->reals + 1, sizeof *real);
-    if (angle_rad == NULL || real == NULL) {
-        abort();
-    }
+    double *angle_rad = room(p->angles, sizeof *angle_rad);
+    double *real = room(p->reals, sizeof *real);
     program_start(p, inst, angle_rad, real);
     if (p->angles > 0) {
         fprintf(out, "static const wh_angle start_angle[%d] = {", p->angles);
         for (int i = 0; i < p->angles; i++) {
             fprintf(out, "%sWH_TURN(%s, INT64_C(%" PRId64 "))", i > 0 ? ", " : "",
-                    hex_write(angle_rad[i], hex), engine_angle_of_start(angle_rad[i]));
+                    hex_write(angle_rad[i], hex), phase_of_start(angle_rad[i]));
         }
         fprintf(out, "};\n");
     }

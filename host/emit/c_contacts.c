@@ -1,13 +1,14 @@
 /* c_contacts.c: the lists and the table of a scene's contacts. */
 #include "c_contacts.h"
 
+#include "c_bounds.h"
 #include "c_list.h"
 #include "host/number/hex.h"
 
 void c_contacts_include(FILE *out, const contact_lists *c) {
     fprintf(out, "#define WH_CONTACTS_MAX %d\n#define WH_SETS_MAX %d\n", c->count,
             c->set_count > 0 ? c->set_count : 1);
-    fprintf(out, "#include \"core/contact.h\"\nstatic const wh_hybrid contacts;\n"
+    fprintf(out, "#include \"core/contact.h\"\nstatic const wh_contact_system contacts;\n"
                  "#define WH_CONTACTS_OF(model) (&contacts)\n#include \"core/contact_step.h\"\n");
 }
 
@@ -43,7 +44,7 @@ void c_contacts_write(FILE *out, const program *p, const engine_settings *settin
     write_table(out, c);
     fprintf(
         out,
-        "static const wh_hybrid contacts = {\n    .accel = accelerations,\n"
+        "static const wh_contact_system contacts = {\n    .accel = accelerations,\n"
         "    .signals = contact_signals,\n    .forces = contact_forces,\n    .sets = %s,\n"
         "    .contact = contact_table,\n    .target = %s,\n    .ledger = %s,\n    .contacts = %d,\n"
         "    .forced = %d,\n    .held = %d,\n    .evaluations = WH_CONTACT_EVALUATIONS(%d, %d, %d),\n"
@@ -58,4 +59,15 @@ void c_contacts_write(FILE *out, const program *p, const engine_settings *settin
             "static wh_status advance(const wh_scene *scene, wh_state *state) {\n"
             "    (void)scene;\n    return wh_step_contact(&contacts, WH_R(%s), state);\n}\n\n",
             hex_write(step_s, hex));
+}
+
+int c_contacts_evaluations(const program *p, const engine_settings *settings) {
+    const contact_lists *c = p->contacts;
+    const int stages = c_stages[settings->method];
+    return c == NULL ? stages : c_bound_evaluations(stages, contact_lists_stops(c), c->forced);
+}
+
+int c_contacts_signals(const program *p) {
+    const contact_lists *c = p->contacts;
+    return c == NULL ? 0 : c_bound_signals(c->forced, c->count - c->forced);
 }

@@ -10,10 +10,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "c_contacts.h"
 #include "emit.h"
 #include "host/derive/contact_lists.h"
 #include "host/derive/ledger.h"
-#include "host/run/shown.h"
+#include "host/lang/shown.h"
 
 /* Bytes of the character at `text` that changes the direction of writing, or 0: compilers warn of these. */
 static size_t turns_direction(const char *text) {
@@ -172,11 +173,16 @@ void emit_c_header(FILE *out, const equations *e, const program *p, const engine
     for (int of = 0; of < LISTS; of++) {
         write_items(out, e, p, (list)of);
     }
-    fprintf(out,
-            "    /* state.contacts->mode[]; levels that wh_ledger_error() takes */\n"
-            "    %s_CONTACTS = %d,\n    %s_ACCOUNTS = %d\n};\n\n",
-            inst->name, p->contacts != NULL ? p->contacts->count : 0, inst->name,
-            p->ledger != NULL ? p->ledger->accounts : 0);
+    fprintf(
+        out,
+        "    /* state.contacts->mode[]; levels that wh_ledger_error() takes; the ledger's entries */\n"
+        "    %s_CONTACTS = %d,\n    %s_ACCOUNTS = %d,\n    %s_ENTRIES = %d,\n\n"
+        "    /* the most that a step evaluates: accelerations, what tells contacts' modes */\n"
+        "    %s_EVALUATIONS = %d,\n    %s_SIGNALS = %d\n};\n\n",
+        inst->name, p->contacts != NULL ? p->contacts->count : 0, inst->name,
+        p->ledger != NULL ? p->ledger->accounts : 0, inst->name,
+        p->ledger != NULL ? p->ledger->entries : 0, inst->name, c_contacts_evaluations(p, settings),
+        inst->name, c_contacts_signals(p));
     fprintf(out, "/* For arrays: static const char *const unit[] = %s_UNITS_OF_%s; */\n",
             inst->name, p->outputs > 0 ? "OUTPUTS" : "REALS");
     for (int of = 0; of < LISTS; of++) {

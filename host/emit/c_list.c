@@ -7,9 +7,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "host/lang/parser.h"
 #include "host/number/hex.h"
-#include "host/run/engine.h"
+#include "host/number/phase.h"
+#include "op_text.h"
 
 /* An operand: constants stand in place. */
 static const char *operand(const tape *t, int a, char text[static 48]) {
@@ -28,7 +28,7 @@ static void write_part(FILE *out, int angle, double multiple) {
     uint32_t whole;
     uint64_t part;
     char hex[HEX_SIZE];
-    engine_factor(multiple, &whole, &part);
+    phase_factor(multiple, &whole, &part);
     fprintf(out,
             "wh_phase_times(angle[%d], WH_FACTOR(%s, %" PRIu32 "U,\n"
             "        UINT64_C(%" PRIu64 ")))",
@@ -43,7 +43,7 @@ static void write_phase(FILE *out, const tape *t, int i) {
     if (o->value != 0.0 || (o->turns == NULL && o->parts == NULL && o->b < 0)) {
         char hex[HEX_SIZE];
         fprintf(out, "WH_TURN(%s, %" PRIu32 "U)", hex_write(o->value, hex),
-                engine_phase_of_constant(o->value));
+                phase_of_constant(o->value));
         plus = " + ";
     }
     for (int k = 0; k < t->angles && o->turns != NULL; k++) {
@@ -70,65 +70,22 @@ static void write_phase(FILE *out, const tape *t, int i) {
     }
 }
 
+static void write_operand(FILE *out, const tape *t, int a) {
+    char text[48];
+    fputs(operand(t, a, text), out);
+}
+
 static void write_operation(FILE *out, const tape *t, int i) {
+    static const op_style style = {write_operand, NULL, NULL};
     const op *o = &t->ops[i];
-    char a[48];
-    char b[48];
-    if (o->code == OP_CONSTANT) {
-        return;
-    }
-    if (o->code == OP_PHASE) {
+    const op_row *row = &op_rows[o->code];
+    if (row->kind == OP_IS_PHASE) {
         write_phase(out, t, i);
-        return;
+    } else if (row->kind != OP_IS_CONSTANT) {
+        fprintf(out, "    const wh_real x%d = ", i);
+        op_text(out, t, o, row->c, &style);
+        fprintf(out, ";\n");
     }
-    if (o->code >= OP_ADD) {
-        operand(t, o->a, a);
-        if (o->b >= 0) {
-            operand(t, o->b, b);
-        }
-    }
-    fprintf(out, "    const wh_real x%d = ", i);
-    switch (o->code) {
-    case OP_LINEAR: fprintf(out, "linear[%d]", o->a); break;
-    case OP_RATE: fprintf(out, "rate[%d]", o->a); break;
-    case OP_INPUT: fprintf(out, "input[%d]", o->a); break;
-    case OP_ACCEL: fprintf(out, "accel[%d]", o->a); break;
-    case OP_TIME: fprintf(out, "wh_scene_time_s(scene, state)"); break;
-    case OP_NOISE: fprintf(out, "wh_noise(%.0fU, state->steps)", o->value); break;
-    case OP_RADIANS: fprintf(out, "wh_angle_to_rad(angle[%d])", o->a); break;
-    case OP_SIN: fprintf(out, "s%d", o->a); break;
-    case OP_COS: fprintf(out, "c%d", o->a); break;
-    case OP_ADD: fprintf(out, "%s + %s", a, b); break;
-    case OP_SUB: fprintf(out, "%s - %s", a, b); break;
-    case OP_MUL: fprintf(out, "%s * %s", a, b); break;
-    case OP_DIV: fprintf(out, "%s / %s", a, b); break;
-    case OP_NEG: fprintf(out, "-%s", a); break;
-    case OP_SQRT: fprintf(out, "WH_SQRT(%s)", a); break;
-    case OP_ABS: fprintf(out, "WH_ABS(%s)", a); break;
-    case OP_SIGN:
-        fprintf(out, "%s == %s ? (wh_real)((%s > WH_R(0.0)) - (%s < WH_R(0.0))) : %s", a, a, a, a,
-                a);
-        break;
-    case OP_MIN:
-    case OP_MAX: /* a constant is a number */
-        fprintf(out, "%s %c %s", b, o->code == OP_MIN ? '<' : '>', a);
-        if (t->ops[o->b].code != OP_CONSTANT) {
-            fprintf(out, " || %s != %s", b, b);
-        }
-        fprintf(out, " ? %s : %s", b, a);
-        break;
-    case OP_CALL:
-        fprintf(out, "wh_%s(%s", function_name(o->function), a);
-        if (o->b >= 0) {
-            fprintf(out, ", %s", b);
-        }
-        fputc(')', out);
-        break;
-    case OP_POW: fprintf(out, "wh_pow(%s, %s)", a, b); break;
-    case OP_CONSTANT: /* both above */
-    case OP_PHASE: break;
-    }
-    fprintf(out, ";\n");
 }
 
 bool c_list_uses(const tape *t, op_code code) {

@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "host/derive/tape.h"
+#include "host/image/tape.h"
 
 bool c_list_uses(const tape *t, op_code code);
 bool c_list_uses_phase(const tape *t);

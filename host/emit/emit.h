@@ -1,4 +1,4 @@
-/* emit.h: the equations and the operation lists in other languages. */
+/* emit.h: the operation lists in other languages. */
 #ifndef EMIT_EMIT_H
 #define EMIT_EMIT_H
 
@@ -6,11 +6,6 @@
 
 #include "host/derive/program.h"
 #include "host/run/engine.h"
-
-/* The equations of motion, one a coordinate, terms collected by second derivative and factored; then
- * the first-order form. */
-void emit_text(FILE *out, const equations *e);
-void emit_latex(FILE *out, const equations *e);
 
 /* A function file `function dy = NAME(t, y)` that Octave and Matlab integrate as it stands, with the
  * run as a comment. `p` must integrate every coordinate (no `conserve`). `file` is the .whirl file's name,

@@ -3,8 +3,9 @@
 #include <stdlib.h>
 
 #include "emit.h"
-#include "host/lang/parser.h"
-#include "show_events.h"
+#include "host/base/room.h"
+#include "host/show/show_events.h"
+#include "op_text.h"
 
 /* y(k), k from 1: values first, then rates, and so on. */
 static int y_number(const program *p, const equations *e, component of) {
@@ -31,22 +32,6 @@ static void write_operand(FILE *out, const tape *t, int a) {
     }
 }
 
-static void write_binary(FILE *out, const tape *t, const op *o, const char *sign) {
-    write_operand(out, t, o->a);
-    fprintf(out, " %s ", sign);
-    write_operand(out, t, o->b);
-}
-
-static void write_call(FILE *out, const tape *t, const op *o, const char *name) {
-    fprintf(out, "%s(", name);
-    write_operand(out, t, o->a);
-    if (o->b >= 0) {
-        fputs(", ", out);
-        write_operand(out, t, o->b);
-    }
-    fputs(")", out);
-}
-
 static void write_phase(FILE *out, const program *p, const equations *e, const op *o) {
     const tape *t = p->step;
     const char *plus = "";
@@ -70,40 +55,38 @@ static void write_phase(FILE *out, const program *p, const equations *e, const o
     }
 }
 
+/* What leaves count: of the program and equations of these. */
+typedef struct leaf_context {
+    const program *program;
+    const equations *equations;
+} leaf_context;
+
+static void write_leaf(FILE *out, const void *context, char what, int a) {
+    const leaf_context *of = context;
+    const program *p = of->program;
+    if (what == 'u') {
+        fputs(of->equations->instance->mechanism->inputs[p->input[a]]->name, out);
+    } else {
+        const int real = what == 'r' ? p->coordinates - p->angles + a : a;
+        fprintf(out, "%d", y_number(p, of->equations, p->real[real]));
+    }
+}
+
+/* The lists of records have operations that no step has, and that are not written here. */
 static void write_operation(FILE *out, const program *p, const equations *e, int i) {
+    const leaf_context context = {p, e};
+    const op_style style = {write_operand, write_leaf, &context};
     const tape *t = p->step;
     const op *o = &t->ops[i];
-    if (o->code == OP_CONSTANT) {
+    const op_row *row = &op_rows[o->code];
+    if (row->kind == OP_IS_CONSTANT) {
         return;
     }
     fprintf(out, "  x%d = ", i);
-    switch (o->code) {
-    case OP_LINEAR: fprintf(out, "y(%d)", y_number(p, e, p->real[o->a])); break;
-    case OP_RATE:
-        fprintf(out, "y(%d)", y_number(p, e, p->real[p->coordinates - p->angles + o->a]));
-        break;
-    case OP_INPUT:
-        fprintf(out, "u_%s", e->instance->mechanism->inputs[p->input[o->a]]->name);
-        break;
-    case OP_PHASE: write_phase(out, p, e, o); break;
-    case OP_SIN: fprintf(out, "sin(x%d)", o->a); break;
-    case OP_COS: fprintf(out, "cos(x%d)", o->a); break;
-    case OP_ADD: write_binary(out, t, o, "+"); break;
-    case OP_SUB: write_binary(out, t, o, "-"); break;
-    case OP_MUL: write_binary(out, t, o, "*"); break;
-    case OP_DIV: write_binary(out, t, o, "/"); break;
-    case OP_POW: write_binary(out, t, o, "^"); break;
-    case OP_NEG:
-        fputs("-", out);
-        write_operand(out, t, o->a);
-        break;
-    case OP_SQRT: write_call(out, t, o, "sqrt"); break;
-    case OP_ABS: write_call(out, t, o, "abs"); break;
-    case OP_SIGN: write_call(out, t, o, "sign"); break;
-    case OP_MIN: write_call(out, t, o, "min"); break;
-    case OP_MAX: write_call(out, t, o, "max"); break;
-    case OP_CALL: write_call(out, t, o, function_name(o->function)); break;
-    default: break;
+    if (row->kind == OP_IS_PHASE) {
+        write_phase(out, p, e, o);
+    } else {
+        op_text(out, t, o, row->octave, &style);
     }
     fputs(";\n", out);
 }
@@ -113,10 +96,8 @@ static bool may_be_complex(const tape *t) {
     bool found = false;
     for (int i = 0; i < t->count; i++) {
         const op *o = &t->ops[i];
-        const bool inverse =
-            o->code == OP_CALL &&
-            (o->function == FN_LOG || o->function == FN_ASIN || o->function == FN_ACOS);
-        found = found || o->code == OP_SQRT || o->code == OP_POW || inverse;
+        found = found || o->code == OP_SQRT || o->code == OP_POW ||
+                (o->code == OP_CALL && !function_is_real(o->function));
     }
     return found;
 }
@@ -125,12 +106,9 @@ void emit_octave(FILE *out, const equations *e, const program *p, const char *fi
     const instance *inst = e->instance;
     const mechanism *m = inst->mechanism;
     const int components = p->angles + p->reals;
-    double *start = calloc((size_t)components + 1, sizeof *start);
-    double *angle_rad = calloc((size_t)components + 1, sizeof *angle_rad);
-    double *real = calloc((size_t)components + 1, sizeof *real);
-    if (start == NULL || angle_rad == NULL || real == NULL) {
-        abort();
-    }
+    double *start = room(components, sizeof *start);
+    double *angle_rad = room(components, sizeof *angle_rad);
+    double *real = room(components, sizeof *real);
     program_start(p, inst, angle_rad, real);
     for (int i = 0; i < components; i++) {
         const component of = i < p->angles ? p->angle[i] : p->real[i - p->angles];

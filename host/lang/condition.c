@@ -9,11 +9,12 @@
  * same functions, and a sum goes on from there. Recursion is bounded by NESTING_MAX. */
 #include <string.h>
 
-#include "parser.h"
+#include "cursor.h"
+#include "expression.h"
 
 typedef struct reading {
-    const char *form; /* the statement's usual look, for hints */
-    int depth;        /* of parentheses */
+    word_id statement; /* for hints */
+    int depth;         /* of parentheses */
 } reading;
 
 static const expr *parse_any(parser *in, reading *how, bool *is_condition);
@@ -26,9 +27,10 @@ static bool at_comparison(const parser *in) {
 static const expr *missing_comparison(parser *in, const reading *how) {
     char words[80];
     const bool equal = parser_is_sign(in, SIGN_EQUAL) || parser_is_sign(in, '=');
-    parser_fail(
-        in, equal ? "two numbers are hardly ever equal: compare with >, <, >= or <=" : how->form,
-        "a comparison is missing before %s", token_words(&in->token, words, sizeof words));
+    parser_fail(in,
+                equal ? "two numbers are hardly ever equal: compare with >, <, >= or <="
+                      : word_row(how->statement)->form,
+                "a comparison is missing before %s", token_words(&in->token, words, sizeof words));
     return NULL;
 }
 
@@ -86,7 +88,7 @@ static const expr *parse_comparison(parser *in, reading *how, bool *is_condition
 }
 
 /* PART { word PART }, the parts conditions unless there is but one. */
-static const expr *parse_joined(parser *in, reading *how, const char *word, function_id function,
+static const expr *parse_joined(parser *in, reading *how, word_id word, function_id function,
                                 const expr *(*part)(parser *, reading *, bool *),
                                 bool *is_condition) {
     const expr *left = part(in, how, is_condition);
@@ -109,15 +111,15 @@ static const expr *parse_joined(parser *in, reading *how, const char *word, func
 }
 
 static const expr *parse_both(parser *in, reading *how, bool *is_condition) {
-    return parse_joined(in, how, "and", FN_MIN, parse_comparison, is_condition);
+    return parse_joined(in, how, WORD_AND, FN_MIN, parse_comparison, is_condition);
 }
 
 static const expr *parse_any(parser *in, reading *how, bool *is_condition) {
-    return parse_joined(in, how, "or", FN_MAX, parse_both, is_condition);
+    return parse_joined(in, how, WORD_OR, FN_MAX, parse_both, is_condition);
 }
 
-const expr *parse_condition(parser *in, const char *form) {
-    reading how = {form, 0};
+const expr *parse_condition(parser *in, word_id statement) {
+    reading how = {statement, 0};
     bool is_condition = false;
     const expr *made = parse_any(in, &how, &is_condition);
     return made == NULL || is_condition ? made : missing_comparison(in, &how);

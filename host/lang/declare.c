@@ -2,27 +2,13 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "parser.h"
-
-static const char *const reserved[] = {
-    "mechanism", "coordinate", "state",    "parameter", "input", "let",      "T",    "V",   "F",
-    "Q",         "equation",   "output",   "effect",    "scene", "use",      "with", "set", "start",
-    "step",      "until",      "conserve", "when",      "stop",  "friction", "hold", "pi"};
-
-bool is_reserved(const char *text, size_t length) {
-    for (size_t i = 0; i < sizeof reserved / sizeof reserved[0]; i++) {
-        if (strlen(reserved[i]) == length && memcmp(reserved[i], text, length) == 0) {
-            return true;
-        }
-    }
-    return false;
-}
+#include "statements.h"
 
 /* A fresh symbol under this name, or NULL when it cannot have it (reported). */
 static named *claim_name(parser *in, const token *name) {
     function_id function = FN_SIN;
     const int length = (int)name->length;
-    if (is_reserved(name->text, name->length)) {
+    if (word_is_reserved(name->text, name->length)) {
         diag_error(in->diags, name->at, NULL, "'%.*s' is a reserved word", length, name->text);
         return NULL;
     }
@@ -55,7 +41,7 @@ static void append(parser *in, const symbol ***list, int *count, symbol *made) {
     *list = longer;
 }
 
-symbol *declare(parser *in, const token *name, symbol_kind kind) {
+static symbol *declare(parser *in, const token *name, symbol_kind kind) {
     named *entry = claim_name(in, name);
     if (entry == NULL) {
         return NULL;
@@ -93,10 +79,9 @@ static bool take_name(parser *in, const char *statement, token *name) {
     return true;
 }
 
-static bool parse_unknown(parser *in, symbol_kind kind) {
-    const char *word = kind == SYM_COORDINATE ? "coordinate" : "state";
+bool read_unknown(parser *in, const statement_word *word) {
     token name;
-    if (!take_name(in, word, &name)) {
+    if (!take_name(in, word->text, &name)) {
         return false;
     }
     if (in->builder->made->coordinate_count == COORDINATES_MAX) {
@@ -108,7 +93,7 @@ static bool parse_unknown(parser *in, symbol_kind kind) {
     if (token_is(&name, "time")) {
         diag_error(in->diags, name.at, NULL, "'time' is the first column of every record");
     }
-    symbol *made = declare(in, &name, kind);
+    symbol *made = declare(in, &name, (symbol_kind)word->kind);
     symbol unused = {0};
     if (made == NULL) {
         made = &unused;
@@ -125,7 +110,7 @@ static bool parse_unknown(parser *in, symbol_kind kind) {
 }
 
 /* = EXPR, after the name; declares it even when the expression fails. */
-static bool parse_value(parser *in, symbol *made, const char *word, expr_context context,
+static bool parse_value(parser *in, symbol *made, const statement_word *word, expr_context context,
                         place *value_at) {
     named *entry = made == NULL ? NULL : (named *)made;
     if (entry != NULL) {
@@ -135,9 +120,7 @@ static bool parse_value(parser *in, symbol *made, const char *word, expr_context
     const expr *value = NULL;
     if (!parser_is_sign(in, '=')) {
         char words[80];
-        char hint[80];
-        snprintf(hint, sizeof hint, "%s name = expression", word);
-        parser_fail(in, hint, "'=' is missing before %s",
+        parser_fail(in, word->form, "'=' is missing before %s",
                     token_words(&in->token, words, sizeof words));
     } else {
         parser_next(in);
@@ -155,10 +138,10 @@ static bool parse_value(parser *in, symbol *made, const char *word, expr_context
     return value != NULL;
 }
 
-static bool parse_constant(parser *in, symbol_kind kind) {
-    const char *word = kind == SYM_PARAMETER ? "parameter" : kind == SYM_INPUT ? "input" : "let";
+bool read_constant(parser *in, const statement_word *word) {
+    const symbol_kind kind = (symbol_kind)word->kind;
     token name;
-    if (!take_name(in, word, &name)) {
+    if (!take_name(in, word->text, &name)) {
         return false;
     }
     symbol *made = declare(in, &name, kind);
@@ -182,9 +165,9 @@ static bool parse_constant(parser *in, symbol_kind kind) {
     return parser_end_statement(in, "the expression");
 }
 
-static bool parse_output(parser *in) {
+bool read_output(parser *in, const statement_word *word) {
     token name;
-    if (!take_name(in, "output", &name)) {
+    if (!take_name(in, word->text, &name)) {
         return false;
     }
     if (token_is(&name, "time")) {
@@ -198,7 +181,7 @@ static bool parse_output(parser *in) {
         parse_unit(in, &written, &unit_text);
     }
     place value_at;
-    if (!parse_value(in, made, "output", CONTEXT_OUTPUT, &value_at)) {
+    if (!parse_value(in, made, word, CONTEXT_OUTPUT, &value_at)) {
         return false;
     }
     const char *text = parser_title(in);
@@ -216,52 +199,4 @@ static bool parse_output(parser *in) {
         }
     }
     return parser_end_statement(in, "the expression");
-}
-
-/* Coordinates go with energies, states with equations: one way or the other. */
-void note_way(parser *in, bool by_equations) {
-    builder *into = in->builder;
-    into->has_equations |= by_equations;
-    into->has_energies |= !by_equations;
-    if (into->has_equations && into->has_energies && !into->mixed) {
-        into->mixed = true;
-        parser_fail(in, "write coordinate with T, V, F, Q, or state with equation",
-                    "'%.*s' does not go with what this mechanism began with", (int)in->token.length,
-                    in->token.text);
-    }
-}
-
-bool parse_declaration(parser *in, bool *known) {
-    static const struct {
-        const char *word;
-        symbol_kind kind;
-    } words[] = {{"coordinate", SYM_COORDINATE}, {"state", SYM_STATE}, {"parameter", SYM_PARAMETER},
-                 {"input", SYM_INPUT},           {"let", SYM_LET},     {"output", SYM_OUTPUT}};
-    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
-        if (!parser_is_word(in, words[i].word)) {
-            continue;
-        }
-        const symbol_kind kind = words[i].kind;
-        *known = true;
-        if (in->effect >= 0 &&
-            (kind == SYM_COORDINATE || kind == SYM_STATE || kind == SYM_OUTPUT)) {
-            return parser_fail(in, "declare it in the mechanism, before the effect",
-                               "'%s' is not possible inside an effect", words[i].word);
-        }
-        if (kind == SYM_COORDINATE || kind == SYM_STATE) {
-            note_way(in, kind == SYM_STATE);
-        }
-        parser_next(in);
-        switch (kind) {
-        case SYM_COORDINATE:
-        case SYM_STATE: return parse_unknown(in, kind);
-        case SYM_PARAMETER:
-        case SYM_INPUT:
-        case SYM_LET: return parse_constant(in, kind);
-        case SYM_OUTPUT: return parse_output(in);
-        case SYM_RECORD: break;
-        }
-    }
-    *known = false;
-    return false;
 }

@@ -10,7 +10,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "parser.h"
+#include "expression.h"
+
+#include "cursor.h"
 
 static const expr *parse_sum(parser *in);
 static const expr *parse_signed(parser *in);
@@ -144,12 +146,12 @@ static const expr *parse_named(parser *in) {
                    function_name(function));
         return NULL;
     }
-    if (parser_is_sign(in, '(') && !is_reserved(name.text, name.length)) {
+    if (parser_is_sign(in, '(') && !word_is_reserved(name.text, name.length)) {
         char words[80];
         char hint[120];
         nearest search = nearest_start(name.text, name.length);
-        for (function_id f = FN_SIN; f < FN_COUNT; f++) {
-            nearest_offer(&search, function_name(f));
+        for (int f = 0; f < FUNCTIONS; f++) {
+            nearest_offer(&search, function_name((function_id)f));
         }
         if (search.best != NULL) {
             snprintf(hint, sizeof hint, "did you mean '%s'?", search.best);

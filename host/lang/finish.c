@@ -1,7 +1,7 @@
 /* finish.c: what can only be checked when a whole mechanism has been read. */
 #include <string.h>
 
-#include "parser.h"
+#include "statements.h"
 
 enum { SEEN_IN_EQUATION = 1, SEEN_IN_OUTPUT = 2 };
 

@@ -3,10 +3,11 @@
 #include <string.h>
 
 #include "host/base/arena.h"
-#include "limits.h"
+#include "instance_limits.h"
 #include "model.h"
 #include "override.h"
 #include "value.h"
+#include "words.h"
 
 #define STEP_DEFAULT_S 1e-3
 #define UNTIL_DEFAULT_S 10.0
@@ -66,6 +67,7 @@ static void apply_scene(plan *into, const scene *from, instance *made) {
         made->with[i] = from->with[i];
     }
     made->ledger = from->ledger;
+    made->conserve = from->conserve;
     for (int i = 0; i < from->set_count; i++) {
         apply(into, &from->sets[i]);
     }
@@ -78,11 +80,6 @@ static void apply_scene(plan *into, const scene *from, instance *made) {
     if (from->until != NULL) {
         into->until = (given){from->until, from->until->at};
     }
-}
-
-const effect *instance_lacks(const instance *of, const symbol *what) {
-    return what->effect < 0 || of->with[what->effect] ? NULL
-                                                      : &of->mechanism->effects[what->effect];
 }
 
 /* A change that could change nothing is a mistake. */
@@ -131,11 +128,29 @@ static void apply_texts(plan *into, instance *made, override_kind kind, const ch
     }
 }
 
+/* "all" comes before the names beside it, which take away or add. */
+static void apply_all(instance *made, const char *const *texts, int count, bool wanted) {
+    bool found = false;
+    for (int i = 0; i < count && !found; i++) {
+        found = strcmp(texts[i], word_row(WORD_ALL)->text) == 0;
+    }
+    for (int i = 0; i < made->mechanism->effect_count && found; i++) {
+        made->with[i] = wanted;
+    }
+}
+
 static void apply_effects(plan *into, instance *made, const char *const *texts, int count,
                           bool wanted) {
     for (int i = 0; i < count; i++) {
-        if (strcmp(texts[i], "ledger") == 0) {
+        if (strcmp(texts[i], word_row(WORD_ALL)->text) == 0) {
+            continue;
+        }
+        if (strcmp(texts[i], word_row(WORD_LEDGER)->text) == 0) {
             made->ledger = wanted;
+            continue;
+        }
+        if (strcmp(texts[i], word_row(WORD_CONSERVE)->text) == 0 && !wanted) {
+            made->conserve = NULL;
             continue;
         }
         const int index =
@@ -150,6 +165,8 @@ static void apply_overrides(plan *into, instance *made, const overrides *changes
     const mechanism *of = made->mechanism;
     diags *all = into->values.diags;
     made->balance = changes->balance;
+    apply_all(made, changes->with, changes->with_count, true);
+    apply_all(made, changes->without, changes->without_count, false);
     apply_effects(into, made, changes->with, changes->with_count, true);
     apply_effects(into, made, changes->without, changes->without_count, false);
     apply_texts(into, made, OVERRIDE_SET, changes->sets, changes->set_count);
@@ -262,6 +279,7 @@ static instance *begin(const mechanism *of, const scene *from, const overrides *
     }
     if (changes != NULL) {
         apply_overrides(what, made, changes);
+        made->name = changes->name != NULL ? changes->name : made->name;
     }
     return made;
 }
@@ -300,16 +318,4 @@ void instance_free(instance *done) {
     if (done != NULL) {
         arena_free(done->arena);
     }
-}
-
-bool instance_has_term(const instance *of, const term *each) {
-    return each->effect < 0 || of->with[each->effect];
-}
-
-bool instance_has_contact(const instance *of, const contact_statement *each) {
-    return each->effect < 0 || of->with[each->effect];
-}
-
-bool instance_has_noise(const instance *of, const noise *each) {
-    return each->effect < 0 || of->with[each->effect];
 }

@@ -12,20 +12,11 @@
 
 #include "host/base/diag.h"
 #include "host/number/functions.h"
-#include "ratio.h"
+#include "host/number/ratio.h"
+#include "kinds.h"
 #include "units.h"
 
 /* --- symbols ----------------------------------------------------------------------------------- */
-
-typedef enum symbol_kind {
-    SYM_COORDINATE, /* generalized coordinate: may carry primes */
-    SYM_STATE,      /* unknown of a system given outright: may carry primes */
-    SYM_PARAMETER,  /* constant of a run; value from an expression of constants */
-    SYM_INPUT,      /* may change while running; declared value from an expression of constants */
-    SYM_LET,        /* shorthand; stands for its expression */
-    SYM_OUTPUT,     /* computed for records; may be used by later outputs */
-    SYM_RECORD      /* an output as it is recorded, noise included: in a sweep's measures only */
-} symbol_kind;
 
 typedef struct expr expr;
 
@@ -87,8 +78,6 @@ enum {
 
 /* --- mechanisms -------------------------------------------------------------------------------- */
 
-typedef enum term_kind { TERM_T, TERM_V, TERM_F, TERM_Q, TERM_EQUATION } term_kind;
-
 /* One contribution: `T = e`, `V += e`, `Q(c) = e`, `equation left = right`. */
 typedef struct term {
     term_kind kind;
@@ -102,7 +91,8 @@ typedef struct term {
 typedef struct effect {
     const char *name;
     const char *text;
-    place at;
+    place at;      /* of its name */
+    int last_line; /* where its block ends */
 } effect;
 
 /* `set NAME = EXPR` or `start NAME' = EXPR` of a scene, where the value is an expression of constants;
@@ -113,13 +103,6 @@ typedef struct assignment {
     const expr *value;
     place at;
 } assignment;
-
-typedef enum contact_kind {
-    CONTACT_STOP,
-    CONTACT_FRICTION,
-    CONTACT_HOLD,
-    CONTACT_WHEN
-} contact_kind;
 
 /* One contact, handled inside the step (core/contact.h says how). */
 typedef struct contact_statement {
@@ -187,7 +170,8 @@ enum { COORDINATES_MAX = 64, EFFECTS_MAX = 500, MECHANISMS_MAX = 500, SCENES_MAX
 typedef struct scene {
     const char *name;
     const char *title;
-    place at;
+    place at;      /* of its name */
+    int last_line; /* where its block ends */
     const mechanism *mechanism;
     const bool *with; /* [mechanism->effect_count] effects called for */
     const assignment *sets;
@@ -229,20 +213,23 @@ typedef struct overrides {
     const char *const *values;
     int value_count; /* either kind, told by the name (`accel`) */
     const char *const *with;
-    int with_count; /* effect names added */
+    int with_count; /* effect names added, or "ledger"; "all": every effect */
     const char *const *without;
-    int without_count;
+    int without_count; /* taken away again; "all" comes first; "conserve": what the scene conserves */
     const char *step;  /* "1ms", "1 [ms]", "0.001", or NULL */
     const char *until; /* or NULL */
-    bool balance;      /* keep books of contacts inside the run even where nobody asked for them */
+    const char
+        *name; /* instead of the scene's or mechanism's, or NULL; lives as long as the instance */
+    bool balance; /* keep books of contacts inside the run even where nobody asked for them */
 } overrides;
 
 typedef struct instance {
     const mechanism *mechanism;
-    const scene *scene; /* NULL for a bare mechanism */
-    const char *name;   /* scene's name, or the mechanism's */
-    bool *with;         /* [effect_count] */
-    bool ledger;        /* keep the books of energy and momentum */
+    const scene *scene;   /* NULL for a bare mechanism */
+    const char *name;     /* scene's name, or the mechanism's, or another that was asked for */
+    bool *with;           /* [effect_count] */
+    const bool *conserve; /* [coordinate_count] to be recovered from their momentum, or NULL */
+    bool ledger;          /* keep the books of energy and momentum */
     bool balance; /* the same where there are contacts and it can be done, to balance the run */
     double *parameter; /* [parameter_count] SI */
     double *input;     /* [input_count] SI */

@@ -3,6 +3,8 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "host/base/hash.h"
+
 struct names {
     struct arena *arena;
     named **slots;
@@ -20,10 +22,7 @@ names *names_new(struct arena *arena) {
 }
 
 static size_t slot_of(const names *all, const char *text, size_t length) {
-    uint32_t hash = 2166136261U;
-    for (size_t i = 0; i < length; i++) {
-        hash = (hash ^ (unsigned char)text[i]) * 16777619U;
-    }
+    const uint32_t hash = hash_text(text, length);
     return (hash ^ (hash >> 15)) & (all->slot_count - 1);
 }
 

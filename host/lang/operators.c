@@ -1,35 +1,8 @@
 /* operators.c: expression nodes, with the dimension rules of each operator and function. */
 #include <stdio.h>
-#include <string.h>
 
-#include "parser.h"
+#include "expression.h"
 #include "value.h"
-
-static const struct {
-    const char *name;
-    int arguments;
-} functions[FN_COUNT] = {
-    [FN_SIN] = {"sin", 1},   [FN_COS] = {"cos", 1},     [FN_TAN] = {"tan", 1},
-    [FN_ASIN] = {"asin", 1}, [FN_ACOS] = {"acos", 1},   [FN_ATAN] = {"atan", 1},
-    [FN_SQRT] = {"sqrt", 1}, [FN_EXP] = {"exp", 1},     [FN_LOG] = {"log", 1},
-    [FN_ABS] = {"abs", 1},   [FN_ATAN2] = {"atan2", 2}, [FN_SIGN] = {"sign", 1},
-    [FN_MIN] = {"min", 2},   [FN_MAX] = {"max", 2},
-};
-
-const char *function_name(function_id function) { return functions[function].name; }
-
-int function_arguments(function_id function) { return functions[function].arguments; }
-
-bool function_find(const char *text, size_t length, function_id *function) {
-    for (function_id each = FN_SIN; each < FN_COUNT; each++) {
-        const char *name = functions[each].name;
-        if (strlen(name) == length && memcmp(name, text, length) == 0) {
-            *function = each;
-            return true;
-        }
-    }
-    return false;
-}
 
 expr *expr_new(parser *in, expr_op op, place at) {
     expr *made = arena_alloc(in->arena, sizeof *made);
@@ -221,39 +194,31 @@ const expr *expr_call(parser *in, function_id function, place at, const expr *le
     char text[DIM_TEXT_SIZE];
     char words[40];
     snprintf(words, sizeof words, "compare in %s:", name);
-    switch (function) {
-    case FN_ATAN2: common_dimension(in, at, left, right, words, "and"); break;
-    case FN_MIN:
-    case FN_MAX: made->dim = common_dimension(in, at, left, right, words, "and"); break;
-    case FN_ABS: made->dim = left->dim; break;
-    case FN_SIGN: break;
-    case FN_SQRT:
+    switch (function_takes(function)) {
+    case TAKES_RATIO: common_dimension(in, at, left, right, words, "and"); break;
+    case TAKES_CHOICE: made->dim = common_dimension(in, at, left, right, words, "and"); break;
+    case TAKES_SIZE: made->dim = left->dim; break;
+    case TAKES_ANY: break;
+    case TAKES_SQUARE:
         if (!dim_power(left->dim, 0.5, &made->dim)) {
             diag_error(in->diags, at, NULL, "the square root of %s is no dimension",
                        dim_text(left->dim, text, sizeof text));
             made->dim.unknown = true;
         }
         break;
-    case FN_SIN:
-    case FN_COS:
-    case FN_TAN:
+    case TAKES_ANGLE:
         if (!dim_is_none(left->dim)) {
             diag_error(in->diags, at, "an angle in radians is dimensionless, such as arc/radius",
                        "%s takes an angle, but this is %s", name,
                        dim_text(left->dim, text, sizeof text));
         }
         break;
-    case FN_ASIN:
-    case FN_ACOS:
-    case FN_ATAN:
-    case FN_EXP:
-    case FN_LOG:
+    case TAKES_NUMBER:
         if (!dim_is_none(left->dim)) {
             diag_error(in->diags, at, NULL, "%s takes a dimensionless value, but this is %s", name,
                        dim_text(left->dim, text, sizeof text));
         }
         break;
-    case FN_COUNT: break;
     }
     return made;
 }

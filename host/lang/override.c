@@ -3,7 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "parser.h"
+#include "cursor.h"
+#include "expression.h"
 #include "value.h"
 
 static parser begin(const mechanism *of, const char *text, struct arena *arena, diags *all) {
@@ -173,7 +174,7 @@ int override_effect(const mechanism *of, const char *text, struct arena *arena, 
         }
         nearest_offer(&search, of->effects[i].name);
     }
-    nearest_offer(&search, "ledger");
+    nearest_offer(&search, word_row(WORD_LEDGER)->text);
     char hint[120] = "";
     if (search.best != NULL) {
         snprintf(hint, sizeof hint, "did you mean '%s'?", search.best);

@@ -3,22 +3,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "parser.h"
+#include "cursor.h"
+#include "expression.h"
 
 #define PI 3.14159265358979323846
-
-static const char *kind_words(symbol_kind kind) {
-    switch (kind) {
-    case SYM_COORDINATE: return "a coordinate";
-    case SYM_STATE: return "a state";
-    case SYM_PARAMETER: return "a parameter";
-    case SYM_INPUT: return "an input";
-    case SYM_LET: return "a let";
-    case SYM_OUTPUT:
-    case SYM_RECORD: break;
-    }
-    return "an output";
-}
 
 static const char *skip_blanks(const char *text) {
     while (*text == ' ' || *text == '\t') {
@@ -30,8 +18,6 @@ static const char *skip_blanks(const char *text) {
 static bool continues_name(char c) { return isalnum((unsigned char)c) || c == '_'; }
 
 int name_declared_later(const token *name) {
-    static const char *const words[] = {"coordinate", "state", "parameter",
-                                        "input",      "let",   "output"};
     const source *from = name->at.source;
     const char *text = from->text + name->at.offset;
     const char *const end = from->text + from->length;
@@ -39,17 +25,19 @@ int name_declared_later(const token *name) {
     while ((text = memchr(text, '\n', (size_t)(end - text))) != NULL) {
         line++;
         text = skip_blanks(text + 1);
-        if (strncmp(text, "mechanism", 9) == 0 && !continues_name(text[9])) {
+        size_t length = 0;
+        while (continues_name(text[length])) {
+            length++;
+        }
+        const int word = word_find(text, length);
+        if (word == WORD_MECHANISM) {
             return 0;
         }
-        for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
-            const size_t length = strlen(words[i]);
-            if (strncmp(text, words[i], length) == 0 && !continues_name(text[length])) {
-                const char *declared = skip_blanks(text + length);
-                if (strncmp(declared, name->text, name->length) == 0 &&
-                    !continues_name(declared[name->length])) {
-                    return line;
-                }
+        if (word != WORDS && (word_row((word_id)word)->rules & DECLARES) != 0) {
+            const char *declared = skip_blanks(text + length);
+            if (strncmp(declared, name->text, name->length) == 0 &&
+                !continues_name(declared[name->length])) {
+                return line;
             }
         }
     }
@@ -65,9 +53,9 @@ static void report_unknown(parser *in, const token *name) {
     } else {
         nearest search = nearest_start(name->text, name->length);
         names_offer(in->names, in->all_effects ? -2 : in->effect, &search);
-        for (function_id f = FN_SIN; f < FN_COUNT; f++) {
+        for (int f = 0; f < FUNCTIONS; f++) {
             if (parser_is_sign(in, '(')) {
-                nearest_offer(&search, function_name(f));
+                nearest_offer(&search, function_name((function_id)f));
             }
         }
         if (search.best != NULL) {
@@ -81,18 +69,13 @@ static void report_unknown(parser *in, const token *name) {
 }
 
 static void report_reserved(parser *in, const token *name) {
-    static const struct {
-        const char *word;
-        const char *meaning;
-    } quantities[] = {{"T", "the kinetic energy"},
-                      {"V", "the potential energy"},
-                      {"F", "the dissipation function"},
-                      {"Q", "a generalized force"}};
+    static const word_id quantities[] = {WORD_T, WORD_V, WORD_F, WORD_Q};
     for (size_t i = 0; i < sizeof quantities / sizeof quantities[0]; i++) {
-        if (name->length == 1 && name->text[0] == quantities[i].word[0]) {
+        if (word_is(quantities[i], name->text, name->length)) {
+            const statement_word *word = word_row(quantities[i]);
             diag_error(in->diags, name->at, "give the expression a name with let",
-                       "%s is %s and cannot be used in an expression", quantities[i].word,
-                       quantities[i].meaning);
+                       "%s is %s and cannot be used in an expression", word->text,
+                       term_meaning((term_kind)word->kind));
             return;
         }
     }
@@ -116,7 +99,7 @@ static bool allowed_here(parser *in, const token *name, const symbol *found) {
     }
     if (name->primes > 0 && !is_unknown) {
         diag_error(in->diags, name->at, "only coordinates and states take primes",
-                   "'%s' is %s: it has no derivative", found->name, kind_words(found->kind));
+                   "'%s' is %s: it has no derivative", found->name, symbol_kind_words(found->kind));
         return false;
     }
     if (found->kind == SYM_OUTPUT && in->context != CONTEXT_OUTPUT) {
@@ -228,12 +211,12 @@ static const expr *take_properties(parser *in, expr *made, const token *name) {
 
 const expr *expr_name(parser *in, const token *name) {
     expr *made = expr_new(in, EXPR_SYMBOL, name->at);
-    if (token_is(name, "pi")) {
+    if (token_is_word(name, WORD_PI)) {
         made->op = EXPR_NUMBER;
         made->number = PI;
         return made;
     }
-    if (is_reserved(name->text, name->length)) {
+    if (word_is_reserved(name->text, name->length)) {
         report_reserved(in, name);
         return unknown_value(made);
     }
@@ -268,4 +251,35 @@ const expr *expr_name(parser *in, const token *name) {
     made->primes = name->primes;
     set_dimension(in, made, name);
     return take_properties(in, made, name);
+}
+
+const symbol *find_coordinate(parser *in, const token *name, const char *whose) {
+    const named *found = names_find(in->builder->names, name->text, name->length);
+    char words[80];
+    token_words(name, words, sizeof words);
+    if (found != NULL && !found->is_placeholder &&
+        (found->symbol.kind == SYM_COORDINATE || found->symbol.kind == SYM_STATE)) {
+        if (name->primes > 0) {
+            diag_error(in->diags, name->at, NULL, "%s belongs to a coordinate, without primes",
+                       whose);
+            return NULL;
+        }
+        return &found->symbol;
+    }
+    if (found != NULL && !found->is_placeholder) {
+        diag_error(in->diags, name->at, NULL, "%s belongs to a coordinate, which %s is not", whose,
+                   words);
+        return NULL;
+    }
+    nearest search = nearest_start(name->text, name->length);
+    char hint[120] = "";
+    const mechanism *inside = in->builder->made;
+    for (int i = 0; i < inside->coordinate_count; i++) {
+        nearest_offer(&search, inside->coordinates[i]->name);
+    }
+    if (search.best != NULL) {
+        snprintf(hint, sizeof hint, "did you mean '%s'?", search.best);
+    }
+    diag_error(in->diags, name->at, hint[0] == '\0' ? NULL : hint, "unknown coordinate %s", words);
+    return NULL;
 }

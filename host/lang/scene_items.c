@@ -2,26 +2,27 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "scene.h"
+#include "scene_block.h"
 
-bool scene_fail_name(parser *in, const char *what) {
+bool scene_fail_name(parser *in, const statement_word *word) {
     char words[80];
-    return parser_fail(in, NULL, "%s needs a name, not %s", what,
+    return parser_fail(in, NULL, "%s needs a name, not %s", word->text,
                        token_words(&in->token, words, sizeof words));
 }
 
-bool scene_with_item(parser *in, draft *into) {
+static bool with_item(parser *in, const statement_word *word) {
+    draft *into = in->draft;
     if (in->token.kind != TOKEN_NAME) {
-        return scene_fail_name(in, "with");
+        return scene_fail_name(in, word);
     }
     const token name = in->token;
     const mechanism *of = into->made->mechanism;
     nearest search = nearest_start(name.text, name.length);
     parser_next(in);
-    if (token_is(&name, "none")) {
+    if (token_is_word(&name, WORD_NONE)) {
         return true;
     }
-    if (token_is(&name, "ledger")) {
+    if (token_is_word(&name, WORD_LEDGER)) {
         into->made->ledger = true;
         return true;
     }
@@ -32,7 +33,7 @@ bool scene_with_item(parser *in, draft *into) {
         }
         nearest_offer(&search, of->effects[i].name);
     }
-    nearest_offer(&search, "ledger");
+    nearest_offer(&search, word_row(WORD_LEDGER)->text);
     char hint[120] = "";
     char words[80];
     if (search.best != NULL) {
@@ -46,10 +47,10 @@ bool scene_with_item(parser *in, draft *into) {
 }
 
 /* NAME of a symbol of the mechanism; *found is NULL when it is none (reported). */
-static bool take_symbol(parser *in, draft *into, const char *statement, token *name,
+static bool take_symbol(parser *in, draft *into, const statement_word *word, token *name,
                         named **found) {
     if (in->token.kind != TOKEN_NAME) {
-        return scene_fail_name(in, statement);
+        return scene_fail_name(in, word);
     }
     *name = in->token;
     parser_next(in);
@@ -93,11 +94,12 @@ static bool parse_assigned(parser *in, const token *name, const dimension *wante
     return true;
 }
 
-bool scene_set_item(parser *in, draft *into) {
+static bool set_item(parser *in, const statement_word *word) {
+    draft *into = in->draft;
     token name;
     named *found = NULL;
     const expr *value = NULL;
-    if (!take_symbol(in, into, "set", &name, &found)) {
+    if (!take_symbol(in, into, word, &name, &found)) {
         return false;
     }
     bool usable = found != NULL && !found->is_placeholder;
@@ -155,12 +157,13 @@ static void check_started_once(parser *in, const scene *made, const symbol *what
     }
 }
 
-bool scene_start_item(parser *in, draft *into) {
+static bool start_item(parser *in, const statement_word *word) {
+    draft *into = in->draft;
     token name;
     named *found = NULL;
     const expr *value = NULL;
     dimension wanted = dim_none();
-    if (!take_symbol(in, into, "start", &name, &found)) {
+    if (!take_symbol(in, into, word, &name, &found)) {
         return false;
     }
     bool usable = found != NULL && !found->is_placeholder;
@@ -193,10 +196,11 @@ bool scene_start_item(parser *in, draft *into) {
     return true;
 }
 
-bool scene_conserve_item(parser *in, draft *into) {
+static bool conserve_item(parser *in, const statement_word *word) {
+    draft *into = in->draft;
     token name;
     named *found = NULL;
-    if (!take_symbol(in, into, "conserve", &name, &found)) {
+    if (!take_symbol(in, into, word, &name, &found)) {
         return false;
     }
     if (found == NULL || found->is_placeholder) {
@@ -208,4 +212,30 @@ bool scene_conserve_item(parser *in, draft *into) {
     }
     into->conserve[found->symbol.index] = true;
     return true;
+}
+
+/* ITEM {, ITEM}: a line may end after a comma. */
+static bool parse_list(parser *in, const statement_word *word, statement_reader *read) {
+    for (;;) {
+        if (!read(in, word)) {
+            return false;
+        }
+        if (!parser_is_sign(in, ',')) {
+            return parser_end_statement(in, "the list");
+        }
+        parser_next(in);
+        while (in->token.kind == TOKEN_NEWLINE) {
+            parser_next(in);
+        }
+    }
+}
+
+bool read_with(parser *in, const statement_word *word) { return parse_list(in, word, with_item); }
+
+bool read_set(parser *in, const statement_word *word) { return parse_list(in, word, set_item); }
+
+bool read_start(parser *in, const statement_word *word) { return parse_list(in, word, start_item); }
+
+bool read_conserve(parser *in, const statement_word *word) {
+    return parse_list(in, word, conserve_item);
 }

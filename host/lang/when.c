@@ -2,9 +2,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "parser.h"
+#include "statements.h"
 
-static const char form[] = "when x crosses 0 [m] rising { set x' = 0 [m/s] }";
+static const char *form(void) { return word_row(WORD_WHEN)->form; }
 
 /* The coordinate or rate to be set; *usable is false when it is none (reported). */
 static bool take_target(parser *in, const contact_statement *made, assignment *set, bool *usable) {
@@ -12,7 +12,7 @@ static bool take_target(parser *in, const contact_statement *made, assignment *s
     const token name = in->token;
     token_words(&name, words, sizeof words);
     if (name.kind != TOKEN_NAME) {
-        return parser_fail(in, form, "set needs a name, not %s", words);
+        return parser_fail(in, form(), "set needs a name, not %s", words);
     }
     parser_next(in);
     const named *found = names_find(in->names, name.text, name.length);
@@ -66,7 +66,7 @@ static bool parse_set(parser *in, contact_statement *made) {
     }
     if (!parser_is_sign(in, '=')) {
         char next[80];
-        return parser_fail(in, form, "'=' is missing after %s, before %s",
+        return parser_fail(in, form(), "'=' is missing after %s, before %s",
                            token_words(&name, words, sizeof words),
                            token_words(&in->token, next, sizeof next));
     }
@@ -94,7 +94,7 @@ static bool parse_set(parser *in, contact_statement *made) {
 
 /* set ITEM {, ITEM}: a line may end after a comma. */
 static bool parse_sets(parser *in, contact_statement *made) {
-    if (!parser_expect_word(in, "set", form)) {
+    if (!parser_expect_word(in, WORD_SET, WORD_WHEN)) {
         return false;
     }
     for (;;) {
@@ -111,18 +111,6 @@ static bool parse_sets(parser *in, contact_statement *made) {
     }
 }
 
-/* Words that stand outside: the brace must have been forgotten. */
-static bool leaves_block(const parser *in) {
-    static const char *const words[] = {"mechanism", "scene",  "effect", "coordinate", "parameter",
-                                        "input",     "output", "let",    "when",       "stop"};
-    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
-        if (in->token.starts_line && parser_is_word(in, words[i])) {
-            return true;
-        }
-    }
-    return in->token.kind == TOKEN_END;
-}
-
 static bool parse_block(parser *in, contact_statement *made) {
     const size_t before = diags_calls(in->diags);
     for (;;) {
@@ -131,34 +119,34 @@ static bool parse_block(parser *in, contact_statement *made) {
             parser_next(in);
             break;
         }
-        if (leaves_block(in)) {
-            diag_error(in->diags, made->at, form, "this 'when' is not closed with '}'");
+        if (in->token.kind == TOKEN_END || parser_leaves(in, ENDS_WHEN)) {
+            diag_error(in->diags, made->at, form(), "this 'when' is not closed with '}'");
             return true;
         }
-        in->statement = in->token.at.offset;
+        in->statement_at = in->token.at;
         if (!parse_sets(in, made)) {
             parser_skip_statement(in);
         }
     }
     if (made->set_count == 0 && diags_calls(in->diags) == before) {
-        diag_error(in->diags, made->at, form, "this 'when' sets nothing");
+        diag_error(in->diags, made->at, form(), "this 'when' sets nothing");
     }
     return parser_end_statement(in, "the crossing");
 }
 
 /* False when what stands there is neither direction nor brace, nor nearly so. */
 static bool take_direction(parser *in, contact_statement *made) {
-    if (parser_is_word(in, "rising") || parser_is_word(in, "falling")) {
-        made->direction = parser_is_word(in, "rising") ? 1 : -1;
+    if (parser_is_word(in, WORD_RISING) || parser_is_word(in, WORD_FALLING)) {
+        made->direction = parser_is_word(in, WORD_RISING) ? 1 : -1;
         parser_next(in);
     } else if (in->token.kind == TOKEN_NAME) {
         char words[80];
         char hint[80];
         nearest search = nearest_start(in->token.text, in->token.length);
-        nearest_offer(&search, "rising");
-        nearest_offer(&search, "falling");
+        nearest_offer(&search, word_row(WORD_RISING)->text);
+        nearest_offer(&search, word_row(WORD_FALLING)->text);
         snprintf(hint, sizeof hint, "did you mean '%s'?", search.best);
-        parser_fail(in, search.best != NULL ? hint : form,
+        parser_fail(in, search.best != NULL ? hint : form(),
                     "'rising', 'falling' or '{' is missing before %s",
                     token_words(&in->token, words, sizeof words));
         parser_next(in);
@@ -167,10 +155,11 @@ static bool take_direction(parser *in, contact_statement *made) {
     return true;
 }
 
-bool parse_when(parser *in, contact_statement *made) {
+bool read_when(parser *in, const statement_word *word) {
+    contact_statement made = contact_begun(in, word);
     const place at = in->token.at;
     const expr *left = parse_expression(in, CONTEXT_EVENT);
-    if (left == NULL || !parser_expect_word(in, "crosses", form)) {
+    if (left == NULL || !parser_expect_word(in, WORD_CROSSES, WORD_WHEN)) {
         return false;
     }
     const place between = in->token.at;
@@ -178,18 +167,19 @@ bool parse_when(parser *in, contact_statement *made) {
     if (right == NULL) {
         return false;
     }
-    made->value = expr_difference(in, between, left, right);
-    if (made->value == NULL) {
+    made.value = expr_difference(in, between, left, right);
+    if (made.value == NULL) {
         return false;
     }
-    if ((made->value->uses & USES_UNKNOWNS) == 0 && !made->value->dim.unknown) {
+    if ((made.value->uses & USES_UNKNOWNS) == 0 && !made.value->dim.unknown) {
         diag_error(in->diags, at, NULL, "what crosses must depend on a coordinate or a rate");
     }
-    if (!take_direction(in, made)) {
+    if (!take_direction(in, &made)) {
         return false;
     }
     while (in->token.kind == TOKEN_NEWLINE) {
         parser_next(in);
     }
-    return parser_expect_sign(in, '{', "after what is crossed") && parse_block(in, made);
+    return parser_expect_sign(in, '{', "after what is crossed") && parse_block(in, &made) &&
+           add_contact(in, &made);
 }

@@ -2,6 +2,8 @@
 #define WH_DOUBLE 1
 #include "functions.h"
 
+#include <string.h>
+
 #include "core/function_double.h"
 
 double number_sine(double rad) { return wh_sine(rad); }
@@ -9,23 +11,64 @@ double number_cosine(double rad) { return wh_cosine(rad); }
 double number_root(double x) { return x < 0.0 || wh_is_nan(x) ? WH_NAN : WH_SQRT(x); }
 double number_power(double base, double exponent) { return wh_pow(base, exponent); }
 
+/* --- the language's functions ------------------------------------------------------------------- */
+typedef struct function_row {
+    const char *name;
+    const char *latex;
+    int arguments;
+    function_dimensions takes;
+    bool is_real;
+} function_row;
+
+static const function_row rows[FUNCTIONS] = {
+#define IS_REAL_EVERYWHERE true
+#define IS_REAL_SOMEWHERE false
+#define ROW(id, word, arguments, dimensions, range, latex, ...) \
+    [FN_##id] = {#word, latex, arguments, TAKES_##dimensions, IS_REAL_##range},
+    FUNCTION_ROWS(ROW)
+#undef ROW
+};
+
+const char *function_name(function_id function) { return rows[function].name; }
+const char *function_latex(function_id function) { return rows[function].latex; }
+int function_arguments(function_id function) { return rows[function].arguments; }
+function_dimensions function_takes(function_id function) { return rows[function].takes; }
+bool function_is_real(function_id function) { return rows[function].is_real; }
+
+bool function_find(const char *text, size_t length, function_id *function) {
+    for (size_t i = 0; i < FUNCTIONS; i++) {
+        if (strlen(rows[i].name) == length && memcmp(rows[i].name, text, length) == 0) {
+            *function = (function_id)i;
+            return true;
+        }
+    }
+    return false;
+}
+
+/* What is no number stays none. */
+static double sign_of(double x) { return x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : x; }
+/* The share of one that leads by so much in what min() or max() takes. */
+static double share_of(double lead) { return 0.5 + 0.5 * sign_of(lead); }
+
+#define FUNCTION_CORE(value) value
+#define FUNCTION_OWN(operation, value) value
+
 double number_call(function_id function, double x, double y) {
     switch (function) {
-    case FN_SIN: return wh_sine(x);
-    case FN_COS: return wh_cosine(x);
-    case FN_TAN: return wh_tan(x);
-    case FN_ASIN: return wh_asin(x);
-    case FN_ACOS: return wh_acos(x);
-    case FN_ATAN: return wh_atan(x);
-    case FN_ATAN2: return wh_atan2(x, y);
-    case FN_SQRT: return number_root(x);
-    case FN_EXP: return wh_exp(x);
-    case FN_LOG: return wh_log(x);
-    case FN_ABS: return WH_ABS(x);
-    case FN_SIGN: return x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : x; /* what is no number stays none */
-    case FN_MIN: return y < x || wh_is_nan(y) ? y : x;
-    case FN_MAX: return y > x || wh_is_nan(y) ? y : x;
-    case FN_COUNT: break;
+#define ROW(id, word, arguments, dimensions, range, latex, value, ...) \
+    case FN_##id: return value;
+        FUNCTION_ROWS(ROW)
+#undef ROW
+    }
+    return WH_NAN;
+}
+
+double number_slope(function_id function, int which, double x, double y) {
+    switch (function) {
+#define ROW(id, word, arguments, dimensions, range, latex, value, by_x, by_y) \
+    case FN_##id: return which == 0 ? (by_x) : (by_y);
+        FUNCTION_ROWS(ROW)
+#undef ROW
     }
     return WH_NAN;
 }

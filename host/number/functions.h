@@ -1,5 +1,5 @@
-/* functions.h: what the program computes numbers with: the language's functions and the few others that it
- * needs, by itself. Below everything else of the host; above it only the core.
+/* functions.h: what the program computes numbers with: the language's functions (function_rows.h) and the few
+ * others that it needs, by itself. Below everything else of the host; above it only the core.
  *
  * No library of the machine takes part, so that what is folded, judged or written comes out in the same bits
  * on every host. Sine and cosine, tangent, logarithm and so on err by less than 0.6 units of the last place
@@ -9,27 +9,46 @@
 #ifndef NUMBER_FUNCTIONS_H
 #define NUMBER_FUNCTIONS_H
 
-/* The language's functions. */
-typedef enum function_id {
-    FN_SIN,
-    FN_COS,
-    FN_TAN,
-    FN_ASIN,
-    FN_ACOS,
-    FN_ATAN,
-    FN_ATAN2,
-    FN_SQRT,
-    FN_EXP,
-    FN_LOG,
-    FN_ABS,
-    FN_SIGN,
-    FN_MIN,
-    FN_MAX,
-    FN_COUNT
-} function_id;
+#include <stdbool.h>
+#include <stddef.h>
 
-/* The function at x, or at (x, y). NaN goes through, by min() and max(), too; FN_COUNT gives NaN. */
+#include "function_rows.h"
+
+/* The language's functions: FN_SIN, FN_COS, ... */
+#define FUNCTION_ID(id, ...) FN_##id,
+typedef enum function_id { FUNCTION_ROWS(FUNCTION_ID) } function_id;
+#undef FUNCTION_ID
+
+#define FUNCTION_ONE(...) +1
+enum { FUNCTIONS = 0 FUNCTION_ROWS(FUNCTION_ONE) }; /* how many there are, from FN_SIN on */
+#undef FUNCTION_ONE
+
+#define FUNCTION_NONE ((function_id)FUNCTIONS) /* where none is called */
+
+/* What arguments may be, and what comes out. */
+typedef enum function_dimensions {
+    TAKES_ANGLE,  /* a number that is an angle in radians: a number */
+    TAKES_NUMBER, /* a number: a number */
+    TAKES_SQUARE, /* any: its root */
+    TAKES_SIZE,   /* any: the same */
+    TAKES_ANY,    /* any: a number */
+    TAKES_RATIO,  /* two of one dimension: a number */
+    TAKES_CHOICE  /* two of one dimension: the same */
+} function_dimensions;
+
+const char *
+function_name(function_id function); /* in the language, in text, in Octave; wh_... in C */
+const char *function_latex(function_id function); /* "\\sin" */
+int function_arguments(function_id function);     /* 1 or 2 */
+function_dimensions function_takes(function_id function);
+bool function_is_real(function_id function); /* of whatever real arguments */
+/* The function of that name, in *function; false: there is none. */
+bool function_find(const char *text, size_t length, function_id *function);
+
+/* The function at x, or at (x, y). NaN goes through, by min() and max(), too. */
 double number_call(function_id function, double x, double y);
+/* Its slope by x (which = 0) or y (1) there. min() and max() of two that are equal: one half of each. */
+double number_slope(function_id function, int which, double x, double y);
 
 double number_sine(double rad);
 double number_cosine(double rad);

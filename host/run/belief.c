@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "host/base/room.h"
 #include "host/derive/contact_lists.h"
 #include "host/derive/ledger.h"
 
@@ -19,11 +20,8 @@ static double kept_entries(const program *p, const engine_kind *kind, const void
                            belief *made) {
     const ledger_lists *l = p->ledger;
     const int contacts = p->contacts != NULL ? p->contacts->count : 0;
-    double *total = calloc((size_t)(l->entries + l->accounts) + 1, sizeof *total);
+    double *total = room(l->entries + l->accounts, sizeof *total);
     double sum = 0.0;
-    if (total == NULL) {
-        abort();
-    }
     if (kind->steps(run) > 0) {
         kind->ledger(run, total, total + l->entries);
     }

@@ -5,7 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "number.h"
+#include "host/base/room.h"
+#include "host/number/zero.h"
 
 books *books_open(const program *p, const equations *e) { return books_open_of(p, e, e->instance); }
 
@@ -13,12 +14,9 @@ books *books_open_of(const program *p, const equations *e, const instance *inst)
     if (e->kinetic == NULL) {
         return NULL;
     }
-    books *b = calloc(1, sizeof *b);
+    books *b = room(1, sizeof *b);
     const size_t count = 2 * (size_t)p->books->results + 4 * (size_t)p->count + (size_t)p->inputs;
-    double *numbers = calloc(count, sizeof *numbers);
-    if (b == NULL || numbers == NULL) {
-        abort();
-    }
+    double *numbers = room((int64_t)count, sizeof *numbers);
     b->program = p;
     b->equations = e;
     b->evaluator = evaluator_new(p->books);
@@ -29,10 +27,7 @@ books *books_open_of(const program *p, const equations *e, const instance *inst)
     b->momentum_now = b->drift + p->count;
     b->momentum_2 = b->momentum_now + p->count;
     b->input = b->momentum_2 + p->count;
-    b->rate = calloc((size_t)p->count + 1, sizeof *b->rate);
-    if (b->rate == NULL) {
-        abort();
-    }
+    b->rate = room(p->count, sizeof *b->rate);
     program_inputs(p, inst, b->input);
     b->step_s = inst->step_s;
     return b;

@@ -54,14 +54,4 @@ void evaluator_run(evaluator *ev, double time_s, const double *angle_rad, const 
  * operations: error[results], in units of the numbers' rounding (rounding.h). */
 void evaluator_rounding(const evaluator *ev, const double *angle_rad, double *error);
 
-/* Phase constant of the float build: radians to 2^32 a turn, wrapped and rounded to the nearest. */
-uint32_t engine_phase_of_constant(double rad);
-/* The stored start of a float angle: radians to 2^32 a turn with turns, rounded to the nearest. Below
- * ENGINE_ANGLE_MOST_RAD in size: beyond it, 0, which start_angles_are_held() refuses. */
-#define ENGINE_ANGLE_MOST_RAD 6.28e9
-int64_t engine_angle_of_start(double rad);
-/* A multiple as wh_phase_times() takes it in float: modulo 2^32, rounded to 2^-64. */
-void engine_factor(double multiple, uint32_t *whole, uint64_t *part);
-bool engine_angle_is_held(double rad);
-
 #endif

@@ -1,6 +1,7 @@
 /* engine_double.c: the interpreter in the reference arithmetic. */
 #define WH_DOUBLE 1
 #include "engine.inc"
+#include "host/base/room.h"
 #include "rounding.h"
 
 struct evaluator {

@@ -1,26 +1,3 @@
 /* engine_float.c: the interpreter in the boards' arithmetic. */
 #define WH_DOUBLE 0
 #include "engine.inc"
-
-uint32_t engine_phase_of_constant(double rad) {
-    return (uint32_t)(uint64_t)engine_angle_of_start(rad);
-}
-
-void engine_factor(double multiple, uint32_t *whole, uint64_t *part) {
-    const double size = fabs(multiple);
-    const double units = number_floor(size);
-    const double rest = (size - units) * 0x1p64; /* exact, and below 2^64 */
-    *whole = (uint32_t)number_remainder(units, 0x1p32);
-    *part = (uint64_t)(rest < 0x1p52 ? number_floor(rest + 0.5) : rest);
-    if (multiple < 0.0) { /* the complement of both together */
-        *whole = 0U - *whole - (*part != 0 ? 1U : 0U);
-        *part = 0U - *part;
-    }
-}
-
-int64_t engine_angle_of_start(double rad) {
-    const double turns = rad / 6.283185307179586477;
-    return engine_angle_is_held(rad) ? (int64_t)number_nearest(turns * 4294967296.0) : 0;
-}
-
-bool engine_angle_is_held(double rad) { return fabs(rad) < ENGINE_ANGLE_MOST_RAD; }

@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "host/base/room.h"
+
 /* One column's part of a bucket. */
 typedef struct extent {
     double least;
@@ -21,19 +23,11 @@ struct envelope {
     extent *extents; /* [ENVELOPE_ROOM * columns], bucket by bucket */
 };
 
-static void *room(size_t count, size_t size) {
-    void *p = calloc(count, size);
-    if (p == NULL) {
-        abort();
-    }
-    return p;
-}
-
 envelope *envelope_new(int columns) {
     envelope *v = room(1, sizeof *v);
     v->columns = columns;
     v->size = 1;
-    v->extents = room((size_t)ENVELOPE_ROOM * (size_t)columns, sizeof *v->extents);
+    v->extents = room((int64_t)ENVELOPE_ROOM * columns, sizeof *v->extents);
     return v;
 }
 
@@ -96,7 +90,7 @@ void envelope_enter(envelope *v, const double *row) {
 
 double *envelope_rows(const envelope *v, int *rows) {
     const unsigned each = v->size == 1 ? 1 : 2;
-    double *made = room((size_t)each * v->count * (size_t)v->columns + 1, sizeof *made);
+    double *made = room((int64_t)each * v->count * v->columns, sizeof *made);
     double *to = made;
     for (unsigned k = 0; k < v->count; k++) {
         for (unsigned half = 0; half < each; half++) {

@@ -5,9 +5,10 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "host/base/room.h"
 #include "host/derive/contact_lists.h"
 #include "host/derive/ledger.h"
-#include "shown.h"
+#include "host/lang/shown.h"
 #include "statement.h"
 #include "summary.h"
 
@@ -83,10 +84,7 @@ static void print_momentum(const ledger_view *v, int account, const books *b, do
 void ledger_print(FILE *out, const equations *e, const program *p, const engine_kind *kind,
                   const void *run, const books *b) {
     const ledger_lists *l = p->ledger;
-    double *total = calloc((size_t)(l->entries + l->accounts) + 1, sizeof *total);
-    if (total == NULL) {
-        abort();
-    }
+    double *total = room(l->entries + l->accounts, sizeof *total);
     double *error = total + l->entries;
     kind->ledger(run, total, error);
     const ledger_view v = {out, e, p, total, error};

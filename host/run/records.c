@@ -4,8 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "number.h"
-#include "shown.h"
+#include "host/base/room.h"
+#include "host/lang/shown.h"
+#include "host/number/zero.h"
 
 /* Columns of the unknowns and their derivatives, integrated or recovered. */
 static int state_columns(const equations *e) {
@@ -36,23 +37,17 @@ static void name_columns(records *r) {
 }
 
 records *records_open(FILE *out, const program *p, const equations *e, const engine_kind *kind) {
-    records *r = calloc(1, sizeof *r);
-    if (r == NULL) {
-        abort();
-    }
+    records *r = room(1, sizeof *r);
     const int columns = 1 + state_columns(e) + e->instance->mechanism->output_count;
     *r = (records){out,
                    NULL,
                    p,
                    e,
                    kind,
-                   calloc((size_t)columns, sizeof *r->row),
-                   calloc((size_t)p->outputs + 1, sizeof *r->output),
-                   calloc((size_t)columns, sizeof *r->column),
+                   room(columns, sizeof *r->row),
+                   room(p->outputs, sizeof *r->output),
+                   room(columns, sizeof *r->column),
                    columns};
-    if (r->row == NULL || r->output == NULL || r->column == NULL) {
-        abort();
-    }
     name_columns(r);
     return r;
 }

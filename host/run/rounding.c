@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "host/base/room.h"
+
 /* A constant that float holds is exact in either number. */
 static double of_constant(double value) {
     return (double)(float)value == value ? 0.0 : fabs(value);
@@ -25,33 +27,19 @@ static double of_phase(const tape *t, const op *o, const rounding_values *at, do
 
 /* By the function's slopes at (x, y), which are off by `a` and `b`. */
 static double of_call(function_id function, double x, double y, double a, double b) {
-    switch (function) {
-    case FN_ASIN:
-    case FN_ACOS: return a / number_root(1.0 - x * x);
-    case FN_ATAN: return a / (1.0 + x * x);
-    case FN_ATAN2: return (fabs(y) * a + fabs(x) * b) / (x * x + y * y);
-    case FN_EXP: return a * number_call(FN_EXP, x, 0.0);
-    case FN_LOG: return a / fabs(x);
-    case FN_TAN: return a * (1.0 + number_power(number_call(FN_TAN, x, 0.0), 2.0));
-    case FN_SQRT: return a / (2.0 * number_root(x));
-    case FN_SIN:
-    case FN_COS:
-    case FN_ABS:
-    case FN_SIGN:
-    case FN_MIN:
-    case FN_MAX:
-    case FN_COUNT: break;
-    }
-    return a + b;
+    const double by_x = fabs(number_slope(function, 0, x, y)) * a;
+    return function_arguments(function) == 1 ? by_x
+                                             : by_x + fabs(number_slope(function, 1, x, y)) * b;
 }
 
 /* What the operands' errors a and b become; *rounds: is the result rounded, too? */
 static double carried(const tape *t, const op *o, const rounding_values *at, const double *error,
                       double v, bool *rounds) {
-    const double x = o->a >= 0 && o->code >= OP_SIN ? at->value[o->a] : 0.0;
-    const double y = o->b >= 0 && o->code >= OP_SIN ? at->value[o->b] : 0.0;
-    const double a = o->a >= 0 && o->code >= OP_SIN ? error[o->a] : 0.0;
-    const double b = o->b >= 0 && o->code >= OP_SIN ? error[o->b] : 0.0;
+    const int values = op_rows[o->code].values;
+    const double x = values > 0 ? at->value[o->a] : 0.0;
+    const double y = values > 1 && o->b >= 0 ? at->value[o->b] : 0.0;
+    const double a = values > 0 ? error[o->a] : 0.0;
+    const double b = values > 1 && o->b >= 0 ? error[o->b] : 0.0;
     *rounds = false;
     switch (o->code) {
     case OP_CONSTANT: return of_constant(o->value);
@@ -85,10 +73,7 @@ static double carried(const tape *t, const op *o, const rounding_values *at, con
 }
 
 void rounding_of(const tape *t, const rounding_values *at, double *error) {
-    double *each = calloc((size_t)t->count + 1, sizeof *each);
-    if (each == NULL) {
-        abort();
-    }
+    double *each = room(t->count, sizeof *each);
     for (int i = 0; i < t->count; i++) {
         bool rounds;
         each[i] = carried(t, &t->ops[i], at, each, at->value[i], &rounds);

@@ -2,7 +2,7 @@
 #ifndef RUN_ROUNDING_H
 #define RUN_ROUNDING_H
 
-#include "host/derive/tape.h"
+#include "host/image/tape.h"
 
 /* A list as it was just evaluated in double. Sine and cosine are those of the phases. */
 typedef struct rounding_values {

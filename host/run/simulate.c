@@ -9,9 +9,10 @@
 
 #include "belief.h"
 #include "envelope.h"
+#include "host/base/room.h"
+#include "host/lang/shown.h"
 #include "host/plot/plot.h"
 #include "records.h"
-#include "shown.h"
 #include "slow.h"
 #include "statement.h"
 #include "summary.h"
@@ -267,11 +268,8 @@ static simulation_result judge(simulation *sim, wh_status status, bool interrupt
 static bool draw(const simulation *sim) {
     const mechanism *m = sim->equations->instance->mechanism;
     const records *r = sim->records;
-    curve *curves = calloc((size_t)r->columns, sizeof *curves);
-    char **units = calloc((size_t)r->columns, sizeof *units);
-    if (curves == NULL || units == NULL) {
-        abort();
-    }
+    curve *curves = room(r->columns, sizeof *curves);
+    char **units = room(r->columns, sizeof *units);
     int count = 0;
     for (int i = 1; i < r->columns; i++) { /* coordinates and outputs: no rates */
         const record_column *c = &r->column[i];
@@ -284,12 +282,7 @@ static bool draw(const simulation *sim) {
     const char *title =
         sim->equations->instance->scene != NULL ? sim->equations->instance->scene->title : m->title;
     const char *name = sim->equations->instance->name;
-    const size_t size = strlen(name) + strlen(title) + 3;
-    char *full = calloc(size, 1);
-    if (full == NULL) {
-        abort();
-    }
-    snprintf(full, size, "%s%s%s", name, title[0] != '\0' ? ": " : "", title);
+    char *full = room_words("%s%s%s", name, title[0] != '\0' ? ": " : "", title);
     int rows;
     double *data = envelope_rows(sim->plot, &rows);
     const bool drawn =

@@ -6,19 +6,13 @@
 #include <string.h>
 
 #include "engine.h"
+#include "host/base/room.h"
 #include "host/derive/contact_lists.h"
-#include "shown.h"
+#include "host/lang/shown.h"
+#include "host/number/phase.h"
 
 /* m or rad: what the conversion of a start's units may leave. */
 #define ROUNDING 1e-9
-
-static double *room(int count) {
-    double *p = calloc((size_t)count + 1, sizeof *p);
-    if (p == NULL) {
-        abort();
-    }
-    return p;
-}
 
 static bool is_apart(const contact_row *row, double gap, diags *errors) {
     static const char hint[] = "start on it or apart from it, or leave the stop out";
@@ -44,11 +38,11 @@ bool start_angles_are_held(const program *p, const instance *inst, diags *errors
         const int k = p->angle[i].unknown;
         const symbol *s = inst->mechanism->coordinates[k];
         const place given = inst->start_at[k][0];
-        if (!engine_angle_is_held(inst->start[k][0])) {
+        if (!phase_holds_start(inst->start[k][0])) {
             diag_error(errors, given.source != NULL ? given : s->at,
                        "start it within a turn: whole turns change nothing in a sine",
                        "'%s' starts at %.9g rad: float counts turns up to %g rad only", s->name,
-                       inst->start[k][0], ENGINE_ANGLE_MOST_RAD);
+                       inst->start[k][0], PHASE_START_MOST_RAD);
             held = false;
         }
     }
@@ -62,11 +56,11 @@ bool start_is_possible(const program *p, const instance *inst, const engine_kind
     if (c == NULL || !good) {
         return good;
     }
-    double *angle_rad = room(p->angles);
-    double *real = room(p->reals);
-    double *signal = room(2 * c->count);
+    double *angle_rad = room(p->angles, sizeof(double));
+    double *real = room(p->reals, sizeof(double));
+    double *signal = room(2 * c->count, sizeof(double));
     evaluator *ev = evaluator_new(c->signals);
-    double *input = room(p->inputs);
+    double *input = room(p->inputs, sizeof(double));
     program_start(p, inst, angle_rad, real);
     program_inputs(p, inst, input);
     evaluator_run(ev, 0.0, angle_rad, real, real + (p->coordinates - p->angles), input, signal);
@@ -99,7 +93,7 @@ bool start_has_method(const program *p, const instance *inst, wh_method method, 
     }
     diag_error(
         errors, inst->scene != NULL ? inst->scene->at : m->at,
-        "integrate the coordinate: leave out conserve; or choose --method euler, heun or rk4",
+        "integrate the coordinate, --without conserve; or choose --method euler, heun or rk4",
         "semi-implicit Euler is not defined here: '%s', which is conserved, is integrated "
         "from its momentum",
         m->coordinates[p->conserved->unknown[0]]->name);

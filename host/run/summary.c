@@ -7,9 +7,9 @@
 #include <string.h>
 
 #include "host/derive/contact_lists.h"
+#include "host/lang/shown.h"
 #include "ledger_text.h"
 #include "records.h"
-#include "shown.h"
 
 static void print_value(FILE *out, const records *r, int column) {
     const record_column *c = &r->column[column];

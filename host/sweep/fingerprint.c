@@ -2,9 +2,9 @@
 #include "fingerprint.h"
 
 #include <inttypes.h>
-#include <stdlib.h>
 
 #include "core/hash.h"
+#include "host/base/room.h"
 
 static uint64_t hash_text(const char *text) {
     uint64_t hash = WH_HASH_START;
@@ -41,10 +41,7 @@ char *fingerprint_make(const sweep *s, const char *model_text, const instance *b
                                           [WH_RK4] = "rk4"};
     char *text = NULL;
     size_t length = 0;
-    FILE *out = open_memstream(&text, &length);
-    if (out == NULL) {
-        abort();
-    }
+    FILE *out = room_text(&text, &length);
     fprintf(out, "whirl sweep: settings of the CSV beside this file, format 2\n");
     fprintf(out, "scene: %s\n", base->name);
     fprintf(out, "model text: 0x%016" PRIx64 "\n", hash_text(model_text));
@@ -63,6 +60,6 @@ char *fingerprint_make(const sweep *s, const char *model_text, const instance *b
     }
     fprintf(out, "shard: %" PRIu64 "/%" PRIu64 "\n", part.number, part.of);
     fprintf(out, "operations: 0x%016" PRIx64 "\n", program_hash(p));
-    fclose(out);
+    room_text_end(out);
     return text;
 }

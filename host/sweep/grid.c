@@ -6,19 +6,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "host/base/room.h"
 #include "host/lang/override.h"
+#include "host/lang/shown.h"
 #include "host/lang/value.h"
 #include "host/number/decimal.h"
-#include "host/run/number.h"
-#include "host/run/shown.h"
-
-static void *room(size_t count, size_t size) {
-    void *p = calloc(count + 1, size);
-    if (p == NULL) {
-        abort();
-    }
-    return p;
-}
+#include "host/number/zero.h"
 
 /* A copy of text[length] without blanks at its ends. */
 static char *trimmed(const char *text, size_t length) {
@@ -29,17 +22,10 @@ static char *trimmed(const char *text, size_t length) {
     while (length > 0 && (text[length - 1] == ' ' || text[length - 1] == '\t')) {
         length--;
     }
-    char *copy = room(length, 1);
-    memcpy(copy, text, length);
-    return copy;
+    return room_copy(text, length);
 }
 
-static char *joined(const char *left, const char *right) {
-    const size_t size = strlen(left) + strlen(right) + 1;
-    char *text = room(size, 1);
-    snprintf(text, size, "%s%s", left, right);
-    return text;
-}
+static char *joined(const char *left, const char *right) { return room_words("%s%s", left, right); }
 
 /* --- the text of a range -----------------------------------------------------------------------*/
 
@@ -214,10 +200,7 @@ bool grid_add(grid *g, const mechanism *of, const char *text, diags *errors) {
     axis made = {0};
     const bool good = read_axis(of, text, &r, errors, &made) && fits_in(g, text, &made);
     if (good) {
-        axis *longer = realloc(g->axes, ((size_t)g->count + 1) * sizeof *longer);
-        if (longer == NULL) {
-            abort();
-        }
+        axis *longer = room_more(g->axes, g->count + 1, sizeof *longer);
         made.name = trimmed(r.name, strlen(r.name));
         const bool is_start = made.symbol != NULL && (made.symbol->kind == SYM_COORDINATE ||
                                                       made.symbol->kind == SYM_STATE);

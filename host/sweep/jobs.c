@@ -9,6 +9,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "host/base/room.h"
+
 /* Points handed out beyond the first that has not come back, for each worker. */
 #define AHEAD 8U
 #define PAUSE_MS 200
@@ -47,14 +49,6 @@ typedef struct pool {
     uint64_t delivered; /* all below this */
 } pool;
 
-static void *room(size_t count, size_t size) {
-    void *p = calloc(count + 1, size);
-    if (p == NULL) {
-        abort();
-    }
-    return p;
-}
-
 /* --- in a worker -------------------------------------------------------------------------------*/
 
 static pid_t parent;
@@ -80,17 +74,14 @@ static void work(const jobs *j, int tickets, int results) {
     while (read(tickets, &point, sizeof point) == (ssize_t)sizeof point) {
         char *text[2] = {NULL, NULL};
         size_t length[2] = {0, 0};
-        FILE *row = open_memstream(&text[0], &length[0]);
-        FILE *reason = open_memstream(&text[1], &length[1]);
-        if (row == NULL || reason == NULL) {
-            abort();
-        }
+        FILE *row = room_text(&text[0], &length[0]);
+        FILE *reason = room_text(&text[1], &length[1]);
         answer a;
         memset(&a, 0, sizeof a); /* padding too: it goes through a pipe */
         a.point = point;
         a.good = j->work(j->context, point, row, reason);
-        fclose(row);
-        fclose(reason);
+        room_text_end(row);
+        room_text_end(reason);
         a.row_length = length[0];
         a.reason_length = length[1];
         const bool sent = write_all(results, &a, sizeof a) &&
@@ -165,7 +156,7 @@ static void take_answers(pool *p, worker *w) {
         if (w->length - at - sizeof a < row + reason) {
             break;
         }
-        char *text = room(row + reason + 1, 1);
+        char *text = room((int64_t)(row + reason + 2), 1);
         memcpy(text, w->bytes + at + sizeof a, row);
         memcpy(text + row + 1, w->bytes + at + sizeof a + row, reason);
         p->slots[a.point % p->window] = (slot){text, text + row + 1, a.good};
@@ -179,11 +170,7 @@ static void take_answers(pool *p, worker *w) {
 static bool listen_to(pool *p, worker *w) {
     if (w->room - w->length < 65536) {
         w->room = 2 * w->room + 65536;
-        char *longer = realloc(w->bytes, w->room);
-        if (longer == NULL) {
-            abort();
-        }
-        w->bytes = longer;
+        w->bytes = room_more(w->bytes, (int64_t)w->room, 1);
     }
     const ssize_t got = read(w->results, w->bytes + w->length, w->room - w->length);
     if (got < 0 && errno == EINTR) {
@@ -219,7 +206,7 @@ static bool deliver(pool *p) {
 
 static jobs_result attend(pool *p) {
     const jobs *j = p->jobs;
-    struct pollfd *ears = room((size_t)p->started, sizeof *ears);
+    struct pollfd *ears = room(p->started, sizeof *ears);
     jobs_result result = JOBS_DONE;
     while (p->delivered < j->end && result == JOBS_DONE) {
         send(p);
@@ -247,8 +234,8 @@ static jobs_result attend(pool *p) {
 jobs_result jobs_run(const jobs *j) {
     pool p = {.jobs = j, .sent = j->first, .delivered = j->first};
     p.window = AHEAD * (uint64_t)j->workers;
-    p.workers = room((size_t)j->workers, sizeof *p.workers);
-    p.slots = room((size_t)p.window, sizeof *p.slots);
+    p.workers = room(j->workers, sizeof *p.workers);
+    p.slots = room((int64_t)p.window, sizeof *p.slots);
     void (*const before)(int) = signal(SIGPIPE, SIG_IGN); /* a write to a lost worker */
     jobs_result result = JOBS_WORKER_LOST;
     if (start(&p)) {

@@ -8,7 +8,9 @@
 #include <string.h>
 
 #include "host/base/arena.h"
-#include "host/lang/parser.h"
+#include "host/base/room.h"
+#include "host/lang/cursor.h"
+#include "host/lang/expression.h"
 
 /* --- reading -----------------------------------------------------------------------------------*/
 
@@ -247,11 +249,7 @@ void gauge_enter(gauge *g, double value) {
     if (g->kind == MEASURE_PERIOD) {
         if (g->samples == g->kept_room) {
             g->kept_room = g->kept_room == 0 ? 1024 : 2 * g->kept_room;
-            double *longer = realloc(g->kept, g->kept_room * sizeof *longer);
-            if (longer == NULL) {
-                abort();
-            }
-            g->kept = longer;
+            g->kept = room_more(g->kept, (int64_t)g->kept_room, sizeof *g->kept);
         }
         g->kept[g->samples] = value;
     }

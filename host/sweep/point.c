@@ -6,22 +6,15 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "host/base/room.h"
+#include "host/number/zero.h"
 #include "host/run/belief.h"
-#include "host/run/number.h"
 #include "host/run/slow.h"
 #include "host/run/start.h"
 #include "host/run/undefined.h"
 
 /* Steps between two questions whether to give up. */
 #define ABANDON_STEPS 4096U
-
-static void *room(size_t count, size_t size) {
-    void *p = calloc(count + 1, size);
-    if (p == NULL) {
-        abort();
-    }
-    return p;
-}
 
 int sweep_columns(const sweep *s) {
     return s->measures->count + (s->measures->mechanism.is_system ? 0 : 1);
@@ -38,14 +31,14 @@ bool sweep_can_share(const grid *g, const program *p) {
 static overrides changes_at(const sweep *s, uint64_t point) {
     const grid *g = s->grid;
     overrides changes = *s->changes;
-    double *value = room((size_t)g->count, sizeof *value);
-    const char **texts = room((size_t)g->count, sizeof(const char *));
+    double *value = room(g->count, sizeof *value);
+    const char **texts = room(g->count, sizeof(const char *));
     grid_values(g, point, value);
     changes.value_count = 0;
     for (int i = 0; i < g->count; i++) {
         const axis *a = &g->axes[i];
         const size_t size = strlen(a->name) + NUMBER_SIZE;
-        char *text = room(size, 1);
+        char *text = room((int64_t)size, 1);
         if (a->symbol == NULL) {
             snprintf(text, size, "%.17g", value[i]);
             if (changes.step != s->changes->step) {
@@ -114,9 +107,9 @@ static meter meter_open(const sweep *s, const program *p, const equations *e, co
     const int count = s->measures->count;
     meter m = {.sweep = s, .program = p, .equations = e, .run = run};
     m.books = books_open_of(p, e, inst);
-    m.channels = room((size_t)count, sizeof *m.channels);
-    m.gauges = room((size_t)count, sizeof *m.gauges);
-    m.output = room((size_t)p->outputs, sizeof *m.output);
+    m.channels = room(count, sizeof *m.channels);
+    m.gauges = room(count, sizeof *m.gauges);
+    m.output = room(p->outputs, sizeof *m.output);
     for (int i = 0; i < count; i++) {
         const measure *each = &s->measures->list[i];
         m.channels[i] = channel_of(p, each->of, i);
@@ -282,12 +275,9 @@ static bool measure_run(const sweep *s, const program *p, const equations *e, co
 static void tell_first(diags *errors, FILE *reason) {
     char *text = NULL;
     size_t length = 0;
-    FILE *memory = open_memstream(&text, &length);
-    if (memory == NULL) {
-        abort();
-    }
+    FILE *memory = room_text(&text, &length);
     diags_flush(errors, memory);
-    fclose(memory);
+    room_text_end(memory);
     const char *start = strstr(text, "error: ");
     start = start == NULL ? text : start + strlen("error: ");
     fprintf(reason, "%.*s", (int)strcspn(start, "\n"), start);
@@ -304,8 +294,7 @@ static bool measure_point(const sweep *s, uint64_t point, bool (*abandon)(void),
     bool good = inst != NULL;
     if (good && s->shared == NULL) {
         e = equations_derive(inst, errors);
-        own = e == NULL ? NULL
-                        : program_make(e, s->scene != NULL ? s->scene->conserve : NULL, errors);
+        own = e == NULL ? NULL : program_make(e, inst->conserve, errors);
         good = own != NULL;
     }
     const program *p = own != NULL ? own : s->shared;
@@ -359,7 +348,7 @@ void sweep_header(const sweep *s, FILE *out) {
 }
 
 void sweep_swept_fields(const sweep *s, uint64_t point, FILE *out) {
-    double *value = room((size_t)s->grid->count, sizeof *value);
+    double *value = room(s->grid->count, sizeof *value);
     char text[NUMBER_SIZE];
     grid_values(s->grid, point, value);
     for (int i = 0; i < s->grid->count; i++) {
@@ -370,7 +359,7 @@ void sweep_swept_fields(const sweep *s, uint64_t point, FILE *out) {
 
 bool sweep_point(const sweep *s, uint64_t point, bool (*abandon)(void), FILE *row, FILE *reason,
                  point_notes *notes) {
-    double *measured = room((size_t)s->measures->count + 1, sizeof *measured);
+    double *measured = room(s->measures->count + 1, sizeof *measured);
     *notes = (point_notes){0};
     const bool good = measure_point(s, point, abandon, measured, reason, notes);
     sweep_swept_fields(s, point, row);

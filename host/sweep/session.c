@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include "host/base/room.h"
 #include "host/run/belief.h"
 #include "host/run/slow.h"
 #include "jobs.h"
@@ -63,11 +64,8 @@ static void count_notes(sitting *s, uint64_t point, const char *notes) {
 
 /* "point 17 (r=0.02, theta'=31.4)" */
 static void name_point(const sweep *s, uint64_t point) {
-    double *value = calloc((size_t)s->grid->count, sizeof *value);
+    double *value = room(s->grid->count, sizeof *value);
     char text[NUMBER_SIZE];
-    if (value == NULL) {
-        abort();
-    }
     grid_values(s->grid, point, value);
     fprintf(stderr, "point %llu (", (unsigned long long)point + 1);
     for (int i = 0; i < s->grid->count; i++) {
@@ -222,14 +220,11 @@ int session_run(const sweep *s, const session_settings *o) {
     sitting here = {.sweep = s, .first = o->first};
     char *header = NULL;
     size_t length = 0;
-    FILE *out = open_memstream(&header, &length);
-    if (out == NULL) {
-        abort();
-    }
+    FILE *out = room_text(&header, &length);
     if (o->header) {
         sweep_header(s, out);
     }
-    fclose(out);
+    room_text_end(out);
     const sheet_settings settings = {.path = o->csv,
                                      .fingerprint = o->fingerprint,
                                      .header = header,

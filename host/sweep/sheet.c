@@ -8,6 +8,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "host/base/room.h"
+
 enum { GOOD = 0, CANNOT_WRITE = 1, REFUSED = 2 };
 
 static int refuse(const char *path, const char *why) {
@@ -22,13 +24,7 @@ static int cannot_write(const char *path) {
 }
 
 static char *beside(const char *path, const char *ending) {
-    const size_t size = strlen(path) + strlen(ending) + 1;
-    char *name = malloc(size);
-    if (name == NULL) {
-        abort();
-    }
-    snprintf(name, size, "%s%s", path, ending);
-    return name;
+    return room_words("%s%s", path, ending);
 }
 
 /* --- the fingerprint ---------------------------------------------------------------------------*/
@@ -40,14 +36,11 @@ static char *read_text(const char *path) {
     }
     char *text = NULL;
     size_t length = 0;
-    FILE *copy = open_memstream(&text, &length);
-    if (copy == NULL) {
-        abort();
-    }
+    FILE *copy = room_text(&text, &length);
     for (int c = getc(in); c != EOF; c = getc(in)) {
         putc(c, copy);
     }
-    fclose(copy);
+    room_text_end(copy);
     fclose(in);
     return text;
 }
@@ -97,13 +90,10 @@ static bool ends_whole(const char *line, ssize_t length) {
 static char *swept_text(const sheet_settings *s, uint64_t row) {
     char *text = NULL;
     size_t length = 0;
-    FILE *out = open_memstream(&text, &length);
-    if (out == NULL) {
-        abort();
-    }
+    FILE *out = room_text(&text, &length);
     s->swept(s->context, row, out);
     fputc(',', out);
-    fclose(out);
+    room_text_end(out);
     return text;
 }
 

@@ -2,10 +2,10 @@
 # worst.sh: the instructions that a step with events may take against the most that random steps took.
 #
 #   BOARD=... CC=... NM=... OBJCOPY=... FLAGS=... PLUGIN=count.so EMULATE="qemu-system-arm ... -kernel worst.elf" \
-#   worst.sh worst.elf figures.csv DECLARED STEPS
+#   worst.sh worst.elf figures.csv STEPS
 #
-# worst.elf runs STEPS random steps of each scene with one seed and as many with another (worst.c); DECLARED has how
-# often a step of each may evaluate the accelerations and the signals (all_effects.sh). What runs between two
+# worst.elf runs STEPS random steps of each scene with one seed and as many with another, and says how often a step
+# of each may evaluate the accelerations and the signals (worst.c). What runs between two
 # evaluations is a short piece of code, whose longest way is seen soon; how many there can be is known. From the first
 # seed's longest stretches, to the first evaluation (B), after one of the accelerations (A) and after one of the
 # signals (S),
@@ -17,7 +17,7 @@
 set -eu
 . "$(dirname "$0")/common.sh"
 
-elf=$1 csv=$2 declared=$3 steps=$4
+elf=$1 csv=$2 steps=$3
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -44,7 +44,7 @@ awk -v commit="$(commit_of_checkout)" -v board="$BOARD" -v compiler="$(compiler_
         }
     }
     { sub(/\r$/, "") }
-    FILENAME ~ /declared$/ { evaluations[$1] = $2; signals[$1] = $3; next }
+    $1 == "declared" { evaluations[$2] = $3; signals[$2] = $4 }
     $1 == "interval" { instructions[$2] = $3 }
     $1 == "stretches" { longest[$2, $3] = $4; most[$2, $3] = $5 }
     $1 == "unfinished" { broken = 1 }
@@ -74,5 +74,5 @@ awk -v commit="$(commit_of_checkout)" -v board="$BOARD" -v compiler="$(compiler_
             row(name, "instructions per step (maximum)", instructions[two])
         }
         exit broken || checked == 0
-    }' "$declared" "$work/counts" "$work/console" || status=1
+    }' "$work/counts" "$work/console" || status=1
 exit "$status"

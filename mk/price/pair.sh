@@ -1,51 +1,41 @@
 #!/bin/sh
-# pair.sh "N MECHANISM EFFECT KIND STEP_s UNTIL_s FILE": price one effect (price.sh calls it).
+# pair.sh "N MECHANISM EFFECT KIND STEP_s UNTIL_s TARGET": price one effect (price.sh calls it).
 #
-# Needs, in the environment, what price.sh has, and OUT/N.scenes and OUT/N.bare of pairs.awk. Leaves
-# OUT/pN_without.c and pN_with.c with their objects, OUT/N.bytes ("flash ram" without, with) and
-# OUT/N.change ("step error without, with; change of the motion"). Fails if the mechanism without the effect
-# is not what a file without any effect gives.
+# Needs, in the environment, what price.sh has. Leaves OUT/pN_without.c and pN_with.c with their headers and objects,
+# OUT/N.bytes ("flash ram" without, with) and OUT/N.change ("step error without, with; change of the motion").
+# KIND mechanism: TARGET is a file, MECHANISM in it what is without, EFFECT what is with.
 set -eu
 set -- $1
-n=$1 mechanism=$2 effect=$3 step_s=$5 until_s=$6 file=$7
-strip=$(dirname "$0")/strip.awk
+n=$1 mechanism=$2 effect=$3 kind=$4 step_s=$5 until_s=$6 target=$7
 out=$OUT
-model=$out/$n.whirl
 
-awk -v drop=scene -f "$strip" "$file" | cat - "$out/$n.scenes" >"$model"
+# ask SIDE COMMAND WORDS...: whirl COMMAND of that side: nothing of the scene's effects but this one
+ask() {
+    side=$1 command=$2
+    shift 2
+    case $kind-$side in
+    mechanism-without) "$WHIRL" "$command" "$target:$mechanism" --set duty=0.6 "$@" ;;
+    mechanism-with) "$WHIRL" "$command" "$target:$effect" --set duty=0.6 "$@" ;;
+    *-without) "$WHIRL" "$command" "$target" --without all,ledger,conserve "$@" ;;
+    ledger-with) "$WHIRL" "$command" "$target" --without all,conserve --with ledger "$@" ;;
+    *-with) "$WHIRL" "$command" "$target" --without all,ledger,conserve --with "$effect" "$@" ;;
+    esac
+}
+
 for side in without with; do
-    if ! "$WHIRL" derive "$model:p${n}_$side" --as c >"$out/p${n}_$side.c" 2>"$out/$n.errors"; then
+    c=$out/p${n}_$side
+    if ! ask $side derive --as c --name "p${n}_$side" --header "$c.h" >"$c.c" 2>"$out/$n.errors"; then
         cp "$out/$n.errors" "$out/$n.skipped" # such as a ledger of equations that have no energies
-        rm -f "$out/p${n}_without.c" "$out/p${n}_with.c"
+        rm -f "$out/p${n}_without".? "$out/p${n}_with".?
         exit 0
     fi
 done
-if [ -e "$out/$n.bare" ]; then
-    awk -v drop="scene effect" -f "$strip" "$file" | cat - "$out/$n.bare" >"$out/$n.bare.whirl"
-    "$WHIRL" derive "$out/$n.bare.whirl:p${n}_without" --as c >"$out/$n.bare.c"
-    sed 1d "$out/$n.bare.c" >"$out/$n.bare.body" # the first line names the file
-    if ! sed 1d "$out/p${n}_without.c" | cmp - "$out/$n.bare.body" >&2; then
-        echo "pair.sh: $mechanism without $effect is not what a file without effects gives" >&2
-        exit 1
-    fi
-fi
 
-number_of() { # number_of NAME FILE: of the scene's structs
-    sed -n "s/^    \.$1 = \([0-9]*\)U\{0,1\},.*/\1/p" "$2" | tail -n 1
-}
 # bytes_of SIDE: flash and RAM of the smallest image around the scene
 bytes_of() {
     c=$out/p${n}_$1
-    entries=$(sed -n 's/.*\.entries = \([0-9]*\).*/\1/p' "$c.c")
-    accounts=$(sed -n 's/.*\.accounts = \([0-9]*\).*/\1/p' "$c.c")
-    contacts=$(number_of contacts "$c.c")
-    outputs=$(number_of outputs "$c.c")
-    words="WH_STATE_WORDS($(number_of angles "$c.c"),$(number_of reals "$c.c"),$(number_of inputs "$c.c"))"
-    [ -z "$contacts" ] || words="$words+WH_CONTACT_WORDS($contacts)"
-    [ -z "$entries" ] || words="$words+WH_LEDGER_WORDS($entries,$accounts)"
     $BOARD_CC $BOARD_CFLAGS -c "$c.c" -o "$c.o"
-    $BOARD_CC $BOARD_CFLAGS "-DPRICE_SCENE=p${n}_$1" "-DPRICE_WORDS=($words)" \
-        "-DPRICE_OUTPUTS=$((outputs > 0 ? outputs : 1))" -c boards/programs/size.c -o "$c.image.o"
+    $BOARD_CC $BOARD_CFLAGS "-DPRICE_SCENE=p${n}_$1" -include "$c.h" -c boards/programs/size.c -o "$c.image.o"
     $BOARD_CC $BOARD_LDFLAGS -o "$c.elf" "$c.image.o" "$c.o" $BOARD_OBJECTS "$LIB_BOARD" $BOARD_LDLIBS
     "$BOARD_SIZE" -A "$c.elf" | awk '
         $1 == ".text" || $1 == ".ARM.exidx" { flash += $2 }
@@ -60,7 +50,7 @@ echo "$without $(bytes_of with)" >"$out/$n.bytes"
 # The coordinates after a while, "NAME VALUE" lines: the state's columns stand before their rates.
 last_s=$(awk -v u="$until_s" 'BEGIN { print u < 4 ? u : 4 }')
 state() { # state SIDE STEP_s
-    "$WHIRL" run "$model:p${n}_$1" --quiet --csv - --step "$2" --until "$last_s" --every "$last_s" 2>/dev/null |
+    ask "$1" run --quiet --csv - --step "$2" --until "$last_s" --every "$last_s" 2>/dev/null |
         tr -d '\r' | awk -F, '
             NR == 1 { columns = split($0, name, ",") }
             { last = $0 }

@@ -8,7 +8,7 @@
 # Writes OUT/effects.csv, a line an effect:
 #   board,compiler,flags,mechanism,effect,kind, then without,with of each: instructions a step (median and
 #   largest of STEPS steps), instructions a record (median), flash and RAM bytes of the smallest firmware, stack
-#   bytes, step error; then the worst step of WORST random ones (hybrid effects), and how far the effect
+#   bytes, step error; then the worst step of WORST random ones (effects with contacts), and how far the effect
 #   moves the coordinates
 # and OUT/tables.md, the same for people. Executed instructions, not cycles.
 set -eu
@@ -20,22 +20,9 @@ export WHIRL OUT BOARD_CC BOARD_CFLAGS BOARD_LDFLAGS BOARD_LDLIBS BOARD_OBJECTS 
 
 rm -rf "$OUT"
 mkdir -p "$OUT"
-n=1
-for file in "$@"; do
-    awk -v out="$OUT" -v first="$n" -f "$here/pairs.awk" "$file" >>"$OUT/pairs"
-    n=$(($(wc -l <"$OUT/pairs") + 1))
-done
+"$WHIRL" list --as table "$@" | awk -f "$here/pairs.awk" >"$OUT/pairs"
+n=$(($(wc -l <"$OUT/pairs") + 1))
 # A flexibility is a mechanism of its own: the rig with it against the rig without.
-cat >"$OUT/$n.scenes" <<END
-scene p${n}_without "price" {
-  use eccentric_fixed
-  set duty = 0.6
-}
-scene p${n}_with "price" {
-  use eccentric_coupled
-  set duty = 0.6
-}
-END
 echo "$n eccentric_fixed eccentric_coupled mechanism 0.001 10 core/models/eccentric.whirl" >>"$OUT/pairs"
 
 PAIRS=$n
@@ -43,19 +30,8 @@ export PAIRS
 tr '\n' '\0' <"$OUT/pairs" | xargs -0 -n 1 -P 2 sh "$here/pair.sh"
 
 # All scenes in one program, counted as `make bench` counts.
-{
-    echo '#include "core/scene.h"'
-    for c in $(ls "$OUT" | sed -n 's/^\(p[0-9]*_with.*\)\.c$/\1/p' | sort -V); do
-        echo "extern const wh_scene $c;"
-        echo "    &$c," >>"$OUT/table"
-    done
-    echo 'extern const wh_scene *const wh_scenes[];'
-    echo 'extern const unsigned wh_scene_count;'
-    echo 'const wh_scene *const wh_scenes[] = {'
-    cat "$OUT/table"
-    echo '};'
-    echo 'const unsigned wh_scene_count = sizeof wh_scenes / sizeof wh_scenes[0];'
-} >"$OUT/scenes.c"
+# shellcheck disable=SC2046 # a list of words
+"$here/../count/index.sh" $(ls "$OUT" | sed -n 's/^\(p[0-9]*_with.*\)\.c$/\1/p' | sort -V) >"$OUT/scenes.c"
 count() { # count PROGRAM DEFINES MORE: to OUT/PROGRAM.csv
     # shellcheck disable=SC2086
     $BOARD_CC $BOARD_CFLAGS $2 -c "boards/programs/$1.c" -o "$OUT/$1.o"

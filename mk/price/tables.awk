@@ -35,7 +35,7 @@ function noise_row(n) {
         change(bytes[n, 1], bytes[n, 3]) " | " change(bytes[n, 2], bytes[n, 4]))
 }
 
-function hybrid_row(n) {
+function contact_row(n) {
     row(n, changed(n, "step median") " | " value("p" n "_with", "step maximum") " | " \
         value("p" n "_with", "worst") " | " common(n))
 }
@@ -105,7 +105,7 @@ END {
         " random steps | flash | RAM | step error | moves by |" >tables
     print "|---|---|---|---|---|---|---|---|---|" >tables
     for (n = 1; n <= pairs; n++) {
-        if ((n, 1) in bytes && kind[n] == "hybrid") { hybrid_row(n) }
+        if ((n, 1) in bytes && kind[n] == "contact") { contact_row(n) }
     }
     print "\n### Noise\n" >tables
     print "| mechanism | effect | instructions a step | a record | flash | RAM |" >tables

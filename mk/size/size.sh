@@ -2,8 +2,7 @@
 # size.sh: flash, memory and worst stack of a board's images.
 #
 #   BOARD=mps2-an386 CC=arm-none-eabi-gcc FLAGS="-O2" SIZE=arm-none-eabi-size \
-#   NM=arm-none-eabi-nm OBJECTS=build/mps2-an386 [EMULATE="qemu-system-arm ... -kernel @"] \
-#   size.sh figures.csv ELF...
+#   NM=arm-none-eabi-nm OBJECTS=build/mps2-an386 size.sh figures.csv ELF...
 #
 # Appends rows to figures.csv (with a header if it is new; columns as for instruction counts, the
 # program in place of the scene) and prints a table.
@@ -11,8 +10,6 @@
 #   ram       variables, without the stack
 #   computed  worst stack from the call graph: OBJECTS holds the objects with gcc's .ci files, and
 #             the linker's map beside the image (.map for .elf) says which of them are in it
-#   measured  deepest painted word overwritten, from the "stack NAME BYTES" lines the program prints
-#             when run by EMULATE, in which @ stands for the image; "-" if it prints none
 # Fails on recursion, on a frame of unbounded size, and if the stack's room is too small for the
 # computed worst case.
 set -eu
@@ -61,8 +58,7 @@ worst_stack() {
     sed -n 's/^stack //p' "$work/stack"
 }
 
-printf '%-12s %-12s %8s %8s %9s %9s %9s %11s\n' board program flash ram "stack of" computed \
-    measured "fault stack"
+printf '%-12s %-12s %8s %8s %9s %9s %11s\n' board program flash ram "stack of" computed "fault stack"
 for elf in "$@"; do
     name=$(basename "$elf" .elf)
     "$NM" "$elf" | awk 'NF == 3 && $2 ~ /[tTwW]/ { print $3 }' >"$work/symbols"
@@ -85,19 +81,13 @@ for elf in "$@"; do
     path=$(sed -n 's/^path //p' "$work/stack")
     unknown=$(sed -n 's/^unknown //p' "$work/stack" | tr '\n' ' ')
     fault=$(worst_stack board_fault_report)
-    measured=-
-    if [ -n "${EMULATE:-}" ]; then
-        measured=$(sh -c "$(echo "$EMULATE" | sed "s|@|$elf|")" 2>/dev/null | tr -d '\r' |
-            awk '$1 == "stack" && $NF + 0 > worst { worst = $NF } END { print worst ? worst : "-" }')
-    fi
-    printf '%-12s %-12s %8d %8d %9d %9d %9s %11d\n' "$BOARD" "$name" "$flash" "$ram" "$room" \
-        "$computed" "$measured" "$fault"
+    printf '%-12s %-12s %8d %8d %9d %9d %11d\n' "$BOARD" "$name" "$flash" "$ram" "$room" \
+        "$computed" "$fault"
     echo "             deepest: $path"
     [ -z "$unknown" ] || echo "             without a figure: $unknown"
     row "flash bytes" "$flash"
     row "ram bytes (without stack)" "$ram"
     row "stack bytes (computed)" "$computed"
-    [ "$measured" = - ] || row "stack bytes (measured)" "$measured"
     if [ "$computed" -gt "$room" ]; then
         echo "size.sh: $elf: the stack needs $computed bytes and has $room" >&2
         touch "$work/failed"

@@ -67,42 +67,32 @@ T = m*X'^2/2 + J*phi'^2/2 + 0.1 [kg*m]*X'*phi'*cos(phi)
 Q(X) = f
 END
 for file in core/models/*.whirl "$scratch/everything.whirl"; do
+    "$whirl" list --as table "$file" >"$scratch/table" || exit 1
     # Scenes with effects need them; those without must be in both files.
+    awk -F '\t' '$1 == "effect" || $1 == "scene" && $7 != "-" && $7 != "ledger" { print $5 "," $6 "d" }' \
+        "$scratch/table" >"$scratch/cut"
     cp "$file" "$scratch/with/model.whirl"
-    plain=$("$whirl" list | awk '$1 == "scene" { print $2 }' | while read -r scene; do
-        awk -v scene="$scene" '
-            $1 == "scene" { inside = $2 == scene; found = found || inside }
-            inside && $1 == "with" { with = 1 }
-            END { if (found && !with) print scene }' "$file"
-    done)
-    awk -v drop="effect" -f mk/price/strip.awk "$file" >"$scratch/stripped.whirl"
-    awk -v keep=" $(echo "$plain" | tr '\n' ' ') " '
-        $1 == "scene" { dropping = index(keep, " " $2 " ") == 0 }
-        !dropping { print }
-        dropping && /^}/ { dropping = 0 }' "$scratch/stripped.whirl" >"$scratch/without/model.whirl"
+    sed -f "$scratch/cut" "$file" >"$scratch/without/model.whirl"
+    ! "$whirl" list --as table "$scratch/without/model.whirl" | cut -f 1 | grep -q '^effect$'
+    verdict $? "$(basename "$file"): no effect is left"
 
-    for name in $(awk '$1 == "mechanism" { print $2 }' "$file") $plain; do
-        board=yes
-        case " $(echo "$plain" | tr '\n' ' ') " in *" $name "*) board=no ;; esac
-        same "$name" "$board"
+    for name in $(awk -F '\t' '$1 == "mechanism" { print $2 }' "$scratch/table"); do
+        same "$name" yes
+        verdict $? "$name: the same object with and without effects in the file"
+    done
+    for name in $(awk -F '\t' '$1 == "scene" && ($7 == "-" || $7 == "ledger") { print $2 }' "$scratch/table"); do
+        same "$name" no
         verdict $? "$name: the same object with and without effects in the file"
     done
 
-    mechanism=
-    for word in $(awk '$1 == "mechanism" || $1 == "effect" { print $1 "=" $2 }' "$file"); do
-        case $word in
-        mechanism=*)
-            mechanism=${word#*=}
-            code "$file:$mechanism" >"$scratch/none.c" 2>&1
-            ;;
-        effect=*)
-            stripped=$((stripped + 1))
-            code "$file:$mechanism" --with "${word#*=}" >"$scratch/one.c" 2>&1
-            ! cmp -s "$scratch/none.c" "$scratch/one.c" && [ -s "$scratch/one.c" ]
-            verdict $? "$mechanism with ${word#*=}: other code than without"
-            ;;
-        esac
-    done
+    awk -F '\t' '$1 == "effect" { print $3, $2 }' "$scratch/table" >"$scratch/effects"
+    while read -r mechanism effect; do
+        stripped=$((stripped + 1))
+        code "$file:$mechanism" >"$scratch/none.c" 2>&1
+        code "$file:$mechanism" --with "$effect" >"$scratch/one.c" 2>&1
+        ! cmp -s "$scratch/none.c" "$scratch/one.c" && [ -s "$scratch/one.c" ]
+        verdict $? "$mechanism with $effect: other code than without"
+    done <"$scratch/effects"
 done
 
 [ "$stripped" -ge 20 ] && [ "$checks" -ge 60 ]

@@ -31,7 +31,7 @@ static void hand_signals(const void *model, const wh_phase *phase, const wh_real
                          const wh_real *rate, const wh_real *input, wh_real *result) {
     const hand *m = model;
     (void)phase;
-    for (unsigned k = 0; k < m->hybrid.contacts; k++) {
+    for (unsigned k = 0; k < m->system.contacts; k++) {
         result[2 * k] = along(m, k, linear) - m->law[k].offset;
         result[2 * k + 1] = along(m, k, rate);
         if (m->contact[k].kind == WH_HOLD) {
@@ -49,7 +49,7 @@ static void hand_forces(const void *model, const wh_phase *phase, const wh_real 
     (void)linear;
     (void)rate;
     (void)input;
-    for (unsigned k = 0; k < m->hybrid.forced; k++) {
+    for (unsigned k = 0; k < m->system.forced; k++) {
         wh_real *law = result + k * (WH_LAW_ROWS + 2 * m->n);
         law[WH_LAW_FIRST] = m->law[k].first;
         law[WH_LAW_SECOND] = m->law[k].second;
@@ -101,7 +101,7 @@ static void hand_levels(const void *model, const wh_angle *angle, const wh_real 
 
 static wh_status hand_advance(const wh_scene *scene, wh_state *state) {
     const hand *m = scene->model;
-    return wh_step_contact(&m->hybrid, scene->step_s, state);
+    return wh_step_contact(&m->system, scene->step_s, state);
 }
 
 /* --- its scenes ------------------------------------------------------------------------------------ */
@@ -126,8 +126,8 @@ void hand_build(unsigned n, wh_real m00, wh_real m01, wh_real m11) {
 
 unsigned hand_add(wh_contact_kind kind, int pin, wh_real row0, wh_real row1, wh_real offset,
                   wh_real first, wh_real second) {
-    const unsigned k = hand_now.hybrid.contacts++;
-    hand_now.hybrid.forced = (uint8_t)(hand_now.hybrid.forced + (kind != WH_WHEN));
+    const unsigned k = hand_now.system.contacts++;
+    hand_now.system.forced = (uint8_t)(hand_now.system.forced + (kind != WH_WHEN));
     hand_now.contact[k] = (wh_contact){(uint8_t)kind, 0, (int16_t)pin, 0, kind == WH_WHEN};
     hand_now.law[k].row[0] = row0;
     hand_now.law[k].row[1] = row1;
@@ -140,34 +140,34 @@ unsigned hand_add(wh_contact_kind kind, int pin, wh_real row0, wh_real row1, wh_
 void hand_start(bool with_books) {
     static uint8_t target;
     target = (uint8_t)hand_now.n; /* the first rate */
-    hand_now.hybrid.model = &hand_now;
-    hand_now.hybrid.accel = hand_accel;
-    hand_now.hybrid.signals = hand_signals;
-    hand_now.hybrid.forces = hand_forces;
-    hand_now.hybrid.sets = hand_sets;
-    hand_now.hybrid.contact = hand_now.contact;
-    hand_now.hybrid.target = &target;
-    hand_now.hybrid.method = WH_RK4;
-    hand_now.hybrid.coordinates = (uint8_t)hand_now.n;
+    hand_now.system.model = &hand_now;
+    hand_now.system.accel = hand_accel;
+    hand_now.system.signals = hand_signals;
+    hand_now.system.forces = hand_forces;
+    hand_now.system.sets = hand_sets;
+    hand_now.system.contact = hand_now.contact;
+    hand_now.system.target = &target;
+    hand_now.system.method = WH_RK4;
+    hand_now.system.coordinates = (uint8_t)hand_now.n;
     hand_books = (wh_ledger_form){
         .model = &hand_now,
         .powers = hand_powers,
         .levels = hand_levels,
         .account = accounts,
         .smooth = (uint16_t)(1 + hand_now.n),
-        .entries = (uint16_t)(1 + hand_now.n + hand_now.hybrid.contacts * (1 + hand_now.n)),
+        .entries = (uint16_t)(1 + hand_now.n + hand_now.system.contacts * (1 + hand_now.n)),
         .accounts = (uint8_t)(1 + hand_now.n),
         .coordinates = (uint8_t)hand_now.n};
-    hand_now.hybrid.ledger = with_books ? &hand_books : NULL;
+    hand_now.system.ledger = with_books ? &hand_books : NULL;
     hand_now.scene = (wh_scene){.name = "hand",
                                 .form = WH_SECOND_ORDER,
                                 .reals = (uint8_t)(2 * hand_now.n),
                                 .inputs = 1,
-                                .contacts = hand_now.hybrid.contacts,
+                                .contacts = hand_now.system.contacts,
                                 .step_s = WH_R(0.001),
                                 .start_real = hand_now.start,
                                 .start_input = &hand_pushed,
-                                .ledger = hand_now.hybrid.ledger,
+                                .ledger = hand_now.system.ledger,
                                 .model = &hand_now,
                                 .advance = hand_advance};
     TEST_ASSERT_TRUE(wh_scene_start(&hand_now.scene, &hand_state, memory, sizeof memory) == WH_OK);

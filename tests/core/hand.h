@@ -24,7 +24,7 @@ typedef struct hand {
         wh_real second; /* mu_kinetic N */
     } law[3];
     wh_contact contact[3];
-    wh_hybrid hybrid;
+    wh_contact_system system;
     wh_real start[4];
     wh_scene scene;
 } hand;

@@ -11,6 +11,7 @@
 
 #include "host/emit/emit.h"
 #include "host/run/engine.h"
+#include "host/show/text.h"
 
 enum { TEXT_SIZE = 16384, UNKNOWNS_MAX = 4, LETS_MAX = 8, CONTACTS = 3, STEPS = 3 };
 
@@ -305,8 +306,8 @@ static void derive(const scene *in, const instance *inst, diags *all, FILE *nowh
         abort();
     }
     if (e != NULL) {
-        emit_text(nowhere, e);
-        emit_latex(nowhere, e);
+        show_text(nowhere, e);
+        show_latex(nowhere, e);
         use(e, NULL, all, nowhere);
         if (in != NULL && diags_count(all) == 0) {
             use(e, in->conserve, all, nowhere);

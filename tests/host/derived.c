@@ -150,11 +150,11 @@ void derived_run(const tape *t, const derived *d, const state_values *s, double 
 
 double state_value(void *context, const symbol *sym, int primes) {
     const state_values *state = context;
-    switch (sym->kind) {
-    case SYM_PARAMETER: return state->instance->parameter[sym->index];
-    case SYM_INPUT: return state->instance->input[sym->index];
-    default: return state->value[sym->index][primes];
+    if (sym->kind == SYM_PARAMETER) {
+        return state->instance->parameter[sym->index];
     }
+    return sym->kind == SYM_INPUT ? state->instance->input[sym->index]
+                                  : state->value[sym->index][primes];
 }
 
 uint64_t random_bits(uint64_t *seed) { /* splitmix64 */

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "host/emit/emit.h"
+#include "host/show/text.h"
 #include "unity.h"
 
 void each_mechanism(checker *check) {
@@ -45,8 +46,8 @@ char *printed(const derived *d, language as) {
     FILE *out = open_memstream(&text, &size);
     TEST_ASSERT_NOT_NULL(out);
     switch (as) {
-    case TEXT: emit_text(out, d->equations); break;
-    case LATEX: emit_latex(out, d->equations); break;
+    case TEXT: show_text(out, d->equations); break;
+    case LATEX: show_latex(out, d->equations); break;
     case OCTAVE: emit_octave(out, d->equations, d->program, "x.whirl"); break;
     }
     fclose(out);

@@ -179,7 +179,7 @@ static int grow(tree *t, uint64_t *seed, int depth) {
         n.number = (double)(random_bits(seed) % 9) / 4.0 - 1.0;
     }
     n.variable = (int)(random_bits(seed) % VARIABLES);
-    n.function = (function_id)(random_bits(seed) % FN_COUNT);
+    n.function = (function_id)(random_bits(seed) % FUNCTIONS);
     if (n.op == EXPR_POW) {
         n.number = exponents[random_bits(seed) % 8];
     }
@@ -205,7 +205,8 @@ static double applied(const node *n, double a, double b, const double x[VARIABLE
     case EXPR_MUL: return a * b;
     case EXPR_DIV: return a / b;
     case EXPR_POW: return a == 0.0 ? none : pow(a, n->number);
-    default: break;
+    case EXPR_NEG: return -a;
+    case EXPR_CALL: break;
     }
     switch (n->function) {
     case FN_SIN: return sin(a);
@@ -221,8 +222,12 @@ static double applied(const node *n, double a, double b, const double x[VARIABLE
     case FN_ABS: return fabs(a);
     case FN_SIGN: return (double)(a > 0.0) - (double)(a < 0.0);
     case FN_MIN: return fmin(a, b);
-    default: return fmax(a, b);
+    case FN_MAX: return fmax(a, b);
+    case FN_SINH: return sinh(a);
+    case FN_COSH: return cosh(a);
+    case FN_TANH: return tanh(a);
     }
+    return none;
 }
 
 /* NaN as soon as anything inside is not finite: 1/0 may have either sign in the normal form. */
@@ -246,10 +251,10 @@ static const poly *poly_of(algebra *a, const tree *t, int i) {
     case EXPR_MUL: return poly_mul(a, x, y);
     case EXPR_DIV: return poly_mul(a, x, poly_pow(a, y, -1.0));
     case EXPR_POW: return poly_pow(a, x, n->number);
-    default: break;
+    case EXPR_NEG: return poly_scale(a, x, -1.0);
+    case EXPR_CALL: break;
     }
-    const bool two = n->function == FN_ATAN2 || n->function == FN_MIN || n->function == FN_MAX;
-    return poly_call(a, n->function, x, two ? y : NULL);
+    return poly_call(a, n->function, x, function_arguments(n->function) == 2 ? y : NULL);
 }
 
 static double variable_value(void *context, const symbol *sym, int primes) {
@@ -303,7 +308,7 @@ typedef struct tally {
     int values;
     int slopes;
     int substitutions;
-    int functions[FN_COUNT];
+    int functions[FUNCTIONS];
 } tally;
 
 static void check_random(uint64_t *seed, int depth, tally *score) {
@@ -360,7 +365,7 @@ static void test_random_expressions_their_derivatives_and_substitutions(void) {
     TEST_ASSERT_GREATER_THAN_INT(2000, score.values);
     TEST_ASSERT_GREATER_THAN_INT(4000, score.slopes);
     TEST_ASSERT_GREATER_THAN_INT(1500, score.substitutions);
-    for (int f = 0; f < FN_COUNT; f++) {
+    for (int f = 0; f < FUNCTIONS; f++) {
         TEST_ASSERT_GREATER_THAN_INT(100, score.functions[f]);
     }
 }

@@ -12,6 +12,7 @@
 #include "command.h"
 #include "derived.h"
 #include "host/emit/emit.h"
+#include "host/show/text.h"
 #include "mechanism.h"
 #include "unity.h"
 
@@ -93,8 +94,8 @@ static void print_forms(const equations *e, uint64_t *from) {
     size_t size = 0;
     FILE *out = open_memstream(&text, &size);
     TEST_ASSERT_NOT_NULL(out);
-    emit_latex(out, e);
-    emit_text(out, e);
+    show_latex(out, e);
+    show_text(out, e);
     fclose(out);
     free(text);
     const int i = (int)draw(from, (unsigned)e->count);

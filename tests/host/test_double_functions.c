@@ -100,6 +100,11 @@ static double proper(void) { return within(-1.0, 1.0); }
 static double near_one(void) { return either(1.0 - fabs(scaled_between(-53, -1)) / 2.0); }
 static double up_to_twelve(void) { return within(-12.0, 12.0); }
 
+static double sinh_range(void) { return within(-711.0, 711.0); }
+static double overflowing(void) { return either(within(709.0, 711.0)); }
+static double near_series_end(void) { return either(0.25 + scaled_between(-53, -4)); }
+
+/* The core's, and sine and cosine. */
 static const function functions[] = {
     {"exp", wh_exp, expl, {any, exp_range, small, subnormal_exp, next_to_one}},
     {"log", wh_log, logl, {any, positive, about_one, next_to_one, few}},
@@ -109,7 +114,14 @@ static const function functions[] = {
     {"asin", wh_asin, asinl, {any, proper, near_one, small, next_to_one}},
     {"acos", wh_acos, acosl, {any, proper, near_one, small, next_to_one}},
     {"atan", wh_atan, atanl, {any, proper, up_to_twelve, small, next_to_one}},
+    {"sinh", wh_sinh, sinhl, {sinh_range, proper, overflowing, small, near_series_end}},
+    {"cosh", wh_cosh, coshl, {sinh_range, proper, overflowing, small, near_series_end}},
+    {"tanh", wh_tanh, tanhl, {up_to_twelve, proper, many_turns, small, near_series_end}},
 };
+#define ONE_MORE(name) +1
+#define NONE_MORE(name)
+_Static_assert(sizeof functions / sizeof functions[0] == 2 WH_FUNCTIONS(ONE_MORE, NONE_MORE),
+               "every function of core/function.h is held against long double");
 
 static void expect_within_one(const char *name) {
     char line[160];

@@ -116,7 +116,7 @@ static void test_sizes(void) {
 /* In the language what is no number goes through, the signs of numbers come out as 1, 0 and -1. */
 static void test_language(void) {
     const double no_number = (double)NAN;
-    for (int f = 0; f < FN_COUNT; f++) {
+    for (int f = 0; f < FUNCTIONS; f++) {
         TEST_ASSERT_TRUE(isnan(number_call((function_id)f, no_number, no_number)));
     }
     TEST_ASSERT_TRUE(isnan(number_call(FN_MIN, 1.0, no_number)));

@@ -9,7 +9,7 @@
 
 #include "expressions.h"
 #include "formula.h"
-#include "host/emit/show.h"
+#include "host/show/show.h"
 #include "parsed.h"
 #include "printed.h"
 #include "reread.h"

@@ -7,6 +7,7 @@
 
 #include "derived.h"
 #include "host/emit/emit.h"
+#include "host/show/text.h"
 #include "unity.h"
 
 void suite_show_events(void);
@@ -56,9 +57,9 @@ static void expect(void (*print)(FILE *, const derived *), const char *mark, boo
     derived_free(&d);
 }
 
-static void as_text(FILE *out, const derived *d) { emit_text(out, d->equations); }
+static void as_text(FILE *out, const derived *d) { show_text(out, d->equations); }
 
-static void as_latex(FILE *out, const derived *d) { emit_latex(out, d->equations); }
+static void as_latex(FILE *out, const derived *d) { show_latex(out, d->equations); }
 
 static void as_octave(FILE *out, const derived *d) {
     emit_octave(out, d->equations, d->program, "block.whirl");

@@ -34,7 +34,12 @@ static const subject subjects[] = {
     {"tan", 2.0, wh_tan, tan, NULL, NULL},       {"asin", 1.0, wh_asin, asin, NULL, NULL},
     {"acos", 1.0, wh_acos, acos, NULL, NULL},    {"atan", 1.0, wh_atan, atan, NULL, NULL},
     {"atan2", 2.0, NULL, NULL, wh_atan2, atan2}, {"pow", 2.0, NULL, NULL, wh_pow, pow},
+    {"sinh", 1.0, wh_sinh, sinh, NULL, NULL},    {"cosh", 1.0, wh_cosh, cosh, NULL, NULL},
+    {"tanh", 1.0, wh_tanh, tanh, NULL, NULL},
 };
+#define ONE_MORE(name) +1
+_Static_assert(sizeof subjects / sizeof subjects[0] == 0 WH_FUNCTIONS(ONE_MORE, ONE_MORE),
+               "every function of core/function.h is tried");
 
 typedef struct tally {
     uint64_t taken;

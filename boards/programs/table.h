@@ -1,0 +1,17 @@
+/* table.h: the scenes of a program that counts some of them, as mk/count/index.sh writes them. */
+#ifndef BOARDS_PROGRAMS_TABLE_H
+#define BOARDS_PROGRAMS_TABLE_H
+
+#include "core/scene.h"
+
+/* The most that one step evaluates: the accelerations, and the contacts' signals. */
+typedef struct wh_scene_bound {
+    unsigned evaluations;
+    unsigned signals;
+} wh_scene_bound;
+
+extern const wh_scene *const wh_scenes[];
+extern const wh_scene_bound wh_scene_bounds[]; /* of each */
+extern const unsigned wh_scene_count;
+
+#endif

@@ -1,0 +1,237 @@
+/* contact_impact.h: what impulses do: stops that are hit, holds that capture (see contact_resolve.h). */
+#ifndef WH_CONTACT_IMPACT_H
+#define WH_CONTACT_IMPACT_H
+
+#include "contact_project.h"
+
+/* A rate that friction takes away in this share of the step is none: whether it sticks is for the forces to say. */
+#define WH_CONTACT_STILL (WH_DOUBLE ? WH_R(1e-9) : WH_R(1e-4))
+
+/* Gaps that differ by no more than this share of what they are the difference of are closed at the same moment. */
+#define WH_CONTACT_TIE (WH_DOUBLE ? WH_R(0x1p-50) : WH_R(0x1p-21))
+
+/* A moment. */
+typedef struct wh_contact_moment {
+    unsigned events; /* contacts that have one, as bits */
+    unsigned falls;  /* stops that rest no longer, as bits */
+    wh_real h;       /* the step, s */
+    bool last;       /* no more bounces in this step */
+} wh_contact_moment;
+
+/* --- modes --------------------------------------------------------------------------------------- */
+
+/* Give the contacts in `bits` this mode. */
+WH_INLINE void wh_contact_set_modes(const wh_contact_system *of, wh_contact_work *w, unsigned bits,
+                                    int8_t mode) {
+    for (unsigned k = 0; k < of->forced; k++) {
+        w->mode[k] = (bits >> k & 1U) != 0 ? mode : w->mode[k];
+    }
+}
+
+/* Crossings: on which side of zero the value of each in `bits` is; one that is zero stays where it was. */
+WH_INLINE void wh_contact_set_sides(const wh_contact_system *of, wh_contact_work *w, unsigned bits,
+                                    const wh_real *signal) {
+    WH_UNROLL
+    for (unsigned k = of->forced; k < of->contacts; k++) {
+        const wh_real value = signal[2 * k];
+        if ((bits >> k & 1U) != 0 && value != WH_R(0.0)) {
+            w->mode[k] = value > WH_R(0.0) ? 1 : -1;
+        }
+    }
+}
+
+/* The contacts of a kind that hold (1) or do not (0), as bits. */
+WH_INLINE unsigned wh_contact_which(const wh_contact_system *of, const wh_contact_work *w,
+                                    wh_contact_kind kind, bool constrains) {
+    unsigned bits = 0;
+    for (unsigned k = 0; k < of->forced; k++) {
+        const bool is =
+            of->contact[k].kind == kind && wh_contact_constrains(of, w, k) == constrains;
+        bits |= is ? 1U << k : 0U;
+    }
+    return bits;
+}
+
+/* --- velocities ---------------------------------------------------------------------------------- */
+
+/* Would a flight that begins with `speed` be too short, as stop k is pressed? work->law and accel[] must
+ * belong to the state. */
+WH_INLINE bool wh_contact_rests(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
+                                const wh_contact_moment *m, wh_real speed, const wh_real *accel) {
+    const wh_real pressing =
+        -(wh_jacobian_times(of, w, k, accel) + wh_contact_law(of, w, k)[WH_LAW_BIAS]);
+    if (pressing == WH_R(0.0)) {
+        return speed == WH_R(0.0);
+    }
+    return pressing > WH_R(0.0) && (m->last || speed + speed <= pressing * (m->h * WH_REST_SHARE));
+}
+
+/* Of the free stops, those that close and are touched, as near as their gaps are known: they are hit in the same
+ * moment, whichever of them was found first. */
+static inline unsigned wh_contact_tied(const wh_contact_system *of, const wh_contact_work *w,
+                                       wh_real h, const wh_real *signal,
+                                       const wh_contact_state *s) {
+    unsigned bits = 0;
+    for (unsigned k = 0; k < of->forced && of->forced > 1; k++) {
+        const bool free = of->contact[k].kind == WH_STOP && w->mode[k] == WH_FREE;
+        const wh_real way = -signal[2 * k + 1] * (h * WH_BRACKET_FINE) +
+                            WH_CONTACT_TIE * wh_contact_extent(of, w, k, s);
+        bits |= free && signal[2 * k + 1] < WH_R(0.0) && signal[2 * k] <= way ? 1U << k : 0U;
+    }
+    return bits;
+}
+
+/* Free stops, but those in `hits`, that an impulse made close while they are touched, as near as events are located:
+ * they are hit in the next round. `before` and `after` are the signals beside it. */
+WH_INLINE void wh_contact_passed_on(const wh_contact_system *of, wh_contact_work *w, unsigned hits,
+                                    wh_real h, const wh_real *before, const wh_real *after) {
+    for (unsigned l = 0; l < of->forced && of->forced > 1; l++) {
+        const wh_real speed = after[2 * l + 1];
+        const bool free =
+            of->contact[l].kind == WH_STOP && w->mode[l] == WH_FREE && (hits >> l & 1U) == 0;
+        if (free && speed < WH_R(0.0) && speed < before[2 * l + 1] + before[2 * l + 1] &&
+            after[2 * l] <= -speed * (h * WH_BRACKET)) {
+            w->hit_next |= 1U << l;
+        }
+    }
+}
+
+/* Free stops without restitution that are touched and at rest while the rates change along `hits`: nothing presses
+ * them, but they are in the way of what the impact moves. One after the other, two plastic impacts would go on
+ * for ever; with restitution they do not, and are taken so. */
+static inline unsigned wh_contact_beside(const wh_contact_system *of, const wh_contact_work *w,
+                                         unsigned hits, wh_real h, const wh_real *was,
+                                         const wh_real *target, const wh_real *signal,
+                                         const wh_real *rate) {
+    unsigned bits = 0;
+    for (unsigned l = 0; l < of->forced && of->forced > 1; l++) {
+        const bool free =
+            of->contact[l].kind == WH_STOP && w->mode[l] == WH_FREE && (hits >> l & 1U) == 0;
+        for (unsigned k = 0; k < of->forced && free; k++) {
+            if ((hits >> k & 1U) == 0 || wh_contact_law(of, w, l)[WH_LAW_FIRST] > WH_R(0.0)) {
+                continue;
+            }
+            const wh_real passed_on = WH_ABS(wh_delassus(of, w, l, k) * (target[k] - was[k])) /
+                                      wh_delassus_diagonal(of, w, k);
+            const bool touched = signal[2 * l] <= passed_on * (h * WH_BRACKET);
+            const bool rests =
+                WH_ABS(wh_jacobian_times(of, w, l, rate)) <= WH_CONTACT_STILL * passed_on;
+            bits |= touched && rests && passed_on > WH_R(0.0) ? 1U << l : 0U;
+        }
+    }
+    return bits;
+}
+
+/* The restitution of stop k, which must be a number; beyond 0 ... 1 it counts as the nearer end. */
+WH_INLINE wh_real wh_contact_restitution(const wh_contact_system *of, wh_contact_work *w,
+                                         unsigned k) {
+    const wh_real given = wh_contact_law(of, w, k)[WH_LAW_FIRST];
+    wh_contact_expect(w, k, given);
+    return given > WH_R(0.0) ? (given < WH_R(1.0) ? given : WH_R(1.0)) : WH_R(0.0);
+}
+
+/* Stops are hit, all at once: restitution, or rest when the flight that follows would be too short. What is to rest
+ * gets one impulse: two, there and back, would let stops go that the one holds. Those that the impact let go rest on
+ * where their flight would be too short: else a body in a corner would be thrown to and fro without an end. */
+static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_work *w,
+                                      unsigned hits, const wh_contact_moment *m,
+                                      const wh_real *input, wh_contact_state *s, wh_real *impulse) {
+    wh_real accel[WH_COORDS];
+    wh_real signal[2 * WH_CONTACTS_MAX];
+    wh_real before[2 * WH_CONTACTS_MAX];
+    wh_real was[WH_CONTACTS_MAX] = {WH_R(0.0)};
+    wh_real speed[WH_CONTACTS_MAX] = {WH_R(0.0)};
+    wh_real *rate = wh_contact_rates(of, s);
+    const unsigned resting = wh_contact_which(of, w, WH_STOP, true);
+    unsigned closing = 0;
+    unsigned beside = 0;
+    unsigned rest = 0;
+    unsigned leaving = 0;
+    wh_contact_look(of, w, s, input, accel, signal);
+    hits |= wh_contact_tied(of, w, m->h, signal, s);
+    for (unsigned k = 0; k < of->forced; k++) {
+        if ((hits >> k & 1U) != 0) {
+            was[k] = wh_jacobian_times(of, w, k, rate);
+            speed[k] = was[k];
+            if (was[k] < WH_R(0.0)) {
+                closing |= 1U << k;
+                speed[k] *= -wh_contact_restitution(of, w, k);
+                speed[k] = wh_contact_rests(of, w, k, m, speed[k], accel) ? WH_R(0.0) : speed[k];
+            }
+        }
+    }
+    if (closing != 0) {
+        beside = wh_contact_beside(of, w, closing, m->h, was, speed, signal, rate);
+        const unsigned released = wh_contact_impulses(of, w, closing, beside, speed, rate, impulse);
+        wh_contact_set_modes(of, w, released, WH_FREE);
+        for (unsigned i = 0; i < 2U * of->forced; i++) {
+            before[i] = signal[i];
+        }
+        wh_contact_look(of, w, s, input, accel, signal);
+        wh_contact_passed_on(of, w, closing, m->h, before, signal);
+        for (unsigned k = 0; k < of->forced && of->forced > 1; k++) {
+            if ((closing & released) >> k & 1U) { /* others push it further */
+                speed[k] = wh_jacobian_times(of, w, k, rate);
+            }
+        }
+    }
+    for (unsigned k = 0; k < of->forced; k++) {
+        if ((hits >> k & 1U) != 0 && wh_contact_rests(of, w, k, m, speed[k], accel)) {
+            rest |= 1U << k;
+            leaving |= speed[k] > WH_R(0.0) ? 1U << k : 0U;
+        }
+        speed[k] = WH_R(0.0);
+    }
+    if (leaving != 0) {
+        const unsigned released = wh_contact_impulses(of, w, leaving, beside, speed, rate, impulse);
+        wh_contact_set_modes(of, w, released, WH_FREE);
+    }
+    wh_contact_place place = WH_CONTACT_HERE;
+    for (unsigned k = 0; k < of->forced; k++) {
+        if ((rest >> k & 1U) != 0 && was[k] == WH_R(0.0) && signal[2 * k] < WH_R(0.0)) {
+            place.but =
+                wh_contact_stuck(of, w); /* at rest beyond it: friction does not hold it there */
+        }
+    }
+    wh_contact_set_modes(of, w, rest, WH_ACTIVE);
+    unsigned gone = resting & ~wh_contact_which(of, w, WH_STOP, true);
+    for (unsigned k = 0; k < of->forced && gone != 0; k++) {
+        const bool stays = (gone >> k & 1U) != 0 &&
+                           wh_contact_rests(of, w, k, m, wh_jacobian_times(of, w, k, rate), accel);
+        gone &= stays ? ~0U : ~(1U << k);
+    }
+    wh_contact_set_modes(of, w, gone, WH_ACTIVE);
+    if (gone != 0) {
+        wh_contact_project_rates(of, w, 0, true, rate);
+    }
+    if ((rest | gone) != 0) {
+        (void)wh_contact_project_places(of, w, &place, signal, input, s);
+    }
+    return hits;
+}
+
+/* Holds capture, all at once. */
+static inline void wh_contact_captures(const wh_contact_system *of, wh_contact_work *w,
+                                       unsigned holds, wh_real h, const wh_real *input,
+                                       wh_contact_state *s, wh_real *impulse) {
+    wh_real accel[WH_COORDS];
+    wh_real before[2 * WH_CONTACTS_MAX];
+    wh_real after[2 * WH_CONTACTS_MAX];
+    wh_real zero[WH_CONTACTS_MAX] = {WH_R(0.0)};
+    wh_contact_point at;
+    wh_contact_set_modes(of, w, holds, WH_ACTIVE);
+    wh_contact_look(of, w, s, input, accel, before);
+    for (unsigned k = 0; k < of->forced; k++) {
+        if ((holds >> k & 1U) != 0) {
+            wh_contact_capture(of, w, k);
+        }
+    }
+    const unsigned released =
+        wh_contact_impulses(of, w, holds, 0, zero, wh_contact_rates(of, s), impulse);
+    wh_contact_set_modes(of, w, released, WH_FREE);
+    wh_contact_point_of(of, s, &at);
+    wh_contact_signals(of, at.phase, at.linear, at.rate, input, after);
+    wh_contact_passed_on(of, w, 0, h, before, after);
+}
+
+#endif

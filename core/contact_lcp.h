@@ -1,0 +1,346 @@
+/* contact_lcp.h: how contacts share a load, each within what it can take (see contact.h).
+ *
+ * A resting stop pushes and does not pull, and what sticks takes no more than its static friction. So the
+ * forces of the contacts that hold something solve a linear complementarity problem with limits on both sides,
+ *
+ *     a = J M^-1 J^T lambda - wanted,   low <= lambda <= high,
+ *     a_k = 0 between the limits, a_k >= 0 at the low one (it gives way), a_k <= 0 at the high one
+ *
+ * with the Delassus matrix J M^-1 J^T. Normal forces do not depend on lambda, so this is a convex problem: its
+ * accelerations are unique. Its forces are, too, unless contacts repeat what others hold. With impulses for forces and
+ * rates for accelerations it is the impact's problem (Moreau; Pfeiffer & Glocker, chapter 8).
+ *
+ * It is solved by principal pivoting, the least index first (Murty, Linear Complementarity, Linear and Nonlinear
+ * Programming, chapters 2 to 4; Judice & Pires 1994 for limits on both sides), from the modes as they are: in the
+ * first round all that holds goes on holding. That is proved to end where the matrix is a P-matrix, which it is if no
+ * rows repeat each other. Where they do it is only semidefinite: what repeats is then left out of the round's
+ * elimination, which makes each round well posed, but which rows those are changes from round to round and the
+ * proof does not carry over (Lemke's method or Cottle and Dantzig's would be proved there, for more rounds and other
+ * forces among those that are possible). So the rounds are capped at 4 n + 1, and a step that meets the cap counts as
+ * an overrun; none was seen (tests/core/test_lcp.c). */
+#ifndef WH_CONTACT_LCP_H
+#define WH_CONTACT_LCP_H
+
+#include "contact_ledger.h"
+
+/* Beyond any force: no limit. */
+#define WH_LIMITLESS WH_R(1e30)
+
+/* What counts as rounding beside the terms of a sum. */
+#define WH_CONTACT_ROUNDING (WH_DOUBLE ? WH_R(1e-11) : WH_R(1e-5))
+
+/* Forces and accelerations below this share of what they are the difference of are none: what rests beside others
+ * with nothing that presses it would be let go and hit again for ever, by rounding. */
+#define WH_CONTACT_QUIET (WH_DOUBLE ? WH_R(1e-13) : WH_R(2e-6))
+
+/* A path that bends by less than this share of the accelerations there are is followed by nobody: what is left of a
+ * rate that has come to zero, squared. */
+#define WH_CONTACT_CREEP (WH_DOUBLE ? WH_R(1e-22) : WH_R(1e-12))
+
+/* By what share of its limit a force that is beyond it by less than its rounding is put beyond it. */
+#define WH_CONTACT_SHOWS WH_R(0.001)
+
+/* Its diagonal: the factor of k's own force in its acceleration. */
+WH_INLINE wh_real wh_delassus_diagonal(const wh_contact_system *of, const wh_contact_work *w,
+                                       unsigned k) {
+    return wh_delassus(of, w, k, k);
+}
+
+/* Solve sum_l (J_k M^-1 J_l^T) lambda_l = wanted_k for the `count` contacts in member[], by elimination
+ * without pivoting: the matrix is positive definite, but for contacts that repeat what others hold
+ * already, which get nothing to do. Returns those, as bits of their places in member[]. Those with at[]
+ * other than zero get nothing, too; at may be NULL. */
+static inline unsigned wh_delassus_eliminate(const wh_contact_system *of, const wh_contact_work *w,
+                                             const uint8_t *member, unsigned count,
+                                             const int8_t *at, const wh_real *wanted,
+                                             wh_real *lambda) {
+    wh_real matrix[WH_CONTACTS_MAX][WH_CONTACTS_MAX] = {{WH_R(0.0)}};
+    bool idle[WH_CONTACTS_MAX] = {false};
+    unsigned repeats = 0;
+    for (unsigned r = 0; r < count; r++) {
+        lambda[r] = wanted[r];
+        for (unsigned c = 0; c < count; c++) {
+            matrix[r][c] = wh_delassus(of, w, member[r], member[c]);
+        }
+    }
+    for (unsigned p = 0; p < count; p++) {
+        const bool fixed = at != NULL && at[p] != 0;
+        const bool none =
+            !(matrix[p][p] > WH_CONTACT_ROUNDING * wh_delassus_diagonal(of, w, member[p]));
+        idle[p] = fixed || none;
+        repeats |= none && !fixed ? 1U << p : 0U;
+        for (unsigned r = p + 1; r < count && !idle[p]; r++) {
+            const wh_real factor = matrix[r][p] / matrix[p][p];
+            for (unsigned c = p; c < count; c++) {
+                matrix[r][c] -= factor * matrix[p][c];
+            }
+            lambda[r] -= factor * lambda[p];
+        }
+    }
+    for (unsigned p = count; p-- > 0;) {
+        wh_real sum = lambda[p];
+        for (unsigned c = p + 1; c < count; c++) {
+            sum -= matrix[p][c] * lambda[c];
+        }
+        lambda[p] = idle[p] ? WH_R(0.0) : sum / matrix[p][p];
+    }
+    return repeats;
+}
+
+/* The same, without the machinery where nothing or one thing is held: most steps of most scenes. */
+WH_INLINE unsigned wh_delassus_solve(const wh_contact_system *of, const wh_contact_work *w,
+                                     const uint8_t *member, unsigned count, const int8_t *at,
+                                     const wh_real *wanted, wh_real *lambda) {
+    if (count == 0) {
+        return 0;
+    }
+    if (of->forced == 1 || count == 1) {
+        const wh_real yield = wh_delassus_diagonal(of, w, member[0]);
+        lambda[0] = yield > WH_R(0.0) ? wanted[0] / yield : WH_R(0.0);
+        return yield > WH_R(0.0) ? 0U : 1U;
+    }
+    return wh_delassus_eliminate(of, w, member, count, at, wanted, lambda);
+}
+
+/* What of a sum whose terms have the sizes a, b and c may be rounding. */
+WH_INLINE wh_real wh_contact_rounding(wh_real a, wh_real b, wh_real c) {
+    return WH_CONTACT_ROUNDING * (WH_ABS(a) + WH_ABS(b) + WH_ABS(c));
+}
+
+/* Contacts that repeat what others hold may still contradict them: at a dead centre two rows are parallel,
+ * but the path that the one keeps bends and that of the other does not, so that the one must let go; in an impact
+ * two stops on one path may bounce differently. Which way is each of `repeats` (bits of places in member[]) to push:
+ * 1, -1, or 0 where it agrees? way[] is what all forces (or impulses) make of the accelerations (or rates). What
+ * bends a path, J' q', is looked at by itself too: beside the other accelerations a slow passage would drown in
+ * their rounding. */
+static inline void wh_contact_contradicts(const wh_contact_system *of, const wh_contact_work *w,
+                                          const uint8_t *member, unsigned count, const int8_t *at,
+                                          unsigned repeats, bool forces, const wh_real *wanted,
+                                          const wh_real *way, int8_t *push) {
+    wh_real bend[WH_CONTACTS_MAX] = {WH_R(0.0)};
+    wh_real lambda[WH_CONTACTS_MAX];
+    wh_real bent[WH_COORDS] = {WH_R(0.0)};
+    if (forces) {
+        for (unsigned i = 0; i < count; i++) {
+            bend[i] = -wh_contact_law(of, w, member[i])[WH_LAW_BIAS];
+        }
+        (void)wh_delassus_solve(of, w, member, count, at, bend, lambda);
+        for (unsigned i = 0; i < count; i++) {
+            wh_contact_apply(of, w, member[i], lambda[i], bent);
+        }
+    }
+    for (unsigned i = 0; i < count; i++) {
+        push[i] = 0;
+        if ((repeats >> i & 1U) != 0) {
+            const wh_real size = forces ? w->rough[i] : wanted[i];
+            const wh_real made = wh_jacobian_times(of, w, member[i], way);
+            const wh_real missing = wanted[i] - made;
+            const wh_real made_bent = wh_jacobian_times(of, w, member[i], bent);
+            const wh_real missing_bend = bend[i] - made_bent;
+            const bool plain = WH_ABS(missing) > wh_contact_rounding(size, made, WH_R(0.0));
+            const bool bends =
+                WH_ABS(missing_bend) > wh_contact_rounding(bend[i], made_bent, WH_R(0.0)) &&
+                WH_ABS(missing_bend) > WH_CONTACT_CREEP * size;
+            const wh_real short_of = plain ? missing : bends ? missing_bend : WH_R(0.0);
+            push[i] = (int8_t)((short_of > WH_R(0.0)) - (short_of < WH_R(0.0)));
+        }
+    }
+}
+
+/* Between what and what contact k can push. */
+WH_INLINE wh_real wh_contact_high(const wh_contact_system *of, const wh_contact_work *w,
+                                  unsigned k) {
+    return wh_contact_is(of, k, WH_LIMITED) ? wh_contact_law(of, w, k)[WH_LAW_FIRST] : WH_LIMITLESS;
+}
+
+WH_INLINE wh_real wh_contact_low(const wh_contact_system *of, const wh_contact_work *w,
+                                 unsigned k) {
+    return wh_contact_is(of, k, WH_UNILATERAL) ? WH_R(0.0) : -wh_contact_high(of, w, k);
+}
+
+/* Is contact k's force beyond what it can take? */
+WH_INLINE bool wh_contact_exceeds(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
+                                  wh_real lambda) {
+    return lambda < wh_contact_low(of, w, k) || lambda > wh_contact_high(of, w, k);
+}
+
+/* Beside what sizes the accelerations along each member's row are rounding, into work->rough: its own terms, and what
+ * the rounding of the others' forces makes of it. accel[] is what all forces together leave. */
+static inline void wh_contact_magnitudes(const wh_contact_system *of, wh_contact_work *w,
+                                         const uint8_t *member, unsigned count,
+                                         const wh_real *accel) {
+    for (unsigned i = 0; i < count; i++) {
+        const wh_real *row = wh_contact_law(of, w, member[i]) + WH_LAW_ROWS;
+        w->rough[i] = WH_ABS(wh_contact_law(of, w, member[i])[WH_LAW_BIAS]);
+        for (unsigned c = 0; c < of->coordinates; c++) {
+            wh_real size = WH_ABS(accel[c]);
+            for (unsigned l = 0; l < of->forced; l++) {
+                const wh_real *way = wh_contact_law(of, w, l) + WH_LAW_ROWS + of->coordinates;
+                size += WH_ABS(way[c] * w->force[l]);
+            }
+            w->rough[i] += WH_ABS(row[c]) * size;
+        }
+    }
+    /* from one to the next, through chains of bodies; no round makes more of what comes back (Cauchy, Schwarz) */
+    for (unsigned round = 0; round < count; round++) {
+        for (unsigned i = 0; i < count; i++) {
+            for (unsigned l = 0; l < count; l++) {
+                const wh_real yield = wh_delassus_diagonal(of, w, member[l]);
+                const wh_real *way =
+                    wh_contact_law(of, w, member[l]) + WH_LAW_ROWS + of->coordinates;
+                const wh_real along =
+                    WH_ABS(wh_jacobian_times(of, w, member[i], way)) * w->rough[l];
+                if (l != i && along > w->rough[i] * yield) {
+                    w->rough[i] = along / yield;
+                }
+            }
+        }
+    }
+}
+
+/* Which contact gives way to `i`, that repeats what others hold and is to push the way `push`? Friction does so
+ * itself, at its limit, and a stop that would have to pull; for a stop that must push more, or a hold, it is
+ * another stop. Returns its place in member[] and its limit, or count. */
+static inline unsigned wh_contact_gives_way(const wh_contact_system *of, const wh_contact_work *w,
+                                            const uint8_t *member, unsigned count, const int8_t *at,
+                                            unsigned i, int8_t push, int8_t *limit) {
+    const bool pulls = wh_contact_is(of, member[i], WH_UNILATERAL) && push < 0;
+    *limit = push;
+    if (wh_contact_is(of, member[i], WH_LIMITED) || pulls) {
+        return i;
+    }
+    *limit = -1;
+    for (unsigned j = 0; j < count; j++) {
+        const bool other = j != i && at[j] == 0 && wh_contact_is(of, member[j], WH_UNILATERAL);
+        if (other && wh_delassus(of, w, member[i], member[j]) != WH_R(0.0)) {
+            return j;
+        }
+    }
+    return count;
+}
+
+/* One round of the pivoting: the forces lambda[] of those within their limits, with the others at theirs, which
+ * at[] says (-1: the low, 1: the high one), and `way`, what all of them make of the accelerations. Returns those
+ * that repeat what others hold, as bits of places. */
+static inline unsigned wh_contact_lcp_round(const wh_contact_system *of, const wh_contact_work *w,
+                                            const uint8_t *member, unsigned count, const int8_t *at,
+                                            const wh_real *wanted, wh_real *lambda, wh_real *way) {
+    wh_real limit[WH_CONTACTS_MAX] = {WH_R(0.0)};
+    wh_real need[WH_CONTACTS_MAX] = {WH_R(0.0)};
+    for (unsigned i = 0; i < count; i++) {
+        if (at[i] != 0) {
+            limit[i] =
+                at[i] < 0 ? wh_contact_low(of, w, member[i]) : wh_contact_high(of, w, member[i]);
+            wh_contact_apply(of, w, member[i], limit[i], way);
+        }
+    }
+    for (unsigned i = 0; i < count; i++) {
+        need[i] = wanted[i] - wh_jacobian_times(of, w, member[i], way);
+    }
+    const unsigned repeats = wh_delassus_solve(of, w, member, count, at, need, lambda);
+    for (unsigned i = 0; i < count; i++) {
+        if (at[i] != 0) {
+            lambda[i] = limit[i];
+        } else {
+            wh_contact_apply(of, w, member[i], lambda[i], way);
+        }
+    }
+    return repeats;
+}
+
+/* What of the residual of member[i], k, which is at a limit, may be rounding. */
+WH_INLINE wh_real wh_contact_residual_rounding(const wh_contact_system *of,
+                                               const wh_contact_work *w, unsigned i, unsigned k,
+                                               bool forces, wh_real wanted, wh_real made,
+                                               wh_real lambda) {
+    return wh_contact_rounding(wanted, made, lambda * wh_delassus_diagonal(of, w, k)) +
+           (forces ? WH_CONTACT_QUIET * w->rough[i] : WH_R(0.0));
+}
+
+/* The problem of one contact: within its limits, or at the nearer. */
+WH_INLINE unsigned wh_contact_lcp_one(const wh_contact_system *of, const wh_contact_work *w,
+                                      unsigned k, wh_real wanted, bool forces, wh_real *lambda,
+                                      wh_real *left) {
+    const uint8_t member[1] = {(uint8_t)k};
+    (void)wh_delassus_solve(of, w, member, 1, NULL, &wanted, lambda);
+    *left = WH_R(0.0);
+    if (!wh_contact_exceeds(of, w, k, *lambda)) {
+        return 0;
+    }
+    const bool low = *lambda < wh_contact_low(of, w, k);
+    *lambda = low ? wh_contact_low(of, w, k) : wh_contact_high(of, w, k);
+    const wh_real made = wh_delassus_diagonal(of, w, k) * *lambda;
+    const wh_real rounding =
+        wh_contact_residual_rounding(of, w, 0, k, forces, wanted, made, *lambda);
+    *left = made - wanted;
+    return (low ? *left : -*left) > rounding ? 1U << k : 0U;
+}
+
+/* The forces (or impulses) lambda[count] of the contacts in member[] within their limits, and left[count],
+ * what they leave of the accelerations (or rates). `forces`: not impulses. Returns the contacts that give
+ * way, as bits. */
+static inline unsigned wh_contact_lcp(const wh_contact_system *of, wh_contact_work *w,
+                                      const uint8_t *member, unsigned count, const wh_real *wanted,
+                                      bool forces, wh_real *lambda, wh_real *left) {
+    if (of->forced == 1 || count == 1) {
+        return wh_contact_lcp_one(of, w, member[0], wanted[0], forces, lambda, left);
+    }
+    int8_t at[WH_CONTACTS_MAX] = {0}; /* -1, 1: at the low, at the high limit */
+    unsigned contradicted = 0;        /* those in `at` for what they repeat, as bits of places */
+    unsigned giving = 0;
+    unsigned wrong = 0;
+    for (unsigned round = 0; wrong < count; round++) {
+        wh_real way[WH_COORDS] = {WH_R(0.0)};
+        int8_t push[WH_CONTACTS_MAX] = {0};
+        const unsigned repeats =
+            wh_contact_lcp_round(of, w, member, count, at, wanted, lambda, way);
+        if (repeats != 0) {
+            wh_contact_contradicts(of, w, member, count, at, repeats, forces, wanted, way, push);
+        }
+        int8_t to = 0;
+        wrong = count;
+        giving = 0;
+        for (unsigned i = count; i-- > 0;) {
+            const unsigned k = member[i];
+            left[i] = WH_R(0.0);
+            if (at[i] == 0) {
+                if (wh_contact_exceeds(of, w, k, lambda[i])) {
+                    wrong = i;
+                    to = lambda[i] < wh_contact_low(of, w, k) ? -1 : 1;
+                }
+                continue;
+            }
+            const wh_real made = wh_jacobian_times(of, w, k, way);
+            const wh_real rounding =
+                wh_contact_residual_rounding(of, w, i, k, forces, wanted[i], made, lambda[i]);
+            left[i] = made - wanted[i];
+            const wh_real outwards = at[i] < 0 ? left[i] : -left[i];
+            if (outwards < -rounding) {
+                wrong = i;
+                to = 0;
+            } else if (outwards > rounding) {
+                giving |= 1U << k;
+            } else if ((contradicted >> i & 1U) != 0) { /* by less than shows here */
+                left[i] = at[i] < 0 ? rounding : -rounding;
+                giving |= 1U << k;
+            }
+        }
+        for (unsigned i = 0; i < count && wrong == count; i++) {
+            if (push[i] != 0) {
+                wrong = wh_contact_gives_way(of, w, member, count, at, i, push[i], &to);
+                contradicted |= wrong < count ? 1U << wrong : 0U;
+            }
+        }
+        if (wrong < count && round == 4U * count) {
+            w->capped = true;
+            break;
+        }
+        if (wrong < count) {
+            at[wrong] = to;
+            contradicted &= to == 0 ? ~(1U << wrong) : ~0U;
+        }
+    }
+    return giving;
+}
+
+#endif

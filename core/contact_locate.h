@@ -1,0 +1,244 @@
+/* contact_locate.h: finding and taking the events of a step (see contact.h). */
+#ifndef WH_CONTACT_LOCATE_H
+#define WH_CONTACT_LOCATE_H
+
+#include "contact_forces.h"
+
+/* What an event search knows of each contact: above zero, its event has not happened. */
+typedef struct wh_margins {
+    wh_real value[WH_CONTACTS_MAX];
+    wh_real signal[2 * WH_CONTACTS_MAX];
+    wh_real all; /* sum of all that is looked at: no finite number if one of it is none */
+} wh_margins;
+
+/* The place at the share `s` of the way from `from` to `to`, which are h apart: positions by the cubic
+ * through both ends' positions and rates, rates by the cubic through both ends' rates and accelerations a0
+ * and a1. (The slope of the first would be of an order less, and magnify the positions' rounding by 1/h.) */
+static inline void wh_contact_between(const wh_contact_system *of, wh_contact_state *from,
+                                      wh_contact_state *to, const wh_real *a0, const wh_real *a1,
+                                      wh_real h, wh_real s, wh_contact_point *at) {
+    const wh_real *v0 = wh_contact_rates(of, from);
+    const wh_real *v1 = wh_contact_rates(of, to);
+    const wh_real rest = WH_R(1.0) - s;
+    const wh_real far = s * s * (WH_R(3.0) - WH_R(2.0) * s);
+    const wh_real near0 = h * s * rest * rest;
+    const wh_real near1 = -h * s * s * rest;
+    for (unsigned i = 0; i < of->coordinates; i++) {
+        wh_real way; /* rad or m */
+        if (i < of->angles) {
+#if WH_DOUBLE
+            way = to->angle[i] - from->angle[i];
+#else
+            way = (wh_real)(int64_t)((uint64_t)to->angle[i] - (uint64_t)from->angle[i]) /
+                  WH_PHASE_PER_RAD;
+#endif
+        } else {
+            way = to->real[i - of->angles] - from->real[i - of->angles];
+        }
+        const wh_real moved = way * far + near0 * v0[i] + near1 * v1[i];
+        at->rate[i] = v0[i] + (v1[i] - v0[i]) * far + near0 * a0[i] + near1 * a1[i];
+        if (i < of->angles) {
+            at->phase[i] = wh_phase_of(from->angle[i]);
+            (void)wh_phase_move(at->phase[i], moved * WH_PHASE_PER_RAD, &at->phase[i]);
+        } else {
+            at->linear[i - of->angles] = from->real[i - of->angles] + moved;
+        }
+    }
+}
+
+/* The margin of a force that is beyond its limit, or zero where that may be the rounding of the others' forces, as
+ * far as they act along k: asked only where it is. */
+static inline wh_real wh_contact_beyond(const wh_contact_system *of, const wh_contact_work *w,
+                                        unsigned k, wh_real margin) {
+    wh_real others = WH_R(0.0);
+    if (margin < WH_R(0.0)) {
+        for (unsigned l = 0; l < of->forced && of->forced > 1; l++) {
+            const wh_real *way = wh_contact_law(of, w, l) + WH_LAW_ROWS + of->coordinates;
+            others += l != k ? WH_ABS(wh_jacobian_times(of, w, k, way) * w->force[l]) : WH_R(0.0);
+        }
+        const bool rounding = -margin * wh_delassus_diagonal(of, w, k) <= WH_CONTACT_QUIET * others;
+        return rounding ? WH_R(0.0) : margin;
+    }
+    return margin;
+}
+
+/* Does any contact's event depend on its force? */
+WH_INLINE bool wh_contact_watched(const wh_contact_system *of, const wh_contact_work *w) {
+    WH_UNROLL
+    for (unsigned k = 0; k < of->forced; k++) {
+        if (of->contact[k].kind != WH_HOLD && wh_contact_constrains(of, w, k)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The margins at a place, and work->force with them where it matters. */
+static inline void wh_contact_margins(const wh_contact_system *of, wh_contact_work *w,
+                                      const wh_contact_point *at, const wh_real *input,
+                                      wh_margins *m) {
+    wh_contact_signals(of, at->phase, at->linear, at->rate, input, m->signal);
+    if (wh_contact_watched(of, w)) {
+        const wh_contact_model model = {of, w};
+        wh_real accel[WH_COORDS];
+        wh_contact_accel(&model, at->phase, at->linear, at->rate, input, accel);
+    }
+    wh_real all = WH_R(0.0);
+    WH_UNROLL
+    for (unsigned k = 0; k < of->contacts; k++) {
+        const wh_real signal = m->signal[2 * k];
+        const wh_real speed = m->signal[2 * k + 1];
+        const int8_t mode = w->mode[k];
+        wh_real margin = WH_R(1.0);
+        switch (of->contact[k].kind) {
+        case WH_STOP:
+            if (mode == WH_ACTIVE) {
+                margin = wh_contact_beyond(of, w, k, w->force[k]);
+            } else { /* one that began closed may be on its way out */
+                const bool leaves = (w->inside >> k & 1U) != 0 && speed > WH_R(0.0);
+                margin = signal < WH_R(0.0) && leaves ? -signal : signal;
+            }
+            break;
+        case WH_HOLD: margin = mode == WH_ACTIVE ? signal : -signal; break;
+        case WH_FRICTION:
+            if (mode == WH_STUCK) {
+                all += wh_contact_law(of, w, k)[WH_LAW_FIRST];
+                margin = wh_contact_beyond(
+                    of, w, k, wh_contact_law(of, w, k)[WH_LAW_FIRST] - WH_ABS(w->force[k]));
+            } else {
+                margin = (mode > 0 ? signal : -signal) + w->slack[k];
+            }
+            break;
+        default: /* a crossing: only in its direction */
+            if (mode != 0 && of->contact[k].direction != mode) {
+                margin = mode > 0 ? signal : -signal;
+            }
+            break;
+        }
+        all += of->contact[k].kind <= WH_HOLD ? signal + speed : signal;
+        m->value[k] = margin;
+    }
+    m->all = all;
+}
+
+/* Has no event happened, and is all a finite number? A NaN compares as "not yet" with everything, and its contact
+ * would be as good as gone. */
+WH_INLINE bool wh_contact_calm(const wh_contact_system *of, const wh_margins *m) {
+    bool calm = wh_finite(m->all);
+    WH_UNROLL
+    for (unsigned k = 0; k < of->contacts; k++) {
+        calm = calm && m->value[k] >= WH_R(0.0);
+    }
+    return calm;
+}
+
+/* Of margins that are not calm, the contact whose signal or limit is no finite number, into work->undefined. */
+WH_APART void wh_contact_find_undefined(const wh_contact_system *of, wh_contact_work *w,
+                                        const wh_margins *m) {
+    for (unsigned k = 0; k < of->contacts; k++) {
+        wh_contact_expect(w, k, m->signal[2 * k]);
+        wh_contact_expect(w, k, m->signal[2 * k + 1]);
+    }
+    if (wh_contact_any_acts(of, w)) {
+        wh_contact_expect_laws(of, w);
+    }
+    for (unsigned k = 0; k < of->contacts; k++) {
+        wh_contact_expect(w, k, m->value[k]);
+    }
+}
+
+/* Contacts whose event has happened, as bits. */
+WH_INLINE unsigned wh_contact_happened(const wh_contact_system *of, const wh_margins *m) {
+    unsigned bits = 0;
+    for (unsigned k = 0; k < of->contacts; k++) {
+        bits |= m->value[k] < WH_R(0.0) ? 1U << k : 0U;
+    }
+    return bits;
+}
+
+/* Where between `from` and `to` the first of the events that have happened at `to` comes: the share of
+ * h, just past it, by WH_BRACKET at most. *events are those that have happened there. */
+static inline wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work *w,
+                                        wh_contact_state *from, wh_contact_state *to, wh_real h,
+                                        const wh_real *input, const wh_margins *at_end,
+                                        unsigned *events) {
+    const wh_contact_model model = {of, w};
+    wh_contact_point at;
+    wh_real a0[WH_COORDS];
+    wh_real a1[WH_COORDS];
+    wh_margins before;
+    wh_margins after = *at_end;
+    wh_real low = WH_R(0.0);
+    wh_real high = WH_R(1.0);
+    *events = wh_contact_happened(of, at_end);
+
+    /* A force that is out of bounds already, or a gap: at once. Sliding starts at rate zero. */
+    wh_contact_point_of(of, from, &at);
+    wh_contact_margins(of, w, &at, input, &before);
+    unsigned at_once = 0;
+    unsigned sliding = 0;
+    for (unsigned k = 0; k < of->contacts; k++) {
+        const bool slides = of->contact[k].kind == WH_FRICTION && w->mode[k] != WH_STUCK;
+        sliding |= slides ? 1U << k : 0U;
+        if ((*events >> k & 1U) != 0 && !slides && before.value[k] < WH_R(0.0)) {
+            at_once |= 1U << k;
+        }
+    }
+    if (at_once != 0) {
+        *events = at_once;
+        return WH_R(0.0);
+    }
+    wh_contact_accel(&model, at.phase, at.linear, at.rate, input, a0);
+    wh_contact_point_of(of, to, &at);
+    wh_contact_accel(&model, at.phase, at.linear, at.rate, input, a1);
+    wh_real reach = WH_R(1.0);
+    wh_real earlier[2] = {WH_R(4.0), WH_R(4.0)}; /* widths, two and one probes ago */
+    wh_real most =
+        WH_PROBES_SPARE; /* what this probe may leave, for halving to get to WH_BRACKET with the rest */
+    for (unsigned i = 0; i < WH_PROBES && high - low > WH_BRACKET_FINE; i++) {
+        const wh_real width = high - low;
+        wh_real root = high;
+        for (unsigned k = 0; k < of->contacts; k++) {
+            /* at zero already; but later than at the start a load at its limit may be one that others bear */
+            const bool load = of->contact[k].kind != WH_HOLD && wh_contact_constrains(of, w, k);
+            const bool begins = before.value[k] == WH_R(0.0) && (sliding >> k & 1U) == 0 &&
+                                (low == WH_R(0.0) || !load);
+            if ((*events >> k & 1U) != 0 && (before.value[k] > WH_R(0.0) || begins)) {
+                const wh_real share = before.value[k] / (before.value[k] - after.value[k]);
+                root = low + width * share < root ? low + width * share : root;
+            }
+        }
+        /* a little over it, towards the end that is further off, so that the interval closes from both sides;
+         * further each time that fails, and in the middle where two probes did not halve it */
+        const wh_real over =
+            width * (width < WH_R(0.015625) ? width : WH_R(0.015625)) * reach + WH_BRACKET_FINE / 4;
+        const bool backward = root - low > high - root;
+        const bool halve = width > WH_R(0.5) * earlier[0];
+        wh_real guess = backward ? root - over : root + over;
+        guess = halve ? low + WH_R(0.5) * width : guess;
+        guess = guess < high - most ? high - most : guess;
+        guess = guess > low + most ? low + most : guess;
+        if (!(guess > low && guess < high)) {
+            guess = low + WH_R(0.5) * width;
+        }
+        earlier[0] = earlier[1];
+        earlier[1] = width;
+        most *= WH_R(0.5);
+        wh_margins probe;
+        wh_contact_between(of, from, to, a0, a1, h, guess, &at);
+        wh_contact_margins(of, w, &at, input, &probe);
+        const unsigned found = wh_contact_happened(of, &probe);
+        reach = halve ? reach : backward == (found == 0) ? WH_R(1.0) : reach * WH_R(8.0);
+        if (found != 0) {
+            high = guess;
+            after = probe;
+            *events = found;
+        } else {
+            low = guess;
+            before = probe;
+        }
+    }
+    return high;
+}
+
+#endif

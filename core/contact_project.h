@@ -1,0 +1,295 @@
+/* contact_project.h: keeping resting stops and holds where they are, and their rates at zero (see contact.h). */
+#ifndef WH_CONTACT_PROJECT_H
+#define WH_CONTACT_PROJECT_H
+
+#include "contact_forces.h"
+
+/* Move coordinate i by `by`, rad or m. */
+WH_INLINE void wh_contact_move(const wh_contact_system *of, unsigned i, wh_real by,
+                               wh_contact_state *s) {
+    if (i < of->angles) {
+        wh_real none = WH_R(0.0);
+        (void)wh_angle_move(&s->angle[i], by * WH_PHASE_PER_RAD, false, &none);
+    } else {
+        s->real[i - of->angles] += by;
+    }
+}
+
+/* *sum + *rest += a b, without the product's rounding, which would add up over the steps (Dekker's product, Veltkamp's
+ * split: Muller et al., Handbook of Floating-Point Arithmetic, section 4.4). */
+WH_INLINE void wh_contact_add_product(wh_real a, wh_real b, wh_real *sum, wh_real *rest) {
+    const wh_real split = WH_DOUBLE ? WH_R(134217729.0) : WH_R(4097.0);
+    const wh_real product = a * b;
+    const wh_real a_wide = split * a;
+    const wh_real a_high = a_wide - (a_wide - a);
+    const wh_real b_wide = split * b;
+    const wh_real b_high = b_wide - (b_wide - b);
+    const wh_real a_low = a - a_high;
+    const wh_real b_low = b - b_high;
+    *rest += ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low;
+    *sum += product; /* what turns against each other cancels exactly */
+}
+
+/* What a straight hold has moved by from one state to the other: J_k, which is constant, times the way; rad or m. */
+static inline wh_real wh_contact_moved(const wh_contact_system *of, const wh_contact_work *w,
+                                       unsigned k, const wh_contact_state *from,
+                                       const wh_contact_state *to) {
+    const wh_real *row = wh_contact_law(of, w, k) + WH_LAW_ROWS;
+    wh_real turns = WH_R(0.0); /* phase units */
+    wh_real ways = WH_R(0.0);
+    wh_real rests[2] = {WH_R(0.0), WH_R(0.0)};
+    for (unsigned i = 0; i < of->angles; i++) {
+#if WH_DOUBLE
+        wh_contact_add_product(row[i], to->angle[i] - from->angle[i], &turns, &rests[0]);
+#else
+        const uint64_t turned = (uint64_t)to->angle[i] - (uint64_t)from->angle[i];
+        const int32_t way =
+            (int32_t)(uint32_t)turned; /* less than half a turn: in two exact parts */
+        wh_contact_add_product(row[i], (wh_real)(way >> 8) * WH_R(256.0), &turns, &rests[0]);
+        rests[0] += row[i] * (wh_real)(way & 255);
+#endif
+    }
+    for (unsigned i = of->angles; i < of->coordinates; i++) {
+        const unsigned l = i - of->angles;
+        wh_contact_add_product(row[i], to->real[l] - from->real[l], &ways, &rests[1]);
+    }
+    return (turns + rests[0]) / WH_PHASE_PER_RAD + (ways + rests[1]);
+}
+
+/* Is contact k a hold that can slip? One with a pin cannot. */
+WH_INLINE bool wh_contact_slips(const wh_contact_system *of, const wh_contact_work *w, unsigned k) {
+    return of->held > 0 && of->contact[k].kind == WH_HOLD && of->contact[k].pin < 0 &&
+           w->mode[k] == WH_ACTIVE;
+}
+
+/* By how much contact k is off the place where it is to be. `from`: where a try to `s` began; NULL: no try. */
+WH_INLINE wh_real wh_contact_drift(const wh_contact_system *of, const wh_contact_work *w,
+                                   unsigned k, const wh_real *signal, const wh_contact_state *from,
+                                   const wh_contact_state *s) {
+    if (of->contact[k].kind == WH_STOP) {
+        return signal[2 * k];
+    }
+    if (!wh_contact_slips(of, w, k)) {
+        return WH_R(0.0);
+    }
+    const wh_real held = w->held[of->contact[k].first_set];
+    if (of->contact[k].direction <= 0) {
+        return wh_contact_law(of, w, k)[WH_LAW_FIRST] - held;
+    }
+    return from != NULL ? held + wh_contact_moved(of, w, k, from, s) : WH_R(0.0);
+}
+
+/* What a hold that has just been captured, or set, is to keep. work->law must belong to this position. */
+WH_INLINE void wh_contact_capture(const wh_contact_system *of, wh_contact_work *w, unsigned k) {
+    if (wh_contact_slips(of, w, k)) {
+        w->held[of->contact[k].first_set] =
+            of->contact[k].direction <= 0 ? wh_contact_law(of, w, k)[WH_LAW_FIRST] : WH_R(0.0);
+    }
+}
+
+/* Stuck frictions that would have to take more than they can, as bits: they are about to slide, and hold
+ * nothing still. work->force must be up to date. */
+WH_INLINE unsigned wh_contact_breaking(const wh_contact_system *of, const wh_contact_work *w) {
+    unsigned bits = 0;
+    for (unsigned k = 0; k < of->forced; k++) {
+        const bool stuck = of->contact[k].kind == WH_FRICTION && w->mode[k] == WH_STUCK;
+        bits |= stuck && wh_contact_exceeds(of, w, k, w->force[k]) ? 1U << k : 0U;
+    }
+    return bits;
+}
+
+/* Contacts that hold their J_k q' at zero, but for those in `but`, as bits. Returns how many. */
+WH_INLINE unsigned wh_contact_members(const wh_contact_system *of, const wh_contact_work *w,
+                                      unsigned but, uint8_t *member) {
+    unsigned count = 0;
+    for (unsigned k = 0; k < of->forced; k++) {
+        if ((but >> k & 1U) == 0 && wh_contact_constrains(of, w, k)) {
+            member[count++] = (uint8_t)k;
+        }
+    }
+    return count;
+}
+
+/* Where the positions of resting stops and of holds are off, and who is to answer for it in the books. */
+typedef struct wh_contact_place {
+    const wh_contact_state *from; /* where a try began, or NULL */
+    wh_real h;                    /* how long it was, s */
+    unsigned but;                 /* contacts that are left out, as bits */
+    unsigned mover;               /* whose the energy is; WH_CONTACTS_MAX: the first that is off */
+} wh_contact_place;
+
+#define WH_CONTACT_HERE ((wh_contact_place){NULL, WH_R(0.0), 0, WH_CONTACTS_MAX})
+
+/* Put resting stops and holds to where they are to be, while what is stuck stays. work->law and signal[] must
+ * belong to this position. True: they were off so far that it must be done once more. */
+static inline bool wh_contact_project_places(const wh_contact_system *of, wh_contact_work *w,
+                                             const wh_contact_place *place, const wh_real *signal,
+                                             const wh_real *input, wh_contact_state *s) {
+    uint8_t member[WH_CONTACTS_MAX] = {0};
+    wh_real off[WH_CONTACTS_MAX] = {WH_R(0.0)};
+    wh_real wanted[WH_CONTACTS_MAX];
+    wh_real lambda[WH_CONTACTS_MAX];
+    wh_real way[WH_COORDS] = {0};
+    const unsigned count = wh_contact_members(of, w, place->but, member);
+    unsigned mover = place->mover;
+    bool together = false;
+    bool coarse = false;
+    for (unsigned i = 0; i < count; i++) {
+        const unsigned k = member[i];
+        wanted[i] = WH_R(0.0);
+        off[i] = wh_contact_drift(of, w, k, signal, place->from, s);
+        if (!wh_finite(off[i])) {
+            wh_contact_expect(w, k, off[i]);
+            off[i] = WH_R(0.0);
+        }
+        if (off[i] == WH_R(0.0)) {
+            continue;
+        }
+        mover = mover == WH_CONTACTS_MAX ? k : mover;
+        if (of->contact[k].pin < 0) {
+            wanted[i] = -off[i];
+            together = true;
+        }
+    }
+    if (mover == WH_CONTACTS_MAX) {
+        return false;
+    }
+    (void)input; /* only books look at it */
+    wh_books_look(of, w, s, input);
+    for (unsigned i = 0; i < count; i++) {
+        const int pin = of->contact[member[i]].pin;
+        if (off[i] != WH_R(0.0) && pin >= 0) { /* the others need not move for it */
+            const wh_real entry = wh_contact_law(of, w, member[i])[WH_LAW_ROWS + pin];
+            wh_contact_move(of, (unsigned)pin, -off[i] / entry, s);
+        }
+    }
+    if (together) {
+        (void)wh_delassus_solve(of, w, member, count, NULL, wanted, lambda);
+        for (unsigned i = 0; i < count; i++) {
+            wh_contact_apply(of, w, member[i], lambda[i], way);
+        }
+        for (unsigned i = 0; i < count; i++) {
+            const int pin = of->contact[member[i]].pin;
+            const wh_real *row = wh_contact_law(of, w, member[i]) + WH_LAW_ROWS;
+            const wh_real *rate = wh_contact_rates(of, s);
+            wh_real travel = WH_R(0.0);
+            for (unsigned c = 0; c < of->coordinates; c++) {
+                travel += WH_ABS(row[c] * rate[c]);
+            }
+            coarse = coarse || WH_ABS(wanted[i]) > WH_SLIP_COARSE * place->h * travel;
+            if (pin >= 0) {
+                way[pin] = WH_R(0.0);
+            }
+        }
+        for (unsigned i = 0; i < of->coordinates; i++) {
+            wh_contact_move(of, i, way[i], s);
+        }
+    }
+    wh_books_moved(of, w, s, input, mover);
+    return coarse;
+}
+
+/* Take the rates along what is held away, of all contacts together but those in `but`, as bits; `booked`: as
+ * impulses of theirs. work->law must belong to this position. */
+static inline void wh_contact_project_rates(const wh_contact_system *of, const wh_contact_work *w,
+                                            unsigned but, bool booked, wh_real *rate) {
+    uint8_t member[WH_CONTACTS_MAX] = {0};
+    wh_real wanted[WH_CONTACTS_MAX] = {WH_R(0.0)};
+    wh_real lambda[WH_CONTACTS_MAX];
+    wh_real before[WH_CONTACTS_MAX];
+    const unsigned count = wh_contact_members(of, w, but, member);
+    for (unsigned i = 0; i < count; i++) {
+        before[i] = wh_jacobian_times(of, w, member[i], rate);
+        wanted[i] = -before[i];
+    }
+    (void)wh_delassus_solve(of, w, member, count, NULL, wanted, lambda);
+    for (unsigned i = 0; i < count; i++) {
+        wh_contact_apply(of, w, member[i], lambda[i], rate);
+    }
+    for (unsigned i = 0; i < count; i++) {
+        const int pin = of->contact[member[i]].pin;
+        if (pin >= 0) {
+            rate[pin] = WH_R(0.0);
+        }
+        if (booked) {
+            wh_books_impulse(of, w, member[i], lambda[i], before[i],
+                             wh_jacobian_times(of, w, member[i], rate));
+        }
+    }
+}
+
+/* Frictions that stick, as bits. */
+WH_INLINE unsigned wh_contact_stuck(const wh_contact_system *of, const wh_contact_work *w) {
+    unsigned bits = 0;
+    for (unsigned k = 0; k < of->forced; k++) {
+        bits |= of->contact[k].kind == WH_FRICTION && w->mode[k] == WH_STUCK ? 1U << k : 0U;
+    }
+    return bits;
+}
+
+/* The terms that a stop's gap is the difference of, in size. */
+WH_INLINE wh_real wh_contact_extent(const wh_contact_system *of, const wh_contact_work *w,
+                                    unsigned k, const wh_contact_state *s) {
+    const wh_real *row = wh_contact_law(of, w, k) + WH_LAW_ROWS;
+    wh_real size = WH_R(0.0);
+    for (unsigned i = 0; i < of->coordinates; i++) {
+        size += WH_ABS(row[i] * (i < of->angles ? WH_R(1.0) : s->real[i - of->angles]));
+    }
+    return size;
+}
+
+/* Is stop k passed by more than rounding, as after a step with too many events? Friction does not keep a body
+ * there. */
+WH_INLINE bool wh_contact_far(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
+                              const wh_real *signal, const wh_contact_state *s) {
+    return signal[2 * k] < (WH_DOUBLE ? WH_R(-1e-9) : WH_R(-1e-5)) * wh_contact_extent(of, w, k, s);
+}
+
+static inline void wh_contact_put_back(const wh_contact_system *of, wh_contact_work *w, wh_real h,
+                                       const wh_real *input, const wh_contact_state *from,
+                                       wh_contact_state *s) {
+    wh_real accel[WH_COORDS];
+    wh_real signal[2 * WH_CONTACTS_MAX];
+    wh_contact_place place = {from, h, 0, WH_CONTACTS_MAX};
+    wh_contact_look(of, w, s, input, accel, signal);
+    place.but = wh_contact_breaking(of, w);
+    for (unsigned k = 0; k < of->forced; k++) {
+        const bool rests = of->contact[k].kind == WH_STOP && w->mode[k] == WH_ACTIVE;
+        place.but |= rests && wh_contact_far(of, w, k, signal, s) ? wh_contact_stuck(of, w) : 0U;
+    }
+    for (unsigned pass = 0; pass < 2 && wh_contact_project_places(of, w, &place, signal, input, s);
+         pass++) {
+        wh_contact_look(of, w, s, input, accel, signal);
+    }
+    wh_contact_project_rates(of, w, place.but, false, wh_contact_rates(of, s));
+}
+
+/* What the integrator let slip on the way from `from`, h long, to `s`: the places of resting stops and holds,
+ * then rates along what is held. A pinned coordinate cannot slip. */
+WH_INLINE void wh_contact_stabilise(const wh_contact_system *of, wh_contact_work *w, wh_real h,
+                                    const wh_real *input, const wh_contact_state *from,
+                                    wh_contact_state *s) {
+    bool slips = false;
+    WH_UNROLL
+    for (unsigned k = 0; k < of->forced; k++) {
+        slips = slips || (of->contact[k].pin < 0 && wh_contact_constrains(of, w, k));
+    }
+    if (slips) {
+        wh_contact_put_back(of, w, h, input, from, s);
+    }
+}
+
+/* A try from `from` to `to` is taken: what straight holds have slipped in it stays to be put back. */
+WH_INLINE void wh_contact_keep(const wh_contact_system *of, wh_contact_work *w,
+                               const wh_contact_state *from, const wh_contact_state *to) {
+    if (of->held == 0) {
+        return;
+    }
+    for (unsigned k = 0; k < of->forced; k++) {
+        if (wh_contact_slips(of, w, k) && of->contact[k].direction > 0) {
+            w->held[of->contact[k].first_set] += wh_contact_moved(of, w, k, from, to);
+        }
+    }
+}
+
+#endif

@@ -1,0 +1,352 @@
+/* contact_resolve.h: what happens at a moment: the one place where modes change (see contact.h).
+ *
+ * wh_contact_resolve() takes the contacts that have an event, all of them at once, so that nothing depends on the order
+ * of the file (but crossings', which are assignments):
+ *
+ *   1. velocities: the stops that are hit get their impulses, then the holds that capture theirs, each by one linear
+ *      complementarity problem with what holds already. Friction's normal force is finite: it gives no impulse.
+ *   2. crossings assign, and what that disturbs is seen to.
+ *   3. accelerations: of the stops that rest and the frictions whose rate is zero, those give way that would have to
+ *      pull, or take more than they can, until none has to.
+ *   4. the rates along what has just come to stick, and all else that holds, are projected to zero.
+ *
+ * The law of impacts is Newton's, for all stops that are hit at the moment together: with J v the rates of their gaps,
+ *
+ *     v+ = v- + M^-1 J^T Lambda,   0 <= Lambda_k,   J_k v+ >= -e_k J_k v-,   one of both with equality,
+ *
+ * beside what rests or is held, which has J_k v- = 0 and e_k = 0 (Moreau; Pfeiffer & Glocker, chapter 8). The energy
+ * changes by 1/2 sum Lambda_k (1 - e_k) J_k v-, which is never above zero as only stops that close take part: with
+ * stops of different restitutions, too. What an impact makes close, while it is touched, is hit in the next
+ * round of the same moment: so an impact runs through a row of balls. */
+#ifndef WH_CONTACT_RESOLVE_H
+#define WH_CONTACT_RESOLVE_H
+
+#include "contact_impact.h"
+#include "contact_locate.h"
+
+/* --- crossings ----------------------------------------------------------------------------------- */
+
+/* A crossing's assignments, all evaluated before any is made. */
+static inline void wh_contact_assign(const wh_contact_system *of, wh_contact_work *w, unsigned k,
+                                     const wh_real *input, wh_contact_state *s) {
+    wh_contact_point at;
+    wh_real before[2 * WH_CONTACTS_MAX];
+    wh_real after[2 * WH_CONTACTS_MAX];
+    wh_real value[WH_SETS_MAX];
+    const wh_contact *c = &of->contact[k];
+    bool moves = false;
+    unsigned sides = 0;
+    w->mode[k] = (int8_t)-w->mode[k];
+    if (c->sets == 0 || of->sets == NULL) {
+        return;
+    }
+    wh_contact_point_of(of, s, &at);
+    wh_contact_signals(of, at.phase, at.linear, at.rate, input, before);
+    of->sets(of->model, at.phase, at.linear, at.rate, input, value);
+    wh_books_levels(of, w, s, input, k, WH_R(-1.0));
+    for (unsigned i = c->first_set; i < (unsigned)c->first_set + c->sets; i++) {
+        const unsigned target = of->target[i];
+        if (!wh_believable(value[i], target < of->angles ? WH_R(1e9) : WH_ABSURD)) {
+            w->fault = (int)target;
+        }
+        moves = moves || target < of->coordinates;
+        if (target < of->angles) {
+            s->angle[target] = wh_angle_from_rad(value[i]);
+        } else {
+            s->real[target - of->angles] = value[i];
+        }
+        if (of->compensated) {
+            s->carry[target] = WH_R(0.0);
+        }
+    }
+    wh_books_levels(of, w, s, input, k, WH_R(1.0));
+    /* where the assignment leaves each contact, if it moved it */
+    wh_contact_point_of(of, s, &at);
+    wh_contact_signals(of, at.phase, at.linear, at.rate, input, after);
+    w->mover = k;
+    for (unsigned l = 0; l < of->forced; l++) {
+        const bool same = after[2 * l] == before[2 * l] && after[2 * l + 1] == before[2 * l + 1];
+        /* what a hold keeps from now on, too */
+        w->moved |= same && !(moves && wh_contact_slips(of, w, l)) ? 0U : 1U << l;
+    }
+    for (unsigned l = of->forced; l < of->contacts; l++) {
+        sides |= after[2 * l] != before[2 * l] ? 1U << l : 0U;
+    }
+    wh_contact_set_sides(of, w, sides, after);
+}
+
+/* After a crossing's assignments changed the gaps, conditions or rates of the contacts in work->moved: a
+ * stop that was passed has its gap closed, and rests no longer, as one that was left; what a hold still
+ * keeps is captured again. The gaps are the crossing's doing, and so is their energy. */
+static inline void wh_contact_revise(const wh_contact_system *of, wh_contact_work *w,
+                                     const wh_real *input, wh_contact_state *s) {
+    wh_real accel[WH_COORDS];
+    wh_real signal[2 * WH_CONTACTS_MAX];
+    wh_real zero[WH_CONTACTS_MAX] = {WH_R(0.0)};
+    wh_real impulse[WH_CONTACTS_MAX] = {WH_R(0.0)};
+    wh_contact_look(of, w, s, input, accel, signal);
+    wh_contact_place place = {NULL, WH_R(0.0), 0, w->mover};
+    const unsigned stops = w->moved & (wh_contact_which(of, w, WH_STOP, true) |
+                                       wh_contact_which(of, w, WH_STOP, false));
+    const unsigned holds = w->moved & wh_contact_which(of, w, WH_HOLD, true);
+    unsigned kept = 0;
+    unsigned passed = 0;
+    for (unsigned k = 0; k < of->forced; k++) {
+        const bool below = signal[2 * k] < WH_R(0.0);
+        passed |= below ? stops & 1U << k : 0U;
+        kept |= signal[2 * k] > WH_R(0.0) ? holds & 1U << k : 0U;
+    }
+    w->moved = 0;
+    wh_contact_set_modes(of, w, holds & ~kept, WH_FREE);
+    for (unsigned k = 0; k < of->forced; k++) {
+        if ((kept >> k & 1U) != 0) {
+            wh_contact_capture(of, w, k);
+        }
+    }
+    wh_contact_set_modes(of, w, stops, WH_FREE);
+    if (passed != 0) {
+        wh_contact_set_modes(of, w, passed, WH_ACTIVE); /* only as long as it is put back */
+        (void)wh_contact_project_places(of, w, &place, signal, input, s);
+        wh_contact_look(of, w, s, input, accel, signal);
+        wh_contact_set_modes(of, w, passed, WH_FREE);
+    }
+    if (kept != 0) {
+        const unsigned released =
+            wh_contact_impulses(of, w, kept, 0, zero, wh_contact_rates(of, s), impulse);
+        wh_contact_set_modes(of, w, released, WH_FREE);
+    }
+}
+
+/* --- accelerations ------------------------------------------------------------------------------- */
+
+/* Of the contacts that give way, those that do so first, as bits: all stops; else, since what slides pushes
+ * less than what sticks and may relieve the others, the friction whose load is most above its limit: the first
+ * to reach it, if the load grew from nothing. Those that reach it together slide together. */
+WH_INLINE unsigned wh_contact_first(const wh_contact_system *of, const wh_contact_work *w,
+                                    unsigned giving) {
+    const unsigned stops = giving & wh_contact_which(of, w, WH_STOP, true);
+    if (stops != 0 || (giving & (giving - 1U)) == 0 || of->forced == 1) {
+        return stops != 0 ? stops : giving;
+    }
+    unsigned bits = 0;
+    for (unsigned k = 0; k < of->forced; k++) {
+        bool most = (giving >> k & 1U) != 0;
+        for (unsigned l = 0; l < of->forced && most; l++) {
+            const wh_real above = WH_ABS(w->force[l]) * wh_contact_law(of, w, k)[WH_LAW_FIRST];
+            const wh_real own = WH_ABS(w->force[k]) * wh_contact_law(of, w, l)[WH_LAW_FIRST];
+            most = (giving >> l & 1U) == 0 || !(above - own > WH_CONTACT_ROUNDING * above);
+        }
+        bits |= most ? 1U << k : 0U;
+    }
+    return bits;
+}
+
+/* Which way friction slides, as its rate says; where the location left it on the side that it comes from, as was
+ * found there. What has just come to zero (`zeros`, as bits, unless an impact of the same moment threw it), or is left
+ * there by the rounding of what others did, waits for the forces' word. `h`: the step; work->law must belong to this
+ * position, but for h = 0. */
+WH_INLINE void wh_contact_slide(const wh_contact_system *of, wh_contact_work *w, unsigned zeros,
+                                wh_real h, const wh_real *rate) {
+    unsigned stick = 0;
+    unsigned slides[2] = {0, 0}; /* backward, forward */
+    for (unsigned k = 0; k < of->forced; k++) {
+        if (of->contact[k].kind != WH_FRICTION) {
+            continue;
+        }
+        const wh_real v = rate[of->contact[k].pin];
+        const wh_real forward = w->mode[k] > 0 ? v : -v;
+        const bool left = w->slack[k] > WH_R(0.0) && forward + w->slack[k] >= WH_R(0.0);
+        const wh_real none = h > WH_R(0.0)
+                                 ? WH_CONTACT_STILL * h * wh_contact_law(of, w, k)[WH_LAW_FIRST] *
+                                       wh_delassus_diagonal(of, w, k)
+                                 : WH_R(0.0);
+        const bool zero = (zeros >> k & 1U) != 0 && v == w->came[of->contact[k].pin];
+        if (zero || (v != WH_R(0.0) && WH_ABS(v) <= none)) {
+            stick |= 1U << k;
+        } else if (v != WH_R(0.0) && !left) {
+            slides[v > WH_R(0.0)] |= 1U << k;
+            w->slack[k] = WH_R(0.0);
+        }
+    }
+    w->turned |= stick;
+    wh_contact_set_modes(of, w, stick, WH_STUCK);
+    wh_contact_set_modes(of, w, slides[0], -1);
+    wh_contact_set_modes(of, w, slides[1], 1);
+}
+
+/* Which resting stops would have to pull and fly, which stuck coordinates break loose? What breaks loose pushes less
+ * than before, so others may follow: each round lets at least one go. Of those in `must`, as bits, whose force was
+ * found beyond its limit, one does at least, if only by rounding. */
+static inline void wh_contact_give_way(const wh_contact_system *of, wh_contact_work *w,
+                                       unsigned must, const wh_real *input, wh_contact_state *s) {
+    wh_real accel[WH_COORDS];
+    wh_real signal[2 * WH_CONTACTS_MAX];
+    unsigned first = ~0U;
+    while (first != 0 && wh_contact_watched(of, w)) {
+        uint8_t member[WH_CONTACTS_MAX] = {0};
+        wh_real lambda[WH_CONTACTS_MAX];
+        wh_real left[WH_CONTACTS_MAX] = {WH_R(0.0)};
+        unsigned giving = 0;
+        unsigned slides[2] = {0, 0}; /* backward, forward */
+        bool exceeds = false;
+        wh_contact_look(of, w, s, input, accel, signal);
+        const unsigned count = wh_contact_members(of, w, 0, member);
+        for (unsigned i = 0; i < count; i++) {
+            exceeds = exceeds || wh_contact_exceeds(of, w, member[i], w->force[member[i]]);
+        }
+        if (exceeds) {
+            wh_contact_magnitudes(of, w, member, count, accel);
+            giving = wh_contact_lcp(of, w, member, count, w->wanted, true, lambda, left);
+        }
+        for (unsigned i = 0; i < count && giving == 0; i++) {
+            left[i] = -w->force[member[i]];
+        }
+        giving = giving != 0 ? giving : must;
+        first = wh_contact_first(of, w, giving);
+        for (unsigned i = 0; i < count; i++) {
+            const unsigned bit = first & 1U << member[i];
+            slides[left[i] > WH_R(0.0)] |= of->contact[member[i]].kind == WH_FRICTION ? bit : 0U;
+            must &= bit != 0 ? 0U : ~0U;
+        }
+        wh_contact_set_modes(of, w, first, WH_FREE);
+        wh_contact_set_modes(of, w, slides[0], -1);
+        wh_contact_set_modes(of, w, slides[1], 1);
+    }
+}
+
+/* Of what has just come to zero, what the forces keep there sticks: friction, which would take the rest of the
+ * rate away in no time, does, together with all else that is held, so that two frictions do not shake each
+ * other loose. What slides on does so the way it is pushed, on whichever side of zero it is. */
+WH_INLINE void wh_contact_stick(const wh_contact_system *of, wh_contact_work *w, wh_real *rate) {
+    bool sticks = false;
+    for (unsigned k = 0; k < of->forced; k++) {
+        if ((w->turned >> k & 1U) != 0) {
+            const wh_real v = rate[of->contact[k].pin];
+            const wh_real forward = w->mode[k] > 0 ? v : -v;
+            sticks = sticks || w->mode[k] == WH_STUCK;
+            w->slack[k] =
+                w->mode[k] != WH_STUCK && forward < WH_R(0.0) ? -(forward + forward) : WH_R(0.0);
+        }
+    }
+    w->turned = 0;
+    if (sticks) {
+        wh_contact_project_rates(of, w, 0, true, rate);
+    }
+}
+
+/* --- all that happens at one moment -------------------------------------------------------------- */
+
+/* Returns what had an event, as bits; impulse[forced]: what each got. */
+WH_APART unsigned wh_contact_resolve(const wh_contact_system *of, wh_contact_work *w,
+                                     const wh_contact_moment *m, const wh_real *input,
+                                     wh_contact_state *now, wh_real *impulse) {
+    wh_real *rate = wh_contact_rates(of, now);
+    unsigned events = m->events;
+    const unsigned loads = events & (wh_contact_which(of, w, WH_STOP, true) |
+                                     wh_contact_which(of, w, WH_FRICTION, true));
+    const unsigned hits = events & wh_contact_which(of, w, WH_STOP, false);
+    const unsigned let_go = events & wh_contact_which(of, w, WH_HOLD, true);
+    const unsigned captures = events & wh_contact_which(of, w, WH_HOLD, false);
+    const unsigned zeros = events & wh_contact_which(of, w, WH_FRICTION, false);
+    for (unsigned i = 0; i < of->coordinates; i++) {
+        w->came[i] = rate[i];
+    }
+    for (unsigned k = 0; k < of->forced; k++) {
+        impulse[k] = WH_R(0.0);
+    }
+    wh_contact_set_modes(of, w, m->falls, WH_FREE);
+    if (hits != 0) {
+        events |= wh_contact_hit(of, w, hits, m, input, now, impulse);
+    }
+    wh_contact_set_modes(of, w, let_go, WH_FREE);
+    if (captures != 0) {
+        wh_contact_captures(of, w, captures, m->h, input, now, impulse);
+    }
+    for (unsigned k = of->forced; k < of->contacts; k++) {
+        if ((events >> k & 1U) != 0) {
+            wh_contact_assign(of, w, k, input, now);
+        }
+    }
+    if (w->moved != 0) {
+        wh_contact_revise(of, w, input, now);
+    }
+    wh_contact_slide(of, w, zeros, m->h, rate);
+    unsigned must = 0;
+    for (unsigned k = 0; k < of->forced; k++) {
+        must |= wh_contact_constrains(of, w, k) ? loads & 1U << k : 0U;
+    }
+    wh_contact_give_way(of, w, must, input, now);
+    wh_contact_stick(of, w, rate);
+    for (unsigned k = 0; k < of->forced; k++) { /* others relieved it */
+        events &= (must >> k & 1U) != 0 && wh_contact_constrains(of, w, k) ? ~(1U << k) : ~0U;
+    }
+    return events;
+}
+
+/* Where an input has moved a resting stop since the last step: the body is put back onto it, or falls if
+ * what presses it does not close the gap within the step. The energy is the stop's. What an input does to a held
+ * expression moves nobody: the hold keeps the new value. */
+static inline void wh_contact_follow(const wh_contact_system *of, wh_contact_work *w, wh_real h,
+                                     const wh_real *input, wh_contact_state *s) {
+    wh_real accel[WH_COORDS];
+    wh_real signal[2 * WH_CONTACTS_MAX];
+    unsigned moved = WH_CONTACTS_MAX;
+    wh_contact_place place = WH_CONTACT_HERE;
+    bool held = false;
+    for (unsigned k = 0; k < of->forced; k++) {
+        const bool rests = of->contact[k].kind == WH_STOP && w->mode[k] == WH_ACTIVE;
+        moved = rests && of->contact[k].direction != 0 ? k : moved;
+        held = held || (wh_contact_slips(of, w, k) && of->contact[k].direction < 0);
+    }
+    if (moved == WH_CONTACTS_MAX && !held) {
+        return;
+    }
+    wh_contact_look(of, w, s, input, accel, signal);
+    for (unsigned k = 0; k < of->forced; k++) {
+        const wh_contact *c = &of->contact[k];
+        if (c->kind == WH_STOP && c->direction != 0 && w->mode[k] == WH_ACTIVE) {
+            const wh_real closes = WH_R(0.5) * h * h * w->force[k] * wh_delassus_diagonal(of, w, k);
+            place.but |= signal[2 * k] > closes ? 1U << k : 0U;
+        } else if (c->direction < 0) {
+            wh_contact_capture(of, w, k);
+        }
+    }
+    if (moved == WH_CONTACTS_MAX) {
+        return;
+    }
+    place.mover = moved;
+    (void)wh_contact_project_places(of, w, &place, signal, input, s);
+    if (place.but != 0) {
+        const wh_contact_moment m = {0, place.but, h, false};
+        wh_real impulse[WH_CONTACTS_MAX];
+        (void)wh_contact_resolve(of, w, &m, input, s, impulse);
+    }
+}
+
+/* Modes at the start of a run: sticks what is at rest, captures what a hold's condition says. */
+static inline void wh_contact_begin(const wh_contact_system *of, wh_contact_work *w, wh_real h,
+                                    const wh_real *input, wh_contact_state *s) {
+    wh_real accel[WH_COORDS];
+    wh_real signal[2 * WH_CONTACTS_MAX];
+    wh_real impulse[WH_CONTACTS_MAX];
+    wh_contact_moment m = {0, 0, h, false};
+    for (unsigned k = 0; k < of->contacts; k++) {
+        w->mode[k] = 0; /* free, stuck, on no side */
+    }
+    wh_contact_slide(of, w, 0, WH_R(0.0), wh_contact_rates(of, s));
+    wh_contact_look(of, w, s, input, accel, signal);
+    for (unsigned k = 0; k < of->contacts; k++) {
+        wh_contact_expect(w, k, signal[2 * k] + signal[2 * k + 1]);
+    }
+    for (unsigned k = 0; k < of->forced; k++) {
+        const wh_real value = signal[2 * k];
+        const bool closed =
+            of->contact[k].kind == WH_STOP && value <= WH_R(0.0) && signal[2 * k + 1] <= WH_R(0.0);
+        const bool holds = of->contact[k].kind == WH_HOLD && value > WH_R(0.0);
+        m.events |= closed || holds ? 1U << k : 0U;
+    }
+    wh_contact_set_sides(of, w, ~0U, signal);
+    (void)wh_contact_resolve(of, w, &m, input, s, impulse);
+}
+
+#endif

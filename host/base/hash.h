@@ -1,0 +1,32 @@
+/* hash.h: hashes of the host's own: texts and words, for tables and for telling things apart. A state's bits, and what
+ * goes into files, are core/hash.h's; the constants of FNV-1a stand there and here alone.
+ */
+#ifndef BASE_HASH_H
+#define BASE_HASH_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "core/hash.h"
+
+/* FNV-1a, 32 bits, of `length` bytes. An output's name gives its noise a seed by it: runs depend on its bits. */
+static inline uint32_t hash_text(const char *text, size_t length) {
+    uint32_t hash = 2166136261U;
+    for (size_t i = 0; i < length; i++) {
+        hash = (hash ^ (unsigned char)text[i]) * 16777619U;
+    }
+    return hash;
+}
+
+/* The step of FNV-1a, 64 bits, on a whole word that is a hash already. */
+static inline uint64_t hash_of_hashes(uint64_t hash, uint64_t word) {
+    return (hash ^ word) * WH_HASH_PRIME;
+}
+
+/* Mix a word in, for tables of this run of the program: faster, and never written anywhere. */
+static inline uint64_t hash_mix(uint64_t hash, uint64_t word) {
+    hash ^= word + UINT64_C(0x9e3779b97f4a7c15) + (hash << 6) + (hash >> 2);
+    return hash * UINT64_C(0xff51afd7ed558ccd);
+}
+
+#endif

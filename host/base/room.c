@@ -1,0 +1,86 @@
+#include "room.h"
+
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+void room_none(void) {
+    fputs("whirl: out of memory\n", stderr);
+    exit(EXIT_FAILURE);
+}
+
+/* Bytes of all elements, at least one. */
+static size_t bytes_of(int64_t count, size_t size) {
+    if (count < 0 || (uint64_t)count > SIZE_MAX / (size > 0 ? size : 1)) {
+        room_none();
+    }
+    const size_t bytes = (size_t)count * size;
+    return bytes > 0 ? bytes : size > 0 ? size : 1;
+}
+
+void *room(int64_t count, size_t size) {
+    void *made = calloc(bytes_of(count, size), 1);
+    if (made == NULL) {
+        room_none();
+    }
+    return made;
+}
+
+void *room_tail(size_t head, int64_t count, size_t size) {
+    const size_t tail = bytes_of(count, size);
+    if (tail > SIZE_MAX - head) {
+        room_none();
+    }
+    return room(1, head + tail);
+}
+
+void *room_more(void *array, int64_t count, size_t size) {
+    void *made = realloc(array, bytes_of(count, size));
+    if (made == NULL) {
+        room_none();
+    }
+    return made;
+}
+
+char *room_copy(const char *text, size_t length) {
+    if (length == SIZE_MAX) {
+        room_none();
+    }
+    char *copy = malloc(length + 1);
+    if (copy == NULL) {
+        room_none();
+    }
+    if (length > 0) {
+        memcpy(copy, text, length);
+    }
+    copy[length] = '\0';
+    return copy;
+}
+
+char *room_words(const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    const int length = vsnprintf(NULL, 0, format, arguments);
+    va_end(arguments);
+    char *words = room((int64_t)length + 1, 1);
+    va_start(arguments, format);
+    vsnprintf(words, (size_t)length + 1, format, arguments);
+    va_end(arguments);
+    return words;
+}
+
+FILE *room_text(char **text, size_t *length) {
+    FILE *made = open_memstream(text, length);
+    if (made == NULL) {
+        room_none();
+    }
+    return made;
+}
+
+/* What such a stream could not write, it had no memory for. */
+void room_text_end(FILE *stream) {
+    const int failed = ferror(stream);
+    if (fclose(stream) != 0 || failed != 0) {
+        room_none();
+    }
+}

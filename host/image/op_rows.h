@@ -1,0 +1,59 @@
+/* op_rows.h: the operations of a list, a row each. All that lists operations is made of these rows, or switches
+ * over op_code with -Wswitch-enum.
+ *
+ * X(id, kind, cost, C, Octave, what it is)
+ *
+ *   id      OP_id of tape.h. The order is part of how models are hashed: a new one comes last.
+ *   kind    OP_IS_... of tape.h: what stands in a and b
+ *   cost    OP_COSTS_... of tape.h
+ *   C, Octave  its right-hand side in generated code; NULL: not written so. In it, a dollar sign stands before
+ *           a, b   the operands
+ *           f      the function that is called, and
+ *           o      its operands, a comma between them
+ *           n      what tells b from no number: " || b != b", or nothing where b is a constant
+ *           i      the number in a
+ *           v      the value, a whole number
+ *           l, r, u   in Octave: the linear component, rate, input that a counts
+ *
+ * What each operation computes, in three more places: host/run/evaluate.inc, host/run/rounding.c,
+ * host/derive/eliminate.c.
+ */
+#ifndef IMAGE_OP_ROWS_H
+#define IMAGE_OP_ROWS_H
+
+/* clang-format off */
+#define OP_ROWS(X) \
+    X(CONSTANT, CONSTANT, NOTHING, NULL, NULL, "value: stands in place") \
+    X(LINEAR, LEAF, NOTHING, "linear[$i]", "y($l)", \
+      "real component a: a linear position (second order), any real (first order)") \
+    X(RATE, LEAF, NOTHING, "rate[$i]", "y($r)", "rate of coordinate a (second order only)") \
+    X(INPUT, LEAF, NOTHING, "input[$i]", "u_$u", "input a") \
+    X(ACCEL, LEAF, NOTHING, "accel[$i]", NULL, \
+      "acceleration of coordinate a, contact forces in it: for records") \
+    X(TIME, LEAF, NOTHING, "wh_scene_time_s(scene, state)", NULL, \
+      "time, s: for records, never in a step") \
+    X(RADIANS, LEAF, NOTHING, "wh_angle_to_rad(angle[$i])", NULL, \
+      "unwrapped angle a in radians: for records, never in a step") \
+    X(NOISE, LEAF, NOTHING, "wh_noise($vU, state->steps)", NULL, \
+      "Gaussian deviate with seed `value` at this step: for records, never in a step") \
+    X(PHASE, PHASE, WAVE, NULL, NULL, \
+      "sum turns[i]*phase[i] + sum parts[i]*angle[i] + value [rad] + (radians from b, if b >= 0)") \
+    X(SIN, WAVE, NOTHING, "s$i", "sin($a)", "sine of phase a") \
+    X(COS, WAVE, NOTHING, "c$i", "cos($a)", "cosine of phase a") \
+    X(ADD, BINARY, ARITHMETIC, "$a + $b", "$a + $b", "") \
+    X(SUB, BINARY, ARITHMETIC, "$a - $b", "$a - $b", "") \
+    X(MUL, BINARY, ARITHMETIC, "$a * $b", "$a * $b", "") \
+    X(DIV, BINARY, DIVISION, "$a / $b", "$a / $b", "") \
+    X(NEG, UNARY, ARITHMETIC, "-$a", "-$a", "") \
+    X(SQRT, UNARY, ROOT, "WH_SQRT($a)", "sqrt($a)", "") \
+    X(ABS, UNARY, ARITHMETIC, "WH_ABS($a)", "abs($a)", "") \
+    X(SIGN, UNARY, ARITHMETIC, \
+      "$a == $a ? (wh_real)(($a > WH_R(0.0)) - ($a < WH_R(0.0))) : $a", "sign($a)", \
+      "this, MIN and MAX give NaN of NaN: nothing that is no number may vanish in a comparison") \
+    X(MIN, BINARY, ARITHMETIC, "$b < $a$n ? $b : $a", "min($a, $b)", "b < a || b != b ? b : a") \
+    X(MAX, BINARY, ARITHMETIC, "$b > $a$n ? $b : $a", "max($a, $b)", "b > a || b != b ? b : a") \
+    X(CALL, CALL, CALL, "wh_$f($o)", "$f($o)", "function(a) or function(a, b), of core/function.h") \
+    X(POW, BINARY, CALL, "wh_pow($a, $b)", "$a ^ $b", "a to the b, likewise")
+/* clang-format on */
+
+#endif

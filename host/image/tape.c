@@ -1,0 +1,371 @@
+/* tape.c: entering operations once, folded and with signs pulled outwards. */
+#include "tape.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "host/base/arena.h"
+#include "host/base/room.h"
+
+tape *tape_new(int angles, int results) {
+    tape *t = room(1, sizeof *t);
+    t->angles = angles;
+    t->results = results;
+    t->result = room(results, sizeof *t->result);
+    t->arena = arena_new();
+    return t;
+}
+
+void tape_free(tape *t) {
+    if (t == NULL) {
+        return;
+    }
+    free(t->ops);
+    free(t->index);
+    free(t->result);
+    arena_free(t->arena);
+    free(t);
+}
+
+/* --- the rows of operations ----------------------------------------------------------------------*/
+
+const op_row op_rows[OPS] = {
+#define VALUES_CONSTANT 0
+#define VALUES_LEAF 0
+#define VALUES_PHASE 0
+#define VALUES_WAVE 1
+#define VALUES_UNARY 1
+#define VALUES_BINARY 2
+#define VALUES_CALL 2
+#define ROW(id, kind, cost, c, octave, ...) \
+    [OP_##id] = {OP_IS_##kind, OP_COSTS_##cost, VALUES_##kind, c, octave},
+    OP_ROWS(ROW)
+#undef ROW
+};
+
+/* The operation that a function of the language is. */
+static const op_code operation_of[FUNCTIONS] = {
+#define FUNCTION_CORE(value) OP_CALL
+#define FUNCTION_OWN(operation, value) OP_##operation
+#define ROW(id, word, arguments, dimensions, range, latex, value, ...) [FN_##id] = value,
+    FUNCTION_ROWS(ROW)
+#undef ROW
+};
+
+/* The function of the language that an operation of its own is, or FUNCTION_NONE. */
+static function_id function_of(op_code code) {
+    int f = 0;
+    while (f < FUNCTIONS && operation_of[f] != code) {
+        f++;
+    }
+    return code == OP_CALL ? FUNCTION_NONE : (function_id)f;
+}
+
+/* --- entering ------------------------------------------------------------------------------------*/
+
+static uint64_t mix(uint64_t hash, uint64_t word) {
+    return (hash ^ word) * UINT64_C(0x9e3779b97f4a7c15) + (hash >> 29);
+}
+
+/* How hashes of models have counted operations that are no call since there were 14 functions. */
+#define HASHED_NO_FUNCTION UINT64_C(14)
+
+uint64_t tape_op_hash(const tape *t, const op *o) {
+    uint64_t bits;
+    memcpy(&bits, &o->value, sizeof bits);
+    const uint64_t function = o->code == OP_CALL ? (uint64_t)o->function : HASHED_NO_FUNCTION;
+    uint64_t hash = mix(mix((uint64_t)o->code, function), bits);
+    hash = mix(mix(hash, (uint64_t)(unsigned)o->a), (uint64_t)(unsigned)o->b);
+    for (int i = 0; i < t->angles && o->turns != NULL; i++) {
+        hash = mix(hash, (uint64_t)(unsigned)o->turns[i]);
+    }
+    for (int i = 0; i < t->angles && o->parts != NULL; i++) {
+        memcpy(&bits, &o->parts[i], sizeof bits);
+        hash = mix(hash, bits);
+    }
+    return hash ^ (hash >> 31);
+}
+
+/* Two arrays [t->angles], either of which may be NULL. */
+static bool same_array(const tape *t, const void *x, const void *y, size_t size) {
+    return x == y || (x != NULL && y != NULL && memcmp(x, y, (size_t)t->angles * size) == 0);
+}
+
+static bool op_equal(const tape *t, const op *x, const op *y) {
+    return x->code == y->code && x->function == y->function && x->a == y->a && x->b == y->b &&
+           memcmp(&x->value, &y->value, sizeof x->value) == 0 &&
+           same_array(t, x->turns, y->turns, sizeof *x->turns) &&
+           same_array(t, x->parts, y->parts, sizeof *x->parts);
+}
+
+void tape_reindex(tape *t) {
+    free(t->index);
+    t->index_size = t->room * 2;
+    t->index = room(t->index_size, sizeof *t->index);
+    memset(t->index, -1, (size_t)t->index_size * sizeof *t->index);
+    for (int i = 0; i < t->count; i++) {
+        size_t at = (size_t)(tape_op_hash(t, &t->ops[i]) % (uint64_t)t->index_size);
+        while (t->index[at] >= 0) {
+            at = (at + 1) % (size_t)t->index_size;
+        }
+        t->index[at] = i;
+    }
+}
+
+static int enter(tape *t, op o) {
+    if (t->count == t->room) {
+        t->room = t->room == 0 ? 128 : t->room * 2;
+        t->ops = room_more(t->ops, t->room, sizeof *t->ops);
+        tape_reindex(t);
+    }
+    size_t at = (size_t)(tape_op_hash(t, &o) % (uint64_t)t->index_size);
+    while (t->index[at] >= 0) {
+        if (op_equal(t, &t->ops[t->index[at]], &o)) {
+            return t->index[at];
+        }
+        at = (at + 1) % (size_t)t->index_size;
+    }
+    t->index[at] = t->count;
+    t->ops[t->count] = o;
+    return t->count++;
+}
+
+static int enter_op(tape *t, op_code code, int a, int b) {
+    return enter(t, (op){.code = code, .function = FUNCTION_NONE, .a = a, .b = b});
+}
+
+bool tape_is_constant(const tape *t, int a, double *value) {
+    if (t->ops[a].code != OP_CONSTANT) {
+        return false;
+    }
+    *value = t->ops[a].value;
+    return true;
+}
+
+static bool is_value(const tape *t, int a, double value) {
+    return t->ops[a].code == OP_CONSTANT && t->ops[a].value == value;
+}
+
+int tape_constant(tape *t, double value) {
+    return enter(t, (op){.code = OP_CONSTANT,
+                         .function = FUNCTION_NONE,
+                         .a = -1,
+                         .b = -1,
+                         .value = value == 0.0 ? 0.0 : value}); /* one zero */
+}
+
+int tape_leaf(tape *t, op_code code, int which) { return enter_op(t, code, which, -1); }
+
+int tape_noise(tape *t, uint32_t seed) {
+    return enter(
+        t, (op){.code = OP_NOISE, .function = FUNCTION_NONE, .a = -1, .b = -1, .value = seed});
+}
+
+bool tape_is_whole(double multiple) {
+    return multiple == number_floor(multiple) && fabs(multiple) <= 2147483647.0;
+}
+
+/* Nothing is cut here: a number that is not whole goes among the parts. */
+int tape_phase(tape *t, const double *multiple, double offset_rad, int radians) {
+    int *turns = NULL;
+    double *parts = NULL;
+    for (int i = 0; i < t->angles && multiple != NULL; i++) {
+        const bool whole = tape_is_whole(multiple[i]);
+        if (multiple[i] == 0.0) {
+            continue;
+        }
+        if (whole && turns == NULL) {
+            turns = arena_alloc(t->arena, (size_t)t->angles * sizeof *turns);
+        }
+        if (!whole && parts == NULL) {
+            parts = arena_alloc(t->arena, (size_t)t->angles * sizeof *parts);
+        }
+        if (whole) {
+            turns[i] = (int)multiple[i];
+        } else {
+            parts[i] = multiple[i];
+        }
+    }
+    return enter(t, (op){.code = OP_PHASE,
+                         .function = FUNCTION_NONE,
+                         .a = -1,
+                         .b = radians,
+                         .value = offset_rad,
+                         .turns = turns,
+                         .parts = parts});
+}
+
+static int negate(tape *t, int a) {
+    const op *o = &t->ops[a];
+    if (o->code == OP_CONSTANT) {
+        return tape_constant(t, -o->value);
+    }
+    if (o->code == OP_NEG) {
+        return o->a;
+    }
+    if (o->code == OP_SUB) {
+        return tape_sub(t, o->b, o->a);
+    }
+    return enter_op(t, OP_NEG, a, -1);
+}
+
+int tape_unary(tape *t, op_code code, int a) {
+    double x;
+    if (code == OP_NEG) {
+        return negate(t, a);
+    }
+    const function_id function = function_of(code);
+    if (function != FUNCTION_NONE && tape_is_constant(t, a, &x)) {
+        return tape_constant(t, number_call(function, x, 0.0));
+    }
+    return enter_op(t, code, a, -1);
+}
+
+int tape_add(tape *t, int a, int b) {
+    double x;
+    double y;
+    const bool fixed_a = tape_is_constant(t, a, &x);
+    const bool fixed_b = tape_is_constant(t, b, &y);
+    if (fixed_a && fixed_b) {
+        return tape_constant(t, x + y);
+    }
+    if (fixed_a && x == 0.0) {
+        return b;
+    }
+    if (fixed_b && y == 0.0) {
+        return a;
+    }
+    if (t->ops[b].code == OP_NEG) {
+        return tape_sub(t, a, t->ops[b].a);
+    }
+    if (t->ops[a].code == OP_NEG) {
+        return tape_sub(t, b, t->ops[a].a);
+    }
+    return a < b ? enter_op(t, OP_ADD, a, b) : enter_op(t, OP_ADD, b, a);
+}
+
+int tape_sub(tape *t, int a, int b) {
+    double x;
+    double y;
+    const bool fixed_a = tape_is_constant(t, a, &x);
+    const bool fixed_b = tape_is_constant(t, b, &y);
+    if (fixed_a && fixed_b) {
+        return tape_constant(t, x - y);
+    }
+    if (a == b) {
+        return tape_constant(t, 0.0);
+    }
+    if (fixed_a && x == 0.0) {
+        return negate(t, b);
+    }
+    if (fixed_b && y == 0.0) {
+        return a;
+    }
+    if (t->ops[b].code == OP_NEG) {
+        return tape_add(t, a, t->ops[b].a);
+    }
+    if (t->ops[a].code == OP_NEG) {
+        return negate(t, tape_add(t, t->ops[a].a, b));
+    }
+    return enter_op(t, OP_SUB, a, b);
+}
+
+int tape_mul(tape *t, int a, int b) {
+    double x;
+    double y;
+    const bool fixed_a = tape_is_constant(t, a, &x);
+    const bool fixed_b = tape_is_constant(t, b, &y);
+    if (fixed_a && fixed_b) {
+        return tape_constant(t, x * y);
+    }
+    if (fixed_b) {
+        return tape_mul(t, b, a);
+    }
+    if (fixed_a) {
+        if (x == 0.0) {
+            return a;
+        }
+        if (x == 1.0) {
+            return b;
+        }
+        if (x == -1.0) {
+            return negate(t, b);
+        }
+        if (t->ops[b].code == OP_NEG) {
+            return tape_mul(t, tape_constant(t, -x), t->ops[b].a);
+        }
+        if (t->ops[b].code == OP_MUL && tape_is_constant(t, t->ops[b].a, &y)) {
+            return tape_mul(t, tape_constant(t, x * y), t->ops[b].b);
+        }
+        return enter_op(t, OP_MUL, a, b);
+    }
+    if (t->ops[a].code == OP_NEG) {
+        return negate(t, tape_mul(t, t->ops[a].a, b));
+    }
+    if (t->ops[b].code == OP_NEG) {
+        return negate(t, tape_mul(t, a, t->ops[b].a));
+    }
+    return a < b ? enter_op(t, OP_MUL, a, b) : enter_op(t, OP_MUL, b, a);
+}
+
+int tape_div(tape *t, int a, int b) {
+    double x;
+    double y;
+    if (tape_is_constant(t, b, &y)) {
+        return tape_is_constant(t, a, &x) ? tape_constant(t, x / y)
+                                          : tape_mul(t, tape_constant(t, 1.0 / y), a);
+    }
+    if (is_value(t, a, 0.0)) {
+        return a;
+    }
+    if (t->ops[b].code == OP_NEG) {
+        return negate(t, tape_div(t, a, t->ops[b].a));
+    }
+    return enter_op(t, OP_DIV, a, b);
+}
+
+int tape_call(tape *t, function_id function, int a, int b) {
+    const op_code code = operation_of[function];
+    switch (op_rows[code].kind) {
+    case OP_IS_WAVE: return enter_op(t, code, tape_phase(t, NULL, 0.0, a), -1);
+    case OP_IS_UNARY: return tape_unary(t, code, a);
+    case OP_IS_BINARY: return enter_op(t, code, a, b);
+    case OP_IS_CALL: return enter(t, (op){.code = code, .function = function, .a = a, .b = b});
+    case OP_IS_CONSTANT: /* no function is one of these */
+    case OP_IS_LEAF:
+    case OP_IS_PHASE: break;
+    }
+    abort();
+}
+
+int tape_pow(tape *t, int base, int exponent) {
+    double e;
+    if (tape_is_constant(t, exponent, &e)) {
+        return tape_power(t, base, e);
+    }
+    return enter_op(t, OP_POW, base, exponent);
+}
+
+int tape_power(tape *t, int base, double exponent) {
+    if (exponent < 0.0) {
+        const int inverse = tape_power(t, base, -exponent);
+        return tape_div(t, tape_constant(t, 1.0), inverse);
+    }
+    if (exponent == number_floor(exponent) && exponent <= 64.0) {
+        int result = tape_constant(t, 1.0);
+        int square = base;
+        for (unsigned left = (unsigned)exponent; left != 0; left >>= 1U) {
+            if (left & 1U) {
+                result = tape_mul(t, result, square);
+            }
+            square = left > 1 ? tape_mul(t, square, square) : square;
+        }
+        return result;
+    }
+    if (2.0 * exponent == number_floor(2.0 * exponent) && exponent <= 32.0) {
+        const int root = tape_unary(t, OP_SQRT, base);
+        return tape_mul(t, tape_power(t, base, number_floor(exponent)), root);
+    }
+    return enter_op(t, OP_POW, base, tape_constant(t, exponent));
+}

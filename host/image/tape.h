@@ -1,0 +1,138 @@
+/* tape.h: the operation list: a model's right-hand side as a table of elementary operations.
+ *
+ * One list, three readers: the interpreter (host/run), the generated C and Octave (host/emit). Each
+ * operation is one IEEE operation on earlier results, so all readers give the same bits. Equal
+ * operations are entered once; constants are folded; signs are pulled outwards, where they vanish
+ * into subtractions.
+ */
+#ifndef IMAGE_TAPE_H
+#define IMAGE_TAPE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "host/number/functions.h"
+
+#include "op_rows.h"
+
+/* OP_CONSTANT, OP_LINEAR, ... */
+#define OP_ID(id, ...) OP_##id,
+typedef enum op_code { OP_ROWS(OP_ID) } op_code;
+#undef OP_ID
+
+#define OP_ONE(...) +1
+enum { OPS = 0 OP_ROWS(OP_ONE) }; /* how many there are */
+#undef OP_ONE
+
+typedef enum op_kind {
+    OP_IS_CONSTANT,
+    OP_IS_LEAF,   /* a is an index, or nothing */
+    OP_IS_PHASE,  /* b is an operation or -1 */
+    OP_IS_WAVE,   /* a is a phase */
+    OP_IS_UNARY,  /* a is an operation */
+    OP_IS_BINARY, /* a and b are */
+    OP_IS_CALL    /* a is; b is, or -1 */
+} op_kind;
+
+typedef enum op_cost {
+    OP_COSTS_NOTHING,
+    OP_COSTS_ARITHMETIC,
+    OP_COSTS_DIVISION,
+    OP_COSTS_ROOT,
+    OP_COSTS_WAVE,
+    OP_COSTS_CALL
+} op_cost;
+
+typedef struct op_row {
+    op_kind kind;
+    op_cost cost;
+    int values;    /* most earlier values that it takes: a, a and b; none of a leaf or a phase */
+    const char *c; /* NULL: not written so */
+    const char *octave; /* NULL */
+} op_row;
+
+extern const op_row op_rows[OPS]; /* [op_code] */
+
+typedef struct op {
+    op_code code;
+    function_id function; /* OP_CALL */
+    int a;
+    int b;
+    double value;     /* OP_CONSTANT, OP_PHASE, OP_NOISE */
+    const int *turns; /* OP_PHASE: [angles] whole factors, or NULL when there are none */
+    /* OP_PHASE: [angles] factors that take the whole angle, not only its phase; or NULL. For records,
+     * never in a step. */
+    const double *parts;
+} op;
+
+typedef struct tape {
+    op *ops;
+    int count;
+    int room;
+    int angles; /* length of every `turns` */
+    int *index; /* hash index of ops */
+    int index_size;
+    int *result; /* operation numbers of what the list computes */
+    int results;
+    struct arena *arena;
+} tape;
+
+tape *tape_new(int angles, int results);
+void tape_free(tape *t);
+
+int tape_constant(tape *t, double value);
+int tape_leaf(tape *t, op_code code, int which);
+int tape_noise(tape *t, uint32_t seed);
+/* `multiple` [t->angles] of each turn angle may be NULL, and holds any numbers: those that are whole
+ * multiply phases, the others whole angles. `radians` is an operation or -1. */
+int tape_phase(tape *t, const double *multiple, double offset_rad, int radians);
+/* Can a phase be multiplied by this number? Whole numbers, within bounds, can. */
+bool tape_is_whole(double multiple);
+int tape_unary(tape *t, op_code code, int a);
+int tape_add(tape *t, int a, int b);
+int tape_sub(tape *t, int a, int b);
+int tape_mul(tape *t, int a, int b);
+int tape_div(tape *t, int a, int b);
+/* A function of what operations a and b (or -1) give: whichever operation that is. */
+int tape_call(tape *t, function_id function, int a, int b);
+int tape_pow(tape *t, int base, int exponent);
+/* base to a fixed power, by products and square roots where that is possible. */
+int tape_power(tape *t, int base, double exponent);
+bool tape_is_constant(const tape *t, int a, double *value);
+
+/* After operations were moved: rebuild the index that finds equal ones. */
+void tape_reindex(tape *t);
+uint64_t tape_op_hash(const tape *t, const op *o);
+
+/* Drop what no result needs and renumber. */
+void tape_prune(tape *t);
+
+/* Does the list want whole angles, turns included, and not only their phases? No step has those. */
+bool tape_reads_turns(const tape *t);
+
+/* The first result in which a constant takes part that is not finite, or -1. */
+int tape_not_finite(const tape *t);
+
+/* Is a number zero, or within float's normal numbers? */
+bool fits_float(double value);
+/* The first constant that float keeps with fewer digits than it has, as zero or as infinite; 0: there is none. */
+double tape_out_of_float(const tape *t);
+
+/* What a list costs. */
+typedef struct tape_cost {
+    int arithmetic; /* additions, subtractions, products, negations, comparisons */
+    int divisions;
+    int roots;
+    int waves; /* sines and cosines, a pair of one phase counted once */
+    int calls; /* of core/function.h */
+} tape_cost;
+
+tape_cost tape_count(const tape *t);
+/* One number to compare lists by: rough instructions on a Cortex-M4F. */
+int tape_weight(const tape *t);
+/* Operations in the sense of flop counts: every operation of the list that is not a leaf, a phase or
+ * a constant, a sine and a cosine each counting one. */
+int tape_operations(const tape *t);
+uint64_t tape_hash(const tape *t);
+
+#endif

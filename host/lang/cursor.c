@@ -1,0 +1,210 @@
+/* cursor.c: tokens in hand, and the way back after errors. */
+#include "cursor.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+void parser_next(parser *in) {
+    do {
+        in->token = lexer_next(&in->lexer);
+    } while (in->parentheses > 0 && in->token.kind == TOKEN_NEWLINE);
+}
+
+bool parser_is_sign(const parser *in, int sign) {
+    return in->token.kind == TOKEN_SIGN && in->token.sign == sign;
+}
+
+bool token_is(const token *each, const char *word) {
+    return each->kind == TOKEN_NAME && each->primes == 0 && strlen(word) == each->length &&
+           memcmp(word, each->text, each->length) == 0;
+}
+
+bool token_is_word(const token *each, word_id word) {
+    return each->kind == TOKEN_NAME && each->primes == 0 && word_is(word, each->text, each->length);
+}
+
+const statement_word *token_statement(const token *each) {
+    const int found =
+        each->kind == TOKEN_NAME && each->primes == 0 ? word_find(each->text, each->length) : WORDS;
+    return found == WORDS ? NULL : word_row((word_id)found);
+}
+
+bool parser_is_word(const parser *in, word_id word) { return token_is_word(&in->token, word); }
+
+bool parser_leaves(const parser *in, unsigned rule) {
+    const statement_word *word = in->token.starts_line ? token_statement(&in->token) : NULL;
+    return word != NULL && (word->rules & rule) != 0;
+}
+
+bool parser_at_end_of_line(const parser *in) {
+    return in->token.kind == TOKEN_NEWLINE || in->token.kind == TOKEN_END ||
+           parser_is_sign(in, ';');
+}
+
+const char *token_words(const token *each, char *buffer, size_t size) {
+    switch (each->kind) {
+    case TOKEN_END: snprintf(buffer, size, "the end of the text"); break;
+    case TOKEN_NEWLINE: snprintf(buffer, size, "the end of the line"); break;
+    case TOKEN_STRING: snprintf(buffer, size, "a text in quotes"); break;
+    case TOKEN_UNIT: snprintf(buffer, size, "a unit"); break;
+    case TOKEN_NAME:
+    case TOKEN_NUMBER:
+    case TOKEN_SIGN:
+    case TOKEN_BAD:
+        /* Single quotes around primes would be hard to read. */
+        snprintf(buffer, size, each->primes > 0 ? "\"%.*s%.*s\"" : "'%.*s%.*s'",
+                 (int)(each->length > 63 ? 63 : each->length), each->text, each->primes,
+                 "'''''''''");
+        break;
+    }
+    return buffer;
+}
+
+bool parser_fail(parser *in, const char *hint, const char *format, ...) {
+    if (in->token.kind != TOKEN_BAD) {
+        char message[300];
+        va_list arguments;
+        va_start(arguments, format);
+        vsnprintf(message, sizeof message, format, arguments);
+        va_end(arguments);
+        diag_error(in->diags, in->token.at, hint, "%s", message);
+    }
+    return false;
+}
+
+bool parser_expect_sign(parser *in, int sign, const char *where) {
+    if (!parser_is_sign(in, sign)) {
+        char words[80];
+        return parser_fail(in, NULL, "'%c' is missing %s, before %s", sign, where,
+                           token_words(&in->token, words, sizeof words));
+    }
+    parser_next(in);
+    return true;
+}
+
+bool parser_expect_word(parser *in, word_id word, word_id statement) {
+    if (parser_is_word(in, word)) {
+        parser_next(in);
+        return true;
+    }
+    const char *wanted = word_row(word)->text;
+    char words[80];
+    char hint[120];
+    snprintf(hint, sizeof hint, "%s", word_row(statement)->form);
+    if (in->token.kind == TOKEN_NAME) {
+        nearest search = nearest_start(in->token.text, in->token.length);
+        nearest_offer(&search, wanted);
+        if (search.best != NULL) {
+            snprintf(hint, sizeof hint, "did you mean '%s'?", wanted);
+        }
+    }
+    return parser_fail(in, hint, "'%s' is missing before %s", wanted,
+                       token_words(&in->token, words, sizeof words));
+}
+
+void parser_skip_lines(parser *in) {
+    while (in->token.kind == TOKEN_NEWLINE || parser_is_sign(in, ';')) {
+        parser_next(in);
+    }
+}
+
+bool parser_is_body_word(const parser *in) {
+    const statement_word *word = token_statement(&in->token);
+    return word != NULL && (word->stands & IN_BODY) != 0;
+}
+
+void parser_skip_statement(parser *in) {
+    int braces = 0;
+    in->parentheses = 0;
+    in->nesting = 0;
+    while (in->token.kind != TOKEN_END) {
+        if (braces == 0 && (parser_at_end_of_line(in) || parser_is_sign(in, '}'))) {
+            return;
+        }
+        /* After an unclosed parenthesis or brace the next statement is the way back. */
+        if (in->token.at.offset != in->statement_at.offset && in->token.starts_line &&
+            (braces > 0 ? parser_leaves(in, ENDS_EFFECT) : parser_is_body_word(in))) {
+            return;
+        }
+        if (parser_is_sign(in, '{')) {
+            braces++;
+        } else if (parser_is_sign(in, '}')) {
+            braces--;
+        }
+        parser_next(in);
+    }
+}
+
+bool parser_end_statement(parser *in, const char *what) {
+    if (parser_at_end_of_line(in) || parser_is_sign(in, '}')) {
+        return true;
+    }
+    char words[80];
+    token_words(&in->token, words, sizeof words);
+    switch (in->token.kind) {
+    case TOKEN_UNIT:
+        return parser_fail(in, "a unit belongs to a number: 2 [kg]", "a unit without a number");
+    case TOKEN_NAME:
+    case TOKEN_NUMBER:
+        return parser_fail(in, "products are written with *, units in brackets: 2*m, 2 [m]",
+                           "an operator is missing before %s", words);
+    case TOKEN_SIGN:
+        if (in->token.sign == ')') {
+            return parser_fail(in, NULL, "')' without '('");
+        }
+        return parser_fail(in, "a statement ends with its line", "unexpected %s after %s", words,
+                           what);
+    case TOKEN_STRING:
+    case TOKEN_BAD:
+    case TOKEN_END:
+    case TOKEN_NEWLINE: break;
+    }
+    return parser_fail(in, "a statement ends with its line", "unexpected %s after %s", words, what);
+}
+
+char *parser_copy_text(parser *in, const token *each) {
+    return arena_copy(in->arena, each->text, each->length);
+}
+
+const char *parser_title(parser *in) {
+    if (in->token.kind != TOKEN_STRING) {
+        return "";
+    }
+    const char *title = parser_copy_text(in, &in->token);
+    parser_next(in);
+    return title;
+}
+
+bool statement_unknown(parser *in, unsigned where) {
+    char name[80];
+    char hint[120] = "";
+    token_words(&in->token, name, sizeof name);
+    if (in->token.kind != TOKEN_NAME) {
+        const bool goes_on = parser_is_sign(in, '+') || parser_is_sign(in, '-') ||
+                             parser_is_sign(in, '*') || parser_is_sign(in, '/');
+        return parser_fail(
+            in, goes_on ? "a line goes on only while a parenthesis or brace is open" : NULL,
+            "a statement cannot begin with %s", name);
+    }
+    const token word = in->token;
+    parser_next(in);
+    nearest search = nearest_start(word.text, word.length);
+    for (int i = 0; i < STATEMENT_WORDS; i++) {
+        const statement_word *each = word_row((word_id)i);
+        if ((each->stands & where) != 0) {
+            nearest_offer(&search, each->text);
+        }
+    }
+    if (search.best != NULL && !parser_is_sign(in, '=')) {
+        snprintf(hint, sizeof hint, "did you mean '%s'?", search.best);
+    } else if (parser_is_sign(in, '=') && in->all_effects) {
+        snprintf(hint, sizeof hint, "begin with set or start, or end the line before with a comma");
+    } else if (parser_is_sign(in, '=')) {
+        const int length = word.length > 30 ? 30 : (int)word.length;
+        snprintf(hint, sizeof hint, "declare it: parameter %.*s = ..., or let %.*s = ...", length,
+                 word.text, length, word.text);
+    }
+    diag_error(in->diags, word.at, hint[0] == '\0' ? NULL : hint, "unknown statement %s", name);
+    return false;
+}

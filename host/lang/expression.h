@@ -1,0 +1,40 @@
+/* expression.h: reading expressions: the grammar (expression.c, condition.c), names (reference.c), and what
+ * operators make of dimensions (operators.c). Recursion is bounded by NESTING_MAX and EXPR_HEIGHT_MAX. */
+#ifndef LANG_EXPRESSION_H
+#define LANG_EXPRESSION_H
+
+#include "parser.h"
+#include "words.h"
+
+/* --- grammar (expression.c, condition.c) --- */
+const expr *parse_expression(parser *in, expr_context context); /* NULL: gave up */
+bool parse_close(parser *in, place open);                       /* the ')' that closes `open` */
+/* Comparisons joined by `and`, `or` as one expression: true when above zero. The statement is for hints. */
+const expr *parse_condition(parser *in, word_id statement);
+/* The unit token in hand; *text is set to what it says, without blanks. */
+bool parse_unit(parser *in, unit *result, const char **text);
+
+/* --- names (reference.c) --- */
+const expr *expr_name(parser *in, const token *name);
+/* The line in which a later statement of the mechanism declares the name, or 0. */
+int name_declared_later(const token *name);
+/* The coordinate of that name, or NULL (reported); `whose` it is to be, for messages. */
+const symbol *find_coordinate(parser *in, const token *name, const char *whose);
+
+/* --- operators (operators.c) --- */
+expr *expr_new(parser *in, expr_op op, place at);
+const expr *expr_binary(parser *in, expr_op op, place at, const expr *left, const expr *right);
+/* left - right of a comparison: both must have one dimension. */
+const expr *expr_difference(parser *in, place at, const expr *left, const expr *right);
+const expr *expr_negate(parser *in, place at, const expr *operand);
+const expr *expr_call(parser *in, function_id function, place at, const expr *left,
+                      const expr *right);
+/* The value when only numbers and operators are in it. */
+bool expr_constant(const expr *tree, double *value);
+/* Report at `at` "RULE, but this is ..." when `value` has not the dimension `wanted`. */
+bool check_dimension(parser *in, place at, const expr *value, dimension wanted, const char *rule);
+/* "SUBJECT is mass [kg]", the rule for something that has its dimension already. */
+enum { RULE_SIZE = 300 };
+char *dimension_rule(char *buffer, const char *subject, const char *verb, dimension dim);
+
+#endif

@@ -1,0 +1,53 @@
+/* kinds.h: the kinds of symbols, terms and contacts, and what messages call them. */
+#ifndef LANG_KINDS_H
+#define LANG_KINDS_H
+
+/* Symbols: the kind, and one of it in a message. */
+#define SYMBOL_KIND_ROWS(X) \
+    X(COORDINATE, "a coordinate") /* generalized coordinate: may carry primes */ \
+    X(STATE, "a state")           /* unknown of a system given outright: may carry primes */ \
+    X(PARAMETER, "a parameter")   /* constant of a run; value from an expression of constants */ \
+    X(INPUT, "an input")          /* may change while running; value likewise */ \
+    X(LET, "a let")               /* shorthand; stands for its expression */ \
+    X(OUTPUT, "an output")        /* computed for records; may be used by later outputs */ \
+    X(RECORD, "an output")        /* as it is recorded, noise included: in measures only */
+
+#define SYMBOL_KIND(id, words) SYM_##id,
+typedef enum symbol_kind { SYMBOL_KIND_ROWS(SYMBOL_KIND) } symbol_kind;
+#undef SYMBOL_KIND
+
+const char *symbol_kind_words(symbol_kind kind);
+
+/* Contributions to a mechanism: the kind, what it is, and the rule of its
+ * dimension where that is one of all (Q's follows from its coordinate, an equation's from its sides). */
+#define TERM_KIND_ROWS(X) \
+    X(T, "the kinetic energy", "kinetic energy T must be an energy [kg*m^2/s^2]") \
+    X(V, "the potential energy", "potential energy V must be an energy [kg*m^2/s^2]") \
+    X(F, "the dissipation function", "dissipation function F must be a power [kg*m^2/s^3]") \
+    X(Q, "a generalized force", "") \
+    X(EQUATION, "an equation", "")
+
+#define TERM_KIND(id, meaning, rule) TERM_##id,
+typedef enum term_kind { TERM_KIND_ROWS(TERM_KIND) } term_kind;
+#undef TERM_KIND
+
+const char *term_meaning(term_kind kind);
+const char *term_rule(term_kind kind);
+
+/* Contacts: the kind (its word is WORD_STOP, ... of words.h), one of them in a message, and what of it may be no
+ * number. */
+#define CONTACT_KIND_ROWS(X) \
+    X(STOP, "the stop", "the restitution, or the gap, of this stop") \
+    X(FRICTION, "the friction", "the normal force, or a coefficient, of this friction") \
+    X(HOLD, "the hold", "the condition of this hold, or what it holds,") \
+    X(WHEN, "the crossing", "the value of this crossing")
+
+#define CONTACT_KIND(id, called, undefined) CONTACT_##id,
+typedef enum contact_kind { CONTACT_KIND_ROWS(CONTACT_KIND) } contact_kind;
+#undef CONTACT_KIND
+
+const char *contact_word(contact_kind kind);      /* "stop" */
+const char *contact_called(contact_kind kind);    /* "the stop" */
+const char *contact_undefined(contact_kind kind); /* "the restitution, or the gap, of this stop" */
+
+#endif

@@ -1,0 +1,25 @@
+/* shown.h: the units in which people read numbers: the declared one, or SI. */
+#ifndef LANG_SHOWN_H
+#define LANG_SHOWN_H
+
+#include "model.h"
+
+/* The unit in which a coordinate or state (its derivative with so many primes) or an output is shown.
+ * It is the declared one, for a derivative per second: [deg] makes deg/s, deg/s^2. What has none is
+ * shown in SI. */
+struct unit shown_unit(const symbol *s, int primes);
+
+/* Its name: "deg/s", "kg*m/s^2", "rad", "1". The caller frees it. */
+char *shown_unit_name(const symbol *s, int primes);
+
+/* The name of the SI unit of the same. The caller frees it. */
+char *shown_si_name(const symbol *s, int primes);
+
+/* On standard error: a note that `typed`, such as "theta=80", is in SI although the symbol is declared in
+ * another unit. For what override_is_bare(). */
+void shown_note_bare(const char *typed, const symbol *s, int primes);
+
+/* The SI unit of a dimension into text[size]: "rad", "m/s", "kg*m^2/s^2", "1". Returns text. */
+const char *dimension_unit(dimension dim, bool is_angle, char *text, size_t size);
+
+#endif

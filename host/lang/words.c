@@ -1,0 +1,40 @@
+#include "words.h"
+
+#include <string.h>
+
+#include "model.h"
+
+static const statement_word rows[] = {
+#define WORD_ROW(id, text, stands, rules, reader, kind, form) \
+    [WORD_##id] = {text, form, stands, rules, (int)(kind)},
+    BODY_WORD_ROWS(WORD_ROW) SCENE_WORD_ROWS(WORD_ROW)
+#undef WORD_ROW
+#define WORD_ROW(id, text, rules) [WORD_##id] = {text, "", 0, rules, 0},
+        INNER_WORD_ROWS(WORD_ROW)
+#undef WORD_ROW
+};
+_Static_assert(sizeof rows / sizeof rows[0] == WORDS, "a row for each word");
+
+const statement_word *word_row(word_id id) { return &rows[id]; }
+
+bool word_is(word_id id, const char *text, size_t length) {
+    return strlen(rows[id].text) == length && memcmp(rows[id].text, text, length) == 0;
+}
+
+int word_find(const char *text, size_t length) {
+    for (int i = 0; i < STATEMENT_WORDS; i++) {
+        if (word_is((word_id)i, text, length)) {
+            return i;
+        }
+    }
+    return WORDS;
+}
+
+bool word_is_reserved(const char *text, size_t length) {
+    for (int i = 0; i < WORDS; i++) {
+        if ((rows[i].rules & RESERVED) != 0 && word_is((word_id)i, text, length)) {
+            return true;
+        }
+    }
+    return false;
+}

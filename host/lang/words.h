@@ -1,0 +1,144 @@
+/* words.h: every word of the language that stands at the beginning of a statement, or has its place inside one.
+ *
+ * A new statement is a row here and the function that reads it; a new word inside one is a row below. What the parser
+ * goes by (which words are known where, which ends a block whose brace was forgotten, what nobody may name a parameter,
+ * which one a misspelt word is near to), and what docs/language.md must list, follows from the rows.
+ */
+#ifndef LANG_WORDS_H
+#define LANG_WORDS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* Where a statement may stand. */
+enum {
+    IN_FILE = 1, /* outside all blocks: it is the file's, though a mechanism may have begun */
+    IN_MECHANISM = 2,
+    IN_EFFECT = 4,
+    IN_SCENE = 8,
+    IN_BODY = IN_FILE | IN_MECHANISM | IN_EFFECT
+};
+
+/* What else there is to a word. */
+enum {
+    RESERVED = 1,      /* no name of the user's */
+    DECLARES = 2,      /* a name, which follows it */
+    ENDS_EFFECT = 4,   /* at the beginning of a line inside an effect: its brace was forgotten */
+    ENDS_SCENE = 8,    /* the same of a scene */
+    ENDS_WHEN = 16,    /* and of a `when` */
+    INTO_EFFECT = 32,  /* in a scene it is told to go into an effect */
+    BY_ENERGIES = 64,  /* for mechanisms given by their energies only */
+    BY_EQUATIONS = 128 /* for systems given by their equations only */
+};
+#define FILE_FORM "a file begins with: mechanism NAME \"title\""
+#define ENDS_ALL (ENDS_EFFECT | ENDS_SCENE | ENDS_WHEN)
+
+/* Statements of files, mechanisms and effects, in the order in which a misspelt one is compared with them:
+ *
+ *   word          as it is written, and its name here: WORD_COORDINATE
+ *   stands        where
+ *   rules         what else there is to it
+ *   reader        reads what follows it (statements.c)
+ *   kind          of what it makes: symbol_kind, term_kind or contact_kind, as its reader has it
+ *   form          its usual look, for hints
+ */
+#define BODY_WORD_ROWS(X) \
+    X(MECHANISM, "mechanism", IN_FILE, RESERVED | ENDS_ALL, read_mechanism, 0, \
+      "mechanism pendulum \"A pendulum\"") \
+    X(COORDINATE, "coordinate", IN_MECHANISM, \
+      RESERVED | DECLARES | ENDS_SCENE | ENDS_WHEN | BY_ENERGIES, read_unknown, SYM_COORDINATE, \
+      "coordinate theta [rad]") \
+    X(STATE, "state", IN_MECHANISM, RESERVED | DECLARES | ENDS_SCENE | BY_EQUATIONS, read_unknown, \
+      SYM_STATE, "state x") \
+    X(PARAMETER, "parameter", IN_MECHANISM | IN_EFFECT, \
+      RESERVED | DECLARES | ENDS_SCENE | ENDS_WHEN, read_constant, SYM_PARAMETER, \
+      "parameter name = expression") \
+    X(INPUT, "input", IN_MECHANISM | IN_EFFECT, RESERVED | DECLARES | ENDS_WHEN, read_constant, \
+      SYM_INPUT, "input name = expression") \
+    X(LET, "let", IN_MECHANISM | IN_EFFECT, RESERVED | DECLARES | ENDS_SCENE | ENDS_WHEN, \
+      read_constant, SYM_LET, "let name = expression") \
+    X(T, "T", IN_MECHANISM | IN_EFFECT, RESERVED | BY_ENERGIES, read_energy, TERM_T, \
+      "T = m*X'^2/2") \
+    X(V, "V", IN_MECHANISM | IN_EFFECT, RESERVED | BY_ENERGIES, read_energy, TERM_V, "V = m*g*X") \
+    X(F, "F", IN_MECHANISM | IN_EFFECT, RESERVED | BY_ENERGIES, read_energy, TERM_F, \
+      "F = b*X'^2/2") \
+    X(Q, "Q", IN_MECHANISM | IN_EFFECT, RESERVED | BY_ENERGIES, read_force, TERM_Q, \
+      "write Q(theta) = ...") \
+    X(EQUATION, "equation", IN_MECHANISM, RESERVED | ENDS_SCENE | BY_EQUATIONS, read_equation, \
+      TERM_EQUATION, "equation left = right") \
+    X(OUTPUT, "output", IN_MECHANISM, RESERVED | DECLARES | ENDS_SCENE | ENDS_WHEN, read_output, \
+      SYM_OUTPUT, "output name = expression") \
+    X(EFFECT, "effect", IN_FILE, RESERVED | ENDS_ALL, read_effect, 0, \
+      "effect drag \"viscous drag\" { F += b*X'^2/2 }") \
+    X(SCENE, "scene", IN_FILE, RESERVED | ENDS_ALL, read_scene, 0, \
+      "scene from_rest \"title\" { until 9 [s] }") \
+    X(STOP, "stop", IN_MECHANISM | IN_EFFECT, RESERVED | ENDS_WHEN | INTO_EFFECT, read_stop, \
+      CONTACT_STOP, "stop x >= 0 [m] restitution 0.5") \
+    X(FRICTION, "friction", IN_MECHANISM | IN_EFFECT, RESERVED | INTO_EFFECT, read_friction, \
+      CONTACT_FRICTION, "friction x static 0.3 kinetic 0.2 normal m*g") \
+    X(HOLD, "hold", IN_MECHANISM | IN_EFFECT, RESERVED | INTO_EFFECT, read_hold, CONTACT_HOLD, \
+      "hold x - y while x > 0 [m] and x' > 0 [m/s]") \
+    X(WHEN, "when", IN_MECHANISM | IN_EFFECT | IN_SCENE, RESERVED | ENDS_WHEN, read_when, \
+      CONTACT_WHEN, "when x crosses 0 [m] rising { set x' = 0 [m/s] }") \
+    X(NOISE, "noise", IN_MECHANISM | IN_EFFECT, INTO_EFFECT, read_noise, 0, \
+      "noise angle_read deviation 0.1 [deg] seed 7")
+
+/* Statements of scenes alone (scene_block.c), with the same columns. */
+#define SCENE_WORD_ROWS(X) \
+    X(USE, "use", IN_SCENE, RESERVED, read_use, 0, "use NAME") \
+    X(WITH, "with", IN_SCENE, RESERVED, read_with, 0, "with EFFECT, EFFECT") \
+    X(SET, "set", IN_SCENE, RESERVED, read_set, 0, "set m = 3 [kg]") \
+    X(START, "start", IN_SCENE, RESERVED, read_start, 0, "start x' = 1.2 [m/s]") \
+    X(STEP, "step", IN_SCENE, RESERVED, read_step, 0, "step 1 [ms]") \
+    X(UNTIL, "until", IN_SCENE, RESERVED, read_until, 0, "until 9 [s]") \
+    X(CONSERVE, "conserve", IN_SCENE, RESERVED, read_conserve, 0, "conserve X")
+
+/* Words inside statements: the statement, and whether they are reserved. */
+#define INNER_WORD_ROWS(X) \
+    X(RESTITUTION, "restitution", 0) \
+    X(STATIC, "static", 0) \
+    X(KINETIC, "kinetic", 0) \
+    X(NORMAL, "normal", 0) \
+    X(WHILE, "while", 0) \
+    X(AND, "and", 0) \
+    X(OR, "or", 0) \
+    X(CROSSES, "crosses", 0) \
+    X(RISING, "rising", 0) \
+    X(FALLING, "falling", 0) \
+    X(DEVIATION, "deviation", 0) \
+    X(SEED, "seed", 0) \
+    X(NONE, "none", 0) \
+    X(LEDGER, "ledger", 0) \
+    X(ALL, "all", 0) \
+    X(PI, "pi", RESERVED)
+
+#define WORD_ID(id, ...) WORD_##id,
+typedef enum word_id {
+    BODY_WORD_ROWS(WORD_ID) SCENE_WORD_ROWS(WORD_ID) INNER_WORD_ROWS(WORD_ID)
+} word_id;
+#undef WORD_ID
+
+#define WORD_ONE(...) +1
+enum {
+    STATEMENT_WORDS = 0 BODY_WORD_ROWS(WORD_ONE) SCENE_WORD_ROWS(WORD_ONE), /* come first */
+    WORDS = STATEMENT_WORDS INNER_WORD_ROWS(WORD_ONE)
+};
+#undef WORD_ONE
+
+typedef struct statement_word {
+    const char *text;
+    const char *form; /* "" inside statements */
+    unsigned stands;  /* IN_ bits; 0 inside statements */
+    unsigned rules;
+    int kind;
+} statement_word;
+
+const statement_word *word_row(word_id id);
+
+/* Is it this word? */
+bool word_is(word_id id, const char *text, size_t length);
+/* The word that begins a statement, or WORDS: none does. */
+int word_find(const char *text, size_t length);
+bool word_is_reserved(const char *text, size_t length);
+
+#endif

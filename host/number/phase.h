@@ -1,0 +1,20 @@
+/* phase.h: angles and multiples of angles as the float build keeps them: whole numbers of 2^-32 turn. */
+#ifndef NUMBER_PHASE_H
+#define NUMBER_PHASE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* The stored start of a float angle: radians to 2^32 a turn with turns, rounded to the nearest. Below
+ * PHASE_START_MOST_RAD in size: beyond it, 0. */
+#define PHASE_START_MOST_RAD 6.28e9
+int64_t phase_of_start(double rad);
+bool phase_holds_start(double rad);
+
+/* Phase constant: radians to 2^32 a turn, wrapped and rounded to the nearest. */
+uint32_t phase_of_constant(double rad);
+
+/* A multiple as wh_phase_times() takes it: modulo 2^32, rounded to 2^-64. */
+void phase_factor(double multiple, uint32_t *whole, uint64_t *part);
+
+#endif

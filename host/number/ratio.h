@@ -1,0 +1,31 @@
+/* ratio.h: steps and ends of runs as fractions of whole numbers, so that counts and times are exact. */
+#ifndef NUMBER_RATIO_H
+#define NUMBER_RATIO_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* What a duration above zero must lie between, s. */
+#define RATIO_LEAST 1e-18
+#define RATIO_MOST 1e18
+
+/* numerator / denominator, in lowest terms, both below 2^60. */
+typedef struct whole_ratio {
+    uint64_t numerator;
+    uint64_t denominator; /* > 0 */
+} whole_ratio;
+
+/* What `value` was before units and doubles rounded it: the decimal of fewest digits (at most 15), or the
+ * simplest fraction, whichever says less, within 2^-51 of it, relatively. 0.0011000000000000001 is 11/10000, and
+ * 1/44100 is what it looks like. A decimal with more than 60 bits over or under the bar (9.99999999999999e-7) becomes
+ * the simplest fraction, too. `value` is 0, or from RATIO_LEAST to RATIO_MOST. */
+whole_ratio ratio_of(double value);
+
+/* The nearest whole number to whole / part, the lower one of two that are as near; false when that is
+ * more than 2^63. `part` is above zero. */
+bool ratio_count(whole_ratio whole, whole_ratio part, uint64_t *count);
+
+/* count * each, to the nearest double. */
+double ratio_times(uint64_t count, whole_ratio each);
+
+#endif

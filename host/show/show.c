@@ -1,0 +1,261 @@
+/* show.c: sums for readers: collected by rates and accelerations, factored. */
+#include "show.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "host/base/room.h"
+#include "host/lang/lexer.h"
+#include "show_term.h"
+
+/* --- sums ----------------------------------------------------------------------------------------*/
+
+static void show_sign(const show *s, bool negative, bool first) {
+    if (first) {
+        fputs(negative ? "-" : "", s->out);
+    } else {
+        fputs(negative ? " - " : " + ", s->out);
+    }
+}
+
+static void show_sum(const show *s, const poly *p, bool leading) {
+    piece *pieces = room(p->count, sizeof *pieces);
+    const int count = pieces_of(s->algebra, p, pieces);
+    for (int i = 0; i < count; i++) {
+        show_sign(s, pieces[i].coefficient < 0.0, leading && i == 0);
+        show_product(s, &pieces[i], fabs(pieces[i].coefficient));
+    }
+    free(pieces);
+}
+
+/* A number that all coefficients are small whole multiples of, or 1. */
+static double common_number(const piece *pieces, int count) {
+    double smallest = (double)INFINITY;
+    for (int i = 0; i < count; i++) {
+        smallest = number_least(smallest, fabs(pieces[i].coefficient));
+    }
+    for (int i = 0; i < count; i++) {
+        const double ratio = fabs(pieces[i].coefficient) / smallest;
+        if (fabs(ratio - number_floor(ratio + 0.5)) > 1e-12 * ratio || ratio > 100.0) {
+            return 1.0;
+        }
+    }
+    return smallest;
+}
+
+/* The factors that every term has, as a term of its own. */
+const poly *show_common(algebra *a, const poly *p) {
+    const poly *common = poly_number(a, 1.0);
+    const mono *first = p->terms[0].mono;
+    for (int k = 0; k < first->count; k++) {
+        double lowest = first->factors[k].exponent;
+        for (int i = 1; i < p->count; i++) {
+            const mono *m = p->terms[i].mono;
+            double here = 0.0;
+            for (int j = 0; j < m->count; j++) {
+                here = m->factors[j].atom == first->factors[k].atom ? m->factors[j].exponent : here;
+            }
+            lowest = (here > 0.0) == (lowest > 0.0) && here != 0.0
+                         ? (fabs(here) < fabs(lowest) ? here : lowest)
+                         : 0.0;
+        }
+        if (lowest != 0.0) {
+            common = poly_mul(a, common, poly_of_atom(a, first->factors[k].atom, lowest));
+        }
+    }
+    return common;
+}
+
+/* The parameter that most terms contain, if at least two do. */
+static const atom *shared_parameter(const poly *p) {
+    const atom *best = NULL;
+    int best_uses = 1;
+    for (int i = 0; i < p->count; i++) {
+        for (int k = 0; k < p->terms[i].mono->count; k++) {
+            const atom *x = p->terms[i].mono->factors[k].atom;
+            int uses = 0;
+            for (int j = 0; j < p->count && show_rank(x) == 0; j++) {
+                for (int m = 0; m < p->terms[j].mono->count; m++) {
+                    uses += p->terms[j].mono->factors[m].atom == x;
+                }
+            }
+            if (uses > best_uses) {
+                best = x;
+                best_uses = uses;
+            }
+        }
+    }
+    return best;
+}
+
+static void show_group(const show *s, const poly *p, const poly *key, bool leading);
+
+/* A sum without rates and without a factor common to all: K1*(X - L1) + K2*(...). */
+static void show_parted(const show *s, const poly *p, bool leading) {
+    const atom *shared = shared_parameter(p);
+    algebra *a = s->algebra;
+    const poly *one = poly_number(a, 1.0);
+    if (shared == NULL) {
+        for (int i = 0; i < p->count; i++) {
+            const poly *t = poly_of_term(a, p->terms[i].coefficient, p->terms[i].mono);
+            show_group(s, t, one, leading && i == 0);
+        }
+        return;
+    }
+    const poly *with = poly_number(a, 0.0);
+    for (int i = 0; i < p->count; i++) {
+        for (int k = 0; k < p->terms[i].mono->count; k++) {
+            if (p->terms[i].mono->factors[k].atom == shared) {
+                with =
+                    poly_add(a, with, poly_of_term(a, p->terms[i].coefficient, p->terms[i].mono));
+            }
+        }
+    }
+    const poly *without = poly_sub(a, p, with);
+    if (!poly_is_zero(without)) {
+        show_group(s, with, one, leading);
+        show_group(s, without, one, false);
+        return;
+    }
+    show_sum(s, p, leading); /* every term has it, in powers of different signs */
+}
+
+/* * key, unless that is one. */
+static void show_behind(const show *s, const poly *key) {
+    if (key->terms[0].mono->count > 0) {
+        bool first = false;
+        const piece behind = {1.0, key->terms[0].mono, NULL, 0, 0};
+        show_separate(s, &first);
+        show_product(s, &behind, 1.0);
+    }
+}
+
+/* sign and size * common * (inside) * key / below, each part left out where it is one. */
+static void show_group(const show *s, const poly *p, const poly *key, bool leading) {
+    algebra *a = s->algebra;
+    piece *pieces = room(p->count, sizeof *pieces);
+    const int count = pieces_of(a, p, pieces);
+    const double number = common_number(pieces, count);
+    bool negative = true;
+    for (int i = 0; i < count; i++) {
+        negative = negative && pieces[i].coefficient < 0.0;
+    }
+    if (count == 1) { /* a single product: write it with its key */
+        const poly *whole = poly_mul(a, p, key);
+        if (!algebra_overflow(a) && pieces_of(a, whole, pieces) == 1) {
+            show_sign(s, pieces[0].coefficient < 0.0, leading);
+            show_product(s, &pieces[0], fabs(pieces[0].coefficient));
+            free(pieces);
+            return;
+        }
+    }
+    free(pieces);
+    const poly *common = show_common(a, p);
+    const poly *inside = poly_mul(a, p, poly_pow(a, common, -1.0));
+    inside = poly_scale(a, inside, (negative ? -1.0 : 1.0) / number);
+    const bool bare = key->terms[0].mono->count == 0;
+    if (algebra_overflow(a)) { /* nothing is factored any more */
+        show_sign(s, false, leading);
+        show_grouped(s, p);
+        show_behind(s, key);
+        return;
+    }
+    const mono *outside = common->terms[0].mono;
+    if (bare && outside->count == 0 && number == 1.0 && !negative) {
+        show_parted(s, p, leading);
+        return;
+    }
+    double top;
+    double bottom;
+    show_as_fraction(number, &top, &bottom);
+    show_sign(s, negative, leading);
+    const piece front = {top, outside, NULL, 0, 0};
+    bool first = true;
+    if (top != 1.0) {
+        show_separate(s, &first);
+        show_number(s, top);
+    }
+    show_factors(s, &front, 1, &first);
+    show_separate(s, &first);
+    fputs(s->style == SHOW_LATEX ? "\\left(" : "(", s->out);
+    show_sum(s, inside, true);
+    fputs(s->style == SHOW_LATEX ? "\\right)" : ")", s->out);
+    show_behind(s, key);
+    const int below = show_count_below(&front) + (bottom != 1.0);
+    if (below > 0) {
+        fputs(below > 1 ? "/(" : "/", s->out);
+        first = true;
+        if (bottom != 1.0) {
+            show_separate(s, &first);
+            show_number(s, bottom);
+        }
+        show_factors(s, &front, -1, &first);
+        fputs(below > 1 ? ")" : "", s->out);
+    }
+}
+
+/* The rates and accelerations of a term: what its coefficient is collected by. */
+static const poly *motion_of(algebra *a, const mono *m, int *highest) {
+    const poly *key = poly_number(a, 1.0);
+    *highest = 0;
+    for (int i = 0; i < m->count; i++) {
+        const atom *x = m->factors[i].atom;
+        if (x->kind == ATOM_SYMBOL && x->primes > 0 && m->factors[i].exponent > 0.0) {
+            key = poly_mul(a, key, poly_of_atom(a, x, m->factors[i].exponent));
+            *highest = x->primes > *highest ? x->primes : *highest;
+        }
+    }
+    return key;
+}
+
+/* The terms with the same rates and accelerations, without these. */
+typedef struct collected {
+    const poly *key;
+    const poly *terms;
+    int highest; /* most primes in the key */
+} collected;
+
+/* Returns how many groups there are. */
+static int collect(algebra *a, const poly *p, collected *groups) {
+    int count = 0;
+    for (int i = 0; i < p->count; i++) {
+        int highest;
+        int at = 0;
+        const poly *key = motion_of(a, p->terms[i].mono, &highest);
+        while (at < count && groups[at].key != key) {
+            at++;
+        }
+        if (at == count) {
+            groups[count++] = (collected){key, poly_number(a, 0.0), highest};
+        }
+        const poly *t = poly_of_term(a, p->terms[i].coefficient, p->terms[i].mono);
+        groups[at].terms = poly_add(a, groups[at].terms, poly_mul(a, t, poly_pow(a, key, -1.0)));
+    }
+    return count;
+}
+
+int show_size(const poly *p) { return p->count; }
+
+void show_poly(const show *s, const poly *p) {
+    algebra *a = s->algebra;
+    if (poly_is_zero(p)) {
+        fputs("0", s->out);
+        return;
+    }
+    collected *groups = room(p->count, sizeof *groups);
+    const int count = collect(a, p, groups);
+    if (algebra_overflow(a)) { /* products are not to be had any more: the terms as they are */
+        show_sum(s, p, true);
+    } else {
+        bool leading = true;
+        for (int rank = PRIMES_MAX; rank >= 0; rank--) {
+            for (int i = 0; i < count; i++) {
+                if (groups[i].highest == rank) {
+                    show_group(s, groups[i].terms, groups[i].key, leading);
+                    leading = false;
+                }
+            }
+        }
+    }
+    free(groups);
+}

@@ -1,0 +1,23 @@
+/* show_term.h: one product for readers. For host/show's own files. */
+#ifndef SHOW_SHOW_TERM_H
+#define SHOW_SHOW_TERM_H
+
+#include "host/derive/pieces.h"
+#include "show.h"
+
+/* value = top / bottom with small whole numbers? If not, top is the value and bottom 1. */
+bool show_as_fraction(double value, double *top, double *bottom);
+void show_number(const show *s, double value);
+/* Where a factor stands in a product: 0 parameters, 1 inputs, 2 coordinates, then the rest. */
+int show_rank(const atom *x);
+/* The sign between two factors, unless this is the first. */
+void show_separate(const show *s, bool *first);
+/* The factors above (side 1) or below (-1) the fraction bar; returns how many. */
+int show_factors(const show *s, const piece *p, int side, bool *first);
+int show_count_below(const piece *p);
+/* size * factors, as a fraction where there is something below; a factor 1 is left out. */
+void show_product(const show *s, const piece *p, double size);
+/* A sum in parentheses. */
+void show_grouped(const show *s, const poly *p);
+
+#endif

@@ -1,0 +1,333 @@
+/* text.c: the equations of motion and the first-order form, for the screen and for a paper. */
+#include "text.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "host/lang/shown.h"
+#include "host/number/zero.h"
+#include "show.h"
+#include "show_events.h"
+#include "show_term.h"
+
+/* A closed formula for an acceleration with more terms than this is not read by anyone: the mass
+ * matrix is printed instead. */
+#define READABLE_TERMS 24
+
+/* Inertia, centrifugal and potential terms of equation i, on one side. */
+static const poly *left_side(const equations *e, int i) {
+    algebra *a = e->algebra;
+    const poly *sum = poly_add(a, e->velocity[i], e->potential[i]);
+    for (int j = 0; j < e->count; j++) {
+        const unknown *u = &e->unknowns[j];
+        const poly *highest = poly_symbol(a, u->symbol, u->order);
+        sum = poly_add(a, sum, poly_mul(a, e->mass[i * e->count + j], highest));
+    }
+    return sum;
+}
+
+static void write_left_side(const show *s, const equations *e, int i) {
+    algebra *a = s->algebra;
+    const poly *sum = left_side(e, i);
+    if (!algebra_overflow(a)) {
+        show_poly(s, sum);
+        return;
+    }
+    const poly *rest = poly_add(a, e->velocity[i], e->potential[i]); /* no products: A q'' + rest */
+    bool leading = true;
+    for (int j = 0; j < e->count; j++) {
+        if (!poly_is_zero(e->mass[i * e->count + j])) {
+            bool first = false;
+            fputs(leading ? "" : " + ", s->out);
+            show_grouped(s, e->mass[i * e->count + j]);
+            show_separate(s, &first);
+            show_symbol(s, e->unknowns[j].symbol, e->unknowns[j].order);
+            leading = false;
+        }
+    }
+    if (!poly_is_zero(rest) || leading) {
+        fputs(leading ? "" : " + ", s->out);
+        show_poly(s, rest);
+    }
+}
+
+/* What the records of a run show, and its unit there. */
+static void write_shown(const show *s, const char *kind, const symbol *what) {
+    char *unit_name = shown_unit_name(what, 0);
+    fprintf(s->out, "  %-10s %-10s [%s]%s%s\n", kind, what->name, unit_name,
+            what->text[0] != '\0' ? "  " : "", what->text);
+    free(unit_name);
+}
+
+static void write_names(const show *s, const equations *e) {
+    const mechanism *m = e->instance->mechanism;
+    fprintf(s->out, "%s %s%s%s\n\n", m->is_system ? "system" : "mechanism", m->name,
+            m->title[0] != '\0' ? ": " : "", m->title);
+    for (int i = 0; i < e->count; i++) {
+        write_shown(s, m->is_system ? "state" : "coordinate", m->coordinates[i]);
+    }
+    for (int i = 0; i < m->parameter_count; i++) {
+        const symbol *p = m->parameters[i];
+        if (p->effect < 0 || e->instance->with[p->effect]) {
+            fprintf(s->out, "  parameter  %-10s = %.10g (SI)%s%s\n", p->name,
+                    number_shown(e->instance->parameter[i]), p->text[0] != '\0' ? "  " : "",
+                    p->text);
+        }
+    }
+    for (int i = 0; i < m->input_count; i++) {
+        const symbol *u = m->inputs[i];
+        if (u->effect < 0 || e->instance->with[u->effect]) {
+            fprintf(s->out, "  input      %-10s = %.10g (SI)%s%s\n", u->name,
+                    number_shown(e->instance->input[i]), u->text[0] != '\0' ? "  " : "", u->text);
+        }
+    }
+    for (int i = 0; i < m->effect_count; i++) {
+        if (e->instance->with[i]) {
+            fprintf(s->out, "  with       %-10s %s\n", m->effects[i].name, m->effects[i].text);
+        }
+    }
+    for (int i = 0; i < m->output_count; i++) {
+        write_shown(s, "output", m->outputs[i]);
+    }
+}
+
+/* Is the name this letter and a number, as those that are made up here? */
+static bool is_numbered(const char *name, const char *letter) {
+    const size_t length = strlen(letter);
+    return strncmp(name, letter, length) == 0 && name[length] != '\0' &&
+           strspn(name + length, "0123456789") == strlen(name + length);
+}
+
+/* The first of the letters, ended by NULL, that no symbol of the mechanism has with a number behind it,
+ * so that y1 means one thing; or the last. */
+static const char *free_letter(const mechanism *m, const char *const *letters) {
+    for (; letters[1] != NULL; letters++) {
+        bool taken = false;
+        for (int i = 0; i < m->coordinate_count; i++) {
+            taken = taken || is_numbered(m->coordinates[i]->name, *letters);
+        }
+        for (int i = 0; i < m->parameter_count; i++) {
+            taken = taken || is_numbered(m->parameters[i]->name, *letters);
+        }
+        for (int i = 0; i < m->input_count; i++) {
+            taken = taken || is_numbered(m->inputs[i]->name, *letters);
+        }
+        if (!taken) {
+            break;
+        }
+    }
+    return *letters;
+}
+
+/* y(1) ... y(N): values first, then rates, and so on, as the dissertation numbers them. */
+static int y_number(const equations *e, int unknown_index, int primes) {
+    int number = 1;
+    for (int level = 0; level <= primes; level++) {
+        for (int i = 0; i < e->count; i++) {
+            if (e->unknowns[i].order > level) {
+                if (level == primes && i == unknown_index) {
+                    return number;
+                }
+                number++;
+            }
+        }
+    }
+    return number;
+}
+
+/* Solve by Cramer's rule in symbols; true when the result is worth reading. */
+static bool closed_form(const equations *e, const poly **top, const poly **bottom) {
+    algebra *a = e->algebra;
+    const int n = e->count;
+    int terms = 0;
+    for (int i = 0; i < n && n <= 2; i++) {
+        terms += show_size(equations_force(e, i));
+        for (int j = 0; j < n; j++) {
+            terms += show_size(e->mass[i * n + j]);
+        }
+    }
+    if (n > 2 || terms > 4 * READABLE_TERMS) {
+        return false;
+    }
+    const poly *m[4];
+    *bottom = poly_determinant(a, e->mass, n, (1U << n) - 1, (1U << n) - 1);
+    int size = show_size(*bottom);
+    for (int c = 0; c < n; c++) {
+        for (int i = 0; i < n * n; i++) {
+            m[i] = i % n == c ? equations_force(e, i / n) : e->mass[i];
+        }
+        top[c] = poly_determinant(a, m, n, (1U << n) - 1, (1U << n) - 1);
+        size = show_size(top[c]) > size ? show_size(top[c]) : size;
+    }
+    return size <= READABLE_TERMS && !algebra_overflow(a);
+}
+
+/* Divide both by the factors they share; 0.7391 keeps equal terms of the two from cancelling. */
+static void reduce(algebra *a, const poly **top, const poly **bottom) {
+    const poly *both = poly_add(a, *top, poly_scale(a, *bottom, 0.7390851332151607));
+    const poly *inverse = poly_pow(a, show_common(a, both), -1.0);
+    double number = (double)INFINITY;
+    for (int i = 0; i < (*top)->count + (*bottom)->count; i++) {
+        const poly_term *t =
+            i < (*top)->count ? &(*top)->terms[i] : &(*bottom)->terms[i - (*top)->count];
+        number = number_least(number, fabs(t->coefficient));
+    }
+    *top = poly_scale(a, poly_mul(a, *top, inverse), 1.0 / number);
+    *bottom = poly_scale(a, poly_mul(a, *bottom, inverse), 1.0 / number);
+}
+
+static void write_fraction(const show *s, const poly *top, const poly *bottom) {
+    algebra *a = s->algebra;
+    const poly *shorter[2] = {top, bottom};
+    if (!poly_is_zero(top) && bottom->count > 1) {
+        reduce(a, &shorter[0], &shorter[1]);
+    } else { /* divide term by term */
+        shorter[0] = poly_mul(a, top, poly_pow(a, bottom, -1.0));
+        shorter[1] = poly_number(a, 1.0);
+    }
+    if (!algebra_overflow(a)) {
+        top = shorter[0];
+        bottom = shorter[1];
+    }
+    double value;
+    if (poly_is_number(bottom, &value) && value == 1.0) {
+        show_poly(s, top);
+    } else if (s->style == SHOW_LATEX) {
+        fputs("\\frac{", s->out);
+        show_poly(s, top);
+        fputs("}{", s->out);
+        show_poly(s, bottom);
+        fputs("}", s->out);
+    } else {
+        show_grouped(s, top);
+        fputs("/", s->out);
+        show_grouped(s, bottom);
+    }
+}
+
+static void write_highest(const show *s, const equations *e, int i) {
+    show_symbol(s, e->unknowns[i].symbol, e->unknowns[i].order);
+}
+
+static void write_first_order(const show *s, const equations *e) {
+    const poly *top[2];
+    const poly *bottom;
+    const bool readable = closed_form(e, top, &bottom);
+    int highest_order = 0;
+    for (int i = 0; i < e->count; i++) {
+        highest_order = e->unknowns[i].order > highest_order ? e->unknowns[i].order : highest_order;
+    }
+    static const char *const states[] = {"y", "s", "w", "state", NULL};
+    static const char *const matrices[] = {"A", "M", "matrix", NULL};
+    static const char *const forces[] = {"b", "f", "right", NULL};
+    const char *y = free_letter(e->instance->mechanism, states);
+    const char *A = free_letter(e->instance->mechanism, matrices);
+    const char *b = free_letter(e->instance->mechanism, forces);
+    fprintf(s->out, "\nfirst-order form, %s = (", y);
+    for (int level = 0; level < highest_order; level++) {
+        for (int i = 0; i < e->count; i++) {
+            if (e->unknowns[i].order > level) {
+                fputs(y_number(e, i, level) > 1 ? ", " : "", s->out);
+                show_symbol(s, e->unknowns[i].symbol, level);
+            }
+        }
+    }
+    fprintf(s->out, ")\n\n");
+    for (int level = 1; level <= highest_order; level++) {
+        for (int i = 0; i < e->count; i++) {
+            if (e->unknowns[i].order > level) {
+                fprintf(s->out, "  %s%d' = %s%d\n", y, y_number(e, i, level - 1), y,
+                        y_number(e, i, level));
+            }
+        }
+    }
+    for (int i = 0; i < e->count; i++) {
+        fprintf(s->out, "  %s%d' = ", y, y_number(e, i, e->unknowns[i].order - 1));
+        write_highest(s, e, i);
+        if (readable) {
+            fputs(" = ", s->out);
+            write_fraction(s, top[i], bottom);
+        }
+        fputc('\n', s->out);
+    }
+    if (readable) {
+        return;
+    }
+    fprintf(s->out, "\n  with the highest derivatives from %s x = %s, x = (", A, b);
+    for (int i = 0; i < e->count; i++) {
+        fputs(i > 0 ? ", " : "", s->out);
+        write_highest(s, e, i);
+    }
+    fprintf(s->out, "):\n\n");
+    const char *between = e->count > 9 ? "," : ""; /* A12, but A1,12 */
+    for (int i = 0; i < e->count; i++) {
+        const bool symmetric = !e->instance->mechanism->is_system;
+        for (int j = symmetric ? i : 0; j < e->count; j++) {
+            fprintf(s->out, "  %s%d%s%d = ", A, i + 1, between, j + 1);
+            if (symmetric && j > i) {
+                fprintf(s->out, "%s%d%s%d = ", A, j + 1, between, i + 1);
+            }
+            show_poly(s, e->mass[i * e->count + j]);
+            fputc('\n', s->out);
+        }
+    }
+    for (int i = 0; i < e->count; i++) {
+        fprintf(s->out, "  %s%d = ", b, i + 1);
+        show_poly(s, equations_force(e, i));
+        fputc('\n', s->out);
+    }
+}
+
+void show_text(FILE *out, const equations *e) {
+    const show s = {out, SHOW_TEXT, e->algebra};
+    const bool system = e->instance->mechanism->is_system;
+    write_names(&s, e);
+    fprintf(out, system ? "\nequations\n\n"
+                        : "\nequations of motion, d/dt(dL/dq') - dL/dq = -dF/dq' + Q\n\n");
+    for (int i = 0; i < e->count; i++) {
+        if (system) {
+            fprintf(out, "  ");
+        } else {
+            fprintf(out, "  %s:  ", e->unknowns[i].symbol->name);
+        }
+        write_left_side(&s, e, i);
+        fputs(" = ", out);
+        show_poly(&s, e->applied[i]);
+        fputc('\n', out);
+    }
+    if (e->contacts != NULL) {
+        fputc('\n', out);
+    }
+    show_events(out, e, "", "events inside a step, in the order in which they are taken:\n");
+    write_first_order(&s, e);
+}
+
+void show_latex(FILE *out, const equations *e) {
+    const show s = {out, SHOW_LATEX, e->algebra};
+    const poly *top[2];
+    const poly *bottom;
+    fprintf(out, "%% %s: equations of motion\n", e->instance->mechanism->name);
+    show_events(out, e, "% ", "the motion between events; inside a step:");
+    fprintf(out, "\\begin{align}\n");
+    for (int i = 0; i < e->count; i++) {
+        fputs("  ", out);
+        write_left_side(&s, e, i);
+        fputs(" &= ", out);
+        show_poly(&s, e->applied[i]);
+        fputs(i + 1 < e->count ? " \\\\\n" : "\n", out);
+    }
+    fprintf(out, "\\end{align}\n");
+    if (!closed_form(e, top, &bottom)) {
+        return;
+    }
+    fprintf(out, "%% solved for the highest derivatives\n\\begin{align}\n");
+    for (int i = 0; i < e->count; i++) {
+        fputs("  ", out);
+        write_highest(&s, e, i);
+        fputs(" &= ", out);
+        write_fraction(&s, top[i], bottom);
+        fputs(i + 1 < e->count ? " \\\\\n" : "\n", out);
+    }
+    fprintf(out, "\\end{align}\n");
+}

@@ -1,0 +1,150 @@
+#!/bin/sh
+# list.sh: `whirl list --as table` against a file whose items are known, and what its names are for: --with and
+# --without all, --without conserve, --name.
+. "$(dirname "$0")/../checks.sh"
+
+# says PATTERN WORD...: refused with exit status 2 and that, with nothing on standard output.
+says() {
+    pattern=$1
+    shift
+    "$whirl" "$@" >"$scratch/out" 2>"$scratch/err" </dev/null
+    [ $? -eq 2 ] && grep -Eq -- "$pattern" "$scratch/err" && [ ! -s "$scratch/out" ]
+    verdict $? "whirl $*: $pattern"
+}
+
+# --- the table: generated files, of which everything is known ---------------------------------------------
+seed=${WHIRL_SEED:-11}
+cases=${WHIRL_CASES:-30}
+bad=0
+for number in $(seq "$cases"); do
+    awk -v seed="$seed$number" -v file="$scratch/m.whirl" -v wanted="$scratch/wanted" '
+        function put(line) { print line >file; at++ }
+        function pick(n) { return int(n * rand()) }
+        function row(kind, name, first, last, effects, holds, step, until, title) {
+            rows[++count] = kind "\t" name "\t" "m" k "\t" file "\t" first "\t" last "\t" effects "\t" holds "\t" step "\t" until "\t" title
+        }
+        function blank() { if (pick(2)) put("") ; if (pick(3) == 0) put("# { a brace in a comment") }
+        BEGIN {
+            srand(seed)
+            for (k = 1; k <= 1 + pick(3); k++) {
+                blank()
+                title = pick(2) ? "a } in a title" : ""
+                put("mechanism m" k (title ? " \"" title "\"" : ""))
+                first = at
+                put("coordinate x [m]")
+                put("coordinate y [m]")
+                put("T = 1 [kg]*(x'"'"'^2 + y'"'"'^2)/2")
+                put("output o [m] = x")
+                n = pick(4)
+                names = ""
+                mine = count + 1
+                row("mechanism", "m" k, first, first, "", "terms", "-", "-", title ? title : "-")
+                for (i = 1; i <= n; i++) {
+                    blank()
+                    holds = ""
+                    put("effect e" i " \"{ effect\" {" (pick(2) ? "" : " # }"))
+                    from = at
+                    if (pick(2)) { put("  V += 1 [N/m]*x^2/2"); holds = "terms" }
+                    if (pick(2)) { put("  stop x >= -" i " [m] restitution 0"); holds = holds (holds ? "," : "") "contacts" }
+                    if (i == 1 && pick(2)) { put("  noise o deviation 1 [mm] seed 1"); holds = holds (holds ? "," : "") "noise" }
+                    put(pick(2) ? "}" : "  parameter p" i " = 1; }")
+                    row("effect", "e" i, from, at, "-", holds == "" ? "-" : holds, "-", "-", "{ effect")
+                    names = names (names ? "," : "") "e" i
+                }
+                sub(/\t[0-9]+\t[0-9]+\t/, "&" (names ? names : "-"), rows[mine])
+                for (i = 1; i <= pick(3); i++) {
+                    blank()
+                    put("scene s" k "_" i " {")
+                    from = at
+                    with = ""
+                    if (n > 0 && pick(2)) { put("  with e" n); with = "e" n }
+                    if (pick(2)) { put("  with ledger"); with = with (with ? "," : "") "ledger" }
+                    conserve = pick(2)
+                    if (conserve) put("  conserve y")
+                    ms = 1 + pick(9)
+                    put("  step " ms " [ms]; until " i " [s]")
+                    put("}")
+                    row("scene", "s" k "_" i, from, at, with ? with : "-", conserve ? "conserve" : "-", ms / 1000, i, "-")
+                }
+            }
+            for (i = 1; i <= count; i++) print rows[i] >wanted
+        }'
+    "$whirl" list --as table "$scratch/m.whirl" >"$scratch/got" 2>"$scratch/err" || bad=1
+    sed 1d "$scratch/got" | cmp -s - "$scratch/wanted" || bad=1
+    [ $bad -eq 0 ] || { diff "$scratch/wanted" "$scratch/got" >>"$scratch/err"; break; }
+done
+verdict $bad "every line of $cases generated files (seed $seed)"
+
+"$whirl" list --as table >"$scratch/table" 2>"$scratch/err" &&
+    awk -F '\t' 'NF != 11 { bad = 1 } NR == 1 { bad = bad || $1 != "kind" } END { exit bad || NR < 100 }' "$scratch/table"
+verdict $? "eleven fields a line"
+"$whirl" list >"$scratch/text"
+awk -F '\t' '$1 == "mechanism" || $1 == "scene" { print $1, $2 }' "$scratch/table" >"$scratch/names"
+awk '{ print $1, $2 }' "$scratch/text" | cmp -s - "$scratch/names"
+verdict $? "the same mechanisms and scenes as text"
+"$whirl" list core/models/*.whirl --as=table | cmp -s - "$scratch/table"
+verdict $? "the built-in models are their files"
+says "there is no form 'csv'" list --as csv
+says 'is no file' list core/models/cuff.whirl:cuff --as table
+says 'unknown option' list --table
+
+# --- all effects, and none ---------------------------------------------------------------------------------
+# code WORD...: the C, without the first line, which names the file
+code() { "$whirl" derive "$@" --as c; }
+same() { # same WHAT "WORDS" "WORDS"
+    # shellcheck disable=SC2086 # lists of words
+    code $2 >"$scratch/one" 2>"$scratch/err" && code $3 >"$scratch/two" 2>>"$scratch/err" &&
+        cmp -s "$scratch/one" "$scratch/two"
+    verdict $? "$1"
+}
+same "all effects by one word" "ball_bounces --with all" "ball_bounces --with ceiling,air"
+same "all but one" "ball_bounces --with all --without air" "ball_bounces --with ceiling"
+same "none but one, whatever the order" "ball_in_air --with ceiling --without all" "ball_in_air --without air,floor --with ceiling"
+same "none" "ball_in_air --without=all" "ball_in_air --without floor,air"
+same "the ledger is not among all" "ball_bounces --without all --with ledger" "ball_bounces --without floor --with ledger"
+says 'which\?' derive ball_bounces --with all --without all --as c
+says 'names .all. twice' derive ball_bounces --with all,all --as c
+
+# --- conserve ----------------------------------------------------------------------------------------------
+cat >"$scratch/slide.whirl" <<'END'
+mechanism slide
+coordinate x [m]
+coordinate y [m]
+T = 1 [kg]*(x'^2 + y'^2 + x'*y')/2
+V = 4 [N/m]*x^2/2
+effect drag { F += 1 [N*s/m]*y'^2/2 }
+scene kept { start x = 1 [m]; conserve y; step 1 [ms]; until 1 [s] }
+scene moved { start x = 1 [m]; step 1 [ms]; until 1 [s] }
+END
+says 'hint: .*--without conserve' derive "$scratch/slide.whirl:kept" --with drag --as c
+same "integrated after all" "$scratch/slide.whirl:kept --without conserve --name moved" "$scratch/slide.whirl:moved"
+for number in float double; do
+    "$whirl" run "$scratch/slide.whirl:kept" --without conserve --with drag --number $number | sed -n '/^state hash/p' >"$scratch/one"
+    "$whirl" run "$scratch/slide.whirl:moved" --with drag --number $number | sed -n '/^state hash/p' | cmp -s - "$scratch/one" && [ -s "$scratch/one" ]
+    verdict $? "and run so, in $number"
+done
+"$whirl" sweep "$scratch/slide.whirl:kept" --without conserve --with drag --over x=1..2:2 --csv - --quiet >"$scratch/one" 2>"$scratch/err"
+"$whirl" sweep "$scratch/slide.whirl:moved" --with drag --over x=1..2:2 --csv - --quiet 2>>"$scratch/err" | cmp -s - "$scratch/one" && [ -s "$scratch/one" ]
+verdict $? "and swept so"
+says 'a scene says itself what it conserves' derive "$scratch/slide.whirl:kept" --with conserve --as c
+for word in all conserve none ledger; do
+    printf 'mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'"'"'^2/2\neffect %s { V += 1 [N]*x }\n' "$word" >"$scratch/word.whirl"
+    says "^.*word.whirl:4:8: error: '$word' is a reserved word" derive "$scratch/word.whirl"
+done
+
+# --- a name for generated code -----------------------------------------------------------------------------
+code thomson_a --name other --header "$scratch/other.h" >"$scratch/other.c" 2>"$scratch/err"
+code thomson_a >"$scratch/plain.c"
+sed 's/\bthomson_a\b/other/g' "$scratch/plain.c" | cmp -s - "$scratch/other.c" &&
+    grep -q 'other_MEMORY_BYTES' "$scratch/other.h" && ! grep -q 'thomson_a_' "$scratch/other.h"
+verdict $? "--name: the same code under another name, in the header too"
+"$whirl" derive thomson_a --as octave --name other 2>"$scratch/err" | grep -q '^function .*other('
+verdict $? "--name: in Octave's form"
+says '.--name. is no name|is no name' derive thomson_a --as c --name 1x
+says 'is no name' derive thomson_a --as c --name=
+says 'is no name' derive thomson_a --as c --name 'a b'
+says 'is no name' derive thomson_a --as c --name "$(printf '%064d' 0 | tr 0 a)"
+says 'given twice' derive thomson_a --as c --name a --name b
+says "'int' is a word of C" derive thomson_a --as c --name int
+says 'goes with the C form' derive thomson_a --name other
+exit $failed

@@ -1,0 +1,77 @@
+#!/bin/sh
+# memory.sh: running out of memory ends every command in one way. Under limits from far too little on, a command either
+# does what it does without a limit, or says "whirl: out of memory" last and returns 1: no crash, no half of a result
+# that looks whole.
+. "$(dirname "$0")/../checks.sh"
+
+# A sanitizer's build wants address space that no limit leaves.
+if ! (ulimit -v 200000 && "$whirl" --version) >/dev/null 2>&1; then
+    echo "ok - this build runs under no limit of memory # SKIP"
+    exit 0
+fi
+
+# A text long enough to want many blocks.
+{
+    echo "mechanism many"
+    i=1
+    while [ "$i" -le 400 ]; do
+        echo "parameter p$i = $i [kg]"
+        i=$((i + 1))
+    done
+    echo "coordinate x [m]"
+    printf 'let m = p1'
+    i=2
+    while [ "$i" -le 400 ]; do
+        printf ' + p%d' "$i"
+        i=$((i + 1))
+    done
+    printf '\nT = m*x'"'"'^2/2\nV = p1*9.81 [m/s^2]*x\n'
+} >"$scratch/many.whirl"
+
+# The smallest limit, in steps of 64 kB, under which the program starts at all.
+least=0
+limit=1024
+while [ "$limit" -le 200000 ]; do
+    if (ulimit -v "$limit" && "$whirl" --version) >/dev/null 2>&1; then
+        least=$limit
+        break
+    fi
+    limit=$((limit + 64))
+done
+
+# short WHAT WORDS...: `whirl WORDS` under limits rising by a quarter of what it wants beyond its start, more or less.
+short() {
+    what=$1
+    shift
+    "$whirl" "$@" >"$scratch/out" 2>/dev/null </dev/null
+    status=$?
+    grep -v '^time per step' "$scratch/out" >"$scratch/whole"
+    beyond=16
+    told=0
+    bad=0
+    while :; do
+        (ulimit -v $((least + beyond)) && exec "$whirl" "$@") >"$scratch/out" 2>"$scratch/err" </dev/null
+        now=$?
+        grep -v '^time per step' "$scratch/out" >"$scratch/part"
+        if [ "$now" -eq "$status" ] && cmp -s "$scratch/whole" "$scratch/part"; then
+            break
+        elif [ "$now" -eq 1 ] && tail -n 1 "$scratch/err" | grep -q '^whirl: out of memory$'; then
+            told=$((told + 1))
+        else
+            echo "limit $((least + beyond)): status $now" >>"$scratch/err"
+            bad=1
+            break
+        fi
+        beyond=$((beyond + beyond / 8 + 4))
+    done
+    [ "$bad" -eq 0 ] && [ "$told" -gt 0 ]
+    verdict $? "$what: refused under $told limits, whole from the next on"
+}
+
+short "run of a long text" run "$scratch/many.whirl" --until 0.01s
+short "a run with its books" run carriage_stop --with ledger --until 0.05s
+short "derive as text" derive thomson --as text
+short "derive as C" derive thomson_magnet --as c
+short "accelerations" accel thomson
+short "the list of scenes" list
+exit $failed
