@@ -12,7 +12,7 @@
  * Interval 0 is around nothing. On a board an interval holds the call too (loading the arguments
  * and the branch); callgrind counts the called function alone. */
 #include "boards/board.h"
-#include "build/gen/scenes.h"
+#include "boards/programs/table.h"
 #include "core/function.h"
 #include "core/scene.h"
 #include "core/text.h"
