@@ -271,14 +271,6 @@ contact_lists *contact_lists_make(const program *p, const equations *e, layout *
     return c;
 }
 
-int contact_lists_stops(const contact_lists *c) {
-    int stops = 0;
-    for (int k = 0; k < c->count; k++) {
-        stops += c->row[k].kind == WH_STOP;
-    }
-    return stops;
-}
-
 uint64_t contact_lists_hash(const contact_lists *c, uint64_t hash) {
     hash = wh_hash_u64(hash, tape_hash(c->signals));
     hash = wh_hash_u64(hash, tape_hash(c->forces));
