@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "host/base/room.h"
-#include "noise.h"
+#include "noise_records.h"
 
 int layout_turn(void *context, const symbol *s) {
     const layout *map = context;

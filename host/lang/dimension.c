@@ -160,7 +160,7 @@ static const quantity_row quantities[] = {
 };
 enum { QUANTITIES = sizeof quantities / sizeof quantities[0] };
 
-dimension dim_of_quantity(quantity which) {
+dimension dim_of_quantity(quantity_id which) {
     const signed char *e = quantities[which].exponents;
     return dim_of(e[DIM_LENGTH], e[DIM_MASS], e[DIM_TIME], e[DIM_CURRENT], e[DIM_TEMPERATURE]);
 }
@@ -168,7 +168,7 @@ dimension dim_of_quantity(quantity which) {
 /* What has no name of its own is a number of some unit. */
 static const quantity_row *find_quantity(dimension dim) {
     for (int i = 0; i < QUANTITIES; i++) {
-        if (same_exponents(dim, dim_of_quantity((quantity)i))) {
+        if (same_exponents(dim, dim_of_quantity((quantity_id)i))) {
             return &quantities[i];
         }
     }

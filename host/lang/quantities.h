@@ -37,7 +37,7 @@
     X(FLUX_DENSITY, 0, 1, -2, -1, 0, "", "", "")
 
 #define QUANTITY(id, ...) QUANTITY_##id,
-typedef enum quantity { QUANTITY_ROWS(QUANTITY) } quantity;
+typedef enum quantity_id { QUANTITY_ROWS(QUANTITY) } quantity_id;
 #undef QUANTITY
 
 #endif

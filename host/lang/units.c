@@ -14,7 +14,7 @@ typedef struct unit_entry {
     const char *name;
     double scale; /* one of it is scale / divisor of SI */
     double divisor;
-    quantity of;
+    quantity_id of;
 } unit_entry;
 
 /* Pound, inch and foot: the international agreement of 1959; standard gravity 9.80665 m/s^2. */
