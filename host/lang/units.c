@@ -335,6 +335,8 @@ bool unit_is_si(unit u) { return fabs(u.scale - u.divisor) <= 1e-14 * u.divisor;
 
 double unit_number(unit u, double si) { return unit_is_si(u) ? si : si * u.divisor / u.scale; }
 
+const char *unit_name(int index) { return index < UNIT_COUNT ? units[index].name : NULL; }
+
 bool unit_is_angle(const char *text, size_t length) {
     const unit_entry *found = find_unit(text, length);
     return found != NULL && found->of == QUANTITY_ANGLE;

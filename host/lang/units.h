@@ -67,6 +67,9 @@ bool unit_is_si(unit u);
 /* The number in unit u of an SI value; the value itself when unit_is_si(u). */
 double unit_number(unit u, double si);
 
+/* The name of unit `index`, counted from 0, or NULL beyond the last. */
+const char *unit_name(int index);
+
 /* True when the text names an angle by itself: rad, deg or rev. */
 bool unit_is_angle(const char *text, size_t length);
 
