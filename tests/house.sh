@@ -36,6 +36,11 @@ all=$(files core hal boards host mk tests)
         $(files host | grep -v '^host/base/room\.c$')
     rule "white space at a line's end" '[[:space:]]$' $all
     rule "a tab" '	' $all
+    twice=$(files core hal host | sed 's/\.[ch]$//' | sort -u | sed 's:.*/::' | sort | uniq -d)
+    for name in $twice; do
+        echo "error: files of one program have one name: $(files core hal host | grep "/$name\.[ch]$" | tr '\n' ' ')"
+        bad=1
+    done
     for file in $all; do
         lines=$(wc -l <"$file")
         if [ "$lines" -gt 500 ]; then
