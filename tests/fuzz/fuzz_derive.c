@@ -69,8 +69,8 @@ static void leaf(writer *w) {
 }
 
 static void expression(writer *w, int depth) {
-    static const char *const functions[] = {"sin",  "cos", "tan", "asin", "acos", "atan",
-                                            "sqrt", "exp", "log", "abs",  "sign"};
+    static const char *const functions[] = {"sin", "cos", "tan", "asin", "acos", "atan", "sqrt",
+                                            "exp", "log", "abs", "sign", "sinh", "cosh", "tanh"};
     static const char *const operators[] = {" + ", " - ", "*", "/"};
     static const char *const exponents[] = {"2", "3", "0.5", "-1", "-2", "1.5", "7", "(1/3)"};
     static const char *const pairs[] = {"atan2(", "min(", "max("};
@@ -81,7 +81,7 @@ static void expression(writer *w, int depth) {
     switch (choose(w, 5)) {
     case 0: leaf(w); break;
     case 1:
-        put(w, functions[choose(w, 11)]);
+        put(w, functions[choose(w, 14)]);
         put(w, "(");
         expression(w, depth - 1);
         put(w, ")");
