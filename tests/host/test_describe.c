@@ -157,7 +157,54 @@ static void test_the_checker_is_strict(void) {
     }
 }
 
+/* --- the page ------------------------------------------------------------------------------------------*/
+
+static char *page_text(void) {
+    FILE *in = fopen("docs/describe.md", "rb");
+    TEST_ASSERT_NOT_NULL(in);
+    char *text = calloc(1, 1 << 16);
+    TEST_ASSERT_NOT_NULL(text);
+    TEST_ASSERT_TRUE(fread(text, 1, (1 << 16) - 1, in) > 1000);
+    fclose(in);
+    return text;
+}
+
+/* Each key that is written stands in docs/describe.md; one a line, as json.h writes them. */
+static void check_keys(const char *json, const char *page) {
+    for (const char *line = json; line != NULL; line = strchr(line, '\n')) {
+        line += strspn(line, "\n ");
+        const size_t length = *line == '"' ? strcspn(line + 1, "\"") : 0;
+        if (length > 0 && line[length + 2] == ':') {
+            char named[60];
+            snprintf(named, sizeof named, "`%.*s`", (int)length, line + 1);
+            TEST_ASSERT_NOT_NULL_MESSAGE(strstr(page, named), named);
+        }
+    }
+}
+
+static void test_every_field_is_documented(void) {
+    static const char *const scenes[] = {"shuttle_clamped", "thomson_a_conserved", "carriage_stop"};
+    char *page = page_text();
+    for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
+        derived d = derived_builtin(scenes[i]);
+        derived_expect(&d, scenes[i]);
+        d.instance->ledger = true;
+        diags *errors = diags_new();
+        image *kept =
+            image_make(d.equations, d.instance->conserve, &plainly, IMAGE_TO_WRITE, errors);
+        TEST_ASSERT_NOT_NULL(kept);
+        char *json = described(kept);
+        check_keys(json, page);
+        free(json);
+        image_free(kept);
+        diags_free(errors);
+        derived_free(&d);
+    }
+    free(page);
+}
+
 void suite_describe(void) {
+    RUN_TEST(test_every_field_is_documented);
     RUN_TEST(test_the_checker_is_strict);
     RUN_TEST(test_every_scene_is_described);
     RUN_TEST(test_any_text_is_described);
