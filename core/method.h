@@ -67,8 +67,8 @@ extern "C" {
 
 /* What users are told of a method. */
 typedef struct wh_method_row {
-    const char *name;  /* in C */
     const char *word;  /* on command lines, in file names */
+    const char *name;  /* in C */
     const char *title; /* in sentences */
     uint8_t order;     /* of convergence */
     uint8_t takes;     /* systems */

@@ -72,7 +72,7 @@ typedef struct emission {
 
 /* The scene's run, as a line with the hash of its last state. */
 static void write_hash(FILE *out, const char *what, const engine_kind *kind, const loaded *made) {
-    const engine_settings settings = {WH_RK4, false};
+    const engine_settings settings = {WH_METHOD_DEFAULT, false};
     void *run = kind->start(made->program, made->instance, &settings);
     wh_status status = WH_OK;
     while (kind->steps(run) < made->instance->steps && status == WH_OK) {
@@ -102,7 +102,7 @@ static int emit_other_forms(const emission *to, const char *file, const loaded *
 
 static int emit_one(void *context, const char *file, const loaded *made) {
     const emission *to = context;
-    const engine_settings settings = {WH_RK4, false};
+    const engine_settings settings = {WH_METHOD_DEFAULT, false};
     if (to->all_forms) {
         const int code = emit_other_forms(to, file, made);
         if (code != EXIT_DONE) {

@@ -12,8 +12,6 @@
 #include "host/number/hex.h"
 #include "host/number/phase.h"
 
-const char *const c_method_names[] = {"WH_EULER", "WH_SEMI_IMPLICIT_EULER", "WH_HEUN", "WH_RK4"};
-
 static void write_observer(FILE *out, const program *p) {
     const tape *t = p->observe;
     fprintf(out, "static void observe(const wh_scene *scene, const wh_state *state, "
@@ -87,7 +85,7 @@ static void write_scene(FILE *out, const program *p, const instance *inst,
     fprintf(out, "const wh_scene %s = {\n    .name = \"%s\",\n    .form = %s,\n    .method = %s,\n",
             inst->name, inst->name,
             p->form == WH_SECOND_ORDER ? "WH_SECOND_ORDER" : "WH_FIRST_ORDER",
-            c_method_names[settings->method]);
+            wh_methods[settings->method].name);
     fprintf(out, "    .angles = %d,\n    .reals = %d,\n    .inputs = %d,\n    .outputs = %d,\n",
             p->angles, p->reals, p->inputs, p->outputs);
     if (p->contacts != NULL) {
@@ -227,7 +225,7 @@ void emit_c(FILE *out, const equations *e, const program *p, const engine_settin
             "static wh_status advance(const wh_scene *scene, wh_state *state) {\n"
             "    (void)scene;\n    return wh_step_ledger(&ledger, NULL, accelerations, %s, %s,\n"
             "                          WH_R(%s), state);\n}\n\n",
-            c_method_names[settings->method], settings->compensated ? "true" : "false",
+            wh_methods[settings->method].name, settings->compensated ? "true" : "false",
             hex_write(e->instance->step_s, hex));
     } else {
         fprintf(out,
@@ -235,7 +233,7 @@ void emit_c(FILE *out, const equations *e, const program *p, const engine_settin
                 "    (void)scene;\n    return %s(NULL, %s, %s, %s, %dU, %dU,\n"
                 "                          WH_R(%s), state);\n}\n\n",
                 second ? "wh_step_second" : "wh_step_first", second ? "accelerations" : "slopes",
-                c_method_names[settings->method], settings->compensated ? "true" : "false",
+                wh_methods[settings->method].name, settings->compensated ? "true" : "false",
                 p->angles, second ? p->coordinates : p->reals, hex_write(e->instance->step_s, hex));
     }
     if (p->outputs > 0) {

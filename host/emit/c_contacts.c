@@ -12,9 +12,6 @@ void c_contacts_include(FILE *out, const contact_lists *c) {
                  "#define WH_CONTACTS_OF(model) (&contacts)\n#include \"core/contact_step.h\"\n");
 }
 
-/* Evaluations that a step of each wh_method takes. */
-static const int c_stages[] = {1, 1, 2, 4};
-
 static void write_table(FILE *out, const contact_lists *c) {
     static const char *const kinds[] = {"WH_STOP", "WH_HOLD", "WH_FRICTION", "WH_WHEN"};
     fprintf(out, "static const wh_contact contact_table[%d] = {", c->count);
@@ -52,8 +49,8 @@ void c_contacts_write(FILE *out, const program *p, const engine_settings *settin
         "    .angles = %d,\n    .coordinates = %d,\n};\n\n",
         c->sets != NULL ? "contact_sets" : "NULL", c->set_count > 0 ? "contact_target" : "NULL",
         p->ledger != NULL ? "&ledger" : "NULL", c->count, c->forced, c->held,
-        c_stages[settings->method], contact_lists_stops(c), c->forced,
-        c_method_names[settings->method], settings->compensated ? "true" : "false", p->angles,
+        wh_methods[settings->method].stages, contact_lists_stops(c), c->forced,
+        wh_methods[settings->method].name, settings->compensated ? "true" : "false", p->angles,
         p->coordinates);
     fprintf(out,
             "static wh_status advance(const wh_scene *scene, wh_state *state) {\n"
@@ -63,7 +60,7 @@ void c_contacts_write(FILE *out, const program *p, const engine_settings *settin
 
 int c_contacts_evaluations(const program *p, const engine_settings *settings) {
     const contact_lists *c = p->contacts;
-    const int stages = c_stages[settings->method];
+    const int stages = wh_methods[settings->method].stages;
     return c == NULL ? stages : c_bound_evaluations(stages, contact_lists_stops(c), c->forced);
 }
 

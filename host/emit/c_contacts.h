@@ -7,9 +7,6 @@
 #include "host/derive/contact_lists.h"
 #include "host/run/engine.h"
 
-/* The names of wh_method's values. */
-extern const char *const c_method_names[];
-
 /* The declared bounds and the core's header. */
 void c_contacts_include(FILE *out, const contact_lists *c);
 

@@ -2,6 +2,7 @@
 #include "start.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,6 +11,7 @@
 #include "host/derive/contact_lists.h"
 #include "host/lang/shown.h"
 #include "host/number/phase.h"
+#include "methods.h"
 
 /* m or rad: what the conversion of a start's units may leave. */
 #define ROUNDING 1e-9
@@ -77,25 +79,30 @@ bool start_is_possible(const program *p, const instance *inst, const engine_kind
 
 bool start_has_method(const program *p, const instance *inst, wh_method method, diags *errors) {
     const mechanism *m = inst->mechanism;
-    if (p->form == WH_SECOND_ORDER || method != WH_SEMI_IMPLICIT_EULER) {
+    if (wh_method_takes(method, p->form)) {
         return true;
     }
+    const char *title = wh_methods[method].title;
+    char others[METHODS_TEXT_SIZE];
+    char hint[METHODS_TEXT_SIZE + 160];
+    methods_of_form(p->form, others);
     for (int i = 0; i < m->coordinate_count; i++) {
         const symbol *s = m->coordinates[i];
         if (s->order != 2) {
-            diag_error(
-                errors, s->at,
-                "it moves the rates first, then the positions by them: every unknown must be "
-                "of order 2; choose --method euler, heun or rk4",
-                "semi-implicit Euler is not defined here: '%s' is of order %d", s->name, s->order);
+            snprintf(
+                hint, sizeof hint,
+                "it moves positions in another way than rates: every unknown must be of order 2; "
+                "choose --method %s",
+                others);
+            diag_error(errors, s->at, hint, "%s is not defined here: '%s' is of order %d", title,
+                       s->name, s->order);
             return false;
         }
     }
-    diag_error(
-        errors, inst->scene != NULL ? inst->scene->at : m->at,
-        "integrate the coordinate, --without conserve; or choose --method euler, heun or rk4",
-        "semi-implicit Euler is not defined here: '%s', which is conserved, is integrated "
-        "from its momentum",
-        m->coordinates[p->conserved->unknown[0]]->name);
+    snprintf(hint, sizeof hint,
+             "integrate the coordinate, --without conserve; or choose --method %s", others);
+    diag_error(errors, inst->scene != NULL ? inst->scene->at : m->at, hint,
+               "%s is not defined here: '%s', which is conserved, is integrated from its momentum",
+               title, m->coordinates[p->conserved->unknown[0]]->name);
     return false;
 }

@@ -95,8 +95,6 @@ static void print_events(FILE *out, const program *p, const engine_kind *kind, c
 
 void summary_print(FILE *out, const equations *e, const program *p, const simulation_settings *s,
                    void *run, const books *b, const belief *balance, double step_ns) {
-    static const char *const methods[] = {"explicit Euler", "semi-implicit Euler", "Heun",
-                                          "Runge-Kutta 4"};
     const instance *inst = e->instance;
     const char *title = inst->scene != NULL ? inst->scene->title : inst->mechanism->title;
     const uint64_t steps = s->kind->steps(run);
@@ -108,8 +106,8 @@ void summary_print(FILE *out, const equations *e, const program *p, const simula
         }
     }
     fprintf(out, "  %s%s, %s, step %.9g s, %" PRIu64 " steps to t = %.15g s\n",
-            methods[s->engine.method], s->engine.compensated ? " compensated" : "", s->kind->name,
-            inst->step_s, steps, ratio_times(steps, inst->step));
+            wh_methods[s->engine.method].title, s->engine.compensated ? " compensated" : "",
+            s->kind->name, inst->step_s, steps, ratio_times(steps, inst->step));
     print_state(out, e, p, s, run);
     if (p->contacts != NULL) {
         print_events(out, p, s->kind, run);
