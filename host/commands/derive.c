@@ -13,44 +13,45 @@
 #include "load.h"
 #include "options.h"
 
-static void text(const loaded *made, const char *file, const engine_settings *settings) {
+static void text(const loaded *made, const char *file) {
     (void)file;
-    (void)settings;
     show_text(stdout, made->equations);
 }
 
-static void latex(const loaded *made, const char *file, const engine_settings *settings) {
+static void latex(const loaded *made, const char *file) {
     (void)file;
-    (void)settings;
     show_latex(stdout, made->equations);
 }
 
-static void octave(const loaded *made, const char *file, const engine_settings *settings) {
-    (void)settings;
-    emit_octave(stdout, made->equations, made->program, file);
+static void octave(const loaded *made, const char *file) {
+    emit_octave(stdout, made->image, file, made->contacts);
 }
 
-static void c(const loaded *made, const char *file, const engine_settings *settings) {
-    emit_c(stdout, made->equations, made->program, settings, file);
-}
+static void c(const loaded *made, const char *file) { emit_c(stdout, made->image, file); }
 
 typedef struct form_row {
     const char *word;
-    void (*print)(const loaded *made, const char *file, const engine_settings *settings);
-    bool of_many; /* of each mechanism of a file, one after another */
-    bool named;   /* holds the scene's name: --name */
-    bool runs;    /* steps the scene: momenta, method and number matter, and it has a header */
+    void (*print)(const loaded *made, const char *file);
+    bool shows; /* equations, of each mechanism of a file one after another; else it is code */
+    bool named; /* holds the scene's name: --name */
+    bool runs;  /* steps the scene: momenta, method and number matter, and it has a header */
+    bool tells_contacts; /* in words, since it has no steps of its own for them */
     const char *text;
 } form_row;
 
 /* The first stands for itself. */
 static const form_row forms[] = {
-    {"text", text, true, false, false,
-     "one equation a coordinate, as in a textbook, and the first-order form (default)"},
-    {"latex", latex, true, false, false, "the same for a paper (with amsmath)"},
-    {"octave", octave, false, true, false,
-     "a function file that Octave and Matlab integrate as it stands"},
-    {"c", c, false, true, true, "the scene as C for the core"},
+    {.word = "text",
+     .print = text,
+     .shows = true,
+     .text = "one equation a coordinate, as in a textbook, and the first-order form (default)"},
+    {.word = "latex", .print = latex, .shows = true, .text = "the same for a paper (with amsmath)"},
+    {.word = "octave",
+     .print = octave,
+     .named = true,
+     .tells_contacts = true,
+     .text = "a function file that Octave and Matlab integrate as it stands"},
+    {.word = "c", .print = c, .named = true, .runs = true, .text = "the scene as C for the core"},
 };
 enum { FORMS = sizeof forms / sizeof forms[0] };
 
@@ -101,12 +102,11 @@ static bool header_is_apart(const source_model *from, const char *header) {
     return true;
 }
 
-static bool write_header(const loaded *made, const char *file, const engine_settings *settings,
-                         const char *header) {
+static bool write_header(const image *im, const char *file, const char *header) {
     FILE *out = fopen(header, "w");
     bool written = out != NULL;
     if (written) {
-        emit_c_header(out, made->equations, made->program, settings, file);
+        emit_c_header(out, im, file);
         written = fflush(out) == 0 && ferror(out) == 0;
     }
     if (!written) {
@@ -119,21 +119,20 @@ static bool write_header(const loaded *made, const char *file, const engine_sett
 }
 
 /* Can this be C for the core? Else it is said why. */
-static bool has_c_form(const loaded *made, source_model *from, const engine_settings *settings,
-                       const char *header) {
-    const char *name = made->instance->name;
-    if (!start_angles_are_held(made->program, made->instance, from->errors)) {
+static bool has_c_form(const image *im, source_model *from, const char *header) {
+    if (!start_angles_are_held(im, from->errors)) {
         diags_flush(from->errors, stderr);
         return false;
     }
-    if (!emit_c_name_is_free(name) || (header != NULL && !emit_c_name_is_free_in_cpp(name))) {
+    if (!emit_c_name_is_free(im->name) ||
+        (header != NULL && !emit_c_name_is_free_in_cpp(im->name))) {
         fprintf(stderr,
                 "%s: error: '%s' is a word of C%s or of the core: the generated scene cannot "
                 "have that name\nhint: rename it, or give it another for this: --name NAME\n",
-                from->file, name, emit_c_name_is_free(name) ? "++" : "");
+                from->file, im->name, emit_c_name_is_free(im->name) ? "++" : "");
         return false;
     }
-    if (!start_has_method(made->program, made->instance, settings->method, from->errors)) {
+    if (!start_has_method(im, im->settings.method, from->errors)) {
         diags_flush(from->errors, stderr);
         return false;
     }
@@ -141,21 +140,29 @@ static bool has_c_form(const loaded *made, source_model *from, const engine_sett
 }
 
 static int derive_one(source_model *from, const mechanism *of, const scene *in,
-                      const overrides *changes, const form_row *as, const engine_settings *settings,
+                      const overrides *changes, const form_row *as, const image_settings *settings,
                       const char *header) {
+    const load_wish wish = {.settings = *settings,
+                            .use = IMAGE_TO_WRITE,
+                            .keep = as->shows ? KEEP_EQUATIONS : KEEP_IMAGE,
+                            .conserve = as->runs,
+                            .contacts = as->tells_contacts};
     loaded made;
-    int code = load(&made, from, of, in, changes, as->runs);
+    int code = load(&made, from, of, in, changes, &wish);
+    if (!as->shows) {
+        source_forget(from);
+    }
     if (code == EXIT_DONE && as->runs &&
-        (!has_c_form(&made, from, settings, header) ||
-         (header != NULL && !write_header(&made, from->file, settings, header)))) {
+        (!has_c_form(made.image, from, header) ||
+         (header != NULL && !write_header(made.image, from->file, header)))) {
         code = EXIT_BAD_INPUT;
     }
     if (code == EXIT_DONE) {
         say_hints(&made);
         if (as->runs) {
-            say_float_range(&made);
+            say_float_range(made.image);
         }
-        as->print(&made, from->file, settings);
+        as->print(&made, from->file);
     }
     unload(&made);
     return code;
@@ -186,7 +193,7 @@ int command_derive(int count, char **words) {
     const char *header = NULL;
     const form_row *as = &forms[0];
     change_options options = {0};
-    engine_settings settings = {WH_METHOD_DEFAULT, false};
+    image_settings settings = {WH_METHOD_DEFAULT, false};
     bool bad = false;
     if (options_wants_help(count, words)) {
         print_usage(stdout);
@@ -241,7 +248,7 @@ int command_derive(int count, char **words) {
     source_model from;
     int code = source_open(&from, target);
     const overrides changes = change_options_overrides(&options);
-    if (code == EXIT_DONE && from.name[0] == '\0' && as->of_many) {
+    if (code == EXIT_DONE && from.name[0] == '\0' && as->shows) {
         for (int i = 0; i < from.model->mechanism_count && code == EXIT_DONE; i++) {
             if (i > 0) {
                 putchar('\n');

@@ -250,8 +250,8 @@ int options_choose(const char *command, const char *what, const char *value, con
     return -1;
 }
 
-bool options_engine(const char *command, int count, char **words, int *at,
-                    engine_settings *settings, bool *bad) {
+bool options_engine(const char *command, int count, char **words, int *at, image_settings *settings,
+                    bool *bad) {
     const char *value = options_value(count, words, at, option_rows[OPTION_METHOD].word, bad);
     if (value != NULL) {
         const int chosen =

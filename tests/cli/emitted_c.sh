@@ -24,7 +24,7 @@ for scene in thomson_a epicyclic_conserved $("$whirl" list | awk '$1 == "scene" 
 done
 for scene in thomson_b spherical_flight two_mass_relative epicyclic_conserved; do
     add "$scene" --until 0.3s --compensated
-    for method in heun euler semi-implicit-euler; do
+    for method in $("$whirl" derive "$scene" --as c --method '?' 2>&1 | sed -n 's/,//g; s/^hint: one of //p'); do
         add "$scene" --until 0.2s --method "$method"
     done
     add "$scene" --until 0.2s --method heun --compensated
@@ -152,7 +152,8 @@ while read -r number what; do
     while read -r word; do
         set -- "$@" "$word"
     done <"$scratch/$number.options"
-    "$whirl" derive "$@" --as c >"$scratch/emitted" 2>"$scratch/errors"
+    # a name of its own for each
+    "$whirl" derive "$@" --as c --name "scene_$number" >"$scratch/scene_$number.c" 2>"$scratch/errors"
     derived=$?
     "$whirl" run "$@" --number float >"$scratch/$number.float" 2>"$scratch/$number.run"
     ran=$?
@@ -160,12 +161,10 @@ while read -r number what; do
     if [ $derived -ne 0 ] || [ $ran -gt 1 ]; then
         verdict 1 "$what: derive says $derived, run says $ran"
         sed 's/^/    /' "$scratch/errors" "$scratch/$number.run" | head -n 5
+        rm -f "$scratch/scene_$number.c"
         continue
     fi
     "$whirl" run "$@" --number double >"$scratch/$number.double" 2>&1
-    name=$(sed -n 's/^extern const wh_scene \(.*\);$/\1/p' "$scratch/emitted")
-    # a name of its own for each, by the preprocessor: what was emitted is compiled as it is
-    { echo "#define $name scene_$number"; cat "$scratch/emitted"; } >"$scratch/scene_$number.c"
     echo "$number" >>"$scratch/numbers"
 done <"$scratch/list"
 
