@@ -52,7 +52,7 @@ void c_contacts_write(FILE *out, const image *im) {
         "    .angles = %d,\n    .coordinates = %d,\n};\n\n",
         sets ? "contact_sets" : "NULL", im->set_count > 0 ? "contact_target" : "NULL",
         im->ledger.kept ? "&ledger" : "NULL", system.contacts, system.forced, system.held,
-        core_stages(im), core_stops(im), system.forced, c_method_names[system.method],
+        core_stages(im), core_stops(im), system.forced, wh_methods[system.method].name,
         system.compensated ? "true" : "false", system.angles, system.coordinates);
     fprintf(out,
             "static wh_status advance(const wh_scene *scene, wh_state *state) {\n"
