@@ -83,7 +83,7 @@ workers=""
 trap 'kill $workers 2>/dev/null; exit 130' INT TERM
 for job in $(seq "$JOBS"); do
     # The first begins with the first folder, the second with the last, and so on in turns.
-    nice -n "$NICE" sh "$here/work.sh" "$top" "$job" "$MUTANTS" "$tests_sum" $tables &
+    nice -n "$NICE" sh "$here/work.sh" "$top" "$job" "$MUTANTS" "$tests_sum" $tables 2>>"$top/errors" &
     workers="$workers $!"
     tables=$(printf '%s\n' $tables | tac)
 done
