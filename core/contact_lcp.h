@@ -110,17 +110,17 @@ WH_INLINE wh_real wh_contact_rounding(wh_real a, wh_real b, wh_real c) {
 /* Contacts that repeat what others hold may still contradict them: at a dead centre two rows are parallel,
  * but the path that the one keeps bends and that of the other does not, so that the one must let go; in an impact
  * two stops on one path may bounce differently. Which way is each of `repeats` (bits of places in member[]) to push:
- * 1, -1, or 0 where it agrees? way[] is what all forces (or impulses) make of the accelerations (or rates). What
- * bends a path, J' q', is looked at by itself too: beside the other accelerations a slow passage would drown in
+ * 1, -1, or 0 where it agrees? way[] is what all forces make of the accelerations, or `impulse`, if not NULL, of the
+ * rates. What bends a path, J' q', is looked at by itself too: beside the other accelerations a slow passage would drown in
  * their rounding. */
 static inline void wh_contact_contradicts(const wh_contact_system *of, const wh_contact_work *w,
                                           const uint8_t *member, unsigned count, const int8_t *at,
-                                          unsigned repeats, bool forces, const wh_real *wanted,
-                                          const wh_real *way, int8_t *push) {
+                                          unsigned repeats, const wh_real *impulse,
+                                          const wh_real *wanted, const wh_real *way, int8_t *push) {
     wh_real bend[WH_CONTACTS_MAX] = {WH_R(0.0)};
     wh_real lambda[WH_CONTACTS_MAX];
     wh_real bent[WH_COORDS] = {WH_R(0.0)};
-    if (forces) {
+    if (impulse == NULL) {
         for (unsigned i = 0; i < count; i++) {
             bend[i] = -wh_contact_law(of, w, member[i])[WH_LAW_BIAS];
         }
@@ -132,7 +132,10 @@ static inline void wh_contact_contradicts(const wh_contact_system *of, const wh_
     for (unsigned i = 0; i < count; i++) {
         push[i] = 0;
         if ((repeats >> i & 1U) != 0) {
-            const wh_real size = forces ? w->rough[i] : wanted[i];
+            wh_real size = impulse == NULL ? w->rough[i] : WH_ABS(wanted[i]);
+            for (unsigned l = 0; l < count && impulse != NULL; l++) {
+                size += WH_ABS(wh_delassus(of, w, member[i], member[l]) * impulse[l]);
+            }
             const wh_real made = wh_jacobian_times(of, w, member[i], way);
             const wh_real missing = wanted[i] - made;
             const wh_real made_bent = wh_jacobian_times(of, w, member[i], bent);
@@ -295,7 +298,8 @@ static inline unsigned wh_contact_lcp(const wh_contact_system *of, wh_contact_wo
         const unsigned repeats =
             wh_contact_lcp_round(of, w, member, count, at, wanted, lambda, way);
         if (repeats != 0) {
-            wh_contact_contradicts(of, w, member, count, at, repeats, forces, wanted, way, push);
+            wh_contact_contradicts(of, w, member, count, at, repeats, forces ? NULL : lambda,
+                                   wanted, way, push);
         }
         int8_t to = 0;
         wrong = count;

@@ -107,8 +107,7 @@ static bool is_aligned(const void *memory) {
 static wh_status refusal(const wh_scene *scene, const wh_state *state, const void *memory,
                          size_t bytes) {
     if (scene == NULL || state == NULL || scene->contacts > WH_CONTACTS_LIMIT ||
-        (scene->form == WH_FIRST_ORDER && scene->method == WH_SEMI_IMPLICIT_EULER) ||
-        !is_aligned(memory)) {
+        !wh_method_takes(scene->method, scene->form) || !is_aligned(memory)) {
         return WH_E_ARGUMENT;
     }
     if (memory == NULL ||

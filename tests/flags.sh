@@ -110,26 +110,15 @@ while read -r what; do
     # shellcheck disable=SC2086 # a list of words
     set -- $what
     scene=${1##*:}
-    "$whirl" derive "$@" --as c >"$scratch/build/gen/$scene.c" || exit 1
+    "$whirl" derive "$@" --as c --header "$scratch/build/gen/$scene.h" >"$scratch/build/gen/$scene.c" || exit 1
     echo "$scene" >>"$scratch/scenes"
     for real in float double; do
         "$whirl" run "$@" --number $real 2>&1 |
             sed -n "s/^state hash  */scene $scene hash /p" >>"$scratch/wanted.$real"
     done
 done <"$scratch/list"
-{
-    echo '#include "core/scene.h"'
-    echo 'extern const wh_scene *const wh_scenes[];'
-    echo 'extern const unsigned wh_scene_count;'
-    sed 's/.*/extern const wh_scene &;/' "$scratch/scenes"
-} >"$scratch/build/gen/scenes.h"
-{
-    echo '#include "scenes.h"'
-    echo 'const wh_scene *const wh_scenes[] = {'
-    sed 's/.*/    \&&,/' "$scratch/scenes"
-    echo '};'
-    echo 'const unsigned wh_scene_count = sizeof wh_scenes / sizeof wh_scenes[0];'
-} >"$scratch/build/gen/scenes.c"
+# shellcheck disable=SC2046 # a list of words
+mk/count/index.sh $(cat "$scratch/scenes") >"$scratch/build/gen/scenes.c"
 wanted_count=$(wc -l <"$scratch/scenes")
 
 # --- one build -------------------------------------------------------------------------------------------------------------

@@ -12,7 +12,7 @@
  * Interval 0 is around nothing. On a board an interval holds the call too (loading the arguments
  * and the branch); callgrind counts the called function alone. */
 #include "boards/board.h"
-#include "build/gen/scenes.h"
+#include "boards/programs/table.h"
 #include "core/function.h"
 #include "core/scene.h"
 #include "core/text.h"
@@ -165,7 +165,13 @@ static const struct {
     {"wh_atan", wh_atan, NULL, WH_R(4.0), WH_R(0.0)},
     {"wh_atan2", NULL, wh_atan2, WH_R(4.0), WH_R(0.0)},
     {"wh_pow", NULL, wh_pow, WH_R(20.0), WH_R(20.01)},
+    {"wh_sinh", wh_sinh, NULL, WH_R(4.0), WH_R(0.0)},
+    {"wh_cosh", wh_cosh, NULL, WH_R(4.0), WH_R(0.0)},
+    {"wh_tanh", wh_tanh, NULL, WH_R(4.0), WH_R(0.0)},
 };
+#define ONE_MORE(name) +1
+_Static_assert(sizeof functions / sizeof functions[0] == 0 WH_FUNCTIONS(ONE_MORE, ONE_MORE),
+               "every function of core/function.h is counted");
 
 static void count_functions(void) {
     for (unsigned k = 0; k < sizeof functions / sizeof functions[0]; k++) {

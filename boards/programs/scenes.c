@@ -4,8 +4,8 @@
  *
  * The same lines must come out on the PC and on every board. A scene that diverges says so in the
  * last words, with the hash of its last good state; the others still run. Fails if none is there. */
-#include "build/gen/scenes.h"
 #include "boards/board.h"
+#include "boards/programs/table.h"
 #include "core/scene.h"
 #include "core/text.h"
 

@@ -1,4 +1,5 @@
-/* table.h: the scenes of a program that counts some of them, as mk/count/index.sh writes them. */
+/* table.h: the scenes of a program that runs or counts them: all of build/gen (`whirl emit-scenes`), or some, as
+ * mk/count/index.sh writes them. */
 #ifndef BOARDS_PROGRAMS_TABLE_H
 #define BOARDS_PROGRAMS_TABLE_H
 
@@ -11,7 +12,7 @@ typedef struct wh_scene_bound {
 } wh_scene_bound;
 
 extern const wh_scene *const wh_scenes[];
-extern const wh_scene_bound wh_scene_bounds[]; /* of each */
+extern const wh_scene_bound wh_scene_bounds[]; /* of each; of index.sh only */
 extern const unsigned wh_scene_count;
 
 #endif

@@ -258,6 +258,26 @@ poly *poly_scratch(int terms) {
     return p;
 }
 
+const poly *poly_of_term(algebra *a, double coefficient, const mono *m) {
+    if (coefficient == 0.0) {
+        return a->zero;
+    }
+    poly *p = poly_scratch(1);
+    p->count = 1;
+    p->terms[0] = (poly_term){coefficient, m};
+    const poly *made = poly_intern(a, p);
+    free(p);
+    return made;
+}
+
+const poly *poly_number(algebra *a, double value) {
+    if (value == 0.0) {
+        poly none = {.count = 0};
+        return poly_intern(a, &none);
+    }
+    return poly_of_term(a, value, mono_make(a, NULL, 0, TRIG_NONE, NULL));
+}
+
 /* --- results remembered --------------------------------------------------------------------------*/
 
 static bool pair_equal(const void *x, const void *y) {

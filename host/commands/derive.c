@@ -34,12 +34,13 @@ static const char usage[] =
 typedef enum form { FORM_TEXT, FORM_LATEX, FORM_OCTAVE, FORM_C, FORMS } form;
 static const char *const form_names[FORMS] = {"text", "latex", "octave", "c"};
 
-static void print(form as, const loaded *made, const char *file, const engine_settings *settings) {
+static void print(form as, const loaded *made, const char *file) {
     switch (as) {
     case FORM_TEXT: show_text(stdout, made->equations); break;
     case FORM_LATEX: show_latex(stdout, made->equations); break;
-    case FORM_OCTAVE: emit_octave(stdout, made->equations, made->program, file); break;
-    default: emit_c(stdout, made->equations, made->program, settings, file); break;
+    case FORM_OCTAVE: emit_octave(stdout, made->image, file, made->contacts); break;
+    case FORM_C: emit_c(stdout, made->image, file); break;
+    case FORMS: break;
     }
 }
 
@@ -66,12 +67,11 @@ static bool header_is_apart(const source_model *from, const char *header) {
     return true;
 }
 
-static bool write_header(const loaded *made, const char *file, const engine_settings *settings,
-                         const char *header) {
+static bool write_header(const image *im, const char *file, const char *header) {
     FILE *out = fopen(header, "w");
     bool written = out != NULL;
     if (written) {
-        emit_c_header(out, made->equations, made->program, settings, file);
+        emit_c_header(out, im, file);
         written = fflush(out) == 0 && ferror(out) == 0;
     }
     if (!written) {
@@ -84,21 +84,20 @@ static bool write_header(const loaded *made, const char *file, const engine_sett
 }
 
 /* Can this be C for the core? Else it is said why. */
-static bool has_c_form(const loaded *made, source_model *from, const engine_settings *settings,
-                       const char *header) {
-    const char *name = made->instance->name;
-    if (!start_angles_are_held(made->program, made->instance, from->errors)) {
+static bool has_c_form(const image *im, source_model *from, const char *header) {
+    if (!start_angles_are_held(im, from->errors)) {
         diags_flush(from->errors, stderr);
         return false;
     }
-    if (!emit_c_name_is_free(name) || (header != NULL && !emit_c_name_is_free_in_cpp(name))) {
+    if (!emit_c_name_is_free(im->name) ||
+        (header != NULL && !emit_c_name_is_free_in_cpp(im->name))) {
         fprintf(stderr,
                 "%s: error: '%s' is a word of C%s or of the core: the generated scene cannot "
                 "have that name\nhint: rename it, or give it another for this: --name NAME\n",
-                from->file, name, emit_c_name_is_free(name) ? "++" : "");
+                from->file, im->name, emit_c_name_is_free(im->name) ? "++" : "");
         return false;
     }
-    if (!start_has_method(made->program, made->instance, settings->method, from->errors)) {
+    if (!start_has_method(im, im->settings.method, from->errors)) {
         diags_flush(from->errors, stderr);
         return false;
     }
@@ -106,21 +105,30 @@ static bool has_c_form(const loaded *made, source_model *from, const engine_sett
 }
 
 static int derive_one(source_model *from, const mechanism *of, const scene *in,
-                      const overrides *changes, form as, const engine_settings *settings,
+                      const overrides *changes, form as, const image_settings *settings,
                       const char *header) {
+    const bool by_equations = as == FORM_TEXT || as == FORM_LATEX;
+    const load_wish wish = {.settings = *settings,
+                            .use = IMAGE_TO_WRITE,
+                            .keep = by_equations ? KEEP_EQUATIONS : KEEP_IMAGE,
+                            .conserve = as == FORM_C,
+                            .contacts = as == FORM_OCTAVE};
     loaded made;
-    int code = load(&made, from, of, in, changes, as == FORM_C);
+    int code = load(&made, from, of, in, changes, &wish);
+    if (!by_equations) {
+        source_forget(from);
+    }
     if (code == EXIT_DONE && as == FORM_C &&
-        (!has_c_form(&made, from, settings, header) ||
-         (header != NULL && !write_header(&made, from->file, settings, header)))) {
+        (!has_c_form(made.image, from, header) ||
+         (header != NULL && !write_header(made.image, from->file, header)))) {
         code = EXIT_BAD_INPUT;
     }
     if (code == EXIT_DONE) {
         say_hints(&made);
         if (as == FORM_C) {
-            say_float_range(&made);
+            say_float_range(made.image);
         }
-        print(as, &made, from->file, settings);
+        print(as, &made, from->file);
     }
     unload(&made);
     return code;
@@ -151,7 +159,7 @@ int command_derive(int count, char **words) {
     const char *header = NULL;
     form as = FORM_TEXT;
     change_options options = {0};
-    engine_settings settings = {WH_RK4, false};
+    image_settings settings = {WH_RK4, false};
     bool bad = false;
     if (options_help(count, words, usage)) {
         return EXIT_DONE;

@@ -166,8 +166,8 @@ static bool choose(const char *command, const char *what, const char *value,
     return false;
 }
 
-bool options_engine(const char *command, int count, char **words, int *at,
-                    engine_settings *settings, bool *bad) {
+bool options_engine(const char *command, int count, char **words, int *at, image_settings *settings,
+                    bool *bad) {
     static const char *const methods[] = {[WH_EULER] = "euler",
                                           [WH_SEMI_IMPLICIT_EULER] = "semi-implicit-euler",
                                           [WH_HEUN] = "heun",

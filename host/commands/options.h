@@ -40,8 +40,8 @@ void change_options_free(change_options *changes);
 
 /* How to integrate: --method M and --compensated, as for options_change(). */
 #define ENGINE_OPTIONS "--method", "--compensated"
-bool options_engine(const char *command, int count, char **words, int *at,
-                    engine_settings *settings, bool *bad);
+bool options_engine(const char *command, int count, char **words, int *at, image_settings *settings,
+                    bool *bad);
 
 /* What computes: --number N; *kind is left alone without it. */
 bool options_number(const char *command, int count, char **words, int *at, const engine_kind **kind,

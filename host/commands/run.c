@@ -58,6 +58,7 @@ typedef struct run_options {
     const char *target;
     const char *every;
     simulation_settings settings;
+    image_settings integration;
 } run_options;
 
 static bool take_flag(char **words, int *at, const char *name) {
@@ -95,7 +96,7 @@ static bool take_strict(char **words, int *at, double *limit, bool *bad) {
 /* One word or pair of words that is this command's own; false when it is none of them. */
 static bool take_own(int count, char **words, int *at, run_options *o, bool *bad) {
     const char *value = NULL;
-    if (options_engine("run", count, words, at, &o->settings.engine, bad) ||
+    if (options_engine("run", count, words, at, &o->integration, bad) ||
         (!*bad && options_number("run", count, words, at, &o->settings.kind, bad)) ||
         (!*bad && take_strict(words, at, &o->settings.strict, bad))) {
         return true;
@@ -166,43 +167,51 @@ static bool model_would_be_lost(const source_model *from, const simulation_setti
            source_would_be_lost(from, "--plot", s->plot, "");
 }
 
-/* --every as a number of steps. */
-static bool read_every(const run_options *o, const mechanism *of, const instance *inst,
-                       uint64_t *steps) {
+/* --every in seconds; below 0 when it is no time. 0 when it is left out. */
+static double read_every_s(const run_options *o, const mechanism *of) {
+    double spacing_s = 0.0;
+    if (o->every != NULL) {
+        diags *errors = diags_new();
+        if (!instance_duration(of, NULL, NULL, "every", o->every, errors, &spacing_s)) {
+            spacing_s = -1.0;
+        }
+        diags_free(errors); /* what it is not says more than why it is not */
+    }
+    return spacing_s;
+}
+
+/* The same as a number of steps. */
+static bool count_every(const run_options *o, double spacing_s, double step_s, uint64_t *steps) {
     *steps = 1;
     if (o->every == NULL) {
         return true;
     }
-    diags *errors = diags_new();
-    double spacing_s;
-    const bool known = instance_duration(of, NULL, NULL, "every", o->every, errors, &spacing_s);
-    diags_free(errors); /* what it is not says more than why it is not */
-    if (!known) {
+    if (spacing_s < 0.0) {
         fprintf(stderr,
                 "whirl run: error: --every %s is not a time\n"
                 "hint: such as 2ms, or 0.002 in seconds; the step is %.9g s\n",
-                o->every, inst->step_s);
+                o->every, step_s);
         return false;
     }
-    const double wanted = spacing_s / inst->step_s;
+    const double wanted = spacing_s / step_s;
     if (!(wanted > 0.5 && wanted < 1e15) ||
         fabs(wanted - number_floor(wanted + 0.5)) > 1e-6 * wanted) {
         fprintf(stderr,
                 "whirl run: error: --every %s is not a whole number of steps\n"
                 "hint: the step is %.9g s\n",
-                o->every, inst->step_s);
+                o->every, step_s);
         return false;
     }
     *steps = (uint64_t)number_floor(wanted + 0.5);
     return true;
 }
 
-static int run_loaded(run_options *o, const source_model *from, const loaded *made) {
-    if (!read_every(o, made->instance->mechanism, made->instance, &o->settings.every)) {
+static int run_image(run_options *o, const source_model *from, const image *im, double every_s) {
+    if (!count_every(o, every_s, im->step_s, &o->settings.every)) {
         return EXIT_BAD_INPUT;
     }
-    if (!start_has_method(made->program, made->instance, o->settings.engine.method, from->errors) ||
-        !start_is_possible(made->program, made->instance, o->settings.kind, from->errors)) {
+    if (!start_has_method(im, im->settings.method, from->errors) ||
+        !start_is_possible(im, o->settings.kind, from->errors)) {
         diags_flush(from->errors, stderr);
         return EXIT_BAD_INPUT;
     }
@@ -213,7 +222,7 @@ static int run_loaded(run_options *o, const source_model *from, const loaded *ma
     sigaction(SIGTERM, &action, NULL);
     o->settings.stop = &interrupted;
     o->settings.progress = !o->settings.quiet && isatty(STDERR_FILENO);
-    switch (simulate(made->equations, made->program, &o->settings)) {
+    switch (simulate(im, &o->settings)) {
     case SIMULATION_DONE: return EXIT_DONE;
     case SIMULATION_INTERRUPTED: return 130;
     case SIMULATION_BAD_FILE: return EXIT_BAD_INPUT;
@@ -223,7 +232,7 @@ static int run_loaded(run_options *o, const source_model *from, const loaded *ma
 }
 
 int command_run(int count, char **words) {
-    run_options o = {.settings = {.kind = &engine_double, .engine = {WH_RK4, false}}};
+    run_options o = {.settings = {.kind = &engine_double}, .integration = {WH_RK4, false}};
     if (options_help(count, words, usage)) {
         return EXIT_DONE;
     }
@@ -245,15 +254,18 @@ int command_run(int count, char **words) {
         loaded made;
         overrides changes = change_options_overrides(&o.changes);
         changes.balance = true;
-        code = load(&made, &from, of, in, &changes, true);
+        const double every_s = read_every_s(&o, of);
+        const load_wish wish = {.settings = o.integration, .use = IMAGE_TO_RUN, .conserve = true};
+        code = load(&made, &from, of, in, &changes, &wish);
+        source_forget(&from);
         if (code == EXIT_DONE && !o.settings.quiet) {
             say_hints(&made);
         }
         if (code == EXIT_DONE && o.settings.kind == &engine_float) {
-            say_float_range(&made);
+            say_float_range(made.image);
         }
         if (code == EXIT_DONE) {
-            code = run_loaded(&o, &from, &made);
+            code = run_image(&o, &from, made.image, every_s);
         }
         unload(&made);
     }

@@ -68,7 +68,7 @@ typedef struct sweep_options {
     bool fresh;
     bool quiet;
     const engine_kind *kind;
-    engine_settings engine;
+    image_settings engine;
 } sweep_options;
 
 /* A whole number from 1 to `limit`, up to the end of the text or `end`. */
@@ -206,20 +206,18 @@ static bool axes_take_part(const grid *g, const instance *base) {
 
 static int sweep_loaded(const sweep_options *o, const source_model *from, const loaded *base,
                         sweep *s) {
-    if (!start_has_method(base->program, base->instance, s->engine.method, from->errors)) {
+    if (!start_has_method(base->image, s->engine.method, from->errors)) {
         diags_flush(from->errors, stderr);
         return EXIT_BAD_INPUT;
     }
     if (!axes_take_part(s->grid, base->instance)) {
         return EXIT_BAD_INPUT;
     }
-    s->shared = sweep_can_share(s->grid, base->program) ? base->program : NULL;
-    s->equations = base->equations;
+    s->shared = sweep_can_share(s->grid, base->image) ? base->image : NULL;
     uint64_t first;
     uint64_t end;
     grid_shard(s->grid, o->part.number, o->part.of, &first, &end);
-    char *fingerprint =
-        fingerprint_make(s, model_text(from), base->instance, base->program, o->part);
+    char *fingerprint = fingerprint_make(s, model_text(from), base->instance, base->image, o->part);
     const session_settings settings = {.csv = o->csv,
                                        .fingerprint = fingerprint,
                                        .first = first,
@@ -262,7 +260,9 @@ static int sweep_scene(const sweep_options *o, source_model *from, const mechani
     if (wanted != NULL) {
         loaded base;
         s.measures = wanted;
-        code = load(&base, from, &wanted->mechanism, in, &changes, true);
+        const load_wish wish = {
+            .settings = o->engine, .use = IMAGE_TO_RUN, .keep = KEEP_INSTANCE, .conserve = true};
+        code = load(&base, from, &wanted->mechanism, in, &changes, &wish);
         if (code == EXIT_DONE && s.from_s > base.instance->until_s) {
             fprintf(stderr, "whirl sweep: error: --from %.9g s lies behind the end, %.9g s\n",
                     s.from_s, base.instance->until_s);
@@ -272,7 +272,7 @@ static int sweep_scene(const sweep_options *o, source_model *from, const mechani
             say_hints(&base);
         }
         if (code == EXIT_DONE && o->kind == &engine_float) {
-            say_float_range(&base);
+            say_float_range(base.image);
         }
         if (code == EXIT_DONE) {
             code = sweep_loaded(o, from, &base, &s);

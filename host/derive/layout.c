@@ -76,7 +76,7 @@ bool layout_arrange(layout *map, program *p, const poly *const *dynamics, int co
         map->order_room = order + 1 > map->order_room ? order + 1 : map->order_room;
     }
     p->form = second ? WH_SECOND_ORDER : WH_FIRST_ORDER;
-    if ((second ? n : components) > PROGRAM_COMPONENTS_MAX) {
+    if ((second ? n : components) > IMAGE_COMPONENTS_MAX) {
         return false;
     }
     p->angle = room(components, sizeof *p->angle);

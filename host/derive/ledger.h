@@ -10,14 +10,6 @@
 
 #include "layout.h"
 
-typedef enum ledger_kind {
-    LEDGER_WORK,     /* Q q' of a generalized force */
-    LEDGER_LOSS,     /* -sum dF/dq' q' of a damper */
-    LEDGER_ENERGIES, /* dL/dq_i */
-    LEDGER_DRIVE,    /* a generalized force on coordinate i */
-    LEDGER_DAMPING   /* -dF/dq_i' of a damper */
-} ledger_kind;
-
 typedef struct ledger_entry {
     ledger_kind kind;
     const term *term; /* of the mechanism; NULL for LEDGER_ENERGIES */

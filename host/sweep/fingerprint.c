@@ -34,7 +34,7 @@ static void put_instance(FILE *out, const instance *base) {
 }
 
 char *fingerprint_make(const sweep *s, const char *model_text, const instance *base,
-                       const program *p, shard part) {
+                       const image *im, shard part) {
     static const char *const methods[] = {[WH_EULER] = "euler",
                                           [WH_SEMI_IMPLICIT_EULER] = "semi-implicit-euler",
                                           [WH_HEUN] = "heun",
@@ -59,7 +59,7 @@ char *fingerprint_make(const sweep *s, const char *model_text, const instance *b
         fprintf(out, "measure: %s\n", s->measures->list[i].name);
     }
     fprintf(out, "shard: %" PRIu64 "/%" PRIu64 "\n", part.number, part.of);
-    fprintf(out, "operations: 0x%016" PRIx64 "\n", program_hash(p));
+    fprintf(out, "operations: 0x%016" PRIx64 "\n", im->hash);
     room_text_end(out);
     return text;
 }

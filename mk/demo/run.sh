@@ -23,7 +23,10 @@ run_image() { # run_image FILE: the image's console output
 
 # --- energies -------------------------------------------------------------------------------------
 title "1. The energies of an epicyclic gear on a carriage (core/models/epicyclic.whirl)"
-grep -v '^ *#' core/models/epicyclic.whirl | sed -n '/^coordinate/p; /^let/p; /^T =/p; /^Q(/p'
+# from the mechanism's name to its first effect
+lines=$("$whirl" list --as table core/models/epicyclic.whirl | awk -F '\t' '
+    $1 == "mechanism" { first = $5 } $1 == "effect" { print first "," $5 - 1; exit }')
+sed -n "${lines}p" core/models/epicyclic.whirl
 
 title "2. Its equations of motion (build/whirl derive core/models/epicyclic.whirl)"
 "$whirl" derive core/models/epicyclic.whirl | sed -n '/^equations of motion/,$p'

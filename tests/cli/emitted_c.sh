@@ -152,7 +152,8 @@ while read -r number what; do
     while read -r word; do
         set -- "$@" "$word"
     done <"$scratch/$number.options"
-    "$whirl" derive "$@" --as c >"$scratch/emitted" 2>"$scratch/errors"
+    # a name of its own for each
+    "$whirl" derive "$@" --as c --name "scene_$number" >"$scratch/scene_$number.c" 2>"$scratch/errors"
     derived=$?
     "$whirl" run "$@" --number float >"$scratch/$number.float" 2>"$scratch/$number.run"
     ran=$?
@@ -160,12 +161,10 @@ while read -r number what; do
     if [ $derived -ne 0 ] || [ $ran -gt 1 ]; then
         verdict 1 "$what: derive says $derived, run says $ran"
         sed 's/^/    /' "$scratch/errors" "$scratch/$number.run" | head -n 5
+        rm -f "$scratch/scene_$number.c"
         continue
     fi
     "$whirl" run "$@" --number double >"$scratch/$number.double" 2>&1
-    name=$(sed -n 's/^extern const wh_scene \(.*\);$/\1/p' "$scratch/emitted")
-    # a name of its own for each, by the preprocessor: what was emitted is compiled as it is
-    { echo "#define $name scene_$number"; cat "$scratch/emitted"; } >"$scratch/scene_$number.c"
     echo "$number" >>"$scratch/numbers"
 done <"$scratch/list"
 

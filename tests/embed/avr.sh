@@ -46,10 +46,10 @@ sines=$("$folder/pc")
 compared=0
 while read -r scene until options; do
     # shellcheck disable=SC2086 # a list of words
-    "$whirl" derive "$scene" --as c --until "$until" $options --header "$folder/$scene.h" >"$folder/generated.c" || exit 1
+    "$whirl" derive "$scene" --as c --until "$until" $options --name tested --header "$folder/generated.h" \
+        >"$folder/generated.c" || exit 1
     # shellcheck disable=SC2086
     run=$("$whirl" run "$scene" --until "$until" $options --number float | sed -n 's/^state hash *0x//p')
-    { echo "#define tested $scene"; sed "s/\\b${scene}_/tested_/g" "$folder/$scene.h"; } >"$folder/generated.h"
     for dialect in "c11 c++11" "c11 gnu++11" "gnu11 c++11" "gnu11 gnu++11" "c11 c++11 -U__AVR_HAVE_LPMX__"; do
         # shellcheck disable=SC2086
         set -- $dialect

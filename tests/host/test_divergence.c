@@ -51,7 +51,7 @@ static uint64_t run_into_failure(motion *m, unsigned most) {
         TEST_ASSERT_TRUE(m->kind->steps(m->run) == first + done);
         TEST_ASSERT_EQUAL_INT(fault, m->kind->fault(m->run));
     }
-    TEST_ASSERT_TRUE(fault >= 0 && fault < m->program->angles + m->program->reals);
+    TEST_ASSERT_TRUE(fault >= 0 && fault < m->image->angles + m->image->reals);
     return done;
 }
 

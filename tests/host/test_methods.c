@@ -83,12 +83,11 @@ static int end_of(const form *f, stepping how, int halvings, double value[VALUES
     motion m;
     how.step_s = ldexp(1.0, -halvings);
     motion_open_text(&m, f->text, how);
-    TEST_ASSERT_EQUAL_INT_MESSAGE(f->form, m.program->form, f->name);
-    TEST_ASSERT_TRUE_MESSAGE(start_has_method(m.program, m.instance, how.method, m.errors),
-                             f->name);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(f->form, m.image->form, f->name);
+    TEST_ASSERT_TRUE_MESSAGE(start_has_method(m.image, how.method, m.errors), f->name);
     TEST_ASSERT_EQUAL_INT_MESSAGE(WH_OK, motion_step(&m, m.instance->steps), f->name);
-    const int angles = m.program->angles;
-    const int count = angles + m.program->reals;
+    const int angles = m.image->angles;
+    const int count = angles + m.image->reals;
     m.kind->state(m.run, value, value + angles);
     motion_close(&m);
     return count;
@@ -153,10 +152,10 @@ static void test_semi_implicit_euler_moves_by_the_new_rates(void) {
                                         .ledger = ledger});
             double before[VALUES];
             double after[VALUES];
-            const int n = m.program->coordinates; /* positions, then rates, in the same order */
-            m.kind->state(m.run, before, before + m.program->angles);
+            const int n = m.image->coordinates; /* positions, then rates, in the same order */
+            m.kind->state(m.run, before, before + m.image->angles);
             TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
-            m.kind->state(m.run, after, after + m.program->angles);
+            m.kind->state(m.run, after, after + m.image->angles);
             for (int c = 0; c < n; c++) {
                 const double by = h * (semi ? after : before)[n + c];
                 TEST_ASSERT_TRUE(fabs(after[n + c] - before[n + c]) > 1e-6);
@@ -176,7 +175,7 @@ static void test_semi_implicit_euler_is_refused_where_there_is_none(void) {
             char *text = NULL;
             size_t length = 0;
             FILE *out = open_memstream(&text, &length);
-            const bool has = start_has_method(m.program, m.instance, (wh_method)method, m.errors);
+            const bool has = start_has_method(m.image, (wh_method)method, m.errors);
             diags_flush(m.errors, out);
             fclose(out);
             const bool wanted =

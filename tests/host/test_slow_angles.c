@@ -34,10 +34,10 @@ static outcome run(const char *text, stepping how, uint64_t steps) {
     motion m;
     motion_open_text(&m, text, how);
     const double start = motion_value(&m, "a");
-    TEST_ASSERT_EQUAL_INT(1, m.program->angles);
+    TEST_ASSERT_EQUAL_INT(1, m.image->angles);
     TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, steps));
     const outcome result = {motion_value(&m, "a") - start, slow_angle(m.kind, m.run, 0)};
-    TEST_ASSERT_EQUAL_INT(result.told, slow_count(m.kind, m.program, m.run));
+    TEST_ASSERT_EQUAL_INT(result.told, slow_count(m.kind, m.image, m.run));
     motion_close(&m);
     return result;
 }
