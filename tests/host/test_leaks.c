@@ -94,7 +94,9 @@ static void test_what_is_refused_gives_everything_back(void) {
             const scene *s = m->scene_count > 0 ? m->scenes[0] : NULL;
             instance *inst = instance_make(m->mechanisms[0], s, NULL, all);
             equations *e = inst == NULL ? NULL : equations_derive(inst, all);
-            program *p = e == NULL ? NULL : program_make(e, s == NULL ? NULL : s->conserve, all);
+            image *p = e == NULL ? NULL
+                                 : image_make(e, s == NULL ? NULL : s->conserve, &plainly,
+                                              IMAGE_TO_RUN, all);
             TEST_ASSERT_NULL_MESSAGE(p, refused[i]);
             equations_free(e);
             instance_free(inst);

@@ -66,7 +66,7 @@ static int check_solution(const derived *d, uint64_t *seed, const char *text) {
         state_values s;
         double result[UNKNOWNS];
         random_state(&s, d, seed);
-        derived_run(d->program->books, d, &s, result);
+        derived_run(d->image->list[IMAGE_BOOKS], d, &s, result);
         double largest = 0.0;
         for (int i = 0; i < e->count; i++) {
             largest = fmax(largest, fabs(result[i]));
@@ -97,7 +97,7 @@ static void test_any_regular_system_is_solved(void) {
         const int n = 1 + round % 5;
         char *text = written_system(n, &seed);
         derived d = derived_text(text);
-        if (d.program != NULL) {
+        if (d.image != NULL) {
             checked[n] += check_solution(&d, &seed, text);
         }
         derived_free(&d);
