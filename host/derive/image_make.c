@@ -10,7 +10,7 @@
 #include "host/lang/shown.h"
 #include "host/number/phase.h"
 #include "image_parts.h"
-#include "ledger.h"
+#include "ledger_lists.h"
 #include "program.h"
 
 /* --- what does not depend on the lists -------------------------------------------------------------*/
