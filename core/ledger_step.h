@@ -10,9 +10,9 @@
 #define WH_LEDGER_MAX 2048
 #endif
 
-/* Most accounts. A generated scene defines its own. */
+/* Most accounts: energy, and a momentum for each coordinate. A generated scene defines its own. */
 #ifndef WH_ACCOUNTS_MAX
-#define WH_ACCOUNTS_MAX 65
+#define WH_ACCOUNTS_MAX (WH_COORDS + 1)
 #endif
 
 /* A step of the books in progress. */
@@ -24,12 +24,18 @@ typedef struct wh_ledger_work {
     unsigned stage;
 } wh_ledger_work;
 
-/* Share of the step that stage `stage` of the method counts for in its quadrature. */
+/* Share of the step that stage `stage` of the method counts for in its quadrature. Compared one by one: where the
+ * stage is not known before it runs, no table is left for it. */
 WH_INLINE wh_real wh_ledger_weight(wh_method method, unsigned stage) {
-    if (method == WH_RK4) {
-        return stage == 1 || stage == 2 ? WH_R(1.0) / WH_R(3.0) : WH_R(1.0) / WH_R(6.0);
+    const wh_tableau *by = &wh_tableaus[method];
+    wh_real rates = by->rates[0];
+    WH_UNROLL
+    for (unsigned s = 1; s < WH_STAGES_MAX; s++) {
+        if (s < by->stages && by->rates[s] != by->rates[0] && stage == s) {
+            rates = by->rates[s];
+        }
     }
-    return method == WH_HEUN ? WH_R(0.5) : WH_R(1.0);
+    return rates / by->parts;
 }
 
 /* A try from `angle` on, [form->angles], which stays as it is until the last stage has been. */

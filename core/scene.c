@@ -107,8 +107,7 @@ static bool is_aligned(const void *memory) {
 static wh_status refusal(const wh_scene *scene, const wh_state *state, const void *memory,
                          size_t bytes) {
     if (scene == NULL || state == NULL || scene->contacts > WH_CONTACTS_LIMIT ||
-        (scene->form == WH_FIRST_ORDER && scene->method == WH_SEMI_IMPLICIT_EULER) ||
-        !is_aligned(memory)) {
+        !wh_method_takes(scene->method, scene->form) || !is_aligned(memory)) {
         return WH_E_ARGUMENT;
     }
     if (memory == NULL ||
@@ -266,15 +265,9 @@ const wh_real *wh_scene_rates(const wh_scene *scene, const wh_state *state) {
     return state->real + (scene->reals - scene->angles) / 2;
 }
 
+#define WORDS(name, value, words) \
+    case name: return words;
 const char *wh_status_text(wh_status status) {
-    switch (status) {
-    case WH_OK: return "ok";
-    case WH_E_DIVERGED: return "the state diverged";
-    case WH_E_MEMORY: return "the memory is too small for this scene";
-    case WH_E_ARGUMENT: return "an argument is out of range";
-    case WH_E_SINGULAR: return "holds leave more than one motion";
-    case WH_E_ARITHMETIC: return "compiled or set up for other arithmetic than IEEE 754";
-    case WH_E_UNDEFINED: return "an expression of a contact is not a finite number";
-    }
+    switch (status) { WH_STATUS_ROWS(WORDS) }
     return "unknown status";
 }

@@ -18,6 +18,7 @@
 #include <stddef.h>
 
 #include "angle.h"
+#include "method.h"
 #include "real.h"
 
 #ifdef __cplusplus
@@ -33,8 +34,14 @@ extern "C" {
  * First order (systems given outright): angle[] and real[] are the components of x' = f(x, u). */
 typedef enum wh_form { WH_SECOND_ORDER, WH_FIRST_ORDER } wh_form;
 
-/* Semi-implicit Euler (the new rates move the positions) takes a second-order form. */
-typedef enum wh_method { WH_EULER, WH_SEMI_IMPLICIT_EULER, WH_HEUN, WH_RK4 } wh_method;
+/* Has this method (method.h) steps for such systems? */
+WH_INLINE bool wh_method_takes(wh_method method, wh_form form) {
+#define WH_METHOD_TAKES(id, word, title, order, takes, ...) | ((unsigned)(takes) >> 1 & 1U) << (id)
+    const unsigned first_order = 0U WH_METHOD_ROWS(WH_METHOD_TAKES);
+#undef WH_METHOD_TAKES
+    return (unsigned)method < WH_METHODS &&
+           (form == WH_SECOND_ORDER || (first_order >> method & 1U) != 0);
+}
 
 /* Most moments with events in one step, and most events that are logged. */
 #define WH_EVENTS_MAX 8

@@ -6,14 +6,17 @@
  * floating-point operations, and so every bit of the result, is the same in both. Neither is C++: what
  * embeds a scene includes scene.h and the generated header.
  *
- * For q'' = f(q, q', u) the position stages of the Runge-Kutta methods are written out, which gives
- * the classic method's numbers to rounding with fewer operations (Hairer, Norsett & Wanner,
- * Solving Ordinary Differential Equations I, section II.14):
+ * One loop over a method's row (method.h) steps all of them; where the row is constant, the compiler unrolls it.
+ *
+ * For q'' = f(q, q', u) the position stages are written out, which gives the same method's numbers on the first-order
+ * form to rounding, with fewer operations (Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I,
+ * section II.14). Of the classic method:
  *
  *     v2 = v + h/2 a1          q2 = q + h/2 v          a2 = f(q2, v2)
  *     v3 = v + h/2 a2          q3 = q + h/2 v2         a3 = f(q3, v3)
  *     v4 = v + h a3            q4 = q + h v3           a4 = f(q4, v4)
- *     q+ = q + h (v + h/6 (a1 + a2 + a3))              v+ = v + h/6 (a1 + 2 a2 + 2 a3 + a4)
+ *     q+ = q + h (v + h/6 (a1 + (a2 + a3)))
+ *     v+ = v + h/6 ((a1 + (a2 + a3)) + ((a2 + a3) + a4))
  */
 #ifndef WH_STEP_H
 #define WH_STEP_H
@@ -111,10 +114,49 @@ WH_INLINE void wh_commit(const wh_trial *trial, unsigned angles, unsigned reals,
     }
 }
 
-/* Where an angle stands at a stage, in the middle of a step or at its end, that moves it by `steps`. */
-WH_INLINE bool wh_stage_angle(wh_angle angle, wh_real steps, bool middle, wh_phase *phase) {
-    return middle ? wh_phase_move_half(wh_phase_of(angle), steps, phase)
-                  : wh_phase_move(wh_phase_of(angle), steps, phase);
+/* Where an angle stands at a stage whose shares of the rates have `sum`. In the middle of a step it goes half of
+ * where the whole step leads. False as wh_phase_move(). */
+WH_INLINE bool wh_stage_angle(wh_angle angle, wh_real sum, wh_real h, wh_real parts,
+                              wh_phase *phase) {
+    return parts == WH_R(2.0)
+               ? wh_phase_move_half(wh_phase_of(angle), sum * (h * WH_PHASE_PER_RAD), phase)
+               : wh_phase_move(wh_phase_of(angle), sum * (h / parts * WH_PHASE_PER_RAD), phase);
+}
+
+/* What the stages gave: of the first, and of the others. */
+typedef struct wh_given {
+    const wh_real *first;
+    wh_real (*next)[WH_COORDS];
+} wh_given;
+
+/* sum_j share[j] * component i of stage j, stages in order. */
+WH_INLINE wh_real wh_stage_sum(const wh_real *share, unsigned stage, wh_given given, unsigned i) {
+    wh_real sum = WH_R(0.0);
+    bool any = false;
+    WH_UNROLL
+    for (unsigned j = 0; j < WH_STAGES_MAX; j++) {
+        if (j < stage && share[j] != WH_R(0.0)) {
+            const wh_real one = share[j] * (j == 0 ? given.first[i] : given.next[j - 1][i]);
+            sum = any ? sum + one : one;
+            any = true;
+        }
+    }
+    return sum;
+}
+
+/* Do a stage and the one before it count alike at the step's end? Those are added up first: a sum instead of a
+ * product each, and it may serve positions and rates. Where there are no positions, the rates decide. */
+WH_INLINE bool wh_stages_alike(const wh_tableau *by, unsigned stage, bool has_positions) {
+    return stage < by->stages && by->rates[stage] == by->rates[stage - 1] &&
+           (!has_positions || by->positions[stage] == by->positions[stage - 1]);
+}
+
+/* sum += share * more, and the first one is the sum. */
+WH_INLINE void wh_total_add(wh_real *sum, bool *any, wh_real share, wh_real more) {
+    if (share != WH_R(0.0)) {
+        *sum = *any ? *sum + share * more : share * more;
+        *any = true;
+    }
 }
 
 /* One step of q'' = f(q, q', u). angles <= n <= WH_COORDS. Returns WH_OK, or WH_E_DIVERGED with
@@ -122,115 +164,87 @@ WH_INLINE bool wh_stage_angle(wh_angle angle, wh_real steps, bool middle, wh_pha
 WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_method method,
                                    bool compensated, unsigned angles, unsigned n, wh_real h,
                                    wh_state *state) {
+    const wh_tableau *by = &wh_tableaus[method];
     const unsigned linears = n - angles;
     const wh_angle *angle = state->angle;
     const wh_real *linear = state->real;
     const wh_real *rate = state->real + linears;
     const wh_real *u = state->input;
-    const wh_real unit = WH_PHASE_PER_RAD; /* phase units a radian */
-    const wh_real half = WH_R(0.5) * h;
 
     /* zeroed for the compiler, which cannot know that no scene uses what it did not fill */
     wh_phase phase[WH_COORDS] = {0};
-    wh_real at[WH_COORDS] = {0}; /* linear positions of a stage */
-    wh_real v[WH_COORDS] = {0};  /* rates of a stage */
-    wh_real v_before[WH_COORDS] = {0};
-    wh_real a[WH_COORDS];
-    wh_real a1[WH_COORDS];
-    wh_real a_sum[WH_COORDS];
-    wh_real move[WH_COORDS] = {0}; /* mean rate that moves the position over this step */
-    wh_real kick[WH_COORDS] = {0}; /* change of the rate over this step */
+    wh_real at[WH_COORDS] = {0};             /* linear positions of a stage, */
+    wh_real v[WH_COORDS] = {0};              /* its rates */
+    wh_real a[WH_COORDS];                    /* and its accelerations, */
+    wh_real a1[WH_COORDS];                   /* those of the first one */
+    wh_real rates[WH_STAGES_MAX][WH_COORDS]; /* and of all others */
+    wh_real accels[WH_STAGES_MAX][WH_COORDS];
+    wh_real alike[WH_STAGES_MAX][WH_COORDS]; /* the sums of those that count alike, so far */
+    wh_real move[WH_COORDS] = {0};           /* mean rate that moves the position over this step */
+    wh_real kick[WH_COORDS] = {0};           /* change of the rate over this step */
     wh_trial trial = {0};
+    const wh_given all_rates = {rate, rates};
+    const wh_given all_accels = {a1, accels};
 
     WH_UNROLL
     for (unsigned i = 0; i < angles; i++) {
         phase[i] = wh_phase_of(angle[i]);
     }
     accel(model, phase, linear, rate, u, a1);
-
-    if (method == WH_EULER) {
-        WH_UNROLL
-        for (unsigned i = 0; i < n; i++) {
-            move[i] = rate[i];
-            kick[i] = h * a1[i];
+    WH_UNROLL
+    for (unsigned s = 1; s < WH_STAGES_MAX; s++) { /* with this bound gcc has fewer to spill */
+        if (s >= by->stages) {
+            break;
         }
-    } else if (method == WH_SEMI_IMPLICIT_EULER) {
+        const wh_real *share = by->stage[s].share;
+        const wh_real parts = by->stage[s].parts;
         WH_UNROLL
         for (unsigned i = 0; i < n; i++) {
-            kick[i] = h * a1[i];
-            move[i] = rate[i] + kick[i];
-        }
-    } else if (method == WH_HEUN) {
-        WH_UNROLL
-        for (unsigned i = 0; i < n; i++) {
-            v[i] = rate[i] + h * a1[i];
+            v[i] = rate[i] + h / parts * wh_stage_sum(share, s, all_accels, i);
+            rates[s - 1][i] = v[i];
         }
         WH_UNROLL
         for (unsigned i = 0; i < angles; i++) {
-            if (!wh_stage_angle(angle[i], rate[i] * (h * unit), false, &phase[i])) {
+            if (!wh_stage_angle(angle[i], wh_stage_sum(share, s, all_rates, i), h, parts,
+                                &phase[i])) {
                 return wh_refuse(state, i);
             }
         }
         WH_UNROLL
         for (unsigned i = 0; i < linears; i++) {
-            at[i] = linear[i] + h * rate[angles + i];
+            at[i] = linear[i] + h / parts * wh_stage_sum(share, s, all_rates, angles + i);
         }
         accel(model, phase, at, v, u, a);
         WH_UNROLL
         for (unsigned i = 0; i < n; i++) {
-            move[i] = rate[i] + half * a1[i];
-            kick[i] = half * (a1[i] + a[i]);
+            accels[s - 1][i] = a[i];
+            alike[s - 1][i] =
+                !wh_stages_alike(by, s, true) ? a[i] : (s == 1 ? a1[i] : alike[s - 2][i]) + a[i];
         }
-    } else {
+    }
+    WH_UNROLL
+    for (unsigned i = 0; i < n; i++) {
+        wh_real moved = WH_R(0.0);
+        wh_real rest = WH_R(0.0);
+        bool any_moved = false;
+        bool any_rest = false;
         WH_UNROLL
-        for (unsigned i = 0; i < n; i++) {
-            v[i] = rate[i] + half * a1[i];
-            a_sum[i] = WH_R(0.0);
-            a[i] = a1[i];
-            v_before[i] = rate[i];
-        }
-        WH_UNROLL
-        for (unsigned stage = 2; stage <= 4; stage++) {
-            const wh_real span = stage == 4 ? h : half;
-            if (stage > 2) {
-                WH_UNROLL
-                for (unsigned i = 0; i < n; i++) {
-                    v_before[i] = v[i];
-                    v[i] = rate[i] + span * a[i];
-                }
-            }
-            WH_UNROLL
-            for (unsigned i = 0; i < angles; i++) {
-                if (!wh_stage_angle(angle[i], v_before[i] * (h * unit), stage != 4, &phase[i])) {
-                    return wh_refuse(state, i);
-                }
-            }
-            WH_UNROLL
-            for (unsigned i = 0; i < linears; i++) {
-                at[i] = linear[i] + span * v_before[angles + i];
-            }
-            accel(model, phase, at, v, u, a);
-            if (stage < 4) {
-                WH_UNROLL
-                for (unsigned i = 0; i < n; i++) {
-                    a_sum[i] = stage == 2 ? a[i] : a_sum[i] + a[i];
-                }
+        for (unsigned s = 0; s < by->stages; s++) {
+            if (!wh_stages_alike(by, s + 1, true)) {
+                const wh_real more = s == 0 ? a1[i] : alike[s - 1][i];
+                wh_total_add(&moved, &any_moved, by->positions[s], more);
+                wh_total_add(&rest, &any_rest, by->rates[s] - by->positions[s], more);
             }
         }
-        const wh_real sixth = h / WH_R(6.0);
-        WH_UNROLL
-        for (unsigned i = 0; i < n; i++) {
-            const wh_real first_three = a1[i] + a_sum[i];
-            move[i] = rate[i] + sixth * first_three;
-            kick[i] = sixth * (first_three + (a_sum[i] + a[i]));
-        }
+        move[i] = any_moved ? rate[i] + h / by->parts * moved : rate[i];
+        kick[i] = h / by->parts * (any_moved && any_rest ? moved + rest : any_moved ? moved : rest);
     }
 
     WH_UNROLL
     for (unsigned i = 0; i < angles; i++) {
         trial.angle[i] = angle[i];
         trial.carry[i] = compensated ? state->carry[i] : WH_R(0.0);
-        const wh_real turn = move[i] * (h * unit);
+        const wh_real turn = move[i] * (h * WH_PHASE_PER_RAD);
         if (!wh_angle_move(&trial.angle[i], turn, compensated, &trial.carry[i])) {
             return wh_refuse(state, i);
         }
@@ -258,46 +272,26 @@ WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_met
     return WH_OK;
 }
 
-/* The state of a stage of a first-order system: start + h * slope, or half of that in the middle. False when
- * h * slope would move an angle by half a turn or more; *fault is then its number. */
-WH_INLINE bool wh_stage_first(const wh_state *state, unsigned angles, unsigned reals, wh_real h,
-                              bool middle, const wh_real *slope, wh_phase *phase, wh_real *real,
-                              unsigned *fault) {
-    const wh_real span = middle ? WH_R(0.5) * h : h;
-    WH_UNROLL
-    for (unsigned i = 0; i < angles; i++) {
-        if (!wh_stage_angle(state->angle[i], slope[i] * (h * WH_PHASE_PER_RAD), middle,
-                            &phase[i])) {
-            *fault = i;
-            return false;
-        }
-    }
-    WH_UNROLL
-    for (unsigned i = 0; i < reals; i++) {
-        real[i] = state->real[i] + span * slope[angles + i];
-    }
-    return true;
-}
-
-/* One step of x' = f(x, u) with `angles` turn angles and `reals` reals, angles + reals <= WH_COORDS.
- * The classic Runge-Kutta method, Heun's, or Euler's. Semi-implicit Euler moves rates before positions, and
- * here is no telling them apart: WH_E_ARGUMENT, with the state as it was. Else returns as wh_step_second(). */
+/* One step of x' = f(x, u) with `angles` turn angles and `reals` reals, angles + reals <= WH_COORDS. A method that
+ * does not take such a system, semi-implicit Euler: it moves rates before positions, and here is no telling them
+ * apart: WH_E_ARGUMENT, with the state as it was. Else returns as wh_step_second(). */
 WH_INLINE wh_status wh_step_first(const void *model, wh_slope_fn *slope, wh_method method,
                                   bool compensated, unsigned angles, unsigned reals, wh_real h,
                                   wh_state *state) {
+    const wh_tableau *by = &wh_tableaus[method];
     const unsigned n = angles + reals;
     const wh_real *u = state->input;
-    const wh_real half = WH_R(0.5) * h;
     wh_phase phase[WH_COORDS] = {0}; /* zeroed for the compiler: a scene may have no angle */
     wh_real at[WH_COORDS] = {0};
-    wh_real k1[WH_COORDS];
-    wh_real k[WH_COORDS];
-    wh_real sum[WH_COORDS];
+    wh_real k1[WH_COORDS];                    /* derivatives of the first stage */
+    wh_real k[WH_COORDS];                     /* of the present one */
+    wh_real slopes[WH_STAGES_MAX][WH_COORDS]; /* those of all but the first */
+    wh_real alike[WH_STAGES_MAX][WH_COORDS];  /* the sums of those that count alike, so far */
     wh_real move[WH_COORDS];
-    unsigned fault = 0;
     wh_trial trial;
+    const wh_given all = {k1, slopes};
 
-    if (method == WH_SEMI_IMPLICIT_EULER) {
+    if (!wh_method_takes(method, WH_FIRST_ORDER)) {
         return WH_E_ARGUMENT;
     }
     WH_UNROLL
@@ -305,46 +299,43 @@ WH_INLINE wh_status wh_step_first(const void *model, wh_slope_fn *slope, wh_meth
         phase[i] = wh_phase_of(state->angle[i]);
     }
     slope(model, phase, state->real, u, k1);
-    if (method == WH_HEUN) {
-        if (!wh_stage_first(state, angles, reals, h, false, k1, phase, at, &fault)) {
-            return wh_refuse(state, fault);
+    WH_UNROLL
+    for (unsigned s = 1; s < WH_STAGES_MAX; s++) {
+        if (s >= by->stages) {
+            break;
+        }
+        const wh_real *share = by->stage[s].share;
+        const wh_real parts = by->stage[s].parts;
+        WH_UNROLL
+        for (unsigned i = 0; i < angles; i++) {
+            if (!wh_stage_angle(state->angle[i], wh_stage_sum(share, s, all, i), h, parts,
+                                &phase[i])) {
+                return wh_refuse(state, i);
+            }
+        }
+        WH_UNROLL
+        for (unsigned i = 0; i < reals; i++) {
+            at[i] = state->real[i] + h / parts * wh_stage_sum(share, s, all, angles + i);
         }
         slope(model, phase, at, u, k);
         WH_UNROLL
         for (unsigned i = 0; i < n; i++) {
-            move[i] = half * (k1[i] + k[i]);
+            slopes[s - 1][i] = k[i];
+            alike[s - 1][i] =
+                !wh_stages_alike(by, s, false) ? k[i] : (s == 1 ? k1[i] : alike[s - 2][i]) + k[i];
         }
-    } else if (method == WH_RK4) {
-        if (!wh_stage_first(state, angles, reals, h, true, k1, phase, at, &fault)) {
-            return wh_refuse(state, fault);
-        }
-        slope(model, phase, at, u, k);
+    }
+    WH_UNROLL
+    for (unsigned i = 0; i < n; i++) {
+        wh_real total = WH_R(0.0);
+        bool any = false;
         WH_UNROLL
-        for (unsigned i = 0; i < n; i++) {
-            sum[i] = k[i];
+        for (unsigned s = 0; s < by->stages; s++) {
+            if (!wh_stages_alike(by, s + 1, false)) {
+                wh_total_add(&total, &any, by->rates[s], s == 0 ? k1[i] : alike[s - 1][i]);
+            }
         }
-        if (!wh_stage_first(state, angles, reals, h, true, k, phase, at, &fault)) {
-            return wh_refuse(state, fault);
-        }
-        slope(model, phase, at, u, k);
-        WH_UNROLL
-        for (unsigned i = 0; i < n; i++) {
-            sum[i] = sum[i] + k[i];
-        }
-        if (!wh_stage_first(state, angles, reals, h, false, k, phase, at, &fault)) {
-            return wh_refuse(state, fault);
-        }
-        slope(model, phase, at, u, k);
-        const wh_real sixth = h / WH_R(6.0);
-        WH_UNROLL
-        for (unsigned i = 0; i < n; i++) {
-            move[i] = sixth * (k1[i] + (sum[i] + sum[i]) + k[i]);
-        }
-    } else {
-        WH_UNROLL
-        for (unsigned i = 0; i < n; i++) {
-            move[i] = h * k1[i];
-        }
+        move[i] = h / by->parts * total;
     }
 
     WH_UNROLL

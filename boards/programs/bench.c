@@ -56,16 +56,6 @@ __attribute__((noinline)) wh_real bench_two(wh_real (*function)(wh_real x, wh_re
     return function(x, y);
 }
 
-static const char *name_of(wh_method method) {
-    switch (method) {
-    case WH_EULER: return "euler";
-    case WH_SEMI_IMPLICIT_EULER: return "semi-implicit-euler";
-    case WH_HEUN: return "heun";
-    case WH_RK4: return "rk4";
-    }
-    return "unknown";
-}
-
 static void say(const wh_text *text) { hal_console_write(text->bytes, text->length); }
 
 static void say_counted(const char *name, const char *method, bool compensated, unsigned first) {
@@ -165,7 +155,13 @@ static const struct {
     {"wh_atan", wh_atan, NULL, WH_R(4.0), WH_R(0.0)},
     {"wh_atan2", NULL, wh_atan2, WH_R(4.0), WH_R(0.0)},
     {"wh_pow", NULL, wh_pow, WH_R(20.0), WH_R(20.01)},
+    {"wh_sinh", wh_sinh, NULL, WH_R(4.0), WH_R(0.0)},
+    {"wh_cosh", wh_cosh, NULL, WH_R(4.0), WH_R(0.0)},
+    {"wh_tanh", wh_tanh, NULL, WH_R(4.0), WH_R(0.0)},
 };
+#define ONE_MORE(name) +1
+_Static_assert(sizeof functions / sizeof functions[0] == 0 WH_FUNCTIONS(ONE_MORE, ONE_MORE),
+               "every function of core/function.h is counted");
 
 static void count_functions(void) {
     for (unsigned k = 0; k < sizeof functions / sizeof functions[0]; k++) {
@@ -210,7 +206,7 @@ static bool count_scene(const wh_scene *scene) {
         return false;
     }
     say_stack(scene->name);
-    say_counted(scene->name, name_of(scene->method), scene->compensated, first);
+    say_counted(scene->name, wh_methods[scene->method].word, scene->compensated, first);
 #if COUNT_RECORDS
     count_records(scene, &state);
 #endif

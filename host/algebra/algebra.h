@@ -64,7 +64,17 @@ int atom_order(const atom *x, const atom *y);
 int mono_order(const mono *x, const mono *y);
 int poly_order(const poly *x, const poly *y);
 
-/* --- sums of many polys (sum.c) ------------------------------------------------------------------*/
+/* --- looking (shape.c) ---------------------------------------------------------------------------*/
+
+/* x + y, or zero when what is left is a rounding error of the decimals they came from. */
+double coefficient_sum(double x, double y);
+bool exponent_is_whole(double x); /* and small enough to count by */
+/* Does a power of a sum, from the exponent `kept` on a power if it is one of positions, multiply out? */
+bool power_multiplies_out(const poly *base, double exponent, double kept);
+/* A sum of positions, parameters and numbers: no rate, no sine, no function? */
+bool poly_is_place(const poly *p);
+
+/* --- sums of many polys (sums.c) ------------------------------------------------------------------*/
 
 typedef struct sum_item {
     const mono *mono;
@@ -81,18 +91,12 @@ typedef struct poly_sum {
 
 /* Count work; sets a->overflow when it is too much. */
 void algebra_work(algebra *a, size_t amount);
-/* x + y, or zero when what is left is a rounding error of the decimals they came from. */
-double coefficient_sum(double x, double y);
 void sum_add(algebra *a, poly_sum *s, const poly *p, double scale);
 /* Add up `row` by itself, then add it to `s`; `row` is empty then, its memory is kept. */
 void sum_add_row(poly_sum *s, poly_sum *row);
 /* The sum; frees what `s` holds. */
 const poly *sum_close(algebra *a, poly_sum *s);
 
-/* Does a power of a sum, from the exponent `kept` on a power if it is one of positions, multiply out? */
-bool power_multiplies_out(const poly *base, double exponent, double kept);
-/* A sum of positions, parameters and numbers: no rate, no sine, no function? */
-bool poly_is_place(const poly *p);
 /* base^exponent, where whole powers of such sums stay powers from the exponent `kept` on. */
 const poly *poly_power(algebra *a, const poly *base, double exponent, double kept);
 

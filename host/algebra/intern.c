@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "algebra.h"
-#include "host/base/hash.h"
+#include "host/base/hashing.h"
 #include "host/base/room.h"
 
 /* An expression that needs more work than this is given up on: some 300 MB, or a few seconds. */
@@ -256,6 +256,26 @@ const poly *poly_intern(algebra *a, poly *candidate) {
 poly *poly_scratch(int terms) {
     poly *p = room_tail(sizeof *p, terms, sizeof(poly_term));
     return p;
+}
+
+const poly *poly_of_term(algebra *a, double coefficient, const mono *m) {
+    if (coefficient == 0.0) {
+        return a->zero;
+    }
+    poly *p = poly_scratch(1);
+    p->count = 1;
+    p->terms[0] = (poly_term){coefficient, m};
+    const poly *made = poly_intern(a, p);
+    free(p);
+    return made;
+}
+
+const poly *poly_number(algebra *a, double value) {
+    if (value == 0.0) {
+        poly none = {.count = 0};
+        return poly_intern(a, &none);
+    }
+    return poly_of_term(a, value, mono_make(a, NULL, 0, TRIG_NONE, NULL));
 }
 
 /* --- results remembered --------------------------------------------------------------------------*/

@@ -8,34 +8,11 @@
 #include "algebra.h"
 #include "host/base/room.h"
 
-/* Sums below this part of what was added are rounding errors of the decimals they came from. */
-#define CANCELLED 1e-14
 /* A product of sums with more terms than this is kept as a product. */
 #define PRODUCT_TERMS_MAX 20000
-/* A whole power of a sum is multiplied out while it stays below so many terms. */
-#define POWER_TERMS_MAX 64
 /* Whole powers of a sum of positions from this one on stay powers: multiplied out, (x - b)^3 would lose
  * its digits near x = b. Squares do not, for the sake of what is equal only when multiplied out. */
 #define POWER_KEPT 3.0
-const poly *poly_of_term(algebra *a, double coefficient, const mono *m) {
-    if (coefficient == 0.0) {
-        return a->zero;
-    }
-    poly *p = poly_scratch(1);
-    p->count = 1;
-    p->terms[0] = (poly_term){coefficient, m};
-    const poly *made = poly_intern(a, p);
-    free(p);
-    return made;
-}
-
-const poly *poly_number(algebra *a, double value) {
-    if (value == 0.0) {
-        poly none = {.count = 0};
-        return poly_intern(a, &none);
-    }
-    return poly_of_term(a, value, mono_make(a, NULL, 0, TRIG_NONE, NULL));
-}
 
 const poly *poly_of_atom(algebra *a, const atom *x, double exponent) {
     const factor one = {x, exponent};
@@ -46,29 +23,8 @@ const poly *poly_symbol(algebra *a, const symbol *sym, int primes) {
     return poly_of_atom(a, atom_symbol(a, sym, primes), 1.0);
 }
 
-bool poly_is_zero(const poly *p) { return p->count == 0; }
-
-bool poly_is_number(const poly *p, double *value) {
-    if (p->count == 0) {
-        *value = 0.0;
-        return true;
-    }
-    if (p->count == 1 && p->terms[0].mono->count == 0 && p->terms[0].mono->trig == TRIG_NONE) {
-        *value = p->terms[0].coefficient;
-        return true;
-    }
-    return false;
-}
-
 bool poly_may_contain(const poly *p, const symbol *sym, int primes) {
     return (p->symbols & symbol_bit(sym, primes)) != 0;
-}
-
-double coefficient_sum(double x, double y) {
-    if (!isfinite(x + y)) { /* infinity is not small beside itself */
-        return x + y;
-    }
-    return fabs(x + y) <= CANCELLED * number_most(fabs(x), fabs(y)) ? 0.0 : x + y;
 }
 
 /* left + factor * right: a merge of two sorted lists. */
@@ -163,34 +119,6 @@ static const poly *trig_product(algebra *a, trig left, const poly *x, trig right
     return poly_scale(a, p, 0.5);
 }
 
-static bool is_whole(double x) { return x == number_floor(x) && fabs(x) < 1e6; }
-
-bool poly_is_place(const poly *p) {
-    for (int i = 0; i < p->count; i++) {
-        const mono *m = p->terms[i].mono;
-        for (int k = 0; k < m->count; k++) {
-            if (m->factors[k].atom->kind != ATOM_SYMBOL || m->factors[k].atom->primes > 0) {
-                return false;
-            }
-        }
-        if (m->trig != TRIG_NONE) {
-            return false;
-        }
-    }
-    return p->count > 1;
-}
-
-bool power_multiplies_out(const poly *base, double exponent, double kept) {
-    if (exponent <= 0.0 || !is_whole(exponent) || (exponent >= kept && poly_is_place(base))) {
-        return false;
-    }
-    int terms = 1; /* asked for each product that holds a power: no pow() for it */
-    for (int i = 0; i < (int)exponent && base->count > 1 && terms <= POWER_TERMS_MAX; i++) {
-        terms *= base->count;
-    }
-    return terms <= POWER_TERMS_MAX;
-}
-
 /* --- products ------------------------------------------------------------------------------------*/
 
 /* Powers that do not stay a power: |p|^n = p^n for an even n, and a whole power of a group that is small enough to
@@ -204,7 +132,7 @@ static const poly *power_expands(algebra *a, const factor *f) {
                    ? opened
                    : poly_mul(a, opened, poly_of_atom(a, f->atom, f->exponent - even));
     }
-    if (f->atom->kind == ATOM_GROUP && is_whole(f->exponent) && f->exponent > 0.0) {
+    if (f->atom->kind == ATOM_GROUP && exponent_is_whole(f->exponent) && f->exponent > 0.0) {
         const poly *inside = f->atom->argument[0];
         if (f->exponent == 1.0 || power_multiplies_out(inside, f->exponent, POWER_KEPT)) {
             return poly_pow(a, inside, f->exponent);
@@ -310,7 +238,7 @@ const poly *poly_mul(algebra *a, const poly *left, const poly *right) {
 /* A product to a power. Only what is true for every real value of the atoms: (x^2)^(1/2) is not x. */
 static const poly *term_pow(algebra *a, const poly_term *t, double exponent) {
     const mono *m = t->mono;
-    const bool whole = is_whole(exponent);
+    const bool whole = exponent_is_whole(exponent);
     if (whole && m->trig == TRIG_NONE) {
         factor *f = room(m->count, sizeof *f);
         const poly *extra = a->one;
@@ -355,8 +283,8 @@ static const poly *term_pow(algebra *a, const poly_term *t, double exponent) {
  * so that x - b stays what it is when b becomes a number. */
 static double size_of_sum(const poly *p, double exponent) {
     const bool constant = p->terms[0].mono->count == 0 && p->terms[0].mono->trig == TRIG_NONE;
-    return constant && is_whole(exponent) && exponent > 0.0 ? p->terms[1].coefficient
-                                                            : p->terms[0].coefficient;
+    return constant && exponent_is_whole(exponent) && exponent > 0.0 ? p->terms[1].coefficient
+                                                                     : p->terms[0].coefficient;
 }
 
 const poly *poly_power(algebra *a, const poly *base, double exponent, double kept) {
@@ -382,7 +310,7 @@ const poly *poly_power(algebra *a, const poly *base, double exponent, double kep
     }
     /* The sign stays inside where it cannot leave a broken power. */
     const double size = size_of_sum(base, exponent);
-    const double outside = is_whole(exponent) ? size : fabs(size);
+    const double outside = exponent_is_whole(exponent) ? size : fabs(size);
     const poly *inside = poly_scale(a, base, 1.0 / outside);
     return poly_scale(a, poly_of_atom(a, group_of(a, inside), exponent),
                       number_power(outside, exponent));

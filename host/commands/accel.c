@@ -12,21 +12,23 @@
 #include "load.h"
 #include "options.h"
 
-static const char usage[] =
-    "usage: whirl accel FILE[:NAME]|SCENE|MECHANISM[:SCENE] [NAME=VALUE ...]\n"
-    "\n"
-    "Prints the accelerations at one state, a line each, 17 significant digits:\n"
-    "    whirl accel core/models/epicyclic.whirl theta=0.3 \"theta'=1.2\" M=1.5\n"
-    "Coordinates, their rates, inputs and parameters can be set, each once; values are SI, or carry\n"
-    "a unit: \"theta'=330 [rpm]\". What is left out is 0, or has its declared value. The results are SI.\n"
-    "SCENE and MECHANISM are built in (`whirl list`). A scene brings its effects, whose parameters can\n"
-    "be set then.\n"
-    "\n"
-    "Exit status: 0 done; 1 they are not finite numbers there (it says which expression is not); 2 bad\n"
-    "input.\n";
+static const command_usage usage = {
+    .head =
+        "usage: whirl accel FILE[:NAME]|SCENE|MECHANISM[:SCENE] [NAME=VALUE ...]\n"
+        "\n"
+        "Prints the accelerations at one state, a line each, 17 significant digits:\n"
+        "    whirl accel core/models/epicyclic.whirl theta=0.3 \"theta'=1.2\" M=1.5\n"
+        "Coordinates, their rates, inputs and parameters can be set, each once; values are SI, or carry\n"
+        "a unit: \"theta'=330 [rpm]\". What is left out is 0, or has its declared value. The results are SI.\n"
+        "SCENE and MECHANISM are built in (`whirl list`). A scene brings its effects, whose parameters can\n"
+        "be set then.\n"
+        "\n"
+        "Exit status: 0 done; 1 they are not finite numbers there (it says which expression is not); 2 bad\n"
+        "input.\n",
+    .tail = ""};
 
-static bool is_finite(const loaded *made, const double *result) {
-    for (int i = 0; i < made->program->count; i++) {
+static bool is_finite(const image *im, const double *result) {
+    for (int i = 0; i < im->count; i++) {
         if (!isfinite(result[i])) {
             return false;
         }
@@ -34,10 +36,10 @@ static bool is_finite(const loaded *made, const double *result) {
     return true;
 }
 
-static void print(const loaded *made, const double *result) {
-    for (int i = 0; i < made->program->count; i++) {
-        printf("%s", made->equations->unknowns[i].symbol->name);
-        for (int k = 0; k < made->equations->unknowns[i].order; k++) {
+static void print(const image *im, const double *result) {
+    for (int i = 0; i < im->count; i++) {
+        printf("%s", im->unknown[i].name);
+        for (int k = 0; k < im->unknown[i].order; k++) {
             putchar('\'');
         }
         printf(" = %.17g\n", number_shown(result[i]));
@@ -45,31 +47,47 @@ static void print(const loaded *made, const double *result) {
 }
 
 /* Which expression it is that is no number at this state. */
-static void tell_undefined(const loaded *made, const char *file, const double *angle_rad,
-                           const double *real) {
+static void tell_undefined(const image *im, const char *file) {
     diags *errors = diags_new();
-    const undefined_at at = {.equations = made->equations,
-                             .program = made->program,
-                             .instance = made->instance,
-                             .angle_rad = angle_rad,
-                             .real = real,
-                             .when = "at this state"};
+    const undefined_at at = {
+        .image = im, .angle_rad = im->start_rad, .real = im->start_real, .when = "at this state"};
     if (!undefined_angle(&at, errors) && !undefined_term(&at, errors)) {
         fprintf(stderr,
                 "%s: error: at this state the accelerations of '%s' are not finite numbers\n"
                 "hint: look for a singular position: an inertia that vanishes there\n",
-                file, made->instance->name);
+                file, im->name);
     }
     diags_flush(errors, stderr);
     diags_free(errors);
 }
 
+/* Returns an exit code. */
+static int print_image(const image *im, const char *file) {
+    const tape *books = im->list[IMAGE_BOOKS];
+    double *result = room(books->results, sizeof *result);
+    double *input = room(im->inputs, sizeof *input);
+    image_inputs(im, input);
+    evaluator *ev = evaluator_new(books);
+    evaluator_run(ev, 0.0, im->start_rad, im->start_real,
+                  im->start_real + (im->coordinates - im->angles), input, result);
+    evaluator_free(ev);
+    const bool finite = is_finite(im, result);
+    if (finite) {
+        print(im, result);
+    } else {
+        tell_undefined(im, file);
+    }
+    free(result);
+    free(input);
+    return finite ? EXIT_DONE : EXIT_RUN_FAILED;
+}
+
 int command_accel(int count, char **words) {
-    if (options_help(count, words, usage)) {
+    if (options_help(count, words, &usage)) {
         return EXIT_DONE;
     }
     if (count < 1) {
-        fputs(usage, stderr);
+        options_usage(stderr, &usage);
         return EXIT_BAD_INPUT;
     }
     source_model from;
@@ -83,27 +101,11 @@ int command_accel(int count, char **words) {
         const overrides changes = {.values = (const char *const *)(words + 1),
                                    .value_count = count - 1};
         loaded made;
-        code = load(&made, &from, of, in, &changes, false);
+        const load_wish wish = {.settings = {WH_METHOD_DEFAULT, false}, .use = IMAGE_TO_RUN};
+        code = load(&made, &from, of, in, &changes, &wish);
+        source_forget(&from);
         if (code == EXIT_DONE) {
-            const program *p = made.program;
-            double angle_rad[PROGRAM_COMPONENTS_MAX];
-            double real[2 * PROGRAM_COMPONENTS_MAX];
-            double *result = room(p->books->results, sizeof *result);
-            double *input = room(p->inputs, sizeof *input);
-            program_start(p, made.instance, angle_rad, real);
-            program_inputs(p, made.instance, input);
-            evaluator *ev = evaluator_new(p->books);
-            evaluator_run(ev, 0.0, angle_rad, real, real + (p->coordinates - p->angles), input,
-                          result);
-            evaluator_free(ev);
-            if (!is_finite(&made, result)) {
-                tell_undefined(&made, from.file, angle_rad, real);
-                code = EXIT_RUN_FAILED;
-            } else {
-                print(&made, result);
-            }
-            free(result);
-            free(input);
+            code = print_image(made.image, from.file);
         }
         unload(&made);
     }

@@ -15,6 +15,7 @@
 #include "host/lang/hints.h"
 #include "host/lang/override.h"
 #include "host/lang/shown.h"
+#include "host/show/show_events.h"
 
 static char *copy_of(const char *text, size_t length) { return room_copy(text, length); }
 
@@ -121,10 +122,16 @@ int source_open(source_model *s, const char *target) {
     return s->model == NULL ? EXIT_BAD_INPUT : EXIT_DONE;
 }
 
-void source_close(source_model *s) {
+void source_forget(source_model *s) {
     model_free(s->model);
-    diags_free(s->errors);
     free(s->text);
+    s->model = NULL;
+    s->text = NULL;
+}
+
+void source_close(source_model *s) {
+    source_forget(s);
+    diags_free(s->errors);
     free(s->path);
     free(s->name);
 }
@@ -190,41 +197,65 @@ static void say_bare(const mechanism *of, override_kind kind, const char *const 
     arena_free(memory);
 }
 
+/* Dry friction written by hand: a note, or NULL. */
+static char *hint_for(const instance *inst) {
+    const term *friction = hint_friction(inst);
+    if (friction == NULL) {
+        return NULL;
+    }
+    const char *name = friction->coordinate->name;
+    return room_words(
+        "%s:%d:%d: note: this force changes its sign with %s': at rest it shakes instead of "
+        "sticking\n"
+        "hint: dry friction is: friction %s static EXPR kinetic EXPR normal EXPR\n",
+        friction->at.source->file, friction->at.line, friction->at.column, name, name);
+}
+
+static char *contacts_of(const equations *e) {
+    char *text;
+    size_t length;
+    FILE *out = room_text(&text, &length);
+    show_events(out, e, "% ", "The motion between events. Not in this function:");
+    room_text_end(out);
+    return text;
+}
+
 int load(loaded *made, source_model *s, const mechanism *of, const scene *in,
-         const overrides *changes, bool conserve) {
+         const overrides *changes, const load_wish *wish) {
     *made = (loaded){0};
     made->instance = instance_make(of, in, changes, s->errors);
     if (made->instance != NULL) {
         made->equations = equations_derive(made->instance, s->errors);
     }
     if (made->equations != NULL) {
-        made->program =
-            program_make(made->equations, conserve ? made->instance->conserve : NULL, s->errors);
+        const bool *conserve = wish->conserve ? made->instance->conserve : NULL;
+        made->image = image_make(made->equations, conserve, &wish->settings, wish->use, s->errors);
     }
     diags_flush(s->errors, stderr);
-    if (made->program != NULL &&
+    if (made->image != NULL) {
+        made->hint = hint_for(made->instance);
+        made->contacts = wish->contacts ? contacts_of(made->equations) : NULL;
+    }
+    if (made->image != NULL &&
         changes != NULL) { /* accel, which prints SI, takes SI without a word */
         say_bare(of, OVERRIDE_SET, changes->sets, changes->set_count);
         say_bare(of, OVERRIDE_START, changes->starts, changes->start_count);
     }
-    return made->program == NULL ? EXIT_BAD_INPUT : EXIT_DONE;
-}
-
-void say_hints(const loaded *made) {
-    const term *friction = hint_friction(made->instance);
-    if (friction != NULL) {
-        const char *name = friction->coordinate->name;
-        fprintf(
-            stderr,
-            "%s:%d:%d: note: this force changes its sign with %s': at rest it shakes instead of "
-            "sticking\n"
-            "hint: dry friction is: friction %s static EXPR kinetic EXPR normal EXPR\n",
-            friction->at.source->file, friction->at.line, friction->at.column, name, name);
+    if (wish->keep < KEEP_EQUATIONS) {
+        equations_free(made->equations);
+        made->equations = NULL;
     }
+    if (wish->keep < KEEP_INSTANCE) {
+        instance_free(made->instance);
+        made->instance = NULL;
+    }
+    return made->image == NULL ? EXIT_BAD_INPUT : EXIT_DONE;
 }
 
-void say_float_range(const loaded *made) {
-    const double number = program_out_of_float(made->program, made->instance);
+void say_hints(const loaded *made) { fputs(made->hint != NULL ? made->hint : "", stderr); }
+
+void say_float_range(const image *im) {
+    const double number = image_out_of_float(im);
     if (number != 0.0) {
         fprintf(
             stderr,
@@ -232,12 +263,14 @@ void say_float_range(const loaded *made) {
             "depends on it is %s\n"
             "hint: float holds sizes from 1.2e-38 to 3.4e+38, and (s/r)^12 is computed as s^12 times r^-12: "
             "measure in larger or smaller units, or run in double\n",
-            number, made->instance->name, fabs(number) < 1.0 ? "cut or lost" : "infinite");
+            number, im->name, fabs(number) < 1.0 ? "cut or lost" : "infinite");
     }
 }
 
 void unload(loaded *made) {
-    program_free(made->program);
+    image_free(made->image);
     equations_free(made->equations);
     instance_free(made->instance);
+    free(made->hint);
+    free(made->contacts);
 }

@@ -1,10 +1,9 @@
-/* load.h: from what the user named to equations and a program. */
+/* load.h: from what the user named to an image. */
 #ifndef COMMANDS_LOAD_H
 #define COMMANDS_LOAD_H
 
-#include "host/derive/program.h"
-
-enum { EXIT_DONE = 0, EXIT_RUN_FAILED = 1, EXIT_BAD_INPUT = 2 };
+#include "host/base/exit.h"
+#include "host/derive/image_make.h"
 
 /* A .whirl file, or the one built-in model that has what was named. Free with source_close(). */
 typedef struct source_model {
@@ -20,6 +19,8 @@ typedef struct source_model {
  * have been printed; returns an exit code. */
 int source_open(source_model *source, const char *target);
 void source_close(source_model *source);
+/* Nothing asks the model any more: frees it and its text; names and errors stay until source_close(). */
+void source_forget(source_model *source);
 
 /* Would writing the file `path` + `ending` write over the model, by whatever name or link it
  * goes? Then that is said, with the option that asked for it. `path` may be NULL or "-": no
@@ -31,22 +32,35 @@ bool source_would_be_lost(const source_model *source, const char *option, const 
  * `prefer_scene` the file's only scene, else its only mechanism. Returns an exit code. */
 int source_pick(source_model *source, bool prefer_scene, const mechanism **of, const scene **in);
 
+/* What is kept beside an image: it needs neither, but text and LaTeX are printed from the equations, and a sweep makes
+ * more instances like the first. */
+typedef enum load_keep { KEEP_IMAGE, KEEP_INSTANCE, KEEP_EQUATIONS } load_keep;
+
+typedef struct load_wish {
+    image_settings settings;
+    image_use use;
+    load_keep keep;
+    bool conserve; /* the coordinates that the scene names are recovered from their momentum */
+    bool contacts; /* in words, for emit_octave() */
+} load_wish;
+
 typedef struct loaded {
-    instance *instance;
-    equations *equations;
-    program *program;
+    image *image;
+    instance *instance;   /* NULL unless it is kept; equations have theirs */
+    equations *equations; /* NULL unless they are kept */
+    char *hint;           /* of what is no error, but has a better way; or NULL */
+    char *contacts;       /* "" without any; NULL unless it was wished */
 } loaded;
 
-/* Derive one instance and enter its program; errors are printed. With `conserve`, the coordinates that
- * the scene names are recovered from their momentum. A note tells of bare numbers to `set` and `start`
- * what is declared in another unit than SI; `values` are SI without a word, as what `accel` prints. Returns an
- * exit code. */
+/* Derive one instance to its image; errors are printed. What is not kept is freed; whoever needs the model no more
+ * calls source_forget(). A note tells of bare numbers to `set` and `start` what is declared in another unit than SI;
+ * `values` are SI without a word, as what `accel` prints. Returns an exit code; unload() in any case. */
 int load(loaded *made, source_model *source, const mechanism *of, const scene *in,
-         const overrides *changes, bool conserve);
-/* On standard error: what of it is no error, but has a better way. */
+         const overrides *changes, const load_wish *wish);
+/* On standard error: the hint. */
 void say_hints(const loaded *made);
 /* Warns of what a run in float has no room for. */
-void say_float_range(const loaded *made);
+void say_float_range(const image *im);
 void unload(loaded *made);
 
 /* The whole of `path` in memory ("-" is standard input), with a zero byte behind; NULL, reported. */

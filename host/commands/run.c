@@ -15,36 +15,31 @@
 #include "load.h"
 #include "options.h"
 
-static const char usage[] =
-    "usage: whirl run SCENE|MECHANISM[:SCENE]|FILE[:SCENE] [options]\n"
-    "\n"
-    "Simulates a scene and prints a summary: final state, energy and momentum balance, state hash.\n"
-    "SCENE and MECHANISM are built in (`whirl list`), FILE is yours. A mechanism without a scene starts\n"
-    "at rest at zero; of a FILE with one scene, that is run.\n"
-    "\n"
-    "  --set NAME=EXPR      a parameter or an input; a bare number is SI, whatever unit is declared\n"
-    "                       (repeatable, each name once)\n"
-    "  --start NAME=EXPR    a coordinate or a rate: --start \"theta'=330 [rpm]\" (repeatable)\n"
-    "  --with E,...         effects to add, or all; 'ledger': books of energy and momentum\n"
-    "  --without E,...      effects to leave out, or all; 'conserve': integrate all coordinates\n"
-    "  --step 1ms           fixed step            --until 9s       end of the run\n"
-    "  --method M           rk4 (default), heun, euler; semi-implicit-euler, for second order only\n"
-    "  --number N           double (default, the reference) or float (the boards, to the bit)\n"
-    "  --compensated        carry the rounding error of every sum along\n"
-    "  --csv FILE           records; - is standard output (the summary then goes to standard error)\n"
-    "  --columns FILE       the same between spaces, for Octave's load; - as for --csv\n"
-    "  --every 2ms          spacing of the records, a whole number of steps (default: every step)\n"
-    "  --plot FILE.svg|.png coordinates and outputs over time, drawn by gnuplot\n"
-    "  --strict[=LIMIT]     fail when more than LIMIT (1e-3) of the largest entry of the energy books\n"
-    "                       is left over; without it such a run is only warned of\n"
-    "  --quiet              no summary, no progress\n"
-    "\n"
-    "Summary, records and plot are in the units that the file declares; a record's column whose name\n"
-    "has no unit is SI: theta [deg] is in degrees, theta in radians.\n"
-    "\n"
-    "Exit status: 0 done; 1 the run failed (it diverged, or something was not a finite number: it says\n"
-    "when, where and what to try; the records so far are kept), or --strict does not believe it; 2 bad\n"
-    "input; 130 interrupted.\n";
+static const command_usage usage = {
+    .head =
+        "usage: whirl run SCENE|MECHANISM[:SCENE]|FILE[:SCENE] [options]\n"
+        "\n"
+        "Simulates a scene and prints a summary: final state, energy and momentum balance, state hash.\n"
+        "SCENE and MECHANISM are built in (`whirl list`), FILE is yours. A mechanism without a scene starts\n"
+        "at rest at zero; of a FILE with one scene, that is run.\n"
+        "\n",
+    .groups = OPTIONS_CHANGE | OPTIONS_ENGINE | OPTIONS_NUMBER,
+    .described = true,
+    .tail =
+        "  --csv FILE           records; - is standard output (the summary then goes to standard error)\n"
+        "  --columns FILE       the same between spaces, for Octave's load; - as for --csv\n"
+        "  --every 2ms          spacing of the records, a whole number of steps (default: every step)\n"
+        "  --plot FILE.svg|.png coordinates and outputs over time, drawn by gnuplot\n"
+        "  --strict[=LIMIT]     fail when more than LIMIT (1e-3) of the largest entry of the energy books\n"
+        "                       is left over; without it such a run is only warned of\n"
+        "  --quiet              no summary, no progress\n"
+        "\n"
+        "Summary, records and plot are in the units that the file declares; a record's column whose name\n"
+        "has no unit is SI: theta [deg] is in degrees, theta in radians.\n"
+        "\n"
+        "Exit status: 0 done; 1 the run failed (it diverged, or something was not a finite number: it says\n"
+        "when, where and what to try; the records so far are kept), or --strict does not believe it; 2 bad\n"
+        "input; 130 interrupted.\n"};
 
 static volatile sig_atomic_t interrupted;
 
@@ -58,6 +53,7 @@ typedef struct run_options {
     const char *target;
     const char *every;
     simulation_settings settings;
+    image_settings integration;
 } run_options;
 
 static bool take_flag(char **words, int *at, const char *name) {
@@ -95,7 +91,7 @@ static bool take_strict(char **words, int *at, double *limit, bool *bad) {
 /* One word or pair of words that is this command's own; false when it is none of them. */
 static bool take_own(int count, char **words, int *at, run_options *o, bool *bad) {
     const char *value = NULL;
-    if (options_engine("run", count, words, at, &o->settings.engine, bad) ||
+    if (options_engine("run", count, words, at, &o->integration, bad) ||
         (!*bad && options_number("run", count, words, at, &o->settings.kind, bad)) ||
         (!*bad && take_strict(words, at, &o->settings.strict, bad))) {
         return true;
@@ -141,10 +137,9 @@ static bool read_options(int count, char **words, run_options *o) {
             continue;
         }
         if (words[at][0] == '-' && words[at][1] != '\0') {
-            options_unknown("run", words[at],
-                            (const char *const[]){CHANGE_OPTIONS, ENGINE_OPTIONS, "--number",
-                                                  "--csv", "--columns", "--every", "--plot",
-                                                  "--strict", "--quiet", "--help", NULL});
+            options_unknown("run", words[at], usage.groups,
+                            (const char *const[]){"--csv", "--columns", "--every", "--plot",
+                                                  "--strict", "--quiet", NULL});
             return false;
         }
         if (o->target != NULL) {
@@ -154,7 +149,7 @@ static bool read_options(int count, char **words, run_options *o) {
         o->target = words[at++];
     }
     if (!bad && o->target == NULL) {
-        fputs(usage, stderr);
+        options_usage(stderr, &usage);
         return false;
     }
     return !bad && files_are_apart(&o->settings);
@@ -166,43 +161,51 @@ static bool model_would_be_lost(const source_model *from, const simulation_setti
            source_would_be_lost(from, "--plot", s->plot, "");
 }
 
-/* --every as a number of steps. */
-static bool read_every(const run_options *o, const mechanism *of, const instance *inst,
-                       uint64_t *steps) {
+/* --every in seconds; below 0 when it is no time. 0 when it is left out. */
+static double read_every_s(const run_options *o, const mechanism *of) {
+    double spacing_s = 0.0;
+    if (o->every != NULL) {
+        diags *errors = diags_new();
+        if (!instance_duration(of, NULL, NULL, "every", o->every, errors, &spacing_s)) {
+            spacing_s = -1.0;
+        }
+        diags_free(errors); /* what it is not says more than why it is not */
+    }
+    return spacing_s;
+}
+
+/* The same as a number of steps. */
+static bool count_every(const run_options *o, double spacing_s, double step_s, uint64_t *steps) {
     *steps = 1;
     if (o->every == NULL) {
         return true;
     }
-    diags *errors = diags_new();
-    double spacing_s;
-    const bool known = instance_duration(of, NULL, NULL, "every", o->every, errors, &spacing_s);
-    diags_free(errors); /* what it is not says more than why it is not */
-    if (!known) {
+    if (spacing_s < 0.0) {
         fprintf(stderr,
                 "whirl run: error: --every %s is not a time\n"
                 "hint: such as 2ms, or 0.002 in seconds; the step is %.9g s\n",
-                o->every, inst->step_s);
+                o->every, step_s);
         return false;
     }
-    const double wanted = spacing_s / inst->step_s;
+    const double wanted = spacing_s / step_s;
     if (!(wanted > 0.5 && wanted < 1e15) ||
         fabs(wanted - number_floor(wanted + 0.5)) > 1e-6 * wanted) {
         fprintf(stderr,
                 "whirl run: error: --every %s is not a whole number of steps\n"
                 "hint: the step is %.9g s\n",
-                o->every, inst->step_s);
+                o->every, step_s);
         return false;
     }
     *steps = (uint64_t)number_floor(wanted + 0.5);
     return true;
 }
 
-static int run_loaded(run_options *o, const source_model *from, const loaded *made) {
-    if (!read_every(o, made->instance->mechanism, made->instance, &o->settings.every)) {
+static int run_image(run_options *o, const source_model *from, const image *im, double every_s) {
+    if (!count_every(o, every_s, im->step_s, &o->settings.every)) {
         return EXIT_BAD_INPUT;
     }
-    if (!start_has_method(made->program, made->instance, o->settings.engine.method, from->errors) ||
-        !start_is_possible(made->program, made->instance, o->settings.kind, from->errors)) {
+    if (!start_has_method(im, im->settings.method, from->errors) ||
+        !start_is_possible(im, o->settings.kind, from->errors)) {
         diags_flush(from->errors, stderr);
         return EXIT_BAD_INPUT;
     }
@@ -213,9 +216,9 @@ static int run_loaded(run_options *o, const source_model *from, const loaded *ma
     sigaction(SIGTERM, &action, NULL);
     o->settings.stop = &interrupted;
     o->settings.progress = !o->settings.quiet && isatty(STDERR_FILENO);
-    switch (simulate(made->equations, made->program, &o->settings)) {
+    switch (simulate(im, &o->settings)) {
     case SIMULATION_DONE: return EXIT_DONE;
-    case SIMULATION_INTERRUPTED: return 130;
+    case SIMULATION_INTERRUPTED: return EXIT_INTERRUPTED;
     case SIMULATION_BAD_FILE: return EXIT_BAD_INPUT;
     case SIMULATION_FAILED: break;
     }
@@ -223,8 +226,9 @@ static int run_loaded(run_options *o, const source_model *from, const loaded *ma
 }
 
 int command_run(int count, char **words) {
-    run_options o = {.settings = {.kind = &engine_double, .engine = {WH_RK4, false}}};
-    if (options_help(count, words, usage)) {
+    run_options o = {.settings = {.kind = &engine_double},
+                     .integration = {WH_METHOD_DEFAULT, false}};
+    if (options_help(count, words, &usage)) {
         return EXIT_DONE;
     }
     if (!read_options(count, words, &o)) {
@@ -245,15 +249,18 @@ int command_run(int count, char **words) {
         loaded made;
         overrides changes = change_options_overrides(&o.changes);
         changes.balance = true;
-        code = load(&made, &from, of, in, &changes, true);
+        const double every_s = read_every_s(&o, of);
+        const load_wish wish = {.settings = o.integration, .use = IMAGE_TO_RUN, .conserve = true};
+        code = load(&made, &from, of, in, &changes, &wish);
+        source_forget(&from);
         if (code == EXIT_DONE && !o.settings.quiet) {
             say_hints(&made);
         }
         if (code == EXIT_DONE && o.settings.kind == &engine_float) {
-            say_float_range(&made);
+            say_float_range(made.image);
         }
         if (code == EXIT_DONE) {
-            code = run_loaded(&o, &from, &made);
+            code = run_image(&o, &from, made.image, every_s);
         }
         unload(&made);
     }

@@ -7,36 +7,65 @@
 #include <string.h>
 
 #include "commands.h"
+#include "host/base/room.h"
 #include "host/emit/emit.h"
 #include "host/lang/builtin.h"
-#include "host/show/text.h"
+#include "host/run/engine.h"
+#include "host/show/show_equations.h"
 #include "load.h"
 
-typedef int scene_visitor(void *context, const char *file, const loaded *made);
+/* Called while the equations are still there (NULL: not wanted), and of the image alone. They return an exit code. */
+typedef int equations_visitor(void *context, const char *file, const loaded *made);
+typedef int image_visitor(void *context, const char *file, const image *im);
 
-/* Visit every scene of an opened source, also behind one that is refused. Returns an exit code. */
-static int each_scene_of(source_model *from, scene_visitor *visit, void *context) {
+typedef struct visit {
+    equations_visitor *equations;
+    image_visitor *image;
+    void *context;
+} visit;
+
+/* Visit every scene of an opened source, also behind one that is refused, and forget its model. Returns an exit code. */
+static int each_scene_of(source_model *from, const visit *v) {
+    static const load_wish wish = {.settings = {WH_METHOD_DEFAULT, false},
+                                   .use = IMAGE_TO_WRITE,
+                                   .keep = KEEP_EQUATIONS,
+                                   .conserve = true,
+                                   .contacts = true};
+    const int count = from->model->scene_count;
+    const char *file = from->file;
+    image **made = room(count, sizeof(image *));
     int code = EXIT_DONE;
-    for (int k = 0; k < from->model->scene_count; k++) {
+    for (int k = 0; k < count; k++) {
         const scene *in = from->model->scenes[k];
-        loaded made;
-        int one = load(&made, from, in->mechanism, in, NULL, true);
-        if (one == EXIT_DONE) {
-            one = visit(context, from->file, &made);
+        loaded each;
+        int one = load(&each, from, in->mechanism, in, NULL, &wish);
+        if (one == EXIT_DONE && v->equations != NULL) {
+            one = v->equations(v->context, file, &each);
         }
-        unload(&made);
+        if (one == EXIT_DONE) { /* the image stays */
+            made[k] = each.image;
+            each.image = NULL;
+        }
+        unload(&each);
         code = one > code ? one : code;
     }
+    source_forget(from);
+    for (int k = 0; k < count; k++) {
+        const int one = made[k] != NULL ? v->image(v->context, file, made[k]) : EXIT_DONE;
+        code = one > code ? one : code;
+        image_free(made[k]);
+    }
+    free(made);
     return code;
 }
 
 /* The scenes of the files, or, where there are none, every built-in one. Returns an exit code. */
-static int each_scene(int files, char **file, scene_visitor *visit, void *context) {
+static int each_scene(int files, char **file, const visit *v) {
     int code = EXIT_DONE;
     for (int i = 0; i < files && code == EXIT_DONE; i++) {
         source_model from;
         code = source_open(&from, file[i]);
-        code = code == EXIT_DONE ? each_scene_of(&from, visit, context) : code;
+        code = code == EXIT_DONE ? each_scene_of(&from, v) : code;
         source_close(&from);
     }
     for (size_t i = 0; files == 0 && i < builtin_model_count && code == EXIT_DONE; i++) {
@@ -44,7 +73,7 @@ static int each_scene(int files, char **file, scene_visitor *visit, void *contex
         source_model from = {.file = b->file, .errors = diags_new()};
         from.model = model_parse(b->file, b->text, b->length, from.errors);
         diags_flush(from.errors, stderr);
-        code = from.model == NULL ? EXIT_BAD_INPUT : each_scene_of(&from, visit, context);
+        code = from.model == NULL ? EXIT_BAD_INPUT : each_scene_of(&from, v);
         source_close(&from);
     }
     return code;
@@ -71,58 +100,67 @@ typedef struct emission {
 } emission;
 
 /* The scene's run, as a line with the hash of its last state. */
-static void write_hash(FILE *out, const char *what, const engine_kind *kind, const loaded *made) {
-    const engine_settings settings = {WH_RK4, false};
-    void *run = kind->start(made->program, made->instance, &settings);
+static void write_hash(FILE *out, const char *what, const engine_kind *kind, const image *im) {
+    void *run = kind->start(im);
     wh_status status = WH_OK;
-    while (kind->steps(run) < made->instance->steps && status == WH_OK) {
+    while (kind->steps(run) < im->steps && status == WH_OK) {
         status = kind->step(run);
     }
-    fprintf(out, "%s %s steps %" PRIu64 " hash 0x%016" PRIx64 " %s\n", what, made->instance->name,
+    fprintf(out, "%s %s steps %" PRIu64 " hash 0x%016" PRIx64 " %s\n", what, im->name,
             kind->steps(run), kind->hash(run), wh_status_text(status));
     kind->stop(run);
 }
 
-/* Of a file's scene, the other forms, and what it comes to. */
-static int emit_other_forms(const emission *to, const char *file, const loaded *made) {
-    FILE *out = open_in(to->folder, made->instance->name, ".txt");
+/* Of a file's scene, the forms that are printed from the equations, and Octave's. */
+static int emit_equations(void *context, const char *file, const loaded *made) {
+    const emission *to = context;
+    FILE *out = open_in(to->folder, made->image->name, ".txt");
     if (out == NULL) {
         return EXIT_RUN_FAILED;
     }
     show_text(out, made->equations);
     show_latex(out, made->equations);
-    if (made->program->conserved == NULL) {
-        emit_octave(out, made->equations, made->program, file);
+    if (made->image->recovered == 0) {
+        emit_octave(out, made->image, file, made->contacts);
     }
-    write_hash(out, "scene", &engine_float, made);
-    write_hash(out, "double", &engine_double, made);
     fclose(out);
     return EXIT_DONE;
 }
 
-static int emit_one(void *context, const char *file, const loaded *made) {
+/* Of a file's scene, what its runs come to. */
+static int emit_hashes(const emission *to, const image *im) {
+    FILE *out = open_in(to->folder, im->name, ".hash");
+    if (out == NULL) {
+        return EXIT_RUN_FAILED;
+    }
+    write_hash(out, "scene", &engine_float, im);
+    write_hash(out, "double", &engine_double, im);
+    fclose(out);
+    return EXIT_DONE;
+}
+
+static int emit_image(void *context, const char *file, const image *im) {
     const emission *to = context;
-    const engine_settings settings = {WH_RK4, false};
     if (to->all_forms) {
-        const int code = emit_other_forms(to, file, made);
+        const int code = emit_hashes(to, im);
         if (code != EXIT_DONE) {
             return code;
         }
     }
-    FILE *out = open_in(to->folder, made->instance->name, ".c");
+    FILE *out = open_in(to->folder, im->name, ".c");
     if (out == NULL) {
         return EXIT_RUN_FAILED;
     }
-    emit_c(out, made->equations, made->program, &settings, file);
+    emit_c(out, im, file);
     fclose(out);
-    out = open_in(to->folder, made->instance->name, ".h");
+    out = open_in(to->folder, im->name, ".h");
     if (out == NULL) {
         return EXIT_RUN_FAILED;
     }
-    emit_c_header(out, made->equations, made->program, &settings, file);
+    emit_c_header(out, im, file);
     fclose(out);
-    fprintf(to->declarations, "extern const wh_scene %s;\n", made->instance->name);
-    fprintf(to->index, "    &%s,\n", made->instance->name);
+    fprintf(to->declarations, "extern const wh_scene %s;\n", im->name);
+    fprintf(to->index, "    &%s,\n", im->name);
     return EXIT_DONE;
 }
 
@@ -145,7 +183,8 @@ int command_emit_scenes(int count, char **words) {
         fputs("/* Generated by whirl from the built-in models: do not edit. */\n"
               "#include \"scenes.h\"\n\nconst wh_scene *const wh_scenes[] = {\n",
               to.index);
-        code = each_scene(count - 1, words + 1, emit_one, &to);
+        const visit all = {to.all_forms ? emit_equations : NULL, emit_image, &to};
+        code = each_scene(count - 1, words + 1, &all);
         fputs("\n#ifdef __cplusplus\n}\n#endif\n\n#endif\n", to.declarations);
         fputs("};\n\nconst unsigned wh_scene_count = sizeof wh_scenes / sizeof wh_scenes[0];\n",
               to.index);
@@ -159,10 +198,10 @@ int command_emit_scenes(int count, char **words) {
     return code;
 }
 
-static int hash_one(void *context, const char *file, const loaded *made) {
+static int hash_one(void *context, const char *file, const image *im) {
     (void)context;
     (void)file;
-    write_hash(stdout, "scene", &engine_float, made);
+    write_hash(stdout, "scene", &engine_float, im);
     return EXIT_DONE;
 }
 
@@ -172,5 +211,5 @@ int command_hashes(int count, char **words) {
         fputs("usage: whirl hashes\n", stderr);
         return EXIT_BAD_INPUT;
     }
-    return each_scene(0, NULL, hash_one, NULL);
+    return each_scene(0, NULL, &(visit){.image = hash_one});
 }

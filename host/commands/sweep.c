@@ -16,34 +16,35 @@
 #include "load.h"
 #include "options.h"
 
-static const char usage[] =
-    "usage: whirl sweep SCENE|MECHANISM[:SCENE]|FILE[:SCENE] --over NAME=FROM..TO:COUNT[,log] ...\n"
-    "                   [options]\n"
-    "\n"
-    "Runs a scene at every point of a grid and writes a row of measures for each.\n"
-    "What is run is named as for `whirl run`.\n"
-    "\n"
-    "  --over RANGE         COUNT values of a parameter, an input, a start value or the step;\n"
-    "                       a bare number is SI: \"r=10..60 [mm]:11\", \"theta'=1..4 [rpm]:7\",\n"
-    "                       \"step=0.1..10 [ms]:9,log\". Repeatable: the full grid, the last one\n"
-    "                       fastest\n"
-    "  --measure EXPR       the value at the end; or max(EXPR), min(EXPR), amplitude(EXPR),\n"
-    "                       mean(EXPR), period(EXPR) over the run. Repeatable; without it the\n"
-    "                       final state and the outputs. SI, whatever unit is declared:\n"
-    "                       \"theta/1 [deg]\" is in degrees\n"
-    "  --from TIME          measure only from then on (final values stay those of the end)\n"
-    "  --csv FILE           rows by rising point; - is standard output (default). The same\n"
-    "                       command goes on with the FILE of a sweep that was broken off\n"
-    "  --fresh              start FILE anew instead\n"
-    "  --jobs N             processes (default: one a processor); the rows do not depend on it\n"
-    "  --shard K/N          the K-th of N parts: their files, in order, are the whole file\n"
-    "  --quiet              no progress, no summary\n"
-    "\n"
-    "  --set --start --with --without --step --until --method --number --compensated: as for\n"
-    "  `whirl run`\n"
-    "\n"
-    "Exit status: 0 done; 1 points failed (their measures are empty; the others are there) or the\n"
-    "file could not be written; 2 bad input, or FILE is another sweep's; 130 interrupted.\n";
+static const command_usage usage = {
+    .head =
+        "usage: whirl sweep SCENE|MECHANISM[:SCENE]|FILE[:SCENE] --over NAME=FROM..TO:COUNT[,log] ...\n"
+        "                   [options]\n"
+        "\n"
+        "Runs a scene at every point of a grid and writes a row of measures for each.\n"
+        "What is run is named as for `whirl run`.\n"
+        "\n"
+        "  --over RANGE         COUNT values of a parameter, an input, a start value or the step;\n"
+        "                       a bare number is SI: \"r=10..60 [mm]:11\", \"theta'=1..4 [rpm]:7\",\n"
+        "                       \"step=0.1..10 [ms]:9,log\". Repeatable: the full grid, the last one\n"
+        "                       fastest\n"
+        "  --measure EXPR       the value at the end; or max(EXPR), min(EXPR), amplitude(EXPR),\n"
+        "                       mean(EXPR), period(EXPR) over the run. Repeatable; without it the\n"
+        "                       final state and the outputs. SI, whatever unit is declared:\n"
+        "                       \"theta/1 [deg]\" is in degrees\n"
+        "  --from TIME          measure only from then on (final values stay those of the end)\n"
+        "  --csv FILE           rows by rising point; - is standard output (default). The same\n"
+        "                       command goes on with the FILE of a sweep that was broken off\n"
+        "  --fresh              start FILE anew instead\n"
+        "  --jobs N             processes (default: one a processor); the rows do not depend on it\n"
+        "  --shard K/N          the K-th of N parts: their files, in order, are the whole file\n"
+        "  --quiet              no progress, no summary\n"
+        "\n",
+    .groups = OPTIONS_CHANGE | OPTIONS_ENGINE | OPTIONS_NUMBER,
+    .tail =
+        "\n"
+        "Exit status: 0 done; 1 points failed (their measures are empty; the others are there) or the\n"
+        "file could not be written; 2 bad input, or FILE is another sweep's; 130 interrupted.\n"};
 
 static volatile sig_atomic_t interrupted;
 
@@ -68,7 +69,7 @@ typedef struct sweep_options {
     bool fresh;
     bool quiet;
     const engine_kind *kind;
-    engine_settings engine;
+    image_settings engine;
 } sweep_options;
 
 /* A whole number from 1 to `limit`, up to the end of the text or `end`. */
@@ -151,11 +152,9 @@ static bool read_options(int count, char **words, sweep_options *o) {
             continue;
         }
         if (words[at][0] == '-' && words[at][1] != '\0') {
-            options_unknown("sweep", words[at],
-                            (const char *const[]){CHANGE_OPTIONS, ENGINE_OPTIONS, "--number",
-                                                  "--over", "--measure", "--from", "--csv",
-                                                  "--fresh", "--jobs", "--shard", "--quiet",
-                                                  "--help", NULL});
+            options_unknown("sweep", words[at], usage.groups,
+                            (const char *const[]){"--over", "--measure", "--from", "--csv",
+                                                  "--fresh", "--jobs", "--shard", "--quiet", NULL});
             return false;
         }
         if (o->target != NULL) {
@@ -165,7 +164,7 @@ static bool read_options(int count, char **words, sweep_options *o) {
         o->target = words[at++];
     }
     if (!bad && o->target == NULL) {
-        fputs(usage, stderr);
+        options_usage(stderr, &usage);
         return false;
     }
     if (!bad && o->over_count == 0) {
@@ -206,20 +205,18 @@ static bool axes_take_part(const grid *g, const instance *base) {
 
 static int sweep_loaded(const sweep_options *o, const source_model *from, const loaded *base,
                         sweep *s) {
-    if (!start_has_method(base->program, base->instance, s->engine.method, from->errors)) {
+    if (!start_has_method(base->image, s->engine.method, from->errors)) {
         diags_flush(from->errors, stderr);
         return EXIT_BAD_INPUT;
     }
     if (!axes_take_part(s->grid, base->instance)) {
         return EXIT_BAD_INPUT;
     }
-    s->shared = sweep_can_share(s->grid, base->program) ? base->program : NULL;
-    s->equations = base->equations;
+    s->shared = sweep_can_share(s->grid, base->image) ? base->image : NULL;
     uint64_t first;
     uint64_t end;
     grid_shard(s->grid, o->part.number, o->part.of, &first, &end);
-    char *fingerprint =
-        fingerprint_make(s, model_text(from), base->instance, base->program, o->part);
+    char *fingerprint = fingerprint_make(s, model_text(from), base->instance, base->image, o->part);
     const session_settings settings = {.csv = o->csv,
                                        .fingerprint = fingerprint,
                                        .first = first,
@@ -262,7 +259,9 @@ static int sweep_scene(const sweep_options *o, source_model *from, const mechani
     if (wanted != NULL) {
         loaded base;
         s.measures = wanted;
-        code = load(&base, from, &wanted->mechanism, in, &changes, true);
+        const load_wish wish = {
+            .settings = o->engine, .use = IMAGE_TO_RUN, .keep = KEEP_INSTANCE, .conserve = true};
+        code = load(&base, from, &wanted->mechanism, in, &changes, &wish);
         if (code == EXIT_DONE && s.from_s > base.instance->until_s) {
             fprintf(stderr, "whirl sweep: error: --from %.9g s lies behind the end, %.9g s\n",
                     s.from_s, base.instance->until_s);
@@ -272,7 +271,7 @@ static int sweep_scene(const sweep_options *o, source_model *from, const mechani
             say_hints(&base);
         }
         if (code == EXIT_DONE && o->kind == &engine_float) {
-            say_float_range(&base);
+            say_float_range(base.image);
         }
         if (code == EXIT_DONE) {
             code = sweep_loaded(o, from, &base, &s);
@@ -297,14 +296,14 @@ static int processors(void) {
 }
 
 int command_sweep(int count, char **words) {
-    if (options_help(count, words, usage)) {
+    if (options_help(count, words, &usage)) {
         return EXIT_DONE;
     }
     sweep_options o = {.csv = "-",
                        .part = {1, 1},
                        .jobs = processors(),
                        .kind = &engine_double,
-                       .engine = {WH_RK4, false}};
+                       .engine = {WH_METHOD_DEFAULT, false}};
     o.over = room(count, sizeof(const char *));
     o.measure = room(count, sizeof(const char *));
     int code = EXIT_BAD_INPUT;

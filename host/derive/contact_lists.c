@@ -9,7 +9,13 @@
 #include "energy.h"
 #include "host/base/room.h"
 
-_Static_assert((int)CONTACTS_MAX <= WH_CONTACTS_LIMIT, "the core has room for what a run may have");
+#define SAME_KIND(id, ...) \
+    _Static_assert((int)CONTACT_##id == (int)WH_##id, "the core handles contacts in this order");
+CONTACT_KIND_ROWS(SAME_KIND)
+#undef SAME_KIND
+
+_Static_assert((int)CONTACTS_MAX == WH_CONTACTS_LIMIT && (int)SETS_MAX == WH_SETS_MAX,
+               "the core has room for what a run may have");
 
 /* Folded, and free of conserved coordinates. */
 static const poly *ready(const equations *e, const conservation *c, const poly *p) {
@@ -168,12 +174,8 @@ static bool input_moves(const equations *e, const poly *value) {
 
 static contact_row make_row(contact_lists *c, const program *p, const equations *e,
                             const contact_law *law) {
-    static const int kinds[] = {[CONTACT_STOP] = WH_STOP,
-                                [CONTACT_FRICTION] = WH_FRICTION,
-                                [CONTACT_HOLD] = WH_HOLD,
-                                [CONTACT_WHEN] = WH_WHEN};
     const contact_statement *from = law->from;
-    contact_row row = {.from = from, .kind = kinds[from->kind], .pin = -1};
+    contact_row row = {.from = from, .kind = (int)from->kind, .pin = -1};
     row.direction = from->kind == CONTACT_WHEN ? from->direction : 0;
     row.first_set = c->set_count;
     if (from->kind != CONTACT_WHEN) {
@@ -268,14 +270,6 @@ contact_lists *contact_lists_make(const program *p, const equations *e, layout *
     c->forces = make_forces(map, p, e, s);
     c->sets = make_sets(map, e, p->conserved);
     return c;
-}
-
-int contact_lists_stops(const contact_lists *c) {
-    int stops = 0;
-    for (int k = 0; k < c->count; k++) {
-        stops += c->row[k].kind == WH_STOP;
-    }
-    return stops;
 }
 
 uint64_t contact_lists_hash(const contact_lists *c, uint64_t hash) {

@@ -33,8 +33,6 @@ int contact_lists_polys(const equations *e, const conservation *c, const poly **
 /* Enter the lists. `s` is the folded system. NULL on error, reported. */
 contact_lists *contact_lists_make(const program *p, const equations *e, layout *map,
                                   const linear_system *s, diags *errors);
-/* How many are stops. */
-int contact_lists_stops(const contact_lists *c);
 /* `hash` with the lists and the table mixed in. */
 uint64_t contact_lists_hash(const contact_lists *c, uint64_t hash);
 void contact_lists_free(contact_lists *c);

@@ -68,18 +68,17 @@ static void make_law(algebra *a, const mechanism *m, const contact_statement *fr
 }
 
 contact_laws *contact_laws_make(algebra *a, const instance *inst) {
-    static const contact_kind order[] = {CONTACT_STOP, CONTACT_HOLD, CONTACT_FRICTION,
-                                         CONTACT_WHEN};
     const mechanism *m = inst->mechanism;
     const int own = inst->scene != NULL ? inst->scene->when_count : 0;
     contact_laws *laws = room(1, sizeof *laws);
     laws->law = room(m->contact_count + own, sizeof *laws->law);
     laws->sets = room(m->contact_count + own, sizeof *laws->sets);
-    for (int k = 0; k < 4; k++) {
+    for (int k = 0; k < CONTACT_KINDS; k++) {
         for (int i = 0; i < m->contact_count + own; i++) {
             const contact_statement *h =
                 i < m->contact_count ? &m->contacts[i] : &inst->scene->whens[i - m->contact_count];
-            if (h->kind != order[k] || (i < m->contact_count && !instance_has_contact(inst, h))) {
+            if (h->kind != (contact_kind)k ||
+                (i < m->contact_count && !instance_has_contact(inst, h))) {
                 continue;
             }
             make_law(a, m, h, &laws->law[laws->count], &laws->sets[laws->count]);

@@ -23,16 +23,6 @@ static const poly *sum_of_terms(algebra *a, const instance *inst, term_kind kind
     return sum;
 }
 
-place equations_kinetic_place(const instance *inst) {
-    const mechanism *m = inst->mechanism;
-    for (int i = 0; i < m->term_count; i++) {
-        if (m->terms[i].kind == TERM_T) {
-            return m->terms[i].at;
-        }
-    }
-    return m->at;
-}
-
 /* An input's rate is unknown, so it may not take part in a momentum. */
 static bool momentum_free_of_inputs(const equations *e, const poly *momentum, diags *errors) {
     const mechanism *m = e->instance->mechanism;
@@ -187,12 +177,6 @@ static bool too_large(const equations *e) {
     return size > POLY_SIZE_MAX;
 }
 
-void equations_report_growth(const equations *e, diags *errors) {
-    const mechanism *m = e->instance->mechanism;
-    diag_error(errors, m->at, "smaller powers of sums, or coordinates nearer to the joints, help",
-               "the equations of '%s' grow beyond what can be handled", m->name);
-}
-
 equations *equations_derive(const instance *inst, diags *errors) {
     return equations_derive_after(inst, NULL, NULL, errors);
 }
@@ -260,20 +244,4 @@ void equations_free(equations *e) {
     contact_laws_free(e->contacts);
     algebra_free(e->algebra);
     free(e);
-}
-
-const poly *equations_force(const equations *e, int i) {
-    algebra *a = e->algebra;
-    return poly_sub(a, poly_sub(a, e->applied[i], e->velocity[i]), e->potential[i]);
-}
-
-static const poly *parameter_value(void *context, algebra *a, const symbol *s, int primes) {
-    const instance *inst = context;
-    (void)primes;
-    return s->kind == SYM_PARAMETER ? poly_number(a, inst->parameter[s->index]) : NULL;
-}
-
-const poly *equations_fold(const equations *e, const poly *p) {
-    /* poly_substitute() does not write through its context */
-    return poly_substitute(e->algebra, p, parameter_value, (void *)(uintptr_t)e->instance);
 }

@@ -19,10 +19,6 @@ static void tell(char text[INFLUENCE_TEXT_SIZE], int *count, const char *what, p
 }
 
 const char *influence_on(const equations *e, int i, char text[INFLUENCE_TEXT_SIZE], int *count) {
-    static const char *const words[] = {[CONTACT_STOP] = "the stop",
-                                        [CONTACT_FRICTION] = "the friction",
-                                        [CONTACT_HOLD] = "the hold",
-                                        [CONTACT_WHEN] = "the crossing"};
     algebra *a = e->algebra;
     const mechanism *m = e->instance->mechanism;
     const symbol *q = e->unknowns[i].symbol;
@@ -43,7 +39,7 @@ const char *influence_on(const equations *e, int i, char text[INFLUENCE_TEXT_SIZ
     for (int k = 0; k < (e->contacts != NULL ? e->contacts->count : 0); k++) {
         const contact_law *law = &e->contacts->law[k];
         if (contact_law_pushes(law, i)) {
-            tell(text, count, words[law->from->kind], law->from->at);
+            tell(text, count, contact_called(law->from->kind), law->from->at);
         }
     }
     return text;

@@ -4,7 +4,9 @@
 #include <stdlib.h>
 
 #include "host/base/room.h"
-#include "noise.h"
+#include "noise_records.h"
+
+_Static_assert((int)COORDINATES_MAX == IMAGE_COMPONENTS_MAX, "the parser's bound is the image's");
 
 int layout_turn(void *context, const symbol *s) {
     const layout *map = context;
@@ -76,7 +78,7 @@ bool layout_arrange(layout *map, program *p, const poly *const *dynamics, int co
         map->order_room = order + 1 > map->order_room ? order + 1 : map->order_room;
     }
     p->form = second ? WH_SECOND_ORDER : WH_FIRST_ORDER;
-    if ((second ? n : components) > PROGRAM_COMPONENTS_MAX) {
+    if ((second ? n : components) > IMAGE_COMPONENTS_MAX) {
         return false;
     }
     p->angle = room(components, sizeof *p->angle);

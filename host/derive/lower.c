@@ -220,7 +220,7 @@ static int *sorted_nodes(const product *products, int count, int *total) {
     for (int i = 0; i < count; i++) {
         *total += products[i].count;
     }
-    int *nodes = room(*total, sizeof *nodes);
+    int *nodes = room_more(NULL, *total, sizeof *nodes);
     int at = 0;
     for (int i = 0; i < count; i++) {
         for (int k = 0; k < products[i].count; k++) {
@@ -289,8 +289,8 @@ static int sum_of(lowering *l, product *products, int count) {
             }
         }
     }
-    product *with = room(count, sizeof *with);
-    product *without = room(count, sizeof *without);
+    product *with = room_more(NULL, count, sizeof *with); /* large: not cleared */
+    product *without = room_more(NULL, count, sizeof *without);
     int in = 0;
     int out = 0;
     for (int i = 0; i < count; i++) {

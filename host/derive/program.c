@@ -6,8 +6,8 @@
 #include "contact_lists.h"
 #include "energy.h"
 #include "host/base/room.h"
-#include "ledger.h"
-#include "noise.h"
+#include "ledger_lists.h"
+#include "noise_records.h"
 
 /* --- the lists -----------------------------------------------------------------------------------*/
 
@@ -243,7 +243,7 @@ program *program_make(const equations *e, const bool *conserve, diags *errors) {
         good = good && lists_finite(p, e, errors) && steps_need_no_turns(p, e, errors);
     } else {
         diag_error(errors, m->at, NULL, "'%s' has more than %d components of state", m->name,
-                   PROGRAM_COMPONENTS_MAX);
+                   IMAGE_COMPONENTS_MAX);
     }
     const bool grown = fits && algebra_overflow(e->algebra);
     if (grown) {
@@ -277,58 +277,10 @@ void program_free(program *p) {
     free(p);
 }
 
-static bool list_calls(const tape *t) {
-    for (int i = 0; t != NULL && i < t->count; i++) {
-        if (op_rows[t->ops[i].code].cost == OP_COSTS_CALL) {
-            return true;
-        }
-    }
-    return false;
-}
-
-bool program_calls(const program *p) {
-    const contact_lists *c = p->contacts;
-    const ledger_lists *l = p->ledger;
-    return list_calls(p->step) || list_calls(p->observe) ||
-           (c != NULL &&
-            (list_calls(c->signals) || list_calls(c->forces) || list_calls(c->sets))) ||
-           (l != NULL && (list_calls(l->powers) || list_calls(l->levels)));
-}
-
-double program_out_of_float(const program *p, const instance *inst) {
-    const contact_lists *c = p->contacts;
-    const tape *const lists[] = {p->step, c != NULL ? c->signals : NULL,
-                                 c != NULL ? c->forces : NULL, c != NULL ? c->sets : NULL};
-    double found = 0.0;
-    for (size_t k = 0; k < sizeof lists / sizeof lists[0] && found == 0.0; k++) {
-        found = lists[k] != NULL ? tape_out_of_float(lists[k]) : 0.0;
-    }
-    for (int i = 0; i < p->inputs && found == 0.0; i++) {
-        found = fits_float(inst->input[p->input[i]]) ? 0.0 : inst->input[p->input[i]];
-    }
-    return found;
-}
-
 uint64_t program_hash(const program *p) {
     uint64_t hash = tape_hash(p->step);
     if (p->contacts != NULL) {
         hash = contact_lists_hash(p->contacts, hash);
     }
     return hash;
-}
-
-void program_start(const program *p, const instance *inst, double *angle_rad, double *real) {
-    for (int i = 0; i < p->angles; i++) {
-        angle_rad[i] = inst->start[p->angle[i].unknown][0];
-    }
-    for (int i = 0; i < p->reals; i++) {
-        const component c = p->real[i];
-        real[i] = c.primes < inst->start_count[c.unknown] ? inst->start[c.unknown][c.primes] : 0.0;
-    }
-}
-
-void program_inputs(const program *p, const instance *inst, double *input) {
-    for (int i = 0; i < p->inputs; i++) {
-        input[i] = inst->input[p->input[i]];
-    }
 }

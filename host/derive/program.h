@@ -5,19 +5,10 @@
 #include "conserve.h"
 #include "core/scene.h"
 #include "equations.h"
-#include "host/image/tape.h"
-
-/* Most coordinates of a mechanism, or first-order components of a system. */
-#define PROGRAM_COMPONENTS_MAX 64
-
-/* Which unknown, and which of its derivatives, a component of the state is. */
-typedef struct component {
-    int unknown;
-    int primes;
-} component;
+#include "host/image/image.h"
 
 typedef struct contact_lists contact_lists; /* contact_lists.h */
-typedef struct ledger_lists ledger_lists;   /* ledger.h */
+typedef struct ledger_lists ledger_lists;   /* ledger_lists.h */
 
 typedef struct program {
     wh_form form;
@@ -47,27 +38,12 @@ typedef struct program {
     tape *books;
 } program;
 
-enum { BOOK_KINETIC, BOOK_STORED, BOOK_INPUT_POWER, BOOK_LOSS_POWER, BOOK_MOMENTA };
-
 /* `conserve` [count] names the coordinates to recover from their momentum, or is NULL. NULL on error
  * (too many components, a momentum that is not conserved, a constant that is not finite), reported to
  * `errors`. */
 program *program_make(const equations *e, const bool *conserve, diags *errors);
 void program_free(program *p);
 
-/* Does what runs on a board call functions of core/function.h? */
-bool program_calls(const program *p);
-
-/* The first constant of what moves the scene, or input, that float has no room for, or 0: a run in float would go
- * on with a digit or two of it, or with nothing. */
-double program_out_of_float(const program *p, const instance *inst);
-
 uint64_t program_hash(const program *p);
-
-/* The start of the run: angle in radians [angles], reals [reals], SI. */
-void program_start(const program *p, const instance *inst, double *angle_rad, double *real);
-
-/* The inputs as the run starts, input[inputs], SI. */
-void program_inputs(const program *p, const instance *inst, double *input);
 
 #endif

@@ -8,14 +8,10 @@
 #include "c_ledger.h"
 #include "c_list.h"
 #include "emit.h"
-#include "host/base/room.h"
 #include "host/number/hex.h"
-#include "host/number/phase.h"
 
-const char *const c_method_names[] = {"WH_EULER", "WH_SEMI_IMPLICIT_EULER", "WH_HEUN", "WH_RK4"};
-
-static void write_observer(FILE *out, const program *p) {
-    const tape *t = p->observe;
+static void write_observer(FILE *out, const image *im) {
+    const tape *t = im->list[IMAGE_OBSERVE];
     fprintf(out, "static void observe(const wh_scene *scene, const wh_state *state, "
                  "wh_real *output) {\n");
     c_list_ignore(out, c_list_uses(t, OP_TIME), "scene");
@@ -23,7 +19,7 @@ static void write_observer(FILE *out, const program *p) {
         fprintf(out,
                 "    wh_phase phase[%d];\n    for (int i = 0; i < %d; i++) {\n"
                 "        phase[i] = wh_phase_of(state->angle[i]);\n    }\n",
-                p->angles, p->angles);
+                im->angles, im->angles);
     }
     if (tape_reads_turns(t)) {
         fprintf(out, "    const wh_angle *angle = state->angle;\n");
@@ -32,14 +28,14 @@ static void write_observer(FILE *out, const program *p) {
         fprintf(out, "    const wh_real *linear = state->real;\n");
     }
     if (c_list_uses(t, OP_RATE)) {
-        fprintf(out, "    const wh_real *rate = state->real + %d;\n", p->coordinates - p->angles);
+        fprintf(out, "    const wh_real *rate = state->real + %d;\n", im->coordinates - im->angles);
     }
     if (c_list_uses(t, OP_INPUT)) {
         fprintf(out, "    const wh_real *input = state->input;\n");
     }
     if (c_list_uses(t, OP_ACCEL)) {
         fprintf(out, "    wh_real accel[%d];\n    wh_contact_observe(&contacts, state, accel);\n",
-                p->coordinates);
+                im->coordinates);
     }
     if (!c_list_uses_phase(t) && !tape_reads_turns(t) && !c_list_uses(t, OP_LINEAR) &&
         !c_list_uses(t, OP_RATE) && !c_list_uses(t, OP_INPUT) && !c_list_uses(t, OP_TIME) &&
@@ -49,68 +45,59 @@ static void write_observer(FILE *out, const program *p) {
     c_list_body(out, t, "output");
 }
 
-static void write_starts(FILE *out, const program *p, const instance *inst) {
+static void write_starts(FILE *out, const image *im) {
     char hex[HEX_SIZE];
-    double *angle_rad = room(p->angles, sizeof *angle_rad);
-    double *real = room(p->reals, sizeof *real);
-    program_start(p, inst, angle_rad, real);
-    if (p->angles > 0) {
-        fprintf(out, "static const wh_angle start_angle[%d] = {", p->angles);
-        for (int i = 0; i < p->angles; i++) {
+    if (im->angles > 0) {
+        fprintf(out, "static const wh_angle start_angle[%d] = {", im->angles);
+        for (int i = 0; i < im->angles; i++) {
             fprintf(out, "%sWH_TURN(%s, INT64_C(%" PRId64 "))", i > 0 ? ", " : "",
-                    hex_write(angle_rad[i], hex), phase_of_start(angle_rad[i]));
+                    hex_write(im->start_rad[i], hex), im->start_turns[i]);
         }
         fprintf(out, "};\n");
     }
-    if (p->reals > 0) {
-        fprintf(out, "static const wh_real start_real[%d] = {", p->reals);
-        for (int i = 0; i < p->reals; i++) {
-            fprintf(out, "%sWH_R(%s)", i > 0 ? ", " : "", hex_write(real[i], hex));
+    if (im->reals > 0) {
+        fprintf(out, "static const wh_real start_real[%d] = {", im->reals);
+        for (int i = 0; i < im->reals; i++) {
+            fprintf(out, "%sWH_R(%s)", i > 0 ? ", " : "", hex_write(im->start_real[i], hex));
         }
         fprintf(out, "};\n");
     }
-    if (p->inputs > 0) {
-        fprintf(out, "static const wh_real start_input[%d] = {", p->inputs);
-        for (int i = 0; i < p->inputs; i++) {
-            fprintf(out, "%sWH_R(%s)", i > 0 ? ", " : "", hex_write(inst->input[p->input[i]], hex));
+    if (im->inputs > 0) {
+        fprintf(out, "static const wh_real start_input[%d] = {", im->inputs);
+        for (int i = 0; i < im->inputs; i++) {
+            fprintf(out, "%sWH_R(%s)", i > 0 ? ", " : "", hex_write(im->input[i].value, hex));
         }
         fprintf(out, "};\n");
     }
     fprintf(out, "\n");
-    free(angle_rad);
-    free(real);
 }
 
-static void write_scene(FILE *out, const program *p, const instance *inst,
-                        const engine_settings *settings) {
+static void write_scene(FILE *out, const image *im) {
     char hex[HEX_SIZE];
     fprintf(out, "const wh_scene %s = {\n    .name = \"%s\",\n    .form = %s,\n    .method = %s,\n",
-            inst->name, inst->name,
-            p->form == WH_SECOND_ORDER ? "WH_SECOND_ORDER" : "WH_FIRST_ORDER",
-            c_method_names[settings->method]);
+            im->name, im->name, im->form == WH_SECOND_ORDER ? "WH_SECOND_ORDER" : "WH_FIRST_ORDER",
+            wh_methods[im->settings.method].name);
     fprintf(out, "    .angles = %d,\n    .reals = %d,\n    .inputs = %d,\n    .outputs = %d,\n",
-            p->angles, p->reals, p->inputs, p->outputs);
-    if (p->contacts != NULL) {
-        fprintf(out, "    .contacts = %d,\n    .held = %d,\n", p->contacts->count,
-                p->contacts->held);
+            im->angles, im->reals, im->inputs, im->outputs);
+    if (im->contacts > 0) {
+        fprintf(out, "    .contacts = %d,\n    .held = %d,\n", im->contacts, im->held);
     }
-    if (p->ledger != NULL) {
+    if (im->ledger.kept) {
         fprintf(out, "    .ledger = &ledger,\n");
     }
     fprintf(out,
             "    .compensated = %s,\n    .step_s = WH_R(%s),\n"
             "    .step = {UINT64_C(%" PRIu64 "), UINT64_C(%" PRIu64 ")},\n"
             "    .steps = UINT64_C(%" PRIu64 "),\n",
-            settings->compensated ? "true" : "false", hex_write(inst->step_s, hex),
-            inst->step.numerator, inst->step.denominator, inst->steps);
-    fprintf(out, "    .start_angle = %s,\n", p->angles > 0 ? "start_angle" : "NULL");
-    fprintf(out, "    .start_real = %s,\n", p->reals > 0 ? "start_real" : "NULL");
-    fprintf(out, "    .start_input = %s,\n", p->inputs > 0 ? "start_input" : "NULL");
-    fprintf(out, "    .model = NULL,\n    .model_hash = UINT64_C(0x%016" PRIx64 "),\n",
-            program_hash(p));
+            im->settings.compensated ? "true" : "false", hex_write(im->step_s, hex),
+            im->step.numerator, im->step.denominator, im->steps);
+    fprintf(out, "    .start_angle = %s,\n", im->angles > 0 ? "start_angle" : "NULL");
+    fprintf(out, "    .start_real = %s,\n", im->reals > 0 ? "start_real" : "NULL");
+    fprintf(out, "    .start_input = %s,\n", im->inputs > 0 ? "start_input" : "NULL");
+    fprintf(out, "    .model = NULL,\n    .model_hash = UINT64_C(0x%016" PRIx64 "),\n", im->hash);
     fprintf(out,
             "    .advance = advance,\n    .observe = %s,\n    .arithmetic = wh_arithmetic,\n};\n",
-            p->outputs > 0 ? "observe" : "NULL");
+            im->outputs > 0 ? "observe" : "NULL");
 }
 
 bool emit_c_name_is_free(const char *name) {
@@ -149,13 +136,37 @@ bool emit_c_name_is_free(const char *name) {
     return strncmp(name, "wh_", 3) != 0 && strncmp(name, "WH_", 3) != 0 && name[0] != '_';
 }
 
-static void write_banner(FILE *out, const equations *e, const program *p, const char *file) {
-    const tape_cost cost = tape_count(p->step);
+static void write_names(FILE *out, const image *im) {
+    fprintf(out, " * Components of the state, SI units, angles in turns (2^32 steps each):\n");
+    for (int i = 0; i < im->angles; i++) {
+        fprintf(out, " *   angle[%d]  %s\n", i, im->unknown[im->angle[i].unknown].name);
+    }
+    for (int i = 0; i < im->reals; i++) {
+        fprintf(out, " *   real[%d]   %s", i, im->unknown[im->real[i].unknown].name);
+        for (int k = 0; k < im->real[i].primes; k++) {
+            fputc('\'', out);
+        }
+        fputc('\n', out);
+    }
+    for (int i = 0; i < im->inputs; i++) {
+        fprintf(out, " *   input[%d]  %s\n", i, im->input[i].name);
+    }
+    for (int i = 0; i < im->own_outputs; i++) {
+        fprintf(out, " *   output[%d] %s\n", i, im->output[i].name);
+    }
+    for (int i = im->own_outputs; i < im->outputs; i++) {
+        const int k = i - im->own_outputs;
+        fprintf(out, " *   output[%d] %s%s, from its momentum\n", i,
+                im->unknown[im->from_momentum[k / 2]].name, k % 2 == 0 ? "" : "'");
+    }
+}
+
+static void write_banner(FILE *out, const image *im, const char *file) {
+    const tape_cost cost = tape_count(im->list[IMAGE_STEP]);
     fputs("/* Generated by whirl from ", out);
     c_comment(out, file);
     fputs(": do not edit.\n *\n", out);
-    fprintf(out, " * scene        %s\n * model hash   0x%016" PRIx64 "\n", e->instance->name,
-            program_hash(p));
+    fprintf(out, " * scene        %s\n * model hash   0x%016" PRIx64 "\n", im->name, im->hash);
     fprintf(out,
             " * a right-hand side: %d additions and products, %d divisions, %d square roots,\n"
             " *                    %d pairs of sine and cosine",
@@ -164,82 +175,70 @@ static void write_banner(FILE *out, const equations *e, const program *p, const 
         fprintf(out, ", %d functions of core/function.h", cost.calls);
     }
     fprintf(out, "\n *\n");
-    fprintf(out, " * Components of the state, SI units, angles in turns (2^32 steps each):\n");
-    for (int i = 0; i < p->angles; i++) {
-        fprintf(out, " *   angle[%d]  %s\n", i, e->unknowns[p->angle[i].unknown].symbol->name);
-    }
-    for (int i = 0; i < p->reals; i++) {
-        fprintf(out, " *   real[%d]   %s", i, e->unknowns[p->real[i].unknown].symbol->name);
-        for (int k = 0; k < p->real[i].primes; k++) {
-            fputc('\'', out);
-        }
-        fputc('\n', out);
-    }
-    const mechanism *m = e->instance->mechanism;
-    for (int i = 0; i < p->inputs; i++) {
-        fprintf(out, " *   input[%d]  %s\n", i, m->inputs[p->input[i]]->name);
-    }
-    for (int i = 0; i < m->output_count; i++) {
-        fprintf(out, " *   output[%d] %s\n", i, m->outputs[i]->name);
-    }
-    for (int i = m->output_count; i < p->outputs; i++) {
-        const int k = (i - m->output_count) / 2;
-        fprintf(out, " *   output[%d] %s%s, from its momentum\n", i,
-                e->unknowns[p->conserved->unknown[k]].symbol->name,
-                (i - m->output_count) % 2 == 0 ? "" : "'");
-    }
+    write_names(out, im);
     fprintf(out, " */\n");
 }
 
-void emit_c(FILE *out, const equations *e, const program *p, const engine_settings *settings,
-            const char *file) {
-    const bool second = p->form == WH_SECOND_ORDER;
-    char hex[HEX_SIZE];
-    const int components = second ? p->coordinates : p->angles + p->reals;
-    write_banner(out, e, p, file);
-    fprintf(out, "#define WH_COORDS %d\n", components);
-    if (p->ledger != NULL) {
-        c_ledger_bounds(out, p->ledger);
+static void write_includes(FILE *out, const image *im) {
+    if (im->ledger.kept) {
+        c_ledger_bounds(out, im);
     }
-    if (p->contacts != NULL) {
-        c_contacts_include(out, p->contacts);
+    if (im->contacts > 0) {
+        c_contacts_include(out, im);
     } else {
-        fprintf(out, "#include \"core/%s.h\"\n", p->ledger != NULL ? "ledger_step" : "step");
+        fprintf(out, "#include \"core/%s.h\"\n", im->ledger.kept ? "ledger_step" : "step");
     }
-    if (program_calls(p)) {
+    if (image_calls(im)) {
         fprintf(out, "#include \"core/function.h\"\n");
     }
-    if (c_list_uses(p->observe, OP_NOISE)) {
+    if (c_list_uses(im->list[IMAGE_OBSERVE], OP_NOISE)) {
         fprintf(out, "#include \"core/noise.h\"\n");
     }
-    fprintf(out, "\nextern const wh_scene %s;\n\n", e->instance->name);
-    write_starts(out, p, e->instance);
-    c_list_function(out, p->step, second ? "accelerations" : "slopes", second,
-                    p->contacts != NULL || p->ledger_asked);
-    if (p->ledger != NULL) {
-        c_ledger_write(out, p);
-    }
-    if (p->contacts != NULL) {
-        c_contacts_write(out, p, settings, e->instance->step_s);
-    } else if (p->ledger != NULL) {
-        fprintf(
-            out,
-            "static wh_status advance(const wh_scene *scene, wh_state *state) {\n"
-            "    (void)scene;\n    return wh_step_ledger(&ledger, NULL, accelerations, %s, %s,\n"
-            "                          WH_R(%s), state);\n}\n\n",
-            c_method_names[settings->method], settings->compensated ? "true" : "false",
-            hex_write(e->instance->step_s, hex));
+}
+
+/* Of a scene without contacts. */
+static void write_advance(FILE *out, const image *im) {
+    const bool second = im->form == WH_SECOND_ORDER;
+    const char *method = wh_methods[im->settings.method].name;
+    const char *compensated = im->settings.compensated ? "true" : "false";
+    char hex[HEX_SIZE];
+    hex_write(im->step_s, hex);
+    fputs("static wh_status advance(const wh_scene *scene, wh_state *state) {\n    (void)scene;\n",
+          out);
+    if (im->ledger.kept) {
+        fprintf(out,
+                "    return wh_step_ledger(&ledger, NULL, accelerations, %s, %s,\n"
+                "                          WH_R(%s), state);\n}\n\n",
+                method, compensated, hex);
     } else {
         fprintf(out,
-                "static wh_status advance(const wh_scene *scene, wh_state *state) {\n"
-                "    (void)scene;\n    return %s(NULL, %s, %s, %s, %dU, %dU,\n"
+                "    return %s(NULL, %s, %s, %s, %dU, %dU,\n"
                 "                          WH_R(%s), state);\n}\n\n",
                 second ? "wh_step_second" : "wh_step_first", second ? "accelerations" : "slopes",
-                c_method_names[settings->method], settings->compensated ? "true" : "false",
-                p->angles, second ? p->coordinates : p->reals, hex_write(e->instance->step_s, hex));
+                method, compensated, im->angles, second ? im->coordinates : im->reals, hex);
     }
-    if (p->outputs > 0) {
-        write_observer(out, p);
+}
+
+void emit_c(FILE *out, const image *im, const char *file) {
+    const bool second = im->form == WH_SECOND_ORDER;
+    const int components = second ? im->coordinates : im->angles + im->reals;
+    write_banner(out, im, file);
+    fprintf(out, "#define WH_COORDS %d\n", components);
+    write_includes(out, im);
+    fprintf(out, "\nextern const wh_scene %s;\n\n", im->name);
+    write_starts(out, im);
+    c_list_function(out, im->list[IMAGE_STEP], second ? "accelerations" : "slopes", second,
+                    im->contacts > 0 || im->ledger.asked);
+    if (im->ledger.kept) {
+        c_ledger_write(out, im);
     }
-    write_scene(out, p, e->instance, settings);
+    if (im->contacts > 0) {
+        c_contacts_write(out, im);
+    } else {
+        write_advance(out, im);
+    }
+    if (im->outputs > 0) {
+        write_observer(out, im);
+    }
+    write_scene(out, im);
 }

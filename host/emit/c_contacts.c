@@ -1,47 +1,47 @@
 /* c_contacts.c: the lists and the table of a scene's contacts. */
 #include "c_contacts.h"
 
-#include "c_bounds.h"
 #include "c_list.h"
+#include "host/image/core_rows.h"
 #include "host/number/hex.h"
 
-void c_contacts_include(FILE *out, const contact_lists *c) {
-    fprintf(out, "#define WH_CONTACTS_MAX %d\n#define WH_SETS_MAX %d\n", c->count,
-            c->set_count > 0 ? c->set_count : 1);
+void c_contacts_include(FILE *out, const image *im) {
+    fprintf(out, "#define WH_CONTACTS_MAX %d\n#define WH_SETS_MAX %d\n", im->contacts,
+            im->set_count > 0 ? im->set_count : 1);
     fprintf(out, "#include \"core/contact.h\"\nstatic const wh_contact_system contacts;\n"
                  "#define WH_CONTACTS_OF(model) (&contacts)\n#include \"core/contact_step.h\"\n");
 }
 
-/* Evaluations that a step of each wh_method takes. */
-static const int c_stages[] = {1, 1, 2, 4};
-
-static void write_table(FILE *out, const contact_lists *c) {
-    static const char *const kinds[] = {"WH_STOP", "WH_HOLD", "WH_FRICTION", "WH_WHEN"};
-    fprintf(out, "static const wh_contact contact_table[%d] = {", c->count);
-    for (int k = 0; k < c->count; k++) {
-        const contact_row *row = &c->row[k];
-        fprintf(out, "%s\n    {%s, %d, %d, %d, %d}", k > 0 ? "," : "", kinds[row->kind],
-                row->direction, row->pin, row->first_set, row->sets);
+static void write_table(FILE *out, const image *im) {
+#define KIND_TEXT(name, is) [name] = #name,
+    static const char *const kinds[WH_CONTACT_KIND_COUNT] = {WH_CONTACT_KINDS(KIND_TEXT)};
+#undef KIND_TEXT
+    fprintf(out, "static const wh_contact contact_table[%d] = {", im->contacts);
+    for (int k = 0; k < im->contacts; k++) {
+        const wh_contact row = core_contact_row(&im->contact[k]);
+        fprintf(out, "%s\n    {%s, %d, %d, %d, %d}", k > 0 ? "," : "", kinds[row.kind],
+                row.direction, row.pin, row.first_set, row.sets);
     }
     fprintf(out, "};\n");
-    if (c->set_count > 0) {
-        fprintf(out, "static const uint8_t contact_target[%d] = {", c->set_count);
-        for (int i = 0; i < c->set_count; i++) {
-            fprintf(out, "%s%d", i > 0 ? ", " : "", c->target[i]);
+    if (im->set_count > 0) {
+        fprintf(out, "static const uint8_t contact_target[%d] = {", im->set_count);
+        for (int i = 0; i < im->set_count; i++) {
+            fprintf(out, "%s%d", i > 0 ? ", " : "", im->target[i]);
         }
         fprintf(out, "};\n");
     }
 }
 
-void c_contacts_write(FILE *out, const program *p, const engine_settings *settings, double step_s) {
+void c_contacts_write(FILE *out, const image *im) {
     char hex[HEX_SIZE];
-    const contact_lists *c = p->contacts;
-    c_list_function(out, c->signals, "contact_signals", true, true);
-    c_list_function(out, c->forces, "contact_forces", true, true);
-    if (c->sets != NULL) {
-        c_list_function(out, c->sets, "contact_sets", true, true);
+    const bool sets = im->list[IMAGE_SETS] != NULL;
+    const wh_contact_system system = core_contact_system(im, NULL, NULL);
+    c_list_function(out, im->list[IMAGE_SIGNALS], "contact_signals", true, true);
+    c_list_function(out, im->list[IMAGE_FORCES], "contact_forces", true, true);
+    if (sets) {
+        c_list_function(out, im->list[IMAGE_SETS], "contact_sets", true, true);
     }
-    write_table(out, c);
+    write_table(out, im);
     fprintf(
         out,
         "static const wh_contact_system contacts = {\n    .accel = accelerations,\n"
@@ -50,24 +50,12 @@ void c_contacts_write(FILE *out, const program *p, const engine_settings *settin
         "    .forced = %d,\n    .held = %d,\n    .evaluations = WH_CONTACT_EVALUATIONS(%d, %d, %d),\n"
         "    .method = %s,\n    .compensated = %s,\n"
         "    .angles = %d,\n    .coordinates = %d,\n};\n\n",
-        c->sets != NULL ? "contact_sets" : "NULL", c->set_count > 0 ? "contact_target" : "NULL",
-        p->ledger != NULL ? "&ledger" : "NULL", c->count, c->forced, c->held,
-        c_stages[settings->method], contact_lists_stops(c), c->forced,
-        c_method_names[settings->method], settings->compensated ? "true" : "false", p->angles,
-        p->coordinates);
+        sets ? "contact_sets" : "NULL", im->set_count > 0 ? "contact_target" : "NULL",
+        im->ledger.kept ? "&ledger" : "NULL", system.contacts, system.forced, system.held,
+        core_stages(im), core_stops(im), system.forced, wh_methods[system.method].name,
+        system.compensated ? "true" : "false", system.angles, system.coordinates);
     fprintf(out,
             "static wh_status advance(const wh_scene *scene, wh_state *state) {\n"
             "    (void)scene;\n    return wh_step_contact(&contacts, WH_R(%s), state);\n}\n\n",
-            hex_write(step_s, hex));
-}
-
-int c_contacts_evaluations(const program *p, const engine_settings *settings) {
-    const contact_lists *c = p->contacts;
-    const int stages = c_stages[settings->method];
-    return c == NULL ? stages : c_bound_evaluations(stages, contact_lists_stops(c), c->forced);
-}
-
-int c_contacts_signals(const program *p) {
-    const contact_lists *c = p->contacts;
-    return c == NULL ? 0 : c_bound_signals(c->forced, c->count - c->forced);
+            hex_write(im->step_s, hex));
 }

@@ -10,11 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "c_contacts.h"
 #include "emit.h"
-#include "host/derive/contact_lists.h"
-#include "host/derive/ledger.h"
-#include "host/lang/shown.h"
+#include "host/image/core_rows.h"
 
 /* Bytes of the character at `text` that changes the direction of writing, or 0: compilers warn of these. */
 static size_t turns_direction(const char *text) {
@@ -60,118 +57,113 @@ static const struct {
 };
 
 typedef struct item {
-    const symbol *symbol;
+    const char *name;
+    const char *text;
+    const char *si;
     int primes;
 } item;
 
-static int count_of(const program *p, list of) {
+static int count_of(const image *im, list of) {
     switch (of) {
-    case LIST_ANGLES: return p->angles;
-    case LIST_REALS: return p->reals;
-    case LIST_INPUTS: return p->inputs;
-    case LIST_OUTPUTS: return p->outputs;
+    case LIST_ANGLES: return im->angles;
+    case LIST_REALS: return im->reals;
+    case LIST_INPUTS: return im->inputs;
+    case LIST_OUTPUTS: return im->outputs;
     case LISTS: break;
     }
     return 0;
 }
 
-static item item_of(const equations *e, const program *p, list of, int i) {
-    const mechanism *m = e->instance->mechanism;
-    switch (of) {
-    case LIST_ANGLES: return (item){e->unknowns[p->angle[i].unknown].symbol, p->angle[i].primes};
-    case LIST_REALS: return (item){e->unknowns[p->real[i].unknown].symbol, p->real[i].primes};
-    case LIST_INPUTS: return (item){m->inputs[p->input[i]], 0};
-    case LIST_OUTPUTS:
-        if (i >= m->output_count) { /* value and rate of what is recovered from its momentum */
-            const int k = i - m->output_count;
-            return (item){e->unknowns[p->conserved->unknown[k / 2]].symbol, k % 2};
-        }
-        return (item){m->outputs[i], 0};
-    case LISTS: break;
-    }
-    return (item){NULL, 0};
+static item of_unknown(const image *im, component c) {
+    const image_unknown *u = &im->unknown[c.unknown];
+    return (item){u->name, u->text, u->unit[c.primes].si, c.primes};
 }
 
-static void write_items(FILE *out, const equations *e, const program *p, list of) {
-    const char *prefix = e->instance->name;
+static item of_quantity(const image_quantity *q) { return (item){q->name, q->text, q->unit.si, 0}; }
+
+static item item_of(const image *im, list of, int i) {
+    switch (of) {
+    case LIST_ANGLES: return of_unknown(im, im->angle[i]);
+    case LIST_REALS: return of_unknown(im, im->real[i]);
+    case LIST_INPUTS: return of_quantity(&im->input[i]);
+    case LIST_OUTPUTS:
+        if (i >= im->own_outputs) { /* value and rate of what is recovered from its momentum */
+            const int k = i - im->own_outputs;
+            return of_unknown(im, (component){im->from_momentum[k / 2], k % 2});
+        }
+        return of_quantity(&im->output[i]);
+    case LISTS: break;
+    }
+    return (item){"", "", "", 0};
+}
+
+static void write_items(FILE *out, const image *im, list of) {
+    const char *prefix = im->name;
     fprintf(out, "    /* %s */\n", lists[of].where);
-    for (int i = 0; i < count_of(p, of); i++) {
-        const item it = item_of(e, p, of, i);
-        char *in = shown_si_name(it.symbol, it.primes);
+    for (int i = 0; i < count_of(im, of); i++) {
+        const item it = item_of(im, of, i);
         fprintf(out, "    %s_%s", prefix, it.primes > 0 ? lists[of].rate : lists[of].value);
         if (it.primes > 1) {
             fprintf(out, "%d", it.primes);
         }
-        fprintf(out, "_%s = %d, /* ", it.symbol->name, i);
-        c_comment(out, in);
-        if (it.symbol->text[0] != '\0') {
+        fprintf(out, "_%s = %d, /* ", it.name, i);
+        c_comment(out, it.si);
+        if (it.text[0] != '\0') {
             fputs(it.primes > 0 ? ": rate of: " : ": ", out);
-            c_comment(out, it.symbol->text);
+            c_comment(out, it.text);
         }
         fputs(" */\n", out);
-        free(in);
     }
-    fprintf(out, "    %s_%s = %d,\n\n", prefix, lists[of].counted, count_of(p, of));
+    fprintf(out, "    %s_%s = %d,\n\n", prefix, lists[of].counted, count_of(im, of));
 }
 
 /* Names and units as strings: what stands between the braces of an array. */
-static void write_strings(FILE *out, const equations *e, const program *p, list of) {
-    if (count_of(p, of) == 0) {
+static void write_strings(FILE *out, const image *im, list of) {
+    if (count_of(im, of) == 0) {
         return;
     }
-    fprintf(out, "#define %s_NAMES_OF_%s {", e->instance->name, lists[of].counted);
-    for (int i = 0; i < count_of(p, of); i++) {
-        const item it = item_of(e, p, of, i);
-        fprintf(out, "%s\"%s", i > 0 ? ", " : "", it.symbol->name);
+    fprintf(out, "#define %s_NAMES_OF_%s {", im->name, lists[of].counted);
+    for (int i = 0; i < count_of(im, of); i++) {
+        const item it = item_of(im, of, i);
+        fprintf(out, "%s\"%s", i > 0 ? ", " : "", it.name);
         for (int k = 0; k < it.primes; k++) {
             fputc('\'', out);
         }
         fputc('"', out);
     }
-    fprintf(out, "}\n#define %s_UNITS_OF_%s {", e->instance->name, lists[of].counted);
-    for (int i = 0; i < count_of(p, of); i++) {
-        const item it = item_of(e, p, of, i);
-        char *in = shown_si_name(it.symbol, it.primes);
-        fprintf(out, "%s\"%s\"", i > 0 ? ", " : "", in);
-        free(in);
+    fprintf(out, "}\n#define %s_UNITS_OF_%s {", im->name, lists[of].counted);
+    for (int i = 0; i < count_of(im, of); i++) {
+        const item it = item_of(im, of, i);
+        fprintf(out, "%s\"%s\"", i > 0 ? ", " : "", it.si);
     }
     fputs("}\n", out);
 }
 
-static void write_memory(FILE *out, const program *p, const char *prefix,
-                         const engine_settings *settings) {
-    const int carried = settings->compensated ? p->angles + p->reals : 0;
-    const int held = p->contacts != NULL ? p->contacts->held : 0;
-    const int books =
-        p->ledger != NULL ? 2 * p->ledger->entries + p->ledger->accounts + p->ledger->inputs : 0;
+static void write_memory(FILE *out, const image *im) {
     fprintf(
         out,
         "/* What wh_scene_start() takes, of either number: bytes; words for an array of uint64_t. */\n"
         "#define %s_MEMORY_BYTES WH_MEMORY_BYTES(%d, %d, %d)\n"
         "#define %s_MEMORY_WORDS ((%s_MEMORY_BYTES + 7U) / 8U)\n\n",
-        prefix, p->angles, p->reals + carried + p->inputs + held + books,
-        p->contacts != NULL ? p->contacts->count : 0, prefix, prefix);
+        im->name, im->angles, core_memory_reals(im), im->contacts, im->name, im->name);
 }
 
-void emit_c_header(FILE *out, const equations *e, const program *p, const engine_settings *settings,
-                   const char *file) {
-    const instance *inst = e->instance;
-    const char *title = inst->scene != NULL ? inst->scene->title : inst->mechanism->title;
+void emit_c_header(FILE *out, const image *im, const char *file) {
     fputs("/* Generated by whirl from ", out);
     c_comment(out, file);
-    fprintf(out, ": do not edit.\n *\n * scene        %s%s", inst->name,
-            title[0] != '\0' ? ": " : "");
-    c_comment(out, title);
+    fprintf(out, ": do not edit.\n *\n * scene        %s%s", im->name,
+            im->title[0] != '\0' ? ": " : "");
+    c_comment(out, im->title);
     fprintf(out,
             "\n * model hash   0x%016" PRIx64 "\n *\n"
             " * Values are SI, whatever the model shows them in. */\n"
             "#ifndef WHIRL_SCENE_%s_H\n#define WHIRL_SCENE_%s_H\n\n#include \"core/scene.h\"\n\n"
             "#ifdef __cplusplus\nextern \"C\" {\n#endif\n\nextern const wh_scene %s;\n\n",
-            program_hash(p), inst->name, inst->name, inst->name);
-    write_memory(out, p, inst->name, settings);
+            im->hash, im->name, im->name, im->name);
+    write_memory(out, im);
     fputs("enum {\n", out);
     for (int of = 0; of < LISTS; of++) {
-        write_items(out, e, p, (list)of);
+        write_items(out, im, (list)of);
     }
     fprintf(
         out,
@@ -179,14 +171,12 @@ void emit_c_header(FILE *out, const equations *e, const program *p, const engine
         "    %s_CONTACTS = %d,\n    %s_ACCOUNTS = %d,\n    %s_ENTRIES = %d,\n\n"
         "    /* the most that a step evaluates: accelerations, what tells contacts' modes */\n"
         "    %s_EVALUATIONS = %d,\n    %s_SIGNALS = %d\n};\n\n",
-        inst->name, p->contacts != NULL ? p->contacts->count : 0, inst->name,
-        p->ledger != NULL ? p->ledger->accounts : 0, inst->name,
-        p->ledger != NULL ? p->ledger->entries : 0, inst->name, c_contacts_evaluations(p, settings),
-        inst->name, c_contacts_signals(p));
-    fprintf(out, "/* For arrays: static const char *const unit[] = %s_UNITS_OF_%s; */\n",
-            inst->name, p->outputs > 0 ? "OUTPUTS" : "REALS");
+        im->name, im->contacts, im->name, im->ledger.accounts, im->name, im->ledger.entries,
+        im->name, core_evaluations(im), im->name, core_signals(im));
+    fprintf(out, "/* For arrays: static const char *const unit[] = %s_UNITS_OF_%s; */\n", im->name,
+            im->outputs > 0 ? "OUTPUTS" : "REALS");
     for (int of = 0; of < LISTS; of++) {
-        write_strings(out, e, p, (list)of);
+        write_strings(out, im, (list)of);
     }
     fputs("\n#ifdef __cplusplus\n}\n#endif\n\n#endif\n", out);
 }

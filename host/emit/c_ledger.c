@@ -2,14 +2,16 @@
 #include "c_ledger.h"
 
 #include "c_list.h"
+#include "host/image/core_rows.h"
 
-void c_ledger_bounds(FILE *out, const ledger_lists *l) {
+void c_ledger_bounds(FILE *out, const image *im) {
+    const image_ledger *l = &im->ledger;
     fprintf(out, "#define WH_LEDGER 1\n#define WH_LEDGER_MAX %d\n#define WH_ACCOUNTS_MAX %d\n",
             l->entries > 0 ? l->entries : 1, l->accounts);
 }
 
 /* A wh_levels_fn: "ledger_levels" and "ledger_powers" are of one length. */
-static void write_of_angles(FILE *out, const program *p, const tape *t, const char *name,
+static void write_of_angles(FILE *out, const image *im, const tape *t, const char *name,
                             const char *result) {
     fprintf(out,
             "static void %s(const void *model, const wh_angle *angle,\n"
@@ -21,7 +23,7 @@ static void write_of_angles(FILE *out, const program *p, const tape *t, const ch
         fprintf(out,
                 "    wh_phase phase[%d];\n    for (int i = 0; i < %d; i++) {\n"
                 "        phase[i] = wh_phase_of(angle[i]);\n    }\n",
-                p->angles, p->angles);
+                im->angles, im->angles);
     } else {
         c_list_ignore(out, tape_reads_turns(t), "angle");
     }
@@ -32,14 +34,15 @@ static void write_of_angles(FILE *out, const program *p, const tape *t, const ch
     c_list_body(out, t, result);
 }
 
-void c_ledger_write(FILE *out, const program *p) {
-    const ledger_lists *l = p->ledger;
+void c_ledger_write(FILE *out, const image *im) {
+    const image_ledger *l = &im->ledger;
+    const wh_ledger_form form = core_ledger_form(im, NULL, NULL);
     if (l->turned) {
-        write_of_angles(out, p, l->powers, "ledger_powers", "power");
+        write_of_angles(out, im, im->list[IMAGE_POWERS], "ledger_powers", "power");
     } else {
-        c_list_function(out, l->powers, "ledger_powers", true, true);
+        c_list_function(out, im->list[IMAGE_POWERS], "ledger_powers", true, true);
     }
-    write_of_angles(out, p, l->levels, "ledger_levels", "level");
+    write_of_angles(out, im, im->list[IMAGE_LEVELS], "ledger_levels", "level");
     if (l->smooth > 0) {
         fprintf(out, "static const uint8_t ledger_accounts[%d] = {", l->smooth);
         for (int i = 0; i < l->smooth; i++) {
@@ -59,10 +62,10 @@ void c_ledger_write(FILE *out, const program *p) {
             "    .levels = ledger_levels,\n    .account = %s,\n    .smooth = %d,\n"
             "    .entries = %d,\n    .accounts = %d,\n    .coordinates = %d,\n"
             "    .angles = %d,\n",
-            l->turned ? "turned" : "powers", l->smooth > 0 ? "ledger_accounts" : "NULL", l->smooth,
-            l->entries, l->accounts + l->inputs, p->coordinates, p->angles);
-    if (l->inputs > 0) {
-        fprintf(out, "    .input = ledger_inputs,\n    .inputs = %d,\n", l->inputs);
+            l->turned ? "turned" : "powers", l->smooth > 0 ? "ledger_accounts" : "NULL",
+            form.smooth, form.entries, form.accounts, form.coordinates, form.angles);
+    if (form.inputs > 0) {
+        fprintf(out, "    .input = ledger_inputs,\n    .inputs = %d,\n", form.inputs);
     }
     fputs("};\n\n", out);
 }

@@ -4,12 +4,12 @@
 
 #include <stdio.h>
 
-#include "host/derive/ledger.h"
+#include "host/image/image.h"
 
 /* The declared bounds: before the core's headers. */
-void c_ledger_bounds(FILE *out, const ledger_lists *l);
+void c_ledger_bounds(FILE *out, const image *im);
 
 /* The lists and the constant `ledger`. */
-void c_ledger_write(FILE *out, const program *p);
+void c_ledger_write(FILE *out, const image *im);
 
 #endif

@@ -4,16 +4,14 @@
 
 #include "emit.h"
 #include "host/base/room.h"
-#include "host/show/show_events.h"
 #include "op_text.h"
 
 /* y(k), k from 1: values first, then rates, and so on. */
-static int y_number(const program *p, const equations *e, component of) {
+static int y_number(const image *im, component of) {
     int number = 1;
-    (void)p;
     for (int level = 0; level <= of.primes; level++) {
-        for (int i = 0; i < e->count; i++) {
-            if (e->unknowns[i].order > level) {
+        for (int i = 0; i < im->count; i++) {
+            if (im->unknown[i].order > level) {
                 if (level == of.primes && i == of.unknown) {
                     return number;
                 }
@@ -32,8 +30,8 @@ static void write_operand(FILE *out, const tape *t, int a) {
     }
 }
 
-static void write_phase(FILE *out, const program *p, const equations *e, const op *o) {
-    const tape *t = p->step;
+static void write_phase(FILE *out, const image *im, const op *o) {
+    const tape *t = im->list[IMAGE_STEP];
     const char *plus = "";
     if (o->value != 0.0) {
         fprintf(out, "%.17g", o->value);
@@ -45,7 +43,7 @@ static void write_phase(FILE *out, const program *p, const equations *e, const o
             if (o->turns[k] != 1) {
                 fprintf(out, "%d*", o->turns[k]);
             }
-            fprintf(out, "y(%d)", y_number(p, e, p->angle[k]));
+            fprintf(out, "y(%d)", y_number(im, im->angle[k]));
             plus = " + ";
         }
     }
@@ -55,28 +53,21 @@ static void write_phase(FILE *out, const program *p, const equations *e, const o
     }
 }
 
-/* What leaves count: of the program and equations of these. */
-typedef struct leaf_context {
-    const program *program;
-    const equations *equations;
-} leaf_context;
-
+/* What leaves count: of an image. */
 static void write_leaf(FILE *out, const void *context, char what, int a) {
-    const leaf_context *of = context;
-    const program *p = of->program;
+    const image *im = context;
     if (what == 'u') {
-        fputs(of->equations->instance->mechanism->inputs[p->input[a]]->name, out);
+        fputs(im->input[a].name, out);
     } else {
-        const int real = what == 'r' ? p->coordinates - p->angles + a : a;
-        fprintf(out, "%d", y_number(p, of->equations, p->real[real]));
+        const int real = what == 'r' ? im->coordinates - im->angles + a : a;
+        fprintf(out, "%d", y_number(im, im->real[real]));
     }
 }
 
 /* The lists of records have operations that no step has, and that are not written here. */
-static void write_operation(FILE *out, const program *p, const equations *e, int i) {
-    const leaf_context context = {p, e};
-    const op_style style = {write_operand, write_leaf, &context};
-    const tape *t = p->step;
+static void write_operation(FILE *out, const image *im, int i) {
+    const op_style style = {write_operand, write_leaf, im};
+    const tape *t = im->list[IMAGE_STEP];
     const op *o = &t->ops[i];
     const op_row *row = &op_rows[o->code];
     if (row->kind == OP_IS_CONSTANT) {
@@ -84,7 +75,7 @@ static void write_operation(FILE *out, const program *p, const equations *e, int
     }
     fprintf(out, "  x%d = ", i);
     if (row->kind == OP_IS_PHASE) {
-        write_phase(out, p, e, o);
+        write_phase(out, im, o);
     } else {
         op_text(out, t, o, row->octave, &style);
     }
@@ -102,24 +93,43 @@ static bool may_be_complex(const tape *t) {
     return found;
 }
 
-void emit_octave(FILE *out, const equations *e, const program *p, const char *file) {
-    const instance *inst = e->instance;
-    const mechanism *m = inst->mechanism;
-    const int components = p->angles + p->reals;
+/* y at the start. */
+static void write_start(FILE *out, const image *im) {
+    const int components = im->angles + im->reals;
     double *start = room(components, sizeof *start);
-    double *angle_rad = room(components, sizeof *angle_rad);
-    double *real = room(components, sizeof *real);
-    program_start(p, inst, angle_rad, real);
     for (int i = 0; i < components; i++) {
-        const component of = i < p->angles ? p->angle[i] : p->real[i - p->angles];
-        start[y_number(p, e, of) - 1] = i < p->angles ? angle_rad[i] : real[i - p->angles];
+        start[y_number(im, image_component(im, i)) - 1] =
+            i < im->angles ? im->start_rad[i] : im->start_real[i - im->angles];
     }
-    fprintf(out, "function dy = %s(t, y)\n", inst->name);
+    for (int i = 0; i < components; i++) {
+        fprintf(out, "%s%.17g", i > 0 ? "; " : "", start[i]);
+    }
+    free(start);
+}
+
+/* The highest derivative of unknown i, which is the rate of its derivative before that. */
+static void write_highest(FILE *out, const image *im, int i) {
+    const tape *t = im->list[IMAGE_STEP];
+    int c = 0;
+    if (im->form == WH_SECOND_ORDER) {
+        write_operand(out, t, t->result[im->place[i]]);
+        return;
+    }
+    while (image_component(im, c).unknown != i ||
+           image_component(im, c).primes != im->unknown[i].order - 1) {
+        c++;
+    }
+    write_operand(out, t, t->result[c]);
+}
+
+void emit_octave(FILE *out, const image *im, const char *file, const char *contacts) {
+    const int components = im->angles + im->reals;
+    fprintf(out, "function dy = %s(t, y)\n", im->name);
     fprintf(out, "%% Generated by whirl from %s: do not edit. SI units.\n%%\n%% y = (", file);
     for (int level = 0, number = 1; number <= components; level++) {
-        for (int i = 0; i < e->count; i++) {
-            if (e->unknowns[i].order > level) {
-                fprintf(out, "%s%s", number > 1 ? ", " : "", e->unknowns[i].symbol->name);
+        for (int i = 0; i < im->count; i++) {
+            if (im->unknown[i].order > level) {
+                fprintf(out, "%s%s", number > 1 ? ", " : "", im->unknown[i].name);
                 for (int k = 0; k < level; k++) {
                     fputc('\'', out);
                 }
@@ -130,44 +140,31 @@ void emit_octave(FILE *out, const equations *e, const program *p, const char *fi
     fprintf(out,
             ")\n%%\n%% options = odeset('RelTol', 1e-7, 'AbsTol', 1e-9);\n"
             "%% [T, Y] = ode45(@%s, [0 %.17g], [",
-            inst->name, inst->until_s);
-    for (int i = 0; i < components; i++) {
-        fprintf(out, "%s%.17g", i > 0 ? "; " : "", start[i]);
+            im->name, im->until_s);
+    write_start(out, im);
+    fprintf(out, "], options);\n%% K = [T Y]; save('%s.txt', 'K', '-ascii')\n%s", im->name,
+            contacts);
+    for (int i = 0; i < im->inputs; i++) {
+        const image_quantity *u = &im->input[i];
+        fprintf(out, "  u_%s = %.17g; %% %s\n", u->name, u->value, u->text);
     }
-    fprintf(out, "], options);\n%% K = [T Y]; save('%s.txt', 'K', '-ascii')\n", inst->name);
-    show_events(out, e, "% ", "The motion between events. Not in this function:");
-    for (int i = 0; i < p->inputs; i++) {
-        const symbol *u = m->inputs[p->input[i]];
-        fprintf(out, "  u_%s = %.17g; %% %s\n", u->name, inst->input[u->index], u->text);
-    }
-    for (int i = 0; i < p->step->count; i++) {
-        write_operation(out, p, e, i);
+    for (int i = 0; i < im->list[IMAGE_STEP]->count; i++) {
+        write_operation(out, im, i);
     }
     fprintf(out, "  dy = zeros(%d, 1);\n", components);
-    for (int i = 0; i < p->count; i++) {
-        for (int primes = 0; primes < e->unknowns[i].order; primes++) {
-            const int row = y_number(p, e, (component){i, primes});
-            fprintf(out, "  dy(%d) = ", row);
-            if (primes + 1 < e->unknowns[i].order) {
-                fprintf(out, "y(%d)", y_number(p, e, (component){i, primes + 1}));
-            } else if (p->form == WH_SECOND_ORDER) {
-                write_operand(out, p->step, p->step->result[p->place[i]]);
+    for (int i = 0; i < im->count; i++) {
+        for (int primes = 0; primes < im->unknown[i].order; primes++) {
+            fprintf(out, "  dy(%d) = ", y_number(im, (component){i, primes}));
+            if (primes + 1 < im->unknown[i].order) {
+                fprintf(out, "y(%d)", y_number(im, (component){i, primes + 1}));
             } else {
-                int c = 0;
-                while (!((c < p->angles ? p->angle[c] : p->real[c - p->angles]).unknown == i &&
-                         (c < p->angles ? p->angle[c] : p->real[c - p->angles]).primes == primes)) {
-                    c++;
-                }
-                write_operand(out, p->step, p->step->result[c]);
+                write_highest(out, im, i);
             }
             fputs(";\n", out);
         }
     }
-    if (may_be_complex(p->step)) {
+    if (may_be_complex(im->list[IMAGE_STEP])) {
         fprintf(out, "  if ~isreal(dy), dy(:) = NaN; end %% outside a function's real values\n");
     }
     fprintf(out, "end\n");
-    free(start);
-    free(angle_rad);
-    free(real);
 }

@@ -10,14 +10,21 @@ const char *symbol_kind_words(symbol_kind kind) {
 }
 
 const char *term_meaning(term_kind kind) {
-#define MEANING(id, meaning, rule) [TERM_##id] = meaning,
+#define MEANING(id, meaning, part, rule) [TERM_##id] = meaning,
     static const char *const meanings[] = {TERM_KIND_ROWS(MEANING)};
 #undef MEANING
     return meanings[kind];
 }
 
+const char *term_part(term_kind kind) {
+#define PART(id, meaning, part, rule) [TERM_##id] = part,
+    static const char *const parts[] = {TERM_KIND_ROWS(PART)};
+#undef PART
+    return parts[kind];
+}
+
 const char *term_rule(term_kind kind) {
-#define RULE(id, meaning, rule) [TERM_##id] = rule,
+#define RULE(id, meaning, part, rule) [TERM_##id] = rule,
     static const char *const rules[] = {TERM_KIND_ROWS(RULE)};
 #undef RULE
     return rules[kind];

@@ -18,33 +18,41 @@ typedef enum symbol_kind { SYMBOL_KIND_ROWS(SYMBOL_KIND) } symbol_kind;
 
 const char *symbol_kind_words(symbol_kind kind);
 
-/* Contributions to a mechanism: the kind, what it is, and the rule of its
- * dimension where that is one of all (Q's follows from its coordinate, an equation's from its sides). */
+/* Contributions to a mechanism: the kind, what it is, what it gives a run (of a value that is no number there), and the
+ * rule of its dimension where that is one of all (Q's follows from its coordinate, an equation's from its sides). */
 #define TERM_KIND_ROWS(X) \
-    X(T, "the kinetic energy", "kinetic energy T must be an energy [kg*m^2/s^2]") \
-    X(V, "the potential energy", "potential energy V must be an energy [kg*m^2/s^2]") \
-    X(F, "the dissipation function", "dissipation function F must be a power [kg*m^2/s^3]") \
-    X(Q, "a generalized force", "") \
-    X(EQUATION, "an equation", "")
+    X(T, "the kinetic energy", "the kinetic energy", \
+      "kinetic energy T must be an energy [kg*m^2/s^2]") \
+    X(V, "the potential energy", "the stored energy", \
+      "potential energy V must be an energy [kg*m^2/s^2]") \
+    X(F, "the dissipation function", "the dissipation", \
+      "dissipation function F must be a power [kg*m^2/s^3]") \
+    X(Q, "a generalized force", "the force", "") \
+    X(EQUATION, "an equation", "the equation", "")
 
-#define TERM_KIND(id, meaning, rule) TERM_##id,
+#define TERM_KIND(id, ...) TERM_##id,
 typedef enum term_kind { TERM_KIND_ROWS(TERM_KIND) } term_kind;
 #undef TERM_KIND
 
 const char *term_meaning(term_kind kind);
+const char *term_part(term_kind kind);
 const char *term_rule(term_kind kind);
 
-/* Contacts: the kind (its word is WORD_STOP, ... of words.h), one of them in a message, and what of it may be no
- * number. */
+/* Contacts, in the order in which the core handles those of one moment: the kind (its word is WORD_STOP, ... of words.h;
+ * the core's is WH_STOP, ... of core/contact.h), one of them in a message, and what of it may be no number. */
 #define CONTACT_KIND_ROWS(X) \
     X(STOP, "the stop", "the restitution, or the gap, of this stop") \
-    X(FRICTION, "the friction", "the normal force, or a coefficient, of this friction") \
     X(HOLD, "the hold", "the condition of this hold, or what it holds,") \
+    X(FRICTION, "the friction", "the normal force, or a coefficient, of this friction") \
     X(WHEN, "the crossing", "the value of this crossing")
 
-#define CONTACT_KIND(id, called, undefined) CONTACT_##id,
+#define CONTACT_KIND(id, ...) CONTACT_##id,
 typedef enum contact_kind { CONTACT_KIND_ROWS(CONTACT_KIND) } contact_kind;
 #undef CONTACT_KIND
+
+#define CONTACT_ONE(...) +1
+enum { CONTACT_KINDS = 0 CONTACT_KIND_ROWS(CONTACT_ONE) };
+#undef CONTACT_ONE
 
 const char *contact_word(contact_kind kind);      /* "stop" */
 const char *contact_called(contact_kind kind);    /* "the stop" */

@@ -6,8 +6,6 @@
 #include <stdlib.h>
 
 #include "host/base/room.h"
-#include "host/derive/contact_lists.h"
-#include "host/derive/ledger.h"
 
 /* Roundings of a whole step that a run of one step may be off by. Of N steps it is so many times the root of N:
  * that is also N of the same sign, as a rate that grows evenly has, for runs of a thousand steps. */
@@ -16,10 +14,9 @@
 static double larger(double a, double b) { return fabs(b) > a ? fabs(b) : a; }
 
 /* The entries that the run itself kept; returns their sum. */
-static double kept_entries(const program *p, const engine_kind *kind, const void *run,
+static double kept_entries(const image *im, const engine_kind *kind, const void *run,
                            belief *made) {
-    const ledger_lists *l = p->ledger;
-    const int contacts = p->contacts != NULL ? p->contacts->count : 0;
+    const image_ledger *l = &im->ledger;
     double *total = room(l->entries + l->accounts, sizeof *total);
     double sum = 0.0;
     if (kind->steps(run) > 0) {
@@ -31,8 +28,8 @@ static double kept_entries(const program *p, const engine_kind *kind, const void
             sum += total[i];
         }
     }
-    for (int k = 0; k < contacts; k++) {
-        const double given = total[l->smooth + k * (1 + p->coordinates)];
+    for (int k = 0; k < im->contacts; k++) {
+        const double given = total[l->smooth + k * (1 + im->coordinates)];
         made->largest_J = larger(made->largest_J, given);
         made->contacts_J -= given;
         sum += given;
@@ -49,13 +46,13 @@ static double kept_entries(const program *p, const engine_kind *kind, const void
  * the entries are the run's own. The levels are always those of the books, which have them in double. */
 belief belief_of(books *b, const engine_kind *kind, const void *run) {
     belief made = {.jump_s = -1.0};
-    if (b == NULL || (b->program->contacts != NULL && b->program->ledger == NULL)) {
+    if (b == NULL || (b->image->contacts > 0 && !b->image->ledger.kept)) {
         return made;
     }
     made.known = true;
     made.left_J = books_error_J(b);
-    if (b->program->contacts != NULL) {
-        made.left_J = b->energy_J[1] - b->energy_J[0] - kept_entries(b->program, kind, run, &made);
+    if (b->image->contacts > 0) {
+        made.left_J = b->energy_J[1] - b->energy_J[0] - kept_entries(b->image, kind, run, &made);
         kind->events(run, &made.overruns);
     } else {
         made.largest_J = larger(fabs(b->input_J), b->loss_J);
@@ -108,8 +105,10 @@ void belief_say(FILE *out, const char *who, const belief *b, const engine_kind *
             "singular position none helps\n",
             b->jump_s);
     } else {
-        fprintf(out, "hint: the step is too coarse for this motion: a smaller --step%s%s\n",
-                method != WH_RK4 ? ", or --method rk4" : "",
+        const wh_method_row *usual = &wh_methods[WH_METHOD_DEFAULT];
+        const bool better = wh_methods[method].order < usual->order;
+        fprintf(out, "hint: the step is too coarse for this motion: a smaller --step%s%s%s\n",
+                better ? ", or --method " : "", better ? usual->word : "",
                 kind == &engine_float ? "; --number double tells what float's rounding does" : "");
     }
 }

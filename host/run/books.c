@@ -8,28 +8,26 @@
 #include "host/base/room.h"
 #include "host/number/zero.h"
 
-books *books_open(const program *p, const equations *e) { return books_open_of(p, e, e->instance); }
-
-books *books_open_of(const program *p, const equations *e, const instance *inst) {
-    if (e->kinetic == NULL) {
+books *books_open(const image *im) {
+    if (!im->has_energies) {
         return NULL;
     }
+    const int results = im->list[IMAGE_BOOKS]->results;
     books *b = room(1, sizeof *b);
-    const size_t count = 2 * (size_t)p->books->results + 4 * (size_t)p->count + (size_t)p->inputs;
+    const size_t count = 2 * (size_t)results + 4 * (size_t)im->count + (size_t)im->inputs;
     double *numbers = room((int64_t)count, sizeof *numbers);
-    b->program = p;
-    b->equations = e;
-    b->evaluator = evaluator_new(p->books);
+    b->image = im;
+    b->evaluator = evaluator_new(im->list[IMAGE_BOOKS]);
     b->value = numbers;
-    b->off = numbers + p->books->results;
-    b->momentum = b->off + p->books->results;
-    b->drift = b->momentum + p->count;
-    b->momentum_now = b->drift + p->count;
-    b->momentum_2 = b->momentum_now + p->count;
-    b->input = b->momentum_2 + p->count;
-    b->rate = room(p->count, sizeof *b->rate);
-    program_inputs(p, inst, b->input);
-    b->step_s = inst->step_s;
+    b->off = numbers + results;
+    b->momentum = b->off + results;
+    b->drift = b->momentum + im->count;
+    b->momentum_now = b->drift + im->count;
+    b->momentum_2 = b->momentum_now + im->count;
+    b->input = b->momentum_2 + im->count;
+    b->rate = room(im->count, sizeof *b->rate);
+    image_inputs(im, b->input);
+    b->step_s = im->step_s;
     return b;
 }
 
@@ -60,7 +58,7 @@ static double swing(const spread *s, uint64_t entries) {
 
 double books_swing_J(const books *b) {
     double most = number_most(swing(&b->kinetic, b->entries), swing(&b->stored, b->entries));
-    for (int i = 0; i < b->program->count && b->entries > 0; i++) {
+    for (int i = 0; i < b->image->count && b->entries > 0; i++) {
         const double momentum = number_root(b->momentum_2[i] / (double)b->entries);
         most = number_most(most, 0.5 * momentum * swing(&b->rate[i], b->entries));
     }
@@ -74,19 +72,19 @@ double books_swing_J(const books *b) {
 
 static void evaluate_now(const books *b, const double *angle_rad, const double *real,
                          double time_s) {
-    const program *p = b->program;
-    evaluator_run(b->evaluator, time_s, angle_rad, real, real + (p->coordinates - p->angles),
+    const image *im = b->image;
+    evaluator_run(b->evaluator, time_s, angle_rad, real, real + (im->coordinates - im->angles),
                   b->input, b->value);
-    for (int i = 0; i < p->books->results; i++) {
+    for (int i = 0; i < im->list[IMAGE_BOOKS]->results; i++) {
         b->value[i] = number_shown(b->value[i]); /* an energy of nothing has no sign */
     }
 }
 
 /* Of the values; of what each is off, how far that is off. */
-static double energy_of(const program *p, const double *value) {
-    const double *entry = value + p->count;
-    return p->integral != NULL ? entry[BOOK_MOMENTA + p->count]
-                               : entry[BOOK_KINETIC] + entry[BOOK_STORED];
+static double energy_of(const image *im, const double *value) {
+    const double *entry = value + im->count;
+    return im->has_integral ? entry[BOOK_MOMENTA + im->count]
+                            : entry[BOOK_KINETIC] + entry[BOOK_STORED];
 }
 
 static double unit_rounding(const engine_kind *kind) {
@@ -95,28 +93,28 @@ static double unit_rounding(const engine_kind *kind) {
 
 /* By how much the energy changes when each component of the state is rounded once. */
 static double state_rounding_J(const books *b, const engine_kind *kind) {
-    const program *p = b->program;
+    const image *im = b->image;
     const bool is_float = kind == &engine_float;
-    double angle_rad[PROGRAM_COMPONENTS_MAX];
-    double real[2 * PROGRAM_COMPONENTS_MAX];
+    double angle_rad[IMAGE_COMPONENTS_MAX];
+    double real[2 * IMAGE_COMPONENTS_MAX];
     double sum = 0.0;
     memcpy(angle_rad, b->angle_rad, sizeof angle_rad);
     memcpy(real, b->real, sizeof real);
-    for (int i = 0; i < p->angles + p->reals; i++) {
-        double *at = i < p->angles ? &angle_rad[i] : &real[i - p->angles];
+    for (int i = 0; i < im->angles + im->reals; i++) {
+        double *at = i < im->angles ? &angle_rad[i] : &real[i - im->angles];
         const double kept = *at;
-        const bool turns = is_float && i < p->angles;
+        const bool turns = is_float && i < im->angles;
         const double rounding =
             turns ? 0x1p-33 * 6.283185307179586 : unit_rounding(kind) * fabs(kept);
         const double change = turns ? SLOPE_SHARE : SLOPE_SHARE * kept;
-        const component c = i < p->angles ? p->angle[i] : p->real[i - p->angles];
+        const component c = image_component(im, i);
         /* a rate that nothing ever changed, as a clock's, was never rounded */
         const spread *rate = &b->rate[c.unknown];
         const bool still = c.primes == 1 && !rate->pushed && rate->squares == 0.0;
         if (change != 0.0 && !still) {
             *at = kept + change;
             evaluate_now(b, angle_rad, real, b->time_s);
-            sum += fabs((energy_of(p, b->value) - b->energy_J[1]) * (rounding / change));
+            sum += fabs((energy_of(im, b->value) - b->energy_J[1]) * (rounding / change));
             *at = kept;
         }
     }
@@ -126,15 +124,15 @@ static double state_rounding_J(const books *b, const engine_kind *kind) {
 /* By how much a step changes the energy that its accelerations are rounded, and the work of a step that the powers
  * are: small differences of large terms, as of forces that balance, are off by parts of these. */
 static double step_rounding_J(const books *b, const engine_kind *kind) {
-    const program *p = b->program;
-    const double *entry = b->value + p->count;
+    const image *im = b->image;
+    const double *entry = b->value + im->count;
     double sum_W = 0.0;
-    for (int i = 0; i < p->count; i++) {
+    for (int i = 0; i < im->count; i++) {
         const double power_W = entry[BOOK_MOMENTA + i] * b->off[i];
         sum_W += isfinite(power_W) ? unit_rounding(kind) * fabs(power_W) : 0.0;
     }
     for (int k = BOOK_INPUT_POWER; k <= BOOK_LOSS_POWER; k++) {
-        const double off_W = b->off[p->count + k];
+        const double off_W = b->off[im->count + k];
         sum_W += isfinite(off_W) ? 0x1p-53 * off_W : 0.0;
     }
     return sum_W * b->step_s;
@@ -145,7 +143,7 @@ static void look_at_rounding(books *b, const engine_kind *kind) {
     const double state_J = state_rounding_J(b, kind);
     evaluate_now(b, b->angle_rad, b->real, b->time_s);
     evaluator_rounding(b->evaluator, b->angle_rad, b->off);
-    const double off_J = energy_of(b->program, b->off);
+    const double off_J = energy_of(b->image, b->off);
     b->rounding_J = number_most(b->rounding_J, state_J + step_rounding_J(b, kind));
     b->computing_J = number_most(b->computing_J, isfinite(off_J) ? 0x1p-53 * off_J : 0.0);
 }
@@ -175,18 +173,18 @@ static void add_work(books *b, const double power_W[2]) {
 }
 
 void books_enter(books *b, const engine_kind *kind, const void *run) {
-    const program *p = b->program;
+    const image *im = b->image;
     kind->state(run, b->angle_rad, b->real);
     if (b->entries == 0 && kind == &engine_float) {
         evaluator_wrap(b->evaluator);
     }
     b->time_s = (double)kind->steps(run) * b->step_s;
     evaluate_now(b, b->angle_rad, b->real, b->time_s);
-    const double *entry = b->value + p->count;
+    const double *entry = b->value + im->count;
     const double power_W[2] = {entry[BOOK_INPUT_POWER], entry[BOOK_LOSS_POWER]};
     b->kinetic_J[1] = entry[BOOK_KINETIC];
     b->stored_J[1] = entry[BOOK_STORED];
-    b->energy_J[1] = energy_of(p, b->value);
+    b->energy_J[1] = energy_of(im, b->value);
     if (b->entries == 0) {
         b->kinetic_J[0] = b->kinetic_J[1];
         b->stored_J[0] = b->stored_J[1];
@@ -194,7 +192,7 @@ void books_enter(books *b, const engine_kind *kind, const void *run) {
         for (int k = 0; k < 2; k++) {
             b->power_W[0][k] = power_W[k];
         }
-        for (int i = 0; i < p->count; i++) {
+        for (int i = 0; i < im->count; i++) {
             b->momentum[i] = entry[BOOK_MOMENTA + i];
         }
     } else {
@@ -204,12 +202,12 @@ void books_enter(books *b, const engine_kind *kind, const void *run) {
     spread_enter(&b->stored, b->stored_J[1], b->entries);
     b->size_J = number_most(b->size_J, fabs(b->kinetic_J[1]) + fabs(b->stored_J[1]));
     double all = b->energy_J[1] + power_W[0] + power_W[1];
-    for (int i = 0; i < p->reals; i++) {
-        if (p->real[i].primes == 1) {
-            spread_enter(&b->rate[p->real[i].unknown], b->real[i], b->entries);
+    for (int i = 0; i < im->reals; i++) {
+        if (im->real[i].primes == 1) {
+            spread_enter(&b->rate[im->real[i].unknown], b->real[i], b->entries);
         }
     }
-    for (int i = 0; i < p->count; i++) {
+    for (int i = 0; i < im->count; i++) {
         b->rate[i].pushed = b->rate[i].pushed || b->value[i] != 0.0;
         all += entry[BOOK_MOMENTA + i];
         b->momentum_2[i] += entry[BOOK_MOMENTA + i] * entry[BOOK_MOMENTA + i];

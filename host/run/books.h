@@ -18,16 +18,15 @@ typedef struct spread {
 } spread;
 
 typedef struct books {
-    const program *program;
-    const equations *equations;
-    double *input; /* of the program */
+    const image *image;
+    double *input; /* [image->inputs] */
     evaluator *evaluator;
-    double *value;        /* results of the program's books list */
+    double *value;        /* results of the image's books list */
     double *momentum;     /* [count] at the start */
     double *momentum_now; /* [count] */
     double *drift;        /* [count] largest change since */
-    double angle_rad[PROGRAM_COMPONENTS_MAX];
-    double real[2 * PROGRAM_COMPONENTS_MAX];
+    double angle_rad[IMAGE_COMPONENTS_MAX];
+    double real[2 * IMAGE_COMPONENTS_MAX];
     double kinetic_J[2]; /* start, now */
     double stored_J[2];
     double energy_J[2];   /* what balances: kinetic + stored, or the energy integral */
@@ -55,9 +54,7 @@ typedef struct books {
 } books;
 
 /* A run of a system given outright has no books: NULL. */
-books *books_open(const program *p, const equations *e);
-/* The same of another instance that shares the program: other inputs, another step. */
-books *books_open_of(const program *p, const equations *e, const instance *inst);
+books *books_open(const image *im);
 void books_close(books *b);
 /* Enter the state after each step, the start included. */
 void books_enter(books *b, const engine_kind *kind, const void *run);

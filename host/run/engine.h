@@ -1,4 +1,4 @@
-/* engine.h: running a program without a compiler: the interpreter of operation lists.
+/* engine.h: running an image without a compiler: the interpreter of operation lists.
  *
  * There is one interpreter source, built in float (the boards' arithmetic, to the bit) and in double
  * (the reference); both step with core/step.h. The interface speaks double whichever is inside.
@@ -6,17 +6,12 @@
 #ifndef RUN_ENGINE_H
 #define RUN_ENGINE_H
 
-#include "host/derive/program.h"
-
-typedef struct engine_settings {
-    wh_method method;
-    bool compensated;
-} engine_settings;
+#include "host/image/image.h"
 
 typedef struct engine_kind {
     const char *name; /* "float" or "double" */
     int digits;       /* significant digits that carry a number of this kind through text */
-    void *(*start)(const program *p, const instance *inst, const engine_settings *settings);
+    void *(*start)(const image *im); /* must outlive the run */
     void (*stop)(void *run);
     wh_status (*step)(void *run);
     void (*set_input)(void *run, int input, double value);

@@ -35,14 +35,14 @@ static const double *phases_of(const evaluator *ev, const double *angle_rad, dou
 
 void evaluator_run(evaluator *ev, double time_s, const double *angle_rad, const double *linear,
                    const double *rate, const double *input, double *result) {
-    double wrapped[PROGRAM_COMPONENTS_MAX];
+    double wrapped[IMAGE_COMPONENTS_MAX];
     const double *phase = phases_of(ev, angle_rad, wrapped);
     evaluate(ev->tape, ev->registers, (leaves){phase, angle_rad, time_s, linear, rate, input, NULL},
              result);
 }
 
 void evaluator_rounding(const evaluator *ev, const double *angle_rad, double *error) {
-    double wrapped[PROGRAM_COMPONENTS_MAX];
+    double wrapped[IMAGE_COMPONENTS_MAX];
     const registers *r = &ev->registers;
     const double *phase = phases_of(ev, angle_rad, wrapped);
     rounding_of(ev->tape, &(rounding_values){r->value, r->sine, r->cosine, phase, angle_rad},

@@ -8,7 +8,7 @@
 #include "engine.h"
 
 /* The energy and momentum books that the run itself kept (`with ledger`). `b` gives the levels. */
-void ledger_print(FILE *out, const equations *e, const program *p, const engine_kind *kind,
-                  const void *run, const books *b);
+void ledger_print(FILE *out, const image *im, const engine_kind *kind, const void *run,
+                  const books *b);
 
 #endif

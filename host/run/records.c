@@ -5,47 +5,44 @@
 #include <string.h>
 
 #include "host/base/room.h"
-#include "host/lang/shown.h"
 #include "host/number/zero.h"
 
 /* Columns of the unknowns and their derivatives, integrated or recovered. */
-static int state_columns(const equations *e) {
+static int state_columns(const image *im) {
     int columns = 0;
-    for (int i = 0; i < e->count; i++) {
-        columns += e->unknowns[i].order;
+    for (int i = 0; i < im->count; i++) {
+        columns += im->unknown[i].order;
     }
     return columns;
 }
 
 /* All values first, then all rates, and so on; then the outputs. */
 static void name_columns(records *r) {
-    const equations *e = r->equations;
-    const mechanism *m = e->instance->mechanism;
+    const image *im = r->image;
     int column = 1;
-    for (int primes = 0; column <= state_columns(e); primes++) {
-        for (int i = 0; i < e->count; i++) {
-            if (e->unknowns[i].order > primes) {
-                const symbol *of = e->unknowns[i].symbol;
-                r->column[column++] = (record_column){of, i, primes, shown_unit(of, primes)};
+    for (int primes = 0; column <= state_columns(im); primes++) {
+        for (int i = 0; i < im->count; i++) {
+            const image_unknown *u = &im->unknown[i];
+            if (u->order > primes) {
+                r->column[column++] = (record_column){u->name, i, primes, &u->unit[primes]};
             }
         }
     }
-    for (int i = 0; i < m->output_count; i++) {
-        const symbol *of = m->outputs[i];
-        r->column[column++] = (record_column){of, -1, 0, shown_unit(of, 0)};
+    for (int i = 0; i < im->own_outputs; i++) {
+        const image_quantity *output = &im->output[i];
+        r->column[column++] = (record_column){output->name, -1, 0, &output->unit};
     }
 }
 
-records *records_open(FILE *out, const program *p, const equations *e, const engine_kind *kind) {
+records *records_open(FILE *out, const image *im, const engine_kind *kind) {
     records *r = room(1, sizeof *r);
-    const int columns = 1 + state_columns(e) + e->instance->mechanism->output_count;
+    const int columns = 1 + state_columns(im) + im->own_outputs;
     *r = (records){out,
                    NULL,
-                   p,
-                   e,
+                   im,
                    kind,
                    room(columns, sizeof *r->row),
-                   room(p->outputs, sizeof *r->output),
+                   room(im->outputs, sizeof *r->output),
                    room(columns, sizeof *r->column),
                    columns};
     name_columns(r);
@@ -83,14 +80,12 @@ static void write_name(const record_column *c, FILE *out, const layout *l) {
     for (int k = 0; k < c->primes; k++) {
         fputs("der(", out);
     }
-    fputs(c->symbol->name, out);
+    fputs(c->name, out);
     for (int k = 0; k < c->primes; k++) {
         fputc(')', out);
     }
-    if (!unit_is_si(c->unit)) {
-        char *name = shown_unit_name(c->symbol, c->primes);
-        fprintf(out, "%s[%s]", l->unit, name);
-        free(name);
+    if (!image_shows_si(c->unit)) {
+        fprintf(out, "%s[%s]", l->unit, c->unit->shown);
     }
 }
 
@@ -114,29 +109,29 @@ void records_header(records *r) {
 }
 
 void records_read(records *r, void *run, double time_s) {
-    const program *p = r->program;
-    double angle_rad[PROGRAM_COMPONENTS_MAX];
-    double real[2 * PROGRAM_COMPONENTS_MAX];
+    const image *im = r->image;
+    double angle_rad[IMAGE_COMPONENTS_MAX];
+    double real[2 * IMAGE_COMPONENTS_MAX];
     r->kind->state(run, angle_rad, real);
     r->row[0] = time_s;
-    for (int i = 0; i < p->angles; i++) {
-        r->row[column_of(r, p->angle[i].unknown, 0)] = angle_rad[i];
+    for (int i = 0; i < im->angles; i++) {
+        r->row[column_of(r, im->angle[i].unknown, 0)] = angle_rad[i];
     }
-    for (int i = 0; i < p->reals; i++) {
-        r->row[column_of(r, p->real[i].unknown, p->real[i].primes)] = real[i];
+    for (int i = 0; i < im->reals; i++) {
+        r->row[column_of(r, im->real[i].unknown, im->real[i].primes)] = real[i];
     }
-    const int own = r->equations->instance->mechanism->output_count;
+    const int own = im->own_outputs;
     r->kind->outputs(run, r->output);
     for (int i = 0; i < own; i++) {
         r->row[r->columns - own + i] = r->output[i];
     }
-    for (int k = 0; k < p->conserved->count; k++) {
-        const int i = p->conserved->unknown[k];
+    for (int k = 0; k < im->recovered; k++) {
+        const int i = im->from_momentum[k];
         r->row[column_of(r, i, 0)] = r->output[own + 2 * k];
         r->row[column_of(r, i, 1)] = r->output[own + 2 * k + 1];
     }
     for (int i = 0; i < r->columns; i++) { /* here, and nowhere else, SI becomes what people read */
-        r->row[i] = number_shown(i > 0 ? unit_number(r->column[i].unit, r->row[i]) : r->row[i]);
+        r->row[i] = number_shown(i > 0 ? image_shown(r->column[i].unit, r->row[i]) : r->row[i]);
     }
 }
 

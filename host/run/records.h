@@ -2,7 +2,7 @@
  * and Matlab read with `load`: a header line after a percent sign, then numbers between spaces.
  *
  * Columns: time, the coordinates, their derivatives as der(theta), der(der(x)), ..., the outputs. Angles
- * are not wrapped. Numbers are in the unit in which a coordinate or output was declared (shown.h), else SI.
+ * are not wrapped. Numbers are in the unit in which a coordinate or output was declared (image_unit), else SI.
  * A unit that is not SI stands behind the column's name: theta [deg], der(theta) [deg/s]; in plain columns
  * without the blank. */
 #ifndef RUN_RECORDS_H
@@ -14,26 +14,25 @@
 
 /* What a column holds. */
 typedef struct record_column {
-    const symbol *symbol; /* NULL: the time */
-    int unknown;          /* index into equations->unknowns; -1 for an output */
+    const char *name; /* of the unknown or output; NULL: the time */
+    int unknown;      /* index; -1 for an output */
     int primes;
-    struct unit unit; /* of the numbers */
+    const image_unit *unit; /* of the numbers */
 } record_column;
 
 typedef struct records {
     FILE *out;   /* comma-separated values; may be NULL */
     FILE *plain; /* plain columns; may be NULL, as records_open leaves it; stays the caller's */
-    const program *program;
-    const equations *equations;
+    const image *image;
     const engine_kind *kind;
     double *row;           /* [columns]: time, values, derivatives, outputs, as they are shown */
-    double *output;        /* [program->outputs] SI */
+    double *output;        /* [image->outputs] SI */
     record_column *column; /* [columns] */
     int columns;
 } records;
 
 /* `out` stays the caller's. */
-records *records_open(FILE *out, const program *p, const equations *e, const engine_kind *kind);
+records *records_open(FILE *out, const image *im, const engine_kind *kind);
 void records_close(records *r);
 void records_header(records *r);
 /* Read the run's state into r->row; time is given, since it is steps * step. */

@@ -10,17 +10,15 @@
 #include "belief.h"
 #include "envelope.h"
 #include "host/base/room.h"
-#include "host/lang/shown.h"
 #include "host/plot/plot.h"
 #include "records.h"
 #include "slow.h"
-#include "statement.h"
+#include "host/base/statement.h"
 #include "summary.h"
 #include "undefined.h"
 
 typedef struct simulation {
-    const equations *equations;
-    const program *program;
+    const image *image;
     const simulation_settings *settings;
     void *run;
     records *records;
@@ -100,23 +98,21 @@ static void tell_energies(simulation *sim) {
     }
     sim->energies_told = true;
     snprintf(when, sizeof when, "at t = %.9g s", b->undefined_s);
-    const undefined_at at = {.equations = sim->equations,
-                             .program = sim->program,
-                             .instance = sim->equations->instance,
+    const undefined_at at = {.image = sim->image,
                              .angle_rad = b->angle_rad,
                              .real = b->real,
                              .turns = sim->settings->kind == &engine_float,
                              .when = when};
     if (!undefined_angle(&at, sim->undefined) && !undefined_term(&at, sim->undefined)) {
-        const mechanism *m = sim->equations->instance->mechanism;
-        diag_error(sim->undefined, m->at, NULL,
-                   "%s the energies and powers of '%s' are not finite numbers", when, m->name);
+        diag_error(sim->undefined, sim->image->mechanism_at, NULL,
+                   "%s the energies and powers of '%s' are not finite numbers", when,
+                   sim->image->mechanism);
     }
 }
 
 /* The same of the outputs, where they are recorded or drawn, and at the end. */
 static void watch_outputs(simulation *sim, double time_s) {
-    const int own = sim->equations->instance->mechanism->output_count;
+    const int own = sim->image->own_outputs;
     const double *value = sim->records->row + (sim->records->columns - own);
     bool finite = true;
     for (int i = 0; i < own; i++) {
@@ -135,7 +131,7 @@ static void tell_outputs(simulation *sim) {
     if (sim->output < 0) {
         return;
     }
-    const symbol *s = sim->equations->instance->mechanism->outputs[sim->output];
+    const image_quantity *s = &sim->image->output[sim->output];
     char text[STATEMENT_SIZE];
     char rows[80] = "";
     statement_text(s->at, text, sizeof text);
@@ -159,7 +155,7 @@ static void enter(simulation *sim, uint64_t step) {
     if (!record && sim->plot == NULL) {
         return;
     }
-    records_read(sim->records, sim->run, ratio_times(step, sim->equations->instance->step));
+    records_read(sim->records, sim->run, ratio_times(step, sim->image->step));
     watch_outputs(sim, sim->records->row[0]);
     if (record) {
         sim->write_failed = !records_write(sim->records) || sim->write_failed;
@@ -204,22 +200,20 @@ static wh_status loop(simulation *sim, bool *interrupted) {
 }
 
 static void say_failure(const simulation *sim, wh_status status) {
-    const program *p = sim->program;
+    const image *im = sim->image;
     const engine_kind *kind = sim->settings->kind;
-    const instance *inst = sim->equations->instance;
     diags *errors = diags_new();
-    const bool known = undefined_step(sim->equations, p, inst, kind, sim->run, status, errors);
+    const bool known = undefined_step(im, kind, sim->run, status, errors);
     diags_flush(errors, stderr);
     diags_free(errors);
     if (known) {
         return;
     }
     const int fault = kind->fault(sim->run);
-    const component c =
-        fault < p->angles ? p->angle[fault < 0 ? 0 : fault] : p->real[fault - p->angles];
-    const double time_s = ratio_times(kind->steps(sim->run), inst->step);
+    const component c = image_component(im, fault < 0 ? 0 : fault);
+    const double time_s = ratio_times(kind->steps(sim->run), im->step);
     fprintf(stderr, "whirl run: error: the run diverged in the step after t = %.9g s: %s", time_s,
-            sim->equations->unknowns[c.unknown].symbol->name);
+            im->unknown[c.unknown].name);
     for (int k = 0; k < c.primes; k++) {
         fputc('\'', stderr);
     }
@@ -230,7 +224,7 @@ static void say_failure(const simulation *sim, wh_status status) {
 /* Said with --quiet, too: what was asked for is not what there is. */
 static void say_interrupted(const simulation *sim) {
     const uint64_t done = sim->settings->kind->steps(sim->run);
-    const double step_s = sim->equations->instance->step_s;
+    const double step_s = sim->image->step_s;
     fprintf(stderr, "whirl run: interrupted at t = %.9g s of %.9g s%s\n", (double)done * step_s,
             (double)sim->steps * step_s,
             sim->csv != NULL || sim->columns != NULL ? "; the records so far are kept" : "");
@@ -246,7 +240,7 @@ static simulation_result judge(simulation *sim, wh_status status, bool interrupt
         sim->undefined = diags_new();
     } else { /* an output is watched at the end, too, recorded or not */
         records_read(sim->records, sim->run,
-                     ratio_times(s->kind->steps(sim->run), sim->equations->instance->step));
+                     ratio_times(s->kind->steps(sim->run), sim->image->step));
         if (sim->output < 0) {
             watch_outputs(sim, sim->records->row[0]);
         }
@@ -260,52 +254,42 @@ static simulation_result judge(simulation *sim, wh_status status, bool interrupt
     const bool fails = s->strict > 0.0 && belief_lost(balance, s->strict);
     if (fails || belief_lost(balance, BELIEF_LIMIT)) {
         belief_say(stderr, fails ? "whirl run: error" : "whirl run: warning", balance, s->kind,
-                   s->engine.method);
+                   sim->image->settings.method);
     }
     return interrupted ? SIMULATION_INTERRUPTED : fails ? SIMULATION_FAILED : SIMULATION_DONE;
 }
 
 static bool draw(const simulation *sim) {
-    const mechanism *m = sim->equations->instance->mechanism;
+    const image *im = sim->image;
     const records *r = sim->records;
     curve *curves = room(r->columns, sizeof *curves);
-    char **units = room(r->columns, sizeof *units);
     int count = 0;
     for (int i = 1; i < r->columns; i++) { /* coordinates and outputs: no rates */
         const record_column *c = &r->column[i];
         if (c->primes == 0) {
-            units[count] = shown_unit_name(c->symbol, 0);
-            curves[count] = (curve){c->symbol->name, units[count], i};
-            count++;
+            curves[count++] = (curve){c->name, c->unit->shown, i};
         }
     }
-    const char *title =
-        sim->equations->instance->scene != NULL ? sim->equations->instance->scene->title : m->title;
-    const char *name = sim->equations->instance->name;
-    char *full = room_words("%s%s%s", name, title[0] != '\0' ? ": " : "", title);
+    char *full = room_words("%s%s%s", im->name, im->title[0] != '\0' ? ": " : "", im->title);
     int rows;
     double *data = envelope_rows(sim->plot, &rows);
     const bool drawn =
         plot_draw(sim->settings->plot, full, curves, count, data, rows, sim->records->columns);
     free(data);
     free(full);
-    for (int i = 0; i < count; i++) {
-        free(units[i]);
-    }
-    free(units);
     free(curves);
     return drawn;
 }
 
-simulation_result simulate(const equations *e, const program *p, const simulation_settings *s) {
-    simulation sim = {.equations = e, .program = p, .settings = s, .output = -1};
-    sim.steps = e->instance->steps;
-    sim.records = records_open(NULL, p, e, s->kind);
+simulation_result simulate(const image *im, const simulation_settings *s) {
+    simulation sim = {.image = im, .settings = s, .output = -1};
+    sim.steps = im->steps;
+    sim.records = records_open(NULL, im, s->kind);
     simulation_result result = SIMULATION_BAD_FILE;
     if (open_files(&sim)) {
         bool interrupted = false;
-        sim.run = s->kind->start(p, e->instance, &s->engine);
-        sim.books = books_open(p, e);
+        sim.run = s->kind->start(im);
+        sim.books = books_open(im);
         sim.undefined = diags_new();
         sim.records->out = sim.csv;
         sim.records->plain = sim.columns;
@@ -321,12 +305,12 @@ simulation_result simulate(const equations *e, const program *p, const simulatio
         if (status == WH_OK && interrupted) {
             say_interrupted(&sim);
         }
-        slow_say(stderr, e, p, s->kind, sim.run);
+        slow_say(stderr, im, s->kind, sim.run);
         if (!s->quiet) {
             const uint64_t done = s->kind->steps(sim.run);
             const uint64_t samples = (done + 63) / 64;
             const double sampled = (double)samples;
-            summary_print(sim.csv == stdout || sim.columns == stdout ? stderr : stdout, e, p, s,
+            summary_print(sim.csv == stdout || sim.columns == stdout ? stderr : stdout, im, s,
                           sim.run, sim.books, &balance,
                           sampled > 0.0 ? 1e9 * sim.wall_s / sampled : 0.0);
         }

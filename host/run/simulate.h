@@ -8,7 +8,6 @@
 
 typedef struct simulation_settings {
     const engine_kind *kind;
-    engine_settings engine;
     uint64_t every;      /* steps between records */
     const char *csv;     /* file, "-" for standard output, or NULL */
     const char *columns; /* file of plain columns, "-" for standard output, or NULL */
@@ -28,6 +27,6 @@ typedef enum simulation_result {
     SIMULATION_BAD_FILE     /* a file could not be written, or gnuplot failed; said */
 } simulation_result;
 
-simulation_result simulate(const equations *e, const program *p, const simulation_settings *s);
+simulation_result simulate(const image *im, const simulation_settings *s);
 
 #endif

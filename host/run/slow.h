@@ -18,10 +18,9 @@
 bool slow_angle(const engine_kind *kind, const void *run, int i);
 
 /* How many of the turn angles are. */
-int slow_count(const engine_kind *kind, const program *p, const void *run);
+int slow_count(const engine_kind *kind, const image *im, const void *run);
 
 /* A note for each, and how to cure them. */
-void slow_say(FILE *out, const equations *e, const program *p, const engine_kind *kind,
-              const void *run);
+void slow_say(FILE *out, const image *im, const engine_kind *kind, const void *run);
 
 #endif

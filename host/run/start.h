@@ -2,20 +2,16 @@
 #ifndef RUN_START_H
 #define RUN_START_H
 
-#include "host/derive/program.h"
-
 #include "engine.h"
 
 /* False, reported at each stop that the run would start beyond, by more than rounding, or where
  * it has no value, and at each angle that a run of this kind cannot hold. */
-bool start_is_possible(const program *p, const instance *inst, const engine_kind *kind,
-                       diags *errors);
+bool start_is_possible(const image *im, const engine_kind *kind, diags *errors);
 
 /* The angles' part of it: false, reported, where float, as in generated C, cannot hold one. */
-bool start_angles_are_held(const program *p, const instance *inst, diags *errors);
+bool start_angles_are_held(const image *im, diags *errors);
 
-/* False, reported, when the method is not defined for the form that the program runs in: semi-implicit Euler
- * for what is not of second order. */
-bool start_has_method(const program *p, const instance *inst, wh_method method, diags *errors);
+/* False, reported, when the method's row (core/method.h) does not take systems of the form that the image runs in. */
+bool start_has_method(const image *im, wh_method method, diags *errors);
 
 #endif

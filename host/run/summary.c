@@ -6,26 +6,21 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/derive/contact_lists.h"
-#include "host/lang/shown.h"
 #include "ledger_text.h"
 #include "records.h"
 
 static void print_value(FILE *out, const records *r, int column) {
     const record_column *c = &r->column[column];
-    char *in = shown_unit_name(c->symbol, c->primes);
     const int digits = r->kind->digits;
     char text[160];
-    snprintf(text, sizeof text, "%.*s%.*s", 120, c->symbol->name, c->primes, "''''''''''''''''");
-    fprintf(out, "  %-16s %*.*g %s\n", text, digits + 8, digits, r->row[column], in);
-    free(in);
+    snprintf(text, sizeof text, "%.*s%.*s", 120, c->name, c->primes, "''''''''''''''''");
+    fprintf(out, "  %-16s %*.*g %s\n", text, digits + 8, digits, r->row[column], c->unit->shown);
 }
 
-static void print_state(FILE *out, const equations *e, const program *p,
-                        const simulation_settings *s, void *run) {
-    records *r = records_open(NULL, p, e, s->kind);
+static void print_state(FILE *out, const image *im, const simulation_settings *s, void *run) {
+    records *r = records_open(NULL, im, s->kind);
     records_read(r, run, 0.0);
-    const int first_output = r->columns - e->instance->mechanism->output_count;
+    const int first_output = r->columns - im->own_outputs;
     fprintf(out, "\nfinal state\n");
     for (int column = 1; column < r->columns; column++) {
         if (column == first_output) {
@@ -37,11 +32,11 @@ static void print_state(FILE *out, const equations *e, const program *p,
 }
 
 static void print_books(FILE *out, const books *b, const belief *balance) {
-    const equations *e = b->equations;
+    const image *im = b->image;
     fprintf(out, "energy [J]\n");
     fprintf(out, "  kinetic          %.9g -> %.9g\n", b->kinetic_J[0], b->kinetic_J[1]);
     fprintf(out, "  stored           %.9g -> %.9g\n", b->stored_J[0], b->stored_J[1]);
-    if (b->program->integral != NULL) {
+    if (im->has_integral) {
         fprintf(
             out,
             "  energy integral  %.9g -> %.9g (h = sum q' dL/dq' - L: booked instead of T + V)\n",
@@ -49,7 +44,7 @@ static void print_books(FILE *out, const books *b, const belief *balance) {
     }
     fprintf(out, "  work of inputs   %.9g\n", b->input_J);
     fprintf(out, "  losses           %.9g\n", b->loss_J);
-    if (b->program->contacts != NULL && balance->known) {
+    if (im->contacts > 0 && balance->known) {
         fprintf(out,
                 "  impacts, friction, holds and settings took %.9g (--with ledger says which)\n",
                 balance->contacts_J + 0.0); /* and not "-0" */
@@ -66,14 +61,14 @@ static void print_books(FILE *out, const books *b, const belief *balance) {
             0.0 - books_error_J(b));
     }
     bool any = false;
-    for (int i = 0; i < e->count; i++) {
-        if (e->conserved[i]) {
+    for (int i = 0; i < im->count; i++) {
+        if (im->unknown[i].conserved) {
             if (!any) {
                 fprintf(out, "conserved momentum [SI]\n");
             }
             any = true;
-            fprintf(out, "  of %-13s %.9g, drift at most %.2e (numerical)\n",
-                    e->unknowns[i].symbol->name, b->momentum[i], b->drift[i]);
+            fprintf(out, "  of %-13s %.9g, drift at most %.2e (numerical)\n", im->unknown[i].name,
+                    b->momentum[i], b->drift[i]);
         }
     }
     if (!any) {
@@ -81,10 +76,10 @@ static void print_books(FILE *out, const books *b, const belief *balance) {
     }
 }
 
-static void print_events(FILE *out, const program *p, const engine_kind *kind, const void *run) {
+static void print_events(FILE *out, const image *im, const engine_kind *kind, const void *run) {
     uint64_t overruns;
     const uint64_t events = kind->events(run, &overruns);
-    fprintf(out, "events             %" PRIu64 " of %d contacts\n", events, p->contacts->count);
+    fprintf(out, "events             %" PRIu64 " of %d contacts\n", events, im->contacts);
     if (overruns > 0) {
         fprintf(out,
                 "  %" PRIu64 " steps had more than %d moments with events: what was left of them "
@@ -93,29 +88,24 @@ static void print_events(FILE *out, const program *p, const engine_kind *kind, c
     }
 }
 
-void summary_print(FILE *out, const equations *e, const program *p, const simulation_settings *s,
-                   void *run, const books *b, const belief *balance, double step_ns) {
-    static const char *const methods[] = {"explicit Euler", "semi-implicit Euler", "Heun",
-                                          "Runge-Kutta 4"};
-    const instance *inst = e->instance;
-    const char *title = inst->scene != NULL ? inst->scene->title : inst->mechanism->title;
+void summary_print(FILE *out, const image *im, const simulation_settings *s, void *run,
+                   const books *b, const belief *balance, double step_ns) {
     const uint64_t steps = s->kind->steps(run);
-    fprintf(out, "%s%s%s\n", inst->name, title[0] != '\0' ? ": " : "", title);
-    for (int i = 0; i < inst->mechanism->effect_count; i++) {
-        if (inst->with[i]) {
-            fprintf(out, "  with %s: %s\n", inst->mechanism->effects[i].name,
-                    inst->mechanism->effects[i].text);
+    fprintf(out, "%s%s%s\n", im->name, im->title[0] != '\0' ? ": " : "", im->title);
+    for (int i = 0; i < im->effects; i++) {
+        if (im->effect[i].with) {
+            fprintf(out, "  with %s: %s\n", im->effect[i].name, im->effect[i].text);
         }
     }
     fprintf(out, "  %s%s, %s, step %.9g s, %" PRIu64 " steps to t = %.15g s\n",
-            methods[s->engine.method], s->engine.compensated ? " compensated" : "", s->kind->name,
-            inst->step_s, steps, ratio_times(steps, inst->step));
-    print_state(out, e, p, s, run);
-    if (p->contacts != NULL) {
-        print_events(out, p, s->kind, run);
+            wh_methods[im->settings.method].title, im->settings.compensated ? " compensated" : "",
+            s->kind->name, im->step_s, steps, ratio_times(steps, im->step));
+    print_state(out, im, s, run);
+    if (im->contacts > 0) {
+        print_events(out, im, s->kind, run);
     }
-    if (b != NULL && p->ledger_asked) {
-        ledger_print(out, e, p, s->kind, run, b);
+    if (b != NULL && im->ledger.asked) {
+        ledger_print(out, im, s->kind, run, b);
     } else if (b != NULL) {
         print_books(out, b, balance);
     }

@@ -8,7 +8,7 @@
 #include "simulate.h"
 
 /* `books` may be NULL; `balance` is theirs. `step_ns` is the wall time of a step (sampled). */
-void summary_print(FILE *out, const equations *e, const program *p, const simulation_settings *s,
-                   void *run, const books *b, const belief *balance, double step_ns);
+void summary_print(FILE *out, const image *im, const simulation_settings *s, void *run,
+                   const books *b, const belief *balance, double step_ns);
 
 #endif

@@ -11,16 +11,14 @@
 #define ANGLE_SINE_MOST_RAD 5e8
 #define ANGLE_SINE_MOST_FLOAT_RAD 1e9
 
-/* Where to look: of one run. `equations` may be of another instance of the same mechanism and scene. */
+/* Where to look: of one run. The image is one that is to run: it has the expressions as they were written. */
 typedef struct undefined_at {
-    const equations *equations;
-    const program *program;
-    const instance *instance; /* its parameters, inputs and step count */
-    const double *angle_rad;  /* [angles] the last good state */
-    const double *real;       /* [reals] */
-    bool turns;               /* angles are integers (float): their sine is known everywhere */
-    double ahead_steps;       /* look so far ahead: 0 for the state itself */
-    const char *when;         /* begins the message: "in the step after t = 1.2 s" */
+    const image *image;
+    const double *angle_rad; /* [angles] the last good state */
+    const double *real;      /* [reals] */
+    bool turns;              /* angles are integers (float): their sine is known everywhere */
+    double ahead_steps;      /* look so far ahead: 0 for the state itself */
+    const char *when;        /* begins the message: "in the step after t = 1.2 s" */
 } undefined_at;
 
 /* Each reports the first that it finds, with its place and its statement's text; false when it finds none. */
@@ -35,7 +33,7 @@ bool undefined_set(const undefined_at *at, diags *errors);
 void undefined_contact(const undefined_at *at, int k, diags *errors);
 
 /* Why a step of this run did not come about, if it is for an expression or an angle of the model. */
-bool undefined_step(const equations *e, const program *p, const instance *inst,
-                    const engine_kind *kind, const void *run, wh_status status, diags *errors);
+bool undefined_step(const image *im, const engine_kind *kind, const void *run, wh_status status,
+                    diags *errors);
 
 #endif

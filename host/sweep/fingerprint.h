@@ -12,6 +12,6 @@ typedef struct shard {
 /* `model_text`: the whole .whirl text; `base` and `p`: the instance without what is swept. The
  * result is the caller's to free. */
 char *fingerprint_make(const sweep *s, const char *model_text, const instance *base,
-                       const program *p, shard part);
+                       const image *im, shard part);
 
 #endif

@@ -5,8 +5,8 @@
 #include <stdio.h>
 
 #include "grid.h"
-#include "host/run/engine.h"
 #include "measures.h"
+#include "stepping.h"
 
 /* A sweep in numbers. Everything in it outlives the runs and is not changed by them. */
 typedef struct sweep {
@@ -15,32 +15,24 @@ typedef struct sweep {
     const scene *scene;       /* NULL for a bare mechanism */
     const overrides *changes; /* the command line's, without what is swept */
     const engine_kind *kind;
-    engine_settings engine;
+    image_settings engine;
     double from_s; /* measure from this time on */
-    /* The operation lists of every point, or NULL: parameters are folded into them, and so is the
+    /* The image whose lists every point takes, or NULL: parameters are folded into them, and so is the
      * momentum of a conserved coordinate, so a sweep that varies them derives each point anew. A
      * point's rows do not depend on the points before it: nothing is carried over. */
-    const program *shared;
-    const equations *equations; /* of the shared program */
+    const image *shared;
 } sweep;
 
 /* Columns behind the swept values: the measures, and of a mechanism with energies how well they balance
  * (host/run/belief.h; empty where that is not known). */
 int sweep_columns(const sweep *s);
 
-/* May the points of the grid share the program of one of them? */
-bool sweep_can_share(const grid *g, const program *p);
+/* May the points of the grid share the lists of this image of one of them? */
+bool sweep_can_share(const grid *g, const image *im);
 
 /* The CSV fields of the swept values, as header and for one point, without a line's end. */
 void sweep_header(const sweep *s, FILE *out);
 void sweep_swept_fields(const sweep *s, uint64_t point, FILE *out);
-
-/* What is to be told of a point that did not fail. */
-typedef struct point_notes {
-    uint64_t overruns; /* steps that had more events than a step takes */
-    int slow;          /* float angles that turn too slowly (host/run/slow.h) */
-    bool unbelieved;   /* its energies do not balance (host/run/belief.h) */
-} point_notes;
 
 /* Run the point and write its row, line's end included. A run that fails, or has a measure, an energy or a
  * contact's expression that is not a finite number, leaves its columns empty: then the result is false and

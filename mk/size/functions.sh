@@ -21,7 +21,9 @@ bytes_of() { # bytes_of FUNCTION...: code and constants of an image of these
     "$SIZE" "$work/image" | awk 'NR == 2 { print $1 + $2 }'
 }
 
-all="wh_exp wh_log wh_tan wh_asin wh_acos wh_atan wh_atan2 wh_pow"
+# All that core/function.h lists.
+all=$(printf '#include "core/function.h"\n#define NAME(name) wh_##name\nWH_FUNCTIONS(NAME, NAME)\n' |
+    $CC -E -P -I. -x c - | tail -n 1)
 printf '%-28s %8s\n' "function" "flash B"
 for function in $all; do
     printf '%-28s %8d\n' "$function" "$(bytes_of "$function")"

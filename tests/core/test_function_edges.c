@@ -75,6 +75,12 @@ static void test_one_argument(void) {
            {ONE, WH_R(0.78539816339744830962)}, {-ONE, WH_R(-0.78539816339744830962)},
            {INF, HALF_PI}, {-INF, -HALF_PI}, {LARGEST, HALF_PI}, {-LARGEST, -HALF_PI},
            {NAN_REAL, NAN_REAL});
+    EXPECT(wh_sinh, {ZERO, ZERO}, {-ZERO, -ZERO}, {TINY, TINY}, {-TINY, -TINY}, {INF, INF},
+           {-INF, -INF}, {LARGEST, INF}, {-LARGEST, -INF}, {NAN_REAL, NAN_REAL});
+    EXPECT(wh_cosh, {ZERO, ONE}, {-ZERO, ONE}, {TINY, ONE}, {-TINY, ONE}, {INF, INF}, {-INF, INF},
+           {-LARGEST, INF}, {NAN_REAL, NAN_REAL});
+    EXPECT(wh_tanh, {ZERO, ZERO}, {-ZERO, -ZERO}, {TINY, TINY}, {-TINY, -TINY}, {INF, ONE},
+           {-INF, -ONE}, {LARGEST, ONE}, {-LARGEST, -ONE}, {NAN_REAL, NAN_REAL});
 #if WH_DOUBLE
     EXPECT(wh_sine, {ZERO, ZERO}, {-ZERO, -ZERO}, {TINY, TINY}, {-TINY, -TINY}, {INF, NAN_REAL},
            {-INF, NAN_REAL}, {NAN_REAL, NAN_REAL});
@@ -243,6 +249,10 @@ static void test_ends_of_the_range(void) {
 #if WH_DOUBLE
     EXPECT(wh_exp, {0x1.62e42fefa39efp9, 0x1.fffffffffff2ap1023}, {0x1.62e42fefa39fp9, INF},
            {-0x1.74910d52d3051p9, TINY}, {-0x1.74910d52d3052p9, ZERO});
+    EXPECT(wh_sinh, {0x1.633ce8fb9f87dp+9, 0x1.ffffffffffd3bp+1023}, {0x1.633ce8fb9f87ep+9, INF},
+           {-0x1.633ce8fb9f87dp+9, -0x1.ffffffffffd3bp+1023});
+    EXPECT(wh_cosh, {0x1.633ce8fb9f87dp+9, 0x1.ffffffffffd3bp+1023}, {-0x1.633ce8fb9f87ep+9, INF});
+    EXPECT(wh_tanh, {0x1.30fc1931f09c9p+4, 0x1.fffffffffffffp-1}, {0x1.30fc1931f09cbp+4, ONE});
     /* The double that comes nearest to a multiple of a quarter turn. */
     EXPECT(wh_cosine, {0x1.6ac5b262ca1ffp849, -0x1.14ae72e6ba22fp-61});
     EXPECT(wh_sine, {-0x1.6ac5b262ca1ffp849, -1.0});
@@ -253,6 +263,10 @@ static void test_ends_of_the_range(void) {
 #else
     EXPECT(wh_exp, {0x1.62e42ep6f, 0x1.ffff08p127f}, {0x1.62e43p6f, INF}, {-0x1.9fe368p6f, TINY},
            {-0x1.9fe36ap6f, ZERO});
+    EXPECT(wh_sinh, {0x1.65a9f8p+6f, 0x1.ffffd8p+127f}, {0x1.65a9fap+6f, INF},
+           {-0x1.65a9f8p+6f, -0x1.ffffd8p+127f});
+    EXPECT(wh_cosh, {0x1.65a9f8p+6f, 0x1.ffffd8p+127f}, {-0x1.65a9fap+6f, INF});
+    EXPECT(wh_tanh, {0x1.2p+3f, 0x1.fffffep-1f}, {0x1.206p+3f, ONE});
     TEST_ASSERT_TRUE(wh_pow(2.0f, 0x1.fffffep6f) < INF);
     TEST_ASSERT_TRUE(wh_pow(2.0f, -150.0f) == 0.0f);
     TEST_ASSERT_TRUE(wh_pow(2.0f, -0x1.2bfffep7f) == TINY);
@@ -291,7 +305,13 @@ static void test_known_bits(void) {
         {wh_atan, NULL, UINT64_C(0x14baa081877bca63), -30, 56},
         {NULL, wh_atan2, UINT64_C(0x601c54e8f94a7fd8), -70, 70},
         {NULL, wh_pow, UINT64_C(0xf3ed44df97ab2ee0), -8, 8},
+        {wh_sinh, NULL, UINT64_C(0x05d357386752f82d), -30, 10},
+        {wh_cosh, NULL, UINT64_C(0x35606460c702bd8c), -30, 10},
+        {wh_tanh, NULL, UINT64_C(0x140968423265cf16), -30, 6},
     };
+#define ONE_MORE(name) +1
+    _Static_assert(sizeof functions / sizeof functions[0] == 2 WH_FUNCTIONS(ONE_MORE, ONE_MORE),
+                   "sine, cosine and every function of core/function.h");
     for (unsigned f = 0; f < sizeof functions / sizeof functions[0]; f++) {
         const known *k = &functions[f];
         scattered_state = f + 1U;

@@ -11,7 +11,7 @@
 
 #include "host/emit/emit.h"
 #include "host/run/engine.h"
-#include "host/show/text.h"
+#include "host/show/show_equations.h"
 
 enum { TEXT_SIZE = 16384, UNKNOWNS_MAX = 4, LETS_MAX = 8, CONTACTS = 3, STEPS = 3 };
 
@@ -69,8 +69,8 @@ static void leaf(writer *w) {
 }
 
 static void expression(writer *w, int depth) {
-    static const char *const functions[] = {"sin",  "cos", "tan", "asin", "acos", "atan",
-                                            "sqrt", "exp", "log", "abs",  "sign"};
+    static const char *const functions[] = {"sin", "cos", "tan", "asin", "acos", "atan", "sqrt",
+                                            "exp", "log", "abs", "sign", "sinh", "cosh", "tanh"};
     static const char *const operators[] = {" + ", " - ", "*", "/"};
     static const char *const exponents[] = {"2", "3", "0.5", "-1", "-2", "1.5", "7", "(1/3)"};
     static const char *const pairs[] = {"atan2(", "min(", "max("};
@@ -81,7 +81,7 @@ static void expression(writer *w, int depth) {
     switch (choose(w, 5)) {
     case 0: leaf(w); break;
     case 1:
-        put(w, functions[choose(w, 11)]);
+        put(w, functions[choose(w, 14)]);
         put(w, "(");
         expression(w, depth - 1);
         put(w, ")");
@@ -261,11 +261,14 @@ static void write_scene(writer *w) {
     put(w, choose(w, 2) == 1 ? "step 0.25 [s]\n}\n" : "}\n");
 }
 
-static void run(const program *p, const instance *inst, const engine_kind *kind, bool compensated) {
-    static const wh_method methods[] = {WH_EULER, WH_SEMI_IMPLICIT_EULER, WH_HEUN, WH_RK4};
-    for (size_t i = 0; i < sizeof methods / sizeof methods[0]; i++) {
-        const engine_settings settings = {methods[i], compensated};
-        void *running = kind->start(p, inst, &settings);
+static void run(const image *p, const engine_kind *kind, bool compensated) {
+    for (int i = 0; i < WH_METHODS; i++) {
+        if (!wh_method_takes((wh_method)i, p->form)) {
+            continue;
+        }
+        image each = *p;
+        each.settings = (image_settings){(wh_method)i, compensated};
+        void *running = kind->start(&each);
         double *output = calloc((size_t)p->outputs + 1, sizeof *output);
         if (output == NULL) {
             abort();
@@ -278,10 +281,10 @@ static void run(const program *p, const instance *inst, const engine_kind *kind,
     }
 }
 
-/* What becomes of the equations; `conserve` as for program_make(). */
+/* What becomes of the equations; `conserve` as for image_make(). */
 static void use(const equations *e, const bool *conserve, diags *all, FILE *nowhere) {
-    const instance *inst = e->instance;
-    program *p = program_make(e, conserve, all);
+    static const image_settings settings = {WH_METHOD_DEFAULT, false};
+    image *p = image_make(e, conserve, &settings, IMAGE_TO_RUN, all);
     if ((p == NULL) != (diags_count(all) > 0)) {
         abort(); /* refused without a word, or accepted with one */
     }
@@ -289,15 +292,14 @@ static void use(const equations *e, const bool *conserve, diags *all, FILE *nowh
         return;
     }
     if (conserve == NULL) {
-        emit_octave(nowhere, e, p, "fuzz.whirl");
+        emit_octave(nowhere, p, "fuzz.whirl", "");
     }
-    run(p, inst, &engine_double, false);
-    const engine_settings settings = {WH_RK4, false};
-    emit_c(nowhere, e, p, &settings, "fuzz.whirl");
-    emit_c_header(nowhere, e, p, &settings, "fuzz.whirl");
-    run(p, inst, &engine_float, false);
-    run(p, inst, &engine_float, true);
-    program_free(p);
+    run(p, &engine_double, false);
+    emit_c(nowhere, p, "fuzz.whirl");
+    emit_c_header(nowhere, p, "fuzz.whirl");
+    run(p, &engine_float, false);
+    run(p, &engine_float, true);
+    image_free(p);
 }
 
 static void derive(const scene *in, const instance *inst, diags *all, FILE *nowhere) {

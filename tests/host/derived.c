@@ -7,9 +7,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "host/emit/emit.h"
 #include "host/lang/builtin.h"
 #include "host/run/engine.h"
+#include "host/show/show_events.h"
 #include "unity.h"
+
+const image_settings plainly = {WH_RK4, false};
 
 static const scene *scene_called(const model *m, const char *name) {
     for (int i = 0; i < m->scene_count; i++) {
@@ -39,9 +43,9 @@ static derived derive_model(model *m, const char *name, diags *all) {
                                              : mechanism_called(m, name);
         d.instance = instance_make(of, in, NULL, all);
         d.equations = d.instance == NULL ? NULL : equations_derive(d.instance, all);
-        d.program = d.equations == NULL
-                        ? NULL
-                        : program_make(d.equations, in == NULL ? NULL : in->conserve, all);
+        d.image = d.equations == NULL ? NULL
+                                      : image_make(d.equations, in == NULL ? NULL : in->conserve,
+                                                   &plainly, IMAGE_TO_RUN, all);
     }
     size_t size = 0;
     FILE *out = open_memstream(&d.errors, &size);
@@ -49,6 +53,9 @@ static derived derive_model(model *m, const char *name, diags *all) {
     diags_flush(all, out);
     fclose(out);
     diags_free(all);
+    /* whatever is refused is refused with an error, and what has an error is refused */
+    TEST_ASSERT_TRUE_MESSAGE((d.image == NULL) == (strstr(d.errors, "error: ") != NULL),
+                             d.errors);
     return d;
 }
 
@@ -103,7 +110,7 @@ derived derived_builtin(const char *name) {
 }
 
 void derived_free(derived *d) {
-    program_free(d->program);
+    image_free(d->image);
     equations_free(d->equations);
     instance_free(d->instance);
     model_free(d->model);
@@ -112,10 +119,10 @@ void derived_free(derived *d) {
 }
 
 void derived_expect(const derived *d, const char *what) {
-    if (d->program == NULL) {
+    if (d->image == NULL) {
         printf("  %s: %s\n", what, d->errors);
     }
-    TEST_ASSERT_NOT_NULL_MESSAGE(d->program, what);
+    TEST_ASSERT_NOT_NULL_MESSAGE(d->image, what);
     TEST_ASSERT_EQUAL_STRING_MESSAGE("", d->errors, what);
 }
 
@@ -131,7 +138,7 @@ void random_state(state_values *s, const derived *d, uint64_t *seed) {
 }
 
 void derived_run(const tape *t, const derived *d, const state_values *s, double *result) {
-    const program *p = d->program;
+    const image *p = d->image;
     double angle_rad[UNKNOWNS] = {0};
     double real[4 * UNKNOWNS] = {0};
     double input[UNKNOWNS] = {0};
@@ -142,7 +149,7 @@ void derived_run(const tape *t, const derived *d, const state_values *s, double 
     for (int i = 0; i < p->reals; i++) {
         real[i] = s->value[p->real[i].unknown][p->real[i].primes];
     }
-    program_inputs(p, d->instance, input);
+    image_inputs(p, input);
     evaluator *ev = evaluator_new(t);
     evaluator_run(ev, 0.0, angle_rad, real, real + (p->coordinates - p->angles), input, result);
     evaluator_free(ev);
@@ -155,6 +162,17 @@ double state_value(void *context, const symbol *sym, int primes) {
     }
     return sym->kind == SYM_INPUT ? state->instance->input[sym->index]
                                   : state->value[sym->index][primes];
+}
+
+void derived_octave(FILE *out, const derived *d, const char *file) {
+    char *text = NULL;
+    size_t size = 0;
+    FILE *words = open_memstream(&text, &size);
+    TEST_ASSERT_NOT_NULL(words);
+    show_events(words, d->equations, "% ", "The motion between events. Not in this function:");
+    fclose(words);
+    emit_octave(out, d->image, file, text);
+    free(text);
 }
 
 uint64_t random_bits(uint64_t *seed) { /* splitmix64 */

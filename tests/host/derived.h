@@ -3,15 +3,18 @@
 #ifndef TESTS_HOST_DERIVED_H
 #define TESTS_HOST_DERIVED_H
 
-#include "host/derive/program.h"
+#include "host/derive/image_make.h"
 
 typedef struct derived {
     model *model;
     instance *instance;
     equations *equations; /* NULL when it could not be derived */
-    program *program;     /* NULL as well */
+    image *image;         /* NULL as well */
     char *errors;         /* "" when there are none */
 } derived;
+
+/* How tests integrate that do not mind: with Runge-Kutta 4. */
+extern const image_settings plainly;
 
 /* The first mechanism of a text. */
 derived derived_text(const char *text);
@@ -41,8 +44,11 @@ double state_value(void *context, const symbol *sym, int primes);
 /* A random state: lengths stay positive and angles off the poles; singular points are not the matter. */
 void random_state(state_values *s, const derived *d, uint64_t *seed);
 
-/* What a list of the program gives at a state: result[t->results]. */
+/* What a list of the image gives at a state: result[t->results]. */
 void derived_run(const tape *t, const derived *d, const state_values *s, double *result);
+
+/* The Octave form, with its contacts in words, as `whirl derive` writes it. */
+void derived_octave(FILE *out, const derived *d, const char *file);
 
 /* Next random 64 bits; a number between the bounds. */
 uint64_t random_bits(uint64_t *seed);

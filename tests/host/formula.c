@@ -40,8 +40,9 @@ static double call(reader *r, const char *name, int length) {
     static const struct {
         const char *name;
         double (*function)(double);
-    } one[] = {{"sin", sin},   {"cos", cos},   {"tan", tan}, {"asin", asin}, {"acos", acos},
-               {"atan", atan}, {"sqrt", sqrt}, {"exp", exp}, {"log", log},   {"abs", fabs}};
+    } one[] = {{"sin", sin},   {"cos", cos},   {"tan", tan},  {"asin", asin}, {"acos", acos},
+               {"atan", atan}, {"sqrt", sqrt}, {"exp", exp},  {"log", log},   {"abs", fabs},
+               {"sinh", sinh}, {"cosh", cosh}, {"tanh", tanh}};
     for (size_t i = 0; i < sizeof one / sizeof one[0]; i++) {
         if ((int)strlen(one[i].name) == length && strncmp(one[i].name, name, (size_t)length) == 0) {
             return one[i].function(x);

@@ -40,13 +40,14 @@ static void start(motion *m, const scene *in, stepping how) {
     }
     m->equations = m->instance != NULL ? equations_derive(m->instance, m->errors) : NULL;
     if (m->equations != NULL) {
-        m->program = program_make(m->equations, in->conserve, m->errors);
+        m->image =
+            image_make(m->equations, in->conserve, &(image_settings){how.method, how.compensated},
+                       IMAGE_TO_RUN, m->errors);
     }
     diags_flush(m->errors, stdout);
-    TEST_ASSERT_NOT_NULL_MESSAGE(m->program, in->name);
+    TEST_ASSERT_NOT_NULL_MESSAGE(m->image, in->name);
     m->kind = how.kind;
-    m->run =
-        how.kind->start(m->program, m->instance, &(engine_settings){how.method, how.compensated});
+    m->run = how.kind->start(m->image);
 }
 
 void motion_open(motion *m, const char *scene_name, stepping how) {
@@ -99,7 +100,7 @@ void motion_open_more(motion *m, const char *file, const char *more, stepping ho
 
 void motion_close(motion *m) {
     m->kind->stop(m->run);
-    program_free(m->program);
+    image_free(m->image);
     equations_free(m->equations);
     instance_free(m->instance);
     model_free(m->model);
@@ -127,10 +128,10 @@ void motion_to(motion *m, double time_s) {
 /* --- reading ------------------------------------------------------------------------------------ */
 
 double motion_value(const motion *m, const char *name) {
-    double angle_rad[PROGRAM_COMPONENTS_MAX];
-    double real[2 * PROGRAM_COMPONENTS_MAX];
+    double angle_rad[IMAGE_COMPONENTS_MAX];
+    double real[2 * IMAGE_COMPONENTS_MAX];
     double output[OUTPUTS_MAX];
-    const program *p = m->program;
+    const image *p = m->image;
     const mechanism *of = m->instance->mechanism;
     const size_t length = strcspn(name, "'");
     const int primes = (int)strlen(name + length);
@@ -150,8 +151,8 @@ double motion_value(const motion *m, const char *name) {
         }
     }
     /* A coordinate recovered from its momentum: value and rate behind the mechanism's outputs. */
-    for (int i = 0; i < p->conserved->count; i++) {
-        const char *known = of->coordinates[p->conserved->unknown[i]]->name;
+    for (int i = 0; i < p->recovered; i++) {
+        const char *known = of->coordinates[p->from_momentum[i]]->name;
         if (primes < 2 && strlen(known) == length && strncmp(known, name, length) == 0) {
             return output[of->output_count + 2 * i + primes];
         }

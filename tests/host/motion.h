@@ -5,6 +5,7 @@
 #ifndef TESTS_MOTION_H
 #define TESTS_MOTION_H
 
+#include "host/derive/image_make.h"
 #include "host/run/engine.h"
 
 typedef struct motion {
@@ -12,7 +13,7 @@ typedef struct motion {
     model *model;
     instance *instance;
     equations *equations;
-    program *program;
+    image *image;
     const engine_kind *kind;
     void *run;
 } motion;

@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "host/emit/emit.h"
-#include "host/show/text.h"
+#include "host/show/show_equations.h"
 #include "unity.h"
 
 void each_mechanism(checker *check) {
@@ -18,7 +18,7 @@ void each_mechanism(checker *check) {
                                       "thomson_a_spin",      "rig_fixed",       "carriage_free"};
     for (size_t i = 0; i < sizeof own / sizeof own[0]; i++) {
         derived d = derived_builtin(own[i]);
-        TEST_ASSERT_NOT_NULL_MESSAGE(d.program, own[i]);
+        TEST_ASSERT_NOT_NULL_MESSAGE(d.image, own[i]);
         check(own[i], &d);
         derived_free(&d);
     }
@@ -30,7 +30,7 @@ void each_mechanism(checker *check) {
         snprintf(path, sizeof path, "tests/mechanisms/%s", entry->d_name);
         if (strstr(path, ".whirl") != NULL) {
             derived d = derived_file(path);
-            TEST_ASSERT_NOT_NULL_MESSAGE(d.program, path);
+            TEST_ASSERT_NOT_NULL_MESSAGE(d.image, path);
             check(path, &d);
             derived_free(&d);
             files++;
@@ -48,7 +48,7 @@ char *printed(const derived *d, language as) {
     switch (as) {
     case TEXT: show_text(out, d->equations); break;
     case LATEX: show_latex(out, d->equations); break;
-    case OCTAVE: emit_octave(out, d->equations, d->program, "x.whirl"); break;
+    case OCTAVE: derived_octave(out, d, "x.whirl"); break;
     }
     fclose(out);
     char *copy = malloc(size + 1); /* gcc takes the stream's own for an address of this frame */

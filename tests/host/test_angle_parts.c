@@ -39,7 +39,7 @@ typedef struct sample {
     model *model;
     instance *instance;
     equations *equations;
-    program *program;
+    image *image;
 } sample;
 
 static void must(bool good, diags *errors, const char *text) {
@@ -78,14 +78,14 @@ static void open_sample(sample *s, uint64_t *seed, bool plain, int outputs) {
     must(s->instance != NULL, errors, s->text);
     s->equations = equations_derive(s->instance, errors);
     must(s->equations != NULL, errors, s->text);
-    s->program = program_make(s->equations, in->conserve, errors);
-    must(s->program != NULL, errors, s->text);
+    s->image = image_make(s->equations, in->conserve, &plainly, IMAGE_TO_RUN, errors);
+    must(s->image != NULL, errors, s->text);
     diags_free(errors);
-    TEST_ASSERT_EQUAL_INT(WAVE_ANGLES, s->program->angles);
+    TEST_ASSERT_EQUAL_INT(WAVE_ANGLES, s->image->angles);
 }
 
 static void close_sample(sample *s) {
-    program_free(s->program);
+    image_free(s->image);
     equations_free(s->equations);
     instance_free(s->instance);
     model_free(s->model);
@@ -94,7 +94,7 @@ static void close_sample(sample *s) {
 /* The exact state that the run is in: float angles are integers, 2^32 a turn. */
 static void exact_state(const sample *s, const engine_kind *kind, void *run, long double *state) {
     static const long double two_pi = 6.28318530717958647692528676655900577L;
-    const program *p = s->program;
+    const image *p = s->image;
     double angle_rad[WAVE_ANGLES];
     double real[16];
     TEST_ASSERT_TRUE(p->reals <= 16);
@@ -119,7 +119,7 @@ typedef struct tally {
 static void compare(const sample *s, const engine_kind *kind, void *run, int count, tally *t) {
     long double state[WAVE_SYMBOLS];
     double output[OUTPUTS + 8];
-    TEST_ASSERT_TRUE(s->program->outputs <= OUTPUTS + 8);
+    TEST_ASSERT_TRUE(s->image->outputs <= OUTPUTS + 8);
     exact_state(s, kind, run, state);
     kind->outputs(run, output);
     for (int i = 0; i < count; i++) {
@@ -231,8 +231,7 @@ static void test_made_up_outputs(void) {
         open_sample(&drawn, &seed, false, count);
         keep(&drawn, number);
         for (int k = 0; k < 2; k++) {
-            const engine_settings settings = {WH_RK4, false};
-            void *run = kinds[k]->start(drawn.program, drawn.instance, &settings);
+            void *run = kinds[k]->start(drawn.image);
             compare(&drawn, kinds[k], run, count, &tallies[k]);
             for (int step = 0; step < STEPS; step++) {
                 TEST_ASSERT_TRUE(kinds[k]->step(run) == WH_OK);
@@ -266,8 +265,7 @@ static void test_float_sines_of_parts(void) {
     drawn.conserves = false;
     for (int number = 0; number < 40; number++) {
         open_sample(&drawn, &seed, true, OUTPUTS);
-        const engine_settings settings = {WH_RK4, false};
-        void *run = engine_float.start(drawn.program, drawn.instance, &settings);
+        void *run = engine_float.start(drawn.image);
         long double state[WAVE_SYMBOLS];
         double output[OUTPUTS + 8];
         exact_state(&drawn, &engine_float, run, state);

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "derived.h"
-#include "host/derive/contact_lists.h"
 #include "host/run/engine.h"
 #include "motion.h"
 #include "parsed.h"
@@ -57,9 +56,10 @@ static void check_place(const derived *d, size_t which, double times, const char
     for (int i = 0; i < 10; i++) {
         const double th = random_between(&seed, -5000.0, 5000.0);
         s.value[0][0] = th;
-        derived_run(in_step ? d->program->step : d->program->contacts->signals, d, &s, result);
+        derived_run(in_step ? d->image->list[IMAGE_STEP] : d->image->list[IMAGE_SIGNALS], d, &s,
+                    result);
         /* th is the only angle, if it is one, and the other accelerations follow */
-        const double got = result[in_step ? d->program->place[0] : 0];
+        const double got = result[in_step ? d->image->place[0] : 0];
         const double trig_value = places[which].sine ? sin(times * th) : cos(times * th);
         const double wanted =
             (places[which].scaled ? times : 1.0) * trig_value + places[which].offset;
@@ -83,8 +83,8 @@ static void test_all_that_acts_takes_part(void) {
             derived d = derived_text(text);
             derived_expect(&d, text);
             const bool whole = multiples[i].times == floor(multiples[i].times);
-            TEST_ASSERT_EQUAL_INT_MESSAGE(whole ? 1 : 0, d.program->angles, text);
-            TEST_ASSERT_FALSE_MESSAGE(tape_reads_turns(d.program->step), text);
+            TEST_ASSERT_EQUAL_INT_MESSAGE(whole ? 1 : 0, d.image->angles, text);
+            TEST_ASSERT_FALSE_MESSAGE(tape_reads_turns(d.image->list[IMAGE_STEP]), text);
             if (places[k].list != NOWHERE) {
                 check_place(&d, k, multiples[i].times, text);
             }
@@ -110,19 +110,18 @@ static uint64_t run_to(const char *more, const engine_kind *kind, double *output
     parse(text);
     instantiate(NULL);
     equations *e = equations_derive(made, said);
-    program *p = program_make(e, NULL, said);
+    image *p = image_make(e, NULL, &plainly, IMAGE_TO_RUN, said);
     TEST_ASSERT_NOT_NULL_MESSAGE(p, more);
     TEST_ASSERT_EQUAL_INT_MESSAGE(2, p->angles, more);
-    const engine_settings settings = {WH_RK4, false};
-    void *run = kind->start(p, made, &settings);
+    void *run = kind->start(p);
     for (int i = 0; i < 200; i++) {
         TEST_ASSERT_TRUE(kind->step(run) == WH_OK);
     }
     TEST_ASSERT_TRUE(p->outputs <= 16);
     kind->outputs(run, output);
-    const uint64_t hash = kind->hash(run) ^ program_hash(p);
+    const uint64_t hash = kind->hash(run) ^ p->hash;
     kind->stop(run);
-    program_free(p);
+    image_free(p);
     equations_free(e);
     return hash;
 }
@@ -161,12 +160,11 @@ static void test_recovered_angle(void) {
         "scene s { conserve ph; start th = 6283, ph = 0.5, th' = 3 [rad/s], ph' = -2 [rad/s] }\n");
     instantiate(NULL);
     equations *e = equations_derive(made, said);
-    program *p = program_make(e, made->scene->conserve, said);
+    image *p = image_make(e, made->scene->conserve, &plainly, IMAGE_TO_RUN, said);
     TEST_ASSERT_NOT_NULL(p);
     TEST_ASSERT_EQUAL_INT(1, p->angles);
     for (int k = 0; k < 2; k++) {
-        const engine_settings settings = {WH_RK4, false};
-        void *run = kinds[k]->start(p, made, &settings);
+        void *run = kinds[k]->start(p);
         for (int i = 0; i < 50; i++) {
             TEST_ASSERT_TRUE(kinds[k]->step(run) == WH_OK);
         }
@@ -183,7 +181,7 @@ static void test_recovered_angle(void) {
         TEST_ASSERT_TRUE(fabs(output[2] - sin(th / 2.0 + ph)) <= bound);
         kinds[k]->stop(run);
     }
-    program_free(p);
+    image_free(p);
     equations_free(e);
     drop();
 }
@@ -198,11 +196,10 @@ static void test_systems_and_large_multiples(void) {
         "scene s { start th = -6283 }\n");
     instantiate(NULL);
     equations *e = equations_derive(made, said);
-    program *p = program_make(e, NULL, said);
+    image *p = image_make(e, NULL, &plainly, IMAGE_TO_RUN, said);
     TEST_ASSERT_NOT_NULL(p);
     TEST_ASSERT_EQUAL_INT(1, p->angles);
-    const engine_settings settings = {WH_RK4, false};
-    void *run = engine_float.start(p, made, &settings);
+    void *run = engine_float.start(p);
     for (int i = 0; i < 100; i++) {
         TEST_ASSERT_TRUE(engine_float.step(run) == WH_OK);
         double th;
@@ -223,7 +220,7 @@ static void test_systems_and_large_multiples(void) {
         TEST_ASSERT_TRUE(fabs(output[4] - sin(-1e-13 * th)) < 2e-9);
     }
     engine_float.stop(run);
-    program_free(p);
+    image_free(p);
     equations_free(e);
     drop();
 }
@@ -238,12 +235,12 @@ static const char gauge[] =
 static void test_books_of_a_part(void) {
     derived d = derived_text(gauge);
     derived_expect(&d, gauge);
-    TEST_ASSERT_EQUAL_INT(1, d.program->angles);
+    TEST_ASSERT_EQUAL_INT(1, d.image->angles);
     state_values s = {.instance = d.instance};
     s.value[0][0] = 6283.0;
     s.value[0][1] = 1.5;
     double result[16];
-    derived_run(d.program->books, &d, &s, result);
+    derived_run(d.image->list[IMAGE_BOOKS], &d, &s, result);
     const double extra = 0.7 * cos(6283.0 / 2.0);
     TEST_ASSERT_TRUE(fabs(result[1 + BOOK_MOMENTA] - (1.5 + extra)) < 1e-12);
     TEST_ASSERT_TRUE(fabs(result[1 + BOOK_KINETIC] - (1.125 + 1.5 * extra)) < 1e-12);

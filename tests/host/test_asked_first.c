@@ -12,7 +12,7 @@
 #include "command.h"
 #include "derived.h"
 #include "host/emit/emit.h"
-#include "host/show/text.h"
+#include "host/show/show_equations.h"
 #include "mechanism.h"
 #include "unity.h"
 
@@ -112,7 +112,7 @@ static char *written(const scene *in, before way, uint64_t from) {
     diags *errors = diags_new();
     instance *inst = instance_make(in->mechanism, in, NULL, errors);
     equations *e = NULL;
-    program *p = NULL;
+    image *p = NULL;
     if (inst != NULL) {
         e = equations_derive_after(inst, way == OTHER_THINGS ? ask : NULL, &from, errors);
     }
@@ -120,21 +120,20 @@ static char *written(const scene *in, before way, uint64_t from) {
         print_forms(e, &from);
     }
     if (e != NULL && way == OTHER_PROGRAM) {
-        program_free(program_make(e, NULL, errors));
+        image_free(image_make(e, NULL, &plainly, IMAGE_TO_RUN, errors));
     }
     if (e != NULL) {
-        p = program_make(e, in->conserve, errors);
+        p = image_make(e, in->conserve, &plainly, IMAGE_TO_RUN, errors);
     }
     char *text = NULL;
     if (p != NULL) {
         size_t size = 0;
         FILE *out = open_memstream(&text, &size);
         TEST_ASSERT_NOT_NULL(out);
-        const engine_settings settings = {WH_RK4, false};
-        emit_c(out, e, p, &settings, "asked.whirl");
+        emit_c(out, p, "asked.whirl");
         fclose(out);
     }
-    program_free(p);
+    image_free(p);
     equations_free(e);
     instance_free(inst);
     diags_free(errors);
@@ -210,17 +209,16 @@ static void test_among_others(void) {
         others[i] = derived_builtin(names[i]);
         derived_expect(&others[i], names[i]);
     }
-    const engine_settings settings = {WH_RK4, false};
     for (int i = 0; i < 3; i++) {
         FILE *out = open_memstream(&text, &size);
-        emit_c(out, others[i].equations, others[i].program, &settings, "others.whirl");
+        emit_c(out, others[i].image, "others.whirl");
         fclose(out);
         alone[i] = text;
     }
     for (int i = 0; i < 3; i++) {
         derived again = derived_builtin(names[i]);
         FILE *out = open_memstream(&text, &size);
-        emit_c(out, again.equations, again.program, &settings, "others.whirl");
+        emit_c(out, again.image, "others.whirl");
         fclose(out);
         TEST_ASSERT_EQUAL_STRING(alone[i], text);
         free(text);

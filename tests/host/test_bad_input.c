@@ -10,7 +10,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "host/derive/program.h"
+#include "host/derive/image_make.h"
 #include "host/lang/model.h"
 #include "unity.h"
 
@@ -25,7 +25,8 @@ static void try_instance(const mechanism *of, const scene *in, bool derive, diag
     if (derive && made != NULL && diags_count(all) == 0) {
         equations *derived = equations_derive(made, all);
         if (derived != NULL) {
-            program_free(program_make(derived, in == NULL ? NULL : in->conserve, all));
+            image_free(image_make(derived, in == NULL ? NULL : in->conserve,
+                                  &(image_settings){WH_RK4, false}, IMAGE_TO_RUN, all));
         }
         equations_free(derived);
     }

@@ -4,8 +4,7 @@
  *
  * The suite does RANDOM_STEPS steps a scene; the environment's WHIRL_RANDOM_STEPS asks for more. */
 #include "derived.h"
-#include "host/derive/contact_lists.h"
-#include "host/derive/ledger.h"
+#include "host/derive/ledger_lists.h"
 #include "host/run/engine.h"
 #include "host/run/start.h"
 
@@ -28,14 +27,14 @@ static long random_steps(void) {
 /* States of the scene's own run, evenly over it. */
 typedef struct samples {
     int count;
-    double value[SAMPLES][PROGRAM_COMPONENTS_MAX]; /* by unknown */
-    double rate[SAMPLES][PROGRAM_COMPONENTS_MAX];
-    double rate_scale[PROGRAM_COMPONENTS_MAX]; /* the largest */
+    double value[SAMPLES][IMAGE_COMPONENTS_MAX]; /* by unknown */
+    double rate[SAMPLES][IMAGE_COMPONENTS_MAX];
+    double rate_scale[IMAGE_COMPONENTS_MAX]; /* the largest */
 } samples;
 
-static void take_sample(const program *p, const engine_kind *kind, const void *run, samples *s) {
-    double angle_rad[PROGRAM_COMPONENTS_MAX];
-    double real[2 * PROGRAM_COMPONENTS_MAX];
+static void take_sample(const image *p, const engine_kind *kind, const void *run, samples *s) {
+    double angle_rad[IMAGE_COMPONENTS_MAX];
+    double real[2 * IMAGE_COMPONENTS_MAX];
     kind->state(run, angle_rad, real);
     for (int i = 0; i < p->angles; i++) {
         s->value[s->count][p->angle[i].unknown] = angle_rad[i];
@@ -51,13 +50,12 @@ static void take_sample(const program *p, const engine_kind *kind, const void *r
 }
 
 static void take_samples(const derived *d, const engine_kind *kind, samples *s) {
-    const engine_settings settings = {WH_RK4, false};
     const double until_s = fmin(d->instance->until_s, 20.0);
     const long each = (long)(until_s / d->instance->step_s) / SAMPLES + 1;
-    void *run = kind->start(d->program, d->instance, &settings);
+    void *run = kind->start(d->image);
     *s = (samples){0};
     for (int i = 0; i < SAMPLES; i++) {
-        take_sample(d->program, kind, run, s);
+        take_sample(d->image, kind, run, s);
         for (long k = 0; k < each; k++) {
             TEST_ASSERT_EQUAL_INT(WH_OK, kind->step(run));
         }
@@ -91,12 +89,12 @@ typedef struct worst {
 
 /* Entries of contacts into the energy: all but what crossings set can only take, but for the run's own
  * numerical drift. */
-static void watch_books(const program *p, const engine_kind *kind, const void *run, worst *w) {
-    const ledger_lists *l = p->ledger;
+static void watch_books(const image *p, const engine_kind *kind, const void *run, worst *w) {
+    const image_ledger *l = &p->ledger;
     double *total = calloc((size_t)(l->entries + l->accounts), sizeof *total);
     TEST_ASSERT_TRUE(total != NULL);
     kind->ledger(run, total, total + l->entries);
-    for (int k = 0; k < p->contacts->forced; k++) {
+    for (int k = 0; k < p->forced; k++) {
         const double gained_J = total[l->smooth + k * (1 + p->coordinates)];
         w->gained_J = fmax(w->gained_J, gained_J - fabs(total[l->entries]));
     }
@@ -104,7 +102,6 @@ static void watch_books(const program *p, const engine_kind *kind, const void *r
 }
 
 static worst run_randomly(const derived *d, const engine_kind *kind, long steps) {
-    const engine_settings settings = {WH_RK4, false};
     uint64_t seed = 20240131;
     worst w = {0};
     static samples around;
@@ -113,9 +110,10 @@ static worst run_randomly(const derived *d, const engine_kind *kind, long steps)
         throw_start(d->instance, &around, &seed);
         diags *beyond =
             diags_new(); /* what is thrown beyond a stop is put back by it: that takes energy */
-        const bool apart = start_is_possible(d->program, d->instance, kind, beyond);
+        image *thrown = image_again(d->image, d->instance);
+        const bool apart = start_is_possible(thrown, kind, beyond);
         diags_free(beyond);
-        void *run = kind->start(d->program, d->instance, &settings);
+        void *run = kind->start(thrown);
         uint64_t before = 0;
         uint64_t overruns;
         wh_status status = WH_OK;
@@ -128,9 +126,10 @@ static worst run_randomly(const derived *d, const engine_kind *kind, long steps)
         w.events += kind->events(run, &overruns);
         w.overruns += overruns;
         if (apart) {
-            watch_books(d->program, kind, run, &w);
+            watch_books(d->image, kind, run, &w);
         }
         kind->stop(run);
+        image_free(thrown);
     }
     return w;
 }
@@ -147,10 +146,11 @@ static void check_scene(const scene *of, bool all, const engine_kind *kind) {
     TEST_ASSERT_NOT_NULL(d.instance);
     d.instance->ledger = true;
     d.equations = equations_derive(d.instance, errors);
-    d.program =
-        d.equations == NULL ? NULL : program_make(d.equations, all ? NULL : of->conserve, errors);
+    d.image = d.equations == NULL ? NULL
+                                  : image_make(d.equations, all ? NULL : of->conserve, &plainly,
+                                               IMAGE_TO_RUN, errors);
     diags_flush(errors, stdout);
-    TEST_ASSERT_NOT_NULL(d.program);
+    TEST_ASSERT_NOT_NULL(d.image);
     const worst w = run_randomly(&d, kind, random_steps());
     char line[300];
     snprintf(
@@ -166,7 +166,7 @@ static void check_scene(const scene *of, bool all, const engine_kind *kind) {
     if (kind == &engine_double) {
         TEST_ASSERT_TRUE_MESSAGE(w.gained_J < 1e-9, line);
     }
-    program_free(d.program);
+    image_free(d.image);
     equations_free(d.equations);
     instance_free(d.instance);
     diags_free(errors);
@@ -174,7 +174,7 @@ static void check_scene(const scene *of, bool all, const engine_kind *kind) {
 
 static int check_if_contact(const scene *s) {
     derived d = derived_builtin(s->name);
-    const bool contacts = d.program != NULL && d.program->contacts != NULL;
+    const bool contacts = d.image != NULL && d.image->contacts > 0;
     derived_free(&d);
     for (int k = 0; k < 4 && contacts; k++) {
         check_scene(s, k >= 2, k % 2 ? &engine_double : &engine_float);

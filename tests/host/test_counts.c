@@ -76,11 +76,11 @@ static void expect_count(const duration *step, const duration *until) {
         return;
     }
     equations *e = equations_derive(inst, errors);
-    program *p = program_make(e, NULL, errors);
+    image *p = image_make(e, NULL, &plainly, IMAGE_TO_RUN, errors);
     char *c = NULL;
     size_t length = 0;
     FILE *out = open_memstream(&c, &length);
-    emit_c(out, e, p, &(engine_settings){WH_RK4, false}, "x.whirl");
+    emit_c(out, p, "x.whirl");
     fclose(out);
     TEST_ASSERT_TRUE_MESSAGE(wanted == number_behind(c, ".steps = UINT64_C("), message);
     const uint64_t numerator = number_behind(c, ".step = {UINT64_C(");
@@ -88,7 +88,7 @@ static void expect_count(const duration *step, const duration *until) {
     TEST_ASSERT_TRUE_MESSAGE((wide)numerator * step->in == (wide)denominator * step->digits,
                              message);
     free(c);
-    program_free(p);
+    image_free(p);
     equations_free(e);
     instance_free(inst);
     model_free(from);

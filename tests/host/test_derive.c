@@ -7,6 +7,7 @@
 #include <time.h>
 
 #include "derived.h"
+#include "host/derive/conserve.h"
 #include "unity.h"
 
 void suite_derive(void);
@@ -81,7 +82,7 @@ static void dense_solution(const equations *e, state_values *s, double x[UNKNOWN
 }
 
 static void check_list(const derived *d, const char *name, double *worst) {
-    const program *p = d->program;
+    const image *p = d->image;
     uint64_t seed = 5;
     for (int k = 0; k < STATES; k++) {
         state_values s;
@@ -89,12 +90,12 @@ static void check_list(const derived *d, const char *name, double *worst) {
         double wanted[UNKNOWNS];
         double got[4 * UNKNOWNS];
         dense_solution(d->equations, &s, wanted);
-        derived_run(p->step, d, &s, got);
+        derived_run(p->list[IMAGE_STEP], d, &s, got);
         double largest = 0.0;
         for (int i = 0; i < d->equations->count; i++) {
             largest = fmax(largest, fabs(wanted[i]));
         }
-        for (int c = 0; c < p->step->results; c++) {
+        for (int c = 0; c < p->list[IMAGE_STEP]->results; c++) {
             component of = {c, 1};
             if (p->form == WH_FIRST_ORDER) {
                 of = c < p->angles ? p->angle[c] : p->real[c - p->angles];
@@ -134,7 +135,7 @@ static void check_balance(const derived *d, const char *name) {
         state_values s;
         random_state(&s, d, &seed);
         double books[UNKNOWNS * 3 + 8];
-        derived_run(d->program->books, d, &s, books);
+        derived_run(d->image->list[IMAGE_BOOKS], d, &s, books);
         double size = 1e-3;
         double rate = 0.0;
         for (int side = -1; side <= 1; side += 2) { /* state moved along itself by a little time */
@@ -187,11 +188,11 @@ static void test_power_balances_in_every_mechanism(void) {
 static void expect_cost(const char *name, int at_least, int at_most, int waves) {
     derived d = derived_builtin(name);
     derived_expect(&d, name);
-    const int operations = tape_operations(d.program->step);
+    const int operations = tape_operations(d.image->list[IMAGE_STEP]);
     printf("  %s: %d operations, %d sine pairs\n", name, operations,
-           tape_count(d.program->step).waves);
+           tape_count(d.image->list[IMAGE_STEP]).waves);
     TEST_ASSERT_TRUE_MESSAGE(operations >= at_least && operations <= at_most, name);
-    TEST_ASSERT_EQUAL_INT_MESSAGE(waves, tape_count(d.program->step).waves, name);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(waves, tape_count(d.image->list[IMAGE_STEP]).waves, name);
     derived_free(&d);
 }
 
@@ -211,7 +212,7 @@ static void test_large_but_tame_expressions_are_derived(void) {
     state_values s = {.instance = d.instance,
                       .value = {{0.1, 0, 0}, {0.25, 0, 0}, {0.3, 0, 0}, {0.2, 0, 0}, {0.05, 0, 0}}};
     double result[5];
-    derived_run(d.program->step, &d, &s, result);
+    derived_run(d.image->list[IMAGE_STEP], &d, &s, result);
     TEST_ASSERT_DOUBLE_WITHIN(1e-14, -60.0 * pow(0.9, 59.0), result[3]);
     derived_free(&d);
 
@@ -223,9 +224,9 @@ static void test_large_but_tame_expressions_are_derived(void) {
     d = derived_text(whole);
     derived_expect(&d, "64 masses");
     TEST_ASSERT_TRUE((double)(clock() - began) / CLOCKS_PER_SEC < 20.0);
-    TEST_ASSERT_EQUAL_INT(64, d.program->coordinates);
+    TEST_ASSERT_EQUAL_INT(64, d.image->coordinates);
     /* 3 (x_{i+1} - 2 x_i + x_{i-1}) needs some four operations a mass */
-    TEST_ASSERT_TRUE(tape_operations(d.program->step) <= 64 * 5);
+    TEST_ASSERT_TRUE(tape_operations(d.image->list[IMAGE_STEP]) <= 64 * 5);
     derived_free(&d);
     free(front);
     free(energy);
@@ -268,7 +269,7 @@ static void test_large_exponents_are_not_cut(void) {
         const double x = 1.0 + random_between(&seed, -1.0, 1.0) / (1.0 + size);
         double result[2];
         s.value[0][0] = x;
-        derived_run(d.program->observe, &d, &s, result);
+        derived_run(d.image->list[IMAGE_OBSERVE], &d, &s, result);
         const double wanted = pow(x, e);
         TEST_ASSERT_TRUE_MESSAGE(fabs(result[0] - wanted) <= 3e-14 * wanted, text);
         TEST_ASSERT_TRUE_MESSAGE(fabs(result[1] - wanted * (1.0 + x)) <= 6e-14 * wanted, text);

@@ -205,7 +205,9 @@ static derived derive_with(const int *giver, unsigned with) {
     if (d.model != NULL) {
         d.instance = instance_make(d.model->mechanisms[0], d.model->scenes[0], NULL, errors);
         d.equations = d.instance == NULL ? NULL : equations_derive(d.instance, errors);
-        d.program = d.equations == NULL ? NULL : program_make(d.equations, NULL, errors);
+        d.image = d.equations == NULL
+                      ? NULL
+                      : image_make(d.equations, NULL, &plainly, IMAGE_TO_RUN, errors);
     }
     size_t size = 0;
     FILE *out = open_memstream(&d.errors, &size);
@@ -229,10 +231,10 @@ static void test_inertia_of_effects(void) {
                 missing = giver[i] > 0 && (with >> giver[i] & 1U) == 0 ? i : missing;
             }
             if (missing < 0) {
-                TEST_ASSERT_NOT_NULL_MESSAGE(d.program, d.errors);
+                TEST_ASSERT_NOT_NULL_MESSAGE(d.image, d.errors);
             } else {
                 char wanted[120];
-                TEST_ASSERT_NULL(d.program);
+                TEST_ASSERT_NULL(d.image);
                 snprintf(wanted, sizeof wanted, "the kinetic energy does not contain q%d'",
                          missing);
                 TEST_ASSERT_NOT_NULL_MESSAGE(strstr(d.errors, wanted), d.errors);

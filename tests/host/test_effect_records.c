@@ -33,7 +33,7 @@ static void compare_noise(const char *use, const char *with, const char *output,
     motion_open_more(&clean, "eccentric.whirl", text, IN_DOUBLE_STEP(1e-3));
     snprintf(text, sizeof text, "scene t { use %s; with %s; set duty = 0.6 }\n", use, with);
     motion_open_more(&noisy, "eccentric.whirl", text, IN_DOUBLE_STEP(1e-3));
-    TEST_ASSERT_EQUAL_UINT64(program_hash(clean.program), program_hash(noisy.program));
+    TEST_ASSERT_EQUAL_UINT64(clean.image->hash, noisy.image->hash);
     double sum = 0.0;
     double squares = 0.0;
     for (unsigned i = 0; i < 4096; i++) {
@@ -97,13 +97,13 @@ static void test_inputs_of_effects(void) {
     motion m;
     snprintf(with, sizeof with, "%sscene t { until 1 [s] }\n", start);
     motion_open_text(&m, with, IN_DOUBLE_STEP(1e-3));
-    TEST_ASSERT_EQUAL_INT(1, m.program->inputs);
+    TEST_ASSERT_EQUAL_INT(1, m.image->inputs);
     motion_to(&m, 1.0);
     TEST_ASSERT_DOUBLE_WITHIN(SMALL, 0.25, motion_value(&m, "X"));
     motion_close(&m);
     snprintf(with, sizeof with, "%sscene t { with push }\n", start);
     motion_open_text(&m, with, IN_DOUBLE_STEP(1e-3));
-    TEST_ASSERT_EQUAL_INT(2, m.program->inputs);
+    TEST_ASSERT_EQUAL_INT(2, m.image->inputs);
     motion_to(&m, 1.0);
     TEST_ASSERT_DOUBLE_WITHIN(SMALL, 1.75, motion_value(&m, "X"));
     motion_close(&m);

@@ -250,7 +250,7 @@ static void test_latex_is_balanced(void) {
         derived_text("mechanism m\ncoordinate phi_1_a [m]\ncoordinate _odd [m]\n"
                      "parameter mass_of_it = 2 [kg]\n"
                      "T = mass_of_it*(phi_1_a'^2 + _odd'^2)/2\nV = 1.5e-7 [N/m]*phi_1_a^2/2\n");
-    TEST_ASSERT_NOT_NULL(d.program);
+    TEST_ASSERT_NOT_NULL(d.image);
     {
         check_latex("names", &d);
         char *text = printed(&d, LATEX);

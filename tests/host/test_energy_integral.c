@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "host/derive/ledger.h"
+#include "host/derive/ledger_lists.h"
 #include "host/run/books.h"
 
 #include "unity.h"
@@ -85,7 +85,7 @@ typedef struct remainders {
 
 /* Left over in the ledger's account of the energy, J. */
 static double ledger_left_J(const motion *m) {
-    const ledger_lists *l = m->program->ledger;
+    const image_ledger *l = &m->image->ledger;
     double *total = calloc((size_t)(l->entries + l->accounts), sizeof *total);
     TEST_ASSERT_NOT_NULL(total);
     m->kind->ledger(m->run, total, total + l->entries);
@@ -99,8 +99,8 @@ static remainders book(const char *text, by_hand *energy_J, double step_s) {
     stepping how = booked;
     how.step_s = step_s;
     motion_open_text(&m, text, how);
-    TEST_ASSERT_NOT_NULL(m.program->integral);
-    books *b = books_open(m.program, m.equations);
+    TEST_ASSERT_TRUE(m.image->has_integral);
+    books *b = books_open(m.image);
     const uint64_t steps = m.instance->steps;
     remainders r = {.change_J = -energy_J(&m)};
     books_enter(b, m.kind, m.run);
@@ -182,7 +182,7 @@ static void test_the_fast_body(void) {
 
 /* Total of a contact in an account: 0 is the energy, 1 + i coordinate i. */
 static double of_contact(const motion *m, int account, double *left_over) {
-    const ledger_lists *l = m->program->ledger;
+    const image_ledger *l = &m->image->ledger;
     double *total = calloc((size_t)(l->entries + l->accounts), sizeof *total);
     TEST_ASSERT_NOT_NULL(total);
     m->kind->ledger(m->run, total, total + l->entries);
@@ -201,7 +201,7 @@ static void test_a_wall_on_the_turning_table(void) {
     uint64_t overruns;
     double left_over;
     motion_open_text(&m, text, booked);
-    TEST_ASSERT_NOT_NULL(m.program->integral);
+    TEST_ASSERT_TRUE(m.image->has_integral);
     const double before_J = table_J(&m);
     while (m.kind->events(m.run, &overruns) == 0) {
         TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
@@ -237,12 +237,12 @@ static void test_a_stop_on_the_turning_hoop(void) {
     motion_close(&m);
 }
 
-static program *program_of(const char *text, derived *d) {
+static image *image_of(const char *text, derived *d) {
     *d = derived_text(text);
     TEST_ASSERT_NOT_NULL_MESSAGE(d->equations, d->errors);
     diags *errors = diags_new();
     d->instance->ledger = true;
-    program *p = program_make(d->equations, NULL, errors);
+    image *p = image_make(d->equations, NULL, &plainly, IMAGE_TO_RUN, errors);
     TEST_ASSERT_TRUE((p == NULL) == (diags_count(errors) > 0));
     diags_free(errors);
     return p;
@@ -261,9 +261,9 @@ static void test_impacts_of_fast_bodies_are_refused(void) {
                {SLOT "stop x <= 0.3 [m] restitution 0.5\n", true}};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
         derived d;
-        program *p = program_of(all[i].text, &d);
+        image *p = image_of(all[i].text, &d);
         TEST_ASSERT_TRUE_MESSAGE((p != NULL) == all[i].kept, all[i].text);
-        program_free(p);
+        image_free(p);
         derived_free(&d);
     }
 }
@@ -277,7 +277,7 @@ static void change_the_hoop(const char *text, bool stops) {
     double w = 10.0;
     double gave_J = 0.0;
     motion_open_text(&m, text, booked);
-    const ledger_lists *l = m.program->ledger;
+    const image_ledger *l = &m.image->ledger;
     TEST_ASSERT_EQUAL_INT(1, l->inputs);
     double *total = calloc((size_t)(l->entries + l->accounts), sizeof *total);
     TEST_ASSERT_NOT_NULL(total);
@@ -323,8 +323,8 @@ static void test_springs_whose_rates_are_changed(void) {
         "V = a*x^2/2 + b*y^2/2\nQ(x) = push\nscene s { start x = 1 [m], y = 0.5 [m]\nuntil 1 [s] }\n";
     motion m;
     motion_open_text(&m, text, booked);
-    const ledger_lists *l = m.program->ledger;
-    TEST_ASSERT_NULL(m.program->integral);
+    const image_ledger *l = &m.image->ledger;
+    TEST_ASSERT_FALSE(m.image->has_integral);
     TEST_ASSERT_EQUAL_INT(2, l->inputs);
     double *total = calloc((size_t)(l->entries + l->accounts), sizeof *total);
     TEST_ASSERT_NOT_NULL(total);
@@ -350,7 +350,7 @@ static void test_springs_whose_rates_are_changed(void) {
 static int check_plain(const scene *s) {
     derived d = derived_builtin(s->name);
     derived_expect(&d, s->name);
-    TEST_ASSERT_NULL_MESSAGE(d.program->integral, s->name);
+    TEST_ASSERT_FALSE_MESSAGE(d.image->has_integral, s->name);
     derived_free(&d);
     return 1;
 }
@@ -374,10 +374,10 @@ static void test_where_the_integral_is_the_energy(void) {
                 false}};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
         derived d;
-        program *p = program_of(all[i].text, &d);
+        image *p = image_of(all[i].text, &d);
         TEST_ASSERT_NOT_NULL_MESSAGE(p, all[i].text);
-        TEST_ASSERT_TRUE_MESSAGE((p->integral != NULL) == all[i].integral, all[i].text);
-        program_free(p);
+        TEST_ASSERT_TRUE_MESSAGE(p->has_integral == all[i].integral, all[i].text);
+        image_free(p);
         derived_free(&d);
     }
     TEST_ASSERT_TRUE(each_builtin_scene(check_plain) > 40);

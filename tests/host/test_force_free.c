@@ -191,7 +191,7 @@ static drifts drifts_of(const char *name, double step_s, double until_s) {
         }
     }
     /* Only the books' momenta are read, which need not be entered at every step. */
-    books *b = books_open(m.program, m.equations);
+    books *b = books_open(m.image);
     const double own_step_s = m.instance->step_s;
     const double end_s = until_s > 0.0 ? until_s : m.instance->until_s;
     const uint64_t steps = (uint64_t)floor(end_s / own_step_s + 0.5);

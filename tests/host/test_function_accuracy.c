@@ -76,7 +76,14 @@ static void test_functions_of_one(void) {
         {"asin", wh_asin, asinl, {up_to_one, near_unit, any}, 0.54},
         {"acos", wh_acos, acosl, {up_to_one, near_unit, any}, 0.53},
         {"atan", wh_atan, atanl, {any, near_one, below_104}, 0.53},
+        {"sinh", wh_sinh, sinhl, {any, below_104, up_to_one}, 0.52},
+        {"cosh", wh_cosh, coshl, {any, below_104, up_to_one}, 0.52},
+        {"tanh", wh_tanh, tanhl, {any, below_104, up_to_one}, 0.53},
     };
+#define ONE_MORE(name) +1
+#define NONE_MORE(name)
+    _Static_assert(sizeof subjects / sizeof subjects[0] == 0 WH_FUNCTIONS(ONE_MORE, NONE_MORE),
+                   "every function of core/function.h");
     scattered_state = SEED;
     for (unsigned k = 0; k < sizeof subjects / sizeof subjects[0]; k++) {
         const subject *s = &subjects[k];

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "derived.h"
+#include "host/derive/program.h"
 #include "motion.h"
 #include "parsed.h"
 #include "ranges.h"

@@ -8,8 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/derive/contact_lists.h"
-#include "host/derive/ledger.h"
+#include "host/derive/ledger_lists.h"
 
 #include "unity.h"
 
@@ -25,11 +24,11 @@ typedef struct account_book {
 
 /* The account of the energy (name NULL) or of a coordinate's momentum. */
 static account_book book_of(const motion *m, const char *name) {
-    const program *p = m->program;
-    const ledger_lists *l = p->ledger;
+    const image *p = m->image;
+    const image_ledger *l = &p->ledger;
     static double total[ENTRIES_MAX];
     static double error[ENTRIES_MAX];
-    TEST_ASSERT_NOT_NULL(l);
+    TEST_ASSERT_TRUE(l->kept);
     TEST_ASSERT_TRUE(l->entries <= ENTRIES_MAX);
     int account = 0;
     while (name != NULL &&
@@ -43,7 +42,7 @@ static account_book book_of(const motion *m, const char *name) {
     for (int i = 0; i < l->smooth; i++) {
         book.smooth += l->entry[i].account == account ? total[i] : 0.0;
     }
-    for (int k = 0; p->contacts != NULL && k < p->contacts->count; k++) {
+    for (int k = 0; k < p->contacts; k++) {
         book.contact[k] = total[l->smooth + k * (1 + p->coordinates) + account];
     }
     return book;
@@ -182,7 +181,7 @@ static void test_systems_have_no_books(void) {
     TEST_ASSERT_NOT_NULL(all);
     instance *inst = instance_make(all->mechanisms[0], all->scenes[0], NULL, errors);
     equations *e = inst != NULL ? equations_derive(inst, errors) : NULL;
-    program *p = e != NULL ? program_make(e, NULL, errors) : NULL;
+    image *p = e != NULL ? image_make(e, NULL, &plainly, IMAGE_TO_RUN, errors) : NULL;
     TEST_ASSERT_NULL(p);
     TEST_ASSERT_TRUE(diags_count(errors) == 1);
     equations_free(e);

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/derive/ledger.h"
+#include "host/derive/ledger_lists.h"
 #include "unity.h"
 
 void suite_ledger_turns(void);
@@ -27,15 +27,15 @@ typedef struct account_book {
 
 static account_book read_book(const motion *m) {
     account_book book;
-    TEST_ASSERT_TRUE(m->program->ledger->entries <= ENTRIES_MAX);
-    TEST_ASSERT_TRUE(m->program->ledger->accounts <= 8);
+    TEST_ASSERT_TRUE(m->image->ledger.entries <= ENTRIES_MAX);
+    TEST_ASSERT_TRUE(m->image->ledger.accounts <= 8);
     m->kind->ledger(m->run, book.total, book.left_over);
     return book;
 }
 
 /* The entry of dL/dq of the coordinate called `name`. */
 static double of_energies(const motion *m, const account_book *book, const char *name) {
-    const ledger_lists *l = m->program->ledger;
+    const image_ledger *l = &m->image->ledger;
     for (int i = 0; i < l->smooth; i++) {
         const int account = l->entry[i].account;
         if (l->entry[i].kind == LEDGER_ENERGIES && account > 0 &&
@@ -54,8 +54,8 @@ static void test_a_free_wheel(void) {
                                "scene s { start th = 0.5, th' = 7 [rad/s]\nuntil 3 [s] }\n";
     motion m;
     motion_open_text(&m, text, booked);
-    TEST_ASSERT_EQUAL_INT(1, m.program->angles); /* it does turn */
-    TEST_ASSERT_TRUE(m.program->ledger->turned);
+    TEST_ASSERT_EQUAL_INT(1, m.image->angles); /* it does turn */
+    TEST_ASSERT_TRUE(m.image->ledger.turned);
     motion_to(&m, 3.0);
     const account_book book = read_book(&m);
     TEST_ASSERT_DOUBLE_WITHIN(1e-10, 3.0 * (21.5 * 21.5 - 0.25), of_energies(&m, &book, "th"));
@@ -211,7 +211,7 @@ static void test_total_derivatives_change_no_motion(void) {
         compare(&g, booked_float, 2e-4);
         motion m;
         open_pendulum(&m, g.rate, booked);
-        turned += m.program->ledger->turned;
+        turned += m.image->ledger.turned;
         motion_close(&m);
     }
     printf("  %d mechanisms from seed 20110, %d with angles outside sines\n", cases, turned);

@@ -156,11 +156,11 @@ static double check_right(const bodies *b, uint64_t *seed) {
     solve(mass, right, n, wanted);
     char *text = text_of(b, force);
     derived d = derived_text(text);
-    TEST_ASSERT_NOT_NULL_MESSAGE(d.program, d.errors[0] != '\0' ? d.errors : text);
+    TEST_ASSERT_NOT_NULL_MESSAGE(d.image, d.errors[0] != '\0' ? d.errors : text);
     double result[64];
     state_values at = {.instance = d.instance};
-    TEST_ASSERT_TRUE(d.program->books->results <= 64);
-    derived_run(d.program->books, &d, &at, result);
+    TEST_ASSERT_TRUE(d.image->list[IMAGE_BOOKS]->results <= 64);
+    derived_run(d.image->list[IMAGE_BOOKS], &d, &at, result);
     double size = 0.0;
     double off = 0.0;
     for (int i = 0; i < n; i++) {
@@ -218,7 +218,7 @@ static void test_fewer_bodies_than_coordinates_are_refused(void) {
         const double force[MOST] = {0};
         char *text = text_of(&b, force);
         derived d = derived_text(text);
-        TEST_ASSERT_NULL_MESSAGE(d.program, text);
+        TEST_ASSERT_NULL_MESSAGE(d.image, text);
         TEST_ASSERT_NOT_NULL_MESSAGE(strstr(d.errors, "singular mass matrix"), d.errors);
         free(text);
         derived_free(&d);
@@ -239,7 +239,7 @@ static void test_one_speed_through_sines_is_refused(void) {
                  small, 0.3 * i, 1.0 / small, 1 + i % 3, small, 0.3 * i, 1.0 / small, 1 + i % 3,
                  random_between(&seed, 0.1, 3.0));
         derived d = derived_text(text);
-        TEST_ASSERT_NULL_MESSAGE(d.program, text);
+        TEST_ASSERT_NULL_MESSAGE(d.image, text);
         TEST_ASSERT_NOT_NULL_MESSAGE(strstr(d.errors, "singular mass matrix"), d.errors);
         derived_free(&d);
     }

@@ -72,10 +72,9 @@ static double *record(const mechanism *of, const scene *in, const engine_kind *k
     }
     equations *e = equations_derive(inst, errors);
     TEST_ASSERT_NOT_NULL(e);
-    program *p = e == NULL ? NULL : program_make(e, NULL, errors);
+    image *p = e == NULL ? NULL : image_make(e, NULL, &plainly, IMAGE_TO_RUN, errors);
     TEST_ASSERT_NOT_NULL(p);
-    const engine_settings settings = {WH_RK4, false};
-    void *run = kind->start(p, inst, &settings);
+    void *run = kind->start(p);
     const size_t count = (size_t)of->output_count;
     double *all = calloc((STEPS + 1) * count + 1, sizeof *all);
     TEST_ASSERT_NOT_NULL(all);
@@ -84,7 +83,7 @@ static double *record(const mechanism *of, const scene *in, const engine_kind *k
         TEST_ASSERT_EQUAL_INT(WH_OK, kind->step(run));
     }
     kind->stop(run);
-    program_free(p);
+    image_free(p);
     equations_free(e);
     instance_free(inst);
     diags_free(errors);

@@ -60,9 +60,9 @@ static void run_octave(const char *name, const char *text, workspace *w) {
 
 /* dy(y) against the step list at random states; y = values, then rates, and so on. */
 static void check_octave(const char *name, derived *d) {
-    const program *p = d->program;
+    const image *p = d->image;
     const equations *e = d->equations;
-    if (p->conserved->count > 0) {
+    if (p->recovered > 0) {
         return; /* recovered coordinates have no slopes */
     }
     char *text = printed(d, OCTAVE);
@@ -85,8 +85,8 @@ static void check_octave(const char *name, derived *d) {
         }
         run_octave(name, text, &w);
         double result[RESULTS_MAX]; /* the highest derivatives come first */
-        TEST_ASSERT_TRUE_MESSAGE(p->books->results <= RESULTS_MAX, name);
-        derived_run(p->books, d, &s, result);
+        TEST_ASSERT_TRUE_MESSAGE(p->list[IMAGE_BOOKS]->results <= RESULTS_MAX, name);
+        derived_run(p->list[IMAGE_BOOKS], d, &s, result);
         double largest = 0.0;
         for (int i = 0; i < e->count; i++) {
             largest = fmax(largest, fabs(result[i]));
@@ -117,8 +117,8 @@ static bool is_smooth(const derived *d) {
         state_values s;
         double result[RESULTS_MAX];
         random_state(&s, d, &seed);
-        derived_run(d->program->books, d, &s, result);
-        for (int i = 0; i < d->program->books->results; i++) {
+        derived_run(d->image->list[IMAGE_BOOKS], d, &s, result);
+        for (int i = 0; i < d->image->list[IMAGE_BOOKS]->results; i++) {
             good = good && fabs(result[i]) < 1e12;
         }
     }
@@ -136,7 +136,7 @@ static void test_octave_files_of_random_mechanisms(void) {
         char text[1 << 14];
         expression_mechanism(1 + i % 3, &seed, text, sizeof text);
         derived d = derived_text(text);
-        if (d.program != NULL && is_smooth(&d)) {
+        if (d.image != NULL && is_smooth(&d)) {
             char *file = printed(&d, OCTAVE);
             check_octave(text, &d);
             compared++;

@@ -7,7 +7,7 @@
 
 #include "derived.h"
 #include "host/emit/emit.h"
-#include "host/show/text.h"
+#include "host/show/show_equations.h"
 #include "unity.h"
 
 void suite_show_events(void);
@@ -34,7 +34,7 @@ static void expect(void (*print)(FILE *, const derived *), const char *mark, boo
                                     : "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2\n"
                                       "effect wall { stop x >= 0 restitution 0 }\n");
     TEST_ASSERT_NOT_NULL(out);
-    TEST_ASSERT_NOT_NULL_MESSAGE(d.program, d.errors);
+    TEST_ASSERT_NOT_NULL_MESSAGE(d.image, d.errors);
     print(out, &d);
     fclose(out);
     const char *from = printed;
@@ -61,9 +61,7 @@ static void as_text(FILE *out, const derived *d) { show_text(out, d->equations);
 
 static void as_latex(FILE *out, const derived *d) { show_latex(out, d->equations); }
 
-static void as_octave(FILE *out, const derived *d) {
-    emit_octave(out, d->equations, d->program, "block.whirl");
-}
+static void as_octave(FILE *out, const derived *d) { derived_octave(out, d, "block.whirl"); }
 
 static void test_events_stand_beside_the_equations(void) {
     expect(as_text, "", true);

@@ -105,9 +105,9 @@ static void check_shape(const char *path, int unknowns, int components) {
     derived d = derived_file(path);
     printf("  %s\n", path);
     TEST_ASSERT_EQUAL_STRING("", d.errors);
-    TEST_ASSERT_NOT_NULL(d.program);
+    TEST_ASSERT_NOT_NULL(d.image);
     TEST_ASSERT_EQUAL_INT(unknowns, d.equations->count);
-    TEST_ASSERT_EQUAL_INT(components, d.program->angles + d.program->reals);
+    TEST_ASSERT_EQUAL_INT(components, d.image->angles + d.image->reals);
     derived_free(&d);
 }
 

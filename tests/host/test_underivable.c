@@ -14,10 +14,10 @@ static void expect_refused(const char *text, const char *wanted) {
     derived d = derived_text(text);
     const double seconds = (double)(clock() - began) / CLOCKS_PER_SEC;
     const bool found = strstr(d.errors, wanted) != NULL;
-    if (!found || d.program != NULL) {
+    if (!found || d.image != NULL) {
         printf("  wanted: %s\n  got: %.400s\n", wanted, d.errors);
     }
-    TEST_ASSERT_NULL(d.program);
+    TEST_ASSERT_NULL(d.image);
     TEST_ASSERT_TRUE(found);
     TEST_ASSERT_TRUE(seconds < 20.0); /* bounded, sanitizers included */
     derived_free(&d);
@@ -135,7 +135,7 @@ static void test_expressions_that_explode_are_refused(void) {
         char *text = repeated(front, "let a# = a@*sin(a@ + y) + x\n", deep, end);
         const clock_t began = clock();
         derived d = derived_text(text);
-        TEST_ASSERT_TRUE((d.program == NULL) == (d.errors[0] != '\0'));
+        TEST_ASSERT_TRUE((d.image == NULL) == (d.errors[0] != '\0'));
         derived_free(&d);
         TEST_ASSERT_TRUE((double)(clock() - began) / CLOCKS_PER_SEC < 60.0);
         free(text);

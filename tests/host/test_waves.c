@@ -42,8 +42,8 @@ static int check(const derived *d, uint64_t *seed) {
         state_values s;
         double result[UNKNOWNS];
         random_state(&s, d, seed);
-        TEST_ASSERT_TRUE(d->program->books->results <= UNKNOWNS);
-        derived_run(d->program->books, d, &s, result);
+        TEST_ASSERT_TRUE(d->image->list[IMAGE_BOOKS]->results <= UNKNOWNS);
+        derived_run(d->image->list[IMAGE_BOOKS], d, &s, result);
         for (int i = 0; i < e->count; i++) {
             double rest = -poly_evaluate(equations_force(e, i), state_value, &s);
             double size = fabs(rest) + 1.0;

@@ -13,7 +13,7 @@ start=$(date +%s)
     timeout 1800 "$@" emit-scenes "$folder/scenes" || echo "exit status $?: emit-scenes of the built-in scenes"
     timeout 1800 "$@" emit-scenes "$folder/mechanisms" "$mechanisms" || echo "exit status $?: emit-scenes $mechanisms"
     timeout 1800 "$@" hashes >"$folder/hashes.txt" || echo "exit status $?: hashes"
-    cat "$folder"/mechanisms/*.txt | grep '^scene ' >>"$folder/hashes.txt"
+    cat "$folder"/mechanisms/*.hash | grep '^scene ' >>"$folder/hashes.txt"
 } >"$folder/log.txt" 2>&1
 echo "$(($(date +%s) - start))" >"$folder/seconds"
 if grep -q '^exit status' "$folder/log.txt"; then

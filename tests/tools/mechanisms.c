@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/derive/program.h"
+#include "host/derive/image_make.h"
 #include "host/lang/model.h"
 #include "tests/host/mechanism.h"
 
@@ -14,7 +14,8 @@ static bool derives(const char *text, diags *all) {
     model *parsed = model_parse("generated", text, strlen(text), all);
     instance *inst = NULL;
     equations *e = NULL;
-    program *p = NULL;
+    image *p = NULL;
+    static const image_settings settings = {WH_RK4, false};
     if (parsed != NULL) {
         inst = instance_make(parsed->mechanisms[0], parsed->scenes[0], NULL, all);
     }
@@ -22,10 +23,10 @@ static bool derives(const char *text, diags *all) {
         e = equations_derive(inst, all);
     }
     if (e != NULL) {
-        p = program_make(e, parsed->scenes[0]->conserve, all);
+        p = image_make(e, parsed->scenes[0]->conserve, &settings, IMAGE_TO_WRITE, all);
     }
     const bool done = p != NULL;
-    program_free(p);
+    image_free(p);
     equations_free(e);
     instance_free(inst);
     model_free(parsed);

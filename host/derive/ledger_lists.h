@@ -1,22 +1,14 @@
-/* ledger.h: the books of a scene as numbers: the lists that core/ledger.h takes, and what their entries
+/* ledger_lists.h: the books of a scene as numbers: the lists that core/ledger.h takes, and what their entries
  * mean.
  *
  * What changes the momentum p_i = dL/dq_i' is, by Lagrange's equations, dL/dq_i (gravity, springs, and
  * what the other coordinates' motion does), each generalized force, each damper and each contact. What
  * changes the energy, or the energy integral where that is not T + V (energy.h), is the work of each
  * generalized force, each damper's loss, each contact, and each change of an input that the energies name. */
-#ifndef DERIVE_LEDGER_H
-#define DERIVE_LEDGER_H
+#ifndef DERIVE_LEDGER_LISTS_H
+#define DERIVE_LEDGER_LISTS_H
 
 #include "layout.h"
-
-typedef enum ledger_kind {
-    LEDGER_WORK,     /* Q q' of a generalized force */
-    LEDGER_LOSS,     /* -sum dF/dq' q' of a damper */
-    LEDGER_ENERGIES, /* dL/dq_i */
-    LEDGER_DRIVE,    /* a generalized force on coordinate i */
-    LEDGER_DAMPING   /* -dF/dq_i' of a damper */
-} ledger_kind;
 
 typedef struct ledger_entry {
     ledger_kind kind;

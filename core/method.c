@@ -1,0 +1,6 @@
+/* method.c: what users are told of the methods. */
+#include "method.h"
+
+#define ROW(id, word, title, order, takes, stages, ...) \
+    [id] = {word, #id, title, order, takes, stages},
+const wh_method_row wh_methods[WH_METHODS] = {WH_METHOD_ROWS(ROW)};

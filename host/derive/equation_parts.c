@@ -1,0 +1,34 @@
+/* equation_parts.c: what is asked of equations that stand, or nearly so. */
+#include "equations.h"
+
+place equations_kinetic_place(const instance *inst) {
+    const mechanism *m = inst->mechanism;
+    for (int i = 0; i < m->term_count; i++) {
+        if (m->terms[i].kind == TERM_T) {
+            return m->terms[i].at;
+        }
+    }
+    return m->at;
+}
+
+const poly *equations_force(const equations *e, int i) {
+    algebra *a = e->algebra;
+    return poly_sub(a, poly_sub(a, e->applied[i], e->velocity[i]), e->potential[i]);
+}
+
+static const poly *parameter_value(void *context, algebra *a, const symbol *s, int primes) {
+    const instance *inst = context;
+    (void)primes;
+    return s->kind == SYM_PARAMETER ? poly_number(a, inst->parameter[s->index]) : NULL;
+}
+
+const poly *equations_fold(const equations *e, const poly *p) {
+    /* poly_substitute() does not write through its context */
+    return poly_substitute(e->algebra, p, parameter_value, (void *)(uintptr_t)e->instance);
+}
+
+void equations_report_growth(const equations *e, diags *errors) {
+    const mechanism *m = e->instance->mechanism;
+    diag_error(errors, m->at, "smaller powers of sums, or coordinates nearer to the joints, help",
+               "the equations of '%s' grow beyond what can be handled", m->name);
+}

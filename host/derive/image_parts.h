@@ -1,0 +1,33 @@
+/* image_parts.h: copying names, units and places of the language into an image. For host/derive only. */
+#ifndef DERIVE_IMAGE_PARTS_H
+#define DERIVE_IMAGE_PARTS_H
+
+#include "host/image/image.h"
+#include "host/lang/model.h"
+
+/* An image in the making. */
+typedef struct image_draft {
+    image *made;
+    /* Sources that places lie in, and their copies: [sources] */
+    const source **original;
+    source **copy;
+    int sources;
+} image_draft;
+
+image_draft image_draft_new(void);
+/* Forgets what is not part of the image, which it returns. */
+image *image_draft_done(image_draft *d);
+
+/* Zeroed room for `count` things in the image's memory; none for none. */
+void *image_room(image_draft *d, int count, size_t size);
+const char *image_text(image_draft *d, const char *text);
+
+/* The same place in a copy of its source, which the image keeps: one copy of each. */
+place image_place(image_draft *d, place at);
+
+/* The unit of a symbol's derivative with so many primes. */
+image_unit image_unit_of(image_draft *d, const symbol *s, int primes);
+/* A quantity with this value, SI. */
+image_quantity image_quantity_of(image_draft *d, const symbol *s, double value);
+
+#endif

@@ -1,0 +1,77 @@
+/* core_rows.h: the image as the core's tables want it (core/contact.h, core/ledger.h): the one place where the one
+ * becomes the other. The interpreter fills in the functions and hands it on; the generated C writes it down. */
+#ifndef IMAGE_CORE_ROWS_H
+#define IMAGE_CORE_ROWS_H
+
+#include "core/contact.h"
+#include "core/ledger.h"
+#include "image.h"
+
+static inline wh_contact core_contact_row(const image_contact *c) {
+    return (wh_contact){.kind = (uint8_t)c->kind,
+                        .direction = (int8_t)c->direction,
+                        .pin = (int16_t)c->pin,
+                        .first_set = (uint8_t)c->first_set,
+                        .sets = (uint8_t)c->sets};
+}
+
+/* But for the functions, the ledger and the number of evaluations. `contact` [contacts] and `target` [set_count] are
+ * the caller's. */
+static inline wh_contact_system core_contact_system(const image *im, const wh_contact *contact,
+                                                    const uint8_t *target) {
+    return (wh_contact_system){.contact = contact,
+                               .target = target,
+                               .contacts = (uint8_t)im->contacts,
+                               .forced = (uint8_t)im->forced,
+                               .held = (uint8_t)im->held,
+                               .method = im->settings.method,
+                               .compensated = im->settings.compensated,
+                               .angles = (uint8_t)im->angles,
+                               .coordinates = (uint8_t)im->coordinates};
+}
+
+/* What WH_CONTACT_EVALUATIONS() takes. */
+static inline int core_stages(const image *im) { return wh_methods[im->settings.method].stages; }
+
+static inline int core_stops(const image *im) {
+    int stops = 0;
+    for (int k = 0; k < im->contacts; k++) {
+        stops += im->contact[k].kind == WH_STOP;
+    }
+    return stops;
+}
+
+/* The most that a step evaluates: the accelerations (or slopes), and the contacts' signals. */
+static inline int core_evaluations(const image *im) {
+    const int stages = core_stages(im);
+    return im->contacts == 0 ? stages : WH_CONTACT_EVALUATIONS(stages, core_stops(im), im->forced);
+}
+
+static inline int core_signals(const image *im) {
+    return im->contacts == 0 ? 0 : WH_CONTACT_SIGNALS(im->forced, im->contacts - im->forced);
+}
+
+/* But for the functions. `account` [smooth] and `input` [inputs] are the caller's. */
+static inline wh_ledger_form core_ledger_form(const image *im, const uint8_t *account,
+                                              const uint8_t *input) {
+    const image_ledger *l = &im->ledger;
+    return (wh_ledger_form){.account = account,
+                            .input = input,
+                            .smooth = (uint16_t)l->smooth,
+                            .entries = (uint16_t)l->entries,
+                            .accounts = (uint8_t)(l->accounts + l->inputs),
+                            .coordinates = (uint8_t)im->coordinates,
+                            .angles = (uint8_t)im->angles,
+                            .inputs = (uint8_t)l->inputs};
+}
+
+/* The second argument of WH_MEMORY_BYTES(): numbers of the state, low parts of compensated sums, inputs, what is held
+ * and the books. */
+static inline int core_memory_reals(const image *im) {
+    const image_ledger *l = &im->ledger;
+    const int carried = im->settings.compensated ? im->angles + im->reals : 0;
+    const int books = l->kept ? 2 * l->entries + l->accounts + l->inputs : 0;
+    return im->reals + carried + im->inputs + im->held + books;
+}
+
+#endif

@@ -1,0 +1,60 @@
+/* image.c: reading an image. */
+#include "image.h"
+
+#include "host/base/arena.h"
+
+void image_free(image *im) {
+    if (im == NULL) {
+        return;
+    }
+    for (int role = 0; role < IMAGE_ROLES && im->base == NULL; role++) {
+        tape_free(im->list[role]);
+    }
+    arena_free(im->memory);
+}
+
+component image_component(const image *im, int i) {
+    return i < im->angles ? im->angle[i] : im->real[i - im->angles];
+}
+
+bool image_shows_si(const image_unit *unit) { return unit->scale == unit->divisor; }
+
+double image_shown(const image_unit *unit, double si) {
+    return image_shows_si(unit) ? si : si * unit->divisor / unit->scale;
+}
+
+void image_inputs(const image *im, double *input) {
+    for (int i = 0; i < im->inputs; i++) {
+        input[i] = im->input[i].value;
+    }
+}
+
+static bool list_calls(const tape *t) {
+    for (int i = 0; t != NULL && i < t->count; i++) {
+        if (op_rows[t->ops[i].code].cost == OP_COSTS_CALL) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool image_calls(const image *im) {
+    bool calls = false;
+    for (int role = 0; role < IMAGE_ROLES; role++) {
+        calls = calls || (role != IMAGE_BOOKS && list_calls(im->list[role])); /* those stay here */
+    }
+    return calls;
+}
+
+double image_out_of_float(const image *im) {
+    static const image_role moving[] = {IMAGE_STEP, IMAGE_SIGNALS, IMAGE_FORCES, IMAGE_SETS};
+    double found = 0.0;
+    for (size_t k = 0; k < sizeof moving / sizeof moving[0] && found == 0.0; k++) {
+        const tape *t = im->list[moving[k]];
+        found = t != NULL ? tape_out_of_float(t) : 0.0;
+    }
+    for (int i = 0; i < im->inputs && found == 0.0; i++) {
+        found = fits_float(im->input[i].value) ? 0.0 : im->input[i].value;
+    }
+    return found;
+}

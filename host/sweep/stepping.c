@@ -1,0 +1,187 @@
+/* stepping.c: one run of a sweep, measured. */
+#include "stepping.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "host/base/room.h"
+#include "host/number/functions.h"
+#include "host/run/belief.h"
+#include "host/run/slow.h"
+#include "host/run/undefined.h"
+
+/* Steps between two questions whether to give up. */
+#define ABANDON_STEPS 4096U
+
+typedef struct meter {
+    const measuring *wanted;
+    const image *image;
+    void *run;
+    books *books;  /* NULL without energies */
+    gauge *gauges; /* [measures] */
+    double *output;
+    bool series;            /* some measure takes a sample each step */
+    bool series_of_outputs; /* and one of those reads an output */
+} meter;
+
+static meter meter_open(const measuring *w, const image *im, void *run) {
+    const int count = w->count;
+    meter m = {.wanted = w, .image = im, .run = run};
+    m.books = books_open(im);
+    m.gauges = room(count, sizeof *m.gauges);
+    m.output = room(im->outputs, sizeof *m.output);
+    for (int i = 0; i < count; i++) {
+        const measured *each = &w->list[i];
+        m.gauges[i] = gauge_start(each->kind);
+        if (each->kind != MEASURE_FINAL) {
+            m.series = true;
+            m.series_of_outputs = m.series_of_outputs || each->from.where == FROM_OUTPUT;
+        }
+    }
+    return m;
+}
+
+static void meter_close(meter *m) {
+    for (int i = 0; i < m->wanted->count; i++) {
+        gauge_end(&m->gauges[i]);
+    }
+    books_close(m->books);
+    free(m->gauges);
+    free(m->output);
+}
+
+/* Take a sample of the present state: of the series, or of the final values. */
+static void meter_enter(meter *m, bool final) {
+    double angle_rad[IMAGE_COMPONENTS_MAX];
+    double real[2 * IMAGE_COMPONENTS_MAX];
+    const engine_kind *kind = m->wanted->kind;
+    kind->state(m->run, angle_rad, real);
+    if (final || m->series_of_outputs) {
+        kind->outputs(m->run, m->output);
+    }
+    for (int i = 0; i < m->wanted->count; i++) {
+        if ((m->gauges[i].kind == MEASURE_FINAL) != final) {
+            continue;
+        }
+        const channel c = m->wanted->list[i].from;
+        gauge_enter(&m->gauges[i], c.where == FROM_ANGLE  ? angle_rad[c.index]
+                                   : c.where == FROM_REAL ? real[c.index]
+                                                          : m->output[c.index]);
+    }
+}
+
+static bool keeps_samples(const measuring *w) {
+    for (int i = 0; i < w->count; i++) {
+        if (w->list[i].kind == MEASURE_PERIOD) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Why the step or the energies are no numbers, if it can be told. */
+static bool tell_undefined(const meter *m, wh_status status, diags *errors) {
+    const engine_kind *kind = m->wanted->kind;
+    if (status != WH_OK) {
+        return undefined_step(m->image, kind, m->run, status, errors);
+    }
+    char when[60];
+    snprintf(when, sizeof when, "at t = %.9g s", m->books->undefined_s);
+    const undefined_at at = {.image = m->image,
+                             .angle_rad = m->books->angle_rad,
+                             .real = m->books->real,
+                             .turns = kind == &engine_float,
+                             .when = when};
+    return undefined_angle(&at, errors) || undefined_term(&at, errors);
+}
+
+/* Enter the books. False when an energy is not a finite number, said. */
+static bool balance(meter *m, diags *errors, FILE *reason) {
+    if (m->books == NULL) {
+        return true;
+    }
+    books_enter(m->books, m->wanted->kind, m->run);
+    if (m->books->undefined && !tell_undefined(m, WH_OK, errors)) {
+        fprintf(reason, "the energies are not finite numbers at t = %.9g s", m->books->undefined_s);
+    }
+    return !m->books->undefined;
+}
+
+/* Step to the end. False when the run failed, said on `reason` or reported. */
+static bool run_through(meter *m, bool (*abandon)(void), diags *errors, FILE *reason) {
+    const engine_kind *kind = m->wanted->kind;
+    const image *im = m->image;
+    const uint64_t steps = im->steps;
+    /* the first step at or after from_s, which rounding may put just beside a step */
+    const double from = number_ceiling(m->wanted->from_s / im->step_s * (1.0 - 1e-12));
+    if (m->series && from > (double)steps) {
+        fprintf(reason, "--from %.9g s lies behind the last step", m->wanted->from_s);
+        return false;
+    }
+    if (keeps_samples(m->wanted) && (double)steps - from >= (double)PERIOD_SAMPLES_MAX) {
+        fprintf(reason, "period() takes at most %.0e samples: a later --from or a larger step",
+                (double)PERIOD_SAMPLES_MAX);
+        return false;
+    }
+    for (uint64_t step = 0;; step++) {
+        if (!balance(m, errors, reason)) {
+            return false;
+        }
+        if (m->series && (double)step >= from) {
+            meter_enter(m, false);
+        }
+        if (step == steps || (step % ABANDON_STEPS == 0 && abandon != NULL && abandon())) {
+            break;
+        }
+        const wh_status status = kind->step(m->run);
+        if (status != WH_OK) {
+            if (!tell_undefined(m, status, errors)) {
+                fprintf(reason, "diverged in the step after t = %.9g s",
+                        ratio_times(step, im->step));
+            }
+            return false;
+        }
+    }
+    meter_enter(m, true);
+    return true;
+}
+
+/* The measures, and behind them the balance; NAN where it is not known. */
+static bool read_measures(const meter *m, double *value, FILE *reason, point_notes *notes) {
+    const measuring *w = m->wanted;
+    const double epsilon = w->kind == &engine_float ? (double)FLT_EPSILON : DBL_EPSILON;
+    for (int i = 0; i < w->count; i++) {
+        if (m->gauges[i].undefined) {
+            fprintf(reason, "what the measure '%s' takes is not a finite number throughout",
+                    w->list[i].name);
+            return false;
+        }
+        value[i] = gauge_result(&m->gauges[i], m->image->step_s, epsilon);
+        const bool no_period = isnan(value[i]) && m->gauges[i].kind == MEASURE_PERIOD;
+        if (!isfinite(value[i]) && !no_period) {
+            fprintf(reason, "the measure '%s' is not a finite number: what it takes is too large",
+                    w->list[i].name);
+            return false;
+        }
+    }
+    const belief kept = belief_of(m->books, w->kind, m->run);
+    value[w->count] = kept.known ? kept.ratio : (double)NAN;
+    notes->unbelieved = belief_lost(&kept, BELIEF_LIMIT);
+    return true;
+}
+
+bool stepping_measure(const measuring *w, const image *im, bool (*abandon)(void), double *value,
+                      diags *errors, FILE *reason, point_notes *notes) {
+    void *run = w->kind->start(im);
+    meter m = meter_open(w, im, run);
+    const bool good =
+        run_through(&m, abandon, errors, reason) && read_measures(&m, value, reason, notes);
+    if (good && im->contacts > 0) {
+        w->kind->events(run, &notes->overruns);
+    }
+    notes->slow = good ? slow_count(w->kind, im, run) : 0;
+    meter_close(&m);
+    w->kind->stop(run);
+    return good;
+}

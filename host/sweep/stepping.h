@@ -1,0 +1,42 @@
+/* stepping.h: one run of a sweep: an image, stepped to its end and measured. */
+#ifndef SWEEP_STEPPING_H
+#define SWEEP_STEPPING_H
+
+#include <stdio.h>
+
+#include "gauge.h"
+#include "host/run/engine.h"
+
+/* Where a measured expression is read: in the state itself, or among the outputs. */
+typedef struct channel {
+    enum { FROM_ANGLE, FROM_REAL, FROM_OUTPUT } where;
+    int index;
+} channel;
+
+typedef struct measured {
+    measure_kind kind;
+    const char *name;
+    channel from;
+} measured;
+
+typedef struct measuring {
+    const engine_kind *kind;
+    double from_s; /* measure from this time on */
+    const measured *list;
+    int count;
+} measuring;
+
+/* What is to be told of a point that did not fail. */
+typedef struct point_notes {
+    uint64_t overruns; /* steps that had more events than a step takes */
+    int slow;          /* float angles that turn too slowly (host/run/slow.h) */
+    bool unbelieved;   /* its energies do not balance (host/run/belief.h) */
+} point_notes;
+
+/* Run the image; value[count + 1] gets the measures and how well the energies balance (NAN where that is not known).
+ * False when the run failed or something was not a finite number: said on `reason` or reported. `abandon` (may be
+ * NULL) is asked now and then whether to give up. */
+bool stepping_measure(const measuring *w, const image *im, bool (*abandon)(void), double *value,
+                      diags *errors, FILE *reason, point_notes *notes);
+
+#endif
