@@ -35,7 +35,7 @@ static void collect_angles(const lowering *l, const poly *p, angle_list *list) {
             for (int k = 0; k < 2 && x->kind != ATOM_SYMBOL && x->argument[k] != NULL; k++) {
                 collect_angles(l, x->argument[k], list);
             }
-            if (x->kind == ATOM_CALL && x->function == FN_TAN && waves_turns(l, x->argument[0])) {
+            if (lower_is_tangent(x) && waves_turns(l, x->argument[0])) {
                 collect_angles(l, poly_sin(a, x->argument[0]), list);
             }
         }
@@ -120,7 +120,7 @@ static int atom_node(lowering *l, const atom *x) {
         return l->leaf(l->context, l->tape, x->symbol, x->primes);
     }
     /* a phase has 1.5e-9 rad: enough for a turn angle, whose own digits these are, not for a small number */
-    if (x->kind == ATOM_CALL && x->function == FN_TAN && waves_turns(l, x->argument[0])) {
+    if (lower_is_tangent(x) && waves_turns(l, x->argument[0])) {
         const int s = waves_sine(l, x->argument[0]);
         return tape_div(l->tape, s, waves_cosine(l, x->argument[0]));
     }
