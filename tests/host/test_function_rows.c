@@ -173,7 +173,8 @@ static void test_forces(void) {
                 const double y = s.value[1][0];
                 const double slope = counts ? number_slope(at(f), which, x, y) : 0.0;
                 if (isfinite(slope)) {
-                    expect_near(f, -slope, accel[d.image->place[which]], 1e-13 * (1.0 + fabs(slope)), x, y);
+                    expect_near(f, -slope, accel[d.image->place[which]],
+                                1e-13 * (1.0 + fabs(slope)), x, y);
                     compared++;
                 }
             }
