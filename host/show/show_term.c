@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/number/functions.h"
 #include "host/number/decimal.h"
+#include "host/number/functions.h"
 
 /* --- names and numbers ---------------------------------------------------------------------------*/
 
@@ -248,7 +248,7 @@ int show_factors(const show *s, const piece *p, int side, bool *first) {
     int count = 0;
     for (int rank = 0; rank < 16; rank++) {
         for (int i = 0; i < p->mono->count; i++) {
-            const factor *f = &p->mono->factors[i];
+            const mono_factor *f = &p->mono->factors[i];
             if (show_rank(f->atom) == rank && (f->exponent > 0.0) == (side > 0)) {
                 show_separate(s, first);
                 show_atom(s, f->atom, fabs(f->exponent));
