@@ -155,6 +155,7 @@ static void take_contacts(image_draft *d, contact_lists *c) {
                               ? dimension_unit(row->from->value->dim, false, si, sizeof si)
                               : "1";
         im->contact[k] = (image_contact){.kind = row->kind,
+                                         .word = image_text(d, contact_word(row->from->kind)),
                                          .direction = row->direction,
                                          .pin = row->pin,
                                          .first_set = row->first_set,

@@ -55,7 +55,7 @@ static void fuse_reciprocals(tape *t) {
 }
 
 static void drop_unused(tape *t) {
-    int *number = room(t->count, sizeof *number);
+    int *number = room_more(NULL, t->count, sizeof *number);
     memset(number, -1, (size_t)t->count * sizeof *number);
     for (int i = 0; i < t->results; i++) {
         number[t->result[i]] = 0;
