@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "host/base/exit.h"
 #include "host/base/nearest.h"
 #include "host/base/room.h"
-#include "load.h"
 
 /* What is looked for. */
 typedef struct wish {

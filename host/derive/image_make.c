@@ -7,6 +7,7 @@
 #include "contact_lists.h"
 #include "core/contact.h"
 #include "host/lang/shown.h"
+#include "host/lang/words.h"
 #include "host/number/phase.h"
 #include "image_parts.h"
 #include "ledger_lists.h"

@@ -1,4 +1,4 @@
-/* model.c: a text from its first to its last byte. */
+/* model_parse.c: a text from its first to its last byte. */
 #include "model.h"
 
 #include <string.h>
