@@ -143,7 +143,7 @@ static bool put_rows(const source_model *from, const mechanism *m) {
 
 /* --- the text -------------------------------------------------------------------------------------- */
 
-static void put_lines(const model *m, const mechanism *of) {
+static void put_lines(const whirl_model *m, const mechanism *of) {
     printf("mechanism  %-24s %s\n", of->name, of->title);
     for (int i = 0; i < m->scene_count; i++) {
         if (m->scenes[i]->mechanism == of) {

@@ -148,7 +148,7 @@ static void say_choices(const source_model *s, bool scenes) {
 }
 
 int source_pick(source_model *s, bool prefer_scene, const mechanism **of, const scene **in) {
-    const model *m = s->model;
+    const whirl_model *m = s->model;
     *in = NULL;
     *of = NULL;
     for (int i = 0; i < m->scene_count; i++) {

@@ -135,7 +135,7 @@ static int atom_node(lowering *l, const atom *x) {
     return first;
 }
 
-static void product_factor(lowering *l, product *p, const factor *f) {
+static void product_factor(lowering *l, product *p, const mono_factor *f) {
     int node = atom_node(l, f->atom);
     double size = fabs(f->exponent);
     if (size != number_floor(size)) {

@@ -31,7 +31,7 @@ static double expected_magnitude(const poly *p, double *at) {
         const mono *m = p->terms[i].mono;
         double part = p->terms[i].coefficient;
         for (int k = 0; k < m->count; k++) {
-            const factor *f = &m->factors[k];
+            const mono_factor *f = &m->factors[k];
             algebra *a = algebra_new();
             double base = poly_evaluate(poly_of_atom(a, f->atom, 1.0), value_of_symbol, at);
             algebra_free(a);

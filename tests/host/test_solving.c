@@ -169,7 +169,7 @@ static void test_what_can_be_a_turn_angle(void) {
                  "let it = %s\n",
                  rows[i].text);
         diags *all = diags_new();
-        model *m = model_parse("t", text, strlen(text), all);
+        whirl_model *m = model_parse("t", text, strlen(text), all);
         if (m == NULL) {
             diags_flush(all, stdout);
         }

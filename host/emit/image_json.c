@@ -1,5 +1,5 @@
-/* describe.c: an image as JSON. */
-#include "describe.h"
+/* image_json.c: an image as JSON. */
+#include "image_json.h"
 
 #include <inttypes.h>
 #include <string.h>

@@ -1,6 +1,6 @@
-/* describe.h: what an image holds, for programs (docs/describe.md) and for readers. */
-#ifndef EMIT_DESCRIBE_H
-#define EMIT_DESCRIBE_H
+/* image_json.h: what an image holds, for programs (docs/describe.md) and for readers. */
+#ifndef EMIT_IMAGE_JSON_H
+#define EMIT_IMAGE_JSON_H
 
 #include <stdio.h>
 
