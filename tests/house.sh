@@ -19,6 +19,7 @@ files() { find "$@" -type f \( -name '*.c' -o -name '*.h' \) 2>/dev/null | sort;
 core=$(files core)
 hal=$(files hal)
 target=$(files boards | grep -v '^boards/host/')
+program=$(files host)
 all=$(files core hal boards host mk tests)
 
 # Whom the program's folders may include, a line each. Each names folders above its own line only, so that no arrow
@@ -85,6 +86,7 @@ arrows_hold
         $core $hal $target
     rule "the core depends on nothing of ours" '^#include "(hal|boards|host|tests|build)/' $core
     rule "hal depends on the core only" '^#include "(boards|host|tests|build)/' $hal
+    rule "the host's program depends on the core only" '^#include "(hal|boards|tests|build)/' $program
     rule "boards do not depend on the host's program" '^#include "(host|tests)/' $target
     rule "memory from the heap comes from host/base/room.c" \
         '\b(malloc|calloc|realloc|aligned_alloc|strdup|strndup|open_memstream) *\(' \
@@ -93,6 +95,11 @@ arrows_hold
         host/sweep/gauge.*
     rule "white space at a line's end" '[[:space:]]$' $all
     rule "a tab" '	' $all
+    twice=$(files core hal host | sed 's/\.[ch]$//' | sort -u | sed 's:.*/::' | sort | uniq -d)
+    for name in $twice; do
+        echo "error: files of one program have one name: $(files core hal host | grep "/$name\.[ch]$" | tr '\n' ' ')"
+        bad=1
+    done
     for file in $all; do
         lines=$(wc -l <"$file")
         if [ "$lines" -gt 500 ]; then

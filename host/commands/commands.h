@@ -1,5 +1,5 @@
 /* commands.h: what `whirl` can be told to do. Each takes the words behind its name and returns an
- * exit code: 0 done, 1 the run failed, 2 bad input. */
+ * exit code (host/base/exit.h). */
 #ifndef COMMANDS_COMMANDS_H
 #define COMMANDS_COMMANDS_H
 

@@ -7,15 +7,17 @@
 #include "load.h"
 #include "options.h"
 
-static const char usage[] =
-    "usage: whirl describe FILE[:NAME]|SCENE|MECHANISM[:SCENE] [--json]\n"
-    "                      [--with E,...] [--without E,...] [--set NAME=EXPR] [--start NAME=EXPR]\n"
-    "                      [--step 1ms] [--until 9s] [--method M] [--compensated]\n"
-    "\n"
-    "Says what a scene holds: names, units, indices, start values, step, method, contacts, ledger,\n"
-    "memory, costs and the model's hash; all that runs and all generated code is made of the same.\n"
-    "  --json       the same for programs: one JSON object (docs/describe.md)\n"
-    "Values are SI. The other options are those of `whirl derive`.\n";
+static const command_usage usage = {
+    .head =
+        "usage: whirl describe FILE[:NAME]|SCENE|MECHANISM[:SCENE] [--json] [options]\n"
+        "\n"
+        "Says what a scene holds: names, units, indices, start values, step, method, contacts, ledger,\n"
+        "memory, costs and the model's hash; all that runs and all generated code is made of the same.\n"
+        "Values are SI.\n"
+        "  --json       the same for programs: one JSON object (docs/describe.md)\n",
+    .groups = OPTIONS_CHANGE | OPTIONS_ENGINE,
+    .described = false,
+    .tail = ""};
 
 typedef struct describe_options {
     change_options changes;
@@ -33,9 +35,8 @@ static bool read_options(int count, char **words, describe_options *o) {
         } else if (!options_change(count, words, &at, &o->changes, &bad) && !bad &&
                    !options_engine("describe", count, words, &at, &o->settings, &bad) && !bad) {
             if (words[at][0] == '-' && words[at][1] != '\0') {
-                options_unknown("describe", words[at],
-                                (const char *const[]){"--json", CHANGE_OPTIONS, ENGINE_OPTIONS,
-                                                      "--help", NULL});
+                options_unknown("describe", words[at], usage.groups,
+                                (const char *const[]){"--json", NULL});
                 bad = true;
             } else if (o->target != NULL) {
                 fprintf(stderr, "whirl describe: error: more than one thing to describe: %s\n",
@@ -47,7 +48,7 @@ static bool read_options(int count, char **words, describe_options *o) {
         }
     }
     if (!bad && o->target == NULL) {
-        fputs(usage, stderr);
+        options_usage(stderr, &usage);
         bad = true;
     }
     return !bad;
@@ -76,7 +77,7 @@ static int describe_loaded(source_model *from, const describe_options *o) {
 
 int command_describe(int count, char **words) {
     describe_options o = {.settings = {WH_RK4, false}};
-    if (options_help(count, words, usage)) {
+    if (options_help(count, words, &usage)) {
         return EXIT_DONE;
     }
     int code = EXIT_BAD_INPUT;

@@ -14,12 +14,6 @@ const char *const describe_roles[IMAGE_ROLES] = {
     [IMAGE_SIGNALS] = "signals", [IMAGE_FORCES] = "forces",   [IMAGE_SETS] = "sets",
     [IMAGE_POWERS] = "powers",   [IMAGE_LEVELS] = "levels"};
 
-#define KIND_WORD(name, word, is) [name] = word,
-static const char *const contact_kinds[] = {WH_CONTACT_KINDS(KIND_WORD)};
-#undef KIND_WORD
-
-const char *describe_contact_kind(const image_contact *c) { return contact_kinds[c->kind]; }
-
 const char *describe_ledger_kind(ledger_kind kind) {
     switch (kind) {
     case LEDGER_WORK: return "work";
@@ -126,7 +120,7 @@ static void put_contacts(json *j, const image *im) {
         const image_contact *c = &im->contact[k];
         json_open(j, NULL, '{');
         json_whole(j, "index", k);
-        json_text(j, "kind", describe_contact_kind(c));
+        json_text(j, "kind", c->word);
         json_whole(j, "direction", c->direction);
         json_whole(j, "pin", c->pin);
         json_whole(j, "sets", c->sets);

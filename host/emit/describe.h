@@ -17,7 +17,6 @@ void describe_text(FILE *out, const image *im, const char *file);
 
 /* Words that both use. */
 extern const char *const describe_roles[IMAGE_ROLES];
-const char *describe_contact_kind(const image_contact *c);
 const char *describe_ledger_kind(ledger_kind kind);
 
 #endif

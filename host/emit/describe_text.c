@@ -59,7 +59,7 @@ static void put_contacts(FILE *out, const image *im) {
     for (int k = 0; k < im->contacts; k++) {
         const image_contact *c = &im->contact[k];
         statement_text(c->at, text, sizeof text);
-        fprintf(out, "  %2d %-9s line %-5d %s\n", k, describe_contact_kind(c), c->at.line, text);
+        fprintf(out, "  %2d %-9s line %-5d %s\n", k, c->word, c->at.line, text);
     }
 }
 

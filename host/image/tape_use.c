@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/base/hash.h"
+#include "host/base/hashing.h"
 #include "host/base/room.h"
 #include "tape.h"
 
