@@ -10,10 +10,10 @@
 #include "belief.h"
 #include "envelope.h"
 #include "host/base/room.h"
+#include "host/base/statement.h"
 #include "host/plot/plot.h"
 #include "records.h"
 #include "slow.h"
-#include "host/base/statement.h"
 #include "summary.h"
 #include "undefined.h"
 

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "host/derive/image_make.h"
 #include "host/emit/emit.h"
 #include "host/run/engine.h"
 #include "host/show/show_equations.h"
