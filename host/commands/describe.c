@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "commands.h"
-#include "host/emit/image_json.h"
+#include "host/emit/description.h"
 #include "load.h"
 #include "options.h"
 

@@ -228,12 +228,12 @@ int load(loaded *made, source_model *s, const mechanism *of, const scene *in,
         made->equations = equations_derive(made->instance, s->errors);
     }
     if (made->equations != NULL) {
-        const bool *conserve = wish->conserve ? made->instance->conserve : NULL;
+        const bool *conserve = wish->conserve ? made->equations->instance->conserve : NULL;
         made->image = image_make(made->equations, conserve, &wish->settings, wish->use, s->errors);
     }
     diags_flush(s->errors, stderr);
     if (made->image != NULL) {
-        made->hint = hint_for(made->instance);
+        made->hint = hint_for(made->equations->instance);
         made->contacts = wish->contacts ? contacts_of(made->equations) : NULL;
     }
     if (made->image != NULL &&

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "derived.h"
-#include "host/emit/image_json.h"
+#include "host/emit/description.h"
 #include "json_check.h"
 #include "unity.h"
 

@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "derived.h"
-#include "host/emit/image_json.h"
+#include "host/emit/description.h"
 #include "host/emit/emit.h"
 #include "host/run/ledger_text.h"
 #include "host/run/records.h"

@@ -1,5 +1,5 @@
-/* image_json.c: an image as JSON. */
-#include "image_json.h"
+/* description.c: an image as JSON. */
+#include "description.h"
 
 #include <inttypes.h>
 #include <string.h>

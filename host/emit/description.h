@@ -1,6 +1,6 @@
-/* image_json.h: what an image holds, for programs (docs/describe.md) and for readers. */
-#ifndef EMIT_IMAGE_JSON_H
-#define EMIT_IMAGE_JSON_H
+/* description.h: what an image holds, for programs (docs/describe.md) and for readers. */
+#ifndef EMIT_DESCRIPTION_H
+#define EMIT_DESCRIPTION_H
 
 #include <stdio.h>
 
