@@ -54,29 +54,47 @@ WH_INLINE unsigned wh_contact_which(const wh_contact_system *of, const wh_contac
 
 /* --- velocities ---------------------------------------------------------------------------------- */
 
-/* Would a flight that begins with `speed` be too short, as stop k is pressed? work->law and accel[] must
- * belong to the state. */
+/* The terms of J_k x, in size: beside them it is known to rounding. */
+WH_INLINE wh_real wh_contact_terms(const wh_contact_system *of, const wh_contact_work *w,
+                                   unsigned k, const wh_real *x) {
+    const wh_real *row = wh_contact_law(of, w, k) + WH_LAW_ROWS;
+    wh_real size = WH_R(0.0);
+    for (unsigned i = 0; i < of->coordinates; i++) {
+        size += WH_ABS(row[i] * x[i]);
+    }
+    return size;
+}
+
+/* Would a flight that begins with `speed` be too short, as stop k is pressed? work->law, accel[] and rate[] must
+ * belong to the state. What others hold in its place presses it by no more than rounding. */
 WH_INLINE bool wh_contact_rests(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
-                                const wh_contact_moment *m, wh_real speed, const wh_real *accel) {
-    const wh_real pressing =
-        -(wh_jacobian_times(of, w, k, accel) + wh_contact_law(of, w, k)[WH_LAW_BIAS]);
-    if (pressing == WH_R(0.0)) {
-        return speed == WH_R(0.0);
+                                const wh_contact_moment *m, wh_real speed, const wh_real *accel,
+                                const wh_real *rate) {
+    const wh_real bias = wh_contact_law(of, w, k)[WH_LAW_BIAS];
+    const wh_real pressing = -(wh_jacobian_times(of, w, k, accel) + bias);
+    const wh_real none =
+        of->forced > 1 ? WH_CONTACT_ROUNDING * (wh_contact_terms(of, w, k, accel) + WH_ABS(bias))
+                       : WH_R(0.0);
+    if (WH_ABS(pressing) <= none) {
+        return speed <= (of->forced > 1 ? WH_CONTACT_ROUNDING * wh_contact_terms(of, w, k, rate)
+                                        : WH_R(0.0));
     }
     return pressing > WH_R(0.0) && (m->last || speed + speed <= pressing * (m->h * WH_REST_SHARE));
 }
 
-/* Of the free stops, those that close and are touched, as near as their gaps are known: they are hit in the same
- * moment, whichever of them was found first. */
+/* Of the free stops, those that close and are touched, as near as their gaps and rates are known: they are hit in the
+ * same moment, whichever of them was found first. */
 static inline unsigned wh_contact_tied(const wh_contact_system *of, const wh_contact_work *w,
-                                       wh_real h, const wh_real *signal,
-                                       const wh_contact_state *s) {
+                                       wh_real h, const wh_real *signal, wh_contact_state *s) {
+    const wh_real *rate = wh_contact_rates(of, s);
     unsigned bits = 0;
     for (unsigned k = 0; k < of->forced && of->forced > 1; k++) {
+        const wh_real closing = -signal[2 * k + 1];
+        const wh_real way =
+            closing * (h * WH_BRACKET_FINE) + WH_CONTACT_TIE * wh_contact_extent(of, w, k, s);
         const bool free = of->contact[k].kind == WH_STOP && w->mode[k] == WH_FREE;
-        const wh_real way = -signal[2 * k + 1] * (h * WH_BRACKET_FINE) +
-                            WH_CONTACT_TIE * wh_contact_extent(of, w, k, s);
-        bits |= free && signal[2 * k + 1] < WH_R(0.0) && signal[2 * k] <= way ? 1U << k : 0U;
+        const bool closes = closing > WH_CONTACT_ROUNDING * wh_contact_terms(of, w, k, rate);
+        bits |= free && closes && signal[2 * k] <= way ? 1U << k : 0U;
     }
     return bits;
 }
@@ -156,7 +174,8 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
             if (was[k] < WH_R(0.0)) {
                 closing |= 1U << k;
                 speed[k] *= -wh_contact_restitution(of, w, k);
-                speed[k] = wh_contact_rests(of, w, k, m, speed[k], accel) ? WH_R(0.0) : speed[k];
+                speed[k] =
+                    wh_contact_rests(of, w, k, m, speed[k], accel, rate) ? WH_R(0.0) : speed[k];
             }
         }
     }
@@ -170,13 +189,14 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
         wh_contact_look(of, w, s, input, accel, signal);
         wh_contact_passed_on(of, w, closing, m->h, before, signal);
         for (unsigned k = 0; k < of->forced && of->forced > 1; k++) {
-            if ((closing & released) >> k & 1U) { /* others push it further */
+            if ((closing & ~released & 1U << k) == 0) { /* others push it further, or moved it */
                 speed[k] = wh_jacobian_times(of, w, k, rate);
             }
         }
     }
     for (unsigned k = 0; k < of->forced; k++) {
-        if ((hits >> k & 1U) != 0 && wh_contact_rests(of, w, k, m, speed[k], accel)) {
+        if ((hits >> k & 1U) != 0 && speed[k] >= WH_R(0.0) &&
+            wh_contact_rests(of, w, k, m, speed[k], accel, rate)) {
             rest |= 1U << k;
             leaving |= speed[k] > WH_R(0.0) ? 1U << k : 0U;
         }
@@ -196,8 +216,9 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
     wh_contact_set_modes(of, w, rest, WH_ACTIVE);
     unsigned gone = resting & ~wh_contact_which(of, w, WH_STOP, true);
     for (unsigned k = 0; k < of->forced && gone != 0; k++) {
-        const bool stays = (gone >> k & 1U) != 0 &&
-                           wh_contact_rests(of, w, k, m, wh_jacobian_times(of, w, k, rate), accel);
+        const bool stays =
+            (gone >> k & 1U) != 0 &&
+            wh_contact_rests(of, w, k, m, wh_jacobian_times(of, w, k, rate), accel, rate);
         gone &= stays ? ~0U : ~(1U << k);
     }
     wh_contact_set_modes(of, w, gone, WH_ACTIVE);

@@ -1,4 +1,4 @@
-/* contact_locate.h: finding and taking the events of a step (see contact.h). */
+/* contact_locate.h: where the first event of a try is (see contact.h). */
 #ifndef WH_CONTACT_LOCATE_H
 #define WH_CONTACT_LOCATE_H
 
@@ -66,7 +66,7 @@ static inline wh_real wh_contact_beyond(const wh_contact_system *of, const wh_co
 WH_INLINE bool wh_contact_watched(const wh_contact_system *of, const wh_contact_work *w) {
     WH_UNROLL
     for (unsigned k = 0; k < of->forced; k++) {
-        if (of->contact[k].kind != WH_HOLD && wh_contact_constrains(of, w, k)) {
+        if (wh_contact_is(of, k, WH_UNILATERAL | WH_LIMITED) && wh_contact_constrains(of, w, k)) {
             return true;
         }
     }
@@ -90,7 +90,7 @@ static inline void wh_contact_margins(const wh_contact_system *of, wh_contact_wo
         const wh_real speed = m->signal[2 * k + 1];
         const int8_t mode = w->mode[k];
         wh_real margin = WH_R(1.0);
-        switch (of->contact[k].kind) {
+        switch ((wh_contact_kind)of->contact[k].kind) {
         case WH_STOP:
             if (mode == WH_ACTIVE) {
                 margin = wh_contact_beyond(of, w, k, w->force[k]);
@@ -98,8 +98,12 @@ static inline void wh_contact_margins(const wh_contact_system *of, wh_contact_wo
                 const bool leaves = (w->inside >> k & 1U) != 0 && speed > WH_R(0.0);
                 margin = signal < WH_R(0.0) && leaves ? -signal : signal;
             }
+            all += signal + speed;
             break;
-        case WH_HOLD: margin = mode == WH_ACTIVE ? signal : -signal; break;
+        case WH_HOLD:
+            margin = mode == WH_ACTIVE ? signal : -signal;
+            all += signal + speed;
+            break;
         case WH_FRICTION:
             if (mode == WH_STUCK) {
                 all += wh_contact_law(of, w, k)[WH_LAW_FIRST];
@@ -108,14 +112,16 @@ static inline void wh_contact_margins(const wh_contact_system *of, wh_contact_wo
             } else {
                 margin = (mode > 0 ? signal : -signal) + w->slack[k];
             }
+            all += signal;
             break;
-        default: /* a crossing: only in its direction */
+        case WH_WHEN: /* only in its direction */
             if (mode != 0 && of->contact[k].direction != mode) {
                 margin = mode > 0 ? signal : -signal;
             }
+            all += signal;
             break;
+        case WH_CONTACT_KIND_COUNT: break;
         }
-        all += of->contact[k].kind <= WH_HOLD ? signal + speed : signal;
         m->value[k] = margin;
     }
     m->all = all;
@@ -200,7 +206,8 @@ static inline wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_
         wh_real root = high;
         for (unsigned k = 0; k < of->contacts; k++) {
             /* at zero already; but later than at the start a load at its limit may be one that others bear */
-            const bool load = of->contact[k].kind != WH_HOLD && wh_contact_constrains(of, w, k);
+            const bool load =
+                wh_contact_is(of, k, WH_UNILATERAL | WH_LIMITED) && wh_contact_constrains(of, w, k);
             const bool begins = before.value[k] == WH_R(0.0) && (sliding >> k & 1U) == 0 &&
                                 (low == WH_R(0.0) || !load);
             if ((*events >> k & 1U) != 0 && (before.value[k] > WH_R(0.0) || begins)) {

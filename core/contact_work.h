@@ -182,7 +182,7 @@ WH_INLINE void wh_contact_expect(wh_contact_work *w, unsigned k, wh_real value) 
 /* Does the contact keep J_k q' at zero? */
 WH_INLINE bool wh_contact_constrains(const wh_contact_system *of, const wh_contact_work *w,
                                      unsigned k) {
-    return of->contact[k].kind == WH_FRICTION ? w->mode[k] == WH_STUCK : w->mode[k] == WH_ACTIVE;
+    return w->mode[k] == (wh_contact_is(of, k, WH_LIMITED) ? WH_STUCK : WH_ACTIVE);
 }
 
 /* The limit of each friction that sticks, the force of each that slides, what each hold holds. (What a stop gives
@@ -201,7 +201,7 @@ WH_APART void wh_contact_expect_laws(const wh_contact_system *of, wh_contact_wor
 WH_INLINE bool wh_contact_any_acts(const wh_contact_system *of, const wh_contact_work *w) {
     WH_UNROLL
     for (unsigned k = 0; k < of->forced; k++) {
-        if (of->contact[k].kind == WH_FRICTION || w->mode[k] == WH_ACTIVE) {
+        if (wh_contact_is(of, k, WH_LIMITED) || w->mode[k] == WH_ACTIVE) {
             return true;
         }
     }

@@ -17,6 +17,7 @@ static const char usage[] =
     "\n"
     "  whirl list                         the built-in mechanisms and scenes\n"
     "  whirl derive FILE [--as FORM]      equations of motion, or the scene as code\n"
+    "  whirl describe SCENE|FILE[:SCENE]  what a scene holds: names, units, sizes; --json for programs\n"
     "  whirl accel FILE NAME=VALUE ...    accelerations at one state\n"
     "  whirl run SCENE|FILE[:SCENE] ...   simulate\n"
     "  whirl sweep SCENE|FILE[:SCENE] ... simulate over ranges of parameters\n"
@@ -44,6 +45,7 @@ typedef struct command {
 static const command commands[] = {
     {"list", command_list, 0},
     {"derive", command_derive, 0},
+    {"describe", command_describe, 0},
     {"accel", command_accel, 0},
 #ifndef WHIRL_NO_SYSTEM /* no processes and no signals */
     {"run", command_run, 0},

@@ -5,6 +5,7 @@
 
 int command_list(int count, char **words);
 int command_derive(int count, char **words);
+int command_describe(int count, char **words);
 int command_accel(int count, char **words);
 int command_run(int count, char **words);
 int command_sweep(int count, char **words);

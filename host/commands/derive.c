@@ -9,7 +9,7 @@
 #include "host/emit/emit.h"
 #include "host/lang/lexer.h"
 #include "host/run/start.h"
-#include "host/show/text.h"
+#include "host/show/show_equations.h"
 #include "load.h"
 #include "options.h"
 

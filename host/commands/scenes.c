@@ -11,7 +11,7 @@
 #include "host/emit/emit.h"
 #include "host/lang/builtin.h"
 #include "host/run/engine.h"
-#include "host/show/text.h"
+#include "host/show/show_equations.h"
 #include "load.h"
 
 /* Called while the equations are still there (NULL: not wanted), and of the image alone. They return an exit code. */
