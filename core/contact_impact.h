@@ -55,8 +55,8 @@ WH_INLINE unsigned wh_contact_which(const wh_contact_system *of, const wh_contac
 /* --- velocities ---------------------------------------------------------------------------------- */
 
 /* The terms of J_k x, in size: beside them it is known to rounding. */
-WH_INLINE wh_real wh_contact_terms(const wh_contact_system *of, const wh_contact_work *w,
-                                   unsigned k, const wh_real *x) {
+static inline wh_real wh_contact_terms(const wh_contact_system *of, const wh_contact_work *w,
+                                       unsigned k, const wh_real *x) {
     const wh_real *row = wh_contact_law(of, w, k) + WH_LAW_ROWS;
     wh_real size = WH_R(0.0);
     for (unsigned i = 0; i < of->coordinates; i++) {
@@ -67,9 +67,9 @@ WH_INLINE wh_real wh_contact_terms(const wh_contact_system *of, const wh_contact
 
 /* Would a flight that begins with `speed` be too short, as stop k is pressed? work->law, accel[] and rate[] must
  * belong to the state. What others hold in its place presses it by no more than rounding. */
-WH_INLINE bool wh_contact_rests(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
-                                const wh_contact_moment *m, wh_real speed, const wh_real *accel,
-                                const wh_real *rate) {
+static inline bool wh_contact_rests(const wh_contact_system *of, const wh_contact_work *w,
+                                    unsigned k, const wh_contact_moment *m, wh_real speed,
+                                    const wh_real *accel, const wh_real *rate) {
     const wh_real bias = wh_contact_law(of, w, k)[WH_LAW_BIAS];
     const wh_real pressing = -(wh_jacobian_times(of, w, k, accel) + bias);
     const wh_real none =
@@ -101,8 +101,9 @@ static inline unsigned wh_contact_tied(const wh_contact_system *of, const wh_con
 
 /* Free stops, but those in `hits`, that an impulse made close while they are touched, as near as events are located:
  * they are hit in the next round. `before` and `after` are the signals beside it. */
-WH_INLINE void wh_contact_passed_on(const wh_contact_system *of, wh_contact_work *w, unsigned hits,
-                                    wh_real h, const wh_real *before, const wh_real *after) {
+static inline void wh_contact_passed_on(const wh_contact_system *of, wh_contact_work *w,
+                                        unsigned hits, wh_real h, const wh_real *before,
+                                        const wh_real *after) {
     for (unsigned l = 0; l < of->forced && of->forced > 1; l++) {
         const wh_real speed = after[2 * l + 1];
         const bool free =
