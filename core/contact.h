@@ -50,7 +50,7 @@
 
 /* Most values that a scene's crossings assign. A generated scene defines its own. */
 #ifndef WH_SETS_MAX
-#define WH_SETS_MAX 128
+#define WH_SETS_MAX (2 * WH_COORDS)
 #endif
 
 /* Most probes to locate an event, to WH_BRACKET of the interval at worst: halving alone needs all but some

@@ -240,17 +240,13 @@ static void ask_slopes(maker *k, place where, const expr *tree, const char *what
 }
 
 static void ask_term(maker *k, const term *t) {
-    static const char *const names[] = {[TERM_T] = "the kinetic energy",
-                                        [TERM_V] = "the stored energy",
-                                        [TERM_F] = "the dissipation",
-                                        [TERM_Q] = "the force",
-                                        [TERM_EQUATION] = "the equation"};
+    const char *part = term_part(t->kind);
     char slope[80];
     const place where = image_place(k->draft, t->at);
-    ask_value(k, where, t->value, names[t->kind]);
-    ask_value(k, where, t->right, names[t->kind]);
+    ask_value(k, where, t->value, part);
+    ask_value(k, where, t->right, part);
     if (t->kind == TERM_T || t->kind == TERM_V || t->kind == TERM_F) {
-        snprintf(slope, sizeof slope, "the slope of %s", names[t->kind]);
+        snprintf(slope, sizeof slope, "the slope of %s", part);
         ask_slopes(k, where, t->value, slope, true);
     }
 }

@@ -22,15 +22,19 @@
 
 typedef struct arrangement {
     bool scaled;
-    int first;     /* unknown eliminated symbolically; -1 none; -2 every constant diagonal */
-    int order[64]; /* of elimination */
+    int first; /* unknown eliminated symbolically; -1 none; -2 every constant diagonal */
+    int order[COORDINATES_MAX]; /* of elimination */
 } arrangement;
 
 /* --- scaling -------------------------------------------------------------------------------------*/
 
+/* Different numbers that are counted; later ones are not, in what is large beyond any choice. */
+#define TALLY_MAX 128
+
+/* Starts as {0}. */
 typedef struct tally {
-    double size[128];
-    int uses[128];
+    double size[TALLY_MAX];
+    int uses[TALLY_MAX];
     int count;
 } tally;
 
@@ -41,11 +45,10 @@ static void tally_add(tally *t, const poly *p) {
         while (k < t->count && fabs(t->size[k] - size) > 1e-13 * size) {
             k++;
         }
-        if (k == t->count && k < 128) {
-            t->size[t->count] = size;
-            t->uses[t->count++] = 0;
+        if (k == t->count && k < TALLY_MAX) {
+            t->size[t->count++] = size;
         }
-        if (k < 128) {
+        if (k < t->count) {
             t->uses[k]++;
         }
     }

@@ -8,17 +8,18 @@
 # SEED      of the draw; printed
 # EXCEPT    an extended regular expression: files that it matches are left alone
 # LONGEST   seconds: a suite or script that takes longer on the tree as it is, is not run
+# ALWAYS    an extended regular expression: those that it matches are run, however long they take
 # JOBS      how many work at the same time, each in a copy of its own, with niceness NICE
 #
 # What was found stays in build/mutants/FOLDER.SEED.*: broken off, it goes on where it was. When tests change,
 # only what had survived is tried again; when the folder's code changes, it starts anew.
 set -eu
 
-: "${FOLDERS:=core core/rig host/algebra host/derive}" "${MUTANTS:=80}" "${EXCEPT:=^$}" "${LONGEST:=10}" "${JOBS:=2}"
+: "${FOLDERS:=core core/rig host/algebra host/derive}" "${MUTANTS:=80}" "${EXCEPT:=^$}" "${LONGEST:=10}" "${ALWAYS:=}" "${JOBS:=2}"
 : "${SEED:=$(date +%s)}" "${NICE:=19}" "${MAKE:=make}"
 top=build/mutants
 here=mk/mutants
-export LONGEST
+export LONGEST ALWAYS
 
 # --- copies -------------------------------------------------------------------------------------------
 # Times are kept, so that nothing is compiled that is up to date. The first copy is never changed; the
@@ -61,7 +62,7 @@ if [ "$(cat "$top/times.sum" 2>/dev/null || true)" != "$sum" ]; then
     echo "$sum" >"$top/times.sum"
 fi
 # What survived is tried again when there are other tests or more of them.
-tests_sum=$(sum_of_all tests).$LONGEST
+tests_sum=$(sum_of_all tests).$LONGEST.$ALWAYS
 
 # --- the draw, the work, the table ----------------------------------------------------------------------
 echo "Mutants drawn with SEED=$SEED, $MUTANTS a folder; tests of up to $LONGEST s."
@@ -83,7 +84,7 @@ workers=""
 trap 'kill $workers 2>/dev/null; exit 130' INT TERM
 for job in $(seq "$JOBS"); do
     # The first begins with the first folder, the second with the last, and so on in turns.
-    nice -n "$NICE" sh "$here/work.sh" "$top" "$job" "$MUTANTS" "$tests_sum" $tables &
+    nice -n "$NICE" sh "$here/work.sh" "$top" "$job" "$MUTANTS" "$tests_sum" $tables 2>>"$top/errors" &
     workers="$workers $!"
     tables=$(printf '%s\n' $tables | tac)
 done

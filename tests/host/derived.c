@@ -53,6 +53,9 @@ static derived derive_model(model *m, const char *name, diags *all) {
     diags_flush(all, out);
     fclose(out);
     diags_free(all);
+    /* whatever is refused is refused with an error, and what has an error is refused */
+    TEST_ASSERT_TRUE_MESSAGE((d.image == NULL) == (strstr(d.errors, "error: ") != NULL),
+                             d.errors);
     return d;
 }
 

@@ -1,0 +1,47 @@
+#!/bin/sh
+# recorded_lists.sh: the operation lists of every scene, and of generated mechanisms, are those on record in
+# tests/reference/lists.txt: how many operations there are (the price) and a sum over their text (the bits). Whoever
+# means to change them writes the record anew, with `WHIRL=build/whirl sh tests/cli/recorded_lists.sh --write`, and
+# says in CHANGELOG.md what moved and why; tests against references and closed forms say whether it is right.
+. "$(dirname "$0")/../checks.sh"
+
+here=$(dirname "$0")
+record=$here/../reference/lists.txt
+mechanisms=${MECHANISMS:-build/tools/mechanisms}
+count=48
+seed=11
+
+# Operations of a generated file, one a line, wherever they stand.
+lists() { grep -hE '^ +(const wh_real [a-z][0-9]+ =|[a-z_]+\[[0-9]+\] = |wh_sincos\()' "$1"; }
+
+# line NAME FILE: the name, how many operations, and the sum of their text
+line() {
+    lists "$2" >"$scratch/lists" || true
+    echo "$1 $(wc -l <"$scratch/lists") $(cksum <"$scratch/lists" | cut -d ' ' -f 1)"
+}
+
+mkdir "$scratch/scenes"
+"$whirl" emit-scenes "$scratch/scenes" >"$scratch/out" 2>&1
+verdict $? "every scene is written as C"
+for file in "$scratch"/scenes/*.c; do
+    name=$(basename "$file" .c)
+    [ "$name" = scenes ] || line "$name" "$file"
+done >"$scratch/now"
+
+"$mechanisms" "$count" "$seed" >"$scratch/made.whirl" 2>/dev/null
+good=0
+number=0
+while [ "$number" -lt "$count" ]; do
+    "$whirl" derive "$scratch/made.whirl:s$number" --as c >"$scratch/made.c" 2>>"$scratch/out" || good=1
+    line "generated_$number" "$scratch/made.c"
+    number=$((number + 1))
+done >>"$scratch/now"
+verdict $good "$count generated mechanisms are derived (seed $seed)"
+
+if [ "${1:-}" = --write ]; then
+    cp "$scratch/now" "$record"
+fi
+diff "$record" "$scratch/now" >"$scratch/diff"
+verdict $? "operations and their text are those on record ($(wc -l <"$record") lists)"
+sed "s/^/    /" "$scratch/diff" | head -n 20
+exit $failed

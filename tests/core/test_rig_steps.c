@@ -1,0 +1,334 @@
+/* test_rig_steps.c: the rig's state machine, one step at a time: how long each state lasts and what ends it, to the
+ * step, from the numbers that docs/rig.md gives; what a full record comes to; its parts against a plain model. */
+#include "core/rig/datasheet.h"
+#include "core/rig/rig.h"
+
+#include "tests/scattered.h"
+#include "unity.h"
+
+void suite_rig_steps(void);
+
+#define RPM WH_RIG_RADPS_PER_RPM
+#define STEP_TICKS 2000U
+#define STEPS_PER_S 500U
+#define TURN_TICKS 181818U /* 330 rpm */
+
+static wh_rig rig;
+static wh_rig_config config;
+static uint32_t now;
+
+static void begin(void) {
+    config = wh_rig_standard;
+    config.newton_per_count = WH_R(0.01);
+    config.load_period_ticks = STEP_TICKS;
+    config.guard.load_raw_max = 32767;
+    now = UINT32_MAX - 3000000U; /* the timer wraps on the way */
+    wh_rig_start(&config, &rig, WH_R(330.0) * RPM, now);
+}
+
+/* In this state since now, at the target's speed, with all that the guard looks for in order. */
+static void stand_in(wh_rig_state state) {
+    begin();
+    rig.state = state;
+    rig.since_ticks = now;
+    rig.band_ticks = now;
+    rig.speed.known = true;
+    rig.speed.running = true;
+    rig.speed.turn_radps = WH_R(330.0) * RPM;
+    rig.drive.setpoint_radps = rig.drive.target_radps = rig.target_radps;
+}
+
+/* `steps` steps at a speed, whose pulses and loads come as they should, while the state stays. */
+static unsigned stay(wh_real speed_rpm, unsigned steps) {
+    const wh_rig_state state = rig.state;
+    unsigned done = 0;
+    while (done < steps && rig.state == state) {
+        now += STEP_TICKS;
+        rig.speed.turn_radps = speed_rpm * RPM;
+        rig.speed.ticks = now;
+        wh_rig_load(&config, &rig, now, (int16_t)(done % 2U == 0 ? 0 : 8));
+        wh_rig_step(&config, &rig, now, false);
+        done++;
+    }
+    return done;
+}
+
+/* --- words ------------------------------------------------------------------------------------------- */
+
+static bool same_text(const char *x, const char *y) {
+    while (*x != 0 && *x == *y) {
+        x++;
+        y++;
+    }
+    return *x == *y;
+}
+
+static void test_every_state_and_reason_has_words_of_its_own(void) {
+    for (int i = 0; i <= (int)WH_RIG_TRIPPED + 1; i++) {
+        TEST_ASSERT_NOT_NULL(wh_rig_state_text((wh_rig_state)i));
+        for (int k = 0; k < i; k++) {
+            TEST_ASSERT_FALSE(
+                same_text(wh_rig_state_text((wh_rig_state)i), wh_rig_state_text((wh_rig_state)k)));
+        }
+    }
+    for (int i = 0; i <= (int)WH_TRIP_RUNS_ON + 1; i++) {
+        TEST_ASSERT_NOT_NULL(wh_trip_text((wh_trip)i));
+        for (int k = 0; k < i; k++) {
+            TEST_ASSERT_FALSE(same_text(wh_trip_text((wh_trip)i), wh_trip_text((wh_trip)k)));
+        }
+    }
+}
+
+/* --- how long each state lasts ------------------------------------------------------------------------- */
+
+static void test_the_tare_takes_its_samples(void) {
+    begin();
+    TEST_ASSERT_EQUAL_UINT(250, stay(WH_R(0.0), 1000)); /* half a second */
+    TEST_ASSERT_TRUE(rig.state == WH_RIG_SPIN_UP);
+    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 4.0f, (float)rig.tare_raw); /* of 0 and 8 */
+    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.4f, (float)rig.duty);
+    TEST_ASSERT_FALSE(rig.speed.running); /* what was seen before is forgotten */
+    begin();
+    wh_rig_load(&config, &rig, now, -1); /* nine counts in all: eight may be noise */
+    stay(WH_R(0.0), 1000);
+    TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_MOVING);
+    begin();
+    wh_rig_load(&config, &rig, now, 9);
+    stay(WH_R(0.0), 1000);
+    TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_MOVING);
+}
+
+static void test_the_loop_takes_over_at_its_speed(void) {
+    stand_in(WH_RIG_SPIN_UP);
+    rig.duty = config.spin_up_duty;
+    rig.speed.lost = 3;
+    TEST_ASSERT_EQUAL_UINT(100, stay(WH_R(149.9), 100));
+    rig.speed.known = false;
+    TEST_ASSERT_EQUAL_UINT(100, stay(WH_R(200.0), 100));
+    rig.speed.known = true;
+    TEST_ASSERT_EQUAL_UINT(1, stay(WH_R(150.1), 100));
+    TEST_ASSERT_TRUE(rig.state == WH_RIG_RAMP);
+    TEST_ASSERT_EQUAL_UINT32(3, rig.guard.lost_before);
+    TEST_ASSERT_FLOAT_WITHIN(1e-3f, 150.1f, (float)(rig.drive.setpoint_radps / RPM));
+    TEST_ASSERT_FLOAT_WITHIN(1e-3f, 330.0f, (float)(rig.drive.target_radps / RPM));
+    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.4f, (float)rig.drive.integral); /* no jump of the duty */
+
+    stand_in(WH_RIG_SPIN_UP); /* five seconds for that, and no longer */
+    TEST_ASSERT_EQUAL_UINT(5U * STEPS_PER_S + 1U, stay(WH_R(100.0), 10000));
+    TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_STALLED);
+}
+
+/* 60 rpm a second: three seconds from 150 to 330. */
+static void test_the_ramp_takes_its_time(void) {
+    stand_in(WH_RIG_RAMP);
+    rig.drive.setpoint_radps = WH_R(150.0) * RPM;
+    const unsigned steps = stay(WH_R(330.0), 10000);
+    TEST_ASSERT_TRUE(rig.state == WH_RIG_SETTLE);
+    TEST_ASSERT_TRUE(steps >= 3U * STEPS_PER_S - 1U && steps <= 3U * STEPS_PER_S + 1U);
+}
+
+static void test_the_speed_settles_within_its_band(void) {
+    static const wh_real inside_rpm[] = {WH_R(330.0), WH_R(330.49), WH_R(329.51)};
+    static const wh_real outside_rpm[] = {WH_R(330.51), WH_R(329.49)};
+    for (unsigned i = 0; i < 3; i++) {
+        stand_in(WH_RIG_SETTLE);
+        TEST_ASSERT_EQUAL_UINT(5U * STEPS_PER_S / 2U, stay(inside_rpm[i], 10000));
+        TEST_ASSERT_TRUE(rig.state == WH_RIG_RECORD);
+    }
+    for (unsigned i = 0; i < 2; i++) { /* a step outside, and the time begins anew */
+        stand_in(WH_RIG_SETTLE);
+        TEST_ASSERT_EQUAL_UINT(1000, stay(WH_R(330.0), 1000));
+        TEST_ASSERT_EQUAL_UINT(1, stay(outside_rpm[i], 1));
+        TEST_ASSERT_EQUAL_UINT(5U * STEPS_PER_S / 2U, stay(WH_R(330.0), 10000));
+        stand_in(WH_RIG_SETTLE); /* twenty seconds are enough */
+        TEST_ASSERT_EQUAL_UINT(20U * STEPS_PER_S + 1U, stay(outside_rpm[i], 20000));
+        TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_UNSETTLED);
+    }
+}
+
+static void test_the_speed_stays_while_it_is_recorded(void) {
+    static const wh_real rpm[] = {WH_R(331.99), WH_R(328.01), WH_R(332.01), WH_R(327.99)};
+    for (unsigned i = 0; i < 4; i++) {
+        stand_in(WH_RIG_RECORD);
+        const bool good = i < 2;
+        TEST_ASSERT_EQUAL_UINT(good ? 900 : 1, stay(rpm[i], 900));
+        TEST_ASSERT_TRUE(rig.guard.trip == (good ? WH_TRIP_NONE : WH_TRIP_UNSETTLED));
+    }
+}
+
+/* 1.5 s without a pulse are rest; after ten it will not come. */
+static void test_rest_is_waited_for(void) {
+    static const wh_rig_state states[] = {WH_RIG_COAST, WH_RIG_TRIPPED};
+    for (unsigned i = 0; i < 4; i++) {
+        stand_in(states[i % 2U]);
+        const bool pulses = i >= 2U;
+        if (states[i % 2U] == WH_RIG_TRIPPED) {
+            wh_guard_trip(&rig.guard, WH_TRIP_OVERSPEED);
+        }
+        unsigned steps = 0;
+        for (; steps < 20000U && !wh_rig_is_over(&rig) && rig.state == states[i % 2U]; steps++) {
+            now += STEP_TICKS;
+            rig.speed.ticks = pulses || steps == 0 ? now : rig.speed.ticks;
+            TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)wh_rig_step(&config, &rig, now, false));
+        }
+        if (pulses) {
+            TEST_ASSERT_EQUAL_UINT(10U * STEPS_PER_S + 1U, steps);
+            TEST_ASSERT_TRUE(
+                rig.guard.trip ==
+                (states[i % 2U] == WH_RIG_COAST ? WH_TRIP_RUNS_ON : WH_TRIP_OVERSPEED));
+        } else {
+            TEST_ASSERT_EQUAL_UINT(3U * STEPS_PER_S / 2U + 1U, steps);
+            TEST_ASSERT_TRUE(wh_rig_is_over(&rig));
+        }
+    }
+    stand_in(WH_RIG_COAST); /* never a pulse: the state's own time counts */
+    rig.speed.running = false;
+    unsigned steps = 0;
+    for (; steps < 20000U && rig.state == WH_RIG_COAST; steps++) {
+        now += STEP_TICKS;
+        wh_rig_step(&config, &rig, now, false);
+    }
+    TEST_ASSERT_EQUAL_UINT(3U * STEPS_PER_S / 2U, steps);
+    TEST_ASSERT_TRUE(rig.state == WH_RIG_DONE);
+}
+
+/* In any state a late controller, and from spin-up to the ramp down too high a speed, end the run. */
+static void test_what_trips_in_which_state(void) {
+    for (wh_rig_state state = WH_RIG_TARE; state <= WH_RIG_COAST; state++) {
+        stand_in(state);
+        now += STEP_TICKS;
+        rig.speed.ticks = now;
+        wh_rig_step(&config, &rig, now, true);
+        TEST_ASSERT_TRUE(rig.state == WH_RIG_TRIPPED && rig.guard.trip == WH_TRIP_WATCHDOG);
+        TEST_ASSERT_FALSE(rig.at_rest);
+        stand_in(state);
+        rig.drive.setpoint_radps = WH_R(0.0); /* stay on the ramp */
+        now += STEP_TICKS;
+        rig.speed.ticks = now;
+        rig.speed.turn_radps = WH_R(401.0) * RPM;
+        wh_rig_step(&config, &rig, now, false);
+        const bool drives = state >= WH_RIG_SPIN_UP && state <= WH_RIG_RAMP_DOWN;
+        TEST_ASSERT_TRUE((rig.guard.trip == WH_TRIP_OVERSPEED) == drives);
+    }
+}
+
+/* --- the record ------------------------------------------------------------------------------------------ */
+
+/* A load of a known mean, of a half wave up and another down at places of their own, marks on the slots. */
+static void test_what_a_full_record_comes_to(void) {
+    stand_in(WH_RIG_RECORD);
+    rig.tare_raw = WH_R(40.0);
+    rig.speed.lost = 5;
+    rig.guard.lost_before = 3;
+    rig.speed.rejected = 4;
+    rig.duty = WH_R(0.5);
+    for (unsigned i = 0; i < WH_RIG_RECORD_SAMPLES; i++) {
+        rig.raw[i] = (int16_t)(1040 + (int)(i % 91U)); /* 90.909 samples a turn */
+    }
+    rig.raw[500] = -2960;
+    rig.raw[501] = 5040;
+    rig.samples = WH_RIG_RECORD_SAMPLES;
+    rig.first_ticks = now;
+    for (unsigned i = 0; i < 10; i++) { /* between the same two samples each */
+        rig.marks[0][i] = (wh_mark){now + 1000U + i * 91U * STEP_TICKS, 4U * i};
+        rig.marks[1][i] = (wh_mark){now + 21000U + i * 91U * STEP_TICKS, 4U * i + 1U};
+    }
+    rig.marks[1][9].ticks = now - 1U; /* outside: it does not count */
+    rig.mark_count[0] = 10;
+    rig.mark_count[1] = 10;
+    now += WH_RIG_RECORD_SAMPLES * STEP_TICKS;
+    rig.speed.ticks = now;
+    rig.guard.load_ticks = now;
+    wh_rig_step(&config, &rig, now, false);
+    TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_NONE && rig.state == WH_RIG_RAMP_DOWN);
+    const wh_rig_result *result = &rig.result;
+    TEST_ASSERT_EQUAL_UINT(9, result->turns);
+    TEST_ASSERT_FLOAT_WITHIN(1e-4f, 60.0f / 0.182f, (float)(result->speed_radps / RPM));
+    TEST_ASSERT_FLOAT_WITHIN(1e-5f, 0.4f, (float)result->tare_N);
+    TEST_ASSERT_FLOAT_WITHIN(1e-4f, -30.0f, (float)result->low_N);
+    TEST_ASSERT_FLOAT_WITHIN(1e-4f, 50.0f, (float)result->high_N);
+    /* half a sample behind the turn's begin, and ten and a half */
+    TEST_ASSERT_FLOAT_WITHIN(1e-3f, 10.005f, (float)result->at_spike_N[0]);
+    TEST_ASSERT_FLOAT_WITHIN(1e-3f, 10.105f, (float)result->at_spike_N[1]);
+    /* 0 ... 90 have the mean 45; the two that are none, among 819 */
+    TEST_ASSERT_FLOAT_WITHIN(0.02f, 10.45f, (float)result->mean_N);
+    TEST_ASSERT_EQUAL_UINT32(2, result->lost);
+    TEST_ASSERT_EQUAL_UINT32(4, result->rejected);
+    TEST_ASSERT_FLOAT_WITHIN(1e-3f, 200.0f, (float)(rig.drive.target_radps / RPM));
+    TEST_ASSERT_TRUE(result->duty >= WH_R(0.0) && result->duty <= WH_R(1.0));
+}
+
+/* Half a period early or late a sample is still the one that is due. */
+static void test_samples_come_when_they_are_due(void) {
+    for (int late = -1002; late <= 1002; late++) {
+        if (late > -998 && late < 998 && late % 100 != 0) {
+            continue;
+        }
+        stand_in(WH_RIG_RECORD);
+        wh_rig_load(&config, &rig, now, 1);
+        for (unsigned i = 1; i < 5; i++) {
+            wh_rig_load(&config, &rig, now + i * STEP_TICKS + (i == 4 ? (uint32_t)late : 0U), 1);
+        }
+        TEST_ASSERT_EQUAL_UINT(5, rig.samples);
+        TEST_ASSERT_TRUE(rig.record_is_broken == (late < -1000 || late > 1000));
+    }
+}
+
+/* --- the drive, against its law written down once more --------------------------------------------------- */
+
+static double between(double low, double high) {
+    return low + (high - low) * (double)(scattered() >> 11) * 0x1p-53;
+}
+
+static double limited(double value) { return value < 0.0 ? 0.0 : value > 1.0 ? 1.0 : value; }
+
+static void test_the_drive_keeps_its_law(void) {
+    scattered_state = UINT64_C(0x5eed0011);
+    const wh_drive_config *law = &wh_rig_standard.drive;
+    unsigned held = 0;
+    for (unsigned i = 0; i < 2000U; i++) {
+        wh_drive drive;
+        wh_drive_start(law, &drive, (wh_real)between(0.0, 40.0), (wh_real)between(-0.5, 1.5));
+        TEST_ASSERT_TRUE(wh_drive_at_target(&drive));
+        double setpoint = (double)drive.setpoint_radps;
+        double integral = (double)drive.integral;
+        TEST_ASSERT_TRUE(integral >= 0.0 && integral <= 1.0);
+        drive.target_radps = (wh_real)(setpoint + between(-0.03, 0.03));
+        const double target = (double)drive.target_radps;
+        TEST_ASSERT_FALSE(wh_drive_at_target(&drive));
+        for (unsigned step = 0; step < 4; step++) {
+            const double speed = setpoint + between(-60.0, 60.0);
+            const double most = (double)law->ramp_radps2 * 0.002;
+            setpoint = target > setpoint + most   ? setpoint + most
+                       : target < setpoint - most ? setpoint - most
+                                                  : target;
+            const double error = setpoint - speed;
+            const double wanted = 0.010 * error + integral;
+            const bool further = (wanted > 1.0 && error > 0.0) || (wanted < 0.0 && error < 0.0);
+            const wh_real duty = wh_drive_step(law, &drive, (wh_real)speed, WH_R(0.002));
+            integral = further ? integral : limited(integral + 0.042 * error * 0.002);
+            held += further;
+            TEST_ASSERT_FLOAT_WITHIN(2e-5f, (float)limited(wanted), (float)duty);
+            TEST_ASSERT_FLOAT_WITHIN(2e-5f, (float)integral, (float)drive.integral);
+            TEST_ASSERT_FLOAT_WITHIN(2e-5f, (float)setpoint, (float)drive.setpoint_radps);
+        }
+        TEST_ASSERT_TRUE(
+            wh_drive_at_target(&drive)); /* 0.03 rad/s are less than three steps' way */
+    }
+    TEST_ASSERT_GREATER_THAN_UINT(500, held);
+}
+
+void suite_rig_steps(void) {
+    UnitySetTestFile(__FILE__);
+    RUN_TEST(test_every_state_and_reason_has_words_of_its_own);
+    RUN_TEST(test_the_tare_takes_its_samples);
+    RUN_TEST(test_the_loop_takes_over_at_its_speed);
+    RUN_TEST(test_the_ramp_takes_its_time);
+    RUN_TEST(test_the_speed_settles_within_its_band);
+    RUN_TEST(test_the_speed_stays_while_it_is_recorded);
+    RUN_TEST(test_rest_is_waited_for);
+    RUN_TEST(test_what_trips_in_which_state);
+    RUN_TEST(test_what_a_full_record_comes_to);
+    RUN_TEST(test_samples_come_when_they_are_due);
+    RUN_TEST(test_the_drive_keeps_its_law);
+}

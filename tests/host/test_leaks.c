@@ -1,0 +1,114 @@
+/* test_leaks.c: what was taken is given back: after deriving a scene, or being refused one, as many blocks are in use as
+ * before. Where the C library does not tell, the sanitizers do. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "derived.h"
+#include "unity.h"
+
+/* Blocks in use, counted where glibc lets a program stand in front of its allocator. */
+static long blocks;
+
+#if defined(__has_feature)
+#define SANITIZED __has_feature(address_sanitizer)
+#elif defined(__SANITIZE_ADDRESS__)
+#define SANITIZED 1
+#else
+#define SANITIZED 0
+#endif
+
+#if defined(__GLIBC__) && !SANITIZED
+/* NOLINTBEGIN(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp,readability-inconsistent-declaration-parameter-name) */
+void *__libc_malloc(size_t size);
+void *__libc_calloc(size_t count, size_t size);
+void *__libc_realloc(void *block, size_t size);
+void __libc_free(void *block);
+
+void *malloc(size_t size) {
+    void *block = __libc_malloc(size);
+    blocks += block != NULL;
+    return block;
+}
+
+void *calloc(size_t count, size_t size) {
+    void *block = __libc_calloc(count, size);
+    blocks += block != NULL;
+    return block;
+}
+
+void *realloc(void *block, size_t size) {
+    void *moved = __libc_realloc(block, size);
+    blocks += block == NULL && moved != NULL;
+    return moved;
+}
+
+void free(void *block) {
+    blocks -= block != NULL;
+    __libc_free(block);
+}
+/* NOLINTEND(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp,readability-inconsistent-declaration-parameter-name) */
+#endif
+
+void suite_leaks(void);
+
+/* The first may leave what a library keeps for the next. */
+enum { ROUNDS = 2 };
+
+static int check_scene(const scene *s) {
+    long before = 0;
+    for (int round = 0; round < ROUNDS; round++) {
+        before = blocks;
+        derived d = derived_builtin(s->name);
+        derived_free(&d);
+    }
+    TEST_ASSERT_TRUE_MESSAGE(blocks == before, s->name);
+    return 1;
+}
+
+static void test_scenes_give_everything_back(void) {
+    TEST_ASSERT_GREATER_THAN_INT(50, each_builtin_scene(check_scene));
+}
+
+#define TWO "mechanism m\ncoordinate x [m]\ncoordinate y [m]\n"
+
+static void test_what_is_refused_gives_everything_back(void) {
+    static const char *const refused[] = {
+        TWO "T = 1 [kg]*x'^2\n",                                     /* no inertia */
+        TWO "T = 1 [kg]*(x' + y')^2\n",                              /* singular */
+        TWO "T = 1 [kg]*(x'^2 - y'^2)\n",                            /* negative */
+        TWO "T = 1 [kg]*(x'^2 + y'^2)/((x - x)/(1 [m]))\n",          /* not finite */
+        TWO "T = 1 [kg]*(x'^2 + y'^2)\nV = log(-1)*1 [J]\n",         /* nowhere */
+        TWO "T = 1 [kg]*(x'^2 + y'^2)\nscene s { conserve x, y }\n", /* none is left */
+        TWO "T = 1 [kg]*(x'^2 + y'^2)\nV = 1 [N/m]*x^2\nscene s { conserve x }\n",
+        "mechanism m\nstate a\nstate b\nequation 1 [s]*(a' + b') = b\nequation a = b\n", /* a constraint */
+        "mechanism m\nstate a\nstate b\nequation 1 [s]*(a' + b') = 1\nequation 2 [s]*(a' + b') = a\n",
+    };
+    for (size_t i = 0; i < sizeof refused / sizeof refused[0]; i++) {
+        long before = 0;
+        for (int round = 0; round < ROUNDS; round++) {
+            before = blocks;
+            diags *all = diags_new();
+            model *m = model_parse("t.whirl", refused[i], strlen(refused[i]), all);
+            TEST_ASSERT_NOT_NULL_MESSAGE(m, refused[i]);
+            const scene *s = m->scene_count > 0 ? m->scenes[0] : NULL;
+            instance *inst = instance_make(m->mechanisms[0], s, NULL, all);
+            equations *e = inst == NULL ? NULL : equations_derive(inst, all);
+            image *p = e == NULL ? NULL
+                                 : image_make(e, s == NULL ? NULL : s->conserve, &plainly,
+                                              IMAGE_TO_RUN, all);
+            TEST_ASSERT_NULL_MESSAGE(p, refused[i]);
+            equations_free(e);
+            instance_free(inst);
+            model_free(m);
+            diags_free(all);
+        }
+        TEST_ASSERT_TRUE_MESSAGE(blocks == before, refused[i]);
+    }
+}
+
+void suite_leaks(void) {
+    UnitySetTestFile(__FILE__);
+    RUN_TEST(test_scenes_give_everything_back);
+    RUN_TEST(test_what_is_refused_gives_everything_back);
+}
