@@ -228,8 +228,8 @@ WH_INLINE unsigned wh_contact_stuck(const wh_contact_system *of, const wh_contac
 }
 
 /* The terms that a stop's gap is the difference of, in size. */
-WH_INLINE wh_real wh_contact_extent(const wh_contact_system *of, const wh_contact_work *w,
-                                    unsigned k, const wh_contact_state *s) {
+static inline wh_real wh_contact_extent(const wh_contact_system *of, const wh_contact_work *w,
+                                        unsigned k, const wh_contact_state *s) {
     const wh_real *row = wh_contact_law(of, w, k) + WH_LAW_ROWS;
     wh_real size = WH_R(0.0);
     for (unsigned i = 0; i < of->coordinates; i++) {
