@@ -47,9 +47,7 @@ include mk/check.mk
 .PHONY: help
 help: ## this list
 	@echo "Whirl: write a mechanism's energies, get its motion and its firmware."
-	@awk 'BEGIN { FS = ":.*## " } \
-	    /^##@ / { printf "\n%s\n", substr($$0, 5) } \
-	    /^[a-z-]+:.*## / { printf "  make %-16s %s\n", $$1, $$2 }' Makefile
+	@awk -f mk/help.awk Makefile mk/*.mk
 	@echo ""
 	@echo "V=1 shows the commands; -j2 uses two cores. BOARD= names a folder of boards/."
 

@@ -50,7 +50,7 @@
 
 /* Most values that a scene's crossings assign. A generated scene defines its own. */
 #ifndef WH_SETS_MAX
-#define WH_SETS_MAX 128
+#define WH_SETS_MAX (2 * WH_COORDS)
 #endif
 
 /* Most probes to locate an event, to WH_BRACKET of the interval at worst: halving alone needs all but some
@@ -81,17 +81,17 @@ enum {
     WH_LIMITED = 4     /* which has a limit, slides at it, and is too small to give an impulse */
 };
 
-/* The kinds, in the order in which contacts are numbered and their events at one moment are taken: name, the word of
- * the language, what it is. What each does at its events differs: the switches over the kinds have no default, so
- * that the compiler names them to whoever adds one. */
+/* The kinds, in the order in which contacts are numbered: name, what it is. What each does at its events differs: the
+ * switches over the kinds have no default, so that the compiler names them to whoever adds one; the language's row
+ * is in host/lang/kinds.h. */
 #define WH_CONTACT_KINDS(X) \
-    X(WH_STOP, "stop", WH_FORCED | WH_UNILATERAL) \
-    X(WH_HOLD, "hold", WH_FORCED) \
-    X(WH_FRICTION, "friction", WH_FORCED | WH_LIMITED) \
-    X(WH_WHEN, "when", 0)
+    X(WH_STOP, WH_FORCED | WH_UNILATERAL) \
+    X(WH_HOLD, WH_FORCED) \
+    X(WH_FRICTION, WH_FORCED | WH_LIMITED) \
+    X(WH_WHEN, 0)
 
-#define WH_KIND_NAME(name, word, is) name,
-#define WH_KIND_BIT(name, word, is) | ((((is)&trait) != 0) ? 1U << name : 0U)
+#define WH_KIND_NAME(name, is) name,
+#define WH_KIND_BIT(name, is) | ((((is)&trait) != 0) ? 1U << name : 0U)
 typedef enum wh_contact_kind {
     WH_CONTACT_KINDS(WH_KIND_NAME) WH_CONTACT_KIND_COUNT
 } wh_contact_kind;

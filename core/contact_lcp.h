@@ -10,14 +10,14 @@
  * accelerations are unique. Its forces are, too, unless contacts repeat what others hold. With impulses for forces and
  * rates for accelerations it is the impact's problem (Moreau; Pfeiffer & Glocker, chapter 8).
  *
- * It is solved by principal pivoting, the least index first (Murty, Linear Complementarity, Linear and Nonlinear
+ * It is solved by principal pivoting, the least number first (Murty, Linear Complementarity, Linear and Nonlinear
  * Programming, chapters 2 to 4; Judice & Pires 1994 for limits on both sides), from the modes as they are: in the
  * first round all that holds goes on holding. That is proved to end where the matrix is a P-matrix, which it is if no
- * rows repeat each other. Where they do it is only semidefinite: what repeats is then left out of the round's
- * elimination, which makes each round well posed, but which rows those are changes from round to round and the
- * proof does not carry over (Lemke's method or Cottle and Dantzig's would be proved there, for more rounds and other
- * forces among those that are possible). So the rounds are capped at 4 n + 1, and a step that meets the cap counts as
- * an overrun; none was seen (tests/core/test_lcp.c). */
+ * rows repeat each other. Where they do it is only semidefinite; then what would enter the basis a second time is
+ * asked whether it contradicts it, and what leaves is found by a ratio test along the null direction, as in the
+ * principal pivoting of Keller and of Graves for semidefinite matrices (Cottle, Pang & Stone, section 4.2). No proof
+ * is known for both together. So the rounds are capped at 4 n + 1, and a step that meets the cap counts as an
+ * overrun: none of 80,000 random problems with repeating rows does (tests/core/test_lcp.c). */
 #ifndef WH_CONTACT_LCP_H
 #define WH_CONTACT_LCP_H
 
@@ -132,7 +132,7 @@ static inline void wh_contact_contradicts(const wh_contact_system *of, const wh_
     for (unsigned i = 0; i < count; i++) {
         push[i] = 0;
         if ((repeats >> i & 1U) != 0) {
-            wh_real size = impulse == NULL ? w->rough[i] : WH_ABS(wanted[i]);
+            wh_real size = impulse == NULL ? w->rough[member[i]] : WH_ABS(wanted[i]);
             for (unsigned l = 0; l < count && impulse != NULL; l++) {
                 size += WH_ABS(wh_delassus(of, w, member[i], member[l]) * impulse[l]);
             }
@@ -174,14 +174,14 @@ static inline void wh_contact_magnitudes(const wh_contact_system *of, wh_contact
                                          const wh_real *accel) {
     for (unsigned i = 0; i < count; i++) {
         const wh_real *row = wh_contact_law(of, w, member[i]) + WH_LAW_ROWS;
-        w->rough[i] = WH_ABS(wh_contact_law(of, w, member[i])[WH_LAW_BIAS]);
+        w->rough[member[i]] = WH_ABS(wh_contact_law(of, w, member[i])[WH_LAW_BIAS]);
         for (unsigned c = 0; c < of->coordinates; c++) {
             wh_real size = WH_ABS(accel[c]);
             for (unsigned l = 0; l < of->forced; l++) {
                 const wh_real *way = wh_contact_law(of, w, l) + WH_LAW_ROWS + of->coordinates;
                 size += WH_ABS(way[c] * w->force[l]);
             }
-            w->rough[i] += WH_ABS(row[c]) * size;
+            w->rough[member[i]] += WH_ABS(row[c]) * size;
         }
     }
     /* from one to the next, through chains of bodies; no round makes more of what comes back (Cauchy, Schwarz) */
@@ -192,34 +192,51 @@ static inline void wh_contact_magnitudes(const wh_contact_system *of, wh_contact
                 const wh_real *way =
                     wh_contact_law(of, w, member[l]) + WH_LAW_ROWS + of->coordinates;
                 const wh_real along =
-                    WH_ABS(wh_jacobian_times(of, w, member[i], way)) * w->rough[l];
-                if (l != i && along > w->rough[i] * yield) {
-                    w->rough[i] = along / yield;
+                    WH_ABS(wh_jacobian_times(of, w, member[i], way)) * w->rough[member[l]];
+                if (l != i && along > w->rough[member[i]] * yield) {
+                    w->rough[member[i]] = along / yield;
                 }
             }
         }
     }
 }
 
-/* Which contact gives way to `i`, that repeats what others hold and is to push the way `push`? Friction does so
- * itself, at its limit, and a stop that would have to pull; for a stop that must push more, or a hold, it is
- * another stop. Returns its place in member[] and its limit, or count. */
+/* Which contact gives way to member[i], that repeats what others hold and is to push the way `push`? Friction does
+ * so itself, at its limit, and a stop that would have to pull. For a stop that must push more, or a hold, it is the
+ * first of those whose work it takes over that comes to a limit of its own. Returns its place in member[] and the
+ * limit, or count. */
 static inline unsigned wh_contact_gives_way(const wh_contact_system *of, const wh_contact_work *w,
                                             const uint8_t *member, unsigned count, const int8_t *at,
-                                            unsigned i, int8_t push, int8_t *limit) {
+                                            const wh_real *lambda, unsigned i, int8_t push,
+                                            int8_t *limit) {
     const bool pulls = wh_contact_is(of, member[i], WH_UNILATERAL) && push < 0;
+    int8_t fixed[WH_CONTACTS_MAX];
+    wh_real less[WH_CONTACTS_MAX];
+    wh_real
+        share[WH_CONTACTS_MAX]; /* what a unit of i takes from each, without a change of motion */
+    wh_real soonest = WH_LIMITLESS;
+    unsigned first = count;
     *limit = push;
     if (wh_contact_is(of, member[i], WH_LIMITED) || pulls) {
         return i;
     }
-    *limit = -1;
     for (unsigned j = 0; j < count; j++) {
-        const bool other = j != i && at[j] == 0 && wh_contact_is(of, member[j], WH_UNILATERAL);
-        if (other && wh_delassus(of, w, member[i], member[j]) != WH_R(0.0)) {
-            return j;
+        fixed[j] = j == i ? 1 : at[j];
+        less[j] = wh_delassus(of, w, member[j], member[i]);
+    }
+    (void)wh_delassus_solve(of, w, member, count, fixed, less, share);
+    for (unsigned j = 0; j < count; j++) {
+        const wh_real falls = push > 0 ? share[j] : -share[j];
+        const wh_real room = falls > WH_R(0.0) ? lambda[j] - wh_contact_low(of, w, member[j])
+                                               : wh_contact_high(of, w, member[j]) - lambda[j];
+        if (fixed[j] == 0 && WH_ABS(falls) > WH_CONTACT_ROUNDING && room < WH_LIMITLESS / 2 &&
+            room < soonest * WH_ABS(falls)) {
+            soonest = room / WH_ABS(falls);
+            first = j;
+            *limit = falls > WH_R(0.0) ? -1 : 1;
         }
     }
-    return count;
+    return first;
 }
 
 /* One round of the pivoting: the forces lambda[] of those within their limits, with the others at theirs, which
@@ -251,13 +268,12 @@ static inline unsigned wh_contact_lcp_round(const wh_contact_system *of, const w
     return repeats;
 }
 
-/* What of the residual of member[i], k, which is at a limit, may be rounding. */
+/* What of the residual of k, which is at a limit, may be rounding. */
 WH_INLINE wh_real wh_contact_residual_rounding(const wh_contact_system *of,
-                                               const wh_contact_work *w, unsigned i, unsigned k,
-                                               bool forces, wh_real wanted, wh_real made,
-                                               wh_real lambda) {
+                                               const wh_contact_work *w, unsigned k, bool forces,
+                                               wh_real wanted, wh_real made, wh_real lambda) {
     return wh_contact_rounding(wanted, made, lambda * wh_delassus_diagonal(of, w, k)) +
-           (forces ? WH_CONTACT_QUIET * w->rough[i] : WH_R(0.0));
+           (forces ? WH_CONTACT_QUIET * w->rough[k] : WH_R(0.0));
 }
 
 /* The problem of one contact: within its limits, or at the nearer. */
@@ -273,10 +289,72 @@ WH_INLINE unsigned wh_contact_lcp_one(const wh_contact_system *of, const wh_cont
     const bool low = *lambda < wh_contact_low(of, w, k);
     *lambda = low ? wh_contact_low(of, w, k) : wh_contact_high(of, w, k);
     const wh_real made = wh_delassus_diagonal(of, w, k) * *lambda;
-    const wh_real rounding =
-        wh_contact_residual_rounding(of, w, 0, k, forces, wanted, made, *lambda);
+    const wh_real rounding = wh_contact_residual_rounding(of, w, k, forces, wanted, made, *lambda);
     *left = made - wanted;
     return (low ? *left : -*left) > rounding ? 1U << k : 0U;
+}
+
+/* The pivoting's place: the contacts in the order in which they are eliminated, and what is known of each. */
+typedef struct wh_contact_pivot {
+    uint8_t member[WH_CONTACTS_MAX];
+    int8_t at[WH_CONTACTS_MAX]; /* -1, 1: at the low, at the high limit */
+    wh_real wanted[WH_CONTACTS_MAX];
+    wh_real lambda[WH_CONTACTS_MAX];
+    wh_real left[WH_CONTACTS_MAX];
+    unsigned contradicted; /* those in `at` for what they repeat, as bits of contacts */
+    unsigned giving;       /* at a limit, with an acceleration off it, as bits of contacts */
+} wh_contact_pivot;
+
+/* Contact at place i goes to its limit `to`, or, with 0, from it: then it is eliminated last, so that if it repeats
+ * the others, it is what is left out and asked which of them is to give way. */
+WH_INLINE void wh_contact_pivot_move(wh_contact_pivot *p, unsigned count, unsigned i, int8_t to) {
+    const uint8_t k = p->member[i];
+    const wh_real wanted = p->wanted[i];
+    p->at[i] = to;
+    if (to != 0) {
+        return;
+    }
+    p->contradicted &= ~(1U << k);
+    for (; i + 1U < count; i++) {
+        p->member[i] = p->member[i + 1U];
+        p->at[i] = p->at[i + 1U];
+        p->wanted[i] = p->wanted[i + 1U];
+    }
+    p->member[i] = k;
+    p->at[i] = 0;
+    p->wanted[i] = wanted;
+}
+
+/* The place of the contact that is on the wrong side, by the least number, and where it is to go; or count. */
+static inline unsigned wh_contact_pivot_wrong(const wh_contact_system *of, const wh_contact_work *w,
+                                              wh_contact_pivot *p, unsigned count, bool forces,
+                                              const wh_real *way, int8_t *to) {
+    unsigned wrong = count;
+    p->giving = 0;
+    for (unsigned i = 0; i < count; i++) {
+        const unsigned k = p->member[i];
+        const wh_real made = wh_jacobian_times(of, w, k, way);
+        const wh_real rounding =
+            wh_contact_residual_rounding(of, w, k, forces, p->wanted[i], made, p->lambda[i]);
+        const bool less = wrong == count || k < p->member[wrong];
+        p->left[i] = p->at[i] == 0 ? WH_R(0.0) : made - p->wanted[i];
+        const wh_real outwards = p->at[i] < 0 ? p->left[i] : -p->left[i];
+        if (p->at[i] == 0) {
+            if (less && wh_contact_exceeds(of, w, k, p->lambda[i])) {
+                wrong = i;
+                *to = p->lambda[i] < wh_contact_low(of, w, k) ? -1 : 1;
+            }
+        } else if (outwards < -rounding) {
+            wrong = less ? i : wrong;
+            *to = less ? 0 : *to;
+        } else if (outwards > rounding) {
+            p->giving |= 1U << k;
+        } else if ((p->contradicted >> k & 1U) != 0) { /* by less than shows here */
+            p->left[i] = p->at[i] < 0 ? rounding : -rounding;
+            p->giving |= 1U << k;
+        }
+    }
+    return wrong;
 }
 
 /* The forces (or impulses) lambda[count] of the contacts in member[] within their limits, and left[count],
@@ -288,63 +366,44 @@ static inline unsigned wh_contact_lcp(const wh_contact_system *of, wh_contact_wo
     if (of->forced == 1 || count == 1) {
         return wh_contact_lcp_one(of, w, member[0], wanted[0], forces, lambda, left);
     }
-    int8_t at[WH_CONTACTS_MAX] = {0}; /* -1, 1: at the low, at the high limit */
-    unsigned contradicted = 0;        /* those in `at` for what they repeat, as bits of places */
-    unsigned giving = 0;
+    wh_contact_pivot p = {.contradicted = 0};
+    for (unsigned i = 0; i < count; i++) {
+        p.member[i] = member[i];
+        p.wanted[i] = wanted[i];
+    }
     unsigned wrong = 0;
-    for (unsigned round = 0; wrong < count; round++) {
+    for (unsigned round = 0; wrong < count && round <= 4U * count; round++) {
         wh_real way[WH_COORDS] = {WH_R(0.0)};
         int8_t push[WH_CONTACTS_MAX] = {0};
-        const unsigned repeats =
-            wh_contact_lcp_round(of, w, member, count, at, wanted, lambda, way);
-        if (repeats != 0) {
-            wh_contact_contradicts(of, w, member, count, at, repeats, forces ? NULL : lambda,
-                                   wanted, way, push);
-        }
         int8_t to = 0;
-        wrong = count;
-        giving = 0;
-        for (unsigned i = count; i-- > 0;) {
-            const unsigned k = member[i];
-            left[i] = WH_R(0.0);
-            if (at[i] == 0) {
-                if (wh_contact_exceeds(of, w, k, lambda[i])) {
-                    wrong = i;
-                    to = lambda[i] < wh_contact_low(of, w, k) ? -1 : 1;
-                }
-                continue;
-            }
-            const wh_real made = wh_jacobian_times(of, w, k, way);
-            const wh_real rounding =
-                wh_contact_residual_rounding(of, w, i, k, forces, wanted[i], made, lambda[i]);
-            left[i] = made - wanted[i];
-            const wh_real outwards = at[i] < 0 ? left[i] : -left[i];
-            if (outwards < -rounding) {
-                wrong = i;
-                to = 0;
-            } else if (outwards > rounding) {
-                giving |= 1U << k;
-            } else if ((contradicted >> i & 1U) != 0) { /* by less than shows here */
-                left[i] = at[i] < 0 ? rounding : -rounding;
-                giving |= 1U << k;
-            }
+        const unsigned repeats =
+            wh_contact_lcp_round(of, w, p.member, count, p.at, p.wanted, p.lambda, way);
+        if (repeats != 0) {
+            wh_contact_contradicts(of, w, p.member, count, p.at, repeats, forces ? NULL : p.lambda,
+                                   p.wanted, way, push);
         }
+        wrong = wh_contact_pivot_wrong(of, w, &p, count, forces, way, &to);
         for (unsigned i = 0; i < count && wrong == count; i++) {
             if (push[i] != 0) {
-                wrong = wh_contact_gives_way(of, w, member, count, at, i, push[i], &to);
-                contradicted |= wrong < count ? 1U << wrong : 0U;
+                wrong =
+                    wh_contact_gives_way(of, w, p.member, count, p.at, p.lambda, i, push[i], &to);
+                p.contradicted |= wrong < count ? 1U << p.member[wrong] : 0U;
             }
         }
-        if (wrong < count && round == 4U * count) {
-            w->capped = true;
-            break;
-        }
         if (wrong < count) {
-            at[wrong] = to;
-            contradicted &= to == 0 ? ~(1U << wrong) : ~0U;
+            wh_contact_pivot_move(&p, count, wrong, to);
         }
     }
-    return giving;
+    w->capped = w->capped || wrong < count;
+    for (unsigned i = 0; i < count; i++) {
+        for (unsigned j = 0; j < count; j++) {
+            if (member[j] == p.member[i]) {
+                lambda[j] = p.lambda[i];
+                left[j] = p.left[i];
+            }
+        }
+    }
+    return p.giving;
 }
 
 #endif

@@ -10,9 +10,9 @@
 #define WH_LEDGER_MAX 2048
 #endif
 
-/* Most accounts. A generated scene defines its own. */
+/* Most accounts: energy, and a momentum for each coordinate. A generated scene defines its own. */
 #ifndef WH_ACCOUNTS_MAX
-#define WH_ACCOUNTS_MAX 65
+#define WH_ACCOUNTS_MAX (WH_COORDS + 1)
 #endif
 
 /* A step of the books in progress. */

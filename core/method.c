@@ -2,5 +2,5 @@
 #include "method.h"
 
 #define ROW(id, word, title, order, takes, stages, ...) \
-    [id] = {#id, word, title, order, takes, stages},
+    [id] = {word, #id, title, order, takes, stages},
 const wh_method_row wh_methods[WH_METHODS] = {WH_METHOD_ROWS(ROW)};

@@ -18,12 +18,11 @@
  * generated code. At the end of the step, with h/parts * sum_i share[i] * (derivative of stage i),
  *
  *     x' = f(x):        x moves by .rates                             (Butcher's b)
- *     q'' = f(q, q'):   q' moves by .rates, and q by h q' and h times what .positions make of the accelerations
+ *     q'' = f(q, q'):   q' moves by .rates, and q by h times q' moved by .positions
  *
  * so that a method may have weights of its own for positions (Nystroem's, semi-implicit Euler). Those of a
  * Runge-Kutta method are .positions = b A; only such a method takes systems of first order. Both have the same
- * .parts, and no stage's share for positions is above its share for rates, as order 2 asks of positive weights:
- * step.h adds the rest on. The books (ledger_step.h) weigh the stages by .rates, too.
+ * .parts: the sum for positions is part of that for rates. The books (ledger_step.h) weigh the stages by .rates, too.
  *
  * Methods of other kinds are rows as well, with columns that those here leave empty, and a loop of their own in
  * step.h where they need one, chosen by the column and never by the method's name:
@@ -33,19 +32,24 @@
  *     compositions   the same columns: a kick, a drift, a kick is a Nystroem row (semi-implicit Euler is one of one
  *                    stage); done in place as pairs, .kick[i] and .drift[i], they take no sums of stages at all.
  *     multistep      .history = how many earlier derivatives it keeps, .rates their weights, .start = WH_RK4;
- *                    wh_memory_bytes of scene.h grows by .history reals a component.
+ *                    WH_MEMORY_BYTES of scene.h grows by .history reals a component.
  *     rotated        .turns = true: the stages' sines and cosines are those of the step's begin, turned; .stage stays.
  */
+/* clang-format off */
 #define WH_METHOD_ROWS(X) \
-    X(WH_EULER, "euler", "explicit Euler", 1, WH_ANY_SYSTEM, 1, .stage = {{1, {0}}}, .parts = 1, \
-      .positions = {0}, .rates = {1}) \
-    X(WH_SEMI_IMPLICIT_EULER, "semi-implicit-euler", "semi-implicit Euler", 1, \
-      WH_SECOND_ORDER_ONLY, 1, .stage = {{1, {0}}}, .parts = 1, .positions = {1}, .rates = {1}) \
-    X(WH_HEUN, "heun", "Heun", 2, WH_ANY_SYSTEM, 2, .stage = {{1, {0}}, {1, {1}}}, .parts = 2, \
-      .positions = {1, 0}, .rates = {1, 1}) \
+    X(WH_EULER, "euler", "explicit Euler", 1, WH_ANY_SYSTEM, 1, \
+      .stage = {{1, {0}}}, \
+      .parts = 1, .positions = {0}, .rates = {1}) \
+    X(WH_SEMI_IMPLICIT_EULER, "semi-implicit-euler", "semi-implicit Euler", 1, WH_SECOND_ORDER_ONLY, 1, \
+      .stage = {{1, {0}}}, \
+      .parts = 1, .positions = {1}, .rates = {1}) \
+    X(WH_HEUN, "heun", "Heun", 2, WH_ANY_SYSTEM, 2, \
+      .stage = {{1, {0}}, {1, {1}}}, \
+      .parts = 2, .positions = {1, 0}, .rates = {1, 1}) \
     X(WH_RK4, "rk4", "Runge-Kutta 4", 4, WH_ANY_SYSTEM, 4, \
-      .stage = {{1, {0}}, {2, {1}}, {2, {0, 1}}, {1, {0, 0, 1}}}, .parts = 6, \
-      .positions = {1, 1, 1, 0}, .rates = {1, 2, 2, 1})
+      .stage = {{1, {0}}, {2, {1}}, {2, {0, 1}}, {1, {0, 0, 1}}}, \
+      .parts = 6, .positions = {1, 1, 1, 0}, .rates = {1, 2, 2, 1})
+/* clang-format on */
 
 /* The method of whoever names none. */
 #define WH_METHOD_DEFAULT WH_RK4
@@ -67,8 +71,8 @@ extern "C" {
 
 /* What users are told of a method. */
 typedef struct wh_method_row {
-    const char *name;  /* in C */
     const char *word;  /* on command lines, in file names */
+    const char *name;  /* in C */
     const char *title; /* in sentences */
     uint8_t order;     /* of convergence */
     uint8_t takes;     /* systems */

@@ -64,18 +64,25 @@ typedef float wh_real;
 #define WH_INLINE static inline
 #endif
 
-/* Errors are negative; zero is success. wh_status_text() says them in words. */
-typedef enum wh_status {
-    WH_OK = 0,
-    WH_E_DIVERGED = -1, /* a step gave a non-finite or absurd state; the last good one is kept */
-    WH_E_MEMORY = -2,   /* the caller's memory is too small for this scene */
-    WH_E_ARGUMENT = -3, /* an argument is outside its documented range */
-    WH_E_UNDEFINED =
-        -4, /* a contact's expression is no finite number; the last good state is kept */
-    WH_E_SINGULAR =
-        -5, /* holds came to where they leave more than one motion; the last good state is kept */
-    WH_E_ARITHMETIC = -6 /* compiled or set up to compute other bits (arithmetic.h says why) */
-} wh_status;
+/* Errors are negative; zero is success: X(name, value, words for consoles, wh_status_text()). */
+#define WH_STATUS_ROWS(X) \
+    X(WH_OK, 0, "ok") \
+    /* a step gave a non-finite or absurd state; the last good one is kept */ \
+    X(WH_E_DIVERGED, -1, "the state diverged") \
+    /* the caller's memory */ \
+    X(WH_E_MEMORY, -2, "the memory is too small for this scene") \
+    /* an argument is outside its documented range */ \
+    X(WH_E_ARGUMENT, -3, "an argument is out of range") \
+    /* the last good state is kept */ \
+    X(WH_E_UNDEFINED, -4, "an expression of a contact is not a finite number") \
+    /* holds came to where they do; the last good state is kept */ \
+    X(WH_E_SINGULAR, -5, "holds leave more than one motion") \
+    /* other bits than everywhere else would be computed: arithmetic.h says why */ \
+    X(WH_E_ARITHMETIC, -6, "compiled or set up for other arithmetic than IEEE 754")
+
+#define WH_STATUS_VALUE(name, value, words) name = (value),
+typedef enum wh_status { WH_STATUS_ROWS(WH_STATUS_VALUE) } wh_status;
+#undef WH_STATUS_VALUE
 
 #include "root.h" /* WH_SQRT */
 

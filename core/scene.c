@@ -265,15 +265,9 @@ const wh_real *wh_scene_rates(const wh_scene *scene, const wh_state *state) {
     return state->real + (scene->reals - scene->angles) / 2;
 }
 
+#define WORDS(name, value, words) \
+    case name: return words;
 const char *wh_status_text(wh_status status) {
-    switch (status) {
-    case WH_OK: return "ok";
-    case WH_E_DIVERGED: return "the state diverged";
-    case WH_E_MEMORY: return "the memory is too small for this scene";
-    case WH_E_ARGUMENT: return "an argument is out of range";
-    case WH_E_SINGULAR: return "holds leave more than one motion";
-    case WH_E_ARITHMETIC: return "compiled or set up for other arithmetic than IEEE 754";
-    case WH_E_UNDEFINED: return "an expression of a contact is not a finite number";
-    }
+    switch (status) { WH_STATUS_ROWS(WORDS) }
     return "unknown status";
 }

@@ -130,12 +130,12 @@ typedef struct wh_given {
 } wh_given;
 
 /* sum_j share[j] * component i of stage j, stages in order. */
-WH_INLINE wh_real wh_stage_sum(const wh_real *share, wh_given given, unsigned i) {
+WH_INLINE wh_real wh_stage_sum(const wh_real *share, unsigned stage, wh_given given, unsigned i) {
     wh_real sum = WH_R(0.0);
     bool any = false;
     WH_UNROLL
     for (unsigned j = 0; j < WH_STAGES_MAX; j++) {
-        if (share[j] != WH_R(0.0)) {
+        if (j < stage && share[j] != WH_R(0.0)) {
             const wh_real one = share[j] * (j == 0 ? given.first[i] : given.next[j - 1][i]);
             sum = any ? sum + one : one;
             any = true;
@@ -200,18 +200,19 @@ WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_met
         const wh_real parts = by->stage[s].parts;
         WH_UNROLL
         for (unsigned i = 0; i < n; i++) {
-            v[i] = rate[i] + h / parts * wh_stage_sum(share, all_accels, i);
+            v[i] = rate[i] + h / parts * wh_stage_sum(share, s, all_accels, i);
             rates[s - 1][i] = v[i];
         }
         WH_UNROLL
         for (unsigned i = 0; i < angles; i++) {
-            if (!wh_stage_angle(angle[i], wh_stage_sum(share, all_rates, i), h, parts, &phase[i])) {
+            if (!wh_stage_angle(angle[i], wh_stage_sum(share, s, all_rates, i), h, parts,
+                                &phase[i])) {
                 return wh_refuse(state, i);
             }
         }
         WH_UNROLL
         for (unsigned i = 0; i < linears; i++) {
-            at[i] = linear[i] + h / parts * wh_stage_sum(share, all_rates, angles + i);
+            at[i] = linear[i] + h / parts * wh_stage_sum(share, s, all_rates, angles + i);
         }
         accel(model, phase, at, v, u, a);
         WH_UNROLL
@@ -307,14 +308,14 @@ WH_INLINE wh_status wh_step_first(const void *model, wh_slope_fn *slope, wh_meth
         const wh_real parts = by->stage[s].parts;
         WH_UNROLL
         for (unsigned i = 0; i < angles; i++) {
-            if (!wh_stage_angle(state->angle[i], wh_stage_sum(share, all, i), h, parts,
+            if (!wh_stage_angle(state->angle[i], wh_stage_sum(share, s, all, i), h, parts,
                                 &phase[i])) {
                 return wh_refuse(state, i);
             }
         }
         WH_UNROLL
         for (unsigned i = 0; i < reals; i++) {
-            at[i] = state->real[i] + h / parts * wh_stage_sum(share, all, angles + i);
+            at[i] = state->real[i] + h / parts * wh_stage_sum(share, s, all, angles + i);
         }
         slope(model, phase, at, u, k);
         WH_UNROLL

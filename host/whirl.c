@@ -16,14 +16,25 @@ static const char usage[] =
     "From a mechanism's energies to its equations of motion, its motion and its firmware.\n"
     "\n"
     "  whirl list                         the built-in mechanisms and scenes\n"
-    "  whirl derive FILE [--as FORM]      equations of motion: text, latex, octave or c\n"
+    "  whirl derive FILE [--as FORM]      equations of motion, or the scene as code\n"
+    "  whirl describe SCENE|FILE[:SCENE]  what a scene holds: names, units, sizes; --json for programs\n"
     "  whirl accel FILE NAME=VALUE ...    accelerations at one state\n"
     "  whirl run SCENE|FILE[:SCENE] ...   simulate\n"
     "  whirl sweep SCENE|FILE[:SCENE] ... simulate over ranges of parameters\n"
     "\n"
     "For FILE[:SCENE] the built-in MECHANISM[:SCENE] can stand everywhere.\n"
     "`whirl COMMAND --help` says more; --version prints the version.\n"
-    "Exit status: 0 done, 1 the run failed, 2 bad input.\n";
+    "Exit status:";
+
+static void print_usage(FILE *out) {
+#define MEANING(name, status, meaning) #status " " meaning,
+    static const char *const ends[] = {EXIT_ROWS(MEANING)};
+    fputs(usage, out);
+    for (size_t i = 0; i < sizeof ends / sizeof ends[0]; i++) {
+        fprintf(out, "%s %s", i > 0 ? "," : "", ends[i]);
+    }
+    fputs(".\n", out);
+}
 
 typedef struct command {
     const char *name;
@@ -34,6 +45,7 @@ typedef struct command {
 static const command commands[] = {
     {"list", command_list, 0},
     {"derive", command_derive, 0},
+    {"describe", command_describe, 0},
     {"accel", command_accel, 0},
 #ifndef WHIRL_NO_SYSTEM /* no processes and no signals */
     {"run", command_run, 0},
@@ -53,12 +65,12 @@ int main(int count, char **words) {
         return EXIT_RUN_FAILED;
     }
     if (count < 2) {
-        fputs(usage, stderr);
+        print_usage(stderr);
         return EXIT_BAD_INPUT;
     }
     if (strcmp(words[1], "--help") == 0 || strcmp(words[1], "-h") == 0 ||
         strcmp(words[1], "help") == 0) {
-        fputs(usage, stdout);
+        print_usage(stdout);
         return EXIT_DONE;
     }
     if (strcmp(words[1], "--version") == 0) {
@@ -83,6 +95,6 @@ int main(int count, char **words) {
     if (search.best != NULL) {
         fprintf(stderr, "hint: did you mean '%s'?\n", search.best);
     }
-    fputs(usage, stderr);
+    print_usage(stderr);
     return EXIT_BAD_INPUT;
 }

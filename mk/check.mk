@@ -10,6 +10,8 @@ check-now: build/whirl
 	@$(MAKE) $(GEN)/.stamp
 	@sh tests/gates.sh build/check "$(MAKE)" $(GATES)
 
+##@ Tests and quality
+## gate-NAME: one quality gate alone; `make check` names them
 .PHONY: $(addprefix gate-,$(GATES))
 
 gate-house:

@@ -11,7 +11,8 @@ figures-now: build/whirl
 	@sh mk/figures/page.sh $(FIGS) >$(FIGURES)/figures.md
 	@echo "Drawn: $(FIGURES)/*.svg and *.png"
 
-figures-docs: figures
+##@ The dissertation
+figures-docs: figures ## the same, copied into docs/
 	@mkdir -p docs/figures
 	@cp $(patsubst mk/figures/%.fig,$(FIGURES)/%.svg,$(FIGS) $(FINDINGS)) docs/figures/
 	@cp $(FIGURES)/figures.md docs/figures.md

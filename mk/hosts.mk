@@ -52,7 +52,8 @@ gate-hosts:
 # The portable suites on the foreign processors, in float and in double (many minutes: every scene is compiled).
 HOSTS_SUITES ?= m32 aarch64 armhf
 .PHONY: hosts-suites $(addprefix suites-,$(HOSTS))
-hosts-suites: $(addprefix suites-,$(HOSTS_SUITES))
+##@ Tests and quality
+hosts-suites: $(addprefix suites-,$(HOSTS_SUITES)) ## the portable suites built for other processors, emulated (many minutes)
 $(addprefix suites-,$(HOSTS)): suites-%: build/whirl $(UNITY_DIR)/unity.c
 	@$(MAKE) $(GEN)/.stamp
 	@$(MAKE) B=build/hosts/$* CC="$(host_cc_$*)" OPT=-O1 $(host_set_$*) \

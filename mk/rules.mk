@@ -15,7 +15,7 @@ say = @printf '  %-5s %s\n'
 endif
 
 comma := ,
-WARN := -Wall -Wextra -Wconversion -Wshadow -Wdouble-promotion
+WARN := -Wall -Wextra -Wconversion -Wshadow -Wdouble-promotion -Wswitch-enum
 # One arithmetic everywhere: no contraction to fused multiply-adds, no -ffast-math.
 BASE := -std=c11 -ffp-contract=off -I. $(WARN)
 NATIVE := $(OPT) -g $(EXTRA)

@@ -73,23 +73,24 @@ test-now: build/whirl
 	@$(build_other_tests)
 	@WHIRL=build/whirl sh tests/run.sh build/tests/log $(RUN_CLI) $(RUN_BOARD) $(RUN_HOST) $(RUN_CORE)
 
+##@ Tests and quality
 # Parts of it, for while one works on something.
-test-core: build/whirl
+test-core: build/whirl ## the portable suites alone, in float and double on this machine
 	@$(MAKE) $(GEN)/.stamp
 	@$(MAKE) build/tests/core_double build/tests/core_float
 	@sh tests/run.sh build/tests/log $(RUN_CORE)
 
-test-host: build/whirl
+test-host: build/whirl ## the suites of the program alone
 	@$(MAKE) $(GEN)/.stamp
 	@$(MAKE) build/tests/host
 	@sh tests/run.sh build/tests/log $(RUN_HOST)
 
-test-cli: build/whirl
+test-cli: build/whirl ## the scripts of tests/cli alone
 	@$(MAKE) $(GEN)/.stamp
 	@$(MAKE) test-programs
 	@WHIRL=build/whirl sh tests/run.sh build/tests/log $(RUN_CLI)
 
-test-board: build/whirl
+test-board: build/whirl ## the portable suites on the emulated boards alone
 	@$(MAKE) $(GEN)/.stamp
 	@$(MAKE) $(ELF)/tests.elf
 	@$(build_other_tests)

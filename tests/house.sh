@@ -19,9 +19,65 @@ files() { find "$@" -type f \( -name '*.c' -o -name '*.h' \) 2>/dev/null | sort;
 core=$(files core)
 hal=$(files hal)
 target=$(files boards | grep -v '^boards/host/')
+program=$(files host)
 all=$(files core hal boards host mk tests)
 
-# shellcheck disable=SC2086 # lists of files
+# Whom the program's folders may include, a line each. Each names folders above its own line only, so that no arrow
+# goes back and there is no circle. What runs and what writes code knows the image, and neither the language nor the
+# algebra nor each other.
+arrows='
+core:
+base: core
+number: core
+plot: number
+lang: base number
+algebra: base lang
+image: base core number
+derive: algebra base core image lang number
+show: algebra base derive lang number
+run: base core image number plot
+emit: base image number
+sweep: base core derive image lang number run
+commands: base derive emit image lang number run show sweep
+'
+
+# included FILE...: "FILE FOLDER" for each folder of core or host that a file names in an include
+included() {
+    grep -HoE '^#include "(host/[a-z]+|core)/' "$@" | sed -E 's/:#include "(host\/)?/ /; s/\/$//'
+}
+
+# arrows_hold: complain about every include that no line allows, and about lines that point down
+arrows_hold() {
+    known=
+    for folder in $(echo "$arrows" | sed -n 's/:.*//p'); do
+        allowed=$(echo "$arrows" | sed -n "s/^$folder: *//p")
+        for other in $allowed; do
+            case " $known " in
+            *" $other "*) ;;
+            *) echo "error: $folder: $other stands below it" && bad=1 ;;
+            esac
+        done
+        known="$known $folder"
+        [ "$folder" = core ] && continue
+        [ -d "host/$folder" ] || { echo "error: there is no host/$folder" && bad=1; }
+        hits=$(included host/"$folder"/* | while read -r file other; do
+            case " $folder $allowed " in
+            *" $other "*) ;;
+            *) echo "    $file includes $other" ;;
+            esac
+        done)
+        [ -z "$hits" ] || { echo "error: an arrow between folders that is not allowed:" && echo "$hits" && bad=1; }
+    done
+    for folder in host/*/; do
+        case " $known " in
+        *" $(basename "$folder") "*) ;;
+        *) echo "error: $folder is in no line of the arrows" && bad=1 ;;
+        esac
+    done
+}
+arrows_hold
+
+# shellcheck disable=SC2046,SC2086 # lists of files
 {
     rule "a mark of something unfinished" '\b(TO''DO|FIX''ME|XX''X|HA''CK)\b' $all
     rule "heap in code for boards" '\b(malloc|calloc|realloc|free|alloca) *\(' $core $hal $target
@@ -30,12 +86,20 @@ all=$(files core hal boards host mk tests)
         $core $hal $target
     rule "the core depends on nothing of ours" '^#include "(hal|boards|host|tests|build)/' $core
     rule "hal depends on the core only" '^#include "(boards|host|tests|build)/' $hal
+    rule "the host's program depends on the core only" '^#include "(hal|boards|tests|build)/' $program
     rule "boards do not depend on the host's program" '^#include "(host|tests)/' $target
     rule "memory from the heap comes from host/base/room.c" \
         '\b(malloc|calloc|realloc|aligned_alloc|strdup|strndup|open_memstream) *\(' \
         $(files host | grep -v '^host/base/room\.c$')
+    rule "a step of a sweep knows the image only" '^#include "host/(lang|algebra|derive)/' host/sweep/stepping.* \
+        host/sweep/gauge.*
     rule "white space at a line's end" '[[:space:]]$' $all
     rule "a tab" '	' $all
+    twice=$(files core hal host | sed 's/\.[ch]$//' | sort -u | sed 's:.*/::' | sort | uniq -d)
+    for name in $twice; do
+        echo "error: files of one program have one name: $(files core hal host | grep "/$name\.[ch]$" | tr '\n' ' ')"
+        bad=1
+    done
     for file in $all; do
         lines=$(wc -l <"$file")
         if [ "$lines" -gt 500 ]; then

@@ -30,9 +30,9 @@ static void enable_fpu(void) {
 
 /* Below the stack lies a strip that nobody may touch (Armv7-M Architecture Reference Manual, B3.5):
  * an overflow faults at once instead of quietly eating what comes next. Chips without a memory
- * protection unit read a region count of zero and go without. */
+ * protection unit read a region count of zero and go without, as do those of Armv8-M, whose unit is another. */
 static void guard_stack(void) {
-#if __ARM_ARCH >= 7
+#if __ARM_ARCH == 7
     const uint32_t strip_256_bytes = 7U << 1; /* 2^(7 + 1) */
     const uint32_t no_access_no_execute = 1U << 28;
     if (((REGISTER(MPU_TYPE) >> 8) & 0xFFU) == 0) {

@@ -56,16 +56,6 @@ __attribute__((noinline)) wh_real bench_two(wh_real (*function)(wh_real x, wh_re
     return function(x, y);
 }
 
-static const char *name_of(wh_method method) {
-    switch (method) {
-    case WH_EULER: return "euler";
-    case WH_SEMI_IMPLICIT_EULER: return "semi-implicit-euler";
-    case WH_HEUN: return "heun";
-    case WH_RK4: return "rk4";
-    }
-    return "unknown";
-}
-
 static void say(const wh_text *text) { hal_console_write(text->bytes, text->length); }
 
 static void say_counted(const char *name, const char *method, bool compensated, unsigned first) {
@@ -216,7 +206,7 @@ static bool count_scene(const wh_scene *scene) {
         return false;
     }
     say_stack(scene->name);
-    say_counted(scene->name, name_of(scene->method), scene->compensated, first);
+    say_counted(scene->name, wh_methods[scene->method].word, scene->compensated, first);
 #if COUNT_RECORDS
     count_records(scene, &state);
 #endif

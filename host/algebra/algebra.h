@@ -74,7 +74,7 @@ bool power_multiplies_out(const poly *base, double exponent, double kept);
 /* A sum of positions, parameters and numbers: no rate, no sine, no function? */
 bool poly_is_place(const poly *p);
 
-/* --- sums of many polys (sum.c) ------------------------------------------------------------------*/
+/* --- sums of many polys (sums.c) ------------------------------------------------------------------*/
 
 typedef struct sum_item {
     const mono *mono;

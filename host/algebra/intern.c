@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "algebra.h"
-#include "host/base/hash.h"
+#include "host/base/hashing.h"
 #include "host/base/room.h"
 
 /* An expression that needs more work than this is given up on: some 300 MB, or a few seconds. */

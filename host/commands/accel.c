@@ -12,18 +12,20 @@
 #include "load.h"
 #include "options.h"
 
-static const char usage[] =
-    "usage: whirl accel FILE[:NAME]|SCENE|MECHANISM[:SCENE] [NAME=VALUE ...]\n"
-    "\n"
-    "Prints the accelerations at one state, a line each, 17 significant digits:\n"
-    "    whirl accel core/models/epicyclic.whirl theta=0.3 \"theta'=1.2\" M=1.5\n"
-    "Coordinates, their rates, inputs and parameters can be set, each once; values are SI, or carry\n"
-    "a unit: \"theta'=330 [rpm]\". What is left out is 0, or has its declared value. The results are SI.\n"
-    "SCENE and MECHANISM are built in (`whirl list`). A scene brings its effects, whose parameters can\n"
-    "be set then.\n"
-    "\n"
-    "Exit status: 0 done; 1 they are not finite numbers there (it says which expression is not); 2 bad\n"
-    "input.\n";
+static const command_usage usage = {
+    .head =
+        "usage: whirl accel FILE[:NAME]|SCENE|MECHANISM[:SCENE] [NAME=VALUE ...]\n"
+        "\n"
+        "Prints the accelerations at one state, a line each, 17 significant digits:\n"
+        "    whirl accel core/models/epicyclic.whirl theta=0.3 \"theta'=1.2\" M=1.5\n"
+        "Coordinates, their rates, inputs and parameters can be set, each once; values are SI, or carry\n"
+        "a unit: \"theta'=330 [rpm]\". What is left out is 0, or has its declared value. The results are SI.\n"
+        "SCENE and MECHANISM are built in (`whirl list`). A scene brings its effects, whose parameters can\n"
+        "be set then.\n"
+        "\n"
+        "Exit status: 0 done; 1 they are not finite numbers there (it says which expression is not); 2 bad\n"
+        "input.\n",
+    .tail = ""};
 
 static bool is_finite(const image *im, const double *result) {
     for (int i = 0; i < im->count; i++) {
@@ -81,11 +83,11 @@ static int print_image(const image *im, const char *file) {
 }
 
 int command_accel(int count, char **words) {
-    if (options_help(count, words, usage)) {
+    if (options_help(count, words, &usage)) {
         return EXIT_DONE;
     }
     if (count < 1) {
-        fputs(usage, stderr);
+        options_usage(stderr, &usage);
         return EXIT_BAD_INPUT;
     }
     source_model from;
@@ -99,7 +101,7 @@ int command_accel(int count, char **words) {
         const overrides changes = {.values = (const char *const *)(words + 1),
                                    .value_count = count - 1};
         loaded made;
-        const load_wish wish = {.settings = {WH_RK4, false}, .use = IMAGE_TO_RUN};
+        const load_wish wish = {.settings = {WH_METHOD_DEFAULT, false}, .use = IMAGE_TO_RUN};
         code = load(&made, &from, of, in, &changes, &wish);
         source_forget(&from);
         if (code == EXIT_DONE) {

@@ -1,10 +1,11 @@
 /* commands.h: what `whirl` can be told to do. Each takes the words behind its name and returns an
- * exit code: 0 done, 1 the run failed, 2 bad input. */
+ * exit code (host/base/exit.h). */
 #ifndef COMMANDS_COMMANDS_H
 #define COMMANDS_COMMANDS_H
 
 int command_list(int count, char **words);
 int command_derive(int count, char **words);
+int command_describe(int count, char **words);
 int command_accel(int count, char **words);
 int command_run(int count, char **words);
 int command_sweep(int count, char **words);

@@ -9,39 +9,74 @@
 #include "host/emit/emit.h"
 #include "host/lang/lexer.h"
 #include "host/run/start.h"
-#include "host/show/text.h"
+#include "host/show/show_equations.h"
 #include "load.h"
 #include "options.h"
 
-static const char usage[] =
-    "usage: whirl derive FILE[:NAME]|SCENE|MECHANISM[:SCENE] [--as text|latex|octave|c]\n"
-    "                    [--with E,...] [--without E,...] [--set NAME=EXPR] [--start NAME=EXPR]\n"
-    "                    [--step 1ms] [--until 9s] [--method M] [--compensated]\n"
-    "                    [--name NAME] [--header FILE]\n"
-    "\n"
-    "Prints the equations of motion of a mechanism (or of a scene, with its effects), of a FILE or\n"
-    "built in (`whirl list`):\n"
-    "  --as text    one equation a coordinate, as in a textbook, and the first-order form (default)\n"
-    "  --as latex   the same for a paper (with amsmath)\n"
-    "  --as octave  a function file that Octave and Matlab integrate as it stands\n"
-    "  --as c       the scene as C for the core\n"
-    "  --header FILE, with --as c: its header, for C and C++: names of components, inputs and outputs,\n"
-    "               their units, the memory that it takes\n"
-    "  --name NAME, with --as c or octave: what the scene is called there, so that one program can hold\n"
-    "               it twice: with and without an effect, compensated and not\n"
-    "Numbers in formulas are SI. The other options are those of `whirl run`; the method matters to the C form only.\n";
+static void text(const loaded *made, const char *file) {
+    (void)file;
+    show_text(stdout, made->equations);
+}
 
-typedef enum form { FORM_TEXT, FORM_LATEX, FORM_OCTAVE, FORM_C, FORMS } form;
-static const char *const form_names[FORMS] = {"text", "latex", "octave", "c"};
+static void latex(const loaded *made, const char *file) {
+    (void)file;
+    show_latex(stdout, made->equations);
+}
 
-static void print(form as, const loaded *made, const char *file) {
-    switch (as) {
-    case FORM_TEXT: show_text(stdout, made->equations); break;
-    case FORM_LATEX: show_latex(stdout, made->equations); break;
-    case FORM_OCTAVE: emit_octave(stdout, made->image, file, made->contacts); break;
-    case FORM_C: emit_c(stdout, made->image, file); break;
-    case FORMS: break;
+static void octave(const loaded *made, const char *file) {
+    emit_octave(stdout, made->image, file, made->contacts);
+}
+
+static void c(const loaded *made, const char *file) { emit_c(stdout, made->image, file); }
+
+typedef struct form_row {
+    const char *word;
+    void (*print)(const loaded *made, const char *file);
+    bool shows; /* equations, of each mechanism of a file one after another; else it is code */
+    bool named; /* holds the scene's name: --name */
+    bool runs;  /* steps the scene: momenta, method and number matter, and it has a header */
+    bool tells_contacts; /* in words, since it has no steps of its own for them */
+    const char *text;
+} form_row;
+
+/* The first stands for itself. */
+static const form_row forms[] = {
+    {.word = "text",
+     .print = text,
+     .shows = true,
+     .text = "one equation a coordinate, as in a textbook, and the first-order form (default)"},
+    {.word = "latex", .print = latex, .shows = true, .text = "the same for a paper (with amsmath)"},
+    {.word = "octave",
+     .print = octave,
+     .named = true,
+     .tells_contacts = true,
+     .text = "a function file that Octave and Matlab integrate as it stands"},
+    {.word = "c", .print = c, .named = true, .runs = true, .text = "the scene as C for the core"},
+};
+enum { FORMS = sizeof forms / sizeof forms[0] };
+
+static const command_usage usage = {
+    .head =
+        "usage: whirl derive FILE[:NAME]|SCENE|MECHANISM[:SCENE] [--as FORM] [options]\n"
+        "\n"
+        "Prints the equations of motion of a mechanism (or of a scene, with its effects), of a FILE or\n"
+        "built in (`whirl list`):\n",
+    .tail = ""};
+static const command_usage options_of_derive = {
+    .head =
+        "  --header FILE, with --as c: its header, for C and C++: names of components, inputs and outputs,\n"
+        "               their units, the memory that it takes\n"
+        "  --name NAME, with --as c or octave: what the scene is called there, so that one program can hold\n"
+        "               it twice: with and without an effect, compensated and not\n",
+    .groups = OPTIONS_CHANGE | OPTIONS_ENGINE,
+    .tail = "Numbers in formulas are SI. The method matters to the C form only.\n"};
+
+static void print_usage(FILE *out) {
+    options_usage(out, &usage);
+    for (int i = 0; i < FORMS; i++) {
+        fprintf(out, "  --as %-8s%s\n", forms[i].word, forms[i].text);
     }
+    options_usage(out, &options_of_derive);
 }
 
 /* The files that --header must not be, which are read and written at the same time. */
@@ -105,30 +140,29 @@ static bool has_c_form(const image *im, source_model *from, const char *header) 
 }
 
 static int derive_one(source_model *from, const mechanism *of, const scene *in,
-                      const overrides *changes, form as, const image_settings *settings,
+                      const overrides *changes, const form_row *as, const image_settings *settings,
                       const char *header) {
-    const bool by_equations = as == FORM_TEXT || as == FORM_LATEX;
     const load_wish wish = {.settings = *settings,
                             .use = IMAGE_TO_WRITE,
-                            .keep = by_equations ? KEEP_EQUATIONS : KEEP_IMAGE,
-                            .conserve = as == FORM_C,
-                            .contacts = as == FORM_OCTAVE};
+                            .keep = as->shows ? KEEP_EQUATIONS : KEEP_IMAGE,
+                            .conserve = as->runs,
+                            .contacts = as->tells_contacts};
     loaded made;
     int code = load(&made, from, of, in, changes, &wish);
-    if (!by_equations) {
+    if (!as->shows) {
         source_forget(from);
     }
-    if (code == EXIT_DONE && as == FORM_C &&
+    if (code == EXIT_DONE && as->runs &&
         (!has_c_form(made.image, from, header) ||
          (header != NULL && !write_header(made.image, from->file, header)))) {
         code = EXIT_BAD_INPUT;
     }
     if (code == EXIT_DONE) {
         say_hints(&made);
-        if (as == FORM_C) {
+        if (as->runs) {
             say_float_range(made.image);
         }
-        print(as, &made, from->file);
+        as->print(&made, from->file);
     }
     unload(&made);
     return code;
@@ -157,27 +191,21 @@ static bool take_name(change_options *options, const char *name) {
 int command_derive(int count, char **words) {
     const char *target = NULL;
     const char *header = NULL;
-    form as = FORM_TEXT;
+    const form_row *as = &forms[0];
     change_options options = {0};
-    image_settings settings = {WH_RK4, false};
+    image_settings settings = {WH_METHOD_DEFAULT, false};
     bool bad = false;
-    if (options_help(count, words, usage)) {
+    if (options_wants_help(count, words)) {
+        print_usage(stdout);
         return EXIT_DONE;
     }
     for (int at = 0; at < count && !bad;) {
         const char *value = options_value(count, words, &at, "--as", &bad);
         if (value != NULL) {
-            as = FORM_TEXT;
-            while (as < FORMS && strcmp(form_names[as], value) != 0) {
-                as++;
-            }
-            if (as == FORMS) {
-                fprintf(stderr,
-                        "whirl derive: error: there is no form '%s'\n"
-                        "hint: text, latex, octave or c\n",
-                        value);
-                bad = true;
-            }
+            const int chosen =
+                options_choose("derive", "form", value, forms, sizeof forms[0], FORMS);
+            bad = chosen < 0;
+            as = bad ? as : &forms[chosen];
         } else if (!bad && (value = options_value(count, words, &at, "--header", &bad)) != NULL) {
             if (header != NULL) {
                 fputs("whirl derive: error: --header is given twice\n", stderr);
@@ -189,9 +217,8 @@ int command_derive(int count, char **words) {
         } else if (!bad && !options_change(count, words, &at, &options, &bad) && !bad &&
                    !options_engine("derive", count, words, &at, &settings, &bad) && !bad) {
             if (words[at][0] == '-' && words[at][1] != '\0') {
-                options_unknown("derive", words[at],
-                                (const char *const[]){"--as", "--header", "--name", CHANGE_OPTIONS,
-                                                      ENGINE_OPTIONS, "--help", NULL});
+                options_unknown("derive", words[at], options_of_derive.groups,
+                                (const char *const[]){"--as", "--header", "--name", NULL});
                 bad = true;
             } else if (target != NULL) {
                 fprintf(stderr, "whirl derive: error: more than one thing to derive: %s\n",
@@ -202,18 +229,18 @@ int command_derive(int count, char **words) {
             }
         }
     }
-    if (!bad && header != NULL && as != FORM_C) {
+    if (!bad && header != NULL && !as->runs) {
         fputs("whirl derive: error: --header goes with the C form\nhint: --as c --header FILE\n",
               stderr);
         bad = true;
     }
-    if (!bad && options.name != NULL && as != FORM_C && as != FORM_OCTAVE) {
+    if (!bad && options.name != NULL && !as->named) {
         fputs("whirl derive: error: --name goes with the C form and Octave's\n", stderr);
         bad = true;
     }
     if (bad || target == NULL) {
         if (!bad) {
-            fputs(usage, stderr);
+            print_usage(stderr);
         }
         change_options_free(&options);
         return EXIT_BAD_INPUT;
@@ -221,7 +248,7 @@ int command_derive(int count, char **words) {
     source_model from;
     int code = source_open(&from, target);
     const overrides changes = change_options_overrides(&options);
-    if (code == EXIT_DONE && from.name[0] == '\0' && (as == FORM_TEXT || as == FORM_LATEX)) {
+    if (code == EXIT_DONE && from.name[0] == '\0' && as->shows) {
         for (int i = 0; i < from.model->mechanism_count && code == EXIT_DONE; i++) {
             if (i > 0) {
                 putchar('\n');

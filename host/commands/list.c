@@ -7,14 +7,16 @@
 #include "load.h"
 #include "options.h"
 
-static const char usage[] =
-    "usage: whirl list [FILE ...] [--as text|table]\n"
-    "\n"
-    "The mechanisms and scenes of FILEs, or the built-in ones:\n"
-    "  --as text    a line each: kind, name, title (default)\n"
-    "  --as table   for programs: also the effects, a line each, fields between tabs, the names of the\n"
-    "               fields first; '-' stands for nothing. What it holds is terms, contacts, noise\n"
-    "               and conserve; lines are those of its block, of a mechanism the one of its name.\n";
+static const command_usage usage = {
+    .head =
+        "usage: whirl list [FILE ...] [--as text|table]\n"
+        "\n"
+        "The mechanisms and scenes of FILEs, or the built-in ones:\n"
+        "  --as text    a line each: kind, name, title (default)\n"
+        "  --as table   for programs: also the effects, a line each, fields between tabs, the names of the\n"
+        "               fields first; '-' stands for nothing. What it holds is terms, contacts, noise\n"
+        "               and conserve; lines are those of its block, of a mechanism the one of its name.\n",
+    .tail = ""};
 
 typedef enum form { FORM_TEXT, FORM_TABLE, FORMS } form;
 static const char *const form_names[FORMS] = {[FORM_TEXT] = "text", [FORM_TABLE] = "table"};
@@ -204,7 +206,7 @@ int command_list(int count, char **words) {
     form as = FORM_TEXT;
     int files = 0; /* words[0..files-1] */
     bool bad = false;
-    if (options_help(count, words, usage)) {
+    if (options_help(count, words, &usage)) {
         return EXIT_DONE;
     }
     for (int at = 0; at < count && !bad;) {
@@ -218,7 +220,7 @@ int command_list(int count, char **words) {
                 bad = true;
             }
         } else if (!bad && words[at][0] == '-' && words[at][1] != '\0') {
-            options_unknown("list", words[at], (const char *const[]){"--as", "--help", NULL});
+            options_unknown("list", words[at], 0, (const char *const[]){"--as", NULL});
             bad = true;
         } else if (!bad) {
             words[files++] = words[at++];

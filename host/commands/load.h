@@ -2,9 +2,8 @@
 #ifndef COMMANDS_LOAD_H
 #define COMMANDS_LOAD_H
 
+#include "host/base/exit.h"
 #include "host/derive/image_make.h"
-
-enum { EXIT_DONE = 0, EXIT_RUN_FAILED = 1, EXIT_BAD_INPUT = 2 };
 
 /* A .whirl file, or the one built-in model that has what was named. Free with source_close(). */
 typedef struct source_model {

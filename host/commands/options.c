@@ -7,15 +7,87 @@
 
 #include "host/base/nearest.h"
 #include "host/base/room.h"
+#include "host/run/methods.h"
 
-bool options_help(int count, char **words, const char *usage) {
+typedef struct option_row {
+    const char *word;
+    const char *value; /* what stands behind it; "" for nothing */
+    option_group group;
+    const char *text;
+} option_row;
+
+#define ROW(id, word, value, group, text) [id] = {word, value, group, text},
+static const option_row option_rows[OPTIONS] = {OPTION_ROWS(ROW)};
+
+/* Columns of help texts: where the description begins. */
+enum { TEXT_COLUMN = 23, LINE_COLUMNS = 78 };
+
+static void describe(FILE *out, const option_row *row) {
+    char methods[METHODS_TEXT_SIZE];
+    const int width =
+        fprintf(out, "  %s%s%s", row->word, row->value[0] != '\0' ? " " : "", row->value);
+    const char *text = row == &option_rows[OPTION_METHOD] ? methods_in_help(methods) : row->text;
+    fprintf(out, "%*s", TEXT_COLUMN - width, "");
+    for (; *text != '\0'; text++) {
+        if (*text == '\n') {
+            fprintf(out, "\n%*s", TEXT_COLUMN, "");
+        } else {
+            fputc(*text, out);
+        }
+    }
+    fputc('\n', out);
+}
+
+static void put_word(FILE *out, const char *word, int *column) {
+    const int length = (int)strlen(word) + 1;
+    if (*column + length > LINE_COLUMNS) {
+        fprintf(out, "\n ");
+        *column = 1;
+    }
+    *column += fprintf(out, " %s", word);
+}
+
+/* Their words in lines, and where they are described. */
+static void name_them(FILE *out, unsigned groups) {
+    int column = fprintf(out, " ");
+    for (int i = 0; i < OPTIONS; i++) {
+        if ((option_rows[i].group & groups) != 0) {
+            put_word(out, option_rows[i].word, &column);
+        }
+    }
+    put_word(out, "(as for `whirl run`)", &column);
+    fputc('\n', out);
+}
+
+void options_usage(FILE *out, const command_usage *usage) {
+    fputs(usage->head, out);
+    if (usage->described) {
+        for (int i = 0; i < OPTIONS; i++) {
+            if ((option_rows[i].group & usage->groups) != 0) {
+                describe(out, &option_rows[i]);
+            }
+        }
+    } else if (usage->groups != 0) {
+        name_them(out, usage->groups);
+    }
+    fputs(usage->tail, out);
+}
+
+bool options_wants_help(int count, char **words) {
     for (int i = 0; i < count; i++) {
         if (strcmp(words[i], "--help") == 0 || strcmp(words[i], "-h") == 0) {
-            fputs(usage, stdout);
             return true;
         }
     }
     return false;
+}
+
+bool options_help(int count, char **words, const command_usage *usage) {
+    const bool wanted = options_wants_help(count, words);
+    if (wanted) {
+        options_usage(stdout, usage);
+    }
+    return wanted;
 }
 
 const char *options_value(int count, char **words, int *at, const char *name, bool *bad) {
@@ -106,22 +178,33 @@ static bool push_names(change_options *c, const char ***list, int *count, const 
     }
 }
 
-bool options_change(int count, char **words, int *at, change_options *c, bool *bad) {
-    const char *value;
-    if ((value = options_value(count, words, at, "--set", bad)) != NULL) {
-        push(&c->sets, &c->set_count, value);
-    } else if (!*bad && (value = options_value(count, words, at, "--start", bad)) != NULL) {
-        push(&c->starts, &c->start_count, value);
-    } else if (!*bad && (value = options_value(count, words, at, "--with", bad)) != NULL) {
-        *bad = !push_names(c, &c->with, &c->with_count, "--with", value);
-    } else if (!*bad && (value = options_value(count, words, at, "--without", bad)) != NULL) {
-        *bad = !push_names(c, &c->without, &c->without_count, "--without", value);
-    } else if (!*bad && (value = options_value(count, words, at, "--step", bad)) != NULL) {
-        c->step = value;
-    } else if (!*bad && (value = options_value(count, words, at, "--until", bad)) != NULL) {
-        c->until = value;
+static bool take_change(common_option which, const char *value, change_options *c) {
+    const char *word = option_rows[which].word;
+    switch (which) {
+    case OPTION_SET: push(&c->sets, &c->set_count, value); break;
+    case OPTION_START: push(&c->starts, &c->start_count, value); break;
+    case OPTION_WITH: return push_names(c, &c->with, &c->with_count, word, value);
+    case OPTION_WITHOUT: return push_names(c, &c->without, &c->without_count, word, value);
+    case OPTION_STEP: c->step = value; break;
+    case OPTION_UNTIL: c->until = value; break;
+    case OPTION_METHOD:
+    case OPTION_NUMBER:
+    case OPTION_COMPENSATED: break; /* change no instance */
     }
-    return value != NULL;
+    return true;
+}
+
+bool options_change(int count, char **words, int *at, change_options *c, bool *bad) {
+    for (int i = 0; i < OPTIONS && !*bad; i++) {
+        const char *value = option_rows[i].group == OPTIONS_CHANGE
+                                ? options_value(count, words, at, option_rows[i].word, bad)
+                                : NULL;
+        if (value != NULL) {
+            *bad = !take_change((common_option)i, value, c);
+            return true;
+        }
+    }
+    return false;
 }
 
 overrides change_options_overrides(const change_options *c) {
@@ -149,35 +232,33 @@ void change_options_free(change_options *c) {
     free(c->without);
 }
 
-/* `value` among `names`; when it is none of them that is reported, with the names. */
-static bool choose(const char *command, const char *what, const char *value,
-                   const char *const *names, int count, int *chosen) {
+int options_choose(const char *command, const char *what, const char *value, const void *rows,
+                   size_t size, int count) {
+    const char *row = rows;
     for (int i = 0; i < count; i++) {
-        if (strcmp(value, names[i]) == 0) {
-            *chosen = i;
-            return true;
+        const char *const *word = (const void *)(row + (size_t)i * size);
+        if (strcmp(value, *word) == 0) {
+            return i;
         }
     }
     fprintf(stderr, "whirl %s: error: there is no %s '%s'\nhint: one of", command, what, value);
     for (int i = 0; i < count; i++) {
-        fprintf(stderr, "%s %s", i > 0 ? "," : "", names[i]);
+        const char *const *word = (const void *)(row + (size_t)i * size);
+        fprintf(stderr, "%s %s", i > 0 ? "," : "", *word);
     }
     fputc('\n', stderr);
-    return false;
+    return -1;
 }
 
 bool options_engine(const char *command, int count, char **words, int *at, image_settings *settings,
                     bool *bad) {
-    static const char *const methods[] = {[WH_EULER] = "euler",
-                                          [WH_SEMI_IMPLICIT_EULER] = "semi-implicit-euler",
-                                          [WH_HEUN] = "heun",
-                                          [WH_RK4] = "rk4"};
-    int chosen = 0;
-    const char *value = options_value(count, words, at, "--method", bad);
+    const char *value = options_value(count, words, at, option_rows[OPTION_METHOD].word, bad);
     if (value != NULL) {
-        *bad = !choose(command, "method", value, methods, 4, &chosen);
-        settings->method = (wh_method)chosen;
-    } else if (!*bad && strcmp(words[*at], "--compensated") == 0) {
+        const int chosen =
+            options_choose(command, "method", value, wh_methods, sizeof wh_methods[0], WH_METHODS);
+        *bad = chosen < 0;
+        settings->method = *bad ? WH_METHOD_DEFAULT : (wh_method)chosen;
+    } else if (!*bad && strcmp(words[*at], option_rows[OPTION_COMPENSATED].word) == 0) {
         ++*at;
         settings->compensated = true;
         return true;
@@ -187,21 +268,32 @@ bool options_engine(const char *command, int count, char **words, int *at, image
 
 bool options_number(const char *command, int count, char **words, int *at, const engine_kind **kind,
                     bool *bad) {
-    static const char *const numbers[] = {"double", "float"};
-    int chosen = 0;
-    const char *value = options_value(count, words, at, "--number", bad);
+    static const struct {
+        const char *word;
+        const engine_kind *kind;
+    } numbers[] = {{"double", &engine_double}, {"float", &engine_float}};
+    const char *value = options_value(count, words, at, option_rows[OPTION_NUMBER].word, bad);
     if (value != NULL) {
-        *bad = !choose(command, "number", value, numbers, 2, &chosen);
-        *kind = chosen == 1 ? &engine_float : &engine_double;
+        const int chosen = options_choose(command, "number", value, numbers, sizeof numbers[0],
+                                          sizeof numbers / sizeof numbers[0]);
+        *bad = chosen < 0;
+        *kind = *bad ? *kind : numbers[chosen].kind;
     }
     return value != NULL;
 }
 
-void options_unknown(const char *command, const char *word, const char *const *known) {
+void options_unknown(const char *command, const char *word, unsigned groups,
+                     const char *const *own) {
     nearest search = nearest_start(word, strlen(word));
-    for (int i = 0; known[i] != NULL; i++) {
-        nearest_offer(&search, known[i]);
+    for (int i = 0; i < OPTIONS; i++) {
+        if ((option_rows[i].group & groups) != 0) {
+            nearest_offer(&search, option_rows[i].word);
+        }
     }
+    for (int i = 0; own[i] != NULL; i++) {
+        nearest_offer(&search, own[i]);
+    }
+    nearest_offer(&search, "--help");
     fprintf(stderr, "whirl %s: error: unknown option '%s'\n", command, word);
     if (search.best != NULL) {
         fprintf(stderr, "hint: did you mean %s?\n", search.best);

@@ -3,12 +3,59 @@
 #define COMMANDS_OPTIONS_H
 
 #include <stdbool.h>
+#include <stdio.h>
 
 #include "host/lang/model.h"
 #include "host/run/engine.h"
 
+/* Options that several commands have, in the order of help texts: X(which, word, what stands behind it, group,
+ * description; lines of at most 76 columns). Of methods the description is made from core/method.h. */
+#define OPTION_ROWS(X) \
+    X(OPTION_SET, "--set", "NAME=EXPR", OPTIONS_CHANGE, \
+      "a parameter or an input; a bare number is SI, whatever unit is declared\n" \
+      "(repeatable, each name once)") \
+    X(OPTION_START, "--start", "NAME=EXPR", OPTIONS_CHANGE, \
+      "a coordinate or a rate: --start \"theta'=330 [rpm]\" (repeatable)") \
+    X(OPTION_WITH, "--with", "E,...", OPTIONS_CHANGE, \
+      "effects to add; 'ledger': books of energy and momentum") \
+    X(OPTION_WITHOUT, "--without", "E,...", OPTIONS_CHANGE, "effects to leave out") \
+    X(OPTION_STEP, "--step", "1ms", OPTIONS_CHANGE, "fixed step") \
+    X(OPTION_UNTIL, "--until", "9s", OPTIONS_CHANGE, "end of the run") \
+    X(OPTION_METHOD, "--method", "M", OPTIONS_ENGINE, "") \
+    X(OPTION_NUMBER, "--number", "N", OPTIONS_NUMBER, \
+      "double (default, the reference) or float (the boards, to the bit)") \
+    X(OPTION_COMPENSATED, "--compensated", "", OPTIONS_ENGINE, \
+      "carry the rounding error of every sum along")
+
+#define OPTION_NAME(which, word, value, group, text) which,
+typedef enum common_option { OPTION_ROWS(OPTION_NAME) } common_option;
+#undef OPTION_NAME
+#define OPTION_ONE(which, word, value, group, text) +1
+enum { OPTIONS = OPTION_ROWS(OPTION_ONE) };
+#undef OPTION_ONE
+
+/* What a command takes of them: a sum of these. */
+typedef enum option_group {
+    OPTIONS_CHANGE = 1, /* change an instance */
+    OPTIONS_ENGINE = 2, /* how to integrate */
+    OPTIONS_NUMBER = 4  /* what computes */
+} option_group;
+
+/* A command's help text. */
+typedef struct command_usage {
+    const char *head;
+    unsigned groups; /* of options whose lines follow: */
+    bool described;  /* a line each; else their words, and that `whirl run` describes them */
+    const char *tail;
+} command_usage;
+
+void options_usage(FILE *out, const command_usage *usage);
+
+/* Is --help or -h among the words? */
+bool options_wants_help(int count, char **words);
+
 /* Prints `usage` and returns true when --help or -h is among the words. */
-bool options_help(int count, char **words, const char *usage);
+bool options_help(int count, char **words, const command_usage *usage);
 
 /* If words[*at] is `name` (or `name=VALUE`), returns its value and steps *at past it. Returns NULL if
  * it is not; a missing value is reported and sets *bad. */
@@ -31,15 +78,12 @@ typedef struct change_options {
     int owned_count;
 } change_options;
 
-#define CHANGE_OPTIONS "--set", "--start", "--with", "--without", "--step", "--until"
-
 /* If words[*at] is one of them, takes it and returns true. */
 bool options_change(int count, char **words, int *at, change_options *changes, bool *bad);
 overrides change_options_overrides(const change_options *changes);
 void change_options_free(change_options *changes);
 
 /* How to integrate: --method M and --compensated, as for options_change(). */
-#define ENGINE_OPTIONS "--method", "--compensated"
 bool options_engine(const char *command, int count, char **words, int *at, image_settings *settings,
                     bool *bad);
 
@@ -47,7 +91,14 @@ bool options_engine(const char *command, int count, char **words, int *at, image
 bool options_number(const char *command, int count, char **words, int *at, const engine_kind **kind,
                     bool *bad);
 
-/* Report a word that no option takes, with the nearest of `known` (NULL ends the list). */
-void options_unknown(const char *command, const char *word, const char *const *known);
+/* Which of rows[count], `size` bytes each with its word at the beginning, has the word `value`; -1 when none has:
+ * that is reported, with the words. */
+int options_choose(const char *command, const char *what, const char *value, const void *rows,
+                   size_t size, int count);
+
+/* Report a word that no option takes, with the nearest of the common ones in `groups`, of --help and of the command's
+ * `own` (NULL ends the list). */
+void options_unknown(const char *command, const char *word, unsigned groups,
+                     const char *const *own);
 
 #endif

@@ -15,36 +15,31 @@
 #include "load.h"
 #include "options.h"
 
-static const char usage[] =
-    "usage: whirl run SCENE|MECHANISM[:SCENE]|FILE[:SCENE] [options]\n"
-    "\n"
-    "Simulates a scene and prints a summary: final state, energy and momentum balance, state hash.\n"
-    "SCENE and MECHANISM are built in (`whirl list`), FILE is yours. A mechanism without a scene starts\n"
-    "at rest at zero; of a FILE with one scene, that is run.\n"
-    "\n"
-    "  --set NAME=EXPR      a parameter or an input; a bare number is SI, whatever unit is declared\n"
-    "                       (repeatable, each name once)\n"
-    "  --start NAME=EXPR    a coordinate or a rate: --start \"theta'=330 [rpm]\" (repeatable)\n"
-    "  --with E,...         effects to add, or all; 'ledger': books of energy and momentum\n"
-    "  --without E,...      effects to leave out, or all; 'conserve': integrate all coordinates\n"
-    "  --step 1ms           fixed step            --until 9s       end of the run\n"
-    "  --method M           rk4 (default), heun, euler; semi-implicit-euler, for second order only\n"
-    "  --number N           double (default, the reference) or float (the boards, to the bit)\n"
-    "  --compensated        carry the rounding error of every sum along\n"
-    "  --csv FILE           records; - is standard output (the summary then goes to standard error)\n"
-    "  --columns FILE       the same between spaces, for Octave's load; - as for --csv\n"
-    "  --every 2ms          spacing of the records, a whole number of steps (default: every step)\n"
-    "  --plot FILE.svg|.png coordinates and outputs over time, drawn by gnuplot\n"
-    "  --strict[=LIMIT]     fail when more than LIMIT (1e-3) of the largest entry of the energy books\n"
-    "                       is left over; without it such a run is only warned of\n"
-    "  --quiet              no summary, no progress\n"
-    "\n"
-    "Summary, records and plot are in the units that the file declares; a record's column whose name\n"
-    "has no unit is SI: theta [deg] is in degrees, theta in radians.\n"
-    "\n"
-    "Exit status: 0 done; 1 the run failed (it diverged, or something was not a finite number: it says\n"
-    "when, where and what to try; the records so far are kept), or --strict does not believe it; 2 bad\n"
-    "input; 130 interrupted.\n";
+static const command_usage usage = {
+    .head =
+        "usage: whirl run SCENE|MECHANISM[:SCENE]|FILE[:SCENE] [options]\n"
+        "\n"
+        "Simulates a scene and prints a summary: final state, energy and momentum balance, state hash.\n"
+        "SCENE and MECHANISM are built in (`whirl list`), FILE is yours. A mechanism without a scene starts\n"
+        "at rest at zero; of a FILE with one scene, that is run.\n"
+        "\n",
+    .groups = OPTIONS_CHANGE | OPTIONS_ENGINE | OPTIONS_NUMBER,
+    .described = true,
+    .tail =
+        "  --csv FILE           records; - is standard output (the summary then goes to standard error)\n"
+        "  --columns FILE       the same between spaces, for Octave's load; - as for --csv\n"
+        "  --every 2ms          spacing of the records, a whole number of steps (default: every step)\n"
+        "  --plot FILE.svg|.png coordinates and outputs over time, drawn by gnuplot\n"
+        "  --strict[=LIMIT]     fail when more than LIMIT (1e-3) of the largest entry of the energy books\n"
+        "                       is left over; without it such a run is only warned of\n"
+        "  --quiet              no summary, no progress\n"
+        "\n"
+        "Summary, records and plot are in the units that the file declares; a record's column whose name\n"
+        "has no unit is SI: theta [deg] is in degrees, theta in radians.\n"
+        "\n"
+        "Exit status: 0 done; 1 the run failed (it diverged, or something was not a finite number: it says\n"
+        "when, where and what to try; the records so far are kept), or --strict does not believe it; 2 bad\n"
+        "input; 130 interrupted.\n"};
 
 static volatile sig_atomic_t interrupted;
 
@@ -142,10 +137,9 @@ static bool read_options(int count, char **words, run_options *o) {
             continue;
         }
         if (words[at][0] == '-' && words[at][1] != '\0') {
-            options_unknown("run", words[at],
-                            (const char *const[]){CHANGE_OPTIONS, ENGINE_OPTIONS, "--number",
-                                                  "--csv", "--columns", "--every", "--plot",
-                                                  "--strict", "--quiet", "--help", NULL});
+            options_unknown("run", words[at], usage.groups,
+                            (const char *const[]){"--csv", "--columns", "--every", "--plot",
+                                                  "--strict", "--quiet", NULL});
             return false;
         }
         if (o->target != NULL) {
@@ -155,7 +149,7 @@ static bool read_options(int count, char **words, run_options *o) {
         o->target = words[at++];
     }
     if (!bad && o->target == NULL) {
-        fputs(usage, stderr);
+        options_usage(stderr, &usage);
         return false;
     }
     return !bad && files_are_apart(&o->settings);
@@ -224,7 +218,7 @@ static int run_image(run_options *o, const source_model *from, const image *im, 
     o->settings.progress = !o->settings.quiet && isatty(STDERR_FILENO);
     switch (simulate(im, &o->settings)) {
     case SIMULATION_DONE: return EXIT_DONE;
-    case SIMULATION_INTERRUPTED: return 130;
+    case SIMULATION_INTERRUPTED: return EXIT_INTERRUPTED;
     case SIMULATION_BAD_FILE: return EXIT_BAD_INPUT;
     case SIMULATION_FAILED: break;
     }
@@ -232,8 +226,9 @@ static int run_image(run_options *o, const source_model *from, const image *im, 
 }
 
 int command_run(int count, char **words) {
-    run_options o = {.settings = {.kind = &engine_double}, .integration = {WH_RK4, false}};
-    if (options_help(count, words, usage)) {
+    run_options o = {.settings = {.kind = &engine_double},
+                     .integration = {WH_METHOD_DEFAULT, false}};
+    if (options_help(count, words, &usage)) {
         return EXIT_DONE;
     }
     if (!read_options(count, words, &o)) {

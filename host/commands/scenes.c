@@ -11,7 +11,7 @@
 #include "host/emit/emit.h"
 #include "host/lang/builtin.h"
 #include "host/run/engine.h"
-#include "host/show/text.h"
+#include "host/show/show_equations.h"
 #include "load.h"
 
 /* Called while the equations are still there (NULL: not wanted), and of the image alone. They return an exit code. */
@@ -26,7 +26,7 @@ typedef struct visit {
 
 /* Visit every scene of an opened source, also behind one that is refused, and forget its model. Returns an exit code. */
 static int each_scene_of(source_model *from, const visit *v) {
-    static const load_wish wish = {.settings = {WH_RK4, false},
+    static const load_wish wish = {.settings = {WH_METHOD_DEFAULT, false},
                                    .use = IMAGE_TO_WRITE,
                                    .keep = KEEP_EQUATIONS,
                                    .conserve = true,

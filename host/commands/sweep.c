@@ -16,34 +16,35 @@
 #include "load.h"
 #include "options.h"
 
-static const char usage[] =
-    "usage: whirl sweep SCENE|MECHANISM[:SCENE]|FILE[:SCENE] --over NAME=FROM..TO:COUNT[,log] ...\n"
-    "                   [options]\n"
-    "\n"
-    "Runs a scene at every point of a grid and writes a row of measures for each.\n"
-    "What is run is named as for `whirl run`.\n"
-    "\n"
-    "  --over RANGE         COUNT values of a parameter, an input, a start value or the step;\n"
-    "                       a bare number is SI: \"r=10..60 [mm]:11\", \"theta'=1..4 [rpm]:7\",\n"
-    "                       \"step=0.1..10 [ms]:9,log\". Repeatable: the full grid, the last one\n"
-    "                       fastest\n"
-    "  --measure EXPR       the value at the end; or max(EXPR), min(EXPR), amplitude(EXPR),\n"
-    "                       mean(EXPR), period(EXPR) over the run. Repeatable; without it the\n"
-    "                       final state and the outputs. SI, whatever unit is declared:\n"
-    "                       \"theta/1 [deg]\" is in degrees\n"
-    "  --from TIME          measure only from then on (final values stay those of the end)\n"
-    "  --csv FILE           rows by rising point; - is standard output (default). The same\n"
-    "                       command goes on with the FILE of a sweep that was broken off\n"
-    "  --fresh              start FILE anew instead\n"
-    "  --jobs N             processes (default: one a processor); the rows do not depend on it\n"
-    "  --shard K/N          the K-th of N parts: their files, in order, are the whole file\n"
-    "  --quiet              no progress, no summary\n"
-    "\n"
-    "  --set --start --with --without --step --until --method --number --compensated: as for\n"
-    "  `whirl run`\n"
-    "\n"
-    "Exit status: 0 done; 1 points failed (their measures are empty; the others are there) or the\n"
-    "file could not be written; 2 bad input, or FILE is another sweep's; 130 interrupted.\n";
+static const command_usage usage = {
+    .head =
+        "usage: whirl sweep SCENE|MECHANISM[:SCENE]|FILE[:SCENE] --over NAME=FROM..TO:COUNT[,log] ...\n"
+        "                   [options]\n"
+        "\n"
+        "Runs a scene at every point of a grid and writes a row of measures for each.\n"
+        "What is run is named as for `whirl run`.\n"
+        "\n"
+        "  --over RANGE         COUNT values of a parameter, an input, a start value or the step;\n"
+        "                       a bare number is SI: \"r=10..60 [mm]:11\", \"theta'=1..4 [rpm]:7\",\n"
+        "                       \"step=0.1..10 [ms]:9,log\". Repeatable: the full grid, the last one\n"
+        "                       fastest\n"
+        "  --measure EXPR       the value at the end; or max(EXPR), min(EXPR), amplitude(EXPR),\n"
+        "                       mean(EXPR), period(EXPR) over the run. Repeatable; without it the\n"
+        "                       final state and the outputs. SI, whatever unit is declared:\n"
+        "                       \"theta/1 [deg]\" is in degrees\n"
+        "  --from TIME          measure only from then on (final values stay those of the end)\n"
+        "  --csv FILE           rows by rising point; - is standard output (default). The same\n"
+        "                       command goes on with the FILE of a sweep that was broken off\n"
+        "  --fresh              start FILE anew instead\n"
+        "  --jobs N             processes (default: one a processor); the rows do not depend on it\n"
+        "  --shard K/N          the K-th of N parts: their files, in order, are the whole file\n"
+        "  --quiet              no progress, no summary\n"
+        "\n",
+    .groups = OPTIONS_CHANGE | OPTIONS_ENGINE | OPTIONS_NUMBER,
+    .tail =
+        "\n"
+        "Exit status: 0 done; 1 points failed (their measures are empty; the others are there) or the\n"
+        "file could not be written; 2 bad input, or FILE is another sweep's; 130 interrupted.\n"};
 
 static volatile sig_atomic_t interrupted;
 
@@ -151,11 +152,9 @@ static bool read_options(int count, char **words, sweep_options *o) {
             continue;
         }
         if (words[at][0] == '-' && words[at][1] != '\0') {
-            options_unknown("sweep", words[at],
-                            (const char *const[]){CHANGE_OPTIONS, ENGINE_OPTIONS, "--number",
-                                                  "--over", "--measure", "--from", "--csv",
-                                                  "--fresh", "--jobs", "--shard", "--quiet",
-                                                  "--help", NULL});
+            options_unknown("sweep", words[at], usage.groups,
+                            (const char *const[]){"--over", "--measure", "--from", "--csv",
+                                                  "--fresh", "--jobs", "--shard", "--quiet", NULL});
             return false;
         }
         if (o->target != NULL) {
@@ -165,7 +164,7 @@ static bool read_options(int count, char **words, sweep_options *o) {
         o->target = words[at++];
     }
     if (!bad && o->target == NULL) {
-        fputs(usage, stderr);
+        options_usage(stderr, &usage);
         return false;
     }
     if (!bad && o->over_count == 0) {
@@ -297,14 +296,14 @@ static int processors(void) {
 }
 
 int command_sweep(int count, char **words) {
-    if (options_help(count, words, usage)) {
+    if (options_help(count, words, &usage)) {
         return EXIT_DONE;
     }
     sweep_options o = {.csv = "-",
                        .part = {1, 1},
                        .jobs = processors(),
                        .kind = &engine_double,
-                       .engine = {WH_RK4, false}};
+                       .engine = {WH_METHOD_DEFAULT, false}};
     o.over = room(count, sizeof(const char *));
     o.measure = room(count, sizeof(const char *));
     int code = EXIT_BAD_INPUT;

@@ -14,7 +14,8 @@
 CONTACT_KIND_ROWS(SAME_KIND)
 #undef SAME_KIND
 
-_Static_assert((int)CONTACTS_MAX <= WH_CONTACTS_LIMIT, "the core has room for what a run may have");
+_Static_assert((int)CONTACTS_MAX == WH_CONTACTS_LIMIT && (int)SETS_MAX == WH_SETS_MAX,
+               "the core has room for what a run may have");
 
 /* Folded, and free of conserved coordinates. */
 static const poly *ready(const equations *e, const conservation *c, const poly *p) {

@@ -10,7 +10,7 @@
 #include "host/lang/shown.h"
 #include "host/number/phase.h"
 #include "image_parts.h"
-#include "ledger.h"
+#include "ledger_lists.h"
 #include "program.h"
 
 /* --- what does not depend on the lists -------------------------------------------------------------*/
@@ -156,6 +156,7 @@ static void take_contacts(image_draft *d, contact_lists *c) {
                               ? dimension_unit(row->from->value->dim, false, si, sizeof si)
                               : "1";
         im->contact[k] = (image_contact){.kind = row->kind,
+                                         .word = image_text(d, contact_word(row->from->kind)),
                                          .direction = row->direction,
                                          .pin = row->pin,
                                          .first_set = row->first_set,

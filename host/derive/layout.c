@@ -4,7 +4,9 @@
 #include <stdlib.h>
 
 #include "host/base/room.h"
-#include "noise.h"
+#include "noise_records.h"
+
+_Static_assert((int)COORDINATES_MAX == IMAGE_COMPONENTS_MAX, "the parser's bound is the image's");
 
 int layout_turn(void *context, const symbol *s) {
     const layout *map = context;

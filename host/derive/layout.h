@@ -9,7 +9,7 @@ typedef struct layout {
     const program *program;
     const equations *equations;
     const int *highest; /* operations of the highest derivatives by unknown, or NULL */
-    const int *record;  /* operations of recorded outputs (noise.h), or NULL */
+    const int *record;  /* operations of recorded outputs (noise_records.h), or NULL */
     int *angle_number;  /* [unknown] turn angle, or -1 */
     int *real_number;   /* [unknown * order_room + primes] real component, or -1 */
     int order_room;

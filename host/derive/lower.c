@@ -220,7 +220,7 @@ static int *sorted_nodes(const product *products, int count, int *total) {
     for (int i = 0; i < count; i++) {
         *total += products[i].count;
     }
-    int *nodes = room(*total, sizeof *nodes);
+    int *nodes = room_more(NULL, *total, sizeof *nodes);
     int at = 0;
     for (int i = 0; i < count; i++) {
         for (int k = 0; k < products[i].count; k++) {
@@ -272,6 +272,7 @@ static int most_shared(const lowering *l, const product *products, int count) {
     return best;
 }
 
+/* Takes the products apart: they are of no use after it. */
 static int sum_of(lowering *l, product *products, int count) {
     tape *t = l->tape;
     if (count <= 0) {
@@ -289,33 +290,31 @@ static int sum_of(lowering *l, product *products, int count) {
             }
         }
     }
-    product *with = room(count, sizeof *with);
-    product *without = room(count, sizeof *without);
+    product *with = room_more(NULL, count, sizeof *with); /* large: not cleared */
     int in = 0;
-    int out = 0;
+    int out = 0; /* those without it move to the front */
     for (int i = 0; i < count; i++) {
-        product p = products[i];
-        bool has = false;
-        for (int k = 0; k < p.count; k++) {
-            if (p.powers[k].node == shared) {
-                has = true;
-                p.powers[k].exponent -= lowest;
-                if (p.powers[k].exponent == 0) {
-                    p.powers[k] = p.powers[--p.count];
-                }
-                break;
+        product *p = &products[i];
+        int k = 0;
+        while (k < p->count && p->powers[k].node != shared) {
+            k++;
+        }
+        if (k == p->count) {
+            if (out < i) {
+                products[out] = *p;
             }
+            out++;
+            continue;
         }
-        if (has) {
-            with[in++] = p;
-        } else {
-            without[out++] = p;
+        p->powers[k].exponent -= lowest;
+        if (p->powers[k].exponent == 0) {
+            p->powers[k] = p->powers[--p->count];
         }
+        with[in++] = *p;
     }
     const int inside = sum_of(l, with, in);
-    const int outside = sum_of(l, without, out);
     free(with);
-    free(without);
+    const int outside = sum_of(l, products, out);
     return tape_add(t, outside, tape_mul(t, inside, tape_power(t, shared, lowest)));
 }
 

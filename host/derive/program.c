@@ -6,8 +6,8 @@
 #include "contact_lists.h"
 #include "energy.h"
 #include "host/base/room.h"
-#include "ledger.h"
-#include "noise.h"
+#include "ledger_lists.h"
+#include "noise_records.h"
 
 /* --- the lists -----------------------------------------------------------------------------------*/
 

@@ -8,7 +8,7 @@
 #include "host/image/image.h"
 
 typedef struct contact_lists contact_lists; /* contact_lists.h */
-typedef struct ledger_lists ledger_lists;   /* ledger.h */
+typedef struct ledger_lists ledger_lists;   /* ledger_lists.h */
 
 typedef struct program {
     wh_form form;

@@ -22,8 +22,8 @@
 
 typedef struct arrangement {
     bool scaled;
-    int first;     /* unknown eliminated symbolically; -1 none; -2 every constant diagonal */
-    int order[64]; /* of elimination */
+    int first; /* unknown eliminated symbolically; -1 none; -2 every constant diagonal */
+    int order[COORDINATES_MAX]; /* of elimination */
 } arrangement;
 
 /* --- scaling -------------------------------------------------------------------------------------*/

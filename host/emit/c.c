@@ -10,8 +10,6 @@
 #include "emit.h"
 #include "host/number/hex.h"
 
-const char *const c_method_names[] = {"WH_EULER", "WH_SEMI_IMPLICIT_EULER", "WH_HEUN", "WH_RK4"};
-
 static void write_observer(FILE *out, const image *im) {
     const tape *t = im->list[IMAGE_OBSERVE];
     fprintf(out, "static void observe(const wh_scene *scene, const wh_state *state, "
@@ -78,7 +76,7 @@ static void write_scene(FILE *out, const image *im) {
     char hex[HEX_SIZE];
     fprintf(out, "const wh_scene %s = {\n    .name = \"%s\",\n    .form = %s,\n    .method = %s,\n",
             im->name, im->name, im->form == WH_SECOND_ORDER ? "WH_SECOND_ORDER" : "WH_FIRST_ORDER",
-            c_method_names[im->settings.method]);
+            wh_methods[im->settings.method].name);
     fprintf(out, "    .angles = %d,\n    .reals = %d,\n    .inputs = %d,\n    .outputs = %d,\n",
             im->angles, im->reals, im->inputs, im->outputs);
     if (im->contacts > 0) {
@@ -201,7 +199,7 @@ static void write_includes(FILE *out, const image *im) {
 /* Of a scene without contacts. */
 static void write_advance(FILE *out, const image *im) {
     const bool second = im->form == WH_SECOND_ORDER;
-    const char *method = c_method_names[im->settings.method];
+    const char *method = wh_methods[im->settings.method].name;
     const char *compensated = im->settings.compensated ? "true" : "false";
     char hex[HEX_SIZE];
     hex_write(im->step_s, hex);

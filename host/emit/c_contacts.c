@@ -13,10 +13,9 @@ void c_contacts_include(FILE *out, const image *im) {
 }
 
 static void write_table(FILE *out, const image *im) {
-    static const char *const kinds[] = {[WH_STOP] = "WH_STOP",
-                                        [WH_HOLD] = "WH_HOLD",
-                                        [WH_FRICTION] = "WH_FRICTION",
-                                        [WH_WHEN] = "WH_WHEN"};
+#define KIND_TEXT(name, is) [name] = #name,
+    static const char *const kinds[WH_CONTACT_KIND_COUNT] = {WH_CONTACT_KINDS(KIND_TEXT)};
+#undef KIND_TEXT
     fprintf(out, "static const wh_contact contact_table[%d] = {", im->contacts);
     for (int k = 0; k < im->contacts; k++) {
         const wh_contact row = core_contact_row(&im->contact[k]);
@@ -53,7 +52,7 @@ void c_contacts_write(FILE *out, const image *im) {
         "    .angles = %d,\n    .coordinates = %d,\n};\n\n",
         sets ? "contact_sets" : "NULL", im->set_count > 0 ? "contact_target" : "NULL",
         im->ledger.kept ? "&ledger" : "NULL", system.contacts, system.forced, system.held,
-        core_stages(im), core_stops(im), system.forced, c_method_names[system.method],
+        core_stages(im), core_stops(im), system.forced, wh_methods[system.method].name,
         system.compensated ? "true" : "false", system.angles, system.coordinates);
     fprintf(out,
             "static wh_status advance(const wh_scene *scene, wh_state *state) {\n"

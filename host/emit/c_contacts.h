@@ -6,9 +6,6 @@
 
 #include "host/image/image.h"
 
-/* The names of wh_method's values. */
-extern const char *const c_method_names[];
-
 /* The declared bounds and the core's header. */
 void c_contacts_include(FILE *out, const image *im);
 

@@ -31,11 +31,7 @@ static inline wh_contact_system core_contact_system(const image *im, const wh_co
 }
 
 /* What WH_CONTACT_EVALUATIONS() takes. */
-static inline int core_stages(const image *im) {
-    static const int stages[] = {
-        [WH_EULER] = 1, [WH_SEMI_IMPLICIT_EULER] = 1, [WH_HEUN] = 2, [WH_RK4] = 4};
-    return stages[im->settings.method];
-}
+static inline int core_stages(const image *im) { return wh_methods[im->settings.method].stages; }
 
 static inline int core_stops(const image *im) {
     int stops = 0;

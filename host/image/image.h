@@ -94,7 +94,8 @@ typedef struct component {
 /* --- contacts and ledger ---------------------------------------------------------------------------*/
 
 typedef struct image_contact {
-    int kind; /* wh_contact_kind */
+    int kind;         /* wh_contact_kind */
+    const char *word; /* of the statement: "stop", "hold", ... */
     int direction;
     int pin;
     int first_set;

@@ -102,7 +102,7 @@ static bool op_equal(const tape *t, const op *x, const op *y) {
 void tape_reindex(tape *t) {
     free(t->index);
     t->index_size = t->room * 2;
-    t->index = room(t->index_size, sizeof *t->index);
+    t->index = room_more(NULL, t->index_size, sizeof *t->index);
     memset(t->index, -1, (size_t)t->index_size * sizeof *t->index);
     for (int i = 0; i < t->count; i++) {
         size_t at = (size_t)(tape_op_hash(t, &t->ops[i]) % (uint64_t)t->index_size);

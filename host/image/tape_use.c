@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/base/hash.h"
+#include "host/base/hashing.h"
 #include "host/base/room.h"
 #include "tape.h"
 
@@ -55,7 +55,7 @@ static void fuse_reciprocals(tape *t) {
 }
 
 static void drop_unused(tape *t) {
-    int *number = room(t->count, sizeof *number);
+    int *number = room_more(NULL, t->count, sizeof *number);
     memset(number, -1, (size_t)t->count * sizeof *number);
     for (int i = 0; i < t->results; i++) {
         number[t->result[i]] = 0;

@@ -138,57 +138,57 @@ char *dim_symbols(dimension dim, char *buffer, size_t size) {
     return buffer;
 }
 
-/* What a dimension is called, where the name is beyond doubt, and the unit people write for it. */
-static const struct {
+typedef struct quantity_row {
     signed char exponents[DIM_BASES];
     const char *name;
-    const char *unit; /* NULL: as in base units */
-} named[] = {
-    {{1, 0, 0, 0, 0}, "length", NULL},
-    {{0, 1, 0, 0, 0}, "mass", NULL},
-    {{0, 0, 1, 0, 0}, "time", NULL},
-    {{0, 0, 0, 1, 0}, "current", NULL},
-    {{0, 0, 0, 0, 1}, "temperature", NULL},
-    {{2, 0, 0, 0, 0}, "area", NULL},
-    {{3, 0, 0, 0, 0}, "volume", NULL},
-    {{1, 0, -1, 0, 0}, "speed", NULL},
-    {{1, 0, -2, 0, 0}, "acceleration", NULL},
-    {{0, 0, -1, 0, 0}, "frequency or angular speed", "rad/s"},
-    {{0, 0, -2, 0, 0}, "angular acceleration", "rad/s^2"},
-    {{1, 1, -1, 0, 0}, "momentum", NULL},
-    {{1, 1, -2, 0, 0}, "force", "N"},
-    {{2, 1, -2, 0, 0}, "energy or torque", "N*m"},
-    {{2, 1, -3, 0, 0}, "power", "W"},
-    {{2, 1, 0, 0, 0}, "moment of inertia", NULL},
-    {{2, 1, -1, 0, 0}, "angular momentum", NULL},
-    {{-1, 1, -2, 0, 0}, "pressure", "Pa"},
-    {{0, 1, -2, 0, 0}, "", "N/m"},
-    {{0, 1, -1, 0, 0}, "", "N*s/m"},
-    {{2, 1, -3, -1, 0}, "voltage", "V"},
-    {{2, 1, -3, -2, 0}, "resistance", "ohm"},
-    {{0, 0, 1, 1, 0}, "charge", "C"},
-    {{-2, -1, 4, 2, 0}, "capacitance", "F"},
-    {{2, 1, -2, -2, 0}, "inductance", "H"},
-};
+    const char *hinted;
+    const char *recorded;
+} quantity_row;
 
-/* Index into the table, or -1. */
-static int find_named(dimension dim) {
-    for (int i = 0; i < (int)(sizeof named / sizeof named[0]); i++) {
-        const signed char *e = named[i].exponents;
-        if (same_exponents(dim, dim_of(e[0], e[1], e[2], e[3], e[4]))) {
-            return i;
+static const quantity_row quantities[] = {
+#define ROW(id, m, kg, s, A, K, name, hinted, recorded) \
+    [QUANTITY_##id] = {{[DIM_LENGTH] = (m), \
+                        [DIM_MASS] = (kg), \
+                        [DIM_TIME] = (s), \
+                        [DIM_CURRENT] = (A), \
+                        [DIM_TEMPERATURE] = (K)}, \
+                       name, \
+                       hinted, \
+                       recorded},
+    QUANTITY_ROWS(ROW)
+#undef ROW
+};
+enum { QUANTITIES = sizeof quantities / sizeof quantities[0] };
+
+dimension dim_of_quantity(quantity_id which) {
+    const signed char *e = quantities[which].exponents;
+    return dim_of(e[DIM_LENGTH], e[DIM_MASS], e[DIM_TIME], e[DIM_CURRENT], e[DIM_TEMPERATURE]);
+}
+
+/* What has no name of its own is a number of some unit. */
+static const quantity_row *find_quantity(dimension dim) {
+    for (int i = 0; i < QUANTITIES; i++) {
+        if (same_exponents(dim, dim_of_quantity((quantity_id)i))) {
+            return &quantities[i];
         }
     }
-    return -1;
+    return &quantities[QUANTITY_NUMBER];
+}
+
+static char *unit_or_symbols(dimension dim, const char *usual, char *buffer, size_t size) {
+    if (usual[0] == '\0') {
+        return dim_symbols(dim, buffer, size);
+    }
+    snprintf(buffer, size, "%s", usual);
+    return buffer;
 }
 
 char *dim_unit(dimension dim, char *buffer, size_t size) {
-    const int found = find_named(dim);
-    if (found < 0 || named[found].unit == NULL) {
-        return dim_symbols(dim, buffer, size);
-    }
-    snprintf(buffer, size, "%s", named[found].unit);
-    return buffer;
+    return unit_or_symbols(dim, find_quantity(dim)->hinted, buffer, size);
+}
+
+char *dim_recorded_unit(dimension dim, char *buffer, size_t size) {
+    return unit_or_symbols(dim, find_quantity(dim)->recorded, buffer, size);
 }
 
 char *dim_text(dimension dim, char *buffer, size_t size) {
@@ -198,8 +198,7 @@ char *dim_text(dimension dim, char *buffer, size_t size) {
     }
     char symbols[DIM_TEXT_SIZE];
     dim_symbols(dim, symbols, sizeof symbols);
-    const int found = find_named(dim);
-    const char *name = found < 0 ? "" : named[found].name;
+    const char *name = find_quantity(dim)->name;
     snprintf(buffer, size, "%s%s[%s]", name, name[0] == '\0' ? "" : " ", symbols);
     return buffer;
 }

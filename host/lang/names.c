@@ -3,7 +3,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "host/base/hash.h"
+#include "host/base/hashing.h"
 
 struct names {
     struct arena *arena;

@@ -8,14 +8,6 @@
 #include "host/base/room.h"
 
 const char *dimension_unit(dimension dim, bool is_angle, char *text, size_t size) {
-    static const struct {
-        signed char m, kg, s, A;
-        const char *name;
-    } named[] = {{1, 0, 0, 0, "m"},     {1, 0, -1, 0, "m/s"}, {1, 0, -2, 0, "m/s^2"},
-                 {0, 1, 0, 0, "kg"},    {0, 0, 1, 0, "s"},    {0, 0, -1, 0, "1/s"},
-                 {1, 1, -2, 0, "N"},    {2, 1, -2, 0, "N*m"}, {2, 1, -3, 0, "W"},
-                 {0, 0, 0, 1, "A"},     {2, 1, -3, -1, "V"},  {1, 1, -1, 0, "kg*m/s"},
-                 {2, 1, -1, 0, "N*m*s"}};
     bool none = true;
     for (int i = 0; i < DIM_BASES; i++) {
         none = none && dim.twelfths[i] == 0;
@@ -24,16 +16,7 @@ const char *dimension_unit(dimension dim, bool is_angle, char *text, size_t size
         snprintf(text, size, "%s", is_angle ? "rad" : "1");
         return text;
     }
-    for (size_t i = 0; i < sizeof named / sizeof named[0]; i++) {
-        if (dim.twelfths[DIM_LENGTH] == 12 * named[i].m &&
-            dim.twelfths[DIM_MASS] == 12 * named[i].kg &&
-            dim.twelfths[DIM_TIME] == 12 * named[i].s &&
-            dim.twelfths[DIM_CURRENT] == 12 * named[i].A && dim.twelfths[DIM_TEMPERATURE] == 0) {
-            snprintf(text, size, "%s", named[i].name);
-            return text;
-        }
-    }
-    return dim_symbols(dim, text, size);
+    return dim_recorded_unit(dim, text, size);
 }
 
 struct unit shown_unit(const symbol *s, int primes) {

@@ -12,121 +12,87 @@
 
 typedef struct unit_entry {
     const char *name;
-    double scale;
+    double scale; /* one of it is scale / divisor of SI */
     double divisor;
-    signed char exponents[DIM_BASES]; /* m, kg, s, A, K */
+    quantity_id of;
 } unit_entry;
 
 /* Pound, inch and foot: the international agreement of 1959; standard gravity 9.80665 m/s^2. */
 #define POUND_KG 0.45359237
 #define POUND_FORCE_N 4.4482216152605
 
-#define LENGTH \
-    { 1, 0, 0, 0, 0 }
-#define MASS \
-    { 0, 1, 0, 0, 0 }
-#define TIME \
-    { 0, 0, 1, 0, 0 }
-#define CURRENT \
-    { 0, 0, 0, 1, 0 }
-#define NUMBER \
-    { 0, 0, 0, 0, 0 }
-#define FREQUENCY \
-    { 0, 0, -1, 0, 0 }
-#define FORCE \
-    { 1, 1, -2, 0, 0 }
-#define ENERGY \
-    { 2, 1, -2, 0, 0 }
-#define POWER \
-    { 2, 1, -3, 0, 0 }
-#define PRESSURE \
-    { -1, 1, -2, 0, 0 }
-#define CHARGE \
-    { 0, 0, 1, 1, 0 }
-#define VOLTAGE \
-    { 2, 1, -3, -1, 0 }
-#define RESISTANCE \
-    { 2, 1, -3, -2, 0 }
-#define CAPACITANCE \
-    { -2, -1, 4, 2, 0 }
-#define INDUCTANCE \
-    { 2, 1, -2, -2, 0 }
-#define FLUX \
-    { 2, 1, -2, -1, 0 }
-#define FLUX_DENSITY \
-    { 0, 1, -2, -1, 0 }
-
+/* Of one quantity together, SI first. */
 static const unit_entry units[] = {
-    {"m", 1, 1, LENGTH},
-    {"km", 1e3, 1, LENGTH},
-    {"cm", 1, 1e2, LENGTH},
-    {"mm", 1, 1e3, LENGTH},
-    {"um", 1, 1e6, LENGTH},
-    {"in", 254, 1e4, LENGTH},
-    {"ft", 3048, 1e4, LENGTH},
-    {"kg", 1, 1, MASS},
-    {"g", 1, 1e3, MASS},
-    {"mg", 1, 1e6, MASS},
-    {"lb", POUND_KG, 1, MASS},
-    {"oz", POUND_KG, 16, MASS},
-    {"slug", POUND_FORCE_N * 1e4, 3048, MASS},
-    {"s", 1, 1, TIME},
-    {"ms", 1, 1e3, TIME},
-    {"us", 1, 1e6, TIME},
-    {"ns", 1, 1e9, TIME},
-    {"min", 60, 1, TIME},
-    {"h", 3600, 1, TIME},
-    {"rad", 1, 1, NUMBER},
-    {"deg", PI, 180, NUMBER},
-    {"rev", 2 * PI, 1, NUMBER},
-    {"mrad", 1, 1e3, NUMBER},
-    {"rpm", 2 * PI, 60, FREQUENCY},
-    {"Hz", 1, 1, FREQUENCY},
-    {"kHz", 1e3, 1, FREQUENCY},
-    {"MHz", 1e6, 1, FREQUENCY},
-    {"N", 1, 1, FORCE},
-    {"mN", 1, 1e3, FORCE},
-    {"kN", 1e3, 1, FORCE},
-    {"lbf", POUND_FORCE_N, 1, FORCE},
-    {"ozf", POUND_FORCE_N, 16, FORCE},
-    {"J", 1, 1, ENERGY},
-    {"mJ", 1, 1e3, ENERGY},
-    {"kJ", 1e3, 1, ENERGY},
-    {"MJ", 1e6, 1, ENERGY},
-    {"W", 1, 1, POWER},
-    {"mW", 1, 1e3, POWER},
-    {"kW", 1e3, 1, POWER},
-    {"MW", 1e6, 1, POWER},
-    {"Pa", 1, 1, PRESSURE},
-    {"kPa", 1e3, 1, PRESSURE},
-    {"MPa", 1e6, 1, PRESSURE},
-    {"GPa", 1e9, 1, PRESSURE},
-    {"bar", 1e5, 1, PRESSURE},
-    {"A", 1, 1, CURRENT},
-    {"mA", 1, 1e3, CURRENT},
-    {"uA", 1, 1e6, CURRENT},
-    {"kA", 1e3, 1, CURRENT},
-    {"C", 1, 1, CHARGE},
-    {"V", 1, 1, VOLTAGE},
-    {"mV", 1, 1e3, VOLTAGE},
-    {"uV", 1, 1e6, VOLTAGE},
-    {"kV", 1e3, 1, VOLTAGE},
-    {"ohm", 1, 1, RESISTANCE},
-    {"mohm", 1, 1e3, RESISTANCE},
-    {"kohm", 1e3, 1, RESISTANCE},
-    {"Mohm", 1e6, 1, RESISTANCE},
-    {"F", 1, 1, CAPACITANCE},
-    {"mF", 1, 1e3, CAPACITANCE},
-    {"uF", 1, 1e6, CAPACITANCE},
-    {"nF", 1, 1e9, CAPACITANCE},
-    {"pF", 1, 1e12, CAPACITANCE},
-    {"H", 1, 1, INDUCTANCE},
-    {"mH", 1, 1e3, INDUCTANCE},
-    {"uH", 1, 1e6, INDUCTANCE},
-    {"Wb", 1, 1, FLUX},
-    {"T", 1, 1, FLUX_DENSITY},
-    {"mT", 1, 1e3, FLUX_DENSITY},
-    {"K", 1, 1, {0, 0, 0, 0, 1}},
+    {"m", 1, 1, QUANTITY_LENGTH},
+    {"km", 1e3, 1, QUANTITY_LENGTH},
+    {"cm", 1, 1e2, QUANTITY_LENGTH},
+    {"mm", 1, 1e3, QUANTITY_LENGTH},
+    {"um", 1, 1e6, QUANTITY_LENGTH},
+    {"in", 254, 1e4, QUANTITY_LENGTH},
+    {"ft", 3048, 1e4, QUANTITY_LENGTH},
+    {"kg", 1, 1, QUANTITY_MASS},
+    {"g", 1, 1e3, QUANTITY_MASS},
+    {"mg", 1, 1e6, QUANTITY_MASS},
+    {"lb", POUND_KG, 1, QUANTITY_MASS},
+    {"oz", POUND_KG, 16, QUANTITY_MASS},
+    {"slug", POUND_FORCE_N * 1e4, 3048, QUANTITY_MASS},
+    {"s", 1, 1, QUANTITY_TIME},
+    {"ms", 1, 1e3, QUANTITY_TIME},
+    {"us", 1, 1e6, QUANTITY_TIME},
+    {"ns", 1, 1e9, QUANTITY_TIME},
+    {"min", 60, 1, QUANTITY_TIME},
+    {"h", 3600, 1, QUANTITY_TIME},
+    {"rad", 1, 1, QUANTITY_ANGLE},
+    {"deg", PI, 180, QUANTITY_ANGLE},
+    {"rev", 2 * PI, 1, QUANTITY_ANGLE},
+    {"mrad", 1, 1e3, QUANTITY_NUMBER},
+    {"rpm", 2 * PI, 60, QUANTITY_FREQUENCY},
+    {"Hz", 1, 1, QUANTITY_FREQUENCY},
+    {"kHz", 1e3, 1, QUANTITY_FREQUENCY},
+    {"MHz", 1e6, 1, QUANTITY_FREQUENCY},
+    {"N", 1, 1, QUANTITY_FORCE},
+    {"mN", 1, 1e3, QUANTITY_FORCE},
+    {"kN", 1e3, 1, QUANTITY_FORCE},
+    {"lbf", POUND_FORCE_N, 1, QUANTITY_FORCE},
+    {"ozf", POUND_FORCE_N, 16, QUANTITY_FORCE},
+    {"J", 1, 1, QUANTITY_ENERGY},
+    {"mJ", 1, 1e3, QUANTITY_ENERGY},
+    {"kJ", 1e3, 1, QUANTITY_ENERGY},
+    {"MJ", 1e6, 1, QUANTITY_ENERGY},
+    {"W", 1, 1, QUANTITY_POWER},
+    {"mW", 1, 1e3, QUANTITY_POWER},
+    {"kW", 1e3, 1, QUANTITY_POWER},
+    {"MW", 1e6, 1, QUANTITY_POWER},
+    {"Pa", 1, 1, QUANTITY_PRESSURE},
+    {"kPa", 1e3, 1, QUANTITY_PRESSURE},
+    {"MPa", 1e6, 1, QUANTITY_PRESSURE},
+    {"GPa", 1e9, 1, QUANTITY_PRESSURE},
+    {"bar", 1e5, 1, QUANTITY_PRESSURE},
+    {"A", 1, 1, QUANTITY_CURRENT},
+    {"mA", 1, 1e3, QUANTITY_CURRENT},
+    {"uA", 1, 1e6, QUANTITY_CURRENT},
+    {"kA", 1e3, 1, QUANTITY_CURRENT},
+    {"C", 1, 1, QUANTITY_CHARGE},
+    {"V", 1, 1, QUANTITY_VOLTAGE},
+    {"mV", 1, 1e3, QUANTITY_VOLTAGE},
+    {"uV", 1, 1e6, QUANTITY_VOLTAGE},
+    {"kV", 1e3, 1, QUANTITY_VOLTAGE},
+    {"ohm", 1, 1, QUANTITY_RESISTANCE},
+    {"mohm", 1, 1e3, QUANTITY_RESISTANCE},
+    {"kohm", 1e3, 1, QUANTITY_RESISTANCE},
+    {"Mohm", 1e6, 1, QUANTITY_RESISTANCE},
+    {"F", 1, 1, QUANTITY_CAPACITANCE},
+    {"mF", 1, 1e3, QUANTITY_CAPACITANCE},
+    {"uF", 1, 1e6, QUANTITY_CAPACITANCE},
+    {"nF", 1, 1e9, QUANTITY_CAPACITANCE},
+    {"pF", 1, 1e12, QUANTITY_CAPACITANCE},
+    {"H", 1, 1, QUANTITY_INDUCTANCE},
+    {"mH", 1, 1e3, QUANTITY_INDUCTANCE},
+    {"uH", 1, 1e6, QUANTITY_INDUCTANCE},
+    {"Wb", 1, 1, QUANTITY_FLUX},
+    {"T", 1, 1, QUANTITY_FLUX_DENSITY},
+    {"mT", 1, 1e3, QUANTITY_FLUX_DENSITY},
+    {"K", 1, 1, QUANTITY_TEMPERATURE},
 };
 enum { UNIT_COUNT = sizeof units / sizeof units[0] };
 
@@ -288,8 +254,7 @@ static bool read_factor(reader *in, unit *result) {
         if (found == NULL) {
             return unknown_unit(in, start, in->at - start);
         }
-        const signed char *e = found->exponents;
-        *result = (unit){found->scale, found->divisor, dim_of(e[0], e[1], e[2], e[3], e[4])};
+        *result = (unit){found->scale, found->divisor, dim_of_quantity(found->of)};
     } else if (c == '\0' && in->at >= in->length) {
         return fail(in, start, "a unit is missing here", "");
     } else if ((unsigned char)c >= 0x80) {
@@ -370,7 +335,9 @@ bool unit_is_si(unit u) { return fabs(u.scale - u.divisor) <= 1e-14 * u.divisor;
 
 double unit_number(unit u, double si) { return unit_is_si(u) ? si : si * u.divisor / u.scale; }
 
+const char *unit_name(int index) { return index < UNIT_COUNT ? units[index].name : NULL; }
+
 bool unit_is_angle(const char *text, size_t length) {
-    return length == 3 && (memcmp(text, "rad", 3) == 0 || memcmp(text, "deg", 3) == 0 ||
-                           memcmp(text, "rev", 3) == 0);
+    const unit_entry *found = find_unit(text, length);
+    return found != NULL && found->of == QUANTITY_ANGLE;
 }

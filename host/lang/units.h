@@ -5,6 +5,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "quantities.h"
+
 /* Exponents of m, kg, s, A, K in twelfths, so that square and cube roots stay exact. Angles are
  * dimensionless: rad = 1. `any` marks a literal zero, which fits every dimension. */
 enum { DIM_LENGTH, DIM_MASS, DIM_TIME, DIM_CURRENT, DIM_TEMPERATURE, DIM_BASES };
@@ -18,6 +20,7 @@ typedef struct dimension {
 
 /* A dimension with whole exponents. */
 dimension dim_of(int length, int mass, int time, int current, int temperature);
+dimension dim_of_quantity(quantity_id which);
 dimension dim_none(void);
 dimension dim_energy(void); /* also torque */
 
@@ -36,6 +39,8 @@ char *dim_text(dimension dim, char *buffer, size_t size);
 char *dim_symbols(dimension dim, char *buffer, size_t size);
 /* The unit people write for it: "N*m", "rad/s"; base units when there is no usual one. */
 char *dim_unit(dimension dim, char *buffer, size_t size);
+/* The unit of records and books: "N", "N*m*s"; base units when there is no usual one. */
+char *dim_recorded_unit(dimension dim, char *buffer, size_t size);
 #define DIM_TEXT_SIZE 128
 
 /* SI value = number * scale / divisor. Two factors, so that 7 [ms] is 7/1000, correctly rounded.
@@ -61,6 +66,9 @@ bool unit_parse(const char *text, size_t length, unit *result, unit_error *error
 bool unit_is_si(unit u);
 /* The number in unit u of an SI value; the value itself when unit_is_si(u). */
 double unit_number(unit u, double si);
+
+/* The name of unit `index`, counted from 0, or NULL beyond the last. */
+const char *unit_name(int index);
 
 /* True when the text names an angle by itself: rad, deg or rev. */
 bool unit_is_angle(const char *text, size_t length);

@@ -18,7 +18,9 @@ _Static_assert(sizeof rows / sizeof rows[0] == WORDS, "a row for each word");
 const statement_word *word_row(word_id id) { return &rows[id]; }
 
 bool word_is(word_id id, const char *text, size_t length) {
-    return strlen(rows[id].text) == length && memcmp(rows[id].text, text, length) == 0;
+    const char *word = rows[id].text; /* most differ in their first letter */
+    return length > 0 && word[0] == text[0] && strlen(word) == length &&
+           memcmp(word, text, length) == 0;
 }
 
 int word_find(const char *text, size_t length) {

@@ -105,8 +105,10 @@ void belief_say(FILE *out, const char *who, const belief *b, const engine_kind *
             "singular position none helps\n",
             b->jump_s);
     } else {
-        fprintf(out, "hint: the step is too coarse for this motion: a smaller --step%s%s\n",
-                method != WH_RK4 ? ", or --method rk4" : "",
+        const wh_method_row *usual = &wh_methods[WH_METHOD_DEFAULT];
+        const bool better = wh_methods[method].order < usual->order;
+        fprintf(out, "hint: the step is too coarse for this motion: a smaller --step%s%s%s\n",
+                better ? ", or --method " : "", better ? usual->word : "",
                 kind == &engine_float ? "; --number double tells what float's rounding does" : "");
     }
 }

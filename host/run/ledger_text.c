@@ -6,7 +6,7 @@
 #include <stdlib.h>
 
 #include "host/base/room.h"
-#include "statement.h"
+#include "host/base/statement.h"
 #include "summary.h"
 
 /* The columns that a line of the source gets. */

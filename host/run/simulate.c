@@ -13,7 +13,7 @@
 #include "host/plot/plot.h"
 #include "records.h"
 #include "slow.h"
-#include "statement.h"
+#include "host/base/statement.h"
 #include "summary.h"
 #include "undefined.h"
 

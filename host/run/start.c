@@ -2,6 +2,7 @@
 #include "start.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,6 +10,7 @@
 #include "engine.h"
 #include "host/base/room.h"
 #include "host/number/phase.h"
+#include "methods.h"
 
 /* m or rad: what the conversion of a start's units may leave. */
 #define ROUNDING 1e-9
@@ -65,25 +67,30 @@ bool start_is_possible(const image *im, const engine_kind *kind, diags *errors) 
 }
 
 bool start_has_method(const image *im, wh_method method, diags *errors) {
-    if (im->form == WH_SECOND_ORDER || method != WH_SEMI_IMPLICIT_EULER) {
+    if (wh_method_takes(method, im->form)) {
         return true;
     }
+    const char *title = wh_methods[method].title;
+    char others[METHODS_TEXT_SIZE];
+    char hint[METHODS_TEXT_SIZE + 160];
+    methods_of_form(im->form, others);
     for (int i = 0; i < im->count; i++) {
         const image_unknown *u = &im->unknown[i];
         if (u->order != 2) {
-            diag_error(
-                errors, u->at,
-                "it moves the rates first, then the positions by them: every unknown must be "
-                "of order 2; choose --method euler, heun or rk4",
-                "semi-implicit Euler is not defined here: '%s' is of order %d", u->name, u->order);
+            snprintf(
+                hint, sizeof hint,
+                "it moves positions in another way than rates: every unknown must be of order 2; "
+                "choose --method %s",
+                others);
+            diag_error(errors, u->at, hint, "%s is not defined here: '%s' is of order %d", title,
+                       u->name, u->order);
             return false;
         }
     }
-    diag_error(
-        errors, im->at,
-        "integrate the coordinate, --without conserve; or choose --method euler, heun or rk4",
-        "semi-implicit Euler is not defined here: '%s', which is conserved, is integrated "
-        "from its momentum",
-        im->unknown[im->from_momentum[0]].name);
+    snprintf(hint, sizeof hint,
+             "integrate the coordinate, --without conserve; or choose --method %s", others);
+    diag_error(errors, im->at, hint,
+               "%s is not defined here: '%s', which is conserved, is integrated from its momentum",
+               title, im->unknown[im->from_momentum[0]].name);
     return false;
 }

@@ -90,8 +90,6 @@ static void print_events(FILE *out, const image *im, const engine_kind *kind, co
 
 void summary_print(FILE *out, const image *im, const simulation_settings *s, void *run,
                    const books *b, const belief *balance, double step_ns) {
-    static const char *const methods[] = {"explicit Euler", "semi-implicit Euler", "Heun",
-                                          "Runge-Kutta 4"};
     const uint64_t steps = s->kind->steps(run);
     fprintf(out, "%s%s%s\n", im->name, im->title[0] != '\0' ? ": " : "", im->title);
     for (int i = 0; i < im->effects; i++) {
@@ -100,7 +98,7 @@ void summary_print(FILE *out, const image *im, const simulation_settings *s, voi
         }
     }
     fprintf(out, "  %s%s, %s, step %.9g s, %" PRIu64 " steps to t = %.15g s\n",
-            methods[im->settings.method], im->settings.compensated ? " compensated" : "",
+            wh_methods[im->settings.method].title, im->settings.compensated ? " compensated" : "",
             s->kind->name, im->step_s, steps, ratio_times(steps, im->step));
     print_state(out, im, s, run);
     if (im->contacts > 0) {

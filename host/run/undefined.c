@@ -7,7 +7,7 @@
 
 #include "core/contact.h"
 #include "host/base/room.h"
-#include "statement.h"
+#include "host/base/statement.h"
 
 static const char hint_domain[] =
     "a root or logarithm of what is below zero, or a division by zero: keep the motion, or the "
@@ -180,6 +180,7 @@ void undefined_contact(const undefined_at *at, int k, diags *errors) {
                                         [WH_FRICTION] =
                                             "the normal force, or a coefficient, of this friction",
                                         [WH_WHEN] = "the value of this crossing"};
+    _Static_assert(sizeof whole / sizeof whole[0] == WH_CONTACT_KIND_COUNT, "one for each kind");
     const image_contact *c = &at->image->contact[k];
     if (!look_ahead(at, c->first_question, c->questions, errors) &&
         !look_ahead(at, c->first_late, c->late, errors)) {

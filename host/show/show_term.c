@@ -6,8 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/number/functions.h"
+#include "host/lang/lexer.h"
 #include "host/number/decimal.h"
+#include "host/number/functions.h"
 
 /* --- names and numbers ---------------------------------------------------------------------------*/
 
@@ -219,6 +220,8 @@ static void show_atom(const show *s, const atom *x, double exponent) {
     show_exponent(s, exponent);
 }
 
+enum { RANKS = 4 + PRIMES_MAX }; /* of show_rank() */
+
 /* What a factor is, for the order in which a product is written. */
 int show_rank(const atom *x) {
     if (x->kind != ATOM_SYMBOL) {
@@ -246,7 +249,7 @@ void show_separate(const show *s, bool *first) {
 /* The factors of one side of the fraction bar: +1 above, -1 below. Returns how many there are. */
 int show_factors(const show *s, const piece *p, int side, bool *first) {
     int count = 0;
-    for (int rank = 0; rank < 16; rank++) {
+    for (int rank = 0; rank < RANKS; rank++) {
         for (int i = 0; i < p->mono->count; i++) {
             const factor *f = &p->mono->factors[i];
             if (show_rank(f->atom) == rank && (f->exponent > 0.0) == (side > 0)) {

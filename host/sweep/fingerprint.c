@@ -35,10 +35,6 @@ static void put_instance(FILE *out, const instance *base) {
 
 char *fingerprint_make(const sweep *s, const char *model_text, const instance *base,
                        const image *im, shard part) {
-    static const char *const methods[] = {[WH_EULER] = "euler",
-                                          [WH_SEMI_IMPLICIT_EULER] = "semi-implicit-euler",
-                                          [WH_HEUN] = "heun",
-                                          [WH_RK4] = "rk4"};
     char *text = NULL;
     size_t length = 0;
     FILE *out = room_text(&text, &length);
@@ -46,7 +42,7 @@ char *fingerprint_make(const sweep *s, const char *model_text, const instance *b
     fprintf(out, "scene: %s\n", base->name);
     fprintf(out, "model text: 0x%016" PRIx64 "\n", hash_text(model_text));
     fprintf(out, "number: %s%s\n", s->kind->name, s->engine.compensated ? ", compensated" : "");
-    fprintf(out, "method: %s\n", methods[s->engine.method]);
+    fprintf(out, "method: %s\n", wh_methods[s->engine.method].word);
     fprintf(out, "step: %.17g s\nuntil: %.17g s\n", base->step_s, base->until_s);
     fprintf(out, "measured from: %.17g s\n", s->from_s);
     put_instance(out, base);

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include "host/base/exit.h"
 #include "host/base/room.h"
 #include "host/run/belief.h"
 #include "host/run/slow.h"
@@ -194,7 +195,7 @@ static int run_points(const session_settings *o, sitting *s) {
     const jobs_result result = missing > 0 ? jobs_run(&plan) : JOBS_DONE;
     progress_clear(&s->progress);
     if (!sheet_close(&s->sheet)) {
-        return SESSION_FAILED;
+        return EXIT_RUN_FAILED;
     }
     say_overruns(s);
     say_slow(s);
@@ -207,13 +208,13 @@ static int run_points(const session_settings *o, sitting *s) {
                 (unsigned long long)(s->sheet.rows + s->ran),
                 (unsigned long long)(o->end - o->first),
                 s->sheet.is_file ? "; their rows are kept" : "", hint);
-        return SESSION_INTERRUPTED;
+        return EXIT_INTERRUPTED;
     case JOBS_WORKER_LOST:
         fprintf(stderr, "whirl sweep: error: a worker process ended early\n%s", hint);
-        return SESSION_FAILED;
-    case JOBS_REFUSED: return SESSION_FAILED;
+        return EXIT_RUN_FAILED;
+    case JOBS_REFUSED: return EXIT_RUN_FAILED;
     }
-    return s->failed > 0 ? SESSION_FAILED : SESSION_DONE;
+    return s->failed > 0 ? EXIT_RUN_FAILED : EXIT_DONE;
 }
 
 int session_run(const sweep *s, const session_settings *o) {
@@ -234,7 +235,7 @@ int session_run(const sweep *s, const session_settings *o) {
                                      .context = &here,
                                      .fresh = o->fresh};
     int code = sheet_open(&here.sheet, &settings);
-    if (code == SESSION_DONE) {
+    if (code == EXIT_DONE) {
         code = run_points(o, &here);
     }
     free(header);

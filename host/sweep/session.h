@@ -18,14 +18,8 @@ typedef struct session_settings {
     const volatile sig_atomic_t *stop; /* set from outside to end it cleanly */
 } session_settings;
 
-enum {
-    SESSION_DONE = 0,
-    SESSION_FAILED = 1,  /* points failed, or rows could not be written */
-    SESSION_REFUSED = 2, /* the file is another sweep's */
-    SESSION_INTERRUPTED = 130
-};
-
-/* Returns one of the above; what is wrong has been said on standard error. */
+/* Returns an exit code (host/base/exit.h): EXIT_RUN_FAILED when points failed or rows could not be written,
+ * EXIT_BAD_INPUT when the file is another sweep's; what is wrong has been said on standard error. */
 int session_run(const sweep *s, const session_settings *settings);
 
 #endif

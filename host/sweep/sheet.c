@@ -8,19 +8,18 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "host/base/exit.h"
 #include "host/base/room.h"
-
-enum { GOOD = 0, CANNOT_WRITE = 1, REFUSED = 2 };
 
 static int refuse(const char *path, const char *why) {
     fprintf(stderr, "%s: error: %s\nhint: another --csv keeps it; --fresh overwrites it\n", path,
             why);
-    return REFUSED;
+    return EXIT_BAD_INPUT;
 }
 
 static int cannot_write(const char *path) {
     fprintf(stderr, "%s: error: cannot be written: %s\n", path, strerror(errno));
-    return CANNOT_WRITE;
+    return EXIT_RUN_FAILED;
 }
 
 static char *beside(const char *path, const char *ending) {
@@ -70,7 +69,7 @@ static int check_fingerprint(const sheet_settings *s, const char *path) {
         old += line_length(old) + (old[line_length(old)] == '\n');
         new += line_length(new) + (new[line_length(new)] == '\n');
     }
-    int code = GOOD;
+    int code = EXIT_DONE;
     if (*old != '\0' || *new != '\0') {
         code = refuse(s->path, "it belongs to another sweep");
         fprintf(stderr, "  there: %.*s\n  here:  %.*s\n", line_length(old), old, line_length(new),
@@ -117,7 +116,7 @@ static bool is_row(const sheet_settings *s, const char *line, size_t length, uin
 static int check_rows(sheet *sh, const sheet_settings *s, off_t *whole) {
     char *line = NULL;
     size_t size = 0;
-    int code = GOOD;
+    int code = EXIT_DONE;
     bool in_header = s->header[0] != '\0';
     *whole = 0;
     for (;;) {
@@ -151,23 +150,23 @@ static int check_rows(sheet *sh, const sheet_settings *s, off_t *whole) {
 static int lock(const sheet *sh, const char *path) {
     struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
     if (fcntl(fileno(sh->out), F_SETLK, &whole) == 0) {
-        return GOOD;
+        return EXIT_DONE;
     }
     if (errno != EACCES && errno != EAGAIN) {
-        return GOOD; /* a file system without locks */
+        return EXIT_DONE; /* a file system without locks */
     }
     fprintf(stderr, "%s: error: another sweep is writing it\n", path);
-    return REFUSED;
+    return EXIT_BAD_INPUT;
 }
 
 static int go_on(sheet *sh, const sheet_settings *s, const char *beside_path, off_t size) {
     off_t whole = 0;
-    int code = GOOD;
+    int code = EXIT_DONE;
     if (size > 0 && !s->fresh) {
         code = check_fingerprint(s, beside_path);
-        code = code == GOOD ? check_rows(sh, s, &whole) : code;
+        code = code == EXIT_DONE ? check_rows(sh, s, &whole) : code;
     }
-    if (code != GOOD) {
+    if (code != EXIT_DONE) {
         return code;
     }
     /* what the file holds must never be newer than what the fingerprint says */
@@ -183,7 +182,7 @@ static int go_on(sheet *sh, const sheet_settings *s, const char *beside_path, of
     if (whole == 0 && (fputs(s->header, sh->out) < 0 || fflush(sh->out) != 0)) {
         return cannot_write(s->path);
     }
-    return GOOD;
+    return EXIT_DONE;
 }
 
 int sheet_open(sheet *sh, const sheet_settings *s) {
@@ -196,25 +195,25 @@ int sheet_open(sheet *sh, const sheet_settings *s) {
         if (sh->out == NULL || fputs(s->header, sh->out) < 0) {
             return cannot_write(s->path);
         }
-        return GOOD;
+        return EXIT_DONE;
     }
     sh->is_file = true;
     const int file = open(s->path, O_RDWR | O_CREAT, 0666);
     sh->out = file < 0 ? NULL : fdopen(file, "r+b");
     if (sh->out == NULL) {
         cannot_write(s->path);
-        return REFUSED; /* a wrong path is bad input, as for `run` */
+        return EXIT_BAD_INPUT; /* a wrong path is bad input, as for `run` */
     }
     int code = lock(sh, s->path);
-    if (code == GOOD && fstat(file, &about) != 0) {
+    if (code == EXIT_DONE && fstat(file, &about) != 0) {
         code = cannot_write(s->path);
     }
-    if (code == GOOD) {
+    if (code == EXIT_DONE) {
         char *path = beside(s->path, ".sweep");
         code = go_on(sh, s, path, about.st_size);
         free(path);
     }
-    if (code != GOOD) {
+    if (code != EXIT_DONE) {
         fclose(sh->out);
         sh->out = NULL;
     }

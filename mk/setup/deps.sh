@@ -4,12 +4,14 @@
 # Groups: host (compiler), plot, firmware (Arm compiler and emulator), tests, quality (linters,
 # sanitizers, AVR), bench; hosts (other compilers, C libraries and processors) and octave only when they are named.
 # What is there already is recognised by its command or file, not by its package, so a compiler from elsewhere
-# counts. With nothing missing this says nothing and takes milliseconds.
+# counts. With nothing missing this says nothing and takes milliseconds. What will be installed is told before, with
+# what needs it and the size; where it cannot be, the line that does it (exit status 1).
 # DEPS_DRY_RUN=1 only says what is missing (exit status 1 if anything is).
 set -eu
 
-missing=""      # packages to install
-missing_what="" # what each of them is for, a line each
+missing="" # packages to install
+told=""    # a line for each: the package, the part of Whirl that needs it, what for
+part=""    # what needs the group in hand
 
 # want PACKAGE "what for" TEST...: note the package as missing when the test fails.
 want() {
@@ -21,8 +23,8 @@ want() {
     *" $package "*) return 0 ;;
     esac
     missing="$missing $package"
-    missing_what="$missing_what
-    $package: $what"
+    told="$told$(printf '    %-26s %-14s %s' "$package" "$part" "$what")
+"
 }
 
 have() { command -v "$1" >/dev/null 2>&1; }
@@ -111,17 +113,26 @@ octave() {
 [ $# -gt 0 ] || set -- host plot firmware tests quality bench
 for group in "$@"; do
     case $group in
-    host | plot | firmware | tests | quality | bench | hosts | octave) "$group" ;;
+    host) part="whirl" ;;
+    plot) part="plots" ;;
+    firmware) part="boards" ;;
+    tests) part="make test" ;;
+    quality) part="make check" ;;
+    bench) part="make bench" ;;
+    hosts) part="make hosts" ;;
+    octave) part="octave-check" ;;
     *)
         echo "deps.sh: no such group: $group" >&2
         exit 2
         ;;
     esac
+    "$group"
 done
 
 [ -n "$missing" ] || exit 0
-echo "Missing on this machine:$missing_what"
 line="apt-get install --no-install-recommends -y$missing"
+echo "Missing on this machine (Debian package, what of Whirl needs it, what for):"
+printf '%s' "$told"
 [ -z "${DEPS_DRY_RUN:-}" ] || exit 1
 
 give_up() {
@@ -132,11 +143,20 @@ give_up() {
 }
 
 have apt-get || give_up "This is no Debian: these are the packages' names there."
+
+# What it comes to with all that these packages need themselves; fails when they are not in the package lists.
+size() {
+    # shellcheck disable=SC2086 # $missing is a list of words
+    LC_ALL=C apt-get install --no-install-recommends -o Debug::NoLocking=1 --print-uris $missing 2>/dev/null </dev/null |
+        sed -n 's/^Need to get /To be fetched: /p; s/^After this operation, /On disk: /p' | grep .
+}
+
 if [ "$(id -u)" -eq 0 ]; then
     as_root=""
 elif have sudo && { [ -t 0 ] || sudo -n true 2>/dev/null; }; then
     as_root="sudo"
 else
+    size || true
     give_up "Installing takes root's rights, and sudo does not give them here."
 fi
 
@@ -144,16 +164,24 @@ log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 trap 'exit 1' HUP INT TERM
 
+update() {
+    echo "Updating the package lists (apt-get update)"
+    $as_root apt-get update >"$log" 2>&1 </dev/null || true
+}
+
 install() {
     # shellcheck disable=SC2086 # $line and $as_root are lists of words
     $as_root env DEBIAN_FRONTEND=noninteractive $line >"$log" 2>&1 </dev/null
 }
 
-echo "Installing:$missing"
 # The package lists are fetched only when they are absent or too old to install from.
+if ! size; then
+    update
+    size || true
+fi
+echo "Installing them: $as_root${as_root:+ }$line"
 if ! install; then
-    echo "Updating the package lists (apt-get update)"
-    $as_root apt-get update >"$log" 2>&1 </dev/null || true
+    update
     if ! install; then
         tail -n 5 "$log" >&2
         give_up "Installing did not work."

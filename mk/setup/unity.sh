@@ -51,7 +51,7 @@ fi
 command -v apt-get >/dev/null || fail "this is no Debian: there is no apt-get"
 command -v xz >/dev/null || fail "xz is missing (package xz-utils)"
 
-echo "  GET   Unity (from Debian's source package $package)"
+echo "  GET   Unity, the test framework, into $dir (from Debian's source package $package, a few MB; installs nothing)"
 rm -rf "$work"
 mkdir -p "$work/lists/partial" "$work/cache/archives/partial" "$work/sources" "$work/src"
 trap 'rm -rf "$work"' EXIT

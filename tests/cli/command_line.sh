@@ -45,7 +45,7 @@ prints() {
 prints '^usage: whirl COMMAND' --help
 prints '^usage: whirl COMMAND' -h
 prints '^whirl [0-9]+\.[0-9]+\.[0-9]+$' --version
-for command in list derive accel run; do
+for command in list derive describe accel run; do
     prints "^usage: whirl $command" "$command" --help
     prints "^usage: whirl $command" "$command" -h
 done
@@ -54,7 +54,7 @@ prints '^scene +thomson_a ' list
 says 2 '^usage: whirl COMMAND'
 says 2 "did you mean 'derive'" deriv epicyclic
 says 2 "unknown command 'frobnicate'" frobnicate
-for command in derive accel run; do
+for command in derive describe accel run; do
     says 2 "^usage: whirl $command" "$command"
 done
 
@@ -73,6 +73,13 @@ prints '^thomson_a: ' run core/models/thomson.whirl:thomson_a --until 2ms
 prints '^thomson_a: ' run thomson:thomson_a --until 2ms
 prints '^mechanism thomson' derive thomson:thomson_a
 prints "^theta1'' = " accel thomson:thomson_a
+prints '^  mechanism thomson of core/models/thomson.whirl, model hash 0x' describe thomson:thomson_a
+prints '^  "method": "heun",$' describe thomson_a --json --method heun
+prints '^  "compensated": true,$' describe thomson_a --json --compensated
+prints '^    "asked": true,$' describe thomson_a --json --with ledger
+says 2 'more than one thing to describe: thomson' describe epicyclic thomson
+says 2 'did you mean --json' describe epicyclic --jsn
+says 2 "there is no method 'foo'" describe epicyclic --method foo
 prints '^start[(]theta1[)],' sweep thomson:thomson_a --until 2ms --over theta1=0..1:2 --quiet
 says 2 "the built-in mechanism 'thomson' has no scene 'foo'" run thomson:foo
 "$whirl" accel - x=0.5 <<'END' >"$scratch/out" 2>"$scratch/err"
@@ -180,7 +187,7 @@ says 2 'core/models/epicyclic.whirl:[0-9]+:11: error: singular mass matrix' deri
 for file in tests/bad/derive_*.whirl; do
     place=$(sed -n '1s/^# expect: \([0-9]*:[0-9]*\): .*/\1/p' "$file")
     [ -n "$place" ] || place='no expectation on the first line'
-    for call in derive accel run; do
+    for call in derive describe accel run; do
         says 2 "$file:$place: error: " "$call" "$file"
     done
 done

@@ -24,7 +24,7 @@ for scene in thomson_a epicyclic_conserved $("$whirl" list | awk '$1 == "scene" 
 done
 for scene in thomson_b spherical_flight two_mass_relative epicyclic_conserved; do
     add "$scene" --until 0.3s --compensated
-    for method in heun euler semi-implicit-euler; do
+    for method in $("$whirl" derive "$scene" --as c --method '?' 2>&1 | sed -n 's/,//g; s/^hint: one of //p'); do
         add "$scene" --until 0.2s --method "$method"
     done
     add "$scene" --until 0.2s --method heun --compensated

@@ -11,7 +11,7 @@
 
 #include "host/emit/emit.h"
 #include "host/run/engine.h"
-#include "host/show/text.h"
+#include "host/show/show_equations.h"
 
 enum { TEXT_SIZE = 16384, UNKNOWNS_MAX = 4, LETS_MAX = 8, CONTACTS = 3, STEPS = 3 };
 
@@ -262,10 +262,12 @@ static void write_scene(writer *w) {
 }
 
 static void run(const image *p, const engine_kind *kind, bool compensated) {
-    static const wh_method methods[] = {WH_EULER, WH_SEMI_IMPLICIT_EULER, WH_HEUN, WH_RK4};
-    for (size_t i = 0; i < sizeof methods / sizeof methods[0]; i++) {
+    for (int i = 0; i < WH_METHODS; i++) {
+        if (!wh_method_takes((wh_method)i, p->form)) {
+            continue;
+        }
         image each = *p;
-        each.settings = (image_settings){methods[i], compensated};
+        each.settings = (image_settings){(wh_method)i, compensated};
         void *running = kind->start(&each);
         double *output = calloc((size_t)p->outputs + 1, sizeof *output);
         if (output == NULL) {
@@ -281,7 +283,7 @@ static void run(const image *p, const engine_kind *kind, bool compensated) {
 
 /* What becomes of the equations; `conserve` as for image_make(). */
 static void use(const equations *e, const bool *conserve, diags *all, FILE *nowhere) {
-    static const image_settings settings = {WH_RK4, false};
+    static const image_settings settings = {WH_METHOD_DEFAULT, false};
     image *p = image_make(e, conserve, &settings, IMAGE_TO_RUN, all);
     if ((p == NULL) != (diags_count(all) > 0)) {
         abort(); /* refused without a word, or accepted with one */

@@ -93,27 +93,29 @@ static void exponent(writer *w, int depth) {
 }
 
 static void call(writer *w, int depth) {
-    static const char *const any[] = {"sin", "cos", "atan", "abs", "sign", "tan", "exp"};
+    static const char *const any[] = {"sin", "cos",  "atan", "abs",  "sign",
+                                      "tan", "tanh", "exp",  "sinh", "cosh"};
+    const unsigned any_count = sizeof any / sizeof any[0];
     static const char *const two[] = {"atan2", "min", "max"};
     static const char *const positive[] = {"sqrt", "log"};
     static const char *const small[] = {"asin", "acos"};
-    const unsigned which = draw(w, 14);
-    if (which < 7) {
-        put(w, w->tame && which == 6 ? "%s(sin(" : "%s((", any[which]);
+    const unsigned which = draw(w, any_count + 7);
+    if (which < any_count) {
+        put(w, w->tame && which >= 7 ? "%s(sin(" : "%s((", any[which]);
         expression(w, depth - 1);
         put(w, "))");
-    } else if (which < 10) {
-        put(w, "%s(", two[which - 7]);
+    } else if (which < any_count + 3) {
+        put(w, "%s(", two[which - any_count]);
         expression(w, depth - 1);
         put(w, ", ");
         expression(w, depth - 1);
         put(w, ")");
-    } else if (which < 12) {
-        put(w, "%s(", positive[which - 10]);
+    } else if (which < any_count + 5) {
+        put(w, "%s(", positive[which - any_count - 3]);
         base(w, depth - 1);
         put(w, ")");
     } else {
-        put(w, "%s(%s(", small[which - 12], draw(w, 2) == 0 ? "0.9*sin" : "0.9*cos");
+        put(w, "%s(%s(", small[which - any_count - 5], draw(w, 2) == 0 ? "0.9*sin" : "0.9*cos");
         expression(w, depth - 1);
         put(w, "))");
     }

@@ -47,9 +47,10 @@ static void command(reader *r, const char *name, size_t length) {
     static const struct {
         const char *name;
         int arguments;
-    } known[] = {{"frac", 2},         {"sqrt", 1}, {"dot", 1}, {"ddot", 1}, {"mathrm", 1},
-                 {"operatorname", 1}, {"sin", 0},  {"cos", 0}, {"tan", 0},  {"exp", 0},
-                 {"min", 0},          {"max", 0},  {"cdot", 0}};
+    } known[] = {{"frac", 2},   {"sqrt", 1},         {"dot", 1},  {"ddot", 1},
+                 {"mathrm", 1}, {"operatorname", 1}, {"sin", 0},  {"cos", 0},
+                 {"tan", 0},    {"exp", 0},          {"sinh", 0}, {"cosh", 0},
+                 {"tanh", 0},   {"min", 0},          {"max", 0},  {"cdot", 0}};
     static const char greek[] =
         " alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi rho sigma tau phi chi "
         "psi omega Gamma Delta Theta Lambda Xi Sigma Phi Psi Omega ";

@@ -90,7 +90,7 @@ static void call(writer *w, const char *before, int depth, const char *after) {
 /* Defined everywhere and of bounded slopes, or nearly so. */
 static void function(writer *w, int depth) {
     static const char *const exponents[] = {"2", "3", "4", "-1", "-2", "0.5", "1.5", "-0.5"};
-    switch (draw(w, w->functions ? 18 : 8)) {
+    switch (draw(w, w->functions ? 21 : 8)) {
     case 0: call(w, "sin(", depth, ")"); break;
     case 1: call(w, "cos(", depth, ")"); break;
     case 2: call(w, "sqrt(2.5 + sin(", depth, "))"); break;
@@ -126,6 +126,9 @@ static void function(writer *w, int depth) {
         call(w, "(1.5 + cos(", depth, "))^(");
         call(w, "sin(", depth, "))");
         break;
+    case 17: call(w, "sinh(cos(", depth, "))"); break;
+    case 18: call(w, "cosh(2*sin(", depth, "))"); break;
+    case 19: call(w, "tanh(", depth, ")"); break;
     default: call(w, "(1.5 + sin(", depth, "))^a"); break;
     }
 }

@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "host/emit/emit.h"
-#include "host/show/text.h"
+#include "host/show/show_equations.h"
 #include "unity.h"
 
 void each_mechanism(checker *check) {

@@ -12,7 +12,7 @@
 #include "command.h"
 #include "derived.h"
 #include "host/emit/emit.h"
-#include "host/show/text.h"
+#include "host/show/show_equations.h"
 #include "mechanism.h"
 #include "unity.h"
 

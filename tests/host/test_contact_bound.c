@@ -4,7 +4,7 @@
  *
  * The suite does RANDOM_STEPS steps a scene; the environment's WHIRL_RANDOM_STEPS asks for more. */
 #include "derived.h"
-#include "host/derive/ledger.h"
+#include "host/derive/ledger_lists.h"
 #include "host/run/engine.h"
 #include "host/run/start.h"
 

@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "host/derive/ledger.h"
+#include "host/derive/ledger_lists.h"
 #include "host/run/books.h"
 
 #include "unity.h"

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/derive/ledger.h"
+#include "host/derive/ledger_lists.h"
 
 #include "unity.h"
 

@@ -7,7 +7,7 @@
 
 #include "derived.h"
 #include "host/emit/emit.h"
-#include "host/show/text.h"
+#include "host/show/show_equations.h"
 #include "unity.h"
 
 void suite_show_events(void);

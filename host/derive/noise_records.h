@@ -1,6 +1,6 @@
-/* noise.h: noise on what is recorded: on outputs, and on measures that name an output as it is recorded. */
-#ifndef DERIVE_NOISE_H
-#define DERIVE_NOISE_H
+/* noise_records.h: noise on what is recorded: on outputs, and on measures that name an output as it is recorded. */
+#ifndef DERIVE_NOISE_RECORDS_H
+#define DERIVE_NOISE_RECORDS_H
 
 #include "layout.h"
 

@@ -1,8 +1,8 @@
 /* statement.h: a statement of a model's file in words. */
-#ifndef RUN_STATEMENT_H
-#define RUN_STATEMENT_H
+#ifndef BASE_STATEMENT_H
+#define BASE_STATEMENT_H
 
-#include "host/base/diag.h"
+#include "diag.h"
 
 /* Room for what a message quotes. */
 #define STATEMENT_SIZE 161

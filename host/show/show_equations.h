@@ -1,7 +1,7 @@
-/* text.h: the equations of motion for readers, printed from the equations themselves: what runs is printed
+/* show_equations.h: the equations of motion for readers, printed from the equations themselves: what runs is printed
  * from the image by host/emit, and tests hold both against each other at random states. */
-#ifndef SHOW_TEXT_H
-#define SHOW_TEXT_H
+#ifndef SHOW_SHOW_EQUATIONS_H
+#define SHOW_SHOW_EQUATIONS_H
 
 #include <stdio.h>
 

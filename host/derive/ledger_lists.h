@@ -1,12 +1,12 @@
-/* ledger.h: the books of a scene as numbers: the lists that core/ledger.h takes, and what their entries
+/* ledger_lists.h: the books of a scene as numbers: the lists that core/ledger.h takes, and what their entries
  * mean.
  *
  * What changes the momentum p_i = dL/dq_i' is, by Lagrange's equations, dL/dq_i (gravity, springs, and
  * what the other coordinates' motion does), each generalized force, each damper and each contact. What
  * changes the energy, or the energy integral where that is not T + V (energy.h), is the work of each
  * generalized force, each damper's loss, each contact, and each change of an input that the energies name. */
-#ifndef DERIVE_LEDGER_H
-#define DERIVE_LEDGER_H
+#ifndef DERIVE_LEDGER_LISTS_H
+#define DERIVE_LEDGER_LISTS_H
 
 #include "layout.h"
 

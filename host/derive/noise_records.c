@@ -1,10 +1,10 @@
-/* noise.c: noise behind the exact outputs. */
-#include "noise.h"
+/* noise_records.c: noise behind the exact outputs. */
+#include "noise_records.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/base/hash.h"
+#include "host/base/hashing.h"
 #include "host/base/room.h"
 
 /* Outputs with the same seed have noise of their own each: their names' hash (FNV-1a) tells them apart. */

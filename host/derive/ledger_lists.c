@@ -1,4 +1,4 @@
-/* ledger.c: entering the books' lists. */
+/* ledger_lists.c: entering the books' lists. */
 #include "core/ledger_step.h" /* first: its arguments have names that host/lang has types of */
 
 #include <stdlib.h>
@@ -6,7 +6,7 @@
 #include "contact_lists.h"
 #include "energy.h"
 #include "host/base/room.h"
-#include "ledger.h"
+#include "ledger_lists.h"
 
 /* Folded, and free of conserved coordinates. */
 static const poly *ready(const program *p, const equations *e, const poly *wanted) {

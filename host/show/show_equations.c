@@ -1,5 +1,5 @@
-/* text.c: the equations of motion and the first-order form, for the screen and for a paper. */
-#include "text.h"
+/* show_equations.c: the equations of motion and the first-order form, for the screen and for a paper. */
+#include "show_equations.h"
 
 #include <math.h>
 #include <stdlib.h>

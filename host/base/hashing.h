@@ -1,8 +1,8 @@
-/* hash.h: hashes of the host's own: texts and words, for tables and for telling things apart. A state's bits, and what
+/* hashing.h: hashes of the host's own: texts and words, for tables and for telling things apart. A state's bits, and what
  * goes into files, are core/hash.h's; the constants of FNV-1a stand there and here alone.
  */
-#ifndef BASE_HASH_H
-#define BASE_HASH_H
+#ifndef BASE_HASHING_H
+#define BASE_HASHING_H
 
 #include <stddef.h>
 #include <stdint.h>

@@ -1,4 +1,4 @@
-/* sum.c: adding many polys at once. Adding them one by one would make, and keep, every sum between. */
+/* sums.c: adding many polys at once. Adding them one by one would make, and keep, every sum between. */
 #include <stdlib.h>
 
 #include "algebra.h"

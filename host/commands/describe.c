@@ -1,0 +1,94 @@
+/* describe.c: `whirl describe`: what a scene's image holds, for programs and for readers. */
+#include <stdio.h>
+#include <string.h>
+
+#include "commands.h"
+#include "host/emit/describe.h"
+#include "load.h"
+#include "options.h"
+
+static const command_usage usage = {
+    .head =
+        "usage: whirl describe FILE[:NAME]|SCENE|MECHANISM[:SCENE] [--json] [options]\n"
+        "\n"
+        "Says what a scene holds: names, units, indices, start values, step, method, contacts, ledger,\n"
+        "memory, costs and the model's hash; all that runs and all generated code is made of the same.\n"
+        "Values are SI.\n"
+        "  --json       the same for programs: one JSON object (docs/describe.md)\n",
+    .groups = OPTIONS_CHANGE | OPTIONS_ENGINE,
+    .described = false,
+    .tail = ""};
+
+typedef struct describe_options {
+    change_options changes;
+    image_settings settings;
+    const char *target;
+    bool as_json;
+} describe_options;
+
+static bool read_options(int count, char **words, describe_options *o) {
+    bool bad = false;
+    for (int at = 0; at < count && !bad;) {
+        if (strcmp(words[at], "--json") == 0) {
+            o->as_json = true;
+            at++;
+        } else if (!options_change(count, words, &at, &o->changes, &bad) && !bad &&
+                   !options_engine("describe", count, words, &at, &o->settings, &bad) && !bad) {
+            if (words[at][0] == '-' && words[at][1] != '\0') {
+                options_unknown("describe", words[at], usage.groups,
+                                (const char *const[]){"--json", NULL});
+                bad = true;
+            } else if (o->target != NULL) {
+                fprintf(stderr, "whirl describe: error: more than one thing to describe: %s\n",
+                        words[at]);
+                bad = true;
+            } else {
+                o->target = words[at++];
+            }
+        }
+    }
+    if (!bad && o->target == NULL) {
+        options_usage(stderr, &usage);
+        bad = true;
+    }
+    return !bad;
+}
+
+static int describe_loaded(source_model *from, const describe_options *o) {
+    const mechanism *of;
+    const scene *in;
+    const overrides changes = change_options_overrides(&o->changes);
+    const load_wish wish = {.settings = o->settings, .use = IMAGE_TO_WRITE, .conserve = true};
+    loaded made;
+    int code = source_pick(from, from->model->scene_count == 1, &of, &in);
+    if (code != EXIT_DONE) {
+        return code;
+    }
+    code = load(&made, from, of, in, &changes, &wish);
+    source_forget(from);
+    if (code == EXIT_DONE && o->as_json) {
+        describe_json(stdout, made.image, from->file);
+    } else if (code == EXIT_DONE) {
+        describe_text(stdout, made.image, from->file);
+    }
+    unload(&made);
+    return code;
+}
+
+int command_describe(int count, char **words) {
+    describe_options o = {.settings = {WH_RK4, false}};
+    if (options_help(count, words, &usage)) {
+        return EXIT_DONE;
+    }
+    int code = EXIT_BAD_INPUT;
+    if (read_options(count, words, &o)) {
+        source_model from;
+        code = source_open(&from, o.target);
+        if (code == EXIT_DONE) {
+            code = describe_loaded(&from, &o);
+        }
+        source_close(&from);
+    }
+    change_options_free(&o.changes);
+    return code;
+}

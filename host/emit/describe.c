@@ -1,0 +1,245 @@
+/* describe.c: an image as JSON. */
+#include "describe.h"
+
+#include <inttypes.h>
+#include <string.h>
+
+#include "host/base/statement.h"
+#include "host/image/core_rows.h"
+#include "host/image/memory.h"
+#include "json.h"
+
+const char *const describe_roles[IMAGE_ROLES] = {
+    [IMAGE_STEP] = "step",       [IMAGE_OBSERVE] = "observe", [IMAGE_BOOKS] = "books",
+    [IMAGE_SIGNALS] = "signals", [IMAGE_FORCES] = "forces",   [IMAGE_SETS] = "sets",
+    [IMAGE_POWERS] = "powers",   [IMAGE_LEVELS] = "levels"};
+
+const char *describe_ledger_kind(ledger_kind kind) {
+    switch (kind) {
+    case LEDGER_WORK: return "work";
+    case LEDGER_LOSS: return "loss";
+    case LEDGER_ENERGIES: return "energies";
+    case LEDGER_DRIVE: return "drive";
+    case LEDGER_DAMPING: return "damping";
+    }
+    return "";
+}
+
+static void put_hex(json *j, const char *key, uint64_t value) {
+    char text[24];
+    snprintf(text, sizeof text, "0x%016" PRIx64, value);
+    json_text(j, key, text);
+}
+
+/* Where it stands in the file, and what stands there. */
+static void put_place(json *j, place at) {
+    char text[STATEMENT_SIZE];
+    statement_text(at, text, sizeof text);
+    json_whole(j, "line", at.line);
+    json_whole(j, "column", at.column);
+    json_text(j, "statement", text);
+}
+
+static void put_unit(json *j, const image_unit *unit) {
+    json_text(j, "si", unit->si);
+    json_text(j, "unit", unit->shown);
+    json_number(j, "unit_si", image_shows_si(unit) ? 1.0 : unit->scale / unit->divisor);
+}
+
+static void put_quantity(json *j, const image_quantity *q, int index, bool has_value) {
+    json_open(j, NULL, '{');
+    json_whole(j, "index", index);
+    json_text(j, "name", q->name);
+    json_text(j, "text", q->text);
+    put_unit(j, &q->unit);
+    if (has_value) {
+        json_number(j, "value", q->value);
+    }
+    put_place(j, q->at);
+    json_close(j, '}');
+}
+
+static void put_quantities(json *j, const char *key, const image_quantity *q, int count,
+                           bool has_value) {
+    json_open(j, key, '[');
+    for (int i = 0; i < count; i++) {
+        put_quantity(j, &q[i], i, has_value);
+    }
+    json_close(j, ']');
+}
+
+/* Name, derivative and unit of a component, or of a recovered coordinate. */
+static void put_component(json *j, const image *im, component c, int index) {
+    const image_unknown *u = &im->unknown[c.unknown];
+    json_whole(j, "index", index);
+    json_text(j, "name", u->name);
+    json_whole(j, "primes", c.primes);
+    json_text(j, "text", u->text);
+    put_unit(j, &u->unit[c.primes]);
+}
+
+static void put_state(json *j, const image *im) {
+    json_open(j, "angles", '[');
+    for (int i = 0; i < im->angles; i++) {
+        json_open(j, NULL, '{');
+        put_component(j, im, im->angle[i], i);
+        json_number(j, "start", im->start_rad[i]);
+        json_whole(j, "start_float", im->start_turns[i]);
+        json_close(j, '}');
+    }
+    json_close(j, ']');
+    json_open(j, "reals", '[');
+    for (int i = 0; i < im->reals; i++) {
+        json_open(j, NULL, '{');
+        put_component(j, im, im->real[i], i);
+        json_number(j, "start", im->start_real[i]);
+        json_number(j, "start_float", (double)(float)im->start_real[i]);
+        json_close(j, '}');
+    }
+    json_close(j, ']');
+}
+
+static void put_outputs(json *j, const image *im) {
+    json_open(j, "outputs", '[');
+    for (int i = 0; i < im->own_outputs; i++) {
+        put_quantity(j, &im->output[i], i, false);
+    }
+    for (int i = im->own_outputs; i < im->outputs; i++) { /* recovered from their momentum */
+        const int k = i - im->own_outputs;
+        json_open(j, NULL, '{');
+        put_component(j, im, (component){im->from_momentum[k / 2], k % 2}, i);
+        json_bool(j, "from_momentum", true);
+        json_close(j, '}');
+    }
+    json_close(j, ']');
+}
+
+static void put_contacts(json *j, const image *im) {
+    json_open(j, "contacts", '[');
+    for (int k = 0; k < im->contacts; k++) {
+        const image_contact *c = &im->contact[k];
+        json_open(j, NULL, '{');
+        json_whole(j, "index", k);
+        json_text(j, "kind", c->word);
+        json_whole(j, "direction", c->direction);
+        json_whole(j, "pin", c->pin);
+        json_whole(j, "sets", c->sets);
+        put_place(j, c->at);
+        json_close(j, '}');
+    }
+    json_close(j, ']');
+}
+
+static void put_ledger(json *j, const image *im) {
+    const image_ledger *l = &im->ledger;
+    if (!l->kept) {
+        json_null(j, "ledger");
+        return;
+    }
+    json_open(j, "ledger", '{');
+    json_bool(j, "asked", l->asked);
+    json_whole(j, "entries", l->entries);
+    json_open(j, "accounts", '[');
+    for (int i = 0; i < l->accounts; i++) {
+        const image_unknown *u = i > 0 ? &im->unknown[l->unknown[i]] : NULL;
+        json_open(j, NULL, '{');
+        json_whole(j, "index", i);
+        json_text(j, "of", u != NULL ? u->name : "energy");
+        json_text(j, "si", u != NULL ? u->momentum_si : "J");
+        json_close(j, '}');
+    }
+    json_close(j, ']');
+    json_open(j, "rows", '[');
+    for (int i = 0; i < l->smooth; i++) {
+        json_open(j, NULL, '{');
+        json_whole(j, "index", i);
+        json_whole(j, "account", l->entry[i].account);
+        json_text(j, "kind", describe_ledger_kind(l->entry[i].kind));
+        put_place(j, l->entry[i].at);
+        json_close(j, '}');
+    }
+    json_close(j, ']');
+    json_close(j, '}');
+}
+
+static void put_lists(json *j, const image *im) {
+    json_open(j, "lists", '{');
+    for (int role = 0; role < IMAGE_ROLES; role++) {
+        const tape *t = im->list[role];
+        if (t == NULL) {
+            continue;
+        }
+        const tape_cost cost = tape_count(t);
+        json_open(j, describe_roles[role], '{');
+        json_whole(j, "results", t->results);
+        json_whole(j, "operations", tape_operations(t));
+        json_whole(j, "additions_and_products", cost.arithmetic);
+        json_whole(j, "divisions", cost.divisions);
+        json_whole(j, "roots", cost.roots);
+        json_whole(j, "waves", cost.waves);
+        json_whole(j, "calls", cost.calls);
+        json_close(j, '}');
+    }
+    json_close(j, '}');
+}
+
+static void put_time(json *j, const image *im) {
+    json_number(j, "step_s", im->step_s);
+    json_open(j, "step_ratio", '{');
+    json_count(j, "numerator", im->step.numerator);
+    json_count(j, "denominator", im->step.denominator);
+    json_close(j, '}');
+    json_count(j, "steps", im->steps);
+    json_number(j, "until_s", im->until_s);
+}
+
+static void put_effects(json *j, const image *im) {
+    json_open(j, "effects", '[');
+    for (int i = 0; i < im->effects; i++) {
+        json_open(j, NULL, '{');
+        json_text(j, "name", im->effect[i].name);
+        json_text(j, "text", im->effect[i].text);
+        json_bool(j, "with", im->effect[i].with);
+        json_close(j, '}');
+    }
+    json_close(j, ']');
+}
+
+static void put_sizes(json *j, const image *im) {
+    json_open(j, "memory", '{');
+    json_count(j, "float_bytes", memory_float_bytes(im));
+    json_count(j, "double_bytes", memory_double_bytes(im));
+    json_close(j, '}');
+    json_open(j, "bounds", '{');
+    json_whole(j, "evaluations", core_evaluations(im));
+    json_whole(j, "signals", core_signals(im));
+    json_whole(j, "events", im->contacts > 0 ? WH_EVENTS_MAX : 0);
+    json_close(j, '}');
+}
+
+void describe_json(FILE *out, const image *im, const char *file) {
+    json j = {.out = out};
+    json_open(&j, NULL, '{');
+    json_whole(&j, "version", DESCRIBE_VERSION);
+    json_text(&j, "name", im->name);
+    json_text(&j, "title", im->title);
+    json_text(&j, "mechanism", im->mechanism);
+    json_text(&j, "file", file);
+    put_hex(&j, "hash", im->hash);
+    json_text(&j, "form", im->form == WH_SECOND_ORDER ? "second order" : "first order");
+    json_bool(&j, "energies", im->has_energies);
+    json_text(&j, "method", wh_methods[im->settings.method].word);
+    json_whole(&j, "stages", core_stages(im));
+    json_bool(&j, "compensated", im->settings.compensated);
+    put_time(&j, im);
+    put_effects(&j, im);
+    put_quantities(&j, "parameters", im->parameter, im->parameters, true);
+    put_state(&j, im);
+    put_quantities(&j, "inputs", im->input, im->inputs, true);
+    put_outputs(&j, im);
+    put_contacts(&j, im);
+    put_ledger(&j, im);
+    put_sizes(&j, im);
+    put_lists(&j, im);
+    json_close(&j, '}');
+}

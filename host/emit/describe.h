@@ -1,0 +1,22 @@
+/* describe.h: what an image holds, for programs (docs/describe.md) and for readers. */
+#ifndef EMIT_DESCRIBE_H
+#define EMIT_DESCRIBE_H
+
+#include <stdio.h>
+
+#include "host/image/image.h"
+
+/* Raised when a field changes its meaning or goes; new fields may come at any time. */
+#define DESCRIBE_VERSION 1
+
+/* One JSON object. `file` is the .whirl file's name. */
+void describe_json(FILE *out, const image *im, const char *file);
+
+/* The same for readers. */
+void describe_text(FILE *out, const image *im, const char *file);
+
+/* Words that both use. */
+extern const char *const describe_roles[IMAGE_ROLES];
+const char *describe_ledger_kind(ledger_kind kind);
+
+#endif

@@ -1,0 +1,8 @@
+/* memory_double.c: as the reference computes. */
+#define WH_DOUBLE 1
+#include "core_rows.h"
+#include "memory.h"
+
+size_t memory_double_bytes(const image *im) {
+    return WH_MEMORY_BYTES(im->angles, core_memory_reals(im), im->contacts);
+}

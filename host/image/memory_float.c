@@ -1,0 +1,7 @@
+/* memory_float.c: as the boards compute. */
+#include "core_rows.h"
+#include "memory.h"
+
+size_t memory_float_bytes(const image *im) {
+    return WH_MEMORY_BYTES(im->angles, core_memory_reals(im), im->contacts);
+}

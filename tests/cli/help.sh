@@ -1,0 +1,29 @@
+#!/bin/sh
+# help.sh: `make` alone lists every public target: all that make knows but for those that serve another, and all that
+# the docs tell of.
+. "$(dirname "$0")/../checks.sh"
+
+MAKEFLAGS= make >"$scratch/help" 2>"$scratch/err" && sed -n 's/^  make \([a-zA-Z0-9-]*\) .*/\1/p' "$scratch/help" | sort -u >"$scratch/listed"
+verdict $? "make alone prints a list"
+
+# What other targets call: a target's second half (-now), and parts of one.
+parts='FORCE|objects|board-objects|asan-run|image-rules|board-images|board-tests|run-image|test-programs|fuzz-programs'
+parts="$parts|.*-now|gate-.*|hash-.*|host-.*|suites-.*"
+MAKEFLAGS= make -pnq FORCE 2>/dev/null | sed -n 's/^\.PHONY: *//p' | tr ' ' '\n' | grep . | sort -u >"$scratch/known"
+[ "$(wc -l <"$scratch/known")" -ge 40 ] && grep -vxE "$parts" "$scratch/known" | comm -23 - "$scratch/listed" >"$scratch/err" &&
+    [ ! -s "$scratch/err" ]
+verdict $? "every target that make knows is listed"
+grep -v NAME "$scratch/listed" | comm -23 - "$scratch/known" >"$scratch/err" && [ ! -s "$scratch/err" ]
+verdict $? "every target that is listed is known"
+
+cat README.md docs/*.md Makefile mk/*.mk tests/*.sh tests/*/*.sh mk/*/*.sh core/*.h boards/*/*.[ch] |
+    grep -oE '(`|^    |^)make [a-z][a-z0-9-]*' | sed 's/.*make //' | sort -u >"$scratch/told"
+sed 's/^gate-.*/gate-NAME/' "$scratch/told" | sort -u | comm -23 - "$scratch/listed" >"$scratch/err" && [ ! -s "$scratch/err" ] &&
+    [ "$(wc -l <"$scratch/told")" -ge 15 ]
+verdict $? "every target that the docs tell of is listed"
+for digits in 'm32: ## a target with digits' 'a-2b: x ## one more'; do
+    printf '##@ Some\n%s\n' "$digits" >"$scratch/one.mk"
+    awk -f mk/help.awk "$scratch/one.mk" | grep -q "make ${digits%%:*} .*${digits##*## }"
+    verdict $? "$digits"
+done
+exit $failed

@@ -1,0 +1,77 @@
+#!/bin/sh
+# structure.sh: who calls whom in the program, as its objects say. Between folders of host/ all arrows go one way; within
+# a folder no two files need each other, but for the recursions that docs/DESIGN.md names.
+. "$(dirname "$0")/../checks.sh"
+
+objects=$(dirname "$whirl")/host/host
+if ! command -v nm >/dev/null 2>&1 || [ ! -d "$objects" ]; then
+    echo "ok - no nm, or no objects of the program: nothing to look at # SKIP"
+    exit 0
+fi
+
+# Lines "FOLDER/FILE defines SYMBOL" and "FOLDER/FILE wants SYMBOL"; objects of files that are gone do not count.
+for object in "$objects"/*/*.o; do
+    file=${object#"$objects/"}
+    file=${file%.o}
+    [ -f "host/$file.c" ] && nm "$object" | awk -v file="$file" '
+        NF == 3 && $2 ~ /^[TDRBV]$/ { print file, "defines", $3 }
+        NF == 2 && $1 == "U" { print file, "wants", $2 }'
+done >"$scratch/symbols"
+
+# circles WHAT: of the arrows on standard input, "FROM TO" a line, those that lie on a circle, as "A B C: ..." lines.
+cat >"$scratch/circles.awk" <<'END'
+{ if (!(($1, $2) in arrow)) { arrow[$1, $2] = 1; to[$1] = to[$1] " " $2; node[$1] = node[$2] = 1 } }
+function walk(from, at,   i, n, next_one) {
+    n = split(to[at], next_one, " ")
+    for (i = 1; i <= n; i++) {
+        if (!((from, next_one[i]) in reaches)) {
+            reaches[from, next_one[i]] = 1
+            walk(from, next_one[i])
+        }
+    }
+}
+END {
+    for (a in node) { walk(a, a) }
+    for (a in node) {
+        if (!((a, a) in reaches)) { continue }
+        line = ""
+        for (b in node) { if (((a, b) in reaches) && ((b, a) in reaches)) { line = line " " b } }
+        n = split(line, member, " ")
+        for (i = 2; i <= n; i++) {
+            for (k = i; k > 1 && member[k] < member[k - 1]; k--) {
+                swap = member[k]; member[k] = member[k - 1]; member[k - 1] = swap
+            }
+        }
+        line = member[1]
+        for (i = 2; i <= n; i++) { line = line " " member[i] }
+        print line
+    }
+}
+END
+
+awk '$2 == "defines" { home[$3] = $1 }
+     $2 == "wants" { wanted[++n] = $1; what[n] = $3 }
+     END { for (i = 1; i <= n; i++) {
+         if ((what[i] in home) && home[what[i]] != wanted[i]) { print wanted[i], home[what[i]] }
+     } }' "$scratch/symbols" | sort -u >"$scratch/arrows"
+
+sed 's:/[^ ]*::g' "$scratch/arrows" | awk '$1 != $2' | sort -u >"$scratch/folders"
+awk -f "$scratch/circles.awk" "$scratch/folders" | sort -u >"$scratch/err"
+[ "$(wc -l <"$scratch/folders")" -gt 10 ] && [ ! -s "$scratch/err" ]
+verdict $? "$(sort -u -k1,1 "$scratch/folders" | wc -l) folders of host/, $(wc -l <"$scratch/folders") arrows between them: no circle"
+
+# What an expression is made of is lowered by what lowers expressions; a term that holds an expression prints it.
+cat >"$scratch/named" <<'END'
+derive/lower derive/waves
+show/show show/show_term
+END
+awk '{ split($1, a, "/"); split($2, b, "/") } a[1] == b[1]' "$scratch/arrows" |
+    awk -f "$scratch/circles.awk" | sort -u >"$scratch/found"
+diff "$scratch/named" "$scratch/found" >"$scratch/err" 2>&1
+verdict $? "$(cut -d' ' -f1 "$scratch/symbols" | sort -u | wc -l) files: those that need each other are the recursions that have a name"
+for file in lower waves show_term; do
+    grep -q "$file\.c" docs/DESIGN.md || echo "docs/DESIGN.md does not name $file.c" >>"$scratch/unnamed"
+done
+[ ! -s "$scratch/unnamed" ]
+verdict $? "docs/DESIGN.md names them" "$scratch/unnamed"
+exit $failed

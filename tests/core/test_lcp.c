@@ -1,0 +1,119 @@
+/* test_lcp.c: the box LCP of core/contact_lcp.h on random problems, also where rows repeat each other: the solution
+ * meets its conditions, and how many rounds that takes stays below the cap. */
+#include "hand.h"
+
+#include "unity.h"
+
+void suite_lcp(void);
+
+enum { PROBLEMS = 20000, CONTACTS = 3 };
+
+static uint64_t bits_of(uint64_t *seed) {
+    *seed = *seed * 6364136223846793005U + 1442695040888963407U;
+    return *seed >> 33;
+}
+
+static wh_real between(uint64_t *seed, int least, int most) {
+    return (wh_real)(least + (int)(bits_of(seed) % (uint64_t)(most - least + 1)));
+}
+
+/* A problem of up to three contacts on two coordinates, so that rows often repeat each other: whole numbers, so that
+ * they do so exactly. Stops that all can push and frictions that slide always have a solution; a hold may contradict
+ * another one. */
+static void random_problem(uint64_t *seed, bool holds, bool forces, wh_contact_work *w) {
+    static const wh_contact_kind kinds[] = {WH_STOP, WH_FRICTION, WH_HOLD};
+    hand_build(2, between(seed, 2, 4), between(seed, -1, 1), between(seed, 2, 4));
+    for (unsigned k = 0; k < CONTACTS; k++) {
+        const wh_contact_kind drawn = kinds[bits_of(seed) % (holds && k == 0 ? 3U : 2U)];
+        const wh_contact_kind kind = drawn == WH_FRICTION && !forces ? WH_STOP : drawn;
+        wh_real row[2] = {between(seed, -1, 1), between(seed, -1, 1)};
+        if (kind == WH_FRICTION || (row[0] == WH_R(0.0) && row[1] == WH_R(0.0))) {
+            row[0] = WH_R(1.0);
+            row[1] = WH_R(0.0);
+        }
+        hand_add(kind, -1, row[0], row[1], WH_R(0.0), between(seed, 0, 3), WH_R(0.0));
+    }
+    hand_start(false);
+    hand_now.system.forces(&hand_now, NULL, NULL, NULL, NULL, w->law);
+    for (unsigned k = 0; k < CONTACTS; k++) {
+        w->rough[k] = WH_R(10.0);
+        w->force[k] = WH_R(0.0);
+        w->mode[k] = (int8_t)(hand_now.contact[k].kind == WH_FRICTION ? WH_STUCK : WH_ACTIVE);
+    }
+    w->capped = false;
+}
+
+static void turn(wh_contact_work *w, unsigned k) {
+    for (unsigned i = 0; i < 2; i++) {
+        hand_now.law[k].row[i] = -hand_now.law[k].row[i];
+    }
+    hand_now.system.forces(&hand_now, NULL, NULL, NULL, NULL, w->law);
+}
+
+/* What the conditions allow for rounding. */
+#define SLACK (WH_DOUBLE ? WH_R(1e-9) : WH_R(1e-3))
+
+static bool meets_its_conditions(const wh_contact_work *w, const wh_real *wanted,
+                                 const wh_real *lambda) {
+    for (unsigned k = 0; k < CONTACTS; k++) {
+        const wh_real low = wh_contact_low(&hand_now.system, w, k);
+        const wh_real high = wh_contact_high(&hand_now.system, w, k);
+        wh_real left = -wanted[k];
+        for (unsigned l = 0; l < CONTACTS; l++) {
+            left += wh_delassus(&hand_now.system, w, k, l) * lambda[l];
+        }
+        const bool within = lambda[k] >= low - SLACK && lambda[k] <= high + SLACK;
+        const bool at_low = lambda[k] <= low + SLACK;
+        const bool at_high = lambda[k] >= high - SLACK;
+        const bool off = WH_ABS(left) > SLACK;
+        if (!within || (off && !(left > WH_R(0.0) ? at_low : at_high))) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static void check(bool holds, bool forces) {
+    const uint8_t member[CONTACTS] = {0, 1, 2};
+    uint64_t seed = 20240611;
+    unsigned wrong = 0;
+    unsigned capped = 0;
+    for (unsigned i = 0; i < PROBLEMS; i++) {
+        wh_contact_work w;
+        wh_real accel[2];
+        wh_real wanted[CONTACTS];
+        wh_real lambda[CONTACTS];
+        wh_real left[CONTACTS];
+        random_problem(&seed, holds, forces, &w);
+        /* of accelerations that the mechanism may have, or of impacts */
+        accel[0] = between(&seed, -4, 4);
+        accel[1] = between(&seed, -4, 4);
+        for (unsigned k = 0; k < CONTACTS; k++) {
+            const wh_real bounce = forces || holds ? WH_R(0.0) : between(&seed, 0, 2) / WH_R(2.0);
+            wanted[k] = -wh_jacobian_times(&hand_now.system, &w, k, accel);
+            if (!forces && wanted[k] < WH_R(0.0)) { /* a stop that opens takes no part */
+                turn(&w, k);
+                wanted[k] = -wanted[k];
+            }
+            wanted[k] *= WH_R(1.0) + (hand_now.contact[k].kind == WH_STOP ? bounce : WH_R(0.0));
+        }
+        (void)wh_contact_lcp(&hand_now.system, &w, member, CONTACTS, wanted, forces, lambda, left);
+        capped += w.capped;
+        wrong += !w.capped && !meets_its_conditions(&w, wanted, lambda);
+    }
+    TEST_ASSERT_EQUAL_UINT(0, wrong);
+    TEST_ASSERT_EQUAL_UINT(0, capped);
+}
+
+static void test_forces_meet_their_conditions(void) { check(false, true); }
+static void test_forces_beside_holds_do(void) { check(true, true); }
+/* Stops of the same place may bounce differently: what they want contradicts each other. */
+static void test_impulses_meet_their_conditions(void) { check(false, false); }
+static void test_impulses_beside_holds_do(void) { check(true, false); }
+
+void suite_lcp(void) {
+    RUN_TEST(test_forces_meet_their_conditions);
+    RUN_TEST(test_forces_beside_holds_do);
+    RUN_TEST(test_impulses_meet_their_conditions);
+    RUN_TEST(test_impulses_beside_holds_do);
+}

@@ -1,0 +1,211 @@
+/* test_describe.c: `whirl describe --json` of every built-in scene is valid JSON with what docs/describe.md says; text
+ * of the user cannot break it; and the checker that says so refuses what is not JSON. */
+#define _POSIX_C_SOURCE 200809L
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "derived.h"
+#include "host/emit/describe.h"
+#include "json_check.h"
+#include "unity.h"
+
+void suite_describe(void);
+
+static char *described(const image *im) {
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    TEST_ASSERT_NOT_NULL(out);
+    describe_json(out, im, "x.whirl");
+    fclose(out);
+    return text;
+}
+
+static void expect_value(const char *text, const char *path, const char *wanted) {
+    char value[100];
+    TEST_ASSERT_NOT_NULL_MESSAGE(json_value(text, path, value), path);
+    TEST_ASSERT_EQUAL_STRING_MESSAGE(wanted, value, path);
+}
+
+static void expect_number(const char *text, const char *path, double wanted) {
+    char value[100];
+    TEST_ASSERT_NOT_NULL_MESSAGE(json_value(text, path, value), path);
+    TEST_ASSERT_TRUE_MESSAGE(strtod(value, NULL) == wanted, path);
+}
+
+static void expect_valid(const char *text, const char *what) {
+    char why[100];
+    const bool valid = json_is_valid(text, why);
+    if (!valid) {
+        printf("  %s: %s\n", what, why);
+    }
+    TEST_ASSERT_TRUE_MESSAGE(valid, what);
+}
+
+/* The components of the state: names, starts, indices. */
+static void check_state(const char *text, const image *im) {
+    char path[60];
+    for (int i = 0; i < im->angles + im->reals; i++) {
+        const component c = image_component(im, i);
+        const bool turns = i < im->angles;
+        const int index = turns ? i : i - im->angles;
+        const char *list = turns ? "angles" : "reals";
+        snprintf(path, sizeof path, "%s/%d/name", list, index);
+        expect_value(text, path, im->unknown[c.unknown].name);
+        snprintf(path, sizeof path, "%s/%d/si", list, index);
+        expect_value(text, path, im->unknown[c.unknown].unit[c.primes].si);
+        snprintf(path, sizeof path, "%s/%d/primes", list, index);
+        expect_number(text, path, c.primes);
+        snprintf(path, sizeof path, "%s/%d/start", list, index);
+        expect_number(text, path, turns ? im->start_rad[index] : im->start_real[index]);
+    }
+}
+
+static int check_scene(const scene *s) {
+    derived d = derived_builtin(s->name);
+    derived_expect(&d, s->name);
+    const image *im = d.image;
+    char *text = described(im);
+    char hash[24];
+    expect_valid(text, s->name);
+    snprintf(hash, sizeof hash, "0x%016" PRIx64, im->hash);
+    expect_value(text, "name", s->name);
+    expect_value(text, "hash", hash);
+    expect_value(text, "method", "rk4");
+    expect_number(text, "step_s", im->step_s);
+    expect_number(text, "steps", (double)im->steps);
+    TEST_ASSERT_EQUAL_INT(im->angles, json_length(text, "angles"));
+    TEST_ASSERT_EQUAL_INT(im->reals, json_length(text, "reals"));
+    TEST_ASSERT_EQUAL_INT(im->inputs, json_length(text, "inputs"));
+    TEST_ASSERT_EQUAL_INT(im->outputs, json_length(text, "outputs"));
+    TEST_ASSERT_EQUAL_INT(im->parameters, json_length(text, "parameters"));
+    TEST_ASSERT_EQUAL_INT(im->contacts, json_length(text, "contacts"));
+    TEST_ASSERT_EQUAL_INT(im->ledger.kept ? im->ledger.smooth : -1,
+                          json_length(text, "ledger/rows"));
+    expect_number(text, "lists/step/results", im->list[IMAGE_STEP]->results);
+    expect_number(text, "lists/step/operations", tape_operations(im->list[IMAGE_STEP]));
+    check_state(text, im);
+    free(text);
+    derived_free(&d);
+    return 1;
+}
+
+static void test_every_scene_is_described(void) {
+    TEST_ASSERT_TRUE(each_builtin_scene(check_scene) > 60);
+}
+
+/* Quotes and backslashes cannot stand in a description of the language; everything else can, malformed bytes too. */
+static void test_any_text_is_described(void) {
+    static const char before[] = "mechanism m \"a \t \\ ";
+    static const char behind[] =
+        "\"\n coordinate x [m] \"\\u \xc3\xa9 / \\\"\n T = 1 [kg]*x'^2/2\n";
+    int described_all = 0;
+    for (int c = 1; c < 256; c++) {
+        char text[200];
+        if (c == '"' || c == '\n' || c == '\r') {
+            continue;
+        }
+        snprintf(text, sizeof text, "%s%c%s", before, c, behind);
+        derived d = derived_text(text);
+        if (d.image != NULL) {
+            char *json = described(d.image);
+            expect_valid(json, text);
+            free(json);
+            described_all++;
+        }
+        derived_free(&d);
+    }
+    TEST_ASSERT_TRUE(described_all > 90);
+}
+
+static void test_the_checker_is_strict(void) {
+    static const char *const wrong[] = {"",
+                                        "{",
+                                        "{}}",
+                                        "[1,]",
+                                        "{\"a\":1,}",
+                                        "{a:1}",
+                                        "[01]",
+                                        "[1.]",
+                                        "[.5]",
+                                        "[+1]",
+                                        "[1e]",
+                                        "[nan]",
+                                        "[inf]",
+                                        "[0x1]",
+                                        "[\"\\x\"]",
+                                        "[\"\n\"]",
+                                        "['a']",
+                                        "[\"\\u12\"]",
+                                        "[\"\xff\"]",
+                                        "[1 2]",
+                                        "{\"a\":1,\"a\":2}",
+                                        "[true,false,nul]",
+                                        "[] []",
+                                        "[\"a]"};
+    static const char *const right[] = {"{}", "[]", " [ 1 , -0.5e+3 ] ",
+                                        "{\"a\":[null,true,false]}", "\"\\u00e9\\n\""};
+    char why[100];
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        TEST_ASSERT_FALSE_MESSAGE(json_is_valid(wrong[i], why), wrong[i]);
+    }
+    for (size_t i = 0; i < sizeof right / sizeof right[0]; i++) {
+        TEST_ASSERT_TRUE_MESSAGE(json_is_valid(right[i], why), right[i]);
+    }
+}
+
+/* --- the page ------------------------------------------------------------------------------------------*/
+
+static char *page_text(void) {
+    FILE *in = fopen("docs/describe.md", "rb");
+    TEST_ASSERT_NOT_NULL(in);
+    char *text = calloc(1, 1 << 16);
+    TEST_ASSERT_NOT_NULL(text);
+    TEST_ASSERT_TRUE(fread(text, 1, (1 << 16) - 1, in) > 1000);
+    fclose(in);
+    return text;
+}
+
+/* Each key that is written stands in docs/describe.md; one a line, as json.h writes them. */
+static void check_keys(const char *json, const char *page) {
+    for (const char *line = json; line != NULL; line = strchr(line, '\n')) {
+        line += strspn(line, "\n ");
+        const size_t length = *line == '"' ? strcspn(line + 1, "\"") : 0;
+        if (length > 0 && line[length + 2] == ':') {
+            char named[60];
+            snprintf(named, sizeof named, "`%.*s`", (int)length, line + 1);
+            TEST_ASSERT_NOT_NULL_MESSAGE(strstr(page, named), named);
+        }
+    }
+}
+
+static void test_every_field_is_documented(void) {
+    static const char *const scenes[] = {"shuttle_clamped", "thomson_a_conserved", "carriage_stop"};
+    char *page = page_text();
+    for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
+        derived d = derived_builtin(scenes[i]);
+        derived_expect(&d, scenes[i]);
+        d.instance->ledger = true;
+        diags *errors = diags_new();
+        image *kept =
+            image_make(d.equations, d.instance->conserve, &plainly, IMAGE_TO_WRITE, errors);
+        TEST_ASSERT_NOT_NULL(kept);
+        char *json = described(kept);
+        check_keys(json, page);
+        free(json);
+        image_free(kept);
+        diags_free(errors);
+        derived_free(&d);
+    }
+    free(page);
+}
+
+void suite_describe(void) {
+    RUN_TEST(test_every_field_is_documented);
+    RUN_TEST(test_the_checker_is_strict);
+    RUN_TEST(test_every_scene_is_described);
+    RUN_TEST(test_any_text_is_described);
+}

@@ -1,0 +1,315 @@
+/* test_function_rows.c: every row of host/number/function_rows.h, in whatever is made of it: the slopes in numbers
+ * and in symbols against differences, the operation list, the force of an energy, what dimensions are taken, and
+ * that generated texts, the fuzzers' words and the docs have it. A function that is added is in all of these tests
+ * by its row.
+ *
+ *     WHIRL_RANDOM_STATES=10000 build/tests/host function_rows
+ *
+ * takes so many places for each function instead of two hundred. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "derived.h"
+#include "expressions.h"
+#include "host/algebra/algebra.h"
+#include "host/run/engine.h"
+#include "mechanism.h"
+#include "unity.h"
+
+void suite_function_rows(void);
+
+#define SEED UINT64_C(20061122)
+
+static int places(void) {
+    const char *asked = getenv("WHIRL_RANDOM_STATES");
+    return asked != NULL ? atoi(asked) : 200;
+}
+
+static function_id at(int f) { return (function_id)f; }
+static const char *name(int f) { return function_name(at(f)); }
+static bool of_two(int f) { return function_arguments(at(f)) == 2; }
+
+/* Fails with the function, the place and the seed. */
+static void expect_near(int f, double wanted, double got, double allowed, double x, double y) {
+    char text[160];
+    snprintf(text, sizeof text, "%s at (%.17g, %.17g): %.17g, not %.17g (seed %llu)", name(f), x, y,
+             got, wanted, (unsigned long long)SEED);
+    TEST_ASSERT_TRUE_MESSAGE(fabs(got - wanted) <= allowed, text);
+}
+
+/* --- the slopes ------------------------------------------------------------------------------------ */
+
+#define WIDTH 1e-3
+
+/* By differences to fourth order. False where the function is not smooth about the place. */
+static bool difference(int f, int which, double x, double y, double *slope) {
+    double value[5];
+    for (int k = -2; k <= 2; k++) {
+        const double off = k * WIDTH;
+        value[k + 2] =
+            number_call(at(f), x + (which == 0 ? off : 0.0), y + (which == 1 ? off : 0.0));
+    }
+    const double narrow = (value[3] - value[1]) / (2.0 * WIDTH);
+    const double wide = (value[4] - value[0]) / (4.0 * WIDTH);
+    *slope = narrow + (narrow - wide) / 3.0;
+    return fabs(narrow - wide) <= 1e-4 * (1.0 + fabs(narrow)); /* NaN is no */
+}
+
+static const symbol variables[2] = {
+    {.kind = SYM_COORDINATE, .name = "x", .text = "", .unit = "", .index = 0},
+    {.kind = SYM_COORDINATE, .name = "y", .text = "", .unit = "", .index = 1}};
+
+static double variable_value(void *context, const symbol *sym, int primes) {
+    (void)primes;
+    return ((const double *)context)[sym->index];
+}
+
+static void test_slopes(void) {
+    uint64_t seed = SEED;
+    for (int f = 0; f < FUNCTIONS; f++) {
+        algebra *a = algebra_new();
+        const poly *x = poly_symbol(a, &variables[0], 0);
+        const poly *y = of_two(f) ? poly_symbol(a, &variables[1], 0) : NULL;
+        const poly *whole = poly_call(a, at(f), x, y);
+        int compared = 0;
+        for (int i = 0; i < places(); i++) {
+            double point[2] = {random_between(&seed, -3.0, 3.0), random_between(&seed, -3.0, 3.0)};
+            for (int which = 0; which < function_arguments(at(f)); which++) {
+                double wanted;
+                if (!difference(f, which, point[0], point[1], &wanted)) {
+                    continue;
+                }
+                const double allowed = 1e-6 * (1.0 + fabs(wanted));
+                expect_near(f, wanted, number_slope(at(f), which, point[0], point[1]), allowed,
+                            point[0], point[1]);
+                /* by the rule itself, and as a derivative */
+                const poly *rule = function_slope(a, at(f), which, x, y);
+                const poly *of_whole = poly_derivative(a, whole, &variables[which], 0);
+                expect_near(f, wanted, poly_evaluate(rule, variable_value, point), allowed,
+                            point[0], point[1]);
+                expect_near(f, wanted, poly_evaluate(of_whole, variable_value, point), allowed,
+                            point[0], point[1]);
+                compared++;
+            }
+        }
+        algebra_free(a);
+        TEST_ASSERT_TRUE_MESSAGE(compared > places() / 5, name(f));
+    }
+}
+
+/* Where two meet, each has half; a size has no slope at zero. */
+static void test_slopes_where_they_jump(void) {
+    for (int which = 0; which < 2; which++) {
+        TEST_ASSERT_TRUE(number_slope(FN_MIN, which, 2.0, 2.0) == 0.5);
+        TEST_ASSERT_TRUE(number_slope(FN_MAX, which, 2.0, 2.0) == 0.5);
+    }
+    TEST_ASSERT_TRUE(number_slope(FN_ABS, 0, 0.0, 0.0) == 0.0);
+    TEST_ASSERT_TRUE(number_slope(FN_SIGN, 0, 0.0, 0.0) == 0.0);
+}
+
+/* --- the operation list ------------------------------------------------------------------------------ */
+
+/* The same bits as number_call(), but for sine and cosine, which are a phase's. */
+static void test_operations(void) {
+    uint64_t seed = SEED + 1;
+    for (int f = 0; f < FUNCTIONS; f++) {
+        tape *t = tape_new(0, 1);
+        const int x = tape_leaf(t, OP_LINEAR, 0);
+        const int y = of_two(f) ? tape_leaf(t, OP_LINEAR, 1) : -1;
+        t->result[0] = tape_call(t, at(f), x, y);
+        tape_prune(t);
+        const tape_cost cost = tape_count(t);
+        TEST_ASSERT_EQUAL_INT(1, cost.arithmetic + cost.divisions + cost.roots + cost.waves +
+                                     cost.calls);
+        evaluator *ev = evaluator_new(t);
+        for (int i = 0; i < places(); i++) {
+            const double point[2] = {random_between(&seed, -2.0, 2.0),
+                                     random_between(&seed, -2.0, 2.0)};
+            const double wanted = number_call(at(f), point[0], point[1]);
+            double got;
+            evaluator_run(ev, 0.0, NULL, point, NULL, NULL, &got);
+            if (isnan(wanted)) {
+                TEST_ASSERT_TRUE_MESSAGE(isnan(got), name(f));
+            } else {
+                expect_near(f, wanted, got, cost.waves > 0 ? 4e-16 : 0.0, point[0], point[1]);
+            }
+        }
+        evaluator_free(ev);
+        /* of numbers, an operation is a number, where the list can tell */
+        const int known = tape_call(t, at(f), tape_constant(t, 0.25), of_two(f) ? x : -1);
+        double number;
+        if (tape_is_constant(t, known, &number)) {
+            expect_near(f, number_call(at(f), 0.25, 0.0), number, 0.0, 0.25, 0.0);
+        }
+        tape_free(t);
+    }
+}
+
+/* --- from a text --------------------------------------------------------------------------------------- */
+
+/* An energy's force, as it comes out at the end of everything: a derivative that got lost shows here. */
+static void test_forces(void) {
+    uint64_t seed = SEED + 2;
+    for (int f = 0; f < FUNCTIONS; f++) {
+        char text[400];
+        snprintf(text, sizeof text,
+                 "mechanism m\ncoordinate x [m]\ncoordinate y [m]\nparameter a = 1 [m]\n"
+                 "T = 1 [kg]*(x'^2 + y'^2)/2\nV = 1 [J]*%s(x/a%s)\n",
+                 name(f), of_two(f) ? ", y/a" : "");
+        derived d = derived_text(text);
+        derived_expect(&d, text);
+        int compared = 0;
+        for (int i = 0; i < places() / 4; i++) {
+            state_values s = {.instance = d.instance};
+            s.value[0][0] = random_between(&seed, -2.0, 2.0);
+            s.value[1][0] = random_between(&seed, -2.0, 2.0);
+            double accel[2];
+            derived_run(d.program->step, &d, &s, accel);
+            for (int which = 0; which < 2; which++) {
+                const bool counts = which < function_arguments(at(f));
+                const double x = s.value[0][0];
+                const double y = s.value[1][0];
+                const double slope = counts ? number_slope(at(f), which, x, y) : 0.0;
+                if (isfinite(slope)) {
+                    expect_near(f, -slope, accel[d.program->place[which]],
+                                1e-13 * (1.0 + fabs(slope)), x, y);
+                    compared++;
+                }
+            }
+        }
+        TEST_ASSERT_TRUE_MESSAGE(compared > places() / 10, name(f));
+        derived_free(&d);
+    }
+}
+
+static bool accepted(const char *dimensions, const char *call) {
+    char text[400];
+    snprintf(text, sizeof text,
+             "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\noutput o [%s] = %s\n", dimensions,
+             call);
+    diags *said = diags_new();
+    model *read = model_parse("x.whirl", text, strlen(text), said);
+    model_free(read);
+    diags_free(said);
+    return read != NULL;
+}
+
+/* A length, lengths, a length and a time: what comes out is a number, a length, a root, or an error. */
+static void test_dimensions(void) {
+    for (int f = 0; f < FUNCTIONS; f++) {
+        char alike[80];
+        char mixed[80];
+        char plain[80];
+        char area[80];
+        snprintf(alike, sizeof alike, of_two(f) ? "%s(x, 2 [m])" : "%s(x)", name(f));
+        snprintf(mixed, sizeof mixed, of_two(f) ? "%s(x, 2 [s])" : "%s(x, x)", name(f));
+        snprintf(plain, sizeof plain, of_two(f) ? "%s(0.3, 0.4)" : "%s(0.3)", name(f));
+        snprintf(area, sizeof area, of_two(f) ? "%s(x^2, 2 [m^2])" : "%s(x^2)", name(f));
+        const function_dimensions takes = function_takes(at(f));
+        const bool number = takes == TAKES_ANY || takes == TAKES_RATIO;
+        const bool same = takes == TAKES_SIZE || takes == TAKES_CHOICE;
+        TEST_ASSERT_EQUAL_INT_MESSAGE(number, accepted("1", alike), alike);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(same, accepted("m", alike), alike);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(takes == TAKES_SQUARE, accepted("m", area), area);
+        TEST_ASSERT_FALSE_MESSAGE(accepted("1", mixed) || accepted("m", mixed), mixed);
+        TEST_ASSERT_TRUE_MESSAGE(accepted("1", plain), plain);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(takes == TAKES_RATIO || takes == TAKES_CHOICE, of_two(f),
+                                      name(f));
+    }
+}
+
+/* --- who must know of it ------------------------------------------------------------------------------- */
+
+static void test_names(void) {
+    for (int f = 0; f < FUNCTIONS; f++) {
+        function_id found;
+        TEST_ASSERT_TRUE_MESSAGE(function_find(name(f), strlen(name(f)), &found), name(f));
+        TEST_ASSERT_EQUAL_INT_MESSAGE(f, (int)found, name(f));
+        TEST_ASSERT_EQUAL_INT_MESSAGE('\\', function_latex(at(f))[0], name(f));
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(function_latex(at(f)), name(f)), name(f));
+        TEST_ASSERT_FALSE_MESSAGE(
+            function_find(name(f), strlen(name(f)) - 1, &found) && (int)found == f, name(f));
+    }
+    /* hashes of models count functions by their places: these stay */
+    TEST_ASSERT_EQUAL_INT(2, FN_TAN);
+    TEST_ASSERT_EQUAL_INT(9, FN_LOG);
+    TEST_ASSERT_EQUAL_INT(13, FN_MAX);
+    TEST_ASSERT_EQUAL_INT(16, FN_TANH);
+}
+
+static char *read_whole(const char *path) {
+    FILE *in = fopen(path, "r");
+    TEST_ASSERT_NOT_NULL_MESSAGE(in, path);
+    char *text = calloc(1, 1 << 20);
+    TEST_ASSERT_NOT_NULL(text);
+    TEST_ASSERT_TRUE(fread(text, 1, (1 << 20) - 1, in) > 0);
+    fclose(in);
+    return text;
+}
+
+/* `before` and `after` about its name, somewhere in the text? */
+static void expect_in(const char *text, const char *before, int f, const char *after,
+                      const char *where) {
+    char words[80];
+    char message[160];
+    snprintf(words, sizeof words, "%s%s%s", before, name(f), after);
+    snprintf(message, sizeof message, "%s has no %s", where, words);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(text, words), message);
+}
+
+static void test_words_of_the_docs(void) {
+    char *docs = read_whole("docs/language.md");
+    char *words = read_whole("tests/fuzz/fuzz_lang.dict");
+    char *list = strstr(docs, "`+ - * / ^`, parentheses, `");
+    TEST_ASSERT_NOT_NULL(list);
+    list = strchr(list + strlen("`+ - * / ^`"), '`');
+    *list = ' ';
+    *strchr(list, '`') = ' ';
+    *strchr(list, '\n') = '\0';
+    for (int f = 0; f < FUNCTIONS; f++) {
+        expect_in(list, " ", f, " ", "docs/language.md");
+        expect_in(words, "\"", f, "\"", "tests/fuzz/fuzz_lang.dict");
+    }
+    free(words);
+    free(docs);
+}
+
+/* What must hold for any mechanism is tried with every function. */
+static void test_generated_texts(void) {
+    static char all[1 << 20];
+    static const char *const coordinates[] = {"q"};
+    static const char *const constants[] = {"p"};
+    const expression_names names = {coordinates, 1, 0, constants, 1};
+    uint64_t seed = SEED + 3;
+    all[0] = '\0';
+    for (unsigned i = 0; i < 100 && strlen(all) + 1024 < sizeof all; i++) {
+        expression_write(&names, 3, 1, &seed, all + strlen(all), sizeof all - strlen(all));
+    }
+    for (int f = 0; f < FUNCTIONS; f++) {
+        expect_in(all, "", f, "(", "expression_write()");
+    }
+    all[0] = '\0';
+    for (unsigned i = 0; i < 60; i++) {
+        char text[MECHANISM_SIZE];
+        mechanism_write(i, SEED + i, text);
+        TEST_ASSERT_TRUE(strlen(all) + strlen(text) < sizeof all);
+        strcat(all, text);
+    }
+    for (int f = 0; f < FUNCTIONS; f++) {
+        expect_in(all, "", f, "(", "mechanism_write()");
+    }
+}
+
+void suite_function_rows(void) {
+    UnitySetTestFile(__FILE__);
+    RUN_TEST(test_slopes);
+    RUN_TEST(test_slopes_where_they_jump);
+    RUN_TEST(test_operations);
+    RUN_TEST(test_forces);
+    RUN_TEST(test_dimensions);
+    RUN_TEST(test_names);
+    RUN_TEST(test_words_of_the_docs);
+    RUN_TEST(test_generated_texts);
+}

@@ -1,0 +1,246 @@
+/* test_printed_runs.c: what is printed and what runs are made of one thing by two ways: text from the equations, the
+ * image's lists by elimination and lowering. Held against each other at random states: the accelerations that the
+ * lists give solve the printed equations, are the printed closed forms, and solve the printed A x = b. Every built-in
+ * scene, tests/mechanisms, and generated mechanisms; PRINTED_MECHANISMS=N in the environment takes N of these. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "formula.h"
+#include "mechanism.h"
+#include "printed.h"
+#include "unity.h"
+
+void suite_printed_runs(void);
+
+enum { STATES = 3, SEED = 77, RESULTS_MAX = 256 };
+
+/* What the printed numbers' digits and the rounding of both ways may leave, as part of what is added up. */
+#define ROUNDING 1e-9
+
+typedef struct comparison {
+    const char *name;
+    const derived *of;
+    state_values s;
+    int compared; /* formulas */
+} comparison;
+
+static double symbol_here(void *context, const char *name, int length) {
+    const comparison *c = context;
+    const mechanism *m = c->of->instance->mechanism;
+    int primes = 0;
+    while (length > 0 && name[length - 1] == '\'') {
+        length--;
+        primes++;
+    }
+    const struct {
+        const symbol **list;
+        int count;
+    } all[] = {{m->coordinates, m->coordinate_count},
+               {m->parameters, m->parameter_count},
+               {m->inputs, m->input_count}};
+    for (int k = 0; k < 3; k++) {
+        for (int i = 0; i < all[k].count; i++) {
+            const symbol *s = all[k].list[i];
+            if ((int)strlen(s->name) == length && strncmp(s->name, name, (size_t)length) == 0) {
+                return state_value((void *)(uintptr_t)&c->s, s, primes);
+            }
+        }
+    }
+    return (double)NAN;
+}
+
+/* The formula that begins here; *end is behind it. */
+static double value_of(comparison *c, const char *text, const char **end) {
+    const double value = formula_value(text, end, symbol_here, c);
+    c->compared++;
+    return value;
+}
+
+/* Sizes of what equation i adds up. */
+static double size_of(const comparison *c, int i) {
+    const equations *e = c->of->equations;
+    void *s = (void *)(uintptr_t)&c->s;
+    double size = poly_magnitude(e->velocity[i], state_value, s) +
+                  poly_magnitude(e->potential[i], state_value, s) +
+                  poly_magnitude(e->applied[i], state_value, s);
+    for (int j = 0; j < e->count; j++) {
+        size += poly_magnitude(e->mass[i * e->count + j], state_value, s) *
+                fabs(c->s.value[j][e->unknowns[j].order]);
+    }
+    return size;
+}
+
+static void expect_zero(const comparison *c, double rest, double size, const char *what) {
+    if (!(fabs(rest) <= ROUNDING * size)) {
+        printf("  %s: %s: off by %.3g of %.3g\n", c->name, what, rest, size);
+    }
+    TEST_ASSERT_TRUE_MESSAGE(fabs(rest) <= ROUNDING * size, c->name);
+}
+
+/* The equations: "  theta:  LEFT = RIGHT", or "  LEFT = RIGHT" of a system. Returns what is behind them. */
+static const char *check_equations(comparison *c, const char *text) {
+    const equations *e = c->of->equations;
+    const char *line = strstr(strstr(text, "\nequations"), "\n\n") + 2;
+    for (int i = 0; i < e->count; i++) {
+        const char *end;
+        const char *label = strstr(line, ":  ");
+        const bool labelled = label != NULL && label < strchr(line, '\n');
+        const double left = value_of(c, labelled ? label + 3 : line, &end);
+        TEST_ASSERT_EQUAL_STRING_LEN_MESSAGE("= ", end, 2, c->name);
+        const double right = value_of(c, end + 2, &end);
+        TEST_ASSERT_EQUAL_INT_MESSAGE('\n', *end, c->name);
+        expect_zero(c, left - right, size_of(c, i), "an equation of motion");
+        line = end + 1;
+    }
+    return line;
+}
+
+/* "  y3' = theta'' = FORMULA": the accelerations in closed form, where they are printed. */
+static void check_closed_forms(comparison *c, const char *text) {
+    const equations *e = c->of->equations;
+    for (int i = 0; i < e->count; i++) {
+        char wanted[200];
+        const unknown *u = &e->unknowns[i];
+        const double should = c->s.value[i][u->order];
+        snprintf(wanted, sizeof wanted, " = %s%.*s = ", u->symbol->name, u->order, "''''''''");
+        const char *at = strstr(text, wanted);
+        if (at != NULL) {
+            const char *end;
+            const double value = value_of(c, at + strlen(wanted), &end);
+            TEST_ASSERT_EQUAL_INT_MESSAGE('\n', *end, c->name);
+            double most = 0.0; /* the matrix passes on what the others are off */
+            for (int j = 0; j < e->count; j++) {
+                most = fmax(most, fabs(c->s.value[j][e->unknowns[j].order]));
+            }
+            expect_zero(c, value - should, 100.0 * most + 1e-300, "a closed form");
+        }
+    }
+}
+
+/* "  A12 = A21 = FORMULA" and "  b1 = FORMULA", whatever the letters. */
+static void check_matrix(comparison *c, const char *text) {
+    const equations *e = c->of->equations;
+    const int n = e->count;
+    double sum[UNKNOWNS] = {0};
+    const char *line = strstr(text, "\n  with the highest derivatives from ");
+    const bool symmetric = !c->of->instance->mechanism->is_system;
+    if (line == NULL) {
+        return;
+    }
+    line = strstr(line, "\n\n") + 2;
+    for (int i = 0; i < n; i++) {
+        for (int j = symmetric ? i : 0; j < n; j++) {
+            const char *end = strchr(line, '\n');
+            const char *from = strstr(line, " = ") + 3;
+            from = symmetric && j > i ? strstr(from, " = ") + 3 : from;
+            TEST_ASSERT_TRUE_MESSAGE(from < end, c->name);
+            const double a = value_of(c, from, &end);
+            TEST_ASSERT_EQUAL_INT_MESSAGE('\n', *end, c->name);
+            sum[i] += a * c->s.value[j][e->unknowns[j].order];
+            sum[j] += symmetric && j > i ? a * c->s.value[i][e->unknowns[i].order] : 0.0;
+            line = end + 1;
+        }
+    }
+    for (int i = 0; i < n; i++) {
+        const char *end;
+        const double b = value_of(c, strstr(line, " = ") + 3, &end);
+        TEST_ASSERT_EQUAL_INT_MESSAGE('\n', *end, c->name);
+        expect_zero(c, sum[i] - b, size_of(c, i), "a row of A x = b");
+        line = end + 1;
+    }
+}
+
+/* The lists' highest derivatives become the state's. False when one is no number there. */
+static bool accelerate(comparison *c, const image *im) {
+    double result[RESULTS_MAX];
+    const derived moving = {.instance = c->of->instance,
+                            .equations = c->of->equations,
+                            .image = (image *)(uintptr_t)im};
+    TEST_ASSERT_TRUE(im->list[IMAGE_BOOKS]->results <= RESULTS_MAX);
+    derived_run(im->list[IMAGE_BOOKS], &moving, &c->s, result);
+    bool finite = true;
+    for (int i = 0; i < im->count; i++) {
+        c->s.value[i][im->unknown[i].order] = result[i];
+        finite = finite && fabs(result[i]) < 1e12;
+    }
+    return finite;
+}
+
+/* Returns how many formulas were compared. */
+static int compare_all(const char *name, derived *d) {
+    const equations *e = d->equations;
+    if (e == NULL || e->count > UNKNOWNS) {
+        return 0;
+    }
+    for (int i = 0; i < e->count; i++) {
+        if (e->unknowns[i].order >= ORDERS_MAX) {
+            return 0;
+        }
+    }
+    diags *errors = diags_new();
+    image *im = image_make(e, NULL, &plainly, IMAGE_TO_WRITE, errors);
+    TEST_ASSERT_NOT_NULL_MESSAGE(im, name);
+    char *text = printed(d, TEXT);
+    comparison c = {.name = name, .of = d};
+    uint64_t seed = SEED;
+    for (int k = 0; k < STATES; k++) {
+        random_state(&c.s, d, &seed);
+        if (accelerate(&c, im)) {
+            const char *behind = check_equations(&c, text);
+            check_closed_forms(&c, behind);
+            check_matrix(&c, behind);
+        }
+    }
+    free(text);
+    image_free(im);
+    diags_free(errors);
+    return c.compared;
+}
+
+static int compare_scene(const scene *s) {
+    derived d = derived_builtin(s->name);
+    derived_expect(&d, s->name);
+    const int compared = compare_all(s->name, &d);
+    derived_free(&d);
+    return compared > 0;
+}
+
+static void test_scenes_run_as_printed(void) {
+    TEST_ASSERT_TRUE(each_builtin_scene(compare_scene) > 60);
+}
+
+static int files;
+static void compare_file(const char *name, derived *d) { files += compare_all(name, d) > 0; }
+
+static void test_files_run_as_printed(void) {
+    files = 0;
+    each_mechanism(compare_file);
+    TEST_ASSERT_TRUE(files > 25);
+}
+
+static void test_generated_mechanisms_run_as_printed(void) {
+    const char *more = getenv("PRINTED_MECHANISMS");
+    const int wanted = more != NULL ? (int)strtol(more, NULL, 10) : 60;
+    int compared = 0;
+    int formulas = 0;
+    for (int i = 0; i < wanted; i++) {
+        char text[MECHANISM_SIZE];
+        mechanism_write((unsigned)i, (uint64_t)(SEED + i), text);
+        derived d = derived_text(text);
+        const int here = compare_all(text, &d);
+        compared += here > 0;
+        formulas += here;
+        derived_free(&d);
+    }
+    printf("  seed %d on: %d formulas of %d of %d mechanisms compared\n", SEED, formulas, compared,
+           wanted);
+    TEST_ASSERT_TRUE(10 * compared >= 7 * wanted);
+}
+
+void suite_printed_runs(void) {
+    RUN_TEST(test_scenes_run_as_printed);
+    RUN_TEST(test_files_run_as_printed);
+    RUN_TEST(test_generated_mechanisms_run_as_printed);
+}

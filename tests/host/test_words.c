@@ -1,0 +1,209 @@
+/* test_words.c: the language's words and units follow from their rows: what is reserved, what a hint offers, what is
+ * refused where it does not belong, and what docs/language.md lists. Every row is tried; a new one is, too. */
+#define _POSIX_C_SOURCE 200809L
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "host/lang/model.h"
+#include "host/lang/words.h"
+#include "unity.h"
+
+void suite_words(void);
+
+enum { TEXT_SIZE = 1200, REPORT_SIZE = 8000, PAGE_SIZE = 200000 };
+
+/* What is said about the text; "" when it is accepted. */
+static const char *report_on(const char *text) {
+    static char report[REPORT_SIZE];
+    diags *all = diags_new();
+    model *read = model_parse("x.whirl", text, strlen(text), all);
+    FILE *out = fmemopen(report, sizeof report, "w");
+    TEST_ASSERT_NOT_NULL(out);
+    report[0] = '\0';
+    diags_flush(all, out);
+    fclose(out);
+    diags_free(all);
+    model_free(read);
+    return report;
+}
+
+/* A mechanism with names for every form, STATEMENT where it may stand, and a scene with WITHIN. */
+static const char *in_mechanism(const char *statement, const char *within) {
+    static char text[TEXT_SIZE];
+    snprintf(text, sizeof text,
+             "mechanism trial\ncoordinate x [m]\ncoordinate y [m]\nparameter m = 2 [kg]\n"
+             "parameter g = 9.81 [m/s^2]\noutput angle_read = x/1 [m]\nT = m*(x'^2 + y'^2)/2\n"
+             "%s\nscene s {\n%s\n}\n",
+             statement, within);
+    return text;
+}
+
+static void expect_in(const char *report, const char *wanted, const char *text) {
+    static char message[TEXT_SIZE + REPORT_SIZE + 200];
+    snprintf(message, sizeof message, "'%s' is missing in \"%s\" about: %s", wanted, report, text);
+    TEST_ASSERT_TRUE_MESSAGE(strstr(report, wanted) != NULL, message);
+}
+
+static void test_reserved_words_name_nothing(void) {
+    int reserved = 0;
+    for (int i = 0; i < WORDS; i++) {
+        const statement_word *word = word_row((word_id)i);
+        char declared[100];
+        char wanted[100];
+        const bool is_reserved = word_is_reserved(word->text, strlen(word->text));
+        TEST_ASSERT_TRUE(is_reserved == ((word->rules & RESERVED) != 0));
+        snprintf(declared, sizeof declared, "parameter %s = 1", word->text);
+        snprintf(wanted, sizeof wanted, "'%s' is a reserved word", word->text);
+        const char *text = in_mechanism(declared, "until 1 [s]");
+        const char *report = report_on(text);
+        if (is_reserved) {
+            expect_in(report, wanted, text);
+            reserved++;
+        } else {
+            TEST_ASSERT_EQUAL_STRING_MESSAGE("", report, text);
+        }
+        TEST_ASSERT_FALSE(word_is_reserved(word->text, strlen(word->text) - 1));
+    }
+    TEST_ASSERT_TRUE(reserved >= 20);
+}
+
+/* Two neighbours swapped: one mistake away from the word, and from no other that is as near. */
+static void test_a_misspelt_statement_is_offered_its_word(void) {
+    for (int i = 0; i < STATEMENT_WORDS; i++) {
+        const statement_word *word = word_row((word_id)i);
+        const size_t length = strlen(word->text);
+        for (size_t k = 0; k + 1 < length && length >= 4; k++) {
+            char wrong[40];
+            char line[80];
+            char wanted[80];
+            strcpy(wrong, word->text);
+            wrong[k] = word->text[k + 1];
+            wrong[k + 1] = word->text[k];
+            if (strcmp(wrong, word->text) == 0) {
+                continue;
+            }
+            snprintf(line, sizeof line, "%s z", wrong);
+            snprintf(wanted, sizeof wanted, "did you mean '%s'?", word->text);
+            const bool body = (word->stands & (IN_FILE | IN_MECHANISM)) != 0;
+            const char *text = body ? in_mechanism(line, "until 1 [s]") : in_mechanism("", line);
+            const char *report = report_on(text);
+            if (strcmp(wrong, "setp") != 0) { /* as near to `set` */
+                expect_in(report, wanted, text);
+            }
+        }
+    }
+}
+
+/* Each word in each of the three blocks: read there, or refused by its name. */
+static void test_a_word_stands_only_where_its_row_says(void) {
+    static const unsigned places[] = {IN_MECHANISM | IN_FILE, IN_EFFECT, IN_SCENE};
+    for (int i = 0; i < STATEMENT_WORDS; i++) {
+        const statement_word *word = word_row((word_id)i);
+        for (int k = 0; k < 3; k++) {
+            char line[200];
+            const bool stands = (word->stands & places[k]) != 0;
+            snprintf(line, sizeof line, k == 1 ? "effect e {\n%s\n}" : "%s", word->text);
+            const char *text =
+                k == 2 ? in_mechanism("", word->text) : in_mechanism(line, "until 1 [s]");
+            const char *report = report_on(text);
+            char quoted[60];
+            snprintf(quoted, sizeof quoted, "'%s'", word->text);
+            const bool refused = strstr(report, "unknown statement") != NULL ||
+                                 strstr(report, "is not possible inside") != NULL ||
+                                 strstr(report, "belongs into a mechanism or an effect") != NULL ||
+                                 strstr(report, "is not closed with '}'") != NULL;
+            TEST_ASSERT_TRUE_MESSAGE(report[0] != '\0', text); /* nothing behind the word */
+            TEST_ASSERT_TRUE_MESSAGE(stands != refused || (word->rules & ENDS_SCENE) != 0, text);
+        }
+    }
+}
+
+/* The usual look that hints show is a statement that the language takes. */
+static void test_forms_are_good_statements(void) {
+    static const word_id tried[] = {WORD_STOP, WORD_FRICTION, WORD_HOLD, WORD_WHEN, WORD_NOISE};
+    for (size_t i = 0; i < sizeof tried / sizeof tried[0]; i++) {
+        const char *text = in_mechanism(word_row(tried[i])->form, "until 1 [s]");
+        TEST_ASSERT_EQUAL_STRING_MESSAGE("", report_on(text), text);
+    }
+    for (int i = 0; i < STATEMENT_WORDS; i++) {
+        TEST_ASSERT_NOT_NULL(strstr(word_row((word_id)i)->form, word_row((word_id)i)->text));
+    }
+}
+
+static void test_kinds_have_words(void) {
+    for (int i = 0; i < CONTACT_KINDS; i++) {
+        const contact_kind kind = (contact_kind)i;
+        const int word = word_find(contact_word(kind), strlen(contact_word(kind)));
+        TEST_ASSERT_TRUE(word < STATEMENT_WORDS && word_row((word_id)word)->kind == i);
+        TEST_ASSERT_TRUE(strlen(contact_called(kind)) > 0 && strlen(contact_undefined(kind)) > 0);
+    }
+}
+
+/* --- docs/language.md ---------------------------------------------------------------------------*/
+
+static char page[PAGE_SIZE];
+
+static void read_page(void) {
+    FILE *in = fopen("docs/language.md", "rb");
+    TEST_ASSERT_NOT_NULL_MESSAGE(in, "run from the root of the project");
+    page[fread(page, 1, sizeof page - 1, in)] = '\0';
+    fclose(in);
+}
+
+/* Is `word` in backticks, perhaps with more behind it, in the page from `from` up to `to`? */
+static bool listed(const char *word, const char *from, const char *to) {
+    char open[60];
+    snprintf(open, sizeof open, "`%s", word);
+    for (const char *at = from; (at = strstr(at, open)) != NULL && at < to; at++) {
+        if (strchr("` ({", at[strlen(open)]) != NULL) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void test_the_page_lists_every_word(void) {
+    read_page();
+    const char *const end = page + strlen(page);
+    const char *const reserved = strstr(page, "These words are reserved");
+    TEST_ASSERT_NOT_NULL(reserved);
+    const char *const stop = strstr(reserved, "the names of the");
+    for (int i = 0; i < WORDS; i++) {
+        const statement_word *word = word_row((word_id)i);
+        const bool said =
+            listed(word->text, page, end) || i >= STATEMENT_WORDS; /* those stand in examples */
+        TEST_ASSERT_TRUE_MESSAGE(said && strstr(page, word->text) != NULL, word->text);
+        TEST_ASSERT_TRUE_MESSAGE(
+            listed(word->text, reserved, stop) == ((word->rules & RESERVED) != 0), word->text);
+    }
+}
+
+/* Every unit of the table, and no other. */
+static void test_the_page_lists_every_unit(void) {
+    read_page();
+    const char *const table = strstr(page, "| quantity | units |");
+    TEST_ASSERT_NOT_NULL(table);
+    const char *const end = strstr(table, "\n\n");
+    int units = 0;
+    int shown = 0;
+    for (; unit_name(units) != NULL; units++) {
+        TEST_ASSERT_TRUE_MESSAGE(listed(unit_name(units), table, end), unit_name(units));
+    }
+    for (const char *at = table; at < end; at++) {
+        shown += *at == '`';
+    }
+    TEST_ASSERT_EQUAL_INT(2 * units, shown);
+    TEST_ASSERT_TRUE(units >= 50);
+}
+
+void suite_words(void) {
+    RUN_TEST(test_reserved_words_name_nothing);
+    RUN_TEST(test_a_misspelt_statement_is_offered_its_word);
+    RUN_TEST(test_a_word_stands_only_where_its_row_says);
+    RUN_TEST(test_forms_are_good_statements);
+    RUN_TEST(test_kinds_have_words);
+    RUN_TEST(test_the_page_lists_every_word);
+    RUN_TEST(test_the_page_lists_every_unit);
+}
