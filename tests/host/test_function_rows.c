@@ -209,13 +209,13 @@ static bool accepted(const char *dimensions, const char *call) {
     return read != NULL;
 }
 
-/* f(4 x, 4 y) = factor f(x, y), at all places above zero? */
-static bool grows(int f, double factor) {
+/* f(4 x, 4 y) = times f(x, y), at all places above zero? */
+static bool grows(int f, double times) {
     for (int i = 1; i < 20; i++) {
         const double x = 0.05 * i;
         const double y = 1.0 - 0.7 * x;
         const double more = number_call(at(f), 4.0 * x, 4.0 * y);
-        if (!(fabs(more - factor * number_call(at(f), x, y)) <= 1e-12 * fabs(more))) {
+        if (!(fabs(more - times * number_call(at(f), x, y)) <= 1e-12 * fabs(more))) {
             return false;
         }
     }
