@@ -71,7 +71,7 @@ WH_INLINE wh_pair parts_of(wh_pair x, int *power_of_two) {
     const double steps = x.high * STEPS_PER_LN2;
     const int32_t k = (int32_t)(steps < 0.0 ? steps - 0.5 : steps + 0.5);
     const unsigned i = (uint32_t)k & 63U;
-    const wh_pair rest = wh_sum(x.high - k * STEP_HIGH, x.low - k * STEP_LOW);
+    const wh_pair rest = wh_pair_sum(x.high - k * STEP_HIGH, x.low - k * STEP_LOW);
     const double r = rest.high;
     const double series =
         0.5 +

@@ -49,7 +49,7 @@ static const poly *atom_derivative(algebra *a, const atom *x, const symbol *sym,
 static const poly *mono_derivative(algebra *a, const mono *m, const symbol *sym, int primes) {
     const poly *sum = a->zero;
     for (int i = 0; i < m->count; i++) {
-        const factor *f = &m->factors[i];
+        const mono_factor *f = &m->factors[i];
         const poly *inner = atom_derivative(a, f->atom, sym, primes);
         if (poly_is_zero(inner)) {
             continue;

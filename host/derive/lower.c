@@ -135,7 +135,7 @@ static int atom_node(lowering *l, const atom *x) {
     return first;
 }
 
-static void product_factor(lowering *l, product *p, const factor *f) {
+static void product_factor(lowering *l, product *p, const mono_factor *f) {
     int node = atom_node(l, f->atom);
     double size = fabs(f->exponent);
     if (size != number_floor(size)) {
@@ -214,6 +214,23 @@ static int by_number(const void *x, const void *y) {
     return (left > right) - (left < right);
 }
 
+/* Most sums are short, and qsort() has a long way to its first comparison. */
+static void sort_numbers(int *numbers, int count) {
+    enum { SHORT = 24 };
+    if (count > SHORT) {
+        qsort(numbers, (size_t)count, sizeof *numbers, by_number);
+        return;
+    }
+    for (int i = 1; i < count; i++) {
+        const int moving = numbers[i];
+        int at = i;
+        for (; at > 0 && numbers[at - 1] > moving; at--) {
+            numbers[at] = numbers[at - 1];
+        }
+        numbers[at] = moving;
+    }
+}
+
 /* The nodes of all products, sorted; *total is their number. */
 static int *sorted_nodes(const product *products, int count, int *total) {
     *total = 0;
@@ -227,7 +244,7 @@ static int *sorted_nodes(const product *products, int count, int *total) {
             nodes[at++] = products[i].powers[k].node;
         }
     }
-    qsort(nodes, (size_t)*total, sizeof *nodes, by_number);
+    sort_numbers(nodes, *total);
     return nodes;
 }
 

@@ -333,7 +333,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         fputs(w.text, stderr);
     }
     diags *all = diags_new();
-    model *parsed = model_parse("fuzz.whirl", w.text, w.used, all);
+    whirl_model *parsed = model_parse("fuzz.whirl", w.text, w.used, all);
     if (parsed != NULL) {
         const scene *in = parsed->scene_count > 0 ? parsed->scenes[0] : NULL;
         instance *inst = instance_make(parsed->mechanisms[0], in, NULL, all);

@@ -203,7 +203,7 @@ static bool accepted(const char *dimensions, const char *call) {
              "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\noutput o [%s] = %s\n", dimensions,
              call);
     diags *said = diags_new();
-    model *read = model_parse("x.whirl", text, strlen(text), said);
+    whirl_model *read = model_parse("x.whirl", text, strlen(text), said);
     model_free(read);
     diags_free(said);
     return read != NULL;
