@@ -4,9 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "exit.h"
+
 void room_none(void) {
     fputs("whirl: out of memory\n", stderr);
-    exit(EXIT_FAILURE);
+    exit(EXIT_RUN_FAILED);
 }
 
 /* Bytes of all elements, at least one. */
