@@ -10,20 +10,19 @@
  * holds. A step looks for them at its end, locates the first with a bounded number of probes on cubics
  * through the step's ends, steps again to just past it, changes the modes (an impact by an
  * impulse through the mass matrix, Newton's restitution), and goes on with what is left of the step,
- * for at most WH_EVENTS_MAX events. Then stops rest and sliding that keeps reversing sticks, the rest
- * of the step is done, and the state counts an overrun: the cost of a step is bounded, and no step is
+ * for at most WH_EVENTS_MAX events. Then stops rest, the rest of the step is done, and the state counts an overrun: the cost of a step is bounded, and no step is
  * skipped. (Brogliato, Nonsmooth Mechanics, chapters 1 and 7; Pfeiffer & Glocker, Multibody Dynamics
  * with Unilateral Contacts.)
  *
  * Contacts are numbered stops first, then holds, frictions and crossings, each in order of
- * declaration; events at the same instant are taken in this order. Friction's normal force is finite,
- * so an impact gives it no impulse. A bounce whose flight would be shorter than WH_REST_SHARE of a
+ * declaration; what happens at one instant happens to all of a kind together (contact_resolve.h). Friction's normal
+ * force is finite, so an impact gives it no impulse. A bounce whose flight would be shorter than WH_REST_SHARE of a
  * step is not made: the stop rests.
  *
  * What a scene must offer is in `wh_contact_system`; what changes while running is in `wh_contacts` (scene.h).
  * contact_work.h has what a step works on, contact_lcp.h how contacts share a load, contact_forces.h the
  * forces and impulses, contact_ledger.h what they enter into the books, contact_locate.h the search for
- * events, contact_settle.h and contact_resolve.h what they change, contact_project.h where they belong,
+ * events, contact_impact.h and contact_resolve.h what they change, contact_project.h where they belong,
  * contact_rank.h whether the holds still determine the motion, contact_step.h the step. Scenes without
  * contacts include none of these files. All are C only.
  */
@@ -121,12 +120,13 @@ enum {
 
 /* Most evaluations of the accelerations in one step, each with at most one of `forces`: in each of WH_EVENTS_MAX
  * rounds a try to the step's end and one to the event (`stages` each), at the end of both up to three looks that put
- * back what slipped, one more at the step's end, the search with the accelerations at both ends, two looks a stop
- * that is hit and one for another contact, two after assignments, and those that settle the modes; then the last
- * try, and what finds or follows the modes when the step begins. */
+ * back what slipped, one more at the step's end, the search with the accelerations at both ends, two looks at an
+ * impact and one at a capture, two after assignments, and one more than there are contacts that may give way; then the
+ * last try, and what finds or follows the modes when the step begins. */
 #define WH_CONTACT_EVALUATIONS(stages, stops, forced) \
-    (WH_EVENTS_MAX * (2 * (stages) + WH_PROBES + 13 + (stops) + 2 * (forced)) + (stages) + 6 + \
-     (stops) + 2 * (forced))
+    (WH_EVENTS_MAX * (2 * (stages) + WH_PROBES + 13 + WH_CONTACT_LOOKS(stops, forced)) + \
+     (stages) + 6 + WH_CONTACT_LOOKS(stops, forced))
+#define WH_CONTACT_LOOKS(stops, forced) (2 * ((stops) > 0) + ((forced) > (stops)) + (forced))
 
 /* Most evaluations of `signals` in one step: one with each of those above but the stages' and the search's two
  * ends, a second one where a step's end is compared with its begin and where a hold captures, and two when a

@@ -55,8 +55,8 @@ WH_INLINE unsigned wh_contact_which(const wh_contact_system *of, const wh_contac
 /* --- velocities ---------------------------------------------------------------------------------- */
 
 /* The terms of J_k x, in size: beside them it is known to rounding. */
-WH_INLINE wh_real wh_contact_terms(const wh_contact_system *of, const wh_contact_work *w,
-                                   unsigned k, const wh_real *x) {
+static inline wh_real wh_contact_terms(const wh_contact_system *of, const wh_contact_work *w,
+                                       unsigned k, const wh_real *x) {
     const wh_real *row = wh_contact_law(of, w, k) + WH_LAW_ROWS;
     wh_real size = WH_R(0.0);
     for (unsigned i = 0; i < of->coordinates; i++) {
@@ -65,21 +65,42 @@ WH_INLINE wh_real wh_contact_terms(const wh_contact_system *of, const wh_contact
     return size;
 }
 
-/* Would a flight that begins with `speed` be too short, as stop k is pressed? work->law, accel[] and rate[] must
- * belong to the state. What others hold in its place presses it by no more than rounding. */
-WH_INLINE bool wh_contact_rests(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
-                                const wh_contact_moment *m, wh_real speed, const wh_real *accel,
-                                const wh_real *rate) {
+/* How stop k is pressed, as an acceleration that would close it; what others hold in its place presses it by no more
+ * than rounding, which is none. work->law and accel[] must belong to the state. */
+static inline wh_real wh_contact_pressing(const wh_contact_system *of, const wh_contact_work *w,
+                                          unsigned k, const wh_real *accel) {
     const wh_real bias = wh_contact_law(of, w, k)[WH_LAW_BIAS];
     const wh_real pressing = -(wh_jacobian_times(of, w, k, accel) + bias);
     const wh_real none =
         of->forced > 1 ? WH_CONTACT_ROUNDING * (wh_contact_terms(of, w, k, accel) + WH_ABS(bias))
                        : WH_R(0.0);
-    if (WH_ABS(pressing) <= none) {
+    return WH_ABS(pressing) <= none ? WH_R(0.0) : pressing;
+}
+
+/* Would a flight that begins with `speed` be too short, as stop k is pressed? */
+static inline bool wh_contact_rests(const wh_contact_system *of, const wh_contact_work *w,
+                                    unsigned k, const wh_contact_moment *m, wh_real speed,
+                                    const wh_real *accel, const wh_real *rate) {
+    const wh_real pressing = wh_contact_pressing(of, w, k, accel);
+    if (pressing == WH_R(0.0)) {
         return speed <= (of->forced > 1 ? WH_CONTACT_ROUNDING * wh_contact_terms(of, w, k, rate)
                                         : WH_R(0.0));
     }
     return pressing > WH_R(0.0) && (m->last || speed + speed <= pressing * (m->h * WH_REST_SHARE));
+}
+
+/* Resting stops with restitution that nothing presses: they merely touch, and what comes through them is an impact of
+ * its own, in the next round (Newton's cradle). */
+static inline unsigned wh_contact_loose(const wh_contact_system *of, const wh_contact_work *w,
+                                        unsigned resting, const wh_real *accel) {
+    unsigned bits = 0;
+    for (unsigned k = 0; k < of->forced && of->forced > 1; k++) {
+        const bool loose = (resting >> k & 1U) != 0 &&
+                           wh_contact_law(of, w, k)[WH_LAW_FIRST] > WH_R(0.0) &&
+                           wh_contact_pressing(of, w, k, accel) == WH_R(0.0);
+        bits |= loose ? 1U << k : 0U;
+    }
+    return bits;
 }
 
 /* Of the free stops, those that close and are touched, as near as their gaps and rates are known: they are hit in the
@@ -101,8 +122,9 @@ static inline unsigned wh_contact_tied(const wh_contact_system *of, const wh_con
 
 /* Free stops, but those in `hits`, that an impulse made close while they are touched, as near as events are located:
  * they are hit in the next round. `before` and `after` are the signals beside it. */
-WH_INLINE void wh_contact_passed_on(const wh_contact_system *of, wh_contact_work *w, unsigned hits,
-                                    wh_real h, const wh_real *before, const wh_real *after) {
+static inline void wh_contact_passed_on(const wh_contact_system *of, wh_contact_work *w,
+                                        unsigned hits, wh_real h, const wh_real *before,
+                                        const wh_real *after) {
     for (unsigned l = 0; l < of->forced && of->forced > 1; l++) {
         const wh_real speed = after[2 * l + 1];
         const bool free =
@@ -166,6 +188,7 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
     unsigned rest = 0;
     unsigned leaving = 0;
     wh_contact_look(of, w, s, input, accel, signal);
+    wh_contact_set_modes(of, w, wh_contact_loose(of, w, resting, accel), WH_FREE);
     hits |= wh_contact_tied(of, w, m->h, signal, s);
     for (unsigned k = 0; k < of->forced; k++) {
         if ((hits >> k & 1U) != 0) {
@@ -206,15 +229,15 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
         const unsigned released = wh_contact_impulses(of, w, leaving, beside, speed, rate, impulse);
         wh_contact_set_modes(of, w, released, WH_FREE);
     }
-    wh_contact_place place = WH_CONTACT_HERE;
+    wh_contact_place spot = WH_CONTACT_HERE;
     for (unsigned k = 0; k < of->forced; k++) {
         if ((rest >> k & 1U) != 0 && was[k] == WH_R(0.0) && signal[2 * k] < WH_R(0.0)) {
-            place.but =
+            spot.but =
                 wh_contact_stuck(of, w); /* at rest beyond it: friction does not hold it there */
         }
     }
     wh_contact_set_modes(of, w, rest, WH_ACTIVE);
-    unsigned gone = resting & ~wh_contact_which(of, w, WH_STOP, true);
+    unsigned gone = resting & ~wh_contact_which(of, w, WH_STOP, true) & ~w->hit_next;
     for (unsigned k = 0; k < of->forced && gone != 0; k++) {
         const bool stays =
             (gone >> k & 1U) != 0 &&
@@ -226,7 +249,7 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
         wh_contact_project_rates(of, w, 0, true, rate);
     }
     if ((rest | gone) != 0) {
-        (void)wh_contact_project_places(of, w, &place, signal, input, s);
+        (void)wh_contact_project_places(of, w, &spot, signal, input, s);
     }
     return hits;
 }

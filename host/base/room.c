@@ -11,10 +11,10 @@ void room_none(void) {
 
 /* Bytes of all elements, at least one. */
 static size_t bytes_of(int64_t count, size_t size) {
-    if (count < 0 || (uint64_t)count > SIZE_MAX / (size > 0 ? size : 1)) {
+    size_t bytes;
+    if (count < 0 || __builtin_mul_overflow(count, size, &bytes)) {
         room_none();
     }
-    const size_t bytes = (size_t)count * size;
     return bytes > 0 ? bytes : size > 0 ? size : 1;
 }
 
@@ -31,7 +31,11 @@ void *room_tail(size_t head, int64_t count, size_t size) {
     if (tail > SIZE_MAX - head) {
         room_none();
     }
-    return room(1, head + tail);
+    void *made = calloc(head + tail, 1);
+    if (made == NULL) {
+        room_none();
+    }
+    return made;
 }
 
 void *room_more(void *array, int64_t count, size_t size) {

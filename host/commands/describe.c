@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "commands.h"
-#include "host/emit/describe.h"
+#include "host/emit/description.h"
 #include "load.h"
 #include "options.h"
 

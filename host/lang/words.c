@@ -2,8 +2,6 @@
 
 #include <string.h>
 
-#include "model.h"
-
 static const statement_word rows[] = {
 #define WORD_ROW(id, text, stands, rules, reader, kind, form) \
     [WORD_##id] = {text, form, stands, rules, (int)(kind)},
@@ -39,4 +37,11 @@ bool word_is_reserved(const char *text, size_t length) {
         }
     }
     return false;
+}
+
+const char *contact_word(contact_kind kind) {
+#define WORD(id, called, undefined) [CONTACT_##id] = WORD_##id,
+    static const word_id words[] = {CONTACT_KIND_ROWS(WORD)};
+#undef WORD
+    return word_row(words[kind])->text;
 }

@@ -67,7 +67,7 @@ static void expect_count(const duration *step, const duration *until) {
         return; /* refused: not what is tested here */
     }
     diags *errors = diags_new();
-    model *from = model_parse("x.whirl", text, strlen(text), errors);
+    whirl_model *from = model_parse("x.whirl", text, strlen(text), errors);
     instance *inst =
         from != NULL ? instance_make(from->mechanisms[0], from->scenes[0], NULL, errors) : NULL;
     diags_flush(errors, stdout);

@@ -166,14 +166,14 @@ static void test_forces(void) {
             s.value[0][0] = random_between(&seed, -2.0, 2.0);
             s.value[1][0] = random_between(&seed, -2.0, 2.0);
             double accel[2];
-            derived_run(d.program->step, &d, &s, accel);
+            derived_run(d.image->list[IMAGE_STEP], &d, &s, accel);
             for (int which = 0; which < 2; which++) {
                 const bool counts = which < function_arguments(at(f));
                 const double x = s.value[0][0];
                 const double y = s.value[1][0];
                 const double slope = counts ? number_slope(at(f), which, x, y) : 0.0;
                 if (isfinite(slope)) {
-                    expect_near(f, -slope, accel[d.program->place[which]],
+                    expect_near(f, -slope, accel[d.image->place[which]],
                                 1e-13 * (1.0 + fabs(slope)), x, y);
                     compared++;
                 }
@@ -190,7 +190,7 @@ static bool accepted(const char *dimensions, const char *call) {
              "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\noutput o [%s] = %s\n", dimensions,
              call);
     diags *said = diags_new();
-    model *read = model_parse("x.whirl", text, strlen(text), said);
+    whirl_model *read = model_parse("x.whirl", text, strlen(text), said);
     model_free(read);
     diags_free(said);
     return read != NULL;
