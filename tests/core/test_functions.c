@@ -389,7 +389,8 @@ static void test_same_bits_of_hyperbolic(void) {
         hash = mixed_of_hyperbolic(hash, part() * WH_R(12.0));
         hash = mixed_of_hyperbolic(hash, part() * (WH_DOUBLE ? WH_R(720.0) : WH_R(90.0)));
     }
-    TEST_ASSERT_EQUAL_HEX64(WH_DOUBLE ? UINT64_C(0x46e5312fb321686a) : UINT64_C(0x255e8fa7b3dd3550), hash);
+    TEST_ASSERT_EQUAL_HEX64(WH_DOUBLE ? UINT64_C(0x46e5312fb321686a) : UINT64_C(0x255e8fa7b3dd3550),
+                            hash);
 }
 
 static void test_same_bits_everywhere(void) {
