@@ -15,8 +15,8 @@
 # only what had survived is tried again; when the folder's code changes, it starts anew.
 set -eu
 
-: "${FOLDERS:=core core/rig host/algebra host/derive}" "${MUTANTS:=80}" "${EXCEPT:=^$}" "${LONGEST:=10}" "${ALWAYS:=}" "${JOBS:=2}"
-: "${SEED:=$(date +%s)}" "${NICE:=19}" "${MAKE:=make}"
+: "${FOLDERS:=core core/rig host/algebra host/derive}" "${MUTANTS:=80}" "${EXCEPT:=^$}"
+: "${LONGEST:=10}" "${ALWAYS:=}" "${JOBS:=2}" "${SEED:=$(date +%s)}" "${NICE:=19}" "${MAKE:=make}"
 top=build/mutants
 here=mk/mutants
 export LONGEST ALWAYS
