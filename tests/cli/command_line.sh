@@ -101,7 +101,7 @@ says 2 'hint: whirl run --help lists' run thomson_a --bogus
 says 2 "unknown option '--'" run --
 says 2 'whirl list: error: unknown option' list --all
 says 2 "there is no form 'fortran'" derive epicyclic --as fortran
-says 2 'hint: text, latex, octave or c' derive epicyclic --as fortran
+says 2 'hint: one of text, latex, octave, c' derive epicyclic --as fortran
 says 2 "there is no method 'rk5'" run thomson_a --method rk5
 says 2 'hint: one of euler, semi-implicit-euler, heun, rk4, rk38' run thomson_a --method rk5
 # a method that the form does not have: before anything runs, with a place and a way out
