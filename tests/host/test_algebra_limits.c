@@ -276,7 +276,7 @@ static void test_lets_are_worked_out_once(void) {
                                    i, i - 1, i - 1);
     }
     diags *all = diags_new();
-    model *m = model_parse("lets", text, length, all);
+    whirl_model *m = model_parse("lets", text, length, all);
     TEST_ASSERT_NOT_NULL(m);
     algebra *a = algebra_new();
     const mechanism *of = m->mechanisms[0];
