@@ -54,8 +54,7 @@ static derived derive_model(whirl_model *m, const char *name, diags *all) {
     fclose(out);
     diags_free(all);
     /* whatever is refused is refused with an error, and what has an error is refused */
-    TEST_ASSERT_TRUE_MESSAGE((d.image == NULL) == (strstr(d.errors, "error: ") != NULL),
-                             d.errors);
+    TEST_ASSERT_TRUE_MESSAGE((d.image == NULL) == (strstr(d.errors, "error: ") != NULL), d.errors);
     return d;
 }
 
