@@ -29,7 +29,7 @@ static int run(const tangle *of, double *state, uint64_t *overruns) {
     TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, contacts_steps(&m)));
     const int n = tangled_bodies(of->seed);
     for (int i = 0; i < n; i++) {
-        char name[8];
+        char name[16];
         snprintf(name, sizeof name, "x%d", i + 1);
         state[i] = motion_value(&m, name);
         snprintf(name, sizeof name, "x%d'", i + 1);
