@@ -233,10 +233,10 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
         const unsigned released = wh_contact_impulses(of, w, leaving, beside, speed, rate, impulse);
         wh_contact_set_modes(of, w, released, WH_FREE);
     }
-    wh_contact_place place = WH_CONTACT_HERE;
+    wh_contact_place spot = WH_CONTACT_HERE;
     for (unsigned k = 0; k < of->forced; k++) {
         if ((rest >> k & 1U) != 0 && was[k] == WH_R(0.0) && signal[2 * k] < WH_R(0.0)) {
-            place.but =
+            spot.but =
                 wh_contact_stuck(of, w); /* at rest beyond it: friction does not hold it there */
         }
     }
@@ -253,7 +253,7 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
         wh_contact_project_rates(of, w, 0, true, rate);
     }
     if ((rest | gone) != 0) {
-        (void)wh_contact_project_places(of, w, &place, signal, input, s);
+        (void)wh_contact_project_places(of, w, &spot, signal, input, s);
     }
     return hits;
 }

@@ -123,21 +123,21 @@ typedef struct wh_contact_place {
 /* Put resting stops and holds to where they are to be, while what is stuck stays. work->law and signal[] must
  * belong to this position. True: they were off so far that it must be done once more. */
 static inline bool wh_contact_project_places(const wh_contact_system *of, wh_contact_work *w,
-                                             const wh_contact_place *place, const wh_real *signal,
+                                             const wh_contact_place *spot, const wh_real *signal,
                                              const wh_real *input, wh_contact_state *s) {
     uint8_t member[WH_CONTACTS_MAX] = {0};
     wh_real off[WH_CONTACTS_MAX] = {WH_R(0.0)};
     wh_real wanted[WH_CONTACTS_MAX];
     wh_real lambda[WH_CONTACTS_MAX];
     wh_real way[WH_COORDS] = {0};
-    const unsigned count = wh_contact_members(of, w, place->but, member);
-    unsigned mover = place->mover;
+    const unsigned count = wh_contact_members(of, w, spot->but, member);
+    unsigned mover = spot->mover;
     bool together = false;
     bool coarse = false;
     for (unsigned i = 0; i < count; i++) {
         const unsigned k = member[i];
         wanted[i] = WH_R(0.0);
-        off[i] = wh_contact_drift(of, w, k, signal, place->from, s);
+        off[i] = wh_contact_drift(of, w, k, signal, spot->from, s);
         if (!wh_finite(off[i])) {
             wh_contact_expect(w, k, off[i]);
             off[i] = WH_R(0.0);
@@ -176,7 +176,7 @@ static inline bool wh_contact_project_places(const wh_contact_system *of, wh_con
             for (unsigned c = 0; c < of->coordinates; c++) {
                 travel += WH_ABS(row[c] * rate[c]);
             }
-            coarse = coarse || WH_ABS(wanted[i]) > WH_SLIP_COARSE * place->h * travel;
+            coarse = coarse || WH_ABS(wanted[i]) > WH_SLIP_COARSE * spot->h * travel;
             if (pin >= 0) {
                 way[pin] = WH_R(0.0);
             }
@@ -250,18 +250,18 @@ static inline void wh_contact_put_back(const wh_contact_system *of, wh_contact_w
                                        wh_contact_state *s) {
     wh_real accel[WH_COORDS];
     wh_real signal[2 * WH_CONTACTS_MAX];
-    wh_contact_place place = {from, h, 0, WH_CONTACTS_MAX};
+    wh_contact_place spot = {from, h, 0, WH_CONTACTS_MAX};
     wh_contact_look(of, w, s, input, accel, signal);
-    place.but = wh_contact_breaking(of, w);
+    spot.but = wh_contact_breaking(of, w);
     for (unsigned k = 0; k < of->forced; k++) {
         const bool rests = of->contact[k].kind == WH_STOP && w->mode[k] == WH_ACTIVE;
-        place.but |= rests && wh_contact_far(of, w, k, signal, s) ? wh_contact_stuck(of, w) : 0U;
+        spot.but |= rests && wh_contact_far(of, w, k, signal, s) ? wh_contact_stuck(of, w) : 0U;
     }
-    for (unsigned pass = 0; pass < 2 && wh_contact_project_places(of, w, &place, signal, input, s);
+    for (unsigned pass = 0; pass < 2 && wh_contact_project_places(of, w, &spot, signal, input, s);
          pass++) {
         wh_contact_look(of, w, s, input, accel, signal);
     }
-    wh_contact_project_rates(of, w, place.but, false, wh_contact_rates(of, s));
+    wh_contact_project_rates(of, w, spot.but, false, wh_contact_rates(of, s));
 }
 
 /* What the integrator let slip on the way from `from`, h long, to `s`: the places of resting stops and holds,

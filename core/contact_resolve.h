@@ -85,7 +85,7 @@ static inline void wh_contact_revise(const wh_contact_system *of, wh_contact_wor
     wh_real zero[WH_CONTACTS_MAX] = {WH_R(0.0)};
     wh_real impulse[WH_CONTACTS_MAX] = {WH_R(0.0)};
     wh_contact_look(of, w, s, input, accel, signal);
-    wh_contact_place place = {NULL, WH_R(0.0), 0, w->mover};
+    wh_contact_place spot = {NULL, WH_R(0.0), 0, w->mover};
     const unsigned stops = w->moved & (wh_contact_which(of, w, WH_STOP, true) |
                                        wh_contact_which(of, w, WH_STOP, false));
     const unsigned holds = w->moved & wh_contact_which(of, w, WH_HOLD, true);
@@ -106,7 +106,7 @@ static inline void wh_contact_revise(const wh_contact_system *of, wh_contact_wor
     wh_contact_set_modes(of, w, stops, WH_FREE);
     if (passed != 0) {
         wh_contact_set_modes(of, w, passed, WH_ACTIVE); /* only as long as it is put back */
-        (void)wh_contact_project_places(of, w, &place, signal, input, s);
+        (void)wh_contact_project_places(of, w, &spot, signal, input, s);
         wh_contact_look(of, w, s, input, accel, signal);
         wh_contact_set_modes(of, w, passed, WH_FREE);
     }
@@ -291,7 +291,7 @@ static inline void wh_contact_follow(const wh_contact_system *of, wh_contact_wor
     wh_real accel[WH_COORDS];
     wh_real signal[2 * WH_CONTACTS_MAX];
     unsigned moved = WH_CONTACTS_MAX;
-    wh_contact_place place = WH_CONTACT_HERE;
+    wh_contact_place spot = WH_CONTACT_HERE;
     bool held = false;
     for (unsigned k = 0; k < of->forced; k++) {
         const bool rests = of->contact[k].kind == WH_STOP && w->mode[k] == WH_ACTIVE;
@@ -306,7 +306,7 @@ static inline void wh_contact_follow(const wh_contact_system *of, wh_contact_wor
         const wh_contact *c = &of->contact[k];
         if (c->kind == WH_STOP && c->direction != 0 && w->mode[k] == WH_ACTIVE) {
             const wh_real closes = WH_R(0.5) * h * h * w->force[k] * wh_delassus_diagonal(of, w, k);
-            place.but |= signal[2 * k] > closes ? 1U << k : 0U;
+            spot.but |= signal[2 * k] > closes ? 1U << k : 0U;
         } else if (c->direction < 0) {
             wh_contact_capture(of, w, k);
         }
@@ -314,10 +314,10 @@ static inline void wh_contact_follow(const wh_contact_system *of, wh_contact_wor
     if (moved == WH_CONTACTS_MAX) {
         return;
     }
-    place.mover = moved;
-    (void)wh_contact_project_places(of, w, &place, signal, input, s);
-    if (place.but != 0) {
-        const wh_contact_moment m = {0, place.but, h, false};
+    spot.mover = moved;
+    (void)wh_contact_project_places(of, w, &spot, signal, input, s);
+    if (spot.but != 0) {
+        const wh_contact_moment m = {0, spot.but, h, false};
         wh_real impulse[WH_CONTACTS_MAX];
         (void)wh_contact_resolve(of, w, &m, input, s, impulse);
     }

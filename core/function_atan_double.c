@@ -55,7 +55,7 @@ static const wh_pair ray[65] = {
 /* a + c b, for c of seven bits. */
 static wh_pair with_part(wh_pair a, double c, wh_pair b) {
     const wh_pair part = wh_product(c, b.high);
-    const wh_pair sum = wh_sum(a.high, part.high);
+    const wh_pair sum = wh_pair_sum(a.high, part.high);
     return (wh_pair){sum.high, sum.low + (a.low + part.low + c * b.low)};
 }
 
@@ -66,7 +66,7 @@ static wh_pair eighth(wh_pair x, wh_pair y) {
     const wh_pair u = wh_quotient(with_part(y, -c, x), with_part(x, c, y));
     const double z = u.high * u.high;
     const double series = u.high * z * (-1.0 / 3.0 + z * (1.0 / 5.0 + z * (-1.0 / 7.0 + z / 9.0)));
-    const wh_pair sum = wh_sum(ray[i].high, u.high);
+    const wh_pair sum = wh_pair_sum(ray[i].high, u.high);
     return wh_pair_of(sum.high, sum.low + (ray[i].low + u.low + series));
 }
 
@@ -78,7 +78,7 @@ static wh_pair quarter(wh_pair x, wh_pair y) {
 /* The root of 1 - s^2, 0 <= s < 1. */
 static wh_pair other_leg(double s) {
     const wh_pair square = wh_product(s, s);
-    const wh_pair sum = wh_sum(1.0, -square.high);
+    const wh_pair sum = wh_pair_sum(1.0, -square.high);
     const wh_pair rest = wh_pair_of(sum.high, sum.low - square.low);
     const double root = WH_SQRT(rest.high);
     const wh_pair back = wh_product(root, root);

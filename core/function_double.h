@@ -74,7 +74,7 @@ WH_INLINE wh_pair wh_pair_of(double a, double b) {
     return (wh_pair){sum, b - (sum - a)};
 }
 
-WH_INLINE wh_pair wh_sum(double a, double b) {
+WH_INLINE wh_pair wh_pair_sum(double a, double b) {
     const double sum = a + b;
     const double of_b = sum - a;
     return (wh_pair){sum, (a - (sum - of_b)) + (b - of_b)};
@@ -102,7 +102,7 @@ WH_INLINE wh_pair wh_quotient(wh_pair a, wh_pair b) {
 }
 
 WH_INLINE wh_pair wh_difference(wh_pair a, wh_pair b) {
-    const wh_pair high = wh_sum(a.high, -b.high);
+    const wh_pair high = wh_pair_sum(a.high, -b.high);
     return wh_pair_of(high.high, high.low + (a.low - b.low));
 }
 

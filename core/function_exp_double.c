@@ -51,7 +51,7 @@ static const wh_pair fraction[64] = {
 
 /* A pair times 2^exponent. Where that is subnormal, a large number added takes the bits off that have no
  * room, in one rounding, and what is left is counted in units of 2^-1074. */
-double wh_scaled_pair(wh_pair x, int exponent) {
+WH_INLINE double scaled(wh_pair x, int exponent) {
     if (exponent > 1023) {
         return exponent > 1024 ? WH_INFINITY : x.high * 2.0 * 0x1p1023;
     }
@@ -67,11 +67,11 @@ double wh_scaled_pair(wh_pair x, int exponent) {
     return wh_of_bits((uint64_t)((kept - large) * wh_power_of_two(exponent + 1074)));
 }
 
-wh_pair wh_exp_parts(wh_pair x, int *power_of_two) {
+WH_INLINE wh_pair parts_of(wh_pair x, int *power_of_two) {
     const double steps = x.high * STEPS_PER_LN2;
     const int32_t k = (int32_t)(steps < 0.0 ? steps - 0.5 : steps + 0.5);
     const unsigned i = (uint32_t)k & 63U;
-    const wh_pair rest = wh_sum(x.high - k * STEP_HIGH, x.low - k * STEP_LOW);
+    const wh_pair rest = wh_pair_sum(x.high - k * STEP_HIGH, x.low - k * STEP_LOW);
     const double r = rest.high;
     const double series =
         0.5 +
@@ -84,9 +84,12 @@ wh_pair wh_exp_parts(wh_pair x, int *power_of_two) {
 
 double wh_exp_pair(wh_pair x) {
     int power_of_two;
-    const wh_pair parts = wh_exp_parts(x, &power_of_two);
-    return wh_scaled_pair(parts, power_of_two);
+    const wh_pair parts = parts_of(x, &power_of_two);
+    return scaled(parts, power_of_two);
 }
+
+wh_pair wh_exp_parts(wh_pair x, int *power_of_two) { return parts_of(x, power_of_two); }
+double wh_scaled_pair(wh_pair x, int exponent) { return scaled(x, exponent); }
 
 double wh_exp(double x) {
     if (wh_is_nan(x)) {

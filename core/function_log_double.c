@@ -175,10 +175,10 @@ wh_pair wh_log_pair(double x) {
     exponent += power;
 
     const double m_high = wh_upper(m);
-    const wh_pair r = wh_sum(m_high * at->inverse - 1.0, (m - m_high) * at->inverse);
+    const wh_pair r = wh_pair_sum(m_high * at->inverse - 1.0, (m - m_high) * at->inverse);
     const wh_pair square = wh_product(r.high, r.high);
-    const wh_pair first = wh_sum(exponent * LN2_HIGH + at->high, r.high);
-    const wh_pair second = wh_sum(first.high, -0.5 * square.high);
+    const wh_pair first = wh_pair_sum(exponent * LN2_HIGH + at->high, r.high);
+    const wh_pair second = wh_pair_sum(first.high, -0.5 * square.high);
     const double small = first.low + second.low + (r.low - r.high * r.low) - 0.5 * square.low +
                          (exponent * LN2_LOW + at->low) + from_cube(r.high);
     return wh_pair_of(second.high, small);

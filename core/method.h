@@ -48,7 +48,10 @@
       .parts = 2, .positions = {1, 0}, .rates = {1, 1}) \
     X(WH_RK4, "rk4", "Runge-Kutta 4", 4, WH_ANY_SYSTEM, 4, \
       .stage = {{1, {0}}, {2, {1}}, {2, {0, 1}}, {1, {0, 0, 1}}}, \
-      .parts = 6, .positions = {1, 1, 1, 0}, .rates = {1, 2, 2, 1})
+      .parts = 6, .positions = {1, 1, 1, 0}, .rates = {1, 2, 2, 1}) \
+    X(WH_RK38, "rk38", "Kutta's 3/8 rule", 4, WH_ANY_SYSTEM, 4, \
+      .stage = {{1, {0}}, {3, {1}}, {3, {-1, 3}}, {1, {1, -1, 1}}}, \
+      .parts = 8, .positions = {1, 2, 1, 0}, .rates = {1, 3, 3, 1})
 /* clang-format on */
 
 /* The method of whoever names none. */

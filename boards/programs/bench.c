@@ -11,11 +11,9 @@
  *
  * Interval 0 is around nothing. On a board an interval holds the call too (loading the arguments
  * and the branch); callgrind counts the called function alone. */
-#include "boards/board.h"
-#include "boards/programs/table.h"
+#include "boards/programs/counted.h"
 #include "core/function.h"
 #include "core/scene.h"
-#include "core/text.h"
 
 #define WARM_STEPS 20U
 #ifndef COUNTED_STEPS
@@ -28,20 +26,11 @@
 #define OUTPUTS_MAX 64U
 #define COUNTED_PAIRS 64U
 
-/* Room for any scene of up to 16 angles, 48 reals and 16 inputs, compensated or not. */
-static uint64_t memory[WH_STATE_WORDS(16, 48, 16) + WH_CONTACT_WORDS(16) + WH_HELD_WORDS(16) +
-                       WH_LEDGER_WORDS(128, 17)];
 static unsigned intervals;
 
-void wh_count_begin(void);
-void wh_count_end(void);
 void bench_pair(wh_phase phase, wh_real *pair);
 wh_real bench_one(wh_real (*function)(wh_real x), wh_real x);
 wh_real bench_two(wh_real (*function)(wh_real x, wh_real y), wh_real x, wh_real y);
-
-/* Nothing but a return. The operands differ so that the compiler does not make one of the two. */
-__attribute__((noinline)) void wh_count_begin(void) { __asm__ volatile("" : : "i"(1) : "memory"); }
-__attribute__((noinline)) void wh_count_end(void) { __asm__ volatile("" : : "i"(2) : "memory"); }
 
 __attribute__((noinline)) void bench_pair(wh_phase phase, wh_real *pair) {
     wh_sincos(phase, &pair[0], &pair[1]);
@@ -56,47 +45,16 @@ __attribute__((noinline)) wh_real bench_two(wh_real (*function)(wh_real x, wh_re
     return function(x, y);
 }
 
-static void say(const wh_text *text) { hal_console_write(text->bytes, text->length); }
-
-static void say_counted(const char *name, const char *method, bool compensated, unsigned first) {
-    char line[160];
-    wh_text text;
-    wh_text_start(&text, line, sizeof line);
-    wh_text_add(&text, "count ");
-    wh_text_add(&text, name);
-    wh_text_add_char(&text, ' ');
-    wh_text_add(&text, method);
-    wh_text_add(&text, compensated ? "-compensated" : "");
-    wh_text_add(&text, WH_DOUBLE ? " double " : " float ");
-    wh_text_add_unsigned(&text, first);
-    wh_text_add_char(&text, ' ');
-    wh_text_add_unsigned(&text, intervals - 1U);
-    wh_text_add_char(&text, '\n');
-    say(&text);
-}
-
 static void say_stack(const char *name) {
-    char line[120];
-    wh_text text;
-    wh_text_start(&text, line, sizeof line);
-    wh_text_add(&text, "stack ");
-    wh_text_add(&text, name);
-    wh_text_add_char(&text, ' ');
-    wh_text_add_unsigned(&text, board_stack_used_bytes());
-    wh_text_add_char(&text, '\n');
-    say(&text);
+    line_begin("stack", name);
+    line_number(board_stack_used_bytes());
+    line_end();
 }
 
 static void say_failed(const char *name, wh_status status) {
-    char line[160];
-    wh_text text;
-    wh_text_start(&text, line, sizeof line);
-    wh_text_add(&text, "failed ");
-    wh_text_add(&text, name);
-    wh_text_add_char(&text, ' ');
-    wh_text_add(&text, wh_status_text(status));
-    wh_text_add_char(&text, '\n');
-    say(&text);
+    line_begin("failed", name);
+    line_word(wh_status_text(status));
+    line_end();
 }
 
 static void count_nothing(void) {
@@ -119,7 +77,7 @@ static void count_pairs(void) {
         out[1] = pair[1];
         (void)out;
     }
-    say_counted("wh_sincos", "-", false, first);
+    say_counted("wh_sincos", "-", false, first, intervals - 1U);
 }
 
 #if COUNT_RECORDS
@@ -136,7 +94,7 @@ static void count_records(const wh_scene *scene, wh_state *state) {
         intervals++;
         state->steps++; /* the noise looks at it */
     }
-    say_counted(scene->name, "record", false, first);
+    say_counted(scene->name, "record", false, first, intervals - 1U);
 }
 #endif
 
@@ -183,7 +141,7 @@ static void count_functions(void) {
             out = result;
             (void)out;
         }
-        say_counted(functions[k].name, "-", false, first);
+        say_counted(functions[k].name, "-", false, first, intervals - 1U);
     }
 }
 
@@ -206,7 +164,8 @@ static bool count_scene(const wh_scene *scene) {
         return false;
     }
     say_stack(scene->name);
-    say_counted(scene->name, wh_methods[scene->method].word, scene->compensated, first);
+    say_counted(scene->name, wh_methods[scene->method].word, scene->compensated, first,
+                intervals - 1U);
 #if COUNT_RECORDS
     count_records(scene, &state);
 #endif

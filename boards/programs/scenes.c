@@ -9,9 +9,7 @@
 #include "core/scene.h"
 #include "core/text.h"
 
-/* Room for any scene of up to 16 angles, 48 reals and 16 inputs, compensated or not. */
-static uint64_t memory[WH_STATE_WORDS(16, 48, 16) + WH_CONTACT_WORDS(16) + WH_HELD_WORDS(16) +
-                       WH_LEDGER_WORDS(128, 17)];
+static uint64_t memory[WH_SCENE_WORDS];
 
 static void run(const wh_scene *scene) {
     char line[200];

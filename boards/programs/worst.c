@@ -7,10 +7,8 @@
  * every=WORST_STEPS). Says on the console what bench.c says, and before that
  *
  *     declared NAME EVALUATIONS SIGNALS    the most of these that one step of it may take */
-#include "boards/board.h"
-#include "boards/programs/table.h"
+#include "boards/programs/counted.h"
 #include "core/scene.h"
-#include "core/text.h"
 
 #ifndef WORST_STEPS
 #define WORST_STEPS 1000000U
@@ -20,16 +18,7 @@
 #endif
 #define RUN 32U
 
-static uint64_t memory[WH_STATE_WORDS(16, 48, 16) + WH_CONTACT_WORDS(16) + WH_HELD_WORDS(16) +
-                       WH_LEDGER_WORDS(128, 17)];
 static uint32_t seed;
-
-void wh_count_begin(void);
-void wh_count_end(void);
-
-/* Nothing but a return. The operands differ so that the compiler does not make one of the two. */
-__attribute__((noinline)) void wh_count_begin(void) { __asm__ volatile("" : : "i"(1) : "memory"); }
-__attribute__((noinline)) void wh_count_end(void) { __asm__ volatile("" : : "i"(2) : "memory"); }
 
 /* The next of a sequence of 32-bit numbers (Marsaglia, Xorshift RNGs, 2003). */
 static uint32_t next(void) {
@@ -69,31 +58,10 @@ static void throw_state(const wh_scene *scene, wh_state *state) {
 }
 
 static void say_declared(const char *name, const wh_scene_bound *most) {
-    char line[160];
-    wh_text text;
-    wh_text_start(&text, line, sizeof line);
-    wh_text_add(&text, "declared ");
-    wh_text_add(&text, name);
-    wh_text_add_char(&text, ' ');
-    wh_text_add_unsigned(&text, most->evaluations);
-    wh_text_add_char(&text, ' ');
-    wh_text_add_unsigned(&text, most->signals);
-    wh_text_add_char(&text, '\n');
-    hal_console_write(text.bytes, text.length);
-}
-
-static void say(const char *name, unsigned group) {
-    char line[160];
-    wh_text text;
-    wh_text_start(&text, line, sizeof line);
-    wh_text_add(&text, "count ");
-    wh_text_add(&text, name);
-    wh_text_add(&text, WH_DOUBLE ? " rk4 double " : " rk4 float ");
-    wh_text_add_unsigned(&text, group);
-    wh_text_add_char(&text, ' ');
-    wh_text_add_unsigned(&text, group);
-    wh_text_add_char(&text, '\n');
-    hal_console_write(text.bytes, text.length);
+    line_begin("declared", name);
+    line_number(most->evaluations);
+    line_number(most->signals);
+    line_end();
 }
 
 static bool run(const wh_scene *scene, uint32_t first_seed, unsigned group) {
@@ -113,7 +81,7 @@ static bool run(const wh_scene *scene, uint32_t first_seed, unsigned group) {
             (void)wh_scene_start(scene, &state, memory, sizeof memory);
         }
     }
-    say(scene->name, group);
+    say_counted(scene->name, "rk4", false, group, group);
     return true;
 }
 

@@ -43,7 +43,8 @@ struct algebra {
  * arena. */
 mono *mono_scratch(int factors);
 const mono *mono_intern(algebra *a, mono *candidate);
-const mono *mono_make(algebra *a, const factor *factors, int count, trig kind, const poly *angle);
+const mono *mono_make(algebra *a, const mono_factor *factors, int count, trig kind,
+                      const poly *angle);
 /* The bit of a symbol in Bloom sets. */
 uint64_t symbol_bit(const symbol *sym, int primes);
 poly *poly_scratch(int terms);

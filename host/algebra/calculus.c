@@ -6,30 +6,26 @@
 
 /* --- derivatives ---------------------------------------------------------------------------------*/
 
-static const poly *atom_derivative(algebra *a, const atom *x, const symbol *sym, int primes) {
+/* b^e: e b^(e-1) b' + b^e log(b) e' */
+static const poly *power_derivative(algebra *a, const atom *x, const symbol *sym, int primes) {
+    const poly *base = x->argument[0];
+    const poly *exponent = x->argument[1];
+    const poly *db = poly_derivative(a, base, sym, primes);
+    const poly *de = poly_derivative(a, exponent, sym, primes);
     const poly *sum = a->zero;
-    if (x->kind == ATOM_SYMBOL) {
-        return x->symbol == sym && x->primes == primes ? a->one : a->zero;
+    if (!poly_is_zero(db)) {
+        const poly *lower = poly_pow_poly(a, base, poly_sub(a, exponent, a->one));
+        sum = poly_mul(a, poly_mul(a, exponent, lower), db);
     }
-    if (x->kind == ATOM_GROUP) {
-        return poly_derivative(a, x->argument[0], sym, primes);
+    if (!poly_is_zero(de)) {
+        const poly *growth = poly_mul(a, poly_of_atom(a, x, 1.0), poly_call(a, FN_LOG, base, NULL));
+        sum = poly_add(a, sum, poly_mul(a, growth, de));
     }
-    if (x->kind == ATOM_POWER) { /* b^e: e b^(e-1) b' + b^e log(b) e' */
-        const poly *base = x->argument[0];
-        const poly *exponent = x->argument[1];
-        const poly *db = poly_derivative(a, base, sym, primes);
-        const poly *de = poly_derivative(a, exponent, sym, primes);
-        if (!poly_is_zero(db)) {
-            const poly *lower = poly_pow_poly(a, base, poly_sub(a, exponent, a->one));
-            sum = poly_mul(a, poly_mul(a, exponent, lower), db);
-        }
-        if (!poly_is_zero(de)) {
-            const poly *growth =
-                poly_mul(a, poly_of_atom(a, x, 1.0), poly_call(a, FN_LOG, base, NULL));
-            sum = poly_add(a, sum, poly_mul(a, growth, de));
-        }
-        return sum;
-    }
+    return sum;
+}
+
+static const poly *call_derivative(algebra *a, const atom *x, const symbol *sym, int primes) {
+    const poly *sum = a->zero;
     for (int i = 0; i < 2 && x->argument[i] != NULL; i++) {
         const poly *inner = poly_derivative(a, x->argument[i], sym, primes);
         if (!poly_is_zero(inner)) {
@@ -40,10 +36,20 @@ static const poly *atom_derivative(algebra *a, const atom *x, const symbol *sym,
     return sum;
 }
 
+static const poly *atom_derivative(algebra *a, const atom *x, const symbol *sym, int primes) {
+    switch (x->kind) {
+    case ATOM_SYMBOL: return x->symbol == sym && x->primes == primes ? a->one : a->zero;
+    case ATOM_CALL: return call_derivative(a, x, sym, primes);
+    case ATOM_POWER: return power_derivative(a, x, sym, primes);
+    case ATOM_GROUP: return poly_derivative(a, x->argument[0], sym, primes);
+    }
+    abort();
+}
+
 static const poly *mono_derivative(algebra *a, const mono *m, const symbol *sym, int primes) {
     const poly *sum = a->zero;
     for (int i = 0; i < m->count; i++) {
-        const factor *f = &m->factors[i];
+        const mono_factor *f = &m->factors[i];
         const poly *inner = atom_derivative(a, f->atom, sym, primes);
         if (poly_is_zero(inner)) {
             continue;
@@ -165,21 +171,18 @@ static const poly *substitute_atom(algebra *a, const atom *x, substitution *s) {
     if (known != NULL) {
         return known;
     }
-    if (x->kind == ATOM_SYMBOL) {
+    const poly *inside[2] = {NULL, NULL};
+    for (int i = 0; i < 2 && x->kind != ATOM_SYMBOL && x->argument[i] != NULL; i++) {
+        inside[i] = substitute(a, x->argument[i], s);
+    }
+    switch (x->kind) {
+    case ATOM_SYMBOL:
         known = s->replace(s->context, a, x->symbol, x->primes);
-        if (known == NULL) {
-            known = poly_of_atom(a, x, 1.0);
-        }
-    } else {
-        const poly *first = substitute(a, x->argument[0], s);
-        const poly *second = x->argument[1] == NULL ? NULL : substitute(a, x->argument[1], s);
-        if (x->kind == ATOM_GROUP) {
-            known = first;
-        } else if (x->kind == ATOM_POWER) {
-            known = poly_pow_poly(a, first, second);
-        } else {
-            known = poly_call(a, x->function, first, second);
-        }
+        known = known == NULL ? poly_of_atom(a, x, 1.0) : known;
+        break;
+    case ATOM_CALL: known = poly_call(a, x->function, inside[0], inside[1]); break;
+    case ATOM_POWER: known = poly_pow_poly(a, inside[0], inside[1]); break;
+    case ATOM_GROUP: known = inside[0]; break;
     }
     memo_put(a, &s->done, x, NULL, known);
     return known;

@@ -172,7 +172,7 @@ const mono *mono_intern(algebra *a, mono *candidate) {
     candidate->keeps_powers = candidate->angle != NULL && candidate->angle->keeps_powers;
     candidate->size = candidate->angle == NULL ? 1.0 : 1.0 + candidate->angle->size;
     for (int i = 0; i < candidate->count; i++) {
-        const factor *f = &candidate->factors[i];
+        const mono_factor *f = &candidate->factors[i];
         const bool kept = f->atom->kind == ATOM_GROUP && f->exponent > 1.0 &&
                           power_multiplies_out(f->atom->argument[0], f->exponent, (double)INFINITY);
         candidate->keeps_powers = candidate->keeps_powers || f->atom->keeps_powers || kept;
@@ -183,7 +183,7 @@ const mono *mono_intern(algebra *a, mono *candidate) {
     }
     intern_slot *slot = table_find(&a->monos, hash, candidate, mono_equal);
     if (slot->object == NULL) {
-        const size_t bytes = sizeof *candidate + (size_t)candidate->count * sizeof(factor);
+        const size_t bytes = sizeof *candidate + (size_t)candidate->count * sizeof(mono_factor);
         mono *made = arena_alloc(a->arena, bytes);
         memcpy(made, candidate, bytes);
         made->id = next_id(a, &a->monos, MONO_BYTES + (size_t)candidate->count * PART_BYTES);
@@ -193,11 +193,12 @@ const mono *mono_intern(algebra *a, mono *candidate) {
 }
 
 mono *mono_scratch(int factors) {
-    mono *m = room_tail(sizeof *m, factors, sizeof(factor));
+    mono *m = room_tail(sizeof *m, factors, sizeof(mono_factor));
     return m;
 }
 
-const mono *mono_make(algebra *a, const factor *factors, int count, trig kind, const poly *angle) {
+const mono *mono_make(algebra *a, const mono_factor *factors, int count, trig kind,
+                      const poly *angle) {
     mono *m = mono_scratch(count);
     m->count = count;
     m->trig = kind;

@@ -15,7 +15,7 @@
 #define POWER_KEPT 3.0
 
 const poly *poly_of_atom(algebra *a, const atom *x, double exponent) {
-    const factor one = {x, exponent};
+    const mono_factor one = {x, exponent};
     return poly_of_term(a, 1.0, mono_make(a, &one, 1, TRIG_NONE, NULL));
 }
 
@@ -123,7 +123,7 @@ static const poly *trig_product(algebra *a, trig left, const poly *x, trig right
 
 /* Powers that do not stay a power: |p|^n = p^n for an even n, and a whole power of a group that is small enough to
  * be multiplied out. Returns NULL for all others. */
-static const poly *power_expands(algebra *a, const factor *f) {
+static const poly *power_expands(algebra *a, const mono_factor *f) {
     if (f->atom->kind == ATOM_CALL && f->atom->function == FN_ABS && f->exponent >= 2.0) {
         const poly *inside = f->atom->argument[0];
         const double even = 2.0 * number_floor(f->exponent / 2.0);
@@ -152,7 +152,7 @@ static const poly *mono_product(algebra *a, const mono *left, const mono *right)
                           : j >= right->count
                               ? -1
                               : atom_order(left->factors[i].atom, right->factors[j].atom);
-        factor f;
+        mono_factor f;
         if (order < 0) {
             f = left->factors[i++];
         } else if (order > 0) {
@@ -193,7 +193,7 @@ static const atom *group_of(algebra *a, const poly *p) {
 static const poly *product_of(algebra *a, const poly *left, const poly *right) {
     if (left->count > 1 && right->count > 1 &&
         (double)left->count * right->count > PRODUCT_TERMS_MAX) {
-        const factor f = {group_of(a, right), 1.0};
+        const mono_factor f = {group_of(a, right), 1.0};
         return poly_mul(a, left, poly_of_term(a, 1.0, mono_make(a, &f, 1, TRIG_NONE, NULL)));
     }
     poly_sum sum = {0};
@@ -240,11 +240,11 @@ static const poly *term_pow(algebra *a, const poly_term *t, double exponent) {
     const mono *m = t->mono;
     const bool whole = exponent_is_whole(exponent);
     if (whole && m->trig == TRIG_NONE) {
-        factor *f = room(m->count, sizeof *f);
+        mono_factor *f = room(m->count, sizeof *f);
         const poly *extra = a->one;
         int count = 0;
         for (int i = 0; i < m->count; i++) {
-            f[count] = (factor){m->factors[i].atom, m->factors[i].exponent * exponent};
+            f[count] = (mono_factor){m->factors[i].atom, m->factors[i].exponent * exponent};
             const poly *opened = power_expands(a, &f[count]);
             if (opened != NULL) {
                 extra = poly_mul(a, extra, opened);

@@ -51,10 +51,10 @@ struct atom {
 
 typedef enum trig { TRIG_NONE, TRIG_COS, TRIG_SIN } trig;
 
-typedef struct factor {
+typedef struct mono_factor {
     const atom *atom;
     double exponent;
-} factor;
+} mono_factor;
 
 struct mono {
     unsigned id;
@@ -64,7 +64,7 @@ struct mono {
     uint64_t symbols;
     bool keeps_powers;
     double size;
-    factor factors[]; /* in atom_order() */
+    mono_factor factors[]; /* in atom_order() */
 };
 
 typedef struct term_of_poly {

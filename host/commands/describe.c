@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "commands.h"
-#include "host/emit/describe.h"
+#include "host/emit/description.h"
 #include "load.h"
 #include "options.h"
 
@@ -76,7 +76,7 @@ static int describe_loaded(source_model *from, const describe_options *o) {
 }
 
 int command_describe(int count, char **words) {
-    describe_options o = {.settings = {WH_RK4, false}};
+    describe_options o = {.settings = {WH_METHOD_DEFAULT, false}};
     if (options_help(count, words, &usage)) {
         return EXIT_DONE;
     }

@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "host/base/exit.h"
 #include "host/base/nearest.h"
 #include "host/base/room.h"
-#include "load.h"
 
 /* What is looked for. */
 typedef struct wish {
@@ -27,7 +27,7 @@ static bool is_mechanism(const wish *w, const mechanism *m) {
                                     strncmp(m->name, w->mechanism, w->mechanism_length) == 0);
 }
 
-static bool knows_mechanism(const wish *w, const model *m) {
+static bool knows_mechanism(const wish *w, const whirl_model *m) {
     for (int i = 0; i < m->mechanism_count; i++) {
         if (is_mechanism(w, m->mechanisms[i])) {
             return true;
@@ -37,7 +37,7 @@ static bool knows_mechanism(const wish *w, const model *m) {
 }
 
 /* The mechanism that the wish leads to in one model, as source_pick() will find it; NULL: none. */
-static const mechanism *find_in(const wish *w, const model *m) {
+static const mechanism *find_in(const wish *w, const whirl_model *m) {
     for (int i = 0; i < m->scene_count; i++) {
         if (is_mechanism(w, m->scenes[i]->mechanism) && strcmp(m->scenes[i]->name, w->name) == 0) {
             return m->scenes[i]->mechanism;
@@ -51,8 +51,8 @@ static const mechanism *find_in(const wish *w, const model *m) {
     return NULL;
 }
 
-static void say_ambiguous(const wish *w, const struct builtin_model *models, model *const *read,
-                          size_t count) {
+static void say_ambiguous(const wish *w, const struct builtin_model *models,
+                          whirl_model *const *read, size_t count) {
     fprintf(stderr, "whirl: error: '%s' is the name of more than one built-in thing\nhint: one of:",
             w->name);
     for (size_t i = 0; i < count; i++) {
@@ -65,7 +65,7 @@ static void say_ambiguous(const wish *w, const struct builtin_model *models, mod
 }
 
 /* All scenes of the mechanism that was named. */
-static void say_scenes(const wish *w, model *const *read, size_t count) {
+static void say_scenes(const wish *w, whirl_model *const *read, size_t count) {
     fputs("hint: one of:", stderr);
     for (size_t i = 0; i < count; i++) {
         for (int k = 0; k < read[i]->scene_count; k++) {
@@ -78,7 +78,7 @@ static void say_scenes(const wish *w, model *const *read, size_t count) {
 }
 
 /* The nearest scene of the mechanism that was named; without one, the nearest of everything. */
-static void say_unknown(const wish *w, const char *target, model *const *read, size_t count) {
+static void say_unknown(const wish *w, const char *target, whirl_model *const *read, size_t count) {
     bool known = false;
     for (size_t i = 0; i < count && w->mechanism != NULL; i++) {
         known = known || knows_mechanism(w, read[i]);
@@ -87,7 +87,7 @@ static void say_unknown(const wish *w, const char *target, model *const *read, s
     nearest search =
         nearest_start(meant, meant == w->mechanism ? w->mechanism_length : strlen(meant));
     for (size_t i = 0; i < count; i++) {
-        const model *m = read[i];
+        const whirl_model *m = read[i];
         for (int k = 0; k < m->scene_count && meant == w->name; k++) {
             if (is_mechanism(w, m->scenes[k]->mechanism)) {
                 nearest_offer(&search, m->scenes[k]->name);
@@ -114,10 +114,10 @@ static void say_unknown(const wish *w, const char *target, model *const *read, s
 }
 
 int find_builtin(const struct builtin_model *models, size_t count, const char *target,
-                 diags *errors, model **found, const struct builtin_model **from,
+                 diags *errors, whirl_model **found, const struct builtin_model **from,
                  const char **name) {
     const wish w = wish_of(target);
-    model **read = room((int64_t)count, sizeof(model *));
+    whirl_model **read = room((int64_t)count, sizeof(whirl_model *));
     size_t hits = 0;
     size_t hit = 0;
     size_t good = 0;

@@ -9,7 +9,7 @@
  * model_free()), *from is its entry, and *name, within `target`, what source_pick() shall look for.
  * Returns an exit code; what is wrong (unknown, or in more than one model) is said on standard error. */
 int find_builtin(const struct builtin_model *models, size_t count, const char *target,
-                 diags *errors, model **found, const struct builtin_model **from,
+                 diags *errors, whirl_model **found, const struct builtin_model **from,
                  const char **name);
 
 #endif

@@ -18,9 +18,6 @@ static const command_usage usage = {
         "               and conserve; lines are those of its block, of a mechanism the one of its name.\n",
     .tail = ""};
 
-typedef enum form { FORM_TEXT, FORM_TABLE, FORMS } form;
-static const char *const form_names[FORMS] = {[FORM_TEXT] = "text", [FORM_TABLE] = "table"};
-
 enum { OUTSIDE = -1 }; /* of every effect */
 
 /* --- the table ------------------------------------------------------------------------------------- */
@@ -143,38 +140,59 @@ static bool put_rows(const source_model *from, const mechanism *m) {
 
 /* --- the text -------------------------------------------------------------------------------------- */
 
-static void put_lines(const model *m, const mechanism *of) {
+static bool put_lines(const source_model *from, const mechanism *of) {
+    const whirl_model *m = from->model;
     printf("mechanism  %-24s %s\n", of->name, of->title);
     for (int i = 0; i < m->scene_count; i++) {
         if (m->scenes[i]->mechanism == of) {
             printf("scene      %-24s %s\n", m->scenes[i]->name, m->scenes[i]->title);
         }
     }
+    return true;
 }
 
-static void put_fields(void) {
-    puts("kind\tname\tmechanism\tfile\tfirst_line\tlast_line\teffects\tholds\tstep_s\tuntil_s\t"
-         "title");
+/* --- the forms ------------------------------------------------------------------------------------- */
+
+typedef struct form {
+    const char *word;
+    const char *head; /* a line before all others, or NULL */
+    /* What the mechanism and its scenes say; false when something is wrong (reported). */
+    bool (*put)(const source_model *from, const mechanism *of);
+} form;
+
+/* The first stands for itself. */
+static const form forms[] = {
+    {.word = "text", .head = NULL, .put = put_lines},
+    {.word = "table",
+     .head = "kind\tname\tmechanism\tfile\tfirst_line\tlast_line\teffects\tholds\tstep_s\tuntil_s\t"
+             "title",
+     .put = put_rows},
+};
+
+static const form *form_of(const char *word) {
+    for (size_t i = 0; i < sizeof forms / sizeof forms[0]; i++) {
+        if (strcmp(forms[i].word, word) == 0) {
+            return &forms[i];
+        }
+    }
+    fprintf(stderr, "whirl list: error: there is no form '%s'\nhint: text or table\n", word);
+    return NULL;
 }
 
 /* `first`: nothing was listed before. */
-static int list_one(const source_model *from, form as, bool first) {
+static int list_one(const source_model *from, const form *as, bool first) {
     bool good = from->model != NULL;
-    if (good && first && as == FORM_TABLE) {
-        put_fields();
+    if (good && first && as->head != NULL) {
+        puts(as->head);
     }
     for (int i = 0; good && i < from->model->mechanism_count; i++) {
-        switch (as) {
-        case FORM_TEXT: put_lines(from->model, from->model->mechanisms[i]); break;
-        case FORM_TABLE: good = put_rows(from, from->model->mechanisms[i]); break;
-        case FORMS: break;
-        }
+        good = as->put(from, from->model->mechanisms[i]);
     }
     diags_flush(from->errors, stderr);
     return good ? EXIT_DONE : EXIT_BAD_INPUT;
 }
 
-static int list_builtin(form as) {
+static int list_builtin(const form *as) {
     int code = EXIT_DONE;
     for (size_t i = 0; i < builtin_model_count; i++) {
         const struct builtin_model *b = &builtin_models[i];
@@ -187,7 +205,7 @@ static int list_builtin(form as) {
     return code;
 }
 
-static int list_file(const char *file, form as, bool first) {
+static int list_file(const char *file, const form *as, bool first) {
     source_model from;
     int code = source_open(&from, file);
     if (code == EXIT_DONE && from.name[0] != '\0') {
@@ -203,7 +221,7 @@ static int list_file(const char *file, form as, bool first) {
 }
 
 int command_list(int count, char **words) {
-    form as = FORM_TEXT;
+    const form *as = &forms[0];
     int files = 0; /* words[0..files-1] */
     bool bad = false;
     if (options_help(count, words, &usage)) {
@@ -212,13 +230,8 @@ int command_list(int count, char **words) {
     for (int at = 0; at < count && !bad;) {
         const char *value = options_value(count, words, &at, "--as", &bad);
         if (value != NULL) {
-            for (as = FORM_TEXT; as < FORMS && strcmp(form_names[as], value) != 0; as++) {
-            }
-            if (as == FORMS) {
-                fprintf(stderr, "whirl list: error: there is no form '%s'\nhint: text or table\n",
-                        value);
-                bad = true;
-            }
+            as = form_of(value);
+            bad = as == NULL;
         } else if (!bad && words[at][0] == '-' && words[at][1] != '\0') {
             options_unknown("list", words[at], 0, (const char *const[]){"--as", NULL});
             bad = true;

@@ -148,7 +148,7 @@ static void say_choices(const source_model *s, bool scenes) {
 }
 
 int source_pick(source_model *s, bool prefer_scene, const mechanism **of, const scene **in) {
-    const model *m = s->model;
+    const whirl_model *m = s->model;
     *in = NULL;
     *of = NULL;
     for (int i = 0; i < m->scene_count; i++) {
@@ -228,12 +228,12 @@ int load(loaded *made, source_model *s, const mechanism *of, const scene *in,
         made->equations = equations_derive(made->instance, s->errors);
     }
     if (made->equations != NULL) {
-        const bool *conserve = wish->conserve ? made->instance->conserve : NULL;
+        const bool *conserve = wish->conserve ? made->equations->instance->conserve : NULL;
         made->image = image_make(made->equations, conserve, &wish->settings, wish->use, s->errors);
     }
     diags_flush(s->errors, stderr);
     if (made->image != NULL) {
-        made->hint = hint_for(made->instance);
+        made->hint = hint_for(made->equations->instance);
         made->contacts = wish->contacts ? contacts_of(made->equations) : NULL;
     }
     if (made->image != NULL &&

@@ -11,7 +11,7 @@ typedef struct source_model {
     char *text;       /* owned; NULL for a built-in model */
     char *path;       /* owned */
     char *name; /* owned: what was named behind the ':', or the built-in name; "" if nothing */
-    model *model;
+    whirl_model *model;
     diags *errors;
 } source_model;
 

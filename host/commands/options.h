@@ -17,8 +17,9 @@
     X(OPTION_START, "--start", "NAME=EXPR", OPTIONS_CHANGE, \
       "a coordinate or a rate: --start \"theta'=330 [rpm]\" (repeatable)") \
     X(OPTION_WITH, "--with", "E,...", OPTIONS_CHANGE, \
-      "effects to add; 'ledger': books of energy and momentum") \
-    X(OPTION_WITHOUT, "--without", "E,...", OPTIONS_CHANGE, "effects to leave out") \
+      "effects to add, or all; 'ledger': books of energy and momentum") \
+    X(OPTION_WITHOUT, "--without", "E,...", OPTIONS_CHANGE, \
+      "effects to leave out, or all; 'conserve': integrate every coordinate") \
     X(OPTION_STEP, "--step", "1ms", OPTIONS_CHANGE, "fixed step") \
     X(OPTION_UNTIL, "--until", "9s", OPTIONS_CHANGE, "end of the run") \
     X(OPTION_METHOD, "--method", "M", OPTIONS_ENGINE, "") \

@@ -175,7 +175,7 @@ static double read_every_s(const run_options *o, const mechanism *of) {
 }
 
 /* The same as a number of steps. */
-static bool count_every(const run_options *o, double spacing_s, double step_s, uint64_t *steps) {
+static bool count_every(const run_options *o, double spacing_s, const image *im, uint64_t *steps) {
     *steps = 1;
     if (o->every == NULL) {
         return true;
@@ -184,24 +184,21 @@ static bool count_every(const run_options *o, double spacing_s, double step_s, u
         fprintf(stderr,
                 "whirl run: error: --every %s is not a time\n"
                 "hint: such as 2ms, or 0.002 in seconds; the step is %.9g s\n",
-                o->every, step_s);
+                o->every, im->step_s);
         return false;
     }
-    const double wanted = spacing_s / step_s;
-    if (!(wanted > 0.5 && wanted < 1e15) ||
-        fabs(wanted - number_floor(wanted + 0.5)) > 1e-6 * wanted) {
+    if (!ratio_count_each(spacing_s, im->step, steps)) {
         fprintf(stderr,
                 "whirl run: error: --every %s is not a whole number of steps\n"
                 "hint: the step is %.9g s\n",
-                o->every, step_s);
+                o->every, im->step_s);
         return false;
     }
-    *steps = (uint64_t)number_floor(wanted + 0.5);
     return true;
 }
 
 static int run_image(run_options *o, const source_model *from, const image *im, double every_s) {
-    if (!count_every(o, every_s, im->step_s, &o->settings.every)) {
+    if (!count_every(o, every_s, im, &o->settings.every)) {
         return EXIT_BAD_INPUT;
     }
     if (!start_has_method(im, im->settings.method, from->errors) ||

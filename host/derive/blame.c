@@ -195,7 +195,7 @@ static bool has_slopes(const poly *p) {
             return false;
         }
         for (int j = 0; j < m->count; j++) {
-            const factor *f = &m->factors[j];
+            const mono_factor *f = &m->factors[j];
             const bool whole = f->exponent > 0.0 && f->exponent == number_floor(f->exponent);
             const bool plain = f->atom->kind == ATOM_SYMBOL ||
                                (f->atom->kind == ATOM_GROUP && has_slopes(f->atom->argument[0]));

@@ -1,10 +1,9 @@
 /* contact_lists.c: folding contacts, and entering their lists. */
-#include "core/contact.h" /* first: its arguments have names that host/lang has types of */
-
 #include <stdlib.h>
 
 #include "contact_lists.h"
 #include "contacts.h"
+#include "core/contact.h"
 #include "core/hash.h"
 #include "energy.h"
 #include "host/base/room.h"

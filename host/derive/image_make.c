@@ -1,13 +1,13 @@
 /* image_make.c: from equations and lists to the image. */
-#include "core/contact.h" /* first: its arguments have names that host/lang has types of */
-
 #include "image_make.h"
 
 #include <string.h>
 
 #include "blame.h"
 #include "contact_lists.h"
+#include "core/contact.h"
 #include "host/lang/shown.h"
+#include "host/lang/words.h"
 #include "host/number/phase.h"
 #include "image_parts.h"
 #include "ledger_lists.h"

@@ -1,9 +1,8 @@
 /* ledger_lists.c: entering the books' lists. */
-#include "core/ledger_step.h" /* first: its arguments have names that host/lang has types of */
-
 #include <stdlib.h>
 
 #include "contact_lists.h"
+#include "core/ledger_step.h"
 #include "energy.h"
 #include "host/base/room.h"
 #include "ledger_lists.h"

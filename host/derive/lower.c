@@ -35,7 +35,7 @@ static void collect_angles(const lowering *l, const poly *p, angle_list *list) {
             for (int k = 0; k < 2 && x->kind != ATOM_SYMBOL && x->argument[k] != NULL; k++) {
                 collect_angles(l, x->argument[k], list);
             }
-            if (x->kind == ATOM_CALL && x->function == FN_TAN && waves_turns(l, x->argument[0])) {
+            if (lower_is_tangent(x) && waves_turns(l, x->argument[0])) {
                 collect_angles(l, poly_sin(a, x->argument[0]), list);
             }
         }
@@ -120,7 +120,7 @@ static int atom_node(lowering *l, const atom *x) {
         return l->leaf(l->context, l->tape, x->symbol, x->primes);
     }
     /* a phase has 1.5e-9 rad: enough for a turn angle, whose own digits these are, not for a small number */
-    if (x->kind == ATOM_CALL && x->function == FN_TAN && waves_turns(l, x->argument[0])) {
+    if (lower_is_tangent(x) && waves_turns(l, x->argument[0])) {
         const int s = waves_sine(l, x->argument[0]);
         return tape_div(l->tape, s, waves_cosine(l, x->argument[0]));
     }
@@ -135,7 +135,7 @@ static int atom_node(lowering *l, const atom *x) {
     return first;
 }
 
-static void product_factor(lowering *l, product *p, const factor *f) {
+static void product_factor(lowering *l, product *p, const mono_factor *f) {
     int node = atom_node(l, f->atom);
     double size = fabs(f->exponent);
     if (size != number_floor(size)) {
@@ -214,6 +214,23 @@ static int by_number(const void *x, const void *y) {
     return (left > right) - (left < right);
 }
 
+/* Most sums are short, and qsort() has a long way to its first comparison. */
+static void sort_numbers(int *numbers, int count) {
+    enum { SHORT = 24 };
+    if (count > SHORT) {
+        qsort(numbers, (size_t)count, sizeof *numbers, by_number);
+        return;
+    }
+    for (int i = 1; i < count; i++) {
+        const int moving = numbers[i];
+        int at = i;
+        for (; at > 0 && numbers[at - 1] > moving; at--) {
+            numbers[at] = numbers[at - 1];
+        }
+        numbers[at] = moving;
+    }
+}
+
 /* The nodes of all products, sorted; *total is their number. */
 static int *sorted_nodes(const product *products, int count, int *total) {
     *total = 0;
@@ -227,7 +244,7 @@ static int *sorted_nodes(const product *products, int count, int *total) {
             nodes[at++] = products[i].powers[k].node;
         }
     }
-    qsort(nodes, (size_t)*total, sizeof *nodes, by_number);
+    sort_numbers(nodes, *total);
     return nodes;
 }
 

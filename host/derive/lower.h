@@ -30,6 +30,11 @@ int lower(lowering *l, const poly *p);
 
 void lower_done(lowering *l);
 
+/* A tangent is the one function that may be made of a turn angle's sine and cosine. */
+static inline bool lower_is_tangent(const atom *x) {
+    return x->kind == ATOM_CALL && x->function == FN_TAN;
+}
+
 /* True when every place of the symbol (no primes) in p is inside a sine or cosine, with a whole
  * factor: then it can be kept as a turn angle. */
 bool lower_only_in_waves(const poly *p, const symbol *sym);

@@ -13,7 +13,7 @@
 
 /* The power of two next to 1/sqrt(x); 1 for what has no size. */
 static double scale_for(double x) {
-    int exponent = 0;
+    int exponent;
     if (!(x > 0.0) || !isfinite(x)) {
         return 1.0;
     }

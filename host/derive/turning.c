@@ -49,7 +49,7 @@ bool lower_only_in_waves(const poly *p, const symbol *sym) {
             if (x->kind == ATOM_SYMBOL && x->symbol == sym && x->primes == 0) {
                 return false;
             }
-            if (x->kind == ATOM_CALL && x->function == FN_TAN) {
+            if (lower_is_tangent(x)) {
                 if (!whole_in_angle(x->argument[0], sym)) {
                     return false;
                 }

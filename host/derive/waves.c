@@ -58,7 +58,7 @@ static int sines_inside(const poly *p) {
         most = here > most ? here : most;
         for (int k = 0; k < m->count; k++) {
             const atom *x = m->factors[k].atom;
-            const int own = x->kind == ATOM_CALL && x->function == FN_TAN;
+            const int own = lower_is_tangent(x);
             for (int j = 0; j < 2 && x->kind != ATOM_SYMBOL && x->argument[j] != NULL; j++) {
                 here = own + sines_inside(x->argument[j]);
                 most = here > most ? here : most;

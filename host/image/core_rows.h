@@ -70,8 +70,8 @@ static inline wh_ledger_form core_ledger_form(const image *im, const uint8_t *ac
 static inline int core_memory_reals(const image *im) {
     const image_ledger *l = &im->ledger;
     const int carried = im->settings.compensated ? im->angles + im->reals : 0;
-    const int books = l->kept ? 2 * l->entries + l->accounts + l->inputs : 0;
-    return im->reals + carried + im->inputs + im->held + books;
+    const int in_books = l->kept ? 2 * l->entries + l->accounts + l->inputs : 0;
+    return im->reals + carried + im->inputs + im->held + in_books;
 }
 
 #endif

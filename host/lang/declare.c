@@ -99,7 +99,7 @@ bool read_unknown(parser *in, const statement_word *word) {
         made = &unused;
     }
     if (in->token.kind == TOKEN_UNIT) {
-        unit written;
+        unit_scale written;
         made->is_angle = unit_is_angle(in->token.text, in->token.length);
         parse_unit(in, &written, &made->unit);
         made->declared = written;
@@ -174,7 +174,7 @@ bool read_output(parser *in, const statement_word *word) {
         diag_error(in->diags, name.at, NULL, "'time' is the first column of every record");
     }
     symbol *made = declare(in, &name, SYM_OUTPUT);
-    unit written = {1.0, 1.0, dim_none()};
+    unit_scale written = {1.0, 1.0, dim_none()};
     const char *unit_text = "";
     const bool has_unit = in->token.kind == TOKEN_UNIT;
     if (has_unit) {

@@ -25,14 +25,14 @@ static bool go_deeper(parser *in) {
     return true;
 }
 
-bool parse_unit(parser *in, unit *result, const char **text) {
+bool parse_unit(parser *in, unit_scale *result, const char **text) {
     unit_error error;
     const token bracket = in->token;
     const bool good = unit_parse(bracket.text, bracket.length, result, &error);
     if (!good) {
         diag_error(in->diags, place_after(bracket.at, 1 + error.offset),
                    error.hint[0] == '\0' ? NULL : error.hint, "%s", error.message);
-        *result = (unit){1.0, 1.0, dim_none()};
+        *result = (unit_scale){1.0, 1.0, dim_none()};
         result->dim.unknown = true;
     }
     char *bare = parser_copy_text(in, &bracket);
@@ -55,7 +55,7 @@ static const expr *parse_number(parser *in) {
     parser_next(in);
     if (in->token.kind == TOKEN_UNIT) {
         const place bracket = in->token.at;
-        unit written;
+        unit_scale written;
         parse_unit(in, &written, &in->number_unit_text);
         in->number_unit = written;
         made->number = made->number * written.scale / written.divisor;

@@ -12,7 +12,7 @@ bool parse_close(parser *in, place open);                       /* the ')' that 
 /* Comparisons joined by `and`, `or` as one expression: true when above zero. The statement is for hints. */
 const expr *parse_condition(parser *in, word_id statement);
 /* The unit token in hand; *text is set to what it says, without blanks. */
-bool parse_unit(parser *in, unit *result, const char **text);
+bool parse_unit(parser *in, unit_scale *result, const char **text);
 
 /* --- names (reference.c) --- */
 const expr *expr_name(parser *in, const token *name);

@@ -1,7 +1,5 @@
 #include "kinds.h"
 
-#include "words.h"
-
 const char *symbol_kind_words(symbol_kind kind) {
 #define WORDS_OF(id, words) [SYM_##id] = words,
     static const char *const words_of[] = {SYMBOL_KIND_ROWS(WORDS_OF)};
@@ -28,13 +26,6 @@ const char *term_rule(term_kind kind) {
     static const char *const rules[] = {TERM_KIND_ROWS(RULE)};
 #undef RULE
     return rules[kind];
-}
-
-const char *contact_word(contact_kind kind) {
-#define WORD(id, called, undefined) [CONTACT_##id] = WORD_##id,
-    static const word_id words[] = {CONTACT_KIND_ROWS(WORD)};
-#undef WORD
-    return word_row(words[kind])->text;
 }
 
 const char *contact_called(contact_kind kind) {

@@ -54,7 +54,6 @@ typedef enum contact_kind { CONTACT_KIND_ROWS(CONTACT_KIND) } contact_kind;
 enum { CONTACT_KINDS = 0 CONTACT_KIND_ROWS(CONTACT_ONE) };
 #undef CONTACT_ONE
 
-const char *contact_word(contact_kind kind);      /* "stop" */
 const char *contact_called(contact_kind kind);    /* "the stop" */
 const char *contact_undefined(contact_kind kind); /* "the restitution, or the gap, of this stop" */
 

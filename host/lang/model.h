@@ -26,14 +26,14 @@ typedef struct symbol {
     const char *text; /* the description in quotes, or "" */
     const char *unit; /* the declared unit, without blanks, or ""; of a parameter or input, the one
                           behind the only number of its value */
-    struct unit declared; /* what that unit is; divisor 0 when there is none */
-    dimension dim;        /* of the symbol without primes */
-    bool is_angle;        /* declared [rad] (or [deg], [rev]): coordinate or state */
-    const expr *value;    /* parameter, input, let, output, record: its expression; else NULL */
-    place at;             /* where it was declared */
-    int index;            /* running number within its kind in its mechanism, declaration order */
-    int effect;           /* index of the effect that declared it, or -1 */
-    int order; /* coordinate: 2; state: its highest derivative in the equations; else 0 */
+    unit_scale declared; /* what that unit is; divisor 0 when there is none */
+    dimension dim;       /* of the symbol without primes */
+    bool is_angle;       /* declared [rad] (or [deg], [rev]): coordinate or state */
+    const expr *value;   /* parameter, input, let, output, record: its expression; else NULL */
+    place at;            /* where it was declared */
+    int index;           /* running number within its kind in its mechanism, declaration order */
+    int effect;          /* index of the effect that declared it, or -1 */
+    int order;           /* coordinate: 2; state: its highest derivative in the equations; else 0 */
 } symbol;
 
 /* --- expressions ------------------------------------------------------------------------------- */
@@ -186,20 +186,20 @@ typedef struct scene {
     const expr *until; /* seconds, or NULL */
 } scene;
 
-typedef struct model {
+typedef struct whirl_model {
     const mechanism *const *mechanisms;
     int mechanism_count;
     const scene *const *scenes;
     int scene_count;
     struct arena *arena;
-} model;
+} whirl_model;
 
 #define MODEL_BYTES_MAX ((size_t)16 << 20) /* a longer text is refused */
 
 /* Parse and check `text` (`length` bytes, any bytes), called `file` in messages. Returns NULL when
  * there was an error; all errors (up to 20) are in `diags`. Free the result with model_free(). */
-model *model_parse(const char *file, const char *text, size_t length, diags *diags);
-void model_free(model *model);
+whirl_model *model_parse(const char *file, const char *text, size_t length, diags *diags);
+void model_free(whirl_model *model);
 
 /* --- instances: a scene, or a bare mechanism, with the command line's changes, in numbers -------- */
 

@@ -37,7 +37,7 @@ static const expr *parse_plain_quantity(parser *in) {
     }
     const source *typed = first.at.source;
     const size_t offset = in->token.at.offset;
-    unit written;
+    unit_scale written;
     unit_error error;
     expr *made = expr_new(in, EXPR_NUMBER, number.at);
     made->uses = USES_UNIT;

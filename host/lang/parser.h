@@ -1,5 +1,5 @@
 /* parser.h: what is known while a text is read. Its floor is cursor.h (tokens), above it come expressions
- * (expression.h) and statements (statements.h); model.c is the roof. */
+ * (expression.h) and statements (statements.h); model_parse.c is the roof. */
 #ifndef LANG_PARSER_H
 #define LANG_PARSER_H
 
@@ -64,7 +64,7 @@ typedef struct parser {
     diags *diags;
     struct arena *arena;
     expr_context context;
-    unit number_unit; /* the last one behind a number, and its text */
+    unit_scale number_unit; /* the last one behind a number, and its text */
     const char *number_unit_text;
     const expr *ready;         /* read already: the first operand of the expression to be parsed */
     int effect;                /* the one being read, or -1 */

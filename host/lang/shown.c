@@ -19,8 +19,8 @@ const char *dimension_unit(dimension dim, bool is_angle, char *text, size_t size
     return dim_recorded_unit(dim, text, size);
 }
 
-struct unit shown_unit(const symbol *s, int primes) {
-    const struct unit si = {1.0, 1.0, s->dim};
+unit_scale shown_unit(const symbol *s, int primes) {
+    const unit_scale si = {1.0, 1.0, s->dim};
     (void)primes; /* a derivative is one per second: the same number */
     return s->unit[0] == '\0' || unit_is_si(s->declared) ? si : s->declared;
 }

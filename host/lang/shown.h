@@ -7,7 +7,7 @@
 /* The unit in which a coordinate or state (its derivative with so many primes) or an output is shown.
  * It is the declared one, for a derivative per second: [deg] makes deg/s, deg/s^2. What has none is
  * shown in SI. */
-struct unit shown_unit(const symbol *s, int primes);
+unit_scale shown_unit(const symbol *s, int primes);
 
 /* Its name: "deg/s", "kg*m/s^2", "rad", "1". The caller frees it. */
 char *shown_unit_name(const symbol *s, int primes);

@@ -221,12 +221,12 @@ static bool read_exponent(reader *in, double *exponent) {
     return true;
 }
 
-static bool read_product(reader *in, unit *result);
+static bool read_product(reader *in, unit_scale *result);
 
-static bool read_factor(reader *in, unit *result) {
+static bool read_factor(reader *in, unit_scale *result) {
     const char c = peek(in);
     const size_t start = in->at;
-    *result = (unit){1.0, 1.0, dim_none()};
+    *result = (unit_scale){1.0, 1.0, dim_none()};
     if (c == '(') {
         if (++in->nesting > 20) {
             return fail(in, start, "too many parentheses in a unit", "");
@@ -254,7 +254,7 @@ static bool read_factor(reader *in, unit *result) {
         if (found == NULL) {
             return unknown_unit(in, start, in->at - start);
         }
-        *result = (unit){found->scale, found->divisor, dim_of_quantity(found->of)};
+        *result = (unit_scale){found->scale, found->divisor, dim_of_quantity(found->of)};
     } else if (c == '\0' && in->at >= in->length) {
         return fail(in, start, "a unit is missing here", "");
     } else if ((unsigned char)c >= 0x80) {
@@ -268,7 +268,7 @@ static bool read_factor(reader *in, unit *result) {
         if (!read_exponent(in, &exponent)) {
             return false;
         }
-        const unit base = *result;
+        const unit_scale base = *result;
         const double size = fabs(exponent); /* 1/ms is 1000/s: its factors change places */
         result->scale = number_power(exponent < 0.0 ? base.divisor : base.scale, size);
         result->divisor = number_power(exponent < 0.0 ? base.scale : base.divisor, size);
@@ -279,13 +279,13 @@ static bool read_factor(reader *in, unit *result) {
     return true;
 }
 
-static bool read_product(reader *in, unit *result) {
+static bool read_product(reader *in, unit_scale *result) {
     if (!read_factor(in, result)) {
         return false;
     }
     for (char c = peek(in); c == '*' || c == '/'; c = peek(in)) {
         const size_t sign_at = in->at++;
-        unit factor;
+        unit_scale factor;
         if (!read_factor(in, &factor)) {
             return false;
         }
@@ -307,7 +307,7 @@ static bool read_product(reader *in, unit *result) {
     return true;
 }
 
-bool unit_parse(const char *text, size_t length, unit *result, unit_error *error) {
+bool unit_parse(const char *text, size_t length, unit_scale *result, unit_error *error) {
     reader in = {text, length, 0, 0, error};
     error->hint[0] = '\0';
     if (!read_product(&in, result)) {
@@ -331,9 +331,11 @@ bool unit_parse(const char *text, size_t length, unit *result, unit_error *error
     return true;
 }
 
-bool unit_is_si(unit u) { return fabs(u.scale - u.divisor) <= 1e-14 * u.divisor; }
+bool unit_is_si(unit_scale u) { return fabs(u.scale - u.divisor) <= 1e-14 * u.divisor; }
 
-double unit_number(unit u, double si) { return unit_is_si(u) ? si : si * u.divisor / u.scale; }
+double unit_number(unit_scale u, double si) {
+    return unit_is_si(u) ? si : si * u.divisor / u.scale;
+}
 
 const char *unit_name(int index) { return index < UNIT_COUNT ? units[index].name : NULL; }
 

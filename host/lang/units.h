@@ -45,11 +45,11 @@ char *dim_recorded_unit(dimension dim, char *buffer, size_t size);
 
 /* SI value = number * scale / divisor. Two factors, so that 7 [ms] is 7/1000, correctly rounded.
  * scale/divisor lies between 1e-200 and 1e200. */
-typedef struct unit {
+typedef struct unit_scale {
     double scale;
     double divisor;
     dimension dim;
-} unit;
+} unit_scale;
 
 typedef struct unit_error {
     size_t offset; /* where in the text */
@@ -59,13 +59,13 @@ typedef struct unit_error {
 
 /* Read a unit expression such as `N*s/m`, `lbf*s^2/in`, `kg*(m/s)^2`, `1/s`, `m^(1/2)`: factors are
  * taken from left to right. Returns false and fills `error` when it is none. */
-bool unit_parse(const char *text, size_t length, unit *result, unit_error *error);
+bool unit_parse(const char *text, size_t length, unit_scale *result, unit_error *error);
 
 /* Is one of this unit one of SI, but for the rounding of its factors: no need to say which? Also true of {0},
  * no unit. */
-bool unit_is_si(unit u);
+bool unit_is_si(unit_scale u);
 /* The number in unit u of an SI value; the value itself when unit_is_si(u). */
-double unit_number(unit u, double si);
+double unit_number(unit_scale u, double si);
 
 /* The name of unit `index`, counted from 0, or NULL beyond the last. */
 const char *unit_name(int index);

@@ -2,8 +2,6 @@
 
 #include <string.h>
 
-#include "model.h"
-
 static const statement_word rows[] = {
 #define WORD_ROW(id, text, stands, rules, reader, kind, form) \
     [WORD_##id] = {text, form, stands, rules, (int)(kind)},
@@ -33,10 +31,18 @@ int word_find(const char *text, size_t length) {
 }
 
 bool word_is_reserved(const char *text, size_t length) {
-    for (int i = 0; i < WORDS; i++) {
-        if ((rows[i].rules & RESERVED) != 0 && word_is((word_id)i, text, length)) {
+    for (int i = 0; i < WORDS && length > 0; i++) {
+        if (rows[i].text[0] == text[0] && (rows[i].rules & RESERVED) != 0 &&
+            word_is((word_id)i, text, length)) {
             return true;
         }
     }
     return false;
+}
+
+const char *contact_word(contact_kind kind) {
+#define WORD(id, called, undefined) [CONTACT_##id] = WORD_##id,
+    static const word_id words[] = {CONTACT_KIND_ROWS(WORD)};
+#undef WORD
+    return word_row(words[kind])->text;
 }

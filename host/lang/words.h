@@ -10,6 +10,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "kinds.h"
+
 /* Where a statement may stand. */
 enum {
     IN_FILE = 1, /* outside all blocks: it is the file's, though a mechanism may have begun */
@@ -140,5 +142,8 @@ bool word_is(word_id id, const char *text, size_t length);
 /* The word that begins a statement, or WORDS: none does. */
 int word_find(const char *text, size_t length);
 bool word_is_reserved(const char *text, size_t length);
+
+/* The word of a contact: "stop". */
+const char *contact_word(contact_kind kind);
 
 #endif

@@ -128,6 +128,28 @@ bool ratio_count(whole_ratio whole, whole_ratio part, uint64_t *count) {
     return !wide_below(wide_left(wide_of(1), 63), nearest);
 }
 
+/* As ratio_count() of a time that was read or computed in double. */
+static bool nearest_count(double time_s, whole_ratio step, uint64_t *count) {
+    if (time_s < RATIO_LEAST) {
+        *count = 0;
+        return true;
+    }
+    return time_s <= RATIO_MOST && ratio_count(ratio_of(time_s), step, count);
+}
+
+bool ratio_count_each(double each_s, whole_ratio step, uint64_t *count) {
+    return nearest_count(each_s, step, count) && *count > 0 &&
+           fabs(ratio_times(*count, step) - each_s) <= 1e-6 * each_s;
+}
+
+bool ratio_count_from(double from_s, whole_ratio step, uint64_t *count) {
+    if (!nearest_count(from_s, step, count)) {
+        return false;
+    }
+    *count += ratio_times(*count, step) < from_s * (1.0 - 1e-12) ? 1 : 0;
+    return true;
+}
+
 double ratio_times(uint64_t count, whole_ratio each) {
     wide of = wide_times(wide_of(count), wide_of(each.numerator));
     int shift = 0;

@@ -1,4 +1,5 @@
-/* ratio.h: steps and ends of runs as fractions of whole numbers, so that counts and times are exact. */
+/* ratio.h: steps and ends of runs as fractions of whole numbers, so that counts and times are exact. How many steps
+ * lie in a time is asked here only. */
 #ifndef NUMBER_RATIO_H
 #define NUMBER_RATIO_H
 
@@ -24,6 +25,14 @@ whole_ratio ratio_of(double value);
 /* The nearest whole number to whole / part, the lower one of two that are as near; false when that is
  * more than 2^63. `part` is above zero. */
 bool ratio_count(whole_ratio whole, whole_ratio part, uint64_t *count);
+
+/* How many steps are as long as a spacing of `each_s` seconds: false when that is no whole number of them, within
+ * 1e-6 of it, from 1 on. */
+bool ratio_count_each(double each_s, whole_ratio step, uint64_t *count);
+
+/* The first step's end at or after from_s >= 0, which rounding may have put just behind one: 0 is the start. False
+ * when that is more than 2^63. */
+bool ratio_count_from(double from_s, whole_ratio step, uint64_t *count);
 
 /* count * each, to the nearest double. */
 double ratio_times(uint64_t count, whole_ratio each);

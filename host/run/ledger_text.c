@@ -7,7 +7,6 @@
 
 #include "host/base/room.h"
 #include "host/base/statement.h"
-#include "summary.h"
 
 /* The columns that a line of the source gets. */
 #define LINE_WIDTH 44

@@ -10,10 +10,10 @@
 #include "belief.h"
 #include "envelope.h"
 #include "host/base/room.h"
+#include "host/base/statement.h"
 #include "host/plot/plot.h"
 #include "records.h"
 #include "slow.h"
-#include "host/base/statement.h"
 #include "summary.h"
 #include "undefined.h"
 
@@ -310,7 +310,7 @@ simulation_result simulate(const image *im, const simulation_settings *s) {
             const uint64_t done = s->kind->steps(sim.run);
             const uint64_t samples = (done + 63) / 64;
             const double sampled = (double)samples;
-            summary_print(sim.csv == stdout || sim.columns == stdout ? stderr : stdout, im, s,
+            summary_print(sim.csv == stdout || sim.columns == stdout ? stderr : stdout, im, s->kind,
                           sim.run, sim.books, &balance,
                           sampled > 0.0 ? 1e9 * sim.wall_s / sampled : 0.0);
         }

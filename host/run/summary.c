@@ -17,8 +17,8 @@ static void print_value(FILE *out, const records *r, int column) {
     fprintf(out, "  %-16s %*.*g %s\n", text, digits + 8, digits, r->row[column], c->unit->shown);
 }
 
-static void print_state(FILE *out, const image *im, const simulation_settings *s, void *run) {
-    records *r = records_open(NULL, im, s->kind);
+static void print_state(FILE *out, const image *im, const engine_kind *kind, void *run) {
+    records *r = records_open(NULL, im, kind);
     records_read(r, run, 0.0);
     const int first_output = r->columns - im->own_outputs;
     fprintf(out, "\nfinal state\n");
@@ -88,9 +88,9 @@ static void print_events(FILE *out, const image *im, const engine_kind *kind, co
     }
 }
 
-void summary_print(FILE *out, const image *im, const simulation_settings *s, void *run,
-                   const books *b, const belief *balance, double step_ns) {
-    const uint64_t steps = s->kind->steps(run);
+void summary_print(FILE *out, const image *im, const engine_kind *kind, void *run, const books *b,
+                   const belief *balance, double step_ns) {
+    const uint64_t steps = kind->steps(run);
     fprintf(out, "%s%s%s\n", im->name, im->title[0] != '\0' ? ": " : "", im->title);
     for (int i = 0; i < im->effects; i++) {
         if (im->effect[i].with) {
@@ -99,17 +99,17 @@ void summary_print(FILE *out, const image *im, const simulation_settings *s, voi
     }
     fprintf(out, "  %s%s, %s, step %.9g s, %" PRIu64 " steps to t = %.15g s\n",
             wh_methods[im->settings.method].title, im->settings.compensated ? " compensated" : "",
-            s->kind->name, im->step_s, steps, ratio_times(steps, im->step));
-    print_state(out, im, s, run);
+            kind->name, im->step_s, steps, ratio_times(steps, im->step));
+    print_state(out, im, kind, run);
     if (im->contacts > 0) {
-        print_events(out, im, s->kind, run);
+        print_events(out, im, kind, run);
     }
     if (b != NULL && im->ledger.asked) {
-        ledger_print(out, im, s->kind, run, b);
+        ledger_print(out, im, kind, run, b);
     } else if (b != NULL) {
         print_books(out, b, balance);
     }
     belief_print(out, balance);
-    fprintf(out, "state hash         0x%016" PRIx64 "\n", s->kind->hash(run));
+    fprintf(out, "state hash         0x%016" PRIx64 "\n", kind->hash(run));
     fprintf(out, "time per step      %.0f ns (interpreted, this machine)\n", step_ns);
 }

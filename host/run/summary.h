@@ -5,10 +5,11 @@
 #include <stdio.h>
 
 #include "belief.h"
-#include "simulate.h"
+#include "books.h"
+#include "engine.h"
 
 /* `books` may be NULL; `balance` is theirs. `step_ns` is the wall time of a step (sampled). */
-void summary_print(FILE *out, const image *im, const simulation_settings *s, void *run,
-                   const books *b, const belief *balance, double step_ns);
+void summary_print(FILE *out, const image *im, const engine_kind *kind, void *run, const books *b,
+                   const belief *balance, double step_ns);
 
 #endif

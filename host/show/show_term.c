@@ -251,7 +251,7 @@ int show_factors(const show *s, const piece *p, int side, bool *first) {
     int count = 0;
     for (int rank = 0; rank < RANKS; rank++) {
         for (int i = 0; i < p->mono->count; i++) {
-            const factor *f = &p->mono->factors[i];
+            const mono_factor *f = &p->mono->factors[i];
             if (show_rank(f->atom) == rank && (f->exponent > 0.0) == (side > 0)) {
                 show_separate(s, first);
                 show_atom(s, f->atom, fabs(f->exponent));

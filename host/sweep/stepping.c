@@ -113,13 +113,13 @@ static bool run_through(meter *m, bool (*abandon)(void), diags *errors, FILE *re
     const engine_kind *kind = m->wanted->kind;
     const image *im = m->image;
     const uint64_t steps = im->steps;
-    /* the first step at or after from_s, which rounding may put just beside a step */
-    const double from = number_ceiling(m->wanted->from_s / im->step_s * (1.0 - 1e-12));
-    if (m->series && from > (double)steps) {
+    uint64_t from = 0;
+    const bool counted = ratio_count_from(m->wanted->from_s, im->step, &from);
+    if (m->series && (!counted || from > steps)) {
         fprintf(reason, "--from %.9g s lies behind the last step", m->wanted->from_s);
         return false;
     }
-    if (keeps_samples(m->wanted) && (double)steps - from >= (double)PERIOD_SAMPLES_MAX) {
+    if (keeps_samples(m->wanted) && steps >= from && steps - from >= PERIOD_SAMPLES_MAX) {
         fprintf(reason, "period() takes at most %.0e samples: a later --from or a larger step",
                 (double)PERIOD_SAMPLES_MAX);
         return false;
@@ -128,7 +128,7 @@ static bool run_through(meter *m, bool (*abandon)(void), diags *errors, FILE *re
         if (!balance(m, errors, reason)) {
             return false;
         }
-        if (m->series && (double)step >= from) {
+        if (m->series && step >= from) {
             meter_enter(m, false);
         }
         if (step == steps || (step % ABANDON_STEPS == 0 && abandon != NULL && abandon())) {

@@ -101,16 +101,16 @@ says 2 'hint: whirl run --help lists' run thomson_a --bogus
 says 2 "unknown option '--'" run --
 says 2 'whirl list: error: unknown option' list --all
 says 2 "there is no form 'fortran'" derive epicyclic --as fortran
-says 2 'hint: text, latex, octave or c' derive epicyclic --as fortran
+says 2 'hint: one of text, latex, octave, c' derive epicyclic --as fortran
 says 2 "there is no method 'rk5'" run thomson_a --method rk5
-says 2 'hint: one of euler, semi-implicit-euler, heun, rk4' run thomson_a --method rk5
+says 2 'hint: one of euler, semi-implicit-euler, heun, rk4, rk38' run thomson_a --method rk5
 # a method that the form does not have: before anything runs, with a place and a way out
 for command in run "sweep --over step=1..2[ms]:2" "derive --as c"; do
     # shellcheck disable=SC2086 # a command and its options
     says 2 "lorenz.whirl:2:7: error: semi-implicit Euler is not defined here: 'x' is of order 1" $command \
         tests/mechanisms/lorenz.whirl --method semi-implicit-euler
     # shellcheck disable=SC2086
-    says 2 'hint: .* choose --method euler, heun or rk4' $command tests/mechanisms/lorenz.whirl --method semi-implicit-euler
+    says 2 'hint: .* choose --method euler, heun, rk4 or rk38' $command tests/mechanisms/lorenz.whirl --method semi-implicit-euler
 done
 prints 'semi-implicit Euler, double' run epicyclic_from_rest --method semi-implicit-euler --until 100ms
 prints '^system lorenz' derive tests/mechanisms/lorenz.whirl --method semi-implicit-euler

@@ -1,6 +1,6 @@
 #!/bin/sh
 # help.sh: `make` alone lists every public target: all that make knows but for those that serve another, and all that
-# the docs tell of.
+# the docs tell of; and what the docs name is there.
 . "$(dirname "$0")/../checks.sh"
 
 MAKEFLAGS= make >"$scratch/help" 2>"$scratch/err" && sed -n 's/^  make \([a-zA-Z0-9-]*\) .*/\1/p' "$scratch/help" | sort -u >"$scratch/listed"
@@ -16,11 +16,27 @@ verdict $? "every target that make knows is listed"
 grep -v NAME "$scratch/listed" | comm -23 - "$scratch/known" >"$scratch/err" && [ ! -s "$scratch/err" ]
 verdict $? "every target that is listed is known"
 
-cat README.md docs/*.md Makefile mk/*.mk tests/*.sh tests/*/*.sh mk/*/*.sh core/*.h boards/*/*.[ch] |
-    grep -oE '(`|^    |^)make [a-z][a-z0-9-]*' | sed 's/.*make //' | sort -u >"$scratch/told"
+cat README.md CONTRIBUTING.md docs/*.md Makefile mk/*.mk tests/*.sh tests/*/*.sh mk/*/*.sh core/*.h boards/*/*.[ch] |
+    grep -oE '(`|^    |^)make [a-z][a-z0-9-]*($|[ `])' | sed 's/.*make //; s/[ `]$//' | sort -u >"$scratch/told"
 sed 's/^gate-.*/gate-NAME/' "$scratch/told" | sort -u | comm -23 - "$scratch/listed" >"$scratch/err" && [ ! -s "$scratch/err" ] &&
     [ "$(wc -l <"$scratch/told")" -ge 15 ]
 verdict $? "every target that the docs tell of is listed"
+# and every file that they name is there; suites, too
+for page in README.md CONTRIBUTING.md docs/*.md; do
+    grep -oE '`(sh )?(core|host|hal|boards|mk|tests|docs)/[A-Za-z0-9_./*-]+' "$page" | sed 's/^`\(sh \)\{0,1\}//' | grep -v NAME |
+        sort -u | while read -r path; do
+        # shellcheck disable=SC2086 # a pattern
+        ls -d $path >/dev/null 2>&1 || echo "$page: $path"
+    done
+    grep -ohE 'build/tests/(host|core_float|core_double) [a-z0-9_ ]+' "$page" | sed 's|build/tests/||; s/_float\|_double//' |
+        while read -r kind suites; do
+            for suite in $suites; do
+                grep -q "^void suite_${suite#suite_}(void)" tests/"$kind"/test_*.c || echo "$page: $kind $suite"
+            done
+        done
+done >"$scratch/err"
+[ ! -s "$scratch/err" ]
+verdict $? "every file and suite that the docs name is there"
 for digits in 'm32: ## a target with digits' 'a-2b: x ## one more'; do
     printf '##@ Some\n%s\n' "$digits" >"$scratch/one.mk"
     awk -f mk/help.awk "$scratch/one.mk" | grep -q "make ${digits%%:*} .*${digits##*## }"

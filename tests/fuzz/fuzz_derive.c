@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "host/derive/image_make.h"
 #include "host/emit/emit.h"
 #include "host/run/engine.h"
 #include "host/show/show_equations.h"
@@ -69,11 +70,8 @@ static void leaf(writer *w) {
 }
 
 static void expression(writer *w, int depth) {
-    static const char *const functions[] = {"sin", "cos", "tan", "asin", "acos", "atan", "sqrt",
-                                            "exp", "log", "abs", "sign", "sinh", "cosh", "tanh"};
     static const char *const operators[] = {" + ", " - ", "*", "/"};
     static const char *const exponents[] = {"2", "3", "0.5", "-1", "-2", "1.5", "7", "(1/3)"};
-    static const char *const pairs[] = {"atan2(", "min(", "max("};
     if (depth == 0 || w->left == 0) {
         leaf(w);
         return;
@@ -81,23 +79,23 @@ static void expression(writer *w, int depth) {
     switch (choose(w, 5)) {
     case 0: leaf(w); break;
     case 1:
-        put(w, functions[choose(w, 14)]);
+    case 3: {
+        const function_id called = (function_id)choose(w, FUNCTIONS);
+        put(w, function_name(called));
         put(w, "(");
         expression(w, depth - 1);
+        if (function_arguments(called) == 2) {
+            put(w, ", ");
+            expression(w, depth - 1);
+        }
         put(w, ")");
         break;
+    }
     case 2:
         put(w, "(");
         expression(w, depth - 1);
         put(w, ")^");
         put(w, exponents[choose(w, 8)]);
-        break;
-    case 3:
-        put(w, pairs[choose(w, 3)]);
-        expression(w, depth - 1);
-        put(w, ", ");
-        expression(w, depth - 1);
-        put(w, ")");
         break;
     default:
         put(w, "(");
@@ -335,7 +333,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         fputs(w.text, stderr);
     }
     diags *all = diags_new();
-    model *parsed = model_parse("fuzz.whirl", w.text, w.used, all);
+    whirl_model *parsed = model_parse("fuzz.whirl", w.text, w.used, all);
     if (parsed != NULL) {
         const scene *in = parsed->scene_count > 0 ? parsed->scenes[0] : NULL;
         instance *inst = instance_make(parsed->mechanisms[0], in, NULL, all);

@@ -29,7 +29,7 @@ static int split_changes(const char *text, size_t length, char (*changes)[CHANGE
     return count;
 }
 
-static void make_instances(const model *parsed, const overrides *changes, diags *all) {
+static void make_instances(const whirl_model *parsed, const overrides *changes, diags *all) {
     for (int i = 0; i < parsed->mechanism_count; i++) {
         instance_free(instance_make(parsed->mechanisms[i], NULL, changes, all));
     }
@@ -69,7 +69,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         memcpy(copy, text, length);
     }
     diags *all = diags_new();
-    model *parsed = model_parse("fuzz.whirl", copy, length, all);
+    whirl_model *parsed = model_parse("fuzz.whirl", copy, length, all);
     if ((parsed == NULL) != (diags_count(all) > 0)) {
         abort(); /* refused without a word, or accepted with one */
     }

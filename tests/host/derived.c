@@ -15,7 +15,7 @@
 
 const image_settings plainly = {WH_RK4, false};
 
-static const scene *scene_called(const model *m, const char *name) {
+static const scene *scene_called(const whirl_model *m, const char *name) {
     for (int i = 0; i < m->scene_count; i++) {
         if (strcmp(m->scenes[i]->name, name) == 0) {
             return m->scenes[i];
@@ -24,7 +24,7 @@ static const scene *scene_called(const model *m, const char *name) {
     return NULL;
 }
 
-static const mechanism *mechanism_called(const model *m, const char *name) {
+static const mechanism *mechanism_called(const whirl_model *m, const char *name) {
     for (int i = 0; i < m->mechanism_count; i++) {
         if (strcmp(m->mechanisms[i]->name, name) == 0) {
             return m->mechanisms[i];
@@ -34,7 +34,7 @@ static const mechanism *mechanism_called(const model *m, const char *name) {
 }
 
 /* `name` NULL: the first mechanism. Takes over `all`. */
-static derived derive_model(model *m, const char *name, diags *all) {
+static derived derive_model(whirl_model *m, const char *name, diags *all) {
     derived d = {.model = m};
     if (m != NULL) {
         const scene *in = name == NULL ? NULL : scene_called(m, name);
@@ -54,8 +54,7 @@ static derived derive_model(model *m, const char *name, diags *all) {
     fclose(out);
     diags_free(all);
     /* whatever is refused is refused with an error, and what has an error is refused */
-    TEST_ASSERT_TRUE_MESSAGE((d.image == NULL) == (strstr(d.errors, "error: ") != NULL),
-                             d.errors);
+    TEST_ASSERT_TRUE_MESSAGE((d.image == NULL) == (strstr(d.errors, "error: ") != NULL), d.errors);
     return d;
 }
 
@@ -82,7 +81,7 @@ int each_builtin_scene(scene_check *check) {
     for (size_t i = 0; i < builtin_model_count; i++) {
         const struct builtin_model *b = &builtin_models[i];
         diags *errors = diags_new();
-        model *in = model_parse(b->file, b->text, b->length, errors);
+        whirl_model *in = model_parse(b->file, b->text, b->length, errors);
         TEST_ASSERT_NOT_NULL_MESSAGE(in, b->file);
         for (int k = 0; k < in->scene_count; k++) {
             sum += check(in->scenes[k]);
@@ -97,7 +96,7 @@ derived derived_builtin(const char *name) {
     for (size_t i = 0; i < builtin_model_count; i++) {
         const struct builtin_model *b = &builtin_models[i];
         diags *all = diags_new();
-        model *m = model_parse(b->file, b->text, b->length, all);
+        whirl_model *m = model_parse(b->file, b->text, b->length, all);
         TEST_ASSERT_NOT_NULL_MESSAGE(m, b->file);
         if (scene_called(m, name) != NULL || mechanism_called(m, name) != NULL) {
             return derive_model(m, name, all);

@@ -6,7 +6,7 @@
 #include "host/derive/image_make.h"
 
 typedef struct derived {
-    model *model;
+    whirl_model *model;
     instance *instance;
     equations *equations; /* NULL when it could not be derived */
     image *image;         /* NULL as well */

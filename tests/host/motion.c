@@ -16,7 +16,7 @@
 
 /* --- opening ------------------------------------------------------------------------------------ */
 
-static const scene *scene_named(const model *in, const char *name) {
+static const scene *scene_named(const whirl_model *in, const char *name) {
     for (int i = 0; i < in->scene_count; i++) {
         if (strcmp(in->scenes[i]->name, name) == 0) {
             return in->scenes[i];

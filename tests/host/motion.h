@@ -10,7 +10,7 @@
 
 typedef struct motion {
     diags *errors;
-    model *model;
+    whirl_model *model;
     instance *instance;
     equations *equations;
     image *image;

@@ -10,7 +10,7 @@
 #include "unity.h"
 
 diags *said;
-model *parsed;
+whirl_model *parsed;
 instance *made;
 
 void drop(void) {

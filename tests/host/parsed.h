@@ -6,7 +6,7 @@
 
 /* The text at hand; NULL before parse(), instantiate(). */
 extern diags *said;
-extern model *parsed;
+extern whirl_model *parsed;
 extern instance *made;
 
 /* Parse a good text, called x.whirl; the test fails when the language refuses it. Returns its first

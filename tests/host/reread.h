@@ -23,7 +23,7 @@ double value_here(void *context, const symbol *sym, int primes);
 
 typedef struct read_back {
     diags *said;
-    model *model;
+    whirl_model *model;
     instance *instance; /* NULL when a formula was refused; that was printed */
 } read_back;
 

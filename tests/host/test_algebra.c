@@ -27,7 +27,7 @@ static sides compare(const char *left, const char *right) {
              "let left_side = %s\nlet right_side = %s\n",
              left, right);
     diags *all = diags_new();
-    model *m = model_parse("identity", text, strlen(text), all);
+    whirl_model *m = model_parse("identity", text, strlen(text), all);
     if (m == NULL) {
         diags_flush(all, stdout);
     }

@@ -1,6 +1,7 @@
 /* test_algebra_limits.c: what host/algebra takes on and what it leaves: sizes up to which powers and products are
  * multiplied out, what cancels, numbers that are none; magnitudes, powers of expressions and determinants. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -31,7 +32,7 @@ static double expected_magnitude(const poly *p, double *at) {
         const mono *m = p->terms[i].mono;
         double part = p->terms[i].coefficient;
         for (int k = 0; k < m->count; k++) {
-            const factor *f = &m->factors[k];
+            const mono_factor *f = &m->factors[k];
             algebra *a = algebra_new();
             double base = poly_evaluate(poly_of_atom(a, f->atom, 1.0), value_of_symbol, at);
             algebra_free(a);
@@ -238,6 +239,54 @@ static void test_what_grows_without_end_overflows(void) {
     algebra_free(a);
 }
 
+/* What is given up on must not depend on the host: objects count for fixed sizes, with 48 bytes in tables. */
+static void test_work_is_counted_alike_on_every_host(void) {
+    algebra *a = algebra_new();
+    enum { ATOM = 72 + 48, MONO = 48 + 48, POLY = 32 + 48, PART = 16, PAIR = 24 + 48, TERM = 2 };
+    size_t before = a->work;
+    const poly *q = poly_symbol(a, &form_symbols[0], 0);
+    TEST_ASSERT_EQUAL_UINT64(ATOM + MONO + PART + POLY + PART, a->work - before);
+    const poly *r = poly_symbol(a, &form_symbols[1], 0);
+    before = a->work;
+    poly_symbol(a, &form_symbols[1], 0); /* known */
+    TEST_ASSERT_EQUAL_UINT64(0, a->work - before);
+    const poly *sum = poly_add(a, q, r); /* two terms handled, a new sum of two */
+    TEST_ASSERT_EQUAL_UINT64(2 * TERM + POLY + 2 * PART, a->work - before);
+    before = a->work;
+    const poly *product =
+        poly_mul(a, q, r); /* asked for and remembered, added up as a row of one */
+    TEST_ASSERT_EQUAL_UINT64(MONO + 2 * PART + POLY + PART + 2 * TERM + PAIR, a->work - before);
+    before = a->work;
+    TEST_ASSERT_TRUE(poly_mul(a, r, q) == product);
+    TEST_ASSERT_EQUAL_UINT64(0, a->work - before);
+    poly_each_number(a, sum, grown, 0.0); /* two terms handled, nothing new */
+    TEST_ASSERT_EQUAL_UINT64(2 * TERM, a->work - before);
+    algebra_free(a);
+}
+
+/* A row of lets, each naming the one before twice, is worked out once each: two to the sixtieth would not end. */
+static void test_lets_are_worked_out_once(void) {
+    enum { LETS = 60 };
+    char text[8192];
+    size_t length = (size_t)snprintf(text, sizeof text,
+                                     "mechanism m\ncoordinate x\nT = 1 [kg*m^2]*x'^2\n"
+                                     "let l0 = sin(x)\n");
+    for (int i = 1; i <= LETS; i++) {
+        length += (size_t)snprintf(text + length, sizeof text - length, "let l%d = (l%d + l%d)/2\n",
+                                   i, i - 1, i - 1);
+    }
+    diags *all = diags_new();
+    whirl_model *m = model_parse("lets", text, length, all);
+    TEST_ASSERT_NOT_NULL(m);
+    algebra *a = algebra_new();
+    const mechanism *of = m->mechanisms[0];
+    TEST_ASSERT_TRUE(poly_from_expr(a, of->lets[LETS]->value) ==
+                     poly_from_expr(a, of->lets[0]->value));
+    algebra_free(a);
+    model_free(m);
+    diags_free(all);
+}
+
 /* 0.1 + 0.2 - 0.3 is zero; a ten times larger rest is not. */
 static void test_what_cancels_to_a_rounding_error_is_zero(void) {
     algebra *a = algebra_new();
@@ -334,6 +383,8 @@ void suite_algebra_limits(void) {
     RUN_TEST(test_powers_are_multiplied_out_up_to_a_size);
     RUN_TEST(test_large_products_stay_products);
     RUN_TEST(test_what_grows_without_end_overflows);
+    RUN_TEST(test_work_is_counted_alike_on_every_host);
+    RUN_TEST(test_lets_are_worked_out_once);
     RUN_TEST(test_what_cancels_to_a_rounding_error_is_zero);
     RUN_TEST(test_determinants_of_any_rows_and_columns);
 }

@@ -36,7 +36,7 @@ typedef struct sample {
     double start[5];
     bool conserves;
     char text[TEXT_ROOM + 2048];
-    model *model;
+    whirl_model *model;
     instance *instance;
     equations *equations;
     image *image;

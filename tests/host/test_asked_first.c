@@ -185,7 +185,7 @@ static void test_generated_mechanisms(void) {
         char text[MECHANISM_SIZE];
         diags *errors = diags_new();
         mechanism_write((unsigned)number, seed + number, text);
-        model *made = model_parse("generated", text, strlen(text), errors);
+        whirl_model *made = model_parse("generated", text, strlen(text), errors);
         char *alone = made != NULL ? written(made->scenes[0], ALONE, 0) : NULL;
         if (alone != NULL) {
             compare(made->scenes[0]);

@@ -37,7 +37,7 @@ static void try_instance(const mechanism *of, const scene *in, bool derive, diag
 static char *full_report_on(const char *file, const char *text, size_t length, bool derive,
                             int *errors) {
     diags *all = diags_new();
-    model *parsed = model_parse(file, text, length, all);
+    whirl_model *parsed = model_parse(file, text, length, all);
     if (parsed != NULL) {
         for (int i = 0; i < parsed->mechanism_count; i++) {
             try_instance(parsed->mechanisms[i], NULL, derive, all);

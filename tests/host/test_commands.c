@@ -116,7 +116,7 @@ typedef struct found {
 static found look(const struct builtin_model *models, size_t count, const char *target) {
     found f = {0};
     diags *errors = diags_new();
-    model *m = NULL;
+    whirl_model *m = NULL;
     const struct builtin_model *from = NULL;
     const char *name = NULL;
     listen_to_errors();

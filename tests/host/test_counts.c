@@ -67,7 +67,7 @@ static void expect_count(const duration *step, const duration *until) {
         return; /* refused: not what is tested here */
     }
     diags *errors = diags_new();
-    model *from = model_parse("x.whirl", text, strlen(text), errors);
+    whirl_model *from = model_parse("x.whirl", text, strlen(text), errors);
     instance *inst =
         from != NULL ? instance_make(from->mechanisms[0], from->scenes[0], NULL, errors) : NULL;
     diags_flush(errors, stdout);
@@ -220,10 +220,38 @@ static void test_times_are_rounded_once(void) {
     }
 }
 
+/* --every and --from, as of values that were computed in double: beside a step's end by a rounding is at it. */
+static void test_spacings_and_begins_are_counted_in_steps(void) {
+    for (int i = 0; i < 20000; i++) {
+        const whole_ratio step =
+            ratio_of((double)(1 + random_below(999)) / (double)(1 + random_below(99999)));
+        const double step_s = ratio_times(1, step);
+        const uint64_t wanted = 1 + random_below(UINT64_C(1) << (1 + random_below(30)));
+        const double time_s = (double)wanted * step_s;
+        const double part = 0.1 + 0.8 * (double)random_below(1000) / 1000.0;
+        uint64_t count = 0;
+        TEST_ASSERT_TRUE(ratio_count_each(time_s, step, &count) && count == wanted);
+        TEST_ASSERT_TRUE(ratio_count_from(time_s, step, &count) && count == wanted);
+        TEST_ASSERT_TRUE(ratio_count_from(time_s + part * step_s, step, &count) &&
+                         count == wanted + 1);
+        TEST_ASSERT_TRUE(ratio_count_from(time_s - part * step_s, step, &count) && count == wanted);
+        const bool whole =
+            ratio_count_each((double)(1 + wanted % 1000) * step_s + part * step_s, step, &count);
+        TEST_ASSERT_TRUE(!whole);
+    }
+    uint64_t count = 7;
+    TEST_ASSERT_TRUE(!ratio_count_each(0.0, ratio_of(1e-3), &count));
+    TEST_ASSERT_TRUE(!ratio_count_each(-1.0, ratio_of(1e-3), &count));
+    TEST_ASSERT_TRUE(!ratio_count_each(1e19, ratio_of(1e-3), &count));
+    TEST_ASSERT_TRUE(ratio_count_from(0.0, ratio_of(1e-3), &count) && count == 0);
+    TEST_ASSERT_TRUE(!ratio_count_from(1e18, ratio_of(1e-18), &count));
+}
+
 void suite_counts(void) {
     UnitySetTestFile(__FILE__);
     RUN_TEST(test_counts_are_exact);
     RUN_TEST(test_steps_are_what_was_written);
     RUN_TEST(test_every_double_has_a_fraction);
     RUN_TEST(test_times_are_rounded_once);
+    RUN_TEST(test_spacings_and_begins_are_counted_in_steps);
 }

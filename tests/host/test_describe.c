@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "derived.h"
-#include "host/emit/describe.h"
+#include "host/emit/description.h"
 #include "json_check.h"
 #include "unity.h"
 

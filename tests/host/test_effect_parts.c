@@ -70,7 +70,7 @@ static double own_value(const mechanism *of, const symbol *s) {
     return value;
 }
 
-static int check_symbols(const model *m, const mechanism *of, const symbol *const *symbols,
+static int check_symbols(const whirl_model *m, const mechanism *of, const symbol *const *symbols,
                          int count) {
     int checked = 0;
     for (int i = 0; i < count; i++) {
@@ -94,8 +94,8 @@ static void test_changes_of_what_takes_no_part_are_refused(void) {
     int checked = 0;
     for (size_t i = 0; i < builtin_model_count; i++) {
         diags *errors = diags_new();
-        model *m = model_parse(builtin_models[i].file, builtin_models[i].text,
-                               builtin_models[i].length, errors);
+        whirl_model *m = model_parse(builtin_models[i].file, builtin_models[i].text,
+                                     builtin_models[i].length, errors);
         TEST_ASSERT_NOT_NULL(m);
         for (int k = 0; k < m->mechanism_count; k++) {
             const mechanism *of = m->mechanisms[k];
@@ -145,7 +145,7 @@ static void test_a_scene_without_an_effect_that_it_sets(void) {
                                "scene s { with drag; set b = 3 [kg/s] }\n";
     static const char *const drag[] = {"drag"};
     diags *errors = diags_new();
-    model *m = model_parse("t.whirl", text, strlen(text), errors);
+    whirl_model *m = model_parse("t.whirl", text, strlen(text), errors);
     TEST_ASSERT_NOT_NULL(m);
     const overrides changes = {.without = drag, .without_count = 1};
     instance *inst = instance_make(m->mechanisms[0], m->scenes[0], &changes, errors);

@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "core/function.h"
 #include "derived.h"
 #include "motion.h"
 #include "unity.h"
@@ -49,6 +50,10 @@ static const form forms[] = {
     {"(x/1 [m])^0.375", of_power, true, 1e9},
     {"(x/1 [m])^(y/1 [m])", powl, true, 8.0},
 };
+
+#define ONE_MORE(name) +1
+_Static_assert(sizeof forms / sizeof forms[0] == 1 WH_FUNCTIONS(ONE_MORE, ONE_MORE),
+               "every function of core/function.h, and a power that is fixed");
 
 static unsigned long cases(void) {
     const char *asked = getenv("WHIRL_FUNCTION_CASES");

@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "derived.h"
-#include "host/emit/describe.h"
+#include "host/emit/description.h"
 #include "host/emit/emit.h"
 #include "host/run/ledger_text.h"
 #include "host/run/records.h"
@@ -27,7 +27,6 @@ enum { STEPS = 20 };
 /* --- everything that reads an image -----------------------------------------------------------------*/
 
 static void write_run(FILE *out, const image *im, const engine_kind *kind) {
-    const simulation_settings settings = {.kind = kind, .every = 1};
     diags *errors = diags_new();
     if (start_has_method(im, im->settings.method, errors) && start_is_possible(im, kind, errors)) {
         void *run = kind->start(im);
@@ -46,7 +45,7 @@ static void write_run(FILE *out, const image *im, const engine_kind *kind) {
             }
         }
         const belief balance = belief_of(b, kind, run);
-        summary_print(out, im, &settings, run, b, &balance, 0.0);
+        summary_print(out, im, kind, run, b, &balance, 0.0);
         if (b != NULL && im->ledger.kept) {
             ledger_print(out, im, kind, run, b);
         }

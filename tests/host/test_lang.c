@@ -69,7 +69,7 @@ static void test_units(void) {
 }
 
 static void test_a_divided_unit_goes_from_left_to_right(void) {
-    unit read;
+    unit_scale read;
     unit_error error;
     TEST_ASSERT_TRUE(unit_parse("N*s/m*kg", 8, &read, &error));
     TEST_ASSERT_TRUE(dim_fits(read.dim, dim_of(0, 2, -1, 0, 0)));

@@ -89,7 +89,7 @@ static void test_what_is_refused_gives_everything_back(void) {
         for (int round = 0; round < ROUNDS; round++) {
             before = blocks;
             diags *all = diags_new();
-            model *m = model_parse("t.whirl", refused[i], strlen(refused[i]), all);
+            whirl_model *m = model_parse("t.whirl", refused[i], strlen(refused[i]), all);
             TEST_ASSERT_NOT_NULL_MESSAGE(m, refused[i]);
             const scene *s = m->scene_count > 0 ? m->scenes[0] : NULL;
             instance *inst = instance_make(m->mechanisms[0], s, NULL, all);

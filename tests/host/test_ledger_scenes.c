@@ -177,7 +177,7 @@ static void test_systems_have_no_books(void) {
     static const char text[] = "mechanism decay\nstate x\nparameter k = 1 [1/s]\n"
                                "equation x' = -k*x\nscene d {\n  with ledger\n  start x = 1\n}\n";
     diags *errors = diags_new();
-    model *all = model_parse("t", text, strlen(text), errors);
+    whirl_model *all = model_parse("t", text, strlen(text), errors);
     TEST_ASSERT_NOT_NULL(all);
     instance *inst = instance_make(all->mechanisms[0], all->scenes[0], NULL, errors);
     equations *e = inst != NULL ? equations_derive(inst, errors) : NULL;

@@ -49,6 +49,9 @@ static const form forms[] = {
      PENDULUM
      "friction x static 0.2 kinetic 0.1 normal 1 [N]\nstop x <= 20 [m] restitution 0.5\n"
      "scene s { start a = 0.7, x = 0.3 [m], a' = 0.4 [rad/s], x' = -2 [m/s]; step 0.25 [s]; until 0.25 [s] }\n"},
+    {"a stop that is hit", WH_SECOND_ORDER, true, NULL,
+     OSCILLATOR "stop x >= -0.1 [m] restitution 0.7\n"
+                "scene s { start x = 0.3 [m], x' = -0.8 [m/s]; step 1 [s]; until 1 [s] }\n"},
     {"a crossing that is taken", WH_SECOND_ORDER, true, NULL,
      OSCILLATOR
      "input u = 0 [N]\nQ(x) = u\nscene s { when x crosses 0 [m] falling { set x' = 0.5*x' }\n"
@@ -129,6 +132,39 @@ static void test_orders_are_those_of_the_names(void) {
     printf("  %d orders measured\n", measured);
 }
 
+/* The books of energy keep the order, too: what they leave over falls with it, or faster. */
+static void test_books_have_the_order_of_the_name(void) {
+    int measured = 0;
+    for (int i = 0; i < FORMS; i++) {
+        for (int m = 0; m < WH_METHODS && forms[i].ledger; m++) {
+            double left_J[2];
+            const int wanted = wh_methods[m].order;
+            for (int k = 0; k < 2; k++) {
+                motion run;
+                double entry[VALUES];
+                double error[VALUES];
+                const double step_s = 1.0 / (double)(1U << (13 - 2 * wanted + k));
+                motion_open_text(&run, forms[i].text,
+                                 (stepping){.kind = &engine_double,
+                                            .method = (wh_method)m,
+                                            .step_s = step_s,
+                                            .ledger = true});
+                TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&run, (uint64_t)(0.25 / step_s)));
+                run.kind->ledger(run.run, entry, error);
+                left_J[k] = fabs(error[0]);
+                motion_close(&run);
+            }
+            char what[160];
+            snprintf(what, sizeof what, "%s, %s: %.3g J, %.3g J with half the step", forms[i].name,
+                     wh_methods[m].word, left_J[0], left_J[1]);
+            TEST_ASSERT_TRUE_MESSAGE(log2(left_J[0] / left_J[1]) > wanted - 0.2, what);
+            TEST_ASSERT_TRUE_MESSAGE(left_J[1] > 1e-14, what); /* or it tells nothing */
+            measured++;
+        }
+    }
+    printf("  %d books measured\n", measured);
+}
+
 /* --- Euler's two ----------------------------------------------------------------------------------- */
 
 /* Both are of order one: what tells them apart is which rate moves the position. */
@@ -194,6 +230,7 @@ static void test_methods_are_refused_where_their_rows_say(void) {
 void suite_methods(void) {
     UnitySetTestFile(__FILE__);
     RUN_TEST(test_orders_are_those_of_the_names);
+    RUN_TEST(test_books_have_the_order_of_the_name);
     RUN_TEST(test_semi_implicit_euler_moves_by_the_new_rates);
     RUN_TEST(test_methods_are_refused_where_their_rows_say);
 }

@@ -175,7 +175,7 @@ static void test_measures_have_the_noise_of_the_records(void) {
     for (int i = 0; i < cases; i++) {
         const made_up m = make_up(&seed);
         diags *errors = diags_new();
-        model *parsed = model_parse("noise.whirl", m.text, strlen(m.text), errors);
+        whirl_model *parsed = model_parse("noise.whirl", m.text, strlen(m.text), errors);
         diags_flush(errors, stdout);
         TEST_ASSERT_NOT_NULL_MESSAGE(parsed, m.text);
         expect_noise(&m, parsed->mechanisms[0], parsed->scenes[0]);
@@ -192,7 +192,7 @@ static void test_all_outputs_have_the_bits_of_the_records(void) {
     for (int i = 0; i < 10; i++) {
         const made_up m = make_up(&seed);
         diags *errors = diags_new();
-        model *parsed = model_parse("noise.whirl", m.text, strlen(m.text), errors);
+        whirl_model *parsed = model_parse("noise.whirl", m.text, strlen(m.text), errors);
         TEST_ASSERT_NOT_NULL_MESSAGE(parsed, m.text);
         measures *taken = measures_new(parsed->mechanisms[0], NULL, 0, errors);
         TEST_ASSERT_NOT_NULL(taken);

@@ -84,7 +84,7 @@ static void walk_poly(const poly *p, known *all) {
             walk_poly(m->angle, all);
         }
         for (int k = 0; k < m->count; k++) {
-            const factor *f = &m->factors[k];
+            const mono_factor *f = &m->factors[k];
             const bool whole = f->exponent == floor(f->exponent) && f->exponent > 1.0;
             all->keeps_powers =
                 all->keeps_powers || (f->atom->kind == ATOM_GROUP && whole &&
@@ -116,7 +116,7 @@ static void check_knowledge(const poly *p) {
 
 static void check_form(const poly *p);
 
-static void check_factor(const factor *f) {
+static void check_factor(const mono_factor *f) {
     const atom *x = f->atom;
     TEST_ASSERT_TRUE(fabs(f->exponent) >= 1e-12);
     if (x->kind == ATOM_SYMBOL) {

@@ -144,8 +144,8 @@ static void test_powers_of_units(void) {
         for (int exponent = 1; exponent <= 3; exponent++) {
             power *= small[i].in_si;
             char text[32];
-            unit up;
-            unit down;
+            unit_scale up;
+            unit_scale down;
             unit_error error;
             (void)snprintf(text, sizeof text, "%s^%d", small[i].name, exponent);
             TEST_ASSERT_TRUE(unit_parse(text, strlen(text), &up, &error));

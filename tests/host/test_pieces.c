@@ -25,7 +25,7 @@ static double pieces_value(const piece *pieces, int count, double at[VARIABLES])
     for (int i = 0; i < count; i++) {
         double product = pieces[i].coefficient;
         for (int k = 0; k < pieces[i].mono->count; k++) {
-            const factor *f = &pieces[i].mono->factors[k];
+            const mono_factor *f = &pieces[i].mono->factors[k];
             product *= pow(at[f->atom->symbol->index], f->exponent);
         }
         if (pieces[i].angle != NULL) {

@@ -110,6 +110,36 @@ static void test_any_regular_system_is_solved(void) {
     }
 }
 
+/* --- long products ---------------------------------------------------------------------------------------- */
+
+/* Products of up to forty different factors and their powers, alone and in a sum, of which lowering keeps 24 apart. */
+static void test_long_products_keep_their_value(void) {
+    uint64_t seed = 43;
+    for (int factors = 20; factors <= 40; factors++) {
+        char text[4096];
+        size_t length = (size_t)snprintf(text, sizeof text,
+                                         "mechanism m\ncoordinate q\ncoordinate x\n"
+                                         "T = 1 [kg*m^2]*(q'^2 + x'^2)\noutput it = 0.5*q^2");
+        for (int part = 0; part < 2; part++) {
+            length += (size_t)snprintf(text + length, sizeof text - length, " + 3*x^%d", part + 1);
+            for (int k = 1; k <= factors; k++) {
+                length += (size_t)snprintf(text + length, sizeof text - length, "*atan(q + %d)^%u",
+                                           k, 1 + draw(&seed, 3));
+            }
+        }
+        snprintf(text + length, sizeof text - length, "\n");
+        derived d = derived_text(text);
+        derived_expect(&d, text);
+        state_values s;
+        double result[UNKNOWNS];
+        random_state(&s, &d, &seed);
+        derived_run(d.image->list[IMAGE_OBSERVE], &d, &s, result);
+        const double wanted = poly_evaluate(d.equations->output[0], state_value, &s);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12 * fabs(wanted), wanted, result[0]);
+        derived_free(&d);
+    }
+}
+
 /* --- turn angles ---------------------------------------------------------------------------------------- */
 
 /* Is q, which the expression names, inside sines and tangents only, with whole factors? */
@@ -169,7 +199,7 @@ static void test_what_can_be_a_turn_angle(void) {
                  "let it = %s\n",
                  rows[i].text);
         diags *all = diags_new();
-        model *m = model_parse("t", text, strlen(text), all);
+        whirl_model *m = model_parse("t", text, strlen(text), all);
         if (m == NULL) {
             diags_flush(all, stdout);
         }
@@ -187,5 +217,6 @@ static void test_what_can_be_a_turn_angle(void) {
 void suite_solving(void) {
     UnitySetTestFile(__FILE__);
     RUN_TEST(test_any_regular_system_is_solved);
+    RUN_TEST(test_long_products_keep_their_value);
     RUN_TEST(test_what_can_be_a_turn_angle);
 }

@@ -31,7 +31,7 @@ static const char sample[] = "mechanism swing\n"
                              "equation x' + k*x = 0\n";
 
 static diags *said;
-static model *parsed;
+static whirl_model *parsed;
 static grid points;
 
 static void open_sample(void) {

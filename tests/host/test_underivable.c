@@ -75,7 +75,7 @@ static void test_the_start_is_tried_too(void) {
         const overrides changes = {.starts = start, .start_count = 1};
         for (int moved = 0; moved < 2; moved++) {
             diags *all = diags_new();
-            model *parsed = model_parse("t.whirl", texts[i], strlen(texts[i]), all);
+            whirl_model *parsed = model_parse("t.whirl", texts[i], strlen(texts[i]), all);
             TEST_ASSERT_NOT_NULL(parsed);
             instance *made =
                 instance_make(parsed->mechanisms[0], NULL, moved == 1 ? &changes : NULL, all);

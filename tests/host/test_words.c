@@ -18,7 +18,7 @@ enum { TEXT_SIZE = 1200, REPORT_SIZE = 8000, PAGE_SIZE = 200000 };
 static const char *report_on(const char *text) {
     static char report[REPORT_SIZE];
     diags *all = diags_new();
-    model *read = model_parse("x.whirl", text, strlen(text), all);
+    whirl_model *read = model_parse("x.whirl", text, strlen(text), all);
     FILE *out = fmemopen(report, sizeof report, "w");
     TEST_ASSERT_NOT_NULL(out);
     report[0] = '\0';

@@ -11,7 +11,7 @@
 #include "tests/host/mechanism.h"
 
 static bool derives(const char *text, diags *all) {
-    model *parsed = model_parse("generated", text, strlen(text), all);
+    whirl_model *parsed = model_parse("generated", text, strlen(text), all);
     instance *inst = NULL;
     equations *e = NULL;
     image *p = NULL;

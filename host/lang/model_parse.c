@@ -1,4 +1,4 @@
-/* model.c: a text from its first to its last byte. */
+/* model_parse.c: a text from its first to its last byte. */
 #include "model.h"
 
 #include <string.h>
@@ -18,7 +18,7 @@ static void parse_all(parser *in, place start) {
     }
 }
 
-model *model_parse(const char *file, const char *text, size_t length, diags *all) {
+whirl_model *model_parse(const char *file, const char *text, size_t length, diags *all) {
     struct arena *memory = arena_new();
     source *whole = arena_alloc(memory, sizeof *whole);
     whole->file = arena_copy(memory, file, strlen(file));
@@ -37,7 +37,7 @@ model *model_parse(const char *file, const char *text, size_t length, diags *all
         arena_free(memory);
         return NULL;
     }
-    model *made = arena_alloc(memory, sizeof *made);
+    whirl_model *made = arena_alloc(memory, sizeof *made);
     const mechanism **mechanisms =
         arena_alloc(memory, (size_t)in.builder_count * sizeof *mechanisms);
     for (int i = 0; i < in.builder_count; i++) {
@@ -51,7 +51,7 @@ model *model_parse(const char *file, const char *text, size_t length, diags *all
     return made;
 }
 
-void model_free(model *done) {
+void model_free(whirl_model *done) {
     if (done != NULL) {
         arena_free(done->arena);
     }

@@ -1,5 +1,5 @@
-/* describe.c: an image as JSON. */
-#include "describe.h"
+/* description.c: an image as JSON. */
+#include "description.h"
 
 #include <inttypes.h>
 #include <string.h>

@@ -1,7 +1,7 @@
-/* describe_text.c: an image for readers. */
+/* description_text.c: an image for readers. */
 #include <inttypes.h>
 
-#include "describe.h"
+#include "description.h"
 #include "host/base/statement.h"
 #include "host/image/core_rows.h"
 #include "host/image/memory.h"

@@ -1,6 +1,6 @@
-/* describe.h: what an image holds, for programs (docs/describe.md) and for readers. */
-#ifndef EMIT_DESCRIBE_H
-#define EMIT_DESCRIBE_H
+/* description.h: what an image holds, for programs (docs/describe.md) and for readers. */
+#ifndef EMIT_DESCRIPTION_H
+#define EMIT_DESCRIPTION_H
 
 #include <stdio.h>
 

@@ -1,0 +1,233 @@
+/* test_method_rows.c: the rows of core/method.h are what they say: explicit, of their order by the conditions on their
+ * weights, told apart by their words; docs/numerics.md has a line for each, with its measured stability. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/ledger_step.h"
+
+#include "unity.h"
+
+void suite_method_rows(void);
+
+#define ROUNDING 1e-6 /* of sums of a few shares, which are floats here */
+
+typedef struct butcher {
+    int stages;
+    double a[WH_STAGES_MAX][WH_STAGES_MAX];
+    double b[WH_STAGES_MAX];        /* rates */
+    double position[WH_STAGES_MAX]; /* positions */
+    double c[WH_STAGES_MAX];
+} butcher;
+
+static butcher row_of(int method) {
+    const wh_tableau *t = &wh_tableaus[method];
+    butcher made = {.stages = (int)t->stages};
+    for (int i = 0; i < made.stages; i++) {
+        made.b[i] = (double)(t->rates[i] / t->parts);
+        made.position[i] = (double)(t->positions[i] / t->parts);
+        for (int j = 0; j < made.stages; j++) {
+            made.a[i][j] = (double)(t->stage[i].share[j] / t->stage[i].parts);
+            made.c[i] += made.a[i][j];
+        }
+    }
+    return made;
+}
+
+/* result = A x */
+static void times(const butcher *t, const double *x, double *result) {
+    for (int i = 0; i < t->stages; i++) {
+        result[i] = 0.0;
+        for (int j = 0; j < t->stages; j++) {
+            result[i] += t->a[i][j] * x[j];
+        }
+    }
+}
+
+static double sum(const butcher *t, const double *x, const double *y) {
+    double made = 0.0;
+    for (int i = 0; i < t->stages; i++) {
+        made += t->b[i] * x[i] * (y != NULL ? y[i] : 1.0);
+    }
+    return made;
+}
+
+static bool near(double a, double b) { return fabs(a - b) < ROUNDING; }
+
+/* The order that the weights have, up to 4 (Butcher; Hairer, Norsett & Wanner, I, section II.2). */
+static int order_of(const butcher *t) {
+    double one[WH_STAGES_MAX];
+    double cc[WH_STAGES_MAX];
+    double ac[WH_STAGES_MAX];
+    double acc[WH_STAGES_MAX];
+    double aac[WH_STAGES_MAX];
+    for (int i = 0; i < t->stages; i++) {
+        one[i] = 1.0;
+        cc[i] = t->c[i] * t->c[i];
+    }
+    times(t, t->c, ac);
+    times(t, cc, acc);
+    times(t, ac, aac);
+    if (!near(sum(t, one, NULL), 1.0)) {
+        return 0;
+    }
+    if (!near(sum(t, t->c, NULL), 0.5)) {
+        return 1;
+    }
+    if (!near(sum(t, cc, NULL), 1.0 / 3.0) || !near(sum(t, ac, NULL), 1.0 / 6.0)) {
+        return 2;
+    }
+    return near(sum(t, cc, t->c), 0.25) && near(sum(t, t->c, ac), 0.125) &&
+                   near(sum(t, acc, NULL), 1.0 / 12.0) && near(sum(t, aac, NULL), 1.0 / 24.0)
+               ? 4
+               : 3;
+}
+
+static void test_weights_have_the_order_of_the_row(void) {
+    for (int m = 0; m < WH_METHODS; m++) {
+        const butcher t = row_of(m);
+        const char *word = wh_methods[m].word;
+        TEST_ASSERT_TRUE_MESSAGE(
+            order_of(&t) == (wh_methods[m].order < 4 ? wh_methods[m].order : 4), word);
+        TEST_ASSERT_TRUE_MESSAGE(wh_methods[m].stages == t.stages, word);
+        for (int i = 0; i < t.stages; i++) {
+            for (int j = i; j < t.stages; j++) {
+                TEST_ASSERT_TRUE_MESSAGE(t.a[i][j] == 0.0, word); /* explicit */
+            }
+        }
+    }
+}
+
+/* positions = b A is what makes the written-out positions the same method as on x' = f(x). */
+static void test_methods_for_any_system_have_the_positions_of_their_rates(void) {
+    for (int m = 0; m < WH_METHODS; m++) {
+        const butcher t = row_of(m);
+        double off = 0.0;
+        double all = 0.0;
+        for (int j = 0; j < t.stages; j++) {
+            double wanted = 0.0;
+            for (int i = 0; i < t.stages; i++) {
+                wanted += t.b[i] * t.a[i][j];
+            }
+            off = fmax(off, fabs(t.position[j] - wanted));
+            all += t.position[j];
+        }
+        TEST_ASSERT_TRUE_MESSAGE((off < ROUNDING) == (wh_methods[m].takes == WH_ANY_SYSTEM),
+                                 wh_methods[m].word);
+        TEST_ASSERT_TRUE_MESSAGE(wh_methods[m].order < 2 || near(all, 0.5), wh_methods[m].word);
+    }
+}
+
+static void test_the_books_weigh_each_stage_as_the_rates_do(void) {
+    for (int m = 0; m < WH_METHODS; m++) {
+        const butcher t = row_of(m);
+        for (int i = 0; i < t.stages; i++) {
+            TEST_ASSERT_TRUE(near((double)wh_ledger_weight((wh_method)m, (unsigned)i), t.b[i]));
+        }
+    }
+}
+
+static void test_words_are_apart_and_fit_command_lines(void) {
+    for (int m = 0; m < WH_METHODS; m++) {
+        const wh_method_row *row = &wh_methods[m];
+        TEST_ASSERT_TRUE(row->word[0] >= 'a' && row->word[0] <= 'z');
+        TEST_ASSERT_TRUE(strspn(row->word, "abcdefghijklmnopqrstuvwxyz0123456789-") ==
+                         strlen(row->word));
+        TEST_ASSERT_TRUE(strncmp(row->name, "WH_", 3) == 0 && row->title[0] != '\0');
+        for (int k = 0; k < m; k++) {
+            TEST_ASSERT_TRUE(strcmp(row->word, wh_methods[k].word) != 0);
+            TEST_ASSERT_TRUE(strcmp(row->title, wh_methods[k].title) != 0);
+        }
+    }
+    TEST_ASSERT_TRUE(wh_method_takes(WH_METHOD_DEFAULT, WH_FIRST_ORDER));
+    TEST_ASSERT_TRUE(!wh_method_takes((wh_method)WH_METHODS, WH_SECOND_ORDER));
+}
+
+/* --- stability ---------------------------------------------------------------------------------------- */
+
+static void decay(const void *model, const wh_phase *phase, const wh_real *real,
+                  const wh_real *input, wh_real *slope) {
+    (void)model;
+    (void)phase;
+    (void)input;
+    slope[0] = -real[0];
+}
+
+static void spring(const void *model, const wh_phase *phase, const wh_real *linear,
+                   const wh_real *rate, const wh_real *input, wh_real *accel) {
+    (void)model;
+    (void)phase;
+    (void)rate;
+    (void)input;
+    accel[0] = -linear[0];
+}
+
+/* What a step of h multiplies x' = -x by; or, of q'' = -q, the larger size of the step matrix' eigenvalues. */
+static double growth_of_decay(wh_method method, double h) {
+    wh_real x = WH_R(1.0);
+    wh_state state = {.real = &x};
+    TEST_ASSERT_EQUAL_INT(WH_OK,
+                          wh_step_first(NULL, decay, method, false, 0, 1, (wh_real)h, &state));
+    return fabs((double)x);
+}
+
+static double growth_of_spring(wh_method method, double h) {
+    double matrix[2][2];
+    for (int k = 0; k < 2; k++) {
+        wh_real x[2] = {k == 0 ? WH_R(1.0) : WH_R(0.0), k == 1 ? WH_R(1.0) : WH_R(0.0)};
+        wh_state state = {.real = x};
+        TEST_ASSERT_EQUAL_INT(
+            WH_OK, wh_step_second(NULL, spring, method, false, 0, 1, (wh_real)h, &state));
+        matrix[0][k] = (double)x[0];
+        matrix[1][k] = (double)x[1];
+    }
+    const double half_trace = 0.5 * (matrix[0][0] + matrix[1][1]);
+    const double determinant = matrix[0][0] * matrix[1][1] - matrix[0][1] * matrix[1][0];
+    const double disc = half_trace * half_trace - determinant;
+    return disc < 0.0 ? sqrt(determinant) : fabs(half_trace) + sqrt(disc);
+}
+
+/* The largest h, in thousandths, up to which nothing grows by more than float's roundings; 0 when a quarter does. */
+static double interval(double (*growth)(wh_method method, double h), wh_method method) {
+    double h = 0.25;
+    if (growth(method, h) > 1.0 + 1e-5) {
+        return 0.0;
+    }
+    while (h < 20.0 && growth(method, h + 1e-3) < 1.0 + 1e-5) {
+        h += 1e-3;
+    }
+    return h;
+}
+
+static void test_documented_stability_is_the_measured_one(void) {
+    FILE *in = fopen("docs/numerics.md", "r");
+    TEST_ASSERT_NOT_NULL(in);
+    char *page = calloc(1, 1 << 20);
+    TEST_ASSERT_NOT_NULL(page);
+    TEST_ASSERT_TRUE(fread(page, 1, (1 << 20) - 1, in) > 0);
+    fclose(in);
+    for (int m = 0; m < WH_METHODS; m++) {
+        const wh_method_row *row = &wh_methods[m];
+        const bool any = row->takes == WH_ANY_SYSTEM;
+        char decays[16];
+        char line[240];
+        snprintf(decays, sizeof decays, "%.2f",
+                 any ? interval(growth_of_decay, (wh_method)m) : 0.0);
+        snprintf(line, sizeof line, "| `%s` | %s | %d | %d | %s | %s | %.2f |\n", row->word,
+                 row->title, row->order, row->stages, any ? "any" : "second order",
+                 any ? decays : "", interval(growth_of_spring, (wh_method)m));
+        printf("  %s", line);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(page, line), line);
+    }
+    free(page);
+}
+
+void suite_method_rows(void) {
+    UnitySetTestFile(__FILE__);
+    RUN_TEST(test_weights_have_the_order_of_the_row);
+    RUN_TEST(test_methods_for_any_system_have_the_positions_of_their_rates);
+    RUN_TEST(test_the_books_weigh_each_stage_as_the_rates_do);
+    RUN_TEST(test_words_are_apart_and_fit_command_lines);
+    RUN_TEST(test_documented_stability_is_the_measured_one);
+}
