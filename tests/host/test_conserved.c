@@ -159,7 +159,7 @@ static void test_a_coordinate_follows_from_its_momentum(void) {
                  0.5 * mass, slope[0], slope[1], start.q[0][0], start.q[1][0], start.q[2][0],
                  start.q[0][1], start.q[1][1], start.q[2][1]);
         diags *all = diags_new();
-        model *parsed = model_parse("t", text, strlen(text), all);
+        whirl_model *parsed = model_parse("t", text, strlen(text), all);
         instance *inst = parsed == NULL
                              ? NULL
                              : instance_make(parsed->mechanisms[0], parsed->scenes[0], NULL, all);
