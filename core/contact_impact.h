@@ -89,15 +89,19 @@ static inline bool wh_contact_rests(const wh_contact_system *of, const wh_contac
     return pressing > WH_R(0.0) && (m->last || speed + speed <= pressing * (m->h * WH_REST_SHARE));
 }
 
-/* Resting stops with restitution that nothing presses: they merely touch, and what comes through them is an impact of
- * its own, in the next round (Newton's cradle). */
+/* Resting stops with restitution that nothing presses, not even by rounding: they merely touch, and what comes through
+ * them is an impact of its own, in the next round (Newton's cradle). work->force must be up to date. */
 static inline unsigned wh_contact_loose(const wh_contact_system *of, const wh_contact_work *w,
                                         unsigned resting, const wh_real *accel) {
     unsigned bits = 0;
     for (unsigned k = 0; k < of->forced && of->forced > 1; k++) {
-        const bool loose = (resting >> k & 1U) != 0 &&
-                           wh_contact_law(of, w, k)[WH_LAW_FIRST] > WH_R(0.0) &&
-                           wh_contact_pressing(of, w, k, accel) == WH_R(0.0);
+        wh_real size = wh_contact_terms(of, w, k, accel);
+        for (unsigned l = 0; l < of->forced; l++) {
+            size += l != k ? WH_ABS(wh_delassus(of, w, k, l) * w->force[l]) : WH_R(0.0);
+        }
+        const bool loose =
+            (resting >> k & 1U) != 0 && wh_contact_law(of, w, k)[WH_LAW_FIRST] > WH_R(0.0) &&
+            wh_delassus_diagonal(of, w, k) * w->force[k] <= WH_CONTACT_ROUNDING * size;
         bits |= loose ? 1U << k : 0U;
     }
     return bits;

@@ -43,7 +43,9 @@ WH_INLINE void wh_contact_work_begin(const wh_contact_system *of, const wh_state
         w->hit_next = 0;
         w->turned = 0;
     }
-    w->capped = false;
+    if (of->forced > 1) { /* one contact shares nothing */
+        w->capped = false;
+    }
     w->moved = 0;
     w->mover = 0;
     w->fault = -1;
@@ -158,6 +160,9 @@ WH_INLINE void wh_contact_happen(const wh_contact_system *of, wh_contact_work *w
 /* Stops that an impact made close, and that are still open, as bits; they are then dealt with. */
 WH_INLINE unsigned wh_contact_next(const wh_contact_system *of, wh_contact_work *w) {
     unsigned bits = 0;
+    if (of->forced <= 1 || w->hit_next == 0) {
+        return 0;
+    }
     for (unsigned k = 0; k < of->forced; k++) {
         bits |= w->mode[k] == WH_FREE ? w->hit_next & 1U << k : 0U;
     }
@@ -240,10 +245,7 @@ static inline wh_status wh_step_contact(const wh_contact_system *of, wh_real h, 
     bool sound = false; /* ended calmly, with all that was looked at a number */
     bool more = true;
     while (more) {
-        unsigned events = 0;
-        if (of->forced > 1 && work.hit_next != 0 && round < WH_EVENTS_MAX) {
-            events = wh_contact_next(of, &work);
-        }
+        unsigned events = round < WH_EVENTS_MAX ? wh_contact_next(of, &work) : 0;
         if (events == 0 && left > WH_R(0.0)) {
             wh_margins margins;
             next = now;
@@ -258,15 +260,11 @@ static inline wh_status wh_step_contact(const wh_contact_system *of, wh_real h, 
             }
             wh_contact_stabilise(of, &work, left, state->input, &now, &next);
             wh_contact_margins_end(of, &work, &now, &next, state->input, &margins);
-            if (wh_contact_calm(of, &margins) && (of->held == 0 || work.undefined < 0)) {
-                wh_contact_pass(of, &margins, &work);
-                flat = wh_contact_accept(of, &work, left, &now, &next, state->input);
-                end = &next;
-                sound = true;
-                break;
-            }
-            if (round == WH_EVENTS_MAX || wh_contact_happened(of, &margins) == 0) {
-                wh_contact_find_undefined(of, &work, &margins);
+            sound = wh_contact_calm(of, &margins) && (of->held == 0 || work.undefined < 0);
+            if (sound || round == WH_EVENTS_MAX || wh_contact_happened(of, &margins) == 0) {
+                if (!sound) {
+                    wh_contact_find_undefined(of, &work, &margins);
+                }
                 wh_contact_pass(of, &margins, &work);
                 flat = wh_contact_accept(of, &work, left, &now, &next, state->input);
                 end = &next;
@@ -311,7 +309,8 @@ static inline wh_status wh_step_contact(const wh_contact_system *of, wh_real h, 
         wh_ledger_commit(of->ledger, &books, state);
     }
 #endif
-    wh_contact_commit(of, &work, end, &log, round == WH_EVENTS_MAX || work.capped, state);
+    wh_contact_commit(of, &work, end, &log,
+                      round == WH_EVENTS_MAX || (of->forced > 1 && work.capped), state);
     return WH_OK;
 }
 

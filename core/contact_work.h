@@ -164,9 +164,74 @@ WH_INLINE wh_real wh_delassus(const wh_contact_system *of, const wh_contact_work
     return wh_jacobian_times(of, w, k, wh_contact_law(of, w, l) + WH_LAW_ROWS + of->coordinates);
 }
 
+/* What counts as rounding beside the terms of a sum. */
+#define WH_CONTACT_ROUNDING (WH_DOUBLE ? WH_R(1e-11) : WH_R(1e-5))
+
+/* Its diagonal: the factor of k's own force in its acceleration. */
+WH_INLINE wh_real wh_delassus_diagonal(const wh_contact_system *of, const wh_contact_work *w,
+                                       unsigned k) {
+    return wh_delassus(of, w, k, k);
+}
+
+/* Solve sum_l (J_k M^-1 J_l^T) lambda_l = wanted_k for the `count` contacts in member[], by elimination
+ * without pivoting: the matrix is positive definite, but for contacts that repeat what others hold
+ * already, which get nothing to do. Returns those, as bits of their places in member[]. Those with at[]
+ * other than zero get nothing, too; at may be NULL. */
+static inline unsigned wh_delassus_eliminate(const wh_contact_system *of, const wh_contact_work *w,
+                                             const uint8_t *member, unsigned count,
+                                             const int8_t *at, const wh_real *wanted,
+                                             wh_real *lambda) {
+    wh_real matrix[WH_CONTACTS_MAX][WH_CONTACTS_MAX] = {{WH_R(0.0)}};
+    bool idle[WH_CONTACTS_MAX] = {false};
+    unsigned repeats = 0;
+    for (unsigned r = 0; r < count; r++) {
+        lambda[r] = wanted[r];
+        for (unsigned c = 0; c < count; c++) {
+            matrix[r][c] = wh_delassus(of, w, member[r], member[c]);
+        }
+    }
+    for (unsigned p = 0; p < count; p++) {
+        const bool fixed = at != NULL && at[p] != 0;
+        const bool none =
+            !(matrix[p][p] > WH_CONTACT_ROUNDING * wh_delassus_diagonal(of, w, member[p]));
+        idle[p] = fixed || none;
+        repeats |= none && !fixed ? 1U << p : 0U;
+        for (unsigned r = p + 1; r < count && !idle[p]; r++) {
+            const wh_real factor = matrix[r][p] / matrix[p][p];
+            for (unsigned c = p; c < count; c++) {
+                matrix[r][c] -= factor * matrix[p][c];
+            }
+            lambda[r] -= factor * lambda[p];
+        }
+    }
+    for (unsigned p = count; p-- > 0;) {
+        wh_real sum = lambda[p];
+        for (unsigned c = p + 1; c < count; c++) {
+            sum -= matrix[p][c] * lambda[c];
+        }
+        lambda[p] = idle[p] ? WH_R(0.0) : sum / matrix[p][p];
+    }
+    return repeats;
+}
+
+/* The same, without the machinery where nothing or one thing is held: most steps of most scenes. */
+WH_INLINE unsigned wh_delassus_solve(const wh_contact_system *of, const wh_contact_work *w,
+                                     const uint8_t *member, unsigned count, const int8_t *at,
+                                     const wh_real *wanted, wh_real *lambda) {
+    if (count == 0) {
+        return 0;
+    }
+    if (of->forced == 1 || count == 1) {
+        const wh_real yield = wh_delassus_diagonal(of, w, member[0]);
+        lambda[0] = yield > WH_R(0.0) ? wanted[0] / yield : WH_R(0.0);
+        return yield > WH_R(0.0) ? 0U : 1U;
+    }
+    return wh_delassus_eliminate(of, w, member, count, at, wanted, lambda);
+}
+
 /* Is contact k of a kind that is `trait`? */
 WH_INLINE bool wh_contact_is(const wh_contact_system *of, unsigned k, unsigned trait) {
-    return (wh_contact_kinds(trait) >> of->contact[k].kind & 1U) != 0;
+    return wh_contact_kind_is(of->contact[k].kind, trait);
 }
 
 /* What a step builds on must be finite numbers. */

@@ -29,7 +29,7 @@ endef
 
 # Every scene; and the rig's firmware, whose hardware hal/virtual plays.
 $(eval $(call program,scenes,boards/programs/scenes.c,scenes whirl))
-$(eval $(call program,firmware,boards/programs/rig.c,scenes rig virtual whirl))
+$(eval $(call program,firmware,boards/programs/rig.c,whirl rig virtual scenes))
 
 # Only the test framework takes something from a C library: the jump out of a failed test.
 $(ELF)/tests.elf: IMAGE_LIBS := -lc

@@ -4,22 +4,26 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "exit.h"
+
 void room_none(void) {
     fputs("whirl: out of memory\n", stderr);
-    exit(EXIT_FAILURE);
+    exit(EXIT_RUN_FAILED);
 }
 
 /* Bytes of all elements, at least one. */
 static size_t bytes_of(int64_t count, size_t size) {
     size_t bytes;
-    if (count < 0 || __builtin_mul_overflow(count, size, &bytes)) {
+    if (count < 0 || __builtin_mul_overflow((size_t)count, size, &bytes)) {
         room_none();
     }
     return bytes > 0 ? bytes : size > 0 ? size : 1;
 }
 
 void *room(int64_t count, size_t size) {
-    void *made = calloc(bytes_of(count, size), 1);
+    /* calloc() looks at the product itself */
+    void *made = count > 0 && (uint64_t)count <= SIZE_MAX ? calloc((size_t)count, size)
+                                                          : calloc(bytes_of(count, size), 1);
     if (made == NULL) {
         room_none();
     }
@@ -27,11 +31,12 @@ void *room(int64_t count, size_t size) {
 }
 
 void *room_tail(size_t head, int64_t count, size_t size) {
-    const size_t tail = bytes_of(count, size);
-    if (tail > SIZE_MAX - head) {
+    size_t bytes;
+    if (count < 0 || __builtin_mul_overflow((size_t)count, size, &bytes) ||
+        __builtin_add_overflow(bytes, head, &bytes)) {
         room_none();
     }
-    void *made = calloc(head + tail, 1);
+    void *made = calloc(bytes, 1);
     if (made == NULL) {
         room_none();
     }

@@ -31,8 +31,9 @@ int word_find(const char *text, size_t length) {
 }
 
 bool word_is_reserved(const char *text, size_t length) {
-    for (int i = 0; i < WORDS; i++) {
-        if ((rows[i].rules & RESERVED) != 0 && word_is((word_id)i, text, length)) {
+    for (int i = 0; i < WORDS && length > 0; i++) {
+        if (rows[i].text[0] == text[0] && (rows[i].rules & RESERVED) != 0 &&
+            word_is((word_id)i, text, length)) {
             return true;
         }
     }

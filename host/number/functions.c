@@ -45,6 +45,17 @@ bool function_find(const char *text, size_t length, function_id *function) {
     return false;
 }
 
+#define FUNCTION_CORE(value) 1
+#define FUNCTION_OWN(operation, value) 0
+#define OF_CORE(id, word, arguments, dimensions, range, latex, value, ...) +value
+#define ONE_MORE(name) +1
+_Static_assert(1 FUNCTION_ROWS(OF_CORE) == 0 WH_FUNCTIONS(ONE_MORE, ONE_MORE),
+               "core/function.h lists what the language calls, and the power");
+#undef ONE_MORE
+#undef OF_CORE
+#undef FUNCTION_OWN
+#undef FUNCTION_CORE
+
 /* What is no number stays none. */
 static double sign_of(double x) { return x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : x; }
 /* The share of one that leads by so much in what min() or max() takes. */

@@ -37,7 +37,7 @@ while [ "$limit" -le 200000 ]; do
         break
     fi
     limit=$((limit + 64))
-done
+done 2>/dev/null # what the kernel cannot even load, it ends
 
 # short WHAT WORDS...: `whirl WORDS` under limits rising by a quarter of what it wants beyond its start, more or less.
 short() {

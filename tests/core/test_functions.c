@@ -101,34 +101,12 @@ static void test_edges(void) {
     static const edge of_atan[] = {
         {ZERO, ZERO},        {SMALLEST, SMALLEST}, {NORMAL, NORMAL},      {ONE, PI / WH_R(4.0)},
         {LARGEST, PI / TWO}, {INFINITE, PI / TWO}, {NO_NUMBER, NO_NUMBER}};
-    static const edge of_sinh[] = {{ZERO, ZERO},          {SMALLEST, SMALLEST},
-                                   {NORMAL, NORMAL},      {ONE, WH_R(1.1752011936438014569)},
-                                   {LARGEST, INFINITE},   {INFINITE, INFINITE},
-                                   {NO_NUMBER, NO_NUMBER}};
-    static const edge of_cosh[] = {{ZERO, ONE},
-                                   {-ZERO, ONE},
-                                   {SMALLEST, ONE},
-                                   {-NORMAL, ONE},
-                                   {ONE, WH_R(1.5430806348152437785)},
-                                   {-ONE, WH_R(1.5430806348152437785)},
-                                   {LARGEST, INFINITE},
-                                   {-LARGEST, INFINITE},
-                                   {INFINITE, INFINITE},
-                                   {-INFINITE, INFINITE},
-                                   {NO_NUMBER, NO_NUMBER}};
-    static const edge of_tanh[] = {{ZERO, ZERO},      {SMALLEST, SMALLEST},
-                                   {NORMAL, NORMAL},  {ONE, WH_R(0.76159415595576488812)},
-                                   {WH_R(30.0), ONE}, {LARGEST, ONE},
-                                   {INFINITE, ONE},   {NO_NUMBER, NO_NUMBER}};
     EXPECT_EDGES(wh_exp, of_exp, false);
     EXPECT_EDGES(wh_log, of_log, false);
     EXPECT_EDGES(wh_tan, of_tan, true);
     EXPECT_EDGES(wh_asin, of_asin, true);
     EXPECT_EDGES(wh_acos, of_acos, false);
     EXPECT_EDGES(wh_atan, of_atan, true);
-    EXPECT_EDGES(wh_sinh, of_sinh, true);
-    EXPECT_EDGES(wh_cosh, of_cosh, false);
-    EXPECT_EDGES(wh_tanh, of_tanh, true);
 }
 
 static void test_edges_of_atan2(void) {
@@ -278,38 +256,6 @@ static void test_never_falls(void) {
     }
 }
 
-/* Where one way of computing takes over from the other: neighbours, a few thousand of them on either side. */
-static void test_hyperbolic_never_fall(void) {
-    static const wh_real from[] = {WH_R(0.25), ONE, WH_R(8.0), WH_R(88.0)};
-    const wh_real next = ONE + wh_pow(TWO, (wh_real)(1 - DIGITS));
-    for (unsigned k = 0; k < sizeof from / sizeof from[0]; k++) {
-        wh_real x = from[k] * (ONE - WH_R(3000.0) * (next - ONE));
-        wh_real last[3] = {ZERO, ZERO, ZERO};
-        for (int i = 0; i < 6000; i++) {
-            const wh_real now[3] = {wh_sinh(x), wh_cosh(x), wh_tanh(x)};
-            for (int f = 0; f < 3; f++) {
-                TEST_ASSERT_TRUE(now[f] >= last[f]);
-                last[f] = now[f];
-            }
-            x = x * next > x ? x * next : x;
-        }
-    }
-}
-
-/* cosh + sinh is e^x, cosh - sinh e^-x, sinh/cosh tanh: to what the roundings make. */
-static void test_hyperbolic_identities(void) {
-    const wh_real unit = wh_pow(TWO, (wh_real)(1 - DIGITS));
-    scattered_state = 8;
-    for (int i = 0; i < 1000; i++) {
-        const wh_real x = part() * (i % 2 == 0 ? ONE : WH_R(20.0));
-        const wh_real c = wh_cosh(x);
-        const wh_real s = wh_sinh(x);
-        TEST_ASSERT_TRUE(WH_ABS(c + s - wh_exp(x)) <= THREE * unit * c);
-        TEST_ASSERT_TRUE(WH_ABS(c - s - wh_exp(-x)) <= THREE * unit * c);
-        TEST_ASSERT_TRUE(WH_ABS(s / c - wh_tanh(x)) <= THREE * unit * WH_ABS(wh_tanh(x)));
-    }
-}
-
 static void test_symmetry(void) {
     scattered_state = 5;
     for (int i = 0; i < 1000; i++) {
@@ -318,9 +264,6 @@ static void test_symmetry(void) {
         TEST_ASSERT_TRUE(same(wh_tan(-y), -wh_tan(y)));
         TEST_ASSERT_TRUE(same(wh_asin(-x), -wh_asin(x)));
         TEST_ASSERT_TRUE(same(wh_atan(-y), -wh_atan(y)));
-        TEST_ASSERT_TRUE(same(wh_sinh(-y), -wh_sinh(y)));
-        TEST_ASSERT_TRUE(same(wh_cosh(-y), wh_cosh(y)));
-        TEST_ASSERT_TRUE(same(wh_tanh(-x), -wh_tanh(x)));
         TEST_ASSERT_TRUE(same(wh_atan2(-x, y), -wh_atan2(x, y)));
         TEST_ASSERT_TRUE(same(wh_pow(-x, THREE), -wh_pow(x, THREE)));
         TEST_ASSERT_TRUE(same(wh_pow(-x, WH_R(-2.0)), wh_pow(x, WH_R(-2.0))));
@@ -375,24 +318,6 @@ static uint64_t mixed_of_all(uint64_t hash, wh_real x, wh_real y) {
     return mixed(hash, wh_pow(x, y));
 }
 
-/* What came later has a hash of its own. */
-static uint64_t mixed_of_hyperbolic(uint64_t hash, wh_real x) {
-    return mixed(mixed(mixed(hash, wh_sinh(x)), wh_cosh(x)), wh_tanh(x));
-}
-
-static void test_same_bits_of_hyperbolic(void) {
-    scattered_state = 9;
-    uint64_t hash = WH_HASH_START;
-    for (int i = 0; i < 1500; i++) {
-        hash = mixed_of_hyperbolic(hash, any());
-        hash = mixed_of_hyperbolic(hash, part());
-        hash = mixed_of_hyperbolic(hash, part() * WH_R(12.0));
-        hash = mixed_of_hyperbolic(hash, part() * (WH_DOUBLE ? WH_R(720.0) : WH_R(90.0)));
-    }
-    TEST_ASSERT_EQUAL_HEX64(WH_DOUBLE ? UINT64_C(0x46e5312fb321686a) : UINT64_C(0x255e8fa7b3dd3550),
-                            hash);
-}
-
 static void test_same_bits_everywhere(void) {
     scattered_state = 7;
     uint64_t hash = WH_HASH_START;
@@ -418,10 +343,7 @@ void suite_functions(void) {
     RUN_TEST(test_exact_powers_of_two);
     RUN_TEST(test_exact_powers);
     RUN_TEST(test_never_falls);
-    RUN_TEST(test_hyperbolic_never_fall);
-    RUN_TEST(test_hyperbolic_identities);
     RUN_TEST(test_symmetry);
     RUN_TEST(test_inverses);
     RUN_TEST(test_same_bits_everywhere);
-    RUN_TEST(test_same_bits_of_hyperbolic);
 }

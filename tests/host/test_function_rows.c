@@ -109,6 +109,19 @@ static void test_slopes_where_they_jump(void) {
     TEST_ASSERT_TRUE(number_slope(FN_SIGN, 0, 0.0, 0.0) == 0.0);
 }
 
+/* A function that is real everywhere is a number at every place, any other is none at some of them. */
+static void test_range(void) {
+    uint64_t seed = SEED + 4;
+    for (int f = 0; f < FUNCTIONS; f++) {
+        int none = 0;
+        for (int i = 0; i < places(); i++) {
+            const double x = random_between(&seed, -3.0, 3.0);
+            none += isnan(number_call(at(f), x, random_between(&seed, -3.0, 3.0)));
+        }
+        TEST_ASSERT_EQUAL_INT_MESSAGE(function_is_real(at(f)), none == 0, name(f));
+    }
+}
+
 /* --- the operation list ------------------------------------------------------------------------------ */
 
 /* The same bits as number_call(), but for sine and cosine, which are a phase's. */
@@ -194,6 +207,45 @@ static bool accepted(const char *dimensions, const char *call) {
     model_free(read);
     diags_free(said);
     return read != NULL;
+}
+
+/* f(4 x, 4 y) = times f(x, y), at all places above zero? */
+static bool grows(int f, double times) {
+    for (int i = 1; i < 20; i++) {
+        const double x = 0.05 * i;
+        const double y = 1.0 - 0.7 * x;
+        const double more = number_call(at(f), 4.0 * x, 4.0 * y);
+        if (!(fabs(more - times * number_call(at(f), x, y)) <= 1e-12 * fabs(more))) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool has_period(int f, double period) {
+    for (int i = -20; i < 20; i++) {
+        const double x = 0.07 * i + 0.03;
+        const double value = number_call(at(f), x, 0.0);
+        if (!(fabs(number_call(at(f), x + period, 0.0) - value) <= 1e-12 * (1.0 + value * value))) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* What a unit that is chosen otherwise does to a value says what a function may be given. */
+static void test_dimensions_of_values(void) {
+    for (int f = 0; f < FUNCTIONS; f++) {
+        const function_dimensions takes = function_takes(at(f));
+        const bool root = takes == TAKES_SQUARE;
+        const bool same = takes == TAKES_SIZE || takes == TAKES_CHOICE;
+        const bool any = takes == TAKES_ANY || takes == TAKES_RATIO;
+        TEST_ASSERT_EQUAL_INT_MESSAGE(grows(f, 1.0), any, name(f));
+        TEST_ASSERT_EQUAL_INT_MESSAGE(grows(f, 2.0), root, name(f));
+        TEST_ASSERT_EQUAL_INT_MESSAGE(grows(f, 4.0), same, name(f));
+        TEST_ASSERT_EQUAL_INT_MESSAGE(has_period(f, 6.283185307179586), takes == TAKES_ANGLE,
+                                      name(f));
+    }
 }
 
 /* A length, lengths, a length and a time: what comes out is a number, a length, a root, or an error. */
@@ -306,8 +358,10 @@ void suite_function_rows(void) {
     UnitySetTestFile(__FILE__);
     RUN_TEST(test_slopes);
     RUN_TEST(test_slopes_where_they_jump);
+    RUN_TEST(test_range);
     RUN_TEST(test_operations);
     RUN_TEST(test_forces);
+    RUN_TEST(test_dimensions_of_values);
     RUN_TEST(test_dimensions);
     RUN_TEST(test_names);
     RUN_TEST(test_words_of_the_docs);

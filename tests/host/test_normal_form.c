@@ -24,7 +24,8 @@ static int expected_atom_order(const atom *x, const atom *y) {
         order = form_order(x->primes, y->primes);
         order = order != 0 ? order : form_order(x->symbol->kind, y->symbol->kind);
         order = order != 0 ? order : form_order(x->symbol->index, y->symbol->index);
-        return order != 0 ? order : form_order(strcmp(x->symbol->name, y->symbol->name), 0);
+        return order != 0 ? order
+                          : form_order((double)strcmp(x->symbol->name, y->symbol->name), 0.0);
     }
     order = order != 0 ? order : form_order(x->function, y->function);
     for (int i = 0; i < 2 && order == 0 && x->argument[i] != NULL; i++) {

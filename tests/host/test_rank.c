@@ -18,7 +18,7 @@ static double whole(uint64_t *seed, int most) {
 
 /* The rank of a matrix of small whole numbers, exactly: Bareiss' elimination without fractions. */
 static int exact_rank(const double *m, int n) {
-    double a[MOST][MOST];
+    double a[MOST][MOST] = {{0.0}};
     for (int i = 0; i < n * n; i++) {
         a[i / n][i % n] = m[i];
     }

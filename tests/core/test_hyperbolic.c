@@ -1,0 +1,169 @@
+/* test_hyperbolic.c: the core's hyperbolic functions, as test_functions.c has the others: edges, order, symmetry,
+ * identities, and the same bits on every machine. */
+#include "core/function.h"
+
+#include "core/hash.h"
+#include "tests/scattered.h"
+#include "unity.h"
+
+void suite_hyperbolic(void);
+
+#if WH_DOUBLE
+#define INFINITE __builtin_inf()
+#define NO_NUMBER __builtin_nan("")
+#define LARGEST 1.7976931348623157e308
+#define SMALLEST 4.9406564584124654e-324 /* subnormal */
+#define NORMAL 2.2250738585072014e-308   /* the smallest of all digits */
+#define DIGITS 53
+#else
+#define INFINITE __builtin_inff()
+#define NO_NUMBER __builtin_nanf("")
+#define LARGEST 3.40282347e38f
+#define SMALLEST 1.40129846e-45f
+#define NORMAL 1.17549435e-38f
+#define DIGITS 24
+#endif
+#define ZERO WH_R(0.0)
+#define ONE WH_R(1.0)
+#define TWO WH_R(2.0)
+#define THREE WH_R(3.0)
+
+static uint64_t bits_of(wh_real x) { return wh_hash_real(0, x); }
+
+/* Equal bits, or both no number. */
+static bool same(wh_real a, wh_real b) { return bits_of(a) == bits_of(b) || (a != a && b != b); }
+
+/* --- edges, after C11's Annex F -------------------------------------------------------------------------- */
+typedef wh_real function_of_one(wh_real x);
+typedef struct edge {
+    wh_real x;
+    wh_real wanted;
+} edge;
+
+static void expect_edges(function_of_one *f, const edge *edges, unsigned count, bool is_odd) {
+    for (unsigned i = 0; i < count; i++) {
+        TEST_ASSERT_TRUE(same(f(edges[i].x), edges[i].wanted));
+        TEST_ASSERT_TRUE(!is_odd || same(f(-edges[i].x), -edges[i].wanted));
+    }
+}
+#define EXPECT_EDGES(f, edges, is_odd) \
+    expect_edges(f, edges, sizeof(edges) / sizeof((edges)[0]), is_odd)
+
+static void test_hyperbolic_edges(void) {
+    static const edge of_sinh[] = {{ZERO, ZERO},          {SMALLEST, SMALLEST},
+                                   {NORMAL, NORMAL},      {ONE, WH_R(1.1752011936438014569)},
+                                   {LARGEST, INFINITE},   {INFINITE, INFINITE},
+                                   {NO_NUMBER, NO_NUMBER}};
+    static const edge of_cosh[] = {{ZERO, ONE},
+                                   {-ZERO, ONE},
+                                   {SMALLEST, ONE},
+                                   {-NORMAL, ONE},
+                                   {ONE, WH_R(1.5430806348152437785)},
+                                   {-ONE, WH_R(1.5430806348152437785)},
+                                   {LARGEST, INFINITE},
+                                   {-LARGEST, INFINITE},
+                                   {INFINITE, INFINITE},
+                                   {-INFINITE, INFINITE},
+                                   {NO_NUMBER, NO_NUMBER}};
+    static const edge of_tanh[] = {{ZERO, ZERO},      {SMALLEST, SMALLEST},
+                                   {NORMAL, NORMAL},  {ONE, WH_R(0.76159415595576488812)},
+                                   {WH_R(30.0), ONE}, {LARGEST, ONE},
+                                   {INFINITE, ONE},   {NO_NUMBER, NO_NUMBER}};
+    EXPECT_EDGES(wh_sinh, of_sinh, true);
+    EXPECT_EDGES(wh_cosh, of_cosh, false);
+    EXPECT_EDGES(wh_tanh, of_tanh, true);
+}
+
+/* --- order and symmetry ------------------------------------------------------------------------------------ */
+/* -1 to 1. */
+static wh_real part(void) { return (wh_real)(int32_t)(scattered() >> 32) * WH_R(0x1p-31); }
+
+/* Where one way of computing takes over from the other: neighbours, a few thousand of them on either side. */
+static void test_hyperbolic_never_fall(void) {
+    static const wh_real from[] = {WH_R(0.25), ONE, WH_R(8.0), WH_R(88.0)};
+    const wh_real next = ONE + wh_pow(TWO, (wh_real)(1 - DIGITS));
+    for (unsigned k = 0; k < sizeof from / sizeof from[0]; k++) {
+        wh_real x = from[k] * (ONE - WH_R(3000.0) * (next - ONE));
+        wh_real last[3] = {ZERO, ZERO, ZERO};
+        for (int i = 0; i < 6000; i++) {
+            const wh_real now[3] = {wh_sinh(x), wh_cosh(x), wh_tanh(x)};
+            for (int f = 0; f < 3; f++) {
+                TEST_ASSERT_TRUE(now[f] >= last[f]);
+                last[f] = now[f];
+            }
+            x = x * next > x ? x * next : x;
+        }
+    }
+}
+
+/* cosh + sinh is e^x, cosh - sinh e^-x, sinh/cosh tanh: to what the roundings make. */
+static void test_hyperbolic_identities(void) {
+    const wh_real unit = wh_pow(TWO, (wh_real)(1 - DIGITS));
+    scattered_state = 8;
+    for (int i = 0; i < 1000; i++) {
+        const wh_real x = part() * (i % 2 == 0 ? ONE : WH_R(20.0));
+        const wh_real c = wh_cosh(x);
+        const wh_real s = wh_sinh(x);
+        TEST_ASSERT_TRUE(WH_ABS(c + s - wh_exp(x)) <= THREE * unit * c);
+        TEST_ASSERT_TRUE(WH_ABS(c - s - wh_exp(-x)) <= THREE * unit * c);
+        TEST_ASSERT_TRUE(WH_ABS(s / c - wh_tanh(x)) <= THREE * unit * WH_ABS(wh_tanh(x)));
+    }
+}
+
+static void test_hyperbolic_symmetry(void) {
+    scattered_state = 5;
+    for (int i = 0; i < 1000; i++) {
+        const wh_real x = part();
+        const wh_real y = part() * WH_R(100.0);
+        TEST_ASSERT_TRUE(same(wh_sinh(-y), -wh_sinh(y)));
+        TEST_ASSERT_TRUE(same(wh_cosh(-y), wh_cosh(y)));
+        TEST_ASSERT_TRUE(same(wh_tanh(-x), -wh_tanh(x)));
+    }
+}
+
+/* --- the same bits everywhere -------------------------------------------------------------------------------- */
+static wh_real any(void) {
+    const uint64_t word = scattered();
+#if WH_DOUBLE
+    const union {
+        uint64_t bits;
+        double value;
+    } as = {.bits = word};
+#else
+    const union {
+        uint32_t bits;
+        float value;
+    } as = {.bits = (uint32_t)(word >> 32)};
+#endif
+    return as.value;
+}
+
+/* What is no number counts alike: its bits tell where it came from. */
+static uint64_t mixed(uint64_t hash, wh_real x) { return wh_hash_real(hash, x != x ? ONE : x); }
+
+/* What came later has a hash of its own. */
+static uint64_t mixed_of_hyperbolic(uint64_t hash, wh_real x) {
+    return mixed(mixed(mixed(hash, wh_sinh(x)), wh_cosh(x)), wh_tanh(x));
+}
+
+static void test_same_bits_of_hyperbolic(void) {
+    scattered_state = 9;
+    uint64_t hash = WH_HASH_START;
+    for (int i = 0; i < 1500; i++) {
+        hash = mixed_of_hyperbolic(hash, any());
+        hash = mixed_of_hyperbolic(hash, part());
+        hash = mixed_of_hyperbolic(hash, part() * WH_R(12.0));
+        hash = mixed_of_hyperbolic(hash, part() * (WH_DOUBLE ? WH_R(720.0) : WH_R(90.0)));
+    }
+    TEST_ASSERT_EQUAL_HEX64(WH_DOUBLE ? UINT64_C(0x46e5312fb321686a) : UINT64_C(0x255e8fa7b3dd3550),
+                            hash);
+}
+
+void suite_hyperbolic(void) {
+    UnitySetTestFile(__FILE__);
+    RUN_TEST(test_hyperbolic_edges);
+    RUN_TEST(test_hyperbolic_never_fall);
+    RUN_TEST(test_hyperbolic_identities);
+    RUN_TEST(test_hyperbolic_symmetry);
+    RUN_TEST(test_same_bits_of_hyperbolic);
+}
