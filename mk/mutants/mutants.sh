@@ -1,6 +1,6 @@
 #!/bin/sh
 # mutants.sh: how many small changes of the code do the tests notice? For each folder of FOLDERS, MUTANTS changes
-# are drawn at random (SEED; candidates.awk, draw.awk), built and tested one by one (one.sh) in copies of the
+# are drawn at random (SEED; candidates.awk, draw.awk), built and tested one by one (work.sh) in copies of the
 # tree under build/mutants; the table at the end is table.awk's. The tree itself is only read.
 #
 # FOLDERS   folders whose own .c and .h files are changed
@@ -15,8 +15,8 @@
 # only what had survived is tried again; when the folder's code changes, it starts anew.
 set -eu
 
-: "${FOLDERS:=core core/rig host/algebra host/derive}" "${MUTANTS:=80}" "${EXCEPT:=^$}" "${LONGEST:=10}" "${ALWAYS:=}" "${JOBS:=2}"
-: "${SEED:=$(date +%s)}" "${NICE:=19}" "${MAKE:=make}"
+: "${FOLDERS:=core core/rig host/algebra host/derive}" "${MUTANTS:=80}" "${EXCEPT:=^$}"
+: "${LONGEST:=10}" "${ALWAYS:=}" "${JOBS:=2}" "${SEED:=$(date +%s)}" "${NICE:=19}" "${MAKE:=make}"
 top=build/mutants
 here=mk/mutants
 export LONGEST ALWAYS
@@ -55,11 +55,11 @@ done
 
 # --- what every test takes on the tree as it is ---------------------------------------------------------
 # Lines: seconds of a processor, "host", "float", "double" or "cli", the suite's or script's name.
-if [ "$(cat "$top/times.sum" 2>/dev/null || true)" != "$sum" ]; then
+if [ "$(cat "$top/times.sum" 2>/dev/null || true)" != "$sum.$LONGEST.$ALWAYS" ]; then
     touch "$top/times"
     sh "$here/times.sh" "$top/src" "$PWD/$top/times" >"$top/times.new"
     mv "$top/times.new" "$top/times"
-    echo "$sum" >"$top/times.sum"
+    echo "$sum.$LONGEST.$ALWAYS" >"$top/times.sum"
 fi
 # What survived is tried again when there are other tests or more of them.
 tests_sum=$(sum_of_all tests).$LONGEST.$ALWAYS

@@ -1,23 +1,32 @@
 #!/bin/sh
-# times.sh TREE KNOWN: what each suite and each script takes in a built tree, quickest first, as far as the file
-# KNOWN does not say so already:
+# times.sh TREE KNOWN: what each suite and each script takes in a built tree, quickest first:
 #   seconds of a processor, "host", "float", "double" or "cli", its name
-# Scripts that say nothing about the folders that are changed, or that need other compilers, are left out.
+# Each is run, and must pass: what fails on the tree as it is would kill every change. What KNOWN, a file of such
+# lines, says to take longer than LONGEST is not run again. Scripts that say nothing about the folders that are
+# changed, or that need other compilers, are left out.
 set -eu
 known=$2
 cd "$1"
 export WHIRL=build/whirl
+rm -f .failed
 
-used() { # used COMMAND...: seconds of a processor, of it and its children
-    sh -c '"$@" >/dev/null 2>&1 </dev/null; status=$?; times; exit $status' sh "$@" |
-        awk 'NR == 2 { split($1, user, /[ms]/); split($2, sys, /[ms]/)
-                       print user[1] * 60 + user[2] + sys[1] * 60 + sys[2] }'
+used() { # used COMMAND...: seconds of a processor, of it and its children, and the exit status
+    sh -c '"$@" >/dev/null 2>&1 </dev/null; status=$?; times; echo $status' sh "$@" |
+        awk 'NR == 2 { split($1, user, /[ms]/); split($2, sys, /[ms]/) }
+             NR == 3 { print user[1] * 60 + user[2] + sys[1] * 60 + sys[2], $1 }'
 }
 
 told() { # told KIND NAME PROGRAM...
-    line="$1 $2"
+    name="$1 $2"
     shift 2
-    grep -E "^[0-9.]+ $line\$" "$known" || echo "$(used "$@") $line"
+    line=$(grep -E "^[0-9.]+ $name\$" "$known" || true)
+    if [ -z "$line" ] || awk -v line="$line" -v longest="$LONGEST" -v always="$ALWAYS" 'BEGIN {
+            split(line, t, " "); exit t[1] > longest && (always == "" || t[3] !~ always) }'; then
+        took=$(used "$@")
+        line="${took% *} $name"
+        [ "${took#* }" -eq 0 ] || echo "$name" >>.failed
+    fi
+    echo "$line"
 }
 
 {
@@ -40,3 +49,7 @@ told() { # told KIND NAME PROGRAM...
         told cli "$script" sh "$script"
     done
 } | sort -n
+if [ -e .failed ]; then
+    echo "make mutants: these fail on the tree as it is:" $(cat .failed) >&2
+    exit 1
+fi

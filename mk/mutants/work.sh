@@ -66,9 +66,20 @@ changed_objects() {
 # --- tests ----------------------------------------------------------------------------------------------
 # Quick ones first, and those that killed before.
 order() {
-    awk -F '\t' -v longest="$LONGEST" -v always="$ALWAYS" 'FILENAME == ARGV[1] { if ($2 == "killed") { sub(/ \(.*/, "", $3); kills[$3]++ }; next }
-        { split($0, t, " "); if (t[1] <= longest || (always != "" && t[3] ~ always)) { print -(kills[t[2] " " t[3]] + 0.1) / (t[1] + 0.03), t[1], t[2], t[3] } }' \
-        "$1" "$top/times" | sort -n | cut -d ' ' -f 2-
+    awk -F '\t' -v longest="$LONGEST" -v always="$ALWAYS" '
+        FILENAME == ARGV[1] {
+            if ($2 == "killed") {
+                sub(/ \(.*/, "", $3)
+                kills[$3]++
+            }
+            next
+        }
+        {
+            split($0, t, " ")
+            if (t[1] <= longest || (always != "" && t[3] ~ always)) {
+                print -(kills[t[2] " " t[3]] + 0.1) / (t[1] + 0.03), t[1], t[2], t[3]
+            }
+        }' "$1" "$top/times" | sort -n | cut -d ' ' -f 2-
 }
 
 # A suite of a program in which nothing changed has nothing to say; neither has one of generated scenes, when

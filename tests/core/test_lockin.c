@@ -87,6 +87,27 @@ static void test_a_constant_load_has_no_amplitude(void) {
     TEST_ASSERT_FLOAT_WITHIN(0.05f, 12345.0f, (float)found.mean_counts);
 }
 
+/* No load is none at all; and a ramp's mean is that of its ends, wherever between two samples the turns begin. */
+static void test_nothing_is_added_to_the_load(void) {
+    wh_load_record record = made_up(0, 1, WH_R(0.0), WH_R(0.0), WH_R(0.0));
+    wh_lockin_result found;
+    TEST_ASSERT_TRUE(wh_lockin(&record, marks, MARKS, WH_R(0.0), &found));
+    TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)found.mean_counts);
+    TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)found.amplitude_counts);
+    for (uint32_t begin = 0; begin <= PERIOD_TICKS; begin += PERIOD_TICKS / 4U) {
+        for (unsigned i = 0; i < SAMPLES; i++) {
+            raw[i] = (int16_t)(8 * (int)i - 4000);
+        }
+        for (unsigned i = 0; i < 5; i++) {
+            marks[i] = (wh_mark){begin + i * 100U * PERIOD_TICKS, 4U * i};
+        }
+        TEST_ASSERT_TRUE(wh_lockin(&record, marks, 5, WH_R(0.0), &found));
+        TEST_ASSERT_EQUAL_UINT(4, found.turns);
+        const float middle = 200.0f + (float)begin / (float)PERIOD_TICKS;
+        TEST_ASSERT_FLOAT_WITHIN(0.005f, 8.0f * middle - 4000.0f, (float)found.mean_counts);
+    }
+}
+
 static void test_timer_may_wrap_within_the_record(void) {
     wh_lockin_result plain;
     wh_lockin_result wrapped;
@@ -173,6 +194,7 @@ void suite_lockin(void) {
     RUN_TEST(test_angle_of_the_mark_counts);
     RUN_TEST(test_other_orders_are_rejected);
     RUN_TEST(test_a_constant_load_has_no_amplitude);
+    RUN_TEST(test_nothing_is_added_to_the_load);
     RUN_TEST(test_timer_may_wrap_within_the_record);
     RUN_TEST(test_missing_marks_change_nothing);
     RUN_TEST(test_less_than_a_turn_is_refused);

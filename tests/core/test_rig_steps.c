@@ -274,6 +274,55 @@ static void test_samples_come_when_they_are_due(void) {
     }
 }
 
+/* A band's edge belongs to it. */
+static void test_edges_belong_to_the_bands(void) {
+    for (int side = -1; side <= 1; side += 2) {
+        stand_in(WH_RIG_SETTLE);
+        config.settle_band_radps = WH_R(0.5);
+        config.record_band_radps = WH_R(1.0);
+        rig.target_radps = WH_R(32.0);
+        TEST_ASSERT_EQUAL_UINT(1250, stay((WH_R(32.0) + (wh_real)side * WH_R(0.5)) / RPM, 10000));
+        TEST_ASSERT_TRUE(rig.state == WH_RIG_RECORD);
+        rig.speed.turn_radps = WH_R(32.0) + (wh_real)side;
+        now += STEP_TICKS;
+        rig.speed.ticks = now;
+        wh_rig_load(&config, &rig, now, 1);
+        wh_rig_step(&config, &rig, now, false);
+        TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_NONE);
+    }
+}
+
+/* More pulses than there is room for, of one sensor after the other, write nothing beside it. */
+static void test_marks_stay_in_their_room(void) {
+    stand_in(WH_RIG_RECORD);
+    wh_speed_start(&rig.speed, config.impossible_radps);
+    for (unsigned i = 0; i < 4U * WH_RIG_MARKS_MAX; i++) {
+        now += TURN_TICKS / 2U;
+        wh_rig_pulse(&rig, i < 2U * WH_RIG_MARKS_MAX ? 0 : 1, now);
+        TEST_ASSERT_TRUE(rig.mark_count[0] <= WH_RIG_MARKS_MAX);
+        TEST_ASSERT_TRUE(rig.mark_count[1] <= WH_RIG_MARKS_MAX);
+    }
+    TEST_ASSERT_EQUAL_UINT(WH_RIG_MARKS_MAX, rig.mark_count[0]);
+    TEST_ASSERT_EQUAL_UINT(WH_RIG_MARKS_MAX, rig.mark_count[1]);
+    TEST_ASSERT_EQUAL_UINT32(0, rig.result.turns);
+}
+
+/* Two lost running: no speed of that interval, and the turn's stays until there is a new one. */
+static void test_a_gap_has_no_speed_of_its_own(void) {
+    wh_speed speed;
+    wh_speed_start(&speed, config.impossible_radps);
+    uint32_t ticks = 500;
+    for (unsigned i = 0; i < 8; i++, ticks += TURN_TICKS) {
+        wh_speed_pulse(&speed, 0, ticks);
+        wh_speed_pulse(&speed, 1, ticks + TURN_TICKS / 4U);
+    }
+    const wh_real before = speed.turn_radps;
+    TEST_ASSERT_TRUE(wh_speed_pulse(&speed, 0, ticks + TURN_TICKS));
+    TEST_ASSERT_EQUAL_UINT32(1, speed.restarts);
+    TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)speed.interval_radps);
+    TEST_ASSERT_FLOAT_WITHIN(0.0f, (float)before, (float)speed.turn_radps);
+}
+
 /* --- the drive, against its law written down once more --------------------------------------------------- */
 
 static double between(double low, double high) {
@@ -330,5 +379,8 @@ void suite_rig_steps(void) {
     RUN_TEST(test_what_trips_in_which_state);
     RUN_TEST(test_what_a_full_record_comes_to);
     RUN_TEST(test_samples_come_when_they_are_due);
+    RUN_TEST(test_edges_belong_to_the_bands);
+    RUN_TEST(test_marks_stay_in_their_room);
+    RUN_TEST(test_a_gap_has_no_speed_of_its_own);
     RUN_TEST(test_the_drive_keeps_its_law);
 }
