@@ -194,8 +194,9 @@ static void test_rest_is_waited_for(void) {
 
 /* In any state a late controller, and from spin-up to the ramp down too high a speed, end the run. */
 static void test_what_trips_in_which_state(void) {
-    for (wh_rig_state state = WH_RIG_TARE; state <= WH_RIG_COAST; state++) {
+    for (wh_rig_state state = WH_RIG_TARE; state <= WH_RIG_DONE; state++) {
         stand_in(state);
+        rig.at_rest = true; /* as before the fault */
         now += STEP_TICKS;
         rig.speed.ticks = now;
         wh_rig_step(&config, &rig, now, true);

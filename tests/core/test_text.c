@@ -34,8 +34,12 @@ static void test_integers(void) {
     wh_text_add_char(&text, ' ');
     wh_text_add_signed(&text, INT64_MIN);
     wh_text_add_char(&text, ' ');
+    for (int i = -1; i <= 1; i++) {
+        wh_text_add_signed(&text, i);
+        wh_text_add_char(&text, ' ');
+    }
     wh_text_add_signed(&text, 1000);
-    expect("0 18446744073709551615 -9223372036854775808 1000");
+    expect("0 18446744073709551615 -9223372036854775808 -1 0 1 1000");
 }
 
 static void test_hex(void) {

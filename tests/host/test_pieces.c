@@ -174,10 +174,40 @@ static void test_pieces_have_the_sums_value(void) {
     TEST_ASSERT_GREATER_THAN_INT(500, powers);
 }
 
+/* Fourth powers and squares of one wave, each times another factor: each is found, whatever stands beside it. */
+static void test_each_of_several_comes_back(void) {
+    for (unsigned which = 0; which < 64;
+         which++) { /* three factors, each none, a square or a fourth power */
+        algebra *a = algebra_new();
+        const poly *u = poly_symbol(a, &variables[0], 0);
+        const poly *v = poly_symbol(a, &variables[1], 0);
+        const poly *sum = poly_number(a, 0.0);
+        int parts = 0;
+        for (unsigned k = 0; k < 3; k++) {
+            const unsigned power = which >> (2 * k) & 3U;
+            const poly *beside = poly_pow(a, v, (double)k + 1.0);
+            const poly *wave = power == 1 ? poly_cos(a, u) : poly_sin(a, u);
+            const double exponent = power == 3 ? 4.0 : 2.0;
+            if (power > 0) {
+                sum = poly_add(a, sum, poly_mul(a, beside, poly_pow(a, wave, exponent)));
+                parts++;
+            }
+        }
+        piece pieces[16];
+        TEST_ASSERT_EQUAL_INT(parts, pieces_of(a, sum, pieces));
+        for (int i = 0; i < parts; i++) {
+            TEST_ASSERT_TRUE(pieces[i].angle == u && pieces[i].sines + pieces[i].cosines >= 2);
+            TEST_ASSERT_DOUBLE_WITHIN(1e-15, 1.0, pieces[i].coefficient);
+        }
+        algebra_free(a);
+    }
+}
+
 void suite_pieces(void) {
     UnitySetTestFile(__FILE__);
     RUN_TEST(test_squares_of_sines_come_back);
     RUN_TEST(test_even_powers_come_back);
     RUN_TEST(test_other_rows_stay_as_they_are);
+    RUN_TEST(test_each_of_several_comes_back);
     RUN_TEST(test_pieces_have_the_sums_value);
 }
