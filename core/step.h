@@ -31,11 +31,13 @@
 #include "sum.h"
 
 /* Most coordinates (second order) or components (first order). A generated scene defines its own
- * and has its loops unrolled: gcc -O2 would not, and arrays indexed by a counter stay in memory. */
+ * and has its loops unrolled: by itself no compiler does, and arrays indexed by a counter stay in memory. */
 #ifndef WH_COORDS
 #define WH_COORDS 64
 #define WH_UNROLL
-#elif defined(__GNUC__) && __GNUC__ >= 8 && !defined(__clang__) /* which older ones do not know */
+#elif defined(__clang__)
+#define WH_UNROLL _Pragma("clang loop unroll(full)")
+#elif defined(__GNUC__) && __GNUC__ >= 8 /* which older ones do not know */
 #define WH_UNROLL _Pragma("GCC unroll 64")
 #else
 #define WH_UNROLL
@@ -205,11 +207,6 @@ WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_met
         const wh_real *share = by->stage[s].share;
         const wh_real parts = by->stage[s].parts;
         WH_UNROLL
-        for (unsigned i = 0; i < n; i++) {
-            v[i] = rate[i] + h / parts * wh_stage_sum(share, s, all_accels, i);
-            rates[s - 1][i] = v[i];
-        }
-        WH_UNROLL
         for (unsigned i = 0; i < angles; i++) {
             if (!wh_stage_angle(angle[i], wh_stage_sum(share, s, all_rates, i), h, parts,
                                 &phase[i])) {
@@ -219,6 +216,11 @@ WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_met
         WH_UNROLL
         for (unsigned i = 0; i < linears; i++) {
             at[i] = linear[i] + h / parts * wh_stage_sum(share, s, all_rates, angles + i);
+        }
+        WH_UNROLL
+        for (unsigned i = 0; i < n; i++) {
+            v[i] = rate[i] + h / parts * wh_stage_sum(share, s, all_accels, i);
+            rates[s - 1][i] = v[i];
         }
         accel(model, phase, at, v, u, a);
         WH_UNROLL
