@@ -207,6 +207,11 @@ WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_met
         const wh_real *share = by->stage[s].share;
         const wh_real parts = by->stage[s].parts;
         WH_UNROLL
+        for (unsigned i = 0; i < n; i++) {
+            v[i] = rate[i] + h / parts * wh_stage_sum(share, s, all_accels, i);
+            rates[s - 1][i] = v[i];
+        }
+        WH_UNROLL
         for (unsigned i = 0; i < angles; i++) {
             if (!wh_stage_angle(angle[i], wh_stage_sum(share, s, all_rates, i), h, parts,
                                 &phase[i])) {
@@ -216,11 +221,6 @@ WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_met
         WH_UNROLL
         for (unsigned i = 0; i < linears; i++) {
             at[i] = linear[i] + h / parts * wh_stage_sum(share, s, all_rates, angles + i);
-        }
-        WH_UNROLL
-        for (unsigned i = 0; i < n; i++) {
-            v[i] = rate[i] + h / parts * wh_stage_sum(share, s, all_accels, i);
-            rates[s - 1][i] = v[i];
         }
         accel(model, phase, at, v, u, a);
         WH_UNROLL
