@@ -90,13 +90,15 @@ enum {
     X(WH_WHEN, 0)
 
 #define WH_KIND_NAME(name, is) name,
-#define WH_KIND_BIT(name, is) | ((((is)&trait) != 0) ? 1U << name : 0U)
+#define WH_KIND_IS(name, is) || (((is)&trait) != 0 && kind == name)
 typedef enum wh_contact_kind {
     WH_CONTACT_KINDS(WH_KIND_NAME) WH_CONTACT_KIND_COUNT
 } wh_contact_kind;
 
-/* The kinds that are `trait`, as bits. */
-WH_INLINE unsigned wh_contact_kinds(unsigned trait) { return 0U WH_CONTACT_KINDS(WH_KIND_BIT); }
+/* Is a kind `trait` (one of them, if there are several)? */
+WH_INLINE bool wh_contact_kind_is(unsigned kind, unsigned trait) {
+    return false WH_CONTACT_KINDS(WH_KIND_IS);
+}
 
 typedef struct wh_contact {
     uint8_t kind; /* wh_contact_kind */

@@ -117,7 +117,7 @@ static inline unsigned wh_contact_impulses(const wh_contact_system *of, wh_conta
                                            wh_real *rate, wh_real *impulse) {
     uint8_t member[WH_CONTACTS_MAX] = {0};
     wh_real wanted[WH_CONTACTS_MAX] = {WH_R(0.0)};
-    wh_real before[WH_CONTACTS_MAX];
+    wh_real before[WH_CONTACTS_MAX] = {WH_R(0.0)};
     wh_real lambda[WH_CONTACTS_MAX];
     wh_real left[WH_CONTACTS_MAX];
     unsigned count = 0;

@@ -43,7 +43,9 @@ WH_INLINE void wh_contact_work_begin(const wh_contact_system *of, const wh_state
         w->hit_next = 0;
         w->turned = 0;
     }
-    w->capped = false;
+    if (of->forced > 1) { /* one contact shares nothing */
+        w->capped = false;
+    }
     w->moved = 0;
     w->mover = 0;
     w->fault = -1;
@@ -307,7 +309,8 @@ static inline wh_status wh_step_contact(const wh_contact_system *of, wh_real h, 
         wh_ledger_commit(of->ledger, &books, state);
     }
 #endif
-    wh_contact_commit(of, &work, end, &log, round == WH_EVENTS_MAX || work.capped, state);
+    wh_contact_commit(of, &work, end, &log,
+                      round == WH_EVENTS_MAX || (of->forced > 1 && work.capped), state);
     return WH_OK;
 }
 

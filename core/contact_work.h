@@ -231,7 +231,7 @@ WH_INLINE unsigned wh_delassus_solve(const wh_contact_system *of, const wh_conta
 
 /* Is contact k of a kind that is `trait`? */
 WH_INLINE bool wh_contact_is(const wh_contact_system *of, unsigned k, unsigned trait) {
-    return (wh_contact_kinds(trait) >> of->contact[k].kind & 1U) != 0;
+    return wh_contact_kind_is(of->contact[k].kind, trait);
 }
 
 /* What a step builds on must be finite numbers. */

@@ -108,4 +108,13 @@ arrows_hold
         fi
     done
 }
+# Prose has lines of at most 100 characters; tables, code and what follows a bracket without a blank cannot be cut.
+# Bytes that continue a character of UTF-8 are not counted.
+for page in README.md CONTRIBUTING.md CHANGELOG.md docs/*.md; do
+    LC_ALL=C sed 's/[\x80-\xbf]//g' "$page" | awk -v page="$page" '
+        /^ *```/ { code = !code }
+        !code && !/^\|/ && !/^    / && !/^`/ && length > 100 && /[^ ] [^ ]/ {
+            print "error: " page ":" NR ": a line of more than 100 characters"; bad = 1 }
+        END { exit bad }' || bad=1
+done
 exit $bad

@@ -182,14 +182,15 @@ const mono *mono_intern(algebra *a, mono *candidate) {
         candidate->size += candidate->factors[i].atom->size;
     }
     intern_slot *slot = table_find(&a->monos, hash, candidate, mono_equal);
-    if (slot->object == NULL) {
-        const size_t bytes = sizeof *candidate + (size_t)candidate->count * sizeof(mono_factor);
-        mono *made = arena_alloc(a->arena, bytes);
-        memcpy(made, candidate, bytes);
-        made->id = next_id(a, &a->monos, MONO_BYTES + (size_t)candidate->count * PART_BYTES);
-        *slot = (intern_slot){hash, made};
+    if (slot->object != NULL) {
+        return slot->object;
     }
-    return slot->object;
+    const size_t bytes = sizeof *candidate + (size_t)candidate->count * sizeof(mono_factor);
+    mono *made = arena_alloc(a->arena, bytes);
+    memcpy(made, candidate, bytes);
+    made->id = next_id(a, &a->monos, MONO_BYTES + (size_t)candidate->count * PART_BYTES);
+    *slot = (intern_slot){hash, made};
+    return made;
 }
 
 mono *mono_scratch(int factors) {

@@ -232,7 +232,7 @@ int load(loaded *made, source_model *s, const mechanism *of, const scene *in,
         made->image = image_make(made->equations, conserve, &wish->settings, wish->use, s->errors);
     }
     diags_flush(s->errors, stderr);
-    if (made->image != NULL) {
+    if (made->equations != NULL && made->image != NULL) {
         made->hint = hint_for(made->equations->instance);
         made->contacts = wish->contacts ? contacts_of(made->equations) : NULL;
     }

@@ -122,30 +122,29 @@ static bool parse_body(parser *in) {
     }
 }
 
-bool read_noted_scene(parser *in, const pending_scene *pending) {
-    draft into = {.made = arena_alloc(in->arena, sizeof *into.made)};
+static bool read_scene(parser *in, const pending_scene *pending, draft *into) {
     in->lexer = pending->from;
     in->token = pending->next;
-    in->draft = &into;
+    in->draft = into;
     in->parentheses = 0;
     in->nesting = 0;
     in->effect = -1;
     in->all_effects = true;
-    into.made->at = pending->at;
+    into->made->at = pending->at;
     if (in->token.kind != TOKEN_NAME || in->token.primes > 0) {
         return parser_fail(in, word_row(WORD_SCENE)->form, "a scene needs a name");
     }
-    into.made->at = in->token.at;
-    into.made->name = parser_copy_text(in, &in->token);
+    into->made->at = in->token.at;
+    into->made->name = parser_copy_text(in, &in->token);
     for (int i = 0; i < in->scene_count; i++) {
-        if (strcmp(in->scenes[i]->name, into.made->name) == 0) {
+        if (strcmp(in->scenes[i]->name, into->made->name) == 0) {
             diag_error(in->diags, in->token.at, NULL, "scene '%s' was already declared in line %d",
-                       into.made->name, in->scenes[i]->at.line);
+                       into->made->name, in->scenes[i]->at.line);
             break;
         }
     }
     parser_next(in);
-    into.made->title = parser_title(in);
+    into->made->title = parser_title(in);
     while (in->token.kind == TOKEN_NEWLINE) {
         parser_next(in);
     }
@@ -153,21 +152,27 @@ bool read_noted_scene(parser *in, const pending_scene *pending) {
         return false;
     }
     if (pending->inside != NULL) {
-        choose_mechanism(in, &into, pending->inside);
+        choose_mechanism(in, into, pending->inside);
     }
     in->scenes = arena_room(in->arena, in->scenes, in->scene_count, sizeof *in->scenes);
-    in->scenes[in->scene_count++] = into.made;
-    into.number = 2 + in->scene_count; /* apart from the marks of finish.c */
+    in->scenes[in->scene_count++] = into->made;
+    into->number = 2 + in->scene_count; /* apart from the marks of finish.c */
     const bool good = parse_body(in);
-    if (good && into.of == NULL) {
-        diag_error(in->diags, into.made->at, "name its mechanism with: use NAME",
-                   "scene '%s' stands in no mechanism", into.made->name);
+    if (good && into->of == NULL) {
+        diag_error(in->diags, into->made->at, "name its mechanism with: use NAME",
+                   "scene '%s' stands in no mechanism", into->made->name);
     }
-    if (good && into.of != NULL) {
-        scene_check_sets(in, &into);
+    if (good && into->of != NULL) {
+        scene_check_sets(in, into);
     }
-    into.made->with = into.with;
-    into.made->conserve = into.conserve;
+    into->made->with = into->with;
+    into->made->conserve = into->conserve;
+    return good;
+}
+
+bool read_noted_scene(parser *in, const pending_scene *pending) {
+    draft into = {.made = arena_alloc(in->arena, sizeof *into.made)};
+    const bool good = read_scene(in, pending, &into);
     in->draft = NULL;
     return good;
 }

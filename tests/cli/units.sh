@@ -11,14 +11,14 @@ echo "seed $seed"
 # "NAME SI": every unit the language knows, and the SI unit of its dimension.
 awk '/^static const unit_entry units/ { on = 1; next } on && /^};/ { exit }
     on {
-        split("LENGTH m MASS kg TIME s NUMBER rad FREQUENCY Hz FORCE N ENERGY J POWER W PRESSURE Pa CURRENT A CHARGE C" \
-            " VOLTAGE V RESISTANCE ohm CAPACITANCE F INDUCTANCE H FLUX Wb FLUX_DENSITY T", word, " ")
+        split("LENGTH m MASS kg TIME s NUMBER rad ANGLE rad FREQUENCY Hz FORCE N ENERGY J POWER W PRESSURE Pa CURRENT A CHARGE C" \
+            " VOLTAGE V RESISTANCE ohm CAPACITANCE F INDUCTANCE H FLUX Wb FLUX_DENSITY T TEMPERATURE K", word, " ")
         for (i = 1; i in word; i += 2) { si[word[i]] = word[i + 1] }
         split($0, part, "\"")
         line = $0
         gsub(/[ },]+$/, "", line)
-        sub(/.* /, "", line)
-        print part[2], (line in si) ? si[line] : "K"
+        sub(/.* QUANTITY_/, "", line)
+        print part[2], (line in si) ? si[line] : "?"
     }' host/lang/units.c >"$scratch/names"
 [ "$(wc -l <"$scratch/names")" -ge 60 ] && ! grep -qv '^[A-Za-z]* [A-Za-z]*$' "$scratch/names"
 verdict $? "the table of units is read" "$scratch/names"
