@@ -63,7 +63,7 @@ static inline void wh_contact_observe(const wh_contact_system *of, const wh_stat
     wh_real signal[2 * WH_CONTACTS_MAX];
     wh_contact_work_begin(of, state, &work, &now);
     if (work.mode[0] == WH_UNSET) {
-        wh_contact_begin(of, &work, WH_R(0.0), state->input, &now);
+        (void)wh_contact_begin(of, &work, WH_R(0.0), state->input, &now);
     }
     wh_contact_look(of, &work, &now, state->input, accel, signal);
 }
@@ -235,7 +235,7 @@ static inline wh_status wh_step_contact(const wh_contact_system *of, wh_real h, 
     }
 #endif
     if (work.mode[0] == WH_UNSET) {
-        wh_contact_begin(of, &work, h, state->input, &now);
+        round = wh_contact_begin(of, &work, h, state->input, &now);
         if (work.undefined >= 0) {
             return wh_contact_refuse(&work, fault, state);
         }
