@@ -35,9 +35,12 @@
 #ifndef WH_COORDS
 #define WH_COORDS 64
 #define WH_UNROLL
+#endif
+#ifdef WH_UNROLL /* as it is */
 #elif defined(__clang__)
 #define WH_UNROLL _Pragma("clang loop unroll(full)")
-#elif defined(__GNUC__) && __GNUC__ >= 8 /* which older ones do not know */
+#pragma clang diagnostic ignored "-Wpass-failed" /* loops whose bound is no constant stay loops */
+#elif defined(__GNUC__) && __GNUC__ >= 8         /* which older ones do not know */
 #define WH_UNROLL _Pragma("GCC unroll 64")
 #else
 #define WH_UNROLL

@@ -92,7 +92,7 @@ verdict $? "a dry run says it and does nothing" "$said"
 
 # every target of the Makefile that needs something names it first
 for target in run test check bench size figures emulate hashes; do
-    MAKEFLAGS= make -n "$target" 2>/dev/null | head -n 1 | grep -q 'mk/setup/deps.sh'
+    env -u MAKELEVEL -u MFLAGS MAKEFLAGS= make -n "$target" 2>/dev/null | head -n 1 | grep -q 'mk/setup/deps.sh'
     verdict $? "make $target looks first at what is there" /dev/null
 done
 exit $failed

@@ -7,6 +7,8 @@
 #define WH_LEDGER 1
 #define WH_LEDGER_MAX 12
 #define WH_ACCOUNTS_MAX 3
+#define WH_COORDS 2
+#define WH_UNROLL
 #define WH_CONTACTS_MAX 3
 #define WH_SETS_MAX 1
 #include "core/contact_step.h"
