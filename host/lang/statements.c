@@ -153,6 +153,9 @@ static statement_reader *const readers[] = {BODY_WORD_ROWS(READER)};
 /* Coordinates go with energies, states with equations: one way or the other. */
 static void note_way(parser *in, const statement_word *word) {
     builder *into = in->builder;
+    if (into == NULL) {
+        return; /* the words of a file go both ways */
+    }
     into->has_equations |= (word->rules & BY_EQUATIONS) != 0;
     into->has_energies |= (word->rules & BY_ENERGIES) != 0;
     if (into->has_equations && into->has_energies && !into->mixed) {

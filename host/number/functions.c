@@ -77,7 +77,11 @@ double number_call(function_id function, double x, double y) {
 double number_slope(function_id function, int which, double x, double y) {
     switch (function) {
 #define ROW(id, word, arguments, dimensions, range, latex, value, by_x, by_y) \
-    case FN_##id: return which == 0 ? (by_x) : (by_y);
+    case FN_##id: \
+        if (which == 0) { \
+            return by_x; \
+        } \
+        return by_y;
         FUNCTION_ROWS(ROW)
 #undef ROW
     }

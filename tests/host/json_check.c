@@ -119,7 +119,7 @@ static bool read_key(reader *r, size_t *keys, int count) {
 }
 
 static bool read_members(reader *r, const char *end, bool keyed) {
-    size_t keys[KEYS_MOST];
+    size_t keys[KEYS_MOST] = {0};
     int count = 0;
     if (++r->depth > DEPTH_MOST) {
         return fail(r, "too deep");
@@ -169,7 +169,7 @@ bool json_is_valid(const char *text, char *why) {
 /* Steps from a value to its member; false: there is none. */
 static bool step_to(reader *r, const char *name, size_t length) {
     const bool keyed = r->text[r->at] == '{';
-    int left = keyed ? 0 : atoi(name);
+    int left = keyed ? 0 : (int)strtol(name, NULL, 10);
     if (!keyed && r->text[r->at] != '[') {
         return false;
     }

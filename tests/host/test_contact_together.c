@@ -48,8 +48,8 @@ static void test_the_order_of_the_file_does_not_matter(void) {
     double worst = 0.0;
     for (long i = 0; i < 2 * runs; i++) {
         const uint64_t seed = 1U + (uint64_t)(i / 2);
-        double first[STATES];
-        double other[STATES];
+        double first[STATES] = {0.0};
+        double other[STATES] = {0.0};
         uint64_t overruns[2];
         const tangle drawn = {seed, 0, i % 2 == 0, 1e-3, 0.3};
         const tangle shuffled = {seed, 1U + seed % 3U, i % 2 == 0, 1e-3, 0.3};

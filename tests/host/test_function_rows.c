@@ -24,7 +24,7 @@ void suite_function_rows(void);
 
 static int places(void) {
     const char *asked = getenv("WHIRL_RANDOM_STATES");
-    return asked != NULL ? atoi(asked) : 200;
+    return asked != NULL ? (int)strtol(asked, NULL, 10) : 200;
 }
 
 static function_id at(int f) { return (function_id)f; }
