@@ -17,7 +17,7 @@ for name in host core_double core_float; do
     *) sources=tests/core ;;
     esac
     listed=$(sed -n 's/^hint: one of //p' "$scratch/err" | tr -d ',' | tr ' ' '\n' | sort)
-    there=$(sed -n 's/^void suite_\([a-z0-9_]*\)(void) {.*/\1/p' "$sources"/test_*.c | sort)
+    there=$(sed -n 's/^void suite_\([a-z0-9_]*\)(void) {.*/\1/p' "$sources"/test_*.c | sort -u)
     [ -n "$there" ] && [ "$listed" = "$there" ]
     verdict $? "$name lists the suites of $sources"
 
