@@ -193,7 +193,7 @@ int command_derive(int count, char **words) {
     const char *header = NULL;
     const form_row *as = &forms[0];
     change_options options = {0};
-    image_settings settings = {WH_METHOD_DEFAULT, false};
+    image_settings settings = {WH_METHOD_DEFAULT, false, ANGLES_TURNED};
     bool bad = false;
     if (options_wants_help(count, words)) {
         print_usage(stdout);

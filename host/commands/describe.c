@@ -76,7 +76,7 @@ static int describe_loaded(source_model *from, const describe_options *o) {
 }
 
 int command_describe(int count, char **words) {
-    describe_options o = {.settings = {WH_METHOD_DEFAULT, false}};
+    describe_options o = {.settings = {WH_METHOD_DEFAULT, false, ANGLES_TURNED}};
     if (options_help(count, words, &usage)) {
         return EXIT_DONE;
     }

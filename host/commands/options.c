@@ -7,6 +7,7 @@
 
 #include "host/base/nearest.h"
 #include "host/base/room.h"
+#include "host/image/turned.h"
 #include "host/run/methods.h"
 
 typedef struct option_row {
@@ -189,7 +190,8 @@ static bool take_change(common_option which, const char *value, change_options *
     case OPTION_UNTIL: c->until = value; break;
     case OPTION_METHOD:
     case OPTION_NUMBER:
-    case OPTION_COMPENSATED: break; /* change no instance */
+    case OPTION_COMPENSATED:
+    case OPTION_ANGLES: break; /* change no instance */
     }
     return true;
 }
@@ -250,6 +252,19 @@ int options_choose(const char *command, const char *what, const char *value, con
     return -1;
 }
 
+/* --angles turned or lookup, as options_engine(). */
+static bool take_angles(const char *command, int count, char **words, int *at,
+                        image_settings *settings, bool *bad) {
+    const char *value = options_value(count, words, at, option_rows[OPTION_ANGLES].word, bad);
+    if (value != NULL) {
+        const int chosen = options_choose(command, "form of angles", value, image_angles_words,
+                                          sizeof image_angles_words[0], IMAGE_ANGLES);
+        *bad = chosen < 0;
+        settings->angles = *bad ? ANGLES_TURNED : (image_angles)chosen;
+    }
+    return value != NULL;
+}
+
 bool options_engine(const char *command, int count, char **words, int *at, image_settings *settings,
                     bool *bad) {
     const char *value = options_value(count, words, at, option_rows[OPTION_METHOD].word, bad);
@@ -263,7 +278,7 @@ bool options_engine(const char *command, int count, char **words, int *at, image
         settings->compensated = true;
         return true;
     }
-    return value != NULL;
+    return value != NULL || (!*bad && take_angles(command, count, words, at, settings, bad));
 }
 
 bool options_number(const char *command, int count, char **words, int *at, const engine_kind **kind,

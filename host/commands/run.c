@@ -224,7 +224,7 @@ static int run_image(run_options *o, const source_model *from, const image *im, 
 
 int command_run(int count, char **words) {
     run_options o = {.settings = {.kind = &engine_double},
-                     .integration = {WH_METHOD_DEFAULT, false}};
+                     .integration = {WH_METHOD_DEFAULT, false, ANGLES_TURNED}};
     if (options_help(count, words, &usage)) {
         return EXIT_DONE;
     }

@@ -303,7 +303,7 @@ int command_sweep(int count, char **words) {
                        .part = {1, 1},
                        .jobs = processors(),
                        .kind = &engine_double,
-                       .engine = {WH_METHOD_DEFAULT, false}};
+                       .engine = {WH_METHOD_DEFAULT, false, ANGLES_TURNED}};
     o.over = room(count, sizeof(const char *));
     o.measure = room(count, sizeof(const char *));
     int code = EXIT_BAD_INPUT;

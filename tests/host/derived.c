@@ -13,7 +13,7 @@
 #include "host/show/show_events.h"
 #include "unity.h"
 
-const image_settings plainly = {WH_RK4, false};
+const image_settings plainly = {WH_RK4, false, ANGLES_TURNED};
 
 static const scene *scene_called(const whirl_model *m, const char *name) {
     for (int i = 0; i < m->scene_count; i++) {
@@ -61,6 +61,11 @@ static derived derive_model(whirl_model *m, const char *name, diags *all) {
 derived derived_text(const char *text) {
     diags *all = diags_new();
     return derive_model(model_parse("t.whirl", text, strlen(text), all), NULL, all);
+}
+
+derived derived_scene(const char *text, const char *name) {
+    diags *all = diags_new();
+    return derive_model(model_parse("t.whirl", text, strlen(text), all), name, all);
 }
 
 derived derived_file(const char *path) {

@@ -1,0 +1,361 @@
+/* test_turn.c: steps that turn their sines: as good as looking them up, to the method's order, for every method and
+ * form; refused where they must be, naming who turns too far; and what rounding leaves of a small turn. */
+#include "core/scene.h"
+#define WH_COORDS 4
+#define WH_WAVES 3
+#include "core/turn.h"
+
+#include "unity.h"
+
+void suite_turn(void);
+
+enum { ANGLES = 3, LINEARS = 1, COORDINATES = 4, REALS = 5, VALUES = 8 };
+
+static wh_angle angle[ANGLES];
+static wh_real real[REALS];
+static wh_real carry[ANGLES + REALS];
+static wh_real input[1];
+static wh_state state = {.angle = angle, .real = real, .carry = carry, .input = input};
+
+/* The sines of a, of 2 a - b and of a + b: three waves of two angles. The third angle stands in none. */
+static void sines(const void *model, const wh_phase *phase, wh_wave *pair) {
+    (void)model;
+    wh_sincos(phase[0], &pair[0].sine, &pair[0].cosine);
+    wh_sincos((wh_phase)2 * phase[0] - phase[1], &pair[1].sine, &pair[1].cosine);
+    wh_sincos(phase[0] + phase[1], &pair[2].sine, &pair[2].cosine);
+}
+
+static void rates(const void *model, const wh_real *rate, wh_real *result) {
+    (void)model;
+    result[0] = rate[0];
+    result[1] = WH_R(2.0) * rate[0] - rate[1];
+    result[2] = rate[0] + rate[1];
+}
+
+static const wh_waves waves = {NULL, sines, rates, 3, 3};
+
+/* Pendulums that lean on each other and on a spring; the last turns freely. */
+static void swing_turned(const void *model, const wh_wave *p, const wh_real *linear,
+                         const wh_real *rate, const wh_real *u, wh_real *accel) {
+    (void)model;
+    accel[0] = u[0] - WH_R(2.0) * p[0].sine + WH_R(0.4) * p[1].sine * rate[1] * rate[1];
+    accel[1] = -WH_R(0.7) * p[2].sine - WH_R(0.4) * p[1].cosine * rate[0] + linear[0];
+    accel[2] = u[0] - WH_R(0.1) * rate[2];
+    accel[3] = WH_R(0.5) * p[2].cosine - WH_R(3.0) * linear[0] - WH_R(0.2) * rate[3];
+}
+
+static void swing(const void *model, const wh_phase *phase, const wh_real *linear,
+                  const wh_real *rate, const wh_real *u, wh_real *accel) {
+    wh_wave pair[3];
+    sines(model, phase, pair);
+    swing_turned(model, pair, linear, rate, u, accel);
+}
+
+static void flow_turned(const void *model, const wh_wave *p, const wh_real *x, const wh_real *u,
+                        wh_real *slope) {
+    (void)model;
+    slope[0] = u[0] + WH_R(0.8) + WH_R(0.5) * x[0] * p[1].sine;
+    slope[1] = WH_R(0.6) * p[0].cosine - WH_R(0.5) * x[0];
+    slope[2] = u[0] + WH_R(0.3);
+    slope[3] = WH_R(0.4) * p[2].cosine - x[0];
+}
+
+static void flow(const void *model, const wh_phase *phase, const wh_real *x, const wh_real *u,
+                 wh_real *slope) {
+    wh_wave pair[3];
+    sines(model, phase, pair);
+    flow_turned(model, pair, x, u, slope);
+}
+
+/* How a test steps. */
+typedef struct manner {
+    wh_form form;
+    wh_method method;
+    bool compensated;
+    bool turns;
+} manner;
+
+static wh_status step(manner how, wh_real h, wh_phase *told) {
+    if (how.form == WH_FIRST_ORDER) {
+        return how.turns ? wh_turn_first(NULL, flow_turned, &waves, how.method, how.compensated,
+                                         ANGLES, LINEARS, h, &state)
+                         : wh_step_first(NULL, flow, how.method, how.compensated, ANGLES, LINEARS,
+                                         h, &state);
+    }
+    return how.turns ? wh_turn_second(NULL, swing_turned, &waves, told, how.method, how.compensated,
+                                      ANGLES, COORDINATES, h, &state)
+                     : wh_step_second(NULL, swing, how.method, how.compensated, ANGLES, COORDINATES,
+                                      h, &state);
+}
+
+static void start(void) {
+    input[0] = WH_R(0.0);
+    for (int i = 0; i < ANGLES; i++) {
+        angle[i] = wh_angle_from_rad(WH_R(0.7) + WH_R(0.9) * (wh_real)i);
+    }
+    for (int i = 0; i < REALS; i++) {
+        real[i] = (i % 2 != 0 ? WH_R(0.3) : -WH_R(0.4)) + WH_R(0.05) * (wh_real)i;
+    }
+    for (int i = 0; i < ANGLES + REALS; i++) {
+        carry[i] = WH_R(0.0);
+    }
+    state.fault = -1;
+}
+
+static unsigned reals_of(manner how) { return how.form == WH_SECOND_ORDER ? REALS : LINEARS; }
+
+/* The state after one second: angles in radians, then reals. */
+static unsigned after_1s(manner how, unsigned count, wh_real value[VALUES]) {
+    start();
+    for (unsigned i = 0; i < count; i++) {
+        TEST_ASSERT_TRUE(step(how, WH_R(1.0) / (wh_real)count, NULL) == WH_OK);
+    }
+    for (int i = 0; i < ANGLES; i++) {
+        value[i] = wh_angle_to_rad(angle[i]);
+    }
+    for (unsigned i = 0; i < reals_of(how); i++) {
+        value[ANGLES + i] = real[i];
+    }
+    return ANGLES + reals_of(how);
+}
+
+static wh_real squares(unsigned count, const wh_real *x, const wh_real *y) {
+    wh_real sum = WH_R(0.0);
+    for (unsigned i = 0; i < count; i++) {
+        sum += (x[i] - y[i]) * (x[i] - y[i]);
+    }
+    return sum;
+}
+
+/* Every manner of turning: a number of them, from 0 on. */
+enum { MANNERS = 4 * WH_METHODS };
+static manner manner_of(unsigned k) {
+    return (manner){k % 2 != 0 ? WH_FIRST_ORDER : WH_SECOND_ORDER, (wh_method)(k / 4),
+                    k / 2 % 2 != 0, true};
+}
+
+/* The two errors have the same leading term (turn.h). Against runs with steps that are a sixteenth and look sines up. */
+static void test_turning_has_the_order_of_the_row_and_about_its_error(void) {
+    for (unsigned k = 0; k < MANNERS; k++) {
+        manner how = manner_of(k);
+        const unsigned order = wh_methods[how.method].order;
+        const unsigned count = sizeof(wh_real) == 8 ? (order < 4 ? 512 : 32) : (order < 4 ? 64 : 4);
+        const wh_real within = sizeof(wh_real) == 8 ? WH_R(1.2) : WH_R(3.0);
+        const wh_real wanted = (wh_real)(1U << (2 * order));
+        wh_real turned[2][VALUES];
+        wh_real looked_up[VALUES];
+        wh_real exact[VALUES];
+        if (!wh_method_takes(how.method, how.form)) {
+            start();
+            TEST_ASSERT_TRUE(step(how, WH_R(0.125), NULL) == WH_E_ARGUMENT);
+            continue;
+        }
+        TEST_ASSERT_TRUE(wh_method_turns(how.method));
+        const unsigned components = after_1s(how, count, turned[0]);
+        after_1s(how, 2 * count, turned[1]);
+        how.turns = false;
+        after_1s(how, count, looked_up);
+        how.method = WH_RK4;
+        after_1s(how, 16 * count, exact);
+        const wh_real error = squares(components, turned[0], exact);
+        const wh_real ratio = error / squares(components, turned[1], exact);
+        const wh_real usual = squares(components, looked_up, exact);
+        const char *word = wh_methods[manner_of(k).method].word;
+        TEST_ASSERT_TRUE_MESSAGE(ratio < within * wanted && wanted < within * ratio, word);
+        TEST_ASSERT_TRUE_MESSAGE(error < within * usual && usual < within * error, word);
+    }
+}
+
+/* The column .turns is what the shares make it. */
+static void test_turns_follow_from_the_shares(void) {
+    for (unsigned m = 0; m < WH_METHODS; m++) {
+        const wh_tableau *by = &wh_tableaus[m];
+        wh_real first = WH_R(0.0); /* of the step */
+        for (unsigned s = 1; s < by->stages; s++) {
+            wh_real sum = WH_R(0.0);
+            for (unsigned j = 0; j < s; j++) {
+                sum += by->stage[s].share[j];
+            }
+            first = s == 1 ? sum / by->stage[s].parts : first;
+            const wh_real off = sum - (wh_real)by->turns[s] * first * by->stage[s].parts;
+            TEST_ASSERT_TRUE_MESSAGE(WH_ABS(off) < WH_R(1e-6), wh_methods[m].word);
+            TEST_ASSERT_TRUE_MESSAGE(by->turns[s] >= by->turns[s - 1], wh_methods[m].word);
+        }
+    }
+}
+
+/* Where there is but one stage, or nothing turns, turning is looking up. */
+static void test_what_does_not_turn_has_the_same_bits(void) {
+    for (unsigned k = 0; k < MANNERS; k++) {
+        manner how = manner_of(k);
+        wh_real turned[VALUES];
+        wh_real looked_up[VALUES];
+        if (wh_methods[how.method].stages > 1 || !wh_method_takes(how.method, how.form)) {
+            continue;
+        }
+        const unsigned components = after_1s(how, 64, turned);
+        how.turns = false;
+        after_1s(how, 64, looked_up);
+        TEST_ASSERT_TRUE(squares(components, turned, looked_up) == WH_R(0.0));
+    }
+}
+
+/* Who is told the phases, gets those of the last stage and leaves the run alone. */
+static void test_phases_are_told(void) {
+    for (unsigned m = 0; m < WH_METHODS; m++) {
+        const manner how = {WH_SECOND_ORDER, (wh_method)m, false, true};
+        const wh_real h = WH_R(0.03125);
+        wh_angle before[ANGLES];
+        wh_angle after[ANGLES];
+        wh_phase told[ANGLES] = {0};
+        start();
+        TEST_ASSERT_TRUE(step(how, h, NULL) == WH_OK);
+        for (int i = 0; i < ANGLES; i++) {
+            after[i] = angle[i];
+        }
+        start();
+        for (int i = 0; i < ANGLES; i++) {
+            before[i] = angle[i];
+        }
+        TEST_ASSERT_TRUE(step(how, h, told) == WH_OK);
+        for (int i = 0; i < ANGLES; i++) {
+            TEST_ASSERT_TRUE(angle[i] == after[i]);
+            const wh_real way = wh_angle_to_rad(wh_angle_near(before[i], told[i]) - before[i]);
+            const wh_real whole = wh_angle_to_rad(after[i] - before[i]);
+            const wh_real off = wh_methods[m].stages == 1 ? way : way - whole;
+            TEST_ASSERT_TRUE_MESSAGE(WH_ABS(off) < WH_R(2e-3), wh_methods[m].word);
+        }
+    }
+}
+
+/* --- refusals -------------------------------------------------------------------------------------- */
+
+/* The step does this, and leaves the state as it was if it is refused. */
+static void expect(manner how, wh_real h, wh_status wanted, int fault) {
+    wh_angle angle_before[ANGLES];
+    wh_real real_before[REALS];
+    for (int i = 0; i < ANGLES; i++) {
+        angle_before[i] = angle[i];
+    }
+    for (int i = 0; i < REALS; i++) {
+        real_before[i] = real[i];
+    }
+    const char *word = wh_methods[how.method].word;
+    TEST_ASSERT_EQUAL_INT_MESSAGE(wanted, step(how, h, NULL), word);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(fault, state.fault, word);
+    for (int i = 0; i < ANGLES && wanted != WH_OK; i++) {
+        TEST_ASSERT_TRUE(angle[i] == angle_before[i]);
+    }
+    for (int i = 0; i < REALS && wanted != WH_OK; i++) {
+        TEST_ASSERT_TRUE(real[i] == real_before[i] || real_before[i] != real_before[i]);
+    }
+}
+
+/* Of a method with stages between: the share of the step that its first turn is. */
+static wh_real first_share(wh_method method) {
+    const wh_shares *of = &wh_tableaus[method].stage[1];
+    return of->share[0] / of->parts;
+}
+
+static void test_too_far_a_turn_is_refused_by_name(void) {
+    for (unsigned k = 0; k < 2 * WH_METHODS; k++) {
+        const manner how = {WH_SECOND_ORDER, (wh_method)(k / 2), k % 2 != 0, true};
+        const wh_real h = WH_R(0.001);
+        wh_real *rate = real + LINEARS;
+        if (wh_methods[how.method].stages == 1) {
+            start(); /* nothing turns: up to half a turn a step */
+            rate[1] = WH_R(3000.0);
+            expect(how, h, WH_OK, -1);
+            continue;
+        }
+        /* |a|, |2 a - b| and |a + b| with a alone: four times its own */
+        const wh_real most = WH_TURN_MOST / (h * first_share(how.method));
+        start();
+        rate[0] = WH_R(0.24) * most;
+        rate[1] = WH_R(0.0);
+        expect(how, h, WH_OK, -1);
+        start();
+        rate[0] = WH_R(0.26) * most;
+        rate[1] = WH_R(0.0);
+        expect(how, h, WH_E_TURN, 0);
+        start();
+        rate[0] = WH_R(0.1) * most;
+        rate[1] = -WH_R(0.45) * most;
+        expect(how, h, WH_E_TURN, 1);
+        start(); /* the third is in no sine, and is not the one that is named */
+        rate[2] = WH_R(3000.0);
+        expect(how, h, WH_OK, -1);
+        start();
+        rate[0] = WH_R(0.3) * most;
+        rate[1] = WH_R(0.0);
+        rate[2] = WH_R(3000.0);
+        expect(how, h, WH_E_TURN, 0);
+        start();
+        rate[2] = WH_R(3200.0);
+        expect(how, h, WH_E_DIVERGED, 2);
+        start(); /* as looking up refuses it, too */
+        rate[1] = WH_R(3200.0);
+        expect(how, h, WH_E_DIVERGED, 1);
+        start();
+        rate[0] = WH_R(1e30);
+        rate[1] = WH_R(3e30);
+        expect(how, h, WH_E_DIVERGED, 1);
+        start();
+        rate[0] = (rate[0] - rate[0]) / (rate[0] - rate[0]);
+        rate[1] = WH_R(900.0);
+        expect(how, h, WH_E_DIVERGED, 0);
+    }
+}
+
+/* Of a system of first order, whose rates are what its list gives. */
+static void test_too_fast_a_flow_is_refused_by_name(void) {
+    for (unsigned m = 0; m < WH_METHODS; m++) {
+        const manner how = {WH_FIRST_ORDER, (wh_method)m, false, true};
+        const wh_real h = WH_R(0.001);
+        if (wh_methods[m].stages == 1) {
+            continue;
+        }
+        const wh_real most = WH_TURN_MOST / (h * first_share(how.method));
+        start();
+        input[0] = WH_R(0.24) * most;
+        expect(how, h, WH_OK, -1);
+        start();
+        input[0] = WH_R(0.26) * most;
+        expect(how, h, WH_E_TURN, 0);
+        start();
+        input[0] = WH_R(1e30);
+        expect(how, h, WH_E_DIVERGED, 0);
+    }
+}
+
+/* --- small turns ----------------------------------------------------------------------------------- */
+
+static void test_small_turns_are_sines(void) {
+    const wh_real within = sizeof(wh_real) == 8 ? WH_R(1.8e-16) : WH_R(1.1e-7);
+    for (int i = -4096; i <= 4096; i++) {
+        const wh_real d = (wh_real)i * WH_R(0.0001220703125); /* 2^-13 */
+        const wh_phase phase = wh_phase_from_rad(d);
+        wh_real wanted[2];
+        wh_real sine;
+        wh_real less;
+        wh_sincos(phase, &wanted[0], &wanted[1]);
+        wh_small_turn(d, &sine, &less);
+        TEST_ASSERT_TRUE(WH_ABS(sine - wanted[0]) < within);
+        TEST_ASSERT_TRUE(WH_ABS(WH_R(1.0) + less - wanted[1]) < within);
+        /* and next to nothing they are what they are, not only near it */
+        const wh_real tiny = d * WH_R(1e-9);
+        wh_small_turn(tiny, &sine, &less);
+        TEST_ASSERT_TRUE(sine == tiny);
+        TEST_ASSERT_TRUE(less == -WH_R(0.5) * (tiny * tiny) || sizeof(wh_real) == 8);
+    }
+}
+
+void suite_turn(void) {
+    RUN_TEST(test_turning_has_the_order_of_the_row_and_about_its_error);
+    RUN_TEST(test_turns_follow_from_the_shares);
+    RUN_TEST(test_what_does_not_turn_has_the_same_bits);
+    RUN_TEST(test_phases_are_told);
+    RUN_TEST(test_too_far_a_turn_is_refused_by_name);
+    RUN_TEST(test_too_fast_a_flow_is_refused_by_name);
+    RUN_TEST(test_small_turns_are_sines);
+}
