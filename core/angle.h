@@ -124,6 +124,15 @@ WH_INLINE wh_angle wh_angle_near(wh_angle angle, wh_phase phase) {
  * are NaN. docs/numerics.md says how and what it costs. */
 WH_INLINE void wh_sincos(wh_phase phase, wh_real *sine, wh_real *cosine);
 
+/* The same in two parts each, whose sums those are: what is added to them before the parts are is not rounded twice. */
+typedef struct wh_sine_parts {
+    wh_real sine;
+    wh_real cosine;
+    wh_real sine_rest; /* below 1/40 */
+    wh_real cosine_rest;
+} wh_sine_parts;
+WH_INLINE void wh_sincos_parts(wh_phase phase, wh_sine_parts *parts);
+
 /* Phase of an angle in radians, for arguments that are not kept as a turn angle. Float: within one
  * phase unit (1.5e-9 rad) for |rad| < 1e9; larger or NaN gives phase 0. Double: rad itself. */
 WH_INLINE wh_phase wh_phase_from_rad(wh_real rad);

@@ -41,17 +41,17 @@ typedef struct wh_wave {
     wh_real cosine;
 } wh_wave;
 
-/* As wh_accel_fn and wh_slope_fn, with the pairs of the waves in place of the angles' phases. */
-typedef void wh_turned_accel_fn(const void *model, const wh_wave *pair, const wh_real *linear,
+/* As wh_accel_fn and wh_slope_fn, with the waves' pairs in place of the angles' phases. */
+typedef void wh_turned_accel_fn(const void *model, const wh_wave *wave, const wh_real *linear,
                                 const wh_real *rate, const wh_real *input, wh_real *accel);
-typedef void wh_turned_slope_fn(const void *model, const wh_wave *pair, const wh_real *real,
+typedef void wh_turned_slope_fn(const void *model, const wh_wave *wave, const wh_real *real,
                                 const wh_real *input, wh_real *slope);
 
 /* The angles whose sine and cosine a list takes: waves. Each is a turn angle, or a sum of whole multiples of some. */
 typedef struct wh_waves {
     const void *model;
-    /* pair[count] at the angles' phases */
-    void (*sines)(const void *model, const wh_phase *phase, wh_wave *pair);
+    /* parts[count] at the angles' phases */
+    void (*sines)(const void *model, const wh_phase *phase, wh_sine_parts *parts);
     /* the waves' rates, result[count], from those of the angles; anything linear in them */
     void (*rates)(const void *model, const wh_real *rate, wh_real *result);
     unsigned count;  /* <= WH_WAVES */
@@ -85,11 +85,32 @@ WH_INLINE void wh_small_turn(wh_real d, wh_real *sine, wh_real *cosine_less_1) {
 
 /* A step's pairs on their way. */
 typedef struct wh_turning {
-    wh_wave at[WH_WAVES];   /* as the rates at the begin alone lead */
-    wh_wave way[WH_WAVES];  /* what the next turn adds, or the last one added */
-    wh_real bend[WH_WAVES]; /* 2 (cos d - 1) */
-    unsigned turns;         /* done */
+    wh_sine_parts parts[WH_WAVES]; /* and what was added to it, where turning is precise */
+    wh_wave at[WH_WAVES];          /* as the rates at the begin alone lead */
+    wh_wave way[WH_WAVES];         /* what the next turn adds, or the last one added */
+    wh_real bend[WH_WAVES];        /* 2 (cos d - 1) */
+    unsigned turns;                /* done */
 } wh_turning;
+
+/* Look up where the step begins. */
+WH_INLINE void wh_turning_look_up(const wh_waves *waves, const wh_angle *angle, unsigned angles,
+                                  wh_phase *told, wh_turning *t) {
+    wh_phase phase[WH_COORDS] = {0};
+    WH_UNROLL
+    for (unsigned i = 0; i < angles; i++) {
+        phase[i] = wh_phase_of(angle[i]);
+        if (told != NULL) {
+            told[i] = phase[i];
+        }
+    }
+    waves->sines(waves->model, phase, t->parts);
+    WH_UNROLL
+    for (unsigned w = 0; w < waves->count; w++) {
+        t->at[w].sine = t->parts[w].sine + t->parts[w].sine_rest;
+        t->at[w].cosine = t->parts[w].cosine + t->parts[w].cosine_rest;
+    }
+    t->turns = 0;
+}
 
 /* Begin to turn from the pairs in turning->at, the angles having these rates. False: by too much, or by no number. */
 WH_INLINE bool wh_turning_begin(const wh_tableau *by, const wh_waves *waves, const wh_real *rate,
@@ -102,7 +123,6 @@ WH_INLINE bool wh_turning_begin(const wh_tableau *by, const wh_waves *waves, con
         first += by->stage[1].share[j];
     }
     waves->rates(waves->model, rate, spin);
-    t->turns = 0;
     WH_UNROLL
     for (unsigned w = 0; w < waves->count; w++) {
         const wh_real d = h / by->stage[1].parts * first * spin[w];
@@ -117,8 +137,8 @@ WH_INLINE bool wh_turning_begin(const wh_tableau *by, const wh_waves *waves, con
     return waves->count == 0 || all <= WH_TURN_MOST;
 }
 
-/* Turn on, so often in all. */
-WH_INLINE void wh_turning_to(const wh_waves *waves, unsigned turns, wh_turning *t) {
+/* Turn on, so often in all. Precise: what turns add is summed up by itself, so that each pair is rounded once. */
+WH_INLINE void wh_turning_to(const wh_waves *waves, unsigned turns, bool precise, wh_turning *t) {
     WH_UNROLL
     for (unsigned k = 0; k < WH_STAGES_MAX; k++) {
         if (t->turns == turns) {
@@ -126,14 +146,22 @@ WH_INLINE void wh_turning_to(const wh_waves *waves, unsigned turns, wh_turning *
         }
         WH_UNROLL
         for (unsigned w = 0; w < waves->count; w++) {
+            wh_sine_parts *parts = &t->parts[w];
             wh_wave *at = &t->at[w];
             wh_wave *way = &t->way[w];
             if (t->turns > 0) {
-                way->sine = way->sine + t->bend[w] * at->sine;
-                way->cosine = way->cosine + t->bend[w] * at->cosine;
+                way->sine += t->bend[w] * at->sine;
+                way->cosine += t->bend[w] * at->cosine;
             }
-            at->sine += way->sine;
-            at->cosine += way->cosine;
+            if (precise) {
+                parts->sine_rest += way->sine;
+                parts->cosine_rest += way->cosine;
+                at->sine = parts->sine + parts->sine_rest;
+                at->cosine = parts->cosine + parts->cosine_rest;
+            } else {
+                at->sine += way->sine;
+                at->cosine += way->cosine;
+            }
         }
         t->turns++;
     }
@@ -160,26 +188,35 @@ WH_INLINE bool wh_turning_leans(const wh_shares *of, unsigned stage, wh_real (*g
     return leans;
 }
 
-/* pair[] at stage `stage`, gained[] as above. */
+/* The pair that leans by this. */
+WH_INLINE wh_wave wh_lean(wh_wave at, const wh_sine_parts *parts, wh_real lean, bool precise) {
+    const wh_real half = WH_R(0.5) * lean;
+    const wh_real cosine = at.cosine - half * at.sine;
+    wh_wave leant;
+    if (precise) {
+        leant.sine = parts->sine + (parts->sine_rest + lean * cosine);
+        leant.cosine = parts->cosine + (parts->cosine_rest - half * (at.sine + leant.sine));
+    } else {
+        leant.sine = at.sine + lean * cosine;
+        leant.cosine = cosine - half * leant.sine;
+    }
+    return leant;
+}
+
+/* wave[] at stage `stage`, gained[] as above. */
 WH_INLINE void wh_turning_stage(const wh_tableau *by, const wh_waves *waves, unsigned stage,
                                 wh_real (*gained)[WH_COORDS], unsigned angles, wh_real h,
-                                wh_turning *t, wh_wave *pair) {
+                                bool precise, wh_turning *t, wh_wave *wave) {
     wh_real of_angles[WH_COORDS] = {0};
     wh_real lean[WH_WAVES] = {0};
     const bool leans = wh_turning_leans(&by->stage[stage], stage, gained, angles, h, of_angles);
     if (leans) {
         waves->rates(waves->model, of_angles, lean);
     }
-    wh_turning_to(waves, by->turns[stage], t);
+    wh_turning_to(waves, by->turns[stage], precise, t);
     WH_UNROLL
     for (unsigned w = 0; w < waves->count; w++) {
-        pair[w] = t->at[w];
-        if (leans) {
-            const wh_real half = WH_R(0.5) * lean[w];
-            pair[w].cosine -= half * pair[w].sine;
-            pair[w].sine += lean[w] * pair[w].cosine;
-            pair[w].cosine -= half * pair[w].sine;
-        }
+        wave[w] = leans ? wh_lean(t->at[w], &t->parts[w], lean[w], precise) : t->at[w];
     }
 }
 
@@ -211,8 +248,7 @@ WH_INLINE wh_status wh_turn_second(const void *model, wh_turned_accel_fn *accel,
     const wh_real *rate = state->real + linears;
     const wh_real *u = state->input;
     wh_turning t = {.turns = 0};
-    wh_wave pair[WH_WAVES] = {{0}};
-    wh_phase phase[WH_COORDS] = {0};
+    wh_wave wave[WH_WAVES] = {{0}};
     wh_real at[WH_COORDS] = {0};              /* linear positions of a stage, */
     wh_real v[WH_COORDS] = {0};               /* its rates */
     wh_real a[WH_COORDS];                     /* and its accelerations, */
@@ -224,14 +260,7 @@ WH_INLINE wh_status wh_turn_second(const void *model, wh_turned_accel_fn *accel,
     const wh_given all_rates = {rate, rates};
     const wh_given all_accels = {a1, accels};
 
-    WH_UNROLL
-    for (unsigned i = 0; i < angles; i++) {
-        phase[i] = wh_phase_of(state->angle[i]);
-        if (told != NULL) {
-            told[i] = phase[i];
-        }
-    }
-    waves->sines(waves->model, phase, t.at);
+    wh_turning_look_up(waves, state->angle, angles, told, &t);
     accel(model, t.at, linear, rate, u, a1);
     if (by->stages > 1 && !wh_turning_begin(by, waves, rate, h, &t)) {
         return wh_turn_refuse(waves->angles, rate, h, state);
@@ -252,11 +281,11 @@ WH_INLINE wh_status wh_turn_second(const void *model, wh_turned_accel_fn *accel,
         for (unsigned i = 0; i < linears; i++) {
             at[i] = linear[i] + h / of->parts * wh_stage_sum(of->share, s, all_rates, angles + i);
         }
-        wh_turning_stage(by, waves, s, gained, angles, h, &t, pair);
+        wh_turning_stage(by, waves, s, gained, angles, h, compensated, &t, wave);
         if (told != NULL) {
             wh_turning_tell(of, s, all_rates, angles, h, state, told);
         }
-        accel(model, pair, at, v, u, a);
+        accel(model, wave, at, v, u, a);
         wh_stage_given(by, s, true, n, a1, a, accels, alike);
     }
     return wh_second_end(by, a1, alike, compensated, angles, n, h, state);
@@ -270,8 +299,7 @@ WH_INLINE wh_status wh_turn_first(const void *model, wh_turned_slope_fn *slope,
     const unsigned n = angles + reals;
     const wh_real *u = state->input;
     wh_turning t = {.turns = 0};
-    wh_wave pair[WH_WAVES] = {{0}};
-    wh_phase phase[WH_COORDS] = {0};
+    wh_wave wave[WH_WAVES] = {{0}};
     wh_real at[WH_COORDS] = {0};
     wh_real k1[WH_COORDS];                    /* derivatives of the first stage */
     wh_real k[WH_COORDS];                     /* of the present one */
@@ -283,11 +311,7 @@ WH_INLINE wh_status wh_turn_first(const void *model, wh_turned_slope_fn *slope,
     if (!wh_method_takes(method, WH_FIRST_ORDER)) {
         return WH_E_ARGUMENT;
     }
-    WH_UNROLL
-    for (unsigned i = 0; i < angles; i++) {
-        phase[i] = wh_phase_of(state->angle[i]);
-    }
-    waves->sines(waves->model, phase, t.at);
+    wh_turning_look_up(waves, state->angle, angles, NULL, &t);
     slope(model, t.at, state->real, u, k1);
     if (by->stages > 1 && !wh_turning_begin(by, waves, k1, h, &t)) {
         return wh_turn_refuse(waves->angles, k1, h, state);
@@ -302,8 +326,8 @@ WH_INLINE wh_status wh_turn_first(const void *model, wh_turned_slope_fn *slope,
         for (unsigned i = 0; i < reals; i++) {
             at[i] = state->real[i] + h / of->parts * wh_stage_sum(of->share, s, all, angles + i);
         }
-        wh_turning_stage(by, waves, s, gained, angles, h, &t, pair);
-        slope(model, pair, at, u, k);
+        wh_turning_stage(by, waves, s, gained, angles, h, compensated, &t, wave);
+        slope(model, wave, at, u, k);
         wh_stage_given(by, s, false, n, k1, k, slopes, alike);
         WH_UNROLL
         for (unsigned i = 0; i < angles; i++) {

@@ -191,20 +191,20 @@ static void write_rate(FILE *out, const tape *t, const op *o) {
 
 void c_list_waves(FILE *out, const tape *t, uint64_t angles) {
     const char *const names[] = {"wave_sines", "wave_rates"};
-    const char *const from[] = {"const wh_phase *phase, wh_wave *wave",
+    const char *const from[] = {"const wh_phase *phase, wh_sine_parts *parts",
                                 "const wh_real *rate, wh_real *result"};
     for (int f = 0; f < 2; f++) {
         int wave = 0;
         fprintf(out, "static inline void %s(const void *model, %s) {\n    (void)model;\n", names[f],
                 from[f]);
         c_list_ignore(out, tape_waves(t) > 0, f == 0 ? "phase" : "rate");
-        c_list_ignore(out, tape_waves(t) > 0, f == 0 ? "wave" : "result");
+        c_list_ignore(out, tape_waves(t) > 0, f == 0 ? "parts" : "result");
         for (int i = 0; i < t->count; i++) {
             if (tape_is_wave(&t->ops[i])) {
-                fprintf(out, f == 0 ? "    wh_sincos(" : "    result[%d] = ", wave);
+                fprintf(out, f == 0 ? "    wh_sincos_parts(" : "    result[%d] = ", wave);
                 if (f == 0) {
                     write_turns(out, t, &t->ops[i]);
-                    fprintf(out, ", &wave[%d].sine, &wave[%d].cosine)", wave, wave);
+                    fprintf(out, ", &parts[%d])", wave);
                 } else {
                     write_rate(out, t, &t->ops[i]);
                 }

@@ -18,8 +18,14 @@ static wh_real input[1];
 static wh_state state = {.angle = angle, .real = real, .carry = carry, .input = input};
 
 /* The sines of a, of 2 a - b and of a + b: three waves of two angles. The third angle stands in none. */
-static void sines(const void *model, const wh_phase *phase, wh_wave *pair) {
+static void sines(const void *model, const wh_phase *phase, wh_sine_parts *parts) {
     (void)model;
+    wh_sincos_parts(phase[0], &parts[0]);
+    wh_sincos_parts((wh_phase)2 * phase[0] - phase[1], &parts[1]);
+    wh_sincos_parts(phase[0] + phase[1], &parts[2]);
+}
+
+static void look_up(const wh_phase *phase, wh_wave *pair) {
     wh_sincos(phase[0], &pair[0].sine, &pair[0].cosine);
     wh_sincos((wh_phase)2 * phase[0] - phase[1], &pair[1].sine, &pair[1].cosine);
     wh_sincos(phase[0] + phase[1], &pair[2].sine, &pair[2].cosine);
@@ -47,7 +53,7 @@ static void swing_turned(const void *model, const wh_wave *p, const wh_real *lin
 static void swing(const void *model, const wh_phase *phase, const wh_real *linear,
                   const wh_real *rate, const wh_real *u, wh_real *accel) {
     wh_wave pair[3];
-    sines(model, phase, pair);
+    look_up(phase, pair);
     swing_turned(model, pair, linear, rate, u, accel);
 }
 
@@ -63,7 +69,7 @@ static void flow_turned(const void *model, const wh_wave *p, const wh_real *x, c
 static void flow(const void *model, const wh_phase *phase, const wh_real *x, const wh_real *u,
                  wh_real *slope) {
     wh_wave pair[3];
-    sines(model, phase, pair);
+    look_up(phase, pair);
     flow_turned(model, pair, x, u, slope);
 }
 
