@@ -19,6 +19,10 @@ for scene in $("$whirl" list | awk '$1 == "scene" { print $2 }'); do
     add "$scene" --until 0.3s
 done
 # the books leave the bits as they are, and compile
+for scene in thomson_a epicyclic_conserved; do
+    add "$scene" --with ledger --until 0.3s --angles lookup
+    add "$scene" --with ledger --until 0.3s --compensated --method rk38
+done
 for scene in thomson_a epicyclic_conserved $("$whirl" list | awk '$1 == "scene" { print $2 }' | grep -E 'ball|walk|magnet|creep'); do
     add "$scene" --with ledger --until 0.3s
 done
@@ -28,6 +32,8 @@ for scene in thomson_b spherical_flight two_mass_relative epicyclic_conserved; d
         add "$scene" --until 0.2s --method "$method"
     done
     add "$scene" --until 0.2s --method heun --compensated
+    add "$scene" --until 0.2s --angles lookup
+    add "$scene" --until 0.2s --angles lookup --compensated
 done
 
 # The state of a mechanism's file: every value and rate something of its own.
