@@ -25,6 +25,11 @@
 #ifndef WH_TURN_H
 #define WH_TURN_H
 
+#ifdef __cplusplus
+#error \
+    "core/turn.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
+#endif
+
 #include "step.h"
 
 /* Most angles whose sine a list takes. A generated scene defines its own. */
@@ -42,9 +47,9 @@ typedef struct wh_wave {
 } wh_wave;
 
 /* As wh_accel_fn and wh_slope_fn, with the waves' pairs in place of the angles' phases. */
-typedef void wh_turned_accel_fn(const void *model, const wh_wave *wave, const wh_real *linear,
+typedef void wh_turned_accel_fn(const void *model, const wh_wave *pair, const wh_real *linear,
                                 const wh_real *rate, const wh_real *input, wh_real *accel);
-typedef void wh_turned_slope_fn(const void *model, const wh_wave *wave, const wh_real *real,
+typedef void wh_turned_slope_fn(const void *model, const wh_wave *pair, const wh_real *real,
                                 const wh_real *input, wh_real *slope);
 
 /* The angles whose sine and cosine a list takes: waves. Each is a turn angle, or a sum of whole multiples of some. */
@@ -203,10 +208,10 @@ WH_INLINE wh_wave wh_lean(wh_wave at, const wh_sine_parts *parts, wh_real lean, 
     return leant;
 }
 
-/* wave[] at stage `stage`, gained[] as above. */
+/* pair[] at stage `stage`, gained[] as above. */
 WH_INLINE void wh_turning_stage(const wh_tableau *by, const wh_waves *waves, unsigned stage,
                                 wh_real (*gained)[WH_COORDS], unsigned angles, wh_real h,
-                                bool precise, wh_turning *t, wh_wave *wave) {
+                                bool precise, wh_turning *t, wh_wave *pair) {
     wh_real of_angles[WH_COORDS] = {0};
     wh_real lean[WH_WAVES] = {0};
     const bool leans = wh_turning_leans(&by->stage[stage], stage, gained, angles, h, of_angles);
@@ -216,7 +221,7 @@ WH_INLINE void wh_turning_stage(const wh_tableau *by, const wh_waves *waves, uns
     wh_turning_to(waves, by->turns[stage], precise, t);
     WH_UNROLL
     for (unsigned w = 0; w < waves->count; w++) {
-        wave[w] = leans ? wh_lean(t->at[w], &t->parts[w], lean[w], precise) : t->at[w];
+        pair[w] = leans ? wh_lean(t->at[w], &t->parts[w], lean[w], precise) : t->at[w];
     }
 }
 
@@ -248,7 +253,7 @@ WH_INLINE wh_status wh_turn_second(const void *model, wh_turned_accel_fn *accel,
     const wh_real *rate = state->real + linears;
     const wh_real *u = state->input;
     wh_turning t = {.turns = 0};
-    wh_wave wave[WH_WAVES] = {{0}};
+    wh_wave pair[WH_WAVES] = {{0}};
     wh_real at[WH_COORDS] = {0};              /* linear positions of a stage, */
     wh_real v[WH_COORDS] = {0};               /* its rates */
     wh_real a[WH_COORDS];                     /* and its accelerations, */
@@ -281,11 +286,11 @@ WH_INLINE wh_status wh_turn_second(const void *model, wh_turned_accel_fn *accel,
         for (unsigned i = 0; i < linears; i++) {
             at[i] = linear[i] + h / of->parts * wh_stage_sum(of->share, s, all_rates, angles + i);
         }
-        wh_turning_stage(by, waves, s, gained, angles, h, compensated, &t, wave);
+        wh_turning_stage(by, waves, s, gained, angles, h, compensated, &t, pair);
         if (told != NULL) {
             wh_turning_tell(of, s, all_rates, angles, h, state, told);
         }
-        accel(model, wave, at, v, u, a);
+        accel(model, pair, at, v, u, a);
         wh_stage_given(by, s, true, n, a1, a, accels, alike);
     }
     return wh_second_end(by, a1, alike, compensated, angles, n, h, state);
@@ -299,7 +304,7 @@ WH_INLINE wh_status wh_turn_first(const void *model, wh_turned_slope_fn *slope,
     const unsigned n = angles + reals;
     const wh_real *u = state->input;
     wh_turning t = {.turns = 0};
-    wh_wave wave[WH_WAVES] = {{0}};
+    wh_wave pair[WH_WAVES] = {{0}};
     wh_real at[WH_COORDS] = {0};
     wh_real k1[WH_COORDS];                    /* derivatives of the first stage */
     wh_real k[WH_COORDS];                     /* of the present one */
@@ -326,8 +331,8 @@ WH_INLINE wh_status wh_turn_first(const void *model, wh_turned_slope_fn *slope,
         for (unsigned i = 0; i < reals; i++) {
             at[i] = state->real[i] + h / of->parts * wh_stage_sum(of->share, s, all, angles + i);
         }
-        wh_turning_stage(by, waves, s, gained, angles, h, compensated, &t, wave);
-        slope(model, wave, at, u, k);
+        wh_turning_stage(by, waves, s, gained, angles, h, compensated, &t, pair);
+        slope(model, pair, at, u, k);
         wh_stage_given(by, s, false, n, k1, k, slopes, alike);
         WH_UNROLL
         for (unsigned i = 0; i < angles; i++) {

@@ -2,6 +2,11 @@
 #ifndef WH_TURN_LEDGER_H
 #define WH_TURN_LEDGER_H
 
+#ifdef __cplusplus
+#error \
+    "core/turn_ledger.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
+#endif
+
 #include "ledger_step.h"
 #include "turn.h"
 

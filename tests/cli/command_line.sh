@@ -285,10 +285,10 @@ says 1 '^hint: --angles lookup takes it on' run "$scratch/wheel.whirl" --number 
 prints '^spin$' run "$scratch/wheel.whirl" --angles lookup
 prints '^spin$' run "$scratch/wheel.whirl" --start "a'=1000"
 says 2 "there is no form of angles 'looked'" run "$scratch/wheel.whirl" --angles looked
-prints '^  "angles": "turned",$' describe "$scratch/wheel.whirl" --json
-prints '^  "angles": "lookup",$' describe "$scratch/wheel.whirl" --json --angles lookup
-prints '^  "angles": "lookup",$' describe "$scratch/wheel.whirl" --json --start "a'=501"
-prints '^  "angles": "turned",$' describe "$scratch/wheel.whirl" --json --start "a'=499" --start "b'=3000"
+prints '^  "sines": "turned",$' describe "$scratch/wheel.whirl" --json
+prints '^  "sines": "lookup",$' describe "$scratch/wheel.whirl" --json --angles lookup
+prints '^  "sines": "lookup",$' describe "$scratch/wheel.whirl" --json --start "a'=501"
+prints '^  "sines": "turned",$' describe "$scratch/wheel.whirl" --json --start "a'=499" --start "b'=3000"
 prints 'sines of turn angles: looked up once a step, and turned' describe "$scratch/wheel.whirl"
 
 # --- float angles that turn too slowly ------------------------------------------------------------------
