@@ -34,9 +34,9 @@
  *     multistep      .history = how many earlier derivatives it keeps, .rates their weights, .start = WH_RK4;
  *                    WH_MEMORY_BYTES of scene.h grows by .history reals a component.
  *
- * A row of several stages whose sines can be those of the step's begin, turned on (turn.h), says with .turns how many
+ * A row of several stages whose sines can be those of the step's begin, turned on (stage_turn.h), says with .turns how many
  * times as far as stage 1 stage i is, as the rates at the begin lead. That follows from the shares
- * (tests/core/test_turn.c). A row without it is stepped by looking up.
+ * (tests/core/test_stage_turn.c). A row without it is stepped by looking up.
  */
 /* clang-format off */
 #define WH_METHOD_ROWS(X) \

@@ -79,7 +79,7 @@ typedef float wh_real;
     X(WH_E_SINGULAR, -5, "holds leave more than one motion") \
     /* other bits than everywhere else would be computed: arithmetic.h says why */ \
     X(WH_E_ARITHMETIC, -6, "compiled or set up for other arithmetic than IEEE 754") \
-    /* sines are turned on and not looked up (turn.h): the last good state is kept */ \
+    /* sines are turned on and not looked up (stage_turn.h): the last good state is kept */ \
     X(WH_E_TURN, -7, "an angle turns too far in a step: --angles lookup takes it further")
 
 #define WH_STATUS_VALUE(name, value, words) name = (value),

@@ -187,7 +187,7 @@ static void write_includes(FILE *out, const image *im) {
     if (im->contacts > 0) {
         c_contacts_include(out, im);
     } else {
-        const char *const with[2][2] = {{"step", "ledger_step"}, {"turn", "turn_ledger"}};
+        const char *const with[2][2] = {{"step", "ledger_step"}, {"stage_turn", "stage_turn_ledger"}};
         fprintf(out, "#include \"core/%s.h\"\n", with[image_turns(im)][im->ledger.kept]);
     }
     if (image_calls(im)) {

@@ -21,7 +21,7 @@
 
 /* Where a stage's sines of turn angles come from. */
 typedef enum image_angles {
-    ANGLES_TURNED, /* looked up once a step and turned on (core/turn.h), where that is possible */
+    ANGLES_TURNED, /* looked up once a step and turned on (core/stage_turn.h), where that is possible */
     ANGLES_LOOKUP  /* looked up at each stage (core/step.h) */
 } image_angles;
 

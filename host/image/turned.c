@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "core/turn.h"
+#include "core/stage_turn.h"
 
 const char *const image_angles_words[IMAGE_ANGLES] = {
     [ANGLES_TURNED] = "turned", [ANGLES_LOOKUP] = "lookup"};

@@ -1,4 +1,4 @@
-/* turned.h: does a scene's step turn its sines on (core/turn.h), or look them up at each stage (core/step.h)? */
+/* turned.h: does a scene's step turn its sines on (core/stage_turn.h), or look them up at each stage (core/step.h)? */
 #ifndef IMAGE_TURNED_H
 #define IMAGE_TURNED_H
 

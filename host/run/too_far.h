@@ -1,4 +1,4 @@
-/* too_far.h: in words, that an angle turned too far for a step that turns its sines (core/turn.h). */
+/* too_far.h: in words, that an angle turned too far for a step that turns its sines (core/stage_turn.h). */
 #ifndef RUN_TOO_FAR_H
 #define RUN_TOO_FAR_H
 

@@ -1,5 +1,5 @@
 /* turn.c: who turned too far. */
-#include "turn.h"
+#include "stage_turn.h"
 
 wh_status wh_turn_refuse(uint64_t angles, const wh_real *rate, wh_real h, wh_state *state) {
     wh_real most = WH_R(-1.0); /* rad a step */

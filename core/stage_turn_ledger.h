@@ -1,14 +1,14 @@
-/* turn_ledger.h: keeping the books of ledger.h while the stages' sines are turned (turn.h). C only, as step.h is. */
-#ifndef WH_TURN_LEDGER_H
-#define WH_TURN_LEDGER_H
+/* stage_turn_ledger.h: keeping the books of ledger.h while the stages' sines are turned (stage_turn.h). C only, as step.h is. */
+#ifndef WH_STAGE_TURN_LEDGER_H
+#define WH_STAGE_TURN_LEDGER_H
 
 #ifdef __cplusplus
 #error \
-    "core/turn_ledger.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
+    "core/stage_turn_ledger.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
 #endif
 
 #include "ledger_step.h"
-#include "turn.h"
+#include "stage_turn.h"
 
 typedef struct wh_turn_ledger_model {
     const wh_ledger_form *form;

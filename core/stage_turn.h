@@ -1,4 +1,4 @@
-/* turn.h: steps whose stages turn sines and cosines on instead of looking them up.
+/* stage_turn.h: steps whose stages turn sines and cosines on instead of looking them up.
  *
  * A step looks up the sine and cosine of each angle that its list takes once, where it begins. Stage s stands
  *
@@ -22,12 +22,12 @@
  * is refused with WH_E_TURN, by one check. Angles in no sine may move by up to half a turn a step. Looking up at each
  * stage (wh_step_second(), wh_step_first()) has that limit for every angle, and costs more.
  */
-#ifndef WH_TURN_H
-#define WH_TURN_H
+#ifndef WH_STAGE_TURN_H
+#define WH_STAGE_TURN_H
 
 #ifdef __cplusplus
 #error \
-    "core/turn.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
+    "core/stage_turn.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
 #endif
 
 #include "step.h"

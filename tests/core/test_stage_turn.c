@@ -1,13 +1,13 @@
-/* test_turn.c: steps that turn their sines: as good as looking them up, to the method's order, for every method and
+/* test_stage_turn.c: steps that turn their sines: as good as looking them up, to the method's order, for every method and
  * form; refused where they must be, naming who turns too far; and what rounding leaves of a small turn. */
 #include "core/scene.h"
 #define WH_COORDS 4
 #define WH_WAVES 3
-#include "core/turn.h"
+#include "core/stage_turn.h"
 
 #include "unity.h"
 
-void suite_turn(void);
+void suite_stage_turn(void);
 
 enum { ANGLES = 3, LINEARS = 1, COORDINATES = 4, REALS = 5, VALUES = 8 };
 
@@ -140,7 +140,7 @@ static manner manner_of(unsigned k) {
                     k / 2 % 2 != 0, true};
 }
 
-/* The two errors have the same leading term (turn.h). Against runs with steps that are a sixteenth and look sines up. */
+/* The two errors have the same leading term (stage_turn.h). Against runs with steps that are a sixteenth and look sines up. */
 static void test_turning_has_the_order_of_the_row_and_about_its_error(void) {
     for (unsigned k = 0; k < MANNERS; k++) {
         manner how = manner_of(k);
@@ -356,7 +356,7 @@ static void test_small_turns_are_sines(void) {
     }
 }
 
-void suite_turn(void) {
+void suite_stage_turn(void) {
     RUN_TEST(test_turning_has_the_order_of_the_row_and_about_its_error);
     RUN_TEST(test_turns_follow_from_the_shares);
     RUN_TEST(test_what_does_not_turn_has_the_same_bits);
