@@ -66,7 +66,7 @@ changed_objects() {
 # --- tests ----------------------------------------------------------------------------------------------
 # Quick ones first, and those that killed before.
 order() {
-    awk -F '\t' -v longest="$LONGEST" -v always="$ALWAYS" '
+    awk -F '\t' -v longest="$LONGEST" -v always="$ALWAYS" -v never="$NEVER" '
         FILENAME == ARGV[1] {
             if ($2 == "killed") {
                 sub(/ \(.*/, "", $3)
@@ -76,7 +76,7 @@ order() {
         }
         {
             split($0, t, " ")
-            if (t[1] <= longest || (always != "" && t[3] ~ always)) {
+            if ((t[1] <= longest || (always != "" && t[3] ~ always)) && t[3] !~ never) {
                 print -(kills[t[2] " " t[3]] + 0.1) / (t[1] + 0.03), t[1], t[2], t[3]
             }
         }' "$1" "$top/times" | sort -n | cut -d ' ' -f 2-
