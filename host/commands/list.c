@@ -14,8 +14,9 @@ static const command_usage usage = {
         "The mechanisms and scenes of FILEs, or the built-in ones:\n"
         "  --as text    a line each: kind, name, title (default)\n"
         "  --as table   for programs: also the effects, a line each, fields between tabs, the names of the\n"
-        "               fields first; '-' stands for nothing. What it holds is terms, contacts, noise\n"
-        "               and conserve; lines are those of its block, of a mechanism the one of its name.\n",
+        "               fields first; '-' stands for nothing; \\t, \\n, \\r, \\\\ for what would end a field.\n"
+        "               What it holds is terms, contacts, noise and conserve; lines are those of its\n"
+        "               block, of a mechanism the one of its name.\n",
     .tail = ""};
 
 enum { OUTSIDE = -1 }; /* of every effect */
@@ -85,17 +86,29 @@ static void put_what_is_in_scene(const scene *in) {
     end_words(any);
 }
 
-/* A title is one line, without tabs. */
-static void put_title(const char *title) {
-    for (const char *at = title; *at != '\0'; at++) {
-        putchar(*at == '\t' ? ' ' : *at);
+/* A text that may hold anything, as C writes it: neither a field's end nor a line's is in it. */
+static void put_text(const char *text) {
+    for (const char *at = text; *at != '\0'; at++) {
+        switch (*at) {
+        case '\t': fputs("\\t", stdout); break;
+        case '\n': fputs("\\n", stdout); break;
+        case '\r': fputs("\\r", stdout); break;
+        case '\\': fputs("\\\\", stdout); break;
+        default: putchar(*at); break;
+        }
     }
-    fputs(title[0] == '\0' ? "-\n" : "\n", stdout);
+}
+
+static void put_title(const char *title) {
+    put_text(title[0] == '\0' ? "-" : title);
+    putchar('\n');
 }
 
 static void put_place(const char *kind, const char *name, const mechanism *of, const char *file,
                       int first_line, int last_line) {
-    printf("%s\t%s\t%s\t%s\t%d\t%d\t", kind, name, of->name, file, first_line, last_line);
+    printf("%s\t%s\t%s\t", kind, name, of->name);
+    put_text(file);
+    printf("\t%d\t%d\t", first_line, last_line);
 }
 
 /* Step and length of a scene, or of the mechanism at rest; false when they are wrong (reported). */
