@@ -25,17 +25,16 @@ static const char usage[] =
     "  whirl sweep SCENE|FILE[:SCENE] ... simulate over ranges of parameters\n"
     "\n"
     "For FILE[:SCENE] the built-in MECHANISM[:SCENE] can stand everywhere.\n"
-    "`whirl COMMAND --help` says more; --version prints the version.\n"
-    "Exit status:";
+    "`whirl COMMAND --help` says more; --version prints the version.\n";
 
 static void print_usage(FILE *out) {
-#define MEANING(name, status, meaning) #status " " meaning,
-    static const char *const ends[] = {EXIT_ROWS(MEANING)};
+    static const char *const why[EXITS] = {
+        [EXIT_ROW_OF(EXIT_DONE)] = "",
+        [EXIT_ROW_OF(EXIT_RUN_FAILED)] = "a run did, or standard output could not be written whole",
+        [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
+        [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""};
     fputs(usage, out);
-    for (size_t i = 0; i < sizeof ends / sizeof ends[0]; i++) {
-        fprintf(out, "%s %s", i > 0 ? "," : "", ends[i]);
-    }
-    fputs(".\n", out);
+    exit_describe(out, why);
 }
 
 typedef struct command {
