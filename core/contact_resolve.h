@@ -283,6 +283,25 @@ WH_APART unsigned wh_contact_resolve(const wh_contact_system *of, wh_contact_wor
     return events;
 }
 
+/* Can an input have moved what contact k keeps, since the last step? */
+WH_INLINE bool wh_contact_may_move(const wh_contact_system *of, const wh_contact_work *w,
+                                   unsigned k) {
+    const wh_contact *c = &of->contact[k];
+    return c->kind == WH_STOP ? c->direction != 0 && w->mode[k] == WH_ACTIVE
+                              : c->direction < 0 && wh_contact_slips(of, w, k);
+}
+
+/* Is there one? */
+WH_INLINE bool wh_contact_follows(const wh_contact_system *of, const wh_contact_work *w) {
+    WH_UNROLL
+    for (unsigned k = 0; k < of->forced; k++) {
+        if (wh_contact_may_move(of, w, k)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /* Where an input has moved a resting stop since the last step: the body is put back onto it, or falls if
  * what presses it does not close the gap within the step. The energy is the stop's. What an input does to a held
  * expression moves nobody: the hold keeps the new value. */
@@ -292,14 +311,11 @@ static inline void wh_contact_follow(const wh_contact_system *of, wh_contact_wor
     wh_real signal[2 * WH_CONTACTS_MAX];
     unsigned moved = WH_CONTACTS_MAX;
     wh_contact_place spot = WH_CONTACT_HERE;
-    bool held = false;
-    for (unsigned k = 0; k < of->forced; k++) {
-        const bool rests = of->contact[k].kind == WH_STOP && w->mode[k] == WH_ACTIVE;
-        moved = rests && of->contact[k].direction != 0 ? k : moved;
-        held = held || (wh_contact_slips(of, w, k) && of->contact[k].direction < 0);
-    }
-    if (moved == WH_CONTACTS_MAX && !held) {
+    if (!wh_contact_follows(of, w)) {
         return;
+    }
+    for (unsigned k = 0; k < of->forced; k++) {
+        moved = of->contact[k].kind == WH_STOP && wh_contact_may_move(of, w, k) ? k : moved;
     }
     wh_contact_look(of, w, s, input, accel, signal);
     for (unsigned k = 0; k < of->forced; k++) {
