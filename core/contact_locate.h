@@ -206,7 +206,8 @@ static inline wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_
     unsigned at_once = 0;
     unsigned sliding = 0;
     for (unsigned k = 0; k < of->contacts; k++) {
-        const bool slides = of->contact[k].kind == WH_FRICTION && w->mode[k] != WH_STUCK;
+        const bool slides =
+            k < of->forced && wh_contact_of(of, k, WH_FRICTION) && w->mode[k] != WH_STUCK;
         sliding |= slides ? 1U << k : 0U;
         before[k] = probe.value[k];
         after[k] = at_end->value[k];
@@ -231,7 +232,8 @@ static inline wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_
         for (unsigned k = 0; k < of->contacts; k++) {
             /* at zero already; but later than at the start a load at its limit may be one that others bear */
             const bool load =
-                wh_contact_is(of, k, WH_UNILATERAL | WH_LIMITED) && wh_contact_constrains(of, w, k);
+                k < of->forced && wh_contact_is(of, k, WH_UNILATERAL | WH_LIMITED) &&
+                wh_contact_constrains(of, w, k);
             const bool begins = before[k] == WH_R(0.0) && (sliding >> k & 1U) == 0 &&
                                 (low == WH_R(0.0) || !load);
             if ((*events >> k & 1U) != 0 && (before[k] > WH_R(0.0) || begins)) {

@@ -31,7 +31,7 @@ WH_INLINE void wh_contact_work_begin(const wh_contact_system *of, const wh_state
     wh_contact_modes(of, state, w);
     WH_UNROLL
     for (unsigned k = 0; k < WH_CONTACTS_MAX; k++) {
-        if (k < of->forced && of->contact[k].kind == WH_FRICTION) {
+        if (k < of->forced && wh_contact_of(of, k, WH_FRICTION)) {
             w->slack[k] = WH_R(0.0);
         }
     }
@@ -114,7 +114,7 @@ WH_INLINE void wh_contact_attempt_make(const wh_contact_system *of, wh_contact_w
     wh_contact_margins(of, w, &at, input, &a->margins);
     WH_UNROLL
     for (unsigned k = 0; k < of->forced; k++) {
-        const bool free = of->contact[k].kind == WH_STOP && w->mode[k] == WH_FREE;
+        const bool free = wh_contact_of(of, k, WH_STOP) && w->mode[k] == WH_FREE;
         if (free && a->margins.signal[2 * k] < WH_R(0.0) && a->margins.value[k] > WH_R(0.0)) {
             a->leaving |= 1U << k;
         }
