@@ -205,10 +205,14 @@ static inline wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_
     wh_contact_margins(of, w, &path.begin, input, &probe);
     unsigned at_once = 0;
     unsigned sliding = 0;
+    unsigned loads = 0; /* whose force is looked at */
     for (unsigned k = 0; k < of->contacts; k++) {
+        const bool load = k < of->forced && wh_contact_is(of, k, WH_UNILATERAL | WH_LIMITED) &&
+                          wh_contact_constrains(of, w, k);
         const bool slides =
             k < of->forced && wh_contact_of(of, k, WH_FRICTION) && w->mode[k] != WH_STUCK;
         sliding |= slides ? 1U << k : 0U;
+        loads |= load ? 1U << k : 0U;
         before[k] = probe.value[k];
         after[k] = at_end->value[k];
         if ((*events >> k & 1U) != 0 && !slides && before[k] < WH_R(0.0)) {
@@ -231,11 +235,8 @@ static inline wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_
         wh_real root = high;
         for (unsigned k = 0; k < of->contacts; k++) {
             /* at zero already; but later than at the start a load at its limit may be one that others bear */
-            const bool load =
-                k < of->forced && wh_contact_is(of, k, WH_UNILATERAL | WH_LIMITED) &&
-                wh_contact_constrains(of, w, k);
             const bool begins = before[k] == WH_R(0.0) && (sliding >> k & 1U) == 0 &&
-                                (low == WH_R(0.0) || !load);
+                                (low == WH_R(0.0) || (loads >> k & 1U) == 0);
             if ((*events >> k & 1U) != 0 && (before[k] > WH_R(0.0) || begins)) {
                 const wh_real share = before[k] / (before[k] - after[k]);
                 root = low + width * share < root ? low + width * share : root;
@@ -261,13 +262,16 @@ static inline wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_
         wh_contact_margins(of, w, &at, input, &probe);
         const unsigned found = wh_contact_happened(of, &probe);
         reach = halve ? reach : backward == (found == 0) ? WH_R(1.0) : reach * WH_R(8.0);
-        wh_real *side = found != 0 ? after : before;
-        for (unsigned k = 0; k < of->contacts; k++) {
-            side[k] = probe.value[k];
+        if (found != 0) {
+            high = guess;
+            *events = found;
+        } else {
+            low = guess;
         }
-        low = found != 0 ? low : guess;
-        high = found != 0 ? guess : high;
-        *events = found != 0 ? found : *events;
+        for (unsigned k = 0; k < of->contacts; k++) {
+            before[k] = found != 0 ? before[k] : probe.value[k];
+            after[k] = found != 0 ? probe.value[k] : after[k];
+        }
     }
     return high;
 }

@@ -279,7 +279,7 @@ WH_APART wh_status wh_contact_eventful(const wh_contact_system *of, wh_contact_w
         unsigned events = round < WH_EVENTS_MAX ? wh_contact_next(of, w) : 0;
         if (events == 0 && left > WH_R(0.0)) {
             if (!a->made) {
-                a->next = a->now;
+                wh_contact_copy(of, a->now.angle, a->now.real, a->now.carry, &a->next);
                 wh_contact_attempt_make(of, w, left, state->input, a);
             }
             a->made = false;
@@ -307,7 +307,7 @@ WH_APART wh_status wh_contact_eventful(const wh_contact_system *of, wh_contact_w
                                                           state->input, &a->margins, &events);
             w->undefined = -1; /* what lies behind the event is none of ours */
             if (span > WH_R(0.0)) {
-                a->next = a->now;
+                wh_contact_copy(of, a->now.angle, a->now.real, a->now.carry, &a->next);
                 if (!wh_contact_try(of, w, span, state->input, &a->now, &a->fault)) {
                     wh_contact_blame(of, w, span, state->input, &a->next);
                     return wh_contact_refuse(w, a->fault, state);
