@@ -8,6 +8,7 @@
 typedef struct wh_margins {
     wh_real value[WH_CONTACTS_MAX];
     wh_real signal[2 * WH_CONTACTS_MAX];
+    wh_real accel[WH_COORDS]; /* where any depends on a force: wh_contact_watched() */
     wh_real all; /* sum of all that is looked at: no finite number if one of it is none */
 } wh_margins;
 
@@ -102,8 +103,7 @@ static inline void wh_contact_margins(const wh_contact_system *of, wh_contact_wo
     wh_contact_signals(of, at->phase, at->linear, at->rate, input, m->signal);
     if (wh_contact_watched(of, w)) {
         const wh_contact_model model = {of, w};
-        wh_real accel[WH_COORDS];
-        wh_contact_accel(&model, at->phase, at->linear, at->rate, input, accel);
+        wh_contact_accel(&model, at->phase, at->linear, at->rate, input, m->accel);
     }
     wh_real all = WH_R(0.0);
     WH_UNROLL
@@ -185,7 +185,8 @@ WH_INLINE unsigned wh_contact_happened(const wh_contact_system *of, const wh_mar
 }
 
 /* Where between `from` and `to` the first of the events that have happened at `to` comes: the share of
- * h, just past it, by WH_BRACKET at most. *events are those that have happened there. */
+ * h, just past it, by WH_BRACKET at most. *events are those that have happened there. at_end is what
+ * wh_contact_margins() says of `to`. */
 static inline wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work *w,
                                         wh_contact_state *from, wh_contact_state *to, wh_real h,
                                         const wh_real *input, const wh_margins *at_end,
@@ -223,9 +224,17 @@ static inline wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_
         *events = at_once;
         return WH_R(0.0);
     }
-    wh_contact_accel(&model, path.begin.phase, path.begin.linear, path.begin.rate, input, path.a0);
-    wh_contact_point_of(of, to, &at);
-    wh_contact_accel(&model, at.phase, at.linear, at.rate, input, path.a1);
+    if (wh_contact_watched(of, w)) {
+        for (unsigned i = 0; i < of->coordinates; i++) {
+            path.a0[i] = probe.accel[i];
+            path.a1[i] = at_end->accel[i];
+        }
+    } else {
+        const wh_contact_point *begin = &path.begin;
+        wh_contact_accel(&model, begin->phase, begin->linear, begin->rate, input, path.a0);
+        wh_contact_point_of(of, to, &at);
+        wh_contact_accel(&model, at.phase, at.linear, at.rate, input, path.a1);
+    }
     wh_real reach = WH_R(1.0);
     wh_real earlier[2] = {WH_R(4.0), WH_R(4.0)}; /* widths, two and one probes ago */
     wh_real most =
