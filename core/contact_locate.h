@@ -244,9 +244,10 @@ static inline wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_
         wh_real root = high;
         for (unsigned k = 0; k < of->contacts; k++) {
             /* at zero already; but later than at the start a load at its limit may be one that others bear */
-            const bool begins = before[k] == WH_R(0.0) && (sliding >> k & 1U) == 0 &&
+            const bool begins = (sliding >> k & 1U) == 0 &&
                                 (low == WH_R(0.0) || (loads >> k & 1U) == 0);
-            if ((*events >> k & 1U) != 0 && (before[k] > WH_R(0.0) || begins)) {
+            if ((*events >> k & 1U) != 0 &&
+                (before[k] > WH_R(0.0) || (before[k] == WH_R(0.0) && begins))) {
                 const wh_real share = before[k] / (before[k] - after[k]);
                 root = low + width * share < root ? low + width * share : root;
             }
