@@ -256,10 +256,20 @@ static inline wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_
          * further each time that fails, and in the middle where two probes did not halve it */
         const wh_real over =
             width * (width < WH_R(0.015625) ? width : WH_R(0.015625)) * reach + WH_BRACKET_FINE / 4;
-        const bool backward = root - low > high - root;
-        const bool halve = width > WH_R(0.5) * earlier[0];
-        wh_real guess = backward ? root - over : root + over;
-        guess = halve ? low + WH_R(0.5) * width : guess;
+        wh_real guess = low + WH_R(0.5) * width;
+        wh_real if_found = reach;
+        wh_real if_not = reach;
+        if (width > WH_R(0.5) * earlier[0]) {
+            /* so it is halved */
+        } else if (root - low > high - root) {
+            guess = root - over;
+            if_found = reach * WH_R(8.0);
+            if_not = WH_R(1.0);
+        } else {
+            guess = root + over;
+            if_found = WH_R(1.0);
+            if_not = reach * WH_R(8.0);
+        }
         guess = guess < high - most ? high - most : guess;
         guess = guess > low + most ? low + most : guess;
         if (!(guess > low && guess < high)) {
@@ -271,7 +281,7 @@ static inline wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_
         wh_contact_between(of, &path, guess, &at);
         wh_contact_margins(of, w, &at, input, &probe);
         const unsigned found = wh_contact_happened(of, &probe);
-        reach = halve ? reach : backward == (found == 0) ? WH_R(1.0) : reach * WH_R(8.0);
+        reach = found != 0 ? if_found : if_not;
         if (found != 0) {
             high = guess;
             *events = found;

@@ -46,16 +46,17 @@ WH_INLINE void wh_contact_work_begin(const wh_contact_system *of, const wh_state
 
 /* What events need beyond that. */
 WH_INLINE void wh_contact_work_open(const wh_contact_system *of, wh_contact_work *w) {
-    if (of->forced > 0) { /* crossings alone touch nothing */
-        w->inside = 0;
-        w->hit_next = 0;
+    if (wh_contact_any_of(of, WH_FRICTION)) {
         w->turned = 0;
     }
-    if (of->forced > 1) { /* one contact shares nothing */
+    if (of->forced > 1) { /* one contact shares nothing, and passes nothing on */
         w->capped = false;
+        w->hit_next = 0;
     }
-    w->moved = 0;
-    w->mover = 0;
+    if (of->contacts > of->forced) { /* only crossings assign */
+        w->moved = 0;
+        w->mover = 0;
+    }
     w->fault = -1;
 }
 
@@ -109,7 +110,9 @@ WH_INLINE void wh_contact_attempt_make(const wh_contact_system *of, wh_contact_w
         return;
     }
     wh_contact_stabilise(of, w, left, input, &a->now, &a->next);
-    w->inside = ~0U;
+    if (wh_contact_any_of(of, WH_STOP)) {
+        w->inside = ~0U;
+    }
     wh_contact_point_of(of, &a->next, &at);
     wh_contact_margins(of, w, &at, input, &a->margins);
     WH_UNROLL
@@ -182,7 +185,7 @@ WH_INLINE void wh_contact_note(const wh_contact_work *w, unsigned k, wh_real at_
 WH_INLINE void wh_contact_happen(const wh_contact_system *of, wh_contact_work *w,
                                  const wh_contact_moment *m, wh_real at_s, const wh_real *input,
                                  wh_contact_state *now, wh_contact_log *log) {
-    wh_real impulse[WH_CONTACTS_MAX] = {WH_R(0.0)};
+    wh_real impulse[WH_CONTACTS_MAX];
     const unsigned events = wh_contact_resolve(of, w, m, input, now, impulse);
     for (unsigned k = 0; k < of->contacts; k++) {
         if ((events >> k & 1U) != 0) {
