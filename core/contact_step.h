@@ -130,7 +130,7 @@ WH_INLINE void wh_contact_attempt_dipped(const wh_contact_system *of, wh_contact
                                          const wh_real *input, wh_contact_attempt *a) {
     wh_contact_point at;
     wh_real before[2 * WH_CONTACTS_MAX];
-    if (a->leaving == 0) {
+    if (!wh_contact_any_of(of, WH_STOP) || a->leaving == 0) {
         return;
     }
     wh_contact_point_of(of, &a->now, &at);
