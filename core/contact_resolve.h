@@ -292,7 +292,7 @@ WH_INLINE bool wh_contact_may_move(const wh_contact_system *of, const wh_contact
                                    unsigned k) {
     const wh_contact *c = &of->contact[k];
     return wh_contact_of(of, k, WH_STOP) ? c->direction != 0 && w->mode[k] == WH_ACTIVE
-                              : c->direction < 0 && wh_contact_slips(of, w, k);
+                                         : c->direction < 0 && wh_contact_slips(of, w, k);
 }
 
 /* Is there one? */
