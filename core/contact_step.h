@@ -2,8 +2,8 @@
 #ifndef WH_CONTACT_STEP_H
 #define WH_CONTACT_STEP_H
 
+#include "contact_begin.h"
 #include "contact_rank.h"
-#include "contact_resolve.h"
 
 WH_INLINE void wh_contact_modes(const wh_contact_system *of, const wh_state *state,
                                 wh_contact_work *w) {
