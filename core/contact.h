@@ -71,6 +71,9 @@
  * way: what once leaves is of second order in it. */
 #define WH_SLIP_COARSE (WH_DOUBLE ? WH_R(1e-6) : WH_R(1e-3))
 
+/* Looks at what a step with too many events has let pass. */
+#define WH_SQUEEZE_LOOKS 3U
+
 /* A flight shorter than this share of a step is none. */
 #define WH_REST_SHARE WH_R(0.125)
 
@@ -122,18 +125,18 @@ enum {
  * rounds a try to the step's end and one to the event (`stages` each), at the end of both up to three looks that put
  * back what slipped, one more at the step's end, the search with one more at its begin (where no force matters, those
  * at both ends and none on the way), two looks at an impact and one at a capture, two after assignments, and one more
- * than there are contacts that may give way; then the last try, and what finds or follows the modes when the step
- * begins. */
+ * than there are contacts that may give way; then the last try, three looks at what passed, and what finds or
+ * follows the modes when the step begins. */
 #define WH_CONTACT_EVALUATIONS(stages, stops, forced) \
     (WH_EVENTS_MAX * (2 * (stages) + WH_PROBES + 11 + WH_CONTACT_LOOKS(stops, forced)) + \
-     (stages) + 6 + WH_CONTACT_LOOKS(stops, forced))
+     (stages) + 9 + WH_CONTACT_LOOKS(stops, forced))
 #define WH_CONTACT_LOOKS(stops, forced) (2 * ((stops) > 0) + ((forced) > (stops)) + (forced))
 
 /* Most evaluations of `signals` in one step: one with each of those above but the stages' and the search's two
  * ends, a second one where a step's end is compared with its begin and where a hold captures, and two when a
  * crossing is taken. */
 #define WH_CONTACT_SIGNALS(forced, crossings) \
-    (WH_EVENTS_MAX * (WH_PROBES + 12 + 3 * (forced) + 2 * (crossings)) + 7 + 3 * (forced))
+    (WH_EVENTS_MAX * (WH_PROBES + 12 + 3 * (forced) + 2 * (crossings)) + 10 + 3 * (forced))
 
 /* A scene's contacts, constant. The functions are lists of operations like the accelerations. */
 typedef struct wh_contact_system {

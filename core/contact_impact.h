@@ -259,6 +259,60 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
     return hits;
 }
 
+/* What a step with too many events has let pass: where free stops are beyond their places, bodies are moved so that none
+ * is, the least that does it in the metric of the masses, and what is touched then gives nothing back. Both are the
+ * problem of one impact: stops push and do not pull. */
+static inline void wh_contact_squeeze(const wh_contact_system *of, wh_contact_work *w,
+                                      const wh_real *input, wh_contact_state *s) {
+    wh_real accel[WH_COORDS];
+    wh_real signal[2 * WH_CONTACTS_MAX];
+    wh_real zero[WH_CONTACTS_MAX] = {WH_R(0.0)};
+    wh_real impulse[WH_CONTACTS_MAX] = {WH_R(0.0)};
+    unsigned touched = 0;
+    for (unsigned pass = 0; pass < WH_SQUEEZE_LOOKS; pass++) {
+        uint8_t member[WH_CONTACTS_MAX] = {0};
+        wh_real wanted[WH_CONTACTS_MAX] = {WH_R(0.0)};
+        wh_real lambda[WH_CONTACTS_MAX];
+        wh_real left[WH_CONTACTS_MAX];
+        wh_real way[WH_COORDS] = {WH_R(0.0)};
+        unsigned mover = WH_CONTACTS_MAX;
+        unsigned count = 0;
+        wh_contact_look(of, w, s, input, accel, signal);
+        for (unsigned k = 0; k < of->forced; k++) {
+            const bool stop = wh_contact_of(of, k, WH_STOP);
+            if (!stop && !(wh_contact_of(of, k, WH_HOLD) && w->mode[k] == WH_ACTIVE)) {
+                continue;
+            }
+            if (stop && w->mode[k] == WH_FREE && signal[2 * k] < WH_R(0.0)) {
+                mover = mover == WH_CONTACTS_MAX ? k : mover;
+                touched |= 1U << k;
+            }
+            wanted[count] = stop ? -signal[2 * k] : WH_R(0.0);
+            member[count++] = (uint8_t)k;
+        }
+        if (mover == WH_CONTACTS_MAX || pass + 1U == WH_SQUEEZE_LOOKS) {
+            break;
+        }
+        (void)wh_contact_lcp(of, w, member, count, wanted, false, lambda, left);
+        for (unsigned i = 0; i < count; i++) {
+            touched |= wh_contact_of(of, member[i], WH_STOP) && lambda[i] > WH_R(0.0)
+                           ? 1U << member[i]
+                           : 0U;
+            wh_contact_apply(of, w, member[i], lambda[i], way);
+        }
+        wh_books_look(of, w, s, input);
+        for (unsigned i = 0; i < of->coordinates; i++) {
+            wh_contact_move(of, i, way[i], s);
+        }
+        wh_books_moved(of, w, s, input, mover);
+    }
+    if (touched != 0) {
+        const unsigned released =
+            wh_contact_impulses(of, w, touched, 0, zero, wh_contact_rates(of, s), impulse);
+        wh_contact_set_modes(of, w, released, WH_FREE);
+    }
+}
+
 /* Holds capture, all at once. */
 static inline void wh_contact_captures(const wh_contact_system *of, wh_contact_work *w,
                                        unsigned holds, wh_real h, const wh_real *input,
