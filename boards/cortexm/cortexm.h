@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include "board_data.h"
+#include "boards/shared/stack.h" /* laid out by sections.ld */
 
 /* A 32-bit register by its address. */
 #define REGISTER(address) (*(volatile uint32_t *)(uintptr_t)(address))
@@ -22,17 +23,6 @@
 #define MPU_RBAR 0xE000ED9CU
 #define MPU_RASR 0xE000EDA0U
 #define SCB_CPACR 0xE000ED88U /* coprocessor access: the FPU is 10 and 11 */
-
-/* Laid out by sections.ld. */
-extern uint32_t board_stack_guard[]; /* 256 bytes below the stack, nobody's */
-extern uint32_t board_stack_limit[]; /* lowest word of the stack */
-extern uint32_t board_stack_top[];   /* one past its highest word */
-extern uint32_t board_fault_stack_top[];
-
-/* Words from `low` up to `high`: two symbols of the linker script, which to C are two objects. */
-static inline uint32_t board_words(const uint32_t *low, const uint32_t *high) {
-    return (uint32_t)(((uintptr_t)high - (uintptr_t)low) / sizeof *low);
-}
 
 /* The console's device, one driver file a family of chips. uart_start() may be called again at any
  * time, also from the fault handler before anything else is up. */

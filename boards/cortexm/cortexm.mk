@@ -1,4 +1,4 @@
-# cortexm.mk: what the boards of this family share. A board.mk sets BOARD_MACHINE, its name in QEMU and its folder,
+# cortexm.mk: what the boards of this family share. A board.mk sets BOARD_MACHINE, its name in QEMU,
 # BOARD_CPU and BOARD_SECONDS, and includes this:
 #
 #   BOARD_CC       compiler; BOARD_NM, BOARD_SIZE, BOARD_OBJCOPY, BOARD_OBJDUMP its tools
@@ -19,11 +19,11 @@ BOARD_OBJCOPY  := $(BOARD_CROSS)objcopy
 BOARD_OBJDUMP  := $(BOARD_CROSS)objdump
 BOARD_CFLAGS   := $(BOARD_CPU) -std=c11 -O2 -ffp-contract=off $(BOARD_MATH) -ffreestanding \
                   -ffunction-sections -fdata-sections -fstack-usage -fcallgraph-info=su \
-                  -Iboards/$(BOARD_MACHINE) -I.
-BOARD_LDFLAGS  := $(BOARD_CPU) -nostdlib -Tboards/$(BOARD_MACHINE)/board.ld -L. -Wl,--gc-sections \
+                  -Iboards/$(BOARD) -I.
+BOARD_LDFLAGS  := $(BOARD_CPU) -nostdlib -Tboards/$(BOARD)/board.ld -L. -Wl,--gc-sections \
                   -Wl,--fatal-warnings
 BOARD_LDLIBS   := -lgcc
 BOARD_SOURCES  := boards/cortexm/startup.c boards/cortexm/board.c boards/cortexm/fault.c \
-                  boards/cortexm/cmsdk.c boards/cortexm/mem.c
+                  boards/cortexm/cmsdk.c boards/shared/mem.c boards/shared/stack.c
 BOARD_EMULATE   = timeout $(BOARD_SECONDS) qemu-system-arm -M $(BOARD_MACHINE) -nographic \
                   -semihosting-config enable=on,target=native -kernel $(1) </dev/null
