@@ -80,8 +80,19 @@ check: ## the quality gates: warnings, layout, lint, sanitizers, firmware rules,
 
 .PHONY: hashes
 hashes: ## the same bits from every compiler, optimisation level, board and the interpreter
-	@CC="$(CC)" mk/setup/deps.sh host firmware quality
+	@CC="$(CC)" mk/setup/deps.sh host firmware boards quality
 	@$(MAKE) hashes-now
+
+.PHONY: hashes-all
+hashes-all: ## the same bits on every board there is (many minutes)
+	@CC="$(CC)" mk/setup/deps.sh host firmware boards quality
+	@$(MAKE) hashes-all-now
+
+.PHONY: test-boards
+test-boards: ## the portable suites, the stack's guard and the firmware rules on every board (minutes)
+	@UNITY="$(UNITY)" CC="$(CC)" mk/setup/deps.sh host firmware boards tests
+	@UNITY="$(UNITY)" mk/setup/unity.sh build/unity
+	@$(MAKE) test-boards-now
 
 .PHONY: hosts
 hosts: ## the same generated code from whirl built by other compilers, C libraries and processors (minutes)
@@ -140,7 +151,7 @@ worst-step: ## the most instructions of a step with events, over a million rando
 
 .PHONY: size
 size: ## bytes of flash, of memory and of stack of BOARD's images, and of the functions
-	@CC="$(CC)" mk/setup/deps.sh host firmware
+	@CC="$(CC)" mk/setup/deps.sh host $(BOARD_DEPS)
 	@$(MAKE) size-now
 
 ##@ The dissertation
@@ -159,7 +170,7 @@ octave-check: ## the generated Octave files under ode45, against whirl run (inst
 
 .PHONY: emulate
 emulate: ## run BOARD's firmware in the emulator
-	@CC="$(CC)" mk/setup/deps.sh host firmware
+	@CC="$(CC)" mk/setup/deps.sh host $(BOARD_DEPS)
 	@$(MAKE) emulate-now
 
 ##@ Cleaning

@@ -1,7 +1,7 @@
 # check.mk: the quality gates of `make check`. Each is a target of its own, gate-NAME; tests/gates.sh
 # runs them, keeps what they say in build/check/NAME.log and prints a line for each.
 
-GATES := house gcc clang format cppcheck tidy sanitizers memcheck bad-input firmware size libm avr hashes hosts
+GATES := house gcc clang format cppcheck tidy sanitizers memcheck bad-input firmware size boards libm avr hashes hosts
 LINT_FLAGS := -std=c11 $(WARN) -I. $(UNITY_FLAGS) -D_POSIX_C_SOURCE=200809L
 JOBS := 2
 
@@ -18,19 +18,21 @@ gate-house:
 	@sh tests/house.sh
 
 # --- warnings are errors, with both compilers, in every build -------------------------------------
-TARGET_C := $(filter boards/cortexm/% boards/$(BOARD)/%,$(BOARD_C))
+# What is compiled for boards only; a board's own make lints its part (tidy-board).
+TARGET_C := $(filter-out boards/programs/% boards/host/%,$(BOARD_C))
 PC_BOARD_C := $(PROGRAM_C) $(wildcard boards/host/*.c)
 
-.PHONY: objects board-objects
+.PHONY: objects board-objects board-own-objects
 objects: $(call objects,host,$(WHIRL_MAIN_C) $(WHIRL_C) $(GEN)/builtin_models.c $(HOST_TEST_C) \
         $(wildcard tests/tools/*.c tests/fuzz/*.c) $(HOST_TOOL_C)) \
     $(call objects,float,$(PORTABLE_C) $(PC_BOARD_C) $(CORE_TEST_C) $(SCENE_C)) \
     $(call objects,double,$(CORE_C) $(RIG_C) $(CORE_TEST_C) $(SCENE_C))
-board-objects: $(call objects,$(BOARD),$(PORTABLE_C) $(PROGRAM_C) $(TARGET_C) \
-    $(BOARD_SOURCES) $(CORE_TEST_C) $(SCENE_C))
+board-objects: board-own-objects $(call objects,$(BOARD),$(PORTABLE_C) $(PROGRAM_C) $(CORE_TEST_C) $(SCENE_C))
+board-own-objects: $(call objects,$(BOARD),$(BOARD_SOURCES) $(wildcard tests/boards/*.c))
 
 gate-gcc:
 	@$(MAKE) -k B=build/check/gcc CC=gcc EXTRA=-Werror BOARD_EXTRA=-Werror objects board-objects
+	+@$(foreach b,$(filter-out $(BOARD),$(BOARDS)),$(MAKE) -k B=build/check/gcc BOARD=$(b) BOARD_EXTRA=-Werror board-own-objects &&) true
 
 gate-clang:
 	@$(MAKE) -k B=build/check/clang CC=clang EXTRA=-Werror objects
@@ -47,8 +49,11 @@ gate-tidy:
 	@$(call need,clang-tidy)
 	@$(call tidy,$(TIDY_C),$(LINT_FLAGS))
 	@$(call tidy,$(CORE_C) $(RIG_C),$(LINT_FLAGS) -DWH_DOUBLE=1)
-	@$(call tidy,$(TARGET_C),--target=arm-none-eabi -mcpu=cortex-m4 -ffreestanding \
-	    -Iboards/$(BOARD) $(LINT_FLAGS))
+	+@$(foreach b,$(BOARDS),$(call on_board,$(b),tidy-board) &&) true
+
+.PHONY: tidy-board
+tidy-board:
+	@$(call tidy,$(BOARD_SOURCES) $(wildcard tests/boards/*.c),$(BOARD_TIDY) $(LINT_FLAGS))
 
 gate-cppcheck:
 	@$(call need,cppcheck)
@@ -111,18 +116,32 @@ gate-avr: build/whirl
 	@$(call need,simavr)
 	@sh tests/embed/avr.sh build/whirl build/check/avr
 
+# --- boards that `make test` does not take: the suites, and what guards the stack --------------------------
+BOARDS_CHECKED = $(filter-out $(BOARDS_TEST),$(BOARDS))
+gate-boards: build/whirl
+	@$(MAKE) $(GEN)/.stamp
+	+@$(call build_board_tests,$(BOARDS_CHECKED))
+	@sh tests/run.sh build/check/log_boards $(foreach b,$(BOARDS_CHECKED),$(call run_board,$(b)))
+
 # --- one arithmetic everywhere ----------------------------------------------------------------------
 HASH_BUILDS := gcc-O0 gcc-O2 gcc-O3 clang-O0 clang-O2 clang-O3
+# The scenes' last states, on the boards $(1): build their images, then run them beside the interpreter and this
+# machine's builds.
+build_hashes = $(MAKE) $(addprefix hash-,$(HASH_BUILDS)) && $(foreach b,$(1),$(call on_board,$(b),board-images) &&) true
+compare_hashes = sh tests/hashes.sh build/hash "the interpreter" "build/whirl hashes" \
+    $(foreach h,$(HASH_BUILDS),$(h) build/hash/$(h)/scenes) \
+    $(foreach b,$(1),"$(b)" "$(call on_board,$(b),print-hashes)")
 
-.PHONY: hashes-now gate-hashes $(addprefix hash-,$(HASH_BUILDS))
+.PHONY: hashes-now hashes-all-now gate-hashes $(addprefix hash-,$(HASH_BUILDS))
 hashes-now gate-hashes: build/whirl
 	@$(MAKE) $(GEN)/.stamp
-	@$(MAKE) $(addprefix hash-,$(HASH_BUILDS)) $(ELF)/scenes.elf
-	@$(foreach b,$(OTHER_BOARDS),$(call on_board,$(b),board-images) &&) true
-	@sh tests/hashes.sh build/hash "the interpreter" "build/whirl hashes" \
-	    $(foreach h,$(HASH_BUILDS),$(h) build/hash/$(h)/scenes) \
-	    "$(BOARD)" "$(call emulate,$(ELF)/scenes.elf)" \
-	    $(foreach b,$(OTHER_BOARDS),"$(b)" "$(call on_board,$(b),run-image IMAGE=build/$(b)/scenes.elf)")
+	+@$(call build_hashes,$(BOARDS))
+	@$(call compare_hashes,$(BOARDS))
+
+hashes-all-now: build/whirl
+	@$(MAKE) $(GEN)/.stamp
+	+@$(call build_hashes,$(BOARDS_ALL))
+	@$(call compare_hashes,$(BOARDS_ALL))
 
 $(addprefix hash-,$(HASH_BUILDS)): hash-%:
 	@$(MAKE) B=build/hash/$* CC=$(firstword $(subst -, ,$*)) OPT=-$(lastword $(subst -, ,$*)) \

@@ -4,4 +4,5 @@ BOARD_MACHINE  := mps2-an386
 BOARD_CPU      := -mcpu=cortex-m4 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard
 BOARD_MATH     := -fno-math-errno
 BOARD_SECONDS  := 60
+BOARD_WHEN     := test
 include boards/cortexm/cortexm.mk

@@ -1,5 +1,5 @@
 /* stack.c: how much of the stack was used (board.h), by what is left of a pattern. */
-#include "boards/shared/stack.h"
+#include "boards/shared/metal.h"
 
 #include "boards/board.h"
 
