@@ -138,10 +138,20 @@ hashes-now gate-hashes: build/whirl
 	+@$(call build_hashes,$(BOARDS))
 	@$(call compare_hashes,$(BOARDS))
 
+# Every board; those with an image for each scene beside this machine's program that runs as few steps.
+BOARDS_WHOLE := $(filter-out $(BOARDS_SINGLE),$(BOARDS_ALL))
 hashes-all-now: build/whirl
 	@$(MAKE) $(GEN)/.stamp
 	+@$(call build_hashes,$(BOARDS_ALL))
-	@$(call compare_hashes,$(BOARDS_ALL))
+	@$(MAKE) build/scenes_short
+	@$(call compare_hashes,$(BOARDS_WHOLE))
+	@echo "The first $(SINGLE_STEPS) steps:"
+	@sh tests/hashes.sh build/hash "this machine" build/scenes_short \
+	    $(foreach b,$(BOARDS_SINGLE),"$(b)" "$(call on_board,$(b),print-hashes)")
+
+$(B)/scenes_short: boards/programs/scenes.c $(call objects,float,boards/host/board.c) $(call libraries,float,scenes whirl)
+	$(say) LINK $@
+	$(Q)$(CC) $(FLAGS_float) -DSCENE_STEPS_MOST=$(SINGLE_STEPS)U -o $@ $(filter %.c %.o,$^) $(filter %.a,$^)
 
 $(addprefix hash-,$(HASH_BUILDS)): hash-%:
 	@$(MAKE) B=build/hash/$* CC=$(firstword $(subst -, ,$*)) OPT=-$(lastword $(subst -, ,$*)) \

@@ -11,11 +11,12 @@ COMPENSATED_C := $(patsubst %,build/compensated/%.c,scenes $(COMPENSATED))
 # What of the flags belongs beside a figure.
 TOLD = $(filter -O% -m%,$(1))
 
-$(PLUGIN): mk/count/count_plugin.c
+PLUGIN_C := mk/count/count_plugin.c mk/count/thumb_cycles.c
+$(PLUGIN): $(PLUGIN_C) mk/count/thumb_cycles.h
 	@$(call need,$(CC))
 	@mkdir -p $(@D)
 	$(say) LINK $@
-	$(Q)$(CC) -std=c11 $(WARN) -O2 -fPIC -shared -fvisibility=hidden -o $@ $<
+	$(Q)$(CC) -std=c11 $(WARN) -O2 -I. -fPIC -shared -fvisibility=hidden -o $@ $(PLUGIN_C)
 
 $(eval $(call program,bench,$(BENCH_C),scenes whirl))
 $(eval $(call program,bench_compensated,$(BENCH_C) $(COMPENSATED_C),whirl))

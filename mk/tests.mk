@@ -60,8 +60,7 @@ RUN_HOST = $(call half,0) $(call half,1)
 # What takes longest goes first.
 CLI_LONG := tests/cli/emitted_c.sh tests/cli/effects_cost_nothing.sh
 RUN_CLI = $(foreach t,$(CLI_LONG) $(filter-out $(CLI_LONG),$(CLI_TESTS)),"$(t)" "sh $(t)")
-run_board = "portable suites$(comma) $(1)" "$(call on_board,$(1),run-image IMAGE=$(B)/$(1)/tests.elf)" \
-    "stack guard$(comma) $(1)" "sh tests/boards/guard.sh $(1)"
+run_board = "portable suites$(comma) $(1)" "$(call on_board,$(1),run-suites)"
 RUN_BOARD = $(foreach b,$(BOARDS_TEST),$(call run_board,$(b)))
 comma := ,
 build_board_tests = $(foreach b,$(1),$(call on_board,$(b),board-tests) &&) true

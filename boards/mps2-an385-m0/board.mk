@@ -7,3 +7,4 @@ BOARD_MATH     :=
 BOARD_SECONDS  := 1800
 BOARD_WHEN     := all
 include boards/cortexm/cortexm.mk
+BOARD_SOURCES  += boards/shared/convert.c

@@ -1,5 +1,5 @@
 /* test_convert.c: whole numbers of 64 bits become the nearest float, ties to even, whoever converts them: the
- * processor, the compiler's support code or a board's own (boards/riscv/convert.c). By the definition, in integers. */
+ * processor, the compiler's support code or a board's own (boards/shared/convert.c). By the definition, in integers. */
 #include "core/real.h"
 
 #include "unity.h"

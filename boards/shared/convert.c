@@ -1,11 +1,20 @@
 /* convert.c: whole numbers of 64 bits as float, rounded to nearest, ties to even.
  *
- * The compiler calls these two by their names. Its support library has them too, but takes a detour through
- * double-precision arithmetic there, of which firmware here has none. */
+ * The compiler calls these two by their names. Its support library has them too, but where they are not written in
+ * assembler, as for RISC-V and Cortex-M0, they take a detour through double-precision arithmetic, of which firmware here
+ * has none. */
 #include <stdint.h>
 
-float __floatundisf(uint64_t number);
-float __floatdisf(int64_t number);
+#if defined(__ARM_EABI__)
+#define FROM_UNSIGNED __aeabi_ul2f
+#define FROM_SIGNED __aeabi_l2f
+#else
+#define FROM_UNSIGNED __floatundisf
+#define FROM_SIGNED __floatdisf
+#endif
+
+float FROM_UNSIGNED(uint64_t number);
+float FROM_SIGNED(int64_t number);
 
 static float power_of_two(unsigned exponent) {
     const union {
@@ -15,7 +24,7 @@ static float power_of_two(unsigned exponent) {
     return power.value;
 }
 
-float __floatundisf(uint64_t number) {
+float FROM_UNSIGNED(uint64_t number) {
     const uint32_t high = (uint32_t)(number >> 32);
     if (high == 0) {
         return (float)(uint32_t)number;
@@ -28,6 +37,6 @@ float __floatundisf(uint64_t number) {
     return (float)((uint32_t)(number >> shift) | lost) * power_of_two(shift);
 }
 
-float __floatdisf(int64_t number) {
-    return number < 0 ? -__floatundisf(0U - (uint64_t)number) : __floatundisf((uint64_t)number);
+float FROM_SIGNED(int64_t number) {
+    return number < 0 ? -FROM_UNSIGNED(0U - (uint64_t)number) : FROM_UNSIGNED((uint64_t)number);
 }
