@@ -1,7 +1,8 @@
 # Whirl: energies in, firmware out. `make` lists the targets; the machinery is in mk/.
 #
 # V=1 shows the commands. Nothing is written outside build/,
-# but for `make figures-docs` and `make price-effects`, which renew their part of docs/.
+# but for `make figures-docs`, `make price-effects` and `make bench-boards`, which renew their part of docs/, and
+# `make too-large`, which lists what does not fit into a board.
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
@@ -138,6 +139,11 @@ format: ## lay out every C file as .clang-format says
 bench: ## instructions a step, counted, on this machine and on the emulated boards
 	@CC="$(CC)" mk/setup/deps.sh host firmware bench
 	@$(MAKE) bench-now
+
+.PHONY: bench-boards
+bench-boards: ## a step of five scenes on every board: instructions, cycles, bytes; into docs/price.md (minutes)
+	@CC="$(CC)" mk/setup/deps.sh host firmware boards quality
+	@$(MAKE) bench-boards-now
 
 .PHONY: price-effects
 price-effects: ## what each effect costs: instructions, bytes, error; into docs/effects.md (minutes)

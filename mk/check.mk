@@ -1,7 +1,7 @@
 # check.mk: the quality gates of `make check`. Each is a target of its own, gate-NAME; tests/gates.sh
 # runs them, keeps what they say in build/check/NAME.log and prints a line for each.
 
-GATES := house gcc clang format cppcheck tidy sanitizers memcheck bad-input firmware size boards libm avr hashes hosts
+GATES := house gcc clang format cppcheck tidy sanitizers memcheck bad-input firmware size boards libm avr cycles hashes hosts
 LINT_FLAGS := -std=c11 $(WARN) -I. $(UNITY_FLAGS) -D_POSIX_C_SOURCE=200809L
 JOBS := 2
 
@@ -122,6 +122,12 @@ gate-boards: build/whirl
 	@$(MAKE) $(GEN)/.stamp
 	+@$(call build_board_tests,$(BOARDS_CHECKED))
 	@sh tests/run.sh build/check/log_boards $(foreach b,$(BOARDS_CHECKED),$(call run_board,$(b)))
+
+# --- both ways to estimate a Cortex-M's cycles say the same ------------------------------------------
+gate-cycles: build/whirl
+	@$(MAKE) $(GEN)/.stamp
+	+@$(foreach b,$(filter $(patsubst boards/%/board.mk,%,$(shell grep -l '^BOARD_TIMING' boards/*/board.mk)),$(BOARDS)),\
+	    $(call on_board,$(b),cycles-agree) &&) true
 
 # --- one arithmetic everywhere ----------------------------------------------------------------------
 HASH_BUILDS := gcc-O0 gcc-O2 gcc-O3 clang-O0 clang-O2 clang-O3

@@ -61,3 +61,6 @@ unsigned board_stack_used_bytes(void) {
 }
 
 unsigned board_stack_size_bytes(void) { return (unsigned)(RAMEND + 1U - (uintptr_t)&_end); }
+
+bool board_cycles_start(void) { return false; }
+uint32_t board_cycles(void) { return 0; }

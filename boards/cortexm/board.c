@@ -29,3 +29,32 @@ _Noreturn void board_exit(int code) {
     for (;;) {
     }
 }
+
+#if __ARM_ARCH >= 7
+
+/* Data watchpoint and trace (Armv7-M Architecture Reference Manual, C1.8). Some Cortex-M7 lock it. */
+#define DEMCR 0xE000EDFCU
+#define DEMCR_TRCENA (1U << 24)
+#define DWT_CTRL 0xE0001000U
+#define DWT_CTRL_CYCCNTENA 1U
+#define DWT_CYCCNT 0xE0001004U
+#define DWT_LAR 0xE0001FB0U
+#define DWT_LAR_KEY 0xC5ACCE55U
+
+bool board_cycles_start(void) {
+    REGISTER(DEMCR) |= DEMCR_TRCENA;
+    REGISTER(DWT_LAR) = DWT_LAR_KEY;
+    REGISTER(DWT_CTRL) |= DWT_CTRL_CYCCNTENA;
+    const uint32_t before = board_cycles();
+    __asm__ volatile("nop\n\tnop\n\tnop\n\tnop" ::: "memory");
+    return board_cycles() != before;
+}
+
+uint32_t board_cycles(void) { return REGISTER(DWT_CYCCNT); }
+
+#else
+
+bool board_cycles_start(void) { return false; }
+uint32_t board_cycles(void) { return 0; }
+
+#endif

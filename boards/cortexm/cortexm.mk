@@ -4,6 +4,7 @@
 #   BOARD_CPU      the flags that name the processor
 #   BOARD_MATH     further flags
 #   BOARD_SECONDS  how long a program may run
+#   BOARD_TIMING   the core whose cycles mk/count/thumb_cycles.h estimates, if any
 #   BOARD_WHEN     what takes the board by itself: `test`, `check` or `all` (mk/board.mk)
 #
 # This sets

@@ -5,6 +5,7 @@ BOARD_MACHINE  := mps2-an385
 BOARD_CPU      := -mcpu=cortex-m0 -mthumb
 BOARD_MATH     :=
 BOARD_SECONDS  := 1800
+BOARD_TIMING   := m0
 BOARD_WHEN     := all
 include boards/cortexm/cortexm.mk
 BOARD_SOURCES  += boards/shared/convert.c
