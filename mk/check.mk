@@ -144,13 +144,23 @@ hashes-now gate-hashes: build/whirl
 	+@$(call build_hashes,$(BOARDS))
 	@$(call compare_hashes,$(BOARDS))
 
+# Processors that are no boards of ours but must have the same bits: builds of this machine's program for them
+# (mk/hosts.mk), run by qemu-user and by node.
+HASH_HOSTS := aarch64 wasm
+.PHONY: $(addprefix hash-host-,$(HASH_HOSTS))
+$(addprefix hash-host-,$(HASH_HOSTS)): hash-host-%:
+	@$(call need,$(host_cc_$*))
+	@$(call need,$(host_run_$*))
+	@$(MAKE) B=build/hosts/$* CC="$(host_cc_$*)" OPT=-O1 $(host_set_$*) build/hosts/$*/scenes
+
 # Every board; those with an image for each scene beside this machine's program that runs as few steps.
 BOARDS_WHOLE := $(filter-out $(BOARDS_SINGLE),$(BOARDS_ALL))
 hashes-all-now: build/whirl
 	@$(MAKE) $(GEN)/.stamp
 	+@$(call build_hashes,$(BOARDS_ALL))
-	@$(MAKE) build/scenes_short
-	@$(call compare_hashes,$(BOARDS_WHOLE))
+	@$(MAKE) build/scenes_short $(addprefix hash-host-,$(HASH_HOSTS))
+	@$(call compare_hashes,$(BOARDS_WHOLE)) \
+	    $(foreach h,$(HASH_HOSTS),"$(h)" "$(host_run_$(h)) build/hosts/$(h)/scenes")
 	@echo "The first $(SINGLE_STEPS) steps:"
 	@sh tests/hashes.sh build/hash "this machine" build/scenes_short \
 	    $(foreach b,$(BOARDS_SINGLE),"$(b)" "$(call on_board,$(b),print-hashes)")
