@@ -112,7 +112,8 @@ static wh_status hand_advance(const wh_scene *scene, wh_state *state) {
 hand hand_now;
 static const uint8_t accounts[3] = {0, 1, 2};
 wh_ledger_form hand_books;
-static uint64_t memory[WH_STATE_WORDS(0, 4, 1) + WH_CONTACT_WORDS(3) + WH_LEDGER_WORDS(16, 3)];
+static uint64_t memory[WH_STATE_WORDS(0, 4, 1) + WH_CONTACT_WORDS(3) + WH_HELD_WORDS(1) +
+                       WH_LEDGER_WORDS(16, 3)];
 wh_state hand_state;
 wh_real hand_pushed;
 
@@ -178,6 +179,7 @@ void hand_start(bool with_books) {
                                 .form = WH_SECOND_ORDER,
                                 .reals = (uint8_t)(2 * hand_now.n),
                                 .inputs = 1,
+                                .held = hand_now.system.held,
                                 .contacts = hand_now.system.contacts,
                                 .step_s = WH_R(0.001),
                                 .start_real = hand_now.start,
