@@ -250,7 +250,7 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
     }
     wh_contact_set_modes(of, w, gone, WH_ACTIVE);
     if (gone != 0) {
-        wh_contact_project_rates(of, w, 0, true, rate);
+        wh_contact_project_rates(of, w, wh_contact_stuck(of, w), true, rate);
     }
     if ((rest | gone) != 0) {
         (void)wh_contact_project_places(of, w, &spot, signal, input, s);

@@ -27,6 +27,7 @@
 #endif
 
 #include "arithmetic.h"
+#include "root.h"
 #include "scene.h"
 #include "sum.h"
 

@@ -4,6 +4,7 @@
 #define TESTS_HOST_DERIVED_H
 
 #include "host/derive/image_make.h"
+#include "host/derive/lagrange.h"
 
 typedef struct derived {
     whirl_model *model;

@@ -11,6 +11,7 @@
 #include <time.h>
 
 #include "host/derive/image_make.h"
+#include "host/derive/lagrange.h"
 #include "host/lang/model.h"
 #include "unity.h"
 
