@@ -64,6 +64,9 @@ belief belief_of(books *b, const engine_kind *kind, const void *run) {
     double computing_J;
     const double step_J = books_rounding_J(b, kind, &computing_J);
     made.rounding_J = ROUNDINGS * number_root((double)b->entries) * step_J + 2.0 * computing_J;
+    if (made.left_J != 0.0) { /* else there is nothing to explain */
+        made.rounding_J += books_lost_J(b);
+    }
     made.rounded = made.rounding_J / BELIEF_LIMIT > made.largest_J;
     made.largest_J = number_most(made.largest_J, made.rounding_J / BELIEF_LIMIT);
     made.known = isfinite(made.left_J);
