@@ -254,7 +254,7 @@ void books_enter(books *b, const engine_kind *kind, const void *run) {
     }
     b->entries++;
     if (b->entries % 2 == 1) { /* Simpson's rule is complete */
-        const double error = books_error_J(b);
+        const double error = books_account(b).left;
         if (fabs(error - b->kept_J) > fabs(b->jump_J)) {
             b->jump_J = error - b->kept_J;
             b->jump_s = b->time_s;
@@ -263,6 +263,9 @@ void books_enter(books *b, const engine_kind *kind, const void *run) {
     }
 }
 
-double books_error_J(const books *b) {
-    return b->energy_J[1] - b->energy_J[0] - b->input_J + b->loss_J;
+book_account books_account(const books *b) {
+    book_account a = account_of(b->energy_J);
+    account_enter(&a, b->input_J);
+    account_enter(&a, -b->loss_J);
+    return a;
 }
