@@ -11,37 +11,59 @@ typedef struct wh_margins {
     wh_real all; /* sum of all that is looked at: no finite number if one of it is none */
 } wh_margins;
 
-/* The place at the share `s` of the way from `from` to `to`, which are h apart: positions by the cubic
- * through both ends' positions and rates, rates by the cubic through both ends' rates and accelerations a0
- * and a1. (The slope of the first would be of an order less, and magnify the positions' rounding by 1/h.) */
-static inline void wh_contact_between(const wh_contact_system *of, wh_contact_state *from,
-                                      wh_contact_state *to, const wh_real *a0, const wh_real *a1,
-                                      wh_real h, wh_real s, wh_contact_point *at) {
+/* The way from one state to another, which are `h` apart: positions by the cubic through both ends' positions and
+ * rates, rates by the cubic through both ends' rates and accelerations a0 and a1. (The slope of the first would be of an
+ * order less, and magnify the positions' rounding by 1/h.) */
+typedef struct wh_contact_path {
+    wh_real h;              /* s */
+    wh_contact_point begin; /* where it begins */
+    wh_real way[WH_COORDS]; /* to where it ends, rad or m */
+    wh_real end_rate[WH_COORDS];
+    wh_real gain[WH_COORDS]; /* what the rates gain on it */
+    wh_real a0[WH_COORDS];
+    wh_real a1[WH_COORDS];
+} wh_contact_path;
+
+/* All of it but the accelerations. */
+static inline void wh_contact_path_of(const wh_contact_system *of, wh_contact_state *from,
+                                      wh_contact_state *to, wh_real h, wh_contact_path *path) {
     const wh_real *v0 = wh_contact_rates(of, from);
     const wh_real *v1 = wh_contact_rates(of, to);
+    path->h = h;
+    wh_contact_point_of(of, from, &path->begin);
+    for (unsigned i = 0; i < of->angles; i++) {
+#if WH_DOUBLE
+        path->way[i] = to->angle[i] - from->angle[i];
+#else
+        path->way[i] =
+            (wh_real)(int64_t)((uint64_t)to->angle[i] - (uint64_t)from->angle[i]) / WH_PHASE_PER_RAD;
+#endif
+    }
+    for (unsigned i = of->angles; i < of->coordinates; i++) {
+        path->way[i] = to->real[i - of->angles] - from->real[i - of->angles];
+    }
+    for (unsigned i = 0; i < of->coordinates; i++) {
+        path->end_rate[i] = v1[i];
+        path->gain[i] = v1[i] - v0[i];
+    }
+}
+
+/* The place at the share `s` of it. */
+WH_INLINE void wh_contact_between(const wh_contact_system *of, const wh_contact_path *path,
+                                  wh_real s, wh_contact_point *at) {
     const wh_real rest = WH_R(1.0) - s;
     const wh_real far = s * s * (WH_R(3.0) - WH_R(2.0) * s);
-    const wh_real near0 = h * s * rest * rest;
-    const wh_real near1 = -h * s * s * rest;
+    const wh_real near0 = path->h * s * rest * rest;
+    const wh_real near1 = -path->h * s * s * rest;
     for (unsigned i = 0; i < of->coordinates; i++) {
-        wh_real way; /* rad or m */
+        const wh_real v0 = path->begin.rate[i];
+        const wh_real moved = path->way[i] * far + near0 * v0 + near1 * path->end_rate[i];
+        at->rate[i] = v0 + path->gain[i] * far + near0 * path->a0[i] + near1 * path->a1[i];
         if (i < of->angles) {
-#if WH_DOUBLE
-            way = to->angle[i] - from->angle[i];
-#else
-            way = (wh_real)(int64_t)((uint64_t)to->angle[i] - (uint64_t)from->angle[i]) /
-                  WH_PHASE_PER_RAD;
-#endif
-        } else {
-            way = to->real[i - of->angles] - from->real[i - of->angles];
-        }
-        const wh_real moved = way * far + near0 * v0[i] + near1 * v1[i];
-        at->rate[i] = v0[i] + (v1[i] - v0[i]) * far + near0 * a0[i] + near1 * a1[i];
-        if (i < of->angles) {
-            at->phase[i] = wh_phase_of(from->angle[i]);
+            at->phase[i] = path->begin.phase[i];
             (void)wh_phase_move(at->phase[i], moved * WH_PHASE_PER_RAD, &at->phase[i]);
         } else {
-            at->linear[i - of->angles] = from->real[i - of->angles] + moved;
+            at->linear[i - of->angles] = path->begin.linear[i - of->angles] + moved;
         }
     }
 }
@@ -169,24 +191,27 @@ static inline wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_
                                         const wh_real *input, const wh_margins *at_end,
                                         unsigned *events) {
     const wh_contact_model model = {of, w};
+    wh_contact_path path;
     wh_contact_point at;
-    wh_real a0[WH_COORDS];
-    wh_real a1[WH_COORDS];
-    wh_margins before;
-    wh_margins after = *at_end;
+    wh_margins probe;
+    wh_real before[WH_CONTACTS_MAX]; /* margins at `low`, */
+    wh_real after[WH_CONTACTS_MAX];  /* and at `high` */
     wh_real low = WH_R(0.0);
     wh_real high = WH_R(1.0);
     *events = wh_contact_happened(of, at_end);
 
     /* A force that is out of bounds already, or a gap: at once. Sliding starts at rate zero. */
-    wh_contact_point_of(of, from, &at);
-    wh_contact_margins(of, w, &at, input, &before);
+    wh_contact_path_of(of, from, to, h, &path);
+    wh_contact_margins(of, w, &path.begin, input, &probe);
     unsigned at_once = 0;
     unsigned sliding = 0;
     for (unsigned k = 0; k < of->contacts; k++) {
-        const bool slides = of->contact[k].kind == WH_FRICTION && w->mode[k] != WH_STUCK;
+        const bool slides =
+            k < of->forced && wh_contact_of(of, k, WH_FRICTION) && w->mode[k] != WH_STUCK;
         sliding |= slides ? 1U << k : 0U;
-        if ((*events >> k & 1U) != 0 && !slides && before.value[k] < WH_R(0.0)) {
+        before[k] = probe.value[k];
+        after[k] = at_end->value[k];
+        if ((*events >> k & 1U) != 0 && !slides && before[k] < WH_R(0.0)) {
             at_once |= 1U << k;
         }
     }
@@ -194,9 +219,9 @@ static inline wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_
         *events = at_once;
         return WH_R(0.0);
     }
-    wh_contact_accel(&model, at.phase, at.linear, at.rate, input, a0);
+    wh_contact_accel(&model, path.begin.phase, path.begin.linear, path.begin.rate, input, path.a0);
     wh_contact_point_of(of, to, &at);
-    wh_contact_accel(&model, at.phase, at.linear, at.rate, input, a1);
+    wh_contact_accel(&model, at.phase, at.linear, at.rate, input, path.a1);
     wh_real reach = WH_R(1.0);
     wh_real earlier[2] = {WH_R(4.0), WH_R(4.0)}; /* widths, two and one probes ago */
     wh_real most =
@@ -207,11 +232,12 @@ static inline wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_
         for (unsigned k = 0; k < of->contacts; k++) {
             /* at zero already; but later than at the start a load at its limit may be one that others bear */
             const bool load =
-                wh_contact_is(of, k, WH_UNILATERAL | WH_LIMITED) && wh_contact_constrains(of, w, k);
-            const bool begins = before.value[k] == WH_R(0.0) && (sliding >> k & 1U) == 0 &&
+                k < of->forced && wh_contact_is(of, k, WH_UNILATERAL | WH_LIMITED) &&
+                wh_contact_constrains(of, w, k);
+            const bool begins = before[k] == WH_R(0.0) && (sliding >> k & 1U) == 0 &&
                                 (low == WH_R(0.0) || !load);
-            if ((*events >> k & 1U) != 0 && (before.value[k] > WH_R(0.0) || begins)) {
-                const wh_real share = before.value[k] / (before.value[k] - after.value[k]);
+            if ((*events >> k & 1U) != 0 && (before[k] > WH_R(0.0) || begins)) {
+                const wh_real share = before[k] / (before[k] - after[k]);
                 root = low + width * share < root ? low + width * share : root;
             }
         }
@@ -231,19 +257,17 @@ static inline wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_
         earlier[0] = earlier[1];
         earlier[1] = width;
         most *= WH_R(0.5);
-        wh_margins probe;
-        wh_contact_between(of, from, to, a0, a1, h, guess, &at);
+        wh_contact_between(of, &path, guess, &at);
         wh_contact_margins(of, w, &at, input, &probe);
         const unsigned found = wh_contact_happened(of, &probe);
         reach = halve ? reach : backward == (found == 0) ? WH_R(1.0) : reach * WH_R(8.0);
-        if (found != 0) {
-            high = guess;
-            after = probe;
-            *events = found;
-        } else {
-            low = guess;
-            before = probe;
+        wh_real *side = found != 0 ? after : before;
+        for (unsigned k = 0; k < of->contacts; k++) {
+            side[k] = probe.value[k];
         }
+        low = found != 0 ? low : guess;
+        high = found != 0 ? guess : high;
+        *events = found != 0 ? found : *events;
     }
     return high;
 }

@@ -140,23 +140,17 @@ wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, s
     reals += scene->held;
     state->ledger = scene->ledger != NULL ? reals : NULL;
 
+    for (size_t i = 0; i < all_reals(scene); i++) { /* carried, held and booked: nothing yet */
+        state->real[i] = WH_R(0.0);
+    }
     for (unsigned i = 0; i < scene->angles; i++) {
         state->angle[i] = scene->start_angle[i];
     }
     for (unsigned i = 0; i < scene->reals; i++) {
         state->real[i] = scene->start_real[i];
     }
-    for (size_t i = 0; i < carries(scene); i++) {
-        state->carry[i] = WH_R(0.0);
-    }
     for (unsigned i = 0; i < scene->inputs; i++) {
         state->input[i] = scene->start_input[i];
-    }
-    for (unsigned i = 0; i < scene->held; i++) {
-        state->held[i] = WH_R(0.0);
-    }
-    for (size_t i = 0; i < ledgers(scene); i++) {
-        state->ledger[i] = WH_R(0.0);
     }
     state->contacts = NULL;
     if (scene->contacts > 0) {
