@@ -236,7 +236,7 @@ WH_INLINE void wh_contact_stick(const wh_contact_system *of, wh_contact_work *w,
 
 /* --- all that happens at one moment -------------------------------------------------------------- */
 
-/* Returns what had an event, as bits; impulse[forced]: what each got. */
+/* Returns what had an event, as bits; impulse[contacts]: what each got. */
 WH_APART unsigned wh_contact_resolve(const wh_contact_system *of, wh_contact_work *w,
                                      const wh_contact_moment *m, const wh_real *input,
                                      wh_contact_state *now, wh_real *impulse) {
@@ -248,10 +248,10 @@ WH_APART unsigned wh_contact_resolve(const wh_contact_system *of, wh_contact_wor
     const unsigned let_go = events & wh_contact_which(of, w, WH_HOLD, true);
     const unsigned captures = events & wh_contact_which(of, w, WH_HOLD, false);
     const unsigned zeros = events & wh_contact_which(of, w, WH_FRICTION, false);
-    for (unsigned i = 0; i < of->coordinates; i++) {
+    for (unsigned i = 0; i < of->coordinates && wh_contact_any_of(of, WH_FRICTION); i++) {
         w->came[i] = rate[i];
     }
-    for (unsigned k = 0; k < of->forced; k++) {
+    for (unsigned k = 0; k < of->contacts; k++) {
         impulse[k] = WH_R(0.0);
     }
     wh_contact_set_modes(of, w, m->falls, WH_FREE);
@@ -267,16 +267,20 @@ WH_APART unsigned wh_contact_resolve(const wh_contact_system *of, wh_contact_wor
             wh_contact_assign(of, w, k, input, now);
         }
     }
-    if (w->moved != 0) {
+    if (of->contacts > of->forced && w->moved != 0) {
         wh_contact_revise(of, w, input, now);
     }
-    wh_contact_slide(of, w, zeros, m->h, rate);
+    if (wh_contact_any_of(of, WH_FRICTION)) {
+        wh_contact_slide(of, w, zeros, m->h, rate);
+    }
     unsigned must = 0;
     for (unsigned k = 0; k < of->forced; k++) {
         must |= wh_contact_constrains(of, w, k) ? loads & 1U << k : 0U;
     }
     wh_contact_give_way(of, w, must, input, now);
-    wh_contact_stick(of, w, rate);
+    if (wh_contact_any_of(of, WH_FRICTION)) {
+        wh_contact_stick(of, w, rate);
+    }
     for (unsigned k = 0; k < of->forced; k++) { /* others relieved it */
         events &= (must >> k & 1U) != 0 && wh_contact_constrains(of, w, k) ? ~(1U << k) : ~0U;
     }
@@ -379,7 +383,9 @@ static inline unsigned wh_contact_begin(const wh_contact_system *of, wh_contact_
     for (unsigned k = 0; k < of->contacts; k++) {
         w->mode[k] = 0; /* free, stuck, on no side */
     }
-    wh_contact_slide(of, w, 0, WH_R(0.0), wh_contact_rates(of, s));
+    if (wh_contact_any_of(of, WH_FRICTION)) {
+        wh_contact_slide(of, w, 0, WH_R(0.0), wh_contact_rates(of, s));
+    }
     wh_contact_look(of, w, s, input, accel, signal);
     for (unsigned k = 0; k < of->contacts; k++) {
         wh_contact_expect(w, k, signal[2 * k] + signal[2 * k + 1]);

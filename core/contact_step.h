@@ -46,16 +46,17 @@ WH_INLINE void wh_contact_work_begin(const wh_contact_system *of, const wh_state
 
 /* What events need beyond that. */
 WH_INLINE void wh_contact_work_open(const wh_contact_system *of, wh_contact_work *w) {
-    if (of->forced > 0) { /* crossings alone touch nothing */
-        w->inside = 0;
-        w->hit_next = 0;
+    if (wh_contact_any_of(of, WH_FRICTION)) {
         w->turned = 0;
     }
-    if (of->forced > 1) { /* one contact shares nothing */
+    if (of->forced > 1) { /* one contact shares nothing, and passes nothing on */
         w->capped = false;
+        w->hit_next = 0;
     }
-    w->moved = 0;
-    w->mover = 0;
+    if (of->contacts > of->forced) { /* only crossings assign */
+        w->moved = 0;
+        w->mover = 0;
+    }
     w->fault = -1;
 }
 
@@ -111,7 +112,9 @@ WH_INLINE void wh_contact_attempt_make(const wh_contact_system *of, wh_contact_w
         return;
     }
     wh_contact_stabilise(of, w, left, input, &a->now, &a->next);
-    w->inside = ~0U;
+    if (wh_contact_any_of(of, WH_STOP)) {
+        w->inside = ~0U;
+    }
     wh_contact_point_of(of, &a->next, &at);
     wh_contact_margins(of, w, &at, input, &a->margins);
     WH_UNROLL
@@ -129,7 +132,7 @@ WH_INLINE void wh_contact_attempt_dipped(const wh_contact_system *of, wh_contact
                                          const wh_real *input, wh_contact_attempt *a) {
     wh_contact_point at;
     wh_real before[2 * WH_CONTACTS_MAX];
-    if (a->leaving == 0) {
+    if (!wh_contact_any_of(of, WH_STOP) || a->leaving == 0) {
         return;
     }
     wh_contact_point_of(of, &a->now, &at);
@@ -188,7 +191,7 @@ WH_INLINE void wh_contact_note(const wh_contact_system *of, const wh_contact_wor
 WH_INLINE void wh_contact_happen(const wh_contact_system *of, wh_contact_work *w,
                                  const wh_contact_moment *m, wh_real at_s, const wh_real *input,
                                  wh_contact_state *now, wh_contact_log *log) {
-    wh_real impulse[WH_CONTACTS_MAX] = {WH_R(0.0)};
+    wh_real impulse[WH_CONTACTS_MAX];
     const unsigned events = wh_contact_resolve(of, w, m, input, now, impulse);
     wh_contact_note(of, w, events, at_s, impulse, log);
 }
@@ -293,7 +296,7 @@ WH_APART wh_status wh_contact_eventful(const wh_contact_system *of, wh_contact_w
         unsigned events = round < WH_EVENTS_MAX ? wh_contact_next(of, w) : 0;
         if (events == 0 && left > WH_R(0.0)) {
             if (!a->made) {
-                a->next = a->now;
+                wh_contact_copy(of, a->now.angle, a->now.real, a->now.carry, &a->next);
                 wh_contact_attempt_make(of, w, left, state->input, a);
             }
             a->made = false;
@@ -321,7 +324,7 @@ WH_APART wh_status wh_contact_eventful(const wh_contact_system *of, wh_contact_w
                                                           state->input, &a->margins, &events);
             w->undefined = -1; /* what lies behind the event is none of ours */
             if (span > WH_R(0.0)) {
-                a->next = a->now;
+                wh_contact_copy(of, a->now.angle, a->now.real, a->now.carry, &a->next);
                 if (!wh_contact_try(of, w, span, state->input, &a->now, &a->fault)) {
                     wh_contact_blame(of, w, span, state->input, &a->next);
                     return wh_contact_refuse(w, a->fault, state);
