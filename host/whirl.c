@@ -1,5 +1,7 @@
 /* whirl.c: the command line. */
+#include <errno.h>
 #include <locale.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -23,17 +25,16 @@ static const char usage[] =
     "  whirl sweep SCENE|FILE[:SCENE] ... simulate over ranges of parameters\n"
     "\n"
     "For FILE[:SCENE] the built-in MECHANISM[:SCENE] can stand everywhere.\n"
-    "`whirl COMMAND --help` says more; --version prints the version.\n"
-    "Exit status:";
+    "`whirl COMMAND --help` says more; --version prints the version.\n";
 
 static void print_usage(FILE *out) {
-#define MEANING(name, status, meaning) #status " " meaning,
-    static const char *const ends[] = {EXIT_ROWS(MEANING)};
+    static const char *const why[EXITS] = {
+        [EXIT_ROW_OF(EXIT_DONE)] = "",
+        [EXIT_ROW_OF(EXIT_RUN_FAILED)] = "a run did, or standard output could not be written whole",
+        [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
+        [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""};
     fputs(usage, out);
-    for (size_t i = 0; i < sizeof ends / sizeof ends[0]; i++) {
-        fprintf(out, "%s %s", i > 0 ? "," : "", ends[i]);
-    }
-    fputs(".\n", out);
+    exit_describe(out, why);
 }
 
 typedef struct command {
@@ -55,15 +56,8 @@ static const command commands[] = {
     {"hashes", command_hashes, 1},
 };
 
-int main(int count, char **words) {
-    setlocale(LC_ALL, "C");
-    if (wh_arithmetic_wrong(wh_arithmetic) != WH_PROBED_COUNT) {
-        fputs(
-            "whirl: error: this program was compiled, or is run, with other arithmetic than IEEE 754\n"
-            "hint: build it without fast-math, and load no library that was linked with it\n",
-            stderr);
-        return EXIT_RUN_FAILED;
-    }
+/* The command, on the words behind it; what it says may still be in a buffer. */
+static int answer(int count, char **words) {
     if (count < 2) {
         print_usage(stderr);
         return EXIT_BAD_INPUT;
@@ -80,12 +74,7 @@ int main(int count, char **words) {
     nearest search = nearest_start(words[1], strlen(words[1]));
     for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++) {
         if (strcmp(words[1], commands[i].name) == 0) {
-            const int code = commands[i].run(count - 2, words + 2);
-            if (fflush(stdout) != 0) {
-                perror("whirl: error: standard output");
-                return EXIT_RUN_FAILED;
-            }
-            return code;
+            return commands[i].run(count - 2, words + 2);
         }
         if (!commands[i].hidden) {
             nearest_offer(&search, commands[i].name);
@@ -97,4 +86,30 @@ int main(int count, char **words) {
     }
     print_usage(stderr);
     return EXIT_BAD_INPUT;
+}
+
+/* Whatever was said must have arrived: an answer that is cut off is none. An error may be of a part that was written
+ * long before the last one, which went well. */
+static int after_writing(int code) {
+    errno = 0;
+    const bool last_part = fflush(stdout) == 0;
+    const int reason = errno;
+    if (last_part && ferror(stdout) == 0) {
+        return code;
+    }
+    fprintf(stderr, "whirl: error: standard output cannot be written%s%s\n", last_part ? "" : ": ",
+            last_part ? "" : strerror(reason));
+    return code == EXIT_DONE ? EXIT_RUN_FAILED : code;
+}
+
+int main(int count, char **words) {
+    setlocale(LC_ALL, "C");
+    if (wh_arithmetic_wrong(wh_arithmetic) != WH_PROBED_COUNT) {
+        fputs(
+            "whirl: error: this program was compiled, or is run, with other arithmetic than IEEE 754\n"
+            "hint: build it without fast-math, and load no library that was linked with it\n",
+            stderr);
+        return EXIT_RUN_FAILED;
+    }
+    return after_writing(answer(count, words));
 }

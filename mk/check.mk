@@ -6,8 +6,7 @@ LINT_FLAGS := -std=c11 $(WARN) -I. $(UNITY_FLAGS) -D_POSIX_C_SOURCE=200809L
 JOBS := 2
 
 .PHONY: check-now
-check-now: build/whirl
-	@$(MAKE) $(GEN)/.stamp
+check-now: $(GEN)/.stamp
 	@sh tests/gates.sh build/check "$(MAKE)" $(GATES)
 
 ##@ Tests and quality
@@ -30,11 +29,11 @@ objects: $(call objects,host,$(WHIRL_MAIN_C) $(WHIRL_C) $(GEN)/builtin_models.c 
 board-objects: board-own-objects $(call objects,$(BOARD),$(PORTABLE_C) $(PROGRAM_C) $(CORE_TEST_C) $(SCENE_C))
 board-own-objects: $(call objects,$(BOARD),$(BOARD_SOURCES) $(wildcard tests/boards/*.c))
 
-gate-gcc:
+gate-gcc: $(GEN)/.stamp
 	@$(MAKE) -k B=build/check/gcc CC=gcc EXTRA=-Werror BOARD_EXTRA=-Werror objects board-objects
 	+@$(foreach b,$(filter-out $(BOARD),$(BOARDS)),$(MAKE) -k B=build/check/gcc BOARD=$(b) BOARD_EXTRA=-Werror board-own-objects &&) true
 
-gate-clang:
+gate-clang: $(GEN)/.stamp
 	@$(MAKE) -k B=build/check/clang CC=clang EXTRA=-Werror objects
 
 # --- layout and lint ------------------------------------------------------------------------------
@@ -118,14 +117,12 @@ gate-avr: build/whirl
 
 # --- boards that `make test` does not take: the suites, and what guards the stack --------------------------
 BOARDS_CHECKED = $(filter-out $(BOARDS_TEST),$(BOARDS))
-gate-boards: build/whirl
-	@$(MAKE) $(GEN)/.stamp
+gate-boards: $(GEN)/.stamp
 	+@$(call build_board_tests,$(BOARDS_CHECKED))
 	@sh tests/run.sh build/check/log_boards $(foreach b,$(BOARDS_CHECKED),$(call run_board,$(b)))
 
 # --- both ways to estimate a Cortex-M's cycles say the same ------------------------------------------
-gate-cycles: build/whirl
-	@$(MAKE) $(GEN)/.stamp
+gate-cycles: $(GEN)/.stamp
 	+@$(foreach b,$(filter $(patsubst boards/%/board.mk,%,$(shell grep -l '^BOARD_TIMING' boards/*/board.mk)),$(BOARDS)),\
 	    $(call on_board,$(b),cycles-agree) &&) true
 
@@ -139,8 +136,7 @@ compare_hashes = sh tests/hashes.sh build/hash "the interpreter" "build/whirl ha
     $(foreach b,$(1),"$(b)" "$(call on_board,$(b),print-hashes)")
 
 .PHONY: hashes-now hashes-all-now gate-hashes $(addprefix hash-,$(HASH_BUILDS))
-hashes-now gate-hashes: build/whirl
-	@$(MAKE) $(GEN)/.stamp
+hashes-now gate-hashes: $(GEN)/.stamp
 	+@$(call build_hashes,$(BOARDS))
 	@$(call compare_hashes,$(BOARDS))
 
@@ -155,8 +151,7 @@ $(addprefix hash-host-,$(HASH_HOSTS)): hash-host-%:
 
 # Every board; those with an image for each scene beside this machine's program that runs as few steps.
 BOARDS_WHOLE := $(filter-out $(BOARDS_SINGLE),$(BOARDS_ALL))
-hashes-all-now: build/whirl
-	@$(MAKE) $(GEN)/.stamp
+hashes-all-now: $(GEN)/.stamp
 	+@$(call build_hashes,$(BOARDS_ALL))
 	@$(MAKE) build/scenes_short $(addprefix hash-host-,$(HASH_HOSTS))
 	@$(call compare_hashes,$(BOARDS_WHOLE)) \

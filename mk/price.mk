@@ -52,10 +52,9 @@ $(ELF)/build/worst_step/%.o: FILE_FLAGS := -include boards/programs/mark.h
 $(ELF)/boards/programs/worst.o: FILE_FLAGS := -DWORST_STEPS=$(WORST_STEPS)U -DWORST_SEEDS=2U
 
 .PHONY: bench-now size-now worst-now
-worst-now: build/whirl
+worst-now: $(GEN)/.stamp
 	@[ "$(WORST_STEPS)" -gt 0 ] 2>/dev/null || \
 	    { echo "error: WORST_STEPS=$(WORST_STEPS): a number of steps, 1 or more" >&2; exit 2; }
-	@$(MAKE) $(GEN)/.stamp
 	@mk/count/all_effects.sh build/whirl build/worst_step $(WORST_MODELS)
 	@$(RM) $(ELF)/boards/programs/worst.o
 	@$(MAKE) $(ELF)/worst.elf $(PLUGIN)
@@ -66,8 +65,7 @@ worst-now: build/whirl
 	    EMULATE="$(subst timeout $(BOARD_SECONDS),timeout 3600,$(call emulate,$(ELF)/worst.elf))" \
 	    mk/count/worst.sh $(ELF)/worst.elf $(FIGURES)/worst.csv $(WORST_STEPS)
 
-bench-now: build/whirl
-	@$(MAKE) $(GEN)/.stamp
+bench-now: $(GEN)/.stamp
 	@$(MAKE) build/bench build/bench_compensated build/bench_double \
 	    $(addprefix build/tools/,$(BY_HAND)) $(ELF)/bench.elf $(ELF)/bench_compensated.elf $(PLUGIN)
 	@mkdir -p $(FIGURES)
@@ -106,8 +104,7 @@ bench-board: $(PRICED_IMAGES) $(if $(filter single,$(BOARD_IMAGES)),$(AVR_RUN),$
 	    $(if $(filter single,$(BOARD_IMAGES)),,BENCH=$(ELF)/bench.elf PLUGIN=$(PLUGIN)) \
 	    mk/count/board_rows.sh $(FIGURES)/boards.csv $(ELF)/priced $(PRICED)
 
-bench-boards-now: build/whirl
-	@$(MAKE) $(GEN)/.stamp
+bench-boards-now: $(GEN)/.stamp
 	+@for board in $(BOARDS_ALL); do $(MAKE) BOARD=$$board bench-board || exit 1; done
 	@awk -F, -f mk/count/boards_table.awk $(FIGURES)/boards.csv >build/boards.md
 	@mk/price/into_page.sh build/boards.md docs/price.md boards
@@ -118,8 +115,7 @@ cycles-agree: $(ELF)/bench.elf $(PLUGIN)
 	@BOARD=$(BOARD) NM=$(BOARD_NM) OBJDUMP=$(BOARD_OBJDUMP) TIMING=$(BOARD_TIMING) PLUGIN=$(PLUGIN) \
 	    EMULATE="$(call emulate,$(ELF)/bench.elf)" mk/count/cycles_agree.sh $(ELF)/bench.elf
 
-size-now: build/whirl
-	@$(MAKE) $(GEN)/.stamp
+size-now: $(GEN)/.stamp
 	@$(MAKE) board-images
 	@mkdir -p $(FIGURES)
 	@BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) SIZE=$(BOARD_SIZE) OBJECTS=$(ELF) \
@@ -129,8 +125,7 @@ size-now: build/whirl
 
 # What each effect costs: build/price/effects.csv, and the tables of docs/effects.md.
 .PHONY: price-effects-now
-price-effects-now: build/whirl
-	@$(MAKE) $(GEN)/.stamp
+price-effects-now: $(GEN)/.stamp
 	@$(MAKE) $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl) $(PLUGIN)
 	@WHIRL=build/whirl OUT=build/price BOARD=$(BOARD) BOARD_CC=$(BOARD_CC) BOARD_NM=$(BOARD_NM) \
 	    BOARD_SIZE=$(BOARD_SIZE) BOARD_CFLAGS="$(BOARD_CFLAGS)" BOARD_LDFLAGS="$(BOARD_LDFLAGS)" \

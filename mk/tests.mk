@@ -66,38 +66,32 @@ comma := ,
 build_board_tests = $(foreach b,$(1),$(call on_board,$(b),board-tests) &&) true
 
 .PHONY: test-now test-core test-host test-cli test-board
-test-now: build/whirl
-	@$(MAKE) $(GEN)/.stamp
+test-now: $(GEN)/.stamp
 	@$(MAKE) test-programs
 	+@$(call build_board_tests,$(BOARDS_TEST))
 	@WHIRL=build/whirl sh tests/run.sh build/tests/log $(RUN_CLI) $(RUN_BOARD) $(RUN_HOST) $(RUN_CORE)
 
 ##@ Tests and quality
 # Parts of it, for while one works on something.
-test-core: build/whirl ## the portable suites alone, in float and double on this machine
-	@$(MAKE) $(GEN)/.stamp
+test-core: $(GEN)/.stamp ## the portable suites alone, in float and double on this machine
 	@$(MAKE) build/tests/core_double build/tests/core_float
 	@sh tests/run.sh build/tests/log $(RUN_CORE)
 
-test-host: build/whirl ## the suites of the program alone
-	@$(MAKE) $(GEN)/.stamp
+test-host: $(GEN)/.stamp ## the suites of the program alone
 	@$(MAKE) build/tests/host
 	@sh tests/run.sh build/tests/log $(RUN_HOST)
 
-test-cli: build/whirl ## the scripts of tests/cli alone
-	@$(MAKE) $(GEN)/.stamp
+test-cli: $(GEN)/.stamp ## the scripts of tests/cli alone
 	@$(MAKE) test-programs
 	@WHIRL=build/whirl sh tests/run.sh build/tests/log $(RUN_CLI)
 
-test-board: build/whirl ## the portable suites alone, on the emulated boards that `make test` takes
-	@$(MAKE) $(GEN)/.stamp
+test-board: $(GEN)/.stamp ## the portable suites alone, on the emulated boards that `make test` takes
 	+@$(call build_board_tests,$(BOARDS_TEST))
 	@sh tests/run.sh build/tests/log $(RUN_BOARD)
 
 # Every board, and what its images hold.
 .PHONY: test-boards-now
-test-boards-now: build/whirl
-	@$(MAKE) $(GEN)/.stamp
+test-boards-now: $(GEN)/.stamp
 	+@$(call build_board_tests,$(BOARDS_ALL))
 	+@$(foreach b,$(BOARDS_ALL),$(call on_board,$(b),image-rules) &&) true
 	@sh tests/run.sh build/tests/log_boards $(foreach b,$(BOARDS_ALL),$(call run_board,$(b)))

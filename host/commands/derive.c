@@ -118,25 +118,34 @@ static bool write_header(const image *im, const char *file, const char *header) 
     return written;
 }
 
-/* Can this be C for the core? Else it is said why. */
-static bool has_c_form(const image *im, source_model *from, const char *header) {
-    if (!start_angles_are_held(im, from->errors)) {
-        diags_flush(from->errors, stderr);
-        return false;
+/* Can code of that form have the scene's name? Else it is said why. */
+static bool has_name(const image *im, const source_model *from, const form_row *as,
+                     const char *header) {
+    const char *taken_by = NULL;
+    if (!as->runs) {
+        taken_by = emit_octave_name_is_free(im->name) ? NULL : "a word of Octave or Matlab";
+    } else if (!emit_c_name_is_free(im->name)) {
+        taken_by = "a word of C, of its library or of the core";
+    } else if (header != NULL && !emit_c_name_is_free_in_cpp(im->name)) {
+        taken_by = "a word of C++";
     }
-    if (!emit_c_name_is_free(im->name) ||
-        (header != NULL && !emit_c_name_is_free_in_cpp(im->name))) {
+    if (taken_by != NULL) {
         fprintf(stderr,
-                "%s: error: '%s' is a word of C%s or of the core: the generated scene cannot "
-                "have that name\nhint: rename it, or give it another for this: --name NAME\n",
-                from->file, im->name, emit_c_name_is_free(im->name) ? "++" : "");
-        return false;
+                "%s: error: '%s' is %s: the generated scene cannot have that name\n"
+                "hint: rename it, or give it another for this: --name NAME\n",
+                from->file, im->name, taken_by);
     }
-    if (!start_has_method(im, im->settings.method, from->errors)) {
+    return taken_by == NULL;
+}
+
+/* Can this be C for the core? Else it is said why. */
+static bool has_c_form(const image *im, source_model *from) {
+    const bool has = start_angles_are_held(im, from->errors) &&
+                     start_has_method(im, im->settings.method, from->errors);
+    if (!has) {
         diags_flush(from->errors, stderr);
-        return false;
     }
-    return true;
+    return has;
 }
 
 static int derive_one(source_model *from, const mechanism *of, const scene *in,
@@ -152,9 +161,9 @@ static int derive_one(source_model *from, const mechanism *of, const scene *in,
     if (!as->shows) {
         source_forget(from);
     }
-    if (code == EXIT_DONE && as->runs &&
-        (!has_c_form(made.image, from, header) ||
-         (header != NULL && !write_header(made.image, from->file, header)))) {
+    if (code == EXIT_DONE && ((as->named && !has_name(made.image, from, as, header)) ||
+                              (as->runs && !has_c_form(made.image, from)) ||
+                              (header != NULL && !write_header(made.image, from->file, header)))) {
         code = EXIT_BAD_INPUT;
     }
     if (code == EXIT_DONE) {

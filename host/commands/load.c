@@ -12,6 +12,7 @@
 #include "find.h"
 #include "host/base/nearest.h"
 #include "host/base/room.h"
+#include "host/derive/lagrange.h"
 #include "host/lang/hints.h"
 #include "host/lang/override.h"
 #include "host/lang/shown.h"

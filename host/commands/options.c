@@ -71,6 +71,9 @@ void options_usage(FILE *out, const command_usage *usage) {
         name_them(out, usage->groups);
     }
     fputs(usage->tail, out);
+    if (usage->why[EXIT_ROW_OF(EXIT_DONE)] != NULL) {
+        exit_describe(out, usage->why);
+    }
 }
 
 bool options_wants_help(int count, char **words) {

@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
+#include "host/base/exit.h"
 #include "host/lang/model.h"
 #include "host/run/engine.h"
 
@@ -48,6 +49,8 @@ typedef struct command_usage {
     unsigned groups; /* of options whose lines follow: */
     bool described;  /* a line each; else their words, and that `whirl run` describes them */
     const char *tail;
+    const char *why
+        [EXITS]; /* it ends with which status (host/base/exit.h); nothing is said of it if all are NULL */
 } command_usage;
 
 void options_usage(FILE *out, const command_usage *usage);

@@ -35,11 +35,14 @@ static const command_usage usage = {
         "  --quiet              no summary, no progress\n"
         "\n"
         "Summary, records and plot are in the units that the file declares; a record's column whose name\n"
-        "has no unit is SI: theta [deg] is in degrees, theta in radians.\n"
-        "\n"
-        "Exit status: 0 done; 1 the run failed (it diverged, or something was not a finite number: it says\n"
-        "when, where and what to try; the records so far are kept), or --strict does not believe it; 2 bad\n"
-        "input; 130 interrupted.\n"};
+        "has no unit is SI: theta [deg] is in degrees, theta in radians.\n",
+    .why = {
+        [EXIT_ROW_OF(EXIT_DONE)] = "",
+        [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
+            "it diverged, or something was not a finite number (it says when, where and what to\n"
+            "       try; the records so far are kept), or --strict does not believe it",
+        [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
+        [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
 
 static volatile sig_atomic_t interrupted;
 

@@ -41,10 +41,13 @@ static const command_usage usage = {
         "  --quiet              no progress, no summary\n"
         "\n",
     .groups = OPTIONS_CHANGE | OPTIONS_ENGINE | OPTIONS_NUMBER,
-    .tail =
-        "\n"
-        "Exit status: 0 done; 1 points failed (their measures are empty; the others are there) or the\n"
-        "file could not be written; 2 bad input, or FILE is another sweep's; 130 interrupted.\n"};
+    .tail = "",
+    .why = {[EXIT_ROW_OF(EXIT_DONE)] = "",
+            [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
+                "points did (their measures are empty; the others are there), or the file could\n"
+                "       not be written",
+            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "such as the FILE of another sweep",
+            [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
 
 static volatile sig_atomic_t interrupted;
 

@@ -4,13 +4,11 @@
 #include <string.h>
 
 #include "blame.h"
-#include "contact_lists.h"
 #include "core/contact.h"
 #include "host/lang/shown.h"
 #include "host/lang/words.h"
 #include "host/number/phase.h"
 #include "image_parts.h"
-#include "ledger_lists.h"
 #include "program.h"
 
 /* --- what does not depend on the lists -------------------------------------------------------------*/
@@ -108,7 +106,7 @@ static void copy_quantities(image_draft *d, const program *p, const instance *in
     const mechanism *m = inst->mechanism;
     im->input = image_room(d, im->inputs, sizeof *im->input);
     for (int i = 0; i < im->inputs; i++) {
-        const int k = p->input[i];
+        const int k = p->layout.input[i];
         im->input[i] = image_quantity_of(d, m->inputs[k], inst->input[k]);
     }
     im->output = image_room(d, im->own_outputs, sizeof *im->output);
@@ -194,14 +192,15 @@ static void take_ledger(image_draft *d, ledger_lists *l) {
 
 static void take_program(image_draft *d, program *p) {
     image *im = d->made;
-    im->form = p->form;
-    im->coordinates = p->coordinates;
-    im->angles = p->angles;
-    im->reals = p->reals;
+    const layout *map = &p->layout;
+    im->form = map->form;
+    im->coordinates = map->coordinates;
+    im->angles = map->angles;
+    im->reals = map->reals;
     im->recovered = p->conserved->count;
-    im->angle = copy(d, p->angle, p->angles, sizeof *p->angle);
-    im->real = copy(d, p->real, p->reals, sizeof *p->real);
-    im->place = copy(d, p->place, p->count, sizeof *p->place);
+    im->angle = copy(d, map->angle, map->angles, sizeof *map->angle);
+    im->real = copy(d, map->real, map->reals, sizeof *map->real);
+    im->place = copy(d, map->place, p->count, sizeof *map->place);
     im->from_momentum =
         copy(d, p->conserved->unknown, im->recovered, sizeof *p->conserved->unknown);
     im->has_integral = p->integral != NULL;
@@ -228,7 +227,7 @@ image *image_make(const equations *e, const bool *conserve, const image_settings
     image *im = d.made;
     im->settings = *settings;
     im->count = p->count;
-    im->inputs = p->inputs;
+    im->inputs = p->layout.inputs;
     im->outputs = p->outputs;
     im->own_outputs = e->instance->mechanism->output_count;
     im->has_energies = e->kinetic != NULL;

@@ -100,42 +100,6 @@ static void write_scene(FILE *out, const image *im) {
             im->outputs > 0 ? "observe" : "NULL");
 }
 
-bool emit_c_name_is_free(const char *name) {
-    static const char *const taken[] = {
-        "auto", "break", "case", "char", "const", "continue", "default", "do", "double", "else",
-        "enum", "extern", "float", "for", "goto", "if", "inline", "int", "long", "register",
-        "restrict", "return", "short", "signed", "sizeof", "static", "struct", "switch", "typedef",
-        "union", "unsigned", "void", "volatile", "while", "bool", "true", "false", "main", "NULL",
-        "accelerations", "slopes", "advance", "observe", "start_angle", "start_real", "start_input",
-        "contacts", "contact_signals", "contact_forces", "contact_sets", "contact_table",
-        "contact_target", "ledger", "ledger_powers", "ledger_levels", "ledger_accounts",
-        "ledger_inputs",
-        /* types of the headers that core/scene.h includes, and macros of the GNU dialects */
-        "int8_t", "int16_t", "int32_t", "int64_t", "uint8_t", "uint16_t", "uint32_t", "uint64_t",
-        "intptr_t", "uintptr_t", "intmax_t", "uintmax_t", "size_t", "ptrdiff_t", "wchar_t",
-        "max_align_t", "offsetof", "typeof", "asm", "unix", "linux", "i386",
-        /* functions that compilers know by their names: no variable may have those */
-        "abort", "abs", "acos", "acosh", "asin", "asinh", "atan", "atan2", "atanh", "calloc",
-        "cbrt", "ceil", "copysign", "cos", "cosh", "erf", "erfc", "exit", "exp", "exp2", "expm1",
-        "fabs", "fdim", "floor", "fma", "fmax", "fmin", "fmod", "fprintf", "fputc", "fputs", "free",
-        "frexp", "fscanf", "fwrite", "gamma", "hypot", "ilogb", "index", "isalnum", "isalpha",
-        "isdigit", "isinf", "islower", "isnan", "isprint", "isspace", "isupper", "j0", "j1", "jn",
-        "labs", "ldexp", "lgamma", "llabs", "log", "log10", "log1p", "log2", "logb", "lrint",
-        "lround", "malloc", "memchr", "memcmp", "memcpy", "memmove", "memset", "modf", "nan",
-        "nearbyint", "nextafter", "pow", "pow10", "printf", "putchar", "puts", "realloc",
-        "remainder", "remquo", "rindex", "rint", "round", "scalb", "scalbln", "scalbn", "scanf",
-        "significand", "signbit", "sin", "sincos", "sinh", "snprintf", "sprintf", "sqrt", "sscanf",
-        "strcat", "strchr", "strcmp", "strcpy", "strcspn", "strdup", "strlen", "strncat", "strncmp",
-        "strncpy", "strpbrk", "strrchr", "strspn", "strstr", "tan", "tanh", "tgamma", "tolower",
-        "toupper", "trunc", "vprintf", "y0", "y1", "yn"};
-    for (size_t i = 0; i < sizeof taken / sizeof taken[0]; i++) {
-        if (strcmp(name, taken[i]) == 0) {
-            return false;
-        }
-    }
-    return strncmp(name, "wh_", 3) != 0 && strncmp(name, "WH_", 3) != 0 && name[0] != '_';
-}
-
 static void write_names(FILE *out, const image *im) {
     fprintf(out, " * Components of the state, SI units, angles in turns (2^32 steps each):\n");
     for (int i = 0; i < im->angles; i++) {

@@ -19,6 +19,8 @@ static void hand_accel(const void *model, const wh_phase *phase, const wh_real *
     }
 }
 
+unsigned hand_looks;
+
 static wh_real along(const hand *m, unsigned k, const wh_real *x) {
     wh_real sum = WH_R(0.0);
     for (unsigned i = 0; i < m->n; i++) {
@@ -31,6 +33,7 @@ static void hand_signals(const void *model, const wh_phase *phase, const wh_real
                          const wh_real *rate, const wh_real *input, wh_real *result) {
     const hand *m = model;
     (void)phase;
+    hand_looks++;
     for (unsigned k = 0; k < m->system.contacts; k++) {
         result[2 * k] = along(m, k, linear) - m->law[k].offset;
         result[2 * k + 1] = along(m, k, rate);
@@ -49,7 +52,7 @@ static void hand_forces(const void *model, const wh_phase *phase, const wh_real 
     (void)linear;
     (void)rate;
     (void)input;
-    for (unsigned k = 0; k < m->system.forced; k++) {
+    for (unsigned k = 0; k < HAND_CONTACTS; k++) { /* with what is behind them: see hand_start() */
         wh_real *law = result + k * (WH_LAW_ROWS + 2 * m->n);
         law[WH_LAW_FIRST] = m->law[k].first;
         law[WH_LAW_SECOND] = m->law[k].second;
@@ -109,7 +112,8 @@ static wh_status hand_advance(const wh_scene *scene, wh_state *state) {
 hand hand_now;
 static const uint8_t accounts[3] = {0, 1, 2};
 wh_ledger_form hand_books;
-static uint64_t memory[WH_STATE_WORDS(0, 4, 1) + WH_CONTACT_WORDS(3) + WH_LEDGER_WORDS(16, 3)];
+static uint64_t memory[WH_STATE_WORDS(0, 4, 1) + WH_CONTACT_WORDS(3) + WH_HELD_WORDS(1) +
+                       WH_LEDGER_WORDS(16, 3)];
 wh_state hand_state;
 wh_real hand_pushed;
 
@@ -128,6 +132,8 @@ unsigned hand_add(wh_contact_kind kind, int pin, wh_real row0, wh_real row1, wh_
                   wh_real first, wh_real second) {
     const unsigned k = hand_now.system.contacts++;
     hand_now.system.forced = (uint8_t)(hand_now.system.forced + (kind != WH_WHEN));
+    hand_now.system.kinds |= (uint8_t)(kind != WH_WHEN ? WH_KIND_BIT(kind) : 0U);
+    hand_now.system.pinned = (uint8_t)(hand_now.system.pinned + (kind != WH_WHEN && pin >= 0));
     hand_now.contact[k] = (wh_contact){(uint8_t)kind, 0, (int16_t)pin, 0, kind == WH_WHEN};
     hand_now.law[k].row[0] = row0;
     hand_now.law[k].row[1] = row1;
@@ -137,8 +143,20 @@ unsigned hand_add(wh_contact_kind kind, int pin, wh_real row0, wh_real row1, wh_
     return k;
 }
 
+/* What is behind a scene's contacts is none of them: here it would stick, on the first coordinate, to the end. */
+static void put_sentinels(void) {
+    for (unsigned k = hand_now.system.contacts; k < HAND_CONTACTS; k++) {
+        hand_now.contact[k] = (wh_contact){.kind = WH_FRICTION, .pin = 0, .sets = 1};
+        hand_now.law[k].row[0] = WH_R(1.0);
+        hand_now.law[k].row[1] = WH_R(0.0);
+        hand_now.law[k].first = WH_R(1e6);
+        hand_now.law[k].second = WH_R(1e6);
+    }
+}
+
 void hand_start(bool with_books) {
     static uint8_t target;
+    put_sentinels();
     target = (uint8_t)hand_now.n; /* the first rate */
     hand_now.system.model = &hand_now;
     hand_now.system.accel = hand_accel;
@@ -163,6 +181,7 @@ void hand_start(bool with_books) {
                                 .form = WH_SECOND_ORDER,
                                 .reals = (uint8_t)(2 * hand_now.n),
                                 .inputs = 1,
+                                .held = hand_now.system.held,
                                 .contacts = hand_now.system.contacts,
                                 .step_s = WH_R(0.001),
                                 .start_real = hand_now.start,

@@ -1,7 +1,7 @@
 /* test_root.c: the core's square root against the definition, in integers: q is the root of x to the nearest
  * if and only if (q - 1/2)^2 < x < (q + 1/2)^2. No library is asked. Double needs 128 bits for that, which
  * boards do not have; they take the table alone. */
-#include "core/real.h"
+#include "core/root.h"
 
 #include "unity.h"
 
