@@ -179,6 +179,13 @@ emulate: ## run BOARD's firmware in the emulator
 	@CC="$(CC)" mk/setup/deps.sh host $(BOARD_DEPS)
 	@$(MAKE) emulate-now
 
+.PHONY: too-large
+too-large: ## list anew what does not fit into BOARD, one with small memory (many minutes)
+	@CC="$(CC)" mk/setup/deps.sh host $(BOARD_DEPS)
+	@$(MAKE) whirl
+	@$(MAKE) $(GEN)/.stamp
+	@$(MAKE) too-large-now
+
 ##@ Cleaning
 
 .PHONY: clean

@@ -39,7 +39,7 @@ LARGE_SUITES = $(patsubst suite_%,%,$(shell sed -n 's/^suite /suite_/p' $(TOO_LA
 SINGLE_SCENES = $(patsubst %,$(SINGLE)/scene_%.elf,$(filter-out $(LARGE_SCENES),$(SCENE_NAMES)))
 SINGLE_SUITES = $(patsubst %,$(SINGLE)/suite_%.elf,$(filter-out $(LARGE_SUITES),$(SUITE_NAMES)))
 
-.PHONY: board-images board-tests run-suites print-hashes too-large
+.PHONY: board-images board-tests run-suites print-hashes too-large-now
 IMAGES = $(SINGLE_SCENES)
 board-images: $(SINGLE_SCENES) $(AVR_RUN)
 board-tests: $(SINGLE_SUITES) $(AVR_RUN)
@@ -51,7 +51,7 @@ print-hashes:
 	@for scene in $(LARGE_SCENES); do echo "without $$scene"; done
 
 # What does not link, and what has too little room for its stack when it runs (exit status 123).
-too-large: $(AVR_RUN)
+too-large-now: $(AVR_RUN)
 	@mkdir -p $(SINGLE); : >$(TOO_LARGE)
 	@for image in $(SUITE_NAMES:%=suite_%) $(SCENE_NAMES:%=scene_%); do \
 	    if $(MAKE) -s $(SINGLE)/$$image.elf >$(SINGLE)/$$image.log 2>&1; then \
