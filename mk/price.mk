@@ -93,7 +93,7 @@ $(ELF)/priced/bench_%.elf: $(B)/$(BOARD)/$(GEN)/%.o $(BOARD_OBJECTS) $(call libr
 	@mkdir -p $(@D)
 	$(say) LINK $@
 	$(Q)mk/count/index.sh $* >$(@:.elf=.c)
-	$(Q)$(BOARD_CC) $(BOARD_CFLAGS) -I$(GEN) -include $(GEN)/$*.h -DWH_SCENE_WORDS=$*_MEMORY_WORDS -DCOUNT_FUNCTIONS=0 \
+	$(Q)$(BOARD_CC) $(BOARD_CFLAGS) -I$(GEN) -include $(GEN)/$*.h -DWH_SCENE_WORDS=$*_MEMORY_WORDS -DBENCH_SMALL=1 \
 	    $(BOARD_LDFLAGS) -o $@ boards/programs/bench.c $(@:.elf=.c) $(filter %.o,$^) $(filter %.a,$^) $(BOARD_LDLIBS)
 
 .PHONY: bench-board bench-boards-now cycles-agree

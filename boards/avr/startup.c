@@ -3,9 +3,15 @@
 #include "boards/board.h"
 
 int main(void);
-void board_run(void);
+void board_enter(void);
+_Noreturn void board_run(void);
 
-__attribute__((naked, used, section(".init8"))) void board_run(void) {
+/* The last but one of the start-up code's pieces, which run one behind the other. */
+__attribute__((naked, used, section(".init8"))) void board_enter(void) {
+    __asm__ volatile("jmp board_run");
+}
+
+__attribute__((used)) _Noreturn void board_run(void) {
     board_stack_paint();
     board_exit(main());
 }

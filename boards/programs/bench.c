@@ -8,7 +8,7 @@
  *     silicon NAME MIN MEDIAN MAX            cycles of a step, where the processor counts them itself (board.h)
  *     failed NAME STATUS                     the scene could not be counted
  *
- * Built with COUNT_FUNCTIONS=0 it leaves out the language's functions, for small memories.
+ * Built with BENCH_SMALL=1 it leaves out the language's functions and the processor's own count, for small memories.
  * Built with COUNT_RECORDS=1 it counts the computing of the outputs as well, with "record" as METHOD.
  *
  * Interval 0 is around nothing. On a board an interval holds the call too (loading the arguments
@@ -24,8 +24,8 @@
 #ifndef COUNT_RECORDS
 #define COUNT_RECORDS 0
 #endif
-#ifndef COUNT_FUNCTIONS
-#define COUNT_FUNCTIONS 1
+#ifndef BENCH_SMALL
+#define BENCH_SMALL 0
 #endif
 #define COUNTED_RECORDS 100U
 #define OUTPUTS_MAX 64U
@@ -103,7 +103,7 @@ static void count_records(const wh_scene *scene, wh_state *state) {
 }
 #endif
 
-#if COUNT_FUNCTIONS
+#if !BENCH_SMALL
 static const struct {
     const char *name;
     wh_real (*one)(wh_real x);
@@ -151,8 +151,6 @@ static void count_functions(void) {
     }
 }
 
-#endif
-
 /* Cycles of each of some steps, as the processor counts them, in order of size. */
 static void time_scene(const wh_scene *scene, wh_state *state) {
     static uint32_t sorted[COUNTED_STEPS];
@@ -174,6 +172,7 @@ static void time_scene(const wh_scene *scene, wh_state *state) {
     line_number(sorted[COUNTED_STEPS - 1U]);
     line_end();
 }
+#endif
 
 static bool count_scene(const wh_scene *scene) {
     wh_state state;
@@ -196,9 +195,11 @@ static bool count_scene(const wh_scene *scene) {
     say_stack(scene->name);
     say_counted(scene->name, wh_methods[scene->method].word, scene->compensated, first,
                 intervals - 1U);
+#if !BENCH_SMALL
     if (board_cycles_start()) {
         time_scene(scene, &state);
     }
+#endif
 #if COUNT_RECORDS
     count_records(scene, &state);
 #endif
@@ -209,7 +210,7 @@ int main(void) {
     board_start();
     count_nothing();
     count_pairs();
-#if COUNT_FUNCTIONS
+#if !BENCH_SMALL
     count_functions();
 #endif
     bool all = true;
