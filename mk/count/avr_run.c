@@ -29,10 +29,7 @@
 
 #define CANNOT_RUN 125
 #define WENT_WRONG 123
-#define GPIOR0 0x3EU /* data address, on both chips */
-/* The lowest bytes above the variables, as boards/avr/board.c paints them: if one has changed, the stack was there. */
-#define PAINT 0xA5U
-#define WATCHED_BYTES 16U
+#define GPIOR0 0x3EU          /* data address, on both chips */
 #define MEMORY_BASE 0x800000U /* of data addresses in these files */
 
 static _Noreturn void fail(const char *what) {
@@ -125,14 +122,34 @@ static avr_t *load(const settings *all, elf_firmware_t *firmware) {
     return avr;
 }
 
-/* One instruction. False when the program has ended. */
+/* Where the variables end, or 0 if the program does not say. */
+static uint32_t end_of_variables;
+
+static uint32_t stack_pointer(const avr_t *avr) {
+    return (uint32_t)avr->data[R_SPL] | (uint32_t)avr->data[R_SPH] << 8;
+}
+
+static _Noreturn void went_wrong(const avr_t *avr, const char *what) {
+    fflush(stdout);
+    fprintf(stderr, "avr_run: %s at 0x%" PRIx32 "\n", what, (uint32_t)avr->pc);
+    exit(WENT_WRONG);
+}
+
+/* One instruction. False when the program has ended. The stack pointer is set by two writes, the high byte first or
+ * last: between them it may be anywhere, so it must be too low twice. */
 static bool step(avr_t *avr) {
+    static bool low_before = false;
     const int state = avr_run(avr);
     if (state == cpu_Crashed) {
-        fprintf(stderr, "avr_run: crashed at 0x%" PRIx32 "\n", (uint32_t)avr->pc);
-        fflush(stdout);
-        exit(WENT_WRONG);
+        went_wrong(avr, "crashed");
     }
+    const uint32_t pointer = stack_pointer(avr);
+    const bool low =
+        pointer < end_of_variables && pointer != 0; /* 0 before the start-up code has set it */
+    if (low && low_before) {
+        went_wrong(avr, "the stack ran into the variables");
+    }
+    low_before = low;
     return state != cpu_Done;
 }
 
@@ -150,7 +167,6 @@ static void run_counting(avr_t *avr, const settings *all, const elf_firmware_t *
     bool counting = false;
     uint64_t instructions = 0;
     avr_cycle_count_t began = 0;
-    avr->run_cycle_limit = 1; /* one instruction a call */
     bool running = true;
     while (running) {
         const uint32_t at = (uint32_t)avr->pc;
@@ -178,31 +194,19 @@ static void run_counting(avr_t *avr, const settings *all, const elf_firmware_t *
     }
 }
 
-static void check_stack(const avr_t *avr, const elf_firmware_t *firmware) {
-    const uint32_t end = address_of(firmware, "_end");
-    if (address_of(firmware, "board_stack_paint") == 0 || end < MEMORY_BASE) {
-        return;
-    }
-    for (uint32_t i = 0; i < WATCHED_BYTES; i++) {
-        if (avr->data[end - MEMORY_BASE + i] != PAINT) {
-            fflush(stdout);
-            fprintf(stderr, "avr_run: the stack ran into the variables\n");
-            exit(WENT_WRONG);
-        }
-    }
-}
-
 int main(int argc, char **argv) {
     const settings all = read_arguments(argc, argv);
     avr_global_logger_set(on_log);
     elf_firmware_t firmware;
     avr_t *avr = load(&all, &firmware);
+    avr->run_cycle_limit = 1; /* one instruction a call */
+    const uint32_t end = address_of(&firmware, "_end");
+    end_of_variables = end > MEMORY_BASE ? end - MEMORY_BASE : 0;
     if (all.counts != NULL) {
         run_counting(avr, &all, &firmware);
     } else {
         while (step(avr)) {
         }
     }
-    check_stack(avr, &firmware);
     return avr->data[GPIOR0];
 }
