@@ -3,6 +3,6 @@ BOARD_MCU      := atmega2560
 BOARD_FLASH    := 256K
 BOARD_RAM      := 8K
 BOARD_STACK    := 1K
-BOARD_SECONDS  := 600
+BOARD_SECONDS  := 1800
 BOARD_WHEN     := all
 include boards/avr/avr.mk

@@ -135,21 +135,23 @@ static _Noreturn void went_wrong(const avr_t *avr, const char *what) {
     exit(WENT_WRONG);
 }
 
-/* One instruction. False when the program has ended. The stack pointer is set by two writes, the high byte first or
- * last: between them it may be anywhere, so it must be too low twice. */
+/* The stack pointer is set byte by byte, with the interrupts' flag between: for two instructions it may be anywhere. */
+#define TORN_INSTRUCTIONS 2U
+
+/* One instruction. False when the program has ended. */
 static bool step(avr_t *avr) {
-    static bool low_before = false;
+    static unsigned low = 0; /* instructions with the stack pointer among the variables */
     const int state = avr_run(avr);
     if (state == cpu_Crashed) {
         went_wrong(avr, "crashed");
     }
     const uint32_t pointer = stack_pointer(avr);
-    const bool low =
-        pointer < end_of_variables && pointer != 0; /* 0 before the start-up code has set it */
-    if (low && low_before) {
+    low = pointer < end_of_variables && pointer != 0
+              ? low + 1U
+              : 0U; /* 0 until the start-up code has set it */
+    if (low > TORN_INSTRUCTIONS) {
         went_wrong(avr, "the stack ran into the variables");
     }
-    low_before = low;
     return state != cpu_Done;
 }
 
