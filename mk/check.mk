@@ -27,7 +27,7 @@ objects: $(call objects,host,$(WHIRL_MAIN_C) $(WHIRL_C) $(GEN)/builtin_models.c 
     $(call objects,float,$(PORTABLE_C) $(PC_BOARD_C) $(CORE_TEST_C) $(SCENE_C)) \
     $(call objects,double,$(CORE_C) $(RIG_C) $(CORE_TEST_C) $(SCENE_C))
 board-objects: board-own-objects $(call objects,$(BOARD),$(PORTABLE_C) $(PROGRAM_C) $(CORE_TEST_C) $(SCENE_C))
-board-own-objects: $(call objects,$(BOARD),$(BOARD_SOURCES) $(wildcard tests/boards/*.c))
+board-own-objects: $(call objects,$(BOARD),$(BOARD_SOURCES) $(wildcard tests/boards/guard_*.c))
 
 gate-gcc: $(GEN)/.stamp
 	@$(MAKE) -k B=build/check/gcc CC=gcc EXTRA=-Werror BOARD_EXTRA=-Werror objects board-objects
@@ -52,7 +52,7 @@ gate-tidy:
 
 .PHONY: tidy-board
 tidy-board:
-	@$(call tidy,$(BOARD_SOURCES) $(wildcard tests/boards/*.c),$(BOARD_TIDY) $(LINT_FLAGS))
+	@$(call tidy,$(BOARD_SOURCES) $(wildcard tests/boards/guard_*.c),$(BOARD_TIDY) $(LINT_FLAGS))
 
 gate-cppcheck:
 	@$(call need,cppcheck)
@@ -114,6 +114,8 @@ gate-avr: build/whirl
 	@$(call need,avr-gcc)
 	@$(call need,simavr)
 	@sh tests/embed/avr.sh build/whirl build/check/avr
+	@$(MAKE) BOARD=atmega328p build/avr_run
+	@sh tests/boards/avr_cycles.sh build/avr_run build/check/avr_cycles
 
 # --- boards that `make test` does not take: the suites, and what guards the stack --------------------------
 BOARDS_CHECKED = $(filter-out $(BOARDS_TEST),$(BOARDS))
