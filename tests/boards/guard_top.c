@@ -3,6 +3,6 @@
 
 int main(void) {
     store_above_strip();
-    store_into_strip(board_words(board_stack_guard, board_stack_limit) - 1U);
+    store_into_strip((unsigned)board_words(board_stack_guard, board_stack_limit) - 1U);
     return 0;
 }
