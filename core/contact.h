@@ -90,15 +90,12 @@ enum {
     X(WH_WHEN, 0)
 
 #define WH_KIND_NAME(name, is) name,
-#define WH_KIND_IS(name, is) || (((is)&trait) != 0 && kind == name)
 typedef enum wh_contact_kind {
     WH_CONTACT_KINDS(WH_KIND_NAME) WH_CONTACT_KIND_COUNT
 } wh_contact_kind;
 
-/* Is a kind `trait` (one of them, if there are several)? */
-WH_INLINE bool wh_contact_kind_is(unsigned kind, unsigned trait) {
-    return false WH_CONTACT_KINDS(WH_KIND_IS);
-}
+#undef WH_KIND_NAME
+#define WH_KIND_BIT(kind) (1U << (kind))
 
 typedef struct wh_contact {
     uint8_t kind; /* wh_contact_kind */
@@ -149,6 +146,8 @@ typedef struct wh_contact_system {
     const wh_ledger_form *ledger; /* or NULL */
     uint8_t contacts;
     uint8_t forced;       /* contacts that have a force: all but crossings */
+    uint8_t kinds;        /* of those: WH_KIND_BIT() of each kind that there is */
+    uint8_t pinned;       /* of those: how many have a pin */
     uint8_t held;         /* holds without a pin */
     uint16_t evaluations; /* WH_CONTACT_EVALUATIONS: declared, and held to by the tests */
     wh_method method;

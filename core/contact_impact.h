@@ -46,7 +46,7 @@ WH_INLINE unsigned wh_contact_which(const wh_contact_system *of, const wh_contac
     unsigned bits = 0;
     for (unsigned k = 0; k < of->forced; k++) {
         const bool is =
-            of->contact[k].kind == kind && wh_contact_constrains(of, w, k) == constrains;
+            wh_contact_of(of, k, kind) && wh_contact_constrains(of, w, k) == constrains;
         bits |= is ? 1U << k : 0U;
     }
     return bits;
@@ -117,7 +117,7 @@ static inline unsigned wh_contact_tied(const wh_contact_system *of, const wh_con
         const wh_real closing = -signal[2 * k + 1];
         const wh_real way =
             closing * (h * WH_BRACKET_FINE) + WH_CONTACT_TIE * wh_contact_extent(of, w, k, s);
-        const bool free = of->contact[k].kind == WH_STOP && w->mode[k] == WH_FREE;
+        const bool free = wh_contact_of(of, k, WH_STOP) && w->mode[k] == WH_FREE;
         const bool closes = closing > WH_CONTACT_ROUNDING * wh_contact_terms(of, w, k, rate);
         bits |= free && closes && signal[2 * k] <= way ? 1U << k : 0U;
     }
@@ -132,7 +132,7 @@ static inline void wh_contact_passed_on(const wh_contact_system *of, wh_contact_
     for (unsigned l = 0; l < of->forced && of->forced > 1; l++) {
         const wh_real speed = after[2 * l + 1];
         const bool free =
-            of->contact[l].kind == WH_STOP && w->mode[l] == WH_FREE && (hits >> l & 1U) == 0;
+            wh_contact_of(of, l, WH_STOP) && w->mode[l] == WH_FREE && (hits >> l & 1U) == 0;
         if (free && speed < WH_R(0.0) && speed < before[2 * l + 1] + before[2 * l + 1] &&
             after[2 * l] <= -speed * (h * WH_BRACKET)) {
             w->hit_next |= 1U << l;
@@ -150,7 +150,7 @@ static inline unsigned wh_contact_beside(const wh_contact_system *of, const wh_c
     unsigned bits = 0;
     for (unsigned l = 0; l < of->forced && of->forced > 1; l++) {
         const bool free =
-            of->contact[l].kind == WH_STOP && w->mode[l] == WH_FREE && (hits >> l & 1U) == 0;
+            wh_contact_of(of, l, WH_STOP) && w->mode[l] == WH_FREE && (hits >> l & 1U) == 0;
         for (unsigned k = 0; k < of->forced && free; k++) {
             if ((hits >> k & 1U) == 0 || wh_contact_law(of, w, l)[WH_LAW_FIRST] > WH_R(0.0)) {
                 continue;
@@ -241,7 +241,9 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
         }
     }
     wh_contact_set_modes(of, w, rest, WH_ACTIVE);
-    unsigned gone = resting & ~wh_contact_which(of, w, WH_STOP, true) & ~w->hit_next;
+    unsigned gone = of->forced > 1 /* one alone is what was hit */
+                        ? resting & ~wh_contact_which(of, w, WH_STOP, true) & ~w->hit_next
+                        : 0U;
     for (unsigned k = 0; k < of->forced && gone != 0; k++) {
         const bool stays =
             (gone >> k & 1U) != 0 &&

@@ -58,7 +58,7 @@ static inline wh_real wh_contact_moved(const wh_contact_system *of, const wh_con
 
 /* Is contact k a hold that can slip? One with a pin cannot. */
 WH_INLINE bool wh_contact_slips(const wh_contact_system *of, const wh_contact_work *w, unsigned k) {
-    return of->held > 0 && of->contact[k].kind == WH_HOLD && of->contact[k].pin < 0 &&
+    return of->held > 0 && wh_contact_of(of, k, WH_HOLD) && !wh_contact_pinned(of, k) &&
            w->mode[k] == WH_ACTIVE;
 }
 
@@ -66,7 +66,7 @@ WH_INLINE bool wh_contact_slips(const wh_contact_system *of, const wh_contact_wo
 WH_INLINE wh_real wh_contact_drift(const wh_contact_system *of, const wh_contact_work *w,
                                    unsigned k, const wh_real *signal, const wh_contact_state *from,
                                    const wh_contact_state *s) {
-    if (of->contact[k].kind == WH_STOP) {
+    if (wh_contact_of(of, k, WH_STOP)) {
         return signal[2 * k];
     }
     if (!wh_contact_slips(of, w, k)) {
@@ -92,7 +92,7 @@ WH_INLINE void wh_contact_capture(const wh_contact_system *of, wh_contact_work *
 WH_INLINE unsigned wh_contact_breaking(const wh_contact_system *of, const wh_contact_work *w) {
     unsigned bits = 0;
     for (unsigned k = 0; k < of->forced; k++) {
-        const bool stuck = of->contact[k].kind == WH_FRICTION && w->mode[k] == WH_STUCK;
+        const bool stuck = wh_contact_of(of, k, WH_FRICTION) && w->mode[k] == WH_STUCK;
         bits |= stuck && wh_contact_exceeds(of, w, k, w->force[k]) ? 1U << k : 0U;
     }
     return bits;
@@ -146,7 +146,7 @@ static inline bool wh_contact_project_places(const wh_contact_system *of, wh_con
             continue;
         }
         mover = mover == WH_CONTACTS_MAX ? k : mover;
-        if (of->contact[k].pin < 0) {
+        if (!wh_contact_pinned(of, k)) {
             wanted[i] = -off[i];
             together = true;
         }
@@ -157,7 +157,7 @@ static inline bool wh_contact_project_places(const wh_contact_system *of, wh_con
     (void)input; /* only books look at it */
     wh_books_look(of, w, s, input);
     for (unsigned i = 0; i < count; i++) {
-        const int pin = of->contact[member[i]].pin;
+        const int pin = wh_contact_pin(of, member[i]);
         if (off[i] != WH_R(0.0) && pin >= 0) { /* the others need not move for it */
             const wh_real entry = wh_contact_law(of, w, member[i])[WH_LAW_ROWS + pin];
             wh_contact_move(of, (unsigned)pin, -off[i] / entry, s);
@@ -169,7 +169,7 @@ static inline bool wh_contact_project_places(const wh_contact_system *of, wh_con
             wh_contact_apply(of, w, member[i], lambda[i], way);
         }
         for (unsigned i = 0; i < count; i++) {
-            const int pin = of->contact[member[i]].pin;
+            const int pin = wh_contact_pin(of, member[i]);
             const wh_real *row = wh_contact_law(of, w, member[i]) + WH_LAW_ROWS;
             const wh_real *rate = wh_contact_rates(of, s);
             wh_real travel = WH_R(0.0);
@@ -207,7 +207,7 @@ static inline void wh_contact_project_rates(const wh_contact_system *of, const w
         wh_contact_apply(of, w, member[i], lambda[i], rate);
     }
     for (unsigned i = 0; i < count; i++) {
-        const int pin = of->contact[member[i]].pin;
+        const int pin = wh_contact_pin(of, member[i]);
         if (pin >= 0) {
             rate[pin] = WH_R(0.0);
         }
@@ -222,7 +222,7 @@ static inline void wh_contact_project_rates(const wh_contact_system *of, const w
 WH_INLINE unsigned wh_contact_stuck(const wh_contact_system *of, const wh_contact_work *w) {
     unsigned bits = 0;
     for (unsigned k = 0; k < of->forced; k++) {
-        bits |= of->contact[k].kind == WH_FRICTION && w->mode[k] == WH_STUCK ? 1U << k : 0U;
+        bits |= wh_contact_of(of, k, WH_FRICTION) && w->mode[k] == WH_STUCK ? 1U << k : 0U;
     }
     return bits;
 }
@@ -254,7 +254,7 @@ static inline void wh_contact_put_back(const wh_contact_system *of, wh_contact_w
     wh_contact_look(of, w, s, input, accel, signal);
     spot.but = wh_contact_breaking(of, w);
     for (unsigned k = 0; k < of->forced; k++) {
-        const bool rests = of->contact[k].kind == WH_STOP && w->mode[k] == WH_ACTIVE;
+        const bool rests = wh_contact_of(of, k, WH_STOP) && w->mode[k] == WH_ACTIVE;
         spot.but |= rests && wh_contact_far(of, w, k, signal, s) ? wh_contact_stuck(of, w) : 0U;
     }
     for (unsigned pass = 0; pass < 2 && wh_contact_project_places(of, w, &spot, signal, input, s);
@@ -272,7 +272,7 @@ WH_INLINE void wh_contact_stabilise(const wh_contact_system *of, wh_contact_work
     bool slips = false;
     WH_UNROLL
     for (unsigned k = 0; k < of->forced; k++) {
-        slips = slips || (of->contact[k].pin < 0 && wh_contact_constrains(of, w, k));
+        slips = slips || (!wh_contact_pinned(of, k) && wh_contact_constrains(of, w, k));
     }
     if (slips) {
         wh_contact_put_back(of, w, h, input, from, s);

@@ -39,7 +39,7 @@ static inline void wh_contact_rows_of(const wh_contact_system *of, wh_contact_wo
             rows->row[k][i] = WH_R(0.0);
             rows->way[k][i] = WH_R(0.0);
         }
-        if (of->contact[k].kind != WH_HOLD || w->mode[k] != WH_ACTIVE) {
+        if (!wh_contact_of(of, k, WH_HOLD) || w->mode[k] != WH_ACTIVE) {
             continue;
         }
         rows->holds++;

@@ -57,7 +57,6 @@ run-image:
 -include $(wildcard $(patsubst %.c,$(ELF)/%.d,$(UNITY_DIR)/unity.c $(PORTABLE_C) $(BOARD_C) $(TEST_C) $(SCENE_C) $(B)/tests/core_suites.c))
 
 .PHONY: emulate-now
-emulate-now: build/whirl
-	@$(MAKE) $(GEN)/.stamp
+emulate-now: $(GEN)/.stamp
 	@$(MAKE) $(ELF)/firmware.elf
 	@$(call emulate,$(ELF)/firmware.elf)

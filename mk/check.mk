@@ -6,8 +6,7 @@ LINT_FLAGS := -std=c11 $(WARN) -I. $(UNITY_FLAGS) -D_POSIX_C_SOURCE=200809L
 JOBS := 2
 
 .PHONY: check-now
-check-now: build/whirl
-	@$(MAKE) $(GEN)/.stamp
+check-now: $(GEN)/.stamp
 	@sh tests/gates.sh build/check "$(MAKE)" $(GATES)
 
 ##@ Tests and quality
@@ -29,10 +28,10 @@ objects: $(call objects,host,$(WHIRL_MAIN_C) $(WHIRL_C) $(GEN)/builtin_models.c 
 board-objects: $(call objects,$(BOARD),$(PORTABLE_C) $(PROGRAM_C) $(TARGET_C) \
     $(BOARD_SOURCES) $(CORE_TEST_C) $(SCENE_C))
 
-gate-gcc:
+gate-gcc: $(GEN)/.stamp
 	@$(MAKE) -k B=build/check/gcc CC=gcc EXTRA=-Werror BOARD_EXTRA=-Werror objects board-objects
 
-gate-clang:
+gate-clang: $(GEN)/.stamp
 	@$(MAKE) -k B=build/check/clang CC=clang EXTRA=-Werror objects
 
 # --- layout and lint ------------------------------------------------------------------------------
@@ -115,8 +114,7 @@ gate-avr: build/whirl
 HASH_BUILDS := gcc-O0 gcc-O2 gcc-O3 clang-O0 clang-O2 clang-O3
 
 .PHONY: hashes-now gate-hashes $(addprefix hash-,$(HASH_BUILDS))
-hashes-now gate-hashes: build/whirl
-	@$(MAKE) $(GEN)/.stamp
+hashes-now gate-hashes: $(GEN)/.stamp
 	@$(MAKE) $(addprefix hash-,$(HASH_BUILDS)) $(ELF)/scenes.elf
 	@$(foreach b,$(OTHER_BOARDS),$(call on_board,$(b),board-images) &&) true
 	@sh tests/hashes.sh build/hash "the interpreter" "build/whirl hashes" \

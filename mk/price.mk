@@ -51,10 +51,9 @@ $(ELF)/build/worst_step/%.o: FILE_FLAGS := -include boards/programs/mark.h
 $(ELF)/boards/programs/worst.o: FILE_FLAGS := -DWORST_STEPS=$(WORST_STEPS)U -DWORST_SEEDS=2U
 
 .PHONY: bench-now size-now worst-now
-worst-now: build/whirl
+worst-now: $(GEN)/.stamp
 	@[ "$(WORST_STEPS)" -gt 0 ] 2>/dev/null || \
 	    { echo "error: WORST_STEPS=$(WORST_STEPS): a number of steps, 1 or more" >&2; exit 2; }
-	@$(MAKE) $(GEN)/.stamp
 	@mk/count/all_effects.sh build/whirl build/worst_step $(WORST_MODELS)
 	@$(RM) $(ELF)/boards/programs/worst.o
 	@$(MAKE) $(ELF)/worst.elf $(PLUGIN)
@@ -65,8 +64,7 @@ worst-now: build/whirl
 	    EMULATE="$(subst timeout $(BOARD_SECONDS),timeout 3600,$(call emulate,$(ELF)/worst.elf))" \
 	    mk/count/worst.sh $(ELF)/worst.elf $(FIGURES)/worst.csv $(WORST_STEPS)
 
-bench-now: build/whirl
-	@$(MAKE) $(GEN)/.stamp
+bench-now: $(GEN)/.stamp
 	@$(MAKE) build/bench build/bench_compensated build/bench_double \
 	    $(addprefix build/tools/,$(BY_HAND)) $(ELF)/bench.elf $(ELF)/bench_compensated.elf $(PLUGIN)
 	@mkdir -p $(FIGURES)
@@ -77,8 +75,7 @@ bench-now: build/whirl
 	@$(call count_board,$(ELF)/bench.elf)
 	@$(call count_board,$(ELF)/bench_compensated.elf)
 
-size-now: build/whirl
-	@$(MAKE) $(GEN)/.stamp
+size-now: $(GEN)/.stamp
 	@$(MAKE) board-images
 	@mkdir -p $(FIGURES)
 	@BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) SIZE=$(BOARD_SIZE) OBJECTS=$(ELF) \
@@ -88,8 +85,7 @@ size-now: build/whirl
 
 # What each effect costs: build/price/effects.csv, and the tables of docs/effects.md.
 .PHONY: price-effects-now
-price-effects-now: build/whirl
-	@$(MAKE) $(GEN)/.stamp
+price-effects-now: $(GEN)/.stamp
 	@$(MAKE) $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl) $(PLUGIN)
 	@WHIRL=build/whirl OUT=build/price BOARD=$(BOARD) BOARD_CC=$(BOARD_CC) BOARD_NM=$(BOARD_NM) \
 	    BOARD_SIZE=$(BOARD_SIZE) BOARD_CFLAGS="$(BOARD_CFLAGS)" BOARD_LDFLAGS="$(BOARD_LDFLAGS)" \

@@ -67,31 +67,26 @@ comma := ,
 build_other_tests = $(foreach b,$(OTHER_BOARDS),$(call on_board,$(b),board-tests) &&) true
 
 .PHONY: test-now test-core test-host test-cli test-board
-test-now: build/whirl
-	@$(MAKE) $(GEN)/.stamp
+test-now: $(GEN)/.stamp
 	@$(MAKE) test-programs $(B)/$(BOARD)/tests.elf
 	@$(build_other_tests)
 	@WHIRL=build/whirl sh tests/run.sh build/tests/log $(RUN_CLI) $(RUN_BOARD) $(RUN_HOST) $(RUN_CORE)
 
 ##@ Tests and quality
 # Parts of it, for while one works on something.
-test-core: build/whirl ## the portable suites alone, in float and double on this machine
-	@$(MAKE) $(GEN)/.stamp
+test-core: $(GEN)/.stamp ## the portable suites alone, in float and double on this machine
 	@$(MAKE) build/tests/core_double build/tests/core_float
 	@sh tests/run.sh build/tests/log $(RUN_CORE)
 
-test-host: build/whirl ## the suites of the program alone
-	@$(MAKE) $(GEN)/.stamp
+test-host: $(GEN)/.stamp ## the suites of the program alone
 	@$(MAKE) build/tests/host
 	@sh tests/run.sh build/tests/log $(RUN_HOST)
 
-test-cli: build/whirl ## the scripts of tests/cli alone
-	@$(MAKE) $(GEN)/.stamp
+test-cli: $(GEN)/.stamp ## the scripts of tests/cli alone
 	@$(MAKE) test-programs
 	@WHIRL=build/whirl sh tests/run.sh build/tests/log $(RUN_CLI)
 
-test-board: build/whirl ## the portable suites on the emulated boards alone
-	@$(MAKE) $(GEN)/.stamp
+test-board: $(GEN)/.stamp ## the portable suites on the emulated boards alone
 	@$(MAKE) $(ELF)/tests.elf
 	@$(build_other_tests)
 	@sh tests/run.sh build/tests/log $(RUN_BOARD)

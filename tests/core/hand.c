@@ -132,6 +132,8 @@ unsigned hand_add(wh_contact_kind kind, int pin, wh_real row0, wh_real row1, wh_
                   wh_real first, wh_real second) {
     const unsigned k = hand_now.system.contacts++;
     hand_now.system.forced = (uint8_t)(hand_now.system.forced + (kind != WH_WHEN));
+    hand_now.system.kinds |= (uint8_t)(kind != WH_WHEN ? WH_KIND_BIT(kind) : 0U);
+    hand_now.system.pinned = (uint8_t)(hand_now.system.pinned + (kind != WH_WHEN && pin >= 0));
     hand_now.contact[k] = (wh_contact){(uint8_t)kind, 0, (int16_t)pin, 0, kind == WH_WHEN};
     hand_now.law[k].row[0] = row0;
     hand_now.law[k].row[1] = row1;

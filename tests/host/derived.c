@@ -137,6 +137,11 @@ void random_state(state_values *s, const derived *d, uint64_t *seed) {
 }
 
 void derived_run(const tape *t, const derived *d, const state_values *s, double *result) {
+    derived_run_known(t, d, s, result, NULL);
+}
+
+void derived_run_known(const tape *t, const derived *d, const state_values *s, double *result,
+                       double *off) {
     const image *p = d->image;
     double angle_rad[UNKNOWNS] = {0};
     double real[4 * UNKNOWNS] = {0};
@@ -151,6 +156,9 @@ void derived_run(const tape *t, const derived *d, const state_values *s, double 
     image_inputs(p, input);
     evaluator *ev = evaluator_new(t);
     evaluator_run(ev, 0.0, angle_rad, real, real + (p->coordinates - p->angles), input, result);
+    if (off != NULL) {
+        evaluator_rounding(ev, angle_rad, 0.0, off);
+    }
     evaluator_free(ev);
 }
 

@@ -47,6 +47,10 @@ void random_state(state_values *s, const derived *d, uint64_t *seed);
 
 /* What a list of the image gives at a state: result[t->results]. */
 void derived_run(const tape *t, const derived *d, const state_values *s, double *result);
+/* And how far off each may be for the rounding of the list's operations, in units of 2^-53 (host/run/rounding.h):
+ * off[t->results]. */
+void derived_run_known(const tape *t, const derived *d, const state_values *s, double *result,
+                       double *off);
 
 /* The Octave form, with its contacts in words, as `whirl derive` writes it. */
 void derived_octave(FILE *out, const derived *d, const char *file);
