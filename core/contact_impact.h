@@ -241,7 +241,9 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
         }
     }
     wh_contact_set_modes(of, w, rest, WH_ACTIVE);
-    unsigned gone = resting & ~wh_contact_which(of, w, WH_STOP, true) & ~w->hit_next;
+    unsigned gone = of->forced > 1 /* one alone is what was hit */
+                        ? resting & ~wh_contact_which(of, w, WH_STOP, true) & ~w->hit_next
+                        : 0U;
     for (unsigned k = 0; k < of->forced && gone != 0; k++) {
         const bool stays =
             (gone >> k & 1U) != 0 &&

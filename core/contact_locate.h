@@ -8,6 +8,7 @@
 typedef struct wh_margins {
     wh_real value[WH_CONTACTS_MAX];
     wh_real signal[2 * WH_CONTACTS_MAX];
+    wh_real accel[WH_COORDS]; /* where any depends on a force: wh_contact_watched() */
     wh_real all; /* sum of all that is looked at: no finite number if one of it is none */
 } wh_margins;
 
@@ -102,8 +103,7 @@ static inline void wh_contact_margins(const wh_contact_system *of, wh_contact_wo
     wh_contact_signals(of, at->phase, at->linear, at->rate, input, m->signal);
     if (wh_contact_watched(of, w)) {
         const wh_contact_model model = {of, w};
-        wh_real accel[WH_COORDS];
-        wh_contact_accel(&model, at->phase, at->linear, at->rate, input, accel);
+        wh_contact_accel(&model, at->phase, at->linear, at->rate, input, m->accel);
     }
     wh_real all = WH_R(0.0);
     WH_UNROLL
@@ -185,7 +185,8 @@ WH_INLINE unsigned wh_contact_happened(const wh_contact_system *of, const wh_mar
 }
 
 /* Where between `from` and `to` the first of the events that have happened at `to` comes: the share of
- * h, just past it, by WH_BRACKET at most. *events are those that have happened there. */
+ * h, just past it, by WH_BRACKET at most. *events are those that have happened there. at_end is what
+ * wh_contact_margins() says of `to`. */
 static inline wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work *w,
                                         wh_contact_state *from, wh_contact_state *to, wh_real h,
                                         const wh_real *input, const wh_margins *at_end,
@@ -205,10 +206,14 @@ static inline wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_
     wh_contact_margins(of, w, &path.begin, input, &probe);
     unsigned at_once = 0;
     unsigned sliding = 0;
+    unsigned loads = 0; /* whose force is looked at */
     for (unsigned k = 0; k < of->contacts; k++) {
+        const bool load = k < of->forced && wh_contact_is(of, k, WH_UNILATERAL | WH_LIMITED) &&
+                          wh_contact_constrains(of, w, k);
         const bool slides =
             k < of->forced && wh_contact_of(of, k, WH_FRICTION) && w->mode[k] != WH_STUCK;
         sliding |= slides ? 1U << k : 0U;
+        loads |= load ? 1U << k : 0U;
         before[k] = probe.value[k];
         after[k] = at_end->value[k];
         if ((*events >> k & 1U) != 0 && !slides && before[k] < WH_R(0.0)) {
@@ -219,9 +224,17 @@ static inline wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_
         *events = at_once;
         return WH_R(0.0);
     }
-    wh_contact_accel(&model, path.begin.phase, path.begin.linear, path.begin.rate, input, path.a0);
-    wh_contact_point_of(of, to, &at);
-    wh_contact_accel(&model, at.phase, at.linear, at.rate, input, path.a1);
+    if (wh_contact_watched(of, w)) {
+        for (unsigned i = 0; i < of->coordinates; i++) {
+            path.a0[i] = probe.accel[i];
+            path.a1[i] = at_end->accel[i];
+        }
+    } else {
+        const wh_contact_point *begin = &path.begin;
+        wh_contact_accel(&model, begin->phase, begin->linear, begin->rate, input, path.a0);
+        wh_contact_point_of(of, to, &at);
+        wh_contact_accel(&model, at.phase, at.linear, at.rate, input, path.a1);
+    }
     wh_real reach = WH_R(1.0);
     wh_real earlier[2] = {WH_R(4.0), WH_R(4.0)}; /* widths, two and one probes ago */
     wh_real most =
@@ -231,12 +244,10 @@ static inline wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_
         wh_real root = high;
         for (unsigned k = 0; k < of->contacts; k++) {
             /* at zero already; but later than at the start a load at its limit may be one that others bear */
-            const bool load =
-                k < of->forced && wh_contact_is(of, k, WH_UNILATERAL | WH_LIMITED) &&
-                wh_contact_constrains(of, w, k);
-            const bool begins = before[k] == WH_R(0.0) && (sliding >> k & 1U) == 0 &&
-                                (low == WH_R(0.0) || !load);
-            if ((*events >> k & 1U) != 0 && (before[k] > WH_R(0.0) || begins)) {
+            const bool begins = (sliding >> k & 1U) == 0 &&
+                                (low == WH_R(0.0) || (loads >> k & 1U) == 0);
+            if ((*events >> k & 1U) != 0 &&
+                (before[k] > WH_R(0.0) || (before[k] == WH_R(0.0) && begins))) {
                 const wh_real share = before[k] / (before[k] - after[k]);
                 root = low + width * share < root ? low + width * share : root;
             }
@@ -245,10 +256,20 @@ static inline wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_
          * further each time that fails, and in the middle where two probes did not halve it */
         const wh_real over =
             width * (width < WH_R(0.015625) ? width : WH_R(0.015625)) * reach + WH_BRACKET_FINE / 4;
-        const bool backward = root - low > high - root;
-        const bool halve = width > WH_R(0.5) * earlier[0];
-        wh_real guess = backward ? root - over : root + over;
-        guess = halve ? low + WH_R(0.5) * width : guess;
+        wh_real guess = low + WH_R(0.5) * width;
+        wh_real if_found = reach;
+        wh_real if_not = reach;
+        if (width > WH_R(0.5) * earlier[0]) {
+            /* so it is halved */
+        } else if (root - low > high - root) {
+            guess = root - over;
+            if_found = reach * WH_R(8.0);
+            if_not = WH_R(1.0);
+        } else {
+            guess = root + over;
+            if_found = WH_R(1.0);
+            if_not = reach * WH_R(8.0);
+        }
         guess = guess < high - most ? high - most : guess;
         guess = guess > low + most ? low + most : guess;
         if (!(guess > low && guess < high)) {
@@ -260,14 +281,17 @@ static inline wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_
         wh_contact_between(of, &path, guess, &at);
         wh_contact_margins(of, w, &at, input, &probe);
         const unsigned found = wh_contact_happened(of, &probe);
-        reach = halve ? reach : backward == (found == 0) ? WH_R(1.0) : reach * WH_R(8.0);
-        wh_real *side = found != 0 ? after : before;
-        for (unsigned k = 0; k < of->contacts; k++) {
-            side[k] = probe.value[k];
+        reach = found != 0 ? if_found : if_not;
+        if (found != 0) {
+            high = guess;
+            *events = found;
+        } else {
+            low = guess;
         }
-        low = found != 0 ? low : guess;
-        high = found != 0 ? guess : high;
-        *events = found != 0 ? found : *events;
+        for (unsigned k = 0; k < of->contacts; k++) {
+            before[k] = found != 0 ? before[k] : probe.value[k];
+            after[k] = found != 0 ? probe.value[k] : after[k];
+        }
     }
     return high;
 }

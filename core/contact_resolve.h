@@ -236,7 +236,7 @@ WH_INLINE void wh_contact_stick(const wh_contact_system *of, wh_contact_work *w,
 
 /* --- all that happens at one moment -------------------------------------------------------------- */
 
-/* Returns what had an event, as bits; impulse[forced]: what each got. */
+/* Returns what had an event, as bits; impulse[contacts]: what each got. */
 WH_APART unsigned wh_contact_resolve(const wh_contact_system *of, wh_contact_work *w,
                                      const wh_contact_moment *m, const wh_real *input,
                                      wh_contact_state *now, wh_real *impulse) {
@@ -248,10 +248,10 @@ WH_APART unsigned wh_contact_resolve(const wh_contact_system *of, wh_contact_wor
     const unsigned let_go = events & wh_contact_which(of, w, WH_HOLD, true);
     const unsigned captures = events & wh_contact_which(of, w, WH_HOLD, false);
     const unsigned zeros = events & wh_contact_which(of, w, WH_FRICTION, false);
-    for (unsigned i = 0; i < of->coordinates; i++) {
+    for (unsigned i = 0; i < of->coordinates && wh_contact_any_of(of, WH_FRICTION); i++) {
         w->came[i] = rate[i];
     }
-    for (unsigned k = 0; k < of->forced; k++) {
+    for (unsigned k = 0; k < of->contacts; k++) {
         impulse[k] = WH_R(0.0);
     }
     wh_contact_set_modes(of, w, m->falls, WH_FREE);
@@ -267,16 +267,20 @@ WH_APART unsigned wh_contact_resolve(const wh_contact_system *of, wh_contact_wor
             wh_contact_assign(of, w, k, input, now);
         }
     }
-    if (w->moved != 0) {
+    if (of->contacts > of->forced && w->moved != 0) {
         wh_contact_revise(of, w, input, now);
     }
-    wh_contact_slide(of, w, zeros, m->h, rate);
+    if (wh_contact_any_of(of, WH_FRICTION)) {
+        wh_contact_slide(of, w, zeros, m->h, rate);
+    }
     unsigned must = 0;
     for (unsigned k = 0; k < of->forced; k++) {
         must |= wh_contact_constrains(of, w, k) ? loads & 1U << k : 0U;
     }
     wh_contact_give_way(of, w, must, input, now);
-    wh_contact_stick(of, w, rate);
+    if (wh_contact_any_of(of, WH_FRICTION)) {
+        wh_contact_stick(of, w, rate);
+    }
     for (unsigned k = 0; k < of->forced; k++) { /* others relieved it */
         events &= (must >> k & 1U) != 0 && wh_contact_constrains(of, w, k) ? ~(1U << k) : ~0U;
     }
@@ -363,22 +367,25 @@ static inline void wh_contact_first_touch(const wh_contact_system *of, const wh_
 }
 
 /* Modes at the start of a run: what is at rest stays so if the forces keep it there, as if it had been before; then
- * what closes is hit, and what a hold's condition says is captured. Returns how many of the step's moments with events
- * that took beyond the one that every start has. */
+ * what closes is hit, and what a hold's condition says is captured: *hit, as bits, with impulse[forced]. Returns how many
+ * of the step's moments with events that took beyond the one that every start has. */
 static inline unsigned wh_contact_begin(const wh_contact_system *of, wh_contact_work *w, wh_real h,
-                                        const wh_real *input, wh_contact_state *s) {
+                                        const wh_real *input, wh_contact_state *s, unsigned *hit,
+                                        wh_real *impulse) {
     wh_real accel[WH_COORDS];
     wh_real signal[2 * WH_CONTACTS_MAX];
-    wh_real impulse[WH_CONTACTS_MAX];
     wh_contact_place spot = WH_CONTACT_HERE;
     wh_contact_moment m = {0, 0, h, false};
     unsigned still;
     unsigned moving;
     bool below = false;
+    *hit = 0;
     for (unsigned k = 0; k < of->contacts; k++) {
         w->mode[k] = 0; /* free, stuck, on no side */
     }
-    wh_contact_slide(of, w, 0, WH_R(0.0), wh_contact_rates(of, s));
+    if (wh_contact_any_of(of, WH_FRICTION)) {
+        wh_contact_slide(of, w, 0, WH_R(0.0), wh_contact_rates(of, s));
+    }
     wh_contact_look(of, w, s, input, accel, signal);
     for (unsigned k = 0; k < of->contacts; k++) {
         wh_contact_expect(w, k, signal[2 * k] + signal[2 * k + 1]);
@@ -387,7 +394,7 @@ static inline unsigned wh_contact_begin(const wh_contact_system *of, wh_contact_
     wh_contact_set_sides(of, w, ~0U, signal);
     if (still == 0) {
         m.events = moving;
-        (void)wh_contact_resolve(of, w, &m, input, s, impulse);
+        *hit = wh_contact_resolve(of, w, &m, input, s, impulse);
         return 0;
     }
     m.events = still & wh_contact_which(of, w, WH_HOLD, false);
@@ -405,7 +412,7 @@ static inline unsigned wh_contact_begin(const wh_contact_system *of, wh_contact_
         return 0;
     }
     m.events = moving;
-    (void)wh_contact_resolve(of, w, &m, input, s, impulse);
+    *hit = wh_contact_resolve(of, w, &m, input, s, impulse);
     return 1;
 }
 

@@ -129,9 +129,14 @@ static inline void wh_contact_point_ahead(const wh_contact_system *of, wh_contac
     }
 }
 
+/* Is there a contact with a force of this kind? */
+WH_INLINE bool wh_contact_any_of(const wh_contact_system *of, wh_contact_kind kind) {
+    return (of->kinds & WH_KIND_BIT(kind)) != 0;
+}
+
 /* Is contact k, which has a force, of this kind? Where all are of one, nobody need look. */
 WH_INLINE bool wh_contact_of(const wh_contact_system *of, unsigned k, wh_contact_kind kind) {
-    return (of->kinds & WH_KIND_BIT(kind)) != 0 &&
+    return wh_contact_any_of(of, kind) &&
            (of->kinds == WH_KIND_BIT(kind) || of->contact[k].kind == kind);
 }
 

@@ -64,7 +64,7 @@ $(GEN)/.stamp: build/whirl $(MODELS) mk/setup/update_files.sh
 	@touch $@
 else
 $(GEN)/.stamp: # if it is missing: by the main configuration, with none of the settings of this one
-	@env -i PATH="$$PATH" $(MAKE) $@
+	@env -i PATH="$$PATH" $(MAKE_COMMAND) $@
 endif
 
 # What includes their headers.

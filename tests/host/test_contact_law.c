@@ -89,7 +89,7 @@ static long wanted_runs(long usual) {
 }
 
 static void check_impacts(const engine_kind *kind, double bound) {
-    const long runs = wanted_runs(120);
+    const long runs = wanted_runs(40);
     uint64_t seed = 79;
     double worst = 0.0;
     double worst_books = 0.0;
@@ -163,7 +163,7 @@ static void draw_rest(uint64_t *seed, drawn *b) {
 
 /* Loads are constant, so are the accelerations: rates a h, places a h^2/2, each contact's impulse lambda h. */
 static void check_forces(const engine_kind *kind, double bound) {
-    const long runs = wanted_runs(120);
+    const long runs = wanted_runs(40);
     uint64_t seed = 72;
     double worst = 0.0;
     double worst_books = 0.0;
@@ -264,7 +264,7 @@ static double broken(const motion *m, const drawn *b, int k, double time_s) {
 }
 
 static void test_no_contact_does_more_than_it_can(void) {
-    const long runs = wanted_runs(120);
+    const long runs = wanted_runs(40);
     uint64_t seed = 73;
     double worst = 0.0;
     int over = 0;
