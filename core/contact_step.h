@@ -290,7 +290,7 @@ WH_APART wh_status wh_contact_eventful(const wh_contact_system *of, wh_contact_w
     } else if (!a->made) {
         wh_contact_follow(of, w, h, state->input, &a->now);
     }
-    bool calm = false; 
+    bool calm = false;
     bool more = true;
     while (more) {
         unsigned events = round < WH_EVENTS_MAX ? wh_contact_next(of, w) : 0;
