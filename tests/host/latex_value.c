@@ -120,13 +120,23 @@ static latex_number power(reader *r, const latex_number *base, const latex_numbe
 
 /* --- functions --------------------------------------------------------------------------------------*/
 
+static double sign_of(double x) { return (double)(x > 0.0) - (double)(x < 0.0); }
+
 #define OF_ONE(X) \
     X(sin, sin(x)) \
     X(cos, cos(x)) \
     X(tan, tan(x)) \
-    X(asin, asin(x)) X(acos, acos(x)) X(atan, atan(x)) X(sqrt, sqrt(x)) X(exp, exp(x)) \
-        X(log, log(x)) X(abs, fabs(x)) X(sign, (double)(x > 0.0) - (double)(x < 0.0)) \
-            X(sinh, sinh(x)) X(cosh, cosh(x)) X(tanh, tanh(x))
+    X(asin, asin(x)) \
+    X(acos, acos(x)) \
+    X(atan, atan(x)) \
+    X(sqrt, sqrt(x)) \
+    X(exp, exp(x)) \
+    X(log, log(x)) \
+    X(sinh, sinh(x)) \
+    X(cosh, cosh(x)) \
+    X(tanh, tanh(x)) \
+    X(abs, fabs(x)) \
+    X(sign, sign_of(x))
 
 #define OF_X(name, ...) \
     static double of_##name(double x, double y) { \
