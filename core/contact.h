@@ -22,8 +22,9 @@
  * What a scene must offer is in `wh_contact_system`; what changes while running is in `wh_contacts` (scene.h).
  * contact_work.h has what a step works on, contact_lcp.h how contacts share a load, contact_forces.h the
  * forces and impulses, contact_ledger.h what they enter into the books, contact_locate.h the search for
- * events, contact_impact.h and contact_resolve.h what they change, contact_project.h where they belong,
- * contact_rank.h whether the holds still determine the motion, contact_step.h the step. Scenes without
+ * events, contact_impact.h and contact_resolve.h what they change, contact_begin.h what holds when a run begins,
+ * contact_project.h where they belong, contact_rank.h whether the holds still determine the motion, contact_step.h the
+ * step. Scenes without
  * contacts include none of these files. All are C only.
  */
 #ifndef WH_CONTACT_H
@@ -119,11 +120,12 @@ enum {
 
 /* Most evaluations of the accelerations in one step, each with at most one of `forces`: in each of WH_EVENTS_MAX
  * rounds a try to the step's end and one to the event (`stages` each), at the end of both up to three looks that put
- * back what slipped, one more at the step's end, the search with the accelerations at both ends, two looks at an
- * impact and one at a capture, two after assignments, and one more than there are contacts that may give way; then the
- * last try, and what finds or follows the modes when the step begins. */
+ * back what slipped, one more at the step's end, the search with one more at its begin (where no force matters, those
+ * at both ends and none on the way), two looks at an impact and one at a capture, two after assignments, and one more
+ * than there are contacts that may give way; then the last try, and what finds or follows the modes when the step
+ * begins. */
 #define WH_CONTACT_EVALUATIONS(stages, stops, forced) \
-    (WH_EVENTS_MAX * (2 * (stages) + WH_PROBES + 13 + WH_CONTACT_LOOKS(stops, forced)) + \
+    (WH_EVENTS_MAX * (2 * (stages) + WH_PROBES + 11 + WH_CONTACT_LOOKS(stops, forced)) + \
      (stages) + 6 + WH_CONTACT_LOOKS(stops, forced))
 #define WH_CONTACT_LOOKS(stops, forced) (2 * ((stops) > 0) + ((forced) > (stops)) + (forced))
 

@@ -45,8 +45,7 @@ WH_INLINE unsigned wh_contact_which(const wh_contact_system *of, const wh_contac
                                     wh_contact_kind kind, bool constrains) {
     unsigned bits = 0;
     for (unsigned k = 0; k < of->forced; k++) {
-        const bool is =
-            wh_contact_of(of, k, kind) && wh_contact_constrains(of, w, k) == constrains;
+        const bool is = wh_contact_of(of, k, kind) && wh_contact_constrains(of, w, k) == constrains;
         bits |= is ? 1U << k : 0U;
     }
     return bits;

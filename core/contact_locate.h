@@ -36,8 +36,8 @@ static inline void wh_contact_path_of(const wh_contact_system *of, wh_contact_st
 #if WH_DOUBLE
         path->way[i] = to->angle[i] - from->angle[i];
 #else
-        path->way[i] =
-            (wh_real)(int64_t)((uint64_t)to->angle[i] - (uint64_t)from->angle[i]) / WH_PHASE_PER_RAD;
+        path->way[i] = (wh_real)(int64_t)((uint64_t)to->angle[i] - (uint64_t)from->angle[i]) /
+                       WH_PHASE_PER_RAD;
 #endif
     }
     for (unsigned i = of->angles; i < of->coordinates; i++) {
@@ -244,8 +244,8 @@ static inline wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_
         wh_real root = high;
         for (unsigned k = 0; k < of->contacts; k++) {
             /* at zero already; but later than at the start a load at its limit may be one that others bear */
-            const bool begins = (sliding >> k & 1U) == 0 &&
-                                (low == WH_R(0.0) || (loads >> k & 1U) == 0);
+            const bool begins =
+                (sliding >> k & 1U) == 0 && (low == WH_R(0.0) || (loads >> k & 1U) == 0);
             if ((*events >> k & 1U) != 0 &&
                 (before[k] > WH_R(0.0) || (before[k] == WH_R(0.0) && begins))) {
                 const wh_real share = before[k] / (before[k] - after[k]);

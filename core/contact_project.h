@@ -196,11 +196,9 @@ static inline void wh_contact_project_rates(const wh_contact_system *of, const w
     uint8_t member[WH_CONTACTS_MAX] = {0};
     wh_real wanted[WH_CONTACTS_MAX] = {WH_R(0.0)};
     wh_real lambda[WH_CONTACTS_MAX];
-    wh_real before[WH_CONTACTS_MAX];
     const unsigned count = wh_contact_members(of, w, but, member);
     for (unsigned i = 0; i < count; i++) {
-        before[i] = wh_jacobian_times(of, w, member[i], rate);
-        wanted[i] = -before[i];
+        wanted[i] = -wh_jacobian_times(of, w, member[i], rate);
     }
     (void)wh_delassus_solve(of, w, member, count, NULL, wanted, lambda);
     for (unsigned i = 0; i < count; i++) {
@@ -212,7 +210,7 @@ static inline void wh_contact_project_rates(const wh_contact_system *of, const w
             rate[pin] = WH_R(0.0);
         }
         if (booked) {
-            wh_books_impulse(of, w, member[i], lambda[i], before[i],
+            wh_books_impulse(of, w, member[i], lambda[i], -wanted[i],
                              wh_jacobian_times(of, w, member[i], rate));
         }
     }

@@ -2,8 +2,8 @@
 #ifndef WH_CONTACT_STEP_H
 #define WH_CONTACT_STEP_H
 
+#include "contact_begin.h"
 #include "contact_rank.h"
-#include "contact_resolve.h"
 
 WH_INLINE void wh_contact_modes(const wh_contact_system *of, const wh_state *state,
                                 wh_contact_work *w) {
@@ -290,7 +290,7 @@ WH_APART wh_status wh_contact_eventful(const wh_contact_system *of, wh_contact_w
     } else if (!a->made) {
         wh_contact_follow(of, w, h, state->input, &a->now);
     }
-    bool calm = false; 
+    bool calm = false;
     bool more = true;
     while (more) {
         unsigned events = round < WH_EVENTS_MAX ? wh_contact_next(of, w) : 0;

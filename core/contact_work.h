@@ -154,7 +154,7 @@ WH_INLINE int wh_contact_pin(const wh_contact_system *of, unsigned k) {
 
 /* Is there one? */
 WH_INLINE bool wh_contact_pinned(const wh_contact_system *of, unsigned k) {
-    return of->pinned == of->forced || wh_contact_pin(of, k) >= 0;
+    return of->pinned > 0 && (of->pinned == of->forced || of->contact[k].pin >= 0);
 }
 
 WH_INLINE const wh_real *wh_contact_law(const wh_contact_system *of, const wh_contact_work *w,
@@ -247,6 +247,7 @@ WH_INLINE unsigned wh_delassus_solve(const wh_contact_system *of, const wh_conta
                                      const uint8_t *member, unsigned count, const int8_t *at,
                                      const wh_real *wanted, wh_real *lambda) {
     if (count == 0) {
+        lambda[0] = WH_R(0.0);
         return 0;
     }
     if (of->forced == 1 || count == 1) {

@@ -59,10 +59,12 @@ wh_probed wh_arithmetic_wrong(void (*compute)(wh_real *result)) {
 
 /* The core's own arithmetic, and that of the scene's file, which may have been compiled with other flags. */
 static wh_probed first_wrong(const wh_scene *scene) {
-    const wh_probed wrong = wh_arithmetic_wrong(wh_arithmetic);
-    return wrong != WH_PROBED_COUNT || scene->arithmetic == NULL
-               ? wrong
-               : wh_arithmetic_wrong(scene->arithmetic);
+    void (*const compute[])(wh_real * result) = {wh_arithmetic, scene->arithmetic};
+    wh_probed wrong = WH_PROBED_COUNT;
+    for (unsigned i = 0; i < 2 && wrong == WH_PROBED_COUNT && compute[i] != NULL; i++) {
+        wrong = wh_arithmetic_wrong(compute[i]);
+    }
+    return wrong;
 }
 
 static size_t carries(const wh_scene *scene) {

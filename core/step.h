@@ -64,6 +64,26 @@ typedef void wh_slope_fn(const void *model, const wh_phase *phase, const wh_real
 /* True for finite numbers of a believable size; false for NaN. */
 WH_INLINE bool wh_believable(wh_real value, wh_real limit) { return WH_ABS(value) < limit; }
 
+/* The first of value[n] that is none, or n. Seldom is there one: first all are asked at once, by the sum of their sizes,
+ * which is not below any of them. */
+WH_INLINE unsigned wh_first_absurd(const wh_real *value, unsigned n) {
+    wh_real all = WH_R(0.0);
+    WH_UNROLL
+    for (unsigned i = 0; i < n; i++) {
+        all = i == 0 ? WH_ABS(value[i]) : all + WH_ABS(value[i]);
+    }
+    if (all < WH_ABSURD) {
+        return n;
+    }
+    WH_UNROLL
+    for (unsigned i = 0; i < n; i++) {
+        if (!wh_believable(value[i], WH_ABSURD)) {
+            return i;
+        }
+    }
+    return n;
+}
+
 /* *angle moved on by `steps` phase units, rounded to the nearest: dropping the fraction would slow every
  * angle down by half a unit a step. False, with *angle as it was, for half a turn or more, or NaN. */
 WH_INLINE bool wh_angle_move(wh_angle *angle, wh_real steps, bool compensated, wh_real *carry) {
@@ -217,15 +237,15 @@ WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_met
             rates[s - 1][i] = v[i];
         }
         WH_UNROLL
+        for (unsigned i = 0; i < linears; i++) {
+            at[i] = linear[i] + h / parts * wh_stage_sum(share, s, all_rates, angles + i);
+        }
+        WH_UNROLL
         for (unsigned i = 0; i < angles; i++) {
             if (!wh_stage_angle(angle[i], wh_stage_sum(share, s, all_rates, i), h, parts,
                                 &phase[i])) {
                 return wh_refuse(state, i);
             }
-        }
-        WH_UNROLL
-        for (unsigned i = 0; i < linears; i++) {
-            at[i] = linear[i] + h / parts * wh_stage_sum(share, s, all_rates, angles + i);
         }
         accel(model, phase, at, v, u, a);
         WH_UNROLL
@@ -268,18 +288,16 @@ WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_met
         wh_real *carry = &trial.carry[angles + i];
         *carry = compensated ? state->carry[angles + i] : WH_R(0.0);
         trial.real[i] = wh_sum(linear[i], h * move[angles + i], compensated, carry);
-        if (!wh_believable(trial.real[i], WH_ABSURD)) {
-            return wh_refuse(state, angles + i);
-        }
     }
     WH_UNROLL
     for (unsigned i = 0; i < n; i++) {
         wh_real *carry = &trial.carry[n + i];
         *carry = compensated ? state->carry[n + i] : WH_R(0.0);
         trial.real[linears + i] = wh_sum(rate[i], kick[i], compensated, carry);
-        if (!wh_believable(trial.real[linears + i], WH_ABSURD)) {
-            return wh_refuse(state, n + i);
-        }
+    }
+    const unsigned absurd = wh_first_absurd(trial.real, linears + n);
+    if (absurd < linears + n) {
+        return wh_refuse(state, angles + absurd);
     }
     wh_commit(&trial, angles, linears + n, compensated, state);
     return WH_OK;
@@ -366,9 +384,10 @@ WH_INLINE wh_status wh_step_first(const void *model, wh_slope_fn *slope, wh_meth
         wh_real *carry = &trial.carry[angles + i];
         *carry = compensated ? state->carry[angles + i] : WH_R(0.0);
         trial.real[i] = wh_sum(state->real[i], move[angles + i], compensated, carry);
-        if (!wh_believable(trial.real[i], WH_ABSURD)) {
-            return wh_refuse(state, angles + i);
-        }
+    }
+    const unsigned absurd = wh_first_absurd(trial.real, reals);
+    if (absurd < reals) {
+        return wh_refuse(state, angles + absurd);
     }
     wh_commit(&trial, angles, reals, compensated, state);
     return WH_OK;

@@ -58,15 +58,14 @@ void c_contacts_write(FILE *out, const image *im) {
             between = " | ";
         }
     }
-    fprintf(
-        out,
-        "%s,\n    .pinned = %d,\n    .held = %d,\n"
-        "    .evaluations = WH_CONTACT_EVALUATIONS(%d, %d, %d),\n"
-        "    .method = %s,\n    .compensated = %s,\n"
-        "    .angles = %d,\n    .coordinates = %d,\n};\n\n",
-        system.kinds != 0 ? "" : "0", system.pinned, system.held,
-        core_stages(im), core_stops(im), system.forced, wh_methods[system.method].name,
-        system.compensated ? "true" : "false", system.angles, system.coordinates);
+    fprintf(out,
+            "%s,\n    .pinned = %d,\n    .held = %d,\n"
+            "    .evaluations = WH_CONTACT_EVALUATIONS(%d, %d, %d),\n"
+            "    .method = %s,\n    .compensated = %s,\n"
+            "    .angles = %d,\n    .coordinates = %d,\n};\n\n",
+            system.kinds != 0 ? "" : "0", system.pinned, system.held, core_stages(im),
+            core_stops(im), system.forced, wh_methods[system.method].name,
+            system.compensated ? "true" : "false", system.angles, system.coordinates);
     fprintf(out,
             "static wh_status advance(const wh_scene *scene, wh_state *state) {\n"
             "    (void)scene;\n    return wh_step_contact(&contacts, WH_R(%s), state);\n}\n\n",

@@ -64,14 +64,14 @@ static void hand_forces(const void *model, const wh_phase *phase, const wh_real 
     }
 }
 
-/* A crossing turns the first rate round and halves it. */
+/* A crossing turns the first rate round and halves it, or puts the first coordinate somewhere. */
 static void hand_sets(const void *model, const wh_phase *phase, const wh_real *linear,
                       const wh_real *rate, const wh_real *input, wh_real *result) {
-    (void)model;
+    const hand *m = model;
     (void)phase;
     (void)linear;
     (void)input;
-    result[0] = WH_R(-0.5) * rate[0];
+    result[0] = m->places ? m->place : WH_R(-0.5) * rate[0];
 }
 
 /* Entries: what the loads and springs put into each momentum, and the loads' work. */
@@ -157,7 +157,7 @@ static void put_sentinels(void) {
 void hand_start(bool with_books) {
     static uint8_t target;
     put_sentinels();
-    target = (uint8_t)hand_now.n; /* the first rate */
+    target = hand_now.places ? 0 : (uint8_t)hand_now.n; /* the first rate */
     hand_now.system.model = &hand_now;
     hand_now.system.accel = hand_accel;
     hand_now.system.signals = hand_signals;

@@ -28,6 +28,8 @@ typedef struct hand {
     } law[HAND_CONTACTS];
     wh_contact contact[HAND_CONTACTS];
     wh_contact_system system;
+    bool places;   /* a crossing assigns the first coordinate, */
+    wh_real place; /* this, and not its rate */
     wh_real start[4];
     wh_scene scene;
 } hand;

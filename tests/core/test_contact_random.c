@@ -77,7 +77,7 @@ static void draw(uint64_t *seed) {
     for (; room > 0 && !one_in(seed, 3); room--) {
         add_stop(seed, n);
     }
-    if (room > 0 && one_in(seed, 3)) {
+    if (room > 0 && one_in(seed, 2)) {
         add_hold(seed, n);
         room--;
     }
@@ -92,6 +92,8 @@ static void draw(uint64_t *seed) {
             hand_add(WH_WHEN, -1, WH_R(1.0), WH_R(0.0),
                      hand_now.start[0] + between(seed, -4, 4) / 256, WH_R(0.0), WH_R(0.0));
         hand_now.contact[k].direction = (int8_t)between(seed, -1, 1);
+        hand_now.places = one_in(seed, 2);
+        hand_now.place = hand_now.start[0] + between(seed, -16, 16) / 256;
     }
 }
 
@@ -102,6 +104,7 @@ static void mirror(void) {
         hand_now.start[i] = -hand_now.start[i];
         hand_now.start[2 + i] = -hand_now.start[2 + i];
     }
+    hand_now.place = -hand_now.place;
     for (unsigned k = 0; k < hand_now.system.contacts; k++) {
         const wh_contact_kind kind = (wh_contact_kind)hand_now.contact[k].kind;
         for (unsigned i = 0; i < 2 && kind != WH_FRICTION && kind != WH_WHEN; i++) {
@@ -153,8 +156,13 @@ static bool friction_holds(unsigned k) {
     return way && energy_of(k) <= SLACK && WH_ABS(impulse_of(k)) <= most + SLACK;
 }
 
-/* `was`: where it was when it was captured. */
+/* `was`: where it was when it was captured; a crossing of this step may have put it elsewhere. */
 static bool hold_holds(unsigned k, wh_real was) {
+    for (unsigned i = 0; i < hand_state.contacts->logged; i++) {
+        if (hand_now.contact[hand_state.contacts->log[i].contact].kind == WH_WHEN) {
+            was = along(k, hand_state.real);
+        }
+    }
     const bool rests = hand_state.contacts->mode[k] == WH_ACTIVE;
     return rests == (hand_pushed > WH_R(0.0)) && energy_of(k) <= SLACK &&
            (!rests || (WH_ABS(along(k, hand_state.real) - was) <= SLACK &&
@@ -163,7 +171,7 @@ static bool hold_holds(unsigned k, wh_real was) {
 
 static bool all_hold(const wh_real *was) {
     wh_real level[WH_ACCOUNTS_MAX];
-    bool good = true;
+    bool good = hand_state.input[0] == hand_pushed; /* is only read */
     for (unsigned k = 0; k < hand_now.system.contacts; k++) {
         switch ((wh_contact_kind)hand_now.contact[k].kind) {
         case WH_STOP: good = good && stop_holds(k); break;
@@ -183,16 +191,22 @@ static bool all_hold(const wh_real *was) {
 static bool run(wh_real *end, uint64_t *overruns) {
     wh_real was[HAND_CONTACTS] = {WH_R(0.0)};
     bool good = true;
+    bool assigned = false;
     hand_start(true);
     for (unsigned step = 0; step < STEPS && good; step++) {
         for (unsigned k = 0; k < hand_now.system.contacts; k++) {
-            if (hand_state.contacts->mode[k] != WH_ACTIVE) {
+            if (hand_state.contacts->mode[k] != WH_ACTIVE || assigned) {
                 was[k] = along(k, hand_state.real);
             }
         }
         hand_steps(1);
         good = hand_state.contacts->overruns > 0 || all_hold(was);
-        if (step == STEPS / 2) { /* what is held is let go, and the other way round */
+        assigned = false;
+        for (unsigned i = 0; i < hand_state.contacts->logged; i++) {
+            assigned =
+                assigned || hand_now.contact[hand_state.contacts->log[i].contact].kind == WH_WHEN;
+        }
+        if (step % 8U == 7U) { /* what is held is let go, and the other way round */
             hand_state.input[0] = -hand_state.input[0];
             hand_pushed = -hand_pushed;
         }

@@ -3,6 +3,7 @@
 
 #include "derived.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -209,4 +210,16 @@ char *repeated(const char *front, const char *piece, int times, const char *tail
     }
     snprintf(text + at, room - at, "%s", tail);
     return text;
+}
+
+double derived_rest(const derived *d, state_values *s, const double *accel, int i, double *size) {
+    const equations *e = d->equations;
+    double rest = -poly_evaluate(equations_force(e, i), state_value, s);
+    *size = fabs(rest) + 1.0;
+    for (int j = 0; j < e->count; j++) {
+        const double part = poly_evaluate(e->mass[i * e->count + j], state_value, s) * accel[j];
+        rest += part;
+        *size += fabs(part);
+    }
+    return rest;
 }

@@ -42,6 +42,9 @@ typedef struct state_values {
 /* For poly_evaluate(), with a state_values as context. */
 double state_value(void *context, const symbol *sym, int primes);
 
+/* What equation i leaves over with these accelerations, M q'' - force, at a state; *size: of its terms, and 1. */
+double derived_rest(const derived *d, state_values *s, const double *accel, int i, double *size);
+
 /* A random state: lengths stay positive and angles off the poles; singular points are not the matter. */
 void random_state(state_values *s, const derived *d, uint64_t *seed);
 

@@ -4,7 +4,6 @@
 #include <ctype.h>
 #include <float.h>
 #include <math.h>
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -15,6 +14,8 @@
 #define CALLED (4.0 * DBL_EPSILON)
 
 enum { NAME_MAX_LENGTH = 100 };
+
+static const latex_number nothing;
 
 typedef struct reader {
     const char *at;
@@ -119,25 +120,30 @@ static latex_number power(reader *r, const latex_number *base, const latex_numbe
 
 /* --- functions --------------------------------------------------------------------------------------*/
 
+static double sign_of(double x) { return (double)(x > 0.0) - (double)(x < 0.0); }
+
+#define OF_ONE(X) \
+    X(sin, sin(x)) \
+    X(cos, cos(x)) \
+    X(tan, tan(x)) \
+    X(asin, asin(x)) \
+    X(acos, acos(x)) \
+    X(atan, atan(x)) \
+    X(sqrt, sqrt(x)) \
+    X(exp, exp(x)) \
+    X(log, log(x)) \
+    X(sinh, sinh(x)) \
+    X(cosh, cosh(x)) \
+    X(tanh, tanh(x)) \
+    X(abs, fabs(x)) \
+    X(sign, sign_of(x))
+
 #define OF_X(name, ...) \
-    static double name(double x, double y) { \
+    static double of_##name(double x, double y) { \
         (void)y; \
         return __VA_ARGS__; \
     }
-OF_X(of_sin, sin(x))
-OF_X(of_cos, cos(x))
-OF_X(of_tan, tan(x))
-OF_X(of_asin, asin(x))
-OF_X(of_acos, acos(x))
-OF_X(of_atan, atan(x))
-OF_X(of_sqrt, sqrt(x))
-OF_X(of_exp, exp(x))
-OF_X(of_log, log(x))
-OF_X(of_abs, fabs(x))
-OF_X(of_sign, (double)(x > 0.0) - (double)(x < 0.0))
-OF_X(of_sinh, sinh(x))
-OF_X(of_cosh, cosh(x))
-OF_X(of_tanh, tanh(x))
+OF_ONE(OF_X)
 
 typedef struct function {
     const char *name;
@@ -145,13 +151,9 @@ typedef struct function {
     double (*value)(double x, double y);
 } function;
 
+#define ROW(name, ...) {#name, 1, of_##name},
 static const function functions[] = {
-    {"sin", 1, of_sin},   {"cos", 1, of_cos},   {"tan", 1, of_tan},   {"asin", 1, of_asin},
-    {"acos", 1, of_acos}, {"atan", 1, of_atan}, {"atan2", 2, atan2},  {"sqrt", 1, of_sqrt},
-    {"exp", 1, of_exp},   {"log", 1, of_log},   {"abs", 1, of_abs},   {"sign", 1, of_sign},
-    {"min", 2, fmin},     {"max", 2, fmax},     {"sinh", 1, of_sinh}, {"cosh", 1, of_cosh},
-    {"tanh", 1, of_tanh},
-};
+    OF_ONE(ROW){"atan2", 2, atan2}, {"min", 2, fmin}, {"max", 2, fmax}};
 
 static const function *function_called(const char *name) {
     for (size_t i = 0; i < sizeof functions / sizeof functions[0]; i++) {
@@ -266,7 +268,7 @@ static latex_number called(reader *r, const char *name) {
     }
     need(r, "\\left(");
     const latex_number x = sum(r);
-    latex_number y = latex_constant(0.0, 0.0);
+    latex_number y = nothing;
     if (f->arguments == 2) {
         need(r, ",");
         y = sum(r);
@@ -297,19 +299,16 @@ static latex_number after_command(reader *r) {
     }
     if (strcmp(name, "sqrt") == 0) {
         const latex_number inside = braced(r);
-        const latex_number none = latex_constant(0.0, 0.0);
-        return call_of(r, of_sqrt, &inside, &none);
+        return call_of(r, of_sqrt, &inside, &nothing);
     }
     if (strcmp(name, "operatorname") == 0) {
         braced_name(r, name);
-        return called(r, name);
+    } else if (function_called(name) == NULL) {
+        r->at = from;
+        letters(r, name);
+        return symbol_with(r, name, 0);
     }
-    if (function_called(name) != NULL) {
-        return called(r, name);
-    }
-    r->at = from;
-    letters(r, name);
-    return symbol_with(r, name, 0);
+    return called(r, name);
 }
 
 /* {x}_{1}^{(3)}: more than two dots. Else what the braces hold, as the base of a power. */
@@ -385,16 +384,13 @@ static latex_number product(reader *r) {
 }
 
 static latex_number sum(reader *r) {
-    const latex_number none = latex_constant(0.0, 0.0);
-    latex_number value = take(r, "-") ? add(none, product(r), -1.0) : product(r);
+    latex_number value = take(r, "-") ? add(nothing, product(r), -1.0) : product(r);
     while (r->problem == NULL) {
-        if (take(r, "+")) {
-            value = add(value, product(r), 1.0);
-        } else if (take(r, "-")) {
-            value = add(value, product(r), -1.0);
-        } else {
+        const double sign = take(r, "+") ? 1.0 : take(r, "-") ? -1.0 : 0.0;
+        if (sign == 0.0) {
             return value;
         }
+        value = add(value, product(r), sign);
     }
     return value;
 }

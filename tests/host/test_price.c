@@ -199,6 +199,34 @@ static void test_equations_are_eliminated_one_by_one(void) {
     }
 }
 
+/* Two equations of which one coefficient is a number, wherever it is: it is the pivot, and a determinant is not needed. */
+static void test_a_number_is_the_pivot(void) {
+    for (int at = 0; at < 4; at++) {
+        char text[600] = "mechanism m\n";
+#define PUT(...) snprintf(text + strlen(text), sizeof text - strlen(text), __VA_ARGS__)
+        for (int i = 0; i < 8; i++) {
+            PUT("state s%d\n", i);
+        }
+        for (int i = 0; i < 2; i++) {
+            PUT("equation 1 [s]*(");
+            for (int j = 0; j < 2; j++) {
+                PUT(2 * i + j == at ? "%s3*s%d'" : "%ss%d*s%d'", j > 0 ? " + " : "",
+                    2 * i + j == at ? j : 2 + 2 * i + j, j);
+            }
+            PUT(") = s%d\n", 6 + i);
+        }
+        for (int i = 2; i < 8; i++) {
+            PUT("equation 1 [s]*s%d' = 0\n", i);
+        }
+#undef PUT
+        derived d = derived_text(text);
+        derived_expect(&d, text);
+        /* a quotient, twice a product and a difference, a quotient; back: a product, a difference, a quotient */
+        TEST_ASSERT_TRUE_MESSAGE(tape_operations(d.image->list[IMAGE_STEP]) <= 9, text);
+        derived_free(&d);
+    }
+}
+
 void suite_price(void) {
     RUN_TEST(test_polynomials_take_two_operations_a_power);
     RUN_TEST(test_powers_take_few_products);
@@ -208,4 +236,5 @@ void suite_price(void) {
     RUN_TEST(test_sines_of_multiples_follow_from_one);
     RUN_TEST(test_powers_of_sines_are_put_back);
     RUN_TEST(test_equations_are_eliminated_one_by_one);
+    RUN_TEST(test_a_number_is_the_pivot);
 }
