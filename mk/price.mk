@@ -11,11 +11,12 @@ COMPENSATED_C := $(patsubst %,build/compensated/%.c,scenes $(COMPENSATED))
 # What of the flags belongs beside a figure.
 TOLD = $(filter -O% -m%,$(1))
 
-$(PLUGIN): mk/count/count_plugin.c
+PLUGIN_C := mk/count/count_plugin.c mk/count/thumb_cycles.c
+$(PLUGIN): $(PLUGIN_C) mk/count/thumb_cycles.h
 	@$(call need,$(CC))
 	@mkdir -p $(@D)
 	$(say) LINK $@
-	$(Q)$(CC) -std=c11 $(WARN) -O2 -fPIC -shared -fvisibility=hidden -o $@ $<
+	$(Q)$(CC) -std=c11 $(WARN) -O2 -I. -fPIC -shared -fvisibility=hidden -o $@ $(PLUGIN_C)
 
 $(eval $(call program,bench,$(BENCH_C),scenes whirl))
 $(eval $(call program,bench_compensated,$(BENCH_C) $(COMPENSATED_C),whirl))
@@ -39,7 +40,7 @@ $(addprefix $(B)/tools/,$(BY_HAND)): $(B)/tools/%: $(B)/host/tests/tools/%.o \
 	$(link)
 
 count_board = BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) \
-    FLAGS="$(call TOLD,$(BOARD_CFLAGS))" PLUGIN=$(PLUGIN) EMULATE="$(call emulate,$(1))" \
+    FLAGS="$(call TOLD,$(BOARD_CFLAGS))" PLUGIN=$(PLUGIN) TIMING=$(BOARD_TIMING) EMULATE="$(call emulate,$(1))" \
     mk/count/count_board.sh $(1) $(FIGURES)/bench.csv
 
 # The worst step of scenes with contacts, all effects of their mechanisms on, over so many random steps.
@@ -74,6 +75,45 @@ bench-now: $(GEN)/.stamp
 	        mk/count/count_host.sh build/$$program $(FIGURES)/bench.csv || exit 1; done
 	@$(call count_board,$(ELF)/bench.elf)
 	@$(call count_board,$(ELF)/bench_compensated.elf)
+
+# --- every board beside the others ----------------------------------------------------------------
+# These scenes' steps: instructions, cycles where something counts or estimates them, bytes.
+PRICED := epicyclic_from_rest epicyclic_conserved thomson_a thomson_a_conserved rig_fixed
+PRICED_IMAGES := $(PRICED:%=$(ELF)/priced/size_%.elf) \
+    $(if $(filter single,$(BOARD_IMAGES)),$(PRICED:%=$(ELF)/priced/bench_%.elf),$(ELF)/bench.elf)
+
+$(ELF)/priced/size_%.elf: $(B)/$(BOARD)/$(GEN)/%.o $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl) boards/programs/size.c
+	@mkdir -p $(@D)
+	$(say) LINK $@
+	$(Q)$(BOARD_CC) $(BOARD_CFLAGS) -DPRICE_SCENE=$* -include $(GEN)/$*.h -c boards/programs/size.c -o $(@:.elf=.o)
+	$(Q)$(BOARD_CC) $(BOARD_LDFLAGS) -o $@ $(@:.elf=.o) $(filter %.o,$^) $(filter %.a,$^) $(BOARD_LDLIBS)
+
+$(ELF)/priced/bench_%.elf: $(B)/$(BOARD)/$(GEN)/%.o $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl) \
+    boards/programs/bench.c boards/programs/counted.h mk/count/index.sh
+	@mkdir -p $(@D)
+	$(say) LINK $@
+	$(Q)mk/count/index.sh $* >$(@:.elf=.c)
+	$(Q)$(BOARD_CC) $(BOARD_CFLAGS) -I$(GEN) -include $(GEN)/$*.h -DWH_SCENE_WORDS=$*_MEMORY_WORDS -DBENCH_SMALL=1 \
+	    $(BOARD_LDFLAGS) -o $@ boards/programs/bench.c $(@:.elf=.c) $(filter %.o,$^) $(filter %.a,$^) $(BOARD_LDLIBS)
+
+.PHONY: bench-board bench-boards-now cycles-agree
+bench-board: $(PRICED_IMAGES) $(if $(filter single,$(BOARD_IMAGES)),$(AVR_RUN),$(PLUGIN))
+	@mkdir -p $(FIGURES)
+	@BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) SIZE=$(BOARD_SIZE) FLAGS="$(call TOLD,$(BOARD_CFLAGS))" \
+	    TIMING=$(BOARD_TIMING) EMULATE="$(call emulate,IMAGE)" \
+	    $(if $(filter single,$(BOARD_IMAGES)),,BENCH=$(ELF)/bench.elf PLUGIN=$(PLUGIN)) \
+	    mk/count/board_rows.sh $(FIGURES)/boards.csv $(ELF)/priced $(PRICED)
+
+bench-boards-now: $(GEN)/.stamp
+	+@for board in $(BOARDS_ALL); do $(MAKE) BOARD=$$board bench-board || exit 1; done
+	@awk -F, -f mk/count/boards_table.awk $(FIGURES)/boards.csv >build/boards.md
+	@mk/price/into_page.sh build/boards.md docs/price.md boards
+	@cat build/boards.md
+
+# The estimate once more, from the disassembly.
+cycles-agree: $(ELF)/bench.elf $(PLUGIN)
+	@BOARD=$(BOARD) NM=$(BOARD_NM) OBJDUMP=$(BOARD_OBJDUMP) TIMING=$(BOARD_TIMING) PLUGIN=$(PLUGIN) \
+	    EMULATE="$(call emulate,$(ELF)/bench.elf)" mk/count/cycles_agree.sh $(ELF)/bench.elf
 
 size-now: $(GEN)/.stamp
 	@$(MAKE) board-images
