@@ -42,6 +42,10 @@ static void hand_signals(const void *model, const wh_phase *phase, const wh_real
         } else if (m->contact[k].kind == WH_FRICTION) {
             result[2 * k] = along(m, k, rate);
         }
+        const wh_real size = WH_ABS(result[2 * k]);
+        for (unsigned i = 0; i < m->bent && m->contact[k].kind == WH_WHEN; i++) {
+            result[2 * k] *= size * size * WH_R(1e6); /* of a millimetre, one */
+        }
     }
 }
 

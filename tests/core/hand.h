@@ -28,6 +28,7 @@ typedef struct hand {
     } law[HAND_CONTACTS];
     wh_contact contact[HAND_CONTACTS];
     wh_contact_system system;
+    unsigned bent; /* so often a crossing's value is multiplied by its own square */
     bool places;   /* a crossing assigns the first coordinate, */
     wh_real place; /* this, and not its rate */
     wh_real start[4];

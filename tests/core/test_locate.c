@@ -95,6 +95,24 @@ static void test_a_crossing_is_found_with_few_looks(void) {
     TEST_ASSERT_TRUE(most <= (WH_DOUBLE ? 20U : 18U));
 }
 
+/* What is flat or steep where it crosses makes no search run out of looks before it is as near as it must be. */
+static void test_flat_and_steep_crossings_are_found(void) {
+    uint64_t seed = 415;
+    for (unsigned i = 0; i < CASES; i++) {
+        const path p = random_path(&seed);
+        const wh_real t = STEP_S * share_of(&seed);
+        start(p);
+        (void)add_crossing(place_at(p, t), 0);
+        hand_now.bent =
+            i % (WH_DOUBLE ? 4U : 3U); /* powers 1, 3, 9, 27; no value vanishes but at the place */
+        hand_start(false);
+        hand_looks = 0;
+        hand_steps(1);
+        TEST_ASSERT_TRUE(hand_state.contacts->events == 1 && hand_looks <= WH_PROBES + 8U);
+        TEST_ASSERT_TRUE(WH_ABS(hand_state.contacts->log[0].at_s - t) <= WH_BRACKET * STEP_S);
+    }
+}
+
 /* Two crossings and one against its direction, declared in any order: each is found when it is, the first first. */
 static void test_crossings_of_one_step_come_in_their_order(void) {
     uint64_t seed = 413;
@@ -171,6 +189,7 @@ static void test_a_stop_is_hit_where_it_is(void) {
 void suite_locate(void) {
     RUN_TEST(test_a_crossing_is_found_where_it_is);
     RUN_TEST(test_a_crossing_is_found_with_few_looks);
+    RUN_TEST(test_flat_and_steep_crossings_are_found);
     RUN_TEST(test_crossings_of_one_step_come_in_their_order);
     RUN_TEST(test_a_stop_is_hit_where_it_is);
 }
