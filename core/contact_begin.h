@@ -28,18 +28,19 @@ static inline void wh_contact_first_touch(const wh_contact_system *of, const wh_
 }
 
 /* Modes at the start of a run: what is at rest stays so if the forces keep it there, as if it had been before; then
- * what closes is hit, and what a hold's condition says is captured. Returns how many of the step's moments with events
- * that took beyond the one that every start has. */
+ * what closes is hit, and what a hold's condition says is captured: *hit, as bits, with impulse[forced]. Returns how many
+ * of the step's moments with events that took beyond the one that every start has. */
 static inline unsigned wh_contact_begin(const wh_contact_system *of, wh_contact_work *w, wh_real h,
-                                        const wh_real *input, wh_contact_state *s) {
+                                        const wh_real *input, wh_contact_state *s, unsigned *hit,
+                                        wh_real *impulse) {
     wh_real accel[WH_COORDS];
     wh_real signal[2 * WH_CONTACTS_MAX];
-    wh_real impulse[WH_CONTACTS_MAX];
     wh_contact_place spot = WH_CONTACT_HERE;
     wh_contact_moment m = {0, 0, h, false};
     unsigned still;
     unsigned moving;
     bool below = false;
+    *hit = 0;
     for (unsigned k = 0; k < of->contacts; k++) {
         w->mode[k] = 0; /* free, stuck, on no side */
     }
@@ -54,7 +55,7 @@ static inline unsigned wh_contact_begin(const wh_contact_system *of, wh_contact_
     wh_contact_set_sides(of, w, ~0U, signal);
     if (still == 0) {
         m.events = moving;
-        (void)wh_contact_resolve(of, w, &m, input, s, impulse);
+        *hit = wh_contact_resolve(of, w, &m, input, s, impulse);
         return 0;
     }
     m.events = still & wh_contact_which(of, w, WH_HOLD, false);
@@ -72,7 +73,7 @@ static inline unsigned wh_contact_begin(const wh_contact_system *of, wh_contact_
         return 0;
     }
     m.events = moving;
-    (void)wh_contact_resolve(of, w, &m, input, s, impulse);
+    *hit = wh_contact_resolve(of, w, &m, input, s, impulse);
     return 1;
 }
 

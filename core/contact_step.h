@@ -70,7 +70,9 @@ static inline void wh_contact_observe(const wh_contact_system *of, const wh_stat
     wh_contact_work_open(of, &work);
     wh_contact_copy(of, state->angle, state->real, state->carry, &now);
     if (work.mode[0] == WH_UNSET) {
-        (void)wh_contact_begin(of, &work, WH_R(0.0), state->input, &now);
+        wh_real impulse[WH_CONTACTS_MAX];
+        unsigned hit;
+        (void)wh_contact_begin(of, &work, WH_R(0.0), state->input, &now, &hit, impulse);
     }
     wh_contact_look(of, &work, &now, state->input, accel, signal);
 }
@@ -174,10 +176,14 @@ typedef struct wh_contact_log {
     unsigned count;
 } wh_contact_log;
 
-WH_INLINE void wh_contact_note(const wh_contact_work *w, unsigned k, wh_real at_s, wh_real impulse,
+/* `events`, as bits. */
+WH_INLINE void wh_contact_note(const wh_contact_system *of, const wh_contact_work *w,
+                               unsigned events, wh_real at_s, const wh_real *impulse,
                                wh_contact_log *log) {
-    if (log->count < WH_EVENT_LOG) {
-        log->event[log->count++] = (wh_event){(uint8_t)k, w->mode[k], at_s, impulse};
+    for (unsigned k = 0; k < of->contacts; k++) {
+        if ((events >> k & 1U) != 0 && log->count < WH_EVENT_LOG) {
+            log->event[log->count++] = (wh_event){(uint8_t)k, w->mode[k], at_s, impulse[k]};
+        }
     }
 }
 
@@ -187,11 +193,19 @@ WH_INLINE void wh_contact_happen(const wh_contact_system *of, wh_contact_work *w
                                  wh_contact_state *now, wh_contact_log *log) {
     wh_real impulse[WH_CONTACTS_MAX];
     const unsigned events = wh_contact_resolve(of, w, m, input, now, impulse);
-    for (unsigned k = 0; k < of->contacts; k++) {
-        if ((events >> k & 1U) != 0) {
-            wh_contact_note(w, k, at_s, impulse[k], log);
-        }
-    }
+    wh_contact_note(of, w, events, at_s, impulse, log);
+}
+
+/* The modes that a run begins with. What is hit there, with what was settled before, is noted as of the first step.
+ * Returns the moments with events that it counts as. */
+static inline unsigned wh_contact_start(const wh_contact_system *of, wh_contact_work *w, wh_real h,
+                                        const wh_real *input, wh_contact_state *now,
+                                        wh_contact_log *log) {
+    wh_real impulse[WH_CONTACTS_MAX] = {WH_R(0.0)};
+    unsigned hit;
+    const unsigned rounds = wh_contact_begin(of, w, h, input, now, &hit, impulse);
+    wh_contact_note(of, w, hit, WH_R(0.0), impulse, log);
+    return rounds;
 }
 
 /* Stops that an impact made close, and that are still open, as bits; they are then dealt with. */
@@ -269,7 +283,7 @@ WH_APART wh_status wh_contact_eventful(const wh_contact_system *of, wh_contact_w
     wh_contact_work_open(of, w);
     wh_contact_copy(of, state->angle, state->real, state->carry, &a->now);
     if (w->mode[0] == WH_UNSET) {
-        round = wh_contact_begin(of, w, h, state->input, &a->now);
+        round = wh_contact_start(of, w, h, state->input, &a->now, &log);
         if (w->undefined >= 0) {
             return wh_contact_refuse(w, a->fault, state);
         }

@@ -37,27 +37,47 @@ $(ELF)/tests.elf: $(call objects,$(BOARD),$(CORE_TEST_PARTS)) $(BOARD_OBJECTS) \
     $(call libraries,$(BOARD),scenes rig virtual whirl)
 	$(link_board)
 
+emulate = $(call BOARD_EMULATE,$(1))
+
+ifeq ($(BOARD_IMAGES),single)
+include mk/single.mk
+else
 # The images that are held to the firmware rules and whose sizes are told.
 IMAGES := $(ELF)/scenes.elf $(ELF)/firmware.elf
 
-.PHONY: board-images board-tests
+# Programs that touch what guards the stack, and must not come back (tests/boards/guard.sh).
+GUARDS := $(patsubst tests/boards/%.c,$(ELF)/%.elf,$(wildcard tests/boards/guard_*.c))
+$(GUARDS): $(ELF)/%.elf: $(B)/$(BOARD)/tests/boards/%.o $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl)
+	$(link_board)
+
+.PHONY: board-images board-tests run-suites print-hashes
 board-images: $(IMAGES)
-board-tests: $(ELF)/tests.elf
+board-tests: $(ELF)/tests.elf $(GUARDS)
+run-suites: # the portable suites, then what guards the stack
+	@status=0; $(call emulate,$(ELF)/tests.elf) || status=1; sh tests/boards/guard.sh $(BOARD) || status=1; exit $$status
+print-hashes: # a line for each scene, with the hash of its last state
+	@$(call need,$(BOARD_EMULATOR))
+	@$(call emulate,$(ELF)/scenes.elf)
+endif
 
-emulate = $(call BOARD_EMULATE,$(1))
-
-# The boards beside BOARD are built and run by a make of their own: $(call on_board,NAME,TARGET).
-BOARDS := $(patsubst boards/%/board.mk,%,$(wildcard boards/*/board.mk))
-OTHER_BOARDS := $(filter-out $(BOARD),$(BOARDS))
+# Every board is a folder with a board.mk, and BOARD_WHEN in it says what takes the board by itself: `test` (`make test`
+# and the gates of `make check`), `check` (the gates alone), or `all` (only what takes every board: `make test-boards`,
+# `make hashes-all`). A board is built and run by a make of its own: $(call on_board,NAME,TARGET).
+boards_of = $(sort $(patsubst boards/%/board.mk,%,$(shell grep -lE '^BOARD_WHEN *:= *($(1))$$' boards/*/board.mk)))
+BOARDS_ALL := $(sort $(patsubst boards/%/board.mk,%,$(wildcard boards/*/board.mk)))
+BOARDS_TEST := $(sort $(BOARD) $(call boards_of,test))
+BOARDS := $(sort $(BOARD) $(call boards_of,test|check))
+# Those with an image for each scene run so many steps of it at most: what takes this machine seconds takes them hours.
+BOARDS_SINGLE := $(patsubst boards/%/too_large.txt,%,$(wildcard boards/*/too_large.txt))
+SINGLE_STEPS ?= 2000
 on_board = $(MAKE) -s BOARD=$(1) $(2)
-.PHONY: run-image
-run-image:
-	@$(call emulate,$(IMAGE))
+.PHONY: emulate-command
+emulate-command: # of an image named IMAGE
+	@echo '$(call emulate,IMAGE)'
 
 -include $(wildcard $(patsubst %.c,$(ELF)/%.d,$(UNITY_DIR)/unity.c $(PORTABLE_C) $(BOARD_C) $(TEST_C) $(SCENE_C) $(B)/tests/core_suites.c))
 
 .PHONY: emulate-now
-emulate-now: build/whirl
-	@$(MAKE) $(GEN)/.stamp
+emulate-now: $(GEN)/.stamp
 	@$(MAKE) $(ELF)/firmware.elf
 	@$(call emulate,$(ELF)/firmware.elf)

@@ -39,6 +39,7 @@ void equations_free(equations *e) {
     if (e == NULL) {
         return;
     }
+    forces_free(e->force, e->forces);
     free(e->unknowns);
     free(e->mass);
     free(e->velocity);

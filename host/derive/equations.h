@@ -12,6 +12,7 @@
 #define DERIVE_EQUATIONS_H
 
 #include "contacts.h"
+#include "forces.h"
 #include "host/algebra/poly.h"
 
 typedef struct unknown {
@@ -31,12 +32,12 @@ typedef struct equations {
     /* Energies and what follows from them; NULL for a system. */
     const poly *kinetic;
     const poly *stored;
-    const poly *input_power; /* sum Q q' */
-    const poly *loss_power;  /* sum dF/dq' q' */
-    const poly **momentum;   /* [count] dL/dq' */
-    bool *conserved;         /* [count] momentum[i] is constant: no force, no potential, no loss */
-    const poly **output;     /* [mechanism->output_count] */
-    contact_laws *contacts;  /* stops, holds, frictions, crossings; NULL when there are none */
+    statement_force *force; /* [forces] by statement: applied[], and what they give to the energy */
+    int forces;
+    const poly **momentum;  /* [count] dL/dq' */
+    bool *conserved;        /* [count] momentum[i] is constant: no force, no potential, no loss */
+    const poly **output;    /* [mechanism->output_count] */
+    contact_laws *contacts; /* stops, holds, frictions, crossings; NULL when there are none */
 } equations;
 
 void equations_free(equations *e);

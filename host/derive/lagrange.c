@@ -10,13 +10,12 @@
 
 /* --- energies ------------------------------------------------------------------------------------*/
 
-static const poly *sum_of_terms(algebra *a, const instance *inst, term_kind kind,
-                                const symbol *coordinate) {
+static const poly *sum_of_terms(algebra *a, const instance *inst, term_kind kind) {
     const mechanism *m = inst->mechanism;
     const poly *sum = poly_number(a, 0.0);
     for (int i = 0; i < m->term_count; i++) {
         const term *t = &m->terms[i];
-        if (t->kind == kind && t->coordinate == coordinate && instance_has_term(inst, t)) {
+        if (t->kind == kind && instance_has_term(inst, t)) {
             sum = poly_add(a, sum, poly_from_expr(a, t->value));
         }
     }
@@ -41,13 +40,10 @@ static bool momentum_free_of_inputs(const equations *e, const poly *momentum, di
 static bool derive_lagrange(equations *e, diags *errors) {
     algebra *a = e->algebra;
     const int n = e->count;
-    e->kinetic = sum_of_terms(a, e->instance, TERM_T, NULL);
-    e->stored = sum_of_terms(a, e->instance, TERM_V, NULL);
-    const poly *loss = sum_of_terms(a, e->instance, TERM_F, NULL);
+    e->kinetic = sum_of_terms(a, e->instance, TERM_T);
+    e->stored = sum_of_terms(a, e->instance, TERM_V);
+    e->force = forces_derive(a, e->instance, &e->forces);
     const poly *lagrangian = poly_sub(a, e->kinetic, e->stored);
-    const poly *zero = poly_number(a, 0.0);
-    e->input_power = zero;
-    e->loss_power = zero;
 
     for (int i = 0; i < n && !algebra_overflow(a); i++) {
         const symbol *q = e->unknowns[i].symbol;
@@ -65,12 +61,7 @@ static bool derive_lagrange(equations *e, diags *errors) {
                 poly_mul(a, poly_derivative(a, momentum, other, 0), poly_symbol(a, other, 1));
             e->velocity[i] = poly_add(a, e->velocity[i], drift);
         }
-        const poly *rate = poly_symbol(a, q, 1);
-        const poly *damping = poly_derivative(a, loss, q, 1);
-        const poly *drive = sum_of_terms(a, e->instance, TERM_Q, q);
-        e->applied[i] = poly_sub(a, drive, damping);
-        e->input_power = poly_add(a, e->input_power, poly_mul(a, drive, rate));
-        e->loss_power = poly_add(a, e->loss_power, poly_mul(a, damping, rate));
+        e->applied[i] = forces_on(a, e->force, e->forces, i);
         const poly *slope = poly_expanded(a, poly_derivative(a, lagrangian, q, 0));
         e->conserved[i] = poly_is_zero(slope) && poly_is_zero(e->applied[i]) &&
                           !poly_is_zero(momentum) && !contact_laws_push(e->contacts, i);

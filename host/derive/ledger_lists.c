@@ -14,26 +14,16 @@ static void add_entry(ledger_lists *l, const poly **power, ledger_kind kind, con
     }
 }
 
-/* The entries of one term. */
-static void add_term(ledger_lists *l, const layout *map, const term *t, const poly **power) {
-    const equations *e = map->equations;
-    algebra *a = e->algebra;
-    const poly *value = poly_from_expr(a, t->value);
-    const poly *work = poly_number(a, 0.0);
-    const ledger_kind works = t->kind == TERM_Q ? LEDGER_WORK : LEDGER_LOSS;
-    const ledger_kind pushes = t->kind == TERM_Q ? LEDGER_DRIVE : LEDGER_DAMPING;
+/* The entries of one statement. */
+static void add_statement(ledger_lists *l, const layout *map, const statement_force *of,
+                          const poly **power) {
+    const bool drives = of->from->kind == TERM_Q;
     for (int account = 1; account < l->accounts; account++) {
-        const symbol *q = e->unknowns[l->unknown[account]].symbol;
-        const poly *force = poly_number(a, 0.0);
-        if (t->kind == TERM_F) {
-            force = poly_scale(a, poly_derivative(a, value, q, 1), -1.0);
-        } else if (t->coordinate == q) {
-            force = value;
-        }
-        work = poly_add(a, work, poly_mul(a, force, poly_symbol(a, q, 1)));
-        add_entry(l, power, pushes, t, account, layout_ready(map, force));
+        add_entry(l, power, drives ? LEDGER_DRIVE : LEDGER_DAMPING, of->from, account,
+                  layout_ready(map, of->force[l->unknown[account]]));
     }
-    add_entry(l, power, works, t, 0, layout_ready(map, work));
+    add_entry(l, power, drives ? LEDGER_WORK : LEDGER_LOSS, of->from, 0,
+              layout_ready(map, of->power));
 }
 
 static void order_accounts(ledger_lists *l, const layout *map) {
@@ -48,8 +38,7 @@ static void order_accounts(ledger_lists *l, const layout *map) {
 static const poly **smooth_entries(ledger_lists *l, const layout *map) {
     const equations *e = map->equations;
     algebra *a = e->algebra;
-    const mechanism *m = e->instance->mechanism;
-    const int most = e->count + m->term_count * (1 + e->count);
+    const int most = e->count + e->forces * (1 + e->count);
     const poly **power = room(most, sizeof(const poly *));
     const poly *lagrangian = poly_sub(a, e->kinetic, e->stored);
     l->entry = room(most, sizeof *l->entry);
@@ -58,11 +47,8 @@ static const poly **smooth_entries(ledger_lists *l, const layout *map) {
         const poly *force = poly_derivative(a, lagrangian, q, 0);
         add_entry(l, power, LEDGER_ENERGIES, NULL, account, layout_ready(map, force));
     }
-    for (int i = 0; i < m->term_count; i++) {
-        const term *t = &m->terms[i];
-        if ((t->kind == TERM_Q || t->kind == TERM_F) && instance_has_term(e->instance, t)) {
-            add_term(l, map, t, power);
-        }
+    for (int k = 0; k < e->forces; k++) {
+        add_statement(l, map, &e->force[k], power);
     }
     return power;
 }

@@ -115,14 +115,15 @@ static tape *make_observe(const program *p, layout *map, const linear_system *s)
 
 static tape *make_books(const program *p, layout *map, const linear_system *s) {
     const equations *e = map->equations;
+    algebra *a = e->algebra;
     const int n = e->count;
     const poly **wanted = room(BOOK_MOMENTA + n + 1, sizeof *wanted);
     int count = 0;
     if (!e->instance->mechanism->is_system) {
         wanted[BOOK_KINETIC] = e->kinetic;
         wanted[BOOK_STORED] = e->stored;
-        wanted[BOOK_INPUT_POWER] = e->input_power;
-        wanted[BOOK_LOSS_POWER] = e->loss_power;
+        wanted[BOOK_INPUT_POWER] = forces_power(a, e->force, e->forces, TERM_Q);
+        wanted[BOOK_LOSS_POWER] = poly_scale(a, forces_power(a, e->force, e->forces, TERM_F), -1.0);
         for (int i = 0; i < n; i++) {
             wanted[BOOK_MOMENTA + i] = e->momentum[i];
         }

@@ -96,6 +96,8 @@ typedef struct component {
 typedef struct image_contact {
     int kind;         /* wh_contact_kind */
     const char *word; /* of the statement: "stop", "hold", ... */
+    const char *
+        undefined; /* what of it may be no number: "the condition of this hold, or what it holds," */
     int direction;
     int pin;
     int first_set;

@@ -51,7 +51,7 @@ differ() {
 
 # The generated scenes stay those of the tree: compiled anew for each change they would take most of the time,
 # and what tests read of them is left out where it is not what a user would have built (usable()).
-build() {
+build() { # build PROGRAM...
     make -o build/gen/.stamp -o build/float/libscenes.a -o build/double/libscenes.a -o build/gen/models.list \
         "$@" >"$log.build" 2>&1 && ! grep -qE "$misfits" "$log.build"
 }
@@ -107,11 +107,11 @@ run() { # run SECONDS KIND NAME
         WHIRL=build/whirl exec timeout --kill-after=5 $((limit * 10 + 60)) "$@") </dev/null; } >"$log.test" 2>&1
 }
 
-judge() { # judge NAME PROGRAMS: what the tests of these (a pattern) say, into `came`
+judge() { # judge NAME STAGE: what the tests say that can be run once that is built, into `came`
     order "$1.found" >"$log.order"
     checked=""
     while read -r took program suite; do
-        expr "$program" : "$2" >/dev/null || continue
+        [ "$program" = "$2" ] || [ "$program.$2" = cli.host ] || continue
         case " $checked " in
         *" $program:no "*) continue ;;
         *" $program:yes "*) [ "$suite" != scenes ] || usable "$program" "$suite" || continue ;;
@@ -141,29 +141,21 @@ judge() { # judge NAME PROGRAMS: what the tests of these (a pattern) say, into `
 try() { # try NAME NUMBER FILE LINE COLUMN LENGTH REPLACEMENT
     file=$3
     apply "$3" "$4" "$5" "$6" "$7"
-    came="survived$tab-"
-    case $3 in
-    core/*) # a third of what there is to build notices most of the changes there
-        if ! build build/tests/core_double; then
+    stages="host"
+    case $3 in core/*) stages="double host float" ;; esac
+    came="same$tab-"
+    for stage in $stages; do # one third of what there is to build is built and asked after the other
+        case $stage in
+        host) programs="build/whirl build/tests/host" ;;
+        *) programs="build/tests/core_$stage" ;;
+        esac
+        if ! build $programs; then
             came="refused$tab-"
-        else
-            judge "$1" 'double$'
+        elif changed_objects; then
+            judge "$1" "$stage"
         fi
-        programs=build/tests/core_float
-        ;;
-    *) programs="" ;;
-    esac
-    case $came in
-    survived*)
-        if ! build build/whirl build/tests/host $programs; then
-            came="refused$tab-"
-        elif ! changed_objects; then
-            came="same$tab-"
-        else
-            judge "$1" '\(host\|cli\|float\)$'
-        fi
-        ;;
-    esac
+        case $came in refused* | killed*) break ;; esac
+    done
     printf '%s\t%s\t%s\n' "$2" "$came" "$tests" >>"$1.found"
     put_back "$3"
     case $came in [ks]*ed*) tell "$1" ;; esac

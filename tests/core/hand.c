@@ -19,6 +19,8 @@ static void hand_accel(const void *model, const wh_phase *phase, const wh_real *
     }
 }
 
+unsigned hand_looks;
+
 static wh_real along(const hand *m, unsigned k, const wh_real *x) {
     wh_real sum = WH_R(0.0);
     for (unsigned i = 0; i < m->n; i++) {
@@ -31,6 +33,7 @@ static void hand_signals(const void *model, const wh_phase *phase, const wh_real
                          const wh_real *rate, const wh_real *input, wh_real *result) {
     const hand *m = model;
     (void)phase;
+    hand_looks++;
     for (unsigned k = 0; k < m->system.contacts; k++) {
         result[2 * k] = along(m, k, linear) - m->law[k].offset;
         result[2 * k + 1] = along(m, k, rate);
@@ -38,6 +41,10 @@ static void hand_signals(const void *model, const wh_phase *phase, const wh_real
             result[2 * k] = input[0];
         } else if (m->contact[k].kind == WH_FRICTION) {
             result[2 * k] = along(m, k, rate);
+        }
+        const wh_real size = WH_ABS(result[2 * k]);
+        for (unsigned i = 0; i < m->bent && m->contact[k].kind == WH_WHEN; i++) {
+            result[2 * k] *= size * size * WH_R(1e6); /* of a millimetre, one */
         }
     }
 }
@@ -49,7 +56,7 @@ static void hand_forces(const void *model, const wh_phase *phase, const wh_real 
     (void)linear;
     (void)rate;
     (void)input;
-    for (unsigned k = 0; k < m->system.forced; k++) {
+    for (unsigned k = 0; k < HAND_CONTACTS; k++) { /* with what is behind them: see hand_start() */
         wh_real *law = result + k * (WH_LAW_ROWS + 2 * m->n);
         law[WH_LAW_FIRST] = m->law[k].first;
         law[WH_LAW_SECOND] = m->law[k].second;
@@ -61,14 +68,14 @@ static void hand_forces(const void *model, const wh_phase *phase, const wh_real 
     }
 }
 
-/* A crossing turns the first rate round and halves it. */
+/* A crossing turns the first rate round and halves it, or puts the first coordinate somewhere. */
 static void hand_sets(const void *model, const wh_phase *phase, const wh_real *linear,
                       const wh_real *rate, const wh_real *input, wh_real *result) {
-    (void)model;
+    const hand *m = model;
     (void)phase;
     (void)linear;
     (void)input;
-    result[0] = WH_R(-0.5) * rate[0];
+    result[0] = m->places ? m->place : WH_R(-0.5) * rate[0];
 }
 
 /* Entries: what the loads and springs put into each momentum, and the loads' work. */
@@ -109,7 +116,8 @@ static wh_status hand_advance(const wh_scene *scene, wh_state *state) {
 hand hand_now;
 static const uint8_t accounts[3] = {0, 1, 2};
 wh_ledger_form hand_books;
-static uint64_t memory[WH_STATE_WORDS(0, 4, 1) + WH_CONTACT_WORDS(3) + WH_LEDGER_WORDS(16, 3)];
+static uint64_t memory[WH_STATE_WORDS(0, 4, 1) + WH_CONTACT_WORDS(3) + WH_HELD_WORDS(1) +
+                       WH_LEDGER_WORDS(16, 3)];
 wh_state hand_state;
 wh_real hand_pushed;
 
@@ -139,9 +147,21 @@ unsigned hand_add(wh_contact_kind kind, int pin, wh_real row0, wh_real row1, wh_
     return k;
 }
 
+/* What is behind a scene's contacts is none of them: here it would stick, on the first coordinate, to the end. */
+static void put_sentinels(void) {
+    for (unsigned k = hand_now.system.contacts; k < HAND_CONTACTS; k++) {
+        hand_now.contact[k] = (wh_contact){.kind = WH_FRICTION, .pin = 0, .sets = 1};
+        hand_now.law[k].row[0] = WH_R(1.0);
+        hand_now.law[k].row[1] = WH_R(0.0);
+        hand_now.law[k].first = WH_R(1e6);
+        hand_now.law[k].second = WH_R(1e6);
+    }
+}
+
 void hand_start(bool with_books) {
     static uint8_t target;
-    target = (uint8_t)hand_now.n; /* the first rate */
+    put_sentinels();
+    target = hand_now.places ? 0 : (uint8_t)hand_now.n; /* the first rate */
     hand_now.system.model = &hand_now;
     hand_now.system.accel = hand_accel;
     hand_now.system.signals = hand_signals;
@@ -165,6 +185,7 @@ void hand_start(bool with_books) {
                                 .form = WH_SECOND_ORDER,
                                 .reals = (uint8_t)(2 * hand_now.n),
                                 .inputs = 1,
+                                .held = hand_now.system.held,
                                 .contacts = hand_now.system.contacts,
                                 .step_s = WH_R(0.001),
                                 .start_real = hand_now.start,

@@ -160,7 +160,7 @@ static void test_special(void) {
         TEST_ASSERT_TRUE(is_nan(wh_sqrt(real_of(none[i]))));
         TEST_ASSERT_TRUE(is_nan(WH_SQRT(real_of(none[i]))));
     }
-    for (unsigned whole = 1; whole < 4096U; whole++) { /* squares are exact */
+    for (uint32_t whole = 1; whole < 4096U; whole++) { /* squares are exact */
         const wh_real square = (wh_real)(whole * whole);
         TEST_ASSERT_TRUE(wh_sqrt(square) == (wh_real)whole);
         TEST_ASSERT_TRUE(WH_SQRT(square * WH_R(0x1p-60)) == (wh_real)whole * WH_R(0x1p-30));

@@ -3,6 +3,7 @@
 
 #include "derived.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -137,6 +138,11 @@ void random_state(state_values *s, const derived *d, uint64_t *seed) {
 }
 
 void derived_run(const tape *t, const derived *d, const state_values *s, double *result) {
+    derived_run_known(t, d, s, result, NULL);
+}
+
+void derived_run_known(const tape *t, const derived *d, const state_values *s, double *result,
+                       double *off) {
     const image *p = d->image;
     double angle_rad[UNKNOWNS] = {0};
     double real[4 * UNKNOWNS] = {0};
@@ -151,6 +157,9 @@ void derived_run(const tape *t, const derived *d, const state_values *s, double 
     image_inputs(p, input);
     evaluator *ev = evaluator_new(t);
     evaluator_run(ev, 0.0, angle_rad, real, real + (p->coordinates - p->angles), input, result);
+    if (off != NULL) {
+        evaluator_rounding(ev, angle_rad, 0.0, off);
+    }
     evaluator_free(ev);
 }
 
@@ -201,4 +210,16 @@ char *repeated(const char *front, const char *piece, int times, const char *tail
     }
     snprintf(text + at, room - at, "%s", tail);
     return text;
+}
+
+double derived_rest(const derived *d, state_values *s, const double *accel, int i, double *size) {
+    const equations *e = d->equations;
+    double rest = -poly_evaluate(equations_force(e, i), state_value, s);
+    *size = fabs(rest) + 1.0;
+    for (int j = 0; j < e->count; j++) {
+        const double part = poly_evaluate(e->mass[i * e->count + j], state_value, s) * accel[j];
+        rest += part;
+        *size += fabs(part);
+    }
+    return rest;
 }

@@ -163,6 +163,17 @@ bool drawn_independent(const drawn *b) {
 
 /* --- the program's way ---------------------------------------------------------------------------------------- */
 
+static void write_row(const drawn *b, const double *row, char *text, size_t size) {
+    size_t end = 0;
+    text[0] = '\0';
+    for (int i = 0; i < b->n; i++) {
+        if (row[i] != 0.0) {
+            end += (size_t)snprintf(text + end, size - end, "%s%g*x%d", end > 0 ? " + " : "",
+                                    row[i], i);
+        }
+    }
+}
+
 void drawn_open(motion *m, const drawn *b, const engine_kind *kind) {
     char text[4000];
     size_t at = 0;
@@ -185,17 +196,14 @@ void drawn_open(motion *m, const drawn *b, const engine_kind *kind) {
     for (int k = 0; k < b->contacts; k++) {
         const drawn_contact *of = &b->contact[k];
         char row[200];
-        int end = 0;
-        for (int i = 0; i < b->n; i++) {
-            if (of->row[i] != 0.0) {
-                end += snprintf(row + end, sizeof row - (size_t)end, "%s%g*x%d",
-                                end > 0 ? " + " : "", of->row[i], i);
-            }
-        }
+        char since[200];
+        write_row(b, of->row, row, sizeof row);
+        write_row(b, of->since, since, sizeof since);
         if (of->kind == 's') {
             PUT("stop %s >= %.17g [m] restitution %g\n", row, of->offset, of->restitution);
         } else if (of->kind == 'h') {
-            PUT("hold %s while x0 > -1000 [m]\n", row);
+            PUT("hold %s while %s > %.17g [m]\n", row, since[0] != '\0' ? since : "x0",
+                since[0] != '\0' ? of->since_m : -1000.0);
         } else {
             int i = 0;
             while (of->row[i] == 0.0) {

@@ -15,10 +15,12 @@ enum { DRAWN_MOST = 4, DRAWN_CONTACTS = 6 };
 typedef struct drawn_contact {
     char kind; /* 's'top, 'h'old, 'f'riction */
     double row[DRAWN_MOST];
-    double offset;      /* the gap is row . x - offset, m */
-    double restitution; /* of a stop */
-    double limit;       /* N, of a friction; it slides with the same force */
-    double target;      /* what J v+, or J a, is where it holds */
+    double offset;            /* the gap is row . x - offset, m */
+    double restitution;       /* of a stop */
+    double limit;             /* N, of a friction; it slides with the same force */
+    double target;            /* what J v+, or J a, is where it holds */
+    double since[DRAWN_MOST]; /* of a hold: while since . x > since_m; all zero: always */
+    double since_m;
 } drawn_contact;
 
 typedef struct drawn {

@@ -56,6 +56,27 @@ static bool draw_impact(uint64_t *seed, double impact_s, drawn *b) {
     return true;
 }
 
+/* A hold that captures at the moment, beside stops that rest and may be let go. */
+static bool draw_capture(uint64_t *seed, double impact_s, drawn *b) {
+    *b = drawn_body(seed);
+    for (int i = 0; i < b->n; i++) {
+        b->rate[i] = drawn_whole(seed, -3, 3);
+    }
+    const int stops = (int)(random_bits(seed) % 3U);
+    for (int k = 0; k < stops; k++) {
+        drawn_row_at_rest(b, seed, drawn_add(b, 's')->row);
+    }
+    drawn_contact *of = drawn_add(b, 'h');
+    drawn_row(b, seed, of->row);
+    drawn_row(b, seed, of->since);
+    double speed = 0.0;
+    for (int i = 0; i < b->n; i++) {
+        speed += of->since[i] * b->rate[i];
+    }
+    of->since_m = speed * impact_s;
+    return speed > 0.0;
+}
+
 static double apart(double got, double wanted) { return fabs(got - wanted) / (1.0 + fabs(wanted)); }
 
 /* What the books have of contact k: the energy, then each momentum. */
@@ -88,8 +109,10 @@ static long wanted_runs(long usual) {
     return count > 0 ? count : usual;
 }
 
-static void check_impacts(const engine_kind *kind, double bound) {
-    const long runs = wanted_runs(120);
+typedef bool draw_moment(uint64_t *seed, double impact_s, drawn *b);
+
+static void check_impacts(draw_moment *draw, const engine_kind *kind, double bound) {
+    const long runs = wanted_runs(40);
     uint64_t seed = 79;
     double worst = 0.0;
     double worst_books = 0.0;
@@ -102,7 +125,7 @@ static void check_impacts(const engine_kind *kind, double bound) {
         double lambda[DRAWN_CONTACTS];
         double after[DRAWN_MOST];
         double spot[DRAWN_MOST];
-        if (!draw_impact(&seed, impact_s, &b)) {
+        if (!draw(&seed, impact_s, &b)) {
             continue;
         }
         done++;
@@ -134,8 +157,16 @@ static void check_impacts(const engine_kind *kind, double bound) {
     TEST_ASSERT_TRUE(unsolved <= runs / 20 && booked >= runs / 6);
 }
 
-static void test_impacts_follow_newtons_law(void) { check_impacts(&engine_double, 1e-11); }
-static void test_impacts_follow_newtons_law_in_float(void) { check_impacts(&engine_float, 1e-4); }
+static void test_impacts_follow_newtons_law(void) {
+    check_impacts(draw_impact, &engine_double, 1e-11);
+}
+static void test_impacts_follow_newtons_law_in_float(void) {
+    check_impacts(draw_impact, &engine_float, 1e-4);
+}
+
+static void test_holds_capture_by_their_law(void) {
+    check_impacts(draw_capture, &engine_double, 1e-11);
+}
 
 /* --- forces ---------------------------------------------------------------------------------------------------- */
 
@@ -163,7 +194,7 @@ static void draw_rest(uint64_t *seed, drawn *b) {
 
 /* Loads are constant, so are the accelerations: rates a h, places a h^2/2, each contact's impulse lambda h. */
 static void check_forces(const engine_kind *kind, double bound) {
-    const long runs = wanted_runs(120);
+    const long runs = wanted_runs(40);
     uint64_t seed = 72;
     double worst = 0.0;
     double worst_books = 0.0;
@@ -264,7 +295,7 @@ static double broken(const motion *m, const drawn *b, int k, double time_s) {
 }
 
 static void test_no_contact_does_more_than_it_can(void) {
-    const long runs = wanted_runs(120);
+    const long runs = wanted_runs(40);
     uint64_t seed = 73;
     double worst = 0.0;
     int over = 0;
@@ -321,6 +352,7 @@ void suite_contact_law(void) {
     RUN_TEST(test_no_contact_does_more_than_it_can);
     RUN_TEST(test_impacts_follow_newtons_law);
     RUN_TEST(test_impacts_follow_newtons_law_in_float);
+    RUN_TEST(test_holds_capture_by_their_law);
     RUN_TEST(test_forces_share_a_load_by_their_law);
     RUN_TEST(test_forces_share_a_load_by_their_law_in_float);
 }
