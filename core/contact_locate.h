@@ -184,13 +184,20 @@ WH_INLINE unsigned wh_contact_happened(const wh_contact_system *of, const wh_mar
     return bits;
 }
 
+/* Several contacts share loads, the deepest calls there are: what the search keeps is not to lie below them. */
+#if WH_CONTACTS_MAX > 1
+#define WH_SEARCH WH_APART
+#else
+#define WH_SEARCH static inline
+#endif
+
 /* Where between `from` and `to` the first of the events that have happened at `to` comes: the share of
  * h, just past it, by WH_BRACKET at most. *events are those that have happened there. at_end is what
  * wh_contact_margins() says of `to`. */
-static inline wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work *w,
-                                        wh_contact_state *from, wh_contact_state *to, wh_real h,
-                                        const wh_real *input, const wh_margins *at_end,
-                                        unsigned *events) {
+WH_SEARCH wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work *w,
+                                    wh_contact_state *from, wh_contact_state *to, wh_real h,
+                                    const wh_real *input, const wh_margins *at_end,
+                                    unsigned *events) {
     const wh_contact_model model = {of, w};
     wh_contact_path path;
     wh_contact_point at;
