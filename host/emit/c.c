@@ -74,6 +74,8 @@ static void write_starts(FILE *out, const image *im) {
 
 static void write_scene(FILE *out, const image *im) {
     char hex[HEX_SIZE];
+    /* declared here and not above, where it would stand before the names in functions */
+    fprintf(out, "extern const wh_scene %s;\n", im->name);
     fprintf(out, "const wh_scene %s = {\n    .name = \"%s\",\n    .form = %s,\n    .method = %s,\n",
             im->name, im->name, im->form == WH_SECOND_ORDER ? "WH_SECOND_ORDER" : "WH_FIRST_ORDER",
             wh_methods[im->settings.method].name);
@@ -189,7 +191,7 @@ void emit_c(FILE *out, const image *im, const char *file) {
     write_banner(out, im, file);
     fprintf(out, "#define WH_COORDS %d\n", components);
     write_includes(out, im);
-    fprintf(out, "\nextern const wh_scene %s;\n\n", im->name);
+    fprintf(out, "\n");
     write_starts(out, im);
     c_list_function(out, im->list[IMAGE_STEP], second ? "accelerations" : "slopes", second,
                     im->contacts > 0 || im->ledger.asked);

@@ -24,13 +24,12 @@ static const char words_of_cpp[] =
     "reinterpret_cast requires static_cast std template this throw try typeid typename using "
     "virtual xor xor_eq";
 
-/* What a generated file has: objects, functions, and the variables in these. */
+/* What a generated file has for itself: objects and functions. (It declares its scene behind all of them: what is named
+ * within functions is free.) */
 static const char own[] =
     "main accelerations slopes advance observe start_angle start_real start_input contacts "
     "contact_signals contact_forces contact_sets contact_table contact_target ledger "
-    "ledger_powers ledger_levels ledger_accounts ledger_inputs WH accel angle forces i input "
-    "level levels linear model output phase powers rate real result scene sets signals state "
-    "target";
+    "ledger_powers ledger_levels ledger_accounts ledger_inputs WH";
 
 /* Macros that a GNU dialect begins with, for one target or another. */
 static const char predefined[] =
@@ -193,18 +192,12 @@ static bool is_of_integers(const char *name) {
             strchr("0123456789LFMP", name[4]) != NULL);
 }
 
-/* x12, s3, c3: what operations of a generated function are stored in. */
-static bool is_a_variable(const char *name) {
-    return name[0] != '\0' && strchr("xsc", name[0]) != NULL && name[1] != '\0' &&
-           strspn(name + 1, "0123456789") == strlen(name + 1);
-}
-
 bool emit_c_name_is_free(const char *name) {
     const size_t length = strlen(name);
     return !is_among(words_of_c, name, length) && !is_among(own, name, length) &&
            !is_among(predefined, name, length) && !is_among(types_and_macros, name, length) &&
            !is_among(functions, name, length) && !is_maths(name) && !is_of_integers(name) &&
-           !is_in_a_family(name) && !is_a_variable(name);
+           !is_in_a_family(name);
 }
 
 bool emit_c_name_is_free_in_cpp(const char *name) {
