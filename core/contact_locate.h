@@ -202,8 +202,8 @@ WH_SEARCH wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work
     wh_contact_path path;
     wh_contact_point at;
     wh_margins probe;
-    wh_real before[WH_CONTACTS_MAX]; /* margins at `low`, */
-    wh_real after[WH_CONTACTS_MAX];  /* and at `high` */
+    wh_real before[WH_CONTACTS_MAX] = {WH_R(0.0)}; /* margins at `low`, */
+    wh_real after[WH_CONTACTS_MAX] = {WH_R(0.0)};  /* and at `high` */
     wh_real low = WH_R(0.0);
     wh_real high = WH_R(1.0);
     *events = wh_contact_happened(of, at_end);
