@@ -119,6 +119,17 @@ static bool meets(const drawn *b, const int *which, const double *from, double *
     return true;
 }
 
+/* A stop has the cases 0 and 1, a friction 0, 1 and -1, a hold one. */
+static int next_case(char kind, int which) {
+    if (kind == 'h') {
+        return 0;
+    }
+    if (kind == 's') {
+        return 1 - which;
+    }
+    return which == 1 ? -1 : which + 1;
+}
+
 /* The one case that meets the conditions. False where none does without rows that repeat each other. */
 bool drawn_solved(const drawn *b, const double *from, double *lambda, double *x) {
     int which[DRAWN_CONTACTS] = {0};
@@ -127,13 +138,8 @@ bool drawn_solved(const drawn *b, const double *from, double *lambda, double *x)
             return true;
         }
         int k = 0;
-        for (; k < b->contacts;
-             k++) { /* count on: a stop has two cases, a friction three, a hold one */
-            const char kind = b->contact[k].kind;
-            which[k] = kind == 'h'     ? 0
-                       : kind == 's'   ? 1 - which[k]
-                       : which[k] == 1 ? -1
-                                       : which[k] + (which[k] == 0 ? 1 : 1);
+        for (; k < b->contacts; k++) { /* count on: the next case of k, and the next contact at 0 */
+            which[k] = next_case(b->contact[k].kind, which[k]);
             if (which[k] != 0) {
                 break;
             }

@@ -62,8 +62,8 @@ static void compilers_have_nothing_to_say_of_what_is_free(void) {
     c_names = opened(for_c, "w");
     cpp_names = opened(for_cpp, "w");
     const int asked = each_line("sh tests/embed/known_names.sh ask", sort_out);
-    fclose(c_names);
-    fclose(cpp_names);
+    TEST_ASSERT_EQUAL_INT(0, fclose(c_names));
+    TEST_ASSERT_EQUAL_INT(0, fclose(cpp_names));
     snprintf(command, sizeof command, "sh tests/embed/known_names.sh judge %s %s", for_c, for_cpp);
     const int complaints = each_line(command, complain);
     remove(for_c);

@@ -122,8 +122,8 @@ static void check_impacts(draw_moment *draw, const engine_kind *kind, double bou
         const double impact_s = DRAWN_STEP_S * (double)(1U + random_bits(&seed) % 7U) / 8.0;
         drawn b;
         motion m;
-        double lambda[DRAWN_CONTACTS];
-        double after[DRAWN_MOST];
+        double lambda[DRAWN_CONTACTS] = {0.0};
+        double after[DRAWN_MOST] = {0.0};
         double spot[DRAWN_MOST];
         if (!draw(&seed, impact_s, &b)) {
             continue;
@@ -332,8 +332,8 @@ static void test_friction_takes_no_impulse_when_a_stop_rests_on(void) {
                .contacts = 5,
                .mass = {{4, -1, 1}, {-1, 2, -1}, {1, -1, 4}},
                .rate = {0, 2, 3},
-               .contact = {{'s', {1, -2, 1}, -0.875 * DRAWN_STEP_S, 0.25, 0, 0.25},
-                           {'s', {-2, 1, -2}, -3.5 * DRAWN_STEP_S, 1, 0, 4},
+               .contact = {{'s', {1, -2, 1}, -0.875 * DRAWN_STEP_S, 0.25, 0, 0.25, 0},
+                           {'s', {-2, 1, -2}, -3.5 * DRAWN_STEP_S, 1, 0, 4, 0},
                            {.kind = 's', .row = {0, -3, 2}},
                            {.kind = 'h', .row = {0, 3, -2}},
                            {.kind = 'f', .row = {1, 0, 0}}}};
