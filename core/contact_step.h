@@ -38,6 +38,9 @@ WH_INLINE void wh_contact_work_begin(const wh_contact_system *of, const wh_state
     for (unsigned k = 0; k < of->held; k++) {
         w->held[k] = state->held[k];
     }
+    if (of->forced > 1) { /* one contact shares nothing, and passes nothing on */
+        w->capped = false;
+    }
     w->undefined = -1;
 #if WH_LEDGER
     w->books = NULL;
@@ -49,8 +52,7 @@ WH_INLINE void wh_contact_work_open(const wh_contact_system *of, wh_contact_work
     if (wh_contact_any_of(of, WH_FRICTION)) {
         w->turned = 0;
     }
-    if (of->forced > 1) { /* one contact shares nothing, and passes nothing on */
-        w->capped = false;
+    if (of->forced > 1) {
         w->hit_next = 0;
     }
     if (of->contacts > of->forced) { /* only crossings assign */
@@ -386,7 +388,9 @@ static inline wh_status wh_step_contact(const wh_contact_system *of, wh_real h, 
             wh_contact_copy(of, state->angle, state->real, state->carry, &a.now);
         }
         wh_contact_attempt_make(of, &work, h, state->input, &a);
-        if (a.sound && a.leaving == 0 && wh_contact_attempt_calm(of, &work, &a)) { /* as most are */
+        const bool capped = of->forced > 1 && work.capped; /* and is counted */
+        if (a.sound && a.leaving == 0 && !capped &&
+            wh_contact_attempt_calm(of, &work, &a)) { /* as most are */
             wh_contact_pass(of, &a.margins, &work);
             const unsigned flat = wh_contact_accept(of, &work, h, &a.now, &a.next, state->input);
             if (flat < of->contacts) {

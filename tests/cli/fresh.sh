@@ -5,7 +5,7 @@
 
 cp -R Makefile mk core hal boards host tests "$scratch/" || exit 1
 plan() { # plan WORD...: what make would do
-    (cd "$scratch" && rm -rf build && MAKEFLAGS= make -n V=1 "$@") >"$scratch/plan" 2>"$scratch/err"
+    (cd "$scratch" && rm -rf build && env -i PATH="$PATH" HOME="$HOME" make -n V=1 "$@") >"$scratch/plan" 2>"$scratch/err"
 }
 # before FIRST SECOND: a line of the plan that matches FIRST stands before any that matches SECOND
 before() {

@@ -78,7 +78,7 @@ static bool repeats(const wh_contact_work *w, unsigned k) {
 static void test_rows_are_made_independent(void) {
     uint64_t seed = 31;
     for (unsigned round = 0; round < ROUNDS; round++) {
-        wh_contact_work w;
+        wh_contact_work w = {.capped = false};
         wh_contact_rows rows;
         const unsigned count = draw(&seed, &w);
         unsigned holds = 0;
@@ -114,7 +114,7 @@ static void test_the_first_that_is_lost_is_told(void) {
     uint64_t seed = 37;
     unsigned lost = 0;
     for (unsigned round = 0; round < ROUNDS; round++) {
-        wh_contact_work w;
+        wh_contact_work w = {.capped = false};
         wh_contact_rows before;
         wh_contact_rows after;
         const unsigned count = draw(&seed, &w);
@@ -151,7 +151,7 @@ static void test_how_far_a_row_may_turn(void) {
         {2, {{1, 0}, {0, 1}}, {5, WH_R(-0.01)}, 1},
     };
     for (unsigned i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        wh_contact_work w;
+        wh_contact_work w = {.capped = false};
         wh_contact_rows before;
         wh_contact_rows after;
         hand_build(2, WH_R(1.0), WH_R(0.0), WH_R(1.0));

@@ -94,7 +94,7 @@ static void check(bool holds, bool forces) {
     unsigned wrong = 0;
     unsigned capped = 0;
     for (unsigned i = 0; i < PROBLEMS; i++) {
-        wh_contact_work w;
+        wh_contact_work w = {.capped = false};
         uint8_t member[CONTACTS];
         wh_real accel[2];
         wh_real wanted[CONTACTS];

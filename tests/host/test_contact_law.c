@@ -124,7 +124,7 @@ static void check_impacts(draw_moment *draw, const engine_kind *kind, double bou
         motion m;
         double lambda[DRAWN_CONTACTS] = {0.0};
         double after[DRAWN_MOST] = {0.0};
-        double spot[DRAWN_MOST];
+        double spot[DRAWN_MOST] = {0.0};
         if (!draw(&seed, impact_s, &b)) {
             continue;
         }
@@ -204,10 +204,10 @@ static void check_forces(const engine_kind *kind, double bound) {
         drawn b;
         motion m;
         double free[DRAWN_MOST];
-        double lambda[DRAWN_CONTACTS];
+        double lambda[DRAWN_CONTACTS] = {0.0};
         double accel[DRAWN_MOST];
-        double spot[DRAWN_MOST];
-        double rate[DRAWN_MOST];
+        double spot[DRAWN_MOST] = {0.0};
+        double rate[DRAWN_MOST] = {0.0};
         draw_rest(&seed, &b);
         drawn_inverse(&b, b.load, free);
         if (!drawn_solved(&b, free, lambda, accel)) {
