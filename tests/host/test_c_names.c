@@ -62,14 +62,14 @@ static void compilers_have_nothing_to_say_of_what_is_free(void) {
     c_names = opened(for_c, "w");
     cpp_names = opened(for_cpp, "w");
     const int asked = each_line("sh tests/embed/known_names.sh ask", sort_out);
-    TEST_ASSERT_EQUAL_INT(0, fclose(c_names));
-    TEST_ASSERT_EQUAL_INT(0, fclose(cpp_names));
+    const bool written = fclose(c_names) == 0 && fclose(cpp_names) == 0;
     snprintf(command, sizeof command, "sh tests/embed/known_names.sh judge %s %s", for_c, for_cpp);
     const int complaints = each_line(command, complain);
-    remove(for_c);
-    remove(for_cpp);
+    (void)remove(for_c);
+    (void)remove(for_cpp);
     rmdir(folder);
     printf("  %d words asked, %d refused\n", asked, refused);
+    TEST_ASSERT_TRUE(written);
     TEST_ASSERT_GREATER_THAN_INT(2000, asked);
     TEST_ASSERT_GREATER_THAN_INT(600, refused);
     TEST_ASSERT_EQUAL_INT(0, complaints);

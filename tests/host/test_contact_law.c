@@ -345,9 +345,9 @@ static void test_friction_takes_no_impulse_when_a_stop_rests_on(void) {
                            {.kind = 's', .row = {0, -3, 2}},
                            {.kind = 'h', .row = {0, 3, -2}},
                            {.kind = 'f', .row = {1, 0, 0}}}};
-    const double after[] = {-0.5, -1.5, -2.25};
-    const double at[] = {-0.5 / 8 * DRAWN_STEP_S, 12.5 / 8 * DRAWN_STEP_S,
-                         18.75 / 8 * DRAWN_STEP_S};
+    const double after[DRAWN_MOST] = {-0.5, -1.5, -2.25};
+    const double at[DRAWN_MOST] = {-0.5 / 8 * DRAWN_STEP_S, 12.5 / 8 * DRAWN_STEP_S,
+                                   18.75 / 8 * DRAWN_STEP_S};
     motion m;
     drawn_open(&m, &b, &engine_double);
     TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
