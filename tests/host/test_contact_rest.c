@@ -141,7 +141,7 @@ static void test_rows_of_wagons(void) {
             overran += over;
             double before = -1.0;
             for (int k = 0; k < wagons; k++) {
-                char name[8];
+                char name[16];
                 snprintf(name, sizeof name, "x%d", k);
                 const double x = motion_value(&m, name);
                 good = good && x - before >= (n < 2 ? -1e-12 : -1e-6);
@@ -158,7 +158,7 @@ static void test_rows_of_wagons(void) {
                        KINDS[n / 2]->name, steps_s[n % 2], (unsigned long long)contacts_events(&m),
                        (unsigned long long)contacts_overruns(&m));
                 for (int k = 0; k < wagons; k++) {
-                    char name[8];
+                    char name[16];
                     snprintf(name, sizeof name, "x%d", k);
                     printf(" %.12g (%.12g)", motion_value(&m, name), rests[k]);
                 }
