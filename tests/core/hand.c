@@ -106,8 +106,25 @@ static void hand_levels(const void *model, const wh_angle *angle, const wh_real 
     }
 }
 
+/* wh_step_contact() without its short way for calm steps. */
+static wh_status eventful(const wh_contact_system *of, wh_real h, wh_state *state) {
+    wh_contact_work work;
+    wh_contact_attempt attempt;
+    wh_ledger_work books;
+    attempt.made = false;
+    wh_contact_work_begin(of, state, &work);
+    if (of->ledger != NULL) {
+        work.books = &books;
+        wh_ledger_open(of->ledger, state, &books);
+    }
+    return wh_contact_eventful(of, &work, h, &attempt, state);
+}
+
 static wh_status hand_advance(const wh_scene *scene, wh_state *state) {
     const hand *m = scene->model;
+    if (m->eventful) {
+        return eventful(&m->system, scene->step_s, state);
+    }
     return wh_step_contact(&m->system, scene->step_s, state);
 }
 

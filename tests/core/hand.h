@@ -29,6 +29,7 @@ typedef struct hand {
     wh_contact contact[HAND_CONTACTS];
     wh_contact_system system;
     unsigned bent; /* so often a crossing's value is multiplied by its own square */
+    bool eventful; /* every step is taken as one with events is, however calm */
     bool places;   /* a crossing assigns the first coordinate, */
     wh_real place; /* this, and not its rate */
     wh_real start[4];

@@ -5,6 +5,8 @@
  * round moves the other way round. */
 #include "hand.h"
 
+#include "core/hash.h"
+
 #include "unity.h"
 
 void suite_contact_random(void);
@@ -255,7 +257,47 @@ static void test_the_other_way_round_is_the_same(void) {
     TEST_ASSERT_EQUAL_UINT(0, wrong);
 }
 
+/* After each step: the state, what the books hold, and what is told of events. */
+static uint64_t trace(uint64_t *hashes) {
+    hand_start(true);
+    for (unsigned step = 0; step < STEPS; step++) {
+        hand_steps(1);
+        uint64_t hash = wh_scene_hash(&hand_now.scene, &hand_state);
+        for (unsigned entry = 0; entry < hand_books.entries; entry++) {
+            hash = wh_hash_real(hash, hand_state.ledger[entry]);
+        }
+        hash = wh_hash_u64(hash, hand_state.contacts->events);
+        hash = wh_hash_u64(hash, hand_state.contacts->overruns);
+        hashes[step] = wh_hash_u64(hash, hand_state.contacts->logged);
+        if (step % 8U == 7U) {
+            hand_state.input[0] = -hand_state.input[0];
+        }
+    }
+    return hand_state.contacts->events;
+}
+
+static void test_a_calm_steps_short_way_ends_where_the_long_one_does(void) {
+    uint64_t seed = 5;
+    unsigned wrong = 0;
+    uint64_t events = 0;
+    for (unsigned i = 0; i < MECHANISMS; i++) {
+        uint64_t hashes[2][STEPS];
+        draw(&seed);
+        (void)trace(hashes[0]);
+        hand_now.eventful = true;
+        events += trace(hashes[1]);
+        bool same = true;
+        for (unsigned step = 0; step < STEPS; step++) {
+            same = same && hashes[0][step] == hashes[1][step];
+        }
+        wrong += !same;
+    }
+    TEST_ASSERT_EQUAL_UINT(0, wrong);
+    TEST_ASSERT_TRUE(events > 0 && events < (uint64_t)MECHANISMS * STEPS / 4U);
+}
+
 void suite_contact_random(void) {
     RUN_TEST(test_what_must_hold_does);
     RUN_TEST(test_the_other_way_round_is_the_same);
+    RUN_TEST(test_a_calm_steps_short_way_ends_where_the_long_one_does);
 }
