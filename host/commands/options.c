@@ -22,23 +22,27 @@ static const option_row option_rows[OPTIONS] = {OPTION_ROWS(ROW)};
 /* Columns of help texts: where the description begins. */
 enum { TEXT_COLUMN = 23, LINE_COLUMNS = 78 };
 
-static void describe(FILE *out, const option_row *row) {
-    char methods[METHODS_TEXT_SIZE];
-    const int width =
-        fprintf(out, "  %s%s%s", row->word, row->value[0] != '\0' ? " " : "", row->value);
-    const char *text = row == &option_rows[OPTION_METHOD] ? methods_in_help(methods) : row->text;
-    fprintf(out, "%*s", TEXT_COLUMN - width, "");
-    for (int column = 0; *text != '\0'; text++) {
+void options_text(FILE *out, const char *text, int column, int margin, int width) {
+    for (; *text != '\0'; text++) {
         const int word = 1 + (int)strcspn(text + 1, " \n"); /* and the blank before it */
-        if (*text == '\n' || (*text == ' ' && column + word > OPTION_TEXT_WIDTH)) {
-            fprintf(out, "\n%*s", TEXT_COLUMN, "");
-            column = 0;
+        if (*text == '\n' || (*text == ' ' && column + word > width)) {
+            fprintf(out, "\n%*s", margin, "");
+            column = margin;
         } else {
             fputc(*text, out);
             column++;
         }
     }
     fputc('\n', out);
+}
+
+static void describe(FILE *out, const option_row *row) {
+    char methods[METHODS_TEXT_SIZE];
+    const int width =
+        fprintf(out, "  %s%s%s", row->word, row->value[0] != '\0' ? " " : "", row->value);
+    const char *text = row == &option_rows[OPTION_METHOD] ? methods_in_help(methods) : row->text;
+    fprintf(out, "%*s", TEXT_COLUMN - width, "");
+    options_text(out, text, TEXT_COLUMN, TEXT_COLUMN, TEXT_COLUMN + OPTION_TEXT_WIDTH);
 }
 
 static void put_word(FILE *out, const char *word, int *column) {

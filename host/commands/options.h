@@ -58,6 +58,10 @@ typedef struct command_usage {
 
 void options_usage(FILE *out, const command_usage *usage);
 
+/* A text of a help, which begins at `column`: broken at blanks into lines of at most `width` columns, those after the
+ * first from `margin` on. */
+void options_text(FILE *out, const char *text, int column, int margin, int width);
+
 /* Is --help or -h among the words? */
 bool options_wants_help(int count, char **words);
 

@@ -9,7 +9,8 @@
 /* A function file `function dy = NAME(t, y)` that Octave and Matlab integrate as it stands, with the
  * run as a comment. The image must integrate every coordinate (no `conserve`). `file` is the .whirl file's name,
  * for the banner; `contacts` what is to be said of contacts, which the function leaves out: whole lines that begin
- * with a percent sign, or "". */
+ * with EMIT_OCTAVE_COMMENT, or "". */
+#define EMIT_OCTAVE_COMMENT "% "
 void emit_octave(FILE *out, const image *im, const char *file, const char *contacts);
 
 /* Can a scene have that name in C: is it no word of C, nor a name of C's library, a macro that compilers have from

@@ -23,7 +23,7 @@ says() {
 "$whirl" derive --help | grep -q -- '--header FILE'
 verdict $? "--help tells of it"
 says 2 'error: --header needs a value' derive thomson_a --as c --header
-says 2 'error: --header goes with the C form' derive thomson_a --header "$scratch/x.h"
+says 2 'error: --header goes with --as c' derive thomson_a --header "$scratch/x.h"
 says 2 'hint: --as c --header FILE' derive thomson_a --as latex --header "$scratch/x.h"
 [ ! -e "$scratch/x.h" ]
 verdict $? "nothing is written then"
