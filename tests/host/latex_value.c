@@ -4,6 +4,7 @@
 #include <ctype.h>
 #include <float.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -38,6 +39,14 @@ static latex_number fail(reader *r, const char *problem) {
         r->problem = problem;
     }
     return latex_constant((double)NAN, 0.0);
+}
+
+static latex_number fail_named(reader *r, const char *problem, const char *name) {
+    static char said[160]; /* until the next one */
+    if (r->problem == NULL) {
+        snprintf(said, sizeof said, "%s: '%s'", problem, name);
+    }
+    return fail(r, said);
 }
 
 static bool is_constant(const latex_number *n) {
@@ -256,7 +265,8 @@ static latex_number symbol_with(reader *r, const char *stem, int primes) {
     }
     if (r->problem != NULL || !r->lookup(r->context, stem, index, primes, &found)) {
         r->at = r->problem == NULL ? from : r->at;
-        return fail(r, "no symbol of the mechanism");
+        return fail_named(
+            r, "no symbol of the mechanism and no function of tests/host/latex_value.c", stem);
     }
     return found;
 }
@@ -264,7 +274,7 @@ static latex_number symbol_with(reader *r, const char *stem, int primes) {
 static latex_number called(reader *r, const char *name) {
     const function *f = function_called(name);
     if (f == NULL) {
-        return fail(r, "an unknown command");
+        return fail_named(r, "no function of tests/host/latex_value.c", name);
     }
     need(r, "\\left(");
     const latex_number x = sum(r);

@@ -29,7 +29,7 @@ typedef bool latex_lookup(void *context, const char *stem, const char *index, in
 
 /* Evaluate from `text` on, up to a '&', a '\\' or the end of the line: *end is set to what stopped it. On what the
  * program does not print, as a product of two highest derivatives, the value is NaN, *problem says what and *end where;
- * else *problem is NULL. */
+ * else *problem is NULL; it holds until the next call. */
 latex_number latex_value(const char *text, const char **end, const char **problem,
                          latex_lookup *lookup, void *context);
 

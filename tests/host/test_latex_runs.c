@@ -89,7 +89,7 @@ static latex_number read_side(comparison *c, const char *text, const char **end)
     if (problem != NULL) {
         printf("  %s: %s: %.60s\n", c->name, problem, *end);
     }
-    TEST_ASSERT_NULL_MESSAGE(problem, c->name);
+    TEST_ASSERT_NULL_MESSAGE(problem, problem != NULL ? problem : c->name);
     return n;
 }
 
