@@ -231,7 +231,36 @@ static void test_hints_for_habits_mean_the_same(void) {
     }
 }
 
+/* The units that are written for a dimension, in records and in hints: of that dimension, of SI, and for those that have
+ * a usual one, that. */
+static void test_dimensions_are_written_in_their_usual_units(void) {
+    static const char *const recorded[] = {"N", "N*m", "W", "N*m*s", "V"};
+    static const char *const hinted[] = {"N",       "N*m", "W",   "Pa", "N/m", "N*s/m", "rad/s",
+                                         "rad/s^2", "V",   "ohm", "C",  "F",   "H"};
+    char unit[DIM_TEXT_SIZE];
+    for (size_t i = 0; i < sizeof recorded / sizeof recorded[0]; i++) {
+        TEST_ASSERT_EQUAL_STRING(recorded[i],
+                                 dim_recorded_unit(parsed(recorded[i]).dim, unit, sizeof unit));
+    }
+    for (size_t i = 0; i < sizeof hinted / sizeof hinted[0]; i++) {
+        TEST_ASSERT_EQUAL_STRING(hinted[i], dim_unit(parsed(hinted[i]).dim, unit, sizeof unit));
+    }
+    for (int of_si = 0; of_si < 3 * DEFINITIONS * DEFINITIONS; of_si++) {
+        const definition *a = &definitions[of_si % DEFINITIONS];
+        const definition *b = &definitions[of_si / DEFINITIONS % DEFINITIONS];
+        const int sign = of_si / DEFINITIONS / DEFINITIONS - 1; /* a/b, a, a*b */
+        const dimension dim = dim_of(a->m + sign * b->m, a->kg + sign * b->kg, a->s + sign * b->s,
+                                     a->A + sign * b->A, a->K + sign * b->K);
+        for (int k = 0; k < 2 && !dim_is_none(dim); k++) {
+            const unit_scale is = parsed(k == 0 ? dim_unit(dim, unit, sizeof unit)
+                                                : dim_recorded_unit(dim, unit, sizeof unit));
+            TEST_ASSERT_TRUE_MESSAGE(is.scale == is.divisor && dim_fits(is.dim, dim), unit);
+        }
+    }
+}
+
 void suite_units(void) {
+    RUN_TEST(test_dimensions_are_written_in_their_usual_units);
     RUN_TEST(test_every_unit_is_what_the_standards_say);
     RUN_TEST(test_prefixes_round_as_decimal_numbers_do);
     RUN_TEST(test_every_unit_is_told_in_si);
