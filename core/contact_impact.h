@@ -307,8 +307,14 @@ static inline void wh_contact_squeeze(const wh_contact_system *of, wh_contact_wo
         wh_books_moved(of, w, s, input, mover);
     }
     if (touched != 0) {
-        const unsigned released =
-            wh_contact_impulses(of, w, touched, 0, zero, wh_contact_rates(of, s), impulse);
+        unsigned opened = 0; /* what rested, and was moved off its stop */
+        for (unsigned k = 0; k < of->forced; k++) {
+            const bool rests = wh_contact_of(of, k, WH_STOP) && w->mode[k] == WH_ACTIVE;
+            opened |= rests && wh_contact_open(of, w, k, signal, s) ? 1U << k : 0U;
+        }
+        wh_contact_set_modes(of, w, opened, WH_FREE);
+        const unsigned released = wh_contact_impulses(of, w, touched & ~opened, 0, zero,
+                                                      wh_contact_rates(of, s), impulse);
         wh_contact_set_modes(of, w, released, WH_FREE);
     }
 }

@@ -159,8 +159,15 @@ static inline bool wh_contact_project_places(const wh_contact_system *of, wh_con
     for (unsigned i = 0; i < count; i++) {
         const int pin = wh_contact_pin(of, member[i]);
         if (off[i] != WH_R(0.0) && pin >= 0) { /* the others need not move for it */
-            const wh_real entry = wh_contact_law(of, w, member[i])[WH_LAW_ROWS + pin];
-            wh_contact_move(of, (unsigned)pin, -off[i] / entry, s);
+            const wh_real moved = -off[i] / wh_contact_law(of, w, member[i])[WH_LAW_ROWS + pin];
+            wh_contact_move(of, (unsigned)pin, moved, s);
+            for (unsigned j = 0; j < count && spot->from == NULL;
+                 j++) { /* but for what is held to it */
+                if (!wh_contact_pinned(of, member[j])) {
+                    wanted[j] -= wh_contact_law(of, w, member[j])[WH_LAW_ROWS + pin] * moved;
+                    together = together || wanted[j] != WH_R(0.0);
+                }
+            }
         }
     }
     if (together) {
@@ -236,11 +243,16 @@ static inline wh_real wh_contact_extent(const wh_contact_system *of, const wh_co
     return size;
 }
 
-/* Is stop k passed by more than rounding, as after a step with too many events? Friction does not keep a body
- * there. */
+/* Is stop k passed, or open, by more than rounding, as after a step with too many events? Friction does not keep a body
+ * beyond it. */
+#define WH_CONTACT_FAR (WH_DOUBLE ? WH_R(1e-9) : WH_R(1e-5))
 WH_INLINE bool wh_contact_far(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
                               const wh_real *signal, const wh_contact_state *s) {
-    return signal[2 * k] < (WH_DOUBLE ? WH_R(-1e-9) : WH_R(-1e-5)) * wh_contact_extent(of, w, k, s);
+    return signal[2 * k] < -WH_CONTACT_FAR * wh_contact_extent(of, w, k, s);
+}
+WH_INLINE bool wh_contact_open(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
+                               const wh_real *signal, const wh_contact_state *s) {
+    return signal[2 * k] > WH_CONTACT_FAR * wh_contact_extent(of, w, k, s);
 }
 
 static inline void wh_contact_put_back(const wh_contact_system *of, wh_contact_work *w, wh_real h,
