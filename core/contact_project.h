@@ -130,6 +130,7 @@ static inline bool wh_contact_project_places(const wh_contact_system *of, wh_con
     wh_real wanted[WH_CONTACTS_MAX];
     wh_real lambda[WH_CONTACTS_MAX];
     wh_real way[WH_COORDS] = {0};
+    wh_real moved[WH_COORDS] = {WH_R(0.0)}; /* by what is pinned */
     const unsigned count = wh_contact_members(of, w, spot->but, member);
     unsigned mover = spot->mover;
     bool together = false;
@@ -158,9 +159,22 @@ static inline bool wh_contact_project_places(const wh_contact_system *of, wh_con
     wh_books_look(of, w, s, input);
     for (unsigned i = 0; i < count; i++) {
         const int pin = wh_contact_pin(of, member[i]);
-        if (off[i] != WH_R(0.0) && pin >= 0) { /* the others need not move for it */
+        if (off[i] != WH_R(0.0) &&
+            pin >= 0) { /* the others need not move for it, but what holds them to it */
             const wh_real entry = wh_contact_law(of, w, member[i])[WH_LAW_ROWS + pin];
-            wh_contact_move(of, (unsigned)pin, -off[i] / entry, s);
+            const wh_real rest =
+                off[i] + entry * moved[pin]; /* of one that another has not put right */
+            if (moved[pin] == WH_R(0.0) || rest < WH_R(0.0)) {
+                moved[pin] -= rest / entry;
+                wh_contact_move(of, (unsigned)pin, -rest / entry, s);
+            }
+        }
+    }
+    for (unsigned i = 0; i < count; i++) {
+        if (!wh_contact_pinned(of, member[i])) {
+            const wh_real along = wh_jacobian_times(of, w, member[i], moved);
+            wanted[i] -= along;
+            together = together || along != WH_R(0.0);
         }
     }
     if (together) {
