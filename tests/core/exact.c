@@ -390,6 +390,47 @@ static unsigned hit(exact *e, unsigned found, double *impulse) {
     return hits;
 }
 
+static double stored(const exact *e) {
+    double sum = 0.0;
+    for (unsigned i = 0; i < hand_now.n; i++) {
+        sum += 0.5 * (double)hand_now.spring[i] * e->x[i] * e->x[i];
+    }
+    return sum;
+}
+
+void exact_squeeze(exact *e) {
+    const double zero[HAND_CONTACTS] = {0.0};
+    const double before = stored(e);
+    double impulse[HAND_CONTACTS] = {0.0};
+    double way[2] = {0.0, 0.0};
+    double lambda[HAND_CONTACTS];
+    const unsigned stops = those(e, WH_STOP, WH_FREE) | those(e, WH_STOP, WH_ACTIVE);
+    problem p = {stops | those(e, WH_HOLD, WH_ACTIVE), {0.0}, {0.0}, {0.0}};
+    unsigned touched = 0;
+    unsigned first = 0;
+    for (unsigned k = forced(); k-- > 0;) {
+        p.target[k] = in(stops, k) ? -gap(e, k) : 0.0;
+        p.low[k] = in(stops, k) ? 0.0 : -ENDLESS;
+        p.high[k] = ENDLESS;
+        if (in(stops, k) && e->mode[k] == WH_FREE && sign(e, gap(e, k)) < 0) {
+            touched |= 1U << k;
+            first = k;
+        }
+    }
+    if (touched == 0) {
+        return;
+    }
+    (void)solve(e, &p, way, lambda);
+    for (unsigned i = 0; i < hand_now.n; i++) {
+        e->x[i] += way[i];
+    }
+    for (unsigned k = 0; k < forced(); k++) {
+        touched |= in(stops, k) && sign(e, lambda[k]) > 0 ? 1U << k : 0U;
+    }
+    e->energy[first] += stored(e) - before;
+    give(e, strike(e, touched, 0, zero, impulse), WH_FREE);
+}
+
 /* --- crossings ---------------------------------------------------------------------------------------------- */
 
 static double kinetic(const exact *e) {

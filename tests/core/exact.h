@@ -25,5 +25,7 @@ typedef struct exact {
 /* hand_now's start, and a step of 1 ms. */
 void exact_start(exact *e);
 void exact_step(exact *e);
+/* Moves what is beyond free stops back, the least that does it, and stops what closes there. */
+void exact_squeeze(exact *e);
 
 #endif
