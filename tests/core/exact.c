@@ -266,6 +266,61 @@ static void give_way(exact *e) {
     }
 }
 
+static double stored(const exact *e) {
+    double sum = 0.0;
+    for (unsigned i = 0; i < hand_now.n; i++) {
+        const double load = hand_now.weighs ? (double)hand_now.load[i] : 0.0;
+        sum += (0.5 * (double)hand_now.spring[i] * e->x[i] - load) * e->x[i];
+    }
+    return sum;
+}
+
+static double kinetic(const exact *e) {
+    double sum = 0.0;
+    for (unsigned i = 0; i < hand_now.n; i++) {
+        for (unsigned j = 0; j < hand_now.n; j++) {
+            sum += 0.5 * e->v[i] * (double)hand_now.mass[i][j] * e->v[j];
+        }
+    }
+    return sum;
+}
+
+/* What rests goes back onto its place, and what else holds, but for those in `but`, stays with it. The energy is
+ * contact `mover`'s, or, if there is none, the first one's that is off. */
+static void put_back(exact *e, unsigned but, unsigned mover) {
+    const double before = stored(e);
+    double way[2] = {0.0, 0.0};
+    double lambda[HAND_CONTACTS] = {0.0};
+    problem p = {holding(e) & ~but, {0.0}, {0.0}, {0.0}};
+    for (unsigned k = forced(); k-- > 0;) {
+        const int pin = hand_now.contact[k].pin;
+        if (in(p.members, k) && is(k, WH_STOP) && sign(e, gap(e, k)) != 0) {
+            p.target[k] = -gap(e, k);
+            mover = mover < forced() || mover == HAND_CONTACTS ? k : mover;
+            if (pin >= 0) { /* its coordinate alone; the furthest, of several */
+                const double by = p.target[k] / (double)hand_now.law[k].row[pin];
+                way[pin] = size_of(by) > size_of(way[pin]) ? by : way[pin];
+            }
+        }
+    }
+    e->x[0] += way[0];
+    e->x[1] += way[1];
+    for (unsigned k = 0; k < forced(); k++) { /* and what else is to be, around it */
+        p.target[k] = hand_now.contact[k].pin >= 0 ? 0.0 : p.target[k] - along(k, way);
+    }
+    way[0] = 0.0;
+    way[1] = 0.0;
+    e->vague = e->vague || !reach(&p, p.members, way, lambda);
+    for (unsigned k = 0; k < forced(); k++) {
+        if (in(p.members, k)) {
+            push(k, lambda[k], e->x);
+        }
+    }
+    if (mover < HAND_CONTACTS) {
+        e->energy[mover] += stored(e) - before;
+    }
+}
+
 /* --- velocities --------------------------------------------------------------------------------------------- */
 
 /* Impulses: those in `set` come to target[], what holds and what is in `beside` to zero, stops at least. Returns the
@@ -387,15 +442,10 @@ static unsigned hit(exact *e, unsigned found, double *impulse) {
             }
         }
     }
-    return hits;
-}
-
-static double stored(const exact *e) {
-    double sum = 0.0;
-    for (unsigned i = 0; i < hand_now.n; i++) {
-        sum += 0.5 * (double)hand_now.spring[i] * e->x[i] * e->x[i];
+    if ((rest | gone) != 0) {
+        put_back(e, 0, HAND_CONTACTS);
     }
-    return sum;
+    return hits;
 }
 
 void exact_squeeze(exact *e) {
@@ -433,21 +483,10 @@ void exact_squeeze(exact *e) {
 
 /* --- crossings ---------------------------------------------------------------------------------------------- */
 
-static double kinetic(const exact *e) {
-    double sum = 0.0;
-    for (unsigned i = 0; i < hand_now.n; i++) {
-        for (unsigned j = 0; j < hand_now.n; j++) {
-            sum += 0.5 * e->v[i] * (double)hand_now.mass[i][j] * e->v[j];
-        }
-    }
-    return sum;
-}
-
 /* The new value; what rests on what it disturbs flies, or is put back; what is held is captured again. */
 static void assign(exact *e, unsigned k, double *impulse) {
     const exact was = *e;
     const double zero[HAND_CONTACTS] = {0.0};
-    problem p = {0, {0.0}, {0.0}, {0.0}};
     unsigned stops = 0;
     unsigned passed = 0;
     unsigned kept = 0;
@@ -457,7 +496,7 @@ static void assign(exact *e, unsigned k, double *impulse) {
     } else {
         e->v[0] = -0.5 * e->v[0];
     }
-    e->energy[k] += kinetic(e) - kinetic(&was);
+    e->energy[k] += kinetic(e) - kinetic(&was) + stored(e) - stored(&was);
     const int side = sign(e, gap(e, k));
     if (hand_now.places && side != 0) { /* a rate does not move it */
         e->mode[k] = side;
@@ -473,31 +512,8 @@ static void assign(exact *e, unsigned k, double *impulse) {
     }
     give(e, stops, WH_FREE);
     if (passed != 0) {
-        double way[2] = {0.0, 0.0};
-        double lambda[HAND_CONTACTS] = {0.0};
         give(e, passed, WH_ACTIVE);
-        p.members = holding(e);
-        for (unsigned l = 0; l < forced(); l++) {
-            const int pin = hand_now.contact[l].pin;
-            p.target[l] = in(passed, l) ? -gap(e, l) : 0.0;
-            if (in(passed, l) && pin >= 0) { /* its coordinate alone; the furthest, of several */
-                const double by = p.target[l] / (double)hand_now.law[l].row[pin];
-                way[pin] = size_of(by) > size_of(way[pin]) ? by : way[pin];
-            }
-        }
-        e->x[0] += way[0];
-        e->x[1] += way[1];
-        for (unsigned l = 0; l < forced(); l++) { /* and what else is to be, around it */
-            p.target[l] = hand_now.contact[l].pin >= 0 ? 0.0 : p.target[l] - along(l, way);
-        }
-        way[0] = 0.0;
-        way[1] = 0.0;
-        e->vague = e->vague || !reach(&p, p.members, way, lambda);
-        for (unsigned l = 0; l < forced(); l++) {
-            if (in(p.members, l)) {
-                push(l, lambda[l], e->x);
-            }
-        }
+        put_back(e, 0, k);
         give(e, passed, WH_FREE);
     }
     if (kept != 0) {
@@ -581,6 +597,7 @@ void exact_start(exact *e) {
     give(e, still & ~holds, WH_ACTIVE);
     if (still != 0) { /* settled before anything is hit */
         (void)happen(e, holds, impulse);
+        put_back(e, those(e, WH_FRICTION, WH_STUCK), HAND_CONTACTS); /* nothing holds it there */
     }
     const unsigned events = happen(e, moving, impulse);
     note(e, events, 0.0, impulse);
@@ -593,7 +610,7 @@ static double falls(exact *e, double g, double r, double a, double left) {
     const double end = g + r * left + 0.5 * a * left * left;
     const int below = sign(e, end);
     const int begins = sign(e, g);
-    e->vague = e->vague || (!WH_DOUBLE && begins == 0 && size_of(r) < ZERO && size_of(a) < ZERO);
+    e->vague = e->vague || (begins == 0 && size_of(r) < ZERO && size_of(a) < ZERO);
     if (below >= 0) {
         if (a > 0.0 && r < 0.0 && -r / a < left) { /* a dip that the step's end does not see */
             e->vague = e->vague || sign(e, g - 0.5 * r * r / a) < 0;

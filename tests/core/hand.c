@@ -89,7 +89,7 @@ static void hand_powers(const void *model, const wh_phase *phase, const wh_real 
     (void)input;
     result[0] = WH_R(0.0);
     for (unsigned i = 0; i < m->n; i++) {
-        result[0] += m->load[i] * rate[i];
+        result[0] += m->weighs ? WH_R(0.0) : m->load[i] * rate[i];
         result[1 + i] = m->load[i] - m->spring[i] * linear[i];
     }
 }
@@ -106,6 +106,7 @@ static void hand_levels(const void *model, const wh_angle *angle, const wh_real 
             level[1 + i] += m->mass[i][j] * rate[j];
         }
         level[0] += WH_R(0.5) * (level[1 + i] * rate[i] + m->spring[i] * linear[i] * linear[i]);
+        level[0] -= m->weighs ? m->load[i] * linear[i] : WH_R(0.0);
     }
 }
 

@@ -51,9 +51,12 @@ static void draw(uint64_t *seed, unsigned touched, bool crosses) {
         hand_now.start[n + i] = one_in(seed, 3) ? WH_R(0.0) : broken(seed, -1, 1);
         hand_now.load[i] = one_in(seed, 8) ? WH_R(0.0) : broken(seed, -8, 8);
     }
+    hand_now.weighs = one_in(seed, 2);
     for (; room > 0 && !one_in(seed, 3); room--) {
         const int pin = draw_row(seed, n, row);
-        const wh_real gap = one_in(seed, touched) ? WH_R(0.0) : broken(seed, 0, 20) / 1024;
+        const wh_real gap = !one_in(seed, touched) ? broken(seed, 0, 20) / 1024
+                            : one_in(seed, 4)      ? broken(seed, -4, 0) / 1024
+                                                   : WH_R(0.0);
         const wh_real at = row[0] * hand_now.start[0] + row[1] * hand_now.start[1];
         (void)hand_add(WH_STOP, pin, row[0], row[1], at - gap, whole(seed, 0, 4) / 4, WH_R(0.0));
     }
