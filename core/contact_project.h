@@ -130,6 +130,7 @@ static inline bool wh_contact_project_places(const wh_contact_system *of, wh_con
     wh_real wanted[WH_CONTACTS_MAX];
     wh_real lambda[WH_CONTACTS_MAX];
     wh_real way[WH_COORDS] = {0};
+    wh_real moved[WH_COORDS] = {WH_R(0.0)}; /* by what is pinned */
     const unsigned count = wh_contact_members(of, w, spot->but, member);
     unsigned mover = spot->mover;
     bool together = false;
@@ -158,16 +159,21 @@ static inline bool wh_contact_project_places(const wh_contact_system *of, wh_con
     wh_books_look(of, w, s, input);
     for (unsigned i = 0; i < count; i++) {
         const int pin = wh_contact_pin(of, member[i]);
-        if (off[i] != WH_R(0.0) && pin >= 0) { /* the others need not move for it */
-            const wh_real moved = -off[i] / wh_contact_law(of, w, member[i])[WH_LAW_ROWS + pin];
-            wh_contact_move(of, (unsigned)pin, moved, s);
-            for (unsigned j = 0; j < count && spot->from == NULL;
-                 j++) { /* but for what is held to it */
-                if (!wh_contact_pinned(of, member[j])) {
-                    wanted[j] -= wh_contact_law(of, w, member[j])[WH_LAW_ROWS + pin] * moved;
-                    together = together || wanted[j] != WH_R(0.0);
-                }
+        if (off[i] != WH_R(0.0) && pin >= 0) {
+            const wh_real entry = wh_contact_law(of, w, member[i])[WH_LAW_ROWS + pin];
+            const wh_real rest = off[i] + entry * moved[pin];
+            if (moved[pin] == WH_R(0.0) || rest < WH_R(0.0)) { /* another has not put it right */
+                moved[pin] -= rest / entry;
+                wh_contact_move(of, (unsigned)pin, -rest / entry, s);
             }
+        }
+    }
+    /* the others need not move for it, but what holds them to it */
+    for (unsigned i = 0; i < count && of->pinned < of->forced; i++) {
+        if (!wh_contact_pinned(of, member[i])) {
+            const wh_real along = wh_jacobian_times(of, w, member[i], moved);
+            wanted[i] -= along;
+            together = together || along != WH_R(0.0);
         }
     }
     if (together) {
