@@ -202,6 +202,26 @@ void bench_vector(uint64_t *seed, wh_real *x) {
     }
 }
 
+void bench_state(uint64_t *seed, wh_contact_state *s) {
+    const unsigned angles = bench_now.system.angles;
+    const unsigned reals = 2U * bench_now.system.coordinates - angles;
+    for (unsigned i = 0; i < WH_COORDS; i++) {
+        s->angle[i] = (wh_angle)bench_between(seed, -100, 100);
+    }
+    for (unsigned i = 0; i < 2U * WH_COORDS; i++) {
+        s->real[i] = i < reals ? bench_between(seed, -4, 4) : BENCH_SENTINEL;
+        s->carry[i] = WH_R(0.0);
+    }
+}
+
+wh_real bench_moved(const wh_contact_state *from, const wh_contact_state *to, unsigned i) {
+    const unsigned angles = bench_now.system.angles;
+    if (i < angles) {
+        return (wh_real)((double)(to->angle[i] - from->angle[i]) / (double)WH_PHASE_PER_RAD);
+    }
+    return to->real[i - angles] - from->real[i - angles];
+}
+
 unsigned bench_members(uint64_t *seed, uint8_t *member) {
     const unsigned forced = bench_now.system.forced;
     for (unsigned i = 0; i < forced; i++) {

@@ -54,6 +54,11 @@ void bench_vector(uint64_t *seed, wh_real *x);
 /* All or some of the contacts with a force in member[], in any order. Returns how many. */
 unsigned bench_members(uint64_t *seed, uint8_t *member);
 
+/* A state: whole numbers of turns or radians, of metres, and rates, and what is behind them. */
+void bench_state(uint64_t *seed, wh_contact_state *s);
+/* What coordinate i has moved by from one to the other, rad or m. */
+wh_real bench_moved(const wh_contact_state *from, const wh_contact_state *to, unsigned i);
+
 /* The references: plain sums over all entries. */
 wh_real bench_along(unsigned k, const wh_real *x); /* J_k x */
 wh_real bench_delassus(unsigned k, unsigned l);    /* J_k M^-1 J_l^T */
