@@ -20,11 +20,13 @@ static void bench_accel(const void *model, const wh_phase *phase, const wh_real 
                         const wh_real *rate, const wh_real *input, wh_real *accel) {
     (void)model;
     (void)phase;
-    (void)linear;
     (void)rate;
     (void)input;
     for (unsigned i = 0; i < bench_now.system.coordinates; i++) {
         accel[i] = bench_now.free[i];
+        if (bench_now.ramp[i] != WH_R(0.0)) {
+            accel[i] += bench_now.ramp[i] * linear[0];
+        }
     }
 }
 
@@ -36,10 +38,11 @@ static void bench_signals(const void *model, const wh_phase *phase, const wh_rea
     (void)input;
     bench_now.looks++;
     for (unsigned k = 0; k < 2U * bench_now.system.contacts; k++) {
+        const bool place = k % 2U == 0 && bench_now.contact[k / 2U].kind != WH_FRICTION;
         result[k] = bench_now.signal[k];
         for (unsigned i = 0; i < bench_now.system.coordinates && bench_now.moves; i++) {
             const wh_real line = i < angles ? WH_R(0.0) : linear[i - angles];
-            result[k] += bench_now.row[k / 2U][i] * (k % 2U == 0 ? line : rate[i]);
+            result[k] += bench_now.row[k / 2U][i] * (place ? line : rate[i]);
         }
     }
 }
@@ -229,7 +232,11 @@ unsigned bench_members(uint64_t *seed, uint8_t *member) {
         member[i] = member[j];
         member[j] = (uint8_t)i;
     }
-    return 1U + (unsigned)bench_bits(seed) % forced;
+    const unsigned count = 1U + (unsigned)bench_bits(seed) % forced;
+    for (unsigned i = count; i < BENCH_CONTACTS; i++) {
+        member[i] = BENCH_CONTACTS - 1U;
+    }
+    return count;
 }
 
 /* --- references --------------------------------------------------------------------------------------------- */

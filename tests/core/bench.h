@@ -26,6 +26,7 @@ typedef struct bench {
     wh_real first[BENCH_CONTACTS];
     wh_real second[BENCH_CONTACTS];
     wh_real free[WH_COORDS];            /* the accelerations without contacts */
+    wh_real ramp[WH_COORDS];            /* on top, for each metre of the first line */
     wh_real signal[2 * BENCH_CONTACTS]; /* whatever the place, */
     bool moves;                         /* or that, with J x (lines only) and J x' on top */
     wh_contact contact[BENCH_CONTACTS];
@@ -51,7 +52,8 @@ void bench_add_some(uint64_t *seed, unsigned kinds);
 void bench_work(uint64_t *seed, bool some, wh_contact_work *w);
 /* x[WH_COORDS]: whole numbers, and what is behind them. */
 void bench_vector(uint64_t *seed, wh_real *x);
-/* All or some of the contacts with a force in member[], in any order. Returns how many. */
+/* All or some of the contacts with a force in member[BENCH_CONTACTS], in any order; behind them one that is none.
+ * Returns how many. */
 unsigned bench_members(uint64_t *seed, uint8_t *member);
 
 /* A state: whole numbers of turns or radians, of metres, and rates, and what is behind them. */

@@ -314,8 +314,14 @@ static void test_what_slipped_is_put_back(void) {
             TEST_ASSERT_TRUE(WH_ABS(moved - right) <= (WH_DOUBLE ? WH_R(1e-14) : WH_R(1e-6)));
         }
         TEST_ASSERT_TRUE(!sticks || (s.real[1] == from.real[1] && s.real[3] == WH_R(0.0)));
-        const wh_real speed = bench_along(0, s.real + 2);
-        TEST_ASSERT_TRUE(WH_ABS(speed) <= (WH_DOUBLE ? WH_R(1e-13) : WH_R(2e-5)));
+        const wh_real speed = bench_along(0, from.real + 2);
+        for (unsigned i = 0; i < 2;
+             i++) { /* and so are the rates; what breaks loose keeps its own */
+            const wh_real free = from.real[2 + i] - bench_way(0, i) / yield * speed;
+            const wh_real right = sticks ? WH_R(0.0) : free;
+            TEST_ASSERT_TRUE(WH_ABS(s.real[2 + i] - right) <=
+                             (WH_DOUBLE ? WH_R(1e-13) : WH_R(2e-5)));
+        }
         TEST_ASSERT_TRUE(bench_now.looks - looks <= 3U);
         TEST_ASSERT_TRUE((still && off != WH_R(0.0)) == (bench_now.looks - looks > 1U));
         far += passed && friction && !slides;
