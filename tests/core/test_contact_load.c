@@ -1,5 +1,4 @@
-/* test_contact_load.c: the parts of core/contact_lcp.h, and the elimination that it stands on, each by itself: against
- * a dense solve, sums written out, and what their comments say, with limits met exactly. */
+/* test_contact_load.c: the parts of core/contact_lcp.h, each by itself: against a dense solve, sums written out, and what their comments say, with limits met exactly. */
 #include "bench.h"
 
 #include "unity.h"
@@ -22,45 +21,6 @@ static void draw_places(uint64_t *seed, unsigned count, int8_t *at) {
         at[i] =
             (int8_t)(i >= count || bench_one_in(seed, 3) ? (bench_one_in(seed, 2) ? 1 : -1) : 0);
     }
-}
-
-/* What the others make of each other's accelerations; who repeats them, or is at a limit, does nothing. */
-static void test_a_load_is_what_a_dense_solve_says(void) {
-    uint64_t seed = 101;
-    for (unsigned round = 0; round < ROUNDS; round++) {
-        wh_contact_work w;
-        uint8_t member[BENCH_CONTACTS] = {0};
-        int8_t at[BENCH_CONTACTS] = {0};
-        wh_real wanted[BENCH_CONTACTS];
-        wh_real lambda[BENCH_CONTACTS];
-        wh_real right[BENCH_CONTACTS];
-        unsigned out;
-        draw(&seed, &w);
-        const unsigned count = bench_members(&seed, member);
-        const bool some = count > 1 && bench_one_in(&seed, 2);
-        for (unsigned i = 0; i < count; i++) {
-            wanted[i] = bench_between(&seed, -4, 4);
-        }
-        draw_places(&seed, count, at);
-        for (unsigned i = 0; i < count && !some; i++) {
-            at[i] = 0;
-        }
-        out = bench_repeats(member, count, at);
-        TEST_ASSERT_EQUAL_UINT(out, wh_delassus_solve(&bench_now.system, &w, member, count,
-                                                      some ? at : NULL, wanted, lambda));
-        for (unsigned i = 0; i < count; i++) {
-            out |= at[i] != 0 ? 1U << i : 0U;
-        }
-        bench_solve(member, count, out, wanted, right);
-        for (unsigned i = 0; i < count; i++) {
-            TEST_ASSERT_TRUE(bench_near(lambda[i], right[i]));
-            TEST_ASSERT_TRUE((out >> i & 1U) == 0 || lambda[i] == WH_R(0.0));
-        }
-    }
-    wh_real none = BENCH_SENTINEL;
-    TEST_ASSERT_EQUAL_UINT(0,
-                           wh_delassus_solve(&bench_now.system, NULL, NULL, 0, NULL, NULL, &none));
-    TEST_ASSERT_TRUE(none == WH_R(0.0));
 }
 
 /* A stop from nothing on, friction as far as it goes, a hold whatever it takes: to the limit, and no further. */
@@ -400,7 +360,6 @@ static void test_a_round_bears_what_limits_leave(void) {
 }
 
 void suite_contact_load(void) {
-    RUN_TEST(test_a_load_is_what_a_dense_solve_says);
     RUN_TEST(test_who_takes_how_much);
     RUN_TEST(test_sizes_beside_which_is_rounding);
     RUN_TEST(test_what_contradicts_is_told_from_rounding);
