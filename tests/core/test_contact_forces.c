@@ -147,7 +147,7 @@ static void test_forces_keep_what_is_kept(void) {
         }
         regular += count > 1;
     }
-    TEST_ASSERT_TRUE(regular > ROUNDS / 16);
+    TEST_ASSERT_TRUE(regular > ROUNDS / 32);
 }
 
 /* Do those that repeat others get from these what is wanted of them? */
@@ -247,8 +247,8 @@ static void test_what_repeats_others_shares_their_load(void) {
         TEST_ASSERT_TRUE(!disturbed || (giving != 0 && !contradicts));
         seen[exceeds][contradicts]++;
     }
-    TEST_ASSERT_TRUE(seen[0][0] > ROUNDS / 16 && seen[1][0] > ROUNDS / 16);
-    TEST_ASSERT_TRUE(seen[0][1] > ROUNDS / 16 && seen[1][1] > ROUNDS / 16);
+    TEST_ASSERT_TRUE(seen[0][0] > ROUNDS / 32 && seen[1][0] > ROUNDS / 32);
+    TEST_ASSERT_TRUE(seen[0][1] > ROUNDS / 32 && seen[1][1] > ROUNDS / 32);
 }
 
 /* What is pinned and held has no acceleration at all; but what is held back must be a number. */
