@@ -12,20 +12,27 @@
 
 #define VERSION "0.1.0"
 
-static const char usage[] =
-    "usage: whirl COMMAND ...\n"
-    "\n"
-    "From a mechanism's energies to its equations of motion, its motion and its firmware.\n"
-    "\n"
-    "  whirl list                         the built-in mechanisms and scenes\n"
-    "  whirl derive FILE [--as FORM]      equations of motion, or the scene as code\n"
-    "  whirl describe SCENE|FILE[:SCENE]  what a scene holds: names, units, sizes; --json for programs\n"
-    "  whirl accel FILE NAME=VALUE ...    accelerations at one state\n"
-    "  whirl run SCENE|FILE[:SCENE] ...   simulate\n"
-    "  whirl sweep SCENE|FILE[:SCENE] ... simulate over ranges of parameters\n"
-    "\n"
-    "For FILE[:SCENE] the built-in MECHANISM[:SCENE] can stand everywhere.\n"
-    "`whirl COMMAND --help` says more; --version prints the version.\n";
+typedef struct command {
+    const char *name;
+    int (*run)(int count, char **words);
+    const char *takes; /* in the list of commands */
+    const char *text;  /* what it is for; NULL hides it: for the project's own build */
+} command;
+
+static const command commands[] = {
+    {"list", command_list, "", "the built-in mechanisms and scenes"},
+    {"derive", command_derive, "FILE [--as FORM]", "equations of motion, or the scene as code"},
+    {"describe", command_describe, "SCENE|FILE[:SCENE]",
+     "what a scene holds: names, units, sizes; --json for programs"},
+    {"accel", command_accel, "FILE NAME=VALUE ...", "accelerations at one state"},
+#ifndef WHIRL_NO_SYSTEM /* no processes and no signals */
+    {"run", command_run, "SCENE|FILE[:SCENE] ...", "simulate"},
+    {"sweep", command_sweep, "SCENE|FILE[:SCENE] ...", "simulate over ranges of parameters"},
+#endif
+    {"emit-scenes", command_emit_scenes, NULL, NULL},
+    {"hashes", command_hashes, NULL, NULL},
+};
+enum { COMMANDS = sizeof commands / sizeof commands[0] };
 
 static void print_usage(FILE *out) {
     static const char *const why[EXITS] = {
@@ -33,28 +40,24 @@ static void print_usage(FILE *out) {
         [EXIT_ROW_OF(EXIT_RUN_FAILED)] = "a run did, or standard output could not be written whole",
         [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
         [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""};
-    fputs(usage, out);
+    fputs("usage: whirl COMMAND ...\n"
+          "\n"
+          "From a mechanism's energies to its equations of motion, its motion and its firmware.\n"
+          "\n",
+          out);
+    for (int i = 0; i < COMMANDS; i++) {
+        if (commands[i].text != NULL) {
+            const int room = 28 - (int)strlen(commands[i].name);
+            fprintf(out, "  whirl %s %-*s%s\n", commands[i].name, room, commands[i].takes,
+                    commands[i].text);
+        }
+    }
+    fputs("\n"
+          "For FILE[:SCENE] the built-in MECHANISM[:SCENE] can stand everywhere.\n"
+          "`whirl COMMAND --help` says more; --version prints the version.\n",
+          out);
     exit_describe(out, why);
 }
-
-typedef struct command {
-    const char *name;
-    int (*run)(int count, char **words);
-    int hidden; /* for the project's own build */
-} command;
-
-static const command commands[] = {
-    {"list", command_list, 0},
-    {"derive", command_derive, 0},
-    {"describe", command_describe, 0},
-    {"accel", command_accel, 0},
-#ifndef WHIRL_NO_SYSTEM /* no processes and no signals */
-    {"run", command_run, 0},
-    {"sweep", command_sweep, 0},
-#endif
-    {"emit-scenes", command_emit_scenes, 1},
-    {"hashes", command_hashes, 1},
-};
 
 /* The command, on the words behind it; what it says may still be in a buffer. */
 static int answer(int count, char **words) {
@@ -72,11 +75,11 @@ static int answer(int count, char **words) {
         return EXIT_DONE;
     }
     nearest search = nearest_start(words[1], strlen(words[1]));
-    for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++) {
+    for (int i = 0; i < COMMANDS; i++) {
         if (strcmp(words[1], commands[i].name) == 0) {
             return commands[i].run(count - 2, words + 2);
         }
-        if (!commands[i].hidden) {
+        if (commands[i].text != NULL) {
             nearest_offer(&search, commands[i].name);
         }
     }

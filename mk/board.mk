@@ -1,8 +1,33 @@
 # board.mk: images for BOARD, from its boards/<board>/board.mk (variables only, explained in boards/cortexm/cortexm.mk).
 
-ifeq ($(wildcard boards/$(BOARD)/board.mk),)
-$(error There is no boards/$(BOARD)/board.mk. Boards: $(patsubst boards/%/board.mk,%,$(wildcard boards/*/board.mk)))
+BOARDS_ALL := $(sort $(patsubst boards/%/board.mk,%,$(wildcard boards/*/board.mk)))
+ifeq ($(filter $(BOARD),$(BOARDS_ALL)),)
+$(error There is no boards/$(BOARD)/board.mk. Boards: $(BOARDS_ALL))
 endif
+
+# BOARD_WHEN says what takes a board by itself: `test` (`make test` and the gates of `make check`), `check` (the gates
+# alone), or `all` (only what takes every board: `make test-boards`, `make hashes-all`).
+board_whens := test check all
+board_of_family := $(addprefix BOARD_,DEPS CC NM SIZE OBJCOPY OBJDUMP CFLAGS LDFLAGS SOURCES TIDY EMULATOR EMULATE)
+
+# A family asks its boards for what it builds on: $(call board_needs,VARIABLES).
+board_needs = $(foreach v,$(1),$(if $(strip $(value $(v))),,$(error boards/$(board)/board.mk: $(v) is missing$(2))))
+board_before := $(filter BOARD_%,$(.VARIABLES))
+
+# Every board is read, so that none drops out unseen; then it is forgotten, but for what takes it: boards_test,
+# boards_check, boards_all.
+define read_board
+board := $(1)
+include boards/$(1)/board.mk
+$$(call board_needs,BOARD_WHEN,: one of $(board_whens))
+$$(if $$(filter-out 1,$$(words $$(BOARD_WHEN)))$$(filter-out $(board_whens),$$(BOARD_WHEN)),\
+    $$(error boards/$(1)/board.mk: BOARD_WHEN is '$$(strip $$(BOARD_WHEN))': one of $(board_whens)))
+$$(call board_needs,$(board_of_family),: its family sets it (boards/cortexm/cortexm.mk))
+boards_$$(strip $$(BOARD_WHEN)) += $(1)
+$$(foreach v,$$(filter-out $(board_before),$$(filter BOARD_%,$$(.VARIABLES))),$$(eval undefine $$(v)))
+endef
+$(foreach b,$(BOARDS_ALL),$(eval $(call read_board,$(b))))
+board := $(BOARD)
 include boards/$(BOARD)/board.mk
 
 # Sanitizers and the like stay on this machine: boards have an EXTRA of their own.
@@ -60,13 +85,9 @@ print-hashes: # a line for each scene, with the hash of its last state
 	@$(call emulate,$(ELF)/scenes.elf)
 endif
 
-# Every board is a folder with a board.mk, and BOARD_WHEN in it says what takes the board by itself: `test` (`make test`
-# and the gates of `make check`), `check` (the gates alone), or `all` (only what takes every board: `make test-boards`,
-# `make hashes-all`). A board is built and run by a make of its own: $(call on_board,NAME,TARGET).
-boards_of = $(sort $(patsubst boards/%/board.mk,%,$(shell grep -lE '^BOARD_WHEN *:= *($(1))$$' boards/*/board.mk)))
-BOARDS_ALL := $(sort $(patsubst boards/%/board.mk,%,$(wildcard boards/*/board.mk)))
-BOARDS_TEST := $(sort $(BOARD) $(call boards_of,test))
-BOARDS := $(sort $(BOARD) $(call boards_of,test|check))
+# A board is built and run by a make of its own: $(call on_board,NAME,TARGET).
+BOARDS_TEST := $(sort $(BOARD) $(boards_test))
+BOARDS := $(sort $(BOARD) $(boards_test) $(boards_check))
 # Those with an image for each scene run so many steps of it at most: what takes this machine seconds takes them hours.
 BOARDS_SINGLE := $(patsubst boards/%/too_large.txt,%,$(wildcard boards/*/too_large.txt))
 SINGLE_STEPS ?= 2000

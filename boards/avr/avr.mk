@@ -6,6 +6,7 @@
 #   BOARD_FLASH    bytes
 #   BOARD_RAM      bytes; some of them for the stack:
 #   BOARD_STACK    bytes that the stack must have
+$(call board_needs,BOARD_MCU BOARD_FLASH BOARD_RAM BOARD_STACK BOARD_SECONDS,: it stands before the include of boards/avr/avr.mk)
 BOARD_IMAGES   := single
 BOARD_DEPS     := quality
 BOARD_CROSS    := avr-

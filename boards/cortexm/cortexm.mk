@@ -20,7 +20,8 @@
 #   BOARD_EMULATE  $(call BOARD_EMULATE,program.elf) runs it for BOARD_SECONDS at most; console on stdout,
 #                  exit status the program's; more emulator options may be appended
 #
-# Another family sets the same variables. No rules here: paths are from the repository's root.
+# Another family asks for what it takes and sets the same variables. No rules here: paths are from the repository's root.
+$(call board_needs,BOARD_MACHINE BOARD_CPU BOARD_SECONDS,: it stands before the include of boards/cortexm/cortexm.mk)
 BOARD_DEPS     := firmware
 BOARD_CROSS    := arm-none-eabi-
 BOARD_CC       := $(BOARD_CROSS)gcc

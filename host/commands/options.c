@@ -28,11 +28,14 @@ static void describe(FILE *out, const option_row *row) {
         fprintf(out, "  %s%s%s", row->word, row->value[0] != '\0' ? " " : "", row->value);
     const char *text = row == &option_rows[OPTION_METHOD] ? methods_in_help(methods) : row->text;
     fprintf(out, "%*s", TEXT_COLUMN - width, "");
-    for (; *text != '\0'; text++) {
-        if (*text == '\n') {
+    for (int column = 0; *text != '\0'; text++) {
+        const int word = 1 + (int)strcspn(text + 1, " \n"); /* and the blank before it */
+        if (*text == '\n' || (*text == ' ' && column + word > OPTION_TEXT_WIDTH)) {
             fprintf(out, "\n%*s", TEXT_COLUMN, "");
+            column = 0;
         } else {
             fputc(*text, out);
+            column++;
         }
     }
     fputc('\n', out);
@@ -181,6 +184,19 @@ static bool push_names(change_options *c, const char ***list, int *count, const 
     }
 }
 
+/* The value of the option `which` at words[*at], "" of one that has none; NULL when it is not there. */
+static const char *common_value(common_option which, int count, char **words, int *at, bool *bad) {
+    const option_row *row = &option_rows[which];
+    if (row->value[0] != '\0') {
+        return options_value(count, words, at, row->word, bad);
+    }
+    if (strcmp(words[*at], row->word) != 0) {
+        return NULL;
+    }
+    ++*at;
+    return "";
+}
+
 static bool take_change(common_option which, const char *value, change_options *c) {
     const char *word = option_rows[which].word;
     switch (which) {
@@ -192,7 +208,7 @@ static bool take_change(common_option which, const char *value, change_options *
     case OPTION_UNTIL: c->until = value; break;
     case OPTION_METHOD:
     case OPTION_NUMBER:
-    case OPTION_COMPENSATED: break; /* change no instance */
+    case OPTION_COMPENSATED: break; /* of another group */
     }
     return true;
 }
@@ -200,7 +216,7 @@ static bool take_change(common_option which, const char *value, change_options *
 bool options_change(int count, char **words, int *at, change_options *c, bool *bad) {
     for (int i = 0; i < OPTIONS && !*bad; i++) {
         const char *value = option_rows[i].group == OPTIONS_CHANGE
-                                ? options_value(count, words, at, option_rows[i].word, bad)
+                                ? common_value((common_option)i, count, words, at, bad)
                                 : NULL;
         if (value != NULL) {
             *bad = !take_change((common_option)i, value, c);
@@ -253,36 +269,78 @@ int options_choose(const char *command, const char *what, const char *value, con
     return -1;
 }
 
-bool options_engine(const char *command, int count, char **words, int *at, image_settings *settings,
-                    bool *bad) {
-    const char *value = options_value(count, words, at, option_rows[OPTION_METHOD].word, bad);
-    if (value != NULL) {
+static bool take_engine(common_option which, const char *command, const char *value,
+                        image_settings *settings) {
+    switch (which) {
+    case OPTION_METHOD: {
         const int chosen =
             options_choose(command, "method", value, wh_methods, sizeof wh_methods[0], WH_METHODS);
-        *bad = chosen < 0;
-        settings->method = *bad ? WH_METHOD_DEFAULT : (wh_method)chosen;
-    } else if (!*bad && strcmp(words[*at], option_rows[OPTION_COMPENSATED].word) == 0) {
-        ++*at;
-        settings->compensated = true;
-        return true;
+        settings->method = chosen < 0 ? WH_METHOD_DEFAULT : (wh_method)chosen;
+        return chosen >= 0;
     }
-    return value != NULL;
+    case OPTION_COMPENSATED: settings->compensated = true; break;
+    case OPTION_SET:
+    case OPTION_START:
+    case OPTION_WITH:
+    case OPTION_WITHOUT:
+    case OPTION_STEP:
+    case OPTION_UNTIL:
+    case OPTION_NUMBER: break; /* of another group */
+    }
+    return true;
 }
 
-bool options_number(const char *command, int count, char **words, int *at, const engine_kind **kind,
+bool options_engine(const char *command, int count, char **words, int *at, image_settings *settings,
                     bool *bad) {
+    for (int i = 0; i < OPTIONS && !*bad; i++) {
+        const char *value = option_rows[i].group == OPTIONS_ENGINE
+                                ? common_value((common_option)i, count, words, at, bad)
+                                : NULL;
+        if (value != NULL) {
+            *bad = !take_engine((common_option)i, command, value, settings);
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool take_number(common_option which, const char *command, const char *value,
+                        const engine_kind **kind) {
     static const struct {
         const char *word;
         const engine_kind *kind;
     } numbers[] = {{"double", &engine_double}, {"float", &engine_float}};
-    const char *value = options_value(count, words, at, option_rows[OPTION_NUMBER].word, bad);
-    if (value != NULL) {
+    switch (which) {
+    case OPTION_NUMBER: {
         const int chosen = options_choose(command, "number", value, numbers, sizeof numbers[0],
                                           sizeof numbers / sizeof numbers[0]);
-        *bad = chosen < 0;
-        *kind = *bad ? *kind : numbers[chosen].kind;
+        *kind = chosen < 0 ? *kind : numbers[chosen].kind;
+        return chosen >= 0;
     }
-    return value != NULL;
+    case OPTION_SET:
+    case OPTION_START:
+    case OPTION_WITH:
+    case OPTION_WITHOUT:
+    case OPTION_STEP:
+    case OPTION_UNTIL:
+    case OPTION_METHOD:
+    case OPTION_COMPENSATED: break; /* of another group */
+    }
+    return true;
+}
+
+bool options_number(const char *command, int count, char **words, int *at, const engine_kind **kind,
+                    bool *bad) {
+    for (int i = 0; i < OPTIONS && !*bad; i++) {
+        const char *value = option_rows[i].group == OPTIONS_NUMBER
+                                ? common_value((common_option)i, count, words, at, bad)
+                                : NULL;
+        if (value != NULL) {
+            *bad = !take_number((common_option)i, command, value, kind);
+            return true;
+        }
+    }
+    return false;
 }
 
 void options_unknown(const char *command, const char *word, unsigned groups,

@@ -10,7 +10,8 @@
 #include "host/run/engine.h"
 
 /* Options that several commands have, in the order of help texts: X(which, word, what stands behind it, group,
- * description; lines of at most 76 columns). Of methods the description is made from core/method.h. */
+ * description, broken into lines of OPTION_TEXT_WIDTH columns). Of methods the description is made from
+ * core/method.h. */
 #define OPTION_ROWS(X) \
     X(OPTION_SET, "--set", "NAME=EXPR", OPTIONS_CHANGE, \
       "a parameter or an input; a bare number is SI, whatever unit is declared\n" \
@@ -35,6 +36,8 @@ typedef enum common_option { OPTION_ROWS(OPTION_NAME) } common_option;
 #define OPTION_ONE(which, word, value, group, text) +1
 enum { OPTIONS = OPTION_ROWS(OPTION_ONE) };
 #undef OPTION_ONE
+
+enum { OPTION_TEXT_WIDTH = 76 };
 
 /* What a command takes of them: a sum of these. */
 typedef enum option_group {

@@ -45,10 +45,6 @@ prints() {
 prints '^usage: whirl COMMAND' --help
 prints '^usage: whirl COMMAND' -h
 prints '^whirl [0-9]+\.[0-9]+\.[0-9]+$' --version
-for command in list derive describe accel run; do
-    prints "^usage: whirl $command" "$command" --help
-    prints "^usage: whirl $command" "$command" -h
-done
 prints '^usage: whirl run' run thomson_a --bogus --help
 prints '^scene +thomson_a ' list
 says 2 '^usage: whirl COMMAND'

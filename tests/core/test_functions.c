@@ -265,7 +265,6 @@ static void test_same_bits_everywhere(void) {
 }
 
 void suite_functions(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_edges);
     RUN_TEST(test_edges_of_atan2);
     RUN_TEST(test_edges_of_power);

@@ -94,7 +94,6 @@ static void test_same_bits_of_hyperbolic(void) {
 }
 
 void suite_hyperbolic(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_hyperbolic_edges);
     RUN_TEST(test_hyperbolic_never_fall);
     RUN_TEST(test_hyperbolic_identities);

@@ -331,7 +331,6 @@ static void test_a_silent_load_cell_trips(void) {
 }
 
 void suite_rig(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_speed_across_the_timers_wrap);
     RUN_TEST(test_speed_of_a_turn_has_no_ripple);
     RUN_TEST(test_one_lost_pulse_is_counted_and_bridged);

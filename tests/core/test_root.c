@@ -168,7 +168,6 @@ static void test_special(void) {
 }
 
 void suite_root(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_special);
 #if !WH_DOUBLE || defined(__SIZEOF_INT128__)
     RUN_TEST(test_all_exponents);

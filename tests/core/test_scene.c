@@ -325,7 +325,6 @@ static void test_every_status_has_its_own_words(void) {
 }
 
 void suite_scene(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_start_refuses_too_little_memory);
     RUN_TEST(test_compensated_scene_needs_more_memory_within_the_macro);
     RUN_TEST(test_a_method_that_the_form_does_not_have_is_refused);

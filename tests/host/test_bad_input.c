@@ -374,7 +374,6 @@ static void test_every_beginning_and_every_changed_byte(void) {
 }
 
 void suite_bad_input(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_every_bad_file_has_the_errors_it_announces);
     RUN_TEST(test_nothing_and_next_to_nothing);
     RUN_TEST(test_binary_is_no_text);

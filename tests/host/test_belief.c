@@ -324,7 +324,6 @@ static void test_the_limit_of_strict(void) {
 }
 
 void suite_belief(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_falls_through_a_centre_of_force);
     RUN_TEST(test_springs_too_stiff_for_their_step);
     RUN_TEST(test_an_energy_that_is_high_hides_nothing);

@@ -188,6 +188,5 @@ static void test_a_coordinate_follows_from_its_momentum(void) {
 }
 
 void suite_conserved(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_a_coordinate_follows_from_its_momentum);
 }

@@ -183,6 +183,5 @@ static void test_energy_changes_by_the_work_of_the_effect(void) {
 }
 
 void suite_effect_work(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_energy_changes_by_the_work_of_the_effect);
 }

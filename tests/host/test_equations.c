@@ -132,6 +132,5 @@ static void test_the_dissertations_equations(void) {
 }
 
 void suite_equations(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_the_dissertations_equations);
 }

@@ -360,7 +360,6 @@ static void test_generated_texts(void) {
 }
 
 void suite_function_rows(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_slopes);
     RUN_TEST(test_slopes_where_they_jump);
     RUN_TEST(test_range);

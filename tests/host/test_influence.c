@@ -142,7 +142,6 @@ static void test_a_contact_without_a_number_is_refused(void) {
 }
 
 void suite_influence(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_a_contact_that_names_it_keeps_it_in_the_state);
     RUN_TEST(test_a_contact_without_a_number_is_refused);
     RUN_TEST(test_what_acts_is_named_with_its_line);

@@ -250,7 +250,6 @@ static void test_what_can_be_a_turn_angle(void) {
 }
 
 void suite_solving(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_any_regular_system_is_solved);
     RUN_TEST(test_the_equation_that_repeats_others_is_named);
     RUN_TEST(test_long_products_keep_their_value);

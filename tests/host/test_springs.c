@@ -83,6 +83,5 @@ static void test_every_law_pushes_as_it_should(void) {
 }
 
 void suite_springs(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_every_law_pushes_as_it_should);
 }

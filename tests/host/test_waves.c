@@ -83,6 +83,5 @@ static void test_sines_inside_sines(void) {
 }
 
 void suite_waves(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_sines_inside_sines);
 }
