@@ -149,7 +149,8 @@ unsigned bench_add(uint64_t *seed, wh_contact_kind kind, int pin) {
     bench_now.contact[k] = (wh_contact){.kind = (uint8_t)kind, .pin = (int16_t)pin};
     bench_now.first[k] = bench_between(seed, 1, 4);
     bench_now.second[k] = bench_now.first[k] - WH_R(0.5);
-    bench_now.bias[k] = pin >= 0 ? WH_R(0.0) : bench_between(seed, -3, 3); /* its path is straight */
+    bench_now.bias[k] =
+        pin >= 0 ? WH_R(0.0) : bench_between(seed, -3, 3); /* its path is straight */
     bench_now.signal[2 * k] = bench_between(seed, -4, 4);
     bench_now.signal[2 * k + 1] = bench_between(seed, -4, 4);
     if (kind != WH_WHEN) {

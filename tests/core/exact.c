@@ -478,7 +478,12 @@ void exact_squeeze(exact *e) {
         touched |= in(stops, k) && sign(e, lambda[k]) > 0 ? 1U << k : 0U;
     }
     e->energy[first] += stored(e) - before;
-    give(e, strike(e, touched, 0, zero, impulse), WH_FREE);
+    unsigned open = 0;
+    for (unsigned k = 0; k < forced(); k++) {
+        open |= in(stops, k) && sign(e, gap(e, k)) > 0 ? 1U << k : 0U;
+    }
+    give(e, open, WH_FREE);
+    give(e, strike(e, touched & ~open, 0, zero, impulse), WH_FREE);
 }
 
 /* --- crossings ---------------------------------------------------------------------------------------------- */

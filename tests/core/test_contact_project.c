@@ -69,8 +69,26 @@ static void add_least(const uint8_t *member, unsigned count, const wh_real *want
     }
 }
 
-/* What is pinned goes straight back and takes nobody with it; the others together, by the way of the least masses. It
- * is coarse where what was off is more than its share of the way. */
+/* What is pinned goes straight back: the first of a coordinate, and whatever that leaves beyond its place. */
+static void go_back(const uint8_t *member, unsigned count, const wh_real *off, wh_real *way) {
+    bool first[BENCH_COORDS];
+    for (unsigned c = 0; c < BENCH_COORDS; c++) {
+        first[c] = true;
+    }
+    for (unsigned i = 0; i < count; i++) {
+        const int pin = bench_now.contact[member[i]].pin;
+        if (pin < 0 || off[i] == WH_R(0.0)) {
+            continue;
+        }
+        const wh_real row = bench_now.row[member[i]][pin];
+        const wh_real left = off[i] + row * way[pin];
+        way[pin] -= first[pin] || left < WH_R(0.0) ? left / row : WH_R(0.0);
+        first[pin] = false;
+    }
+}
+
+/* What is pinned goes straight back; the others together, by the way of the least masses, and by what keeps them to what
+ * is pinned. It is coarse where what was off is more than its share of the way. */
 static void test_places_are_put_right_by_the_least_way(void) {
     uint64_t seed = 161;
     unsigned coarse = 0;
@@ -82,6 +100,7 @@ static void test_places_are_put_right_by_the_least_way(void) {
         uint8_t member[BENCH_CONTACTS] = {0};
         wh_real wanted[BENCH_CONTACTS];
         wh_real lambda[BENCH_CONTACTS];
+        wh_real off[BENCH_CONTACTS];
         wh_real way[WH_COORDS] = {WH_R(0.0)};
         wh_real input = WH_R(0.0);
         draw(&seed, true, &w, &books);
@@ -112,19 +131,20 @@ static void test_places_are_put_right_by_the_least_way(void) {
         bool more = false;
         bool together = false;
         for (unsigned i = 0; i < count; i++) {
-            const int pin = bench_now.contact[member[i]].pin;
-            const wh_real off = off_of(&w, member[i]);
+            off[i] = off_of(&w, member[i]);
+            mover = off[i] != WH_R(0.0) && mover == WH_CONTACTS_MAX ? member[i] : mover;
+        }
+        go_back(member, count, off, way);
+        for (unsigned i = 0; i < count; i++) {
+            const wh_real *row = bench_now.row[member[i]];
             wh_real travel = WH_R(0.0);
+            wanted[i] = bench_now.contact[member[i]].pin < 0 ? -off[i] : WH_R(0.0);
             for (unsigned c = 0; c < n; c++) {
-                travel += WH_ABS(bench_now.row[member[i]][c] * rate[c]);
+                travel += WH_ABS(row[c] * rate[c]);
+                wanted[i] -= bench_now.contact[member[i]].pin < 0 ? row[c] * way[c] : WH_R(0.0);
             }
-            mover = off != WH_R(0.0) && mover == WH_CONTACTS_MAX ? member[i] : mover;
-            wanted[i] = pin < 0 ? -off : WH_R(0.0);
             together = together || wanted[i] != WH_R(0.0);
             more = more || WH_ABS(wanted[i]) > WH_SLIP_COARSE * spot.h * travel;
-            if (pin >= 0) {
-                way[pin] -= off / bench_now.row[member[i]][pin];
-            }
         }
         add_least(member, count, wanted, lambda, way);
         TEST_ASSERT_TRUE(wh_contact_project_places(of, &w, &spot, bench_now.signal, &input, &s) ==
@@ -159,6 +179,7 @@ static void test_a_place_that_is_no_number_is_told(void) {
         uint8_t member[BENCH_CONTACTS] = {0};
         wh_real wanted[BENCH_CONTACTS];
         wh_real lambda[BENCH_CONTACTS];
+        wh_real off[BENCH_CONTACTS];
         wh_real way[WH_COORDS] = {WH_R(0.0)};
         int undefined = -1;
         draw(&seed, true, &w, &books);
@@ -178,14 +199,17 @@ static void test_a_place_that_is_no_number_is_told(void) {
         }
         bench_now.system.forces(NULL, NULL, NULL, NULL, NULL, w.law);
         for (unsigned i = 0; i < count; i++) {
-            const unsigned k = member[i];
-            const int pin = bench_now.contact[k].pin;
-            const wh_real off = off_of(&w, k);
-            const bool number = off - off == WH_R(0.0);
-            undefined = !number && undefined < 0 ? (int)k : undefined;
-            wanted[i] = pin < 0 && number ? -off : WH_R(0.0);
-            if (pin >= 0 && number) {
-                way[pin] -= off / bench_now.row[k][pin];
+            off[i] = off_of(&w, member[i]);
+            const bool number = off[i] - off[i] == WH_R(0.0);
+            undefined = !number && undefined < 0 ? (int)member[i] : undefined;
+            off[i] = number ? off[i] : WH_R(0.0);
+        }
+        go_back(member, count, off, way);
+        for (unsigned i = 0; i < count; i++) {
+            const bool pinned = bench_now.contact[member[i]].pin >= 0;
+            wanted[i] = pinned ? WH_R(0.0) : -off[i];
+            for (unsigned c = 0; c < bench_now.system.coordinates && !pinned; c++) {
+                wanted[i] -= bench_now.row[member[i]][c] * way[c];
             }
         }
         add_least(member, count, wanted, lambda, way);
