@@ -269,6 +269,7 @@ static inline void wh_contact_squeeze(const wh_contact_system *of, wh_contact_wo
     wh_real zero[WH_CONTACTS_MAX] = {WH_R(0.0)};
     wh_real impulse[WH_CONTACTS_MAX] = {WH_R(0.0)};
     unsigned touched = 0;
+    unsigned pushed = 0;
     for (unsigned pass = 0; pass < WH_SQUEEZE_LOOKS; pass++) {
         uint8_t member[WH_CONTACTS_MAX] = {0};
         wh_real wanted[WH_CONTACTS_MAX] = {WH_R(0.0)};
@@ -295,9 +296,8 @@ static inline void wh_contact_squeeze(const wh_contact_system *of, wh_contact_wo
         }
         (void)wh_contact_lcp(of, w, member, count, wanted, false, lambda, left);
         for (unsigned i = 0; i < count; i++) {
-            touched |= wh_contact_of(of, member[i], WH_STOP) && lambda[i] > WH_R(0.0)
-                           ? 1U << member[i]
-                           : 0U;
+            const bool pushes = wh_contact_of(of, member[i], WH_STOP) && lambda[i] > WH_R(0.0);
+            pushed |= pushes ? 1U << member[i] : 0U;
             wh_contact_apply(of, w, member[i], lambda[i], way);
         }
         wh_books_look(of, w, s, input);
@@ -306,9 +306,16 @@ static inline void wh_contact_squeeze(const wh_contact_system *of, wh_contact_wo
         }
         wh_books_moved(of, w, s, input, mover);
     }
+    touched |= pushed;
     if (touched != 0) {
+        unsigned open = 0; /* what is moved off its stop rests there no longer, and is not hit */
+        for (unsigned k = 0; k < of->forced; k++) {
+            const bool may = wh_contact_of(of, k, WH_STOP) && (pushed >> k & 1U) == 0;
+            open |= may && wh_contact_open(of, w, k, signal, s) ? 1U << k : 0U;
+        }
+        wh_contact_set_modes(of, w, open, WH_FREE);
         const unsigned released =
-            wh_contact_impulses(of, w, touched, 0, zero, wh_contact_rates(of, s), impulse);
+            wh_contact_impulses(of, w, touched & ~open, 0, zero, wh_contact_rates(of, s), impulse);
         wh_contact_set_modes(of, w, released, WH_FREE);
     }
 }

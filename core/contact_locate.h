@@ -226,6 +226,11 @@ WH_SEARCH wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work
         if ((*events >> k & 1U) != 0 && !slides && before[k] < WH_R(0.0)) {
             at_once |= 1U << k;
         }
+        /* whoever is beyond a stop that was open, or closing, has hit it, also where it is on its way out again */
+        if (wh_contact_any_of(of, WH_STOP) &&
+            (probe.signal[2 * k] > WH_R(0.0) || probe.signal[2 * k + 1] < WH_R(0.0))) {
+            w->inside &= ~(1U << k);
+        }
     }
     if (at_once != 0) {
         *events = at_once;

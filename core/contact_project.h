@@ -130,6 +130,7 @@ static inline bool wh_contact_project_places(const wh_contact_system *of, wh_con
     wh_real wanted[WH_CONTACTS_MAX];
     wh_real lambda[WH_CONTACTS_MAX];
     wh_real way[WH_COORDS] = {0};
+    wh_real moved[WH_COORDS] = {WH_R(0.0)}; /* by what is pinned */
     const unsigned count = wh_contact_members(of, w, spot->but, member);
     unsigned mover = spot->mover;
     bool together = false;
@@ -158,9 +159,21 @@ static inline bool wh_contact_project_places(const wh_contact_system *of, wh_con
     wh_books_look(of, w, s, input);
     for (unsigned i = 0; i < count; i++) {
         const int pin = wh_contact_pin(of, member[i]);
-        if (off[i] != WH_R(0.0) && pin >= 0) { /* the others need not move for it */
+        if (off[i] != WH_R(0.0) && pin >= 0) {
             const wh_real entry = wh_contact_law(of, w, member[i])[WH_LAW_ROWS + pin];
-            wh_contact_move(of, (unsigned)pin, -off[i] / entry, s);
+            const wh_real rest = off[i] + entry * moved[pin];
+            if (moved[pin] == WH_R(0.0) || rest < WH_R(0.0)) { /* another has not put it right */
+                moved[pin] -= rest / entry;
+                wh_contact_move(of, (unsigned)pin, -rest / entry, s);
+            }
+        }
+    }
+    /* the others need not move for it, but what holds them to it */
+    for (unsigned i = 0; i < count && of->pinned < of->forced; i++) {
+        if (!wh_contact_pinned(of, member[i])) {
+            const wh_real along = wh_jacobian_times(of, w, member[i], moved);
+            wanted[i] -= along;
+            together = together || along != WH_R(0.0);
         }
     }
     if (together) {
@@ -236,11 +249,16 @@ static inline wh_real wh_contact_extent(const wh_contact_system *of, const wh_co
     return size;
 }
 
-/* Is stop k passed by more than rounding, as after a step with too many events? Friction does not keep a body
- * there. */
+/* Is stop k passed, or open, by more than rounding, as after a step with too many events? Friction does not keep a body
+ * beyond it. */
+#define WH_CONTACT_FAR (WH_DOUBLE ? WH_R(1e-9) : WH_R(1e-5))
 WH_INLINE bool wh_contact_far(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
                               const wh_real *signal, const wh_contact_state *s) {
-    return signal[2 * k] < (WH_DOUBLE ? WH_R(-1e-9) : WH_R(-1e-5)) * wh_contact_extent(of, w, k, s);
+    return signal[2 * k] < -WH_CONTACT_FAR * wh_contact_extent(of, w, k, s);
+}
+WH_INLINE bool wh_contact_open(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
+                               const wh_real *signal, const wh_contact_state *s) {
+    return signal[2 * k] > WH_CONTACT_FAR * wh_contact_extent(of, w, k, s);
 }
 
 static inline void wh_contact_put_back(const wh_contact_system *of, wh_contact_work *w, wh_real h,

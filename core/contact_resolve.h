@@ -287,6 +287,31 @@ WH_APART unsigned wh_contact_resolve(const wh_contact_system *of, wh_contact_wor
     return events;
 }
 
+/* A step with too many events ends, `h` long. Friction that was carried past zero ends there, as it would have before,
+ * unless the forces carry it on; what sticks but was moved slides. */
+static inline void wh_contact_overrun(const wh_contact_system *of, wh_contact_work *w, wh_real h,
+                                      const wh_real *input, wh_contact_state *s) {
+    wh_contact_moment end = {0, 0, h, true};
+    wh_real accel[WH_COORDS];
+    wh_real signal[2 * WH_CONTACTS_MAX];
+    wh_real impulse[WH_CONTACTS_MAX];
+    if (wh_contact_any_of(of, WH_STOP)) {
+        wh_contact_squeeze(of, w, input, s);
+    }
+    if (!wh_contact_any_of(of, WH_FRICTION)) {
+        return;
+    }
+    wh_contact_look(of, w, s, input, accel, signal);
+    for (unsigned k = 0; k < of->forced; k++) {
+        if (wh_contact_of(of, k, WH_FRICTION) && w->mode[k] != WH_STUCK) {
+            const wh_real v = wh_contact_rates(of, s)[wh_contact_pin(of, k)];
+            const wh_real forward = w->mode[k] > 0 ? v : -v;
+            end.events |= forward + w->slack[k] < WH_R(0.0) ? 1U << k : 0U;
+        }
+    }
+    (void)wh_contact_resolve(of, w, &end, input, s, impulse);
+}
+
 /* Can an input have moved what contact k keeps, since the last step? */
 WH_INLINE bool wh_contact_may_move(const wh_contact_system *of, const wh_contact_work *w,
                                    unsigned k) {

@@ -319,8 +319,8 @@ WH_APART wh_status wh_contact_eventful(const wh_contact_system *of, wh_contact_w
                 }
                 wh_contact_pass(of, &a->margins, w);
                 flat = wh_contact_accept(of, w, left, &a->now, &a->next, state->input);
-                if (round == WH_EVENTS_MAX && wh_contact_any_of(of, WH_STOP)) {
-                    wh_contact_squeeze(of, w, state->input, &a->next);
+                if (round == WH_EVENTS_MAX) {
+                    wh_contact_overrun(of, w, h, state->input, &a->next);
                 }
                 end = &a->next;
                 break;

@@ -37,6 +37,9 @@ static void hand_signals(const void *model, const wh_phase *phase, const wh_real
     for (unsigned k = 0; k < m->system.contacts; k++) {
         result[2 * k] = along(m, k, linear) - m->law[k].offset;
         result[2 * k + 1] = along(m, k, rate);
+        if ((m->lost >> k & 1U) != 0) {
+            result[2 * k + 1] = m->nothing;
+        }
         if (m->contact[k].kind == WH_HOLD) {
             result[2 * k] = input[0];
         } else if (m->contact[k].kind == WH_FRICTION) {
@@ -86,7 +89,7 @@ static void hand_powers(const void *model, const wh_phase *phase, const wh_real 
     (void)input;
     result[0] = WH_R(0.0);
     for (unsigned i = 0; i < m->n; i++) {
-        result[0] += m->load[i] * rate[i];
+        result[0] += m->weighs ? WH_R(0.0) : m->load[i] * rate[i];
         result[1 + i] = m->load[i] - m->spring[i] * linear[i];
     }
 }
@@ -103,6 +106,15 @@ static void hand_levels(const void *model, const wh_angle *angle, const wh_real 
             level[1 + i] += m->mass[i][j] * rate[j];
         }
         level[0] += WH_R(0.5) * (level[1 + i] * rate[i] + m->spring[i] * linear[i] * linear[i]);
+        level[0] -= m->weighs ? m->load[i] * linear[i] : WH_R(0.0);
+    }
+}
+
+/* What nobody wrote is no zero. */
+static void soil(void *memory, unsigned size) {
+    unsigned char *byte = memory;
+    for (unsigned i = 0; i < size; i++) {
+        byte[i] = 0xA5;
     }
 }
 
@@ -111,6 +123,9 @@ static wh_status eventful(const wh_contact_system *of, wh_real h, wh_state *stat
     wh_contact_work work;
     wh_contact_attempt attempt;
     wh_ledger_work books;
+    soil(&work, sizeof work);
+    soil(&attempt, sizeof attempt);
+    soil(&books, sizeof books);
     attempt.made = false;
     wh_contact_work_begin(of, state, &work);
     if (of->ledger != NULL) {

@@ -1,5 +1,6 @@
 /* test_contact_squeezed.c: more impacts than a step holds: a light body between heavier ones and walls is hit to and
- * fro, ever faster. Nothing passes through anything, and nobody gains energy. */
+ * fro, ever faster; or one between slanting walls. Nothing passes through anything, nobody gains energy, and where friction
+ * is everywhere, all that moves loses some. */
 #include "contacts.h"
 #include "derived.h"
 
@@ -141,7 +142,117 @@ static void test_a_pair_against_a_wall(void) {
     (void)run(&r, 0, IN_DOUBLE, 1e-12, 1e-13, &deepest_m);
 }
 
+/* --- between slanting walls, and with friction ------------------------------------------------------------------ */
+
+enum { WALLS_MOST = 5, CAGE_STEPS = 60 };
+
+/* One body of two coordinates and any inertia among walls that close the origin in, some with friction in both
+ * directions. */
+typedef struct cage {
+    double mass_kg[3]; /* xx, xy, yy */
+    int walls;
+    double row[WALLS_MOST][2];
+    double off_m[WALLS_MOST];
+    double restitution[WALLS_MOST];
+    double speed_mps[2];
+    double normal_N; /* 0: no friction */
+} cage;
+
+static cage cage_drawn(uint64_t seed) {
+    cage c = {.walls = 3 + (int)(random_bits(&seed) % (WALLS_MOST - 2))};
+    const double turned = random_between(&seed, 0.0, 6.28);
+    c.mass_kg[0] = random_between(&seed, 1.0, 5.0);
+    c.mass_kg[2] = random_between(&seed, 1.0, 5.0);
+    c.mass_kg[1] = random_between(&seed, -0.9, 0.9) * sqrt(c.mass_kg[0] * c.mass_kg[2]);
+    for (int k = 0; k < c.walls; k++) {
+        const double at = turned + 6.2832 * (k + random_between(&seed, -0.2, 0.2)) / c.walls;
+        const double size = random_between(&seed, 0.5, 2.0);
+        c.row[k][0] = size * cos(at);
+        c.row[k][1] = size * sin(at);
+        c.off_m[k] = random_between(&seed, 0.0, 0.001);
+        const uint64_t kind = random_bits(&seed) % 3U;
+        c.restitution[k] = kind == 0 ? 0.0 : kind == 1 ? 1.0 : random_between(&seed, 0.0, 1.0);
+    }
+    c.speed_mps[0] = random_between(&seed, -30.0, 30.0);
+    c.speed_mps[1] = random_between(&seed, -30.0, 30.0);
+    c.normal_N = random_bits(&seed) % 2U == 0 ? 0.0 : pow(10.0, random_between(&seed, 0.0, 4.0));
+    return c;
+}
+
+static void cage_text(const cage *c, char *text) {
+    int at = 0;
+#define PUT(...) at += snprintf(text + at, (size_t)(TEXT - at), __VA_ARGS__)
+    PUT("mechanism cage\ncoordinate x [m]\ncoordinate y [m]\n");
+    PUT("T = (%.17g*x'^2 + 2*%.17g*x'*y' + %.17g*y'^2)/2 * 1 [kg]\n", c->mass_kg[0], c->mass_kg[1],
+        c->mass_kg[2]);
+    for (int k = 0; k < c->walls; k++) {
+        PUT("stop %.17g*x + %.17g*y >= %.17g [m] restitution %.17g\n", c->row[k][0], c->row[k][1],
+            -c->off_m[k], c->restitution[k]);
+    }
+    for (int i = 0; i < 2 && c->normal_N > 0.0; i++) {
+        PUT("friction %c static 0.4 kinetic 0.3 normal %.17g [N]\n", "xy"[i], c -> normal_N);
+    }
+    PUT("scene s {\n  start x' = %.17g [m/s], y' = %.17g [m/s]\n  step 1 [ms]\n  until %d [ms]\n}\n",
+        c->speed_mps[0], c->speed_mps[1], CAGE_STEPS);
+#undef PUT
+}
+
+static double cage_energy_J(const cage *c, const motion *m) {
+    const double vx = motion_value(m, "x'");
+    const double vy = motion_value(m, "y'");
+    return (c->mass_kg[0] * vx * vx + 2.0 * c->mass_kg[1] * vx * vy + c->mass_kg[2] * vy * vy) /
+           2.0;
+}
+
+static uint64_t run_cage(const cage *c, uint64_t seed, stepping how, double bound_m,
+                         double rounding, double *deepest_m) {
+    char text[TEXT];
+    motion m;
+    cage_text(c, text);
+    motion_open_text(&m, text, how);
+    double before_J = cage_energy_J(c, &m);
+    const double none_J = rounding * before_J;
+    for (int i = 0; i < CAGE_STEPS; i++) {
+        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
+        const double after_J = cage_energy_J(c, &m);
+        bool good = after_J <= before_J + none_J;
+        /* friction everywhere: who moves on has lost something */
+        good = good && (c->normal_N == 0.0 || after_J < before_J || after_J <= none_J);
+        for (int k = 0; k < c->walls; k++) {
+            const double gap_m = c->row[k][0] * motion_value(&m, "x") +
+                                 c->row[k][1] * motion_value(&m, "y") + c->off_m[k];
+            *deepest_m = fmin(*deepest_m, gap_m);
+            good = good && gap_m >= -bound_m;
+        }
+        if (!good) {
+            printf("  cage %llu, step %d: deepest %.3g m, energy %.17g J after %.17g J\n%s",
+                   (unsigned long long)seed, i, *deepest_m, after_J, before_J, text);
+            TEST_FAIL();
+        }
+        before_J = after_J;
+    }
+    const uint64_t overruns = contacts_overruns(&m);
+    motion_close(&m);
+    return overruns;
+}
+
+static void test_nothing_leaves_a_cage(void) {
+    const char *wanted = getenv("WHIRL_CASES");
+    const long runs = wanted != NULL ? strtol(wanted, NULL, 10) : 100;
+    uint64_t overruns = 0;
+    double deepest_m[2] = {0.0, 0.0};
+    for (long i = 1; i <= runs; i++) {
+        const cage c = cage_drawn((uint64_t)i * 0x9e3779b97f4a7c15U);
+        overruns += run_cage(&c, (uint64_t)i, IN_DOUBLE, 1e-8, 1e-13, &deepest_m[0]);
+        overruns += run_cage(&c, (uint64_t)i, IN_FLOAT, 1e-5, 1e-6, &deepest_m[1]);
+    }
+    printf("cages 1 to %ld: beyond a wall by at most %.1e m, in float %.1e m; %llu overruns\n",
+           runs, -deepest_m[0], -deepest_m[1], (unsigned long long)overruns);
+    TEST_ASSERT_TRUE(overruns > 0);
+}
+
 void suite_contact_squeezed(void) {
     RUN_TEST(test_nothing_is_squeezed_through);
     RUN_TEST(test_a_pair_against_a_wall);
+    RUN_TEST(test_nothing_leaves_a_cage);
 }

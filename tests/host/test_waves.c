@@ -82,6 +82,4 @@ static void test_sines_inside_sines(void) {
     TEST_ASSERT_EQUAL_INT(MECHANISMS * STATES, checked);
 }
 
-void suite_waves(void) {
-    RUN_TEST(test_sines_inside_sines);
-}
+void suite_waves(void) { RUN_TEST(test_sines_inside_sines); }
