@@ -37,9 +37,6 @@ static void hand_signals(const void *model, const wh_phase *phase, const wh_real
     for (unsigned k = 0; k < m->system.contacts; k++) {
         result[2 * k] = along(m, k, linear) - m->law[k].offset;
         result[2 * k + 1] = along(m, k, rate);
-        if ((m->lost >> k & 1U) != 0) {
-            result[2 * k + 1] = m->nothing;
-        }
         if (m->contact[k].kind == WH_HOLD) {
             result[2 * k] = input[0];
         } else if (m->contact[k].kind == WH_FRICTION) {
@@ -48,6 +45,9 @@ static void hand_signals(const void *model, const wh_phase *phase, const wh_real
         const wh_real size = WH_ABS(result[2 * k]);
         for (unsigned i = 0; i < m->bent && m->contact[k].kind == WH_WHEN; i++) {
             result[2 * k] *= size * size * WH_R(1e6); /* of a millimetre, one */
+        }
+        for (unsigned i = 0; i < 2; i++) {
+            result[2 * k + i] = (m->lost[i] >> k & 1U) != 0 ? m->nothing : result[2 * k + i];
         }
     }
 }
