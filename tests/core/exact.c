@@ -375,7 +375,6 @@ static unsigned hit(exact *e, unsigned found, double *impulse) {
     double a[2];
     double force[HAND_CONTACTS];
     double speed[HAND_CONTACTS] = {0.0};
-    double zero[HAND_CONTACTS] = {0.0};
     const unsigned resting = those(e, WH_STOP, WH_ACTIVE);
     unsigned closes = 0;
     unsigned beside = 0;
@@ -416,16 +415,13 @@ static unsigned hit(exact *e, unsigned found, double *impulse) {
             leaving |= leaves > 0 ? 1U << k : 0U;
         }
     }
-    if (leaving != 0) {
-        give(e, strike(e, leaving, beside, zero, impulse), WH_FREE);
-    }
     give(e, rest, WH_ACTIVE);
     for (unsigned k = 0; k < forced(); k++) {
         const bool open = in(resting, k) && e->mode[k] == WH_FREE && !in(e->next, k);
         gone |= open && rests(e, k, along(k, e->v), a) ? 1U << k : 0U;
     }
     give(e, gone, WH_ACTIVE);
-    if (gone != 0) { /* all that holds, together, whatever it takes */
+    if ((gone | leaving) != 0) { /* all that holds, together, whatever it takes */
         problem p = {
             those(e, WH_STOP, WH_ACTIVE) | those(e, WH_HOLD, WH_ACTIVE), {0.0}, {0.0}, {0.0}};
         double lambda[HAND_CONTACTS] = {0.0};
@@ -611,6 +607,7 @@ static double falls(exact *e, double g, double r, double a, double left) {
     const int below = sign(e, end);
     const int begins = sign(e, g);
     e->vague = e->vague || (begins == 0 && size_of(r) < ZERO && size_of(a) < ZERO);
+    e->vague = e->vague || (below == 0 && begins > 0); /* just at the step's end */
     if (below >= 0) {
         if (a > 0.0 && r < 0.0 && -r / a < left) { /* a dip that the step's end does not see */
             e->vague = e->vague || sign(e, g - 0.5 * r * r / a) < 0;
