@@ -309,9 +309,17 @@ static double falls(exact *e, double g, double r, double a, double left) {
     if (begins == 0 && (r < 0.0 || (exact_sign(e, r) == 0 && a < 0.0))) {
         return 0.0;
     }
-    if (begins < 0) {
-        e->vague = true;
-        return left;
+    if (begins < 0) { /* beyond: none as long as it is on its way out */
+        if (exact_sign(e, r) <= 0) {
+            e->vague = e->vague || (exact_sign(e, r) == 0 && exact_sign(e, a) == 0);
+            return exact_sign(e, r) < 0 || a < 0.0 ? 0.0 : left;
+        }
+        if (exact_sign(e, r + a * left) > 0) {
+            return left;
+        }
+        if (exact_sign(e, g - 0.5 * r * r / a) <= 0) {
+            return -r / a;
+        }
     }
     if (exact_size_of(a) < 1e-9) {
         return -g / r;

@@ -63,7 +63,8 @@ static void hand_forces(const void *model, const wh_phase *phase, const wh_real 
         law[WH_LAW_FIRST] = m->law[k].first;
         law[WH_LAW_SECOND] = m->law[k].second;
         law[WH_LAW_BIAS] = WH_R(0.0);
-        if (m->contact[k].kind == WH_HOLD && m->contact[k].direction == 0 && linear != NULL) {
+        if (m->contact[k].kind == WH_HOLD && m->contact[k].direction == 0 && linear != NULL &&
+            m->law[k].first == WH_R(0.0)) {
             law[WH_LAW_FIRST] = along(m, k, linear); /* as a curved one has */
         }
         for (unsigned i = 0; i < m->n; i++) {

@@ -18,7 +18,7 @@ static wh_real none(unsigned way) {
 
 /* Three contacts: all that are in order of their kinds, from the number. False: that number has none. Nothing is near
  * an event. */
-static bool build(unsigned number, bool held, bool pinned) {
+static bool build(unsigned number, bool held, bool pinned, bool straight) {
     wh_contact_kind kind[COUNT];
     for (unsigned k = 0; k < COUNT; k++, number /= 4) {
         kind[k] = (wh_contact_kind)(number % 4);
@@ -42,7 +42,8 @@ static bool build(unsigned number, bool held, bool pinned) {
         hand_add(kind[k], pinned && kind[k] != WH_WHEN ? 1 : -1, pinned ? WH_R(0.0) : WH_R(1.0),
                  WH_R(1.0), WH_R(-2.0) - (wh_real)k, WH_R(0.5), WH_R(0.0));
         if (kind[k] == WH_HOLD) {
-            hand_now.contact[k].direction = 1;
+            hand_now.contact[k].direction = straight;
+            hand_now.law[k].first = WH_R(0.0);
             hand_now.system.held = !pinned;
         }
     }
@@ -53,10 +54,11 @@ static bool build(unsigned number, bool held, bool pinned) {
 static bool needed(unsigned k, unsigned place) {
     const wh_contact_kind kind = (wh_contact_kind)hand_now.contact[k].kind;
     const bool stuck = kind == WH_FRICTION && hand_state.contacts->mode[k] == WH_STUCK;
+    const bool curved = hand_now.contact[k].direction == 0 && hand_now.contact[k].pin < 0;
     switch (place) {
     case FIRST_SIGNAL: return true;
     case SECOND_SIGNAL: return true;
-    case FIRST_LAW: return kind == WH_FRICTION && stuck;
+    case FIRST_LAW: return stuck || (kind == WH_HOLD && curved && hand_pushed > WH_R(0.0));
     default: return kind == WH_FRICTION && !stuck;
     }
 }
@@ -96,11 +98,11 @@ static bool answers(unsigned k, unsigned place, unsigned steps, wh_real nothing)
 static void test_what_a_step_builds_on_must_be_a_number(void) {
     unsigned wrong = 0;
     unsigned asked = 0;
-    for (unsigned number = 0; number < 64 * 8; number++) {
+    for (unsigned number = 0; number < 64 * 16; number++) {
         for (unsigned one = 0; one < COUNT * PLACES * 2; one++) {
             const unsigned k = one / (PLACES * 2);
             const unsigned place = one / 2 % PLACES;
-            if (!build(number / 8, (number & 1U) != 0, (number & 2U) != 0)) {
+            if (!build(number / 16, (number & 1U) != 0, (number & 2U) != 0, (number & 8U) != 0)) {
                 continue;
             }
             if (place == SECOND_SIGNAL && hand_now.contact[k].kind != WH_STOP &&
@@ -120,7 +122,7 @@ static void test_what_a_step_builds_on_must_be_a_number(void) {
 static void test_the_first_of_several_is_named(void) {
     for (unsigned steps = 0; steps < 4; steps += 3) {
         for (unsigned k = 0; k + 1 < COUNT; k++) {
-            TEST_ASSERT_TRUE(build(0, false, false)); /* three stops */
+            TEST_ASSERT_TRUE(build(0, false, false, true)); /* three stops */
             hand_start(true);
             hand_steps(steps);
             lose(k, FIRST_SIGNAL, none(0));
