@@ -9,7 +9,7 @@ void suite_contact_exact(void);
 
 enum { MECHANISMS = __STDC_HOSTED__ ? 2000 : 50, STEPS = 60 };
 
-#define CLOSE (WH_DOUBLE ? 1e-6 : 5e-3)
+#define CLOSE (WH_DOUBLE ? 1e-5 : 5e-3)
 
 static uint64_t bits_of(uint64_t *seed) {
     *seed = *seed * 6364136223846793005U + 1442695040888963407U;
