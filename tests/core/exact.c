@@ -26,6 +26,9 @@ static unsigned strike(exact *e, unsigned set, unsigned beside, const double *ta
     const unsigned opens = exact_solve(e, &p, e->v, lambda);
     for (unsigned k = 0; k < exact_forced(); k++) {
         if (exact_in(p.members, k)) {
+            /* neither pushed nor opened: whether it rests is chance */
+            e->vague = e->vague || (!exact_in(set | beside | opens, k) && exact_is(k, WH_STOP) &&
+                                    exact_size_of(lambda[k]) <= EXACT_ZERO);
             impulse[k] += lambda[k];
             e->impulse[k] += lambda[k];
             e->energy[k] += lambda[k] * 0.5 * (before[k] + exact_along(k, e->v));
@@ -297,8 +300,8 @@ static double falls(exact *e, double g, double r, double a, double left) {
     const double end = g + r * left + 0.5 * a * left * left;
     const int below = exact_sign(e, end);
     const int begins = exact_sign(e, g);
-    e->vague =
-        e->vague || (begins == 0 && exact_size_of(r) < EXACT_ZERO && exact_size_of(a) < EXACT_ZERO);
+    e->vague = e->vague || (begins == 0 && exact_size_of(r) < EXACT_ZERO &&
+                            exact_size_of(a) < EXACT_ZERO && exact_holding(e) != 0);
     e->vague = e->vague || (below == 0 && begins > 0); /* just at the step's end */
     if (below >= 0) {
         if (a > 0.0 && r < 0.0 && -r / a < left) { /* a dip that the step's end does not see */

@@ -44,6 +44,7 @@ static int draw_row(uint64_t *seed, unsigned n, wh_real *row) {
 static void draw(uint64_t *seed, unsigned touched, bool crosses, int heavy) {
     const unsigned n = one_in(seed, 4) ? 1 : 2;
     unsigned room = HAND_CONTACTS - crosses;
+    const bool beside = crosses && n == 2 && one_in(seed, 2); /* it is the other coordinate's */
     wh_real row[2];
     hand_build(n, broken(seed, 1, 4), n == 1 ? WH_R(0.0) : broken(seed, -1, 1), broken(seed, 2, 4));
     hand_pushed = one_in(seed, 2) ? WH_R(1.0) : WH_R(-1.0);
@@ -52,10 +53,18 @@ static void draw(uint64_t *seed, unsigned touched, bool crosses, int heavy) {
         hand_now.start[n + i] = one_in(seed, 3) ? WH_R(0.0) : broken(seed, -1, 1);
         hand_now.load[i] = one_in(seed, 8) ? WH_R(0.0) : broken(seed, -8, 8) * (wh_real)heavy;
     }
+    if (beside) {
+        hand_now.start[3] = WH_R(0.0);
+    }
     hand_now.weighs = one_in(seed, 2);
     hand_now.system.compensated = one_in(seed, 4);
     for (; room > 0 && !one_in(seed, 3); room--) {
-        const int pin = draw_row(seed, n, row);
+        int pin = draw_row(seed, n, row);
+        if (beside) {
+            row[0] = WH_R(0.0);
+            row[1] = one_in(seed, 2) ? WH_R(1.0) : WH_R(-2.0);
+            pin = 1;
+        }
         const wh_real gap = !one_in(seed, touched) ? broken(seed, 0, 20) / 1024
                             : one_in(seed, 4)      ? broken(seed, -4, 0) / 1024
                                                    : WH_R(0.0);
@@ -71,7 +80,7 @@ static void draw(uint64_t *seed, unsigned touched, bool crosses, int heavy) {
     }
     for (unsigned i = 0; i < n && room > 0; i++) {
         if (one_in(seed, 2) || hand_now.system.contacts == 0) {
-            const wh_real most = broken(seed, 0, 3) * (wh_real)heavy;
+            const wh_real most = broken(seed, 0, 3) * (wh_real)(heavy > 0 ? heavy : 1);
             (void)hand_add(WH_FRICTION, (int)i, i == 0 ? WH_R(1.0) : WH_R(0.0),
                            i == 1 ? WH_R(1.0) : WH_R(0.0), WH_R(0.0), most,
                            one_in(seed, 2) ? most : most * WH_R(0.75));
@@ -197,7 +206,8 @@ static void run(uint64_t seed, unsigned touched, bool crosses, int heavy) {
         compare(&t);
     }
     TEST_ASSERT_EQUAL_UINT(0, t.wrong);
-    TEST_ASSERT_TRUE_MESSAGE(t.steps >= MECHANISMS * STEPS / 2U, "too many hang on rounding");
+    TEST_ASSERT_TRUE_MESSAGE(t.steps >= MECHANISMS * STEPS / (WH_DOUBLE ? 2U : 4U),
+                             "too many hang on rounding");
     TEST_ASSERT_TRUE_MESSAGE(t.events >= MECHANISMS / 2U, "too little happens");
 }
 
@@ -205,10 +215,14 @@ static void test_what_touches_nothing_at_first(void) { run(11, 64, false, 1); }
 static void test_what_starts_touching(void) { run(12, 2, false, 1); }
 static void test_crossings_among_them(void) { run(13, 3, true, 1); }
 static void test_what_is_pressed_hard(void) { run(14, 2, false, 128); }
+static void test_what_nothing_presses(void) { run(15, 2, false, 0); }
+static void test_crossings_beside_what_touches(void) { run(16, 1, true, 1); }
 
 void suite_contact_exact(void) {
     RUN_TEST(test_what_touches_nothing_at_first);
     RUN_TEST(test_what_starts_touching);
     RUN_TEST(test_crossings_among_them);
     RUN_TEST(test_what_is_pressed_hard);
+    RUN_TEST(test_what_nothing_presses);
+    RUN_TEST(test_crossings_beside_what_touches);
 }
