@@ -226,11 +226,6 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
             rest |= 1U << k;
             leaving |= speed[k] > WH_R(0.0) ? 1U << k : 0U;
         }
-        speed[k] = WH_R(0.0);
-    }
-    if (leaving != 0) {
-        const unsigned released = wh_contact_impulses(of, w, leaving, beside, speed, rate, impulse);
-        wh_contact_set_modes(of, w, released, WH_FREE);
     }
     wh_contact_place spot = WH_CONTACT_HERE;
     for (unsigned k = 0; k < of->forced; k++) {
@@ -250,7 +245,7 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
         gone &= stays ? ~0U : ~(1U << k);
     }
     wh_contact_set_modes(of, w, gone, WH_ACTIVE);
-    if (gone != 0) {
+    if ((gone | leaving) != 0) { /* a push alone would not keep them */
         wh_contact_project_rates(of, w, wh_contact_stuck(of, w), true, rate);
     }
     if ((rest | gone) != 0) {

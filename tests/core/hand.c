@@ -37,9 +37,6 @@ static void hand_signals(const void *model, const wh_phase *phase, const wh_real
     for (unsigned k = 0; k < m->system.contacts; k++) {
         result[2 * k] = along(m, k, linear) - m->law[k].offset;
         result[2 * k + 1] = along(m, k, rate);
-        if ((m->lost >> k & 1U) != 0) {
-            result[2 * k + 1] = m->nothing;
-        }
         if (m->contact[k].kind == WH_HOLD) {
             result[2 * k] = input[0];
         } else if (m->contact[k].kind == WH_FRICTION) {
@@ -49,6 +46,9 @@ static void hand_signals(const void *model, const wh_phase *phase, const wh_real
         for (unsigned i = 0; i < m->bent && m->contact[k].kind == WH_WHEN; i++) {
             result[2 * k] *= size * size * WH_R(1e6); /* of a millimetre, one */
         }
+        for (unsigned i = 0; i < 2; i++) {
+            result[2 * k + i] = (m->lost[i] >> k & 1U) != 0 ? m->nothing : result[2 * k + i];
+        }
     }
 }
 
@@ -56,7 +56,6 @@ static void hand_forces(const void *model, const wh_phase *phase, const wh_real 
                         const wh_real *rate, const wh_real *input, wh_real *result) {
     const hand *m = model;
     (void)phase;
-    (void)linear;
     (void)rate;
     (void)input;
     for (unsigned k = 0; k < HAND_CONTACTS; k++) { /* with what is behind them: see hand_start() */
@@ -64,6 +63,10 @@ static void hand_forces(const void *model, const wh_phase *phase, const wh_real 
         law[WH_LAW_FIRST] = m->law[k].first;
         law[WH_LAW_SECOND] = m->law[k].second;
         law[WH_LAW_BIAS] = WH_R(0.0);
+        if (m->contact[k].kind == WH_HOLD && m->contact[k].direction == 0 && linear != NULL &&
+            m->law[k].first == WH_R(0.0)) {
+            law[WH_LAW_FIRST] = along(m, k, linear); /* as a curved one has */
+        }
         for (unsigned i = 0; i < m->n; i++) {
             law[WH_LAW_ROWS + i] = m->law[k].row[i];
             law[WH_LAW_ROWS + m->n + i] = along(m, k, m->inverse[i]);
@@ -148,7 +151,7 @@ static wh_status hand_advance(const wh_scene *scene, wh_state *state) {
 hand hand_now;
 static const uint8_t accounts[3] = {0, 1, 2};
 wh_ledger_form hand_books;
-static uint64_t memory[WH_STATE_WORDS(0, 4, 1) + WH_CONTACT_WORDS(3) + WH_HELD_WORDS(1) +
+static uint64_t memory[WH_STATE_WORDS(0, 8, 1) + WH_CONTACT_WORDS(3) + WH_HELD_WORDS(1) +
                        WH_LEDGER_WORDS(16, 3)];
 wh_state hand_state;
 wh_real hand_pushed;
@@ -218,6 +221,7 @@ void hand_start(bool with_books) {
                                 .reals = (uint8_t)(2 * hand_now.n),
                                 .inputs = 1,
                                 .held = hand_now.system.held,
+                                .compensated = hand_now.system.compensated,
                                 .contacts = hand_now.system.contacts,
                                 .step_s = WH_R(0.001),
                                 .start_real = hand_now.start,

@@ -28,13 +28,13 @@ typedef struct hand {
     } law[HAND_CONTACTS];
     wh_contact contact[HAND_CONTACTS];
     wh_contact_system system;
-    unsigned bent;   /* so often a crossing's value is multiplied by its own square */
-    unsigned lost;   /* contacts whose second signal is */
-    wh_real nothing; /* this, as bits */
-    bool weighs;     /* the loads' energy is stored, and no work from outside */
-    bool eventful;   /* every step is taken as one with events is, however calm */
-    bool places;     /* a crossing assigns the first coordinate, */
-    wh_real place;   /* this, and not its rate */
+    unsigned bent;    /* so often a crossing's value is multiplied by its own square */
+    unsigned lost[2]; /* contacts whose first signal, or second, as bits, */
+    wh_real nothing;  /* is this */
+    bool weighs;      /* the loads' energy is stored, and no work from outside */
+    bool eventful;    /* every step is taken as one with events is, however calm */
+    bool places;      /* a crossing assigns the first coordinate, */
+    wh_real place;    /* this, and not its rate */
     wh_real start[4];
     wh_scene scene;
 } hand;
