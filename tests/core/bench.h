@@ -32,8 +32,11 @@ typedef struct bench {
     wh_contact contact[BENCH_CONTACTS];
     wh_contact_system system;
     wh_ledger_form books;
-    unsigned looks; /* how often the signals were evaluated */
-    unsigned laws;  /* and the forces */
+    const wh_contact_point *at; /* if not NULL, where all is to be asked, */
+    const wh_real *input;       /* with this input */
+    bool astray;                /* something was asked elsewhere */
+    unsigned looks;             /* how often the signals were evaluated */
+    unsigned laws;              /* and the forces */
 } bench;
 
 extern bench bench_now;
