@@ -191,7 +191,6 @@ static void test_what_repeats_others_shares_their_load(void) {
         bool contradicts = false;
         bool exceeds = false;
         bool open = false;
-        bool bends = false;
         unsigned giving = 0;
         draw(&seed, true, &w);
         const wh_contact_system *of = &bench_now.system;
@@ -213,12 +212,8 @@ static void test_what_repeats_others_shares_their_load(void) {
         }
         for (unsigned i = 0; i < count; i++) { /* of what bends their paths by itself, and of all */
             bend[i] = -bench_now.bias[member[i]];
-            bends = bends || bend[i] != WH_R(0.0);
         }
         contradicts = !agrees(member, count, repeats, bend, lambda);
-        if (bends && !contradicts) { /* of many bends that cancel, rounding is left */
-            continue;
-        }
         contradicts = !agrees(member, count, repeats, wanted, lambda) || contradicts;
         for (unsigned i = 0; i < count; i++) {
             const bool stop = bench_now.contact[member[i]].kind == WH_STOP;
