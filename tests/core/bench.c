@@ -66,6 +66,10 @@ static void bench_forces(const void *model, const wh_phase *phase, const wh_real
     bench_now.laws++;
     for (unsigned k = 0; k < BENCH_CONTACTS; k++) {
         wh_real *law = result + k * (WH_LAW_ROWS + 2U * n);
+        const wh_real straight = bench_now.row[k][0];
+        if (bench_now.lean[k] != WH_R(0.0)) {
+            bench_now.row[k][0] += bench_now.lean[k] * linear[0];
+        }
         law[WH_LAW_FIRST] = bench_now.first[k];
         law[WH_LAW_SECOND] = bench_now.second[k];
         law[WH_LAW_BIAS] = bench_now.bias[k];
@@ -73,6 +77,7 @@ static void bench_forces(const void *model, const wh_phase *phase, const wh_real
             law[(unsigned)WH_LAW_ROWS + i] = bench_now.row[k][i];
             law[(unsigned)WH_LAW_ROWS + n + i] = bench_way(k, i);
         }
+        bench_now.row[k][0] = straight;
     }
 }
 
