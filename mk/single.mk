@@ -27,8 +27,15 @@ $(SINGLE)/scene_%.elf: $(B)/$(BOARD)/$(GEN)/%.o $(BOARD_OBJECTS) $(call librarie
 	$(Q)$(call single_link,boards/programs/scenes.c $(@:.elf=.c),-I$(GEN) -include $(GEN)/$*.h \
 	    -DWH_SCENE_WORDS=$*_MEMORY_WORDS -DSCENE_STEPS_MOST=$(SINGLE_STEPS)U)
 
-$(SINGLE)/suite_%.elf: $(B)/$(BOARD)/tests/core/test_%.o $(call objects,$(BOARD),tests/main.c tests/core/hand.c \
-    tests/core/exact.c tests/core/exact_law.c $(UNITY_DIR)/unity.c) $(BOARD_OBJECTS) $(call libraries,$(BOARD),scenes rig virtual whirl)
+# What several suites share: each takes what it needs of it.
+$(SINGLE)/shared.a: $(call objects,$(BOARD),tests/core/hand.c tests/core/bench.c \
+    tests/core/exact.c tests/core/exact_law.c)
+	@mkdir -p $(@D)
+	$(say) AR $@
+	$(Q)rm -f $@ && $(AR) rcs $@ $^
+
+$(SINGLE)/suite_%.elf: $(B)/$(BOARD)/tests/core/test_%.o $(call objects,$(BOARD),tests/main.c $(UNITY_DIR)/unity.c) \
+    $(SINGLE)/shared.a $(BOARD_OBJECTS) $(call libraries,$(BOARD),scenes rig virtual whirl)
 	@mkdir -p $(@D)
 	$(say) LINK $@
 	$(Q)sh tests/suites.sh tests/core/test_$*.c >$(@:.elf=.c)

@@ -16,12 +16,26 @@ wh_real bench_between(uint64_t *seed, int least, int most) {
 
 bool bench_one_in(uint64_t *seed, unsigned of) { return bench_bits(seed) % of == 0; }
 
+/* Is it asked where it is to be? */
+static void look_at(const void *model, const wh_phase *phase, const wh_real *linear,
+                    const wh_real *rate, const wh_real *input) {
+    const wh_contact_point *at = bench_now.at;
+    const unsigned angles = bench_now.system.angles;
+    if (at == NULL) {
+        return;
+    }
+    bool right = model == &bench_now && input == bench_now.input;
+    for (unsigned i = 0; i < bench_now.system.coordinates && right; i++) {
+        right =
+            rate[i] == at->rate[i] &&
+            (i < angles ? phase[i] == at->phase[i] : linear[i - angles] == at->linear[i - angles]);
+    }
+    bench_now.astray = bench_now.astray || !right;
+}
+
 static void bench_accel(const void *model, const wh_phase *phase, const wh_real *linear,
                         const wh_real *rate, const wh_real *input, wh_real *accel) {
-    (void)model;
-    (void)phase;
-    (void)rate;
-    (void)input;
+    look_at(model, phase, linear, rate, input);
     for (unsigned i = 0; i < bench_now.system.coordinates; i++) {
         accel[i] = bench_now.free[i];
         if (bench_now.ramp[i] != WH_R(0.0)) {
@@ -33,9 +47,7 @@ static void bench_accel(const void *model, const wh_phase *phase, const wh_real 
 static void bench_signals(const void *model, const wh_phase *phase, const wh_real *linear,
                           const wh_real *rate, const wh_real *input, wh_real *result) {
     const unsigned angles = bench_now.system.angles;
-    (void)model;
-    (void)phase;
-    (void)input;
+    look_at(model, phase, linear, rate, input);
     bench_now.looks++;
     for (unsigned k = 0; k < 2U * bench_now.system.contacts; k++) {
         const bool place = k % 2U == 0 && bench_now.contact[k / 2U].kind != WH_FRICTION;
@@ -50,14 +62,14 @@ static void bench_signals(const void *model, const wh_phase *phase, const wh_rea
 static void bench_forces(const void *model, const wh_phase *phase, const wh_real *linear,
                          const wh_real *rate, const wh_real *input, wh_real *result) {
     const unsigned n = bench_now.system.coordinates;
-    (void)model;
-    (void)phase;
-    (void)linear;
-    (void)rate;
-    (void)input;
+    look_at(model, phase, linear, rate, input);
     bench_now.laws++;
     for (unsigned k = 0; k < BENCH_CONTACTS; k++) {
         wh_real *law = result + k * (WH_LAW_ROWS + 2U * n);
+        const wh_real straight = bench_now.row[k][0];
+        if (bench_now.lean[k] != WH_R(0.0)) {
+            bench_now.row[k][0] += bench_now.lean[k] * linear[0];
+        }
         law[WH_LAW_FIRST] = bench_now.first[k];
         law[WH_LAW_SECOND] = bench_now.second[k];
         law[WH_LAW_BIAS] = bench_now.bias[k];
@@ -65,6 +77,7 @@ static void bench_forces(const void *model, const wh_phase *phase, const wh_real
             law[(unsigned)WH_LAW_ROWS + i] = bench_now.row[k][i];
             law[(unsigned)WH_LAW_ROWS + n + i] = bench_way(k, i);
         }
+        bench_now.row[k][0] = straight;
     }
 }
 

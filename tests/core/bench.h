@@ -22,6 +22,8 @@ enum { BENCH_COORDS = 3, BENCH_FORCED = 4 };
 typedef struct bench {
     wh_real inverse[WH_COORDS][WH_COORDS]; /* M^-1 */
     wh_real row[BENCH_CONTACTS][WH_COORDS];
+    wh_real lean
+        [BENCH_CONTACTS]; /* the row's first entry gets so much more for each metre of the first line */
     wh_real bias[BENCH_CONTACTS];
     wh_real first[BENCH_CONTACTS];
     wh_real second[BENCH_CONTACTS];
@@ -32,8 +34,11 @@ typedef struct bench {
     wh_contact contact[BENCH_CONTACTS];
     wh_contact_system system;
     wh_ledger_form books;
-    unsigned looks; /* how often the signals were evaluated */
-    unsigned laws;  /* and the forces */
+    const wh_contact_point *at; /* if not NULL, where all is to be asked, */
+    const wh_real *input;       /* with this input */
+    bool astray;                /* something was asked elsewhere */
+    unsigned looks;             /* how often the signals were evaluated */
+    unsigned laws;              /* and the forces */
 } bench;
 
 extern bench bench_now;

@@ -26,8 +26,8 @@ static void draw(uint64_t *seed, wh_contact_work *w) {
         if (bench_now.contact[k].kind == WH_WHEN) {
             w->mode[k] = (int8_t)bench_between(seed, -1, 1);
         }
-        if (bench_one_in(seed, 4) && k < bench_now.system.contacts) {
-            bench_now.signal[2 * k] = WH_R(0.0);
+        if (k < bench_now.system.contacts) {
+            bench_now.signal[2 * k] *= bench_one_in(seed, 4) ? WH_R(0.0) : WH_R(0.25);
         }
     }
     w->inside = (unsigned)bench_bits(seed) % 32U;

@@ -46,6 +46,16 @@ static unsigned add_along(uint64_t *seed, wh_contact_kind kind, unsigned i, wh_r
     return k;
 }
 
+/* A stop that is far away, or none. Returns how many. */
+static unsigned add_far(uint64_t *seed) {
+    if (bench_one_in(seed, 2)) {
+        return 0;
+    }
+    const unsigned k = add_along(seed, WH_STOP, 0, WH_R(1.0));
+    bench_now.signal[2 * k] = WH_R(1024.0);
+    return 1;
+}
+
 /* Where the state is after a second, and what the margins say there. */
 static void run_out(wh_contact_work *w, const wh_contact_state *from, wh_contact_state *to,
                     wh_margins *m) {
@@ -184,28 +194,30 @@ static void test_sliding_ends_where_the_rate_does(void) {
         wh_contact_work w;
         wh_contact_state from = {.real = {WH_R(0.0)}};
         draw_ways(&seed, 2, &from);
+        const unsigned behind = add_far(&seed); /* or first of all */
         (void)bench_add(&seed, WH_FRICTION, 1);
-        bench_now.signal[0] = WH_R(0.0);
+        bench_now.signal[2 * behind] = WH_R(0.0);
         bench_now.moves = true;
         const wh_real when = share_of(&seed);
         const wh_real way = from.real[3] > WH_R(0.0) ? WH_R(1.0) : WH_R(-1.0);
         const bool second = bench_one_in(&seed, 2);
         if (second) { /* and a place that is crossed behind it, or before */
             (void)add_along(&seed, WH_WHEN, 0, WH_R(1.0));
-            bench_now.signal[2] =
+            bench_now.signal[2 * behind + 2] =
                 -place_at(&from, 0, when < WH_R(0.5) ? when + WH_R(0.25) : when / 2);
         }
         bench_now.free[1] = -from.real[3] / when;
         bench_work(&seed, false, &w);
-        w.mode[0] = way > WH_R(0.0) ? 1 : -1;
-        w.mode[1] = from.real[2] > WH_R(0.0) ? -1 : 1;
-        bench_now.second[0] = WH_R(0.0);
+        w.mode[0] = WH_FREE;
+        w.mode[behind] = way > WH_R(0.0) ? 1 : -1;
+        w.mode[behind + 1U] = from.real[2] > WH_R(0.0) ? -1 : 1;
+        bench_now.second[behind] = WH_R(0.0);
         bench_now.system.forces(NULL, NULL, NULL, NULL, NULL, w.law);
         unsigned events = 0;
         const wh_real found = locate(&w, &from, WH_R(1.0), &events);
         const bool before = second && when >= WH_R(0.5);
         enter(found - (before ? when / 2 : when), &sum);
-        TEST_ASSERT_EQUAL_UINT(before ? 2U : 1U, events);
+        TEST_ASSERT_EQUAL_UINT((before ? 2U : 1U) << behind, events);
     }
     told(&sum, 1025, 740, 25);
 }
@@ -221,8 +233,9 @@ static void test_who_slides_from_rest_comes_back_to_it(void) {
         wh_contact_state to;
         wh_margins m;
         draw_ways(&seed, 2, &from);
+        const unsigned behind = add_far(&seed); /* or first of all */
         (void)bench_add(&seed, WH_FRICTION, 1);
-        bench_now.signal[0] = WH_R(0.0);
+        bench_now.signal[2 * behind] = WH_R(0.0);
         /* a = a0 (1 - 2 t/when), by the place of the first line, which moves evenly: so v = a0 t (1 - t/when) */
         const wh_real when = WH_R(0.25) + WH_R(0.74) * share_of(&seed);
         const wh_real a0 = bench_one_in(&seed, 2) ? WH_R(1.0) : WH_R(-1.0);
@@ -232,18 +245,19 @@ static void test_who_slides_from_rest_comes_back_to_it(void) {
         bench_now.free[1] = a0;
         bench_now.ramp[1] = -2 * a0 / when;
         bench_work(&seed, false, &w);
-        w.mode[0] = a0 > WH_R(0.0) ? 1 : -1;
-        bench_now.second[0] = WH_R(0.0);
+        w.mode[0] = WH_FREE;
+        w.mode[behind] = a0 > WH_R(0.0) ? 1 : -1;
+        bench_now.second[behind] = WH_R(0.0);
         bench_now.system.forces(NULL, NULL, NULL, NULL, NULL, w.law);
         run_out(&w, &from, &to, &m);
         to.real[3] = a0 * (1 - 1 / when);
-        m.value[0] = -WH_ABS(to.real[3]);
+        m.value[behind] = -WH_ABS(to.real[3]);
         unsigned events = 0;
         bench_now.looks = 0;
         const wh_real found =
             wh_contact_locate(&bench_now.system, &w, &from, &to, WH_R(1.0), NULL, &m, &events);
         enter(found - when, &sum);
-        TEST_ASSERT_EQUAL_UINT(1U, events);
+        TEST_ASSERT_EQUAL_UINT(1U << behind, events);
     }
     told(&sum, 1340, 1085, 15);
 }
