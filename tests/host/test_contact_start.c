@@ -165,7 +165,6 @@ static void test_what_happens_at_the_start_is_counted(void) {
 }
 
 void suite_contact_start(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_an_impact_at_the_start_is_as_one_just_after);
     RUN_TEST(test_what_happens_at_the_start_is_counted);
 }
