@@ -177,6 +177,12 @@ unsigned bench_add(uint64_t *seed, wh_contact_kind kind, int pin) {
     return k;
 }
 
+/* 0 ... count - 1, or 0. */
+static unsigned below(uint64_t *seed, unsigned count) {
+    const unsigned bits = (unsigned)bench_bits(seed);
+    return count > 0 ? bits % count : 0U;
+}
+
 void bench_add_some(uint64_t *seed, unsigned kinds) {
     const unsigned n = bench_now.system.coordinates;
     const unsigned count = 1U + (unsigned)bench_bits(seed) % BENCH_FORCED;
@@ -186,8 +192,7 @@ void bench_add_some(uint64_t *seed, unsigned kinds) {
             const bool last = kinds >> (kind + 1U) == 0 && k == 0;
             const bool pinned = kind == WH_FRICTION || bench_one_in(seed, 3);
             if (k < count && (last || bench_one_in(seed, 2))) {
-                (void)bench_add(seed, (wh_contact_kind)kind,
-                                pinned ? (int)((unsigned)bench_bits(seed) % n) : -1);
+                (void)bench_add(seed, (wh_contact_kind)kind, pinned ? (int)below(seed, n) : -1);
                 const bool again = k > 0 && !pinned && bench_one_in(seed, 4);
                 for (unsigned c = 0; c < n && again; c++) {
                     bench_now.row[k][c] = -bench_now.row[k - 1][c];
@@ -246,7 +251,7 @@ unsigned bench_members(uint64_t *seed, uint8_t *member) {
         member[i] = member[j];
         member[j] = (uint8_t)i;
     }
-    const unsigned count = 1U + (unsigned)bench_bits(seed) % forced;
+    const unsigned count = 1U + below(seed, forced);
     for (unsigned i = count; i < BENCH_CONTACTS; i++) {
         member[i] = BENCH_CONTACTS - 1U;
     }

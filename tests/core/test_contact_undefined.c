@@ -56,7 +56,7 @@ static bool needed(unsigned k, unsigned place) {
     const bool stuck = kind == WH_FRICTION && hand_state.contacts->mode[k] == WH_STUCK;
     const bool curved = hand_now.contact[k].direction == 0 && hand_now.contact[k].pin < 0;
     switch (place) {
-    case FIRST_SIGNAL: return true;
+    case FIRST_SIGNAL:
     case SECOND_SIGNAL: return true;
     case FIRST_LAW: return stuck || (kind == WH_HOLD && curved && hand_pushed > WH_R(0.0));
     default: return kind == WH_FRICTION && !stuck;
