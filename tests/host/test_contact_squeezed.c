@@ -233,7 +233,7 @@ static void cage_text(const cage *c, char *text) {
 
 static double cage_gap_m(const void *of, const motion *m) {
     const cage *c = of;
-    double least = INFINITY;
+    double least = HUGE_VAL;
     for (int k = 0; k < c->walls; k++) {
         least = fmin(least, c->row[k][0] * motion_value(m, "x") +
                                 c->row[k][1] * motion_value(m, "y") + c->off_m[k]);
