@@ -137,20 +137,12 @@ static inline bool wh_contact_project_places(const wh_contact_system *of, wh_con
     bool coarse = false;
     for (unsigned i = 0; i < count; i++) {
         const unsigned k = member[i];
-        wanted[i] = WH_R(0.0);
         off[i] = wh_contact_drift(of, w, k, signal, spot->from, s);
         if (!wh_finite(off[i])) {
             wh_contact_expect(w, k, off[i]);
             off[i] = WH_R(0.0);
         }
-        if (off[i] == WH_R(0.0)) {
-            continue;
-        }
-        mover = mover == WH_CONTACTS_MAX ? k : mover;
-        if (!wh_contact_pinned(of, k)) {
-            wanted[i] = -off[i];
-            together = true;
-        }
+        mover = mover == WH_CONTACTS_MAX && off[i] != WH_R(0.0) ? k : mover;
     }
     if (mover == WH_CONTACTS_MAX) {
         return false;
@@ -169,12 +161,10 @@ static inline bool wh_contact_project_places(const wh_contact_system *of, wh_con
         }
     }
     /* the others need not move for it, but what holds them to it */
-    for (unsigned i = 0; i < count && of->pinned < of->forced; i++) {
-        if (!wh_contact_pinned(of, member[i])) {
-            const wh_real along = wh_jacobian_times(of, w, member[i], moved);
-            wanted[i] -= along;
-            together = together || along != WH_R(0.0);
-        }
+    for (unsigned i = 0; i < count; i++) {
+        const bool pinned = wh_contact_pinned(of, member[i]);
+        wanted[i] = pinned ? WH_R(0.0) : -(off[i] + wh_jacobian_times(of, w, member[i], moved));
+        together = together || wanted[i] != WH_R(0.0);
     }
     if (together) {
         (void)wh_delassus_solve(of, w, member, count, NULL, wanted, lambda);
