@@ -321,6 +321,7 @@ WH_APART wh_status wh_contact_eventful(const wh_contact_system *of, wh_contact_w
                 flat = wh_contact_accept(of, w, left, &a->now, &a->next, state->input);
                 if (round == WH_EVENTS_MAX) {
                     wh_contact_overrun(of, w, h, state->input, &a->next);
+                    calm = false; /* what that looked at must have been a number, too */
                 }
                 end = &a->next;
                 break;
