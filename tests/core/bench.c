@@ -5,17 +5,6 @@ bench bench_now;
 
 /* --- drawing ------------------------------------------------------------------------------------------------ */
 
-uint64_t bench_bits(uint64_t *seed) {
-    *seed = *seed * 6364136223846793005U + 1442695040888963407U;
-    return *seed >> 33;
-}
-
-wh_real bench_between(uint64_t *seed, int least, int most) {
-    return (wh_real)(least + (int)(bench_bits(seed) % (uint64_t)(most - least + 1)));
-}
-
-bool bench_one_in(uint64_t *seed, unsigned of) { return bench_bits(seed) % of == 0; }
-
 /* Is it asked where it is to be? */
 static void look_at(const void *model, const wh_phase *phase, const wh_real *linear,
                     const wh_real *rate, const wh_real *input) {
@@ -98,12 +87,12 @@ void bench_build(uint64_t *seed, unsigned coordinates, unsigned angles) {
     bench_now = (bench){.moves = false};
     for (unsigned i = 0; i < BENCH_COORDS; i++) {
         for (unsigned j = 0; j < i; j++) {
-            lower[i][j] = bench_between(seed, -1, 1);
+            lower[i][j] = draw_whole(seed, -1, 1);
         }
-        lower[i][i] = bench_between(seed, 1, 2);
+        lower[i][i] = draw_whole(seed, 1, 2);
     }
     for (unsigned i = 0; i < WH_COORDS; i++) {
-        bench_now.free[i] = bench_between(seed, -8, 8);
+        bench_now.free[i] = draw_whole(seed, -8, 8);
         for (unsigned j = 0; j < WH_COORDS; j++) {
             const bool inside = i < coordinates && j < coordinates;
             bench_now.inverse[i][j] = inside ? WH_R(0.0) : BENCH_SENTINEL;
@@ -145,10 +134,8 @@ unsigned bench_add(uint64_t *seed, wh_contact_kind kind, int pin) {
     bool any = false;
     for (unsigned i = 0; i < of->coordinates; i++) {
         const bool is_pin = pin == (int)i;
-        bench_now.row[k][i] = is_pin     ? WH_R(1.0)
-                              : pin >= 0 ? WH_R(0.0)
-                                         : bench_between(seed, -2, 2);
-        if (is_pin && kind != WH_FRICTION && bench_one_in(seed, 2)) {
+        bench_now.row[k][i] = is_pin ? WH_R(1.0) : pin >= 0 ? WH_R(0.0) : draw_whole(seed, -2, 2);
+        if (is_pin && kind != WH_FRICTION && draw_one_in(seed, 2)) {
             bench_now.row[k][i] = WH_R(-2.0);
         }
         any = any || bench_now.row[k][i] != WH_R(0.0);
@@ -160,12 +147,11 @@ unsigned bench_add(uint64_t *seed, wh_contact_kind kind, int pin) {
         bench_now.row[k][i] = BENCH_SENTINEL;
     }
     bench_now.contact[k] = (wh_contact){.kind = (uint8_t)kind, .pin = (int16_t)pin};
-    bench_now.first[k] = bench_between(seed, 1, 4);
+    bench_now.first[k] = draw_whole(seed, 1, 4);
     bench_now.second[k] = bench_now.first[k] - WH_R(0.5);
-    bench_now.bias[k] =
-        pin >= 0 ? WH_R(0.0) : bench_between(seed, -3, 3); /* its path is straight */
-    bench_now.signal[2 * k] = bench_between(seed, -4, 4);
-    bench_now.signal[2 * k + 1] = bench_between(seed, -4, 4);
+    bench_now.bias[k] = pin >= 0 ? WH_R(0.0) : draw_whole(seed, -3, 3); /* its path is straight */
+    bench_now.signal[2 * k] = draw_whole(seed, -4, 4);
+    bench_now.signal[2 * k + 1] = draw_whole(seed, -4, 4);
     if (kind != WH_WHEN) {
         of->forced++;
         of->kinds |= (uint8_t)WH_KIND_BIT(kind);
@@ -179,21 +165,21 @@ unsigned bench_add(uint64_t *seed, wh_contact_kind kind, int pin) {
 
 /* 0 ... count - 1, or 0. */
 static unsigned below(uint64_t *seed, unsigned count) {
-    const unsigned bits = (unsigned)bench_bits(seed);
+    const unsigned bits = (unsigned)draw_bits(seed);
     return count > 0 ? bits % count : 0U;
 }
 
 void bench_add_some(uint64_t *seed, unsigned kinds) {
     const unsigned n = bench_now.system.coordinates;
-    const unsigned count = 1U + (unsigned)bench_bits(seed) % BENCH_FORCED;
+    const unsigned count = 1U + (unsigned)draw_bits(seed) % BENCH_FORCED;
     for (unsigned kind = WH_STOP; kind < WH_WHEN; kind++) {
         for (unsigned i = 0; i < count && (kinds >> kind & 1U) != 0; i++) {
             const unsigned k = bench_now.system.contacts;
             const bool last = kinds >> (kind + 1U) == 0 && k == 0;
-            const bool pinned = kind == WH_FRICTION || bench_one_in(seed, 3);
-            if (k < count && (last || bench_one_in(seed, 2))) {
+            const bool pinned = kind == WH_FRICTION || draw_one_in(seed, 3);
+            if (k < count && (last || draw_one_in(seed, 2))) {
                 (void)bench_add(seed, (wh_contact_kind)kind, pinned ? (int)below(seed, n) : -1);
-                const bool again = k > 0 && !pinned && bench_one_in(seed, 4);
+                const bool again = k > 0 && !pinned && draw_one_in(seed, 4);
                 for (unsigned c = 0; c < n && again; c++) {
                     bench_now.row[k][c] = -bench_now.row[k - 1][c];
                 }
@@ -205,22 +191,35 @@ void bench_add_some(uint64_t *seed, unsigned kinds) {
     }
 }
 
+void bench_draw(uint64_t *seed, bool angles) {
+    const unsigned all = WH_KIND_BIT(WH_STOP) | WH_KIND_BIT(WH_HOLD) | WH_KIND_BIT(WH_FRICTION);
+    const unsigned kinds = 1U + (unsigned)draw_bits(seed) % all;
+    const unsigned n = 1U + (unsigned)draw_bits(seed) % BENCH_COORDS;
+    bench_build(seed, n, angles ? (unsigned)draw_bits(seed) % (n + 1U) : 0U);
+    bench_add_some(seed, kinds);
+}
+
+bool bench_keeps(const wh_contact_work *w, unsigned k) {
+    const bool friction = bench_now.contact[k].kind == WH_FRICTION;
+    return friction ? w->mode[k] == WH_STUCK : w->mode[k] == WH_ACTIVE;
+}
+
 void bench_work(uint64_t *seed, bool some, wh_contact_work *w) {
     *w = (wh_contact_work){.undefined = -1, .fault = -1};
     for (unsigned k = 0; k < BENCH_CONTACTS; k++) {
         const bool used = k < bench_now.system.contacts;
         const bool friction = bench_now.contact[k].kind == WH_FRICTION;
-        const int8_t way = bench_one_in(seed, 2) ? 1 : -1;
-        const bool holds = !used || !some || bench_one_in(seed, 2);
+        const int8_t way = draw_one_in(seed, 2) ? 1 : -1;
+        const bool holds = !used || !some || draw_one_in(seed, 2);
         w->mode[k] = (int8_t)(friction ? (holds ? WH_STUCK : way) : holds ? WH_ACTIVE : WH_FREE);
-        w->force[k] = used ? bench_between(seed, -4, 4) : BENCH_SENTINEL;
+        w->force[k] = used ? draw_whole(seed, -4, 4) : BENCH_SENTINEL;
     }
     bench_forces(NULL, NULL, NULL, NULL, NULL, w->law);
 }
 
 void bench_vector(uint64_t *seed, wh_real *x) {
     for (unsigned i = 0; i < WH_COORDS; i++) {
-        x[i] = i < bench_now.system.coordinates ? bench_between(seed, -4, 4) : BENCH_SENTINEL;
+        x[i] = i < bench_now.system.coordinates ? draw_whole(seed, -4, 4) : BENCH_SENTINEL;
     }
 }
 
@@ -228,10 +227,10 @@ void bench_state(uint64_t *seed, wh_contact_state *s) {
     const unsigned angles = bench_now.system.angles;
     const unsigned reals = 2U * bench_now.system.coordinates - angles;
     for (unsigned i = 0; i < WH_COORDS; i++) {
-        s->angle[i] = (wh_angle)bench_between(seed, -100, 100);
+        s->angle[i] = (wh_angle)draw_whole(seed, -100, 100);
     }
     for (unsigned i = 0; i < 2U * WH_COORDS; i++) {
-        s->real[i] = i < reals ? bench_between(seed, -4, 4) : BENCH_SENTINEL;
+        s->real[i] = i < reals ? draw_whole(seed, -4, 4) : BENCH_SENTINEL;
         s->carry[i] = WH_R(0.0);
     }
 }
@@ -247,7 +246,7 @@ wh_real bench_moved(const wh_contact_state *from, const wh_contact_state *to, un
 unsigned bench_members(uint64_t *seed, uint8_t *member) {
     const unsigned forced = bench_now.system.forced;
     for (unsigned i = 0; i < forced; i++) {
-        const unsigned j = (unsigned)bench_bits(seed) % (i + 1U);
+        const unsigned j = (unsigned)draw_bits(seed) % (i + 1U);
         member[i] = member[j];
         member[j] = (uint8_t)i;
     }

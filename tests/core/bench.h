@@ -14,6 +14,7 @@
 #define WH_CONTACTS_MAX BENCH_CONTACTS
 #define WH_SETS_MAX 1
 #include "core/contact_step.h"
+#include "draw.h"
 
 enum { BENCH_COORDS = 3, BENCH_FORCED = 4 };
 
@@ -43,18 +44,18 @@ typedef struct bench {
 
 extern bench bench_now;
 
-uint64_t bench_bits(uint64_t *seed);
-wh_real bench_between(uint64_t *seed, int least, int most);
-bool bench_one_in(uint64_t *seed, unsigned of);
-
 /* So many coordinates, the first `angles` of them angles; M^-1 drawn, whole and positive definite. */
 void bench_build(uint64_t *seed, unsigned coordinates, unsigned angles);
 /* A contact: pinned to coordinate `pin`, or, with -1, on no single one: its row is drawn. Returns its number. */
 unsigned bench_add(uint64_t *seed, wh_contact_kind kind, int pin);
 /* One to four contacts of the kinds in `kinds` (bits), in order; some pinned, some repeating others. */
 void bench_add_some(uint64_t *seed, unsigned kinds);
+/* Any mechanism: its coordinates, `angles` perhaps among them, and contacts of any kinds with a force. */
+void bench_draw(uint64_t *seed, bool angles);
 /* w as new, with the laws in it, and each contact in a mode: it holds, or, `some`, perhaps not. */
 void bench_work(uint64_t *seed, bool some, wh_contact_work *w);
+/* Does contact k, in its mode, keep something? */
+bool bench_keeps(const wh_contact_work *w, unsigned k);
 /* x[WH_COORDS]: whole numbers, and what is behind them. */
 void bench_vector(uint64_t *seed, wh_real *x);
 /* All or some of the contacts with a force in member[BENCH_CONTACTS], in any order; behind them one that is none.

@@ -1,6 +1,7 @@
 /* test_contact_exact.c: random mechanisms of one or two coordinates with up to three contacts under constant loads, held
  * step by step against what exact.h works out: state, modes, events with their times and impulses, and what each contact
  * gave. Where a decision hangs on less than rounding a run is left; most are not. */
+#include "draw.h"
 #include "exact.h"
 
 #include "unity.h"
@@ -11,28 +12,11 @@ enum { MECHANISMS = __STDC_HOSTED__ ? 2000 : 50, STEPS = 60 };
 
 #define CLOSE (WH_DOUBLE ? 1e-5 : 5e-3)
 
-static uint64_t bits_of(uint64_t *seed) {
-    *seed = *seed * 6364136223846793005U + 1442695040888963407U;
-    return *seed >> 33;
-}
-
-/* A whole number. */
-static wh_real whole(uint64_t *seed, int least, int most) {
-    return (wh_real)(least + (int)(bits_of(seed) % (uint64_t)(most - least + 1)));
-}
-
-/* Any other: no two meet by chance. */
-static wh_real broken(uint64_t *seed, int least, int most) {
-    return whole(seed, least * 1024, most * 1024 - 1) / 1024 + whole(seed, 1, 1023) / (1024 * 1024);
-}
-
-static bool one_in(uint64_t *seed, unsigned of) { return bits_of(seed) % of == 0; }
-
 /* --- drawing ------------------------------------------------------------------------------------------------ */
 
 static int draw_row(uint64_t *seed, unsigned n, wh_real *row) {
-    row[0] = whole(seed, -2, 2);
-    row[1] = n == 1 || one_in(seed, 2) ? WH_R(0.0) : whole(seed, -2, 2);
+    row[0] = draw_whole(seed, -2, 2);
+    row[1] = n == 1 || draw_one_in(seed, 2) ? WH_R(0.0) : draw_whole(seed, -2, 2);
     if (row[0] == WH_R(0.0) && row[1] == WH_R(0.0)) {
         row[0] = WH_R(1.0);
     }
@@ -42,58 +26,62 @@ static int draw_row(uint64_t *seed, unsigned n, wh_real *row) {
 /* Stops, of which one in `touched` is, a hold, frictions, a crossing: at least one, three at most, under loads so
  * `heavy`. */
 static void draw(uint64_t *seed, unsigned touched, bool crosses, int heavy) {
-    const unsigned n = one_in(seed, 4) ? 1 : 2;
+    const unsigned n = draw_one_in(seed, 4) ? 1 : 2;
     unsigned room = HAND_CONTACTS - crosses;
-    const bool beside = crosses && n == 2 && one_in(seed, 2); /* it is the other coordinate's */
+    const bool beside =
+        crosses && n == 2 && draw_one_in(seed, 2); /* it is the other coordinate's */
     wh_real row[2];
-    hand_build(n, broken(seed, 1, 4), n == 1 ? WH_R(0.0) : broken(seed, -1, 1), broken(seed, 2, 4));
-    hand_pushed = one_in(seed, 2) ? WH_R(1.0) : WH_R(-1.0);
+    hand_build(n, draw_broken(seed, 1, 4), n == 1 ? WH_R(0.0) : draw_broken(seed, -1, 1),
+               draw_broken(seed, 2, 4));
+    hand_pushed = draw_one_in(seed, 2) ? WH_R(1.0) : WH_R(-1.0);
     for (unsigned i = 0; i < n; i++) {
-        hand_now.start[i] = whole(seed, -2, 2) / 8;
-        hand_now.start[n + i] = one_in(seed, 3) ? WH_R(0.0) : broken(seed, -1, 1);
-        hand_now.load[i] = one_in(seed, 8) ? WH_R(0.0) : broken(seed, -8, 8) * (wh_real)heavy;
+        hand_now.start[i] = draw_whole(seed, -2, 2) / 8;
+        hand_now.start[n + i] = draw_one_in(seed, 3) ? WH_R(0.0) : draw_broken(seed, -1, 1);
+        hand_now.load[i] =
+            draw_one_in(seed, 8) ? WH_R(0.0) : draw_broken(seed, -8, 8) * (wh_real)heavy;
     }
     if (beside) {
         hand_now.start[3] = WH_R(0.0);
     }
-    hand_now.weighs = one_in(seed, 2);
-    hand_now.system.compensated = one_in(seed, 4);
-    for (; room > 0 && !one_in(seed, 3); room--) {
+    hand_now.weighs = draw_one_in(seed, 2);
+    hand_now.system.compensated = draw_one_in(seed, 4);
+    for (; room > 0 && !draw_one_in(seed, 3); room--) {
         int pin = draw_row(seed, n, row);
         if (beside) {
             row[0] = WH_R(0.0);
-            row[1] = one_in(seed, 2) ? WH_R(1.0) : WH_R(-2.0);
+            row[1] = draw_one_in(seed, 2) ? WH_R(1.0) : WH_R(-2.0);
             pin = 1;
         }
-        const wh_real gap = !one_in(seed, touched) ? broken(seed, 0, 20) / 1024
-                            : one_in(seed, 4)      ? broken(seed, -4, 0) / 1024
-                                                   : WH_R(0.0);
+        const wh_real gap = !draw_one_in(seed, touched) ? draw_broken(seed, 0, 20) / 1024
+                            : draw_one_in(seed, 4)      ? draw_broken(seed, -4, 0) / 1024
+                                                        : WH_R(0.0);
         const wh_real at = row[0] * hand_now.start[0] + row[1] * hand_now.start[1];
-        (void)hand_add(WH_STOP, pin, row[0], row[1], at - gap, whole(seed, 0, 4) / 4, WH_R(0.0));
+        (void)hand_add(WH_STOP, pin, row[0], row[1], at - gap, draw_whole(seed, 0, 4) / 4,
+                       WH_R(0.0));
     }
-    if (room > 0 && one_in(seed, 2)) {
+    if (room > 0 && draw_one_in(seed, 2)) {
         const int pin = draw_row(seed, n, row);
         const unsigned k = hand_add(WH_HOLD, pin, row[0], row[1], WH_R(0.0), WH_R(0.0), WH_R(0.0));
-        hand_now.contact[k].direction = one_in(seed, 2) ? 1 : 0;
+        hand_now.contact[k].direction = draw_one_in(seed, 2) ? 1 : 0;
         hand_now.system.held = pin < 0;
         room--;
     }
     for (unsigned i = 0; i < n && room > 0; i++) {
-        if (one_in(seed, 2) || hand_now.system.contacts == 0) {
-            const wh_real most = broken(seed, 0, 3) * (wh_real)(heavy > 0 ? heavy : 1);
+        if (draw_one_in(seed, 2) || hand_now.system.contacts == 0) {
+            const wh_real most = draw_broken(seed, 0, 3) * (wh_real)(heavy > 0 ? heavy : 1);
             (void)hand_add(WH_FRICTION, (int)i, i == 0 ? WH_R(1.0) : WH_R(0.0),
                            i == 1 ? WH_R(1.0) : WH_R(0.0), WH_R(0.0), most,
-                           one_in(seed, 2) ? most : most * WH_R(0.75));
+                           draw_one_in(seed, 2) ? most : most * WH_R(0.75));
             room--;
         }
     }
     if (crosses) {
         const unsigned k =
             hand_add(WH_WHEN, -1, WH_R(1.0), WH_R(0.0),
-                     hand_now.start[0] + broken(seed, -4, 4) / 256, WH_R(0.0), WH_R(0.0));
-        hand_now.contact[k].direction = (int8_t)whole(seed, -1, 1);
-        hand_now.places = one_in(seed, 2);
-        hand_now.place = hand_now.start[0] + broken(seed, -16, 16) / 256;
+                     hand_now.start[0] + draw_broken(seed, -4, 4) / 256, WH_R(0.0), WH_R(0.0));
+        hand_now.contact[k].direction = (int8_t)draw_whole(seed, -1, 1);
+        hand_now.places = draw_one_in(seed, 2);
+        hand_now.place = hand_now.start[0] + draw_broken(seed, -16, 16) / 256;
     }
 }
 

@@ -10,17 +10,17 @@ enum { ROUNDS = __STDC_HOSTED__ ? 3000 : 60 };
 
 /* Stops and holds on lines and angles, or holds alone; held: how many can slip. */
 static void draw(uint64_t *seed, unsigned angles, wh_contact_work *w) {
-    const unsigned stops = bench_one_in(seed, 2) ? WH_KIND_BIT(WH_STOP) : 0U;
+    const unsigned stops = draw_one_in(seed, 2) ? WH_KIND_BIT(WH_STOP) : 0U;
     bench_build(seed, BENCH_COORDS, angles);
     bench_add_some(seed, stops | WH_KIND_BIT(WH_HOLD));
     for (unsigned k = 0; k < bench_now.system.forced; k++) {
         wh_contact *c = &bench_now.contact[k];
         if (c->kind == WH_HOLD) {
-            c->direction = (int8_t)bench_between(seed, -1, 1);
+            c->direction = (int8_t)draw_whole(seed, -1, 1);
             c->first_set = c->pin < 0 ? bench_now.system.held++ : BENCH_CONTACTS - 1;
         }
     }
-    bench_work(seed, bench_one_in(seed, 2), w);
+    bench_work(seed, draw_one_in(seed, 2), w);
 }
 
 static bool holds(const wh_contact_work *w, unsigned k) {
@@ -36,7 +36,7 @@ static void test_rows_are_those_of_the_place(void) {
         wh_contact_state s;
         wh_contact_point at;
         const wh_real input = WH_R(0.0);
-        draw(&seed, (unsigned)bench_bits(&seed) % BENCH_COORDS, &w);
+        draw(&seed, (unsigned)draw_bits(&seed) % BENCH_COORDS, &w);
         bench_state(&seed, &s);
         wh_contact_point_of(&bench_now.system, &s, &at);
         const wh_contact_point asked = at;
@@ -88,12 +88,11 @@ static void test_a_say_is_lost_at_either_place(void) {
         draw(&seed, 0, &w);
         const wh_contact_system *of = &bench_now.system;
         for (unsigned k = 0; k < of->forced; k++) {
-            bench_now.lean[k] =
-                bench_now.contact[k].pin < 0 ? bench_between(&seed, -2, 2) : WH_R(0.0);
+            bench_now.lean[k] = bench_now.contact[k].pin < 0 ? draw_whole(&seed, -2, 2) : WH_R(0.0);
             any = any || (holds(&w, k) && bench_now.contact[k].pin < 0 &&
                           bench_now.contact[k].direction <= 0);
         }
-        const wh_real span = bench_between(&seed, 1, 4) / 2;
+        const wh_real span = draw_whole(&seed, 1, 4) / 2;
         bench_state(&seed, &place[0]);
         place[1] = place[0];
         for (unsigned i = 0; i < of->coordinates; i++) {
@@ -107,7 +106,7 @@ static void test_a_say_is_lost_at_either_place(void) {
         }
         const unsigned ahead = wh_contact_fallen(of, &rows[0], &rows[1]);
         const unsigned there = wh_contact_fallen(of, &rows[0], &rows[2]);
-        const bool made = bench_one_in(&seed, 2);
+        const bool made = draw_one_in(&seed, 2);
         const unsigned lost = ahead < of->contacts || !made ? ahead : there;
         wh_contact_state *to = made ? &place[2] : NULL;
         TEST_ASSERT_EQUAL_UINT(lost, wh_contact_lost(of, &w, span, &place[0], to, NULL));
@@ -127,9 +126,9 @@ static void test_rates_lead_ahead(void) {
         wh_contact_state there;
         wh_contact_point at;
         wh_contact_point right;
-        draw(&seed, (unsigned)bench_bits(&seed) % (BENCH_COORDS + 1U), &w);
+        draw(&seed, (unsigned)draw_bits(&seed) % (BENCH_COORDS + 1U), &w);
         const wh_contact_system *of = &bench_now.system;
-        const wh_real span = bench_between(&seed, -2, 2) / 4;
+        const wh_real span = draw_whole(&seed, -2, 2) / 4;
         bench_state(&seed, &s);
         there = s;
         for (unsigned i = 0; i < of->coordinates; i++) {

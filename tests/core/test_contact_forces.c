@@ -8,19 +8,9 @@ void suite_contact_forces(void);
 
 enum { ROUNDS = __STDC_HOSTED__ ? 4000 : 100 };
 
-#define ALL_KINDS (WH_KIND_BIT(WH_STOP) | WH_KIND_BIT(WH_HOLD) | WH_KIND_BIT(WH_FRICTION))
-
 static void draw(uint64_t *seed, bool some, wh_contact_work *w) {
-    const unsigned kinds = 1U + (unsigned)bench_bits(seed) % ALL_KINDS;
-    const unsigned n = 1U + (unsigned)bench_bits(seed) % BENCH_COORDS;
-    bench_build(seed, n, (unsigned)bench_bits(seed) % (n + 1U));
-    bench_add_some(seed, kinds);
+    bench_draw(seed, true);
     bench_work(seed, some, w);
-}
-
-static bool keeps(const wh_contact_work *w, unsigned k) {
-    const bool friction = bench_now.contact[k].kind == WH_FRICTION;
-    return friction ? w->mode[k] == WH_STUCK : w->mode[k] == WH_ACTIVE;
 }
 
 /* What the others make of each other's accelerations; who repeats them, or is at a limit, does nothing. */
@@ -36,12 +26,12 @@ static void test_a_load_is_what_a_dense_solve_says(void) {
         unsigned out;
         draw(&seed, false, &w);
         const unsigned count = bench_members(&seed, member);
-        const bool some = count > 1 && bench_one_in(&seed, 2);
+        const bool some = count > 1 && draw_one_in(&seed, 2);
         for (unsigned i = 0; i < count; i++) {
-            wanted[i] = bench_between(&seed, -4, 4);
+            wanted[i] = draw_whole(&seed, -4, 4);
         }
         for (unsigned i = 0; i < count && some; i++) {
-            at[i] = (int8_t)(bench_one_in(&seed, 3) ? (bench_one_in(&seed, 2) ? 1 : -1) : 0);
+            at[i] = (int8_t)(draw_one_in(&seed, 3) ? (draw_one_in(&seed, 2) ? 1 : -1) : 0);
         }
         out = bench_repeats(member, count, at);
         TEST_ASSERT_EQUAL_UINT(out, wh_delassus_solve(&bench_now.system, &w, member, count,
@@ -73,7 +63,7 @@ static unsigned draw_wanted(const wh_contact_work *w, wh_real *accel, uint8_t *m
     }
     for (unsigned k = 0; k < bench_now.system.forced; k++) {
         force[k] = WH_R(0.0);
-        if (keeps(w, k)) {
+        if (bench_keeps(w, k)) {
             member[count++] = (uint8_t)k;
         } else if (bench_now.contact[k].kind == WH_FRICTION) {
             force[k] = (wh_real)-w->mode[k] * bench_now.second[k];
@@ -194,10 +184,10 @@ static void test_what_repeats_others_shares_their_load(void) {
         unsigned giving = 0;
         draw(&seed, true, &w);
         const wh_contact_system *of = &bench_now.system;
-        const bool straight = bench_one_in(&seed, 2);
+        const bool straight = draw_one_in(&seed, 2);
         for (unsigned k = 0; k < of->forced; k++) {
             bench_now.bias[k] *= straight ? 0 : 1;
-            bench_now.first[k] = bench_between(&seed, 1, 8) * WH_R(1.03125);
+            bench_now.first[k] = draw_whole(&seed, 1, 8) * WH_R(1.03125);
         }
         of->forces(NULL, NULL, NULL, NULL, NULL, w.law);
         wh_contact_work other = w;
@@ -279,9 +269,9 @@ static void test_no_number_stays_none_where_it_is_pinned(void) {
         bench_build(&seed, 2, 0);
         (void)bench_add(&seed, WH_STOP, 0);
         (void)bench_add(&seed, WH_HOLD, 1);
-        const bool none = bench_one_in(&seed, 2);
+        const bool none = draw_one_in(&seed, 2);
         const wh_real zero = bench_now.free[0] - bench_now.free[0];
-        bench_now.free[bench_bits(&seed) % 2U] += none ? zero / zero : zero;
+        bench_now.free[draw_bits(&seed) % 2U] += none ? zero / zero : zero;
         bench_work(&seed, false, &w);
         const wh_contact_model model = {&bench_now.system, &w};
         wh_contact_accel(&model, at.phase, at.linear, at.rate, NULL, accel);
@@ -315,21 +305,21 @@ static void test_impulses_lead_to_their_targets(void) {
         unsigned stops = 0;
         draw(&seed, true, &w);
         const wh_contact_system *of = &bench_now.system;
-        w.books = bench_one_in(&seed, 2) ? &books : NULL;
+        w.books = draw_one_in(&seed, 2) ? &books : NULL;
         bench_vector(&seed, rate);
         for (unsigned k = 0; k < BENCH_CONTACTS; k++) {
             stops |= k < of->forced && bench_now.contact[k].kind != WH_FRICTION ? 1U << k : 0U;
-            target[k] = bench_one_in(&seed, 2) ? WH_R(0.0) : bench_between(&seed, -4, 4);
-            impulse[k] = bench_between(&seed, 0, 4);
+            target[k] = draw_one_in(&seed, 2) ? WH_R(0.0) : draw_whole(&seed, -4, 4);
+            impulse[k] = draw_whole(&seed, 0, 4);
             total[k] = impulse[k];
         }
-        const unsigned set = stops & (unsigned)bench_bits(&seed);
-        const unsigned beside = stops & (unsigned)bench_bits(&seed) & (unsigned)bench_bits(&seed);
+        const unsigned set = stops & (unsigned)draw_bits(&seed);
+        const unsigned beside = stops & (unsigned)draw_bits(&seed) & (unsigned)draw_bits(&seed);
         for (unsigned c = 0; c < WH_COORDS; c++) {
             right[c] = rate[c];
         }
         for (unsigned k = 0; k < of->forced; k++) {
-            const bool holds = bench_now.contact[k].kind != WH_FRICTION && keeps(&w, k);
+            const bool holds = bench_now.contact[k].kind != WH_FRICTION && bench_keeps(&w, k);
             if (holds || ((set | beside) >> k & 1U) != 0) {
                 wanted[count] =
                     ((set >> k & 1U) != 0 ? target[k] : WH_R(0.0)) - bench_along(k, rate);

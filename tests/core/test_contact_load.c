@@ -7,19 +7,14 @@ void suite_contact_load(void);
 
 enum { ROUNDS = __STDC_HOSTED__ ? 4000 : 100 };
 
-#define ALL_KINDS (WH_KIND_BIT(WH_STOP) | WH_KIND_BIT(WH_HOLD) | WH_KIND_BIT(WH_FRICTION))
-
 static void draw(uint64_t *seed, wh_contact_work *w) {
-    const unsigned kinds = 1U + (unsigned)bench_bits(seed) % ALL_KINDS;
-    bench_build(seed, 1U + (unsigned)bench_bits(seed) % BENCH_COORDS, 0);
-    bench_add_some(seed, kinds);
+    bench_draw(seed, false);
     bench_work(seed, false, w);
 }
 
 static void draw_places(uint64_t *seed, unsigned count, int8_t *at) {
     for (unsigned i = 0; i < BENCH_CONTACTS; i++) {
-        at[i] =
-            (int8_t)(i >= count || bench_one_in(seed, 3) ? (bench_one_in(seed, 2) ? 1 : -1) : 0);
+        at[i] = (int8_t)(i >= count || draw_one_in(seed, 3) ? (draw_one_in(seed, 2) ? 1 : -1) : 0);
     }
 }
 
@@ -133,23 +128,23 @@ static void test_what_contradicts_is_told_from_rounding(void) {
         unsigned out;
         draw(&seed, &w);
         const unsigned count = bench_members(&seed, member);
-        const bool rates = bench_one_in(&seed, 2);
+        const bool rates = draw_one_in(&seed, 2);
         const wh_real scale[3] = {WH_R(1.0), WH_R(1.0) / WH_CONTACT_ROUNDING,
                                   WH_R(1.0) / WH_CONTACT_CREEP};
-        const wh_real big = scale[bench_bits(&seed) % (rates ? 2U : 3U)];
-        const wh_real small = bench_one_in(&seed, 2) ? WH_R(1.0) : WH_R(0.0);
+        const wh_real big = scale[draw_bits(&seed) % (rates ? 2U : 3U)];
+        const wh_real small = draw_one_in(&seed, 2) ? WH_R(1.0) : WH_R(0.0);
         const wh_real more = big == scale[2] ? WH_R(0.53) : WH_R(0.0); /* the bend is not exact */
         draw_places(&seed, count, at);
         bench_vector(&seed, way);
         for (unsigned i = 0; i < count; i++) {
             const unsigned k = member[i];
             bench_now.bias[k] *= small;
-            w.rough[k] = (bench_between(&seed, 0, 4) + more) * big;
-            impulse[i] = bench_between(&seed, -4, 4) * (rates ? big : WH_R(1.0));
-            wanted[i] = bench_along(k, way) + bench_between(&seed, -8, 8);
-            if (rates && bench_one_in(&seed, 2)) { /* of its own size only rounding, or just more */
+            w.rough[k] = (draw_whole(&seed, 0, 4) + more) * big;
+            impulse[i] = draw_whole(&seed, -4, 4) * (rates ? big : WH_R(1.0));
+            wanted[i] = bench_along(k, way) + draw_whole(&seed, -8, 8);
+            if (rates && draw_one_in(&seed, 2)) { /* of its own size only rounding, or just more */
                 const wh_real made = bench_along(k, way);
-                const wh_real part = bench_one_in(&seed, 2) ? WH_R(1.75) : WH_R(2.25);
+                const wh_real part = draw_one_in(&seed, 2) ? WH_R(1.75) : WH_R(2.25);
                 wanted[i] = made + part * WH_CONTACT_ROUNDING * made;
                 impulse[i] = WH_R(0.0);
             }
@@ -158,7 +153,7 @@ static void test_what_contradicts_is_told_from_rounding(void) {
         const unsigned repeats = bench_repeats(member, count, at);
         /* whoever does not repeat others has no bend of his own left */
         const unsigned any = small == WH_R(0.0) || rates ? (1U << count) - 1U : repeats;
-        const unsigned asked = any & (unsigned)bench_bits(&seed);
+        const unsigned asked = any & (unsigned)draw_bits(&seed);
         out = repeats;
         for (unsigned i = 0; i < count; i++) {
             out |= at[i] != 0 ? 1U << i : 0U;
@@ -208,9 +203,9 @@ static void test_a_small_difference_of_bends_is_none(void) {
         (void)bench_add(&seed, WH_HOLD, -1);
         (void)bench_add(&seed, WH_HOLD, -1);
         const wh_real size =
-            bench_between(&seed, 1, 8) * (bench_one_in(&seed, 2) ? WH_R(1.0) : WH_R(-1.0));
-        const bool more = bench_one_in(&seed, 2);
-        const bool up = bench_one_in(&seed, 2);
+            draw_whole(&seed, 1, 8) * (draw_one_in(&seed, 2) ? WH_R(1.0) : WH_R(-1.0));
+        const bool more = draw_one_in(&seed, 2);
+        const bool up = draw_one_in(&seed, 2);
         const wh_real least = WH_CONTACT_ROUNDING * 3 * WH_ABS(size);
         const wh_real off = least * (more ? WH_R(1.125) : WH_R(0.875));
         for (unsigned c = 0; c < 2; c++) {
@@ -274,21 +269,21 @@ static void test_who_is_at_a_limit_first_gives_way(void) {
         draw(&seed, &w);
         const unsigned count = bench_members(&seed, member);
         draw_places(&seed, count, at);
-        const bool any = bench_one_in(&seed, 2);
+        const bool any = draw_one_in(&seed, 2);
         for (unsigned i = 0; i < count && !any; i++) {
             at[i] = 0;
         }
         const unsigned repeats = bench_repeats(member, count, at);
         for (unsigned i = 0; i < count; i++) {
             const uint8_t kind = bench_now.contact[member[i]].kind;
-            lambda[i] = bench_between(&seed, kind == WH_STOP ? 0 : -4, 4);
+            lambda[i] = draw_whole(&seed, kind == WH_STOP ? 0 : -4, 4);
             if (kind == WH_FRICTION) {
                 lambda[i] *= bench_now.first[member[i]] / 4;
             }
         }
         for (unsigned i = 0; i < count; i++) {
             const uint8_t kind = bench_now.contact[member[i]].kind;
-            const int8_t push = bench_one_in(&seed, 2) ? 1 : -1;
+            const int8_t push = draw_one_in(&seed, 2) ? 1 : -1;
             int8_t limit = 9;
             int8_t right = push;
             bool tie = false;
@@ -331,7 +326,7 @@ static void test_a_round_bears_what_limits_leave(void) {
             const uint8_t kind = bench_now.contact[member[i]].kind;
             at[i] = kind == WH_HOLD || (kind == WH_STOP && at[i] > 0) ? 0 : at[i];
             right[i] = kind == WH_STOP ? WH_R(0.0) : (wh_real)at[i] * bench_now.first[member[i]];
-            wanted[i] = bench_between(&seed, -4, 4);
+            wanted[i] = draw_whole(&seed, -4, 4);
             out |= at[i] != 0 ? 1U << i : 0U;
         }
         for (unsigned i = 0; i < count; i++) {

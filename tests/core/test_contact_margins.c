@@ -8,34 +8,24 @@ void suite_contact_margins(void);
 
 enum { ROUNDS = __STDC_HOSTED__ ? 3000 : 60 };
 
-#define ALL_KINDS (WH_KIND_BIT(WH_STOP) | WH_KIND_BIT(WH_HOLD) | WH_KIND_BIT(WH_FRICTION))
-
 /* Contacts of some kinds in some modes, and a crossing or two if there is room. */
 static void draw(uint64_t *seed, wh_contact_work *w) {
-    const unsigned kinds = 1U + (unsigned)bench_bits(seed) % ALL_KINDS;
-    const unsigned n = 1U + (unsigned)bench_bits(seed) % BENCH_COORDS;
-    bench_build(seed, n, (unsigned)bench_bits(seed) % (n + 1U));
-    bench_add_some(seed, kinds);
-    while (bench_now.system.contacts < BENCH_FORCED && bench_one_in(seed, 2)) {
+    bench_draw(seed, true);
+    while (bench_now.system.contacts < BENCH_FORCED && draw_one_in(seed, 2)) {
         const unsigned k = bench_add(seed, WH_WHEN, -1);
-        bench_now.contact[k].direction = (int8_t)bench_between(seed, -1, 1);
+        bench_now.contact[k].direction = (int8_t)draw_whole(seed, -1, 1);
     }
     bench_work(seed, true, w);
     for (unsigned k = 0; k < BENCH_CONTACTS; k++) {
-        w->slack[k] = bench_between(seed, 0, 4) / 4;
+        w->slack[k] = draw_whole(seed, 0, 4) / 4;
         if (bench_now.contact[k].kind == WH_WHEN) {
-            w->mode[k] = (int8_t)bench_between(seed, -1, 1);
+            w->mode[k] = (int8_t)draw_whole(seed, -1, 1);
         }
         if (k < bench_now.system.contacts) {
-            bench_now.signal[2 * k] *= bench_one_in(seed, 4) ? WH_R(0.0) : WH_R(0.25);
+            bench_now.signal[2 * k] *= draw_one_in(seed, 4) ? WH_R(0.0) : WH_R(0.25);
         }
     }
-    w->inside = (unsigned)bench_bits(seed) % 32U;
-}
-
-static bool keeps(const wh_contact_work *w, unsigned k) {
-    const bool friction = bench_now.contact[k].kind == WH_FRICTION;
-    return friction ? w->mode[k] == WH_STUCK : w->mode[k] == WH_ACTIVE;
+    w->inside = (unsigned)draw_bits(seed) % 32U;
 }
 
 /* --- margins ------------------------------------------------------------------------------------------------ */
@@ -55,7 +45,7 @@ static void test_a_force_is_beyond_its_limit_by_more_than_rounding(void) {
         wh_contact_work w;
         draw(&seed, &w);
         const wh_contact_system *of = &bench_now.system;
-        const unsigned k = (unsigned)bench_bits(&seed) % of->forced;
+        const unsigned k = (unsigned)draw_bits(&seed) % of->forced;
         const wh_real least = WH_CONTACT_QUIET * others_of(&w, k) / bench_delassus(k, k);
         TEST_ASSERT_TRUE(wh_contact_beyond(of, &w, k, WH_R(-0.99) * least) == WH_R(0.0));
         TEST_ASSERT_TRUE(wh_contact_beyond(of, &w, k, WH_R(-1.01) * least) == WH_R(-1.01) * least);
@@ -76,10 +66,10 @@ static wh_real margin_of(const wh_contact_work *w, unsigned k) {
     const wh_real rate = bench_now.signal[2 * k + 1];
     const bool out = (w->inside >> k & 1U) != 0 && rate > WH_R(0.0);
     switch ((wh_contact_kind)c->kind) {
-    case WH_STOP: return keeps(w, k) ? beyond(w, k, w->force[k]) : out ? WH_ABS(at) : at;
-    case WH_HOLD: return keeps(w, k) ? at : -at;
+    case WH_STOP: return bench_keeps(w, k) ? beyond(w, k, w->force[k]) : out ? WH_ABS(at) : at;
+    case WH_HOLD: return bench_keeps(w, k) ? at : -at;
     case WH_FRICTION:
-        if (keeps(w, k)) {
+        if (bench_keeps(w, k)) {
             return beyond(w, k, bench_now.first[k] - WH_ABS(w->force[k]));
         }
         return (wh_real)w->mode[k] * at + w->slack[k];
@@ -98,7 +88,7 @@ static wh_real sum_of(const wh_contact_work *w) {
         const uint8_t kind = bench_now.contact[k].kind;
         all += bench_now.signal[2 * k];
         all += kind == WH_STOP || kind == WH_HOLD ? bench_now.signal[2 * k + 1] : WH_R(0.0);
-        all += kind == WH_FRICTION && keeps(w, k) ? bench_now.first[k] : WH_R(0.0);
+        all += kind == WH_FRICTION && bench_keeps(w, k) ? bench_now.first[k] : WH_R(0.0);
     }
     return all;
 }
@@ -116,7 +106,7 @@ static void test_margins_are_those_of_their_kinds(void) {
         bench_state(&seed, &s);
         wh_contact_point_of(of, &s, &at);
         for (unsigned k = 0; k < of->forced; k++) {
-            watched = watched || (bench_now.contact[k].kind != WH_HOLD && keeps(&w, k));
+            watched = watched || (bench_now.contact[k].kind != WH_HOLD && bench_keeps(&w, k));
         }
         for (unsigned k = 0; k < BENCH_CONTACTS; k++) {
             m.value[k] = BENCH_SENTINEL;
@@ -149,9 +139,9 @@ static void test_margins_are_those_of_their_kinds(void) {
 /* Neither of these is a number: */
 static wh_real draw_none(uint64_t *seed) {
     const wh_real zero = WH_R(0.0) * bench_now.free[0];
-    return bench_one_in(seed, 3)   ? zero / zero
-           : bench_one_in(seed, 2) ? 1 / (zero * zero)
-                                   : -1 / (zero * zero);
+    return draw_one_in(seed, 3)   ? zero / zero
+           : draw_one_in(seed, 2) ? 1 / (zero * zero)
+                                  : -1 / (zero * zero);
 }
 
 static bool is_number(wh_real value) { return value - value == WH_R(0.0); }
@@ -159,8 +149,8 @@ static bool is_number(wh_real value) { return value - value == WH_R(0.0); }
 /* A contact's law, that of the mode it is in, as far as a step builds on it: none of a stop. */
 static bool law_is_number(const wh_contact_work *w, unsigned k) {
     const uint8_t kind = bench_now.contact[k].kind;
-    const bool asked = kind == WH_FRICTION || (kind == WH_HOLD && keeps(w, k));
-    const bool second = kind == WH_FRICTION && !keeps(w, k);
+    const bool asked = kind == WH_FRICTION || (kind == WH_HOLD && bench_keeps(w, k));
+    const bool second = kind == WH_FRICTION && !bench_keeps(w, k);
     return !asked || is_number(second ? bench_now.second[k] : bench_now.first[k]);
 }
 
@@ -178,14 +168,14 @@ static void test_the_first_that_is_no_number_is_told(void) {
         bool acts = false;
         draw(&seed, &w);
         const wh_contact_system *of = &bench_now.system;
-        const bool signals = bench_one_in(&seed, 3);
-        const bool laws = bench_one_in(&seed, 2);
+        const bool signals = draw_one_in(&seed, 3);
+        const bool laws = draw_one_in(&seed, 2);
         for (unsigned k = 0; k < of->contacts; k++) {
-            bench_now.first[k] = laws && bench_one_in(&seed, 3) ? draw_none(&seed) : WH_R(1.0);
-            bench_now.second[k] = laws && bench_one_in(&seed, 3) ? draw_none(&seed) : WH_R(1.0);
-            m.value[k] = bench_one_in(&seed, 3) ? draw_none(&seed) : WH_R(-1.0);
+            bench_now.first[k] = laws && draw_one_in(&seed, 3) ? draw_none(&seed) : WH_R(1.0);
+            bench_now.second[k] = laws && draw_one_in(&seed, 3) ? draw_none(&seed) : WH_R(1.0);
+            m.value[k] = draw_one_in(&seed, 3) ? draw_none(&seed) : WH_R(-1.0);
             for (unsigned i = 2 * k; i <= 2 * k + 1; i++) {
-                m.signal[i] = signals && bench_one_in(&seed, 3) ? draw_none(&seed) : WH_R(1.0);
+                m.signal[i] = signals && draw_one_in(&seed, 3) ? draw_none(&seed) : WH_R(1.0);
             }
         }
         for (unsigned k = of->contacts; k-- > 0;) {
@@ -193,14 +183,15 @@ static void test_the_first_that_is_no_number_is_told(void) {
             signal = is_number(m.signal[2 * k]) && is_number(m.signal[2 * k + 1]) ? signal : (int)k;
             law = !forced || law_is_number(&w, k) ? law : (int)k;
             value = is_number(m.value[k]) ? value : (int)k;
-            acts = acts || (forced && (bench_now.contact[k].kind == WH_FRICTION || keeps(&w, k)));
+            acts = acts ||
+                   (forced && (bench_now.contact[k].kind == WH_FRICTION || bench_keeps(&w, k)));
         }
         of->forces(NULL, NULL, NULL, NULL, NULL, w.law);
         TEST_ASSERT_TRUE(wh_contact_any_acts(of, &w) == acts);
         wh_contact_work by_laws = w;
         wh_contact_expect_laws(of, &by_laws);
         TEST_ASSERT_EQUAL_INT(law, by_laws.undefined);
-        w.undefined = bench_one_in(&seed, 8) ? 3 : -1;
+        w.undefined = draw_one_in(&seed, 8) ? 3 : -1;
         const int right = w.undefined >= 0   ? w.undefined
                           : signal >= 0      ? signal
                           : law >= 0 && acts ? law
@@ -227,10 +218,10 @@ static void test_calm_is_told(void) {
         draw(&seed, &w);
         for (unsigned k = 0; k < BENCH_CONTACTS; k++) {
             const bool used = k < bench_now.system.contacts;
-            m.value[k] = !used                    ? WH_R(-1.0)
-                         : bench_one_in(&seed, 8) ? draw_none(&seed)
-                                                  : bench_between(&seed, 0, 2);
-            m.value[k] = used && bench_one_in(&seed, 8) ? WH_R(-1e-9) : m.value[k];
+            m.value[k] = !used                   ? WH_R(-1.0)
+                         : draw_one_in(&seed, 8) ? draw_none(&seed)
+                                                 : draw_whole(&seed, 0, 2);
+            m.value[k] = used && draw_one_in(&seed, 8) ? WH_R(-1e-9) : m.value[k];
             calm = calm && (!used || m.value[k] >= WH_R(0.0));
             happened |= used && m.value[k] < WH_R(0.0) ? 1U << k : 0U;
         }
@@ -266,18 +257,18 @@ static void test_the_way_is_a_cubic_through_both_ends(void) {
         const wh_contact_system *of = &bench_now.system;
         bench_state(&seed, &from);
         bench_state(&seed, &to);
-        const wh_real h = bench_between(&seed, 1, 8) / 8;
-        const wh_real s = bench_between(&seed, 0, 16) / 16;
+        const wh_real h = draw_whole(&seed, 1, 8) / 8;
+        const wh_real s = draw_whole(&seed, 0, 16) / 16;
         for (unsigned i = 0; i < of->angles; i++) { /* less than a half turn */
             to.angle[i] = from.angle[i] +
-                          (wh_angle)(bench_between(&seed, -3, 3) / 4 * (wh_real)WH_PHASE_PER_RAD);
+                          (wh_angle)(draw_whole(&seed, -3, 3) / 4 * (wh_real)WH_PHASE_PER_RAD);
             from.real[of->coordinates - of->angles + i] /= 16;
             to.real[of->coordinates - of->angles + i] /= 16;
         }
         wh_contact_path_of(of, &from, &to, h, &path);
         for (unsigned i = 0; i < of->coordinates; i++) {
-            path.a0[i] = bench_between(&seed, -8, 8);
-            path.a1[i] = bench_between(&seed, -8, 8);
+            path.a0[i] = draw_whole(&seed, -8, 8);
+            path.a1[i] = draw_whole(&seed, -8, 8);
         }
         wh_contact_between(of, &path, s, &at);
         const wh_real *v0 = wh_contact_rates(of, &from);

@@ -8,12 +8,8 @@ void suite_contact_pivot(void);
 
 enum { ROUNDS = __STDC_HOSTED__ ? 4000 : 60 };
 
-#define ALL_KINDS (WH_KIND_BIT(WH_STOP) | WH_KIND_BIT(WH_HOLD) | WH_KIND_BIT(WH_FRICTION))
-
 static void draw(uint64_t *seed, wh_contact_work *w) {
-    const unsigned kinds = 1U + (unsigned)bench_bits(seed) % ALL_KINDS;
-    bench_build(seed, 1U + (unsigned)bench_bits(seed) % BENCH_COORDS, 0);
-    bench_add_some(seed, kinds);
+    bench_draw(seed, false);
     bench_work(seed, false, w);
 }
 
@@ -35,7 +31,7 @@ static wh_real noise_of(const wh_contact_work *w, unsigned k, bool forces, wh_re
 
 /* 0, or so much that what is rounding beside it is of the size of the numbers drawn. */
 static wh_real draw_rough(uint64_t *seed) {
-    return bench_one_in(seed, 2) ? WH_R(0.0) : bench_between(seed, 1, 8) / WH_CONTACT_QUIET;
+    return draw_one_in(seed, 2) ? WH_R(0.0) : draw_whole(seed, 1, 8) / WH_CONTACT_QUIET;
 }
 
 /* One contact, with as much as it may take, less, more, and more by what is rounding or just is not. */
@@ -48,22 +44,22 @@ static void test_one_contact_takes_what_it_can(void) {
         wh_real lambda = BENCH_SENTINEL;
         wh_real left = BENCH_SENTINEL;
         draw(&seed, &w);
-        const unsigned k = (unsigned)bench_bits(&seed) % bench_now.system.forced;
-        const bool forces = bench_one_in(&seed, 2);
-        const bool up = bench_one_in(&seed, 2);
+        const unsigned k = (unsigned)draw_bits(&seed) % bench_now.system.forced;
+        const bool forces = draw_one_in(&seed, 2);
+        const bool up = draw_one_in(&seed, 2);
         const wh_real yield = bench_delassus(k, k);
         w.rough[k] = draw_rough(&seed);
-        wh_real wanted = bench_between(&seed, -8, 8);
-        if (bench_one_in(&seed, 2) && (up ? high_of(k) : -low_of(k)) < WH_LIMITLESS) {
+        wh_real wanted = draw_whole(&seed, -8, 8);
+        if (draw_one_in(&seed, 2) && (up ? high_of(k) : -low_of(k)) < WH_LIMITLESS) {
             wanted =
                 (up ? high_of(k) : low_of(k)) * yield; /* the limit, and a little more or less */
-            const wh_real off = tenths[bench_bits(&seed) % 4U] *
+            const wh_real off = tenths[draw_bits(&seed) % 4U] *
                                 noise_of(&w, k, forces, wanted, wanted, wanted / yield);
-            wanted += bench_one_in(&seed, 2) ? off : -off;
+            wanted += draw_one_in(&seed, 2) ? off : -off;
         }
         const uint8_t member[1] = {(uint8_t)k};
         const unsigned giving =
-            bench_one_in(&seed, 2)
+            draw_one_in(&seed, 2)
                 ? wh_contact_lcp_one(&bench_now.system, &w, k, wanted, forces, &lambda, &left)
                 : wh_contact_lcp(&bench_now.system, &w, member, 1, &wanted, forces, &lambda, &left);
         const wh_real alone = wanted / yield;
@@ -84,19 +80,19 @@ static void test_one_contact_takes_what_it_can(void) {
 static void test_who_leaves_a_limit_is_eliminated_last(void) {
     uint64_t seed = 122;
     for (unsigned round = 0; round < ROUNDS / 4; round++) {
-        wh_contact_pivot p = {.contradicted = (unsigned)bench_bits(&seed) % 16U};
+        wh_contact_pivot p = {.contradicted = (unsigned)draw_bits(&seed) % 16U};
         wh_contact_pivot was;
-        const unsigned count = 1U + (unsigned)bench_bits(&seed) % BENCH_FORCED;
-        const unsigned i = (unsigned)bench_bits(&seed) % count;
-        const int8_t to = (int8_t)bench_between(&seed, -1, 1);
+        const unsigned count = 1U + (unsigned)draw_bits(&seed) % BENCH_FORCED;
+        const unsigned i = (unsigned)draw_bits(&seed) % count;
+        const int8_t to = (int8_t)draw_whole(&seed, -1, 1);
         for (unsigned j = 0; j < BENCH_CONTACTS; j++) {
-            const unsigned l = (unsigned)bench_bits(&seed) % (j + 1U);
+            const unsigned l = (unsigned)draw_bits(&seed) % (j + 1U);
             p.member[j] = p.member[l];
             p.member[l] = (uint8_t)j;
         }
         for (unsigned j = 0; j < BENCH_CONTACTS; j++) {
-            p.at[j] = (int8_t)bench_between(&seed, -1, 1);
-            p.wanted[j] = bench_between(&seed, -8, 8);
+            p.at[j] = (int8_t)draw_whole(&seed, -1, 1);
+            p.wanted[j] = draw_whole(&seed, -8, 8);
         }
         was = p;
         wh_contact_pivot_move(&p, count, i, to);
@@ -118,23 +114,23 @@ static void test_the_least_number_that_is_wrong_is_told(void) {
     unsigned none = 0;
     for (unsigned round = 0; round < 2U * ROUNDS; round++) {
         wh_contact_work w;
-        wh_contact_pivot p = {.contradicted = (unsigned)bench_bits(&seed) % 16U, .giving = ~0U};
+        wh_contact_pivot p = {.contradicted = (unsigned)draw_bits(&seed) % 16U, .giving = ~0U};
         wh_real way[WH_COORDS];
         int8_t to = 9;
         int8_t right_to = 9;
         unsigned giving = 0;
         draw(&seed, &w);
         const unsigned count = bench_members(&seed, p.member);
-        const bool forces = bench_one_in(&seed, 2);
+        const bool forces = draw_one_in(&seed, 2);
         unsigned wrong = count;
         bench_vector(&seed, way);
         for (unsigned i = 0; i < count; i++) {
             const unsigned k = p.member[i];
-            const bool still = bench_one_in(&seed, 2);
-            p.at[i] = (int8_t)(bench_one_in(&seed, 2) ? 0 : bench_one_in(&seed, 2) ? 1 : -1);
-            p.wanted[i] = bench_along(k, way) + (still ? WH_R(0.0) : bench_between(&seed, -8, 8));
-            p.lambda[i] = bench_between(&seed, -4, 4);
-            if (bench_now.contact[k].kind != WH_HOLD && bench_one_in(&seed, 4)) {
+            const bool still = draw_one_in(&seed, 2);
+            p.at[i] = (int8_t)(draw_one_in(&seed, 2) ? 0 : draw_one_in(&seed, 2) ? 1 : -1);
+            p.wanted[i] = bench_along(k, way) + (still ? WH_R(0.0) : draw_whole(&seed, -8, 8));
+            p.lambda[i] = draw_whole(&seed, -4, 4);
+            if (bench_now.contact[k].kind != WH_HOLD && draw_one_in(&seed, 4)) {
                 p.lambda[i] = p.at[i] > 0 && high_of(k) < WH_LIMITLESS ? high_of(k) : low_of(k);
             }
             p.left[i] = BENCH_SENTINEL;
@@ -233,13 +229,13 @@ static void test_no_case_solves_it_otherwise(void) {
         unsigned number = 0;
         unsigned cases = 1;
         for (unsigned i = 0; i < count; i++) {
-            wanted[i] = bench_between(&seed, -8, 8);
+            wanted[i] = draw_whole(&seed, -8, 8);
             cases *= 3U;
         }
         while (number < cases && !solves(number, member, count, wanted, right, rest)) {
             number++;
         }
-        w.capped = bench_one_in(&seed, 2);
+        w.capped = draw_one_in(&seed, 2);
         const bool was_capped = w.capped;
         const unsigned giving =
             wh_contact_lcp(&bench_now.system, &w, member, count, wanted, true, lambda, left);

@@ -8,24 +8,19 @@ void suite_contact_places(void);
 
 enum { ROUNDS = __STDC_HOSTED__ ? 3000 : 60 };
 
-#define ALL_KINDS (WH_KIND_BIT(WH_STOP) | WH_KIND_BIT(WH_HOLD) | WH_KIND_BIT(WH_FRICTION))
-
 /* Contacts of some kinds in some modes; holds straight or curved, each with a place for what it holds. */
 static void draw(uint64_t *seed, bool some, wh_contact_work *w) {
-    const unsigned kinds = 1U + (unsigned)bench_bits(seed) % ALL_KINDS;
-    const unsigned n = 1U + (unsigned)bench_bits(seed) % BENCH_COORDS;
-    bench_build(seed, n, (unsigned)bench_bits(seed) % (n + 1U));
-    bench_add_some(seed, kinds);
+    bench_draw(seed, true);
     for (unsigned k = 0; k < bench_now.system.forced; k++) {
         wh_contact *c = &bench_now.contact[k];
         if (c->kind == WH_HOLD) {
-            c->direction = (int8_t)bench_between(seed, -1, 1);
+            c->direction = (int8_t)draw_whole(seed, -1, 1);
             c->first_set = c->pin < 0 ? bench_now.system.held++ : BENCH_CONTACTS - 1;
         }
     }
     bench_work(seed, some, w);
     for (unsigned k = 0; k < BENCH_CONTACTS; k++) {
-        w->held[k] = bench_between(seed, -4, 4);
+        w->held[k] = draw_whole(seed, -4, 4);
     }
 }
 
@@ -40,8 +35,8 @@ static void test_a_coordinate_moves_and_no_other(void) {
         draw(&seed, true, &w);
         bench_state(&seed, &from);
         to = from;
-        const unsigned moved = (unsigned)bench_bits(&seed) % bench_now.system.coordinates;
-        const wh_real by = bench_between(&seed, -8, 8) / 4;
+        const unsigned moved = (unsigned)draw_bits(&seed) % bench_now.system.coordinates;
+        const wh_real by = draw_whole(&seed, -8, 8) / 4;
         wh_contact_move(&bench_now.system, moved, by, &to);
         for (unsigned i = 0; i < bench_now.system.coordinates; i++) {
             TEST_ASSERT_TRUE(bench_near(bench_moved(&from, &to, i), i == moved ? by : WH_R(0.0)));
@@ -59,9 +54,9 @@ static void test_no_bit_of_a_product_is_lost(void) {
     uint64_t seed = 142;
     const uint64_t size = WH_DOUBLE ? 0x7fffffff : 0xfffff;
     for (unsigned round = 0; round < ROUNDS; round++) {
-        const int64_t a = (int64_t)(bench_bits(&seed) & size) - (int64_t)(size / 2U);
-        const int64_t b = (int64_t)(bench_bits(&seed) & size) - (int64_t)(size / 2U);
-        const int64_t was = (int64_t)(bench_bits(&seed) % 16U);
+        const int64_t a = (int64_t)(draw_bits(&seed) & size) - (int64_t)(size / 2U);
+        const int64_t b = (int64_t)(draw_bits(&seed) & size) - (int64_t)(size / 2U);
+        const int64_t was = (int64_t)(draw_bits(&seed) % 16U);
         wh_real sum = WH_R(0.0);
         wh_real rest = (wh_real)was;
         wh_contact_add_product((wh_real)a, (wh_real)b, &sum, &rest);
@@ -81,16 +76,16 @@ static void test_a_straight_way_is_summed_without_rounding(void) {
         wh_contact_work w;
         wh_contact_state from;
         wh_contact_state to;
-        const bool far = bench_one_in(&seed, 2);
-        const unsigned n = far ? 2U : 1U + (unsigned)bench_bits(&seed) % BENCH_COORDS;
+        const bool far = draw_one_in(&seed, 2);
+        const unsigned n = far ? 2U : 1U + (unsigned)draw_bits(&seed) % BENCH_COORDS;
         const unsigned angles =
-            (unsigned)bench_bits(&seed) % (n + 1U) / (far ? 2U : 1U) * (far ? 2U : 1U);
+            (unsigned)draw_bits(&seed) % (n + 1U) / (far ? 2U : 1U) * (far ? 2U : 1U);
         bench_build(&seed, n, angles);
         (void)bench_add(&seed, WH_HOLD, -1);
         (void)bench_add(&seed, WH_HOLD, -1);
-        const unsigned k = (unsigned)bench_bits(&seed) % 2U;
-        const int64_t way = (int64_t)(bench_bits(&seed) & most);
-        const wh_real factor = (wh_real)(bench_bits(&seed) & most);
+        const unsigned k = (unsigned)draw_bits(&seed) % 2U;
+        const int64_t way = (int64_t)(draw_bits(&seed) & most);
+        const wh_real factor = (wh_real)(draw_bits(&seed) & most);
         int64_t sums[2] = {0, 0}; /* of turns, of ways */
         bench_state(&seed, &from);
         for (unsigned i = 0; far && i < n; i++) {
@@ -99,9 +94,9 @@ static void test_a_straight_way_is_summed_without_rounding(void) {
         }
         to = from;
         for (unsigned i = 0; i < n; i++) {
-            const int64_t by = (int64_t)bench_between(&seed, -300, 300) + (!far     ? 0
-                                                                           : i == 0 ? way
-                                                                                    : -way);
+            const int64_t by = (int64_t)draw_whole(&seed, -300, 300) + (!far     ? 0
+                                                                        : i == 0 ? way
+                                                                                 : -way);
             sums[i < angles ? 0 : 1] += (int64_t)bench_now.row[k][i] * by;
             if (i < angles) {
                 to.angle[i] += (wh_angle)by;
@@ -126,11 +121,6 @@ static void test_a_straight_way_is_summed_without_rounding(void) {
 static bool slips(const wh_contact_work *w, unsigned k) {
     const wh_contact *c = &bench_now.contact[k];
     return c->kind == WH_HOLD && c->pin < 0 && w->mode[k] == WH_ACTIVE;
-}
-
-static bool keeps(const wh_contact_work *w, unsigned k) {
-    const bool friction = bench_now.contact[k].kind == WH_FRICTION;
-    return friction ? w->mode[k] == WH_STUCK : w->mode[k] == WH_ACTIVE;
 }
 
 /* By how much k is off its place. */
@@ -164,21 +154,21 @@ static void test_who_is_off_who_slips_and_who_breaks_loose(void) {
         draw(&seed, true, &w);
         bench_state(&seed, &from);
         bench_state(&seed, &to);
-        const unsigned but = (unsigned)bench_bits(&seed) % 16U;
+        const unsigned but = (unsigned)draw_bits(&seed) % 16U;
         unsigned stuck = 0;
         unsigned breaking = 0;
         unsigned count = 0;
         for (unsigned k = 0; k < of->forced; k++) {
             const bool friction = bench_now.contact[k].kind == WH_FRICTION;
-            stuck |= friction && keeps(&w, k) ? 1U << k : 0U;
-            if (friction && keeps(&w, k) && WH_ABS(w.force[k]) > bench_now.first[k]) {
+            stuck |= friction && bench_keeps(&w, k) ? 1U << k : 0U;
+            if (friction && bench_keeps(&w, k) && WH_ABS(w.force[k]) > bench_now.first[k]) {
                 breaking |= 1U << k;
             }
-            if ((but >> k & 1U) == 0 && keeps(&w, k)) {
+            if ((but >> k & 1U) == 0 && bench_keeps(&w, k)) {
                 wanted[count++] = (uint8_t)k;
             }
             TEST_ASSERT_TRUE(wh_contact_slips(of, &w, k) == slips(&w, k));
-            const wh_contact_state *begin = bench_one_in(&seed, 2) ? &from : NULL;
+            const wh_contact_state *begin = draw_one_in(&seed, 2) ? &from : NULL;
             TEST_ASSERT_TRUE(bench_near(wh_contact_drift(of, &w, k, bench_now.signal, begin, &to),
                                         drift_of(&w, k, begin, &to)));
             seen[0] += slips(&w, k);
@@ -192,7 +182,7 @@ static void test_who_is_off_who_slips_and_who_breaks_loose(void) {
         seen[1] += breaking != 0;
         seen[2] += stuck != breaking;
         was = w;
-        const unsigned one = (unsigned)bench_bits(&seed) % of->forced;
+        const unsigned one = (unsigned)draw_bits(&seed) % of->forced;
         wh_contact_capture(of, &w, one);
         for (unsigned place = 0; place < BENCH_CONTACTS; place++) { /* the one that is captured */
             const wh_contact *c = &bench_now.contact[one];
@@ -223,7 +213,7 @@ static void test_how_far_a_stop_is_passed(void) {
         wh_contact_state s;
         draw(&seed, true, &w);
         bench_state(&seed, &s);
-        const unsigned k = (unsigned)bench_bits(&seed) % bench_now.system.forced;
+        const unsigned k = (unsigned)draw_bits(&seed) % bench_now.system.forced;
         wh_real size = WH_R(0.0);
         for (unsigned i = 0; i < bench_now.system.coordinates; i++) {
             const unsigned angles = bench_now.system.angles;

@@ -8,33 +8,23 @@ void suite_contact_project(void);
 
 enum { ROUNDS = __STDC_HOSTED__ ? 3000 : 60 };
 
-#define ALL_KINDS (WH_KIND_BIT(WH_STOP) | WH_KIND_BIT(WH_HOLD) | WH_KIND_BIT(WH_FRICTION))
-
 /* Contacts of some kinds in some modes; holds that keep nothing but their curve's value. */
 static void draw(uint64_t *seed, bool some, wh_contact_work *w, wh_ledger_work *books) {
-    const unsigned kinds = 1U + (unsigned)bench_bits(seed) % ALL_KINDS;
-    const unsigned n = 1U + (unsigned)bench_bits(seed) % BENCH_COORDS;
-    bench_build(seed, n, (unsigned)bench_bits(seed) % (n + 1U));
-    bench_add_some(seed, kinds);
+    bench_draw(seed, true);
     for (unsigned k = 0; k < bench_now.system.forced; k++) {
         wh_contact *c = &bench_now.contact[k];
         if (c->kind == WH_HOLD) {
             c->first_set = c->pin < 0 ? bench_now.system.held++ : BENCH_CONTACTS - 1;
         }
-        bench_now.signal[2 * k] *= bench_one_in(seed, 3) ? WH_R(0.0) : WH_R(0.03125);
+        bench_now.signal[2 * k] *= draw_one_in(seed, 3) ? WH_R(0.0) : WH_R(0.03125);
         bench_now.first[k] /= 32; /* none turns by half a turn */
     }
     bench_work(seed, some, w);
-    w->books = bench_one_in(seed, 2) ? books : NULL;
+    w->books = draw_one_in(seed, 2) ? books : NULL;
     *books = (wh_ledger_work){.span = WH_R(0.0)};
     for (unsigned k = 0; k < BENCH_CONTACTS; k++) {
-        w->held[k] = bench_between(seed, 1, 4) / 32;
+        w->held[k] = draw_whole(seed, 1, 4) / 32;
     }
-}
-
-static bool keeps(const wh_contact_work *w, unsigned k) {
-    const bool friction = bench_now.contact[k].kind == WH_FRICTION;
-    return friction ? w->mode[k] == WH_STUCK : w->mode[k] == WH_ACTIVE;
 }
 
 /* By how much k, which keeps something, is off its place: a stop's gap, what a curved hold has slipped. */
@@ -47,7 +37,7 @@ static wh_real off_of(const wh_contact_work *w, unsigned k) {
 static unsigned members_of(const wh_contact_work *w, unsigned but, uint8_t *member) {
     unsigned count = 0;
     for (unsigned k = 0; k < bench_now.system.forced; k++) {
-        if ((but >> k & 1U) == 0 && keeps(w, k)) {
+        if ((but >> k & 1U) == 0 && bench_keeps(w, k)) {
             member[count++] = (uint8_t)k;
         }
     }
@@ -110,12 +100,12 @@ static void test_places_are_put_right_by_the_least_way(void) {
         const unsigned n = of->coordinates;
         const wh_real *rate = wh_contact_rates(of, &s);
         wh_contact_place spot = {NULL, WH_R(0.0), 0, WH_CONTACTS_MAX};
-        spot.but = bench_one_in(&seed, 2) ? 0U : (unsigned)bench_bits(&seed) % 16U;
-        spot.mover = bench_one_in(&seed, 3) ? (unsigned)bench_bits(&seed) % of->forced : spot.mover;
+        spot.but = draw_one_in(&seed, 2) ? 0U : (unsigned)draw_bits(&seed) % 16U;
+        spot.mover = draw_one_in(&seed, 3) ? (unsigned)draw_bits(&seed) % of->forced : spot.mover;
         const unsigned count = members_of(&w, spot.but, member);
         const unsigned asked =
-            (unsigned)bench_bits(&seed) % (count + 1U); /* of whom it is just not or just so */
-        spot.h = bench_between(&seed, 0, 4) / WH_SLIP_COARSE;
+            (unsigned)draw_bits(&seed) % (count + 1U); /* of whom it is just not or just so */
+        spot.h = draw_whole(&seed, 0, 4) / WH_SLIP_COARSE;
         for (unsigned i = 0; i < count; i++) {
             const wh_real size = WH_ABS(off_of(&w, member[i]));
             wh_real travel = WH_R(0.0);
@@ -124,7 +114,7 @@ static void test_places_are_put_right_by_the_least_way(void) {
             }
             if (i == asked && travel > WH_R(0.0)) {
                 spot.h = size / (WH_SLIP_COARSE * travel) *
-                         (bench_one_in(&seed, 2) ? WH_R(0.99) : WH_R(1.01));
+                         (draw_one_in(&seed, 2) ? WH_R(0.99) : WH_R(1.01));
             }
         }
         unsigned mover = spot.mover;
@@ -188,7 +178,7 @@ static void test_a_place_that_is_no_number_is_told(void) {
         const wh_contact_state was = s;
         wh_contact_place spot = {NULL, WH_R(1.0), 0, WH_CONTACTS_MAX};
         const unsigned count = members_of(&w, 0, member);
-        const unsigned none = (unsigned)bench_bits(&seed) % 16U;
+        const unsigned none = (unsigned)draw_bits(&seed) % 16U;
         for (unsigned k = 0; k < bench_now.system.forced; k++) {
             if ((none >> k & 1U) != 0) {
                 const wh_real zero = WH_R(0.0) * bench_now.free[0];
@@ -238,8 +228,8 @@ static void test_rates_are_taken_away_by_the_least(void) {
         wh_real entry[WH_LEDGER_MAX] = {WH_R(0.0)};
         draw(&seed, true, &w, &books);
         const wh_contact_system *of = &bench_now.system;
-        const bool booked = bench_one_in(&seed, 2);
-        const unsigned but = bench_one_in(&seed, 2) ? 0U : (unsigned)bench_bits(&seed) % 16U;
+        const bool booked = draw_one_in(&seed, 2);
+        const unsigned but = draw_one_in(&seed, 2) ? 0U : (unsigned)draw_bits(&seed) % 16U;
         const unsigned count = members_of(&w, but, member);
         bench_vector(&seed, rate);
         for (unsigned c = 0; c < WH_COORDS; c++) {
@@ -287,9 +277,9 @@ static void test_what_slipped_is_put_back(void) {
         wh_contact_state s;
         wh_real input = WH_R(0.0);
         bench_build(&seed, 2, 0);
-        const bool friction = bench_one_in(&seed, 2);
-        const bool slides = bench_one_in(&seed, 4);
-        const bool pinned = bench_one_in(&seed, 4);
+        const bool friction = draw_one_in(&seed, 2);
+        const bool slides = draw_one_in(&seed, 4);
+        const bool pinned = draw_one_in(&seed, 4);
         (void)bench_add(&seed, WH_STOP, pinned ? 0 : -1);
         (void)bench_add(&seed, WH_STOP, -1);
         if (friction) {
@@ -302,7 +292,7 @@ static void test_what_slipped_is_put_back(void) {
             from.real[i] = WH_R(1.0);
             bench_now.bias[i] = WH_R(0.0);
         }
-        const bool breaks = friction && bench_one_in(&seed, 4);
+        const bool breaks = friction && draw_one_in(&seed, 4);
         bench_now.bias[2] =
             breaks ? 2 * bench_now.first[2] * bench_now.inverse[1][1] + 64 : WH_R(0.0);
         bench_work(&seed, false, &w);
@@ -311,7 +301,7 @@ static void test_what_slipped_is_put_back(void) {
         const wh_real size =
             WH_DOUBLE ? WH_R(0x1p-29) : WH_R(0x1p-16); /* far is from half of it on */
         const wh_real off =
-            bench_between(&seed, -3, 3) * size * (bench_one_in(&seed, 2) ? 1 : WH_R(0.125));
+            draw_whole(&seed, -3, 3) * size * (draw_one_in(&seed, 2) ? 1 : WH_R(0.125));
         for (unsigned k = 0; k < 2; k++) {
             bench_now.signal[2 * k] = -bench_along(k, from.real) + (k == 0 ? off : -64);
             bench_now.signal[2 * k + 1] = WH_R(0.0);
@@ -322,7 +312,7 @@ static void test_what_slipped_is_put_back(void) {
         const bool passed = off < -terms * (WH_DOUBLE ? WH_R(1e-9) : WH_R(1e-5));
         const bool sticks = friction && !slides && !passed && !breaks;
         const unsigned looks = bench_now.looks;
-        const wh_real h = bench_one_in(&seed, 2) ? WH_R(0.0) : WH_R(1.0);
+        const wh_real h = draw_one_in(&seed, 2) ? WH_R(0.0) : WH_R(1.0);
         const bool still = h * (WH_ABS(from.real[2]) + WH_ABS(from.real[3])) == WH_R(0.0);
         wh_contact_stabilise(&bench_now.system, &w, h, &input, &from, &s);
         if (pinned) { /* it cannot slip, and is not looked at */

@@ -3,6 +3,7 @@
  * rest closes; friction that sticks is at rest, that slides goes its way, and takes no more than it can; what is held
  * stays where it was; no contact but an assignment gives energy; the books balance; and what is drawn the other way
  * round moves the other way round. */
+#include "draw.h"
 #include "hand.h"
 
 #include "core/hash.h"
@@ -18,23 +19,12 @@ enum { MECHANISMS = __STDC_HOSTED__ ? 2000 : 50, STEPS = 60 };
 /* What rounding may leave of numbers of the size of one. */
 #define SLACK (WH_DOUBLE ? WH_R(2e-12) : WH_R(2e-3))
 
-static uint64_t bits_of(uint64_t *seed) {
-    *seed = *seed * 6364136223846793005U + 1442695040888963407U;
-    return *seed >> 33;
-}
-
-static wh_real between(uint64_t *seed, int least, int most) {
-    return (wh_real)(least + (int)(bits_of(seed) % (uint64_t)(most - least + 1)));
-}
-
-static bool one_in(uint64_t *seed, unsigned of) { return bits_of(seed) % of == 0; }
-
 /* --- drawing ------------------------------------------------------------------------------------------------ */
 
 /* A row of whole numbers; its only coordinate, or -1. */
 static int draw_row(uint64_t *seed, unsigned n, wh_real *row) {
-    row[0] = between(seed, -2, 2);
-    row[1] = n == 1 || one_in(seed, 2) ? WH_R(0.0) : between(seed, -2, 2);
+    row[0] = draw_whole(seed, -2, 2);
+    row[1] = n == 1 || draw_one_in(seed, 2) ? WH_R(0.0) : draw_whole(seed, -2, 2);
     if (row[0] == WH_R(0.0) && row[1] == WH_R(0.0)) {
         row[0] = WH_R(1.0);
     }
@@ -44,9 +34,9 @@ static int draw_row(uint64_t *seed, unsigned n, wh_real *row) {
 static void add_stop(uint64_t *seed, unsigned n) {
     wh_real row[2];
     const int pin = draw_row(seed, n, row);
-    const wh_real gap = one_in(seed, 2) ? WH_R(0.0) : between(seed, 1, 20) * STEP_S;
+    const wh_real gap = draw_one_in(seed, 2) ? WH_R(0.0) : draw_whole(seed, 1, 20) * STEP_S;
     const wh_real at = row[0] * hand_now.start[0] + row[1] * hand_now.start[1];
-    (void)hand_add(WH_STOP, pin, row[0], row[1], at - gap, between(seed, 0, 4) / 4, WH_R(0.0));
+    (void)hand_add(WH_STOP, pin, row[0], row[1], at - gap, draw_whole(seed, 0, 4) / 4, WH_R(0.0));
 }
 
 static void add_hold(uint64_t *seed, unsigned n) {
@@ -58,44 +48,44 @@ static void add_hold(uint64_t *seed, unsigned n) {
 }
 
 static void add_friction(uint64_t *seed, unsigned i) {
-    const wh_real most = between(seed, 1, 4) / 2;
-    const wh_real less = one_in(seed, 2) ? most : most * WH_R(0.75);
+    const wh_real most = draw_whole(seed, 1, 4) / 2;
+    const wh_real less = draw_one_in(seed, 2) ? most : most * WH_R(0.75);
     (void)hand_add(WH_FRICTION, (int)i, i == 0 ? WH_R(1.0) : WH_R(0.0),
                    i == 1 ? WH_R(1.0) : WH_R(0.0), WH_R(0.0), most, less);
 }
 
 /* Stops, a hold, frictions, a crossing, in this order, three at most. */
 static void draw(uint64_t *seed) {
-    const unsigned n = one_in(seed, 4) ? 1 : 2;
+    const unsigned n = draw_one_in(seed, 4) ? 1 : 2;
     unsigned room = HAND_CONTACTS;
-    hand_build(n, between(seed, 2, 4), n == 1 ? WH_R(0.0) : between(seed, -1, 1),
-               between(seed, 2, 4));
-    hand_pushed = one_in(seed, 2) ? WH_R(1.0) : WH_R(-1.0);
+    hand_build(n, draw_whole(seed, 2, 4), n == 1 ? WH_R(0.0) : draw_whole(seed, -1, 1),
+               draw_whole(seed, 2, 4));
+    hand_pushed = draw_one_in(seed, 2) ? WH_R(1.0) : WH_R(-1.0);
     for (unsigned i = 0; i < n; i++) {
-        hand_now.start[i] = between(seed, -2, 2) / 8;
-        hand_now.start[n + i] = one_in(seed, 3) ? WH_R(0.0) : between(seed, -8, 8) / 8;
-        hand_now.load[i] = between(seed, -8, 8);
+        hand_now.start[i] = draw_whole(seed, -2, 2) / 8;
+        hand_now.start[n + i] = draw_one_in(seed, 3) ? WH_R(0.0) : draw_whole(seed, -8, 8) / 8;
+        hand_now.load[i] = draw_whole(seed, -8, 8);
     }
-    for (; room > 0 && !one_in(seed, 3); room--) {
+    for (; room > 0 && !draw_one_in(seed, 3); room--) {
         add_stop(seed, n);
     }
-    if (room > 0 && one_in(seed, 2)) {
+    if (room > 0 && draw_one_in(seed, 2)) {
         add_hold(seed, n);
         room--;
     }
     for (unsigned i = 0; i < n && room > 0; i++) {
-        if (one_in(seed, 2)) {
+        if (draw_one_in(seed, 2)) {
             add_friction(seed, i);
             room--;
         }
     }
-    if (room > 0 && (one_in(seed, 2) || room == HAND_CONTACTS)) {
+    if (room > 0 && (draw_one_in(seed, 2) || room == HAND_CONTACTS)) {
         const unsigned k =
             hand_add(WH_WHEN, -1, WH_R(1.0), WH_R(0.0),
-                     hand_now.start[0] + between(seed, -4, 4) / 256, WH_R(0.0), WH_R(0.0));
-        hand_now.contact[k].direction = (int8_t)between(seed, -1, 1);
-        hand_now.places = one_in(seed, 2);
-        hand_now.place = hand_now.start[0] + between(seed, -16, 16) / 256;
+                     hand_now.start[0] + draw_whole(seed, -4, 4) / 256, WH_R(0.0), WH_R(0.0));
+        hand_now.contact[k].direction = (int8_t)draw_whole(seed, -1, 1);
+        hand_now.places = draw_one_in(seed, 2);
+        hand_now.place = hand_now.start[0] + draw_whole(seed, -16, 16) / 256;
     }
 }
 

@@ -1,5 +1,6 @@
 /* test_contact_rank.c: which of several holds still say something (core/contact_rank.h): rows made independent in the
  * metric of M^-1, and which of them was lost between two places. */
+#include "draw.h"
 #include "hand.h"
 
 #include "unity.h"
@@ -10,24 +11,15 @@ enum { ROUNDS = __STDC_HOSTED__ ? 4000 : 200 };
 
 #define SLACK (WH_DOUBLE ? WH_R(1e-12) : WH_R(1e-4))
 
-static uint64_t bits_of(uint64_t *seed) {
-    *seed = *seed * 6364136223846793005U + 1442695040888963407U;
-    return *seed >> 33;
-}
-
-static wh_real between(uint64_t *seed, int least, int most) {
-    return (wh_real)(least + (int)(bits_of(seed) % (uint64_t)(most - least + 1)));
-}
-
 /* Up to three holds (and stops between them, which have no say) with rows of whole numbers; returns how many. */
 static unsigned draw(uint64_t *seed, wh_contact_work *w) {
-    hand_build(2, between(seed, 2, 4), between(seed, -1, 1), between(seed, 2, 4));
-    const unsigned count = 1U + (unsigned)bits_of(seed) % HAND_CONTACTS;
+    hand_build(2, draw_whole(seed, 2, 4), draw_whole(seed, -1, 1), draw_whole(seed, 2, 4));
+    const unsigned count = 1U + (unsigned)draw_bits(seed) % HAND_CONTACTS;
     for (unsigned k = 0; k < count; k++) {
-        const bool hold = bits_of(seed) % 4U != 0;
-        (void)hand_add(hold ? WH_HOLD : WH_STOP, -1, between(seed, -2, 2), between(seed, -2, 2),
-                       WH_R(0.0), WH_R(0.0), WH_R(0.0));
-        w->mode[k] = bits_of(seed) % 8U != 0 ? WH_ACTIVE : WH_FREE;
+        const bool hold = draw_bits(seed) % 4U != 0;
+        (void)hand_add(hold ? WH_HOLD : WH_STOP, -1, draw_whole(seed, -2, 2),
+                       draw_whole(seed, -2, 2), WH_R(0.0), WH_R(0.0), WH_R(0.0));
+        w->mode[k] = draw_bits(seed) % 8U != 0 ? WH_ACTIVE : WH_FREE;
     }
     hand_start(false);
     return count;
@@ -121,8 +113,8 @@ static void test_the_first_that_is_lost_is_told(void) {
         unsigned wanted = count;
         rows_of(&w, &before);
         TEST_ASSERT_EQUAL_UINT(count, wh_contact_fallen(&hand_now.system, &before, &before));
-        const unsigned changed = (unsigned)bits_of(&seed) % count;
-        const bool back = bits_of(&seed) % 2U != 0;
+        const unsigned changed = (unsigned)draw_bits(&seed) % count;
+        const bool back = draw_bits(&seed) % 2U != 0;
         for (unsigned i = 0; i < 2; i++) {
             wh_real *entry = &hand_now.law[changed].row[i];
             *entry = back ? -*entry : WH_R(0.0);

@@ -12,7 +12,7 @@ enum { ROUNDS = __STDC_HOSTED__ ? 1500 : 30 };
 
 /* From 0 to 1, in steps of 1/1024, without the ends. */
 static wh_real share_of(uint64_t *seed) {
-    return (wh_real)(bench_bits(seed) % 1023U + 1U) / WH_R(1024.0);
+    return (wh_real)(draw_bits(seed) % 1023U + 1U) / WH_R(1024.0);
 }
 
 /* Line i's way v t + a t^2/2 in one second, its speed of one sign. */
@@ -25,7 +25,7 @@ static void draw_ways(uint64_t *seed, unsigned n, wh_contact_state *from) {
     bench_build(seed, n, 0);
     bench_now.moves = true;
     for (unsigned i = 0; i < n; i++) {
-        const wh_real v = (WH_R(0.25) + share_of(seed)) * (bench_one_in(seed, 2) ? 1 : -1);
+        const wh_real v = (WH_R(0.25) + share_of(seed)) * (draw_one_in(seed, 2) ? 1 : -1);
         bench_now.free[i] = WH_R(0.875) * (2 * share_of(seed) - 1) * v;
         from->real[i] = WH_R(0.0);
         from->real[n + i] = v;
@@ -48,7 +48,7 @@ static unsigned add_along(uint64_t *seed, wh_contact_kind kind, unsigned i, wh_r
 
 /* A stop that is far away, or none. Returns how many. */
 static unsigned add_far(uint64_t *seed) {
-    if (bench_one_in(seed, 2)) {
+    if (draw_one_in(seed, 2)) {
         return 0;
     }
     const unsigned k = add_along(seed, WH_STOP, 0, WH_R(1.0));
@@ -115,19 +115,19 @@ static void test_the_first_of_several_is_found(void) {
         wh_real when[BENCH_CONTACTS];
         unsigned line[BENCH_CONTACTS];
         wh_real first = WH_R(2.0);
-        const unsigned n = 1U + (unsigned)bench_bits(&seed) % BENCH_COORDS;
-        const unsigned count = 1U + (unsigned)bench_bits(&seed) % BENCH_FORCED;
-        const unsigned stops = (unsigned)bench_bits(&seed) % (count + 1U);
+        const unsigned n = 1U + (unsigned)draw_bits(&seed) % BENCH_COORDS;
+        const unsigned count = 1U + (unsigned)draw_bits(&seed) % BENCH_FORCED;
+        const unsigned stops = (unsigned)draw_bits(&seed) % (count + 1U);
         draw_ways(&seed, n, &from);
         for (unsigned k = 0; k < count; k++) {
-            const unsigned i = (unsigned)bench_bits(&seed) % n;
+            const unsigned i = (unsigned)draw_bits(&seed) % n;
             const wh_real side = from.real[n + i] > WH_R(0.0) ? WH_R(-1.0) : WH_R(1.0);
-            const wh_real size = bench_one_in(&seed, 2) ? WH_R(1.0) : WH_R(3.0);
-            const bool again = k > 0 && bench_one_in(&seed, 8);
+            const wh_real size = draw_one_in(&seed, 2) ? WH_R(1.0) : WH_R(3.0);
+            const bool again = k > 0 && draw_one_in(&seed, 8);
             line[k] = again ? line[k - 1] : i;
-            when[k] = again                    ? when[k - 1]
-                      : bench_one_in(&seed, 6) ? WH_R(0.0)
-                                               : WH_R(1.5) * share_of(&seed);
+            when[k] = again                   ? when[k - 1]
+                      : draw_one_in(&seed, 6) ? WH_R(0.0)
+                                              : WH_R(1.5) * share_of(&seed);
             const wh_real turn = again ? bench_now.row[k - 1][line[k]] : side * size;
             (void)add_along(&seed, k < stops ? WH_STOP : WH_WHEN, line[k], turn);
             bench_now.signal[2 * k] = -turn * place_at(&from, line[k], when[k]);
@@ -163,12 +163,12 @@ static void test_what_is_beyond_already_comes_at_once(void) {
         wh_contact_state from = {.real = {WH_R(0.0)}};
         unsigned at_once = 0;
         draw_ways(&seed, 2, &from);
-        const unsigned count = 1U + (unsigned)bench_bits(&seed) % BENCH_FORCED;
+        const unsigned count = 1U + (unsigned)draw_bits(&seed) % BENCH_FORCED;
         for (unsigned k = 0; k < count; k++) {
-            const unsigned i = (unsigned)bench_bits(&seed) % 2U;
+            const unsigned i = (unsigned)draw_bits(&seed) % 2U;
             const wh_real side = from.real[2 + i] > WH_R(0.0) ? WH_R(-1.0) : WH_R(1.0);
             (void)add_along(&seed, k < 2 ? WH_STOP : WH_WHEN, i, side);
-            const bool beyond = bench_one_in(&seed, 3);
+            const bool beyond = draw_one_in(&seed, 3);
             const wh_real gap = beyond ? WH_R(-0.125) : -side * place_at(&from, i, share_of(&seed));
             bench_now.signal[2 * k] = gap;
             at_once |= beyond ? 1U << k : 0U;
@@ -200,7 +200,7 @@ static void test_sliding_ends_where_the_rate_does(void) {
         bench_now.moves = true;
         const wh_real when = share_of(&seed);
         const wh_real way = from.real[3] > WH_R(0.0) ? WH_R(1.0) : WH_R(-1.0);
-        const bool second = bench_one_in(&seed, 2);
+        const bool second = draw_one_in(&seed, 2);
         if (second) { /* and a place that is crossed behind it, or before */
             (void)add_along(&seed, WH_WHEN, 0, WH_R(1.0));
             bench_now.signal[2 * behind + 2] =
@@ -238,7 +238,7 @@ static void test_who_slides_from_rest_comes_back_to_it(void) {
         bench_now.signal[2 * behind] = WH_R(0.0);
         /* a = a0 (1 - 2 t/when), by the place of the first line, which moves evenly: so v = a0 t (1 - t/when) */
         const wh_real when = WH_R(0.25) + WH_R(0.74) * share_of(&seed);
-        const wh_real a0 = bench_one_in(&seed, 2) ? WH_R(1.0) : WH_R(-1.0);
+        const wh_real a0 = draw_one_in(&seed, 2) ? WH_R(1.0) : WH_R(-1.0);
         from.real[2] = WH_R(1.0);
         from.real[3] = WH_R(0.0);
         bench_now.free[0] = WH_R(0.0);
@@ -273,11 +273,11 @@ static void test_a_load_meets_its_limit(void) {
         wh_contact_state to;
         wh_margins m;
         draw_ways(&seed, 2, &from);
-        const bool stop = bench_one_in(&seed, 2);
+        const bool stop = draw_one_in(&seed, 2);
         (void)bench_add(&seed, stop ? WH_STOP : WH_FRICTION, 1);
-        const wh_real when = bench_one_in(&seed, 4) ? WH_R(0.0) : share_of(&seed);
+        const wh_real when = draw_one_in(&seed, 4) ? WH_R(0.0) : share_of(&seed);
         const wh_real row = bench_now.row[0][1];
-        const wh_real up = stop || bench_one_in(&seed, 2) ? WH_R(1.0) : WH_R(-1.0);
+        const wh_real up = stop || draw_one_in(&seed, 2) ? WH_R(1.0) : WH_R(-1.0);
         /* its force is -free/row: a stop's from above down to zero, friction's up to its limit either way */
         const wh_real limit = stop ? WH_R(0.0) : up * bench_now.first[0];
         from.real[3] = WH_R(0.0);

@@ -1,5 +1,6 @@
 /* test_contact_squeeze.c: what is done where a step had too many events: bodies beyond stops are put back by the least
  * move in the metric of the masses, and what closes there is stopped. Random mechanisms against all cases (exact.h). */
+#include "draw.h"
 #include "exact.h"
 
 #include "unity.h"
@@ -10,47 +11,33 @@ enum { MECHANISMS = __STDC_HOSTED__ ? 4000 : 100 };
 
 #define CLOSE (WH_DOUBLE ? 1e-9 : 2e-4)
 
-static uint64_t bits_of(uint64_t *seed) {
-    *seed = *seed * 6364136223846793005U + 1442695040888963407U;
-    return *seed >> 33;
-}
-
-static wh_real whole(uint64_t *seed, int least, int most) {
-    return (wh_real)(least + (int)(bits_of(seed) % (uint64_t)(most - least + 1)));
-}
-
-static wh_real broken(uint64_t *seed, int least, int most) {
-    return whole(seed, least * 1024, most * 1024 - 1) / 1024 + whole(seed, 1, 1023) / (1024 * 1024);
-}
-
-static bool one_in(uint64_t *seed, unsigned of) { return bits_of(seed) % of == 0; }
-
 /* Stops, the last contact perhaps a hold or a friction. A body anywhere; what rests or holds is at rest there. */
 static void draw(uint64_t *seed, wh_contact_work *w, wh_contact_state *s, exact *e) {
-    const unsigned n = one_in(seed, 4) ? 1 : 2;
-    const unsigned count = 1 + (unsigned)(bits_of(seed) % HAND_CONTACTS);
-    hand_build(n, broken(seed, 1, 4), n == 1 ? WH_R(0.0) : broken(seed, -1, 1), broken(seed, 2, 4));
+    const unsigned n = draw_one_in(seed, 4) ? 1 : 2;
+    const unsigned count = 1 + (unsigned)(draw_bits(seed) % HAND_CONTACTS);
+    hand_build(n, draw_broken(seed, 1, 4), n == 1 ? WH_R(0.0) : draw_broken(seed, -1, 1),
+               draw_broken(seed, 2, 4));
     for (unsigned i = 0; i < n; i++) {
-        hand_now.start[i] = broken(seed, -1, 1);
-        hand_now.start[n + i] = broken(seed, -1, 1);
-        hand_now.spring[i] = broken(seed, 0, 4);
+        hand_now.start[i] = draw_broken(seed, -1, 1);
+        hand_now.start[n + i] = draw_broken(seed, -1, 1);
+        hand_now.spring[i] = draw_broken(seed, 0, 4);
     }
     for (unsigned k = 0; k < count; k++) {
         const bool last = k > 0 && k + 1 == count;
-        const bool hold = last && one_in(seed, 3);
-        const bool friction = last && !hold && one_in(seed, 3);
-        wh_real row[2] = {whole(seed, -2, 2), n == 1 ? WH_R(0.0) : whole(seed, -2, 2)};
+        const bool hold = last && draw_one_in(seed, 3);
+        const bool friction = last && !hold && draw_one_in(seed, 3);
+        wh_real row[2] = {draw_whole(seed, -2, 2), n == 1 ? WH_R(0.0) : draw_whole(seed, -2, 2)};
         if (friction || (row[0] == WH_R(0.0) && row[1] == WH_R(0.0))) {
             row[0] = WH_R(1.0);
             row[1] = WH_R(0.0);
         }
         const int pin = row[1] == WH_R(0.0) ? 0 : row[0] == WH_R(0.0) ? 1 : -1;
         const wh_real at = row[0] * hand_now.start[0] + row[1] * hand_now.start[1];
-        const wh_real gap = broken(seed, -1, 1);
+        const wh_real gap = draw_broken(seed, -1, 1);
         (void)hand_add(hold       ? WH_HOLD
                        : friction ? WH_FRICTION
                                   : WH_STOP,
-                       pin, row[0], row[1], at - gap, one_in(seed, 2) ? WH_R(0.5) : WH_R(0.0),
+                       pin, row[0], row[1], at - gap, draw_one_in(seed, 2) ? WH_R(0.5) : WH_R(0.0),
                        WH_R(0.5));
         if (hold) {
             hand_now.contact[k].direction = 1;
@@ -67,8 +54,8 @@ static void draw(uint64_t *seed, wh_contact_work *w, wh_contact_state *s, exact 
     wh_contact_copy(&hand_now.system, hand_state.angle, hand_state.real, hand_state.carry, s);
     for (unsigned k = 0; k < count; k++) {
         const bool friction = hand_now.contact[k].kind == WH_FRICTION;
-        const bool acts = one_in(seed, 3) && (hand_now.contact[k].kind == WH_HOLD || k == 0);
-        e->mode[k] = friction ? (int)(bits_of(seed) % 3) - 1 : acts ? WH_ACTIVE : WH_FREE;
+        const bool acts = draw_one_in(seed, 3) && (hand_now.contact[k].kind == WH_HOLD || k == 0);
+        e->mode[k] = friction ? (int)(draw_bits(seed) % 3) - 1 : acts ? WH_ACTIVE : WH_FREE;
         w->mode[k] = (int8_t)e->mode[k];
         w->held[k] = WH_R(0.0);
     }

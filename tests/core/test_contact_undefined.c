@@ -7,7 +7,8 @@
 void suite_contact_undefined(void);
 
 /* What is no number. */
-enum { FIRST_SIGNAL, SECOND_SIGNAL, FIRST_LAW, SECOND_LAW, PLACES };
+typedef enum lost_place { FIRST_SIGNAL, SECOND_SIGNAL, FIRST_LAW, SECOND_LAW } lost_place;
+enum { PLACES = SECOND_LAW + 1 };
 
 #define COUNT 3U
 
@@ -51,7 +52,7 @@ static bool build(unsigned number, bool held, bool pinned, bool straight) {
 }
 
 /* Does a step build on it? */
-static bool needed(unsigned k, unsigned place) {
+static bool needed(unsigned k, lost_place place) {
     const wh_contact_kind kind = (wh_contact_kind)hand_now.contact[k].kind;
     const bool stuck = kind == WH_FRICTION && hand_state.contacts->mode[k] == WH_STUCK;
     const bool curved = hand_now.contact[k].direction == 0 && hand_now.contact[k].pin < 0;
@@ -59,23 +60,23 @@ static bool needed(unsigned k, unsigned place) {
     case FIRST_SIGNAL:
     case SECOND_SIGNAL: return true;
     case FIRST_LAW: return stuck || (kind == WH_HOLD && curved && hand_pushed > WH_R(0.0));
-    default: return kind == WH_FRICTION && !stuck;
+    case SECOND_LAW: break;
     }
+    return kind == WH_FRICTION && !stuck;
 }
 
-static void lose(unsigned k, unsigned place, wh_real nothing) {
+static void lose(unsigned k, lost_place place, wh_real nothing) {
     hand_now.nothing = nothing;
-    if (place == FIRST_SIGNAL || place == SECOND_SIGNAL) {
-        hand_now.lost[place] |= 1U << k;
-    } else if (place == FIRST_LAW) {
-        hand_now.law[k].first = nothing;
-    } else {
-        hand_now.law[k].second = nothing;
+    switch (place) {
+    case FIRST_SIGNAL:
+    case SECOND_SIGNAL: hand_now.lost[place] |= 1U << k; break;
+    case FIRST_LAW: hand_now.law[k].first = nothing; break;
+    case SECOND_LAW: hand_now.law[k].second = nothing; break;
     }
 }
 
 /* Steps; then contact k's expression is lost. Is the next step what it should be? */
-static bool answers(unsigned k, unsigned place, unsigned steps, wh_real nothing) {
+static bool answers(unsigned k, lost_place place, unsigned steps, wh_real nothing) {
     hand_start(true);
     hand_steps(steps);
     if (steps == 0) { /* the modes of the start, from a run that has begun */
@@ -101,7 +102,7 @@ static void test_what_a_step_builds_on_must_be_a_number(void) {
     for (unsigned number = 0; number < 64 * 16; number++) {
         for (unsigned one = 0; one < COUNT * PLACES * 2; one++) {
             const unsigned k = one / (PLACES * 2);
-            const unsigned place = one / 2 % PLACES;
+            const lost_place place = (lost_place)(one / 2 % PLACES);
             if (!build(number / 16, (number & 1U) != 0, (number & 2U) != 0, (number & 8U) != 0)) {
                 continue;
             }

@@ -1,5 +1,6 @@
 /* test_lcp.c: the box LCP of core/contact_lcp.h on random problems, also where rows repeat each other: the solution
  * meets its conditions, and no problem meets the cap of the rounds. */
+#include "draw.h"
 #include "hand.h"
 
 #include "unity.h"
@@ -8,29 +9,20 @@ void suite_lcp(void);
 
 enum { PROBLEMS = __STDC_HOSTED__ ? 20000 : 500, CONTACTS = 3 };
 
-static uint64_t bits_of(uint64_t *seed) {
-    *seed = *seed * 6364136223846793005U + 1442695040888963407U;
-    return *seed >> 33;
-}
-
-static wh_real between(uint64_t *seed, int least, int most) {
-    return (wh_real)(least + (int)(bits_of(seed) % (uint64_t)(most - least + 1)));
-}
-
 /* A problem of up to three contacts on two coordinates, so that rows often repeat each other: whole numbers, so that
  * they do so exactly. There is always a solution: stops push, frictions slide, and no two holds contradict each other. */
 static void random_problem(uint64_t *seed, bool holds, bool forces, wh_contact_work *w) {
     static const wh_contact_kind kinds[] = {WH_STOP, WH_FRICTION, WH_HOLD};
-    hand_build(2, between(seed, 2, 4), between(seed, -1, 1), between(seed, 2, 4));
+    hand_build(2, draw_whole(seed, 2, 4), draw_whole(seed, -1, 1), draw_whole(seed, 2, 4));
     for (unsigned k = 0; k < CONTACTS; k++) {
-        const wh_contact_kind drawn = kinds[bits_of(seed) % (holds && k == 0 ? 3U : 2U)];
+        const wh_contact_kind drawn = kinds[draw_bits(seed) % (holds && k == 0 ? 3U : 2U)];
         const wh_contact_kind kind = drawn == WH_FRICTION && !forces ? WH_STOP : drawn;
-        wh_real row[2] = {between(seed, -1, 1), between(seed, -1, 1)};
+        wh_real row[2] = {draw_whole(seed, -1, 1), draw_whole(seed, -1, 1)};
         if (kind == WH_FRICTION || (row[0] == WH_R(0.0) && row[1] == WH_R(0.0))) {
             row[0] = WH_R(1.0);
             row[1] = WH_R(0.0);
         }
-        hand_add(kind, -1, row[0], row[1], WH_R(0.0), between(seed, 0, 3), WH_R(0.0));
+        hand_add(kind, -1, row[0], row[1], WH_R(0.0), draw_whole(seed, 0, 3), WH_R(0.0));
     }
     hand_start(false);
     hand_now.system.forces(&hand_now, NULL, NULL, NULL, NULL, w->law);
@@ -81,12 +73,12 @@ static bool meets_its_conditions(const wh_contact_work *w, const uint8_t *member
 
 /* All three contacts, two or one of them, in any order. */
 static unsigned draw_members(uint64_t *seed, uint8_t *member) {
-    const unsigned first = (unsigned)bits_of(seed) % CONTACTS;
-    const unsigned step = 1U + (unsigned)bits_of(seed) % 2U;
+    const unsigned first = (unsigned)draw_bits(seed) % CONTACTS;
+    const unsigned step = 1U + (unsigned)draw_bits(seed) % 2U;
     for (unsigned i = 0; i < CONTACTS; i++) {
         member[i] = (uint8_t)((first + i * step) % CONTACTS);
     }
-    return 1U + (unsigned)bits_of(seed) % CONTACTS;
+    return 1U + (unsigned)draw_bits(seed) % CONTACTS;
 }
 
 static void check(bool holds, bool forces) {
@@ -103,11 +95,12 @@ static void check(bool holds, bool forces) {
         random_problem(&seed, holds, forces, &w);
         const unsigned count = draw_members(&seed, member);
         /* of accelerations that the mechanism may have, or of impacts */
-        accel[0] = between(&seed, -4, 4);
-        accel[1] = between(&seed, -4, 4);
+        accel[0] = draw_whole(&seed, -4, 4);
+        accel[1] = draw_whole(&seed, -4, 4);
         for (unsigned m = 0; m < count; m++) {
             const unsigned k = member[m];
-            const wh_real bounce = forces || holds ? WH_R(0.0) : between(&seed, 0, 2) / WH_R(2.0);
+            const wh_real bounce =
+                forces || holds ? WH_R(0.0) : draw_whole(&seed, 0, 2) / WH_R(2.0);
             wanted[m] = -wh_jacobian_times(&hand_now.system, &w, k, accel);
             if (!forces && wanted[m] < WH_R(0.0)) { /* a stop that opens takes no part */
                 turn(&w, k);

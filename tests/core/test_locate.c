@@ -1,5 +1,6 @@
 /* test_locate.c: where events are found within a step: a body under a constant load crosses places at moments that are
  * known in closed form; how near, how many looks that takes, and in which order. */
+#include "draw.h"
 #include "hand.h"
 
 #include "unity.h"
@@ -10,14 +11,9 @@ enum { CASES = __STDC_HOSTED__ ? 3000 : 200 };
 
 #define STEP_S WH_R(0.001)
 
-static uint64_t bits_of(uint64_t *seed) {
-    *seed = *seed * 6364136223846793005U + 1442695040888963407U;
-    return *seed >> 33;
-}
-
 /* From 0 to 1, in steps of 1/1024. */
 static wh_real share_of(uint64_t *seed) {
-    return (wh_real)(bits_of(seed) % 1023U + 1U) / WH_R(1024.0);
+    return (wh_real)(draw_bits(seed) % 1023U + 1U) / WH_R(1024.0);
 }
 
 /* x = v t + a t^2/2, monotone over the step: the speed changes by up to nine tenths of what it is. */
@@ -31,7 +27,7 @@ static wh_real place_at(path p, wh_real t) { return t * (p.v + WH_R(0.5) * p.a *
 static path random_path(uint64_t *seed) {
     const wh_real v = WH_R(0.25) + share_of(seed);
     const wh_real bend = WH_R(0.9) * (WH_R(2.0) * share_of(seed) - WH_R(1.0));
-    const bool backward = bits_of(seed) % 2U != 0;
+    const bool backward = draw_bits(seed) % 2U != 0;
     const path p = {backward ? -v : v, (backward ? -bend : bend) * v / STEP_S};
     return p;
 }
@@ -119,7 +115,7 @@ static void test_crossings_of_one_step_come_in_their_order(void) {
     for (unsigned i = 0; i < CASES; i++) {
         const path p = random_path(&seed);
         const int along = p.v > WH_R(0.0) ? 1 : -1;
-        const unsigned kept = (unsigned)bits_of(&seed) % 3U; /* by whom nothing happens */
+        const unsigned kept = (unsigned)draw_bits(&seed) % 3U; /* by whom nothing happens */
         wh_real at_s[3];
         start(p);
         for (unsigned k = 0; k < 3; k++) {
