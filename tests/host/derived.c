@@ -59,6 +59,20 @@ static derived derive_model(whirl_model *m, const char *name, diags *all) {
     return d;
 }
 
+const char *report_of_text(const char *text) {
+    static char report[REPORT_OF_TEXT_SIZE];
+    diags *all = diags_new();
+    whirl_model *read = model_parse("x.whirl", text, strlen(text), all);
+    FILE *out = fmemopen(report, sizeof report, "w");
+    TEST_ASSERT_NOT_NULL(out);
+    report[0] = '\0';
+    diags_flush(all, out);
+    fclose(out);
+    diags_free(all);
+    model_free(read);
+    return report;
+}
+
 derived derived_text(const char *text) {
     diags *all = diags_new();
     return derive_model(model_parse("t.whirl", text, strlen(text), all), NULL, all);

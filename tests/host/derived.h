@@ -14,6 +14,10 @@ typedef struct derived {
     char *errors;         /* "" when there are none */
 } derived;
 
+/* What the language says about a text, "" when it accepts it; overwritten by the next call. Nothing is derived. */
+enum { REPORT_OF_TEXT_SIZE = 8000 };
+const char *report_of_text(const char *text);
+
 /* How tests integrate that do not mind: with Runge-Kutta 4. */
 extern const image_settings plainly;
 

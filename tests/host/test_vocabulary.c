@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "core/contact.h"
+#include "derived.h"
 #include "host/image/tape.h"
 #include "host/lang/model.h"
 #include "host/lang/words.h"
@@ -17,7 +18,7 @@
 
 void suite_vocabulary(void);
 
-enum { REPORT_SIZE = 4000, TEXT_SIZE = 600 };
+enum { TEXT_SIZE = 600 };
 
 #define EXPECT_ROW(list, index, is) \
     do { \
@@ -63,20 +64,6 @@ static void test_contacts_are_in_the_core_s_order(void) {
 
 /* --- blocks whose brace was forgotten -------------------------------------------------------------------- */
 
-static const char *report_on(const char *text) {
-    static char report[REPORT_SIZE];
-    diags *all = diags_new();
-    whirl_model *read = model_parse("x.whirl", text, strlen(text), all);
-    FILE *out = fmemopen(report, sizeof report, "w");
-    TEST_ASSERT_NOT_NULL(out);
-    report[0] = '\0';
-    diags_flush(all, out);
-    fclose(out);
-    diags_free(all);
-    model_free(read);
-    return report;
-}
-
 static bool is_among(const char *word, const char *words) {
     const size_t length = strlen(word);
     for (const char *at = words; (at = strstr(at, word)) != NULL; at++) {
@@ -110,7 +97,7 @@ static void test_which_words_end_a_block(void) {
                      "mechanism trial\ncoordinate x [m]\nparameter m = 2 [kg]\nT = m*x'^2/2\n"
                      "%s\n%s zz = 1\n%s",
                      blocks[b].before, word, blocks[b].behind);
-            const bool ended = strstr(report_on(text), "is not closed with '}'") != NULL;
+            const bool ended = strstr(report_of_text(text), "is not closed with '}'") != NULL;
             TEST_ASSERT_TRUE_MESSAGE(ended == is_among(word, blocks[b].enders), text);
         }
     }
@@ -124,7 +111,7 @@ static void expect_report(const char *statements, const char *wanted) {
              "mechanism trial\ncoordinate x [m]\nparameter m = 2 [kg]\ninput u = 1\nlet l = 3\n"
              "output o = 1\nT = m*x'^2/2\n%s\n",
              statements);
-    const char *report = report_on(text);
+    const char *report = report_of_text(text);
     if (strstr(report, wanted) == NULL) {
         printf("  '%s' is missing in: %s", wanted, report);
     }
