@@ -201,35 +201,6 @@ static const char *common_value(common_option which, int count, char **words, in
     return "";
 }
 
-static bool take_change(common_option which, const char *value, change_options *c) {
-    const char *word = option_rows[which].word;
-    switch (which) {
-    case OPTION_SET: push(&c->sets, &c->set_count, value); break;
-    case OPTION_START: push(&c->starts, &c->start_count, value); break;
-    case OPTION_WITH: return push_names(c, &c->with, &c->with_count, word, value);
-    case OPTION_WITHOUT: return push_names(c, &c->without, &c->without_count, word, value);
-    case OPTION_STEP: c->step = value; break;
-    case OPTION_UNTIL: c->until = value; break;
-    case OPTION_METHOD:
-    case OPTION_NUMBER:
-    case OPTION_COMPENSATED: break; /* of another group */
-    }
-    return true;
-}
-
-bool options_change(int count, char **words, int *at, change_options *c, bool *bad) {
-    for (int i = 0; i < OPTIONS && !*bad; i++) {
-        const char *value = option_rows[i].group == OPTIONS_CHANGE
-                                ? common_value((common_option)i, count, words, at, bad)
-                                : NULL;
-        if (value != NULL) {
-            *bad = !take_change((common_option)i, value, c);
-            return true;
-        }
-    }
-    return false;
-}
-
 overrides change_options_overrides(const change_options *c) {
     return (overrides){.sets = c->sets,
                        .set_count = c->set_count,
@@ -273,78 +244,73 @@ int options_choose(const char *command, const char *what, const char *value, con
     return -1;
 }
 
-static bool take_engine(common_option which, const char *command, const char *value,
-                        image_settings *settings) {
-    switch (which) {
-    case OPTION_METHOD: {
-        const int chosen =
-            options_choose(command, "method", value, wh_methods, sizeof wh_methods[0], WH_METHODS);
-        settings->method = chosen < 0 ? WH_METHOD_DEFAULT : (wh_method)chosen;
-        return chosen >= 0;
-    }
-    case OPTION_COMPENSATED: settings->compensated = true; break;
-    case OPTION_SET:
-    case OPTION_START:
-    case OPTION_WITH:
-    case OPTION_WITHOUT:
-    case OPTION_STEP:
-    case OPTION_UNTIL:
-    case OPTION_NUMBER: break; /* of another group */
-    }
-    return true;
-}
+/* Where options go: those of a group to its own place; the others may be NULL. */
+typedef struct option_places {
+    change_options *change;
+    image_settings *engine;
+    const engine_kind **kind;
+} option_places;
 
-bool options_engine(const char *command, int count, char **words, int *at, image_settings *settings,
-                    bool *bad) {
-    for (int i = 0; i < OPTIONS && !*bad; i++) {
-        const char *value = option_rows[i].group == OPTIONS_ENGINE
-                                ? common_value((common_option)i, count, words, at, bad)
-                                : NULL;
-        if (value != NULL) {
-            *bad = !take_engine((common_option)i, command, value, settings);
-            return true;
-        }
-    }
-    return false;
-}
-
-static bool take_number(common_option which, const char *command, const char *value,
-                        const engine_kind **kind) {
+static bool take(common_option which, const char *command, const char *value,
+                 const option_places *to) {
     static const struct {
         const char *word;
         const engine_kind *kind;
     } numbers[] = {{"double", &engine_double}, {"float", &engine_float}};
+    change_options *c = to->change;
+    const char *word = option_rows[which].word;
+    int chosen;
     switch (which) {
-    case OPTION_NUMBER: {
-        const int chosen = options_choose(command, "number", value, numbers, sizeof numbers[0],
-                                          sizeof numbers / sizeof numbers[0]);
-        *kind = chosen < 0 ? *kind : numbers[chosen].kind;
-        return chosen >= 0;
-    }
-    case OPTION_SET:
-    case OPTION_START:
-    case OPTION_WITH:
-    case OPTION_WITHOUT:
-    case OPTION_STEP:
-    case OPTION_UNTIL:
+    case OPTION_SET: push(&c->sets, &c->set_count, value); break;
+    case OPTION_START: push(&c->starts, &c->start_count, value); break;
+    case OPTION_WITH: return push_names(c, &c->with, &c->with_count, word, value);
+    case OPTION_WITHOUT: return push_names(c, &c->without, &c->without_count, word, value);
+    case OPTION_STEP: c->step = value; break;
+    case OPTION_UNTIL: c->until = value; break;
     case OPTION_METHOD:
-    case OPTION_COMPENSATED: break; /* of another group */
+        chosen =
+            options_choose(command, "method", value, wh_methods, sizeof wh_methods[0], WH_METHODS);
+        to->engine->method = chosen < 0 ? WH_METHOD_DEFAULT : (wh_method)chosen;
+        return chosen >= 0;
+    case OPTION_COMPENSATED: to->engine->compensated = true; break;
+    case OPTION_NUMBER:
+        chosen = options_choose(command, "number", value, numbers, sizeof numbers[0],
+                                sizeof numbers / sizeof numbers[0]);
+        *to->kind = chosen < 0 ? *to->kind : numbers[chosen].kind;
+        return chosen >= 0;
     }
     return true;
 }
 
-bool options_number(const char *command, int count, char **words, int *at, const engine_kind **kind,
-                    bool *bad) {
+/* If words[*at] is one of the group, takes it and returns true. */
+static bool take_one_of(option_group group, const char *command, int count, char **words, int *at,
+                        const option_places *to, bool *bad) {
     for (int i = 0; i < OPTIONS && !*bad; i++) {
-        const char *value = option_rows[i].group == OPTIONS_NUMBER
+        const char *value = option_rows[i].group == group
                                 ? common_value((common_option)i, count, words, at, bad)
                                 : NULL;
         if (value != NULL) {
-            *bad = !take_number((common_option)i, command, value, kind);
+            *bad = !take((common_option)i, command, value, to);
             return true;
         }
     }
     return false;
+}
+
+bool options_change(int count, char **words, int *at, change_options *c, bool *bad) {
+    return take_one_of(OPTIONS_CHANGE, NULL, count, words, at, &(option_places){.change = c}, bad);
+}
+
+bool options_engine(const char *command, int count, char **words, int *at, image_settings *settings,
+                    bool *bad) {
+    return take_one_of(OPTIONS_ENGINE, command, count, words, at,
+                       &(option_places){.engine = settings}, bad);
+}
+
+bool options_number(const char *command, int count, char **words, int *at, const engine_kind **kind,
+                    bool *bad) {
+    return take_one_of(OPTIONS_NUMBER, command, count, words, at, &(option_places){.kind = kind},
+                       bad);
 }
 
 void options_unknown(const char *command, const char *word, unsigned groups,
