@@ -84,10 +84,10 @@ enum {
     WH_LIMITED = 4     /* which has a limit, slides at it, and is too small to give an impulse */
 };
 
-/* The kinds, in the order in which contacts are numbered: name, what it is. What each does at its events differs. The
- * compiler names only the switch of contact_locate.h to whoever adds one; some sixty lines of contact_*.h ask whether a
- * contact is of one kind, and take a new one for none of them: CONTRIBUTING.md says how to find them. The language's row
- * is in host/lang/kinds.h. */
+/* The kinds, in the order in which contacts are numbered: name, what it is. What each does at its events differs.
+ * Of the core the compiler names only the switch of contact_locate.h to whoever adds one; some sixty lines of
+ * contact_*.h ask whether a contact is of one kind, and take a new one for none of them: CONTRIBUTING.md says how to
+ * find them. The language's row is in host/lang/kinds.h. */
 #define WH_CONTACT_KINDS(X) \
     X(WH_STOP, WH_FORCED | WH_UNILATERAL) \
     X(WH_HOLD, WH_FORCED) \

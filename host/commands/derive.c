@@ -219,7 +219,6 @@ static int derive_one(source_model *from, const mechanism *of, const scene *in,
                             .use = IMAGE_TO_WRITE,
                             .keep = as->shows ? KEEP_EQUATIONS : KEEP_IMAGE,
                             .conserve = as->runs,
-
                             .comment = as->comment};
     loaded made;
     int code = load(&made, from, of, in, changes, &wish);
