@@ -24,6 +24,11 @@ static inline wh_real draw_broken(uint64_t *seed, int least, int most) {
            draw_whole(seed, 1, 1023) / (1024 * 1024);
 }
 
+/* One of so many, counted from zero; zero where there is none. */
+static inline unsigned draw_one_of(uint64_t *seed, unsigned count) {
+    return count > 0 ? (unsigned)(draw_bits(seed) % count) : 0U;
+}
+
 static inline bool draw_one_in(uint64_t *seed, unsigned of) { return draw_bits(seed) % of == 0; }
 
 #endif

@@ -36,7 +36,7 @@ static void test_rows_are_those_of_the_place(void) {
         wh_contact_state s;
         wh_contact_point at;
         const wh_real input = WH_R(0.0);
-        draw(&seed, (unsigned)draw_bits(&seed) % BENCH_COORDS, &w);
+        draw(&seed, draw_one_of(&seed, BENCH_COORDS), &w);
         bench_state(&seed, &s);
         wh_contact_point_of(&bench_now.system, &s, &at);
         const wh_contact_point asked = at;

@@ -45,7 +45,7 @@ static void test_a_force_is_beyond_its_limit_by_more_than_rounding(void) {
         wh_contact_work w;
         draw(&seed, &w);
         const wh_contact_system *of = &bench_now.system;
-        const unsigned k = (unsigned)draw_bits(&seed) % of->forced;
+        const unsigned k = draw_one_of(&seed, of->forced);
         const wh_real least = WH_CONTACT_QUIET * others_of(&w, k) / bench_delassus(k, k);
         TEST_ASSERT_TRUE(wh_contact_beyond(of, &w, k, WH_R(-0.99) * least) == WH_R(0.0));
         TEST_ASSERT_TRUE(wh_contact_beyond(of, &w, k, WH_R(-1.01) * least) == WH_R(-1.01) * least);

@@ -44,7 +44,7 @@ static void test_one_contact_takes_what_it_can(void) {
         wh_real lambda = BENCH_SENTINEL;
         wh_real left = BENCH_SENTINEL;
         draw(&seed, &w);
-        const unsigned k = (unsigned)draw_bits(&seed) % bench_now.system.forced;
+        const unsigned k = draw_one_of(&seed, bench_now.system.forced);
         const bool forces = draw_one_in(&seed, 2);
         const bool up = draw_one_in(&seed, 2);
         const wh_real yield = bench_delassus(k, k);
@@ -80,10 +80,10 @@ static void test_one_contact_takes_what_it_can(void) {
 static void test_who_leaves_a_limit_is_eliminated_last(void) {
     uint64_t seed = 122;
     for (unsigned round = 0; round < ROUNDS / 4; round++) {
-        wh_contact_pivot p = {.contradicted = (unsigned)draw_bits(&seed) % 16U};
+        wh_contact_pivot p = {.contradicted = draw_one_of(&seed, 16U)};
         wh_contact_pivot was;
-        const unsigned count = 1U + (unsigned)draw_bits(&seed) % BENCH_FORCED;
-        const unsigned i = (unsigned)draw_bits(&seed) % count;
+        const unsigned count = 1U + draw_one_of(&seed, BENCH_FORCED);
+        const unsigned i = draw_one_of(&seed, count);
         const int8_t to = (int8_t)draw_whole(&seed, -1, 1);
         for (unsigned j = 0; j < BENCH_CONTACTS; j++) {
             const unsigned l = (unsigned)draw_bits(&seed) % (j + 1U);
@@ -114,7 +114,7 @@ static void test_the_least_number_that_is_wrong_is_told(void) {
     unsigned none = 0;
     for (unsigned round = 0; round < 2U * ROUNDS; round++) {
         wh_contact_work w;
-        wh_contact_pivot p = {.contradicted = (unsigned)draw_bits(&seed) % 16U, .giving = ~0U};
+        wh_contact_pivot p = {.contradicted = draw_one_of(&seed, 16U), .giving = ~0U};
         wh_real way[WH_COORDS];
         int8_t to = 9;
         int8_t right_to = 9;

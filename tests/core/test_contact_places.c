@@ -35,7 +35,7 @@ static void test_a_coordinate_moves_and_no_other(void) {
         draw(&seed, true, &w);
         bench_state(&seed, &from);
         to = from;
-        const unsigned moved = (unsigned)draw_bits(&seed) % bench_now.system.coordinates;
+        const unsigned moved = draw_one_of(&seed, bench_now.system.coordinates);
         const wh_real by = draw_whole(&seed, -8, 8) / 4;
         wh_contact_move(&bench_now.system, moved, by, &to);
         for (unsigned i = 0; i < bench_now.system.coordinates; i++) {
@@ -77,13 +77,13 @@ static void test_a_straight_way_is_summed_without_rounding(void) {
         wh_contact_state from;
         wh_contact_state to;
         const bool far = draw_one_in(&seed, 2);
-        const unsigned n = far ? 2U : 1U + (unsigned)draw_bits(&seed) % BENCH_COORDS;
+        const unsigned n = far ? 2U : 1U + draw_one_of(&seed, BENCH_COORDS);
         const unsigned angles =
             (unsigned)draw_bits(&seed) % (n + 1U) / (far ? 2U : 1U) * (far ? 2U : 1U);
         bench_build(&seed, n, angles);
         (void)bench_add(&seed, WH_HOLD, -1);
         (void)bench_add(&seed, WH_HOLD, -1);
-        const unsigned k = (unsigned)draw_bits(&seed) % 2U;
+        const unsigned k = draw_one_of(&seed, 2U);
         const int64_t way = (int64_t)(draw_bits(&seed) & most);
         const wh_real factor = (wh_real)(draw_bits(&seed) & most);
         int64_t sums[2] = {0, 0}; /* of turns, of ways */
@@ -154,7 +154,7 @@ static void test_who_is_off_who_slips_and_who_breaks_loose(void) {
         draw(&seed, true, &w);
         bench_state(&seed, &from);
         bench_state(&seed, &to);
-        const unsigned but = (unsigned)draw_bits(&seed) % 16U;
+        const unsigned but = draw_one_of(&seed, 16U);
         unsigned stuck = 0;
         unsigned breaking = 0;
         unsigned count = 0;
@@ -182,7 +182,7 @@ static void test_who_is_off_who_slips_and_who_breaks_loose(void) {
         seen[1] += breaking != 0;
         seen[2] += stuck != breaking;
         was = w;
-        const unsigned one = (unsigned)draw_bits(&seed) % of->forced;
+        const unsigned one = draw_one_of(&seed, of->forced);
         wh_contact_capture(of, &w, one);
         for (unsigned place = 0; place < BENCH_CONTACTS; place++) { /* the one that is captured */
             const wh_contact *c = &bench_now.contact[one];
@@ -213,7 +213,7 @@ static void test_how_far_a_stop_is_passed(void) {
         wh_contact_state s;
         draw(&seed, true, &w);
         bench_state(&seed, &s);
-        const unsigned k = (unsigned)draw_bits(&seed) % bench_now.system.forced;
+        const unsigned k = draw_one_of(&seed, bench_now.system.forced);
         wh_real size = WH_R(0.0);
         for (unsigned i = 0; i < bench_now.system.coordinates; i++) {
             const unsigned angles = bench_now.system.angles;

@@ -100,8 +100,8 @@ static void test_places_are_put_right_by_the_least_way(void) {
         const unsigned n = of->coordinates;
         const wh_real *rate = wh_contact_rates(of, &s);
         wh_contact_place spot = {NULL, WH_R(0.0), 0, WH_CONTACTS_MAX};
-        spot.but = draw_one_in(&seed, 2) ? 0U : (unsigned)draw_bits(&seed) % 16U;
-        spot.mover = draw_one_in(&seed, 3) ? (unsigned)draw_bits(&seed) % of->forced : spot.mover;
+        spot.but = draw_one_in(&seed, 2) ? 0U : draw_one_of(&seed, 16U);
+        spot.mover = draw_one_in(&seed, 3) ? draw_one_of(&seed, of->forced) : spot.mover;
         const unsigned count = members_of(&w, spot.but, member);
         const unsigned asked =
             (unsigned)draw_bits(&seed) % (count + 1U); /* of whom it is just not or just so */
@@ -178,7 +178,7 @@ static void test_a_place_that_is_no_number_is_told(void) {
         const wh_contact_state was = s;
         wh_contact_place spot = {NULL, WH_R(1.0), 0, WH_CONTACTS_MAX};
         const unsigned count = members_of(&w, 0, member);
-        const unsigned none = (unsigned)draw_bits(&seed) % 16U;
+        const unsigned none = draw_one_of(&seed, 16U);
         for (unsigned k = 0; k < bench_now.system.forced; k++) {
             if ((none >> k & 1U) != 0) {
                 const wh_real zero = WH_R(0.0) * bench_now.free[0];
@@ -229,7 +229,7 @@ static void test_rates_are_taken_away_by_the_least(void) {
         draw(&seed, true, &w, &books);
         const wh_contact_system *of = &bench_now.system;
         const bool booked = draw_one_in(&seed, 2);
-        const unsigned but = draw_one_in(&seed, 2) ? 0U : (unsigned)draw_bits(&seed) % 16U;
+        const unsigned but = draw_one_in(&seed, 2) ? 0U : draw_one_of(&seed, 16U);
         const unsigned count = members_of(&w, but, member);
         bench_vector(&seed, rate);
         for (unsigned c = 0; c < WH_COORDS; c++) {

@@ -113,7 +113,7 @@ static void test_the_first_that_is_lost_is_told(void) {
         unsigned wanted = count;
         rows_of(&w, &before);
         TEST_ASSERT_EQUAL_UINT(count, wh_contact_fallen(&hand_now.system, &before, &before));
-        const unsigned changed = (unsigned)draw_bits(&seed) % count;
+        const unsigned changed = draw_one_of(&seed, count);
         const bool back = draw_bits(&seed) % 2U != 0;
         for (unsigned i = 0; i < 2; i++) {
             wh_real *entry = &hand_now.law[changed].row[i];

@@ -115,12 +115,12 @@ static void test_the_first_of_several_is_found(void) {
         wh_real when[BENCH_CONTACTS];
         unsigned line[BENCH_CONTACTS];
         wh_real first = WH_R(2.0);
-        const unsigned n = 1U + (unsigned)draw_bits(&seed) % BENCH_COORDS;
-        const unsigned count = 1U + (unsigned)draw_bits(&seed) % BENCH_FORCED;
+        const unsigned n = 1U + draw_one_of(&seed, BENCH_COORDS);
+        const unsigned count = 1U + draw_one_of(&seed, BENCH_FORCED);
         const unsigned stops = (unsigned)draw_bits(&seed) % (count + 1U);
         draw_ways(&seed, n, &from);
         for (unsigned k = 0; k < count; k++) {
-            const unsigned i = (unsigned)draw_bits(&seed) % n;
+            const unsigned i = draw_one_of(&seed, n);
             const wh_real side = from.real[n + i] > WH_R(0.0) ? WH_R(-1.0) : WH_R(1.0);
             const wh_real size = draw_one_in(&seed, 2) ? WH_R(1.0) : WH_R(3.0);
             const bool again = k > 0 && draw_one_in(&seed, 8);
@@ -163,9 +163,9 @@ static void test_what_is_beyond_already_comes_at_once(void) {
         wh_contact_state from = {.real = {WH_R(0.0)}};
         unsigned at_once = 0;
         draw_ways(&seed, 2, &from);
-        const unsigned count = 1U + (unsigned)draw_bits(&seed) % BENCH_FORCED;
+        const unsigned count = 1U + draw_one_of(&seed, BENCH_FORCED);
         for (unsigned k = 0; k < count; k++) {
-            const unsigned i = (unsigned)draw_bits(&seed) % 2U;
+            const unsigned i = draw_one_of(&seed, 2U);
             const wh_real side = from.real[2 + i] > WH_R(0.0) ? WH_R(-1.0) : WH_R(1.0);
             (void)add_along(&seed, k < 2 ? WH_STOP : WH_WHEN, i, side);
             const bool beyond = draw_one_in(&seed, 3);

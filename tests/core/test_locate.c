@@ -115,7 +115,7 @@ static void test_crossings_of_one_step_come_in_their_order(void) {
     for (unsigned i = 0; i < CASES; i++) {
         const path p = random_path(&seed);
         const int along = p.v > WH_R(0.0) ? 1 : -1;
-        const unsigned kept = (unsigned)draw_bits(&seed) % 3U; /* by whom nothing happens */
+        const unsigned kept = draw_one_of(&seed, 3U); /* by whom nothing happens */
         wh_real at_s[3];
         start(p);
         for (unsigned k = 0; k < 3; k++) {
