@@ -266,8 +266,7 @@ int command_derive(int count, char **words) {
     const char *target = NULL;
     const char *header = NULL;
     const form_row *as = &forms[0];
-    change_options options = {0};
-    image_settings settings = {WH_METHOD_DEFAULT, false};
+    common_options options = options_defaults();
     bool bad = false;
     if (options_wants_help(count, words)) {
         print_usage(stdout);
@@ -287,9 +286,11 @@ int command_derive(int count, char **words) {
             }
             header = value;
         } else if (!bad && (value = options_value(count, words, &at, "--name", &bad)) != NULL) {
-            bad = !take_name(&options, value);
-        } else if (!bad && !options_change(count, words, &at, &options, &bad) && !bad &&
-                   !options_engine("derive", count, words, &at, &settings, &bad) && !bad) {
+            bad = !take_name(&options.change, value);
+        } else if (!bad &&
+                   !options_take("derive", options_of_derive.groups, count, words, &at, &options,
+                                 &bad) &&
+                   !bad) {
             if (words[at][0] == '-' && words[at][1] != '\0') {
                 options_unknown("derive", words[at], options_of_derive.groups,
                                 (const char *const[]){"--as", "--header", "--name", NULL});
@@ -304,24 +305,24 @@ int command_derive(int count, char **words) {
         }
     }
     bad = bad || (header != NULL && !goes_with("--header", "FILE", has_a_header, as)) ||
-          (options.name != NULL && !goes_with("--name", "NAME", has_a_name, as));
+          (options.change.name != NULL && !goes_with("--name", "NAME", has_a_name, as));
     if (bad || target == NULL) {
         if (!bad) {
             print_usage(stderr);
         }
-        change_options_free(&options);
+        options_forget(&options);
         return EXIT_BAD_INPUT;
     }
     source_model from;
     int code = source_open(&from, target);
-    const overrides changes = change_options_overrides(&options);
+    const overrides changes = options_overrides(&options.change);
     if (code == EXIT_DONE && from.name[0] == '\0' && as->shows) {
         for (int i = 0; i < from.model->mechanism_count && code == EXIT_DONE; i++) {
             if (i > 0) {
                 putchar('\n');
             }
-            code =
-                derive_one(&from, from.model->mechanisms[i], NULL, &changes, as, &settings, NULL);
+            code = derive_one(&from, from.model->mechanisms[i], NULL, &changes, as,
+                              &options.integration, NULL);
         }
     } else if (code == EXIT_DONE) {
         const mechanism *of;
@@ -331,10 +332,10 @@ int command_derive(int count, char **words) {
         if (code == EXIT_DONE) {
             code = header != NULL && !header_is_apart(&from, header)
                        ? EXIT_BAD_INPUT
-                       : derive_one(&from, of, in, &changes, as, &settings, header);
+                       : derive_one(&from, of, in, &changes, as, &options.integration, header);
         }
     }
     source_close(&from);
-    change_options_free(&options);
+    options_forget(&options);
     return code;
 }

@@ -201,7 +201,7 @@ static const char *common_value(common_option which, int count, char **words, in
     return "";
 }
 
-overrides change_options_overrides(const change_options *c) {
+overrides options_overrides(const change_options *c) {
     return (overrides){.sets = c->sets,
                        .set_count = c->set_count,
                        .starts = c->starts,
@@ -215,7 +215,12 @@ overrides change_options_overrides(const change_options *c) {
                        .name = c->name};
 }
 
-void change_options_free(change_options *c) {
+common_options options_defaults(void) {
+    return (common_options){.integration = {WH_METHOD_DEFAULT, false}, .number = &engine_double};
+}
+
+void options_forget(common_options *options) {
+    change_options *c = &options->change;
     for (int i = 0; i < c->owned_count; i++) {
         free(c->owned[i]);
     }
@@ -244,20 +249,12 @@ int options_choose(const char *command, const char *what, const char *value, con
     return -1;
 }
 
-/* Where options go: those of a group to its own place; the others may be NULL. */
-typedef struct option_places {
-    change_options *change;
-    image_settings *engine;
-    const engine_kind **kind;
-} option_places;
-
-static bool take(common_option which, const char *command, const char *value,
-                 const option_places *to) {
+static bool take(common_option which, const char *command, const char *value, common_options *to) {
     static const struct {
         const char *word;
         const engine_kind *kind;
     } numbers[] = {{"double", &engine_double}, {"float", &engine_float}};
-    change_options *c = to->change;
+    change_options *c = &to->change;
     const char *word = option_rows[which].word;
     int chosen;
     switch (which) {
@@ -270,23 +267,22 @@ static bool take(common_option which, const char *command, const char *value,
     case OPTION_METHOD:
         chosen =
             options_choose(command, "method", value, wh_methods, sizeof wh_methods[0], WH_METHODS);
-        to->engine->method = chosen < 0 ? WH_METHOD_DEFAULT : (wh_method)chosen;
+        to->integration.method = chosen < 0 ? WH_METHOD_DEFAULT : (wh_method)chosen;
         return chosen >= 0;
-    case OPTION_COMPENSATED: to->engine->compensated = true; break;
+    case OPTION_COMPENSATED: to->integration.compensated = true; break;
     case OPTION_NUMBER:
         chosen = options_choose(command, "number", value, numbers, sizeof numbers[0],
                                 sizeof numbers / sizeof numbers[0]);
-        *to->kind = chosen < 0 ? *to->kind : numbers[chosen].kind;
+        to->number = chosen < 0 ? to->number : numbers[chosen].kind;
         return chosen >= 0;
     }
     return true;
 }
 
-/* If words[*at] is one of the group, takes it and returns true. */
-static bool take_one_of(option_group group, const char *command, int count, char **words, int *at,
-                        const option_places *to, bool *bad) {
+bool options_take(const char *command, unsigned groups, int count, char **words, int *at,
+                  common_options *to, bool *bad) {
     for (int i = 0; i < OPTIONS && !*bad; i++) {
-        const char *value = option_rows[i].group == group
+        const char *value = (option_rows[i].group & groups) != 0
                                 ? common_value((common_option)i, count, words, at, bad)
                                 : NULL;
         if (value != NULL) {
@@ -295,22 +291,6 @@ static bool take_one_of(option_group group, const char *command, int count, char
         }
     }
     return false;
-}
-
-bool options_change(int count, char **words, int *at, change_options *c, bool *bad) {
-    return take_one_of(OPTIONS_CHANGE, NULL, count, words, at, &(option_places){.change = c}, bad);
-}
-
-bool options_engine(const char *command, int count, char **words, int *at, image_settings *settings,
-                    bool *bad) {
-    return take_one_of(OPTIONS_ENGINE, command, count, words, at,
-                       &(option_places){.engine = settings}, bad);
-}
-
-bool options_number(const char *command, int count, char **words, int *at, const engine_kind **kind,
-                    bool *bad) {
-    return take_one_of(OPTIONS_NUMBER, command, count, words, at, &(option_places){.kind = kind},
-                       bad);
 }
 
 void options_unknown(const char *command, const char *word, unsigned groups,

@@ -72,7 +72,7 @@ bool options_help(int count, char **words, const command_usage *usage);
  * it is not; a missing value is reported and sets *bad. */
 const char *options_value(int count, char **words, int *at, const char *name, bool *bad);
 
-/* The options that change an instance: --set, --start, --with, --without, --step, --until. */
+/* What changes an instance: --set, --start, --with, --without, --step, --until. */
 typedef struct change_options {
     const char **sets;
     int set_count;
@@ -89,18 +89,23 @@ typedef struct change_options {
     int owned_count;
 } change_options;
 
-/* If words[*at] is one of them, takes it and returns true. */
-bool options_change(int count, char **words, int *at, change_options *changes, bool *bad);
-overrides change_options_overrides(const change_options *changes);
-void change_options_free(change_options *changes);
+/* Where the common options of a command go. */
+typedef struct common_options {
+    change_options change;
+    image_settings integration; /* --method and --compensated */
+    const engine_kind *number;  /* --number: what computes */
+} common_options;
 
-/* How to integrate: --method M and --compensated, as for options_change(). */
-bool options_engine(const char *command, int count, char **words, int *at, image_settings *settings,
-                    bool *bad);
+/* As they are without any option. */
+common_options options_defaults(void);
+void options_forget(common_options *options);
 
-/* What computes: --number N; *kind is left alone without it. */
-bool options_number(const char *command, int count, char **words, int *at, const engine_kind **kind,
-                    bool *bad);
+/* If words[*at] is an option of `groups`, takes it, steps *at past it and returns true. What is wrong with its value
+ * is reported and sets *bad. */
+bool options_take(const char *command, unsigned groups, int count, char **words, int *at,
+                  common_options *to, bool *bad);
+
+overrides options_overrides(const change_options *changes);
 
 /* Which of rows[count], `size` bytes each with its word at the beginning, has the word `value`; -1 when none has:
  * that is reported, with the words. */
