@@ -1,7 +1,8 @@
 # Whirl: energies in, firmware out. `make` lists the targets; the machinery is in mk/.
 #
 # V=1 shows the commands. Nothing is written outside build/,
-# but for `make figures-docs` and `make price-effects`, which renew their part of docs/.
+# but for `make figures-docs`, `make price-effects` and `make bench-boards`, which renew their part of docs/, and
+# `make too-large`, which lists what does not fit into a board.
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
@@ -80,8 +81,19 @@ check: ## the quality gates: warnings, layout, lint, sanitizers, firmware rules,
 
 .PHONY: hashes
 hashes: ## the same bits from every compiler, optimisation level, board and the interpreter
-	@CC="$(CC)" mk/setup/deps.sh host firmware quality
+	@CC="$(CC)" mk/setup/deps.sh host firmware boards quality
 	@$(MAKE) hashes-now
+
+.PHONY: hashes-all
+hashes-all: ## the same bits on every board there is, on AArch64 and in WebAssembly (half an hour)
+	@CC="$(CC)" mk/setup/deps.sh host firmware boards quality hosts
+	@$(MAKE) hashes-all-now
+
+.PHONY: test-boards
+test-boards: ## the portable suites, the stack's guard and the firmware rules on every board (minutes)
+	@UNITY="$(UNITY)" CC="$(CC)" mk/setup/deps.sh host firmware boards tests
+	@UNITY="$(UNITY)" mk/setup/unity.sh build/unity
+	@$(MAKE) test-boards-now
 
 .PHONY: hosts
 hosts: ## the same generated code from whirl built by other compilers, C libraries and processors (minutes)
@@ -128,6 +140,11 @@ bench: ## instructions a step, counted, on this machine and on the emulated boar
 	@CC="$(CC)" mk/setup/deps.sh host firmware bench
 	@$(MAKE) bench-now
 
+.PHONY: bench-boards
+bench-boards: ## a step of five scenes on every board: instructions, cycles, bytes; into docs/price.md (minutes)
+	@CC="$(CC)" mk/setup/deps.sh host firmware boards quality
+	@$(MAKE) bench-boards-now
+
 .PHONY: price-effects
 price-effects: ## what each effect costs: instructions, bytes, error; into docs/effects.md (minutes)
 	@CC="$(CC)" mk/setup/deps.sh host firmware bench
@@ -140,7 +157,7 @@ worst-step: ## the most instructions of a step with events, over a million rando
 
 .PHONY: size
 size: ## bytes of flash, of memory and of stack of BOARD's images, and of the functions
-	@CC="$(CC)" mk/setup/deps.sh host firmware
+	@CC="$(CC)" mk/setup/deps.sh host $(BOARD_DEPS)
 	@$(MAKE) size-now
 
 ##@ The dissertation
@@ -159,8 +176,15 @@ octave-check: ## the generated Octave files under ode45, against whirl run (inst
 
 .PHONY: emulate
 emulate: ## run BOARD's firmware in the emulator
-	@CC="$(CC)" mk/setup/deps.sh host firmware
+	@CC="$(CC)" mk/setup/deps.sh host $(BOARD_DEPS)
 	@$(MAKE) emulate-now
+
+.PHONY: too-large
+too-large: ## list anew what does not fit into BOARD, one with small memory (many minutes)
+	@CC="$(CC)" mk/setup/deps.sh host $(BOARD_DEPS)
+	@$(MAKE) whirl
+	@$(MAKE) $(GEN)/.stamp
+	@$(MAKE) too-large-now
 
 ##@ Cleaning
 

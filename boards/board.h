@@ -8,6 +8,7 @@
 
 #include "hal/console.h" /* hal_console_write() is the board's as well */
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #ifdef __cplusplus
@@ -33,6 +34,12 @@ _Noreturn void board_exit(int code);
  * emulator's idea of time: good for timeouts, worthless for measuring speed. */
 uint32_t board_ticks(void);
 extern const uint32_t board_ticks_per_s;
+
+/* The processor's own count of its cycles, wrapping at 2^32. board_cycles_start() switches it on and says whether there
+ * is one that counts: on silicon with a Cortex-M3, M4, M7 or M33 (DWT's CYCCNT); not on the PC, not in emulators, whose
+ * time is none. Where there is none board_cycles() is 0. */
+bool board_cycles_start(void);
+uint32_t board_cycles(void);
 
 /* Worst use of the stack. board_stack_paint() marks the part not in use at the moment (the startup
  * code has done it once); board_stack_used_bytes() is the deepest mark overwritten since, counted

@@ -22,8 +22,9 @@
  * What a scene must offer is in `wh_contact_system`; what changes while running is in `wh_contacts` (scene.h).
  * contact_work.h has what a step works on, contact_lcp.h how contacts share a load, contact_forces.h the
  * forces and impulses, contact_ledger.h what they enter into the books, contact_locate.h the search for
- * events, contact_impact.h and contact_resolve.h what they change, contact_project.h where they belong,
- * contact_rank.h whether the holds still determine the motion, contact_step.h the step. Scenes without
+ * events, contact_impact.h and contact_resolve.h what they change, contact_begin.h what holds when a run begins,
+ * contact_project.h where they belong, contact_rank.h whether the holds still determine the motion, contact_step.h the
+ * step. Scenes without
  * contacts include none of these files. All are C only.
  */
 #ifndef WH_CONTACT_H
@@ -70,6 +71,9 @@
  * way: what once leaves is of second order in it. */
 #define WH_SLIP_COARSE (WH_DOUBLE ? WH_R(1e-6) : WH_R(1e-3))
 
+/* Looks at what a step with too many events has let pass. */
+#define WH_SQUEEZE_LOOKS 3U
+
 /* A flight shorter than this share of a step is none. */
 #define WH_REST_SHARE WH_R(0.125)
 
@@ -80,9 +84,10 @@ enum {
     WH_LIMITED = 4     /* which has a limit, slides at it, and is too small to give an impulse */
 };
 
-/* The kinds, in the order in which contacts are numbered: name, what it is. What each does at its events differs: the
- * switches over the kinds have no default, so that the compiler names them to whoever adds one; the language's row
- * is in host/lang/kinds.h. */
+/* The kinds, in the order in which contacts are numbered: name, what it is. What each does at its events differs.
+ * Of the core the compiler names only the switch of contact_locate.h to whoever adds one; some sixty lines of
+ * contact_*.h ask whether a contact is of one kind, and take a new one for none of them: CONTRIBUTING.md says how to
+ * find them. The language's row is in host/lang/kinds.h. */
 #define WH_CONTACT_KINDS(X) \
     X(WH_STOP, WH_FORCED | WH_UNILATERAL) \
     X(WH_HOLD, WH_FORCED) \
@@ -90,15 +95,12 @@ enum {
     X(WH_WHEN, 0)
 
 #define WH_KIND_NAME(name, is) name,
-#define WH_KIND_IS(name, is) || (((is)&trait) != 0 && kind == name)
 typedef enum wh_contact_kind {
     WH_CONTACT_KINDS(WH_KIND_NAME) WH_CONTACT_KIND_COUNT
 } wh_contact_kind;
 
-/* Is a kind `trait` (one of them, if there are several)? */
-WH_INLINE bool wh_contact_kind_is(unsigned kind, unsigned trait) {
-    return false WH_CONTACT_KINDS(WH_KIND_IS);
-}
+#undef WH_KIND_NAME
+#define WH_KIND_BIT(kind) (1U << (kind))
 
 typedef struct wh_contact {
     uint8_t kind; /* wh_contact_kind */
@@ -122,19 +124,20 @@ enum {
 
 /* Most evaluations of the accelerations in one step, each with at most one of `forces`: in each of WH_EVENTS_MAX
  * rounds a try to the step's end and one to the event (`stages` each), at the end of both up to three looks that put
- * back what slipped, one more at the step's end, the search with the accelerations at both ends, two looks at an
- * impact and one at a capture, two after assignments, and one more than there are contacts that may give way; then the
- * last try, and what finds or follows the modes when the step begins. */
+ * back what slipped, one more at the step's end, the search with one more at its begin (where no force matters, those
+ * at both ends and none on the way), two looks at an impact and one at a capture, two after assignments, and one more
+ * than there are contacts that may give way; then the last try, three looks at what passed, what settles the modes
+ * behind it, and what finds or follows them when the step begins. */
 #define WH_CONTACT_EVALUATIONS(stages, stops, forced) \
-    (WH_EVENTS_MAX * (2 * (stages) + WH_PROBES + 13 + WH_CONTACT_LOOKS(stops, forced)) + \
-     (stages) + 6 + WH_CONTACT_LOOKS(stops, forced))
+    (WH_EVENTS_MAX * (2 * (stages) + WH_PROBES + 11 + WH_CONTACT_LOOKS(stops, forced)) + \
+     (stages) + 10 + 2 * WH_CONTACT_LOOKS(stops, forced))
 #define WH_CONTACT_LOOKS(stops, forced) (2 * ((stops) > 0) + ((forced) > (stops)) + (forced))
 
 /* Most evaluations of `signals` in one step: one with each of those above but the stages' and the search's two
  * ends, a second one where a step's end is compared with its begin and where a hold captures, and two when a
  * crossing is taken. */
 #define WH_CONTACT_SIGNALS(forced, crossings) \
-    (WH_EVENTS_MAX * (WH_PROBES + 12 + 3 * (forced) + 2 * (crossings)) + 7 + 3 * (forced))
+    (WH_EVENTS_MAX * (WH_PROBES + 12 + 3 * (forced) + 2 * (crossings)) + 11 + 6 * (forced))
 
 /* A scene's contacts, constant. The functions are lists of operations like the accelerations. */
 typedef struct wh_contact_system {
@@ -149,6 +152,8 @@ typedef struct wh_contact_system {
     const wh_ledger_form *ledger; /* or NULL */
     uint8_t contacts;
     uint8_t forced;       /* contacts that have a force: all but crossings */
+    uint8_t kinds;        /* of those: WH_KIND_BIT() of each kind that there is */
+    uint8_t pinned;       /* of those: how many have a pin */
     uint8_t held;         /* holds without a pin */
     uint16_t evaluations; /* WH_CONTACT_EVALUATIONS: declared, and held to by the tests */
     wh_method method;

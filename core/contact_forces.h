@@ -67,7 +67,7 @@ static inline void wh_contact_accel(const void *model, const wh_phase *phase, co
         w->force[k] = WH_R(0.0);
         if (wh_contact_constrains(of, w, k)) {
             member[count++] = (uint8_t)k;
-        } else if (of->contact[k].kind == WH_FRICTION) {
+        } else if (wh_contact_of(of, k, WH_FRICTION)) {
             const wh_real size = wh_contact_law(of, w, k)[WH_LAW_SECOND];
             w->force[k] = w->mode[k] > 0 ? -size : size;
             wh_contact_apply(of, w, k, w->force[k], accel);
@@ -83,7 +83,7 @@ static inline void wh_contact_accel(const void *model, const wh_phase *phase, co
         wh_contact_apply(of, w, member[i], lambda[i], accel);
     }
     for (unsigned i = 0; i < count; i++) {
-        const int pin = of->contact[member[i]].pin;
+        const int pin = wh_contact_pin(of, member[i]);
         if (pin >= 0) { /* zero, unless what is held back is no number */
             accel[pin] = lambda[i] - lambda[i];
         }
@@ -136,7 +136,7 @@ static inline unsigned wh_contact_impulses(const wh_contact_system *of, wh_conta
     }
     for (unsigned i = 0; i < count; i++) {
         const unsigned l = member[i];
-        const int pin = of->contact[l].pin;
+        const int pin = wh_contact_pin(of, l);
         const bool stays =
             (giving >> l & 1U) == 0 && ((set >> l & 1U) == 0 || target[l] == WH_R(0.0));
         if (pin >= 0 && stays) {

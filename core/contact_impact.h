@@ -45,8 +45,7 @@ WH_INLINE unsigned wh_contact_which(const wh_contact_system *of, const wh_contac
                                     wh_contact_kind kind, bool constrains) {
     unsigned bits = 0;
     for (unsigned k = 0; k < of->forced; k++) {
-        const bool is =
-            of->contact[k].kind == kind && wh_contact_constrains(of, w, k) == constrains;
+        const bool is = wh_contact_of(of, k, kind) && wh_contact_constrains(of, w, k) == constrains;
         bits |= is ? 1U << k : 0U;
     }
     return bits;
@@ -117,7 +116,7 @@ static inline unsigned wh_contact_tied(const wh_contact_system *of, const wh_con
         const wh_real closing = -signal[2 * k + 1];
         const wh_real way =
             closing * (h * WH_BRACKET_FINE) + WH_CONTACT_TIE * wh_contact_extent(of, w, k, s);
-        const bool free = of->contact[k].kind == WH_STOP && w->mode[k] == WH_FREE;
+        const bool free = wh_contact_of(of, k, WH_STOP) && w->mode[k] == WH_FREE;
         const bool closes = closing > WH_CONTACT_ROUNDING * wh_contact_terms(of, w, k, rate);
         bits |= free && closes && signal[2 * k] <= way ? 1U << k : 0U;
     }
@@ -132,7 +131,7 @@ static inline void wh_contact_passed_on(const wh_contact_system *of, wh_contact_
     for (unsigned l = 0; l < of->forced && of->forced > 1; l++) {
         const wh_real speed = after[2 * l + 1];
         const bool free =
-            of->contact[l].kind == WH_STOP && w->mode[l] == WH_FREE && (hits >> l & 1U) == 0;
+            wh_contact_of(of, l, WH_STOP) && w->mode[l] == WH_FREE && (hits >> l & 1U) == 0;
         if (free && speed < WH_R(0.0) && speed < before[2 * l + 1] + before[2 * l + 1] &&
             after[2 * l] <= -speed * (h * WH_BRACKET)) {
             w->hit_next |= 1U << l;
@@ -150,7 +149,7 @@ static inline unsigned wh_contact_beside(const wh_contact_system *of, const wh_c
     unsigned bits = 0;
     for (unsigned l = 0; l < of->forced && of->forced > 1; l++) {
         const bool free =
-            of->contact[l].kind == WH_STOP && w->mode[l] == WH_FREE && (hits >> l & 1U) == 0;
+            wh_contact_of(of, l, WH_STOP) && w->mode[l] == WH_FREE && (hits >> l & 1U) == 0;
         for (unsigned k = 0; k < of->forced && free; k++) {
             if ((hits >> k & 1U) == 0 || wh_contact_law(of, w, l)[WH_LAW_FIRST] > WH_R(0.0)) {
                 continue;
@@ -227,11 +226,6 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
             rest |= 1U << k;
             leaving |= speed[k] > WH_R(0.0) ? 1U << k : 0U;
         }
-        speed[k] = WH_R(0.0);
-    }
-    if (leaving != 0) {
-        const unsigned released = wh_contact_impulses(of, w, leaving, beside, speed, rate, impulse);
-        wh_contact_set_modes(of, w, released, WH_FREE);
     }
     wh_contact_place spot = WH_CONTACT_HERE;
     for (unsigned k = 0; k < of->forced; k++) {
@@ -241,7 +235,9 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
         }
     }
     wh_contact_set_modes(of, w, rest, WH_ACTIVE);
-    unsigned gone = resting & ~wh_contact_which(of, w, WH_STOP, true) & ~w->hit_next;
+    unsigned gone = of->forced > 1 /* one alone is what was hit */
+                        ? resting & ~wh_contact_which(of, w, WH_STOP, true) & ~w->hit_next
+                        : 0U;
     for (unsigned k = 0; k < of->forced && gone != 0; k++) {
         const bool stays =
             (gone >> k & 1U) != 0 &&
@@ -249,13 +245,74 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
         gone &= stays ? ~0U : ~(1U << k);
     }
     wh_contact_set_modes(of, w, gone, WH_ACTIVE);
-    if (gone != 0) {
-        wh_contact_project_rates(of, w, 0, true, rate);
+    if ((gone | leaving) != 0) { /* a push alone would not keep them */
+        wh_contact_project_rates(of, w, wh_contact_stuck(of, w), true, rate);
     }
     if ((rest | gone) != 0) {
         (void)wh_contact_project_places(of, w, &spot, signal, input, s);
     }
     return hits;
+}
+
+/* What a step with too many events has let pass: where free stops are beyond their places, bodies are moved so that none
+ * is, the least that does it in the metric of the masses, and what is touched then gives nothing back. Both are the
+ * problem of one impact: stops push and do not pull. */
+static inline void wh_contact_squeeze(const wh_contact_system *of, wh_contact_work *w,
+                                      const wh_real *input, wh_contact_state *s) {
+    wh_real accel[WH_COORDS];
+    wh_real signal[2 * WH_CONTACTS_MAX];
+    wh_real zero[WH_CONTACTS_MAX] = {WH_R(0.0)};
+    wh_real impulse[WH_CONTACTS_MAX] = {WH_R(0.0)};
+    unsigned touched = 0;
+    unsigned pushed = 0;
+    for (unsigned pass = 0; pass < WH_SQUEEZE_LOOKS; pass++) {
+        uint8_t member[WH_CONTACTS_MAX] = {0};
+        wh_real wanted[WH_CONTACTS_MAX] = {WH_R(0.0)};
+        wh_real lambda[WH_CONTACTS_MAX];
+        wh_real left[WH_CONTACTS_MAX];
+        wh_real way[WH_COORDS] = {WH_R(0.0)};
+        unsigned mover = WH_CONTACTS_MAX;
+        unsigned count = 0;
+        wh_contact_look(of, w, s, input, accel, signal);
+        for (unsigned k = 0; k < of->forced; k++) {
+            const bool stop = wh_contact_of(of, k, WH_STOP);
+            if (!stop && !(wh_contact_of(of, k, WH_HOLD) && w->mode[k] == WH_ACTIVE)) {
+                continue;
+            }
+            if (stop && w->mode[k] == WH_FREE && signal[2 * k] < WH_R(0.0)) {
+                mover = mover == WH_CONTACTS_MAX ? k : mover;
+                touched |= 1U << k;
+            }
+            wanted[count] = stop ? -signal[2 * k] : WH_R(0.0);
+            member[count++] = (uint8_t)k;
+        }
+        if (mover == WH_CONTACTS_MAX || pass + 1U == WH_SQUEEZE_LOOKS) {
+            break;
+        }
+        (void)wh_contact_lcp(of, w, member, count, wanted, false, lambda, left);
+        for (unsigned i = 0; i < count; i++) {
+            const bool pushes = wh_contact_of(of, member[i], WH_STOP) && lambda[i] > WH_R(0.0);
+            pushed |= pushes ? 1U << member[i] : 0U;
+            wh_contact_apply(of, w, member[i], lambda[i], way);
+        }
+        wh_books_look(of, w, s, input);
+        for (unsigned i = 0; i < of->coordinates; i++) {
+            wh_contact_move(of, i, way[i], s);
+        }
+        wh_books_moved(of, w, s, input, mover);
+    }
+    touched |= pushed;
+    if (touched != 0) {
+        unsigned open = 0; /* what is moved off its stop rests there no longer, and is not hit */
+        for (unsigned k = 0; k < of->forced; k++) {
+            const bool may = wh_contact_of(of, k, WH_STOP) && (pushed >> k & 1U) == 0;
+            open |= may && wh_contact_open(of, w, k, signal, s) ? 1U << k : 0U;
+        }
+        wh_contact_set_modes(of, w, open, WH_FREE);
+        const unsigned released =
+            wh_contact_impulses(of, w, touched & ~open, 0, zero, wh_contact_rates(of, s), impulse);
+        wh_contact_set_modes(of, w, released, WH_FREE);
+    }
 }
 
 /* Holds capture, all at once. */

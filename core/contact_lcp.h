@@ -75,9 +75,13 @@ static inline void wh_contact_contradicts(const wh_contact_system *of, const wh_
             const wh_real missing = wanted[i] - made;
             const wh_real made_bent = wh_jacobian_times(of, w, member[i], bent);
             const wh_real missing_bend = bend[i] - made_bent;
+            wh_real bends_by = WH_R(0.0); /* of what sizes that is the sum */
+            for (unsigned l = 0; l < count && impulse == NULL; l++) {
+                bends_by += WH_ABS(wh_delassus(of, w, member[i], member[l]) * lambda[l]);
+            }
             const bool plain = WH_ABS(missing) > wh_contact_rounding(size, made, WH_R(0.0));
             const bool bends =
-                WH_ABS(missing_bend) > wh_contact_rounding(bend[i], made_bent, WH_R(0.0)) &&
+                WH_ABS(missing_bend) > wh_contact_rounding(bend[i], made_bent, bends_by) &&
                 WH_ABS(missing_bend) > WH_CONTACT_CREEP * size;
             const wh_real short_of = plain ? missing : bends ? missing_bend : WH_R(0.0);
             push[i] = (int8_t)((short_of > WH_R(0.0)) - (short_of < WH_R(0.0)));

@@ -110,6 +110,13 @@ WH_INLINE void wh_books_accept(const wh_contact_system *of, wh_contact_work *w) 
     }
 }
 
+WH_INLINE void wh_books_commit(const wh_contact_system *of, const wh_contact_work *w,
+                               wh_state *state) {
+    if (wh_books_open(of, w)) {
+        wh_ledger_commit(of->ledger, w->books, state);
+    }
+}
+
 #else
 
 #define wh_books_stage(of, w, phase, linear, rate, input) ((void)0)
@@ -120,6 +127,7 @@ WH_INLINE void wh_books_accept(const wh_contact_system *of, wh_contact_work *w) 
 #define wh_books_begin(of, w, angle, span) ((void)0)
 #define wh_books_end(of, w) ((void)0)
 #define wh_books_accept(of, w) ((void)0)
+#define wh_books_commit(of, w, state) ((void)0)
 
 #endif
 

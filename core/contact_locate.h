@@ -8,40 +8,63 @@
 typedef struct wh_margins {
     wh_real value[WH_CONTACTS_MAX];
     wh_real signal[2 * WH_CONTACTS_MAX];
+    wh_real accel[WH_COORDS]; /* where any depends on a force: wh_contact_watched() */
     wh_real all; /* sum of all that is looked at: no finite number if one of it is none */
 } wh_margins;
 
-/* The place at the share `s` of the way from `from` to `to`, which are h apart: positions by the cubic
- * through both ends' positions and rates, rates by the cubic through both ends' rates and accelerations a0
- * and a1. (The slope of the first would be of an order less, and magnify the positions' rounding by 1/h.) */
-static inline void wh_contact_between(const wh_contact_system *of, wh_contact_state *from,
-                                      wh_contact_state *to, const wh_real *a0, const wh_real *a1,
-                                      wh_real h, wh_real s, wh_contact_point *at) {
+/* The way from one state to another, which are `h` apart: positions by the cubic through both ends' positions and
+ * rates, rates by the cubic through both ends' rates and accelerations a0 and a1. (The slope of the first would be of an
+ * order less, and magnify the positions' rounding by 1/h.) */
+typedef struct wh_contact_path {
+    wh_real h;              /* s */
+    wh_contact_point begin; /* where it begins */
+    wh_real way[WH_COORDS]; /* to where it ends, rad or m */
+    wh_real end_rate[WH_COORDS];
+    wh_real gain[WH_COORDS]; /* what the rates gain on it */
+    wh_real a0[WH_COORDS];
+    wh_real a1[WH_COORDS];
+} wh_contact_path;
+
+/* All of it but the accelerations. */
+static inline void wh_contact_path_of(const wh_contact_system *of, wh_contact_state *from,
+                                      wh_contact_state *to, wh_real h, wh_contact_path *path) {
     const wh_real *v0 = wh_contact_rates(of, from);
     const wh_real *v1 = wh_contact_rates(of, to);
+    path->h = h;
+    wh_contact_point_of(of, from, &path->begin);
+    for (unsigned i = 0; i < of->angles; i++) {
+#if WH_DOUBLE
+        path->way[i] = to->angle[i] - from->angle[i];
+#else
+        path->way[i] = (wh_real)(int64_t)((uint64_t)to->angle[i] - (uint64_t)from->angle[i]) /
+                       WH_PHASE_PER_RAD;
+#endif
+    }
+    for (unsigned i = of->angles; i < of->coordinates; i++) {
+        path->way[i] = to->real[i - of->angles] - from->real[i - of->angles];
+    }
+    for (unsigned i = 0; i < of->coordinates; i++) {
+        path->end_rate[i] = v1[i];
+        path->gain[i] = v1[i] - v0[i];
+    }
+}
+
+/* The place at the share `s` of it. */
+WH_INLINE void wh_contact_between(const wh_contact_system *of, const wh_contact_path *path,
+                                  wh_real s, wh_contact_point *at) {
     const wh_real rest = WH_R(1.0) - s;
     const wh_real far = s * s * (WH_R(3.0) - WH_R(2.0) * s);
-    const wh_real near0 = h * s * rest * rest;
-    const wh_real near1 = -h * s * s * rest;
+    const wh_real near0 = path->h * s * rest * rest;
+    const wh_real near1 = -path->h * s * s * rest;
     for (unsigned i = 0; i < of->coordinates; i++) {
-        wh_real way; /* rad or m */
+        const wh_real v0 = path->begin.rate[i];
+        const wh_real moved = path->way[i] * far + near0 * v0 + near1 * path->end_rate[i];
+        at->rate[i] = v0 + path->gain[i] * far + near0 * path->a0[i] + near1 * path->a1[i];
         if (i < of->angles) {
-#if WH_DOUBLE
-            way = to->angle[i] - from->angle[i];
-#else
-            way = (wh_real)(int64_t)((uint64_t)to->angle[i] - (uint64_t)from->angle[i]) /
-                  WH_PHASE_PER_RAD;
-#endif
-        } else {
-            way = to->real[i - of->angles] - from->real[i - of->angles];
-        }
-        const wh_real moved = way * far + near0 * v0[i] + near1 * v1[i];
-        at->rate[i] = v0[i] + (v1[i] - v0[i]) * far + near0 * a0[i] + near1 * a1[i];
-        if (i < of->angles) {
-            at->phase[i] = wh_phase_of(from->angle[i]);
+            at->phase[i] = path->begin.phase[i];
             (void)wh_phase_move(at->phase[i], moved * WH_PHASE_PER_RAD, &at->phase[i]);
         } else {
-            at->linear[i - of->angles] = from->real[i - of->angles] + moved;
+            at->linear[i - of->angles] = path->begin.linear[i - of->angles] + moved;
         }
     }
 }
@@ -80,8 +103,7 @@ static inline void wh_contact_margins(const wh_contact_system *of, wh_contact_wo
     wh_contact_signals(of, at->phase, at->linear, at->rate, input, m->signal);
     if (wh_contact_watched(of, w)) {
         const wh_contact_model model = {of, w};
-        wh_real accel[WH_COORDS];
-        wh_contact_accel(&model, at->phase, at->linear, at->rate, input, accel);
+        wh_contact_accel(&model, at->phase, at->linear, at->rate, input, m->accel);
     }
     wh_real all = WH_R(0.0);
     WH_UNROLL
@@ -162,41 +184,69 @@ WH_INLINE unsigned wh_contact_happened(const wh_contact_system *of, const wh_mar
     return bits;
 }
 
+/* Several contacts share loads, the deepest calls there are: what the search keeps is not to lie below them. */
+#if WH_CONTACTS_MAX > 1
+#define WH_SEARCH WH_APART
+#else
+#define WH_SEARCH static inline
+#endif
+
 /* Where between `from` and `to` the first of the events that have happened at `to` comes: the share of
- * h, just past it, by WH_BRACKET at most. *events are those that have happened there. */
-static inline wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work *w,
-                                        wh_contact_state *from, wh_contact_state *to, wh_real h,
-                                        const wh_real *input, const wh_margins *at_end,
-                                        unsigned *events) {
+ * h, just past it, by WH_BRACKET at most. *events are those that have happened there. at_end is what
+ * wh_contact_margins() says of `to`. */
+WH_SEARCH wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work *w,
+                                    wh_contact_state *from, wh_contact_state *to, wh_real h,
+                                    const wh_real *input, const wh_margins *at_end,
+                                    unsigned *events) {
     const wh_contact_model model = {of, w};
+    wh_contact_path path;
     wh_contact_point at;
-    wh_real a0[WH_COORDS];
-    wh_real a1[WH_COORDS];
-    wh_margins before;
-    wh_margins after = *at_end;
+    wh_margins probe;
+    wh_real before[WH_CONTACTS_MAX] = {WH_R(0.0)}; /* margins at `low`, */
+    wh_real after[WH_CONTACTS_MAX] = {WH_R(0.0)};  /* and at `high` */
     wh_real low = WH_R(0.0);
     wh_real high = WH_R(1.0);
     *events = wh_contact_happened(of, at_end);
 
     /* A force that is out of bounds already, or a gap: at once. Sliding starts at rate zero. */
-    wh_contact_point_of(of, from, &at);
-    wh_contact_margins(of, w, &at, input, &before);
+    wh_contact_path_of(of, from, to, h, &path);
+    wh_contact_margins(of, w, &path.begin, input, &probe);
     unsigned at_once = 0;
     unsigned sliding = 0;
+    unsigned loads = 0; /* whose force is looked at */
     for (unsigned k = 0; k < of->contacts; k++) {
-        const bool slides = of->contact[k].kind == WH_FRICTION && w->mode[k] != WH_STUCK;
+        const bool load = k < of->forced && wh_contact_is(of, k, WH_UNILATERAL | WH_LIMITED) &&
+                          wh_contact_constrains(of, w, k);
+        const bool slides =
+            k < of->forced && wh_contact_of(of, k, WH_FRICTION) && w->mode[k] != WH_STUCK;
         sliding |= slides ? 1U << k : 0U;
-        if ((*events >> k & 1U) != 0 && !slides && before.value[k] < WH_R(0.0)) {
+        loads |= load ? 1U << k : 0U;
+        before[k] = probe.value[k];
+        after[k] = at_end->value[k];
+        if ((*events >> k & 1U) != 0 && !slides && before[k] < WH_R(0.0)) {
             at_once |= 1U << k;
+        }
+        /* whoever is beyond a stop that was open, or closing, has hit it, also where it is on its way out again */
+        if (wh_contact_any_of(of, WH_STOP) &&
+            (probe.signal[2 * k] > WH_R(0.0) || probe.signal[2 * k + 1] < WH_R(0.0))) {
+            w->inside &= ~(1U << k);
         }
     }
     if (at_once != 0) {
         *events = at_once;
         return WH_R(0.0);
     }
-    wh_contact_accel(&model, at.phase, at.linear, at.rate, input, a0);
-    wh_contact_point_of(of, to, &at);
-    wh_contact_accel(&model, at.phase, at.linear, at.rate, input, a1);
+    if (wh_contact_watched(of, w)) {
+        for (unsigned i = 0; i < of->coordinates; i++) {
+            path.a0[i] = probe.accel[i];
+            path.a1[i] = at_end->accel[i];
+        }
+    } else {
+        const wh_contact_point *begin = &path.begin;
+        wh_contact_accel(&model, begin->phase, begin->linear, begin->rate, input, path.a0);
+        wh_contact_point_of(of, to, &at);
+        wh_contact_accel(&model, at.phase, at.linear, at.rate, input, path.a1);
+    }
     wh_real reach = WH_R(1.0);
     wh_real earlier[2] = {WH_R(4.0), WH_R(4.0)}; /* widths, two and one probes ago */
     wh_real most =
@@ -206,12 +256,11 @@ static inline wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_
         wh_real root = high;
         for (unsigned k = 0; k < of->contacts; k++) {
             /* at zero already; but later than at the start a load at its limit may be one that others bear */
-            const bool load =
-                wh_contact_is(of, k, WH_UNILATERAL | WH_LIMITED) && wh_contact_constrains(of, w, k);
-            const bool begins = before.value[k] == WH_R(0.0) && (sliding >> k & 1U) == 0 &&
-                                (low == WH_R(0.0) || !load);
-            if ((*events >> k & 1U) != 0 && (before.value[k] > WH_R(0.0) || begins)) {
-                const wh_real share = before.value[k] / (before.value[k] - after.value[k]);
+            const bool begins =
+                (sliding >> k & 1U) == 0 && (low == WH_R(0.0) || (loads >> k & 1U) == 0);
+            if ((*events >> k & 1U) != 0 &&
+                (before[k] > WH_R(0.0) || (before[k] == WH_R(0.0) && begins))) {
+                const wh_real share = before[k] / (before[k] - after[k]);
                 root = low + width * share < root ? low + width * share : root;
             }
         }
@@ -219,10 +268,20 @@ static inline wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_
          * further each time that fails, and in the middle where two probes did not halve it */
         const wh_real over =
             width * (width < WH_R(0.015625) ? width : WH_R(0.015625)) * reach + WH_BRACKET_FINE / 4;
-        const bool backward = root - low > high - root;
-        const bool halve = width > WH_R(0.5) * earlier[0];
-        wh_real guess = backward ? root - over : root + over;
-        guess = halve ? low + WH_R(0.5) * width : guess;
+        wh_real guess = low + WH_R(0.5) * width;
+        wh_real if_found = reach;
+        wh_real if_not = reach;
+        if (width > WH_R(0.5) * earlier[0]) {
+            /* so it is halved */
+        } else if (root - low > high - root) {
+            guess = root - over;
+            if_found = reach * WH_R(8.0);
+            if_not = WH_R(1.0);
+        } else {
+            guess = root + over;
+            if_found = WH_R(1.0);
+            if_not = reach * WH_R(8.0);
+        }
         guess = guess < high - most ? high - most : guess;
         guess = guess > low + most ? low + most : guess;
         if (!(guess > low && guess < high)) {
@@ -231,18 +290,19 @@ static inline wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_
         earlier[0] = earlier[1];
         earlier[1] = width;
         most *= WH_R(0.5);
-        wh_margins probe;
-        wh_contact_between(of, from, to, a0, a1, h, guess, &at);
+        wh_contact_between(of, &path, guess, &at);
         wh_contact_margins(of, w, &at, input, &probe);
         const unsigned found = wh_contact_happened(of, &probe);
-        reach = halve ? reach : backward == (found == 0) ? WH_R(1.0) : reach * WH_R(8.0);
+        reach = found != 0 ? if_found : if_not;
         if (found != 0) {
             high = guess;
-            after = probe;
             *events = found;
         } else {
             low = guess;
-            before = probe;
+        }
+        for (unsigned k = 0; k < of->contacts; k++) {
+            before[k] = found != 0 ? before[k] : probe.value[k];
+            after[k] = found != 0 ? probe.value[k] : after[k];
         }
     }
     return high;

@@ -58,7 +58,7 @@ static inline wh_real wh_contact_moved(const wh_contact_system *of, const wh_con
 
 /* Is contact k a hold that can slip? One with a pin cannot. */
 WH_INLINE bool wh_contact_slips(const wh_contact_system *of, const wh_contact_work *w, unsigned k) {
-    return of->held > 0 && of->contact[k].kind == WH_HOLD && of->contact[k].pin < 0 &&
+    return of->held > 0 && wh_contact_of(of, k, WH_HOLD) && !wh_contact_pinned(of, k) &&
            w->mode[k] == WH_ACTIVE;
 }
 
@@ -66,7 +66,7 @@ WH_INLINE bool wh_contact_slips(const wh_contact_system *of, const wh_contact_wo
 WH_INLINE wh_real wh_contact_drift(const wh_contact_system *of, const wh_contact_work *w,
                                    unsigned k, const wh_real *signal, const wh_contact_state *from,
                                    const wh_contact_state *s) {
-    if (of->contact[k].kind == WH_STOP) {
+    if (wh_contact_of(of, k, WH_STOP)) {
         return signal[2 * k];
     }
     if (!wh_contact_slips(of, w, k)) {
@@ -92,7 +92,7 @@ WH_INLINE void wh_contact_capture(const wh_contact_system *of, wh_contact_work *
 WH_INLINE unsigned wh_contact_breaking(const wh_contact_system *of, const wh_contact_work *w) {
     unsigned bits = 0;
     for (unsigned k = 0; k < of->forced; k++) {
-        const bool stuck = of->contact[k].kind == WH_FRICTION && w->mode[k] == WH_STUCK;
+        const bool stuck = wh_contact_of(of, k, WH_FRICTION) && w->mode[k] == WH_STUCK;
         bits |= stuck && wh_contact_exceeds(of, w, k, w->force[k]) ? 1U << k : 0U;
     }
     return bits;
@@ -130,26 +130,19 @@ static inline bool wh_contact_project_places(const wh_contact_system *of, wh_con
     wh_real wanted[WH_CONTACTS_MAX];
     wh_real lambda[WH_CONTACTS_MAX];
     wh_real way[WH_COORDS] = {0};
+    wh_real moved[WH_COORDS] = {WH_R(0.0)}; /* by what is pinned */
     const unsigned count = wh_contact_members(of, w, spot->but, member);
     unsigned mover = spot->mover;
     bool together = false;
     bool coarse = false;
     for (unsigned i = 0; i < count; i++) {
         const unsigned k = member[i];
-        wanted[i] = WH_R(0.0);
         off[i] = wh_contact_drift(of, w, k, signal, spot->from, s);
         if (!wh_finite(off[i])) {
             wh_contact_expect(w, k, off[i]);
             off[i] = WH_R(0.0);
         }
-        if (off[i] == WH_R(0.0)) {
-            continue;
-        }
-        mover = mover == WH_CONTACTS_MAX ? k : mover;
-        if (of->contact[k].pin < 0) {
-            wanted[i] = -off[i];
-            together = true;
-        }
+        mover = mover == WH_CONTACTS_MAX && off[i] != WH_R(0.0) ? k : mover;
     }
     if (mover == WH_CONTACTS_MAX) {
         return false;
@@ -157,11 +150,21 @@ static inline bool wh_contact_project_places(const wh_contact_system *of, wh_con
     (void)input; /* only books look at it */
     wh_books_look(of, w, s, input);
     for (unsigned i = 0; i < count; i++) {
-        const int pin = of->contact[member[i]].pin;
-        if (off[i] != WH_R(0.0) && pin >= 0) { /* the others need not move for it */
+        const int pin = wh_contact_pin(of, member[i]);
+        if (off[i] != WH_R(0.0) && pin >= 0) {
             const wh_real entry = wh_contact_law(of, w, member[i])[WH_LAW_ROWS + pin];
-            wh_contact_move(of, (unsigned)pin, -off[i] / entry, s);
+            const wh_real rest = off[i] + entry * moved[pin];
+            if (moved[pin] == WH_R(0.0) || rest < WH_R(0.0)) { /* another has not put it right */
+                moved[pin] -= rest / entry;
+                wh_contact_move(of, (unsigned)pin, -rest / entry, s);
+            }
         }
+    }
+    /* the others need not move for it, but what holds them to it */
+    for (unsigned i = 0; i < count; i++) {
+        const bool pinned = wh_contact_pinned(of, member[i]);
+        wanted[i] = pinned ? WH_R(0.0) : -(off[i] + wh_jacobian_times(of, w, member[i], moved));
+        together = together || wanted[i] != WH_R(0.0);
     }
     if (together) {
         (void)wh_delassus_solve(of, w, member, count, NULL, wanted, lambda);
@@ -169,7 +172,7 @@ static inline bool wh_contact_project_places(const wh_contact_system *of, wh_con
             wh_contact_apply(of, w, member[i], lambda[i], way);
         }
         for (unsigned i = 0; i < count; i++) {
-            const int pin = of->contact[member[i]].pin;
+            const int pin = wh_contact_pin(of, member[i]);
             const wh_real *row = wh_contact_law(of, w, member[i]) + WH_LAW_ROWS;
             const wh_real *rate = wh_contact_rates(of, s);
             wh_real travel = WH_R(0.0);
@@ -196,23 +199,21 @@ static inline void wh_contact_project_rates(const wh_contact_system *of, const w
     uint8_t member[WH_CONTACTS_MAX] = {0};
     wh_real wanted[WH_CONTACTS_MAX] = {WH_R(0.0)};
     wh_real lambda[WH_CONTACTS_MAX];
-    wh_real before[WH_CONTACTS_MAX];
     const unsigned count = wh_contact_members(of, w, but, member);
     for (unsigned i = 0; i < count; i++) {
-        before[i] = wh_jacobian_times(of, w, member[i], rate);
-        wanted[i] = -before[i];
+        wanted[i] = -wh_jacobian_times(of, w, member[i], rate);
     }
     (void)wh_delassus_solve(of, w, member, count, NULL, wanted, lambda);
     for (unsigned i = 0; i < count; i++) {
         wh_contact_apply(of, w, member[i], lambda[i], rate);
     }
     for (unsigned i = 0; i < count; i++) {
-        const int pin = of->contact[member[i]].pin;
+        const int pin = wh_contact_pin(of, member[i]);
         if (pin >= 0) {
             rate[pin] = WH_R(0.0);
         }
         if (booked) {
-            wh_books_impulse(of, w, member[i], lambda[i], before[i],
+            wh_books_impulse(of, w, member[i], lambda[i], -wanted[i],
                              wh_jacobian_times(of, w, member[i], rate));
         }
     }
@@ -222,7 +223,7 @@ static inline void wh_contact_project_rates(const wh_contact_system *of, const w
 WH_INLINE unsigned wh_contact_stuck(const wh_contact_system *of, const wh_contact_work *w) {
     unsigned bits = 0;
     for (unsigned k = 0; k < of->forced; k++) {
-        bits |= of->contact[k].kind == WH_FRICTION && w->mode[k] == WH_STUCK ? 1U << k : 0U;
+        bits |= wh_contact_of(of, k, WH_FRICTION) && w->mode[k] == WH_STUCK ? 1U << k : 0U;
     }
     return bits;
 }
@@ -238,11 +239,16 @@ static inline wh_real wh_contact_extent(const wh_contact_system *of, const wh_co
     return size;
 }
 
-/* Is stop k passed by more than rounding, as after a step with too many events? Friction does not keep a body
- * there. */
+/* Is stop k passed, or open, by more than rounding, as after a step with too many events? Friction does not keep a body
+ * beyond it. */
+#define WH_CONTACT_FAR (WH_DOUBLE ? WH_R(1e-9) : WH_R(1e-5))
 WH_INLINE bool wh_contact_far(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
                               const wh_real *signal, const wh_contact_state *s) {
-    return signal[2 * k] < (WH_DOUBLE ? WH_R(-1e-9) : WH_R(-1e-5)) * wh_contact_extent(of, w, k, s);
+    return signal[2 * k] < -WH_CONTACT_FAR * wh_contact_extent(of, w, k, s);
+}
+WH_INLINE bool wh_contact_open(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
+                               const wh_real *signal, const wh_contact_state *s) {
+    return signal[2 * k] > WH_CONTACT_FAR * wh_contact_extent(of, w, k, s);
 }
 
 static inline void wh_contact_put_back(const wh_contact_system *of, wh_contact_work *w, wh_real h,
@@ -254,7 +260,7 @@ static inline void wh_contact_put_back(const wh_contact_system *of, wh_contact_w
     wh_contact_look(of, w, s, input, accel, signal);
     spot.but = wh_contact_breaking(of, w);
     for (unsigned k = 0; k < of->forced; k++) {
-        const bool rests = of->contact[k].kind == WH_STOP && w->mode[k] == WH_ACTIVE;
+        const bool rests = wh_contact_of(of, k, WH_STOP) && w->mode[k] == WH_ACTIVE;
         spot.but |= rests && wh_contact_far(of, w, k, signal, s) ? wh_contact_stuck(of, w) : 0U;
     }
     for (unsigned pass = 0; pass < 2 && wh_contact_project_places(of, w, &spot, signal, input, s);
@@ -272,7 +278,7 @@ WH_INLINE void wh_contact_stabilise(const wh_contact_system *of, wh_contact_work
     bool slips = false;
     WH_UNROLL
     for (unsigned k = 0; k < of->forced; k++) {
-        slips = slips || (of->contact[k].pin < 0 && wh_contact_constrains(of, w, k));
+        slips = slips || (!wh_contact_pinned(of, k) && wh_contact_constrains(of, w, k));
     }
     if (slips) {
         wh_contact_put_back(of, w, h, input, from, s);

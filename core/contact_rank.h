@@ -39,7 +39,7 @@ static inline void wh_contact_rows_of(const wh_contact_system *of, wh_contact_wo
             rows->row[k][i] = WH_R(0.0);
             rows->way[k][i] = WH_R(0.0);
         }
-        if (of->contact[k].kind != WH_HOLD || w->mode[k] != WH_ACTIVE) {
+        if (!wh_contact_of(of, k, WH_HOLD) || w->mode[k] != WH_ACTIVE) {
             continue;
         }
         rows->holds++;
@@ -79,9 +79,9 @@ static inline unsigned wh_contact_fallen(const wh_contact_system *of, const wh_c
     return of->contacts;
 }
 
-/* The hold that lost its say in a step of `span`, or of->contacts; `to` is NULL where it could not be taken. Where it ends does not always tell:
- * accelerations have no bound near such a place, and may have thrown it anywhere. So where the rates alone would
- * have led is looked at, too. */
+/* The hold that lost its say in a step of `span`, or of->contacts; `to` is NULL where it could not be taken.
+ * Where it ends does not always tell: accelerations have no bound near such a place, and may have thrown it
+ * anywhere. So where the rates alone would have led is looked at, too. */
 static inline unsigned wh_contact_lost(const wh_contact_system *of, wh_contact_work *w,
                                        wh_real span, wh_contact_state *from, wh_contact_state *to,
                                        const wh_real *input) {

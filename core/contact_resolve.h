@@ -150,17 +150,17 @@ WH_INLINE void wh_contact_slide(const wh_contact_system *of, wh_contact_work *w,
     unsigned stick = 0;
     unsigned slides[2] = {0, 0}; /* backward, forward */
     for (unsigned k = 0; k < of->forced; k++) {
-        if (of->contact[k].kind != WH_FRICTION) {
+        if (!wh_contact_of(of, k, WH_FRICTION)) {
             continue;
         }
-        const wh_real v = rate[of->contact[k].pin];
+        const wh_real v = rate[wh_contact_pin(of, k)];
         const wh_real forward = w->mode[k] > 0 ? v : -v;
         const bool left = w->slack[k] > WH_R(0.0) && forward + w->slack[k] >= WH_R(0.0);
         const wh_real none = h > WH_R(0.0)
                                  ? WH_CONTACT_STILL * h * wh_contact_law(of, w, k)[WH_LAW_FIRST] *
                                        wh_delassus_diagonal(of, w, k)
                                  : WH_R(0.0);
-        const bool zero = (zeros >> k & 1U) != 0 && v == w->came[of->contact[k].pin];
+        const bool zero = (zeros >> k & 1U) != 0 && v == w->came[wh_contact_pin(of, k)];
         if (zero || (v != WH_R(0.0) && WH_ABS(v) <= none)) {
             stick |= 1U << k;
         } else if (v != WH_R(0.0) && !left) {
@@ -205,7 +205,7 @@ static inline void wh_contact_give_way(const wh_contact_system *of, wh_contact_w
         first = wh_contact_first(of, w, giving);
         for (unsigned i = 0; i < count; i++) {
             const unsigned bit = first & 1U << member[i];
-            slides[left[i] > WH_R(0.0)] |= of->contact[member[i]].kind == WH_FRICTION ? bit : 0U;
+            slides[left[i] > WH_R(0.0)] |= wh_contact_of(of, member[i], WH_FRICTION) ? bit : 0U;
             must &= bit != 0 ? 0U : ~0U;
         }
         wh_contact_set_modes(of, w, first, WH_FREE);
@@ -221,7 +221,7 @@ WH_INLINE void wh_contact_stick(const wh_contact_system *of, wh_contact_work *w,
     bool sticks = false;
     for (unsigned k = 0; k < of->forced; k++) {
         if ((w->turned >> k & 1U) != 0) {
-            const wh_real v = rate[of->contact[k].pin];
+            const wh_real v = rate[wh_contact_pin(of, k)];
             const wh_real forward = w->mode[k] > 0 ? v : -v;
             sticks = sticks || w->mode[k] == WH_STUCK;
             w->slack[k] =
@@ -236,7 +236,7 @@ WH_INLINE void wh_contact_stick(const wh_contact_system *of, wh_contact_work *w,
 
 /* --- all that happens at one moment -------------------------------------------------------------- */
 
-/* Returns what had an event, as bits; impulse[forced]: what each got. */
+/* Returns what had an event, as bits; impulse[contacts]: what each got. */
 WH_APART unsigned wh_contact_resolve(const wh_contact_system *of, wh_contact_work *w,
                                      const wh_contact_moment *m, const wh_real *input,
                                      wh_contact_state *now, wh_real *impulse) {
@@ -248,10 +248,10 @@ WH_APART unsigned wh_contact_resolve(const wh_contact_system *of, wh_contact_wor
     const unsigned let_go = events & wh_contact_which(of, w, WH_HOLD, true);
     const unsigned captures = events & wh_contact_which(of, w, WH_HOLD, false);
     const unsigned zeros = events & wh_contact_which(of, w, WH_FRICTION, false);
-    for (unsigned i = 0; i < of->coordinates; i++) {
+    for (unsigned i = 0; i < of->coordinates && wh_contact_any_of(of, WH_FRICTION); i++) {
         w->came[i] = rate[i];
     }
-    for (unsigned k = 0; k < of->forced; k++) {
+    for (unsigned k = 0; k < of->contacts; k++) {
         impulse[k] = WH_R(0.0);
     }
     wh_contact_set_modes(of, w, m->falls, WH_FREE);
@@ -267,20 +267,68 @@ WH_APART unsigned wh_contact_resolve(const wh_contact_system *of, wh_contact_wor
             wh_contact_assign(of, w, k, input, now);
         }
     }
-    if (w->moved != 0) {
+    if (of->contacts > of->forced && w->moved != 0) {
         wh_contact_revise(of, w, input, now);
     }
-    wh_contact_slide(of, w, zeros, m->h, rate);
+    if (wh_contact_any_of(of, WH_FRICTION)) {
+        wh_contact_slide(of, w, zeros, m->h, rate);
+    }
     unsigned must = 0;
     for (unsigned k = 0; k < of->forced; k++) {
         must |= wh_contact_constrains(of, w, k) ? loads & 1U << k : 0U;
     }
     wh_contact_give_way(of, w, must, input, now);
-    wh_contact_stick(of, w, rate);
+    if (wh_contact_any_of(of, WH_FRICTION)) {
+        wh_contact_stick(of, w, rate);
+    }
     for (unsigned k = 0; k < of->forced; k++) { /* others relieved it */
         events &= (must >> k & 1U) != 0 && wh_contact_constrains(of, w, k) ? ~(1U << k) : ~0U;
     }
     return events;
+}
+
+/* A step with too many events ends, `h` long. Friction that was carried past zero ends there, as it would have before,
+ * unless the forces carry it on; what sticks but was moved slides. */
+static inline void wh_contact_overrun(const wh_contact_system *of, wh_contact_work *w, wh_real h,
+                                      const wh_real *input, wh_contact_state *s) {
+    wh_contact_moment end = {0, 0, h, true};
+    wh_real accel[WH_COORDS];
+    wh_real signal[2 * WH_CONTACTS_MAX];
+    wh_real impulse[WH_CONTACTS_MAX];
+    if (wh_contact_any_of(of, WH_STOP)) {
+        wh_contact_squeeze(of, w, input, s);
+    }
+    if (!wh_contact_any_of(of, WH_FRICTION)) {
+        return;
+    }
+    wh_contact_look(of, w, s, input, accel, signal);
+    for (unsigned k = 0; k < of->forced; k++) {
+        if (wh_contact_of(of, k, WH_FRICTION) && w->mode[k] != WH_STUCK) {
+            const wh_real v = wh_contact_rates(of, s)[wh_contact_pin(of, k)];
+            const wh_real forward = w->mode[k] > 0 ? v : -v;
+            end.events |= forward + w->slack[k] < WH_R(0.0) ? 1U << k : 0U;
+        }
+    }
+    (void)wh_contact_resolve(of, w, &end, input, s, impulse);
+}
+
+/* Can an input have moved what contact k keeps, since the last step? */
+WH_INLINE bool wh_contact_may_move(const wh_contact_system *of, const wh_contact_work *w,
+                                   unsigned k) {
+    const wh_contact *c = &of->contact[k];
+    return wh_contact_of(of, k, WH_STOP) ? c->direction != 0 && w->mode[k] == WH_ACTIVE
+                                         : c->direction < 0 && wh_contact_slips(of, w, k);
+}
+
+/* Is there one? */
+WH_INLINE bool wh_contact_follows(const wh_contact_system *of, const wh_contact_work *w) {
+    WH_UNROLL
+    for (unsigned k = 0; k < of->forced; k++) {
+        if (wh_contact_may_move(of, w, k)) {
+            return true;
+        }
+    }
+    return false;
 }
 
 /* Where an input has moved a resting stop since the last step: the body is put back onto it, or falls if
@@ -292,19 +340,16 @@ static inline void wh_contact_follow(const wh_contact_system *of, wh_contact_wor
     wh_real signal[2 * WH_CONTACTS_MAX];
     unsigned moved = WH_CONTACTS_MAX;
     wh_contact_place spot = WH_CONTACT_HERE;
-    bool held = false;
-    for (unsigned k = 0; k < of->forced; k++) {
-        const bool rests = of->contact[k].kind == WH_STOP && w->mode[k] == WH_ACTIVE;
-        moved = rests && of->contact[k].direction != 0 ? k : moved;
-        held = held || (wh_contact_slips(of, w, k) && of->contact[k].direction < 0);
-    }
-    if (moved == WH_CONTACTS_MAX && !held) {
+    if (!wh_contact_follows(of, w)) {
         return;
+    }
+    for (unsigned k = 0; k < of->forced; k++) {
+        moved = wh_contact_of(of, k, WH_STOP) && wh_contact_may_move(of, w, k) ? k : moved;
     }
     wh_contact_look(of, w, s, input, accel, signal);
     for (unsigned k = 0; k < of->forced; k++) {
         const wh_contact *c = &of->contact[k];
-        if (c->kind == WH_STOP && c->direction != 0 && w->mode[k] == WH_ACTIVE) {
+        if (wh_contact_of(of, k, WH_STOP) && c->direction != 0 && w->mode[k] == WH_ACTIVE) {
             const wh_real closes = WH_R(0.5) * h * h * w->force[k] * wh_delassus_diagonal(of, w, k);
             spot.but |= signal[2 * k] > closes ? 1U << k : 0U;
         } else if (c->direction < 0) {
@@ -321,76 +366,6 @@ static inline void wh_contact_follow(const wh_contact_system *of, wh_contact_wor
         wh_real impulse[WH_CONTACTS_MAX];
         (void)wh_contact_resolve(of, w, &m, input, s, impulse);
     }
-}
-
-/* Of the contacts at the start of a run, as bits, nothing being hit or captured yet: stops that are touched, as near as
- * their gaps are known, and holds whose conditions are true, if at rest (`still`); those that are not are `moving`.
- * work->law must belong to the state. */
-static inline void wh_contact_first_touch(const wh_contact_system *of, const wh_contact_work *w,
-                                          const wh_real *signal, wh_contact_state *s,
-                                          unsigned *still, unsigned *moving) {
-    const wh_real *rate = wh_contact_rates(of, s);
-    *still = 0;
-    *moving = 0;
-    for (unsigned k = 0; k < of->forced; k++) {
-        const wh_real value = signal[2 * k];
-        const bool stop = of->contact[k].kind == WH_STOP;
-        const wh_real speed = wh_jacobian_times(of, w, k, rate);
-        const wh_real none = WH_CONTACT_ROUNDING * wh_contact_terms(of, w, k, rate);
-        const bool rests = of->contact[k].pin < 0 ? WH_ABS(speed) <= none : speed == WH_R(0.0);
-        const bool touched = stop && value <= WH_CONTACT_TIE * wh_contact_extent(of, w, k, s);
-        const bool closes = stop && value <= WH_R(0.0) && signal[2 * k + 1] <= WH_R(0.0);
-        const bool holds = of->contact[k].kind == WH_HOLD && value > WH_R(0.0);
-        *still |= (touched || holds) && rests ? 1U << k : 0U;
-        *moving |= (closes || holds) && !rests ? 1U << k : 0U;
-    }
-}
-
-/* Modes at the start of a run: what is at rest stays so if the forces keep it there, as if it had been before; then
- * what closes is hit, and what a hold's condition says is captured. Returns how many of the step's moments with events
- * that took beyond the one that every start has. */
-static inline unsigned wh_contact_begin(const wh_contact_system *of, wh_contact_work *w, wh_real h,
-                                        const wh_real *input, wh_contact_state *s) {
-    wh_real accel[WH_COORDS];
-    wh_real signal[2 * WH_CONTACTS_MAX];
-    wh_real impulse[WH_CONTACTS_MAX];
-    wh_contact_place spot = WH_CONTACT_HERE;
-    wh_contact_moment m = {0, 0, h, false};
-    unsigned still;
-    unsigned moving;
-    bool below = false;
-    for (unsigned k = 0; k < of->contacts; k++) {
-        w->mode[k] = 0; /* free, stuck, on no side */
-    }
-    wh_contact_slide(of, w, 0, WH_R(0.0), wh_contact_rates(of, s));
-    wh_contact_look(of, w, s, input, accel, signal);
-    for (unsigned k = 0; k < of->contacts; k++) {
-        wh_contact_expect(w, k, signal[2 * k] + signal[2 * k + 1]);
-    }
-    wh_contact_first_touch(of, w, signal, s, &still, &moving);
-    wh_contact_set_sides(of, w, ~0U, signal);
-    if (still == 0) {
-        m.events = moving;
-        (void)wh_contact_resolve(of, w, &m, input, s, impulse);
-        return 0;
-    }
-    m.events = still & wh_contact_which(of, w, WH_HOLD, false);
-    wh_contact_set_modes(of, w, still & ~m.events, WH_ACTIVE);
-    (void)wh_contact_resolve(of, w, &m, input, s, impulse);
-    for (unsigned k = 0; k < of->forced; k++) { /* at rest beyond it: nothing holds it there */
-        below = below || (of->contact[k].kind == WH_STOP && w->mode[k] == WH_ACTIVE &&
-                          signal[2 * k] < WH_R(0.0));
-    }
-    if (below) { /* nothing has moved since the look */
-        spot.but = wh_contact_stuck(of, w);
-        (void)wh_contact_project_places(of, w, &spot, signal, input, s);
-    }
-    if (moving == 0) {
-        return 0;
-    }
-    m.events = moving;
-    (void)wh_contact_resolve(of, w, &m, input, s, impulse);
-    return 1;
 }
 
 #endif

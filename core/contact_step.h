@@ -2,8 +2,8 @@
 #ifndef WH_CONTACT_STEP_H
 #define WH_CONTACT_STEP_H
 
+#include "contact_begin.h"
 #include "contact_rank.h"
-#include "contact_resolve.h"
 
 WH_INLINE void wh_contact_modes(const wh_contact_system *of, const wh_state *state,
                                 wh_contact_work *w) {
@@ -25,34 +25,41 @@ WH_INLINE void wh_contact_pass(const wh_contact_system *of, const wh_margins *m,
     wh_contact_set_sides(of, w, passed, m->signal);
 }
 
+/* What a try needs of the work. */
 WH_INLINE void wh_contact_work_begin(const wh_contact_system *of, const wh_state *state,
-                                     wh_contact_work *w, wh_contact_state *now) {
-    wh_contact_copy(of, state->angle, state->real, state->carry, now);
+                                     wh_contact_work *w) {
     wh_contact_modes(of, state, w);
     WH_UNROLL
     for (unsigned k = 0; k < WH_CONTACTS_MAX; k++) {
-        if (k < of->forced && of->contact[k].kind == WH_FRICTION) {
+        if (k < of->forced && wh_contact_of(of, k, WH_FRICTION)) {
             w->slack[k] = WH_R(0.0);
         }
     }
     for (unsigned k = 0; k < of->held; k++) {
         w->held[k] = state->held[k];
     }
-    if (of->forced > 0) { /* crossings alone touch nothing */
-        w->inside = 0;
-        w->hit_next = 0;
-        w->turned = 0;
-    }
-    if (of->forced > 1) { /* one contact shares nothing */
+    if (of->forced > 1) { /* one contact shares nothing, and passes nothing on */
         w->capped = false;
     }
-    w->moved = 0;
-    w->mover = 0;
-    w->fault = -1;
     w->undefined = -1;
 #if WH_LEDGER
     w->books = NULL;
 #endif
+}
+
+/* What events need beyond that. */
+WH_INLINE void wh_contact_work_open(const wh_contact_system *of, wh_contact_work *w) {
+    if (wh_contact_any_of(of, WH_FRICTION)) {
+        w->turned = 0;
+    }
+    if (of->forced > 1) {
+        w->hit_next = 0;
+    }
+    if (of->contacts > of->forced) { /* only crossings assign */
+        w->moved = 0;
+        w->mover = 0;
+    }
+    w->fault = -1;
 }
 
 /* The accelerations at the state, with the contacts' forces, for records. accel[coordinates]. */
@@ -61,9 +68,13 @@ static inline void wh_contact_observe(const wh_contact_system *of, const wh_stat
     wh_contact_work work;
     wh_contact_state now;
     wh_real signal[2 * WH_CONTACTS_MAX];
-    wh_contact_work_begin(of, state, &work, &now);
+    wh_contact_work_begin(of, state, &work);
+    wh_contact_work_open(of, &work);
+    wh_contact_copy(of, state->angle, state->real, state->carry, &now);
     if (work.mode[0] == WH_UNSET) {
-        (void)wh_contact_begin(of, &work, WH_R(0.0), state->input, &now);
+        wh_real impulse[WH_CONTACTS_MAX];
+        unsigned hit;
+        (void)wh_contact_begin(of, &work, WH_R(0.0), state->input, &now, &hit, impulse);
     }
     wh_contact_look(of, &work, &now, state->input, accel, signal);
 }
@@ -81,36 +92,66 @@ static inline bool wh_contact_try(const wh_contact_system *of, wh_contact_work *
     return status == WH_OK;
 }
 
-/* The margins at the end of a try from `from` to `to`: a stop that was open, or closing, and is closed was hit,
- * even when it is on its way out again. */
-static inline void wh_contact_margins_end(const wh_contact_system *of, wh_contact_work *w,
-                                          wh_contact_state *from, wh_contact_state *to,
-                                          const wh_real *input, wh_margins *m) {
+/* What is left of a step, tried: from `now` to `next`. */
+typedef struct wh_contact_attempt {
+    wh_contact_state now;
+    wh_contact_state next;
+    wh_margins margins; /* at the end */
+    unsigned leaving;   /* stops that are closed there and on their way out, as bits */
+    int fault;          /* component that left all bounds */
+    bool made;          /* it was made, */
+    bool sound;         /* and its end is none out of bounds */
+} wh_contact_attempt;
+
+/* Try `left` from `next`, a copy of `now`, which only needs to be there where holds can slip. */
+WH_INLINE void wh_contact_attempt_make(const wh_contact_system *of, wh_contact_work *w,
+                                       wh_real left, wh_real *input, wh_contact_attempt *a) {
     wh_contact_point at;
-    wh_real before[2 * WH_CONTACTS_MAX];
-    unsigned leaving = 0;
-    w->inside = ~0U;
-    wh_contact_point_of(of, to, &at);
-    wh_contact_margins(of, w, &at, input, m);
-    WH_UNROLL
-    for (unsigned k = 0; k < of->forced; k++) {
-        const bool free = of->contact[k].kind == WH_STOP && w->mode[k] == WH_FREE;
-        if (free && m->signal[2 * k] < WH_R(0.0) && m->value[k] > WH_R(0.0)) {
-            leaving |= 1U << k;
-        }
-    }
-    if (leaving == 0) {
+    a->made = true;
+    a->leaving = 0;
+    a->sound = wh_contact_try(of, w, left, input, &a->next, &a->fault);
+    if (!a->sound) {
         return;
     }
-    wh_contact_point_of(of, from, &at);
+    wh_contact_stabilise(of, w, left, input, &a->now, &a->next);
+    if (wh_contact_any_of(of, WH_STOP)) {
+        w->inside = ~0U;
+    }
+    wh_contact_point_of(of, &a->next, &at);
+    wh_contact_margins(of, w, &at, input, &a->margins);
+    WH_UNROLL
+    for (unsigned k = 0; k < of->forced; k++) {
+        const bool free = wh_contact_of(of, k, WH_STOP) && w->mode[k] == WH_FREE;
+        if (free && a->margins.signal[2 * k] < WH_R(0.0) && a->margins.value[k] > WH_R(0.0)) {
+            a->leaving |= 1U << k;
+        }
+    }
+}
+
+/* Of the stops that are closed at the end and on their way out, those that were open, or closing, at the begin were hit
+ * all the same. */
+WH_INLINE void wh_contact_attempt_dipped(const wh_contact_system *of, wh_contact_work *w,
+                                         const wh_real *input, wh_contact_attempt *a) {
+    wh_contact_point at;
+    wh_real before[2 * WH_CONTACTS_MAX];
+    if (!wh_contact_any_of(of, WH_STOP) || a->leaving == 0) {
+        return;
+    }
+    wh_contact_point_of(of, &a->now, &at);
     wh_contact_signals(of, at.phase, at.linear, at.rate, input, before);
     for (unsigned k = 0; k < of->forced; k++) {
         const bool closes = before[2 * k] > WH_R(0.0) || before[2 * k + 1] < WH_R(0.0);
-        if ((leaving >> k & 1U) != 0 && closes) {
+        if ((a->leaving >> k & 1U) != 0 && closes) {
             w->inside &= ~(1U << k);
-            m->value[k] = m->signal[2 * k];
+            a->margins.value[k] = a->margins.signal[2 * k];
         }
     }
+}
+
+/* Did it end calmly, with all that was looked at a number? */
+WH_INLINE bool wh_contact_attempt_calm(const wh_contact_system *of, const wh_contact_work *w,
+                                       const wh_contact_attempt *a) {
+    return wh_contact_calm(of, &a->margins) && (of->held == 0 || w->undefined < 0);
 }
 
 /* A try from `from`, h long, failed: for a friction or a hold that had no number on the way? It is looked for where
@@ -137,10 +178,14 @@ typedef struct wh_contact_log {
     unsigned count;
 } wh_contact_log;
 
-WH_INLINE void wh_contact_note(const wh_contact_work *w, unsigned k, wh_real at_s, wh_real impulse,
+/* `events`, as bits. */
+WH_INLINE void wh_contact_note(const wh_contact_system *of, const wh_contact_work *w,
+                               unsigned events, wh_real at_s, const wh_real *impulse,
                                wh_contact_log *log) {
-    if (log->count < WH_EVENT_LOG) {
-        log->event[log->count++] = (wh_event){(uint8_t)k, w->mode[k], at_s, impulse};
+    for (unsigned k = 0; k < of->contacts; k++) {
+        if ((events >> k & 1U) != 0 && log->count < WH_EVENT_LOG) {
+            log->event[log->count++] = (wh_event){(uint8_t)k, w->mode[k], at_s, impulse[k]};
+        }
     }
 }
 
@@ -148,13 +193,21 @@ WH_INLINE void wh_contact_note(const wh_contact_work *w, unsigned k, wh_real at_
 WH_INLINE void wh_contact_happen(const wh_contact_system *of, wh_contact_work *w,
                                  const wh_contact_moment *m, wh_real at_s, const wh_real *input,
                                  wh_contact_state *now, wh_contact_log *log) {
-    wh_real impulse[WH_CONTACTS_MAX] = {WH_R(0.0)};
+    wh_real impulse[WH_CONTACTS_MAX];
     const unsigned events = wh_contact_resolve(of, w, m, input, now, impulse);
-    for (unsigned k = 0; k < of->contacts; k++) {
-        if ((events >> k & 1U) != 0) {
-            wh_contact_note(w, k, at_s, impulse[k], log);
-        }
-    }
+    wh_contact_note(of, w, events, at_s, impulse, log);
+}
+
+/* The modes that a run begins with. What is hit there, with what was settled before, is noted as of the first step.
+ * Returns the moments with events that it counts as. */
+static inline unsigned wh_contact_start(const wh_contact_system *of, wh_contact_work *w, wh_real h,
+                                        const wh_real *input, wh_contact_state *now,
+                                        wh_contact_log *log) {
+    wh_real impulse[WH_CONTACTS_MAX] = {WH_R(0.0)};
+    unsigned hit;
+    const unsigned rounds = wh_contact_begin(of, w, h, input, now, &hit, impulse);
+    wh_contact_note(of, w, hit, WH_R(0.0), impulse, log);
+    return rounds;
 }
 
 /* Stops that an impact made close, and that are still open, as bits; they are then dealt with. */
@@ -172,22 +225,10 @@ WH_INLINE unsigned wh_contact_next(const wh_contact_system *of, wh_contact_work 
 
 /* A step is done: into the state. */
 WH_INLINE void wh_contact_commit(const wh_contact_system *of, const wh_contact_work *w,
-                                 const wh_contact_state *now, const wh_contact_log *log,
-                                 bool overran, wh_state *state) {
+                                 const wh_contact_state *now, wh_state *state) {
     const unsigned reals = 2U * of->coordinates - of->angles;
-    wh_contacts *memory = state->contacts;
-    WH_UNROLL
-    for (unsigned k = 0; k < of->contacts; k++) {
-        memory->mode[k] = w->mode[k];
-    }
     for (unsigned k = 0; k < of->held; k++) {
         state->held[k] = w->held[k];
-    }
-    memory->events += log->count;
-    memory->overruns += overran;
-    memory->logged = (uint8_t)log->count;
-    for (unsigned i = 0; i < log->count; i++) {
-        memory->log[i] = log->event[i]; // cppcheck-suppress uninitvar ; `count` of them are filled
     }
     WH_UNROLL
     for (unsigned i = 0; i < of->angles; i++) {
@@ -202,6 +243,26 @@ WH_INLINE void wh_contact_commit(const wh_contact_system *of, const wh_contact_w
     }
 }
 
+/* And so are its modes, from contact `first` on. */
+WH_INLINE void wh_contact_commit_modes(const wh_contact_system *of, const wh_contact_work *w,
+                                       unsigned first, wh_state *state) {
+    WH_UNROLL
+    for (unsigned k = first; k < of->contacts; k++) {
+        state->contacts->mode[k] = w->mode[k];
+    }
+}
+
+/* Its events are told. */
+WH_INLINE void wh_contact_commit_events(const wh_contact_log *log, bool overran,
+                                        wh_contacts *memory) {
+    memory->events += log->count;
+    memory->overruns += overran;
+    memory->logged = (uint8_t)log->count;
+    for (unsigned i = 0; i < log->count; i++) {
+        memory->log[i] = log->event[i]; // cppcheck-suppress uninitvar ; `count` of them are filled
+    }
+}
+
 /* A try from `from` to `to`, `span` long, is taken. Returns the hold that lost its say in it, or of->contacts. */
 WH_INLINE unsigned wh_contact_accept(const wh_contact_system *of, wh_contact_work *w, wh_real span,
                                      wh_contact_state *from, wh_contact_state *to,
@@ -211,76 +272,71 @@ WH_INLINE unsigned wh_contact_accept(const wh_contact_system *of, wh_contact_wor
     return wh_contact_flat(of, w, span, from, to, input);
 }
 
-/* One step with its events. Returns as wh_step_second(), or WH_E_UNDEFINED or WH_E_SINGULAR with the contact in
- * state->fault. Only what the step builds on must be a number: a try that is cut short at an event may have
- * looked beyond where an expression ends. */
-static inline wh_status wh_step_contact(const wh_contact_system *of, wh_real h, wh_state *state) {
-    wh_contact_work work;
-    wh_contact_state now;
-    wh_contact_state next;
-    const wh_contact_state *end = &now;
+/* What of a step is not calm, from the first attempt on, which may have been made. Returns as wh_step_contact(). */
+WH_APART wh_status wh_contact_eventful(const wh_contact_system *of, wh_contact_work *w, wh_real h,
+                                       wh_contact_attempt *a, wh_state *state) {
+    const wh_contact_state *end = &a->now;
     wh_contact_log log;
     wh_real left = h;
     unsigned round = 0;
     unsigned flat = of->contacts; /* the hold that lost its say */
-    int fault = -1;
 
     log.count = 0;
-    wh_contact_work_begin(of, state, &work, &now);
-#if WH_LEDGER
-    wh_ledger_work books;
-    if (of->ledger != NULL) {
-        work.books = &books;
-        wh_ledger_open(of->ledger, state, &books);
-    }
-#endif
-    if (work.mode[0] == WH_UNSET) {
-        round = wh_contact_begin(of, &work, h, state->input, &now);
-        if (work.undefined >= 0) {
-            return wh_contact_refuse(&work, fault, state);
+    wh_contact_work_open(of, w);
+    wh_contact_copy(of, state->angle, state->real, state->carry, &a->now);
+    if (w->mode[0] == WH_UNSET) {
+        round = wh_contact_start(of, w, h, state->input, &a->now, &log);
+        if (w->undefined >= 0) {
+            return wh_contact_refuse(w, a->fault, state);
         }
-    } else {
-        wh_contact_follow(of, &work, h, state->input, &now);
+    } else if (!a->made) {
+        wh_contact_follow(of, w, h, state->input, &a->now);
     }
-    bool sound = false; /* ended calmly, with all that was looked at a number */
+    bool calm = false;
     bool more = true;
     while (more) {
-        unsigned events = round < WH_EVENTS_MAX ? wh_contact_next(of, &work) : 0;
+        unsigned events = round < WH_EVENTS_MAX ? wh_contact_next(of, w) : 0;
         if (events == 0 && left > WH_R(0.0)) {
-            wh_margins margins;
-            next = now;
-            if (!wh_contact_try(of, &work, left, state->input, &next, &fault)) {
+            if (!a->made) {
+                wh_contact_copy(of, a->now.angle, a->now.real, a->now.carry, &a->next);
+                wh_contact_attempt_make(of, w, left, state->input, a);
+            }
+            a->made = false;
+            if (!a->sound) {
                 /* what diverges does so in front of such a place, not only at it */
-                flat = wh_contact_flat(of, &work, WH_R(4.0) * left, &now, NULL, state->input);
+                flat = wh_contact_flat(of, w, WH_R(4.0) * left, &a->now, NULL, state->input);
                 if (flat < of->contacts) {
                     break;
                 }
-                wh_contact_blame(of, &work, left, state->input, &now);
-                return wh_contact_refuse(&work, fault, state);
+                wh_contact_blame(of, w, left, state->input, &a->now);
+                return wh_contact_refuse(w, a->fault, state);
             }
-            wh_contact_stabilise(of, &work, left, state->input, &now, &next);
-            wh_contact_margins_end(of, &work, &now, &next, state->input, &margins);
-            sound = wh_contact_calm(of, &margins) && (of->held == 0 || work.undefined < 0);
-            if (sound || round == WH_EVENTS_MAX || wh_contact_happened(of, &margins) == 0) {
-                if (!sound) {
-                    wh_contact_find_undefined(of, &work, &margins);
+            wh_contact_attempt_dipped(of, w, state->input, a);
+            calm = wh_contact_attempt_calm(of, w, a);
+            if (calm || round == WH_EVENTS_MAX || wh_contact_happened(of, &a->margins) == 0) {
+                if (!calm) {
+                    wh_contact_find_undefined(of, w, &a->margins);
                 }
-                wh_contact_pass(of, &margins, &work);
-                flat = wh_contact_accept(of, &work, left, &now, &next, state->input);
-                end = &next;
+                wh_contact_pass(of, &a->margins, w);
+                flat = wh_contact_accept(of, w, left, &a->now, &a->next, state->input);
+                if (round == WH_EVENTS_MAX) {
+                    wh_contact_overrun(of, w, h, state->input, &a->next);
+                    calm = false; /* what that looked at must have been a number, too */
+                }
+                end = &a->next;
                 break;
             }
-            const wh_real span = left * wh_contact_locate(of, &work, &now, &next, left,
-                                                          state->input, &margins, &events);
-            work.undefined = -1; /* what lies behind the event is none of ours */
+            const wh_real span = left * wh_contact_locate(of, w, &a->now, &a->next, left,
+                                                          state->input, &a->margins, &events);
+            w->undefined = -1; /* what lies behind the event is none of ours */
             if (span > WH_R(0.0)) {
-                next = now;
-                if (!wh_contact_try(of, &work, span, state->input, &now, &fault)) {
-                    wh_contact_blame(of, &work, span, state->input, &next);
-                    return wh_contact_refuse(&work, fault, state);
+                wh_contact_copy(of, a->now.angle, a->now.real, a->now.carry, &a->next);
+                if (!wh_contact_try(of, w, span, state->input, &a->now, &a->fault)) {
+                    wh_contact_blame(of, w, span, state->input, &a->next);
+                    return wh_contact_refuse(w, a->fault, state);
                 }
-                wh_contact_stabilise(of, &work, span, state->input, &next, &now);
-                flat = wh_contact_accept(of, &work, span, &next, &now, state->input);
+                wh_contact_stabilise(of, w, span, state->input, &a->next, &a->now);
+                flat = wh_contact_accept(of, w, span, &a->next, &a->now, state->input);
                 left -= span;
             }
         }
@@ -290,28 +346,66 @@ static inline wh_status wh_step_contact(const wh_contact_system *of, wh_real h, 
         if (events != 0) {
             const bool last = ++round == WH_EVENTS_MAX;
             const wh_contact_moment moment = {events, 0, h, last};
-            wh_contact_happen(of, &work, &moment, h - left, state->input, &now, &log);
-            if (work.undefined >= 0 || work.fault >= 0) {
+            wh_contact_happen(of, w, &moment, h - left, state->input, &a->now, &log);
+            if (w->undefined >= 0 || w->fault >= 0) {
                 break;
             }
         }
-        more = left > WH_R(0.0) || (of->forced > 1 && work.hit_next != 0 && round < WH_EVENTS_MAX);
+        more = left > WH_R(0.0) || (of->forced > 1 && w->hit_next != 0 && round < WH_EVENTS_MAX);
     }
     if (flat < of->contacts) {
         state->fault = (int)flat;
         return WH_E_SINGULAR;
     }
-    if (!sound && (work.fault >= 0 || work.undefined >= 0)) {
-        return wh_contact_refuse(&work, work.fault, state);
+    if (!calm && (w->fault >= 0 || w->undefined >= 0)) {
+        return wh_contact_refuse(w, w->fault, state);
     }
+    wh_books_commit(of, w, state);
+    wh_contact_commit(of, w, end, state);
+    wh_contact_commit_modes(of, w, 0, state);
+    wh_contact_commit_events(&log, round == WH_EVENTS_MAX || (of->forced > 1 && w->capped),
+                             state->contacts);
+    return WH_OK;
+}
+
+/* One step with its events. Returns as wh_step_second(), or WH_E_UNDEFINED or WH_E_SINGULAR with the contact in
+ * state->fault. Only what the step builds on must be a number: a try that is cut short at an event may have
+ * looked beyond where an expression ends. */
+static inline wh_status wh_step_contact(const wh_contact_system *of, wh_real h, wh_state *state) {
+    wh_contact_work work;
+    wh_contact_attempt a;
+    a.made = false;
+    wh_contact_work_begin(of, state, &work);
 #if WH_LEDGER
+    wh_ledger_work books;
     if (of->ledger != NULL) {
-        wh_ledger_commit(of->ledger, &books, state);
+        work.books = &books;
+        wh_ledger_open(of->ledger, state, &books);
     }
 #endif
-    wh_contact_commit(of, &work, end, &log,
-                      round == WH_EVENTS_MAX || (of->forced > 1 && work.capped), state);
-    return WH_OK;
+    if (work.mode[0] != WH_UNSET && !wh_contact_follows(of, &work)) {
+        wh_contact_copy(of, state->angle, state->real, state->carry, &a.next);
+        if (of->held > 0) {
+            wh_contact_copy(of, state->angle, state->real, state->carry, &a.now);
+        }
+        wh_contact_attempt_make(of, &work, h, state->input, &a);
+        const bool capped = of->forced > 1 && work.capped; /* and is counted */
+        if (a.sound && a.leaving == 0 && !capped &&
+            wh_contact_attempt_calm(of, &work, &a)) { /* as most are */
+            wh_contact_pass(of, &a.margins, &work);
+            const unsigned flat = wh_contact_accept(of, &work, h, &a.now, &a.next, state->input);
+            if (flat < of->contacts) {
+                state->fault = (int)flat;
+                return WH_E_SINGULAR;
+            }
+            wh_books_commit(of, &work, state);
+            wh_contact_commit(of, &work, &a.next, state);
+            wh_contact_commit_modes(of, &work, of->forced, state);
+            state->contacts->logged = 0;
+            return WH_OK;
+        }
+    }
+    return wh_contact_eventful(of, &work, h, &a, state);
 }
 
 #endif

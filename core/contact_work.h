@@ -129,6 +129,34 @@ static inline void wh_contact_point_ahead(const wh_contact_system *of, wh_contac
     }
 }
 
+/* Is there a contact with a force of this kind? */
+WH_INLINE bool wh_contact_any_of(const wh_contact_system *of, wh_contact_kind kind) {
+    return (of->kinds & WH_KIND_BIT(kind)) != 0;
+}
+
+/* Is contact k, which has a force, of this kind? Where all are of one, nobody need look. */
+WH_INLINE bool wh_contact_of(const wh_contact_system *of, unsigned k, wh_contact_kind kind) {
+    return wh_contact_any_of(of, kind) &&
+           (of->kinds == WH_KIND_BIT(kind) || of->contact[k].kind == kind);
+}
+
+/* Is contact k, which has a force, of a kind that is `trait` (one of them, if there are several)? */
+WH_INLINE bool wh_contact_is(const wh_contact_system *of, unsigned k, unsigned trait) {
+#define WH_KIND_IS(name, is) || (((is)&trait) != 0 && wh_contact_of(of, k, name))
+    return false WH_CONTACT_KINDS(WH_KIND_IS);
+#undef WH_KIND_IS
+}
+
+/* The coordinate that contact k, which has a force, is pinned to, or -1. */
+WH_INLINE int wh_contact_pin(const wh_contact_system *of, unsigned k) {
+    return of->pinned > 0 ? of->contact[k].pin : -1;
+}
+
+/* Is there one? */
+WH_INLINE bool wh_contact_pinned(const wh_contact_system *of, unsigned k) {
+    return of->pinned > 0 && (of->pinned == of->forced || of->contact[k].pin >= 0);
+}
+
 WH_INLINE const wh_real *wh_contact_law(const wh_contact_system *of, const wh_contact_work *w,
                                         unsigned k) {
     return w->law + k * (WH_LAW_ROWS + 2U * of->coordinates);
@@ -138,8 +166,8 @@ WH_INLINE const wh_real *wh_contact_law(const wh_contact_system *of, const wh_co
 WH_INLINE wh_real wh_jacobian_times(const wh_contact_system *of, const wh_contact_work *w,
                                     unsigned k, const wh_real *x) {
     const wh_real *row = wh_contact_law(of, w, k) + WH_LAW_ROWS;
-    const int pin = of->contact[k].pin;
-    if (pin >= 0) {
+    if (wh_contact_pinned(of, k)) {
+        const int pin = wh_contact_pin(of, k);
         return row[pin] * x[pin];
     }
     wh_real sum = WH_R(0.0);
@@ -219,6 +247,7 @@ WH_INLINE unsigned wh_delassus_solve(const wh_contact_system *of, const wh_conta
                                      const uint8_t *member, unsigned count, const int8_t *at,
                                      const wh_real *wanted, wh_real *lambda) {
     if (count == 0) {
+        lambda[0] = WH_R(0.0);
         return 0;
     }
     if (of->forced == 1 || count == 1) {
@@ -227,11 +256,6 @@ WH_INLINE unsigned wh_delassus_solve(const wh_contact_system *of, const wh_conta
         return yield > WH_R(0.0) ? 0U : 1U;
     }
     return wh_delassus_eliminate(of, w, member, count, at, wanted, lambda);
-}
-
-/* Is contact k of a kind that is `trait`? */
-WH_INLINE bool wh_contact_is(const wh_contact_system *of, unsigned k, unsigned trait) {
-    return wh_contact_kind_is(of->contact[k].kind, trait);
 }
 
 /* What a step builds on must be finite numbers. */
@@ -254,9 +278,9 @@ WH_INLINE bool wh_contact_constrains(const wh_contact_system *of, const wh_conta
  * back counts at an impact only, and is none of these.) Seldom called: kept out of the way. */
 WH_APART void wh_contact_expect_laws(const wh_contact_system *of, wh_contact_work *w) {
     for (unsigned k = 0; k < of->forced; k++) {
-        const wh_contact_kind kind = (wh_contact_kind)of->contact[k].kind;
-        const bool slides = kind == WH_FRICTION && w->mode[k] != WH_STUCK;
-        if (kind == WH_FRICTION || (kind == WH_HOLD && w->mode[k] == WH_ACTIVE)) {
+        const bool friction = wh_contact_of(of, k, WH_FRICTION);
+        const bool slides = friction && w->mode[k] != WH_STUCK;
+        if (friction || (wh_contact_of(of, k, WH_HOLD) && w->mode[k] == WH_ACTIVE)) {
             wh_contact_expect(w, k,
                               wh_contact_law(of, w, k)[slides ? WH_LAW_SECOND : WH_LAW_FIRST]);
         }

@@ -5,6 +5,7 @@
  * series does. The other functions are such angles: the arc sine of s is that of (root(1 - s^2), s).
  */
 #include "function_double.h"
+#include "root.h"
 
 #if WH_DOUBLE
 

@@ -18,7 +18,7 @@
 #ifndef WH_LEDGER_H
 #define WH_LEDGER_H
 
-#include "scene.h"
+#include "state.h"
 #include "sum.h"
 
 #ifdef __cplusplus

@@ -86,6 +86,4 @@ typedef float wh_real;
 typedef enum wh_status { WH_STATUS_ROWS(WH_STATUS_VALUE) } wh_status;
 #undef WH_STATUS_VALUE
 
-#include "root.h" /* WH_SQRT */
-
 #endif

@@ -1,4 +1,4 @@
-/* root.h: the square root, correctly rounded, and no library's. Part of real.h.
+/* root.h: the square root, correctly rounded, and no library's.
  *
  * WH_SQRT(x) is the processor's instruction where the compiler surely gives that and nothing else, and
  * wh_sqrt() elsewhere: the same bits. What stands between is errno: without -fno-math-errno compilers put a

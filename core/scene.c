@@ -59,10 +59,12 @@ wh_probed wh_arithmetic_wrong(void (*compute)(wh_real *result)) {
 
 /* The core's own arithmetic, and that of the scene's file, which may have been compiled with other flags. */
 static wh_probed first_wrong(const wh_scene *scene) {
-    const wh_probed wrong = wh_arithmetic_wrong(wh_arithmetic);
-    return wrong != WH_PROBED_COUNT || scene->arithmetic == NULL
-               ? wrong
-               : wh_arithmetic_wrong(scene->arithmetic);
+    void (*const compute[])(wh_real * result) = {wh_arithmetic, scene->arithmetic};
+    wh_probed wrong = WH_PROBED_COUNT;
+    for (unsigned i = 0; i < 2 && wrong == WH_PROBED_COUNT && compute[i] != NULL; i++) {
+        wrong = wh_arithmetic_wrong(compute[i]);
+    }
+    return wrong;
 }
 
 static size_t carries(const wh_scene *scene) {
@@ -104,23 +106,19 @@ static bool is_aligned(const void *memory) {
     return (uintptr_t)memory % offsetof(struct behind_a_byte, behind) == 0;
 }
 
-static wh_status refusal(const wh_scene *scene, const wh_state *state, const void *memory,
-                         size_t bytes) {
-    if (scene == NULL || state == NULL || scene->contacts > WH_CONTACTS_LIMIT ||
-        !wh_method_takes(scene->method, scene->form) || !is_aligned(memory)) {
-        return WH_E_ARGUMENT;
-    }
-    if (memory == NULL ||
-        bytes < WH_MEMORY_BYTES(scene->angles, all_reals(scene), scene->contacts)) {
-        return WH_E_MEMORY;
-    }
-    return WH_OK;
+/* Can such a scene be started there at all? */
+static bool is_possible(const wh_scene *scene, const wh_state *state, const void *memory) {
+    return scene != NULL && state != NULL && scene->contacts <= WH_CONTACTS_LIMIT &&
+           wh_method_takes(scene->method, scene->form) && is_aligned(memory);
 }
 
 wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, size_t bytes) {
-    const wh_status refused = refusal(scene, state, memory, bytes);
-    if (refused != WH_OK) {
-        return refused;
+    if (!is_possible(scene, state, memory)) {
+        return WH_E_ARGUMENT;
+    }
+    const size_t numbers = all_reals(scene);
+    if (memory == NULL || bytes < WH_MEMORY_BYTES(scene->angles, numbers, scene->contacts)) {
+        return WH_E_MEMORY;
     }
     const wh_probed wrong = first_wrong(scene);
     if (wrong != WH_PROBED_COUNT) {
@@ -140,27 +138,21 @@ wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, s
     reals += scene->held;
     state->ledger = scene->ledger != NULL ? reals : NULL;
 
+    for (size_t i = 0; i < numbers; i++) { /* carried, held and booked: nothing yet */
+        state->real[i] = WH_R(0.0);
+    }
     for (unsigned i = 0; i < scene->angles; i++) {
         state->angle[i] = scene->start_angle[i];
     }
     for (unsigned i = 0; i < scene->reals; i++) {
         state->real[i] = scene->start_real[i];
     }
-    for (size_t i = 0; i < carries(scene); i++) {
-        state->carry[i] = WH_R(0.0);
-    }
     for (unsigned i = 0; i < scene->inputs; i++) {
         state->input[i] = scene->start_input[i];
     }
-    for (unsigned i = 0; i < scene->held; i++) {
-        state->held[i] = WH_R(0.0);
-    }
-    for (size_t i = 0; i < ledgers(scene); i++) {
-        state->ledger[i] = WH_R(0.0);
-    }
     state->contacts = NULL;
     if (scene->contacts > 0) {
-        const size_t at = (WH_NUMBER_BYTES(scene->angles, all_reals(scene)) + 7U) / 8U * 8U;
+        const size_t at = (WH_NUMBER_BYTES(scene->angles, numbers) + 7U) / 8U * 8U;
         start_contacts(scene, state, (wh_contacts *)(void *)((unsigned char *)memory + at));
     }
     state->steps = 0;

@@ -1,5 +1,7 @@
 /* whirl.c: the command line. */
+#include <errno.h>
 #include <locale.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -10,60 +12,55 @@
 
 #define VERSION "0.1.0"
 
-static const char usage[] =
-    "usage: whirl COMMAND ...\n"
-    "\n"
-    "From a mechanism's energies to its equations of motion, its motion and its firmware.\n"
-    "\n"
-    "  whirl list                         the built-in mechanisms and scenes\n"
-    "  whirl derive FILE [--as FORM]      equations of motion, or the scene as code\n"
-    "  whirl describe SCENE|FILE[:SCENE]  what a scene holds: names, units, sizes; --json for programs\n"
-    "  whirl accel FILE NAME=VALUE ...    accelerations at one state\n"
-    "  whirl run SCENE|FILE[:SCENE] ...   simulate\n"
-    "  whirl sweep SCENE|FILE[:SCENE] ... simulate over ranges of parameters\n"
-    "\n"
-    "For FILE[:SCENE] the built-in MECHANISM[:SCENE] can stand everywhere.\n"
-    "`whirl COMMAND --help` says more; --version prints the version.\n"
-    "Exit status:";
-
-static void print_usage(FILE *out) {
-#define MEANING(name, status, meaning) #status " " meaning,
-    static const char *const ends[] = {EXIT_ROWS(MEANING)};
-    fputs(usage, out);
-    for (size_t i = 0; i < sizeof ends / sizeof ends[0]; i++) {
-        fprintf(out, "%s %s", i > 0 ? "," : "", ends[i]);
-    }
-    fputs(".\n", out);
-}
-
 typedef struct command {
     const char *name;
     int (*run)(int count, char **words);
-    int hidden; /* for the project's own build */
+    const char *takes; /* in the list of commands */
+    const char *text;  /* what it is for; NULL hides it: for the project's own build */
 } command;
 
 static const command commands[] = {
-    {"list", command_list, 0},
-    {"derive", command_derive, 0},
-    {"describe", command_describe, 0},
-    {"accel", command_accel, 0},
+    {"list", command_list, "", "the built-in mechanisms and scenes"},
+    {"derive", command_derive, "FILE [--as FORM]", "equations of motion, or the scene as code"},
+    {"describe", command_describe, "SCENE|FILE[:SCENE]",
+     "what a scene holds: names, units, sizes; --json for programs"},
+    {"accel", command_accel, "FILE NAME=VALUE ...", "accelerations at one state"},
 #ifndef WHIRL_NO_SYSTEM /* no processes and no signals */
-    {"run", command_run, 0},
-    {"sweep", command_sweep, 0},
+    {"run", command_run, "SCENE|FILE[:SCENE] ...", "simulate"},
+    {"sweep", command_sweep, "SCENE|FILE[:SCENE] ...", "simulate over ranges of parameters"},
 #endif
-    {"emit-scenes", command_emit_scenes, 1},
-    {"hashes", command_hashes, 1},
+    {"emit-scenes", command_emit_scenes, NULL, NULL},
+    {"hashes", command_hashes, NULL, NULL},
 };
+enum { COMMANDS = sizeof commands / sizeof commands[0] };
 
-int main(int count, char **words) {
-    setlocale(LC_ALL, "C");
-    if (wh_arithmetic_wrong(wh_arithmetic) != WH_PROBED_COUNT) {
-        fputs(
-            "whirl: error: this program was compiled, or is run, with other arithmetic than IEEE 754\n"
-            "hint: build it without fast-math, and load no library that was linked with it\n",
-            stderr);
-        return EXIT_RUN_FAILED;
+static void print_usage(FILE *out) {
+    static const char *const why[EXITS] = {
+        [EXIT_ROW_OF(EXIT_DONE)] = "",
+        [EXIT_ROW_OF(EXIT_RUN_FAILED)] = "a run did, or standard output could not be written whole",
+        [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
+        [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""};
+    fputs("usage: whirl COMMAND ...\n"
+          "\n"
+          "From a mechanism's energies to its equations of motion, its motion and its firmware.\n"
+          "\n",
+          out);
+    for (int i = 0; i < COMMANDS; i++) {
+        if (commands[i].text != NULL) {
+            const int room = 28 - (int)strlen(commands[i].name);
+            fprintf(out, "  whirl %s %-*s%s\n", commands[i].name, room, commands[i].takes,
+                    commands[i].text);
+        }
     }
+    fputs("\n"
+          "For FILE[:SCENE] the built-in MECHANISM[:SCENE] can stand everywhere.\n"
+          "`whirl COMMAND --help` says more; --version prints the version.\n",
+          out);
+    exit_describe(out, why);
+}
+
+/* The command, on the words behind it; what it says may still be in a buffer. */
+static int answer(int count, char **words) {
     if (count < 2) {
         print_usage(stderr);
         return EXIT_BAD_INPUT;
@@ -78,16 +75,11 @@ int main(int count, char **words) {
         return EXIT_DONE;
     }
     nearest search = nearest_start(words[1], strlen(words[1]));
-    for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++) {
+    for (int i = 0; i < COMMANDS; i++) {
         if (strcmp(words[1], commands[i].name) == 0) {
-            const int code = commands[i].run(count - 2, words + 2);
-            if (fflush(stdout) != 0) {
-                perror("whirl: error: standard output");
-                return EXIT_RUN_FAILED;
-            }
-            return code;
+            return commands[i].run(count - 2, words + 2);
         }
-        if (!commands[i].hidden) {
+        if (commands[i].text != NULL) {
             nearest_offer(&search, commands[i].name);
         }
     }
@@ -97,4 +89,30 @@ int main(int count, char **words) {
     }
     print_usage(stderr);
     return EXIT_BAD_INPUT;
+}
+
+/* Whatever was said must have arrived: an answer that is cut off is none. An error may be of a part that was written
+ * long before the last one, which went well. */
+static int after_writing(int code) {
+    errno = 0;
+    const bool last_part = fflush(stdout) == 0;
+    const int reason = errno;
+    if (last_part && ferror(stdout) == 0) {
+        return code;
+    }
+    fprintf(stderr, "whirl: error: standard output cannot be written%s%s\n", last_part ? "" : ": ",
+            last_part ? "" : strerror(reason));
+    return code == EXIT_DONE ? EXIT_RUN_FAILED : code;
+}
+
+int main(int count, char **words) {
+    setlocale(LC_ALL, "C");
+    if (wh_arithmetic_wrong(wh_arithmetic) != WH_PROBED_COUNT) {
+        fputs(
+            "whirl: error: this program was compiled, or is run, with other arithmetic than IEEE 754\n"
+            "hint: build it without fast-math, and load no library that was linked with it\n",
+            stderr);
+        return EXIT_RUN_FAILED;
+    }
+    return after_writing(answer(count, words));
 }

@@ -1,8 +1,33 @@
 # board.mk: images for BOARD, from its boards/<board>/board.mk (variables only, explained in boards/cortexm/cortexm.mk).
 
-ifeq ($(wildcard boards/$(BOARD)/board.mk),)
-$(error There is no boards/$(BOARD)/board.mk. Boards: $(patsubst boards/%/board.mk,%,$(wildcard boards/*/board.mk)))
+BOARDS_ALL := $(sort $(patsubst boards/%/board.mk,%,$(wildcard boards/*/board.mk)))
+ifeq ($(filter $(BOARD),$(BOARDS_ALL)),)
+$(error There is no boards/$(BOARD)/board.mk. Boards: $(BOARDS_ALL))
 endif
+
+# BOARD_WHEN says what takes a board by itself: `test` (`make test` and the gates of `make check`), `check` (the gates
+# alone), or `all` (only what takes every board: `make test-boards`, `make hashes-all`).
+board_whens := test check all
+board_of_family := $(addprefix BOARD_,DEPS CC NM SIZE OBJCOPY OBJDUMP CFLAGS LDFLAGS SOURCES TIDY EMULATOR EMULATE)
+
+# A family asks its boards for what it builds on: $(call board_needs,VARIABLES).
+board_needs = $(foreach v,$(1),$(if $(strip $(value $(v))),,$(error boards/$(board)/board.mk: $(v) is missing$(2))))
+board_before := $(filter BOARD_%,$(.VARIABLES))
+
+# Every board is read, so that none drops out unseen; then it is forgotten, but for what takes it: boards_test,
+# boards_check, boards_all.
+define read_board
+board := $(1)
+include boards/$(1)/board.mk
+$$(call board_needs,BOARD_WHEN,: one of $(board_whens))
+$$(if $$(filter-out 1,$$(words $$(BOARD_WHEN)))$$(filter-out $(board_whens),$$(BOARD_WHEN)),\
+    $$(error boards/$(1)/board.mk: BOARD_WHEN is '$$(strip $$(BOARD_WHEN))': one of $(board_whens)))
+$$(call board_needs,$(board_of_family),: its family sets it (boards/cortexm/cortexm.mk))
+boards_$$(strip $$(BOARD_WHEN)) += $(1)
+$$(foreach v,$$(filter-out $(board_before),$$(filter BOARD_%,$$(.VARIABLES))),$$(eval undefine $$(v)))
+endef
+$(foreach b,$(BOARDS_ALL),$(eval $(call read_board,$(b))))
+board := $(BOARD)
 include boards/$(BOARD)/board.mk
 
 # Sanitizers and the like stay on this machine: boards have an EXTRA of their own.
@@ -37,27 +62,43 @@ $(ELF)/tests.elf: $(call objects,$(BOARD),$(CORE_TEST_PARTS)) $(BOARD_OBJECTS) \
     $(call libraries,$(BOARD),scenes rig virtual whirl)
 	$(link_board)
 
+emulate = $(call BOARD_EMULATE,$(1))
+
+ifeq ($(BOARD_IMAGES),single)
+include mk/single.mk
+else
 # The images that are held to the firmware rules and whose sizes are told.
 IMAGES := $(ELF)/scenes.elf $(ELF)/firmware.elf
 
-.PHONY: board-images board-tests
+# Programs that touch what guards the stack, and must not come back (tests/boards/guard.sh).
+GUARDS := $(patsubst tests/boards/%.c,$(ELF)/%.elf,$(wildcard tests/boards/guard_*.c))
+$(GUARDS): $(ELF)/%.elf: $(B)/$(BOARD)/tests/boards/%.o $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl)
+	$(link_board)
+
+.PHONY: board-images board-tests run-suites print-hashes
 board-images: $(IMAGES)
-board-tests: $(ELF)/tests.elf
+board-tests: $(ELF)/tests.elf $(GUARDS)
+run-suites: # the portable suites, then what guards the stack
+	@status=0; $(call emulate,$(ELF)/tests.elf) || status=1; sh tests/boards/guard.sh $(BOARD) || status=1; exit $$status
+print-hashes: # a line for each scene, with the hash of its last state
+	@$(call need,$(BOARD_EMULATOR))
+	@$(call emulate,$(ELF)/scenes.elf)
+endif
 
-emulate = $(call BOARD_EMULATE,$(1))
-
-# The boards beside BOARD are built and run by a make of their own: $(call on_board,NAME,TARGET).
-BOARDS := $(patsubst boards/%/board.mk,%,$(wildcard boards/*/board.mk))
-OTHER_BOARDS := $(filter-out $(BOARD),$(BOARDS))
+# A board is built and run by a make of its own: $(call on_board,NAME,TARGET).
+BOARDS_TEST := $(sort $(BOARD) $(boards_test))
+BOARDS := $(sort $(BOARD) $(boards_test) $(boards_check))
+# Those with an image for each scene run so many steps of it at most: what takes this machine seconds takes them hours.
+BOARDS_SINGLE := $(patsubst boards/%/too_large.txt,%,$(wildcard boards/*/too_large.txt))
+SINGLE_STEPS ?= 2000
 on_board = $(MAKE) -s BOARD=$(1) $(2)
-.PHONY: run-image
-run-image:
-	@$(call emulate,$(IMAGE))
+.PHONY: emulate-command
+emulate-command: # of an image named IMAGE
+	@echo '$(call emulate,IMAGE)'
 
 -include $(wildcard $(patsubst %.c,$(ELF)/%.d,$(UNITY_DIR)/unity.c $(PORTABLE_C) $(BOARD_C) $(TEST_C) $(SCENE_C) $(B)/tests/core_suites.c))
 
 .PHONY: emulate-now
-emulate-now: build/whirl
-	@$(MAKE) $(GEN)/.stamp
+emulate-now: $(GEN)/.stamp
 	@$(MAKE) $(ELF)/firmware.elf
 	@$(call emulate,$(ELF)/firmware.elf)

@@ -1,13 +1,12 @@
 # check.mk: the quality gates of `make check`. Each is a target of its own, gate-NAME; tests/gates.sh
 # runs them, keeps what they say in build/check/NAME.log and prints a line for each.
 
-GATES := house gcc clang format cppcheck tidy sanitizers memcheck bad-input firmware size libm avr hashes hosts
+GATES := house gcc clang format cppcheck tidy sanitizers memcheck bad-input firmware size boards libm avr cycles hashes hosts
 LINT_FLAGS := -std=c11 $(WARN) -I. $(UNITY_FLAGS) -D_POSIX_C_SOURCE=200809L
 JOBS := 2
 
 .PHONY: check-now
-check-now: build/whirl
-	@$(MAKE) $(GEN)/.stamp
+check-now: $(GEN)/.stamp
 	@sh tests/gates.sh build/check "$(MAKE)" $(GATES)
 
 ##@ Tests and quality
@@ -18,21 +17,23 @@ gate-house:
 	@sh tests/house.sh
 
 # --- warnings are errors, with both compilers, in every build -------------------------------------
-TARGET_C := $(filter boards/cortexm/% boards/$(BOARD)/%,$(BOARD_C))
+# What is compiled for boards only; a board's own make lints its part (tidy-board).
+TARGET_C := $(filter-out boards/programs/% boards/host/%,$(BOARD_C))
 PC_BOARD_C := $(PROGRAM_C) $(wildcard boards/host/*.c)
 
-.PHONY: objects board-objects
+.PHONY: objects board-objects board-own-objects
 objects: $(call objects,host,$(WHIRL_MAIN_C) $(WHIRL_C) $(GEN)/builtin_models.c $(HOST_TEST_C) \
         $(wildcard tests/tools/*.c tests/fuzz/*.c) $(HOST_TOOL_C)) \
     $(call objects,float,$(PORTABLE_C) $(PC_BOARD_C) $(CORE_TEST_C) $(SCENE_C)) \
     $(call objects,double,$(CORE_C) $(RIG_C) $(CORE_TEST_C) $(SCENE_C))
-board-objects: $(call objects,$(BOARD),$(PORTABLE_C) $(PROGRAM_C) $(TARGET_C) \
-    $(BOARD_SOURCES) $(CORE_TEST_C) $(SCENE_C))
+board-objects: board-own-objects $(call objects,$(BOARD),$(PORTABLE_C) $(PROGRAM_C) $(CORE_TEST_C) $(SCENE_C))
+board-own-objects: $(call objects,$(BOARD),$(BOARD_SOURCES) $(wildcard tests/boards/guard_*.c))
 
-gate-gcc:
+gate-gcc: $(GEN)/.stamp
 	@$(MAKE) -k B=build/check/gcc CC=gcc EXTRA=-Werror BOARD_EXTRA=-Werror objects board-objects
+	+@$(foreach b,$(filter-out $(BOARD),$(BOARDS)),$(MAKE) -k B=build/check/gcc BOARD=$(b) BOARD_EXTRA=-Werror board-own-objects &&) true
 
-gate-clang:
+gate-clang: $(GEN)/.stamp
 	@$(MAKE) -k B=build/check/clang CC=clang EXTRA=-Werror objects
 
 # --- layout and lint ------------------------------------------------------------------------------
@@ -47,8 +48,11 @@ gate-tidy:
 	@$(call need,clang-tidy)
 	@$(call tidy,$(TIDY_C),$(LINT_FLAGS))
 	@$(call tidy,$(CORE_C) $(RIG_C),$(LINT_FLAGS) -DWH_DOUBLE=1)
-	@$(call tidy,$(TARGET_C),--target=arm-none-eabi -mcpu=cortex-m4 -ffreestanding \
-	    -Iboards/$(BOARD) $(LINT_FLAGS))
+	+@$(foreach b,$(BOARDS),$(call on_board,$(b),tidy-board) &&) true
+
+.PHONY: tidy-board
+tidy-board:
+	@$(call tidy,$(BOARD_SOURCES) $(wildcard tests/boards/guard_*.c),$(BOARD_TIDY) $(LINT_FLAGS))
 
 gate-cppcheck:
 	@$(call need,cppcheck)
@@ -110,19 +114,57 @@ gate-avr: build/whirl
 	@$(call need,avr-gcc)
 	@$(call need,simavr)
 	@sh tests/embed/avr.sh build/whirl build/check/avr
+	@$(MAKE) BOARD=atmega328p build/avr_run
+	@sh tests/boards/avr_cycles.sh build/avr_run build/check/avr_cycles
+
+# --- boards that `make test` does not take: the suites, and what guards the stack --------------------------
+BOARDS_CHECKED = $(filter-out $(BOARDS_TEST),$(BOARDS))
+gate-boards: $(GEN)/.stamp
+	+@$(call build_board_tests,$(BOARDS_CHECKED))
+	@sh tests/run.sh build/check/log_boards $(foreach b,$(BOARDS_CHECKED),$(call run_board,$(b)))
+
+# --- both ways to estimate a Cortex-M's cycles say the same ------------------------------------------
+gate-cycles: $(GEN)/.stamp
+	+@$(foreach b,$(filter $(patsubst boards/%/board.mk,%,$(shell grep -l '^BOARD_TIMING' boards/*/board.mk)),$(BOARDS)),\
+	    $(call on_board,$(b),cycles-agree) &&) true
 
 # --- one arithmetic everywhere ----------------------------------------------------------------------
 HASH_BUILDS := gcc-O0 gcc-O2 gcc-O3 clang-O0 clang-O2 clang-O3
+# The scenes' last states, on the boards $(1): build their images, then run them beside the interpreter and this
+# machine's builds.
+build_hashes = $(MAKE) $(addprefix hash-,$(HASH_BUILDS)) && $(foreach b,$(1),$(call on_board,$(b),board-images) &&) true
+compare_hashes = sh tests/hashes.sh build/hash "the interpreter" "build/whirl hashes" \
+    $(foreach h,$(HASH_BUILDS),$(h) build/hash/$(h)/scenes) \
+    $(foreach b,$(1),"$(b)" "$(call on_board,$(b),print-hashes)")
 
-.PHONY: hashes-now gate-hashes $(addprefix hash-,$(HASH_BUILDS))
-hashes-now gate-hashes: build/whirl
-	@$(MAKE) $(GEN)/.stamp
-	@$(MAKE) $(addprefix hash-,$(HASH_BUILDS)) $(ELF)/scenes.elf
-	@$(foreach b,$(OTHER_BOARDS),$(call on_board,$(b),board-images) &&) true
-	@sh tests/hashes.sh build/hash "the interpreter" "build/whirl hashes" \
-	    $(foreach h,$(HASH_BUILDS),$(h) build/hash/$(h)/scenes) \
-	    "$(BOARD)" "$(call emulate,$(ELF)/scenes.elf)" \
-	    $(foreach b,$(OTHER_BOARDS),"$(b)" "$(call on_board,$(b),run-image IMAGE=build/$(b)/scenes.elf)")
+.PHONY: hashes-now hashes-all-now gate-hashes $(addprefix hash-,$(HASH_BUILDS))
+hashes-now gate-hashes: $(GEN)/.stamp
+	+@$(call build_hashes,$(BOARDS))
+	@$(call compare_hashes,$(BOARDS))
+
+# Processors that are no boards of ours but must have the same bits: builds of this machine's program for them
+# (mk/hosts.mk), run by qemu-user and by node.
+HASH_HOSTS := aarch64 wasm
+.PHONY: $(addprefix hash-host-,$(HASH_HOSTS))
+$(addprefix hash-host-,$(HASH_HOSTS)): hash-host-%:
+	@$(call need,$(host_cc_$*))
+	@$(call need,$(host_run_$*))
+	@$(MAKE) B=build/hosts/$* CC="$(host_cc_$*)" OPT=-O1 $(host_set_$*) build/hosts/$*/scenes
+
+# Every board; those with an image for each scene beside this machine's program that runs as few steps.
+BOARDS_WHOLE := $(filter-out $(BOARDS_SINGLE),$(BOARDS_ALL))
+hashes-all-now: $(GEN)/.stamp
+	+@$(call build_hashes,$(BOARDS_ALL))
+	@$(MAKE) build/scenes_short $(addprefix hash-host-,$(HASH_HOSTS))
+	@$(call compare_hashes,$(BOARDS_WHOLE)) \
+	    $(foreach h,$(HASH_HOSTS),"$(h)" "$(host_run_$(h)) build/hosts/$(h)/scenes")
+	@echo "The first $(SINGLE_STEPS) steps:"
+	@sh tests/hashes.sh build/hash "this machine" build/scenes_short \
+	    $(foreach b,$(BOARDS_SINGLE),"$(b)" "$(call on_board,$(b),print-hashes)")
+
+$(B)/scenes_short: boards/programs/scenes.c $(call objects,float,boards/host/board.c) $(call libraries,float,scenes whirl)
+	$(say) LINK $@
+	$(Q)$(CC) $(FLAGS_float) -DSCENE_STEPS_MOST=$(SINGLE_STEPS)U -o $@ $(filter %.c %.o,$^) $(filter %.a,$^)
 
 $(addprefix hash-,$(HASH_BUILDS)): hash-%:
 	@$(MAKE) B=build/hash/$* CC=$(firstword $(subst -, ,$*)) OPT=-$(lastword $(subst -, ,$*)) \

@@ -11,11 +11,12 @@ COMPENSATED_C := $(patsubst %,build/compensated/%.c,scenes $(COMPENSATED))
 # What of the flags belongs beside a figure.
 TOLD = $(filter -O% -m%,$(1))
 
-$(PLUGIN): mk/count/count_plugin.c
+PLUGIN_C := mk/count/count_plugin.c mk/count/thumb_cycles.c
+$(PLUGIN): $(PLUGIN_C) mk/count/thumb_cycles.h
 	@$(call need,$(CC))
 	@mkdir -p $(@D)
 	$(say) LINK $@
-	$(Q)$(CC) -std=c11 $(WARN) -O2 -fPIC -shared -fvisibility=hidden -o $@ $<
+	$(Q)$(CC) -std=c11 $(WARN) -O2 -I. -fPIC -shared -fvisibility=hidden -o $@ $(PLUGIN_C)
 
 $(eval $(call program,bench,$(BENCH_C),scenes whirl))
 $(eval $(call program,bench_compensated,$(BENCH_C) $(COMPENSATED_C),whirl))
@@ -39,7 +40,7 @@ $(addprefix $(B)/tools/,$(BY_HAND)): $(B)/tools/%: $(B)/host/tests/tools/%.o \
 	$(link)
 
 count_board = BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) \
-    FLAGS="$(call TOLD,$(BOARD_CFLAGS))" PLUGIN=$(PLUGIN) EMULATE="$(call emulate,$(1))" \
+    FLAGS="$(call TOLD,$(BOARD_CFLAGS))" PLUGIN=$(PLUGIN) TIMING=$(BOARD_TIMING) EMULATE="$(call emulate,$(1))" \
     mk/count/count_board.sh $(1) $(FIGURES)/bench.csv
 
 # The worst step of scenes with contacts, all effects of their mechanisms on, over so many random steps.
@@ -51,10 +52,9 @@ $(ELF)/build/worst_step/%.o: FILE_FLAGS := -include boards/programs/mark.h
 $(ELF)/boards/programs/worst.o: FILE_FLAGS := -DWORST_STEPS=$(WORST_STEPS)U -DWORST_SEEDS=2U
 
 .PHONY: bench-now size-now worst-now
-worst-now: build/whirl
+worst-now: $(GEN)/.stamp
 	@[ "$(WORST_STEPS)" -gt 0 ] 2>/dev/null || \
 	    { echo "error: WORST_STEPS=$(WORST_STEPS): a number of steps, 1 or more" >&2; exit 2; }
-	@$(MAKE) $(GEN)/.stamp
 	@mk/count/all_effects.sh build/whirl build/worst_step $(WORST_MODELS)
 	@$(RM) $(ELF)/boards/programs/worst.o
 	@$(MAKE) $(ELF)/worst.elf $(PLUGIN)
@@ -65,8 +65,7 @@ worst-now: build/whirl
 	    EMULATE="$(subst timeout $(BOARD_SECONDS),timeout 3600,$(call emulate,$(ELF)/worst.elf))" \
 	    mk/count/worst.sh $(ELF)/worst.elf $(FIGURES)/worst.csv $(WORST_STEPS)
 
-bench-now: build/whirl
-	@$(MAKE) $(GEN)/.stamp
+bench-now: $(GEN)/.stamp
 	@$(MAKE) build/bench build/bench_compensated build/bench_double \
 	    $(addprefix build/tools/,$(BY_HAND)) $(ELF)/bench.elf $(ELF)/bench_compensated.elf $(PLUGIN)
 	@mkdir -p $(FIGURES)
@@ -77,8 +76,46 @@ bench-now: build/whirl
 	@$(call count_board,$(ELF)/bench.elf)
 	@$(call count_board,$(ELF)/bench_compensated.elf)
 
-size-now: build/whirl
-	@$(MAKE) $(GEN)/.stamp
+# --- every board beside the others ----------------------------------------------------------------
+# These scenes' steps: instructions, cycles where something counts or estimates them, bytes.
+PRICED := epicyclic_from_rest epicyclic_conserved thomson_a thomson_a_conserved rig_fixed
+PRICED_IMAGES := $(PRICED:%=$(ELF)/priced/size_%.elf) \
+    $(if $(filter single,$(BOARD_IMAGES)),$(PRICED:%=$(ELF)/priced/bench_%.elf),$(ELF)/bench.elf)
+
+$(ELF)/priced/size_%.elf: $(B)/$(BOARD)/$(GEN)/%.o $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl) boards/programs/size.c
+	@mkdir -p $(@D)
+	$(say) LINK $@
+	$(Q)$(BOARD_CC) $(BOARD_CFLAGS) -DPRICE_SCENE=$* -include $(GEN)/$*.h -c boards/programs/size.c -o $(@:.elf=.o)
+	$(Q)$(BOARD_CC) $(BOARD_LDFLAGS) -o $@ $(@:.elf=.o) $(filter %.o,$^) $(filter %.a,$^) $(BOARD_LDLIBS)
+
+$(ELF)/priced/bench_%.elf: $(B)/$(BOARD)/$(GEN)/%.o $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl) \
+    boards/programs/bench.c boards/programs/counted.h mk/count/index.sh
+	@mkdir -p $(@D)
+	$(say) LINK $@
+	$(Q)mk/count/index.sh $* >$(@:.elf=.c)
+	$(Q)$(BOARD_CC) $(BOARD_CFLAGS) -I$(GEN) -include $(GEN)/$*.h -DWH_SCENE_WORDS=$*_MEMORY_WORDS -DBENCH_SMALL=1 \
+	    $(BOARD_LDFLAGS) -o $@ boards/programs/bench.c $(@:.elf=.c) $(filter %.o,$^) $(filter %.a,$^) $(BOARD_LDLIBS)
+
+.PHONY: bench-board bench-boards-now cycles-agree
+bench-board: $(PRICED_IMAGES) $(if $(filter single,$(BOARD_IMAGES)),$(AVR_RUN),$(PLUGIN))
+	@mkdir -p $(FIGURES)
+	@BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) SIZE=$(BOARD_SIZE) FLAGS="$(call TOLD,$(BOARD_CFLAGS))" \
+	    TIMING=$(BOARD_TIMING) EMULATE="$(call emulate,IMAGE)" \
+	    $(if $(filter single,$(BOARD_IMAGES)),,BENCH=$(ELF)/bench.elf PLUGIN=$(PLUGIN)) \
+	    mk/count/board_rows.sh $(FIGURES)/boards.csv $(ELF)/priced $(PRICED)
+
+bench-boards-now: $(GEN)/.stamp
+	+@for board in $(BOARDS_ALL); do $(MAKE) BOARD=$$board bench-board || exit 1; done
+	@awk -F, -f mk/count/boards_table.awk $(FIGURES)/boards.csv >build/boards.md
+	@mk/price/into_page.sh build/boards.md docs/price.md boards
+	@cat build/boards.md
+
+# The estimate once more, from the disassembly.
+cycles-agree: $(ELF)/bench.elf $(PLUGIN)
+	@BOARD=$(BOARD) NM=$(BOARD_NM) OBJDUMP=$(BOARD_OBJDUMP) TIMING=$(BOARD_TIMING) PLUGIN=$(PLUGIN) \
+	    EMULATE="$(call emulate,$(ELF)/bench.elf)" mk/count/cycles_agree.sh $(ELF)/bench.elf
+
+size-now: $(GEN)/.stamp
 	@$(MAKE) board-images
 	@mkdir -p $(FIGURES)
 	@BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) SIZE=$(BOARD_SIZE) OBJECTS=$(ELF) \
@@ -88,8 +125,7 @@ size-now: build/whirl
 
 # What each effect costs: build/price/effects.csv, and the tables of docs/effects.md.
 .PHONY: price-effects-now
-price-effects-now: build/whirl
-	@$(MAKE) $(GEN)/.stamp
+price-effects-now: $(GEN)/.stamp
 	@$(MAKE) $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl) $(PLUGIN)
 	@WHIRL=build/whirl OUT=build/price BOARD=$(BOARD) BOARD_CC=$(BOARD_CC) BOARD_NM=$(BOARD_NM) \
 	    BOARD_SIZE=$(BOARD_SIZE) BOARD_CFLAGS="$(BOARD_CFLAGS)" BOARD_LDFLAGS="$(BOARD_LDFLAGS)" \

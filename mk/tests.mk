@@ -60,41 +60,41 @@ RUN_HOST = $(call half,0) $(call half,1)
 # What takes longest goes first.
 CLI_LONG := tests/cli/emitted_c.sh tests/cli/effects_cost_nothing.sh
 RUN_CLI = $(foreach t,$(CLI_LONG) $(filter-out $(CLI_LONG),$(CLI_TESTS)),"$(t)" "sh $(t)")
-RUN_BOARD = "portable suites, $(BOARD)" "$(call emulate,$(B)/$(BOARD)/tests.elf)" \
-    $(foreach b,$(OTHER_BOARDS),"portable suites$(comma) $(b)" \
-    "$(call on_board,$(b),run-image IMAGE=$(B)/$(b)/tests.elf)")
+run_board = "portable suites$(comma) $(1)" "$(call on_board,$(1),run-suites)"
+RUN_BOARD = $(foreach b,$(BOARDS_TEST),$(call run_board,$(b)))
 comma := ,
-build_other_tests = $(foreach b,$(OTHER_BOARDS),$(call on_board,$(b),board-tests) &&) true
+build_board_tests = $(foreach b,$(1),$(call on_board,$(b),board-tests) &&) true
 
 .PHONY: test-now test-core test-host test-cli test-board
-test-now: build/whirl
-	@$(MAKE) $(GEN)/.stamp
-	@$(MAKE) test-programs $(B)/$(BOARD)/tests.elf
-	@$(build_other_tests)
+test-now: $(GEN)/.stamp
+	@$(MAKE) test-programs
+	+@$(call build_board_tests,$(BOARDS_TEST))
 	@WHIRL=build/whirl sh tests/run.sh build/tests/log $(RUN_CLI) $(RUN_BOARD) $(RUN_HOST) $(RUN_CORE)
 
 ##@ Tests and quality
 # Parts of it, for while one works on something.
-test-core: build/whirl ## the portable suites alone, in float and double on this machine
-	@$(MAKE) $(GEN)/.stamp
+test-core: $(GEN)/.stamp ## the portable suites alone, in float and double on this machine
 	@$(MAKE) build/tests/core_double build/tests/core_float
 	@sh tests/run.sh build/tests/log $(RUN_CORE)
 
-test-host: build/whirl ## the suites of the program alone
-	@$(MAKE) $(GEN)/.stamp
+test-host: $(GEN)/.stamp ## the suites of the program alone
 	@$(MAKE) build/tests/host
 	@sh tests/run.sh build/tests/log $(RUN_HOST)
 
-test-cli: build/whirl ## the scripts of tests/cli alone
-	@$(MAKE) $(GEN)/.stamp
+test-cli: $(GEN)/.stamp ## the scripts of tests/cli alone
 	@$(MAKE) test-programs
 	@WHIRL=build/whirl sh tests/run.sh build/tests/log $(RUN_CLI)
 
-test-board: build/whirl ## the portable suites on the emulated boards alone
-	@$(MAKE) $(GEN)/.stamp
-	@$(MAKE) $(ELF)/tests.elf
-	@$(build_other_tests)
+test-board: $(GEN)/.stamp ## the portable suites alone, on the emulated boards that `make test` takes
+	+@$(call build_board_tests,$(BOARDS_TEST))
 	@sh tests/run.sh build/tests/log $(RUN_BOARD)
+
+# Every board, and what its images hold.
+.PHONY: test-boards-now
+test-boards-now: $(GEN)/.stamp
+	+@$(call build_board_tests,$(BOARDS_ALL))
+	+@$(foreach b,$(BOARDS_ALL),$(call on_board,$(b),image-rules) &&) true
+	@TEST_SECONDS=3600 sh tests/run.sh build/tests/log_boards $(foreach b,$(BOARDS_ALL),$(call run_board,$(b)))
 
 # The flag matrix: other people's flags give the interpreter's bits or are refused.
 .PHONY: flags-now

@@ -17,10 +17,19 @@ define portable_libraries
 $(call library,$(B)/$(1)/libwhirl.a,$(call objects,$(1),$(CORE_C)))
 $(call library,$(B)/$(1)/librig.a,$(call objects,$(1),$(RIG_C)))
 $(call library,$(B)/$(1)/libvirtual.a,$(call objects,$(1),$(VIRTUAL_C)))
-$(call library,$(B)/$(1)/libscenes.a,$(call objects,$(1),$(SCENE_C)))
+$(call scenes_library,$(B)/$(1)/libscenes.a,$(1))
 endef
 
-# Known only once they are made: what needs them is built by a make of its own, after .stamp.
+# Which scenes there are is known only once they are made: whoever needs their library has them made, and it is
+# packed by a make of its own, which reads the folder anew.
+ifdef SCENES_ARE_MADE
+scenes_library = $(call library,$(1),$(call objects,$(2),$(SCENE_C)))
+else
+define scenes_library
+$(1): $(GEN)/.stamp FORCE
+	@$$(MAKE) SCENES_ARE_MADE=1 $$@
+endef
+endif
 SCENE_C = $(filter-out $(GEN)/builtin_models.c,$(sort $(wildcard $(GEN)/*.c)))
 $(foreach b,float double,$(eval $(call portable_libraries,$(b))))
 
@@ -53,12 +62,18 @@ $(GEN)/.stamp: build/whirl $(MODELS) mk/setup/update_files.sh
 	$(Q)rm -rf build/gen.new && mkdir build/gen.new && build/whirl emit-scenes build/gen.new
 	$(Q)sh mk/setup/update_files.sh build/gen.new $(GEN) builtin_models.c
 	@touch $@
+else
+$(GEN)/.stamp: # if it is missing: by the main configuration, with none of the settings of this one
+	@env -i PATH="$$PATH" $(MAKE_COMMAND) $@
 endif
+
+# What includes their headers.
+$(foreach b,host float double $(BOARD),$(patsubst %,$(B)/$(b)/%.o,tests/core/test_scenes boards/programs/size)): \
+    | $(GEN)/.stamp
 
 # --- make run -----------------------------------------------------------------------------------
 .PHONY: run-now
-run-now: build/whirl
-	@$(MAKE) $(GEN)/.stamp
+run-now: $(GEN)/.stamp
 	@$(MAKE) $(ELF)/scenes.elf $(ELF)/firmware.elf
 	@sh mk/demo/run.sh build/whirl $(ELF)/scenes.elf $(ELF)/firmware.elf \
 	    '$(call BOARD_EMULATE,IMAGE)'

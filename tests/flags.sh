@@ -140,7 +140,7 @@ compile() { # compile COMPILER REAL FLAGS...: $scratch/program, with what was sa
     # shellcheck disable=SC2086 # lists of words
     if [ "$by" = arm-none-eabi-gcc ]; then
         $by $own $board_flags "$@" -nostdlib -T$board/board.ld -L. -o "$scratch/program" \
-            "$scratch"/build/gen/*.c core/*.c boards/programs/scenes.c boards/cortexm/*.c -lgcc
+            "$scratch"/build/gen/*.c core/*.c boards/programs/scenes.c boards/cortexm/*.c boards/shared/*.c -lgcc
     elif [ "$link" = "$all" ]; then
         $by $own "$@" -o "$scratch/program" "$scratch"/build/gen/*.c core/*.c \
             boards/programs/scenes.c boards/host/board.c

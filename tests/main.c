@@ -26,7 +26,9 @@ static void test_suite_ran_a_test(void) {
 static void run_suite(const struct suite *each) {
     suite_name = each->name;
     tests_before = (unsigned)Unity.NumberOfTests;
+    UnitySetTestFile(each->file);
     each->run();
+    UnitySetTestFile(__FILE__);
     RUN_TEST(test_suite_ran_a_test);
 }
 

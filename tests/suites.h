@@ -4,6 +4,7 @@
 
 struct suite {
     const char *name;
+    const char *file; /* that defines it: what its lines begin with */
     void (*run)(void);
 };
 

@@ -30,32 +30,31 @@ _Noreturn void board_exit(int code) {
     }
 }
 
-#define PAINT 0x57A7C0DEU
+#if __ARM_ARCH >= 7
 
-static const uint32_t *stack_pointer(void) {
-    const uint32_t *now;
-    __asm__ volatile("mov %0, sp" : "=r"(now));
-    return now;
+/* Data watchpoint and trace (Armv7-M Architecture Reference Manual, C1.8). Some Cortex-M7 lock it. */
+#define DEMCR 0xE000EDFCU
+#define DEMCR_TRCENA (1U << 24)
+#define DWT_CTRL 0xE0001000U
+#define DWT_CTRL_CYCCNTENA 1U
+#define DWT_CYCCNT 0xE0001004U
+#define DWT_LAR 0xE0001FB0U
+#define DWT_LAR_KEY 0xC5ACCE55U
+
+bool board_cycles_start(void) {
+    REGISTER(DEMCR) |= DEMCR_TRCENA;
+    REGISTER(DWT_LAR) = DWT_LAR_KEY;
+    REGISTER(DWT_CTRL) |= DWT_CTRL_CYCCNTENA;
+    const uint32_t before = board_cycles();
+    __asm__ volatile("nop\n\tnop\n\tnop\n\tnop" ::: "memory");
+    return board_cycles() != before;
 }
 
-void board_stack_paint(void) {
-    volatile uint32_t *stack = board_stack_limit;
-    const uint32_t unused = board_words(board_stack_limit, stack_pointer());
-    for (uint32_t i = 0; i < unused; i++) {
-        stack[i] = PAINT;
-    }
-}
+uint32_t board_cycles(void) { return REGISTER(DWT_CYCCNT); }
 
-unsigned board_stack_used_bytes(void) {
-    const volatile uint32_t *stack = board_stack_limit;
-    const uint32_t all = board_words(board_stack_limit, board_stack_top);
-    uint32_t unused = 0;
-    while (unused < all && stack[unused] == PAINT) {
-        unused++;
-    }
-    return (unsigned)((all - unused) * sizeof *stack);
-}
+#else
 
-unsigned board_stack_size_bytes(void) {
-    return (unsigned)(board_words(board_stack_limit, board_stack_top) * sizeof(uint32_t));
-}
+bool board_cycles_start(void) { return false; }
+uint32_t board_cycles(void) { return 0; }
+
+#endif

@@ -6,9 +6,7 @@
 #include <stdint.h>
 
 #include "board_data.h"
-
-/* A 32-bit register by its address. */
-#define REGISTER(address) (*(volatile uint32_t *)(uintptr_t)(address))
+#include "boards/shared/metal.h"
 
 /* System control space, the same on every Armv7-M core (Armv7-M Architecture Reference Manual,
  * B3.2). Armv6-M lacks the FPU and the fault status registers. */
@@ -19,20 +17,7 @@
 #define SCB_BFAR 0xE000ED38U  /* address of a bus fault, when CFSR says it is valid */
 #define MPU_TYPE 0xE000ED90U  /* how many regions there are, if any */
 #define MPU_CTRL 0xE000ED94U
-#define MPU_RBAR 0xE000ED9CU
-#define MPU_RASR 0xE000EDA0U
 #define SCB_CPACR 0xE000ED88U /* coprocessor access: the FPU is 10 and 11 */
-
-/* Laid out by sections.ld. */
-extern uint32_t board_stack_guard[]; /* 256 bytes below the stack, nobody's */
-extern uint32_t board_stack_limit[]; /* lowest word of the stack */
-extern uint32_t board_stack_top[];   /* one past its highest word */
-extern uint32_t board_fault_stack_top[];
-
-/* Words from `low` up to `high`: two symbols of the linker script, which to C are two objects. */
-static inline uint32_t board_words(const uint32_t *low, const uint32_t *high) {
-    return (uint32_t)(((uintptr_t)high - (uintptr_t)low) / sizeof *low);
-}
 
 /* The console's device, one driver file a family of chips. uart_start() may be called again at any
  * time, also from the fault handler before anything else is up. */

@@ -1,16 +1,28 @@
-# cortexm.mk: what the boards of this family share. A board.mk sets BOARD_MACHINE, its name in QEMU and its folder,
-# BOARD_CPU and BOARD_SECONDS, and includes this:
+# cortexm.mk: what the boards of this family share. A board.mk sets, and then includes this:
 #
+#   BOARD_MACHINE  its name in QEMU
+#   BOARD_CPU      the flags that name the processor
+#   BOARD_MATH     further flags
+#   BOARD_SECONDS  how long a program may run
+#   BOARD_TIMING   the core whose cycles mk/count/thumb_cycles.h estimates, if any
+#   BOARD_WHEN     what takes the board by itself: `test`, `check` or `all` (mk/board.mk)
+#
+# This sets
+#
+#   BOARD_DEPS     the group of mk/setup/deps.sh that installs its tools
 #   BOARD_CC       compiler; BOARD_NM, BOARD_SIZE, BOARD_OBJCOPY, BOARD_OBJDUMP its tools
-#   BOARD_CPU      the flags that name the machine
 #   BOARD_CFLAGS   everything for compiling (BOARD_CPU included), warnings excepted
 #   BOARD_LDFLAGS  everything for linking, before the objects
 #   BOARD_LDLIBS   after the objects
 #   BOARD_SOURCES  the board's own code, to be linked with every program
+#   BOARD_TIDY     what clang-tidy takes these sources for
+#   BOARD_EMULATOR the emulator's command
 #   BOARD_EMULATE  $(call BOARD_EMULATE,program.elf) runs it for BOARD_SECONDS at most; console on stdout,
 #                  exit status the program's; more emulator options may be appended
 #
-# Another family sets the same variables. No rules here: paths are from the repository's root.
+# Another family asks for what it takes and sets the same variables. No rules here: paths are from the repository's root.
+$(call board_needs,BOARD_MACHINE BOARD_CPU BOARD_SECONDS,: it stands before the include of boards/cortexm/cortexm.mk)
+BOARD_DEPS     := firmware
 BOARD_CROSS    := arm-none-eabi-
 BOARD_CC       := $(BOARD_CROSS)gcc
 BOARD_NM       := $(BOARD_CROSS)nm
@@ -19,11 +31,13 @@ BOARD_OBJCOPY  := $(BOARD_CROSS)objcopy
 BOARD_OBJDUMP  := $(BOARD_CROSS)objdump
 BOARD_CFLAGS   := $(BOARD_CPU) -std=c11 -O2 -ffp-contract=off $(BOARD_MATH) -ffreestanding \
                   -ffunction-sections -fdata-sections -fstack-usage -fcallgraph-info=su \
-                  -Iboards/$(BOARD_MACHINE) -I.
-BOARD_LDFLAGS  := $(BOARD_CPU) -nostdlib -Tboards/$(BOARD_MACHINE)/board.ld -L. -Wl,--gc-sections \
+                  -Iboards/$(BOARD) -I.
+BOARD_LDFLAGS  := $(BOARD_CPU) -nostdlib -Tboards/$(BOARD)/board.ld -L. -Wl,--gc-sections \
                   -Wl,--fatal-warnings
 BOARD_LDLIBS   := -lgcc
-BOARD_SOURCES  := boards/cortexm/startup.c boards/cortexm/board.c boards/cortexm/fault.c \
-                  boards/cortexm/cmsdk.c boards/cortexm/mem.c
-BOARD_EMULATE   = timeout $(BOARD_SECONDS) qemu-system-arm -M $(BOARD_MACHINE) -nographic \
+BOARD_TIDY     := --target=arm-none-eabi $(filter -mcpu=%,$(BOARD_CPU)) -ffreestanding -Iboards/$(BOARD)
+BOARD_SOURCES  := boards/cortexm/startup.c boards/cortexm/guard.c boards/cortexm/board.c \
+                  boards/cortexm/fault.c boards/cortexm/cmsdk.c boards/shared/mem.c boards/shared/stack.c
+BOARD_EMULATOR := qemu-system-arm
+BOARD_EMULATE   = timeout $(BOARD_SECONDS) $(BOARD_EMULATOR) -M $(BOARD_MACHINE) -nographic \
                   -semihosting-config enable=on,target=native -kernel $(1) </dev/null

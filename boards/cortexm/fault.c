@@ -39,6 +39,9 @@ static void add_register(wh_text *text, const char *name, uint32_t value) {
     wh_text_add_hex(text, value, 8);
 }
 
+/* Armv8-M's, when the stack pointer would have passed MSPLIM; nothing was stacked below it then. */
+#define STACK_LIMIT_PASSED (1U << 20)
+
 #if __ARM_ARCH >= 7
 /* The causes that come up in practice (Armv7-M Architecture Reference Manual, B3.2.15). */
 static const char *cause_of(uint32_t cfsr) {
@@ -57,6 +60,7 @@ static const char *cause_of(uint32_t cfsr) {
         {1U << 17, "jump to a non-Thumb address"},
         {1U << 18, "bad exception return"},
         {1U << 19, "no FPU or FPU switched off"},
+        {STACK_LIMIT_PASSED, "stack limit passed"},
         {1U << 24, "unaligned access"},
         {1U << 25, "division by zero"},
     };
@@ -73,7 +77,12 @@ __attribute__((used)) _Noreturn void board_fault_report(const uint32_t *frame, u
     char line[240];
     wh_text text;
     const uintptr_t at = (uintptr_t)frame;
-    const bool overflow = at < (uintptr_t)board_stack_limit;
+#if __ARM_ARCH >= 7
+    const uint32_t cfsr = REGISTER(SCB_CFSR);
+#else
+    const uint32_t cfsr = 0;
+#endif
+    const bool overflow = at < (uintptr_t)board_stack_limit || (cfsr & STACK_LIMIT_PASSED) != 0;
     wh_text_start(&text, line, sizeof line);
     wh_text_add(&text, "\nfault: ");
     wh_text_add(&text, name_of(exception));
@@ -90,7 +99,6 @@ __attribute__((used)) _Noreturn void board_fault_report(const uint32_t *frame, u
         add_register(&text, " LR", frame[5]);
     }
 #if __ARM_ARCH >= 7
-    const uint32_t cfsr = REGISTER(SCB_CFSR);
     add_register(&text, " CFSR", cfsr);
     add_register(&text, " HFSR", REGISTER(SCB_HFSR));
     if ((cfsr & (1U << 15)) != 0) {

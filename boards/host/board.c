@@ -44,3 +44,6 @@ uint32_t board_ticks(void) {
 void board_stack_paint(void) {}
 unsigned board_stack_used_bytes(void) { return 0; }
 unsigned board_stack_size_bytes(void) { return 0; }
+
+bool board_cycles_start(void) { return false; }
+uint32_t board_cycles(void) { return 0; }

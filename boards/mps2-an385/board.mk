@@ -3,4 +3,6 @@ BOARD_MACHINE  := mps2-an385
 BOARD_CPU      := -mcpu=cortex-m3 -mthumb
 BOARD_MATH     :=
 BOARD_SECONDS  := 900
+BOARD_TIMING   := m3
+BOARD_WHEN     := test
 include boards/cortexm/cortexm.mk

@@ -4,4 +4,6 @@ BOARD_MACHINE  := mps2-an386
 BOARD_CPU      := -mcpu=cortex-m4 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard
 BOARD_MATH     := -fno-math-errno
 BOARD_SECONDS  := 60
+BOARD_TIMING   := m4
+BOARD_WHEN     := test
 include boards/cortexm/cortexm.mk

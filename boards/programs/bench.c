@@ -5,8 +5,10 @@
  *
  *     count NAME METHOD NUMBER FIRST LAST    intervals FIRST to LAST hold one step each
  *     stack NAME BYTES                       deepest stack of the program during those steps
+ *     silicon NAME MIN MEDIAN MAX            cycles of a step, where the processor counts them itself (board.h)
  *     failed NAME STATUS                     the scene could not be counted
  *
+ * Built with BENCH_SMALL=1 it leaves out the language's functions and the processor's own count, for small memories.
  * Built with COUNT_RECORDS=1 it counts the computing of the outputs as well, with "record" as METHOD.
  *
  * Interval 0 is around nothing. On a board an interval holds the call too (loading the arguments
@@ -21,6 +23,9 @@
 #endif
 #ifndef COUNT_RECORDS
 #define COUNT_RECORDS 0
+#endif
+#ifndef BENCH_SMALL
+#define BENCH_SMALL 0
 #endif
 #define COUNTED_RECORDS 100U
 #define OUTPUTS_MAX 64U
@@ -98,6 +103,7 @@ static void count_records(const wh_scene *scene, wh_state *state) {
 }
 #endif
 
+#if !BENCH_SMALL
 static const struct {
     const char *name;
     wh_real (*one)(wh_real x);
@@ -145,6 +151,29 @@ static void count_functions(void) {
     }
 }
 
+/* Cycles of each of some steps, as the processor counts them, in order of size. */
+static void time_scene(const wh_scene *scene, wh_state *state) {
+    static uint32_t sorted[COUNTED_STEPS];
+    uint32_t before = board_cycles();
+    const uint32_t nothing = board_cycles() - before;
+    for (unsigned i = 0; i < COUNTED_STEPS; i++) {
+        before = board_cycles();
+        (void)wh_scene_step(scene, state);
+        const uint32_t taken = board_cycles() - before - nothing;
+        unsigned place = i;
+        for (; place > 0 && sorted[place - 1U] > taken; place--) {
+            sorted[place] = sorted[place - 1U];
+        }
+        sorted[place] = taken;
+    }
+    line_begin("silicon", scene->name);
+    line_number(sorted[0]);
+    line_number(sorted[(COUNTED_STEPS - 1U) / 2U]);
+    line_number(sorted[COUNTED_STEPS - 1U]);
+    line_end();
+}
+#endif
+
 static bool count_scene(const wh_scene *scene) {
     wh_state state;
     wh_status status = wh_scene_start(scene, &state, memory, sizeof memory);
@@ -166,6 +195,11 @@ static bool count_scene(const wh_scene *scene) {
     say_stack(scene->name);
     say_counted(scene->name, wh_methods[scene->method].word, scene->compensated, first,
                 intervals - 1U);
+#if !BENCH_SMALL
+    if (board_cycles_start()) {
+        time_scene(scene, &state);
+    }
+#endif
 #if COUNT_RECORDS
     count_records(scene, &state);
 #endif
@@ -176,7 +210,9 @@ int main(void) {
     board_start();
     count_nothing();
     count_pairs();
+#if !BENCH_SMALL
     count_functions();
+#endif
     bool all = true;
     for (unsigned i = 0; i < wh_scene_count; i++) {
         all = count_scene(wh_scenes[i]) && all;

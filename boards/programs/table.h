@@ -6,10 +6,12 @@
 #include "core/scene.h"
 
 /* Memory for any of them: up to 16 angles, 48 reals, 16 inputs and as many contacts, with the ledger, compensated or
- * not, in either number. */
+ * not, in either number. A program of one scene may be told what that takes. */
+#ifndef WH_SCENE_WORDS
 #define WH_SCENE_WORDS \
     (WH_STATE_WORDS(16, 48, 16) + WH_CONTACT_WORDS(16) + WH_HELD_WORDS(16) + \
      WH_LEDGER_WORDS(128, 17))
+#endif
 
 /* The most that one step evaluates: the accelerations, and the contacts' signals. */
 typedef struct wh_scene_bound {

@@ -1,11 +1,11 @@
-/* algebra.h: the tables in which the objects of poly.h are interned. For host/algebra only. */
+/* algebra.h: the tables in which the objects of normal_form.h are interned, and what makes these. For host/algebra only. */
 #ifndef ALGEBRA_ALGEBRA_H
 #define ALGEBRA_ALGEBRA_H
 
 #include <stddef.h>
 
 #include "host/base/arena.h"
-#include "poly.h"
+#include "normal_form.h"
 
 typedef struct intern_slot {
     uint64_t hash;

@@ -1,5 +1,6 @@
 /* calculus.c: derivatives, substitution, and the way from a parsed expression to its normal form. */
 #include "algebra.h"
+#include "poly.h"
 
 #include <math.h>
 #include <stdlib.h>

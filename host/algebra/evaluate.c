@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "algebra.h"
+#include "poly.h"
 
 static double atom_value(const atom *x, poly_value *value, void *context) {
     if (x->kind == ATOM_SYMBOL) {

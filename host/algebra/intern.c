@@ -6,6 +6,7 @@
 #include "algebra.h"
 #include "host/base/hashing.h"
 #include "host/base/room.h"
+#include "poly.h"
 
 /* An expression that needs more work than this is given up on: some 300 MB, or a few seconds. */
 #define WORK_MAX ((size_t)1 << 28)

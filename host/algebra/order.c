@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "algebra.h"
+#include "poly.h"
 
 static int of_ints(int x, int y) { return (x > y) - (x < y); }
 

@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "algebra.h"
+#include "poly.h"
 
 /* Sums below this part of what was added are rounding errors of the decimals they came from. */
 #define CANCELLED 1e-14

@@ -1,6 +1,7 @@
 /* slopes.c: the derivative of each of the language's functions, in symbols: one function for each row of
  * host/number/function_rows.h, slope_of_<word>(). The first argument is x, the second, where there is one, y. */
 #include "algebra.h"
+#include "poly.h"
 
 typedef struct call {
     const poly *x;

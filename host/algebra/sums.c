@@ -3,6 +3,7 @@
 
 #include "algebra.h"
 #include "host/base/room.h"
+#include "poly.h"
 
 static void push(poly_sum *s, const mono *m, double coefficient) {
     if (s->count == s->room) {

@@ -2,15 +2,27 @@
 #ifndef BASE_EXIT_H
 #define BASE_EXIT_H
 
-/* X(name, status, meaning) */
+#include <stdio.h>
+
+/* X(name, status, meaning): all that anybody says of them is made of these rows. */
 #define EXIT_ROWS(X) \
     X(EXIT_DONE, 0, "done") \
-    X(EXIT_RUN_FAILED, 1, "the run failed") \
+    X(EXIT_RUN_FAILED, 1, "failed") \
     X(EXIT_BAD_INPUT, 2, "bad input") \
     X(EXIT_INTERRUPTED, 130, "interrupted") /* 128 + SIGINT, as shells have it */
 
 #define EXIT_VALUE(name, status, meaning) name = status,
 enum { EXIT_ROWS(EXIT_VALUE) };
 #undef EXIT_VALUE
+
+#define EXIT_ROW_OF(name) name##_ROW
+#define EXIT_ROW(name, status, meaning) EXIT_ROW_OF(name),
+enum { EXIT_ROWS(EXIT_ROW) EXITS };
+#undef EXIT_ROW
+
+/* The part of a help text that says with which status a command ends: a line for each row, with what that means there,
+ * why[EXIT_ROW_OF(name)]; "" adds nothing, and NULL leaves the line out. Lines after the first of `why` begin with
+ * seven spaces. */
+void exit_describe(FILE *out, const char *const *why);
 
 #endif

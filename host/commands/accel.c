@@ -21,11 +21,12 @@ static const command_usage usage = {
         "Coordinates, their rates, inputs and parameters can be set, each once; values are SI, or carry\n"
         "a unit: \"theta'=330 [rpm]\". What is left out is 0, or has its declared value. The results are SI.\n"
         "SCENE and MECHANISM are built in (`whirl list`). A scene brings its effects, whose parameters can\n"
-        "be set then.\n"
-        "\n"
-        "Exit status: 0 done; 1 they are not finite numbers there (it says which expression is not); 2 bad\n"
-        "input.\n",
-    .tail = ""};
+        "be set then.\n",
+    .tail = "",
+    .why = {[EXIT_ROW_OF(EXIT_DONE)] = "",
+            [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
+                "they are not finite numbers there; it says which expression is not",
+            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = ""}};
 
 static bool is_finite(const image *im, const double *result) {
     for (int i = 0; i < im->count; i++) {

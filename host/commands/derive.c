@@ -29,13 +29,30 @@ static void octave(const loaded *made, const char *file) {
 
 static void c(const loaded *made, const char *file) { emit_c(stdout, made->image, file); }
 
+static const char *taken_in_octave(const char *name, bool with_header) {
+    (void)with_header;
+    return emit_octave_name_is_free(name) ? NULL : "a word of Octave or Matlab";
+}
+
+static const char *taken_in_c(const char *name, bool with_header) {
+    if (!emit_c_name_is_free(name)) {
+        return "a word of C, of its library or of the core";
+    }
+    return with_header && !emit_c_name_is_free_in_cpp(name) ? "a word of C++" : NULL;
+}
+
+/* All that the command knows of a form. */
 typedef struct form_row {
     const char *word;
     void (*print)(const loaded *made, const char *file);
     bool shows; /* equations, of each mechanism of a file one after another; else it is code */
-    bool named; /* holds the scene's name: --name */
-    bool runs;  /* steps the scene: momenta, method and number matter, and it has a header */
-    bool tells_contacts; /* in words, since it has no steps of its own for them */
+    bool runs;  /* steps the scene: momenta, method and number matter */
+    /* Code that holds the scene's name (--name): what else has that name there, or NULL. */
+    const char *(*name_taken_by)(const char *name, bool with_header);
+    /* Code that has a header (--header). */
+    void (*print_header)(FILE *out, const image *im, const char *file);
+    /* Code that has no steps of its own for contacts: begins each line that tells of them. */
+    const char *comment;
     const char *text;
 } form_row;
 
@@ -48,12 +65,40 @@ static const form_row forms[] = {
     {.word = "latex", .print = latex, .shows = true, .text = "the same for a paper (with amsmath)"},
     {.word = "octave",
      .print = octave,
-     .named = true,
-     .tells_contacts = true,
+     .name_taken_by = taken_in_octave,
+     .comment = EMIT_OCTAVE_COMMENT,
      .text = "a function file that Octave and Matlab integrate as it stands"},
-    {.word = "c", .print = c, .named = true, .runs = true, .text = "the scene as C for the core"},
+    {.word = "c",
+     .print = c,
+     .runs = true,
+     .name_taken_by = taken_in_c,
+     .print_header = emit_c_header,
+     .text = "the scene as C for the core"},
 };
-enum { FORMS = sizeof forms / sizeof forms[0] };
+enum { FORMS = sizeof forms / sizeof forms[0], FORMS_TEXT_SIZE = 16 + 16 * FORMS };
+
+static bool has_a_name(const form_row *form) { return form->name_taken_by != NULL; }
+static bool has_a_header(const form_row *form) { return form->print_header != NULL; }
+static bool has_steps(const form_row *form) { return form->runs; }
+
+/* "--as octave or c": those of which that is true. Returns `said`. */
+static const char *forms_with(bool (*is_true)(const form_row *form), char said[FORMS_TEXT_SIZE]) {
+    size_t length = (size_t)snprintf(said, FORMS_TEXT_SIZE, "--as");
+    int left = 0;
+    for (int i = 0; i < FORMS; i++) {
+        left += is_true(&forms[i]);
+    }
+    const int all = left;
+    for (int i = 0; i < FORMS && length < FORMS_TEXT_SIZE; i++) {
+        if (is_true(&forms[i])) {
+            const char *before = left == all ? " " : left > 1 ? ", " : " or ";
+            length += (size_t)snprintf(said + length, FORMS_TEXT_SIZE - length, "%s%s", before,
+                                       forms[i].word);
+            left--;
+        }
+    }
+    return said;
+}
 
 static const command_usage usage = {
     .head =
@@ -63,20 +108,45 @@ static const command_usage usage = {
         "built in (`whirl list`):\n",
     .tail = ""};
 static const command_usage options_of_derive = {
-    .head =
-        "  --header FILE, with --as c: its header, for C and C++: names of components, inputs and outputs,\n"
-        "               their units, the memory that it takes\n"
-        "  --name NAME, with --as c or octave: what the scene is called there, so that one program can hold\n"
-        "               it twice: with and without an effect, compensated and not\n",
-    .groups = OPTIONS_CHANGE | OPTIONS_ENGINE,
-    .tail = "Numbers in formulas are SI. The method matters to the C form only.\n"};
+    .head = "", .groups = OPTIONS_CHANGE | OPTIONS_ENGINE, .tail = "Numbers in formulas are SI. "};
+
+static void print_option(FILE *out, const char *option, bool (*of)(const form_row *form),
+                         const char *what) {
+    char said[FORMS_TEXT_SIZE];
+    const int column = fprintf(out, "  %s, with %s: ", option, forms_with(of, said));
+    options_text(out, what, column, 15, 99);
+}
 
 static void print_usage(FILE *out) {
+    char said[FORMS_TEXT_SIZE];
     options_usage(out, &usage);
     for (int i = 0; i < FORMS; i++) {
         fprintf(out, "  --as %-8s%s\n", forms[i].word, forms[i].text);
     }
+    print_option(
+        out, "--header FILE", has_a_header,
+        "its header, for C and C++: names of components, inputs and outputs, their units, the "
+        "memory that it takes");
+    print_option(out, "--name NAME", has_a_name,
+                 "what the scene is called there, so that one program can hold it twice: with and "
+                 "without an effect, compensated and not");
     options_usage(out, &options_of_derive);
+    fprintf(out, "The method matters to %s only.\n", forms_with(has_steps, said));
+}
+
+/* Does the option, "--header" or so, with its value's word, go with this form? Else it is said with which. */
+static bool goes_with(const char *option, const char *value, bool (*of)(const form_row *form),
+                      const form_row *as) {
+    char said[FORMS_TEXT_SIZE];
+    int first = 0;
+    while (first + 1 < FORMS && !of(&forms[first])) {
+        first++;
+    }
+    if (!of(as)) {
+        fprintf(stderr, "whirl derive: error: %s goes with %s\nhint: --as %s %s %s\n", option,
+                forms_with(of, said), forms[first].word, option, value);
+    }
+    return of(as);
 }
 
 /* The files that --header must not be, which are read and written at the same time. */
@@ -102,11 +172,12 @@ static bool header_is_apart(const source_model *from, const char *header) {
     return true;
 }
 
-static bool write_header(const image *im, const char *file, const char *header) {
+static bool write_header(const form_row *as, const image *im, const char *file,
+                         const char *header) {
     FILE *out = fopen(header, "w");
     bool written = out != NULL;
     if (written) {
-        emit_c_header(out, im, file);
+        as->print_header(out, im, file);
         written = fflush(out) == 0 && ferror(out) == 0;
     }
     if (!written) {
@@ -118,25 +189,27 @@ static bool write_header(const image *im, const char *file, const char *header) 
     return written;
 }
 
-/* Can this be C for the core? Else it is said why. */
-static bool has_c_form(const image *im, source_model *from, const char *header) {
-    if (!start_angles_are_held(im, from->errors)) {
-        diags_flush(from->errors, stderr);
-        return false;
-    }
-    if (!emit_c_name_is_free(im->name) ||
-        (header != NULL && !emit_c_name_is_free_in_cpp(im->name))) {
+/* Can code of that form have the scene's name? Else it is said why. */
+static bool has_name(const image *im, const source_model *from, const form_row *as,
+                     const char *header) {
+    const char *taken_by = as->name_taken_by(im->name, header != NULL);
+    if (taken_by != NULL) {
         fprintf(stderr,
-                "%s: error: '%s' is a word of C%s or of the core: the generated scene cannot "
-                "have that name\nhint: rename it, or give it another for this: --name NAME\n",
-                from->file, im->name, emit_c_name_is_free(im->name) ? "++" : "");
-        return false;
+                "%s: error: '%s' is %s: the generated scene cannot have that name\n"
+                "hint: rename it, or give it another for this: --name NAME\n",
+                from->file, im->name, taken_by);
     }
-    if (!start_has_method(im, im->settings.method, from->errors)) {
+    return taken_by == NULL;
+}
+
+/* Can this be C for the core? Else it is said why. */
+static bool has_c_form(const image *im, source_model *from) {
+    const bool has = start_angles_are_held(im, from->errors) &&
+                     start_has_method(im, im->settings.method, from->errors);
+    if (!has) {
         diags_flush(from->errors, stderr);
-        return false;
     }
-    return true;
+    return has;
 }
 
 static int derive_one(source_model *from, const mechanism *of, const scene *in,
@@ -146,15 +219,16 @@ static int derive_one(source_model *from, const mechanism *of, const scene *in,
                             .use = IMAGE_TO_WRITE,
                             .keep = as->shows ? KEEP_EQUATIONS : KEEP_IMAGE,
                             .conserve = as->runs,
-                            .contacts = as->tells_contacts};
+                            .comment = as->comment};
     loaded made;
     int code = load(&made, from, of, in, changes, &wish);
     if (!as->shows) {
         source_forget(from);
     }
-    if (code == EXIT_DONE && as->runs &&
-        (!has_c_form(made.image, from, header) ||
-         (header != NULL && !write_header(made.image, from->file, header)))) {
+    if (code == EXIT_DONE &&
+        ((has_a_name(as) && !has_name(made.image, from, as, header)) ||
+         (as->runs && !has_c_form(made.image, from)) ||
+         (header != NULL && !write_header(as, made.image, from->file, header)))) {
         code = EXIT_BAD_INPUT;
     }
     if (code == EXIT_DONE) {
@@ -192,8 +266,7 @@ int command_derive(int count, char **words) {
     const char *target = NULL;
     const char *header = NULL;
     const form_row *as = &forms[0];
-    change_options options = {0};
-    image_settings settings = {WH_METHOD_DEFAULT, false, ANGLES_TURNED};
+    common_options options = options_defaults();
     bool bad = false;
     if (options_wants_help(count, words)) {
         print_usage(stdout);
@@ -213,9 +286,11 @@ int command_derive(int count, char **words) {
             }
             header = value;
         } else if (!bad && (value = options_value(count, words, &at, "--name", &bad)) != NULL) {
-            bad = !take_name(&options, value);
-        } else if (!bad && !options_change(count, words, &at, &options, &bad) && !bad &&
-                   !options_engine("derive", count, words, &at, &settings, &bad) && !bad) {
+            bad = !take_name(&options.change, value);
+        } else if (!bad &&
+                   !options_take("derive", options_of_derive.groups, count, words, &at, &options,
+                                 &bad) &&
+                   !bad) {
             if (words[at][0] == '-' && words[at][1] != '\0') {
                 options_unknown("derive", words[at], options_of_derive.groups,
                                 (const char *const[]){"--as", "--header", "--name", NULL});
@@ -229,32 +304,25 @@ int command_derive(int count, char **words) {
             }
         }
     }
-    if (!bad && header != NULL && !as->runs) {
-        fputs("whirl derive: error: --header goes with the C form\nhint: --as c --header FILE\n",
-              stderr);
-        bad = true;
-    }
-    if (!bad && options.name != NULL && !as->named) {
-        fputs("whirl derive: error: --name goes with the C form and Octave's\n", stderr);
-        bad = true;
-    }
+    bad = bad || (header != NULL && !goes_with("--header", "FILE", has_a_header, as)) ||
+          (options.change.name != NULL && !goes_with("--name", "NAME", has_a_name, as));
     if (bad || target == NULL) {
         if (!bad) {
             print_usage(stderr);
         }
-        change_options_free(&options);
+        options_forget(&options);
         return EXIT_BAD_INPUT;
     }
     source_model from;
     int code = source_open(&from, target);
-    const overrides changes = change_options_overrides(&options);
+    const overrides changes = options_overrides(&options.change);
     if (code == EXIT_DONE && from.name[0] == '\0' && as->shows) {
         for (int i = 0; i < from.model->mechanism_count && code == EXIT_DONE; i++) {
             if (i > 0) {
                 putchar('\n');
             }
-            code =
-                derive_one(&from, from.model->mechanisms[i], NULL, &changes, as, &settings, NULL);
+            code = derive_one(&from, from.model->mechanisms[i], NULL, &changes, as,
+                              &options.integration, NULL);
         }
     } else if (code == EXIT_DONE) {
         const mechanism *of;
@@ -264,10 +332,10 @@ int command_derive(int count, char **words) {
         if (code == EXIT_DONE) {
             code = header != NULL && !header_is_apart(&from, header)
                        ? EXIT_BAD_INPUT
-                       : derive_one(&from, of, in, &changes, as, &settings, header);
+                       : derive_one(&from, of, in, &changes, as, &options.integration, header);
         }
     }
     source_close(&from);
-    change_options_free(&options);
+    options_forget(&options);
     return code;
 }

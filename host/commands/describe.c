@@ -20,8 +20,7 @@ static const command_usage usage = {
     .tail = ""};
 
 typedef struct describe_options {
-    change_options changes;
-    image_settings settings;
+    common_options common;
     const char *target;
     bool as_json;
 } describe_options;
@@ -32,8 +31,8 @@ static bool read_options(int count, char **words, describe_options *o) {
         if (strcmp(words[at], "--json") == 0) {
             o->as_json = true;
             at++;
-        } else if (!options_change(count, words, &at, &o->changes, &bad) && !bad &&
-                   !options_engine("describe", count, words, &at, &o->settings, &bad) && !bad) {
+        } else if (!options_take("describe", usage.groups, count, words, &at, &o->common, &bad) &&
+                   !bad) {
             if (words[at][0] == '-' && words[at][1] != '\0') {
                 options_unknown("describe", words[at], usage.groups,
                                 (const char *const[]){"--json", NULL});
@@ -57,8 +56,9 @@ static bool read_options(int count, char **words, describe_options *o) {
 static int describe_loaded(source_model *from, const describe_options *o) {
     const mechanism *of;
     const scene *in;
-    const overrides changes = change_options_overrides(&o->changes);
-    const load_wish wish = {.settings = o->settings, .use = IMAGE_TO_WRITE, .conserve = true};
+    const overrides changes = options_overrides(&o->common.change);
+    const load_wish wish = {
+        .settings = o->common.integration, .use = IMAGE_TO_WRITE, .conserve = true};
     loaded made;
     int code = source_pick(from, from->model->scene_count == 1, &of, &in);
     if (code != EXIT_DONE) {
@@ -76,7 +76,7 @@ static int describe_loaded(source_model *from, const describe_options *o) {
 }
 
 int command_describe(int count, char **words) {
-    describe_options o = {.settings = {WH_METHOD_DEFAULT, false, ANGLES_TURNED}};
+    describe_options o = {.common = options_defaults()};
     if (options_help(count, words, &usage)) {
         return EXIT_DONE;
     }
@@ -89,6 +89,6 @@ int command_describe(int count, char **words) {
         }
         source_close(&from);
     }
-    change_options_free(&o.changes);
+    options_forget(&o.common);
     return code;
 }

@@ -4,18 +4,23 @@
 
 #include "commands.h"
 #include "host/lang/builtin.h"
+#include "host/lang/units.h"
 #include "load.h"
 #include "options.h"
 
 static const command_usage usage = {
     .head =
         "usage: whirl list [FILE ...] [--as text|table]\n"
+        "       whirl list --units\n"
         "\n"
         "The mechanisms and scenes of FILEs, or the built-in ones:\n"
         "  --as text    a line each: kind, name, title (default)\n"
         "  --as table   for programs: also the effects, a line each, fields between tabs, the names of the\n"
-        "               fields first; '-' stands for nothing. What it holds is terms, contacts, noise\n"
-        "               and conserve; lines are those of its block, of a mechanism the one of its name.\n",
+        "               fields first; '-' stands for nothing; \\t, \\n, \\r, \\\\ for what would end a field.\n"
+        "               What it holds is terms, contacts, noise and conserve; lines are those of its\n"
+        "               block, of a mechanism the one of its name.\n"
+        "  --units      every unit that a file may write, what it is in SI and how much of it; a line each,\n"
+        "               fields between tabs\n",
     .tail = ""};
 
 enum { OUTSIDE = -1 }; /* of every effect */
@@ -85,17 +90,29 @@ static void put_what_is_in_scene(const scene *in) {
     end_words(any);
 }
 
-/* A title is one line, without tabs. */
-static void put_title(const char *title) {
-    for (const char *at = title; *at != '\0'; at++) {
-        putchar(*at == '\t' ? ' ' : *at);
+/* A text that may hold anything, as C writes it: neither a field's end nor a line's is in it. */
+static void put_text(const char *text) {
+    for (const char *at = text; *at != '\0'; at++) {
+        switch (*at) {
+        case '\t': fputs("\\t", stdout); break;
+        case '\n': fputs("\\n", stdout); break;
+        case '\r': fputs("\\r", stdout); break;
+        case '\\': fputs("\\\\", stdout); break;
+        default: putchar(*at); break;
+        }
     }
-    fputs(title[0] == '\0' ? "-\n" : "\n", stdout);
+}
+
+static void put_title(const char *title) {
+    put_text(title[0] == '\0' ? "-" : title);
+    putchar('\n');
 }
 
 static void put_place(const char *kind, const char *name, const mechanism *of, const char *file,
                       int first_line, int last_line) {
-    printf("%s\t%s\t%s\t%s\t%d\t%d\t", kind, name, of->name, file, first_line, last_line);
+    printf("%s\t%s\t%s\t", kind, name, of->name);
+    put_text(file);
+    printf("\t%d\t%d\t", first_line, last_line);
 }
 
 /* Step and length of a scene, or of the mechanism at rest; false when they are wrong (reported). */
@@ -220,10 +237,22 @@ static int list_file(const char *file, const form *as, bool first) {
     return code;
 }
 
+static int list_units(void) {
+    char si[DIM_TEXT_SIZE];
+    double value;
+    puts("unit\tsi\tvalue");
+    for (int i = 0; unit_name(i) != NULL; i++) {
+        unit_in_si(i, &value, si, sizeof si);
+        printf("%s\t%s\t%.17g\n", unit_name(i), si, value);
+    }
+    return EXIT_DONE;
+}
+
 int command_list(int count, char **words) {
     const form *as = &forms[0];
     int files = 0; /* words[0..files-1] */
     bool bad = false;
+    bool units = false;
     if (options_help(count, words, &usage)) {
         return EXIT_DONE;
     }
@@ -232,12 +261,22 @@ int command_list(int count, char **words) {
         if (value != NULL) {
             as = form_of(value);
             bad = as == NULL;
+        } else if (!bad && strcmp(words[at], "--units") == 0) {
+            units = true;
+            at++;
         } else if (!bad && words[at][0] == '-' && words[at][1] != '\0') {
-            options_unknown("list", words[at], 0, (const char *const[]){"--as", NULL});
+            options_unknown("list", words[at], 0, (const char *const[]){"--as", "--units", NULL});
             bad = true;
         } else if (!bad) {
             words[files++] = words[at++];
         }
+    }
+    if (!bad && units && count > 1) {
+        fputs("whirl list: error: --units goes alone\n", stderr);
+        bad = true;
+    }
+    if (!bad && units) {
+        return list_units();
     }
     int code = bad ? EXIT_BAD_INPUT : files == 0 ? list_builtin(as) : EXIT_DONE;
     for (int i = 0; i < files && !bad; i++) {

@@ -12,6 +12,7 @@
 #include "find.h"
 #include "host/base/nearest.h"
 #include "host/base/room.h"
+#include "host/derive/lagrange.h"
 #include "host/lang/hints.h"
 #include "host/lang/override.h"
 #include "host/lang/shown.h"
@@ -211,11 +212,13 @@ static char *hint_for(const instance *inst) {
         friction->at.source->file, friction->at.line, friction->at.column, name, name);
 }
 
-static char *contacts_of(const equations *e) {
+static char *contacts_of(const equations *e, const char *comment) {
     char *text;
     size_t length;
     FILE *out = room_text(&text, &length);
-    show_events(out, e, "% ", "The motion between events. Not in this function:");
+    if (comment != NULL) {
+        show_events(out, e, comment, "The motion between events. Not in this function:");
+    }
     room_text_end(out);
     return text;
 }
@@ -234,7 +237,7 @@ int load(loaded *made, source_model *s, const mechanism *of, const scene *in,
     diags_flush(s->errors, stderr);
     if (made->equations != NULL && made->image != NULL) {
         made->hint = hint_for(made->equations->instance);
-        made->contacts = wish->contacts ? contacts_of(made->equations) : NULL;
+        made->contacts = contacts_of(made->equations, wish->comment);
     }
     if (made->image != NULL &&
         changes != NULL) { /* accel, which prints SI, takes SI without a word */

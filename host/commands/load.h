@@ -41,7 +41,7 @@ typedef struct load_wish {
     image_use use;
     load_keep keep;
     bool conserve; /* the coordinates that the scene names are recovered from their momentum */
-    bool contacts; /* in words, for emit_octave() */
+    const char *comment; /* contacts in words: begins each line of them; NULL: not wished */
 } load_wish;
 
 typedef struct loaded {
@@ -49,7 +49,7 @@ typedef struct loaded {
     instance *instance;   /* NULL unless it is kept; equations have theirs */
     equations *equations; /* NULL unless they are kept */
     char *hint;           /* of what is no error, but has a better way; or NULL */
-    char *contacts;       /* "" without any; NULL unless it was wished */
+    char *contacts;       /* in words, whole lines; "" without any, and unless it was wished */
 } loaded;
 
 /* Derive one instance to its image; errors are printed. What is not kept is freed; whoever needs the model no more

@@ -23,20 +23,27 @@ static const option_row option_rows[OPTIONS] = {OPTION_ROWS(ROW)};
 /* Columns of help texts: where the description begins. */
 enum { TEXT_COLUMN = 23, LINE_COLUMNS = 78 };
 
+void options_text(FILE *out, const char *text, int column, int margin, int width) {
+    for (; *text != '\0'; text++) {
+        const int word = 1 + (int)strcspn(text + 1, " \n"); /* and the blank before it */
+        if (*text == '\n' || (*text == ' ' && column + word > width)) {
+            fprintf(out, "\n%*s", margin, "");
+            column = margin;
+        } else {
+            fputc(*text, out);
+            column++;
+        }
+    }
+    fputc('\n', out);
+}
+
 static void describe(FILE *out, const option_row *row) {
     char methods[METHODS_TEXT_SIZE];
     const int width =
         fprintf(out, "  %s%s%s", row->word, row->value[0] != '\0' ? " " : "", row->value);
     const char *text = row == &option_rows[OPTION_METHOD] ? methods_in_help(methods) : row->text;
     fprintf(out, "%*s", TEXT_COLUMN - width, "");
-    for (; *text != '\0'; text++) {
-        if (*text == '\n') {
-            fprintf(out, "\n%*s", TEXT_COLUMN, "");
-        } else {
-            fputc(*text, out);
-        }
-    }
-    fputc('\n', out);
+    options_text(out, text, TEXT_COLUMN, TEXT_COLUMN, TEXT_COLUMN + OPTION_TEXT_WIDTH);
 }
 
 static void put_word(FILE *out, const char *word, int *column) {
@@ -72,6 +79,9 @@ void options_usage(FILE *out, const command_usage *usage) {
         name_them(out, usage->groups);
     }
     fputs(usage->tail, out);
+    if (usage->why[EXIT_ROW_OF(EXIT_DONE)] != NULL) {
+        exit_describe(out, usage->why);
+    }
 }
 
 bool options_wants_help(int count, char **words) {
@@ -179,37 +189,20 @@ static bool push_names(change_options *c, const char ***list, int *count, const 
     }
 }
 
-static bool take_change(common_option which, const char *value, change_options *c) {
-    const char *word = option_rows[which].word;
-    switch (which) {
-    case OPTION_SET: push(&c->sets, &c->set_count, value); break;
-    case OPTION_START: push(&c->starts, &c->start_count, value); break;
-    case OPTION_WITH: return push_names(c, &c->with, &c->with_count, word, value);
-    case OPTION_WITHOUT: return push_names(c, &c->without, &c->without_count, word, value);
-    case OPTION_STEP: c->step = value; break;
-    case OPTION_UNTIL: c->until = value; break;
-    case OPTION_METHOD:
-    case OPTION_NUMBER:
-    case OPTION_COMPENSATED:
-    case OPTION_ANGLES: break; /* change no instance */
+/* The value of the option `which` at words[*at], "" of one that has none; NULL when it is not there. */
+static const char *common_value(common_option which, int count, char **words, int *at, bool *bad) {
+    const option_row *row = &option_rows[which];
+    if (row->value[0] != '\0') {
+        return options_value(count, words, at, row->word, bad);
     }
-    return true;
+    if (strcmp(words[*at], row->word) != 0) {
+        return NULL;
+    }
+    ++*at;
+    return "";
 }
 
-bool options_change(int count, char **words, int *at, change_options *c, bool *bad) {
-    for (int i = 0; i < OPTIONS && !*bad; i++) {
-        const char *value = option_rows[i].group == OPTIONS_CHANGE
-                                ? options_value(count, words, at, option_rows[i].word, bad)
-                                : NULL;
-        if (value != NULL) {
-            *bad = !take_change((common_option)i, value, c);
-            return true;
-        }
-    }
-    return false;
-}
-
-overrides change_options_overrides(const change_options *c) {
+overrides options_overrides(const change_options *c) {
     return (overrides){.sets = c->sets,
                        .set_count = c->set_count,
                        .starts = c->starts,
@@ -223,7 +216,13 @@ overrides change_options_overrides(const change_options *c) {
                        .name = c->name};
 }
 
-void change_options_free(change_options *c) {
+common_options options_defaults(void) {
+    return (common_options){.integration = {WH_METHOD_DEFAULT, false, ANGLES_TURNED},
+                            .number = &engine_double};
+}
+
+void options_forget(common_options *options) {
+    change_options *c = &options->change;
     for (int i = 0; i < c->owned_count; i++) {
         free(c->owned[i]);
     }
@@ -252,49 +251,53 @@ int options_choose(const char *command, const char *what, const char *value, con
     return -1;
 }
 
-/* --angles turned or lookup, as options_engine(). */
-static bool take_angles(const char *command, int count, char **words, int *at,
-                        image_settings *settings, bool *bad) {
-    const char *value = options_value(count, words, at, option_rows[OPTION_ANGLES].word, bad);
-    if (value != NULL) {
-        const int chosen = options_choose(command, "form of angles", value, image_angles_words,
-                                          sizeof image_angles_words[0], IMAGE_ANGLES);
-        *bad = chosen < 0;
-        settings->angles = *bad ? ANGLES_TURNED : (image_angles)chosen;
-    }
-    return value != NULL;
-}
-
-bool options_engine(const char *command, int count, char **words, int *at, image_settings *settings,
-                    bool *bad) {
-    const char *value = options_value(count, words, at, option_rows[OPTION_METHOD].word, bad);
-    if (value != NULL) {
-        const int chosen =
-            options_choose(command, "method", value, wh_methods, sizeof wh_methods[0], WH_METHODS);
-        *bad = chosen < 0;
-        settings->method = *bad ? WH_METHOD_DEFAULT : (wh_method)chosen;
-    } else if (!*bad && strcmp(words[*at], option_rows[OPTION_COMPENSATED].word) == 0) {
-        ++*at;
-        settings->compensated = true;
-        return true;
-    }
-    return value != NULL || (!*bad && take_angles(command, count, words, at, settings, bad));
-}
-
-bool options_number(const char *command, int count, char **words, int *at, const engine_kind **kind,
-                    bool *bad) {
+static bool take(common_option which, const char *command, const char *value, common_options *to) {
     static const struct {
         const char *word;
         const engine_kind *kind;
     } numbers[] = {{"double", &engine_double}, {"float", &engine_float}};
-    const char *value = options_value(count, words, at, option_rows[OPTION_NUMBER].word, bad);
-    if (value != NULL) {
-        const int chosen = options_choose(command, "number", value, numbers, sizeof numbers[0],
-                                          sizeof numbers / sizeof numbers[0]);
-        *bad = chosen < 0;
-        *kind = *bad ? *kind : numbers[chosen].kind;
+    change_options *c = &to->change;
+    const char *word = option_rows[which].word;
+    int chosen;
+    switch (which) {
+    case OPTION_SET: push(&c->sets, &c->set_count, value); break;
+    case OPTION_START: push(&c->starts, &c->start_count, value); break;
+    case OPTION_WITH: return push_names(c, &c->with, &c->with_count, word, value);
+    case OPTION_WITHOUT: return push_names(c, &c->without, &c->without_count, word, value);
+    case OPTION_STEP: c->step = value; break;
+    case OPTION_UNTIL: c->until = value; break;
+    case OPTION_METHOD:
+        chosen =
+            options_choose(command, "method", value, wh_methods, sizeof wh_methods[0], WH_METHODS);
+        to->integration.method = chosen < 0 ? WH_METHOD_DEFAULT : (wh_method)chosen;
+        return chosen >= 0;
+    case OPTION_COMPENSATED: to->integration.compensated = true; break;
+    case OPTION_ANGLES:
+        chosen = options_choose(command, "form of angles", value, image_angles_words,
+                                sizeof image_angles_words[0], IMAGE_ANGLES);
+        to->integration.angles = chosen < 0 ? ANGLES_TURNED : (image_angles)chosen;
+        return chosen >= 0;
+    case OPTION_NUMBER:
+        chosen = options_choose(command, "number", value, numbers, sizeof numbers[0],
+                                sizeof numbers / sizeof numbers[0]);
+        to->number = chosen < 0 ? to->number : numbers[chosen].kind;
+        return chosen >= 0;
     }
-    return value != NULL;
+    return true;
+}
+
+bool options_take(const char *command, unsigned groups, int count, char **words, int *at,
+                  common_options *to, bool *bad) {
+    for (int i = 0; i < OPTIONS && !*bad; i++) {
+        const char *value = (option_rows[i].group & groups) != 0
+                                ? common_value((common_option)i, count, words, at, bad)
+                                : NULL;
+        if (value != NULL) {
+            *bad = !take((common_option)i, command, value, to);
+            return true;
+        }
+    }
+    return false;
 }
 
 void options_unknown(const char *command, const char *word, unsigned groups,

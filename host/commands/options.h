@@ -5,11 +5,13 @@
 #include <stdbool.h>
 #include <stdio.h>
 
+#include "host/base/exit.h"
 #include "host/lang/model.h"
 #include "host/run/engine.h"
 
 /* Options that several commands have, in the order of help texts: X(which, word, what stands behind it, group,
- * description; lines of at most 76 columns). Of methods the description is made from core/method.h. */
+ * description, broken into lines of OPTION_TEXT_WIDTH columns). Of methods the description is made from
+ * core/method.h. */
 #define OPTION_ROWS(X) \
     X(OPTION_SET, "--set", "NAME=EXPR", OPTIONS_CHANGE, \
       "a parameter or an input; a bare number is SI, whatever unit is declared\n" \
@@ -38,6 +40,8 @@ typedef enum common_option { OPTION_ROWS(OPTION_NAME) } common_option;
 enum { OPTIONS = OPTION_ROWS(OPTION_ONE) };
 #undef OPTION_ONE
 
+enum { OPTION_TEXT_WIDTH = 76 };
+
 /* What a command takes of them: a sum of these. */
 typedef enum option_group {
     OPTIONS_CHANGE = 1, /* change an instance */
@@ -51,9 +55,15 @@ typedef struct command_usage {
     unsigned groups; /* of options whose lines follow: */
     bool described;  /* a line each; else their words, and that `whirl run` describes them */
     const char *tail;
+    const char *why
+        [EXITS]; /* it ends with which status (host/base/exit.h); nothing is said of it if all are NULL */
 } command_usage;
 
 void options_usage(FILE *out, const command_usage *usage);
+
+/* A text of a help, which begins at `column`: broken at blanks into lines of at most `width` columns, those after the
+ * first from `margin` on. */
+void options_text(FILE *out, const char *text, int column, int margin, int width);
 
 /* Is --help or -h among the words? */
 bool options_wants_help(int count, char **words);
@@ -65,7 +75,7 @@ bool options_help(int count, char **words, const command_usage *usage);
  * it is not; a missing value is reported and sets *bad. */
 const char *options_value(int count, char **words, int *at, const char *name, bool *bad);
 
-/* The options that change an instance: --set, --start, --with, --without, --step, --until. */
+/* What changes an instance: --set, --start, --with, --without, --step, --until. */
 typedef struct change_options {
     const char **sets;
     int set_count;
@@ -82,18 +92,23 @@ typedef struct change_options {
     int owned_count;
 } change_options;
 
-/* If words[*at] is one of them, takes it and returns true. */
-bool options_change(int count, char **words, int *at, change_options *changes, bool *bad);
-overrides change_options_overrides(const change_options *changes);
-void change_options_free(change_options *changes);
+/* Where the common options of a command go. */
+typedef struct common_options {
+    change_options change;
+    image_settings integration; /* --method, --compensated, --angles */
+    const engine_kind *number;  /* --number: what computes */
+} common_options;
 
-/* How to integrate: --method M and --compensated, as for options_change(). */
-bool options_engine(const char *command, int count, char **words, int *at, image_settings *settings,
-                    bool *bad);
+/* As they are without any option. */
+common_options options_defaults(void);
+void options_forget(common_options *options);
 
-/* What computes: --number N; *kind is left alone without it. */
-bool options_number(const char *command, int count, char **words, int *at, const engine_kind **kind,
-                    bool *bad);
+/* If words[*at] is an option of `groups`, takes it, steps *at past it and returns true. What is wrong with its value
+ * is reported and sets *bad. */
+bool options_take(const char *command, unsigned groups, int count, char **words, int *at,
+                  common_options *to, bool *bad);
+
+overrides options_overrides(const change_options *changes);
 
 /* Which of rows[count], `size` bytes each with its word at the beginning, has the word `value`; -1 when none has:
  * that is reported, with the words. */

@@ -35,11 +35,14 @@ static const command_usage usage = {
         "  --quiet              no summary, no progress\n"
         "\n"
         "Summary, records and plot are in the units that the file declares; a record's column whose name\n"
-        "has no unit is SI: theta [deg] is in degrees, theta in radians.\n"
-        "\n"
-        "Exit status: 0 done; 1 the run failed (it diverged, or something was not a finite number: it says\n"
-        "when, where and what to try; the records so far are kept), or --strict does not believe it; 2 bad\n"
-        "input; 130 interrupted.\n"};
+        "has no unit is SI: theta [deg] is in degrees, theta in radians.\n",
+    .why = {
+        [EXIT_ROW_OF(EXIT_DONE)] = "",
+        [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
+            "it diverged, or something was not a finite number (it says when, where and what to\n"
+            "       try; the records so far are kept), or --strict does not believe it",
+        [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
+        [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
 
 static volatile sig_atomic_t interrupted;
 
@@ -49,11 +52,10 @@ static void on_interrupt(int signal_number) {
 }
 
 typedef struct run_options {
-    change_options changes;
+    common_options common;
     const char *target;
     const char *every;
     simulation_settings settings;
-    image_settings integration;
 } run_options;
 
 static bool take_flag(char **words, int *at, const char *name) {
@@ -88,11 +90,10 @@ static bool take_strict(char **words, int *at, double *limit, bool *bad) {
     return true;
 }
 
-/* One word or pair of words that is this command's own; false when it is none of them. */
-static bool take_own(int count, char **words, int *at, run_options *o, bool *bad) {
+/* One option, with its value where it has one; false when the word is none. */
+static bool take_one(int count, char **words, int *at, run_options *o, bool *bad) {
     const char *value = NULL;
-    if (options_engine("run", count, words, at, &o->integration, bad) ||
-        (!*bad && options_number("run", count, words, at, &o->settings.kind, bad)) ||
+    if (options_take("run", usage.groups, count, words, at, &o->common, bad) ||
         (!*bad && take_strict(words, at, &o->settings.strict, bad))) {
         return true;
     }
@@ -132,8 +133,7 @@ static bool files_are_apart(const simulation_settings *s) {
 static bool read_options(int count, char **words, run_options *o) {
     bool bad = false;
     for (int at = 0; at < count && !bad;) {
-        if (take_own(count, words, &at, o, &bad) || bad ||
-            options_change(count, words, &at, &o->changes, &bad) || bad) {
+        if (take_one(count, words, &at, o, &bad) || bad) {
             continue;
         }
         if (words[at][0] == '-' && words[at][1] != '\0') {
@@ -152,6 +152,7 @@ static bool read_options(int count, char **words, run_options *o) {
         options_usage(stderr, &usage);
         return false;
     }
+    o->settings.kind = o->common.number;
     return !bad && files_are_apart(&o->settings);
 }
 
@@ -223,13 +224,12 @@ static int run_image(run_options *o, const source_model *from, const image *im, 
 }
 
 int command_run(int count, char **words) {
-    run_options o = {.settings = {.kind = &engine_double},
-                     .integration = {WH_METHOD_DEFAULT, false, ANGLES_TURNED}};
+    run_options o = {.common = options_defaults()};
     if (options_help(count, words, &usage)) {
         return EXIT_DONE;
     }
     if (!read_options(count, words, &o)) {
-        change_options_free(&o.changes);
+        options_forget(&o.common);
         return EXIT_BAD_INPUT;
     }
     source_model from;
@@ -244,10 +244,11 @@ int command_run(int count, char **words) {
     }
     if (code == EXIT_DONE) {
         loaded made;
-        overrides changes = change_options_overrides(&o.changes);
+        overrides changes = options_overrides(&o.common.change);
         changes.balance = true;
         const double every_s = read_every_s(&o, of);
-        const load_wish wish = {.settings = o.integration, .use = IMAGE_TO_RUN, .conserve = true};
+        const load_wish wish = {
+            .settings = o.common.integration, .use = IMAGE_TO_RUN, .conserve = true};
         code = load(&made, &from, of, in, &changes, &wish);
         source_forget(&from);
         if (code == EXIT_DONE && !o.settings.quiet) {
@@ -262,6 +263,6 @@ int command_run(int count, char **words) {
         unload(&made);
     }
     source_close(&from);
-    change_options_free(&o.changes);
+    options_forget(&o.common);
     return code;
 }

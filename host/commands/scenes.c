@@ -30,7 +30,7 @@ static int each_scene_of(source_model *from, const visit *v) {
                                    .use = IMAGE_TO_WRITE,
                                    .keep = KEEP_EQUATIONS,
                                    .conserve = true,
-                                   .contacts = true};
+                                   .comment = EMIT_OCTAVE_COMMENT};
     const int count = from->model->scene_count;
     const char *file = from->file;
     image **made = room(count, sizeof(image *));

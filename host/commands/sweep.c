@@ -41,10 +41,13 @@ static const command_usage usage = {
         "  --quiet              no progress, no summary\n"
         "\n",
     .groups = OPTIONS_CHANGE | OPTIONS_ENGINE | OPTIONS_NUMBER,
-    .tail =
-        "\n"
-        "Exit status: 0 done; 1 points failed (their measures are empty; the others are there) or the\n"
-        "file could not be written; 2 bad input, or FILE is another sweep's; 130 interrupted.\n"};
+    .tail = "",
+    .why = {[EXIT_ROW_OF(EXIT_DONE)] = "",
+            [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
+                "points did (their measures are empty; the others are there), or the file could\n"
+                "       not be written",
+            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "such as the FILE of another sweep",
+            [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
 
 static volatile sig_atomic_t interrupted;
 
@@ -56,7 +59,7 @@ static void on_interrupt(int signal_number) {
 /* --- options -----------------------------------------------------------------------------------*/
 
 typedef struct sweep_options {
-    change_options changes;
+    common_options common;
     const char *target;
     const char **over; /* [word count] */
     int over_count;
@@ -68,8 +71,6 @@ typedef struct sweep_options {
     int jobs;
     bool fresh;
     bool quiet;
-    const engine_kind *kind;
-    image_settings engine;
 } sweep_options;
 
 /* A whole number from 1 to `limit`, up to the end of the text or `end`. */
@@ -109,10 +110,6 @@ static bool read_shard(const char *text, sweep_options *o) {
 /* One option with a value; false when the word is none of them. */
 static bool take_valued(int count, char **words, int *at, sweep_options *o, bool *bad) {
     const char *value = NULL;
-    if (options_engine("sweep", count, words, at, &o->engine, bad) ||
-        (!*bad && options_number("sweep", count, words, at, &o->kind, bad))) {
-        return true;
-    }
     if (!*bad && (value = options_value(count, words, at, "--over", bad)) != NULL) {
         o->over[o->over_count++] = value;
     } else if (!*bad && (value = options_value(count, words, at, "--measure", bad)) != NULL) {
@@ -148,7 +145,7 @@ static bool read_options(int count, char **words, sweep_options *o) {
     bool bad = false;
     for (int at = 0; at < count && !bad;) {
         if (take_flag(words, &at, o) || take_valued(count, words, &at, o, &bad) || bad ||
-            options_change(count, words, &at, &o->changes, &bad) || bad) {
+            options_take("sweep", usage.groups, count, words, &at, &o->common, &bad) || bad) {
             continue;
         }
         if (words[at][0] == '-' && words[at][1] != '\0') {
@@ -249,9 +246,13 @@ static int sweep_scene(const sweep_options *o, source_model *from, const mechani
     for (int i = 0; i < o->over_count && good; i++) {
         good = grid_add(&g, of, o->over[i], from->errors);
     }
-    overrides changes = change_options_overrides(&o->changes);
+    overrides changes = options_overrides(&o->common.change);
     changes.balance = true;
-    sweep s = {.grid = &g, .scene = in, .changes = &changes, .kind = o->kind, .engine = o->engine};
+    sweep s = {.grid = &g,
+               .scene = in,
+               .changes = &changes,
+               .kind = o->common.number,
+               .engine = o->common.integration};
     good = good && read_from(o, of, in, &changes, from->errors, &s.from_s);
     measures *wanted = good ? measures_new(of, o->measure, o->measure_count, from->errors) : NULL;
     diags_flush(from->errors, stderr);
@@ -259,8 +260,10 @@ static int sweep_scene(const sweep_options *o, source_model *from, const mechani
     if (wanted != NULL) {
         loaded base;
         s.measures = wanted;
-        const load_wish wish = {
-            .settings = o->engine, .use = IMAGE_TO_RUN, .keep = KEEP_INSTANCE, .conserve = true};
+        const load_wish wish = {.settings = o->common.integration,
+                                .use = IMAGE_TO_RUN,
+                                .keep = KEEP_INSTANCE,
+                                .conserve = true};
         code = load(&base, from, &wanted->mechanism, in, &changes, &wish);
         if (code == EXIT_DONE && s.from_s > base.instance->until_s) {
             fprintf(stderr, "whirl sweep: error: --from %.9g s lies behind the end, %.9g s\n",
@@ -270,7 +273,7 @@ static int sweep_scene(const sweep_options *o, source_model *from, const mechani
         if (code == EXIT_DONE && !o->quiet) {
             say_hints(&base);
         }
-        if (code == EXIT_DONE && o->kind == &engine_float) {
+        if (code == EXIT_DONE && o->common.number == &engine_float) {
             say_float_range(base.image);
         }
         if (code == EXIT_DONE) {
@@ -299,11 +302,8 @@ int command_sweep(int count, char **words) {
     if (options_help(count, words, &usage)) {
         return EXIT_DONE;
     }
-    sweep_options o = {.csv = "-",
-                       .part = {1, 1},
-                       .jobs = processors(),
-                       .kind = &engine_double,
-                       .engine = {WH_METHOD_DEFAULT, false, ANGLES_TURNED}};
+    sweep_options o = {
+        .csv = "-", .part = {1, 1}, .jobs = processors(), .common = options_defaults()};
     o.over = room(count, sizeof(const char *));
     o.measure = room(count, sizeof(const char *));
     int code = EXIT_BAD_INPUT;
@@ -323,7 +323,7 @@ int command_sweep(int count, char **words) {
         }
         source_close(&from);
     }
-    change_options_free(&o.changes);
+    options_forget(&o.common);
     free(o.over);
     free(o.measure);
     return code;

@@ -1,7 +1,8 @@
 /* contact_lists.c: folding contacts, and entering their lists. */
+#include "contact_lists.h"
+
 #include <stdlib.h>
 
-#include "contact_lists.h"
 #include "contacts.h"
 #include "core/contact.h"
 #include "core/hash.h"
@@ -42,13 +43,12 @@ int contact_lists_polys(const equations *e, const conservation *c, const poly **
 }
 
 /* A list that computes `wanted` [count]. */
-static tape *enter(layout *map, const equations *e, const conservation *c,
-                   const poly *const *wanted, int count) {
-    tape *t = tape_new(map->program->angles, count);
+static tape *enter(layout *map, const poly *const *wanted, int count) {
+    tape *t = tape_new(map->angles, count);
     lowering l = layout_lowering(map, t);
     const poly **p = room(count, sizeof(const poly *));
     for (int i = 0; i < count; i++) {
-        p[i] = ready(e, c, wanted[i]);
+        p[i] = layout_ready(map, wanted[i]);
     }
     lower_plan(&l, p, count);
     for (int i = 0; i < count; i++) {
@@ -60,20 +60,20 @@ static tape *enter(layout *map, const equations *e, const conservation *c,
     return t;
 }
 
-static tape *make_signals(layout *map, const equations *e, const conservation *c) {
-    const contact_laws *laws = e->contacts;
+static tape *make_signals(layout *map) {
+    const contact_laws *laws = map->equations->contacts;
     const poly **wanted = room(2 * laws->count, sizeof(const poly *));
     for (int k = 0; k < laws->count; k++) {
         wanted[2 * k] = laws->law[k].value;
         wanted[2 * k + 1] = laws->law[k].speed;
     }
-    tape *t = enter(map, e, c, wanted, 2 * laws->count);
+    tape *t = enter(map, wanted, 2 * laws->count);
     free(wanted);
     return t;
 }
 
-static tape *make_sets(layout *map, const equations *e, const conservation *c) {
-    const contact_laws *laws = e->contacts;
+static tape *make_sets(layout *map) {
+    const contact_laws *laws = map->equations->contacts;
     if (laws->set_count == 0) {
         return NULL;
     }
@@ -84,18 +84,17 @@ static tape *make_sets(layout *map, const equations *e, const conservation *c) {
             wanted[count++] = laws->sets[k].value[i];
         }
     }
-    tape *t = enter(map, e, c, wanted, count);
+    tape *t = enter(map, wanted, count);
     free(wanted);
     return t;
 }
 
 /* The rows and what they push: M^-1 J^T by the same elimination as the accelerations. */
-static tape *make_forces(layout *map, const program *p, const equations *e,
-                         const linear_system *s) {
-    const contact_laws *laws = e->contacts;
-    const int n = e->count;
-    const int stride = WH_LAW_ROWS + 2 * p->coordinates;
-    tape *t = tape_new(p->angles, laws->forced * stride);
+static tape *make_forces(layout *map, const linear_system *s) {
+    const contact_laws *laws = map->equations->contacts;
+    const int n = map->equations->count;
+    const int stride = WH_LAW_ROWS + 2 * map->coordinates;
+    tape *t = tape_new(map->angles, laws->forced * stride);
     int *pushed = room(n, sizeof *pushed);
     const poly **row = room(n + 3, sizeof(const poly *));
     linear_system load = *s;
@@ -105,20 +104,20 @@ static tape *make_forces(layout *map, const program *p, const equations *e,
         int *result = t->result + k * stride;
         lowering l = layout_lowering(map, t);
         for (int i = 0; i < n; i++) {
-            row[i] = ready(e, p->conserved, law->row[i]);
+            row[i] = layout_ready(map, law->row[i]);
         }
         solve_highest(&l, &load, pushed);
-        row[n + WH_LAW_FIRST] = ready(e, p->conserved, law->first);
-        row[n + WH_LAW_SECOND] = ready(e, p->conserved, law->second);
-        row[n + WH_LAW_BIAS] = ready(e, p->conserved, law->bias);
+        row[n + WH_LAW_FIRST] = layout_ready(map, law->first);
+        row[n + WH_LAW_SECOND] = layout_ready(map, law->second);
+        row[n + WH_LAW_BIAS] = layout_ready(map, law->bias);
         lower_plan(&l, row, n + 3);
         for (int i = 0; i < WH_LAW_ROWS; i++) {
             result[i] = lower(&l, row[n + i]);
         }
         for (int i = 0; i < n; i++) {
-            if (p->place[i] >= 0) {
-                result[WH_LAW_ROWS + p->place[i]] = lower(&l, row[i]);
-                result[WH_LAW_ROWS + p->coordinates + p->place[i]] = pushed[i];
+            if (map->place[i] >= 0) {
+                result[WH_LAW_ROWS + map->place[i]] = lower(&l, row[i]);
+                result[WH_LAW_ROWS + map->coordinates + map->place[i]] = pushed[i];
             }
         }
         lower_done(&l);
@@ -130,10 +129,10 @@ static tape *make_forces(layout *map, const program *p, const equations *e,
 }
 
 /* The coordinate of the scene that alone has an entry in the row, if that is a number; else -1. */
-static int pin_of(const program *p, const equations *e, const contact_law *law) {
+static int pin_of(const layout *map, const contact_law *law) {
     int pin = -1;
-    for (int i = 0; i < e->count; i++) {
-        const poly *entry = ready(e, p->conserved, law->row[i]);
+    for (int i = 0; i < map->equations->count; i++) {
+        const poly *entry = layout_ready(map, law->row[i]);
         double number;
         if (poly_is_zero(entry)) {
             continue;
@@ -141,19 +140,19 @@ static int pin_of(const program *p, const equations *e, const contact_law *law) 
         if (pin >= 0 || !poly_is_number(entry, &number)) {
             return -1;
         }
-        pin = p->place[i];
+        pin = map->place[i];
     }
     return pin;
 }
 
 /* The state's component that an assignment writes, or -1: a conserved coordinate has none. */
-static int component_of(const program *p, const assignment *set) {
-    const component *const lists[] = {p->angle, p->real};
-    const int counts[] = {p->angles, p->reals};
+static int component_of(const layout *map, const assignment *set) {
+    const component *const lists[] = {map->angle, map->real};
+    const int counts[] = {map->angles, map->reals};
     for (int k = 0; k < 2; k++) {
         for (int i = 0; i < counts[k]; i++) {
             if (lists[k][i].unknown == set->symbol->index && lists[k][i].primes == set->primes) {
-                return i + (k == 0 ? 0 : p->angles);
+                return i + (k == 0 ? 0 : map->angles);
             }
         }
     }
@@ -171,15 +170,15 @@ static bool input_moves(const equations *e, const poly *value) {
     return false;
 }
 
-static contact_row make_row(contact_lists *c, const program *p, const equations *e,
-                            const contact_law *law) {
+static contact_row make_row(contact_lists *c, const layout *map, const contact_law *law) {
     const contact_statement *from = law->from;
     contact_row row = {.from = from, .kind = (int)from->kind, .pin = -1};
     row.direction = from->kind == CONTACT_WHEN ? from->direction : 0;
     row.first_set = c->set_count;
     if (from->kind != CONTACT_WHEN) {
-        row.pin = pin_of(p, e, law);
-        const bool moves = input_moves(e, from->kind == CONTACT_HOLD ? law->first : law->value);
+        row.pin = pin_of(map, law);
+        const bool moves =
+            input_moves(map->equations, from->kind == CONTACT_HOLD ? law->first : law->value);
         row.direction = from->kind == CONTACT_STOP                    ? moves
                         : from->kind == CONTACT_HOLD && law->straight ? 1
                         : from->kind == CONTACT_HOLD && moves         ? -1
@@ -189,7 +188,7 @@ static contact_row make_row(contact_lists *c, const program *p, const equations 
     }
     row.sets = from->set_count;
     for (int i = 0; i < from->set_count; i++) {
-        c->target[c->set_count++] = component_of(p, &from->sets[i]);
+        c->target[c->set_count++] = component_of(map, &from->sets[i]);
     }
     return row;
 }
@@ -245,10 +244,10 @@ static bool have_impulses(const equations *e, diags *errors) {
     return true;
 }
 
-contact_lists *contact_lists_make(const program *p, const equations *e, layout *map,
-                                  const linear_system *s, diags *errors) {
+contact_lists *contact_lists_make(layout *map, const linear_system *s, diags *errors) {
+    const equations *e = map->equations;
     const contact_laws *laws = e->contacts;
-    if (p->form != WH_SECOND_ORDER) {
+    if (map->form != WH_SECOND_ORDER) {
         diag_error(errors, laws->law[0].from->at, "integrate the coordinate: --without conserve",
                    "a coordinate that must be integrated from its momentum cannot be conserved "
                    "beside stops, friction, holds or crossings");
@@ -263,11 +262,11 @@ contact_lists *contact_lists_make(const program *p, const equations *e, layout *
     c->count = laws->count;
     c->forced = laws->forced;
     for (int k = 0; k < laws->count; k++) {
-        c->row[k] = make_row(c, p, e, &laws->law[k]);
+        c->row[k] = make_row(c, map, &laws->law[k]);
     }
-    c->signals = make_signals(map, e, p->conserved);
-    c->forces = make_forces(map, p, e, s);
-    c->sets = make_sets(map, e, p->conserved);
+    c->signals = make_signals(map);
+    c->forces = make_forces(map, s);
+    c->sets = make_sets(map);
     return c;
 }
 

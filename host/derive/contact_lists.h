@@ -14,7 +14,7 @@ typedef struct contact_row {
     int sets;
 } contact_row;
 
-struct contact_lists {
+typedef struct contact_lists {
     int count;
     int forced;
     int held; /* holds without a pin */
@@ -24,15 +24,14 @@ struct contact_lists {
     tape *signals;
     tape *forces;
     tape *sets; /* NULL without any */
-};
+} contact_lists;
 
 /* Every poly that the step of a scene with these laws computes, folded and settled: p[] is filled (when
  * not NULL) and the number returned. */
 int contact_lists_polys(const equations *e, const conservation *c, const poly **p);
 
 /* Enter the lists. `s` is the folded system. NULL on error, reported. */
-contact_lists *contact_lists_make(const program *p, const equations *e, layout *map,
-                                  const linear_system *s, diags *errors);
+contact_lists *contact_lists_make(layout *map, const linear_system *s, diags *errors);
 /* `hash` with the lists and the table mixed in. */
 uint64_t contact_lists_hash(const contact_lists *c, uint64_t hash);
 void contact_lists_free(contact_lists *c);

@@ -12,6 +12,7 @@
 #define DERIVE_EQUATIONS_H
 
 #include "contacts.h"
+#include "forces.h"
 #include "host/algebra/poly.h"
 
 typedef struct unknown {
@@ -31,22 +32,14 @@ typedef struct equations {
     /* Energies and what follows from them; NULL for a system. */
     const poly *kinetic;
     const poly *stored;
-    const poly *input_power; /* sum Q q' */
-    const poly *loss_power;  /* sum dF/dq' q' */
-    const poly **momentum;   /* [count] dL/dq' */
-    bool *conserved;         /* [count] momentum[i] is constant: no force, no potential, no loss */
-    const poly **output;     /* [mechanism->output_count] */
-    contact_laws *contacts;  /* stops, holds, frictions, crossings; NULL when there are none */
+    statement_force *force; /* [forces] by statement: applied[], and what they give to the energy */
+    int forces;
+    const poly **momentum;  /* [count] dL/dq' */
+    bool *conserved;        /* [count] momentum[i] is constant: no force, no potential, no loss */
+    const poly **output;    /* [mechanism->output_count] */
+    contact_laws *contacts; /* stops, holds, frictions, crossings; NULL when there are none */
 } equations;
 
-/* Derive. Returns NULL on error, reported to `diags` (no kinetic energy for a coordinate, singular
- * mass matrix, not linear in the highest derivative, an expression that grows out of bounds). */
-equations *equations_derive(const instance *inst, diags *errors);
-/* The same in an algebra that was asked something before (`before` may be NULL): what comes out must not depend on it
- * (tests/host/test_asked_first.c). */
-typedef void equations_question(void *context, algebra *a, const instance *inst);
-equations *equations_derive_after(const instance *inst, equations_question *before, void *context,
-                                  diags *errors);
 void equations_free(equations *e);
 
 /* Where the first kinetic energy stands. */

@@ -4,13 +4,11 @@
 #include <string.h>
 
 #include "blame.h"
-#include "contact_lists.h"
 #include "core/contact.h"
 #include "host/lang/shown.h"
 #include "host/lang/words.h"
 #include "host/number/phase.h"
 #include "image_parts.h"
-#include "ledger_lists.h"
 #include "program.h"
 
 /* --- what does not depend on the lists -------------------------------------------------------------*/
@@ -108,7 +106,7 @@ static void copy_quantities(image_draft *d, const program *p, const instance *in
     const mechanism *m = inst->mechanism;
     im->input = image_room(d, im->inputs, sizeof *im->input);
     for (int i = 0; i < im->inputs; i++) {
-        const int k = p->input[i];
+        const int k = p->layout.input[i];
         im->input[i] = image_quantity_of(d, m->inputs[k], inst->input[k]);
     }
     im->output = image_room(d, im->own_outputs, sizeof *im->output);
@@ -155,14 +153,16 @@ static void take_contacts(image_draft *d, contact_lists *c) {
         const char *gap = row->kind == WH_STOP
                               ? dimension_unit(row->from->value->dim, false, si, sizeof si)
                               : "1";
-        im->contact[k] = (image_contact){.kind = row->kind,
-                                         .word = image_text(d, contact_word(row->from->kind)),
-                                         .direction = row->direction,
-                                         .pin = row->pin,
-                                         .first_set = row->first_set,
-                                         .sets = row->sets,
-                                         .unit = image_text(d, gap),
-                                         .at = image_place(d, row->from->at)};
+        im->contact[k] =
+            (image_contact){.kind = row->kind,
+                            .word = image_text(d, contact_word(row->from->kind)),
+                            .undefined = image_text(d, contact_undefined(row->from->kind)),
+                            .direction = row->direction,
+                            .pin = row->pin,
+                            .first_set = row->first_set,
+                            .sets = row->sets,
+                            .unit = image_text(d, gap),
+                            .at = image_place(d, row->from->at)};
     }
     im->list[IMAGE_SIGNALS] = take(&c->signals);
     im->list[IMAGE_FORCES] = take(&c->forces);
@@ -194,14 +194,15 @@ static void take_ledger(image_draft *d, ledger_lists *l) {
 
 static void take_program(image_draft *d, program *p) {
     image *im = d->made;
-    im->form = p->form;
-    im->coordinates = p->coordinates;
-    im->angles = p->angles;
-    im->reals = p->reals;
+    const layout *map = &p->layout;
+    im->form = map->form;
+    im->coordinates = map->coordinates;
+    im->angles = map->angles;
+    im->reals = map->reals;
     im->recovered = p->conserved->count;
-    im->angle = copy(d, p->angle, p->angles, sizeof *p->angle);
-    im->real = copy(d, p->real, p->reals, sizeof *p->real);
-    im->place = copy(d, p->place, p->count, sizeof *p->place);
+    im->angle = copy(d, map->angle, map->angles, sizeof *map->angle);
+    im->real = copy(d, map->real, map->reals, sizeof *map->real);
+    im->place = copy(d, map->place, p->count, sizeof *map->place);
     im->from_momentum =
         copy(d, p->conserved->unknown, im->recovered, sizeof *p->conserved->unknown);
     im->has_integral = p->integral != NULL;
@@ -228,7 +229,7 @@ image *image_make(const equations *e, const bool *conserve, const image_settings
     image *im = d.made;
     im->settings = *settings;
     im->count = p->count;
-    im->inputs = p->inputs;
+    im->inputs = p->layout.inputs;
     im->outputs = p->outputs;
     im->own_outputs = e->instance->mechanism->output_count;
     im->has_energies = e->kinetic != NULL;

@@ -16,8 +16,8 @@ int layout_turn(void *context, const symbol *s) {
 
 /* An input of an effect that is not called for cannot change: a constant. */
 static int input_leaf(const layout *map, tape *t, const symbol *s) {
-    for (int i = 0; i < map->program->inputs; i++) {
-        if (map->program->input[i] == s->index) {
+    for (int i = 0; i < map->inputs; i++) {
+        if (map->input[i] == s->index) {
             return tape_leaf(t, OP_INPUT, i);
         }
     }
@@ -42,9 +42,8 @@ int layout_leaf(void *context, tape *t, const symbol *s, int primes) {
         return tape_leaf(t, OP_RADIANS, map->angle_number[s->index]);
     }
     const int real = map->real_number[s->index * map->order_room + primes];
-    const program *p = map->program;
-    if (p->form == WH_SECOND_ORDER && primes == 1) {
-        return tape_leaf(t, OP_RATE, p->place[s->index]);
+    if (map->form == WH_SECOND_ORDER && primes == 1) {
+        return tape_leaf(t, OP_RATE, map->place[s->index]);
     }
     return tape_leaf(t, OP_LINEAR, real);
 }
@@ -53,23 +52,36 @@ int layout_leaf(void *context, tape *t, const symbol *s, int primes) {
 
 /* Is this derivative of the unknown part of the state? Conserved coordinates are not, but for their
  * value where it must be integrated. */
-static bool in_state(const program *p, const equations *e, int i, int primes) {
-    if (p->conserved->number[i] < 0) {
-        return primes < e->unknowns[i].order;
+static bool in_state(const layout *map, int i, int primes) {
+    if (map->conserved->number[i] < 0) {
+        return primes < map->equations->unknowns[i].order;
     }
-    return primes == 0 && !p->conserved->closed;
+    return primes == 0 && !map->conserved->closed;
 }
 
-static int add_real(program *p, int i, int primes) {
-    p->real[p->reals] = (component){i, primes};
-    return p->reals++;
+static int add_real(layout *map, int i, int primes) {
+    map->real[map->reals] = (component){i, primes};
+    return map->reals++;
 }
 
-bool layout_arrange(layout *map, program *p, const poly *const *dynamics, int count) {
-    const equations *e = map->equations;
+/* An effect that is not called for leaves no trace: its inputs take no part either. */
+static void arrange_inputs(layout *map, const instance *inst) {
+    const mechanism *m = inst->mechanism;
+    map->input = room(m->input_count, sizeof *map->input);
+    for (int i = 0; i < m->input_count; i++) {
+        if (m->inputs[i]->effect < 0 || inst->with[m->inputs[i]->effect]) {
+            map->input[map->inputs++] = i;
+        }
+    }
+}
+
+bool layout_arrange(layout *map, const equations *e, const conservation *conserved,
+                    const poly *const *dynamics, int count) {
     const int n = e->count;
     int components = 0;
-    bool second = p->conserved->closed;
+    *map = (layout){.equations = e, .conserved = conserved};
+    arrange_inputs(map, e->instance);
+    bool second = map->conserved->closed;
     map->order_room = 1;
     for (int i = 0; i < n; i++) {
         const int order = e->unknowns[i].order;
@@ -77,52 +89,60 @@ bool layout_arrange(layout *map, program *p, const poly *const *dynamics, int co
         second = second && order == 2;
         map->order_room = order + 1 > map->order_room ? order + 1 : map->order_room;
     }
-    p->form = second ? WH_SECOND_ORDER : WH_FIRST_ORDER;
+    map->form = second ? WH_SECOND_ORDER : WH_FIRST_ORDER;
     if ((second ? n : components) > IMAGE_COMPONENTS_MAX) {
         return false;
     }
-    p->angle = room(components, sizeof *p->angle);
-    p->real = room(components, sizeof *p->real);
-    p->place = room(n, sizeof *p->place);
+    map->angle = room(components, sizeof *map->angle);
+    map->real = room(components, sizeof *map->real);
+    map->place = room(n, sizeof *map->place);
     map->angle_number = room(n, sizeof *map->angle_number);
     map->real_number = room(n * map->order_room, sizeof *map->real_number);
     for (int i = 0; i < n; i++) {
         const symbol *s = e->unknowns[i].symbol;
-        bool turns = s->is_angle && in_state(p, e, i, 0);
+        bool turns = s->is_angle && in_state(map, i, 0);
         for (int k = 0; k < count && turns; k++) {
             turns = lower_only_in_waves(dynamics[k], s);
         }
-        map->angle_number[i] = turns ? p->angles : -1;
-        p->place[i] = turns ? p->angles : -1;
+        map->angle_number[i] = turns ? map->angles : -1;
+        map->place[i] = turns ? map->angles : -1;
         if (turns) {
-            p->angle[p->angles++] = (component){i, 0};
+            map->angle[map->angles++] = (component){i, 0};
         }
     }
-    p->coordinates = p->angles;
+    map->coordinates = map->angles;
     for (int i = 0; i < n; i++) {
-        if (map->angle_number[i] < 0 && in_state(p, e, i, 0)) {
-            p->place[i] = p->coordinates++;
-            map->real_number[i * map->order_room] = add_real(p, i, 0);
+        if (map->angle_number[i] < 0 && in_state(map, i, 0)) {
+            map->place[i] = map->coordinates++;
+            map->real_number[i * map->order_room] = add_real(map, i, 0);
         }
     }
-    for (int slot = 0; slot < p->coordinates && second; slot++) {
+    for (int slot = 0; slot < map->coordinates && second; slot++) {
         for (int i = 0; i < n; i++) {
-            if (p->place[i] == slot) {
-                map->real_number[i * map->order_room + 1] = add_real(p, i, 1);
+            if (map->place[i] == slot) {
+                map->real_number[i * map->order_room + 1] = add_real(map, i, 1);
             }
         }
     }
     for (int i = 0; i < n && !second; i++) {
-        for (int primes = 1; in_state(p, e, i, primes); primes++) {
-            map->real_number[i * map->order_room + primes] = add_real(p, i, primes);
+        for (int primes = 1; in_state(map, i, primes); primes++) {
+            map->real_number[i * map->order_room + primes] = add_real(map, i, primes);
         }
     }
     return true;
 }
 
 void layout_free(layout *map) {
+    free(map->input);
+    free(map->angle);
+    free(map->real);
+    free(map->place);
     free(map->angle_number);
     free(map->real_number);
+}
+
+const poly *layout_ready(const layout *map, const poly *p) {
+    return conservation_settle(map->equations, map->conserved, equations_fold(map->equations, p));
 }
 
 lowering layout_lowering(layout *map, tape *t) {

@@ -2,23 +2,41 @@
 #ifndef DERIVE_LAYOUT_H
 #define DERIVE_LAYOUT_H
 
+#include "conserve.h"
+#include "core/scene.h"
+#include "equations.h"
+#include "host/image/image.h"
 #include "lower.h"
-#include "program.h"
 
 typedef struct layout {
-    const program *program;
     const equations *equations;
+    const conservation *conserved;
+    wh_form form;
+    int coordinates;  /* integrated coordinates, angles included (second order) */
+    int angles;       /* components kept as turn angles */
+    int reals;        /* components kept as reals */
+    int inputs;       /* the mechanism's own and those of the effects called for */
+    int *input;       /* [inputs] number in the mechanism */
+    component *angle; /* [angles] */
+    component *real;  /* [reals] */
+    /* [unknown] coordinate number in the scene's order, or -1 (second order) */
+    int *place;
+    int *angle_number; /* [unknown] turn angle, or -1 */
+    int *real_number;  /* [unknown * order_room + primes] real component, or -1 */
+    int order_room;
+    /* while a list is entered: */
     const int *highest; /* operations of the highest derivatives by unknown, or NULL */
     const int *record;  /* operations of recorded outputs (noise_records.h), or NULL */
-    int *angle_number;  /* [unknown] turn angle, or -1 */
-    int *real_number;   /* [unknown * order_room + primes] real component, or -1 */
-    int order_room;
 } layout;
 
-/* Arrange the state of `p`: an angle that `dynamics` [count] have only inside sines and cosines becomes
- * a turn angle. False when there are too many components. */
-bool layout_arrange(layout *map, program *p, const poly *const *dynamics, int count);
+/* Arrange the state: an angle that `dynamics` [count] have only inside sines and cosines becomes a turn angle.
+ * False when there are too many components. */
+bool layout_arrange(layout *map, const equations *e, const conservation *conserved,
+                    const poly *const *dynamics, int count);
 void layout_free(layout *map);
+
+/* p as lists want it: folded, and free of conserved coordinates. */
+const poly *layout_ready(const layout *map, const poly *p);
 
 /* `leaf` and `turn` of a lowering whose context is a layout; and such a lowering onto `t`. */
 int layout_leaf(void *context, tape *t, const symbol *s, int primes);

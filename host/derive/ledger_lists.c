@@ -1,16 +1,10 @@
 /* ledger_lists.c: entering the books' lists. */
-#include <stdlib.h>
-
-#include "contact_lists.h"
-#include "core/ledger_step.h"
-#include "energy.h"
-#include "host/base/room.h"
 #include "ledger_lists.h"
 
-/* Folded, and free of conserved coordinates. */
-static const poly *ready(const program *p, const equations *e, const poly *wanted) {
-    return conservation_settle(e, p->conserved, equations_fold(e, wanted));
-}
+#include <stdlib.h>
+
+#include "core/ledger_step.h"
+#include "host/base/room.h"
 
 static void add_entry(ledger_lists *l, const poly **power, ledger_kind kind, const term *t,
                       int account, const poly *what) {
@@ -20,73 +14,61 @@ static void add_entry(ledger_lists *l, const poly **power, ledger_kind kind, con
     }
 }
 
-/* The entries of one term. */
-static void add_term(ledger_lists *l, const program *p, const equations *e, const term *t,
-                     const poly **power) {
-    algebra *a = e->algebra;
-    const poly *value = poly_from_expr(a, t->value);
-    const poly *work = poly_number(a, 0.0);
-    const ledger_kind works = t->kind == TERM_Q ? LEDGER_WORK : LEDGER_LOSS;
-    const ledger_kind pushes = t->kind == TERM_Q ? LEDGER_DRIVE : LEDGER_DAMPING;
+/* The entries of one statement. */
+static void add_statement(ledger_lists *l, const layout *map, const statement_force *of,
+                          const poly **power) {
+    const bool drives = of->from->kind == TERM_Q;
     for (int account = 1; account < l->accounts; account++) {
-        const symbol *q = e->unknowns[l->unknown[account]].symbol;
-        const poly *force = poly_number(a, 0.0);
-        if (t->kind == TERM_F) {
-            force = poly_scale(a, poly_derivative(a, value, q, 1), -1.0);
-        } else if (t->coordinate == q) {
-            force = value;
-        }
-        work = poly_add(a, work, poly_mul(a, force, poly_symbol(a, q, 1)));
-        add_entry(l, power, pushes, t, account, ready(p, e, force));
+        add_entry(l, power, drives ? LEDGER_DRIVE : LEDGER_DAMPING, of->from, account,
+                  layout_ready(map, of->force[l->unknown[account]]));
     }
-    add_entry(l, power, works, t, 0, ready(p, e, work));
+    add_entry(l, power, drives ? LEDGER_WORK : LEDGER_LOSS, of->from, 0,
+              layout_ready(map, of->power));
 }
 
-static void order_accounts(ledger_lists *l, const program *p, const equations *e) {
-    int conserved = 1 + p->coordinates;
+static void order_accounts(ledger_lists *l, const layout *map) {
+    int conserved = 1 + map->coordinates;
     l->unknown[0] = -1;
-    for (int i = 0; i < e->count; i++) {
-        l->unknown[p->place[i] >= 0 ? 1 + p->place[i] : conserved++] = i;
+    for (int i = 0; i < map->equations->count; i++) {
+        l->unknown[map->place[i] >= 0 ? 1 + map->place[i] : conserved++] = i;
     }
 }
 
 /* What goes into the accounts while nothing happens. */
-static const poly **smooth_entries(ledger_lists *l, const program *p, const equations *e) {
+static const poly **smooth_entries(ledger_lists *l, const layout *map) {
+    const equations *e = map->equations;
     algebra *a = e->algebra;
-    const mechanism *m = e->instance->mechanism;
-    const int most = e->count + m->term_count * (1 + e->count);
+    const int most = e->count + e->forces * (1 + e->count);
     const poly **power = room(most, sizeof(const poly *));
     const poly *lagrangian = poly_sub(a, e->kinetic, e->stored);
     l->entry = room(most, sizeof *l->entry);
     for (int account = 1; account < l->accounts; account++) {
         const symbol *q = e->unknowns[l->unknown[account]].symbol;
         const poly *force = poly_derivative(a, lagrangian, q, 0);
-        add_entry(l, power, LEDGER_ENERGIES, NULL, account, ready(p, e, force));
+        add_entry(l, power, LEDGER_ENERGIES, NULL, account, layout_ready(map, force));
     }
-    for (int i = 0; i < m->term_count; i++) {
-        const term *t = &m->terms[i];
-        if ((t->kind == TERM_Q || t->kind == TERM_F) && instance_has_term(e->instance, t)) {
-            add_term(l, p, e, t, power);
-        }
+    for (int k = 0; k < e->forces; k++) {
+        add_statement(l, map, &e->force[k], power);
     }
     return power;
 }
 
 /* Inputs that the energies name: their changes between steps are entries. */
-static void find_inputs(ledger_lists *l, const program *p, const equations *e) {
-    const poly *kinetic = ready(p, e, e->kinetic);
-    const poly *stored = ready(p, e, e->stored);
-    l->input = room(p->inputs, sizeof *l->input);
-    for (int i = 0; i < p->inputs; i++) {
-        const symbol *s = e->instance->mechanism->inputs[p->input[i]];
+static void find_inputs(ledger_lists *l, const layout *map) {
+    const equations *e = map->equations;
+    const poly *kinetic = layout_ready(map, e->kinetic);
+    const poly *stored = layout_ready(map, e->stored);
+    l->input = room(map->inputs, sizeof *l->input);
+    for (int i = 0; i < map->inputs; i++) {
+        const symbol *s = e->instance->mechanism->inputs[map->input[i]];
         if (poly_contains(kinetic, s, 0) || poly_contains(stored, s, 0)) {
             l->input[l->inputs++] = i;
         }
     }
 }
 
-static tape *enter(const program *p, layout *map, const poly *const *wanted, int count) {
-    tape *t = tape_new(p->angles, count);
+static tape *enter(layout *map, const poly *const *wanted, int count) {
+    tape *t = tape_new(map->angles, count);
     lowering l = layout_lowering(map, t);
     lower_plan(&l, wanted, count);
     for (int i = 0; i < count; i++) {
@@ -97,27 +79,28 @@ static tape *enter(const program *p, layout *map, const poly *const *wanted, int
     return t;
 }
 
-static tape *make_levels(const ledger_lists *l, const program *p, const equations *e, layout *map) {
+static tape *make_levels(const ledger_lists *l, const poly *integral, layout *map) {
+    const equations *e = map->equations;
     const poly **wanted = room(l->accounts, sizeof(const poly *));
-    wanted[0] = ready(
-        p, e, p->integral != NULL ? p->integral : poly_add(e->algebra, e->kinetic, e->stored));
+    wanted[0] = layout_ready(map, integral != NULL ? integral
+                                                   : poly_add(e->algebra, e->kinetic, e->stored));
     for (int account = 1; account < l->accounts; account++) {
-        wanted[account] = ready(p, e, e->momentum[l->unknown[account]]);
+        wanted[account] = layout_ready(map, e->momentum[l->unknown[account]]);
     }
-    tape *t = enter(p, map, wanted, l->accounts);
+    tape *t = enter(map, wanted, l->accounts);
     free(wanted);
     return t;
 }
 
 /* May the books of this scene be kept? */
-static bool can_keep(const program *p, const equations *e, diags *errors) {
-    const mechanism *m = e->instance->mechanism;
+static bool can_keep(const layout *map, diags *errors) {
+    const mechanism *m = map->equations->instance->mechanism;
     if (m->is_system) {
         diag_error(errors, m->at, "leave out the ledger",
                    "'%s' is given by equations: there are no energies to keep books of", m->name);
         return false;
     }
-    if (p->form != WH_SECOND_ORDER) {
+    if (map->form != WH_SECOND_ORDER) {
         diag_error(errors, m->at, "integrate the coordinate: --without conserve",
                    "a coordinate that must be integrated from its momentum cannot be conserved "
                    "beside a ledger");
@@ -126,25 +109,23 @@ static bool can_keep(const program *p, const equations *e, diags *errors) {
     return true;
 }
 
-ledger_lists *ledger_lists_make(const program *p, const equations *e, layout *map, diags *errors) {
-    if (!can_keep(p, e, errors)) {
+ledger_lists *ledger_lists_make(layout *map, const poly *integral, int contacts, diags *errors) {
+    const equations *e = map->equations;
+    if (!can_keep(map, errors)) {
         return NULL;
     }
     ledger_lists *l = room(1, sizeof *l);
     l->accounts = 1 + e->count;
     l->unknown = room(l->accounts, sizeof *l->unknown);
-    order_accounts(l, p, e);
-    const poly **power = smooth_entries(l, p, e);
-    l->entries = l->smooth;
-    if (p->contacts != NULL) {
-        l->entries += p->contacts->count * (1 + p->coordinates);
-    }
-    find_inputs(l, p, e);
+    order_accounts(l, map);
+    const poly **power = smooth_entries(l, map);
+    l->entries = l->smooth + contacts * (1 + map->coordinates);
+    find_inputs(l, map);
     l->entries += l->inputs;
     const bool good = l->entries <= WH_LEDGER_MAX;
     if (good) {
-        l->powers = enter(p, map, power, l->smooth);
-        l->levels = make_levels(l, p, e, map);
+        l->powers = enter(map, power, l->smooth);
+        l->levels = make_levels(l, integral, map);
         /* an angle that the equations have only inside sines with whole factors, and a power does not */
         l->turned = tape_reads_turns(l->powers);
     }

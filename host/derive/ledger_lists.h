@@ -16,7 +16,7 @@ typedef struct ledger_entry {
     int account;
 } ledger_entry;
 
-struct ledger_lists {
+typedef struct ledger_lists {
     ledger_entry *entry; /* [smooth] */
     int smooth;
     int entries; /* smooth, then for each contact its energy and its impulse by coordinate, then inputs */
@@ -27,10 +27,11 @@ struct ledger_lists {
     bool turned; /* a power names a turn angle outside sines and cosines */
     tape *powers;
     tape *levels;
-};
+} ledger_lists;
 
-/* Enter the lists. `p` has its layout and contacts. NULL on error, reported. */
-ledger_lists *ledger_lists_make(const program *p, const equations *e, layout *map, diags *errors);
+/* Enter the lists of a scene with so many contacts, whose energy integral is `integral` (NULL: T + V, see energy.h).
+ * NULL on error, reported. */
+ledger_lists *ledger_lists_make(layout *map, const poly *integral, int contacts, diags *errors);
 void ledger_lists_free(ledger_lists *l);
 
 #endif

@@ -2,7 +2,8 @@
 #ifndef DERIVE_NOISE_RECORDS_H
 #define DERIVE_NOISE_RECORDS_H
 
-#include "layout.h"
+#include "conserve.h"
+#include "lower.h"
 
 /* Add the noises that take part to those results that are outputs of the mechanism itself; a sweep's
  * measures, which stand in their place, are none. result[mechanism->output_count]. */

@@ -3,55 +3,41 @@
 
 #include <stdlib.h>
 
-#include "contact_lists.h"
 #include "energy.h"
 #include "host/base/room.h"
-#include "ledger_lists.h"
 #include "noise_records.h"
 
 /* --- the lists -----------------------------------------------------------------------------------*/
 
-/* An effect that is not called for leaves no trace: its inputs take no part either. */
-static void arrange_inputs(program *p, const instance *inst) {
-    const mechanism *m = inst->mechanism;
-    p->input = room(m->input_count, sizeof *p->input);
-    for (int i = 0; i < m->input_count; i++) {
-        if (m->inputs[i]->effect < 0 || inst->with[m->inputs[i]->effect]) {
-            p->input[p->inputs++] = i;
-        }
-    }
-}
-
 /* The slope of a component of a first-order scene. */
-static int slope_of(program *p, const equations *e, layout *map, lowering *l, component of,
-                    const int *highest) {
-    const int k = p->conserved->number[of.unknown];
+static int slope_of(layout *map, lowering *l, component of, const int *highest) {
+    const int k = map->conserved->number[of.unknown];
     if (k >= 0) {
-        return lower(l, p->conserved->rate[k]);
+        return lower(l, map->conserved->rate[k]);
     }
     const int up = of.primes + 1;
-    if (up == e->unknowns[of.unknown].order) {
+    if (up == map->equations->unknowns[of.unknown].order) {
         return highest[of.unknown];
     }
     return tape_leaf(l->tape, OP_LINEAR, map->real_number[of.unknown * map->order_room + up]);
 }
 
-static tape *make_step(program *p, const equations *e, layout *map, const linear_system *s) {
-    const int n = e->count;
-    const int components = p->angles + p->reals;
-    const bool second = p->form == WH_SECOND_ORDER;
-    tape *t = tape_new(p->angles, second ? p->coordinates : components);
+static tape *make_step(layout *map, const linear_system *s) {
+    const int n = map->equations->count;
+    const int components = map->angles + map->reals;
+    const bool second = map->form == WH_SECOND_ORDER;
+    tape *t = tape_new(map->angles, second ? map->coordinates : components);
     int *highest = room(n, sizeof *highest);
     lowering l = layout_lowering(map, t);
     solve_highest(&l, s, highest);
     for (int i = 0; i < n && second; i++) {
-        if (p->place[i] >= 0) {
-            t->result[p->place[i]] = highest[i];
+        if (map->place[i] >= 0) {
+            t->result[map->place[i]] = highest[i];
         }
     }
     for (int c = 0; c < components && !second; c++) {
-        const component of = c < p->angles ? p->angle[c] : p->real[c - p->angles];
-        t->result[c] = slope_of(p, e, map, &l, of, highest);
+        const component of = c < map->angles ? map->angle[c] : map->real[c - map->angles];
+        t->result[c] = slope_of(map, &l, of, highest);
     }
     lower_done(&l);
     free(highest);
@@ -61,11 +47,12 @@ static tape *make_step(program *p, const equations *e, layout *map, const linear
 
 /* A list that first solves for the highest derivatives, then computes `wanted`. With `keep`, the
  * highest derivatives are the first results. */
-static tape *make_observer(program *p, const equations *e, layout *map, const linear_system *s,
-                           const poly *const *wanted, int count, bool keep) {
+static tape *make_observer(layout *map, const linear_system *s, const poly *const *wanted,
+                           int count, bool keep) {
+    const equations *e = map->equations;
     const int n = e->count;
     const int first = keep ? n : 0;
-    tape *t = tape_new(p->angles, first + count);
+    tape *t = tape_new(map->angles, first + count);
     int *highest = room(n, sizeof *highest);
     const poly **folded = room(count + e->instance->mechanism->noise_count, sizeof(const poly *));
     lowering l = layout_lowering(map, t);
@@ -75,14 +62,14 @@ static tape *make_observer(program *p, const equations *e, layout *map, const li
         t->result[i] = highest[i];
     }
     for (int i = 0; i < n && e->contacts != NULL; i++) {
-        if (p->place[i] >= 0) { /* with the contacts' forces: the core knows them */
-            highest[i] = tape_leaf(t, OP_ACCEL, p->place[i]);
+        if (map->place[i] >= 0) { /* with the contacts' forces: the core knows them */
+            highest[i] = tape_leaf(t, OP_ACCEL, map->place[i]);
         }
     }
     for (int i = 0; i < count; i++) {
-        folded[i] = conservation_settle(e, p->conserved, equations_fold(e, wanted[i]));
+        folded[i] = layout_ready(map, wanted[i]);
     }
-    noise_records recorded = noise_records_find(e, p->conserved, folded, count);
+    noise_records recorded = noise_records_find(e, map->conserved, folded, count);
     int planned = count;
     for (int k = 0; k < e->instance->mechanism->noise_count; k++) {
         if (recorded.exact[k] != NULL) {
@@ -109,7 +96,8 @@ static tape *make_observer(program *p, const equations *e, layout *map, const li
 }
 
 /* The mechanism's outputs, then value and rate of each conserved coordinate. */
-static tape *make_observe(program *p, const equations *e, layout *map, const linear_system *s) {
+static tape *make_observe(const program *p, layout *map, const linear_system *s) {
+    const equations *e = map->equations;
     const int own = e->instance->mechanism->output_count;
     const poly **wanted = room(p->outputs, sizeof(const poly *));
     for (int i = 0; i < own; i++) {
@@ -120,20 +108,22 @@ static tape *make_observe(program *p, const equations *e, layout *map, const lin
         wanted[own + 2 * k] = poly_symbol(e->algebra, q, 0);
         wanted[own + 2 * k + 1] = poly_symbol(e->algebra, q, 1);
     }
-    tape *t = make_observer(p, e, map, s, wanted, p->outputs, false);
+    tape *t = make_observer(map, s, wanted, p->outputs, false);
     free(wanted);
     return t;
 }
 
-static tape *make_books(program *p, const equations *e, layout *map, const linear_system *s) {
+static tape *make_books(const program *p, layout *map, const linear_system *s) {
+    const equations *e = map->equations;
+    algebra *a = e->algebra;
     const int n = e->count;
     const poly **wanted = room(BOOK_MOMENTA + n + 1, sizeof *wanted);
     int count = 0;
     if (!e->instance->mechanism->is_system) {
         wanted[BOOK_KINETIC] = e->kinetic;
         wanted[BOOK_STORED] = e->stored;
-        wanted[BOOK_INPUT_POWER] = e->input_power;
-        wanted[BOOK_LOSS_POWER] = e->loss_power;
+        wanted[BOOK_INPUT_POWER] = forces_power(a, e->force, e->forces, TERM_Q);
+        wanted[BOOK_LOSS_POWER] = poly_scale(a, forces_power(a, e->force, e->forces, TERM_F), -1.0);
         for (int i = 0; i < n; i++) {
             wanted[BOOK_MOMENTA + i] = e->momentum[i];
         }
@@ -142,7 +132,7 @@ static tape *make_books(program *p, const equations *e, layout *map, const linea
             wanted[count++] = p->integral;
         }
     }
-    tape *t = make_observer(p, e, map, s, wanted, count, true);
+    tape *t = make_observer(map, s, wanted, count, true);
     free(wanted);
     return t;
 }
@@ -208,7 +198,6 @@ program *program_make(const equations *e, const bool *conserve, diags *errors) {
     bool *turning = room(n, sizeof *turning);
     bool *wanted = room(n, sizeof *wanted);
     p->count = n;
-    arrange_inputs(p, e->instance);
     p->outputs = m->output_count + 2 * p->conserved->count;
     const linear_system s = {n, !m->is_system, dynamics, dynamics + n * n, turning, wanted};
     for (int i = 0; i < n * n; i++) {
@@ -221,23 +210,24 @@ program *program_make(const equations *e, const bool *conserve, diags *errors) {
         wanted[i] = p->conserved->number[i] < 0;
     }
     contact_lists_polys(e, p->conserved, dynamics + polys);
-    layout map = {.program = p, .equations = e};
-    const bool fits = layout_arrange(&map, p, dynamics, polys + more);
+    layout *map = &p->layout;
+    const bool fits = layout_arrange(map, e, p->conserved, dynamics, polys + more);
     bool good = fits;
     if (fits) {
-        p->step = make_step(p, e, &map, &s);
-        p->observe = make_observe(p, e, &map, &s);
+        p->step = make_step(map, &s);
+        p->observe = make_observe(p, map, &s);
         p->integral = energy_integral(e);
-        p->books = make_books(p, e, &map, &s);
-        p->contacts = more > 0 ? contact_lists_make(p, e, &map, &s, errors) : NULL;
+        p->books = make_books(p, map, &s);
+        p->contacts = more > 0 ? contact_lists_make(map, &s, errors) : NULL;
         good = more == 0 || p->contacts != NULL;
+        const int contacts = p->contacts != NULL ? p->contacts->count : 0;
         p->ledger_asked = e->instance->ledger;
         if (good && p->ledger_asked) {
-            p->ledger = ledger_lists_make(p, e, &map, errors);
+            p->ledger = ledger_lists_make(map, p->integral, contacts, errors);
             good = p->ledger != NULL;
         } else if (good && p->contacts != NULL && e->instance->balance) {
             diags *unsaid = diags_new();
-            p->ledger = ledger_lists_make(p, e, &map, unsaid);
+            p->ledger = ledger_lists_make(map, p->integral, contacts, unsaid);
             diags_free(unsaid);
         }
         good = good && lists_finite(p, e, errors) && steps_need_no_turns(p, e, errors);
@@ -249,7 +239,6 @@ program *program_make(const equations *e, const bool *conserve, diags *errors) {
     if (grown) {
         equations_report_growth(e, errors);
     }
-    layout_free(&map);
     free(dynamics);
     free(turning);
     free(wanted);
@@ -269,10 +258,7 @@ void program_free(program *p) {
     tape_free(p->books);
     contact_lists_free(p->contacts);
     ledger_lists_free(p->ledger);
-    free(p->input);
-    free(p->angle);
-    free(p->real);
-    free(p->place);
+    layout_free(&p->layout);
     conservation_free(p->conserved);
     free(p);
 }

@@ -2,27 +2,14 @@
 #ifndef DERIVE_PROGRAM_H
 #define DERIVE_PROGRAM_H
 
-#include "conserve.h"
-#include "core/scene.h"
-#include "equations.h"
-#include "host/image/image.h"
-
-typedef struct contact_lists contact_lists; /* contact_lists.h */
-typedef struct ledger_lists ledger_lists;   /* ledger_lists.h */
+#include "contact_lists.h"
+#include "layout.h"
+#include "ledger_lists.h"
 
 typedef struct program {
-    wh_form form;
-    int count;        /* unknowns */
-    int coordinates;  /* integrated coordinates, angles included (second order) */
-    int angles;       /* components kept as turn angles */
-    int reals;        /* components kept as reals */
-    int inputs;       /* the mechanism's own and those of the effects called for */
-    int outputs;      /* the mechanism's, then value and rate of each conserved coordinate */
-    int *input;       /* [inputs] number in the mechanism */
-    component *angle; /* [angles] */
-    component *real;  /* [reals] */
-    int *
-        place; /* [count] unknown -> coordinate number in the scene's order, or -1 (second order) */
+    layout layout;
+    int count;   /* unknowns */
+    int outputs; /* the mechanism's, then value and rate of each conserved coordinate */
     conservation *conserved;
     /* Second order: result[i] is the acceleration of scene coordinate i. First order: the slope of
      * component i, angles first. */

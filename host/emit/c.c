@@ -75,6 +75,8 @@ static void write_starts(FILE *out, const image *im) {
 
 static void write_scene(FILE *out, const image *im) {
     char hex[HEX_SIZE];
+    /* declared here and not above, where it would stand before the names in functions */
+    fprintf(out, "extern const wh_scene %s;\n", im->name);
     fprintf(out, "const wh_scene %s = {\n    .name = \"%s\",\n    .form = %s,\n    .method = %s,\n",
             im->name, im->name, im->form == WH_SECOND_ORDER ? "WH_SECOND_ORDER" : "WH_FIRST_ORDER",
             wh_methods[im->settings.method].name);
@@ -99,42 +101,6 @@ static void write_scene(FILE *out, const image *im) {
     fprintf(out,
             "    .advance = advance,\n    .observe = %s,\n    .arithmetic = wh_arithmetic,\n};\n",
             im->outputs > 0 ? "observe" : "NULL");
-}
-
-bool emit_c_name_is_free(const char *name) {
-    static const char *const taken[] = {
-        "auto", "break", "case", "char", "const", "continue", "default", "do", "double", "else",
-        "enum", "extern", "float", "for", "goto", "if", "inline", "int", "long", "register",
-        "restrict", "return", "short", "signed", "sizeof", "static", "struct", "switch", "typedef",
-        "union", "unsigned", "void", "volatile", "while", "bool", "true", "false", "main", "NULL",
-        "accelerations", "slopes", "advance", "observe", "start_angle", "start_real", "start_input",
-        "contacts", "contact_signals", "contact_forces", "contact_sets", "contact_table",
-        "contact_target", "ledger", "ledger_powers", "ledger_levels", "ledger_accounts",
-        "ledger_inputs", "waves", "wave_sines", "wave_rates",
-        /* types of the headers that core/scene.h includes, and macros of the GNU dialects */
-        "int8_t", "int16_t", "int32_t", "int64_t", "uint8_t", "uint16_t", "uint32_t", "uint64_t",
-        "intptr_t", "uintptr_t", "intmax_t", "uintmax_t", "size_t", "ptrdiff_t", "wchar_t",
-        "max_align_t", "offsetof", "typeof", "asm", "unix", "linux", "i386",
-        /* functions that compilers know by their names: no variable may have those */
-        "abort", "abs", "acos", "acosh", "asin", "asinh", "atan", "atan2", "atanh", "calloc",
-        "cbrt", "ceil", "copysign", "cos", "cosh", "erf", "erfc", "exit", "exp", "exp2", "expm1",
-        "fabs", "fdim", "floor", "fma", "fmax", "fmin", "fmod", "fprintf", "fputc", "fputs", "free",
-        "frexp", "fscanf", "fwrite", "gamma", "hypot", "ilogb", "index", "isalnum", "isalpha",
-        "isdigit", "isinf", "islower", "isnan", "isprint", "isspace", "isupper", "j0", "j1", "jn",
-        "labs", "ldexp", "lgamma", "llabs", "log", "log10", "log1p", "log2", "logb", "lrint",
-        "lround", "malloc", "memchr", "memcmp", "memcpy", "memmove", "memset", "modf", "nan",
-        "nearbyint", "nextafter", "pow", "pow10", "printf", "putchar", "puts", "realloc",
-        "remainder", "remquo", "rindex", "rint", "round", "scalb", "scalbln", "scalbn", "scanf",
-        "significand", "signbit", "sin", "sincos", "sinh", "snprintf", "sprintf", "sqrt", "sscanf",
-        "strcat", "strchr", "strcmp", "strcpy", "strcspn", "strdup", "strlen", "strncat", "strncmp",
-        "strncpy", "strpbrk", "strrchr", "strspn", "strstr", "tan", "tanh", "tgamma", "tolower",
-        "toupper", "trunc", "vprintf", "y0", "y1", "yn"};
-    for (size_t i = 0; i < sizeof taken / sizeof taken[0]; i++) {
-        if (strcmp(name, taken[i]) == 0) {
-            return false;
-        }
-    }
-    return strncmp(name, "wh_", 3) != 0 && strncmp(name, "WH_", 3) != 0 && name[0] != '_';
 }
 
 static void write_names(FILE *out, const image *im) {
@@ -187,7 +153,8 @@ static void write_includes(FILE *out, const image *im) {
     if (im->contacts > 0) {
         c_contacts_include(out, im);
     } else {
-        const char *const with[2][2] = {{"step", "ledger_step"}, {"stage_turn", "stage_turn_ledger"}};
+        const char *const with[2][2] = {{"step", "ledger_step"},
+                                        {"stage_turn", "stage_turn_ledger"}};
         fprintf(out, "#include \"core/%s.h\"\n", with[image_turns(im)][im->ledger.kept]);
     }
     if (image_calls(im)) {
@@ -237,7 +204,7 @@ void emit_c(FILE *out, const image *im, const char *file) {
         fprintf(out, "#define WH_WAVES %d\n", waves > 0 ? waves : 1);
     }
     write_includes(out, im);
-    fprintf(out, "\nextern const wh_scene %s;\n\n", im->name);
+    fprintf(out, "\n");
     write_starts(out, im);
     c_list_function(out, im->list[IMAGE_STEP], turns ? C_WAVES : C_PHASES,
                     second ? "accelerations" : "slopes", second,

@@ -12,10 +12,11 @@ void c_contacts_include(FILE *out, const image *im) {
                  "#define WH_CONTACTS_OF(model) (&contacts)\n#include \"core/contact_step.h\"\n");
 }
 
-static void write_table(FILE *out, const image *im) {
 #define KIND_TEXT(name, is) [name] = #name,
-    static const char *const kinds[WH_CONTACT_KIND_COUNT] = {WH_CONTACT_KINDS(KIND_TEXT)};
+static const char *const kinds[WH_CONTACT_KIND_COUNT] = {WH_CONTACT_KINDS(KIND_TEXT)};
 #undef KIND_TEXT
+
+static void write_table(FILE *out, const image *im) {
     fprintf(out, "static const wh_contact contact_table[%d] = {", im->contacts);
     for (int k = 0; k < im->contacts; k++) {
         const wh_contact row = core_contact_row(&im->contact[k]);
@@ -47,13 +48,24 @@ void c_contacts_write(FILE *out, const image *im) {
         "static const wh_contact_system contacts = {\n    .accel = accelerations,\n"
         "    .signals = contact_signals,\n    .forces = contact_forces,\n    .sets = %s,\n"
         "    .contact = contact_table,\n    .target = %s,\n    .ledger = %s,\n    .contacts = %d,\n"
-        "    .forced = %d,\n    .held = %d,\n    .evaluations = WH_CONTACT_EVALUATIONS(%d, %d, %d),\n"
-        "    .method = %s,\n    .compensated = %s,\n"
-        "    .angles = %d,\n    .coordinates = %d,\n};\n\n",
+        "    .forced = %d,\n    .kinds = ",
         sets ? "contact_sets" : "NULL", im->set_count > 0 ? "contact_target" : "NULL",
-        im->ledger.kept ? "&ledger" : "NULL", system.contacts, system.forced, system.held,
-        core_stages(im), core_stops(im), system.forced, wh_methods[system.method].name,
-        system.compensated ? "true" : "false", system.angles, system.coordinates);
+        im->ledger.kept ? "&ledger" : "NULL", system.contacts, system.forced);
+    const char *between = "";
+    for (unsigned kind = 0; kind < WH_CONTACT_KIND_COUNT; kind++) {
+        if ((system.kinds & WH_KIND_BIT(kind)) != 0) {
+            fprintf(out, "%sWH_KIND_BIT(%s)", between, kinds[kind]);
+            between = " | ";
+        }
+    }
+    fprintf(out,
+            "%s,\n    .pinned = %d,\n    .held = %d,\n"
+            "    .evaluations = WH_CONTACT_EVALUATIONS(%d, %d, %d),\n"
+            "    .method = %s,\n    .compensated = %s,\n"
+            "    .angles = %d,\n    .coordinates = %d,\n};\n\n",
+            system.kinds != 0 ? "" : "0", system.pinned, system.held, core_stages(im),
+            core_stops(im), system.forced, wh_methods[system.method].name,
+            system.compensated ? "true" : "false", system.angles, system.coordinates);
     fprintf(out,
             "static wh_status advance(const wh_scene *scene, wh_state *state) {\n"
             "    (void)scene;\n    return wh_step_contact(&contacts, WH_R(%s), state);\n}\n\n",

@@ -180,23 +180,3 @@ void emit_c_header(FILE *out, const image *im, const char *file) {
     }
     fputs("\n#ifdef __cplusplus\n}\n#endif\n\n#endif\n", out);
 }
-
-bool emit_c_name_is_free_in_cpp(const char *name) {
-    static const char *const taken[] = {
-        "std",          "alignas",       "alignof",     "and",       "and_eq",   "asm",
-        "bitand",       "bitor",         "catch",       "char16_t",  "char32_t", "char8_t",
-        "class",        "co_await",      "co_return",   "co_yield",  "compl",    "concept",
-        "const_cast",   "consteval",     "constexpr",   "constinit", "decltype", "delete",
-        "dynamic_cast", "explicit",      "export",      "friend",    "mutable",  "namespace",
-        "new",          "noexcept",      "not",         "not_eq",    "nullptr",  "operator",
-        "or",           "or_eq",         "private",     "protected", "public",   "reinterpret_cast",
-        "requires",     "static_assert", "static_cast", "template",  "this",     "thread_local",
-        "throw",        "try",           "typeid",      "typename",  "using",    "virtual",
-        "wchar_t",      "xor",           "xor_eq"};
-    for (size_t i = 0; i < sizeof taken / sizeof taken[0]; i++) {
-        if (strcmp(name, taken[i]) == 0) {
-            return false;
-        }
-    }
-    return true;
-}

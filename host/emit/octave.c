@@ -1,6 +1,7 @@
 /* octave.c: a function file for Octave and Matlab, from the operation list. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "emit.h"
 #include "host/base/room.h"
@@ -167,4 +168,30 @@ void emit_octave(FILE *out, const image *im, const char *file, const char *conta
         fprintf(out, "  if ~isreal(dy), dy(:) = NaN; end %% outside a function's real values\n");
     }
     fprintf(out, "end\n");
+}
+
+bool emit_octave_name_is_free(const char *name) {
+    static const char *const taken[] = {
+        /* keywords of either */
+        "arguments", "break", "case", "catch", "classdef", "continue", "do", "else", "elseif",
+        "end", "end_try_catch", "end_unwind_protect", "endarguments", "endclassdef",
+        "endenumeration", "endevents", "endfor", "endfunction", "endif", "endmethods", "endparfor",
+        "endproperties", "endspmd", "endswitch", "endwhile", "enumeration", "events", "for",
+        "function", "global", "if", "methods", "otherwise", "parfor", "persistent", "properties",
+        "return", "spmd", "switch", "try", "until", "unwind_protect", "unwind_protect_cleanup",
+        "while",
+        /* constants, and what else is a value without being called */
+        "ans", "e", "eps", "false", "i", "I", "inf", "Inf", "j", "J", "NA", "nan", "NaN", "nargin",
+        "nargout", "pi", "realmax", "realmin", "true", "varargin", "varargout", "flintmax",
+        "intmax", "intmin",
+        /* the file's own, and what its first lines call */
+        "t", "y", "dy", "zeros", "isreal", "ode45", "odeset", "save"};
+    function_id called;
+    for (size_t i = 0; i < sizeof taken / sizeof taken[0]; i++) {
+        if (strcmp(name, taken[i]) == 0) {
+            return false;
+        }
+    }
+    /* Matlab's names begin with a letter. */
+    return name[0] != '_' && !function_find(name, strlen(name), &called);
 }

@@ -19,10 +19,18 @@ static inline wh_contact core_contact_row(const image_contact *c) {
  * the caller's. */
 static inline wh_contact_system core_contact_system(const image *im, const wh_contact *contact,
                                                     const uint8_t *target) {
+    unsigned kinds = 0;
+    int pinned = 0;
+    for (int k = 0; k < im->forced; k++) {
+        kinds |= WH_KIND_BIT((unsigned)im->contact[k].kind);
+        pinned += im->contact[k].pin >= 0;
+    }
     return (wh_contact_system){.contact = contact,
                                .target = target,
                                .contacts = (uint8_t)im->contacts,
                                .forced = (uint8_t)im->forced,
+                               .kinds = (uint8_t)kinds,
+                               .pinned = (uint8_t)pinned,
                                .held = (uint8_t)im->held,
                                .method = im->settings.method,
                                .compensated = im->settings.compensated,

@@ -22,7 +22,7 @@
 /* Where a stage's sines of turn angles come from. */
 typedef enum image_angles {
     ANGLES_TURNED, /* looked up once a step and turned on (core/stage_turn.h), where that is possible */
-    ANGLES_LOOKUP  /* looked up at each stage (core/step.h) */
+    ANGLES_LOOKUP /* looked up at each stage (core/step.h) */
 } image_angles;
 
 /* How to integrate. */
@@ -103,6 +103,8 @@ typedef struct component {
 typedef struct image_contact {
     int kind;         /* wh_contact_kind */
     const char *word; /* of the statement: "stop", "hold", ... */
+    const char *
+        undefined; /* what of it may be no number: "the condition of this hold, or what it holds," */
     int direction;
     int pin;
     int first_set;

@@ -18,6 +18,9 @@ bool parse_unit(parser *in, unit_scale *result, const char **text);
 const expr *expr_name(parser *in, const token *name);
 /* The line in which a later statement of the mechanism declares the name, or 0. */
 int name_declared_later(const token *name);
+/* Report that no coordinate has that name, with the nearest one that there is. */
+void no_such_coordinate(parser *in, const token *name);
+
 /* The coordinate of that name, or NULL (reported); `whose` it is to be, for messages. */
 const symbol *find_coordinate(parser *in, const token *name, const char *whose);
 

@@ -47,11 +47,30 @@ static bool is_letter(int c) {
 
 static bool is_digit(int c) { return c >= '0' && c <= '9'; }
 
+/* Lines end with a line feed, which a carriage return may precede. One anywhere else would hide what follows it from
+ * whoever shows the file, behind a comment all of a file whose lines end with it alone. */
+static void check_line_ends(const lexer *in) {
+    const source *text = in->at.source;
+    const char *at = text->text + in->at.offset;
+    const char *end = text->text + text->length;
+    while ((at = memchr(at, '\r', (size_t)(end - at))) != NULL) {
+        if (at + 1 < end && at[1] != '\n') {
+            const size_t bytes = (size_t)(at - text->text) - in->at.offset;
+            diag_error(in->diags, place_after(in->at, bytes),
+                       "a line ends with a line feed, or with a carriage return and a line feed",
+                       "a carriage return within a line");
+            return;
+        }
+        at++;
+    }
+}
+
 lexer lexer_start(const source *text, diags *all) {
     lexer in = {{text, 1, 1, 0}, true, false, all};
     if (text->length >= 3 && memcmp(text->text, "\xef\xbb\xbf", 3) == 0) {
         in.at.offset = 3; /* byte order mark */
     }
+    check_line_ends(&in);
     return in;
 }
 
@@ -144,7 +163,7 @@ static void read_name(lexer *in, token *made) {
 static void read_string(lexer *in, token *made) {
     size_t length = 1;
     int c = at_offset(in, length);
-    bool is_clean = true;
+    bool is_clean = true; /* a carriage return was reported at the start */
     bool is_utf8 = true;
     while (c > 0 && c != '"' && c != '\n') {
         const size_t left = in->at.source->length - in->at.offset - length;

@@ -253,6 +253,21 @@ const expr *expr_name(parser *in, const token *name) {
     return take_properties(in, made, name);
 }
 
+void no_such_coordinate(parser *in, const token *name) {
+    char words[80];
+    token_words(name, words, sizeof words);
+    nearest search = nearest_start(name->text, name->length);
+    char hint[120] = "";
+    const mechanism *inside = in->builder->made;
+    for (int i = 0; i < inside->coordinate_count; i++) {
+        nearest_offer(&search, inside->coordinates[i]->name);
+    }
+    if (search.best != NULL) {
+        snprintf(hint, sizeof hint, "did you mean '%s'?", search.best);
+    }
+    diag_error(in->diags, name->at, hint[0] == '\0' ? NULL : hint, "unknown coordinate %s", words);
+}
+
 const symbol *find_coordinate(parser *in, const token *name, const char *whose) {
     const named *found = names_find(in->builder->names, name->text, name->length);
     char words[80];
@@ -271,15 +286,6 @@ const symbol *find_coordinate(parser *in, const token *name, const char *whose) 
                    words);
         return NULL;
     }
-    nearest search = nearest_start(name->text, name->length);
-    char hint[120] = "";
-    const mechanism *inside = in->builder->made;
-    for (int i = 0; i < inside->coordinate_count; i++) {
-        nearest_offer(&search, inside->coordinates[i]->name);
-    }
-    if (search.best != NULL) {
-        snprintf(hint, sizeof hint, "did you mean '%s'?", search.best);
-    }
-    diag_error(in->diags, name->at, hint[0] == '\0' ? NULL : hint, "unknown coordinate %s", words);
+    no_such_coordinate(in, name);
     return NULL;
 }

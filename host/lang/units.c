@@ -21,7 +21,7 @@ typedef struct unit_entry {
 #define POUND_KG 0.45359237
 #define POUND_FORCE_N 4.4482216152605
 
-/* Of one quantity together, SI first. */
+/* Of one quantity together; the one of SI has no factor. */
 static const unit_entry units[] = {
     {"m", 1, 1, QUANTITY_LENGTH},
     {"km", 1e3, 1, QUANTITY_LENGTH},
@@ -338,6 +338,20 @@ double unit_number(unit_scale u, double si) {
 }
 
 const char *unit_name(int index) { return index < UNIT_COUNT ? units[index].name : NULL; }
+
+char *unit_in_si(int index, double *value, char *buffer, size_t size) {
+    *value = units[index].scale / units[index].divisor;
+    if (units[index].of == QUANTITY_FREQUENCY) { /* a rpm is no tenth of a Hz to anybody */
+        return dim_unit(dim_of_quantity(QUANTITY_FREQUENCY), buffer, size);
+    }
+    for (int i = 0; i < UNIT_COUNT; i++) {
+        if (units[i].of == units[index].of && units[i].scale == units[i].divisor) {
+            snprintf(buffer, size, "%s", units[i].name);
+            return buffer;
+        }
+    }
+    return dim_symbols(dim_of_quantity(units[index].of), buffer, size);
+}
 
 bool unit_is_angle(const char *text, size_t length) {
     const unit_entry *found = find_unit(text, length);

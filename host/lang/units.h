@@ -70,6 +70,10 @@ double unit_number(unit_scale u, double si);
 /* The name of unit `index`, counted from 0, or NULL beyond the last. */
 const char *unit_name(int index);
 
+/* What unit `index`, one of them, is in SI: the unit's name, or base units where it has none, cut to `size` bytes;
+ * returns `buffer`. One of it is *value of those. */
+char *unit_in_si(int index, double *value, char *buffer, size_t size);
+
 /* True when the text names an angle by itself: rad, deg or rev. */
 bool unit_is_angle(const char *text, size_t length);
 

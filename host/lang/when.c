@@ -18,17 +18,7 @@ static bool take_target(parser *in, const contact_statement *made, assignment *s
     const named *found = names_find(in->names, name.text, name.length);
     *usable = false;
     if (found == NULL) {
-        nearest search = nearest_start(name.text, name.length);
-        char hint[120] = "";
-        const mechanism *inside = in->builder->made;
-        for (int i = 0; i < inside->coordinate_count; i++) {
-            nearest_offer(&search, inside->coordinates[i]->name);
-        }
-        if (search.best != NULL) {
-            snprintf(hint, sizeof hint, "did you mean '%s'?", search.best);
-        }
-        diag_error(in->diags, name.at, hint[0] == '\0' ? NULL : hint, "unknown coordinate %s",
-                   words);
+        no_such_coordinate(in, &name);
         return true;
     }
     if (found->is_placeholder) {

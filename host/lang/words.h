@@ -50,8 +50,8 @@ enum {
     X(COORDINATE, "coordinate", IN_MECHANISM, \
       RESERVED | DECLARES | ENDS_SCENE | ENDS_WHEN | BY_ENERGIES, read_unknown, SYM_COORDINATE, \
       "coordinate theta [rad]") \
-    X(STATE, "state", IN_MECHANISM, RESERVED | DECLARES | ENDS_SCENE | BY_EQUATIONS, read_unknown, \
-      SYM_STATE, "state x") \
+    X(STATE, "state", IN_MECHANISM, RESERVED | DECLARES | ENDS_SCENE | ENDS_WHEN | BY_EQUATIONS, \
+      read_unknown, SYM_STATE, "state x") \
     X(PARAMETER, "parameter", IN_MECHANISM | IN_EFFECT, \
       RESERVED | DECLARES | ENDS_SCENE | ENDS_WHEN, read_constant, SYM_PARAMETER, \
       "parameter name = expression") \
@@ -59,15 +59,16 @@ enum {
       SYM_INPUT, "input name = expression") \
     X(LET, "let", IN_MECHANISM | IN_EFFECT, RESERVED | DECLARES | ENDS_SCENE | ENDS_WHEN, \
       read_constant, SYM_LET, "let name = expression") \
-    X(T, "T", IN_MECHANISM | IN_EFFECT, RESERVED | BY_ENERGIES, read_energy, TERM_T, \
+    X(T, "T", IN_MECHANISM | IN_EFFECT, RESERVED | ENDS_WHEN | BY_ENERGIES, read_energy, TERM_T, \
       "T = m*X'^2/2") \
-    X(V, "V", IN_MECHANISM | IN_EFFECT, RESERVED | BY_ENERGIES, read_energy, TERM_V, "V = m*g*X") \
-    X(F, "F", IN_MECHANISM | IN_EFFECT, RESERVED | BY_ENERGIES, read_energy, TERM_F, \
+    X(V, "V", IN_MECHANISM | IN_EFFECT, RESERVED | ENDS_WHEN | BY_ENERGIES, read_energy, TERM_V, \
+      "V = m*g*X") \
+    X(F, "F", IN_MECHANISM | IN_EFFECT, RESERVED | ENDS_WHEN | BY_ENERGIES, read_energy, TERM_F, \
       "F = b*X'^2/2") \
-    X(Q, "Q", IN_MECHANISM | IN_EFFECT, RESERVED | BY_ENERGIES, read_force, TERM_Q, \
+    X(Q, "Q", IN_MECHANISM | IN_EFFECT, RESERVED | ENDS_WHEN | BY_ENERGIES, read_force, TERM_Q, \
       "write Q(theta) = ...") \
-    X(EQUATION, "equation", IN_MECHANISM, RESERVED | ENDS_SCENE | BY_EQUATIONS, read_equation, \
-      TERM_EQUATION, "equation left = right") \
+    X(EQUATION, "equation", IN_MECHANISM, RESERVED | ENDS_SCENE | ENDS_WHEN | BY_EQUATIONS, \
+      read_equation, TERM_EQUATION, "equation left = right") \
     X(OUTPUT, "output", IN_MECHANISM, RESERVED | DECLARES | ENDS_SCENE | ENDS_WHEN, read_output, \
       SYM_OUTPUT, "output name = expression") \
     X(EFFECT, "effect", IN_FILE, RESERVED | ENDS_ALL, read_effect, 0, \
@@ -76,10 +77,10 @@ enum {
       "scene from_rest \"title\" { until 9 [s] }") \
     X(STOP, "stop", IN_MECHANISM | IN_EFFECT, RESERVED | ENDS_WHEN | INTO_EFFECT, read_stop, \
       CONTACT_STOP, "stop x >= 0 [m] restitution 0.5") \
-    X(FRICTION, "friction", IN_MECHANISM | IN_EFFECT, RESERVED | INTO_EFFECT, read_friction, \
-      CONTACT_FRICTION, "friction x static 0.3 kinetic 0.2 normal m*g") \
-    X(HOLD, "hold", IN_MECHANISM | IN_EFFECT, RESERVED | INTO_EFFECT, read_hold, CONTACT_HOLD, \
-      "hold x - y while x > 0 [m] and x' > 0 [m/s]") \
+    X(FRICTION, "friction", IN_MECHANISM | IN_EFFECT, RESERVED | ENDS_WHEN | INTO_EFFECT, \
+      read_friction, CONTACT_FRICTION, "friction x static 0.3 kinetic 0.2 normal m*g") \
+    X(HOLD, "hold", IN_MECHANISM | IN_EFFECT, RESERVED | ENDS_WHEN | INTO_EFFECT, read_hold, \
+      CONTACT_HOLD, "hold x - y while x > 0 [m] and x' > 0 [m/s]") \
     X(WHEN, "when", IN_MECHANISM | IN_EFFECT | IN_SCENE, RESERVED | ENDS_WHEN, read_when, \
       CONTACT_WHEN, "when x crosses 0 [m] rising { set x' = 0 [m/s] }") \
     X(NOISE, "noise", IN_MECHANISM | IN_EFFECT, INTO_EFFECT, read_noise, 0, \

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core/function_double.h"
+#include "core/root.h"
 
 double number_sine(double rad) { return wh_sine(rad); }
 double number_cosine(double rad) { return wh_cosine(rad); }

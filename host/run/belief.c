@@ -3,9 +3,8 @@
 
 #include <inttypes.h>
 #include <math.h>
-#include <stdlib.h>
 
-#include "host/base/room.h"
+#include "ledger_read.h"
 
 /* Roundings of a whole step that a run of one step may be off by. Of N steps it is so many times the root of N:
  * that is also N of the same sign, as a rate that grows evenly has, for runs of a thousand steps. */
@@ -13,33 +12,21 @@
 
 static double larger(double a, double b) { return fabs(b) > a ? fabs(b) : a; }
 
-/* The entries that the run itself kept; returns their sum. */
-static double kept_entries(const image *im, const engine_kind *kind, const void *run,
-                           belief *made) {
-    const image_ledger *l = &im->ledger;
-    double *total = room(l->entries + l->accounts, sizeof *total);
-    double sum = 0.0;
-    if (kind->steps(run) > 0) {
-        kind->ledger(run, total, total + l->entries);
-    }
-    for (int i = 0; i < l->smooth; i++) {
-        if (l->entry[i].account == 0) {
-            made->largest_J = larger(made->largest_J, total[i]);
-            sum += total[i];
+/* Enter what the run itself kept. */
+static void enter_kept(const image *im, const engine_kind *kind, const void *run, belief *made) {
+    kept_account kept = kept_account_read(im, kind, run, 0);
+    for (int i = 0; i < kept.entries; i++) {
+        const kept_entry *e = &kept.entry[i];
+        account_enter(&made->energy, e->given);
+        switch (e->by) {
+        case GIVER_ENERGIES: break; /* none of the energy's */
+        case GIVER_FORCE:
+        case GIVER_INPUT: made->inputs_J += e->given; break;
+        case GIVER_DAMPER: made->losses_J += e->given; break;
+        case GIVER_CONTACT: made->contacts_J += e->given; break;
         }
     }
-    for (int k = 0; k < im->contacts; k++) {
-        const double given = total[l->smooth + k * (1 + im->coordinates)];
-        made->largest_J = larger(made->largest_J, given);
-        made->contacts_J -= given;
-        sum += given;
-    }
-    for (int i = l->entries - l->inputs; i < l->entries; i++) {
-        made->largest_J = larger(made->largest_J, total[i]);
-        sum += total[i];
-    }
-    free(total);
-    return sum;
+    kept_account_free(&kept);
 }
 
 /* The books beside the run see no force of a contact, and across an impact no rule of theirs holds: with contacts
@@ -49,21 +36,26 @@ belief belief_of(books *b, const engine_kind *kind, const void *run) {
     if (b == NULL || (b->image->contacts > 0 && !b->image->ledger.kept)) {
         return made;
     }
-    made.known = true;
-    made.left_J = books_error_J(b);
     if (b->image->contacts > 0) {
-        made.left_J = b->energy_J[1] - b->energy_J[0] - kept_entries(b->image, kind, run, &made);
+        made.energy = account_of(b->energy_J);
+        enter_kept(b->image, kind, run, &made);
         kind->events(run, &made.overruns);
     } else {
-        made.largest_J = larger(fabs(b->input_J), b->loss_J);
-        made.jump_s = fabs(b->jump_J) > 0.5 * fabs(made.left_J) ? b->jump_s : -1.0;
+        made.energy = books_account(b);
+        made.inputs_J = b->input_J;
+        made.losses_J = -b->loss_J;
+        made.jump_s = fabs(b->jump_J) > 0.5 * fabs(made.energy.left) ? b->jump_s : -1.0;
     }
-    made.largest_J = larger(made.largest_J, b->kinetic_J[1] - b->kinetic_J[0]);
+    made.left_J = made.energy.left;
+    made.largest_J = larger(made.energy.largest, b->kinetic_J[1] - b->kinetic_J[0]);
     made.largest_J = larger(made.largest_J, b->stored_J[1] - b->stored_J[0]);
     made.largest_J = larger(made.largest_J, books_swing_J(b));
     double computing_J;
     const double step_J = books_rounding_J(b, kind, &computing_J);
     made.rounding_J = ROUNDINGS * number_root((double)b->entries) * step_J + 2.0 * computing_J;
+    if (made.left_J != 0.0) { /* else there is nothing to explain */
+        made.rounding_J += books_lost_J(b);
+    }
     made.rounded = made.rounding_J / BELIEF_LIMIT > made.largest_J;
     made.largest_J = number_most(made.largest_J, made.rounding_J / BELIEF_LIMIT);
     made.known = isfinite(made.left_J);

@@ -33,12 +33,15 @@
 
 typedef struct belief {
     bool known; /* false: no energies, no finite ones, or books of contacts that cannot be kept */
-    double left_J;    /* left over, signed */
+    book_account energy; /* what balances, and the largest entry */
+    double inputs_J;     /* entries of the energy, by what gave them: negative where it took */
+    double losses_J;
+    double contacts_J;
+    double left_J;    /* left over, signed: energy.left */
     double largest_J; /* the largest entry, or what rounding makes of it */
     bool rounded;     /* it is rounding that sets it */
     double
         rounding_J; /* what rounding explains of it: of a step, by the root of the steps, and of the energy itself */
-    double contacts_J; /* what contacts took, in all; positive: a loss */
     double ratio;      /* |left| / largest, >= 0; infinite with something left over of nothing */
     uint64_t overruns; /* steps with more moments with events than a step takes */
     double jump_s;     /* where the balance was lost at one go; below 0: nowhere */

@@ -67,6 +67,10 @@ double books_swing_J(const books *b) {
 
 /* --- what rounding does ------------------------------------------------------------------------*/
 
+/* The smallest normal float; how often a step rounds each of its entries: at its stages and moments. */
+#define FLOAT_LEAST 0x1p-126
+#define SUMS_OF_A_STEP 8.0
+
 /* A change of a component by which the energy's slope is taken. */
 #define SLOPE_SHARE 0x1p-20
 
@@ -138,14 +142,38 @@ static double step_rounding_J(const books *b, const engine_kind *kind) {
     return sum_W * b->step_s;
 }
 
+/* What a step's entries may lose to numbers that end: a run with contacts keeps its own books, in its own number, and
+ * what falls below the smallest normal one is rounded as much as that, or is gone. All of it may go to one side. In
+ * double, in which the books beside the run are, there is nothing below that anybody could mean. */
+static double step_lost_J(const books *b, const engine_kind *kind) {
+    const image *im = b->image;
+    if (im->contacts == 0 || kind != &engine_float) {
+        return 0.0;
+    }
+    double without_W = 0.0;
+    double with_W = 0.0;
+    for (int k = BOOK_INPUT_POWER; k <= BOOK_LOSS_POWER; k++) {
+        without_W += b->off[im->count + k];
+    }
+    evaluator_rounding(b->evaluator, b->angle_rad, FLOAT_LEAST, b->off);
+    for (int k = BOOK_INPUT_POWER; k <= BOOK_LOSS_POWER; k++) {
+        with_W += b->off[im->count + k];
+    }
+    const double lost_W = with_W - without_W;
+    const double entries = im->ledger.smooth + im->contacts + im->inputs;
+    return 0x1p-24 *
+           (SUMS_OF_A_STEP * entries * FLOAT_LEAST + (isfinite(lost_W) ? b->step_s * lost_W : 0.0));
+}
+
 /* Look at the present state. */
 static void look_at_rounding(books *b, const engine_kind *kind) {
     const double state_J = state_rounding_J(b, kind);
     evaluate_now(b, b->angle_rad, b->real, b->time_s);
-    evaluator_rounding(b->evaluator, b->angle_rad, b->off);
+    evaluator_rounding(b->evaluator, b->angle_rad, 0.0, b->off);
     const double off_J = energy_of(b->image, b->off);
     b->rounding_J = number_most(b->rounding_J, state_J + step_rounding_J(b, kind));
     b->computing_J = number_most(b->computing_J, isfinite(off_J) ? 0x1p-53 * off_J : 0.0);
+    b->lost_J = number_most(b->lost_J, step_lost_J(b, kind));
 }
 
 double books_rounding_J(books *b, const engine_kind *kind, double *computing_J) {
@@ -153,6 +181,8 @@ double books_rounding_J(books *b, const engine_kind *kind, double *computing_J) 
     *computing_J = b->computing_J;
     return b->rounding_J + 0x1p-52 * b->size_J;
 }
+
+double books_lost_J(const books *b) { return (double)b->entries * b->lost_J; }
 
 /* --- the balance -------------------------------------------------------------------------------*/
 
@@ -224,7 +254,7 @@ void books_enter(books *b, const engine_kind *kind, const void *run) {
     }
     b->entries++;
     if (b->entries % 2 == 1) { /* Simpson's rule is complete */
-        const double error = books_error_J(b);
+        const double error = books_account(b).left;
         if (fabs(error - b->kept_J) > fabs(b->jump_J)) {
             b->jump_J = error - b->kept_J;
             b->jump_s = b->time_s;
@@ -233,6 +263,9 @@ void books_enter(books *b, const engine_kind *kind, const void *run) {
     }
 }
 
-double books_error_J(const books *b) {
-    return b->energy_J[1] - b->energy_J[0] - b->input_J + b->loss_J;
+book_account books_account(const books *b) {
+    book_account a = account_of(b->energy_J);
+    account_enter(&a, b->input_J);
+    account_enter(&a, -b->loss_J);
+    return a;
 }

@@ -1,12 +1,15 @@
 /* books.h: the energy and momentum balance of a run, kept in double beside it.
  *
- * Energy: kinetic + stored energy, or the energy integral where that is not their sum (energy.h), changes
- * by the work of the inputs less the losses. The inputs keep the values that they start with. What is left
- * over is the numerical error of the run (and of the books' own quadrature, Simpson's rule on the
- * steps, which is of the same order as Runge-Kutta's). */
+ * What balances is kinetic + stored energy, or the energy integral where that is not their sum (host/derive/energy.h);
+ * account.h says how. The powers are those that the ledger (core/ledger.h) keeps by statement, summed; the integration
+ * is not the ledger's, on purpose. A ledger is part of the scene: it flies on the board, in the run's numbers, with the
+ * method's own stages. These books judge the run, ledger included, and share neither: double, and Simpson's rule on the
+ * steps' ends, which is of the same order as Runge-Kutta's. The inputs keep the values that they start with. What is
+ * left over is the numerical error of the run (and of that rule). */
 #ifndef RUN_BOOKS_H
 #define RUN_BOOKS_H
 
+#include "account.h"
 #include "engine.h"
 
 /* Mean and spread of a series, by Welford's recurrence, from its first value on. */
@@ -43,6 +46,7 @@ typedef struct books {
         rounding_J; /* what rounding a step once changes the energy by, at most of those looked at */
     double
         computing_J; /* what rounding may leave of the energy's computation, at most of those looked at */
+    double lost_J;      /* what a step may lose of entries too small for float, likewise */
     double kept_J;      /* error at the last even step */
     double jump_J;      /* its largest change between two even steps, */
     double jump_s;      /* which ended here */
@@ -58,12 +62,15 @@ books *books_open(const image *im);
 void books_close(books *b);
 /* Enter the state after each step, the start included. */
 void books_enter(books *b, const engine_kind *kind, const void *run);
-/* energy - start - work + losses: zero for an exact solution. */
-double books_error_J(const books *b);
+/* The energy's account, with what the inputs gave and the losses took. */
+book_account books_account(const books *b);
 /* How far energy went to and fro: see belief.h. */
 double books_swing_J(const books *b);
 /* What a step's roundings to numbers of this kind change the energy by: of the state, of the accelerations and of the
  * powers that the books add up. *computing_J: what those of the energy itself, in double, leave at one time. */
 double books_rounding_J(books *b, const engine_kind *kind, double *computing_J);
+/* What the run's own books, of a scene with contacts, may have lost of entries that are too small for float, in all
+ * steps; after books_rounding_J(). */
+double books_lost_J(const books *b);
 
 #endif

@@ -47,6 +47,6 @@ void evaluator_run(evaluator *ev, double time_s, const double *angle_rad, const 
                    const double *rate, const double *input, double *result);
 /* How far off the results of the evaluator_run() just done, with the same angles, may be for the rounding of the list's
  * operations: error[results], in units of the numbers' rounding (rounding.h). */
-void evaluator_rounding(const evaluator *ev, const double *angle_rad, double *error);
+void evaluator_rounding(const evaluator *ev, const double *angle_rad, double least, double *error);
 
 #endif

@@ -41,10 +41,10 @@ void evaluator_run(evaluator *ev, double time_s, const double *angle_rad, const 
              (leaves){NULL, phase, angle_rad, time_s, linear, rate, input, NULL}, result);
 }
 
-void evaluator_rounding(const evaluator *ev, const double *angle_rad, double *error) {
+void evaluator_rounding(const evaluator *ev, const double *angle_rad, double least, double *error) {
     double wrapped[IMAGE_COMPONENTS_MAX];
     const registers *r = &ev->registers;
     const double *phase = phases_of(ev, angle_rad, wrapped);
-    rounding_of(ev->tape, &(rounding_values){r->value, r->sine, r->cosine, phase, angle_rad},
+    rounding_of(ev->tape, &(rounding_values){r->value, r->sine, r->cosine, phase, angle_rad, least},
                 error);
 }

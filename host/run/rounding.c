@@ -77,7 +77,8 @@ void rounding_of(const tape *t, const rounding_values *at, double *error) {
     for (int i = 0; i < t->count; i++) {
         bool rounds;
         each[i] = carried(t, &t->ops[i], at, each, at->value[i], &rounds);
-        each[i] += rounds ? fabs(at->value[i]) : 0.0;
+        const double size = fabs(at->value[i]);
+        each[i] += !rounds ? 0.0 : size < at->least ? at->least : size;
     }
     for (int i = 0; i < t->results; i++) {
         error[i] = each[t->result[i]];

@@ -175,16 +175,10 @@ bool undefined_set(const undefined_at *at, diags *errors) {
 }
 
 void undefined_contact(const undefined_at *at, int k, diags *errors) {
-    static const char *const whole[] = {[WH_STOP] = "the restitution, or the gap, of this stop",
-                                        [WH_HOLD] = "the condition of this hold, or what it holds,",
-                                        [WH_FRICTION] =
-                                            "the normal force, or a coefficient, of this friction",
-                                        [WH_WHEN] = "the value of this crossing"};
-    _Static_assert(sizeof whole / sizeof whole[0] == WH_CONTACT_KIND_COUNT, "one for each kind");
     const image_contact *c = &at->image->contact[k];
     if (!look_ahead(at, c->first_question, c->questions, errors) &&
         !look_ahead(at, c->first_late, c->late, errors)) {
-        report(at, c->at, (place){.source = NULL}, whole[c->kind], errors);
+        report(at, c->at, (place){.source = NULL}, c->undefined, errors);
     }
 }
 

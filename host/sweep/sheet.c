@@ -224,8 +224,10 @@ bool sheet_close(sheet *s) {
     if (s->out == NULL) {
         return true;
     }
-    const bool good = fflush(s->out) == 0 && ferror(s->out) == 0;
-    const bool closed = s->out == stdout || fclose(s->out) == 0;
+    /* at standard output the program looks when all is said (host/whirl.c) */
+    const bool is_file = s->out != stdout;
+    const bool good = !is_file || (fflush(s->out) == 0 && ferror(s->out) == 0);
+    const bool closed = !is_file || fclose(s->out) == 0;
     if (!good || !closed) {
         fprintf(stderr, "whirl sweep: error: the rows could not all be written: %s\n",
                 strerror(errno));

@@ -24,16 +24,20 @@ table() {
         {
             key = $5 " " $6 " " $7
             if (!(key in seen)) { order[++lines] = key; seen[key] = 1; board[key] = $2 }
-            figure[key, $8 ~ /minimum/ ? 1 : $8 ~ /median/ ? 2 : $8 ~ /maximum/ ? 3 : 4] = $9
+            if ($8 ~ /cycles/) {
+                if ($8 ~ /median/) { figure[key, 5] = $9; how[key] = $8; sub(/ .*/, "", how[key]) }
+            } else {
+                figure[key, $8 ~ /minimum/ ? 1 : $8 ~ /median/ ? 2 : $8 ~ /maximum/ ? 3 : 4] = $9
+            }
         }
         END {
-            printf "%-12s %-28s %-7s %-24s %8s %8s %8s %8s\n", "board", "scene", "number",
-                "method", "minimum", "median", "maximum", "stack B"
+            printf "%-12s %-28s %-7s %-24s %8s %8s %8s %8s %8s\n", "board", "scene", "number",
+                "method", "minimum", "median", "maximum", "stack B", "cycles"
             for (i = 1; i <= lines; i++) {
                 key = order[i]
                 split(key, part, " ")
-                printf "%-12s %-28s %-7s %-24s %8s %8s %8s %8s\n", board[key], part[1], part[2],
-                    part[3], figure[key, 1], figure[key, 2], figure[key, 3], figure[key, 4]
+                printf "%-12s %-28s %-7s %-24s %8s %8s %8s %8s %8s %s\n", board[key], part[1], part[2],
+                    part[3], figure[key, 1], figure[key, 2], figure[key, 3], figure[key, 4], figure[key, 5], how[key]
             }
         }'
 }
@@ -58,6 +62,7 @@ count() {
     *) PLUGIN=./$PLUGIN ;;
     esac
     status=0
+    [ -z "${TIMING:-}" ] || set -- "$1,cycles=$TIMING"
     sh -c "$EMULATE -plugin $PLUGIN,begin=$begin,end=$end$1 -d plugin -D $work/counts" \
         >"$work/console" || status=$?
     if [ "$status" -ne 0 ]; then

@@ -8,6 +8,7 @@
  *     profile=on    also say how often every single address was executed between markers
  *     first, last   the intervals (numbered from 0) whose instructions go into the profile
  *     every=N       N intervals after each other count as one, which has the instructions of the largest
+ *     cycles=CORE   estimate cycles, too, as a Cortex of that name takes them: m0, m3 or m4 (thumb_cycles.h)
  *     marks=FILE    lines "ADDRESS KIND": places that cut intervals into stretches. A stretch runs from one
  *                   mark (or the interval's begin, which is kind 0) to the next, or to the interval's end
  *
@@ -16,14 +17,16 @@
  * program ends, the log holds
  *
  *     interval NUMBER INSTRUCTIONS             one line each
+ *     cycles NUMBER CYCLES                     with cycles=CORE: the estimate for the same interval
  *     stretches NUMBER KIND LONGEST MOST       with marks=FILE, one line an interval and kind: instructions
  *                                              of the longest stretch of that kind, and how many there were
  *                                              (the most, where several intervals count as one)
- *     address ADDRESS EXECUTIONS               decimal, with profile=on
+ *     address ADDRESS EXECUTIONS JUMPS         decimal, with profile=on; JUMPS: how often what was executed
+ *                                              next was not what follows it in memory
  *     unfinished INSTRUCTIONS                  if it ended inside an interval
  *     intervals TOTAL                          always the last line
  *
- * Executed instructions are not cycles. A conditional instruction whose condition fails counts.
+ * Executed instructions are not cycles, and estimated cycles are no measured ones. A conditional instruction whose condition fails counts.
  *
  * No Debian package ships qemu-plugin.h, so the few calls used are declared here, after QEMU's
  * "TCG Plugins" chapter (interface version 1, QEMU 6.0 to 8.2). */
@@ -32,6 +35,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "mk/count/thumb_cycles.h"
 
 typedef uint64_t qemu_plugin_id_t;
 struct qemu_plugin_tb;
@@ -47,6 +52,8 @@ EXPORT int qemu_plugin_install(qemu_plugin_id_t id, const struct qemu_info_t *in
 size_t qemu_plugin_tb_n_insns(const struct qemu_plugin_tb *tb);
 struct qemu_plugin_insn *qemu_plugin_tb_get_insn(const struct qemu_plugin_tb *tb, size_t index);
 uint64_t qemu_plugin_insn_vaddr(const struct qemu_plugin_insn *insn);
+const void *qemu_plugin_insn_data(const struct qemu_plugin_insn *insn);
+size_t qemu_plugin_insn_size(const struct qemu_plugin_insn *insn);
 void qemu_plugin_register_vcpu_tb_trans_cb(qemu_plugin_id_t id,
                                            void (*callback)(qemu_plugin_id_t,
                                                             struct qemu_plugin_tb *));
@@ -63,7 +70,10 @@ int qemu_plugin_version = 1;
 typedef struct place {
     uint64_t address;
     uint64_t executions;
-    unsigned kind; /* of the mark here, or 0 */
+    uint64_t jumps;  /* of the executions, those with something else behind them */
+    uint64_t behind; /* address of what follows in memory */
+    unsigned kind;   /* of the mark here, or 0 */
+    thumb_timing timing;
     struct place *next;
 } place;
 
@@ -80,6 +90,9 @@ static uint64_t every = 1;
 static bool counting;
 static bool profiling; /* counting, and this interval goes into the profile */
 static uint64_t count;
+static thumb_core core;
+static uint64_t cycles;
+static place *last; /* executed in this interval, or NULL */
 
 #define KINDS 4U
 static bool marked;
@@ -90,6 +103,7 @@ static uint64_t stretches[KINDS]; /* in this interval, by kind */
 /* What is kept of an interval, or of a group of them: the largest of each. */
 typedef struct interval {
     uint64_t count;
+    uint64_t cycles;
     uint64_t longest[KINDS]; /* stretch, in instructions */
     uint64_t most[KINDS];    /* stretches */
 } interval;
@@ -132,12 +146,28 @@ static void begin_stretch(unsigned kind) {
     stretch_kind = kind;
 }
 
+/* What was executed last is followed by the instruction at `address`. True if that stands behind it in memory. */
+static bool follows(uint64_t address) {
+    if (last == NULL || last->behind == address) {
+        return last != NULL;
+    }
+    cycles += last->timing.jumping;
+    if (profiling) {
+        last->jumps++;
+    }
+    return false;
+}
+
 static void on_plain(unsigned cpu, void *data) {
     (void)cpu;
     if (counting) {
+        place *const here = data;
+        const place *const before = follows(here->address) ? last : NULL;
+        cycles += thumb_cycles(before == NULL ? NULL : &before->timing, &here->timing);
+        last = here;
         count++;
         if (profiling) {
-            ((place *)data)->executions++;
+            here->executions++;
         }
     }
 }
@@ -159,19 +189,22 @@ static void on_begin(unsigned cpu, void *data) {
     counting = true;
     profiling = profile && interval_count >= first_profiled && interval_count <= last_profiled;
     count = 0;
+    cycles = 0;
+    last = NULL;
     memset(stretches, 0, sizeof stretches);
     begin_stretch(0);
 }
 
 static void on_end(unsigned cpu, void *data) {
     (void)cpu;
-    (void)data;
     if (!counting) {
         fail("an interval ends that never began");
     }
+    (void)follows(((place *)data)->address);
     counting = false;
     end_stretch();
     keep_larger(&group.count, count);
+    keep_larger(&group.cycles, cycles);
     for (unsigned kind = 0; kind < KINDS; kind++) {
         keep_larger(&group.most[kind], stretches[kind]);
     }
@@ -191,6 +224,17 @@ static void on_end(unsigned cpu, void *data) {
     memset(&group, 0, sizeof group);
 }
 
+static void learn(place *here, const struct qemu_plugin_insn *insn) {
+    const unsigned char *const byte = qemu_plugin_insn_data(insn);
+    const size_t size = qemu_plugin_insn_size(insn);
+    here->behind = here->address + size;
+    if (core != THUMB_NONE) {
+        const unsigned first = byte[0] | (unsigned)byte[1] << 8;
+        const unsigned second = size == 4 ? byte[2] | (unsigned)byte[3] << 8 : 0U;
+        here->timing = thumb_decode(core, first, second);
+    }
+}
+
 /* Called when QEMU translates a block; what is registered here runs before each instruction. */
 static void on_translate(qemu_plugin_id_t id, struct qemu_plugin_tb *tb) {
     (void)id;
@@ -198,6 +242,7 @@ static void on_translate(qemu_plugin_id_t id, struct qemu_plugin_tb *tb) {
         struct qemu_plugin_insn *insn = qemu_plugin_tb_get_insn(tb, i);
         const uint64_t address = qemu_plugin_insn_vaddr(insn);
         place *here = place_of(address);
+        learn(here, insn);
         void (*callback)(unsigned, void *) = here->kind != 0 ? on_mark : on_plain;
         if (address == begin_address) {
             callback = on_begin;
@@ -215,6 +260,10 @@ static void report(qemu_plugin_id_t id, void *data) {
     for (size_t i = 0; i < interval_count; i++) {
         snprintf(line, sizeof line, "interval %zu %" PRIu64 "\n", i, intervals[i].count);
         qemu_plugin_outs(line);
+        if (core != THUMB_NONE) {
+            snprintf(line, sizeof line, "cycles %zu %" PRIu64 "\n", i, intervals[i].cycles);
+            qemu_plugin_outs(line);
+        }
         for (unsigned kind = 0; kind < KINDS && marked; kind++) {
             snprintf(line, sizeof line, "stretches %zu %u %" PRIu64 " %" PRIu64 "\n", i, kind,
                      intervals[i].longest[kind], intervals[i].most[kind]);
@@ -224,8 +273,8 @@ static void report(qemu_plugin_id_t id, void *data) {
     for (unsigned bucket = 0; bucket < BUCKETS; bucket++) {
         for (const place *at = buckets[bucket]; at != NULL; at = at->next) {
             if (at->executions > 0) {
-                snprintf(line, sizeof line, "address %" PRIu64 " %" PRIu64 "\n", at->address,
-                         at->executions);
+                snprintf(line, sizeof line, "address %" PRIu64 " %" PRIu64 " %" PRIu64 "\n",
+                         at->address, at->executions, at->jumps);
                 qemu_plugin_outs(line);
             }
         }
@@ -292,6 +341,12 @@ int qemu_plugin_install(qemu_plugin_id_t id, const struct qemu_info_t *info, int
             last_profiled = number_of(value);
         } else if ((value = value_of(argv[i], "every")) != NULL) {
             every = number_of(value);
+        } else if ((value = value_of(argv[i], "cycles")) != NULL) {
+            core = thumb_core_of(value);
+            if (core == THUMB_NONE) {
+                fprintf(stderr, "count_plugin: no timing for a core %s\n", value);
+                return -1;
+            }
         } else if ((value = value_of(argv[i], "marks")) != NULL) {
             read_marks(value);
         } else if ((value = value_of(argv[i], "profile")) != NULL) {

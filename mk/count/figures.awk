@@ -2,11 +2,20 @@
 # counted (interval lines) and writes rows of
 #     commit,board,compiler,flags,scene,number,method,metric,value
 # Interval 0 is around nothing; its instructions are taken off every other interval.
-# Variables: commit, board, compiler, flags. Fails if an interval is missing.
+# Cycles are taken where the counter has them; `obtained` says how it came by them ("estimated", "simulated"); a board
+# that counts its own says so in silicon lines.
+# Variables: commit, board, compiler, flags, obtained. Fails if an interval is missing.
 
 function row(scene, number, method, metric, value) {
     printf "%s,%s,%s,\"%s\",%s,%s,%s,%s,%s\n", commit, board, compiler, flags, scene, number,
         method, metric, value
+}
+
+function row_cycles(how, least, median, most,    what) {
+    what = how " cycles per " (name[g] == "wh_sincos" ? "sine-cosine pair" : "step")
+    row(name[g], number[g], method[g], what " (minimum)", least)
+    row(name[g], number[g], method[g], what " (median)", median)
+    row(name[g], number[g], method[g], what " (maximum)", most)
 }
 
 function fail(what) {
@@ -29,6 +38,8 @@ function sort(value, n,    i, j, key) {
 { sub(/\r$/, "") }
 
 $1 == "interval" { counted[$2] = $3 }
+$1 == "cycles" { cycles[$2] = $3; timed = 1 }
+$1 == "silicon" { silicon[$2] = $3 " " $4 " " $5 }
 $1 == "unfinished" { fail("the program ended inside an interval") }
 $1 == "failed" { print "figures.awk: " $0 > "/dev/stderr" }
 $1 == "stack" { stack[$2] = $3 }
@@ -62,6 +73,17 @@ END {
         row(name[g], number[g], method[g], what " (minimum)", value[1])
         row(name[g], number[g], method[g], what " (median)", value[int((n + 1) / 2)])
         row(name[g], number[g], method[g], what " (maximum)", value[n])
+        if (timed) {
+            for (i = 1; i <= n; i++) {
+                value[i] = cycles[first[g] + i - 1] - cycles[0]
+            }
+            sort(value, n)
+            row_cycles(obtained, value[1], value[int((n + 1) / 2)], value[n])
+        }
+        if (name[g] in silicon && method[g] != "record") {
+            split(silicon[name[g]], value, " ")
+            row_cycles("measured", value[1], value[2], value[3])
+        }
         if (name[g] in stack && stack[name[g]] > 0) {
             row(name[g], number[g], method[g], "stack bytes (measured)", stack[name[g]])
         }

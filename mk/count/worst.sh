@@ -34,7 +34,8 @@ count ",every=$steps,marks=$work/marks"
 awk -v commit="$(commit_of_checkout)" -v board="$BOARD" -v compiler="$(compiler_of "$CC")" -v flags="$FLAGS" \
     -v csv="$csv" -v steps="$steps" '
     function row(scene, metric, value) {
-        printf "%s,%s,%s,\"%s\",%s,float,rk4,%s,%s\n", commit, board, compiler, flags, scene, metric, value >>csv
+        printf "%s,%s,%s,\"%s\",%s,%s,%s,%s,%s\n", commit, board, compiler, flags, scene, number[scene],
+            method[scene], metric, value >>csv
     }
     function check(scene, what, measured, bound) {
         checked++
@@ -48,7 +49,7 @@ awk -v commit="$(commit_of_checkout)" -v board="$BOARD" -v compiler="$(compiler_
     $1 == "interval" { instructions[$2] = $3 }
     $1 == "stretches" { longest[$2, $3] = $4; most[$2, $3] = $5 }
     $1 == "unfinished" { broken = 1 }
-    $1 == "count" { group[$2, ++seeds[$2]] = $5; if (seeds[$2] == 1) order[++scenes] = $2 }
+    $1 == "count" { method[$2] = $3; number[$2] = $4; group[$2, ++seeds[$2]] = $5; if (seeds[$2] == 1) order[++scenes] = $2 }
     END {
         printf "Most of %d random steps, all effects on (executed instructions, not cycles):\n", steps
         printf "%-24s %16s   %16s   %19s\n", "", "accelerations", "signals", "instructions"

@@ -3,23 +3,25 @@
 # are drawn at random (SEED; candidates.awk, draw.awk), built and tested one by one (work.sh) in copies of the
 # tree under build/mutants; the table at the end is table.awk's. The tree itself is only read.
 #
-# FOLDERS   folders whose own .c and .h files are changed
-# MUTANTS   changes a folder that compile to another object
+# FOLDERS   rows of the table: a folder, whose own .c and .h files are changed, or a pattern of files. A file that
+#           the pattern of one row has is in no other row (core/contact* and the rest of core)
+# MUTANTS   changes a row that compile to another object
 # SEED      of the draw; printed
 # EXCEPT    an extended regular expression: files that it matches are left alone
 # LONGEST   seconds: a suite or script that takes longer on the tree as it is, is not run
 # ALWAYS    an extended regular expression: those that it matches are run, however long they take
+# NEVER     an extended regular expression: those that it matches are not asked
 # JOBS      how many work at the same time, each in a copy of its own, with niceness NICE
 #
 # What was found stays in build/mutants/FOLDER.SEED.*: broken off, it goes on where it was. When tests change,
 # only what had survived is tried again; when the folder's code changes, it starts anew.
 set -eu
 
-: "${FOLDERS:=core core/rig host/algebra host/derive}" "${MUTANTS:=80}" "${EXCEPT:=^$}"
-: "${LONGEST:=10}" "${ALWAYS:=}" "${JOBS:=2}" "${SEED:=$(date +%s)}" "${NICE:=19}" "${MAKE:=make}"
+: "${FOLDERS:=core core/contact* core/rig host/algebra host/derive}" "${MUTANTS:=80}" "${EXCEPT:=^$}"
+: "${LONGEST:=10}" "${ALWAYS:=}" "${NEVER:=^$}" "${JOBS:=2}" "${SEED:=$(date +%s)}" "${NICE:=19}" "${MAKE:=make}"
 top=build/mutants
 here=mk/mutants
-export LONGEST ALWAYS
+export LONGEST ALWAYS NEVER
 
 # --- copies -------------------------------------------------------------------------------------------
 # Times are kept, so that nothing is compiled that is up to date. The first copy is never changed; the
@@ -55,29 +57,42 @@ done
 
 # --- what every test takes on the tree as it is ---------------------------------------------------------
 # Lines: seconds of a processor, "host", "float", "double" or "cli", the suite's or script's name.
-if [ "$(cat "$top/times.sum" 2>/dev/null || true)" != "$sum.$LONGEST.$ALWAYS" ]; then
+if [ "$(cat "$top/times.sum" 2>/dev/null || true)" != "$sum.$LONGEST.$ALWAYS.$NEVER" ]; then
     touch "$top/times"
     sh "$here/times.sh" "$top/src" "$PWD/$top/times" >"$top/times.new"
     mv "$top/times.new" "$top/times"
-    echo "$sum.$LONGEST.$ALWAYS" >"$top/times.sum"
+    echo "$sum.$LONGEST.$ALWAYS.$NEVER" >"$top/times.sum"
 fi
-# What survived is tried again when there are other tests or more of them.
-tests_sum=$(sum_of_all tests).$LONGEST.$ALWAYS
+# What survived is tried again when there are other tests or more of them; what a test killed that is not to be asked,
+# too.
+tests_sum=$(sum_of_all tests).$LONGEST.$ALWAYS.$NEVER
 
 # --- the draw, the work, the table ----------------------------------------------------------------------
 echo "Mutants drawn with SEED=$SEED, $MUTANTS a folder; tests of up to $LONGEST s."
 tables=""
-for folder in $FOLDERS; do
-    files=$(ls "$folder"/*.c "$folder"/*.h 2>/dev/null | grep -vE "$EXCEPT")
-    name=$top/$(echo "$folder" | tr / _).$SEED.$(sum_of $files)
+set -f # patterns among the rows stay what they are
+patterns=$(printf '%s\n' $FOLDERS | grep -F '*' || true)
+for row in $FOLDERS; do
+    case $row in
+    *'*'*) files=$(set +f && ls $row | grep -E '\.[ch]$') ;;
+    *)
+        files=$(set +f && ls -d "$row"/* | grep -E '\.[ch]$')
+        for pattern in $patterns; do
+            files=$(printf '%s\n' $files | grep -vxF "$(set +f && ls -d $pattern)")
+        done
+        ;;
+    esac
+    files=$(printf '%s\n' $files | grep -vE "$EXCEPT")
+    name=$top/$(echo "${row%\*}" | tr / _).$SEED.$(sum_of $files)
     awk -f "$here/candidates.awk" $files |
         awk -v seed="$SEED" -v count=$((MUTANTS * 4)) -f "$here/draw.awk" >"$name.drawn"
     touch "$name.found"
-    # What had survived other tests is tried again.
-    awk -F '\t' -v sum="$tests_sum" '$2 != "survived" || $4 == sum' "$name.found" >"$name.kept"
+    awk -F '\t' -v sum="$tests_sum" -v never="$NEVER" '
+        $2 == "survived" ? $4 == sum : $2 != "killed" || $3 !~ never' "$name.found" >"$name.kept"
     mv "$name.kept" "$name.found"
     rm -rf "$name.claims"
     mkdir "$name.claims"
+    echo "$row" >"$name.row"
     tables="$tables $name"
 done
 workers=""
@@ -91,5 +106,5 @@ done
 wait
 for name in $tables; do
     rm -rf "$name.claims"
-    awk -v wanted="$MUTANTS" -f "$here/table.awk" "$name.drawn" "$name.found"
+    awk -v wanted="$MUTANTS" -v row="$(cat "$name.row")" -f "$here/table.awk" "$name.drawn" "$name.found"
 done

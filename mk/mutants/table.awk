@@ -1,5 +1,5 @@
-# table.awk -v wanted=N DRAWN FOUND: the score of one folder, of the first N mutants in the order drawn, and
-# those that survived. What no test can see (equivalents) counts as survived.
+# table.awk -v wanted=N -v row=NAME DRAWN FOUND: the score of one row, of the first N mutants in the order drawn,
+# and those that survived. What no test can see (equivalents) counts as survived.
 BEGIN { FS = "\t" }
 
 FILENAME == ARGV[1] {
@@ -28,8 +28,6 @@ END {
             }
         }
     }
-    folder = file[1]
-    sub(/\/[^\/]*$/, "", folder)
     printf "%s: %d mutants, %d killed (%d by a crash, %d by a time limit), %d survived: %.1f %%" \
            " (not compiled %d, same objects %d)\n", folder, mutants, killed, crashed, endless, survived,
            mutants ? 100 * killed / mutants : 0, refused, same

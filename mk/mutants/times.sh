@@ -2,8 +2,8 @@
 # times.sh TREE KNOWN: what each suite and each script takes in a built tree, quickest first:
 #   seconds of a processor, "host", "float", "double" or "cli", its name
 # Each is run, and must pass: what fails on the tree as it is would kill every change. What KNOWN, a file of such
-# lines, says to take longer than LONGEST is not run again. Scripts that say nothing about the folders that are
-# changed, or that need other compilers, are left out.
+# lines, says to take longer than LONGEST is not run again, and what NEVER matches is not run at all. Scripts that
+# say nothing about the folders that are changed, or that need other compilers, are left out.
 set -eu
 known=$2
 cd "$1"
@@ -18,6 +18,7 @@ used() { # used COMMAND...: seconds of a processor, of it and its children, and 
 
 told() { # told KIND NAME PROGRAM...
     name="$1 $2"
+    ! printf '%s\n' "$2" | grep -qE "${NEVER:-^$}" || return 0
     shift 2
     line=$(grep -E "^[0-9.]+ $name\$" "$known" || true)
     if [ -z "$line" ] || awk -v line="$line" -v longest="$LONGEST" -v always="$ALWAYS" 'BEGIN {

@@ -51,9 +51,9 @@ differ() {
 
 # The generated scenes stay those of the tree: compiled anew for each change they would take most of the time,
 # and what tests read of them is left out where it is not what a user would have built (usable()).
-build() {
+build() { # build PROGRAM...
     make -o build/gen/.stamp -o build/float/libscenes.a -o build/double/libscenes.a -o build/gen/models.list \
-        build/whirl build/tests/host $1 >"$log.build" 2>&1
+        "$@" >"$log.build" 2>&1 && ! grep -qE "$misfits" "$log.build"
 }
 
 changed_objects() {
@@ -66,7 +66,7 @@ changed_objects() {
 # --- tests ----------------------------------------------------------------------------------------------
 # Quick ones first, and those that killed before.
 order() {
-    awk -F '\t' -v longest="$LONGEST" -v always="$ALWAYS" '
+    awk -F '\t' -v longest="$LONGEST" -v always="$ALWAYS" -v never="$NEVER" '
         FILENAME == ARGV[1] {
             if ($2 == "killed") {
                 sub(/ \(.*/, "", $3)
@@ -76,7 +76,7 @@ order() {
         }
         {
             split($0, t, " ")
-            if (t[1] <= longest || (always != "" && t[3] ~ always)) {
+            if ((t[1] <= longest || (always != "" && t[3] ~ always)) && t[3] !~ never) {
                 print -(kills[t[2] " " t[3]] + 0.1) / (t[1] + 0.03), t[1], t[2], t[3]
             }
         }' "$1" "$top/times" | sort -n | cut -d ' ' -f 2-
@@ -107,10 +107,11 @@ run() { # run SECONDS KIND NAME
         WHIRL=build/whirl exec timeout --kill-after=5 $((limit * 10 + 60)) "$@") </dev/null; } >"$log.test" 2>&1
 }
 
-judge() { # judge NAME: what the tests say, into `came`
+judge() { # judge NAME STAGE: what the tests say that can be run once that is built, into `came`
     order "$1.found" >"$log.order"
     checked=""
     while read -r took program suite; do
+        [ "$program" = "$2" ] || [ "$program.$2" = cli.host ] || continue
         case " $checked " in
         *" $program:no "*) continue ;;
         *" $program:yes "*) [ "$suite" != scenes ] || usable "$program" "$suite" || continue ;;
@@ -140,17 +141,21 @@ judge() { # judge NAME: what the tests say, into `came`
 try() { # try NAME NUMBER FILE LINE COLUMN LENGTH REPLACEMENT
     file=$3
     apply "$3" "$4" "$5" "$6" "$7"
-    case $3 in
-    core/*) programs="build/tests/core_float build/tests/core_double" ;;
-    *) programs="" ;;
-    esac
-    if ! build "$programs" || grep -qE "$misfits" "$log.build"; then
-        came="refused$tab-"
-    elif ! changed_objects; then
-        came="same$tab-"
-    else
-        judge "$1"
-    fi
+    stages="host"
+    case $3 in core/*) stages="double host float" ;; esac
+    came="same$tab-"
+    for stage in $stages; do # one third of what there is to build is built and asked after the other
+        case $stage in
+        host) programs="build/whirl build/tests/host" ;;
+        *) programs="build/tests/core_$stage" ;;
+        esac
+        if ! build $programs; then
+            came="refused$tab-"
+        elif changed_objects; then
+            judge "$1" "$stage"
+        fi
+        case $came in refused* | killed*) break ;; esac
+    done
     printf '%s\t%s\t%s\n' "$2" "$came" "$tests" >>"$1.found"
     put_back "$3"
     case $came in [ks]*ed*) tell "$1" ;; esac

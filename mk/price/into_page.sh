@@ -1,18 +1,20 @@
 #!/bin/sh
-# into_page.sh TABLES PAGE: put the tables between the page's two marks, in place of what is there.
+# into_page.sh TABLES PAGE [NAME]: put the tables between the page's two marks, in place of what is there. The marks are
+# comments "NAME: begin" and "NAME: end".
 set -eu
 tables=$1
 page=$2
+name=${3:-price-effects}
 for mark in begin end; do
-    if [ "$(grep -c "^<!-- price-effects: $mark -->\$" "$page")" -ne 1 ]; then
-        echo "into_page.sh: $page has no single line <!-- price-effects: $mark -->" >&2
+    if [ "$(grep -c "^<!-- $name: $mark -->\$" "$page")" -ne 1 ]; then
+        echo "into_page.sh: $page has no single line <!-- $name: $mark -->" >&2
         exit 1
     fi
 done
-awk -v tables="$tables" '
-    /^<!-- price-effects: end -->$/ { inside = 0 }
+awk -v tables="$tables" -v name="$name" '
+    $0 == "<!-- " name ": end -->" { inside = 0 }
     !inside { print }
-    /^<!-- price-effects: begin -->$/ {
+    $0 == "<!-- " name ": begin -->" {
         inside = 1
         print ""
         while ((getline line <tables) > 0) { print line }

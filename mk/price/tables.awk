@@ -93,7 +93,7 @@ END {
         }
     }
 
-    print "Board `" board "`, " compiler ", `" flags "`, float, RK4.\n" >tables
+    print "Board `" board "`, " compiler ",\n`" flags "`, float, RK4.\n" >tables
     print "### Additive effects\n" >tables
     print "| mechanism | effect | instructions a step | flash | RAM | step error | moves by |" >tables
     print "|---|---|---|---|---|---|---|" >tables

@@ -1,8 +1,8 @@
 #!/bin/sh
 # deps.sh GROUP...: install the Debian packages that a make target needs, and only those missing.
 #
-# Groups: host (compiler), plot, firmware (Arm compiler and emulator), tests, quality (linters,
-# sanitizers, AVR), bench; hosts (other compilers, C libraries and processors) and octave only when they are named.
+# Groups: host (compiler), plot, firmware (Arm compiler and emulator), boards (other processors'), tests, quality
+# (linters, sanitizers, AVR), bench; hosts (other compilers, C libraries and processors) and octave only when they are named.
 # What is there already is recognised by its command or file, not by its package, so a compiler from elsewhere
 # counts. With nothing missing this says nothing and takes milliseconds. What will be installed is told before, with
 # what needs it and the size; where it cannot be, the line that does it (exit status 1).
@@ -59,6 +59,16 @@ firmware() {
     want qemu-system-arm "the emulated boards" have qemu-system-arm
 }
 
+have_picolibc() {
+    have riscv64-unknown-elf-gcc && [ -e "$(riscv64-unknown-elf-gcc -print-file-name=picolibc.specs)" ]
+}
+
+boards() {
+    want gcc-riscv64-unknown-elf "the compiler for RISC-V" have riscv64-unknown-elf-gcc
+    want picolibc-riscv64-unknown-elf "its C library, for the test programs" have_picolibc
+    want qemu-system-misc "the emulated RISC-V boards" have qemu-system-riscv32
+}
+
 tests() {
     if [ -z "${UNITY:-}" ]; then
         want xz-utils "unpacking the Unity test framework" have xz
@@ -77,6 +87,8 @@ quality() {
     want gcc-avr "the AVR gate" have avr-gcc
     want avr-libc "its C library, for the gate's own program" have_file /usr/lib/avr/include/avr/io.h
     want simavr "the emulated AVR" have simavr
+    want libsimavr-dev "running AVR programs with their cycles counted" have_file /usr/include/simavr/sim_avr.h
+    want libelf-dev "the same" have_file /usr/include/libelf.h
 }
 
 bench() {
@@ -110,12 +122,13 @@ octave() {
     want octave "running the generated Octave files" have octave-cli
 }
 
-[ $# -gt 0 ] || set -- host plot firmware tests quality bench
+[ $# -gt 0 ] || set -- host plot firmware boards tests quality bench
 for group in "$@"; do
     case $group in
     host) part="whirl" ;;
     plot) part="plots" ;;
     firmware) part="boards" ;;
+    boards) part="make check" ;;
     tests) part="make test" ;;
     quality) part="make check" ;;
     bench) part="make bench" ;;

@@ -23,7 +23,7 @@ bytes_of() { # bytes_of FUNCTION...: code and constants of an image of these
 
 # All that core/function.h lists.
 all=$(printf '#include "core/function.h"\n#define NAME(name) wh_##name\nWH_FUNCTIONS(NAME, NAME)\n' |
-    $CC -E -P -I. -x c - | tail -n 1)
+    $CC -ffreestanding -E -P -I. -x c - | tail -n 1)
 printf '%-28s %8s\n' "function" "flash B"
 for function in $all; do
     printf '%-28s %8d\n' "$function" "$(bytes_of "$function")"

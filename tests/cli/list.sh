@@ -84,6 +84,31 @@ awk '{ print $1, $2 }' "$scratch/text" | cmp -s - "$scratch/names"
 verdict $? "the same mechanisms and scenes as text"
 "$whirl" list core/models/*.whirl --as=table | cmp -s - "$scratch/table"
 verdict $? "the built-in models are their files"
+# Names of files, and titles, of what would end a field or a line, and of what stands for it.
+names=$(awk -v seed="$seed" 'BEGIN {
+    srand(seed)
+    split("\\\\t \\\\n \\\\r \\\\\\\\ t n \\\\\\\\t \\042 %s", part, " ")
+    for (k = 0; k < 12; k++) {
+        name = ""
+        for (i = 1 + int(5 * rand()); i > 0; i--) name = name part[1 + int(9 * rand())]
+        print name
+    }
+}')
+bad=0
+for name in $names; do
+    mkdir -p "$scratch/odd"
+    file=$(printf '%bx' "$scratch/odd/$name.whirl") # a name may end in what $() takes away
+    file=${file%x}
+    tab=$(printf '\t')
+    printf 'mechanism m "a%sand \\ b"\ncoordinate x [m]\nT = 1 [kg]*x'"'"'^2\neffect e "" {\n}\nscene s {\n}\n' "$tab" >"$file" &&
+        "$whirl" list --as table "$file" >"$scratch/got" 2>"$scratch/err" || bad=1
+    [ "$(awk -F '\t' 'NF == 11' "$scratch/got" | wc -l)" -eq 4 ] && [ "$(wc -l <"$scratch/got")" -eq 4 ] || bad=1
+    printf '%bx' "$(sed -n 2p "$scratch/got" | cut -f 4)" >"$scratch/name"
+    printf '%sx' "$file" | cmp -s - "$scratch/name" || bad=1
+    [ "$(sed -n 2p "$scratch/got" | cut -f 11)" = 'a\tand \\ b' ] || bad=1
+    [ $bad -eq 0 ] || { cat "$scratch/got" >>"$scratch/err"; break; }
+done
+verdict $bad "names of files and titles with ends of fields and lines in them (seed $seed)"
 says "there is no form 'csv'" list --as csv
 says 'is no file' list core/models/cuff.whirl:cuff --as table
 says 'unknown option' list --table
@@ -146,5 +171,5 @@ says 'is no name' derive thomson_a --as c --name 'a b'
 says 'is no name' derive thomson_a --as c --name "$(printf '%064d' 0 | tr 0 a)"
 says 'given twice' derive thomson_a --as c --name a --name b
 says "'int' is a word of C" derive thomson_a --as c --name int
-says 'goes with the C form' derive thomson_a --name other
+says 'error: --name goes with --as octave or c' derive thomson_a --name other
 exit $failed

@@ -83,12 +83,6 @@ if [ -e /dev/full ]; then
     run thomson_a --until 2s --quiet --csv /dev/full
     [ $? -eq 2 ] && grep -q '^/dev/full: error: cannot be written: ' "$scratch/err"
     verdict $? "a full disc is told"
-    "$whirl" run thomson_a --until 2s --quiet --csv - >/dev/full 2>"$scratch/err"
-    [ $? -eq 2 ] && grep -q '^<standard output>: error: cannot be written: ' "$scratch/err"
-    verdict $? "and so is a full standard output"
-    "$whirl" list >/dev/full 2>"$scratch/err"
-    [ $? -eq 1 ] && grep -q 'error: standard output' "$scratch/err"
-    verdict $? "of other commands too"
 fi
 
 # --- interrupted --------------------------------------------------------------------------------------------

@@ -1,24 +1,10 @@
 #!/bin/sh
-# structure.sh: who calls whom in the program, as its objects say. Between folders of host/ all arrows go one way; within
-# a folder no two files need each other, but for the recursions that docs/DESIGN.md names.
+# structure.sh: who includes whom in core, hal and host, and who calls whom in the program, as its objects say. All
+# arrows go one way: between folders, between headers, and between files (a header with the .c of its name), but for the
+# recursions within a folder that docs/DESIGN.md names.
 . "$(dirname "$0")/../checks.sh"
 
-objects=$(dirname "$whirl")/host/host
-if ! command -v nm >/dev/null 2>&1 || [ ! -d "$objects" ]; then
-    echo "ok - no nm, or no objects of the program: nothing to look at # SKIP"
-    exit 0
-fi
-
-# Lines "FOLDER/FILE defines SYMBOL" and "FOLDER/FILE wants SYMBOL"; objects of files that are gone do not count.
-for object in "$objects"/*/*.o; do
-    file=${object#"$objects/"}
-    file=${file%.o}
-    [ -f "host/$file.c" ] && nm "$object" | awk -v file="$file" '
-        NF == 3 && $2 ~ /^[TDRBV]$/ { print file, "defines", $3 }
-        NF == 2 && $1 == "U" { print file, "wants", $2 }'
-done >"$scratch/symbols"
-
-# circles WHAT: of the arrows on standard input, "FROM TO" a line, those that lie on a circle, as "A B C: ..." lines.
+# circles.awk: of the arrows on standard input, "FROM TO" a line, those that lie on a circle, as "A B C: ..." lines.
 cat >"$scratch/circles.awk" <<'END'
 { if (!(($1, $2) in arrow)) { arrow[$1, $2] = 1; to[$1] = to[$1] " " $2; node[$1] = node[$2] = 1 } }
 function walk(from, at,   i, n, next_one) {
@@ -49,6 +35,71 @@ END {
 }
 END
 
+# What an expression is made of is lowered by what lowers expressions; a term that holds an expression prints it.
+cat >"$scratch/named" <<'END'
+derive/lower derive/waves
+show/show show/show_term
+END
+
+# --- who includes whom -----------------------------------------------------------------------------------------------
+
+# arrows_of [FOLDER...]: "FROM TO" for each include of a file of these folders by another. A name in an include is a
+# path from the including file's folder, or else from the project's root, as the compiler has it.
+arrows_of() {
+    find "$@" -type f \( -name '*.h' -o -name '*.c' -o -name '*.inc' \) | sort >"$scratch/files"
+    xargs grep -H '^#include "' <"$scratch/files" | awk -F: -v files="$scratch/files" '
+        BEGIN { while ((getline line < files) > 0) { known[line] = 1 } }
+        {
+            folder = $1
+            sub("[^/]*$", "", folder)
+            split($2, part, "\"")
+            name = part[2]
+            if ((folder name) in known) { print $1, folder name } else if (name in known) { print $1, name }
+        }' | sort -u
+}
+
+arrows_of core hal host >"$scratch/includes"
+files=$(wc -l <"$scratch/files")
+
+# no_circle WHAT [NAMED]: the arrows in $scratch/arrows have no circle but those of the file NAMED
+no_circle() {
+    awk -f "$scratch/circles.awk" "$scratch/arrows" | sort -u >"$scratch/found"
+    diff "${2:-/dev/null}" "$scratch/found" >"$scratch/err" 2>&1
+    verdict $? "$1"
+}
+
+# the test's own eye: one arrow back makes a circle
+{ cat "$scratch/includes" && echo core/real.h core/step.h; } | awk -f "$scratch/circles.awk" | grep -q 'core/real.h' &&
+    [ "$(wc -l <"$scratch/includes")" -gt 500 ]
+verdict $? "$files files of core, hal and host, $(wc -l <"$scratch/includes") includes; one more would be seen"
+
+grep '\.h [^ ]*\.h$' "$scratch/includes" >"$scratch/arrows"
+no_circle "headers: no circle"
+
+sed -E 's/\.(h|c|inc)( |$)/\2/g' "$scratch/includes" | awk '$1 != $2' | sort -u >"$scratch/arrows"
+sed "s:[a-z]*/:host/&:g" "$scratch/named" >"$scratch/named_files"
+no_circle "files, each a header with the .c of its name: the circles are the recursions that have a name" "$scratch/named_files"
+
+sed 's:/[^/ ]*\( \|$\):\1:g' "$scratch/includes" | awk '$1 != $2 && $1 != "host"' | sort -u >"$scratch/arrows"
+no_circle "folders: no circle"
+
+# --- who calls whom --------------------------------------------------------------------------------------------------
+
+objects=$(dirname "$whirl")/host/host
+if ! command -v nm >/dev/null 2>&1 || [ ! -d "$objects" ]; then
+    echo "ok - no nm, or no objects of the program: calls are not looked at # SKIP"
+    exit $failed
+fi
+
+# Lines "FOLDER/FILE defines SYMBOL" and "FOLDER/FILE wants SYMBOL"; objects of files that are gone do not count.
+for object in "$objects"/*/*.o; do
+    file=${object#"$objects/"}
+    file=${file%.o}
+    [ -f "host/$file.c" ] && nm "$object" | awk -v file="$file" '
+        NF == 3 && $2 ~ /^[TDRBV]$/ { print file, "defines", $3 }
+        NF == 2 && $1 == "U" { print file, "wants", $2 }'
+done >"$scratch/symbols"
+
 awk '$2 == "defines" { home[$3] = $1 }
      $2 == "wants" { wanted[++n] = $1; what[n] = $3 }
      END { for (i = 1; i <= n; i++) {
@@ -60,11 +111,6 @@ awk -f "$scratch/circles.awk" "$scratch/folders" | sort -u >"$scratch/err"
 [ "$(wc -l <"$scratch/folders")" -gt 10 ] && [ ! -s "$scratch/err" ]
 verdict $? "$(sort -u -k1,1 "$scratch/folders" | wc -l) folders of host/, $(wc -l <"$scratch/folders") arrows between them: no circle"
 
-# What an expression is made of is lowered by what lowers expressions; a term that holds an expression prints it.
-cat >"$scratch/named" <<'END'
-derive/lower derive/waves
-show/show show/show_term
-END
 awk '{ split($1, a, "/"); split($2, b, "/") } a[1] == b[1]' "$scratch/arrows" |
     awk -f "$scratch/circles.awk" | sort -u >"$scratch/found"
 diff "$scratch/named" "$scratch/found" >"$scratch/err" 2>&1

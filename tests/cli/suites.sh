@@ -27,6 +27,18 @@ for name in host core_double core_float; do
     verdict $? "$name refuses it beside one that is there, before running any"
 done
 
+# A line begins with the file of its suite, whichever ran before.
+"$folder/core_double" sine lcp text >"$scratch/out" 2>"$scratch/err" &&
+    sed -n 's/^\([^:]*\):[0-9]*:.*:PASS$/\1/p' "$scratch/out" | grep -v '^tests/main.c$' | uniq >"$scratch/files" &&
+    printf 'tests/core/test_%s.c\n' lcp sine text | diff - "$scratch/files" >"$scratch/err"
+verdict $? "lines name the file of their suite"
+for kind in core host; do
+    sh tests/suites.sh tests/$kind/test_*.c | sed -n 's/^    {"\(suite_.*\)", "\(.*\)", .*/\2:void \1(void) {/p' >"$scratch/table"
+    grep -oH '^void suite_[a-z0-9_]*(void) {' tests/$kind/test_*.c | sort -u >"$scratch/there"
+    [ -s "$scratch/there" ] && sort "$scratch/table" | diff "$scratch/there" - >"$scratch/err"
+    verdict $? "the suites of tests/$kind have their own files"
+done
+
 for suite in sine suite_sine; do
     "$folder/core_double" $suite >"$scratch/out" 2>"$scratch/err" &&
         grep -q 'test_sine.c:.*:PASS$' "$scratch/out" && ! grep -q 'test_angle.c:' "$scratch/out"

@@ -8,20 +8,25 @@ seed=${UNITS_SEED:-5}
 cases=${UNITS_CASES:-16}
 echo "seed $seed"
 
-# "NAME SI": every unit the language knows, and the SI unit of its dimension.
-awk '/^static const unit_entry units/ { on = 1; next } on && /^};/ { exit }
-    on {
-        split("LENGTH m MASS kg TIME s NUMBER rad ANGLE rad FREQUENCY Hz FORCE N ENERGY J POWER W PRESSURE Pa CURRENT A CHARGE C" \
-            " VOLTAGE V RESISTANCE ohm CAPACITANCE F INDUCTANCE H FLUX Wb FLUX_DENSITY T TEMPERATURE K", word, " ")
-        for (i = 1; i in word; i += 2) { si[word[i]] = word[i + 1] }
-        split($0, part, "\"")
-        line = $0
-        gsub(/[ },]+$/, "", line)
-        sub(/.* QUANTITY_/, "", line)
-        print part[2], (line in si) ? si[line] : "?"
-    }' host/lang/units.c >"$scratch/names"
-[ "$(wc -l <"$scratch/names")" -ge 60 ] && ! grep -qv '^[A-Za-z]* [A-Za-z]*$' "$scratch/names"
-verdict $? "the table of units is read" "$scratch/names"
+# "NAME SI VALUE": every unit the language knows, the SI unit of its dimension, and how much of that it is.
+"$whirl" list --units 2>"$scratch/err" | sed 1d >"$scratch/names"
+[ "$(wc -l <"$scratch/names")" -ge 60 ] && ! grep -qv "^[A-Za-z]*	[A-Za-z1/]*	[0-9.e+-]*$" "$scratch/names"
+verdict $? "the program lists its units" "$scratch/names"
+# the same as the documents list them, and in the same order
+sed -n 's/^| \(length\|mass\|time\|angle\|frequency.*\|force\|energy.*\|power\|pressure\|current.*\|voltage.*\|capacitance.*\|magnetic.*\|temperature\) | \(.*\) |$/\2/p' \
+    docs/language.md | grep -o '`[A-Za-z]*`' | tr -d '`' >"$scratch/documented"
+cut -f 1 "$scratch/names" | diff "$scratch/documented" - >"$scratch/err"
+verdict $? "docs/language.md lists the same"
+# and what they are worth: a length, a mass, ... that is written so is that much of SI
+awk '{ print "parameter p" NR " = 1 [" $1 "]\noutput o" NR " = p" NR }' "$scratch/names" >"$scratch/worth"
+{
+    printf 'mechanism m\ncoordinate x [m]\nT = 1 [kg]*x%s^2/2\n' "'"
+    cat "$scratch/worth"
+    echo 'scene s { until 0 }'
+} >"$scratch/worth.whirl"
+"$whirl" run "$scratch/worth.whirl" --quiet --csv - 2>"$scratch/err" | tr -d '\r' | tail -n 1 | tr ',' '\n' | sed 1,3d >"$scratch/is"
+cut -f 3 "$scratch/names" | diff "$scratch/is" - >>"$scratch/err"
+verdict $? "each is worth what is listed"
 
 # Writes CASES pairs of files, N.declared.whirl and N.si.whirl, that are the same but for declarations.
 awk -v seed="$seed" -v cases="$cases" -v folder="$scratch" '
@@ -33,7 +38,7 @@ function one(bound,    k, e) { # one factor more of as_is and as_si; each name h
     e = pick(6)
     e = e == 0 ? "^2" : e == 1 ? "^(1/2)" : e == 2 && !bound ? "^-3" : ""
     as_is = as_is name[k] e
-    as_si = as_si si[k] e
+    as_si = as_si (si[k] ~ "/" ? "(" si[k] ")" : si[k]) e
 }
 function some(most,    parts, i, sign) { # a unit of up to so many factors
     as_is = as_si = ""

@@ -19,6 +19,8 @@ static void hand_accel(const void *model, const wh_phase *phase, const wh_real *
     }
 }
 
+unsigned hand_looks;
+
 static wh_real along(const hand *m, unsigned k, const wh_real *x) {
     wh_real sum = WH_R(0.0);
     for (unsigned i = 0; i < m->n; i++) {
@@ -31,6 +33,7 @@ static void hand_signals(const void *model, const wh_phase *phase, const wh_real
                          const wh_real *rate, const wh_real *input, wh_real *result) {
     const hand *m = model;
     (void)phase;
+    hand_looks++;
     for (unsigned k = 0; k < m->system.contacts; k++) {
         result[2 * k] = along(m, k, linear) - m->law[k].offset;
         result[2 * k + 1] = along(m, k, rate);
@@ -39,6 +42,13 @@ static void hand_signals(const void *model, const wh_phase *phase, const wh_real
         } else if (m->contact[k].kind == WH_FRICTION) {
             result[2 * k] = along(m, k, rate);
         }
+        const wh_real size = WH_ABS(result[2 * k]);
+        for (unsigned i = 0; i < m->bent && m->contact[k].kind == WH_WHEN; i++) {
+            result[2 * k] *= size * size * WH_R(1e6); /* of a millimetre, one */
+        }
+        for (unsigned i = 0; i < 2; i++) {
+            result[2 * k + i] = (m->lost[i] >> k & 1U) != 0 ? m->nothing : result[2 * k + i];
+        }
     }
 }
 
@@ -46,14 +56,17 @@ static void hand_forces(const void *model, const wh_phase *phase, const wh_real 
                         const wh_real *rate, const wh_real *input, wh_real *result) {
     const hand *m = model;
     (void)phase;
-    (void)linear;
     (void)rate;
     (void)input;
-    for (unsigned k = 0; k < m->system.forced; k++) {
+    for (unsigned k = 0; k < HAND_CONTACTS; k++) { /* with what is behind them: see hand_start() */
         wh_real *law = result + k * (WH_LAW_ROWS + 2 * m->n);
         law[WH_LAW_FIRST] = m->law[k].first;
         law[WH_LAW_SECOND] = m->law[k].second;
         law[WH_LAW_BIAS] = WH_R(0.0);
+        if (m->contact[k].kind == WH_HOLD && m->contact[k].direction == 0 && linear != NULL &&
+            m->law[k].first == WH_R(0.0)) {
+            law[WH_LAW_FIRST] = along(m, k, linear); /* as a curved one has */
+        }
         for (unsigned i = 0; i < m->n; i++) {
             law[WH_LAW_ROWS + i] = m->law[k].row[i];
             law[WH_LAW_ROWS + m->n + i] = along(m, k, m->inverse[i]);
@@ -61,14 +74,14 @@ static void hand_forces(const void *model, const wh_phase *phase, const wh_real 
     }
 }
 
-/* A crossing turns the first rate round and halves it. */
+/* A crossing turns the first rate round and halves it, or puts the first coordinate somewhere. */
 static void hand_sets(const void *model, const wh_phase *phase, const wh_real *linear,
                       const wh_real *rate, const wh_real *input, wh_real *result) {
-    (void)model;
+    const hand *m = model;
     (void)phase;
     (void)linear;
     (void)input;
-    result[0] = WH_R(-0.5) * rate[0];
+    result[0] = m->places ? m->place : WH_R(-0.5) * rate[0];
 }
 
 /* Entries: what the loads and springs put into each momentum, and the loads' work. */
@@ -79,7 +92,7 @@ static void hand_powers(const void *model, const wh_phase *phase, const wh_real 
     (void)input;
     result[0] = WH_R(0.0);
     for (unsigned i = 0; i < m->n; i++) {
-        result[0] += m->load[i] * rate[i];
+        result[0] += m->weighs ? WH_R(0.0) : m->load[i] * rate[i];
         result[1 + i] = m->load[i] - m->spring[i] * linear[i];
     }
 }
@@ -96,11 +109,40 @@ static void hand_levels(const void *model, const wh_angle *angle, const wh_real 
             level[1 + i] += m->mass[i][j] * rate[j];
         }
         level[0] += WH_R(0.5) * (level[1 + i] * rate[i] + m->spring[i] * linear[i] * linear[i]);
+        level[0] -= m->weighs ? m->load[i] * linear[i] : WH_R(0.0);
     }
+}
+
+/* What nobody wrote is no zero. */
+static void soil(void *memory, unsigned size) {
+    unsigned char *byte = memory;
+    for (unsigned i = 0; i < size; i++) {
+        byte[i] = 0xA5;
+    }
+}
+
+/* wh_step_contact() without its short way for calm steps. */
+static wh_status eventful(const wh_contact_system *of, wh_real h, wh_state *state) {
+    wh_contact_work work;
+    wh_contact_attempt attempt;
+    wh_ledger_work books;
+    soil(&work, sizeof work);
+    soil(&attempt, sizeof attempt);
+    soil(&books, sizeof books);
+    attempt.made = false;
+    wh_contact_work_begin(of, state, &work);
+    if (of->ledger != NULL) {
+        work.books = &books;
+        wh_ledger_open(of->ledger, state, &books);
+    }
+    return wh_contact_eventful(of, &work, h, &attempt, state);
 }
 
 static wh_status hand_advance(const wh_scene *scene, wh_state *state) {
     const hand *m = scene->model;
+    if (m->eventful) {
+        return eventful(&m->system, scene->step_s, state);
+    }
     return wh_step_contact(&m->system, scene->step_s, state);
 }
 
@@ -109,7 +151,8 @@ static wh_status hand_advance(const wh_scene *scene, wh_state *state) {
 hand hand_now;
 static const uint8_t accounts[3] = {0, 1, 2};
 wh_ledger_form hand_books;
-static uint64_t memory[WH_STATE_WORDS(0, 4, 1) + WH_CONTACT_WORDS(3) + WH_LEDGER_WORDS(16, 3)];
+static uint64_t memory[WH_STATE_WORDS(0, 8, 1) + WH_CONTACT_WORDS(3) + WH_HELD_WORDS(1) +
+                       WH_LEDGER_WORDS(16, 3)];
 wh_state hand_state;
 wh_real hand_pushed;
 
@@ -128,6 +171,8 @@ unsigned hand_add(wh_contact_kind kind, int pin, wh_real row0, wh_real row1, wh_
                   wh_real first, wh_real second) {
     const unsigned k = hand_now.system.contacts++;
     hand_now.system.forced = (uint8_t)(hand_now.system.forced + (kind != WH_WHEN));
+    hand_now.system.kinds |= (uint8_t)(kind != WH_WHEN ? WH_KIND_BIT(kind) : 0U);
+    hand_now.system.pinned = (uint8_t)(hand_now.system.pinned + (kind != WH_WHEN && pin >= 0));
     hand_now.contact[k] = (wh_contact){(uint8_t)kind, 0, (int16_t)pin, 0, kind == WH_WHEN};
     hand_now.law[k].row[0] = row0;
     hand_now.law[k].row[1] = row1;
@@ -137,9 +182,21 @@ unsigned hand_add(wh_contact_kind kind, int pin, wh_real row0, wh_real row1, wh_
     return k;
 }
 
+/* What is behind a scene's contacts is none of them: here it would stick, on the first coordinate, to the end. */
+static void put_sentinels(void) {
+    for (unsigned k = hand_now.system.contacts; k < HAND_CONTACTS; k++) {
+        hand_now.contact[k] = (wh_contact){.kind = WH_FRICTION, .pin = 0, .sets = 1};
+        hand_now.law[k].row[0] = WH_R(1.0);
+        hand_now.law[k].row[1] = WH_R(0.0);
+        hand_now.law[k].first = WH_R(1e6);
+        hand_now.law[k].second = WH_R(1e6);
+    }
+}
+
 void hand_start(bool with_books) {
     static uint8_t target;
-    target = (uint8_t)hand_now.n; /* the first rate */
+    put_sentinels();
+    target = hand_now.places ? 0 : (uint8_t)hand_now.n; /* the first rate */
     hand_now.system.model = &hand_now;
     hand_now.system.accel = hand_accel;
     hand_now.system.signals = hand_signals;
@@ -163,6 +220,8 @@ void hand_start(bool with_books) {
                                 .form = WH_SECOND_ORDER,
                                 .reals = (uint8_t)(2 * hand_now.n),
                                 .inputs = 1,
+                                .held = hand_now.system.held,
+                                .compensated = hand_now.system.compensated,
                                 .contacts = hand_now.system.contacts,
                                 .step_s = WH_R(0.001),
                                 .start_real = hand_now.start,

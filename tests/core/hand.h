@@ -9,7 +9,8 @@
 #define WH_ACCOUNTS_MAX 3
 #define WH_COORDS 2
 #define WH_UNROLL
-#define WH_CONTACTS_MAX 3
+#define HAND_CONTACTS 3
+#define WH_CONTACTS_MAX HAND_CONTACTS
 #define WH_SETS_MAX 1
 #include "core/contact_step.h"
 
@@ -24,9 +25,16 @@ typedef struct hand {
         wh_real offset;
         wh_real first;  /* restitution, or mu_static N */
         wh_real second; /* mu_kinetic N */
-    } law[3];
-    wh_contact contact[3];
+    } law[HAND_CONTACTS];
+    wh_contact contact[HAND_CONTACTS];
     wh_contact_system system;
+    unsigned bent;    /* so often a crossing's value is multiplied by its own square */
+    unsigned lost[2]; /* contacts whose first signal, or second, as bits, */
+    wh_real nothing;  /* is this */
+    bool weighs;      /* the loads' energy is stored, and no work from outside */
+    bool eventful;    /* every step is taken as one with events is, however calm */
+    bool places;      /* a crossing assigns the first coordinate, */
+    wh_real place;    /* this, and not its rate */
     wh_real start[4];
     wh_scene scene;
 } hand;
@@ -34,6 +42,7 @@ typedef struct hand {
 extern hand hand_now;             /* the mechanism that the calls below build and run */
 extern wh_ledger_form hand_books; /* its ledger */
 extern wh_state hand_state;
+extern unsigned hand_looks; /* how often the signals were evaluated */
 extern wh_real hand_pushed; /* the scene's input: a hold's condition, true above zero */
 
 /* One body (of m00), or two with the given mass matrix; no contact, load or spring yet. */

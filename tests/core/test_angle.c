@@ -40,7 +40,6 @@ static void test_phase_moves(void) {
 }
 
 void suite_angle(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_phase_moves);
     RUN_TEST(test_radians_are_kept);
     RUN_TEST(test_parts_of_angles);
@@ -258,7 +257,6 @@ static void test_to_rad_is_nearest(void) {
 #endif
 
 void suite_angle(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_phase_moves);
     RUN_TEST(test_phase_moves_to_the_nearest);
     RUN_TEST(test_phase_of_angle);

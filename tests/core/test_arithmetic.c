@@ -113,7 +113,6 @@ static void test_other_roundings_are_refused(void) {
 #endif
 
 void suite_arithmetic(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_this_build_is_sound);
     RUN_TEST(test_a_scene_of_other_arithmetic_is_refused);
 #ifdef MODES

@@ -195,6 +195,28 @@ static void test_a_refused_step_changes_nothing(void) {
     TEST_ASSERT_TRUE(hand_state.fault >= 0);
 }
 
+/* The component that a load throws out of all bounds is told, at a run's first try, after an event of its step, and later.
+ */
+static void test_the_component_that_diverged_is_told(void) {
+    for (unsigned where = 0; where < 3; where++) {
+        for (unsigned c = 0; c < 2; c++) {
+            hand_build(2, WH_R(2.0), WH_R(0.0), WH_R(3.0));
+            hand_add(WH_STOP, 0, WH_R(1.0), WH_R(0.0), WH_R(0.0), WH_R(1.0), WH_R(0.0));
+            hand_now.start[0] = where == 1 ? WH_R(0.0) : WH_R(1.0);
+            hand_now.start[2] = WH_R(-1.0);
+            hand_now.eventful = where == 2;
+            hand_start(true);
+            if (where == 2) {
+                hand_steps(3);
+            }
+            hand_now.load[c] = WH_R(1e30);
+            const wh_status status = wh_scene_step(&hand_now.scene, &hand_state);
+            TEST_ASSERT_TRUE(status == WH_E_DIVERGED);
+            TEST_ASSERT_TRUE(hand_state.fault == (int)c || hand_state.fault == (int)(2 + c));
+        }
+    }
+}
+
 void suite_contact(void) {
     RUN_TEST(test_ball_comes_to_rest_and_stays);
     RUN_TEST(test_first_impact_is_where_and_what_it_must_be);
@@ -208,4 +230,5 @@ void suite_contact(void) {
     RUN_TEST(test_hold_captures_and_lets_go);
     RUN_TEST(test_crossing_sets_the_rate);
     RUN_TEST(test_a_refused_step_changes_nothing);
+    RUN_TEST(test_the_component_that_diverged_is_told);
 }

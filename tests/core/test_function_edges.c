@@ -327,7 +327,6 @@ static void test_known_bits(void) {
 #endif
 
 void suite_function_edges(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_one_argument);
     RUN_TEST(test_atan2);
     RUN_TEST(test_pow);

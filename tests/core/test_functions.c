@@ -1,68 +1,19 @@
 /* test_functions.c: the core's own functions: edges, exact results, order, symmetry, and the same bits on every
  * machine. Their errors are measured on this machine (tests/host/test_function_accuracy.c,
  * test_double_functions.c, and make functions-exhaustive). */
-#include "core/function.h"
-
-#include "core/hash.h"
-#include "tests/scattered.h"
-#include "unity.h"
+#include "edges.h"
 
 void suite_functions(void);
 
 #define PI WH_R(3.14159265358979323846)
-#if WH_DOUBLE
-#define INFINITE __builtin_inf()
-#define NO_NUMBER __builtin_nan("")
-#define LARGEST 1.7976931348623157e308
-#define SMALLEST 4.9406564584124654e-324 /* subnormal */
-#define NORMAL 2.2250738585072014e-308   /* the smallest of all digits */
-#define LEAST_POWER (-1074)
-#define MOST_POWER 1023
-#define DIGITS 53
-#else
-#define INFINITE __builtin_inff()
-#define NO_NUMBER __builtin_nanf("")
-#define LARGEST 3.40282347e38f
-#define SMALLEST 1.40129846e-45f
-#define NORMAL 1.17549435e-38f
-#define LEAST_POWER (-149)
-#define MOST_POWER 127
-#define DIGITS 24
-#endif
-#define ZERO WH_R(0.0)
-#define ONE WH_R(1.0)
-#define TWO WH_R(2.0)
-#define HALF WH_R(0.5)
-#define THREE WH_R(3.0)
-
-static uint64_t bits_of(wh_real x) { return wh_hash_real(0, x); }
-
-/* Equal bits, or both no number. */
-static bool same(wh_real a, wh_real b) { return bits_of(a) == bits_of(b) || (a != a && b != b); }
-
 /* --- edges, after C11's Annex F -------------------------------------------------------------------------- */
-typedef wh_real function_of_one(wh_real x);
 typedef wh_real function_of_two(wh_real x, wh_real y);
-
-typedef struct edge {
-    wh_real x;
-    wh_real wanted;
-} edge;
 
 typedef struct edge_of_two {
     wh_real x;
     wh_real y;
     wh_real wanted;
 } edge_of_two;
-
-static void expect_edges(function_of_one *f, const edge *edges, unsigned count, bool is_odd) {
-    for (unsigned i = 0; i < count; i++) {
-        TEST_ASSERT_TRUE(same(f(edges[i].x), edges[i].wanted));
-        TEST_ASSERT_TRUE(!is_odd || same(f(-edges[i].x), -edges[i].wanted));
-    }
-}
-#define EXPECT_EDGES(f, edges, is_odd) \
-    expect_edges(f, edges, sizeof(edges) / sizeof((edges)[0]), is_odd)
 
 static void test_edges(void) {
     static const edge of_exp[] = {
@@ -236,9 +187,6 @@ static void test_exact_powers(void) {
 }
 
 /* --- order and symmetry ------------------------------------------------------------------------------------ */
-/* -1 to 1. */
-static wh_real part(void) { return (wh_real)(int32_t)(scattered() >> 32) * WH_R(0x1p-31); }
-
 static void test_never_falls(void) {
     wh_real last[6] = {-INFINITE, -INFINITE, -INFINITE, -INFINITE, -INFINITE, -INFINITE};
     wh_real last_cosine = INFINITE;
@@ -288,25 +236,6 @@ static void test_inverses(void) {
 }
 
 /* --- the same bits everywhere -------------------------------------------------------------------------------- */
-static wh_real any(void) {
-    const uint64_t word = scattered();
-#if WH_DOUBLE
-    const union {
-        uint64_t bits;
-        double value;
-    } as = {.bits = word};
-#else
-    const union {
-        uint32_t bits;
-        float value;
-    } as = {.bits = (uint32_t)(word >> 32)};
-#endif
-    return as.value;
-}
-
-/* What is no number counts alike: its bits tell where it came from. */
-static uint64_t mixed(uint64_t hash, wh_real x) { return wh_hash_real(hash, x != x ? ONE : x); }
-
 static uint64_t mixed_of_all(uint64_t hash, wh_real x, wh_real y) {
     hash = mixed(hash, wh_exp(x));
     hash = mixed(hash, wh_log(x));
@@ -336,7 +265,6 @@ static void test_same_bits_everywhere(void) {
 }
 
 void suite_functions(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_edges);
     RUN_TEST(test_edges_of_atan2);
     RUN_TEST(test_edges_of_power);

@@ -1,54 +1,10 @@
 /* test_hyperbolic.c: the core's hyperbolic functions, as test_functions.c has the others: edges, order, symmetry,
  * identities, and the same bits on every machine. */
-#include "core/function.h"
-
-#include "core/hash.h"
-#include "tests/scattered.h"
-#include "unity.h"
+#include "edges.h"
 
 void suite_hyperbolic(void);
 
-#if WH_DOUBLE
-#define INFINITE __builtin_inf()
-#define NO_NUMBER __builtin_nan("")
-#define LARGEST 1.7976931348623157e308
-#define SMALLEST 4.9406564584124654e-324 /* subnormal */
-#define NORMAL 2.2250738585072014e-308   /* the smallest of all digits */
-#define DIGITS 53
-#else
-#define INFINITE __builtin_inff()
-#define NO_NUMBER __builtin_nanf("")
-#define LARGEST 3.40282347e38f
-#define SMALLEST 1.40129846e-45f
-#define NORMAL 1.17549435e-38f
-#define DIGITS 24
-#endif
-#define ZERO WH_R(0.0)
-#define ONE WH_R(1.0)
-#define TWO WH_R(2.0)
-#define THREE WH_R(3.0)
-
-static uint64_t bits_of(wh_real x) { return wh_hash_real(0, x); }
-
-/* Equal bits, or both no number. */
-static bool same(wh_real a, wh_real b) { return bits_of(a) == bits_of(b) || (a != a && b != b); }
-
 /* --- edges, after C11's Annex F -------------------------------------------------------------------------- */
-typedef wh_real function_of_one(wh_real x);
-typedef struct edge {
-    wh_real x;
-    wh_real wanted;
-} edge;
-
-static void expect_edges(function_of_one *f, const edge *edges, unsigned count, bool is_odd) {
-    for (unsigned i = 0; i < count; i++) {
-        TEST_ASSERT_TRUE(same(f(edges[i].x), edges[i].wanted));
-        TEST_ASSERT_TRUE(!is_odd || same(f(-edges[i].x), -edges[i].wanted));
-    }
-}
-#define EXPECT_EDGES(f, edges, is_odd) \
-    expect_edges(f, edges, sizeof(edges) / sizeof((edges)[0]), is_odd)
-
 static void test_hyperbolic_edges(void) {
     static const edge of_sinh[] = {{ZERO, ZERO},          {SMALLEST, SMALLEST},
                                    {NORMAL, NORMAL},      {ONE, WH_R(1.1752011936438014569)},
@@ -75,9 +31,6 @@ static void test_hyperbolic_edges(void) {
 }
 
 /* --- order and symmetry ------------------------------------------------------------------------------------ */
-/* -1 to 1. */
-static wh_real part(void) { return (wh_real)(int32_t)(scattered() >> 32) * WH_R(0x1p-31); }
-
 /* Where one way of computing takes over from the other: neighbours, a few thousand of them on either side. */
 static void test_hyperbolic_never_fall(void) {
     static const wh_real from[] = {WH_R(0.25), ONE, WH_R(8.0), WH_R(88.0)};
@@ -122,25 +75,6 @@ static void test_hyperbolic_symmetry(void) {
 }
 
 /* --- the same bits everywhere -------------------------------------------------------------------------------- */
-static wh_real any(void) {
-    const uint64_t word = scattered();
-#if WH_DOUBLE
-    const union {
-        uint64_t bits;
-        double value;
-    } as = {.bits = word};
-#else
-    const union {
-        uint32_t bits;
-        float value;
-    } as = {.bits = (uint32_t)(word >> 32)};
-#endif
-    return as.value;
-}
-
-/* What is no number counts alike: its bits tell where it came from. */
-static uint64_t mixed(uint64_t hash, wh_real x) { return wh_hash_real(hash, x != x ? ONE : x); }
-
 /* What came later has a hash of its own. */
 static uint64_t mixed_of_hyperbolic(uint64_t hash, wh_real x) {
     return mixed(mixed(mixed(hash, wh_sinh(x)), wh_cosh(x)), wh_tanh(x));
@@ -160,7 +94,6 @@ static void test_same_bits_of_hyperbolic(void) {
 }
 
 void suite_hyperbolic(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_hyperbolic_edges);
     RUN_TEST(test_hyperbolic_never_fall);
     RUN_TEST(test_hyperbolic_identities);

@@ -1,5 +1,6 @@
 /* test_lcp.c: the box LCP of core/contact_lcp.h on random problems, also where rows repeat each other: the solution
  * meets its conditions, and no problem meets the cap of the rounds. */
+#include "draw.h"
 #include "hand.h"
 
 #include "unity.h"
@@ -8,29 +9,20 @@ void suite_lcp(void);
 
 enum { PROBLEMS = __STDC_HOSTED__ ? 20000 : 500, CONTACTS = 3 };
 
-static uint64_t bits_of(uint64_t *seed) {
-    *seed = *seed * 6364136223846793005U + 1442695040888963407U;
-    return *seed >> 33;
-}
-
-static wh_real between(uint64_t *seed, int least, int most) {
-    return (wh_real)(least + (int)(bits_of(seed) % (uint64_t)(most - least + 1)));
-}
-
 /* A problem of up to three contacts on two coordinates, so that rows often repeat each other: whole numbers, so that
  * they do so exactly. There is always a solution: stops push, frictions slide, and no two holds contradict each other. */
 static void random_problem(uint64_t *seed, bool holds, bool forces, wh_contact_work *w) {
     static const wh_contact_kind kinds[] = {WH_STOP, WH_FRICTION, WH_HOLD};
-    hand_build(2, between(seed, 2, 4), between(seed, -1, 1), between(seed, 2, 4));
+    hand_build(2, draw_whole(seed, 2, 4), draw_whole(seed, -1, 1), draw_whole(seed, 2, 4));
     for (unsigned k = 0; k < CONTACTS; k++) {
-        const wh_contact_kind drawn = kinds[bits_of(seed) % (holds && k == 0 ? 3U : 2U)];
+        const wh_contact_kind drawn = kinds[draw_bits(seed) % (holds && k == 0 ? 3U : 2U)];
         const wh_contact_kind kind = drawn == WH_FRICTION && !forces ? WH_STOP : drawn;
-        wh_real row[2] = {between(seed, -1, 1), between(seed, -1, 1)};
+        wh_real row[2] = {draw_whole(seed, -1, 1), draw_whole(seed, -1, 1)};
         if (kind == WH_FRICTION || (row[0] == WH_R(0.0) && row[1] == WH_R(0.0))) {
             row[0] = WH_R(1.0);
             row[1] = WH_R(0.0);
         }
-        hand_add(kind, -1, row[0], row[1], WH_R(0.0), between(seed, 0, 3), WH_R(0.0));
+        hand_add(kind, -1, row[0], row[1], WH_R(0.0), draw_whole(seed, 0, 3), WH_R(0.0));
     }
     hand_start(false);
     hand_now.system.forces(&hand_now, NULL, NULL, NULL, NULL, w->law);
@@ -52,53 +44,75 @@ static void turn(wh_contact_work *w, unsigned k) {
 /* What the conditions allow for rounding. */
 #define SLACK (WH_DOUBLE ? WH_R(1e-9) : WH_R(1e-3))
 
-static bool meets_its_conditions(const wh_contact_work *w, const wh_real *wanted,
-                                 const wh_real *lambda) {
-    for (unsigned k = 0; k < CONTACTS; k++) {
+/* The forces of the contacts in member[] are within their limits, what is at a limit may leave the contact one way only,
+ * left[] is what it leaves, and those that give way are told. */
+static bool meets_its_conditions(const wh_contact_work *w, const uint8_t *member, unsigned count,
+                                 const wh_real *wanted, const wh_real *lambda, const wh_real *left,
+                                 unsigned giving) {
+    for (unsigned i = 0; i < count; i++) {
+        const unsigned k = member[i];
         const wh_real low = wh_contact_low(&hand_now.system, w, k);
         const wh_real high = wh_contact_high(&hand_now.system, w, k);
-        wh_real left = -wanted[k];
-        for (unsigned l = 0; l < CONTACTS; l++) {
-            left += wh_delassus(&hand_now.system, w, k, l) * lambda[l];
+        wh_real leaves = -wanted[i];
+        for (unsigned l = 0; l < count; l++) {
+            leaves += wh_delassus(&hand_now.system, w, k, member[l]) * lambda[l];
         }
-        const bool within = lambda[k] >= low - SLACK && lambda[k] <= high + SLACK;
-        const bool at_low = lambda[k] <= low + SLACK;
-        const bool at_high = lambda[k] >= high - SLACK;
-        const bool off = WH_ABS(left) > SLACK;
-        if (!within || (off && !(left > WH_R(0.0) ? at_low : at_high))) {
+        const bool gives = (giving >> k & 1U) != 0;
+        const bool within = lambda[i] >= low - SLACK && lambda[i] <= high + SLACK;
+        const bool at_low = lambda[i] <= low + SLACK;
+        const bool at_high = lambda[i] >= high - SLACK;
+        const bool off = WH_ABS(leaves) > SLACK;
+        if (!within || (off && !(leaves > WH_R(0.0) ? at_low : at_high)) || (off && !gives) ||
+            (gives && !at_low && !at_high) || WH_ABS(leaves - left[i]) > SLACK) {
             return false;
         }
+        giving &= ~(1U << k);
     }
-    return true;
+    return giving == 0;
+}
+
+/* All three contacts, two or one of them, in any order. */
+static unsigned draw_members(uint64_t *seed, uint8_t *member) {
+    const unsigned first = (unsigned)draw_bits(seed) % CONTACTS;
+    const unsigned step = 1U + (unsigned)draw_bits(seed) % 2U;
+    for (unsigned i = 0; i < CONTACTS; i++) {
+        member[i] = (uint8_t)((first + i * step) % CONTACTS);
+    }
+    return 1U + (unsigned)draw_bits(seed) % CONTACTS;
 }
 
 static void check(bool holds, bool forces) {
-    const uint8_t member[CONTACTS] = {0, 1, 2};
     uint64_t seed = 20240611;
     unsigned wrong = 0;
     unsigned capped = 0;
     for (unsigned i = 0; i < PROBLEMS; i++) {
-        wh_contact_work w;
+        wh_contact_work w = {.capped = false};
+        uint8_t member[CONTACTS];
         wh_real accel[2];
         wh_real wanted[CONTACTS];
         wh_real lambda[CONTACTS];
         wh_real left[CONTACTS];
         random_problem(&seed, holds, forces, &w);
+        const unsigned count = draw_members(&seed, member);
         /* of accelerations that the mechanism may have, or of impacts */
-        accel[0] = between(&seed, -4, 4);
-        accel[1] = between(&seed, -4, 4);
-        for (unsigned k = 0; k < CONTACTS; k++) {
-            const wh_real bounce = forces || holds ? WH_R(0.0) : between(&seed, 0, 2) / WH_R(2.0);
-            wanted[k] = -wh_jacobian_times(&hand_now.system, &w, k, accel);
-            if (!forces && wanted[k] < WH_R(0.0)) { /* a stop that opens takes no part */
+        accel[0] = draw_whole(&seed, -4, 4);
+        accel[1] = draw_whole(&seed, -4, 4);
+        for (unsigned m = 0; m < count; m++) {
+            const unsigned k = member[m];
+            const wh_real bounce =
+                forces || holds ? WH_R(0.0) : draw_whole(&seed, 0, 2) / WH_R(2.0);
+            wanted[m] = -wh_jacobian_times(&hand_now.system, &w, k, accel);
+            if (!forces && wanted[m] < WH_R(0.0)) { /* a stop that opens takes no part */
                 turn(&w, k);
-                wanted[k] = -wanted[k];
+                wanted[m] = -wanted[m];
             }
-            wanted[k] *= WH_R(1.0) + (hand_now.contact[k].kind == WH_STOP ? bounce : WH_R(0.0));
+            wanted[m] *= WH_R(1.0) + (hand_now.contact[k].kind == WH_STOP ? bounce : WH_R(0.0));
         }
-        (void)wh_contact_lcp(&hand_now.system, &w, member, CONTACTS, wanted, forces, lambda, left);
+        const unsigned giving =
+            wh_contact_lcp(&hand_now.system, &w, member, count, wanted, forces, lambda, left);
         capped += w.capped;
-        wrong += !w.capped && !meets_its_conditions(&w, wanted, lambda);
+        wrong +=
+            !w.capped && !meets_its_conditions(&w, member, count, wanted, lambda, left, giving);
     }
     TEST_ASSERT_EQUAL_UINT(0, wrong);
     TEST_ASSERT_EQUAL_UINT(0, capped);

@@ -189,7 +189,6 @@ static void test_load_between_samples(void) {
 }
 
 void suite_lockin(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_known_phase_and_amplitude_are_found);
     RUN_TEST(test_angle_of_the_mark_counts);
     RUN_TEST(test_other_orders_are_rejected);

@@ -197,7 +197,6 @@ static void test_turns_wrap_and_the_phase_goes_on(void) {
 #endif
 
 void suite_long_runs(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_times_are_right_to_one_rounding);
     RUN_TEST(test_a_fraction_stays_below_one);
     RUN_TEST(test_time_without_a_fraction);

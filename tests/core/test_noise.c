@@ -105,7 +105,6 @@ static void test_independence(void) {
 }
 
 void suite_noise(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_fixed_values);
     RUN_TEST(test_independence);
     RUN_TEST(test_moments);

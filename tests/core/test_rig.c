@@ -7,7 +7,7 @@
 void suite_rig(void);
 
 #define RPM WH_RIG_RADPS_PER_RPM
-#define QUARTER 45455U /* ticks of a quarter turn at 330 rpm */
+#define QUARTER UINT32_C(45455) /* ticks of a quarter turn at 330 rpm */
 
 static float rpm(wh_real radps) { return (float)(radps / RPM); }
 
@@ -289,7 +289,7 @@ static wh_trip trip_on_swing(int swing, bool turning, unsigned samples) {
 }
 
 static void test_a_stuck_load_cell_trips(void) {
-    const unsigned enough = 20U * wh_rig_standard.guard.stuck_pulses + 1U;
+    const unsigned enough = (unsigned)(20U * wh_rig_standard.guard.stuck_pulses + 1U);
     TEST_ASSERT_TRUE(trip_on_swing(0, false, 1000) ==
                      WH_TRIP_NONE); /* at rest it may stand still */
     TEST_ASSERT_TRUE(trip_on_swing(0, true, enough - 1U) == WH_TRIP_NONE);
@@ -331,7 +331,6 @@ static void test_a_silent_load_cell_trips(void) {
 }
 
 void suite_rig(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_speed_across_the_timers_wrap);
     RUN_TEST(test_speed_of_a_turn_has_no_ripple);
     RUN_TEST(test_one_lost_pulse_is_counted_and_bridged);

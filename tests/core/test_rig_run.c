@@ -335,7 +335,6 @@ static void test_a_moving_rig_gets_no_tare(void) {
 }
 
 void suite_rig_run(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_a_faultless_run_finds_the_load);
     RUN_TEST(test_lost_pulses_in_the_record_change_nothing);
     RUN_TEST(test_a_gap_in_the_record_is_no_measurement);

@@ -369,7 +369,6 @@ static void test_the_drive_keeps_its_law(void) {
 }
 
 void suite_rig_steps(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_every_state_and_reason_has_words_of_its_own);
     RUN_TEST(test_the_tare_takes_its_samples);
     RUN_TEST(test_the_loop_takes_over_at_its_speed);

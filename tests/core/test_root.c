@@ -1,7 +1,7 @@
 /* test_root.c: the core's square root against the definition, in integers: q is the root of x to the nearest
  * if and only if (q - 1/2)^2 < x < (q + 1/2)^2. No library is asked. Double needs 128 bits for that, which
  * boards do not have; they take the table alone. */
-#include "core/real.h"
+#include "core/root.h"
 
 #include "unity.h"
 
@@ -160,7 +160,7 @@ static void test_special(void) {
         TEST_ASSERT_TRUE(is_nan(wh_sqrt(real_of(none[i]))));
         TEST_ASSERT_TRUE(is_nan(WH_SQRT(real_of(none[i]))));
     }
-    for (unsigned whole = 1; whole < 4096U; whole++) { /* squares are exact */
+    for (uint32_t whole = 1; whole < 4096U; whole++) { /* squares are exact */
         const wh_real square = (wh_real)(whole * whole);
         TEST_ASSERT_TRUE(wh_sqrt(square) == (wh_real)whole);
         TEST_ASSERT_TRUE(WH_SQRT(square * WH_R(0x1p-60)) == (wh_real)whole * WH_R(0x1p-30));
@@ -168,7 +168,6 @@ static void test_special(void) {
 }
 
 void suite_root(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_special);
 #if !WH_DOUBLE || defined(__SIZEOF_INT128__)
     RUN_TEST(test_all_exponents);

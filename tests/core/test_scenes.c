@@ -316,7 +316,6 @@ static void test_a_refused_step_keeps_the_state(void) {
 }
 
 void suite_scenes(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_end_states);
     RUN_TEST(test_books_of_the_epicyclic_gear);
     RUN_TEST(test_centre_of_mass_of_thomson_device);

@@ -119,7 +119,6 @@ static void test_table_is_nearest(void) {
 #endif
 
 void suite_sine(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_known_values);
     RUN_TEST(test_small_angles_keep_their_digits);
     RUN_TEST(test_unit_circle_and_symmetry);
@@ -281,7 +280,6 @@ static void test_table_is_nearest(void) {
 #endif
 
 void suite_sine(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_known_values);
     RUN_TEST(test_smallest_angles);
     RUN_TEST(test_round_the_turn);

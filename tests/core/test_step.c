@@ -217,7 +217,6 @@ static void test_a_refused_step_of_first_order_names_the_component(void) {
 }
 
 void suite_step(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_order_is_that_of_the_row_in_both_forms);
     RUN_TEST(test_a_refused_step_of_second_order_names_the_component);
     RUN_TEST(test_a_refused_step_of_first_order_names_the_component);

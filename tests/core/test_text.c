@@ -135,7 +135,6 @@ static void test_fixed_agrees_with_printf(void) {
 #endif
 
 void suite_text(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_integers);
     RUN_TEST(test_hex);
     RUN_TEST(test_fixed);

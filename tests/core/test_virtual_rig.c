@@ -317,7 +317,6 @@ static void test_a_foreign_scene_is_refused(void) {
 #endif
 
 void suite_virtual_rig(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_mass_moment_gives_the_dissertations_force);
 #if !WH_DOUBLE
     RUN_TEST(test_measurement_of_the_force);

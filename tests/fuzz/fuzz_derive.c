@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "host/derive/image_make.h"
+#include "host/derive/lagrange.h"
 #include "host/emit/emit.h"
 #include "host/run/engine.h"
 #include "host/show/show_equations.h"

@@ -3,6 +3,7 @@
 
 #include "derived.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -56,6 +57,20 @@ static derived derive_model(whirl_model *m, const char *name, diags *all) {
     /* whatever is refused is refused with an error, and what has an error is refused */
     TEST_ASSERT_TRUE_MESSAGE((d.image == NULL) == (strstr(d.errors, "error: ") != NULL), d.errors);
     return d;
+}
+
+const char *report_of_text(const char *text) {
+    static char report[REPORT_OF_TEXT_SIZE];
+    diags *all = diags_new();
+    whirl_model *read = model_parse("x.whirl", text, strlen(text), all);
+    FILE *out = fmemopen(report, sizeof report, "w");
+    TEST_ASSERT_NOT_NULL(out);
+    report[0] = '\0';
+    diags_flush(all, out);
+    fclose(out);
+    diags_free(all);
+    model_free(read);
+    return report;
 }
 
 derived derived_text(const char *text) {
@@ -142,6 +157,11 @@ void random_state(state_values *s, const derived *d, uint64_t *seed) {
 }
 
 void derived_run(const tape *t, const derived *d, const state_values *s, double *result) {
+    derived_run_known(t, d, s, result, NULL);
+}
+
+void derived_run_known(const tape *t, const derived *d, const state_values *s, double *result,
+                       double *off) {
     const image *p = d->image;
     double angle_rad[UNKNOWNS] = {0};
     double real[4 * UNKNOWNS] = {0};
@@ -156,6 +176,9 @@ void derived_run(const tape *t, const derived *d, const state_values *s, double 
     image_inputs(p, input);
     evaluator *ev = evaluator_new(t);
     evaluator_run(ev, 0.0, angle_rad, real, real + (p->coordinates - p->angles), input, result);
+    if (off != NULL) {
+        evaluator_rounding(ev, angle_rad, 0.0, off);
+    }
     evaluator_free(ev);
 }
 
@@ -206,4 +229,16 @@ char *repeated(const char *front, const char *piece, int times, const char *tail
     }
     snprintf(text + at, room - at, "%s", tail);
     return text;
+}
+
+double derived_rest(const derived *d, state_values *s, const double *accel, int i, double *size) {
+    const equations *e = d->equations;
+    double rest = -poly_evaluate(equations_force(e, i), state_value, s);
+    *size = fabs(rest) + 1.0;
+    for (int j = 0; j < e->count; j++) {
+        const double part = poly_evaluate(e->mass[i * e->count + j], state_value, s) * accel[j];
+        rest += part;
+        *size += fabs(part);
+    }
+    return rest;
 }

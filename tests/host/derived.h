@@ -4,6 +4,7 @@
 #define TESTS_HOST_DERIVED_H
 
 #include "host/derive/image_make.h"
+#include "host/derive/lagrange.h"
 
 typedef struct derived {
     whirl_model *model;
@@ -12,6 +13,10 @@ typedef struct derived {
     image *image;         /* NULL as well */
     char *errors;         /* "" when there are none */
 } derived;
+
+/* What the language says about a text, "" when it accepts it; overwritten by the next call. Nothing is derived. */
+enum { REPORT_OF_TEXT_SIZE = 8000 };
+const char *report_of_text(const char *text);
 
 /* How tests integrate that do not mind: with Runge-Kutta 4. */
 extern const image_settings plainly;
@@ -43,11 +48,18 @@ typedef struct state_values {
 /* For poly_evaluate(), with a state_values as context. */
 double state_value(void *context, const symbol *sym, int primes);
 
+/* What equation i leaves over with these accelerations, M q'' - force, at a state; *size: of its terms, and 1. */
+double derived_rest(const derived *d, state_values *s, const double *accel, int i, double *size);
+
 /* A random state: lengths stay positive and angles off the poles; singular points are not the matter. */
 void random_state(state_values *s, const derived *d, uint64_t *seed);
 
 /* What a list of the image gives at a state: result[t->results]. */
 void derived_run(const tape *t, const derived *d, const state_values *s, double *result);
+/* And how far off each may be for the rounding of the list's operations, in units of 2^-53 (host/run/rounding.h):
+ * off[t->results]. */
+void derived_run_known(const tape *t, const derived *d, const state_values *s, double *result,
+                       double *off);
 
 /* The Octave form, with its contacts in words, as `whirl derive` writes it. */
 void derived_octave(FILE *out, const derived *d, const char *file);

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "host/derive/lagrange.h"
 #include "host/lang/builtin.h"
 
 #include "unity.h"

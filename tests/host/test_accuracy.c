@@ -311,7 +311,6 @@ static void test_thomson_at_9_4s(void) {
 }
 
 void suite_accuracy(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_particle_flies_a_parabola);
     RUN_TEST(test_two_masses_at_the_printed_times);
     RUN_TEST(test_two_masses_move_alike_in_both_coordinate_sets);

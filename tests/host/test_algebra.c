@@ -371,7 +371,6 @@ static void test_random_expressions_their_derivatives_and_substitutions(void) {
 }
 
 void suite_algebra(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_equal_expressions_are_one_object);
     RUN_TEST(test_what_differs_somewhere_stays_apart);
     RUN_TEST(test_kept_powers_are_equal_when_expanded);

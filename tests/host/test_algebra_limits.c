@@ -375,7 +375,6 @@ static void test_determinants_of_any_rows_and_columns(void) {
 }
 
 void suite_algebra_limits(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_magnitudes_are_sums_of_sizes);
     RUN_TEST(test_powers_of_expressions_and_their_slopes);
     RUN_TEST(test_a_number_that_is_none_is_seen_wherever_it_is);

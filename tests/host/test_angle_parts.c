@@ -287,7 +287,6 @@ static void test_float_sines_of_parts(void) {
 }
 
 void suite_angle_parts(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_made_up_outputs);
     RUN_TEST(test_float_sines_of_parts);
 }

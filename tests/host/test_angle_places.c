@@ -269,7 +269,6 @@ static void test_ledger_takes_a_part(void) {
 }
 
 void suite_angle_places(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_all_that_acts_takes_part);
     RUN_TEST(test_outputs_leave_all_else_alone);
     RUN_TEST(test_recovered_angle);

@@ -11,6 +11,7 @@
 #include <time.h>
 
 #include "host/derive/image_make.h"
+#include "host/derive/lagrange.h"
 #include "host/lang/model.h"
 #include "unity.h"
 
@@ -186,6 +187,43 @@ static void test_columns_count_characters(void) {
     expect_text("mechanism m\r\ncoordinate X [m]\r\nT = Y\r\n", "x.whirl:3:5: error: unknown name");
 }
 
+/* A carriage return at every place of a file: before a line feed or at the end it is part of the line's end, anywhere
+ * else an error of its own, at its place. */
+static void test_lines_end_in_one_way(void) {
+    static const char text[] = "mechanism m \"a \xce\xb1 title\" # a remark \"\xce\xb1\"\n"
+                               "coordinate X [m/s*s] \"where\"\n"
+                               "\n"
+                               "parameter k = (2.5e1 +\n"
+                               "    3.0)*1 [N/m]\n"
+                               "T = 1 [kg]*X'^2/2\n"
+                               "V = k*X^2/2\n"
+                               "scene s { start X' = 2 [m/s]; until 1 [s] }";
+    char with[sizeof text + 1];
+    char wanted[LINE_SIZE];
+    int line = 1;
+    int column = 1;
+    for (size_t i = 0; i < sizeof text; i++) {
+        int errors = 0;
+        memcpy(with, text, i);
+        with[i] = '\r';
+        memcpy(with + i + 1, text + i, sizeof text - i);
+        if (i > 0 && ((unsigned char)text[i] & 0xc0) == 0x80) {
+            continue; /* within a character */
+        }
+        if (text[i] == '\n' || text[i] == '\0') {
+            free(full_report_on("x.whirl", with, sizeof with - 1, false, &errors));
+            TEST_ASSERT_EQUAL_INT_MESSAGE(0, errors, with);
+            line++;
+            column = 1;
+            continue;
+        }
+        snprintf(wanted, sizeof wanted, "x.whirl:%d:%d: error: a carriage return within a line",
+                 line, column);
+        expect_text(with, wanted);
+        column++;
+    }
+}
+
 static void test_the_caret_stands_under_the_place(void) {
     expect_text("mechanism m\ncoordinate \xce\xb1 [m]\n",
                 "  coordinate \xce\xb1 [m]\n             ^\n");
@@ -337,11 +375,11 @@ static void test_every_beginning_and_every_changed_byte(void) {
 }
 
 void suite_bad_input(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_every_bad_file_has_the_errors_it_announces);
     RUN_TEST(test_nothing_and_next_to_nothing);
     RUN_TEST(test_binary_is_no_text);
     RUN_TEST(test_columns_count_characters);
+    RUN_TEST(test_lines_end_in_one_way);
     RUN_TEST(test_the_caret_stands_under_the_place);
     RUN_TEST(test_values_that_are_no_numbers);
     RUN_TEST(test_ten_thousand_deep);

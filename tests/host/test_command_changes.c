@@ -148,7 +148,6 @@ static void test_measures_that_overflow_fail_their_points(void) {
 }
 
 void suite_command_changes(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_bare_numbers_are_noted_by_commands_that_show_units);
     RUN_TEST(test_a_name_given_twice_is_refused_by_every_command);
     RUN_TEST(test_measures_that_overflow_fail_their_points);

@@ -48,8 +48,8 @@ static const char *blanks_of(uint64_t *seed) {
     return some[random_bits(seed) % (sizeof some / sizeof some[0])];
 }
 
-/* Take `text` as the value of --with (or --without); its names in *c. */
-static bool take(change_options *c, bool with, const char *text, bool joined) {
+/* Take `text` as the value of --with (or --without); its names in *o. */
+static bool take(common_options *o, bool with, const char *text, bool joined) {
     char option[20];
     char whole[400];
     char value[400];
@@ -59,9 +59,9 @@ static bool take(change_options *c, bool with, const char *text, bool joined) {
     snprintf(whole, sizeof whole, "%s=%s", option, text);
     snprintf(value, sizeof value, "%s", text);
     char *words[] = {joined ? whole : option, value};
-    *c = (change_options){0};
+    *o = options_defaults();
     listen_to_errors();
-    const bool taken = options_change(2, words, &at, c, &bad);
+    const bool taken = options_take("run", OPTIONS_CHANGE, 2, words, &at, o, &bad);
     TEST_ASSERT_TRUE(taken);
     TEST_ASSERT_EQUAL_INT(joined ? 1 : 2, at);
     const char *complaint = said();
@@ -89,18 +89,19 @@ static void test_lists_of_effects(void) {
             strcat(text, blanks_of(&seed));
             strcat(text, k + 1 < count ? "," : "");
         }
-        change_options c;
+        common_options o;
+        const change_options *c = &o.change;
         const bool good = mistake == 0 || (mistake == 2 && count == 1);
-        TEST_ASSERT_TRUE_MESSAGE(take(&c, with, text, i % 2 == 0) == good, text);
-        const char **list = with ? c.with : c.without;
+        TEST_ASSERT_TRUE_MESSAGE(take(&o, with, text, i % 2 == 0) == good, text);
+        const char **list = with ? c->with : c->without;
         if (good) {
-            TEST_ASSERT_EQUAL_INT(count, with ? c.with_count : c.without_count);
-            TEST_ASSERT_EQUAL_INT(0, with ? c.without_count : c.with_count);
+            TEST_ASSERT_EQUAL_INT(count, with ? c->with_count : c->without_count);
+            TEST_ASSERT_EQUAL_INT(0, with ? c->without_count : c->with_count);
             for (int k = 0; k < count; k++) {
                 TEST_ASSERT_EQUAL_STRING(names[k], list[k]);
             }
         }
-        change_options_free(&c);
+        options_forget(&o);
     }
 }
 

@@ -187,7 +187,4 @@ static void test_a_coordinate_follows_from_its_momentum(void) {
     TEST_ASSERT_GREATER_THAN_INT(3, open);
 }
 
-void suite_conserved(void) {
-    UnitySetTestFile(__FILE__);
-    RUN_TEST(test_a_coordinate_follows_from_its_momentum);
-}
+void suite_conserved(void) { RUN_TEST(test_a_coordinate_follows_from_its_momentum); }

@@ -280,7 +280,6 @@ static void test_normal_force_pulsates_round_the_weight(void) {
 }
 
 void suite_contact_devices(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_carriage_walks_away_from_the_stop_and_then_only_swings);
     RUN_TEST(test_without_friction_it_walks_on);
     RUN_TEST(test_started_at_the_stop_it_walks_away_too);

@@ -245,7 +245,6 @@ static void test_stick_slip_period(void) {
 }
 
 void suite_contact_friction(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_block_sticks_for_ten_minutes);
     RUN_TEST(test_block_sticks_up_to_the_slope);
     RUN_TEST(test_block_slides_with_the_closed_forms_acceleration);

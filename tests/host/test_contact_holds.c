@@ -277,8 +277,48 @@ static void test_an_input_moves_nobody(void) {
     }
 }
 
+/* A stop that an input raises, and what is held to the body on it, straight or along a chain, the mass matrix coupled
+ * or not: all of it comes along, by as much as keeps what is held. */
+static void test_what_is_held_to_a_raised_body_comes_along(void) {
+    uint64_t seed = 17;
+    double worst[2] = {0.0, 0.0};
+    for (int i = 0; i < 40; i++) {
+        char text[900];
+        const int number = i % 2;
+        const double ratio[2] = {random_between(&seed, -2.0, 2.0),
+                                 random_between(&seed, -2.0, 2.0)};
+        const double coupled = i % 3 == 0 ? 0.0 : random_between(&seed, -0.5, 0.5);
+        snprintf(
+            text, sizeof text,
+            "mechanism raised\ncoordinate x [m]\ncoordinate y [m]\ncoordinate z [m]\n"
+            "input u = 0 [m]\nT = %.17g [kg]*x'^2/2 + y'^2*1 [kg]/2 + z'^2*1 [kg]/2 + %.17g [kg]*y'*x'\n"
+            "V = 40 [N]*x\nstop %.17g*x >= %.17g*u restitution 0\nhold y - %.17g*x while u > -1 [m]\n"
+            "hold z - %.17g*y while u > -1 [m]\n"
+            "output off_y [m] = y - %.17g*x\noutput off_z [m] = z - %.17g*y\n"
+            "scene s {\n  start y = 0.1 [m]\n  step 1 [ms]\n  until 1 [s]\n}\n",
+            1.0 + random_between(&seed, 0.0, 3.0), coupled, 1.0 + i % 3, 1.0 + i % 3, ratio[0],
+            ratio[1], ratio[0], ratio[1]);
+        motion m;
+        motion_open_text(&m, text, (stepping){.kind = KINDS[number], .method = WH_RK4});
+        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 5));
+        const double kept[2] = {motion_value(&m, "off_y"), motion_value(&m, "off_z")};
+        for (int step = 0; step < 20; step++) {
+            const double u = 0.01 * (step % 7); /* up at once or in steps, and down again */
+            m.kind->set_input(m.run, 0, u);
+            TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
+            worst[number] = fmax(worst[number], fabs(motion_value(&m, "off_y") - kept[0]));
+            worst[number] = fmax(worst[number], fabs(motion_value(&m, "off_z") - kept[1]));
+            worst[number] = fmax(worst[number], u - motion_value(&m, "x"));
+        }
+        motion_close(&m);
+    }
+    printf("  what is held to a raised body is off by %.1e m, float %.1e m\n", worst[0], worst[1]);
+    TEST_ASSERT_TRUE(worst[0] <= 1e-15 && worst[1] <= 1e-6);
+}
+
 void suite_contact_holds(void) {
     RUN_TEST(test_an_input_moves_nobody);
+    RUN_TEST(test_what_is_held_to_a_raised_body_comes_along);
     RUN_TEST(test_rods_keep_their_length);
     RUN_TEST(test_linkages_stay_closed);
     RUN_TEST(test_a_flat_linkage_is_refused);

@@ -129,7 +129,6 @@ static void test_impacts_of_a_swinging_pendulum_converge(void) {
 }
 
 void suite_contact_impact(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_cart_meets_the_wall);
     RUN_TEST(test_bob_meets_the_wall);
     RUN_TEST(test_impacts_of_a_swinging_pendulum_converge);

@@ -208,7 +208,6 @@ static void test_escapement_reaches_its_amplitude(void) {
 }
 
 void suite_contact_scenes(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_every_scene_meets_its_reference);
     RUN_TEST(test_every_scene_runs_in_float);
     RUN_TEST(test_clamped_carriage_stands);

@@ -1,5 +1,5 @@
 /* test_contact_start.c: what is pressed at the start of a run takes part in an impact of that very moment: a body that
- * touches a row at rest at t = 0 does what one does that meets it a little later. */
+ * touches a row at rest at t = 0 does what one does that meets it a little later, and counts as that. */
 #include "contacts.h"
 #include "derived.h"
 
@@ -68,8 +68,8 @@ static int row_text(const row *of, char *text, size_t size) {
     return n;
 }
 
-/* The rates after one step. Returns whether it had too many events. */
-static bool after_a_step(const row *of, double *rate) {
+/* The rates after one step, and its events. Returns whether it had too many. */
+static bool after_a_step(const row *of, double *rate, uint64_t *events) {
     char text[4000];
     motion m;
     const int n = row_text(of, text, sizeof text);
@@ -81,6 +81,7 @@ static bool after_a_step(const row *of, double *rate) {
         rate[i] = motion_value(&m, name);
     }
     const bool overran = contacts_overruns(&m) > 0;
+    *events = contacts_events(&m);
     motion_close(&m);
     return overran;
 }
@@ -95,10 +96,12 @@ static void test_an_impact_at_the_start_is_as_one_just_after(void) {
         for (int lifted = 0; lifted < 2; lifted++) {
             double now[MOST] = {0.0};
             double later[MOST] = {0.0};
+            uint64_t events = 0;
+            uint64_t events_later = 0;
             const row touching = {(uint64_t)i, lifted ? 0.1 : 0.0, 0.0};
             const row apart = {(uint64_t)i, lifted ? 0.1 : 0.0, 1e-9};
-            const bool overran = after_a_step(&touching, now);
-            if (after_a_step(&apart, later) || overran) {
+            const bool overran = after_a_step(&touching, now, &events);
+            if (after_a_step(&apart, later, &events_later) || overran) {
                 over++;
                 continue;
             }
@@ -111,6 +114,11 @@ static void test_an_impact_at_the_start_is_as_one_just_after(void) {
                        differs);
                 bad++;
             }
+            if (events != events_later) {
+                printf("  seed %ld%s: %d events, not %d\n", i, lifted ? ", lifted" : "",
+                       (int)events, (int)events_later);
+                bad++;
+            }
             worst = fmax(worst, differs);
         }
     }
@@ -120,7 +128,43 @@ static void test_an_impact_at_the_start_is_as_one_just_after(void) {
     TEST_ASSERT_TRUE(over <= runs / 5);
 }
 
+/* What happens at t = 0 counts as it would later, in either number; what rests there, or is held, does not happen. */
+static void test_what_happens_at_the_start_is_counted(void) {
+    static const struct {
+        const char *statement;
+        const char *start;
+        uint64_t events;
+    } cases[] = {
+        {"stop x >= 0 restitution 0.5", "x' = -2 [m/s]", 1},
+        {"stop x >= 0 restitution 0", "x' = -2 [m/s]", 1},
+        {"stop x >= 0 restitution 0.5", "x' = 2 [m/s]", 0},
+        {"stop x >= 0 restitution 0.5", "x' = 0 [m/s]", 0},
+        {"stop x >= 0 restitution 0.5\nstop x <= 0 restitution 0.5", "x' = 0 [m/s]", 0},
+        {"stop x >= 0 restitution 0.5\nstop y >= 0 restitution 0.2", "x' = -1 [m/s], y' = -1 [m/s]",
+         2},
+        {"stop x >= 0 restitution 0.5\nstop y >= 0 restitution 0.2", "x' = -1 [m/s]", 1},
+        {"hold x while y > -1 [m]", "x' = 2 [m/s]", 1},
+        {"hold x while y > -1 [m]", "x' = 0 [m/s]", 0},
+        {"friction x static 0.3 kinetic 0.2 normal 9 [N]", "x' = 2 [m/s]", 0},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        for (int k = 0; k < 2; k++) {
+            char text[800];
+            motion m;
+            snprintf(text, sizeof text,
+                     "mechanism m\ncoordinate x [m]\ncoordinate y [m]\n"
+                     "T = 1 [kg]*(x'^2 + y'^2)/2\nV = 9.81 [N]*(x + y)\n%s\n"
+                     "scene s { start %s\nstep 0.1 [ms]\nuntil 1 [ms] }\n",
+                     cases[i].statement, cases[i].start);
+            motion_open_text(&m, text, k == 0 ? IN_DOUBLE : IN_FLOAT);
+            TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
+            TEST_ASSERT_EQUAL_UINT64_MESSAGE(cases[i].events, contacts_events(&m), text);
+            motion_close(&m);
+        }
+    }
+}
+
 void suite_contact_start(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_an_impact_at_the_start_is_as_one_just_after);
+    RUN_TEST(test_what_happens_at_the_start_is_counted);
 }

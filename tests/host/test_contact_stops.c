@@ -301,7 +301,6 @@ static void test_too_many_bounces_are_told_and_end(void) {
 }
 
 void suite_contact_stops(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_ball_comes_to_rest_and_stays_for_a_minute);
     RUN_TEST(test_perfect_bounces_gain_no_energy);
     RUN_TEST(test_impact_time_converges);

@@ -198,7 +198,6 @@ static void test_a_corner_is_hit_at_once(void) {
 }
 
 void suite_contact_together(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_the_order_of_the_file_does_not_matter);
     RUN_TEST(test_no_contact_gives_energy);
     RUN_TEST(test_newtons_cradle);

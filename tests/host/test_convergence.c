@@ -323,7 +323,6 @@ static void test_semi_implicit_euler_keeps_the_energy_for_ever(void) {
 }
 
 void suite_convergence(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_matrix_exponential_gives_the_printed_numbers);
     RUN_TEST(test_order_of_every_method_on_the_two_masses);
     RUN_TEST(test_order_of_every_method_on_the_epicyclic_gear);

@@ -248,7 +248,6 @@ static void test_spacings_and_begins_are_counted_in_steps(void) {
 }
 
 void suite_counts(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_counts_are_exact);
     RUN_TEST(test_steps_are_what_was_written);
     RUN_TEST(test_every_double_has_a_fraction);

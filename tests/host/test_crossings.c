@@ -61,7 +61,4 @@ static void test_each_crossing_sets_its_own(void) {
     }
 }
 
-void suite_crossings(void) {
-    UnitySetTestFile(__FILE__);
-    RUN_TEST(test_each_crossing_sets_its_own);
-}
+void suite_crossings(void) { RUN_TEST(test_each_crossing_sets_its_own); }

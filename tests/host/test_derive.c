@@ -278,7 +278,6 @@ static void test_large_exponents_are_not_cut(void) {
 }
 
 void suite_derive(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_operation_lists_solve_the_equations);
     RUN_TEST(test_power_balances_in_every_mechanism);
     RUN_TEST(test_kept_powers_do_not_hide_conservation);

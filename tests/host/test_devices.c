@@ -212,7 +212,6 @@ static void test_laskowitz_shifting_moves_the_carriage_once(void) {
 }
 
 void suite_devices(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_particle_flies_alike_in_both_coordinate_sets);
     RUN_TEST(test_cartesian_particle_is_the_parabola);
     RUN_TEST(test_laskowitz_six_weights);

@@ -260,7 +260,6 @@ static void test_figure_46_the_swing_falls_without_a_loss(void) {
 }
 
 void suite_dissertation(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_figure_19_force_on_the_load_frame);
     RUN_TEST(test_figure_19_frequency);
     RUN_TEST(test_figure_20_pin_force_against_weight_ratio);

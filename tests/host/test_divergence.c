@@ -132,7 +132,6 @@ static void test_an_angle_that_turns_too_fast_for_the_step(void) {
 }
 
 void suite_divergence(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_motion_that_ends_in_infinity);
     RUN_TEST(test_every_method_stops);
     RUN_TEST(test_an_input_that_is_no_number);

@@ -197,7 +197,6 @@ static void test_pow(void) {
 }
 
 void suite_double_functions(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_one_argument);
     RUN_TEST(test_atan2);
     RUN_TEST(test_pow);

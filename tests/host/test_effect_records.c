@@ -110,7 +110,6 @@ static void test_inputs_of_effects(void) {
 }
 
 void suite_effect_records(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_inputs_of_effects);
     RUN_TEST(test_noise_is_on_the_records_only);
     RUN_TEST(test_noise_is_the_same_in_generated_code);

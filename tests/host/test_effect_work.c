@@ -182,7 +182,4 @@ static void test_energy_changes_by_the_work_of_the_effect(void) {
     }
 }
 
-void suite_effect_work(void) {
-    UnitySetTestFile(__FILE__);
-    RUN_TEST(test_energy_changes_by_the_work_of_the_effect);
-}
+void suite_effect_work(void) { RUN_TEST(test_energy_changes_by_the_work_of_the_effect); }

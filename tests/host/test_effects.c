@@ -286,7 +286,6 @@ static void test_coupled_motor_ends_at_its_load_speed(void) {
 }
 
 void suite_effects(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_coupled_motor_ends_at_its_load_speed);
     RUN_TEST(test_coupling_swings);
     RUN_TEST(test_drag_is_along_the_velocity);

@@ -263,7 +263,6 @@ static void test_latex_is_balanced(void) {
 }
 
 void suite_emit(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_printed_equations_say_what_was_derived);
     RUN_TEST(test_first_order_form_solves_the_equations);
     RUN_TEST(test_short_equations_look_as_in_the_dissertation);

@@ -131,7 +131,4 @@ static void test_the_dissertations_equations(void) {
     check_printed("thomson", thomson);
 }
 
-void suite_equations(void) {
-    UnitySetTestFile(__FILE__);
-    RUN_TEST(test_the_dissertations_equations);
-}
+void suite_equations(void) { RUN_TEST(test_the_dissertations_equations); }

@@ -179,7 +179,6 @@ static void test_coarse_steps_are_told(void) {
 }
 
 void suite_far_origin(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_fine_steps_are_silent);
     RUN_TEST(test_coarse_steps_are_told);
 }

@@ -177,7 +177,6 @@ static void test_mirrored_pair_moves_along_its_line_only(void) {
 }
 
 void suite_figures_thomson(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_figure_50_five_turns_of_the_arm);
     RUN_TEST(test_figure_53_back_within_a_fifth_of_a_metre_each_turn);
     RUN_TEST(test_figures_51_to_53_ranges);

@@ -274,7 +274,6 @@ static void test_drift_falls_at_fourth_order(void) {
 }
 
 void suite_force_free(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_no_force_free_scene_is_forgotten);
     RUN_TEST(test_momentum_and_centre_of_mass_stay_at_each_scenes_own_step);
     RUN_TEST(test_drift_falls_at_fourth_order);

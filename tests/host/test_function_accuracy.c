@@ -142,7 +142,6 @@ static void test_functions_of_two(void) {
 }
 
 void suite_function_accuracy(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_functions_of_one);
     RUN_TEST(test_functions_of_two);
 }

@@ -120,7 +120,6 @@ static void test_tangent_at_quarter_turns(void) {
 }
 
 void suite_function_outputs(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_functions_of_any_size);
     RUN_TEST(test_tangent_at_quarter_turns);
 }

@@ -12,10 +12,8 @@
 #include <string.h>
 
 #include "derived.h"
-#include "expressions.h"
 #include "host/algebra/algebra.h"
 #include "host/run/engine.h"
-#include "mechanism.h"
 #include "unity.h"
 
 void suite_function_rows(void);
@@ -333,34 +331,7 @@ static void test_words_of_the_docs(void) {
     free(docs);
 }
 
-/* What must hold for any mechanism is tried with every function. */
-static void test_generated_texts(void) {
-    static char all[1 << 20];
-    static const char *const coordinates[] = {"q"};
-    static const char *const constants[] = {"p"};
-    const expression_names names = {coordinates, 1, 0, constants, 1};
-    uint64_t seed = SEED + 3;
-    all[0] = '\0';
-    for (unsigned i = 0; i < 100 && strlen(all) + 1024 < sizeof all; i++) {
-        expression_write(&names, 3, 1, &seed, all + strlen(all), sizeof all - strlen(all));
-    }
-    for (int f = 0; f < FUNCTIONS; f++) {
-        expect_in(all, "", f, "(", "expression_write()");
-    }
-    all[0] = '\0';
-    for (unsigned i = 0; i < 60; i++) {
-        char text[MECHANISM_SIZE];
-        mechanism_write(i, SEED + i, text);
-        TEST_ASSERT_TRUE(strlen(all) + strlen(text) < sizeof all);
-        strcat(all, text);
-    }
-    for (int f = 0; f < FUNCTIONS; f++) {
-        expect_in(all, "", f, "(", "mechanism_write()");
-    }
-}
-
 void suite_function_rows(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_slopes);
     RUN_TEST(test_slopes_where_they_jump);
     RUN_TEST(test_range);
@@ -370,5 +341,4 @@ void suite_function_rows(void) {
     RUN_TEST(test_dimensions);
     RUN_TEST(test_names);
     RUN_TEST(test_words_of_the_docs);
-    RUN_TEST(test_generated_texts);
 }

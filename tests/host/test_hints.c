@@ -47,7 +47,6 @@ static void test_what_only_looks_like_it_is_not(void) {
 }
 
 void suite_hints(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_friction_by_hand_is_told);
     RUN_TEST(test_what_only_looks_like_it_is_not);
     drop();

@@ -12,7 +12,7 @@
 #include "derived.h"
 #include "host/emit/description.h"
 #include "host/emit/emit.h"
-#include "host/run/ledger_text.h"
+#include "host/run/books_text.h"
 #include "host/run/records.h"
 #include "host/run/slow.h"
 #include "host/run/start.h"
@@ -47,7 +47,7 @@ static void write_run(FILE *out, const image *im, const engine_kind *kind) {
         const belief balance = belief_of(b, kind, run);
         summary_print(out, im, kind, run, b, &balance, 0.0);
         if (b != NULL && im->ledger.kept) {
-            ledger_print(out, im, kind, run, b);
+            books_print_kept(out, im, kind, run, b);
         }
         slow_say(out, im, kind, run);
         records_close(r);

@@ -86,8 +86,64 @@ static void test_a_conserved_clock_drives(void) {
                   "let clock_T = 1e-9 [kg*m^2]*clock'^2/2");
 }
 
+/* x feels nothing, and y's contact names it in one of its expressions, whichever: then x must be in the state. */
+static void test_a_contact_that_names_it_keeps_it_in_the_state(void) {
+    static const char *const contacts[] = {
+        "stop y <= 1 [m] restitution x/10 [m]",
+        "hold y while x > 0",
+        "friction y static x/10 [m] kinetic 0.2 normal 1 [N]",
+        "friction y static 0.3 kinetic x/10 [m] normal 1 [N]",
+        "friction y static 0.3 kinetic 0.2 normal 1 [N/m]*x",
+    };
+    for (size_t i = 0; i < sizeof contacts / sizeof contacts[0]; i++) {
+        char text[600];
+        snprintf(text, sizeof text,
+                 "mechanism two\ncoordinate x [m]\ncoordinate y [m]\n"
+                 "T = 2 [kg]*(x'^2 + y'^2)/2\nV = 1 [N/m]*y^2/2\n%s\nscene s { conserve x }\n",
+                 contacts[i]);
+        parse(text);
+        instantiate(NULL);
+        equations *e = equations_derive(made, said);
+        TEST_ASSERT_TRUE_MESSAGE(
+            e != NULL && program_make(e, parsed->scenes[0]->conserve, said) == NULL, contacts[i]);
+        equations_free(e);
+        expect_said("cannot be conserved beside stops, friction, holds or crossings");
+    }
+}
+
+/* Every expression of a contact is asked whether it is a number, with its place. */
+static void test_a_contact_without_a_number_is_refused(void) {
+    static const struct {
+        const char *contact;
+        const char *column;
+    } rows[] = {
+        {"stop y <= 1 [m]/(k - k) restitution 0.5", ":6:1: "},
+        {"stop y <= 1 [m] restitution 0.5/(k - k)", ":6:"},
+        {"hold y while 1/(k - k) > 0", ":6:"},
+        {"friction y static 0.3/(k - k) kinetic 0.2 normal 1 [N]", ":6:"},
+        {"friction y static 0.3 kinetic 0.2/(k - k) normal 1 [N]", ":6:"},
+        {"friction y static 0.3 kinetic 0.2 normal 1 [N]/(k - k)", ":6:1: "},
+        {"when y crosses 1 [m]/(k - k) { set y = 0 }", ":6:1: "},
+        {"when y crosses 1 [m] { set y = 1 [m]/(k - k) }", ":6:28: "},
+        {"when y crosses 1 [m] { set y = 0\n set y' = 1 [m/s]/(k - k) }", ":7:6: "},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        char text[600];
+        snprintf(text, sizeof text,
+                 "mechanism two\ncoordinate y [m]\nparameter k = 2\n"
+                 "T = 2 [kg]*y'^2/2\nV = 1 [N/m]*y^2/2\n%s\n",
+                 rows[i].contact);
+        derived d = derived_text(text);
+        TEST_ASSERT_TRUE_MESSAGE(d.image == NULL, rows[i].contact);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(d.errors, "finite"), d.errors);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(d.errors, rows[i].column), d.errors);
+        derived_free(&d);
+    }
+}
+
 void suite_influence(void) {
-    UnitySetTestFile(__FILE__);
+    RUN_TEST(test_a_contact_that_names_it_keeps_it_in_the_state);
+    RUN_TEST(test_a_contact_without_a_number_is_refused);
     RUN_TEST(test_what_acts_is_named_with_its_line);
     RUN_TEST(test_what_acts_on_others_only_is_no_reason);
     RUN_TEST(test_a_conserved_clock_drives);

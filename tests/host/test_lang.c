@@ -266,7 +266,6 @@ static void test_byte_order_mark_and_line_ends(void) {
 }
 
 void suite_lang(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_units);
     RUN_TEST(test_a_divided_unit_goes_from_left_to_right);
     RUN_TEST(test_arithmetic);

@@ -105,7 +105,6 @@ static void test_what_is_refused_gives_everything_back(void) {
 }
 
 void suite_leaks(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_scenes_give_everything_back);
     RUN_TEST(test_what_is_refused_gives_everything_back);
 }

@@ -224,7 +224,6 @@ static void test_documented_stability_is_the_measured_one(void) {
 }
 
 void suite_method_rows(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_weights_have_the_order_of_the_row);
     RUN_TEST(test_methods_for_any_system_have_the_positions_of_their_rates);
     RUN_TEST(test_the_books_weigh_each_stage_as_the_rates_do);

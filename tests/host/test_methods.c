@@ -228,7 +228,6 @@ static void test_methods_are_refused_where_their_rows_say(void) {
 }
 
 void suite_methods(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_orders_are_those_of_the_names);
     RUN_TEST(test_books_have_the_order_of_the_name);
     RUN_TEST(test_semi_implicit_euler_moves_by_the_new_rates);

@@ -167,7 +167,6 @@ static void test_powers_of_sines_near_their_poles(void) {
 }
 
 void suite_near_zero(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_slopes_of_kept_powers_stay_powers);
     RUN_TEST(test_powers_of_sines_near_their_poles);
     RUN_TEST(test_stiffening_springs_near_their_rest);

@@ -298,7 +298,6 @@ static void test_the_form_does_not_hang_on_what_was_made_before(void) {
 }
 
 void suite_normal_form(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_every_expression_keeps_the_form);
     RUN_TEST(test_the_order_of_arguments_does_not_matter);
     RUN_TEST(test_the_form_does_not_hang_on_what_was_made_before);

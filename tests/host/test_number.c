@@ -158,7 +158,6 @@ static void test_powers_of_units(void) {
 }
 
 void suite_number(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_whole_numbers);
     RUN_TEST(test_roots);
     RUN_TEST(test_exponents);

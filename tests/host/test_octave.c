@@ -154,7 +154,6 @@ static void test_octave_files_of_random_mechanisms(void) {
 }
 
 void suite_octave(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_octave_files_compute_the_same);
     RUN_TEST(test_octave_files_of_random_mechanisms);
 }

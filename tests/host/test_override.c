@@ -183,7 +183,6 @@ static void test_the_same_error_again_is_refused_again(void) {
 }
 
 void suite_override(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_overrides);
     RUN_TEST(test_effects_added_and_taken_away);
     RUN_TEST(test_step_in_all_its_spellings);

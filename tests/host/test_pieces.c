@@ -204,7 +204,6 @@ static void test_each_of_several_comes_back(void) {
 }
 
 void suite_pieces(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_squares_of_sines_come_back);
     RUN_TEST(test_even_powers_come_back);
     RUN_TEST(test_other_rows_stay_as_they_are);

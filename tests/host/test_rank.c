@@ -236,7 +236,6 @@ static void test_the_equation_that_depends_is_shown(void) {
 }
 
 void suite_rank(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_the_rank_does_not_hang_on_units);
     RUN_TEST(test_a_pivot_that_is_rounding_is_none);
     RUN_TEST(test_what_is_positive_definite);

@@ -195,7 +195,6 @@ static void test_accelerations_of_textbook_mechanisms_and_systems(void) {
 }
 
 void suite_reference(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_accelerations_of_the_dissertations_mechanisms);
     RUN_TEST(test_accelerations_of_textbook_mechanisms_and_systems);
 }

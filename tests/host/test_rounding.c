@@ -241,7 +241,6 @@ static void test_motion_after_a_million_turns_is_the_same(void) {
 }
 
 void suite_rounding(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_float_on_the_epicyclic_gear);
     RUN_TEST(test_float_on_thomson_device);
     RUN_TEST(test_how_long_a_chaotic_trajectory_is_good);

@@ -308,7 +308,6 @@ static void test_printing_outlives_an_overflow(void) {
 }
 
 void suite_show(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_expressions_are_read_back_as_printed);
     RUN_TEST(test_mechanisms_are_read_back_as_printed);
     RUN_TEST(test_printing_outlives_an_overflow);

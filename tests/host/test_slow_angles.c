@@ -184,7 +184,6 @@ static void test_double_has_no_units(void) {
 }
 
 void suite_slow_angles(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_slow_rates_are_told_and_others_are_not);
     RUN_TEST(test_of_other_motions_those_that_are_false);
     RUN_TEST(test_steps_with_events_count_once);

@@ -75,14 +75,8 @@ static int check_solution(const derived *d, uint64_t *seed, const char *text) {
             continue; /* next to a singular state */
         }
         for (int i = 0; i < e->count; i++) {
-            double rest = -poly_evaluate(equations_force(e, i), state_value, &s);
-            double size = fabs(rest) + 1.0;
-            for (int j = 0; j < e->count; j++) {
-                const double part =
-                    poly_evaluate(e->mass[i * e->count + j], state_value, &s) * result[j];
-                rest += part;
-                size += fabs(part);
-            }
+            double size;
+            const double rest = derived_rest(d, &s, result, i, &size);
             TEST_ASSERT_TRUE_MESSAGE(fabs(rest) <= 1e-9 * largest + 1e-9 * size, text);
         }
         checked++;
@@ -107,6 +101,47 @@ static void test_any_regular_system_is_solved(void) {
            checked[5]);
     for (int n = 1; n <= 5; n++) {
         TEST_ASSERT_GREATER_THAN_INT(200, checked[n]);
+    }
+}
+
+/* One equation of a system is made of those above it, in decimals that are no binary fractions: it is named. */
+static void test_the_equation_that_repeats_others_is_named(void) {
+    uint64_t seed = 47;
+    for (int round = 0; round < 60; round++) {
+        const int n = 2 + round % 4;
+        const int bad = 1 + (int)draw(&seed, (unsigned)n - 1);
+        double share[5];
+        char *text = NULL;
+        size_t size = 0;
+        FILE *to = open_memstream(&text, &size);
+        TEST_ASSERT_NOT_NULL(to);
+        double number[5][5];
+        fputs("mechanism m\n", to);
+        for (int i = 0; i < n; i++) {
+            share[i] = (double)(1 + draw(&seed, 9)) / 10.0;
+            fprintf(to, "state x%d\n", i);
+        }
+        for (int i = 0; i < n; i++) {
+            fputs("equation 1 [s]*(0", to);
+            for (int j = 0; j < n; j++) {
+                number[i][j] = (double)(1 + draw(&seed, 99)) / 10.0 + (i == j ? 20.0 : 0.0);
+                for (int k = 0; k < i && i == bad; k++) {
+                    fprintf(to, " + %g*(%g + sin(x%d))*x%d'", share[k], number[k][j], k, j);
+                }
+                if (i != bad) {
+                    fprintf(to, " + (%g + sin(x%d))*x%d'", number[i][j], i, j);
+                }
+            }
+            fputs(") = 1\n", to);
+        }
+        fclose(to);
+        derived d = derived_text(text);
+        char at[20];
+        snprintf(at, sizeof at, ":%d:", 1 + n + bad + 1);
+        TEST_ASSERT_TRUE_MESSAGE(d.image == NULL, text);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(d.errors, at), d.errors);
+        derived_free(&d);
+        free(text);
     }
 }
 
@@ -215,8 +250,8 @@ static void test_what_can_be_a_turn_angle(void) {
 }
 
 void suite_solving(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_any_regular_system_is_solved);
+    RUN_TEST(test_the_equation_that_repeats_others_is_named);
     RUN_TEST(test_long_products_keep_their_value);
     RUN_TEST(test_what_can_be_a_turn_angle);
 }

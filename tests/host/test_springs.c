@@ -82,7 +82,4 @@ static void test_every_law_pushes_as_it_should(void) {
     TEST_ASSERT_TRUE(in_float < 5e-6 && in_float > 1e-7);
 }
 
-void suite_springs(void) {
-    UnitySetTestFile(__FILE__);
-    RUN_TEST(test_every_law_pushes_as_it_should);
-}
+void suite_springs(void) { RUN_TEST(test_every_law_pushes_as_it_should); }

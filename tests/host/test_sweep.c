@@ -324,7 +324,6 @@ static void test_a_lost_worker_is_noticed(void) {
 }
 
 void suite_sweep(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_last_axis_runs_fastest);
     RUN_TEST(test_units_and_exact_ends);
     RUN_TEST(test_shards_tile_the_grid);

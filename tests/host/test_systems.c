@@ -120,7 +120,6 @@ static void test_as_many_first_order_equations_as_orders(void) {
 }
 
 void suite_systems(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_fourth_order_beam_follows_its_closed_form);
     RUN_TEST(test_ten_coupled_equations_swing_in_one_mode);
     RUN_TEST(test_motor_with_inductance_holds_the_pendulum);

@@ -184,7 +184,6 @@ static void test_thomson_set_b_can_be_followed_for_five_seconds(void) {
 }
 
 void suite_trajectory(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_particle_follows_its_parabola);
     RUN_TEST(test_two_masses_follow_the_matrix_exponential);
     RUN_TEST(test_epicyclic_gear_follows_the_reference);

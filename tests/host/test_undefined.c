@@ -317,7 +317,6 @@ static void test_angles_beyond_what_a_run_knows(void) {
 }
 
 void suite_undefined(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_expressions_that_stop_being_numbers);
     RUN_TEST(test_expressions_that_are_numbers_throughout);
     RUN_TEST(test_expressions_that_end_where_a_stop_is);

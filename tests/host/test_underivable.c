@@ -143,7 +143,6 @@ static void test_expressions_that_explode_are_refused(void) {
 }
 
 void suite_underivable(void) {
-    UnitySetTestFile(__FILE__);
     RUN_TEST(test_singular_and_other_impossible_mechanisms);
     RUN_TEST(test_kinetic_energy_must_be_positive);
     RUN_TEST(test_the_start_is_tried_too);

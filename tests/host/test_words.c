@@ -6,28 +6,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "derived.h"
 #include "host/lang/model.h"
 #include "host/lang/words.h"
 #include "unity.h"
 
 void suite_words(void);
 
-enum { TEXT_SIZE = 1200, REPORT_SIZE = 8000, PAGE_SIZE = 200000 };
-
-/* What is said about the text; "" when it is accepted. */
-static const char *report_on(const char *text) {
-    static char report[REPORT_SIZE];
-    diags *all = diags_new();
-    whirl_model *read = model_parse("x.whirl", text, strlen(text), all);
-    FILE *out = fmemopen(report, sizeof report, "w");
-    TEST_ASSERT_NOT_NULL(out);
-    report[0] = '\0';
-    diags_flush(all, out);
-    fclose(out);
-    diags_free(all);
-    model_free(read);
-    return report;
-}
+enum { TEXT_SIZE = 1200, PAGE_SIZE = 200000 };
 
 /* A mechanism with names for every form, STATEMENT where it may stand, and a scene with WITHIN. */
 static const char *in_mechanism(const char *statement, const char *within) {
@@ -41,7 +27,7 @@ static const char *in_mechanism(const char *statement, const char *within) {
 }
 
 static void expect_in(const char *report, const char *wanted, const char *text) {
-    static char message[TEXT_SIZE + REPORT_SIZE + 200];
+    static char message[TEXT_SIZE + REPORT_OF_TEXT_SIZE + 200];
     snprintf(message, sizeof message, "'%s' is missing in \"%s\" about: %s", wanted, report, text);
     TEST_ASSERT_TRUE_MESSAGE(strstr(report, wanted) != NULL, message);
 }
@@ -57,7 +43,7 @@ static void test_reserved_words_name_nothing(void) {
         snprintf(declared, sizeof declared, "parameter %s = 1", word->text);
         snprintf(wanted, sizeof wanted, "'%s' is a reserved word", word->text);
         const char *text = in_mechanism(declared, "until 1 [s]");
-        const char *report = report_on(text);
+        const char *report = report_of_text(text);
         if (is_reserved) {
             expect_in(report, wanted, text);
             reserved++;
@@ -88,7 +74,7 @@ static void test_a_misspelt_statement_is_offered_its_word(void) {
             snprintf(wanted, sizeof wanted, "did you mean '%s'?", word->text);
             const bool body = (word->stands & (IN_FILE | IN_MECHANISM)) != 0;
             const char *text = body ? in_mechanism(line, "until 1 [s]") : in_mechanism("", line);
-            const char *report = report_on(text);
+            const char *report = report_of_text(text);
             if (strcmp(wrong, "setp") != 0) { /* as near to `set` */
                 expect_in(report, wanted, text);
             }
@@ -107,7 +93,7 @@ static void test_a_word_stands_only_where_its_row_says(void) {
             snprintf(line, sizeof line, k == 1 ? "effect e {\n%s\n}" : "%s", word->text);
             const char *text =
                 k == 2 ? in_mechanism("", word->text) : in_mechanism(line, "until 1 [s]");
-            const char *report = report_on(text);
+            const char *report = report_of_text(text);
             char quoted[60];
             snprintf(quoted, sizeof quoted, "'%s'", word->text);
             const bool refused = strstr(report, "unknown statement") != NULL ||
@@ -125,7 +111,7 @@ static void test_forms_are_good_statements(void) {
     static const word_id tried[] = {WORD_STOP, WORD_FRICTION, WORD_HOLD, WORD_WHEN, WORD_NOISE};
     for (size_t i = 0; i < sizeof tried / sizeof tried[0]; i++) {
         const char *text = in_mechanism(word_row(tried[i])->form, "until 1 [s]");
-        TEST_ASSERT_EQUAL_STRING_MESSAGE("", report_on(text), text);
+        TEST_ASSERT_EQUAL_STRING_MESSAGE("", report_of_text(text), text);
     }
     for (int i = 0; i < STATEMENT_WORDS; i++) {
         TEST_ASSERT_NOT_NULL(strstr(word_row((word_id)i)->form, word_row((word_id)i)->text));

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "host/derive/image_make.h"
+#include "host/derive/lagrange.h"
 #include "host/lang/model.h"
 #include "tests/host/mechanism.h"
 

@@ -4,7 +4,7 @@
  * double has more than twice a float's bits and two (Figueroa, When is double rounding innocuous?, SIGNUM
  * Newsletter 30 (1995) 3). What scenes use, WH_SQRT, is held against it as well. NaN counts as equal to NaN.
  * The exit status is 1 if one differs. */
-#include "core/real.h"
+#include "core/root.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,0 +1,29 @@
+# avr.mk: what the boards of this family share; boards/cortexm/cortexm.mk says what the variables are. Memory is small:
+# there is one image a suite and one a scene (BOARD_IMAGES := single, mk/single.mk), and what fits in none is in the
+# board's too_large.txt. The linker's script is the compiler's own; a board says how large its memories are:
+#
+#   BOARD_MCU      the chip's name, to compiler and emulator
+#   BOARD_FLASH    bytes
+#   BOARD_RAM      bytes; some of them for the stack:
+#   BOARD_STACK    bytes that the stack must have
+$(call board_needs,BOARD_MCU BOARD_FLASH BOARD_RAM BOARD_STACK BOARD_SECONDS,: it stands before the include of boards/avr/avr.mk)
+BOARD_IMAGES   := single
+BOARD_DEPS     := quality
+BOARD_CROSS    := avr-
+BOARD_CC       := $(BOARD_CROSS)gcc
+BOARD_NM       := $(BOARD_CROSS)nm
+BOARD_SIZE     := $(BOARD_CROSS)size
+BOARD_OBJCOPY  := $(BOARD_CROSS)objcopy
+BOARD_OBJDUMP  := $(BOARD_CROSS)objdump
+BOARD_CPU      := -mmcu=$(BOARD_MCU)
+# gcc 5 takes arrays that are filled up to a count for arrays that are not.
+BOARD_CFLAGS   := $(BOARD_CPU) -DF_CPU=16000000UL -std=c11 -Os -ffp-contract=off -ffreestanding \
+                  -ffunction-sections -fdata-sections -Wno-maybe-uninitialized -Iboards/$(BOARD) -I.
+BOARD_LDFLAGS  := $(BOARD_CPU) -Wl,--gc-sections \
+                  -Wl,--defsym=__TEXT_REGION_LENGTH__=$(BOARD_FLASH) \
+                  -Wl,--defsym=__DATA_REGION_LENGTH__=$(BOARD_RAM)-$(BOARD_STACK)
+BOARD_LDLIBS   :=
+BOARD_TIDY     := --target=avr $(BOARD_CPU) -ffreestanding -DF_CPU=16000000UL -isystem /usr/lib/avr/include -Iboards/$(BOARD)
+BOARD_SOURCES  := boards/avr/startup.c boards/avr/board.c boards/avr/clock.c
+BOARD_EMULATOR := build/avr_run
+BOARD_EMULATE   = timeout $(BOARD_SECONDS) $(BOARD_EMULATOR) mcu=$(BOARD_MCU) hz=16000000 $(1) </dev/null

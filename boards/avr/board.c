@@ -1,0 +1,66 @@
+/* board.c: board.h on the AVR family (Microchip ATmega328P and ATmega2560 data sheets): the first USART, the stack's
+ * paint, and an end that the emulator understands. The C library's start-up code has filled the memory. */
+#include "boards/board.h"
+
+#include <avr/interrupt.h>
+#include <avr/io.h>
+#include <avr/sleep.h>
+
+#include "board_data.h"
+
+const char *const board_name = BOARD_NAME;
+
+#define BAUD 115200UL
+#define BAUD_DIVISOR ((F_CPU + 4UL * BAUD) / (8UL * BAUD) - 1UL) /* at double speed */
+
+void board_start(void) {
+    UBRR0 = BAUD_DIVISOR;
+    UCSR0A = _BV(U2X0);
+    UCSR0B = _BV(TXEN0);
+}
+
+void hal_console_write(const char *bytes, unsigned count) {
+    if ((UCSR0B & _BV(TXEN0)) ==
+        0) { /* a program that forgot board_start() must not hang without a word */
+        board_start();
+    }
+    for (unsigned i = 0; i < count; i++) {
+        while ((UCSR0A & _BV(UDRE0)) == 0) {
+        }
+        UDR0 = (uint8_t)bytes[i];
+    }
+}
+
+/* The code stands in the first general purpose register when the processor falls asleep with its interrupts off:
+ * mk/count/avr_run.c reads it there. On silicon that is all that happens. */
+_Noreturn void board_exit(int code) {
+    GPIOR0 = (uint8_t)code;
+    cli();
+    for (;;) {
+        sleep_enable();
+        sleep_cpu();
+    }
+}
+
+/* The stack has what the variables leave. No part of the chip guards it. */
+extern uint8_t _end;
+#define PAINT 0xA5U
+
+void board_stack_paint(void) {
+    for (volatile uint8_t *at = &_end; (uintptr_t)at < SP - 2U; at++) {
+        *at = PAINT;
+    }
+}
+
+unsigned board_stack_used_bytes(void) {
+    const volatile uint8_t *at = &_end;
+    while ((uintptr_t)at < RAMEND && *at == PAINT) {
+        at++;
+    }
+    return (unsigned)(RAMEND + 1U - (uintptr_t)at);
+}
+
+unsigned board_stack_size_bytes(void) { return (unsigned)(RAMEND + 1U - (uintptr_t)&_end); }
+
+bool board_cycles_start(void) { return false; }
+uint32_t board_cycles(void) { return 0; }

@@ -1,0 +1,25 @@
+/* guard.c: the strip below the stack that nobody may touch, on Armv6-M and Armv7-M (Armv7-M Architecture Reference
+ * Manual, B3.5): an overflow faults at once instead of quietly eating what comes next. Chips without a memory
+ * protection unit, every Cortex-M0 among them, read a region count of zero and go without. Armv8-M's unit is another:
+ * boards/armv8m/guard.c. */
+#include "cortexm.h"
+
+#if __ARM_ARCH > 7
+#error \
+    "Armv8-M: put boards/armv8m/guard.c into BOARD_SOURCES; these registers mean something else there"
+#endif
+
+#define MPU_RBAR 0xE000ED9CU
+#define MPU_RASR 0xE000EDA0U
+
+void board_guard_stack(void) {
+    const uint32_t strip_256_bytes = 7U << 1; /* 2^(7 + 1) */
+    const uint32_t no_access_no_execute = 1U << 28;
+    if (((REGISTER(MPU_TYPE) >> 8) & 0xFFU) == 0) {
+        return;
+    }
+    REGISTER(MPU_RBAR) = (uint32_t)(uintptr_t)board_stack_guard | 1U << 4; /* region 0 */
+    REGISTER(MPU_RASR) = no_access_no_execute | strip_256_bytes | 1U;
+    REGISTER(MPU_CTRL) = 1U << 2 | 1U; /* elsewhere the default map; not inside fault handlers */
+    __asm__ volatile("dsb\n\tisb" ::: "memory");
+}

@@ -1,0 +1,42 @@
+/* convert.c: whole numbers of 64 bits as float, rounded to nearest, ties to even.
+ *
+ * The compiler calls these two by their names. Its support library has them too, but where they are not written in
+ * assembler, as for RISC-V and Cortex-M0, they take a detour through double-precision arithmetic, of which firmware here
+ * has none. */
+#include <stdint.h>
+
+#if defined(__ARM_EABI__)
+#define FROM_UNSIGNED __aeabi_ul2f
+#define FROM_SIGNED __aeabi_l2f
+#else
+#define FROM_UNSIGNED __floatundisf
+#define FROM_SIGNED __floatdisf
+#endif
+
+float FROM_UNSIGNED(uint64_t number);
+float FROM_SIGNED(int64_t number);
+
+static float power_of_two(unsigned exponent) {
+    const union {
+        uint32_t bits;
+        float value;
+    } power = {(127U + exponent) << 23};
+    return power.value;
+}
+
+float FROM_UNSIGNED(uint64_t number) {
+    const uint32_t high = (uint32_t)(number >> 32);
+    if (high == 0) {
+        return (float)(uint32_t)number;
+    }
+    /* The upper 32 bits that hold something. A float keeps 24 of them: that something below them is lost only decides
+     * between two neighbours, so it may stand in the lowest. */
+    const unsigned shift = 32U - (unsigned)__builtin_clz(high);
+    const uint64_t below = number & ((UINT64_C(1) << shift) - 1U);
+    const uint32_t lost = below != 0 ? 1U : 0U;
+    return (float)((uint32_t)(number >> shift) | lost) * power_of_two(shift);
+}
+
+float FROM_SIGNED(int64_t number) {
+    return number < 0 ? -FROM_UNSIGNED(0U - (uint64_t)number) : FROM_UNSIGNED((uint64_t)number);
+}

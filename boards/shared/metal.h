@@ -1,0 +1,45 @@
+/* metal.h: what the bare-metal families share: registers, the memory as boards/shared/sections.ld lays it out. */
+#ifndef BOARDS_SHARED_METAL_H
+#define BOARDS_SHARED_METAL_H
+
+#include <stdint.h>
+
+/* A 32-bit register by its address. */
+#define REGISTER(address) (*(volatile uint32_t *)(uintptr_t)(address))
+
+extern uint32_t board_stack_guard[]; /* BOARD_STRIP_BYTES below the stack, nobody's */
+extern uint32_t board_stack_limit[]; /* lowest word of the stack */
+extern uint32_t board_stack_top[];   /* one past its highest word */
+extern uint32_t board_fault_stack_top[];
+
+/* Aligned to its size, as memory protection units ask. */
+#define BOARD_STRIP_BYTES 256U
+
+/* Makes the strip fault when it is touched, where the chip can: a family's guard.c. Once, from its startup code. */
+void board_guard_stack(void);
+
+/* Words from `low` up to `high`: two symbols of the linker script, which to C are two objects. */
+static inline uint32_t board_words(const uint32_t *low, const uint32_t *high) {
+    return (uint32_t)(((uintptr_t)high - (uintptr_t)low) / sizeof *low);
+}
+
+/* Initial values from flash to the variables that have some, zero to the others: before any C that has variables. */
+static inline void board_fill_memory(void) {
+    extern uint32_t board_data_load[];
+    extern uint32_t board_data_start[];
+    extern uint32_t board_data_end[];
+    extern uint32_t board_bss_start[];
+    extern uint32_t board_bss_end[];
+    volatile uint32_t *data = board_data_start;
+    const uint32_t data_words = board_words(board_data_start, board_data_end);
+    for (uint32_t i = 0; i < data_words; i++) {
+        data[i] = board_data_load[i];
+    }
+    volatile uint32_t *bss = board_bss_start;
+    const uint32_t bss_words = board_words(board_bss_start, board_bss_end);
+    for (uint32_t i = 0; i < bss_words; i++) {
+        bss[i] = 0;
+    }
+}
+
+#endif

@@ -1,0 +1,80 @@
+/* contact_begin.h: the contacts' modes where a run begins (see contact.h). */
+#ifndef WH_CONTACT_BEGIN_H
+#define WH_CONTACT_BEGIN_H
+
+#include "contact_resolve.h"
+
+/* Of the contacts at the start of a run, as bits, nothing being hit or captured yet: stops that are touched, as near as
+ * their gaps are known, and holds whose conditions are true, if at rest (`still`); those that are not are `moving`.
+ * work->law must belong to the state. */
+static inline void wh_contact_first_touch(const wh_contact_system *of, const wh_contact_work *w,
+                                          const wh_real *signal, wh_contact_state *s,
+                                          unsigned *still, unsigned *moving) {
+    const wh_real *rate = wh_contact_rates(of, s);
+    *still = 0;
+    *moving = 0;
+    for (unsigned k = 0; k < of->forced; k++) {
+        const wh_real value = signal[2 * k];
+        const bool stop = wh_contact_of(of, k, WH_STOP);
+        const wh_real speed = wh_jacobian_times(of, w, k, rate);
+        const wh_real none = WH_CONTACT_ROUNDING * wh_contact_terms(of, w, k, rate);
+        const bool rests = !wh_contact_pinned(of, k) ? WH_ABS(speed) <= none : speed == WH_R(0.0);
+        const bool touched = stop && value <= WH_CONTACT_TIE * wh_contact_extent(of, w, k, s);
+        const bool closes = stop && value <= WH_R(0.0) && signal[2 * k + 1] <= WH_R(0.0);
+        const bool holds = wh_contact_of(of, k, WH_HOLD) && value > WH_R(0.0);
+        *still |= (touched || holds) && rests ? 1U << k : 0U;
+        *moving |= (closes || holds) && !rests ? 1U << k : 0U;
+    }
+}
+
+/* Modes at the start of a run: what is at rest stays so if the forces keep it there, as if it had been before; then
+ * what closes is hit, and what a hold's condition says is captured: *hit, as bits, with impulse[forced]. Returns how many
+ * of the step's moments with events that took beyond the one that every start has. */
+static inline unsigned wh_contact_begin(const wh_contact_system *of, wh_contact_work *w, wh_real h,
+                                        const wh_real *input, wh_contact_state *s, unsigned *hit,
+                                        wh_real *impulse) {
+    wh_real accel[WH_COORDS];
+    wh_real signal[2 * WH_CONTACTS_MAX];
+    wh_contact_place spot = WH_CONTACT_HERE;
+    wh_contact_moment m = {0, 0, h, false};
+    unsigned still;
+    unsigned moving;
+    bool below = false;
+    *hit = 0;
+    for (unsigned k = 0; k < of->contacts; k++) {
+        w->mode[k] = 0; /* free, stuck, on no side */
+    }
+    if (wh_contact_any_of(of, WH_FRICTION)) {
+        wh_contact_slide(of, w, 0, WH_R(0.0), wh_contact_rates(of, s));
+    }
+    wh_contact_look(of, w, s, input, accel, signal);
+    for (unsigned k = 0; k < of->contacts; k++) {
+        wh_contact_expect(w, k, signal[2 * k] + signal[2 * k + 1]);
+    }
+    wh_contact_first_touch(of, w, signal, s, &still, &moving);
+    wh_contact_set_sides(of, w, ~0U, signal);
+    if (still == 0) {
+        m.events = moving;
+        *hit = wh_contact_resolve(of, w, &m, input, s, impulse);
+        return 0;
+    }
+    m.events = still & wh_contact_which(of, w, WH_HOLD, false);
+    wh_contact_set_modes(of, w, still & ~m.events, WH_ACTIVE);
+    (void)wh_contact_resolve(of, w, &m, input, s, impulse);
+    for (unsigned k = 0; k < of->forced; k++) { /* at rest beyond it: nothing holds it there */
+        below = below || (wh_contact_of(of, k, WH_STOP) && w->mode[k] == WH_ACTIVE &&
+                          signal[2 * k] < WH_R(0.0));
+    }
+    if (below) { /* nothing has moved since the look */
+        spot.but = wh_contact_stuck(of, w);
+        (void)wh_contact_project_places(of, w, &spot, signal, input, s);
+    }
+    if (moving == 0) {
+        return 0;
+    }
+    m.events = moving;
+    *hit = wh_contact_resolve(of, w, &m, input, s, impulse);
+    return 1;
+}
+
+#endif

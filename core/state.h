@@ -1,0 +1,78 @@
+/* state.h: what changes while a scene runs (scene.h), and the functions that compute with it. */
+#ifndef WH_STATE_H
+#define WH_STATE_H
+
+#include "angle.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* How a scene's state is arranged.
+ *
+ * Second order (Lagrangian mechanisms, q'' = f(q, q', u)): coordinates are ordered with the
+ * angles first. angle[i] is coordinate i for i < angles; real[] holds the positions of the other
+ * coordinates, then the rates of all coordinates in the same order. reals = 2*coordinates - angles.
+ *
+ * First order (systems given outright): angle[] and real[] are the components of x' = f(x, u). */
+typedef enum wh_form { WH_SECOND_ORDER, WH_FIRST_ORDER } wh_form;
+
+/* Most moments with events in one step, and most events that are logged. */
+#define WH_EVENTS_MAX 8
+#define WH_EVENT_LOG 16
+
+/* Most contacts of any scene. */
+#define WH_CONTACTS_LIMIT 16
+
+/* Modes of a contact. Friction that slides has the sign of its rate, a crossing the side it is on. */
+enum {
+    WH_FREE = 0,   /* stop out of touch; hold let go */
+    WH_ACTIVE = 1, /* stop resting; hold held */
+    WH_STUCK = 0,  /* friction */
+    WH_UNSET = 127 /* before the first step */
+};
+
+/* An event of a scene with contacts (contact.h). */
+typedef struct wh_event {
+    uint8_t contact;
+    int8_t mode;     /* the contact's mode after it */
+    wh_real at_s;    /* since the step began */
+    wh_real impulse; /* of a stop or a hold, else 0 */
+} wh_event;
+
+/* What of the contacts changes while running. */
+typedef struct wh_contacts {
+    uint64_t events;   /* since the start */
+    uint64_t overruns; /* steps that had WH_EVENTS_MAX moments with events */
+    uint32_t logged;   /* events of the last step, in log[] */
+    wh_event log[WH_EVENT_LOG];
+    int8_t mode[WH_CONTACTS_LIMIT]; /* [scene->contacts] are in use */
+} wh_contacts;
+
+/* The changing part of a run. All pointers point into the memory given to wh_scene_start(). */
+typedef struct wh_state {
+    uint64_t steps;  /* steps done; time follows from them and is never a running sum */
+    wh_angle *angle; /* [scene->angles] */
+    wh_real *real;   /* [scene->reals] SI units */
+    wh_real *carry;  /* [scene->angles + scene->reals] low parts when compensated, else NULL */
+    wh_real *input;  /* [scene->inputs] SI units; the caller may change them between steps */
+    wh_contacts *contacts; /* NULL without contacts */
+    wh_real *held;   /* [scene->held] what holds keep: curved ones what it is, straight ones by how
+                      * much it has slipped; SI units */
+    wh_real *ledger; /* the books' totals, their carries, the levels at the start; or NULL */
+    /* after WH_E_DIVERGED or WH_E_TURN: the component at fault, angles first, then reals; after WH_E_UNDEFINED or
+     * WH_E_SINGULAR: the contact, in the order of contact.h; after WH_E_ARITHMETIC: what is wrong, a
+     * wh_probed (arithmetic.h) */
+    int fault;
+} wh_state;
+
+typedef struct wh_ledger_form wh_ledger_form; /* ledger.h */
+
+/* Accelerations of a second-order system. accel[coordinates]. */
+typedef void wh_accel_fn(const void *model, const wh_phase *phase, const wh_real *linear,
+                         const wh_real *rate, const wh_real *input, wh_real *accel);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

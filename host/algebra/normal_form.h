@@ -1,0 +1,85 @@
+/* normal_form.h: what symbolic expressions in one normal form are made of.
+ *
+ * Every expression is a `poly`: a sum of terms, each a number times a product of atoms with
+ * exponents times at most one sine or cosine. Products of sines and cosines are turned into sums
+ * (multiple angles), so that what is equal for a planar mechanism also looks equal:
+ *
+ *     sin(a)*sin(b) = cos(a - b)/2 - cos(a + b)/2        sin(a)^2 + cos(a)^2 = 1
+ *
+ * Whole powers of sums of positions, from the third on, stay powers, so that (x - b)^3 keeps its digits
+ * near x = b. They are equal to each other, whatever the order, sign and scale of the sum; with what is
+ * multiplied out they compare equal after poly_expanded() only.
+ *
+ * All three kinds of object are interned in an `algebra`: equal objects are the same pointer, and
+ * results that were asked for before are found again. Nothing is ever changed once made.
+ *
+ * Coefficients are doubles. Numbers that cancel to less than 1e-14 of what was added count as
+ * cancelled, so that decimal parameters (0.1 + 0.2 - 0.3) do not leave ghost terms behind.
+ */
+#ifndef ALGEBRA_NORMAL_FORM_H
+#define ALGEBRA_NORMAL_FORM_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "host/lang/model.h"
+
+typedef struct algebra algebra;
+typedef struct atom atom;
+typedef struct mono mono;
+typedef struct poly poly;
+
+typedef enum atom_kind {
+    ATOM_SYMBOL, /* a coordinate, rate, acceleration, parameter or input */
+    ATOM_CALL,   /* a function other than sine and cosine, of one or two polys */
+    ATOM_POWER,  /* base^exponent with an exponent that is not a number */
+    ATOM_GROUP /* a sum kept whole, because it is the base of a power or too large to multiply out */
+} atom_kind;
+
+struct atom {
+    atom_kind kind;
+    unsigned id;          /* for hash tables; orders nothing (order.c does) */
+    uint64_t rank;        /* where it stands among others: order.c */
+    const symbol *symbol; /* ATOM_SYMBOL */
+    int primes;
+    function_id function;    /* ATOM_CALL, else FUNCTION_NONE or unused */
+    const poly *argument[2]; /* ATOM_CALL; base and exponent of ATOM_POWER; [0] of ATOM_GROUP */
+    uint64_t symbols;        /* Bloom set of the symbols inside: see poly_may_contain() */
+    bool keeps_powers;       /* a power of a sum is inside that could be multiplied out */
+    double size;             /* leaves it would have, written out */
+};
+
+typedef enum trig { TRIG_NONE, TRIG_COS, TRIG_SIN } trig;
+
+typedef struct mono_factor {
+    const atom *atom;
+    double exponent;
+} mono_factor;
+
+struct mono {
+    unsigned id;
+    int count;
+    trig trig;
+    const poly *angle; /* argument of the sine or cosine, or NULL */
+    uint64_t symbols;
+    bool keeps_powers;
+    double size;
+    mono_factor factors[]; /* in atom_order() */
+};
+
+typedef struct term_of_poly {
+    double coefficient;
+    const mono *mono;
+} poly_term;
+
+struct poly {
+    unsigned id;
+    int count;
+    uint64_t symbols;
+    bool keeps_powers;
+    double
+        size; /* leaves it would have, written out: what shares is counted as often as it is used */
+    poly_term terms[]; /* in mono_order(); none means zero */
+};
+
+#endif

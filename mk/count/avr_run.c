@@ -1,0 +1,214 @@
+/* avr_run.c: run an AVR program on simavr, which counts the processor's cycles.
+ *
+ *     avr_run mcu=atmega328p hz=16000000 [counts=FILE] PROGRAM.elf
+ *
+ * What the program sends by its first USART goes to standard output. It ends by falling asleep with its interrupts off;
+ * its exit status is then the byte in GPIOR0 (boards/avr/board.c). 125: simavr cannot run it; 123: it crashed, or its
+ * stack ran into its variables, which nothing on these chips would tell.
+ *
+ * FILE gets what count_plugin.c has in its log, of a program with wh_count_begin() and wh_count_end()
+ * (boards/programs/counted.h), and the cycles:
+ *
+ *     interval NUMBER INSTRUCTIONS             from the return of wh_count_begin() to that of wh_count_end(), both left out
+ *     cycles NUMBER CYCLES                     of the same interval
+ *     unfinished INSTRUCTIONS                  if it ended inside an interval
+ *     intervals TOTAL                          always the last line
+ *
+ * The cycles are those of the data sheet's instruction set, which holds for these chips: no caches, no wait states. */
+#include <simavr/avr_uart.h>
+#include <simavr/sim_avr.h>
+#include <simavr/sim_core.h>
+#include <simavr/sim_elf.h>
+
+#include <inttypes.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define CANNOT_RUN 125
+#define WENT_WRONG 123
+#define GPIOR0 0x3EU          /* data address, on both chips */
+#define MEMORY_BASE 0x800000U /* of data addresses in these files */
+
+static _Noreturn void fail(const char *what) {
+    fprintf(stderr, "avr_run: %s\n", what);
+    exit(CANNOT_RUN);
+}
+
+static void on_byte(struct avr_irq_t *irq, uint32_t value, void *data) {
+    (void)irq;
+    (void)data;
+    putchar((int)(value & 0xFFU));
+}
+
+/* simavr tells of every section it loads; only what went wrong is worth a line. */
+static void on_log(avr_t *avr, const int level, const char *format, va_list arguments) {
+    (void)avr;
+    if (level <= LOG_ERROR) {
+        vfprintf(stderr, format, arguments);
+    }
+}
+
+static const char *value_of(const char *argument, const char *name) {
+    const size_t length = strlen(name);
+    return strncmp(argument, name, length) == 0 && argument[length] == '=' ? argument + length + 1
+                                                                           : NULL;
+}
+
+static uint32_t number_of(const char *text) {
+    char *end = NULL;
+    const unsigned long number = strtoul(text, &end, 0);
+    if (end == text || *end != '\0') {
+        fail("what should be a number is none");
+    }
+    return (uint32_t)number;
+}
+
+typedef struct settings {
+    const char *mcu;
+    uint32_t hz;
+    const char *counts;
+    const char *program;
+} settings;
+
+static settings read_arguments(int argc, char **argv) {
+    settings all = {.mcu = NULL};
+    for (int i = 1; i < argc; i++) {
+        const char *value = NULL;
+        if ((value = value_of(argv[i], "mcu")) != NULL) {
+            all.mcu = value;
+        } else if ((value = value_of(argv[i], "hz")) != NULL) {
+            all.hz = number_of(value);
+        } else if ((value = value_of(argv[i], "counts")) != NULL) {
+            all.counts = value;
+        } else {
+            all.program = argv[i];
+        }
+    }
+    if (all.mcu == NULL || all.hz == 0 || all.program == NULL) {
+        fail("usage: avr_run mcu=NAME hz=NUMBER [counts=FILE] PROGRAM.elf");
+    }
+    return all;
+}
+
+/* The address of a symbol, or 0. */
+static uint32_t address_of(const elf_firmware_t *firmware, const char *name) {
+    for (uint32_t i = 0; i < firmware->symbolcount; i++) {
+        if (strcmp(firmware->symbol[i]->symbol, name) == 0) {
+            return firmware->symbol[i]->addr;
+        }
+    }
+    return 0;
+}
+
+/* The processor with the program in its flash. */
+static avr_t *load(const settings *all, elf_firmware_t *firmware) {
+    memset(firmware, 0, sizeof *firmware);
+    if (elf_read_firmware(all->program, firmware) != 0) {
+        fail("cannot read the program");
+    }
+    avr_t *avr = avr_make_mcu_by_name(all->mcu);
+    if (avr == NULL || avr_init(avr) != 0) {
+        fail("simavr does not know the chip");
+    }
+    firmware->frequency = all->hz;
+    avr_load_firmware(avr, firmware);
+    uint32_t flags = 0; /* not to simavr's own console, and no sleeping while the program polls */
+    avr_ioctl(avr, AVR_IOCTL_UART_SET_FLAGS('0'), &flags);
+    avr_irq_register_notify(avr_io_getirq(avr, AVR_IOCTL_UART_GETIRQ('0'), UART_IRQ_OUTPUT),
+                            on_byte, NULL);
+    return avr;
+}
+
+/* Where the variables end, or 0 if the program does not say. */
+static uint32_t end_of_variables;
+
+static uint32_t stack_pointer(const avr_t *avr) {
+    return (uint32_t)avr->data[R_SPL] | (uint32_t)avr->data[R_SPH] << 8;
+}
+
+static _Noreturn void went_wrong(const avr_t *avr, const char *what) {
+    fflush(stdout);
+    fprintf(stderr, "avr_run: %s at 0x%" PRIx32 "\n", what, (uint32_t)avr->pc);
+    exit(WENT_WRONG);
+}
+
+/* The stack pointer is set byte by byte, with the interrupts' flag between: for two instructions it may be anywhere. */
+#define TORN_INSTRUCTIONS 2U
+
+/* One instruction. False when the program has ended. */
+static bool step(avr_t *avr) {
+    static unsigned low = 0; /* instructions with the stack pointer among the variables */
+    const int state = avr_run(avr);
+    if (state == cpu_Crashed) {
+        went_wrong(avr, "crashed");
+    }
+    const uint32_t pointer = stack_pointer(avr);
+    low = pointer < end_of_variables && pointer != 0
+              ? low + 1U
+              : 0U; /* 0 until the start-up code has set it */
+    if (low > TORN_INSTRUCTIONS) {
+        went_wrong(avr, "the stack ran into the variables");
+    }
+    return state != cpu_Done;
+}
+
+static void run_counting(avr_t *avr, const settings *all, const elf_firmware_t *firmware) {
+    const uint32_t begin = address_of(firmware, "wh_count_begin");
+    const uint32_t end = address_of(firmware, "wh_count_end");
+    if (begin == 0 || end == 0) {
+        fail("the program has no wh_count_begin() and wh_count_end()");
+    }
+    FILE *file = fopen(all->counts, "w");
+    if (file == NULL) {
+        fail("cannot write the counts");
+    }
+    unsigned intervals = 0;
+    bool counting = false;
+    uint64_t instructions = 0;
+    avr_cycle_count_t began = 0;
+    bool running = true;
+    while (running) {
+        const uint32_t at = (uint32_t)avr->pc;
+        const avr_cycle_count_t before = avr->cycle;
+        running = step(avr);
+        if (at == begin) {
+            counting = true;
+            instructions = 0;
+            began = avr->cycle;
+        } else if (at == end && counting) {
+            counting = false;
+            fprintf(file, "interval %u %" PRIu64 "\ncycles %u %" PRIu64 "\n", intervals,
+                    instructions, intervals, (uint64_t)(before - began));
+            intervals++;
+        } else {
+            instructions++;
+        }
+    }
+    if (counting) {
+        fprintf(file, "unfinished %" PRIu64 "\n", instructions);
+    }
+    fprintf(file, "intervals %u\n", intervals);
+    if (fclose(file) != 0) {
+        fail("cannot write the counts");
+    }
+}
+
+int main(int argc, char **argv) {
+    const settings all = read_arguments(argc, argv);
+    avr_global_logger_set(on_log);
+    elf_firmware_t firmware;
+    avr_t *avr = load(&all, &firmware);
+    avr->run_cycle_limit = 1; /* one instruction a call */
+    const uint32_t end = address_of(&firmware, "_end");
+    end_of_variables = end > MEMORY_BASE ? end - MEMORY_BASE : 0;
+    if (all.counts != NULL) {
+        run_counting(avr, &all, &firmware);
+    } else {
+        while (step(avr)) {
+        }
+    }
+    return avr->data[GPIOR0];
+}

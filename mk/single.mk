@@ -1,0 +1,69 @@
+# single.mk: boards with too little memory for whole images: one image a suite and one a scene.
+#
+# What does not fit is in boards/<board>/too_large.txt, a line "suite NAME" or "scene NAME" each. `make too-large` makes
+# that list; `make hashes-all` and `make test-boards` find when it is not true any more.
+
+# AVR programs run on simavr, which counts cycles.
+AVR_RUN := build/avr_run
+$(AVR_RUN): mk/count/avr_run.c
+	@$(call need,$(CC))
+	@mkdir -p $(@D)
+	$(say) LINK $@
+	$(Q)$(CC) -std=c11 $(WARN) -O2 -o $@ $< -lsimavr -lelf
+
+SINGLE := $(ELF)/single
+TOO_LARGE := boards/$(BOARD)/too_large.txt
+SCENE_NAMES = $(filter-out scenes,$(notdir $(SCENE_C:.c=)))
+SUITE_NAMES := $(patsubst test_%,%,$(notdir $(basename $(wildcard tests/core/test_*.c))))
+
+single_link = $(BOARD_CC) $(BOARD_CFLAGS) $(WARN) $(2) $(BOARD_LDFLAGS) -o $@ $(1) $(filter %.o,$^) \
+    -Wl,--start-group $(filter %.a,$^) -Wl,--end-group $(BOARD_LDLIBS)
+
+$(SINGLE)/scene_%.elf: $(B)/$(BOARD)/$(GEN)/%.o $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl) \
+    boards/programs/scenes.c boards/programs/table.h mk/count/index.sh
+	@mkdir -p $(@D)
+	$(say) LINK $@
+	$(Q)mk/count/index.sh $* >$(@:.elf=.c)
+	$(Q)$(call single_link,boards/programs/scenes.c $(@:.elf=.c),-I$(GEN) -include $(GEN)/$*.h \
+	    -DWH_SCENE_WORDS=$*_MEMORY_WORDS -DSCENE_STEPS_MOST=$(SINGLE_STEPS)U)
+
+# What several suites share: each takes what it needs of it.
+$(SINGLE)/shared.a: $(call objects,$(BOARD),tests/core/hand.c tests/core/bench.c \
+    tests/core/exact.c tests/core/exact_law.c)
+	@mkdir -p $(@D)
+	$(say) AR $@
+	$(Q)rm -f $@ && $(AR) rcs $@ $^
+
+$(SINGLE)/suite_%.elf: $(B)/$(BOARD)/tests/core/test_%.o $(call objects,$(BOARD),tests/main.c $(UNITY_DIR)/unity.c) \
+    $(SINGLE)/shared.a $(BOARD_OBJECTS) $(call libraries,$(BOARD),scenes rig virtual whirl)
+	@mkdir -p $(@D)
+	$(say) LINK $@
+	$(Q)sh tests/suites.sh tests/core/test_$*.c >$(@:.elf=.c)
+	$(Q)$(call single_link,$(@:.elf=.c))
+
+LARGE_SCENES = $(patsubst scene_%,%,$(shell sed -n 's/^scene /scene_/p' $(TOO_LARGE) 2>/dev/null))
+LARGE_SUITES = $(patsubst suite_%,%,$(shell sed -n 's/^suite /suite_/p' $(TOO_LARGE) 2>/dev/null))
+SINGLE_SCENES = $(patsubst %,$(SINGLE)/scene_%.elf,$(filter-out $(LARGE_SCENES),$(SCENE_NAMES)))
+SINGLE_SUITES = $(patsubst %,$(SINGLE)/suite_%.elf,$(filter-out $(LARGE_SUITES),$(SUITE_NAMES)))
+
+.PHONY: board-images board-tests run-suites print-hashes too-large-now
+IMAGES = $(SINGLE_SCENES)
+board-images: $(SINGLE_SCENES) $(AVR_RUN)
+board-tests: $(SINGLE_SUITES) $(AVR_RUN)
+run-suites: # each says how many tests failed
+	@status=0; for elf in $(SINGLE_SUITES); do echo "$$elf:"; $(call emulate,$$elf) || status=1; done; exit $$status
+# A line for each scene, with the hash of its last state, or "without NAME".
+print-hashes:
+	@for elf in $(SINGLE_SCENES); do $(call emulate,$$elf) || exit 1; done
+	@for scene in $(LARGE_SCENES); do echo "without $$scene"; done
+
+# What does not link, and what has too little room for its stack when it runs (exit status 123).
+too-large-now: $(AVR_RUN)
+	@mkdir -p $(SINGLE); : >$(TOO_LARGE)
+	@for image in $(SUITE_NAMES:%=suite_%) $(SCENE_NAMES:%=scene_%); do \
+	    if $(MAKE) -s $(SINGLE)/$$image.elf >$(SINGLE)/$$image.log 2>&1; then \
+	        status=0; $(call emulate,$(SINGLE)/$$image.elf) >/dev/null 2>&1 || status=$$?; \
+	        [ $$status -eq 123 ] || continue; \
+	    elif ! grep -qE 'region|overflowed' $(SINGLE)/$$image.log; then cat $(SINGLE)/$$image.log; exit 1; fi; \
+	    echo $$image | sed 's/_/ /' >>$(TOO_LARGE); done
+	@cat $(TOO_LARGE)

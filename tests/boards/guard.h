@@ -1,0 +1,33 @@
+/* guard.h: what the programs share that touch the strip below a board's stack, and must not come back (guard.sh). */
+#ifndef TESTS_BOARDS_GUARD_H
+#define TESTS_BOARDS_GUARD_H
+
+#include "boards/board.h"
+#include "boards/shared/metal.h"
+#include "core/text.h"
+
+static inline void say(const char *words) {
+    char bytes[96];
+    wh_text line;
+    wh_text_start(&line, bytes, sizeof bytes);
+    wh_text_add(&line, words);
+    wh_text_add_char(&line, '\n');
+    hal_console_write(line.bytes, line.length);
+}
+
+/* The word above the strip is the stack's, and takes a store: a board where every store faults guards nothing. */
+static inline void store_above_strip(void) {
+    board_start();
+    volatile uint32_t *const last = board_stack_limit;
+    *last = 0x12345678U;
+    say(*last == 0x12345678U ? "the stack's last word holds"
+                             : "the stack's last word does not hold");
+}
+
+static inline void store_into_strip(unsigned word) {
+    volatile uint32_t *const strip = board_stack_guard;
+    strip[word] = 1U;
+    say("went on after a store into the strip");
+}
+
+#endif

@@ -1,0 +1,126 @@
+#!/bin/sh
+# commands.sh: every command and every option, from their rows: that they stand in the help texts and the documents, that
+# what is listed is taken, and that what is taken makes a difference.
+. "$(dirname "$0")/../checks.sh"
+
+# What host/commands/commands.h declares, but for what only the project's own build calls.
+hidden='emit-scenes|hashes'
+sed -n 's/^int command_\([a-z_]*\)(.*/\1/p' host/commands/commands.h | tr _ - | grep -vxE "$hidden" >"$scratch/commands"
+"$whirl" --help >"$scratch/help" 2>"$scratch/err"
+verdict $? "whirl --help"
+sed -n 's/^  whirl \([a-z-]*\) .*/\1/p' "$scratch/help" | diff "$scratch/commands" - >"$scratch/err"
+verdict $? "whirl --help lists every command, and no other"
+
+# FILE: the options that a help text lists, each "--word" or "--word VALUE".
+options_of() {
+    awk '/^  --[a-z]+ (--|[(]as)/ { words = 1 } # those of `whirl run`, by their words
+        words { for (i = 1; i <= NF; i++) { if ($i ~ /^--[a-z]+$/) { print $i, "?" } } }
+        /[(]as for `whirl run`[)]/ { words = 0; next }
+        !words && /^  --[a-z]+/ {
+            word = $1
+            sub(/[^-a-z].*/, "", word)
+            print word, $0 ~ /^  --[a-z]+ [^ ]/ ? $2 : ""
+        }' "$1" | sort -u -k 1,1 | while read -r word value; do
+        if [ "$value" = '?' ]; then row_of "$word"; else echo "$word $value"; fi
+    done
+}
+# The rows of host/commands/options.h: "--word VALUE GROUP".
+tr -d '\n\\' <host/commands/options.h | grep -o 'X(OPTION_[A-Z]*, "--[a-z]*", "[^"]*", OPTIONS_[A-Z]*' |
+    sed 's/X([A-Z_]*, "\(.*\)", "\(.*\)", OPTIONS_\(.*\)/\1 \2 \3/; s/  / - /' >"$scratch/rows"
+row_of() { # "--word VALUE", or "--word"
+    sed -n "s/^\($1 .*\) [A-Z]*$/\1/p" "$scratch/rows" | sed 's/ -$//'
+}
+[ "$(wc -l <"$scratch/rows")" -eq "$(grep -c '^ *X(OPTION_' host/commands/options.h)" ]
+verdict $? "the rows of options.h are read" "$scratch/rows"
+
+while read -r command; do
+    for ask in --help -h; do
+        "$whirl" "$command" $ask >"$scratch/text" 2>"$scratch/err" && head -n 1 "$scratch/text" | grep -q "^usage: whirl $command" &&
+            [ ! -s "$scratch/err" ]
+        verdict $? "whirl $command $ask" "$scratch/text"
+    done
+    grep -q "^| \`whirl $command[ \`]" docs/language.md
+    verdict $? "docs/language.md tells of whirl $command"
+    "$whirl" "${command}x" 2>&1 | grep -q "^hint: did you mean '$command'?"
+    verdict $? "and whirl ${command}x is led to it"
+    ! grep -n '.\{100\}' "$scratch/text" >"$scratch/err"
+    verdict $? "its help has lines of 99 columns at most"
+    options_of "$scratch/text" >"$scratch/options"
+    # all that begin a line are read; accel has none
+    [ "$command" = accel ] || [ -s "$scratch/options" ]
+    verdict $? "its options are read"
+    { sed -n "/^### .whirl $command/,/^##* [^#]/p" docs/language.md && cat docs/describe.md docs/sweeps.md &&
+        grep "^| .whirl $command" docs/language.md; } >"$scratch/documents"
+    while read -r word value; do
+        "$whirl" "$command" $word >"$scratch/out" 2>"$scratch/err" </dev/null
+        if [ -n "$value" ]; then
+            grep -q "error: $word needs a value" "$scratch/err"
+            verdict $? "whirl $command $word needs its $value"
+        else
+            ! grep -qE "unknown option|needs a value" "$scratch/err"
+            verdict $? "whirl $command $word is taken"
+        fi
+        "$whirl" "$command" ${word}x 2>&1 </dev/null | grep -q "^hint: did you mean $word?"
+        verdict $? "and ${word}x is led to it"
+        grep -q -- "$word\([^a-z]\|$\)" "$scratch/documents"
+        verdict $? "the documents tell of whirl $command $word"
+    done <"$scratch/options"
+done <"$scratch/commands"
+
+# --- common options: a line of help each, and a difference each --------------------------------------------------
+"$whirl" run --help >"$scratch/text"
+cat >"$scratch/plain.whirl" <<'END'
+mechanism plain "a mass on a spring, with drag"
+coordinate x [m]
+parameter k = 8 [N/m]
+T = 2 [kg]*x'^2/2
+V = k*x^2/2
+output place [m] = x
+effect drag "drag" { Q(x) += -0.1 [N*s/m]*x' }
+effect wind "wind" { Q(x) += 0.2 [N] }
+scene plain_swings { with drag; start x = 1 [m]; step 10 [ms]; until 0.1 [s] }
+END
+plain=$scratch/plain.whirl:plain_swings
+sample() { # a value of that option that is not what the scene has
+    case $1 in
+    --set) echo k=9 ;;
+    --start) echo x=2 ;;
+    --with) echo wind ;;
+    --without) echo drag ;;
+    --step) echo 5ms ;;
+    --until) echo 0.2s ;;
+    --method) echo heun ;;
+    --number) echo float ;;
+    --compensated) ;;
+    *) echo "no-sample-in-$0" ;;
+    esac
+}
+ends() { # COMMAND [OPTION...]: all that it comes to
+    command=$1
+    shift
+    case $command in
+    derive) "$whirl" derive "$plain" --as c "$@" ;;
+    describe) "$whirl" describe "$plain" --json "$@" ;;
+    run) "$whirl" run "$plain" --csv - --quiet "$@" ;;
+    sweep) "$whirl" sweep "$plain" --over x=1..1.5:2 --quiet "$@" ;;
+    *) echo "no call of $command in $0" ;;
+    esac
+}
+while read -r word value group; do
+    sed -n "s/^  $word .\{$((20 - ${#word}))\}//p" "$scratch/text" | grep -q '^[^ ]'
+    verdict $? "whirl run --help describes $word"
+    while read -r command; do
+        "$whirl" "$command" --help | grep -q -- " $word\( \|$\)" || continue
+        case $command$word in
+        sweep--start) set -- --start "x'=1" ;; # x is swept
+        *) set -- "$word" "$(sample "$word")" ;;
+        esac
+        [ -n "$2" ] || set -- "$word"
+        ends "$command" >"$scratch/without" 2>/dev/null
+        ends "$command" "$@" >"$scratch/with" 2>"$scratch/err"
+        status=$?
+        [ $status -eq 0 ] && [ -s "$scratch/with" ] && ! cmp -s "$scratch/without" "$scratch/with"
+        verdict $? "whirl $command $* makes a difference ($value, $group)"
+    done <"$scratch/commands"
+done <"$scratch/rows"
+exit $failed

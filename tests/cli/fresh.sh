@@ -1,0 +1,23 @@
+#!/bin/sh
+# fresh.sh: whoever asks for one file of a fresh clone gets what it is made of first: the scenes that whirl generates
+# before their library is packed and before what includes them is compiled. As make plans it, nothing is built.
+. "$(dirname "$0")/../checks.sh"
+
+cp -R Makefile mk core hal boards host tests "$scratch/" || exit 1
+plan() { # plan WORD...: what make would do
+    (cd "$scratch" && rm -rf build && env -i PATH="$PATH" HOME="$HOME" make -n V=1 "$@") >"$scratch/plan" 2>"$scratch/err"
+}
+# before FIRST SECOND: a line of the plan that matches FIRST stands before any that matches SECOND
+before() {
+    awk -v first="$1" -v second="$2" '$0 ~ first && !at { at = NR } $0 ~ second && !then { then = NR }
+        END { exit !(at && then && at < then) }' "$scratch/plan"
+}
+for target in build/mps2-an386/firmware.elf build/tests/core_float; do
+    plan $target && before 'emit-scenes' 'libscenes.a' && before 'emit-scenes' "-o $target\$|-o $target "
+    verdict $? "$target"
+done
+before 'emit-scenes' '-c tests/core/test_scenes.c'
+verdict $? "what includes the scenes' headers is compiled after they are there"
+plan B=build/other build/other/tests/core_float && before 'build/gen/.stamp' 'libscenes.a'
+verdict $? "another configuration has the main one make them"
+exit $failed

@@ -1,0 +1,56 @@
+#!/bin/sh
+# full_output.sh: every command whose standard output is full, or closed, says so and fails; in whatever form it answers,
+# and whatever its length.
+. "$(dirname "$0")/../checks.sh"
+
+printf 'mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'"'"'^2/2\nscene s { start x'"'"' = 1 [m/s]; until 20 [ms] }\n' >"$scratch/m.whirl"
+scene=$scratch/m.whirl
+
+# lost WORD...: to a full disk, and to nothing at all
+lost() {
+    for output in /dev/full closed; do
+        if [ $output = closed ]; then
+            "$whirl" "$@" >&- 2>"$scratch/err"
+        else
+            "$whirl" "$@" >/dev/full 2>"$scratch/err"
+        fi
+        status=$?
+        [ $status -eq 1 ] && [ "$(grep -c 'error: standard output' "$scratch/err")" -eq 1 ]
+        verdict $? "whirl $(echo "$*" | sed "s|$scratch/||g") $output: exit status $status"
+    done
+}
+
+if [ ! -e /dev/full ]; then
+    echo "ok - this machine has no /dev/full"
+    exit 0
+fi
+commands=$("$whirl" --help | sed -n 's/^  whirl \([a-z]*\) .*/\1/p')
+[ "$(echo "$commands" | wc -w)" -ge 6 ]
+verdict $? "the help text lists the commands"
+lost --help
+lost --version
+for command in $commands; do
+    lost "$command" --help
+done
+lost list
+lost list "$scene" --as table
+for form in text latex octave c; do
+    lost derive "$scene" --as $form
+done
+lost derive "$scene:m"
+lost describe "$scene"
+lost describe "$scene" --json
+lost accel "$scene"
+lost run "$scene"
+lost run "$scene" --csv -
+lost run "$scene" --csv - --until 5s
+lost sweep "$scene" --over step=1..2:2 --quiet --fresh
+lost hashes
+
+# A command that has nothing to say there does not mind; what else is wrong keeps its own exit status.
+check "nothing said, nothing lost" sh -c '"$1" run "$2" --quiet >/dev/full' - "$whirl" "$scene"
+check "or to nothing at all" sh -c '"$1" run "$2" --quiet >&-' - "$whirl" "$scene"
+"$whirl" derive "$scene:other" >/dev/full 2>"$scratch/err"
+[ $? -eq 2 ]
+verdict $? "bad input is bad input"
+exit $failed

@@ -1,0 +1,34 @@
+/* draw.h: what the tests of contacts draw at random, in numbers of the build: the same on every machine. */
+#ifndef TESTS_DRAW_H
+#define TESTS_DRAW_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "core/real.h"
+
+/* The next 31 bits: a linear congruence, whose lowest ones are left out. */
+static inline uint64_t draw_bits(uint64_t *seed) {
+    *seed = *seed * 6364136223846793005U + 1442695040888963407U;
+    return *seed >> 33;
+}
+
+/* A whole number, both bounds included. */
+static inline wh_real draw_whole(uint64_t *seed, int least, int most) {
+    return (wh_real)(least + (int)(draw_bits(seed) % (uint64_t)(most - least + 1)));
+}
+
+/* Any other: no two meet by chance. */
+static inline wh_real draw_broken(uint64_t *seed, int least, int most) {
+    return draw_whole(seed, least * 1024, most * 1024 - 1) / 1024 +
+           draw_whole(seed, 1, 1023) / (1024 * 1024);
+}
+
+/* One of so many, counted from zero; zero where there is none. */
+static inline unsigned draw_one_of(uint64_t *seed, unsigned count) {
+    return count > 0 ? (unsigned)(draw_bits(seed) % count) : 0U;
+}
+
+static inline bool draw_one_in(uint64_t *seed, unsigned of) { return draw_bits(seed) % of == 0; }
+
+#endif

@@ -1,0 +1,216 @@
+/* test_contact_exact.c: random mechanisms of one or two coordinates with up to three contacts under constant loads, held
+ * step by step against what exact.h works out: state, modes, events with their times and impulses, and what each contact
+ * gave. Where a decision hangs on less than rounding a run is left; most are not. */
+#include "draw.h"
+#include "exact.h"
+
+#include "unity.h"
+
+void suite_contact_exact(void);
+
+enum { MECHANISMS = __STDC_HOSTED__ ? 2000 : 50, STEPS = 60 };
+
+#define CLOSE (WH_DOUBLE ? 1e-5 : 5e-3)
+
+/* --- drawing ------------------------------------------------------------------------------------------------ */
+
+static int draw_row(uint64_t *seed, unsigned n, wh_real *row) {
+    row[0] = draw_whole(seed, -2, 2);
+    row[1] = n == 1 || draw_one_in(seed, 2) ? WH_R(0.0) : draw_whole(seed, -2, 2);
+    if (row[0] == WH_R(0.0) && row[1] == WH_R(0.0)) {
+        row[0] = WH_R(1.0);
+    }
+    return row[1] == WH_R(0.0) ? 0 : row[0] == WH_R(0.0) ? 1 : -1;
+}
+
+/* Stops, of which one in `touched` is, a hold, frictions, a crossing: at least one, three at most, under loads so
+ * `heavy`. */
+static void draw(uint64_t *seed, unsigned touched, bool crosses, int heavy) {
+    const unsigned n = draw_one_in(seed, 4) ? 1 : 2;
+    unsigned room = HAND_CONTACTS - crosses;
+    const bool beside =
+        crosses && n == 2 && draw_one_in(seed, 2); /* it is the other coordinate's */
+    wh_real row[2];
+    hand_build(n, draw_broken(seed, 1, 4), n == 1 ? WH_R(0.0) : draw_broken(seed, -1, 1),
+               draw_broken(seed, 2, 4));
+    hand_pushed = draw_one_in(seed, 2) ? WH_R(1.0) : WH_R(-1.0);
+    for (unsigned i = 0; i < n; i++) {
+        hand_now.start[i] = draw_whole(seed, -2, 2) / 8;
+        hand_now.start[n + i] = draw_one_in(seed, 3) ? WH_R(0.0) : draw_broken(seed, -1, 1);
+        hand_now.load[i] =
+            draw_one_in(seed, 8) ? WH_R(0.0) : draw_broken(seed, -8, 8) * (wh_real)heavy;
+    }
+    if (beside) {
+        hand_now.start[3] = WH_R(0.0);
+    }
+    hand_now.weighs = draw_one_in(seed, 2);
+    hand_now.system.compensated = draw_one_in(seed, 4);
+    for (; room > 0 && !draw_one_in(seed, 3); room--) {
+        int pin = draw_row(seed, n, row);
+        if (beside) {
+            row[0] = WH_R(0.0);
+            row[1] = draw_one_in(seed, 2) ? WH_R(1.0) : WH_R(-2.0);
+            pin = 1;
+        }
+        const wh_real gap = !draw_one_in(seed, touched) ? draw_broken(seed, 0, 20) / 1024
+                            : draw_one_in(seed, 4)      ? draw_broken(seed, -4, 0) / 1024
+                                                        : WH_R(0.0);
+        const wh_real at = row[0] * hand_now.start[0] + row[1] * hand_now.start[1];
+        (void)hand_add(WH_STOP, pin, row[0], row[1], at - gap, draw_whole(seed, 0, 4) / 4,
+                       WH_R(0.0));
+    }
+    if (room > 0 && draw_one_in(seed, 2)) {
+        const int pin = draw_row(seed, n, row);
+        const unsigned k = hand_add(WH_HOLD, pin, row[0], row[1], WH_R(0.0), WH_R(0.0), WH_R(0.0));
+        hand_now.contact[k].direction = draw_one_in(seed, 2) ? 1 : 0;
+        hand_now.system.held = pin < 0;
+        room--;
+    }
+    for (unsigned i = 0; i < n && room > 0; i++) {
+        if (draw_one_in(seed, 2) || hand_now.system.contacts == 0) {
+            const wh_real most = draw_broken(seed, 0, 3) * (wh_real)(heavy > 0 ? heavy : 1);
+            (void)hand_add(WH_FRICTION, (int)i, i == 0 ? WH_R(1.0) : WH_R(0.0),
+                           i == 1 ? WH_R(1.0) : WH_R(0.0), WH_R(0.0), most,
+                           draw_one_in(seed, 2) ? most : most * WH_R(0.75));
+            room--;
+        }
+    }
+    if (crosses) {
+        const unsigned k =
+            hand_add(WH_WHEN, -1, WH_R(1.0), WH_R(0.0),
+                     hand_now.start[0] + draw_broken(seed, -4, 4) / 256, WH_R(0.0), WH_R(0.0));
+        hand_now.contact[k].direction = (int8_t)draw_whole(seed, -1, 1);
+        hand_now.places = draw_one_in(seed, 2);
+        hand_now.place = hand_now.start[0] + draw_broken(seed, -16, 16) / 256;
+    }
+}
+
+/* --- comparing ---------------------------------------------------------------------------------------------- */
+
+static bool near(double value, double wanted) {
+    const double off = value - wanted;
+    return off <= CLOSE && -off <= CLOSE;
+}
+
+static double rate_of(unsigned k) {
+    double sum = 0.0;
+    for (unsigned i = 0; i < hand_now.n; i++) {
+        sum += (double)(hand_now.law[k].row[i] * hand_state.real[hand_now.n + i]);
+    }
+    return sum;
+}
+
+/* What contact k has pushed with along its row, by the books. */
+static double impulse_of(unsigned k) {
+    const wh_real *entry = hand_state.ledger + wh_ledger_of_contact(&hand_books, k) + 1;
+    const unsigned i = hand_now.law[k].row[0] != WH_R(0.0) ? 0 : 1;
+    return (double)(entry[i] / hand_now.law[k].row[i]);
+}
+
+/* Did it do anything? A stop that is found again by rounding, as it leaves, gets nothing, and one that another repeats
+ * may get nothing. */
+static bool counts(const exact *e, const wh_event *event) {
+    return hand_now.contact[event->contact].kind != WH_STOP || event->mode != WH_FREE ||
+           !(e->shared || near((double)event->impulse, 0.0));
+}
+
+static bool same_event(const exact *e, const wh_event *got, const wh_event *wanted) {
+    return got->contact == wanted->contact && got->mode == wanted->mode &&
+           near((double)got->at_s, (double)wanted->at_s) &&
+           (e->shared || near((double)got->impulse, (double)wanted->impulse));
+}
+
+static bool same_log(const exact *e) {
+    const wh_contacts *c = hand_state.contacts;
+    unsigned i = 0;
+    unsigned j = 0;
+    for (;;) {
+        for (; i < c->logged && !counts(e, &c->log[i]); i++) {
+        }
+        for (; j < e->logged && !counts(e, &e->log[j]); j++) {
+        }
+        if (i == c->logged || j == e->logged) {
+            return i == WH_EVENT_LOG || (i == c->logged && j == e->logged);
+        }
+        if (!same_event(e, &c->log[i++], &e->log[j++])) {
+            return false;
+        }
+    }
+}
+
+static bool same(const exact *e) {
+    bool good = same_log(e);
+    for (unsigned i = 0; i < hand_now.n; i++) {
+        good = good && near((double)hand_state.real[i], e->x[i]) &&
+               near((double)hand_state.real[hand_now.n + i], e->v[i]);
+    }
+    for (unsigned k = 0; k < hand_now.system.contacts; k++) {
+        const bool forced = k < hand_now.system.forced;
+        const bool rests = forced && hand_now.contact[k].kind != WH_FRICTION &&
+                           hand_state.contacts->mode[k] == WH_ACTIVE;
+        good = good && hand_state.contacts->mode[k] == e->mode[k];
+        good = good && (!rests || near(rate_of(k), 0.0));
+        good = good &&
+               (e->shared || near((double)hand_state.ledger[wh_ledger_of_contact(&hand_books, k)],
+                                  e->energy[k]));
+        good = good && (e->shared || !forced || near(impulse_of(k), e->impulse[k]));
+    }
+    return good && hand_state.contacts->overruns == 0;
+}
+
+typedef struct tally {
+    unsigned wrong;
+    unsigned steps; /* that were compared */
+    uint64_t events;
+} tally;
+
+/* A run, until it hangs on rounding. */
+static void compare(tally *t) {
+    exact e;
+    bool good = true;
+    hand_start(true);
+    exact_start(&e);
+    for (unsigned step = 0; step < STEPS && good; step++) {
+        hand_steps(1);
+        exact_step(&e);
+        if (e.vague) {
+            return;
+        }
+        good = same(&e);
+        t->steps++;
+        t->events += e.logged;
+        t->wrong += !good;
+        if (step % 8U == 7U) { /* what is held is let go, and the other way round */
+            hand_state.input[0] = -hand_state.input[0];
+            e.pushed = -e.pushed;
+        }
+    }
+}
+
+static void run(uint64_t seed, unsigned touched, bool crosses, int heavy) {
+    tally t = {0, 0, 0};
+    for (unsigned i = 0; i < MECHANISMS; i++) {
+        draw(&seed, touched, crosses, heavy);
+        compare(&t);
+    }
+    TEST_ASSERT_EQUAL_UINT(0, t.wrong);
+    TEST_ASSERT_TRUE_MESSAGE(t.steps >= MECHANISMS * STEPS / (WH_DOUBLE ? 2U : 4U),
+                             "too many hang on rounding");
+    TEST_ASSERT_TRUE_MESSAGE(t.events >= MECHANISMS / 2U, "too little happens");
+}
+
+static void test_what_touches_nothing_at_first(void) { run(11, 64, false, 1); }
+static void test_what_starts_touching(void) { run(12, 2, false, 1); }
+static void test_crossings_among_them(void) { run(13, 3, true, 1); }
+static void test_what_is_pressed_hard(void) { run(14, 2, false, 128); }
+static void test_what_nothing_presses(void) { run(15, 2, false, 0); }
+static void test_crossings_beside_what_touches(void) { run(16, 1, true, 1); }
+
+void suite_contact_exact(void) {
+    RUN_TEST(test_what_touches_nothing_at_first);
+    RUN_TEST(test_what_starts_touching);
+    RUN_TEST(test_crossings_among_them);
+    RUN_TEST(test_what_is_pressed_hard);
+    RUN_TEST(test_what_nothing_presses);
+    RUN_TEST(test_crossings_beside_what_touches);
+}

@@ -1,0 +1,152 @@
+/* test_contact_flat.c: where holds lose their say (core/contact_rank.h): where the rows are asked, what stands for a contact
+ * that holds nothing, and at which of the places that a step leads to it is lost. */
+#include "bench.h"
+
+#include "unity.h"
+
+void suite_contact_flat(void);
+
+enum { ROUNDS = __STDC_HOSTED__ ? 3000 : 60 };
+
+/* Stops and holds on lines and angles, or holds alone; held: how many can slip. */
+static void draw(uint64_t *seed, unsigned angles, wh_contact_work *w) {
+    const unsigned stops = draw_one_in(seed, 2) ? WH_KIND_BIT(WH_STOP) : 0U;
+    bench_build(seed, BENCH_COORDS, angles);
+    bench_add_some(seed, stops | WH_KIND_BIT(WH_HOLD));
+    for (unsigned k = 0; k < bench_now.system.forced; k++) {
+        wh_contact *c = &bench_now.contact[k];
+        if (c->kind == WH_HOLD) {
+            c->direction = (int8_t)draw_whole(seed, -1, 1);
+            c->first_set = c->pin < 0 ? bench_now.system.held++ : BENCH_CONTACTS - 1;
+        }
+    }
+    bench_work(seed, draw_one_in(seed, 2), w);
+}
+
+static bool holds(const wh_contact_work *w, unsigned k) {
+    return bench_now.contact[k].kind == WH_HOLD && w->mode[k] == WH_ACTIVE;
+}
+
+/* Who holds nothing has a row of zeros, whatever stood there; who holds, what is not the others'. */
+static void test_rows_are_those_of_the_place(void) {
+    uint64_t seed = 241;
+    for (unsigned round = 0; round < ROUNDS; round++) {
+        wh_contact_work w;
+        wh_contact_rows rows;
+        wh_contact_state s;
+        wh_contact_point at;
+        const wh_real input = WH_R(0.0);
+        draw(&seed, draw_one_of(&seed, BENCH_COORDS), &w);
+        bench_state(&seed, &s);
+        wh_contact_point_of(&bench_now.system, &s, &at);
+        const wh_contact_point asked = at;
+        bench_now.at = &asked;
+        bench_now.input = &input;
+        for (unsigned k = 0; k < BENCH_CONTACTS; k++) {
+            rows.size[k] = BENCH_SENTINEL;
+            for (unsigned i = 0; i < WH_COORDS; i++) {
+                rows.row[k][i] = BENCH_SENTINEL;
+                rows.way[k][i] = BENCH_SENTINEL;
+            }
+        }
+        w.law[0] = BENCH_SENTINEL;
+        wh_contact_rows_of(&bench_now.system, &w, &at, &input, &rows);
+        TEST_ASSERT_TRUE(!bench_now.astray && bench_now.laws == 2U &&
+                         w.law[0] == bench_now.first[0]);
+        unsigned count = 0;
+        for (unsigned k = 0; k < BENCH_CONTACTS; k++) {
+            const bool used = k < bench_now.system.forced;
+            count += used && holds(&w, k);
+            for (unsigned i = 0; i < WH_COORDS; i++) {
+                const bool inside = used && i < bench_now.system.coordinates;
+                TEST_ASSERT_TRUE(inside || (rows.row[k][i] == BENCH_SENTINEL &&
+                                            rows.way[k][i] == BENCH_SENTINEL));
+                TEST_ASSERT_TRUE(!inside || holds(&w, k) ||
+                                 (rows.row[k][i] == WH_R(0.0) && rows.way[k][i] == WH_R(0.0)));
+                TEST_ASSERT_TRUE(!inside ||
+                                 bench_near(rows.way[k][i], bench_along(k, bench_now.inverse[i])) ||
+                                 k > 0 || !holds(&w, k));
+            }
+            TEST_ASSERT_TRUE(used ? rows.size[k] >= WH_R(0.0) : rows.size[k] == BENCH_SENTINEL);
+            TEST_ASSERT_TRUE(!used || holds(&w, k) || rows.size[k] == WH_R(0.0));
+        }
+        TEST_ASSERT_EQUAL_UINT(count, rows.holds);
+    }
+}
+
+/* Rows that lean over with the first line's place. A step is looked at where it ends, and where its rates alone would
+ * have led, which comes first; one that could not be made, there only; and only where a hold can slip that is no
+ * straight one. */
+static void test_a_say_is_lost_at_either_place(void) {
+    uint64_t seed = 242;
+    unsigned seen[3] = {0};
+    for (unsigned round = 0; round < 2U * ROUNDS; round++) {
+        wh_contact_work w;
+        wh_contact_state place[3]; /* from, where the rates lead, to */
+        wh_contact_rows rows[3];
+        bool any = false;
+        draw(&seed, 0, &w);
+        const wh_contact_system *of = &bench_now.system;
+        for (unsigned k = 0; k < of->forced; k++) {
+            bench_now.lean[k] = bench_now.contact[k].pin < 0 ? draw_whole(&seed, -2, 2) : WH_R(0.0);
+            any = any || (holds(&w, k) && bench_now.contact[k].pin < 0 &&
+                          bench_now.contact[k].direction <= 0);
+        }
+        const wh_real span = draw_whole(&seed, 1, 4) / 2;
+        bench_state(&seed, &place[0]);
+        place[1] = place[0];
+        for (unsigned i = 0; i < of->coordinates; i++) {
+            place[1].real[i] += span * place[0].real[of->coordinates + i];
+        }
+        bench_state(&seed, &place[2]);
+        for (unsigned i = 0; i < 3; i++) {
+            wh_contact_point at;
+            wh_contact_point_of(of, &place[i], &at);
+            wh_contact_rows_of(of, &w, &at, NULL, &rows[i]);
+        }
+        const unsigned ahead = wh_contact_fallen(of, &rows[0], &rows[1]);
+        const unsigned there = wh_contact_fallen(of, &rows[0], &rows[2]);
+        const bool made = draw_one_in(&seed, 2);
+        const unsigned lost = ahead < of->contacts || !made ? ahead : there;
+        wh_contact_state *to = made ? &place[2] : NULL;
+        TEST_ASSERT_EQUAL_UINT(lost, wh_contact_lost(of, &w, span, &place[0], to, NULL));
+        TEST_ASSERT_EQUAL_UINT(any ? lost : of->contacts,
+                               wh_contact_flat(of, &w, span, &place[0], to, NULL));
+        seen[ahead < of->contacts ? 0 : lost < of->contacts ? 1 : 2]++;
+    }
+    TEST_ASSERT_TRUE(seen[0] > ROUNDS / 64 && seen[1] > ROUNDS / 64 && seen[2] > ROUNDS / 64);
+}
+
+/* Where the rates lead: of angles by their turn, of lines by their way. */
+static void test_rates_lead_ahead(void) {
+    uint64_t seed = 243;
+    for (unsigned round = 0; round < ROUNDS / 4; round++) {
+        wh_contact_work w;
+        wh_contact_state s;
+        wh_contact_state there;
+        wh_contact_point at;
+        wh_contact_point right;
+        draw(&seed, (unsigned)draw_bits(&seed) % (BENCH_COORDS + 1U), &w);
+        const wh_contact_system *of = &bench_now.system;
+        const wh_real span = draw_whole(&seed, -2, 2) / 4;
+        bench_state(&seed, &s);
+        there = s;
+        for (unsigned i = 0; i < of->coordinates; i++) {
+            wh_contact_move(of, i, span * wh_contact_rates(of, &s)[i], &there);
+        }
+        wh_contact_point_of(of, &there, &right);
+        wh_contact_point_ahead(of, &s, span, &at);
+        for (unsigned i = 0; i < of->coordinates; i++) {
+            const unsigned angles = of->angles;
+            TEST_ASSERT_TRUE(at.rate[i] == wh_contact_rates(of, &s)[i]);
+            TEST_ASSERT_TRUE(i < angles ? at.phase[i] == right.phase[i]
+                                        : at.linear[i - angles] == right.linear[i - angles]);
+        }
+    }
+}
+
+void suite_contact_flat(void) {
+    RUN_TEST(test_rows_are_those_of_the_place);
+    RUN_TEST(test_a_say_is_lost_at_either_place);
+    RUN_TEST(test_rates_lead_ahead);
+}

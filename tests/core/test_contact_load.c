@@ -1,0 +1,368 @@
+/* test_contact_load.c: the parts of core/contact_lcp.h, each by itself: against a dense solve, sums written out, and what their comments say, with limits met exactly. */
+#include "bench.h"
+
+#include "unity.h"
+
+void suite_contact_load(void);
+
+enum { ROUNDS = __STDC_HOSTED__ ? 4000 : 100 };
+
+static void draw(uint64_t *seed, wh_contact_work *w) {
+    bench_draw(seed, false);
+    bench_work(seed, false, w);
+}
+
+static void draw_places(uint64_t *seed, unsigned count, int8_t *at) {
+    for (unsigned i = 0; i < BENCH_CONTACTS; i++) {
+        at[i] = (int8_t)(i >= count || draw_one_in(seed, 3) ? (draw_one_in(seed, 2) ? 1 : -1) : 0);
+    }
+}
+
+/* A stop from nothing on, friction as far as it goes, a hold whatever it takes: to the limit, and no further. */
+static void test_who_takes_how_much(void) {
+    uint64_t seed = 102;
+    for (unsigned round = 0; round < ROUNDS; round++) {
+        wh_contact_work w;
+        draw(&seed, &w);
+        for (unsigned k = 0; k < bench_now.system.forced; k++) {
+            const uint8_t kind = bench_now.contact[k].kind;
+            const wh_real most = bench_now.first[k];
+            const wh_real high = kind == WH_FRICTION ? most : WH_LIMITLESS;
+            const wh_real low = kind == WH_STOP ? WH_R(0.0) : -high;
+            const wh_contact_system *of = &bench_now.system;
+            TEST_ASSERT_TRUE(wh_contact_high(of, &w, k) == high);
+            TEST_ASSERT_TRUE(wh_contact_low(of, &w, k) == low);
+            TEST_ASSERT_TRUE(!wh_contact_exceeds(of, &w, k, high) &&
+                             !wh_contact_exceeds(of, &w, k, low));
+            TEST_ASSERT_TRUE(wh_contact_exceeds(of, &w, k, WH_R(1.5) * high) &&
+                             wh_contact_exceeds(of, &w, k, low - high / 2));
+        }
+    }
+}
+
+/* Its own terms: the bias, and what each coordinate gets of the accelerations there are and of every force. */
+static wh_real terms_of(const wh_contact_work *w, unsigned k, const wh_real *accel) {
+    wh_real size = WH_ABS(bench_now.bias[k]);
+    for (unsigned c = 0; c < bench_now.system.coordinates; c++) {
+        size += WH_ABS(bench_now.row[k][c] * accel[c]);
+        for (unsigned l = 0; l < bench_now.system.forced; l++) {
+            size += WH_ABS(bench_now.row[k][c] * bench_way(l, c) * w->force[l]);
+        }
+    }
+    return size;
+}
+
+/* And the most that comes to it from another along any chain in which nobody stands twice. */
+static wh_real size_of(const wh_contact_work *w, const uint8_t *member, unsigned count, unsigned i,
+                       unsigned passed, const wh_real *accel) {
+    wh_real most = terms_of(w, member[i], accel);
+    for (unsigned l = 0; l < count; l++) {
+        if (l != i && (passed >> l & 1U) == 0) {
+            const wh_real there = size_of(w, member, count, l, passed | 1U << i, accel);
+            const wh_real share =
+                WH_ABS(bench_delassus(member[i], member[l])) / bench_delassus(member[l], member[l]);
+            most = share * there > most ? share * there : most;
+        }
+    }
+    return most;
+}
+
+static void test_sizes_beside_which_is_rounding(void) {
+    uint64_t seed = 103;
+    for (unsigned round = 0; round < ROUNDS; round++) {
+        wh_contact_work w;
+        uint8_t member[BENCH_CONTACTS] = {0};
+        wh_real accel[WH_COORDS];
+        draw(&seed, &w);
+        const unsigned count = bench_members(&seed, member);
+        bench_vector(&seed, accel);
+        for (unsigned k = 0; k < BENCH_CONTACTS; k++) {
+            w.rough[k] = BENCH_SENTINEL;
+        }
+        wh_contact_magnitudes(&bench_now.system, &w, member, count, accel);
+        for (unsigned i = 0; i < count; i++) {
+            const unsigned k = member[i];
+            TEST_ASSERT_TRUE(bench_near(w.rough[k], size_of(&w, member, count, i, 0, accel)));
+        }
+        for (unsigned i = 0; i < count; i++) {
+            w.rough[member[i]] = BENCH_SENTINEL;
+        }
+        for (unsigned k = 0; k < BENCH_CONTACTS; k++) { /* of nobody else */
+            TEST_ASSERT_TRUE(w.rough[k] == BENCH_SENTINEL);
+        }
+    }
+    const wh_real share = WH_CONTACT_ROUNDING;
+    TEST_ASSERT_TRUE(wh_contact_rounding(-1, 2, -4) == share * 7);
+    TEST_ASSERT_TRUE(wh_contact_rounding(1, -2, 4) == share * 7);
+}
+
+/* Which way is pushed where something is missing, or, beside it, in the bend alone; `impulse`: of rates, no bend. */
+static int8_t pushed(wh_real missing, wh_real made, wh_real size, wh_real bend, wh_real bent,
+                     wh_real bends_by) {
+    const wh_real limit = WH_CONTACT_ROUNDING * (WH_ABS(size) + WH_ABS(made));
+    const wh_real bend_limit = WH_CONTACT_ROUNDING * (WH_ABS(bend) + WH_ABS(bent) + bends_by);
+    const wh_real more = bend - bent;
+    if (WH_ABS(missing) > limit) {
+        return missing > WH_R(0.0) ? 1 : -1;
+    }
+    if (WH_ABS(more) > bend_limit && WH_ABS(more) > WH_CONTACT_CREEP * size) {
+        return more > WH_R(0.0) ? 1 : -1;
+    }
+    return 0;
+}
+
+/* At the threshold, below it and above it, of every term by itself. */
+static void test_what_contradicts_is_told_from_rounding(void) {
+    uint64_t seed = 104;
+    unsigned seen[3] = {0};
+    for (unsigned round = 0; round < 2U * ROUNDS; round++) {
+        wh_contact_work w;
+        uint8_t member[BENCH_CONTACTS] = {0};
+        int8_t at[BENCH_CONTACTS] = {0};
+        int8_t push[BENCH_CONTACTS];
+        wh_real impulse[BENCH_CONTACTS];
+        wh_real wanted[BENCH_CONTACTS];
+        wh_real need[BENCH_CONTACTS];
+        wh_real hold[BENCH_CONTACTS];
+        wh_real way[WH_COORDS];
+        unsigned out;
+        draw(&seed, &w);
+        const unsigned count = bench_members(&seed, member);
+        const bool rates = draw_one_in(&seed, 2);
+        const wh_real scale[3] = {WH_R(1.0), WH_R(1.0) / WH_CONTACT_ROUNDING,
+                                  WH_R(1.0) / WH_CONTACT_CREEP};
+        const wh_real big = scale[draw_bits(&seed) % (rates ? 2U : 3U)];
+        const wh_real small = draw_one_in(&seed, 2) ? WH_R(1.0) : WH_R(0.0);
+        const wh_real more = big == scale[2] ? WH_R(0.53) : WH_R(0.0); /* the bend is not exact */
+        draw_places(&seed, count, at);
+        bench_vector(&seed, way);
+        for (unsigned i = 0; i < count; i++) {
+            const unsigned k = member[i];
+            bench_now.bias[k] *= small;
+            w.rough[k] = (draw_whole(&seed, 0, 4) + more) * big;
+            impulse[i] = draw_whole(&seed, -4, 4) * (rates ? big : WH_R(1.0));
+            wanted[i] = bench_along(k, way) + draw_whole(&seed, -8, 8);
+            if (rates && draw_one_in(&seed, 2)) { /* of its own size only rounding, or just more */
+                const wh_real made = bench_along(k, way);
+                const wh_real part = draw_one_in(&seed, 2) ? WH_R(1.75) : WH_R(2.25);
+                wanted[i] = made + part * WH_CONTACT_ROUNDING * made;
+                impulse[i] = WH_R(0.0);
+            }
+        }
+        bench_now.system.forces(NULL, NULL, NULL, NULL, NULL, w.law);
+        const unsigned repeats = bench_repeats(member, count, at);
+        /* whoever does not repeat others has no bend of his own left */
+        const unsigned any = small == WH_R(0.0) || rates ? (1U << count) - 1U : repeats;
+        const unsigned asked = any & (unsigned)draw_bits(&seed);
+        out = repeats;
+        for (unsigned i = 0; i < count; i++) {
+            out |= at[i] != 0 ? 1U << i : 0U;
+            need[i] = -bench_now.bias[member[i]];
+            push[i] = 9;
+        }
+        push[count] = 9;
+        bench_solve(member, count, out, need, hold);
+        wh_contact_contradicts(&bench_now.system, &w, member, count, at, asked,
+                               rates ? impulse : NULL, wanted, way, push);
+        TEST_ASSERT_EQUAL_INT(9, push[count]);
+        for (unsigned i = 0; i < count; i++) {
+            const unsigned k = member[i];
+            const wh_real made = bench_along(k, way);
+            wh_real size = rates ? WH_ABS(wanted[i]) : w.rough[k];
+            wh_real bent = WH_R(0.0);
+            wh_real bends_by = WH_R(0.0);
+            for (unsigned l = 0; l < count; l++) {
+                size += rates ? WH_ABS(bench_delassus(k, member[l]) * impulse[l]) : WH_R(0.0);
+                bent += rates ? WH_R(0.0) : bench_delassus(k, member[l]) * hold[l];
+                bends_by += rates ? WH_R(0.0) : WH_ABS(bench_delassus(k, member[l]) * hold[l]);
+            }
+            if ((asked >> i & 1U) == 0) {
+                TEST_ASSERT_EQUAL_INT(0, push[i]);
+                continue;
+            }
+            const int8_t right =
+                pushed(wanted[i] - made, made, size, rates ? WH_R(0.0) : need[i], bent, bends_by);
+            TEST_ASSERT_EQUAL_INT(right, push[i]);
+            seen[right + 1]++;
+        }
+    }
+    TEST_ASSERT_TRUE(seen[0] > ROUNDS / 8 && seen[1] > ROUNDS / 8 && seen[2] > ROUNDS / 8);
+}
+
+/* Two of one row whose paths bend by nearly the same: the difference counts beside both bends and what makes
+ * the one of them. */
+static void test_a_small_difference_of_bends_is_none(void) {
+    uint64_t seed = 107;
+    for (unsigned round = 0; round < ROUNDS / 4; round++) {
+        static const uint8_t member[2] = {0, 1};
+        wh_contact_work w;
+        const wh_real wanted[2] = {WH_R(0.0), WH_R(0.0)};
+        const wh_real way[WH_COORDS] = {WH_R(0.0)};
+        int8_t push[BENCH_CONTACTS];
+        bench_build(&seed, 2, 0);
+        (void)bench_add(&seed, WH_HOLD, -1);
+        (void)bench_add(&seed, WH_HOLD, -1);
+        const wh_real size =
+            draw_whole(&seed, 1, 8) * (draw_one_in(&seed, 2) ? WH_R(1.0) : WH_R(-1.0));
+        const bool more = draw_one_in(&seed, 2);
+        const bool up = draw_one_in(&seed, 2);
+        const wh_real least = WH_CONTACT_ROUNDING * 3 * WH_ABS(size);
+        const wh_real off = least * (more ? WH_R(1.125) : WH_R(0.875));
+        for (unsigned c = 0; c < 2; c++) {
+            bench_now.row[1][c] = bench_now.row[0][c];
+        }
+        bench_now.bias[0] = size;
+        bench_now.bias[1] = up ? size - off : size + off;
+        bench_work(&seed, false, &w);
+        wh_contact_contradicts(&bench_now.system, &w, member, 2, NULL, 2U, NULL, wanted, way, push);
+        TEST_ASSERT_EQUAL_INT(0, push[0]);
+        TEST_ASSERT_EQUAL_INT(!more ? 0 : up ? 1 : -1, push[1]);
+    }
+}
+
+/* Who reaches a limit first, if contact i, which repeats the others, is pushed on and nothing is to move. */
+static unsigned first_of(const uint8_t *member, unsigned count, const int8_t *at,
+                         const wh_real *lambda, unsigned i, int8_t push, int8_t *limit, bool *tie) {
+    int8_t fixed[BENCH_CONTACTS];
+    wh_real column[BENCH_CONTACTS];
+    wh_real share[BENCH_CONTACTS];
+    wh_real least = WH_R(0.0);
+    unsigned first = count;
+    unsigned out = 0;
+    for (unsigned j = 0; j < count; j++) {
+        fixed[j] = (int8_t)(at[j] != 0 || j == i);
+        column[j] = bench_delassus(member[j], member[i]);
+        out |= fixed[j] != 0 ? 1U << j : 0U;
+    }
+    bench_solve(member, count, out | bench_repeats(member, count, fixed), column, share);
+    *tie = false;
+    for (unsigned j = 0; j < count; j++) {
+        const wh_contact *c = &bench_now.contact[member[j]];
+        const wh_real grows = push > 0 ? -share[j] : share[j];
+        const wh_real most = bench_now.first[member[j]];
+        const bool bounded = c->kind == WH_FRICTION || (c->kind == WH_STOP && grows < WH_R(0.0));
+        if (!bounded || (out >> j & 1U) != 0 || WH_ABS(grows) < WH_R(1e-3)) {
+            continue;
+        }
+        const wh_real low = c->kind == WH_STOP ? WH_R(0.0) : -most;
+        const wh_real when =
+            grows < WH_R(0.0) ? (lambda[j] - low) / -grows : (most - lambda[j]) / grows;
+        *tie = *tie || (first < count && bench_near(when, least));
+        if (first == count || when < least) {
+            first = j;
+            least = when;
+            *limit = grows < WH_R(0.0) ? -1 : 1;
+        }
+    }
+    return first;
+}
+
+static void test_who_is_at_a_limit_first_gives_way(void) {
+    uint64_t seed = 105;
+    unsigned asked = 0;
+    unsigned others = 0;
+    for (unsigned round = 0; round < 4U * ROUNDS; round++) {
+        wh_contact_work w;
+        uint8_t member[BENCH_CONTACTS] = {0};
+        int8_t at[BENCH_CONTACTS] = {0};
+        wh_real lambda[BENCH_CONTACTS];
+        draw(&seed, &w);
+        const unsigned count = bench_members(&seed, member);
+        draw_places(&seed, count, at);
+        const bool any = draw_one_in(&seed, 2);
+        for (unsigned i = 0; i < count && !any; i++) {
+            at[i] = 0;
+        }
+        const unsigned repeats = bench_repeats(member, count, at);
+        for (unsigned i = 0; i < count; i++) {
+            const uint8_t kind = bench_now.contact[member[i]].kind;
+            lambda[i] = draw_whole(&seed, kind == WH_STOP ? 0 : -4, 4);
+            if (kind == WH_FRICTION) {
+                lambda[i] *= bench_now.first[member[i]] / 4;
+            }
+        }
+        for (unsigned i = 0; i < count; i++) {
+            const uint8_t kind = bench_now.contact[member[i]].kind;
+            const int8_t push = draw_one_in(&seed, 2) ? 1 : -1;
+            int8_t limit = 9;
+            int8_t right = push;
+            bool tie = false;
+            if ((repeats >> i & 1U) == 0) {
+                continue;
+            }
+            const bool itself = kind == WH_FRICTION || (kind == WH_STOP && push < 0);
+            const unsigned first =
+                itself ? i : first_of(member, count, at, lambda, i, push, &right, &tie);
+            if (!tie) {
+                TEST_ASSERT_EQUAL_UINT(first,
+                                       wh_contact_gives_way(&bench_now.system, &w, member, count,
+                                                            at, lambda, i, push, &limit));
+                TEST_ASSERT_EQUAL_INT(right, limit);
+                asked++;
+                others += !itself && first < count;
+            }
+        }
+    }
+    TEST_ASSERT_TRUE(asked > ROUNDS / 10 && others > ROUNDS / 40);
+}
+
+/* One round: who is at a limit pushes as far, the others bear what is left of what is wanted. */
+static void test_a_round_bears_what_limits_leave(void) {
+    uint64_t seed = 106;
+    for (unsigned round = 0; round < ROUNDS; round++) {
+        wh_contact_work w;
+        uint8_t member[BENCH_CONTACTS] = {0};
+        int8_t at[BENCH_CONTACTS] = {0};
+        wh_real wanted[BENCH_CONTACTS];
+        wh_real lambda[BENCH_CONTACTS];
+        wh_real right[BENCH_CONTACTS];
+        wh_real need[BENCH_CONTACTS];
+        wh_real way[WH_COORDS] = {WH_R(0.0)};
+        draw(&seed, &w);
+        const unsigned count = bench_members(&seed, member);
+        draw_places(&seed, count, at);
+        unsigned out = 0;
+        for (unsigned i = 0; i < count; i++) {
+            const uint8_t kind = bench_now.contact[member[i]].kind;
+            at[i] = kind == WH_HOLD || (kind == WH_STOP && at[i] > 0) ? 0 : at[i];
+            right[i] = kind == WH_STOP ? WH_R(0.0) : (wh_real)at[i] * bench_now.first[member[i]];
+            wanted[i] = draw_whole(&seed, -4, 4);
+            out |= at[i] != 0 ? 1U << i : 0U;
+        }
+        for (unsigned i = 0; i < count; i++) {
+            need[i] = wanted[i];
+            for (unsigned j = 0; j < count; j++) {
+                need[i] -= at[j] != 0 ? bench_delassus(member[i], member[j]) * right[j] : WH_R(0.0);
+            }
+        }
+        const unsigned repeats = bench_repeats(member, count, at);
+        bench_solve(member, count, out | repeats, need, lambda);
+        for (unsigned i = 0; i < count; i++) {
+            right[i] = at[i] != 0 ? right[i] : lambda[i];
+            lambda[i] = BENCH_SENTINEL;
+        }
+        if (count > 1) { /* of one, contact_lcp_one() makes it */
+            TEST_ASSERT_EQUAL_UINT(repeats, wh_contact_lcp_round(&bench_now.system, &w, member,
+                                                                 count, at, wanted, lambda, way));
+            for (unsigned c = 0; c < bench_now.system.coordinates; c++) {
+                wh_real made = WH_R(0.0);
+                for (unsigned i = 0; i < count; i++) {
+                    made += bench_way(member[i], c) * right[i];
+                }
+                TEST_ASSERT_TRUE(bench_near(way[c], made));
+            }
+            for (unsigned i = 0; i < count; i++) {
+                TEST_ASSERT_TRUE(bench_near(lambda[i], right[i]));
+            }
+        }
+    }
+}
+
+void suite_contact_load(void) {
+    RUN_TEST(test_who_takes_how_much);
+    RUN_TEST(test_sizes_beside_which_is_rounding);
+    RUN_TEST(test_what_contradicts_is_told_from_rounding);
+    RUN_TEST(test_a_small_difference_of_bends_is_none);
+    RUN_TEST(test_who_is_at_a_limit_first_gives_way);
+    RUN_TEST(test_a_round_bears_what_limits_leave);
+}

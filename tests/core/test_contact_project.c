@@ -1,0 +1,351 @@
+/* test_contact_project.c: the way back to where contacts are to be, and their rates to zero (core/contact_project.h):
+ * against a dense solve in the metric of the masses, with limits met exactly, and what the books get of it. */
+#include "bench.h"
+
+#include "unity.h"
+
+void suite_contact_project(void);
+
+enum { ROUNDS = __STDC_HOSTED__ ? 3000 : 60 };
+
+/* Contacts of some kinds in some modes; holds that keep nothing but their curve's value. */
+static void draw(uint64_t *seed, bool some, wh_contact_work *w, wh_ledger_work *books) {
+    bench_draw(seed, true);
+    for (unsigned k = 0; k < bench_now.system.forced; k++) {
+        wh_contact *c = &bench_now.contact[k];
+        if (c->kind == WH_HOLD) {
+            c->first_set = c->pin < 0 ? bench_now.system.held++ : BENCH_CONTACTS - 1;
+        }
+        bench_now.signal[2 * k] *= draw_one_in(seed, 3) ? WH_R(0.0) : WH_R(0.03125);
+        bench_now.first[k] /= 32; /* none turns by half a turn */
+    }
+    bench_work(seed, some, w);
+    w->books = draw_one_in(seed, 2) ? books : NULL;
+    *books = (wh_ledger_work){.span = WH_R(0.0)};
+    for (unsigned k = 0; k < BENCH_CONTACTS; k++) {
+        w->held[k] = draw_whole(seed, 1, 4) / 32;
+    }
+}
+
+/* By how much k, which keeps something, is off its place: a stop's gap, what a curved hold has slipped. */
+static wh_real off_of(const wh_contact_work *w, unsigned k) {
+    const wh_contact *c = &bench_now.contact[k];
+    const wh_real slipped = c->pin < 0 ? bench_now.first[k] - w->held[c->first_set] : WH_R(0.0);
+    return c->kind == WH_STOP ? bench_now.signal[2 * k] : c->kind == WH_HOLD ? slipped : WH_R(0.0);
+}
+
+static unsigned members_of(const wh_contact_work *w, unsigned but, uint8_t *member) {
+    unsigned count = 0;
+    for (unsigned k = 0; k < bench_now.system.forced; k++) {
+        if ((but >> k & 1U) == 0 && bench_keeps(w, k)) {
+            member[count++] = (uint8_t)k;
+        }
+    }
+    return count;
+}
+
+/* x += M^-1 J^T lambda of the members' solve for `wanted`; what is pinned gets nothing. */
+static void add_least(const uint8_t *member, unsigned count, const wh_real *wanted, wh_real *lambda,
+                      wh_real *x) {
+    bench_solve(member, count, bench_repeats(member, count, NULL), wanted, lambda);
+    for (unsigned c = 0; c < bench_now.system.coordinates; c++) {
+        bool pinned = false;
+        for (unsigned i = 0; i < count; i++) {
+            pinned = pinned || bench_now.contact[member[i]].pin == (int)c;
+        }
+        for (unsigned i = 0; i < count && !pinned; i++) {
+            x[c] += bench_way(member[i], c) * lambda[i];
+        }
+    }
+}
+
+/* What is pinned goes straight back: the first of a coordinate, and whatever that leaves beyond its place. */
+static void go_back(const uint8_t *member, unsigned count, const wh_real *off, wh_real *way) {
+    bool first[BENCH_COORDS];
+    for (unsigned c = 0; c < BENCH_COORDS; c++) {
+        first[c] = true;
+    }
+    for (unsigned i = 0; i < count; i++) {
+        const int pin = bench_now.contact[member[i]].pin;
+        if (pin < 0 || off[i] == WH_R(0.0)) {
+            continue;
+        }
+        const wh_real row = bench_now.row[member[i]][pin];
+        const wh_real left = off[i] + row * way[pin];
+        way[pin] -= first[pin] || left < WH_R(0.0) ? left / row : WH_R(0.0);
+        first[pin] = false;
+    }
+}
+
+/* What is pinned goes straight back; the others together, by the way of the least masses, and by what keeps them to what
+ * is pinned. It is coarse where what was off is more than its share of the way. */
+static void test_places_are_put_right_by_the_least_way(void) {
+    uint64_t seed = 161;
+    unsigned coarse = 0;
+    unsigned moves = 0;
+    for (unsigned round = 0; round < 2U * ROUNDS; round++) {
+        wh_contact_work w;
+        wh_ledger_work books;
+        wh_contact_state s;
+        uint8_t member[BENCH_CONTACTS] = {0};
+        wh_real wanted[BENCH_CONTACTS];
+        wh_real lambda[BENCH_CONTACTS];
+        wh_real off[BENCH_CONTACTS];
+        wh_real way[WH_COORDS] = {WH_R(0.0)};
+        wh_real input = WH_R(0.0);
+        draw(&seed, true, &w, &books);
+        bench_state(&seed, &s);
+        const wh_contact_state was = s;
+        const wh_contact_system *of = &bench_now.system;
+        const unsigned n = of->coordinates;
+        const wh_real *rate = wh_contact_rates(of, &s);
+        wh_contact_place spot = {NULL, WH_R(0.0), 0, WH_CONTACTS_MAX};
+        spot.but = draw_one_in(&seed, 2) ? 0U : draw_one_of(&seed, 16U);
+        spot.mover = draw_one_in(&seed, 3) ? draw_one_of(&seed, of->forced) : spot.mover;
+        const unsigned count = members_of(&w, spot.but, member);
+        const unsigned asked =
+            (unsigned)draw_bits(&seed) % (count + 1U); /* of whom it is just not or just so */
+        spot.h = draw_whole(&seed, 0, 4) / WH_SLIP_COARSE;
+        for (unsigned i = 0; i < count; i++) {
+            const wh_real size = WH_ABS(off_of(&w, member[i]));
+            wh_real travel = WH_R(0.0);
+            for (unsigned c = 0; c < n; c++) {
+                travel += WH_ABS(bench_now.row[member[i]][c] * rate[c]);
+            }
+            if (i == asked && travel > WH_R(0.0)) {
+                spot.h = size / (WH_SLIP_COARSE * travel) *
+                         (draw_one_in(&seed, 2) ? WH_R(0.99) : WH_R(1.01));
+            }
+        }
+        unsigned mover = spot.mover;
+        bool more = false;
+        bool together = false;
+        for (unsigned i = 0; i < count; i++) {
+            off[i] = off_of(&w, member[i]);
+            mover = off[i] != WH_R(0.0) && mover == WH_CONTACTS_MAX ? member[i] : mover;
+        }
+        go_back(member, count, off, way);
+        for (unsigned i = 0; i < count; i++) {
+            const wh_real *row = bench_now.row[member[i]];
+            wh_real travel = WH_R(0.0);
+            wanted[i] = bench_now.contact[member[i]].pin < 0 ? -off[i] : WH_R(0.0);
+            for (unsigned c = 0; c < n; c++) {
+                travel += WH_ABS(row[c] * rate[c]);
+                wanted[i] -= bench_now.contact[member[i]].pin < 0 ? row[c] * way[c] : WH_R(0.0);
+            }
+            together = together || wanted[i] != WH_R(0.0);
+            more = more || WH_ABS(wanted[i]) > WH_SLIP_COARSE * spot.h * travel;
+        }
+        add_least(member, count, wanted, lambda, way);
+        TEST_ASSERT_TRUE(wh_contact_project_places(of, &w, &spot, bench_now.signal, &input, &s) ==
+                         (together && more));
+        for (unsigned i = 0; i < n; i++) {
+            TEST_ASSERT_TRUE(bench_near(bench_moved(&was, &s, i), way[i]));
+            TEST_ASSERT_TRUE(rate[i] == wh_contact_rates(of, &s)[i]);
+        }
+        TEST_ASSERT_TRUE(w.undefined == -1);
+        for (unsigned e = 0; e < of->ledger->entries;
+             e++) { /* the energy is its whose place was off */
+            const bool its = w.books != NULL && e == wh_ledger_of_contact(of->ledger, mover);
+            const bool line = of->angles < n;
+            TEST_ASSERT_TRUE(bench_near(books.step[e], its && line && mover < WH_CONTACTS_MAX
+                                                           ? way[of->angles]
+                                                           : WH_R(0.0)));
+        }
+        coarse += together && more;
+        moves += together && !more;
+    }
+    TEST_ASSERT_TRUE(coarse > ROUNDS / 8 && moves > ROUNDS / 8);
+}
+
+/* One whose place is no number is told, the first of them, and the others are put right without it. */
+static void test_a_place_that_is_no_number_is_told(void) {
+    uint64_t seed = 162;
+    unsigned told = 0;
+    for (unsigned round = 0; round < ROUNDS; round++) {
+        wh_contact_work w;
+        wh_ledger_work books;
+        wh_contact_state s;
+        uint8_t member[BENCH_CONTACTS] = {0};
+        wh_real wanted[BENCH_CONTACTS];
+        wh_real lambda[BENCH_CONTACTS];
+        wh_real off[BENCH_CONTACTS];
+        wh_real way[WH_COORDS] = {WH_R(0.0)};
+        int undefined = -1;
+        draw(&seed, true, &w, &books);
+        w.books = NULL;
+        bench_state(&seed, &s);
+        const wh_contact_state was = s;
+        wh_contact_place spot = {NULL, WH_R(1.0), 0, WH_CONTACTS_MAX};
+        const unsigned count = members_of(&w, 0, member);
+        const unsigned none = draw_one_of(&seed, 16U);
+        for (unsigned k = 0; k < bench_now.system.forced; k++) {
+            if ((none >> k & 1U) != 0) {
+                const wh_real zero = WH_R(0.0) * bench_now.free[0];
+                bench_now.signal[2 * k] = zero / zero;
+                bench_now.first[k] =
+                    bench_now.contact[k].kind == WH_HOLD ? zero / zero : bench_now.first[k];
+            }
+        }
+        bench_now.system.forces(NULL, NULL, NULL, NULL, NULL, w.law);
+        for (unsigned i = 0; i < count; i++) {
+            off[i] = off_of(&w, member[i]);
+            const bool number = off[i] - off[i] == WH_R(0.0);
+            undefined = !number && undefined < 0 ? (int)member[i] : undefined;
+            off[i] = number ? off[i] : WH_R(0.0);
+        }
+        go_back(member, count, off, way);
+        for (unsigned i = 0; i < count; i++) {
+            const bool pinned = bench_now.contact[member[i]].pin >= 0;
+            wanted[i] = pinned ? WH_R(0.0) : -off[i];
+            for (unsigned c = 0; c < bench_now.system.coordinates && !pinned; c++) {
+                wanted[i] -= bench_now.row[member[i]][c] * way[c];
+            }
+        }
+        add_least(member, count, wanted, lambda, way);
+        (void)wh_contact_project_places(&bench_now.system, &w, &spot, bench_now.signal, NULL, &s);
+        TEST_ASSERT_EQUAL_INT(undefined, w.undefined);
+        for (unsigned i = 0; i < bench_now.system.coordinates; i++) {
+            TEST_ASSERT_TRUE(bench_near(bench_moved(&was, &s, i), way[i]));
+        }
+        told += undefined >= 0;
+    }
+    TEST_ASSERT_TRUE(told > ROUNDS / 8);
+}
+
+/* Rates along what is kept are taken away, to nothing at all where one coordinate is pinned; the books get each
+ * contact's impulse and its work, that of the mean speed. */
+static void test_rates_are_taken_away_by_the_least(void) {
+    uint64_t seed = 163;
+    for (unsigned round = 0; round < ROUNDS; round++) {
+        wh_contact_work w;
+        wh_ledger_work books;
+        uint8_t member[BENCH_CONTACTS] = {0};
+        wh_real wanted[BENCH_CONTACTS];
+        wh_real lambda[BENCH_CONTACTS];
+        wh_real rate[WH_COORDS];
+        wh_real right[WH_COORDS];
+        wh_real entry[WH_LEDGER_MAX] = {WH_R(0.0)};
+        draw(&seed, true, &w, &books);
+        const wh_contact_system *of = &bench_now.system;
+        const bool booked = draw_one_in(&seed, 2);
+        const unsigned but = draw_one_in(&seed, 2) ? 0U : draw_one_of(&seed, 16U);
+        const unsigned count = members_of(&w, but, member);
+        bench_vector(&seed, rate);
+        for (unsigned c = 0; c < WH_COORDS; c++) {
+            right[c] = rate[c];
+        }
+        for (unsigned i = 0; i < count; i++) {
+            wanted[i] = -bench_along(member[i], rate);
+        }
+        add_least(member, count, wanted, lambda, right);
+        for (unsigned i = 0; i < count; i++) {
+            const int pin = bench_now.contact[member[i]].pin;
+            right[pin >= 0 ? (unsigned)pin : WH_COORDS - 1U] =
+                pin >= 0 ? WH_R(0.0) : BENCH_SENTINEL;
+        }
+        for (unsigned i = 0; i < count && booked && w.books != NULL; i++) {
+            const unsigned first = wh_ledger_of_contact(of->ledger, member[i]);
+            const wh_real mean = (bench_along(member[i], right) - wanted[i]) / 2;
+            entry[first] = lambda[i] * mean;
+            for (unsigned c = 0; c < of->coordinates; c++) {
+                entry[first + 1U + c] = lambda[i] * bench_now.row[member[i]][c];
+            }
+        }
+        wh_contact_project_rates(of, &w, but, booked, rate);
+        for (unsigned c = 0; c < WH_COORDS; c++) {
+            TEST_ASSERT_TRUE(bench_near(rate[c], right[c]));
+        }
+        for (unsigned i = 0; i < count; i++) {
+            const int pin = bench_now.contact[member[i]].pin;
+            TEST_ASSERT_TRUE(pin < 0 || rate[pin] == WH_R(0.0));
+        }
+        for (unsigned e = 0; e < of->ledger->entries; e++) {
+            TEST_ASSERT_TRUE(bench_near(books.step[e], entry[e]));
+        }
+    }
+}
+
+/* A stop and a friction on one body of two that hang together, the stop passed a little, or far: then friction does not
+ * keep its body there. A place that was put right is looked at again, and a second time at most. */
+static void test_what_slipped_is_put_back(void) {
+    uint64_t seed = 164;
+    unsigned far = 0;
+    for (unsigned round = 0; round < ROUNDS; round++) {
+        wh_contact_work w;
+        wh_contact_state from;
+        wh_contact_state s;
+        wh_real input = WH_R(0.0);
+        bench_build(&seed, 2, 0);
+        const bool friction = draw_one_in(&seed, 2);
+        const bool slides = draw_one_in(&seed, 4);
+        const bool pinned = draw_one_in(&seed, 4);
+        (void)bench_add(&seed, WH_STOP, pinned ? 0 : -1);
+        (void)bench_add(&seed, WH_STOP, -1);
+        if (friction) {
+            (void)bench_add(&seed, WH_FRICTION, 1);
+        }
+        bench_state(&seed, &from);
+        for (unsigned i = 0; i < 2; i++) {
+            bench_now.free[i] = WH_R(0.0); /* nothing loads the friction */
+            bench_now.row[0][i] = i == 0 ? WH_R(1.0) : pinned ? WH_R(0.0) : WH_R(2.0);
+            from.real[i] = WH_R(1.0);
+            bench_now.bias[i] = WH_R(0.0);
+        }
+        const bool breaks = friction && draw_one_in(&seed, 4);
+        bench_now.bias[2] =
+            breaks ? 2 * bench_now.first[2] * bench_now.inverse[1][1] + 64 : WH_R(0.0);
+        bench_work(&seed, false, &w);
+        w.mode[1] = WH_FREE;
+        w.mode[2] = slides ? 1 : WH_STUCK;
+        const wh_real size =
+            WH_DOUBLE ? WH_R(0x1p-29) : WH_R(0x1p-16); /* far is from half of it on */
+        const wh_real off =
+            draw_whole(&seed, -3, 3) * size * (draw_one_in(&seed, 2) ? 1 : WH_R(0.125));
+        for (unsigned k = 0; k < 2; k++) {
+            bench_now.signal[2 * k] = -bench_along(k, from.real) + (k == 0 ? off : -64);
+            bench_now.signal[2 * k + 1] = WH_R(0.0);
+        }
+        bench_now.moves = true;
+        s = from;
+        const wh_real terms = pinned ? WH_R(1.0) : WH_R(3.0);
+        const bool passed = off < -terms * (WH_DOUBLE ? WH_R(1e-9) : WH_R(1e-5));
+        const bool sticks = friction && !slides && !passed && !breaks;
+        const unsigned looks = bench_now.looks;
+        const wh_real h = draw_one_in(&seed, 2) ? WH_R(0.0) : WH_R(1.0);
+        const bool still = h * (WH_ABS(from.real[2]) + WH_ABS(from.real[3])) == WH_R(0.0);
+        wh_contact_stabilise(&bench_now.system, &w, h, &input, &from, &s);
+        if (pinned) { /* it cannot slip, and is not looked at */
+            TEST_ASSERT_TRUE(bench_now.looks == looks && s.real[0] == from.real[0]);
+            continue;
+        }
+        const wh_real way = -off;
+        const wh_real yield = bench_delassus(0, 0);
+        for (unsigned i = 0; i < 2; i++) {
+            const wh_real least = bench_way(0, i) / yield * way;
+            const wh_real right = !sticks ? least : i == 0 ? way : WH_R(0.0);
+            const wh_real moved = s.real[i] - from.real[i];
+            TEST_ASSERT_TRUE(WH_ABS(moved - right) <= (WH_DOUBLE ? WH_R(1e-14) : WH_R(1e-6)));
+        }
+        TEST_ASSERT_TRUE(!sticks || (s.real[1] == from.real[1] && s.real[3] == WH_R(0.0)));
+        const wh_real speed = bench_along(0, from.real + 2);
+        for (unsigned i = 0; i < 2;
+             i++) { /* and so are the rates; what breaks loose keeps its own */
+            const wh_real free = from.real[2 + i] - bench_way(0, i) / yield * speed;
+            const wh_real right = sticks ? WH_R(0.0) : free;
+            TEST_ASSERT_TRUE(WH_ABS(s.real[2 + i] - right) <=
+                             (WH_DOUBLE ? WH_R(1e-13) : WH_R(2e-5)));
+        }
+        TEST_ASSERT_TRUE(bench_now.looks - looks <= 3U);
+        TEST_ASSERT_TRUE((still && off != WH_R(0.0)) == (bench_now.looks - looks > 1U));
+        far += passed && friction && !slides;
+    }
+    TEST_ASSERT_TRUE(far > ROUNDS / 40);
+}
+
+void suite_contact_project(void) {
+    RUN_TEST(test_places_are_put_right_by_the_least_way);
+    RUN_TEST(test_a_place_that_is_no_number_is_told);
+    RUN_TEST(test_rates_are_taken_away_by_the_least);
+    RUN_TEST(test_what_slipped_is_put_back);
+}

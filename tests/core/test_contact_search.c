@@ -1,0 +1,310 @@
+/* test_contact_search.c: the search of core/contact_locate.h by itself: bodies on parabolas, whose events come at moments
+ * that are known in closed form, of every kind, the first first, and with how many looks. */
+#include "bench.h"
+
+#include "unity.h"
+
+void suite_contact_search(void);
+
+enum { ROUNDS = __STDC_HOSTED__ ? 1500 : 30 };
+
+#define FINE (WH_DOUBLE ? 1e-12 : 2e-5)
+
+/* From 0 to 1, in steps of 1/1024, without the ends. */
+static wh_real share_of(uint64_t *seed) {
+    return (wh_real)(draw_bits(seed) % 1023U + 1U) / WH_R(1024.0);
+}
+
+/* Line i's way v t + a t^2/2 in one second, its speed of one sign. */
+static wh_real place_at(const wh_contact_state *from, unsigned i, wh_real t) {
+    return t * (from->real[bench_now.system.coordinates + i] + bench_now.free[i] / 2 * t);
+}
+
+/* Up to three lines without inertia between them, each with a way of its own, forward or backward. */
+static void draw_ways(uint64_t *seed, unsigned n, wh_contact_state *from) {
+    bench_build(seed, n, 0);
+    bench_now.moves = true;
+    for (unsigned i = 0; i < n; i++) {
+        const wh_real v = (WH_R(0.25) + share_of(seed)) * (draw_one_in(seed, 2) ? 1 : -1);
+        bench_now.free[i] = WH_R(0.875) * (2 * share_of(seed) - 1) * v;
+        from->real[i] = WH_R(0.0);
+        from->real[n + i] = v;
+        for (unsigned j = 0; j < n; j++) {
+            bench_now.inverse[i][j] = i == j ? WH_R(1.0) : WH_R(0.0);
+        }
+    }
+}
+
+/* A contact that looks at line i alone. */
+static unsigned add_along(uint64_t *seed, wh_contact_kind kind, unsigned i, wh_real factor) {
+    const unsigned k = bench_add(seed, kind, -1);
+    for (unsigned c = 0; c < bench_now.system.coordinates; c++) {
+        bench_now.row[k][c] = c == i ? factor : WH_R(0.0);
+    }
+    bench_now.signal[2 * k] = WH_R(0.0);
+    bench_now.signal[2 * k + 1] = WH_R(0.0);
+    return k;
+}
+
+/* A stop that is far away, or none. Returns how many. */
+static unsigned add_far(uint64_t *seed) {
+    if (draw_one_in(seed, 2)) {
+        return 0;
+    }
+    const unsigned k = add_along(seed, WH_STOP, 0, WH_R(1.0));
+    bench_now.signal[2 * k] = WH_R(1024.0);
+    return 1;
+}
+
+/* Where the state is after a second, and what the margins say there. */
+static void run_out(wh_contact_work *w, const wh_contact_state *from, wh_contact_state *to,
+                    wh_margins *m) {
+    const unsigned n = bench_now.system.coordinates;
+    wh_contact_point at;
+    *to = *from;
+    for (unsigned i = 0; i < n; i++) {
+        to->real[i] = from->real[i] + from->real[n + i] + bench_now.free[i] / 2;
+        to->real[n + i] = from->real[n + i] + bench_now.free[i];
+    }
+    wh_contact_point_of(&bench_now.system, to, &at);
+    wh_contact_margins(&bench_now.system, w, &at, NULL, m);
+}
+
+static wh_real locate(wh_contact_work *w, wh_contact_state *from, wh_real h, unsigned *events) {
+    wh_contact_state to;
+    wh_margins m;
+    run_out(w, from, &to, &m);
+    bench_now.looks = 0;
+    return wh_contact_locate(&bench_now.system, w, from, &to, h, NULL, &m, events);
+}
+
+/* Of searches: how many, how many of them came as near as rounding lets them, and with how many looks. */
+typedef struct tally {
+    unsigned searches;
+    unsigned fine;
+    unsigned looks;
+    unsigned most;
+} tally;
+
+/* One that is off by this. None is so by more than it must. */
+static void enter(wh_real off, tally *sum) {
+    sum->searches++;
+    sum->fine += (double)WH_ABS(off) <= FINE;
+    sum->looks += bench_now.looks;
+    sum->most = bench_now.looks > sum->most ? bench_now.looks : sum->most;
+    TEST_ASSERT_TRUE(WH_ABS(off) <= WH_BRACKET);
+}
+
+/* In the mean not more looks than so many hundredths, and never more than `most`; all but a few are fine. */
+static void told(const tally *sum, unsigned hundredths, unsigned hundredths_f, unsigned most) {
+    const unsigned mean = 100U * sum->looks / sum->searches;
+    const unsigned bound = WH_DOUBLE ? hundredths : hundredths_f;
+    TEST_ASSERT_TRUE(mean <= (__STDC_HOSTED__ ? bound : 2U * bound)); /* of few, a mean is none */
+    TEST_ASSERT_TRUE(sum->most <= most && sum->most <= WH_PROBES + 1U);
+    TEST_ASSERT_TRUE(sum->fine * 16U >= sum->searches * (__STDC_HOSTED__ ? 13U : 8U));
+}
+
+/* Stops, holds' conditions and crossings, each with its moment (behind the end: none), several at the very same; some
+ * begin at zero and have theirs at once. The first is found, just past it, with those that come with it. */
+static void test_the_first_of_several_is_found(void) {
+    uint64_t seed = 201;
+    tally sum = {0, 0, 0, 0};
+    for (unsigned round = 0; round < ROUNDS; round++) {
+        wh_contact_work w;
+        wh_contact_state from = {.real = {WH_R(0.0)}};
+        wh_real when[BENCH_CONTACTS];
+        unsigned line[BENCH_CONTACTS];
+        wh_real first = WH_R(2.0);
+        const unsigned n = 1U + draw_one_of(&seed, BENCH_COORDS);
+        const unsigned count = 1U + draw_one_of(&seed, BENCH_FORCED);
+        const unsigned stops = (unsigned)draw_bits(&seed) % (count + 1U);
+        draw_ways(&seed, n, &from);
+        for (unsigned k = 0; k < count; k++) {
+            const unsigned i = draw_one_of(&seed, n);
+            const wh_real side = from.real[n + i] > WH_R(0.0) ? WH_R(-1.0) : WH_R(1.0);
+            const wh_real size = draw_one_in(&seed, 2) ? WH_R(1.0) : WH_R(3.0);
+            const bool again = k > 0 && draw_one_in(&seed, 8);
+            line[k] = again ? line[k - 1] : i;
+            when[k] = again                   ? when[k - 1]
+                      : draw_one_in(&seed, 6) ? WH_R(0.0)
+                                              : WH_R(1.5) * share_of(&seed);
+            const wh_real turn = again ? bench_now.row[k - 1][line[k]] : side * size;
+            (void)add_along(&seed, k < stops ? WH_STOP : WH_WHEN, line[k], turn);
+            bench_now.signal[2 * k] = -turn * place_at(&from, line[k], when[k]);
+            bench_now.contact[k].direction = k % 2U == 0 ? 0 : -1;
+            first = when[k] < first ? when[k] : first;
+        }
+        bench_work(&seed, false, &w);
+        for (unsigned k = 0; k < count; k++) {
+            w.mode[k] = k < stops ? WH_FREE : 1;
+        }
+        if (first >= WH_R(1.0)) {
+            continue;
+        }
+        unsigned events = 0;
+        const wh_real found = locate(&w, &from, WH_R(1.0), &events);
+        enter(found - first, &sum);
+        TEST_ASSERT_TRUE(found > WH_R(0.0));
+        for (unsigned k = 0; k < count; k++) { /* as many as it says, and no other */
+            const bool its = (events >> k & 1U) != 0;
+            TEST_ASSERT_TRUE(its ? (double)(when[k] - first) <= FINE
+                                 : (double)(when[k] - first) >= -FINE);
+        }
+        TEST_ASSERT_TRUE(events != 0 && events >> count == 0);
+    }
+    told(&sum, 870, 645, 14);
+}
+
+/* Who is beyond zero already has its event at once, with all such, and nobody else; who slides begins at rest. */
+static void test_what_is_beyond_already_comes_at_once(void) {
+    uint64_t seed = 202;
+    for (unsigned round = 0; round < ROUNDS; round++) {
+        wh_contact_work w;
+        wh_contact_state from = {.real = {WH_R(0.0)}};
+        unsigned at_once = 0;
+        draw_ways(&seed, 2, &from);
+        const unsigned count = 1U + draw_one_of(&seed, BENCH_FORCED);
+        for (unsigned k = 0; k < count; k++) {
+            const unsigned i = draw_one_of(&seed, 2U);
+            const wh_real side = from.real[2 + i] > WH_R(0.0) ? WH_R(-1.0) : WH_R(1.0);
+            (void)add_along(&seed, k < 2 ? WH_STOP : WH_WHEN, i, side);
+            const bool beyond = draw_one_in(&seed, 3);
+            const wh_real gap = beyond ? WH_R(-0.125) : -side * place_at(&from, i, share_of(&seed));
+            bench_now.signal[2 * k] = gap;
+            at_once |= beyond ? 1U << k : 0U;
+        }
+        bench_work(&seed, false, &w);
+        for (unsigned k = 0; k < count; k++) {
+            w.mode[k] = k < 2 ? WH_FREE : 1;
+        }
+        unsigned events = 0;
+        const wh_real found = locate(&w, &from, WH_R(1.0), &events);
+        TEST_ASSERT_TRUE((found == WH_R(0.0)) == (at_once != 0));
+        TEST_ASSERT_TRUE(at_once == 0 || events == at_once);
+        TEST_ASSERT_TRUE(at_once == 0 || bench_now.looks == 1U);
+    }
+}
+
+/* A friction that slides against a force comes to rest at v/a, whether it began with a rate or, in a mode that its rate
+ * is about to leave, at none. */
+static void test_sliding_ends_where_the_rate_does(void) {
+    uint64_t seed = 203;
+    tally sum = {0, 0, 0, 0};
+    for (unsigned round = 0; round < ROUNDS; round++) {
+        wh_contact_work w;
+        wh_contact_state from = {.real = {WH_R(0.0)}};
+        draw_ways(&seed, 2, &from);
+        const unsigned behind = add_far(&seed); /* or first of all */
+        (void)bench_add(&seed, WH_FRICTION, 1);
+        bench_now.signal[2 * behind] = WH_R(0.0);
+        bench_now.moves = true;
+        const wh_real when = share_of(&seed);
+        const wh_real way = from.real[3] > WH_R(0.0) ? WH_R(1.0) : WH_R(-1.0);
+        const bool second = draw_one_in(&seed, 2);
+        if (second) { /* and a place that is crossed behind it, or before */
+            (void)add_along(&seed, WH_WHEN, 0, WH_R(1.0));
+            bench_now.signal[2 * behind + 2] =
+                -place_at(&from, 0, when < WH_R(0.5) ? when + WH_R(0.25) : when / 2);
+        }
+        bench_now.free[1] = -from.real[3] / when;
+        bench_work(&seed, false, &w);
+        w.mode[0] = WH_FREE;
+        w.mode[behind] = way > WH_R(0.0) ? 1 : -1;
+        w.mode[behind + 1U] = from.real[2] > WH_R(0.0) ? -1 : 1;
+        bench_now.second[behind] = WH_R(0.0);
+        bench_now.system.forces(NULL, NULL, NULL, NULL, NULL, w.law);
+        unsigned events = 0;
+        const wh_real found = locate(&w, &from, WH_R(1.0), &events);
+        const bool before = second && when >= WH_R(0.5);
+        enter(found - (before ? when / 2 : when), &sum);
+        TEST_ASSERT_EQUAL_UINT((before ? 2U : 1U) << behind, events);
+    }
+    told(&sum, 1025, 740, 25);
+}
+
+/* One that slides from rest, bent back in the end: its rate is zero at the begin, which is none of its events, and at
+ * the end of the way that the accelerations turn round. */
+static void test_who_slides_from_rest_comes_back_to_it(void) {
+    uint64_t seed = 204;
+    tally sum = {0, 0, 0, 0};
+    for (unsigned round = 0; round < ROUNDS; round++) {
+        wh_contact_work w;
+        wh_contact_state from = {.real = {WH_R(0.0)}};
+        wh_contact_state to;
+        wh_margins m;
+        draw_ways(&seed, 2, &from);
+        const unsigned behind = add_far(&seed); /* or first of all */
+        (void)bench_add(&seed, WH_FRICTION, 1);
+        bench_now.signal[2 * behind] = WH_R(0.0);
+        /* a = a0 (1 - 2 t/when), by the place of the first line, which moves evenly: so v = a0 t (1 - t/when) */
+        const wh_real when = WH_R(0.25) + WH_R(0.74) * share_of(&seed);
+        const wh_real a0 = draw_one_in(&seed, 2) ? WH_R(1.0) : WH_R(-1.0);
+        from.real[2] = WH_R(1.0);
+        from.real[3] = WH_R(0.0);
+        bench_now.free[0] = WH_R(0.0);
+        bench_now.free[1] = a0;
+        bench_now.ramp[1] = -2 * a0 / when;
+        bench_work(&seed, false, &w);
+        w.mode[0] = WH_FREE;
+        w.mode[behind] = a0 > WH_R(0.0) ? 1 : -1;
+        bench_now.second[behind] = WH_R(0.0);
+        bench_now.system.forces(NULL, NULL, NULL, NULL, NULL, w.law);
+        run_out(&w, &from, &to, &m);
+        to.real[3] = a0 * (1 - 1 / when);
+        m.value[behind] = -WH_ABS(to.real[3]);
+        unsigned events = 0;
+        bench_now.looks = 0;
+        const wh_real found =
+            wh_contact_locate(&bench_now.system, &w, &from, &to, WH_R(1.0), NULL, &m, &events);
+        enter(found - when, &sum);
+        TEST_ASSERT_EQUAL_UINT(1U << behind, events);
+    }
+    told(&sum, 1340, 1085, 15);
+}
+
+/* A friction that sticks, loaded more and more as another body moves: it breaks loose when its limit is met, and so does
+ * a stop that is pulled. A load that is at its limit when the way begins is past it at once. */
+static void test_a_load_meets_its_limit(void) {
+    uint64_t seed = 205;
+    tally sum = {0, 0, 0, 0};
+    for (unsigned round = 0; round < ROUNDS; round++) {
+        wh_contact_work w;
+        wh_contact_state from = {.real = {WH_R(0.0)}};
+        wh_contact_state to;
+        wh_margins m;
+        draw_ways(&seed, 2, &from);
+        const bool stop = draw_one_in(&seed, 2);
+        (void)bench_add(&seed, stop ? WH_STOP : WH_FRICTION, 1);
+        const wh_real when = draw_one_in(&seed, 4) ? WH_R(0.0) : share_of(&seed);
+        const wh_real row = bench_now.row[0][1];
+        const wh_real up = stop || draw_one_in(&seed, 2) ? WH_R(1.0) : WH_R(-1.0);
+        /* its force is -free/row: a stop's from above down to zero, friction's up to its limit either way */
+        const wh_real limit = stop ? WH_R(0.0) : up * bench_now.first[0];
+        from.real[3] = WH_R(0.0);
+        bench_now.bias[0] = WH_R(0.0);
+        bench_now.ramp[1] = (stop ? 1 : -up) * row / (from.real[2] > WH_R(0.0) ? 1 : -1);
+        bench_now.free[1] = -limit * row - bench_now.ramp[1] * place_at(&from, 0, when);
+        bench_work(&seed, false, &w);
+        run_out(&w, &from, &to, &m);
+        to.real[1] = WH_R(0.0);
+        to.real[3] = WH_R(0.0);
+        wh_contact_point at;
+        wh_contact_point_of(&bench_now.system, &to, &at);
+        wh_contact_margins(&bench_now.system, &w, &at, NULL, &m);
+        unsigned events = 0;
+        bench_now.looks = 0;
+        const wh_real found =
+            wh_contact_locate(&bench_now.system, &w, &from, &to, WH_R(1.0), NULL, &m, &events);
+        enter(found - when, &sum);
+        TEST_ASSERT_EQUAL_UINT(1U, events);
+    }
+    told(&sum, 1410, 955, 25);
+}
+
+void suite_contact_search(void) {
+    RUN_TEST(test_the_first_of_several_is_found);
+    RUN_TEST(test_what_is_beyond_already_comes_at_once);
+    RUN_TEST(test_sliding_ends_where_the_rate_does);
+    RUN_TEST(test_who_slides_from_rest_comes_back_to_it);
+    RUN_TEST(test_a_load_meets_its_limit);
+}

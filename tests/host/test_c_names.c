@@ -1,0 +1,150 @@
+/* test_c_names.c: names that generated code may give to a scene: none that C or C++ compilers know already, nor a word
+ * of Octave; by the compilers' own judgement (tests/embed/known_names.sh). */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "host/emit/emit.h"
+#include "unity.h"
+
+void suite_c_names(void);
+
+enum { LINE = 256 };
+
+static char folder[] = "/tmp/whirl_names_XXXXXX";
+static char for_c[64];
+static char for_cpp[64];
+
+static FILE *opened(const char *name, const char *how) {
+    FILE *file = fopen(name, how);
+    TEST_ASSERT_NOT_NULL_MESSAGE(file, name);
+    return file;
+}
+
+/* What a command prints, line by line: to `take`; how many there were. */
+static int each_line(const char *command, void (*take)(const char *line)) {
+    char line[LINE];
+    int count = 0;
+    FILE *pipe = popen(command, "r");
+    TEST_ASSERT_NOT_NULL_MESSAGE(pipe, command);
+    while (fgets(line, sizeof line, pipe) != NULL) {
+        line[strcspn(line, "\n")] = '\0';
+        take(line);
+        count++;
+    }
+    TEST_ASSERT_EQUAL_INT_MESSAGE(0, pclose(pipe), command);
+    return count;
+}
+
+static FILE *c_names;
+static FILE *cpp_names;
+static int refused;
+
+static void sort_out(const char *name) {
+    if (!emit_c_name_is_free(name)) {
+        refused++;
+        return;
+    }
+    fprintf(c_names, "%s\n", name);
+    if (emit_c_name_is_free_in_cpp(name)) {
+        fprintf(cpp_names, "%s\n", name);
+    }
+}
+
+static void complain(const char *line) { printf("  not refused: %s\n", line); }
+
+static void compilers_have_nothing_to_say_of_what_is_free(void) {
+    char command[LINE];
+    TEST_ASSERT_NOT_NULL(mkdtemp(folder));
+    snprintf(for_c, sizeof for_c, "%s/c", folder);
+    snprintf(for_cpp, sizeof for_cpp, "%s/cpp", folder);
+    c_names = opened(for_c, "w");
+    cpp_names = opened(for_cpp, "w");
+    const int asked = each_line("sh tests/embed/known_names.sh ask", sort_out);
+    const bool written = fclose(c_names) == 0 && fclose(cpp_names) == 0;
+    snprintf(command, sizeof command, "sh tests/embed/known_names.sh judge %s %s", for_c, for_cpp);
+    const int complaints = each_line(command, complain);
+    (void)remove(for_c);
+    (void)remove(for_cpp);
+    rmdir(folder);
+    printf("  %d words asked, %d refused\n", asked, refused);
+    TEST_ASSERT_TRUE(written);
+    TEST_ASSERT_GREATER_THAN_INT(2000, asked);
+    TEST_ASSERT_GREATER_THAN_INT(600, refused);
+    TEST_ASSERT_EQUAL_INT(0, complaints);
+}
+
+/* What a mechanism may well be called, close to a name of the library. */
+static void ordinary_names_are_free(void) {
+    static const char *const names[] = {"spring",
+                                        "strut",
+                                        "string_pendulum",
+                                        "memory_wheel",
+                                        "isolator",
+                                        "tower",
+                                        "torsion",
+                                        "top",
+                                        "sling",
+                                        "logger",
+                                        "cosmos",
+                                        "sine",
+                                        "pendulum",
+                                        "ball",
+                                        "expander",
+                                        "floor_falls",
+                                        "rounder",
+                                        "integral",
+                                        "internal",
+                                        "INTAKE",
+                                        "PRIMARY",
+                                        "EPICYCLIC",
+                                        "SIGMA",
+                                        "M1",
+                                        "x",
+                                        "c",
+                                        "s",
+                                        "x1a",
+                                        "waiter",
+                                        "indexer",
+                                        "times",
+                                        "shaft",
+                                        "printer",
+                                        "mtx",
+                                        "flywheel_t"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        TEST_ASSERT_TRUE_MESSAGE(emit_c_name_is_free(names[i]), names[i]);
+        TEST_ASSERT_TRUE_MESSAGE(emit_c_name_is_free_in_cpp(names[i]), names[i]);
+        TEST_ASSERT_TRUE_MESSAGE(emit_octave_name_is_free(names[i]), names[i]);
+    }
+}
+
+/* Of C23 and of compilers to come, and of targets that are not at hand. */
+static void names_to_come_are_refused(void) {
+    static const char *const names[] = {
+        "sinpi",     "acospif",         "fmaximum_numf64x", "exp10m1l",
+        "nullptr",   "typeof_unqual",   "constexpr",        "stdc_bit_ceil",
+        "ckd_add",   "memset_explicit", "strlcpy",          "sqrtbf16",
+        "AVR",       "sparc",           "int24_t",          "UINT_FAST8_WIDTH",
+        "PRIbFAST8", "lgammaf_r"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        TEST_ASSERT_FALSE_MESSAGE(emit_c_name_is_free(names[i]), names[i]);
+    }
+}
+
+static void words_of_octave_are_refused(void) {
+    static const char *const names[] = {
+        "end", "endfunction", "function", "i",     "j",   "e",         "Inf",   "NaN",
+        "NA",  "ans",         "nargin",   "pi",    "eps", "varargout", "zeros", "sin",
+        "abs", "tanh",        "isreal",   "ode45", "t",   "dy",        "_x",    "until"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        TEST_ASSERT_FALSE_MESSAGE(emit_octave_name_is_free(names[i]), names[i]);
+    }
+}
+
+void suite_c_names(void) {
+    RUN_TEST(compilers_have_nothing_to_say_of_what_is_free);
+    RUN_TEST(ordinary_names_are_free);
+    RUN_TEST(names_to_come_are_refused);
+    RUN_TEST(words_of_octave_are_refused);
+}

@@ -1,0 +1,144 @@
+/* test_vocabulary.c: the order of rows, where something outlives it, and what rows say that only some input asks for.
+ *
+ * Models are hashed, and sums ordered, by numbers that rows have by their places: a row between others moves the hashes
+ * of models that never use it, and with them what sweeps and boards hold each other to. The lists here are the record:
+ * who adds a row adds it at the end of both; nobody changes what stands here. */
+#define _POSIX_C_SOURCE 200809L
+
+#include <stdio.h>
+#include <string.h>
+
+#include "core/contact.h"
+#include "derived.h"
+#include "host/image/tape.h"
+#include "host/lang/model.h"
+#include "host/lang/words.h"
+#include "host/number/functions.h"
+#include "unity.h"
+
+void suite_vocabulary(void);
+
+enum { TEXT_SIZE = 600 };
+
+#define EXPECT_ROW(list, index, is) \
+    do { \
+        char said[120]; \
+        snprintf(said, sizeof said, "row %d of " list " is '%s': new ones come last, here too", \
+                 index, is); \
+        TEST_ASSERT_EQUAL_STRING_MESSAGE(recorded[index], is, said); \
+    } while (0)
+
+static void test_functions_are_in_their_recorded_order(void) {
+    static const char *const recorded[FUNCTIONS] = {"sin",   "cos",  "tan",  "asin", "acos", "atan",
+                                                    "atan2", "sqrt", "exp",  "log",  "abs",  "sign",
+                                                    "min",   "max",  "sinh", "cosh", "tanh"};
+    for (int i = 0; i < FUNCTIONS; i++) {
+        const char *name = function_name((function_id)i);
+        TEST_ASSERT_NOT_NULL_MESSAGE(recorded[i], name);
+        EXPECT_ROW("function_rows.h", i, name);
+    }
+}
+
+static void test_operations_are_in_their_recorded_order(void) {
+    static const char *const recorded[OPS] = {
+        "CONSTANT", "LINEAR", "RATE", "INPUT", "ACCEL", "TIME", "RADIANS", "NOISE",
+        "PHASE",    "SIN",    "COS",  "ADD",   "SUB",   "MUL",  "DIV",     "NEG",
+        "SQRT",     "ABS",    "SIGN", "MIN",   "MAX",   "CALL", "POW"};
+#define NAME(id, ...) #id,
+    static const char *const names[OPS] = {OP_ROWS(NAME)};
+#undef NAME
+    for (int i = 0; i < OPS; i++) {
+        TEST_ASSERT_NOT_NULL_MESSAGE(recorded[i], names[i]);
+        EXPECT_ROW("op_rows.h", i, names[i]);
+    }
+}
+
+/* Not hashed, but handled in this order at one moment: by the core and by what is told of it. */
+static void test_contacts_are_in_the_core_s_order(void) {
+#define SAME(id, ...) TEST_ASSERT_EQUAL_INT_MESSAGE(WH_##id, CONTACT_##id, #id);
+    CONTACT_KIND_ROWS(SAME)
+#undef SAME
+    TEST_ASSERT_TRUE(CONTACT_STOP < CONTACT_HOLD && CONTACT_HOLD < CONTACT_FRICTION &&
+                     CONTACT_FRICTION < CONTACT_WHEN);
+}
+
+/* --- blocks whose brace was forgotten -------------------------------------------------------------------- */
+
+static bool is_among(const char *word, const char *words) {
+    const size_t length = strlen(word);
+    for (const char *at = words; (at = strstr(at, word)) != NULL; at++) {
+        if ((at == words || at[-1] == ' ') && (at[length] == ' ' || at[length] == '\0')) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* At the beginning of a line inside a block, these words say that the block's brace was forgotten; all others are read
+ * there, or refused. The block is closed behind them: it lacks no brace otherwise. */
+static void test_which_words_end_a_block(void) {
+    static const struct {
+        const char *before;
+        const char *behind;
+        const char *enders;
+    } blocks[] = {
+        {"effect e {\nV += m*x*1 [m/s^2]", "}\n", "mechanism effect scene"},
+        {"scene s {\nuntil 1 [s]", "}\n",
+         "mechanism coordinate state parameter let equation output effect scene"},
+        {"when x crosses 0 [m] {\nset x' = 0 [m/s]", "}\n",
+         "mechanism coordinate state parameter input let T V F Q equation output effect scene stop "
+         "friction hold when"},
+    };
+    for (size_t b = 0; b < sizeof blocks / sizeof blocks[0]; b++) {
+        for (int i = 0; i < STATEMENT_WORDS; i++) {
+            const char *word = word_row((word_id)i)->text;
+            char text[TEXT_SIZE];
+            snprintf(text, sizeof text,
+                     "mechanism trial\ncoordinate x [m]\nparameter m = 2 [kg]\nT = m*x'^2/2\n"
+                     "%s\n%s zz = 1\n%s",
+                     blocks[b].before, word, blocks[b].behind);
+            const bool ended = strstr(report_of_text(text), "is not closed with '}'") != NULL;
+            TEST_ASSERT_TRUE_MESSAGE(ended == is_among(word, blocks[b].enders), text);
+        }
+    }
+}
+
+/* --- what kinds are called ------------------------------------------------------------------------------- */
+
+static void expect_report(const char *statements, const char *wanted) {
+    char text[TEXT_SIZE];
+    snprintf(text, sizeof text,
+             "mechanism trial\ncoordinate x [m]\nparameter m = 2 [kg]\ninput u = 1\nlet l = 3\n"
+             "output o = 1\nT = m*x'^2/2\n%s\n",
+             statements);
+    const char *report = report_of_text(text);
+    if (strstr(report, wanted) == NULL) {
+        printf("  '%s' is missing in: %s", wanted, report);
+    }
+    TEST_ASSERT_TRUE_MESSAGE(strstr(report, wanted) != NULL, text);
+}
+
+static void test_symbols_are_called_what_they_are(void) {
+    expect_report("V = m'*x", "'m' is a parameter: it has no derivative");
+    expect_report("V = u'*x", "'u' is an input: it has no derivative");
+    expect_report("V = l'*x", "'l' is a let: it has no derivative");
+    expect_report("output p = o'", "'o' is an output: it has no derivative");
+    expect_report("V = T*x", "the kinetic energy");
+    expect_report("T += V*x", "the potential energy");
+    expect_report("V = F*x", "the dissipation function");
+}
+
+static void test_energies_have_their_dimension(void) {
+    expect_report("V = m*x", "potential energy V must be an energy [kg*m^2/s^2]");
+    expect_report("T += m*x", "kinetic energy T must be an energy [kg*m^2/s^2]");
+    expect_report("F = m*x", "dissipation function F must be a power [kg*m^2/s^3]");
+}
+
+void suite_vocabulary(void) {
+    RUN_TEST(test_functions_are_in_their_recorded_order);
+    RUN_TEST(test_operations_are_in_their_recorded_order);
+    RUN_TEST(test_contacts_are_in_the_core_s_order);
+    RUN_TEST(test_which_words_end_a_block);
+    RUN_TEST(test_symbols_are_called_what_they_are);
+    RUN_TEST(test_energies_have_their_dimension);
+}
