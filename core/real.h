@@ -78,9 +78,7 @@ typedef float wh_real;
     /* holds came to where they do; the last good state is kept */ \
     X(WH_E_SINGULAR, -5, "holds leave more than one motion") \
     /* other bits than everywhere else would be computed: arithmetic.h says why */ \
-    X(WH_E_ARITHMETIC, -6, "compiled or set up for other arithmetic than IEEE 754") \
-    /* sines are turned on and not looked up (stage_turn.h): the last good state is kept */ \
-    X(WH_E_TURN, -7, "an angle turns too far in a step: --angles lookup takes it further")
+    X(WH_E_ARITHMETIC, -6, "compiled or set up for other arithmetic than IEEE 754")
 
 #define WH_STATUS_VALUE(name, value, words) name = (value),
 typedef enum wh_status { WH_STATUS_ROWS(WH_STATUS_VALUE) } wh_status;

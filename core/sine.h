@@ -39,6 +39,12 @@ typedef struct wh_sine_parts {
 } wh_sine_parts;
 WH_INLINE void wh_sincos_parts(wh_phase phase, wh_sine_parts *parts);
 
+/* Sine and cosine of one angle. */
+typedef struct wh_wave {
+    wh_real sine;
+    wh_real cosine;
+} wh_wave;
+
 /* Phase of an angle in radians, for arguments that are not kept as a turn angle. Float: within one
  * phase unit (1.5e-9 rad) for |rad| < 1e9; larger or NaN gives phase 0. Double: rad itself. */
 WH_INLINE wh_phase wh_phase_from_rad(wh_real rad);

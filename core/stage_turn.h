@@ -18,9 +18,9 @@
  *
  * The angle itself is moved by the whole step as ever (step.h) and looked up anew in the next one: nothing drifts.
  *
- * The polynomials are good for half a radian, |d| summed over the angles whose sine the list takes: beyond that a step
- * is refused with WH_E_TURN, by one check. Angles in no sine may move by up to half a turn a step. Looking up at each
- * stage (wh_step_second(), wh_step_first()) has that limit for every angle, and costs more.
+ * The polynomials are good for half a radian, |d| summed over the angles whose sine the list takes; one check tells.
+ * Beyond it d's own sine and cosine are looked up, too (wh_any_turn()): the stages are as right as ever, and the step takes
+ * more instructions. Nothing is refused that looking up at each stage (step.h) would take.
  */
 #ifndef WH_STAGE_TURN_H
 #define WH_STAGE_TURN_H
@@ -37,14 +37,12 @@
 #define WH_WAVES 256
 #endif
 
-/* rad, |d| summed over those angles */
-#define WH_TURN_MOST WH_R(0.5)
+/* rad, |d| summed over those angles, up to which turns are small */
+#define WH_TURN_SMALL WH_R(0.5)
 
-/* Sine and cosine of one angle. */
-typedef struct wh_wave {
-    wh_real sine;
-    wh_real cosine;
-} wh_wave;
+/* Before the first accelerations there is little to keep over the call that the check may lead to; but what turning
+ * takes is to be kept over them, and the 16 registers of a PC are too few for that: 3 % more instructions. */
+#define WH_TURN_ASKS_FIRST (!WH_DOUBLE)
 
 /* As wh_accel_fn and wh_slope_fn, with the waves' pairs in place of the angles' phases. */
 typedef void wh_turned_accel_fn(const void *model, const wh_wave *pair, const wh_real *linear,
@@ -59,8 +57,7 @@ typedef struct wh_waves {
     void (*sines)(const void *model, const wh_phase *phase, wh_sine_parts *parts);
     /* the waves' rates, result[count], from those of the angles; anything linear in them */
     void (*rates)(const void *model, const wh_real *rate, wh_real *result);
-    unsigned count;  /* <= WH_WAVES */
-    uint64_t angles; /* those that take part, as bits */
+    unsigned count; /* <= WH_WAVES */
 } wh_waves;
 
 /* Has the method's row what turning takes? */
@@ -68,24 +65,26 @@ WH_INLINE bool wh_method_turns(wh_method method) {
     return wh_tableaus[method].stages == 1 || wh_tableaus[method].turns[1] == 1;
 }
 
-/* sin d and cos d - 1, |d| <= 1/2: within 4.1e-8 and 1.9e-9 in float, 7e-18 and 2e-19 in double, without rounding. */
-WH_INLINE void wh_small_turn(wh_real d, wh_real *sine, wh_real *cosine_less_1) {
+/* As wh_any_turn() for |d| <= 1/2: within 4.1e-8 and 1.9e-9 in float, 7e-18 and 2e-19 in double, without rounding. */
+WH_INLINE wh_wave wh_small_turn(wh_real d) {
     const wh_real z = d * d;
+    wh_wave turn;
 #if WH_DOUBLE
-    *sine = d + d * z *
-                    (-0.16666666666666 +
-                     z * (0.0083333333330238924 +
-                          z * (-0.0001984126934116413 +
-                               z * (2.7556952900446698e-06 + z * -2.4927410423791707e-08))));
-    *cosine_less_1 =
+    turn.sine = d + d * z *
+                        (-0.16666666666666 +
+                         z * (0.0083333333330238924 +
+                              z * (-0.0001984126934116413 +
+                                   z * (2.7556952900446698e-06 + z * -2.4927410423791707e-08))));
+    turn.cosine =
         z * (-0.5 + z * (0.04166666666666596 +
                          z * (-0.0013888888888601047 +
                               z * (2.480158687820224e-05 +
                                    z * (-2.7557030226024543e-07 + z * 2.078364892532402e-09)))));
 #else
-    *sine = d + d * z * (-0.16666032f + z * 0.008259796f);
-    *cosine_less_1 = z * (-0.5f + z * (0.041665776f + z * -0.0013792582f));
+    turn.sine = d + d * z * (-0.16666032f + z * 0.008259796f);
+    turn.cosine = z * (-0.5f + z * (0.041665776f + z * -0.0013792582f));
 #endif
+    return turn;
 }
 
 /* A step's pairs on their way. */
@@ -117,29 +116,45 @@ WH_INLINE void wh_turning_look_up(const wh_waves *waves, const wh_angle *angle, 
     t->turns = 0;
 }
 
-/* Begin to turn from the pairs in turning->at, the angles having these rates. False: by too much, or by no number. */
-WH_INLINE bool wh_turning_begin(const wh_tableau *by, const wh_waves *waves, const wh_real *rate,
-                                wh_real h, wh_turning *t) {
-    wh_real spin[WH_WAVES] = {0};
+/* What the first turn adds, the angles having these rates: turn[waves->count] as of wh_any_turn(). */
+WH_INLINE void wh_turning_by(const wh_tableau *by, const wh_waves *waves, const wh_real *rate,
+                             wh_real h, wh_wave *turn) {
+    wh_real d[WH_WAVES] = {0};
     wh_real first = WH_R(0.0);
     wh_real all = WH_R(0.0);
     WH_UNROLL
     for (unsigned j = 0; j < WH_STAGES_MAX; j++) {
         first += by->stage[1].share[j];
     }
-    waves->rates(waves->model, rate, spin);
+    waves->rates(waves->model, rate, d);
     WH_UNROLL
     for (unsigned w = 0; w < waves->count; w++) {
-        const wh_real d = h / by->stage[1].parts * first * spin[w];
-        wh_real sine;
-        wh_real less;
-        wh_small_turn(d, &sine, &less);
+        d[w] *= h / by->stage[1].parts * first;
+        all = w == 0 ? WH_ABS(d[w]) : all + WH_ABS(d[w]);
+    }
+    if (__builtin_expect(all <= WH_TURN_SMALL, true)) {
+        WH_UNROLL
+        for (unsigned w = 0; w < waves->count; w++) {
+            turn[w] = wh_small_turn(d[w]);
+        }
+    } else {
+        WH_UNROLL
+        for (unsigned w = 0; w < waves->count; w++) {
+            turn[w] = wh_any_turn(d[w]);
+        }
+    }
+}
+
+/* Begin to turn so from the pairs in turning->at. */
+WH_INLINE void wh_turning_begin(const wh_waves *waves, const wh_wave *turn, wh_turning *t) {
+    WH_UNROLL
+    for (unsigned w = 0; w < waves->count; w++) {
+        const wh_real sine = turn[w].sine;
+        const wh_real less = turn[w].cosine;
         t->way[w].sine = t->at[w].sine * less + t->at[w].cosine * sine;
         t->way[w].cosine = t->at[w].cosine * less - t->at[w].sine * sine;
         t->bend[w] = less + less;
-        all = w == 0 ? WH_ABS(d) : all + WH_ABS(d);
     }
-    return waves->count == 0 || all <= WH_TURN_MOST;
 }
 
 /* Turn on, so often in all. Precise: what turns add is summed up by itself, so that each pair is rounded once. */
@@ -225,12 +240,6 @@ WH_INLINE void wh_turning_stage(const wh_tableau *by, const wh_waves *waves, uns
     }
 }
 
-#define wh_turn_refuse WH_NAME(wh_turn_refuse)
-
-/* Refuse the step: of the `angles` (as bits) the fastest is at fault, at rate[] rad/s. WH_E_TURN, or WH_E_DIVERGED
- * where looking up would refuse it, too: half a turn or more in a step of h, or no number. */
-wh_status wh_turn_refuse(uint64_t angles, const wh_real *rate, wh_real h, wh_state *state);
-
 /* Where the angles stand at a stage, for who must know (the books): as wh_stage_angle(). */
 WH_INLINE void wh_turning_tell(const wh_shares *of, unsigned stage, wh_given rates, unsigned angles,
                                wh_real h, const wh_state *state, wh_phase *told) {
@@ -241,8 +250,7 @@ WH_INLINE void wh_turning_tell(const wh_shares *of, unsigned stage, wh_given rat
 }
 
 /* As wh_step_second(), turning. The method must turn. `told` [angles] gets the angles' phases before each call of
- * accel(), or is NULL. WH_E_TURN with state->fault set and the rest of the state as it was when the angles
- * move by too much. */
+ * accel(), or is NULL. */
 WH_INLINE wh_status wh_turn_second(const void *model, wh_turned_accel_fn *accel,
                                    const wh_waves *waves, wh_phase *told, wh_method method,
                                    bool compensated, unsigned angles, unsigned n, wh_real h,
@@ -253,6 +261,7 @@ WH_INLINE wh_status wh_turn_second(const void *model, wh_turned_accel_fn *accel,
     const wh_real *rate = state->real + linears;
     const wh_real *u = state->input;
     wh_turning t = {.turns = 0};
+    wh_wave turn[WH_WAVES] = {{0}};
     wh_wave pair[WH_WAVES] = {{0}};
     wh_real at[WH_COORDS] = {0};              /* linear positions of a stage, */
     wh_real v[WH_COORDS] = {0};               /* its rates */
@@ -265,11 +274,15 @@ WH_INLINE wh_status wh_turn_second(const void *model, wh_turned_accel_fn *accel,
     const wh_given all_rates = {rate, rates};
     const wh_given all_accels = {a1, accels};
 
+    if (WH_TURN_ASKS_FIRST && by->stages > 1) {
+        wh_turning_by(by, waves, rate, h, turn);
+    }
     wh_turning_look_up(waves, state->angle, angles, told, &t);
     accel(model, t.at, linear, rate, u, a1);
-    if (by->stages > 1 && !wh_turning_begin(by, waves, rate, h, &t)) {
-        return wh_turn_refuse(waves->angles, rate, h, state);
+    if (!WH_TURN_ASKS_FIRST && by->stages > 1) {
+        wh_turning_by(by, waves, rate, h, turn);
     }
+    wh_turning_begin(waves, turn, &t);
     WH_UNROLL
     for (unsigned s = 1; s < WH_STAGES_MAX; s++) {
         if (s >= by->stages) {
@@ -304,6 +317,7 @@ WH_INLINE wh_status wh_turn_first(const void *model, wh_turned_slope_fn *slope,
     const unsigned n = angles + reals;
     const wh_real *u = state->input;
     wh_turning t = {.turns = 0};
+    wh_wave turn[WH_WAVES] = {{0}};
     wh_wave pair[WH_WAVES] = {{0}};
     wh_real at[WH_COORDS] = {0};
     wh_real k1[WH_COORDS];                    /* derivatives of the first stage */
@@ -318,8 +332,9 @@ WH_INLINE wh_status wh_turn_first(const void *model, wh_turned_slope_fn *slope,
     }
     wh_turning_look_up(waves, state->angle, angles, NULL, &t);
     slope(model, t.at, state->real, u, k1);
-    if (by->stages > 1 && !wh_turning_begin(by, waves, k1, h, &t)) {
-        return wh_turn_refuse(waves->angles, k1, h, state);
+    if (by->stages > 1) {
+        wh_turning_by(by, waves, k1, h, turn);
+        wh_turning_begin(waves, turn, &t);
     }
     WH_UNROLL
     for (unsigned s = 1; s < WH_STAGES_MAX; s++) {

@@ -60,7 +60,7 @@ typedef struct wh_state {
     wh_real *held;   /* [scene->held] what holds keep: curved ones what it is, straight ones by how
                       * much it has slipped; SI units */
     wh_real *ledger; /* the books' totals, their carries, the levels at the start; or NULL */
-    /* after WH_E_DIVERGED or WH_E_TURN: the component at fault, angles first, then reals; after WH_E_UNDEFINED or
+    /* after WH_E_DIVERGED: the component at fault, angles first, then reals; after WH_E_UNDEFINED or
      * WH_E_SINGULAR: the contact, in the order of contact.h; after WH_E_ARITHMETIC: what is wrong, a
      * wh_probed (arithmetic.h) */
     int fault;

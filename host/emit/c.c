@@ -210,7 +210,7 @@ void emit_c(FILE *out, const image *im, const char *file) {
                     second ? "accelerations" : "slopes", second,
                     im->contacts > 0 || im->ledger.asked);
     if (turns) {
-        c_list_waves(out, im->list[IMAGE_STEP], image_turned_angles(im));
+        c_list_waves(out, im->list[IMAGE_STEP]);
     }
     if (im->ledger.kept) {
         c_ledger_write(out, im);

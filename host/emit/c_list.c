@@ -189,7 +189,7 @@ static void write_rate(FILE *out, const tape *t, const op *o) {
     }
 }
 
-void c_list_waves(FILE *out, const tape *t, uint64_t angles) {
+void c_list_waves(FILE *out, const tape *t) {
     const char *const names[] = {"wave_sines", "wave_rates"};
     const char *const from[] = {"const wh_phase *phase, wh_sine_parts *parts",
                                 "const wh_real *rate, wh_real *result"};
@@ -214,8 +214,6 @@ void c_list_waves(FILE *out, const tape *t, uint64_t angles) {
         }
         fputs("}\n\n", out);
     }
-    fprintf(out,
-            "static const wh_waves waves = {NULL, wave_sines, wave_rates, %dU,\n"
-            "                               UINT64_C(0x%" PRIx64 ")};\n\n",
-            tape_waves(t), angles);
+    fprintf(out, "static const wh_waves waves = {NULL, wave_sines, wave_rates, %dU};\n\n",
+            tape_waves(t));
 }

@@ -20,7 +20,7 @@ void c_list_body(FILE *out, const tape *t, c_angles angles, const char *result);
 void c_list_function(FILE *out, const tape *t, c_angles angles, const char *name, bool second,
                      bool by_pointer);
 
-/* "waves", the wh_waves of a list that takes pairs, and what it needs; `angles`: those that take part, as bits. */
-void c_list_waves(FILE *out, const tape *t, uint64_t angles);
+/* "waves", the wh_waves of a list that takes pairs, and what it needs. */
+void c_list_waves(FILE *out, const tape *t);
 
 #endif

@@ -7,16 +7,12 @@
 /* Most angles whose sines a step turns. */
 #define TURNED_WAVES_MAX 256
 
-/* Of an image's step, settings and start, and of nothing else: the interpreter and generated code agree. False where
- * that was set (--angles lookup), where there are contacts or no turn angle, where the method or the list does not
- * take it, and where the start turns by more than half of what turning is good for. */
+/* Of an image's step and settings, and of nothing else: the interpreter and generated code agree. False where that was
+ * set (--angles lookup), where there are contacts or no turn angle, and where the method or the list does not take it. */
 bool image_turns(const image *im);
 
 /* The words of command lines and descriptions, by image_angles. */
 enum { IMAGE_ANGLES = 2 };
 extern const char *const image_angles_words[IMAGE_ANGLES];
-
-/* The turn angles whose sines the step takes, as bits. */
-uint64_t image_turned_angles(const image *im);
 
 #endif

@@ -15,7 +15,6 @@
 #include "records.h"
 #include "slow.h"
 #include "summary.h"
-#include "too_far.h"
 #include "undefined.h"
 
 typedef struct simulation {
@@ -203,12 +202,6 @@ static wh_status loop(simulation *sim, bool *interrupted) {
 static void say_failure(const simulation *sim, wh_status status) {
     const image *im = sim->image;
     const engine_kind *kind = sim->settings->kind;
-    if (status == WH_E_TURN) {
-        fputs("whirl run: error: ", stderr);
-        too_far_say(stderr, im, kind, sim->run);
-        fputs("\nhint: " TOO_FAR_HINT "\n", stderr);
-        return;
-    }
     diags *errors = diags_new();
     const bool known = undefined_step(im, kind, sim->run, status, errors);
     diags_flush(errors, stderr);

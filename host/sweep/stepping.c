@@ -9,7 +9,6 @@
 #include "host/number/functions.h"
 #include "host/run/belief.h"
 #include "host/run/slow.h"
-#include "host/run/too_far.h"
 #include "host/run/undefined.h"
 
 /* Steps between two questions whether to give up. */
@@ -136,11 +135,6 @@ static bool run_through(meter *m, bool (*abandon)(void), diags *errors, FILE *re
             break;
         }
         const wh_status status = kind->step(m->run);
-        if (status == WH_E_TURN) {
-            too_far_say(reason, im, kind, m->run);
-            fputs("; " TOO_FAR_HINT, reason);
-            return false;
-        }
         if (status != WH_OK) {
             if (!tell_undefined(m, status, errors)) {
                 fprintf(reason, "diverged in the step after t = %.9g s",
