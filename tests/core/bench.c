@@ -45,6 +45,9 @@ static void bench_signals(const void *model, const wh_phase *phase, const wh_rea
             const wh_real line = i < angles ? WH_R(0.0) : linear[i - angles];
             result[k] += bench_now.row[k / 2U][i] * (place ? line : rate[i]);
         }
+        if (place && bench_now.moves && bench_now.lean[k / 2U] != WH_R(0.0)) {
+            result[k] += bench_now.lean[k / 2U] / 2 * linear[0] * linear[0];
+        }
     }
 }
 
