@@ -1,8 +1,8 @@
 # Whirl: energies in, firmware out. `make` lists the targets; the machinery is in mk/.
 #
-# V=1 shows the commands. Nothing is written outside build/,
-# but for `make figures-docs`, `make price-effects` and `make bench-boards`, which renew their part of docs/, and
-# `make too-large`, which lists what does not fit into a board.
+# V=1 shows the commands. Nothing is written outside build/, but for `make figures-docs`, `make price-effects`,
+# `make bench-boards` and `make bench-peers`, which renew their part of docs/, and `make too-large`, which lists what
+# does not fit into a board.
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
@@ -39,6 +39,7 @@ include mk/whirl.mk
 include mk/tests.mk
 include mk/board.mk
 include mk/price.mk
+include mk/peers.mk
 include mk/figures.mk
 include mk/hosts.mk
 include mk/check.mk
@@ -144,6 +145,11 @@ bench: ## instructions a step, counted, on this machine and on the emulated boar
 bench-boards: ## a step of five scenes on every board: instructions, cycles, bytes; into docs/price.md (minutes)
 	@CC="$(CC)" mk/setup/deps.sh host firmware boards quality
 	@$(MAKE) bench-boards-now
+
+.PHONY: bench-peers
+bench-peers: ## the same steps and derivations by other libraries, as ratios; into docs/price.md (installs them, large)
+	@CC="$(CC)" mk/setup/deps.sh host tests bench peers
+	@$(MAKE) bench-peers-now
 
 .PHONY: price-effects
 price-effects: ## what each effect costs: instructions, bytes, error; into docs/effects.md (minutes)

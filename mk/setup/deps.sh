@@ -2,7 +2,7 @@
 # deps.sh GROUP...: install the Debian packages that a make target needs, and only those missing.
 #
 # Groups: host (compiler), plot, firmware (Arm compiler and emulator), boards (other processors'), tests, quality
-# (linters, sanitizers, AVR), bench; hosts (other compilers, C libraries and processors) and octave only when they are named.
+# (linters, sanitizers, AVR), bench; hosts (other compilers, C libraries and processors), octave and peers (other solvers) only when they are named.
 # What is there already is recognised by its command or file, not by its package, so a compiler from elsewhere
 # counts. With nothing missing this says nothing and takes milliseconds. What will be installed is told before, with
 # what needs it and the size; where it cannot be, the line that does it (exit status 1).
@@ -122,6 +122,17 @@ octave() {
     want octave "running the generated Octave files" have octave-cli
 }
 
+# What `make bench-peers` races against.
+have_sympy() { /usr/bin/python3 -c 'import sympy' 2>/dev/null; }
+
+peers() {
+    want libgsl-dev "the GNU Scientific Library" have_file /usr/include/gsl/gsl_odeiv2.h
+    want libsundials-dev "SUNDIALS, with ARKODE" have_file /usr/include/arkode/arkode_arkstep.h
+    want libboost-dev "Boost, with odeint" have_file /usr/include/boost/numeric/odeint.hpp
+    want python3-sympy "SymPy" have_sympy
+    octave
+}
+
 [ $# -gt 0 ] || set -- host plot firmware boards tests quality bench
 for group in "$@"; do
     case $group in
@@ -134,6 +145,7 @@ for group in "$@"; do
     bench) part="make bench" ;;
     hosts) part="make hosts" ;;
     octave) part="octave-check" ;;
+    peers) part="bench-peers" ;;
     *)
         echo "deps.sh: no such group: $group" >&2
         exit 2

@@ -45,6 +45,9 @@ static void bench_signals(const void *model, const wh_phase *phase, const wh_rea
             const wh_real line = i < angles ? WH_R(0.0) : linear[i - angles];
             result[k] += bench_now.row[k / 2U][i] * (place ? line : rate[i]);
         }
+        if (place && bench_now.moves && bench_now.lean[k / 2U] != WH_R(0.0)) {
+            result[k] += bench_now.lean[k / 2U] / 2 * linear[0] * linear[0];
+        }
     }
 }
 
@@ -163,22 +166,17 @@ unsigned bench_add(uint64_t *seed, wh_contact_kind kind, int pin) {
     return k;
 }
 
-/* 0 ... count - 1, or 0. */
-static unsigned below(uint64_t *seed, unsigned count) {
-    const unsigned bits = (unsigned)draw_bits(seed);
-    return count > 0 ? bits % count : 0U;
-}
-
 void bench_add_some(uint64_t *seed, unsigned kinds) {
     const unsigned n = bench_now.system.coordinates;
-    const unsigned count = 1U + (unsigned)draw_bits(seed) % BENCH_FORCED;
+    const unsigned count = 1U + draw_one_of(seed, BENCH_FORCED);
     for (unsigned kind = WH_STOP; kind < WH_WHEN; kind++) {
         for (unsigned i = 0; i < count && (kinds >> kind & 1U) != 0; i++) {
             const unsigned k = bench_now.system.contacts;
             const bool last = kinds >> (kind + 1U) == 0 && k == 0;
             const bool pinned = kind == WH_FRICTION || draw_one_in(seed, 3);
             if (k < count && (last || draw_one_in(seed, 2))) {
-                (void)bench_add(seed, (wh_contact_kind)kind, pinned ? (int)below(seed, n) : -1);
+                (void)bench_add(seed, (wh_contact_kind)kind,
+                                pinned ? (int)draw_one_of(seed, n) : -1);
                 const bool again = k > 0 && !pinned && draw_one_in(seed, 4);
                 for (unsigned c = 0; c < n && again; c++) {
                     bench_now.row[k][c] = -bench_now.row[k - 1][c];
@@ -193,9 +191,9 @@ void bench_add_some(uint64_t *seed, unsigned kinds) {
 
 void bench_draw(uint64_t *seed, bool angles) {
     const unsigned all = WH_KIND_BIT(WH_STOP) | WH_KIND_BIT(WH_HOLD) | WH_KIND_BIT(WH_FRICTION);
-    const unsigned kinds = 1U + (unsigned)draw_bits(seed) % all;
-    const unsigned n = 1U + (unsigned)draw_bits(seed) % BENCH_COORDS;
-    bench_build(seed, n, angles ? (unsigned)draw_bits(seed) % (n + 1U) : 0U);
+    const unsigned kinds = 1U + draw_one_of(seed, all);
+    const unsigned n = 1U + draw_one_of(seed, BENCH_COORDS);
+    bench_build(seed, n, angles ? draw_one_of(seed, n + 1U) : 0U);
     bench_add_some(seed, kinds);
 }
 
@@ -246,11 +244,11 @@ wh_real bench_moved(const wh_contact_state *from, const wh_contact_state *to, un
 unsigned bench_members(uint64_t *seed, uint8_t *member) {
     const unsigned forced = bench_now.system.forced;
     for (unsigned i = 0; i < forced; i++) {
-        const unsigned j = (unsigned)draw_bits(seed) % (i + 1U);
+        const unsigned j = draw_one_of(seed, i + 1U);
         member[i] = member[j];
         member[j] = (uint8_t)i;
     }
-    const unsigned count = 1U + below(seed, forced);
+    const unsigned count = 1U + draw_one_of(seed, forced);
     for (unsigned i = count; i < BENCH_CONTACTS; i++) {
         member[i] = BENCH_CONTACTS - 1U;
     }

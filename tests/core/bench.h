@@ -31,7 +31,7 @@ typedef struct bench {
     wh_real free[WH_COORDS];            /* the accelerations without contacts */
     wh_real ramp[WH_COORDS];            /* on top, for each metre of the first line */
     wh_real signal[2 * BENCH_CONTACTS]; /* whatever the place, */
-    bool moves;                         /* or that, with J x (lines only) and J x' on top */
+    bool moves; /* or that, with J x (lines only; bent by lean) and J x' on top */
     wh_contact contact[BENCH_CONTACTS];
     wh_contact_system system;
     wh_ledger_form books;

@@ -101,6 +101,34 @@ static void test_too_many_bounces_are_counted_and_end(void) {
     TEST_ASSERT_TRUE(WH_ABS(hand_state.real[1]) <= WH_R(1.0));
 }
 
+/* Between two walls 1 m apart, n of them hit in each step of 1 ms: all are told, and eight are too many. */
+static void test_a_step_has_room_for_so_many_moments(void) {
+    for (unsigned each = 0; each <= 2U * WH_EVENTS_MAX + 4U; each++) {
+        const unsigned n = each / 2U;
+        hand_build(1, WH_R(1.0), WH_R(0.0), WH_R(1.0));
+        hand_add(WH_STOP, 0, WH_R(1.0), WH_R(0.0), WH_R(0.0), WH_R(1.0), WH_R(0.0));
+        hand_add(WH_STOP, 0, WH_R(-1.0), WH_R(0.0), WH_R(-1.0), WH_R(1.0), WH_R(0.0));
+        hand_now.start[0] = WH_R(0.5);
+        hand_start(false);
+        hand_steps(each % 2U); /* the first one, or a later one */
+        hand_state.real[1] = WH_R(1000.0) * (wh_real)n;
+        hand_steps(1);
+        const bool many = n >= WH_EVENTS_MAX;
+        TEST_ASSERT_EQUAL_UINT(many ? WH_EVENTS_MAX : n, hand_state.contacts->events);
+        TEST_ASSERT_EQUAL_UINT(many ? WH_EVENTS_MAX : n, hand_state.contacts->logged);
+        TEST_ASSERT_EQUAL_UINT(many, hand_state.contacts->overruns);
+        for (unsigned i = 0; i < hand_state.contacts->logged; i++) {
+            const wh_event event = hand_state.contacts->log[i];
+            const wh_real at_ms = ((wh_real)i + WH_R(0.5)) / (wh_real)n;
+            TEST_ASSERT_TRUE(event.contact == (i + 1) % 2 && event.mode == WH_FREE);
+            TEST_ASSERT_TRUE(hand_near(event.at_s * WH_R(1000.0), at_ms, 1e-14, 1e-5));
+        }
+        TEST_ASSERT_TRUE(many || hand_near(hand_state.real[0], WH_R(0.5), 1e-13, 1e-4));
+        const wh_real way = n % 2 == 0 ? WH_R(1000.0) : WH_R(-1000.0);
+        TEST_ASSERT_TRUE(many || hand_state.real[1] == way * (wh_real)n);
+    }
+}
+
 /* --- friction, holds, crossings -------------------------------------------------------------------- */
 
 /* 10 degrees: sin 0.17364818, cos 0.98480775. */
@@ -224,6 +252,7 @@ void suite_contact(void) {
     RUN_TEST(test_resting_stop_lets_go_when_the_force_turns);
     RUN_TEST(test_coupled_impact_goes_through_the_mass_matrix);
     RUN_TEST(test_too_many_bounces_are_counted_and_end);
+    RUN_TEST(test_a_step_has_room_for_so_many_moments);
     RUN_TEST(test_block_sticks_on_the_incline);
     RUN_TEST(test_block_slides_when_friction_is_too_small);
     RUN_TEST(test_thrown_block_stops_and_sticks);

@@ -234,10 +234,57 @@ static void test_how_far_a_stop_is_passed(void) {
     }
 }
 
+/* --- into the state and out of it ---------------------------------------------------------------------------- */
+
+/* What a step leaves is written into the state, all of it and nothing behind it, and read back from there. */
+static void test_a_step_is_written_down_and_read_back(void) {
+    uint64_t seed = 146;
+    for (unsigned round = 0; round < ROUNDS / 4; round++) {
+        wh_contact_work w;
+        wh_contact_state now;
+        wh_contact_state then;
+        wh_angle angle[WH_COORDS];
+        wh_real real[2 * WH_COORDS];
+        wh_real carry[2 * WH_COORDS];
+        wh_real held[BENCH_CONTACTS];
+        wh_state state = {.angle = angle, .real = real, .carry = carry, .held = held};
+        draw(&seed, true, &w);
+        wh_contact_system *of = &bench_now.system;
+        const unsigned reals = 2U * of->coordinates - of->angles;
+        of->compensated = draw_one_in(&seed, 2);
+        of->held = (uint8_t)draw_one_of(&seed, BENCH_CONTACTS);
+        bench_state(&seed, &now);
+        for (unsigned i = 0; i < 2U * WH_COORDS; i++) {
+            now.carry[i] = draw_broken(&seed, 1, 4);
+            real[i] = carry[i] = BENCH_SENTINEL;
+            angle[i % WH_COORDS] = 0;
+            held[i % BENCH_CONTACTS] = BENCH_SENTINEL;
+        }
+        wh_contact_commit(of, &w, &now, &state);
+        then = (wh_contact_state){.real = {WH_R(0.0)}};
+        wh_contact_copy(of, angle, real, carry, &then);
+        for (unsigned i = 0; i < WH_COORDS; i++) {
+            TEST_ASSERT_TRUE(angle[i] == (i < of->angles ? now.angle[i] : 0));
+            TEST_ASSERT_TRUE(i >= of->angles || then.angle[i] == now.angle[i]);
+        }
+        for (unsigned i = 0; i < 2U * WH_COORDS; i++) {
+            TEST_ASSERT_TRUE(real[i] == (i < reals ? now.real[i] : BENCH_SENTINEL));
+            TEST_ASSERT_TRUE(then.real[i] == (i < reals ? now.real[i] : WH_R(0.0)));
+            const bool carried = of->compensated && i < of->angles + reals;
+            TEST_ASSERT_TRUE(carry[i] == (carried ? now.carry[i] : BENCH_SENTINEL));
+            TEST_ASSERT_TRUE(then.carry[i] == (carried ? now.carry[i] : WH_R(0.0)));
+        }
+        for (unsigned k = 0; k < BENCH_CONTACTS; k++) {
+            TEST_ASSERT_TRUE(held[k] == (k < of->held ? w.held[k] : BENCH_SENTINEL));
+        }
+    }
+}
+
 void suite_contact_places(void) {
     RUN_TEST(test_a_coordinate_moves_and_no_other);
     RUN_TEST(test_no_bit_of_a_product_is_lost);
     RUN_TEST(test_a_straight_way_is_summed_without_rounding);
     RUN_TEST(test_who_is_off_who_slips_and_who_breaks_loose);
     RUN_TEST(test_how_far_a_stop_is_passed);
+    RUN_TEST(test_a_step_is_written_down_and_read_back);
 }

@@ -343,9 +343,57 @@ static void test_what_slipped_is_put_back(void) {
     TEST_ASSERT_TRUE(far > ROUNDS / 40);
 }
 
+/* A stop whose surface is bent is put right along its row where it is, and from there once more if that was far for the
+ * way it came: never a third time. */
+static void test_what_is_bent_is_put_back_twice(void) {
+    uint64_t seed = 165;
+    for (unsigned round = 0; round < ROUNDS; round++) {
+        wh_contact_work w;
+        wh_contact_state from;
+        wh_contact_state s;
+        wh_real input = WH_R(0.0);
+        wh_real x[2];
+        bench_build(&seed, 2, 0);
+        (void)bench_add(&seed, WH_STOP, -1);
+        bench_state(&seed, &from);
+        for (unsigned i = 0; i < 2; i++) {
+            from.real[i] = WH_R(0.0);
+            from.real[2 + i] = WH_R(1.0);
+            x[i] = WH_R(0.0);
+        }
+        const wh_real straight = draw_whole(&seed, 1, 2);
+        bench_now.row[0][0] = straight;
+        bench_now.row[0][1] = draw_whole(&seed, 0, 2);
+        bench_now.signal[0] = draw_whole(&seed, 1, 4) / (draw_one_in(&seed, 2) ? -16 : 16);
+        bench_now.signal[1] = WH_R(0.0);
+        bench_work(&seed, false, &w);
+        bench_now.moves = true;
+        bench_now.lean[0] = draw_one_in(&seed, 2) ? WH_R(0.5) : WH_R(-0.5);
+        const bool slow = draw_one_in(&seed, 2); /* has come no way */
+        const unsigned passes = slow ? 2U : 1U;
+        const unsigned looks = bench_now.looks;
+        s = from;
+        wh_contact_stabilise(&bench_now.system, &w, slow ? WH_R(0.0) : WH_R(0x1p40), &input, &from,
+                             &s);
+        for (unsigned pass = 0; pass < passes; pass++) {
+            const wh_real bent = bench_now.lean[0] / 2 * x[0] * x[0];
+            const wh_real gap = bench_now.signal[0] + bench_along(0, x) + bent;
+            bench_now.row[0][0] = straight + bench_now.lean[0] * x[0];
+            const wh_real push = -gap / bench_delassus(0, 0);
+            x[0] += bench_way(0, 0) * push;
+            x[1] += bench_way(0, 1) * push;
+            bench_now.row[0][0] = straight;
+        }
+        TEST_ASSERT_TRUE(bench_near(s.real[0], x[0]) && bench_near(s.real[1], x[1]));
+        /* it need not be bent the way it goes */
+        TEST_ASSERT_EQUAL_UINT(!slow ? 1U : x[0] != WH_R(0.0) ? 3U : 2U, bench_now.looks - looks);
+    }
+}
+
 void suite_contact_project(void) {
     RUN_TEST(test_places_are_put_right_by_the_least_way);
     RUN_TEST(test_a_place_that_is_no_number_is_told);
     RUN_TEST(test_rates_are_taken_away_by_the_least);
     RUN_TEST(test_what_slipped_is_put_back);
+    RUN_TEST(test_what_is_bent_is_put_back_twice);
 }

@@ -100,4 +100,37 @@ static void test_the_least_that_lets_nobody_pass(void) {
     TEST_ASSERT_TRUE(compared >= MECHANISMS / 2U);
 }
 
-void suite_contact_squeeze(void) { RUN_TEST(test_the_least_that_lets_nobody_pass); }
+/* Two stops were passed, and what the first pushes back comes to stand on the other, which has not pushed: it is hit all
+ * the same, by a body that slides along the first. */
+static void test_who_is_met_without_a_push_is_hit(void) {
+    for (int slope = -3; slope <= 3; slope++) {
+        for (int beyond = 1; beyond <= 3; beyond++) {
+            wh_contact_work w;
+            wh_contact_state s;
+            const wh_real row[2] = {WH_R(1.0), (wh_real)slope};
+            const wh_real speed = slope > 0 ? WH_R(-2.0) : WH_R(2.0); /* against the other */
+            hand_build(2, WH_R(1.0), WH_R(0.0), WH_R(1.0));
+            hand_now.start[3] = speed;
+            (void)hand_add(WH_STOP, 0, row[0], WH_R(0.0), (wh_real)beyond, WH_R(0.5), WH_R(0.0));
+            (void)hand_add(WH_STOP, slope == 0 ? 0 : -1, row[0], row[1], (wh_real)beyond, WH_R(0.5),
+                           WH_R(0.0));
+            hand_start(false);
+            wh_contact_work_begin(&hand_now.system, &hand_state, &w);
+            w.books = NULL;
+            wh_contact_copy(&hand_now.system, hand_state.angle, hand_state.real, hand_state.carry,
+                            &s);
+            w.mode[0] = WH_FREE;
+            w.mode[1] = WH_FREE;
+            wh_contact_squeeze(&hand_now.system, &w, hand_state.input, &s);
+            const double push = (double)(-row[1] * speed / (1 + row[1] * row[1]));
+            TEST_ASSERT_TRUE(near((double)s.real[0], beyond) && near((double)s.real[1], 0.0));
+            TEST_ASSERT_TRUE(near((double)s.real[2], push));
+            TEST_ASSERT_TRUE(near((double)s.real[3], (double)speed + (double)row[1] * push));
+        }
+    }
+}
+
+void suite_contact_squeeze(void) {
+    RUN_TEST(test_the_least_that_lets_nobody_pass);
+    RUN_TEST(test_who_is_met_without_a_push_is_hit);
+}

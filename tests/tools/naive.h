@@ -2,6 +2,10 @@
 #ifndef TESTS_NAIVE_H
 #define TESTS_NAIVE_H
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 enum { NAIVE_STATES_MAX = 6 };
 
 typedef struct naive_mechanism {
@@ -14,7 +18,20 @@ typedef struct naive_mechanism {
 
 extern const naive_mechanism naive;
 
-/* One step of the classic Runge-Kutta method from rest at zero on, h_s seconds long. */
+/* state[] is at rest at zero, and the next step is the first; a library may keep the state itself. */
+void naive_start(double state[]);
+/* One step of the classic Runge-Kutta method, h_s seconds long. */
 void naive_step(double state[], double h_s);
+/* state[] is where the last step has come to. */
+void naive_read(double state[]);
+
+/* What makes naive_step() of a mechanism's slope(): a file to be included behind it. */
+#ifndef NAIVE_STEPPER
+#define NAIVE_STEPPER "naive_rk4.h"
+#endif
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

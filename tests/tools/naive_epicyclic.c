@@ -4,7 +4,7 @@
 
 #include "naive.h"
 
-#define M 2.0      /* torque, N m */
+#define TORQUE 2.0 /* torque, N m */
 #define MASS 2.0   /* each gear, kg */
 #define RADIUS 0.3 /* m */
 
@@ -24,7 +24,7 @@ static void slope(const double y[STATES], double dy[STATES]) {
     const double m11 = 4.0 * MASS * RADIUS * RADIUS + 4.0 * inertia;
     const double m12 = -2.0 * MASS * RADIUS * s;
     const double m22 = 2.0 * MASS;
-    const double f1 = M;
+    const double f1 = TORQUE;
     const double f2 = 2.0 * MASS * RADIUS * c * y[2] * y[2];
     const double det = m11 * m22 - m12 * m12;
     dy[0] = y[2];
@@ -33,4 +33,4 @@ static void slope(const double y[STATES], double dy[STATES]) {
     dy[3] = (m11 * f2 - m12 * f1) / det;
 }
 
-#include "naive_rk4.h"
+#include NAIVE_STEPPER

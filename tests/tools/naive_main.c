@@ -1,7 +1,14 @@
-/* naive_main.c: lets mk/count/count_host.sh count the steps of a naive mechanism, once it has shown
- * that it computes the right motion. It speaks as boards/programs/bench.c does. */
+/* naive_main.c: steps of a mechanism by hand, or by another library (mk/peers), once it has shown that it computes the
+ * right motion. It speaks as boards/programs/bench.c does:
+ *
+ *     PROGRAM            what mk/count/count_host.sh counts
+ *     PROGRAM steps N    N steps and nothing else
+ *     PROGRAM time N     N steps; prints how many nanoseconds one took */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
 
 #include "naive.h"
 
@@ -16,12 +23,19 @@ void wh_count_end(void);
 __attribute__((noinline)) void wh_count_begin(void) { __asm__ volatile("" : : "i"(1) : "memory"); }
 __attribute__((noinline)) void wh_count_end(void) { __asm__ volatile("" : : "i"(2) : "memory"); }
 
-static int wrong(void) {
-    double state[NAIVE_STATES_MAX] = {0};
-    double worst = 0.0;
-    for (unsigned i = 0; i < (unsigned)floor(naive.end_s / STEP_S + 0.5); i++) {
+/* From rest at zero on. */
+static void run(double state[], unsigned long steps) {
+    naive_start(state);
+    for (unsigned long i = 0; i < steps; i++) {
         naive_step(state, STEP_S);
     }
+    naive_read(state);
+}
+
+static int wrong(void) {
+    double state[NAIVE_STATES_MAX];
+    double worst = 0.0;
+    run(state, (unsigned long)floor(naive.end_s / STEP_S + 0.5));
     for (int i = 0; i < naive.states; i++) {
         worst = fmax(worst, fabs(state[i] - naive.end[i]));
     }
@@ -32,13 +46,17 @@ static int wrong(void) {
     return 1;
 }
 
-int main(void) {
-    double state[NAIVE_STATES_MAX] = {0};
+static double now_s(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static int count(void) {
+    double state[NAIVE_STATES_MAX];
     wh_count_begin();
     wh_count_end();
-    for (unsigned i = 0; i < WARM_STEPS; i++) {
-        naive_step(state, STEP_S);
-    }
+    run(state, WARM_STEPS);
     /* Counting is on while a function named to the counter runs, and looked at in between. */
     for (unsigned i = 0; i < COUNTED_STEPS; i++) {
         wh_count_begin();
@@ -47,4 +65,22 @@ int main(void) {
     }
     printf("count %s rk4 double 1 %u\n", naive.name, COUNTED_STEPS);
     return wrong();
+}
+
+int main(int argc, char **argv) {
+    double state[NAIVE_STATES_MAX];
+    const unsigned long steps = argc == 3 ? strtoul(argv[2], NULL, 10) : 0;
+    if (argc == 1) {
+        return count();
+    }
+    if (steps == 0 || (strcmp(argv[1], "steps") != 0 && strcmp(argv[1], "time") != 0)) {
+        fprintf(stderr, "usage: %s [steps|time N]\n", argv[0]);
+        return 2;
+    }
+    const double begin_s = now_s();
+    run(state, steps);
+    if (strcmp(argv[1], "time") == 0) {
+        printf("%.6g\n", (now_s() - begin_s) * 1e9 / (double)steps);
+    }
+    return 0;
 }

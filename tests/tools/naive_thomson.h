@@ -6,9 +6,9 @@
 
 #include "naive.h"
 
-#define M (-2.0)   /* torque, N m */
-#define MASS 2.0   /* each disc, kg */
-#define RADIUS 0.3 /* m */
+#define TORQUE (-2.0) /* torque, N m */
+#define MASS 2.0      /* each disc, kg */
+#define RADIUS 0.3    /* m */
 
 enum { STATES = 6 }; /* theta1, theta2, X, theta1', theta2', X' */
 
@@ -35,7 +35,7 @@ static void slope(const double y[STATES], double dy[STATES]) {
     const double m23 = -mr * s.sin_b;
     const double m33 = 3.0 * MASS;
     const double f1 =
-        M + 4.0 * mrr * s.sin_a * a_squared - 2.0 * mrr * (s.sin_a_b + s.sin_2a_b) * b_squared;
+        TORQUE + 4.0 * mrr * s.sin_a * a_squared - 2.0 * mrr * (s.sin_a_b + s.sin_2a_b) * b_squared;
     const double f2 = 2.0 * mrr * (s.sin_a_b + 2.0 * s.sin_2a_b) * a_squared;
     const double f3 = 4.0 * mr * (s.cos_a + s.cos_2a) * a_squared + mr * s.cos_b * b_squared;
 
@@ -56,6 +56,6 @@ static void slope(const double y[STATES], double dy[STATES]) {
     dy[3] = (f1 - m12 * dy[4] - m13 * dy[5]) / m11;
 }
 
-#include "naive_rk4.h"
+#include NAIVE_STEPPER
 
 #endif
