@@ -55,8 +55,8 @@ typedef struct wh_waves {
     const void *model;
     /* parts[count] at the angles' phases */
     void (*sines)(const void *model, const wh_phase *phase, wh_sine_parts *parts);
-    /* the waves' rates, result[count], from those of the angles; anything linear in them */
-    void (*rates)(const void *model, const wh_real *rate, wh_real *result);
+    /* the waves' rates times `scale`, result[count], from those of the angles; anything linear in them */
+    void (*rates)(const void *model, wh_real scale, const wh_real *rate, wh_real *result);
     unsigned count; /* <= WH_WAVES */
 } wh_waves;
 
@@ -126,10 +126,9 @@ WH_INLINE void wh_turning_by(const wh_tableau *by, const wh_waves *waves, const 
     for (unsigned j = 0; j < WH_STAGES_MAX; j++) {
         first += by->stage[1].share[j];
     }
-    waves->rates(waves->model, rate, d);
+    waves->rates(waves->model, h / by->stage[1].parts * first, rate, d);
     WH_UNROLL
     for (unsigned w = 0; w < waves->count; w++) {
-        d[w] *= h / by->stage[1].parts * first;
         all = w == 0 ? WH_ABS(d[w]) : all + WH_ABS(d[w]);
     }
     if (__builtin_expect(all <= WH_TURN_SMALL, true)) {
@@ -187,10 +186,10 @@ WH_INLINE void wh_turning_to(const wh_waves *waves, unsigned turns, bool precise
     }
 }
 
-/* What the angles lean by at a stage, from what their rates have gained by the earlier ones, gained[j][angle] by
- * stage j + 1. False where the stage does not lean. */
+/* What the angles lean by at a stage, times h / parts, from what their rates have gained by the earlier ones,
+ * gained[j][angle] by stage j + 1. False where the stage does not lean. */
 WH_INLINE bool wh_turning_leans(const wh_shares *of, unsigned stage, wh_real (*gained)[WH_COORDS],
-                                unsigned angles, wh_real h, wh_real *lean) {
+                                unsigned angles, wh_real *lean) {
     bool leans = false;
     WH_UNROLL
     for (unsigned i = 0; i < angles; i++) {
@@ -202,7 +201,6 @@ WH_INLINE bool wh_turning_leans(const wh_shares *of, unsigned stage, wh_real (*g
                 wh_total_add(&lean[i], &any, of->share[j], gained[j - 1][i]);
             }
         }
-        lean[i] *= h / of->parts;
         leans = leans || any;
     }
     return leans;
@@ -229,9 +227,9 @@ WH_INLINE void wh_turning_stage(const wh_tableau *by, const wh_waves *waves, uns
                                 bool precise, wh_turning *t, wh_wave *pair) {
     wh_real of_angles[WH_COORDS] = {0};
     wh_real lean[WH_WAVES] = {0};
-    const bool leans = wh_turning_leans(&by->stage[stage], stage, gained, angles, h, of_angles);
+    const bool leans = wh_turning_leans(&by->stage[stage], stage, gained, angles, of_angles);
     if (leans) {
-        waves->rates(waves->model, of_angles, lean);
+        waves->rates(waves->model, h / by->stage[stage].parts, of_angles, lean);
     }
     wh_turning_to(waves, by->turns[stage], precise, t);
     WH_UNROLL

@@ -176,29 +176,38 @@ void c_list_function(FILE *out, const tape *t, c_angles angles, const char *name
     c_list_body(out, t, angles, "result");
 }
 
-/* The rate of a wave, as the interpreter sums it up. */
+/* The rate of a wave times `scale`, as the interpreter sums it up. Of one angle, the numbers make one. */
 static void write_rate(FILE *out, const tape *t, const op *o) {
     const char *plus = "";
+    int terms = 0;
     for (int k = 0; k < t->angles; k++) {
-        if (o->turns[k] == 1) {
+        terms += o->turns[k] != 0;
+    }
+    fputs(terms > 1 ? "scale * (" : "", out);
+    for (int k = 0; k < t->angles; k++) {
+        if (o->turns[k] != 0 && terms == 1) {
+            fprintf(out, "(WH_R(%d.0) * scale) * rate[%d]", o->turns[k], k);
+        } else if (o->turns[k] == 1) {
             fprintf(out, "%srate[%d]", plus, k);
         } else if (o->turns[k] != 0) {
             fprintf(out, "%sWH_R(%d.0) * rate[%d]", plus, o->turns[k], k);
         }
         plus = o->turns[k] != 0 ? " + " : plus;
     }
+    fputs(terms > 1 ? ")" : "", out);
 }
 
 void c_list_waves(FILE *out, const tape *t) {
     const char *const names[] = {"wave_sines", "wave_rates"};
     const char *const from[] = {"const wh_phase *phase, wh_sine_parts *parts",
-                                "const wh_real *rate, wh_real *result"};
+                                "wh_real scale, const wh_real *rate, wh_real *result"};
     for (int f = 0; f < 2; f++) {
         int wave = 0;
         fprintf(out, "static inline void %s(const void *model, %s) {\n    (void)model;\n", names[f],
                 from[f]);
         c_list_ignore(out, tape_waves(t) > 0, f == 0 ? "phase" : "rate");
         c_list_ignore(out, tape_waves(t) > 0, f == 0 ? "parts" : "result");
+        c_list_ignore(out, tape_waves(t) > 0 || f == 0, "scale");
         for (int i = 0; i < t->count; i++) {
             if (tape_is_wave(&t->ops[i])) {
                 fprintf(out, f == 0 ? "    wh_sincos_parts(" : "    result[%d] = ", wave);

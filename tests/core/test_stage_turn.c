@@ -31,11 +31,11 @@ static void look_up(const wh_phase *phase, wh_wave *pair) {
     wh_sincos(phase[0] + phase[1], &pair[2].sine, &pair[2].cosine);
 }
 
-static void rates(const void *model, const wh_real *rate, wh_real *result) {
+static void rates(const void *model, wh_real scale, const wh_real *rate, wh_real *result) {
     (void)model;
-    result[0] = rate[0];
-    result[1] = WH_R(2.0) * rate[0] - rate[1];
-    result[2] = rate[0] + rate[1];
+    result[0] = scale * rate[0];
+    result[1] = scale * (WH_R(2.0) * rate[0] - rate[1]);
+    result[2] = scale * (rate[0] + rate[1]);
 }
 
 static const wh_waves waves = {NULL, sines, rates, 3};
