@@ -4,9 +4,9 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "command.h"
 #include "derived.h"
 #include "host/image/turned.h"
 #include "host/run/engine.h"
@@ -161,8 +161,7 @@ static void write_mechanism(unsigned number, double drive, double speed, uint64_
 
 /* The share of generated mechanisms in which both forms are apart by more than `within` of the error. */
 static double share_apart(double within, double drive, double speed) {
-    const char *asked = getenv("WHIRL_CASES");
-    const unsigned cases = asked != NULL ? (unsigned)atoi(asked) : 200;
+    const unsigned cases = dice_cases(200);
     uint64_t seed = 20261122;
     char text[4096];
     unsigned compared = 0;
