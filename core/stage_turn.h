@@ -32,6 +32,12 @@
 
 #include "step.h"
 
+/* gcc would compute what only some ways need before they part: 1 % more instructions on a Cortex-M4F, and up to 3 % more
+ * cycles. In double, on a PC, it is the other way round. */
+#if defined(__GNUC__) && !defined(__clang__) && !WH_DOUBLE
+#pragma GCC optimize("no-tree-pre")
+#endif
+
 /* Most angles whose sine a list takes. A generated scene defines its own. */
 #ifndef WH_WAVES
 #define WH_WAVES 256
