@@ -21,7 +21,7 @@ static inline wh_real draw_whole(uint64_t *seed, int least, int most) {
 /* Any other: no two meet by chance. */
 static inline wh_real draw_broken(uint64_t *seed, int least, int most) {
     return draw_whole(seed, least * 1024, most * 1024 - 1) / 1024 +
-           draw_whole(seed, 1, 1023) / (1024 * 1024);
+           draw_whole(seed, 1, 1023) / WH_R(1048576.0);
 }
 
 /* One of so many, counted from zero; zero where there is none. */

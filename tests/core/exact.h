@@ -8,6 +8,14 @@
 
 enum { EXACT_LOG = 32 };
 
+/* Where a double is no more than a float, as on AVR, it is no reference. */
+#define EXACT_NEEDS_DOUBLE() \
+    do { \
+        if (__DBL_MANT_DIG__ < 53) { \
+            TEST_IGNORE_MESSAGE("the reference needs doubles of 53 bits"); \
+        } \
+    } while (0)
+
 typedef struct exact {
     double x[2];
     double v[2];

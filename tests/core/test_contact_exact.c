@@ -188,6 +188,7 @@ static void compare(tally *t) {
 }
 
 static void run(uint64_t seed, unsigned touched, bool crosses, int heavy) {
+    EXACT_NEEDS_DOUBLE();
     tally t = {0, 0, 0};
     for (unsigned i = 0; i < MECHANISMS; i++) {
         draw(&seed, touched, crosses, heavy);
