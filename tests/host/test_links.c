@@ -51,27 +51,26 @@ static char *written(const links *of) {
     return text;
 }
 
-/* M_ij = mu_ij l_i l_j cos(a_i - a_j), mu_ij the masses from the later of the two on. */
+/* M_ij = mu l_i l_j cos(a_i - a_j), mu being the masses from the later of the two links on. */
 static void by_hand(const links *of, const state_values *s, long double *accel) {
     long double m[LINKS_MOST][LINKS_MOST + 1];
+    long double below[LINKS_MOST + 1]; /* the masses from link k on */
+    long double length[LINKS_MOST];
+    below[of->n] = 0.0L;
+    for (int k = of->n; k-- > 0;) {
+        below[k] = below[k + 1] + (long double)of->mass[k];
+        length[k] = (long double)of->length[k];
+    }
     for (int i = 0; i < of->n; i++) {
-        m[i][of->n] = 0.0L;
+        const long double angle = (long double)s->value[i][0];
+        m[i][of->n] = -below[i] * (long double)GRAVITY * length[i] * sinl(angle);
         for (int j = 0; j < of->n; j++) {
-            const long double between = (long double)s->value[i][0] - (long double)s->value[j][0];
-            const long double rate = s->value[j][1];
-            long double mu = 0.0L;
-            for (int k = i > j ? i : j; k < of->n; k++) {
-                mu += of->mass[k];
-            }
-            mu *= (long double)of->length[i] * of->length[j];
-            m[i][j] = mu * cosl(between);
-            m[i][of->n] -= mu * sinl(between) * rate * rate;
+            const long double between = angle - (long double)s->value[j][0];
+            const long double rate = (long double)s->value[j][1];
+            const long double both = below[i > j ? i : j] * length[i] * length[j];
+            m[i][j] = both * cosl(between);
+            m[i][of->n] -= both * sinl(between) * rate * rate;
         }
-        long double below = 0.0L;
-        for (int k = i; k < of->n; k++) {
-            below += of->mass[k];
-        }
-        m[i][of->n] -= below * (long double)GRAVITY * of->length[i] * sinl(s->value[i][0]);
     }
     for (int c = 0; c < of->n; c++) { /* positive definite: no pivot is looked for */
         for (int i = 0; i < of->n; i++) {
