@@ -33,7 +33,10 @@
  *                    stage); done in place as pairs, .kick[i] and .drift[i], they take no sums of stages at all.
  *     multistep      .history = how many earlier derivatives it keeps, .rates their weights, .start = WH_RK4;
  *                    WH_MEMORY_BYTES of scene.h grows by .history reals a component.
- *     rotated        .turns = true: the stages' sines and cosines are those of the step's begin, turned; .stage stays.
+ *
+ * A row of several stages whose sines can be those of the step's begin, turned on (stage_turn.h), says with .turns how many
+ * times as far as stage 1 stage i is, as the rates at the begin lead. That follows from the shares
+ * (tests/core/test_stage_turn.c). A row without it is stepped by looking up.
  */
 /* clang-format off */
 #define WH_METHOD_ROWS(X) \
@@ -45,13 +48,13 @@
       .parts = 1, .positions = {1}, .rates = {1}) \
     X(WH_HEUN, "heun", "Heun", 2, WH_ANY_SYSTEM, 2, \
       .stage = {{1, {0}}, {1, {1}}}, \
-      .parts = 2, .positions = {1, 0}, .rates = {1, 1}) \
+      .parts = 2, .positions = {1, 0}, .rates = {1, 1}, .turns = {0, 1}) \
     X(WH_RK4, "rk4", "Runge-Kutta 4", 4, WH_ANY_SYSTEM, 4, \
       .stage = {{1, {0}}, {2, {1}}, {2, {0, 1}}, {1, {0, 0, 1}}}, \
-      .parts = 6, .positions = {1, 1, 1, 0}, .rates = {1, 2, 2, 1}) \
+      .parts = 6, .positions = {1, 1, 1, 0}, .rates = {1, 2, 2, 1}, .turns = {0, 1, 1, 2}) \
     X(WH_RK38, "rk38", "Kutta's 3/8 rule", 4, WH_ANY_SYSTEM, 4, \
       .stage = {{1, {0}}, {3, {1}}, {3, {-1, 3}}, {1, {1, -1, 1}}}, \
-      .parts = 8, .positions = {1, 2, 1, 0}, .rates = {1, 3, 3, 1})
+      .parts = 8, .positions = {1, 2, 1, 0}, .rates = {1, 3, 3, 1}, .turns = {0, 1, 2, 3})
 /* clang-format on */
 
 /* The method of whoever names none. */
@@ -110,6 +113,7 @@ typedef struct wh_tableau {
     wh_real parts;
     wh_real positions[WH_STAGES_MAX];
     wh_real rates[WH_STAGES_MAX];
+    uint8_t turns[WH_STAGES_MAX];
 } wh_tableau;
 
 /* Constant where the method is: nothing of the table is left in generated code. */

@@ -30,6 +30,21 @@ extern "C" {
  * are NaN. docs/numerics.md says how and what it costs. */
 WH_INLINE void wh_sincos(wh_phase phase, wh_real *sine, wh_real *cosine);
 
+/* The same in two parts each, whose sums those are: what is added to them before the parts are is not rounded twice. */
+typedef struct wh_sine_parts {
+    wh_real sine;
+    wh_real cosine;
+    wh_real sine_rest; /* below 1/40 */
+    wh_real cosine_rest;
+} wh_sine_parts;
+WH_INLINE void wh_sincos_parts(wh_phase phase, wh_sine_parts *parts);
+
+/* Sine and cosine of one angle. */
+typedef struct wh_wave {
+    wh_real sine;
+    wh_real cosine;
+} wh_wave;
+
 /* Phase of an angle in radians, for arguments that are not kept as a turn angle. Float: within one
  * phase unit (1.5e-9 rad) for |rad| < 1e9; larger or NaN gives phase 0. Double: rad itself. */
 WH_INLINE wh_phase wh_phase_from_rad(wh_real rad);
@@ -46,19 +61,21 @@ WH_INLINE void wh_sincos_of_range(wh_real rad, wh_real *sine, wh_real *cosine);
 #define wh_sine_table WH_NAME(wh_sine_table)
 extern const wh_real wh_sine_table[(1U << WH_SINE_BITS) + WH_SINE_QUARTER] WH_FLASH;
 
-/* Sine and cosine of `sector`'s middle turned on by r, from sin r and cos r - 1. */
-WH_INLINE void wh_sine_turn_on(uint32_t sector, wh_real sin_r, wh_real cos_r_less_1, wh_real *sine,
-                               wh_real *cosine) {
+/* Sine and cosine of `sector`'s middle turned on by r, from sin r and cos r - 1: what the turn adds. */
+WH_INLINE void wh_sine_turn_on(uint32_t sector, wh_real sin_r, wh_real cos_r_less_1,
+                               wh_sine_parts *parts) {
     const wh_real *middle = &wh_sine_table[sector];
     const wh_real s = wh_flash_real(&middle[0]);
     const wh_real c = wh_flash_real(&middle[WH_SINE_QUARTER]);
-    *sine = s + (s * cos_r_less_1 + c * sin_r);
-    *cosine = c + (c * cos_r_less_1 - s * sin_r);
+    parts->sine = s;
+    parts->cosine = c;
+    parts->sine_rest = s * cos_r_less_1 + c * sin_r;
+    parts->cosine_rest = c * cos_r_less_1 - s * sin_r;
 }
 
 #if WH_DOUBLE
 
-WH_INLINE void wh_sincos(wh_phase phase, wh_real *sine, wh_real *cosine) {
+WH_INLINE void wh_sincos_parts(wh_phase phase, wh_sine_parts *parts) {
     /* Beyond this the products below are no longer exact. NaN fails the comparison, too. */
     const double angle = WH_ABS(phase) <= 5e8 ? phase : __builtin_nan("");
 
@@ -83,7 +100,7 @@ WH_INLINE void wh_sincos(wh_phase phase, wh_real *sine, wh_real *cosine) {
     const double cos_r_less_1 =
         z * (-0.499999999999999 + z * (0.041666666656645597 + z * -0.0013888601908200115));
     const uint32_t sector = (uint32_t)bits & ((1U << WH_SINE_BITS) - 1U);
-    wh_sine_turn_on(sector, sin_r, cos_r_less_1, sine, cosine);
+    wh_sine_turn_on(sector, sin_r, cos_r_less_1, parts);
 }
 
 WH_INLINE wh_phase wh_phase_from_rad(wh_real rad) { return rad; }
@@ -96,7 +113,7 @@ WH_INLINE void wh_sincos_of_range(wh_real rad, wh_real *sine, wh_real *cosine) {
 
 #else
 
-WH_INLINE void wh_sincos(wh_phase phase, wh_real *sine, wh_real *cosine) {
+WH_INLINE void wh_sincos_parts(wh_phase phase, wh_sine_parts *parts) {
     const unsigned rest_bits = 32U - WH_SINE_BITS;
     const uint32_t sector = (phase + (UINT32_C(1) << (rest_bits - 1U))) >> rest_bits;
 
@@ -109,7 +126,7 @@ WH_INLINE void wh_sincos(wh_phase phase, wh_real *sine, wh_real *cosine) {
     const float z = y * y;
     const float sin_r = y * (1.14290478e-11f + z * -2.48806948e-34f);
     const float cos_r_less_1 = z * -6.53088477e-23f;
-    wh_sine_turn_on(sector, sin_r, cos_r_less_1, sine, cosine);
+    wh_sine_turn_on(sector, sin_r, cos_r_less_1, parts);
 }
 
 /* wh_angle_from_rad(), inline here because a phase needs only its low half: the compiler drops the
@@ -136,6 +153,13 @@ WH_INLINE void wh_sincos_of_range(wh_real rad, wh_real *sine, wh_real *cosine) {
 }
 
 #endif
+
+WH_INLINE void wh_sincos(wh_phase phase, wh_real *sine, wh_real *cosine) {
+    wh_sine_parts parts;
+    wh_sincos_parts(phase, &parts);
+    *sine = parts.sine + parts.sine_rest;
+    *cosine = parts.cosine + parts.cosine_rest;
+}
 
 #ifdef __cplusplus
 }

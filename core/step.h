@@ -180,8 +180,22 @@ WH_INLINE wh_real wh_stage_sum(const wh_real *share, unsigned stage, wh_given gi
 /* Do a stage and the one before it count alike at the step's end? Those are added up first: a sum instead of a
  * product each, and it may serve positions and rates. Where there are no positions, the rates decide. */
 WH_INLINE bool wh_stages_alike(const wh_tableau *by, unsigned stage, bool has_positions) {
-    return stage < by->stages && by->rates[stage] == by->rates[stage - 1] &&
+    return stage < WH_STAGES_MAX && stage < by->stages &&
+           by->rates[stage] == by->rates[stage - 1] &&
            (!has_positions || by->positions[stage] == by->positions[stage - 1]);
+}
+
+/* Stage `stage` gave `now`: kept in given[], and in the sums of those that count alike. */
+WH_INLINE void wh_stage_given(const wh_tableau *by, unsigned stage, bool has_positions, unsigned n,
+                              const wh_real *first, const wh_real *now, wh_real (*given)[WH_COORDS],
+                              wh_real (*alike)[WH_COORDS]) {
+    WH_UNROLL
+    for (unsigned i = 0; i < n; i++) {
+        given[stage - 1][i] = now[i];
+        alike[stage - 1][i] = !wh_stages_alike(by, stage, has_positions)
+                                  ? now[i]
+                                  : (stage == 1 ? first[i] : alike[stage - 2][i]) + now[i];
+    }
 }
 
 /* sum += share * more, and the first one is the sum. */
@@ -192,69 +206,20 @@ WH_INLINE void wh_total_add(wh_real *sum, bool *any, wh_real share, wh_real more
     }
 }
 
-/* One step of q'' = f(q, q', u). angles <= n <= WH_COORDS. Returns WH_OK, or WH_E_DIVERGED with
- * state->fault set and the rest of the state as it was. */
-WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_method method,
-                                   bool compensated, unsigned angles, unsigned n, wh_real h,
-                                   wh_state *state) {
-    const wh_tableau *by = &wh_tableaus[method];
+/* The end of a step of q'' = f: what the stages gave, a1 and the sums of those that count alike, moves the state.
+ * Returns as wh_step_second(). */
+WH_INLINE wh_status wh_second_end(const wh_tableau *by, const wh_real *a1,
+                                  wh_real (*alike)[WH_COORDS], bool compensated, unsigned angles,
+                                  unsigned n, wh_real h, wh_state *state) {
     const unsigned linears = n - angles;
     const wh_angle *angle = state->angle;
     const wh_real *linear = state->real;
     const wh_real *rate = state->real + linears;
-    const wh_real *u = state->input;
-
     /* zeroed for the compiler, which cannot know that no scene uses what it did not fill */
-    wh_phase phase[WH_COORDS] = {0};
-    wh_real at[WH_COORDS] = {0};             /* linear positions of a stage, */
-    wh_real v[WH_COORDS] = {0};              /* its rates */
-    wh_real a[WH_COORDS];                    /* and its accelerations, */
-    wh_real a1[WH_COORDS];                   /* those of the first one */
-    wh_real rates[WH_STAGES_MAX][WH_COORDS]; /* and of all others */
-    wh_real accels[WH_STAGES_MAX][WH_COORDS];
-    wh_real alike[WH_STAGES_MAX][WH_COORDS]; /* the sums of those that count alike, so far */
-    wh_real move[WH_COORDS] = {0};           /* mean rate that moves the position over this step */
-    wh_real kick[WH_COORDS] = {0};           /* change of the rate over this step */
+    wh_real move[WH_COORDS] = {0}; /* mean rate that moves the position over this step */
+    wh_real kick[WH_COORDS] = {0}; /* change of the rate over this step */
     wh_trial trial = {0};
-    const wh_given all_rates = {rate, rates};
-    const wh_given all_accels = {a1, accels};
 
-    WH_UNROLL
-    for (unsigned i = 0; i < angles; i++) {
-        phase[i] = wh_phase_of(angle[i]);
-    }
-    accel(model, phase, linear, rate, u, a1);
-    WH_UNROLL
-    for (unsigned s = 1; s < WH_STAGES_MAX; s++) { /* with this bound gcc has fewer to spill */
-        if (s >= by->stages) {
-            break;
-        }
-        const wh_real *share = by->stage[s].share;
-        const wh_real parts = by->stage[s].parts;
-        WH_UNROLL
-        for (unsigned i = 0; i < n; i++) {
-            v[i] = rate[i] + h / parts * wh_stage_sum(share, s, all_accels, i);
-            rates[s - 1][i] = v[i];
-        }
-        WH_UNROLL
-        for (unsigned i = 0; i < linears; i++) {
-            at[i] = linear[i] + h / parts * wh_stage_sum(share, s, all_rates, angles + i);
-        }
-        WH_UNROLL
-        for (unsigned i = 0; i < angles; i++) {
-            if (!wh_stage_angle(angle[i], wh_stage_sum(share, s, all_rates, i), h, parts,
-                                &phase[i])) {
-                return wh_refuse(state, i);
-            }
-        }
-        accel(model, phase, at, v, u, a);
-        WH_UNROLL
-        for (unsigned i = 0; i < n; i++) {
-            accels[s - 1][i] = a[i];
-            alike[s - 1][i] =
-                !wh_stages_alike(by, s, true) ? a[i] : (s == 1 ? a1[i] : alike[s - 2][i]) + a[i];
-        }
-    }
     WH_UNROLL
     for (unsigned i = 0; i < n; i++) {
         wh_real moved = WH_R(0.0);
@@ -303,59 +268,14 @@ WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_met
     return WH_OK;
 }
 
-/* One step of x' = f(x, u) with `angles` turn angles and `reals` reals, angles + reals <= WH_COORDS. A method that
- * does not take such a system, semi-implicit Euler: it moves rates before positions, and here is no telling them
- * apart: WH_E_ARGUMENT, with the state as it was. Else returns as wh_step_second(). */
-WH_INLINE wh_status wh_step_first(const void *model, wh_slope_fn *slope, wh_method method,
-                                  bool compensated, unsigned angles, unsigned reals, wh_real h,
-                                  wh_state *state) {
-    const wh_tableau *by = &wh_tableaus[method];
+/* The end of a step of x' = f, likewise. */
+WH_INLINE wh_status wh_first_end(const wh_tableau *by, const wh_real *k1,
+                                 wh_real (*alike)[WH_COORDS], bool compensated, unsigned angles,
+                                 unsigned reals, wh_real h, wh_state *state) {
     const unsigned n = angles + reals;
-    const wh_real *u = state->input;
-    wh_phase phase[WH_COORDS] = {0}; /* zeroed for the compiler: a scene may have no angle */
-    wh_real at[WH_COORDS] = {0};
-    wh_real k1[WH_COORDS];                    /* derivatives of the first stage */
-    wh_real k[WH_COORDS];                     /* of the present one */
-    wh_real slopes[WH_STAGES_MAX][WH_COORDS]; /* those of all but the first */
-    wh_real alike[WH_STAGES_MAX][WH_COORDS];  /* the sums of those that count alike, so far */
     wh_real move[WH_COORDS];
     wh_trial trial;
-    const wh_given all = {k1, slopes};
 
-    if (!wh_method_takes(method, WH_FIRST_ORDER)) {
-        return WH_E_ARGUMENT;
-    }
-    WH_UNROLL
-    for (unsigned i = 0; i < angles; i++) {
-        phase[i] = wh_phase_of(state->angle[i]);
-    }
-    slope(model, phase, state->real, u, k1);
-    WH_UNROLL
-    for (unsigned s = 1; s < WH_STAGES_MAX; s++) {
-        if (s >= by->stages) {
-            break;
-        }
-        const wh_real *share = by->stage[s].share;
-        const wh_real parts = by->stage[s].parts;
-        WH_UNROLL
-        for (unsigned i = 0; i < angles; i++) {
-            if (!wh_stage_angle(state->angle[i], wh_stage_sum(share, s, all, i), h, parts,
-                                &phase[i])) {
-                return wh_refuse(state, i);
-            }
-        }
-        WH_UNROLL
-        for (unsigned i = 0; i < reals; i++) {
-            at[i] = state->real[i] + h / parts * wh_stage_sum(share, s, all, angles + i);
-        }
-        slope(model, phase, at, u, k);
-        WH_UNROLL
-        for (unsigned i = 0; i < n; i++) {
-            slopes[s - 1][i] = k[i];
-            alike[s - 1][i] =
-                !wh_stages_alike(by, s, false) ? k[i] : (s == 1 ? k1[i] : alike[s - 2][i]) + k[i];
-        }
-    }
     WH_UNROLL
     for (unsigned i = 0; i < n; i++) {
         wh_real total = WH_R(0.0);
@@ -391,6 +311,113 @@ WH_INLINE wh_status wh_step_first(const void *model, wh_slope_fn *slope, wh_meth
     }
     wh_commit(&trial, angles, reals, compensated, state);
     return WH_OK;
+}
+
+/* One step of q'' = f(q, q', u). angles <= n <= WH_COORDS. Returns WH_OK, or WH_E_DIVERGED with
+ * state->fault set and the rest of the state as it was. */
+WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_method method,
+                                   bool compensated, unsigned angles, unsigned n, wh_real h,
+                                   wh_state *state) {
+    const wh_tableau *by = &wh_tableaus[method];
+    const unsigned linears = n - angles;
+    const wh_angle *angle = state->angle;
+    const wh_real *linear = state->real;
+    const wh_real *rate = state->real + linears;
+    const wh_real *u = state->input;
+
+    /* zeroed for the compiler, which cannot know that no scene uses what it did not fill */
+    wh_phase phase[WH_COORDS] = {0};
+    wh_real at[WH_COORDS] = {0};             /* linear positions of a stage, */
+    wh_real v[WH_COORDS] = {0};              /* its rates */
+    wh_real a[WH_COORDS];                    /* and its accelerations, */
+    wh_real a1[WH_COORDS];                   /* those of the first one */
+    wh_real rates[WH_STAGES_MAX][WH_COORDS]; /* and of all others */
+    wh_real accels[WH_STAGES_MAX][WH_COORDS];
+    wh_real alike[WH_STAGES_MAX][WH_COORDS] = {{0}}; /* sums of those that count alike */
+    const wh_given all_rates = {rate, rates};
+    const wh_given all_accels = {a1, accels};
+
+    WH_UNROLL
+    for (unsigned i = 0; i < angles; i++) {
+        phase[i] = wh_phase_of(angle[i]);
+    }
+    accel(model, phase, linear, rate, u, a1);
+    WH_UNROLL
+    for (unsigned s = 1; s < WH_STAGES_MAX; s++) { /* with this bound gcc has fewer to spill */
+        if (s >= by->stages) {
+            break;
+        }
+        const wh_real *share = by->stage[s].share;
+        const wh_real parts = by->stage[s].parts;
+        WH_UNROLL
+        for (unsigned i = 0; i < n; i++) {
+            v[i] = rate[i] + h / parts * wh_stage_sum(share, s, all_accels, i);
+            rates[s - 1][i] = v[i];
+        }
+        WH_UNROLL
+        for (unsigned i = 0; i < linears; i++) {
+            at[i] = linear[i] + h / parts * wh_stage_sum(share, s, all_rates, angles + i);
+        }
+        WH_UNROLL
+        for (unsigned i = 0; i < angles; i++) {
+            if (!wh_stage_angle(angle[i], wh_stage_sum(share, s, all_rates, i), h, parts,
+                                &phase[i])) {
+                return wh_refuse(state, i);
+            }
+        }
+        accel(model, phase, at, v, u, a);
+        wh_stage_given(by, s, true, n, a1, a, accels, alike);
+    }
+    return wh_second_end(by, a1, alike, compensated, angles, n, h, state);
+}
+
+/* One step of x' = f(x, u) with `angles` turn angles and `reals` reals, angles + reals <= WH_COORDS. A method that
+ * does not take such a system, semi-implicit Euler: it moves rates before positions, and here is no telling them
+ * apart: WH_E_ARGUMENT, with the state as it was. Else returns as wh_step_second(). */
+WH_INLINE wh_status wh_step_first(const void *model, wh_slope_fn *slope, wh_method method,
+                                  bool compensated, unsigned angles, unsigned reals, wh_real h,
+                                  wh_state *state) {
+    const wh_tableau *by = &wh_tableaus[method];
+    const unsigned n = angles + reals;
+    const wh_real *u = state->input;
+    wh_phase phase[WH_COORDS] = {0}; /* zeroed for the compiler: a scene may have no angle */
+    wh_real at[WH_COORDS] = {0};
+    wh_real k1[WH_COORDS];                           /* derivatives of the first stage */
+    wh_real k[WH_COORDS];                            /* of the present one */
+    wh_real slopes[WH_STAGES_MAX][WH_COORDS];        /* those of all but the first */
+    wh_real alike[WH_STAGES_MAX][WH_COORDS] = {{0}}; /* sums of those that count alike */
+    const wh_given all = {k1, slopes};
+
+    if (!wh_method_takes(method, WH_FIRST_ORDER)) {
+        return WH_E_ARGUMENT;
+    }
+    WH_UNROLL
+    for (unsigned i = 0; i < angles; i++) {
+        phase[i] = wh_phase_of(state->angle[i]);
+    }
+    slope(model, phase, state->real, u, k1);
+    WH_UNROLL
+    for (unsigned s = 1; s < WH_STAGES_MAX; s++) {
+        if (s >= by->stages) {
+            break;
+        }
+        const wh_real *share = by->stage[s].share;
+        const wh_real parts = by->stage[s].parts;
+        WH_UNROLL
+        for (unsigned i = 0; i < angles; i++) {
+            if (!wh_stage_angle(state->angle[i], wh_stage_sum(share, s, all, i), h, parts,
+                                &phase[i])) {
+                return wh_refuse(state, i);
+            }
+        }
+        WH_UNROLL
+        for (unsigned i = 0; i < reals; i++) {
+            at[i] = state->real[i] + h / parts * wh_stage_sum(share, s, all, angles + i);
+        }
+        slope(model, phase, at, u, k);
+        wh_stage_given(by, s, false, n, k1, k, slopes, alike);
+    }
+    return wh_first_end(by, k1, alike, compensated, angles, reals, h, state);
 }
 
 #endif

@@ -102,7 +102,8 @@ int command_accel(int count, char **words) {
         const overrides changes = {.values = (const char *const *)(words + 1),
                                    .value_count = count - 1};
         loaded made;
-        const load_wish wish = {.settings = {WH_METHOD_DEFAULT, false}, .use = IMAGE_TO_RUN};
+        const load_wish wish = {.settings = {WH_METHOD_DEFAULT, false, ANGLES_TURNED},
+                                .use = IMAGE_TO_RUN};
         code = load(&made, &from, of, in, &changes, &wish);
         source_forget(&from);
         if (code == EXIT_DONE) {

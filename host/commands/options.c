@@ -7,6 +7,7 @@
 
 #include "host/base/nearest.h"
 #include "host/base/room.h"
+#include "host/image/turned.h"
 #include "host/run/methods.h"
 
 typedef struct option_row {
@@ -216,7 +217,8 @@ overrides options_overrides(const change_options *c) {
 }
 
 common_options options_defaults(void) {
-    return (common_options){.integration = {WH_METHOD_DEFAULT, false}, .number = &engine_double};
+    return (common_options){.integration = {WH_METHOD_DEFAULT, false, ANGLES_TURNED},
+                            .number = &engine_double};
 }
 
 void options_forget(common_options *options) {
@@ -270,6 +272,11 @@ static bool take(common_option which, const char *command, const char *value, co
         to->integration.method = chosen < 0 ? WH_METHOD_DEFAULT : (wh_method)chosen;
         return chosen >= 0;
     case OPTION_COMPENSATED: to->integration.compensated = true; break;
+    case OPTION_ANGLES:
+        chosen = options_choose(command, "form of angles", value, image_angles_words,
+                                sizeof image_angles_words[0], IMAGE_ANGLES);
+        to->integration.angles = chosen < 0 ? ANGLES_TURNED : (image_angles)chosen;
+        return chosen >= 0;
     case OPTION_NUMBER:
         chosen = options_choose(command, "number", value, numbers, sizeof numbers[0],
                                 sizeof numbers / sizeof numbers[0]);

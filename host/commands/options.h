@@ -28,7 +28,10 @@
     X(OPTION_NUMBER, "--number", "N", OPTIONS_NUMBER, \
       "double (default, the reference) or float (the boards, to the bit)") \
     X(OPTION_COMPENSATED, "--compensated", "", OPTIONS_ENGINE, \
-      "carry the rounding error of every sum along")
+      "carry the rounding error of every sum along") \
+    X(OPTION_ANGLES, "--angles", "A", OPTIONS_ENGINE, \
+      "turned (default): sines are looked up once a step where the angles' rates\n" \
+      "allow it; lookup: at each stage, for angles that turn far in a step")
 
 #define OPTION_NAME(which, word, value, group, text) which,
 typedef enum common_option { OPTION_ROWS(OPTION_NAME) } common_option;
@@ -92,7 +95,7 @@ typedef struct change_options {
 /* Where the common options of a command go. */
 typedef struct common_options {
     change_options change;
-    image_settings integration; /* --method and --compensated */
+    image_settings integration; /* --method, --compensated, --angles */
     const engine_kind *number;  /* --number: what computes */
 } common_options;
 

@@ -329,10 +329,18 @@ static int sum_of(lowering *l, product *products, int count) {
         }
         with[in++] = *p;
     }
+    bool negative = out > 0; /* then the sum is taken away: no operation for its sign */
+    for (int i = 0; i < in; i++) {
+        negative = negative && with[i].coefficient < 0.0;
+    }
+    for (int i = 0; i < in && negative; i++) {
+        with[i].coefficient = -with[i].coefficient;
+    }
     const int inside = sum_of(l, with, in);
     free(with);
     const int outside = sum_of(l, products, out);
-    return tape_add(t, outside, tape_mul(t, inside, tape_power(t, shared, lowest)));
+    const int part = tape_mul(t, inside, tape_power(t, shared, lowest));
+    return negative ? tape_sub(t, outside, part) : tape_add(t, outside, part);
 }
 
 int lower(lowering *l, const poly *p) {

@@ -29,7 +29,9 @@ static tape *make_step(layout *map, const linear_system *s) {
     tape *t = tape_new(map->angles, second ? map->coordinates : components);
     int *highest = room(n, sizeof *highest);
     lowering l = layout_lowering(map, t);
-    solve_highest(&l, s, highest);
+    linear_system sparing = *s;
+    sparing.sparing = map->equations->contacts == NULL;
+    solve_highest(&l, &sparing, highest);
     for (int i = 0; i < n && second; i++) {
         if (map->place[i] >= 0) {
             t->result[map->place[i]] = highest[i];
@@ -199,7 +201,7 @@ program *program_make(const equations *e, const bool *conserve, diags *errors) {
     bool *wanted = room(n, sizeof *wanted);
     p->count = n;
     p->outputs = m->output_count + 2 * p->conserved->count;
-    const linear_system s = {n, !m->is_system, dynamics, dynamics + n * n, turning, wanted};
+    const linear_system s = {n, !m->is_system, dynamics, dynamics + n * n, turning, wanted, false};
     for (int i = 0; i < n * n; i++) {
         dynamics[i] = equations_fold(e, e->mass[i]);
     }

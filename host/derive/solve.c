@@ -22,7 +22,8 @@
 
 typedef struct arrangement {
     bool scaled;
-    int first; /* unknown eliminated symbolically; -1 none; -2 every constant diagonal */
+    bool rescaled; /* what is left after symbolic elimination */
+    int first;     /* unknown eliminated symbolically; -1 none; -2 every constant diagonal */
     int order[COORDINATES_MAX]; /* of elimination */
 } arrangement;
 
@@ -146,6 +147,49 @@ static bool eliminate_symbolic(algebra *a, int n, const poly **mass, const poly 
     return true;
 }
 
+/* Of those that are eliminated, in their order, who is not wanted and whom nobody that is wanted is made from: their
+ * equations need not be computed, and what sines stand in no other one need not be taken. */
+static void forget_unwanted(algebra *a, const linear_system *s, const poly **mass,
+                            const poly **force, const int *order, int eliminated) {
+    const int n = s->n;
+    for (int e = 0; e < eliminated && !s->wanted[order[e]]; e++) {
+        const int k = order[e];
+        for (int i = 0; i < n; i++) {
+            if (i != k) {
+                mass[k * n + i] = mass[i * n + k] = poly_number(a, 0.0);
+            }
+        }
+        force[k] = poly_number(a, 0.0);
+    }
+}
+
+/* What is left by symbols divided by the size that most of its numbers have: they become one. */
+static void scale_what_is_left(algebra *a, int n, const poly **mass, const poly **force,
+                               const bool *gone) {
+    tally all = {.count = 0};
+    for (int i = 0; i < n; i++) {
+        for (int j = 0; j < n && !gone[i]; j++) {
+            if (!gone[j]) {
+                tally_add(&all, mass[i * n + j]);
+            }
+        }
+        if (!gone[i]) {
+            tally_add(&all, force[i]);
+        }
+    }
+    const double scale = 1.0 / tally_favourite(&all);
+    for (int i = 0; i < n; i++) {
+        for (int j = 0; j < n && !gone[i]; j++) {
+            if (!gone[j]) {
+                mass[i * n + j] = scale_simply(a, mass[i * n + j], scale);
+            }
+        }
+        if (!gone[i]) {
+            force[i] = scale_simply(a, force[i], scale);
+        }
+    }
+}
+
 /* --- one arrangement -----------------------------------------------------------------------------*/
 
 /* Entered on `t`; solution[] receives the operations. */
@@ -187,6 +231,12 @@ static void enter(const lowering *like, tape *t, const linear_system *s, const a
             gone[k] = true;
             order[eliminated++] = k;
         }
+    }
+    if (how->rescaled && eliminated > 0) {
+        scale_what_is_left(a, n, mass, force, gone);
+    }
+    if (s->sparing) {
+        forget_unwanted(a, s, mass, force, order, eliminated);
     }
     int entered = eliminated;
     for (int i = 0; i < n; i++) {
@@ -277,13 +327,16 @@ void solve_highest(lowering *l, const linear_system *s, int *solution) {
         do {
             for (int scaled = 0; scaled < 2; scaled++) {
                 for (int first = -2; first < (permuted ? n : 0); first++) {
-                    arrangement candidate = how;
-                    candidate.scaled = scaled == 1;
-                    candidate.first = first;
-                    const int weight = weigh(l, s, &candidate);
-                    if (best_weight < 0 || weight < best_weight) {
-                        best = candidate;
-                        best_weight = weight;
+                    for (int again = 0; again < (first == -1 || !s->sparing ? 1 : 2); again++) {
+                        arrangement candidate = how;
+                        candidate.scaled = scaled == 1;
+                        candidate.rescaled = again == 1;
+                        candidate.first = first;
+                        const int weight = weigh(l, s, &candidate);
+                        if (best_weight < 0 || weight < best_weight) {
+                            best = candidate;
+                            best_weight = weight;
+                        }
                     }
                 }
             }

@@ -11,6 +11,9 @@ typedef struct linear_system {
     const poly **force;  /* [n] */
     const bool *turning; /* [n] unknown is an angle: its row keeps the energy's scale */
     const bool *wanted;  /* [n] unknown's solution is needed: what it costs counts */
+    /* Solutions that are not wanted may come out as anything, and more arrangements are tried. False where contacts
+     * solve with the same matrix: their steps keep their bits. */
+    bool sparing;
 } linear_system;
 
 /* Enters the solution into l->tape and stores the operation for each unknown in solution[n].

@@ -8,6 +8,7 @@
 #include "c_ledger.h"
 #include "c_list.h"
 #include "emit.h"
+#include "host/image/turned.h"
 #include "host/number/hex.h"
 
 static void write_observer(FILE *out, const image *im) {
@@ -42,7 +43,7 @@ static void write_observer(FILE *out, const image *im) {
         !c_list_uses(t, OP_ACCEL) && !c_list_uses(t, OP_NOISE)) {
         fprintf(out, "    (void)state;\n");
     }
-    c_list_body(out, t, "output");
+    c_list_body(out, t, C_PHASES, "output");
 }
 
 static void write_starts(FILE *out, const image *im) {
@@ -152,7 +153,9 @@ static void write_includes(FILE *out, const image *im) {
     if (im->contacts > 0) {
         c_contacts_include(out, im);
     } else {
-        fprintf(out, "#include \"core/%s.h\"\n", im->ledger.kept ? "ledger_step" : "step");
+        const char *const with[2][2] = {{"step", "ledger_step"},
+                                        {"stage_turn", "stage_turn_ledger"}};
+        fprintf(out, "#include \"core/%s.h\"\n", with[image_turns(im)][im->ledger.kept]);
     }
     if (image_calls(im)) {
         fprintf(out, "#include \"core/function.h\"\n");
@@ -169,32 +172,46 @@ static void write_advance(FILE *out, const image *im) {
     const char *compensated = im->settings.compensated ? "true" : "false";
     char hex[HEX_SIZE];
     hex_write(im->step_s, hex);
+    const bool turns = image_turns(im);
     fputs("static wh_status advance(const wh_scene *scene, wh_state *state) {\n    (void)scene;\n",
           out);
     if (im->ledger.kept) {
         fprintf(out,
-                "    return wh_step_ledger(&ledger, NULL, accelerations, %s, %s,\n"
+                "    return wh_%s_ledger(&ledger, NULL, accelerations,%s %s, %s,\n"
                 "                          WH_R(%s), state);\n}\n\n",
-                method, compensated, hex);
+                turns ? "turn" : "step", turns ? " &waves," : "", method, compensated, hex);
     } else {
         fprintf(out,
-                "    return %s(NULL, %s, %s, %s, %dU, %dU,\n"
+                "    return wh_%s_%s(NULL, %s,%s %s, %s, %dU, %dU,\n"
                 "                          WH_R(%s), state);\n}\n\n",
-                second ? "wh_step_second" : "wh_step_first", second ? "accelerations" : "slopes",
+                turns ? "turn" : "step", second ? "second" : "first",
+                second ? "accelerations" : "slopes",
+                !turns   ? ""
+                : second ? " &waves, NULL,"
+                         : " &waves,",
                 method, compensated, im->angles, second ? im->coordinates : im->reals, hex);
     }
 }
 
 void emit_c(FILE *out, const image *im, const char *file) {
     const bool second = im->form == WH_SECOND_ORDER;
+    const bool turns = image_turns(im);
     const int components = second ? im->coordinates : im->angles + im->reals;
     write_banner(out, im, file);
     fprintf(out, "#define WH_COORDS %d\n", components);
+    if (turns) {
+        const int waves = tape_waves(im->list[IMAGE_STEP]);
+        fprintf(out, "#define WH_WAVES %d\n", waves > 0 ? waves : 1);
+    }
     write_includes(out, im);
     fprintf(out, "\n");
     write_starts(out, im);
-    c_list_function(out, im->list[IMAGE_STEP], second ? "accelerations" : "slopes", second,
+    c_list_function(out, im->list[IMAGE_STEP], turns ? C_WAVES : C_PHASES,
+                    second ? "accelerations" : "slopes", second,
                     im->contacts > 0 || im->ledger.asked);
+    if (turns) {
+        c_list_waves(out, im->list[IMAGE_STEP]);
+    }
     if (im->ledger.kept) {
         c_ledger_write(out, im);
     }

@@ -37,10 +37,10 @@ void c_contacts_write(FILE *out, const image *im) {
     char hex[HEX_SIZE];
     const bool sets = im->list[IMAGE_SETS] != NULL;
     const wh_contact_system system = core_contact_system(im, NULL, NULL);
-    c_list_function(out, im->list[IMAGE_SIGNALS], "contact_signals", true, true);
-    c_list_function(out, im->list[IMAGE_FORCES], "contact_forces", true, true);
+    c_list_function(out, im->list[IMAGE_SIGNALS], C_PHASES, "contact_signals", true, true);
+    c_list_function(out, im->list[IMAGE_FORCES], C_PHASES, "contact_forces", true, true);
     if (sets) {
-        c_list_function(out, im->list[IMAGE_SETS], "contact_sets", true, true);
+        c_list_function(out, im->list[IMAGE_SETS], C_PHASES, "contact_sets", true, true);
     }
     write_table(out, im);
     fprintf(

@@ -31,7 +31,7 @@ static void write_of_angles(FILE *out, const image *im, const tape *t, const cha
     c_list_ignore(out, c_list_uses(t, OP_RATE), "rate");
     c_list_ignore(out, c_list_uses(t, OP_INPUT), "input");
     c_list_ignore(out, t->results > 0, result);
-    c_list_body(out, t, result);
+    c_list_body(out, t, C_PHASES, result);
 }
 
 void c_ledger_write(FILE *out, const image *im) {
@@ -40,7 +40,7 @@ void c_ledger_write(FILE *out, const image *im) {
     if (l->turned) {
         write_of_angles(out, im, im->list[IMAGE_POWERS], "ledger_powers", "power");
     } else {
-        c_list_function(out, im->list[IMAGE_POWERS], "ledger_powers", true, true);
+        c_list_function(out, im->list[IMAGE_POWERS], C_PHASES, "ledger_powers", true, true);
     }
     write_of_angles(out, im, im->list[IMAGE_LEVELS], "ledger_levels", "level");
     if (l->smooth > 0) {

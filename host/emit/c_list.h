@@ -10,10 +10,17 @@ bool c_list_uses(const tape *t, op_code code);
 bool c_list_uses_phase(const tape *t);
 /* "(void)NAME;" unless it is used. */
 void c_list_ignore(FILE *out, bool used, const char *name);
+/* What a list of the generated file looks up sines by, or takes them as. */
+typedef enum c_angles { C_PHASES, C_WAVES } c_angles;
+
 /* The statements, the results stored in the array `result`, and the closing brace. */
-void c_list_body(FILE *out, const tape *t, const char *result);
-/* A whole wh_accel_fn (second order) or wh_slope_fn. What core/ calls by a pointer in a constant must not have to be
+void c_list_body(FILE *out, const tape *t, c_angles angles, const char *result);
+/* A whole wh_accel_fn (second order) or wh_slope_fn, or wh_turned_accel_fn or wh_turned_slope_fn. What core/ calls by a pointer in a constant must not have to be
  * inlined: gcc -Og sees through the pointer when it is too late for that, and refuses. */
-void c_list_function(FILE *out, const tape *t, const char *name, bool second, bool by_pointer);
+void c_list_function(FILE *out, const tape *t, c_angles angles, const char *name, bool second,
+                     bool by_pointer);
+
+/* "waves", the wh_waves of a list that takes pairs, and what it needs. */
+void c_list_waves(FILE *out, const tape *t);
 
 #endif

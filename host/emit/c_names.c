@@ -29,7 +29,8 @@ static const char words_of_cpp[] =
 static const char own[] =
     "main accelerations slopes advance observe start_angle start_real start_input contacts "
     "contact_signals contact_forces contact_sets contact_table contact_target ledger "
-    "ledger_powers ledger_levels ledger_accounts ledger_inputs WH";
+    "ledger_powers ledger_levels ledger_accounts ledger_inputs waves wave_sines wave_rates "
+    "WH";
 
 /* Macros that a GNU dialect begins with, for one target or another. */
 static const char predefined[] =

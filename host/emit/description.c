@@ -7,6 +7,7 @@
 #include "host/base/statement.h"
 #include "host/image/core_rows.h"
 #include "host/image/memory.h"
+#include "host/image/turned.h"
 #include "json.h"
 
 const char *const describe_roles[IMAGE_ROLES] = {
@@ -231,6 +232,7 @@ void describe_json(FILE *out, const image *im, const char *file) {
     json_text(&j, "method", wh_methods[im->settings.method].word);
     json_whole(&j, "stages", core_stages(im));
     json_bool(&j, "compensated", im->settings.compensated);
+    json_text(&j, "sines", image_angles_words[image_turns(im) ? ANGLES_TURNED : ANGLES_LOOKUP]);
     put_time(&j, im);
     put_effects(&j, im);
     put_quantities(&j, "parameters", im->parameter, im->parameters, true);

@@ -5,6 +5,7 @@
 #include "host/base/statement.h"
 #include "host/image/core_rows.h"
 #include "host/image/memory.h"
+#include "host/image/turned.h"
 
 static void put_name(FILE *out, const char *kind, int index, const char *name, int primes,
                      const char *si) {
@@ -114,6 +115,10 @@ void describe_text(FILE *out, const image *im, const char *file) {
             im->form == WH_SECOND_ORDER ? "accelerations" : "slopes", core_evaluations(im));
     if (im->contacts > 0) {
         fprintf(out, ", the contacts' signals %d times", core_signals(im));
+    }
+    if (im->angles > 0) {
+        fprintf(out, "\nsines of turn angles: looked up %s",
+                image_turns(im) ? "once a step, and turned" : "at each stage");
     }
     fprintf(out, "\nmemory: %zu bytes in float, %zu in double\n", memory_float_bytes(im),
             memory_double_bytes(im));

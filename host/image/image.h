@@ -19,10 +19,17 @@
 /* Most coordinates of a mechanism, or first-order components of a system. */
 #define IMAGE_COMPONENTS_MAX 64
 
+/* Where a stage's sines of turn angles come from. */
+typedef enum image_angles {
+    ANGLES_TURNED, /* looked up once a step and turned on (core/stage_turn.h), where that is possible */
+    ANGLES_LOOKUP /* looked up at each stage (core/step.h) */
+} image_angles;
+
 /* How to integrate. */
 typedef struct image_settings {
     wh_method method;
     bool compensated;
+    image_angles angles;
 } image_settings;
 
 /* --- the lists -----------------------------------------------------------------------------------*/

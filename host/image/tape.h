@@ -110,6 +110,13 @@ void tape_prune(tape *t);
 /* Does the list want whole angles, turns included, and not only their phases? No step has those. */
 bool tape_reads_turns(const tape *t);
 
+/* A wave: a phase made of turn angles, which a step can turn on (core/stage_turn.h). */
+static inline bool tape_is_wave(const op *o) { return o->code == OP_PHASE && o->turns != NULL; }
+int tape_waves(const tape *t);
+/* Is every wave nothing but turn angles and a number? Then the list can take their pairs of sine and cosine, in the
+ * order of its operations. */
+bool tape_takes_waves(const tape *t);
+
 /* The first result in which a constant takes part that is not finite, or -1. */
 int tape_not_finite(const tape *t);
 

@@ -104,6 +104,24 @@ bool tape_reads_turns(const tape *t) {
     return false;
 }
 
+int tape_waves(const tape *t) {
+    int count = 0;
+    for (int i = 0; i < t->count; i++) {
+        count += tape_is_wave(&t->ops[i]);
+    }
+    return count;
+}
+
+bool tape_takes_waves(const tape *t) {
+    for (int i = 0; i < t->count; i++) {
+        const op *o = &t->ops[i];
+        if (o->code == OP_PHASE && (o->parts != NULL || (o->turns != NULL && o->b >= 0))) {
+            return false;
+        }
+    }
+    return true;
+}
+
 static bool has_finite_numbers(const tape *t, const op *o) {
     bool finite = isfinite(o->value);
     for (int i = 0; i < t->angles && o->parts != NULL; i++) {

@@ -37,8 +37,8 @@ void evaluator_run(evaluator *ev, double time_s, const double *angle_rad, const 
                    const double *rate, const double *input, double *result) {
     double wrapped[IMAGE_COMPONENTS_MAX];
     const double *phase = phases_of(ev, angle_rad, wrapped);
-    evaluate(ev->tape, ev->registers, (leaves){phase, angle_rad, time_s, linear, rate, input, NULL},
-             result);
+    evaluate(ev->tape, ev->registers,
+             (leaves){NULL, phase, angle_rad, time_s, linear, rate, input, NULL}, result);
 }
 
 void evaluator_rounding(const evaluator *ev, const double *angle_rad, double least, double *error) {

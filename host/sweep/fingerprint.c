@@ -5,6 +5,7 @@
 
 #include "core/hash.h"
 #include "host/base/room.h"
+#include "host/image/turned.h"
 
 static uint64_t hash_text(const char *text) {
     uint64_t hash = WH_HASH_START;
@@ -38,11 +39,12 @@ char *fingerprint_make(const sweep *s, const char *model_text, const instance *b
     char *text = NULL;
     size_t length = 0;
     FILE *out = room_text(&text, &length);
-    fprintf(out, "whirl sweep: settings of the CSV beside this file, format 2\n");
+    fprintf(out, "whirl sweep: settings of the CSV beside this file, format 3\n");
     fprintf(out, "scene: %s\n", base->name);
     fprintf(out, "model text: 0x%016" PRIx64 "\n", hash_text(model_text));
     fprintf(out, "number: %s%s\n", s->kind->name, s->engine.compensated ? ", compensated" : "");
     fprintf(out, "method: %s\n", wh_methods[s->engine.method].word);
+    fprintf(out, "angles: %s\n", image_angles_words[s->engine.angles]);
     fprintf(out, "step: %.17g s\nuntil: %.17g s\n", base->step_s, base->until_s);
     fprintf(out, "measured from: %.17g s\n", s->from_s);
     put_instance(out, base);

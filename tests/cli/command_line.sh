@@ -272,6 +272,26 @@ prints '^ball: ' run tests/bad/contact_input_restitution.whirl --set e=0.5 --unt
 says 2 'contacts.whirl:[0-9]+:[0-9]+: error: the run starts beyond this stop, by 0.25 m' run ball_bounces --start z=-0.25
 says 0 "" run ball_bounces --start z=0 --until 10ms --csv -
 
+# --- where sines come from; a wheel that becomes faster than what is small for a turn goes on ---------------
+cat >"$scratch/wheel.whirl" <<'END'
+mechanism wheel
+coordinate b [rad]
+coordinate a [rad]
+T = 1 [kg*m^2]*(a'^2 + b'^2)/2
+V = 0.1 [J]*cos(a)
+Q(a) = 3 [kN*m]
+scene spin { start b' = 2 [rad/s]; step 1 [ms]; until 0.5 [s] }
+END
+prints '^spin$' run "$scratch/wheel.whirl"
+prints '^spin$' run "$scratch/wheel.whirl" --number float
+prints '^spin$' run "$scratch/wheel.whirl" --angles lookup
+prints '^spin$' run "$scratch/wheel.whirl" --start "a'=1000"
+says 2 "there is no form of angles 'looked'" run "$scratch/wheel.whirl" --angles looked
+prints '^  "sines": "turned",$' describe "$scratch/wheel.whirl" --json
+prints '^  "sines": "lookup",$' describe "$scratch/wheel.whirl" --json --angles lookup
+prints '^  "sines": "turned",$' describe "$scratch/wheel.whirl" --json --start "a'=3000"
+prints 'sines of turn angles: looked up once a step, and turned' describe "$scratch/wheel.whirl"
+
 # --- float angles that turn too slowly ------------------------------------------------------------------
 cat >"$scratch/rotor.whirl" <<'END'
 mechanism rotor

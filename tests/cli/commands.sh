@@ -70,15 +70,17 @@ done <"$scratch/commands"
 # --- common options: a line of help each, and a difference each --------------------------------------------------
 "$whirl" run --help >"$scratch/text"
 cat >"$scratch/plain.whirl" <<'END'
-mechanism plain "a mass on a spring, with drag"
+mechanism plain "a mass on a spring, with drag, and a pendulum"
 coordinate x [m]
+coordinate a [rad]
 parameter k = 8 [N/m]
-T = 2 [kg]*x'^2/2
-V = k*x^2/2
+T = 2 [kg]*x'^2/2 + 0.01 [kg*m^2]*a'^2/2
+V = k*x^2/2 - 9 [J]*cos(a)
 output place [m] = x
+output swing [rad] = a
 effect drag "drag" { Q(x) += -0.1 [N*s/m]*x' }
 effect wind "wind" { Q(x) += 0.2 [N] }
-scene plain_swings { with drag; start x = 1 [m]; step 10 [ms]; until 0.1 [s] }
+scene plain_swings { with drag; start x = 1 [m], a = 1 [rad]; step 10 [ms]; until 0.1 [s] }
 END
 plain=$scratch/plain.whirl:plain_swings
 sample() { # a value of that option that is not what the scene has
@@ -92,6 +94,7 @@ sample() { # a value of that option that is not what the scene has
     --method) echo heun ;;
     --number) echo float ;;
     --compensated) ;;
+    --angles) echo lookup ;;
     *) echo "no-sample-in-$0" ;;
     esac
 }

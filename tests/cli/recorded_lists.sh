@@ -10,7 +10,7 @@ record=$here/../reference/lists.txt
 count=48
 
 # Operations of a generated file, one a line, wherever they stand.
-lists() { grep -hE '^ +(const wh_real [a-z][0-9]+ =|[a-z_]+\[[0-9]+\] = |wh_sincos\()' "$1"; }
+lists() { grep -hE '^ +(const wh_real [a-z][0-9]+ =|[a-z_]+\[[0-9]+\] = |wh_sincos(_parts)?\()' "$1"; }
 
 # line NAME FILE: the name, how many operations, and the sum of their text
 line() {

@@ -266,7 +266,7 @@ static void run(const image *p, const engine_kind *kind, bool compensated) {
             continue;
         }
         image each = *p;
-        each.settings = (image_settings){(wh_method)i, compensated};
+        each.settings = (image_settings){(wh_method)i, compensated, ANGLES_TURNED};
         void *running = kind->start(&each);
         double *output = calloc((size_t)p->outputs + 1, sizeof *output);
         if (output == NULL) {
@@ -282,7 +282,7 @@ static void run(const image *p, const engine_kind *kind, bool compensated) {
 
 /* What becomes of the equations; `conserve` as for image_make(). */
 static void use(const equations *e, const bool *conserve, diags *all, FILE *nowhere) {
-    static const image_settings settings = {WH_METHOD_DEFAULT, false};
+    static const image_settings settings = {WH_METHOD_DEFAULT, false, ANGLES_TURNED};
     image *p = image_make(e, conserve, &settings, IMAGE_TO_RUN, all);
     if ((p == NULL) != (diags_count(all) > 0)) {
         abort(); /* refused without a word, or accepted with one */

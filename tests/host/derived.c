@@ -14,7 +14,7 @@
 #include "host/show/show_events.h"
 #include "unity.h"
 
-const image_settings plainly = {WH_RK4, false};
+const image_settings plainly = {WH_RK4, false, ANGLES_TURNED};
 
 static const scene *scene_called(const whirl_model *m, const char *name) {
     for (int i = 0; i < m->scene_count; i++) {
@@ -76,6 +76,11 @@ const char *report_of_text(const char *text) {
 derived derived_text(const char *text) {
     diags *all = diags_new();
     return derive_model(model_parse("t.whirl", text, strlen(text), all), NULL, all);
+}
+
+derived derived_scene(const char *text, const char *name) {
+    diags *all = diags_new();
+    return derive_model(model_parse("t.whirl", text, strlen(text), all), name, all);
 }
 
 derived derived_file(const char *path) {

@@ -23,6 +23,8 @@ extern const image_settings plainly;
 
 /* The first mechanism of a text. */
 derived derived_text(const char *text);
+/* A scene of a text. */
+derived derived_scene(const char *text, const char *name);
 /* A built-in mechanism or scene. */
 derived derived_builtin(const char *name);
 /* Calls `check` for every built-in scene; the sum of what it returns. */

@@ -1,0 +1,364 @@
+/* stage_turn.h: steps whose stages turn sines and cosines on instead of looking them up.
+ *
+ * A step looks up the sine and cosine of each angle that its list takes once, where it begins. Stage s stands
+ *
+ *     c_s h r + h sum_j share_j (r_j - r) / parts,        c_s = sum_j share_j / parts,
+ *
+ * further on, with r the angle's rate at the begin and r_j that of stage j.
+ *
+ * The first part is a whole number of turns by the method's first one, d = c_1 h r, so that one sine and one cosine of a
+ * small angle, two short polynomials, serve all stages: p' = p + w, w' = w + b p', where p is a sine (or a cosine), w
+ * what the last turn added and b = 2 (cos d - 1).
+ *
+ * The second part, the lean e, is of order h^2, for r_j - r is of order h. (s, c) leans by half of it in c, by all of
+ * it in s and by half in c again: a turn by e but for e^3/6, which is of order h^6. So the stages stand where looking up
+ * would find them to an order that no method here knows of. Of the classic method, with d = h/2 v:
+ *
+ *     stage 2:  one turn     stage 3:  one turn, leaning by h^2 a1/4     stage 4:  two turns, leaning by h^2 a2/2
+ *
+ * The angle itself is moved by the whole step as ever (step.h) and looked up anew in the next one: nothing drifts.
+ *
+ * The polynomials are good for half a radian, |d| summed over the angles whose sine the list takes; one check tells.
+ * Beyond it d's own sine and cosine are looked up, too (wh_any_turn()): the stages are as right as ever, and the step takes
+ * more instructions. Nothing is refused that looking up at each stage (step.h) would take.
+ */
+#ifndef WH_STAGE_TURN_H
+#define WH_STAGE_TURN_H
+
+#ifdef __cplusplus
+#error \
+    "core/stage_turn.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
+#endif
+
+#include "step.h"
+
+/* gcc would compute what only some ways need before they part: 1 % more instructions on a Cortex-M4F, and up to 3 % more
+ * cycles. In double, on a PC, it is the other way round. */
+#if defined(__GNUC__) && !defined(__clang__) && !WH_DOUBLE
+#pragma GCC optimize("no-tree-pre")
+#endif
+
+/* Most angles whose sine a list takes. A generated scene defines its own. */
+#ifndef WH_WAVES
+#define WH_WAVES 256
+#endif
+
+/* rad, |d| summed over those angles, up to which turns are small */
+#define WH_TURN_SMALL WH_R(0.5)
+
+/* Before the first accelerations there is little to keep over the call that the check may lead to; but what turning
+ * takes is to be kept over them, and the 16 registers of a PC are too few for that: 3 % more instructions. */
+#define WH_TURN_ASKS_FIRST (!WH_DOUBLE)
+
+/* As wh_accel_fn and wh_slope_fn, with the waves' pairs in place of the angles' phases. */
+typedef void wh_turned_accel_fn(const void *model, const wh_wave *pair, const wh_real *linear,
+                                const wh_real *rate, const wh_real *input, wh_real *accel);
+typedef void wh_turned_slope_fn(const void *model, const wh_wave *pair, const wh_real *real,
+                                const wh_real *input, wh_real *slope);
+
+/* The angles whose sine and cosine a list takes: waves. Each is a turn angle, or a sum of whole multiples of some. */
+typedef struct wh_waves {
+    const void *model;
+    /* parts[count] at the angles' phases */
+    void (*sines)(const void *model, const wh_phase *phase, wh_sine_parts *parts);
+    /* the waves' rates times `scale`, result[count], from those of the angles; anything linear in them */
+    void (*rates)(const void *model, wh_real scale, const wh_real *rate, wh_real *result);
+    unsigned count; /* <= WH_WAVES */
+} wh_waves;
+
+/* Has the method's row what turning takes? */
+WH_INLINE bool wh_method_turns(wh_method method) {
+    return wh_tableaus[method].stages == 1 || wh_tableaus[method].turns[1] == 1;
+}
+
+/* As wh_any_turn() for |d| <= 1/2: within 4.1e-8 and 1.9e-9 in float, 7e-18 and 2e-19 in double, without rounding. */
+WH_INLINE wh_wave wh_small_turn(wh_real d) {
+    const wh_real z = d * d;
+    wh_wave turn;
+#if WH_DOUBLE
+    turn.sine = d + d * z *
+                        (-0.16666666666666 +
+                         z * (0.0083333333330238924 +
+                              z * (-0.0001984126934116413 +
+                                   z * (2.7556952900446698e-06 + z * -2.4927410423791707e-08))));
+    turn.cosine =
+        z * (-0.5 + z * (0.04166666666666596 +
+                         z * (-0.0013888888888601047 +
+                              z * (2.480158687820224e-05 +
+                                   z * (-2.7557030226024543e-07 + z * 2.078364892532402e-09)))));
+#else
+    turn.sine = d + d * z * (-0.16666032f + z * 0.008259796f);
+    turn.cosine = z * (-0.5f + z * (0.041665776f + z * -0.0013792582f));
+#endif
+    return turn;
+}
+
+/* A step's pairs on their way. */
+typedef struct wh_turning {
+    wh_sine_parts parts[WH_WAVES]; /* and what was added to it, where turning is precise */
+    wh_wave at[WH_WAVES];          /* as the rates at the begin alone lead */
+    wh_wave way[WH_WAVES];         /* what the next turn adds, or the last one added */
+    wh_real bend[WH_WAVES];        /* 2 (cos d - 1) */
+    unsigned turns;                /* done */
+} wh_turning;
+
+/* Look up where the step begins. */
+WH_INLINE void wh_turning_look_up(const wh_waves *waves, const wh_angle *angle, unsigned angles,
+                                  wh_phase *told, wh_turning *t) {
+    wh_phase phase[WH_COORDS] = {0};
+    WH_UNROLL
+    for (unsigned i = 0; i < angles; i++) {
+        phase[i] = wh_phase_of(angle[i]);
+        if (told != NULL) {
+            told[i] = phase[i];
+        }
+    }
+    waves->sines(waves->model, phase, t->parts);
+    WH_UNROLL
+    for (unsigned w = 0; w < waves->count; w++) {
+        t->at[w].sine = t->parts[w].sine + t->parts[w].sine_rest;
+        t->at[w].cosine = t->parts[w].cosine + t->parts[w].cosine_rest;
+    }
+    t->turns = 0;
+}
+
+/* What the first turn adds, the angles having these rates: turn[waves->count] as of wh_any_turn(). */
+WH_INLINE void wh_turning_by(const wh_tableau *by, const wh_waves *waves, const wh_real *rate,
+                             wh_real h, wh_wave *turn) {
+    wh_real d[WH_WAVES] = {0};
+    wh_real first = WH_R(0.0);
+    wh_real all = WH_R(0.0);
+    WH_UNROLL
+    for (unsigned j = 0; j < WH_STAGES_MAX; j++) {
+        first += by->stage[1].share[j];
+    }
+    waves->rates(waves->model, h / by->stage[1].parts * first, rate, d);
+    WH_UNROLL
+    for (unsigned w = 0; w < waves->count; w++) {
+        all = w == 0 ? WH_ABS(d[w]) : all + WH_ABS(d[w]);
+    }
+    if (__builtin_expect(all <= WH_TURN_SMALL, true)) {
+        WH_UNROLL
+        for (unsigned w = 0; w < waves->count; w++) {
+            turn[w] = wh_small_turn(d[w]);
+        }
+    } else {
+        WH_UNROLL
+        for (unsigned w = 0; w < waves->count; w++) {
+            turn[w] = wh_any_turn(d[w]);
+        }
+    }
+}
+
+/* Begin to turn so from the pairs in turning->at. */
+WH_INLINE void wh_turning_begin(const wh_waves *waves, const wh_wave *turn, wh_turning *t) {
+    WH_UNROLL
+    for (unsigned w = 0; w < waves->count; w++) {
+        const wh_real sine = turn[w].sine;
+        const wh_real less = turn[w].cosine;
+        t->way[w].sine = t->at[w].sine * less + t->at[w].cosine * sine;
+        t->way[w].cosine = t->at[w].cosine * less - t->at[w].sine * sine;
+        t->bend[w] = less + less;
+    }
+}
+
+/* Turn on, so often in all. Precise: what turns add is summed up by itself, so that each pair is rounded once. */
+WH_INLINE void wh_turning_to(const wh_waves *waves, unsigned turns, bool precise, wh_turning *t) {
+    WH_UNROLL
+    for (unsigned k = 0; k < WH_STAGES_MAX; k++) {
+        if (t->turns == turns) {
+            break;
+        }
+        WH_UNROLL
+        for (unsigned w = 0; w < waves->count; w++) {
+            wh_sine_parts *parts = &t->parts[w];
+            wh_wave *at = &t->at[w];
+            wh_wave *way = &t->way[w];
+            if (t->turns > 0) {
+                way->sine += t->bend[w] * at->sine;
+                way->cosine += t->bend[w] * at->cosine;
+            }
+            if (precise) {
+                parts->sine_rest += way->sine;
+                parts->cosine_rest += way->cosine;
+                at->sine = parts->sine + parts->sine_rest;
+                at->cosine = parts->cosine + parts->cosine_rest;
+            } else {
+                at->sine += way->sine;
+                at->cosine += way->cosine;
+            }
+        }
+        t->turns++;
+    }
+}
+
+/* What the angles lean by at a stage, times h / parts, from what their rates have gained by the earlier ones,
+ * gained[j][angle] by stage j + 1. False where the stage does not lean. */
+WH_INLINE bool wh_turning_leans(const wh_shares *of, unsigned stage, wh_real (*gained)[WH_COORDS],
+                                unsigned angles, wh_real *lean) {
+    bool leans = false;
+    WH_UNROLL
+    for (unsigned i = 0; i < angles; i++) {
+        bool any = false;
+        lean[i] = WH_R(0.0);
+        WH_UNROLL
+        for (unsigned j = 1; j < WH_STAGES_MAX; j++) {
+            if (j < stage) {
+                wh_total_add(&lean[i], &any, of->share[j], gained[j - 1][i]);
+            }
+        }
+        leans = leans || any;
+    }
+    return leans;
+}
+
+/* The pair that leans by this. */
+WH_INLINE wh_wave wh_lean(wh_wave at, const wh_sine_parts *parts, wh_real lean, bool precise) {
+    const wh_real half = WH_R(0.5) * lean;
+    const wh_real cosine = at.cosine - half * at.sine;
+    wh_wave leant;
+    if (precise) {
+        leant.sine = parts->sine + (parts->sine_rest + lean * cosine);
+        leant.cosine = parts->cosine + (parts->cosine_rest - half * (at.sine + leant.sine));
+    } else {
+        leant.sine = at.sine + lean * cosine;
+        leant.cosine = cosine - half * leant.sine;
+    }
+    return leant;
+}
+
+/* pair[] at stage `stage`, gained[] as above. */
+WH_INLINE void wh_turning_stage(const wh_tableau *by, const wh_waves *waves, unsigned stage,
+                                wh_real (*gained)[WH_COORDS], unsigned angles, wh_real h,
+                                bool precise, wh_turning *t, wh_wave *pair) {
+    wh_real of_angles[WH_COORDS] = {0};
+    wh_real lean[WH_WAVES] = {0};
+    const bool leans = wh_turning_leans(&by->stage[stage], stage, gained, angles, of_angles);
+    if (leans) {
+        waves->rates(waves->model, h / by->stage[stage].parts, of_angles, lean);
+    }
+    wh_turning_to(waves, by->turns[stage], precise, t);
+    WH_UNROLL
+    for (unsigned w = 0; w < waves->count; w++) {
+        pair[w] = leans ? wh_lean(t->at[w], &t->parts[w], lean[w], precise) : t->at[w];
+    }
+}
+
+/* Where the angles stand at a stage, for who must know (the books): as wh_stage_angle(). */
+WH_INLINE void wh_turning_tell(const wh_shares *of, unsigned stage, wh_given rates, unsigned angles,
+                               wh_real h, const wh_state *state, wh_phase *told) {
+    for (unsigned i = 0; i < angles; i++) {
+        (void)wh_stage_angle(state->angle[i], wh_stage_sum(of->share, stage, rates, i), h,
+                             of->parts, &told[i]);
+    }
+}
+
+/* As wh_step_second(), turning. The method must turn. `told` [angles] gets the angles' phases before each call of
+ * accel(), or is NULL. */
+WH_INLINE wh_status wh_turn_second(const void *model, wh_turned_accel_fn *accel,
+                                   const wh_waves *waves, wh_phase *told, wh_method method,
+                                   bool compensated, unsigned angles, unsigned n, wh_real h,
+                                   wh_state *state) {
+    const wh_tableau *by = &wh_tableaus[method];
+    const unsigned linears = n - angles;
+    const wh_real *linear = state->real;
+    const wh_real *rate = state->real + linears;
+    const wh_real *u = state->input;
+    wh_turning t = {.turns = 0};
+    wh_wave turn[WH_WAVES] = {{0}};
+    wh_wave pair[WH_WAVES] = {{0}};
+    wh_real at[WH_COORDS] = {0};              /* linear positions of a stage, */
+    wh_real v[WH_COORDS] = {0};               /* its rates */
+    wh_real a[WH_COORDS];                     /* and its accelerations, */
+    wh_real a1[WH_COORDS];                    /* those of the first one */
+    wh_real gained[WH_STAGES_MAX][WH_COORDS]; /* what the rates of all others have gained */
+    wh_real rates[WH_STAGES_MAX][WH_COORDS];
+    wh_real accels[WH_STAGES_MAX][WH_COORDS];
+    wh_real alike[WH_STAGES_MAX][WH_COORDS] = {{0}}; /* sums of those that count alike */
+    const wh_given all_rates = {rate, rates};
+    const wh_given all_accels = {a1, accels};
+
+    if (WH_TURN_ASKS_FIRST && by->stages > 1) {
+        wh_turning_by(by, waves, rate, h, turn);
+    }
+    wh_turning_look_up(waves, state->angle, angles, told, &t);
+    accel(model, t.at, linear, rate, u, a1);
+    if (!WH_TURN_ASKS_FIRST && by->stages > 1) {
+        wh_turning_by(by, waves, rate, h, turn);
+    }
+    wh_turning_begin(waves, turn, &t);
+    WH_UNROLL
+    for (unsigned s = 1; s < WH_STAGES_MAX; s++) {
+        if (s >= by->stages) {
+            break;
+        }
+        const wh_shares *of = &by->stage[s];
+        WH_UNROLL
+        for (unsigned i = 0; i < n; i++) {
+            gained[s - 1][i] = h / of->parts * wh_stage_sum(of->share, s, all_accels, i);
+            v[i] = rate[i] + gained[s - 1][i];
+            rates[s - 1][i] = v[i];
+        }
+        WH_UNROLL
+        for (unsigned i = 0; i < linears; i++) {
+            at[i] = linear[i] + h / of->parts * wh_stage_sum(of->share, s, all_rates, angles + i);
+        }
+        wh_turning_stage(by, waves, s, gained, angles, h, compensated, &t, pair);
+        if (told != NULL) {
+            wh_turning_tell(of, s, all_rates, angles, h, state, told);
+        }
+        accel(model, pair, at, v, u, a);
+        wh_stage_given(by, s, true, n, a1, a, accels, alike);
+    }
+    return wh_second_end(by, a1, alike, compensated, angles, n, h, state);
+}
+
+/* As wh_step_first(), turning. The method must turn. Returns as wh_turn_second(). */
+WH_INLINE wh_status wh_turn_first(const void *model, wh_turned_slope_fn *slope,
+                                  const wh_waves *waves, wh_method method, bool compensated,
+                                  unsigned angles, unsigned reals, wh_real h, wh_state *state) {
+    const wh_tableau *by = &wh_tableaus[method];
+    const unsigned n = angles + reals;
+    const wh_real *u = state->input;
+    wh_turning t = {.turns = 0};
+    wh_wave turn[WH_WAVES] = {{0}};
+    wh_wave pair[WH_WAVES] = {{0}};
+    wh_real at[WH_COORDS] = {0};
+    wh_real k1[WH_COORDS];                    /* derivatives of the first stage */
+    wh_real k[WH_COORDS];                     /* of the present one */
+    wh_real gained[WH_STAGES_MAX][WH_COORDS]; /* those of all others less the first's, of angles */
+    wh_real slopes[WH_STAGES_MAX][WH_COORDS]; /* those of all but the first */
+    wh_real alike[WH_STAGES_MAX][WH_COORDS] = {{0}}; /* sums of those that count alike */
+    const wh_given all = {k1, slopes};
+
+    if (!wh_method_takes(method, WH_FIRST_ORDER)) {
+        return WH_E_ARGUMENT;
+    }
+    wh_turning_look_up(waves, state->angle, angles, NULL, &t);
+    slope(model, t.at, state->real, u, k1);
+    if (by->stages > 1) {
+        wh_turning_by(by, waves, k1, h, turn);
+        wh_turning_begin(waves, turn, &t);
+    }
+    WH_UNROLL
+    for (unsigned s = 1; s < WH_STAGES_MAX; s++) {
+        if (s >= by->stages) {
+            break;
+        }
+        const wh_shares *of = &by->stage[s];
+        WH_UNROLL
+        for (unsigned i = 0; i < reals; i++) {
+            at[i] = state->real[i] + h / of->parts * wh_stage_sum(of->share, s, all, angles + i);
+        }
+        wh_turning_stage(by, waves, s, gained, angles, h, compensated, &t, pair);
+        slope(model, pair, at, u, k);
+        wh_stage_given(by, s, false, n, k1, k, slopes, alike);
+        WH_UNROLL
+        for (unsigned i = 0; i < angles; i++) {
+            gained[s - 1][i] = k[i] - k1[i];
+        }
+    }
+    return wh_first_end(by, k1, alike, compensated, angles, reals, h, state);
+}
+
+#endif

@@ -1,0 +1,48 @@
+/* stage_turn_ledger.h: keeping the books of ledger.h while the stages' sines are turned (stage_turn.h). C only, as step.h is. */
+#ifndef WH_STAGE_TURN_LEDGER_H
+#define WH_STAGE_TURN_LEDGER_H
+
+#ifdef __cplusplus
+#error \
+    "core/stage_turn_ledger.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
+#endif
+
+#include "ledger_step.h"
+#include "stage_turn.h"
+
+typedef struct wh_turn_ledger_model {
+    const wh_ledger_form *form;
+    const void *model;
+    wh_turned_accel_fn *accel;
+    wh_method method;
+    wh_ledger_work *work;
+    const wh_phase *phase; /* [form->angles] of the present stage */
+} wh_turn_ledger_model;
+
+/* The accelerations, with a stage of the books, which look up their own sines. A wh_turned_accel_fn. */
+WH_INLINE void wh_turn_ledger_accel(const void *of, const wh_wave *pair, const wh_real *linear,
+                                    const wh_real *rate, const wh_real *input, wh_real *accel) {
+    const wh_turn_ledger_model *m = of;
+    m->accel(m->model, pair, linear, rate, input, accel);
+    (void)wh_ledger_stage(m->form, m->method, m->phase, linear, rate, input, m->work);
+}
+
+/* wh_turn_second() with books, and with its bits. */
+WH_INLINE wh_status wh_turn_ledger(const wh_ledger_form *form, const void *model,
+                                   wh_turned_accel_fn *accel, const wh_waves *waves,
+                                   wh_method method, bool compensated, wh_real h, wh_state *state) {
+    wh_ledger_work work;
+    wh_phase phase[WH_COORDS] = {0};
+    const wh_turn_ledger_model with = {form, model, accel, method, &work, phase};
+    wh_ledger_open(form, state, &work);
+    wh_ledger_begin(form, state->angle, &work, h);
+    const wh_status status = wh_turn_second(&with, wh_turn_ledger_accel, waves, phase, method,
+                                            compensated, form->angles, form->coordinates, h, state);
+    if (status == WH_OK) {
+        wh_ledger_accept(form, &work);
+        wh_ledger_commit(form, &work, state);
+    }
+    return status;
+}
+
+#endif

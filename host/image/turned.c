@@ -1,0 +1,16 @@
+/* turned.c: which form of the step a scene gets. */
+#include "turned.h"
+
+#include "core/stage_turn.h"
+
+const char *const image_angles_words[IMAGE_ANGLES] = {
+    [ANGLES_TURNED] = "turned", [ANGLES_LOOKUP] = "lookup"};
+
+_Static_assert(TURNED_WAVES_MAX == WH_WAVES, "the core's room is what an image may have");
+
+bool image_turns(const image *im) {
+    const tape *t = im->list[IMAGE_STEP];
+    return im->settings.angles == ANGLES_TURNED && im->contacts == 0 && im->angles > 0 &&
+           wh_method_turns(im->settings.method) && tape_takes_waves(t) &&
+           tape_waves(t) <= TURNED_WAVES_MAX;
+}

@@ -1,0 +1,360 @@
+/* test_stage_turn.c: steps that turn their sines: as good as looking them up, to the method's order, for every method and
+ * form and however fast; refused where looking up is; and what rounding leaves of a small turn. */
+#include "core/scene.h"
+#define WH_COORDS 4
+#define WH_WAVES 3
+#include "core/stage_turn.h"
+
+#include "unity.h"
+
+void suite_stage_turn(void);
+
+enum { ANGLES = 3, LINEARS = 1, COORDINATES = 4, REALS = 5, VALUES = 8 };
+
+static wh_angle angle[ANGLES];
+static wh_real real[REALS];
+static wh_real carry[ANGLES + REALS];
+static wh_real input[1];
+static wh_state state = {.angle = angle, .real = real, .carry = carry, .input = input};
+
+/* The sines of a, of 2 a - b and of a + b: three waves of two angles. The third angle stands in none. */
+static void sines(const void *model, const wh_phase *phase, wh_sine_parts *parts) {
+    (void)model;
+    wh_sincos_parts(phase[0], &parts[0]);
+    wh_sincos_parts((wh_phase)2 * phase[0] - phase[1], &parts[1]);
+    wh_sincos_parts(phase[0] + phase[1], &parts[2]);
+}
+
+static void look_up(const wh_phase *phase, wh_wave *pair) {
+    wh_sincos(phase[0], &pair[0].sine, &pair[0].cosine);
+    wh_sincos((wh_phase)2 * phase[0] - phase[1], &pair[1].sine, &pair[1].cosine);
+    wh_sincos(phase[0] + phase[1], &pair[2].sine, &pair[2].cosine);
+}
+
+static void rates(const void *model, wh_real scale, const wh_real *rate, wh_real *result) {
+    (void)model;
+    result[0] = scale * rate[0];
+    result[1] = scale * (WH_R(2.0) * rate[0] - rate[1]);
+    result[2] = scale * (rate[0] + rate[1]);
+}
+
+static const wh_waves waves = {NULL, sines, rates, 3};
+
+static wh_real coupling; /* by what grows with rates */
+
+/* Pendulums that lean on each other and on a spring; the last turns freely. */
+static void swing_turned(const void *model, const wh_wave *p, const wh_real *linear,
+                         const wh_real *rate, const wh_real *u, wh_real *accel) {
+    (void)model;
+    accel[0] = u[0] - WH_R(2.0) * p[0].sine + coupling * p[1].sine * rate[1] * rate[1];
+    accel[1] = -WH_R(0.7) * p[2].sine - coupling * p[1].cosine * rate[0] + linear[0];
+    accel[2] = u[0] - WH_R(0.1) * rate[2];
+    accel[3] = WH_R(0.5) * p[2].cosine - WH_R(3.0) * linear[0] - WH_R(0.2) * rate[3];
+}
+
+static void swing(const void *model, const wh_phase *phase, const wh_real *linear,
+                  const wh_real *rate, const wh_real *u, wh_real *accel) {
+    wh_wave pair[3];
+    look_up(phase, pair);
+    swing_turned(model, pair, linear, rate, u, accel);
+}
+
+static void flow_turned(const void *model, const wh_wave *p, const wh_real *x, const wh_real *u,
+                        wh_real *slope) {
+    (void)model;
+    slope[0] = u[0] + WH_R(0.8) + WH_R(0.5) * x[0] * p[1].sine;
+    slope[1] = WH_R(0.6) * p[0].cosine - WH_R(0.5) * x[0];
+    slope[2] = u[0] + WH_R(0.3);
+    slope[3] = WH_R(0.4) * p[2].cosine - x[0];
+}
+
+static void flow(const void *model, const wh_phase *phase, const wh_real *x, const wh_real *u,
+                 wh_real *slope) {
+    wh_wave pair[3];
+    look_up(phase, pair);
+    flow_turned(model, pair, x, u, slope);
+}
+
+/* How a test steps. */
+typedef struct manner {
+    wh_form form;
+    wh_method method;
+    bool compensated;
+    bool turns;
+} manner;
+
+static wh_status step(manner how, wh_real h, wh_phase *told) {
+    if (how.form == WH_FIRST_ORDER) {
+        return how.turns ? wh_turn_first(NULL, flow_turned, &waves, how.method, how.compensated,
+                                         ANGLES, LINEARS, h, &state)
+                         : wh_step_first(NULL, flow, how.method, how.compensated, ANGLES, LINEARS,
+                                         h, &state);
+    }
+    return how.turns ? wh_turn_second(NULL, swing_turned, &waves, told, how.method, how.compensated,
+                                      ANGLES, COORDINATES, h, &state)
+                     : wh_step_second(NULL, swing, how.method, how.compensated, ANGLES, COORDINATES,
+                                      h, &state);
+}
+
+static void start(void) {
+    input[0] = WH_R(0.0);
+    coupling = WH_R(0.4);
+    for (int i = 0; i < ANGLES; i++) {
+        angle[i] = wh_angle_from_rad(WH_R(0.7) + WH_R(0.9) * (wh_real)i);
+    }
+    for (int i = 0; i < REALS; i++) {
+        real[i] = (i % 2 != 0 ? WH_R(0.3) : -WH_R(0.4)) + WH_R(0.05) * (wh_real)i;
+    }
+    for (int i = 0; i < ANGLES + REALS; i++) {
+        carry[i] = WH_R(0.0);
+    }
+    state.fault = -1;
+}
+
+static unsigned reals_of(manner how) { return how.form == WH_SECOND_ORDER ? REALS : LINEARS; }
+
+/* The state after one second: angles in radians, then reals. */
+static unsigned after_1s(manner how, unsigned count, wh_real value[VALUES]) {
+    start();
+    for (unsigned i = 0; i < count; i++) {
+        TEST_ASSERT_TRUE(step(how, WH_R(1.0) / (wh_real)count, NULL) == WH_OK);
+    }
+    for (int i = 0; i < ANGLES; i++) {
+        value[i] = wh_angle_to_rad(angle[i]);
+    }
+    for (unsigned i = 0; i < reals_of(how); i++) {
+        value[ANGLES + i] = real[i];
+    }
+    return ANGLES + reals_of(how);
+}
+
+static wh_real squares(unsigned count, const wh_real *x, const wh_real *y) {
+    wh_real sum = WH_R(0.0);
+    for (unsigned i = 0; i < count; i++) {
+        sum += (x[i] - y[i]) * (x[i] - y[i]);
+    }
+    return sum;
+}
+
+/* Every manner of turning: a number of them, from 0 on. */
+enum { MANNERS = 4 * WH_METHODS };
+static manner manner_of(unsigned k) {
+    return (manner){k % 2 != 0 ? WH_FIRST_ORDER : WH_SECOND_ORDER, (wh_method)(k / 4),
+                    k / 2 % 2 != 0, true};
+}
+
+/* The two errors have the same leading term (stage_turn.h). Against runs with steps that are a sixteenth and look sines up. */
+static void test_turning_has_the_order_of_the_row_and_about_its_error(void) {
+    for (unsigned k = 0; k < MANNERS; k++) {
+        manner how = manner_of(k);
+        const unsigned order = wh_methods[how.method].order;
+        const unsigned count = sizeof(wh_real) == 8 ? (order < 4 ? 512 : 32) : (order < 4 ? 64 : 4);
+        const wh_real within = sizeof(wh_real) == 8 ? WH_R(1.2) : WH_R(3.0);
+        const wh_real wanted = (wh_real)(1U << (2 * order));
+        wh_real turned[2][VALUES];
+        wh_real looked_up[VALUES];
+        wh_real exact[VALUES];
+        if (!wh_method_takes(how.method, how.form)) {
+            start();
+            TEST_ASSERT_TRUE(step(how, WH_R(0.125), NULL) == WH_E_ARGUMENT);
+            continue;
+        }
+        TEST_ASSERT_TRUE(wh_method_turns(how.method));
+        const unsigned components = after_1s(how, count, turned[0]);
+        after_1s(how, 2 * count, turned[1]);
+        how.turns = false;
+        after_1s(how, count, looked_up);
+        how.method = WH_RK4;
+        after_1s(how, 16 * count, exact);
+        const wh_real error = squares(components, turned[0], exact);
+        const wh_real ratio = error / squares(components, turned[1], exact);
+        const wh_real usual = squares(components, looked_up, exact);
+        const char *word = wh_methods[manner_of(k).method].word;
+        TEST_ASSERT_TRUE_MESSAGE(ratio < within * wanted && wanted < within * ratio, word);
+        TEST_ASSERT_TRUE_MESSAGE(error < within * usual && usual < within * error, word);
+    }
+}
+
+/* The column .turns is what the shares make it. */
+static void test_turns_follow_from_the_shares(void) {
+    for (unsigned m = 0; m < WH_METHODS; m++) {
+        const wh_tableau *by = &wh_tableaus[m];
+        wh_real first = WH_R(0.0); /* of the step */
+        for (unsigned s = 1; s < by->stages; s++) {
+            wh_real sum = WH_R(0.0);
+            for (unsigned j = 0; j < s; j++) {
+                sum += by->stage[s].share[j];
+            }
+            first = s == 1 ? sum / by->stage[s].parts : first;
+            const wh_real off = sum - (wh_real)by->turns[s] * first * by->stage[s].parts;
+            TEST_ASSERT_TRUE_MESSAGE(WH_ABS(off) < WH_R(1e-6), wh_methods[m].word);
+            TEST_ASSERT_TRUE_MESSAGE(by->turns[s] >= by->turns[s - 1], wh_methods[m].word);
+        }
+    }
+}
+
+/* Where there is but one stage, or nothing turns, turning is looking up. */
+static void test_what_does_not_turn_has_the_same_bits(void) {
+    for (unsigned k = 0; k < MANNERS; k++) {
+        manner how = manner_of(k);
+        wh_real turned[VALUES];
+        wh_real looked_up[VALUES];
+        if (wh_methods[how.method].stages > 1 || !wh_method_takes(how.method, how.form)) {
+            continue;
+        }
+        const unsigned components = after_1s(how, 64, turned);
+        how.turns = false;
+        after_1s(how, 64, looked_up);
+        TEST_ASSERT_TRUE(squares(components, turned, looked_up) == WH_R(0.0));
+    }
+}
+
+/* Who is told the phases, gets those of the last stage and leaves the run alone. */
+static void test_phases_are_told(void) {
+    for (unsigned m = 0; m < WH_METHODS; m++) {
+        const manner how = {WH_SECOND_ORDER, (wh_method)m, false, true};
+        const wh_real h = WH_R(0.03125);
+        wh_angle before[ANGLES];
+        wh_angle after[ANGLES];
+        wh_phase told[ANGLES] = {0};
+        start();
+        TEST_ASSERT_TRUE(step(how, h, NULL) == WH_OK);
+        for (int i = 0; i < ANGLES; i++) {
+            after[i] = angle[i];
+        }
+        start();
+        for (int i = 0; i < ANGLES; i++) {
+            before[i] = angle[i];
+        }
+        TEST_ASSERT_TRUE(step(how, h, told) == WH_OK);
+        for (int i = 0; i < ANGLES; i++) {
+            TEST_ASSERT_TRUE(angle[i] == after[i]);
+            const wh_real way = wh_angle_to_rad(wh_angle_near(before[i], told[i]) - before[i]);
+            const wh_real whole = wh_angle_to_rad(after[i] - before[i]);
+            const wh_real off = wh_methods[m].stages == 1 ? way : way - whole;
+            TEST_ASSERT_TRUE_MESSAGE(WH_ABS(off) < WH_R(2e-3), wh_methods[m].word);
+        }
+    }
+}
+
+/* --- turns of any size ------------------------------------------------------------------------------ */
+
+static uint64_t chance = 20261122;
+static wh_real between(wh_real low, wh_real high) {
+    chance = chance * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+    return low + (high - low) * (wh_real)(uint32_t)(chance >> 33) * WH_R(4.656612873077393e-10);
+}
+
+/* One step by turning and one by looking up, [0] and [1], from where start() stands with this input and these rates. What
+ * accelerations add to such rates is small. */
+static void step_both(manner how, wh_real h, wh_real u, const wh_real *rate, wh_status status[2],
+                      int fault[2], wh_real value[2][VALUES]) {
+    for (int k = 0; k < 2; k++) {
+        start();
+        input[0] = u;
+        coupling = WH_R(0.0);
+        for (int i = 0; i < ANGLES && how.form == WH_SECOND_ORDER; i++) {
+            real[LINEARS + i] = rate[i];
+        }
+        how.turns = k == 0;
+        status[k] = step(how, h, NULL);
+        fault[k] = state.fault;
+        for (int i = 0; i < ANGLES; i++) {
+            value[k][i] = wh_angle_to_rad(angle[i]);
+        }
+        for (unsigned i = 0; i < reals_of(how); i++) {
+            value[k][ANGLES + i] = real[i];
+        }
+    }
+}
+
+/* However fast the angles turn, up to half a turn a step: the lean is small, so that the two steps are the same but for
+ * rounding. The waves turn by up to three times as much, and d is beyond what is small most of the time. */
+static void test_fast_angles_step_as_looking_up_does(void) {
+    const wh_real h = WH_R(0.0009765625);
+    const wh_real most = WH_R(3.14) / h;
+    const wh_real within = sizeof(wh_real) == 8 ? WH_R(4e-14) : WH_R(1e-6);
+    unsigned taken = 0;
+    for (unsigned k = 0; k < 100 * MANNERS; k++) {
+        manner how = manner_of(k % MANNERS);
+        wh_status status[2];
+        int fault[2];
+        wh_real value[2][VALUES];
+        wh_real rate[ANGLES];
+        if (!wh_method_takes(how.method, how.form)) {
+            continue;
+        }
+        for (int i = 0; i < ANGLES; i++) {
+            rate[i] = between(-WH_R(1.01), WH_R(1.01)) * most;
+        }
+        step_both(how, h, how.form == WH_FIRST_ORDER ? rate[0] : WH_R(0.0), rate, status, fault,
+                  value);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(status[1], status[0], wh_methods[how.method].word);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(fault[1], fault[0], wh_methods[how.method].word);
+        for (unsigned i = 0; i < ANGLES + reals_of(how); i++) {
+            const wh_real size = WH_R(1.0) + WH_ABS(value[1][i]);
+            TEST_ASSERT_TRUE_MESSAGE(WH_ABS(value[0][i] - value[1][i]) < within * size,
+                                     wh_methods[how.method].word);
+        }
+        taken += status[0] == WH_OK;
+    }
+    TEST_ASSERT_TRUE(taken > 50 * MANNERS);
+}
+
+/* What looking up refuses is refused: half a turn and more, or no number, and the state is as it was. */
+static void test_what_is_no_turn_is_refused(void) {
+    const wh_real nan = (wh_real)__builtin_nan("");
+    const wh_real rates[] = {WH_R(3200.0), WH_R(-1e5), WH_R(1e9), WH_R(-1e14), WH_R(1e30), nan};
+    for (unsigned k = 0; k < MANNERS * sizeof rates / sizeof rates[0]; k++) {
+        manner how = manner_of(k % MANNERS);
+        const wh_real fast = rates[k / MANNERS];
+        wh_status status[2];
+        int fault[2];
+        wh_real value[2][VALUES];
+        const wh_real rate[ANGLES] = {fast, WH_R(1.0), WH_R(1.0)};
+        if (!wh_method_takes(how.method, how.form)) {
+            continue;
+        }
+        step_both(how, WH_R(0.001), how.form == WH_FIRST_ORDER ? fast : WH_R(0.0), rate, status,
+                  fault, value);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(WH_E_DIVERGED, status[0], wh_methods[how.method].word);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(WH_E_DIVERGED, status[1], wh_methods[how.method].word);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(0, fault[0], wh_methods[how.method].word);
+        for (int i = 0; i < ANGLES; i++) {
+            TEST_ASSERT_TRUE(value[0][i] == value[1][i]);
+        }
+    }
+}
+
+/* --- small turns ----------------------------------------------------------------------------------- */
+
+static void test_small_turns_are_sines(void) {
+    const wh_real within = sizeof(wh_real) == 8 ? WH_R(1.8e-16) : WH_R(1.1e-7);
+    for (int i = -4096; i <= 4096; i++) {
+        const wh_real d = (wh_real)i * WH_R(0.0001220703125); /* 2^-13 */
+        const wh_phase phase = wh_phase_from_rad(d);
+        wh_real wanted[2];
+        wh_sincos(phase, &wanted[0], &wanted[1]);
+        wh_wave turn = wh_small_turn(d);
+        TEST_ASSERT_TRUE(WH_ABS(turn.sine - wanted[0]) < within);
+        TEST_ASSERT_TRUE(WH_ABS(WH_R(1.0) + turn.cosine - wanted[1]) < within);
+        turn = wh_any_turn(d);
+        TEST_ASSERT_TRUE(turn.sine == wanted[0]);
+        TEST_ASSERT_TRUE(turn.cosine == wanted[1] - WH_R(1.0));
+        /* and next to nothing they are what they are, not only near it */
+        const wh_real tiny = d * WH_R(1e-9);
+        turn = wh_small_turn(tiny);
+        TEST_ASSERT_TRUE(turn.sine == tiny);
+        TEST_ASSERT_TRUE(turn.cosine == -WH_R(0.5) * (tiny * tiny) || sizeof(wh_real) == 8);
+    }
+}
+
+void suite_stage_turn(void) {
+    RUN_TEST(test_turning_has_the_order_of_the_row_and_about_its_error);
+    RUN_TEST(test_turns_follow_from_the_shares);
+    RUN_TEST(test_what_does_not_turn_has_the_same_bits);
+    RUN_TEST(test_phases_are_told);
+    RUN_TEST(test_fast_angles_step_as_looking_up_does);
+    RUN_TEST(test_what_is_no_turn_is_refused);
+    RUN_TEST(test_small_turns_are_sines);
+}

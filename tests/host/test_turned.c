@@ -1,0 +1,203 @@
+/* test_turned.c: which scenes turn their sines, and that turning them moves like looking them up: over generated
+ * mechanisms, and for every built-in scene. */
+#define _POSIX_C_SOURCE 200809L
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "command.h"
+#include "derived.h"
+#include "host/image/turned.h"
+#include "host/run/engine.h"
+#include "motion.h"
+
+#include "unity.h"
+
+void suite_turned(void);
+
+/* A pendulum with more in its potential. */
+static bool turns(const char *more, const char *start, image_settings settings) {
+    char text[600];
+    snprintf(text, sizeof text,
+             "mechanism m\ncoordinate a [rad]\ncoordinate b [rad]\ncoordinate x [m]\n"
+             "T = 1 [kg*m^2]*a'^2/2 + 1 [kg*m^2]*b'^2/2 + 1 [kg]*x'^2/2\nV = 1 [J]*cos(3*a)%s\n"
+             "scene s { start %s; step 1 [ms]; until 1 [s] }\n",
+             more, start);
+    derived d = derived_scene(text, "s");
+    derived_expect(&d, text);
+    d.image->settings = settings;
+    const bool turned = image_turns(d.image);
+    derived_free(&d);
+    return turned;
+}
+
+static void test_settings_and_lists_choose(void) {
+    for (int m = 0; m < WH_METHODS; m++) {
+        const image_settings turned = {(wh_method)m, false, ANGLES_TURNED};
+        const image_settings lookup = {(wh_method)m, false, ANGLES_LOOKUP};
+        TEST_ASSERT_TRUE(turns("", "a = 1", turned));
+        TEST_ASSERT_FALSE(turns("", "a = 1", lookup));
+        TEST_ASSERT_TRUE(turns("", "a' = 3000 [rad/s]", turned)); /* however fast */
+    }
+    /* a sine of an angle and a length is no sum of angles, and is looked up */
+    TEST_ASSERT_TRUE(turns(" + 0.01 [N/m]*x^2", "a = 1", plainly));
+    TEST_ASSERT_FALSE(turns(" + 0.01 [J]*cos(a + x/(1 [m]))", "a = 1", plainly));
+}
+
+/* --- both forms move alike --------------------------------------------------------------------------- */
+
+enum { VALUES = 3 * IMAGE_COMPONENTS_MAX };
+
+/* The state after `steps`; 0 when a step is refused. */
+static int after(image *im, const engine_kind *kind, image_angles angles, uint64_t steps,
+                 double value[VALUES]) {
+    im->settings.angles = angles;
+    void *run = kind->start(im);
+    wh_status status = WH_OK;
+    while (status == WH_OK && steps-- > 0) {
+        status = kind->step(run);
+    }
+    kind->state(run, value, value + im->angles);
+    kind->stop(run);
+    return status == WH_OK ? im->angles + im->reals : 0;
+}
+
+/* The same for a step that is `parts` times shorter. */
+static int after_parts(image *im, const engine_kind *kind, image_angles angles, uint64_t steps,
+                       int parts, double value[VALUES]) {
+    const double step_s = im->step_s;
+    im->step_s = step_s / parts;
+    const int count = after(im, kind, angles, steps * (uint64_t)parts, value);
+    im->step_s = step_s;
+    return count;
+}
+
+static double distance(int count, const double *x, const double *y) {
+    double sum = 0.0;
+    for (int i = 0; i < count; i++) {
+        sum = hypot(sum, x[i] - y[i]);
+    }
+    return sum;
+}
+
+/* What both forms are apart, over the error of the one that looks up; -1: that one is refused, or both are exact. */
+static double apart(image *im, const char *text) {
+    double turned[VALUES];
+    double looked_up[VALUES];
+    double fine[VALUES];
+    const uint64_t steps = 32;
+    double size = 1.0;
+    const int count = after(im, &engine_double, ANGLES_LOOKUP, steps, looked_up);
+    if (count == 0 || after_parts(im, &engine_double, ANGLES_LOOKUP, steps, 16, fine) == 0) {
+        return -1.0;
+    }
+    TEST_ASSERT_EQUAL_INT_MESSAGE(count, after(im, &engine_double, ANGLES_TURNED, steps, turned),
+                                  text);
+    for (int i = 0; i < count; i++) {
+        size = fmax(size, fabs(fine[i]));
+    }
+    const double error = distance(count, looked_up, fine);
+    return error > 1e-11 * size ? distance(count, turned, looked_up) / error : -1.0;
+}
+
+/* A scene `s` whose angles stand in sines only: pendulums and masses that carry each other, swung by sums, differences
+ * and multiples of angles; every third a system of equations of first and second order. Angles are driven by up to
+ * `drive` rad/s^2, and start with up to `speed` rad/s. */
+static void write_mechanism(unsigned number, double drive, double speed, uint64_t *seed, char *text,
+                            size_t size) {
+    const int angles = 1 + (int)(random_bits(seed) % 3);
+    const int lengths = (int)(random_bits(seed) % 2);
+    const bool system = number % 3 == 2;
+    FILE *out = fmemopen(text, size, "w");
+    TEST_ASSERT_NOT_NULL(out);
+    fprintf(out, "mechanism m\n");
+    for (int i = 0; i < angles + lengths; i++) {
+        fprintf(out, "%s q%d [%s]\n", system ? "state" : "coordinate", i, i < angles ? "rad" : "m");
+    }
+    fprintf(out, "input u = %.3f\n", random_between(seed, -1.0, 1.0));
+    fputs(system ? "" : "effect e {\n", out);
+    for (int i = 0; i < angles + lengths; i++) {
+        const int j = (int)(random_bits(seed) % (uint64_t)angles);
+        const int k = (int)(random_bits(seed) % (uint64_t)angles);
+        const char *si = i < angles ? "" : "*1 [m]";
+        char wave[80];
+        snprintf(wave, sizeof wave, "sin(%d*q%d %+d*q%d + %.2f)", 1 + (int)(random_bits(seed) % 3),
+                 j, (int)(random_bits(seed) % 5) - 2, k, random_between(seed, -3.0, 3.0));
+        if (system && (random_bits(seed) & 1U) != 0) {
+            fprintf(out, "equation q%d' = (%.3f + %.3f*%s*u)%s/(1 [s])\n", i,
+                    random_between(seed, -speed, speed), random_between(seed, -3.0, 3.0), wave, si);
+        } else if (system) {
+            fprintf(out, "equation q%d'' = (%.3f + %.3f*%s - 0.2 [s]*q%d')%s/(1 [s^2])\n", i,
+                    random_between(seed, -drive, drive), random_between(seed, -9.0, 9.0), wave, j,
+                    si);
+        } else if (i < angles) {
+            fprintf(out, "T += %.3f [kg*m^2]*q%d'^2/2 + 0.1 [kg*m^2]*cos(q%d - q%d)*q%d'*q%d'\n",
+                    random_between(seed, 1.0, 2.0), i, i, j, i, j);
+            fprintf(out,
+                    "V += %.3f [J]*%s\nF += 0.05 [N*m*s]*q%d'^2/2\n"
+                    "Q(q%d) += u*1 [N*m]*cos(q%d) + %.3f [N*m]\n",
+                    random_between(seed, -9.0, 9.0), wave, i, i, k,
+                    random_between(seed, -drive, drive));
+        } else {
+            fprintf(out,
+                    "T += %.3f [kg]*q%d'^2/2 + 0.1 [kg*m]*cos(q%d)*q%d'*q%d'\nV += 5 [N/m]*q%d^2\n",
+                    random_between(seed, 1.0, 2.0), i, j, i, j, i);
+        }
+    }
+    fputs(system ? "scene s {\n" : "}\nscene s {\nwith e\n", out);
+    for (int i = 0; i < angles + lengths; i++) {
+        fprintf(out, "start q%d = %.3f%s\n", i, random_between(seed, -3.0, 3.0),
+                i < angles ? "" : " [m]");
+        if (!system) {
+            fprintf(out, "start q%d' = %.3f [%s/s]\n", i,
+                    random_between(seed, -1.0, 1.0) * (i < angles ? speed : 3.0),
+                    i < angles ? "rad" : "m");
+        }
+    }
+    fprintf(out, "step 10 [ms]; until 1 [s] }\n");
+    fclose(out);
+}
+
+/* The share of generated mechanisms in which both forms are apart by more than `within` of the error. */
+static double share_apart(double within, double drive, double speed) {
+    const unsigned cases = dice_cases(200);
+    uint64_t seed = 20261122;
+    char text[4096];
+    unsigned compared = 0;
+    unsigned beyond = 0;
+    double worst = 0.0;
+    for (unsigned n = 0; n < cases; n++) {
+        write_mechanism(n, drive, speed, &seed, text, sizeof text);
+        derived d = derived_scene(text, "s");
+        derived_expect(&d, text);
+        TEST_ASSERT_TRUE_MESSAGE(image_turns(d.image) || d.image->angles == 0, text);
+        const double off = apart(d.image, text);
+        compared += off >= 0.0;
+        beyond += off > within;
+        worst = fmax(worst, off);
+        derived_free(&d);
+    }
+    printf(
+        "  seed 20261122, up to %g rad/s: %u of %u mechanisms compared: apart by at most %.2g of the "
+        "error, %u by more than %g\n",
+        speed, compared, cases, worst, beyond, within);
+    TEST_ASSERT_TRUE(compared > cases / 2);
+    return beyond / (double)cases;
+}
+
+static void test_generated_mechanisms_move_alike(void) {
+    TEST_ASSERT_TRUE(share_apart(0.02, 0.1, 3.0) == 0.0);
+}
+
+/* Beyond what is small for a turn, which is 100 rad/s here at the most, from the start or on their way: what looking up
+ * takes, turning takes. The error is that of a motion that its steps do not resolve. */
+static void test_generated_mechanisms_that_become_fast_go_on(void) {
+    TEST_ASSERT_TRUE(share_apart(0.45, 300.0, 250.0) < 0.1);
+}
+
+void suite_turned(void) {
+    RUN_TEST(test_settings_and_lists_choose);
+    RUN_TEST(test_generated_mechanisms_move_alike);
+    RUN_TEST(test_generated_mechanisms_that_become_fast_go_on);
+}
