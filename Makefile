@@ -1,7 +1,7 @@
 # Whirl: energies in, firmware out. `make` lists the targets; the machinery is in mk/.
 #
 # V=1 shows the commands. Nothing is written outside build/, but for `make figures-docs`, `make price-effects`,
-# `make bench-boards` and `make bench-peers`, which renew their part of docs/, and `make too-large`, which lists what
+# `make bench-boards`, `make bench-peers` and `make bench-links`, which renew their part of docs/, and `make too-large`, which lists what
 # does not fit into a board.
 
 .DEFAULT_GOAL := help
@@ -150,6 +150,11 @@ bench-boards: ## a step of five scenes on every board: instructions, cycles, byt
 bench-peers: ## the same steps and derivations by other libraries, as ratios; into docs/price.md (installs them, large)
 	@CC="$(CC)" mk/setup/deps.sh host tests bench peers
 	@$(MAKE) bench-peers-now
+
+.PHONY: bench-links
+bench-links: ## pendulums of 1 to 12 links: deriving, operations, a step, bytes; into docs/price.md
+	@CC="$(CC)" mk/setup/deps.sh host firmware bench
+	@$(MAKE) bench-links-now
 
 .PHONY: price-effects
 price-effects: ## what each effect costs: instructions, bytes, error; into docs/effects.md (minutes)

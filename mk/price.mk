@@ -123,14 +123,24 @@ size-now: $(GEN)/.stamp
 	@SIZE=$(BOARD_SIZE) mk/size/libraries.sh $(call libraries,$(BOARD),whirl rig virtual scenes)
 	@CC=$(BOARD_CC) CPU="$(BOARD_CPU)" SIZE=$(BOARD_SIZE) mk/size/functions.sh $(call libraries,$(BOARD),whirl)
 
+# What programs that build and count scenes of their own are told.
+TO_PRICE = WHIRL=build/whirl BOARD=$(BOARD) BOARD_CC=$(BOARD_CC) BOARD_NM=$(BOARD_NM) \
+    BOARD_SIZE=$(BOARD_SIZE) BOARD_CFLAGS="$(BOARD_CFLAGS)" BOARD_LDFLAGS="$(BOARD_LDFLAGS)" \
+    BOARD_LDLIBS="$(BOARD_LDLIBS)" BOARD_OBJECTS="$(BOARD_OBJECTS)" LIB_BOARD=$(call libraries,$(BOARD),whirl) \
+    PLUGIN=$(PLUGIN) FLAGS="$(call TOLD,$(BOARD_CFLAGS))" EMULATE="$(call emulate,@)"
+
 # What each effect costs: build/price/effects.csv, and the tables of docs/effects.md.
 .PHONY: price-effects-now
 price-effects-now: $(GEN)/.stamp
 	@$(MAKE) $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl) $(PLUGIN)
-	@WHIRL=build/whirl OUT=build/price BOARD=$(BOARD) BOARD_CC=$(BOARD_CC) BOARD_NM=$(BOARD_NM) \
-	    BOARD_SIZE=$(BOARD_SIZE) BOARD_CFLAGS="$(BOARD_CFLAGS)" BOARD_LDFLAGS="$(BOARD_LDFLAGS)" \
-	    BOARD_LDLIBS="$(BOARD_LDLIBS)" BOARD_OBJECTS="$(BOARD_OBJECTS)" LIB_BOARD=$(call libraries,$(BOARD),whirl) \
-	    PLUGIN=$(PLUGIN) FLAGS="$(call TOLD,$(BOARD_CFLAGS))" EMULATE="$(call emulate,@)" \
-	    mk/price/price.sh $(MODELS)
+	@OUT=build/price $(TO_PRICE) mk/price/price.sh $(MODELS)
 	@mk/price/into_page.sh build/price/tables.md docs/effects.md
 	@cat build/price/tables.md
+
+# How derivation and step grow with the number of links: the table of docs/price.md.
+.PHONY: bench-links-now
+bench-links-now: $(GEN)/.stamp
+	@$(MAKE) $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl) $(PLUGIN)
+	@OUT=build/links $(TO_PRICE) mk/price/links.sh
+	@mk/price/into_page.sh build/links/links.md docs/price.md links
+	@cat build/links/links.md

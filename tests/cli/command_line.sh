@@ -173,6 +173,7 @@ prints 'step = \{UINT64_C\(1\), UINT64_C\(1000000000\)\},' derive ball_elastic -
 prints 'steps = UINT64_C\(1577880000000000000\),' derive ball_elastic --as c --step 1ns --until 1577880000s
 prints ', 100 steps to t = 0.01 s' run ball_elastic --until 10ms --step 0.1ms --every 0.5ms
 says 2 '--every 1.5ms is not a whole number of steps' run epicyclic_from_rest --every 1.5ms
+says 2 '--every 0 is not a whole number of steps, one or more' run epicyclic_from_rest --every 0
 says 2 'hint: the step is 0.001 s' run epicyclic_from_rest --every 1.5ms
 says 2 '--every 0 is not a whole number' run thomson_a --every 0
 says 2 '--every -1ms is not a time' run thomson_a --every -1ms

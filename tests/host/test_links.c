@@ -1,0 +1,127 @@
+/* test_links.c: pendulums of one to twelve links, derived from their energies, against their equations written down by
+ * hand: the entries of the mass matrix are closed forms, solved in long double. */
+#define _POSIX_C_SOURCE 200809L
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "derived.h"
+
+#include "unity.h"
+
+void suite_links(void);
+
+enum { LINKS_MOST = 12, STATES = 40 };
+#define GRAVITY 9.81
+
+typedef struct links {
+    int n;
+    double mass[LINKS_MOST];   /* kg, at the end of each rod */
+    double length[LINKS_MOST]; /* m */
+} links;
+
+/* Angles from hanging straight down; speeds and heights are those of the link above, and what is added. */
+static char *written(const links *of) {
+    char *text;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    fputs("mechanism links \"Links\"\n", out);
+    for (int k = 0; k < of->n; k++) {
+        fprintf(out, "coordinate a%d [rad]\n", k);
+        fprintf(out, "parameter m%d = %.17g [kg]\n", k, of->mass[k]);
+        fprintf(out, "parameter l%d = %.17g [m]\n", k, of->length[k]);
+    }
+    fputs("let x0 = l0*a0'*cos(a0)\nlet y0 = l0*a0'*sin(a0)\nlet h0 = -l0*cos(a0)\n", out);
+    for (int k = 1; k < of->n; k++) {
+        fprintf(out, "let x%d = x%d + l%d*a%d'*cos(a%d)\n", k, k - 1, k, k, k);
+        fprintf(out, "let y%d = y%d + l%d*a%d'*sin(a%d)\n", k, k - 1, k, k, k);
+        fprintf(out, "let h%d = h%d - l%d*cos(a%d)\n", k, k - 1, k, k);
+    }
+    fputs("T = (", out);
+    for (int k = 0; k < of->n; k++) {
+        fprintf(out, "%sm%d*(x%d^2 + y%d^2)", k > 0 ? " + " : "", k, k, k);
+    }
+    fputs(")/2\nV = (", out);
+    for (int k = 0; k < of->n; k++) {
+        fprintf(out, "%sm%d*h%d", k > 0 ? " + " : "", k, k);
+    }
+    fprintf(out, ")*%.17g [m/s^2]\n", GRAVITY);
+    fclose(out);
+    return text;
+}
+
+/* M_ij = mu l_i l_j cos(a_i - a_j), mu being the masses from the later of the two links on. */
+static void by_hand(const links *of, const state_values *s, long double *accel) {
+    long double m[LINKS_MOST][LINKS_MOST + 1];
+    long double below[LINKS_MOST + 1]; /* the masses from link k on */
+    long double length[LINKS_MOST];
+    below[of->n] = 0.0L;
+    for (int k = of->n; k-- > 0;) {
+        below[k] = below[k + 1] + (long double)of->mass[k];
+        length[k] = (long double)of->length[k];
+    }
+    for (int i = 0; i < of->n; i++) {
+        const long double angle = (long double)s->value[i][0];
+        m[i][of->n] = -below[i] * (long double)GRAVITY * length[i] * sinl(angle);
+        for (int j = 0; j < of->n; j++) {
+            const long double between = angle - (long double)s->value[j][0];
+            const long double rate = (long double)s->value[j][1];
+            const long double both = below[i > j ? i : j] * length[i] * length[j];
+            m[i][j] = both * cosl(between);
+            m[i][of->n] -= both * sinl(between) * rate * rate;
+        }
+    }
+    for (int c = 0; c < of->n; c++) { /* positive definite: no pivot is looked for */
+        for (int i = 0; i < of->n; i++) {
+            const long double share = i != c ? m[i][c] / m[c][c] : 0.0L;
+            for (int j = c; j <= of->n && i != c; j++) {
+                m[i][j] -= share * m[c][j];
+            }
+        }
+    }
+    for (int i = 0; i < of->n; i++) {
+        accel[i] = m[i][of->n] / m[i][i];
+    }
+}
+
+static void test_pendulums_of_so_many_links(void) {
+    uint64_t seed = 12;
+    double worst = 0.0;
+    for (int n = 1; n <= LINKS_MOST; n++) {
+        links of = {.n = n};
+        for (int k = 0; k < n; k++) {
+            of.mass[k] = random_between(&seed, 0.2, 2.0);
+            of.length[k] = random_between(&seed, 0.1, 0.5);
+        }
+        char *text = written(&of);
+        derived d = derived_text(text);
+        derived_expect(&d, text);
+        for (int i = 0; i < STATES; i++) {
+            state_values s = {.instance = d.instance};
+            double found[LINKS_MOST];
+            long double wanted[LINKS_MOST];
+            long double most = 0.0L;
+            for (int k = 0; k < n; k++) {
+                s.value[k][0] = random_between(&seed, -3.0, 3.0);
+                s.value[k][1] = random_between(&seed, -4.0, 4.0);
+            }
+            derived_run(d.image->list[IMAGE_STEP], &d, &s, found);
+            by_hand(&of, &s, wanted);
+            for (int k = 0; k < n; k++) {
+                most = fmaxl(most, fabsl(wanted[k]));
+            }
+            for (int k = 0; k < n; k++) {
+                worst = fmax(worst, (double)(fabsl((long double)found[k] - wanted[k]) / most));
+            }
+        }
+        derived_free(&d);
+        free(text);
+    }
+    char said[80];
+    snprintf(said, sizeof said, "off by at most %.1e of the largest acceleration", worst);
+    TEST_MESSAGE(said);
+    TEST_ASSERT_TRUE(worst > 0.0 && worst <= 1e-11);
+}
+
+void suite_links(void) { RUN_TEST(test_pendulums_of_so_many_links); }
