@@ -27,7 +27,7 @@ typedef struct wh_ledger_work {
 /* Share of the step that stage `stage` of the method counts for in its quadrature. Compared one by one: where the
  * stage is not known before it runs, no table is left for it. */
 WH_INLINE wh_real wh_ledger_weight(wh_method method, unsigned stage) {
-    const wh_tableau *by = &wh_tableaus[method];
+    const wh_tableau *by = wh_tableau_of(method);
     wh_real rates = by->rates[0];
     WH_UNROLL
     for (unsigned s = 1; s < WH_STAGES_MAX; s++) {

@@ -116,10 +116,21 @@ typedef struct wh_tableau {
     uint8_t turns[WH_STAGES_MAX];
 } wh_tableau;
 
-/* Constant where the method is: nothing of the table is left in generated code. */
-#define WH_METHOD_TABLEAU(id, word, title, order, takes, stages, ...) [id] = {stages, __VA_ARGS__},
-static const wh_tableau wh_tableaus[WH_METHODS] = {WH_METHOD_ROWS(WH_METHOD_TABLEAU)};
+#define WH_METHOD_TABLEAU(id, word, title, order, takes, stages, ...) \
+    static const wh_tableau wh_tableau_##id = {stages, __VA_ARGS__};
+WH_METHOD_ROWS(WH_METHOD_TABLEAU)
 #undef WH_METHOD_TABLEAU
+
+/* An object each, and not an array: where the method is a constant, nothing is left in generated code of the others,
+ * and nothing of its own where the loops over it are unrolled. */
+WH_INLINE const wh_tableau *wh_tableau_of(wh_method method) {
+#define WH_METHOD_TABLEAU(id, ...) \
+    case id: \
+        return &wh_tableau_##id;
+    switch (method) { WH_METHOD_ROWS(WH_METHOD_TABLEAU) }
+#undef WH_METHOD_TABLEAU
+    return &wh_tableau_WH_RK4; /* none: a method is one of these */
+}
 
 #endif
 

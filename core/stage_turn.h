@@ -68,7 +68,8 @@ typedef struct wh_waves {
 
 /* Has the method's row what turning takes? */
 WH_INLINE bool wh_method_turns(wh_method method) {
-    return wh_tableaus[method].stages == 1 || wh_tableaus[method].turns[1] == 1;
+    const wh_tableau *by = wh_tableau_of(method);
+    return by->stages == 1 || by->turns[1] == 1;
 }
 
 /* As wh_any_turn() for |d| <= 1/2: within 4.1e-8 and 1.9e-9 in float, 7e-18 and 2e-19 in double, without rounding. */
@@ -259,7 +260,7 @@ WH_INLINE wh_status wh_turn_second(const void *model, wh_turned_accel_fn *accel,
                                    const wh_waves *waves, wh_phase *told, wh_method method,
                                    bool compensated, unsigned angles, unsigned n, wh_real h,
                                    wh_state *state) {
-    const wh_tableau *by = &wh_tableaus[method];
+    const wh_tableau *by = wh_tableau_of(method);
     const unsigned linears = n - angles;
     const wh_real *linear = state->real;
     const wh_real *rate = state->real + linears;
@@ -317,7 +318,7 @@ WH_INLINE wh_status wh_turn_second(const void *model, wh_turned_accel_fn *accel,
 WH_INLINE wh_status wh_turn_first(const void *model, wh_turned_slope_fn *slope,
                                   const wh_waves *waves, wh_method method, bool compensated,
                                   unsigned angles, unsigned reals, wh_real h, wh_state *state) {
-    const wh_tableau *by = &wh_tableaus[method];
+    const wh_tableau *by = wh_tableau_of(method);
     const unsigned n = angles + reals;
     const wh_real *u = state->input;
     wh_turning t = {.turns = 0};

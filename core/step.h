@@ -318,7 +318,7 @@ WH_INLINE wh_status wh_first_end(const wh_tableau *by, const wh_real *k1,
 WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_method method,
                                    bool compensated, unsigned angles, unsigned n, wh_real h,
                                    wh_state *state) {
-    const wh_tableau *by = &wh_tableaus[method];
+    const wh_tableau *by = wh_tableau_of(method);
     const unsigned linears = n - angles;
     const wh_angle *angle = state->angle;
     const wh_real *linear = state->real;
@@ -377,7 +377,7 @@ WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_met
 WH_INLINE wh_status wh_step_first(const void *model, wh_slope_fn *slope, wh_method method,
                                   bool compensated, unsigned angles, unsigned reals, wh_real h,
                                   wh_state *state) {
-    const wh_tableau *by = &wh_tableaus[method];
+    const wh_tableau *by = wh_tableau_of(method);
     const unsigned n = angles + reals;
     const wh_real *u = state->input;
     wh_phase phase[WH_COORDS] = {0}; /* zeroed for the compiler: a scene may have no angle */

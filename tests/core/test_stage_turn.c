@@ -178,7 +178,7 @@ static void test_turning_has_the_order_of_the_row_and_about_its_error(void) {
 /* The column .turns is what the shares make it. */
 static void test_turns_follow_from_the_shares(void) {
     for (unsigned m = 0; m < WH_METHODS; m++) {
-        const wh_tableau *by = &wh_tableaus[m];
+        const wh_tableau *by = wh_tableau_of(m);
         wh_real first = WH_R(0.0); /* of the step */
         for (unsigned s = 1; s < by->stages; s++) {
             wh_real sum = WH_R(0.0);

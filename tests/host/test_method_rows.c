@@ -22,7 +22,7 @@ typedef struct butcher {
 } butcher;
 
 static butcher row_of(int method) {
-    const wh_tableau *t = &wh_tableaus[method];
+    const wh_tableau *t = wh_tableau_of((wh_method)method);
     butcher made = {.stages = (int)t->stages};
     for (int i = 0; i < made.stages; i++) {
         made.b[i] = (double)(t->rates[i] / t->parts);
