@@ -23,7 +23,8 @@ build/peers/scene_%.c: build/whirl mk/peers.mk
 # peer_program NAME SYSTEM COMPILER MORE-FLAGS
 define peer_program
 $(B)/peers/$(1)_$(2): $(PEER_FILE_$(2)) tests/tools/naive.h tests/tools/naive_rk4.h mk/peers/whirl.h \
-    $(wildcard mk/peers/$(1).h) mk/peers.mk $(B)/host/tests/tools/naive_main.o build/peers/scene_$(2).c $(call libraries,double,whirl)
+    $(wildcard mk/peers/$(1).h) mk/peers.mk $(B)/host/tests/tools/naive_main.o build/peers/scene_$(2).c \
+    $(call libraries,double,whirl)
 	@mkdir -p $$(@D)
 	$$(say) LINK $$@
 	$$(Q)$(3) $(NATIVE) -ffp-contract=off -I. $(4) -c $$< -o $$@.o

@@ -8,6 +8,10 @@ set -eu
 here=$(dirname "$0")
 . "$here/../count/common.sh"
 : "${LINKS:=12}"
+[ "$LINKS" -gt 0 ] 2>/dev/null || {
+    echo "links.sh: error: LINKS=$LINKS: a number of links, 1 or more" >&2
+    exit 2
+}
 rm -rf "$OUT"
 mkdir -p "$OUT"
 
