@@ -91,6 +91,12 @@ int command_accel(int count, char **words) {
         options_usage(stderr, &usage);
         return EXIT_BAD_INPUT;
     }
+    for (int i = 0; i < count; i++) {
+        if (words[i][0] == '-' && words[i][1] != '\0') {
+            options_unknown("accel", words[i], 0, (const char *const[]){NULL});
+            return EXIT_BAD_INPUT;
+        }
+    }
     source_model from;
     const mechanism *of;
     const scene *in;
@@ -102,8 +108,7 @@ int command_accel(int count, char **words) {
         const overrides changes = {.values = (const char *const *)(words + 1),
                                    .value_count = count - 1};
         loaded made;
-        const load_wish wish = {.settings = {WH_METHOD_DEFAULT, false, ANGLES_TURNED},
-                                .use = IMAGE_TO_RUN};
+        const load_wish wish = {.settings = IMAGE_SETTINGS_DEFAULT, .use = IMAGE_TO_RUN};
         code = load(&made, &from, of, in, &changes, &wish);
         source_forget(&from);
         if (code == EXIT_DONE) {

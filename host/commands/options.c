@@ -217,8 +217,7 @@ overrides options_overrides(const change_options *c) {
 }
 
 common_options options_defaults(void) {
-    return (common_options){.integration = {WH_METHOD_DEFAULT, false, ANGLES_TURNED},
-                            .number = &engine_double};
+    return (common_options){.integration = IMAGE_SETTINGS_DEFAULT, .number = &engine_double};
 }
 
 void options_forget(common_options *options) {

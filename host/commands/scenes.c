@@ -26,7 +26,7 @@ typedef struct visit {
 
 /* Visit every scene of an opened source, also behind one that is refused, and forget its model. Returns an exit code. */
 static int each_scene_of(source_model *from, const visit *v) {
-    static const load_wish wish = {.settings = {WH_METHOD_DEFAULT, false, ANGLES_TURNED},
+    static const load_wish wish = {.settings = IMAGE_SETTINGS_DEFAULT,
                                    .use = IMAGE_TO_WRITE,
                                    .keep = KEEP_EQUATIONS,
                                    .conserve = true,

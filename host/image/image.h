@@ -19,11 +19,19 @@
 /* Most coordinates of a mechanism, or first-order components of a system. */
 #define IMAGE_COMPONENTS_MAX 64
 
-/* Where a stage's sines of turn angles come from. */
-typedef enum image_angles {
-    ANGLES_TURNED, /* looked up once a step and turned on (core/stage_turn.h), where that is possible */
-    ANGLES_LOOKUP /* looked up at each stage (core/step.h) */
-} image_angles;
+/* Where a stage's sines of turn angles come from: they are looked up once a step and turned on (core/stage_turn.h),
+ * where that can be, or looked up at each stage (core/step.h). */
+#define IMAGE_ANGLES_ROWS(X) \
+    X(ANGLES_TURNED, "turned") \
+    X(ANGLES_LOOKUP, "lookup")
+#define IMAGE_ANGLES_NAME(id, word) id,
+typedef enum image_angles { IMAGE_ANGLES_ROWS(IMAGE_ANGLES_NAME) } image_angles;
+#undef IMAGE_ANGLES_NAME
+#define IMAGE_ANGLES_ONE(id, word) +1
+enum { IMAGE_ANGLES = IMAGE_ANGLES_ROWS(IMAGE_ANGLES_ONE) };
+#undef IMAGE_ANGLES_ONE
+/* Their words on command lines and in descriptions. */
+extern const char *const image_angles_words[IMAGE_ANGLES];
 
 /* How to integrate. */
 typedef struct image_settings {
@@ -31,6 +39,10 @@ typedef struct image_settings {
     bool compensated;
     image_angles angles;
 } image_settings;
+
+/* What is integrated with unless something else is asked for. */
+#define IMAGE_SETTINGS_DEFAULT \
+    { WH_METHOD_DEFAULT, false, ANGLES_TURNED }
 
 /* --- the lists -----------------------------------------------------------------------------------*/
 

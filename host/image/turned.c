@@ -3,8 +3,8 @@
 
 #include "core/stage_turn.h"
 
-const char *const image_angles_words[IMAGE_ANGLES] = {
-    [ANGLES_TURNED] = "turned", [ANGLES_LOOKUP] = "lookup"};
+#define IMAGE_ANGLES_WORD(id, word) word,
+const char *const image_angles_words[IMAGE_ANGLES] = {IMAGE_ANGLES_ROWS(IMAGE_ANGLES_WORD)};
 
 _Static_assert(TURNED_WAVES_MAX == WH_WAVES, "the core's room is what an image may have");
 

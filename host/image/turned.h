@@ -11,8 +11,4 @@
  * set (--angles lookup), where there are contacts or no turn angle, and where the method or the list does not take it. */
 bool image_turns(const image *im);
 
-/* The words of command lines and descriptions, by image_angles. */
-enum { IMAGE_ANGLES = 2 };
-extern const char *const image_angles_words[IMAGE_ANGLES];
-
 #endif

@@ -182,6 +182,8 @@ says 2 '/nonexistent/x.csv: error: cannot be written' run thomson_a --csv /nonex
 says 2 'plot draws .svg and .png files, not x.pdf' run thomson_a --plot x.pdf
 says 2 '/nonexistent/x.svg: error: cannot be written' run thomson_a --plot /nonexistent/x.svg
 says 2 'error' accel epicyclic theta
+says 2 "unknown option '--angles'" accel epicyclic --angles lookup
+says 2 "there is no form of angles 'sideways'" run epicyclic --angles sideways
 says 2 "'thetta' is unknown" accel epicyclic thetta=1
 
 # --- what cannot be derived or run --------------------------------------------------------------------

@@ -282,7 +282,7 @@ static void run(const image *p, const engine_kind *kind, bool compensated) {
 
 /* What becomes of the equations; `conserve` as for image_make(). */
 static void use(const equations *e, const bool *conserve, diags *all, FILE *nowhere) {
-    static const image_settings settings = {WH_METHOD_DEFAULT, false, ANGLES_TURNED};
+    static const image_settings settings = IMAGE_SETTINGS_DEFAULT;
     image *p = image_make(e, conserve, &settings, IMAGE_TO_RUN, all);
     if ((p == NULL) != (diags_count(all) > 0)) {
         abort(); /* refused without a word, or accepted with one */
