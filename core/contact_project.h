@@ -9,7 +9,10 @@ WH_INLINE void wh_contact_move(const wh_contact_system *of, unsigned i, wh_real 
                                wh_contact_state *s) {
     if (i < of->angles) {
         wh_real none = WH_R(0.0);
-        (void)wh_angle_move(&s->angle[i], by * WH_PHASE_PER_RAD, false, &none);
+        const wh_real steps = by * WH_PHASE_PER_RAD;
+        if (wh_believable(steps, WH_PHASE_STEP_MAX)) {
+            wh_angle_move(&s->angle[i], steps, false, &none);
+        }
     } else {
         s->real[i - of->angles] += by;
     }

@@ -84,21 +84,13 @@ WH_INLINE unsigned wh_first_absurd(const wh_real *value, unsigned n) {
     return n;
 }
 
-/* *angle moved on by `steps` phase units, rounded to the nearest: dropping the fraction would slow every
- * angle down by half a unit a step. False, with *angle as it was, for half a turn or more, or NaN. */
-WH_INLINE bool wh_angle_move(wh_angle *angle, wh_real steps, bool compensated, wh_real *carry) {
+/* *angle moved on by `steps` phase units, less than WH_PHASE_STEP_MAX in size, rounded to the nearest: dropping the
+ * fraction would slow every angle down by half a unit a step. Compensated: *carry is what is rounded away, and in float
+ * what was is in `steps` already. */
+WH_INLINE void wh_angle_move(wh_angle *angle, wh_real steps, bool compensated, wh_real *carry) {
 #if WH_DOUBLE
-    if (!wh_believable(steps, WH_PHASE_STEP_MAX)) {
-        return false;
-    }
     *angle = wh_sum(*angle, steps, compensated, carry);
 #else
-    if (compensated) {
-        steps += *carry;
-    }
-    if (!wh_believable(steps, WH_PHASE_STEP_MAX)) {
-        return false;
-    }
     const int32_t whole = wh_whole(steps);
     if (compensated) {
         *carry = steps - (float)whole;
@@ -106,7 +98,6 @@ WH_INLINE bool wh_angle_move(wh_angle *angle, wh_real steps, bool compensated, w
     /* turns beyond 2^31 wrap like the phase, and are no undefined behaviour */
     *angle = (wh_angle)((uint64_t)*angle + (uint64_t)(int64_t)whole);
 #endif
-    return true;
 }
 
 /* Whoever defines this is told what rounding took from the step of turn angle i, h long, in units: the interpreter
@@ -206,13 +197,47 @@ WH_INLINE void wh_total_add(wh_real *sum, bool *any, wh_real share, wh_real more
     }
 }
 
+/* trial->angle[] of this step, h long: the state's, each moved on by move[] times rad_a_move. The first angle that was
+ * to move by half a turn or more, or by NaN, or `angles`. Seldom is there one: first all are asked at once, by the sum
+ * of their sizes. */
+WH_INLINE unsigned wh_angles_move(const wh_real *move, wh_real rad_a_move, wh_real h,
+                                  bool compensated, unsigned angles, const wh_state *state,
+                                  wh_trial *trial) {
+    wh_real steps[WH_COORDS] = {0};
+    wh_real all = WH_R(0.0);
+    WH_UNROLL
+    for (unsigned i = 0; i < angles; i++) {
+        trial->angle[i] = state->angle[i];
+        trial->carry[i] = compensated ? state->carry[i] : WH_R(0.0);
+        steps[i] = move[i] * (rad_a_move * WH_PHASE_PER_RAD);
+        if (compensated && !WH_DOUBLE) {
+            steps[i] += trial->carry[i];
+        }
+        all = i == 0 ? WH_ABS(steps[i]) : all + WH_ABS(steps[i]);
+    }
+    if (__builtin_expect(angles > 0 && !(all < WH_PHASE_STEP_MAX), false)) {
+        WH_UNROLL
+        for (unsigned i = 0; i < angles; i++) {
+            if (!wh_believable(steps[i], WH_PHASE_STEP_MAX)) {
+                return i;
+            }
+        }
+    }
+    WH_UNROLL
+    for (unsigned i = 0; i < angles; i++) {
+        wh_angle_move(&trial->angle[i], steps[i], compensated, &trial->carry[i]);
+        WH_ANGLE_LOST(i, h, steps[i] - (wh_real)(trial->angle[i] - state->angle[i]));
+    }
+    (void)h;
+    return angles;
+}
+
 /* The end of a step of q'' = f: what the stages gave, a1 and the sums of those that count alike, moves the state.
  * Returns as wh_step_second(). */
 WH_INLINE wh_status wh_second_end(const wh_tableau *by, const wh_real *a1,
                                   wh_real (*alike)[WH_COORDS], bool compensated, unsigned angles,
                                   unsigned n, wh_real h, wh_state *state) {
     const unsigned linears = n - angles;
-    const wh_angle *angle = state->angle;
     const wh_real *linear = state->real;
     const wh_real *rate = state->real + linears;
     /* zeroed for the compiler, which cannot know that no scene uses what it did not fill */
@@ -238,15 +263,9 @@ WH_INLINE wh_status wh_second_end(const wh_tableau *by, const wh_real *a1,
         kick[i] = h / by->parts * (any_moved && any_rest ? moved + rest : any_moved ? moved : rest);
     }
 
-    WH_UNROLL
-    for (unsigned i = 0; i < angles; i++) {
-        trial.angle[i] = angle[i];
-        trial.carry[i] = compensated ? state->carry[i] : WH_R(0.0);
-        const wh_real turn = move[i] * (h * WH_PHASE_PER_RAD);
-        if (!wh_angle_move(&trial.angle[i], turn, compensated, &trial.carry[i])) {
-            return wh_refuse(state, i);
-        }
-        WH_ANGLE_LOST(i, h, turn - (wh_real)(trial.angle[i] - angle[i]));
+    const unsigned far = wh_angles_move(move, h, h, compensated, angles, state, &trial);
+    if (far < angles) {
+        return wh_refuse(state, far);
     }
     WH_UNROLL
     for (unsigned i = 0; i < linears; i++) {
@@ -274,7 +293,7 @@ WH_INLINE wh_status wh_first_end(const wh_tableau *by, const wh_real *k1,
                                  unsigned reals, wh_real h, wh_state *state) {
     const unsigned n = angles + reals;
     wh_real move[WH_COORDS];
-    wh_trial trial;
+    wh_trial trial = {0};
 
     WH_UNROLL
     for (unsigned i = 0; i < n; i++) {
@@ -289,15 +308,9 @@ WH_INLINE wh_status wh_first_end(const wh_tableau *by, const wh_real *k1,
         move[i] = h / by->parts * total;
     }
 
-    WH_UNROLL
-    for (unsigned i = 0; i < angles; i++) {
-        trial.angle[i] = state->angle[i];
-        trial.carry[i] = compensated ? state->carry[i] : WH_R(0.0);
-        const wh_real turn = move[i] * WH_PHASE_PER_RAD;
-        if (!wh_angle_move(&trial.angle[i], turn, compensated, &trial.carry[i])) {
-            return wh_refuse(state, i);
-        }
-        WH_ANGLE_LOST(i, h, turn - (wh_real)(trial.angle[i] - state->angle[i]));
+    const unsigned far = wh_angles_move(move, WH_R(1.0), h, compensated, angles, state, &trial);
+    if (far < angles) {
+        return wh_refuse(state, far);
     }
     WH_UNROLL
     for (unsigned i = 0; i < reals; i++) {

@@ -36,6 +36,13 @@ WH_INLINE wh_phase wh_phase_of(wh_angle angle) { return (wh_phase)(uint64_t)angl
 
 #endif
 
+/* Has the processor one instruction that rounds a float to the nearest int32_t, of two the even one? Arm's with VFP. */
+#if defined(__GNUC__) && defined(__arm__) && defined(__ARM_FP) && (__ARM_FP & 4)
+#define WH_HAS_VCVTR 1
+#else
+#define WH_HAS_VCVTR 0
+#endif
+
 /* A constant angle or phase for generated code: radians for the double build, `units` (2^32 a turn)
  * for the float build. */
 #if WH_DOUBLE
@@ -56,12 +63,29 @@ WH_INLINE wh_factor wh_factor_of(uint32_t whole, uint64_t part) {
 #endif
 
 #if !WH_DOUBLE
-/* The nearest whole number of |steps| < WH_PHASE_STEP_MAX, halves away from zero. The rest is exact; adding a
- * half before cutting would not be: odd numbers between 2^23 and 2^24 would tie with the next. */
+/* The nearest whole number of |steps| < 2^31, of two the even one: to always round halves away from zero would lead,
+ * where a step's last digit is a half, a quarter of a unit off a step. */
 WH_INLINE int32_t wh_whole(float steps) {
-    const int32_t whole = (int32_t)steps;
-    const float rest = steps - (float)whole;
-    return whole + (int32_t)(rest + rest);
+#if WH_HAS_VCVTR
+    float whole; /* the integer's bits, in the register where it is made */
+    int32_t result;
+    __asm__("vcvtr.s32.f32 %0, %1" : "=t"(whole) : "t"(steps));
+    __builtin_memcpy(&result, &whole, sizeof result);
+    return result;
+#else
+    uint32_t bits;
+    __builtin_memcpy(&bits, &steps, sizeof bits);
+    const uint32_t digits = (bits & 0x7fffffU) | 0x800000U;
+    const int below = 150 - (int)((bits >> 23) & 0xffU); /* digits behind the point */
+    uint32_t size = 0;
+    if (below <= 0) {
+        size = digits << -below;
+    } else if (below <= 24) {
+        const uint32_t half = UINT32_C(1) << (below - 1);
+        size = (digits + (half - 1U) + ((digits >> below) & 1U)) >> below;
+    }
+    return (bits >> 31) != 0 ? -(int32_t)size : (int32_t)size;
+#endif
 }
 
 /* The same of steps/2, from the whole part of steps: 1, -1 and what lies beyond are rounded away from zero. */

@@ -188,10 +188,10 @@ static void test_turns_wrap_and_the_phase_goes_on(void) {
     wh_angle angle = INT64_MAX - 100;
     wh_real carry = 0.0f;
     const wh_phase before = wh_phase_of(angle);
-    TEST_ASSERT_TRUE(wh_angle_move(&angle, 1000.0f, false, &carry));
+    wh_angle_move(&angle, 1000.0f, false, &carry);
     TEST_ASSERT_TRUE(wh_phase_of(angle) == before + 1000U);
     TEST_ASSERT_TRUE(angle == INT64_MIN + 899);
-    TEST_ASSERT_TRUE(wh_angle_move(&angle, -1000.0f, false, &carry));
+    wh_angle_move(&angle, -1000.0f, false, &carry);
     TEST_ASSERT_TRUE(angle == INT64_MAX - 100);
 }
 #endif
