@@ -152,14 +152,14 @@ WH_INLINE void wh_turning_by(const wh_tableau *by, const wh_waves *waves, const 
 }
 
 /* Begin to turn so from the pairs in turning->at. */
-WH_INLINE void wh_turning_begin(const wh_waves *waves, const wh_wave *turn, wh_turning *t) {
+WH_INLINE void wh_turning_begin(const wh_waves *waves, const wh_wave *turn, bool precise, wh_turning *t) {
     WH_UNROLL
     for (unsigned w = 0; w < waves->count; w++) {
         const wh_real sine = turn[w].sine;
         const wh_real less = turn[w].cosine;
         t->way[w].sine = t->at[w].sine * less + t->at[w].cosine * sine;
         t->way[w].cosine = t->at[w].cosine * less - t->at[w].sine * sine;
-        t->bend[w] = less + less;
+        t->bend[w] = precise ? less + less : less + less + WH_R(2.0);
     }
 }
 
@@ -175,6 +175,13 @@ WH_INLINE void wh_turning_to(const wh_waves *waves, unsigned turns, bool precise
             wh_sine_parts *parts = &t->parts[w];
             wh_wave *at = &t->at[w];
             wh_wave *way = &t->way[w];
+            if (!precise && t->turns > 0) {
+                const wh_wave last = *at;
+                at->sine = t->bend[w] * at->sine - way->sine;
+                at->cosine = t->bend[w] * at->cosine - way->cosine;
+                *way = last;
+                continue;
+            }
             if (t->turns > 0) {
                 way->sine += t->bend[w] * at->sine;
                 way->cosine += t->bend[w] * at->cosine;
@@ -185,8 +192,10 @@ WH_INLINE void wh_turning_to(const wh_waves *waves, unsigned turns, bool precise
                 at->sine = parts->sine + parts->sine_rest;
                 at->cosine = parts->cosine + parts->cosine_rest;
             } else {
+                const wh_wave last = *at;
                 at->sine += way->sine;
                 at->cosine += way->cosine;
+                *way = last;
             }
         }
         t->turns++;
@@ -287,7 +296,7 @@ WH_INLINE wh_status wh_turn_second(const void *model, wh_turned_accel_fn *accel,
     if (!WH_TURN_ASKS_FIRST && by->stages > 1) {
         wh_turning_by(by, waves, rate, h, turn);
     }
-    wh_turning_begin(waves, turn, &t);
+    wh_turning_begin(waves, turn, compensated, &t);
     WH_UNROLL
     for (unsigned s = 1; s < WH_STAGES_MAX; s++) {
         if (s >= by->stages) {
@@ -339,7 +348,7 @@ WH_INLINE wh_status wh_turn_first(const void *model, wh_turned_slope_fn *slope,
     slope(model, t.at, state->real, u, k1);
     if (by->stages > 1) {
         wh_turning_by(by, waves, k1, h, turn);
-        wh_turning_begin(waves, turn, &t);
+        wh_turning_begin(waves, turn, compensated, &t);
     }
     WH_UNROLL
     for (unsigned s = 1; s < WH_STAGES_MAX; s++) {
