@@ -61,14 +61,6 @@ const wh_real wh_sine_table[(1U << WH_SINE_BITS) + WH_SINE_QUARTER] WH_FLASH = {
     /* clang-format on */
 };
 
-wh_wave wh_any_turn(wh_real rad) {
-    wh_wave turn;
-    wh_sincos(wh_phase_from_rad(rad), &turn.sine, &turn.cosine);
-    wh_sincos_of_range(rad, &turn.sine, &turn.cosine);
-    turn.cosine -= WH_R(1.0);
-    return turn;
-}
-
 #if WH_DOUBLE
 
 wh_angle wh_angle_from_rad(wh_real rad) { return rad; }

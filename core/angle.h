@@ -20,7 +20,6 @@ extern "C" {
 
 #define wh_angle_from_rad WH_NAME(wh_angle_from_rad)
 #define wh_angle_to_rad WH_NAME(wh_angle_to_rad)
-#define wh_any_turn WH_NAME(wh_any_turn)
 #define wh_phase_times WH_NAME(wh_phase_times)
 
 /* The stored angle of unwrapped radians: whole turns are kept. Precision and range as with
@@ -30,10 +29,6 @@ wh_angle wh_angle_from_rad(wh_real rad);
 /* The unwrapped radians of a stored angle. Float: rounded to the nearest (by 0.504 of the last
  * place at worst); any angle is in range. */
 wh_real wh_angle_to_rad(wh_angle angle);
-
-/* sin(rad), and cos(rad) - 1 in .cosine: what turning on by `rad` adds, to as much as wh_sincos() errs by. NaN where
- * |rad| is beyond 5e8, or is NaN. */
-wh_wave wh_any_turn(wh_real rad);
 
 /* The phase of an angle times a number that need not be whole: half an angle, 1.5 or 0.37 times one. Whole
  * turns count there, which a phase has lost: half of one turn is half a turn. Float: within 0.75 phase

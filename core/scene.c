@@ -168,6 +168,17 @@ wh_status wh_scene_step(const wh_scene *scene, wh_state *state) {
     return status;
 }
 
+wh_status wh_scene_steps(const wh_scene *scene, wh_state *state, uint32_t steps) {
+    if (scene->ahead != NULL && steps > 0) {
+        return scene->ahead(scene, state, steps);
+    }
+    wh_status status = WH_OK;
+    for (; status == WH_OK && steps > 0; steps--) {
+        status = wh_scene_step(scene, state);
+    }
+    return status;
+}
+
 /* part / of, 0 <= part < of < 2^63, to the nearest real: long division, with one bit more than a real has
  * and a mark for what lies below them. May round up to one. */
 static wh_real rounded(uint64_t part, uint64_t of) {

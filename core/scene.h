@@ -69,6 +69,9 @@ struct wh_scene {
     /* One step. On divergence returns WH_E_DIVERGED, where a contact's gap, condition, value, friction or
      * restitution is no finite number WH_E_UNDEFINED; sets state->fault and leaves the rest as it was. Does not count the step: wh_scene_step() does. */
     wh_status (*advance)(const wh_scene *scene, wh_state *state);
+    /* So many steps, one or more, counted in state->steps: as wh_scene_steps(). NULL: advance() in a loop. Generated code
+     * that is compiled with -DWH_AHEAD=1 has it. */
+    wh_status (*ahead)(const wh_scene *scene, wh_state *state, uint32_t steps);
     /* The outputs at the present state: output[scene->outputs], SI units. May be NULL. */
     void (*observe)(const wh_scene *scene, const wh_state *state, wh_real *output);
     /* Shows how the file of advance() was compiled: wh_arithmetic() of arithmetic.h, or NULL. */
@@ -99,6 +102,7 @@ struct wh_scene {
 
 #define wh_scene_start WH_NAME(wh_scene_start)
 #define wh_scene_step WH_NAME(wh_scene_step)
+#define wh_scene_steps WH_NAME(wh_scene_steps)
 #define wh_scene_time WH_NAME(wh_scene_time)
 #define wh_scene_time_s WH_NAME(wh_scene_time_s)
 #define wh_scene_hash WH_NAME(wh_scene_hash)
@@ -115,6 +119,11 @@ wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, s
 /* Do one step. Returns WH_OK; or WH_E_DIVERGED or WH_E_UNDEFINED, with the last good state kept and
  * state->fault set (a further call fails the same way, it does not go on from garbage). */
 wh_status wh_scene_step(const wh_scene *scene, wh_state *state);
+
+/* Do so many steps, or none, for simulating ahead. The bits are those of as many calls of wh_scene_step(); it takes fewer
+ * instructions where the scene's file is compiled with -DWH_AHEAD=1, for as much flash again. Returns as wh_scene_step();
+ * state->steps tells how many were done. */
+wh_status wh_scene_steps(const wh_scene *scene, wh_state *state, uint32_t steps);
 
 /* Time of the state: state->steps * scene->step, exact but for one rounding of the fraction to the nearest
  * real. Good for all times below 2^64 s: float holds a microsecond of a run of years. Where the scene does

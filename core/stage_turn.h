@@ -19,8 +19,8 @@
  * The angle itself is moved by the whole step as ever (step.h) and looked up anew in the next one: nothing drifts.
  *
  * The polynomials are good for half a radian, |d| summed over the angles whose sine the list takes; one check tells.
- * Beyond it d's own sine and cosine are looked up, too (wh_any_turn()): the stages are as right as ever, and the step takes
- * more instructions. Nothing is refused that looking up at each stage (step.h) would take.
+ * Beyond it d is halved until it is small and the turn doubled as often (small_turn.h): the stages are nearly as right as ever,
+ * and the step takes more instructions. Nothing is refused that looking up at each stage (step.h) would take.
  */
 #ifndef WH_STAGE_TURN_H
 #define WH_STAGE_TURN_H
@@ -30,6 +30,7 @@
     "core/stage_turn.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
 #endif
 
+#include "small_turn.h"
 #include "step.h"
 
 /* gcc would compute what only some ways need before they part: 1 % more instructions on a Cortex-M4F, and up to 3 % more
@@ -42,9 +43,6 @@
 #ifndef WH_WAVES
 #define WH_WAVES 256
 #endif
-
-/* rad, |d| summed over those angles, up to which turns are small */
-#define WH_TURN_SMALL WH_R(0.5)
 
 /* Before the first accelerations there is little to keep over the call that the check may lead to; but what turning
  * takes is to be kept over them, and the 16 registers of a PC are too few for that: 3 % more instructions. */
@@ -70,28 +68,6 @@ typedef struct wh_waves {
 WH_INLINE bool wh_method_turns(wh_method method) {
     const wh_tableau *by = wh_tableau_of(method);
     return by->stages == 1 || by->turns[1] == 1;
-}
-
-/* As wh_any_turn() for |d| <= 1/2: within 4.1e-8 and 1.9e-9 in float, 7e-18 and 2e-19 in double, without rounding. */
-WH_INLINE wh_wave wh_small_turn(wh_real d) {
-    const wh_real z = d * d;
-    wh_wave turn;
-#if WH_DOUBLE
-    turn.sine = d + d * z *
-                        (-0.16666666666666 +
-                         z * (0.0083333333330238924 +
-                              z * (-0.0001984126934116413 +
-                                   z * (2.7556952900446698e-06 + z * -2.4927410423791707e-08))));
-    turn.cosine =
-        z * (-0.5 + z * (0.04166666666666596 +
-                         z * (-0.0013888888888601047 +
-                              z * (2.480158687820224e-05 +
-                                   z * (-2.7557030226024543e-07 + z * 2.078364892532402e-09)))));
-#else
-    turn.sine = d + d * z * (-0.16666032f + z * 0.008259796f);
-    turn.cosine = z * (-0.5f + z * (0.041665776f + z * -0.0013792582f));
-#endif
-    return turn;
 }
 
 /* A step's pairs on their way. */
@@ -123,7 +99,7 @@ WH_INLINE void wh_turning_look_up(const wh_waves *waves, const wh_angle *angle, 
     t->turns = 0;
 }
 
-/* What the first turn adds, the angles having these rates: turn[waves->count] as of wh_any_turn(). */
+/* What the first turn adds, the angles having these rates: turn[waves->count]. */
 WH_INLINE void wh_turning_by(const wh_tableau *by, const wh_waves *waves, const wh_real *rate,
                              wh_real h, wh_wave *turn) {
     wh_real d[WH_WAVES] = {0};
@@ -138,7 +114,7 @@ WH_INLINE void wh_turning_by(const wh_tableau *by, const wh_waves *waves, const 
     for (unsigned w = 0; w < waves->count; w++) {
         all = w == 0 ? WH_ABS(d[w]) : all + WH_ABS(d[w]);
     }
-    if (__builtin_expect(all <= WH_TURN_SMALL, true)) {
+    if (__builtin_expect_with_probability(all <= WH_TURN_SMALL, true, 1.0)) {
         WH_UNROLL
         for (unsigned w = 0; w < waves->count; w++) {
             turn[w] = wh_small_turn(d[w]);
@@ -146,7 +122,7 @@ WH_INLINE void wh_turning_by(const wh_tableau *by, const wh_waves *waves, const 
     } else {
         WH_UNROLL
         for (unsigned w = 0; w < waves->count; w++) {
-            turn[w] = wh_any_turn(d[w]);
+            turn[w] = wh_far_turn(d[w]);
         }
     }
 }

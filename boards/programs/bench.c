@@ -21,6 +21,9 @@
 #ifndef COUNTED_STEPS
 #define COUNTED_STEPS 100U
 #endif
+#ifndef STEPS_A_CALL
+#define STEPS_A_CALL 1
+#endif
 #ifndef COUNT_RECORDS
 #define COUNT_RECORDS 0
 #endif
@@ -184,7 +187,11 @@ static bool count_scene(const wh_scene *scene) {
     board_stack_paint();
     for (unsigned i = 0; i < COUNTED_STEPS && status == WH_OK; i++) {
         wh_count_begin();
+#if STEPS_A_CALL == 1
         status = wh_scene_step(scene, &state);
+#else
+        status = wh_scene_steps(scene, &state, STEPS_A_CALL);
+#endif
         wh_count_end();
         intervals++;
     }

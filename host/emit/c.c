@@ -73,6 +73,9 @@ static void write_starts(FILE *out, const image *im) {
     fprintf(out, "\n");
 }
 
+/* Contacts and books change more than wh_advance_ahead() keeps. */
+static bool has_ahead(const image *im) { return im->contacts == 0 && !im->ledger.kept; }
+
 static void write_scene(FILE *out, const image *im) {
     char hex[HEX_SIZE];
     /* declared here and not above, where it would stand before the names in functions */
@@ -99,7 +102,8 @@ static void write_scene(FILE *out, const image *im) {
     fprintf(out, "    .start_input = %s,\n", im->inputs > 0 ? "start_input" : "NULL");
     fprintf(out, "    .model = NULL,\n    .model_hash = UINT64_C(0x%016" PRIx64 "),\n", im->hash);
     fprintf(out,
-            "    .advance = advance,\n    .observe = %s,\n    .arithmetic = wh_arithmetic,\n};\n",
+            "    .advance = advance,\n%s    .observe = %s,\n    .arithmetic = wh_arithmetic,\n};\n",
+            has_ahead(im) ? "#if WH_AHEAD\n    .ahead = ahead,\n#endif\n" : "",
             im->outputs > 0 ? "observe" : "NULL");
 }
 
@@ -166,14 +170,14 @@ static void write_includes(FILE *out, const image *im) {
 }
 
 /* Of a scene without contacts. */
-static void write_advance(FILE *out, const image *im) {
+static void write_one_step(FILE *out, const image *im) {
     const bool second = im->form == WH_SECOND_ORDER;
     const char *method = wh_methods[im->settings.method].name;
     const char *compensated = im->settings.compensated ? "true" : "false";
     char hex[HEX_SIZE];
     hex_write(im->step_s, hex);
     const bool turns = image_turns(im);
-    fputs("static wh_status advance(const wh_scene *scene, wh_state *state) {\n    (void)scene;\n",
+    fputs("WH_INLINE wh_status one_step(const wh_scene *scene, wh_state *state) {\n    (void)scene;\n",
           out);
     if (im->ledger.kept) {
         fprintf(out,
@@ -190,6 +194,20 @@ static void write_advance(FILE *out, const image *im) {
                 : second ? " &waves, NULL,"
                          : " &waves,",
                 method, compensated, im->angles, second ? im->coordinates : im->reals, hex);
+    }
+}
+
+static void write_advance(FILE *out, const image *im) {
+    fputs("static wh_status advance(const wh_scene *scene, wh_state *state) {\n"
+          "    return one_step(scene, state);\n}\n\n",
+          out);
+    if (has_ahead(im)) {
+        fprintf(out,
+                "#if WH_AHEAD\n"
+                "static wh_status ahead(const wh_scene *scene, wh_state *state, uint32_t steps) {\n"
+                "    return wh_steps_ahead(scene, one_step, %dU, %dU, %s, state, steps);\n"
+                "}\n#endif\n\n",
+                im->angles, im->reals, im->settings.compensated ? "true" : "false");
     }
 }
 
@@ -218,8 +236,9 @@ void emit_c(FILE *out, const image *im, const char *file) {
     if (im->contacts > 0) {
         c_contacts_write(out, im);
     } else {
-        write_advance(out, im);
+        write_one_step(out, im);
     }
+    write_advance(out, im);
     if (im->outputs > 0) {
         write_observer(out, im);
     }

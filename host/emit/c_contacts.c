@@ -67,7 +67,7 @@ void c_contacts_write(FILE *out, const image *im) {
             core_stops(im), system.forced, wh_methods[system.method].name,
             system.compensated ? "true" : "false", system.angles, system.coordinates);
     fprintf(out,
-            "static wh_status advance(const wh_scene *scene, wh_state *state) {\n"
+            "WH_INLINE wh_status one_step(const wh_scene *scene, wh_state *state) {\n"
             "    (void)scene;\n    return wh_step_contact(&contacts, WH_R(%s), state);\n}\n\n",
             hex_write(im->step_s, hex));
 }

@@ -338,14 +338,36 @@ static void test_small_turns_are_sines(void) {
         wh_wave turn = wh_small_turn(d);
         TEST_ASSERT_TRUE(WH_ABS(turn.sine - wanted[0]) < within);
         TEST_ASSERT_TRUE(WH_ABS(WH_R(1.0) + turn.cosine - wanted[1]) < within);
-        turn = wh_any_turn(d);
-        TEST_ASSERT_TRUE(turn.sine == wanted[0]);
-        TEST_ASSERT_TRUE(turn.cosine == wanted[1] - WH_R(1.0));
         /* and next to nothing they are what they are, not only near it */
         const wh_real tiny = d * WH_R(1e-9);
         turn = wh_small_turn(tiny);
         TEST_ASSERT_TRUE(turn.sine == tiny);
         TEST_ASSERT_TRUE(turn.cosine == -WH_R(0.5) * (tiny * tiny) || sizeof(wh_real) == 8);
+    }
+}
+
+/* Up to eight turns: what is doubled errs in proportion; and what is beyond all turns is infinite or NaN: no step takes it. */
+static void test_far_turns_are_sines(void) {
+    for (int i = -50000; i <= 50000; i++) {
+        const wh_real d = (wh_real)i * WH_R(0.0009765625); /* 2^-10 */
+        const wh_real within = (sizeof(wh_real) == 8 ? WH_R(1.4e-15) : WH_R(8e-7)) *
+                               (WH_ABS(d) > WH_R(1.0) ? WH_ABS(d) : WH_R(1.0));
+        wh_real wanted[2];
+        wh_sincos(wh_phase_from_rad(d), &wanted[0], &wanted[1]);
+        const wh_wave turn = wh_far_turn(d);
+        TEST_ASSERT_TRUE(WH_ABS(turn.sine - wanted[0]) < within);
+        TEST_ASSERT_TRUE(WH_ABS(WH_R(1.0) + turn.cosine - wanted[1]) < within);
+        if (WH_ABS(d) <= WH_TURN_SMALL) {
+            const wh_wave small = wh_small_turn(d);
+            TEST_ASSERT_TRUE(turn.sine == small.sine && turn.cosine == small.cosine);
+        }
+    }
+    const wh_real none[] = {WH_R(1e9), WH_R(-1e9), WH_R(1e30), (wh_real)__builtin_inf(),
+                            (wh_real)__builtin_nan("")};
+    for (unsigned i = 0; i < sizeof none / sizeof none[0]; i++) {
+        const wh_wave turn = wh_far_turn(none[i]);
+        TEST_ASSERT_FALSE(WH_ABS(turn.sine) < WH_R(1e15));
+        TEST_ASSERT_FALSE(WH_ABS(turn.cosine) < WH_R(1e15));
     }
 }
 
@@ -357,4 +379,5 @@ void suite_stage_turn(void) {
     RUN_TEST(test_fast_angles_step_as_looking_up_does);
     RUN_TEST(test_what_is_no_turn_is_refused);
     RUN_TEST(test_small_turns_are_sines);
+    RUN_TEST(test_far_turns_are_sines);
 }

@@ -1,0 +1,66 @@
+/* ahead.h: many steps in one call, the state in registers between them. Part of step.h; compiled where WH_AHEAD is 1, for it is a
+ * second copy of the step. */
+#ifndef WH_AHEAD_H
+#define WH_AHEAD_H
+
+#include "scene.h"
+#include "unroll.h"
+
+/* Constants are to be loaded before the loop, as many as there are registers for: up to 5 % of the instructions of a small
+ * scene. */
+#if WH_AHEAD && defined(__GNUC__) && !defined(__clang__)
+#pragma GCC optimize("ira-loop-pressure", "no-gcse")
+#endif
+
+/* scene->advance() by so many steps > 0, counted in state->steps. What changes is copied to where no pointer of the caller's
+ * leads. Returns as wh_scene_steps(). */
+WH_INLINE wh_status wh_steps_ahead(const wh_scene *of,
+                                   wh_status (*one)(const wh_scene *of, wh_state *state),
+                                   unsigned angles, unsigned reals, bool compensated,
+                                   wh_state *state, uint32_t steps) {
+    wh_angle angle[WH_COORDS];
+    wh_real real[2 * WH_COORDS];
+    wh_real carry[2 * WH_COORDS];
+    wh_state now = {.angle = angle, .real = real, .carry = carry, .input = state->input};
+    uint32_t left = steps;
+    wh_status status;
+    WH_UNROLL
+    for (unsigned i = 0; i < angles; i++) {
+        angle[i] = state->angle[i];
+    }
+    WH_UNROLL
+    for (unsigned i = 0; i < reals; i++) {
+        real[i] = state->real[i];
+    }
+    if (compensated) {
+        WH_UNROLL
+        for (unsigned i = 0; i < angles + reals; i++) {
+            carry[i] = state->carry[i];
+        }
+    }
+    do {
+        status = one(of, &now);
+        if (status != WH_OK) {
+            state->fault = now.fault;
+            break;
+        }
+    } while (--left > 0);
+    WH_UNROLL
+    for (unsigned i = 0; i < angles; i++) {
+        state->angle[i] = angle[i];
+    }
+    WH_UNROLL
+    for (unsigned i = 0; i < reals; i++) {
+        state->real[i] = real[i];
+    }
+    if (compensated) {
+        WH_UNROLL
+        for (unsigned i = 0; i < angles + reals; i++) {
+            state->carry[i] = carry[i];
+        }
+    }
+    state->steps += steps - left;
+    return status;
+}
+
+#endif

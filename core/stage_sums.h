@@ -1,0 +1,58 @@
+/* stage_sums.h: what a step's stages give, added up as the method's row says (method.h). Part of step.h. */
+#ifndef WH_STAGE_SUMS_H
+#define WH_STAGE_SUMS_H
+
+#include "method.h"
+#include "unroll.h"
+
+/* What the stages gave: of the first, and of the others. */
+typedef struct wh_given {
+    const wh_real *first;
+    wh_real (*next)[WH_COORDS];
+} wh_given;
+
+/* sum_j share[j] * component i of stage j, stages in order. */
+WH_INLINE wh_real wh_stage_sum(const wh_real *share, unsigned stage, wh_given given, unsigned i) {
+    wh_real sum = WH_R(0.0);
+    bool any = false;
+    WH_UNROLL
+    for (unsigned j = 0; j < WH_STAGES_MAX; j++) {
+        if (j < stage && share[j] != WH_R(0.0)) {
+            const wh_real one = share[j] * (j == 0 ? given.first[i] : given.next[j - 1][i]);
+            sum = any ? sum + one : one;
+            any = true;
+        }
+    }
+    return sum;
+}
+
+/* Do a stage and the one before it count alike at the step's end? Those are added up first: a sum instead of a
+ * product each, and it may serve positions and rates. Where there are no positions, the rates decide. */
+WH_INLINE bool wh_stages_alike(const wh_tableau *by, unsigned stage, bool has_positions) {
+    return stage < WH_STAGES_MAX && stage < by->stages &&
+           by->rates[stage] == by->rates[stage - 1] &&
+           (!has_positions || by->positions[stage] == by->positions[stage - 1]);
+}
+
+/* Stage `stage` gave `now`: kept in given[], and in the sums of those that count alike. */
+WH_INLINE void wh_stage_given(const wh_tableau *by, unsigned stage, bool has_positions, unsigned n,
+                              const wh_real *first, const wh_real *now, wh_real (*given)[WH_COORDS],
+                              wh_real (*alike)[WH_COORDS]) {
+    WH_UNROLL
+    for (unsigned i = 0; i < n; i++) {
+        given[stage - 1][i] = now[i];
+        alike[stage - 1][i] = !wh_stages_alike(by, stage, has_positions)
+                                  ? now[i]
+                                  : (stage == 1 ? first[i] : alike[stage - 2][i]) + now[i];
+    }
+}
+
+/* sum += share * more, and the first one is the sum. */
+WH_INLINE void wh_total_add(wh_real *sum, bool *any, wh_real share, wh_real more) {
+    if (share != WH_R(0.0)) {
+        *sum = *any ? *sum + share * more : share * more;
+        *any = true;
+    }
+}
+
+#endif

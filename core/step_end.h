@@ -1,0 +1,218 @@
+/* step_end.h: the end of a step: what its stages gave moves the state, unless that leaves all bounds. Part of step.h. */
+#ifndef WH_STEP_END_H
+#define WH_STEP_END_H
+
+#include "scene.h"
+#include "stage_sums.h"
+#include "sum.h"
+
+/* A linear position or a rate beyond this is no mechanism's: the step is refused. */
+#define WH_ABSURD WH_R(1e15)
+
+/* True for finite numbers of a believable size; false for NaN. */
+WH_INLINE bool wh_believable(wh_real value, wh_real limit) { return WH_ABS(value) < limit; }
+
+/* The first of value[n] that is none, or n. Seldom is there one: first all are asked at once, by the sum of their sizes,
+ * which is not below any of them. */
+WH_INLINE unsigned wh_first_absurd(const wh_real *value, unsigned n) {
+    wh_real all = WH_R(0.0);
+    WH_UNROLL
+    for (unsigned i = 0; i < n; i++) {
+        all = i == 0 ? WH_ABS(value[i]) : all + WH_ABS(value[i]);
+    }
+    if (all < WH_ABSURD) {
+        return n;
+    }
+    WH_UNROLL
+    for (unsigned i = 0; i < n; i++) {
+        if (!wh_believable(value[i], WH_ABSURD)) {
+            return i;
+        }
+    }
+    return n;
+}
+
+/* *angle moved on by `steps` phase units, less than WH_PHASE_STEP_MAX in size, rounded to the nearest: dropping the
+ * fraction would slow every angle down by half a unit a step. Compensated: *carry is what is rounded away, and in float
+ * what was is in `steps` already. */
+WH_INLINE void wh_angle_move(wh_angle *angle, wh_real steps, bool compensated, wh_real *carry) {
+#if WH_DOUBLE
+    *angle = wh_sum(*angle, steps, compensated, carry);
+#else
+    const int32_t whole = wh_whole(steps);
+    if (compensated) {
+        *carry = steps - (float)whole;
+    }
+    /* turns beyond 2^31 wrap like the phase, and are no undefined behaviour */
+    *angle = (wh_angle)((uint64_t)*angle + (uint64_t)(int64_t)whole);
+#endif
+}
+
+/* Whoever defines this is told what rounding took from the step of turn angle i, h long, in units: the interpreter
+ * (host/run/loss.inc). Nothing else does, and then nothing is left of it. */
+#ifndef WH_ANGLE_LOST
+#define WH_ANGLE_LOST(i, h, lost) ((void)0)
+#endif
+
+/* Refuse the step: component `fault` left all bounds. */
+WH_INLINE wh_status wh_refuse(wh_state *state, unsigned fault) {
+    state->fault = (int)fault;
+    return WH_E_DIVERGED;
+}
+
+/* Where a step's results wait until the whole step is known to be sound. */
+typedef struct wh_trial {
+    wh_angle angle[WH_COORDS];
+    wh_real real[2 * WH_COORDS];
+    wh_real carry[2 * WH_COORDS];
+} wh_trial;
+
+/* Take the trial over into the state. */
+WH_INLINE void wh_commit(const wh_trial *trial, unsigned angles, unsigned reals, bool compensated,
+                         wh_state *state) {
+    WH_UNROLL
+    for (unsigned i = 0; i < angles; i++) {
+        state->angle[i] = trial->angle[i];
+    }
+    WH_UNROLL
+    for (unsigned i = 0; i < reals; i++) {
+        state->real[i] = trial->real[i];
+    }
+    if (compensated) {
+        WH_UNROLL
+        for (unsigned i = 0; i < angles + reals; i++) {
+            state->carry[i] = trial->carry[i];
+        }
+    }
+}
+
+/* trial->angle[] of this step, h long: the state's, each moved on by move[] times rad_a_move. The first angle that was
+ * to move by half a turn or more, or by NaN, or `angles`. Seldom is there one: first all are asked at once, by the sum
+ * of their sizes. */
+WH_INLINE unsigned wh_angles_move(const wh_real *move, wh_real rad_a_move, wh_real h,
+                                  bool compensated, unsigned angles, const wh_state *state,
+                                  wh_trial *trial) {
+    wh_real steps[WH_COORDS] = {0};
+    wh_real all = WH_R(0.0);
+    WH_UNROLL
+    for (unsigned i = 0; i < angles; i++) {
+        trial->angle[i] = state->angle[i];
+        trial->carry[i] = compensated ? state->carry[i] : WH_R(0.0);
+        steps[i] = move[i] * (rad_a_move * WH_PHASE_PER_RAD);
+        if (compensated && !WH_DOUBLE) {
+            steps[i] += trial->carry[i];
+        }
+        all = i == 0 ? WH_ABS(steps[i]) : all + WH_ABS(steps[i]);
+    }
+    if (__builtin_expect(angles > 0 && !(all < WH_PHASE_STEP_MAX), false)) {
+        WH_UNROLL
+        for (unsigned i = 0; i < angles; i++) {
+            if (!wh_believable(steps[i], WH_PHASE_STEP_MAX)) {
+                return i;
+            }
+        }
+    }
+    WH_UNROLL
+    for (unsigned i = 0; i < angles; i++) {
+        wh_angle_move(&trial->angle[i], steps[i], compensated, &trial->carry[i]);
+        WH_ANGLE_LOST(i, h, steps[i] - (wh_real)(trial->angle[i] - state->angle[i]));
+    }
+    (void)h;
+    return angles;
+}
+
+/* The end of a step of q'' = f: what the stages gave, a1 and the sums of those that count alike, moves the state.
+ * Returns as wh_step_second(). */
+WH_INLINE wh_status wh_second_end(const wh_tableau *by, const wh_real *a1,
+                                  wh_real (*alike)[WH_COORDS], bool compensated, unsigned angles,
+                                  unsigned n, wh_real h, wh_state *state) {
+    const unsigned linears = n - angles;
+    const wh_real *linear = state->real;
+    const wh_real *rate = state->real + linears;
+    /* zeroed for the compiler, which cannot know that no scene uses what it did not fill */
+    wh_real move[WH_COORDS] = {0}; /* mean rate that moves the position over this step */
+    wh_real kick[WH_COORDS] = {0}; /* change of the rate over this step */
+    wh_trial trial = {0};
+
+    WH_UNROLL
+    for (unsigned i = 0; i < n; i++) {
+        wh_real moved = WH_R(0.0);
+        wh_real rest = WH_R(0.0);
+        bool any_moved = false;
+        bool any_rest = false;
+        WH_UNROLL
+        for (unsigned s = 0; s < by->stages; s++) {
+            if (!wh_stages_alike(by, s + 1, true)) {
+                const wh_real more = s == 0 ? a1[i] : alike[s - 1][i];
+                wh_total_add(&moved, &any_moved, by->positions[s], more);
+                wh_total_add(&rest, &any_rest, by->rates[s] - by->positions[s], more);
+            }
+        }
+        move[i] = any_moved ? rate[i] + h / by->parts * moved : rate[i];
+        kick[i] = h / by->parts * (any_moved && any_rest ? moved + rest : any_moved ? moved : rest);
+    }
+
+    const unsigned far = wh_angles_move(move, h, h, compensated, angles, state, &trial);
+    if (far < angles) {
+        return wh_refuse(state, far);
+    }
+    WH_UNROLL
+    for (unsigned i = 0; i < linears; i++) {
+        wh_real *carry = &trial.carry[angles + i];
+        *carry = compensated ? state->carry[angles + i] : WH_R(0.0);
+        trial.real[i] = wh_sum(linear[i], h * move[angles + i], compensated, carry);
+    }
+    WH_UNROLL
+    for (unsigned i = 0; i < n; i++) {
+        wh_real *carry = &trial.carry[n + i];
+        *carry = compensated ? state->carry[n + i] : WH_R(0.0);
+        trial.real[linears + i] = wh_sum(rate[i], kick[i], compensated, carry);
+    }
+    const unsigned absurd = wh_first_absurd(trial.real, linears + n);
+    if (absurd < linears + n) {
+        return wh_refuse(state, angles + absurd);
+    }
+    wh_commit(&trial, angles, linears + n, compensated, state);
+    return WH_OK;
+}
+
+/* The end of a step of x' = f, likewise. */
+WH_INLINE wh_status wh_first_end(const wh_tableau *by, const wh_real *k1,
+                                 wh_real (*alike)[WH_COORDS], bool compensated, unsigned angles,
+                                 unsigned reals, wh_real h, wh_state *state) {
+    const unsigned n = angles + reals;
+    wh_real move[WH_COORDS];
+    wh_trial trial = {0};
+
+    WH_UNROLL
+    for (unsigned i = 0; i < n; i++) {
+        wh_real total = WH_R(0.0);
+        bool any = false;
+        WH_UNROLL
+        for (unsigned s = 0; s < by->stages; s++) {
+            if (!wh_stages_alike(by, s + 1, false)) {
+                wh_total_add(&total, &any, by->rates[s], s == 0 ? k1[i] : alike[s - 1][i]);
+            }
+        }
+        move[i] = h / by->parts * total;
+    }
+
+    const unsigned far = wh_angles_move(move, WH_R(1.0), h, compensated, angles, state, &trial);
+    if (far < angles) {
+        return wh_refuse(state, far);
+    }
+    WH_UNROLL
+    for (unsigned i = 0; i < reals; i++) {
+        wh_real *carry = &trial.carry[angles + i];
+        *carry = compensated ? state->carry[angles + i] : WH_R(0.0);
+        trial.real[i] = wh_sum(state->real[i], move[angles + i], compensated, carry);
+    }
+    const unsigned absurd = wh_first_absurd(trial.real, reals);
+    if (absurd < reals) {
+        return wh_refuse(state, angles + absurd);
+    }
+    wh_commit(&trial, angles, reals, compensated, state);
+    return WH_OK;
+}
+
+#endif

@@ -1,0 +1,28 @@
+/* unroll.h: loops that generated code has unrolled, and what gcc is to leave undone there. Part of step.h. */
+#ifndef WH_UNROLL_H
+#define WH_UNROLL_H
+
+/* Most coordinates (second order) or components (first order). A generated scene defines its own
+ * and has its loops unrolled: by itself no compiler does, and arrays indexed by a counter stay in memory. */
+#ifndef WH_COORDS
+#define WH_COORDS 64
+#define WH_UNROLL
+#endif
+#ifdef WH_UNROLL /* as it is */
+#elif defined(__clang__)
+#define WH_UNROLL _Pragma("clang loop unroll(full)")
+#pragma clang diagnostic ignored "-Wpass-failed" /* loops whose bound is no constant stay loops */
+#elif defined(__GNUC__) && __GNUC__ >= 8         /* which older ones do not know */
+#define WH_UNROLL _Pragma("GCC unroll 64")
+#else
+#define WH_UNROLL
+#endif
+
+/* gcc would sink what a stage computes below the checks of the next one, where more of it has to be kept: up to 8 %
+ * more instructions a step; and load, beside each check, the number that a refused step is blamed with: up to 3 %; and call
+ * memcpy() for a loop over one or two values. */
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC optimize("no-tree-sink", "no-if-conversion2", "no-tree-loop-distribute-patterns")
+#endif
+
+#endif
