@@ -64,6 +64,24 @@ typedef float wh_real;
 #define WH_INLINE static inline
 #endif
 
+/* What generated code has inlined, but for processors without floating-point arithmetic: beside what that takes there,
+ * a call costs little, and their flash is small. */
+#if defined(__AVR__) || (defined(__arm__) && !defined(__ARM_FP)) || \
+    (defined(__riscv) && !defined(__riscv_flen))
+#define WH_INLINE_WITH_FPU static __attribute__((noinline, unused))
+#else
+#define WH_INLINE_WITH_FPU WH_INLINE
+#endif
+
+/* A way that is hardly ever taken: for size, and out of the others' way. */
+#if (defined(__GNUC__) && __GNUC__ >= 9) || (defined(__clang__) && __clang_major__ >= 11)
+#define WH_SELDOM(condition) __builtin_expect_with_probability(condition, false, 1.0)
+#elif defined(__GNUC__)
+#define WH_SELDOM(condition) __builtin_expect(condition, false)
+#else
+#define WH_SELDOM(condition) (condition)
+#endif
+
 /* Errors are negative; zero is success: X(name, value, words for consoles, wh_status_text()). */
 #define WH_STATUS_ROWS(X) \
     X(WH_OK, 0, "ok") \

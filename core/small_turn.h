@@ -14,7 +14,7 @@ or NaN, and the step is
 #define WH_TURN_HALVINGS 16U
 
 /* The turn by d rad, |d| <= 1/2: within 4.1e-8 and 1.9e-9 in float, 7e-18 and 2e-19 in double,
-without rounding. */ WH_INLINE wh_wave wh_small_turn(wh_real d) { const wh_real z = d * d; wh_wave
+without rounding. */ WH_INLINE_WITH_FPU wh_wave wh_small_turn(wh_real d) { const wh_real z = d * d; wh_wave
 turn;
 #if WH_DOUBLE
     turn.sine = d + d * z *
@@ -35,9 +35,9 @@ turn;
 }
 
 /* The same for any d: the turn by d / 2^k, doubled k times, and what it errs by with it: within
-7e-7 |d| in float, 1.3e-15 |d| in double. Seldom needed, and no call, over
+ * 7e-7 |d| in float, 1.3e-15 |d| in double. Seldom needed, and no call, over
  * which all that a step holds in registers would have to be kept. */
-WH_INLINE wh_wave wh_far_turn(wh_real d) {
+WH_INLINE_WITH_FPU wh_wave wh_far_turn(wh_real d) {
     unsigned doublings = 0;
     for (; WH_ABS(d) > WH_TURN_SMALL && doublings < WH_TURN_HALVINGS; doublings++) {
         d *= WH_R(0.5);

@@ -114,15 +114,15 @@ WH_INLINE void wh_turning_by(const wh_tableau *by, const wh_waves *waves, const 
     for (unsigned w = 0; w < waves->count; w++) {
         all = w == 0 ? WH_ABS(d[w]) : all + WH_ABS(d[w]);
     }
-    if (__builtin_expect_with_probability(all <= WH_TURN_SMALL, true, 1.0)) {
+    if (WH_SELDOM(!(all <= WH_TURN_SMALL))) {
         WH_UNROLL
         for (unsigned w = 0; w < waves->count; w++) {
-            turn[w] = wh_small_turn(d[w]);
+            turn[w] = wh_far_turn(d[w]);
         }
     } else {
         WH_UNROLL
         for (unsigned w = 0; w < waves->count; w++) {
-            turn[w] = wh_far_turn(d[w]);
+            turn[w] = wh_small_turn(d[w]);
         }
     }
 }
@@ -199,7 +199,7 @@ WH_INLINE bool wh_turning_leans(const wh_shares *of, unsigned stage, wh_real (*g
 }
 
 /* The pair that leans by this. */
-WH_INLINE wh_wave wh_lean(wh_wave at, const wh_sine_parts *parts, wh_real lean, bool precise) {
+WH_INLINE_WITH_FPU wh_wave wh_lean(wh_wave at, const wh_sine_parts *parts, wh_real lean, bool precise) {
     const wh_real half = WH_R(0.5) * lean;
     const wh_real cosine = at.cosine - half * at.sine;
     wh_wave leant;

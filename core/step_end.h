@@ -104,7 +104,7 @@ WH_INLINE unsigned wh_angles_move(const wh_real *move, wh_real rad_a_move, wh_re
         }
         all = i == 0 ? WH_ABS(steps[i]) : all + WH_ABS(steps[i]);
     }
-    if (__builtin_expect(angles > 0 && !(all < WH_PHASE_STEP_MAX), false)) {
+    if (WH_SELDOM(angles > 0 && !(all < WH_PHASE_STEP_MAX))) {
         WH_UNROLL
         for (unsigned i = 0; i < angles; i++) {
             if (!wh_believable(steps[i], WH_PHASE_STEP_MAX)) {

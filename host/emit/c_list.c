@@ -161,7 +161,7 @@ void c_list_function(FILE *out, const tape *t, c_angles angles, const char *name
                      bool by_pointer) {
     const char *linkage = tape_operations(t) > INLINED_MOST ? "static"
                           : by_pointer                      ? "static inline"
-                                                            : "WH_INLINE";
+                                                            : "WH_INLINE_WITH_FPU";
     const int indent = (int)(strlen(linkage) + sizeof " void (" - 1 + strlen(name));
     fprintf(out, "%s void %s(const void *model, const wh_%s,\n", linkage, name,
             angles == C_WAVES ? "wave *wave" : "phase *phase");
