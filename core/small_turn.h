@@ -14,8 +14,10 @@ or NaN, and the step is
 #define WH_TURN_HALVINGS 16U
 
 /* The turn by d rad, |d| <= 1/2: within 4.1e-8 and 1.9e-9 in float, 7e-18 and 2e-19 in double,
-without rounding. */ WH_INLINE_WITH_FPU wh_wave wh_small_turn(wh_real d) { const wh_real z = d * d; wh_wave
-turn;
+without rounding. */
+WH_INLINE_WITH_FPU wh_wave wh_small_turn(wh_real d) {
+    const wh_real z = d * d;
+    wh_wave turn;
 #if WH_DOUBLE
     turn.sine = d + d * z *
                         (-0.16666666666666 +

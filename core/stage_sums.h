@@ -5,6 +5,30 @@
 #include "method.h"
 #include "unroll.h"
 
+/* All stages but the first: stage(s); for each. Unrolled by hand where the compiler cannot be asked to: else shares would be
+ * looked up and multiplied by while the program runs. */
+#ifdef WH_UNROLLS
+#define WH_LATER_STAGES(by, stage) \
+    do { \
+        WH_UNROLL \
+        for (unsigned s = 1; s < WH_STAGES_MAX; \
+             s++) { /* with this bound gcc has fewer to spill */ \
+            if (s >= (by)->stages) { \
+                break; \
+            } \
+            stage(s); \
+        } \
+    } while (false)
+#else
+_Static_assert(WH_STAGES_MAX == 4, "a stage each below");
+#define WH_LATER_STAGES(by, stage) \
+    do { \
+        stage(1U); \
+        stage(2U); \
+        stage(3U); \
+    } while (false)
+#endif
+
 /* What the stages gave: of the first, and of the others. */
 typedef struct wh_given {
     const wh_real *first;

@@ -128,7 +128,8 @@ WH_INLINE void wh_turning_by(const wh_tableau *by, const wh_waves *waves, const 
 }
 
 /* Begin to turn so from the pairs in turning->at. */
-WH_INLINE void wh_turning_begin(const wh_waves *waves, const wh_wave *turn, bool precise, wh_turning *t) {
+WH_INLINE void wh_turning_begin(const wh_waves *waves, const wh_wave *turn, bool precise,
+                                wh_turning *t) {
     WH_UNROLL
     for (unsigned w = 0; w < waves->count; w++) {
         const wh_real sine = turn[w].sine;
@@ -199,7 +200,8 @@ WH_INLINE bool wh_turning_leans(const wh_shares *of, unsigned stage, wh_real (*g
 }
 
 /* The pair that leans by this. */
-WH_INLINE_WITH_FPU wh_wave wh_lean(wh_wave at, const wh_sine_parts *parts, wh_real lean, bool precise) {
+WH_INLINE_WITH_FPU wh_wave wh_lean(wh_wave at, const wh_sine_parts *parts, wh_real lean,
+                                   bool precise) {
     const wh_real half = WH_R(0.5) * lean;
     const wh_real cosine = at.cosine - half * at.sine;
     wh_wave leant;
@@ -239,6 +241,53 @@ WH_INLINE void wh_turning_tell(const wh_shares *of, unsigned stage, wh_given rat
     }
 }
 
+/* A step of q'' = f(q, q', u) on its way. */
+typedef struct wh_turned_second {
+    const wh_real *linear; /* where it begins */
+    const wh_real *rate;
+    const wh_real *input;
+    wh_turning t;
+    wh_wave pair[WH_WAVES];
+    wh_real at[WH_COORDS];                    /* linear positions of a stage, */
+    wh_real v[WH_COORDS];                     /* its rates */
+    wh_real a[WH_COORDS];                     /* and its accelerations, */
+    wh_real a1[WH_COORDS];                    /* those of the first one */
+    wh_real gained[WH_STAGES_MAX][WH_COORDS]; /* what the rates of all others have gained */
+    wh_real rates[WH_STAGES_MAX][WH_COORDS];
+    wh_real accels[WH_STAGES_MAX][WH_COORDS];
+    wh_real alike[WH_STAGES_MAX][WH_COORDS]; /* sums of those that count alike */
+} wh_turned_second;
+
+/* Its stage s > 0. */
+WH_INLINE void wh_turn_second_stage(const void *model, wh_turned_accel_fn *accel,
+                                    const wh_waves *waves, wh_phase *told, const wh_tableau *by,
+                                    unsigned s, bool compensated, unsigned angles, unsigned n,
+                                    wh_real h, const wh_state *state, wh_turned_second *k) {
+    const wh_shares *of = &by->stage[s];
+    const unsigned linears = n - angles;
+    const wh_given all_rates = {k->rate, k->rates};
+    const wh_given all_accels = {k->a1, k->accels};
+    if (s >= by->stages) {
+        return;
+    }
+    WH_UNROLL
+    for (unsigned i = 0; i < n; i++) {
+        k->gained[s - 1][i] = h / of->parts * wh_stage_sum(of->share, s, all_accels, i);
+        k->v[i] = k->rate[i] + k->gained[s - 1][i];
+        k->rates[s - 1][i] = k->v[i];
+    }
+    WH_UNROLL
+    for (unsigned i = 0; i < linears; i++) {
+        k->at[i] = k->linear[i] + h / of->parts * wh_stage_sum(of->share, s, all_rates, angles + i);
+    }
+    wh_turning_stage(by, waves, s, k->gained, angles, h, compensated, &k->t, k->pair);
+    if (told != NULL) {
+        wh_turning_tell(of, s, all_rates, angles, h, state, told);
+    }
+    accel(model, k->pair, k->at, k->v, k->input, k->a);
+    wh_stage_given(by, s, true, n, k->a1, k->a, k->accels, k->alike);
+}
+
 /* As wh_step_second(), turning. The method must turn. `told` [angles] gets the angles' phases before each call of
  * accel(), or is NULL. */
 WH_INLINE wh_status wh_turn_second(const void *model, wh_turned_accel_fn *accel,
@@ -246,57 +295,59 @@ WH_INLINE wh_status wh_turn_second(const void *model, wh_turned_accel_fn *accel,
                                    bool compensated, unsigned angles, unsigned n, wh_real h,
                                    wh_state *state) {
     const wh_tableau *by = wh_tableau_of(method);
-    const unsigned linears = n - angles;
-    const wh_real *linear = state->real;
-    const wh_real *rate = state->real + linears;
-    const wh_real *u = state->input;
-    wh_turning t = {.turns = 0};
+    wh_turned_second k = {
+        .linear = state->real, .rate = state->real + (n - angles), .input = state->input};
     wh_wave turn[WH_WAVES] = {{0}};
-    wh_wave pair[WH_WAVES] = {{0}};
-    wh_real at[WH_COORDS] = {0};              /* linear positions of a stage, */
-    wh_real v[WH_COORDS] = {0};               /* its rates */
-    wh_real a[WH_COORDS];                     /* and its accelerations, */
-    wh_real a1[WH_COORDS];                    /* those of the first one */
-    wh_real gained[WH_STAGES_MAX][WH_COORDS]; /* what the rates of all others have gained */
-    wh_real rates[WH_STAGES_MAX][WH_COORDS];
-    wh_real accels[WH_STAGES_MAX][WH_COORDS];
-    wh_real alike[WH_STAGES_MAX][WH_COORDS] = {{0}}; /* sums of those that count alike */
-    const wh_given all_rates = {rate, rates};
-    const wh_given all_accels = {a1, accels};
 
     if (WH_TURN_ASKS_FIRST && by->stages > 1) {
-        wh_turning_by(by, waves, rate, h, turn);
+        wh_turning_by(by, waves, k.rate, h, turn);
     }
-    wh_turning_look_up(waves, state->angle, angles, told, &t);
-    accel(model, t.at, linear, rate, u, a1);
+    wh_turning_look_up(waves, state->angle, angles, told, &k.t);
+    accel(model, k.t.at, k.linear, k.rate, k.input, k.a1);
     if (!WH_TURN_ASKS_FIRST && by->stages > 1) {
-        wh_turning_by(by, waves, rate, h, turn);
+        wh_turning_by(by, waves, k.rate, h, turn);
     }
-    wh_turning_begin(waves, turn, compensated, &t);
+    wh_turning_begin(waves, turn, compensated, &k.t);
+#define WH_STAGE(s) \
+    wh_turn_second_stage(model, accel, waves, told, by, s, compensated, angles, n, h, state, &k)
+    WH_LATER_STAGES(by, WH_STAGE);
+#undef WH_STAGE
+    return wh_second_end(by, k.a1, k.alike, compensated, angles, n, h, state);
+}
+
+/* A step of x' = f(x, u) on its way. */
+typedef struct wh_turned_first {
+    wh_turning t;
+    wh_wave pair[WH_WAVES];
+    wh_real at[WH_COORDS];                    /* reals of a stage */
+    wh_real k1[WH_COORDS];                    /* derivatives of the first stage */
+    wh_real k[WH_COORDS];                     /* of the present one */
+    wh_real gained[WH_STAGES_MAX][WH_COORDS]; /* those of all others less the first's, of angles */
+    wh_real slopes[WH_STAGES_MAX][WH_COORDS]; /* those of all but the first */
+    wh_real alike[WH_STAGES_MAX][WH_COORDS];  /* sums of those that count alike */
+} wh_turned_first;
+
+/* Its stage s > 0. */
+WH_INLINE void wh_turn_first_stage(const void *model, wh_turned_slope_fn *slope,
+                                   const wh_waves *waves, const wh_tableau *by, unsigned s,
+                                   bool compensated, unsigned angles, unsigned reals, wh_real h,
+                                   const wh_state *state, wh_turned_first *k) {
+    const wh_shares *of = &by->stage[s];
+    const wh_given all = {k->k1, k->slopes};
+    if (s >= by->stages) {
+        return;
+    }
     WH_UNROLL
-    for (unsigned s = 1; s < WH_STAGES_MAX; s++) {
-        if (s >= by->stages) {
-            break;
-        }
-        const wh_shares *of = &by->stage[s];
-        WH_UNROLL
-        for (unsigned i = 0; i < n; i++) {
-            gained[s - 1][i] = h / of->parts * wh_stage_sum(of->share, s, all_accels, i);
-            v[i] = rate[i] + gained[s - 1][i];
-            rates[s - 1][i] = v[i];
-        }
-        WH_UNROLL
-        for (unsigned i = 0; i < linears; i++) {
-            at[i] = linear[i] + h / of->parts * wh_stage_sum(of->share, s, all_rates, angles + i);
-        }
-        wh_turning_stage(by, waves, s, gained, angles, h, compensated, &t, pair);
-        if (told != NULL) {
-            wh_turning_tell(of, s, all_rates, angles, h, state, told);
-        }
-        accel(model, pair, at, v, u, a);
-        wh_stage_given(by, s, true, n, a1, a, accels, alike);
+    for (unsigned i = 0; i < reals; i++) {
+        k->at[i] = state->real[i] + h / of->parts * wh_stage_sum(of->share, s, all, angles + i);
     }
-    return wh_second_end(by, a1, alike, compensated, angles, n, h, state);
+    wh_turning_stage(by, waves, s, k->gained, angles, h, compensated, &k->t, k->pair);
+    slope(model, k->pair, k->at, state->input, k->k);
+    wh_stage_given(by, s, false, angles + reals, k->k1, k->k, k->slopes, k->alike);
+    WH_UNROLL
+    for (unsigned i = 0; i < angles; i++) {
+        k->gained[s - 1][i] = k->k[i] - k->k1[i];
+    }
 }
 
 /* As wh_step_first(), turning. The method must turn. Returns as wh_turn_second(). */
@@ -304,47 +355,23 @@ WH_INLINE wh_status wh_turn_first(const void *model, wh_turned_slope_fn *slope,
                                   const wh_waves *waves, wh_method method, bool compensated,
                                   unsigned angles, unsigned reals, wh_real h, wh_state *state) {
     const wh_tableau *by = wh_tableau_of(method);
-    const unsigned n = angles + reals;
-    const wh_real *u = state->input;
-    wh_turning t = {.turns = 0};
+    wh_turned_first k = {.k1 = {0}};
     wh_wave turn[WH_WAVES] = {{0}};
-    wh_wave pair[WH_WAVES] = {{0}};
-    wh_real at[WH_COORDS] = {0};
-    wh_real k1[WH_COORDS];                    /* derivatives of the first stage */
-    wh_real k[WH_COORDS];                     /* of the present one */
-    wh_real gained[WH_STAGES_MAX][WH_COORDS]; /* those of all others less the first's, of angles */
-    wh_real slopes[WH_STAGES_MAX][WH_COORDS]; /* those of all but the first */
-    wh_real alike[WH_STAGES_MAX][WH_COORDS] = {{0}}; /* sums of those that count alike */
-    const wh_given all = {k1, slopes};
 
     if (!wh_method_takes(method, WH_FIRST_ORDER)) {
         return WH_E_ARGUMENT;
     }
-    wh_turning_look_up(waves, state->angle, angles, NULL, &t);
-    slope(model, t.at, state->real, u, k1);
+    wh_turning_look_up(waves, state->angle, angles, NULL, &k.t);
+    slope(model, k.t.at, state->real, state->input, k.k1);
     if (by->stages > 1) {
-        wh_turning_by(by, waves, k1, h, turn);
-        wh_turning_begin(waves, turn, compensated, &t);
+        wh_turning_by(by, waves, k.k1, h, turn);
+        wh_turning_begin(waves, turn, compensated, &k.t);
     }
-    WH_UNROLL
-    for (unsigned s = 1; s < WH_STAGES_MAX; s++) {
-        if (s >= by->stages) {
-            break;
-        }
-        const wh_shares *of = &by->stage[s];
-        WH_UNROLL
-        for (unsigned i = 0; i < reals; i++) {
-            at[i] = state->real[i] + h / of->parts * wh_stage_sum(of->share, s, all, angles + i);
-        }
-        wh_turning_stage(by, waves, s, gained, angles, h, compensated, &t, pair);
-        slope(model, pair, at, u, k);
-        wh_stage_given(by, s, false, n, k1, k, slopes, alike);
-        WH_UNROLL
-        for (unsigned i = 0; i < angles; i++) {
-            gained[s - 1][i] = k[i] - k1[i];
-        }
-    }
-    return wh_first_end(by, k1, alike, compensated, angles, reals, h, state);
+#define WH_STAGE(s) \
+    wh_turn_first_stage(model, slope, waves, by, s, compensated, angles, reals, h, state, &k)
+    WH_LATER_STAGES(by, WH_STAGE);
+#undef WH_STAGE
+    return wh_first_end(by, k.k1, k.alike, compensated, angles, reals, h, state);
 }
 
 #endif

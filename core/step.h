@@ -44,62 +44,114 @@ WH_INLINE bool wh_stage_angle(wh_angle angle, wh_real sum, wh_real h, wh_real pa
                : wh_phase_move(wh_phase_of(angle), sum * (h / parts * WH_PHASE_PER_RAD), phase);
 }
 
+/* A step of q'' = f(q, q', u) on its way. */
+typedef struct wh_stepped_second {
+    const wh_real *linear; /* where it begins */
+    const wh_real *rate;
+    const wh_real *input;
+    wh_phase phase[WH_COORDS];
+    wh_real at[WH_COORDS];                   /* linear positions of a stage, */
+    wh_real v[WH_COORDS];                    /* its rates */
+    wh_real a[WH_COORDS];                    /* and its accelerations, */
+    wh_real a1[WH_COORDS];                   /* those of the first one */
+    wh_real rates[WH_STAGES_MAX][WH_COORDS]; /* and of all others */
+    wh_real accels[WH_STAGES_MAX][WH_COORDS];
+    wh_real alike[WH_STAGES_MAX][WH_COORDS]; /* sums of those that count alike */
+} wh_stepped_second;
+
+/* Its stage s > 0. The angle that is to move by half a turn or more, or `angles`. */
+WH_INLINE unsigned wh_step_second_stage(const void *model, wh_accel_fn *accel, const wh_tableau *by,
+                                        unsigned s, unsigned angles, unsigned n, wh_real h,
+                                        const wh_state *state, wh_stepped_second *k) {
+    const unsigned linears = n - angles;
+    const wh_given all_rates = {k->rate, k->rates};
+    const wh_given all_accels = {k->a1, k->accels};
+    const wh_real *share = by->stage[s].share;
+    const wh_real parts = by->stage[s].parts;
+    if (s >= by->stages) {
+        return angles;
+    }
+    WH_UNROLL
+    for (unsigned i = 0; i < n; i++) {
+        k->v[i] = k->rate[i] + h / parts * wh_stage_sum(share, s, all_accels, i);
+        k->rates[s - 1][i] = k->v[i];
+    }
+    WH_UNROLL
+    for (unsigned i = 0; i < linears; i++) {
+        k->at[i] = k->linear[i] + h / parts * wh_stage_sum(share, s, all_rates, angles + i);
+    }
+    WH_UNROLL
+    for (unsigned i = 0; i < angles; i++) {
+        if (!wh_stage_angle(state->angle[i], wh_stage_sum(share, s, all_rates, i), h, parts,
+                            &k->phase[i])) {
+            return i;
+        }
+    }
+    accel(model, k->phase, k->at, k->v, k->input, k->a);
+    wh_stage_given(by, s, true, n, k->a1, k->a, k->accels, k->alike);
+    return angles;
+}
+
 /* One step of q'' = f(q, q', u). angles <= n <= WH_COORDS. Returns WH_OK, or WH_E_DIVERGED with
  * state->fault set and the rest of the state as it was. */
 WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_method method,
                                    bool compensated, unsigned angles, unsigned n, wh_real h,
                                    wh_state *state) {
     const wh_tableau *by = wh_tableau_of(method);
-    const unsigned linears = n - angles;
-    const wh_angle *angle = state->angle;
-    const wh_real *linear = state->real;
-    const wh_real *rate = state->real + linears;
-    const wh_real *u = state->input;
-
     /* zeroed for the compiler, which cannot know that no scene uses what it did not fill */
-    wh_phase phase[WH_COORDS] = {0};
-    wh_real at[WH_COORDS] = {0};             /* linear positions of a stage, */
-    wh_real v[WH_COORDS] = {0};              /* its rates */
-    wh_real a[WH_COORDS];                    /* and its accelerations, */
-    wh_real a1[WH_COORDS];                   /* those of the first one */
-    wh_real rates[WH_STAGES_MAX][WH_COORDS]; /* and of all others */
-    wh_real accels[WH_STAGES_MAX][WH_COORDS];
-    wh_real alike[WH_STAGES_MAX][WH_COORDS] = {{0}}; /* sums of those that count alike */
-    const wh_given all_rates = {rate, rates};
-    const wh_given all_accels = {a1, accels};
-
+    wh_stepped_second k = {
+        .linear = state->real, .rate = state->real + (n - angles), .input = state->input};
     WH_UNROLL
     for (unsigned i = 0; i < angles; i++) {
-        phase[i] = wh_phase_of(angle[i]);
+        k.phase[i] = wh_phase_of(state->angle[i]);
     }
-    accel(model, phase, linear, rate, u, a1);
+    accel(model, k.phase, k.linear, k.rate, k.input, k.a1);
+#define WH_STAGE(s) \
+    do { \
+        const unsigned far = wh_step_second_stage(model, accel, by, s, angles, n, h, state, &k); \
+        if (far < angles) { \
+            return wh_refuse(state, far); \
+        } \
+    } while (false)
+    WH_LATER_STAGES(by, WH_STAGE);
+#undef WH_STAGE
+    return wh_second_end(by, k.a1, k.alike, compensated, angles, n, h, state);
+}
+
+/* A step of x' = f(x, u) on its way. */
+typedef struct wh_stepped_first {
+    wh_phase phase[WH_COORDS];
+    wh_real at[WH_COORDS];
+    wh_real k1[WH_COORDS];                    /* derivatives of the first stage */
+    wh_real k[WH_COORDS];                     /* of the present one */
+    wh_real slopes[WH_STAGES_MAX][WH_COORDS]; /* those of all but the first */
+    wh_real alike[WH_STAGES_MAX][WH_COORDS];  /* sums of those that count alike */
+} wh_stepped_first;
+
+/* Its stage s > 0. As wh_step_second_stage(). */
+WH_INLINE unsigned wh_step_first_stage(const void *model, wh_slope_fn *slope, const wh_tableau *by,
+                                       unsigned s, unsigned angles, unsigned reals, wh_real h,
+                                       const wh_state *state, wh_stepped_first *k) {
+    const wh_given all = {k->k1, k->slopes};
+    const wh_real *share = by->stage[s].share;
+    const wh_real parts = by->stage[s].parts;
+    if (s >= by->stages) {
+        return angles;
+    }
     WH_UNROLL
-    for (unsigned s = 1; s < WH_STAGES_MAX; s++) { /* with this bound gcc has fewer to spill */
-        if (s >= by->stages) {
-            break;
+    for (unsigned i = 0; i < angles; i++) {
+        if (!wh_stage_angle(state->angle[i], wh_stage_sum(share, s, all, i), h, parts,
+                            &k->phase[i])) {
+            return i;
         }
-        const wh_real *share = by->stage[s].share;
-        const wh_real parts = by->stage[s].parts;
-        WH_UNROLL
-        for (unsigned i = 0; i < n; i++) {
-            v[i] = rate[i] + h / parts * wh_stage_sum(share, s, all_accels, i);
-            rates[s - 1][i] = v[i];
-        }
-        WH_UNROLL
-        for (unsigned i = 0; i < linears; i++) {
-            at[i] = linear[i] + h / parts * wh_stage_sum(share, s, all_rates, angles + i);
-        }
-        WH_UNROLL
-        for (unsigned i = 0; i < angles; i++) {
-            if (!wh_stage_angle(angle[i], wh_stage_sum(share, s, all_rates, i), h, parts,
-                                &phase[i])) {
-                return wh_refuse(state, i);
-            }
-        }
-        accel(model, phase, at, v, u, a);
-        wh_stage_given(by, s, true, n, a1, a, accels, alike);
     }
-    return wh_second_end(by, a1, alike, compensated, angles, n, h, state);
+    WH_UNROLL
+    for (unsigned i = 0; i < reals; i++) {
+        k->at[i] = state->real[i] + h / parts * wh_stage_sum(share, s, all, angles + i);
+    }
+    slope(model, k->phase, k->at, state->input, k->k);
+    wh_stage_given(by, s, false, angles + reals, k->k1, k->k, k->slopes, k->alike);
+    return angles;
 }
 
 /* One step of x' = f(x, u) with `angles` turn angles and `reals` reals, angles + reals <= WH_COORDS. A method that
@@ -109,46 +161,27 @@ WH_INLINE wh_status wh_step_first(const void *model, wh_slope_fn *slope, wh_meth
                                   bool compensated, unsigned angles, unsigned reals, wh_real h,
                                   wh_state *state) {
     const wh_tableau *by = wh_tableau_of(method);
-    const unsigned n = angles + reals;
-    const wh_real *u = state->input;
-    wh_phase phase[WH_COORDS] = {0}; /* zeroed for the compiler: a scene may have no angle */
-    wh_real at[WH_COORDS] = {0};
-    wh_real k1[WH_COORDS];                           /* derivatives of the first stage */
-    wh_real k[WH_COORDS];                            /* of the present one */
-    wh_real slopes[WH_STAGES_MAX][WH_COORDS];        /* those of all but the first */
-    wh_real alike[WH_STAGES_MAX][WH_COORDS] = {{0}}; /* sums of those that count alike */
-    const wh_given all = {k1, slopes};
+    wh_stepped_first k = {.k1 = {0}};
 
     if (!wh_method_takes(method, WH_FIRST_ORDER)) {
         return WH_E_ARGUMENT;
     }
     WH_UNROLL
     for (unsigned i = 0; i < angles; i++) {
-        phase[i] = wh_phase_of(state->angle[i]);
+        k.phase[i] = wh_phase_of(state->angle[i]);
     }
-    slope(model, phase, state->real, u, k1);
-    WH_UNROLL
-    for (unsigned s = 1; s < WH_STAGES_MAX; s++) {
-        if (s >= by->stages) {
-            break;
-        }
-        const wh_real *share = by->stage[s].share;
-        const wh_real parts = by->stage[s].parts;
-        WH_UNROLL
-        for (unsigned i = 0; i < angles; i++) {
-            if (!wh_stage_angle(state->angle[i], wh_stage_sum(share, s, all, i), h, parts,
-                                &phase[i])) {
-                return wh_refuse(state, i);
-            }
-        }
-        WH_UNROLL
-        for (unsigned i = 0; i < reals; i++) {
-            at[i] = state->real[i] + h / parts * wh_stage_sum(share, s, all, angles + i);
-        }
-        slope(model, phase, at, u, k);
-        wh_stage_given(by, s, false, n, k1, k, slopes, alike);
-    }
-    return wh_first_end(by, k1, alike, compensated, angles, reals, h, state);
+    slope(model, k.phase, state->real, state->input, k.k1);
+#define WH_STAGE(s) \
+    do { \
+        const unsigned far = \
+            wh_step_first_stage(model, slope, by, s, angles, reals, h, state, &k); \
+        if (far < angles) { \
+            return wh_refuse(state, far); \
+        } \
+    } while (false)
+    WH_LATER_STAGES(by, WH_STAGE);
+#undef WH_STAGE
+    return wh_first_end(by, k.k1, k.alike, compensated, angles, reals, h, state);
 }
 
 #endif

@@ -11,9 +11,11 @@
 #ifdef WH_UNROLL /* as it is */
 #elif defined(__clang__)
 #define WH_UNROLL _Pragma("clang loop unroll(full)")
+#define WH_UNROLLS
 #pragma clang diagnostic ignored "-Wpass-failed" /* loops whose bound is no constant stay loops */
 #elif defined(__GNUC__) && __GNUC__ >= 8         /* which older ones do not know */
 #define WH_UNROLL _Pragma("GCC unroll 64")
+#define WH_UNROLLS
 #else
 #define WH_UNROLL
 #endif

@@ -177,8 +177,9 @@ static void write_one_step(FILE *out, const image *im) {
     char hex[HEX_SIZE];
     hex_write(im->step_s, hex);
     const bool turns = image_turns(im);
-    fputs("WH_INLINE wh_status one_step(const wh_scene *scene, wh_state *state) {\n    (void)scene;\n",
-          out);
+    fputs(
+        "WH_INLINE wh_status one_step(const wh_scene *scene, wh_state *state) {\n    (void)scene;\n",
+        out);
     if (im->ledger.kept) {
         fprintf(out,
                 "    return wh_%s_ledger(&ledger, NULL, accelerations,%s %s, %s,\n"
