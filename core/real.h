@@ -73,7 +73,12 @@ typedef float wh_real;
 #define WH_INLINE_WITH_FPU WH_INLINE
 #endif
 
-/* A way that is hardly ever taken: for size, and out of the others' way. */
+/* A function, and a way, that are hardly ever taken: for size, and out of the others' way. */
+#if defined(__GNUC__)
+#define WH_COLD __attribute__((cold))
+#else
+#define WH_COLD
+#endif
 #if (defined(__GNUC__) && __GNUC__ >= 9) || (defined(__clang__) && __clang_major__ >= 11)
 #define WH_SELDOM(condition) __builtin_expect_with_probability(condition, false, 1.0)
 #elif defined(__GNUC__)

@@ -39,7 +39,7 @@ WH_INLINE_WITH_FPU wh_wave wh_small_turn(wh_real d) {
 /* The same for any d: the turn by d / 2^k, doubled k times, and what it errs by with it: within
  * 7e-7 |d| in float, 1.3e-15 |d| in double. Seldom needed, and no call, over
  * which all that a step holds in registers would have to be kept. */
-WH_INLINE_WITH_FPU wh_wave wh_far_turn(wh_real d) {
+WH_INLINE_WITH_FPU WH_COLD wh_wave wh_far_turn(wh_real d) {
     unsigned doublings = 0;
     for (; WH_ABS(d) > WH_TURN_SMALL && doublings < WH_TURN_HALVINGS; doublings++) {
         d *= WH_R(0.5);

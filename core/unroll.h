@@ -20,6 +20,12 @@
 #define WH_UNROLL
 #endif
 
+/* Older ones unroll loops whose bounds are constants by themselves where they are asked to compile for speed: on an ATmega328P
+ * a step takes 20 to 30 % fewer cycles, and hardly more flash, as what is constant is seen to be. */
+#if defined(__GNUC__) && !defined(__clang__) && __GNUC__ < 8
+#pragma GCC optimize("O3")
+#endif
+
 /* gcc would sink what a stage computes below the checks of the next one, where more of it has to be kept: up to 8 %
  * more instructions a step; and load, beside each check, the number that a refused step is blamed with: up to 3 %; and call
  * memcpy() for a loop over one or two values. */
