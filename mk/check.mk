@@ -167,10 +167,9 @@ BOARDS_WHOLE := $(filter-out $(BOARDS_SINGLE),$(BOARDS_ALL))
 hashes-all-now: $(GEN)/.stamp
 	+@$(call build_hashes,$(BOARDS_ALL))
 	@$(MAKE) build/scenes_short $(addprefix hash-host-,$(HASH_HOSTS))
-	@$(call compare_hashes,$(BOARDS_WHOLE)) \
-	    $(foreach h,$(HASH_HOSTS),"$(h)" "$(host_run_$(h)) build/hosts/$(h)/scenes")
-	@echo "The first $(SINGLE_STEPS) steps:"
-	@sh tests/hashes.sh build/hash "this machine" build/scenes_short \
+	@HASH_SECONDS=7200 $(call compare_hashes,$(BOARDS_WHOLE)) \
+	    $(foreach h,$(HASH_HOSTS),"$(h)" "$(host_run_$(h)) build/hosts/$(h)/scenes") \
+	    -- "The first $(SINGLE_STEPS) steps:" "this machine" build/scenes_short \
 	    $(foreach b,$(BOARDS_SINGLE),"$(b)" "$(call on_board,$(b),print-hashes)")
 
 $(B)/scenes_short: boards/programs/scenes.c $(call objects,float,boards/host/board.c) $(call libraries,float,scenes whirl)

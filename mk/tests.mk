@@ -94,7 +94,7 @@ test-board: $(GEN)/.stamp ## the portable suites alone, on the emulated boards t
 test-boards-now: $(GEN)/.stamp
 	+@$(call build_board_tests,$(BOARDS_ALL))
 	+@$(foreach b,$(BOARDS_ALL),$(call on_board,$(b),image-rules) &&) true
-	@TEST_SECONDS=3600 sh tests/run.sh build/tests/log_boards $(foreach b,$(BOARDS_ALL),$(call run_board,$(b)))
+	@TEST_BEGINS=1 TEST_SECONDS=7200 sh tests/run.sh build/tests/log_boards $(foreach b,$(BOARDS_ALL),$(call run_board,$(b)))
 
 # The flag matrix: other people's flags give the interpreter's bits or are refused.
 .PHONY: flags-now

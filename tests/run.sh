@@ -6,7 +6,7 @@
 # as a failure. The last line is "N passed, N failed"; the exit status is 0 if none failed.
 # TEST_SECONDS limits each program; TEST_JOBS run at the same time, as many as there are processors
 # unless told. Each is reported when it ends, with the seconds that passed and those that processors worked for it,
-# which other work on the machine does not lengthen.
+# which other work on the machine lengthens less; with TEST_BEGINS=1 each is also named when it begins.
 set -u
 
 # --- one program, in a process of its own: run.sh LOGS --one NUMBER ----------------------------------
@@ -34,6 +34,7 @@ run_one() {
     what=$(cat "$logs/$1.what")
     limit=${TEST_SECONDS:-300}
     start=$(date +%s)
+    [ -z "${TEST_BEGINS:-}" ] || printf '  RUN   %s\n' "$what"
     timeout --kill-after=5 "$limit" sh "$logs/$1.command" </dev/null >"$log.raw" 2>&1
     status=$?
     # What it and its children took: the second line of `times`, "0m3.21s 0m0.45s".

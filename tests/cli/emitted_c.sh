@@ -141,14 +141,7 @@ for more in "" --compensated "--method rk38"; do
     add "$scratch/w/offsets.whirl" --start "a'=900" --start "b'=-700" --until 0.3s $more
 done
 # a pendulum of seven links, whose list is too large to be inlined
-awk -v n=7 'BEGIN {
-    print "mechanism links"
-    for (i = 0; i < n; i++) print "coordinate q" i " [rad]"
-    for (i = 0; i < n; i++) for (k = 0; k < n; k++)
-        t = t sprintf("%s%d*cos(q%d - q%d)*q%d\047*q%d\047", t == "" ? "" : " + ", n - (i > k ? i : k), i, k, i, k)
-    for (i = 0; i < n; i++) v = v sprintf("%s%d*cos(q%d)", v == "" ? "" : " + ", n - i, i)
-    print "T = 0.045 [kg*m^2]*(" t ")\nV = -2.9 [J]*(" v ")"
-}' >"$scratch/w/links.whirl"
+awk -v n=7 -f mk/price/links.awk >"$scratch/w/links.whirl"
 add_file "$scratch/w/links.whirl"
 links=scene_$number.c
 for file in hoop gauge; do
