@@ -1,7 +1,8 @@
 # check.mk: the quality gates of `make check`. Each is a target of its own, gate-NAME; tests/gates.sh
 # runs them, keeps what they say in build/check/NAME.log and prints a line for each.
 
-GATES := house gcc clang format cppcheck tidy sanitizers memcheck bad-input firmware size boards libm avr cycles hashes hosts
+GATES := house gcc clang format cppcheck tidy full sanitizers memcheck bad-input firmware size boards libm avr cycles hashes
+GATES += hosts
 LINT_FLAGS := -std=c11 $(WARN) -I. $(UNITY_FLAGS) -D_POSIX_C_SOURCE=200809L
 JOBS := 2
 
@@ -63,6 +64,15 @@ gate-cppcheck:
 	    --suppressions-list=mk/setup/cppcheck.txt -I. -Itests -I$(UNITY_DIR) \
 	    $(filter %.c,$(C_FILES))
 
+# --- all cases of what `make test` takes fewer of, to be quick --------------------------------------------
+# These ask for WHIRL_FULL.
+CLI_FULL = $(shell grep -l WHIRL_FULL $(CLI_TESTS))
+SUITES_FULL = $(patsubst tests/host/test_%.c,%,$(shell grep -l few_or_all tests/host/test_*.c))
+gate-full: $(GEN)/.stamp
+	@$(MAKE) test-programs
+	@WHIRL_FULL=1 WHIRL=build/whirl TEST_SECONDS=900 sh tests/run.sh build/check/log_full $(call run_cli,$(CLI_FULL)) \
+	    "host suites, all cases" "build/tests/host $(SUITES_FULL)"
+
 # --- sanitizers -----------------------------------------------------------------------------------
 # Generated scenes with contacts take gcc half a minute each when they are optimised and instrumented.
 $(B)/float/$(GEN)/%.o $(B)/double/$(GEN)/%.o: FILE_FLAGS = $(SCENE_OPT)
@@ -71,7 +81,8 @@ ASAN_BUILD = $(MAKE) B=build/asan CC=gcc OPT="-O1 -fno-omit-frame-pointer" SCENE
 
 .PHONY: asan-run
 asan-run: test-programs $(B)/whirl
-	@EMITTED=once WHIRL=$(B)/whirl TEST_SECONDS=900 sh tests/run.sh $(B)/tests/log $(RUN_CLI) $(RUN_HOST) $(RUN_CORE)
+	@EMITTED=once WHIRL_FULL=1 WHIRL=$(B)/whirl TEST_SECONDS=900 \
+	    sh tests/run.sh $(B)/tests/log $(RUN_LONG) $(RUN_HOST) $(RUN_CLI) $(RUN_CORE)
 
 gate-sanitizers:
 	+@$(ASAN_BUILD) asan-run
@@ -156,10 +167,9 @@ BOARDS_WHOLE := $(filter-out $(BOARDS_SINGLE),$(BOARDS_ALL))
 hashes-all-now: $(GEN)/.stamp
 	+@$(call build_hashes,$(BOARDS_ALL))
 	@$(MAKE) build/scenes_short $(addprefix hash-host-,$(HASH_HOSTS))
-	@$(call compare_hashes,$(BOARDS_WHOLE)) \
-	    $(foreach h,$(HASH_HOSTS),"$(h)" "$(host_run_$(h)) build/hosts/$(h)/scenes")
-	@echo "The first $(SINGLE_STEPS) steps:"
-	@sh tests/hashes.sh build/hash "this machine" build/scenes_short \
+	@HASH_SECONDS=7200 $(call compare_hashes,$(BOARDS_WHOLE)) \
+	    $(foreach h,$(HASH_HOSTS),"$(h)" "$(host_run_$(h)) build/hosts/$(h)/scenes") \
+	    -- "The first $(SINGLE_STEPS) steps:" "this machine" build/scenes_short \
 	    $(foreach b,$(BOARDS_SINGLE),"$(b)" "$(call on_board,$(b),print-hashes)")
 
 $(B)/scenes_short: boards/programs/scenes.c $(call objects,float,boards/host/board.c) $(call libraries,float,scenes whirl)

@@ -54,22 +54,22 @@ test-programs: $(TEST_PROGRAMS)
 # --- running ------------------------------------------------------------------------------------
 # tests/run.sh takes pairs: what it is, and the command.
 RUN_CORE = "portable suites, double" $(B)/tests/core_double "portable suites, float" $(B)/tests/core_float
-# The host suites in two halves, so that two processors have work.
-half = "host suites, half $(1)" '$(B)/tests/host $$(sh tests/half.sh $(B)/tests/host_suites.list $(1))'
-RUN_HOST = $(call half,0) $(call half,1)
-# What takes longest goes first.
-CLI_LONG := tests/cli/emitted_c.sh tests/cli/effects_cost_nothing.sh
-RUN_CLI = $(foreach t,$(CLI_LONG) $(filter-out $(CLI_LONG),$(CLI_TESTS)),"$(t)" "sh $(t)")
+# The host suites in four parts, so that all processors have work to the end; what takes longest goes first.
+part = "host suites$(comma) part $(1) of 4" '$(B)/tests/host $$(sh tests/part.sh $(B)/tests/host_suites.list $(1) 4)'
+RUN_HOST = $(foreach p,0 1 2 3,$(call part,$(p)))
+CLI_LONG := $(foreach t,emitted_c embed_names flags,tests/cli/$(t).sh)
+run_cli = $(foreach t,$(1),"$(t)" "sh $(t)")
+RUN_LONG = $(call run_cli,$(CLI_LONG))
+RUN_CLI = $(call run_cli,$(filter-out $(CLI_LONG),$(CLI_TESTS)))
 run_board = "portable suites$(comma) $(1)" "$(call on_board,$(1),run-suites)"
 RUN_BOARD = $(foreach b,$(BOARDS_TEST),$(call run_board,$(b)))
-comma := ,
 build_board_tests = $(foreach b,$(1),$(call on_board,$(b),board-tests) &&) true
 
 .PHONY: test-now test-core test-host test-cli test-board
 test-now: $(GEN)/.stamp
 	@$(MAKE) test-programs
 	+@$(call build_board_tests,$(BOARDS_TEST))
-	@WHIRL=build/whirl sh tests/run.sh build/tests/log $(RUN_CLI) $(RUN_BOARD) $(RUN_HOST) $(RUN_CORE)
+	@WHIRL=build/whirl sh tests/run.sh build/tests/log $(RUN_LONG) $(RUN_HOST) $(RUN_BOARD) $(RUN_CLI) $(RUN_CORE)
 
 ##@ Tests and quality
 # Parts of it, for while one works on something.
@@ -83,7 +83,7 @@ test-host: $(GEN)/.stamp ## the suites of the program alone
 
 test-cli: $(GEN)/.stamp ## the scripts of tests/cli alone
 	@$(MAKE) test-programs
-	@WHIRL=build/whirl sh tests/run.sh build/tests/log $(RUN_CLI)
+	@WHIRL=build/whirl sh tests/run.sh build/tests/log $(RUN_LONG) $(RUN_CLI)
 
 test-board: $(GEN)/.stamp ## the portable suites alone, on the emulated boards that `make test` takes
 	+@$(call build_board_tests,$(BOARDS_TEST))
@@ -94,7 +94,7 @@ test-board: $(GEN)/.stamp ## the portable suites alone, on the emulated boards t
 test-boards-now: $(GEN)/.stamp
 	+@$(call build_board_tests,$(BOARDS_ALL))
 	+@$(foreach b,$(BOARDS_ALL),$(call on_board,$(b),image-rules) &&) true
-	@TEST_SECONDS=3600 sh tests/run.sh build/tests/log_boards $(foreach b,$(BOARDS_ALL),$(call run_board,$(b)))
+	@TEST_BEGINS=1 TEST_SECONDS=7200 sh tests/run.sh build/tests/log_boards $(foreach b,$(BOARDS_ALL),$(call run_board,$(b)))
 
 # The flag matrix: other people's flags give the interpreter's bits or are refused.
 .PHONY: flags-now

@@ -1,32 +1,46 @@
 #!/bin/sh
-# hashes.sh LOGS [NAME COMMAND]...: run the same scenes in several ways and compare their bits.
+# hashes.sh LOGS NAME COMMAND... [-- TITLE NAME COMMAND...]...: run the same scenes in several ways and compare their
+# bits.
 #
 # Each command prints a line "scene NAME steps N hash 0x..." for each scene. The first is what the
-# others are held against. Fails when a line is missing or another. A command that cannot run a scene says so in a line
-# "without NAME".
+# others are held against; behind a "--" and a title others begin, with a first of their own. Fails when a line is
+# missing or another. A command that cannot run a scene says so in a line "without NAME". HASH_SECONDS limits each.
+# Every command's name is printed when it begins; the last line is "N runs of the scenes: the same bits in all", or how
+# many are not so, and the exit status 0 or 1.
 set -u
 
-logs=${1:?usage: hashes.sh LOGS [NAME COMMAND]...}
+logs=${1:?usage: hashes.sh LOGS NAME COMMAND... [-- TITLE NAME COMMAND...]...}
 shift
-mkdir -p "$logs"
-names=""
+mkdir -p "$logs" || exit 1
+runs=0
 bad=0
 first=""
+firsts=""
 
 while [ $# -ge 2 ]; do
+    if [ "$1" = -- ]; then
+        echo "$2"
+        first=""
+        shift 2
+        continue
+    fi
     name=$1
     command=$2
     shift 2
+    start=$(date +%s)
+    printf '  %-18s ' "$name"
     file=$logs/$(echo "$name" | tr ' ' '_').txt
-    timeout --kill-after=5 1800 sh -c "$command" </dev/null >"$file.raw" 2>"$file.err"
+    timeout --kill-after=5 "${HASH_SECONDS:-1800}" sh -c "$command" </dev/null >"$file.raw" 2>"$file.err"
     status=$?
     tr -d '\r' <"$file.raw" | grep '^scene ' | sort >"$file"
-    [ -n "$first" ] || first=$file
+    [ -n "$first" ] || { first=$file && firsts="$firsts $file"; }
     tr -d '\r' <"$file.raw" | sed -n 's/^without \(.*\)/scene \1 /p' >"$file.without"
     grep -vF -f "$file.without" "$first" >"$file.wanted"
     large=$(wc -l <"$file.without")
     count=$(wc -l <"$file")
-    if [ "$status" -ne 0 ]; then
+    if [ "$status" -eq 124 ] || [ "$status" -eq 137 ]; then
+        verdict="FAILED: not done within ${HASH_SECONDS:-1800} s"
+    elif [ "$status" -ne 0 ]; then
         verdict="FAILED: exit status $status: $(head -n 1 "$file.err")"
     elif [ "$count" -eq 0 ]; then
         verdict="FAILED: no scene ran"
@@ -35,14 +49,22 @@ while [ $# -ge 2 ]; do
     else
         verdict="same bits"
     fi
+    runs=$((runs + 1))
     [ "$verdict" = "same bits" ] || bad=$((bad + 1))
     said=$verdict
     [ "$large" -eq 0 ] || said="$verdict; $large scenes are too large"
-    printf '  %-18s %3d scenes   %s\n' "$name" "$count" "$said"
+    printf '%3d scenes   %s   %d s\n' "$count" "$said" "$(($(date +%s) - start))"
     if [ "$verdict" = differs ]; then
         diff "$file.wanted" "$file" | grep '^[<>]' | head -n 6 | sed 's/^/        /'
     fi
 done
 echo
-cat "$first"
-[ "$bad" -eq 0 ] || { echo "$bad of the runs differ or failed"; exit 1; }
+# shellcheck disable=SC2086 # a list of files
+cat $firsts
+echo
+if [ "$runs" -gt 0 ] && [ "$bad" -eq 0 ]; then
+    echo "$runs runs of the scenes: the same bits in all"
+else
+    echo "$bad of $runs runs of the scenes differ or failed"
+    exit 1
+fi

@@ -5,7 +5,8 @@
 # "not ok - what" lines. One that crashes, hangs, fails without saying what, or runs no test counts
 # as a failure. The last line is "N passed, N failed"; the exit status is 0 if none failed.
 # TEST_SECONDS limits each program; TEST_JOBS run at the same time, as many as there are processors
-# unless told. Each is reported when it ends.
+# unless told. Each is reported when it ends, with the seconds that passed and those that processors worked for it,
+# which other work on the machine lengthens less; with TEST_BEGINS=1 each is also named when it begins.
 set -u
 
 # --- one program, in a process of its own: run.sh LOGS --one NUMBER ----------------------------------
@@ -17,7 +18,7 @@ report() { # what it came to
     fi
     printf '  %s  %-34s %4d passed %3d failed' "$word" "$what" "$passed" "$failed"
     [ "$skipped" -eq 0 ] || printf ' %3d skipped' "$skipped"
-    printf ' %4d s\n' "$(($(date +%s) - start))"
+    printf ' %4d s %4d s of processor\n' "$(($(date +%s) - start))" "$processor"
     if [ "$failed" -ne 0 ]; then
         grep -E ':FAIL|^not ok|ERROR: |runtime error:' "$log" | head -n 20 | sed 's/^/        /'
         if [ -n "$why" ]; then
@@ -33,8 +34,13 @@ run_one() {
     what=$(cat "$logs/$1.what")
     limit=${TEST_SECONDS:-300}
     start=$(date +%s)
+    [ -z "${TEST_BEGINS:-}" ] || printf '  RUN   %s\n' "$what"
     timeout --kill-after=5 "$limit" sh "$logs/$1.command" </dev/null >"$log.raw" 2>&1
     status=$?
+    # What it and its children took: the second line of `times`, "0m3.21s 0m0.45s".
+    times >"$log.times"
+    processor=$(awk 'NR == 2 { gsub(/[ms]/, " "); printf "%.0f", 60 * ($1 + $3) + $2 + $4 }' "$log.times")
+    rm -f "$log.times"
     tr -d '\r' <"$log.raw" >"$log" # the emulated console ends its lines with carriage returns
     rm -f "$log.raw"
     read -r passed failed skipped <<END

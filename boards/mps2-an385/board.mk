@@ -4,5 +4,5 @@ BOARD_CPU      := -mcpu=cortex-m3 -mthumb
 BOARD_MATH     :=
 BOARD_SECONDS  := 900
 BOARD_TIMING   := m3
-BOARD_WHEN     := test
+BOARD_WHEN     := check
 include boards/cortexm/cortexm.mk

@@ -3,5 +3,5 @@ BOARD_MACHINE  := mps2-an505
 BOARD_CPU      := -mcpu=cortex-m33 -mthumb -mfpu=fpv5-sp-d16 -mfloat-abi=hard
 BOARD_MATH     := -fno-math-errno
 BOARD_SECONDS  := 60
-BOARD_WHEN     := test
+BOARD_WHEN     := check
 include boards/armv8m/armv8m.mk

@@ -15,29 +15,8 @@ here=$(dirname "$0")
 rm -rf "$OUT"
 mkdir -p "$OUT"
 
-# Angles from hanging straight down; speeds and heights are those of the link above, and what is added.
-write() { # write N
-    awk -v n="$1" 'BEGIN {
-        print "mechanism links_" n " \"Pendulum of " n " links\""
-        print "parameter m = 0.5 [kg]\nparameter l = 0.2 [m]\nparameter g = 9.81 [m/s^2]"
-        for (k = 1; k <= n; k++) { print "coordinate a" k " [rad]" }
-        for (k = 1; k <= n; k++) {
-            above = k > 1 ? k - 1 : ""
-            print "let x" k " = " (k > 1 ? "x" above " + " : "") "l*a" k "'"'"'*cos(a" k ")"
-            print "let y" k " = " (k > 1 ? "y" above " + " : "") "l*a" k "'"'"'*sin(a" k ")"
-            print "let h" k " = " (k > 1 ? "h" above : "") " - l*cos(a" k ")"
-            squares = squares (k > 1 ? " + " : "") "x" k "^2 + y" k "^2"
-            heights = heights (k > 1 ? " + " : "") "h" k
-        }
-        print "T = m*(" squares ")/2\nV = m*g*(" heights ")"
-        print "scene swing_" n " \"From rest\" {\n  step 1 [ms]\n  until 10 [s]"
-        for (k = 1; k <= n; k++) { print "  start a" k " = " 20 + 5*k " [deg]" }
-        print "}"
-    }'
-}
-
 for n in $(seq "$LINKS"); do
-    write "$n" >"$OUT/links_$n.whirl"
+    awk -v n="$n" -v scene=1 -f "$here/links.awk" >"$OUT/links_$n.whirl"
     derive="$WHIRL derive $OUT/links_$n.whirl:swing_$n --as c --name links_$n --header $OUT/links_$n.h"
     $derive >"$OUT/links_$n.c"
     instructions=$(valgrind --tool=callgrind --callgrind-out-file=/dev/null $derive 2>&1 >/dev/null |

@@ -1,7 +1,8 @@
 #!/bin/sh
 # effects_cost_nothing.sh: an effect that is not called for costs nothing. Every built-in mechanism, with
-# none of its effects, compiles to the same object, byte for byte, as a file that never mentions them;
-# and so does every scene that calls for none. Mechanisms also for the board, if its compiler is there.
+# none of its effects, becomes the same code, or at least compiles to the same object, byte for byte, as a file that
+# never mentions them; and so does every scene that calls for none. Mechanisms also for the board, if its compiler is
+# there.
 # And no effect does nothing: called for, each changes the generated code.
 . "$(dirname "$0")/../checks.sh"
 
@@ -9,12 +10,21 @@ root=$(pwd)
 mkdir "$scratch/with" "$scratch/without"
 stripped=0
 
+without_comment() { # of generated code: the one it begins with
+    sed '1,/^ \*\//d' "$1"
+}
+
 # same NAME BOARD: NAME derived from both folders' model.whirl gives the same objects, with BOARD = yes also
 # for the board.
 same() {
     for side in with without; do
         "$whirl" derive "$scratch/$side/model.whirl:$1" --as c >"$scratch/$side/model.c" 2>"$scratch/errors" ||
             { sed 's/^/    /' "$scratch/errors"; return 1; }
+        without_comment "$scratch/$side/model.c" >"$scratch/$side/code.c"
+    done
+    [ -s "$scratch/with/code.c" ] || return 1
+    ! cmp -s "$scratch/with/code.c" "$scratch/without/code.c" || return 0 # then so are the objects
+    for side in with without; do
         (cd "$scratch/$side" && ${CC:-gcc} -std=c11 -O2 -ffp-contract=off -I"$root" -c model.c -o host.o) ||
             return 1
         rm -f "$scratch/$side/board.o"
@@ -33,7 +43,8 @@ same() {
 
 # code FILE:NAME OPTION...: the generated code without its comment.
 code() {
-    "$whirl" derive "$@" --as c | sed '1,/^ \*\//d'
+    "$whirl" derive "$@" --as c >"$scratch/code.c"
+    without_comment "$scratch/code.c"
 }
 
 # All that an effect can hold, its own input in front of the mechanism's parameters and input.

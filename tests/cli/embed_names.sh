@@ -2,7 +2,7 @@
 # embed_names.sh: `whirl derive --as c --header FILE`: names, units and places of a scene for C and C++, and the memory it
 # takes: exactly what wh_scene_start() asks for, for every built-in scene and for generated ones with awkward names and
 # texts, compensated or with books or neither, in float and in double. WHIRL_SEED and WHIRL_CASES change the
-# generated ones.
+# generated ones; WHIRL_FULL=1 takes twice as many.
 . "$(dirname "$0")/../checks.sh"
 
 build=$(dirname "$whirl")
@@ -155,7 +155,8 @@ done
 
 # --- generated ones --------------------------------------------------------------------------------------------
 seed=${WHIRL_SEED:-$(date +%j)}
-cases=${WHIRL_CASES:-12}
+cases=${WHIRL_CASES:-${WHIRL_FULL:+12}}
+cases=${cases:-6}
 echo "seed $seed, $cases cases (WHIRL_SEED, WHIRL_CASES)"
 made=""
 number=0

@@ -157,7 +157,7 @@ unsigned bench_add(uint64_t *seed, wh_contact_kind kind, int pin) {
     bench_now.signal[2 * k + 1] = draw_whole(seed, -4, 4);
     if (kind != WH_WHEN) {
         of->forced++;
-        of->kinds |= (uint8_t)WH_KIND_BIT(kind);
+        of->kinds = (uint8_t)(of->kinds | WH_KIND_BIT(kind));
         of->pinned = (uint8_t)(of->pinned + (pin >= 0));
     }
     for (unsigned l = k + 1; l < BENCH_CONTACTS; l++) { /* as if it were one more of these */

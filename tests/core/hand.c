@@ -171,7 +171,8 @@ unsigned hand_add(wh_contact_kind kind, int pin, wh_real row0, wh_real row1, wh_
                   wh_real first, wh_real second) {
     const unsigned k = hand_now.system.contacts++;
     hand_now.system.forced = (uint8_t)(hand_now.system.forced + (kind != WH_WHEN));
-    hand_now.system.kinds |= (uint8_t)(kind != WH_WHEN ? WH_KIND_BIT(kind) : 0U);
+    hand_now.system.kinds =
+        (uint8_t)(hand_now.system.kinds | (kind != WH_WHEN ? WH_KIND_BIT(kind) : 0U));
     hand_now.system.pinned = (uint8_t)(hand_now.system.pinned + (kind != WH_WHEN && pin >= 0));
     hand_now.contact[k] = (wh_contact){(uint8_t)kind, 0, (int16_t)pin, 0, kind == WH_WHEN};
     hand_now.law[k].row[0] = row0;
@@ -196,7 +197,7 @@ static void put_sentinels(void) {
 void hand_start(bool with_books) {
     static uint8_t target;
     put_sentinels();
-    target = hand_now.places ? 0 : (uint8_t)hand_now.n; /* the first rate */
+    target = (uint8_t)(hand_now.places ? 0U : hand_now.n); /* the first rate */
     hand_now.system.model = &hand_now;
     hand_now.system.accel = hand_accel;
     hand_now.system.signals = hand_signals;

@@ -18,7 +18,7 @@ static void test_ball_comes_to_rest_and_stays(void) {
         at = hand_state.contacts->mode[0] == WH_ACTIVE ? (unsigned)hand_state.steps : 0;
     }
     TEST_ASSERT_TRUE(hand_near((wh_real)at * WH_R(0.001), rest_s, 1e-3, 1e-3));
-    hand_steps(60000 - at);
+    hand_steps(60000U - at);
     TEST_ASSERT_TRUE(hand_state.real[0] == WH_R(0.0));
     TEST_ASSERT_TRUE(hand_state.real[1] == WH_R(0.0));
     TEST_ASSERT_TRUE(hand_state.contacts->overruns == 0);

@@ -27,7 +27,7 @@ static int draw_row(uint64_t *seed, unsigned n, wh_real *row) {
  * `heavy`. */
 static void draw(uint64_t *seed, unsigned touched, bool crosses, int heavy) {
     const unsigned n = draw_one_in(seed, 4) ? 1 : 2;
-    unsigned room = HAND_CONTACTS - crosses;
+    unsigned room = (unsigned)HAND_CONTACTS - crosses;
     const bool beside =
         crosses && n == 2 && draw_one_in(seed, 2); /* it is the other coordinate's */
     wh_real row[2];

@@ -262,8 +262,9 @@ static void test_the_way_is_a_cubic_through_both_ends(void) {
         for (unsigned i = 0; i < of->angles; i++) { /* less than a half turn */
             to.angle[i] = from.angle[i] +
                           (wh_angle)(draw_whole(&seed, -3, 3) / 4 * (wh_real)WH_PHASE_PER_RAD);
-            from.real[of->coordinates - of->angles + i] /= 16;
-            to.real[of->coordinates - of->angles + i] /= 16;
+            const unsigned rate = (unsigned)(of->coordinates - of->angles) + i;
+            from.real[rate] /= 16;
+            to.real[rate] /= 16;
         }
         wh_contact_path_of(of, &from, &to, h, &path);
         for (unsigned i = 0; i < of->coordinates; i++) {

@@ -83,7 +83,7 @@ static void test_around_powers_of_two(void) {
 /* The middle between two floats, and its neighbours. */
 static void test_ties(void) {
     for (unsigned shift = 1; shift <= 40U; shift++) {
-        for (uint64_t kept = (1U << 23) + 5U; kept < (1U << 23) + 9U; kept++) {
+        for (uint64_t kept = (UINT64_C(1) << 23) + 5U; kept < (UINT64_C(1) << 23) + 9U; kept++) {
             const uint64_t middle = (kept << shift) + (UINT64_C(1) << (shift - 1U));
             check(middle);
             check(middle - 1U);

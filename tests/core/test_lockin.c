@@ -8,7 +8,7 @@
 void suite_lockin(void);
 
 #define SAMPLES 1000U
-#define PERIOD_TICKS 2000U
+#define PERIOD_TICKS UINT32_C(2000) /* an AVR's unsigned has 16 bits */
 #define MARKS 12U
 #define TURN_TICKS 181818U /* 330 rpm */
 #define DEG WH_R(0.017453292519943295)

@@ -16,7 +16,7 @@ void suite_rig_run(void);
 #define TARE_RAW 5000
 #define LOAD_N WH_R(42.0)
 #define COUNTS_PER_N WH_R(100.0)
-#define ALWAYS UINT32_MAX
+#define ALWAYS (~0U)
 
 /* What fails, from the time `after_ticks` into the state `in` on. */
 typedef struct failure {

@@ -9,7 +9,7 @@
 void suite_rig_steps(void);
 
 #define RPM WH_RIG_RADPS_PER_RPM
-#define STEP_TICKS 2000U
+#define STEP_TICKS UINT32_C(2000) /* an AVR's unsigned has 16 bits */
 #define STEPS_PER_S 500U
 #define TURN_TICKS 181818U /* 330 rpm */
 

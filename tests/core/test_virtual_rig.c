@@ -32,7 +32,7 @@ static void test_mass_moment_gives_the_dissertations_force(void) {
 #include "hal/virtual/virtual_rig.h"
 #include "hal/watchdog.h"
 
-#define CONTROL_TICKS 2000U
+#define CONTROL_TICKS UINT32_C(2000) /* an AVR's unsigned has 16 bits */
 
 static wh_rig rig;
 static wh_rig_config config;
@@ -186,7 +186,7 @@ static void test_slower_set_points_end_at_the_top(void) {
 static void test_a_silent_load_cell_stops_the_rig(void) {
     begin(330.0f);
     go_on_until(WH_RIG_RECORD);
-    hal_virtual_rig_instance()->faults.lose_samples = UINT32_MAX;
+    hal_virtual_rig_instance()->faults.lose_samples = ~0U;
     go_on_until(WH_RIG_DONE);
     TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_LOAD_CELL);
     check_stopped();

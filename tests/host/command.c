@@ -94,3 +94,8 @@ unsigned dice_cases(unsigned usual) {
     const char *given = getenv("WHIRL_CASES");
     return given != NULL ? (unsigned)strtoul(given, NULL, 10) : usual;
 }
+
+unsigned few_or_all(unsigned few, unsigned all) {
+    const char *full = getenv("WHIRL_FULL");
+    return full != NULL && full[0] != '\0' ? all : few;
+}

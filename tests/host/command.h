@@ -30,4 +30,7 @@ unsigned dice_one_of(dice *d, unsigned count);
 /* `usual`, or what the environment variable WHIRL_CASES says. */
 unsigned dice_cases(unsigned usual);
 
+/* `few` cases, for `make test`; where the environment variable WHIRL_FULL is not empty (make check), `all`. */
+unsigned few_or_all(unsigned few, unsigned all);
+
 #endif

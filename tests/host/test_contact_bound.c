@@ -3,6 +3,7 @@
  * friction or from a hold.
  *
  * The suite does RANDOM_STEPS steps a scene; the environment's WHIRL_RANDOM_STEPS asks for more. */
+#include "command.h"
 #include "derived.h"
 #include "host/derive/ledger_lists.h"
 #include "host/run/engine.h"
@@ -16,12 +17,12 @@
 
 void suite_contact_bound(void);
 
-enum { RANDOM_STEPS = 20000, RUN = 20, SAMPLES = 200 };
+enum { FEW_STEPS = 6000, RANDOM_STEPS = 20000, RUN = 20, SAMPLES = 200 };
 
 static long random_steps(void) {
     const char *wanted = getenv("WHIRL_RANDOM_STEPS");
     const long count = wanted != NULL ? strtol(wanted, NULL, 10) : 0;
-    return count > 0 ? count : RANDOM_STEPS;
+    return count > 0 ? count : (long)few_or_all(FEW_STEPS, RANDOM_STEPS);
 }
 
 /* States of the scene's own run, evenly over it. */

@@ -1,5 +1,6 @@
 /* test_contact_rest.c: bodies that come to rest together, pressed upon each other by nothing but their braking: what
  * static friction can keep stays at rest, whatever rounding leaves of forces and rates there. */
+#include "command.h"
 #include "contacts.h"
 #include "derived.h"
 
@@ -45,7 +46,8 @@ static void write_wagons(uint64_t *seed, bool curved, bool both, char *text, siz
 static void check_wagons(bool curved, bool both, const char *words) {
     static const double steps_s[] = {5e-3, 2e-3, 1e-3, 0.5e-3};
     uint64_t seed = 31;
-    for (int i = 0; i < 60; i++) {
+    const int pairs = (int)few_or_all(15, 60);
+    for (int i = 0; i < pairs; i++) {
         char text[1200];
         double rests[4];
         write_wagons(&seed, curved, both, text, sizeof text);
@@ -125,8 +127,7 @@ static void test_rows_of_wagons(void) {
     uint64_t most = 0;
     int overran = 0;
     int runs = 0;
-    const char *wanted = getenv("WHIRL_CASES");
-    const int rows = wanted != NULL ? (int)strtol(wanted, NULL, 10) : 18;
+    const int rows = (int)dice_cases(few_or_all(6, 18));
     for (int i = 0; i < rows; i++) {
         char text[3000];
         const int wagons = 2 + i % 3;
