@@ -112,7 +112,7 @@ void tape_prune(tape *t);
 /* Put the operations of a finished list into an order with few values live at a time, if that carries values less often
  * than the order they have (tape_order.c). What is computed stays the same, to the bit; phases stay in their order. */
 void tape_order(tape *t);
-/* How often a list in its order carries values between memory and some thirty registers, at best: an estimate. */
+/* How often a list in its order carries values between memory and some twenty registers, at best: an estimate. */
 int tape_carried(const tape *t);
 /* Another order of the operations: order[t->count] says which one stands there, number[t->count] where each one goes.
  * None may come before what it takes. */

@@ -4,8 +4,8 @@
 
 #include "tape.h"
 
-/* Single-precision registers of an FPU of Arm or RISC-V, less what moving values about takes. */
-enum { TAPE_REGISTERS = 30 };
+/* Single-precision registers that an FPU of Arm or RISC-V has for a list: 32, less what the step around it keeps. */
+enum { TAPE_REGISTERS = 20 };
 
 /* Who needs whom. A phase stands behind the one before it: the waves of a list are numbered by their places. */
 typedef struct tape_needs {

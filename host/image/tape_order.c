@@ -2,11 +2,12 @@
  *
  * A list comes in the order in which it was entered: a whole matrix before its first row is eliminated. Of a large one
  * more values wait than a processor has registers, and a third of what is executed carries them to memory and back.
- * Here the next operation is always one that ends the most lives, and of those the first as entered. What need not be
- * computed (the state, the pairs of sine and cosine) is read where it is first wanted.
+ * Here the next operation is always one that ends the most lives. Of those it is the first as entered, or the one that
+ * is soonest taken for the last time, as entered: two orders. What need not be computed (the state, the pairs of sine and
+ * cosine) is read where it is first wanted.
  *
- * That looks one operation ahead. So it is compared with the order as entered, by how often values would be carried,
- * and taken where that is less: a list whose values fit into registers keeps its order. */
+ * That looks one operation ahead. So both are compared with the order as entered, by how often values would be carried,
+ * and the best is taken: a list whose values fit into registers keeps its order. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -18,6 +19,7 @@ typedef struct schedule {
     int *waits; /* [ops]: how many of what it needs are still to be computed */
     int *uses;  /* [ops]: how many operations are still to take it, and results to be it */
     int *ends;  /* [ops]: how many lives it ends */
+    int *until; /* [ops]: the last that takes it */
     int *ready; /* those that wait for nothing, in no order */
     int count;  /* of them */
     bool *done; /* [ops] */
@@ -44,6 +46,7 @@ static schedule schedule_of(const tape_needs *n) {
                   .waits = room(t->count, sizeof *s.waits),
                   .uses = room(t->count, sizeof *s.uses),
                   .ends = room(t->count, sizeof *s.ends),
+                  .until = room(t->count, sizeof *s.until),
                   .ready = room_more(NULL, t->count, sizeof *s.ready),
                   .done = room(t->count, sizeof *s.done)};
     int found[NEEDED_MOST];
@@ -61,8 +64,12 @@ static schedule schedule_of(const tape_needs *n) {
             s.ready[s.count++] = i;
         }
     }
+    for (int v = 0; v < t->count; v++) {
+        s.until[v] = n->first[v] < n->first[v + 1] ? n->user[n->first[v + 1] - 1] : v;
+    }
     for (int i = 0; i < t->results; i++) {
         s.uses[t->result[i]] += 2; /* never ends */
+        s.until[t->result[i]] = t->count;
     }
     for (int v = 0; v < t->count; v++) {
         s.uses[v]++;
@@ -75,18 +82,28 @@ static void schedule_free(schedule *s) {
     free(s->waits);
     free(s->uses);
     free(s->ends);
+    free(s->until);
     free(s->ready);
     free(s->done);
 }
 
+/* Which one of those that end as many lives comes first. */
+typedef enum first_of { AS_ENTERED, SOONEST_DONE, FIRST_OF } first_of;
+
+/* Is operation i to come before operation j? */
+static bool leads(const schedule *s, first_of way, int i, int j) {
+    if (s->ends[i] != s->ends[j]) {
+        return s->ends[i] > s->ends[j];
+    }
+    const bool soonest = way == SOONEST_DONE && s->until[i] != s->until[j];
+    return soonest ? s->until[i] < s->until[j] : i < j;
+}
+
 /* The next operation, no longer among those that are ready. */
-static int take_best(schedule *s) {
+static int take_best(schedule *s, first_of way) {
     int best = 0;
     for (int k = 1; k < s->count; k++) {
-        const int more = s->ends[s->ready[k]] - s->ends[s->ready[best]];
-        if (more > 0 || (more == 0 && s->ready[k] < s->ready[best])) {
-            best = k;
-        }
+        best = leads(s, way, s->ready[k], s->ready[best]) ? k : best;
     }
     const int i = s->ready[best];
     s->ready[best] = s->ready[--s->count];
@@ -94,12 +111,12 @@ static int take_best(schedule *s) {
 }
 
 /* A sequence of what is computed. */
-static int *ending_lives(const tape_needs *n, int count) {
+static int *ending_lives(const tape_needs *n, int count, first_of way) {
     schedule s = schedule_of(n);
     int *sequence = room_more(NULL, count, sizeof *sequence);
     int found[TAKEN_MOST];
     for (int at = 0; at < count; at++) {
-        const int i = take_best(&s);
+        const int i = take_best(&s, way);
         sequence[at] = i;
         s.done[i] = true;
         for (int k = tape_taken(n->t, i, found); k > 0; k--) {
@@ -159,12 +176,24 @@ void tape_order(tape *t) {
     }
     tape_needs n = tape_needs_of(t);
     int count;
-    int *entered = tape_computed(&n, &count);
-    int *ending = ending_lives(&n, count);
-    if (tape_carried_by(&n, ending, count) < tape_carried_by(&n, entered, count)) {
-        reorder(t, &n, ending, count);
+    int *best = tape_computed(&n, &count);
+    int least = tape_carried_by(&n, best, count);
+    bool moved = false;
+    for (int way = 0; way < FIRST_OF; way++) {
+        int *tried = ending_lives(&n, count, (first_of)way);
+        const int carried = tape_carried_by(&n, tried, count);
+        if (carried < least) {
+            int *worse = best;
+            best = tried;
+            tried = worse;
+            least = carried;
+            moved = true;
+        }
+        free(tried);
     }
-    free(entered);
-    free(ending);
+    if (moved) {
+        reorder(t, &n, best, count);
+    }
+    free(best);
     tape_needs_free(&n);
 }
