@@ -44,6 +44,7 @@ static tape *make_step(layout *map, const linear_system *s) {
     lower_done(&l);
     free(highest);
     tape_prune(t);
+    tape_order(t);
     return t;
 }
 

@@ -222,6 +222,9 @@ void emit_c(FILE *out, const image *im, const char *file) {
         const int waves = tape_waves(im->list[IMAGE_STEP]);
         fprintf(out, "#define WH_WAVES %d\n", waves > 0 ? waves : 1);
     }
+    if (c_list_is_long(im->list[IMAGE_STEP])) {
+        fprintf(out, "#define WH_LONG_LIST 1\n");
+    }
     write_includes(out, im);
     fprintf(out, "\n");
     write_starts(out, im);

@@ -8,6 +8,8 @@
 
 bool c_list_uses(const tape *t, op_code code);
 bool c_list_uses_phase(const tape *t);
+/* Has it so many operations that their order is worth keeping? */
+bool c_list_is_long(const tape *t);
 /* "(void)NAME;" unless it is used. */
 void c_list_ignore(FILE *out, bool used, const char *name);
 /* What a list of the generated file looks up sines by, or takes them as. */

@@ -104,8 +104,19 @@ bool tape_is_constant(const tape *t, int a, double *value);
 void tape_reindex(tape *t);
 uint64_t tape_op_hash(const tape *t, const op *o);
 
+/* The earlier operations that o takes, a phase's radians too; returns how many. */
+int tape_operands(const op *o, int operand[static 2]);
+
 /* Drop what no result needs and renumber. */
 void tape_prune(tape *t);
+/* Put the operations of a finished list into an order with few values live at a time, if that carries values less often
+ * than the order they have (tape_order.c). What is computed stays the same, to the bit; phases stay in their order. */
+void tape_order(tape *t);
+/* How often a list in its order carries values between memory and some twenty registers, at best: an estimate. */
+int tape_carried(const tape *t);
+/* Another order of the operations: order[t->count] says which one stands there, number[t->count] where each one goes.
+ * None may come before what it takes. */
+void tape_renumber(tape *t, const int *order, const int *number);
 
 /* Does the list want whole angles, turns included, and not only their phases? No step has those. */
 bool tape_reads_turns(const tape *t);

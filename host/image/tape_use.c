@@ -7,7 +7,7 @@
 #include "host/base/room.h"
 #include "tape.h"
 
-static int operands(const op *o, int operand[2]) {
+int tape_operands(const op *o, int operand[static 2]) {
     const bool values = op_rows[o->code].values > 0;
     int count = 0;
     if (values && o->a >= 0) {
@@ -32,7 +32,7 @@ static void fuse_reciprocals(tape *t) {
     int operand[2];
     double one;
     for (int i = 0; i < t->count; i++) {
-        for (int k = operands(&t->ops[i], operand); k > 0; k--) {
+        for (int k = tape_operands(&t->ops[i], operand); k > 0; k--) {
             uses[operand[k - 1]]++;
         }
     }
@@ -63,7 +63,7 @@ static void drop_unused(tape *t) {
     int operand[2];
     for (int i = t->count - 1; i >= 0; i--) {
         if (number[i] == 0) {
-            const int count = operands(&t->ops[i], operand);
+            const int count = tape_operands(&t->ops[i], operand);
             for (int k = 0; k < count; k++) {
                 number[operand[k]] = 0;
             }
@@ -135,7 +135,7 @@ int tape_not_finite(const tape *t) {
     int operand[2];
     for (int i = 0; i < t->count; i++) {
         tainted[i] = !has_finite_numbers(t, &t->ops[i]);
-        for (int k = operands(&t->ops[i], operand); k > 0; k--) {
+        for (int k = tape_operands(&t->ops[i], operand); k > 0; k--) {
             tainted[i] = tainted[i] || tainted[operand[k - 1]];
         }
     }
@@ -187,6 +187,20 @@ int tape_operations(const tape *t) {
         operations += op_rows[t->ops[i].code].values > 0;
     }
     return operations;
+}
+
+void tape_renumber(tape *t, const int *order, const int *number) {
+    op *ops = room_more(NULL, t->room, sizeof *ops);
+    for (int i = 0; i < t->count; i++) {
+        ops[i] = t->ops[order[i]];
+        renumber(&ops[i], number);
+    }
+    free(t->ops);
+    t->ops = ops;
+    for (int i = 0; i < t->results; i++) {
+        t->result[i] = number[t->result[i]];
+    }
+    tape_reindex(t);
 }
 
 uint64_t tape_hash(const tape *t) {
