@@ -292,7 +292,7 @@ WH_INLINE void wh_turn_second_stage(const void *model, wh_turned_accel_fn *accel
  * accel(), or is NULL. */
 WH_INLINE wh_status wh_turn_second(const void *model, wh_turned_accel_fn *accel,
                                    const wh_waves *waves, wh_phase *told, wh_method method,
-                                   bool compensated, unsigned angles, unsigned n, wh_real h,
+                                   bool compensated, unsigned angles, unsigned n, wh_span h,
                                    wh_state *state) {
     const wh_tableau *by = wh_tableau_of(method);
     wh_turned_second k = {
@@ -300,16 +300,16 @@ WH_INLINE wh_status wh_turn_second(const void *model, wh_turned_accel_fn *accel,
     wh_wave turn[WH_WAVES] = {{0}};
 
     if (WH_TURN_ASKS_FIRST && by->stages > 1) {
-        wh_turning_by(by, waves, k.rate, h, turn);
+        wh_turning_by(by, waves, k.rate, h.s, turn);
     }
     wh_turning_look_up(waves, state->angle, angles, told, &k.t);
     accel(model, k.t.at, k.linear, k.rate, k.input, k.a1);
     if (!WH_TURN_ASKS_FIRST && by->stages > 1) {
-        wh_turning_by(by, waves, k.rate, h, turn);
+        wh_turning_by(by, waves, k.rate, h.s, turn);
     }
     wh_turning_begin(waves, turn, compensated, &k.t);
-#define WH_STAGE(s) \
-    wh_turn_second_stage(model, accel, waves, told, by, s, compensated, angles, n, h, state, &k)
+#define WH_STAGE(stage) \
+    wh_turn_second_stage(model, accel, waves, told, by, stage, compensated, angles, n, h.s, state, &k)
     WH_LATER_STAGES(by, WH_STAGE);
 #undef WH_STAGE
     return wh_second_end(by, k.a1, k.alike, compensated, angles, n, h, state);
@@ -353,7 +353,7 @@ WH_INLINE void wh_turn_first_stage(const void *model, wh_turned_slope_fn *slope,
 /* As wh_step_first(), turning. The method must turn. Returns as wh_turn_second(). */
 WH_INLINE wh_status wh_turn_first(const void *model, wh_turned_slope_fn *slope,
                                   const wh_waves *waves, wh_method method, bool compensated,
-                                  unsigned angles, unsigned reals, wh_real h, wh_state *state) {
+                                  unsigned angles, unsigned reals, wh_span h, wh_state *state) {
     const wh_tableau *by = wh_tableau_of(method);
     wh_turned_first k = {.k1 = {0}};
     wh_wave turn[WH_WAVES] = {{0}};
@@ -364,11 +364,11 @@ WH_INLINE wh_status wh_turn_first(const void *model, wh_turned_slope_fn *slope,
     wh_turning_look_up(waves, state->angle, angles, NULL, &k.t);
     slope(model, k.t.at, state->real, state->input, k.k1);
     if (by->stages > 1) {
-        wh_turning_by(by, waves, k.k1, h, turn);
+        wh_turning_by(by, waves, k.k1, h.s, turn);
         wh_turning_begin(waves, turn, compensated, &k.t);
     }
-#define WH_STAGE(s) \
-    wh_turn_first_stage(model, slope, waves, by, s, compensated, angles, reals, h, state, &k)
+#define WH_STAGE(stage) \
+    wh_turn_first_stage(model, slope, waves, by, stage, compensated, angles, reals, h.s, state, &k)
     WH_LATER_STAGES(by, WH_STAGE);
 #undef WH_STAGE
     return wh_first_end(by, k.k1, k.alike, compensated, angles, reals, h, state);
