@@ -127,13 +127,13 @@ WH_INLINE unsigned wh_angles_move(const wh_real *move, wh_span rad_a_move, wh_re
     return angles;
 }
 
-/* value + by factor, as wh_sum(). */
-WH_INLINE wh_real wh_sum_product(wh_real value, wh_span by, wh_real factor, bool compensated,
-                                 wh_real *carry) {
+/* value + by factor, as wh_sum(); product is by.s factor. */
+WH_INLINE wh_real wh_sum_product(wh_real value, wh_span by, wh_real factor, wh_real product,
+                                 bool compensated, wh_real *carry) {
     if (compensated && !WH_DOUBLE) {
         *carry += by.rest_s * factor;
     }
-    return wh_sum(value, by.s * factor, compensated, carry);
+    return wh_sum(value, product, compensated, carry);
 }
 
 /* The end of a step of q'' = f: what the stages gave, a1 and the sums of those that count alike, moves the state.
@@ -147,7 +147,8 @@ WH_INLINE wh_status wh_second_end(const wh_tableau *by, const wh_real *a1,
     const wh_real *rate = state->real + linears;
     /* zeroed for the compiler, which cannot know that no scene uses what it did not fill */
     wh_real move[WH_COORDS] = {0}; /* mean rate that moves the position over this step */
-    wh_real gain[WH_COORDS] = {0}; /* change of the rate over this step, for each of its parts */
+    wh_real gain[WH_COORDS] = {0}; /* sum of the accelerations over its parts */
+    wh_real kick[WH_COORDS] = {0}; /* change of the rate over this step */
     wh_trial trial = {0};
 
     WH_UNROLL
@@ -166,6 +167,7 @@ WH_INLINE wh_status wh_second_end(const wh_tableau *by, const wh_real *a1,
         }
         move[i] = any_moved ? rate[i] + part.s * moved : rate[i];
         gain[i] = any_moved && any_rest ? moved + rest : any_moved ? moved : rest;
+        kick[i] = part.s * gain[i];
     }
 
     const unsigned far = wh_angles_move(move, h, h.s, compensated, angles, state, &trial);
@@ -176,13 +178,14 @@ WH_INLINE wh_status wh_second_end(const wh_tableau *by, const wh_real *a1,
     for (unsigned i = 0; i < linears; i++) {
         wh_real *carry = &trial.carry[angles + i];
         *carry = compensated ? state->carry[angles + i] : WH_R(0.0);
-        trial.real[i] = wh_sum_product(linear[i], h, move[angles + i], compensated, carry);
+        trial.real[i] = wh_sum_product(linear[i], h, move[angles + i], h.s * move[angles + i], compensated,
+                                       carry);
     }
     WH_UNROLL
     for (unsigned i = 0; i < n; i++) {
         wh_real *carry = &trial.carry[n + i];
         *carry = compensated ? state->carry[n + i] : WH_R(0.0);
-        trial.real[linears + i] = wh_sum_product(rate[i], part, gain[i], compensated, carry);
+        trial.real[linears + i] = wh_sum_product(rate[i], part, gain[i], kick[i], compensated, carry);
     }
     const unsigned absurd = wh_first_absurd(trial.real, linears + n);
     if (absurd < linears + n) {
@@ -221,7 +224,8 @@ WH_INLINE wh_status wh_first_end(const wh_tableau *by, const wh_real *k1,
     for (unsigned i = 0; i < reals; i++) {
         wh_real *carry = &trial.carry[angles + i];
         *carry = compensated ? state->carry[angles + i] : WH_R(0.0);
-        trial.real[i] = wh_sum_product(state->real[i], part, total[angles + i], compensated, carry);
+        trial.real[i] = wh_sum_product(state->real[i], part, total[angles + i], part.s * total[angles + i],
+                                       compensated, carry);
     }
     const unsigned absurd = wh_first_absurd(trial.real, reals);
     if (absurd < reals) {
