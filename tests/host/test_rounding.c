@@ -58,6 +58,50 @@ static void test_float_on_thomson_device(void) {
     expect_within("S8 gain", 10.0, 10000.0, plain / compensated);
 }
 
+/* --- the whole state, rates included, compensated, at every step ------------------------------------------ */
+
+/* The largest component's distance from double with a sixteenth of a millisecond. */
+static double whole_error(const char *name, double until_s, double step_s) {
+    double value[2][3 * IMAGE_COMPONENTS_MAX];
+    double worst = 0.0;
+    int count = 0;
+    for (int exact = 0; exact < 2; exact++) {
+        const stepping how = {.kind = exact ? &engine_double : &engine_float,
+                              .method = WH_RK4,
+                              .compensated = true,
+                              .step_s = exact ? 1e-3 / 16 : step_s};
+        motion m;
+        motion_open(&m, name, how);
+        motion_to(&m, until_s);
+        m.kind->state(m.run, value[exact], value[exact] + m.image->angles);
+        count = m.image->angles + m.image->reals;
+        motion_close(&m);
+    }
+    for (int i = 0; i < count; i++) {
+        worst = fmax(worst, fabs(value[0][i] - value[1][i]));
+    }
+    return worst;
+}
+
+/* The step's own constants are in two parts: an error that grows as steps get smaller, or with steps that are no floats, is
+ * not among those that are left. Those of the list are floats, each off by up to U. */
+static void test_no_step_is_too_small_for_compensated_sums(void) {
+    static const double step_s[] = {1e-3, 0.9e-4, 1e-5};
+    const double theta_at_9s = 89.63;
+    for (unsigned i = 0; i < sizeof step_s / sizeof step_s[0]; i++) {
+        char what[100];
+        snprintf(what, sizeof what, "S6 compensated, %g ms, whole state at 9 s", step_s[i] * 1e3);
+        expect_within(what, 0.0, theta_at_9s * U,
+                      whole_error("epicyclic_from_rest", 9.0, step_s[i]));
+        snprintf(what, sizeof what, "S6c compensated, %g ms, whole state at 9 s", step_s[i] * 1e3);
+        expect_within(what, 0.0, theta_at_9s * U,
+                      whole_error("epicyclic_conserved", 9.0, step_s[i]));
+    }
+    /* amplified 2e4-fold by then */
+    expect_within("S8c compensated, 1 ms, whole state at 8 s", 0.0, 2e4 * U,
+                  whole_error("thomson_a_conserved", 8.0, 1e-3));
+}
+
 /* --- until when a chaotic trajectory is worth something ---------------------------------------------- */
 
 /* First time at which a position of thomson_a is 1e-3 (rad or m) off a run in double with steps of
@@ -243,6 +287,7 @@ static void test_motion_after_a_million_turns_is_the_same(void) {
 void suite_rounding(void) {
     RUN_TEST(test_float_on_the_epicyclic_gear);
     RUN_TEST(test_float_on_thomson_device);
+    RUN_TEST(test_no_step_is_too_small_for_compensated_sums);
     RUN_TEST(test_how_long_a_chaotic_trajectory_is_good);
     RUN_TEST(test_small_steps_cost_plain_sums_precision_only);
     RUN_TEST(test_a_million_steps);
