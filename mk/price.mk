@@ -5,9 +5,13 @@ PLUGIN := build/count_plugin.so
 FIGURES := build/figures
 # The same mechanisms as one writes them by hand, to compare with.
 BY_HAND := naive_epicyclic naive_thomson careful_thomson
-# Two scenes again with compensated sums, to see what these cost.
+# Two scenes again with compensated sums, to see what these cost, and some with many steps a call.
 COMPENSATED := epicyclic_from_rest thomson_a
-COMPENSATED_C := $(patsubst %,build/compensated/%.c,scenes $(COMPENSATED))
+AHEAD := epicyclic_from_rest epicyclic_conserved thomson_a thomson_a_conserved rig_fixed
+again_compensated := --compensated
+again_c = $(patsubst %,build/$(1)/%.c,scenes $($(2)))
+COMPENSATED_C := $(call again_c,compensated,COMPENSATED)
+AHEAD_C := $(call again_c,ahead,AHEAD)
 # What of the flags belongs beside a figure.
 TOLD = $(filter -O% -m%,$(1))
 
@@ -20,20 +24,27 @@ $(PLUGIN): $(PLUGIN_C) mk/count/thumb_cycles.h
 
 $(eval $(call program,bench,$(BENCH_C),scenes whirl))
 $(eval $(call program,bench_compensated,$(BENCH_C) $(COMPENSATED_C),whirl))
+$(eval $(call program,bench_ahead,$(BENCH_C) $(AHEAD_C),whirl))
+$(ELF)/build/ahead/%.o $(B)/float/build/ahead/%.o: FILE_FLAGS := -DWH_AHEAD=1
 
 $(B)/bench_double: $(call objects,double,$(BENCH_C) boards/host/board.c) \
     $(call libraries,double,scenes whirl)
 	$(link)
 
-$(patsubst %,build/compensated/%.c,$(COMPENSATED)): build/compensated/%.c: build/whirl mk/price.mk
-	@mkdir -p $(@D)
-	$(say) GEN $@
-	$(Q)build/whirl derive $* --as c --compensated --header $(@:.c=.h) >$@
-build/compensated/scenes.c: mk/count/index.sh $(patsubst %,build/compensated/%.c,$(COMPENSATED))
-	@mkdir -p $(@D)
-	$(say) GEN $@
-	$(Q)$< $(COMPENSATED) >$@
-.SECONDARY: $(COMPENSATED_C)
+# scenes_again FOLDER SCENES: these scenes' C, with again_FOLDER as options, and the table of them.
+define scenes_again
+$(2:%=build/$(1)/%.c): build/$(1)/%.c: build/whirl mk/price.mk
+	@mkdir -p $$(@D)
+	$$(say) GEN $$@
+	$$(Q)build/whirl derive $$* --as c $(again_$(1)) --header $$(@:.c=.h) >$$@
+build/$(1)/scenes.c: mk/count/index.sh $(2:%=build/$(1)/%.c)
+	@mkdir -p $$(@D)
+	$$(say) GEN $$@
+	$$(Q)$$< $(2) >$$@
+endef
+$(eval $(call scenes_again,compensated,$(COMPENSATED)))
+$(eval $(call scenes_again,ahead,$(AHEAD)))
+.SECONDARY: $(COMPENSATED_C) $(AHEAD_C)
 
 $(addprefix $(B)/tools/,$(BY_HAND)): $(B)/tools/%: $(B)/host/tests/tools/%.o \
     $(B)/host/tests/tools/naive_main.o
@@ -66,15 +77,17 @@ worst-now: $(GEN)/.stamp
 	    mk/count/worst.sh $(ELF)/worst.elf $(FIGURES)/worst.csv $(WORST_STEPS)
 
 bench-now: $(GEN)/.stamp
-	@$(MAKE) build/bench build/bench_compensated build/bench_double \
-	    $(addprefix build/tools/,$(BY_HAND)) $(ELF)/bench.elf $(ELF)/bench_compensated.elf $(PLUGIN)
+	@$(MAKE) build/bench build/bench_compensated build/bench_ahead build/bench_double \
+	    $(addprefix build/tools/,$(BY_HAND)) $(PLUGIN) \
+	    $(ELF)/bench.elf $(ELF)/bench_compensated.elf $(ELF)/bench_ahead.elf
 	@mkdir -p $(FIGURES)
 	@echo "Instructions a step (executed, not cycles):"
-	@for program in bench bench_compensated bench_double $(addprefix tools/,$(BY_HAND)); do \
+	@for program in bench bench_compensated bench_ahead bench_double $(addprefix tools/,$(BY_HAND)); do \
 	    CC="$(CC)" FLAGS="$(OPT)" \
 	        mk/count/count_host.sh build/$$program $(FIGURES)/bench.csv || exit 1; done
 	@$(call count_board,$(ELF)/bench.elf)
 	@$(call count_board,$(ELF)/bench_compensated.elf)
+	@$(call count_board,$(ELF)/bench_ahead.elf)
 
 # --- every board beside the others ----------------------------------------------------------------
 # These scenes' steps: instructions, cycles where something counts or estimates them, bytes.

@@ -3,7 +3,8 @@
  * The same source runs on every board under the counting plugin (count_board.sh) and on the PC
  * under callgrind (count_host.sh). It only says on the console which interval is which:
  *
- *     count NAME METHOD NUMBER FIRST LAST    intervals FIRST to LAST hold one step each
+ *     count NAME METHOD NUMBER FIRST LAST    intervals FIRST to LAST hold one step each, or, after "-ahead" as a METHOD's end,
+ *                                            STEPS_A_CALL
  *     stack NAME BYTES                       deepest stack of the program during those steps
  *     silicon NAME MIN MEDIAN MAX            cycles of a step, where the processor counts them itself (board.h)
  *     failed NAME STATUS                     the scene could not be counted
@@ -21,15 +22,13 @@
 #ifndef COUNTED_STEPS
 #define COUNTED_STEPS 100U
 #endif
-#ifndef STEPS_A_CALL
-#define STEPS_A_CALL 1
-#endif
 #ifndef COUNT_RECORDS
 #define COUNT_RECORDS 0
 #endif
 #ifndef BENCH_SMALL
 #define BENCH_SMALL 0
 #endif
+#define STEPS_A_CALL 100U /* as mk/count/figures.awk divides by */
 #define COUNTED_RECORDS 100U
 #define OUTPUTS_MAX 64U
 #define COUNTED_PAIRS 64U
@@ -85,7 +84,7 @@ static void count_pairs(void) {
         out[1] = pair[1];
         (void)out;
     }
-    say_counted("wh_sincos", "-", false, first, intervals - 1U);
+    say_counted("wh_sincos", "-", "", first, intervals - 1U);
 }
 
 #if COUNT_RECORDS
@@ -102,7 +101,7 @@ static void count_records(const wh_scene *scene, wh_state *state) {
         intervals++;
         state->steps++; /* the noise looks at it */
     }
-    say_counted(scene->name, "record", false, first, intervals - 1U);
+    say_counted(scene->name, "record", "", first, intervals - 1U);
 }
 #endif
 
@@ -150,7 +149,7 @@ static void count_functions(void) {
             out = result;
             (void)out;
         }
-        say_counted(functions[k].name, "-", false, first, intervals - 1U);
+        say_counted(functions[k].name, "-", "", first, intervals - 1U);
     }
 }
 
@@ -177,7 +176,22 @@ static void time_scene(const wh_scene *scene, wh_state *state) {
 }
 #endif
 
+/* Steps of a scene that takes many a call (ahead.h). */
+static wh_status count_ahead(const wh_scene *scene, wh_state *state) {
+    const unsigned first = intervals;
+    wh_status status = WH_OK;
+    for (unsigned i = 0; i < COUNTED_STEPS / STEPS_A_CALL + 1U && status == WH_OK; i++) {
+        wh_count_begin();
+        status = wh_scene_steps(scene, state, STEPS_A_CALL);
+        wh_count_end();
+        intervals++;
+    }
+    say_counted(scene->name, wh_methods[scene->method].word, "-ahead", first, intervals - 1U);
+    return status;
+}
+
 static bool count_scene(const wh_scene *scene) {
+    const char *sums = scene->compensated ? "-compensated" : "";
     wh_state state;
     wh_status status = wh_scene_start(scene, &state, memory, sizeof memory);
     for (unsigned i = 0; i < WARM_STEPS && status == WH_OK; i++) {
@@ -187,21 +201,19 @@ static bool count_scene(const wh_scene *scene) {
     board_stack_paint();
     for (unsigned i = 0; i < COUNTED_STEPS && status == WH_OK; i++) {
         wh_count_begin();
-#if STEPS_A_CALL == 1
         status = wh_scene_step(scene, &state);
-#else
-        status = wh_scene_steps(scene, &state, STEPS_A_CALL);
-#endif
         wh_count_end();
         intervals++;
+    }
+    if (status == WH_OK) {
+        say_stack(scene->name);
+        say_counted(scene->name, wh_methods[scene->method].word, sums, first, intervals - 1U);
+        status = scene->ahead != NULL ? count_ahead(scene, &state) : WH_OK;
     }
     if (status != WH_OK) {
         say_failed(scene->name, status);
         return false;
     }
-    say_stack(scene->name);
-    say_counted(scene->name, wh_methods[scene->method].word, scene->compensated, first,
-                intervals - 1U);
 #if !BENCH_SMALL
     if (board_cycles_start()) {
         time_scene(scene, &state);

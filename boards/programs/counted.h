@@ -42,12 +42,12 @@ static void line_end(void) {
     hal_console_write(line.bytes, line.length);
 }
 
-/* The intervals `first` to `last` are of that. */
-static void say_counted(const char *name, const char *method, bool compensated, unsigned first,
+/* The intervals `first` to `last` are of that method, `more` of it. */
+static void say_counted(const char *name, const char *method, const char *more, unsigned first,
                         unsigned last) {
     line_begin("count", name);
     line_word(method);
-    wh_text_add(&line, compensated ? "-compensated" : "");
+    wh_text_add(&line, more);
     line_word(WH_DOUBLE ? "double" : "float");
     line_number(first);
     line_number(last);

@@ -81,7 +81,8 @@ static bool run(const wh_scene *scene, uint32_t first_seed, unsigned group) {
             (void)wh_scene_start(scene, &state, memory, sizeof memory);
         }
     }
-    say_counted(scene->name, wh_methods[scene->method].word, scene->compensated, group, group);
+    say_counted(scene->name, wh_methods[scene->method].word,
+                scene->compensated ? "-compensated" : "", group, group);
     return true;
 }
 

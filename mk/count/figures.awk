@@ -2,6 +2,7 @@
 # counted (interval lines) and writes rows of
 #     commit,board,compiler,flags,scene,number,method,metric,value
 # Interval 0 is around nothing; its instructions are taken off every other interval.
+# An interval of a method "...-ahead" holds 100 steps (boards/programs/bench.c).
 # Cycles are taken where the counter has them; `obtained` says how it came by them ("estimated", "simulated"); a board
 # that counts its own says so in silicon lines.
 # Variables: commit, board, compiler, flags, obtained. Fails if an interval is missing.
@@ -51,6 +52,7 @@ $1 == "count" {
     number[groups] = $4
     first[groups] = $5
     last[groups] = $6
+    held[groups] = $3 ~ /-ahead$/ ? 100 : 1
 }
 
 END {
@@ -66,7 +68,7 @@ END {
             if (!(i in counted)) {
                 fail("interval " i " of " name[g] " is missing")
             }
-            value[++n] = counted[i] - counted[0]
+            value[++n] = (counted[i] - counted[0]) / held[g]
         }
         sort(value, n)
         what = "instructions per " (name[g] == "wh_sincos" ? "sine-cosine pair" : "step")
@@ -75,12 +77,12 @@ END {
         row(name[g], number[g], method[g], what " (maximum)", value[n])
         if (timed) {
             for (i = 1; i <= n; i++) {
-                value[i] = cycles[first[g] + i - 1] - cycles[0]
+                value[i] = (cycles[first[g] + i - 1] - cycles[0]) / held[g]
             }
             sort(value, n)
             row_cycles(obtained, value[1], value[int((n + 1) / 2)], value[n])
         }
-        if (name[g] in silicon && method[g] != "record") {
+        if (name[g] in silicon && held[g] == 1 && method[g] != "record") {
             split(silicon[name[g]], value, " ")
             row_cycles("measured", value[1], value[2], value[3])
         }

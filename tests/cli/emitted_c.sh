@@ -1,6 +1,6 @@
 #!/bin/sh
 # emitted_c.sh: `whirl derive --as c` compiles by itself without a warning, in float and in double, with
-# gcc and with clang, and steps to the same bits as the interpreter: for every built-in scene, every file
+# gcc and with clang, and steps to the same bits as the interpreter, a step or many a call: for every built-in scene, every file
 # of tests/mechanisms, and scenes made for the odd corners of the operation list.
 # `make test` takes the two builds that differ most; with WHIRL_FULL=1 (make gate-full) there are two more.
 . "$(dirname "$0")/../checks.sh"
@@ -202,7 +202,14 @@ int main(void) {
         wh_state state;
         wh_status status = wh_scene_start(all[i].scene, &state, memory, sizeof memory);
         while (status == WH_OK && state.steps < all[i].scene->steps) {
+#if WH_AHEAD /* many a call, of every number */
+            const uint64_t left = all[i].scene->steps - state.steps;
+            static uint32_t many;
+            many = many % 97U + 1U;
+            status = wh_scene_steps(all[i].scene, &state, left < many ? (uint32_t)left : many);
+#else
             status = wh_scene_step(all[i].scene, &state);
+#endif
         }
         wh_real output[64];
         if (all[i].scene->observe != NULL && all[i].scene->outputs <= 64) {
@@ -215,9 +222,9 @@ int main(void) {
 END
 } >"$scratch/main.c"
 
-build() { # build COMPILER OPTIMISATION REAL WH_DOUBLE
+build() { # build COMPILER OPTIMISATION REAL WH_DOUBLE WH_AHEAD
     # shellcheck disable=SC2086 # lists of words
-    $1 $warnings $2 -DWH_DOUBLE="$4" -o "$scratch/$1_$3" "$scratch"/scene_*.c "$scratch/main.c" \
+    $1 $warnings $2 -DWH_DOUBLE="$4" -DWH_AHEAD="$5" -o "$scratch/$1_$3" "$scratch"/scene_*.c "$scratch/main.c" \
         core/*.c >"$scratch/$1_$3.log" 2>&1
     status=$?
     verdict $status "$1 $2 compiles $(wc -l <"$scratch/numbers") emitted scenes in $3 without a warning"
@@ -235,13 +242,13 @@ other=gcc
 ! command -v clang >/dev/null 2>&1 || other=clang
 # EMITTED=once: where the program is what is tested (sanitizers), one build of what it emits will do
 if [ "${EMITTED:-}" = once ]; then
-    build gcc -O0 double 1
+    build gcc -O0 double 1 1
 else
-    build gcc -O2 float 0
-    build $other -O0 double 1
+    build gcc -O2 float 0 1
+    build $other -O0 double 1 0
     if [ -n "${WHIRL_FULL:-}" ]; then
-        build gcc -O1 double 1
-        [ $other = gcc ] || build clang -O1 float 0
+        build gcc -O1 double 1 1
+        [ $other = gcc ] || build clang -O1 float 0 0
     fi
 fi
 

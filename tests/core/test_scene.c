@@ -117,6 +117,27 @@ static void test_compensated_scene_needs_more_memory_within_the_macro(void) {
     TEST_ASSERT_TRUE((const char *)(state.input + 1) <= (const char *)memory + sizeof memory);
 }
 
+/* Many steps a call are as many steps, and as few as were sound. */
+static void test_many_steps_are_steps(void) {
+    const wh_scene scene = oscillator(WH_RK4, true, WH_R(0.25));
+    TEST_ASSERT_TRUE(start(&scene));
+    for (unsigned i = 0; i < 17; i++) {
+        TEST_ASSERT_TRUE(wh_scene_step(&scene, &state) == WH_OK);
+    }
+    const uint64_t wanted = wh_scene_hash(&scene, &state);
+    TEST_ASSERT_TRUE(start(&scene));
+    TEST_ASSERT_TRUE(wh_scene_steps(&scene, &state, 0) == WH_OK && state.steps == 0);
+    TEST_ASSERT_TRUE(wh_scene_steps(&scene, &state, 16) == WH_OK && state.steps == 16);
+    TEST_ASSERT_TRUE(wh_scene_steps(&scene, &state, 1) == WH_OK);
+    TEST_ASSERT_TRUE(wh_scene_hash(&scene, &state) == wanted);
+    /* so strong a push that a few steps lead out of all bounds */
+    state.input[0] = WH_R(8e14);
+    TEST_ASSERT_TRUE(wh_scene_steps(&scene, &state, 1000) == WH_E_DIVERGED);
+    TEST_ASSERT_TRUE(state.steps > 17 && state.steps < 1000);
+    const uint64_t last = state.steps;
+    TEST_ASSERT_TRUE(wh_scene_steps(&scene, &state, 1000) == WH_E_DIVERGED && state.steps == last);
+}
+
 /* x' = u, given as first order: no rate to move first. */
 static void constant_slope(const void *model, const wh_phase *phase, const wh_real *real,
                            const wh_real *input, wh_real *slope) {
@@ -331,6 +352,7 @@ static void test_every_status_has_its_own_words(void) {
 void suite_scene(void) {
     RUN_TEST(test_start_refuses_too_little_memory);
     RUN_TEST(test_compensated_scene_needs_more_memory_within_the_macro);
+    RUN_TEST(test_many_steps_are_steps);
     RUN_TEST(test_a_method_that_the_form_does_not_have_is_refused);
     RUN_TEST(test_start_takes_over_the_start_values_again);
     RUN_TEST(test_time_is_steps_times_step);
