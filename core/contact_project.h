@@ -18,19 +18,10 @@ WH_INLINE void wh_contact_move(const wh_contact_system *of, unsigned i, wh_real 
     }
 }
 
-/* *sum + *rest += a b, without the product's rounding, which would add up over the steps (Dekker's product, Veltkamp's
- * split: Muller et al., Handbook of Floating-Point Arithmetic, section 4.4). */
+/* *sum + *rest += a b, without the product's rounding, which would add up over the steps. */
 WH_INLINE void wh_contact_add_product(wh_real a, wh_real b, wh_real *sum, wh_real *rest) {
-    const wh_real split = WH_DOUBLE ? WH_R(134217729.0) : WH_R(4097.0);
-    const wh_real product = a * b;
-    const wh_real a_wide = split * a;
-    const wh_real a_high = a_wide - (a_wide - a);
-    const wh_real b_wide = split * b;
-    const wh_real b_high = b_wide - (b_wide - b);
-    const wh_real a_low = a - a_high;
-    const wh_real b_low = b - b_high;
-    *rest += ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low;
-    *sum += product; /* what turns against each other cancels exactly */
+    *rest += wh_product_rest(a, b);
+    *sum += a * b; /* what turns against each other cancels exactly */
 }
 
 /* What a straight hold has moved by from one state to the other: J_k, which is constant, times the way; rad or m. */

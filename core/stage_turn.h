@@ -241,17 +241,35 @@ WH_INLINE void wh_turning_tell(const wh_shares *of, unsigned stage, wh_given rat
     }
 }
 
+/* What a list takes and gives. Apart from all else, which stays in registers where the list is called. */
+typedef struct wh_turned_list {
+    wh_wave pair[WH_WAVES];
+    wh_real at[WH_COORDS];    /* linear positions, or reals, */
+    wh_real v[WH_COORDS];     /* rates */
+    wh_real given[WH_COORDS]; /* accelerations, or slopes */
+} wh_turned_list;
+
+WH_INLINE void wh_turned_take(const wh_waves *waves, const wh_turning *t, wh_turned_list *list) {
+    WH_UNROLL
+    for (unsigned w = 0; w < waves->count; w++) {
+        list->pair[w] = t->at[w];
+    }
+}
+
+WH_INLINE void wh_turned_give(const wh_turned_list *list, unsigned n, wh_real *given) {
+    WH_UNROLL
+    for (unsigned i = 0; i < n; i++) {
+        given[i] = list->given[i];
+    }
+}
+
 /* A step of q'' = f(q, q', u) on its way. */
 typedef struct wh_turned_second {
     const wh_real *linear; /* where it begins */
     const wh_real *rate;
     const wh_real *input;
     wh_turning t;
-    wh_wave pair[WH_WAVES];
-    wh_real at[WH_COORDS];                    /* linear positions of a stage, */
-    wh_real v[WH_COORDS];                     /* its rates */
-    wh_real a[WH_COORDS];                     /* and its accelerations, */
-    wh_real a1[WH_COORDS];                    /* those of the first one */
+    wh_real a1[WH_COORDS];                    /* accelerations of the first stage */
     wh_real gained[WH_STAGES_MAX][WH_COORDS]; /* what the rates of all others have gained */
     wh_real rates[WH_STAGES_MAX][WH_COORDS];
     wh_real accels[WH_STAGES_MAX][WH_COORDS];
@@ -262,7 +280,8 @@ typedef struct wh_turned_second {
 WH_INLINE void wh_turn_second_stage(const void *model, wh_turned_accel_fn *accel,
                                     const wh_waves *waves, wh_phase *told, const wh_tableau *by,
                                     unsigned s, bool compensated, unsigned angles, unsigned n,
-                                    wh_real h, const wh_state *state, wh_turned_second *k) {
+                                    wh_real h, const wh_state *state, wh_turned_list *list,
+                                    wh_turned_second *k) {
     const wh_shares *of = &by->stage[s];
     const unsigned linears = n - angles;
     const wh_given all_rates = {k->rate, k->rates};
@@ -273,43 +292,48 @@ WH_INLINE void wh_turn_second_stage(const void *model, wh_turned_accel_fn *accel
     WH_UNROLL
     for (unsigned i = 0; i < n; i++) {
         k->gained[s - 1][i] = h / of->parts * wh_stage_sum(of->share, s, all_accels, i);
-        k->v[i] = k->rate[i] + k->gained[s - 1][i];
-        k->rates[s - 1][i] = k->v[i];
+        list->v[i] = k->rate[i] + k->gained[s - 1][i];
+        k->rates[s - 1][i] = list->v[i];
     }
     WH_UNROLL
     for (unsigned i = 0; i < linears; i++) {
-        k->at[i] = k->linear[i] + h / of->parts * wh_stage_sum(of->share, s, all_rates, angles + i);
+        list->at[i] =
+            k->linear[i] + h / of->parts * wh_stage_sum(of->share, s, all_rates, angles + i);
     }
-    wh_turning_stage(by, waves, s, k->gained, angles, h, compensated, &k->t, k->pair);
+    wh_turning_stage(by, waves, s, k->gained, angles, h, compensated, &k->t, list->pair);
     if (told != NULL) {
         wh_turning_tell(of, s, all_rates, angles, h, state, told);
     }
-    accel(model, k->pair, k->at, k->v, k->input, k->a);
-    wh_stage_given(by, s, true, n, k->a1, k->a, k->accels, k->alike);
+    accel(model, list->pair, list->at, list->v, k->input, list->given);
+    wh_stage_given(by, s, true, n, k->a1, list->given, k->accels, k->alike);
 }
 
 /* As wh_step_second(), turning. The method must turn. `told` [angles] gets the angles' phases before each call of
  * accel(), or is NULL. */
 WH_INLINE wh_status wh_turn_second(const void *model, wh_turned_accel_fn *accel,
                                    const wh_waves *waves, wh_phase *told, wh_method method,
-                                   bool compensated, unsigned angles, unsigned n, wh_real h,
+                                   bool compensated, unsigned angles, unsigned n, wh_span h,
                                    wh_state *state) {
     const wh_tableau *by = wh_tableau_of(method);
     wh_turned_second k = {
         .linear = state->real, .rate = state->real + (n - angles), .input = state->input};
+    wh_turned_list list = {.at = {0}};
     wh_wave turn[WH_WAVES] = {{0}};
 
     if (WH_TURN_ASKS_FIRST && by->stages > 1) {
-        wh_turning_by(by, waves, k.rate, h, turn);
+        wh_turning_by(by, waves, k.rate, h.s, turn);
     }
     wh_turning_look_up(waves, state->angle, angles, told, &k.t);
-    accel(model, k.t.at, k.linear, k.rate, k.input, k.a1);
+    wh_turned_take(waves, &k.t, &list);
+    accel(model, list.pair, k.linear, k.rate, k.input, list.given);
+    wh_turned_give(&list, n, k.a1);
     if (!WH_TURN_ASKS_FIRST && by->stages > 1) {
-        wh_turning_by(by, waves, k.rate, h, turn);
+        wh_turning_by(by, waves, k.rate, h.s, turn);
     }
     wh_turning_begin(waves, turn, compensated, &k.t);
-#define WH_STAGE(s) \
-    wh_turn_second_stage(model, accel, waves, told, by, s, compensated, angles, n, h, state, &k)
+#define WH_STAGE(stage) \
+    wh_turn_second_stage(model, accel, waves, told, by, stage, compensated, angles, n, h.s, state, \
+                         &list, &k)
     WH_LATER_STAGES(by, WH_STAGE);
 #undef WH_STAGE
     return wh_second_end(by, k.a1, k.alike, compensated, angles, n, h, state);
@@ -353,7 +377,7 @@ WH_INLINE void wh_turn_first_stage(const void *model, wh_turned_slope_fn *slope,
 /* As wh_step_first(), turning. The method must turn. Returns as wh_turn_second(). */
 WH_INLINE wh_status wh_turn_first(const void *model, wh_turned_slope_fn *slope,
                                   const wh_waves *waves, wh_method method, bool compensated,
-                                  unsigned angles, unsigned reals, wh_real h, wh_state *state) {
+                                  unsigned angles, unsigned reals, wh_span h, wh_state *state) {
     const wh_tableau *by = wh_tableau_of(method);
     wh_turned_first k = {.k1 = {0}};
     wh_wave turn[WH_WAVES] = {{0}};
@@ -364,11 +388,11 @@ WH_INLINE wh_status wh_turn_first(const void *model, wh_turned_slope_fn *slope,
     wh_turning_look_up(waves, state->angle, angles, NULL, &k.t);
     slope(model, k.t.at, state->real, state->input, k.k1);
     if (by->stages > 1) {
-        wh_turning_by(by, waves, k.k1, h, turn);
+        wh_turning_by(by, waves, k.k1, h.s, turn);
         wh_turning_begin(waves, turn, compensated, &k.t);
     }
-#define WH_STAGE(s) \
-    wh_turn_first_stage(model, slope, waves, by, s, compensated, angles, reals, h, state, &k)
+#define WH_STAGE(stage) \
+    wh_turn_first_stage(model, slope, waves, by, stage, compensated, angles, reals, h.s, state, &k)
     WH_LATER_STAGES(by, WH_STAGE);
 #undef WH_STAGE
     return wh_first_end(by, k.k1, k.alike, compensated, angles, reals, h, state);

@@ -95,7 +95,7 @@ WH_INLINE unsigned wh_step_second_stage(const void *model, wh_accel_fn *accel, c
 /* One step of q'' = f(q, q', u). angles <= n <= WH_COORDS. Returns WH_OK, or WH_E_DIVERGED with
  * state->fault set and the rest of the state as it was. */
 WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_method method,
-                                   bool compensated, unsigned angles, unsigned n, wh_real h,
+                                   bool compensated, unsigned angles, unsigned n, wh_span h,
                                    wh_state *state) {
     const wh_tableau *by = wh_tableau_of(method);
     /* zeroed for the compiler, which cannot know that no scene uses what it did not fill */
@@ -106,9 +106,9 @@ WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_met
         k.phase[i] = wh_phase_of(state->angle[i]);
     }
     accel(model, k.phase, k.linear, k.rate, k.input, k.a1);
-#define WH_STAGE(s) \
+#define WH_STAGE(stage) \
     do { \
-        const unsigned far = wh_step_second_stage(model, accel, by, s, angles, n, h, state, &k); \
+        const unsigned far = wh_step_second_stage(model, accel, by, stage, angles, n, h.s, state, &k); \
         if (far < angles) { \
             return wh_refuse(state, far); \
         } \
@@ -158,7 +158,7 @@ WH_INLINE unsigned wh_step_first_stage(const void *model, wh_slope_fn *slope, co
  * does not take such a system, semi-implicit Euler: it moves rates before positions, and here is no telling them
  * apart: WH_E_ARGUMENT, with the state as it was. Else returns as wh_step_second(). */
 WH_INLINE wh_status wh_step_first(const void *model, wh_slope_fn *slope, wh_method method,
-                                  bool compensated, unsigned angles, unsigned reals, wh_real h,
+                                  bool compensated, unsigned angles, unsigned reals, wh_span h,
                                   wh_state *state) {
     const wh_tableau *by = wh_tableau_of(method);
     wh_stepped_first k = {.k1 = {0}};
@@ -171,10 +171,10 @@ WH_INLINE wh_status wh_step_first(const void *model, wh_slope_fn *slope, wh_meth
         k.phase[i] = wh_phase_of(state->angle[i]);
     }
     slope(model, k.phase, state->real, state->input, k.k1);
-#define WH_STAGE(s) \
+#define WH_STAGE(stage) \
     do { \
         const unsigned far = \
-            wh_step_first_stage(model, slope, by, s, angles, reals, h, state, &k); \
+            wh_step_first_stage(model, slope, by, stage, angles, reals, h.s, state, &k); \
         if (far < angles) { \
             return wh_refuse(state, far); \
         } \

@@ -3,6 +3,7 @@
 #define WH_STEP_END_H
 
 #include "scene.h"
+#include "span.h"
 #include "stage_sums.h"
 #include "sum.h"
 
@@ -33,15 +34,18 @@ WH_INLINE unsigned wh_first_absurd(const wh_real *value, unsigned n) {
 }
 
 /* *angle moved on by `steps` phase units, less than WH_PHASE_STEP_MAX in size, rounded to the nearest: dropping the
- * fraction would slow every angle down by half a unit a step. Compensated: *carry is what is rounded away, and in float
- * what was is in `steps` already. */
+ * fraction would slow every angle down by half a unit a step. Compensated, *carry goes in and is what is rounded away;
+ * by itself, for beside a large step nothing of it would be left. */
 WH_INLINE void wh_angle_move(wh_angle *angle, wh_real steps, bool compensated, wh_real *carry) {
 #if WH_DOUBLE
     *angle = wh_sum(*angle, steps, compensated, carry);
 #else
-    const int32_t whole = wh_whole(steps);
+    int32_t whole = wh_whole(steps);
     if (compensated) {
-        *carry = steps - (float)whole;
+        const float left = (steps - (float)whole) + *carry;
+        const int32_t more = wh_whole(left);
+        *carry = left - (float)more;
+        whole += more; /* no overflow: `steps` is whole where it is large */
     }
     /* turns beyond 2^31 wrap like the phase, and are no undefined behaviour */
     *angle = (wh_angle)((uint64_t)*angle + (uint64_t)(int64_t)whole);
@@ -89,18 +93,20 @@ WH_INLINE void wh_commit(const wh_trial *trial, unsigned angles, unsigned reals,
 /* trial->angle[] of this step, h long: the state's, each moved on by move[] times rad_a_move. The first angle that was
  * to move by half a turn or more, or by NaN, or `angles`. Seldom is there one: first all are asked at once, by the sum
  * of their sizes. */
-WH_INLINE unsigned wh_angles_move(const wh_real *move, wh_real rad_a_move, wh_real h,
+WH_INLINE unsigned wh_angles_move(const wh_real *move, wh_span rad_a_move, wh_real h,
                                   bool compensated, unsigned angles, const wh_state *state,
                                   wh_trial *trial) {
+    const wh_span per_rad = {WH_PHASE_PER_RAD, WH_PHASE_PER_RAD_REST};
+    const wh_span phases = wh_span_times(rad_a_move, per_rad);
     wh_real steps[WH_COORDS] = {0};
     wh_real all = WH_R(0.0);
     WH_UNROLL
     for (unsigned i = 0; i < angles; i++) {
         trial->angle[i] = state->angle[i];
         trial->carry[i] = compensated ? state->carry[i] : WH_R(0.0);
-        steps[i] = move[i] * (rad_a_move * WH_PHASE_PER_RAD);
+        steps[i] = move[i] * phases.s;
         if (compensated && !WH_DOUBLE) {
-            steps[i] += trial->carry[i];
+            trial->carry[i] += move[i] * phases.rest_s;
         }
         all = i == 0 ? WH_ABS(steps[i]) : all + WH_ABS(steps[i]);
     }
@@ -121,16 +127,27 @@ WH_INLINE unsigned wh_angles_move(const wh_real *move, wh_real rad_a_move, wh_re
     return angles;
 }
 
+/* value + by factor, as wh_sum(); product is by.s factor. */
+WH_INLINE wh_real wh_sum_product(wh_real value, wh_span by, wh_real factor, wh_real product,
+                                 bool compensated, wh_real *carry) {
+    if (compensated && !WH_DOUBLE) {
+        *carry += by.rest_s * factor;
+    }
+    return wh_sum(value, product, compensated, carry);
+}
+
 /* The end of a step of q'' = f: what the stages gave, a1 and the sums of those that count alike, moves the state.
  * Returns as wh_step_second(). */
 WH_INLINE wh_status wh_second_end(const wh_tableau *by, const wh_real *a1,
                                   wh_real (*alike)[WH_COORDS], bool compensated, unsigned angles,
-                                  unsigned n, wh_real h, wh_state *state) {
+                                  unsigned n, wh_span h, wh_state *state) {
+    const wh_span part = wh_span_over(h, by->parts);
     const unsigned linears = n - angles;
     const wh_real *linear = state->real;
     const wh_real *rate = state->real + linears;
     /* zeroed for the compiler, which cannot know that no scene uses what it did not fill */
     wh_real move[WH_COORDS] = {0}; /* mean rate that moves the position over this step */
+    wh_real gain[WH_COORDS] = {0}; /* sum of the accelerations over its parts */
     wh_real kick[WH_COORDS] = {0}; /* change of the rate over this step */
     wh_trial trial = {0};
 
@@ -148,11 +165,12 @@ WH_INLINE wh_status wh_second_end(const wh_tableau *by, const wh_real *a1,
                 wh_total_add(&rest, &any_rest, by->rates[s] - by->positions[s], more);
             }
         }
-        move[i] = any_moved ? rate[i] + h / by->parts * moved : rate[i];
-        kick[i] = h / by->parts * (any_moved && any_rest ? moved + rest : any_moved ? moved : rest);
+        move[i] = any_moved ? rate[i] + part.s * moved : rate[i];
+        gain[i] = any_moved && any_rest ? moved + rest : any_moved ? moved : rest;
+        kick[i] = part.s * gain[i];
     }
 
-    const unsigned far = wh_angles_move(move, h, h, compensated, angles, state, &trial);
+    const unsigned far = wh_angles_move(move, h, h.s, compensated, angles, state, &trial);
     if (far < angles) {
         return wh_refuse(state, far);
     }
@@ -160,13 +178,14 @@ WH_INLINE wh_status wh_second_end(const wh_tableau *by, const wh_real *a1,
     for (unsigned i = 0; i < linears; i++) {
         wh_real *carry = &trial.carry[angles + i];
         *carry = compensated ? state->carry[angles + i] : WH_R(0.0);
-        trial.real[i] = wh_sum(linear[i], h * move[angles + i], compensated, carry);
+        trial.real[i] = wh_sum_product(linear[i], h, move[angles + i], h.s * move[angles + i], compensated,
+                                       carry);
     }
     WH_UNROLL
     for (unsigned i = 0; i < n; i++) {
         wh_real *carry = &trial.carry[n + i];
         *carry = compensated ? state->carry[n + i] : WH_R(0.0);
-        trial.real[linears + i] = wh_sum(rate[i], kick[i], compensated, carry);
+        trial.real[linears + i] = wh_sum_product(rate[i], part, gain[i], kick[i], compensated, carry);
     }
     const unsigned absurd = wh_first_absurd(trial.real, linears + n);
     if (absurd < linears + n) {
@@ -179,25 +198,25 @@ WH_INLINE wh_status wh_second_end(const wh_tableau *by, const wh_real *a1,
 /* The end of a step of x' = f, likewise. */
 WH_INLINE wh_status wh_first_end(const wh_tableau *by, const wh_real *k1,
                                  wh_real (*alike)[WH_COORDS], bool compensated, unsigned angles,
-                                 unsigned reals, wh_real h, wh_state *state) {
+                                 unsigned reals, wh_span h, wh_state *state) {
+    const wh_span part = wh_span_over(h, by->parts);
     const unsigned n = angles + reals;
-    wh_real move[WH_COORDS];
+    wh_real total[WH_COORDS];
     wh_trial trial = {0};
 
     WH_UNROLL
     for (unsigned i = 0; i < n; i++) {
-        wh_real total = WH_R(0.0);
         bool any = false;
+        total[i] = WH_R(0.0);
         WH_UNROLL
         for (unsigned s = 0; s < by->stages; s++) {
             if (!wh_stages_alike(by, s + 1, false)) {
-                wh_total_add(&total, &any, by->rates[s], s == 0 ? k1[i] : alike[s - 1][i]);
+                wh_total_add(&total[i], &any, by->rates[s], s == 0 ? k1[i] : alike[s - 1][i]);
             }
         }
-        move[i] = h / by->parts * total;
     }
 
-    const unsigned far = wh_angles_move(move, WH_R(1.0), h, compensated, angles, state, &trial);
+    const unsigned far = wh_angles_move(total, part, h.s, compensated, angles, state, &trial);
     if (far < angles) {
         return wh_refuse(state, far);
     }
@@ -205,7 +224,8 @@ WH_INLINE wh_status wh_first_end(const wh_tableau *by, const wh_real *k1,
     for (unsigned i = 0; i < reals; i++) {
         wh_real *carry = &trial.carry[angles + i];
         *carry = compensated ? state->carry[angles + i] : WH_R(0.0);
-        trial.real[i] = wh_sum(state->real[i], move[angles + i], compensated, carry);
+        trial.real[i] = wh_sum_product(state->real[i], part, total[angles + i], part.s * total[angles + i],
+                                       compensated, carry);
     }
     const unsigned absurd = wh_first_absurd(trial.real, reals);
     if (absurd < reals) {

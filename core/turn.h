@@ -14,6 +14,7 @@ typedef double wh_angle;  /* radians, unwrapped */
 typedef double wh_phase;  /* radians */
 typedef double wh_factor; /* what wh_phase_times() takes */
 #define WH_PHASE_PER_RAD 1.0
+#define WH_PHASE_PER_RAD_REST 0.0
 /* A step may not turn an angle by more than this: beyond it, direction is lost. */
 #define WH_PHASE_STEP_MAX 3.141592653589793
 
@@ -30,6 +31,7 @@ typedef struct wh_factor { /* whole + part/2^64, modulo 2^32 */
     uint32_t whole;
 } wh_factor;
 #define WH_PHASE_PER_RAD 683565275.576431632f /* 2^32 / (2 pi) */
+#define WH_PHASE_PER_RAD_REST 27.576431632f   /* and what a float leaves of it */
 #define WH_PHASE_STEP_MAX 2147483520.0f       /* largest float below half a turn */
 
 WH_INLINE wh_phase wh_phase_of(wh_angle angle) { return (wh_phase)(uint64_t)angle; }

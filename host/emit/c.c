@@ -175,7 +175,9 @@ static void write_one_step(FILE *out, const image *im) {
     const char *method = wh_methods[im->settings.method].name;
     const char *compensated = im->settings.compensated ? "true" : "false";
     char hex[HEX_SIZE];
+    char rest[HEX_SIZE];
     hex_write(im->step_s, hex);
+    hex_write(im->step_s - (double)(float)im->step_s, rest);
     const bool turns = image_turns(im);
     fputs(
         "WH_INLINE wh_status one_step(const wh_scene *scene, wh_state *state) {\n    (void)scene;\n",
@@ -183,18 +185,19 @@ static void write_one_step(FILE *out, const image *im) {
     if (im->ledger.kept) {
         fprintf(out,
                 "    return wh_%s_ledger(&ledger, NULL, accelerations,%s %s, %s,\n"
-                "                          WH_R(%s), state);\n}\n\n",
-                turns ? "turn" : "step", turns ? " &waves," : "", method, compensated, hex);
+                "                          WH_SPAN(%s, %s), state);\n}\n\n",
+                turns ? "turn" : "step", turns ? " &waves," : "", method, compensated, hex, rest);
     } else {
         fprintf(out,
                 "    return wh_%s_%s(NULL, %s,%s %s, %s, %dU, %dU,\n"
-                "                          WH_R(%s), state);\n}\n\n",
+                "                          WH_SPAN(%s, %s), state);\n}\n\n",
                 turns ? "turn" : "step", second ? "second" : "first",
                 second ? "accelerations" : "slopes",
                 !turns   ? ""
                 : second ? " &waves, NULL,"
                          : " &waves,",
-                method, compensated, im->angles, second ? im->coordinates : im->reals, hex);
+                method, compensated, im->angles, second ? im->coordinates : im->reals, hex,
+                rest);
     }
 }
 

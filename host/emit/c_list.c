@@ -13,7 +13,7 @@
 
 /* A list of more operations than this is called at each stage and not inlined there: for 7 to 12 % more instructions on
  * the Cortex-M4F half of the flash and less (seven links of a pendulum: 8 and not 15 KB, ten: 14 and not 33). */
-enum { INLINED_MOST = 500 };
+enum { INLINED_MOST = 150 };
 
 /* From so many operations on, a compiler is to keep to their order (WH_LONG_LIST of core/step.h). On the Cortex-M4F 67
  * operations take 1 % fewer instructions by it and 2 % more cycles, 131 take 4 % and 2 % fewer. */

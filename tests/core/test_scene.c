@@ -20,7 +20,7 @@ static void oscillator_accel(const void *model, const wh_phase *phase, const wh_
 
 static wh_status oscillator_advance(const wh_scene *scene, wh_state *state) {
     return wh_step_second(NULL, oscillator_accel, scene->method, scene->compensated, 0, 1,
-                          scene->step_s, state);
+                          (wh_span){scene->step_s, WH_R(0.0)}, state);
 }
 
 /* A free shaft (angle) beside a carriage whose acceleration is the input. */
@@ -35,7 +35,7 @@ static void shaft_accel(const void *model, const wh_phase *phase, const wh_real 
 }
 
 static wh_status shaft_advance(const wh_scene *scene, wh_state *state) {
-    return wh_step_second(NULL, shaft_accel, scene->method, scene->compensated, 1, 2, scene->step_s,
+    return wh_step_second(NULL, shaft_accel, scene->method, scene->compensated, 1, 2, (wh_span){scene->step_s, WH_R(0.0)},
                           state);
 }
 
@@ -149,7 +149,7 @@ static void constant_slope(const void *model, const wh_phase *phase, const wh_re
 
 static wh_status first_order_advance(const wh_scene *scene, wh_state *of) {
     return wh_step_first(NULL, constant_slope, scene->method, scene->compensated, 0, 1,
-                         scene->step_s, of);
+                         (wh_span){scene->step_s, WH_R(0.0)}, of);
 }
 
 static void test_a_method_that_the_form_does_not_have_is_refused(void) {

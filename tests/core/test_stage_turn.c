@@ -86,14 +86,14 @@ typedef struct manner {
 static wh_status step(manner how, wh_real h, wh_phase *told) {
     if (how.form == WH_FIRST_ORDER) {
         return how.turns ? wh_turn_first(NULL, flow_turned, &waves, how.method, how.compensated,
-                                         ANGLES, LINEARS, h, &state)
+                                         ANGLES, LINEARS, (wh_span){h, WH_R(0.0)}, &state)
                          : wh_step_first(NULL, flow, how.method, how.compensated, ANGLES, LINEARS,
-                                         h, &state);
+                                         (wh_span){h, WH_R(0.0)}, &state);
     }
     return how.turns ? wh_turn_second(NULL, swing_turned, &waves, told, how.method, how.compensated,
-                                      ANGLES, COORDINATES, h, &state)
+                                      ANGLES, COORDINATES, (wh_span){h, WH_R(0.0)}, &state)
                      : wh_step_second(NULL, swing, how.method, how.compensated, ANGLES, COORDINATES,
-                                      h, &state);
+                                      (wh_span){h, WH_R(0.0)}, &state);
 }
 
 static void start(void) {
