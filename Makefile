@@ -91,7 +91,7 @@ hashes-all: ## the same bits on every board there is, on AArch64 and in WebAssem
 	@$(MAKE) hashes-all-now
 
 .PHONY: test-boards
-test-boards: ## the portable suites, the stack's guard and the firmware rules on every board (minutes)
+test-boards: ## the portable suites, the stack's guard and the firmware rules on every board (half an hour)
 	@UNITY="$(UNITY)" CC="$(CC)" mk/setup/deps.sh host firmware boards tests
 	@UNITY="$(UNITY)" mk/setup/unity.sh build/unity
 	@$(MAKE) test-boards-now

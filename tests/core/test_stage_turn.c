@@ -348,7 +348,8 @@ static void test_small_turns_are_sines(void) {
 
 /* Up to eight turns: what is doubled errs in proportion; and what is beyond all turns is infinite or NaN: no step takes it. */
 static void test_far_turns_are_sines(void) {
-    for (int i = -50000; i <= 50000; i++) {
+    const int32_t each = __STDC_HOSTED__ ? 1 : 9;
+    for (int32_t i = -50000; i <= 50000; i += each) {
         const wh_real d = (wh_real)i * WH_R(0.0009765625); /* 2^-10 */
         const wh_real within = (sizeof(wh_real) == 8 ? WH_R(1.4e-15) : WH_R(8e-7)) *
                                (WH_ABS(d) > WH_R(1.0) ? WH_ABS(d) : WH_R(1.0));
