@@ -8,7 +8,7 @@
 
 /* Constants are to be loaded before the loop, as many as there are registers for: up to 5 % of the instructions of a small
  * scene. What gcse shares there takes more of those than it saves; in a larger scene it saves. */
-#if WH_AHEAD && defined(__GNUC__) && !defined(__clang__)
+#if defined(WH_AHEAD) && WH_AHEAD && defined(__GNUC__) && !defined(__clang__)
 #pragma GCC optimize("ira-loop-pressure")
 #if defined(WH_WAVES) && WH_WAVES <= 1
 #pragma GCC optimize("no-gcse")

@@ -30,7 +30,8 @@
  * more instructions a step; and load, beside each check, the number that a refused step is blamed with: up to 3 %; and call
  * memcpy() for a loop over one or two values. */
 #if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC optimize("no-tree-sink", "no-if-conversion2", "no-tree-loop-distribute-patterns")
+#pragma GCC optimize("no-tree-sink", "no-if-conversion2", "no-tree-loop-distribute-patterns", \
+                     "no-tree-slp-vectorize")
 #endif
 
 /* A long list is written in an order with few values live at a time. Where there are registers for that, gcc would put

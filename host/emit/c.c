@@ -103,7 +103,7 @@ static void write_scene(FILE *out, const image *im) {
     fprintf(out, "    .model = NULL,\n    .model_hash = UINT64_C(0x%016" PRIx64 "),\n", im->hash);
     fprintf(out,
             "    .advance = advance,\n%s    .observe = %s,\n    .arithmetic = wh_arithmetic,\n};\n",
-            has_ahead(im) ? "#if WH_AHEAD\n    .ahead = ahead,\n#endif\n" : "",
+            has_ahead(im) ? "#if defined(WH_AHEAD) && WH_AHEAD\n    .ahead = ahead,\n#endif\n" : "",
             im->outputs > 0 ? "observe" : "NULL");
 }
 
@@ -207,7 +207,7 @@ static void write_advance(FILE *out, const image *im) {
           out);
     if (has_ahead(im)) {
         fprintf(out,
-                "#if WH_AHEAD\n"
+                "#if defined(WH_AHEAD) && WH_AHEAD\n"
                 "static wh_status ahead(const wh_scene *scene, wh_state *state, uint32_t steps) {\n"
                 "    return wh_steps_ahead(scene, one_step, %dU, %dU, %s, state, steps);\n"
                 "}\n#endif\n\n",
