@@ -22,7 +22,7 @@
 
 /* Older ones unroll loops whose bounds are constants by themselves where they are asked to compile for speed: on an ATmega328P
  * a step takes 20 to 30 % fewer cycles, and hardly more flash, as what is constant is seen to be. */
-#if defined(__GNUC__) && !defined(__clang__) && __GNUC__ < 8
+#if defined(__GNUC__) && !defined(__clang__) && __GNUC__ < 8 && !defined(WH_CONTACTS_MAX)
 #pragma GCC optimize("O3")
 #endif
 
