@@ -200,14 +200,13 @@ WH_INLINE bool wh_turning_leans(const wh_shares *of, unsigned stage, wh_real (*g
 }
 
 /* The pair that leans by this. */
-WH_INLINE_WITH_FPU wh_wave wh_lean(wh_wave at, const wh_sine_parts *parts, wh_real lean,
-                                   bool precise) {
+WH_INLINE_WITH_FPU wh_wave wh_lean(wh_wave at, wh_sine_parts parts, wh_real lean, bool precise) {
     const wh_real half = WH_R(0.5) * lean;
     const wh_real cosine = at.cosine - half * at.sine;
     wh_wave leant;
     if (precise) {
-        leant.sine = parts->sine + (parts->sine_rest + lean * cosine);
-        leant.cosine = parts->cosine + (parts->cosine_rest - half * (at.sine + leant.sine));
+        leant.sine = parts.sine + (parts.sine_rest + lean * cosine);
+        leant.cosine = parts.cosine + (parts.cosine_rest - half * (at.sine + leant.sine));
     } else {
         leant.sine = at.sine + lean * cosine;
         leant.cosine = cosine - half * leant.sine;
@@ -215,10 +214,26 @@ WH_INLINE_WITH_FPU wh_wave wh_lean(wh_wave at, const wh_sine_parts *parts, wh_re
     return leant;
 }
 
-/* pair[] at stage `stage`, gained[] as above. */
+/* The pair turned on by any lean. */
+WH_INLINE wh_wave wh_lean_far(wh_wave at, wh_sine_parts parts, wh_real lean, bool precise) {
+    const wh_wave turn = WH_ABS(lean) <= WH_TURN_SMALL ? wh_small_turn(lean) : wh_far_turn(lean);
+    const wh_real sine = at.sine * turn.cosine + at.cosine * turn.sine;
+    const wh_real cosine = at.cosine * turn.cosine - at.sine * turn.sine;
+    wh_wave leant;
+    if (precise) {
+        leant.sine = parts.sine + (parts.sine_rest + sine);
+        leant.cosine = parts.cosine + (parts.cosine_rest + cosine);
+    } else {
+        leant.sine = at.sine + sine;
+        leant.cosine = at.cosine + cosine;
+    }
+    return leant;
+}
+
+/* pair[] at stage `stage`, gained[] as above. `far`: leans may be large. */
 WH_INLINE void wh_turning_stage(const wh_tableau *by, const wh_waves *waves, unsigned stage,
                                 wh_real (*gained)[WH_COORDS], unsigned angles, wh_real h,
-                                bool precise, wh_turning *t, wh_wave *pair) {
+                                bool precise, bool far, wh_turning *t, wh_wave *pair) {
     wh_real of_angles[WH_COORDS] = {0};
     wh_real lean[WH_WAVES] = {0};
     const bool leans = wh_turning_leans(&by->stage[stage], stage, gained, angles, of_angles);
@@ -228,7 +243,9 @@ WH_INLINE void wh_turning_stage(const wh_tableau *by, const wh_waves *waves, uns
     wh_turning_to(waves, by->turns[stage], precise, t);
     WH_UNROLL
     for (unsigned w = 0; w < waves->count; w++) {
-        pair[w] = leans ? wh_lean(t->at[w], &t->parts[w], lean[w], precise) : t->at[w];
+        pair[w] = !leans ? t->at[w]
+                  : far  ? wh_lean_far(t->at[w], t->parts[w], lean[w], precise)
+                         : wh_lean(t->at[w], t->parts[w], lean[w], precise);
     }
 }
 
@@ -300,7 +317,7 @@ WH_INLINE void wh_turn_second_stage(const void *model, wh_turned_accel_fn *accel
         list->at[i] =
             k->linear[i] + h / of->parts * wh_stage_sum(of->share, s, all_rates, angles + i);
     }
-    wh_turning_stage(by, waves, s, k->gained, angles, h, compensated, &k->t, list->pair);
+    wh_turning_stage(by, waves, s, k->gained, angles, h, compensated, false, &k->t, list->pair);
     if (told != NULL) {
         wh_turning_tell(of, s, all_rates, angles, h, state, told);
     }
@@ -315,8 +332,10 @@ WH_INLINE wh_status wh_turn_second(const void *model, wh_turned_accel_fn *accel,
                                    bool compensated, unsigned angles, unsigned n, wh_span h,
                                    wh_state *state) {
     const wh_tableau *by = wh_tableau_of(method);
-    wh_turned_second k = {
-        .linear = state->real, .rate = state->real + (n - angles), .input = state->input};
+    wh_turned_second k;
+    k.linear = state->real;
+    k.rate = state->real + (n - angles);
+    k.input = state->input;
     wh_turned_list list = {.at = {0}};
     wh_wave turn[WH_WAVES] = {{0}};
 
@@ -342,10 +361,7 @@ WH_INLINE wh_status wh_turn_second(const void *model, wh_turned_accel_fn *accel,
 /* A step of x' = f(x, u) on its way. */
 typedef struct wh_turned_first {
     wh_turning t;
-    wh_wave pair[WH_WAVES];
-    wh_real at[WH_COORDS];                    /* reals of a stage */
     wh_real k1[WH_COORDS];                    /* derivatives of the first stage */
-    wh_real k[WH_COORDS];                     /* of the present one */
     wh_real gained[WH_STAGES_MAX][WH_COORDS]; /* those of all others less the first's, of angles */
     wh_real slopes[WH_STAGES_MAX][WH_COORDS]; /* those of all but the first */
     wh_real alike[WH_STAGES_MAX][WH_COORDS];  /* sums of those that count alike */
@@ -355,7 +371,8 @@ typedef struct wh_turned_first {
 WH_INLINE void wh_turn_first_stage(const void *model, wh_turned_slope_fn *slope,
                                    const wh_waves *waves, const wh_tableau *by, unsigned s,
                                    bool compensated, unsigned angles, unsigned reals, wh_real h,
-                                   const wh_state *state, wh_turned_first *k) {
+                                   const wh_state *state, wh_turned_list *list,
+                                   wh_turned_first *k) {
     const wh_shares *of = &by->stage[s];
     const wh_given all = {k->k1, k->slopes};
     if (s >= by->stages) {
@@ -363,14 +380,14 @@ WH_INLINE void wh_turn_first_stage(const void *model, wh_turned_slope_fn *slope,
     }
     WH_UNROLL
     for (unsigned i = 0; i < reals; i++) {
-        k->at[i] = state->real[i] + h / of->parts * wh_stage_sum(of->share, s, all, angles + i);
+        list->at[i] = state->real[i] + h / of->parts * wh_stage_sum(of->share, s, all, angles + i);
     }
-    wh_turning_stage(by, waves, s, k->gained, angles, h, compensated, &k->t, k->pair);
-    slope(model, k->pair, k->at, state->input, k->k);
-    wh_stage_given(by, s, false, angles + reals, k->k1, k->k, k->slopes, k->alike);
+    wh_turning_stage(by, waves, s, k->gained, angles, h, compensated, true, &k->t, list->pair);
+    slope(model, list->pair, list->at, state->input, list->given);
+    wh_stage_given(by, s, false, angles + reals, k->k1, list->given, k->slopes, k->alike);
     WH_UNROLL
     for (unsigned i = 0; i < angles; i++) {
-        k->gained[s - 1][i] = k->k[i] - k->k1[i];
+        k->gained[s - 1][i] = list->given[i] - k->k1[i];
     }
 }
 
@@ -380,19 +397,23 @@ WH_INLINE wh_status wh_turn_first(const void *model, wh_turned_slope_fn *slope,
                                   unsigned angles, unsigned reals, wh_span h, wh_state *state) {
     const wh_tableau *by = wh_tableau_of(method);
     wh_turned_first k = {.k1 = {0}};
+    wh_turned_list list = {.at = {0}};
     wh_wave turn[WH_WAVES] = {{0}};
 
     if (!wh_method_takes(method, WH_FIRST_ORDER)) {
         return WH_E_ARGUMENT;
     }
     wh_turning_look_up(waves, state->angle, angles, NULL, &k.t);
-    slope(model, k.t.at, state->real, state->input, k.k1);
+    wh_turned_take(waves, &k.t, &list);
+    slope(model, list.pair, state->real, state->input, list.given);
+    wh_turned_give(&list, angles + reals, k.k1);
     if (by->stages > 1) {
         wh_turning_by(by, waves, k.k1, h.s, turn);
         wh_turning_begin(waves, turn, compensated, &k.t);
     }
 #define WH_STAGE(stage) \
-    wh_turn_first_stage(model, slope, waves, by, stage, compensated, angles, reals, h.s, state, &k)
+    wh_turn_first_stage(model, slope, waves, by, stage, compensated, angles, reals, h.s, state, \
+                        &list, &k)
     WH_LATER_STAGES(by, WH_STAGE);
 #undef WH_STAGE
     return wh_first_end(by, k.k1, k.alike, compensated, angles, reals, h, state);

@@ -44,17 +44,21 @@ WH_INLINE bool wh_stage_angle(wh_angle angle, wh_real sum, wh_real h, wh_real pa
                : wh_phase_move(wh_phase_of(angle), sum * (h / parts * WH_PHASE_PER_RAD), phase);
 }
 
+/* What a list takes and gives. Apart from all else, which stays in registers where the list is called. */
+typedef struct wh_stepped_list {
+    wh_phase phase[WH_COORDS];
+    wh_real at[WH_COORDS];    /* linear positions, or reals, */
+    wh_real v[WH_COORDS];     /* rates */
+    wh_real given[WH_COORDS]; /* accelerations, or slopes */
+} wh_stepped_list;
+
 /* A step of q'' = f(q, q', u) on its way. */
 typedef struct wh_stepped_second {
     const wh_real *linear; /* where it begins */
     const wh_real *rate;
     const wh_real *input;
-    wh_phase phase[WH_COORDS];
-    wh_real at[WH_COORDS];                   /* linear positions of a stage, */
-    wh_real v[WH_COORDS];                    /* its rates */
-    wh_real a[WH_COORDS];                    /* and its accelerations, */
-    wh_real a1[WH_COORDS];                   /* those of the first one */
-    wh_real rates[WH_STAGES_MAX][WH_COORDS]; /* and of all others */
+    wh_real a1[WH_COORDS];                   /* accelerations of the first stage */
+    wh_real rates[WH_STAGES_MAX][WH_COORDS]; /* of all others */
     wh_real accels[WH_STAGES_MAX][WH_COORDS];
     wh_real alike[WH_STAGES_MAX][WH_COORDS]; /* sums of those that count alike */
 } wh_stepped_second;
@@ -62,7 +66,8 @@ typedef struct wh_stepped_second {
 /* Its stage s > 0. The angle that is to move by half a turn or more, or `angles`. */
 WH_INLINE unsigned wh_step_second_stage(const void *model, wh_accel_fn *accel, const wh_tableau *by,
                                         unsigned s, unsigned angles, unsigned n, wh_real h,
-                                        const wh_state *state, wh_stepped_second *k) {
+                                        const wh_state *state, wh_stepped_list *list,
+                                        wh_stepped_second *k) {
     const unsigned linears = n - angles;
     const wh_given all_rates = {k->rate, k->rates};
     const wh_given all_accels = {k->a1, k->accels};
@@ -73,22 +78,22 @@ WH_INLINE unsigned wh_step_second_stage(const void *model, wh_accel_fn *accel, c
     }
     WH_UNROLL
     for (unsigned i = 0; i < n; i++) {
-        k->v[i] = k->rate[i] + h / parts * wh_stage_sum(share, s, all_accels, i);
-        k->rates[s - 1][i] = k->v[i];
+        list->v[i] = k->rate[i] + h / parts * wh_stage_sum(share, s, all_accels, i);
+        k->rates[s - 1][i] = list->v[i];
     }
     WH_UNROLL
     for (unsigned i = 0; i < linears; i++) {
-        k->at[i] = k->linear[i] + h / parts * wh_stage_sum(share, s, all_rates, angles + i);
+        list->at[i] = k->linear[i] + h / parts * wh_stage_sum(share, s, all_rates, angles + i);
     }
     WH_UNROLL
     for (unsigned i = 0; i < angles; i++) {
         if (!wh_stage_angle(state->angle[i], wh_stage_sum(share, s, all_rates, i), h, parts,
-                            &k->phase[i])) {
+                            &list->phase[i])) {
             return i;
         }
     }
-    accel(model, k->phase, k->at, k->v, k->input, k->a);
-    wh_stage_given(by, s, true, n, k->a1, k->a, k->accels, k->alike);
+    accel(model, list->phase, list->at, list->v, k->input, list->given);
+    wh_stage_given(by, s, true, n, k->a1, list->given, k->accels, k->alike);
     return angles;
 }
 
@@ -101,14 +106,20 @@ WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_met
     /* zeroed for the compiler, which cannot know that no scene uses what it did not fill */
     wh_stepped_second k = {
         .linear = state->real, .rate = state->real + (n - angles), .input = state->input};
+    wh_stepped_list list = {.at = {0}};
     WH_UNROLL
     for (unsigned i = 0; i < angles; i++) {
-        k.phase[i] = wh_phase_of(state->angle[i]);
+        list.phase[i] = wh_phase_of(state->angle[i]);
     }
-    accel(model, k.phase, k.linear, k.rate, k.input, k.a1);
+    accel(model, list.phase, k.linear, k.rate, k.input, list.given);
+    WH_UNROLL
+    for (unsigned i = 0; i < n; i++) {
+        k.a1[i] = list.given[i];
+    }
 #define WH_STAGE(stage) \
     do { \
-        const unsigned far = wh_step_second_stage(model, accel, by, stage, angles, n, h.s, state, &k); \
+        const unsigned far = \
+            wh_step_second_stage(model, accel, by, stage, angles, n, h.s, state, &list, &k); \
         if (far < angles) { \
             return wh_refuse(state, far); \
         } \
@@ -120,10 +131,7 @@ WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_met
 
 /* A step of x' = f(x, u) on its way. */
 typedef struct wh_stepped_first {
-    wh_phase phase[WH_COORDS];
-    wh_real at[WH_COORDS];
     wh_real k1[WH_COORDS];                    /* derivatives of the first stage */
-    wh_real k[WH_COORDS];                     /* of the present one */
     wh_real slopes[WH_STAGES_MAX][WH_COORDS]; /* those of all but the first */
     wh_real alike[WH_STAGES_MAX][WH_COORDS];  /* sums of those that count alike */
 } wh_stepped_first;
@@ -131,7 +139,8 @@ typedef struct wh_stepped_first {
 /* Its stage s > 0. As wh_step_second_stage(). */
 WH_INLINE unsigned wh_step_first_stage(const void *model, wh_slope_fn *slope, const wh_tableau *by,
                                        unsigned s, unsigned angles, unsigned reals, wh_real h,
-                                       const wh_state *state, wh_stepped_first *k) {
+                                       const wh_state *state, wh_stepped_list *list,
+                                       wh_stepped_first *k) {
     const wh_given all = {k->k1, k->slopes};
     const wh_real *share = by->stage[s].share;
     const wh_real parts = by->stage[s].parts;
@@ -141,16 +150,16 @@ WH_INLINE unsigned wh_step_first_stage(const void *model, wh_slope_fn *slope, co
     WH_UNROLL
     for (unsigned i = 0; i < angles; i++) {
         if (!wh_stage_angle(state->angle[i], wh_stage_sum(share, s, all, i), h, parts,
-                            &k->phase[i])) {
+                            &list->phase[i])) {
             return i;
         }
     }
     WH_UNROLL
     for (unsigned i = 0; i < reals; i++) {
-        k->at[i] = state->real[i] + h / parts * wh_stage_sum(share, s, all, angles + i);
+        list->at[i] = state->real[i] + h / parts * wh_stage_sum(share, s, all, angles + i);
     }
-    slope(model, k->phase, k->at, state->input, k->k);
-    wh_stage_given(by, s, false, angles + reals, k->k1, k->k, k->slopes, k->alike);
+    slope(model, list->phase, list->at, state->input, list->given);
+    wh_stage_given(by, s, false, angles + reals, k->k1, list->given, k->slopes, k->alike);
     return angles;
 }
 
@@ -162,19 +171,24 @@ WH_INLINE wh_status wh_step_first(const void *model, wh_slope_fn *slope, wh_meth
                                   wh_state *state) {
     const wh_tableau *by = wh_tableau_of(method);
     wh_stepped_first k = {.k1 = {0}};
+    wh_stepped_list list = {.at = {0}};
 
     if (!wh_method_takes(method, WH_FIRST_ORDER)) {
         return WH_E_ARGUMENT;
     }
     WH_UNROLL
     for (unsigned i = 0; i < angles; i++) {
-        k.phase[i] = wh_phase_of(state->angle[i]);
+        list.phase[i] = wh_phase_of(state->angle[i]);
     }
-    slope(model, k.phase, state->real, state->input, k.k1);
+    slope(model, list.phase, state->real, state->input, list.given);
+    WH_UNROLL
+    for (unsigned i = 0; i < angles + reals; i++) {
+        k.k1[i] = list.given[i];
+    }
 #define WH_STAGE(stage) \
     do { \
         const unsigned far = \
-            wh_step_first_stage(model, slope, by, stage, angles, reals, h.s, state, &k); \
+            wh_step_first_stage(model, slope, by, stage, angles, reals, h.s, state, &list, &k); \
         if (far < angles) { \
             return wh_refuse(state, far); \
         } \

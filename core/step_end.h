@@ -178,14 +178,15 @@ WH_INLINE wh_status wh_second_end(const wh_tableau *by, const wh_real *a1,
     for (unsigned i = 0; i < linears; i++) {
         wh_real *carry = &trial.carry[angles + i];
         *carry = compensated ? state->carry[angles + i] : WH_R(0.0);
-        trial.real[i] = wh_sum_product(linear[i], h, move[angles + i], h.s * move[angles + i], compensated,
-                                       carry);
+        trial.real[i] = wh_sum_product(linear[i], h, move[angles + i], h.s * move[angles + i],
+                                       compensated, carry);
     }
     WH_UNROLL
     for (unsigned i = 0; i < n; i++) {
         wh_real *carry = &trial.carry[n + i];
         *carry = compensated ? state->carry[n + i] : WH_R(0.0);
-        trial.real[linears + i] = wh_sum_product(rate[i], part, gain[i], kick[i], compensated, carry);
+        trial.real[linears + i] =
+            wh_sum_product(rate[i], part, gain[i], kick[i], compensated, carry);
     }
     const unsigned absurd = wh_first_absurd(trial.real, linears + n);
     if (absurd < linears + n) {
@@ -224,8 +225,8 @@ WH_INLINE wh_status wh_first_end(const wh_tableau *by, const wh_real *k1,
     for (unsigned i = 0; i < reals; i++) {
         wh_real *carry = &trial.carry[angles + i];
         *carry = compensated ? state->carry[angles + i] : WH_R(0.0);
-        trial.real[i] = wh_sum_product(state->real[i], part, total[angles + i], part.s * total[angles + i],
-                                       compensated, carry);
+        trial.real[i] = wh_sum_product(state->real[i], part, total[angles + i],
+                                       part.s * total[angles + i], compensated, carry);
     }
     const unsigned absurd = wh_first_absurd(trial.real, reals);
     if (absurd < reals) {

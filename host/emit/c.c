@@ -196,8 +196,7 @@ static void write_one_step(FILE *out, const image *im) {
                 !turns   ? ""
                 : second ? " &waves, NULL,"
                          : " &waves,",
-                method, compensated, im->angles, second ? im->coordinates : im->reals, hex,
-                rest);
+                method, compensated, im->angles, second ? im->coordinates : im->reals, hex, rest);
     }
 }
 
@@ -227,6 +226,8 @@ void emit_c(FILE *out, const image *im, const char *file) {
     }
     if (c_list_is_long(im->list[IMAGE_STEP])) {
         fprintf(out, "#define WH_LONG_LIST 1\n");
+    } else if (im->contacts == 0 && !im->ledger.kept && !im->settings.compensated) {
+        fprintf(out, "#define WH_SMALL_STEP 1\n");
     }
     write_includes(out, im);
     fprintf(out, "\n");

@@ -109,7 +109,8 @@ static const wh_ledger_form spring_books = {.powers = spring_accel,
                                             .inputs = 1};
 
 static wh_status spring_advance(const wh_scene *scene, wh_state *state) {
-    return wh_step_ledger(&spring_books, NULL, spring_accel, WH_RK4, false, (wh_span){scene->step_s, WH_R(0.0)}, state);
+    return wh_step_ledger(&spring_books, NULL, spring_accel, WH_RK4, false,
+                          (wh_span){scene->step_s, WH_R(0.0)}, state);
 }
 
 /* The spring gets stiffer, then softer: each change gives (k2 - k1) x^2/2. Until the next step it is not

@@ -35,8 +35,8 @@ static void shaft_accel(const void *model, const wh_phase *phase, const wh_real 
 }
 
 static wh_status shaft_advance(const wh_scene *scene, wh_state *state) {
-    return wh_step_second(NULL, shaft_accel, scene->method, scene->compensated, 1, 2, (wh_span){scene->step_s, WH_R(0.0)},
-                          state);
+    return wh_step_second(NULL, shaft_accel, scene->method, scene->compensated, 1, 2,
+                          (wh_span){scene->step_s, WH_R(0.0)}, state);
 }
 
 static const wh_angle shaft_angle[1] = {0};
