@@ -24,7 +24,7 @@ WH_INLINE wh_status wh_steps_ahead(const wh_scene *of,
     wh_angle angle[WH_COORDS];
     wh_real real[2 * WH_COORDS];
     wh_real carry[2 * WH_COORDS];
-    wh_state now = {.angle = angle, .real = real, .carry = carry, .input = state->input};
+    wh_state now = {0, angle, real, carry, state->input, NULL, NULL, NULL, -1};
     uint32_t left = steps;
     wh_status status;
     WH_UNROLL
