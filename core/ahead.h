@@ -3,6 +3,11 @@
 #ifndef WH_AHEAD_H
 #define WH_AHEAD_H
 
+#ifdef __cplusplus
+#error \
+    "core/ahead.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
+#endif
+
 #include "scene.h"
 #include "unroll.h"
 

@@ -3,6 +3,11 @@ stage_turn.h. */
 #ifndef WH_SMALL_TURN_H
 #define WH_SMALL_TURN_H
 
+#ifdef __cplusplus
+#error \
+    "core/small_turn.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
+#endif
+
 #include "angle.h"
 
 /* rad, up to which turns are small */

@@ -2,6 +2,11 @@
 #ifndef WH_STAGE_SUMS_H
 #define WH_STAGE_SUMS_H
 
+#ifdef __cplusplus
+#error \
+    "core/stage_sums.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
+#endif
+
 #include "method.h"
 #include "unroll.h"
 

@@ -2,6 +2,11 @@
 #ifndef WH_STEP_END_H
 #define WH_STEP_END_H
 
+#ifdef __cplusplus
+#error \
+    "core/step_end.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
+#endif
+
 #include "scene.h"
 #include "span.h"
 #include "stage_sums.h"

@@ -2,6 +2,11 @@
 #ifndef WH_UNROLL_H
 #define WH_UNROLL_H
 
+#ifdef __cplusplus
+#error \
+    "core/unroll.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
+#endif
+
 /* Most coordinates (second order) or components (first order). A generated scene defines its own
  * and has its loops unrolled: by itself no compiler does, and arrays indexed by a counter stay in memory. */
 #ifndef WH_COORDS
