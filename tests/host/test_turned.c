@@ -196,8 +196,43 @@ static void test_generated_mechanisms_that_become_fast_go_on(void) {
     TEST_ASSERT_TRUE(share_apart(0.45, 300.0, 250.0) < 0.1);
 }
 
+/* Systems of first order whose angles' rates depend on them so strongly that a stage is far from where the rates at the begin
+ * lead: near the limit of stability, where half a turn more or less is soon another equilibrium. */
+static void test_stiff_angles_of_first_order_move_alike(void) {
+    const unsigned cases = dice_cases(300);
+    uint64_t seed = 20261122;
+    char text[400];
+    unsigned compared = 0;
+    double worst = 0.0;
+    for (unsigned n = 0; n < cases; n++) {
+        const int multiple = 1 + (int)(random_bits(&seed) % 5);
+        const double reach = random_between(&seed, 0.3, 2.5) / (1e-3 * multiple);
+        snprintf(text, sizeof text,
+                 "mechanism m\nstate a [rad]\nequation a' = %.3f [1/s] + (%.3f [1/s])*sin(%d*a)\n"
+                 "scene s {\nstart a = %.3f\nstep 1 [ms]; until 0.05 [s] }\n",
+                 random_between(&seed, -1600.0, 1600.0), reach, multiple,
+                 random_between(&seed, -3.0, 3.0));
+        derived d = derived_scene(text, "s");
+        derived_expect(&d, text);
+        double value[2][VALUES];
+        const int looked_up = after(d.image, &engine_double, ANGLES_LOOKUP, 50, value[0]);
+        const int turned = after(d.image, &engine_double, ANGLES_TURNED, 50, value[1]);
+        if (looked_up > 0) {
+            TEST_ASSERT_EQUAL_INT_MESSAGE(looked_up, turned, text);
+            worst = fmax(worst, distance(looked_up, value[0], value[1]));
+            compared++;
+        }
+        derived_free(&d);
+    }
+    printf("  seed 20261122, %u of %u stiff systems: apart by at most %.2g rad\n", compared, cases,
+           worst);
+    TEST_ASSERT_TRUE(compared > cases / 2);
+    TEST_ASSERT_TRUE(worst < 1e-4);
+}
+
 void suite_turned(void) {
     RUN_TEST(test_settings_and_lists_choose);
     RUN_TEST(test_generated_mechanisms_move_alike);
     RUN_TEST(test_generated_mechanisms_that_become_fast_go_on);
+    RUN_TEST(test_stiff_angles_of_first_order_move_alike);
 }
