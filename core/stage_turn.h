@@ -266,10 +266,16 @@ typedef struct wh_turned_list {
     wh_real given[WH_COORDS]; /* accelerations, or slopes */
 } wh_turned_list;
 
-WH_INLINE void wh_turned_take(const wh_waves *waves, const wh_turning *t, wh_turned_list *list) {
+/* The pairs where a step begins. Only what no scene uses is zeroed: for the compiler, which cannot know. */
+WH_INLINE void wh_turned_take(const wh_waves *waves, const wh_turning *t, unsigned linears,
+                              wh_turned_list *list) {
     WH_UNROLL
-    for (unsigned w = 0; w < waves->count; w++) {
-        list->pair[w] = t->at[w];
+    for (unsigned w = 0; w < WH_WAVES; w++) {
+        list->pair[w] = w < waves->count ? t->at[w] : (wh_wave){WH_R(0.0), WH_R(0.0)};
+    }
+    WH_UNROLL
+    for (unsigned i = linears; i < WH_COORDS; i++) {
+        list->at[i] = WH_R(0.0);
     }
 }
 
@@ -336,14 +342,14 @@ WH_INLINE wh_status wh_turn_second(const void *model, wh_turned_accel_fn *accel,
     k.linear = state->real;
     k.rate = state->real + (n - angles);
     k.input = state->input;
-    wh_turned_list list = {.at = {0}};
+    wh_turned_list list;
     wh_wave turn[WH_WAVES] = {{0}};
 
     if (WH_TURN_ASKS_FIRST && by->stages > 1) {
         wh_turning_by(by, waves, k.rate, h.s, turn);
     }
     wh_turning_look_up(waves, state->angle, angles, told, &k.t);
-    wh_turned_take(waves, &k.t, &list);
+    wh_turned_take(waves, &k.t, n - angles, &list);
     accel(model, list.pair, k.linear, k.rate, k.input, list.given);
     wh_turned_give(&list, n, k.a1);
     if (!WH_TURN_ASKS_FIRST && by->stages > 1) {
@@ -397,14 +403,14 @@ WH_INLINE wh_status wh_turn_first(const void *model, wh_turned_slope_fn *slope,
                                   unsigned angles, unsigned reals, wh_span h, wh_state *state) {
     const wh_tableau *by = wh_tableau_of(method);
     wh_turned_first k = {.k1 = {0}};
-    wh_turned_list list = {.at = {0}};
+    wh_turned_list list;
     wh_wave turn[WH_WAVES] = {{0}};
 
     if (!wh_method_takes(method, WH_FIRST_ORDER)) {
         return WH_E_ARGUMENT;
     }
     wh_turning_look_up(waves, state->angle, angles, NULL, &k.t);
-    wh_turned_take(waves, &k.t, &list);
+    wh_turned_take(waves, &k.t, reals, &list);
     slope(model, list.pair, state->real, state->input, list.given);
     wh_turned_give(&list, angles + reals, k.k1);
     if (by->stages > 1) {

@@ -52,6 +52,18 @@ typedef struct wh_stepped_list {
     wh_real given[WH_COORDS]; /* accelerations, or slopes */
 } wh_stepped_list;
 
+/* Only what no scene uses is zeroed: for the compiler, which cannot know. */
+WH_INLINE void wh_stepped_begin(const wh_state *state, unsigned angles, unsigned linears,
+                                wh_stepped_list *list) {
+    WH_UNROLL
+    for (unsigned i = 0; i < WH_COORDS; i++) {
+        list->phase[i] = i < angles ? wh_phase_of(state->angle[i]) : (wh_phase)0;
+        if (i >= linears) {
+            list->at[i] = WH_R(0.0);
+        }
+    }
+}
+
 /* A step of q'' = f(q, q', u) on its way. */
 typedef struct wh_stepped_second {
     const wh_real *linear; /* where it begins */
@@ -103,14 +115,10 @@ WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_met
                                    bool compensated, unsigned angles, unsigned n, wh_span h,
                                    wh_state *state) {
     const wh_tableau *by = wh_tableau_of(method);
-    /* zeroed for the compiler, which cannot know that no scene uses what it did not fill */
     wh_stepped_second k = {
         .linear = state->real, .rate = state->real + (n - angles), .input = state->input};
-    wh_stepped_list list = {.at = {0}};
-    WH_UNROLL
-    for (unsigned i = 0; i < angles; i++) {
-        list.phase[i] = wh_phase_of(state->angle[i]);
-    }
+    wh_stepped_list list;
+    wh_stepped_begin(state, angles, n - angles, &list);
     accel(model, list.phase, k.linear, k.rate, k.input, list.given);
     WH_UNROLL
     for (unsigned i = 0; i < n; i++) {
@@ -171,15 +179,12 @@ WH_INLINE wh_status wh_step_first(const void *model, wh_slope_fn *slope, wh_meth
                                   wh_state *state) {
     const wh_tableau *by = wh_tableau_of(method);
     wh_stepped_first k = {.k1 = {0}};
-    wh_stepped_list list = {.at = {0}};
+    wh_stepped_list list;
 
     if (!wh_method_takes(method, WH_FIRST_ORDER)) {
         return WH_E_ARGUMENT;
     }
-    WH_UNROLL
-    for (unsigned i = 0; i < angles; i++) {
-        list.phase[i] = wh_phase_of(state->angle[i]);
-    }
+    wh_stepped_begin(state, angles, reals, &list);
     slope(model, list.phase, state->real, state->input, list.given);
     WH_UNROLL
     for (unsigned i = 0; i < angles + reals; i++) {
