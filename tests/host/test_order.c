@@ -38,6 +38,12 @@ static int some_wave(dice *d, tape *t, const int *value, int values) {
     return tape_unary(t, dice_one_of(d, 2) > 0 ? OP_SIN : OP_COS, phase);
 }
 
+/* Any function of the language, a new one too. */
+static int some_call(dice *d, tape *t, int a, int b) {
+    const function_id function = (function_id)dice_one_of(d, FUNCTIONS);
+    return tape_call(t, function, a, function_arguments(function) == 2 ? b : -1);
+}
+
 static int some_operation(dice *d, tape *t, const int *value, int values) {
     const int a = some_value(d, value, values);
     const int b = some_value(d, value, values);
@@ -49,15 +55,15 @@ static int some_operation(dice *d, tape *t, const int *value, int values) {
     case 4: return some_wave(d, t, value, values);
     case 5: return tape_div(t, a, b);
     case 6: return tape_unary(t, OP_SQRT, tape_unary(t, OP_ABS, a));
-    case 7: return tape_call(t, FN_ATAN2, a, b);
-    case 8: return tape_call(t, FN_TANH, a, -1);
-    case 9: return tape_call(t, dice_one_of(d, 2) > 0 ? FN_MIN : FN_MAX, a, b);
+    case 7:
+    case 8:
+    case 9: return some_call(d, t, a, b);
     case 10: return tape_sub(t, a, b);
     case 11: return tape_unary(t, OP_NEG, a);
     case 12:
     case 13: return tape_mul(t, a, b);
-    default: return tape_add(t, a, b);
     }
+    return tape_add(t, a, b);
 }
 
 static tape *some_list(dice d) {
