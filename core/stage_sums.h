@@ -34,6 +34,14 @@ _Static_assert(WH_STAGES_MAX == 4, "a stage each below");
     } while (false)
 #endif
 
+/* to[n] from from[n]. */
+WH_INLINE void wh_copy(const wh_real *from, unsigned n, wh_real *to) {
+    WH_UNROLL
+    for (unsigned i = 0; i < n; i++) {
+        to[i] = from[i];
+    }
+}
+
 /* What the stages gave: of the first, and of the others. */
 typedef struct wh_given {
     const wh_real *first;

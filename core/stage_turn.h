@@ -279,13 +279,6 @@ WH_INLINE void wh_turned_take(const wh_waves *waves, const wh_turning *t, unsign
     }
 }
 
-WH_INLINE void wh_turned_give(const wh_turned_list *list, unsigned n, wh_real *given) {
-    WH_UNROLL
-    for (unsigned i = 0; i < n; i++) {
-        given[i] = list->given[i];
-    }
-}
-
 /* A step of q'' = f(q, q', u) on its way. */
 typedef struct wh_turned_second {
     const wh_real *linear; /* where it begins */
@@ -351,7 +344,7 @@ WH_INLINE wh_status wh_turn_second(const void *model, wh_turned_accel_fn *accel,
     wh_turning_look_up(waves, state->angle, angles, told, &k.t);
     wh_turned_take(waves, &k.t, n - angles, &list);
     accel(model, list.pair, k.linear, k.rate, k.input, list.given);
-    wh_turned_give(&list, n, k.a1);
+    wh_copy(list.given, n, k.a1);
     if (!WH_TURN_ASKS_FIRST && by->stages > 1) {
         wh_turning_by(by, waves, k.rate, h.s, turn);
     }
@@ -412,7 +405,7 @@ WH_INLINE wh_status wh_turn_first(const void *model, wh_turned_slope_fn *slope,
     wh_turning_look_up(waves, state->angle, angles, NULL, &k.t);
     wh_turned_take(waves, &k.t, reals, &list);
     slope(model, list.pair, state->real, state->input, list.given);
-    wh_turned_give(&list, angles + reals, k.k1);
+    wh_copy(list.given, angles + reals, k.k1);
     if (by->stages > 1) {
         wh_turning_by(by, waves, k.k1, h.s, turn);
         wh_turning_begin(waves, turn, compensated, &k.t);

@@ -120,18 +120,9 @@ WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_met
     wh_stepped_list list;
     wh_stepped_begin(state, angles, n - angles, &list);
     accel(model, list.phase, k.linear, k.rate, k.input, list.given);
-    WH_UNROLL
-    for (unsigned i = 0; i < n; i++) {
-        k.a1[i] = list.given[i];
-    }
+    wh_copy(list.given, n, k.a1);
 #define WH_STAGE(stage) \
-    do { \
-        const unsigned far = \
-            wh_step_second_stage(model, accel, by, stage, angles, n, h.s, state, &list, &k); \
-        if (far < angles) { \
-            return wh_refuse(state, far); \
-        } \
-    } while (false)
+    WH_REFUSE_FAR(wh_step_second_stage(model, accel, by, stage, angles, n, h.s, state, &list, &k))
     WH_LATER_STAGES(by, WH_STAGE);
 #undef WH_STAGE
     return wh_second_end(by, k.a1, k.alike, compensated, angles, n, h, state);
@@ -186,18 +177,10 @@ WH_INLINE wh_status wh_step_first(const void *model, wh_slope_fn *slope, wh_meth
     }
     wh_stepped_begin(state, angles, reals, &list);
     slope(model, list.phase, state->real, state->input, list.given);
-    WH_UNROLL
-    for (unsigned i = 0; i < angles + reals; i++) {
-        k.k1[i] = list.given[i];
-    }
+    wh_copy(list.given, angles + reals, k.k1);
 #define WH_STAGE(stage) \
-    do { \
-        const unsigned far = \
-            wh_step_first_stage(model, slope, by, stage, angles, reals, h.s, state, &list, &k); \
-        if (far < angles) { \
-            return wh_refuse(state, far); \
-        } \
-    } while (false)
+    WH_REFUSE_FAR( \
+        wh_step_first_stage(model, slope, by, stage, angles, reals, h.s, state, &list, &k))
     WH_LATER_STAGES(by, WH_STAGE);
 #undef WH_STAGE
     return wh_first_end(by, k.k1, k.alike, compensated, angles, reals, h, state);

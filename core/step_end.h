@@ -69,6 +69,15 @@ WH_INLINE wh_status wh_refuse(wh_state *state, unsigned fault) {
     return WH_E_DIVERGED;
 }
 
+/* Refuse the step where `far`, an angle that was to move by half a turn or more, is one. */
+#define WH_REFUSE_FAR(far) \
+    do { \
+        const unsigned far_angle = (far); \
+        if (far_angle < angles) { \
+            return wh_refuse(state, far_angle); \
+        } \
+    } while (false)
+
 /* Where a step's results wait until the whole step is known to be sound. */
 typedef struct wh_trial {
     wh_angle angle[WH_COORDS];
@@ -93,6 +102,17 @@ WH_INLINE void wh_commit(const wh_trial *trial, unsigned angles, unsigned reals,
             state->carry[i] = trial->carry[i];
         }
     }
+}
+
+/* Take a sound trial over, or refuse the step. */
+WH_INLINE wh_status wh_accept(const wh_trial *trial, unsigned angles, unsigned reals,
+                              bool compensated, wh_state *state) {
+    const unsigned absurd = wh_first_absurd(trial->real, reals);
+    if (absurd < reals) {
+        return wh_refuse(state, angles + absurd);
+    }
+    wh_commit(trial, angles, reals, compensated, state);
+    return WH_OK;
 }
 
 /* trial->angle[] of this step, h long: the state's, each moved on by move[] times rad_a_move. The first angle that was
@@ -175,10 +195,7 @@ WH_INLINE wh_status wh_second_end(const wh_tableau *by, const wh_real *a1,
         kick[i] = part.s * gain[i];
     }
 
-    const unsigned far = wh_angles_move(move, h, h.s, compensated, angles, state, &trial);
-    if (far < angles) {
-        return wh_refuse(state, far);
-    }
+    WH_REFUSE_FAR(wh_angles_move(move, h, h.s, compensated, angles, state, &trial));
     WH_UNROLL
     for (unsigned i = 0; i < linears; i++) {
         wh_real *carry = &trial.carry[angles + i];
@@ -193,12 +210,7 @@ WH_INLINE wh_status wh_second_end(const wh_tableau *by, const wh_real *a1,
         trial.real[linears + i] =
             wh_sum_product(rate[i], part, gain[i], kick[i], compensated, carry);
     }
-    const unsigned absurd = wh_first_absurd(trial.real, linears + n);
-    if (absurd < linears + n) {
-        return wh_refuse(state, angles + absurd);
-    }
-    wh_commit(&trial, angles, linears + n, compensated, state);
-    return WH_OK;
+    return wh_accept(&trial, angles, linears + n, compensated, state);
 }
 
 /* The end of a step of x' = f, likewise. */
@@ -222,10 +234,7 @@ WH_INLINE wh_status wh_first_end(const wh_tableau *by, const wh_real *k1,
         }
     }
 
-    const unsigned far = wh_angles_move(total, part, h.s, compensated, angles, state, &trial);
-    if (far < angles) {
-        return wh_refuse(state, far);
-    }
+    WH_REFUSE_FAR(wh_angles_move(total, part, h.s, compensated, angles, state, &trial));
     WH_UNROLL
     for (unsigned i = 0; i < reals; i++) {
         wh_real *carry = &trial.carry[angles + i];
@@ -233,12 +242,7 @@ WH_INLINE wh_status wh_first_end(const wh_tableau *by, const wh_real *k1,
         trial.real[i] = wh_sum_product(state->real[i], part, total[angles + i],
                                        part.s * total[angles + i], compensated, carry);
     }
-    const unsigned absurd = wh_first_absurd(trial.real, reals);
-    if (absurd < reals) {
-        return wh_refuse(state, angles + absurd);
-    }
-    wh_commit(&trial, angles, reals, compensated, state);
-    return WH_OK;
+    return wh_accept(&trial, angles, reals, compensated, state);
 }
 
 #endif
