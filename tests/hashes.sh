@@ -9,6 +9,10 @@
 # many are not so, and the exit status 0 or 1.
 set -u
 
+[ "${HASH_SECONDS:=1800}" -gt 0 ] 2>/dev/null || {
+    echo "hashes.sh: error: HASH_SECONDS=$HASH_SECONDS: seconds, 1 or more" >&2
+    exit 2
+}
 logs=${1:?usage: hashes.sh LOGS NAME COMMAND... [-- TITLE NAME COMMAND...]...}
 shift
 mkdir -p "$logs" || exit 1
@@ -30,7 +34,7 @@ while [ $# -ge 2 ]; do
     start=$(date +%s)
     printf '  %-18s ' "$name"
     file=$logs/$(echo "$name" | tr ' ' '_').txt
-    timeout --kill-after=5 "${HASH_SECONDS:-1800}" sh -c "$command" </dev/null >"$file.raw" 2>"$file.err"
+    timeout --kill-after=5 "$HASH_SECONDS" sh -c "$command" </dev/null >"$file.raw" 2>"$file.err"
     status=$?
     tr -d '\r' <"$file.raw" | grep '^scene ' | sort >"$file"
     [ -n "$first" ] || { first=$file && firsts="$firsts $file"; }
@@ -39,7 +43,7 @@ while [ $# -ge 2 ]; do
     large=$(wc -l <"$file.without")
     count=$(wc -l <"$file")
     if [ "$status" -eq 124 ] || [ "$status" -eq 137 ]; then
-        verdict="FAILED: not done within ${HASH_SECONDS:-1800} s"
+        verdict="FAILED: not done within $HASH_SECONDS s"
     elif [ "$status" -ne 0 ]; then
         verdict="FAILED: exit status $status: $(head -n 1 "$file.err")"
     elif [ "$count" -eq 0 ]; then

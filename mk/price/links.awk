@@ -1,6 +1,10 @@
 # links.awk: a pendulum of n links, as a file: awk -v n=N -v scene=1 -f links.awk </dev/null. Angles from hanging straight
 # down; speeds and heights are those of the link above, and what is added. With `scene`, one from rest.
 BEGIN {
+    if (n !~ /^[1-9][0-9]*$/) {
+        print "links.awk: error: n=" n ": a number of links, 1 or more" > "/dev/stderr"
+        exit 2
+    }
     print "mechanism links_" n " \"Pendulum of " n " links\""
     print "parameter m = 0.5 [kg]\nparameter l = 0.2 [m]\nparameter g = 9.81 [m/s^2]"
     for (k = 1; k <= n; k++) { print "coordinate a" k " [rad]" }
