@@ -16,6 +16,8 @@ typedef struct lowering {
     /* Index of the turn angle that the symbol is kept as, or -1. */
     int (*turn)(void *context, const symbol *sym);
     void *context;
+    /* Which of the planned angles, by size, is evaluated before all others: 0 the smallest. */
+    int lead;
     wave *waves;
     int wave_count;
     int wave_room;

@@ -200,16 +200,19 @@ program *program_make(const equations *e, const bool *conserve, diags *errors) {
     const poly **dynamics = room(polys + more, sizeof(const poly *));
     bool *turning = room(n, sizeof *turning);
     bool *wanted = room(n, sizeof *wanted);
+    const symbol **symbols = room(n, sizeof *symbols);
     p->count = n;
     p->outputs = m->output_count + 2 * p->conserved->count;
-    const linear_system s = {n, !m->is_system, dynamics, dynamics + n * n, turning, wanted, false};
+    const linear_system s = {n,       !m->is_system, dynamics, dynamics + n * n,
+                             symbols, turning,       wanted,   false};
     for (int i = 0; i < n * n; i++) {
         dynamics[i] = equations_fold(e, e->mass[i]);
     }
     for (int i = 0; i < n; i++) {
         const poly *force = equations_fold(e, equations_force(e, i));
         dynamics[n * n + i] = conservation_settle(e, p->conserved, force);
-        turning[i] = e->unknowns[i].symbol->is_angle;
+        symbols[i] = e->unknowns[i].symbol;
+        turning[i] = symbols[i]->is_angle;
         wanted[i] = p->conserved->number[i] < 0;
     }
     contact_lists_polys(e, p->conserved, dynamics + polys);
@@ -245,6 +248,7 @@ program *program_make(const equations *e, const bool *conserve, diags *errors) {
     free(dynamics);
     free(turning);
     free(wanted);
+    free(symbols);
     if (!good || grown) {
         program_free(p);
         return NULL;

@@ -11,18 +11,23 @@
 #include <string.h>
 
 #include "eliminate.h"
+#include "hinge.h"
 #include "host/base/room.h"
 
 /* Elimination orders are tried exhaustively up to so many unknowns. */
 #define PERMUTED_MAX 4
 /* ... and while the equations have no more leaves than this: large ones take the first order. */
 #define PERMUTED_SIZE_MAX 4000.0
+/* So many sines are tried as the first to be evaluated, besides the smallest angle's. */
+#define LEADS_MAX 5
 /* Symbolic elimination stops when an entry would get more terms than this. */
 #define SYMBOLIC_TERMS_MAX 60
 
 typedef struct arrangement {
     bool scaled;
     bool rescaled; /* what is left after symbolic elimination */
+    bool hinged;   /* the first in the order is eliminated as hinge.h does */
+    int lead;      /* the sine that is evaluated first: lower.h */
     int first;     /* unknown eliminated symbolically; -1 none; -2 every constant diagonal */
     int order[COORDINATES_MAX]; /* of elimination */
 } arrangement;
@@ -192,82 +197,156 @@ static void scale_what_is_left(algebra *a, int n, const poly **mass, const poly 
 
 /* --- one arrangement -----------------------------------------------------------------------------*/
 
-/* Entered on `t`; solution[] receives the operations. */
-static void enter(const lowering *like, tape *t, const linear_system *s, const arrangement *how,
+/* The equations as an arrangement leaves them: all polys in one piece, for lower_plan(). */
+typedef struct arranged {
+    int n;
+    int polys;
+    const poly **mass;    /* [n * n] */
+    const poly **force;   /* [n] */
+    const poly **across;  /* [n] to be multiplied and added, as hinge.h says: */
+    const poly **tension; /* [1] zeros where no hinge was */
+    double *scale;        /* [n] of rows and columns */
+    bool *gone;           /* [n] eliminated in symbols */
+    int *order;           /* [n] those first */
+    int eliminated;
+} arranged;
+
+static arranged arranged_room(int n) {
+    arranged w = {.n = n, .polys = n * n + n + n + 1};
+    w.mass = room(w.polys, sizeof *w.mass);
+    w.force = w.mass + n * n;
+    w.across = w.force + n;
+    w.tension = w.across + n;
+    w.scale = room(n, sizeof *w.scale);
+    w.gone = room(n, sizeof *w.gone);
+    w.order = room(n, sizeof *w.order);
+    return w;
+}
+
+static void arranged_free(arranged *w) {
+    free(w->mass);
+    free(w->scale);
+    free(w->gone);
+    free(w->order);
+}
+
+static void scale_all(algebra *a, const linear_system *s, const arrangement *how, arranged *w) {
+    const int n = s->n;
+    double common = 1.0;
+    for (int i = 0; i < n; i++) {
+        w->scale[i] = 1.0;
+    }
+    if (how->scaled) {
+        common = choose_scales(s, w->scale);
+    }
+    for (int i = 0; i < n; i++) {
+        for (int j = 0; j < n; j++) {
+            const double factor_ij = w->scale[i] * w->scale[j] / common;
+            w->mass[i * n + j] =
+                how->scaled ? scale_simply(a, s->mass[i * n + j], factor_ij) : s->mass[i * n + j];
+        }
+        w->force[i] =
+            how->scaled ? scale_simply(a, s->force[i], w->scale[i] / common) : s->force[i];
+        w->across[i] = poly_number(a, 0.0);
+    }
+    *w->tension = poly_number(a, 0.0);
+}
+
+static void put_away(arranged *w, int k) {
+    w->gone[k] = true;
+    w->order[w->eliminated++] = k;
+}
+
+/* False: it cannot be arranged so. */
+static bool arrange(algebra *a, const linear_system *s, const arrangement *how, arranged *w) {
+    const int n = s->n;
+    scale_all(a, s, how, w);
+    if (how->hinged) {
+        const int k = how->order[0];
+        if (!hinge_eliminate(a, n, w->mass, w->force, k, s->unknown[k], w->across, w->tension)) {
+            return false;
+        }
+        put_away(w, k);
+    }
+    for (int i = 0; i < n && how->first != -1; i++) {
+        const int k = how->order[i];
+        if ((how->first == -2 || how->first == k) &&
+            eliminate_symbolic(a, n, w->mass, w->force, w->gone, k)) {
+            put_away(w, k);
+        }
+    }
+    if (how->rescaled && w->eliminated > 0) {
+        scale_what_is_left(a, n, w->mass, w->force, w->gone);
+    }
+    if (s->sparing) {
+        forget_unwanted(a, s, w->mass, w->force, w->order, w->eliminated);
+    }
+    int entered = w->eliminated;
+    for (int i = 0; i < n; i++) {
+        if (!w->gone[how->order[i]]) {
+            w->order[entered++] = how->order[i];
+        }
+    }
+    return true;
+}
+
+/* What hinge.h wants added. */
+static void add_across(tape *t, const arranged *w, int *node) {
+    const int n = w->n;
+    const int *across = node + n * n + n;
+    for (int i = 0; i < n; i++) {
+        for (int j = 0; j <= i; j++) {
+            const int product = tape_mul(t, across[i], across[j]);
+            node[i * n + j] = tape_add(t, node[i * n + j], product);
+            node[j * n + i] = node[i * n + j];
+        }
+        const int pull = tape_mul(t, across[i], across[n]);
+        node[n * n + i] = tape_add(t, node[n * n + i], pull);
+    }
+}
+
+/* Entered on `t`; solution[] receives the operations. False, with nothing entered, if it cannot be arranged so. */
+static bool enter(const lowering *like, tape *t, const linear_system *s, const arrangement *how,
                   int *solution) {
     const int n = s->n;
-    algebra *a = like->algebra;
     lowering l = *like;
     l.tape = t;
     l.waves = NULL;
     l.wave_count = l.wave_room = 0;
-    const int64_t entries = (int64_t)n * n;
-    const poly **mass = room(entries + n, sizeof *mass);
-    int *node = room(entries + n, sizeof *node);
-    double *scale = room(n, sizeof *scale);
-    bool *gone = room(n, sizeof *gone);
-    int *order = room(n, sizeof *order);
-    const poly **force = mass + entries;
-    double common = 1.0;
-    for (int i = 0; i < n; i++) {
-        scale[i] = 1.0;
-    }
-    if (how->scaled) {
-        common = choose_scales(s, scale);
-    }
-    for (int i = 0; i < n; i++) {
-        for (int j = 0; j < n; j++) {
-            const double factor_ij = scale[i] * scale[j] / common;
-            mass[i * n + j] =
-                how->scaled ? scale_simply(a, s->mass[i * n + j], factor_ij) : s->mass[i * n + j];
+    l.lead = how->lead;
+    arranged w = arranged_room(n);
+    const bool can = arrange(l.algebra, s, how, &w);
+    if (can) {
+        int *node = room(w.polys, sizeof *node);
+        lower_plan(&l, w.mass, w.polys);
+        for (int i = 0; i < w.polys; i++) {
+            node[i] = lower(&l, w.mass[i]);
         }
-        force[i] = how->scaled ? scale_simply(a, s->force[i], scale[i] / common) : s->force[i];
-    }
-    int eliminated = 0;
-    for (int i = 0; i < n && how->first != -1; i++) {
-        const int k = how->order[i];
-        if ((how->first == -2 || how->first == k) &&
-            eliminate_symbolic(a, n, mass, force, gone, k)) {
-            gone[k] = true;
-            order[eliminated++] = k;
+        lower_done(&l);
+        if (how->hinged) {
+            add_across(t, &w, node);
         }
-    }
-    if (how->rescaled && eliminated > 0) {
-        scale_what_is_left(a, n, mass, force, gone);
-    }
-    if (s->sparing) {
-        forget_unwanted(a, s, mass, force, order, eliminated);
-    }
-    int entered = eliminated;
-    for (int i = 0; i < n; i++) {
-        if (!gone[how->order[i]]) {
-            order[entered++] = how->order[i];
+        eliminate(t, s->symmetric, n, node, node + n * n, w.order, w.eliminated, solution);
+        for (int i = 0; i < n; i++) {
+            solution[i] = tape_mul(t, tape_constant(t, w.scale[i]), solution[i]);
         }
+        free(node);
     }
-    lower_plan(&l, mass, (int)entries + n);
-    for (int i = 0; i < (int)entries + n; i++) {
-        node[i] = lower(&l, mass[i]);
-    }
-    lower_done(&l);
-    eliminate(t, s->symmetric, n, node, node + entries, order, eliminated, solution);
-    for (int i = 0; i < n; i++) {
-        solution[i] = tape_mul(t, tape_constant(t, scale[i]), solution[i]);
-    }
-    free(mass);
-    free(node);
-    free(scale);
-    free(gone);
-    free(order);
+    arranged_free(&w);
+    return can;
 }
 
+/* -1: it cannot be arranged so. */
 static int weigh(const lowering *l, const linear_system *s, const arrangement *how) {
     tape *t = tape_new(l->tape->angles, s->n);
-    enter(l, t, s, how, t->result);
-    for (int i = 0; i < s->n; i++) {
-        t->result[i] = s->wanted[i] ? t->result[i] : tape_constant(t, 0.0);
+    int weight = -1;
+    if (enter(l, t, s, how, t->result)) {
+        for (int i = 0; i < s->n; i++) {
+            t->result[i] = s->wanted[i] ? t->result[i] : tape_constant(t, 0.0);
+        }
+        tape_prune(t);
+        weight = tape_weight(t);
     }
-    tape_prune(t);
-    const int weight = tape_weight(t);
     tape_free(t);
     return weight;
 }
@@ -307,6 +386,50 @@ static bool can_be_permuted(const linear_system *s) {
     return s->n <= PERMUTED_MAX && size <= PERMUTED_SIZE_MAX;
 }
 
+/* --- the cheapest ---------------------------------------------------------------------------------*/
+
+typedef struct choice {
+    arrangement how;
+    int weight; /* -1: nothing was tried */
+} choice;
+
+static void try_it(const lowering *l, const linear_system *s, const arrangement *how, choice *best) {
+    const int weight = weigh(l, s, how);
+    if (weight >= 0 && (best->weight < 0 || weight < best->weight)) {
+        *best = (choice){*how, weight};
+    }
+}
+
+/* All ways of eliminating in the order of `like`. */
+static void try_order(const lowering *l, const linear_system *s, const arrangement *like,
+                      bool permuted, choice *best) {
+    for (int scaled = 0; scaled < 2; scaled++) {
+        arrangement how = *like;
+        how.scaled = scaled == 1;
+        for (int first = -2; first < (permuted ? s->n : 0); first++) {
+            how.first = first;
+            for (int again = 0; again < (first == -1 || !s->sparing ? 1 : 2); again++) {
+                how.rescaled = again == 1;
+                try_it(l, s, &how, best);
+            }
+        }
+        if (s->sparing && permuted) {
+            how.first = -1;
+            how.rescaled = false;
+            how.hinged = true;
+            try_it(l, s, &how, best);
+        }
+    }
+}
+
+/* The best one with other sines evaluated first. */
+static void try_leads(const lowering *l, const linear_system *s, choice *best) {
+    arrangement how = best->how;
+    for (how.lead = 1; how.lead <= LEADS_MAX; how.lead++) {
+        try_it(l, s, &how, best);
+    }
+}
+
 void solve_highest(lowering *l, const linear_system *s, int *solution) {
     const int n = s->n;
     arrangement how = {.first = -1};
@@ -321,26 +444,14 @@ void solve_highest(lowering *l, const linear_system *s, int *solution) {
         }
     }
     const bool permuted = can_be_permuted(s);
-    arrangement best = how;
-    int best_weight = -1;
+    choice best = {how, -1};
     if (s->symmetric) {
         do {
-            for (int scaled = 0; scaled < 2; scaled++) {
-                for (int first = -2; first < (permuted ? n : 0); first++) {
-                    for (int again = 0; again < (first == -1 || !s->sparing ? 1 : 2); again++) {
-                        arrangement candidate = how;
-                        candidate.scaled = scaled == 1;
-                        candidate.rescaled = again == 1;
-                        candidate.first = first;
-                        const int weight = weigh(l, s, &candidate);
-                        if (best_weight < 0 || weight < best_weight) {
-                            best = candidate;
-                            best_weight = weight;
-                        }
-                    }
-                }
-            }
+            try_order(l, s, &how, permuted, &best);
         } while (permuted && next_order(how.order, n));
     }
-    enter(l, l->tape, s, &best, solution);
+    if (s->sparing && permuted) {
+        try_leads(l, s, &best);
+    }
+    enter(l, l->tape, s, &best.how, solution);
 }

@@ -2,11 +2,13 @@
  *
  * Evaluating a pair costs some thirty instructions, sin(a + b) from known pairs at most six. So the
  * angles are taken in order of size, and one that is a sum, a difference or the double of others is
- * not evaluated. An angle such as theta2 - theta1 that stands alone is evaluated as one phase. */
+ * not evaluated. An angle such as theta2 - theta1 that stands alone is evaluated as one phase. Where another angle leads,
+ * it is evaluated as well: of b = a - (a - b) and 2a - b = a + (a - b) all four products are shared. */
 #include "waves.h"
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "host/base/room.h"
 
@@ -152,6 +154,11 @@ void waves_plan(lowering *l, const poly **angles, int count) {
             j--;
         }
         angles[j] = angle;
+    }
+    if (l->lead > 0 && l->lead < count) {
+        const poly *first = angles[l->lead];
+        memmove(angles + 1, angles, (size_t)l->lead * sizeof *angles);
+        angles[0] = first;
     }
     for (int i = 0; i < count; i++) {
         wave w;
