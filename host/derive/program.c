@@ -44,6 +44,9 @@ static tape *make_step(layout *map, const linear_system *s) {
     lower_done(&l);
     free(highest);
     tape_prune(t);
+    if (sparing.sparing) {
+        tape_share_sums(t);
+    }
     tape_order(t);
     return t;
 }

@@ -252,6 +252,32 @@ static void scale_all(algebra *a, const linear_system *s, const arrangement *how
     *w->tension = poly_number(a, 0.0);
 }
 
+/* Rows and columns of unknowns that are no angles, so that most of the numbers that the hinge left there become one. */
+static void scale_beside_hinge(algebra *a, const linear_system *s, arranged *w) {
+    const int n = s->n;
+    for (int i = 0; i < n; i++) {
+        if (w->gone[i] || s->turning[i]) {
+            continue;
+        }
+        tally row = {.count = 0};
+        tally_add(&row, w->across[i]);
+        tally_add(&row, w->force[i]);
+        for (int j = 0; j < n; j++) {
+            if (j != i) {
+                tally_add(&row, w->mass[i * n + j]);
+            }
+        }
+        const double scale = 1.0 / tally_favourite(&row);
+        for (int j = 0; j < n; j++) {
+            w->mass[i * n + j] = scale_simply(a, w->mass[i * n + j], scale);
+            w->mass[j * n + i] = scale_simply(a, w->mass[j * n + i], scale);
+        }
+        w->force[i] = scale_simply(a, w->force[i], scale);
+        w->across[i] = scale_simply(a, w->across[i], scale);
+        w->scale[i] *= scale;
+    }
+}
+
 static void put_away(arranged *w, int k) {
     w->gone[k] = true;
     w->order[w->eliminated++] = k;
@@ -267,6 +293,9 @@ static bool arrange(algebra *a, const linear_system *s, const arrangement *how, 
             return false;
         }
         put_away(w, k);
+        if (how->rescaled) {
+            scale_beside_hinge(a, s, w);
+        }
     }
     for (int i = 0; i < n && how->first != -1; i++) {
         const int k = how->order[i];
@@ -275,7 +304,7 @@ static bool arrange(algebra *a, const linear_system *s, const arrangement *how, 
             put_away(w, k);
         }
     }
-    if (how->rescaled && w->eliminated > 0) {
+    if (how->rescaled && !how->hinged && w->eliminated > 0) {
         scale_what_is_left(a, n, w->mass, w->force, w->gone);
     }
     if (s->sparing) {
@@ -345,6 +374,9 @@ static int weigh(const lowering *l, const linear_system *s, const arrangement *h
             t->result[i] = s->wanted[i] ? t->result[i] : tape_constant(t, 0.0);
         }
         tape_prune(t);
+        if (s->sparing) {
+            tape_share_sums(t);
+        }
         weight = tape_weight(t);
     }
     tape_free(t);
@@ -415,9 +447,11 @@ static void try_order(const lowering *l, const linear_system *s, const arrangeme
         }
         if (s->sparing && permuted) {
             how.first = -1;
-            how.rescaled = false;
             how.hinged = true;
-            try_it(l, s, &how, best);
+            for (int again = 0; again < 2; again++) {
+                how.rescaled = again == 1;
+                try_it(l, s, &how, best);
+            }
         }
     }
 }

@@ -131,6 +131,17 @@ static int enter(tape *t, op o) {
     return t->count++;
 }
 
+int tape_find_binary(const tape *t, op_code code, int a, int b) {
+    const bool swapped = (code == OP_ADD || code == OP_MUL) && a > b;
+    const op o = {
+        .code = code, .function = FUNCTION_NONE, .a = swapped ? b : a, .b = swapped ? a : b};
+    size_t at = (size_t)(tape_op_hash(t, &o) % (uint64_t)t->index_size);
+    while (t->index[at] >= 0 && !op_equal(t, &t->ops[t->index[at]], &o)) {
+        at = (at + 1) % (size_t)t->index_size;
+    }
+    return t->index[at];
+}
+
 static int enter_op(tape *t, op_code code, int a, int b) {
     return enter(t, (op){.code = code, .function = FUNCTION_NONE, .a = a, .b = b});
 }

@@ -100,6 +100,9 @@ int tape_pow(tape *t, int base, int exponent);
 int tape_power(tape *t, int base, double exponent);
 bool tape_is_constant(const tape *t, int a, double *value);
 
+/* The operation that computes this of a and b, or -1: there is none yet. */
+int tape_find_binary(const tape *t, op_code code, int a, int b);
+
 /* After operations were moved: rebuild the index that finds equal ones. */
 void tape_reindex(tape *t);
 uint64_t tape_op_hash(const tape *t, const op *o);
@@ -109,6 +112,9 @@ int tape_operands(const op *o, int operand[static 2]);
 
 /* Drop what no result needs and renumber. */
 void tape_prune(tape *t);
+/* Take sums that differ in one part from others of those others, where that saves a product. Drops what no result needs
+ * then. */
+void tape_share_sums(tape *t);
 /* Put the operations of a finished list into an order with few values live at a time, if that carries values less often
  * than the order they have (tape_order.c). What is computed stays the same, to the bit; phases stay in their order. */
 void tape_order(tape *t);
