@@ -46,11 +46,12 @@ static const poly *without_turn(algebra *a, wave_of x, wave_of y) {
 }
 
 /* The frequency that all entries of row k share, or 0. */
-static double shared_frequency(algebra *a, int n, const poly *const *mass, int k, const symbol *q) {
+static double shared_frequency(algebra *a, int n, const poly *const *mass, const bool *gone, int k,
+                               const symbol *q) {
     double squared = 0.0;
     for (int j = 0; j < n; j++) {
         const poly *entry = mass[k * n + j];
-        if (j == k || poly_is_zero(entry)) {
+        if (j == k || gone[j] || poly_is_zero(entry)) {
             continue;
         }
         const double own = frequency_squared(a, entry, q);
@@ -64,11 +65,11 @@ static double shared_frequency(algebra *a, int n, const poly *const *mass, int k
 
 /* What the turning's own rate pulls with: the others' forces have g across_i q'^2, with one g for all. Takes it out
  * of them; g. */
-static double take_pull(algebra *a, int n, const poly **force, const poly *const *across, int k,
+static double take_pull(algebra *a, int n, const poly **force, const poly *const *across,
                         const poly *rate_squared) {
     double g = 0.0;
     for (int i = 0; i < n; i++) {
-        if (i == k || poly_is_zero(across[i])) {
+        if (poly_is_zero(across[i])) {
             continue;
         }
         const poly *one = poly_mul(a, across[i], rate_squared);
@@ -86,21 +87,18 @@ static double take_pull(algebra *a, int n, const poly **force, const poly *const
         g = own;
     }
     for (int i = 0; i < n; i++) {
-        if (i != k) {
-            const poly *one = poly_mul(a, across[i], rate_squared);
-            force[i] = poly_sub(a, force[i], poly_scale(a, one, g));
-        }
+        const poly *one = poly_mul(a, across[i], rate_squared);
+        force[i] = poly_sub(a, force[i], poly_scale(a, one, g));
     }
     return g;
 }
 
-bool hinge_eliminate(algebra *a, int n, const poly **mass, const poly **force, int k,
-                     const symbol *turning, const poly **across, const poly **tension) {
-    double own;
-    if (turning == NULL || !poly_is_number(mass[k * n + k], &own) || own <= 0.0) {
+bool hinge_eliminate(algebra *a, int n, const poly **mass, const poly **force, const bool *gone,
+                     int k, const symbol *turning, double *own, const poly **across) {
+    if (!poly_is_number(mass[k * n + k], own) || *own <= 0.0) {
         return false;
     }
-    const double c = shared_frequency(a, n, mass, k, turning);
+    const double c = shared_frequency(a, n, mass, gone, k, turning);
     if (c == 0.0) {
         return false;
     }
@@ -111,26 +109,28 @@ bool hinge_eliminate(algebra *a, int n, const poly **mass, const poly **force, i
     }
     const wave_of pull = wave_make(a, waving, turning, c);
     for (int i = 0; i < n; i++) {
-        across[i] = i == k ? poly_number(a, 0.0)
-                           : wave_make(a, mass[k * n + i], turning, c).across;
+        const bool left = i != k && !gone[i];
+        across[i] = left ? wave_make(a, mass[k * n + i], turning, c).across : poly_number(a, 0.0);
     }
     const poly *rate = poly_symbol(a, turning, 1);
     const poly *rate_squared = poly_mul(a, rate, rate);
-    const double g = take_pull(a, n, force, across, k, rate_squared);
-    *tension = poly_add(a, pull.across, poly_scale(a, rate_squared, g * own));
+    const double g = take_pull(a, n, force, across, rate_squared);
+    across[n] = poly_add(a, pull.across, poly_scale(a, rate_squared, g * *own));
     for (int i = 0; i < n; i++) {
-        const wave_of left = {mass[k * n + i], across[i]};
-        for (int j = 0; j < n && i != k; j++) {
+        if (i == k || gone[i]) {
+            continue;
+        }
+        const wave_of beside = {mass[k * n + i], across[i]};
+        for (int j = 0; j < n; j++) {
             const wave_of above = {mass[k * n + j], across[j]};
-            if (j != k) {
-                mass[i * n + j] = poly_sub(a, poly_scale(a, mass[i * n + j], own),
-                                           without_turn(a, left, above));
+            if (j != k && !gone[j]) {
+                const poly *taken = poly_scale(a, without_turn(a, beside, above), 1.0 / *own);
+                mass[i * n + j] = poly_sub(a, mass[i * n + j], taken);
             }
         }
-        if (i != k) {
-            const poly *taken = poly_add(a, without_turn(a, left, pull), poly_mul(a, left.here, still));
-            force[i] = poly_sub(a, poly_scale(a, force[i], own), taken);
-        }
+        const poly *taken = without_turn(a, beside, pull);
+        taken = poly_add(a, taken, poly_mul(a, beside.here, still));
+        force[i] = poly_sub(a, force[i], poly_scale(a, taken, 1.0 / *own));
     }
     return true;
 }

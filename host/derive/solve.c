@@ -26,7 +26,7 @@
 typedef struct arrangement {
     bool scaled;
     bool rescaled; /* what is left after symbolic elimination */
-    bool hinged;   /* the first in the order is eliminated as hinge.h does */
+    bool hinged;   /* what hangs on hinges goes first, in the order: hinge.h */
     int lead;      /* the sine that is evaluated first: lower.h */
     int first;     /* unknown eliminated symbolically; -1 none; -2 every constant diagonal */
     int order[COORDINATES_MAX]; /* of elimination */
@@ -203,8 +203,9 @@ typedef struct arranged {
     int polys;
     const poly **mass;    /* [n * n] */
     const poly **force;   /* [n] */
-    const poly **across;  /* [n] to be multiplied and added, as hinge.h says: */
-    const poly **tension; /* [1] zeros where no hinge was */
+    int hinges;
+    const poly **across; /* [hinges * (n + 1)] of hinge.h */
+    double *inverse;     /* [hinges] what products of them are multiplied by */
     double *scale;        /* [n] of rows and columns */
     bool *gone;           /* [n] eliminated in symbols */
     int *order;           /* [n] those first */
@@ -212,11 +213,11 @@ typedef struct arranged {
 } arranged;
 
 static arranged arranged_room(int n) {
-    arranged w = {.n = n, .polys = n * n + n + n + 1};
+    arranged w = {.n = n, .polys = n * n + n + n * (n + 1)};
     w.mass = room(w.polys, sizeof *w.mass);
     w.force = w.mass + n * n;
     w.across = w.force + n;
-    w.tension = w.across + n;
+    w.inverse = room(n, sizeof *w.inverse);
     w.scale = room(n, sizeof *w.scale);
     w.gone = room(n, sizeof *w.gone);
     w.order = room(n, sizeof *w.order);
@@ -225,6 +226,7 @@ static arranged arranged_room(int n) {
 
 static void arranged_free(arranged *w) {
     free(w->mass);
+    free(w->inverse);
     free(w->scale);
     free(w->gone);
     free(w->order);
@@ -247,34 +249,9 @@ static void scale_all(algebra *a, const linear_system *s, const arrangement *how
         }
         w->force[i] =
             how->scaled ? scale_simply(a, s->force[i], w->scale[i] / common) : s->force[i];
-        w->across[i] = poly_number(a, 0.0);
     }
-    *w->tension = poly_number(a, 0.0);
-}
-
-/* Rows and columns of unknowns that are no angles, so that most of the numbers that the hinge left there become one. */
-static void scale_beside_hinge(algebra *a, const linear_system *s, arranged *w) {
-    const int n = s->n;
-    for (int i = 0; i < n; i++) {
-        if (w->gone[i] || s->turning[i]) {
-            continue;
-        }
-        tally row = {.count = 0};
-        tally_add(&row, w->across[i]);
-        tally_add(&row, w->force[i]);
-        for (int j = 0; j < n; j++) {
-            if (j != i) {
-                tally_add(&row, w->mass[i * n + j]);
-            }
-        }
-        const double scale = 1.0 / tally_favourite(&row);
-        for (int j = 0; j < n; j++) {
-            w->mass[i * n + j] = scale_simply(a, w->mass[i * n + j], scale);
-            w->mass[j * n + i] = scale_simply(a, w->mass[j * n + i], scale);
-        }
-        w->force[i] = scale_simply(a, w->force[i], scale);
-        w->across[i] = scale_simply(a, w->across[i], scale);
-        w->scale[i] *= scale;
+    for (int i = 0; i < n * (n + 1); i++) {
+        w->across[i] = poly_number(a, 0.0);
     }
 }
 
@@ -283,19 +260,89 @@ static void put_away(arranged *w, int k) {
     w->order[w->eliminated++] = k;
 }
 
+/* Is unknown k on none of the hinges so far? */
+static bool off_hinges(const arranged *w, int k) {
+    bool off = true;
+    for (int h = 0; h < w->hinges; h++) {
+        off = off && poly_is_zero(w->across[h * (w->n + 1) + k]);
+    }
+    return off;
+}
+
+/* All that hang on hinges, in the order. False: none does. */
+static bool eliminate_hinged(algebra *a, const linear_system *s, const arrangement *how,
+                             arranged *w) {
+    const int n = s->n;
+    for (int i = 0; i < n; i++) {
+        const int k = how->order[i];
+        const poly **across = w->across + w->hinges * (n + 1);
+        double own;
+        if (off_hinges(w, k) && hinge_eliminate(a, n, w->mass, w->force, w->gone, k, s->unknown[k],
+                                                &own, across)) {
+            w->inverse[w->hinges++] = 1.0 / own;
+            put_away(w, k);
+        }
+    }
+    return w->hinges > 0;
+}
+
+/* What is left of the equations of unknown i, and of its column, times a number: what else is said of it (across) too. */
+static void scale_unknown(algebra *a, arranged *w, int i, double scale) {
+    const int n = w->n;
+    for (int j = 0; j < n; j++) {
+        w->mass[i * n + j] = scale_simply(a, w->mass[i * n + j], scale);
+        w->mass[j * n + i] = scale_simply(a, w->mass[j * n + i], scale);
+    }
+    for (int h = 0; h < w->hinges; h++) {
+        const poly **across = &w->across[h * (n + 1) + i];
+        *across = scale_simply(a, *across, scale);
+    }
+    w->force[i] = scale_simply(a, w->force[i], scale);
+    w->scale[i] *= scale;
+}
+
+/* So that most numbers that the hinges left become one: all equations, then rows and columns of unknowns that are no
+ * angles. */
+static void scale_beside_hinges(algebra *a, const linear_system *s, arranged *w) {
+    const int n = s->n;
+    const double common = 1.0 / w->inverse[0];
+    for (int h = 0; h < w->hinges; h++) {
+        w->inverse[h] = scale_number(w->inverse[h], common);
+    }
+    for (int i = 0; i < n; i++) {
+        for (int j = 0; j < n && !w->gone[i]; j++) {
+            if (!w->gone[j]) {
+                w->mass[i * n + j] = scale_simply(a, w->mass[i * n + j], common);
+            }
+        }
+        if (!w->gone[i]) {
+            w->force[i] = scale_simply(a, w->force[i], common);
+        }
+    }
+    for (int i = 0; i < n; i++) {
+        if (w->gone[i] || s->turning[i]) {
+            continue;
+        }
+        tally row = {.count = 0};
+        for (int h = 0; h < w->hinges; h++) {
+            tally_add(&row, w->across[h * (n + 1) + i]);
+        }
+        tally_add(&row, w->force[i]);
+        for (int j = 0; j < n; j++) {
+            if (j != i) {
+                tally_add(&row, w->mass[i * n + j]);
+            }
+        }
+        scale_unknown(a, w, i, 1.0 / tally_favourite(&row));
+    }
+}
+
 /* False: it cannot be arranged so. */
 static bool arrange(algebra *a, const linear_system *s, const arrangement *how, arranged *w) {
     const int n = s->n;
     scale_all(a, s, how, w);
-    if (how->hinged) {
-        const int k = how->order[0];
-        if (!hinge_eliminate(a, n, w->mass, w->force, k, s->unknown[k], w->across, w->tension)) {
-            return false;
-        }
-        put_away(w, k);
-        if (how->rescaled) {
-            scale_beside_hinge(a, s, w);
-        }
+    if (how->hinged && !eliminate_hinged(a, s, how, w)) {
+        return false;
     }
     for (int i = 0; i < n && how->first != -1; i++) {
         const int k = how->order[i];
@@ -304,7 +351,9 @@ static bool arrange(algebra *a, const linear_system *s, const arrangement *how, 
             put_away(w, k);
         }
     }
-    if (how->rescaled && !how->hinged && w->eliminated > 0) {
+    if (how->hinged && how->rescaled) {
+        scale_beside_hinges(a, s, w);
+    } else if (how->rescaled && w->eliminated > 0) {
         scale_what_is_left(a, n, w->mass, w->force, w->gone);
     }
     if (s->sparing) {
@@ -319,18 +368,18 @@ static bool arrange(algebra *a, const linear_system *s, const arrangement *how, 
     return true;
 }
 
-/* What hinge.h wants added. */
-static void add_across(tape *t, const arranged *w, int *node) {
-    const int n = w->n;
-    const int *across = node + n * n + n;
+/* What hinge.h wants added: operations of `across`, for one hinge. */
+static void add_across(tape *t, int n, const int *across, double inverse, int *mass, int *force) {
+    const int factor = tape_constant(t, inverse);
     for (int i = 0; i < n; i++) {
+        const int part = tape_mul(t, factor, across[i]);
         for (int j = 0; j <= i; j++) {
-            const int product = tape_mul(t, across[i], across[j]);
-            node[i * n + j] = tape_add(t, node[i * n + j], product);
-            node[j * n + i] = node[i * n + j];
+            const int product = tape_mul(t, part, across[j]);
+            mass[i * n + j] = tape_add(t, mass[i * n + j], product);
+            mass[j * n + i] = mass[i * n + j];
         }
-        const int pull = tape_mul(t, across[i], across[n]);
-        node[n * n + i] = tape_add(t, node[n * n + i], pull);
+        const int pull = tape_mul(t, part, across[n]);
+        force[i] = tape_add(t, force[i], pull);
     }
 }
 
@@ -352,8 +401,9 @@ static bool enter(const lowering *like, tape *t, const linear_system *s, const a
             node[i] = lower(&l, w.mass[i]);
         }
         lower_done(&l);
-        if (how->hinged) {
-            add_across(t, &w, node);
+        for (int h = 0; h < w.hinges; h++) {
+            const int *across = node + n * n + n + h * (n + 1);
+            add_across(t, n, across, w.inverse[h], node, node + n * n);
         }
         eliminate(t, s->symmetric, n, node, node + n * n, w.order, w.eliminated, solution);
         for (int i = 0; i < n; i++) {
@@ -445,7 +495,7 @@ static void try_order(const lowering *l, const linear_system *s, const arrangeme
                 try_it(l, s, &how, best);
             }
         }
-        if (s->sparing && permuted) {
+        if (s->sparing) {
             how.first = -1;
             how.hinged = true;
             for (int again = 0; again < 2; again++) {
@@ -484,7 +534,7 @@ void solve_highest(lowering *l, const linear_system *s, int *solution) {
             try_order(l, s, &how, permuted, &best);
         } while (permuted && next_order(how.order, n));
     }
-    if (s->sparing && permuted) {
+    if (s->sparing) {
         try_leads(l, s, &best);
     }
     enter(l, l->tape, s, &best.how, solution);
