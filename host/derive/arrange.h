@@ -3,8 +3,7 @@
 #ifndef DERIVE_ARRANGE_H
 #define DERIVE_ARRANGE_H
 
-#include "layout.h"
-#include "solve.h"
+#include "linear_system.h"
 
 /* Which form. */
 typedef struct arrangement {

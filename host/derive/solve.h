@@ -2,20 +2,8 @@
 #ifndef DERIVE_SOLVE_H
 #define DERIVE_SOLVE_H
 
+#include "linear_system.h"
 #include "lower.h"
-
-typedef struct linear_system {
-    int n;
-    bool symmetric;               /* a mass matrix: positive definite, so no pivot vanishes */
-    const poly **mass;            /* [n * n], parameters folded */
-    const poly **force;           /* [n] */
-    const symbol *const *unknown; /* [n] */
-    const bool *turning;          /* [n] unknown is an angle: its row keeps the energy's scale */
-    const bool *wanted;           /* [n] unknown's solution is needed: what it costs counts */
-    /* Solutions that are not wanted may come out as anything, and more arrangements are tried. False where contacts
-     * solve with the same matrix: their steps keep their bits. */
-    bool sparing;
-} linear_system;
 
 /* Enters the solution into l->tape and stores the operation for each unknown in solution[n].
  * `leaf`, `turn` and `context` of *l are set by the caller; several arrangements are tried on tapes

@@ -1,0 +1,20 @@
+/* linear_system.h: the equations for the highest derivatives, M(q) x = f. For host/derive only. */
+#ifndef DERIVE_LINEAR_SYSTEM_H
+#define DERIVE_LINEAR_SYSTEM_H
+
+#include "host/algebra/poly.h"
+
+typedef struct linear_system {
+    int n;
+    bool symmetric;               /* a mass matrix: positive definite, so no pivot vanishes */
+    const poly **mass;            /* [n * n], parameters folded */
+    const poly **force;           /* [n] */
+    const symbol *const *unknown; /* [n] */
+    const bool *turning;          /* [n] unknown is an angle: its row keeps the energy's scale */
+    const bool *wanted;           /* [n] unknown's solution is needed: what it costs counts */
+    /* Solutions that are not wanted may come out as anything, and more arrangements are tried. False where contacts
+     * solve with the same matrix: their steps keep their bits. */
+    bool sparing;
+} linear_system;
+
+#endif
