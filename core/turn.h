@@ -38,11 +38,19 @@ WH_INLINE wh_phase wh_phase_of(wh_angle angle) { return (wh_phase)(uint64_t)angl
 
 #endif
 
-/* Has the processor one instruction that rounds a float to the nearest int32_t, of two the even one? Arm's with VFP. */
+/* Where the processor has one instruction that rounds a float to the nearest int32_t, of two the even one: result =
+ * that of steps. Those of x86 and of Arm's VFP go by the mode that arithmetic.h probes. */
 #if defined(__GNUC__) && defined(__arm__) && defined(__ARM_FP) && (__ARM_FP & 4)
-#define WH_HAS_VCVTR 1
-#else
-#define WH_HAS_VCVTR 0
+#define WH_ROUND(result, steps) \
+    float whole; /* the integer's bits, in the register where it is made */ \
+    __asm__("vcvtr.s32.f32 %0, %1" : "=t"(whole) : "t"(steps)); \
+    __builtin_memcpy(&(result), &whole, sizeof(result))
+#elif defined(__GNUC__) && defined(__SSE2__)
+#define WH_ROUND(result, steps) __asm__("cvtss2si %1, %0" : "=r"(result) : "x"(steps))
+#elif defined(__GNUC__) && defined(__aarch64__)
+#define WH_ROUND(result, steps) __asm__("fcvtns %w0, %s1" : "=r"(result) : "w"(steps))
+#elif defined(__GNUC__) && defined(__riscv_flen) && __riscv_flen >= 32
+#define WH_ROUND(result, steps) __asm__("fcvt.w.s %0, %1, rne" : "=r"(result) : "f"(steps))
 #endif
 
 /* A constant angle or phase for generated code: radians for the double build, `units` (2^32 a turn)
@@ -68,11 +76,9 @@ WH_INLINE wh_factor wh_factor_of(uint32_t whole, uint64_t part) {
 /* The nearest whole number of |steps| < 2^31, of two the even one: to always round halves away from zero would lead,
  * where a step's last digit is a half, a quarter of a unit off a step. */
 WH_INLINE int32_t wh_whole(float steps) {
-#if WH_HAS_VCVTR
-    float whole; /* the integer's bits, in the register where it is made */
+#ifdef WH_ROUND
     int32_t result;
-    __asm__("vcvtr.s32.f32 %0, %1" : "=t"(whole) : "t"(steps));
-    __builtin_memcpy(&result, &whole, sizeof result);
+    WH_ROUND(result, steps);
     return result;
 #else
     uint32_t bits;
