@@ -7,7 +7,7 @@
 #include "host/base/room.h"
 
 enum {
-    LONGEST = 400,   /* operations of a list that is looked at */
+    LONGEST = 250,   /* operations of a list that is looked at */
     FIVES = 6,       /* most of each prime */
     THREES = 3,
     SEVENS = 1,
@@ -33,7 +33,7 @@ typedef struct gauge_search {
     tape *best;       /* NULL: none */
     double bias;
     int operations;
-    double *times; /* [from->count] */
+    double *times; /* [3 * from->count] */
     int64_t tried; /* operations of lists that were tried */
 } gauge_search;
 
@@ -56,7 +56,7 @@ static bool is_better(const gauge_search *s, double bias, int operations) {
 }
 
 static void try_number(gauge_search *s, const double *exponent, double x) {
-    for (int i = 0; i < s->from->count; i++) {
+    for (int i = 0; i < 3 * s->from->count; i++) {
         s->times[i] = power(x, exponent[i]);
     }
     tape *made = tape_multiplied(s->from, s->times);
@@ -121,7 +121,7 @@ static void try_reals(gauge_search *s, const double *exponent) {
 
 /* Can this freedom be afforded? With a number that leaves no constant as one. */
 static bool affordable(const gauge_search *s, const double *exponent) {
-    for (int i = 0; i < s->from->count; i++) {
+    for (int i = 0; i < 3 * s->from->count; i++) {
         s->times[i] = power(1.2345678901, exponent[i]);
     }
     tape *made = tape_multiplied(s->from, s->times);
@@ -155,7 +155,7 @@ void tape_gauge(tape **t, int price) {
                       .bias = bias,
                       .operations = tape_operations(*t)};
     for (int round = 0; round < ROUNDS; round++) {
-        s.times = room((int64_t)s.from->count + 1, sizeof *s.times);
+        s.times = room(3 * (int64_t)s.from->count + 1, sizeof *s.times);
         search_round(&s);
         free(s.times);
         if (s.best == NULL) {

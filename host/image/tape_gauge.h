@@ -25,19 +25,20 @@ void tape_gauge(tape **t, int price);
 /* Can a value be had as it is only, so that multiplying it costs a product? What a leaf, a sine or a function gives. */
 bool tape_is_raw(const op *o);
 
-/* Vectors of exponents e[count of the list]: operation i may be multiplied by x to the e[i] for any x. */
+/* Vectors of exponents: what may be multiplied together by x to these, for any x > 0. First one for each operation, then
+ * two for each: those of its operands, where these are raw values, which may be taken as they are or multiplied. */
 typedef struct tape_freedoms {
     double *exponent; /* [count * length] */
     int count;
-    int length;
+    int length; /* 3 * operations of the list */
 } tape_freedoms;
 
-/* Those that need no product more, and those that multiply one raw value or two. */
+/* Those that need no product more, those that multiply one raw value, at all places or at some, and those that multiply two. */
 tape_freedoms tape_freedoms_of(const tape *t);
 void tape_freedoms_free(tape_freedoms *f);
 
-/* The list whose operation i is times[i] > 0 as large, where the constants, and products that are put in where these do not
- * do, give the same results. Finished (tape_prune(), tape_order()). */
+/* The list whose operations are times[3 * count] > 0 as large, in the same order, where the constants, and products that
+ * are put in where these do not do, give the same results. Finished (tape_prune(), tape_order()). */
 tape *tape_multiplied(const tape *t, const double *times);
 
 #endif

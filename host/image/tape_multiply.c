@@ -7,7 +7,7 @@
 
 typedef struct multiplied {
     const tape *from;
-    const double *times; /* [from->count] */
+    const double *times; /* [3 * from->count] */
     tape *to;
     int *made; /* [from->count] on `to`: times as large, but raw values as they are */
 } multiplied;
@@ -56,11 +56,19 @@ static int make_phase(const multiplied *m, const op *o) {
     return made;
 }
 
+/* How often an operand is taken: a raw value as that place of the operation says. */
+static double times_of(const multiplied *m, int i, int which) {
+    const op *o = &m->from->ops[i];
+    const int operand = which == 0 ? o->a : o->b;
+    return tape_is_raw(&m->from->ops[operand]) ? m->times[m->from->count + 2 * i + which]
+                                               : m->times[operand];
+}
+
 /* A product or quotient of what is multiplied already, and what is left to multiply by. */
 static int make_product(const multiplied *m, int i) {
     const op *o = &m->from->ops[i];
-    const double a = m->times[o->a];
-    const double b = m->times[o->b];
+    const double a = times_of(m, i, 0);
+    const double b = times_of(m, i, 1);
     const double wanted = m->times[i];
     if (o->code == OP_DIV && m->from->ops[o->a].code == OP_CONSTANT) {
         return tape_div(m->to, taken(m, o->a, wanted * b), taken(m, o->b, b));
@@ -96,7 +104,7 @@ static int make(const multiplied *m, int i) {
     case OP_NEG:
     case OP_ABS: return tape_unary(m->to, o->code, taken(m, o->a, times));
     case OP_SQRT: return tape_unary(m->to, o->code, taken(m, o->a, times * times));
-    case OP_SIGN: return tape_unary(m->to, o->code, taken(m, o->a, m->times[o->a]));
+    case OP_SIGN: return tape_unary(m->to, o->code, taken(m, o->a, times_of(m, i, 0)));
     case OP_MIN:
     case OP_MAX:
         return tape_call(m->to, o->code == OP_MIN ? FN_MIN : FN_MAX, taken(m, o->a, times),
