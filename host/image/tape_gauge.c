@@ -14,7 +14,7 @@ enum {
     REALS = 512,     /* numbers between one and two that are tried, */
     VANISHING = 24,  /* and those that leave a constant as one */
     ROUNDS = 3,      /* each from what the last one found */
-    PATIENCE = 200000 /* operations times lists, after which no more reals are tried */
+    PATIENCE = 150000 /* operations of lists, after which a round ends */
 };
 
 /* Half is clearly better, and what is not a hundredth less is no better. */
@@ -56,6 +56,9 @@ static bool is_better(const gauge_search *s, double bias, int operations) {
 }
 
 static void try_number(gauge_search *s, const double *exponent, double x) {
+    if (s->tried >= PATIENCE) {
+        return;
+    }
     for (int i = 0; i < 3 * s->from->count; i++) {
         s->times[i] = power(x, exponent[i]);
     }
@@ -114,7 +117,7 @@ static void try_vanishing(gauge_search *s, const double *exponent) {
 
 static void try_reals(gauge_search *s, const double *exponent) {
     const double golden = 0.6180339887498949;
-    for (int k = 1; k <= REALS && s->tried < PATIENCE; k++) {
+    for (int k = 1; k <= REALS; k++) {
         try_number(s, exponent, 1.0 + number_remainder(k * golden, 1.0));
     }
 }
@@ -130,16 +133,24 @@ static bool affordable(const gauge_search *s, const double *exponent) {
     return can;
 }
 
+/* Simple numbers for every freedom first, for the round may end. */
 static void search_round(gauge_search *s) {
     tape_freedoms f = tape_freedoms_of(s->from);
-    for (int k = 0; k < f.count; k++) {
-        const double *exponent = f.exponent + (size_t)k * (size_t)f.length;
-        try_vanishing(s, exponent);
-        if (affordable(s, exponent)) {
-            try_primes(s, exponent);
-            try_reals(s, exponent);
+    bool *can = room((int64_t)f.count + 1, sizeof *can);
+    s->tried = 0;
+    for (int pass = 0; pass < 2; pass++) {
+        for (int k = 0; k < f.count; k++) {
+            const double *exponent = f.exponent + (size_t)k * (size_t)f.length;
+            if (pass == 0) {
+                try_vanishing(s, exponent);
+                can[k] = affordable(s, exponent);
+            }
+            if (can[k]) {
+                (pass == 0 ? try_primes : try_reals)(s, exponent);
+            }
         }
     }
+    free(can);
     tape_freedoms_free(&f);
 }
 
