@@ -187,6 +187,9 @@ static void test_decimal_mechanisms_lose_their_bias(void) {
         }
         snprintf(what, sizeof what, "kind %u", kind);
         tell(what, &all);
+        TEST_ASSERT_TRUE(all.changed >= CASES / 4 / 2);
+        TEST_ASSERT_EQUAL_INT(0, all.worse);
+        TEST_ASSERT_TRUE(all.after <= 0.25 * all.before);
     }
 }
 
@@ -198,10 +201,59 @@ static void test_any_mechanism_keeps_its_results(void) {
         hold(text, 5 * k + 1, &all);
     }
     tell("any", &all);
-    TEST_ASSERT_TRUE(all.lists > CASES / 2);
+    TEST_ASSERT_TRUE(all.lists > CASES / 2 && all.changed > CASES / 10);
+    TEST_ASSERT_TRUE(all.worse <= all.changed / 20); /* other states than the search's */
+    TEST_ASSERT_TRUE(all.after <= 0.5 * all.before);
+}
+
+/* --- by hand ---------------------------------------------------------------------------------------------------*/
+
+/* (M - k2 s c w^2)/(k1 - k2 s^2), k1 = 1.08, k2 = 0.36: with the product of M allowed, no constant is off. */
+static void test_a_quotient_gets_whole_numbers(void) {
+    tape *t = tape_new(1, 1);
+    const double one = 1.0;
+    const int phase = tape_phase(t, &one, 0.0, -1);
+    const int s = tape_unary(t, OP_SIN, phase);
+    const int c = tape_unary(t, OP_COS, phase);
+    const int w = tape_leaf(t, OP_RATE, 0);
+    const int ks = tape_mul(t, tape_constant(t, 0.36), s);
+    const int load = tape_mul(t, ks, tape_mul(t, c, tape_mul(t, w, w)));
+    const int above = tape_sub(t, tape_leaf(t, OP_INPUT, 0), load);
+    t->result[0] = tape_div(t, above, tape_sub(t, tape_constant(t, 1.08), tape_mul(t, ks, s)));
+    tape_prune(t);
+    const int operations = tape_operations(t);
+    TEST_ASSERT_TRUE(tape_bias(t, t) > 1e-8);
+    tape_gauge(&t, 0);
+    TEST_ASSERT_EQUAL_INT(operations, tape_operations(t)); /* nothing is free here */
+    tape_gauge(&t, 1);
+    TEST_ASSERT_EQUAL_INT(operations + 1, tape_operations(t));
+    TEST_ASSERT_TRUE(tape_bias(t, t) < 1e-14);
+    for (int i = 0; i < t->count; i++) {
+        const double x = t->ops[i].value;
+        TEST_ASSERT_TRUE(t->ops[i].code != OP_CONSTANT || x == (double)(float)x);
+    }
+    tape_free(t);
+}
+
+/* A list without constants, one that has none but floats, and one whose only constant can be changed by
+ * a product more only, stay. */
+static void test_what_needs_nothing_stays(void) {
+    static const double number[] = {1.0, 0.375, 0.3};
+    for (int k = 0; k < 3; k++) {
+        tape *t = tape_new(0, 1);
+        const int w = tape_leaf(t, OP_RATE, 0);
+        t->result[0] = tape_mul(t, tape_constant(t, number[k]), tape_mul(t, w, w));
+        tape_prune(t);
+        const uint64_t hash = tape_hash(t);
+        tape_gauge(&t, number[k] == 0.3 ? 0 : 3);
+        TEST_ASSERT_TRUE(tape_hash(t) == hash);
+        tape_free(t);
+    }
 }
 
 void suite_tape_gauge(void) {
+    RUN_TEST(test_a_quotient_gets_whole_numbers);
+    RUN_TEST(test_what_needs_nothing_stays);
     RUN_TEST(test_decimal_mechanisms_lose_their_bias);
     RUN_TEST(test_any_mechanism_keeps_its_results);
 }
