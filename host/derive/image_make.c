@@ -5,8 +5,8 @@
 
 #include "blame.h"
 #include "core/contact.h"
-#include "host/lang/shown.h"
 #include "host/image/tape_gauge.h"
+#include "host/lang/shown.h"
 #include "host/lang/words.h"
 #include "host/number/phase.h"
 #include "image_parts.h"

@@ -7,13 +7,13 @@
 #include "host/base/room.h"
 
 enum {
-    LONGEST = 250,   /* operations of a list that is looked at */
-    FIVES = 6,       /* most of each prime */
+    LONGEST = 250, /* operations of a list that is looked at */
+    FIVES = 6,     /* most of each prime */
     THREES = 3,
     SEVENS = 1,
-    REALS = 512,     /* numbers between one and two that are tried, */
-    VANISHING = 24,  /* and those that leave a constant as one */
-    ROUNDS = 3,      /* each from what the last one found */
+    REALS = 512,      /* numbers between one and two that are tried, */
+    VANISHING = 24,   /* and those that leave a constant as one */
+    ROUNDS = 3,       /* each from what the last one found */
     PATIENCE = 150000 /* operations of lists, after which a round ends */
 };
 
@@ -104,8 +104,7 @@ static void try_vanishing(gauge_search *s, const double *exponent) {
     for (int i = 0; i < s->from->count && tried < VANISHING; i++) {
         const op *o = &s->from->ops[i];
         if (o->code == OP_MUL && tape_is_constant(s->from, o->a, &number)) {
-            const double factor =
-                tape_is_raw(&s->from->ops[o->b]) ? 0.0 : exponent[o->b];
+            const double factor = tape_is_raw(&s->from->ops[o->b]) ? 0.0 : exponent[o->b];
             const double e = factor - exponent[i];
             if (e != 0.0) {
                 try_number(s, exponent, number_power(fabs(number), 1.0 / e));

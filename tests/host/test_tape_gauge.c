@@ -235,6 +235,22 @@ static void test_a_quotient_gets_whole_numbers(void) {
     tape_free(t);
 }
 
+/* Nor is anything in two scenes. */
+static void test_scenes_have_no_freedom_for_nothing(void) {
+    static const char *const names[] = {"epicyclic_from_rest", "thomson_a_conserved"};
+    for (int k = 0; k < 2; k++) {
+        derived d = derived_builtin(names[k]);
+        tape **step = &d.image->list[IMAGE_STEP];
+        const uint64_t hash = tape_hash(*step);
+        const double bias = tape_bias(*step, *step);
+        tape_gauge(step, 0);
+        TEST_ASSERT_TRUE_MESSAGE(tape_hash(*step) == hash, names[k]);
+        tape_gauge(step, tape_gauge_price(*step));
+        TEST_ASSERT_TRUE_MESSAGE(tape_bias(*step, *step) < 0.1 * bias, names[k]);
+        derived_free(&d);
+    }
+}
+
 /* A list without constants, one that has none but floats, and one whose only constant can be changed by
  * a product more only, stay. */
 static void test_what_needs_nothing_stays(void) {
@@ -253,6 +269,7 @@ static void test_what_needs_nothing_stays(void) {
 
 void suite_tape_gauge(void) {
     RUN_TEST(test_a_quotient_gets_whole_numbers);
+    RUN_TEST(test_scenes_have_no_freedom_for_nothing);
     RUN_TEST(test_what_needs_nothing_stays);
     RUN_TEST(test_decimal_mechanisms_lose_their_bias);
     RUN_TEST(test_any_mechanism_keeps_its_results);
