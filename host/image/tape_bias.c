@@ -11,7 +11,7 @@ enum { SIZES = 3, STATES = 6 };
 static const double size_of_rates[SIZES] = {0.0, 1.0, 10.0};
 
 /* A number between -1 and 1 for this leaf in this state. */
-static double drawn(int code, int which, int state) {
+static double drawn(op_code code, int which, int state) {
     uint64_t x = (uint64_t)code * 7919U + (uint64_t)which * 131U + (uint64_t)state * 1000003U + 1U;
     for (int i = 0; i < 3; i++) {
         x = (x ^ (x >> 31)) * UINT64_C(0x9e3779b97f4a7c15);

@@ -88,7 +88,8 @@ static void try_primes(gauge_search *s, const double *exponent) {
             for (int threes = -THREES; threes <= THREES; threes++) {
                 const int sevens = all - abs(fives) - abs(threes);
                 for (int sign = -1; sign <= 1 && sevens >= 0 && sevens <= SEVENS; sign += 2) {
-                    const double x = power(125.0, fives / 3) * power(5.0, fives % 3) *
+                    const int cubes = fives / 3;
+                    const double x = power(125.0, cubes) * power(5.0, fives % 3) *
                                      power(3.0, threes) * power(7.0, -sign * sevens);
                     try_number(s, exponent, x);
                 }
