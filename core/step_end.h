@@ -152,13 +152,18 @@ WH_INLINE unsigned wh_angles_move(const wh_real *move, wh_span rad_a_move, wh_re
     return angles;
 }
 
-/* value + by factor, as wh_sum(); product is by.s factor. */
+/* value + by factor, as wh_sum(); product is by.s factor. What the rest of `by` adds is less than half a unit in the last
+ * place of the product: in one sum with it, it would be rounded away in every step. So what the state did not take is
+ * told from the product alone, and the carry, which is small, keeps the rest. */
 WH_INLINE wh_real wh_sum_product(wh_real value, wh_span by, wh_real factor, wh_real product,
                                  bool compensated, wh_real *carry) {
-    if (compensated && !WH_DOUBLE) {
-        *carry += by.rest_s * factor;
+    if (!compensated || WH_DOUBLE) {
+        return wh_sum(value, product, compensated, carry);
     }
-    return wh_sum(value, product, compensated, carry);
+    const wh_real kept = *carry + by.rest_s * factor;
+    const wh_real sum = value + (product + kept);
+    *carry = kept + (product - (sum - value));
+    return sum;
 }
 
 /* The end of a step of q'' = f: what the stages gave, a1 and the sums of those that count alike, moves the state.

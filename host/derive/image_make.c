@@ -5,6 +5,7 @@
 
 #include "blame.h"
 #include "core/contact.h"
+#include "host/image/tape_gauge.h"
 #include "host/lang/shown.h"
 #include "host/lang/words.h"
 #include "host/number/phase.h"
@@ -224,6 +225,9 @@ image *image_make(const equations *e, const bool *conserve, const image_settings
     program *p = program_make(e, conserve, errors);
     if (p == NULL) {
         return NULL;
+    }
+    if (settings->compensated && p->contacts == NULL) { /* those solve with the same matrix */
+        tape_gauge(&p->step, tape_gauge_price(p->step));
     }
     image_draft d = image_draft_new();
     image *im = d.made;

@@ -83,23 +83,25 @@ static double whole_error(const char *name, double until_s, double step_s) {
     return worst;
 }
 
-/* The step's own constants are in two parts: an error that grows as steps get smaller, or with steps that are no floats, is
- * not among those that are left. Those of the list are floats, each off by up to U. */
+/* The step's own constants are in two parts, and those of the lists are floats: an error that grows as steps get smaller, or
+ * with steps that are no floats, is not among those that are left. Of the gear without its carriage one constant is
+ * rounded, 25/9, whatever one operation more can do. */
 static void test_no_step_is_too_small_for_compensated_sums(void) {
     static const double step_s[] = {1e-3, 0.9e-4, 1e-5};
     const double theta_at_9s = 89.63;
     for (unsigned i = 0; i < sizeof step_s / sizeof step_s[0]; i++) {
         char what[100];
         snprintf(what, sizeof what, "S6 compensated, %g ms, whole state at 9 s", step_s[i] * 1e3);
-        expect_within(what, 0.0, theta_at_9s * U,
-                      whole_error("epicyclic_from_rest", 9.0, step_s[i]));
+        expect_within(what, 0.0, 1e-6, whole_error("epicyclic_from_rest", 9.0, step_s[i]));
         snprintf(what, sizeof what, "S6c compensated, %g ms, whole state at 9 s", step_s[i] * 1e3);
         expect_within(what, 0.0, theta_at_9s * U,
                       whole_error("epicyclic_conserved", 9.0, step_s[i]));
+        /* amplified 2e4-fold by then: 5e-5 is U/24 */
+        snprintf(what, sizeof what, "S8c compensated, %g ms, whole state at 8 s", step_s[i] * 1e3);
+        if (i != 1) { /* no whole number of steps */
+            expect_within(what, 0.0, 5e-5, whole_error("thomson_a_conserved", 8.0, step_s[i]));
+        }
     }
-    /* amplified 2e4-fold by then */
-    expect_within("S8c compensated, 1 ms, whole state at 8 s", 0.0, 2e4 * U,
-                  whole_error("thomson_a_conserved", 8.0, 1e-3));
 }
 
 /* --- until when a chaotic trajectory is worth something ---------------------------------------------- */

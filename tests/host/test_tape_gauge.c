@@ -1,0 +1,276 @@
+/* test_tape_gauge.c: lists of scenes whose sums are compensated have constants that float keeps: the same results in double,
+ * no more operations than allowed, and less that rounded constants make of them. Over generated mechanisms: the states here
+ * are others than those that the search looks at, and another evaluator's. */
+#include "host/image/tape_gauge.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "derived.h"
+#include "mechanism.h"
+
+#include "unity.h"
+
+void suite_tape_gauge(void);
+
+enum { TEXT = 2000, STATES = 30, CASES = 120 };
+
+/* --- mechanisms of decimal masses and lengths ----------------------------------------------------------------------*/
+
+/* A number with two or three digits. */
+static double decimal(uint64_t *seed) {
+    const double digits = floor(random_between(seed, 10.0, 999.0));
+    return digits / (random_bits(seed) % 2 == 0 ? 100.0 : 1000.0);
+}
+
+/* An epicyclic gear on a carriage, a driven pendulum on one, a pendulum of two links, one on a carriage. */
+static void write_decimal(unsigned kind, uint64_t *seed, char text[TEXT]) {
+    static const char *const bodies[] = {
+        "coordinate a [rad]\ncoordinate X [m]\ninput M = 2 [N*m]\n"
+        "T = m1*X'^2/2 + m2*((X' - 2*r*a'*sin(a))^2 + (2*r*a'*cos(a))^2)/2 + m2*r^2*a'^2\n"
+        "Q(a) = M\n",
+        "coordinate a [rad]\ncoordinate X [m]\ninput M = 1 [N*m]\n"
+        "T = m1*X'^2/2 + m2*((X' + r*a'*cos(a))^2 + (r*a'*sin(a))^2)/2\n"
+        "V = -m2*9.81*r*cos(a)*1 [m/s^2]\nQ(a) = M\n",
+        "coordinate a [rad]\ncoordinate b [rad]\ninput M = 1 [N*m]\n"
+        "T = m1*r^2*a'^2/2 + m2*((r*a'*cos(a) + l*b'*cos(b))^2 + (r*a'*sin(a) + l*b'*sin(b))^2)/2\n"
+        "V = -9.81*((m1 + m2)*r*cos(a) + m2*l*cos(b))*1 [m/s^2]\nQ(a) = M\n",
+        "coordinate a [rad]\ncoordinate b [rad]\ncoordinate X [m]\ninput M = 1 [N*m]\n"
+        "T = m1*X'^2/2 + m2*((X' + r*a'*cos(a))^2 + (r*a'*sin(a))^2)/2"
+        " + m3*((X' + r*a'*cos(a) + l*b'*cos(b))^2 + (r*a'*sin(a) + l*b'*sin(b))^2)/2\n"
+        "Q(a) = M\n"};
+    const double m1 = decimal(seed);
+    const double m2 = decimal(seed);
+    const double m3 = decimal(seed);
+    const double r = decimal(seed);
+    const double l = decimal(seed);
+    snprintf(text, TEXT,
+             "mechanism drawn\nparameter m1 = %g [kg]\nparameter m2 = %g [kg]\n"
+             "parameter m3 = %g [kg]\nparameter r = %g [m]\nparameter l = %g [m]\n%s",
+             m1, m2, m3, r, l, bodies[kind % (sizeof bodies / sizeof bodies[0])]);
+}
+
+/* --- a pair of lists ---------------------------------------------------------------------------------------------*/
+
+static image *compensated_image(const derived *d) {
+    image_settings settings = plainly;
+    settings.compensated = true;
+    diags *errors = diags_new();
+    image *im = image_make(d->equations, NULL, &settings, IMAGE_TO_WRITE, errors);
+    diags_free(errors);
+    return im;
+}
+
+/* The list with its constants rounded to float. The list's own memory: what it had goes to kept[t->count], and back. */
+static void round_constants(tape *t, double *kept) {
+    for (int i = 0; i < t->count; i++) {
+        kept[i] = t->ops[i].value;
+        if (t->ops[i].code == OP_CONSTANT) {
+            t->ops[i].value = (double)(float)t->ops[i].value;
+        }
+    }
+}
+
+static void put_back(tape *t, const double *kept) {
+    for (int i = 0; i < t->count; i++) {
+        t->ops[i].value = kept[i];
+    }
+}
+
+enum { RESULTS = 64, OPERATIONS = 4000 };
+
+/* What rounding a list's constants does to its results, of a decimal mechanism to the accelerations of angles, which all
+ * lists there depend on: the mean, over many states, beside the mean size, of each; and the mean of these. */
+static double bias_of(tape *t, const tape *like, const derived *d, uint64_t seed) {
+    double kept[OPERATIONS];
+    double meant[RESULTS];
+    double now[RESULTS];
+    double off[RESULTS] = {0};
+    double size[RESULTS] = {0};
+    double sum = 0.0;
+    const int results = d->image->angles > 0 ? d->image->angles : t->results;
+    for (int k = 0; k < STATES; k++) {
+        state_values s;
+        random_state(&s, d, &seed);
+        derived_run(like, d, &s, meant);
+        round_constants(t, kept);
+        derived_run(t, d, &s, now);
+        put_back(t, kept);
+        for (int i = 0; i < results; i++) {
+            const bool told = isfinite(meant[i]) && isfinite(now[i]);
+            off[i] += told ? fabs(now[i] - meant[i]) : 0.0;
+            size[i] += told ? fabs(meant[i]) : 0.0;
+        }
+    }
+    for (int i = 0; i < results; i++) {
+        sum += size[i] > 0.0 ? off[i] / size[i] / results : 0.0;
+    }
+    return sum;
+}
+
+/* Equal but for what double rounds: each constant may have been moved by 1e-15 of itself, nine units. */
+static void expect_equal(const tape *t, const tape *other, const derived *d, uint64_t seed,
+                         const char *what) {
+    double x[RESULTS];
+    double y[RESULTS];
+    double off_x[RESULTS];
+    double off_y[RESULTS];
+    for (int k = 0; k < STATES; k++) {
+        state_values s;
+        random_state(&s, d, &seed);
+        derived_run_known(t, d, &s, x, off_x);
+        derived_run_known(other, d, &s, y, off_y);
+        for (int i = 0; i < t->results; i++) {
+            if (isfinite(x[i]) && isfinite(off_x[i]) && isfinite(off_y[i])) {
+                const double bound = 0x1p-53 * (10.0 * (off_x[i] + off_y[i]) + 10.0 * fabs(x[i]));
+                TEST_ASSERT_TRUE_MESSAGE(fabs(x[i] - y[i]) <= bound, what);
+            } else {
+                TEST_ASSERT_TRUE_MESSAGE(isfinite(x[i]) == isfinite(y[i]), what);
+            }
+        }
+    }
+}
+
+typedef struct tally {
+    int lists;
+    int changed;
+    int worse;     /* at these states */
+    int more;      /* operations */
+    double before; /* sums of biases of changed lists */
+    double after;
+} tally;
+
+/* One mechanism; false when it cannot be derived. */
+static bool hold(const char *text, uint64_t seed, tally *all) {
+    derived d = derived_text(text);
+    const bool derives = d.image != NULL && d.image->list[IMAGE_STEP]->count <= OPERATIONS;
+    if (derives) {
+        image *im = compensated_image(&d);
+        tape *plain = d.image->list[IMAGE_STEP];
+        tape *gauged = im->list[IMAGE_STEP];
+        const int more = tape_operations(gauged) - tape_operations(plain);
+        const bool changed = tape_hash(gauged) != tape_hash(plain);
+        TEST_ASSERT_TRUE_MESSAGE(more <= tape_gauge_price(plain), text);
+        expect_equal(plain, gauged, &d, seed, text);
+        all->lists++;
+        if (changed) {
+            const double before = bias_of(plain, plain, &d, seed);
+            const double after = bias_of(gauged, plain, &d, seed);
+            all->changed++;
+            all->more += more;
+            all->before += before;
+            all->after += after;
+            all->worse += after > before + 1e-15;
+        }
+        image_free(im);
+    }
+    derived_free(&d);
+    return derives;
+}
+
+static void tell(const char *what, const tally *all) {
+    printf("  %s: %d lists, %d changed, %d worse, %d operations more; bias: %.3g, was %.3g\n", what,
+           all->lists, all->changed, all->worse, all->more, all->after / all->changed,
+           all->before / all->changed);
+}
+
+static void test_decimal_mechanisms_lose_their_bias(void) {
+    uint64_t seed = 20061;
+    for (unsigned kind = 0; kind < 4; kind++) {
+        tally all = {0};
+        char what[20];
+        for (int k = 0; k < CASES / 4; k++) {
+            char text[TEXT];
+            write_decimal(kind, &seed, text);
+            TEST_ASSERT_TRUE_MESSAGE(hold(text, seed + 1, &all), text);
+        }
+        snprintf(what, sizeof what, "kind %u", kind);
+        tell(what, &all);
+        TEST_ASSERT_TRUE(all.changed >= CASES / 4 / 2);
+        TEST_ASSERT_EQUAL_INT(0, all.worse);
+        TEST_ASSERT_TRUE(all.after <= 0.25 * all.before);
+    }
+}
+
+static void test_any_mechanism_keeps_its_results(void) {
+    tally all = {0};
+    for (unsigned k = 0; k < CASES; k++) {
+        char text[MECHANISM_SIZE];
+        mechanism_write(k, 1000U + k, text);
+        hold(text, 5 * k + 1, &all);
+    }
+    tell("any", &all);
+    TEST_ASSERT_TRUE(all.lists > CASES / 2 && all.changed > CASES / 10);
+    TEST_ASSERT_TRUE(all.worse <= all.changed / 20); /* other states than the search's */
+    TEST_ASSERT_TRUE(all.after <= 0.5 * all.before);
+}
+
+/* --- by hand ---------------------------------------------------------------------------------------------------*/
+
+/* (M - k2 s c w^2)/(k1 - k2 s^2), k1 = 1.08, k2 = 0.36: with the product of M allowed, no constant is off. */
+static void test_a_quotient_gets_whole_numbers(void) {
+    tape *t = tape_new(1, 1);
+    const double one = 1.0;
+    const int phase = tape_phase(t, &one, 0.0, -1);
+    const int s = tape_unary(t, OP_SIN, phase);
+    const int c = tape_unary(t, OP_COS, phase);
+    const int w = tape_leaf(t, OP_RATE, 0);
+    const int ks = tape_mul(t, tape_constant(t, 0.36), s);
+    const int load = tape_mul(t, ks, tape_mul(t, c, tape_mul(t, w, w)));
+    const int above = tape_sub(t, tape_leaf(t, OP_INPUT, 0), load);
+    t->result[0] = tape_div(t, above, tape_sub(t, tape_constant(t, 1.08), tape_mul(t, ks, s)));
+    tape_prune(t);
+    const int operations = tape_operations(t);
+    TEST_ASSERT_TRUE(tape_bias(t, t) > 1e-8);
+    tape_gauge(&t, 0);
+    TEST_ASSERT_EQUAL_INT(operations, tape_operations(t)); /* nothing is free here */
+    tape_gauge(&t, 1);
+    TEST_ASSERT_EQUAL_INT(operations + 1, tape_operations(t));
+    TEST_ASSERT_TRUE(tape_bias(t, t) < 1e-14);
+    for (int i = 0; i < t->count; i++) {
+        const double x = t->ops[i].value;
+        TEST_ASSERT_TRUE(t->ops[i].code != OP_CONSTANT || x == (double)(float)x);
+    }
+    tape_free(t);
+}
+
+/* Nor is anything in two scenes. */
+static void test_scenes_have_no_freedom_for_nothing(void) {
+    static const char *const names[] = {"epicyclic_from_rest", "thomson_a_conserved"};
+    for (int k = 0; k < 2; k++) {
+        derived d = derived_builtin(names[k]);
+        tape **step = &d.image->list[IMAGE_STEP];
+        const uint64_t hash = tape_hash(*step);
+        const double bias = tape_bias(*step, *step);
+        tape_gauge(step, 0);
+        TEST_ASSERT_TRUE_MESSAGE(tape_hash(*step) == hash, names[k]);
+        tape_gauge(step, tape_gauge_price(*step));
+        TEST_ASSERT_TRUE_MESSAGE(tape_bias(*step, *step) < 0.1 * bias, names[k]);
+        derived_free(&d);
+    }
+}
+
+/* A list without constants, one that has none but floats, and one whose only constant can be changed by
+ * a product more only, stay. */
+static void test_what_needs_nothing_stays(void) {
+    static const double number[] = {1.0, 0.375, 0.3};
+    for (int k = 0; k < 3; k++) {
+        tape *t = tape_new(0, 1);
+        const int w = tape_leaf(t, OP_RATE, 0);
+        t->result[0] = tape_mul(t, tape_constant(t, number[k]), tape_mul(t, w, w));
+        tape_prune(t);
+        const uint64_t hash = tape_hash(t);
+        tape_gauge(&t, number[k] == 0.3 ? 0 : 3);
+        TEST_ASSERT_TRUE(tape_hash(t) == hash);
+        tape_free(t);
+    }
+}
+
+void suite_tape_gauge(void) {
+    RUN_TEST(test_a_quotient_gets_whole_numbers);
+    RUN_TEST(test_scenes_have_no_freedom_for_nothing);
+    RUN_TEST(test_what_needs_nothing_stays);
+    RUN_TEST(test_decimal_mechanisms_lose_their_bias);
+    RUN_TEST(test_any_mechanism_keeps_its_results);
+}
