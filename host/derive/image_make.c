@@ -222,7 +222,7 @@ static void take_program(image_draft *d, program *p) {
 
 image *image_make(const equations *e, const bool *conserve, const image_settings *settings,
                   image_use use, diags *errors) {
-    program *p = program_make(e, conserve, errors);
+    program *p = program_make(e, conserve, settings->compensated, errors);
     if (p == NULL) {
         return NULL;
     }

@@ -15,6 +15,9 @@ typedef struct linear_system {
     /* Solutions that are not wanted may come out as anything, and more arrangements are tried. False where contacts
      * solve with the same matrix: their steps keep their bits. */
     bool sparing;
+    /* Roundings count more than operations: no hinge is eliminated (hinge.h), whose list rounds two to five times as
+     * much as what it replaces (docs/numerics.md). */
+    bool precise;
 } linear_system;
 
 #endif

@@ -189,7 +189,7 @@ static bool steps_need_no_turns(const program *p, const equations *e, diags *err
     return true;
 }
 
-program *program_make(const equations *e, const bool *conserve, diags *errors) {
+program *program_make(const equations *e, const bool *conserve, bool precise, diags *errors) {
     const int n = e->count;
     const mechanism *m = e->instance->mechanism;
     program *p = room(1, sizeof *p);
@@ -206,8 +206,8 @@ program *program_make(const equations *e, const bool *conserve, diags *errors) {
     const symbol **symbols = room(n, sizeof *symbols);
     p->count = n;
     p->outputs = m->output_count + 2 * p->conserved->count;
-    const linear_system s = {n,       !m->is_system, dynamics, dynamics + n * n,
-                             symbols, turning,       wanted,   false};
+    const linear_system s = {n,       !m->is_system, dynamics, dynamics + n * n, symbols,
+                             turning, wanted,        false,    precise};
     for (int i = 0; i < n * n; i++) {
         dynamics[i] = equations_fold(e, e->mass[i]);
     }

@@ -25,10 +25,10 @@ typedef struct program {
     tape *books;
 } program;
 
-/* `conserve` [count] names the coordinates to recover from their momentum, or is NULL. NULL on error
+/* `conserve` [count] names the coordinates to recover from their momentum, or is NULL; `precise`: see linear_system.h. NULL on error
  * (too many components, a momentum that is not conserved, a constant that is not finite), reported to
  * `errors`. */
-program *program_make(const equations *e, const bool *conserve, diags *errors);
+program *program_make(const equations *e, const bool *conserve, bool precise, diags *errors);
 void program_free(program *p);
 
 uint64_t program_hash(const program *p);

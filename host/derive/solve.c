@@ -149,7 +149,7 @@ static void try_order(const lowering *l, const linear_system *s, const arrangeme
                 try_it(l, s, &how, best);
             }
         }
-        if (s->sparing) {
+        if (s->sparing && !s->precise) {
             how.first = -1;
             how.hinged = true;
             for (int again = 0; again < 2; again++) {
