@@ -16,6 +16,37 @@
 #include "arithmetic.h"
 #include "step_end.h"
 
+/* As wh_first_absurd(). Without floating-point arithmetic in the processor, sizes are compared by their bits: a tenth of what
+ * three sums and a comparison take on an ATmega328P. */
+WH_INLINE unsigned wh_matrix_absurd(const wh_real *value, unsigned n) {
+#if WH_SOFT_FLOAT && !WH_DOUBLE
+    static const uint32_t absurd = 0x58635fa9; /* WH_ABSURD; infinities and what is no number lie above it */
+    for (unsigned i = 0; i < n; i++) {
+        uint32_t bits;
+        __builtin_memcpy(&bits, &value[i], sizeof bits);
+        if ((bits & 0x7fffffffU) >= absurd) {
+            return i;
+        }
+    }
+    return n;
+#else
+    return wh_first_absurd(value, n);
+#endif
+}
+
+/* Take over what a list gave of a scene without turn angles and low parts, or refuse the step. */
+WH_INLINE wh_status wh_matrix_accept(const wh_real *given, unsigned reals, wh_state *state) {
+    const unsigned absurd = wh_matrix_absurd(given, reals);
+    if (absurd < reals) {
+        return wh_refuse(state, absurd);
+    }
+    WH_UNROLL
+    for (unsigned i = 0; i < reals; i++) {
+        state->real[i] = given[i];
+    }
+    return WH_OK;
+}
+
 /* One step of h, from the list `matrix`, which is called as accelerations are, but without phases. The rates are behind
  * `rates_at` other reals (second order; else it does not matter). The list gives, of the
  *
@@ -29,8 +60,11 @@ WH_INLINE wh_status wh_step_matrix(const void *model, wh_accel_fn *matrix, bool 
                                    unsigned angles, unsigned reals, unsigned rates_at, wh_span h,
                                    wh_state *state) {
     wh_real given[5 * WH_COORDS];
-    wh_trial trial = {0};
     matrix(model, NULL, state->real, state->real + rates_at, state->input, given);
+    if (angles == 0 && !compensated) {
+        return wh_matrix_accept(given, reals, state);
+    }
+    wh_trial trial = {0};
     WH_REFUSE_FAR(wh_angles_move(given, h, h.s, compensated, angles, state, &trial));
     WH_UNROLL
     for (unsigned i = 0; i < reals; i++) {

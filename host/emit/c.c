@@ -248,7 +248,7 @@ void emit_c(FILE *out, const image *im, const char *file) {
     fprintf(out, "\n");
     write_starts(out, im);
     if (im->list[IMAGE_MATRIX] != NULL) {
-        c_list_function(out, im->list[IMAGE_MATRIX], C_PHASES, "matrix", true, false);
+        c_list_matrix(out, im->list[IMAGE_MATRIX]);
     } else {
         c_list_function(out, im->list[IMAGE_STEP], turns ? C_WAVES : C_PHASES,
                         second ? "accelerations" : "slopes", second,
