@@ -8,7 +8,7 @@
 #include "host/image/core_rows.h"
 #include "host/image/memory.h"
 #include "host/image/turned.h"
-#include "json.h"
+#include "matrix.h"
 
 const char *const describe_roles[IMAGE_ROLES] = {
     [IMAGE_STEP] = "step",       [IMAGE_OBSERVE] = "observe", [IMAGE_BOOKS] = "books",
@@ -234,6 +234,7 @@ void describe_json(FILE *out, const image *im, const char *file) {
     json_whole(&j, "stages", core_stages(im));
     json_bool(&j, "compensated", im->settings.compensated);
     json_text(&j, "sines", image_angles_words[image_turns(im) ? ANGLES_TURNED : ANGLES_LOOKUP]);
+    matrix_json(&j, im);
     put_time(&j, im);
     put_effects(&j, im);
     put_quantities(&j, "parameters", im->parameter, im->parameters, true);

@@ -19,6 +19,15 @@ component image_component(const image *im, int i) {
     return i < im->angles ? im->angle[i] : im->real[i - im->angles];
 }
 
+const char *image_stepper(const image *im) {
+    switch (im->settings.matrix) {
+    case MATRIX_NONE: break;
+    case MATRIX_EXACT: return "one exact matrix a step";
+    case MATRIX_RK4: return "Runge-Kutta 4 as one matrix a step";
+    }
+    return wh_methods[im->settings.method].title;
+}
+
 bool image_shows_si(const image_unit *unit) { return unit->scale == unit->divisor; }
 
 double image_shown(const image_unit *unit, double si) {

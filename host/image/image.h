@@ -295,6 +295,9 @@ void image_free(image *im); /* NULL is fine */
 /* Component i of the state: angles first. */
 component image_component(const image *im, int i);
 
+/* What steps it, in words: the method's title, or which matrix. */
+const char *image_stepper(const image *im);
+
 /* The number that people read of an SI value, and whether that is the value itself. */
 double image_shown(const image_unit *unit, double si);
 bool image_shows_si(const image_unit *unit);

@@ -53,7 +53,7 @@ void summary_print(FILE *out, const image *im, const engine_kind *kind, void *ru
         }
     }
     fprintf(out, "  %s%s, %s, step %.9g s, %" PRIu64 " steps to t = %.15g s\n",
-            wh_methods[im->settings.method].title, im->settings.compensated ? " compensated" : "",
+            image_stepper(im), im->settings.compensated ? " compensated" : "",
             kind->name, im->step_s, steps, ratio_times(steps, im->step));
     print_state(out, im, kind, run);
     if (im->contacts > 0) {
