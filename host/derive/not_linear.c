@@ -3,6 +3,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "affine.h"
 #include "host/base/room.h"
@@ -62,17 +63,35 @@ static made_of node_made_of(const image_blame *b, const made_of *of, int i) {
     return both;
 }
 
+/* May the operand beside one of degree `other` have no more than the whole may? Where the operand alone is fine, it is the
+ * two together that are not. */
+static bool passes_on(blame_code code, int other) {
+    switch (code) {
+    case BLAME_SAME:
+    case BLAME_NEG:
+    case BLAME_ADD:
+    case BLAME_SUB: return true;
+    case BLAME_MUL:
+    case BLAME_DIV: return other == 0;
+    case BLAME_POW:
+    case BLAME_CALL:
+    case BLAME_NUMBER:
+    case BLAME_STATE:
+    case BLAME_INPUT: return false;
+    }
+    return false;
+}
+
 /* The innermost part of `node` whose degree is above `most` and of no operand of it. */
 static int innermost(const image_blame *b, const made_of *of, int node, int most) {
     for (;;) {
         const blame_node *n = &b->node[node];
-        const bool sums = n->code == BLAME_ADD || n->code == BLAME_SUB || n->code == BLAME_SAME ||
-                          n->code == BLAME_NEG;
-        const int bound = sums ? most : NO_POWER - 1; /* of factors, each for itself may be fine */
         const bool has_b = n->code != BLAME_SAME && n->code != BLAME_NEG && n->b >= 0;
-        if (of[n->a].degree > bound) {
+        const int degree_a = of[n->a].degree;
+        const int degree_b = has_b ? of[n->b].degree : 0;
+        if (degree_a > (passes_on(n->code, degree_b) ? most : NO_POWER - 1)) {
             node = n->a;
-        } else if (has_b && of[n->b].degree > bound) {
+        } else if (degree_b > (passes_on(n->code, degree_a) ? most : NO_POWER - 1)) {
             node = n->b;
         } else {
             return node;
@@ -115,7 +134,7 @@ static void report(const image *im, const made_of *of, int node, place where, di
     case BLAME_CALL:
         snprintf(what, sizeof what, "%s() of", function_name(n->function));
         break;
-    case BLAME_DIV: snprintf(what, sizeof what, "a division by a sum of"); break;
+    case BLAME_DIV: snprintf(what, sizeof what, "a division by an expression of"); break;
     case BLAME_POW: snprintf(what, sizeof what, "a power of"); break;
     case BLAME_NUMBER:
     case BLAME_STATE:
@@ -124,7 +143,9 @@ static void report(const image *im, const made_of *of, int node, place where, di
     case BLAME_ADD:
     case BLAME_SUB:
     case BLAME_MUL:
-    case BLAME_NEG: snprintf(what, sizeof what, "a product of"); break;
+    case BLAME_NEG:
+        snprintf(what, sizeof what, "a %s of", strchr(of_what, ' ') != NULL ? "product" : "power");
+        break;
     }
     diag_error(errors, at, "leave out --matrix: stages step what is not linear",
                "%s %s in line %d makes '%s' not linear, so no matrix is a step of it: %s", what,
