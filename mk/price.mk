@@ -9,8 +9,6 @@ BY_HAND := naive_epicyclic naive_thomson careful_thomson
 # machine single functions are counted, not what they are called with.
 COMPENSATED := epicyclic_from_rest thomson_a
 AHEAD := epicyclic_from_rest epicyclic_conserved thomson_a thomson_a_conserved rig_fixed
-# Linear scenes again, each step one product with a matrix.
-MATRIX := two_mass_relative
 again_compensated := --compensated
 again_matrix := --matrix exact
 again_c = $(patsubst %,build/$(1)/%.c,scenes $($(2)))
@@ -31,6 +29,7 @@ $(eval $(call program,bench,$(BENCH_C),scenes whirl))
 $(eval $(call program,bench_compensated,$(BENCH_C) $(COMPENSATED_C),whirl))
 $(eval $(call program,bench_ahead,$(BENCH_C) $(AHEAD_C),whirl))
 $(eval $(call program,bench_matrix,$(BENCH_C) $(MATRIX_C),whirl))
+$(eval $(call program,scenes_matrix,boards/programs/scenes.c $(MATRIX_C),whirl))
 $(ELF)/build/ahead/%.o $(B)/float/build/ahead/%.o: FILE_FLAGS := -DWH_AHEAD=1
 
 $(B)/bench_double: $(call objects,double,$(BENCH_C) boards/host/board.c) \
