@@ -20,7 +20,8 @@
  * three sums and a comparison take on an ATmega328P. */
 WH_INLINE unsigned wh_matrix_absurd(const wh_real *value, unsigned n) {
 #if WH_SOFT_FLOAT && !WH_DOUBLE
-    static const uint32_t absurd = 0x58635fa9; /* WH_ABSURD; infinities and what is no number lie above it */
+    static const uint32_t absurd =
+        0x58635fa9; /* WH_ABSURD; infinities and what is no number lie above it */
     for (unsigned i = 0; i < n; i++) {
         uint32_t bits;
         __builtin_memcpy(&bits, &value[i], sizeof bits);

@@ -78,7 +78,7 @@ GUARDS := $(patsubst tests/boards/%.c,$(ELF)/%.elf,$(wildcard tests/boards/guard
 $(GUARDS): $(ELF)/%.elf: $(B)/$(BOARD)/tests/boards/%.o $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl)
 	$(link_board)
 
-.PHONY: board-images board-tests run-suites print-hashes print-matrix-hashes
+.PHONY: board-images board-tests run-suites print-hashes print-matrix-hashes bench-matrix
 board-images: $(IMAGES)
 board-tests: $(ELF)/tests.elf $(GUARDS)
 run-suites: # the portable suites, then what guards the stack
@@ -86,6 +86,9 @@ run-suites: # the portable suites, then what guards the stack
 print-hashes: # a line for each scene, with the hash of its last state
 	@$(call need,$(BOARD_EMULATOR))
 	@$(call emulate,$(ELF)/scenes.elf)
+bench-matrix: $(ELF)/bench_matrix.elf $(PLUGIN) # a step of linear scenes as one matrix
+	@mkdir -p $(FIGURES)
+	@$(call count_board,$<)
 print-matrix-hashes: $(ELF)/scenes_matrix.elf # of linear scenes, a step as one matrix
 	@$(call need,$(BOARD_EMULATOR))
 	@$(call emulate,$<)

@@ -59,7 +59,7 @@ LARGE_SUITES = $(patsubst suite_%,%,$(shell sed -n 's/^suite /suite_/p' $(TOO_LA
 SINGLE_SCENES = $(patsubst %,$(SINGLE)/scene_%.elf,$(filter-out $(LARGE_SCENES),$(SCENE_NAMES)))
 SINGLE_SUITES = $(patsubst %,$(SINGLE)/suite_%.elf,$(filter-out $(LARGE_SUITES),$(SUITE_NAMES)))
 
-.PHONY: board-images board-tests run-suites print-hashes print-matrix-hashes too-large-now
+.PHONY: board-images board-tests run-suites print-hashes print-matrix-hashes bench-matrix too-large-now
 IMAGES = $(SINGLE_SCENES)
 board-images: $(SINGLE_SCENES) $(AVR_RUN)
 board-tests: $(SINGLE_SUITES) $(AVR_RUN)
@@ -69,6 +69,8 @@ run-suites: # each says how many tests failed
 print-hashes:
 	@for elf in $(SINGLE_SCENES); do $(call emulate,$$elf) || exit 1; done
 	@for scene in $(LARGE_SCENES); do echo "without $$scene"; done
+bench-matrix: $(MATRIX:%=$(SINGLE)/bench_matrix_%.elf) $(AVR_RUN) # a step of linear scenes as one matrix
+	@BOARD=$(BOARD) CC=$(BOARD_CC) EMULATE="$(call emulate,IMAGE)" mk/count/single_rows.sh $(filter %.elf,$^)
 print-matrix-hashes: $(MATRIX:%=$(SINGLE)/matrix_%.elf) $(AVR_RUN)
 	@for scene in $(MATRIX); do $(call emulate,$(SINGLE)/matrix_$$scene.elf) || exit 1; done
 

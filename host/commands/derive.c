@@ -143,8 +143,8 @@ static void print_usage(FILE *out) {
                  "without an effect, compensated and not");
     options_usage(out, &options_of_derive);
     fprintf(out,
-            "The method matters to %s only. With --matrix, every form has the matrix: octave has it in\n"
-            "place of the equations, to the last digit.\n",
+            "The method matters to %s only. With --matrix, every form has the\n"
+            "matrix: octave in place of the equations, to the last digit.\n",
             forms_with(has_steps, said));
 }
 

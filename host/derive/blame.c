@@ -212,12 +212,11 @@ static bool has_slopes(const poly *p) {
 static void ask(maker *k, place where, int node, bool derived, const char *what) {
     image_blame *b = &k->made->blame;
     b->question = arena_room(k->made->memory, b->question, b->questions, sizeof *b->question);
-    b->question[b->questions++] =
-        (blame_question){.node = node,
-                         .derived = derived,
-                         .power = 1,
-                         .what = image_text(k->draft, what),
-                         .where = where};
+    b->question[b->questions++] = (blame_question){.node = node,
+                                                   .derived = derived,
+                                                   .power = 1,
+                                                   .what = image_text(k->draft, what),
+                                                   .where = where};
 }
 
 static void ask_value(maker *k, place where, const expr *tree, const char *what) {

@@ -45,12 +45,12 @@ static int leaf(const image *im, tape *t, int column) {
     if (real >= im->reals) {
         return tape_leaf(t, OP_INPUT, real - im->reals);
     }
-    return real < linears ? tape_leaf(t, OP_LINEAR, real)
-                          : tape_leaf(t, OP_RATE, real - linears);
+    return real < linears ? tape_leaf(t, OP_LINEAR, real) : tape_leaf(t, OP_RATE, real - linears);
 }
 
 /* The sum of a row's entries, each the double that stands for it, times their columns. */
-static int enter_row(const image *im, tape *t, const twofold *row, double (*constant)(twofold entry)) {
+static int enter_row(const image *im, tape *t, const twofold *row,
+                     double (*constant)(twofold entry)) {
     int sum = tape_constant(t, 0.0);
     for (int k = 0; k < affine_columns(im); k++) {
         const double entry = constant(row[k]);
@@ -126,7 +126,8 @@ static void keep_numbers(image_draft *d, const twofold *change) {
     for (int i = 0; i < m->states; i++) {
         for (int k = 0; k < m->columns; k++) {
             const twofold entry = change[i * m->columns + k];
-            m->entry[i * m->columns + k] = k == i ? twofold_add(entry, twofold_of(1.0)).high : entry.high;
+            m->entry[i * m->columns + k] =
+                k == i ? twofold_add(entry, twofold_of(1.0)).high : entry.high;
         }
     }
 }

@@ -15,7 +15,7 @@ enum { NO_POWER = 1000 };
 
 /* What a node of the blame list is made of. */
 typedef struct made_of {
-    int degree; /* in states, rates and inputs together */
+    int degree;      /* in states, rates and inputs together */
     uint64_t states; /* unknowns that take part, a bit each: of more than 64, some share one */
     uint64_t inputs; /* likewise */
 } made_of;
@@ -43,9 +43,8 @@ static made_of node_made_of(const image_blame *b, const made_of *of, int i) {
     const bool has_a = n->code != BLAME_NUMBER && n->code != BLAME_STATE && n->code != BLAME_INPUT;
     const made_of none = {0, 0, 0};
     const made_of x = has_a ? of[n->a] : none;
-    const made_of y = has_a && n->code != BLAME_SAME && n->code != BLAME_NEG && n->b >= 0
-                          ? of[n->b]
-                          : none;
+    const made_of y =
+        has_a && n->code != BLAME_SAME && n->code != BLAME_NEG && n->b >= 0 ? of[n->b] : none;
     made_of both = {0, x.states | y.states, x.inputs | y.inputs};
     switch (n->code) {
     case BLAME_NUMBER: break;
@@ -131,9 +130,7 @@ static void report(const image *im, const made_of *of, int node, place where, di
     char what[64];
     statement_text(at, line, sizeof line);
     switch (n->code) {
-    case BLAME_CALL:
-        snprintf(what, sizeof what, "%s() of", function_name(n->function));
-        break;
+    case BLAME_CALL: snprintf(what, sizeof what, "%s() of", function_name(n->function)); break;
     case BLAME_DIV: snprintf(what, sizeof what, "a division by an expression of"); break;
     case BLAME_POW: snprintf(what, sizeof what, "a power of"); break;
     case BLAME_NUMBER:
@@ -173,9 +170,8 @@ void not_linear_report(const image *im, int operation, diags *errors) {
     }
     for (int k = 0; k < b->terms && !found; k++) {
         const blame_question *q = &b->question[k];
-        const int node = q->derived || of[q->node].degree <= q->power
-                             ? -1
-                             : innermost(b, of, q->node, q->power);
+        const int node =
+            q->derived || of[q->node].degree <= q->power ? -1 : innermost(b, of, q->node, q->power);
         if (node >= 0 && ((of[node].states & wanted.states) | (of[node].inputs & wanted.inputs))) {
             report(im, of, node, q->where, errors);
             found = true;

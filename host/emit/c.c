@@ -144,12 +144,13 @@ static void write_banner(FILE *out, const image *im, const char *file) {
     c_comment(out, file);
     fputs(": do not edit.\n *\n", out);
     fprintf(out, " * scene        %s\n * model hash   0x%016" PRIx64 "\n", im->name, im->hash);
-    fprintf(out,
-            im->list[IMAGE_MATRIX] != NULL
-                ? " * a whole step as a matrix: %d additions and products"
-                : " * a right-hand side: %d additions and products, %d divisions, %d square roots,\n"
-                  " *                    %d pairs of sine and cosine",
-            cost.arithmetic, cost.divisions, cost.roots, cost.waves);
+    fprintf(
+        out,
+        im->list[IMAGE_MATRIX] != NULL
+            ? " * a whole step as a matrix: %d additions and products"
+            : " * a right-hand side: %d additions and products, %d divisions, %d square roots,\n"
+              " *                    %d pairs of sine and cosine",
+        cost.arithmetic, cost.divisions, cost.roots, cost.waves);
     if (cost.calls > 0) {
         fprintf(out, ", %d functions of core/function.h", cost.calls);
     }

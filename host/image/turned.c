@@ -13,7 +13,7 @@ _Static_assert(TURNED_WAVES_MAX == WH_WAVES, "the core's room is what an image m
 
 bool image_turns(const image *im) {
     const tape *t = im->list[IMAGE_STEP];
-    return im->settings.angles == ANGLES_TURNED && im->settings.matrix == MATRIX_NONE && im->contacts == 0 && im->angles > 0 &&
-           wh_method_turns(im->settings.method) && tape_takes_waves(t) &&
-           tape_waves(t) <= TURNED_WAVES_MAX;
+    return im->settings.angles == ANGLES_TURNED && im->settings.matrix == MATRIX_NONE &&
+           im->contacts == 0 && im->angles > 0 && wh_method_turns(im->settings.method) &&
+           tape_takes_waves(t) && tape_waves(t) <= TURNED_WAVES_MAX;
 }

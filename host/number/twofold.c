@@ -27,8 +27,8 @@ static twofold two_product(double a, double b) {
     const double b_high = b_wide - (b_wide - b);
     const double a_low = a - a_high;
     const double b_low = b - b_high;
-    return (twofold){product,
-                  ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low};
+    return (twofold){product, ((a_high * b_high - product) + a_high * b_low + a_low * b_high) +
+                                  a_low * b_low};
 }
 
 twofold twofold_of(double value) { return (twofold){value, 0.0}; }

@@ -23,8 +23,9 @@ typedef struct linear {
 
 /* How a mechanism is drawn. */
 typedef struct linear_kind {
-    int stiff;    /* springs and dampers up to 2^stiff times as strong */
-    bool coupled; /* masses that move together: the mass matrix is full, and its inverse no double */
+    int stiff; /* springs and dampers up to 2^stiff times as strong */
+    bool
+        coupled; /* masses that move together: the mass matrix is full, and its inverse no double */
 } linear_kind;
 
 /* A mechanism with a scene `s`, of `coordinates` 1 to 4: masses, springs and dampers between them and to the ground, some with

@@ -27,9 +27,9 @@ static const double input_at_start[LINEAR_INPUTS] = {0.5, 0.5};
 static quad whole_of(twofold a) { return (quad)a.high + (quad)a.low; }
 
 static twofold drawn_twofold(uint64_t *seed) {
-    const double high = number_scaled(random_between(seed, 0.5, 1.0) *
-                                          (random_bits(seed) % 2 != 0 ? 1.0 : -1.0),
-                                      (int)(random_bits(seed) % 60) - 30);
+    const double high =
+        number_scaled(random_between(seed, 0.5, 1.0) * (random_bits(seed) % 2 != 0 ? 1.0 : -1.0),
+                      (int)(random_bits(seed) % 60) - 30);
     return twofold_add(twofold_of(high),
                        twofold_of(number_scaled(high * random_between(seed, -0.5, 0.5), -53)));
 }
@@ -103,13 +103,11 @@ static double entries_off(const linear *of, const image *im, quad want[][LINEAR_
     return most;
 }
 
-static void set_matrix(motion *m, const char *text, const engine_kind *kind,
-                       image_matrix_of matrix, bool compensated) {
-    motion_open_text(m, text,
-                     (stepping){.kind = kind,
-                                .method = WH_RK4,
-                                .compensated = compensated,
-                                .matrix = matrix});
+static void set_matrix(motion *m, const char *text, const engine_kind *kind, image_matrix_of matrix,
+                       bool compensated) {
+    motion_open_text(
+        m, text,
+        (stepping){.kind = kind, .method = WH_RK4, .compensated = compensated, .matrix = matrix});
 }
 
 /* A, B and c of the list, held against those of the test: they are that to the rounding of the list's few constants. */
@@ -121,8 +119,8 @@ static void take_rates(const image *im, const char *text, linear *of) {
         for (int k = 0; k < of->columns; k++) {
             const quad rate = whole_of(rates[i * of->columns + k]);
             const quad own = of->rate[i][k];
-            TEST_ASSERT_TRUE_MESSAGE(
-                quad_size(rate - own) <= 6 * (quad)0x1p-53 * quad_size(own), text);
+            TEST_ASSERT_TRUE_MESSAGE(quad_size(rate - own) <= 6 * (quad)0x1p-53 * quad_size(own),
+                                     text);
             of->rate[i][k] = rate;
         }
     }
@@ -178,7 +176,8 @@ static void test_entries_of_full_mass_matrices(void) {
                 most = size.rate[i][k] > most ? size.rate[i][k] : most;
             }
         }
-        for (int i = of.coordinates; i < of.states; i++) { /* no entry is known better than its row */
+        for (int i = of.coordinates; i < of.states;
+             i++) { /* no entry is known better than its row */
             for (int k = 0; k < of.columns; k++) {
                 size.rate[i][k] += most;
             }
@@ -261,7 +260,8 @@ static void test_motions_are_those_of_the_exponential(void) {
             linear_draw(&seed, 1 + (int)(n % 4), (linear_kind){n % 3 == 0 ? 6 : 0, n % 2 != 0},
                         text, sizeof text, &of);
             const bool coupled = n % 2 != 0;
-            const bool exact = n % 5 < 3 || n % 3 == 0 || coupled; /* RK4 is not stable everywhere */
+            const bool exact =
+                n % 5 < 3 || n % 3 == 0 || coupled; /* RK4 is not stable everywhere */
             set_matrix(&m, text, ways[w].kind, exact ? MATRIX_EXACT : MATRIX_RK4,
                        ways[w].compensated);
             const double off = run_error(&of, text, &m, exact ? 0 : 4, 1000, &seed) / ways[w].unit;

@@ -18,8 +18,7 @@
 void suite_matrix_runs(void);
 
 static stepping as_matrix(const engine_kind *kind, image_matrix_of matrix, bool compensated) {
-    return (stepping){
-        .kind = kind, .method = WH_RK4, .compensated = compensated, .matrix = matrix};
+    return (stepping){.kind = kind, .method = WH_RK4, .compensated = compensated, .matrix = matrix};
 }
 
 /* --- S5 ---------------------------------------------------------------------------------------------- */
@@ -59,7 +58,8 @@ static double two_masses_off(stepping how, double unit) {
         motion_to(&m, 0.5 * half);
         how.kind->state(m.run, angle, real);
         for (int i = 0; i < 4; i++) {
-            const double scale = i < 2 ? 0.0127 : 0.0127 * 8.0; /* the masses swing at some 8 rad/s */
+            const double scale =
+                i < 2 ? 0.0127 : 0.0127 * 8.0; /* the masses swing at some 8 rad/s */
             worst = fmax(worst, (double)quad_size((quad)real[i] - x[i]) / scale / unit);
         }
     }
@@ -126,9 +126,9 @@ static void test_rounding_the_change_is_better(void) {
                  stiffness[k]);
         for (int way = 0; way < 3; way++) {
             motion m;
-            motion_open_text(&m, text,
-                             as_matrix(&engine_float, way == 0 ? MATRIX_NONE : MATRIX_EXACT,
-                                       way == 2));
+            motion_open_text(
+                &m, text,
+                as_matrix(&engine_float, way == 0 ? MATRIX_NONE : MATRIX_EXACT, way == 2));
             TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, MILLION));
             engine_float.state(m.run, angle, real[way]);
             motion_close(&m);
@@ -278,10 +278,9 @@ static void test_another_step_has_another_matrix(void) {
     motion_open(&other, "two_mass_absolute", how);
     image *again = image_again(m.image, other.instance, errors);
     TEST_ASSERT_NOT_NULL(again);
-    TEST_ASSERT_EQUAL_MEMORY(other.image->matrix.entry, again->matrix.entry,
-                             20 * sizeof(double));
-    TEST_ASSERT_NOT_EQUAL(0, memcmp(m.image->matrix.entry, again->matrix.entry,
-                                    20 * sizeof(double)));
+    TEST_ASSERT_EQUAL_MEMORY(other.image->matrix.entry, again->matrix.entry, 20 * sizeof(double));
+    TEST_ASSERT_NOT_EQUAL(0,
+                          memcmp(m.image->matrix.entry, again->matrix.entry, 20 * sizeof(double)));
     image_free(again);
     again = image_again(m.image, m.instance, errors);
     TEST_ASSERT_TRUE(again->list[IMAGE_MATRIX] == m.image->list[IMAGE_MATRIX]);
