@@ -79,7 +79,7 @@ static void test_constants_are_rounded_once(void) {
 /* --- the entries ------------------------------------------------------------------------------------ */
 
 /* Half a unit in the last place of a double. */
-static double half_unit(double x) { return (nextafter(fabs(x), INFINITY) - fabs(x)) / 2.0; }
+static double half_unit(double x) { return (nextafter(fabs(x), HUGE_VAL) - fabs(x)) / 2.0; }
 
 /* Most by which an entry is off beyond `share` of what its matrix allows it to be, in units of half its last digit. */
 static double entries_off(const linear *of, const image *im, quad want[][LINEAR_COLUMNS],
@@ -248,8 +248,8 @@ static void test_motions_are_those_of_the_exponential(void) {
         double most;
     } ways[] = {{&engine_double, false, DBL_EPSILON, 250.0},
                 {&engine_double, true, DBL_EPSILON, 90.0},
-                {&engine_float, false, FLT_EPSILON, 250.0},
-                {&engine_float, true, FLT_EPSILON, 20.0}};
+                {&engine_float, false, (double)FLT_EPSILON, 250.0},
+                {&engine_float, true, (double)FLT_EPSILON, 20.0}};
     for (size_t w = 0; w < sizeof ways / sizeof ways[0]; w++) {
         uint64_t seed = 7005;
         double worst = 0.0;

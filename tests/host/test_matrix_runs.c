@@ -75,8 +75,8 @@ static void test_two_masses_are_their_exponential(void) {
         double most;
     } ways[] = {{&engine_double, false, DBL_EPSILON, 40.0},
                 {&engine_double, true, DBL_EPSILON, 8.0},
-                {&engine_float, false, FLT_EPSILON, 40.0},
-                {&engine_float, true, FLT_EPSILON, 2.0}};
+                {&engine_float, false, (double)FLT_EPSILON, 40.0},
+                {&engine_float, true, (double)FLT_EPSILON, 2.0}};
     for (size_t w = 0; w < sizeof ways / sizeof ways[0]; w++) {
         const stepping exact = as_matrix(ways[w].kind, MATRIX_EXACT, ways[w].compensated);
         const stepping rk4 = as_matrix(ways[w].kind, MATRIX_NONE, ways[w].compensated);
