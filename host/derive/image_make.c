@@ -284,7 +284,9 @@ image *image_again(const image *base, const instance *inst, diags *errors) {
         }
     }
     start_components(&d);
-    if (im->step_s == base->step_s || im->settings.matrix == MATRIX_NONE) {
+    if (im->settings.matrix == MATRIX_NONE || im->step_s == im->base->step_s) {
+        im->list[IMAGE_MATRIX] = im->base->list[IMAGE_MATRIX];
+        im->matrix = im->base->matrix;
         return image_draft_done(&d);
     }
     return with_matrix(&d, NULL, IMAGE_TO_RUN, errors);

@@ -195,7 +195,7 @@ static void write_one_step(FILE *out, const image *im) {
         out);
     if (im->list[IMAGE_MATRIX] != NULL) {
         fprintf(out,
-                "    return wh_step_matrix(NULL, matrix, %s, %dU, %dU, %dU,\n"
+                "    return wh_step_matrix(NULL, step_matrix, %s, %dU, %dU, %dU,\n"
                 "                          WH_SPAN(%s, %s), state);\n}\n\n",
                 compensated, im->angles, im->reals, core_rates_at(im), hex, rest);
     } else if (im->ledger.kept) {

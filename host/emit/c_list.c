@@ -193,7 +193,7 @@ void c_list_function(FILE *out, const tape *t, c_angles angles, const char *name
 }
 
 void c_list_matrix(FILE *out, const tape *t) {
-    write_function(out, t, C_PHASES, "matrix", true, "WH_INLINE");
+    write_function(out, t, C_PHASES, "step_matrix", true, "WH_INLINE");
 }
 
 /* The rate of a wave times `scale`, as the interpreter sums it up. Of one angle, the numbers make one. */
