@@ -72,7 +72,7 @@ WH_INLINE wh_real wh_matrix_sum(wh_real value, wh_real increment, wh_real *carry
 WH_INLINE wh_status wh_step_matrix(const void *model, wh_accel_fn *matrix, bool compensated,
                                    unsigned angles, unsigned reals, unsigned rates_at, wh_span h,
                                    wh_state *state) {
-    wh_real given[5 * WH_COORDS];
+    wh_real given[4 * WH_COORDS];
     matrix(model, NULL, state->real, state->real + rates_at, state->input, given);
     if (angles == 0 && !compensated) {
         return wh_matrix_accept(given, reals, state);

@@ -53,8 +53,8 @@ static void multiply(const twofold *a, twofold factor, int columns, twofold *to)
 /* The coefficients of operation o, from those of all before it. False where it has none. */
 static bool step(const image *im, const op *o, const twofold *all, twofold *to) {
     const int columns = affine_columns(im);
-    const twofold *a = o->a >= 0 ? all + (ptrdiff_t)o->a * columns : NULL;
-    const twofold *b = o->b >= 0 ? all + (ptrdiff_t)o->b * columns : NULL;
+    const twofold *a = all + (ptrdiff_t)(o->a >= 0 ? o->a : 0) * columns;
+    const twofold *b = all + (ptrdiff_t)(o->b >= 0 ? o->b : 0) * columns;
     const int last = columns - 1;
     switch (o->code) {
     case OP_CONSTANT: to[last] = twofold_of(o->value); return true;

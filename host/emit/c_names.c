@@ -28,8 +28,9 @@ static const char words_of_cpp[] =
  * within functions is free.) */
 static const char own[] =
     "main accelerations slopes step_matrix one_step advance ahead observe start_angle start_real "
-    "start_input contacts contact_signals contact_forces contact_sets contact_table contact_target ledger "
-    "ledger_powers ledger_levels ledger_accounts ledger_inputs waves wave_sines wave_rates "
+    "start_input contacts contact_signals contact_forces contact_sets contact_table "
+    "contact_target ledger ledger_powers ledger_levels ledger_accounts ledger_inputs waves "
+    "wave_sines wave_rates "
     "WH";
 
 /* Macros that a GNU dialect begins with, for one target or another. */
