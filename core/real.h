@@ -68,6 +68,11 @@ typedef float wh_real;
  * a call costs little, and their flash is small. */
 #if defined(__AVR__) || (defined(__arm__) && !defined(__ARM_FP)) || \
     (defined(__riscv) && !defined(__riscv_flen))
+#define WH_SOFT_FLOAT 1
+#else
+#define WH_SOFT_FLOAT 0
+#endif
+#if WH_SOFT_FLOAT
 #define WH_INLINE_WITH_FPU static __attribute__((noinline, unused))
 #else
 #define WH_INLINE_WITH_FPU WH_INLINE

@@ -52,6 +52,9 @@ $(ELF)/$(1).elf: $(call objects,$(BOARD),$(2)) $(BOARD_OBJECTS) $(call libraries
 	$$(link_board)
 endef
 
+# Linear scenes that are built again, each step one product with a matrix (mk/price.mk, tests/matrix_hashes.sh).
+MATRIX := two_mass_relative cartesian_flight
+
 # Every scene; and the rig's firmware, whose hardware hal/virtual plays.
 $(eval $(call program,scenes,boards/programs/scenes.c,scenes whirl))
 $(eval $(call program,firmware,boards/programs/rig.c,whirl rig virtual scenes))
@@ -75,7 +78,7 @@ GUARDS := $(patsubst tests/boards/%.c,$(ELF)/%.elf,$(wildcard tests/boards/guard
 $(GUARDS): $(ELF)/%.elf: $(B)/$(BOARD)/tests/boards/%.o $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl)
 	$(link_board)
 
-.PHONY: board-images board-tests run-suites print-hashes
+.PHONY: board-images board-tests run-suites print-hashes print-matrix-hashes bench-matrix
 board-images: $(IMAGES)
 board-tests: $(ELF)/tests.elf $(GUARDS)
 run-suites: # the portable suites, then what guards the stack
@@ -83,6 +86,12 @@ run-suites: # the portable suites, then what guards the stack
 print-hashes: # a line for each scene, with the hash of its last state
 	@$(call need,$(BOARD_EMULATOR))
 	@$(call emulate,$(ELF)/scenes.elf)
+bench-matrix: $(ELF)/bench_matrix.elf $(PLUGIN) # a step of linear scenes as one matrix
+	@mkdir -p $(FIGURES)
+	@$(call count_board,$<)
+print-matrix-hashes: $(ELF)/scenes_matrix.elf # of linear scenes, a step as one matrix
+	@$(call need,$(BOARD_EMULATOR))
+	@$(call emulate,$<)
 endif
 
 # A board is built and run by a make of its own: $(call on_board,NAME,TARGET).

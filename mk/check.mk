@@ -147,11 +147,20 @@ build_hashes = $(MAKE) $(addprefix hash-,$(HASH_BUILDS)) && $(foreach b,$(1),$(c
 compare_hashes = sh tests/hashes.sh build/hash "the interpreter" "build/whirl hashes" \
     $(foreach h,$(HASH_BUILDS),$(h) build/hash/$(h)/scenes) \
     $(foreach b,$(1),"$(b)" "$(call on_board,$(b),print-hashes)")
+# Linear scenes again, a step as one matrix, on the boards $(1).
+compare_matrix_hashes = sh tests/hashes.sh build/hash/matrix "the interpreter" "sh tests/matrix_hashes.sh $(MATRIX)" \
+    "this machine" build/scenes_matrix $(foreach b,$(1),"$(b)" "$(call on_board,$(b),print-matrix-hashes)")
 
-.PHONY: hashes-now hashes-all-now gate-hashes $(addprefix hash-,$(HASH_BUILDS))
+.PHONY: hashes-matrix hashes-now hashes-all-now gate-hashes $(addprefix hash-,$(HASH_BUILDS))
 hashes-now gate-hashes: $(GEN)/.stamp
 	+@$(call build_hashes,$(BOARDS))
 	@$(call compare_hashes,$(BOARDS))
+	@$(MAKE) hashes-matrix
+# HASH_BOARDS="mps2-an386 atmega328p": on these.
+HASH_BOARDS ?= $(BOARDS)
+hashes-matrix: $(GEN)/.stamp
+	@$(MAKE) build/scenes_matrix
+	@$(call compare_matrix_hashes,$(HASH_BOARDS))
 
 # Processors that are no boards of ours but must have the same bits: builds of this machine's program for them
 # (mk/hosts.mk), run by qemu-user and by node.

@@ -10,9 +10,11 @@ BY_HAND := naive_epicyclic naive_thomson careful_thomson
 COMPENSATED := epicyclic_from_rest thomson_a
 AHEAD := epicyclic_from_rest epicyclic_conserved thomson_a thomson_a_conserved rig_fixed
 again_compensated := --compensated
+again_matrix := --matrix exact
 again_c = $(patsubst %,build/$(1)/%.c,scenes $($(2)))
 COMPENSATED_C := $(call again_c,compensated,COMPENSATED)
 AHEAD_C := $(call again_c,ahead,AHEAD)
+MATRIX_C := $(call again_c,matrix,MATRIX)
 # What of the flags belongs beside a figure.
 TOLD = $(filter -O% -m%,$(1))
 
@@ -26,6 +28,8 @@ $(PLUGIN): $(PLUGIN_C) mk/count/thumb_cycles.h
 $(eval $(call program,bench,$(BENCH_C),scenes whirl))
 $(eval $(call program,bench_compensated,$(BENCH_C) $(COMPENSATED_C),whirl))
 $(eval $(call program,bench_ahead,$(BENCH_C) $(AHEAD_C),whirl))
+$(eval $(call program,bench_matrix,$(BENCH_C) $(MATRIX_C),whirl))
+$(eval $(call program,scenes_matrix,boards/programs/scenes.c $(MATRIX_C),whirl))
 $(ELF)/build/ahead/%.o $(B)/float/build/ahead/%.o: FILE_FLAGS := -DWH_AHEAD=1
 
 $(B)/bench_double: $(call objects,double,$(BENCH_C) boards/host/board.c) \
@@ -45,7 +49,8 @@ build/$(1)/scenes.c: mk/count/index.sh $(2:%=build/$(1)/%.c)
 endef
 $(eval $(call scenes_again,compensated,$(COMPENSATED)))
 $(eval $(call scenes_again,ahead,$(AHEAD)))
-.SECONDARY: $(COMPENSATED_C) $(AHEAD_C)
+$(eval $(call scenes_again,matrix,$(MATRIX)))
+.SECONDARY: $(COMPENSATED_C) $(AHEAD_C) $(MATRIX_C)
 
 $(addprefix $(B)/tools/,$(BY_HAND)): $(B)/tools/%: $(B)/host/tests/tools/%.o \
     $(B)/host/tests/tools/naive_main.o
@@ -80,15 +85,17 @@ worst-now: $(GEN)/.stamp
 bench-now: $(GEN)/.stamp
 	@$(MAKE) build/bench build/bench_compensated build/bench_double \
 	    $(addprefix build/tools/,$(BY_HAND)) $(PLUGIN) \
-	    $(ELF)/bench.elf $(ELF)/bench_compensated.elf $(ELF)/bench_ahead.elf
+	    $(ELF)/bench.elf $(ELF)/bench_compensated.elf $(ELF)/bench_ahead.elf \
+	    build/bench_matrix $(ELF)/bench_matrix.elf
 	@mkdir -p $(FIGURES)
 	@echo "Instructions a step (executed, not cycles):"
-	@for program in bench bench_compensated bench_double $(addprefix tools/,$(BY_HAND)); do \
+	@for program in bench bench_compensated bench_matrix bench_double $(addprefix tools/,$(BY_HAND)); do \
 	    CC="$(CC)" FLAGS="$(OPT)" \
 	        mk/count/count_host.sh build/$$program $(FIGURES)/bench.csv || exit 1; done
 	@$(call count_board,$(ELF)/bench.elf)
 	@$(call count_board,$(ELF)/bench_compensated.elf)
 	@$(call count_board,$(ELF)/bench_ahead.elf)
+	@$(call count_board,$(ELF)/bench_matrix.elf)
 
 # --- every board beside the others ----------------------------------------------------------------
 # These scenes' steps: instructions, cycles where something counts or estimates them, bytes.

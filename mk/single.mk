@@ -27,6 +27,19 @@ $(SINGLE)/scene_%.elf: $(B)/$(BOARD)/$(GEN)/%.o $(BOARD_OBJECTS) $(call librarie
 	$(Q)$(call single_link,boards/programs/scenes.c $(@:.elf=.c),-I$(GEN) -include $(GEN)/$*.h \
 	    -DWH_SCENE_WORDS=$*_MEMORY_WORDS -DSCENE_STEPS_MOST=$(SINGLE_STEPS)U)
 
+# A linear scene again, a step as one matrix (mk/price.mk): to its end, and counted.
+matrix_link = mk/count/index.sh $* >$(@:.elf=.c) && $(call single_link,$(1) $(@:.elf=.c),-Ibuild/matrix \
+    -include build/matrix/$*.h -DWH_SCENE_WORDS=$*_MEMORY_WORDS -DBENCH_SMALL=1)
+MATRIX_NEEDS := $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl) boards/programs/table.h mk/count/index.sh
+$(SINGLE)/matrix_%.elf: $(B)/$(BOARD)/build/matrix/%.o boards/programs/scenes.c $(MATRIX_NEEDS)
+	@mkdir -p $(@D)
+	$(say) LINK $@
+	$(Q)$(call matrix_link,boards/programs/scenes.c)
+$(SINGLE)/bench_matrix_%.elf: $(B)/$(BOARD)/build/matrix/%.o boards/programs/bench.c boards/programs/counted.h $(MATRIX_NEEDS)
+	@mkdir -p $(@D)
+	$(say) LINK $@
+	$(Q)$(call matrix_link,boards/programs/bench.c)
+
 # What several suites share: each takes what it needs of it.
 $(SINGLE)/shared.a: $(call objects,$(BOARD),tests/core/hand.c tests/core/bench.c \
     tests/core/exact.c tests/core/exact_law.c)
@@ -46,7 +59,7 @@ LARGE_SUITES = $(patsubst suite_%,%,$(shell sed -n 's/^suite /suite_/p' $(TOO_LA
 SINGLE_SCENES = $(patsubst %,$(SINGLE)/scene_%.elf,$(filter-out $(LARGE_SCENES),$(SCENE_NAMES)))
 SINGLE_SUITES = $(patsubst %,$(SINGLE)/suite_%.elf,$(filter-out $(LARGE_SUITES),$(SUITE_NAMES)))
 
-.PHONY: board-images board-tests run-suites print-hashes too-large-now
+.PHONY: board-images board-tests run-suites print-hashes print-matrix-hashes bench-matrix too-large-now
 IMAGES = $(SINGLE_SCENES)
 board-images: $(SINGLE_SCENES) $(AVR_RUN)
 board-tests: $(SINGLE_SUITES) $(AVR_RUN)
@@ -56,6 +69,10 @@ run-suites: # each says how many tests failed
 print-hashes:
 	@for elf in $(SINGLE_SCENES); do $(call emulate,$$elf) || exit 1; done
 	@for scene in $(LARGE_SCENES); do echo "without $$scene"; done
+bench-matrix: $(MATRIX:%=$(SINGLE)/bench_matrix_%.elf) $(AVR_RUN) # a step of linear scenes as one matrix
+	@BOARD=$(BOARD) CC=$(BOARD_CC) EMULATE="$(call emulate,IMAGE)" mk/count/single_rows.sh $(filter %.elf,$^)
+print-matrix-hashes: $(MATRIX:%=$(SINGLE)/matrix_%.elf) $(AVR_RUN)
+	@for scene in $(MATRIX); do $(call emulate,$(SINGLE)/matrix_$$scene.elf) || exit 1; done
 
 # What does not link, and what has too little room for its stack when it runs (exit status 123).
 too-large-now: $(AVR_RUN)

@@ -7,6 +7,7 @@
 #include "commands.h"
 #include "files.h"
 #include "host/emit/emit.h"
+#include "host/emit/matrix.h"
 #include "host/lang/lexer.h"
 #include "host/run/start.h"
 #include "host/show/show_equations.h"
@@ -16,15 +17,25 @@
 static void text(const loaded *made, const char *file) {
     (void)file;
     show_text(stdout, made->equations);
+    if (made->image->settings.matrix != MATRIX_NONE) {
+        matrix_text(stdout, made->image);
+    }
 }
 
 static void latex(const loaded *made, const char *file) {
     (void)file;
     show_latex(stdout, made->equations);
+    if (made->image->settings.matrix != MATRIX_NONE) {
+        matrix_latex(stdout, made->image);
+    }
 }
 
 static void octave(const loaded *made, const char *file) {
-    emit_octave(stdout, made->image, file, made->contacts);
+    if (made->image->settings.matrix != MATRIX_NONE) {
+        matrix_octave(stdout, made->image, file);
+    } else {
+        emit_octave(stdout, made->image, file, made->contacts);
+    }
 }
 
 static void c(const loaded *made, const char *file) { emit_c(stdout, made->image, file); }
@@ -131,7 +142,10 @@ static void print_usage(FILE *out) {
                  "what the scene is called there, so that one program can hold it twice: with and "
                  "without an effect, compensated and not");
     options_usage(out, &options_of_derive);
-    fprintf(out, "The method matters to %s only.\n", forms_with(has_steps, said));
+    fprintf(out,
+            "The method matters to %s only. With --matrix, every form has the\n"
+            "matrix: octave in place of the equations, to the last digit.\n",
+            forms_with(has_steps, said));
 }
 
 /* Does the option, "--header" or so, with its value's word, go with this form? Else it is said with which. */
@@ -218,7 +232,7 @@ static int derive_one(source_model *from, const mechanism *of, const scene *in,
     const load_wish wish = {.settings = *settings,
                             .use = IMAGE_TO_WRITE,
                             .keep = as->shows ? KEEP_EQUATIONS : KEEP_IMAGE,
-                            .conserve = as->runs,
+                            .conserve = as->runs || settings->matrix != MATRIX_NONE,
                             .comment = as->comment};
     loaded made;
     int code = load(&made, from, of, in, changes, &wish);

@@ -276,6 +276,11 @@ static bool take(common_option which, const char *command, const char *value, co
                                 sizeof image_angles_words[0], IMAGE_ANGLES);
         to->integration.angles = chosen < 0 ? ANGLES_TURNED : (image_angles)chosen;
         return chosen >= 0;
+    case OPTION_MATRIX:
+        chosen = options_choose(command, "matrix", value, image_matrix_words,
+                                sizeof image_matrix_words[0], IMAGE_MATRICES);
+        to->integration.matrix = chosen < 0 ? MATRIX_NONE : (image_matrix_of)chosen;
+        return chosen >= 0;
     case OPTION_NUMBER:
         chosen = options_choose(command, "number", value, numbers, sizeof numbers[0],
                                 sizeof numbers / sizeof numbers[0]);

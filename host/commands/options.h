@@ -31,7 +31,11 @@
       "carry the rounding error of every sum along") \
     X(OPTION_ANGLES, "--angles", "A", OPTIONS_ENGINE, \
       "turned (default): sines are looked up once a step where the angles' rates\n" \
-      "allow it; lookup: at each stage, for angles that turn far in a step")
+      "allow it; lookup: at each stage, for angles that turn far in a step") \
+    X(OPTION_MATRIX, "--matrix", "M", OPTIONS_ENGINE, \
+      "a whole step as one constant matrix, of a linear mechanism without events:\n" \
+      "exact: the motion itself, inputs held over the step; rk4: what that method makes\n" \
+      "of it; none (default): stages")
 
 #define OPTION_NAME(which, word, value, group, text) which,
 typedef enum common_option { OPTION_ROWS(OPTION_NAME) } common_option;
@@ -95,7 +99,7 @@ typedef struct change_options {
 /* Where the common options of a command go. */
 typedef struct common_options {
     change_options change;
-    image_settings integration; /* --method, --compensated, --angles */
+    image_settings integration; /* --method, --compensated, --angles, --matrix */
     const engine_kind *number;  /* --number: what computes */
 } common_options;
 

@@ -10,6 +10,7 @@
 #include "host/lang/words.h"
 #include "host/number/phase.h"
 #include "image_parts.h"
+#include "matrix_make.h"
 #include "program.h"
 
 /* --- what does not depend on the lists -------------------------------------------------------------*/
@@ -220,6 +221,23 @@ static void take_program(image_draft *d, program *p) {
     }
 }
 
+/* The matrix that is asked for; `use` tells whether there is a blame list. The image, or NULL, reported. An image that
+ * once had a matrix has one for every step, unless its numbers grow too large: that needs no equations. */
+static image *with_matrix(image_draft *d, const equations *e, image_use use, diags *errors) {
+    bool wants_blame;
+    bool good = matrix_make(d, use == IMAGE_TO_RUN, &wants_blame, errors);
+    if (wants_blame) {
+        blame_make(d, e);
+        good = matrix_make(d, true, &wants_blame, errors);
+    }
+    image *made = image_draft_done(d);
+    if (!good) {
+        image_free(made);
+        made = NULL;
+    }
+    return made;
+}
+
 image *image_make(const equations *e, const bool *conserve, const image_settings *settings,
                   image_use use, diags *errors) {
     program *p = program_make(e, conserve, settings->compensated, errors);
@@ -247,10 +265,11 @@ image *image_make(const equations *e, const bool *conserve, const image_settings
     if (use == IMAGE_TO_RUN) {
         blame_make(&d, e);
     }
-    return image_draft_done(&d);
+    return im->settings.matrix != MATRIX_NONE ? with_matrix(&d, e, use, errors)
+                                              : image_draft_done(&d);
 }
 
-image *image_again(const image *base, const instance *inst) {
+image *image_again(const image *base, const instance *inst, diags *errors) {
     image_draft d = image_draft_new();
     image *im = d.made;
     struct arena *memory = im->memory;
@@ -269,5 +288,10 @@ image *image_again(const image *base, const instance *inst) {
         }
     }
     start_components(&d);
-    return image_draft_done(&d);
+    if (im->settings.matrix == MATRIX_NONE || im->step_s == im->base->step_s) {
+        im->list[IMAGE_MATRIX] = im->base->list[IMAGE_MATRIX];
+        im->matrix = im->base->matrix;
+        return image_draft_done(&d);
+    }
+    return with_matrix(&d, NULL, IMAGE_TO_RUN, errors);
 }

@@ -16,7 +16,8 @@ image *image_make(const equations *e, const bool *conserve, const image_settings
                   image_use use, diags *errors);
 
 /* The same lists from other starts, inputs, step and end: those of `inst`, an instance of the same mechanism and
- * scene with the same parameters. `base` must not be freed before it. */
-image *image_again(const image *base, const instance *inst);
+ * scene with the same parameters; of another step, a matrix of its own. `base` must not be freed before it. NULL, reported,
+ * where there is no such matrix. */
+image *image_again(const image *base, const instance *inst, diags *errors);
 
 #endif

@@ -163,11 +163,9 @@ void c_list_ignore(FILE *out, bool used, const char *name) {
     }
 }
 
-void c_list_function(FILE *out, const tape *t, c_angles angles, const char *name, bool second,
-                     bool by_pointer) {
-    const char *linkage = tape_operations(t) > INLINED_MOST ? "static"
-                          : by_pointer                      ? "static inline"
-                                                            : "WH_INLINE_WITH_FPU";
+static void write_function(FILE *out, const tape *t, c_angles angles, const char *name, bool second,
+                           const char *inlined) {
+    const char *linkage = tape_operations(t) > INLINED_MOST ? "static" : inlined;
     const int indent = (int)(strlen(linkage) + sizeof " void (" - 1 + strlen(name));
     fprintf(out, "%s void %s(const void *model, const wh_%s,\n", linkage, name,
             angles == C_WAVES ? "wave *wave" : "phase *phase");
@@ -186,6 +184,16 @@ void c_list_function(FILE *out, const tape *t, c_angles angles, const char *name
     c_list_ignore(out, c_list_uses(t, OP_INPUT), "input");
     c_list_ignore(out, t->results > 0, "result");
     c_list_body(out, t, angles, "result");
+}
+
+void c_list_function(FILE *out, const tape *t, c_angles angles, const char *name, bool second,
+                     bool by_pointer) {
+    write_function(out, t, angles, name, second,
+                   by_pointer ? "static inline" : "WH_INLINE_WITH_FPU");
+}
+
+void c_list_matrix(FILE *out, const tape *t) {
+    write_function(out, t, C_PHASES, "step_matrix", true, "WH_INLINE");
 }
 
 /* The rate of a wave times `scale`, as the interpreter sums it up. Of one angle, the numbers make one. */

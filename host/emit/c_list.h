@@ -22,6 +22,9 @@ void c_list_body(FILE *out, const tape *t, c_angles angles, const char *result);
 void c_list_function(FILE *out, const tape *t, c_angles angles, const char *name, bool second,
                      bool by_pointer);
 
+/* "step_matrix", what wh_step_matrix() calls: once a step, so that inlining it takes no flash on any processor. */
+void c_list_matrix(FILE *out, const tape *t);
+
 /* "waves", the wh_waves of a list that takes pairs, and what it needs. */
 void c_list_waves(FILE *out, const tape *t);
 

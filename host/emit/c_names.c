@@ -27,9 +27,10 @@ static const char words_of_cpp[] =
 /* What a generated file has for itself: objects and functions. (It declares its scene behind all of them: what is named
  * within functions is free.) */
 static const char own[] =
-    "main accelerations slopes one_step advance ahead observe start_angle start_real start_input contacts "
-    "contact_signals contact_forces contact_sets contact_table contact_target ledger "
-    "ledger_powers ledger_levels ledger_accounts ledger_inputs waves wave_sines wave_rates "
+    "main accelerations slopes step_matrix one_step advance ahead observe start_angle start_real "
+    "start_input contacts contact_signals contact_forces contact_sets contact_table "
+    "contact_target ledger ledger_powers ledger_levels ledger_accounts ledger_inputs waves "
+    "wave_sines wave_rates "
     "WH";
 
 /* Macros that a GNU dialect begins with, for one target or another. */

@@ -8,12 +8,12 @@
 #include "host/image/core_rows.h"
 #include "host/image/memory.h"
 #include "host/image/turned.h"
-#include "json.h"
+#include "matrix.h"
 
 const char *const describe_roles[IMAGE_ROLES] = {
     [IMAGE_STEP] = "step",       [IMAGE_OBSERVE] = "observe", [IMAGE_BOOKS] = "books",
     [IMAGE_SIGNALS] = "signals", [IMAGE_FORCES] = "forces",   [IMAGE_SETS] = "sets",
-    [IMAGE_POWERS] = "powers",   [IMAGE_LEVELS] = "levels"};
+    [IMAGE_POWERS] = "powers",   [IMAGE_LEVELS] = "levels",   [IMAGE_MATRIX] = "matrix"};
 
 const char *describe_ledger_kind(ledger_kind kind) {
     switch (kind) {
@@ -233,6 +233,7 @@ void describe_json(FILE *out, const image *im, const char *file) {
     json_whole(&j, "stages", core_stages(im));
     json_bool(&j, "compensated", im->settings.compensated);
     json_text(&j, "sines", image_angles_words[image_turns(im) ? ANGLES_TURNED : ANGLES_LOOKUP]);
+    matrix_json(&j, im);
     put_time(&j, im);
     put_effects(&j, im);
     put_quantities(&j, "parameters", im->parameter, im->parameters, true);

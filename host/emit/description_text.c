@@ -101,7 +101,7 @@ void describe_text(FILE *out, const image *im, const char *file) {
         }
     }
     fprintf(out, "  %s order, %s%s, step %.9g s, %" PRIu64 " steps to t = %.9g s\n",
-            im->form == WH_SECOND_ORDER ? "second" : "first", wh_methods[im->settings.method].title,
+            im->form == WH_SECOND_ORDER ? "second" : "first", image_stepper(im),
             im->settings.compensated ? " compensated" : "", im->step_s, im->steps, im->until_s);
     put_state(out, im);
     put_quantities(out, "inputs", "input ", im->input, im->inputs, true);
@@ -111,12 +111,16 @@ void describe_text(FILE *out, const image *im, const char *file) {
     put_contacts(out, im);
     put_ledger(out, im);
     put_lists(out, im);
-    fprintf(out, "\na step evaluates the %s at most %d times",
-            im->form == WH_SECOND_ORDER ? "accelerations" : "slopes", core_evaluations(im));
+    if (im->settings.matrix != MATRIX_NONE) {
+        fprintf(out, "\na step is one product with a matrix");
+    } else {
+        fprintf(out, "\na step evaluates the %s at most %d times",
+                im->form == WH_SECOND_ORDER ? "accelerations" : "slopes", core_evaluations(im));
+    }
     if (im->contacts > 0) {
         fprintf(out, ", the contacts' signals %d times", core_signals(im));
     }
-    if (im->angles > 0) {
+    if (im->angles > 0 && im->settings.matrix == MATRIX_NONE) {
         fprintf(out, "\nsines of turn angles: looked up %s",
                 image_turns(im) ? "once a step, and turned" : "at each stage");
     }

@@ -185,7 +185,7 @@ bool emit_octave_name_is_free(const char *name) {
         "nargout", "pi", "realmax", "realmin", "true", "varargin", "varargout", "flintmax",
         "intmax", "intmin",
         /* the file's own, and what its first lines call */
-        "t", "y", "dy", "zeros", "isreal", "ode45", "odeset", "save"};
+        "t", "y", "dy", "Phi", "Gamma", "g0", "zeros", "isreal", "ode45", "odeset", "save"};
     function_id called;
     for (size_t i = 0; i < sizeof taken / sizeof taken[0]; i++) {
         if (strcmp(name, taken[i]) == 0) {

@@ -38,8 +38,15 @@ static inline wh_contact_system core_contact_system(const image *im, const wh_co
                                .coordinates = (uint8_t)im->coordinates};
 }
 
-/* What WH_CONTACT_EVALUATIONS() takes. */
-static inline int core_stages(const image *im) { return wh_methods[im->settings.method].stages; }
+/* What WH_CONTACT_EVALUATIONS() takes. A matrix has none. */
+static inline int core_stages(const image *im) {
+    return im->settings.matrix != MATRIX_NONE ? 0 : wh_methods[im->settings.method].stages;
+}
+
+/* Where wh_step_matrix() finds the rates: behind so many reals. */
+static inline int core_rates_at(const image *im) {
+    return im->form == WH_SECOND_ORDER ? im->coordinates - im->angles : 0;
+}
 
 static inline int core_stops(const image *im) {
     int stops = 0;

@@ -7,14 +7,25 @@ void image_free(image *im) {
     if (im == NULL) {
         return;
     }
-    for (int role = 0; role < IMAGE_ROLES && im->base == NULL; role++) {
-        tape_free(im->list[role]);
+    for (int role = 0; role < IMAGE_ROLES; role++) {
+        if (im->base == NULL || im->list[role] != im->base->list[role]) {
+            tape_free(im->list[role]);
+        }
     }
     arena_free(im->memory);
 }
 
 component image_component(const image *im, int i) {
     return i < im->angles ? im->angle[i] : im->real[i - im->angles];
+}
+
+const char *image_stepper(const image *im) {
+    switch (im->settings.matrix) {
+    case MATRIX_NONE: break;
+    case MATRIX_EXACT: return "one exact matrix a step";
+    case MATRIX_RK4: return "Runge-Kutta 4 as one matrix a step";
+    }
+    return wh_methods[im->settings.method].title;
 }
 
 bool image_shows_si(const image_unit *unit) { return unit->scale == unit->divisor; }
@@ -47,7 +58,8 @@ bool image_calls(const image *im) {
 }
 
 double image_out_of_float(const image *im) {
-    static const image_role moving[] = {IMAGE_STEP, IMAGE_SIGNALS, IMAGE_FORCES, IMAGE_SETS};
+    const image_role step = im->list[IMAGE_MATRIX] != NULL ? IMAGE_MATRIX : IMAGE_STEP;
+    const image_role moving[] = {step, IMAGE_SIGNALS, IMAGE_FORCES, IMAGE_SETS};
     double found = 0.0;
     for (size_t k = 0; k < sizeof moving / sizeof moving[0] && found == 0.0; k++) {
         const tape *t = im->list[moving[k]];

@@ -33,16 +33,32 @@ enum { IMAGE_ANGLES = IMAGE_ANGLES_ROWS(IMAGE_ANGLES_ONE) };
 /* Their words on command lines and in descriptions. */
 extern const char *const image_angles_words[IMAGE_ANGLES];
 
+/* A whole step as one constant matrix (core/matrix_step.h), of a mechanism that is linear: no, the exact motion with
+ * inputs held over the step, or what WH_RK4 makes of it. */
+#define IMAGE_MATRIX_ROWS(X) \
+    X(MATRIX_NONE, "none") \
+    X(MATRIX_EXACT, "exact") \
+    X(MATRIX_RK4, "rk4")
+#define IMAGE_MATRIX_NAME(id, word) id,
+typedef enum image_matrix_of { IMAGE_MATRIX_ROWS(IMAGE_MATRIX_NAME) } image_matrix_of;
+#undef IMAGE_MATRIX_NAME
+#define IMAGE_MATRIX_ONE(id, word) +1
+enum { IMAGE_MATRICES = IMAGE_MATRIX_ROWS(IMAGE_MATRIX_ONE) };
+#undef IMAGE_MATRIX_ONE
+/* Their words on command lines and in descriptions. */
+extern const char *const image_matrix_words[IMAGE_MATRICES];
+
 /* How to integrate. */
 typedef struct image_settings {
     wh_method method;
     bool compensated;
     image_angles angles;
+    image_matrix_of matrix;
 } image_settings;
 
 /* What is integrated with unless something else is asked for. */
 #define IMAGE_SETTINGS_DEFAULT \
-    { WH_METHOD_DEFAULT, false, ANGLES_TURNED }
+    { WH_METHOD_DEFAULT, false, ANGLES_TURNED, MATRIX_NONE }
 
 /* --- the lists -----------------------------------------------------------------------------------*/
 
@@ -57,6 +73,7 @@ typedef enum image_role {
     IMAGE_SETS,
     IMAGE_POWERS, /* of the ledger, as core/ledger.h wants them: the last two */
     IMAGE_LEVELS,
+    IMAGE_MATRIX, /* a whole step, as core/matrix_step.h wants it */
     IMAGE_ROLES
 } image_role;
 
@@ -186,6 +203,7 @@ typedef struct blame_node {
 typedef struct blame_question {
     int node;
     bool derived; /* a slope: only the statement can be blamed, not a part of it */
+    int power;    /* of the state that it has at most where a mechanism is linear; of terms only */
     const char *what;
     place where;
 } blame_question;
@@ -198,6 +216,15 @@ typedef struct image_blame {
     int terms; /* energies, losses, forces, equations, and their slopes */
     int sets;  /* values that crossings set */
 } image_blame;
+
+/* --- a step as a matrix ------------------------------------------------------------------------------*/
+
+/* x+ = Phi x + Gamma u + g: `states` rows, angles first; columns: states, inputs, 1. Angles in radians; SI units. */
+typedef struct image_matrix {
+    int states;
+    int columns;
+    double *entry; /* [states * columns] row by row, the nearest doubles */
+} image_matrix;
 
 /* --- the image ---------------------------------------------------------------------------------------*/
 
@@ -257,6 +284,8 @@ typedef struct image {
     image_ledger ledger;
     image_blame blame; /* empty unless it was asked for */
 
+    image_matrix matrix; /* empty unless settings.matrix asks for one */
+
     uint64_t hash;           /* of what moves it */
     tape *list[IMAGE_ROLES]; /* NULL where there is none */
 } image;
@@ -265,6 +294,9 @@ void image_free(image *im); /* NULL is fine */
 
 /* Component i of the state: angles first. */
 component image_component(const image *im, int i);
+
+/* What steps it, in words: the method's title, or which matrix. */
+const char *image_stepper(const image *im);
 
 /* The number that people read of an SI value, and whether that is the value itself. */
 double image_shown(const image_unit *unit, double si);

@@ -52,9 +52,9 @@ void summary_print(FILE *out, const image *im, const engine_kind *kind, void *ru
             fprintf(out, "  with %s: %s\n", im->effect[i].name, im->effect[i].text);
         }
     }
-    fprintf(out, "  %s%s, %s, step %.9g s, %" PRIu64 " steps to t = %.15g s\n",
-            wh_methods[im->settings.method].title, im->settings.compensated ? " compensated" : "",
-            kind->name, im->step_s, steps, ratio_times(steps, im->step));
+    fprintf(out, "  %s%s, %s, step %.9g s, %" PRIu64 " steps to t = %.15g s\n", image_stepper(im),
+            im->settings.compensated ? " compensated" : "", kind->name, im->step_s, steps,
+            ratio_times(steps, im->step));
     print_state(out, im, kind, run);
     if (im->contacts > 0) {
         print_events(out, im, kind, run);

@@ -93,7 +93,7 @@ static channel channel_of(const image *im, const expr *e, int output) {
 /* The point's image; NULL, reported, when it has none. */
 static image *image_at(const sweep *s, const instance *inst, diags *errors) {
     if (s->shared != NULL) {
-        return image_again(s->shared, inst);
+        return image_again(s->shared, inst, errors);
     }
     equations *e = equations_derive(inst, errors);
     image *im = e == NULL ? NULL : image_make(e, inst->conserve, &s->engine, IMAGE_TO_RUN, errors);

@@ -292,6 +292,12 @@ says 2 "there is no form of angles 'looked'" run "$scratch/wheel.whirl" --angles
 prints '^  "sines": "turned",$' describe "$scratch/wheel.whirl" --json
 prints '^  "sines": "lookup",$' describe "$scratch/wheel.whirl" --json --angles lookup
 prints '^  "sines": "turned",$' describe "$scratch/wheel.whirl" --json --start "a'=3000"
+says 2 "there is no matrix 'exactly'" run two_mass_relative --matrix exactly
+says 2 "cos\(\) of a in line 5 makes 'spin' not linear" describe "$scratch/wheel.whirl" --matrix exact
+prints '^  "matrix": "none",$' describe two_mass_relative --json
+prints '^  "matrix": "rk4",$' describe two_mass_relative --json --matrix rk4
+prints '^  Phi  *X  *Y  *X. *Y.$' derive two_mass_relative --matrix exact
+prints '^function .Phi, Gamma, g0. = two_mass_relative..$' derive two_mass_relative --matrix exact --as octave
 prints 'sines of turn angles: looked up once a step, and turned' describe "$scratch/wheel.whirl"
 
 # --- float angles that turn too slowly ------------------------------------------------------------------

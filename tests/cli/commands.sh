@@ -82,7 +82,7 @@ effect drag "drag" { Q(x) += -0.1 [N*s/m]*x' }
 effect wind "wind" { Q(x) += 0.2 [N] }
 scene plain_swings { with drag; start x = 1 [m], a = 1 [rad]; step 10 [ms]; until 0.1 [s] }
 END
-plain=$scratch/plain.whirl:plain_swings
+sed 's/ - 9 \[J\]\*cos(a)/ + 9 [J]*a^2/' "$scratch/plain.whirl" >"$scratch/linear.whirl"
 sample() { # a value of that option that is not what the scene has
     case $1 in
     --set) echo k=9 ;;
@@ -95,6 +95,7 @@ sample() { # a value of that option that is not what the scene has
     --number) echo float ;;
     --compensated) ;;
     --angles) echo lookup ;;
+    --matrix) echo exact ;;
     *) echo "no-sample-in-$0" ;;
     esac
 }
@@ -119,6 +120,8 @@ while read -r word value group; do
         *) set -- "$word" "$(sample "$word")" ;;
         esac
         [ -n "$2" ] || set -- "$word"
+        plain=$scratch/plain.whirl:plain_swings
+        [ "$word" != --matrix ] || plain=$scratch/linear.whirl:plain_swings
         ends "$command" >"$scratch/without" 2>/dev/null
         ends "$command" "$@" >"$scratch/with" 2>"$scratch/err"
         status=$?

@@ -161,6 +161,53 @@ scene clock_drives { start t' = 1; conserve t }
 END
 add "$scratch/w/clock.whirl:clock_drives" --until 0.3s
 
+# a whole step as one matrix: masses, a rotor whose angle is in no force, an input, gravity, a free mass; first order
+cat >"$scratch/w/rotor.whirl" <<'END'
+mechanism rotor "a rotor with friction, and masses between springs, one of them free"
+coordinate th [rad]
+coordinate x [m]
+coordinate y [m]
+coordinate z [m]
+input M = 3 [N*m]
+input push = 0.5 [N]
+T = 2 [kg*m^2]*th'^2/2 + 1.5 [kg]*(x' + y')^2/2 + 0.7 [kg]*y'^2/2 + 3 [kg]*z'^2/2
+V = 160 [N/m]*(x - 0.1 [m])^2/2 + 33 [N/m]*(x - y)^2/2 + 29.43 [N]*z
+F = 0.5 [N*m*s]*th'^2/2 + 0.25 [N*s/m]*(x' - 0.125 [m]*th')^2/2
+Q(th) = M
+Q(y) = push
+output wave = sin(th)
+END
+cat >"$scratch/w/filter.whirl" <<'END'
+mechanism filter "first and second order, an angle that a voltage turns"
+state a [rad]
+state u [V]
+state q
+input d = 2 [V]
+equation a' = u/(1 [V*s]) + 3 [1/s]
+equation u' = (d - u)/(0.25 [s]) + 1 [V/s]*q
+equation q''/(400 [1/s^2]) + 0.3*q'/(20 [1/s]) + q = u/(1 [V])
+output level = sin(a)
+END
+cat >"$scratch/w/balance.whirl" <<'END'
+mechanism balance "unstable: refused at the same step"
+coordinate q [m]
+T = 1 [kg]*q'^2/2
+V = -90000 [N/m]*q^2/2
+END
+for matrix in exact rk4; do
+    for more in "" --compensated; do
+        for scene in two_mass_relative two_mass_absolute two_mass_relative_physical cartesian_flight; do
+            # shellcheck disable=SC2086 # a word, or none
+            add "$scene" --until 0.3s --matrix $matrix $more
+        done
+        for file in rotor filter balance; do
+            add_file "$scratch/w/$file.whirl"
+            # shellcheck disable=SC2086 # a word, or none
+            printf '%s\n' --matrix $matrix $more >>"$scratch/$number.options"
+        done
+    done
+done
+
 # --- deriving and interpreting ----------------------------------------------------------------------
 : >"$scratch/numbers"
 while read -r number what; do

@@ -42,7 +42,10 @@ static void start(motion *m, const scene *in, stepping how) {
     m->equations = m->instance != NULL ? equations_derive(m->instance, m->errors) : NULL;
     if (m->equations != NULL) {
         m->image = image_make(m->equations, in->conserve,
-                              &(image_settings){how.method, how.compensated, how.angles},
+                              &(image_settings){.method = how.method,
+                                                .compensated = how.compensated,
+                                                .angles = how.angles,
+                                                .matrix = how.matrix},
                               IMAGE_TO_RUN, m->errors);
     }
     diags_flush(m->errors, stdout);

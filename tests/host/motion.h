@@ -28,6 +28,7 @@ typedef struct stepping {
     const char *start; /* a coordinate or a rate, "theta'=3", or NULL */
     bool ledger;       /* keep the books */
     image_angles angles;
+    image_matrix_of matrix;
 } stepping;
 
 /* RK4 with the scene's own step, or with another. */

@@ -27,8 +27,7 @@ static void try_instance(const mechanism *of, const scene *in, bool derive, diag
         equations *derived = equations_derive(made, all);
         if (derived != NULL) {
             image_free(image_make(derived, in == NULL ? NULL : in->conserve,
-                                  &(image_settings){WH_RK4, false, ANGLES_TURNED}, IMAGE_TO_RUN,
-                                  all));
+                                  &(image_settings)IMAGE_SETTINGS_DEFAULT, IMAGE_TO_RUN, all));
         }
         equations_free(derived);
     }

@@ -111,7 +111,7 @@ static worst run_randomly(const derived *d, const engine_kind *kind, long steps)
         throw_start(d->instance, &around, &seed);
         diags *beyond =
             diags_new(); /* what is thrown beyond a stop is put back by it: that takes energy */
-        image *thrown = image_again(d->image, d->instance);
+        image *thrown = image_again(d->image, d->instance, beyond);
         const bool apart = start_is_possible(thrown, kind, beyond);
         diags_free(beyond);
         void *run = kind->start(thrown);

@@ -183,7 +183,7 @@ static int check_again(const scene *s) {
     if (d.image->recovered == 0) { /* else the lists hold the momentum of the start */
         equations *e = equations_derive(other, errors);
         image *fresh = image_make(e, other->conserve, &plainly, IMAGE_TO_RUN, errors);
-        image *again = image_again(d.image, other);
+        image *again = image_again(d.image, other, errors);
         TEST_ASSERT_NOT_NULL_MESSAGE(fresh, s->name);
         char *wanted = as_c(fresh);
         char *got = as_c(again);

@@ -1,0 +1,94 @@
+/* twofold.c: sums and products of two doubles each. */
+#include "twofold.h"
+
+#include <math.h>
+#include <string.h>
+
+/* a + b exactly. */
+static twofold two_sum(double a, double b) {
+    const double sum = a + b;
+    const double of_b = sum - a;
+    return (twofold){sum, (a - (sum - of_b)) + (b - of_b)};
+}
+
+/* The same where |a| >= |b|, or a is 0. */
+static twofold quick_sum(double a, double b) {
+    const double sum = a + b;
+    return (twofold){sum, b - (sum - a)};
+}
+
+/* a b exactly: each factor is split into halves whose products a double holds (Veltkamp, Dekker). */
+static twofold two_product(double a, double b) {
+    static const double split = 134217729.0; /* 2^27 + 1 */
+    const double product = a * b;
+    const double a_wide = split * a;
+    const double a_high = a_wide - (a_wide - a);
+    const double b_wide = split * b;
+    const double b_high = b_wide - (b_wide - b);
+    const double a_low = a - a_high;
+    const double b_low = b - b_high;
+    return (twofold){product, ((a_high * b_high - product) + a_high * b_low + a_low * b_high) +
+                                  a_low * b_low};
+}
+
+twofold twofold_of(double value) { return (twofold){value, 0.0}; }
+
+static twofold of_whole(uint64_t value) {
+    return two_sum((double)(value >> 32) * 4294967296.0, (double)(uint32_t)value);
+}
+
+twofold twofold_ratio(uint64_t numerator, uint64_t denominator) {
+    return twofold_div(of_whole(numerator), of_whole(denominator));
+}
+
+twofold twofold_neg(twofold a) { return (twofold){-a.high, -a.low}; }
+
+twofold twofold_scale(twofold a, double power_of_two) {
+    return (twofold){a.high * power_of_two, a.low * power_of_two};
+}
+
+twofold twofold_add(twofold a, twofold b) {
+    twofold high = two_sum(a.high, b.high);
+    const twofold low = two_sum(a.low, b.low);
+    high = quick_sum(high.high, high.low + low.high);
+    return quick_sum(high.high, high.low + low.low);
+}
+
+twofold twofold_sub(twofold a, twofold b) { return twofold_add(a, twofold_neg(b)); }
+
+twofold twofold_mul(twofold a, twofold b) {
+    if (twofold_is_zero(a) || twofold_is_zero(b)) {
+        return twofold_of(0.0);
+    }
+    const twofold product = two_product(a.high, b.high);
+    return quick_sum(product.high, product.low + (a.high * b.low + a.low * b.high));
+}
+
+twofold twofold_div(twofold a, twofold b) {
+    const double first = a.high / b.high;
+    const twofold left = twofold_sub(a, twofold_mul(b, twofold_of(first)));
+    const double second = left.high / b.high;
+    const twofold rest = twofold_sub(left, twofold_mul(b, twofold_of(second)));
+    const twofold quotient = quick_sum(first, second);
+    return twofold_add(quotient, twofold_of(rest.high / b.high));
+}
+
+bool twofold_is_zero(twofold a) { return a.high == 0.0; }
+bool twofold_is_finite(twofold a) { return isfinite(a.high) && isfinite(a.low); }
+
+double twofold_constant(twofold a) {
+    static const uint64_t beyond_float = (UINT64_C(1) << 29) - 1; /* of a double's digits */
+    uint64_t bits;
+    double nearest;
+    memcpy(&bits, &a.high, sizeof bits);
+    if (a.low != 0.0 && (bits & beyond_float) == (beyond_float + 1) / 2) {
+        bits += (a.low > 0.0) == (a.high > 0.0) ? UINT64_C(1) : UINT64_MAX;
+    }
+    memcpy(&nearest, &bits, sizeof nearest);
+    return nearest;
+}
+
+double twofold_beyond_float(twofold a) {
+    const float nearest = (float)twofold_constant(a);
+    return twofold_sub(a, twofold_of((double)nearest)).high;
+}

@@ -1,0 +1,313 @@
+/* test_matrix.c: a whole step as one matrix, over generated linear mechanisms and the built-in ones: against the
+ * exponential in 113 bits of matrices that the test has written down itself (linear.h), and against the stages of RK4. */
+#define _POSIX_C_SOURCE 200809L
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "command.h"
+#include "derived.h"
+#include "host/derive/affine.h"
+#include "host/number/twofold.h"
+#include "linear.h"
+#include "motion.h"
+#include "unity.h"
+
+void suite_matrix(void);
+
+enum { TEXT_SIZE = 4096 };
+
+static const double input_at_start[LINEAR_INPUTS] = {0.5, 0.5};
+
+/* --- numbers of twice the digits ------------------------------------------------------------------ */
+
+static quad whole_of(twofold a) { return (quad)a.high + (quad)a.low; }
+
+static twofold drawn_twofold(uint64_t *seed) {
+    const double high =
+        number_scaled(random_between(seed, 0.5, 1.0) * (random_bits(seed) % 2 != 0 ? 1.0 : -1.0),
+                      (int)(random_bits(seed) % 60) - 30);
+    return twofold_add(twofold_of(high),
+                       twofold_of(number_scaled(high * random_between(seed, -0.5, 0.5), -53)));
+}
+
+static void expect_near(quad want, twofold got, quad size) {
+    TEST_ASSERT_TRUE(quad_size(whole_of(got) - want) <= size * (quad)0x1p-100);
+    TEST_ASSERT_TRUE((double)want == got.high);
+}
+
+static void test_twice_the_digits(void) {
+    uint64_t seed = 7001;
+    for (unsigned n = 0; n < dice_cases(20000); n++) {
+        const twofold a = drawn_twofold(&seed);
+        const twofold b = drawn_twofold(&seed);
+        const quad x = whole_of(a);
+        const quad y = whole_of(b);
+        expect_near(x * y, twofold_mul(a, b), quad_size(x * y));
+        expect_near(x / y, twofold_div(a, b), quad_size(x / y));
+        TEST_ASSERT_TRUE(quad_size(whole_of(twofold_add(a, b)) - (x + y)) <=
+                         quad_size(x + y) * (quad)0x1p-100 + quad_size(x) * (quad)0x1p-106);
+    }
+}
+
+/* Rounded once: to the float that the 113 bits are nearest to, ties between floats and what is beside them included. */
+static void test_constants_are_rounded_once(void) {
+    uint64_t seed = 7002;
+    for (unsigned n = 0; n < dice_cases(20000); n++) {
+        twofold a = drawn_twofold(&seed);
+        if (n % 2 == 0) { /* in the middle between two floats, or hardly beside it */
+            const float below = (float)a.high;
+            const double middle = ((double)below + (double)nextafterf(below, INFINITY)) / 2.0;
+            a = (twofold){middle, n % 3 == 0 ? 0.0 : number_scaled(middle, n % 5 == 0 ? -55 : -90)};
+            a.low = n % 7 == 0 ? -a.low : a.low;
+        }
+        const double constant = twofold_constant(a);
+        const quad left = whole_of(a) - (quad)(float)constant;
+        const float nearest = (float)constant;
+        TEST_ASSERT_TRUE(quad_size(left) <=
+                         quad_size(whole_of(a) - (quad)nextafterf(nearest, INFINITY)));
+        TEST_ASSERT_TRUE(quad_size(left) <=
+                         quad_size(whole_of(a) - (quad)nextafterf(nearest, -INFINITY)));
+        TEST_ASSERT_TRUE((double)left == twofold_beyond_float(a));
+        TEST_ASSERT_TRUE(fabs(constant - a.high) <= fabs(a.high) * 0x1p-52);
+    }
+}
+
+/* --- the entries ------------------------------------------------------------------------------------ */
+
+/* Half a unit in the last place of a double. */
+static double half_unit(double x) { return (nextafter(fabs(x), HUGE_VAL) - fabs(x)) / 2.0; }
+
+/* Most by which an entry is off beyond `share` of what its matrix allows it to be, in units of half its last digit. */
+static double entries_off(const linear *of, const image *im, quad want[][LINEAR_COLUMNS],
+                          const quad allowed[][LINEAR_COLUMNS]) {
+    double most = 0.0;
+    TEST_ASSERT_EQUAL_INT(of->states, im->matrix.states);
+    TEST_ASSERT_EQUAL_INT(of->columns, im->matrix.columns);
+    for (int i = 0; i < of->states; i++) {
+        quad row = 0;
+        for (int k = 0; k < of->columns; k++) {
+            row = quad_size(want[i][k]) > row ? quad_size(want[i][k]) : row;
+        }
+        for (int k = 0; k < of->columns; k++) {
+            const double got = im->matrix.entry[i * of->columns + k];
+            const quad off = quad_size((quad)got - want[i][k]) - row * (quad)0x1p-80 -
+                             (allowed != NULL ? allowed[i][k] : 0);
+            const double units = (double)(off / (quad)half_unit((double)want[i][k]));
+            most = units > most ? units : most;
+        }
+    }
+    return most;
+}
+
+static void set_matrix(motion *m, const char *text, const engine_kind *kind, image_matrix_of matrix,
+                       bool compensated) {
+    motion_open_text(
+        m, text,
+        (stepping){.kind = kind, .method = WH_RK4, .compensated = compensated, .matrix = matrix});
+}
+
+/* A, B and c of the list, held against those of the test: they are that to the rounding of the list's few constants. */
+static void take_rates(const image *im, const char *text, linear *of) {
+    static twofold rates[LINEAR_STATES * LINEAR_COLUMNS];
+    TEST_ASSERT_EQUAL_INT(of->columns, affine_columns(im));
+    TEST_ASSERT_EQUAL_INT(-1, affine_rates(im, rates));
+    for (int i = 0; i < of->states; i++) {
+        for (int k = 0; k < of->columns; k++) {
+            const quad rate = whole_of(rates[i * of->columns + k]);
+            const quad own = of->rate[i][k];
+            TEST_ASSERT_TRUE_MESSAGE(quad_size(rate - own) <= 6 * (quad)0x1p-53 * quad_size(own),
+                                     text);
+            of->rate[i][k] = rate;
+        }
+    }
+}
+
+/* Every entry is the nearest double to that of the exponential of what the list says, from slack ones to stiff ones: beyond oscillations that a
+ * step is longer than, and dampers that stop what moves within a step. */
+static void test_entries_are_the_nearest_doubles(void) {
+    static const int stiff[] = {0, 6, 14, 20};
+    uint64_t seed = 7003;
+    double worst = 0.0;
+    for (unsigned n = 0; n < dice_cases(few_or_all(60, 400)); n++) {
+        static quad step[LINEAR_STATES][LINEAR_COLUMNS];
+        char text[TEXT_SIZE];
+        linear of;
+        motion m;
+        linear_draw(&seed, 1 + (int)(n % 4), (linear_kind){stiff[n / 4 % 4], false}, text,
+                    sizeof text, &of);
+        for (int k = 0; k < 2; k++) {
+            set_matrix(&m, text, &engine_double, k == 0 ? MATRIX_EXACT : MATRIX_RK4, false);
+            linear listed = of;
+            take_rates(m.image, text, &listed);
+            linear_step(&listed, k == 0 ? 0 : 4, step);
+            const double off = entries_off(&of, m.image, step, NULL);
+            TEST_ASSERT_TRUE_MESSAGE(off <= 1.0, text);
+            worst = fmax(worst, off);
+            motion_close(&m);
+        }
+    }
+    printf("  entries of generated matrices are off by %.4f of half a unit\n", worst);
+}
+
+/* Where masses move together, the operation list has constants that are rounded: each by half a unit, which the exponential
+ * makes as much of as it makes of |A|. */
+static void test_entries_of_full_mass_matrices(void) {
+    uint64_t seed = 7004;
+    double worst = 0.0;
+    for (unsigned n = 0; n < dice_cases(few_or_all(24, 200)); n++) {
+        static quad step[LINEAR_STATES][LINEAR_COLUMNS];
+        static quad larger[LINEAR_STATES][LINEAR_COLUMNS];
+        static quad allowed[LINEAR_STATES][LINEAR_COLUMNS];
+        char text[TEXT_SIZE];
+        linear of;
+        motion m;
+        linear_draw(&seed, 2 + (int)(n % 3), (linear_kind){3, true}, text, sizeof text, &of);
+        set_matrix(&m, text, &engine_double, MATRIX_EXACT, false);
+        linear_step(&of, 0, step);
+        linear size = of;
+        quad most = 0;
+        for (int i = 0; i < of.states; i++) {
+            for (int k = 0; k < of.columns; k++) {
+                size.rate[i][k] = quad_size(of.rate[i][k]);
+                most = size.rate[i][k] > most ? size.rate[i][k] : most;
+            }
+        }
+        for (int i = of.coordinates; i < of.states;
+             i++) { /* no entry is known better than its row */
+            for (int k = 0; k < of.columns; k++) {
+                size.rate[i][k] += most;
+            }
+        }
+        linear_step(&size, 0, larger);
+        for (int i = 0; i < of.states; i++) {
+            for (int k = 0; k < of.columns; k++) {
+                allowed[i][k] = 16 * (quad)0x1p-53 * (larger[i][k] - (i == k ? 1 : 0));
+            }
+        }
+        const double off = entries_off(&of, m.image, step, allowed);
+        TEST_ASSERT_TRUE_MESSAGE(off <= 1.0, text);
+        worst = fmax(worst, off);
+        motion_close(&m);
+    }
+    printf("  with full mass matrices by %.4f beyond their constants' rounding\n", worst);
+}
+
+/* --- motions ---------------------------------------------------------------------------------------- */
+
+/* The largest state so far, by coordinates and by rates. */
+static void widen(const linear *of, const quad *x, double *size) {
+    for (int i = 0; i < of->states; i++) {
+        const int group = i < of->coordinates ? 0 : 1;
+        size[group] = fmax(size[group], (double)quad_size(x[i]));
+    }
+}
+
+/* Runs `steps` with inputs that change every seventh step. The error at the end, relative to the largest position or rate
+ * there was. */
+static double run_error(const linear *of, const char *text, motion *m, int order, int steps,
+                        uint64_t *seed) {
+    static quad step[LINEAR_STATES][LINEAR_COLUMNS];
+    double input[LINEAR_INPUTS] = {input_at_start[0], input_at_start[1]};
+    double angle[1];
+    double real[LINEAR_STATES];
+    quad x[LINEAR_STATES];
+    double size[2] = {0.0, 0.0};
+    double most = 0.0;
+    linear_step(of, order, step);
+    for (int i = 0; i < of->states; i++) {
+        x[i] = (quad)of->start[i];
+    }
+    widen(of, x, size);
+    for (int n = 0; n < steps; n++) {
+        for (int k = 0; k < of->inputs && n % 7 == 6; k++) {
+            input[k] = floor(random_between(seed, -16.0, 16.0)) / 8.0;
+            m->kind->set_input(m->run, k, input[k]);
+        }
+        linear_move(of, step, input, x);
+        widen(of, x, size);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(WH_OK, m->kind->step(m->run), text);
+    }
+    m->kind->state(m->run, angle, real);
+    for (int i = 0; i < of->states; i++) {
+        const double off = (double)quad_size((quad)real[i] - x[i]);
+        most = fmax(most, off / fmax(size[i < of->coordinates ? 0 : 1], DBL_MIN));
+    }
+    return most;
+}
+
+/* 1000 steps in both numbers, compensated and not, exact and as RK4: each error is that of rounding, up to `most` units. */
+static void test_motions_are_those_of_the_exponential(void) {
+    static const struct {
+        const engine_kind *kind;
+        bool compensated;
+        double unit;
+        double most;
+    } ways[] = {{&engine_double, false, DBL_EPSILON, 250.0},
+                {&engine_double, true, DBL_EPSILON, 90.0},
+                {&engine_float, false, (double)FLT_EPSILON, 250.0},
+                {&engine_float, true, (double)FLT_EPSILON, 20.0}};
+    for (size_t w = 0; w < sizeof ways / sizeof ways[0]; w++) {
+        uint64_t seed = 7005;
+        double worst = 0.0;
+        for (unsigned n = 0; n < dice_cases(few_or_all(24, 200)); n++) {
+            char text[TEXT_SIZE];
+            linear of;
+            motion m;
+            linear_draw(&seed, 1 + (int)(n % 4), (linear_kind){n % 3 == 0 ? 6 : 0, n % 2 != 0},
+                        text, sizeof text, &of);
+            const bool coupled = n % 2 != 0;
+            const bool exact =
+                n % 5 < 3 || n % 3 == 0 || coupled; /* RK4 is not stable everywhere */
+            set_matrix(&m, text, ways[w].kind, exact ? MATRIX_EXACT : MATRIX_RK4,
+                       ways[w].compensated);
+            const double off = run_error(&of, text, &m, exact ? 0 : 4, 1000, &seed) / ways[w].unit;
+            TEST_ASSERT_TRUE_MESSAGE(off <= ways[w].most, text);
+            worst = fmax(worst, off);
+            motion_close(&m);
+        }
+        printf("  after 1000 steps in %s%s: off by at most %.3g units of rounding\n",
+               ways[w].kind->name, ways[w].compensated ? ", compensated" : "", worst);
+    }
+}
+
+/* The matrix of RK4 beside RK4's stages. */
+static void test_the_matrix_of_rk4_moves_like_its_stages(void) {
+    uint64_t seed = 7006;
+    double worst = 0.0;
+    for (unsigned n = 0; n < dice_cases(few_or_all(24, 200)); n++) {
+        char text[TEXT_SIZE];
+        double angle[1];
+        double real[2][LINEAR_STATES];
+        double size = 0.0;
+        linear of;
+        linear_draw(&seed, 1 + (int)(n % 4), (linear_kind){0, n % 2 != 0}, text, sizeof text, &of);
+        for (int k = 0; k < 2; k++) {
+            motion m;
+            set_matrix(&m, text, &engine_double, k == 0 ? MATRIX_NONE : MATRIX_RK4, false);
+            TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 200));
+            m.kind->state(m.run, angle, real[k]);
+            motion_close(&m);
+        }
+        for (int i = 0; i < of.states; i++) {
+            size = fmax(size, fabs(real[0][i]));
+        }
+        for (int i = 0; i < of.states; i++) {
+            worst = fmax(worst, fabs(real[0][i] - real[1][i]) / size);
+        }
+        TEST_ASSERT_TRUE_MESSAGE(worst < 200.0 * DBL_EPSILON, text);
+    }
+    printf("  RK4's matrix and its stages are %.2g apart after 200 steps\n", worst);
+}
+
+void suite_matrix(void) {
+    RUN_TEST(test_twice_the_digits);
+    RUN_TEST(test_constants_are_rounded_once);
+    RUN_TEST(test_entries_are_the_nearest_doubles);
+    RUN_TEST(test_entries_of_full_mass_matrices);
+    RUN_TEST(test_motions_are_those_of_the_exponential);
+    RUN_TEST(test_the_matrix_of_rk4_moves_like_its_stages);
+}
