@@ -11,7 +11,7 @@
  *
  *     sh mk/price/measure_one.sh BOARD NUMBER FILE[:SCENE] [OPTIONS OF whirl derive...]
  *
- * from the tree's root, WHIRL being the program (build/whirl if it is not set), prints COST_HEADER and one row on
+ * from the tree's root (it uses and renews build/), prints COST_HEADER and one row on
  * standard output and ends with 0; with 2 where words are wrong or tools are missing, with 1 where the scene cannot be
  * derived, does not fit or does not run, each with a message on standard error. cost_measured() reads the row.
  *
@@ -93,17 +93,10 @@ typedef struct cost {
 
 cost cost_of(const image *im, const cost_board *board, cost_number number);
 
-/* Columns of a measured row, and the row of measure_one.sh read. False where it is none, or of another board. */
+/* Columns of a measured row, and the row of measure_one.sh read: what it does not have (state_bytes) stays as it is. False where it is none, or of another board. */
 #define COST_HEADER \
     "commit,compiler,flags,board,scene,number,setting,instructions,instructions_most,cycles,cycles_most," \
-    "cycles_obtained,flash_bytes,ram_bytes,stack_bytes,state_bytes"
+    "cycles_obtained,flash_bytes,ram_bytes,stack_bytes"
 bool cost_measured(const char *row, const cost_board *board, cost *c);
-
-/* --- what the fit needs ---------------------------------------------------------------------------*/
-
-/* What is counted in an image (cost_features.h has the rows). */
-enum { COST_FEATURES_MAX = 64 };
-int cost_features(const image *im, cost_number number, double feature[static COST_FEATURES_MAX]);
-extern const char *const cost_feature_words[COST_FEATURES_MAX];
 
 #endif
