@@ -178,3 +178,6 @@ price-measure-host: build/whirl
 	@OUT=$(PRICE_OUT) NUMBERS="$(NUMBERS)" WHIRL=build/whirl BOARD=host BOARD_CC=$(CC) BOARD_NM=nm BOARD_SIZE=size \
 	    BOARD_CFLAGS="$(FLAGS_float)" BOARD_LDFLAGS="" BOARD_LDLIBS="" BOARD_OBJECTS=$(B)/float/boards/host/board.o \
 	    LIB_BOARD=$(LIB_FLOAT) PLUGIN= FLAGS="$(OPT)" EMULATE="@" mk/price/measure.sh $(PRICE_CASES) $(PRICE_CSV)
+
+$(B)/tools/price_fit: $(call objects,host,mk/price/fit.c) $(LIB_HOST) $(LIB_FLOAT) $(LIB_DOUBLE)
+	$(link)

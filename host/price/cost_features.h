@@ -40,7 +40,9 @@ typedef struct cost_list {
     int products;
     int quotients;
     int roots;
-    int choices;   /* signs, sizes, comparisons */
+    int sizes;     /* and negations */
+    int signs;
+    int choices;   /* the lesser, the larger */
     int leaves;    /* that are read */
     int constants; /* that differ */
     int results;
@@ -57,15 +59,21 @@ typedef struct cost_counts {
     const image *im;
     cost_number number;
     bool fpu;
-    cost_list step;    /* what a stage evaluates */
+    cost_list step; /* what a stage evaluates */
+    cost_list
+        fixed; /* of that, what does not change from stage to stage, where a compiler sees it: then not in step */
     cost_list books;   /* of the ledger, likewise */
     cost_list observe; /* the outputs */
     cost_list events;  /* signals, forces and sets of contacts */
     int stages;
     int components; /* n: coordinates, or components of first order */
     int angles;
-    int linears; /* moved by what is a rate, or by slopes */
-    int reals;   /* in the state */
+    int linears;      /* moved by what is a rate, or by slopes */
+    int moving;       /* components whose derivative is no constant */
+    int staged_rates; /* that later stages need */
+    int staged_linears;
+    int staged_angles;
+    int reals; /* in the state */
     bool second;
     bool turned;
     bool compensated;
@@ -83,9 +91,11 @@ typedef struct cost_counts {
 
 cost_counts cost_counts_of(const image *im, bool fpu, cost_number number);
 
+/* How often a step does what a list holds so many of. */
+#define COST_EACH(what) (c->stages * (c->step.what + c->books.what) + c->fixed.what)
 /* clang-format off */
 #define COST_CALL_ROW(X, FN) \
-    X(CALL_##FN, COST_TIME, c->stages * c->step.calls[FN_##FN]) \
+    X(CALL_##FN, COST_TIME, COST_EACH(calls[FN_##FN])) \
     X(CODE_##FN, COST_CODE | COST_DEPTH, c->step.calls[FN_##FN] + c->observe.calls[FN_##FN] > 0)
 #define COST_FEATURE_ROWS(X) \
     X(ONE, COST_TIME | COST_CODE | COST_DATA | COST_DEPTH | COST_EVENTS, 1) \
@@ -93,12 +103,13 @@ cost_counts cost_counts_of(const image *im, bool fpu, cost_number number);
     X(ANGLES, COST_TIME | COST_CODE, c->angles) \
     X(LINEARS, COST_TIME | COST_CODE, c->linears) \
     X(RATES, COST_TIME | COST_CODE | COST_DEPTH, c->components) \
-    X(STAGE_RATES, COST_TIME | COST_CODE, c->second ? (c->stages - 1) * c->components : 0) \
-    X(STAGE_LINEARS, COST_TIME | COST_CODE, (c->stages - 1) * c->linears) \
-    X(STAGE_ANGLES, COST_TIME | COST_CODE, c->turned ? 0 : (c->stages - 1) * c->angles) \
-    X(SHARES, COST_TIME | COST_CODE, c->shares * c->components) \
-    X(SHARES_LINEAR, COST_TIME | COST_CODE, c->second ? c->shares * c->linears : 0) \
-    X(ENDS, COST_TIME | COST_CODE, c->ends * c->components) \
+    X(MOVING, COST_TIME | COST_CODE, c->moving) \
+    X(STAGE_RATES, COST_TIME | COST_CODE, (c->stages - 1) * c->staged_rates) \
+    X(STAGE_LINEARS, COST_TIME | COST_CODE, (c->stages - 1) * c->staged_linears) \
+    X(STAGE_ANGLES, COST_TIME | COST_CODE, c->turned ? 0 : (c->stages - 1) * c->staged_angles) \
+    X(SHARES, COST_TIME | COST_CODE, c->shares * c->staged_rates) \
+    X(SHARES_LINEAR, COST_TIME | COST_CODE, c->shares * c->staged_linears) \
+    X(ENDS, COST_TIME | COST_CODE, c->ends * c->moving) \
     X(LOOKED_UP_ONCE, COST_TIME | COST_CODE, c->turned ? c->lookups : 0) \
     X(LOOKED_UP, COST_TIME, c->turned ? 0 : c->lookups) \
     X(LOOKED_UP_CODE, COST_CODE, c->turned ? 0 : c->step.pairs * c->copies) \
@@ -106,25 +117,28 @@ cost_counts cost_counts_of(const image *im, bool fpu, cost_number number);
     X(TURN_BEGIN, COST_TIME | COST_CODE, c->turned && c->turns > 0 ? c->step.pairs : 0) \
     X(TURNS, COST_TIME | COST_CODE, c->turned ? c->turns * c->step.pairs : 0) \
     X(LEANS, COST_TIME | COST_CODE, c->turned ? c->leans * c->step.pairs : 0) \
+    X(LEANS_FAR, COST_TIME | COST_CODE, c->turned && !c->second ? c->leans * c->step.pairs : 0) \
     X(LEAN_TERMS, COST_TIME | COST_CODE, c->turned ? c->leans * c->step.terms : 0) \
     X(TURNED_SUMS, COST_TIME | COST_CODE, \
       c->turned && c->compensated ? (c->turns + c->leans) * c->step.pairs : 0) \
     X(CARRY_ANGLES, COST_TIME | COST_CODE, c->compensated ? c->angles : 0) \
     X(CARRY_REALS, COST_TIME | COST_CODE | COST_DEPTH, c->compensated ? c->reals : 0) \
-    X(SUMS, COST_TIME, c->stages * (c->step.sums + c->books.sums)) \
-    X(PRODUCTS, COST_TIME, c->stages * (c->step.products + c->books.products)) \
-    X(QUOTIENTS, COST_TIME, c->stages * (c->step.quotients + c->books.quotients)) \
-    X(ROOTS, COST_TIME, c->stages * (c->step.roots + c->books.roots)) \
-    X(CHOICES, COST_TIME, c->stages * (c->step.choices + c->books.choices)) \
-    X(LEAVES, COST_TIME, c->stages * c->step.leaves) \
-    X(CONSTANTS, COST_TIME, c->stages * c->step.constants) \
+    X(SUMS, COST_TIME, COST_EACH(sums)) \
+    X(PRODUCTS, COST_TIME, COST_EACH(products)) \
+    X(QUOTIENTS, COST_TIME, COST_EACH(quotients)) \
+    X(ROOTS, COST_TIME, COST_EACH(roots)) \
+    X(SIZES, COST_TIME, COST_EACH(sizes)) \
+    X(SIGNS, COST_TIME, COST_EACH(signs)) \
+    X(CHOICES, COST_TIME, COST_EACH(choices)) \
+    X(LEAVES, COST_TIME, COST_EACH(leaves)) \
+    X(CONSTANTS, COST_TIME, COST_EACH(constants)) \
     X(CONSTANTS_ONCE, COST_TIME | COST_DEPTH, c->step.constants) \
     X(CARRIED, COST_TIME, c->stages * c->step.carried) \
     X(CALLED, COST_TIME, c->called ? c->stages : 0) \
     X(CALLED_DATA, COST_TIME, \
       c->called ? c->stages * (c->step.leaves + c->step.results + 2 * c->step.pairs) : 0) \
-    X(RADIANS, COST_TIME, c->stages * (c->step.radians + c->books.radians)) \
-    X(POWERS, COST_TIME, c->stages * (c->step.powers + c->books.powers)) \
+    X(RADIANS, COST_TIME, COST_EACH(radians)) \
+    X(POWERS, COST_TIME, COST_EACH(powers)) \
     X(BOOKS, COST_TIME | COST_CODE | COST_DEPTH, c->im->ledger.kept) \
     X(BOOK_ENTRIES, COST_TIME | COST_CODE | COST_DEPTH, \
       c->im->ledger.kept ? c->im->ledger.entries : 0) \
@@ -139,19 +153,21 @@ cost_counts cost_counts_of(const image *im, bool fpu, cost_number number);
     COST_CALL_ROW(X, SINH) \
     COST_CALL_ROW(X, COSH) \
     COST_CALL_ROW(X, TANH) \
-    X(CODE_SUMS, COST_CODE, c->copies * c->step.sums) \
-    X(CODE_PRODUCTS, COST_CODE, c->copies * c->step.products) \
-    X(CODE_QUOTIENTS, COST_CODE, c->copies * c->step.quotients) \
-    X(CODE_ROOTS, COST_CODE, c->copies * c->step.roots) \
-    X(CODE_CHOICES, COST_CODE, c->copies * c->step.choices) \
-    X(CODE_LEAVES, COST_CODE, c->copies * c->step.leaves) \
-    X(CODE_CONSTANTS, COST_CODE, c->step.constants) \
+    X(CODE_SUMS, COST_CODE, c->copies * c->step.sums + c->fixed.sums) \
+    X(CODE_PRODUCTS, COST_CODE, c->copies * c->step.products + c->fixed.products) \
+    X(CODE_QUOTIENTS, COST_CODE, c->copies * c->step.quotients + c->fixed.quotients) \
+    X(CODE_ROOTS, COST_CODE, c->copies * c->step.roots + c->fixed.roots) \
+    X(CODE_SIZES, COST_CODE, c->copies * c->step.sizes + c->fixed.sizes) \
+    X(CODE_SIGNS, COST_CODE, c->copies * c->step.signs + c->fixed.signs) \
+    X(CODE_CHOICES, COST_CODE, c->copies * c->step.choices + c->fixed.choices) \
+    X(CODE_LEAVES, COST_CODE, c->copies * c->step.leaves + c->fixed.leaves) \
+    X(CODE_CONSTANTS, COST_CODE, c->step.constants + c->fixed.constants) \
     X(CODE_CARRIED, COST_CODE, c->copies * c->step.carried) \
     X(CODE_CALLED, COST_CODE | COST_DEPTH, c->called) \
     X(CODE_RADIANS, COST_CODE, c->copies * c->step.radians + c->observe.radians) \
     X(CODE_CALLS, COST_CODE | COST_DEPTH, cost_calls(&c->step) * c->copies) \
     X(CODE_BOOKS, COST_CODE, c->books.operations) \
-    X(OBSERVED, COST_CODE, c->observe.sums + c->observe.products + c->observe.choices) \
+    X(OBSERVED, COST_CODE, c->observe.sums + c->observe.products + c->observe.sizes + c->observe.signs + c->observe.choices) \
     X(OBSERVED_CONSTANTS, COST_CODE, c->observe.constants) \
     X(OBSERVED_PAIRS, COST_CODE, c->observe.pairs) \
     X(OBSERVED_CALLS, COST_CODE, c->observe.quotients + cost_calls(&c->observe)) \

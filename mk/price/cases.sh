@@ -1,13 +1,14 @@
 #!/bin/sh
-# cases.sh FOLDER SEED GENERATED: the cases whose steps are counted to fit prices by, a line "ID TARGET OPTIONS..." each, on
-# standard output; files that it writes itself go to FOLDER. WHIRL is the program.
+# cases.sh FOLDER SEED GENERATED DRAWN: the cases whose steps are counted to fit prices by, a line "ID TARGET OPTIONS..."
+# each, on standard output; files that it writes itself go to FOLDER. WHIRL is the program.
 #
-# Scenes: every built-in one, the mechanisms of tests/mechanisms, pendulums of 1 to 10 links, and GENERATED mechanisms
-# from SEED on (build/tools/mechanisms), which call every function of the language. Settings: each scene with the
-# default, and with two others, in turn, so that every setting meets scenes of every kind.
+# Scenes: with SEED 1 every built-in one, the mechanisms of tests/mechanisms and pendulums of 1 to 10 links; with any
+# seed so many GENERATED mechanisms (build/tools/mechanisms), which call every function of the language, and so many
+# DRAWN ones (scenes.awk). Settings: each scene with the default, and with two others, in turn, so that every setting
+# meets scenes of every kind. A setting that whirl gets is one more word of the list below.
 set -eu
 here=$(dirname "$0")
-folder=$1 seed=$2 generated=$3
+folder=$1 seed=$2 generated=$3 drawn=$4
 mkdir -p "$folder"
 
 {
@@ -22,6 +23,9 @@ mkdir -p "$folder"
     build/tools/mechanisms "$generated" "$seed" >"$folder/generated_$seed.whirl" 2>/dev/null
     "$WHIRL" list --as table "$folder/generated_$seed.whirl" |
         awk -F'\t' -v file="$folder/generated_$seed.whirl" '$1 == "scene" { print file ":" $2 }'
+    awk -v n="$drawn" -v seed="$seed" -f "$here/scenes.awk" </dev/null >"$folder/drawn_$seed.whirl"
+    awk -v n="$drawn" -v seed="$seed" -v file="$folder/drawn_$seed.whirl" \
+        'BEGIN { for (i = 1; i <= n; i++) { print file ":r" seed "_" i } }'
 } | awk -v seed="$seed" '
     BEGIN {
         n = split("--compensated|--method heun|--angles lookup|--method rk38|--method euler|" \

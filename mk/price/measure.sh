@@ -5,6 +5,8 @@
 #   OUT      a folder to work in; generated C is kept there for the next board
 #   NUMBERS  "float", "double" or both; LIB_BOARD is the core's library in float. Default: float
 #   STEPS    counted steps of each. Default: 50
+#   WORST    random steps of a scene with contacts (boards/programs/worst.c), whose longest one is told as the most, in
+#            QEMU; 0: the most is that of STEPS steps. Default: 5000
 #
 # CASES has lines "ID TARGET OPTIONS OF whirl derive...", ID a C identifier. Appends to ROWS.csv, with a header if it is
 # new, a row for each case that runs:
@@ -18,7 +20,7 @@
 set -eu
 here=$(dirname "$0")
 . "$here/../count/common.sh"
-: "${NUMBERS:=float}" "${STEPS:=50}"
+: "${NUMBERS:=float}" "${STEPS:=50}" "${WORST:=5000}"
 NM=${BOARD_NM:-nm}
 export OUT BOARD BOARD_CC BOARD_CFLAGS BOARD_LDFLAGS BOARD_LDLIBS BOARD_OBJECTS LIB_BOARD BOARD_SIZE WHIRL
 
@@ -76,6 +78,26 @@ core_in_double() {
     done
     rm -f "$OUT/$BOARD/double/libwhirl.a"
     ar rcs "$OUT/$BOARD/double/libwhirl.a" "$OUT/$BOARD"/double/core_*.o
+}
+
+# worst ID...: the longest of WORST random steps of these, which have contacts: "ID MOST" to $work/longest
+worst() {
+    elf=$mine/worst.elf
+    "$here/../count/index.sh" "$@" >"$mine/scenes.c"
+    objects=
+    for id in "$@"; do objects="$objects $mine/$id.o"; done
+    for file in boards/programs/worst.c "$mine/scenes.c"; do
+        # shellcheck disable=SC2086
+        $BOARD_CC $flags -w "-I$OUT/gen" "-DWORST_STEPS=${WORST}U" -c "$file" -o "$mine/$(basename "$file" .c)_.o"
+    done
+    # shellcheck disable=SC2086
+    $BOARD_CC $BOARD_LDFLAGS -o "$elf" "$mine/worst_.o" "$mine/scenes_.o" $objects $BOARD_OBJECTS "$lib" "$LIB_BOARD" \
+        $BOARD_LDLIBS
+    EMULATE=$(echo "$emulate" | sed "s|@|$elf|; s|^timeout [0-9]*|timeout 1800|")
+    (count ",every=$WORST") 2>"$work/said" || { grep -q '^interval' "$work/counts" 2>/dev/null || cat "$work/said" >&2; }
+    awk '{ sub(/\r$/, "") }
+        $1 == "interval" { counted[$2] = $3 }
+        $1 == "count" && $5 in counted { print $2, counted[$5] - counted[0] }' "$work/counts" "$work/console" >>"$work/longest"
 }
 
 # bench ID...: one image of these, and its counts appended to $work/counted: ID MEAN MOST CYCLES MOST STACK
@@ -149,6 +171,7 @@ for number in $NUMBERS; do
     awk -v number="$number" 'NF > 1 { id = $1; $1 = ""; printf "%s %s%s%c", id, number, $0, 0 }' "$cases" |
         xargs -0 -n 1 -P 2 sh "$0" case
     : >"$work/counted"
+    : >"$work/longest"
     ids=$(awk 'NF > 1 { print $1 }' "$cases" | while read -r id; do [ ! -s "$mine/$id.bytes" ] || [ ! -s "$mine/$id.o" ] || echo "$id"; done)
     each=60
     [ -n "${PLUGIN:-}" ] || [ "$BOARD" = host ] || each=1
@@ -157,6 +180,15 @@ for number in $NUMBERS; do
         # shellcheck disable=SC2086
         [ -z "$group" ] || bench $group </dev/null
     done <"$work/groups"
+    if [ -n "${PLUGIN:-}" ] && [ "$WORST" -gt 0 ]; then
+        for id in $ids; do
+            ! grep -q "${id}_CONTACTS = [1-9]" "$OUT/gen/$id.h" || echo "$id"
+        done | xargs -n 60 >"$work/groups"
+        while read -r group; do
+            # shellcheck disable=SC2086
+            [ -z "$group" ] || worst $group </dev/null
+        done <"$work/groups"
+    fi
     obtained=
     [ -z "${TIMING:-}" ] || obtained=estimated
     [ -n "${PLUGIN:-}" ] || [ "$BOARD" = host ] || obtained=simulated
@@ -164,7 +196,8 @@ for number in $NUMBERS; do
     awk -v head="$(commit_of_checkout),$(compiler_of "$BOARD_CC"),\"$FLAGS\",$BOARD" -v number="$number" \
         -v obtained="$obtained" -v board="$BOARD" '
         FILENAME ~ /bytes$/ { bytes[$1] = board == "host" ? "," : $2 "," $3; next }
-        FILENAME ~ /counted$/ { split($0, f, ","); found[f[1]] = f[2] "," f[3] "," f[4] "," f[5]; stack[f[1]] = board == "host" ? "" : f[6]; next }
+        FILENAME ~ /longest$/ { longest[$1] = $2; next }
+        FILENAME ~ /counted$/ { split($0, f, ","); found[f[1]] = f[2] "," (f[1] in longest ? longest[f[1]] : f[3]) "," f[4] "," f[5]; stack[f[1]] = board == "host" ? "" : f[6]; next }
         ($1 in found) && ($1 in bytes) {
             method = "rk4"
             more = ""
@@ -174,7 +207,7 @@ for number in $NUMBERS; do
                 else { option = $i; sub(/^--/, "", option); more = more (option ~ /=/ ? ":" : "-") option }
             }
             print head "," $2 "," number "," method more "," found[$1] "," (board == "host" ? "" : obtained) "," bytes[$1] "," stack[$1]
-        }' "$work/bytes" "$work/counted" "$cases" >"$work/rows"
+        }' "$work/bytes" "$work/longest" "$work/counted" "$cases" >"$work/rows"
     cat "$work/rows" >>"$csv"
     wanted=$((wanted + $(awk 'NF > 1' "$cases" | wc -l)))
     told=$((told + $(wc -l <"$work/rows")))
