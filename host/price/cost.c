@@ -94,9 +94,6 @@ static double bound_at(const cost_fit *fit, const double *feature, double value)
     return value > fit->largest ? 2.0 * bound - 1.0 : bound;
 }
 
-/* A promise within more than this factor is none. */
-#define COST_BOUND_MOST 4.0
-
 /* One quantity, or nothing of it, and why in *why. */
 static cost_figure predicted(const cost_row *row, cost_quantity quantity, cost_basis of,
                              const double *feature, const char **why) {
@@ -205,7 +202,7 @@ cost cost_of(const image *im, const cost_board *board, cost_number number) {
         return c;
     }
     double feature[COST_FEATURES];
-    cost_counts counts = cost_counts_of(im, board->fpu, number);
+    cost_counts counts = cost_counts_of(im, board, number);
     counts.smooth = 1.0;
     cost_features(&counts, feature);
     c.predictable = true;
