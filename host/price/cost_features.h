@@ -10,7 +10,8 @@
 #ifndef PRICE_COST_FEATURES_H
 #define PRICE_COST_FEATURES_H
 
-#include "cost.h"
+#include "cost_board.h"
+#include "host/image/image.h"
 
 /* Quantities that are fitted: X(id, word, whether it is a step's time). */
 #define COST_QUANTITY_ROWS(X) \
