@@ -20,6 +20,10 @@ enum { SWEEPS = 1500, ROUNDS = 6, TESTED_LEAST = 8, WIDTH = 112, BOARDS_MAX = 32
 #define FAR_OFF 0.04
 /* Of the smallest figure that is fitted: what a compiler makes of the smallest steps is half chance. */
 #define SLACK 0.25
+/* A bound is so many times as far as the farthest scene was: of 704 predictions for scenes drawn anew, 7 were beyond 1.25
+ * times (make price-check, seed 5; these scenes have joined the others since). */
+#define MARGIN 1.6
+
 /* What is fitted below this is nothing. */
 #define LEAST 1e-6
 /* How much a row's information counts of the figures of a board that is alike. */
@@ -229,8 +233,8 @@ static void tell(const char *board, cost_number number, const char *what, judged
     fprintf(stderr, " %d | %.2f |\n", j->unseen, bound);
 }
 
-/* The rows of a class judged, and its line of the table. Returns the bound: the farthest of either half, and a quarter of
- * that again. *tested: how many were not fitted. */
+/* The rows of a class judged, and its line of the table. Returns the bound: the farthest of either half,
+ * times MARGIN. *tested: how many were not fitted. */
 static double judge(const cost_fit *f, int board, cost_number number, cost_quantity q,
                     cost_class class, int *tested) {
     static const char *const says[COST_CLASSES] = {
@@ -262,7 +266,7 @@ static double judge(const cost_fit *f, int board, cost_number number, cost_quant
             show_parts(f, &rows[r], q);
         }
     }
-    bound = 1.0 + ceil(1.25 * (bound - 1.0) * 100.0) / 100.0;
+    bound = 1.0 + ceil(MARGIN * (bound - 1.0) * 100.0) / 100.0;
     char what[64];
     snprintf(what, sizeof what, "%s%s", quantity_words[q], says[class]);
     if (j.count[0] + j.count[1] + j.unseen > 0) {
