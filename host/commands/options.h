@@ -31,7 +31,12 @@
       "carry the rounding error of every sum along") \
     X(OPTION_ANGLES, "--angles", "A", OPTIONS_ENGINE, \
       "turned (default): sines are looked up once a step where the angles' rates\n" \
-      "allow it; lookup: at each stage, for angles that turn far in a step")
+      "allow it; lookup: at each stage, for angles that turn far in a step") \
+    X(OPTION_TABLES, "--tables", "T", OPTIONS_ENGINE, \
+      "linear, cubic: what the accelerations owe to one turn angle, sines and\n" \
+      "divisions, is looked up in tables in flash; none (default): computed") \
+    X(OPTION_CELLS, "--cells", "N", OPTIONS_ENGINE, \
+      "entries of such a table: a power of two (default: linear 256, cubic 64)")
 
 #define OPTION_NAME(which, word, value, group, text) which,
 typedef enum common_option { OPTION_ROWS(OPTION_NAME) } common_option;
@@ -95,7 +100,7 @@ typedef struct change_options {
 /* Where the common options of a command go. */
 typedef struct common_options {
     change_options change;
-    image_settings integration; /* --method, --compensated, --angles */
+    image_settings integration; /* --method, --compensated, --angles, --tables, --cells */
     const engine_kind *number;  /* --number: what computes */
 } common_options;
 

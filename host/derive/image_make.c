@@ -210,6 +210,7 @@ static void take_program(image_draft *d, program *p) {
     im->list[IMAGE_STEP] = take(&p->step);
     im->list[IMAGE_OBSERVE] = take(&p->observe);
     im->list[IMAGE_BOOKS] = take(&p->books);
+    im->list[IMAGE_TABLES] = take(&p->tables);
     if (p->contacts != NULL) {
         take_contacts(d, p->contacts);
     }
@@ -221,13 +222,15 @@ static void take_program(image_draft *d, program *p) {
 
 image *image_make(const equations *e, const bool *conserve, const image_settings *settings,
                   image_use use, diags *errors) {
+    image_settings done = *settings;
     program *p = program_make(e, conserve, errors);
-    if (p == NULL) {
+    if (p == NULL || !program_look_up(p, e, &done, errors)) {
+        program_free(p);
         return NULL;
     }
     image_draft d = image_draft_new();
     image *im = d.made;
-    im->settings = *settings;
+    im->settings = done;
     im->count = p->count;
     im->inputs = p->layout.inputs;
     im->outputs = p->outputs;

@@ -110,11 +110,39 @@ static void write_pair(FILE *out, const tape *t, int i, int wave) {
     }
 }
 
+static void write_cell(FILE *out, const tape *t, int i) {
+    const tape_tables *of = &t->tables;
+    fprintf(out, "    wh_real y%d;\n    const wh_real *row%d = wh_table_cell(cells, %dU, %dU, ", i, i,
+            of->bits, of->count * of->terms);
+    write_turns(out, t, &t->ops[i]);
+    fprintf(out, ", &y%d);\n", i);
+}
+
+void c_list_cells(FILE *out, const tape *t) {
+    const char *const scales[] = {"WH_R", "WH_TABLE_B(WH_R", "WH_TABLE_C(WH_R", "WH_TABLE_D(WH_R"};
+    const tape_tables *of = &t->tables;
+    const int width = of->count * of->terms;
+    const int64_t numbers = (int64_t)width * ((int64_t)1 << of->bits);
+    char hex[HEX_SIZE];
+    if (of->count == 0) {
+        return;
+    }
+    fprintf(out, "static const wh_real cells[%" PRId64 "] WH_FLASH = {", numbers);
+    for (int64_t i = 0; i < numbers; i++) {
+        const int term = (int)(i % of->terms);
+        fprintf(out, "%s%s(%s)%s", i % width == 0 ? "\n    " : " ", scales[term],
+                hex_write(of->number[i], hex), term > 0 ? ")," : ",");
+    }
+    fprintf(out, "\n};\n\n");
+}
+
 static void write_operation(FILE *out, const tape *t, int i) {
     static const op_style style = {write_operand, NULL, NULL};
     const op *o = &t->ops[i];
     const op_row *row = &op_rows[o->code];
-    if (row->kind == OP_IS_PHASE) {
+    if (row->kind == OP_IS_CELL) {
+        write_cell(out, t, i);
+    } else if (row->kind == OP_IS_PHASE) {
         write_phase(out, t, i);
     } else if (row->kind != OP_IS_CONSTANT) {
         fprintf(out, "    const wh_real x%d = ", i);
@@ -134,7 +162,7 @@ bool c_list_uses(const tape *t, op_code code) {
 
 bool c_list_uses_phase(const tape *t) {
     for (int i = 0; i < t->count; i++) {
-        if (tape_is_wave(&t->ops[i])) {
+        if (tape_is_wave(&t->ops[i]) || t->ops[i].code == OP_CELL) {
             return true;
         }
     }

@@ -22,6 +22,9 @@ void c_list_body(FILE *out, const tape *t, c_angles angles, const char *result);
 void c_list_function(FILE *out, const tape *t, c_angles angles, const char *name, bool second,
                      bool by_pointer);
 
+/* "cells", the tables of a list; nothing where it has none. */
+void c_list_cells(FILE *out, const tape *t);
+
 /* "waves", the wh_waves of a list that takes pairs, and what it needs. */
 void c_list_waves(FILE *out, const tape *t);
 

@@ -13,7 +13,8 @@
 const char *const describe_roles[IMAGE_ROLES] = {
     [IMAGE_STEP] = "step",       [IMAGE_OBSERVE] = "observe", [IMAGE_BOOKS] = "books",
     [IMAGE_SIGNALS] = "signals", [IMAGE_FORCES] = "forces",   [IMAGE_SETS] = "sets",
-    [IMAGE_POWERS] = "powers",   [IMAGE_LEVELS] = "levels"};
+    [IMAGE_POWERS] = "powers",   [IMAGE_LEVELS] = "levels",
+    [IMAGE_TABLES] = "tables"};
 
 const char *describe_ledger_kind(ledger_kind kind) {
     switch (kind) {
@@ -179,6 +180,7 @@ static void put_lists(json *j, const image *im) {
         json_whole(j, "roots", cost.roots);
         json_whole(j, "waves", cost.waves);
         json_whole(j, "calls", cost.calls);
+        json_whole(j, "look_ups", cost.look_ups);
         json_close(j, '}');
     }
     json_close(j, '}');

@@ -33,16 +33,32 @@ enum { IMAGE_ANGLES = IMAGE_ANGLES_ROWS(IMAGE_ANGLES_ONE) };
 /* Their words on command lines and in descriptions. */
 extern const char *const image_angles_words[IMAGE_ANGLES];
 
+/* What the accelerations owe to the one turn angle that they depend on: computed, or looked up in tables of its turn
+ * (core/table.h), between whose entries it is interpolated so. */
+#define IMAGE_TABLES_ROWS(X) \
+    X(TABLES_NONE, "none") \
+    X(TABLES_LINEAR, "linear") \
+    X(TABLES_CUBIC, "cubic")
+#define IMAGE_TABLES_NAME(id, word) id,
+typedef enum image_tables { IMAGE_TABLES_ROWS(IMAGE_TABLES_NAME) } image_tables;
+#undef IMAGE_TABLES_NAME
+#define IMAGE_TABLES_ONE(id, word) +1
+enum { IMAGE_TABLES_FORMS = IMAGE_TABLES_ROWS(IMAGE_TABLES_ONE) };
+#undef IMAGE_TABLES_ONE
+extern const char *const image_tables_words[IMAGE_TABLES_FORMS];
+
 /* How to integrate. */
 typedef struct image_settings {
     wh_method method;
     bool compensated;
     image_angles angles;
+    image_tables tables;
+    int cells; /* of a table, a turn: a power of two; 0: as many as its form takes by itself */
 } image_settings;
 
 /* What is integrated with unless something else is asked for. */
 #define IMAGE_SETTINGS_DEFAULT \
-    { WH_METHOD_DEFAULT, false, ANGLES_TURNED }
+    { WH_METHOD_DEFAULT, false, ANGLES_TURNED, TABLES_NONE, 0 }
 
 /* --- the lists -----------------------------------------------------------------------------------*/
 
@@ -57,6 +73,7 @@ typedef enum image_role {
     IMAGE_SETS,
     IMAGE_POWERS, /* of the ledger, as core/ledger.h wants them: the last two */
     IMAGE_LEVELS,
+    IMAGE_TABLES, /* what the tables of a step hold, exactly: result[k] is that of table k */
     IMAGE_ROLES
 } image_role;
 

@@ -6,11 +6,14 @@
 #define IMAGE_ANGLES_WORD(id, word) word,
 const char *const image_angles_words[IMAGE_ANGLES] = {IMAGE_ANGLES_ROWS(IMAGE_ANGLES_WORD)};
 
+#define IMAGE_TABLES_WORD(id, word) word,
+const char *const image_tables_words[IMAGE_TABLES_FORMS] = {IMAGE_TABLES_ROWS(IMAGE_TABLES_WORD)};
+
 _Static_assert(TURNED_WAVES_MAX == WH_WAVES, "the core's room is what an image may have");
 
 bool image_turns(const image *im) {
     const tape *t = im->list[IMAGE_STEP];
     return im->settings.angles == ANGLES_TURNED && im->contacts == 0 && im->angles > 0 &&
-           wh_method_turns(im->settings.method) && tape_takes_waves(t) &&
+           im->settings.tables == TABLES_NONE && wh_method_turns(im->settings.method) && tape_takes_waves(t) &&
            tape_waves(t) <= TURNED_WAVES_MAX;
 }

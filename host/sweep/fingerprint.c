@@ -45,6 +45,10 @@ char *fingerprint_make(const sweep *s, const char *model_text, const instance *b
     fprintf(out, "number: %s%s\n", s->kind->name, s->engine.compensated ? ", compensated" : "");
     fprintf(out, "method: %s\n", wh_methods[s->engine.method].word);
     fprintf(out, "angles: %s\n", image_angles_words[s->engine.angles]);
+    if (s->engine.tables != TABLES_NONE) {
+        fprintf(out, "tables: %s, %d cells\n", image_tables_words[s->engine.tables],
+                1 << im->list[IMAGE_STEP]->tables.bits);
+    }
     fprintf(out, "step: %.17g s\nuntil: %.17g s\n", base->step_s, base->until_s);
     fprintf(out, "measured from: %.17g s\n", s->from_s);
     put_instance(out, base);

@@ -266,7 +266,7 @@ static void run(const image *p, const engine_kind *kind, bool compensated) {
             continue;
         }
         image each = *p;
-        each.settings = (image_settings){(wh_method)i, compensated, ANGLES_TURNED};
+        each.settings = (image_settings){(wh_method)i, compensated, ANGLES_TURNED, TABLES_NONE, 0};
         void *running = kind->start(&each);
         double *output = calloc((size_t)p->outputs + 1, sizeof *output);
         if (output == NULL) {

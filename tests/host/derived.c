@@ -14,7 +14,7 @@
 #include "host/show/show_events.h"
 #include "unity.h"
 
-const image_settings plainly = {WH_RK4, false, ANGLES_TURNED};
+const image_settings plainly = {WH_RK4, false, ANGLES_TURNED, TABLES_NONE, 0};
 
 static const scene *scene_called(const whirl_model *m, const char *name) {
     for (int i = 0; i < m->scene_count; i++) {

@@ -177,7 +177,7 @@ static void check_sweep(const sample *s, const engine_kind *kind, int count, con
                       .scene = in,
                       .changes = &none,
                       .kind = kind,
-                      .engine = {WH_RK4, false, ANGLES_TURNED}};
+                      .engine = {WH_RK4, false, ANGLES_TURNED, TABLES_NONE, 0}};
     char *row = NULL;
     size_t length = 0;
     point_notes notes = {0};

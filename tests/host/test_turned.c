@@ -34,8 +34,8 @@ static bool turns(const char *more, const char *start, image_settings settings) 
 
 static void test_settings_and_lists_choose(void) {
     for (int m = 0; m < WH_METHODS; m++) {
-        const image_settings turned = {(wh_method)m, false, ANGLES_TURNED};
-        const image_settings lookup = {(wh_method)m, false, ANGLES_LOOKUP};
+        const image_settings turned = {(wh_method)m, false, ANGLES_TURNED, TABLES_NONE, 0};
+        const image_settings lookup = {(wh_method)m, false, ANGLES_LOOKUP, TABLES_NONE, 0};
         TEST_ASSERT_TRUE(turns("", "a = 1", turned));
         TEST_ASSERT_FALSE(turns("", "a = 1", lookup));
         TEST_ASSERT_TRUE(turns("", "a' = 3000 [rad/s]", turned)); /* however fast */

@@ -16,7 +16,7 @@ static bool derives(const char *text, diags *all) {
     instance *inst = NULL;
     equations *e = NULL;
     image *p = NULL;
-    static const image_settings settings = {WH_RK4, false, ANGLES_TURNED};
+    static const image_settings settings = {WH_RK4, false, ANGLES_TURNED, TABLES_NONE, 0};
     if (parsed != NULL) {
         inst = instance_make(parsed->mechanisms[0], parsed->scenes[0], NULL, all);
     }
