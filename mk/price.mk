@@ -158,3 +158,16 @@ bench-links-now: $(GEN)/.stamp
 	@OUT=build/links $(TO_PRICE) mk/price/links.sh
 	@mk/price/into_page.sh build/links/links.md docs/price.md links
 	@cat build/links/links.md
+
+# What tables of an angle's functions cost and save: the table of docs/price.md.
+TABLE_BOARDS := mps2-an386 mps2-an385 mps2-an385-m0 atmega328p
+.PHONY: bench-tables-board bench-tables-now
+bench-tables-board: $(GEN)/.stamp
+	@$(MAKE) $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl) \
+	    $(if $(filter single,$(BOARD_IMAGES)),$(AVR_RUN),$(PLUGIN))
+	@OUT=build/turn_tables/$(BOARD) $(TO_PRICE) TIMING=$(BOARD_TIMING) EMULATE="$(call emulate,IMAGE)" \
+	    SMALL=$(if $(filter single,$(BOARD_IMAGES)),1 PLUGIN=,0) mk/price/turn_tables.sh
+
+bench-tables-now: $(GEN)/.stamp
+	+@for board in $(TABLE_BOARDS); do $(MAKE) BOARD=$$board bench-tables-board || exit 1; done
+	@cat $(TABLE_BOARDS:%=build/turn_tables/%/rows)

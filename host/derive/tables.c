@@ -241,7 +241,7 @@ static void sort_out(tabling *t) {
 static double knot(const double *of, int cells, int at) { return of[at & (cells - 1)]; }
 
 static double second_difference(const double *of, int n, int i) {
-    return knot(of, n, i - 1) - 2.0 * of[i] + knot(of, n, i + 1);
+    return (knot(of, n, i - 1) + knot(of, n, i + 1)) - 2.0 * of[i];
 }
 
 static double fourth_difference(const double *of, int n, int i) {
@@ -274,6 +274,30 @@ static void write_cubic(const double *value, const double *slope, int n, int i, 
     number[1] = rise - 0.25 * number[3];
 }
 
+/* Is table k the same, or the opposite, when the angle turns the other way? To the bit. */
+static bool mirrors(const tape_tables *of, int k, bool odd) {
+    const int n = 1 << of->bits;
+    for (int i = 0; i <= n / 2; i++) {
+        const double *here = &of->number[(i * of->count + k) * of->terms];
+        const double *there = &of->number[(((n - i) & (n - 1)) * of->count + k) * of->terms];
+        for (int c = 0; c < of->terms; c++) {
+            const bool opposite = (c % 2 != 0) != odd;
+            if (here[c] != (opposite ? -there[c] : there[c])) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+static void find_mirrors(tape_tables *of) {
+    of->folds = true;
+    for (int k = 0; k < of->count; k++) {
+        of->odd[k] = mirrors(of, k, true);
+        of->folds = of->folds && (of->odd[k] || mirrors(of, k, false));
+    }
+}
+
 static void fill_in(const tabling *t, tape *made) {
     const tape *c = t->from->coefficients;
     tape_tables *into = &made->tables;
@@ -296,8 +320,12 @@ static void fill_in(const tabling *t, tape *made) {
             } else {
                 write_cubic(&value[k * n], &slope[k * n], n, i, number);
             }
+            for (int term = 0; term < into->terms; term++) {
+                number[term] = number[term] == 0.0 ? 0.0 : number[term]; /* one zero */
+            }
         }
     }
+    find_mirrors(into);
     free(all);
     free(value);
     free(slope);

@@ -112,10 +112,24 @@ static void write_pair(FILE *out, const tape *t, int i, int wave) {
 
 static void write_cell(FILE *out, const tape *t, int i) {
     const tape_tables *of = &t->tables;
-    fprintf(out, "    wh_real y%d;\n    const wh_real *row%d = wh_table_cell(cells, %dU, %dU, ", i, i,
-            of->bits, of->count * of->terms);
+    fprintf(out, "    wh_real y%d;\n", i);
+    if (of->folds) {
+        fprintf(out, "    bool back%d;\n", i);
+    }
+    fprintf(out, "    const wh_real *row%d = wh_table_%s(cells, %dU, %dU, ", i,
+            of->folds ? "half" : "cell", of->bits, of->count * of->terms);
     write_turns(out, t, &t->ops[i]);
-    fprintf(out, ", &y%d);\n", i);
+    fprintf(out, ", &y%d", i);
+    if (of->folds) {
+        fprintf(out, ", &back%d", i);
+    }
+    fprintf(out, ");\n");
+}
+
+/* Is it looked up in an odd table that folds? */
+static bool is_mirrored(const tape *t, const op *o) {
+    return op_rows[o->code].kind == OP_IS_LOOKUP && t->tables.folds &&
+           t->tables.odd[(int)o->value / t->tables.terms];
 }
 
 void c_list_cells(FILE *out, const tape *t) {
@@ -127,13 +141,21 @@ void c_list_cells(FILE *out, const tape *t) {
     if (of->count == 0) {
         return;
     }
-    fprintf(out, "static const wh_real cells[%" PRId64 "] WH_FLASH = {", numbers);
+    if (of->folds) {
+        fprintf(out, "static const wh_real cells[WH_TABLE_HALF(%dU) * %d] WH_FLASH = {", of->bits,
+                width);
+    } else {
+        fprintf(out, "static const wh_real cells[%" PRId64 "] WH_FLASH = {", numbers);
+    }
     for (int64_t i = 0; i < numbers; i++) {
         const int term = (int)(i % of->terms);
+        if (of->folds && i == numbers / 2 + width) {
+            fprintf(out, "\n#if !WH_TABLE_FOLD");
+        }
         fprintf(out, "%s%s(%s)%s", i % width == 0 ? "\n    " : " ", scales[term],
                 hex_write(of->number[i], hex), term > 0 ? ")," : ",");
     }
-    fprintf(out, "\n};\n\n");
+    fprintf(out, "%s\n};\n\n", of->folds ? "\n#endif" : "");
 }
 
 static void write_operation(FILE *out, const tape *t, int i) {
@@ -145,8 +167,12 @@ static void write_operation(FILE *out, const tape *t, int i) {
     } else if (row->kind == OP_IS_PHASE) {
         write_phase(out, t, i);
     } else if (row->kind != OP_IS_CONSTANT) {
-        fprintf(out, "    const wh_real x%d = ", i);
+        const bool mirrored = is_mirrored(t, o);
+        fprintf(out, "    const wh_real x%d = %s", i, mirrored ? "wh_table_back(" : "");
         op_text(out, t, o, row->c, &style);
+        if (mirrored) {
+            fprintf(out, ", back%d)", o->a);
+        }
         fprintf(out, ";\n");
     }
 }

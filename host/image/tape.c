@@ -201,7 +201,11 @@ int tape_phase(tape *t, const double *multiple, double offset_rad, int radians) 
 
 void tape_tables_new(tape *t, int count, int bits, int terms) {
     const size_t numbers = ((size_t)count << (unsigned)bits) * (size_t)terms;
-    t->tables = (tape_tables){count, bits, terms, arena_alloc(t->arena, numbers * sizeof(double))};
+    t->tables = (tape_tables){.count = count,
+                              .bits = bits,
+                              .terms = terms,
+                              .number = arena_alloc(t->arena, numbers * sizeof(double)),
+                              .odd = arena_alloc(t->arena, (size_t)count * sizeof(bool))};
 }
 
 int tape_cell(tape *t, const int *turns) {
