@@ -298,6 +298,30 @@ static void find_mirrors(tape_tables *of) {
     }
 }
 
+/* How far off its function each table is, at `TRIED` places a cell, its middle and its knots among them: there, or
+ * nearly, the worst ones are. */
+static void measure(const tabling *t, tape_tables *of) {
+    enum { TRIED = 16 };
+    const tape *c = t->from->coefficients;
+    const int n = 1 << of->bits;
+    turn_value *all = room(c->count, sizeof *all);
+    for (int i = 0; i < n * TRIED; i++) {
+        const double y = (double)(i % TRIED) / TRIED - 0.5;
+        turn_evaluate(c, t->multiple, (i / TRIED + y) / n, all);
+        for (int k = 0; k < of->count; k++) {
+            const double *number = &of->number[(i / TRIED * of->count + k) * of->terms];
+            double value = 0.0;
+            for (int term = of->terms - 1; term >= 0; term--) {
+                value = number[term] + y * value;
+            }
+            const double exact = all[t->table[k]].value;
+            of->size[k] = number_most(of->size[k], fabs(exact));
+            of->off[k] = number_most(of->off[k], fabs(value - exact));
+        }
+    }
+    free(all);
+}
+
 static void fill_in(const tabling *t, tape *made) {
     const tape *c = t->from->coefficients;
     tape_tables *into = &made->tables;
@@ -326,6 +350,7 @@ static void fill_in(const tabling *t, tape *made) {
         }
     }
     find_mirrors(into);
+    measure(t, into);
     free(all);
     free(value);
     free(slope);

@@ -205,6 +205,8 @@ void tape_tables_new(tape *t, int count, int bits, int terms) {
                               .bits = bits,
                               .terms = terms,
                               .number = arena_alloc(t->arena, numbers * sizeof(double)),
+                              .size = arena_alloc(t->arena, (size_t)count * sizeof(double)),
+                              .off = arena_alloc(t->arena, (size_t)count * sizeof(double)),
                               .odd = arena_alloc(t->arena, (size_t)count * sizeof(bool))};
 }
 

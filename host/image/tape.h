@@ -75,6 +75,8 @@ typedef struct tape_tables {
     int bits;       /* 2^bits cells */
     int terms;      /* numbers a cell of one table: WH_TABLE_LINEAR, WH_TABLE_CUBIC */
     double *number; /* [2^bits][count][terms], in the list's arena */
+    double *size;   /* [count]: the largest value of what it holds, */
+    double *off;    /* [count]: and the most that interpolating is off it, but for rounding */
     bool folds;     /* each is even or odd: */
     bool *odd;      /* [count], likewise */
 } tape_tables;
