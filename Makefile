@@ -1,7 +1,7 @@
 # Whirl: energies in, firmware out. `make` lists the targets; the machinery is in mk/.
 #
 # V=1 shows the commands. Nothing is written outside build/, but for `make figures-docs`, `make price-effects`,
-# `make bench-boards`, `make bench-peers` and `make bench-links`, which renew their part of docs/, and
+# `make bench-boards`, `make bench-tables`, `make bench-peers` and `make bench-links`, which renew their part of docs/, and
 # `make too-large`, which lists what does not fit into a board.
 
 .DEFAULT_GOAL := help

@@ -168,6 +168,13 @@ bench-tables-board: $(GEN)/.stamp
 	@OUT=build/turn_tables/$(BOARD) $(TO_PRICE) TIMING=$(BOARD_TIMING) EMULATE="$(call emulate,IMAGE)" \
 	    SMALL=$(if $(filter single,$(BOARD_IMAGES)),1 PLUGIN=,0) mk/price/turn_tables.sh
 
-bench-tables-now: $(GEN)/.stamp
+bench-tables-now: $(GEN)/.stamp build/whirl
 	+@for board in $(TABLE_BOARDS); do $(MAKE) BOARD=$$board bench-tables-board || exit 1; done
-	@cat $(TABLE_BOARDS:%=build/turn_tables/%/rows)
+	@mkdir -p build/turn_tables
+	@WHIRL=build/whirl mk/price/turn_errors.sh >build/turn_tables/errors
+	@awk -f mk/price/turn_errors.awk build/turn_tables/errors >build/turn_tables/errors.md
+	@awk -f mk/price/turn_tables.awk build/turn_tables/errors $(TABLE_BOARDS:%=build/turn_tables/%/rows) \
+	    >build/turn_tables/price.md
+	@mk/price/into_page.sh build/turn_tables/errors.md docs/numerics.md turn-tables
+	@mk/price/into_page.sh build/turn_tables/price.md docs/price.md turn-tables
+	@cat build/turn_tables/errors.md build/turn_tables/price.md

@@ -8,7 +8,7 @@
 set -eu
 here=$(dirname "$0")
 : "${SCENES:=epicyclic_conserved rig_fixed}"
-: "${SETTINGS:=turned lookup linear_64 linear_256 linear_1024 cubic_16 cubic_64 cubic_256}"
+: "${SETTINGS:=turned lookup linear_64 linear_256 linear_1024 cubic_32 cubic_64 cubic_256}"
 rm -rf "$OUT"
 mkdir -p "$OUT"
 
