@@ -56,9 +56,9 @@
 #define WH_TABLE_C(x) (x)
 #define WH_TABLE_D(x) (x)
 #else
-#define WH_TABLE_B(x) ((x) * 0x1p-32f)
-#define WH_TABLE_C(x) ((x) * 0x1p-64f)
-#define WH_TABLE_D(x) ((x) * 0x1p-96f)
+#define WH_TABLE_B(x) ((x)*0x1p-32f)
+#define WH_TABLE_C(x) ((x)*0x1p-64f)
+#define WH_TABLE_D(x) ((x)*0x1p-96f)
 #endif
 
 /* The cell that `phase` is in, of 2^bits: cells[number * width], and the way from its middle in *y. Float: any phase.

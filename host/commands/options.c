@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/table.h"
 #include "host/base/nearest.h"
 #include "host/base/room.h"
 #include "host/image/turned.h"
@@ -253,8 +252,8 @@ int options_choose(const char *command, const char *what, const char *value, con
 
 static bool take_cells(const char *command, const char *value, int *cells) {
     const size_t digits = strspn(value, "0123456789");
-    const long least = 1L << WH_TABLE_BITS_LEAST;
-    const long most = 1L << WH_TABLE_BITS_MOST;
+    const long least = IMAGE_CELLS_LEAST;
+    const long most = IMAGE_CELLS_MOST;
     const long number = digits > 0 && digits < 9 && value[digits] == '\0' ? atol(value) : 0;
     const bool good = number >= least && number <= most && (number & (number - 1)) == 0;
     if (!good) {

@@ -49,7 +49,7 @@ static bool is_zero(const tape *t, int a) {
 static void enter(collecting *c, product_sum *sum, const unsigned char *power, int coefficient) {
     products *p = c->made;
     for (int i = 0; i < sum->count; i++) {
-        product *same = &sum->product[i];
+        term_product *same = &sum->product[i];
         if (memcmp(same->power, power, (size_t)p->symbols) == 0) {
             same->coefficient = tape_add(p->coefficients, same->coefficient, coefficient);
             if (is_zero(p->coefficients, same->coefficient)) {
@@ -67,7 +67,7 @@ static void enter(collecting *c, product_sum *sum, const unsigned char *power, i
         return;
     }
     sum->product = arena_room(p->memory, sum->product, sum->count, sizeof *sum->product);
-    sum->product[sum->count++] = (product){power, coefficient};
+    sum->product[sum->count++] = (term_product){power, coefficient};
 }
 
 static product_sum of_angles(collecting *c, int coefficient) {

@@ -9,13 +9,13 @@
 enum { PRODUCTS_MOST = 128 };
 
 /* coefficient * symbol[0]^power[0] * symbol[1]^power[1] ... */
-typedef struct product {
+typedef struct term_product {
     const unsigned char *power; /* [symbols] */
     int coefficient;            /* operation of `coefficients` */
-} product;
+} term_product;
 
 typedef struct product_sum {
-    product *product; /* [count], each with other powers */
+    term_product *product; /* [count], each with other powers */
     int count;
 } product_sum;
 

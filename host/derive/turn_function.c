@@ -79,7 +79,7 @@ void turn_evaluate(const tape *t, const int *multiple, double turns, turn_value 
         case OP_SQRT: value[i] = function_of(FN_SQRT, x, y); break;
         case OP_CALL: value[i] = function_of(o->function, x, y); break;
         case OP_POW: value[i] = power_of(x, y); break;
-        case OP_PHASE: /* no value of its own */
+        case OP_PHASE:  /* no value of its own */
         case OP_LINEAR: /* and these are in no such list */
         case OP_RATE:
         case OP_INPUT:

@@ -13,8 +13,7 @@
 const char *const describe_roles[IMAGE_ROLES] = {
     [IMAGE_STEP] = "step",       [IMAGE_OBSERVE] = "observe", [IMAGE_BOOKS] = "books",
     [IMAGE_SIGNALS] = "signals", [IMAGE_FORCES] = "forces",   [IMAGE_SETS] = "sets",
-    [IMAGE_POWERS] = "powers",   [IMAGE_LEVELS] = "levels",
-    [IMAGE_TABLES] = "tables"};
+    [IMAGE_POWERS] = "powers",   [IMAGE_LEVELS] = "levels",   [IMAGE_TABLES] = "tables"};
 
 const char *describe_ledger_kind(ledger_kind kind) {
     switch (kind) {

@@ -47,6 +47,9 @@ enum { IMAGE_TABLES_FORMS = IMAGE_TABLES_ROWS(IMAGE_TABLES_ONE) };
 #undef IMAGE_TABLES_ONE
 extern const char *const image_tables_words[IMAGE_TABLES_FORMS];
 
+/* Cells of such a table, a turn: powers of two. */
+enum { IMAGE_CELLS_LEAST = 8, IMAGE_CELLS_MOST = 65536 };
+
 /* How to integrate. */
 typedef struct image_settings {
     wh_method method;

@@ -213,8 +213,8 @@ void tape_tables_new(tape *t, int count, int bits, int terms) {
 int tape_cell(tape *t, const int *turns) {
     int *kept = arena_alloc(t->arena, (size_t)t->angles * sizeof *kept);
     memcpy(kept, turns, (size_t)t->angles * sizeof *kept);
-    return enter(
-        t, (op){.code = OP_CELL, .function = FUNCTION_NONE, .a = -1, .b = -1, .turns = kept});
+    return enter(t,
+                 (op){.code = OP_CELL, .function = FUNCTION_NONE, .a = -1, .b = -1, .turns = kept});
 }
 
 int tape_look_up(tape *t, int cell, int which) {

@@ -163,8 +163,8 @@ typedef struct tape_cost {
     int arithmetic; /* additions, subtractions, products, negations, comparisons */
     int divisions;
     int roots;
-    int waves; /* sines and cosines, a pair of one phase counted once */
-    int calls; /* of core/function.h */
+    int waves;    /* sines and cosines, a pair of one phase counted once */
+    int calls;    /* of core/function.h */
     int look_ups; /* in tables; what interpolates is counted as arithmetic */
 } tape_cost;
 

@@ -1,6 +1,6 @@
 #!/bin/sh
 # turn_errors.sh: how far off the motion is whose accelerations are looked up in tables (--tables), beside the forms that
-# compute them. `make tables-errors` calls it with WHIRL and OUT.
+# compute them. `make bench-tables` calls it with WHIRL and OUT.
 #
 # Prints, for each of SCENES and SETTINGS, float, float with compensated sums and double: the largest error of the angle at the scene's own step until
 # UNTIL against the exact form in double at a sixteenth of the step, compensated; and of the same mechanism turning freely

@@ -41,9 +41,10 @@ static void start(motion *m, const scene *in, stepping how) {
     }
     m->equations = m->instance != NULL ? equations_derive(m->instance, m->errors) : NULL;
     if (m->equations != NULL) {
-        m->image = image_make(m->equations, in->conserve,
-                              &(image_settings){how.method, how.compensated, how.angles, TABLES_NONE, 0},
-                              IMAGE_TO_RUN, m->errors);
+        m->image =
+            image_make(m->equations, in->conserve,
+                       &(image_settings){how.method, how.compensated, how.angles, TABLES_NONE, 0},
+                       IMAGE_TO_RUN, m->errors);
     }
     diags_flush(m->errors, stdout);
     TEST_ASSERT_NOT_NULL_MESSAGE(m->image, in->name);

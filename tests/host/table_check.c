@@ -84,8 +84,8 @@ uint64_t table_check(const image *const *im, int images, uint64_t stride,
                                              (unsigned)(t->count * t->terms), phase, &y);
             for (int k = 0; k < t->count; k++) {
                 const float *of = &row[k * t->terms];
-                const float value = t->terms == WH_TABLE_LINEAR ? wh_table_linear(of, y)
-                                                                : wh_table_cubic(of, y);
+                const float value =
+                    t->terms == WH_TABLE_LINEAR ? wh_table_linear(of, y) : wh_table_cubic(of, y);
                 const double off = fabs((double)value - exact[k]);
                 error[m][k].square += off * off;
                 if (!(off <= error[m][k].worst)) { /* no number is the worst */

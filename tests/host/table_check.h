@@ -8,10 +8,10 @@
 enum { TABLE_CHECK_MOST = 16 };
 
 typedef struct table_error {
-    double worst;        /* |float table - function in double| */
-    uint32_t worst_at;   /* phase */
-    double square;       /* sum of squares */
-    double bound;        /* what it may be: interpolation as the image states it, and rounding */
+    double worst;      /* |float table - function in double| */
+    uint32_t worst_at; /* phase */
+    double square;     /* sum of squares */
+    double bound;      /* what it may be: interpolation as the image states it, and rounding */
 } table_error;
 
 /* Tables of images of one scene, several forms of them: all are held against the same function values. One phase out of

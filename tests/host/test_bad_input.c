@@ -27,8 +27,8 @@ static void try_instance(const mechanism *of, const scene *in, bool derive, diag
         equations *derived = equations_derive(made, all);
         if (derived != NULL) {
             image_free(image_make(derived, in == NULL ? NULL : in->conserve,
-                                  &(image_settings){WH_RK4, false, ANGLES_TURNED, TABLES_NONE, 0}, IMAGE_TO_RUN,
-                                  all));
+                                  &(image_settings){WH_RK4, false, ANGLES_TURNED, TABLES_NONE, 0},
+                                  IMAGE_TO_RUN, all));
         }
         equations_free(derived);
     }

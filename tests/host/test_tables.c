@@ -88,8 +88,8 @@ static void test_errors_of_tables_fall_by_their_order(void) {
             image *coarse = tabled_surely(&d, both[f], cells);
             image *fine = tabled_surely(&d, both[f], 2 * cells);
             for (int k = 0; k < coarse->list[IMAGE_STEP]->tables.count; k++) {
-                const double ratio = coarse->list[IMAGE_STEP]->tables.off[k] /
-                                     fine->list[IMAGE_STEP]->tables.off[k];
+                const double ratio =
+                    coarse->list[IMAGE_STEP]->tables.off[k] / fine->list[IMAGE_STEP]->tables.off[k];
                 TEST_ASSERT_DOUBLE_WITHIN(f == 0 ? 0.5 : 4.0, f == 0 ? 4.0 : 16.0, ratio);
             }
             image_free(coarse);
@@ -175,7 +175,8 @@ static void write_mechanism(FILE *out, int count, uint64_t *seed) {
     }
     fprintf(out, ")\nF = 0.1 [N*m*s]*th'^2/2\n");
     write_sum(out, seed, "Q(th) = u*", 1.0, 0.5, "\n");
-    fprintf(out, "scene drawn_moves { start th = %.3f, th' = %.3f [rad/s]; step 1 [ms]; until 1 [s] }\n",
+    fprintf(out,
+            "scene drawn_moves { start th = %.3f, th' = %.3f [rad/s]; step 1 [ms]; until 1 [s] }\n",
             random_between(seed, -2.0, 2.0), random_between(seed, 2.0, 6.0));
 }
 
@@ -253,8 +254,8 @@ static double compare(const comparison *c, int coordinates, uint64_t *seed, cons
         const double off = fabs(tables[i] - exact[i]);
         const double share = off / (1.02 * may[i] + 1e-11 * (1.0 + fabs(exact[i])));
         if (!(share <= 1.0)) {
-            printf("coordinate %d: %.17g, exactly %.17g, may be off by %.3g\n", i, tables[i], exact[i],
-                   may[i]);
+            printf("coordinate %d: %.17g, exactly %.17g, may be off by %.3g\n", i, tables[i],
+                   exact[i], may[i]);
         }
         TEST_ASSERT_TRUE_MESSAGE(share <= 1.0, text);
         worst = fmax(worst, share);
@@ -283,7 +284,8 @@ static void test_generated_accelerations_are_as_near_as_the_tables(void) {
         derived_free(&d);
         free(text);
     }
-    printf("  %d mechanisms: accelerations off by at most %.3f of what they may be\n", cases, worst);
+    printf("  %d mechanisms: accelerations off by at most %.3f of what they may be\n", cases,
+           worst);
     TEST_ASSERT_TRUE(worst > 0.5); /* what it may be is not more than it is */
 }
 
@@ -345,8 +347,8 @@ static void test_generated_motions_near_the_exact_ones_by_order(void) {
         }
         TEST_ASSERT_GREATER_OR_EQUAL_INT(cases / 2, count);
         qsort(order, (size_t)count, sizeof *order, by_size);
-        printf("  %d mechanisms, %s: the motion's error by the cells' size is of order %.2f\n", count,
-               image_tables_words[both[f]], order[count / 2]);
+        printf("  %d mechanisms, %s: the motion's error by the cells' size is of order %.2f\n",
+               count, image_tables_words[both[f]], order[count / 2]);
         TEST_ASSERT_DOUBLE_WITHIN(f == 0 ? 0.6 : 1.0, f == 0 ? 3.0 : 5.0, order[count / 2]);
     }
 }

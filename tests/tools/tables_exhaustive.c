@@ -65,9 +65,9 @@ static int check(const char *name, uint64_t stride) {
             const table_error *e = &error[m][k];
             printf("%s %s %d table %d: size %.4g, interpolation off by %.2e, worst %.3e at phase "
                    "0x%08x, rms %.2e, bound %.3e%s\n",
-                   name, image_tables_words[forms[m].form], forms[m].cells, k, t->size[k], t->off[k],
-                   e->worst, (unsigned)e->worst_at, sqrt(e->square / (double)phases), e->bound,
-                   e->worst <= e->bound ? "" : " BEYOND");
+                   name, image_tables_words[forms[m].form], forms[m].cells, k, t->size[k],
+                   t->off[k], e->worst, (unsigned)e->worst_at, sqrt(e->square / (double)phases),
+                   e->bound, e->worst <= e->bound ? "" : " BEYOND");
             beyond += !(e->worst <= e->bound);
         }
         image_free(im[m]);
