@@ -3,7 +3,7 @@
 # instructions, cycles and flash of SCENES on BOARD. `make bench-tables` calls it for each board with the variables of
 # price.sh, and TIMING; EMULATE runs the image IMAGE; SMALL is 1 where memory is small.
 #
-# Writes OUT/rows: lines "BOARD SCENE SETTING INSTRUCTIONS CYCLES FLASH", flash being that of the smallest firmware around
+# Each image's state after 300 steps must be the interpreter's, to the bit. Writes OUT/rows: lines "BOARD SCENE SETTING INSTRUCTIONS CYCLES FLASH", flash being that of the smallest firmware around
 # the scene.
 set -eu
 here=$(dirname "$0")
@@ -37,7 +37,19 @@ for scene in $SCENES; do
             $BOARD_CC $BOARD_CFLAGS -I"$OUT" -include "$OUT/$name.h" -DWH_SCENE_WORDS="${name}_MEMORY_WORDS" \
                 -DBENCH_SMALL="$SMALL" $BOARD_LDFLAGS -o "$OUT/bench_$name.elf" boards/programs/bench.c \
                 "$OUT/index_$name.c" "$OUT/$name.o" $BOARD_OBJECTS "$LIB_BOARD" $BOARD_LDLIBS
+            $BOARD_CC $BOARD_CFLAGS -I"$OUT" -include "$OUT/$name.h" -DWH_SCENE_WORDS="${name}_MEMORY_WORDS" \
+                -DSCENE_STEPS_MOST=300U $BOARD_LDFLAGS -o "$OUT/bits_$name.elf" boards/programs/scenes.c \
+                "$OUT/index_$name.c" "$OUT/$name.o" $BOARD_OBJECTS "$LIB_BOARD" $BOARD_LDLIBS
         }
+        # what costs less must end in the same bits as the interpreter
+        there=$(sh -c "$(echo "$EMULATE" | sed "s:IMAGE:$OUT/bits_$name.elf:")" | sed -n 's/.* hash \(0x[0-9a-f]*\) ok.*/\1/p')
+        # shellcheck disable=SC2046
+        here_too=$("$WHIRL" run "$scene" --number float --until 0.3s $(options_of "$setting") |
+            sed -n 's/^state hash *//p')
+        if [ -z "$there" ] || [ "$there" != "$here_too" ]; then
+            echo "turn_tables.sh: error: $BOARD $name ends with ${there:-nothing}, the interpreter with $here_too" >&2
+            exit 1
+        fi
     done
 done
 # shellcheck disable=SC2086
