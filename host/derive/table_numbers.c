@@ -84,9 +84,10 @@ static void measure(const table_functions *f, tape_tables *of) {
     turn_value *all = room(c->count, sizeof *all);
     for (int i = 0; i < n * TRIED; i++) {
         const double y = (double)(i % TRIED) / TRIED - 0.5;
-        turn_evaluate(c, f->multiple, (i / TRIED + y) / n, all);
+        const int cell = i / TRIED;
+        turn_evaluate(c, f->multiple, (cell + y) / n, all);
         for (int k = 0; k < of->count; k++) {
-            const double *number = &of->number[(i / TRIED * of->count + k) * of->terms];
+            const double *number = &of->number[(cell * of->count + k) * of->terms];
             double value = 0.0;
             for (int term = of->terms - 1; term >= 0; term--) {
                 value = number[term] + y * value;

@@ -381,35 +381,38 @@ static void take_coefficients(tabling *t) {
     }
 }
 
+/* NULL where it was refused. */
+static tape *make(tabling *t, const tape *list, image_tables form, int bits, tape **exact) {
+    find_phase(t);
+    if (t->why->reason != NULL) {
+        return NULL;
+    }
+    take_coefficients(t);
+    try_angles(t);
+    if (t->why->reason != NULL) {
+        return NULL;
+    }
+    sort_out(t);
+    if (t->tables == 0) {
+        refuse(t, "depend on no turn angle: there is nothing to look up", "leave --tables out", -1);
+        return NULL;
+    }
+    tape *made = cheaper(t, list, form, bits);
+    *exact = take_exact(t);
+    return made;
+}
+
 tape *tables_make(const tape *list, image_tables form, int cells, tape **exact, refusal *why) {
     products p = products_of(list, why);
     tabling t = {.from = &p,
                  .why = why,
                  .turns = room(list->angles, sizeof *t.turns),
                  .multiple = room(p.coefficients->count, sizeof *t.multiple)};
-    tape *made = NULL;
     int bits = 0;
     while ((1 << bits) < cells) {
         bits++;
     }
-    if (why->reason == NULL) {
-        find_phase(&t);
-    }
-    if (why->reason == NULL) {
-        take_coefficients(&t);
-        try_angles(&t);
-    }
-    if (why->reason == NULL) {
-        sort_out(&t);
-        if (t.tables == 0) {
-            refuse(&t, "depend on no turn angle: there is nothing to look up", "leave --tables out",
-                   -1);
-        }
-    }
-    if (why->reason == NULL) {
-        made = cheaper(&t, list, form, bits);
-        *exact = take_exact(&t);
-    }
+    tape *made = why->reason == NULL ? make(&t, list, form, bits, exact) : NULL;
     for (int k = 0; k < t.count; k++) {
         free(t.coefficient[k].value);
     }
