@@ -254,7 +254,8 @@ static bool take_cells(const char *command, const char *value, int *cells) {
     const size_t digits = strspn(value, "0123456789");
     const long least = IMAGE_CELLS_LEAST;
     const long most = IMAGE_CELLS_MOST;
-    const long number = digits > 0 && digits < 9 && value[digits] == '\0' ? strtol(value, NULL, 10) : 0;
+    const long number =
+        digits > 0 && digits < 9 && value[digits] == '\0' ? strtol(value, NULL, 10) : 0;
     const bool good = number >= least && number <= most && (number & (number - 1)) == 0;
     if (!good) {
         fprintf(stderr,
