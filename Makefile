@@ -1,7 +1,8 @@
 # Whirl: energies in, firmware out. `make` lists the targets; the machinery is in mk/.
 #
 # V=1 shows the commands. Nothing is written outside build/, but for `make figures-docs`, `make price-effects`,
-# `make bench-boards`, `make bench-peers`, `make bench-links` and `make price-fit`, which renew their part of docs/, and
+# `make bench-boards`, `make bench-tables`, `make bench-peers`, `make bench-links` and `make price-fit`, which renew their
+# part of docs/, and
 # `make too-large`, which lists what does not fit into a board.
 
 .DEFAULT_GOAL := help
@@ -124,6 +125,10 @@ functions-exhaustive: $(B)/tools/functions_exhaustive ## the float functions' wo
 root-exhaustive: $(B)/tools/root_exhaustive ## the square root in integers, over all 2^32 numbers (a minute)
 	$(Q)$<
 
+.PHONY: tables-exhaustive
+tables-exhaustive: $(B)/tools/tables_exhaustive ## tables of --tables against their functions, over all 2^32 phases (a quarter of an hour)
+	$(Q)$<
+
 .PHONY: fuzz
 fuzz: ## broken files at the parser, odd mechanisms at the rest, for FUZZ_SECONDS each
 	@CC="$(CC)" mk/setup/deps.sh host quality
@@ -145,6 +150,11 @@ bench: ## instructions a step, counted, on this machine and on the emulated boar
 bench-boards: ## a step of five scenes on every board: instructions, cycles, bytes; into docs/price.md (minutes)
 	@CC="$(CC)" mk/setup/deps.sh host firmware boards quality
 	@$(MAKE) bench-boards-now
+
+.PHONY: bench-tables
+bench-tables: ## a step that looks up in tables, beside those that compute, on four boards; into docs/price.md (minutes)
+	@CC="$(CC)" mk/setup/deps.sh host firmware boards quality
+	@$(MAKE) bench-tables-now
 
 .PHONY: bench-peers
 bench-peers: ## the same steps and derivations by other libraries, as ratios; into docs/price.md (installs them, large)

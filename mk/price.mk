@@ -223,3 +223,23 @@ price-check: build/whirl build/tools/price_fit build/tools/mechanisms ## predict
 	+@for board in $(PRICE_CHECKED); do \
 	    $(MAKE) BOARD=$$board PRICE_OUT=build/cost_check price-measure-board || true; done
 	@build/tools/price_fit --check build/cost_check/rows.csv
+
+# What tables of an angle's functions cost and save: the table of docs/price.md.
+TABLE_BOARDS := mps2-an386 mps2-an385 mps2-an385-m0 atmega328p
+.PHONY: bench-tables-board bench-tables-now
+bench-tables-board: $(GEN)/.stamp
+	@$(MAKE) $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl) \
+	    $(if $(filter single,$(BOARD_IMAGES)),$(AVR_RUN),$(PLUGIN))
+	@OUT=build/turn_tables/$(BOARD) $(TO_PRICE) TIMING=$(BOARD_TIMING) EMULATE="$(call emulate,IMAGE)" \
+	    SMALL=$(if $(filter single,$(BOARD_IMAGES)),1 PLUGIN=,0) mk/price/turn_tables.sh
+
+bench-tables-now: $(GEN)/.stamp build/whirl
+	+@for board in $(TABLE_BOARDS); do $(MAKE) BOARD=$$board bench-tables-board || exit 1; done
+	@mkdir -p build/turn_tables
+	@WHIRL=build/whirl mk/price/turn_errors.sh >build/turn_tables/errors
+	@awk -f mk/price/turn_errors.awk build/turn_tables/errors >build/turn_tables/errors.md
+	@awk -f mk/price/turn_tables.awk build/turn_tables/errors $(TABLE_BOARDS:%=build/turn_tables/%/rows) \
+	    >build/turn_tables/price.md
+	@mk/price/into_page.sh build/turn_tables/errors.md docs/numerics.md turn-tables
+	@mk/price/into_page.sh build/turn_tables/price.md docs/price.md turn-tables
+	@cat build/turn_tables/errors.md build/turn_tables/price.md

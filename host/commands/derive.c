@@ -229,7 +229,12 @@ static bool has_c_form(const image *im, source_model *from) {
 static int derive_one(source_model *from, const mechanism *of, const scene *in,
                       const overrides *changes, const form_row *as, const image_settings *settings,
                       const char *header) {
-    const load_wish wish = {.settings = *settings,
+    image_settings taken = *settings;
+    if (!as->runs) { /* equations and other programs' code know no tables */
+        taken.tables = TABLES_NONE;
+        taken.cells = 0;
+    }
+    const load_wish wish = {.settings = taken,
                             .use = IMAGE_TO_WRITE,
                             .keep = as->shows ? KEEP_EQUATIONS : KEEP_IMAGE,
                             .conserve = as->runs || settings->matrix != MATRIX_NONE,

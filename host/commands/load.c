@@ -226,6 +226,12 @@ static char *contacts_of(const equations *e, const char *comment) {
 int load(loaded *made, source_model *s, const mechanism *of, const scene *in,
          const overrides *changes, const load_wish *wish) {
     *made = (loaded){0};
+    if (wish->settings.cells != 0 && wish->settings.tables == TABLES_NONE) {
+        fputs("whirl: error: --cells without --tables: there is no table\n"
+              "hint: --tables linear or --tables cubic\n",
+              stderr);
+        return EXIT_BAD_INPUT;
+    }
     made->instance = instance_make(of, in, changes, s->errors);
     if (made->instance != NULL) {
         made->equations = equations_derive(made->instance, s->errors);

@@ -250,6 +250,23 @@ int options_choose(const char *command, const char *what, const char *value, con
     return -1;
 }
 
+static bool take_cells(const char *command, const char *value, int *cells) {
+    const size_t digits = strspn(value, "0123456789");
+    const long least = IMAGE_CELLS_LEAST;
+    const long most = IMAGE_CELLS_MOST;
+    const long number =
+        digits > 0 && digits < 9 && value[digits] == '\0' ? strtol(value, NULL, 10) : 0;
+    const bool good = number >= least && number <= most && (number & (number - 1)) == 0;
+    if (!good) {
+        fprintf(stderr,
+                "whirl %s: error: --cells '%.40s' is no power of two from %ld to %ld\n"
+                "hint: --cells 64, --cells 256, ...\n",
+                command, value, least, most);
+    }
+    *cells = (int)number;
+    return good;
+}
+
 static bool take(common_option which, const char *command, const char *value, common_options *to) {
     static const struct {
         const char *word;
@@ -281,6 +298,12 @@ static bool take(common_option which, const char *command, const char *value, co
                                 sizeof image_matrix_words[0], IMAGE_MATRICES);
         to->integration.matrix = chosen < 0 ? MATRIX_NONE : (image_matrix_of)chosen;
         return chosen >= 0;
+    case OPTION_TABLES:
+        chosen = options_choose(command, "form of tables", value, image_tables_words,
+                                sizeof image_tables_words[0], IMAGE_TABLES_FORMS);
+        to->integration.tables = chosen < 0 ? TABLES_NONE : (image_tables)chosen;
+        return chosen >= 0;
+    case OPTION_CELLS: return take_cells(command, value, &to->integration.cells);
     case OPTION_NUMBER:
         chosen = options_choose(command, "number", value, numbers, sizeof numbers[0],
                                 sizeof numbers / sizeof numbers[0]);

@@ -35,7 +35,12 @@
     X(OPTION_MATRIX, "--matrix", "M", OPTIONS_ENGINE, \
       "a whole step as one constant matrix, of a linear mechanism without events:\n" \
       "exact: the motion itself, inputs held over the step; rk4: what that method makes\n" \
-      "of it; none (default): stages")
+      "of it; none (default): stages") \
+    X(OPTION_TABLES, "--tables", "T", OPTIONS_ENGINE, \
+      "linear, cubic: what the accelerations owe to one turn angle, sines and\n" \
+      "divisions, is looked up in tables in flash; none (default): computed") \
+    X(OPTION_CELLS, "--cells", "N", OPTIONS_ENGINE, \
+      "entries of such a table: a power of two (default: linear 256, cubic 64)")
 
 #define OPTION_NAME(which, word, value, group, text) which,
 typedef enum common_option { OPTION_ROWS(OPTION_NAME) } common_option;
@@ -99,7 +104,7 @@ typedef struct change_options {
 /* Where the common options of a command go. */
 typedef struct common_options {
     change_options change;
-    image_settings integration; /* --method, --compensated, --angles, --matrix */
+    image_settings integration; /* --method, --compensated, --angles, --matrix, --tables, --cells */
     const engine_kind *number;  /* --number: what computes */
 } common_options;
 

@@ -81,9 +81,12 @@ static bool step(const image *im, const op *o, const twofold *all, twofold *to) 
             to[i] = twofold_div(a[i], b[last]);
         }
         return true;
-    case OP_PHASE: return true; /* its sine and cosine are not */
+    case OP_PHASE:
+    case OP_CELL: return true; /* what is made of them is not */
     case OP_SIN:
     case OP_COS:
+    case OP_LINE:
+    case OP_CUBIC:
     case OP_SQRT:
     case OP_ABS:
     case OP_SIGN:

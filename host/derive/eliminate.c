@@ -101,6 +101,9 @@ static double *sample(const tape *t) {
         case OP_DIV: v[i] = a / b; break;
         case OP_NEG: v[i] = -a; break;
         case OP_SQRT: v[i] = number_root(fabs(a)); break;
+        case OP_CELL: /* no list that is eliminated from has tables */
+        case OP_LINE:
+        case OP_CUBIC:
         case OP_SIN:
         case OP_COS:
         case OP_ABS:

@@ -212,6 +212,7 @@ static void take_program(image_draft *d, program *p) {
     im->list[IMAGE_STEP] = take(&p->step);
     im->list[IMAGE_OBSERVE] = take(&p->observe);
     im->list[IMAGE_BOOKS] = take(&p->books);
+    im->list[IMAGE_TABLES] = take(&p->tables);
     if (p->contacts != NULL) {
         take_contacts(d, p->contacts);
     }
@@ -240,16 +241,19 @@ static image *with_matrix(image_draft *d, const equations *e, image_use use, dia
 
 image *image_make(const equations *e, const bool *conserve, const image_settings *settings,
                   image_use use, diags *errors) {
+    image_settings done = *settings;
     program *p = program_make(e, conserve, settings->compensated, errors);
-    if (p == NULL) {
+    if (p == NULL || !program_look_up(p, e, &done, errors)) {
+        program_free(p);
         return NULL;
     }
-    if (settings->compensated && p->contacts == NULL) { /* those solve with the same matrix */
+    /* Contacts solve with the same matrix; tables are rounded once by themselves. */
+    if (done.compensated && p->contacts == NULL && done.tables == TABLES_NONE) {
         tape_gauge(&p->step, tape_gauge_price(p->step));
     }
     image_draft d = image_draft_new();
     image *im = d.made;
-    im->settings = *settings;
+    im->settings = done;
     im->count = p->count;
     im->inputs = p->layout.inputs;
     im->outputs = p->outputs;

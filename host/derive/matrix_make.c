@@ -21,6 +21,11 @@ static bool is_possible(const image *im, diags *errors) {
         diag_error(errors, im->at, "--without ledger, or leave out --matrix",
                    "the ledger of '%s' wants the stages of a step, and a matrix has none",
                    im->name);
+    } else if (im->settings.tables != TABLES_NONE) {
+        diag_error(errors, im->at, "leave out --tables, or --matrix",
+                   "a matrix looks nothing up: --matrix %s and --tables %s",
+                   image_matrix_words[im->settings.matrix],
+                   image_tables_words[im->settings.tables]);
     } else if (im->settings.method != WH_METHOD_DEFAULT) {
         diag_error(errors, im->at, "leave out --method, or --matrix",
                    "a matrix takes the place of a method's stages: --matrix %s and --method %s",

@@ -6,6 +6,7 @@
 #include "energy.h"
 #include "host/base/room.h"
 #include "noise_records.h"
+#include "tables.h"
 
 /* --- the lists -----------------------------------------------------------------------------------*/
 
@@ -259,11 +260,41 @@ program *program_make(const equations *e, const bool *conserve, bool precise, di
     return p;
 }
 
+bool program_look_up(program *p, const equations *e, image_settings *settings, diags *errors) {
+    static const char no_contacts[] =
+        "leave --tables out, or the effects that have contacts and crossings";
+    refusal why = {NULL, NULL, -1};
+    if (settings->tables == TABLES_NONE) {
+        return true;
+    }
+    settings->cells = settings->cells > 0 ? settings->cells : tables_cells(settings->tables);
+    if (p->contacts != NULL) {
+        diag_error(errors, p->contacts->row[0].from->at, no_contacts,
+                   "--tables: a step with events looks at more than tables hold");
+        return false;
+    }
+    tape *made = tables_make(p->step, settings->tables, settings->cells, &p->tables, &why);
+    if (made == NULL) {
+        const symbol *angle =
+            why.angle >= 0 ? e->unknowns[p->layout.angle[why.angle].unknown].symbol : NULL;
+        diag_error(errors, angle != NULL ? angle->at : e->instance->mechanism->at, why.hint,
+                   angle != NULL ? "--tables: the %s of '%s' %s: '%s' is one of them"
+                                 : "--tables: the %s of '%s' %s",
+                   p->layout.form == WH_SECOND_ORDER ? "accelerations" : "slopes",
+                   e->instance->mechanism->name, why.reason, angle != NULL ? angle->name : "");
+        return false;
+    }
+    tape_free(p->step);
+    p->step = made;
+    return true;
+}
+
 void program_free(program *p) {
     if (p == NULL) {
         return;
     }
     tape_free(p->step);
+    tape_free(p->tables);
     tape_free(p->observe);
     tape_free(p->books);
     contact_lists_free(p->contacts);

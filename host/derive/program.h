@@ -14,6 +14,7 @@ typedef struct program {
     /* Second order: result[i] is the acceleration of scene coordinate i. First order: the slope of
      * component i, angles first. */
     tape *step;
+    tape *tables; /* what its tables hold, exactly; NULL without any (program_look_up()) */
     /* The outputs. */
     tape *observe;
     contact_lists *contacts; /* NULL without any */
@@ -29,6 +30,8 @@ typedef struct program {
  * (too many components, a momentum that is not conserved, a constant that is not finite), reported to
  * `errors`. */
 program *program_make(const equations *e, const bool *conserve, bool precise, diags *errors);
+/* The step looks up in tables what it owes to an angle (tables.h). False where it cannot, reported with its place. */
+bool program_look_up(program *p, const equations *e, image_settings *settings, diags *errors);
 void program_free(program *p);
 
 uint64_t program_hash(const program *p);

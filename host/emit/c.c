@@ -154,6 +154,9 @@ static void write_banner(FILE *out, const image *im, const char *file) {
     if (cost.calls > 0) {
         fprintf(out, ", %d functions of core/function.h", cost.calls);
     }
+    if (cost.look_ups > 0) {
+        fprintf(out, ", %d looked up in tables", cost.look_ups);
+    }
     fprintf(out, "\n *\n");
     write_names(out, im);
     fprintf(out, " */\n");
@@ -171,6 +174,9 @@ static void write_includes(FILE *out, const image *im) {
         const char *const with[2][2] = {{"step", "ledger_step"},
                                         {"stage_turn", "stage_turn_ledger"}};
         fprintf(out, "#include \"core/%s.h\"\n", with[image_turns(im)][im->ledger.kept]);
+    }
+    if (im->list[IMAGE_STEP]->tables.count > 0) {
+        fprintf(out, "#include \"core/table.h\"\n");
     }
     if (image_calls(im)) {
         fprintf(out, "#include \"core/function.h\"\n");
@@ -248,6 +254,7 @@ void emit_c(FILE *out, const image *im, const char *file) {
     write_includes(out, im);
     fprintf(out, "\n");
     write_starts(out, im);
+    c_list_cells(out, im->list[IMAGE_STEP]);
     if (im->list[IMAGE_MATRIX] != NULL) {
         c_list_matrix(out, im->list[IMAGE_MATRIX]);
     } else {

@@ -110,15 +110,69 @@ static void write_pair(FILE *out, const tape *t, int i, int wave) {
     }
 }
 
+static void write_cell(FILE *out, const tape *t, int i) {
+    const tape_tables *of = &t->tables;
+    fprintf(out, "    wh_real y%d;\n", i);
+    if (of->folds) {
+        fprintf(out, "    bool back%d;\n", i);
+    }
+    fprintf(out, "    const wh_real *row%d = wh_table_%s(cells, %dU, %dU, ", i,
+            of->folds ? "half" : "cell", of->bits, of->count * of->terms);
+    write_turns(out, t, &t->ops[i]);
+    fprintf(out, ", &y%d", i);
+    if (of->folds) {
+        fprintf(out, ", &back%d", i);
+    }
+    fprintf(out, ");\n");
+}
+
+/* Is it looked up in an odd table that folds? */
+static bool is_mirrored(const tape *t, const op *o) {
+    return op_rows[o->code].kind == OP_IS_LOOKUP && t->tables.folds &&
+           t->tables.odd[(int)o->value / t->tables.terms];
+}
+
+void c_list_cells(FILE *out, const tape *t) {
+    const char *const scales[] = {"WH_R", "WH_TABLE_B(WH_R", "WH_TABLE_C(WH_R", "WH_TABLE_D(WH_R"};
+    const tape_tables *of = &t->tables;
+    const int width = of->count * of->terms;
+    const int64_t numbers = (int64_t)width * ((int64_t)1 << of->bits);
+    char hex[HEX_SIZE];
+    if (of->count == 0) {
+        return;
+    }
+    if (of->folds) {
+        fprintf(out, "static const wh_real cells[WH_TABLE_HALF(%dU) * %d] WH_FLASH = {", of->bits,
+                width);
+    } else {
+        fprintf(out, "static const wh_real cells[%" PRId64 "] WH_FLASH = {", numbers);
+    }
+    for (int64_t i = 0; i < numbers; i++) {
+        const int term = (int)(i % of->terms);
+        if (of->folds && i == numbers / 2 + width) {
+            fprintf(out, "\n#if !WH_TABLE_FOLD");
+        }
+        fprintf(out, "%s%s(%s)%s", i % width == 0 ? "\n    " : " ", scales[term],
+                hex_write(of->number[i], hex), term > 0 ? ")," : ",");
+    }
+    fprintf(out, "%s\n};\n\n", of->folds ? "\n#endif" : "");
+}
+
 static void write_operation(FILE *out, const tape *t, int i) {
     static const op_style style = {write_operand, NULL, NULL};
     const op *o = &t->ops[i];
     const op_row *row = &op_rows[o->code];
-    if (row->kind == OP_IS_PHASE) {
+    if (row->kind == OP_IS_CELL) {
+        write_cell(out, t, i);
+    } else if (row->kind == OP_IS_PHASE) {
         write_phase(out, t, i);
     } else if (row->kind != OP_IS_CONSTANT) {
-        fprintf(out, "    const wh_real x%d = ", i);
+        const bool mirrored = is_mirrored(t, o);
+        fprintf(out, "    const wh_real x%d = %s", i, mirrored ? "wh_table_back(" : "");
         op_text(out, t, o, row->c, &style);
+        if (mirrored) {
+            fprintf(out, ", back%d)", o->a);
+        }
         fprintf(out, ";\n");
     }
 }
@@ -134,7 +188,7 @@ bool c_list_uses(const tape *t, op_code code) {
 
 bool c_list_uses_phase(const tape *t) {
     for (int i = 0; i < t->count; i++) {
-        if (tape_is_wave(&t->ops[i])) {
+        if (tape_is_wave(&t->ops[i]) || t->ops[i].code == OP_CELL) {
             return true;
         }
     }

@@ -24,6 +24,8 @@ void c_list_function(FILE *out, const tape *t, c_angles angles, const char *name
 
 /* "step_matrix", what wh_step_matrix() calls: once a step, so that inlining it takes no flash on any processor. */
 void c_list_matrix(FILE *out, const tape *t);
+/* "cells", the tables of a list; nothing where it has none. */
+void c_list_cells(FILE *out, const tape *t);
 
 /* "waves", the wh_waves of a list that takes pairs, and what it needs. */
 void c_list_waves(FILE *out, const tape *t);

@@ -13,7 +13,8 @@
 const char *const describe_roles[IMAGE_ROLES] = {
     [IMAGE_STEP] = "step",       [IMAGE_OBSERVE] = "observe", [IMAGE_BOOKS] = "books",
     [IMAGE_SIGNALS] = "signals", [IMAGE_FORCES] = "forces",   [IMAGE_SETS] = "sets",
-    [IMAGE_POWERS] = "powers",   [IMAGE_LEVELS] = "levels",   [IMAGE_MATRIX] = "matrix"};
+    [IMAGE_POWERS] = "powers",   [IMAGE_LEVELS] = "levels",   [IMAGE_MATRIX] = "matrix",
+    [IMAGE_TABLES] = "tables"};
 
 const char *describe_ledger_kind(ledger_kind kind) {
     switch (kind) {
@@ -179,8 +180,32 @@ static void put_lists(json *j, const image *im) {
         json_whole(j, "roots", cost.roots);
         json_whole(j, "waves", cost.waves);
         json_whole(j, "calls", cost.calls);
+        json_whole(j, "look_ups", cost.look_ups);
         json_close(j, '}');
     }
+    json_close(j, '}');
+}
+
+/* How a step looks up what it owes to an angle; null where it computes that. */
+static void put_tables(json *j, const image *im) {
+    const tape_tables *of = &im->list[IMAGE_STEP]->tables;
+    if (of->count == 0) {
+        json_null(j, "tables");
+        return;
+    }
+    json_open(j, "tables", '{');
+    json_text(j, "form", image_tables_words[im->settings.tables]);
+    json_whole(j, "cells", im->settings.cells);
+    json_bool(j, "folds", of->folds);
+    json_open(j, "of", '[');
+    for (int k = 0; k < of->count; k++) {
+        json_open(j, NULL, '{');
+        json_whole(j, "index", k);
+        json_number(j, "size", of->size[k]);
+        json_number(j, "off", of->off[k]);
+        json_close(j, '}');
+    }
+    json_close(j, ']');
     json_close(j, '}');
 }
 
@@ -232,8 +257,12 @@ void describe_json(FILE *out, const image *im, const char *file) {
     json_text(&j, "method", wh_methods[im->settings.method].word);
     json_whole(&j, "stages", core_stages(im));
     json_bool(&j, "compensated", im->settings.compensated);
-    json_text(&j, "sines", image_angles_words[image_turns(im) ? ANGLES_TURNED : ANGLES_LOOKUP]);
+    json_text(&j, "sines",
+              im->settings.tables != TABLES_NONE
+                  ? "tables"
+                  : image_angles_words[image_turns(im) ? ANGLES_TURNED : ANGLES_LOOKUP]);
     matrix_json(&j, im);
+    put_tables(&j, im);
     put_time(&j, im);
     put_effects(&j, im);
     put_quantities(&j, "parameters", im->parameter, im->parameters, true);

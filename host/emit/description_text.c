@@ -91,6 +91,18 @@ static void put_lists(FILE *out, const image *im) {
     }
 }
 
+static void put_tables(FILE *out, const image *im) {
+    const tape_tables *of = &im->list[IMAGE_STEP]->tables;
+    if (of->count == 0) {
+        return;
+    }
+    fprintf(out, "\n%d tables of %d cells, %s%s:", of->count, im->settings.cells,
+            image_tables_words[im->settings.tables], of->folds ? ", even or odd" : "");
+    for (int k = 0; k < of->count; k++) {
+        fprintf(out, "\n  %2d up to %.4g in size, off by %.2g at most", k, of->size[k], of->off[k]);
+    }
+}
+
 void describe_text(FILE *out, const image *im, const char *file) {
     fprintf(out, "%s%s%s\n", im->name, im->title[0] != '\0' ? ": " : "", im->title);
     fprintf(out, "  mechanism %s of %s, model hash 0x%016" PRIx64 "\n", im->mechanism, file,
@@ -120,7 +132,9 @@ void describe_text(FILE *out, const image *im, const char *file) {
     if (im->contacts > 0) {
         fprintf(out, ", the contacts' signals %d times", core_signals(im));
     }
-    if (im->angles > 0 && im->settings.matrix == MATRIX_NONE) {
+    put_tables(out, im);
+    if (im->angles > 0 && im->settings.matrix == MATRIX_NONE &&
+        im->settings.tables == TABLES_NONE) {
         fprintf(out, "\nsines of turn angles: looked up %s",
                 image_turns(im) ? "once a step, and turned" : "at each stage");
     }

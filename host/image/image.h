@@ -48,17 +48,36 @@ enum { IMAGE_MATRICES = IMAGE_MATRIX_ROWS(IMAGE_MATRIX_ONE) };
 /* Their words on command lines and in descriptions. */
 extern const char *const image_matrix_words[IMAGE_MATRICES];
 
+/* What the accelerations owe to the one turn angle that they depend on: computed, or looked up in tables of its turn
+ * (core/table.h), between whose entries it is interpolated so. */
+#define IMAGE_TABLES_ROWS(X) \
+    X(TABLES_NONE, "none") \
+    X(TABLES_LINEAR, "linear") \
+    X(TABLES_CUBIC, "cubic")
+#define IMAGE_TABLES_NAME(id, word) id,
+typedef enum image_tables { IMAGE_TABLES_ROWS(IMAGE_TABLES_NAME) } image_tables;
+#undef IMAGE_TABLES_NAME
+#define IMAGE_TABLES_ONE(id, word) +1
+enum { IMAGE_TABLES_FORMS = IMAGE_TABLES_ROWS(IMAGE_TABLES_ONE) };
+#undef IMAGE_TABLES_ONE
+extern const char *const image_tables_words[IMAGE_TABLES_FORMS];
+
+/* Cells of such a table, a turn: powers of two. */
+enum { IMAGE_CELLS_LEAST = 8, IMAGE_CELLS_MOST = 65536 };
+
 /* How to integrate. */
 typedef struct image_settings {
     wh_method method;
     bool compensated;
     image_angles angles;
     image_matrix_of matrix;
+    image_tables tables;
+    int cells; /* of a table, a turn: a power of two; 0: as many as its form takes by itself */
 } image_settings;
 
 /* What is integrated with unless something else is asked for. */
 #define IMAGE_SETTINGS_DEFAULT \
-    { WH_METHOD_DEFAULT, false, ANGLES_TURNED, MATRIX_NONE }
+    { WH_METHOD_DEFAULT, false, ANGLES_TURNED, MATRIX_NONE, TABLES_NONE, 0 }
 
 /* --- the lists -----------------------------------------------------------------------------------*/
 
@@ -74,6 +93,7 @@ typedef enum image_role {
     IMAGE_POWERS, /* of the ledger, as core/ledger.h wants them: the last two */
     IMAGE_LEVELS,
     IMAGE_MATRIX, /* a whole step, as core/matrix_step.h wants it */
+    IMAGE_TABLES, /* what the tables of a step hold, exactly: result[k] is that of table k */
     IMAGE_ROLES
 } image_role;
 

@@ -53,7 +53,11 @@
     X(MIN, BINARY, ARITHMETIC, "$b < $a$n ? $b : $a", "min($a, $b)", "b < a || b != b ? b : a") \
     X(MAX, BINARY, ARITHMETIC, "$b > $a$n ? $b : $a", "max($a, $b)", "b > a || b != b ? b : a") \
     X(CALL, CALL, CALL, "wh_$f($o)", "$f($o)", "function(a) or function(a, b), of core/function.h") \
-    X(POW, BINARY, CALL, "wh_pow($a, $b)", "$a ^ $b", "a to the b, likewise")
+    X(POW, BINARY, CALL, "wh_pow($a, $b)", "$a ^ $b", "a to the b, likewise") \
+    X(CELL, CELL, NOTHING, NULL, NULL, "the cell of the list's tables that phase sum turns[i]*phase[i] is in") \
+    X(LINE, LOOKUP, LINE, "wh_table_linear(&row$i[$v], y$i)", NULL, \
+      "in cell a, the table whose numbers begin at `value`: linear, core/table.h") \
+    X(CUBIC, LOOKUP, CUBIC, "wh_table_cubic(&row$i[$v], y$i)", NULL, "likewise, cubic")
 /* clang-format on */
 
 #endif

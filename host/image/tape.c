@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/table.h"
 #include "host/base/arena.h"
 #include "host/base/room.h"
 
@@ -38,6 +39,8 @@ const op_row op_rows[OPS] = {
 #define VALUES_UNARY 1
 #define VALUES_BINARY 2
 #define VALUES_CALL 2
+#define VALUES_CELL 0
+#define VALUES_LOOKUP 1
 #define ROW(id, kind, cost, c, octave, ...) \
     [OP_##id] = {OP_IS_##kind, OP_COSTS_##cost, VALUES_##kind, c, octave},
     OP_ROWS(ROW)
@@ -207,6 +210,32 @@ int tape_phase(tape *t, const double *multiple, double offset_rad, int radians) 
                          .parts = parts});
 }
 
+void tape_tables_new(tape *t, int count, int bits, int terms) {
+    const size_t numbers = ((size_t)count << (unsigned)bits) * (size_t)terms;
+    t->tables = (tape_tables){.count = count,
+                              .bits = bits,
+                              .terms = terms,
+                              .number = arena_alloc(t->arena, numbers * sizeof(double)),
+                              .size = arena_alloc(t->arena, (size_t)count * sizeof(double)),
+                              .off = arena_alloc(t->arena, (size_t)count * sizeof(double)),
+                              .odd = arena_alloc(t->arena, (size_t)count * sizeof(bool))};
+}
+
+int tape_cell(tape *t, const int *turns) {
+    int *kept = arena_alloc(t->arena, (size_t)t->angles * sizeof *kept);
+    memcpy(kept, turns, (size_t)t->angles * sizeof *kept);
+    return enter(t,
+                 (op){.code = OP_CELL, .function = FUNCTION_NONE, .a = -1, .b = -1, .turns = kept});
+}
+
+int tape_look_up(tape *t, int cell, int which) {
+    return enter(t, (op){.code = t->tables.terms == WH_TABLE_LINEAR ? OP_LINE : OP_CUBIC,
+                         .function = FUNCTION_NONE,
+                         .a = cell,
+                         .b = -1,
+                         .value = which * t->tables.terms});
+}
+
 static int negate(tape *t, int a) {
     const op *o = &t->ops[a];
     if (o->code == OP_CONSTANT) {
@@ -345,6 +374,8 @@ int tape_call(tape *t, function_id function, int a, int b) {
     case OP_IS_CALL: return enter(t, (op){.code = code, .function = function, .a = a, .b = b});
     case OP_IS_CONSTANT: /* no function is one of these */
     case OP_IS_LEAF:
+    case OP_IS_CELL:
+    case OP_IS_LOOKUP:
     case OP_IS_PHASE: break;
     }
     abort();

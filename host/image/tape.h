@@ -31,7 +31,9 @@ typedef enum op_kind {
     OP_IS_WAVE,   /* a is a phase */
     OP_IS_UNARY,  /* a is an operation */
     OP_IS_BINARY, /* a and b are */
-    OP_IS_CALL    /* a is; b is, or -1 */
+    OP_IS_CALL,   /* a is; b is, or -1 */
+    OP_IS_CELL,   /* neither is */
+    OP_IS_LOOKUP  /* a is a cell */
 } op_kind;
 
 typedef enum op_cost {
@@ -40,7 +42,9 @@ typedef enum op_cost {
     OP_COSTS_DIVISION,
     OP_COSTS_ROOT,
     OP_COSTS_WAVE,
-    OP_COSTS_CALL
+    OP_COSTS_CALL,
+    OP_COSTS_LINE, /* looked up in a table, and interpolated */
+    OP_COSTS_CUBIC
 } op_cost;
 
 typedef struct op_row {
@@ -58,12 +62,24 @@ typedef struct op {
     function_id function; /* OP_CALL */
     int a;
     int b;
-    double value;     /* OP_CONSTANT, OP_PHASE, OP_NOISE */
-    const int *turns; /* OP_PHASE: [angles] whole factors, or NULL when there are none */
+    double value;     /* OP_CONSTANT, OP_PHASE, OP_NOISE, OP_LINE, OP_CUBIC */
+    const int *turns; /* OP_PHASE, OP_CELL: [angles] whole factors, or NULL when there are none */
     /* OP_PHASE: [angles] factors that take the whole angle, not only its phase; or NULL. For records,
      * never in a step. */
     const double *parts;
 } op;
+
+/* The tables of a list, as core/table.h has them but for the scale of float: y counts cells. */
+typedef struct tape_tables {
+    int count;
+    int bits;       /* 2^bits cells */
+    int terms;      /* numbers a cell of one table: WH_TABLE_LINEAR, WH_TABLE_CUBIC */
+    double *number; /* [2^bits][count][terms], in the list's arena */
+    double *size;   /* [count]: the largest value of what it holds, */
+    double *off;    /* [count]: and the most that interpolating is off it, but for rounding */
+    bool folds;     /* each is even or odd: */
+    bool *odd;      /* [count], likewise */
+} tape_tables;
 
 typedef struct tape {
     op *ops;
@@ -74,6 +90,7 @@ typedef struct tape {
     int index_size;
     int *result; /* operation numbers of what the list computes */
     int results;
+    tape_tables tables; /* none: all zero */
     struct arena *arena;
 } tape;
 
@@ -88,6 +105,11 @@ int tape_noise(tape *t, uint32_t seed);
 int tape_phase(tape *t, const double *multiple, double offset_rad, int radians);
 /* Can a phase be multiplied by this number? Whole numbers, within bounds, can. */
 bool tape_is_whole(double multiple);
+/* Room for tables, zeroed. Then the cell of the phase that these multiples of the turn angles make, [t->angles], and
+ * table `which` there. */
+void tape_tables_new(tape *t, int count, int bits, int terms);
+int tape_cell(tape *t, const int *turns);
+int tape_look_up(tape *t, int cell, int which);
 int tape_unary(tape *t, op_code code, int a);
 int tape_add(tape *t, int a, int b);
 int tape_sub(tape *t, int a, int b);
@@ -147,8 +169,9 @@ typedef struct tape_cost {
     int arithmetic; /* additions, subtractions, products, negations, comparisons */
     int divisions;
     int roots;
-    int waves; /* sines and cosines, a pair of one phase counted once */
-    int calls; /* of core/function.h */
+    int waves;    /* sines and cosines, a pair of one phase counted once */
+    int calls;    /* of core/function.h */
+    int look_ups; /* in tables; what interpolates is counted as arithmetic */
 } tape_cost;
 
 tape_cost tape_count(const tape *t);

@@ -42,6 +42,9 @@ static double value_at(const tape *t, const op *o, int state, double rates, bool
     case OP_ACCEL:
     case OP_TIME:
     case OP_RADIANS:
+    case OP_CELL:
+    case OP_LINE:
+    case OP_CUBIC:
     case OP_NOISE: return 2.0 + drawn(o->code, o->a, state);
     case OP_PHASE: return phase_at(t, o, state, b);
     case OP_SIN: return number_sine(a);

@@ -187,6 +187,9 @@ static void equations_of(const unknowns *u, int i, matrix *m) {
     case OP_NOISE:
     case OP_SIN:
     case OP_COS:
+    case OP_CELL:
+    case OP_LINE:
+    case OP_CUBIC:
     case OP_SIGN:
     case OP_CALL:
     case OP_POW: equation(u, m, 1.0, i, 0.0, 0.0); break; /* as they are */

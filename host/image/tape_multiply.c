@@ -16,9 +16,11 @@ bool tape_is_raw(const op *o) {
     switch (op_rows[o->code].kind) {
     case OP_IS_LEAF:
     case OP_IS_WAVE:
+    case OP_IS_LOOKUP:
     case OP_IS_CALL: return true;
     case OP_IS_CONSTANT:
     case OP_IS_PHASE:
+    case OP_IS_CELL:
     case OP_IS_UNARY:
     case OP_IS_BINARY: break;
     }
@@ -113,6 +115,9 @@ static int make(const multiplied *m, int i) {
         return tape_call(m->to, o->function, taken(m, o->a, 1.0),
                          o->b >= 0 ? taken(m, o->b, 1.0) : -1);
     case OP_POW: return tape_pow(m->to, taken(m, o->a, 1.0), taken(m, o->b, 1.0));
+    case OP_CELL:
+    case OP_LINE:
+    case OP_CUBIC: break; /* a list with tables keeps its constants */
     }
     abort();
 }

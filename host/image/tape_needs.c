@@ -22,7 +22,7 @@ int tape_taken(const tape *t, int i, int found[static TAKEN_MOST]) {
     for (int k = 0; k < operands; k++) {
         const op_kind kind = op_rows[t->ops[operand[k]].code].kind;
         const bool again = k > 0 && operand[k] == operand[0];
-        if (kind != OP_IS_CONSTANT && kind != OP_IS_PHASE && !again) {
+        if (kind != OP_IS_CONSTANT && kind != OP_IS_PHASE && kind != OP_IS_CELL && !again) {
             found[count++] = operand[k];
         }
     }
@@ -34,7 +34,9 @@ static bool may_be_given(const op *o) {
     case OP_IS_CONSTANT:
     case OP_IS_LEAF:
     case OP_IS_PHASE:
+    case OP_IS_CELL:
     case OP_IS_WAVE: return true;
+    case OP_IS_LOOKUP:
     case OP_IS_UNARY:
     case OP_IS_BINARY:
     case OP_IS_CALL: break;

@@ -171,6 +171,14 @@ tape_cost tape_count(const tape *t) {
         case OP_COSTS_ROOT: cost.roots++; break;
         case OP_COSTS_WAVE: cost.waves++; break;
         case OP_COSTS_CALL: cost.calls++; break;
+        case OP_COSTS_LINE:
+            cost.look_ups++;
+            cost.arithmetic += 2;
+            break;
+        case OP_COSTS_CUBIC:
+            cost.look_ups++;
+            cost.arithmetic += 6;
+            break;
         }
     }
     return cost;
@@ -210,6 +218,12 @@ uint64_t tape_hash(const tape *t) {
     }
     for (int i = 0; i < t->results; i++) {
         hash = hash_of_hashes(hash, (uint64_t)t->result[i]);
+    }
+    const size_t numbers = (size_t)t->tables.count * (size_t)t->tables.terms;
+    for (size_t i = 0; i < numbers << (unsigned)t->tables.bits; i++) {
+        uint64_t bits;
+        memcpy(&bits, &t->tables.number[i], sizeof bits);
+        hash = hash_of_hashes(hash, bits);
     }
     return hash;
 }

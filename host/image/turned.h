@@ -8,7 +8,7 @@
 #define TURNED_WAVES_MAX 256
 
 /* Of an image's step and settings, and of nothing else: the interpreter and generated code agree. False where that was
- * set (--angles lookup), where there are contacts or no turn angle, and where the method or the list does not take it. */
+ * set (--angles lookup), where tables take the place of sines, where there are contacts or no turn angle, and where the method or the list does not take it. */
 bool image_turns(const image *im);
 
 #endif

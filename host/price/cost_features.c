@@ -55,6 +55,9 @@ static void add_operation(const tape *t, const op *o, cost_list *l) {
     case OP_MAX: l->choices++; break;
     case OP_CALL: l->calls[o->function]++; break;
     case OP_POW: l->powers++; break;
+    case OP_CELL:
+    case OP_LINE:
+    case OP_CUBIC: break; /* cost_of() does not know what they take */
     }
 }
 
@@ -103,7 +106,9 @@ static bool changes(const tape *t, int i, const bool *varies) {
     switch (op_rows[t->ops[i].code].kind) {
     case OP_IS_CONSTANT: return false;
     case OP_IS_LEAF: return t->ops[i].code != OP_INPUT;
-    case OP_IS_PHASE: return true;
+    case OP_IS_PHASE:
+    case OP_IS_CELL: return true;
+    case OP_IS_LOOKUP:
     case OP_IS_WAVE:
     case OP_IS_UNARY:
     case OP_IS_BINARY:

@@ -51,6 +51,9 @@ static double carried(const tape *t, const op *o, const rounding_values *at, con
     case OP_RADIANS:
     case OP_NOISE: return 0.0;
     case OP_PHASE: return of_phase(t, o, at, o->b >= 0 ? error[o->b] : 0.0);
+    case OP_CELL: return 0.0;
+    case OP_LINE: /* as of a sine: for what is looked up, not for what is lost between entries */
+    case OP_CUBIC: *rounds = true; return fabs(v);
     case OP_SIN: return 1.0 + a * fabs(at->cosine[o->a]);
     case OP_COS: return 1.0 + a * fabs(at->sine[o->a]);
     case OP_NEG:

@@ -48,6 +48,10 @@ char *fingerprint_make(const sweep *s, const char *model_text, const instance *b
     if (s->engine.matrix != MATRIX_NONE) {
         fprintf(out, "matrix: %s\n", image_matrix_words[s->engine.matrix]);
     }
+    if (s->engine.tables != TABLES_NONE) {
+        fprintf(out, "tables: %s, %d cells\n", image_tables_words[s->engine.tables],
+                1 << im->list[IMAGE_STEP]->tables.bits);
+    }
     fprintf(out, "step: %.17g s\nuntil: %.17g s\n", base->step_s, base->until_s);
     fprintf(out, "measured from: %.17g s\n", s->from_s);
     put_instance(out, base);

@@ -184,6 +184,22 @@ says 2 '/nonexistent/x.svg: error: cannot be written' run thomson_a --plot /none
 says 2 'error' accel epicyclic theta
 says 2 "unknown option '--angles'" accel epicyclic --angles lookup
 says 2 "there is no form of angles 'sideways'" run epicyclic --angles sideways
+says 2 "unknown option '--tables'" accel epicyclic --tables linear
+says 2 "there is no form of tables 'square'" run epicyclic_from_rest --tables square
+for cells in 100 4 131072 0 -8 64.0 6x4 "" 99999999999999999999; do
+    says 2 "--cells '$cells' is no power of two from 8 to 65536" run epicyclic_from_rest --tables linear --cells "$cells"
+done
+for command in run describe "derive --as c"; do
+    # shellcheck disable=SC2086 # a list of words
+    says 2 'error: --cells without --tables' $command epicyclic_from_rest --cells 64
+    # shellcheck disable=SC2086
+    says 2 "thomson.whirl:23:12: error: --tables: the accelerations of 'thomson' depend on the sines of more than one turn angle: 'theta2' is one of them" $command thomson_a --tables cubic
+done
+says 2 'contacts.whirl:24:3: error: --tables: a step with events' run ball_bounces --tables linear
+prints 'theta' derive epicyclic --as latex --tables cubic # its equations are no others
+prints '"form": "cubic",' describe epicyclic_from_rest --json --tables cubic
+prints '"cells": 256,' describe epicyclic_from_rest --json --tables linear
+prints '^  "tables": null,' describe epicyclic_from_rest --json
 says 2 "'thetta' is unknown" accel epicyclic thetta=1
 
 # --- what cannot be derived or run --------------------------------------------------------------------

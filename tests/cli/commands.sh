@@ -96,6 +96,8 @@ sample() { # a value of that option that is not what the scene has
     --compensated) ;;
     --angles) echo lookup ;;
     --matrix) echo exact ;;
+    --tables) echo linear ;;
+    --cells) echo 16 ;;
     *) echo "no-sample-in-$0" ;;
     esac
 }
@@ -122,8 +124,12 @@ while read -r word value group; do
         [ -n "$2" ] || set -- "$word"
         plain=$scratch/plain.whirl:plain_swings
         [ "$word" != --matrix ] || plain=$scratch/linear.whirl:plain_swings
-        ends "$command" >"$scratch/without" 2>/dev/null
-        ends "$command" "$@" >"$scratch/with" 2>"$scratch/err"
+        base=
+        [ "$word" != --cells ] || base="--tables cubic" # which has them
+        # shellcheck disable=SC2086 # of words, or of none
+        ends "$command" $base >"$scratch/without" 2>/dev/null
+        # shellcheck disable=SC2086
+        ends "$command" $base "$@" >"$scratch/with" 2>"$scratch/err"
         status=$?
         [ $status -eq 0 ] && [ -s "$scratch/with" ] && ! cmp -s "$scratch/without" "$scratch/with"
         verdict $? "whirl $command $* makes a difference ($value, $group)"

@@ -37,6 +37,30 @@ for scene in thomson_b spherical_flight two_mass_relative epicyclic_conserved; d
     add "$scene" --until 0.2s --angles lookup --compensated
 done
 
+# tables of one angle's functions; folded, too, as where there is no FPU
+tabled() { # tabled FOLD TARGET OPTION...
+    [ "$1" = whole ] || : >"$scratch/$((number + 1)).folded"
+    shift
+    add "$@" --until 0.3s
+}
+for scene in epicyclic_conserved epicyclic_from_rest rig_fixed halvorson_smooth laskowitz_uneven carriage_free; do
+    folds="whole folded"
+    case $scene in halvorson_smooth | laskowitz_uneven) folds=whole ;; esac # neither even nor odd
+    for fold in $folds; do
+        tabled "$fold" "$scene" --tables linear
+        tabled "$fold" "$scene" --tables cubic --cells 32 --compensated
+    done
+    tabled "${folds##* }" "$scene" --tables linear --cells 1024 --method heun
+    tabled whole "$scene" --tables cubic --cells 8 --method rk38
+done
+for method in $("$whirl" derive epicyclic_conserved --as c --method '?' 2>&1 | sed -n 's/,//g; s/^hint: one of //p'); do
+    tabled folded epicyclic_conserved --tables cubic --method "$method"
+done
+tabled whole epicyclic_conserved --tables cubic --with ledger
+# turning fast, and the other way
+tabled folded epicyclic_from_rest --tables cubic --start "theta'=-700"
+tabled whole epicyclic_conserved --tables cubic --cells 256 --start "theta'=-700"
+
 # The state of a mechanism's file: every value and rate something of its own.
 start_of() {
     "$whirl" accel "$1" 2>/dev/null | awk '{
@@ -218,6 +242,11 @@ while read -r number what; do
     # a name of its own for each
     "$whirl" derive "$@" --as c --name "scene_$number" >"$scratch/scene_$number.c" 2>"$scratch/errors"
     derived=$?
+    if [ -e "$scratch/$number.folded" ]; then
+        { printf '#if !WH_DOUBLE\n#define WH_TABLE_FOLD 1\n#endif\n'; cat "$scratch/scene_$number.c"; } >"$scratch/folded.c"
+        grep -q 'wh_table_half' "$scratch/folded.c" || verdict 1 "$what: its tables fold"
+        mv "$scratch/folded.c" "$scratch/scene_$number.c"
+    fi
     "$whirl" run "$@" --number float >"$scratch/$number.float" 2>"$scratch/$number.run"
     ran=$?
     # status 1: it diverges, and must do so after the same step in both

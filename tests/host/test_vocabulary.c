@@ -41,9 +41,9 @@ static void test_functions_are_in_their_recorded_order(void) {
 
 static void test_operations_are_in_their_recorded_order(void) {
     static const char *const recorded[OPS] = {
-        "CONSTANT", "LINEAR", "RATE", "INPUT", "ACCEL", "TIME", "RADIANS", "NOISE",
-        "PHASE",    "SIN",    "COS",  "ADD",   "SUB",   "MUL",  "DIV",     "NEG",
-        "SQRT",     "ABS",    "SIGN", "MIN",   "MAX",   "CALL", "POW"};
+        "CONSTANT", "LINEAR", "RATE", "INPUT", "ACCEL", "TIME", "RADIANS", "NOISE", "PHASE",
+        "SIN",      "COS",    "ADD",  "SUB",   "MUL",   "DIV",  "NEG",     "SQRT",  "ABS",
+        "SIGN",     "MIN",    "MAX",  "CALL",  "POW",   "CELL", "LINE",    "CUBIC"};
 #define NAME(id, ...) #id,
     static const char *const names[OPS] = {OP_ROWS(NAME)};
 #undef NAME

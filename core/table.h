@@ -1,0 +1,154 @@
+/* table.h: functions of one phase, looked up: constant tables in flash, interpolated within a cell.
+ *
+ * What the accelerations of a mechanism owe to its one turn angle, sines, divisions and roots included, stands in
+ * tables (host/derive/tables.c), and a step reads it there. The turn is cut into 2^bits cells whose middles are whole
+ * multiples of a cell. Of each cell stand the polynomials in y, the way from its middle in cells, of all the tables
+ * one behind the other, so that one look at the phase finds all of them:
+ *
+ *     linear: a + y b        cubic: a + y (b + y (c + y d)),        -1/2 <= y < 1/2
+ *
+ * The pieces meet in their values, the cubic ones in their slopes, too. Four numbers a cell and not values and slopes at
+ * its ends: that takes twice the flash, and six operations where it would take eleven, which is what counts without an
+ * FPU. What is added to `a` is small: of the rounding of a sum little more is left than that of its result.
+ */
+#ifndef WH_TABLE_H
+#define WH_TABLE_H
+
+#ifdef __cplusplus
+#error \
+    "core/table.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
+#endif
+
+#include "flash.h"
+#include "turn.h"
+
+#include <stddef.h>
+
+/* Cells a turn are powers of two: bits from WH_TABLE_BITS_LEAST to WH_TABLE_BITS_MOST. */
+#define WH_TABLE_BITS_LEAST 3U
+#define WH_TABLE_BITS_MOST 16U
+
+/* Numbers a cell of one table. */
+#define WH_TABLE_LINEAR 2U
+#define WH_TABLE_CUBIC 4U
+
+/* Where all of a list's tables are even or odd, half a turn of them says it all: half the flash, and the same bits. Without
+ * an FPU that costs a step 1 % of its cycles or less, and is done; with one it would cost a seventh. */
+#ifndef WH_TABLE_FOLD
+#if !WH_DOUBLE && (defined(__AVR__) || (defined(__arm__) && !defined(__ARM_FP)) || \
+                   (defined(__riscv) && !defined(__riscv_flen)))
+#define WH_TABLE_FOLD 1
+#else
+#define WH_TABLE_FOLD 0
+#endif
+#endif
+#if WH_TABLE_FOLD && WH_DOUBLE
+#error "core/table.h: WH_TABLE_FOLD is for float"
+#endif
+
+/* Cells of such tables. */
+#define WH_TABLE_HALF(bits) (WH_TABLE_FOLD ? (1U << ((bits)-1U)) + 1U : 1U << (bits))
+
+/* The coefficient of y, y^2 and y^3 as it stands in a table. In float y is kept as 2^32 times a cell, as whole as
+ * the phase leaves it: the scale is in the table and costs nothing. */
+#if WH_DOUBLE
+#define WH_TABLE_B(x) (x)
+#define WH_TABLE_C(x) (x)
+#define WH_TABLE_D(x) (x)
+#else
+#define WH_TABLE_B(x) ((x)*0x1p-32f)
+#define WH_TABLE_C(x) ((x)*0x1p-64f)
+#define WH_TABLE_D(x) ((x)*0x1p-96f)
+#endif
+
+/* The cell that `phase` is in, of 2^bits: cells[number * width], and the way from its middle in *y. Float: any phase.
+ * Double: |phase| <= 5e8 rad; beyond it, or of NaN, *y is NaN. */
+WH_INLINE const wh_real *wh_table_cell(const wh_real *cells, unsigned bits, unsigned width,
+                                       wh_phase phase, wh_real *y);
+
+#if WH_DOUBLE
+
+/* x to the nearest whole number, |x| < 2^51, and its low 32 bits. */
+WH_INLINE double wh_table_whole(double x, uint32_t *low) {
+    const double sum = x + 6755399441055744.0; /* 1.5 * 2^52 */
+    uint64_t of_sum;
+    __builtin_memcpy(&of_sum, &sum, sizeof of_sum);
+    *low = (uint32_t)of_sum;
+    return sum - 6755399441055744.0;
+}
+
+/* As wh_sincos_parts() finds its sector: up to 128 cells a turn with pi/64 in three parts, whose products are exact;
+ * more of them are parts of those. */
+WH_INLINE const wh_real *wh_table_cell(const wh_real *cells, unsigned bits, unsigned width,
+                                       wh_phase phase, wh_real *y) {
+    const unsigned coarse = bits < 7U ? bits : 7U;
+    const unsigned finer = bits - coarse;
+    const double size = (double)(1U << (7U - coarse)); /* of a coarse cell, in pi/64 */
+    const double angle = WH_ABS(phase) <= 5e8 ? phase : __builtin_nan("");
+    uint32_t number;
+    uint32_t part;
+    const double whole = wh_table_whole(angle * (20.371832715762604 / size), &number);
+    double r = angle - whole * (0.049087285995483398 * size);
+    r = r - whole * (9.9216777016408741e-08 * size);
+    r = r - whole * (8.0104504737328716e-14 * size);
+    const double in_cells = r * (20.371832715762604 / size) * (double)(1U << finer);
+    const double parts = wh_table_whole(in_cells, &part);
+    *y = in_cells - parts;
+    return cells + (size_t)((((number << finer) + part) & ((1U << bits) - 1U)) * width);
+}
+
+#else
+
+WH_INLINE const wh_real *wh_table_cell(const wh_real *cells, unsigned bits, unsigned width,
+                                       wh_phase phase, wh_real *y) {
+    const unsigned rest_bits = 32U - bits;
+    const uint32_t number = (phase + (UINT32_C(1) << (rest_bits - 1U))) >> rest_bits;
+    /* With the cell shifted out, the sign of the way from its middle comes right by itself. */
+    *y = (float)(int32_t)(phase << bits);
+    return cells + (size_t)number * width;
+}
+
+#endif
+
+/* Likewise of tables that are even or odd. *back: from a phase beyond half a turn its mirror image was taken, and the
+ * value of an odd function wants wh_table_back(). */
+WH_INLINE const wh_real *wh_table_half(const wh_real *cells, unsigned bits, unsigned width,
+                                       wh_phase phase, wh_real *y, bool *back) {
+#if WH_TABLE_FOLD
+    /* One's complement, not minus: a phase between two cells is in the same one as without folding. */
+    const bool beyond = (int32_t)phase < 0;
+    const wh_real *row = wh_table_cell(cells, bits, width, beyond ? ~phase : phase, y);
+    const wh_real way = (wh_real)(int32_t)(phase << bits);
+    *y = beyond ? -way : way;
+    *back = beyond;
+    return row;
+#else
+    *back = false;
+    return wh_table_cell(cells, bits, width, phase, y);
+#endif
+}
+
+/* -value; but zero stays zero, which no table makes negative. */
+WH_INLINE wh_real wh_table_back(wh_real value, bool back) {
+#if WH_TABLE_FOLD
+    uint32_t bits;
+    __builtin_memcpy(&bits, &value, sizeof bits);
+    bits ^= back && bits != 0 ? UINT32_C(0x80000000) : 0;
+    __builtin_memcpy(&value, &bits, sizeof bits);
+#else
+    (void)back;
+#endif
+    return value;
+}
+
+/* The function whose numbers begin at `of`, y from the cell's middle. */
+WH_INLINE wh_real wh_table_linear(const wh_real *of, wh_real y) {
+    return wh_flash_real(&of[0]) + y * wh_flash_real(&of[1]);
+}
+
+WH_INLINE wh_real wh_table_cubic(const wh_real *of, wh_real y) {
+    const wh_real upper = wh_flash_real(&of[2]) + y * wh_flash_real(&of[3]);
+    return wh_flash_real(&of[0]) + y * (wh_flash_real(&of[1]) + y * upper);
+}
+
+#endif
