@@ -25,12 +25,14 @@
         } \
     } while (false)
 #else
-_Static_assert(WH_STAGES_MAX == 4, "a stage each below");
+_Static_assert(WH_STAGES_MAX == 6, "a stage each below");
 #define WH_LATER_STAGES(by, stage) \
     do { \
         stage(1U); \
         stage(2U); \
         stage(3U); \
+        stage(4U); \
+        stage(5U); \
     } while (false)
 #endif
 
@@ -61,6 +63,18 @@ WH_INLINE wh_real wh_stage_sum(const wh_real *share, unsigned stage, wh_given gi
         }
     }
     return sum;
+}
+
+/* Says the row where its stages stand, apart from their rates? */
+WH_INLINE bool wh_stage_reaches(const wh_tableau *by, unsigned stage) {
+    return by->reach[stage].parts != WH_R(0.0);
+}
+
+/* How far component i, of rate `rate`, of such a stage stands from the begin. */
+WH_INLINE wh_real wh_stage_reach(const wh_tableau *by, unsigned stage, wh_real rate,
+                                 wh_given accels, wh_real h, unsigned i) {
+    const wh_shares *of = &by->reach[stage];
+    return h * by->node[stage] * rate + h * h / of->parts * wh_stage_sum(of->share, stage, accels, i);
 }
 
 /* Do a stage and the one before it count alike at the step's end? Those are added up first: a sum instead of a

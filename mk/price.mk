@@ -158,3 +158,17 @@ bench-links-now: $(GEN)/.stamp
 	@OUT=build/links $(TO_PRICE) mk/price/links.sh
 	@mk/price/into_page.sh build/links/links.md docs/price.md links
 	@cat build/links/links.md
+
+# Work against precision of every method: the tables of docs/numerics.md. `@jumping`: inputs jump every 2 ms.
+PRECISION_SCENES ?= epicyclic_conserved thomson_a_conserved rig_fixed two_mass_relative spherical_flight \
+    mk/price/separable.whirl:twins_swing build/precision_links.whirl:swing_4 \
+    epicyclic_conserved@jumping thomson_a_conserved@jumping rig_fixed@jumping
+.PHONY: bench-precision-now
+bench-precision-now: $(GEN)/.stamp
+	@$(MAKE) $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl) $(call libraries,double,whirl) \
+	    $(call objects,double,boards/host/board.c) $(B)/tools/precision $(PLUGIN)
+	@awk -v n=4 -v scene=1 -f mk/price/links.awk >build/precision_links.whirl
+	@OUT=build/precision PRECISION=$(B)/tools/precision HOST_CC="$(CC)" HOST_CFLAGS="-std=c11 $(OPT) -ffp-contract=off -fno-math-errno" \
+	    BENCH_HOST="$(call objects,double,boards/host/board.c) $(call libraries,double,whirl)" \
+	    $(TO_PRICE) mk/price/precision.sh $(PRECISION_SCENES)
+	@cat build/precision/precision.md

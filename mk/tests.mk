@@ -111,6 +111,10 @@ $(B)/tools/functions_exhaustive: $(call objects,host,tests/tools/functions_exhau
 $(B)/tools/root_exhaustive: $(call objects,host,tests/tools/root_exhaustive.c) $(LIB_FLOAT)
 	$(link)
 
+# How far each method is off, by step.
+$(B)/tools/precision: $(call objects,host,tests/tools/precision.c) $(LIB_HOST) $(LIB_FLOAT) $(LIB_DOUBLE)
+	$(link)
+
 # Generated mechanisms, all of which derive.
 $(B)/tools/mechanisms: $(call objects,host,tests/tools/mechanisms.c tests/host/mechanism.c) $(LIB_HOST) \
     $(LIB_FLOAT) $(LIB_DOUBLE)
