@@ -10,13 +10,18 @@
 #include "method.h"
 #include "unroll.h"
 
+/* Most stages of a method. A generated scene defines those of its own: with more there would be more to spill. */
+#ifndef WH_STAGES
+#define WH_STAGES WH_STAGES_MAX
+#endif
+
 /* All stages but the first: stage(s); for each. Unrolled by hand where the compiler cannot be asked to: else shares would be
  * looked up and multiplied by while the program runs. */
 #ifdef WH_UNROLLS
 #define WH_LATER_STAGES(by, stage) \
     do { \
         WH_UNROLL \
-        for (unsigned s = 1; s < WH_STAGES_MAX; \
+        for (unsigned s = 1; s < WH_STAGES; \
              s++) { /* with this bound gcc has fewer to spill */ \
             if (s >= (by)->stages) { \
                 break; \
@@ -55,7 +60,7 @@ WH_INLINE wh_real wh_stage_sum(const wh_real *share, unsigned stage, wh_given gi
     wh_real sum = WH_R(0.0);
     bool any = false;
     WH_UNROLL
-    for (unsigned j = 0; j < WH_STAGES_MAX; j++) {
+    for (unsigned j = 0; j < WH_STAGES; j++) {
         if (j < stage && share[j] != WH_R(0.0)) {
             const wh_real one = share[j] * (j == 0 ? given.first[i] : given.next[j - 1][i]);
             sum = any ? sum + one : one;
@@ -80,7 +85,7 @@ WH_INLINE wh_real wh_stage_reach(const wh_tableau *by, unsigned stage, wh_real r
 /* Do a stage and the one before it count alike at the step's end? Those are added up first: a sum instead of a
  * product each, and it may serve positions and rates. Where there are no positions, the rates decide. */
 WH_INLINE bool wh_stages_alike(const wh_tableau *by, unsigned stage, bool has_positions) {
-    return stage < WH_STAGES_MAX && stage < by->stages &&
+    return stage < WH_STAGES && stage < by->stages &&
            by->rates[stage] == by->rates[stage - 1] &&
            (!has_positions || by->positions[stage] == by->positions[stage - 1]);
 }

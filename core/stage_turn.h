@@ -106,7 +106,7 @@ WH_INLINE void wh_turning_by(const wh_tableau *by, const wh_waves *waves, const 
     wh_real first = WH_R(0.0);
     wh_real all = WH_R(0.0);
     WH_UNROLL
-    for (unsigned j = 0; j < WH_STAGES_MAX; j++) {
+    for (unsigned j = 0; j < WH_STAGES; j++) {
         first += by->stage[1].share[j];
     }
     waves->rates(waves->model, h / by->stage[1].parts * first, rate, d);
@@ -143,7 +143,7 @@ WH_INLINE void wh_turning_begin(const wh_waves *waves, const wh_wave *turn, bool
 /* Turn on, so often in all. Precise: what turns add is summed up by itself, so that each pair is rounded once. */
 WH_INLINE void wh_turning_to(const wh_waves *waves, unsigned turns, bool precise, wh_turning *t) {
     WH_UNROLL
-    for (unsigned k = 0; k < WH_STAGES_MAX; k++) {
+    for (unsigned k = 0; k < WH_STAGES; k++) {
         if (t->turns == turns) {
             break;
         }
@@ -189,7 +189,7 @@ WH_INLINE bool wh_turning_leans(const wh_shares *of, unsigned stage, wh_real (*g
         bool any = false;
         lean[i] = WH_R(0.0);
         WH_UNROLL
-        for (unsigned j = 1; j < WH_STAGES_MAX; j++) {
+        for (unsigned j = 1; j < WH_STAGES; j++) {
             if (j < stage) {
                 wh_total_add(&lean[i], &any, of->share[j], gained[j - 1][i]);
             }
@@ -312,10 +312,10 @@ typedef struct wh_turned_second {
     const wh_real *input;
     wh_turning t;
     wh_real a1[WH_COORDS];                    /* accelerations of the first stage */
-    wh_real gained[WH_STAGES_MAX][WH_COORDS]; /* what the rates of all others have gained */
-    wh_real rates[WH_STAGES_MAX][WH_COORDS];
-    wh_real accels[WH_STAGES_MAX][WH_COORDS];
-    wh_real alike[WH_STAGES_MAX][WH_COORDS]; /* sums of those that count alike */
+    wh_real gained[WH_STAGES][WH_COORDS]; /* what the rates of all others have gained */
+    wh_real rates[WH_STAGES][WH_COORDS];
+    wh_real accels[WH_STAGES][WH_COORDS];
+    wh_real alike[WH_STAGES][WH_COORDS]; /* sums of those that count alike */
 } wh_turned_second;
 
 /* Its stage s > 0. */
@@ -394,9 +394,9 @@ WH_INLINE wh_status wh_turn_second(const void *model, wh_turned_accel_fn *accel,
 typedef struct wh_turned_first {
     wh_turning t;
     wh_real k1[WH_COORDS];                    /* derivatives of the first stage */
-    wh_real gained[WH_STAGES_MAX][WH_COORDS]; /* those of all others less the first's, of angles */
-    wh_real slopes[WH_STAGES_MAX][WH_COORDS]; /* those of all but the first */
-    wh_real alike[WH_STAGES_MAX][WH_COORDS];  /* sums of those that count alike */
+    wh_real gained[WH_STAGES][WH_COORDS]; /* those of all others less the first's, of angles */
+    wh_real slopes[WH_STAGES][WH_COORDS]; /* those of all but the first */
+    wh_real alike[WH_STAGES][WH_COORDS];  /* sums of those that count alike */
 } wh_turned_first;
 
 /* Its stage s > 0. */

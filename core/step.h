@@ -70,9 +70,9 @@ typedef struct wh_stepped_second {
     const wh_real *rate;
     const wh_real *input;
     wh_real a1[WH_COORDS];                   /* accelerations of the first stage */
-    wh_real rates[WH_STAGES_MAX][WH_COORDS]; /* of all others */
-    wh_real accels[WH_STAGES_MAX][WH_COORDS];
-    wh_real alike[WH_STAGES_MAX][WH_COORDS]; /* sums of those that count alike */
+    wh_real rates[WH_STAGES][WH_COORDS]; /* of all others */
+    wh_real accels[WH_STAGES][WH_COORDS];
+    wh_real alike[WH_STAGES][WH_COORDS]; /* sums of those that count alike */
 } wh_stepped_second;
 
 /* The positions of stage s of a row with a reach. As wh_step_second_stage(). */
@@ -163,8 +163,8 @@ WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_met
 /* A step of x' = f(x, u) on its way. */
 typedef struct wh_stepped_first {
     wh_real k1[WH_COORDS];                    /* derivatives of the first stage */
-    wh_real slopes[WH_STAGES_MAX][WH_COORDS]; /* those of all but the first */
-    wh_real alike[WH_STAGES_MAX][WH_COORDS];  /* sums of those that count alike */
+    wh_real slopes[WH_STAGES][WH_COORDS]; /* those of all but the first */
+    wh_real alike[WH_STAGES][WH_COORDS];  /* sums of those that count alike */
 } wh_stepped_first;
 
 /* Its stage s > 0. As wh_step_second_stage(). */
