@@ -138,7 +138,6 @@ typedef struct wh_tableau {
     wh_real positions[WH_STAGES_MAX];
     wh_real rates[WH_STAGES_MAX];
     uint8_t turns[WH_STAGES_MAX];
-    uint8_t without_rates; /* order where accelerations take no rates, if it is higher there */
 } wh_tableau;
 
 #define WH_METHOD_TABLEAU(id, word, title, order, takes, stages, ...) \
