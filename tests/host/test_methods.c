@@ -131,7 +131,7 @@ static void test_orders_are_those_of_the_names(void) {
                                   .compensated = compensated,
                                   .ledger = ledger};
             const int wanted = wh_methods[method].order;
-            const int halvings = wanted < 5 ? 12 - 2 * wanted : 4; /* of a second, at first */
+            const int halvings = wanted < 5 ? 12 - 2 * wanted : 5; /* of a second, at first */
             const double order = log2(distance(f, how, halvings) / distance(f, how, halvings + 1));
             char what[160];
             snprintf(what, sizeof what, "%s, %s%s%s: order %.3f", f->name, wh_methods[method].word,
@@ -157,7 +157,7 @@ static void test_books_have_the_order_of_the_name(void) {
                 motion run;
                 double entry[VALUES];
                 double error[VALUES];
-                const double step_s = 1.0 / (double)(1U << (13 - 2 * wanted + k));
+                const double step_s = 1.0 / (double)(1U << (wanted < 4 ? 13 - 2 * wanted + k : 6 + k));
                 motion_open_text(&run, forms[i].text,
                                  (stepping){.kind = &engine_double,
                                             .method = (wh_method)m,

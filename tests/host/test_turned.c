@@ -6,6 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "core/stage_turn.h"
+
 #include "command.h"
 #include "derived.h"
 #include "host/image/turned.h"
