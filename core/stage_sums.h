@@ -21,8 +21,7 @@
 #define WH_LATER_STAGES(by, stage) \
     do { \
         WH_UNROLL \
-        for (unsigned s = 1; s < WH_STAGES; \
-             s++) { /* with this bound gcc has fewer to spill */ \
+        for (unsigned s = 1; s < WH_STAGES; s++) { /* with this bound gcc has fewer to spill */ \
             if (s >= (by)->stages) { \
                 break; \
             } \
@@ -79,14 +78,14 @@ WH_INLINE bool wh_stage_reaches(const wh_tableau *by, unsigned stage) {
 WH_INLINE wh_real wh_stage_reach(const wh_tableau *by, unsigned stage, wh_real rate,
                                  wh_given accels, wh_real h, unsigned i) {
     const wh_shares *of = &by->reach[stage];
-    return h * by->node[stage] * rate + h * h / of->parts * wh_stage_sum(of->share, stage, accels, i);
+    return h * by->node[stage] * rate +
+           h * h / of->parts * wh_stage_sum(of->share, stage, accels, i);
 }
 
 /* Do a stage and the one before it count alike at the step's end? Those are added up first: a sum instead of a
  * product each, and it may serve positions and rates. Where there are no positions, the rates decide. */
 WH_INLINE bool wh_stages_alike(const wh_tableau *by, unsigned stage, bool has_positions) {
-    return stage < WH_STAGES && stage < by->stages &&
-           by->rates[stage] == by->rates[stage - 1] &&
+    return stage < WH_STAGES && stage < by->stages && by->rates[stage] == by->rates[stage - 1] &&
            (!has_positions || by->positions[stage] == by->positions[stage - 1]);
 }
 

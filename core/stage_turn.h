@@ -311,7 +311,7 @@ typedef struct wh_turned_second {
     const wh_real *rate;
     const wh_real *input;
     wh_turning t;
-    wh_real a1[WH_COORDS];                    /* accelerations of the first stage */
+    wh_real a1[WH_COORDS];                /* accelerations of the first stage */
     wh_real gained[WH_STAGES][WH_COORDS]; /* what the rates of all others have gained */
     wh_real rates[WH_STAGES][WH_COORDS];
     wh_real accels[WH_STAGES][WH_COORDS];
@@ -393,7 +393,7 @@ WH_INLINE wh_status wh_turn_second(const void *model, wh_turned_accel_fn *accel,
 /* A step of x' = f(x, u) on its way. */
 typedef struct wh_turned_first {
     wh_turning t;
-    wh_real k1[WH_COORDS];                    /* derivatives of the first stage */
+    wh_real k1[WH_COORDS];                /* derivatives of the first stage */
     wh_real gained[WH_STAGES][WH_COORDS]; /* those of all others less the first's, of angles */
     wh_real slopes[WH_STAGES][WH_COORDS]; /* those of all but the first */
     wh_real alike[WH_STAGES][WH_COORDS];  /* sums of those that count alike */

@@ -69,7 +69,7 @@ typedef struct wh_stepped_second {
     const wh_real *linear; /* where it begins */
     const wh_real *rate;
     const wh_real *input;
-    wh_real a1[WH_COORDS];                   /* accelerations of the first stage */
+    wh_real a1[WH_COORDS];               /* accelerations of the first stage */
     wh_real rates[WH_STAGES][WH_COORDS]; /* of all others */
     wh_real accels[WH_STAGES][WH_COORDS];
     wh_real alike[WH_STAGES][WH_COORDS]; /* sums of those that count alike */
@@ -162,7 +162,7 @@ WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_met
 
 /* A step of x' = f(x, u) on its way. */
 typedef struct wh_stepped_first {
-    wh_real k1[WH_COORDS];                    /* derivatives of the first stage */
+    wh_real k1[WH_COORDS];                /* derivatives of the first stage */
     wh_real slopes[WH_STAGES][WH_COORDS]; /* those of all but the first */
     wh_real alike[WH_STAGES][WH_COORDS];  /* sums of those that count alike */
 } wh_stepped_first;

@@ -225,8 +225,7 @@ void emit_c(FILE *out, const image *im, const char *file) {
     const bool turns = image_turns(im);
     const int components = second ? im->coordinates : im->angles + im->reals;
     write_banner(out, im, file);
-    fprintf(out, "#define WH_COORDS %d\n#define WH_STAGES %d\n", components,
-            most_stages(im));
+    fprintf(out, "#define WH_COORDS %d\n#define WH_STAGES %d\n", components, most_stages(im));
     if (turns) {
         const int waves = tape_waves(im->list[IMAGE_STEP]);
         fprintf(out, "#define WH_WAVES %d\n", waves > 0 ? waves : 1);

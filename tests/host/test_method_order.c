@@ -216,8 +216,8 @@ static void test_a_wrong_coefficient_is_noticed(void) {
             weights wrong = right;
             const int i = k % right.stages;
             const int part = k / right.stages;
-            long double *at = part < right.stages       ? &wrong.a[part][i]
-                              : part < 2 * right.stages ? &wrong.reach[part - right.stages][i]
+            long double *at = part < right.stages            ? &wrong.a[part][i]
+                              : part < 2 * right.stages      ? &wrong.reach[part - right.stages][i]
                               : part == 2 * right.stages     ? &wrong.rates[i]
                               : part == 2 * right.stages + 1 ? &wrong.positions[i]
                                                              : &wrong.node[i];
@@ -253,9 +253,9 @@ static void test_nodes_follow_from_the_shares(void) {
                 sum += t->stage[i].share[j];
             }
             if (t->reach[i].parts != 0.0) {
-                TEST_ASSERT_TRUE_MESSAGE(
-                    fabs(sum / t->stage[i].parts - t->node[i]) < (double)ROUNDING,
-                    wh_methods[m].word);
+                TEST_ASSERT_TRUE_MESSAGE(fabs(sum / t->stage[i].parts - t->node[i]) <
+                                             (double)ROUNDING,
+                                         wh_methods[m].word);
             }
         }
     }

@@ -230,9 +230,9 @@ static void test_documented_stability_is_the_measured_one(void) {
                  any ? interval(growth_of_decay, (wh_method)m) : 0.0);
         snprintf(line, sizeof line, "| `%s` | %s | %d | %d | %s | %s | %.2f |\n", row->word,
                  row->title, row->order, row->stages,
-                 any                           ? "any"
+                 any                         ? "any"
                  : row->takes == WH_NO_RATES ? "no rates"
-                                               : "second order",
+                                             : "second order",
                  any ? decays : "", of_spring);
         printf("  %s", line);
         TEST_ASSERT_NOT_NULL_MESSAGE(strstr(page, line), line);

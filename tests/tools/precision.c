@@ -171,7 +171,8 @@ static void measure(const char *word, bool jumping) {
         how = (manner){(wh_method)(k / 3), k % 3 == 1, k % 3 == 2 ? &engine_double : &engine_float,
                        jumping, 0};
         for (int i = 0; i < (jumping ? 16 : 17); i++) {
-            how.steps = jumping ? 1000U * ((unsigned)i + 1) : (unsigned)(4 * lround(8.0 * exp2(0.5 * i)));
+            how.steps =
+                jumping ? 1000U * ((unsigned)i + 1) : (unsigned)(4 * lround(8.0 * exp2(0.5 * i)));
             const int had = walk(&s, how, other);
             if (had == 0 && i == 16) {
                 break;
