@@ -171,4 +171,5 @@ bench-precision-now: $(GEN)/.stamp
 	@OUT=build/precision PRECISION=$(B)/tools/precision HOST_CC="$(CC)" HOST_CFLAGS="-std=c11 $(OPT) -ffp-contract=off -fno-math-errno" \
 	    BENCH_HOST="$(call objects,double,boards/host/board.c) $(call libraries,double,whirl)" \
 	    $(TO_PRICE) mk/price/precision.sh $(PRECISION_SCENES)
+	@mk/price/into_page.sh build/precision/precision.md docs/numerics.md precision
 	@cat build/precision/precision.md

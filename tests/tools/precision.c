@@ -161,7 +161,7 @@ static void measure(const char *word, bool jumping) {
     const subject s = subject_of(word);
     const char *name = s.scene->name;
     const char *inputs = jumping ? "jumping" : "steady";
-    manner how = {WH_RK4, false, &engine_double, jumping, 0};
+    manner how = {WH_RK4, true, &engine_double, jumping, 0};
     int count = extrapolated(&s, how, exact);
     how.method = WH_RK38;
     count = count > 0 ? extrapolated(&s, how, other) : 0;
