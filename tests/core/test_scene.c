@@ -240,6 +240,10 @@ static void expect_order(wh_method method) {
     while (count > 4 && error_squared_at_2s(method, 2 * count) < drowned * drowned) {
         count /= 2;
     }
+    if (error_squared_at_2s(method, 2 * count) < drowned * drowned) {
+        TEST_ASSERT_TRUE(sizeof(wh_real) == 4 && order > 4); /* float's rounding leaves no step */
+        return;
+    }
     const wh_real ratio =
         error_squared_at_2s(method, count) / error_squared_at_2s(method, 2 * count);
     const wh_real wanted = (wh_real)(1U << (2 * order));

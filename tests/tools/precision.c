@@ -137,7 +137,7 @@ static double distance(int count, double (*a)[VALUES], double (*b)[VALUES]) {
         }
         worst = fmax(worst, sum);
     }
-    return count > 0 && isfinite(worst) ? worst : INFINITY;
+    return count > 0 && isfinite(worst) ? worst : (double)INFINITY;
 }
 
 static int extrapolated(const subject *s, manner how, double (*value)[VALUES]) {
