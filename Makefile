@@ -1,9 +1,8 @@
 # Whirl: energies in, firmware out. `make` lists the targets; the machinery is in mk/.
 #
 # V=1 shows the commands. Nothing is written outside build/, but for `make figures-docs`, `make price-effects`,
-# `make bench-boards`, `make bench-tables`, `make bench-peers`, `make bench-links` and `make price-fit`, which renew their
-# part of docs/, and
-# `make too-large`, which lists what does not fit into a board.
+# `make bench-boards`, `make bench-tables`, `make bench-precision`, `make bench-peers`, `make bench-links` and
+# `make price-fit`, which renew their part of docs/, and `make too-large`, which lists what does not fit into a board.
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
@@ -165,6 +164,11 @@ bench-peers: ## the same steps and derivations by other libraries, as ratios; in
 bench-links: ## pendulums of 1 to 12 links: deriving, operations, a step, bytes; into docs/price.md
 	@CC="$(CC)" mk/setup/deps.sh host firmware bench
 	@$(MAKE) bench-links-now
+
+.PHONY: bench-precision
+bench-precision: ## work against precision of every method, by counted instructions; into docs/numerics.md
+	@CC="$(CC)" mk/setup/deps.sh host firmware bench
+	@$(MAKE) bench-precision-now
 
 .PHONY: price-effects
 price-effects: ## what each effect costs: instructions, bytes, error; into docs/effects.md (minutes)

@@ -30,7 +30,7 @@ WH_INLINE wh_real wh_ledger_weight(wh_method method, unsigned stage) {
     const wh_tableau *by = wh_tableau_of(method);
     wh_real rates = by->rates[0];
     WH_UNROLL
-    for (unsigned s = 1; s < WH_STAGES_MAX; s++) {
+    for (unsigned s = 1; s < WH_STAGES; s++) {
         if (s < by->stages && by->rates[s] != by->rates[0] && stage == s) {
             rates = by->rates[s];
         }

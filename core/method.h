@@ -24,15 +24,18 @@
  * Runge-Kutta method are .positions = b A; only such a method takes systems of first order. Both have the same
  * .parts: the sum for positions is part of that for rates. The books (ledger_step.h) weigh the stages by .rates, too.
  *
- * Methods of other kinds are rows as well, with columns that those here leave empty, and a loop of their own in
- * step.h where they need one, chosen by the column and never by the method's name:
+ * Nystroem's methods know that positions are moved by rates, and say with .reach where the position of stage i stands:
  *
- *     Nystroem       .reach[i], as .stage[i]: the position of stage i is q + c h q' + h^2/parts * sum share[j] a_j,
- *                    c = .node[i]; .positions and .rates are there already. Systems: second order only.
- *     compositions   the same columns: a kick, a drift, a kick is a Nystroem row (semi-implicit Euler is one of one
- *                    stage); done in place as pairs, .kick[i] and .drift[i], they take no sums of stages at all.
- *     multistep      .history = how many earlier derivatives it keeps, .rates their weights, .start = WH_RK4;
- *                    WH_MEMORY_BYTES of scene.h grows by .history reals a component.
+ *     begin + c h q' + h^2/parts * sum_j share[j] a_j,        .reach[i] = {parts, {share...}}, c = .node[i],
+ *
+ * where the accelerations of the earlier stages are a_j; a Runge-Kutta method's reach is A A. The rates of stage i are those
+ * that .stage[i] gives. Two stages with the same node and reach stand at the same place: what a list computes of positions
+ * alone (sines, mass matrix, divisions) a compiler that has inlined it computes once. Systems of first order, where the row
+ * takes them, are stepped by .stage alone.
+ *
+ * Compositions of kicks and drifts are rows of the same columns: with kicks b_i at nodes c_i, .rates = b,
+ * .positions = b (1 - c), .reach[i] has shares b_j (c_i - c_j), and .stage none: they have no rates to show to
+ * accelerations that ask for them, and are refused there (WH_NO_RATES). Their first stage may stand away from the begin.
  *
  * A row of several stages whose sines can be those of the step's begin, turned on (stage_turn.h), says with .turns how many
  * times as far as stage 1 stage i is, as the rates at the begin lead. That follows from the shares
@@ -54,7 +57,26 @@
       .parts = 6, .positions = {1, 1, 1, 0}, .rates = {1, 2, 2, 1}, .turns = {0, 1, 1, 2}) \
     X(WH_RK38, "rk38", "Kutta's 3/8 rule", 4, WH_ANY_SYSTEM, 4, \
       .stage = {{1, {0}}, {3, {1}}, {3, {-1, 3}}, {1, {1, -1, 1}}}, \
-      .parts = 8, .positions = {1, 2, 1, 0}, .rates = {1, 3, 3, 1}, .turns = {0, 1, 2, 3})
+      .parts = 8, .positions = {1, 2, 1, 0}, .rates = {1, 3, 3, 1}, .turns = {0, 1, 2, 3}) \
+    X(WH_NYSTROEM3, "nystroem3", "Nystroem 3", 3, WH_ANY_SYSTEM, 3, \
+      .stage = {{1, {0}}, {3, {2}}, {3, {0, 2}}}, \
+      .node = {0, WH_R(2.0) / WH_R(3.0), WH_R(2.0) / WH_R(3.0)}, \
+      .reach = {{1, {0}}, {9, {2}}, {9, {2}}}, \
+      .parts = 8, .positions = {2, 2, 0}, .rates = {2, 3, 3}, .turns = {0, 1, 1}) \
+    X(WH_NYSTROEM4, "nystroem4", "Nystroem 4", 4, WH_ANY_SYSTEM, 4, \
+      .stage = {{1, {0}}, {2, {1}}, {2, {0, 1}}, {1, {0, 0, 1}}}, \
+      .node = {0, WH_R(0.5), WH_R(0.5), 1}, \
+      .reach = {{1, {0}}, {8, {1}}, {8, {1}}, {2, {0, 1}}}, \
+      .parts = 6, .positions = {1, 1, 1, 0}, .rates = {1, 2, 2, 1}, .turns = {0, 1, 1, 2}) \
+    X(WH_NYSTROEM5, "nystroem5", "Nystroem 5", 5, WH_ANY_SYSTEM, 6, \
+      .stage = {{1, {0}}, {4, {1}}, {8, {1, 1}}, {2, {0, -1, 2}}, {16, {3, 0, 0, 9}}, {7, {-3, 2, 12, -12, 8}}}, \
+      .node = {0, WH_R(0.25), WH_R(0.25), WH_R(0.5), WH_R(0.75), 1}, \
+      .reach = {{1, {0}}, {32, {1}}, {32, {1}}, {8, {0, 0, 1}}, {32, {3, 0, 3, 3}}, {14, {0, 0, 6, 0, 1}}}, \
+      .parts = 90, .positions = {7, 0, 24, 6, 8, 0}, .rates = {7, 0, 32, 12, 32, 7}, \
+      .turns = {0, 1, 1, 2, 3, 4}) \
+    X(WH_LEAPFROG, "leapfrog", "leapfrog", 2, WH_NO_RATES, 1, \
+      .stage = {{1, {0}}}, .node = {WH_R(0.5)}, .reach = {{1, {0}}}, \
+      .parts = 2, .positions = {1}, .rates = {2})
 /* clang-format on */
 
 /* The method of whoever names none. */
@@ -68,8 +90,8 @@ typedef enum wh_method { WH_METHOD_ROWS(WH_METHOD_NAME) } wh_method;
 enum { WH_METHODS = WH_METHOD_ROWS(WH_METHOD_ONE) };
 #undef WH_METHOD_ONE
 
-/* Systems that a method takes: a bit for each wh_form (scene.h). */
-enum { WH_SECOND_ORDER_ONLY = 1, WH_ANY_SYSTEM = 3 };
+/* Systems that a method takes: a bit for each wh_form (scene.h), and one where accelerations must not take rates. */
+enum { WH_SECOND_ORDER_ONLY = 1, WH_ANY_SYSTEM = 3, WH_NO_RATES = 5 };
 
 #ifdef __cplusplus
 extern "C" {
@@ -110,6 +132,8 @@ typedef struct wh_shares {
 typedef struct wh_tableau {
     unsigned stages;
     wh_shares stage[WH_STAGES_MAX];
+    wh_real node[WH_STAGES_MAX];    /* with .reach: else none */
+    wh_shares reach[WH_STAGES_MAX]; /* .parts of 0: there is none */
     wh_real parts;
     wh_real positions[WH_STAGES_MAX];
     wh_real rates[WH_STAGES_MAX];

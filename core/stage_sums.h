@@ -10,14 +10,18 @@
 #include "method.h"
 #include "unroll.h"
 
+/* Most stages of a method. A generated scene defines those of its own: with more there would be more to spill. */
+#ifndef WH_STAGES
+#define WH_STAGES WH_STAGES_MAX
+#endif
+
 /* All stages but the first: stage(s); for each. Unrolled by hand where the compiler cannot be asked to: else shares would be
  * looked up and multiplied by while the program runs. */
 #ifdef WH_UNROLLS
 #define WH_LATER_STAGES(by, stage) \
     do { \
         WH_UNROLL \
-        for (unsigned s = 1; s < WH_STAGES_MAX; \
-             s++) { /* with this bound gcc has fewer to spill */ \
+        for (unsigned s = 1; s < WH_STAGES; s++) { /* with this bound gcc has fewer to spill */ \
             if (s >= (by)->stages) { \
                 break; \
             } \
@@ -25,12 +29,14 @@
         } \
     } while (false)
 #else
-_Static_assert(WH_STAGES_MAX == 4, "a stage each below");
+_Static_assert(WH_STAGES_MAX == 6, "a stage each below");
 #define WH_LATER_STAGES(by, stage) \
     do { \
         stage(1U); \
         stage(2U); \
         stage(3U); \
+        stage(4U); \
+        stage(5U); \
     } while (false)
 #endif
 
@@ -53,7 +59,7 @@ WH_INLINE wh_real wh_stage_sum(const wh_real *share, unsigned stage, wh_given gi
     wh_real sum = WH_R(0.0);
     bool any = false;
     WH_UNROLL
-    for (unsigned j = 0; j < WH_STAGES_MAX; j++) {
+    for (unsigned j = 0; j < WH_STAGES; j++) {
         if (j < stage && share[j] != WH_R(0.0)) {
             const wh_real one = share[j] * (j == 0 ? given.first[i] : given.next[j - 1][i]);
             sum = any ? sum + one : one;
@@ -63,11 +69,23 @@ WH_INLINE wh_real wh_stage_sum(const wh_real *share, unsigned stage, wh_given gi
     return sum;
 }
 
+/* Says the row where its stages stand, apart from their rates? */
+WH_INLINE bool wh_stage_reaches(const wh_tableau *by, unsigned stage) {
+    return by->reach[stage].parts != WH_R(0.0);
+}
+
+/* How far component i, of rate `rate`, of such a stage stands from the begin. */
+WH_INLINE wh_real wh_stage_reach(const wh_tableau *by, unsigned stage, wh_real rate,
+                                 wh_given accels, wh_real h, unsigned i) {
+    const wh_shares *of = &by->reach[stage];
+    return h * by->node[stage] * rate +
+           h * h / of->parts * wh_stage_sum(of->share, stage, accels, i);
+}
+
 /* Do a stage and the one before it count alike at the step's end? Those are added up first: a sum instead of a
  * product each, and it may serve positions and rates. Where there are no positions, the rates decide. */
 WH_INLINE bool wh_stages_alike(const wh_tableau *by, unsigned stage, bool has_positions) {
-    return stage < WH_STAGES_MAX && stage < by->stages &&
-           by->rates[stage] == by->rates[stage - 1] &&
+    return stage < WH_STAGES && stage < by->stages && by->rates[stage] == by->rates[stage - 1] &&
            (!has_positions || by->positions[stage] == by->positions[stage - 1]);
 }
 

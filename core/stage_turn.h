@@ -67,7 +67,7 @@ typedef struct wh_waves {
 /* Has the method's row what turning takes? */
 WH_INLINE bool wh_method_turns(wh_method method) {
     const wh_tableau *by = wh_tableau_of(method);
-    return by->stages == 1 || by->turns[1] == 1;
+    return by->node[0] == WH_R(0.0) && (by->stages == 1 || by->turns[1] == 1);
 }
 
 /* A step's pairs on their way. */
@@ -106,7 +106,7 @@ WH_INLINE void wh_turning_by(const wh_tableau *by, const wh_waves *waves, const 
     wh_real first = WH_R(0.0);
     wh_real all = WH_R(0.0);
     WH_UNROLL
-    for (unsigned j = 0; j < WH_STAGES_MAX; j++) {
+    for (unsigned j = 0; j < WH_STAGES; j++) {
         first += by->stage[1].share[j];
     }
     waves->rates(waves->model, h / by->stage[1].parts * first, rate, d);
@@ -143,7 +143,7 @@ WH_INLINE void wh_turning_begin(const wh_waves *waves, const wh_wave *turn, bool
 /* Turn on, so often in all. Precise: what turns add is summed up by itself, so that each pair is rounded once. */
 WH_INLINE void wh_turning_to(const wh_waves *waves, unsigned turns, bool precise, wh_turning *t) {
     WH_UNROLL
-    for (unsigned k = 0; k < WH_STAGES_MAX; k++) {
+    for (unsigned k = 0; k < WH_STAGES; k++) {
         if (t->turns == turns) {
             break;
         }
@@ -189,7 +189,7 @@ WH_INLINE bool wh_turning_leans(const wh_shares *of, unsigned stage, wh_real (*g
         bool any = false;
         lean[i] = WH_R(0.0);
         WH_UNROLL
-        for (unsigned j = 1; j < WH_STAGES_MAX; j++) {
+        for (unsigned j = 1; j < WH_STAGES; j++) {
             if (j < stage) {
                 wh_total_add(&lean[i], &any, of->share[j], gained[j - 1][i]);
             }
@@ -249,12 +249,38 @@ WH_INLINE void wh_turning_stage(const wh_tableau *by, const wh_waves *waves, uns
     }
 }
 
-/* Where the angles stand at a stage, for who must know (the books): as wh_stage_angle(). */
-WH_INLINE void wh_turning_tell(const wh_shares *of, unsigned stage, wh_given rates, unsigned angles,
-                               wh_real h, const wh_state *state, wh_phase *told) {
+/* The same for a row that says where its stages stand. */
+WH_INLINE void wh_turning_reach(const wh_tableau *by, const wh_waves *waves, unsigned stage,
+                                wh_given accels, unsigned angles, wh_real h, bool precise,
+                                wh_turning *t, wh_wave *pair) {
+    const wh_shares *of = &by->reach[stage];
+    wh_real of_angles[WH_COORDS] = {0};
+    wh_real lean[WH_WAVES] = {0};
+    WH_UNROLL
     for (unsigned i = 0; i < angles; i++) {
-        (void)wh_stage_angle(state->angle[i], wh_stage_sum(of->share, stage, rates, i), h,
-                             of->parts, &told[i]);
+        of_angles[i] = wh_stage_sum(of->share, stage, accels, i);
+    }
+    waves->rates(waves->model, h * h / of->parts, of_angles, lean);
+    wh_turning_to(waves, by->turns[stage], precise, t);
+    WH_UNROLL
+    for (unsigned w = 0; w < waves->count; w++) {
+        pair[w] = wh_lean(t->at[w], t->parts[w], lean[w], precise);
+    }
+}
+
+/* Where the angles stand at a stage, for who must know (the books): as wh_stage_angle(). */
+WH_INLINE void wh_turning_tell(const wh_tableau *by, unsigned stage, const wh_real *rate,
+                               wh_given rates, wh_given accels, unsigned angles, wh_real h,
+                               const wh_state *state, wh_phase *told) {
+    const wh_shares *of = &by->stage[stage];
+    for (unsigned i = 0; i < angles; i++) {
+        if (wh_stage_reaches(by, stage)) {
+            const wh_real rad = wh_stage_reach(by, stage, rate[i], accels, h, i);
+            (void)wh_phase_move(wh_phase_of(state->angle[i]), rad * WH_PHASE_PER_RAD, &told[i]);
+        } else {
+            (void)wh_stage_angle(state->angle[i], wh_stage_sum(of->share, stage, rates, i), h,
+                                 of->parts, &told[i]);
+        }
     }
 }
 
@@ -285,11 +311,11 @@ typedef struct wh_turned_second {
     const wh_real *rate;
     const wh_real *input;
     wh_turning t;
-    wh_real a1[WH_COORDS];                    /* accelerations of the first stage */
-    wh_real gained[WH_STAGES_MAX][WH_COORDS]; /* what the rates of all others have gained */
-    wh_real rates[WH_STAGES_MAX][WH_COORDS];
-    wh_real accels[WH_STAGES_MAX][WH_COORDS];
-    wh_real alike[WH_STAGES_MAX][WH_COORDS]; /* sums of those that count alike */
+    wh_real a1[WH_COORDS];                /* accelerations of the first stage */
+    wh_real gained[WH_STAGES][WH_COORDS]; /* what the rates of all others have gained */
+    wh_real rates[WH_STAGES][WH_COORDS];
+    wh_real accels[WH_STAGES][WH_COORDS];
+    wh_real alike[WH_STAGES][WH_COORDS]; /* sums of those that count alike */
 } wh_turned_second;
 
 /* Its stage s > 0. */
@@ -314,11 +340,18 @@ WH_INLINE void wh_turn_second_stage(const void *model, wh_turned_accel_fn *accel
     WH_UNROLL
     for (unsigned i = 0; i < linears; i++) {
         list->at[i] =
-            k->linear[i] + h / of->parts * wh_stage_sum(of->share, s, all_rates, angles + i);
+            wh_stage_reaches(by, s)
+                ? k->linear[i] +
+                      wh_stage_reach(by, s, k->rate[angles + i], all_accels, h, angles + i)
+                : k->linear[i] + h / of->parts * wh_stage_sum(of->share, s, all_rates, angles + i);
     }
-    wh_turning_stage(by, waves, s, k->gained, angles, h, compensated, false, &k->t, list->pair);
+    if (wh_stage_reaches(by, s)) {
+        wh_turning_reach(by, waves, s, all_accels, angles, h, compensated, &k->t, list->pair);
+    } else {
+        wh_turning_stage(by, waves, s, k->gained, angles, h, compensated, false, &k->t, list->pair);
+    }
     if (told != NULL) {
-        wh_turning_tell(of, s, all_rates, angles, h, state, told);
+        wh_turning_tell(by, s, k->rate, all_rates, all_accels, angles, h, state, told);
     }
     accel(model, list->pair, list->at, list->v, k->input, list->given);
     wh_stage_given(by, s, true, n, k->a1, list->given, k->accels, k->alike);
@@ -360,10 +393,10 @@ WH_INLINE wh_status wh_turn_second(const void *model, wh_turned_accel_fn *accel,
 /* A step of x' = f(x, u) on its way. */
 typedef struct wh_turned_first {
     wh_turning t;
-    wh_real k1[WH_COORDS];                    /* derivatives of the first stage */
-    wh_real gained[WH_STAGES_MAX][WH_COORDS]; /* those of all others less the first's, of angles */
-    wh_real slopes[WH_STAGES_MAX][WH_COORDS]; /* those of all but the first */
-    wh_real alike[WH_STAGES_MAX][WH_COORDS];  /* sums of those that count alike */
+    wh_real k1[WH_COORDS];                /* derivatives of the first stage */
+    wh_real gained[WH_STAGES][WH_COORDS]; /* those of all others less the first's, of angles */
+    wh_real slopes[WH_STAGES][WH_COORDS]; /* those of all but the first */
+    wh_real alike[WH_STAGES][WH_COORDS];  /* sums of those that count alike */
 } wh_turned_first;
 
 /* Its stage s > 0. */

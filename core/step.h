@@ -69,11 +69,30 @@ typedef struct wh_stepped_second {
     const wh_real *linear; /* where it begins */
     const wh_real *rate;
     const wh_real *input;
-    wh_real a1[WH_COORDS];                   /* accelerations of the first stage */
-    wh_real rates[WH_STAGES_MAX][WH_COORDS]; /* of all others */
-    wh_real accels[WH_STAGES_MAX][WH_COORDS];
-    wh_real alike[WH_STAGES_MAX][WH_COORDS]; /* sums of those that count alike */
+    wh_real a1[WH_COORDS];               /* accelerations of the first stage */
+    wh_real rates[WH_STAGES][WH_COORDS]; /* of all others */
+    wh_real accels[WH_STAGES][WH_COORDS];
+    wh_real alike[WH_STAGES][WH_COORDS]; /* sums of those that count alike */
 } wh_stepped_second;
+
+/* The positions of stage s of a row with a reach. As wh_step_second_stage(). */
+WH_INLINE unsigned wh_step_reach(const wh_tableau *by, unsigned s, wh_given accels, unsigned angles,
+                                 unsigned linears, wh_real h, const wh_state *state,
+                                 wh_stepped_list *list, const wh_stepped_second *k) {
+    WH_UNROLL
+    for (unsigned i = 0; i < linears; i++) {
+        list->at[i] =
+            k->linear[i] + wh_stage_reach(by, s, k->rate[angles + i], accels, h, angles + i);
+    }
+    WH_UNROLL
+    for (unsigned i = 0; i < angles; i++) {
+        const wh_real rad = wh_stage_reach(by, s, k->rate[i], accels, h, i);
+        if (!wh_phase_move(wh_phase_of(state->angle[i]), rad * WH_PHASE_PER_RAD, &list->phase[i])) {
+            return i;
+        }
+    }
+    return angles;
+}
 
 /* Its stage s > 0. The angle that is to move by half a turn or more, or `angles`. */
 WH_INLINE unsigned wh_step_second_stage(const void *model, wh_accel_fn *accel, const wh_tableau *by,
@@ -93,15 +112,22 @@ WH_INLINE unsigned wh_step_second_stage(const void *model, wh_accel_fn *accel, c
         list->v[i] = k->rate[i] + h / parts * wh_stage_sum(share, s, all_accels, i);
         k->rates[s - 1][i] = list->v[i];
     }
-    WH_UNROLL
-    for (unsigned i = 0; i < linears; i++) {
-        list->at[i] = k->linear[i] + h / parts * wh_stage_sum(share, s, all_rates, angles + i);
-    }
-    WH_UNROLL
-    for (unsigned i = 0; i < angles; i++) {
-        if (!wh_stage_angle(state->angle[i], wh_stage_sum(share, s, all_rates, i), h, parts,
-                            &list->phase[i])) {
-            return i;
+    if (wh_stage_reaches(by, s)) {
+        const unsigned far = wh_step_reach(by, s, all_accels, angles, linears, h, state, list, k);
+        if (far < angles) {
+            return far;
+        }
+    } else {
+        WH_UNROLL
+        for (unsigned i = 0; i < linears; i++) {
+            list->at[i] = k->linear[i] + h / parts * wh_stage_sum(share, s, all_rates, angles + i);
+        }
+        WH_UNROLL
+        for (unsigned i = 0; i < angles; i++) {
+            if (!wh_stage_angle(state->angle[i], wh_stage_sum(share, s, all_rates, i), h, parts,
+                                &list->phase[i])) {
+                return i;
+            }
         }
     }
     accel(model, list->phase, list->at, list->v, k->input, list->given);
@@ -119,7 +145,13 @@ WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_met
         .linear = state->real, .rate = state->real + (n - angles), .input = state->input};
     wh_stepped_list list;
     wh_stepped_begin(state, angles, n - angles, &list);
-    accel(model, list.phase, k.linear, k.rate, k.input, list.given);
+    if (by->node[0] != WH_R(0.0)) {
+        const wh_given none = {k.a1, k.accels};
+        WH_REFUSE_FAR(wh_step_reach(by, 0, none, angles, n - angles, h.s, state, &list, &k));
+        accel(model, list.phase, list.at, k.rate, k.input, list.given);
+    } else {
+        accel(model, list.phase, k.linear, k.rate, k.input, list.given);
+    }
     wh_copy(list.given, n, k.a1);
 #define WH_STAGE(stage) \
     WH_REFUSE_FAR(wh_step_second_stage(model, accel, by, stage, angles, n, h.s, state, &list, &k))
@@ -130,9 +162,9 @@ WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_met
 
 /* A step of x' = f(x, u) on its way. */
 typedef struct wh_stepped_first {
-    wh_real k1[WH_COORDS];                    /* derivatives of the first stage */
-    wh_real slopes[WH_STAGES_MAX][WH_COORDS]; /* those of all but the first */
-    wh_real alike[WH_STAGES_MAX][WH_COORDS];  /* sums of those that count alike */
+    wh_real k1[WH_COORDS];                /* derivatives of the first stage */
+    wh_real slopes[WH_STAGES][WH_COORDS]; /* those of all but the first */
+    wh_real alike[WH_STAGES][WH_COORDS];  /* sums of those that count alike */
 } wh_stepped_first;
 
 /* Its stage s > 0. As wh_step_second_stage(). */

@@ -243,3 +243,18 @@ bench-tables-now: $(GEN)/.stamp build/whirl
 	@mk/price/into_page.sh build/turn_tables/errors.md docs/numerics.md turn-tables
 	@mk/price/into_page.sh build/turn_tables/price.md docs/price.md turn-tables
 	@cat build/turn_tables/errors.md build/turn_tables/price.md
+
+# Work against precision of every method: the tables of docs/numerics.md. `@jumping`: inputs jump every 2 ms.
+PRECISION_SCENES ?= epicyclic_conserved thomson_a_conserved rig_fixed two_mass_relative spherical_flight \
+    mk/price/separable.whirl:twins_swing build/precision_links.whirl:swing_4 \
+    epicyclic_conserved@jumping thomson_a_conserved@jumping rig_fixed@jumping
+.PHONY: bench-precision-now
+bench-precision-now: $(GEN)/.stamp
+	@$(MAKE) $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl) $(call libraries,double,whirl) \
+	    $(call objects,double,boards/host/board.c) $(B)/tools/precision $(PLUGIN)
+	@awk -v n=4 -v scene=1 -f mk/price/links.awk >build/precision_links.whirl
+	@OUT=build/precision PRECISION=$(B)/tools/precision HOST_CC="$(CC)" HOST_CFLAGS="-std=c11 $(OPT) -ffp-contract=off -fno-math-errno" \
+	    BENCH_HOST="$(call objects,double,boards/host/board.c) $(call libraries,double,whirl)" \
+	    $(TO_PRICE) mk/price/precision.sh $(PRECISION_SCENES)
+	@mk/price/into_page.sh build/precision/precision.md docs/numerics.md precision
+	@cat build/precision/precision.md

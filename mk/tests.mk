@@ -115,6 +115,10 @@ $(B)/tools/tables_exhaustive: $(call objects,host,tests/tools/tables_exhaustive.
     $(LIB_FLOAT) $(LIB_DOUBLE)
 	$(link)
 
+# How far each method is off, by step.
+$(B)/tools/precision: $(call objects,host,tests/tools/precision.c) $(LIB_HOST) $(LIB_FLOAT) $(LIB_DOUBLE)
+	$(link)
+
 # Generated mechanisms, all of which derive.
 $(B)/tools/mechanisms: $(call objects,host,tests/tools/mechanisms.c tests/host/mechanism.c) $(LIB_HOST) \
     $(LIB_FLOAT) $(LIB_DOUBLE)

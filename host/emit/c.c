@@ -236,12 +236,18 @@ static void write_advance(FILE *out, const image *im) {
     }
 }
 
+/* Room for fewer than four would make gcc spill other things, not fewer. */
+static int most_stages(const image *im) {
+    const int stages = wh_methods[im->settings.method].stages;
+    return stages > 4 ? stages : 4;
+}
+
 void emit_c(FILE *out, const image *im, const char *file) {
     const bool second = im->form == WH_SECOND_ORDER;
     const bool turns = image_turns(im);
     const int components = second ? im->coordinates : im->angles + im->reals;
     write_banner(out, im, file);
-    fprintf(out, "#define WH_COORDS %d\n", components);
+    fprintf(out, "#define WH_COORDS %d\n#define WH_STAGES %d\n", components, most_stages(im));
     if (turns) {
         const int waves = tape_waves(im->list[IMAGE_STEP]);
         fprintf(out, "#define WH_WAVES %d\n", waves > 0 ? waves : 1);

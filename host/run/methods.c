@@ -13,7 +13,7 @@ const char *methods_of_form(wh_form form, char text[METHODS_TEXT_SIZE]) {
     const char *waiting = NULL; /* "or" stands before the last one */
     text[0] = '\0';
     for (int i = 0; i < WH_METHODS; i++) {
-        if (wh_method_takes((wh_method)i, form)) {
+        if (wh_method_takes((wh_method)i, form) && wh_methods[i].takes != WH_NO_RATES) {
             if (waiting != NULL) {
                 put(text, text[0] != '\0' ? ", " : "", waiting);
             }
@@ -24,8 +24,19 @@ const char *methods_of_form(wh_form form, char text[METHODS_TEXT_SIZE]) {
     return text;
 }
 
-const char *methods_in_help(char text[METHODS_TEXT_SIZE]) {
+/* The rows that take these systems and no others. */
+static void put_only(char text[METHODS_TEXT_SIZE], uint8_t takes, const char *what) {
     const char *before = "; ";
+    for (int i = 0; i < WH_METHODS; i++) {
+        if (wh_methods[i].takes == takes) {
+            put(text, before, wh_methods[i].word);
+            before = ", ";
+        }
+    }
+    put(text, before[0] == ',' ? what : "", "");
+}
+
+const char *methods_in_help(char text[METHODS_TEXT_SIZE]) {
     text[0] = '\0';
     put(text, wh_methods[WH_METHOD_DEFAULT].word, " (default)");
     for (int i = WH_METHODS - 1; i >= 0; i--) {
@@ -33,12 +44,7 @@ const char *methods_in_help(char text[METHODS_TEXT_SIZE]) {
             put(text, ", ", wh_methods[i].word);
         }
     }
-    for (int i = 0; i < WH_METHODS; i++) {
-        if (!wh_method_takes((wh_method)i, WH_FIRST_ORDER)) {
-            put(text, before, wh_methods[i].word);
-            before = ", ";
-        }
-    }
-    put(text, before[0] == ',' ? ", for second order only" : "", "");
+    put_only(text, WH_SECOND_ORDER_ONLY, ", for second order only");
+    put_only(text, WH_NO_RATES, ", where accelerations take no rates");
     return text;
 }

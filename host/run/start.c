@@ -66,11 +66,44 @@ bool start_is_possible(const image *im, const engine_kind *kind, diags *errors) 
     return good;
 }
 
-bool start_has_method(const image *im, wh_method method, diags *errors) {
-    if (wh_method_takes(method, im->form)) {
-        return true;
+/* Unknown whose rate the accelerations take, or -1. */
+static int rate_taken(const image *im) {
+    const tape *t = im->list[IMAGE_STEP];
+    for (int k = 0; k < t->count; k++) {
+        for (int i = 0; i < im->count && t->ops[k].code == OP_RATE; i++) {
+            if (im->place[i] == t->ops[k].a) {
+                return i;
+            }
+        }
     }
+    return -1;
+}
+
+/* The stages of a composition know no rates: neither may accelerations, contacts and books. */
+static bool is_free_of_rates(const image *im, const char *title, diags *errors) {
+    char others[METHODS_TEXT_SIZE];
+    char hint[METHODS_TEXT_SIZE + 160];
+    const int taken = rate_taken(im);
+    snprintf(hint, sizeof hint, "its kicks are at positions, and know no rates; choose --method %s",
+             methods_of_form(im->form, others));
+    if (taken >= 0) {
+        diag_error(errors, im->unknown[taken].at, hint,
+                   "%s is not defined here: accelerations take the rate of '%s'", title,
+                   im->unknown[taken].name);
+    } else if (im->contacts > 0) {
+        diag_error(errors, im->contact[0].at, hint, "%s is not defined here: there are contacts",
+                   title);
+    } else if (im->ledger.kept) {
+        diag_error(errors, im->at, hint, "%s is not defined here: it keeps no books", title);
+    }
+    return taken < 0 && im->contacts == 0 && !im->ledger.kept;
+}
+
+bool start_has_method(const image *im, wh_method method, diags *errors) {
     const char *title = wh_methods[method].title;
+    if (wh_method_takes(method, im->form)) {
+        return wh_methods[method].takes != WH_NO_RATES || is_free_of_rates(im, title, errors);
+    }
     char others[METHODS_TEXT_SIZE];
     char hint[METHODS_TEXT_SIZE + 160];
     methods_of_form(im->form, others);

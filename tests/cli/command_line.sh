@@ -113,6 +113,24 @@ for command in run "sweep --over step=1..2[ms]:2" "derive --as c"; do
     # shellcheck disable=SC2086
     says 2 "hint: .* choose --method $of_any$" $command tests/mechanisms/lorenz.whirl --method semi-implicit-euler
 done
+# nor are accelerations that a composition cannot know
+for command in run "sweep --over step=1..2[ms]:2" "derive --as c"; do
+    # shellcheck disable=SC2086
+    says 2 "epicyclic.whirl:[0-9:]* error: leapfrog is not defined here: accelerations take the rate of 'theta'" \
+        $command epicyclic_conserved --method leapfrog
+    # shellcheck disable=SC2086
+    says 2 "error: leapfrog is not defined here: there are contacts" $command ball_bounces --method leapfrog
+    # shellcheck disable=SC2086
+    says 2 "error: leapfrog is not defined here: it keeps no books" \
+        $command mk/price/separable.whirl --with ledger --method leapfrog
+    # shellcheck disable=SC2086
+    says 2 "hint: .* choose --method euler, semi-implicit-euler, heun, .* or nystroem5$" \
+        $command epicyclic_conserved --method leapfrog
+    # shellcheck disable=SC2086
+    says 2 "error: leapfrog is not defined here: 'x' is of order 1" $command tests/mechanisms/lorenz.whirl \
+        --method leapfrog
+done
+prints 'leapfrog, double' run mk/price/separable.whirl --method leapfrog --until 100ms
 prints 'semi-implicit Euler, double' run epicyclic_from_rest --method semi-implicit-euler --until 100ms
 prints '^system lorenz' derive tests/mechanisms/lorenz.whirl --method semi-implicit-euler
 says 2 'hint: one of double, float' run thomson_a --number half
@@ -193,7 +211,7 @@ for command in run describe "derive --as c"; do
     # shellcheck disable=SC2086 # a list of words
     says 2 'error: --cells without --tables' $command epicyclic_from_rest --cells 64
     # shellcheck disable=SC2086
-    says 2 "thomson.whirl:23:12: error: --tables: the accelerations of 'thomson' depend on the sines of more than one turn angle: 'theta2' is one of them" $command thomson_a --tables cubic
+    says 2 "thomson.whirl:22:12: error: --tables: the accelerations of 'thomson' depend on the sines of more than one turn angle: 'theta1' is one of them" $command thomson_a --tables cubic
 done
 says 2 'contacts.whirl:24:3: error: --tables: a step with events' run ball_bounces --tables linear
 prints 'theta' derive epicyclic --as latex --tables cubic # its equations are no others

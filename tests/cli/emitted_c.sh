@@ -27,9 +27,18 @@ done
 for scene in thomson_a epicyclic_conserved $("$whirl" list | awk '$1 == "scene" { print $2 }' | grep -E 'ball|walk|magnet|creep'); do
     add "$scene" --with ledger --until 0.3s
 done
+# compositions are refused where accelerations take rates
+no_rates=$(sed -n 's/^ *X(WH_[A-Z0-9_]*, "\([a-z0-9-]*\)", .*WH_NO_RATES.*/\1/p' core/method.h)
+for method in $no_rates; do
+    for more in "" --compensated "--angles lookup"; do
+        # shellcheck disable=SC2086 # of words, or of none
+        add mk/price/separable.whirl --until 0.3s --method "$method" $more
+    done
+done
 for scene in thomson_b spherical_flight two_mass_relative epicyclic_conserved; do
     add "$scene" --until 0.3s --compensated
     for method in $("$whirl" derive "$scene" --as c --method '?' 2>&1 | sed -n 's/,//g; s/^hint: one of //p'); do
+        case " $(echo $no_rates) " in *" $method "*) continue ;; esac
         add "$scene" --until 0.2s --method "$method"
     done
     add "$scene" --until 0.2s --method heun --compensated
@@ -159,8 +168,20 @@ for file in offsets outside roots first; do
     add_file "$scratch/w/$file.whirl"
     echo --compensated >>"$scratch/$number.options"
 done
+# what says where its stages stand: in books, contacts, sums of angles and systems of first order
+for method in nystroem3 nystroem4 nystroem5; do
+    add thomson_a --with ledger --until 0.3s --method "$method"
+    add thomson_a --until 0.3s --method "$method" --compensated
+    add thomson_a --until 0.3s --method "$method" --angles lookup
+    add crash_cart --until 0.3s --method "$method"
+    add two_mass_relative --until 0.3s --method "$method" --compensated
+    for file in offsets outside roots first; do
+        add_file "$scratch/w/$file.whirl"
+        printf '%s\n' --method "$method" >>"$scratch/$number.options"
+    done
+done
 # angles that turn further in a step than is small for a turn (core/stage_turn.h), some 100 times as far
-for more in "" --compensated "--method rk38"; do
+for more in "" --compensated "--method rk38" "--method nystroem5"; do
     # shellcheck disable=SC2086 # of words, or of none
     add "$scratch/w/offsets.whirl" --start "a'=900" --start "b'=-700" --until 0.3s $more
 done

@@ -161,7 +161,7 @@ static void test_a_method_that_the_form_does_not_have_is_refused(void) {
         TEST_ASSERT_TRUE(start(&scene));
         scene.method = (wh_method)i; /* even when it slips in behind the start */
         const bool has = wh_methods[i].takes == WH_ANY_SYSTEM;
-        TEST_ASSERT_TRUE(has == (i != WH_SEMI_IMPLICIT_EULER));
+        TEST_ASSERT_TRUE(has == (i != WH_SEMI_IMPLICIT_EULER && i != WH_LEAPFROG));
         const uint64_t before = wh_scene_hash(&scene, &state);
         TEST_ASSERT_TRUE(wh_scene_step(&scene, &state) == (has ? WH_OK : WH_E_ARGUMENT));
         TEST_ASSERT_TRUE((wh_scene_hash(&scene, &state) == before) == !has);
@@ -239,6 +239,10 @@ static void expect_order(wh_method method) {
     unsigned count = sizeof(wh_real) == 8 ? 400 : 64;
     while (count > 4 && error_squared_at_2s(method, 2 * count) < drowned * drowned) {
         count /= 2;
+    }
+    if (error_squared_at_2s(method, 2 * count) < drowned * drowned) {
+        TEST_ASSERT_TRUE(sizeof(wh_real) == 4 && order > 4); /* float's rounding leaves no step */
+        return;
     }
     const wh_real ratio =
         error_squared_at_2s(method, count) / error_squared_at_2s(method, 2 * count);

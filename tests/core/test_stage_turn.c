@@ -143,28 +143,35 @@ static manner manner_of(unsigned k) {
                     k / 2 % 2 != 0, true};
 }
 
+/* Is there such a step? */
+static bool turns(manner how) {
+    return wh_method_takes(how.method, how.form) && wh_method_turns(how.method);
+}
+
 /* The two errors have the same leading term (stage_turn.h). Against runs with steps that are a sixteenth and look sines up. */
 static void test_turning_has_the_order_of_the_row_and_about_its_error(void) {
     for (unsigned k = 0; k < MANNERS; k++) {
         manner how = manner_of(k);
         const unsigned order = wh_methods[how.method].order;
-        const unsigned count = sizeof(wh_real) == 8 ? (order < 4 ? 512 : 32) : (order < 4 ? 64 : 4);
+        const unsigned count = sizeof(wh_real) == 8 ? (order < 4 ? 512 : 32) : order < 3 ? 64 : 4;
         const wh_real within = sizeof(wh_real) == 8 ? WH_R(1.2) : WH_R(3.0);
         const wh_real wanted = (wh_real)(1U << (2 * order));
         wh_real turned[2][VALUES];
         wh_real looked_up[VALUES];
         wh_real exact[VALUES];
+        if (!wh_method_turns(how.method) || (sizeof(wh_real) == 4 && order > 4)) {
+            continue; /* in float fifth order shows at steps only whose leans are not small */
+        }
         if (!wh_method_takes(how.method, how.form)) {
             start();
             TEST_ASSERT_TRUE(step(how, WH_R(0.125), NULL) == WH_E_ARGUMENT);
             continue;
         }
-        TEST_ASSERT_TRUE(wh_method_turns(how.method));
         const unsigned components = after_1s(how, count, turned[0]);
         after_1s(how, 2 * count, turned[1]);
         how.turns = false;
         after_1s(how, count, looked_up);
-        how.method = WH_RK4;
+        how.method = order > 4 ? how.method : WH_RK4; /* whose error would not be small enough */
         after_1s(how, 16 * count, exact);
         const wh_real error = squares(components, turned[0], exact);
         const wh_real ratio = error / squares(components, turned[1], exact);
@@ -199,7 +206,7 @@ static void test_what_does_not_turn_has_the_same_bits(void) {
         manner how = manner_of(k);
         wh_real turned[VALUES];
         wh_real looked_up[VALUES];
-        if (wh_methods[how.method].stages > 1 || !wh_method_takes(how.method, how.form)) {
+        if (wh_methods[how.method].stages > 1 || !turns(how)) {
             continue;
         }
         const unsigned components = after_1s(how, 64, turned);
@@ -213,6 +220,9 @@ static void test_what_does_not_turn_has_the_same_bits(void) {
 static void test_phases_are_told(void) {
     for (unsigned m = 0; m < WH_METHODS; m++) {
         const manner how = {WH_SECOND_ORDER, (wh_method)m, false, true};
+        if (!turns(how)) {
+            continue;
+        }
         const wh_real h = WH_R(0.03125);
         wh_angle before[ANGLES];
         wh_angle after[ANGLES];
@@ -231,7 +241,13 @@ static void test_phases_are_told(void) {
             TEST_ASSERT_TRUE(angle[i] == after[i]);
             const wh_real way = wh_angle_to_rad(wh_angle_near(before[i], told[i]) - before[i]);
             const wh_real whole = wh_angle_to_rad(after[i] - before[i]);
-            const wh_real off = wh_methods[m].stages == 1 ? way : way - whole;
+            const wh_tableau *by = wh_tableau_of(m);
+            const wh_shares *last = &by->stage[by->stages - 1];
+            wh_real part = WH_R(0.0);
+            for (unsigned j = 0; j < by->stages; j++) {
+                part += last->share[j] / last->parts;
+            }
+            const wh_real off = way - part * whole;
             TEST_ASSERT_TRUE_MESSAGE(WH_ABS(off) < WH_R(2e-3), wh_methods[m].word);
         }
     }
@@ -281,7 +297,7 @@ static void test_fast_angles_step_as_looking_up_does(void) {
         int fault[2];
         wh_real value[2][VALUES];
         wh_real rate[ANGLES];
-        if (!wh_method_takes(how.method, how.form)) {
+        if (!turns(how)) {
             continue;
         }
         for (int i = 0; i < ANGLES; i++) {
@@ -312,7 +328,7 @@ static void test_what_is_no_turn_is_refused(void) {
         int fault[2];
         wh_real value[2][VALUES];
         const wh_real rate[ANGLES] = {fast, WH_R(1.0), WH_R(1.0)};
-        if (!wh_method_takes(how.method, how.form)) {
+        if (!turns(how)) {
             continue;
         }
         step_both(how, WH_R(0.001), how.form == WH_FIRST_ORDER ? fast : WH_R(0.0), rate, status,

@@ -105,8 +105,14 @@ static void test_order_is_that_of_the_row_in_both_forms(void) {
         const bool compensated = k / 2 % 2 != 0;
         const unsigned order = wh_methods[method].order;
         /* float's rounding leaves coarse steps only */
-        const unsigned count = sizeof(wh_real) == 8 ? (order < 4 ? 512 : 64) : (order < 4 ? 32 : 4);
+        const unsigned count = sizeof(wh_real) == 8 ? (order < 4 ? 512 : 64)
+                               : order < 4          ? 32
+                               : order < 5          ? 4
+                                                    : 2;
         const wh_real within = sizeof(wh_real) == 8 ? WH_R(1.1) : WH_R(2.5);
+        if (form == WH_SECOND_ORDER && wh_methods[method].takes == WH_NO_RATES) {
+            continue; /* these have rates: test_methods.c of the host */
+        }
         if (!wh_method_takes(method, form)) {
             clear();
             real[0] = WH_R(0.25);

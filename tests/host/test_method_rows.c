@@ -1,5 +1,5 @@
-/* test_method_rows.c: the rows of core/method.h are what they say: explicit, of their order by the conditions on their
- * weights, told apart by their words; docs/numerics.md has a line for each, with its measured stability. */
+/* test_method_rows.c: the rows of core/method.h are what they say: explicit, told apart by their words; docs/numerics.md has a
+ * line for each, with its measured stability, which is that of the weights. (Orders: test_method_order.c.) */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -35,72 +35,25 @@ static butcher row_of(int method) {
     return made;
 }
 
-/* result = A x */
-static void times(const butcher *t, const double *x, double *result) {
-    for (int i = 0; i < t->stages; i++) {
-        result[i] = 0.0;
-        for (int j = 0; j < t->stages; j++) {
-            result[i] += t->a[i][j] * x[j];
-        }
-    }
-}
-
-static double sum(const butcher *t, const double *x, const double *y) {
-    double made = 0.0;
-    for (int i = 0; i < t->stages; i++) {
-        made += t->b[i] * x[i] * (y != NULL ? y[i] : 1.0);
-    }
-    return made;
-}
-
 static bool near(double a, double b) { return fabs(a - b) < ROUNDING; }
 
-/* The order that the weights have, up to 4 (Butcher; Hairer, Norsett & Wanner, I, section II.2). */
-static int order_of(const butcher *t) {
-    double one[WH_STAGES_MAX];
-    double cc[WH_STAGES_MAX];
-    double ac[WH_STAGES_MAX];
-    double acc[WH_STAGES_MAX];
-    double aac[WH_STAGES_MAX];
-    for (int i = 0; i < t->stages; i++) {
-        one[i] = 1.0;
-        cc[i] = t->c[i] * t->c[i];
-    }
-    times(t, t->c, ac);
-    times(t, cc, acc);
-    times(t, ac, aac);
-    if (!near(sum(t, one, NULL), 1.0)) {
-        return 0;
-    }
-    if (!near(sum(t, t->c, NULL), 0.5)) {
-        return 1;
-    }
-    if (!near(sum(t, cc, NULL), 1.0 / 3.0) || !near(sum(t, ac, NULL), 1.0 / 6.0)) {
-        return 2;
-    }
-    return near(sum(t, cc, t->c), 0.25) && near(sum(t, t->c, ac), 0.125) &&
-                   near(sum(t, acc, NULL), 1.0 / 12.0) && near(sum(t, aac, NULL), 1.0 / 24.0)
-               ? 4
-               : 3;
-}
-
-static void test_weights_have_the_order_of_the_row(void) {
+static void test_rows_are_explicit(void) {
     for (int m = 0; m < WH_METHODS; m++) {
         const butcher t = row_of(m);
         const char *word = wh_methods[m].word;
-        TEST_ASSERT_TRUE_MESSAGE(
-            order_of(&t) == (wh_methods[m].order < 4 ? wh_methods[m].order : 4), word);
         TEST_ASSERT_TRUE_MESSAGE(wh_methods[m].stages == t.stages, word);
         for (int i = 0; i < t.stages; i++) {
             for (int j = i; j < t.stages; j++) {
-                TEST_ASSERT_TRUE_MESSAGE(t.a[i][j] == 0.0, word); /* explicit */
+                TEST_ASSERT_TRUE_MESSAGE(t.a[i][j] == 0.0, word);
+                TEST_ASSERT_TRUE_MESSAGE(wh_tableau_of((wh_method)m)->reach[i].share[j] == 0.0F,
+                                         word);
             }
         }
     }
 }
 
 /* positions = b A is what makes the written-out positions the same method as on x' = f(x). */
-static void test_methods_for_any_system_have_the_positions_of_their_rates(void) {
+static void test_runge_kutta_methods_have_the_positions_of_their_rates(void) {
     for (int m = 0; m < WH_METHODS; m++) {
         const butcher t = row_of(m);
         double off = 0.0;
@@ -113,7 +66,10 @@ static void test_methods_for_any_system_have_the_positions_of_their_rates(void) 
             off = fmax(off, fabs(t.position[j] - wanted));
             all += t.position[j];
         }
-        TEST_ASSERT_TRUE_MESSAGE((off < ROUNDING) == (wh_methods[m].takes == WH_ANY_SYSTEM),
+        const bool runge_kutta = wh_methods[m].takes == WH_ANY_SYSTEM &&
+                                 wh_tableau_of((wh_method)m)->reach[0].parts == 0.0F;
+        TEST_ASSERT_TRUE_MESSAGE(!runge_kutta || off < ROUNDING, wh_methods[m].word);
+        TEST_ASSERT_TRUE_MESSAGE(wh_methods[m].takes == WH_ANY_SYSTEM || off > ROUNDING,
                                  wh_methods[m].word);
         TEST_ASSERT_TRUE_MESSAGE(wh_methods[m].order < 2 || near(all, 0.5), wh_methods[m].word);
     }
@@ -163,6 +119,13 @@ static void spring(const void *model, const wh_phase *phase, const wh_real *line
     accel[0] = -linear[0];
 }
 
+static double eigenvalue(double matrix[2][2]) {
+    const double half_trace = 0.5 * (matrix[0][0] + matrix[1][1]);
+    const double determinant = matrix[0][0] * matrix[1][1] - matrix[0][1] * matrix[1][0];
+    const double disc = half_trace * half_trace - determinant;
+    return disc < 0.0 ? sqrt(determinant) : fabs(half_trace) + sqrt(disc);
+}
+
 /* What a step of h multiplies x' = -x by; or, of q'' = -q, the larger size of the step matrix' eigenvalues. */
 static double growth_of_decay(wh_method method, double h) {
     wh_real x = WH_R(1.0);
@@ -182,10 +145,57 @@ static double growth_of_spring(wh_method method, double h) {
         matrix[0][k] = (double)x[0];
         matrix[1][k] = (double)x[1];
     }
-    const double half_trace = 0.5 * (matrix[0][0] + matrix[1][1]);
-    const double determinant = matrix[0][0] * matrix[1][1] - matrix[0][1] * matrix[1][0];
-    const double disc = half_trace * half_trace - determinant;
-    return disc < 0.0 ? sqrt(determinant) : fabs(half_trace) + sqrt(disc);
+    return eigenvalue(matrix);
+}
+
+/* The same by the row alone, in double: what its stages make of 1 and of h, step by step. */
+static double polynomial_of_decay(wh_method method, double h) {
+    const butcher t = row_of((int)method);
+    double slope[WH_STAGES_MAX];
+    double x = 1.0;
+    for (int i = 0; i < t.stages; i++) {
+        double at = 1.0;
+        for (int j = 0; j < i; j++) {
+            at += h * t.a[i][j] * slope[j];
+        }
+        slope[i] = -at;
+        x += h * t.b[i] * slope[i];
+    }
+    return fabs(x);
+}
+
+/* Column of the step matrix of q'' = -q that begins at q, v. */
+static void column_by_row(wh_method method, double h, double q, double v, double result[2]) {
+    const wh_tableau *row = wh_tableau_of(method);
+    const butcher t = row_of((int)method);
+    double accel[WH_STAGES_MAX];
+    result[0] = q + h * v;
+    result[1] = v;
+    for (int i = 0; i < t.stages; i++) {
+        const bool reaches = row->reach[i].parts != 0.0F;
+        double at = q + h * v * (reaches ? (double)row->node[i] : t.c[i]);
+        for (int j = 0; j < i; j++) {
+            double reach = reaches ? (double)(row->reach[i].share[j] / row->reach[i].parts) : 0.0;
+            for (int k = 0; k < i && !reaches; k++) {
+                reach += t.a[i][k] * t.a[k][j];
+            }
+            at += h * h * reach * accel[j];
+        }
+        accel[i] = -at;
+        result[0] += h * h * t.position[i] * accel[i];
+        result[1] += h * t.b[i] * accel[i];
+    }
+}
+
+static double polynomial_of_spring(wh_method method, double h) {
+    double matrix[2][2];
+    for (int k = 0; k < 2; k++) {
+        double column[2];
+        column_by_row(method, h, k == 0 ? 1.0 : 0.0, k == 1 ? 1.0 : 0.0, column);
+        matrix[0][k] = column[0];
+        matrix[1][k] = column[1];
+    }
+    return eigenvalue(matrix);
 }
 
 /* The largest h, in thousandths, up to which nothing grows by more than float's roundings; 0 when a quarter does. */
@@ -210,13 +220,20 @@ static void test_documented_stability_is_the_measured_one(void) {
     for (int m = 0; m < WH_METHODS; m++) {
         const wh_method_row *row = &wh_methods[m];
         const bool any = row->takes == WH_ANY_SYSTEM;
+        const double of_spring = interval(growth_of_spring, (wh_method)m);
+        TEST_ASSERT_DOUBLE_WITHIN(5e-3, interval(polynomial_of_spring, (wh_method)m), of_spring);
+        TEST_ASSERT_TRUE(!any || fabs(interval(polynomial_of_decay, (wh_method)m) -
+                                      interval(growth_of_decay, (wh_method)m)) < 5e-3);
         char decays[16];
         char line[240];
         snprintf(decays, sizeof decays, "%.2f",
                  any ? interval(growth_of_decay, (wh_method)m) : 0.0);
         snprintf(line, sizeof line, "| `%s` | %s | %d | %d | %s | %s | %.2f |\n", row->word,
-                 row->title, row->order, row->stages, any ? "any" : "second order",
-                 any ? decays : "", interval(growth_of_spring, (wh_method)m));
+                 row->title, row->order, row->stages,
+                 any                         ? "any"
+                 : row->takes == WH_NO_RATES ? "no rates"
+                                             : "second order",
+                 any ? decays : "", of_spring);
         printf("  %s", line);
         TEST_ASSERT_NOT_NULL_MESSAGE(strstr(page, line), line);
     }
@@ -224,8 +241,8 @@ static void test_documented_stability_is_the_measured_one(void) {
 }
 
 void suite_method_rows(void) {
-    RUN_TEST(test_weights_have_the_order_of_the_row);
-    RUN_TEST(test_methods_for_any_system_have_the_positions_of_their_rates);
+    RUN_TEST(test_rows_are_explicit);
+    RUN_TEST(test_runge_kutta_methods_have_the_positions_of_their_rates);
     RUN_TEST(test_the_books_weigh_each_stage_as_the_rates_do);
     RUN_TEST(test_words_are_apart_and_fit_command_lines);
     RUN_TEST(test_documented_stability_is_the_measured_one);

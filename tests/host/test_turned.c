@@ -6,6 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "core/stage_turn.h"
+
 #include "command.h"
 #include "derived.h"
 #include "host/image/turned.h"
@@ -36,9 +38,10 @@ static void test_settings_and_lists_choose(void) {
     for (int m = 0; m < WH_METHODS; m++) {
         const image_settings turned = {.method = (wh_method)m, .angles = ANGLES_TURNED};
         const image_settings lookup = {.method = (wh_method)m, .angles = ANGLES_LOOKUP};
-        TEST_ASSERT_TRUE(turns("", "a = 1", turned));
+        TEST_ASSERT_TRUE(turns("", "a = 1", turned) == wh_method_turns((wh_method)m));
         TEST_ASSERT_FALSE(turns("", "a = 1", lookup));
-        TEST_ASSERT_TRUE(turns("", "a' = 3000 [rad/s]", turned)); /* however fast */
+        TEST_ASSERT_TRUE(turns("", "a' = 3000 [rad/s]", turned) ==
+                         wh_method_turns((wh_method)m)); /* however fast */
     }
     /* a sine of an angle and a length is no sum of angles, and is looked up */
     TEST_ASSERT_TRUE(turns(" + 0.01 [N/m]*x^2", "a = 1", plainly));
