@@ -1,0 +1,45 @@
+/* table.h: error against price, for all settings. */
+#ifndef PRICE_TABLE_H
+#define PRICE_TABLE_H
+
+#include "trial.h"
+
+/* A figure of cost_figure a step, as it counts a simulated second: what a row is sorted by. */
+typedef struct table_price {
+    bool cycles; /* else instructions: nobody counts cycles there */
+    double value;
+    double least, most; /* promised */
+} table_price;
+
+typedef struct table_row {
+    setting setting;
+    uint64_t steps; /* in a record's spacing */
+    trial_result result;
+    cost cost;
+    table_price price;
+    bool on_front; /* nothing is as cheap and errs less */
+} table_row;
+
+typedef struct table {
+    table_row *row; /* [count] by price, then by error */
+    int count;
+    int settings; /* of its own, without steps */
+    int unpriced; /* of them, those that nobody knows a price of: */
+    const char *why; /* of one of them, or "" */
+    int coarse; /* trials left out since they erred by more than the values themselves */
+    int broken_off; /* settings whose finer steps would have taken too long */
+} table;
+
+typedef struct table_wish {
+    double operations; /* most that all trials may evaluate */
+    void (*progress)(void *context, int done, int of); /* may be NULL */
+    void *context;
+} table_wish;
+
+table *table_new(trial *t, const table_wish *w); /* look at t->stopped */
+void table_free(table *made);
+
+/* How a board's steps are priced; *known: false where nobody knows. */
+table_price table_price_of(const cost *c, double step_s, bool *known);
+
+#endif
