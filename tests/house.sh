@@ -38,7 +38,8 @@ show: algebra base derive lang number
 run: base core image number plot
 emit: base image number
 sweep: base core derive image lang number run
-commands: base derive emit image lang number run show sweep
+price: base core image number plot run
+commands: base derive emit image lang number plot price run show sweep
 '
 
 # included FILE...: "FILE FOLDER" for each folder of core or host that a file names in an include

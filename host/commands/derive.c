@@ -108,7 +108,7 @@ static const command_usage usage = {
         "built in (`whirl list`):\n",
     .tail = ""};
 static const command_usage options_of_derive = {
-    .head = "", .groups = OPTIONS_CHANGE | OPTIONS_ENGINE, .tail = "Numbers in formulas are SI. "};
+    .head = "", .groups = OPTIONS_CHANGE | OPTIONS_STEP | OPTIONS_ENGINE, .tail = "Numbers in formulas are SI. "};
 
 static void print_option(FILE *out, const char *option, bool (*of)(const form_row *form),
                          const char *what) {
