@@ -158,3 +158,26 @@ bench-links-now: $(GEN)/.stamp
 	@OUT=build/links $(TO_PRICE) mk/price/links.sh
 	@mk/price/into_page.sh build/links/links.md docs/price.md links
 	@cat build/links/links.md
+
+# --- prices of any scene: cases are counted, figures are fitted to them (docs/price.md) ---------------------------------
+PRICE_OUT ?= build/cost
+PRICE_CASES ?= $(PRICE_OUT)/cases
+PRICE_CSV ?= $(PRICE_OUT)/rows.csv
+NUMBERS ?= float
+
+.PHONY: price-measure-board price-measure-host
+price-measure-board: build/whirl
+	@$(MAKE) $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl) \
+	    $(if $(filter single,$(BOARD_IMAGES)),$(AVR_RUN),$(PLUGIN))
+	@mkdir -p $(PRICE_OUT)
+	@OUT=$(PRICE_OUT) NUMBERS="$(NUMBERS)" TIMING=$(BOARD_TIMING) $(TO_PRICE) \
+	    $(if $(filter single,$(BOARD_IMAGES)),PLUGIN=) mk/price/measure.sh $(PRICE_CASES) $(PRICE_CSV)
+price-measure-host: build/whirl
+	@$(MAKE) $(LIB_FLOAT) $(B)/float/boards/host/board.o
+	@mkdir -p $(PRICE_OUT)
+	@OUT=$(PRICE_OUT) NUMBERS="$(NUMBERS)" WHIRL=build/whirl BOARD=host BOARD_CC=$(CC) BOARD_NM=nm BOARD_SIZE=size \
+	    BOARD_CFLAGS="$(FLAGS_float)" BOARD_LDFLAGS="" BOARD_LDLIBS="" BOARD_OBJECTS=$(B)/float/boards/host/board.o \
+	    LIB_BOARD=$(LIB_FLOAT) PLUGIN= FLAGS="$(OPT)" EMULATE="@" mk/price/measure.sh $(PRICE_CASES) $(PRICE_CSV)
+
+$(B)/tools/price_fit: $(call objects,host,mk/price/fit.c) $(LIB_HOST) $(LIB_FLOAT) $(LIB_DOUBLE)
+	$(link)

@@ -1,0 +1,261 @@
+/* cost.c: see cost.h. */
+#include "cost.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cost_row.h"
+#include "host/image/core_rows.h"
+
+#include "cost_rows.h"
+
+#define COST_BASIS_WORD(id, word, says) word,
+const char *const cost_basis_words[COST_BASES] = {COST_BASIS_ROWS(COST_BASIS_WORD)};
+const char *const cost_number_words[COST_NUMBERS] = {"float", "double"};
+
+/* Cycles an instruction, where nobody counts them: the least is what a core that issues so many at once could reach, the
+ * most twice to thrice what Arm's timing gives for such steps on a Cortex-M4 (1.2 to 1.7). */
+const cost_board cost_boards[] = {
+    {"atmega328p", "AVR", "ATmega328P: Arduino Uno, Nano", false, COST_SIMULATED, 0, 0, 16e6, 32768,
+     2048},
+    {"atmega2560", "AVR", "ATmega2560: Arduino Mega", false, COST_SIMULATED, 0, 0, 16e6, 262144,
+     8192},
+    {"mps2-an385-m0", "Cortex-M0", "STM32F0, nRF51, LPC11xx", false, COST_ESTIMATED, 0, 0, 0, 0, 0},
+    {"mps2-an385", "Cortex-M3", "STM32F1, LPC17xx, SAM3X", false, COST_ESTIMATED, 0, 0, 0, 0, 0},
+    {"mps2-an386", "Cortex-M4F", "STM32F4, nRF52, SAMD51, MSP432", true, COST_ESTIMATED, 0, 0, 0, 0,
+     0},
+    {"mps2-an500", "Cortex-M7", "STM32F7, STM32H7, i.MX RT (Teensy 4)", true, COST_RANGE, 0.5, 3.0,
+     0, 0, 0},
+    {"mps2-an505", "Cortex-M33", "STM32U5, nRF53, RP2350", true, COST_RANGE, 0.8, 3.0, 0, 0, 0},
+    {"rv32imac", "RV32IMAC", "GD32VF103, CH32V203, FE310", false, COST_RANGE, 1.0, 4.0, 0, 0, 0},
+    {"rv32imafc", "RV32IMAFC", "CH32V307", true, COST_RANGE, 1.0, 5.0, 0, 0, 0},
+    {"host", "x86-64", "a PC", true, COST_RANGE, 0.2, 3.0, 0, 0, 0},
+};
+const int cost_board_count = sizeof cost_boards / sizeof cost_boards[0];
+
+const cost_board *cost_board_named(const char *name) {
+    for (int i = 0; i < cost_board_count; i++) {
+        if (strcmp(cost_boards[i].name, name) == 0) {
+            return &cost_boards[i];
+        }
+    }
+    return NULL;
+}
+
+/* --- predicting -----------------------------------------------------------------------------------*/
+
+static const cost_row *row_of(const cost_board *board, cost_number number) {
+    for (size_t i = 0; i < sizeof cost_rows / sizeof cost_rows[0]; i++) {
+        if (strcmp(cost_rows[i].board, board->name) == 0 && cost_rows[i].number == number) {
+            return &cost_rows[i];
+        }
+    }
+    return NULL;
+}
+
+static bool has_word(const char *words, const char *word) {
+    char framed[64];
+    snprintf(framed, sizeof framed, " %s ", word);
+    return strstr(words, framed) != NULL;
+}
+
+double cost_fit_at(const cost_fit *fit, const double feature[static COST_FEATURES], int *unseen) {
+    double sum = 0.0;
+    for (int f = 0; f < COST_FEATURES; f++) {
+        if (feature[f] != 0.0 && fit->figure[f] < 0.0) {
+            *unseen = f;
+            return -1.0;
+        }
+        sum += feature[f] * fit->figure[f];
+    }
+    return sum;
+}
+
+static cost_figure within(cost_basis of, double value, double bound, double spread) {
+    return (cost_figure){.basis = COST_PREDICTED,
+                         .of = of,
+                         .value = value,
+                         .least = value / bound,
+                         .most = value * bound * spread,
+                         .bound = bound};
+}
+
+static cost_figure exactly(double value) {
+    return (cost_figure){COST_EXACT, COST_EXACT, value, value, value, 1.0};
+}
+
+/* What is larger than all that was fitted is told with twice the bound's distance. */
+static double bound_at(const cost_fit *fit, double value) {
+    return value > fit->largest ? 2.0 * fit->bound - 1.0 : fit->bound;
+}
+
+/* One quantity, or nothing of it, and why in *why. */
+static cost_figure predicted(const cost_row *row, cost_quantity quantity, cost_basis of,
+                             const double *feature, const char **why) {
+    const cost_fit *fit = &row->fit[quantity];
+    int unseen = -1;
+    const double value = fit->cases > 0 ? cost_fit_at(fit, feature, &unseen) : -1.0;
+    if (fit->cases == 0 || value <= 0.0) {
+        *why = fit->cases == 0 ? "nothing like this scene has been measured on this board"
+                               : "the scene does something that no measured scene did: measure it";
+        return (cost_figure){0};
+    }
+    return within(of, value, bound_at(fit, value), 1.0);
+}
+
+/* Instructions times cycles an instruction. */
+static cost_figure ranged(const cost_board *board, const cost_figure *instructions) {
+    if (instructions->basis == COST_NOT_KNOWN) {
+        return (cost_figure){0};
+    }
+    return (cost_figure){.basis = COST_RANGE,
+                         .of = instructions->basis,
+                         .least = instructions->least * board->cycles_least,
+                         .most = instructions->most * board->cycles_most,
+                         .bound = 1.0};
+}
+
+/* The longest step where the mean one is this: in soft arithmetic, operands make the difference. */
+static cost_figure longest(cost_figure mean, double spread) {
+    mean.value *= spread;
+    mean.most *= spread;
+    return mean;
+}
+
+static void price_smooth(const cost_row *row, const cost_board *board, const double *feature,
+                         cost *c) {
+    c->instructions = predicted(row, COST_OF_INSTRUCTIONS, COST_MEASURED, feature, &c->why);
+    c->instructions_worst = longest(c->instructions, row->spread);
+    if (board->cycles == COST_RANGE) {
+        c->cycles = ranged(board, &c->instructions);
+        c->cycles_worst = ranged(board, &c->instructions_worst);
+    } else {
+        c->cycles = predicted(row, COST_OF_CYCLES, board->cycles, feature, &c->why);
+        c->cycles_worst = longest(c->cycles, row->spread_cycles);
+    }
+}
+
+/* Cycles as the instructions of the smooth step have them: events are made of the same kinds of instructions. */
+static cost_figure scaled(const cost_figure *cycles, double share, double bound) {
+    if (cycles->basis == COST_NOT_KNOWN) {
+        return (cost_figure){0};
+    }
+    cost_figure of = *cycles;
+    of.value *= share;
+    of.least *= share / bound;
+    of.most *= share * bound;
+    of.bound *= of.basis == COST_PREDICTED ? bound : 1.0;
+    return of;
+}
+
+static void price_contacts(const cost_row *row, double *feature, cost *c) {
+    const double smooth = c->instructions.value;
+    const cost_figure cycles = c->cycles;
+    feature[COST_F_SMOOTH] = smooth;
+    feature[COST_F_EVENT_SMOOTH] *= smooth;
+    c->instructions = predicted(row, COST_OF_CONTACT_MEAN, COST_MEASURED, feature, &c->why);
+    c->instructions_worst = predicted(row, COST_OF_CONTACT_WORST, COST_MEASURED, feature, &c->why);
+    c->cycles = (cost_figure){0};
+    c->cycles_worst = (cost_figure){0};
+    if (c->instructions.basis == COST_PREDICTED && smooth > 0.0) {
+        c->cycles = scaled(&cycles, c->instructions.value / smooth, c->instructions.bound);
+    }
+    if (c->instructions_worst.basis == COST_PREDICTED && smooth > 0.0) {
+        c->cycles_worst =
+            scaled(&cycles, c->instructions_worst.value / smooth, c->instructions_worst.bound);
+    }
+}
+
+static double state_bytes(const image *im, cost_number number) {
+    const double real = number == COST_DOUBLE ? 8.0 : 4.0;
+    return 8.0 * im->angles + real * core_memory_reals(im);
+}
+
+cost cost_of(const image *im, const cost_board *board, cost_number number) {
+    const cost_row *row = row_of(board, number);
+    cost c = {.why = ""};
+    if (im->contacts == 0) { /* what contacts keep is laid out by the board's compiler */
+        c.state_bytes = exactly(state_bytes(im, number));
+    }
+    if (row == NULL) {
+        c.why = "no scene has been measured on this board in this number";
+        return c;
+    }
+    if (!has_word(row->methods, wh_methods[im->settings.method].word)) {
+        c.why = "no scene has been measured with this method: make price-rows price-fit";
+        return c;
+    }
+    double feature[COST_FEATURES];
+    cost_counts counts = cost_counts_of(im, board->fpu, number);
+    counts.smooth = 1.0;
+    cost_features(&counts, feature);
+    c.predictable = true;
+    price_smooth(row, board, feature, &c);
+    c.flash_bytes = predicted(row, COST_OF_FLASH, COST_MEASURED, feature, &c.why);
+    c.ram_bytes = predicted(row, COST_OF_RAM, COST_MEASURED, feature, &c.why);
+    c.stack_bytes = predicted(row, COST_OF_STACK, COST_MEASURED, feature, &c.why);
+    if (im->contacts > 0) {
+        c.flash_bytes = c.ram_bytes = c.stack_bytes = (cost_figure){0};
+        price_contacts(row, feature, &c);
+        c.why =
+            "bytes of a scene with contacts must be measured, and its worst step is known roughly";
+    }
+    return c;
+}
+
+/* --- measured --------------------------------------------------------------------------------------*/
+
+enum { COLUMNS = 15 };
+
+/* Cuts a row at its commas outside quotes; returns how many there are. */
+static int cut(char *row, char *column[COLUMNS]) {
+    int count = 0;
+    bool quoted = false;
+    column[count++] = row;
+    for (char *at = row; *at != '\0' && *at != '\n' && count <= COLUMNS; at++) {
+        quoted = quoted != (*at == '"');
+        if (*at == ',' && !quoted) {
+            *at = '\0';
+            if (count < COLUMNS) {
+                column[count] = at + 1;
+            }
+            count++;
+        }
+    }
+    return count;
+}
+
+static cost_figure told(const char *text, cost_basis basis) {
+    const double value = strtod(text, NULL);
+    return text[0] == '\0' || text[0] == '\n'
+               ? (cost_figure){0}
+               : (cost_figure){basis, basis, value, value, value, 1.0};
+}
+
+bool cost_measured(const char *row, const cost_board *board, cost *c) {
+    char copy[1024];
+    char *column[COLUMNS];
+    if (strlen(row) >= sizeof copy) {
+        return false;
+    }
+    strcpy(copy, row);
+    if (cut(copy, column) != COLUMNS || strcmp(column[3], board->name) != 0) {
+        return false;
+    }
+    c->predictable = true;
+    c->why = "";
+    c->instructions = told(column[7], COST_MEASURED);
+    c->instructions_worst = told(column[8], COST_MEASURED);
+    if (board->cycles == COST_RANGE) {
+        c->cycles = ranged(board, &c->instructions);
+        c->cycles_worst = ranged(board, &c->instructions_worst);
+    } else {
+        c->cycles = told(column[9], board->cycles);
+        c->cycles_worst = told(column[10], board->cycles);
+    }
+    c->flash_bytes = told(column[12], COST_MEASURED);
+    c->ram_bytes = told(column[13], COST_MEASURED);
+    c->stack_bytes = told(column[14], COST_MEASURED);
+    return c->instructions.basis == COST_MEASURED;
+}

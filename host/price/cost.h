@@ -1,0 +1,102 @@
+/* cost.h: what a step of a scene costs on a board, predicted from its image: neither source tree nor compiler is asked.
+ *
+ *     const cost_board *board = cost_board_named("mps2-an386");
+ *     cost c = cost_of(image, board, COST_FLOAT);
+ *
+ * An image has its settings in it (method, compensated sums, angles): the price is that of these. A prediction is a sum
+ * of counts, taken from the image, times figures of the board and number, fitted to counted steps (cost_rows.h, which
+ * `make price-fit` writes). docs/price.md says how well it does.
+ *
+ * Where a source tree and a board's compiler are there, the same can be measured instead:
+ *
+ *     sh mk/price/measure_one.sh BOARD NUMBER FILE[:SCENE] [OPTIONS OF whirl derive...]
+ *
+ * from the tree's root (it uses and renews build/), prints COST_HEADER and one row on
+ * standard output and ends with 0; with 2 where words are wrong or tools are missing, with 1 where the scene cannot be
+ * derived, does not fit or does not run, each with a message on standard error. cost_measured() reads the row.
+ *
+ * What neither knows: wait states of flash, caches, interrupts, other compilers and flags than those of cost_rows.h. */
+#ifndef PRICE_COST_H
+#define PRICE_COST_H
+
+#include <stdbool.h>
+
+#include "host/image/image.h"
+
+/* X(id, word, what it says of a figure) */
+#define COST_BASIS_ROWS(X) \
+    X(COST_NOT_KNOWN, "not known", "nobody can tell: it must be measured") \
+    X(COST_EXACT, "exact", "follows from the layout") \
+    X(COST_PREDICTED, "predicted", "from the image, within a bound") \
+    X(COST_MEASURED, "measured", "counted in an emulator, or read off a linked image") \
+    X(COST_ESTIMATED, "estimated", \
+      "cycles of counted instructions by Arm's timing, no wait states") \
+    X(COST_SIMULATED, "simulated", "cycles as simavr plays the chip") \
+    X(COST_RANGE, "range", "instructions times the least and most cycles of one")
+#define COST_BASIS_ID(id, word, says) id,
+typedef enum cost_basis { COST_BASIS_ROWS(COST_BASIS_ID) } cost_basis;
+#undef COST_BASIS_ID
+#define COST_BASIS_ONE(id, word, says) +1
+enum { COST_BASES = COST_BASIS_ROWS(COST_BASIS_ONE) };
+#undef COST_BASIS_ONE
+extern const char *const cost_basis_words[COST_BASES];
+
+/* The number that a scene computes in. */
+typedef enum cost_number { COST_FLOAT, COST_DOUBLE, COST_NUMBERS } cost_number;
+extern const char *const cost_number_words[COST_NUMBERS]; /* "float", "double" */
+
+typedef struct cost_board {
+    const char *name;  /* its folder of boards/, or "host" for this kind of machine (x86-64) */
+    const char *core;  /* "Cortex-M4F" */
+    const char *chips; /* known chips with that core, for people; "" */
+    bool fpu;          /* float in hardware */
+    /* How its cycles are known: COST_ESTIMATED, COST_SIMULATED, or COST_RANGE: cycles an instruction, least and most. */
+    cost_basis cycles;
+    double cycles_least; /* COST_RANGE only, else 0 */
+    double cycles_most;
+    double clock_Hz;  /* of a chip whose clock is given by the board, or 0 */
+    long flash_bytes; /* what it has, or 0 where the board is no single chip */
+    long ram_bytes;   /* likewise */
+} cost_board;
+
+/* All of them, in an order to show them in. */
+extern const cost_board cost_boards[];
+extern const int cost_board_count;
+const cost_board *cost_board_named(const char *name); /* NULL: there is none */
+
+/* A figure. `value` is the best one number, and between `least` and `most` it is promised to be; where `basis` is
+ * COST_RANGE there is no best number, and `value` is 0. COST_NOT_KNOWN: all are 0. */
+typedef struct cost_figure {
+    cost_basis basis;
+    cost_basis
+        of; /* of a prediction: of what kind the figures were that it was fitted to; else as basis */
+    double value;
+    double least;
+    double most;
+    double bound; /* of a prediction: least is value / bound, most is value * bound; else 1 */
+} cost_figure;
+
+typedef struct cost {
+    bool
+        predictable; /* false: no figures of this board and number; `why` says so, all is COST_NOT_KNOWN */
+    const char *why; /* what is not known and why, a sentence for people; "" where all is known */
+    cost_figure instructions;       /* a step, mean of a run */
+    cost_figure instructions_worst; /* the longest step: with contacts far above the mean */
+    cost_figure cycles;             /* of the mean step */
+    cost_figure cycles_worst;
+    /* The smallest firmware around the scene, which steps and computes the outputs (boards/programs/size.c): */
+    cost_figure flash_bytes;
+    cost_figure ram_bytes;   /* without the stack */
+    cost_figure stack_bytes; /* deepest, in steps */
+    cost_figure state_bytes; /* of these RAM bytes, the scene's own: WH_MEMORY_BYTES */
+} cost;
+
+cost cost_of(const image *im, const cost_board *board, cost_number number);
+
+/* Columns of a measured row, and the row of measure_one.sh read: what it does not have (state_bytes) stays as it is. False where it is none, or of another board. */
+#define COST_HEADER \
+    "commit,compiler,flags,board,scene,number,setting,instructions,instructions_most,cycles,cycles_most," \
+    "cycles_obtained,flash_bytes,ram_bytes,stack_bytes"
+bool cost_measured(const char *row, const cost_board *board, cost *c);
+
+#endif

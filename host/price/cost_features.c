@@ -1,0 +1,207 @@
+/* cost_features.c: see cost_features.h. */
+#include "cost_features.h"
+
+#include <stdlib.h>
+
+#include "host/base/room.h"
+#include "host/image/core_rows.h"
+#include "host/image/turned.h"
+
+/* As host/emit/c_list.c has it: longer lists are functions of their own. */
+enum { INLINED_MOST = 150 };
+
+#define COST_WORD(id, taken, count) #id,
+const char *const cost_feature_words[COST_FEATURES] = {COST_FEATURE_ROWS(COST_WORD)};
+#define COST_TAKEN(id, taken, count) taken,
+const unsigned cost_feature_taken[COST_FEATURES] = {COST_FEATURE_ROWS(COST_TAKEN)};
+
+/* Angles of a wave beyond the first, and multiples of one. */
+static int wave_terms(const tape *t, const op *o) {
+    int terms = o->value != 0.0;
+    int angles = 0;
+    for (int k = 0; k < t->angles && o->turns != NULL; k++) {
+        angles += o->turns[k] != 0;
+        terms += o->turns[k] != 0 && o->turns[k] != 1;
+    }
+    return terms + (angles > 1 ? angles - 1 : 0);
+}
+
+static void add_operation(const tape *t, const op *o, cost_list *l) {
+    switch (o->code) {
+    case OP_CONSTANT: l->constants++; break;
+    case OP_LINEAR:
+    case OP_RATE:
+    case OP_INPUT:
+    case OP_ACCEL:
+    case OP_TIME:
+    case OP_RADIANS:
+    case OP_NOISE: l->leaves++; break;
+    case OP_PHASE:
+        l->pairs += o->b < 0;
+        l->radians += o->b >= 0;
+        l->terms += wave_terms(t, o);
+        break;
+    case OP_SIN:
+    case OP_COS: break;
+    case OP_ADD:
+    case OP_SUB: l->sums++; break;
+    case OP_MUL: l->products++; break;
+    case OP_DIV: l->quotients++; break;
+    case OP_SQRT: l->roots++; break;
+    case OP_NEG:
+    case OP_ABS: l->sizes++; break;
+    case OP_SIGN: l->signs++; break;
+    case OP_MIN:
+    case OP_MAX: l->choices++; break;
+    case OP_CALL: l->calls[o->function]++; break;
+    case OP_POW: l->powers++; break;
+    }
+}
+
+static void add_list(const tape *t, cost_list *l) {
+    for (int i = 0; t != NULL && i < t->count; i++) {
+        add_operation(t, &t->ops[i], l);
+    }
+    if (t != NULL) {
+        l->results += t->results;
+        l->carried += tape_carried(t);
+        l->operations += tape_operations(t);
+    }
+}
+
+int cost_calls(const cost_list *l) {
+    int calls = l->powers;
+    for (int i = 0; i < FUNCTIONS; i++) {
+        calls += l->calls[i];
+    }
+    return calls;
+}
+
+/* What the method's row makes of a step. */
+static void add_method(const image *im, cost_counts *c) {
+    const wh_tableau *by = wh_tableau_of(im->settings.method);
+    c->stages = (int)by->stages;
+    for (unsigned s = 0; s < by->stages; s++) {
+        bool leans = false;
+        for (unsigned j = 0; j < s; j++) {
+            c->shares += by->stage[s].share[j] != 0;
+            leans = leans || (j > 0 && by->stage[s].share[j] != 0);
+        }
+        c->leans += leans;
+        c->ends += by->rates[s] != 0;
+        c->ends += by->positions[s] != 0 && by->positions[s] != by->rates[s];
+        c->turns = by->turns[s] > c->turns ? by->turns[s] : c->turns;
+    }
+}
+
+/* --- what of a list a stage must do anew ----------------------------------------------------------*/
+
+/* Does operation i change from stage to stage? Told in varies[], of the earlier ones. */
+static bool changes(const tape *t, int i, const bool *varies) {
+    int operand[2];
+    bool does = false;
+    switch (op_rows[t->ops[i].code].kind) {
+    case OP_IS_CONSTANT: return false;
+    case OP_IS_LEAF: return t->ops[i].code != OP_INPUT;
+    case OP_IS_PHASE: return true;
+    case OP_IS_WAVE:
+    case OP_IS_UNARY:
+    case OP_IS_BINARY:
+    case OP_IS_CALL: break;
+    }
+    for (int k = tape_operands(&t->ops[i], operand); k > 0; k--) {
+        does = does || varies[operand[k - 1]];
+    }
+    return does;
+}
+
+/* Components of the state that the list reads: of its coordinate or real i, a position, a rate, an angle. */
+typedef struct cost_reads {
+    bool position[IMAGE_COMPONENTS_MAX];
+    bool rate[IMAGE_COMPONENTS_MAX];
+    bool angle[IMAGE_COMPONENTS_MAX];
+} cost_reads;
+
+static void add_reads(const tape *t, const op *o, cost_reads *r) {
+    if (o->code == OP_LINEAR && o->a < IMAGE_COMPONENTS_MAX) {
+        r->position[o->a] = true;
+    }
+    if (o->code == OP_RATE && o->a < IMAGE_COMPONENTS_MAX) {
+        r->rate[o->a] = true;
+    }
+    for (int k = 0; o->code == OP_PHASE && k < t->angles && o->turns != NULL; k++) {
+        r->angle[k] = r->angle[k] || o->turns[k] != 0;
+    }
+}
+
+/* Where the compiler sees the list at each stage, it leaves out what nobody reads and does once what stays the same; in a
+ * function of its own all is done each time. */
+static void count_staged(const cost_reads *r, cost_counts *c) {
+    for (int i = 0; i < c->components; i++) {
+        const bool is_angle = i < c->angles;
+        const bool placed = is_angle ? r->angle[i] : r->position[i - c->angles];
+        c->staged_angles += is_angle && (c->called || placed);
+        c->staged_linears += !is_angle && (c->called || placed);
+        c->staged_rates += c->second && (c->called || placed || r->rate[i]);
+    }
+}
+
+static void add_step(const image *im, cost_counts *c) {
+    const tape *t = im->list[IMAGE_STEP];
+    bool *varies = room(t->count, sizeof *varies);
+    cost_reads reads = {{false}, {false}, {false}};
+    for (int i = 0; i < t->count; i++) {
+        varies[i] = changes(t, i, varies);
+        add_operation(t, &t->ops[i], c->called || varies[i] ? &c->step : &c->fixed);
+        add_reads(t, &t->ops[i], &reads);
+    }
+    c->step.results = t->results;
+    c->step.carried = tape_carried(t);
+    c->step.operations = tape_operations(t);
+    for (int i = 0; i < t->results; i++) {
+        c->moving += c->called || t->ops[t->result[i]].code != OP_CONSTANT;
+    }
+    free(varies);
+    count_staged(&reads, c);
+}
+
+static int state_words(const image *im) {
+    const image_ledger *l = &im->ledger;
+    const int books = l->kept ? 2 * l->entries + l->accounts + l->inputs : 0;
+    return im->angles + 2 * im->reals + im->angles + im->inputs + books;
+}
+
+cost_counts cost_counts_of(const image *im, bool fpu, cost_number number) {
+    cost_counts c = {.im = im,
+                     .number = number,
+                     .fpu = fpu,
+                     .second = im->form == WH_SECOND_ORDER,
+                     .turned = image_turns(im),
+                     .compensated = im->settings.compensated,
+                     .angles = im->angles,
+                     .reals = im->reals};
+    add_method(im, &c);
+    add_list(im->list[IMAGE_OBSERVE], &c.observe);
+    if (im->ledger.kept) {
+        add_list(im->list[IMAGE_POWERS], &c.books);
+    }
+    if (im->contacts > 0) {
+        add_list(im->list[IMAGE_SIGNALS], &c.events);
+        add_list(im->list[IMAGE_FORCES], &c.events);
+    }
+    c.components = c.second ? im->coordinates : im->angles + im->reals;
+    c.linears = c.second ? im->coordinates - im->angles : im->reals;
+    c.called = tape_operations(im->list[IMAGE_STEP]) > INLINED_MOST || im->contacts > 0 || !fpu;
+    add_step(im, &c);
+    c.copies = c.called ? 1 : c.stages;
+    c.lookups = c.turned ? c.step.pairs : c.stages * c.step.pairs;
+    c.state_words = state_words(im);
+    c.evaluations = core_evaluations(im);
+    return c;
+}
+
+void cost_features(const cost_counts *c, double feature[static COST_FEATURES]) {
+#define COST_VALUE(id, taken, count) feature[COST_F_##id] = (double)(count);
+    COST_FEATURE_ROWS(COST_VALUE)
+#undef COST_VALUE
+}

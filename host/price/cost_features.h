@@ -1,0 +1,208 @@
+/* cost_features.h: what is counted in an image to price its steps: the classes of work, a row each.
+ *
+ * X(id, quantities that it takes part in, how often). Of a step's time an expression says how often a step does
+ * the work; of flash, how often the code for it is there; of the stack, what lies on it. They are written in terms of
+ * `c`, a cost_counts: sums over the stages of a method are made from its tableau (core/method.h), not from its name, so
+ * that a method that is added is counted, too. (That it has also been measured is another question: cost_rows.h lists
+ * the settings that were.)
+ *
+ * A new row comes wherever it belongs; `make price-fit` then makes cost_rows.h anew. For host/price only. */
+#ifndef PRICE_COST_FEATURES_H
+#define PRICE_COST_FEATURES_H
+
+#include "cost.h"
+
+/* Quantities that are fitted: X(id, word, whether it is a step's time). */
+#define COST_QUANTITY_ROWS(X) \
+    X(INSTRUCTIONS, "instructions") \
+    X(CYCLES, "cycles") \
+    X(FLASH, "flash") \
+    X(RAM, "RAM") \
+    X(STACK, "stack") \
+    X(CONTACT_MEAN, "instructions with contacts") \
+    X(CONTACT_WORST, "worst step with contacts")
+#define COST_QUANTITY_ID(id, word) COST_OF_##id,
+typedef enum cost_quantity { COST_QUANTITY_ROWS(COST_QUANTITY_ID) COST_QUANTITIES } cost_quantity;
+#undef COST_QUANTITY_ID
+
+/* Who takes a row: sums of these. */
+enum {
+    COST_TIME = 1 << COST_OF_INSTRUCTIONS | 1 << COST_OF_CYCLES,
+    COST_CODE = 1 << COST_OF_FLASH,
+    COST_DATA = 1 << COST_OF_RAM,
+    COST_DEPTH = 1 << COST_OF_STACK,
+    COST_EVENTS = 1 << COST_OF_CONTACT_MEAN | 1 << COST_OF_CONTACT_WORST
+};
+
+/* What lists of operations hold. */
+typedef struct cost_list {
+    int sums;
+    int products;
+    int quotients;
+    int roots;
+    int sizes;     /* and negations */
+    int signs;
+    int choices;   /* the lesser, the larger */
+    int leaves;    /* that are read */
+    int constants; /* that differ */
+    int results;
+    int pairs;   /* of sine and cosine, of turn angles */
+    int terms;   /* further angles, or multiples, in these */
+    int radians; /* pairs of what is in radians */
+    int powers;
+    int calls[FUNCTIONS];
+    int carried;    /* between registers and memory, at best */
+    int operations; /* all that compute */
+} cost_list;
+
+typedef struct cost_counts {
+    const image *im;
+    cost_number number;
+    bool fpu;
+    cost_list step; /* what a stage evaluates */
+    cost_list
+        fixed; /* of that, what does not change from stage to stage, where a compiler sees it: then not in step */
+    cost_list books;   /* of the ledger, likewise */
+    cost_list observe; /* the outputs */
+    cost_list events;  /* signals, forces and sets of contacts */
+    int stages;
+    int components; /* n: coordinates, or components of first order */
+    int angles;
+    int linears;      /* moved by what is a rate, or by slopes */
+    int moving;       /* components whose derivative is no constant */
+    int staged_rates; /* that later stages need */
+    int staged_linears;
+    int staged_angles;
+    int reals; /* in the state */
+    bool second;
+    bool turned;
+    bool compensated;
+    bool called; /* the list is a function of its own */
+    int copies;  /* of the list in the code */
+    int lookups; /* pairs looked up in a step */
+    int turns;   /* of each pair in a step */
+    int leans;   /* stages that lean */
+    int shares;  /* of stages in stages */
+    int ends;    /* products of stages at the step's end */
+    int state_words;
+    int evaluations; /* most in a step */
+    double smooth;   /* a step without its contacts, predicted: filled in by cost.c */
+} cost_counts;
+
+cost_counts cost_counts_of(const image *im, bool fpu, cost_number number);
+
+/* How often a step does what a list holds so many of. */
+#define COST_EACH(what) (c->stages * (c->step.what + c->books.what) + c->fixed.what)
+/* clang-format off */
+#define COST_CALL_ROW(X, FN) \
+    X(CALL_##FN, COST_TIME, COST_EACH(calls[FN_##FN])) \
+    X(CODE_##FN, COST_CODE | COST_DEPTH, c->step.calls[FN_##FN] + c->observe.calls[FN_##FN] > 0)
+#define COST_FEATURE_ROWS(X) \
+    X(ONE, COST_TIME | COST_CODE | COST_DATA | COST_DEPTH | COST_EVENTS, 1) \
+    X(LATER_STAGES, COST_TIME | COST_CODE, c->stages - 1) \
+    X(ANGLES, COST_TIME | COST_CODE, c->angles) \
+    X(LINEARS, COST_TIME | COST_CODE, c->linears) \
+    X(RATES, COST_TIME | COST_CODE | COST_DEPTH, c->components) \
+    X(MOVING, COST_TIME | COST_CODE, c->moving) \
+    X(STAGE_RATES, COST_TIME | COST_CODE, (c->stages - 1) * c->staged_rates) \
+    X(STAGE_LINEARS, COST_TIME | COST_CODE, (c->stages - 1) * c->staged_linears) \
+    X(STAGE_ANGLES, COST_TIME | COST_CODE, c->turned ? 0 : (c->stages - 1) * c->staged_angles) \
+    X(SHARES, COST_TIME | COST_CODE, c->shares * c->staged_rates) \
+    X(SHARES_LINEAR, COST_TIME | COST_CODE, c->shares * c->staged_linears) \
+    X(ENDS, COST_TIME | COST_CODE, c->ends * c->moving) \
+    X(LOOKED_UP_ONCE, COST_TIME | COST_CODE, c->turned ? c->lookups : 0) \
+    X(LOOKED_UP, COST_TIME, c->turned ? 0 : c->lookups) \
+    X(LOOKED_UP_CODE, COST_CODE, c->turned ? 0 : c->step.pairs * c->copies) \
+    X(LOOKED_UP_TERMS, COST_TIME | COST_CODE, c->step.terms * (c->turned ? 1 : c->stages)) \
+    X(TURN_BEGIN, COST_TIME | COST_CODE, c->turned && c->turns > 0 ? c->step.pairs : 0) \
+    X(TURNS, COST_TIME | COST_CODE, c->turned ? c->turns * c->step.pairs : 0) \
+    X(LEANS, COST_TIME | COST_CODE, c->turned ? c->leans * c->step.pairs : 0) \
+    X(LEANS_FAR, COST_TIME | COST_CODE, c->turned && !c->second ? c->leans * c->step.pairs : 0) \
+    X(LEAN_TERMS, COST_TIME | COST_CODE, c->turned ? c->leans * c->step.terms : 0) \
+    X(TURNED_SUMS, COST_TIME | COST_CODE, \
+      c->turned && c->compensated ? (c->turns + c->leans) * c->step.pairs : 0) \
+    X(CARRY_ANGLES, COST_TIME | COST_CODE, c->compensated ? c->angles : 0) \
+    X(CARRY_REALS, COST_TIME | COST_CODE | COST_DEPTH, c->compensated ? c->reals : 0) \
+    X(SUMS, COST_TIME, COST_EACH(sums)) \
+    X(PRODUCTS, COST_TIME, COST_EACH(products)) \
+    X(QUOTIENTS, COST_TIME, COST_EACH(quotients)) \
+    X(ROOTS, COST_TIME, COST_EACH(roots)) \
+    X(SIZES, COST_TIME, COST_EACH(sizes)) \
+    X(SIGNS, COST_TIME, COST_EACH(signs)) \
+    X(CHOICES, COST_TIME, COST_EACH(choices)) \
+    X(LEAVES, COST_TIME, COST_EACH(leaves)) \
+    X(CONSTANTS, COST_TIME, COST_EACH(constants)) \
+    X(CONSTANTS_ONCE, COST_TIME | COST_DEPTH, c->step.constants) \
+    X(CARRIED, COST_TIME, c->stages * c->step.carried) \
+    X(CALLED, COST_TIME, c->called ? c->stages : 0) \
+    X(CALLED_DATA, COST_TIME, \
+      c->called ? c->stages * (c->step.leaves + c->step.results + 2 * c->step.pairs) : 0) \
+    X(RADIANS, COST_TIME, COST_EACH(radians)) \
+    X(POWERS, COST_TIME, COST_EACH(powers)) \
+    X(BOOKS, COST_TIME | COST_CODE | COST_DEPTH, c->im->ledger.kept) \
+    X(BOOK_ENTRIES, COST_TIME | COST_CODE | COST_DEPTH, \
+      c->im->ledger.kept ? c->im->ledger.entries : 0) \
+    X(BOOK_STAGES, COST_TIME, c->im->ledger.kept ? c->stages * c->im->ledger.smooth : 0) \
+    COST_CALL_ROW(X, TAN) \
+    COST_CALL_ROW(X, ASIN) \
+    COST_CALL_ROW(X, ACOS) \
+    COST_CALL_ROW(X, ATAN) \
+    COST_CALL_ROW(X, ATAN2) \
+    COST_CALL_ROW(X, EXP) \
+    COST_CALL_ROW(X, LOG) \
+    COST_CALL_ROW(X, SINH) \
+    COST_CALL_ROW(X, COSH) \
+    COST_CALL_ROW(X, TANH) \
+    X(CODE_SUMS, COST_CODE, c->copies * c->step.sums + c->fixed.sums) \
+    X(CODE_PRODUCTS, COST_CODE, c->copies * c->step.products + c->fixed.products) \
+    X(CODE_QUOTIENTS, COST_CODE, c->copies * c->step.quotients + c->fixed.quotients) \
+    X(CODE_ROOTS, COST_CODE, c->copies * c->step.roots + c->fixed.roots) \
+    X(CODE_SIZES, COST_CODE, c->copies * c->step.sizes + c->fixed.sizes) \
+    X(CODE_SIGNS, COST_CODE, c->copies * c->step.signs + c->fixed.signs) \
+    X(CODE_CHOICES, COST_CODE, c->copies * c->step.choices + c->fixed.choices) \
+    X(CODE_LEAVES, COST_CODE, c->copies * c->step.leaves + c->fixed.leaves) \
+    X(CODE_CONSTANTS, COST_CODE, c->step.constants + c->fixed.constants) \
+    X(CODE_CARRIED, COST_CODE, c->copies * c->step.carried) \
+    X(CODE_CALLED, COST_CODE | COST_DEPTH, c->called) \
+    X(CODE_RADIANS, COST_CODE, c->copies * c->step.radians + c->observe.radians) \
+    X(CODE_CALLS, COST_CODE | COST_DEPTH, cost_calls(&c->step) * c->copies) \
+    X(CODE_BOOKS, COST_CODE, c->books.operations) \
+    X(OBSERVED, COST_CODE, c->observe.sums + c->observe.products + c->observe.sizes + c->observe.signs + c->observe.choices) \
+    X(OBSERVED_CONSTANTS, COST_CODE, c->observe.constants) \
+    X(OBSERVED_PAIRS, COST_CODE, c->observe.pairs) \
+    X(OBSERVED_CALLS, COST_CODE, c->observe.quotients + cost_calls(&c->observe)) \
+    X(OUTPUTS, COST_CODE | COST_DATA, c->im->outputs > 0 ? c->im->outputs : 1) \
+    X(ANY_PAIR, COST_CODE | COST_DEPTH, c->step.pairs + c->step.radians + c->observe.pairs + c->observe.radians > 0) \
+    X(ANY_TURNED, COST_CODE | COST_DEPTH, c->turned) \
+    X(ANY_TURNED_SUMS, COST_CODE | COST_DEPTH, c->turned && c->compensated) \
+    X(ANY_RADIANS, COST_CODE | COST_DEPTH, c->step.radians + c->observe.radians > 0) \
+    X(ANY_QUOTIENT, COST_CODE | COST_DEPTH, c->step.quotients + c->observe.quotients > 0) \
+    X(ANY_ROOT, COST_CODE | COST_DEPTH, c->step.roots + c->observe.roots > 0) \
+    X(ANY_POWER, COST_CODE | COST_DEPTH, c->step.powers + c->observe.powers > 0) \
+    X(STATE_WORDS, COST_DATA, c->state_words) \
+    X(LIES_STAGES, COST_DEPTH, c->stages * c->components) \
+    X(LIES_PAIRS, COST_DEPTH, c->step.pairs) \
+    X(LIES_TURNED, COST_DEPTH, c->turned ? c->stages * c->step.pairs : 0) \
+    X(LIES_CARRIED, COST_DEPTH, c->step.carried) \
+    X(LIES_LEAVES, COST_DEPTH, c->step.leaves) \
+    X(LIES_OPERATIONS, COST_DEPTH, c->step.operations) \
+    X(SMOOTH, COST_EVENTS, c->smooth) \
+    X(EVENT_CONTACTS, COST_EVENTS, c->im->contacts) \
+    X(EVENT_COMPONENTS, COST_EVENTS, c->components * c->im->contacts) \
+    X(EVENT_PAIRS, COST_EVENTS, c->im->forced * c->im->forced) \
+    X(EVENT_OPERATIONS, COST_EVENTS, c->events.operations) \
+    X(EVENT_SMOOTH, COST_EVENTS, c->im->contacts * c->smooth)
+/* clang-format on */
+
+#define COST_FEATURE_ID(id, taken, count) COST_F_##id,
+typedef enum cost_feature { COST_FEATURE_ROWS(COST_FEATURE_ID) COST_FEATURES } cost_feature;
+#undef COST_FEATURE_ID
+
+/* Their words, and who takes them. */
+extern const char *const cost_feature_words[COST_FEATURES];
+extern const unsigned cost_feature_taken[COST_FEATURES];
+
+int cost_calls(const cost_list *l);
+void cost_features(const cost_counts *c, double feature[static COST_FEATURES]);
+
+#endif

@@ -1,0 +1,32 @@
+/* cost_row.h: how the fitted figures of cost_rows.h are kept: a row for each board and number. For host/price and
+ * mk/price only. */
+#ifndef PRICE_COST_ROW_H
+#define PRICE_COST_ROW_H
+
+#include "cost_features.h"
+
+/* A feature that no fitted scene has: nothing is known of what it costs. */
+#define COST_UNSEEN (-1.0)
+
+/* One quantity: the sum of figure[f] times feature f. */
+typedef struct cost_fit {
+    int cases;      /* fitted on; 0: there is no such fit */
+    double bound;   /* no scene, fitted on or not, was off by more than this factor */
+    double largest; /* of what was fitted */
+    double figure[COST_FEATURES];
+} cost_fit;
+
+typedef struct cost_row {
+    const char *board;
+    cost_number number;
+    const char *compiler; /* and flags */
+    const char *methods;  /* that were measured, a blank before and behind each word */
+    double spread;        /* the longest step over the mean, without contacts */
+    double spread_cycles;
+    cost_fit fit[COST_QUANTITIES];
+} cost_row;
+
+/* The sum; negative where a feature is unseen, which is then *unseen. */
+double cost_fit_at(const cost_fit *fit, const double feature[static COST_FEATURES], int *unseen);
+
+#endif

@@ -1,0 +1,216 @@
+#!/bin/sh
+# measure.sh CASES ROWS.csv: what a step of each case costs on a board, counted. `make price-rows` and measure_one.sh
+# call it with what TO_PRICE of mk/price.mk says (BOARD, its compiler, flags, objects and emulator), and
+#
+#   OUT      a folder to work in; generated C is kept there for the next board
+#   NUMBERS  "float", "double" or both; LIB_BOARD is the core's library in float. Default: float
+#   STEPS    counted steps of each. Default: 50
+#   WORST    random steps of a scene with contacts (boards/programs/worst.c), whose longest one is told as the most, in
+#            QEMU; 0: the most is that of STEPS steps. Default: 5000
+#
+# CASES has lines "ID TARGET OPTIONS OF whirl derive...", ID a C identifier. Appends to ROWS.csv, with a header if it is
+# new, a row for each case that runs:
+#
+#   commit,compiler,flags,board,scene,number,setting,instructions,instructions_most,cycles,cycles_most,
+#   cycles_obtained,flash_bytes,ram_bytes,stack_bytes
+#
+# Instructions and cycles are those of a step: mean and most of STEPS steps behind the first twenty. Flash and RAM are
+# those of the smallest firmware around the scene (boards/programs/size.c), the stack what the steps took of it. What
+# cannot be derived, does not fit or does not run is told on standard error and left out; then the exit status is 1.
+set -eu
+here=$(dirname "$0")
+. "$here/../count/common.sh"
+: "${NUMBERS:=float}" "${STEPS:=50}" "${WORST:=5000}"
+NM=${BOARD_NM:-nm}
+export OUT BOARD BOARD_CC BOARD_CFLAGS BOARD_LDFLAGS BOARD_LDLIBS BOARD_OBJECTS LIB_BOARD BOARD_SIZE WHIRL
+
+COST_HEADER="commit,compiler,flags,board,scene,number,setting,instructions,instructions_most,cycles,cycles_most,"
+COST_HEADER="${COST_HEADER}cycles_obtained,flash_bytes,ram_bytes,stack_bytes"
+
+# --- one case: derive it, compile it, link the smallest firmware (run by xargs, two at a time) -----------------
+if [ "$1" = case ]; then
+    # shellcheck disable=SC2086
+    set -- $2
+    id=$1 number=$2 target=$3
+    shift 3
+    gen=$OUT/gen/$id
+    mine=$OUT/$BOARD/$number/$id
+    if [ ! -s "$gen.h" ]; then
+        "$WHIRL" derive "$target" --as c --name "$id" --header "$gen.h" "$@" >"$gen.c" 2>"$gen.errors" || {
+            rm -f "$gen.h"
+            echo "measure.sh: $target $*: it cannot be derived so: $(head -n 1 "$gen.errors")" >&2
+            exit 0
+        }
+    fi
+    [ "$number" = float ] || BOARD_CFLAGS="$BOARD_CFLAGS -DWH_DOUBLE=1"
+    lib=$LIB_BOARD
+    [ "$number" = float ] || lib=$OUT/$BOARD/double/libwhirl.a
+    # shellcheck disable=SC2086
+    {
+        $BOARD_CC $BOARD_CFLAGS -w -c "$gen.c" -o "$mine.o"
+        $BOARD_CC $BOARD_CFLAGS -w "-DPRICE_SCENE=$id" -include "$gen.h" -c boards/programs/size.c -o "$mine.image.o"
+        if $BOARD_CC $BOARD_LDFLAGS -o "$mine.elf" "$mine.image.o" "$mine.o" $BOARD_OBJECTS "$lib" "$LIB_BOARD" $BOARD_LDLIBS \
+            2>"$mine.errors"; then
+            "$BOARD_SIZE" -A "$mine.elf" | awk -v id="$id" '
+                $1 == ".text" || $1 == ".ARM.exidx" || $1 == ".data" { flash += $2 }
+                $1 == ".data" || $1 == ".bss" { ram += $2 }
+                END { print id, flash, ram }' >"$mine.bytes"
+        else
+            echo "measure.sh: $target $*: its firmware does not fit into $BOARD: $(head -n 1 "$mine.errors")" >&2
+            rm -f "$mine.o"
+        fi
+    }
+    rm -f "$mine.elf" "$mine.image.o"
+    exit 0
+fi
+
+cases=$1
+csv=$2
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+mkdir -p "$OUT/gen"
+
+# core_in_double: the core's library once more
+core_in_double() {
+    for file in core/*.c; do
+        # shellcheck disable=SC2086
+        $BOARD_CC $BOARD_CFLAGS -DWH_DOUBLE=1 -w -c "$file" -o "$OUT/$BOARD/double/core_$(basename "$file" .c).o"
+    done
+    rm -f "$OUT/$BOARD/double/libwhirl.a"
+    ar rcs "$OUT/$BOARD/double/libwhirl.a" "$OUT/$BOARD"/double/core_*.o
+}
+
+# worst ID...: the longest of WORST random steps of these, which have contacts: "ID MOST" to $work/longest
+worst() {
+    elf=$mine/worst.elf
+    "$here/../count/index.sh" "$@" >"$mine/scenes.c"
+    objects=
+    for id in "$@"; do objects="$objects $mine/$id.o"; done
+    for file in boards/programs/worst.c "$mine/scenes.c"; do
+        # shellcheck disable=SC2086
+        $BOARD_CC $flags -w "-I$OUT/gen" "-DWORST_STEPS=${WORST}U" -c "$file" -o "$mine/$(basename "$file" .c)_.o"
+    done
+    # shellcheck disable=SC2086
+    $BOARD_CC $BOARD_LDFLAGS -o "$elf" "$mine/worst_.o" "$mine/scenes_.o" $objects $BOARD_OBJECTS "$lib" "$LIB_BOARD" \
+        $BOARD_LDLIBS
+    EMULATE=$(echo "$emulate" | sed "s|@|$elf|; s|^timeout [0-9]*|timeout 1800|")
+    (count ",every=$WORST") 2>"$work/said" || { grep -q '^interval' "$work/counts" 2>/dev/null || cat "$work/said" >&2; }
+    awk '{ sub(/\r$/, "") }
+        $1 == "interval" { counted[$2] = $3 }
+        $1 == "count" && $5 in counted { print $2, counted[$5] - counted[0] }' "$work/counts" "$work/console" >>"$work/longest"
+}
+
+# bench ID...: one image of these, and its counts appended to $work/counted: ID MEAN MOST CYCLES MOST STACK
+bench() {
+    elf=$mine/bench.elf
+    one=
+    case ${PLUGIN:-}$BOARD in
+    *host) ;;
+    $BOARD) one="-include $OUT/gen/$1.h -DWH_SCENE_WORDS=$1_MEMORY_WORDS -DBENCH_SMALL=1" ;;
+    esac
+    "$here/../count/index.sh" "$@" >"$mine/scenes.c"
+    objects=
+    for id in "$@"; do objects="$objects $mine/$id.o"; done
+    for file in boards/programs/bench.c "$mine/scenes.c"; do
+        # shellcheck disable=SC2086
+        $BOARD_CC $flags -w "-I$OUT/gen" "-DCOUNTED_STEPS=${STEPS}U" $one -c "$file" -o "$mine/$(basename "$file" .c)_.o"
+    done
+    # shellcheck disable=SC2086
+    if ! $BOARD_CC $BOARD_LDFLAGS -o "$elf" "$mine/bench_.o" "$mine/scenes_.o" $objects $BOARD_OBJECTS "$lib" "$LIB_BOARD" $BOARD_LDLIBS 2>"$mine/errors"; then
+        echo "measure.sh: $*: the program that counts does not fit into $BOARD: $(head -n 1 "$mine/errors")" >&2
+        return 0
+    fi
+    EMULATE=$(echo "$emulate" | sed "s|@|$elf|")
+    rm -f "$work/console" "$work/counts"
+    if [ "$BOARD" = host ]; then
+        "$here/count_callgrind.sh" "$elf" "$work" || return 0
+    elif [ -n "${PLUGIN:-}" ]; then
+        (count "") 2>"$work/said" || { grep -q '^interval' "$work/counts" 2>/dev/null || cat "$work/said" >&2; }
+    else
+        sh -c "$EMULATE counts=$work/counts" >"$work/console" 2>"$work/said" || true
+    fi
+    awk '
+        { sub(/\r$/, "") }
+        $1 == "interval" { counted[$2] = $3 }
+        $1 == "cycles" { cycles[$2] = $3; timed = 1 }
+        $1 == "stack" { stack[$2] = $3 }
+        $1 == "failed" { print "measure.sh: " $2 ": " $3 " " $4 " " $5 > "/dev/stderr" }
+        $1 == "count" && $3 != "-" {
+            sum = most = sum_c = most_c = n = 0
+            for (i = $5; i <= $6; i++) {
+                if (!(i in counted)) { next }
+                now = counted[i] - counted[0]
+                sum += now
+                most = now > most ? now : most
+                now = timed ? cycles[i] - cycles[0] : 0
+                sum_c += now
+                most_c = now > most_c ? now : most_c
+                n++
+            }
+            if (n > 0) {
+                print $2, sum / n, most, timed ? sum_c / n : "", timed ? most_c : "", stack[$2] ? stack[$2] : ""
+            }
+        }' OFS=, "$work/counts" "$work/console" >>"$work/counted" || true
+}
+
+[ -s "$csv" ] || echo "$COST_HEADER" >"$csv"
+emulate=$EMULATE
+wanted=0
+told=0
+for number in $NUMBERS; do
+    mine=$OUT/$BOARD/$number
+    lib=$LIB_BOARD
+    flags=$BOARD_CFLAGS
+    rm -rf "$mine"
+    mkdir -p "$mine"
+    if [ "$number" = double ]; then
+        core_in_double
+        lib=$mine/libwhirl.a
+        flags="$flags -DWH_DOUBLE=1"
+    fi
+    awk -v number="$number" 'NF > 1 { id = $1; $1 = ""; printf "%s %s%s%c", id, number, $0, 0 }' "$cases" |
+        xargs -0 -n 1 -P 2 sh "$0" case
+    : >"$work/counted"
+    : >"$work/longest"
+    ids=$(awk 'NF > 1 { print $1 }' "$cases" | while read -r id; do [ ! -s "$mine/$id.bytes" ] || [ ! -s "$mine/$id.o" ] || echo "$id"; done)
+    each=60
+    [ -n "${PLUGIN:-}" ] || [ "$BOARD" = host ] || each=1
+    echo "$ids" | xargs -n "$each" >"$work/groups"
+    while read -r group; do
+        # shellcheck disable=SC2086
+        [ -z "$group" ] || bench $group </dev/null
+    done <"$work/groups"
+    if [ -n "${PLUGIN:-}" ] && [ "$WORST" -gt 0 ]; then
+        for id in $ids; do
+            ! grep -q "${id}_CONTACTS = [1-9]" "$OUT/gen/$id.h" || echo "$id"
+        done | xargs -n 60 >"$work/groups"
+        while read -r group; do
+            # shellcheck disable=SC2086
+            [ -z "$group" ] || worst $group </dev/null
+        done <"$work/groups"
+    fi
+    obtained=
+    [ -z "${TIMING:-}" ] || obtained=estimated
+    [ -n "${PLUGIN:-}" ] || [ "$BOARD" = host ] || obtained=simulated
+    cat "$mine"/*.bytes >"$work/bytes" 2>/dev/null || : >"$work/bytes"
+    awk -v head="$(commit_of_checkout),$(compiler_of "$BOARD_CC"),\"$FLAGS\",$BOARD" -v number="$number" \
+        -v obtained="$obtained" -v board="$BOARD" '
+        FILENAME ~ /bytes$/ { bytes[$1] = board == "host" ? "," : $2 "," $3; next }
+        FILENAME ~ /longest$/ { longest[$1] = $2; next }
+        FILENAME ~ /counted$/ { split($0, f, ","); found[f[1]] = f[2] "," (f[1] in longest ? longest[f[1]] : f[3]) "," f[4] "," f[5]; stack[f[1]] = board == "host" ? "" : f[6]; next }
+        ($1 in found) && ($1 in bytes) {
+            method = "rk4"
+            more = ""
+            for (i = 3; i <= NF; i++) {
+                if ($i == "--method") { method = $(i + 1); i++ }
+                else if ($i == "--angles") { more = more ($(i + 1) == "turned" ? "" : "-" $(i + 1)); i++ }
+                else { option = $i; sub(/^--/, "", option); more = more (option ~ /=/ ? ":" : "-") option }
+            }
+            print head "," $2 "," number "," method more "," found[$1] "," (board == "host" ? "" : obtained) "," bytes[$1] "," stack[$1]
+        }' "$work/bytes" "$work/longest" "$work/counted" "$cases" >"$work/rows"
+    cat "$work/rows" >>"$csv"
+    wanted=$((wanted + $(awk 'NF > 1' "$cases" | wc -l)))
+    told=$((told + $(wc -l <"$work/rows")))
+done
+echo "measure.sh: $BOARD: $told of $wanted cases counted" >&2
+[ "$told" -eq "$wanted" ]

@@ -1,0 +1,31 @@
+#!/bin/sh
+# measure_one.sh BOARD NUMBER FILE[:SCENE] [OPTIONS OF whirl derive...]: what a step of one scene costs, counted.
+#
+# From the tree's root. BOARD is a folder of boards/, or `host`; NUMBER is float or double. Builds what is missing of the
+# board's core, and prints the header and one row of host/price/cost.h (COST_HEADER). Exit status 2: words are wrong or a
+# tool is missing; 1: the scene cannot be derived, does not fit or does not run.
+set -eu
+if [ $# -lt 3 ]; then
+    sed -n '2s/^# //p' "$0" >&2
+    exit 2
+fi
+board=$1 number=$2
+shift 2
+case $number in
+float | double) ;;
+*) echo "measure_one.sh: error: number $number: float or double" >&2 && exit 2 ;;
+esac
+if [ "$board" != host ] && [ ! -f "boards/$board/board.mk" ]; then
+    echo "measure_one.sh: error: there is no boards/$board (from the tree's root?)" >&2
+    exit 2
+fi
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+echo "$*" | sed 's/^/one /' >"$work/case"
+if ! make -s $([ "$board" = host ] || echo "BOARD=$board") "price-measure-$([ "$board" = host ] && echo host || echo board)" \
+    PRICE_CASES="$work/case" PRICE_CSV="$work/rows" PRICE_OUT="$work/out" NUMBERS="$number" >"$work/log" 2>&1; then
+    grep -vE '^make|Error [0-9]|^  [A-Z]+ ' "$work/log" | head -n 20 >&2
+    grep -qE 'is missing' "$work/log" && exit 2
+    exit 1
+fi
+cat "$work/rows"

@@ -1,0 +1,148 @@
+# scenes.awk: smooth mechanisms drawn at random, a scene each, to count steps of: awk -v n=N -v seed=S -f scenes.awk </dev/null.
+#
+# Six families, by turns, so that the classes of work come in other proportions than in the built-in scenes, and apart
+# from each other: masses in a row with springs (no sine), a cart with pendulums, arms that carry each other with
+# springs between them (angles in radians), particles in potentials of functions, systems of first order, and wheels on
+# one shaft. Every third has books, every second outputs. Numbers are drawn by a generator of our own: the same files
+# from every awk.
+function draw(bound) { # Park and Miller, Random number generators: good ones are hard to find, 1988
+    state = (state * 16807) % 2147483647
+    return int(state / 2147483647 * bound)
+}
+function number(least, most) { return sprintf("%.3f", least + (most - least) * draw(10000) / 10000) }
+function say(text) { print text }
+
+function row_of_masses(k,    i, T, V, F) {
+    for (i = 1; i <= k; i++) {
+        say("coordinate x" i " [m]")
+        T = T " + " number(0.2, 3) " [kg]*x" i "'^2/2"
+        V = V " + " number(5, 90) " [N/m]*(x" i (i > 1 ? " - x" (i - 1) : "") ")^2/2"
+        if (draw(3) == 0) { V = V " + " number(1, 40) " [N/m^3]*x" i "^4/4*1 [1/m]" }
+        if (draw(2) == 0) { F = F " + " number(0.1, 2) " [N*s/m]*x" i "'^2/2" }
+        if (draw(5) == 0) { F = F " + " number(0.1, 2) " [N*s^2/m^2]*abs(x" i "')^3/3" }
+        if (draw(4) == 0) { V = V " + " number(1, 9) " [J]*max(x" i "/1 [m], 0)^2" }
+    }
+    gsub(/\[N\/m\^3\]/, "[N/m^2]", V)
+    energies(T, V, F)
+    start("x", k, "[m]")
+}
+
+function cart(k,    i, T, V, F) {
+    say("coordinate x [m]")
+    T = " + " number(1, 5) " [kg]*x'^2/2"
+    for (i = 1; i <= k; i++) {
+        say("coordinate a" i " [rad]")
+        say("parameter l" i " = " number(0.2, 0.9) " [m]")
+        say("parameter m" i " = " number(0.1, 0.9) " [kg]")
+        T = T " + m" i "*((x' + l" i "*a" i "'*cos(a" i "))^2 + (l" i "*a" i "'*sin(a" i "))^2)/2"
+        V = V " - m" i "*9.81 [m/s^2]*l" i "*cos(a" i ")"
+        if (draw(2) == 0) { F = F " + " number(0.01, 0.1) " [N*m*s]*a" i "'^2/2" }
+    }
+    if (draw(2) == 0) { V = V " + " number(5, 50) " [N/m]*x^2/2" }
+    energies(T, V, F)
+    start("a", k, "[rad]")
+}
+
+function arms(k,    i, T, V, F, x, y) {
+    for (i = 1; i <= k; i++) { say("coordinate a" i " [rad]") }
+    for (i = 1; i <= k; i++) {
+        x = x (i > 1 ? " + " : "") number(0.2, 0.5) " [m]*a" i "'*cos(a" i ")"
+        y = y (i > 1 ? " + " : "") number(0.2, 0.5) " [m]*a" i "'*sin(a" i ")"
+        say("let u" i " = " x)
+        say("let v" i " = " y)
+        T = T " + " number(0.2, 0.8) " [kg]*(u" i "^2 + v" i "^2)/2 + " number(0.01, 0.05) " [kg*m^2]*a" i "'^2/2"
+        V = V " + " number(0.5, 3) " [J]*" (draw(2) ? "cos" : "sin") "(" (draw(3) == 0 ? "2*" : "") "a" i ")"
+        if (draw(4) == 0) { V = V " + " number(0.5, 3) " [J]*(a" i (i > 1 ? " - a" (i - 1) : "") ")^2/2" }
+    }
+    energies(T, V, F)
+    start("a", k, "[rad]")
+}
+
+function particles(k,    i, T, V, F, f, which) {
+    split("exp log sqrt tanh atan sinh cosh asin acos tan atan2 pow", f, " ")
+    for (i = 1; i <= k; i++) {
+        say("coordinate x" i " [m]")
+        T = T " + " number(0.2, 3) " [kg]*x" i "'^2/2"
+        V = V " + " number(5, 90) " [N/m]*x" i "^2/2"
+        which = draw(13)
+        if (which < 12) { V = V " + " number(0.1, 2) " [J]*" of(f[which + 1], i, k) }
+        else { V = V " + " number(0.1, 2) " [J]/(2 + (x" i "/1 [m])^2)" }
+        if (draw(3) == 0) { V = V " + " number(0.1, 2) " [J]*sin(x" i "/1 [m])" }
+        if (draw(3) == 0) { F = F " + " number(0.1, 2) " [N*s/m]*x" i "'^2/2" }
+    }
+    energies(T, V, F)
+    start("x", k, "[m]")
+}
+function of(name, i, k,    x) {
+    x = "x" i "/1 [m]"
+    if (name == "atan2") { return "atan2(" x ", 2 + (x" (i % k + 1) "/1 [m])^2)" }
+    if (name == "pow") { return "(2 + (" x ")^2)^(0.3 + " x ")" }
+    if (name == "log" || name == "sqrt") { return name "(2 + (" x ")^2)" }
+    if (name == "asin" || name == "acos") { return name "(" x "/4)" }
+    return name "(" x ")"
+}
+
+function first_order(k,    i, j, e) {
+    for (i = 1; i <= k; i++) { say("state z" i) }
+    say("parameter rate = 1 [1/s]")
+    say("input drive = 0.4")
+    for (i = 1; i <= k; i++) {
+        e = "rate*(-" number(0.3, 2) "*z" i
+        for (j = draw(3); j >= 0; j--) {
+            e = e " + " number(0.1, 1) "*z" (draw(k) + 1) (draw(2) ? "*z" (draw(k) + 1) : "")
+        }
+        if (draw(3) == 0) { e = e " + drive" }
+        if (draw(4) == 0) { e = e " + sin(z" (draw(k) + 1) ")" }
+        if (draw(4) == 0) { e = e "/(2 + z" (draw(k) + 1) "^2)" }
+        say("equation z" i "' = " e ")")
+    }
+    for (i = 1; i <= k; i++) { starts = starts (i > 1 ? ", " : "") "z" i " = " number(0.05, 0.4) }
+    say("scene " name " {\n  start " starts "\n  step 1 [ms]\n  until 1 [s]\n}")
+    starts = ""
+}
+
+function wheels(k,    i, T, V, F) {
+    for (i = 1; i <= k; i++) {
+        say("coordinate a" i " [rad]")
+        T = T " + " number(0.2, 3) " [kg*m^2]*a" i "'^2/2"
+        V = V " + " number(0.2, 3) " [J]*cos(" (i > 1 && draw(2) ? "a" i " - a" (i - 1) : "a" i) ")"
+        if (draw(2) == 0) { F = F " + " number(0.01, 0.1) " [N*m*s]*a" i "'^2/2" }
+    }
+    say("input M = 0.5 [N*m]")
+    say("Q(a1) = M")
+    energies(T, V, F)
+    start("a", k, "[rad]")
+}
+
+function energies(T, V, F) {
+    say("T =" substr(T, 3))
+    if (V != "") { say("V = 0 [J]" V) }
+    if (F != "") { say("F =" substr(F, 3)) }
+}
+
+function start(letter, k, unit,    i) {
+    for (i = draw(3); i > 0; i--) { say("output o" i " = " letter "1^" i "/(1 " unit ")^" i) }
+    printf("scene %s {\n%s  step 1 [ms]\n  until 1 [s]\n  start ", name, (draw(3) == 0 ? "  with ledger\n" : ""))
+    for (i = 1; i <= k; i++) { printf("%s%s%d = %s %s", (i > 1 ? ", " : ""), letter, i, number(0.1, 0.5), unit) }
+    print("\n}")
+}
+
+BEGIN {
+    if (n !~ /^[1-9][0-9]*$/ || seed !~ /^[1-9][0-9]*$/) {
+        print "scenes.awk: error: n=" n " seed=" seed ": two numbers, 1 or more" > "/dev/stderr"
+        exit 2
+    }
+    state = seed * 7919 + 1
+    for (i = 0; i < 10; i++) { draw(2) }
+    for (s = 1; s <= n; s++) {
+        name = "r" seed "_" s
+        print "mechanism w" seed "_" s " \"Drawn at random\""
+        size = 1 + draw(draw(4) == 0 ? 6 : 3)
+        if (s % 6 == 0) { row_of_masses(size + draw(3)) }
+        else if (s % 6 == 1) { cart(size) }
+        else if (s % 6 == 2) { arms(size > 3 ? 3 : size) }
+        else if (s % 6 == 3) { particles(size) }
+        else if (s % 6 == 4) { first_order(size + draw(4)) }
+        else { wheels(size) }
+    }
+}
