@@ -35,7 +35,6 @@ algebra: base lang
 image: base core number
 derive: algebra base core image lang number
 show: algebra base derive lang number
-price: base core image number
 run: base core image number plot
 emit: base image number
 sweep: base core derive image lang number run

@@ -11,9 +11,9 @@
 #include "pricing.h"
 
 /* Records to the horizon: so many to two and a half times as many. */
-#define RECORDS 100.0
-/* Operations that all trials may evaluate: some forty seconds of one processor. */
-#define OPERATIONS 8e9
+#define RECORDS 1000.0
+/* Operations that all trials may evaluate: some twenty seconds of one processor. */
+#define OPERATIONS 4e9
 
 static const char head[] =
     "usage: whirl price SCENE|MECHANISM[:SCENE]|FILE[:SCENE] [options]\n"
@@ -122,7 +122,7 @@ static int say_cheapest(FILE *out, const pricing *p, const table *made, const ta
         const table_row *row = &made->row[i];
         if (trial_error_si(&p->trial, row->result.error) <= p->error_si) {
             char *line =
-                table_run_line(&p->trial, &row->setting, row->steps, row->result.point, words);
+                table_run_line(&p->trial, &row->setting, row->pace, row->result.point, words);
             fprintf(out, "the cheapest within %s: %.2e %s\n  %s\n",
                     p->options->value[PRICING_ERROR], row->result.error, trial_unit(&p->trial),
                     line);

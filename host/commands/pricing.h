@@ -76,7 +76,7 @@ bool pricing_quantity(const pricing *p, const char *what, const char *text, dime
 /* Computes the references at records of this spacing up to the horizon: an exit code. */
 int pricing_begin(pricing *p, whole_ratio spacing, const volatile sig_atomic_t *stop);
 /* A spacing of about so many to two and a half times so many records, 1, 2 or 5 times a power of ten. */
-whole_ratio pricing_spacing(double until_s, double records);
+whole_ratio pricing_spacing(double until_s, double count);
 
 /* Ends cleanly by Ctrl-C: this is then set. */
 extern volatile sig_atomic_t pricing_interrupted;

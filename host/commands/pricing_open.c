@@ -193,9 +193,9 @@ void pricing_close(pricing *p) {
     source_close(&p->from);
 }
 
-whole_ratio pricing_spacing(double until_s, double records) {
+whole_ratio pricing_spacing(double until_s, double count) {
     static const double mantissa[] = {1.0, 2.0, 5.0};
-    const double most = until_s / records * (1.0 + 1e-9);
+    const double most = until_s / count * (1.0 + 1e-9);
     double spacing_s = 0.0;
     for (int power = -20; power <= 18; power++) {
         for (int i = 0; i < 3; i++) {
@@ -209,12 +209,12 @@ whole_ratio pricing_spacing(double until_s, double records) {
 }
 
 int pricing_begin(pricing *p, whole_ratio spacing, const volatile sig_atomic_t *stop) {
-    uint64_t records = 0;
+    uint64_t wanted = 0;
     const double each_s = ratio_times(1, spacing);
     if (each_s > 0.0 && p->until_s / each_s < 1e7) {
-        records = (uint64_t)number_floor(p->until_s / each_s * (1.0 + 1e-9));
+        wanted = (uint64_t)number_floor(p->until_s / each_s * (1.0 + 1e-9));
     }
-    if (records < 1) {
+    if (wanted < 1) {
         fprintf(stderr, "whirl %s: error: %.9g s of motion are too short or too long to look at\n",
                 p->options->command, p->until_s);
         return EXIT_BAD_INPUT;
@@ -223,7 +223,7 @@ int pricing_begin(pricing *p, whole_ratio spacing, const volatile sig_atomic_t *
                              .board = p->board,
                              .of = p->options->value[PRICING_OF],
                              .spacing = spacing,
-                             .records = (int)records,
+                             .records = (int)wanted,
                              .stop = stop};
     p->has_trial = true;
     return trial_begin(&p->trial, &wish) ? EXIT_DONE : EXIT_BAD_INPUT;

@@ -27,15 +27,16 @@ static bool enter(const reference *r, const records *now, int record, deviation_
 }
 
 deviation deviation_measure(const reference *r, const image *im, const engine_kind *kind,
-                            uint64_t steps, deviation_of_what what,
+                            deviation_pace pace, deviation_of_what what,
                             const volatile sig_atomic_t *stop) {
     deviation d = {.column = what.column};
     records *now = records_open(NULL, im, kind);
     void *run = kind->start(im);
     records_read(now, run, 0.0);
     bool good = enter(r, now, 0, what, &d);
-    for (int i = 1; i <= r->records && good && (stop == NULL || !*stop); i++) {
-        for (uint64_t k = 0; k < steps && good; k++) {
+    const int each = (int)pace.records;
+    for (int i = each; i <= r->records && good && (stop == NULL || !*stop); i += each) {
+        for (uint64_t k = 0; k < pace.steps && good; k++) {
             good = kind->step(run) == WH_OK;
         }
         if (good) {

@@ -4,6 +4,13 @@
 
 #include "reference.h"
 
+/* How a step lies in the records: so many steps in so many spacings, one of the two being 1. Where a step is longer than a
+ * spacing, only the records at its ends are looked at. */
+typedef struct deviation_pace {
+    uint64_t steps;
+    uint64_t records;
+} deviation_pace;
+
 /* What of it is looked at. */
 typedef struct deviation_of_what {
     int column;     /* of the reference, in the column's unit; or -1: each that counts, as a part of its largest value */
@@ -18,9 +25,9 @@ typedef struct deviation {
     double operations; /* evaluated: what it took */
 } deviation;
 
-/* `im`: the reference's scene, with a step that divides the spacing of the records. `steps`: of it in one spacing. */
+/* `im`: the reference's scene, with a step of this pace. */
 deviation deviation_measure(const reference *r, const image *im, const engine_kind *kind,
-                            uint64_t steps, deviation_of_what what,
+                            deviation_pace pace, deviation_of_what what,
                             const volatile sig_atomic_t *stop);
 
 #endif

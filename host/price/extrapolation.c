@@ -18,6 +18,7 @@ struct extrapolation {
     double *input;    /* [inputs] */
     int count;        /* components */
     long double *state;
+    long double *lost;  /* what rounding the sums of steps took off the state */
     long double *slope; /* at the state */
     long double *largest;
     long double *row[2]; /* [columns][count]: two rows of the tableau */
@@ -54,6 +55,7 @@ extrapolation *extrapolation_new(const image *im, extrapolation_setting how, dou
                          .input = room(im->inputs, sizeof *e->input),
                          .count = count,
                          .state = numbers(count),
+                         .lost = numbers(count),
                          .slope = numbers(count),
                          .largest = numbers(count),
                          .row = {numbers(count * how.columns), numbers(count * how.columns)},
@@ -79,6 +81,7 @@ void extrapolation_free(extrapolation *e) {
     evaluator_free(e->rough);
     free(e->input);
     free(e->state);
+    free(e->lost);
     free(e->slope);
     free(e->largest);
     free(e->row[0]);
@@ -120,31 +123,34 @@ static void scale_of(extrapolation *e, long double span_s, long double *scale) {
     }
 }
 
-/* The modified midpoint rule of so many substeps. False where something is not a finite number. */
+/* How far the modified midpoint rule of so many substeps moves the state. What is summed up and extrapolated are moves,
+ * not states, so that a short step rounds little. False where something is not a finite number. */
 static bool midpoint(extrapolation *e, long double span_s, int substeps, long double *result) {
     const long double h = span_s / (long double)substeps;
-    memcpy(e->before, e->state, (size_t)e->count * sizeof *e->before);
+    long double *here = result; /* moves: after k substeps, and before that */
     for (int i = 0; i < e->count; i++) {
-        e->here[i] = e->state[i] + h * e->slope[i];
+        e->before[i] = 0.0L;
+        here[i] = h * e->slope[i];
     }
     for (int k = 1; k < substeps; k++) {
+        for (int i = 0; i < e->count; i++) {
+            e->here[i] = e->state[i] + here[i];
+        }
         slope_at(e, e->here, e->work);
         for (int i = 0; i < e->count; i++) {
             const long double next = e->before[i] + 2.0L * h * e->work[i];
-            e->before[i] = e->here[i];
-            e->here[i] = next;
+            e->before[i] = here[i];
+            here[i] = next;
         }
     }
     bool finite = true;
     for (int i = 0; i < e->count; i++) {
-        finite = finite && isfinite(e->here[i]);
-        result[i] = e->here[i];
+        finite = finite && isfinite(here[i]);
     }
     return finite;
 }
 
-/* The error of a step by the last two columns, as a part of what is allowed; the result is in the last column of
- * *made. Infinite where something is not a finite number. */
+/* The error of a step by the last two columns, as a part of what is allowed; how far it moves the state is in *made. Infinite where something is not a finite number. */
 static double try_step(extrapolation *e, long double span_s, long double **made) {
     long double scale[2 * IMAGE_COMPONENTS_MAX];
     const int n = e->count;
@@ -172,7 +178,7 @@ static double try_step(extrapolation *e, long double span_s, long double **made)
     *made = above + (size_t)(columns - 1) * (size_t)n;
     const long double *other = above + (size_t)(columns - 2) * (size_t)n;
     for (int i = 0; i < n; i++) {
-        const long double size = long_size((*made)[i]);
+        const long double size = long_size(e->state[i] + (*made)[i]);
         const long double allowed = size > scale[i] ? size : scale[i];
         const long double off = long_size((*made)[i] - other[i]);
         if (off > 0.0L) {
@@ -182,10 +188,14 @@ static double try_step(extrapolation *e, long double span_s, long double **made)
     return worst;
 }
 
+/* Kahan's sum: what one step's rounding takes off, the next one brings back. */
 static void take(extrapolation *e, const long double *made) {
     for (int i = 0; i < e->count; i++) {
-        e->state[i] = made[i];
-        const long double size = long_size(made[i]);
+        const long double move = made[i] - e->lost[i];
+        const long double moved = e->state[i] + move;
+        e->lost[i] = (moved - e->state[i]) - move;
+        e->state[i] = moved;
+        const long double size = long_size(moved);
         e->largest[i] = size > e->largest[i] ? size : e->largest[i];
     }
 }

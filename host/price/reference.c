@@ -14,14 +14,14 @@
 #include "reference_rows.h"
 
 /* The finer of two extrapolations, and the one that it is held against: of other orders, so by other steps. */
-static const extrapolation_setting fine = {9, 32.0 * LDBL_EPSILON};
-static const extrapolation_setting coarse = {7, 512.0 * LDBL_EPSILON};
+static const extrapolation_setting fine = {6, 16.0 * LDBL_EPSILON};
+static const extrapolation_setting coarse = {5, 64.0 * LDBL_EPSILON};
 
 /* A record is trusted while the two differ by less of a column's largest value. They begin with less than 1e-16 in long
  * double: what has grown to this is no error of theirs but the motion's own, which carries every rounding away. */
 #define LIMIT_EXTRAPOLATED (LONG_IS_LONGER ? 1e-12 : 1e-9)
 #define LIMIT_FINE_STEPS 1e-6
-/* A component of which they differ by more than this part from the beginning is nothing but rounding. */
+/* A component of which they differ by more than this part of its size from the beginning is nothing but rounding. */
 #define KNOWN 1e-3
 
 /* One of the two computations. */
@@ -64,12 +64,12 @@ static long double row_off(const reference *r, const computed *other, int record
     return isfinite(off) ? off : (long double)INFINITY;
 }
 
-/* Largest and most different values of a column over the records up to `records`. */
-static void measure(reference *r, const computed *other, int records, int column) {
+/* Largest and most different values of a column over the records up to `until`. */
+static void measure(reference *r, const computed *other, int until, int column) {
     reference_column *c = &r->column[column];
     c->largest = 0.0L;
     c->off = 0.0L;
-    for (int i = 0; i <= records; i++) {
+    for (int i = 0; i <= until; i++) {
         const long double size =
             long_size(r->row[(size_t)i * (size_t)r->columns + (size_t)column]);
         const long double off = row_off(r, other, i, column);
@@ -84,10 +84,10 @@ static void judge(reference *r, const computed *other) {
     const int early = both < 10 ? 1 : both / 10;
     for (int k = 1; k < r->columns; k++) {
         measure(r, other, early < both ? early : both, k);
-        const long double off = r->column[k].off;
+        const bool noise = r->column[k].off > KNOWN * r->column[k].largest;
         measure(r, other, both, k);
-        r->column[k].counts = r->shape->column[k].unknown >= 0 && r->column[k].largest > 0.0L &&
-                              !(off > KNOWN * r->column[k].largest);
+        r->column[k].counts =
+            r->shape->column[k].unknown >= 0 && r->column[k].largest > 0.0L && !noise;
     }
     r->records = both;
     for (int k = 1; k < r->columns; k++) {
@@ -207,8 +207,8 @@ reference *reference_new(const reference_wish *w) {
     return r;
 }
 
-void reference_cut(reference *r, int records) {
-    r->records = records < r->records ? records : r->records;
+void reference_cut(reference *r, int until) {
+    r->records = until < r->records ? until : r->records;
     for (int k = 1; k < r->columns; k++) {
         r->column[k].largest = 0.0L;
         for (int i = 0; i <= r->records; i++) {

@@ -50,7 +50,7 @@ typedef struct reference {
 /* Always succeeds; look at kind and stopped. The image must outlive it. */
 reference *reference_new(const reference_wish *w);
 /* From now on only so many records behind the start count; no more than there are. */
-void reference_cut(reference *r, int records);
+void reference_cut(reference *r, int until);
 /* The most that the two computations differ by, of the columns that count, as a part of their largest values. */
 double reference_agreement(const reference *r);
 void reference_free(reference *r); /* NULL is fine */

@@ -1,21 +1,23 @@
 /* table.c: see table.h. */
 #include "table.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #include "host/base/room.h"
 #include "host/number/functions.h"
 
-/* Steps grow finer by 1, 2, 5, 10, 20, 50, ... in a record's spacing, up to so many. */
+/* Steps grow finer by 1, 2, 5, 10, 20, 50, ...: from so many records' spacings to so many in one. */
 static const uint64_t mantissa[] = {1, 2, 5};
-enum { MANTISSAS = 3, LADDER = 3 * 8 };
+enum { MANTISSAS = 3, COARSEST = 5, LADDER = COARSEST + 3 * 8 };
 
-static uint64_t ladder(int rung) {
-    uint64_t steps = mantissa[rung % MANTISSAS];
-    for (int i = rung / MANTISSAS; i > 0; i--) {
-        steps *= 10;
+static deviation_pace ladder(int rung) {
+    const int i = rung < COARSEST ? COARSEST - rung : rung - COARSEST;
+    uint64_t many = mantissa[i % MANTISSAS];
+    for (int k = i / MANTISSAS; k > 0; k--) {
+        many *= 10;
     }
-    return steps;
+    return rung < COARSEST ? (deviation_pace){1, many} : (deviation_pace){many, 1};
 }
 
 /* A finer step helps no more when twice in a row it took off less than this part of the error. */
@@ -30,27 +32,29 @@ table_price table_price_of(const cost *c, double step_s, bool *known) {
 }
 
 static void add(table *made, table_row row) {
+    row.order = made->count;
     made->row = room_more(made->row, made->count + 1, sizeof *made->row);
     made->row[made->count++] = row;
 }
 
-/* One setting by ever finer steps; `each`: operations that one trial may take. */
-static void climb(trial *t, table *made, const setting *s, double each) {
+/* One setting by ever finer steps, each of them as dear; `each`: operations that one trial may take. */
+static void climb(trial *t, table *made, const setting *s, const cost *each_step, double each) {
     int stalled = 0;
     double before = (double)INFINITY;
     for (int rung = 0; rung < LADDER && stalled < PATIENCE; rung++) {
-        table_row row = {.setting = *s, .steps = ladder(rung)};
-        bool own;
+        table_row row = {.setting = *s, .pace = ladder(rung), .cost = *each_step};
+        if (row.pace.records > (uint64_t)t->records) {
+            continue;
+        }
         bool known;
-        row.cost = trial_cost(t, s, row.steps, &own);
-        row.price = table_price_of(&row.cost, ratio_times(1, trial_step(t, row.steps)), &known);
+        row.price = table_price_of(&row.cost, ratio_times(1, trial_step(t, row.pace)), &known);
         if (!known) {
             made->unpriced++;
             made->why = row.cost.why;
             return;
         }
         const double started = t->operations;
-        row.result = trial_run(t, s, row.steps);
+        row.result = trial_run(t, s, row.pace);
         if (!row.result.ran) {
             return;
         }
@@ -61,7 +65,7 @@ static void climb(trial *t, table *made, const setting *s, double each) {
         } else {
             made->coarse++;
         }
-        if ((t->operations - started) * 2.5 > each && row.result.usable) {
+        if ((t->operations - started) * 2.5 > each) {
             made->broken_off += stalled < PATIENCE ? 1 : 0;
             return;
         }
@@ -74,7 +78,10 @@ static int by_price(const void *left, const void *right) {
     if (a->price.value != b->price.value) {
         return a->price.value < b->price.value ? -1 : 1;
     }
-    return (a->result.error > b->result.error) - (a->result.error < b->result.error);
+    if (a->result.error != b->result.error) {
+        return a->result.error < b->result.error ? -1 : 1;
+    }
+    return a->order - b->order;
 }
 
 static void mark_front(table *made) {
@@ -90,10 +97,11 @@ table *table_new(trial *t, const table_wish *w) {
     table *made = room(1, sizeof *made);
     const int count = setting_count();
     bool *own = room(count, sizeof *own);
+    cost *price = room(count, sizeof *price);
     made->why = "";
     for (int i = 0; i < count && !t->stopped; i++) {
         const setting s = setting_at(i);
-        (void)trial_cost(t, &s, 1, &own[i]);
+        price[i] = trial_cost(t, &s, ladder(COARSEST), &own[i]);
         made->settings += own[i] ? 1 : 0;
     }
     int done = 0;
@@ -103,11 +111,12 @@ table *table_new(trial *t, const table_wish *w) {
             if (w->progress != NULL) {
                 w->progress(w->context, done, made->settings);
             }
-            climb(t, made, &s, w->operations / (2.0 * made->settings));
+            climb(t, made, &s, &price[i], w->operations / (2.0 * made->settings));
             done++;
         }
     }
     free(own);
+    free(price);
     if (made->count > 0) {
         qsort(made->row, (size_t)made->count, sizeof *made->row, by_price);
     }

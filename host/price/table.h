@@ -13,10 +13,11 @@ typedef struct table_price {
 
 typedef struct table_row {
     setting setting;
-    uint64_t steps; /* in a record's spacing */
+    deviation_pace pace;
     trial_result result;
     cost cost;
     table_price price;
+    int order;     /* in which it was tried */
     bool on_front; /* nothing is as cheap and errs less */
 } table_row;
 

@@ -7,7 +7,7 @@
 #include "figure_text.h"
 #include "host/base/room.h"
 
-static char *line_of(const trial *t, const setting *s, uint64_t steps, int point,
+static char *line_of(const trial *t, const setting *s, deviation_pace pace, int point,
                      const table_words *words, bool run) {
     char options[SETTING_TEXT];
     char step[TRIAL_TIME];
@@ -16,18 +16,18 @@ static char *line_of(const trial *t, const setting *s, uint64_t steps, int point
     return room_words("whirl %s %s%s%s%s --step %s --until %s%s", run ? "run" : "derive",
                       words->target, words->changes,
                       t->wish.source->name(t->wish.source->context, point),
-                      setting_options(s, run, options), trial_time(trial_step(t, steps), step),
+                      setting_options(s, run, options), trial_time(trial_step(t, pace), step),
                       until, run ? "" : " --as c");
 }
 
-char *table_run_line(const trial *t, const setting *s, uint64_t steps, int point,
+char *table_run_line(const trial *t, const setting *s, deviation_pace pace, int point,
                      const table_words *words) {
-    return line_of(t, s, steps, point, words, true);
+    return line_of(t, s, pace, point, words, true);
 }
 
-char *table_derive_line(const trial *t, const setting *s, uint64_t steps, int point,
+char *table_derive_line(const trial *t, const setting *s, deviation_pace pace, int point,
                         const table_words *words) {
-    return line_of(t, s, steps, point, words, false);
+    return line_of(t, s, pace, point, words, false);
 }
 
 static void print_row(FILE *out, const trial *t, const table_row *row) {
@@ -46,7 +46,7 @@ static void print_row(FILE *out, const trial *t, const table_row *row) {
     fprintf(out, "  %7s", figure_text(&c->stack_bytes, text));
     fprintf(out, "  %6s ", figure_text(&c->state_bytes, text));
     fprintf(out, "%s --step %s\n", setting_options(&row->setting, true, options),
-            trial_time(trial_step(t, row->steps), step));
+            trial_time(trial_step(t, row->pace), step));
 }
 
 static void print_rows(FILE *out, const trial *t, const table *made, const table_words *words) {
@@ -95,9 +95,9 @@ static void print_notes(FILE *out, const trial *t, const table *made, const tabl
     for (int i = made->count - 1; i >= 0; i--) {
         if (made->row[i].on_front) {
             const table_row *row = &made->row[i];
-            char *run = table_run_line(t, &row->setting, row->steps, row->result.point, words);
+            char *run = table_run_line(t, &row->setting, row->pace, row->result.point, words);
             char *derive =
-                table_derive_line(t, &row->setting, row->steps, row->result.point, words);
+                table_derive_line(t, &row->setting, row->pace, row->result.point, words);
             fprintf(out, "the last row of the front again, and as code:\n  %s\n  %s\n", run,
                     derive);
             free(run);
@@ -159,7 +159,7 @@ static void csv_row(FILE *out, const trial *t, const table_row *row, const table
     fprintf(out, ",%.9g,%s,%s,%s,%.9g,%.9g,", row->price.value,
             row->price.cycles ? "cycles" : "instructions", cost_basis_words[price->basis],
             cost_basis_words[price->of], row->price.least, row->price.most);
-    fputs(trial_time(trial_step(t, row->steps), text), out);
+    fputs(trial_time(trial_step(t, row->pace), text), out);
     for (int axis = 0; axis < AXES; axis++) {
         fprintf(out, ",%s", setting_word(&row->setting, (setting_axis)axis));
     }
@@ -167,8 +167,8 @@ static void csv_row(FILE *out, const trial *t, const table_row *row, const table
     csv_figure(out, &row->cost.ram_bytes);
     csv_figure(out, &row->cost.stack_bytes);
     csv_figure(out, &row->cost.state_bytes);
-    char *run = table_run_line(t, &row->setting, row->steps, row->result.point, words);
-    char *derive = table_derive_line(t, &row->setting, row->steps, row->result.point, words);
+    char *run = table_run_line(t, &row->setting, row->pace, row->result.point, words);
+    char *derive = table_derive_line(t, &row->setting, row->pace, row->result.point, words);
     fputc(',', out);
     figure_field(out, run);
     fputc(',', out);

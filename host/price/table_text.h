@@ -18,9 +18,9 @@ bool table_csv(FILE *out, const trial *t, const table *made, const table_words *
 bool table_plot(const char *file, const trial *t, const table *made);
 
 /* The lines that do a row again: `whirl run ...` and `whirl derive ... --as c`; free them. */
-char *table_run_line(const trial *t, const setting *s, uint64_t steps, int point,
+char *table_run_line(const trial *t, const setting *s, deviation_pace pace, int point,
                      const table_words *words);
-char *table_derive_line(const trial *t, const setting *s, uint64_t steps, int point,
+char *table_derive_line(const trial *t, const setting *s, deviation_pace pace, int point,
                         const table_words *words);
 
 #endif

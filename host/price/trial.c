@@ -27,18 +27,22 @@ const char *trial_time(whole_ratio time, char text[TRIAL_TIME]) {
     return text;
 }
 
-whole_ratio trial_step(const trial *t, uint64_t steps) {
-    const whole_ratio spacing = t->wish.spacing;
-    uint64_t a = spacing.numerator;
-    uint64_t b = steps;
+static uint64_t common_divisor(uint64_t a, uint64_t b) {
     while (b != 0) {
         const uint64_t rest = a % b;
         a = b;
         b = rest;
     }
-    uint64_t c = spacing.numerator / a;
-    uint64_t d = spacing.denominator * (steps / a);
-    return (whole_ratio){c, d};
+    return a;
+}
+
+whole_ratio trial_step(const trial *t, deviation_pace pace) {
+    whole_ratio s = t->wish.spacing;
+    const uint64_t over = common_divisor(s.numerator, pace.steps);
+    const uint64_t under = common_divisor(pace.records, s.denominator);
+    s.numerator = s.numerator / over * (pace.records / under);
+    s.denominator = s.denominator / under * (pace.steps / over);
+    return s;
 }
 
 double trial_horizon_s(const trial *t) {
@@ -162,11 +166,11 @@ void trial_end(trial *t) {
 
 /* --- trials ----------------------------------------------------------------------------------------*/
 
-static image *image_of(const trial *t, int point, const setting *s, uint64_t steps) {
+static image *image_of(const trial *t, int point, const setting *s, deviation_pace pace) {
     char step[TRIAL_TIME];
     char until[TRIAL_TIME];
     const whole_ratio spacing = t->wish.spacing;
-    trial_time(trial_step(t, steps), step);
+    trial_time(trial_step(t, pace), step);
     snprintf(until, sizeof until, "%.17g", ratio_times((uint64_t)t->wish.records, spacing));
     return t->wish.source->make(t->wish.source->context, point, s, step, until);
 }
@@ -185,10 +189,10 @@ static void enter(const trial *t, int point, const deviation *d, trial_result *w
     }
 }
 
-trial_result trial_run(trial *t, const setting *s, uint64_t steps) {
+trial_result trial_run(trial *t, const setting *s, deviation_pace pace) {
     trial_result worst = {.ran = true};
     for (int p = 0; p < t->wish.source->points; p++) {
-        image *im = image_of(t, p, s, steps);
+        image *im = image_of(t, p, s, pace);
         if (im == NULL) {
             return (trial_result){.ran = false};
         }
@@ -197,7 +201,7 @@ trial_result trial_run(trial *t, const setting *s, uint64_t steps) {
             what.give_up = USABLE * (double)t->reference[p]->column[what.column].largest;
         }
         const deviation d =
-            deviation_measure(t->reference[p], im, s->number, steps, what, t->wish.stop);
+            deviation_measure(t->reference[p], im, s->number, pace, what, t->wish.stop);
         image_free(im);
         t->operations += d.operations;
         if (t->wish.stop != NULL && *t->wish.stop) {
@@ -212,12 +216,12 @@ trial_result trial_run(trial *t, const setting *s, uint64_t steps) {
     return worst;
 }
 
-cost trial_cost(trial *t, const setting *s, uint64_t steps, bool *own) {
+cost trial_cost(trial *t, const setting *s, deviation_pace pace, bool *own) {
     cost dearest = {0};
     const cost_number number = s->number == &engine_float ? COST_FLOAT : COST_DOUBLE;
     *own = true;
     for (int p = 0; p < t->wish.source->points; p++) {
-        image *im = image_of(t, p, s, steps);
+        image *im = image_of(t, p, s, pace);
         if (im == NULL) {
             return (cost){.why = "there is no image of it"};
         }

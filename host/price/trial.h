@@ -21,7 +21,7 @@ typedef struct trial_wish {
     const trial_source *source;
     const cost_board *board;
     const char *of;      /* an output, coordinate or rate; NULL: the worst component */
-    whole_ratio spacing; /* of the records, s: steps divide it */
+    whole_ratio spacing; /* of the records, s */
     int records;         /* behind the start */
     const volatile sig_atomic_t *stop;
 } trial_wish;
@@ -53,12 +53,11 @@ typedef struct trial_result {
 bool trial_begin(trial *t, const trial_wish *w);
 void trial_end(trial *t);
 
-/* Steps of spacing/steps. */
-trial_result trial_run(trial *t, const setting *s, uint64_t steps);
+trial_result trial_run(trial *t, const setting *s, deviation_pace pace);
 /* What it costs at the dearest of the points; *own: false where it is no setting of its own (setting_is_own()). */
-cost trial_cost(trial *t, const setting *s, uint64_t steps, bool *own);
+cost trial_cost(trial *t, const setting *s, deviation_pace pace, bool *own);
 
-whole_ratio trial_step(const trial *t, uint64_t steps);
+whole_ratio trial_step(const trial *t, deviation_pace pace);
 double trial_horizon_s(const trial *t);
 /* The unit of errors: "m", or "" for parts of the largest value. */
 const char *trial_unit(const trial *t);
