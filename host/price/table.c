@@ -7,17 +7,15 @@
 #include "host/base/room.h"
 #include "host/number/functions.h"
 
-/* Steps grow finer by 1, 2, 5, 10, 20, 50, ...: from so many records' spacings to so many in one. */
-static const uint64_t mantissa[] = {1, 2, 5};
-enum { MANTISSAS = 3, COARSEST = 5, LADDER = COARSEST + 3 * 8 };
-
-static deviation_pace ladder(int rung) {
-    const int i = rung < COARSEST ? COARSEST - rung : rung - COARSEST;
-    uint64_t many = mantissa[i % MANTISSAS];
-    for (int k = i / MANTISSAS; k > 0; k--) {
+/* By 1, 2, 5, 10, 20, 50, ... */
+deviation_pace table_ladder(int rung) {
+    static const uint64_t mantissa[] = {1, 2, 5};
+    const int i = rung < TABLE_COARSEST ? TABLE_COARSEST - rung : rung - TABLE_COARSEST;
+    uint64_t many = mantissa[i % 3];
+    for (int k = i / 3; k > 0; k--) {
         many *= 10;
     }
-    return rung < COARSEST ? (deviation_pace){1, many} : (deviation_pace){many, 1};
+    return rung < TABLE_COARSEST ? (deviation_pace){1, many} : (deviation_pace){many, 1};
 }
 
 /* A finer step helps no more when twice in a row it took off less than this part of the error. */
@@ -41,8 +39,8 @@ static void add(table *made, table_row row) {
 static void climb(trial *t, table *made, const setting *s, const cost *each_step, double each) {
     int stalled = 0;
     double before = (double)INFINITY;
-    for (int rung = 0; rung < LADDER && stalled < PATIENCE; rung++) {
-        table_row row = {.setting = *s, .pace = ladder(rung), .cost = *each_step};
+    for (int rung = 0; rung < TABLE_LADDER && stalled < PATIENCE; rung++) {
+        table_row row = {.setting = *s, .pace = table_ladder(rung), .cost = *each_step};
         if (row.pace.records > (uint64_t)t->records) {
             continue;
         }
@@ -101,7 +99,7 @@ table *table_new(trial *t, const table_wish *w) {
     made->why = "";
     for (int i = 0; i < count && !t->stopped; i++) {
         const setting s = setting_at(i);
-        price[i] = trial_cost(t, &s, ladder(COARSEST), &own[i]);
+        price[i] = trial_cost(t, &s, table_ladder(TABLE_COARSEST), &own[i]);
         made->settings += own[i] ? 1 : 0;
     }
     int done = 0;

@@ -37,6 +37,11 @@ typedef struct table_wish {
     void *context;
 } table_wish;
 
+/* The paces that are tried, entry `rung` from 0 on: from many records' spacings in a step to many steps in one, finer by
+ * 2 to 2.5 each. */
+deviation_pace table_ladder(int rung);
+enum { TABLE_COARSEST = 5, TABLE_LADDER = TABLE_COARSEST + 3 * 8 };
+
 table *table_new(trial *t, const table_wish *w); /* look at t->stopped */
 void table_free(table *made);
 

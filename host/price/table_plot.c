@@ -47,7 +47,7 @@ static bool is_cheapest(const table *made, int which) {
     const table_row *row = &made->row[which];
     for (int i = 0; i < which; i++) { /* by rising price */
         const table_row *other = &made->row[i];
-        if (other->steps == row->pace &&
+        if (other->pace.steps == row->pace.steps && other->pace.records == row->pace.records &&
             other->setting.image.method == row->setting.image.method &&
             other->setting.number == row->setting.number &&
             other->setting.image.compensated == row->setting.image.compensated) {
