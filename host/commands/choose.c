@@ -145,7 +145,13 @@ static bool space_records(const pricing *p, choice_wish *w, whole_ratio *spacing
         }
     }
     w->periods = periods;
-    *spacing = (whole_ratio){rate.denominator * periods, rate.numerator};
+    uint64_t common = periods; /* Euclid's, with the rate's numerator */
+    for (uint64_t rest = rate.numerator; rest != 0;) {
+        const uint64_t left = common % rest;
+        common = rest;
+        rest = left;
+    }
+    *spacing = (whole_ratio){rate.denominator * (periods / common), rate.numerator / common};
     if (rate.numerator == 0 || p->until_s * w->rate_Hz < 1.0 - 1e-9) {
         fprintf(stderr,
                 "whirl choose: error: not one period of --rate %.9g Hz lies in %.9g s of motion\n"

@@ -12,8 +12,8 @@
 
 /* Records to the horizon: so many to two and a half times as many. */
 #define RECORDS 1000.0
-/* Operations that all trials may evaluate: some twenty seconds of one processor. */
-#define OPERATIONS 4e9
+/* Operations that all trials may evaluate: some twenty to forty seconds of one processor. */
+#define OPERATIONS 1e10
 
 static const char head[] =
     "usage: whirl price SCENE|MECHANISM[:SCENE]|FILE[:SCENE] [options]\n"

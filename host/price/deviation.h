@@ -2,7 +2,7 @@
 #ifndef PRICE_DEVIATION_H
 #define PRICE_DEVIATION_H
 
-#include "reference.h"
+#include "reference_run.h"
 
 /* How a step lies in the records: so many steps in so many spacings, one of the two being 1. Where a step is longer than a
  * spacing, only the records at its ends are looked at. */

@@ -1,4 +1,4 @@
-/* long_functions.h: the language's functions in long double, for the reference (reference.h): the machine's widest
+/* long_functions.h: the language's functions in long double, for the reference (reference_run.h): the machine's widest
  * number, 64 binary digits on x86 and 113 on AArch64. By themselves: no library takes part, and nothing of the core that
  * the reference is to judge. Where a double's value begins an iteration, what it lacks is computed here.
  *

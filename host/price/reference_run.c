@@ -1,5 +1,5 @@
-/* reference.c: see reference.h. */
-#include "reference.h"
+/* reference_run.c: see reference_run.h. */
+#include "reference_run.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,11 +1,11 @@
-/* reference.h: what the runs that are priced are held against: the motion at evenly spaced records, computed twice, by
+/* reference_run.h: what the runs that are priced are held against: the motion at evenly spaced records, computed twice, by
  * settings of their own. What the two differ by says how far the reference is to be trusted, and until when.
  *
  * Without contacts: by extrapolation in long double (extrapolation.h), which shares the operation list with what it
  * judges, and nothing else. With contacts, or where a jump or a pole stops that: by steps of RK4 in double with
  * compensated sums far finer than the scene's, against half as many. */
-#ifndef PRICE_REFERENCE_H
-#define PRICE_REFERENCE_H
+#ifndef PRICE_REFERENCE_RUN_H
+#define PRICE_REFERENCE_RUN_H
 
 #include <signal.h>
 
