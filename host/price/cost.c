@@ -72,22 +72,26 @@ double cost_fit_at(const cost_fit *fit, const double feature[static COST_FEATURE
     return sum;
 }
 
-static cost_figure within(cost_basis of, double value, double bound, double spread) {
-    return (cost_figure){.basis = COST_PREDICTED,
-                         .of = of,
-                         .value = value,
-                         .least = value / bound,
-                         .most = value * bound * spread,
-                         .bound = bound};
+cost_class cost_class_of(const double feature[static COST_FEATURES]) {
+    return feature[COST_F_BOOKS] != 0.0        ? COST_BOOKING
+           : feature[COST_F_CODE_CALLS] != 0.0 ? COST_CALLING
+                                               : COST_PLAIN;
 }
+
+double cost_least(const cost_fit *fit, double sum, double bound) {
+    return sum > fit->slack ? (sum - fit->slack) / bound : 0.0;
+}
+
+double cost_most(const cost_fit *fit, double sum, double bound) { return sum * bound + fit->slack; }
 
 static cost_figure exactly(double value) {
     return (cost_figure){COST_EXACT, COST_EXACT, value, value, value, 1.0};
 }
 
 /* What is larger than all that was fitted is told with twice the bound's distance. */
-static double bound_at(const cost_fit *fit, double value) {
-    return value > fit->largest ? 2.0 * fit->bound - 1.0 : fit->bound;
+static double bound_at(const cost_fit *fit, const double *feature, double value) {
+    const double bound = fit->bound[cost_class_of(feature)];
+    return value > fit->largest ? 2.0 * bound - 1.0 : bound;
 }
 
 /* One quantity, or nothing of it, and why in *why. */
@@ -101,7 +105,13 @@ static cost_figure predicted(const cost_row *row, cost_quantity quantity, cost_b
                                : "the scene does something that no measured scene did: measure it";
         return (cost_figure){0};
     }
-    return within(of, value, bound_at(fit, value), 1.0);
+    const double bound = bound_at(fit, feature, value);
+    return (cost_figure){.basis = COST_PREDICTED,
+                         .of = of,
+                         .value = value,
+                         .least = cost_least(fit, value, bound),
+                         .most = cost_most(fit, value, bound),
+                         .bound = cost_most(fit, value, bound) / value};
 }
 
 /* Instructions times cycles an instruction. */

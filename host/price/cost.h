@@ -73,7 +73,8 @@ typedef struct cost_figure {
     double value;
     double least;
     double most;
-    double bound; /* of a prediction: least is value / bound, most is value * bound; else 1 */
+    double
+        bound; /* of a prediction: most is value * bound, and least not far below value / bound; else 1 */
 } cost_figure;
 
 typedef struct cost {

@@ -40,7 +40,7 @@ typedef struct cost_list {
     int products;
     int quotients;
     int roots;
-    int sizes;     /* and negations */
+    int sizes; /* and negations */
     int signs;
     int choices;   /* the lesser, the larger */
     int leaves;    /* that are read */
@@ -96,22 +96,25 @@ cost_counts cost_counts_of(const image *im, bool fpu, cost_number number);
 /* clang-format off */
 #define COST_CALL_ROW(X, FN) \
     X(CALL_##FN, COST_TIME, COST_EACH(calls[FN_##FN])) \
-    X(CODE_##FN, COST_CODE | COST_DEPTH, c->step.calls[FN_##FN] + c->observe.calls[FN_##FN] > 0)
+    X(CODE_##FN, COST_CODE | COST_DATA | COST_DEPTH, c->step.calls[FN_##FN] + c->observe.calls[FN_##FN] > 0)
 #define COST_FEATURE_ROWS(X) \
     X(ONE, COST_TIME | COST_CODE | COST_DATA | COST_DEPTH | COST_EVENTS, 1) \
     X(LATER_STAGES, COST_TIME | COST_CODE, c->stages - 1) \
+    X(MANY_STAGES, COST_TIME | COST_CODE, c->stages > 1) \
+    X(MANY_STAGES_MOVING, COST_TIME | COST_CODE, c->stages > 1 ? c->moving : 0) \
     X(ANGLES, COST_TIME | COST_CODE, c->angles) \
     X(LINEARS, COST_TIME | COST_CODE, c->linears) \
     X(RATES, COST_TIME | COST_CODE | COST_DEPTH, c->components) \
     X(MOVING, COST_TIME | COST_CODE, c->moving) \
     X(STAGE_RATES, COST_TIME | COST_CODE, (c->stages - 1) * c->staged_rates) \
     X(STAGE_LINEARS, COST_TIME | COST_CODE, (c->stages - 1) * c->staged_linears) \
-    X(STAGE_ANGLES, COST_TIME | COST_CODE, c->turned ? 0 : (c->stages - 1) * c->staged_angles) \
+    X(STAGE_ANGLES, COST_TIME | COST_CODE, \
+      c->turned && !c->im->ledger.kept ? 0 : (c->stages - 1) * c->staged_angles) \
     X(SHARES, COST_TIME | COST_CODE, c->shares * c->staged_rates) \
     X(SHARES_LINEAR, COST_TIME | COST_CODE, c->shares * c->staged_linears) \
     X(ENDS, COST_TIME | COST_CODE, c->ends * c->moving) \
     X(LOOKED_UP_ONCE, COST_TIME | COST_CODE, c->turned ? c->lookups : 0) \
-    X(LOOKED_UP, COST_TIME, c->turned ? 0 : c->lookups) \
+    X(LOOKED_UP, COST_TIME, (c->turned ? 0 : c->lookups) + c->stages * c->books.pairs) \
     X(LOOKED_UP_CODE, COST_CODE, c->turned ? 0 : c->step.pairs * c->copies) \
     X(LOOKED_UP_TERMS, COST_TIME | COST_CODE, c->step.terms * (c->turned ? 1 : c->stages)) \
     X(TURN_BEGIN, COST_TIME | COST_CODE, c->turned && c->turns > 0 ? c->step.pairs : 0) \
@@ -130,10 +133,10 @@ cost_counts cost_counts_of(const image *im, bool fpu, cost_number number);
     X(SIZES, COST_TIME, COST_EACH(sizes)) \
     X(SIGNS, COST_TIME, COST_EACH(signs)) \
     X(CHOICES, COST_TIME, COST_EACH(choices)) \
-    X(LEAVES, COST_TIME, COST_EACH(leaves)) \
-    X(CONSTANTS, COST_TIME, COST_EACH(constants)) \
+    X(LEAVES, COST_TIME, c->stages * c->step.leaves + c->fixed.leaves) \
+    X(CONSTANTS, COST_TIME, c->stages * c->step.constants + c->fixed.constants) \
     X(CONSTANTS_ONCE, COST_TIME | COST_DEPTH, c->step.constants) \
-    X(CARRIED, COST_TIME, c->stages * c->step.carried) \
+    X(CARRIED, COST_TIME, c->stages * (c->step.carried + c->books.carried)) \
     X(CALLED, COST_TIME, c->called ? c->stages : 0) \
     X(CALLED_DATA, COST_TIME, \
       c->called ? c->stages * (c->step.leaves + c->step.results + 2 * c->step.pairs) : 0) \
@@ -143,6 +146,10 @@ cost_counts cost_counts_of(const image *im, bool fpu, cost_number number);
     X(BOOK_ENTRIES, COST_TIME | COST_CODE | COST_DEPTH, \
       c->im->ledger.kept ? c->im->ledger.entries : 0) \
     X(BOOK_STAGES, COST_TIME, c->im->ledger.kept ? c->stages * c->im->ledger.smooth : 0) \
+    X(BOOK_CALLED, COST_TIME, c->im->ledger.kept ? c->stages : 0) \
+    X(BOOK_DATA, COST_TIME, c->stages * (c->books.leaves + c->books.constants)) \
+    X(BOOK_CALLED_DATA, COST_TIME, \
+      c->im->ledger.asked ? c->stages * (c->step.leaves + c->step.results + 2 * c->step.pairs) : 0) \
     COST_CALL_ROW(X, TAN) \
     COST_CALL_ROW(X, ASIN) \
     COST_CALL_ROW(X, ACOS) \
@@ -172,14 +179,15 @@ cost_counts cost_counts_of(const image *im, bool fpu, cost_number number);
     X(OBSERVED_PAIRS, COST_CODE, c->observe.pairs) \
     X(OBSERVED_CALLS, COST_CODE, c->observe.quotients + cost_calls(&c->observe)) \
     X(OUTPUTS, COST_CODE | COST_DATA, c->im->outputs > 0 ? c->im->outputs : 1) \
-    X(ANY_PAIR, COST_CODE | COST_DEPTH, c->step.pairs + c->step.radians + c->observe.pairs + c->observe.radians > 0) \
-    X(ANY_TURNED, COST_CODE | COST_DEPTH, c->turned) \
+    X(ANY_PAIR, COST_CODE | COST_DATA | COST_DEPTH, c->step.pairs + c->step.radians + c->observe.pairs + c->observe.radians > 0) \
+    X(ANY_TURNED, COST_CODE | COST_DATA | COST_DEPTH, c->turned) \
     X(ANY_TURNED_SUMS, COST_CODE | COST_DEPTH, c->turned && c->compensated) \
-    X(ANY_RADIANS, COST_CODE | COST_DEPTH, c->step.radians + c->observe.radians > 0) \
-    X(ANY_QUOTIENT, COST_CODE | COST_DEPTH, c->step.quotients + c->observe.quotients > 0) \
-    X(ANY_ROOT, COST_CODE | COST_DEPTH, c->step.roots + c->observe.roots > 0) \
-    X(ANY_POWER, COST_CODE | COST_DEPTH, c->step.powers + c->observe.powers > 0) \
+    X(ANY_RADIANS, COST_CODE | COST_DATA | COST_DEPTH, c->step.radians + c->observe.radians > 0) \
+    X(ANY_QUOTIENT, COST_CODE | COST_DATA | COST_DEPTH, c->step.quotients + c->observe.quotients > 0) \
+    X(ANY_ROOT, COST_CODE | COST_DATA | COST_DEPTH, c->step.roots + c->observe.roots > 0) \
+    X(ANY_POWER, COST_CODE | COST_DATA | COST_DEPTH, c->step.powers + c->observe.powers > 0) \
     X(STATE_WORDS, COST_DATA, c->state_words) \
+    X(STARTS, COST_DATA | COST_CODE, 2 * c->angles + c->reals + c->im->inputs) \
     X(LIES_STAGES, COST_DEPTH, c->stages * c->components) \
     X(LIES_PAIRS, COST_DEPTH, c->step.pairs) \
     X(LIES_TURNED, COST_DEPTH, c->turned ? c->stages * c->step.pairs : 0) \

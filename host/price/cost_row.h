@@ -8,11 +8,22 @@
 /* A feature that no fitted scene has: nothing is known of what it costs. */
 #define COST_UNSEEN (-1.0)
 
+/* Scenes that are not known equally well: X(id, what is said of them). */
+#define COST_CLASS_ROWS(X) \
+    X(PLAIN, "") \
+    X(CALLING, ", with functions") /* whose time depends on what they are given */ \
+    X(BOOKING, ", with books")     /* whose expressions a compiler may share with the step's */
+#define COST_CLASS_ID(id, says) COST_##id,
+typedef enum cost_class { COST_CLASS_ROWS(COST_CLASS_ID) COST_CLASSES } cost_class;
+#undef COST_CLASS_ID
+cost_class cost_class_of(const double feature[static COST_FEATURES]);
+
 /* One quantity: the sum of figure[f] times feature f. */
 typedef struct cost_fit {
-    int cases;      /* fitted on; 0: there is no such fit */
-    double bound;   /* no scene, fitted on or not, was off by more than this factor */
-    double largest; /* of what was fitted */
+    int cases;    /* fitted on; 0: there is no such fit */
+    double slack; /* what is off by no more than this is not asked for its factor: of small steps */
+    double bound[COST_CLASSES]; /* no scene, fitted on or not, was off by more than this factor */
+    double largest;             /* of what was fitted */
     double figure[COST_FEATURES];
 } cost_fit;
 
@@ -26,6 +37,9 @@ typedef struct cost_row {
     cost_fit fit[COST_QUANTITIES];
 } cost_row;
 
+/* Between what a sum is promised to be. */
+double cost_least(const cost_fit *fit, double sum, double bound);
+double cost_most(const cost_fit *fit, double sum, double bound);
 /* The sum; negative where a feature is unseen, which is then *unseen. */
 double cost_fit_at(const cost_fit *fit, const double feature[static COST_FEATURES], int *unseen);
 

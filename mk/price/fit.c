@@ -18,7 +18,11 @@
 #include "host/commands/options.h"
 #include "host/price/cost_row.h"
 
-enum { ROWS_MAX = 20000, COLUMNS = 15, WORDS_MAX = 16, SWEEPS = 4000 };
+enum { ROWS_MAX = 20000, COLUMNS = 15, WORDS_MAX = 16, SWEEPS = 3000, ROUNDS = 6 };
+/* Beyond this a row counts less. */
+#define FAR_OFF 0.04
+/* Of the smallest figure that is fitted: what a compiler makes of the smallest steps is half chance. */
+#define SLACK 0.25
 
 typedef struct counted {
     char line[1024];
@@ -185,8 +189,8 @@ static bool takes_part(const counted *r, int board, cost_number number, cost_qua
     return r->board == board && r->number == number && r->value[q] > 0.0;
 }
 
-/* Least squares of (sum - value) / value, no figure below zero, one figure after the other: the normal equations
- * A figure = b, minimised along each axis in turn. */
+/* Least squares of weight (sum - value) / value, no figure below zero: the normal equations A figure = b, minimised
+ * along one axis after the other. */
 static void solve(double (*a)[COST_FEATURES], const double *b, double *figure) {
     for (int sweep = 0; sweep < SWEEPS; sweep++) {
         for (int i = 0; i < COST_FEATURES; i++) {
@@ -202,46 +206,72 @@ static void solve(double (*a)[COST_FEATURES], const double *b, double *figure) {
     }
 }
 
+static bool is_taken(int feature, cost_quantity q) {
+    return (cost_feature_taken[feature] >> q & 1U) != 0;
+}
+
+/* A row of the system: its features over its value, with this weight. */
+static void add_equation(const counted *r, cost_quantity q, double weight,
+                         double (*a)[COST_FEATURES], double *b) {
+    double x[COST_FEATURES];
+    for (int i = 0; i < COST_FEATURES; i++) {
+        x[i] = is_taken(i, q) ? r->feature[i] / r->value[q] : 0.0;
+    }
+    for (int i = 0; i < COST_FEATURES; i++) {
+        b[i] += weight * x[i];
+        for (int k = 0; k < COST_FEATURES && x[i] != 0.0; k++) {
+            a[i][k] += weight * x[i] * x[k];
+        }
+    }
+}
+
+/* The sum of a row. */
+static double sum_of(const cost_fit *f, const counted *r, cost_quantity q) {
+    double feature[COST_FEATURES];
+    int unseen;
+    for (int i = 0; i < COST_FEATURES; i++) {
+        feature[i] = is_taken(i, q) ? r->feature[i] : 0.0;
+    }
+    return cost_fit_at(f, feature, &unseen);
+}
+
+/* Fitted again and again, each time with less weight for what was far off (Cauchy's weights): a few scenes of which
+ * a compiler makes something else must not bend the figures of all others. */
 static cost_fit fit(int board, cost_number number, cost_quantity q) {
     static double a[COST_FEATURES][COST_FEATURES];
     static double b[COST_FEATURES];
-    cost_fit f = {.bound = 1.0};
-    memset(a, 0, sizeof a);
-    memset(b, 0, sizeof b);
-    for (int r = 0; r < row_count; r++) {
-        if (!takes_part(&rows[r], board, number, q) || !rows[r].fitted) {
-            continue;
-        }
-        f.cases++;
-        f.largest = rows[r].value[q] > f.largest ? rows[r].value[q] : f.largest;
-        for (int i = 0; i < COST_FEATURES; i++) {
-            const double x = (cost_feature_taken[i] >> q & 1U) != 0
-                                 ? rows[r].feature[i] / rows[r].value[q]
-                                 : 0.0;
-            b[i] += x;
-            for (int k = 0; k < COST_FEATURES && x != 0.0; k++) {
-                const bool taken = (cost_feature_taken[k] >> q & 1U) != 0;
-                a[i][k] += taken ? x * (rows[r].feature[k] / rows[r].value[q]) : 0.0;
+    cost_fit f = {.cases = 0};
+    double smallest = 0.0;
+    for (int round = 0; round < ROUNDS; round++) {
+        memset(a, 0, sizeof a);
+        memset(b, 0, sizeof b);
+        f.cases = 0;
+        for (int r = 0; r < row_count; r++) {
+            if (takes_part(&rows[r], board, number, q) && rows[r].fitted) {
+                const double off =
+                    round == 0 ? 0.0 : sum_of(&f, &rows[r], q) / rows[r].value[q] - 1.0;
+                add_equation(&rows[r], q, 1.0 / (1.0 + off * off / (FAR_OFF * FAR_OFF)), a, b);
+                f.cases++;
+                smallest =
+                    smallest == 0.0 || rows[r].value[q] < smallest ? rows[r].value[q] : smallest;
+                f.largest = rows[r].value[q] > f.largest ? rows[r].value[q] : f.largest;
             }
         }
+        solve(a, b, f.figure);
     }
-    solve(a, b, f.figure);
+    f.slack = q == COST_OF_FLASH || q == COST_OF_RAM || q == COST_OF_STACK ? 0.0 : SLACK * smallest;
     for (int i = 0; i < COST_FEATURES; i++) {
-        if ((cost_feature_taken[i] >> q & 1U) != 0 && a[i][i] <= 0.0) {
+        if (is_taken(i, q) && a[i][i] <= 0.0) {
             f.figure[i] = COST_UNSEEN;
         }
     }
     return f;
 }
 
-/* How far off, as a factor of 1 or more; 0 where nothing is predicted. */
-static double off_by(const cost_fit *f, const counted *r, cost_quantity q) {
-    double feature[COST_FEATURES];
-    int unseen;
-    for (int i = 0; i < COST_FEATURES; i++) {
-        feature[i] = (cost_feature_taken[i] >> q & 1U) != 0 ? r->feature[i] : 0.0;
-    }
-    const double value = cost_fit_at(f, feature, &unseen);
+/* How far off, as a factor of 1 or more; 0 where nothing is predicted. *told: what is predicted. */
+static double off_by(const cost_fit *f, const counted *r, cost_quantity q, double *told) {
+    const double value = sum_of(f, r, q);
+    *told = value;
     return value <= 0.0 ? 0.0 : value > r->value[q] ? value / r->value[q] : r->value[q] / value;
 }
 
@@ -260,13 +290,7 @@ static void add_smooth(const cost_fit *smooth, int board, cost_number number) {
     for (int i = 0; i < row_count; i++) {
         counted *r = &rows[i];
         if (r->board == board && r->number == number && r->contacts) {
-            double feature[COST_FEATURES];
-            int unseen;
-            for (int f = 0; f < COST_FEATURES; f++) {
-                feature[f] =
-                    (cost_feature_taken[f] >> COST_OF_INSTRUCTIONS & 1U) != 0 ? r->feature[f] : 0.0;
-            }
-            const double value = cost_fit_at(smooth, feature, &unseen);
+            const double value = sum_of(smooth, r, COST_OF_INSTRUCTIONS);
             r->feature[COST_F_SMOOTH] *= value;
             r->feature[COST_F_EVENT_SMOOTH] *= value;
             if (value <= 0.0) {
@@ -276,42 +300,82 @@ static void add_smooth(const cost_fit *smooth, int board, cost_number number) {
     }
 }
 
-/* The line of the table, and the bound: the farthest of either half, and a quarter of that again. */
-static void judge(cost_fit *f, int board, cost_number number, cost_quantity q) {
-    static double off[2][ROWS_MAX];
-    int count[2] = {0, 0};
-    int unseen = 0;
-    double farthest = 1.0;
-    const bool shows = getenv("PRICE_SHOW") != NULL;
-    for (int r = 0; r < row_count; r++) {
-        if (takes_part(&rows[r], board, number, q)) {
-            const double by = off_by(f, &rows[r], q);
-            unseen += by == 0.0;
-            if (by > 0.0) {
-                off[rows[r].fitted][count[rows[r].fitted]++] = by;
-                farthest = by > farthest ? by : farthest;
-            }
-            if (shows && by > 1.08) {
-                fprintf(stderr, "    %s %s %s %s: %g, off by %.3f%s\n", quantity_words[q],
-                        rows[r].column[3], rows[r].column[4], rows[r].column[6], rows[r].value[q],
-                        by, rows[r].fitted ? "" : " (test)");
+/* What the sum is made of, where PRICE_PARTS names the setting. */
+static void show_parts(const cost_fit *f, const counted *r, cost_quantity q) {
+    const char *wanted = getenv("PRICE_PARTS");
+    for (int i = 0; i < COST_FEATURES && wanted != NULL && strcmp(wanted, r->column[6]) == 0; i++) {
+        if ((cost_feature_taken[i] >> q & 1U) != 0 && r->feature[i] * f->figure[i] != 0.0) {
+            fprintf(stderr, "        %s: %g times %.4g\n", cost_feature_words[i], r->feature[i],
+                    f->figure[i]);
+        }
+    }
+}
+
+/* How far off the rows of one class are: fitted ones and others. */
+typedef struct judged {
+    double off[2][ROWS_MAX];
+    int count[2];
+    int unseen;
+} judged;
+
+static void tell(const char *board, cost_number number, const char *what, judged *j, double bound) {
+    fprintf(stderr, "| `%s` | %s | %s |", board, cost_number_words[number], what);
+    for (int half = 1; half >= 0; half--) {
+        const int n = j->count[half];
+        qsort(j->off[half], (size_t)n, sizeof j->off[half][0], by_size);
+        fprintf(stderr, " %d |", n);
+        for (int k = 0; k < 3; k++) {
+            const int at = k == 0 ? n / 2 : k == 1 ? n * 9 / 10 : n - 1;
+            if (n > 0) {
+                fprintf(stderr, " %.1f %% |", 100.0 * (j->off[half][at] - 1.0));
+            } else {
+                fprintf(stderr, " |");
             }
         }
     }
-    f->bound = 1.0 + ceil(1.25 * (farthest - 1.0) * 100.0) / 100.0;
-    fprintf(stderr, "| `%s` | %s | %s |", cost_boards[board].name, cost_number_words[number],
-            quantity_words[q]);
-    for (int half = 1; half >= 0; half--) {
-        qsort(off[half], (size_t)count[half], sizeof off[half][0], by_size);
-        if (count[half] == 0) {
-            fprintf(stderr, " 0 | | |");
+    fprintf(stderr, " %d | %.2f |\n", j->unseen, bound);
+}
+
+/* The rows of a class judged, and its line of the table. Returns the bound: the farthest of either half, and a quarter of
+ * that again; where there is no row of the class, 3. */
+static double judge(const cost_fit *f, int board, cost_number number, cost_quantity q,
+                    cost_class class) {
+    static const char *const says[COST_CLASSES] = {
+#define CLASS_SAYS(id, said) said,
+        COST_CLASS_ROWS(CLASS_SAYS)};
+    static judged j;
+    const bool shows = getenv("PRICE_SHOW") != NULL;
+    double bound = 1.0;
+    memset(&j, 0, sizeof j);
+    for (int r = 0; r < row_count; r++) {
+        if (!takes_part(&rows[r], board, number, q) || cost_class_of(rows[r].feature) != class) {
             continue;
         }
-        fprintf(stderr, " %d | %.1f %% | %.1f %% |", count[half],
-                100.0 * (off[half][count[half] / 2] - 1.0),
-                100.0 * (off[half][count[half] - 1] - 1.0));
+        double told;
+        const double by = off_by(f, &rows[r], q, &told);
+        if (by > 0.0) {
+            j.off[rows[r].fitted][j.count[rows[r].fitted]++] = by;
+            while (rows[r].value[q] > cost_most(f, told, bound) ||
+                   rows[r].value[q] < cost_least(f, told, bound)) {
+                bound += 0.005;
+            }
+        } else {
+            j.unseen++;
+        }
+        if (shows) {
+            fprintf(stderr, "    %.3f %s %s %s %s: %g, predicted %.4g%s\n", by, quantity_words[q],
+                    rows[r].column[3], rows[r].column[4], rows[r].column[6], rows[r].value[q], told,
+                    rows[r].fitted ? "" : " (test)");
+            show_parts(f, &rows[r], q);
+        }
     }
-    fprintf(stderr, " %d | %.2f |\n", unseen, f->bound);
+    bound = 1.0 + ceil(1.25 * (bound - 1.0) * 100.0) / 100.0;
+    char what[64];
+    snprintf(what, sizeof what, "%s%s", quantity_words[q], says[class]);
+    if (j.count[0] + j.count[1] + j.unseen > 0) {
+        tell(cost_boards[board].name, number, what, &j, bound);
+    }
+    return j.count[0] + j.count[1] > 0 ? bound : 3.0;
 }
 
 /* --- writing ------------------------------------------------------------------------------------------*/
@@ -320,8 +384,12 @@ static void write_fit(const cost_fit *f, cost_quantity q) {
     static const char *const ids[COST_QUANTITIES] = {
 #define QUANTITY_ID(id, word) "COST_OF_" #id,
         COST_QUANTITY_ROWS(QUANTITY_ID)};
-    printf("             [%s] = {.cases = %d, .bound = %.2f, .largest = %.0f, .figure = {\n",
-           ids[q], f->cases, f->bound, f->largest);
+    printf("             [%s] = {.cases = %d, .slack = %.4g, .bound = {", ids[q], f->cases,
+           f->slack);
+    for (int c = 0; c < COST_CLASSES; c++) {
+        printf("%s%.2f", c > 0 ? ", " : "", f->bound[c]);
+    }
+    printf("}, .largest = %.0f, .figure = {\n", f->largest);
     for (int i = 0; i < COST_FEATURES; i++) {
         if (f->figure[i] == COST_UNSEEN) {
             printf("                 [COST_F_%s] = COST_UNSEEN,\n", cost_feature_words[i]);
@@ -369,7 +437,9 @@ static void write_row(int board, cost_number number) {
             add_smooth(&f, board, number);
         }
         if (f.cases > 0) {
-            judge(&f, board, number, (cost_quantity)q);
+            for (int c = 0; c < COST_CLASSES; c++) {
+                f.bound[c] = judge(&f, board, number, (cost_quantity)q, (cost_class)c);
+            }
             write_fit(&f, (cost_quantity)q);
         }
     }
@@ -383,8 +453,8 @@ static void write_all(void) {
         "static const cost_row cost_rows[] = {\n");
     fprintf(
         stderr,
-        "| board | number | quantity | fitted | median | largest | not fitted | median | largest | unseen | bound |\n"
-        "|---|---|---|---|---|---|---|---|---|---|---|\n");
+        "| board | number | quantity | fitted | median | nine of ten | largest | not fitted | median | nine of ten | largest | unseen | bound |\n"
+        "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
     for (int b = 0; b < cost_board_count; b++) {
         for (int n = 0; n < COST_NUMBERS; n++) {
             write_row(b, (cost_number)n);

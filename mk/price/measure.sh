@@ -14,7 +14,8 @@
 #   commit,compiler,flags,board,scene,number,setting,instructions,instructions_most,cycles,cycles_most,
 #   cycles_obtained,flash_bytes,ram_bytes,stack_bytes
 #
-# Instructions and cycles are those of a step: mean and most of STEPS steps behind the first twenty. Flash and RAM are
+# Instructions and cycles are those of a step: mean and most of STEPS steps behind the first twenty; of a scene with
+# contacts, the middle one of them, which has no event, and the longest of WORST random ones. Flash and RAM are
 # those of the smallest firmware around the scene (boards/programs/size.c), the stack what the steps took of it. What
 # cannot be derived, does not fit or does not run is told on standard error and left out; then the exit status is 1.
 set -eu
@@ -130,6 +131,14 @@ bench() {
         sh -c "$EMULATE counts=$work/counts" >"$work/console" 2>"$work/said" || true
     fi
     awk '
+        function middle(value, n,    i, j, key) {
+            for (i = 1; i < n; i++) {
+                key = value[i]
+                for (j = i - 1; j >= 0 && value[j] > key; j--) { value[j + 1] = value[j] }
+                value[j + 1] = key
+            }
+            return value[int((n - 1) / 2)]
+        }
         { sub(/\r$/, "") }
         $1 == "interval" { counted[$2] = $3 }
         $1 == "cycles" { cycles[$2] = $3; timed = 1 }
@@ -137,18 +146,23 @@ bench() {
         $1 == "failed" { print "measure.sh: " $2 ": " $3 " " $4 " " $5 > "/dev/stderr" }
         $1 == "count" && $3 != "-" {
             sum = most = sum_c = most_c = n = 0
+            delete sorted
+            delete sorted_c
             for (i = $5; i <= $6; i++) {
                 if (!(i in counted)) { next }
                 now = counted[i] - counted[0]
                 sum += now
                 most = now > most ? now : most
+                sorted[n] = now
                 now = timed ? cycles[i] - cycles[0] : 0
                 sum_c += now
                 most_c = now > most_c ? now : most_c
+                sorted_c[n] = now
                 n++
             }
             if (n > 0) {
-                print $2, sum / n, most, timed ? sum_c / n : "", timed ? most_c : "", stack[$2] ? stack[$2] : ""
+                print $2, sum / n, most, (timed ? sum_c / n : ""), (timed ? most_c : ""), (stack[$2] ? stack[$2] : ""), \
+                    middle(sorted, n), (timed ? middle(sorted_c, n) : "")
             }
         }' OFS=, "$work/counts" "$work/console" >>"$work/counted" || true
 }
@@ -180,10 +194,11 @@ for number in $NUMBERS; do
         # shellcheck disable=SC2086
         [ -z "$group" ] || bench $group </dev/null
     done <"$work/groups"
+    for id in $ids; do
+        ! grep -q "${id}_CONTACTS = [1-9]" "$OUT/gen/$id.h" || echo "$id"
+    done >"$work/eventful"
     if [ -n "${PLUGIN:-}" ] && [ "$WORST" -gt 0 ]; then
-        for id in $ids; do
-            ! grep -q "${id}_CONTACTS = [1-9]" "$OUT/gen/$id.h" || echo "$id"
-        done | xargs -n 60 >"$work/groups"
+        xargs -n 60 <"$work/eventful" >"$work/groups"
         while read -r group; do
             # shellcheck disable=SC2086
             [ -z "$group" ] || worst $group </dev/null
@@ -196,8 +211,12 @@ for number in $NUMBERS; do
     awk -v head="$(commit_of_checkout),$(compiler_of "$BOARD_CC"),\"$FLAGS\",$BOARD" -v number="$number" \
         -v obtained="$obtained" -v board="$BOARD" '
         FILENAME ~ /bytes$/ { bytes[$1] = board == "host" ? "," : $2 "," $3; next }
+        FILENAME ~ /eventful$/ { eventful[$1] = 1; next }
         FILENAME ~ /longest$/ { longest[$1] = $2; next }
-        FILENAME ~ /counted$/ { split($0, f, ","); found[f[1]] = f[2] "," (f[1] in longest ? longest[f[1]] : f[3]) "," f[4] "," f[5]; stack[f[1]] = board == "host" ? "" : f[6]; next }
+        FILENAME ~ /counted$/ {
+            split($0, f, ",")
+            if (f[1] in eventful) { f[2] = f[7]; f[4] = f[8] }
+            found[f[1]] = f[2] "," (f[1] in longest ? longest[f[1]] : f[3]) "," f[4] "," f[5]; stack[f[1]] = board == "host" ? "" : f[6]; next }
         ($1 in found) && ($1 in bytes) {
             method = "rk4"
             more = ""
@@ -207,7 +226,7 @@ for number in $NUMBERS; do
                 else { option = $i; sub(/^--/, "", option); more = more (option ~ /=/ ? ":" : "-") option }
             }
             print head "," $2 "," number "," method more "," found[$1] "," (board == "host" ? "" : obtained) "," bytes[$1] "," stack[$1]
-        }' "$work/bytes" "$work/longest" "$work/counted" "$cases" >"$work/rows"
+        }' "$work/bytes" "$work/eventful" "$work/longest" "$work/counted" "$cases" >"$work/rows"
     cat "$work/rows" >>"$csv"
     wanted=$((wanted + $(awk 'NF > 1' "$cases" | wc -l)))
     told=$((told + $(wc -l <"$work/rows")))
