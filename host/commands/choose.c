@@ -41,12 +41,13 @@ static void print_help(FILE *out) {
     const command_usage end = {
         .head = "",
         .tail = "",
-        .why = {[EXIT_ROW_OF(EXIT_DONE)] = "",
-                [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
-                    "nothing fits (it says which limit failed, and what would fit), or there is no\n"
-                    "       reference that could be trusted",
-                [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
-                [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
+        .why = {
+            [EXIT_ROW_OF(EXIT_DONE)] = "",
+            [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
+                "nothing fits (it says which limit failed, and what would fit), or there is no\n"
+                "       reference that could be trusted",
+            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
+            [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
     fputs(head, out);
     pricing_describe(out);
     fputs(tail, out);
@@ -95,8 +96,8 @@ static bool read_bytes(const char *option, const char *text, double *bytes) {
     static const struct {
         const char *word;
         double bytes;
-    } units[] = {{"", 1.0},         {"B", 1.0},         {"K", 1024.0},       {"k", 1024.0},
-                 {"KB", 1024.0},    {"kB", 1024.0},     {"KiB", 1024.0},     {"M", 1048576.0},
+    } units[] = {{"", 1.0},         {"B", 1.0},         {"K", 1024.0},   {"k", 1024.0},
+                 {"KB", 1024.0},    {"kB", 1024.0},     {"KiB", 1024.0}, {"M", 1048576.0},
                  {"MB", 1048576.0}, {"MiB", 1048576.0}, {"bytes", 1.0}};
     const char *rest;
     const double number = decimal_read(text, &rest);
@@ -168,9 +169,7 @@ static void show_progress(void *context, int done, int of) {
 }
 
 /* --error in the unit of the trial's errors. */
-static double allowed_of(const pricing *p) {
-    return p->error_si / trial_error_si(&p->trial, 1.0);
-}
+static double allowed_of(const pricing *p) { return p->error_si / trial_error_si(&p->trial, 1.0); }
 
 static int choose_from(const choose_options *o, pricing *p, choice_wish *w) {
     const table_words words = {o->common.target, p->words, false};

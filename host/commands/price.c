@@ -38,12 +38,13 @@ static void print_help(FILE *out) {
     const command_usage end = {
         .head = "",
         .tail = "",
-        .why = {[EXIT_ROW_OF(EXIT_DONE)] = "",
-                [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
-                    "there is no reference that could be trusted, no setting that keeps to the motion,\n"
-                    "       none with a price, or none within --error",
-                [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
-                [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
+        .why = {
+            [EXIT_ROW_OF(EXIT_DONE)] = "",
+            [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
+                "there is no reference that could be trusted, no setting that keeps to the motion,\n"
+                "       none with a price, or none within --error",
+            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
+            [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
     fputs(head, out);
     pricing_describe(out);
     fputs(tail, out);

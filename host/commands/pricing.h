@@ -21,7 +21,9 @@
       "places, the ends among them: duty=0.2..0.8, or at five: duty=0.2..0.8:5.\n" \
       "Repeatable: all combinations")
 #define PRICING_OPTION_ID(id, word, value, text) id,
-typedef enum pricing_option { PRICING_OPTION_ROWS(PRICING_OPTION_ID) PRICING_OPTIONS } pricing_option;
+typedef enum pricing_option {
+    PRICING_OPTION_ROWS(PRICING_OPTION_ID) PRICING_OPTIONS
+} pricing_option;
 #undef PRICING_OPTION_ID
 
 typedef struct pricing_options {

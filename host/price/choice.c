@@ -136,8 +136,7 @@ static void climb(trial *t, const choice_wish *w, choice *c, const setting *s, c
         if (!row.result.ran) {
             return;
         }
-        row.fails[CHOICE_ERROR] =
-            !row.result.usable || row.result.error * CHOICE_MARGIN > w->error;
+        row.fails[CHOICE_ERROR] = !row.result.usable || row.result.error * CHOICE_MARGIN > w->error;
         enter(c, &row, has_before ? &before : NULL);
         if (!row.fails[CHOICE_ERROR]) {
             count_failures(c, &row);
@@ -201,7 +200,7 @@ double choice_lower_rate(trial *t, const choice_wish *w, const choice *c, choice
     }
     row->pace = (deviation_pace){1, times / w->periods};
     row->result = trial_run(t, &row->setting, row->pace);
-    const bool keeps = row->result.ran && row->result.usable &&
-                       row->result.error * CHOICE_MARGIN <= w->error;
+    const bool keeps =
+        row->result.ran && row->result.usable && row->result.error * CHOICE_MARGIN <= w->error;
     return keeps ? w->rate_Hz / slower : 0.0;
 }

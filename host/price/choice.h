@@ -19,9 +19,9 @@ typedef enum choice_limit { CHOICE_LIMIT_ROWS(CHOICE_LIMIT_ID) CHOICE_LIMITS } c
 extern const char *const choice_limit_words[CHOICE_LIMITS];
 
 typedef struct choice_wish {
-    double error;   /* in the unit of the trial's errors */
-    double rate_Hz; /* of calls, each of which takes whole steps; 0: any step will do */
-    uint64_t periods; /* of 1/rate in a record's spacing; 1 without a rate */
+    double error;       /* in the unit of the trial's errors */
+    double rate_Hz;     /* of calls, each of which takes whole steps; 0: any step will do */
+    uint64_t periods;   /* of 1/rate in a record's spacing; 1 without a rate */
     double clock_Hz;    /* 0: not known, and no limit */
     double flash_bytes; /* 0: no limit */
     double ram_bytes;   /* with the stack; 0: no limit */
@@ -37,7 +37,8 @@ typedef struct choice_row {
     uint64_t substeps; /* in a period; 0 without a rate */
     trial_result result;
     cost cost;
-    double worst;     /* what it is judged by: cycles a second of the longest step, or instructions, the most promised */
+    double
+        worst; /* what it is judged by: cycles a second of the longest step, or instructions, the most promised */
     double load;      /* of the clock, by the best one number; 0: not known */
     double load_most; /* and the most promised */
     bool fails[CHOICE_LIMITS];
@@ -61,7 +62,8 @@ typedef struct choice {
     int settings;
     int unpriced;
     const char *why; /* of one without a price */
-    int failed[CHOICE_LIMITS]; /* settings that fail by this at the coarsest step that keeps the error, or by the error */
+    int failed
+        [CHOICE_LIMITS]; /* settings that fail by this at the coarsest step that keeps the error, or by the error */
     int broken_off;
 } choice;
 

@@ -45,8 +45,7 @@ deviation deviation_measure(const reference *r, const image *im, const engine_ki
         }
     }
     uint64_t most;
-    d.operations =
-        (double)kind->evaluations(run, &most) * (double)im->list[IMAGE_STEP]->count;
+    d.operations = (double)kind->evaluations(run, &most) * (double)im->list[IMAGE_STEP]->count;
     d.usable = good;
     kind->stop(run);
     records_close(now);

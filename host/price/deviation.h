@@ -13,7 +13,7 @@ typedef struct deviation_pace {
 
 /* What of it is looked at. */
 typedef struct deviation_of_what {
-    int column;     /* of the reference, in the column's unit; or -1: each that counts, as a part of its largest value */
+    int column; /* of the reference, in the column's unit; or -1: each that counts, as a part of its largest value */
     double give_up; /* a run that is off by more is of no use: it is not run on */
 } deviation_of_what;
 
@@ -21,7 +21,8 @@ typedef struct deviation {
     bool usable;  /* it came to the end without being off by more than give_up */
     double error; /* the largest of all records; where it is not usable, that of those it came to */
     int column;   /* where */
-    double known; /* and how well the reference knows that column there: errors near it are no more than bounds */
+    double
+        known; /* and how well the reference knows that column there: errors near it are no more than bounds */
     double operations; /* evaluated: what it took */
 } deviation;
 

@@ -50,10 +50,9 @@ void figure_legend(FILE *out, const cost *c) {
         COST_BASIS_ROWS(COST_BASIS_SAYS)
 #undef COST_BASIS_SAYS
     };
-    const cost_figure *const figures[] = {&c->instructions,  &c->instructions_worst,
-                                          &c->cycles,        &c->cycles_worst,
-                                          &c->flash_bytes,   &c->ram_bytes,
-                                          &c->stack_bytes,   &c->state_bytes};
+    const cost_figure *const figures[] = {&c->instructions, &c->instructions_worst, &c->cycles,
+                                          &c->cycles_worst, &c->flash_bytes,        &c->ram_bytes,
+                                          &c->stack_bytes,  &c->state_bytes};
     for (int basis = COST_EXACT; basis < COST_BASES; basis++) {
         bool there = false;
         for (size_t i = 0; i < sizeof figures / sizeof figures[0]; i++) {
@@ -91,8 +90,7 @@ void figure_reference(FILE *out, const trial *t) {
             reference_agreement(r));
     fprintf(out, "  horizon     %.9g s", trial_horizon_s(t));
     if (t->records < t->wish.records) {
-        fprintf(out, " of %.9g s: %s\n",
-                ratio_times((uint64_t)t->wish.records, t->wish.spacing),
+        fprintf(out, " of %.9g s: %s\n", ratio_times((uint64_t)t->wish.records, t->wish.spacing),
                 r->why != NULL ? r->why : "the reference ends");
     } else {
         fprintf(out, ", %d records\n", t->records);

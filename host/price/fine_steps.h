@@ -3,7 +3,7 @@
 #ifndef PRICE_FINE_STEPS_H
 #define PRICE_FINE_STEPS_H
 
-#include "reference_run.h"
+#include "reference_wish.h"
 
 /* The steps of a record's spacing that are fine enough for the scene and within the operations, for the finer of
  * the two computations; even. */

@@ -70,8 +70,7 @@ static void measure(reference *r, const computed *other, int until, int column) 
     c->largest = 0.0L;
     c->off = 0.0L;
     for (int i = 0; i <= until; i++) {
-        const long double size =
-            long_size(r->row[(size_t)i * (size_t)r->columns + (size_t)column]);
+        const long double size = long_size(r->row[(size_t)i * (size_t)r->columns + (size_t)column]);
         const long double off = row_off(r, other, i, column);
         c->largest = size > c->largest ? size : c->largest;
         c->off = off > c->off ? off : c->off;
@@ -109,11 +108,10 @@ static double time_of(const reference_wish *w, int record) {
 
 static void say_extrapolated(const reference_wish *w, reference *r, extrapolation_status status,
                              int reached) {
-    r->how =
-        room_words("extrapolation of order %d in long double (%d binary digits), tolerance %.2g; "
-                   "held against order %d, %.2g",
-                   2 * fine.columns, LDBL_MANT_DIG, fine.tolerance, 2 * coarse.columns,
-                   coarse.tolerance);
+    r->how = room_words(
+        "extrapolation of order %d in long double (%d binary digits), tolerance %.2g; "
+        "held against order %d, %.2g",
+        2 * fine.columns, LDBL_MANT_DIG, fine.tolerance, 2 * coarse.columns, coarse.tolerance);
     if (r->records < reached) {
         r->why = room_words(
             "the motion carries the two references apart: by %.0e of a component's largest value "
@@ -168,9 +166,10 @@ static reference *by_fine_steps(const reference_wish *w) {
     r->limit = LIMIT_FINE_STEPS;
     judge(r, &other);
     free(other.row);
-    r->how = room_words("rk4 in double with compensated sums by steps of %.6g s; held against twice "
-                        "that step: a reference that shares the core's step and events",
-                        time_of(w, 1) / (double)steps);
+    r->how =
+        room_words("rk4 in double with compensated sums by steps of %.6g s; held against twice "
+                   "that step: a reference that shares the core's step and events",
+                   time_of(w, 1) / (double)steps);
     if (r->records < reached) {
         r->why = room_words(
             "the two references differ by more than %.0e of a component's largest value behind "
@@ -250,9 +249,8 @@ int reference_find(const reference *r, const char *name, bool *noisy) {
         const record_column *c = &r->shape->column[k];
         if (strlen(c->name) == length && strncmp(c->name, name, length) == 0 &&
             c->primes == primes && strspn(name + length, "'") == (size_t)primes) {
-            *noisy = c->unknown < 0 &&
-                     long_list_asks(im->list[IMAGE_OBSERVE], k - (r->columns - im->own_outputs),
-                                    OP_NOISE);
+            *noisy = c->unknown < 0 && long_list_asks(im->list[IMAGE_OBSERVE],
+                                                      k - (r->columns - im->own_outputs), OP_NOISE);
             return k;
         }
     }

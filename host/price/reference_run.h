@@ -7,17 +7,7 @@
 #ifndef PRICE_REFERENCE_RUN_H
 #define PRICE_REFERENCE_RUN_H
 
-#include <signal.h>
-
-#include "host/run/records.h"
-
-typedef struct reference_wish {
-    const image *image;  /* whatever its step and end are */
-    whole_ratio spacing; /* of the records, s */
-    int records;         /* behind the start */
-    double operations;   /* most that each of the two computations may evaluate */
-    const volatile sig_atomic_t *stop; /* may be NULL */
-} reference_wish;
+#include "reference_wish.h"
 
 typedef enum reference_kind {
     REFERENCE_NONE, /* nothing that could be trusted: `why` */
@@ -27,7 +17,8 @@ typedef enum reference_kind {
 
 /* What a column's numbers are. */
 typedef struct reference_column {
-    bool counts; /* among the worst of all components: a value or rate that the reference knows at all */
+    bool
+        counts; /* among the worst of all components: a value or rate that the reference knows at all */
     long double largest; /* size, over the records */
     long double off;     /* the most that the two computations differ by */
 } reference_column;
@@ -40,9 +31,9 @@ typedef struct reference {
     int records;              /* and those that can be trusted */
     long double *row;         /* [wanted + 1][columns] in the units of the columns */
     reference_column *column; /* [columns] */
-    double limit;             /* a record is trusted while no column differs by more of its largest value */
-    char *how;                /* the two settings, in words */
-    char *why; /* what ends the trust before the end, in words; or there is none at all; "" */
+    double limit; /* a record is trusted while no column differs by more of its largest value */
+    char *how;    /* the two settings, in words */
+    char *why;    /* what ends the trust before the end, in words; or there is none at all; "" */
     bool broken;  /* it ends early for want of small steps, not because the motion runs apart */
     bool stopped; /* by *stop: it is of no use */
 } reference;

@@ -20,8 +20,8 @@ enum { NUMBERS = sizeof numbers / sizeof numbers[0] };
 
 static int number_of(const setting *s) {
     int i = 0;
-    while (i < NUMBERS - 1 && (numbers[i].kind != s->number ||
-                               numbers[i].compensated != s->image.compensated)) {
+    while (i < NUMBERS - 1 &&
+           (numbers[i].kind != s->number || numbers[i].compensated != s->image.compensated)) {
         i++;
     }
     return i;

@@ -24,15 +24,15 @@ typedef struct table_row {
 typedef struct table {
     table_row *row; /* [count] by price, then by error */
     int count;
-    int settings; /* of its own, without steps */
-    int unpriced; /* of them, those that nobody knows a price of: */
+    int settings;    /* of its own, without steps */
+    int unpriced;    /* of them, those that nobody knows a price of: */
     const char *why; /* of one of them, or "" */
-    int coarse; /* trials left out since they erred by more than the values themselves */
-    int broken_off; /* settings whose finer steps would have taken too long */
+    int coarse;      /* trials left out since they erred by more than the values themselves */
+    int broken_off;  /* settings whose finer steps would have taken too long */
 } table;
 
 typedef struct table_wish {
-    double operations; /* most that all trials may evaluate */
+    double operations;                                 /* most that all trials may evaluate */
     void (*progress)(void *context, int done, int of); /* may be NULL */
     void *context;
 } table_wish;

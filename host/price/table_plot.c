@@ -82,9 +82,8 @@ bool table_plot(const char *file, const trial *t, const table *made) {
     char *x = room_words("%s a simulated second", cycles ? "cycles" : "instructions");
     char *y = t->what.column < 0
                   ? room_words("error, part of the largest value, to %.9g s", trial_horizon_s(t))
-                  : room_words("error of %s [%s] to %.9g s",
-                               trial_column(t, t->what.column, text), trial_unit(t),
-                               trial_horizon_s(t));
+                  : room_words("error of %s [%s] to %.9g s", trial_column(t, t->what.column, text),
+                               trial_unit(t), trial_horizon_s(t));
     const bool drawn = scatter_draw(file, title, x, y, p->series, p->count);
     for (int i = 0; i < p->count; i++) {
         free(p->x[i]);

@@ -74,13 +74,14 @@ static void print_notes(FILE *out, const trial *t, const table *made, const tabl
     fputc('\n', out);
     figure_legend(out, &made->row[0].cost);
     const table_row *first = &made->row[0];
-    fprintf(out, "  %s a simulated second: %s\n", first->price.cycles ? "cycles" : "instructions",
-            figure_words(first->price.cycles ? &first->cost.cycles : &first->cost.instructions,
-                         text));
-    fprintf(out,
-            "\n%d settings, %d rows, %d of them on the front: nothing is as cheap and errs less%s\n",
-            made->settings - made->unpriced, made->count, front,
-            words->all ? " (*)" : "; --all shows the others");
+    fprintf(
+        out, "  %s a simulated second: %s\n", first->price.cycles ? "cycles" : "instructions",
+        figure_words(first->price.cycles ? &first->cost.cycles : &first->cost.instructions, text));
+    fprintf(
+        out,
+        "\n%d settings, %d rows, %d of them on the front: nothing is as cheap and errs less%s\n",
+        made->settings - made->unpriced, made->count, front,
+        words->all ? " (*)" : "; --all shows the others");
     if (made->unpriced > 0) {
         fprintf(out, "%d settings without a price here: %s\n", made->unpriced, made->why);
     }
@@ -96,8 +97,7 @@ static void print_notes(FILE *out, const trial *t, const table *made, const tabl
         if (made->row[i].on_front) {
             const table_row *row = &made->row[i];
             char *run = table_run_line(t, &row->setting, row->pace, row->result.point, words);
-            char *derive =
-                table_derive_line(t, &row->setting, row->pace, row->result.point, words);
+            char *derive = table_derive_line(t, &row->setting, row->pace, row->result.point, words);
             fprintf(out, "the last row of the front again, and as code:\n  %s\n  %s\n", run,
                     derive);
             free(run);
@@ -112,9 +112,10 @@ void table_print(FILE *out, const trial *t, const table *made, const table_words
     char name[TRIAL_NAME];
     fprintf(out, "%s on %s (%s)\n", im->name, t->wish.board->name, t->wish.board->core);
     if (t->what.column < 0) {
-        fputs("  error       measured: the largest deviation from the reference over all records, of\n"
-              "              each coordinate and rate as a part of its largest value, of the worst\n",
-              out);
+        fputs(
+            "  error       measured: the largest deviation from the reference over all records, of\n"
+            "              each coordinate and rate as a part of its largest value, of the worst\n",
+            out);
     } else {
         fprintf(out,
                 "  error       measured: the largest deviation of %s from the reference over all "

@@ -50,8 +50,7 @@ double trial_horizon_s(const trial *t) {
 }
 
 const char *trial_unit(const trial *t) {
-    return t->what.column < 0 ? ""
-                              : t->reference[0]->shape->column[t->what.column].unit->shown;
+    return t->what.column < 0 ? "" : t->reference[0]->shape->column[t->what.column].unit->shown;
 }
 
 double trial_error_si(const trial *t, double error) {

@@ -33,20 +33,22 @@ typedef struct trial {
     int worst;             /* the point whose reference ends first, or agrees least */
     int records;           /* behind the start, that all references are trusted for */
     deviation_of_what what;
-    bool reliable;   /* false: some reference is REFERENCE_NONE */
+    bool reliable; /* false: some reference is REFERENCE_NONE */
     bool stopped;
     double operations; /* evaluated in trials so far */
 } trial;
 
 /* How one setting does at one step. */
 typedef struct trial_result {
-    bool ran;     /* false: stopped, or there is no image */
-    bool usable;  /* at all points it came to the end, and was not off by more than the values themselves */
-    double error; /* the worst, in the unit of `of` or as a part of the largest value; what the reference does not know
+    bool ran; /* false: stopped, or there is no image */
+    bool
+        usable; /* at all points it came to the end, and was not off by more than the values themselves */
+    double
+        error; /* the worst, in the unit of `of` or as a part of the largest value; what the reference does not know
                    * of it counts as error */
-    bool bound;   /* it is no more than a bound: the reference does not know better */
-    int point;    /* where it is the worst */
-    int column;   /* which component */
+    bool bound; /* it is no more than a bound: the reference does not know better */
+    int point;  /* where it is the worst */
+    int column; /* which component */
 } trial_result;
 
 /* Computes the references. False, told on standard error, when `of` is nothing of the scene, or an image is missing. */
