@@ -197,7 +197,7 @@ static int choose_from(const choose_options *o, pricing *p, choice_wish *w) {
 }
 
 static int choose_scene(const choose_options *o, pricing *p) {
-    choice_wish w = {.operations = OPERATIONS};
+    choice_wish w = {.operations = p->effort * OPERATIONS};
     whole_ratio spacing;
     if (!read_limits(o, p, &w) || !space_records(p, &w, &spacing)) {
         return EXIT_BAD_INPUT;

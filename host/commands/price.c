@@ -165,7 +165,7 @@ static int price_scene(const price_options *o, pricing *p) {
     int code = pricing_begin(p, pricing_spacing(p->until_s, RECORDS), &pricing_interrupted);
     table *made = NULL;
     if (code == EXIT_DONE && p->trial.reliable && !p->trial.stopped) {
-        const table_wish wish = {OPERATIONS, progress ? show_progress : NULL, NULL};
+        const table_wish wish = {p->effort * OPERATIONS, progress ? show_progress : NULL, NULL};
         made = table_new(&p->trial, &wish);
     }
     if (progress) {

@@ -19,7 +19,9 @@
     X(PRICING_VARY, "--vary", "RANGE", \
       "the worst over a range of a parameter, an input or a start value, at three\n" \
       "places, the ends among them: duty=0.2..0.8, or at five: duty=0.2..0.8:5.\n" \
-      "Repeatable: all combinations")
+      "Repeatable: all combinations") \
+    X(PRICING_EFFORT, "--effort", "1", \
+      "how long it may take: 0.1 leaves out steps that take more than a tenth as long")
 #define PRICING_OPTION_ID(id, word, value, text) id,
 typedef enum pricing_option {
     PRICING_OPTION_ROWS(PRICING_OPTION_ID) PRICING_OPTIONS
@@ -64,6 +66,7 @@ typedef struct pricing {
     double error_si; /* what --error allows */
     double until_s;  /* the horizon, or the scene's end */
     double step_s;   /* the scene's own */
+    double effort;
     char *words;     /* its changes, as they are typed */
     trial trial;
     bool has_trial;

@@ -65,6 +65,18 @@ static bool read_error(pricing *p) {
     return text == NULL || pricing_quantity(p, "--error", text, wanted, &p->error_si);
 }
 
+static bool read_effort(pricing *p) {
+    const char *text = p->options->value[PRICING_EFFORT];
+    const char *end = "";
+    p->effort = text == NULL ? 1.0 : decimal_read(text, &end);
+    if (end == text || *end != '\0' || !(p->effort >= 1e-4 && p->effort <= 1e4)) {
+        fprintf(stderr, "whirl %s: error: --effort takes a number from 1e-4 to 1e4, not %s\n",
+                p->options->command, text);
+        return false;
+    }
+    return true;
+}
+
 static bool read_ranges(pricing *p) {
     const pricing_options *o = p->options;
     p->grid.command = o->command;
@@ -176,7 +188,7 @@ int pricing_open(pricing *p, const pricing_options *o) {
     }
     p->changes = options_overrides(&o->common.change);
     p->words = words_of(&p->changes);
-    if (!find_board(p) || !read_error(p) || !read_ranges(p)) {
+    if (!find_board(p) || !read_effort(p) || !read_error(p) || !read_ranges(p)) {
         return EXIT_BAD_INPUT;
     }
     p->scene = pricing_scene_new(p->of, p->in, &p->changes, &p->grid, p->from.errors);
