@@ -1,7 +1,7 @@
 # Whirl: energies in, firmware out. `make` lists the targets; the machinery is in mk/.
 #
 # V=1 shows the commands. Nothing is written outside build/, but for `make figures-docs`, `make price-effects`,
-# `make bench-boards`, `make bench-peers` and `make bench-links`, which renew their part of docs/, and
+# `make bench-boards`, `make bench-peers`, `make bench-links` and `make price-fit`, which renew their part of docs/, and
 # `make too-large`, which lists what does not fit into a board.
 
 .DEFAULT_GOAL := help
@@ -160,6 +160,11 @@ bench-links: ## pendulums of 1 to 12 links: deriving, operations, a step, bytes;
 price-effects: ## what each effect costs: instructions, bytes, error; into docs/effects.md (minutes)
 	@CC="$(CC)" mk/setup/deps.sh host firmware bench
 	@$(MAKE) price-effects-now
+
+.PHONY: price-rows
+price-rows: ## steps of hundreds of scenes counted on every board: build/cost/rows.csv, for price-fit (an hour)
+	@CC="$(CC)" mk/setup/deps.sh host firmware boards quality bench
+	@$(MAKE) price-rows-now
 
 .PHONY: worst-step
 worst-step: ## the most instructions of a step with events, over a million random steps a scene (minutes)

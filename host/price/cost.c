@@ -94,6 +94,9 @@ static double bound_at(const cost_fit *fit, const double *feature, double value)
     return value > fit->largest ? 2.0 * bound - 1.0 : bound;
 }
 
+/* A promise within more than this factor is none. */
+#define COST_BOUND_MOST 4.0
+
 /* One quantity, or nothing of it, and why in *why. */
 static cost_figure predicted(const cost_row *row, cost_quantity quantity, cost_basis of,
                              const double *feature, const char **why) {
@@ -106,6 +109,10 @@ static cost_figure predicted(const cost_row *row, cost_quantity quantity, cost_b
         return (cost_figure){0};
     }
     const double bound = bound_at(fit, feature, value);
+    if (bound > COST_BOUND_MOST) {
+        *why = "it depends on more than the image tells: measure it";
+        return (cost_figure){0};
+    }
     return (cost_figure){.basis = COST_PREDICTED,
                          .of = of,
                          .value = value,
@@ -164,6 +171,7 @@ static void price_contacts(const cost_row *row, double *feature, cost *c) {
     const cost_figure cycles = c->cycles;
     feature[COST_F_SMOOTH] = smooth;
     feature[COST_F_EVENT_SMOOTH] *= smooth;
+    feature[COST_F_EVENT_EVALUATIONS] *= smooth;
     c->instructions = predicted(row, COST_OF_CONTACT_MEAN, COST_MEASURED, feature, &c->why);
     c->instructions_worst = predicted(row, COST_OF_CONTACT_WORST, COST_MEASURED, feature, &c->why);
     c->cycles = (cost_figure){0};
@@ -208,8 +216,7 @@ cost cost_of(const image *im, const cost_board *board, cost_number number) {
     if (im->contacts > 0) {
         c.flash_bytes = c.ram_bytes = c.stack_bytes = (cost_figure){0};
         price_contacts(row, feature, &c);
-        c.why =
-            "bytes of a scene with contacts must be measured, and its worst step is known roughly";
+        c.why = "what events take depends on the motion: a scene with contacts must be measured";
     }
     return c;
 }

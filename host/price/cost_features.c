@@ -8,7 +8,7 @@
 #include "host/image/turned.h"
 
 /* As host/emit/c_list.c has it: longer lists are functions of their own. */
-enum { INLINED_MOST = 150 };
+enum { INLINED_MOST = 150, LONG_LEAST = 100 };
 
 #define COST_WORD(id, taken, count) #id,
 const char *const cost_feature_words[COST_FEATURES] = {COST_FEATURE_ROWS(COST_WORD)};
@@ -193,6 +193,9 @@ cost_counts cost_counts_of(const image *im, bool fpu, cost_number number) {
     c.linears = c.second ? im->coordinates - im->angles : im->reals;
     c.called = tape_operations(im->list[IMAGE_STEP]) > INLINED_MOST || im->contacts > 0 || !fpu;
     add_step(im, &c);
+    const bool unrolls_less = im->settings.compensated || c.step.operations >= LONG_LEAST;
+    c.looped = unrolls_less || im->ledger.kept || im->contacts > 0;
+    c.tabled = unrolls_less && c.stages > 2;
     c.copies = c.called ? 1 : c.stages;
     c.lookups = c.turned ? c.step.pairs : c.stages * c.step.pairs;
     c.state_words = state_words(im);

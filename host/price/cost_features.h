@@ -77,6 +77,8 @@ typedef struct cost_counts {
     bool second;
     bool turned;
     bool compensated;
+    bool looped; /* the step is none that old compilers unroll (WH_SMALL_STEP of core/unroll.h) */
+    bool tabled; /* and looks its method up in a table */
     bool called; /* the list is a function of its own */
     int copies;  /* of the list in the code */
     int lookups; /* pairs looked up in a step */
@@ -101,6 +103,10 @@ cost_counts cost_counts_of(const image *im, bool fpu, cost_number number);
     X(ONE, COST_TIME | COST_CODE | COST_DATA | COST_DEPTH | COST_EVENTS, 1) \
     X(LATER_STAGES, COST_TIME | COST_CODE, c->stages - 1) \
     X(MANY_STAGES, COST_TIME | COST_CODE, c->stages > 1) \
+    X(LOOPED, COST_TIME | COST_CODE | COST_DEPTH, c->looped) \
+    X(TABLEAU, COST_CODE | COST_DATA, c->tabled) \
+    X(LOOPED_STAGES, COST_TIME, c->looped ? c->stages * c->components : 0) \
+    X(LOOPED_PAIRS, COST_TIME | COST_DEPTH, c->looped ? c->stages * c->step.pairs : 0) \
     X(MANY_STAGES_MOVING, COST_TIME | COST_CODE, c->stages > 1 ? c->moving : 0) \
     X(ANGLES, COST_TIME | COST_CODE, c->angles) \
     X(LINEARS, COST_TIME | COST_CODE, c->linears) \
@@ -199,6 +205,8 @@ cost_counts cost_counts_of(const image *im, bool fpu, cost_number number);
     X(EVENT_COMPONENTS, COST_EVENTS, c->components * c->im->contacts) \
     X(EVENT_PAIRS, COST_EVENTS, c->im->forced * c->im->forced) \
     X(EVENT_OPERATIONS, COST_EVENTS, c->events.operations) \
+    X(EVENT_EVALUATIONS, COST_EVENTS, c->evaluations * c->smooth / c->stages) \
+    X(EVENT_STOPS, COST_EVENTS, core_stops(c->im) * core_stops(c->im)) \
     X(EVENT_SMOOTH, COST_EVENTS, c->im->contacts * c->smooth)
 /* clang-format on */
 

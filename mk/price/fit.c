@@ -13,175 +13,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/base/hashing.h"
-#include "host/commands/load.h"
-#include "host/commands/options.h"
-#include "host/price/cost_row.h"
+#include "counted.h"
 
-enum { ROWS_MAX = 20000, COLUMNS = 15, WORDS_MAX = 16, SWEEPS = 3000, ROUNDS = 6 };
+enum { SWEEPS = 1500, ROUNDS = 6, TESTED_LEAST = 8 };
 /* Beyond this a row counts less. */
 #define FAR_OFF 0.04
 /* Of the smallest figure that is fitted: what a compiler makes of the smallest steps is half chance. */
 #define SLACK 0.25
-
-typedef struct counted {
-    char line[1024];
-    char *column[COLUMNS];
-    int board; /* of cost_boards */
-    cost_number number;
-    bool fitted; /* else it is for testing */
-    bool contacts;
-    bool derived;
-    cost predicted;
-    double feature[COST_FEATURES];
-    double value[COST_QUANTITIES]; /* 0: not counted */
-    wh_method method;
-} counted;
-
-static counted *rows;
-static int row_count;
-
-/* --- reading -----------------------------------------------------------------------------------------*/
-
-static bool cut(counted *r) {
-    int count = 0;
-    bool quoted = false;
-    r->column[count++] = r->line;
-    for (char *at = r->line; *at != '\0'; at++) {
-        quoted = quoted != (*at == '"');
-        if (*at == '\n') {
-            *at = '\0';
-            break;
-        }
-        if (*at == ',' && !quoted) {
-            *at = '\0';
-            if (count < COLUMNS) {
-                r->column[count] = at + 1;
-            }
-            count++;
-        }
-    }
-    return count == COLUMNS;
-}
-
-/* "rk38-compensated-lookup" as words of a command line; returns how many. */
-static int setting_words(char *setting, char *words[WORDS_MAX]) {
-    static char of_angles[] = "--angles";
-    static char of_method[] = "--method";
-    static char options[WORDS_MAX][64];
-    int count = 0;
-    size_t longest = 0;
-    for (int m = 0; m < WH_METHODS; m++) {
-        const size_t length = strlen(wh_methods[m].word);
-        if (strncmp(setting, wh_methods[m].word, length) == 0 && length > longest &&
-            (setting[length] == '-' || setting[length] == '\0')) {
-            longest = length;
-        }
-    }
-    words[count++] = of_method;
-    snprintf(options[count], sizeof options[count], "%.*s", (int)longest, setting);
-    words[count] = options[count];
-    count++;
-    for (char *word = strtok(setting + longest, "-"); word != NULL; word = strtok(NULL, "-")) {
-        bool is_angles = false;
-        for (int a = 0; a < IMAGE_ANGLES; a++) {
-            is_angles = is_angles || strcmp(word, image_angles_words[a]) == 0;
-        }
-        if (is_angles) {
-            words[count++] = of_angles;
-        }
-        snprintf(options[count], sizeof options[count], "%s%s", is_angles ? "" : "--", word);
-        words[count] = options[count];
-        count++;
-    }
-    return count;
-}
-
-/* The scene once more, with its setting, and what is counted in it. */
-static bool derive(counted *r) {
-    char setting[128];
-    char *words[WORDS_MAX];
-    source_model from;
-    loaded made = {0};
-    const mechanism *of;
-    const scene *in;
-    common_options options = options_defaults();
-    bool bad = false;
-    snprintf(setting, sizeof setting, "%s", r->column[6]);
-    const int count = setting_words(setting, words);
-    for (int at = 0; at < count && !bad;) {
-        bad = !options_take("price_fit", OPTIONS_ENGINE, count, words, &at, &options, &bad) || bad;
-    }
-    bool done = !bad && source_open(&from, r->column[4]) == EXIT_DONE;
-    if (done) {
-        const load_wish wish = {
-            .settings = options.integration, .use = IMAGE_TO_WRITE, .conserve = true};
-        const overrides changes = options_overrides(&options.change);
-        done = source_pick(&from, true, &of, &in) == EXIT_DONE &&
-               load(&made, &from, of, in, &changes, &wish) == EXIT_DONE;
-        if (done) {
-            const cost_board *board = &cost_boards[r->board];
-            cost_counts c = cost_counts_of(made.image, board->fpu, r->number);
-            c.smooth = 1.0;
-            cost_features(&c, r->feature);
-            r->contacts = made.image->contacts > 0;
-            r->method = made.image->settings.method;
-            r->predicted = cost_of(made.image, board, r->number);
-            unload(&made);
-        }
-        source_close(&from);
-    }
-    options_forget(&options);
-    return done;
-}
-
-/* Are there random steps behind the most of its scenes with contacts (measure.sh)? On emulators under the plugin. */
-static bool has_worst(const counted *r) {
-    return cost_boards[r->board].cycles != COST_SIMULATED &&
-           strcmp(cost_boards[r->board].name, "host") != 0;
-}
-
-static void read_rows(const char *path) {
-    FILE *in = fopen(path, "r");
-    char line[1024];
-    if (in == NULL) {
-        fprintf(stderr, "price_fit: error: %s cannot be read\n", path);
-        exit(2);
-    }
-    while (fgets(line, sizeof line, in) != NULL && row_count < ROWS_MAX) {
-        counted *r = &rows[row_count];
-        memset(r, 0, sizeof *r);
-        memcpy(r->line, line, sizeof line);
-        if (!cut(r) || strcmp(r->column[0], "commit") == 0) {
-            continue;
-        }
-        const cost_board *board = cost_board_named(r->column[3]);
-        r->board = board != NULL ? (int)(board - cost_boards) : -1;
-        r->number = strcmp(r->column[5], "double") == 0 ? COST_DOUBLE : COST_FLOAT;
-        r->fitted = hash_text(r->column[4], strlen(r->column[4])) / 16 % 2 == 0;
-        if (strlen(r->column[4]) > 6 &&
-            strcmp(r->column[4] + strlen(r->column[4]) - 6, ".whirl") == 0) {
-            continue; /* a mechanism without a scene stands still: zeros are no operands to take a mean of */
-        }
-        if (r->board < 0 || !derive(r)) {
-            fprintf(stderr, "price_fit: left out: %s %s\n", r->column[4], r->column[6]);
-            continue;
-        }
-        const double instructions = strtod(r->column[7], NULL);
-        r->value[r->contacts ? COST_OF_CONTACT_MEAN : COST_OF_INSTRUCTIONS] = instructions;
-        if (r->contacts && has_worst(r)) {
-            r->value[COST_OF_CONTACT_WORST] = strtod(r->column[8], NULL);
-        }
-        if (!r->contacts) {
-            r->value[COST_OF_CYCLES] = strtod(r->column[9], NULL);
-            r->value[COST_OF_FLASH] = strtod(r->column[12], NULL);
-            r->value[COST_OF_RAM] = strtod(r->column[13], NULL);
-            r->value[COST_OF_STACK] = strtod(r->column[14], NULL);
-        }
-        row_count++;
-    }
-    fclose(in);
-}
+/* How much a row's information counts of the figures of a board that is alike. */
+#define LIKENESS 0.03
 
 /* --- fitting ------------------------------------------------------------------------------------------*/
 
@@ -235,31 +75,80 @@ static double sum_of(const cost_fit *f, const counted *r, cost_quantity q) {
     return cost_fit_at(f, feature, &unseen);
 }
 
-/* Fitted again and again, each time with less weight for what was far off (Cauchy's weights): a few scenes of which
- * a compiler makes something else must not bend the figures of all others. */
-static cost_fit fit(int board, cost_number number, cost_quantity q) {
+/* A board whose figures, times a factor, are where another's begin: it has more rows, and its compiler and processor
+ * are alike. What rows tell is stronger. Both are counted in float. */
+static const char *likeness(int board) {
+    const char *like = cost_boards[board].fpu ? "mps2-an386" : "mps2-an385";
+    const bool is_it =
+        strcmp(cost_boards[board].name, like) == 0 || strcmp(cost_boards[board].name, "host") == 0;
+    return is_it ? NULL : like;
+}
+
+/* Its figures times what makes the middle one of our rows right. */
+static void scale_prior(const cost_fit *of, int board, cost_number number, cost_quantity q,
+                        double *prior) {
+    static double ratio[ROWS_MAX];
+    int count = 0;
+    for (int r = 0; r < row_count; r++) {
+        if (takes_part(&rows[r], board, number, q) && rows[r].fitted) {
+            const double sum = sum_of(of, &rows[r], q);
+            if (sum > 0.0) {
+                ratio[count++] = rows[r].value[q] / sum;
+            }
+        }
+    }
+    qsort(ratio, (size_t)count, sizeof ratio[0], by_size);
+    for (int i = 0; i < COST_FEATURES; i++) {
+        prior[i] = count > 0 && of->figure[i] > 0.0 ? ratio[count / 2] * of->figure[i] : 0.0;
+    }
+}
+
+/* What a row that is told as `ratio` of its value weighs in the next round. Less, where it was far off (Cauchy's
+ * weights): a few scenes of which a compiler makes something else must not bend the figures of all others. Of events all
+ * are far off: there the logarithms' squares are to be least, or most would be told too little. */
+static double weight_of(double ratio, cost_quantity q) {
+    const double off = ratio - 1.0;
+    if (q != COST_OF_CONTACT_MEAN && q != COST_OF_CONTACT_WORST) {
+        return 1.0 / (1.0 + off * off / (FAR_OFF * FAR_OFF));
+    }
+    const double share = fabs(off) < 1e-6 || ratio <= 0.0 ? 1.0 : log(ratio) / off;
+    return share * share;
+}
+
+/* Fitted in rounds, each with the weights that follow from the one before. */
+static cost_fit fit(int board, cost_number number, cost_quantity q, const cost_fit *like) {
     static double a[COST_FEATURES][COST_FEATURES];
     static double b[COST_FEATURES];
     cost_fit f = {.cases = 0};
+    const bool events = q == COST_OF_CONTACT_MEAN || q == COST_OF_CONTACT_WORST;
     double smallest = 0.0;
+    double prior[COST_FEATURES] = {0.0};
+    if (like != NULL) {
+        scale_prior(like, board, number, q, prior);
+    }
     for (int round = 0; round < ROUNDS; round++) {
         memset(a, 0, sizeof a);
         memset(b, 0, sizeof b);
         f.cases = 0;
         for (int r = 0; r < row_count; r++) {
             if (takes_part(&rows[r], board, number, q) && rows[r].fitted) {
-                const double off =
-                    round == 0 ? 0.0 : sum_of(&f, &rows[r], q) / rows[r].value[q] - 1.0;
-                add_equation(&rows[r], q, 1.0 / (1.0 + off * off / (FAR_OFF * FAR_OFF)), a, b);
+                const double ratio = round == 0 ? 1.0 : sum_of(&f, &rows[r], q) / rows[r].value[q];
+                add_equation(&rows[r], q, weight_of(ratio, q), a, b);
                 f.cases++;
                 smallest =
                     smallest == 0.0 || rows[r].value[q] < smallest ? rows[r].value[q] : smallest;
                 f.largest = rows[r].value[q] > f.largest ? rows[r].value[q] : f.largest;
             }
         }
+        for (int i = 0; i < COST_FEATURES && like != NULL; i++) {
+            b[i] += LIKENESS * a[i][i] * prior[i];
+            a[i][i] *= 1.0 + LIKENESS;
+        }
         solve(a, b, f.figure);
     }
-    f.slack = q == COST_OF_FLASH || q == COST_OF_RAM || q == COST_OF_STACK ? 0.0 : SLACK * smallest;
+    f.slack = events || q == COST_OF_FLASH || q == COST_OF_RAM || q == COST_OF_STACK
+                  ? 0.0
+                  : SLACK * smallest;
     for (int i = 0; i < COST_FEATURES; i++) {
         if (is_taken(i, q) && a[i][i] <= 0.0) {
             f.figure[i] = COST_UNSEEN;
@@ -275,16 +164,6 @@ static double off_by(const cost_fit *f, const counted *r, cost_quantity q, doubl
     return value <= 0.0 ? 0.0 : value > r->value[q] ? value / r->value[q] : r->value[q] / value;
 }
 
-static int by_size(const void *one, const void *other) {
-    const double a = *(const double *)one;
-    const double b = *(const double *)other;
-    return (a > b) - (a < b);
-}
-
-static const char *const quantity_words[COST_QUANTITIES] = {
-#define QUANTITY_WORD(id, word) word,
-    COST_QUANTITY_ROWS(QUANTITY_WORD)};
-
 /* What a step of the scenes with contacts would take without, as the fit has it: their figures lean on it. */
 static void add_smooth(const cost_fit *smooth, int board, cost_number number) {
     for (int i = 0; i < row_count; i++) {
@@ -293,6 +172,7 @@ static void add_smooth(const cost_fit *smooth, int board, cost_number number) {
             const double value = sum_of(smooth, r, COST_OF_INSTRUCTIONS);
             r->feature[COST_F_SMOOTH] *= value;
             r->feature[COST_F_EVENT_SMOOTH] *= value;
+            r->feature[COST_F_EVENT_EVALUATIONS] *= value;
             if (value <= 0.0) {
                 r->value[COST_OF_CONTACT_MEAN] = r->value[COST_OF_CONTACT_WORST] = 0.0;
             }
@@ -337,9 +217,9 @@ static void tell(const char *board, cost_number number, const char *what, judged
 }
 
 /* The rows of a class judged, and its line of the table. Returns the bound: the farthest of either half, and a quarter of
- * that again; where there is no row of the class, 3. */
+ * that again. *tested: how many were not fitted. */
 static double judge(const cost_fit *f, int board, cost_number number, cost_quantity q,
-                    cost_class class) {
+                    cost_class class, int *tested) {
     static const char *const says[COST_CLASSES] = {
 #define CLASS_SAYS(id, said) said,
         COST_CLASS_ROWS(CLASS_SAYS)};
@@ -375,7 +255,20 @@ static double judge(const cost_fit *f, int board, cost_number number, cost_quant
     if (j.count[0] + j.count[1] + j.unseen > 0) {
         tell(cost_boards[board].name, number, what, &j, bound);
     }
-    return j.count[0] + j.count[1] > 0 ? bound : 3.0;
+    *tested = j.count[0];
+    return bound;
+}
+
+/* The bounds of all classes. No class is better known than the plain one; of one that few scenes tested, twice the
+ * distance is promised. */
+static void judge_all(cost_fit *f, int board, cost_number number, cost_quantity q) {
+    for (int c = 0; c < COST_CLASSES; c++) {
+        int tested = 0;
+        f->bound[c] = judge(f, board, number, q, (cost_class)c, &tested);
+        const double plain =
+            tested < TESTED_LEAST ? 2.0 * f->bound[COST_PLAIN] - 1.0 : f->bound[COST_PLAIN];
+        f->bound[c] = f->bound[c] > plain ? f->bound[c] : plain;
+    }
 }
 
 /* --- writing ------------------------------------------------------------------------------------------*/
@@ -432,14 +325,20 @@ static void write_row(int board, cost_number number) {
     printf("\",\n     .spread = %.3f, .spread_cycles = %.3f,\n     .fit = {\n", spread[0],
            spread[1]);
     for (int q = 0; q < COST_QUANTITIES; q++) {
-        cost_fit f = fit(board, number, (cost_quantity)q);
+        static cost_fit alike[2][COST_QUANTITIES];
+        const bool fpu = cost_boards[board].fpu;
+        const char *like = number == COST_FLOAT ? likeness(board) : NULL;
+        cost_fit *of = &alike[fpu][q];
+        if (like != NULL && of->cases == 0) {
+            *of = fit((int)(cost_board_named(like) - cost_boards), number, (cost_quantity)q, NULL);
+        }
+        const bool leans = like != NULL && of->cases > 0;
+        cost_fit f = fit(board, number, (cost_quantity)q, leans ? of : NULL);
         if (q == COST_OF_INSTRUCTIONS) {
             add_smooth(&f, board, number);
         }
         if (f.cases > 0) {
-            for (int c = 0; c < COST_CLASSES; c++) {
-                f.bound[c] = judge(&f, board, number, (cost_quantity)q, (cost_class)c);
-            }
+            judge_all(&f, board, number, (cost_quantity)q);
             write_fit(&f, (cost_quantity)q);
         }
     }
@@ -461,64 +360,6 @@ static void write_all(void) {
         }
     }
     printf("};\n/* clang-format on */\n");
-}
-
-/* --- checking ------------------------------------------------------------------------------------------*/
-
-typedef struct checked {
-    double off[ROWS_MAX];
-    int count;
-    int beyond;
-    int unknown;
-} checked;
-
-static void check_figure(const cost_figure *told, double value, const counted *r, const char *what,
-                         checked *to) {
-    if (value <= 0.0) {
-        return;
-    }
-    if (told->basis != COST_PREDICTED) {
-        to->unknown++;
-        return;
-    }
-    to->off[to->count++] = told->value > value ? told->value / value : value / told->value;
-    if (value > told->most * (1.0 + 1e-9) || value < told->least * (1.0 - 1e-9)) {
-        to->beyond++;
-        printf(
-            "not within its bound: %s %s %s %s %s: predicted %.0f (%.0f to %.0f), counted %.0f\n",
-            r->column[3], r->column[5], r->column[4], r->column[6], what, told->value, told->least,
-            told->most, value);
-    }
-}
-
-static int check_all(void) {
-    static checked to[COST_QUANTITIES];
-    int beyond = 0;
-    for (int i = 0; i < row_count; i++) {
-        const counted *r = &rows[i];
-        const cost *p = &r->predicted;
-        check_figure(&p->instructions, r->value[COST_OF_INSTRUCTIONS], r, "instructions",
-                     &to[COST_OF_INSTRUCTIONS]);
-        check_figure(&p->cycles, r->value[COST_OF_CYCLES], r, "cycles", &to[COST_OF_CYCLES]);
-        check_figure(&p->flash_bytes, r->value[COST_OF_FLASH], r, "flash", &to[COST_OF_FLASH]);
-        check_figure(&p->ram_bytes, r->value[COST_OF_RAM], r, "RAM", &to[COST_OF_RAM]);
-        check_figure(&p->stack_bytes, r->value[COST_OF_STACK], r, "stack", &to[COST_OF_STACK]);
-        check_figure(&p->instructions, r->value[COST_OF_CONTACT_MEAN], r, "mean with contacts",
-                     &to[COST_OF_CONTACT_MEAN]);
-    }
-    for (int q = 0; q < COST_QUANTITIES; q++) {
-        checked *t = &to[q];
-        qsort(t->off, (size_t)t->count, sizeof t->off[0], by_size);
-        if (t->count > 0) {
-            printf(
-                "%s: %d predictions, off by %.1f %% (median), %.1f %% (nine of ten), %.1f %% (largest); %d beyond their bound, %d not predicted\n",
-                quantity_words[q], t->count, 100.0 * (t->off[t->count / 2] - 1.0),
-                100.0 * (t->off[t->count * 9 / 10] - 1.0), 100.0 * (t->off[t->count - 1] - 1.0),
-                t->beyond, t->unknown);
-        }
-        beyond += t->beyond;
-    }
-    return row_count == 0 || beyond > 0;
 }
 
 int main(int count, char **words) {

@@ -1,0 +1,49 @@
+#!/bin/sh
+# price_predicts.sh: what host/price says of steps, against counted ones: mechanisms drawn anew (none of those that the
+# figures were fitted to), on the emulated board of `make test`. (All boards: `make price-check`.)
+. "$(dirname "$0")/../checks.sh"
+
+fit=$(dirname "$whirl")/tools/price_fit
+if ! command -v arm-none-eabi-gcc >/dev/null 2>&1 || ! command -v qemu-system-arm >/dev/null 2>&1; then
+    echo "ok - (no emulated board here)"
+    exit 0
+fi
+
+mkdir -p "$scratch/cost"
+awk -v n=12 -v seed=77 -f mk/price/scenes.awk </dev/null >"$scratch/cost/drawn.whirl"
+{
+    i=0
+    for options in "" "--method heun" "--angles lookup" "--compensated" "--method rk38" "--method euler --compensated" \
+        "" "--method heun --compensated" "--compensated --angles lookup" "--method rk38 --angles lookup" "" ""; do
+        i=$((i + 1))
+        echo "t$i $scratch/cost/drawn.whirl:r77_$i $options"
+    done
+} >"$scratch/cost/cases"
+
+# The rows name what they were derived from, so files of a temporary folder do.
+make -s B=build BOARD=mps2-an386 price-measure-board PRICE_OUT="$scratch/cost" STEPS=20 WORST=0 >"$scratch/err" 2>&1
+[ "$(grep -c ',mps2-an386,' "$scratch/cost/rows.csv")" -eq 12 ]
+verdict $? "steps of 12 scenes counted on the emulated board"
+
+"$fit" --check "$scratch/cost/rows.csv" >"$scratch/told" 2>&1
+verdict $? "instructions, cycles, flash, RAM and stack within the bounds that were promised" "$scratch/told"
+awk '/^instructions:/ { for (i = 1; i <= NF; i++) { if ($i == "%" && !first) { first = $(i - 1) } } found = $2 }
+    END { exit !(found >= 12 && first > 0 && first <= 10) }' "$scratch/told"
+verdict $? "the middle one's instructions within 10 %" "$scratch/told"
+
+# The test's own eye: a row whose count is half of the truth is beyond its bound.
+awk -F, 'BEGIN { OFS = "," } $1 != "commit" { $8 = $8 / 2 } { print }' "$scratch/cost/rows.csv" >"$scratch/cost/halved.csv"
+! "$fit" --check "$scratch/cost/halved.csv" >"$scratch/told" 2>&1 && grep -q 'not within its bound' "$scratch/told"
+verdict $? "half of a count would be seen" "$scratch/told"
+
+# A user's own file and option, by the one command.
+sh mk/price/measure_one.sh mps2-an386 float "$scratch/cost/drawn.whirl:r77_2" --compensated >"$scratch/row" 2>"$scratch/err" &&
+    [ "$(awk -F, 'END { print NR, $4, $6, $7, ($8 > 50) }' "$scratch/row")" = "2 mps2-an386 float rk4-compensated 1" ]
+verdict $? "measure_one.sh measures a file's scene"
+sh mk/price/measure_one.sh nowhere float thomson_a >"$scratch/out" 2>"$scratch/err"
+[ $? -eq 2 ] && grep -q 'there is no boards/nowhere' "$scratch/err"
+verdict $? "and refuses a board that there is not"
+sh mk/price/measure_one.sh mps2-an386 float "$scratch/none.whirl" >"$scratch/out" 2>"$scratch/err"
+[ $? -eq 1 ] && [ ! -s "$scratch/out" ] && [ -s "$scratch/err" ]
+verdict $? "and a file that there is not"
+exit $failed
