@@ -131,7 +131,9 @@ static void print_lines(FILE *out, const trial *t, const choice_row *row,
                         const table_words *words) {
     char *run = table_run_line(t, &row->setting, row->pace, row->result.point, words);
     char *derive = table_derive_line(t, &row->setting, row->pace, row->result.point, words);
-    fprintf(out, "\nagain       %s\nas code     %s\n", run, derive);
+    char *measure = table_measure_line(t, &row->setting, row->pace, row->result.point, words);
+    fprintf(out, "\nagain       %s\nas code     %s\ncounted by  %s\n", run, derive, measure);
+    free(measure);
     free(run);
     free(derive);
 }

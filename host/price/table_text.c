@@ -30,6 +30,16 @@ char *table_derive_line(const trial *t, const setting *s, deviation_pace pace, i
     return line_of(t, s, pace, point, words, false);
 }
 
+char *table_measure_line(const trial *t, const setting *s, deviation_pace pace, int point,
+                         const table_words *words) {
+    char options[SETTING_TEXT];
+    char step[TRIAL_TIME];
+    return room_words("sh mk/price/measure_one.sh %s %s %s%s%s%s --step %s", t->wish.board->name,
+                      s->number->name, words->target, words->changes,
+                      t->wish.source->name(t->wish.source->context, point),
+                      setting_options(s, false, options), trial_time(trial_step(t, pace), step));
+}
+
 static void print_row(FILE *out, const trial *t, const table_row *row) {
     char text[FIGURE_TEXT];
     char options[SETTING_TEXT];

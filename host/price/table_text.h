@@ -22,5 +22,8 @@ char *table_run_line(const trial *t, const setting *s, deviation_pace pace, int 
                      const table_words *words);
 char *table_derive_line(const trial *t, const setting *s, deviation_pace pace, int point,
                         const table_words *words);
+/* Counts the same row's step where a source tree and the board's compiler are: `sh mk/price/measure_one.sh ...`. */
+char *table_measure_line(const trial *t, const setting *s, deviation_pace pace, int point,
+                         const table_words *words);
 
 #endif
