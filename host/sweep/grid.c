@@ -63,9 +63,10 @@ static bool range_split(const grid *g, const char *text, range_text *r) {
     if (problem != NULL) {
         const char *option = g->option != NULL ? g->option : "--over";
         say(g, text);
-        fprintf(stderr,
-                " %s\nhint: such as %s \"r=10..60 [mm]:11\", or ...:11,log for a logarithmic range\n",
-                problem, option);
+        fprintf(
+            stderr,
+            " %s\nhint: such as %s \"r=10..60 [mm]:11\", or ...:11,log for a logarithmic range\n",
+            problem, option);
         return false;
     }
     r->name = trimmed(text, (size_t)(equals - text));
@@ -143,7 +144,8 @@ static const expr *read_end(const mechanism *of, const char *name, const char *t
 }
 
 /* False, with a report, when the two ends are no numbers of one kind. */
-static bool take_ends(const grid *g, const char *over, const expr *from, const expr *to, axis *made) {
+static bool take_ends(const grid *g, const char *over, const expr *from, const expr *to,
+                      axis *made) {
     const char *problem = NULL;
     if (((from->uses | to->uses) & ~(unsigned)USES_UNIT) != 0) {
         problem = "FROM and TO must be numbers";
@@ -165,8 +167,8 @@ static bool take_ends(const grid *g, const char *over, const expr *from, const e
     return problem == NULL;
 }
 
-static bool read_axis(const grid *g, const mechanism *of, const char *over, const range_text *r, diags *errors,
-                      axis *made) {
+static bool read_axis(const grid *g, const mechanism *of, const char *over, const range_text *r,
+                      diags *errors, axis *made) {
     struct arena *arena = arena_new();
     const expr *from = read_end(of, r->name, r->from, arena, errors, made);
     const expr *to = from == NULL ? NULL : read_end(of, r->name, r->to, arena, errors, made);
