@@ -104,7 +104,7 @@ static void show_progress(void *context, int done, int of) {
     fprintf(stderr, "\r%3d of %d settings ", done, of);
 }
 
-static bool write_csv(const char *file, const trial *t, const table *made,
+static bool write_csv(const char *file, const trials *t, const table *made,
                       const table_words *words) {
     FILE *out = strcmp(file, "-") == 0 ? stdout : fopen(file, "wb");
     const bool good = out != NULL && table_csv(out, t, made, words);

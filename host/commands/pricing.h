@@ -68,7 +68,7 @@ typedef struct pricing {
     double step_s;   /* the scene's own */
     double effort;
     char *words; /* its changes, as they are typed */
-    trial trial;
+    trials trial;
     bool has_trial;
 } pricing;
 

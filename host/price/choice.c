@@ -32,7 +32,7 @@ static void judge_limit(choice_row *row, choice_limit which, double limit, bool 
     row->fails[which] = limit > 0.0 && known && most > limit;
 }
 
-static void judge(const trial *t, const choice_wish *w, choice_row *row) {
+static void judge(const trials *t, const choice_wish *w, choice_row *row) {
     const cost *c = &row->cost;
     const double each_s = ratio_times(1, trial_step(t, row->pace));
     const bool cycles = is_known(&c->cycles_worst);
@@ -118,7 +118,7 @@ static void count_failures(choice *c, const choice_row *row) {
 }
 
 /* One setting by ever finer steps, until it keeps the error, or could not be of use if it did. */
-static void climb(trial *t, const choice_wish *w, choice *c, const setting *s, const cost *price,
+static void climb(trials *t, const choice_wish *w, choice *c, const setting *s, const cost *price,
                   double each) {
     choice_row row = {.setting = *s, .cost = *price};
     choice_row before = row;
@@ -152,7 +152,7 @@ static void climb(trial *t, const choice_wish *w, choice *c, const setting *s, c
     c->failed[CHOICE_ERROR]++;
 }
 
-choice choice_make(trial *t, const choice_wish *w) {
+choice choice_make(trials *t, const choice_wish *w) {
     choice c = {.why = ""};
     const int count = setting_count();
     cost *price = room(count, sizeof *price);
@@ -185,7 +185,7 @@ choice choice_make(trial *t, const choice_wish *w) {
     return c;
 }
 
-double choice_lower_rate(trial *t, const choice_wish *w, const choice *c, choice_row *row) {
+double choice_lower_rate(trials *t, const choice_wish *w, const choice *c, choice_row *row) {
     *row = c->dearer;
     if (!c->has_dearer || !(w->rate_Hz > 0.0) || c->dearer.substeps != 1) {
         return 0.0; /* as many steps a second as now would be taken at any rate */

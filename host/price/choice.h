@@ -71,10 +71,10 @@ typedef struct choice {
 uint64_t choice_substeps(int i);
 enum { CHOICE_SUBSTEPS = 10 + 9 * 5 };
 
-choice choice_make(trial *t, const choice_wish *w); /* look at t->stopped */
+choice choice_make(trials *t, const choice_wish *w); /* look at t->stopped */
 
 /* A rate that the dearer row would keep, a whole part of the wished one, and the row at that rate, checked by a trial: 0
  * where there is none. */
-double choice_lower_rate(trial *t, const choice_wish *w, const choice *c, choice_row *row);
+double choice_lower_rate(trials *t, const choice_wish *w, const choice *c, choice_row *row);
 
 #endif

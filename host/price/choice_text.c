@@ -13,7 +13,7 @@ static bool is_counted(const cost *c) {
 
 /* "0.1 m", or "0.001 of the largest value". */
 enum { AMOUNT = 64 };
-static const char *amount(const trial *t, double error, char text[AMOUNT]) {
+static const char *amount(const trials *t, double error, char text[AMOUNT]) {
     if (t->what.column < 0) {
         snprintf(text, AMOUNT, "%.3g of the largest value", error);
     } else {
@@ -22,7 +22,7 @@ static const char *amount(const trial *t, double error, char text[AMOUNT]) {
     return text;
 }
 
-static void print_options(FILE *out, const trial *t, const choice_row *row) {
+static void print_options(FILE *out, const trials *t, const choice_row *row) {
     char options[SETTING_TEXT];
     char step[TRIAL_TIME];
     fprintf(out, "%s --step %s", setting_options(&row->setting, true, options) + 1,
@@ -69,7 +69,7 @@ static void print_load(FILE *out, const choice_wish *w, const choice_row *row) {
     fprintf(out, " at %.6g MHz, by the longest step\n", 1e-6 * w->clock_Hz);
 }
 
-static void print_row(FILE *out, const trial *t, const choice_wish *w, const choice_row *row) {
+static void print_row(FILE *out, const trials *t, const choice_wish *w, const choice_row *row) {
     char text[AMOUNT];
     char name[TRIAL_NAME];
     char step[TRIAL_TIME];
@@ -108,7 +108,7 @@ static void print_row(FILE *out, const trial *t, const choice_wish *w, const cho
     }
 }
 
-static void print_second(FILE *out, const trial *t, const choice *c) {
+static void print_second(FILE *out, const trials *t, const choice *c) {
     if (!c->has_second) {
         fputs("\nrunner-up   none: no other setting keeps all this\n", out);
         return;
@@ -127,7 +127,7 @@ static void print_second(FILE *out, const trial *t, const choice *c) {
     }
 }
 
-static void print_lines(FILE *out, const trial *t, const choice_row *row,
+static void print_lines(FILE *out, const trials *t, const choice_row *row,
                         const table_words *words) {
     char *run = table_run_line(t, &row->setting, row->pace, row->result.point, words);
     char *derive = table_derive_line(t, &row->setting, row->pace, row->result.point, words);
@@ -138,7 +138,7 @@ static void print_lines(FILE *out, const trial *t, const choice_row *row,
     free(derive);
 }
 
-static void print_head(FILE *out, const trial *t) {
+static void print_head(FILE *out, const trials *t) {
     fprintf(out, "%s on %s (%s)\n", t->image[0]->name, t->wish.board->name, t->wish.board->core);
     figure_reference(out, t);
 }
@@ -155,7 +155,7 @@ static void print_counts(FILE *out, const choice *c) {
     }
 }
 
-void choice_print(FILE *out, const trial *t, const choice_wish *w, const choice *c,
+void choice_print(FILE *out, const trials *t, const choice_wish *w, const choice *c,
                   const table_words *words) {
     char text[AMOUNT];
     char step[TRIAL_TIME];
@@ -174,7 +174,7 @@ void choice_print(FILE *out, const trial *t, const choice_wish *w, const choice 
     print_lines(out, t, &c->best, words);
 }
 
-static void print_would(FILE *out, const trial *t, const char *what, const choice_row *row) {
+static void print_would(FILE *out, const trials *t, const char *what, const choice_row *row) {
     fprintf(out, "  %s: ", what);
     print_options(out, t, row);
     fputc('\n', out);
@@ -192,7 +192,7 @@ static double no_less(double value) {
     return number_ceiling(value / unit * (1.0 - 1e-12)) * unit;
 }
 
-void choice_print_none(FILE *out, const trial *t, const choice_wish *w, const choice *c,
+void choice_print_none(FILE *out, const trials *t, const choice_wish *w, const choice *c,
                        double lower_rate_Hz, const choice_row *lower) {
     char text[AMOUNT];
     char what[2 * AMOUNT];

@@ -65,7 +65,7 @@ void figure_legend(FILE *out, const cost *c) {
     }
 }
 
-static void say_missing(FILE *out, const trial *t) {
+static void say_missing(FILE *out, const trials *t) {
     const reference *r = t->reference[t->worst];
     bool first = true;
     for (int k = 1; k < r->columns; k++) {
@@ -79,7 +79,7 @@ static void say_missing(FILE *out, const trial *t) {
     fputs(first ? "" : "\n", out);
 }
 
-void figure_reference(FILE *out, const trial *t) {
+void figure_reference(FILE *out, const trials *t) {
     const reference *r = t->reference[t->worst];
     fprintf(out, "  reference   %s\n", r->how);
     if (r->kind == REFERENCE_NONE) {

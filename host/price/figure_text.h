@@ -20,7 +20,7 @@ enum { FIGURE_WORDS = 120 };
 const char *figure_words(const cost_figure *f, char text[FIGURE_WORDS]);
 
 /* What was held against what, in lines that begin with two blanks. */
-void figure_reference(FILE *out, const trial *t);
+void figure_reference(FILE *out, const trials *t);
 
 /* A field of CSV, quoted where RFC 4180 wants it. */
 void figure_field(FILE *out, const char *text);

@@ -36,7 +36,7 @@ static void add(table *made, table_row row) {
 }
 
 /* One setting by ever finer steps, each of them as dear; `each`: operations that one trial may take. */
-static void climb(trial *t, table *made, const setting *s, const cost *each_step, double each) {
+static void climb(trials *t, table *made, const setting *s, const cost *each_step, double each) {
     int stalled = 0;
     double before = (double)INFINITY;
     for (int rung = 0; rung < TABLE_LADDER && stalled < PATIENCE; rung++) {
@@ -91,7 +91,7 @@ static void mark_front(table *made) {
     }
 }
 
-table *table_new(trial *t, const table_wish *w) {
+table *table_new(trials *t, const table_wish *w) {
     table *made = room(1, sizeof *made);
     const int count = setting_count();
     bool *own = room(count, sizeof *own);

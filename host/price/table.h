@@ -42,7 +42,7 @@ typedef struct table_wish {
 deviation_pace table_ladder(int rung);
 enum { TABLE_COARSEST = 5, TABLE_LADDER = TABLE_COARSEST + 3 * 8 };
 
-table *table_new(trial *t, const table_wish *w); /* look at t->stopped */
+table *table_new(trials *t, const table_wish *w); /* look at t->stopped */
 void table_free(table *made);
 
 /* How a board's steps are priced; *known: false where nobody knows. */

@@ -57,7 +57,7 @@ static bool is_cheapest(const table *made, int which) {
     return true;
 }
 
-bool table_plot(const char *file, const trial *t, const table *made) {
+bool table_plot(const char *file, const trials *t, const table *made) {
     picture *p = room(1, sizeof *p);
     char text[TRIAL_NAME];
     p->rows = made->count;

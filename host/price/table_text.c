@@ -7,7 +7,7 @@
 #include "figure_text.h"
 #include "host/base/room.h"
 
-static char *line_of(const trial *t, const setting *s, deviation_pace pace, int point,
+static char *line_of(const trials *t, const setting *s, deviation_pace pace, int point,
                      const table_words *words, bool run) {
     char options[SETTING_TEXT];
     char step[TRIAL_TIME];
@@ -20,17 +20,17 @@ static char *line_of(const trial *t, const setting *s, deviation_pace pace, int 
                       until, run ? "" : " --as c");
 }
 
-char *table_run_line(const trial *t, const setting *s, deviation_pace pace, int point,
+char *table_run_line(const trials *t, const setting *s, deviation_pace pace, int point,
                      const table_words *words) {
     return line_of(t, s, pace, point, words, true);
 }
 
-char *table_derive_line(const trial *t, const setting *s, deviation_pace pace, int point,
+char *table_derive_line(const trials *t, const setting *s, deviation_pace pace, int point,
                         const table_words *words) {
     return line_of(t, s, pace, point, words, false);
 }
 
-char *table_measure_line(const trial *t, const setting *s, deviation_pace pace, int point,
+char *table_measure_line(const trials *t, const setting *s, deviation_pace pace, int point,
                          const table_words *words) {
     char options[SETTING_TEXT];
     char step[TRIAL_TIME];
@@ -40,7 +40,7 @@ char *table_measure_line(const trial *t, const setting *s, deviation_pace pace, 
                       setting_options(s, false, options), trial_time(trial_step(t, pace), step));
 }
 
-static void print_row(FILE *out, const trial *t, const table_row *row) {
+static void print_row(FILE *out, const trials *t, const table_row *row) {
     char text[FIGURE_TEXT];
     char options[SETTING_TEXT];
     char step[TRIAL_TIME];
@@ -59,7 +59,7 @@ static void print_row(FILE *out, const trial *t, const table_row *row) {
             trial_time(trial_step(t, row->pace), step));
 }
 
-static void print_rows(FILE *out, const trial *t, const table *made, const table_words *words) {
+static void print_rows(FILE *out, const trials *t, const table *made, const table_words *words) {
     char heading[40] = "error";
     if (trial_unit(t)[0] != '\0') {
         snprintf(heading, sizeof heading, "error, %s", trial_unit(t));
@@ -75,7 +75,7 @@ static void print_rows(FILE *out, const trial *t, const table *made, const table
 }
 
 /* What holds for all rows: how prices are known, and what was left out. */
-static void print_notes(FILE *out, const trial *t, const table *made, const table_words *words) {
+static void print_notes(FILE *out, const trials *t, const table *made, const table_words *words) {
     char text[FIGURE_WORDS];
     int front = 0;
     for (int i = 0; i < made->count; i++) {
@@ -117,7 +117,7 @@ static void print_notes(FILE *out, const trial *t, const table *made, const tabl
     }
 }
 
-void table_print(FILE *out, const trial *t, const table *made, const table_words *words) {
+void table_print(FILE *out, const trials *t, const table *made, const table_words *words) {
     const image *im = t->image[0];
     char name[TRIAL_NAME];
     fprintf(out, "%s on %s (%s)\n", im->name, t->wish.board->name, t->wish.board->core);
@@ -160,7 +160,7 @@ static void csv_figure(FILE *out, const cost_figure *f) {
     }
 }
 
-static void csv_row(FILE *out, const trial *t, const table_row *row, const table_words *words) {
+static void csv_row(FILE *out, const trials *t, const table_row *row, const table_words *words) {
     char text[TRIAL_NAME];
     const cost_figure *price = row->price.cycles ? &row->cost.cycles : &row->cost.instructions;
     fprintf(out, "%d,%.9g,", row->on_front ? 1 : 0, row->result.error);
@@ -189,7 +189,7 @@ static void csv_row(FILE *out, const trial *t, const table_row *row, const table
     free(derive);
 }
 
-bool table_csv(FILE *out, const trial *t, const table *made, const table_words *words) {
+bool table_csv(FILE *out, const trials *t, const table *made, const table_words *words) {
     fputs("front,error,error_unit,error_basis,error_bound,component,price_per_s,price_of,"
           "price_basis,price_fitted_to,price_least,price_most,step_s",
           out);

@@ -11,19 +11,19 @@ typedef struct table_words {
     bool all;            /* every row, not the front alone */
 } table_words;
 
-void table_print(FILE *out, const trial *t, const table *made, const table_words *words);
+void table_print(FILE *out, const trials *t, const table *made, const table_words *words);
 /* False when writing failed. */
-bool table_csv(FILE *out, const trial *t, const table *made, const table_words *words);
+bool table_csv(FILE *out, const trials *t, const table *made, const table_words *words);
 /* Error against price, a line for each method and number at its cheapest form, and the front. False, told. */
-bool table_plot(const char *file, const trial *t, const table *made);
+bool table_plot(const char *file, const trials *t, const table *made);
 
 /* The lines that do a row again: `whirl run ...` and `whirl derive ... --as c`; free them. */
-char *table_run_line(const trial *t, const setting *s, deviation_pace pace, int point,
+char *table_run_line(const trials *t, const setting *s, deviation_pace pace, int point,
                      const table_words *words);
-char *table_derive_line(const trial *t, const setting *s, deviation_pace pace, int point,
+char *table_derive_line(const trials *t, const setting *s, deviation_pace pace, int point,
                         const table_words *words);
 /* Counts the same row's step where a source tree and the board's compiler are: `sh mk/price/measure_one.sh ...`. */
-char *table_measure_line(const trial *t, const setting *s, deviation_pace pace, int point,
+char *table_measure_line(const trials *t, const setting *s, deviation_pace pace, int point,
                          const table_words *words);
 
 #endif

@@ -36,7 +36,7 @@ static uint64_t common_divisor(uint64_t a, uint64_t b) {
     return a;
 }
 
-whole_ratio trial_step(const trial *t, deviation_pace pace) {
+whole_ratio trial_step(const trials *t, deviation_pace pace) {
     whole_ratio s = t->wish.spacing;
     const uint64_t over = common_divisor(s.numerator, pace.steps);
     const uint64_t under = common_divisor(pace.records, s.denominator);
@@ -45,15 +45,15 @@ whole_ratio trial_step(const trial *t, deviation_pace pace) {
     return s;
 }
 
-double trial_horizon_s(const trial *t) {
+double trial_horizon_s(const trials *t) {
     return ratio_times((uint64_t)t->records, t->wish.spacing);
 }
 
-const char *trial_unit(const trial *t) {
+const char *trial_unit(const trials *t) {
     return t->what.column < 0 ? "" : t->reference[0]->shape->column[t->what.column].unit->shown;
 }
 
-double trial_error_si(const trial *t, double error) {
+double trial_error_si(const trials *t, double error) {
     if (t->what.column < 0) {
         return error;
     }
@@ -61,7 +61,7 @@ double trial_error_si(const trial *t, double error) {
     return error * u->scale / u->divisor;
 }
 
-const char *trial_column(const trial *t, int column, char text[TRIAL_NAME]) {
+const char *trial_column(const trials *t, int column, char text[TRIAL_NAME]) {
     const record_column *c = &t->reference[0]->shape->column[column];
     snprintf(text, TRIAL_NAME, "%.80s%.*s", c->name, c->primes, "''''''''");
     return text;
@@ -69,7 +69,7 @@ const char *trial_column(const trial *t, int column, char text[TRIAL_NAME]) {
 
 /* --- the references --------------------------------------------------------------------------------*/
 
-static void say_no_column(const trial *t) {
+static void say_no_column(const trials *t) {
     const records *shape = t->reference[0]->shape;
     const char *of = t->wish.of;
     nearest search = nearest_start(of, strlen(of));
@@ -86,7 +86,7 @@ static void say_no_column(const trial *t) {
     free(names);
 }
 
-static bool find_column(trial *t) {
+static bool find_column(trials *t) {
     bool noisy;
     t->what.column = -1;
     t->what.give_up = USABLE;
@@ -109,7 +109,7 @@ static bool find_column(trial *t) {
 }
 
 /* All points to the horizon that all of them are trusted for. */
-static void cut(trial *t) {
+static void cut(trials *t) {
     t->records = t->wish.records;
     t->reliable = true;
     double least = 0.0;
@@ -128,12 +128,12 @@ static void cut(trial *t) {
     }
 }
 
-bool trial_begin(trial *t, const trial_wish *w) {
+bool trial_begin(trials *t, const trial_wish *w) {
     const int points = w->source->points;
     const setting plain = {IMAGE_SETTINGS_DEFAULT, &engine_double};
-    *t = (trial){.wish = *w,
-                 .image = room(points, sizeof(image *)),
-                 .reference = room(points, sizeof(reference *))};
+    *t = (trials){.wish = *w,
+                  .image = room(points, sizeof(image *)),
+                  .reference = room(points, sizeof(reference *))};
     for (int p = 0; p < points; p++) {
         t->image[p] = w->source->make(w->source->context, p, &plain, NULL, NULL);
         if (t->image[p] == NULL) {
@@ -154,7 +154,7 @@ bool trial_begin(trial *t, const trial_wish *w) {
     return true;
 }
 
-void trial_end(trial *t) {
+void trial_end(trials *t) {
     for (int p = 0; t->image != NULL && p < t->wish.source->points; p++) {
         reference_free(t->reference[p]);
         image_free(t->image[p]);
@@ -165,7 +165,7 @@ void trial_end(trial *t) {
 
 /* --- trials ----------------------------------------------------------------------------------------*/
 
-static image *image_of(const trial *t, int point, const setting *s, deviation_pace pace) {
+static image *image_of(const trials *t, int point, const setting *s, deviation_pace pace) {
     char step[TRIAL_TIME];
     char until[TRIAL_TIME];
     const whole_ratio spacing = t->wish.spacing;
@@ -174,7 +174,7 @@ static image *image_of(const trial *t, int point, const setting *s, deviation_pa
     return t->wish.source->make(t->wish.source->context, point, s, step, until);
 }
 
-static void enter(const trial *t, int point, const deviation *d, trial_result *worst) {
+static void enter(const trials *t, int point, const deviation *d, trial_result *worst) {
     const bool bound = d->error < 3.0 * d->known;
     const double error = bound ? d->error + d->known : d->error;
     const bool first = point == 0;
@@ -188,7 +188,7 @@ static void enter(const trial *t, int point, const deviation *d, trial_result *w
     }
 }
 
-trial_result trial_run(trial *t, const setting *s, deviation_pace pace) {
+trial_result trial_run(trials *t, const setting *s, deviation_pace pace) {
     trial_result worst = {.ran = true};
     for (int p = 0; p < t->wish.source->points; p++) {
         image *im = image_of(t, p, s, pace);
@@ -215,7 +215,7 @@ trial_result trial_run(trial *t, const setting *s, deviation_pace pace) {
     return worst;
 }
 
-cost trial_cost(trial *t, const setting *s, deviation_pace pace, bool *own) {
+cost trial_cost(trials *t, const setting *s, deviation_pace pace, bool *own) {
     cost dearest = {0};
     const cost_number number = s->number == &engine_float ? COST_FLOAT : COST_DOUBLE;
     *own = true;

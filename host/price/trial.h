@@ -26,7 +26,7 @@ typedef struct trial_wish {
     const volatile sig_atomic_t *stop;
 } trial_wish;
 
-typedef struct trial {
+typedef struct trials {
     trial_wish wish;
     image **image;         /* [points] of the references */
     reference **reference; /* [points] */
@@ -36,7 +36,7 @@ typedef struct trial {
     bool reliable; /* false: some reference is REFERENCE_NONE */
     bool stopped;
     double operations; /* evaluated in trials so far */
-} trial;
+} trials;
 
 /* How one setting does at one step. */
 typedef struct trial_result {
@@ -52,22 +52,22 @@ typedef struct trial_result {
 } trial_result;
 
 /* Computes the references. False, told on standard error, when `of` is nothing of the scene, or an image is missing. */
-bool trial_begin(trial *t, const trial_wish *w);
-void trial_end(trial *t);
+bool trial_begin(trials *t, const trial_wish *w);
+void trial_end(trials *t);
 
-trial_result trial_run(trial *t, const setting *s, deviation_pace pace);
+trial_result trial_run(trials *t, const setting *s, deviation_pace pace);
 /* What it costs at the dearest of the points; *own: false where it is no setting of its own (setting_is_own()). */
-cost trial_cost(trial *t, const setting *s, deviation_pace pace, bool *own);
+cost trial_cost(trials *t, const setting *s, deviation_pace pace, bool *own);
 
-whole_ratio trial_step(const trial *t, deviation_pace pace);
-double trial_horizon_s(const trial *t);
+whole_ratio trial_step(const trials *t, deviation_pace pace);
+double trial_horizon_s(const trials *t);
 /* The unit of errors: "m", or "" for parts of the largest value. */
-const char *trial_unit(const trial *t);
+const char *trial_unit(const trials *t);
 /* An error in that unit is so many of SI. */
-double trial_error_si(const trial *t, double error);
+double trial_error_si(const trials *t, double error);
 /* The component's name: "X", "theta'". Returns text. */
 enum { TRIAL_NAME = 96 };
-const char *trial_column(const trial *t, int column, char text[TRIAL_NAME]);
+const char *trial_column(const trials *t, int column, char text[TRIAL_NAME]);
 
 /* A time as --step and --until take it: seconds in as few digits as bring back the same fraction. Returns text. */
 enum { TRIAL_TIME = 40 };

@@ -35,7 +35,7 @@ typedef struct request {
     grid grid;
     diags *errors;
     pricing_scene *scene;
-    trial trial;
+    trials trial;
     choice_wish wish;
 } request;
 
