@@ -10,39 +10,6 @@
 
 #include "cost_rows.h"
 
-#define COST_BASIS_WORD(id, word, says) word,
-const char *const cost_basis_words[COST_BASES] = {COST_BASIS_ROWS(COST_BASIS_WORD)};
-const char *const cost_number_words[COST_NUMBERS] = {"float", "double"};
-
-/* Cycles an instruction, where nobody counts them: the least is what a core that issues so many at once could reach, the
- * most twice to thrice what Arm's timing gives for such steps on a Cortex-M4 (1.2 to 1.7). */
-const cost_board cost_boards[] = {
-    {"atmega328p", "AVR", "ATmega328P: Arduino Uno, Nano", false, COST_SIMULATED, 0, 0, 16e6, 32768,
-     2048},
-    {"atmega2560", "AVR", "ATmega2560: Arduino Mega", false, COST_SIMULATED, 0, 0, 16e6, 262144,
-     8192},
-    {"mps2-an385-m0", "Cortex-M0", "STM32F0, nRF51, LPC11xx", false, COST_ESTIMATED, 0, 0, 0, 0, 0},
-    {"mps2-an385", "Cortex-M3", "STM32F1, LPC17xx, SAM3X", false, COST_ESTIMATED, 0, 0, 0, 0, 0},
-    {"mps2-an386", "Cortex-M4F", "STM32F4, nRF52, SAMD51, MSP432", true, COST_ESTIMATED, 0, 0, 0, 0,
-     0},
-    {"mps2-an500", "Cortex-M7", "STM32F7, STM32H7, i.MX RT (Teensy 4)", true, COST_RANGE, 0.5, 3.0,
-     0, 0, 0},
-    {"mps2-an505", "Cortex-M33", "STM32U5, nRF53, RP2350", true, COST_RANGE, 0.8, 3.0, 0, 0, 0},
-    {"rv32imac", "RV32IMAC", "GD32VF103, CH32V203, FE310", false, COST_RANGE, 1.0, 4.0, 0, 0, 0},
-    {"rv32imafc", "RV32IMAFC", "CH32V307", true, COST_RANGE, 1.0, 5.0, 0, 0, 0},
-    {"host", "x86-64", "a PC", true, COST_RANGE, 0.2, 3.0, 0, 0, 0},
-};
-const int cost_board_count = sizeof cost_boards / sizeof cost_boards[0];
-
-const cost_board *cost_board_named(const char *name) {
-    for (int i = 0; i < cost_board_count; i++) {
-        if (strcmp(cost_boards[i].name, name) == 0) {
-            return &cost_boards[i];
-        }
-    }
-    return NULL;
-}
-
 /* --- predicting -----------------------------------------------------------------------------------*/
 
 static const cost_row *row_of(const cost_board *board, cost_number number) {
@@ -60,30 +27,6 @@ static bool has_word(const char *words, const char *word) {
     return strstr(words, framed) != NULL;
 }
 
-double cost_fit_at(const cost_fit *fit, const double feature[static COST_FEATURES], int *unseen) {
-    double sum = 0.0;
-    for (int f = 0; f < COST_FEATURES; f++) {
-        if (feature[f] != 0.0 && fit->figure[f] < 0.0) {
-            *unseen = f;
-            return -1.0;
-        }
-        sum += feature[f] * fit->figure[f];
-    }
-    return sum;
-}
-
-cost_class cost_class_of(const double feature[static COST_FEATURES]) {
-    return feature[COST_F_BOOKS] != 0.0        ? COST_BOOKING
-           : feature[COST_F_CODE_CALLS] != 0.0 ? COST_CALLING
-                                               : COST_PLAIN;
-}
-
-double cost_least(const cost_fit *fit, double sum, double bound) {
-    return sum > fit->slack ? (sum - fit->slack) / bound : 0.0;
-}
-
-double cost_most(const cost_fit *fit, double sum, double bound) { return sum * bound + fit->slack; }
-
 static cost_figure exactly(double value) {
     return (cost_figure){COST_EXACT, COST_EXACT, value, value, value, 1.0};
 }
@@ -93,9 +36,6 @@ static double bound_at(const cost_fit *fit, const double *feature, double value)
     const double bound = fit->bound[cost_class_of(feature)];
     return value > fit->largest ? 2.0 * bound - 1.0 : bound;
 }
-
-/* A promise within more than this factor is none. */
-#define COST_BOUND_MOST 4.0
 
 /* One quantity, or nothing of it, and why in *why. */
 static cost_figure predicted(const cost_row *row, cost_quantity quantity, cost_basis of,
@@ -205,7 +145,7 @@ cost cost_of(const image *im, const cost_board *board, cost_number number) {
         return c;
     }
     double feature[COST_FEATURES];
-    cost_counts counts = cost_counts_of(im, board->fpu, number);
+    cost_counts counts = cost_counts_of(im, board, number);
     counts.smooth = 1.0;
     cost_features(&counts, feature);
     c.predictable = true;

@@ -171,10 +171,9 @@ static int state_words(const image *im) {
     return im->angles + 2 * im->reals + im->angles + im->inputs + books;
 }
 
-cost_counts cost_counts_of(const image *im, bool fpu, cost_number number) {
+cost_counts cost_counts_of(const image *im, const cost_board *board, cost_number number) {
     cost_counts c = {.im = im,
                      .number = number,
-                     .fpu = fpu,
                      .second = im->form == WH_SECOND_ORDER,
                      .turned = image_turns(im),
                      .compensated = im->settings.compensated,
@@ -191,11 +190,13 @@ cost_counts cost_counts_of(const image *im, bool fpu, cost_number number) {
     }
     c.components = c.second ? im->coordinates : im->angles + im->reals;
     c.linears = c.second ? im->coordinates - im->angles : im->reals;
-    c.called = tape_operations(im->list[IMAGE_STEP]) > INLINED_MOST || im->contacts > 0 || !fpu;
+    c.called =
+        tape_operations(im->list[IMAGE_STEP]) > INLINED_MOST || im->contacts > 0 || !board->fpu;
     add_step(im, &c);
+    const bool is_avr = board->cycles == COST_SIMULATED;
     const bool unrolls_less = im->settings.compensated || c.step.operations >= LONG_LEAST;
-    c.looped = unrolls_less || im->ledger.kept || im->contacts > 0;
-    c.tabled = unrolls_less && c.stages > 2;
+    c.looped = is_avr && (unrolls_less || im->ledger.kept || im->contacts > 0);
+    c.tabled = is_avr && unrolls_less && c.stages > 2;
     c.copies = c.called ? 1 : c.stages;
     c.lookups = c.turned ? c.step.pairs : c.stages * c.step.pairs;
     c.state_words = state_words(im);

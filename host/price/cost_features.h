@@ -10,7 +10,8 @@
 #ifndef PRICE_COST_FEATURES_H
 #define PRICE_COST_FEATURES_H
 
-#include "cost.h"
+#include "cost_board.h"
+#include "host/image/image.h"
 
 /* Quantities that are fitted: X(id, word, whether it is a step's time). */
 #define COST_QUANTITY_ROWS(X) \
@@ -58,7 +59,6 @@ typedef struct cost_list {
 typedef struct cost_counts {
     const image *im;
     cost_number number;
-    bool fpu;
     cost_list step; /* what a stage evaluates */
     cost_list
         fixed; /* of that, what does not change from stage to stage, where a compiler sees it: then not in step */
@@ -77,7 +77,8 @@ typedef struct cost_counts {
     bool second;
     bool turned;
     bool compensated;
-    bool looped; /* the step is none that old compilers unroll (WH_SMALL_STEP of core/unroll.h) */
+    bool
+        looped; /* the step is one that the old compiler of AVR does not unroll (WH_SMALL_STEP, core/unroll.h), */
     bool tabled; /* and looks its method up in a table */
     bool called; /* the list is a function of its own */
     int copies;  /* of the list in the code */
@@ -91,7 +92,7 @@ typedef struct cost_counts {
     double smooth;   /* a step without its contacts, predicted: filled in by cost.c */
 } cost_counts;
 
-cost_counts cost_counts_of(const image *im, bool fpu, cost_number number);
+cost_counts cost_counts_of(const image *im, const cost_board *board, cost_number number);
 
 /* How often a step does what a list holds so many of. */
 #define COST_EACH(what) (c->stages * (c->step.what + c->books.what) + c->fixed.what)
@@ -131,6 +132,7 @@ cost_counts cost_counts_of(const image *im, bool fpu, cost_number number);
     X(TURNED_SUMS, COST_TIME | COST_CODE, \
       c->turned && c->compensated ? (c->turns + c->leans) * c->step.pairs : 0) \
     X(CARRY_ANGLES, COST_TIME | COST_CODE, c->compensated ? c->angles : 0) \
+    X(CARRY_LINEARS, COST_TIME | COST_CODE, c->compensated ? c->linears : 0) \
     X(CARRY_REALS, COST_TIME | COST_CODE | COST_DEPTH, c->compensated ? c->reals : 0) \
     X(SUMS, COST_TIME, COST_EACH(sums)) \
     X(PRODUCTS, COST_TIME, COST_EACH(products)) \

@@ -8,6 +8,9 @@
 /* A feature that no fitted scene has: nothing is known of what it costs. */
 #define COST_UNSEEN (-1.0)
 
+/* A promise within more than this factor is none: then it is not known. */
+#define COST_BOUND_MOST 4.0
+
 /* Scenes that are not known equally well: X(id, what is said of them). */
 #define COST_CLASS_ROWS(X) \
     X(PLAIN, "") \

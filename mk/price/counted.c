@@ -94,7 +94,7 @@ static bool derive(counted *r) {
                load(&made, &from, of, in, &changes, &wish) == EXIT_DONE;
         if (done) {
             const cost_board *board = &cost_boards[r->board];
-            cost_counts c = cost_counts_of(made.image, board->fpu, r->number);
+            cost_counts c = cost_counts_of(made.image, board, r->number);
             c.smooth = 1.0;
             cost_features(&c, r->feature);
             r->contacts = made.image->contacts > 0;

@@ -2,6 +2,7 @@
 #ifndef PRICE_COUNTED_H
 #define PRICE_COUNTED_H
 
+#include "host/price/cost.h"
 #include "host/price/cost_row.h"
 
 enum { ROWS_MAX = 20000, COLUMNS = 15 };

@@ -30,7 +30,7 @@ static void expect_whole(const cost_figure *f, const char *what) {
             f->of == COST_MEASURED || f->of == COST_ESTIMATED || f->of == COST_SIMULATED, what);
         break;
     case COST_RANGE:
-        TEST_ASSERT_TRUE_MESSAGE(f->value == 0.0 && f->least > 0.0 && f->least < f->most, what);
+        TEST_ASSERT_TRUE_MESSAGE(f->value == 0.0 && f->least >= 0.0 && f->least < f->most, what);
         break;
     case COST_MEASURED:
     case COST_ESTIMATED:

@@ -1,0 +1,26 @@
+/* cost_row.c: see cost_row.h. */
+#include "cost_row.h"
+
+double cost_fit_at(const cost_fit *fit, const double feature[static COST_FEATURES], int *unseen) {
+    double sum = 0.0;
+    for (int f = 0; f < COST_FEATURES; f++) {
+        if (feature[f] != 0.0 && fit->figure[f] < 0.0) {
+            *unseen = f;
+            return -1.0;
+        }
+        sum += feature[f] * fit->figure[f];
+    }
+    return sum;
+}
+
+cost_class cost_class_of(const double feature[static COST_FEATURES]) {
+    return feature[COST_F_BOOKS] != 0.0        ? COST_BOOKING
+           : feature[COST_F_CODE_CALLS] != 0.0 ? COST_CALLING
+                                               : COST_PLAIN;
+}
+
+double cost_least(const cost_fit *fit, double sum, double bound) {
+    return sum > fit->slack ? (sum - fit->slack) / bound : 0.0;
+}
+
+double cost_most(const cost_fit *fit, double sum, double bound) { return sum * bound + fit->slack; }
