@@ -150,9 +150,10 @@ static bool midpoint(extrapolation *e, long double span_s, int substeps, long do
     return finite;
 }
 
-/* The error of a step by the last two columns, as a part of what is allowed; how far it moves the state is in *made. Infinite where something is not a finite number. */
-static double try_step(extrapolation *e, long double span_s, long double **made) {
-    long double scale[2 * IMAGE_COMPONENTS_MAX];
+/* How far a step moves the state, by the last column; *error by the last two, as a part of what is allowed. Infinite
+ * where something is not a finite number: the move is then of no use. */
+static const long double *try_step(extrapolation *e, long double span_s, double *error) {
+    long double scale[2 * IMAGE_COMPONENTS_MAX] = {0};
     const int n = e->count;
     const int columns = e->how.columns;
     scale_of(e, span_s, scale);
@@ -160,7 +161,8 @@ static double try_step(extrapolation *e, long double span_s, long double **made)
     long double *row = e->row[1];
     for (int j = 0; j < columns; j++) {
         if (!midpoint(e, span_s, 2 * (j + 1), row)) {
-            return (double)INFINITY;
+            *error = (double)INFINITY;
+            return row;
         }
         for (int k = 1; k <= j; k++) {
             const long double ratio = (long double)(j + 1) / (long double)(j + 1 - k);
@@ -174,18 +176,20 @@ static double try_step(extrapolation *e, long double span_s, long double **made)
         above = row;
         row = swap;
     }
-    double worst = 0.0;
-    *made = above + (size_t)(columns - 1) * (size_t)n;
+    *error = 0.0;
+    const long double *made = above + (size_t)(columns - 1) * (size_t)n;
     const long double *other = above + (size_t)(columns - 2) * (size_t)n;
     for (int i = 0; i < n; i++) {
-        const long double size = long_size(e->state[i] + (*made)[i]);
+        const long double size = long_size(e->state[i] + made[i]);
         const long double allowed = size > scale[i] ? size : scale[i];
-        const long double off = long_size((*made)[i] - other[i]);
-        if (off > 0.0L) {
-            worst = number_most(worst, (double)(off / allowed) / e->how.tolerance);
+        const long double off = long_size(made[i] - other[i]);
+        if (!isfinite(off)) {
+            *error = (double)INFINITY;
+        } else if (off > 0.0L) {
+            *error = number_most(*error, (double)(off / allowed) / e->how.tolerance);
         }
     }
-    return worst;
+    return made;
 }
 
 /* Kahan's sum: what one step's rounding takes off, the next one brings back. */
@@ -223,8 +227,8 @@ extrapolation_status extrapolation_go(extrapolation *e, long double span_s) {
                                    : 2.0L * e->step_s >= left_s ? 0.5L * left_s
                                                                 : e->step_s;
         slope_at(e, e->state, e->slope);
-        long double *made;
-        const double error = try_step(e, step_s, &made);
+        double error;
+        const long double *made = try_step(e, step_s, &error);
         if (e->operations > e->most_operations) {
             return EXTRAPOLATION_LONG;
         }
