@@ -196,7 +196,7 @@ bool cost_measured(const char *row, const cost_board *board, cost *c) {
     if (strlen(row) >= sizeof copy) {
         return false;
     }
-    strcpy(copy, row);
+    memcpy(copy, row, strlen(row) + 1);
     if (cut(copy, column) != COLUMNS || strcmp(column[3], board->name) != 0) {
         return false;
     }
