@@ -46,6 +46,8 @@ deviation deviation_measure(const reference *r, const image *im, const engine_ki
     }
     uint64_t most;
     d.operations = (double)kind->evaluations(run, &most) * (double)im->list[IMAGE_STEP]->count;
+    const double time_s = ratio_times(kind->steps(run), im->step);
+    d.evaluations = time_s > 0.0 ? (double)kind->evaluations(run, &most) / time_s : 0.0;
     d.usable = good;
     kind->stop(run);
     records_close(now);

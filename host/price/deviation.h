@@ -23,7 +23,8 @@ typedef struct deviation {
     int column;   /* where */
     double
         known; /* and how well the reference knows that column there: errors near it are no more than bounds */
-    double operations; /* evaluated: what it took */
+    double operations;  /* evaluated: what it took */
+    double evaluations; /* of the accelerations, a simulated second */
 } deviation;
 
 /* `im`: the reference's scene, with a step of this pace. */

@@ -22,11 +22,21 @@ deviation_pace table_ladder(int rung) {
 #define FALLS 0.7
 enum { PATIENCE = 2 };
 
+const char *const table_unit_words[] = {[PRICE_CYCLES] = "cycles",
+                                        [PRICE_INSTRUCTIONS] = "instructions",
+                                        [PRICE_EVALUATIONS] = "evaluations"};
+
 table_price table_price_of(const cost *c, double step_s, bool *known) {
     const bool cycles = c->cycles.basis != COST_RANGE && c->cycles.basis != COST_NOT_KNOWN;
     const cost_figure *f = cycles ? &c->cycles : &c->instructions;
     *known = f->basis != COST_NOT_KNOWN && f->basis != COST_RANGE;
-    return (table_price){cycles, f->value / step_s, f->least / step_s, f->most / step_s};
+    return (table_price){cycles ? PRICE_CYCLES : PRICE_INSTRUCTIONS, f->basis, f->value / step_s,
+                         f->least / step_s, f->most / step_s};
+}
+
+static table_price price_by_evaluations(const trial_result *r) {
+    return (table_price){PRICE_EVALUATIONS, COST_MEASURED, r->evaluations, r->evaluations,
+                         r->evaluations};
 }
 
 static void add(table *made, table_row row) {
@@ -46,7 +56,7 @@ static void climb(trials *t, table *made, const setting *s, const cost *each_ste
         }
         bool known;
         row.price = table_price_of(&row.cost, ratio_times(1, trial_step(t, row.pace)), &known);
-        if (!known) {
+        if (!known && !made->counted) {
             made->unpriced++;
             made->why = row.cost.why;
             return;
@@ -55,6 +65,9 @@ static void climb(trials *t, table *made, const setting *s, const cost *each_ste
         row.result = trial_run(t, s, row.pace);
         if (!row.result.ran) {
             return;
+        }
+        if (made->counted) {
+            row.price = price_by_evaluations(&row.result);
         }
         if (row.result.usable) {
             add(made, row);
@@ -97,11 +110,17 @@ table *table_new(trials *t, const table_wish *w) {
     bool *own = room(count, sizeof *own);
     cost *price = room(count, sizeof *price);
     made->why = "";
+    int priced = 0;
     for (int i = 0; i < count && !t->stopped; i++) {
         const setting s = setting_at(i);
         price[i] = trial_cost(t, &s, table_ladder(TABLE_COARSEST), &own[i]);
         made->settings += own[i] ? 1 : 0;
+        bool known;
+        (void)table_price_of(&price[i], 1.0, &known);
+        priced += own[i] && known ? 1 : 0;
+        made->why = own[i] && !known ? price[i].why : made->why;
     }
+    made->counted = priced == 0;
     int done = 0;
     for (int i = 0; i < count && !t->stopped; i++) {
         if (own[i]) {

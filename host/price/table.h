@@ -5,8 +5,16 @@
 #include "trial.h"
 
 /* A figure of cost_figure a step, as it counts a simulated second: what a row is sorted by. */
+typedef enum table_unit {
+    PRICE_CYCLES,
+    PRICE_INSTRUCTIONS, /* where nobody counts cycles */
+    PRICE_EVALUATIONS /* of the accelerations, where nobody knows what they take: counted in the run */
+} table_unit;
+extern const char *const table_unit_words[]; /* "cycles", ... */
+
 typedef struct table_price {
-    bool cycles; /* else instructions: nobody counts cycles there */
+    table_unit unit;
+    cost_basis basis;
     double value;
     double least, most; /* promised */
 } table_price;
@@ -25,7 +33,8 @@ typedef struct table {
     table_row *row; /* [count] by price, then by error */
     int count;
     int settings;    /* of its own, without steps */
-    int unpriced;    /* of them, those that nobody knows a price of: */
+    bool counted;    /* no setting has a price on the board: all are priced by evaluations */
+    int unpriced;    /* else those of them that nobody knows a price of, which are left out: */
     const char *why; /* of one of them, or "" */
     int coarse;      /* trials left out since they erred by more than the values themselves */
     int broken_off;  /* settings whose finer steps would have taken too long */

@@ -78,8 +78,8 @@ bool table_plot(const char *file, const trials *t, const table *made) {
     }
     char *title = room_words("%s on %s (%s): error against price", t->image[0]->name,
                              t->wish.board->name, t->wish.board->core);
-    const bool cycles = made->count > 0 && made->row[0].price.cycles;
-    char *x = room_words("%s a simulated second", cycles ? "cycles" : "instructions");
+    char *x = room_words("%s a simulated second",
+                         made->count > 0 ? table_unit_words[made->row[0].price.unit] : "cycles");
     char *y = t->what.column < 0
                   ? room_words("error, part of the largest value, to %.9g s", trial_horizon_s(t))
                   : room_words("error of %s [%s] to %.9g s", trial_column(t, t->what.column, text),

@@ -48,8 +48,7 @@ static void print_row(FILE *out, const trials *t, const table_row *row) {
     char price[24];
     const cost *c = &row->cost;
     snprintf(error, sizeof error, "%s%.2e", row->result.bound ? "<" : "", row->result.error);
-    snprintf(price, sizeof price, "%.3g %c", row->price.value,
-             figure_letter(row->price.cycles ? c->cycles.basis : c->instructions.basis));
+    snprintf(price, sizeof price, "%.3g %c", row->price.value, figure_letter(row->price.basis));
     fprintf(out, "%s %9s  %10s", row->on_front ? "*" : " ", error, price);
     fprintf(out, "  %8s", figure_text(&c->flash_bytes, text));
     fprintf(out, "  %7s", figure_text(&c->ram_bytes, text));
@@ -59,14 +58,17 @@ static void print_row(FILE *out, const trials *t, const table_row *row) {
             trial_time(trial_step(t, row->pace), step));
 }
 
+static const char *const heads[] = {[PRICE_CYCLES] = "cycles/s",
+                                    [PRICE_INSTRUCTIONS] = "instr./s",
+                                    [PRICE_EVALUATIONS] = "eval./s"};
+
 static void print_rows(FILE *out, const trials *t, const table *made, const table_words *words) {
     char heading[40] = "error";
     if (trial_unit(t)[0] != '\0') {
         snprintf(heading, sizeof heading, "error, %s", trial_unit(t));
     }
     fprintf(out, "\n  %9s  %10s  %8s  %7s  %7s  %6s   settings\n", heading,
-            made->row[0].price.cycles ? "cycles/s" : "instr./s", "flash, B", "RAM, B", "stack, B",
-            "state");
+            heads[made->row[0].price.unit], "flash, B", "RAM, B", "stack, B", "state");
     for (int i = 0; i < made->count; i++) {
         if (words->all || made->row[i].on_front) {
             print_row(out, t, &made->row[i]);
@@ -84,9 +86,19 @@ static void print_notes(FILE *out, const trials *t, const table *made, const tab
     fputc('\n', out);
     figure_legend(out, &made->row[0].cost);
     const table_row *first = &made->row[0];
-    fprintf(
-        out, "  %s a simulated second: %s\n", first->price.cycles ? "cycles" : "instructions",
-        figure_words(first->price.cycles ? &first->cost.cycles : &first->cost.instructions, text));
+    if (made->counted) {
+        fprintf(
+            out,
+            "  m  measured: counted in the run\n"
+            "  evaluations of the accelerations a simulated second, since no setting has a price "
+            "on this board:\n  %s\n",
+            made->why);
+    } else {
+        fprintf(out, "  %s a simulated second: %s\n", table_unit_words[first->price.unit],
+                figure_words(first->price.unit == PRICE_CYCLES ? &first->cost.cycles
+                                                               : &first->cost.instructions,
+                             text));
+    }
     fprintf(
         out,
         "\n%d settings, %d rows, %d of them on the front: nothing is as cheap and errs less%s\n",
@@ -162,14 +174,16 @@ static void csv_figure(FILE *out, const cost_figure *f) {
 
 static void csv_row(FILE *out, const trials *t, const table_row *row, const table_words *words) {
     char text[TRIAL_NAME];
-    const cost_figure *price = row->price.cycles ? &row->cost.cycles : &row->cost.instructions;
+    const cost_basis fitted_to = row->price.unit == PRICE_CYCLES         ? row->cost.cycles.of
+                                 : row->price.unit == PRICE_INSTRUCTIONS ? row->cost.instructions.of
+                                                                         : COST_MEASURED;
     fprintf(out, "%d,%.9g,", row->on_front ? 1 : 0, row->result.error);
     figure_field(out, trial_unit(t));
     fprintf(out, ",measured,%d,", row->result.bound ? 1 : 0);
     figure_field(out, trial_column(t, row->result.column, text));
-    fprintf(out, ",%.9g,%s,%s,%s,%.9g,%.9g,", row->price.value,
-            row->price.cycles ? "cycles" : "instructions", cost_basis_words[price->basis],
-            cost_basis_words[price->of], row->price.least, row->price.most);
+    fprintf(out, ",%.9g,%s,%s,%s,%.9g,%.9g,", row->price.value, table_unit_words[row->price.unit],
+            cost_basis_words[row->price.basis], cost_basis_words[fitted_to], row->price.least,
+            row->price.most);
     fputs(trial_time(trial_step(t, row->pace), text), out);
     for (int axis = 0; axis < AXES; axis++) {
         fprintf(out, ",%s", setting_word(&row->setting, (setting_axis)axis));

@@ -178,6 +178,7 @@ static void enter(const trials *t, int point, const deviation *d, trial_result *
     const bool bound = d->error < 3.0 * d->known;
     const double error = bound ? d->error + d->known : d->error;
     const bool first = point == 0;
+    worst->evaluations = number_most(worst->evaluations, d->evaluations);
     worst->usable = (first || worst->usable) && d->usable;
     (void)t;
     if (first || !(error <= worst->error)) {

@@ -46,9 +46,10 @@ typedef struct trial_result {
     double
         error; /* the worst, in the unit of `of` or as a part of the largest value; what the reference does not know
                    * of it counts as error */
-    bool bound; /* it is no more than a bound: the reference does not know better */
-    int point;  /* where it is the worst */
-    int column; /* which component */
+    bool bound;         /* it is no more than a bound: the reference does not know better */
+    int point;          /* where it is the worst */
+    int column;         /* which component */
+    double evaluations; /* of the accelerations, a simulated second, at the place that takes most */
 } trial_result;
 
 /* Computes the references. False, told on standard error, when `of` is nothing of the scene, or an image is missing. */

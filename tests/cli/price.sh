@@ -148,6 +148,13 @@ none "RAM" '^  RAM .*fails' --error 1e-3 --rate 200Hz --ram 20B
 none "error" '^  error .*fails' --error 1e-9 --rate 200Hz --clock 1MHz
 none "a weaker error would" '^  an error of ' --error 1e-9 --rate 200Hz --clock 1MHz
 
+# --- contacts: no price on a board, but evaluations that were counted ----------------------------------------------
+"$whirl" price ball_bounces --effort 0.005 --csv "$scratch/b.csv" >"$scratch/out" 2>"$scratch/err"
+[ $? -eq 0 ] && grep -q 'eval./s' "$scratch/out" && grep -q 'shares the core.s step and events' "$scratch/out"
+verdict $? "a scene with contacts: by evaluations, and its reference says what it is" "$scratch/out"
+awk -F, 'NR > 1 { n++; if ($8 != "evaluations" || $9 != "measured" || !($7 > 0)) { bad = 1 } } END { exit bad || n < 10 }' "$scratch/b.csv"
+verdict $? "which are measured" "$scratch/b.csv"
+
 # --- no reference ---------------------------------------------------------------------------------------------------
 "$whirl" price incline_sticks >"$scratch/out" 2>"$scratch/err"
 [ $? -eq 1 ] && grep -q 'no front: without a reference no error is known' "$scratch/out"
