@@ -3,7 +3,7 @@
 
 #include "gnuplot.h"
 
-enum { HEIGHT = 640, SHAPES = 7 };
+enum { HEIGHT = 560, SHAPES = 7 };
 
 static void write_data(FILE *to, const scatter_series *series, int count) {
     for (int i = 0; i < count; i++) {
@@ -29,7 +29,7 @@ bool scatter_draw(const char *file, const char *title, const char *x_axis, const
     fputs(" noenhanced\nset ylabel ", g.to);
     gnuplot_quote(g.to, y_axis);
     fputs(" noenhanced\nset logscale xy\nset format '10^{%L}'\nset grid\n"
-          "set key outside bottom center maxcols 3 noenhanced\nplot ",
+          "set key outside right top samplen 2 font ',9' noenhanced\nplot ",
           g.to);
     for (int i = 0; i < count; i++) {
         fprintf(g.to, "%s$data%d using 1:2 with ", i > 0 ? ", " : "", i);
