@@ -14,15 +14,15 @@
 #include "reference_rows.h"
 
 /* The finer of two extrapolations, and the one that it is held against: of other orders, so by other steps. */
-static const extrapolation_setting fine = {6, 16.0 * LDBL_EPSILON};
-static const extrapolation_setting coarse = {5, 64.0 * LDBL_EPSILON};
+static const extrapolation_setting fine = {6, 16.0 * (double)LDBL_EPSILON};
+static const extrapolation_setting coarse = {5, 64.0 * (double)LDBL_EPSILON};
 
 /* A record is trusted while the two differ by less of a column's largest value. They begin with less than 1e-16 in long
  * double: what has grown to this is no error of theirs but the motion's own, which carries every rounding away. */
 #define LIMIT_EXTRAPOLATED (LONG_IS_LONGER ? 1e-12 : 1e-9)
 #define LIMIT_FINE_STEPS 1e-6
 /* A component of which they differ by more than this part of its size from the beginning is nothing but rounding. */
-#define KNOWN 1e-3
+#define KNOWN 1e-3L
 
 /* One of the two computations. */
 typedef struct computed {
