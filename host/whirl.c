@@ -28,6 +28,9 @@ static const command commands[] = {
 #ifndef WHIRL_NO_SYSTEM /* no processes and no signals */
     {"run", command_run, "SCENE|FILE[:SCENE] ...", "simulate"},
     {"sweep", command_sweep, "SCENE|FILE[:SCENE] ...", "simulate over ranges of parameters"},
+    {"price", command_price, "SCENE|FILE[:SCENE] ...", "error against price, for all settings"},
+    {"choose", command_choose, "SCENE|FILE[:SCENE] ...",
+     "the cheapest setting that keeps an error on a board"},
 #endif
     {"emit-scenes", command_emit_scenes, NULL, NULL},
     {"hashes", command_hashes, NULL, NULL},

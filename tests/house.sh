@@ -35,11 +35,11 @@ algebra: base lang
 image: base core number
 derive: algebra base core image lang number
 show: algebra base derive lang number
-price: base core image number
 run: base core image number plot
 emit: base image number
 sweep: base core derive image lang number run
-commands: base derive emit image lang number run show sweep
+price: base core image number plot run
+commands: base derive emit image lang number plot price run show sweep
 '
 
 # included FILE...: "FILE FOLDER" for each folder of core or host that a file names in an include

@@ -9,6 +9,8 @@ int command_describe(int count, char **words);
 int command_accel(int count, char **words);
 int command_run(int count, char **words);
 int command_sweep(int count, char **words);
+int command_price(int count, char **words);
+int command_choose(int count, char **words);
 int command_emit_scenes(int count, char **words);
 int command_hashes(int count, char **words);
 

@@ -118,8 +118,10 @@ static const command_usage usage = {
         "Prints the equations of motion of a mechanism (or of a scene, with its effects), of a FILE or\n"
         "built in (`whirl list`):\n",
     .tail = ""};
-static const command_usage options_of_derive = {
-    .head = "", .groups = OPTIONS_CHANGE | OPTIONS_ENGINE, .tail = "Numbers in formulas are SI. "};
+static const command_usage options_of_derive = {.head = "",
+                                                .groups =
+                                                    OPTIONS_CHANGE | OPTIONS_STEP | OPTIONS_ENGINE,
+                                                .tail = "Numbers in formulas are SI. "};
 
 static void print_option(FILE *out, const char *option, bool (*of)(const form_row *form),
                          const char *what) {

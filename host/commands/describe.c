@@ -15,7 +15,7 @@ static const command_usage usage = {
         "memory, costs and the model's hash; all that runs and all generated code is made of the same.\n"
         "Values are SI.\n"
         "  --json       the same for programs: one JSON object (docs/describe.md)\n",
-    .groups = OPTIONS_CHANGE | OPTIONS_ENGINE,
+    .groups = OPTIONS_CHANGE | OPTIONS_STEP | OPTIONS_ENGINE,
     .described = false,
     .tail = ""};
 

@@ -22,7 +22,7 @@
       "effects to add, or all; 'ledger': books of energy and momentum") \
     X(OPTION_WITHOUT, "--without", "E,...", OPTIONS_CHANGE, \
       "effects to leave out, or all; 'conserve': integrate every coordinate") \
-    X(OPTION_STEP, "--step", "1ms", OPTIONS_CHANGE, "fixed step") \
+    X(OPTION_STEP, "--step", "1ms", OPTIONS_STEP, "fixed step") \
     X(OPTION_UNTIL, "--until", "9s", OPTIONS_CHANGE, "end of the run") \
     X(OPTION_METHOD, "--method", "M", OPTIONS_ENGINE, "") \
     X(OPTION_NUMBER, "--number", "N", OPTIONS_NUMBER, \
@@ -55,7 +55,8 @@ enum { OPTION_TEXT_WIDTH = 76 };
 typedef enum option_group {
     OPTIONS_CHANGE = 1, /* change an instance */
     OPTIONS_ENGINE = 2, /* how to integrate */
-    OPTIONS_NUMBER = 4  /* what computes */
+    OPTIONS_NUMBER = 4, /* what computes */
+    OPTIONS_STEP = 8    /* the step: of commands that do not choose it themselves */
 } option_group;
 
 /* A command's help text. */

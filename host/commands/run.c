@@ -23,7 +23,7 @@ static const command_usage usage = {
         "SCENE and MECHANISM are built in (`whirl list`), FILE is yours. A mechanism without a scene starts\n"
         "at rest at zero; of a FILE with one scene, that is run.\n"
         "\n",
-    .groups = OPTIONS_CHANGE | OPTIONS_ENGINE | OPTIONS_NUMBER,
+    .groups = OPTIONS_CHANGE | OPTIONS_STEP | OPTIONS_ENGINE | OPTIONS_NUMBER,
     .described = true,
     .tail =
         "  --csv FILE           records; - is standard output (the summary then goes to standard error)\n"

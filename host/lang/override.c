@@ -157,12 +157,29 @@ bool override_is_bare(const assignment *made) {
            !unit_is_si(made->symbol->declared) && expr_value(made->value, NULL) != 0.0;
 }
 
-const expr *override_duration(const mechanism *of, const char *what, const char *text,
-                              struct arena *arena, diags *all) {
+const expr *override_quantity(const mechanism *of, const char *what, const char *text,
+                              dimension wanted, struct arena *arena, diags *all) {
     const size_t before = diags_calls(all);
     parser in = begin(of, text, arena, all);
-    const expr *made = parse_quantity(&in, dim_of(0, 0, 1, 0, 0), what);
+    const expr *made = parse_quantity(&in, wanted, what);
     return diags_calls(all) == before ? made : NULL;
+}
+
+const expr *override_duration(const mechanism *of, const char *what, const char *text,
+                              struct arena *arena, diags *all) {
+    return override_quantity(of, what, text, dim_of(0, 0, 1, 0, 0), arena, all);
+}
+
+bool override_dimension(const mechanism *of, const char *name, dimension *found) {
+    const size_t length = strcspn(name, "'");
+    const size_t primes = strlen(name) - length;
+    const named *known = names_find(of->names, name, length);
+    dimension rate = dim_none();
+    return known != NULL && strspn(name + length, "'") == primes &&
+           (known->symbol.kind == SYM_COORDINATE || known->symbol.kind == SYM_STATE ||
+            known->symbol.kind == SYM_OUTPUT) &&
+           dim_power(dim_of(0, 0, -1, 0, 0), (double)primes, &rate) &&
+           dim_multiply(known->symbol.dim, rate, found);
 }
 
 int override_effect(const mechanism *of, const char *text, struct arena *arena, diags *all) {

@@ -20,6 +20,14 @@ bool override_is_bare(const assignment *made);
 const expr *override_duration(const mechanism *of, const char *what, const char *text,
                               struct arena *arena, diags *diags);
 
+/* "500 Hz", "0.1mm", "1e-6": a quantity of this dimension, in SI; a bare number is SI. NULL when it was wrong. */
+const expr *override_quantity(const mechanism *of, const char *what, const char *text,
+                              dimension wanted, struct arena *arena, diags *diags);
+
+/* The dimension of what "X", "theta'" or an output's name stands for. False when it stands for nothing that moves: not
+ * reported. */
+bool override_dimension(const mechanism *of, const char *name, dimension *found);
+
 /* The index of the effect called `text`, or -1 (reported). */
 int override_effect(const mechanism *of, const char *text, struct arena *arena, diags *diags);
 

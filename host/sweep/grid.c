@@ -25,6 +25,12 @@ static char *trimmed(const char *text, size_t length) {
     return room_copy(text, length);
 }
 
+/* Begins a message: whose option it is, and what it was given. */
+static void say(const grid *g, const char *over) {
+    fprintf(stderr, "whirl %s: error: %s \"%s\"", g->command != NULL ? g->command : "sweep",
+            g->option != NULL ? g->option : "--over", over);
+}
+
 static char *joined(const char *left, const char *right) { return room_words("%s%s", left, right); }
 
 /* --- the text of a range -----------------------------------------------------------------------*/
@@ -44,7 +50,7 @@ static void range_free(range_text *r) {
 }
 
 /* Cut the text at its '=', "..", and last ':'. */
-static bool range_split(const char *text, range_text *r) {
+static bool range_split(const grid *g, const char *text, range_text *r) {
     const char *equals = strchr(text, '=');
     const char *colon = strrchr(text, ':');
     const char *dots = equals != NULL ? strstr(equals, "..") : NULL;
@@ -55,11 +61,12 @@ static bool range_split(const char *text, range_text *r) {
         problem = "has three dots in a row";
     }
     if (problem != NULL) {
+        const char *option = g->option != NULL ? g->option : "--over";
+        say(g, text);
         fprintf(
             stderr,
-            "whirl sweep: error: --over \"%s\" %s\n"
-            "hint: such as --over \"r=10..60 [mm]:11\", or ...:11,log for a logarithmic range\n",
-            text, problem);
+            " %s\nhint: such as %s \"r=10..60 [mm]:11\", or ...:11,log for a logarithmic range\n",
+            problem, option);
         return false;
     }
     r->name = trimmed(text, (size_t)(equals - text));
@@ -92,7 +99,7 @@ static void share_unit(range_text *r) {
     }
 }
 
-static bool read_count(const char *over, const char *text, axis *made) {
+static bool read_count(const grid *g, const char *over, const char *text, axis *made) {
     const size_t digits = strspn(text, "0123456789");
     const char *rest = text + digits;
     made->is_log = strcmp(rest, ",log") == 0;
@@ -108,7 +115,8 @@ static bool read_count(const char *over, const char *text, axis *made) {
         problem = "a logarithmic range takes two ends above zero, or two below";
     }
     if (problem != NULL) {
-        fprintf(stderr, "whirl sweep: error: --over \"%s\": %s\n", over, problem);
+        say(g, over);
+        fprintf(stderr, ": %s\n", problem);
     }
     return problem == NULL;
 }
@@ -136,7 +144,8 @@ static const expr *read_end(const mechanism *of, const char *name, const char *t
 }
 
 /* False, with a report, when the two ends are no numbers of one kind. */
-static bool take_ends(const char *over, const expr *from, const expr *to, axis *made) {
+static bool take_ends(const grid *g, const char *over, const expr *from, const expr *to,
+                      axis *made) {
     const char *problem = NULL;
     if (((from->uses | to->uses) & ~(unsigned)USES_UNIT) != 0) {
         problem = "FROM and TO must be numbers";
@@ -152,19 +161,20 @@ static bool take_ends(const char *over, const expr *from, const expr *to, axis *
         }
     }
     if (problem != NULL) {
-        fprintf(stderr, "whirl sweep: error: --over \"%s\": %s\n", over, problem);
+        say(g, over);
+        fprintf(stderr, ": %s\n", problem);
     }
     return problem == NULL;
 }
 
-static bool read_axis(const mechanism *of, const char *over, const range_text *r, diags *errors,
-                      axis *made) {
+static bool read_axis(const grid *g, const mechanism *of, const char *over, const range_text *r,
+                      diags *errors, axis *made) {
     struct arena *arena = arena_new();
     const expr *from = read_end(of, r->name, r->from, arena, errors, made);
     const expr *to = from == NULL ? NULL : read_end(of, r->name, r->to, arena, errors, made);
     diags_flush(errors, stderr);
     const bool good =
-        to != NULL && take_ends(over, from, to, made) && read_count(over, r->count, made);
+        to != NULL && take_ends(g, over, from, to, made) && read_count(g, over, r->count, made);
     const assignment last = {made->symbol, made->primes, to, {0}};
     if (good && made->symbol != NULL && override_is_bare(&last)) {
         char *name = joined(r->name, "=");
@@ -180,12 +190,14 @@ static bool read_axis(const mechanism *of, const char *over, const range_text *r
 static bool fits_in(const grid *g, const char *over, const axis *made) {
     for (int i = 0; i < g->count; i++) {
         if (g->axes[i].symbol == made->symbol && g->axes[i].primes == made->primes) {
-            fprintf(stderr, "whirl sweep: error: --over \"%s\": it is swept already\n", over);
+            say(g, over);
+            fputs(": it is swept already\n", stderr);
             return false;
         }
     }
     if (g->count > 0 && made->count > GRID_POINTS_MAX / g->points) {
-        fprintf(stderr, "whirl sweep: error: more than %.0e points\n", (double)GRID_POINTS_MAX);
+        say(g, over);
+        fprintf(stderr, ": more than %.0e points\n", (double)GRID_POINTS_MAX);
         return false;
     }
     return true;
@@ -193,12 +205,12 @@ static bool fits_in(const grid *g, const char *over, const axis *made) {
 
 bool grid_add(grid *g, const mechanism *of, const char *text, diags *errors) {
     range_text r = {0};
-    if (!range_split(text, &r)) {
+    if (!range_split(g, text, &r)) {
         return false;
     }
     share_unit(&r);
     axis made = {0};
-    const bool good = read_axis(of, text, &r, errors, &made) && fits_in(g, text, &made);
+    const bool good = read_axis(g, of, text, &r, errors, &made) && fits_in(g, text, &made);
     if (good) {
         axis *longer = room_more(g->axes, g->count + 1, sizeof *longer);
         made.name = trimmed(r.name, strlen(r.name));

@@ -21,6 +21,8 @@ typedef struct axis {
 
 /* Every combination; the last axis runs fastest. Starts as {0}; free with grid_free(). */
 typedef struct grid {
+    const char *command; /* in messages; NULL: "sweep" */
+    const char *option;  /* NULL: "--over" */
     axis *axes;
     int count;
     uint64_t points;

@@ -109,6 +109,8 @@ ends() { # COMMAND [OPTION...]: all that it comes to
     describe) "$whirl" describe "$plain" --json "$@" ;;
     run) "$whirl" run "$plain" --csv - --quiet "$@" ;;
     sweep) "$whirl" sweep "$plain" --over x=1..1.5:2 --quiet "$@" ;;
+    price) "$whirl" price "$plain" --csv - --quiet --effort 0.001 "$@" ;;
+    choose) "$whirl" choose "$plain" --error 1e-2 --quiet --effort 0.001 "$@" ;;
     *) echo "no call of $command in $0" ;;
     esac
 }

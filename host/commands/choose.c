@@ -1,0 +1,234 @@
+/* choose.c: `whirl choose`: the cheapest setting that keeps an error on a board. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "commands.h"
+#include "host/number/decimal.h"
+#include "host/number/functions.h"
+#include "host/price/choice_text.h"
+#include "host/price/figure_text.h"
+#include "pricing.h"
+
+/* Records to the horizon: so many to two and a half times as many. */
+#define RECORDS 1000.0
+#define RECORDS_MOST 2500.0
+/* Operations that all trials may evaluate: some twenty seconds of one processor. */
+#define OPERATIONS 4e9
+
+static const char head[] =
+    "usage: whirl choose SCENE|MECHANISM[:SCENE]|FILE[:SCENE] --error E [options]\n"
+    "\n"
+    "The cheapest method, number, form and step that keep an error on a board with a margin of 2, what\n"
+    "they cost and what does them again. Each figure says how it is known. Errors are measured as by\n"
+    "`whirl price`, which shows all settings.\n"
+    "\n";
+static const char tail[] =
+    "  --rate 500Hz         how often the firmware steps: a period takes whole steps (default: any\n"
+    "                       step will do)\n"
+    "  --clock 16MHz        of the processor: the longest steps must fit into the period (default: the\n"
+    "                       board's own, if it has one)\n"
+    "  --flash 32KB         what the firmware may take; K, KB and KiB are 1024 bytes (default: what\n"
+    "                       the board has, if it is one chip)\n"
+    "  --ram 2KB            the same of its memory and stack\n"
+    "  --quiet              no progress\n"
+    "\n";
+static const char *const own[] = {"--rate", "--clock", "--flash", "--ram", NULL};
+
+static void print_help(FILE *out) {
+    const command_usage common = {.head = "", .groups = PRICING_GROUPS, .tail = ""};
+    const command_usage end = {
+        .head = "",
+        .tail = "",
+        .why = {
+            [EXIT_ROW_OF(EXIT_DONE)] = "",
+            [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
+                "nothing fits (it says which limit failed, and what would fit), or there is no\n"
+                "       reference that could be trusted",
+            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
+            [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
+    fputs(head, out);
+    pricing_describe(out);
+    fputs(tail, out);
+    options_usage(out, &common);
+    options_usage(out, &end);
+}
+
+typedef struct choose_options {
+    pricing_options common;
+    const char *rate;
+    const char *clock;
+    const char *flash;
+    const char *ram;
+} choose_options;
+
+static bool read_options(int count, char **words, choose_options *o) {
+    const char **const values[] = {&o->rate, &o->clock, &o->flash, &o->ram};
+    bool bad = false;
+    for (int at = 0; at < count && !bad;) {
+        bool taken = false;
+        for (int i = 0; own[i] != NULL && !taken && !bad; i++) {
+            const char *value = options_value(count, words, &at, own[i], &bad);
+            taken = value != NULL;
+            *values[i] = taken ? value : *values[i];
+        }
+        if (taken || bad || pricing_take(count, words, &at, &o->common, &bad)) {
+            continue;
+        }
+        pricing_unknown("choose", words[at], own);
+        return false;
+    }
+    if (bad || !pricing_complete(&o->common)) {
+        return false;
+    }
+    if (o->common.value[PRICING_ERROR] == NULL) {
+        fputs("whirl choose: error: --error is missing: without it, the cheapest step is none\n"
+              "hint: such as --error 1e-3, a part of the largest value, or --of X --error 0.1mm\n",
+              stderr);
+        return false;
+    }
+    return true;
+}
+
+/* "32KB", "2048", "1 MiB": bytes. */
+static bool read_bytes(const char *option, const char *text, double *bytes) {
+    static const struct {
+        const char *word;
+        double bytes;
+    } units[] = {{"", 1.0},         {"B", 1.0},         {"K", 1024.0},   {"k", 1024.0},
+                 {"KB", 1024.0},    {"kB", 1024.0},     {"KiB", 1024.0}, {"M", 1048576.0},
+                 {"MB", 1048576.0}, {"MiB", 1048576.0}, {"bytes", 1.0}};
+    const char *rest;
+    const double number = decimal_read(text, &rest);
+    const bool begins = rest != text;
+    rest += strspn(rest, " ");
+    for (size_t i = 0; begins && i < sizeof units / sizeof units[0]; i++) {
+        if (strcmp(rest, units[i].word) == 0) {
+            *bytes = number * units[i].bytes;
+            if (*bytes > 0.0 && isfinite(*bytes)) {
+                return true;
+            }
+        }
+    }
+    fprintf(stderr,
+            "whirl choose: error: %s takes a number of bytes above zero, not %s\n"
+            "hint: such as 32KB, or 32768\n",
+            option, text);
+    return false;
+}
+
+static bool read_limits(const choose_options *o, const pricing *p, choice_wish *w) {
+    const dimension rate = dim_of(0, 0, -1, 0, 0);
+    w->clock_Hz = p->board->clock_Hz;
+    w->flash_bytes = (double)p->board->flash_bytes;
+    w->ram_bytes = (double)p->board->ram_bytes;
+    return (o->rate == NULL || pricing_quantity(p, "--rate", o->rate, rate, &w->rate_Hz)) &&
+           (o->clock == NULL || pricing_quantity(p, "--clock", o->clock, rate, &w->clock_Hz)) &&
+           (o->flash == NULL || read_bytes("--flash", o->flash, &w->flash_bytes)) &&
+           (o->ram == NULL || read_bytes("--ram", o->ram, &w->ram_bytes));
+}
+
+/* Records of whole periods, 1, 2, 5, 10, ... of them, not too many; false when there is none to the horizon. */
+static bool space_records(const pricing *p, choice_wish *w, whole_ratio *spacing) {
+    w->periods = 1;
+    if (!(w->rate_Hz > 0.0)) {
+        *spacing = pricing_spacing(p->until_s, RECORDS);
+        return true;
+    }
+    const whole_ratio rate = w->rate_Hz < 1e15 ? ratio_of(w->rate_Hz) : (whole_ratio){0, 1};
+    static const uint64_t mantissa[] = {1, 2, 5};
+    uint64_t periods = 1;
+    for (int i = 0; p->until_s * w->rate_Hz / (double)periods > RECORDS_MOST && i < 36; i++) {
+        periods = mantissa[(i + 1) % 3];
+        for (int k = (i + 1) / 3; k > 0; k--) {
+            periods *= 10;
+        }
+    }
+    w->periods = periods;
+    uint64_t common = periods; /* Euclid's, with the rate's numerator */
+    for (uint64_t rest = rate.numerator; rest != 0;) {
+        const uint64_t left = common % rest;
+        common = rest;
+        rest = left;
+    }
+    *spacing = (whole_ratio){rate.denominator * (periods / common), rate.numerator / common};
+    if (rate.numerator == 0 || p->until_s * w->rate_Hz < 1.0 - 1e-9) {
+        fprintf(stderr,
+                "whirl choose: error: not one period of --rate %.9g Hz lies in %.9g s of motion\n"
+                "hint: a later --until, or a higher rate\n",
+                w->rate_Hz, p->until_s);
+        return false;
+    }
+    return true;
+}
+
+static void show_progress(void *context, int done, int of) {
+    (void)context;
+    fprintf(stderr, "\r%3d of %d settings ", done, of);
+}
+
+/* --error in the unit of the trial's errors. */
+static double allowed_of(const pricing *p) { return p->error_si / trial_error_si(&p->trial, 1.0); }
+
+static int choose_from(const choose_options *o, pricing *p, choice_wish *w) {
+    const table_words words = {o->common.target, p->words, false};
+    if (!p->trial.reliable) {
+        figure_reference(stderr, &p->trial);
+        return EXIT_RUN_FAILED;
+    }
+    w->error = allowed_of(p);
+    const choice c = choice_make(&p->trial, w);
+    choice_row lower;
+    const double lower_Hz =
+        p->trial.stopped || c.found ? 0.0 : choice_lower_rate(&p->trial, w, &c, &lower);
+    if (w->progress != NULL) {
+        fputs("\r                    \r", stderr);
+    }
+    if (p->trial.stopped) {
+        return EXIT_INTERRUPTED;
+    }
+    if (!c.found) {
+        choice_print_none(stdout, &p->trial, w, &c, lower_Hz, &lower);
+        return EXIT_RUN_FAILED;
+    }
+    choice_print(stdout, &p->trial, w, &c, &words);
+    return EXIT_DONE;
+}
+
+static int choose_scene(const choose_options *o, pricing *p) {
+    choice_wish w = {.operations = p->effort * OPERATIONS};
+    whole_ratio spacing;
+    if (!read_limits(o, p, &w) || !space_records(p, &w, &spacing)) {
+        return EXIT_BAD_INPUT;
+    }
+    w.progress = !o->common.quiet && isatty(STDERR_FILENO) ? show_progress : NULL;
+    pricing_catch_interrupts();
+    int code = pricing_begin(p, spacing, &pricing_interrupted);
+    if (code == EXIT_DONE) {
+        code = p->trial.stopped ? EXIT_INTERRUPTED : choose_from(o, p, &w);
+    }
+    if (code == EXIT_INTERRUPTED) {
+        fputs("whirl choose: interrupted\n", stderr);
+    }
+    return code;
+}
+
+int command_choose(int count, char **words) {
+    if (options_wants_help(count, words)) {
+        print_help(stdout);
+        return EXIT_DONE;
+    }
+    choose_options o = {.common = pricing_defaults("choose", count)};
+    int code = EXIT_BAD_INPUT;
+    if (read_options(count, words, &o)) {
+        pricing p;
+        code = pricing_open(&p, &o.common);
+        if (code == EXIT_DONE) {
+            code = choose_scene(&o, &p);
+        }
+        pricing_close(&p);
+    }
+    pricing_forget(&o.common);
+    return code;
+}

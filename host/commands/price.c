@@ -1,0 +1,201 @@
+/* price.c: `whirl price`: error against price, for all settings of a scene. */
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "commands.h"
+#include "files.h"
+#include "host/plot/plot.h"
+#include "pricing.h"
+
+/* Records to the horizon: so many to two and a half times as many. */
+#define RECORDS 1000.0
+/* Operations that all trials may evaluate: some twenty to forty seconds of one processor. */
+#define OPERATIONS 1e10
+
+static const char head[] =
+    "usage: whirl price SCENE|MECHANISM[:SCENE]|FILE[:SCENE] [options]\n"
+    "\n"
+    "Tries all methods, numbers, forms and many steps on a scene, and prints how far each is off a\n"
+    "reference of higher precision, beside what it costs on a board: cycles a simulated second, or\n"
+    "instructions where nobody counts cycles; flash, RAM and stack. Of the rows those on the front are\n"
+    "shown: nothing is as cheap and errs less. Each figure says how it is known.\n"
+    "What is run is named as for `whirl run`.\n"
+    "\n";
+static const char tail[] =
+    "  --all                every row, not the front alone\n"
+    "  --csv FILE           every row, with the command lines that do it again; - is standard output\n"
+    "                       (the table then goes to standard error)\n"
+    "  --plot FILE.svg|.png error against price, a line for each method and number, and the front\n"
+    "  --quiet              no table, no progress\n"
+    "\n";
+static const char *const own[] = {"--all", "--csv", "--plot", NULL};
+
+static void print_help(FILE *out) {
+    const command_usage common = {.head = "", .groups = PRICING_GROUPS, .tail = ""};
+    const command_usage end = {
+        .head = "",
+        .tail = "",
+        .why = {
+            [EXIT_ROW_OF(EXIT_DONE)] = "",
+            [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
+                "there is no reference that could be trusted, no setting that keeps to the motion,\n"
+                "       none with a price, or none within --error",
+            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
+            [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
+    fputs(head, out);
+    pricing_describe(out);
+    fputs(tail, out);
+    options_usage(out, &common);
+    options_usage(out, &end);
+}
+
+typedef struct price_options {
+    pricing_options common;
+    const char *csv;
+    const char *plot;
+    bool all;
+} price_options;
+
+static bool take_own(int count, char **words, int *at, price_options *o, bool *bad) {
+    const char *value;
+    if (strcmp(words[*at], "--all") == 0) {
+        o->all = true;
+        ++*at;
+        return true;
+    }
+    if ((value = options_value(count, words, at, "--csv", bad)) != NULL) {
+        o->csv = value;
+    } else if (!*bad && (value = options_value(count, words, at, "--plot", bad)) != NULL) {
+        o->plot = value;
+    }
+    return value != NULL || *bad;
+}
+
+static bool files_fit(const price_options *o) {
+    if (o->plot != NULL && !plot_can_draw(o->plot)) {
+        fprintf(stderr, "whirl price: error: --plot draws .svg and .png files, not %s\n", o->plot);
+        return false;
+    }
+    if (o->csv != NULL && o->plot != NULL && files_same(o->csv, o->plot)) {
+        fputs("whirl price: error: --csv and --plot cannot share a file\n", stderr);
+        return false;
+    }
+    return true;
+}
+
+static bool read_options(int count, char **words, price_options *o) {
+    bool bad = false;
+    for (int at = 0; at < count && !bad;) {
+        if (take_own(count, words, &at, o, &bad) ||
+            pricing_take(count, words, &at, &o->common, &bad)) {
+            continue;
+        }
+        pricing_unknown("price", words[at], own);
+        return false;
+    }
+    return !bad && pricing_complete(&o->common) && files_fit(o);
+}
+
+static void show_progress(void *context, int done, int of) {
+    (void)context;
+    fprintf(stderr, "\r%3d of %d settings ", done, of);
+}
+
+static bool write_csv(const char *file, const trials *t, const table *made,
+                      const table_words *words) {
+    FILE *out = strcmp(file, "-") == 0 ? stdout : fopen(file, "wb");
+    const bool good = out != NULL && table_csv(out, t, made, words);
+    if (!good) {
+        fprintf(stderr, "%s: error: cannot be written: %s\n", file, strerror(errno));
+    }
+    if (out != NULL && out != stdout) {
+        fclose(out);
+    }
+    return good;
+}
+
+/* The cheapest row that keeps the error, in words. */
+static int say_cheapest(FILE *out, const pricing *p, const table *made, const table_words *words) {
+    for (int i = 0; i < made->count; i++) {
+        const table_row *row = &made->row[i];
+        if (trial_error_si(&p->trial, row->result.error) <= p->error_si) {
+            char *line =
+                table_run_line(&p->trial, &row->setting, row->pace, row->result.point, words);
+            fprintf(out, "the cheapest within %s: %.2e %s\n  %s\n",
+                    p->options->value[PRICING_ERROR], row->result.error, trial_unit(&p->trial),
+                    line);
+            free(line);
+            return EXIT_DONE;
+        }
+    }
+    fprintf(stderr, "whirl price: nothing that was tried errs by less than %s\n",
+            p->options->value[PRICING_ERROR]);
+    return EXIT_RUN_FAILED;
+}
+
+static int show(const price_options *o, pricing *p, const table *made) {
+    const table_words words = {o->common.target, p->words, o->all};
+    FILE *out = o->csv != NULL && strcmp(o->csv, "-") == 0 ? stderr : stdout;
+    if (!o->common.quiet) {
+        table_print(out, &p->trial, made, &words);
+    }
+    if (!p->trial.reliable || made == NULL || made->count == 0) {
+        return EXIT_RUN_FAILED;
+    }
+    if ((o->csv != NULL && !write_csv(o->csv, &p->trial, made, &words)) ||
+        (o->plot != NULL && !table_plot(o->plot, &p->trial, made))) {
+        return EXIT_BAD_INPUT;
+    }
+    return p->asks_error ? say_cheapest(out, p, made, &words) : EXIT_DONE;
+}
+
+static int price_scene(const price_options *o, pricing *p) {
+    const bool progress = !o->common.quiet && isatty(STDERR_FILENO);
+    if (source_would_be_lost(&p->from, "--csv", o->csv, "") ||
+        source_would_be_lost(&p->from, "--plot", o->plot, "")) {
+        return EXIT_BAD_INPUT;
+    }
+    pricing_catch_interrupts();
+    if (progress) {
+        fputs("\rthe reference   ", stderr);
+    }
+    int code = pricing_begin(p, pricing_spacing(p->until_s, RECORDS), &pricing_interrupted);
+    table *made = NULL;
+    if (code == EXIT_DONE && p->trial.reliable && !p->trial.stopped) {
+        const table_wish wish = {p->effort * OPERATIONS, progress ? show_progress : NULL, NULL};
+        made = table_new(&p->trial, &wish);
+    }
+    if (progress) {
+        fputs("\r                    \r", stderr);
+    }
+    if (code == EXIT_DONE && p->trial.stopped) {
+        fputs("whirl price: interrupted\n", stderr);
+        code = EXIT_INTERRUPTED;
+    } else if (code == EXIT_DONE) {
+        code = show(o, p, made);
+    }
+    table_free(made);
+    return code;
+}
+
+int command_price(int count, char **words) {
+    if (options_wants_help(count, words)) {
+        print_help(stdout);
+        return EXIT_DONE;
+    }
+    price_options o = {.common = pricing_defaults("price", count)};
+    int code = EXIT_BAD_INPUT;
+    if (read_options(count, words, &o)) {
+        pricing p;
+        code = pricing_open(&p, &o.common);
+        if (code == EXIT_DONE) {
+            code = price_scene(&o, &p);
+        }
+        pricing_close(&p);
+    }
+    pricing_forget(&o.common);
+    return code;
+}

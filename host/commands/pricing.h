@@ -1,0 +1,90 @@
+/* pricing.h: what `whirl price` and `whirl choose` have in common: their options, the scene, its references. */
+#ifndef COMMANDS_PRICING_H
+#define COMMANDS_PRICING_H
+
+#include "host/price/table_text.h"
+#include "load.h"
+#include "options.h"
+#include "pricing_scene.h"
+
+/* X(id, word, what stands behind it, text) of both. */
+#define PRICING_OPTION_ROWS(X) \
+    X(PRICING_BOARD, "--board", "B", \
+      "whose price: a board of docs/boards.md, or host (default: mps2-an386, a\nCortex-M4F)") \
+    X(PRICING_OF, "--of", "X", \
+      "the error of one output, coordinate or rate, in its own unit; without it\n" \
+      "each coordinate and rate as a part of its largest value, the worst of them") \
+    X(PRICING_ERROR, "--error", "0.1mm", "the error that is allowed; a bare number is SI") \
+    X(PRICING_HORIZON, "--horizon", "T", "look at errors until then (default: the scene's end)") \
+    X(PRICING_VARY, "--vary", "RANGE", \
+      "the worst over a range of a parameter, an input or a start value, at three\n" \
+      "places, the ends among them: duty=0.2..0.8, or at five: duty=0.2..0.8:5.\n" \
+      "Repeatable: all combinations") \
+    X(PRICING_EFFORT, "--effort", "1", \
+      "how long it may take: 0.1 leaves out steps that take more than a tenth as long")
+#define PRICING_OPTION_ID(id, word, value, text) id,
+typedef enum pricing_option {
+    PRICING_OPTION_ROWS(PRICING_OPTION_ID) PRICING_OPTIONS
+} pricing_option;
+#undef PRICING_OPTION_ID
+
+typedef struct pricing_options {
+    const char *command; /* "price" */
+    common_options common;
+    const char *target;
+    const char *value[PRICING_OPTIONS]; /* NULL: not given; of --vary the last */
+    const char **vary;                  /* [word count] */
+    int vary_count;
+    bool quiet;
+} pricing_options;
+
+enum { PRICING_GROUPS = OPTIONS_CHANGE };
+
+pricing_options pricing_defaults(const char *command, int word_count);
+void pricing_forget(pricing_options *o);
+/* Prints the lines of a help text. */
+void pricing_describe(FILE *out);
+/* Takes the word at *at if it is an option of both, or the target; else false, *at as it was. *bad: told. */
+bool pricing_take(int count, char **words, int *at, pricing_options *o, bool *bad);
+/* Is there a target, and no more than one? Told. */
+bool pricing_complete(const pricing_options *o);
+/* What no option takes; `own`: the command's own words, NULL at the end. */
+void pricing_unknown(const char *command, const char *word, const char *const *own);
+
+/* --- the scene -------------------------------------------------------------------------------------*/
+
+typedef struct pricing {
+    const pricing_options *options;
+    source_model from;
+    const mechanism *of;
+    const scene *in;
+    overrides changes;
+    grid grid;
+    pricing_scene *scene;
+    const cost_board *board;
+    bool asks_error;
+    double error_si; /* what --error allows */
+    double until_s;  /* the horizon, or the scene's end */
+    double step_s;   /* the scene's own */
+    double effort;
+    char *words; /* its changes, as they are typed */
+    trials trial;
+    bool has_trial;
+} pricing;
+
+/* Reads all that the options say of the scene. Returns an exit code, what is wrong is told; pricing_close() in any case. */
+int pricing_open(pricing *p, const pricing_options *o);
+void pricing_close(pricing *p);
+/* A quantity of the command line in SI: false, told. `wanted` by exponents of metre, kilogram, second. */
+bool pricing_quantity(const pricing *p, const char *what, const char *text, dimension wanted,
+                      double *value);
+/* Computes the references at records of this spacing up to the horizon: an exit code. */
+int pricing_begin(pricing *p, whole_ratio spacing, const volatile sig_atomic_t *stop);
+/* A spacing of about so many to two and a half times so many records, 1, 2 or 5 times a power of ten. */
+whole_ratio pricing_spacing(double until_s, double count);
+
+/* Ends cleanly by Ctrl-C: this is then set. */
+extern volatile sig_atomic_t pricing_interrupted;
+void pricing_catch_interrupts(void);
+
+#endif

@@ -1,0 +1,242 @@
+/* pricing_open.c: from the options of `whirl price` and `whirl choose` to references (pricing.h). */
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "host/base/room.h"
+#include "host/lang/override.h"
+#include "host/lang/value.h"
+#include "host/number/decimal.h"
+#include "host/number/functions.h"
+#include "host/run/start.h"
+#include "pricing.h"
+
+volatile sig_atomic_t pricing_interrupted;
+
+static void on_interrupt(int signal_number) {
+    (void)signal_number;
+    pricing_interrupted = 1;
+}
+
+void pricing_catch_interrupts(void) {
+    struct sigaction action = {.sa_handler = on_interrupt,
+                               .sa_flags = SA_RESTART | (int)SA_RESETHAND};
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+}
+
+bool pricing_quantity(const pricing *p, const char *what, const char *text, dimension wanted,
+                      double *value) {
+    struct arena *arena = arena_new();
+    diags *errors = diags_new();
+    const expr *made = override_quantity(p->of, what, text, wanted, arena, errors);
+    const bool number = made != NULL && (made->uses & ~(unsigned)USES_UNIT) == 0;
+    *value = number ? expr_value(made, NULL) : 0.0;
+    diags_flush(errors, stderr);
+    diags_free(errors);
+    arena_free(arena);
+    if (made != NULL && !(number && isfinite(*value) && *value > 0.0)) {
+        fprintf(stderr, "whirl %s: error: %s takes a number above zero, not %s\n",
+                p->options->command, what, text);
+        return false;
+    }
+    return made != NULL;
+}
+
+static bool find_board(pricing *p) {
+    const int chosen =
+        options_choose(p->options->command, "board", p->options->value[PRICING_BOARD], cost_boards,
+                       sizeof cost_boards[0], cost_board_count);
+    p->board = chosen < 0 ? NULL : &cost_boards[chosen];
+    return chosen >= 0;
+}
+
+/* --error, in the dimension of what --of names. What that is, is told later if it is nothing. */
+static bool read_error(pricing *p) {
+    const char *of = p->options->value[PRICING_OF];
+    const char *text = p->options->value[PRICING_ERROR];
+    dimension wanted = dim_none();
+    if (of != NULL && !override_dimension(p->of, of, &wanted)) {
+        wanted.unknown = true;
+    }
+    p->asks_error = text != NULL;
+    return text == NULL || pricing_quantity(p, "--error", text, wanted, &p->error_si);
+}
+
+static bool read_effort(pricing *p) {
+    const char *text = p->options->value[PRICING_EFFORT];
+    const char *end = "";
+    p->effort = text == NULL ? 1.0 : decimal_read(text, &end);
+    if (end == text || *end != '\0' || !(p->effort >= 1e-4 && p->effort <= 1e4)) {
+        fprintf(stderr, "whirl %s: error: --effort takes a number from 1e-4 to 1e4, not %s\n",
+                p->options->command, text);
+        return false;
+    }
+    return true;
+}
+
+static bool read_ranges(pricing *p) {
+    const pricing_options *o = p->options;
+    p->grid.command = o->command;
+    p->grid.option = "--vary";
+    for (int i = 0; i < o->vary_count; i++) {
+        const bool counted = strrchr(o->vary[i], ':') != NULL;
+        char *text = counted ? room_words("%s", o->vary[i])
+                             : room_words("%s:%d", o->vary[i], PRICING_PLACES);
+        const bool good = grid_add(&p->grid, p->of, text, p->from.errors);
+        free(text);
+        diags_flush(p->from.errors, stderr);
+        if (!good) {
+            return false;
+        }
+        if (p->grid.axes[i].symbol == NULL) {
+            fprintf(stderr, "whirl %s: error: --vary varies no step: steps are what is priced\n",
+                    o->command);
+            return false;
+        }
+    }
+    if (p->grid.count > 0 && p->grid.points > PRICING_PLACES_MAX) {
+        fprintf(stderr, "whirl %s: error: --vary: %llu places, and at most %d can be tried\n",
+                o->command, (unsigned long long)p->grid.points, PRICING_PLACES_MAX);
+        return false;
+    }
+    return true;
+}
+
+/* What varies must take part, and all places must be able to start. */
+static bool can_start(pricing *p, const instance *inst) {
+    for (int i = 0; i < p->grid.count; i++) {
+        const effect *missing = instance_lacks(inst, p->grid.axes[i].symbol);
+        if (missing != NULL) {
+            fprintf(stderr,
+                    "whirl %s: error: '%s' belongs to the effect '%s', which takes no part here\n"
+                    "hint: add --with %s\n",
+                    p->options->command, p->grid.axes[i].symbol->name, missing->name,
+                    missing->name);
+            return false;
+        }
+    }
+    for (int i = 0; i < p->scene->source.points; i++) {
+        const setting plain = {IMAGE_SETTINGS_DEFAULT, &engine_double};
+        image *im = p->scene->source.make(p->scene, i, &plain, NULL, NULL);
+        const bool good = im != NULL && start_is_possible(im, &engine_double, p->from.errors) &&
+                          start_angles_are_held(im, p->from.errors);
+        diags_flush(p->from.errors, stderr);
+        image_free(im);
+        if (!good) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool read_times(pricing *p) {
+    const char *horizon = p->options->value[PRICING_HORIZON];
+    instance *inst = instance_make(p->of, p->in, &p->changes, p->from.errors);
+    bool good = inst != NULL;
+    if (good) {
+        p->until_s = inst->until_s;
+        p->step_s = inst->step_s;
+        good = horizon == NULL || instance_duration(p->of, p->in, &p->changes, "horizon", horizon,
+                                                    p->from.errors, &p->until_s);
+    }
+    diags_flush(p->from.errors, stderr);
+    good = good && can_start(p, inst);
+    instance_free(inst);
+    if (good && !(p->until_s > 0.0)) {
+        fprintf(stderr, "whirl %s: error: a motion of no time has no errors\nhint: --horizon 1s\n",
+                p->options->command);
+        return false;
+    }
+    return good;
+}
+
+/* The options of the scene, as they are typed again. */
+static char *words_of(const overrides *c) {
+    char *text;
+    size_t length;
+    const struct {
+        const char *option;
+        const char *const *list;
+        int count;
+    } parts[] = {{"--set", c->sets, c->set_count},
+                 {"--start", c->starts, c->start_count},
+                 {"--with", c->with, c->with_count},
+                 {"--without", c->without, c->without_count}};
+    FILE *out = room_text(&text, &length);
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
+        for (int k = 0; k < parts[i].count; k++) {
+            char *word = pricing_quoted(parts[i].list[k]);
+            fprintf(out, " %s %s", parts[i].option, word);
+            free(word);
+        }
+    }
+    room_text_end(out);
+    return text;
+}
+
+int pricing_open(pricing *p, const pricing_options *o) {
+    *p = (pricing){.options = o};
+    int code = source_open(&p->from, o->target);
+    if (code == EXIT_DONE) {
+        code = source_pick(&p->from, true, &p->of, &p->in);
+    }
+    if (code != EXIT_DONE) {
+        return code;
+    }
+    p->changes = options_overrides(&o->common.change);
+    p->words = words_of(&p->changes);
+    if (!find_board(p) || !read_effort(p) || !read_error(p) || !read_ranges(p)) {
+        return EXIT_BAD_INPUT;
+    }
+    p->scene = pricing_scene_new(p->of, p->in, &p->changes, &p->grid, p->from.errors);
+    return read_times(p) ? EXIT_DONE : EXIT_BAD_INPUT;
+}
+
+void pricing_close(pricing *p) {
+    if (p->has_trial) {
+        trial_end(&p->trial);
+    }
+    pricing_scene_free(p->scene);
+    grid_free(&p->grid);
+    free(p->words);
+    source_close(&p->from);
+}
+
+whole_ratio pricing_spacing(double until_s, double count) {
+    static const double mantissa[] = {1.0, 2.0, 5.0};
+    const double most = until_s / count * (1.0 + 1e-9);
+    double spacing_s = 0.0;
+    for (int power = -20; power <= 18; power++) {
+        for (int i = 0; i < 3; i++) {
+            char text[40];
+            snprintf(text, sizeof text, "%.0fe%d", mantissa[i], power);
+            const double each_s = decimal_read(text, NULL);
+            spacing_s = each_s <= most ? each_s : spacing_s;
+        }
+    }
+    return ratio_of(spacing_s);
+}
+
+int pricing_begin(pricing *p, whole_ratio spacing, const volatile sig_atomic_t *stop) {
+    uint64_t wanted = 0;
+    const double each_s = ratio_times(1, spacing);
+    if (each_s > 0.0 && p->until_s / each_s < 1e7) {
+        wanted = (uint64_t)number_floor(p->until_s / each_s * (1.0 + 1e-9));
+    }
+    if (wanted < 1) {
+        fprintf(stderr, "whirl %s: error: %.9g s of motion are too short or too long to look at\n",
+                p->options->command, p->until_s);
+        return EXIT_BAD_INPUT;
+    }
+    const trial_wish wish = {.source = &p->scene->source,
+                             .board = p->board,
+                             .of = p->options->value[PRICING_OF],
+                             .spacing = spacing,
+                             .records = (int)wanted,
+                             .stop = stop};
+    p->has_trial = true;
+    return trial_begin(&p->trial, &wish) ? EXIT_DONE : EXIT_BAD_INPUT;
+}

@@ -1,0 +1,167 @@
+/* pricing_scene.c: see pricing_scene.h. */
+#include "pricing_scene.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "host/base/room.h"
+#include "host/derive/lagrange.h"
+
+/* --- a place in words ------------------------------------------------------------------------------*/
+
+char *pricing_quoted(const char *word) {
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                                "_-+.,:/=@%";
+    if (word[0] != '\0' && word[strspn(word, plain)] == '\0') {
+        return room_words("%s", word);
+    }
+    if (strpbrk(word, "\"\\$`!") == NULL) {
+        return room_words("\"%s\"", word);
+    }
+    char *text;
+    size_t length;
+    FILE *out = room_text(&text, &length);
+    fputc('\'', out);
+    for (; *word != '\0'; word++) {
+        fputs(*word == '\'' ? "'\\''" : (char[]){*word, '\0'}, out);
+    }
+    fputc('\'', out);
+    room_text_end(out);
+    return text;
+}
+
+static bool is_start(const axis *a) {
+    return a->symbol->kind == SYM_COORDINATE || a->symbol->kind == SYM_STATE;
+}
+
+static const char *name_of(void *context, int point) {
+    pricing_scene *p = context;
+    double *value = room(p->grid->count, sizeof *value);
+    char number[NUMBER_SIZE];
+    size_t length;
+    free(p->name);
+    FILE *out = room_text(&p->name, &length);
+    if (p->grid->count > 0) {
+        grid_values(p->grid, (uint64_t)point, value);
+    }
+    for (int i = 0; i < p->grid->count; i++) {
+        const axis *a = &p->grid->axes[i];
+        char *word = room_words("%s=%s", a->name, number_shortest(value[i], number));
+        char *quoted = pricing_quoted(word);
+        fprintf(out, " %s %s", is_start(a) ? "--start" : "--set", quoted);
+        free(word);
+        free(quoted);
+    }
+    room_text_end(out);
+    free(value);
+    return p->name;
+}
+
+/* --- images ----------------------------------------------------------------------------------------*/
+
+/* The varied values as texts behind the command line's own, and so over them; free with forget(). */
+static overrides changes_at(const pricing_scene *p, int point) {
+    const grid *g = p->grid;
+    overrides changes = *p->changes;
+    double *value = room(g->count, sizeof *value);
+    const char **texts = room(g->count, sizeof(const char *));
+    if (g->count > 0) {
+        grid_values(g, (uint64_t)point, value);
+    }
+    for (int i = 0; i < g->count; i++) {
+        texts[i] = room_words("%s=%.17g", g->axes[i].name, value[i]);
+    }
+    free(value);
+    changes.values = texts;
+    changes.value_count = g->count;
+    return changes;
+}
+
+static void forget(overrides *changes) {
+    for (int i = 0; i < changes->value_count; i++) {
+        free((void *)(uintptr_t)changes->values[i]);
+    }
+    free((void *)(uintptr_t)changes->values);
+}
+
+/* Are these settings the same? By what images are made of, word by word. */
+static bool same_settings(const image_settings *a, const image_settings *b) {
+    return a->method == b->method && a->compensated == b->compensated && a->angles == b->angles;
+}
+
+/* The image of a place with these settings, made once; its step and end are the scene's. NULL: told. */
+static const image *base_of(pricing_scene *p, int point, const image_settings *settings) {
+    for (int i = 0; i < p->made_count; i++) {
+        if (p->made[i].point == point && same_settings(&p->made[i].settings, settings)) {
+            return p->made[i].image;
+        }
+    }
+    if (p->equations[point] == NULL) {
+        overrides changes = changes_at(p, point);
+        instance_free(p->instance[point]);
+        instance *inst = instance_make(p->mechanism, p->scene, &changes, p->errors);
+        p->instance[point] = inst;
+        p->equations[point] = inst == NULL ? NULL : equations_derive(inst, p->errors);
+        forget(&changes);
+        if (p->equations[point] == NULL) {
+            return NULL;
+        }
+    }
+    const equations *e = p->equations[point];
+    image *made = image_make(e, e->instance->conserve, settings, IMAGE_TO_RUN, p->errors);
+    if (made != NULL) {
+        p->made = room_more(p->made, p->made_count + 1, sizeof *p->made);
+        p->made[p->made_count++] = (pricing_made){point, *settings, made};
+    }
+    return made;
+}
+
+static image *make(void *context, int point, const setting *s, const char *step,
+                   const char *until) {
+    pricing_scene *p = context;
+    overrides changes = changes_at(p, point);
+    changes.step = step != NULL ? step : changes.step;
+    changes.until = until != NULL ? until : changes.until;
+    const image *base = base_of(p, point, &s->image);
+    instance *inst =
+        base == NULL ? NULL : instance_make(p->mechanism, p->scene, &changes, p->errors);
+    image *made = inst == NULL ? NULL : image_again(base, inst, p->errors);
+    instance_free(inst);
+    forget(&changes);
+    diags_flush(p->errors, stderr);
+    return made;
+}
+
+pricing_scene *pricing_scene_new(const mechanism *of, const scene *in, const overrides *changes,
+                                 const grid *g, diags *errors) {
+    pricing_scene *p = room(1, sizeof *p);
+    const int points = g->count > 0 ? (int)g->points : 1;
+    *p = (pricing_scene){.mechanism = of,
+                         .scene = in,
+                         .changes = changes,
+                         .grid = g,
+                         .errors = errors,
+                         .instance = room(points, sizeof(instance *)),
+                         .equations = room(points, sizeof(equations *)),
+                         .source = {.points = points, .make = make, .name = name_of}};
+    p->source.context = p;
+    return p;
+}
+
+void pricing_scene_free(pricing_scene *p) {
+    if (p == NULL) {
+        return;
+    }
+    for (int i = 0; i < p->made_count; i++) {
+        image_free(p->made[i].image);
+    }
+    for (int i = 0; i < p->source.points; i++) {
+        equations_free(p->equations[i]);
+        instance_free(p->instance[i]);
+    }
+    free(p->instance);
+    free(p->equations);
+    free(p->made);
+    free(p->name);
+    free(p);
+}

@@ -1,0 +1,40 @@
+/* pricing_scene.h: a scene and its varied places as a source of images to try settings on (host/price/trial.h). */
+#ifndef COMMANDS_PRICING_SCENE_H
+#define COMMANDS_PRICING_SCENE_H
+
+#include "host/derive/image_make.h"
+#include "host/price/trial.h"
+#include "host/sweep/grid.h"
+
+/* Equations and images that were made before: those of one place and one setting share their lists. */
+typedef struct pricing_made {
+    int point;
+    image_settings settings;
+    image *image;
+} pricing_made;
+
+typedef struct pricing_scene {
+    const mechanism *mechanism;
+    const scene *scene;       /* NULL for a bare mechanism */
+    const overrides *changes; /* the command line's, but for what varies */
+    const grid *grid;         /* what varies; no axes: nothing */
+    diags *errors;
+    instance **instance;   /* [points] of: */
+    equations **equations; /* [points] NULL: not yet */
+    pricing_made *made;    /* [made_count] */
+    int made_count;
+    char *name; /* of the place that was asked for last */
+    trial_source source;
+} pricing_scene;
+
+/* Places of all that varies: more are refused. */
+enum { PRICING_PLACES_MAX = 64, PRICING_PLACES = 3 };
+
+pricing_scene *pricing_scene_new(const mechanism *of, const scene *in, const overrides *changes,
+                                 const grid *g, diags *errors);
+void pricing_scene_free(pricing_scene *p); /* NULL is fine */
+
+/* A word of a command line as a shell takes it: in quotes where it must be. To be freed. */
+char *pricing_quoted(const char *word);
+
+#endif

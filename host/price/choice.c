@@ -1,0 +1,206 @@
+/* choice.c: see choice.h. */
+#include "choice.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "host/base/room.h"
+#include "host/number/functions.h"
+
+#define CHOICE_LIMIT_WORD(id, word) word,
+const char *const choice_limit_words[CHOICE_LIMITS] = {CHOICE_LIMIT_ROWS(CHOICE_LIMIT_WORD)};
+
+uint64_t choice_substeps(int i) {
+    static const uint64_t tens[] = {12, 15, 20, 25, 30, 40, 50, 60, 80};
+    if (i < 10) {
+        return (uint64_t)i + 1;
+    }
+    uint64_t steps = tens[(i - 10) % 9];
+    for (int k = (i - 10) / 9; k > 0; k--) {
+        steps *= 10;
+    }
+    return steps;
+}
+
+/* --- what a row is judged by ---------------------------------------------------------------------------*/
+
+static bool is_known(const cost_figure *f) { return f->basis != COST_NOT_KNOWN; }
+
+static void judge_limit(choice_row *row, choice_limit which, double limit, bool known,
+                        double most) {
+    row->unknown[which] = limit > 0.0 && !known;
+    row->fails[which] = limit > 0.0 && known && most > limit;
+}
+
+static void judge(const trials *t, const choice_wish *w, choice_row *row) {
+    const cost *c = &row->cost;
+    const double each_s = ratio_times(1, trial_step(t, row->pace));
+    const bool cycles = is_known(&c->cycles_worst);
+    const cost_figure *worst = cycles ? &c->cycles_worst : &c->instructions_worst;
+    row->worst = worst->most / each_s;
+    row->load = w->clock_Hz > 0.0 && cycles ? c->cycles_worst.value / each_s / w->clock_Hz : 0.0;
+    row->load_most = w->clock_Hz > 0.0 && cycles ? row->worst / w->clock_Hz : 0.0;
+    judge_limit(row, CHOICE_LOAD, w->clock_Hz > 0.0 ? 1.0 : 0.0, cycles, row->load_most);
+    judge_limit(row, CHOICE_FLASH, w->flash_bytes, is_known(&c->flash_bytes), c->flash_bytes.most);
+    judge_limit(row, CHOICE_RAM, w->ram_bytes, is_known(&c->ram_bytes) && is_known(&c->stack_bytes),
+                c->ram_bytes.most + c->stack_bytes.most);
+}
+
+static bool fails_besides(const choice_row *row, choice_limit but) {
+    for (int i = 0; i < CHOICE_LIMITS; i++) {
+        if (i != (int)but && row->fails[i]) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool fails(const choice_row *row) { return fails_besides(row, CHOICE_LIMITS); }
+
+/* Less of `worst`, or as much of it and a smaller error. */
+static bool is_cheaper(const choice_row *a, const choice_row *b) {
+    return a->worst < b->worst || (!(a->worst > b->worst) && a->result.error < b->result.error);
+}
+
+static void keep_least(bool *has, choice_row *kept, const choice_row *row, double value,
+                       double best) {
+    if (!*has || value < best) {
+        *has = true;
+        *kept = *row;
+    }
+}
+
+/* Enter a row of which all is known. */
+static void enter(choice *c, const choice_row *row, const choice_row *coarser) {
+    if (row->result.usable && !fails_besides(row, CHOICE_ERROR)) {
+        keep_least(&c->has_weaker, &c->weaker, row, row->result.error, c->weaker.result.error);
+    }
+    if (!fails_besides(row, CHOICE_LOAD)) {
+        keep_least(&c->has_dearer, &c->dearer, row, row->load_most, c->dearer.load_most);
+    }
+    if (!row->fails[CHOICE_ERROR] && !row->fails[CHOICE_LOAD]) {
+        keep_least(&c->has_larger, &c->larger, row, row->cost.flash_bytes.most,
+                   c->larger.cost.flash_bytes.most);
+    }
+    if (fails(row)) {
+        return;
+    }
+    if (!c->found || is_cheaper(row, &c->best)) {
+        c->has_second = c->found;
+        c->second = c->best;
+        c->best = *row;
+        c->found = true;
+        c->has_coarser = coarser != NULL;
+        c->coarser = coarser != NULL ? *coarser : (choice_row){0};
+    } else if (!c->has_second || is_cheaper(row, &c->second)) {
+        c->second = *row;
+        c->has_second = true;
+    }
+}
+
+/* --- trials ------------------------------------------------------------------------------------------*/
+
+/* The rung-th pace: substeps of a period, or steps of any length. False: there is none. */
+static bool pace_of(const choice_wish *w, int rung, choice_row *row) {
+    if (w->rate_Hz > 0.0) {
+        row->substeps = rung < CHOICE_SUBSTEPS ? choice_substeps(rung) : 0;
+        row->pace = (deviation_pace){w->periods * row->substeps, 1};
+        return rung < CHOICE_SUBSTEPS;
+    }
+    row->pace = table_ladder(rung);
+    return rung < TABLE_LADDER;
+}
+
+static void count_failures(choice *c, const choice_row *row) {
+    for (int i = 0; i < CHOICE_LIMITS; i++) {
+        c->failed[i] += row->fails[i] ? 1 : 0;
+    }
+}
+
+/* One setting by ever finer steps, until it keeps the error, or could not be of use if it did. */
+static void climb(trials *t, const choice_wish *w, choice *c, const setting *s, const cost *price,
+                  double each) {
+    choice_row row = {.setting = *s, .cost = *price};
+    choice_row before = row;
+    bool has_before = false;
+    for (int rung = 0; pace_of(w, rung, &row); rung++) {
+        if (row.pace.records > (uint64_t)t->records) {
+            continue;
+        }
+        judge(t, w, &row);
+        if (c->found && c->has_second && !(row.worst < c->second.worst)) {
+            return;
+        }
+        const double started = t->operations;
+        row.result = trial_run(t, s, row.pace);
+        if (!row.result.ran) {
+            return;
+        }
+        row.fails[CHOICE_ERROR] = !row.result.usable || row.result.error * CHOICE_MARGIN > w->error;
+        enter(c, &row, has_before ? &before : NULL);
+        if (!row.fails[CHOICE_ERROR]) {
+            count_failures(c, &row);
+            return;
+        }
+        before = row;
+        has_before = true;
+        if ((t->operations - started) * 2.0 > each) {
+            c->broken_off++;
+            break;
+        }
+    }
+    c->failed[CHOICE_ERROR]++;
+}
+
+choice choice_make(trials *t, const choice_wish *w) {
+    choice c = {.why = ""};
+    const int count = setting_count();
+    cost *price = room(count, sizeof *price);
+    bool *priced = room(count, sizeof *priced);
+    int wanted = 0;
+    for (int i = 0; i < count; i++) {
+        const setting s = setting_at(i);
+        bool own;
+        price[i] = trial_cost(t, &s, (deviation_pace){w->periods, 1}, &own);
+        priced[i] = own && is_known(&price[i].instructions_worst);
+        c.settings += own ? 1 : 0;
+        c.unpriced += own && !priced[i] ? 1 : 0;
+        c.why = own && !priced[i] ? price[i].why : c.why;
+        wanted += priced[i] ? 1 : 0;
+    }
+    int done = 0;
+    for (int i = 0; i < count && !t->stopped; i++) {
+        const setting s = setting_at(i);
+        if (!priced[i]) {
+            continue;
+        }
+        if (w->progress != NULL) {
+            w->progress(w->context, done, wanted);
+        }
+        climb(t, w, &c, &s, &price[i], w->operations / (2.0 * wanted));
+        done++;
+    }
+    free(price);
+    free(priced);
+    return c;
+}
+
+double choice_lower_rate(trials *t, const choice_wish *w, const choice *c, choice_row *row) {
+    *row = c->dearer;
+    if (!c->has_dearer || !(w->rate_Hz > 0.0) || c->dearer.substeps != 1) {
+        return 0.0; /* as many steps a second as now would be taken at any rate */
+    }
+    const double slower = number_ceiling(c->dearer.load_most);
+    if (!(slower >= 2.0 && slower < 1e6)) {
+        return 0.0;
+    }
+    const uint64_t times = (uint64_t)slower;
+    if (times % w->periods != 0 || times / w->periods > (uint64_t)t->records) {
+        return 0.0; /* no whole number of records */
+    }
+    row->pace = (deviation_pace){1, times / w->periods};
+    row->result = trial_run(t, &row->setting, row->pace);
+    const bool keeps =
+        row->result.ran && row->result.usable && row->result.error * CHOICE_MARGIN <= w->error;
+    return keeps ? w->rate_Hz / slower : 0.0;
+}

@@ -1,0 +1,80 @@
+/* choice.h: the cheapest setting that keeps an error on a board. */
+#ifndef PRICE_CHOICE_H
+#define PRICE_CHOICE_H
+
+#include "table.h"
+
+/* An error is kept when what was measured is no more than this part of what is allowed. */
+#define CHOICE_MARGIN 2.0
+
+/* What must be kept, and what a setting may fail by: X(id, word). */
+#define CHOICE_LIMIT_ROWS(X) \
+    X(CHOICE_ERROR, "error") \
+    X(CHOICE_LOAD, "load") \
+    X(CHOICE_FLASH, "flash") \
+    X(CHOICE_RAM, "RAM")
+#define CHOICE_LIMIT_ID(id, word) id,
+typedef enum choice_limit { CHOICE_LIMIT_ROWS(CHOICE_LIMIT_ID) CHOICE_LIMITS } choice_limit;
+#undef CHOICE_LIMIT_ID
+extern const char *const choice_limit_words[CHOICE_LIMITS];
+
+typedef struct choice_wish {
+    double error;       /* in the unit of the trial's errors */
+    double rate_Hz;     /* of calls, each of which takes whole steps; 0: any step will do */
+    uint64_t periods;   /* of 1/rate in a record's spacing; 1 without a rate */
+    double clock_Hz;    /* 0: not known, and no limit */
+    double flash_bytes; /* 0: no limit */
+    double ram_bytes;   /* with the stack; 0: no limit */
+    double operations;  /* most that all trials may evaluate */
+    void (*progress)(void *context, int done, int of); /* may be NULL */
+    void *context;
+} choice_wish;
+
+/* A setting at one step. Loads are parts of the period, or of a second where there is no rate: of the longest step. */
+typedef struct choice_row {
+    setting setting;
+    deviation_pace pace;
+    uint64_t substeps; /* in a period; 0 without a rate */
+    trial_result result;
+    cost cost;
+    double
+        worst; /* what it is judged by: cycles a second of the longest step, or instructions, the most promised */
+    double load;      /* of the clock, by the best one number; 0: not known */
+    double load_most; /* and the most promised */
+    bool fails[CHOICE_LIMITS];
+    bool unknown[CHOICE_LIMITS]; /* a limit is there, and nobody can tell */
+} choice_row;
+
+typedef struct choice {
+    bool found;
+    choice_row best;
+    bool has_second;
+    choice_row second; /* the next cheapest setting that keeps everything */
+    bool has_coarser;
+    choice_row coarser; /* the best setting's next coarser step, which does not */
+    /* Where nothing was found, what comes nearest, by what would have to give: */
+    bool has_weaker;
+    choice_row weaker; /* the least error of all that keep the other limits */
+    bool has_dearer;
+    choice_row dearer; /* the least load of all that keep the error, flash and RAM */
+    bool has_larger;
+    choice_row larger; /* the least flash of all that keep the error and the load */
+    int settings;
+    int unpriced;
+    const char *why; /* of one without a price */
+    int failed
+        [CHOICE_LIMITS]; /* settings that fail by this at the coarsest step that keeps the error, or by the error */
+    int broken_off;
+} choice;
+
+/* The substeps that are tried: entry `i` from 0 on, rising. */
+uint64_t choice_substeps(int i);
+enum { CHOICE_SUBSTEPS = 10 + 9 * 5 };
+
+choice choice_make(trials *t, const choice_wish *w); /* look at t->stopped */
+
+/* A rate that the dearer row would keep, a whole part of the wished one, and the row at that rate, checked by a trial: 0
+ * where there is none. */
+double choice_lower_rate(trials *t, const choice_wish *w, const choice *c, choice_row *row);
+
+#endif

@@ -1,0 +1,55 @@
+/* deviation.c: see deviation.h. */
+#include "deviation.h"
+
+#include <math.h>
+#include <stddef.h>
+
+#include "long_functions.h"
+
+/* Enter a record: false when the run is of no use any more. */
+static bool enter(const reference *r, const records *now, int record, deviation_of_what what,
+                  deviation *d) {
+    const long double *row = r->row + (size_t)record * (size_t)r->columns;
+    for (int k = 1; k < r->columns; k++) {
+        const reference_column *c = &r->column[k];
+        if (what.column >= 0 ? k != what.column : !c->counts) {
+            continue;
+        }
+        const long double unit = what.column >= 0 ? 1.0L : c->largest;
+        const double off = (double)(long_size((long double)now->row[k] - row[k]) / unit);
+        if (!(off <= d->error)) { /* also what is no number */
+            d->error = off;
+            d->column = k;
+            d->known = (double)(c->off / unit);
+        }
+    }
+    return d->error <= what.give_up;
+}
+
+deviation deviation_measure(const reference *r, const image *im, const engine_kind *kind,
+                            deviation_pace pace, deviation_of_what what,
+                            const volatile sig_atomic_t *stop) {
+    deviation d = {.column = what.column};
+    records *now = records_open(NULL, im, kind);
+    void *run = kind->start(im);
+    records_read(now, run, 0.0);
+    bool good = enter(r, now, 0, what, &d);
+    const int each = (int)pace.records;
+    for (int i = each; i <= r->records && good && (stop == NULL || !*stop); i += each) {
+        for (uint64_t k = 0; k < pace.steps && good; k++) {
+            good = kind->step(run) == WH_OK;
+        }
+        if (good) {
+            records_read(now, run, 0.0);
+            good = enter(r, now, i, what, &d);
+        }
+    }
+    uint64_t most;
+    d.operations = (double)kind->evaluations(run, &most) * (double)im->list[IMAGE_STEP]->count;
+    const double time_s = ratio_times(kind->steps(run), im->step);
+    d.evaluations = time_s > 0.0 ? (double)kind->evaluations(run, &most) / time_s : 0.0;
+    d.usable = good;
+    kind->stop(run);
+    records_close(now);
+    return d;
+}

@@ -1,0 +1,258 @@
+/* reference_run.c: see reference_run.h. */
+#include "reference_run.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "extrapolation.h"
+#include "fine_steps.h"
+#include "host/base/room.h"
+#include "host/number/functions.h"
+#include "long_functions.h"
+#include "long_list.h"
+#include "reference_rows.h"
+
+/* The finer of two extrapolations, and the one that it is held against: of other orders, so by other steps. */
+static const extrapolation_setting fine = {6, 16.0 * (double)LDBL_EPSILON};
+static const extrapolation_setting coarse = {5, 64.0 * (double)LDBL_EPSILON};
+
+/* A record is trusted while the two differ by less of a column's largest value. They begin with less than 1e-16 in long
+ * double: what has grown to this is no error of theirs but the motion's own, which carries every rounding away. */
+#define LIMIT_EXTRAPOLATED (LONG_IS_LONGER ? 1e-12 : 1e-9)
+#define LIMIT_FINE_STEPS 1e-6
+/* A component of which they differ by more than this part of its size from the beginning is nothing but rounding. */
+#define KNOWN 1e-3L
+
+/* One of the two computations. */
+typedef struct computed {
+    long double *row; /* [wanted + 1][columns] */
+    int records;      /* behind the start */
+    extrapolation_status status;
+} computed;
+
+static long double *rows_of(const reference *r) {
+    return room((int64_t)(r->wanted + 1) * r->columns, sizeof(long double));
+}
+
+static computed extrapolate(const reference_wish *w, const reference *r,
+                            extrapolation_setting how) {
+    computed c = {rows_of(r), 0, EXTRAPOLATION_OK};
+    long_rows *rows = long_rows_new(r->shape);
+    extrapolation *e = extrapolation_new(w->image, how, w->operations);
+    const long double spacing_s =
+        (long double)w->spacing.numerator / (long double)w->spacing.denominator;
+    for (int i = 0;; i++) {
+        long double *row = c.row + (size_t)i * (size_t)r->columns;
+        long_rows_read(rows, extrapolation_state(e), (long double)i * spacing_s, row);
+        c.records = i;
+        if (i < r->wanted) {
+            c.status = extrapolation_go(e, spacing_s);
+        }
+        if (i == r->wanted || c.status != EXTRAPOLATION_OK || (w->stop != NULL && *w->stop)) {
+            break;
+        }
+    }
+    extrapolation_free(e);
+    long_rows_free(rows);
+    return c;
+}
+
+static long double row_off(const reference *r, const computed *other, int record, int column) {
+    const size_t at = (size_t)record * (size_t)r->columns + (size_t)column;
+    const long double off = long_size(r->row[at] - other->row[at]);
+    return isfinite(off) ? off : (long double)INFINITY;
+}
+
+/* Largest and most different values of a column over the records up to `until`. */
+static void measure(reference *r, const computed *other, int until, int column) {
+    reference_column *c = &r->column[column];
+    c->largest = 0.0L;
+    c->off = 0.0L;
+    for (int i = 0; i <= until; i++) {
+        const long double size = long_size(r->row[(size_t)i * (size_t)r->columns + (size_t)column]);
+        const long double off = row_off(r, other, i, column);
+        c->largest = size > c->largest ? size : c->largest;
+        c->off = off > c->off ? off : c->off;
+    }
+}
+
+/* Which columns count, and until when they agree. */
+static void judge(reference *r, const computed *other) {
+    const int both = other->records < r->records ? other->records : r->records;
+    const int early = both < 10 ? 1 : both / 10;
+    for (int k = 1; k < r->columns; k++) {
+        measure(r, other, early < both ? early : both, k);
+        const bool noise = r->column[k].off > KNOWN * r->column[k].largest;
+        measure(r, other, both, k);
+        r->column[k].counts =
+            r->shape->column[k].unknown >= 0 && r->column[k].largest > 0.0L && !noise;
+    }
+    r->records = both;
+    for (int k = 1; k < r->columns; k++) {
+        const reference_column *c = &r->column[k];
+        for (int i = 0; i <= r->records && c->counts; i++) {
+            if (row_off(r, other, i, k) > (long double)r->limit * c->largest) {
+                r->records = i - 1;
+            }
+        }
+    }
+    for (int k = 1; k < r->columns; k++) {
+        measure(r, other, r->records < 0 ? 0 : r->records, k);
+    }
+}
+
+static double time_of(const reference_wish *w, int record) {
+    return ratio_times((uint64_t)(record < 0 ? 0 : record), w->spacing);
+}
+
+static void say_extrapolated(const reference_wish *w, reference *r, extrapolation_status status,
+                             int reached) {
+    r->how = room_words(
+        "extrapolation of order %d in long double (%d binary digits), tolerance %.2g; "
+        "held against order %d, %.2g",
+        2 * fine.columns, LDBL_MANT_DIG, fine.tolerance, 2 * coarse.columns, coarse.tolerance);
+    if (r->records < reached) {
+        r->why = room_words(
+            "the motion carries the two references apart: by %.0e of a component's largest value "
+            "behind %.9g s, from less than 1e-15 at the start",
+            r->limit, time_of(w, r->records));
+    } else if (status == EXTRAPOLATION_SMALL) {
+        r->why = room_words("behind %.9g s no step is small enough for the reference: a jump, a "
+                            "pole, or what has no value",
+                            time_of(w, r->records));
+    } else if (status == EXTRAPOLATION_LONG) {
+        r->why = room_words("the reference took too long behind %.9g s", time_of(w, r->records));
+    }
+}
+
+static reference *begin(const reference_wish *w) {
+    reference *r = room(1, sizeof *r);
+    r->shape = records_open(NULL, w->image, &engine_double);
+    r->columns = r->shape->columns;
+    r->wanted = w->records;
+    r->column = room(r->columns, sizeof *r->column);
+    return r;
+}
+
+static bool stops(const reference_wish *w) { return w->stop != NULL && *w->stop; }
+
+static reference *by_extrapolation(const reference_wish *w) {
+    reference *r = begin(w);
+    const computed best = extrapolate(w, r, fine);
+    const computed other = extrapolate(w, r, coarse);
+    r->kind = REFERENCE_EXTRAPOLATED;
+    r->limit = LIMIT_EXTRAPOLATED;
+    r->row = best.row;
+    r->records = best.records;
+    const int reached = best.records < other.records ? best.records : other.records;
+    judge(r, &other);
+    r->broken = r->records >= reached && reached < r->wanted;
+    say_extrapolated(w, r, best.status != EXTRAPOLATION_OK ? best.status : other.status, reached);
+    free(other.row);
+    r->stopped = stops(w);
+    return r;
+}
+
+static reference *by_fine_steps(const reference_wish *w) {
+    reference *r = begin(w);
+    const uint64_t steps = fine_steps_of(w);
+    r->row = rows_of(r);
+    computed other = {rows_of(r), 0, EXTRAPOLATION_OK};
+    r->records = fine_steps_run(w, r->shape, steps, r->row);
+    other.records = fine_steps_run(w, r->shape, steps / 2U, other.row);
+    const int reached = r->records < other.records ? r->records : other.records;
+    r->kind = REFERENCE_FINE_STEPS;
+    r->limit = LIMIT_FINE_STEPS;
+    judge(r, &other);
+    free(other.row);
+    r->how =
+        room_words("rk4 in double with compensated sums by steps of %.6g s; held against twice "
+                   "that step: a reference that shares the core's step and events",
+                   time_of(w, 1) / (double)steps);
+    if (r->records < reached) {
+        r->why = room_words(
+            "the two references differ by more than %.0e of a component's largest value behind "
+            "%.9g s: the motion carries them apart, or events come in another order",
+            r->limit, time_of(w, r->records));
+    } else if (reached < r->wanted) {
+        r->why = room_words("the run fails behind %.9g s", time_of(w, r->records));
+    }
+    r->stopped = stops(w);
+    return r;
+}
+
+reference *reference_new(const reference_wish *w) {
+    reference *r = w->image->contacts > 0 ? by_fine_steps(w) : by_extrapolation(w);
+    if (!r->stopped && r->broken) {
+        reference *other = by_fine_steps(w); /* kinks and jumps are passed by steps */
+        if (other->records > r->records) {
+            reference *swap = r;
+            r = other;
+            other = swap;
+        }
+        reference_free(other);
+    }
+    bool known = false;
+    for (int k = 1; k < r->columns; k++) {
+        known = known || r->column[k].counts;
+    }
+    if (r->records < 1 || !known) {
+        r->kind = REFERENCE_NONE;
+        if (r->why == NULL) {
+            r->why = room_words("nothing moves");
+        }
+    }
+    return r;
+}
+
+void reference_cut(reference *r, int until) {
+    r->records = until < r->records ? until : r->records;
+    for (int k = 1; k < r->columns; k++) {
+        r->column[k].largest = 0.0L;
+        for (int i = 0; i <= r->records; i++) {
+            const long double size = long_size(r->row[(size_t)i * (size_t)r->columns + (size_t)k]);
+            r->column[k].largest = size > r->column[k].largest ? size : r->column[k].largest;
+        }
+        r->column[k].counts = r->column[k].counts && r->column[k].largest > 0.0L;
+    }
+}
+
+double reference_agreement(const reference *r) {
+    double worst = 0.0;
+    for (int k = 1; k < r->columns; k++) {
+        const reference_column *c = &r->column[k];
+        if (c->counts) {
+            worst = number_most(worst, (double)(c->off / c->largest));
+        }
+    }
+    return worst;
+}
+
+void reference_free(reference *r) {
+    if (r != NULL) {
+        records_close(r->shape);
+        free(r->row);
+        free(r->column);
+        free(r->how);
+        free(r->why);
+        free(r);
+    }
+}
+
+int reference_find(const reference *r, const char *name, bool *noisy) {
+    const image *im = r->shape->image;
+    const size_t length = strcspn(name, "'");
+    const int primes = (int)strlen(name + length);
+    *noisy = false;
+    for (int k = 1; k < r->columns; k++) {
+        const record_column *c = &r->shape->column[k];
+        if (strlen(c->name) == length && strncmp(c->name, name, length) == 0 &&
+            c->primes == primes && strspn(name + length, "'") == (size_t)primes) {
+            *noisy = c->unknown < 0 && long_list_asks(im->list[IMAGE_OBSERVE],
+                                                      k - (r->columns - im->own_outputs), OP_NOISE);
+            return k;
+        }
+    }
+    return -1;
+}

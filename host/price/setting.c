@@ -1,0 +1,110 @@
+/* setting.c: see setting.h. */
+#include "setting.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "host/image/turned.h"
+
+/* Numbers: what computes, and whether sums carry their rounding along. */
+static const struct {
+    const char *word;
+    const char *run;    /* what `whirl run` is told besides */
+    const char *derive; /* what both are told */
+    const engine_kind *kind;
+    bool compensated;
+} numbers[] = {{"float", " --number float", "", &engine_float, false},
+               {"float compensated", " --number float", " --compensated", &engine_float, true},
+               {"double", "", "", &engine_double, false}};
+enum { NUMBERS = sizeof numbers / sizeof numbers[0] };
+
+static int number_of(const setting *s) {
+    int i = 0;
+    while (i < NUMBERS - 1 &&
+           (numbers[i].kind != s->number || numbers[i].compensated != s->image.compensated)) {
+        i++;
+    }
+    return i;
+}
+
+static const char *method_word(int i) { return wh_methods[i].word; }
+static int method_of(const setting *s) { return (int)s->image.method; }
+static void method_put(setting *s, int i) { s->image.method = (wh_method)i; }
+
+static const char *number_word(int i) { return numbers[i].word; }
+static void number_put(setting *s, int i) {
+    s->number = numbers[i].kind;
+    s->image.compensated = numbers[i].compensated;
+}
+
+static const char *angles_word(int i) { return image_angles_words[i]; }
+static int angles_of(const setting *s) { return (int)s->image.angles; }
+static void angles_put(setting *s, int i) { s->image.angles = (image_angles)i; }
+
+typedef struct axis_row {
+    int count;
+    const char *(*word)(int i);
+    int (*of)(const setting *s);
+    void (*put)(setting *s, int i);
+    const char *option;  /* NULL: it has words of its own */
+    bool always_written; /* also its first word */
+} axis_row;
+
+static const axis_row rows[AXES] = {
+    [AXIS_METHOD] = {WH_METHODS, method_word, method_of, method_put, "--method", true},
+    [AXIS_NUMBER] = {NUMBERS, number_word, number_of, number_put, NULL, true},
+    [AXIS_ANGLES] = {IMAGE_ANGLES, angles_word, angles_of, angles_put, "--angles", false}};
+
+const char *setting_heading(setting_axis axis) {
+#define SETTING_HEADING(id, heading) heading,
+    static const char *const headings[AXES] = {SETTING_AXES(SETTING_HEADING)};
+#undef SETTING_HEADING
+    return headings[axis];
+}
+
+const char *setting_word(const setting *s, setting_axis axis) {
+    return rows[axis].word(rows[axis].of(s));
+}
+
+int setting_count(void) {
+    int count = 1;
+    for (int i = 0; i < AXES; i++) {
+        count *= rows[i].count;
+    }
+    return count;
+}
+
+/* The last axis runs fastest. */
+setting setting_at(int i) {
+    setting s = {IMAGE_SETTINGS_DEFAULT, &engine_double};
+    for (int axis = AXES - 1; axis >= 0; axis--) {
+        rows[axis].put(&s, i % rows[axis].count);
+        i /= rows[axis].count;
+    }
+    return s;
+}
+
+bool setting_is_own(const setting *s, const image *im) {
+    if (!wh_method_takes(s->image.method, im->form)) {
+        return false;
+    }
+    image turned = *im;
+    turned.settings.angles = ANGLES_TURNED;
+    return s->image.angles == ANGLES_TURNED || image_turns(&turned);
+}
+
+const char *setting_options(const setting *s, bool with_number, char text[SETTING_TEXT]) {
+    text[0] = '\0';
+    for (int axis = 0; axis < AXES; axis++) {
+        const axis_row *row = &rows[axis];
+        const int i = row->of(s);
+        size_t used = strlen(text);
+        if (row->option == NULL) {
+            snprintf(text + used, SETTING_TEXT - used, "%s%s", with_number ? numbers[i].run : "",
+                     numbers[i].derive);
+        } else if (row->always_written || i > 0) {
+            snprintf(text + used, SETTING_TEXT - used, " %s %s", row->option, row->word(i));
+        }
+    }
+    return text;
+}

@@ -1,0 +1,40 @@
+/* setting.h: the settings of a scene that are priced: every combination of the words below, each at several steps. A
+ * choice more is a row of SETTING_AXES. */
+#ifndef PRICE_SETTING_H
+#define PRICE_SETTING_H
+
+#include "host/run/engine.h"
+
+/* What `whirl run` and `whirl derive` are told, but for the step. */
+typedef struct setting {
+    image_settings image; /* --method, --compensated, --angles */
+    const engine_kind *number;
+} setting;
+
+/* X(id, heading of a column, words): in the order in which they are told. The first word of an axis is what stands
+ * without an option. */
+#define SETTING_AXES(X) \
+    X(AXIS_METHOD, "method") \
+    X(AXIS_NUMBER, "number") \
+    X(AXIS_ANGLES, "angles")
+#define SETTING_AXIS(id, heading) id,
+typedef enum setting_axis { SETTING_AXES(SETTING_AXIS) AXES } setting_axis;
+#undef SETTING_AXIS
+
+const char *setting_heading(setting_axis axis);
+/* The word that a setting has on an axis. */
+const char *setting_word(const setting *s, setting_axis axis);
+
+int setting_count(void);
+setting setting_at(int i); /* 0 <= i < setting_count() */
+
+/* Is this setting another than those before it, for an image that was made with it? Not where its method does not take
+ * the system, nor where its angles cannot turn, so that they are looked up by whatever word. */
+bool setting_is_own(const setting *s, const image *im);
+
+/* Room for setting_options(). */
+enum { SETTING_TEXT = 160 };
+/* " --method rk4 --angles lookup": of `whirl derive`, or with the number those of `whirl run`. Returns text. */
+const char *setting_options(const setting *s, bool with_number, char text[SETTING_TEXT]);
+
+#endif

@@ -1,0 +1,220 @@
+/* table_text.c: see table_text.h. */
+#include "table_text.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "figure_text.h"
+#include "host/base/room.h"
+
+static char *line_of(const trials *t, const setting *s, deviation_pace pace, int point,
+                     const table_words *words, bool run) {
+    char options[SETTING_TEXT];
+    char step[TRIAL_TIME];
+    char until[TRIAL_TIME];
+    snprintf(until, sizeof until, "%.15g", trial_horizon_s(t));
+    return room_words("whirl %s %s%s%s%s --step %s --until %s%s", run ? "run" : "derive",
+                      words->target, words->changes,
+                      t->wish.source->name(t->wish.source->context, point),
+                      setting_options(s, run, options), trial_time(trial_step(t, pace), step),
+                      until, run ? "" : " --as c");
+}
+
+char *table_run_line(const trials *t, const setting *s, deviation_pace pace, int point,
+                     const table_words *words) {
+    return line_of(t, s, pace, point, words, true);
+}
+
+char *table_derive_line(const trials *t, const setting *s, deviation_pace pace, int point,
+                        const table_words *words) {
+    return line_of(t, s, pace, point, words, false);
+}
+
+char *table_measure_line(const trials *t, const setting *s, deviation_pace pace, int point,
+                         const table_words *words) {
+    char options[SETTING_TEXT];
+    char step[TRIAL_TIME];
+    return room_words("sh mk/price/measure_one.sh %s %s %s%s%s%s --step %s", t->wish.board->name,
+                      s->number->name, words->target, words->changes,
+                      t->wish.source->name(t->wish.source->context, point),
+                      setting_options(s, false, options), trial_time(trial_step(t, pace), step));
+}
+
+static void print_row(FILE *out, const trials *t, const table_row *row) {
+    char text[FIGURE_TEXT];
+    char options[SETTING_TEXT];
+    char step[TRIAL_TIME];
+    char error[24];
+    char price[24];
+    const cost *c = &row->cost;
+    snprintf(error, sizeof error, "%s%.2e", row->result.bound ? "<" : "", row->result.error);
+    snprintf(price, sizeof price, "%.3g %c", row->price.value, figure_letter(row->price.basis));
+    fprintf(out, "%s %9s  %10s", row->on_front ? "*" : " ", error, price);
+    fprintf(out, "  %8s", figure_text(&c->flash_bytes, text));
+    fprintf(out, "  %7s", figure_text(&c->ram_bytes, text));
+    fprintf(out, "  %7s", figure_text(&c->stack_bytes, text));
+    fprintf(out, "  %6s ", figure_text(&c->state_bytes, text));
+    fprintf(out, "%s --step %s\n", setting_options(&row->setting, true, options),
+            trial_time(trial_step(t, row->pace), step));
+}
+
+static const char *const heads[] = {[PRICE_CYCLES] = "cycles/s",
+                                    [PRICE_INSTRUCTIONS] = "instr./s",
+                                    [PRICE_EVALUATIONS] = "eval./s"};
+
+static void print_rows(FILE *out, const trials *t, const table *made, const table_words *words) {
+    char heading[40] = "error";
+    if (trial_unit(t)[0] != '\0') {
+        snprintf(heading, sizeof heading, "error, %s", trial_unit(t));
+    }
+    fprintf(out, "\n  %9s  %10s  %8s  %7s  %7s  %6s   settings\n", heading,
+            heads[made->row[0].price.unit], "flash, B", "RAM, B", "stack, B", "state");
+    for (int i = 0; i < made->count; i++) {
+        if (words->all || made->row[i].on_front) {
+            print_row(out, t, &made->row[i]);
+        }
+    }
+}
+
+/* What holds for all rows: how prices are known, and what was left out. */
+static void print_notes(FILE *out, const trials *t, const table *made, const table_words *words) {
+    char text[FIGURE_WORDS];
+    int front = 0;
+    for (int i = 0; i < made->count; i++) {
+        front += made->row[i].on_front ? 1 : 0;
+    }
+    fputc('\n', out);
+    figure_legend(out, &made->row[0].cost);
+    const table_row *first = &made->row[0];
+    if (made->counted) {
+        fprintf(
+            out,
+            "  m  measured: counted in the run\n"
+            "  evaluations of the accelerations a simulated second, since no setting has a price "
+            "on this board:\n  %s\n",
+            made->why);
+    } else {
+        fprintf(out, "  %s a simulated second: %s\n", table_unit_words[first->price.unit],
+                figure_words(first->price.unit == PRICE_CYCLES ? &first->cost.cycles
+                                                               : &first->cost.instructions,
+                             text));
+    }
+    fprintf(
+        out,
+        "\n%d settings, %d rows, %d of them on the front: nothing is as cheap and errs less%s\n",
+        made->settings - made->unpriced, made->count, front,
+        words->all ? " (*)" : "; --all shows the others");
+    if (made->unpriced > 0) {
+        fprintf(out, "%d settings without a price here: %s\n", made->unpriced, made->why);
+    }
+    if (made->coarse > 0) {
+        fprintf(out, "%d trials erred by more than the values themselves and are left out\n",
+                made->coarse);
+    }
+    if (made->broken_off > 0) {
+        fprintf(out, "%d settings have finer steps that were not tried: they take too long\n",
+                made->broken_off);
+    }
+    for (int i = made->count - 1; i >= 0; i--) {
+        if (made->row[i].on_front) {
+            const table_row *row = &made->row[i];
+            char *run = table_run_line(t, &row->setting, row->pace, row->result.point, words);
+            char *derive = table_derive_line(t, &row->setting, row->pace, row->result.point, words);
+            fprintf(out, "the last row of the front again, and as code:\n  %s\n  %s\n", run,
+                    derive);
+            free(run);
+            free(derive);
+            break;
+        }
+    }
+}
+
+void table_print(FILE *out, const trials *t, const table *made, const table_words *words) {
+    const image *im = t->image[0];
+    char name[TRIAL_NAME];
+    fprintf(out, "%s on %s (%s)\n", im->name, t->wish.board->name, t->wish.board->core);
+    if (t->what.column < 0) {
+        fputs(
+            "  error       measured: the largest deviation from the reference over all records, of\n"
+            "              each coordinate and rate as a part of its largest value, of the worst\n",
+            out);
+    } else {
+        fprintf(out,
+                "  error       measured: the largest deviation of %s from the reference over all "
+                "records\n",
+                trial_column(t, t->what.column, name));
+    }
+    if (t->wish.source->points > 1) {
+        fprintf(out, "              the worst of %d places of what varies\n",
+                t->wish.source->points);
+    }
+    figure_reference(out, t);
+    if (t->reliable && made != NULL && made->count > 0) {
+        print_rows(out, t, made, words);
+        print_notes(out, t, made, words);
+    } else if (t->reliable && made != NULL && made->unpriced > 0) {
+        fprintf(out, "no setting has a price here: %s\n", made->why);
+    } else if (t->reliable) {
+        fputs("no setting keeps to the motion: none is off by less than the values themselves\n",
+              out);
+    } else {
+        fputs("no front: without a reference no error is known\n", out);
+    }
+}
+
+/* --- for programs ------------------------------------------------------------------------------------*/
+
+static void csv_figure(FILE *out, const cost_figure *f) {
+    if (f->basis == COST_NOT_KNOWN) {
+        fprintf(out, ",,%s", cost_basis_words[f->basis]);
+    } else {
+        fprintf(out, ",%.17g,%s", f->value, cost_basis_words[f->basis]);
+    }
+}
+
+static void csv_row(FILE *out, const trials *t, const table_row *row, const table_words *words) {
+    char text[TRIAL_NAME];
+    const cost_basis fitted_to = row->price.unit == PRICE_CYCLES         ? row->cost.cycles.of
+                                 : row->price.unit == PRICE_INSTRUCTIONS ? row->cost.instructions.of
+                                                                         : COST_MEASURED;
+    fprintf(out, "%d,%.9g,", row->on_front ? 1 : 0, row->result.error);
+    figure_field(out, trial_unit(t));
+    fprintf(out, ",measured,%d,", row->result.bound ? 1 : 0);
+    figure_field(out, trial_column(t, row->result.column, text));
+    fprintf(out, ",%.9g,%s,%s,%s,%.9g,%.9g,", row->price.value, table_unit_words[row->price.unit],
+            cost_basis_words[row->price.basis], cost_basis_words[fitted_to], row->price.least,
+            row->price.most);
+    fputs(trial_time(trial_step(t, row->pace), text), out);
+    for (int axis = 0; axis < AXES; axis++) {
+        fprintf(out, ",%s", setting_word(&row->setting, (setting_axis)axis));
+    }
+    csv_figure(out, &row->cost.flash_bytes);
+    csv_figure(out, &row->cost.ram_bytes);
+    csv_figure(out, &row->cost.stack_bytes);
+    csv_figure(out, &row->cost.state_bytes);
+    char *run = table_run_line(t, &row->setting, row->pace, row->result.point, words);
+    char *derive = table_derive_line(t, &row->setting, row->pace, row->result.point, words);
+    fputc(',', out);
+    figure_field(out, run);
+    fputc(',', out);
+    figure_field(out, derive);
+    fputs("\r\n", out);
+    free(run);
+    free(derive);
+}
+
+bool table_csv(FILE *out, const trials *t, const table *made, const table_words *words) {
+    fputs("front,error,error_unit,error_basis,error_bound,component,price_per_s,price_of,"
+          "price_basis,price_fitted_to,price_least,price_most,step_s",
+          out);
+    for (int axis = 0; axis < AXES; axis++) {
+        fprintf(out, ",%s", setting_heading((setting_axis)axis));
+    }
+    fputs(",flash_bytes,flash_basis,ram_bytes,ram_basis,stack_bytes,stack_basis,state_bytes,"
+          "state_basis,run,derive\r\n",
+          out);
+    for (int i = 0; i < made->count; i++) {
+        csv_row(out, t, &made->row[i], words);
+    }
+    return fflush(out) == 0 && ferror(out) == 0;
+}

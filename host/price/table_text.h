@@ -1,0 +1,29 @@
+/* table_text.h: a table of errors and prices for people, for programs and as a picture. */
+#ifndef PRICE_TABLE_TEXT_H
+#define PRICE_TABLE_TEXT_H
+
+#include "table.h"
+
+/* What the command was given, as its words are typed, to build lines from that do a row again. */
+typedef struct table_words {
+    const char *target;
+    const char *changes; /* "" or " --set m=3 ..." */
+    bool all;            /* every row, not the front alone */
+} table_words;
+
+void table_print(FILE *out, const trials *t, const table *made, const table_words *words);
+/* False when writing failed. */
+bool table_csv(FILE *out, const trials *t, const table *made, const table_words *words);
+/* Error against price, a line for each method and number at its cheapest form, and the front. False, told. */
+bool table_plot(const char *file, const trials *t, const table *made);
+
+/* The lines that do a row again: `whirl run ...` and `whirl derive ... --as c`; free them. */
+char *table_run_line(const trials *t, const setting *s, deviation_pace pace, int point,
+                     const table_words *words);
+char *table_derive_line(const trials *t, const setting *s, deviation_pace pace, int point,
+                        const table_words *words);
+/* Counts the same row's step where a source tree and the board's compiler are: `sh mk/price/measure_one.sh ...`. */
+char *table_measure_line(const trials *t, const setting *s, deviation_pace pace, int point,
+                         const table_words *words);
+
+#endif

@@ -1,0 +1,236 @@
+/* trial.c: see trial.h. */
+#include "trial.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "host/base/nearest.h"
+#include "host/base/room.h"
+#include "host/number/decimal.h"
+#include "host/number/functions.h"
+
+/* Operations that a reference's two computations may evaluate each, of all points: some seconds. */
+#define REFERENCE_OPERATIONS 6e8
+/* A run that is off by more than this part of the largest value is of no use. */
+#define USABLE 1.0
+
+const char *trial_time(whole_ratio time, char text[TRIAL_TIME]) {
+    const double value = ratio_times(1, time);
+    for (int digits = 1; digits <= 17; digits++) {
+        snprintf(text, TRIAL_TIME, "%.*g", digits, value);
+        const whole_ratio back = ratio_of(decimal_read(text, NULL));
+        if (back.numerator == time.numerator && back.denominator == time.denominator) {
+            break;
+        }
+    }
+    return text;
+}
+
+static uint64_t common_divisor(uint64_t a, uint64_t b) {
+    while (b != 0) {
+        const uint64_t rest = a % b;
+        a = b;
+        b = rest;
+    }
+    return a;
+}
+
+whole_ratio trial_step(const trials *t, deviation_pace pace) {
+    whole_ratio s = t->wish.spacing;
+    const uint64_t over = common_divisor(s.numerator, pace.steps);
+    const uint64_t under = common_divisor(pace.records, s.denominator);
+    s.numerator = s.numerator / over * (pace.records / under);
+    s.denominator = s.denominator / under * (pace.steps / over);
+    return s;
+}
+
+double trial_horizon_s(const trials *t) {
+    return ratio_times((uint64_t)t->records, t->wish.spacing);
+}
+
+const char *trial_unit(const trials *t) {
+    return t->what.column < 0 ? "" : t->reference[0]->shape->column[t->what.column].unit->shown;
+}
+
+double trial_error_si(const trials *t, double error) {
+    if (t->what.column < 0) {
+        return error;
+    }
+    const image_unit *u = t->reference[0]->shape->column[t->what.column].unit;
+    return error * u->scale / u->divisor;
+}
+
+const char *trial_column(const trials *t, int column, char text[TRIAL_NAME]) {
+    const record_column *c = &t->reference[0]->shape->column[column];
+    snprintf(text, TRIAL_NAME, "%.80s%.*s", c->name, c->primes, "''''''''");
+    return text;
+}
+
+/* --- the references --------------------------------------------------------------------------------*/
+
+static void say_no_column(const trials *t) {
+    const records *shape = t->reference[0]->shape;
+    const char *of = t->wish.of;
+    nearest search = nearest_start(of, strlen(of));
+    fprintf(stderr, "whirl: error: --of %s is no output, coordinate or rate of '%s'\n", of,
+            shape->image->name);
+    char *names = room(shape->columns, TRIAL_NAME);
+    for (int k = 1; k < shape->columns; k++) {
+        char *name = names + (size_t)k * TRIAL_NAME;
+        nearest_offer(&search, trial_column(t, k, name));
+    }
+    if (search.best != NULL) {
+        fprintf(stderr, "hint: did you mean '%s'?\n", search.best);
+    }
+    free(names);
+}
+
+static bool find_column(trials *t) {
+    bool noisy;
+    t->what.column = -1;
+    t->what.give_up = USABLE;
+    if (t->wish.of == NULL) {
+        return true;
+    }
+    t->what.column = reference_find(t->reference[0], t->wish.of, &noisy);
+    if (t->what.column < 0) {
+        say_no_column(t);
+        return false;
+    }
+    if (noisy) {
+        fprintf(stderr,
+                "whirl: error: --of %s: it has noise of its own, which is no error of a step\n"
+                "hint: take what it is made of, or --without the effect that adds the noise\n",
+                t->wish.of);
+        return false;
+    }
+    return true;
+}
+
+/* All points to the horizon that all of them are trusted for. */
+static void cut(trials *t) {
+    t->records = t->wish.records;
+    t->reliable = true;
+    double least = 0.0;
+    for (int p = 0; p < t->wish.source->points; p++) {
+        const reference *r = t->reference[p];
+        t->reliable = t->reliable && r->kind != REFERENCE_NONE;
+        const double agreement = reference_agreement(r);
+        if (r->records < t->records || (r->records == t->records && agreement > least)) {
+            t->records = r->records;
+            t->worst = p;
+            least = agreement;
+        }
+    }
+    for (int p = 0; p < t->wish.source->points; p++) {
+        reference_cut(t->reference[p], t->records);
+    }
+}
+
+bool trial_begin(trials *t, const trial_wish *w) {
+    const int points = w->source->points;
+    const setting plain = {IMAGE_SETTINGS_DEFAULT, &engine_double};
+    *t = (trials){.wish = *w,
+                  .image = room(points, sizeof(image *)),
+                  .reference = room(points, sizeof(reference *))};
+    for (int p = 0; p < points; p++) {
+        t->image[p] = w->source->make(w->source->context, p, &plain, NULL, NULL);
+        if (t->image[p] == NULL) {
+            return false;
+        }
+        const reference_wish wish = {.image = t->image[p],
+                                     .spacing = w->spacing,
+                                     .records = w->records,
+                                     .operations = REFERENCE_OPERATIONS / points,
+                                     .stop = w->stop};
+        t->reference[p] = reference_new(&wish);
+        t->stopped = t->stopped || t->reference[p]->stopped;
+        if (p == 0 && !find_column(t)) {
+            return false;
+        }
+    }
+    cut(t);
+    return true;
+}
+
+void trial_end(trials *t) {
+    for (int p = 0; t->image != NULL && p < t->wish.source->points; p++) {
+        reference_free(t->reference[p]);
+        image_free(t->image[p]);
+    }
+    free(t->reference);
+    free(t->image);
+}
+
+/* --- trials ----------------------------------------------------------------------------------------*/
+
+static image *image_of(const trials *t, int point, const setting *s, deviation_pace pace) {
+    char step[TRIAL_TIME];
+    char until[TRIAL_TIME];
+    const whole_ratio spacing = t->wish.spacing;
+    trial_time(trial_step(t, pace), step);
+    snprintf(until, sizeof until, "%.17g", ratio_times((uint64_t)t->wish.records, spacing));
+    return t->wish.source->make(t->wish.source->context, point, s, step, until);
+}
+
+static void enter(const trials *t, int point, const deviation *d, trial_result *worst) {
+    const bool bound = d->error < 3.0 * d->known;
+    const double error = bound ? d->error + d->known : d->error;
+    const bool first = point == 0;
+    worst->evaluations = number_most(worst->evaluations, d->evaluations);
+    worst->usable = (first || worst->usable) && d->usable;
+    (void)t;
+    if (first || !(error <= worst->error)) {
+        worst->error = error;
+        worst->bound = bound;
+        worst->point = point;
+        worst->column = d->column;
+    }
+}
+
+trial_result trial_run(trials *t, const setting *s, deviation_pace pace) {
+    trial_result worst = {.ran = true};
+    for (int p = 0; p < t->wish.source->points; p++) {
+        image *im = image_of(t, p, s, pace);
+        if (im == NULL) {
+            return (trial_result){.ran = false};
+        }
+        deviation_of_what what = t->what;
+        if (what.column >= 0) { /* in its own unit */
+            what.give_up = USABLE * (double)t->reference[p]->column[what.column].largest;
+        }
+        const deviation d =
+            deviation_measure(t->reference[p], im, s->number, pace, what, t->wish.stop);
+        image_free(im);
+        t->operations += d.operations;
+        if (t->wish.stop != NULL && *t->wish.stop) {
+            t->stopped = true;
+            return (trial_result){.ran = false};
+        }
+        enter(t, p, &d, &worst);
+        if (!worst.usable) {
+            break;
+        }
+    }
+    return worst;
+}
+
+cost trial_cost(trials *t, const setting *s, deviation_pace pace, bool *own) {
+    cost dearest = {0};
+    const cost_number number = s->number == &engine_float ? COST_FLOAT : COST_DOUBLE;
+    *own = true;
+    for (int p = 0; p < t->wish.source->points; p++) {
+        image *im = image_of(t, p, s, pace);
+        if (im == NULL) {
+            return (cost){.why = "there is no image of it"};
+        }
+        *own = *own && setting_is_own(s, im);
+        const cost c = *own ? cost_of(im, t->wish.board, number) : (cost){.why = ""};
+        image_free(im);
+        if (p == 0 || c.instructions_worst.most > dearest.instructions_worst.most) {
+            dearest = c;
+        }
+    }
+    return dearest;
+}

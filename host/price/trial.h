@@ -1,0 +1,77 @@
+/* trial.h: trying settings out: how far each is off the references, and what it costs. */
+#ifndef PRICE_TRIAL_H
+#define PRICE_TRIAL_H
+
+#include "cost.h"
+#include "deviation.h"
+#include "setting.h"
+
+/* Where images come from: the scene, varied. */
+typedef struct trial_source {
+    void *context;
+    int points; /* the scene itself, or so many places of its ranges */
+    /* The image of a place, to run with this setting, step and end ("0.001", seconds; NULL: the scene's own). The caller
+     * frees it. NULL when there is none: told. */
+    image *(*make)(void *context, int point, const setting *s, const char *step, const char *until);
+    /* A place in words, for people: "duty=0.2"; "" where nothing varies. Valid until the next call. */
+    const char *(*name)(void *context, int point);
+} trial_source;
+
+typedef struct trial_wish {
+    const trial_source *source;
+    const cost_board *board;
+    const char *of;      /* an output, coordinate or rate; NULL: the worst component */
+    whole_ratio spacing; /* of the records, s */
+    int records;         /* behind the start */
+    const volatile sig_atomic_t *stop;
+} trial_wish;
+
+typedef struct trials {
+    trial_wish wish;
+    image **image;         /* [points] of the references */
+    reference **reference; /* [points] */
+    int worst;             /* the point whose reference ends first, or agrees least */
+    int records;           /* behind the start, that all references are trusted for */
+    deviation_of_what what;
+    bool reliable; /* false: some reference is REFERENCE_NONE */
+    bool stopped;
+    double operations; /* evaluated in trials so far */
+} trials;
+
+/* How one setting does at one step. */
+typedef struct trial_result {
+    bool ran; /* false: stopped, or there is no image */
+    bool
+        usable; /* at all points it came to the end, and was not off by more than the values themselves */
+    double
+        error; /* the worst, in the unit of `of` or as a part of the largest value; what the reference does not know
+                   * of it counts as error */
+    bool bound;         /* it is no more than a bound: the reference does not know better */
+    int point;          /* where it is the worst */
+    int column;         /* which component */
+    double evaluations; /* of the accelerations, a simulated second, at the place that takes most */
+} trial_result;
+
+/* Computes the references. False, told on standard error, when `of` is nothing of the scene, or an image is missing. */
+bool trial_begin(trials *t, const trial_wish *w);
+void trial_end(trials *t);
+
+trial_result trial_run(trials *t, const setting *s, deviation_pace pace);
+/* What it costs at the dearest of the points; *own: false where it is no setting of its own (setting_is_own()). */
+cost trial_cost(trials *t, const setting *s, deviation_pace pace, bool *own);
+
+whole_ratio trial_step(const trials *t, deviation_pace pace);
+double trial_horizon_s(const trials *t);
+/* The unit of errors: "m", or "" for parts of the largest value. */
+const char *trial_unit(const trials *t);
+/* An error in that unit is so many of SI. */
+double trial_error_si(const trials *t, double error);
+/* The component's name: "X", "theta'". Returns text. */
+enum { TRIAL_NAME = 96 };
+const char *trial_column(const trials *t, int column, char text[TRIAL_NAME]);
+
+/* A time as --step and --until take it: seconds in as few digits as bring back the same fraction. Returns text. */
+enum { TRIAL_TIME = 40 };
+const char *trial_time(whole_ratio time, char text[TRIAL_TIME]);
+
+#endif

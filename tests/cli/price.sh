@@ -1,0 +1,225 @@
+#!/bin/sh
+# price.sh: `whirl price` and `whirl choose`: every row's error measured again from the command line that the row prints,
+# against closed forms; what is chosen, run; bad input of every option; interrupts.
+. "$(dirname "$0")/../checks.sh"
+
+cat >"$scratch/spring.whirl" <<'END'
+mechanism spring "a mass on a spring"
+coordinate x [m]
+input push = 0 [N]
+T = 1 [kg]*x'^2/2
+V = 64 [N/m]*x^2/2
+Q(x) = push
+output x_mm [mm] = x
+output shaky [m] = 3*x
+noise shaky deviation 0.01 [m] seed 3
+scene spring_rings { start x = 1 [m]; step 1 [ms]; until 2 [s] }
+END
+cat >"$scratch/decay.whirl" <<'END'
+mechanism decay "what fades away"
+state y
+equation y' + 2 [1/s]*y = 0
+scene decay_fades { start y = 3; step 1 [ms]; until 2 [s] }
+END
+cat >"$scratch/pendulum.whirl" <<'END'
+mechanism pendulum "keeps its energy"
+coordinate a [rad]
+T = 1 [kg*m^2]*a'^2/2
+V = -8 [J]*cos(a)
+output energy [J] = a'^2*1 [kg*m^2]/2 - 8 [J]*cos(a)
+scene pendulum_swings { start a = 1 [rad], a' = 2 [rad/s]; step 1 [ms]; until 2 [s] }
+END
+
+# again TARGET FORMULA OPTION...: some rows of a table, run again: the largest deviation of the column COLUMN from FORMULA
+# of t over the records is the row's error, to the digits that both are printed with ($scale: the column's size).
+again() {
+    target=$1
+    column=$2
+    formula=$3
+    shift 3
+    "$whirl" price "$target" --effort 0.002 "$@" --csv "$scratch/rows.csv" >"$scratch/table" 2>"$scratch/err"
+    verdict $? "price $target $*"
+    spacing=$(sed -n 's/^  horizon *\([0-9.e-]*\) s, \([0-9]*\) records$/\1 \2/p' "$scratch/table" | awk '{ print $1 / $2 }')
+    tr -d '\r' <"$scratch/rows.csv" | awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) { at[$i] = i } next }
+        NR % 9 == 2 { print $(at["error"]), $(at["step_s"]), $(at["run"]) }' >"$scratch/some"
+    rows=0
+    bad=0
+    while read -r error step line; do
+        rows=$((rows + 1))
+        # shellcheck disable=SC2086 # words of a command line without quotes
+        "$whirl" ${line#whirl } --csv - --quiet 2>/dev/null | tr -d '\r' | awk -F, -v name="$column" -v each="$spacing" \
+            -v step="$step" -v wanted="$error" -v digits="$(case $line in *float*) echo 6e-9 ;; *) echo 3e-15 ;; esac)" '
+            function abs(v) { return v < 0 ? -v : v }
+            NR == 1 { for (i = 1; i <= NF; i++) { if ($i == name) { at = i } } next }
+            { t = $1; n = t / (step > each ? step : each); if (abs(n - int(n + 0.5)) > 1e-6) { next }
+              records++
+              off = abs($at - ('"$formula"')); if (off > worst) { worst = off } }
+            END { if (!at || records < 3 || abs(worst - wanted) > 1e-6 * wanted + digits * '"$scale"') {
+                printf "%s: %s instead of %s of %d records\n", name, worst, wanted, records; exit 1 } }' >>"$scratch/err" ||
+            bad=1
+    done <"$scratch/some"
+    [ $rows -ge 5 ] && [ $bad -eq 0 ]
+    verdict $? "$target: $rows rows are off the closed form by what they say"
+}
+scale=1
+again "$scratch/spring.whirl" x 'cos(8 * t)' --of x
+scale=8
+again "$scratch/spring.whirl" 'der(x)' '-8 * sin(8 * t)' --of "x'" --board atmega328p
+scale=1000
+again "$scratch/spring.whirl" 'x_mm [mm]' '1000 * cos(8 * t)' --of x_mm
+scale=3
+again "$scratch/decay.whirl" y '3 * exp(-2 * t)' --of y
+scale=30
+again spherical_flight z '5 * cos(1.25) + (8 * cos(1.25) + 0.75 * 5 * sin(1.25)) * t - 9.81 * t * t / 2' --of z
+scale=10
+again "$scratch/pendulum.whirl" energy '2 - 8 * cos(1)' --of energy
+
+# The front: along it prices rise and errors fall, and no row beside it is as cheap with less error.
+awk_front='NR > 1 { e[NR] = $2; p[NR] = $7; f[NR] = $1 }
+    END { for (i = 2; i <= NR; i++) { beaten = 0; matched = 0
+              for (k = 2; k <= NR; k++) { beaten += p[k] <= p[i] && e[k] < e[i]
+                                          matched += k != i && p[k] <= p[i] && e[k] <= e[i] }
+              if (f[i] ? beaten : !matched) { print i, e[i], p[i], f[i]; bad = 1 } on += f[i] }
+          exit bad || on < 3 }'
+check "the front is what nothing beats" awk -F, "$awk_front" "$scratch/rows.csv"
+"$whirl" price "$scratch/spring.whirl" --effort 0.002 --plot "$scratch/p.svg" --quiet >"$scratch/out" 2>"$scratch/err"
+[ $? -eq 0 ] && grep -q '<svg' "$scratch/p.svg" && grep -q front "$scratch/p.svg" && [ ! -s "$scratch/out" ]
+verdict $? "a picture, and --quiet says nothing"
+"$whirl" price "$scratch/spring.whirl" --effort 0.002 >"$scratch/out" 2>"$scratch/err"
+for basis in 'measured: the largest' 'p  predicted' 'x  exact' 'as a part of its largest' 'agree within'; do
+    grep -q "$basis" "$scratch/out"
+    verdict $? "the table says: $basis" "$scratch/out"
+done
+"$whirl" price "$scratch/spring.whirl" --effort 0.002 --error 1e-4 2>&1 | grep -A1 '^the cheapest within 1e-4' | tail -n 1 |
+    grep -q '^  whirl run .* --step '
+verdict $? "the cheapest within an error"
+"$whirl" price "$scratch/spring.whirl" --effort 0.002 --error 1e-30 >"$scratch/out" 2>"$scratch/err"
+[ $? -eq 1 ] && grep -q 'nothing that was tried errs by less' "$scratch/err"
+verdict $? "none within 1e-30: exit status 1"
+
+# --- what varies: the worst place, which is at an end, and the line that does it again ------------------------------
+"$whirl" price "$scratch/spring.whirl" --of x --effort 0.01 --vary push=0..64 --csv "$scratch/v.csv" >"$scratch/out" 2>"$scratch/err"
+verdict $? "price --vary"
+grep -q '3 places' "$scratch/out" && grep -q -- '--set push=0' "$scratch/v.csv"
+verdict $? "three places, and the worst is named" "$scratch/out"
+# a spring that is pushed by what it takes to hold it stays where it is, and errs by nothing: the worst is the other end
+awk -F, 'NR > 1 { n++; if ($0 ~ /push=0 /) { zero++ } } END { exit !(n > 10 && zero > 0.9 * n) }' "$scratch/v.csv"
+verdict $? "the worst place is where it moves most" "$scratch/v.csv"
+
+# --- choose: what is chosen is run ----------------------------------------------------------------------------------
+for request in '1e-2 100Hz' '1e-3 200Hz' '1e-4 500Hz' '1e-5 1kHz'; do
+    # shellcheck disable=SC2086 # two words
+    set -- $request
+    "$whirl" choose "$scratch/spring.whirl" --of x --error "$1" --rate "$2" --clock 16MHz --effort 0.02 >"$scratch/out" 2>"$scratch/err"
+    verdict $? "choose --error $1 --rate $2"
+    line=$(sed -n 's/^again *whirl //p' "$scratch/out")
+    # shellcheck disable=SC2086
+    "$whirl" $line --csv - --quiet | tr -d '\r' | awk -F, -v allowed="$1" '
+        function abs(v) { return v < 0 ? -v : v }
+        NR == 1 { next } { off = abs($2 - cos(8 * $1)); if (off > worst) { worst = off } n++ }
+        END { if (n < 10 || worst * 2 > allowed * 1.02) { print worst, n; exit 1 } }' >"$scratch/err"
+    verdict $? "choose --error $1: the line it prints keeps it twice"
+    derive=$(sed -n 's/^as code *whirl //p' "$scratch/out")
+    # shellcheck disable=SC2086
+    "$whirl" $derive 2>"$scratch/err" | grep -q 'wh_scene'
+    verdict $? "choose --error $1: its code"
+    grep -q '^  load  .*%.* of a period of' "$scratch/out" && grep -q '^runner-up' "$scratch/out" &&
+        grep -q '^  flash  .*predicted' "$scratch/out"
+    verdict $? "choose --error $1: load, flash and runner-up" "$scratch/out"
+done
+"$whirl" choose "$scratch/spring.whirl" --of x --error 0.1mm --rate 500Hz --effort 0.02 --board mps2-an505 >"$scratch/out" 2>&1
+case $? in
+0) grep -q 'cycles, range' "$scratch/out" ;;
+*) grep -q 'no setting has a price here' "$scratch/out" ;;
+esac
+verdict $? "a board whose cycles nobody counts: a range, never one number" "$scratch/out"
+none() { # WHAT TEXT OPTION...: nothing fits, and TEXT is said
+    what=$1
+    text=$2
+    shift 2
+    "$whirl" choose "$scratch/spring.whirl" --effort 0.005 "$@" >"$scratch/out" 2>"$scratch/err"
+    [ $? -eq 1 ] && grep -q '^nothing fits' "$scratch/out" && grep -q "$text" "$scratch/out"
+    verdict $? "nothing fits: $what" "$scratch/out"
+}
+none "load" '^  load .*fails' --error 1e-3 --rate 200Hz --clock 10kHz
+none "a faster chip would" '^  a clock of ' --error 1e-3 --rate 200Hz --clock 10kHz
+none "flash" '^  flash .*fails' --error 1e-3 --rate 200Hz --flash 1KB
+none "RAM" '^  RAM .*fails' --error 1e-3 --rate 200Hz --ram 20B
+none "error" '^  error .*fails' --error 1e-9 --rate 200Hz --clock 1MHz
+none "a weaker error would" '^  an error of ' --error 1e-9 --rate 200Hz --clock 1MHz
+
+# --- contacts: no price on a board, but evaluations that were counted ----------------------------------------------
+"$whirl" price ball_bounces --effort 0.005 --csv "$scratch/b.csv" >"$scratch/out" 2>"$scratch/err"
+[ $? -eq 0 ] && grep -q 'eval./s' "$scratch/out" && grep -q 'shares the core.s step and events' "$scratch/out"
+verdict $? "a scene with contacts: by evaluations, and its reference says what it is" "$scratch/out"
+awk -F, 'NR > 1 { n++; if ($8 != "evaluations" || $9 != "measured" || !($7 > 0)) { bad = 1 } } END { exit bad || n < 10 }' "$scratch/b.csv"
+verdict $? "which are measured" "$scratch/b.csv"
+
+# --- no reference ---------------------------------------------------------------------------------------------------
+"$whirl" price incline_sticks >"$scratch/out" 2>"$scratch/err"
+[ $? -eq 1 ] && grep -q 'no front: without a reference no error is known' "$scratch/out"
+verdict $? "where nothing moves there is no front" "$scratch/out"
+"$whirl" price thomson_b --effort 0.001 >"$scratch/out" 2>"$scratch/err"
+grep -q '^  horizon .* s of 10 s: the motion carries the two references apart' "$scratch/out"
+verdict $? "chaos cuts the horizon, and it is said how it was found" "$scratch/out"
+
+# --- bad input -------------------------------------------------------------------------------------------------------
+refused() { # TEXT COMMAND WORD...: exit status 2, and TEXT on standard error
+    text=$1
+    shift
+    "$whirl" "$@" >"$scratch/out" 2>"$scratch/err" </dev/null
+    [ $? -eq 2 ] && grep -q "$text" "$scratch/err" && [ ! -s "$scratch/out" ]
+    verdict $? "refused: $*"
+}
+s=$scratch/spring.whirl
+for command in price choose; do
+    e='--error=1e-3'
+    refused 'no scene' $command $e
+    refused 'one scene at a time' $command "$s" other $e
+    refused "there is no board 'nix'" $command "$s" $e --board nix
+    refused 'is no output, coordinate or rate' $command "$s" $e --of y
+    refused "did you mean 'x_mm'" $command "$s" $e --of x_mn
+    refused "is no output, coordinate or rate" $command "$s" $e --of "x''"
+    refused 'noise of its own' $command "$s" $e --of shaky
+    refused 'length' $command "$s" --of x --error 1s
+    refused 'error:' $command "$s" --error 1mm
+    refused 'above zero' $command "$s" --error=-1
+    refused 'above zero' $command "$s" --error 0
+    refused 'error:' $command "$s" --error much
+    refused 'error:' $command "$s" $e --horizon x
+    refused 'no time' $command "$s" $e --horizon 0
+    refused 'is not NAME=FROM..TO' $command "$s" $e --vary push
+    refused 'error:' $command "$s" $e --vary nothing=1..2
+    refused 'varies no step' $command "$s" $e --vary step=1..2
+    refused 'at most 64' $command "$s" $e --vary push=0..1:100
+    refused 'swept already' $command "$s" $e --vary push=0..1 --vary push=0..2
+    refused '1e-4 to 1e4' $command "$s" $e --effort 0
+    refused '1e-4 to 1e4' $command "$s" $e --effort lots
+    refused "unknown option '--bord'" $command "$s" $e --bord x
+    refused 'did you mean --board' $command "$s" $e --bord x
+    refused 'unknown option' $command "$s" $e --step 1ms
+    refused 'cannot be' $command "$scratch/none.whirl" $e
+done
+refused '.svg and .png' price "$s" --plot "$scratch/p.pdf"
+refused 'cannot share a file' price "$s" --plot "$scratch/p.svg" --csv "$scratch/p.svg"
+refused 'error:' price "$s" --csv "$s"
+refused 'error is missing' choose "$s"
+refused 'error:' choose "$s" --error 1e-3 --rate 1ms
+refused 'above zero' choose "$s" --error 1e-3 --rate 0
+refused 'error:' choose "$s" --error 1e-3 --clock fast
+refused 'number of bytes' choose "$s" --error 1e-3 --flash 32XB
+refused 'number of bytes' choose "$s" --error 1e-3 --flash=-1
+refused 'number of bytes' choose "$s" --error 1e-3 --ram KB
+refused 'not one period' choose "$s" --error 1e-3 --rate 0.1Hz
+
+# --- interrupted ------------------------------------------------------------------------------------------------------
+for signal in INT TERM; do
+    "$whirl" price thomson_b_conserved --effort 50 --csv "$scratch/i.csv" >"$scratch/out" 2>"$scratch/err" &
+    process=$!
+    sleep 1
+    kill -$signal $process
+    wait $process
+    [ $? -eq 130 ] && grep -q '^whirl price: interrupted' "$scratch/err" && [ ! -e "$scratch/i.csv" ]
+    verdict $? "price, $signal: exit status 130, and no file is begun"
+done
+exit $failed
