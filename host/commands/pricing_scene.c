@@ -86,7 +86,8 @@ static void forget(overrides *changes) {
 
 /* Are these settings the same? By what images are made of, word by word. */
 static bool same_settings(const image_settings *a, const image_settings *b) {
-    return a->method == b->method && a->compensated == b->compensated && a->angles == b->angles;
+    return a->method == b->method && a->compensated == b->compensated && a->angles == b->angles &&
+           a->matrix == b->matrix && a->tables == b->tables && a->cells == b->cells;
 }
 
 /* The image of a place with these settings, made once; its step and end are the scene's. NULL: told. */

@@ -72,6 +72,9 @@ static long double value_of(long_list *l, int i, const long_leaves *in) {
     case OP_MAX: return long_call(FN_MAX, A, B);
     case OP_CALL: return long_call(o->function, A, o->b >= 0 ? B : 0.0L);
     case OP_POW: return long_power(A, B);
+    case OP_CELL:
+    case OP_LINE:
+    case OP_CUBIC: break; /* a reference is made of the exact list */
     }
     return 0.0L;
 }

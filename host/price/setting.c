@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "host/image/turned.h"
+#include "host/run/start.h"
 
 /* Numbers: what computes, and whether sums carry their rounding along. */
 static const struct {
@@ -85,7 +86,10 @@ setting setting_at(int i) {
 }
 
 bool setting_is_own(const setting *s, const image *im) {
-    if (!wh_method_takes(s->image.method, im->form)) {
+    diags *unsaid = diags_new();
+    const bool takes = start_has_method(im, s->image.method, unsaid);
+    diags_free(unsaid);
+    if (!takes) {
         return false;
     }
     image turned = *im;
