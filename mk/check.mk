@@ -158,7 +158,7 @@ hashes-now gate-hashes: $(GEN)/.stamp
 	@$(MAKE) hashes-matrix
 # HASH_BOARDS="mps2-an386 atmega328p": on these.
 HASH_BOARDS ?= $(BOARDS)
-hashes-matrix: $(GEN)/.stamp
+hashes-matrix: $(GEN)/.stamp ## the same bits on every board of linear scenes, a step as one matrix (minutes)
 	@$(MAKE) build/scenes_matrix
 	@$(call compare_matrix_hashes,$(HASH_BOARDS))
 
