@@ -63,6 +63,7 @@ for scene in epicyclic_conserved epicyclic_from_rest rig_fixed halvorson_smooth 
     tabled whole "$scene" --tables cubic --cells 8 --method rk38
 done
 for method in $("$whirl" derive epicyclic_conserved --as c --method '?' 2>&1 | sed -n 's/,//g; s/^hint: one of //p'); do
+    case " $(echo $no_rates) " in *" $method "*) continue ;; esac
     tabled folded epicyclic_conserved --tables cubic --method "$method"
 done
 tabled whole epicyclic_conserved --tables cubic --with ledger
