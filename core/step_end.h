@@ -152,15 +152,20 @@ WH_INLINE unsigned wh_angles_move(const wh_real *move, wh_span rad_a_move, wh_re
     return angles;
 }
 
-/* value + by factor, as wh_sum(); product is by.s factor. What the rest of `by` adds is less than half a unit in the last
- * place of the product: in one sum with it, it would be rounded away in every step. So what the state did not take is
- * told from the product alone, and the carry, which is small, keeps the rest. */
+/* value + by factor, as wh_sum(); product is by.s factor, `h` the step. What the rest of `by` adds is less than half a unit
+ * in the last place of the product: in one sum with it, it would be rounded away in every step. So what the state did not
+ * take is told from the product alone, and the carry, which is small, keeps the rest. Not where the step has no rest:
+ * those of contacts, whose carry is to be zero where nothing moves. */
 WH_INLINE wh_real wh_sum_product(wh_real value, wh_span by, wh_real factor, wh_real product,
-                                 bool compensated, wh_real *carry) {
+                                 wh_span h, bool compensated, wh_real *carry) {
     if (!compensated || WH_DOUBLE) {
         return wh_sum(value, product, compensated, carry);
     }
     const wh_real kept = *carry + by.rest_s * factor;
+    if (h.rest_s == WH_R(0.0)) {
+        *carry = kept;
+        return wh_sum(value, product, true, carry);
+    }
     const wh_real sum = value + (product + kept);
     *carry = kept + (product - (sum - value));
     return sum;
@@ -205,7 +210,7 @@ WH_INLINE wh_status wh_second_end(const wh_tableau *by, const wh_real *a1,
     for (unsigned i = 0; i < linears; i++) {
         wh_real *carry = &trial.carry[angles + i];
         *carry = compensated ? state->carry[angles + i] : WH_R(0.0);
-        trial.real[i] = wh_sum_product(linear[i], h, move[angles + i], h.s * move[angles + i],
+        trial.real[i] = wh_sum_product(linear[i], h, move[angles + i], h.s * move[angles + i], h,
                                        compensated, carry);
     }
     WH_UNROLL
@@ -213,7 +218,7 @@ WH_INLINE wh_status wh_second_end(const wh_tableau *by, const wh_real *a1,
         wh_real *carry = &trial.carry[n + i];
         *carry = compensated ? state->carry[n + i] : WH_R(0.0);
         trial.real[linears + i] =
-            wh_sum_product(rate[i], part, gain[i], kick[i], compensated, carry);
+            wh_sum_product(rate[i], part, gain[i], kick[i], h, compensated, carry);
     }
     return wh_accept(&trial, angles, linears + n, compensated, state);
 }
@@ -245,7 +250,7 @@ WH_INLINE wh_status wh_first_end(const wh_tableau *by, const wh_real *k1,
         wh_real *carry = &trial.carry[angles + i];
         *carry = compensated ? state->carry[angles + i] : WH_R(0.0);
         trial.real[i] = wh_sum_product(state->real[i], part, total[angles + i],
-                                       part.s * total[angles + i], compensated, carry);
+                                       part.s * total[angles + i], h, compensated, carry);
     }
     return wh_accept(&trial, angles, reals, compensated, state);
 }

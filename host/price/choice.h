@@ -2,7 +2,7 @@
 #ifndef PRICE_CHOICE_H
 #define PRICE_CHOICE_H
 
-#include "table.h"
+#include "price_table.h"
 
 /* An error is kept when what was measured is no more than this part of what is allowed. */
 #define CHOICE_MARGIN 2.0

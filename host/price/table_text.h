@@ -2,7 +2,7 @@
 #ifndef PRICE_TABLE_TEXT_H
 #define PRICE_TABLE_TEXT_H
 
-#include "table.h"
+#include "price_table.h"
 
 /* What the command was given, as its words are typed, to build lines from that do a row again. */
 typedef struct table_words {

@@ -96,7 +96,7 @@ static int walk(const subject *s, manner how, double (*value)[VALUES]) {
     char step[64];
     snprintf(step, sizeof step, "%.17g", UNTIL_S / how.steps);
     const overrides changes = {.step = step};
-    const image_settings settings = {how.method, how.compensated, ANGLES_TURNED};
+    const image_settings settings = {.method = how.method, .compensated = how.compensated};
     diags *errors = diags_new();
     instance *inst = instance_make(s->scene->mechanism, s->scene, &changes, errors);
     equations *e = inst != NULL ? equations_derive(inst, errors) : NULL;

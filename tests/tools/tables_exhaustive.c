@@ -36,8 +36,8 @@ static bool make(const char *name, image *im[FORMS]) {
             instance *one = instance_make(in->scenes[s]->mechanism, in->scenes[s], NULL, errors);
             equations *e = equations_derive(one, errors);
             for (int m = 0; m < FORMS; m++) {
-                const image_settings settings = {WH_METHOD_DEFAULT, false, ANGLES_TURNED,
-                                                 forms[m].form, forms[m].cells};
+                const image_settings settings = {
+                    .method = WH_METHOD_DEFAULT, .tables = forms[m].form, .cells = forms[m].cells};
                 im[m] = image_make(e, one->conserve, &settings, IMAGE_TO_WRITE, errors);
             }
             equations_free(e);

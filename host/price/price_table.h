@@ -1,4 +1,4 @@
-/* table.h: error against price, for all settings. */
+/* price_table.h: error against price, for all settings. */
 #ifndef PRICE_TABLE_H
 #define PRICE_TABLE_H
 

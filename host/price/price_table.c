@@ -1,5 +1,5 @@
-/* table.c: see table.h. */
-#include "table.h"
+/* price_table.c: see price_table.h. */
+#include "price_table.h"
 
 #include <math.h>
 #include <stdlib.h>
