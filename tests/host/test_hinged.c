@@ -3,6 +3,7 @@
 #define _POSIX_C_SOURCE 200809L
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -16,6 +17,17 @@ enum { MECHANISMS = 160, STATES = 12, BODIES_MOST = 3 };
 
 static bool chance(uint64_t *seed, int percent) {
     return random_between(seed, 0.0, 100.0) < percent;
+}
+
+/* Written only where it is wanted. */
+__attribute__((format(printf, 3, 4))) static void maybe(FILE *out, bool wanted, const char *format,
+                                                        ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    if (wanted) {
+        vfprintf(out, format, arguments);
+    }
+    va_end(arguments);
 }
 
 /* A carriage, or two directions of it, an arm or none on it, bodies on the arm's end, on each other or on the carriage;
@@ -52,9 +64,9 @@ static char *written(uint64_t *seed) {
         fprintf(out, "coordinate a%d [rad]\ninput M%d = %.2f [N*m]\n", k, k,
                 random_between(seed, -1, 1));
         fprintf(out, "let w%d = a%d'%s", k, k, relative[k] ? " + w" : "\n");
-        fprintf(out, relative[k] ? "%d\n" : "", on[k]);
+        maybe(out, relative[k], "%d\n", on[k]);
         fprintf(out, "let t%d = a%d%s", k, k, relative[k] ? " + t" : "\n");
-        fprintf(out, relative[k] ? "%d\n" : "", on[k]);
+        maybe(out, relative[k], "%d\n", on[k]);
         char above[2][8] = {"ex", "ey"};
         if (on[k] >= 0) {
             snprintf(above[0], sizeof above[0], "px%d", on[k]);
@@ -64,24 +76,22 @@ static char *written(uint64_t *seed) {
         fprintf(out, "let py%d = %s + %.3f [m]*w%d*cos(t%d)\n", k, above[1], rod, k, k);
     }
     fprintf(out, "T = %.2f [kg]*(ux^2 + uy^2)", random_between(seed, 0.5, 3.0));
-    fprintf(out, arm ? " + %.2f [kg*m^2]*b'^2 + %.2f [kg]*(ex^2 + ey^2)" : "",
-            random_between(seed, 0.01, 0.5), random_between(seed, 0.0, 1.0));
+    maybe(out, arm, " + %.2f [kg*m^2]*b'^2 + %.2f [kg]*(ex^2 + ey^2)",
+          random_between(seed, 0.01, 0.5), random_between(seed, 0.0, 1.0));
     for (int k = 0; k < bodies; k++) {
         fprintf(out, " + %.2f [kg]*(px%d^2 + py%d^2)", random_between(seed, 0.1, 2.0), k, k);
-        fprintf(out, chance(seed, 50) ? " + %.3f [kg*m^2]*w%d^2" : "",
-                random_between(seed, 0.0, 0.1), k);
+        maybe(out, chance(seed, 50), " + %.3f [kg*m^2]*w%d^2", random_between(seed, 0.0, 0.1), k);
     }
     fputs("\nV = 0 [J]", out);
     for (int k = 0; k < bodies && chance(seed, 60); k++) {
         fprintf(out, " + %.2f [J]*sin(t%d)", random_between(seed, 0.5, 9.0), k);
-        fprintf(out, chance(seed, 30) ? " + 1 [J]*a%d^2" : "", k);
+        maybe(out, chance(seed, 30), " + 1 [J]*a%d^2", k);
     }
     fputs(fixed ? "\n" : " + 7 [N/m]*x^2\n", out);
     for (int k = 0; k < bodies; k++) {
         fprintf(out, "Q(a%d) = M%d\n", k, k);
     }
-    fprintf(out, chance(seed, 50) ? "F = %.2f [N*m*s]*a0'^2\n" : "",
-            random_between(seed, 0.1, 1.0));
+    maybe(out, chance(seed, 50), "F = %.2f [N*m*s]*a0'^2\n", random_between(seed, 0.1, 1.0));
     fclose(out);
     return text;
 }
