@@ -78,8 +78,8 @@ static void test_constants_are_rounded_once(void) {
 
 /* --- the entries ------------------------------------------------------------------------------------ */
 
-/* Half a unit in the last place of a double. */
-static double half_unit(double x) { return (nextafter(fabs(x), HUGE_VAL) - fabs(x)) / 2.0; }
+/* Half a unit in the last place of a double: of 0, half the least of them, which is no double. */
+static quad half_unit(double x) { return (quad)(nextafter(fabs(x), HUGE_VAL) - fabs(x)) / 2; }
 
 /* Most by which an entry is off beyond `share` of what its matrix allows it to be, in units of half its last digit. */
 static double entries_off(const linear *of, const image *im, quad want[][LINEAR_COLUMNS],
@@ -96,7 +96,7 @@ static double entries_off(const linear *of, const image *im, quad want[][LINEAR_
             const double got = im->matrix.entry[i * of->columns + k];
             const quad off = quad_size((quad)got - want[i][k]) - row * (quad)0x1p-80 -
                              (allowed != NULL ? allowed[i][k] : 0);
-            const double units = (double)(off / (quad)half_unit((double)want[i][k]));
+            const double units = (double)(off / half_unit((double)want[i][k]));
             most = units > most ? units : most;
         }
     }
