@@ -18,6 +18,11 @@
 #if defined(WH_WAVES) && WH_WAVES <= 1
 #pragma GCC optimize("no-gcse")
 #endif
+/* Of one coordinate, expressions moved to where they are used stand right before what waits for them: up to 4 % of the cycles
+ * of a Cortex-M4F. */
+#if defined(WH_COORDS) && WH_COORDS <= 1
+#pragma GCC optimize("no-tree-ter")
+#endif
 #endif
 
 /* scene->advance() by so many steps > 0, counted in state->steps. What changes is copied to where no pointer of the caller's

@@ -44,6 +44,15 @@
 #define WH_WAVES 256
 #endif
 
+/* On a PC, other registers leave fewer copies: 1 to 6 % fewer instructions; and of one angle, constants loaded where they are
+ * needed leave more of the registers: 1 % (2 % more where the list has no quotient). */
+#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__)
+#pragma GCC optimize("rename-registers")
+#if WH_WAVES <= 1
+#pragma GCC optimize("no-gcse")
+#endif
+#endif
+
 /* Before the first accelerations there is little to keep over the call that the check may lead to; but what turning
  * takes is to be kept over them, and the 16 registers of a PC are too few for that: 3 % more instructions. */
 #define WH_TURN_ASKS_FIRST (!WH_DOUBLE)
