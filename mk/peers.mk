@@ -2,12 +2,15 @@
 # packages; none of it is linked into anything of ours.
 
 PEERS := whirl plain gsl arkode odeint
-PEER_SYSTEMS := epicyclic thomson
-# For all of them Thomson's device with its sines by the addition theorems, which favours the others.
+PEER_SYSTEMS := epicyclic thomson reduced
+# Thomson's device twice: for the others as its equations are written, a sine and a cosine of every angle that occurs, and
+# with those that the addition theorems leave, which someone has to find by hand.
 PEER_FILE_epicyclic := tests/tools/naive_epicyclic.c
-PEER_FILE_thomson := tests/tools/careful_thomson.c
+PEER_FILE_thomson := tests/tools/naive_thomson.c
+PEER_FILE_reduced := tests/tools/careful_thomson.c
 PEER_SCENE_epicyclic := epicyclic_from_rest
 PEER_SCENE_thomson := thomson_a
+PEER_SCENE_reduced := thomson_a
 PEER_LIBS_gsl := -lgsl -lgslcblas
 PEER_LIBS_arkode := -lsundials_arkode -lsundials_nvecserial
 # The plain one is the program that `make bench` counts.

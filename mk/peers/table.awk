@@ -11,13 +11,17 @@ BEGIN {
 }
 { value[$1, $2, $3] = $4 }
 function ratio(x) { return x == "" ? "" : sprintf(x < 10 ? "%.2f" : "%.0f", x) }
-function row(peer, what) {
-    printf "| %s | %s | %s | %s | %s |\n", title[peer], value[peer, "epicyclic", "instructions"],
-        ratio(value[peer, "epicyclic", what]), value[peer, "thomson", "instructions"], ratio(value[peer, "thomson", what])
+function row(peer, what,   i, line) {
+    line = "| " title[peer]
+    for (i = 1; i in systems; i++) {
+        line = line " | " value[peer, systems[i], "instructions"] " | " ratio(value[peer, systems[i], what])
+    }
+    print line " |"
 }
 END {
-    print "| | gear, instructions | gear, time | Thomson, instructions | Thomson, time |"
-    print "|---|---|---|---|---|"
+    split("epicyclic thomson reduced", systems, " ")
+    print "| | gear, instructions | gear, time | Thomson, instructions | Thomson, time | with addition theorems | time |"
+    print "|---|---|---|---|---|---|---|"
     for (i = 1; i in steps; i++) { row(steps[i], "ratio") }
     row("sympy", "derivation")
 }
