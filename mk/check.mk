@@ -74,6 +74,8 @@ gate-full: $(GEN)/.stamp
 	    "host suites, all cases" "build/tests/host $(SUITES_FULL)"
 
 # --- sanitizers -----------------------------------------------------------------------------------
+# Every test, with the cases of `make test`: all of them take instrumented programs a quarter of an hour, and gate-full
+# a few minutes.
 # Generated scenes with contacts take gcc half a minute each when they are optimised and instrumented.
 $(B)/float/$(GEN)/%.o $(B)/double/$(GEN)/%.o: FILE_FLAGS = $(SCENE_OPT)
 ASAN_BUILD = $(MAKE) B=build/asan CC=gcc OPT="-O1 -fno-omit-frame-pointer" SCENE_OPT=-O0 \
@@ -81,7 +83,7 @@ ASAN_BUILD = $(MAKE) B=build/asan CC=gcc OPT="-O1 -fno-omit-frame-pointer" SCENE
 
 .PHONY: asan-run
 asan-run: test-programs $(B)/whirl
-	@EMITTED=once WHIRL_FULL=1 WHIRL=$(B)/whirl TEST_SECONDS=900 \
+	@EMITTED=once WHIRL=$(B)/whirl TEST_SECONDS=900 \
 	    sh tests/run.sh $(B)/tests/log $(RUN_LONG) $(RUN_HOST) $(RUN_CLI) $(RUN_CORE)
 
 gate-sanitizers:
