@@ -24,9 +24,9 @@
  * Runge-Kutta method are .positions = b A; only such a method takes systems of first order. Both have the same
  * .parts: the sum for positions is part of that for rates. The books (ledger_step.h) weigh the stages by .rates, too.
  *
- * Nystroem's methods know that positions are moved by rates, and say with .reach where the position of stage i stands:
+ * Nystroem's methods know that positions are moved by rates, and say with .places where the position of stage i stands:
  *
- *     begin + c h q' + h^2/parts * sum_j share[j] a_j,        .reach[i] = {parts, {share...}}, c = .node[i],
+ *     begin + c h q' + h^2/parts * sum_j share[j] a_j,     .places->reach[i] = {parts, {share...}}, c = .places->node[i],
  *
  * where the accelerations of the earlier stages are a_j; a Runge-Kutta method's reach is A A. The rates of stage i are those
  * that .stage[i] gives. Two stages with the same node and reach stand at the same place: what a list computes of positions
@@ -42,7 +42,7 @@
  * (tests/core/test_stage_turn.c). A row without it is stepped by looking up.
  */
 /* clang-format off */
-#define WH_METHOD_ROWS(X) \
+#define WH_SHORT_METHOD_ROWS(X) \
     X(WH_EULER, "euler", "explicit Euler", 1, WH_ANY_SYSTEM, 1, \
       .stage = {{1, {0}}}, \
       .parts = 1, .positions = {0}, .rates = {1}) \
@@ -60,23 +60,27 @@
       .parts = 8, .positions = {1, 2, 1, 0}, .rates = {1, 3, 3, 1}, .turns = {0, 1, 2, 3}) \
     X(WH_NYSTROEM3, "nystroem3", "Nystroem 3", 3, WH_ANY_SYSTEM, 3, \
       .stage = {{1, {0}}, {3, {2}}, {3, {0, 2}}}, \
-      .node = {0, WH_R(2.0) / WH_R(3.0), WH_R(2.0) / WH_R(3.0)}, \
-      .reach = {{1, {0}}, {9, {2}}, {9, {2}}}, \
+      .places = &(const wh_places){.node = {0, WH_R(2.0) / WH_R(3.0), WH_R(2.0) / WH_R(3.0)}, \
+                                   .reach = {{1, {0}}, {9, {2}}, {9, {2}}}}, \
       .parts = 8, .positions = {2, 2, 0}, .rates = {2, 3, 3}, .turns = {0, 1, 1}) \
     X(WH_NYSTROEM4, "nystroem4", "Nystroem 4", 4, WH_ANY_SYSTEM, 4, \
       .stage = {{1, {0}}, {2, {1}}, {2, {0, 1}}, {1, {0, 0, 1}}}, \
-      .node = {0, WH_R(0.5), WH_R(0.5), 1}, \
-      .reach = {{1, {0}}, {8, {1}}, {8, {1}}, {2, {0, 1}}}, \
+      .places = &(const wh_places){.node = {0, WH_R(0.5), WH_R(0.5), 1}, \
+                                   .reach = {{1, {0}}, {8, {1}}, {8, {1}}, {2, {0, 1}}}}, \
       .parts = 6, .positions = {1, 1, 1, 0}, .rates = {1, 2, 2, 1}, .turns = {0, 1, 1, 2}) \
+    X(WH_LEAPFROG, "leapfrog", "leapfrog", 2, WH_NO_RATES, 1, \
+      .stage = {{1, {0}}}, \
+      .places = &(const wh_places){.node = {WH_R(0.5)}, .reach = {{1, {0}}}}, \
+      .parts = 2, .positions = {1}, .rates = {2})
+/* Those of more than four stages. */
+#define WH_LONG_METHOD_ROWS(X) \
     X(WH_NYSTROEM5, "nystroem5", "Nystroem 5", 5, WH_ANY_SYSTEM, 6, \
       .stage = {{1, {0}}, {4, {1}}, {8, {1, 1}}, {2, {0, -1, 2}}, {16, {3, 0, 0, 9}}, {7, {-3, 2, 12, -12, 8}}}, \
-      .node = {0, WH_R(0.25), WH_R(0.25), WH_R(0.5), WH_R(0.75), 1}, \
-      .reach = {{1, {0}}, {32, {1}}, {32, {1}}, {8, {0, 0, 1}}, {32, {3, 0, 3, 3}}, {14, {0, 0, 6, 0, 1}}}, \
+      .places = &(const wh_places){.node = {0, WH_R(0.25), WH_R(0.25), WH_R(0.5), WH_R(0.75), 1}, \
+                                   .reach = {{1, {0}}, {32, {1}}, {32, {1}}, {8, {0, 0, 1}}, {32, {3, 0, 3, 3}}, {14, {0, 0, 6, 0, 1}}}}, \
       .parts = 90, .positions = {7, 0, 24, 6, 8, 0}, .rates = {7, 0, 32, 12, 32, 7}, \
-      .turns = {0, 1, 1, 2, 3, 4}) \
-    X(WH_LEAPFROG, "leapfrog", "leapfrog", 2, WH_NO_RATES, 1, \
-      .stage = {{1, {0}}}, .node = {WH_R(0.5)}, .reach = {{1, {0}}}, \
-      .parts = 2, .positions = {1}, .rates = {2})
+      .turns = {0, 1, 1, 2, 3, 4})
+#define WH_METHOD_ROWS(X) WH_SHORT_METHOD_ROWS(X) WH_LONG_METHOD_ROWS(X)
 /* clang-format on */
 
 /* The method of whoever names none. */
@@ -114,12 +118,22 @@ extern const wh_method_row wh_methods[WH_METHODS];
 }
 #else
 
+/* The rows that are to be had. A generated scene says how many stages its method has (WH_STAGES): with room for two more
+ * a row takes 8-bit chips 200 bytes of RAM, where the compiler leaves anything of it. */
+#if defined(WH_STAGES) && WH_STAGES <= 4
+#define WH_TABLEAUS(X) WH_SHORT_METHOD_ROWS(X)
+#define WH_NO_TABLEAUS(X) WH_LONG_METHOD_ROWS(X)
+#else
+#define WH_TABLEAUS(X) WH_METHOD_ROWS(X)
+#define WH_NO_TABLEAUS(X)
+#endif
+
 #define WH_METHOD_STAGES(id, word, title, order, takes, stages, ...) char id##_has[stages];
 union wh_method_stages {
-    WH_METHOD_ROWS(WH_METHOD_STAGES)
+    WH_TABLEAUS(WH_METHOD_STAGES)
 };
 #undef WH_METHOD_STAGES
-/* Most stages of a row. */
+/* Most stages of a row that is to be had. */
 #define WH_STAGES_MAX sizeof(union wh_method_stages)
 
 /* share[j] parts of `parts`: what stage j's derivative counts for. Numbers, not integers: rows of higher order
@@ -129,11 +143,15 @@ typedef struct wh_shares {
     wh_real share[WH_STAGES_MAX];
 } wh_shares;
 
+typedef struct wh_places {
+    wh_real node[WH_STAGES_MAX];
+    wh_shares reach[WH_STAGES_MAX];
+} wh_places;
+
 typedef struct wh_tableau {
     unsigned stages;
     wh_shares stage[WH_STAGES_MAX];
-    wh_real node[WH_STAGES_MAX];    /* with .reach: else none */
-    wh_shares reach[WH_STAGES_MAX]; /* .parts of 0: there is none */
+    const wh_places *places; /* NULL: where the rates lead */
     wh_real parts;
     wh_real positions[WH_STAGES_MAX];
     wh_real rates[WH_STAGES_MAX];
@@ -142,16 +160,22 @@ typedef struct wh_tableau {
 
 #define WH_METHOD_TABLEAU(id, word, title, order, takes, stages, ...) \
     static const wh_tableau wh_tableau_##id = {stages, __VA_ARGS__};
-WH_METHOD_ROWS(WH_METHOD_TABLEAU)
+WH_TABLEAUS(WH_METHOD_TABLEAU)
 #undef WH_METHOD_TABLEAU
 
 /* An object each, and not an array: where the method is a constant, nothing is left in generated code of the others,
  * and nothing of its own where the loops over it are unrolled. */
 WH_INLINE const wh_tableau *wh_tableau_of(wh_method method) {
 #define WH_METHOD_TABLEAU(id, ...) \
-    case id: \
-        return &wh_tableau_##id;
-    switch (method) { WH_METHOD_ROWS(WH_METHOD_TABLEAU) }
+    case id: return &wh_tableau_##id; \
+        #define WH_METHOD_NONE(id, ...) \
+    case id:
+    switch (method) {
+        WH_TABLEAUS(WH_METHOD_TABLEAU)
+        WH_NO_TABLEAUS(WH_METHOD_NONE)
+        break;
+    }
+#undef WH_METHOD_NONE
 #undef WH_METHOD_TABLEAU
     return &wh_tableau_WH_RK4; /* none: a method is one of these */
 }

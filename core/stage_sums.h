@@ -29,7 +29,7 @@
         } \
     } while (false)
 #else
-_Static_assert(WH_STAGES_MAX == 6, "a stage each below");
+_Static_assert(WH_STAGES_MAX <= 6, "a stage each below");
 #define WH_LATER_STAGES(by, stage) \
     do { \
         stage(1U); \
@@ -69,16 +69,19 @@ WH_INLINE wh_real wh_stage_sum(const wh_real *share, unsigned stage, wh_given gi
     return sum;
 }
 
-/* Says the row where its stages stand, apart from their rates? */
-WH_INLINE bool wh_stage_reaches(const wh_tableau *by, unsigned stage) {
-    return by->reach[stage].parts != WH_R(0.0);
+/* Does the row say where its stages stand, apart from their rates? */
+WH_INLINE bool wh_stage_reaches(const wh_tableau *by) { return by->places != NULL; }
+
+/* Does its first stage stand away from the begin? */
+WH_INLINE bool wh_begins_away(const wh_tableau *by) {
+    return by->places != NULL && by->places->node[0] != WH_R(0.0);
 }
 
 /* How far component i, of rate `rate`, of such a stage stands from the begin. */
 WH_INLINE wh_real wh_stage_reach(const wh_tableau *by, unsigned stage, wh_real rate,
                                  wh_given accels, wh_real h, unsigned i) {
-    const wh_shares *of = &by->reach[stage];
-    return h * by->node[stage] * rate +
+    const wh_shares *of = &by->places->reach[stage];
+    return h * by->places->node[stage] * rate +
            h * h / of->parts * wh_stage_sum(of->share, stage, accels, i);
 }
 

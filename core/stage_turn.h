@@ -76,7 +76,7 @@ typedef struct wh_waves {
 /* Has the method's row what turning takes? */
 WH_INLINE bool wh_method_turns(wh_method method) {
     const wh_tableau *by = wh_tableau_of(method);
-    return by->node[0] == WH_R(0.0) && (by->stages == 1 || by->turns[1] == 1);
+    return !wh_begins_away(by) && (by->stages == 1 || by->turns[1] == 1);
 }
 
 /* A step's pairs on their way. */
@@ -262,7 +262,7 @@ WH_INLINE void wh_turning_stage(const wh_tableau *by, const wh_waves *waves, uns
 WH_INLINE void wh_turning_reach(const wh_tableau *by, const wh_waves *waves, unsigned stage,
                                 wh_given accels, unsigned angles, wh_real h, bool precise,
                                 wh_turning *t, wh_wave *pair) {
-    const wh_shares *of = &by->reach[stage];
+    const wh_shares *of = &by->places->reach[stage];
     wh_real of_angles[WH_COORDS] = {0};
     wh_real lean[WH_WAVES] = {0};
     WH_UNROLL
@@ -283,7 +283,7 @@ WH_INLINE void wh_turning_tell(const wh_tableau *by, unsigned stage, const wh_re
                                const wh_state *state, wh_phase *told) {
     const wh_shares *of = &by->stage[stage];
     for (unsigned i = 0; i < angles; i++) {
-        if (wh_stage_reaches(by, stage)) {
+        if (wh_stage_reaches(by)) {
             const wh_real rad = wh_stage_reach(by, stage, rate[i], accels, h, i);
             (void)wh_phase_move(wh_phase_of(state->angle[i]), rad * WH_PHASE_PER_RAD, &told[i]);
         } else {
@@ -349,12 +349,12 @@ WH_INLINE void wh_turn_second_stage(const void *model, wh_turned_accel_fn *accel
     WH_UNROLL
     for (unsigned i = 0; i < linears; i++) {
         list->at[i] =
-            wh_stage_reaches(by, s)
+            wh_stage_reaches(by)
                 ? k->linear[i] +
                       wh_stage_reach(by, s, k->rate[angles + i], all_accels, h, angles + i)
                 : k->linear[i] + h / of->parts * wh_stage_sum(of->share, s, all_rates, angles + i);
     }
-    if (wh_stage_reaches(by, s)) {
+    if (wh_stage_reaches(by)) {
         wh_turning_reach(by, waves, s, all_accels, angles, h, compensated, &k->t, list->pair);
     } else {
         wh_turning_stage(by, waves, s, k->gained, angles, h, compensated, false, &k->t, list->pair);

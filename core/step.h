@@ -112,7 +112,7 @@ WH_INLINE unsigned wh_step_second_stage(const void *model, wh_accel_fn *accel, c
         list->v[i] = k->rate[i] + h / parts * wh_stage_sum(share, s, all_accels, i);
         k->rates[s - 1][i] = list->v[i];
     }
-    if (wh_stage_reaches(by, s)) {
+    if (wh_stage_reaches(by)) {
         const unsigned far = wh_step_reach(by, s, all_accels, angles, linears, h, state, list, k);
         if (far < angles) {
             return far;
@@ -145,7 +145,7 @@ WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_met
         .linear = state->real, .rate = state->real + (n - angles), .input = state->input};
     wh_stepped_list list;
     wh_stepped_begin(state, angles, n - angles, &list);
-    if (by->node[0] != WH_R(0.0)) {
+    if (wh_begins_away(by)) {
         const wh_given none = {k.a1, k.accels};
         WH_REFUSE_FAR(wh_step_reach(by, 0, none, angles, n - angles, h.s, state, &list, &k));
         accel(model, list.phase, list.at, k.rate, k.input, list.given);

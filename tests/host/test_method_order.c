@@ -54,24 +54,23 @@ static void multiply(int stages, long double (*x)[STAGES], long double (*y)[STAG
 static weights weights_of(int method) {
     const wh_tableau *t = wh_tableau_of((wh_method)method);
     weights w = {.stages = (int)t->stages};
-    bool reaches = false;
     for (int i = 0; i < w.stages; i++) {
         w.rates[i] = (long double)t->rates[i] / (long double)t->parts;
         w.positions[i] = (long double)t->positions[i] / (long double)t->parts;
-        reaches = reaches || t->reach[i].parts != 0.0;
         for (int j = 0; j < w.stages; j++) {
             w.a[i][j] = (long double)t->stage[i].share[j] / (long double)t->stage[i].parts;
             w.node[i] += w.a[i][j];
         }
     }
-    if (!reaches) {
+    if (t->places == NULL) {
         multiply(w.stages, w.a, w.a, w.reach);
         return w;
     }
     for (int i = 0; i < w.stages; i++) {
-        w.node[i] = (long double)t->node[i];
+        w.node[i] = (long double)t->places->node[i];
         for (int j = 0; j < w.stages; j++) {
-            w.reach[i][j] = (long double)t->reach[i].share[j] / (long double)t->reach[i].parts;
+            w.reach[i][j] =
+                (long double)t->places->reach[i].share[j] / (long double)t->places->reach[i].parts;
         }
     }
     return w;
@@ -252,8 +251,8 @@ static void test_nodes_follow_from_the_shares(void) {
             for (unsigned j = 0; j < t->stages; j++) {
                 sum += t->stage[i].share[j];
             }
-            if (t->reach[i].parts != 0.0) {
-                TEST_ASSERT_TRUE_MESSAGE(fabs(sum / t->stage[i].parts - t->node[i]) <
+            if (t->places != NULL) {
+                TEST_ASSERT_TRUE_MESSAGE(fabs(sum / t->stage[i].parts - t->places->node[i]) <
                                              (double)ROUNDING,
                                          wh_methods[m].word);
             }
