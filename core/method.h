@@ -166,10 +166,10 @@ WH_TABLEAUS(WH_METHOD_TABLEAU)
 /* An object each, and not an array: where the method is a constant, nothing is left in generated code of the others,
  * and nothing of its own where the loops over it are unrolled. */
 WH_INLINE const wh_tableau *wh_tableau_of(wh_method method) {
+#define WH_METHOD_NONE(id, ...) case id:
 #define WH_METHOD_TABLEAU(id, ...) \
-    case id: return &wh_tableau_##id; \
-        #define WH_METHOD_NONE(id, ...) \
-    case id:
+    case id: \
+        return &wh_tableau_##id;
     switch (method) {
         WH_TABLEAUS(WH_METHOD_TABLEAU)
         WH_NO_TABLEAUS(WH_METHOD_NONE)
