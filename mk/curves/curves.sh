@@ -1,0 +1,61 @@
+#!/bin/sh
+# curves.sh OUT ROWS.csv SCENE... -- BOARD... -- COUNTED BOARD...: prices and fronts, from what runs.sh has left in OUT.
+#
+# On boards behind the second -- the front is counted, and so is a step of each setting that has no predicted price. Rows:
+#
+#   scene,board,error,component,records,step_s,until_s,price_of,per_s,instructions,cycles,basis,flash,ram,stack,method,
+#   number,run,front
+#
+# per_s: cycles a simulated second, or instructions where nobody counts cycles. basis: `counted`; `predicted`; `counted at S`,
+# a step of that setting of S seconds was. Instructions and cycles are those of a step, what is not known is empty.
+set -eu
+here=$(dirname "$0")
+out=$1
+csv=$2
+shift 2
+work=$out/counted
+rm -rf "$work"
+mkdir -p "$work"
+scenes=
+files=
+until [ "$1" = -- ]; do
+    scenes="$scenes $out/$1.csv"
+    shift
+done
+shift
+until [ "$1" = -- ]; do
+    for scene in $scenes; do
+        files="$files ${scene%.csv}@$1.csv"
+    done
+    shift
+done
+shift
+counted=$*
+: "${FINEST:=1e-10}"
+
+# prices MORE...: the rows on every board
+prices() {
+    # shellcheck disable=SC2086 # lists of files
+    awk -F, -v OFS=, -v out="$out" -f "$here/words.awk" -f "$here/priced.awk" "$@" $files $scenes
+}
+# sorted: by scene, board, price, error
+sorted() { sort -t, -k1,1 -k2,2 -k9,9g -k3,3g; }
+
+echo "scene,board,instructions,cycles,obtained,flash,ram,stack,compiler,run" >"$work/settings.csv"
+for board in $counted; do
+    prices -v missing="$board" | sort >"$work/cases"
+    [ ! -s "$work/cases" ] || sh "$here/count.sh" "$board" "$work/out" <"$work/cases" | sed 1d >>"$work/settings.csv"
+done
+prices "$work/settings.csv" | sorted >"$work/rows"
+awk -F, -v OFS=, -f "$here/front.awk" "$work/rows" >"$work/fronts"
+for board in $counted; do
+    awk -F, -v board="$board" -v finest="$FINEST" '$2 == board && $NF == 1 && $3 >= finest { print $1 "," $18 }' "$work/fronts" |
+        sh "$here/count.sh" "$board" "$work/out" >"$work/counted_$board.csv"
+done
+{
+    echo "scene,board,error,component,records,step_s,until_s,price_of,per_s,instructions,cycles,basis,flash,ram,stack,method,number,run,front"
+    # shellcheck disable=SC2046
+    awk -F, -v OFS=, -f "$here/words.awk" -f "$here/recount.awk" $(ls "$work"/counted_*.csv) "$work/rows" |
+        sorted | awk -F, -v OFS=, -v counted="$counted" -f "$here/front.awk"
+} >"$csv.new"
+mv "$csv.new" "$csv"
