@@ -67,14 +67,14 @@ function panel(b,    i, k, n, plot) {
         for (k = 1; k <= methods; k++) {
             if ((b, method[k], number[i]) in points) {
                 data("d" (++n), points[b, method[k], number[i]])
-                plot = plot ", \\\n     $d" n " using 1:2 with linespoints lw 0.8 ps 0.6 pt " (k + (k > 4)) " lc rgb '" colour[i] \
+                plot = plot ", \\\n     $d" n " using 1:2 with linespoints lw 0.8 ps 0.6 pt " (k + (k > 5)) " lc rgb '" colour[i] \
                     "' notitle"
             }
         }
         plot = plot ", \\\n     keyentry with lines lw 3 lc rgb '" colour[i] "' title " quoted(number[i])
     }
     for (k = 1; k <= methods; k++) {
-        plot = plot ", \\\n     keyentry with points pt " (k + (k > 4)) " ps 0.8 lc rgb '#222222' title " quoted(method[k])
+        plot = plot ", \\\n     keyentry with points pt " (k + (k > 5)) " ps 0.8 lc rgb '#222222' title " quoted(method[k])
     }
     plot = plot ", \\\n     $front using 1:2 with points pt 6 ps 1.3 lw 1.5 lc rgb '#000000' title " \
         quoted("on the front, " ends[b])

@@ -1,7 +1,7 @@
 #!/bin/sh
 # curves.sh OUT ROWS.csv SCENE... -- BOARD... -- COUNTED BOARD...: prices and fronts, from what runs.sh has left in OUT.
 #
-# On boards behind the second -- the front is counted, and so is a step of each setting that has no predicted price. Rows:
+# On boards behind the second -- the front is counted down to the first error within FINEST, and so is a step of each setting that has no predicted price. Rows:
 #
 #   scene,board,error,component,records,step_s,until_s,price_of,per_s,instructions,cycles,basis,flash,ram,stack,method,
 #   number,run,front
@@ -25,13 +25,13 @@ done
 shift
 until [ "$1" = -- ]; do
     for scene in $scenes; do
-        files="$files ${scene%.csv}@$1.csv"
+        [ ! -s "${scene%.csv}@$1.csv" ] || files="$files ${scene%.csv}@$1.csv"
     done
     shift
 done
 shift
 counted=$*
-: "${FINEST:=1e-10}"
+: "${FINEST:=1e-9}"
 
 # prices MORE...: the rows on every board
 prices() {
@@ -49,13 +49,14 @@ done
 prices "$work/settings.csv" | sorted >"$work/rows"
 awk -F, -v OFS=, -f "$here/front.awk" "$work/rows" >"$work/fronts"
 for board in $counted; do
-    awk -F, -v board="$board" -v finest="$FINEST" '$2 == board && $NF == 1 && $3 >= finest { print $1 "," $18 }' "$work/fronts" |
+    awk -F, -v board="$board" -v finest="$FINEST" '
+        $2 == board && $NF == 1 && !($1 in ended) { print $1 "," $18; if ($3 <= finest) { ended[$1] = 1 } }' "$work/fronts" |
         sh "$here/count.sh" "$board" "$work/out" >"$work/counted_$board.csv"
 done
 {
     echo "scene,board,error,component,records,step_s,until_s,price_of,per_s,instructions,cycles,basis,flash,ram,stack,method,number,run,front"
-    # shellcheck disable=SC2046
-    awk -F, -v OFS=, -f "$here/words.awk" -f "$here/recount.awk" $(ls "$work"/counted_*.csv) "$work/rows" |
+    # shellcheck disable=SC2046 # a list of files
+    awk -F, -v OFS=, -f "$here/words.awk" -f "$here/recount.awk" $(find "$work" -name 'counted_*.csv') "$work/rows" |
         sorted | awk -F, -v OFS=, -v counted="$counted" -f "$here/front.awk"
 } >"$csv.new"
 mv "$csv.new" "$csv"

@@ -1,8 +1,8 @@
 # published.awk: the rows of curves.sh that the pages and charts show: docs/figures/price.csv.
 #
-#   awk -F, -v out=OUT -v finest=E -v counted=BOARDS -f words.awk -f decades.awk -f published.awk ROWS.csv
+#   awk -F, -v out=OUT -v counted=BOARDS -f words.awk -f decades.awk -f published.awk ROWS.csv
 #
-# Of boards whose front was counted the front down to errors of E; of the others, whose prices are predicted, the cheapest
+# Of boards whose front was counted what was counted of it; of the others, whose prices are predicted, the cheapest
 # row within each decade of the error. `core` is what `whirl price` calls the board's processor.
 
 FNR == 1 {
@@ -18,8 +18,7 @@ FNR == 1 {
     rest = $0
     sub(/,[01]$/, "", rest)
     if (index(" " counted " ", " " board " ") > 0) {
-        # the finest is the one that ends below E: the last decade asks for it
-        take = field("front") == 1 && field("basis") == "counted" && field("error") >= finest
+        take = field("front") == 1 && field("basis") == "counted"
     } else {
         # rows come by rising price: the first within a decade is the cheapest
         take = 0
