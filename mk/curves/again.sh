@@ -67,7 +67,7 @@ for board in $boards; do
     awk -F, -v OFS=, -v board="$board" '$2 == board { print $1, $12 }' "$out/rows" | sh "$here/count.sh" "$board" "$out/count" >"$out/counted"
     awk -F, -v board="$board" '
         function near(a, b, part) { return a == b || (a - b <= part * b && b - a <= part * b) }
-        FNR == NR { if (FNR > 1) { counted[$9] = $3 "," $4 "," $6 "," $7 } next }
+        FNR == NR { if (FNR > 1) { counted[$10] = $3 "," $4 "," $6 "," $7 } next }
         $2 != board { next }
         {
             split(counted[$12], now, ",")

@@ -103,7 +103,7 @@ END {
     print "set tics nomirror textcolor rgb '#222222'"
     print "set lmargin 12"
     if (fronts != "") {
-        print "set key inside top right samplen 2 font ',12' noenhanced"
+        print "set key inside bottom left Left reverse samplen 2 font ',12' noenhanced"
         lines_of_boards()
     } else {
         print "set key outside right top samplen 2 font ',12' noenhanced"

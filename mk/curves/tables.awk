@@ -51,6 +51,13 @@ field("scene") == word[2] {
 
 function about(board, d) { return basis[board, d] == "predicted" ? "~" : "" }
 
+# Bytes: what is predicted in three digits.
+function rounded(board, d, value,    unit) {
+    if (about(board, d) == "") { return sprintf("%d", value) }
+    for (unit = 1; value >= 1000 * unit; unit *= 10) { }
+    return sprintf("~%d", int(value / unit + 0.5) * unit)
+}
+
 function chips(    i, board, d) {
     for (i = 3; i <= words; i++) {
         board = word[i]
@@ -60,9 +67,9 @@ function chips(    i, board, d) {
         print "|---|---|---|---|---|---|"
         for (d = 1; d <= DECADES; d++) {
             if ((board, d) in price) {
-                printf "| %s | %.1e | %s%s | %s%d | %s%d | `%s --step %s` |\n", decade_words(d), error[board, d], \
-                    about(board, d), short(price[board, d]), about(board, d), flash[board, d], about(board, d), \
-                    ram[board, d], setting_of(run[board, d]), option_of(run[board, d], "--step")
+                printf "| %s | %.1e | %s%s | %s | %s | `%s --step %s` |\n", decade_words(d), error[board, d], \
+                    about(board, d), short(price[board, d]), rounded(board, d, flash[board, d]), \
+                    rounded(board, d, ram[board, d]), setting_of(run[board, d]), option_of(run[board, d], "--step")
             } else {
                 print "| " decade_words(d) " | – | | | | |"
             }
@@ -87,7 +94,7 @@ function all_boards(    i, d, line) {
 
 function first(    i, d) {
     printf "| error within |"
-    for (i = 3; i <= words; i++) { printf " %s |", core[word[i]] }
+    for (i = 3; i <= words; i++) { printf " %s, `%s` |", core[word[i]], word[i] }
     printf "\n|---|"
     for (i = 3; i <= words; i++) { printf "---|" }
     print ""
