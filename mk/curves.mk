@@ -21,15 +21,16 @@ CURVE_JOBS ?= 2
 curve_scenes_all = $$(build/whirl list --as table | tr -d '\r' | awk '$$1 == "scene" { print $$2 }')
 curve_others = $$(build/whirl list --as table | tr -d '\r' | awk -v all=" $(CURVE_SCENES) " '$$1 == "scene" && !index(all, " " $$2 " ") { print $$2 }')
 
-.PHONY: price-now price-runs price-rows-drawn price-pages price-again price-all-now
-price-now: price-runs
-	@$(MAKE) price-rows-drawn price-pages
+.PHONY: price-now price-runs-now price-drawn-now price-pages price-again price-all-now
+price-now: price-runs-now
+	@$(MAKE) price-drawn-now
+	@$(MAKE) price-pages
 
-price-runs: build/whirl
+price-runs-now: build/whirl
 	@JOBS=$(CURVE_JOBS) mk/curves/runs.sh $(CURVES)/runs $(CURVE_EFFORT) $(CURVE_SCENES) -- $(BOARDS_ALL)
 	@JOBS=$(CURVE_JOBS) mk/curves/runs.sh $(CURVES)/others $(CURVE_EFFORT_OTHERS) $(curve_others)
 
-price-rows-drawn: build/whirl
+price-drawn-now: build/whirl
 	@mkdir -p $(FIGURES) docs/figures
 	@FINEST=$(CURVE_FINEST) mk/curves/curves.sh $(CURVES)/runs $(FIGURES)/price.csv $(CURVE_SCENES) -- $(BOARDS_ALL) -- $(CURVE_COUNTED)
 	@awk -F, -v OFS=, -v out=$(CURVES)/runs -v counted="$(CURVE_COUNTED)" -f mk/curves/words.awk \
@@ -40,7 +41,8 @@ price-rows-drawn: build/whirl
 	    mk/curves/chart.sh $(FIGURES)/price_$$scene.svg $(FIGURES)/price.csv $$scene boards $(CURVE_COUNTED) || exit 1; \
 	    cp $(FIGURES)/price_$$scene.svg docs/figures/; done
 
-price-pages:
+##@ Price
+price-pages: ## the tables of docs/price.md, docs/fronts.md and README.md, anew from docs/figures/price.csv
 	@$(call need,gnuplot)
 	@mk/curves/pages.sh docs/figures $(CURVE_PAGES)
 	@mk/curves/chart.sh $(FIGURES)/price_fronts.svg docs/figures/price.csv $(CURVE_FIRST)
@@ -55,6 +57,5 @@ price-all-now: build/whirl
 	    $(BOARDS_ALL) --
 	@echo "Every row: $(FIGURES)/price_all.csv"
 
-##@ Price
 price-again: build/whirl ## what docs/figures/price.csv says was counted, once more, from its command lines: SCENES, SOME (minutes)
 	@SOME=$(or $(SOME),1) mk/curves/again.sh docs/figures/price.csv $(CURVES)/again $(SCENES)

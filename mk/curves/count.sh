@@ -13,10 +13,10 @@ mkdir -p "$out"
 sort -u >"$out/all"
 echo "scene,board,instructions,cycles,obtained,flash,ram,stack,compiler,run"
 for number in float double; do
-    # ID SCENE OPTIONS, and the same line's command
+    # ID SCENE OPTIONS, and the same line's command. IDs of one length: an image holds them
     awk -F, -v number="$number" -v out="$out" -f "$here/words.awk" -f /dev/stdin "$out/all" <<'AWK'
 number_of($2) == number {
-    print "c" ++n " " $1 " " derive_options($2) > (out "/cases_" number)
+    printf "c%04d %s %s\n", ++n, $1, derive_options($2) > (out "/cases_" number)
     print $0 > (out "/lines_" number)
 }
 AWK
@@ -29,7 +29,7 @@ AWK
             grep -E 'measure.sh|error' "$out/log_$number" | head -n 5 >&2
             exit 1
         fi
-        awk 'FNR == NR { left[substr($1, 2)] = 1; next }
+        awk 'FNR == NR { left[substr($1, 2) + 0] = 1; next }
             !(FNR in left) { print; next } { print "count.sh: diverges when counted: " $0 >"/dev/stderr" }' \
             "$out/diverged" "$out/lines_$number" >"$out/lines_left"
         mv "$out/lines_left" "$out/lines_$number"

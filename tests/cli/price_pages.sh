@@ -58,6 +58,52 @@ AWK
 awk -F, -f mk/curves/words.awk -f "$scratch/rows.awk" docs/figures/price.csv >"$scratch/said" 2>&1
 verdict $? "rows, counted ones, scenes on boards: $(tail -n 1 "$scratch/said")" "$scratch/said"
 
+# --- what makes them: fronts of drawn rows against trying each row with each; numbers in three digits ----------------------
+awk 'BEGIN {
+    srand(20)
+    for (scene = 1; scene <= 4; scene++) { for (board = 1; board <= 2; board++) { for (i = 0; i < 60; i++) {
+        # steps of a tenth, so that some are equal
+        printf "s%d,b%d,%.9g,x,1,1,1,cycles,%.6g,,1,%s,1,1,1,rk4,float,run\n", scene, board, 10 ^ (-int(rand() * 40) / 10), \
+            10 ^ (int(rand() * 40) / 10), rand() < 0.5 ? "counted" : "predicted"
+    } } }
+}' | sort -t, -k1,1 -k2,2 -k9,9g -k3,3g >"$scratch/drawn"
+awk -F, -v OFS=, -v counted=b2 -f mk/curves/front.awk "$scratch/drawn" | awk -F, '
+    { group[NR] = $1 "," $2; e[NR] = $3; p[NR] = $9; may[NR] = $2 == "b1" || $12 == "counted"; on[NR] = $NF }
+    END {
+        for (i = 1; i <= NR; i++) {
+            beaten = !may[i]
+            for (k = 1; k <= NR; k++) {
+                if (k != i && may[k] && group[k] == group[i] && p[k] <= p[i] && e[k] <= e[i]) {
+                    beaten = beaten || p[k] < p[i] || e[k] < e[i] || k < i # of equal ones the first is marked
+                }
+            }
+            if (beaten == on[i]) { print i, e[i], p[i], on[i]; bad = 1 }
+            marked += on[i]
+        }
+        exit bad || marked < 30 || NR != 480
+    }' >"$scratch/err"
+verdict $? "fronts of 480 drawn rows are what nothing beats"
+awk -f mk/curves/decades.awk -f /dev/stdin >"$scratch/said" <<'AWK'
+BEGIN {
+    srand(7)
+    for (i = 0; i < 2000; i++) {
+        value = 10 ^ (rand() * 12)
+        text = short(value)
+        back = text + 0
+        unit = substr(text, length(text))
+        back *= unit == "k" ? 1e3 : unit == "M" ? 1e6 : unit == "G" ? 1e9 : unit == "T" ? 1e12 : 1
+        off = back / value - 1
+        digits = text
+        gsub(/[^0-9]/, "", digits)
+        if ((off > 0.00502 || off < -0.00502) && value > 100 || value >= 999.5 && length(digits) != 3) { print value, text; bad = 1 }
+    }
+    print short(999.4), short(999.6), short(9996), short(999600), step_words(0.0025), step_words(0.0005)
+    exit bad
+}
+AWK
+[ $? -eq 0 ] && [ "$(cat "$scratch/said")" = "999 1.00k 10.0k 1.00M 2.5 ms 500 us" ]
+verdict $? "numbers in three digits" "$scratch/said"
+
 # --- charts: a ring for each counted row -----------------------------------------------------------------------------
 for scene in epicyclic_from_rest thomson_a rig_fixed; do
     svg=docs/figures/price_$scene.svg
