@@ -40,7 +40,7 @@ fronts == "" && y <= 1 && y >= 1e-10 {
     if (!((b, series, field("step_s")) in drawn)) {
         drawn[b, series, field("step_s")] = 1
         points[b, series] = points[b, series] x " " y "\n"
-        if (field("basis") ~ /^counted at/) { at_one_step[b] = ", or counted at one step" }
+        if (field("basis") ~ /^counted at/) { at_one_step[b] = " or counted once" }
     }
 }
 
@@ -79,7 +79,7 @@ function panel(b,    i, k, n, plot) {
     }
     plot = plot ", \\\n     $front using 1:2 with points pt 6 ps 1.3 lw 1.5 lc rgb '#000000' title " \
         quoted("on the front, " ends[b])
-    axes(unit[b] " a simulated second, " b "; without a ring: predicted" at_one_step[b])
+    axes(unit[b] " a simulated second, " b " (without a ring: predicted" at_one_step[b] ")")
     print "plot " plot
 }
 

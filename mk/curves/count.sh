@@ -12,7 +12,11 @@ rm -rf "$out"
 mkdir -p "$out"
 sort -u >"$out/all"
 echo "scene,board,instructions,cycles,obtained,flash,ram,stack,compiler,run"
-for number in float double; do
+numbers=$(awk -F, -f "$here/words.awk" -f /dev/stdin "$out/all" <<'AWK' | sort -u
+{ print number_of($2) }
+AWK
+)
+for number in $numbers; do
     # ID SCENE OPTIONS, and the same line's command. IDs of one length: an image holds them
     awk -F, -v number="$number" -v out="$out" -f "$here/words.awk" -f /dev/stdin "$out/all" <<'AWK'
 number_of($2) == number {
