@@ -6,9 +6,9 @@
 # The error: the row's own line is run, and held against another reference than `whirl price` has: the classic Runge-Kutta
 # method in double with compensated sums, by a hundredth of the records' spacing, which itself is held against twice that
 # step. They must agree within a hundredth. The step: built and counted again. Instructions and bytes must agree within a
-# thousandth. Where rows are fewer they have other neighbours in the image: of the estimate of cycles, which depends on where
-# code lies, that changes some hundredths, and three are let pass. Prints what does not agree, and how many do. Exit
-# status 1: not all.
+# thousandth. Where rows are fewer they have other neighbours in the image, which changes the estimate of cycles, though not
+# the instructions, by some hundredths: three, or four cycles, are let pass. Prints what does not agree, and how many do.
+# Exit status 1: not all.
 set -eu
 here=$(dirname "$0")
 : "${WHIRL:=build/whirl}" "${SOME:=1}" "${COUNT:=1}" "${BOARDS:=}"
@@ -73,7 +73,7 @@ for board in $boards; do
         {
             split(counted[$12], now, ",")
             n++
-            if (!near(now[1], $8, 0.001) || !near(now[2], $9, 0.03) || !near(now[3], $10, 0.001) || !near(now[4], $11, 0.001)) {
+            if (!near(now[1], $8, 0.001) || !near(now[2], $9, 0.03 + 4 / $9) || !near(now[3], $10, 0.001) || !near(now[4], $11, 0.001)) {
                 bad++
                 print board ": " $12 ": " $8 " instructions, " $9 " cycles, " $10 ", " $11 " B; again " counted[$12]
             }
