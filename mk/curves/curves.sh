@@ -19,7 +19,8 @@ mkdir -p "$work"
 scenes=
 files=
 until [ "$1" = -- ]; do
-    scenes="$scenes $out/$1.csv"
+    # without a reference or a setting within the values themselves there is none
+    [ ! -s "$out/$1.csv" ] || scenes="$scenes $out/$1.csv"
     shift
 done
 shift
