@@ -1,7 +1,7 @@
 # Whirl: energies in, firmware out. `make` lists the targets; the machinery is in mk/.
 #
 # V=1 shows the commands. Nothing is written outside build/, but for `make figures-docs`, `make price-effects`,
-# `make bench-boards`, `make bench-tables`, `make bench-precision`, `make bench-peers`, `make bench-links` and
+# `make price`, `make bench-boards`, `make bench-tables`, `make bench-precision`, `make bench-peers`, `make bench-links` and
 # `make price-fit`, which renew their part of docs/, and `make too-large`, which lists what does not fit into a board.
 
 .DEFAULT_GOAL := help
@@ -39,6 +39,7 @@ include mk/whirl.mk
 include mk/tests.mk
 include mk/board.mk
 include mk/price.mk
+include mk/curves.mk
 include mk/peers.mk
 include mk/figures.mk
 include mk/hosts.mk
@@ -139,6 +140,16 @@ format: ## lay out every C file as .clang-format says
 	$(Q)clang-format -i $(C_FILES)
 
 ##@ Price
+
+.PHONY: price
+price: ## what accuracy costs: error against cycles of eight scenes on every board, fronts counted; into docs/ (a quarter of an hour)
+	@CC="$(CC)" mk/setup/deps.sh host plot firmware boards quality bench
+	@$(MAKE) price-now
+
+.PHONY: price-all
+price-all: ## the same of every scene, predicted: build/figures/price_all.csv (hours)
+	@CC="$(CC)" mk/setup/deps.sh host
+	@$(MAKE) price-all-now
 
 .PHONY: bench
 bench: ## instructions a step, counted, on this machine and on the emulated boards

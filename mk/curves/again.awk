@@ -1,0 +1,59 @@
+# again.awk: the error of one row again, from records of its own command line, of a reference and of a coarser one:
+#
+#   awk -F, -v component="X'" -v each=SPACING -v wanted=ERROR -f again.awk REFERENCE COARSER RECORDS
+#
+# The largest deviation of the component as a part of its largest value, at the records. Prints it, what the references
+# differ by, and whether the row says so within a hundredth and thrice that difference.
+
+FNR == 1 {
+    which++
+    column = component
+    rate = sub(/'$/, "", column)
+    if (rate) { column = "der(" column ")" }
+    at = 0
+    for (i = 1; i <= NF; i++) {
+        name = $i
+        sub(/\r$/, "", name)
+        sub(/ \[.*\]$/, "", name)
+        if (name == column) { at = i }
+    }
+    if (!at) {
+        print "there is no column " column > "/dev/stderr"
+        failed = 1
+        exit 2
+    }
+    next
+}
+
+{
+    n = int($1 / each + 0.5)
+    value = $at + 0
+}
+
+which == 1 {
+    true_[n] = value
+    if (size(value) > largest) { largest = size(value) }
+    next
+}
+
+!(n in true_) { next }
+
+{
+    off = size(value - true_[n])
+    if (off > worst[which]) { worst[which] = off }
+    count[which]++
+}
+
+function size(v) { return v < 0 ? -v : v }
+
+END {
+    if (failed) { exit 2 }
+    if (count[3] < 3 || count[2] < 3 || largest == 0) {
+        print "too few records" > "/dev/stderr"
+        exit 2
+    }
+    again = worst[3] / largest
+    unsure = worst[2] / largest
+    good = size(again - wanted) <= 0.01 * wanted + 3 * unsure
+    printf "%.3e,%.1e,%s\n", again, unsure, good ? "agrees" : "differs"
+}

@@ -1,0 +1,116 @@
+# chart.awk: error against price of one scene, as a gnuplot script without a terminal:
+#
+#   awk -F, -v scene=SCENE -v boards="BOARD..." -f words.awk -f chart.awk ROWS.csv    a panel for each board
+#   awk -F, -v scene=SCENE -v fronts="BOARD..." -f words.awk -f chart.awk PRICE.csv   one panel: the boards' fronts alone
+#
+# A panel shows each method, a shape, in each number, a colour, by steps from coarse to fine, in the cheapest form of what
+# else can be set; and the front. ROWS.csv is of curves.sh, PRICE.csv of published.awk.
+
+BEGIN {
+    # Okabe and Ito's colours, apart for the colour-blind as well
+    split("#0072B2 #009E73 #D55E00 #CC79A7 #E69F00 #56B4E9", colour, " ")
+    panels = split(boards != "" ? boards : fronts, board, " ")
+}
+
+FNR == 1 { header(); next }
+
+{ plain_row() }
+
+field("scene") != scene { next }
+
+{
+    b = field("board")
+    x = field("per_s") + 0
+    y = field("error") + 0
+    unit[b] = field("price_of")
+    until_s = field("until_s")
+    if ("core" in at) { core[b] = field("core") }
+}
+
+fronts != "" || field("front") == 1 {
+    front[b] = front[b] x " " y "\n"
+    ends[b] = field("basis")
+}
+
+fronts == "" && y <= 1 && y >= 1e-10 {
+    series = field("method") SUBSEP field("number")
+    if (!(field("method") in shape)) { method[++methods] = field("method"); shape[field("method")] = methods }
+    if (!(field("number") in hue)) { number[++numbers] = field("number"); hue[field("number")] = numbers }
+    # rows come by rising price
+    if (!((b, series, field("step_s")) in drawn)) {
+        drawn[b, series, field("step_s")] = 1
+        points[b, series] = points[b, series] x " " y "\n"
+        if (field("basis") ~ /^counted at/) { at_one_step[b] = " or counted once" }
+    }
+}
+
+function quoted(text) {
+    gsub(/["\\]/, "\\\\&", text)
+    return "\"" text "\""
+}
+
+function data(name, rows) {
+    printf "$%s << EOD\n%sEOD\n", name, rows
+}
+
+function axes(what) {
+    print "set xlabel " quoted(what) " noenhanced"
+    print "set ylabel " quoted("error, part of the largest value, to " until_s " s") " noenhanced"
+    print "set logscale xy"
+    print "set format '10^{%L}'"
+    print "set yrange [1e-10:1]"
+}
+
+function panel(b,    i, k, n, plot) {
+    data("front", front[b])
+    plot = "$front using 1:2 with lines lw 6 lc rgb '#d0d0d0' title 'front'"
+    for (i = 1; i <= numbers; i++) {
+        for (k = 1; k <= methods; k++) {
+            if ((b, method[k], number[i]) in points) {
+                data("d" (++n), points[b, method[k], number[i]])
+                plot = plot ", \\\n     $d" n " using 1:2 with linespoints lw 0.8 ps 0.6 pt " (k + (k > 5)) " lc rgb '" colour[i] \
+                    "' notitle"
+            }
+        }
+        plot = plot ", \\\n     keyentry with lines lw 3 lc rgb '" colour[i] "' title " quoted(number[i])
+    }
+    for (k = 1; k <= methods; k++) {
+        plot = plot ", \\\n     keyentry with points pt " (k + (k > 5)) " ps 0.8 lc rgb '#222222' title " quoted(method[k])
+    }
+    plot = plot ", \\\n     $front using 1:2 with points pt 6 ps 1.3 lw 1.5 lc rgb '#000000' title " \
+        quoted("on the front, " ends[b])
+    axes(unit[b] " a simulated second, " b " (without a ring: predicted" at_one_step[b] ")")
+    print "plot " plot
+}
+
+function lines_of_boards(    i, plot) {
+    for (i = 1; i <= panels; i++) {
+        data("f" i, front[board[i]])
+        plot = plot (i > 1 ? ", \\\n     " : "") "$f" i " using 1:2 with linespoints lw 2 pt " (ends[board[i]] == "counted" ? 7 : 6) \
+            " ps 0.8 lc rgb '" colour[i] "' title " quoted(core[board[i]] ", " board[i] ", " ends[board[i]])
+    }
+    axes("cycles a simulated second")
+    print "plot " plot
+}
+
+END {
+    if (failed) { exit 1 }
+    for (i = 1; i <= panels; i++) {
+        if (front[board[i]] == "") { wrong("no front of " scene " on " board[i]) }
+    }
+    print "set encoding utf8"
+    print "set border lw 1 lc rgb '#444444'"
+    print "set grid lt 1 lw 0.7 lc rgb '#e2e2e2'"
+    print "set tics nomirror textcolor rgb '#222222'"
+    print "set lmargin 12"
+    if (fronts != "") {
+        print "set key inside bottom left Left reverse samplen 2 font ',12' noenhanced"
+        lines_of_boards()
+    } else {
+        print "set key outside right top samplen 2 font ',12' noenhanced"
+        print "set multiplot layout " panels ",1 title " quoted(scene ": error against price") " noenhanced"
+        for (i = 1; i <= panels; i++) { panel(board[i]) }
+        print "unset multiplot"
+    }
+    print "unset output"
+}
