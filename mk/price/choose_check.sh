@@ -92,7 +92,7 @@ judge_answer() {
         vary != "-" && $5 == 4 { between = part; next }
         part > worst { worst = part; error = $1; unknown = $2 }
         $6 != "-" && $6 > 0.01 * allowed { matrix = 1 }
-        END { print error, unknown, worst, between, matrix + 0 }' "$out/$1.places" >"$out/$1.error"
+        END { print error, unknown, worst, (between == "" ? "-" : between), matrix + 0 }' "$out/$1.places" >"$out/$1.error"
     read -r measured unknown part inside matrix_off <"$out/$1.error"
     within "$part" 1 || wrong "$1" "its error is $part of what is allowed"
     [ "$matrix_off" = 0 ] || wrong "$1" "the reference is not the motion as one matrix"
@@ -101,7 +101,7 @@ judge_answer() {
     eval "$nicely $counted" >"$out/$1.counted" 2>"$out/errors" || wrong "$1" "the line that counts it fails: $(head -n 1 "$out/errors")"
     judge_price "$1"
     part_shown=$(echo "$part" | awk '{ printf "%.3f", $1 }')
-    [ -z "$inside" ] || part_shown="$part_shown ($(echo "$inside" | awk '{ printf "%.3f", $1 }') between)"
+    [ "$inside" = - ] || part_shown="$part_shown ($(echo "$inside" | awk '{ printf "%.3f", $1 }') between)"
 }
 
 # judge_price ID: what was counted against what was promised, and against the limits
@@ -111,7 +111,7 @@ judge_price() {
     promised=$(figure 'a step') promised_most=$(figure_most 'a step') longest_most=$(figure_most 'the longest')
     tail -n 1 "$out/$1.counted" | awk -F, -v c="$column" '{ print $c, $(c + 1), $13 + 0, $14 + 0, $15 + 0 }' >"$out/figures"
     read -r mean most flash_is ram_is stack_is <"$out/figures"
-    off=$(echo "$promised $mean" | awk '{ printf "%.1f", $2 > 0 ? 100 * ($1 / $2 - 1) : 0 }')
+    off=$(echo "$promised $mean" | awk '{ printf "%.1f", ($2 > 0 ? 100 * ($1 / $2 - 1) : 0) }')
     within "$mean" "$promised_most" || wrong "$1" "a step takes $mean $what, above the promised $promised_most"
     within "$most" "$longest_most" || wrong "$1" "the longest step takes $most $what, above the promised $longest_most"
     for one in "flash $flash_is" "RAM $ram_is" "stack $stack_is"; do
@@ -140,7 +140,7 @@ row() {
     if [ "$2" = answered ]; then
         printf '%-4s %-13s %-38s error %-22s %s %8.8s of %6s (%+6.1f %%)  %s\n' "$1" "$board" "$scene${setting#*--method}" "$part_shown" \
             "$what" "$promised" "$mean" "$off" "$holds"
-        echo "$1 $part $off ${inside:--} $holds" >>"$out/answered"
+        echo "$1 $part $off $inside $holds" >>"$out/answered"
         echo "$commit,$seed,$1,$board,$scene,$(tr ',' ';' <"$out/$1.asked"),$2,$setting,$allowed,$said,$measured,$unknown,$holds,$promised,$mean,$longest_most,$most,$what,$flash_is,$(figure_most flash),$ram_is,$(figure_most RAM),$stack_is,$(figure_most stack)" >>"$csv"
     else
         printf '%-4s %-13s %-38s %s: %s  %s\n' "$1" "$board" "$scene" "$2" "$proof" "$holds"
