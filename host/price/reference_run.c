@@ -197,6 +197,19 @@ static reference *by_fine_steps(const reference_wish *w) {
     return r;
 }
 
+/* Does anything but outputs? */
+static bool moves(const reference *r) {
+    for (int k = 1; k < r->columns; k++) {
+        for (int i = 0; r->shape->column[k].unknown >= 0 && i <= (r->records < 0 ? 0 : r->records);
+             i++) {
+            if (r->row[(size_t)i * (size_t)r->columns + (size_t)k] != r->row[k]) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
 reference *reference_new(const reference_wish *w) {
     reference *r = w->image->contacts > 0 ? by_fine_steps(w) : by_extrapolation(w);
     if (!r->stopped && r->broken) {
@@ -215,7 +228,10 @@ reference *reference_new(const reference_wish *w) {
     if (r->records < 1 || !known) {
         r->kind = REFERENCE_NONE;
         if (r->why == NULL) {
-            r->why = room_words("nothing moves");
+            r->why =
+                room_words(moves(r) ? "the two never agree: what moves is rounding alone, or this "
+                                      "horizon is too long to be looked at"
+                                    : "nothing moves");
         }
     }
     return r;
