@@ -9,11 +9,11 @@
 # to build/figures/choose.csv; the exit status is 1 where something does not hold.
 #
 #   CHOOSE_ASKED=20 CHOOSE_TIGHTENED=10   how many requests
-#   CHOOSE_EFFORT=0.05                    of `whirl choose`
+#   CHOOSE_EFFORT=0.03                    of `whirl choose`
 set -eu
 here=$(dirname "$0")
 seed=${1:-1}
-: "${CHOOSE_ASKED:=20}" "${CHOOSE_TIGHTENED:=10}" "${CHOOSE_EFFORT:=0.05}"
+: "${CHOOSE_ASKED:=20}" "${CHOOSE_TIGHTENED:=10}" "${CHOOSE_EFFORT:=0.03}"
 case $seed$CHOOSE_ASKED$CHOOSE_TIGHTENED in
 *[!0-9]*) echo "choose_check.sh: error: seed and numbers of requests are whole numbers" >&2 && exit 2 ;;
 esac

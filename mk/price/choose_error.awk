@@ -4,8 +4,8 @@
 #
 # The references are two runs, the second by twice the step: what they differ by is what is not known. Without `of`, the error is
 # that of each coordinate and rate (a column x that has a der(x), and that one) as a part of its largest value, and of
-# these the worst; a column that the references do not know to a hundredth of its largest value is left out, for it is
-# nothing but rounding. Prints "ERROR UNKNOWN COLUMN ROWS"; inf for a run that ends early. Without RUN, of `of`:
+# these the worst; a column that the references do not know to a hundredth of its largest value, or that is below 1e-12 of
+# the largest number there is, is left out, for it is nothing but rounding. Prints "ERROR UNKNOWN COLUMN ROWS"; inf for a run that ends early. Without RUN, of `of`:
 # "LARGEST UNKNOWN COLUMN ROWS".
 function size(v) { return v < 0 ? -v : v }
 FNR == 1 {
@@ -26,6 +26,7 @@ file == 1 {
     for (i in wanted) {
         value[FNR, i] = $i
         if (size($i) > largest[i]) { largest[i] = size($i) }
+        if (size($i) > all) { all = size($i) }
     }
     next
 }
@@ -40,7 +41,7 @@ file == 2 {
     if (size($1 - time[FNR]) > 1e-9 * time[rows]) { next } # the end, where it is no multiple
     seen = FNR
     for (i in wanted) {
-        if (of == "" && !(unknown[i] < 0.01 * largest[i])) { continue }
+        if (of == "" && !(unknown[i] < 0.01 * largest[i] && largest[i] > 1e-12 * all)) { continue }
         off = size($i - value[FNR, i]) / (of == "" ? largest[i] : 1)
         if (!(off <= error)) { error = off; worst = i }
     }

@@ -32,7 +32,7 @@ references() {
         n = $2 / $1
         k = int(n / 2500) + 1
         m = 32
-        while (m > 4 && n * m > 1e6) { m /= 2 }
+        while (m > 4 && n * m > 4e5) { m /= 2 }
         print k, m }' >"$out/steps"
     read -r spaced finer <"$out/steps"
     every="$spaced*$3"

@@ -19,6 +19,7 @@ FILENAME ~ /answered$/ {
 END {
     printf "%d requests: %d answered, %d kept the error, the worst at %.3f of what was allowed; %d nothing fits, %d proved by trying all settings", \
         answered + none, answered, kept, worst, none, proved
+    if (proved + cautious < none) { printf ", %d not", none - proved - cautious }
     if (cautious) { printf ", %d refused by the promises' bounds alone", cautious }
     printf "\nsteps: %d of %d promises beyond 10 %%, the largest %.1f %%", beyond, answered, most
     if (ranges) { printf "; between the places of %d ranges %d were beyond the error", ranges, outside }
