@@ -192,6 +192,17 @@ for output in zero sum y; do
     asked 0 '^chosen' "$odd:odd_rings" --of $output --error 1um
 done
 asked 0 '^chosen' "$odd:odd_tiny" --error 1e-3
+# a motion that every setting has exactly: no error, and still a component that is the worst
+cat >"$scratch/glide.whirl" <<'END'
+mechanism glide "straight on, in whole numbers"
+coordinate x [m]
+T = 1 [kg]*x'^2/2
+scene glides { start x = 0 [m], x' = 1 [m/s]; step 1 [ms]; until 1000 [s] }
+END
+asked 0 '^  error       0 of the largest value, measured (x' "$scratch/glide.whirl" --error 1e-3 --rate 1Hz
+"$whirl" price "$scratch/glide.whirl" --effort 0.005 --csv "$scratch/g.csv" >"$scratch/out" 2>"$scratch/err"
+[ $? -eq 0 ] && awk -F, 'NR > 1 { n += $2 == 0 && $6 ~ /^x/ } END { exit !n }' "$scratch/g.csv"
+verdict $? "price of a motion without errors names a component" "$scratch/g.csv"
 asked 0 '^chosen' "$odd:odd_tiny" --of x --error 1mm
 asked 1 'nothing moves' "$odd:odd_rests" --error 1e-3
 asked 0 'left out .*: X' laskowitz_shifted --error 1e-2 --horizon 1s
