@@ -79,6 +79,9 @@ static void enter(choice *c, const choice_row *row, const choice_row *coarser) {
     if (!fails_besides(row, CHOICE_LOAD)) {
         keep_least(&c->has_dearer, &c->dearer, row, row->load_most, c->dearer.load_most);
     }
+    if (!row->fails[CHOICE_ERROR]) {
+        keep_least(&c->has_any, &c->any, row, row->worst, c->any.worst);
+    }
     if (!row->fails[CHOICE_ERROR] && !row->fails[CHOICE_LOAD]) {
         keep_least(&c->has_larger, &c->larger, row, row->cost.flash_bytes.most,
                    c->larger.cost.flash_bytes.most);

@@ -66,6 +66,8 @@ typedef struct choice {
     choice_row dearer; /* the least load of all that keep the error, flash and RAM */
     bool has_larger;
     choice_row larger; /* the least flash of all that keep the error and the load */
+    bool has_any;
+    choice_row any; /* the least load of all that keep the error */
     int settings;
     int unpriced;
     choice_reason

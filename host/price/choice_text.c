@@ -223,6 +223,23 @@ static double no_less(double value) {
     return number_ceiling(value / unit * (1.0 - 1e-12)) * unit;
 }
 
+/* Where no one limit would do: all that the cheapest that keeps the error asks for. */
+static void print_all_at_once(FILE *out, const trials *t, const choice_wish *w, const choice *c) {
+    char what[2 * AMOUNT];
+    if (!c->has_any) {
+        fputs("  nothing that was tried\n", out);
+        return;
+    }
+    if (c->any.fails[CHOICE_LOAD]) {
+        fprintf(out, "  together with the next: a clock of %.3g MHz\n",
+                no_less(1e-6 * w->clock_Hz * c->any.load_most));
+    }
+    snprintf(what, sizeof what, "%.0f bytes of flash and %.0f of RAM with the stack",
+             number_ceiling(c->any.cost.flash_bytes.most),
+             number_ceiling(c->any.cost.ram_bytes.most + c->any.cost.stack_bytes.most));
+    print_would(out, t, what, &c->any);
+}
+
 void choice_print_none(FILE *out, const trials *t, const choice_wish *w, const choice *c,
                        const table_words *words, double lower_rate_Hz, const choice_row *lower) {
     char text[AMOUNT];
@@ -272,7 +289,7 @@ void choice_print_none(FILE *out, const trials *t, const choice_wish *w, const c
         print_would(out, t, what, &c->larger);
     }
     if (!c->has_weaker && !c->has_dearer && !c->has_larger) {
-        fputs("  nothing that was tried\n", out);
+        print_all_at_once(out, t, w, c);
     }
     print_counts(out, c);
 }

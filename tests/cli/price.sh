@@ -229,6 +229,10 @@ asked 0 '^chosen' "$odd:odd_rings" --error 1e-3 --rate 100Hz --set 'k=20 [N/m]' 
 again=$(sed -n 's/^again *whirl //p' "$scratch/out")
 eval "\"$whirl\" $again --quiet --csv $scratch/again.csv" && [ "$(wc -l <"$scratch/again.csv")" -gt 100 ]
 verdict $? "a line with blanks runs" "$scratch/out"
+# where no one limit would do, all of them are told
+asked 1 'together with the next: a clock of' "$odd:odd_rings" --error 1e-3 --rate 100Hz --clock 1kHz --flash 1KB --ram 20B
+grep -q 'bytes of flash and .* of RAM with the stack' "$scratch/out" && ! grep -q 'nothing that was tried' "$scratch/out"
+verdict $? "and what all of them would have to be" "$scratch/out"
 # contacts: no price, and it says why, and what can be had instead
 for board in mps2-an386 atmega328p host; do
     asked 1 'contacts must be measured' ball_bounces --error 1e-3 --board $board
