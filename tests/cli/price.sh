@@ -206,6 +206,10 @@ verdict $? "price of a motion without errors names a component" "$scratch/g.csv"
 asked 0 '^chosen' "$odd:odd_tiny" --of x --error 1mm
 asked 1 'nothing moves' "$odd:odd_rests" --error 1e-3
 asked 0 'left out .*: X' laskowitz_shifted --error 1e-2 --horizon 1s
+# what rests at one place of a range alone is not left out
+asked 0 '^chosen' "$odd:odd_rings" --error 1e-2 --vary "x=0..1 [m]"
+grep -q "left out .*: y, y'\$" "$scratch/out"
+verdict $? "what moves at any place counts" "$scratch/out"
 # rates that do not divide, that are slower than the motion, or that nothing follows; clocks that are none
 for rate in 7Hz 333.333Hz 0.6Hz 123.456789123456Hz; do
     asked 0 '^chosen' "$odd:odd_rings" --error 1e-2 --rate $rate
