@@ -93,7 +93,9 @@ void figure_reference(FILE *out, const trials *t) {
     const reference *r = t->reference[t->worst];
     fprintf(out, "  reference   %s\n", r->how);
     if (r->kind == REFERENCE_NONE) {
-        fprintf(out, "              none that could be trusted: %s\n", r->why);
+        const char *where = t->wish.source->name(t->wish.source->context, t->worst);
+        fprintf(out, "              none that could be trusted%s%s: %s\n",
+                where[0] != '\0' ? ", with" : "", where, r->why);
         return;
     }
     fprintf(out, "              the two agree within %.1e of each component's largest value\n",

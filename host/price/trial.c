@@ -129,6 +129,9 @@ static void cut(trials *t) {
     }
     for (int p = 0; p < t->wish.source->points; p++) {
         reference_cut(t->reference[p], t->records);
+        if (t->reference[p]->kind == REFERENCE_NONE) {
+            t->worst = p; /* it is what is to be told */
+        }
     }
 }
 
