@@ -224,6 +224,12 @@ price-check: build/whirl build/tools/price_fit build/tools/mechanisms ## predict
 	    $(MAKE) BOARD=$$board PRICE_OUT=build/cost_check price-measure-board || true; done
 	@build/tools/price_fit --check build/cost_check/rows.csv
 
+# Requests drawn from a seed, and whether what `whirl choose` answers is so (docs/price.md).
+CHOOSE_SEED ?= 1
+.PHONY: choose-check
+choose-check: build/whirl ## thirty drawn requests: what whirl choose answers is run, built, counted, or proved to be nothing (a quarter of an hour; CHOOSE_SEED=n)
+	@sh mk/price/choose_check.sh $(CHOOSE_SEED)
+
 # What tables of an angle's functions cost and save: the table of docs/price.md.
 TABLE_BOARDS := mps2-an386 mps2-an385 mps2-an385-m0 atmega328p
 .PHONY: bench-tables-board bench-tables-now

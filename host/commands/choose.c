@@ -153,6 +153,11 @@ static bool space_records(const pricing *p, choice_wish *w, whole_ratio *spacing
         rest = left;
     }
     *spacing = (whole_ratio){rate.denominator * (periods / common), rate.numerator / common};
+    if (rate.numerator == 0 && w->rate_Hz > 1.0) {
+        fprintf(stderr, "whirl choose: error: --rate %.9g Hz is more than any step can follow\n",
+                w->rate_Hz);
+        return false;
+    }
     if (rate.numerator == 0 || p->until_s * w->rate_Hz < 1.0 - 1e-9) {
         fprintf(stderr,
                 "whirl choose: error: not one period of --rate %.9g Hz lies in %.9g s of motion\n"
@@ -171,13 +176,13 @@ static void show_progress(void *context, int done, int of) {
 /* --error in the unit of the trial's errors. */
 static double allowed_of(const pricing *p) { return p->error_si / trial_error_si(&p->trial, 1.0); }
 
-static int choose_from(const choose_options *o, pricing *p, choice_wish *w) {
-    const table_words words = {o->common.target, p->words, false};
+static int choose_from(pricing *p, choice_wish *w) {
     if (!p->trial.reliable) {
         figure_reference(stderr, &p->trial);
         return EXIT_RUN_FAILED;
     }
     w->error = allowed_of(p);
+    p->trial.tolerated = w->error;
     const choice c = choice_make(&p->trial, w);
     choice_row lower;
     const double lower_Hz =
@@ -188,12 +193,13 @@ static int choose_from(const choose_options *o, pricing *p, choice_wish *w) {
     if (p->trial.stopped) {
         return EXIT_INTERRUPTED;
     }
-    if (!c.found) {
-        choice_print_none(stdout, &p->trial, w, &c, lower_Hz, &lower);
-        return EXIT_RUN_FAILED;
+    const table_words words = {p->target, p->words, false};
+    if (c.found) {
+        choice_print(stdout, &p->trial, w, &c, &words);
+    } else {
+        choice_print_none(stdout, &p->trial, w, &c, &words, lower_Hz, &lower);
     }
-    choice_print(stdout, &p->trial, w, &c, &words);
-    return EXIT_DONE;
+    return c.found ? EXIT_DONE : EXIT_RUN_FAILED;
 }
 
 static int choose_scene(const choose_options *o, pricing *p) {
@@ -206,7 +212,7 @@ static int choose_scene(const choose_options *o, pricing *p) {
     pricing_catch_interrupts();
     int code = pricing_begin(p, spacing, &pricing_interrupted);
     if (code == EXIT_DONE) {
-        code = p->trial.stopped ? EXIT_INTERRUPTED : choose_from(o, p, &w);
+        code = p->trial.stopped ? EXIT_INTERRUPTED : choose_from(p, &w);
     }
     if (code == EXIT_INTERRUPTED) {
         fputs("whirl choose: interrupted\n", stderr);

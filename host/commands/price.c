@@ -137,7 +137,7 @@ static int say_cheapest(FILE *out, const pricing *p, const table *made, const ta
 }
 
 static int show(const price_options *o, pricing *p, const table *made) {
-    const table_words words = {o->common.target, p->words, o->all};
+    const table_words words = {p->target, p->words, o->all};
     FILE *out = o->csv != NULL && strcmp(o->csv, "-") == 0 ? stderr : stdout;
     if (!o->common.quiet) {
         table_print(out, &p->trial, made, &words);

@@ -67,7 +67,8 @@ typedef struct pricing {
     double until_s;  /* the horizon, or the scene's end */
     double step_s;   /* the scene's own */
     double effort;
-    char *words; /* its changes, as they are typed */
+    char *words;  /* its changes, as they are typed */
+    char *target; /* as it is typed again */
     trials trial;
     bool has_trial;
 } pricing;

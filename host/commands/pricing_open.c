@@ -188,6 +188,7 @@ int pricing_open(pricing *p, const pricing_options *o) {
     }
     p->changes = options_overrides(&o->common.change);
     p->words = words_of(&p->changes);
+    p->target = pricing_quoted(o->target);
     if (!find_board(p) || !read_effort(p) || !read_error(p) || !read_ranges(p)) {
         return EXIT_BAD_INPUT;
     }
@@ -202,6 +203,7 @@ void pricing_close(pricing *p) {
     pricing_scene_free(p->scene);
     grid_free(&p->grid);
     free(p->words);
+    free(p->target);
     source_close(&p->from);
 }
 

@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "host/base/room.h"
 #include "host/number/functions.h"
@@ -78,6 +79,9 @@ static void enter(choice *c, const choice_row *row, const choice_row *coarser) {
     if (!fails_besides(row, CHOICE_LOAD)) {
         keep_least(&c->has_dearer, &c->dearer, row, row->load_most, c->dearer.load_most);
     }
+    if (!row->fails[CHOICE_ERROR]) {
+        keep_least(&c->has_any, &c->any, row, row->worst, c->any.worst);
+    }
     if (!row->fails[CHOICE_ERROR] && !row->fails[CHOICE_LOAD]) {
         keep_least(&c->has_larger, &c->larger, row, row->cost.flash_bytes.most,
                    c->larger.cost.flash_bytes.most);
@@ -111,6 +115,9 @@ static bool pace_of(const choice_wish *w, int rung, choice_row *row) {
     return rung < TABLE_LADDER;
 }
 
+/* The first step that is tried of a setting may take so many times its share of the operations. */
+#define FIRST_MAY_TAKE 4.0
+
 static void count_failures(choice *c, const choice_row *row) {
     for (int i = 0; i < CHOICE_LIMITS; i++) {
         c->failed[i] += row->fails[i] ? 1 : 0;
@@ -123,6 +130,8 @@ static void climb(trials *t, const choice_wish *w, choice *c, const setting *s, 
     choice_row row = {.setting = *s, .cost = *price};
     choice_row before = row;
     bool has_before = false;
+    bool tried = false;
+    bool dear = false;
     for (int rung = 0; pace_of(w, rung, &row); rung++) {
         if (row.pace.records > (uint64_t)t->records) {
             continue;
@@ -131,6 +140,12 @@ static void climb(trials *t, const choice_wish *w, choice *c, const setting *s, 
         if (c->found && c->has_second && !(row.worst < c->second.worst)) {
             return;
         }
+        if (dear || trial_operations(t, s, row.pace) > (tried ? 1.0 : FIRST_MAY_TAKE) * each) {
+            /* where the step would not fit into its period anyway, nothing is missed */
+            c->broken_off += tried && !row.fails[CHOICE_LOAD] ? 1 : 0;
+            break;
+        }
+        tried = true;
         const double started = t->operations;
         row.result = trial_run(t, s, row.pace);
         if (!row.result.ran) {
@@ -144,16 +159,25 @@ static void climb(trials *t, const choice_wish *w, choice *c, const setting *s, 
         }
         before = row;
         has_before = true;
-        if ((t->operations - started) * 2.0 > each) {
-            c->broken_off++;
-            break;
-        }
+        dear = (t->operations - started) * 2.0 > each;
     }
-    c->failed[CHOICE_ERROR]++;
+    c->untried += tried ? 0 : 1;
+    c->failed[CHOICE_ERROR] += tried ? 1 : 0;
+}
+
+static void count_reason(choice *c, const char *why) {
+    int i = 0;
+    while (i < CHOICE_REASONS - 1 && c->reason[i].why != NULL &&
+           strcmp(c->reason[i].why, why) != 0) {
+        i++;
+    }
+    c->reason[i].why = why;
+    c->reason[i].settings++;
+    c->unpriced++;
 }
 
 choice choice_make(trials *t, const choice_wish *w) {
-    choice c = {.why = ""};
+    choice c = {.settings = 0};
     const int count = setting_count();
     cost *price = room(count, sizeof *price);
     bool *priced = room(count, sizeof *priced);
@@ -164,8 +188,9 @@ choice choice_make(trials *t, const choice_wish *w) {
         price[i] = trial_cost(t, &s, (deviation_pace){w->periods, 1}, &own);
         priced[i] = own && is_known(&price[i].instructions_worst);
         c.settings += own ? 1 : 0;
-        c.unpriced += own && !priced[i] ? 1 : 0;
-        c.why = own && !priced[i] ? price[i].why : c.why;
+        if (own && !priced[i]) {
+            count_reason(&c, price[i].why);
+        }
         wanted += priced[i] ? 1 : 0;
     }
     int done = 0;

@@ -45,6 +45,13 @@ typedef struct choice_row {
     bool unknown[CHOICE_LIMITS]; /* a limit is there, and nobody can tell */
 } choice_row;
 
+/* Why settings have no price. */
+typedef struct choice_reason {
+    const char *why;
+    int settings;
+} choice_reason;
+enum { CHOICE_REASONS = 4 };
+
 typedef struct choice {
     bool found;
     choice_row best;
@@ -59,9 +66,13 @@ typedef struct choice {
     choice_row dearer; /* the least load of all that keep the error, flash and RAM */
     bool has_larger;
     choice_row larger; /* the least flash of all that keep the error and the load */
+    bool has_any;
+    choice_row any; /* the least load of all that keep the error */
     int settings;
     int unpriced;
-    const char *why; /* of one without a price */
+    choice_reason
+        reason[CHOICE_REASONS]; /* why, as many as there are; further ones are the last's */
+    int untried;                /* settings whose coarsest step would take too long to try */
     int failed
         [CHOICE_LIMITS]; /* settings that fail by this at the coarsest step that keeps the error, or by the error */
     int broken_off;

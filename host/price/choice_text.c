@@ -81,8 +81,11 @@ static void print_row(FILE *out, const trials *t, const choice_wish *w, const ch
         fprintf(out, " (%s)", trial_column(t, row->result.column, name));
     }
     fprintf(out, "%s%s; ", where[0] != '\0' ? ", worst with" : "", where);
-    fprintf(out, "%s is allowed, %.3g times as much\n", amount(t, w->error, text),
-            w->error / row->result.error);
+    fprintf(out, "%s is allowed", amount(t, w->error, text));
+    if (row->result.error > 0.0) {
+        fprintf(out, ", %.3g times as much", w->error / row->result.error);
+    }
+    fputc('\n', out);
     fprintf(out, "  step        %s s", trial_time(trial_step(t, row->pace), step));
     if (row->substeps > 0) {
         fprintf(out, ", %llu in a period", (unsigned long long)row->substeps);
@@ -143,16 +146,44 @@ static void print_head(FILE *out, const trials *t) {
     figure_reference(out, t);
 }
 
+static void print_reasons(FILE *out, const choice *c) {
+    for (int i = 0; i < CHOICE_REASONS && c->reason[i].why != NULL; i++) {
+        fprintf(out, i == 0 ? "%s" : "; %s", c->reason[i].why);
+        if (c->reason[i].settings < c->unpriced) {
+            fprintf(out, " (%d)", c->reason[i].settings);
+        }
+    }
+    fputc('\n', out);
+}
+
 static void print_counts(FILE *out, const choice *c) {
     fprintf(out, "\n%d settings", c->settings);
     if (c->unpriced > 0) {
-        fprintf(out, ", %d of them without a price here: %s", c->unpriced, c->why);
+        fprintf(out, ", %d of them without a price here: ", c->unpriced);
+        print_reasons(out, c);
+    } else {
+        fputc('\n', out);
     }
-    fputc('\n', out);
+    if (c->untried > 0) {
+        fprintf(out,
+                "%d settings were not tried: even their coarsest step takes too long; a shorter "
+                "--horizon, or more --effort\n",
+                c->untried);
+    }
     if (c->broken_off > 0) {
-        fprintf(out, "%d settings have finer steps that were not tried: they take too long\n",
-                c->broken_off);
+        fprintf(
+            out,
+            "%d settings have finer steps that were not tried: they take too long; more --effort tries them\n",
+            c->broken_off);
     }
+}
+
+/* What has contacts has no price that could be promised, but its steps can be counted. */
+static void print_contacts(FILE *out, const trials *t, const table_words *words) {
+    fprintf(out,
+            "\nby evaluations  whirl price %s%s\n"
+            "counted by  sh mk/price/measure_one.sh %s float %s%s\n",
+            words->target, words->changes, t->wish.board->name, words->target, words->changes);
 }
 
 void choice_print(FILE *out, const trials *t, const choice_wish *w, const choice *c,
@@ -192,13 +223,41 @@ static double no_less(double value) {
     return number_ceiling(value / unit * (1.0 - 1e-12)) * unit;
 }
 
+/* Where no one limit would do: all that the cheapest that keeps the error asks for. */
+static void print_all_at_once(FILE *out, const trials *t, const choice_wish *w, const choice *c) {
+    char what[2 * AMOUNT];
+    if (!c->has_any) {
+        fputs("  nothing that was tried\n", out);
+        return;
+    }
+    if (c->any.fails[CHOICE_LOAD]) {
+        fprintf(out, "  together with the next: a clock of %.3g MHz\n",
+                no_less(1e-6 * w->clock_Hz * c->any.load_most));
+    }
+    snprintf(what, sizeof what, "%.0f bytes of flash and %.0f of RAM with the stack",
+             number_ceiling(c->any.cost.flash_bytes.most),
+             number_ceiling(c->any.cost.ram_bytes.most + c->any.cost.stack_bytes.most));
+    print_would(out, t, what, &c->any);
+}
+
 void choice_print_none(FILE *out, const trials *t, const choice_wish *w, const choice *c,
-                       double lower_rate_Hz, const choice_row *lower) {
+                       const table_words *words, double lower_rate_Hz, const choice_row *lower) {
     char text[AMOUNT];
     char what[2 * AMOUNT];
     print_head(out, t);
     if (c->unpriced == c->settings) {
-        fprintf(out, "\nnothing fits: no setting has a price here: %s\n", c->why);
+        fputs("\nnothing fits: no setting has a price here: ", out);
+        print_reasons(out, c);
+        if (t->image[0]->contacts > 0) {
+            print_contacts(out, t, words);
+        }
+        return;
+    }
+    if (c->untried == c->settings - c->unpriced) {
+        fputs(
+            "\nnothing fits, for nothing was tried: at this rate even one step a period takes too long\n"
+            "hint: a shorter --horizon, a lower --rate, or more --effort\n",
+            out);
         return;
     }
     fprintf(out, "\nnothing fits: of %d settings with a price\n", c->settings - c->unpriced);
@@ -230,7 +289,7 @@ void choice_print_none(FILE *out, const trials *t, const choice_wish *w, const c
         print_would(out, t, what, &c->larger);
     }
     if (!c->has_weaker && !c->has_dearer && !c->has_larger) {
-        fputs("  nothing that was tried\n", out);
+        print_all_at_once(out, t, w, c);
     }
     print_counts(out, c);
 }

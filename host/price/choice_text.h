@@ -10,6 +10,6 @@ void choice_print(FILE *out, const trials *t, const choice_wish *w, const choice
                   const table_words *words);
 /* That nothing fits, by which limits, and what would. `lower_rate_Hz` and its row: of choice_lower_rate(). */
 void choice_print_none(FILE *out, const trials *t, const choice_wish *w, const choice *c,
-                       double lower_rate_Hz, const choice_row *lower);
+                       const table_words *words, double lower_rate_Hz, const choice_row *lower);
 
 #endif

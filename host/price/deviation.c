@@ -17,7 +17,7 @@ static bool enter(const reference *r, const records *now, int record, deviation_
         }
         const long double unit = what.column >= 0 ? 1.0L : c->largest;
         const double off = (double)(long_size((long double)now->row[k] - row[k]) / unit);
-        if (!(off <= d->error)) { /* also what is no number */
+        if (d->column < 0 || !(off <= d->error)) { /* also what is no number */
             d->error = off;
             d->column = k;
             d->known = (double)(c->off / unit);

@@ -65,12 +65,22 @@ void figure_legend(FILE *out, const cost *c) {
     }
 }
 
+/* Does a column count at any place? */
+static bool counts(const trials *t, int column) {
+    for (int p = 0; p < t->wish.source->points; p++) {
+        if (t->reference[p]->column[column].counts) {
+            return true;
+        }
+    }
+    return false;
+}
+
 static void say_missing(FILE *out, const trials *t) {
     const reference *r = t->reference[t->worst];
     bool first = true;
     for (int k = 1; k < r->columns; k++) {
         char name[TRIAL_NAME];
-        if (r->shape->column[k].unknown >= 0 && !r->column[k].counts) {
+        if (r->shape->column[k].unknown >= 0 && !counts(t, k)) {
             fprintf(out, "%s%s", first ? "  left out    stays at zero but for rounding: " : ", ",
                     trial_column(t, k, name));
             first = false;
@@ -83,7 +93,9 @@ void figure_reference(FILE *out, const trials *t) {
     const reference *r = t->reference[t->worst];
     fprintf(out, "  reference   %s\n", r->how);
     if (r->kind == REFERENCE_NONE) {
-        fprintf(out, "              none that could be trusted: %s\n", r->why);
+        const char *where = t->wish.source->name(t->wish.source->context, t->worst);
+        fprintf(out, "              none that could be trusted%s%s: %s\n",
+                where[0] != '\0' ? ", with" : "", where, r->why);
         return;
     }
     fprintf(out, "              the two agree within %.1e of each component's largest value\n",

@@ -21,8 +21,9 @@ static const extrapolation_setting coarse = {5, 64.0 * (double)LDBL_EPSILON};
  * double: what has grown to this is no error of theirs but the motion's own, which carries every rounding away. */
 #define LIMIT_EXTRAPOLATED (LONG_IS_LONGER ? 1e-12 : 1e-9)
 #define LIMIT_FINE_STEPS 1e-6
-/* A component of which they differ by more than this part of its size from the beginning is nothing but rounding. */
-#define KNOWN 1e-3L
+/* A component that they never agree about so well, from the start to some record by which it has this part of its largest
+ * value, is nothing but rounding: of the motion, or of the constants that both take from the list. */
+#define KNOWN_BY 1e-6L
 
 /* One of the two computations. */
 typedef struct computed {
@@ -77,16 +78,30 @@ static void measure(reference *r, const computed *other, int until, int column) 
     }
 }
 
+/* Did they agree about a column, whose largest value is known, before the motion may have carried them apart? */
+static bool is_known(const reference *r, const computed *other, int until, int column) {
+    const long double enough = KNOWN_BY * r->column[column].largest;
+    long double largest = 0.0L;
+    long double off = 0.0L;
+    for (int i = 0; i <= until; i++) {
+        const long double size = long_size(r->row[(size_t)i * (size_t)r->columns + (size_t)column]);
+        const long double now = row_off(r, other, i, column);
+        largest = size > largest ? size : largest;
+        off = now > off ? now : off;
+        if (i > 0 && largest > 0.0L && largest >= enough &&
+            off <= (long double)r->limit * largest) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /* Which columns count, and until when they agree. */
 static void judge(reference *r, const computed *other) {
     const int both = other->records < r->records ? other->records : r->records;
-    const int early = both < 10 ? 1 : both / 10;
     for (int k = 1; k < r->columns; k++) {
-        measure(r, other, early < both ? early : both, k);
-        const bool noise = r->column[k].off > KNOWN * r->column[k].largest;
         measure(r, other, both, k);
-        r->column[k].counts =
-            r->shape->column[k].unknown >= 0 && r->column[k].largest > 0.0L && !noise;
+        r->column[k].counts = r->shape->column[k].unknown >= 0 && is_known(r, other, both, k);
     }
     r->records = both;
     for (int k = 1; k < r->columns; k++) {
@@ -182,6 +197,19 @@ static reference *by_fine_steps(const reference_wish *w) {
     return r;
 }
 
+/* Does anything but outputs? */
+static bool moves(const reference *r) {
+    for (int k = 1; k < r->columns; k++) {
+        for (int i = 0; r->shape->column[k].unknown >= 0 && i <= (r->records < 0 ? 0 : r->records);
+             i++) {
+            if (r->row[(size_t)i * (size_t)r->columns + (size_t)k] != r->row[k]) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
 reference *reference_new(const reference_wish *w) {
     reference *r = w->image->contacts > 0 ? by_fine_steps(w) : by_extrapolation(w);
     if (!r->stopped && r->broken) {
@@ -200,7 +228,10 @@ reference *reference_new(const reference_wish *w) {
     if (r->records < 1 || !known) {
         r->kind = REFERENCE_NONE;
         if (r->why == NULL) {
-            r->why = room_words("nothing moves");
+            r->why =
+                room_words(moves(r) ? "the two never agree: what moves is rounding alone, or this "
+                                      "horizon is too long to be looked at"
+                                    : "nothing moves");
         }
     }
     return r;

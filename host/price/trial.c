@@ -40,6 +40,10 @@ whole_ratio trial_step(const trials *t, deviation_pace pace) {
     whole_ratio s = t->wish.spacing;
     const uint64_t over = common_divisor(s.numerator, pace.steps);
     const uint64_t under = common_divisor(pace.records, s.denominator);
+    if (s.denominator / under > UINT64_MAX / (pace.steps / over) ||
+        s.numerator / over > UINT64_MAX / (pace.records / under)) {
+        return ratio_of(ratio_times(1, s) * (double)pace.records / (double)pace.steps);
+    }
     s.numerator = s.numerator / over * (pace.records / under);
     s.denominator = s.denominator / under * (pace.steps / over);
     return s;
@@ -125,6 +129,9 @@ static void cut(trials *t) {
     }
     for (int p = 0; p < t->wish.source->points; p++) {
         reference_cut(t->reference[p], t->records);
+        if (t->reference[p]->kind == REFERENCE_NONE) {
+            t->worst = p; /* it is what is to be told */
+        }
     }
 }
 
@@ -198,7 +205,8 @@ trial_result trial_run(trials *t, const setting *s, deviation_pace pace) {
         }
         deviation_of_what what = t->what;
         if (what.column >= 0) { /* in its own unit */
-            what.give_up = USABLE * (double)t->reference[p]->column[what.column].largest;
+            what.give_up = number_most(
+                t->tolerated, USABLE * (double)t->reference[p]->column[what.column].largest);
         }
         const deviation d =
             deviation_measure(t->reference[p], im, s->number, pace, what, t->wish.stop);
@@ -214,6 +222,12 @@ trial_result trial_run(trials *t, const setting *s, deviation_pace pace) {
         }
     }
     return worst;
+}
+
+double trial_operations(const trials *t, const setting *s, deviation_pace pace) {
+    const double steps = (double)t->records * (double)pace.steps / (double)pace.records;
+    const double each = (double)t->image[0]->list[IMAGE_STEP]->count + 1.0;
+    return steps * each * wh_methods[s->image.method].stages * t->wish.source->points;
 }
 
 cost trial_cost(trials *t, const setting *s, deviation_pace pace, bool *own) {

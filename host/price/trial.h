@@ -33,6 +33,8 @@ typedef struct trials {
     int worst;             /* the point whose reference ends first, or agrees least */
     int records;           /* behind the start, that all references are trusted for */
     deviation_of_what what;
+    double
+        tolerated; /* of one column: a run that is off by no more is of use, however small the values are */
     bool reliable; /* false: some reference is REFERENCE_NONE */
     bool stopped;
     double operations; /* evaluated in trials so far */
@@ -57,6 +59,8 @@ bool trial_begin(trials *t, const trial_wish *w);
 void trial_end(trials *t);
 
 trial_result trial_run(trials *t, const setting *s, deviation_pace pace);
+/* Operations that it is going to evaluate, about, where no event takes more. */
+double trial_operations(const trials *t, const setting *s, deviation_pace pace);
 /* What it costs at the dearest of the points; *own: false where it is no setting of its own (setting_is_own()). */
 cost trial_cost(trials *t, const setting *s, deviation_pace pace, bool *own);
 

@@ -30,8 +30,10 @@ COST_HEADER="${COST_HEADER}cycles_obtained,flash_bytes,ram_bytes,stack_bytes"
 
 # --- one case: derive it, compile it, link the smallest firmware (run by xargs, two at a time) -----------------
 if [ "$1" = case ]; then
+    set -f # no word is a pattern: m=2[kg]
     # shellcheck disable=SC2086
     set -- $2
+    set +f
     id=$1 number=$2 target=$3
     shift 3
     gen=$OUT/gen/$id

@@ -21,7 +21,20 @@ if [ "$board" != host ] && [ ! -f "boards/$board/board.mk" ]; then
 fi
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-echo "$*" | sed 's/^/one /' >"$work/case"
+# A case is words between blanks: a file whose name has some gets another, and a value can do without ("k=20 [N/m]").
+case $1 in
+*[[:blank:]]*)
+    case $1 in
+    *.whirl:*) cp "${1%:*}" "$work/scene.whirl" && target=$work/scene.whirl:${1##*:} ;;
+    *) cp "$1" "$work/scene.whirl" && target=$work/scene.whirl ;;
+    esac || exit 1
+    shift
+    set -- "$target" "$@"
+    ;;
+esac
+for word in "$@"; do
+    printf ' %s' "$(printf '%s' "$word" | tr -d '[:blank:]')"
+done | sed 's/^/one/; s/$/\n/' >"$work/case"
 if ! make -s $([ "$board" = host ] || echo "BOARD=$board") "price-measure-$([ "$board" = host ] && echo host || echo board)" \
     PRICE_CASES="$work/case" PRICE_CSV="$work/rows" PRICE_OUT="$work/out" NUMBERS="$number" >"$work/log" 2>&1; then
     grep -vE '^make|Error [0-9]|^  [A-Z]+ ' "$work/log" | head -n 20 >&2

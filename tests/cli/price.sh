@@ -163,6 +163,97 @@ verdict $? "where nothing moves there is no front" "$scratch/out"
 grep -q '^  horizon .* s of 10 s: the motion carries the two references apart' "$scratch/out"
 verdict $? "chaos cuts the horizon, and it is said how it was found" "$scratch/out"
 
+# --- what is odd, but no mistake -----------------------------------------------------------------------------------------
+cat >"$scratch/odd file.whirl" <<'END'
+mechanism odd "stays at zero in parts, by rounding alone, and is stiff"
+coordinate x [m]
+coordinate y [m]
+parameter k = 64 [N/m]
+T = 1 [kg]*x'^2/2 + 1 [kg]*y'^2/2
+V = k*x^2/2 + 64 [N/m]*y^2/2
+output zero [m] = x - x
+output sum [m] = (x + 0.1 [m]) - x - 0.1 [m]
+scene odd_rings { start x = 1 [m]; step 1 [ms]; until 2 [s] }
+scene odd_rests { start x = 0 [m]; step 1 [ms]; until 2 [s] }
+scene odd_tiny { start x = 1e-12 [m]; step 1 [ms]; until 2 [s] }
+END
+odd="$scratch/odd file.whirl"
+asked() { # EXIT-STATUS TEXT WORD...: choose ends so, in time, says TEXT, and nothing that is no number
+    wanted=$1
+    text=$2
+    shift 2
+    timeout 120 "$whirl" choose "$@" --effort 0.005 --quiet >"$scratch/out" 2>"$scratch/err" </dev/null
+    [ $? -eq "$wanted" ] && cat "$scratch/out" "$scratch/err" | grep -q -e "$text" &&
+        ! grep -qiE '[^a-z](nan|inf)[^a-z]' "$scratch/out"
+    verdict $? "choose $*: exit status $wanted, $text" "$scratch/out"
+}
+# an output that stays zero, or is rounding alone, is kept by any setting: it is held to what was asked, not to its own size
+for output in zero sum y; do
+    asked 0 '^chosen' "$odd:odd_rings" --of $output --error 1um
+done
+asked 0 '^chosen' "$odd:odd_tiny" --error 1e-3
+# a motion that every setting has exactly: no error, and still a component that is the worst
+cat >"$scratch/glide.whirl" <<'END'
+mechanism glide "straight on, in whole numbers"
+coordinate x [m]
+T = 1 [kg]*x'^2/2
+scene glides { start x = 0 [m], x' = 1 [m/s]; step 1 [ms]; until 1000 [s] }
+END
+asked 0 '^  error       0 of the largest value, measured (x' "$scratch/glide.whirl" --error 1e-3 --rate 1Hz
+"$whirl" price "$scratch/glide.whirl" --effort 0.005 --csv "$scratch/g.csv" >"$scratch/out" 2>"$scratch/err"
+[ $? -eq 0 ] && awk -F, 'NR > 1 { n += $2 == 0 && $6 ~ /^x/ } END { exit !n }' "$scratch/g.csv"
+verdict $? "price of a motion without errors names a component" "$scratch/g.csv"
+asked 0 '^chosen' "$odd:odd_tiny" --of x --error 1mm
+asked 1 'nothing moves' "$odd:odd_rests" --error 1e-3
+asked 0 'left out .*: X' laskowitz_shifted --error 1e-2 --horizon 1s
+# the place of a range where nothing moves is named
+asked 1 'trusted, with --start x=0: nothing moves' "$odd:odd_rings" --error 1e-2 --vary "x=0..1 [m]"
+# what rests at one place of a range alone is not left out
+cat >"$scratch/two.whirl" <<'END'
+mechanism two "one of them may rest"
+coordinate x [m]
+coordinate y [m]
+T = 1 [kg]*x'^2/2 + 1 [kg]*y'^2/2
+V = 64 [N/m]*x^2/2 + 64 [N/m]*y^2/2
+scene two_ring { start x = 1 [m], y = 1 [m]; step 1 [ms]; until 2 [s] }
+END
+asked 0 '^chosen' "$scratch/two.whirl" --error 0.1 --vary "x=0..1 [m]"
+! grep -q 'left out' "$scratch/out"
+verdict $? "what moves at any place counts" "$scratch/out"
+# rates that do not divide, that are slower than the motion, or that nothing follows; clocks that are none
+for rate in 7Hz 333.333Hz 0.6Hz 123.456789123456Hz; do
+    asked 0 '^chosen' "$odd:odd_rings" --error 1e-2 --rate $rate
+    step=$(sed -n 's/^chosen .*--step //p' "$scratch/out")
+    inside=$(sed -n 's/^  step .*, \([0-9]*\) in a period/\1/p' "$scratch/out")
+    echo "$step $inside ${rate%Hz}" | awk '{ off = $1 * $2 * $3 - 1; exit !(off < 1e-12 && off > -1e-12) }'
+    verdict $? "a period of $rate takes whole steps" "$scratch/out"
+done
+asked 1 'nothing was tried' "$odd:odd_rings" --error 1e-2 --rate 1e9Hz
+asked 2 'more than any step' "$odd:odd_rings" --error 1e-2 --rate 1e15Hz
+asked 2 'not one period' "$odd:odd_rings" --error 1e-2 --rate 1e-15Hz
+asked 1 'a clock of' "$odd:odd_rings" --error 1e-2 --clock 1Hz
+asked 1 'a clock of' "$odd:odd_rings" --error 1e-2 --clock 1Hz --rate 100Hz
+asked 1 'an error of' "$odd:odd_rings" --error 1e-300
+asked 0 '^chosen' "$odd:odd_rings" --error 1e300
+for horizon in 1ms 1ns; do
+    asked 0 '^chosen' "$odd:odd_rings" --error 1e-2 --horizon $horizon
+done
+# the lines do it again though file and value have blanks
+asked 0 '^chosen' "$odd:odd_rings" --error 1e-3 --rate 100Hz --set 'k=20 [N/m]' --start "x'=3 [m/s]"
+again=$(sed -n 's/^again *whirl //p' "$scratch/out")
+eval "\"$whirl\" $again --quiet --csv $scratch/again.csv" && [ "$(wc -l <"$scratch/again.csv")" -gt 100 ]
+verdict $? "a line with blanks runs" "$scratch/out"
+# where no one limit would do, all of them are told
+asked 1 'together with the next: a clock of' "$odd:odd_rings" --error 1e-3 --rate 100Hz --clock 1kHz --flash 1KB --ram 20B
+grep -q 'bytes of flash and .* of RAM with the stack' "$scratch/out" && ! grep -q 'nothing that was tried' "$scratch/out"
+verdict $? "and what all of them would have to be" "$scratch/out"
+# contacts: no price, and it says why, and what can be had instead
+for board in mps2-an386 atmega328p host; do
+    asked 1 'contacts must be measured' ball_bounces --error 1e-3 --board $board
+    grep -q "^counted by  sh mk/price/measure_one.sh $board float ball_bounces" "$scratch/out"
+    verdict $? "and what measures it on $board" "$scratch/out"
+done
+
 # --- bad input -------------------------------------------------------------------------------------------------------
 refused() { # TEXT COMMAND WORD...: exit status 2, and TEXT on standard error
     text=$1
@@ -193,6 +284,11 @@ for command in price choose; do
     refused 'varies no step' $command "$s" $e --vary step=1..2
     refused 'at most 64' $command "$s" $e --vary push=0..1:100
     refused 'swept already' $command "$s" $e --vary push=0..1 --vary push=0..2
+    for option in --board --of --error --horizon --vary --effort; do
+        for value in '' ' ' nan inf -1 1e400; do
+            refused 'error:' $command "$s" $e $option "$value"
+        done
+    done
     refused '1e-4 to 1e4' $command "$s" $e --effort 0
     refused '1e-4 to 1e4' $command "$s" $e --effort lots
     refused "unknown option '--bord'" $command "$s" $e --bord x
@@ -207,6 +303,11 @@ refused 'error is missing' choose "$s"
 refused 'error:' choose "$s" --error 1e-3 --rate 1ms
 refused 'above zero' choose "$s" --error 1e-3 --rate 0
 refused 'error:' choose "$s" --error 1e-3 --clock fast
+for option in --rate --clock --flash --ram; do
+    for value in '' ' ' nan inf -1 0 1e400 1m; do
+        refused 'error:' choose "$s" --error 1e-3 $option "$value"
+    done
+done
 refused 'number of bytes' choose "$s" --error 1e-3 --flash 32XB
 refused 'number of bytes' choose "$s" --error 1e-3 --flash=-1
 refused 'number of bytes' choose "$s" --error 1e-3 --ram KB
