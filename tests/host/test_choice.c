@@ -105,7 +105,7 @@ static int kept_below(request *q, double price) {
 
 static void test_drawn_requests(void) {
     dice d = dice_of("choice", 501);
-    const unsigned cases = dice_cases(few_or_all(8, 60));
+    const unsigned cases = dice_cases(few_or_all(4, 60));
     int found = 0;
     int limited[CHOICE_LIMITS] = {0};
     for (unsigned n = 0; n < cases; n++) {

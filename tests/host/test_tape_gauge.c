@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "command.h"
 #include "derived.h"
 #include "mechanism.h"
 
@@ -15,7 +16,7 @@
 
 void suite_tape_gauge(void);
 
-enum { TEXT = 2000, STATES = 30, CASES = 120 };
+enum { TEXT = 2000, STATES = 30 };
 
 /* --- mechanisms of decimal masses and lengths ----------------------------------------------------------------------*/
 
@@ -193,32 +194,34 @@ static void tell(const char *what, const tally *all) {
 }
 
 static void test_decimal_mechanisms_lose_their_bias(void) {
+    const int each = (int)few_or_all(10, 30);
     uint64_t seed = 20061;
     for (unsigned kind = 0; kind < 4; kind++) {
         tally all = {0};
         char what[20];
-        for (int k = 0; k < CASES / 4; k++) {
+        for (int k = 0; k < each; k++) {
             char text[TEXT];
             write_decimal(kind, &seed, text);
             TEST_ASSERT_TRUE_MESSAGE(hold(text, seed + 1, &all), text);
         }
         snprintf(what, sizeof what, "kind %u", kind);
         tell(what, &all);
-        TEST_ASSERT_TRUE(all.changed >= CASES / 4 / 2);
+        TEST_ASSERT_TRUE(all.changed >= each / 2);
         TEST_ASSERT_EQUAL_INT(0, all.worse);
         TEST_ASSERT_TRUE(all.after <= 0.25 * all.before);
     }
 }
 
 static void test_any_mechanism_keeps_its_results(void) {
+    const unsigned cases = few_or_all(40, 120);
     tally all = {0};
-    for (unsigned k = 0; k < CASES; k++) {
+    for (unsigned k = 0; k < cases; k++) {
         char text[MECHANISM_SIZE];
         mechanism_write(k, 1000U + k, text);
         hold(text, 5 * k + 1, &all);
     }
     tell("any", &all);
-    TEST_ASSERT_TRUE(all.lists > CASES / 2 && all.changed > CASES / 10);
+    TEST_ASSERT_TRUE(all.lists > (int)cases / 2 && all.changed > (int)cases / 10);
     TEST_ASSERT_TRUE(all.worse <= all.changed / 20); /* other states than the search's */
     TEST_ASSERT_TRUE(all.after <= 0.5 * all.before);
 }
