@@ -223,7 +223,8 @@ for number in $NUMBERS; do
             for (i = 3; i <= NF; i++) {
                 if ($i == "--method") { method = $(i + 1); i++ }
                 else if ($i == "--angles") { more = more ($(i + 1) == "turned" ? "" : "-" $(i + 1)); i++ }
-                else { option = $i; sub(/^--/, "", option); more = more (option ~ /=/ ? ":" : "-") option }
+                else if ($i ~ /^--/) { option = $i; sub(/^--/, "", option); more = more "-" option }
+                else { more = more ":" $i } # what the option before it is given
             }
             print head "," $2 "," number "," method more "," found[$1] "," (board == "host" ? "" : obtained) "," bytes[$1] "," stack[$1]
         }' "$work/bytes" "$work/eventful" "$work/longest" "$work/counted" "$cases" >"$work/rows"
