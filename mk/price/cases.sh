@@ -2,7 +2,7 @@
 # cases.sh FOLDER SEED GENERATED DRAWN: the cases whose steps are counted to fit prices by, a line "ID TARGET OPTIONS..."
 # each, on standard output; files that it writes itself go to FOLDER. WHIRL is the program.
 #
-# Scenes: with SEED 1 every built-in one, the mechanisms of tests/mechanisms and pendulums of 1 to 10 links; with any
+# Scenes: with SEED 1 every built-in one and pendulums of 1 to 10 links; with any
 # seed so many GENERATED mechanisms (build/tools/mechanisms), which call every function of the language, and so many
 # DRAWN ones (scenes.awk). Settings: each scene with the default, and with two others, in turn, so that every setting
 # meets scenes of every kind; a setting that whirl gets is one more word of the list below. What few scenes take (a step
@@ -15,7 +15,6 @@ mkdir -p "$folder"
 {
     [ "$seed" -ne 1 ] || {
         "$WHIRL" list --as table | awk -F'\t' '$1 == "scene" { print $2 }'
-        ls tests/mechanisms/*.whirl
         for n in 1 2 3 4 5 6 7 8 9 10; do
             awk -v n=$n -v scene=1 -f "$here/links.awk" </dev/null >"$folder/links_$n.whirl"
             echo "$folder/links_$n.whirl:swing_$n"
