@@ -47,8 +47,13 @@ if [ "$1" = case ]; then
     lib=$LIB_BOARD
     [ "$number" = float ] || lib=$OUT/$BOARD/double/libwhirl.a
     # shellcheck disable=SC2086
+    if ! $BOARD_CC $BOARD_CFLAGS -w -c "$gen.c" -o "$mine.o" 2>"$mine.errors"; then # a table larger than an array may be
+        echo "measure.sh: $target $*: $BOARD's compiler refuses it: $(grep -m 1 error "$mine.errors")" >&2
+        rm -f "$mine.o"
+        exit 0
+    fi
+    # shellcheck disable=SC2086
     {
-        $BOARD_CC $BOARD_CFLAGS -w -c "$gen.c" -o "$mine.o"
         $BOARD_CC $BOARD_CFLAGS -w "-DPRICE_SCENE=$id" -include "$gen.h" -c boards/programs/size.c -o "$mine.image.o"
         if $BOARD_CC $BOARD_LDFLAGS -o "$mine.elf" "$mine.image.o" "$mine.o" $BOARD_OBJECTS "$lib" "$LIB_BOARD" $BOARD_LDLIBS \
             2>"$mine.errors"; then
