@@ -209,7 +209,7 @@ price-rows-now: build/whirl build/tools/mechanisms
 ##@ Price
 price-fit: build/tools/price_fit ## fit the figures that prices are predicted by to the counted rows; host/price/cost_rows.h, docs/price.md
 	@build/tools/price_fit $(PRICE_CSV) >$(PRICE_OUT)/cost_rows.h 2>$(PRICE_OUT)/residuals
-	@grep '^|' $(PRICE_OUT)/residuals | grep -vE 'contacts|(cycles|flash|RAM|stack), with' >$(PRICE_OUT)/residuals.md
+	@grep '^|' $(PRICE_OUT)/residuals | grep -vE 'contacts|(cycles|flash|RAM|stack), ' >$(PRICE_OUT)/residuals.md
 	@cp $(PRICE_OUT)/cost_rows.h host/price/cost_rows.h
 	@mk/price/into_page.sh $(PRICE_OUT)/residuals.md docs/price.md cost
 	@cat $(PRICE_OUT)/residuals.md
