@@ -196,8 +196,9 @@ static void count_staged(const cost_reads *r, cost_counts *c) {
 static bool takes_more_than_places(const tape *t, int i, const bool *takes) {
     const op *o = &t->ops[i];
     int operand[2];
-    bool does = o->code == OP_RATE || o->code == OP_CALL || o->code == OP_POW ||
-                (o->code == OP_PHASE && o->b < 0); /* pairs of turn angles are counted by themselves */
+    bool does =
+        o->code == OP_RATE || o->code == OP_CALL || o->code == OP_POW ||
+        (o->code == OP_PHASE && o->b < 0); /* pairs of turn angles are counted by themselves */
     for (int k = tape_operands(o, operand); k > 0; k--) {
         does = does || (takes[operand[k - 1]] && t->ops[operand[k - 1]].code != OP_PHASE);
     }

@@ -72,11 +72,11 @@ typedef struct cost_counts {
     cost_list observe; /* the outputs */
     cost_list events;  /* signals, forces and sets of contacts */
     int stages;
-    int places;     /* where they stand: fewer than stages where some stand at the same place (core/method.h) */
-    int reaches;    /* of these, said by the row itself, other than where the step begins */
+    int places; /* where they stand: fewer than stages where some stand at the same place (core/method.h) */
+    int reaches;      /* of these, said by the row itself, other than where the step begins */
     int reach_shares; /* of stages in these */
-    int scaled;     /* shares that take a product */
-    int components; /* n: coordinates, or components of first order */
+    int scaled;       /* shares that take a product */
+    int components;   /* n: coordinates, or components of first order */
     int angles;
     int linears;      /* moved by what is a rate, or by slopes */
     int moving;       /* components whose derivative is no constant */
@@ -90,16 +90,16 @@ typedef struct cost_counts {
     bool compensated;
     bool
         looped; /* the step is one that the old compiler of AVR does not unroll (WH_SMALL_STEP, core/unroll.h), */
-    bool tabled; /* and looks its method up in a table */
-    bool called; /* the list is a function of its own */
-    bool folded; /* half of each table says it all, and is all that is there */
+    bool tabled;          /* and looks its method up in a table */
+    bool called;          /* the list is a function of its own */
+    bool folded;          /* half of each table says it all, and is all that is there */
     double table_numbers; /* in flash */
-    int copies;  /* of the list in the code */
-    int lookups; /* pairs looked up in a step */
-    int turns;   /* of each pair in a step */
-    int leans;   /* stages that lean */
-    int shares;  /* of stages in stages */
-    int ends;    /* products of stages at the step's end */
+    int copies;           /* of the list in the code */
+    int lookups;          /* pairs looked up in a step */
+    int turns;            /* of each pair in a step */
+    int leans;            /* stages that lean */
+    int shares;           /* of stages in stages */
+    int ends;             /* products of stages at the step's end */
     int state_words;
     int evaluations; /* most in a step */
     double smooth;   /* a step without its contacts, predicted: filled in by cost.c */

@@ -48,7 +48,7 @@ static const cost_row cost_rows[] = {
              F(ONE, 176.9), F(TABLEAU, 420.5), F(CODE_TAN, 10.29), F(CODE_ATAN, 48.86), F(CODE_ATAN2, 69.16), U(CODE_TANH), F(OUTPUTS, 4.246), F(ANY_PAIR, 0.0514),
              F(ANY_TURNED, 3.012), F(ANY_ROOT, 30.54), F(STATE_WORDS, 9.86), F(STARTS, 0.67),
          }},
-         [COST_OF_STACK] = {.cases = 153, .slack = 0, .bound = {2.75, 4.50, 2.75, 3.10, 2.75}, .largest = 904, .figure = {
+         [COST_OF_STACK] = {.cases = 153, .slack = 0, .bound = {3.40, 5.80, 3.40, 3.89, 3.40}, .largest = 904, .figure = {
              F(ONE, 0.06935), F(MATRIX, 112.5), F(MATRIX_CARRIED, 2.246), F(MATRIX_REALS, 6.754), U(MATRIX_ANGLES), F(MATRIX_SUMS_KEPT, 100), F(LOOPED_PAIRS, 1.494),
              F(RATES, 43.18), F(CARRY_REALS, 10.93), F(CELLS, 9.781), F(BOOKS, 34.48), F(BOOK_ENTRIES, 6.317), F(CODE_ACOS, 51.87), F(CODE_ATAN, 7.098),
              F(CODE_ATAN2, 50.74), F(CODE_EXP, 109.9), F(CODE_SINH, 57.49), F(CODE_COSH, 56.54), U(CODE_TANH), F(CODE_CALLED, 54.94), F(ANY_TURNED, 44.36),
@@ -100,7 +100,7 @@ static const cost_row cost_rows[] = {
              F(ONE, 177.2), F(TABLEAU, 420.8), F(CODE_ATAN, 6.587), F(CODE_ATAN2, 1.606), U(CODE_TANH), F(OUTPUTS, 3.9), F(ANY_TURNED, 3.051), F(ANY_ROOT, 31.44),
              F(STATE_WORDS, 9.828), F(STARTS, 0.6908),
          }},
-         [COST_OF_STACK] = {.cases = 77, .slack = 0, .bound = {2.12, 3.24, 3.24, 3.24, 2.20}, .largest = 1063, .figure = {
+         [COST_OF_STACK] = {.cases = 77, .slack = 0, .bound = {2.54, 4.08, 4.08, 4.08, 2.65}, .largest = 1063, .figure = {
              F(MATRIX, 129.4), F(MATRIX_CARRIED, 2.066), F(MATRIX_REALS, 6.312), U(MATRIX_ANGLES), U(MATRIX_SUMS_KEPT), U(MATRIX_CARRY), F(LOOPED, 2.036),
              F(LOOPED_PAIRS, 0.327), F(RATES, 41.82), F(CARRY_REALS, 6.97), F(CELLS, 11.54), F(BOOKS, 24.43), F(BOOK_ENTRIES, 9.078), F(CODE_ACOS, 23.43),
              F(CODE_ATAN2, 47.44), F(CODE_EXP, 87.66), F(CODE_SINH, 40.57), F(CODE_COSH, 30.2), U(CODE_TANH), F(CODE_CALLED, 49.56), F(ANY_PAIR, 4.457),
@@ -150,7 +150,7 @@ static const cost_row cost_rows[] = {
          [COST_OF_RAM] = {.cases = 110, .slack = 0, .bound = {1.13, 1.26, 1.26, 1.13, 1.13}, .largest = 364, .figure = {
              F(ONE, 8.281), U(TABLEAU), U(CODE_TANH), F(OUTPUTS, 3.572), F(STATE_WORDS, 7.805), F(STARTS, 0.2532),
          }},
-         [COST_OF_STACK] = {.cases = 110, .slack = 0, .bound = {1.91, 2.82, 2.82, 1.91, 1.91}, .largest = 2664, .figure = {
+         [COST_OF_STACK] = {.cases = 110, .slack = 0, .bound = {2.25, 3.50, 3.50, 2.25, 2.25}, .largest = 2664, .figure = {
              F(ONE, 189.9), F(MATRIX, 26.62), F(MATRIX_REALS, 14.97), U(MATRIX_ANGLES), U(MATRIX_SUMS_KEPT), U(MATRIX_CARRY), U(LOOPED), U(LOOPED_PAIRS),
              F(RATES, 11.98), F(CELLS, 7.166), F(CONSTANTS_ONCE, 0.8152), F(BOOKS, 10.31), F(BOOK_ENTRIES, 8.853), F(CODE_TAN, 21.75), F(CODE_ATAN2, 55.4),
              F(CODE_EXP, 2.481), F(CODE_SINH, 23.36), U(CODE_TANH), F(CODE_CALLED, 45.04), F(ANY_PAIR, 13.71), F(ANY_RADIANS, 14.56), F(ANY_QUOTIENT, 13.83),
@@ -198,7 +198,7 @@ static const cost_row cost_rows[] = {
          [COST_OF_RAM] = {.cases = 180, .slack = 0, .bound = {1.13, 1.26, 1.13, 1.13, 1.13}, .largest = 300, .figure = {
              F(ONE, 8.338), U(TABLEAU), U(CODE_TANH), F(OUTPUTS, 3.485), F(ANY_TURNED, 0.1749), F(STATE_WORDS, 7.803), F(STARTS, 0.2673),
          }},
-         [COST_OF_STACK] = {.cases = 180, .slack = 0, .bound = {2.56, 4.12, 2.56, 2.56, 2.56}, .largest = 2236, .figure = {
+         [COST_OF_STACK] = {.cases = 180, .slack = 0, .bound = {3.14, 5.28, 3.14, 3.14, 3.14}, .largest = 2236, .figure = {
              F(ONE, 156.5), F(MATRIX, 18.66), F(MATRIX_CARRIED, 0.07008), F(MATRIX_REALS, 12.73), U(MATRIX_ANGLES), F(MATRIX_SUMS_KEPT, 29.68), U(LOOPED),
              U(LOOPED_PAIRS), F(RATES, 8.31), F(CARRY_REALS, 3.097), F(CELLS, 1.731), F(CONSTANTS_ONCE, 0.7943), F(BOOK_ENTRIES, 13.81), F(CODE_TAN, 10.52),
              F(CODE_ACOS, 5.732), F(CODE_ATAN2, 43.03), F(CODE_SINH, 40.81), U(CODE_TANH), F(CODE_CALLED, 34.1), F(ANY_PAIR, 1.825), F(ANY_RADIANS, 17.13),
@@ -247,7 +247,7 @@ static const cost_row cost_rows[] = {
          [COST_OF_RAM] = {.cases = 572, .slack = 0, .bound = {1.12, 1.12, 1.12, 1.12, 1.12}, .largest = 364, .figure = {
              F(ONE, 8.475), U(TABLEAU), F(CODE_LOG, 0.4263), U(CODE_TANH), F(OUTPUTS, 3.202), F(ANY_TURNED, 0.1854), F(STATE_WORDS, 7.852), F(STARTS, 0.2107),
          }},
-         [COST_OF_STACK] = {.cases = 572, .slack = 0, .bound = {2.12, 2.12, 3.35, 2.12, 2.12}, .largest = 1236, .figure = {
+         [COST_OF_STACK] = {.cases = 572, .slack = 0, .bound = {2.54, 2.54, 4.23, 2.54, 2.54}, .largest = 1236, .figure = {
              F(ONE, 127.9), F(MATRIX, 4.592), F(MATRIX_CARRIED, 2.608), F(MATRIX_REALS, 1.725), U(MATRIX_ANGLES), F(MATRIX_CARRY, 3.339), U(LOOPED), U(LOOPED_PAIRS),
              F(RATES, 3.989), F(CARRY_REALS, 1.109), F(CELLS, 4.071), F(BOOKS, 24.22), F(BOOK_ENTRIES, 14.31), F(CODE_TAN, 55.9), F(CODE_ACOS, 6.307), F(CODE_ATAN2, 56.12),
              F(CODE_SINH, 11.19), F(CODE_COSH, 74.58), U(CODE_TANH), F(CODE_CALLED, 66.23), F(ANY_TURNED_SUMS, 11.55), F(ANY_RADIANS, 5.446), F(ANY_QUOTIENT, 3.596),
@@ -295,7 +295,7 @@ static const cost_row cost_rows[] = {
          [COST_OF_RAM] = {.cases = 123, .slack = 0, .bound = {1.01, 1.01, 1.01, 1.01, 1.01}, .largest = 324, .figure = {
              F(ONE, 4), U(TABLEAU), U(CODE_TANH), F(OUTPUTS, 8), F(STATE_WORDS, 8),
          }},
-         [COST_OF_STACK] = {.cases = 123, .slack = 0, .bound = {1.44, 2.86, 1.57, 1.44, 1.44}, .largest = 2000, .figure = {
+         [COST_OF_STACK] = {.cases = 123, .slack = 0, .bound = {1.60, 3.56, 1.79, 1.60, 1.60}, .largest = 2000, .figure = {
              F(ONE, 191.7), F(MATRIX_REALS, 15.87), U(MATRIX_ANGLES), U(MATRIX_SUMS_KEPT), U(MATRIX_CARRY), U(LOOPED), U(LOOPED_PAIRS), F(RATES, 18.13),
              F(CARRY_REALS, 6.638), F(CELLS, 4.749), F(CONSTANTS_ONCE, 0.4133), F(BOOK_ENTRIES, 51.41), F(CODE_TAN, 329.7), F(CODE_ATAN, 132), F(CODE_ATAN2, 60.9),
              F(CODE_EXP, 21.82), F(CODE_SINH, 352.8), U(CODE_TANH), F(CODE_CALLED, 464.3), F(ANY_TURNED_SUMS, 24.65), F(ANY_RADIANS, 36.34), F(ANY_ROOT, 21.06),
@@ -335,7 +335,7 @@ static const cost_row cost_rows[] = {
          [COST_OF_RAM] = {.cases = 98, .slack = 0, .bound = {1.14, 1.28, 1.28, 1.28, 1.14}, .largest = 276, .figure = {
              F(ONE, 8.395), U(TABLEAU), U(CODE_TANH), F(OUTPUTS, 3.48), F(ANY_TURNED, 0.3146), F(STATE_WORDS, 7.812), F(STARTS, 0.2176),
          }},
-         [COST_OF_STACK] = {.cases = 98, .slack = 0, .bound = {1.36, 1.72, 1.72, 1.72, 1.36}, .largest = 696, .figure = {
+         [COST_OF_STACK] = {.cases = 98, .slack = 0, .bound = {1.49, 1.98, 1.98, 1.98, 1.49}, .largest = 696, .figure = {
              F(ONE, 128.1), F(MATRIX, 0.7099), F(MATRIX_CARRIED, 2.96), F(MATRIX_REALS, 1.403), U(MATRIX_ANGLES), U(MATRIX_SUMS_KEPT), U(MATRIX_CARRY),
              U(LOOPED), U(LOOPED_PAIRS), F(RATES, 5.61), F(CARRY_REALS, 0.08665), F(CELLS, 4.259), F(CONSTANTS_ONCE, 0.04339), F(BOOKS, 23.45), F(BOOK_ENTRIES, 15.32),
              F(CODE_TAN, 37.92), F(CODE_ATAN, 6.28), F(CODE_ATAN2, 64.63), F(CODE_EXP, 6.762), F(CODE_SINH, 45.69), F(CODE_COSH, 31.98), U(CODE_TANH), F(CODE_CALLED, 26.42),
@@ -374,7 +374,7 @@ static const cost_row cost_rows[] = {
          [COST_OF_RAM] = {.cases = 117, .slack = 0, .bound = {1.13, 1.26, 1.26, 1.13, 1.13}, .largest = 252, .figure = {
              F(ONE, 8.031), U(TABLEAU), U(CODE_TANH), F(OUTPUTS, 3.415), F(ANY_TURNED, 0.3637), F(STATE_WORDS, 7.865), F(STARTS, 0.2193),
          }},
-         [COST_OF_STACK] = {.cases = 117, .slack = 0, .bound = {1.37, 1.74, 1.74, 1.48, 1.37}, .largest = 696, .figure = {
+         [COST_OF_STACK] = {.cases = 117, .slack = 0, .bound = {1.51, 2.02, 2.02, 1.65, 1.51}, .largest = 696, .figure = {
              F(ONE, 134.5), F(MATRIX, 0.1577), F(MATRIX_CARRIED, 4.461), F(MATRIX_REALS, 3.505), U(MATRIX_ANGLES), U(LOOPED), U(LOOPED_PAIRS), F(RATES, 5.276),
              F(CARRY_REALS, 0.1026), F(CELLS, 6.286), F(BOOKS, 22.38), F(BOOK_ENTRIES, 15.74), F(CODE_TAN, 39.73), F(CODE_ATAN2, 72.64), F(CODE_EXP, 17.09),
              F(CODE_SINH, 44.11), F(CODE_COSH, 9.178), U(CODE_TANH), F(CODE_CALLED, 90.79), F(CODE_CALLS, 0.1104), F(ANY_PAIR, 2.732), F(ANY_TURNED_SUMS, 5.843),
@@ -412,7 +412,7 @@ static const cost_row cost_rows[] = {
          [COST_OF_RAM] = {.cases = 117, .slack = 0, .bound = {1.15, 1.30, 1.30, 1.15, 1.15}, .largest = 248, .figure = {
              F(ONE, 4.803), U(TABLEAU), U(CODE_TANH), F(OUTPUTS, 3.359), F(ANY_TURNED, 0.05531), F(STATE_WORDS, 7.75), F(STARTS, 0.3172),
          }},
-         [COST_OF_STACK] = {.cases = 117, .slack = 0, .bound = {2.04, 3.08, 3.08, 2.04, 2.04}, .largest = 1580, .figure = {
+         [COST_OF_STACK] = {.cases = 117, .slack = 0, .bound = {2.42, 3.84, 3.84, 2.42, 2.42}, .largest = 1580, .figure = {
              F(ONE, 192), F(MATRIX, 33), F(MATRIX_CARRIED, 1.179), F(MATRIX_REALS, 14.12), U(MATRIX_ANGLES), U(LOOPED), U(LOOPED_PAIRS), F(RATES, 8.404),
              F(CELLS, 10.55), F(CONSTANTS_ONCE, 0.2889), F(BOOK_ENTRIES, 8.814), F(CODE_TAN, 15.18), F(CODE_ACOS, 14.14), F(CODE_ATAN, 5.541), F(CODE_ATAN2, 19.88),
              F(CODE_SINH, 22.27), U(CODE_TANH), F(CODE_CALLED, 43.7), F(ANY_PAIR, 3.727), F(ANY_RADIANS, 17.41), F(ANY_POWER, 23.53), F(LIES_STAGES, 8.05),
@@ -450,7 +450,7 @@ static const cost_row cost_rows[] = {
          [COST_OF_RAM] = {.cases = 117, .slack = 0, .bound = {1.15, 1.30, 1.30, 1.15, 1.15}, .largest = 248, .figure = {
              F(ONE, 4.864), U(TABLEAU), U(CODE_TANH), F(OUTPUTS, 3.316), F(ANY_TURNED, 0.08381), F(STATE_WORDS, 7.77), F(STARTS, 0.2809),
          }},
-         [COST_OF_STACK] = {.cases = 117, .slack = 0, .bound = {1.40, 1.80, 1.88, 1.40, 1.40}, .largest = 760, .figure = {
+         [COST_OF_STACK] = {.cases = 117, .slack = 0, .bound = {1.54, 2.08, 2.20, 1.54, 1.54}, .largest = 760, .figure = {
              F(ONE, 163.7), F(MATRIX_CARRIED, 4.58), F(MATRIX_REALS, 4.156), U(MATRIX_ANGLES), F(MATRIX_CARRY, 0.489), U(LOOPED), U(LOOPED_PAIRS), F(RATES, 3.431),
              F(CARRY_REALS, 0.8797), F(CELLS, 0.3742), F(BOOKS, 27.62), F(BOOK_ENTRIES, 20.58), F(CODE_TAN, 47.17), F(CODE_ATAN2, 49.67), F(CODE_EXP, 19.94),
              F(CODE_SINH, 86.63), U(CODE_TANH), F(CODE_CALLED, 119), F(ANY_TURNED_SUMS, 6.66), F(ANY_RADIANS, 4.503), F(ANY_ROOT, 8.182), F(ANY_POWER, 49.26),

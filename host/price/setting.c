@@ -164,7 +164,8 @@ bool setting_is_own(const setting *s, const image *im) {
     }
     image turned = *im;
     turned.settings.angles = ANGLES_TURNED;
-    return setting_may_be_refused(&s->image) || s->image.angles == ANGLES_TURNED || image_turns(&turned);
+    return setting_may_be_refused(&s->image) || s->image.angles == ANGLES_TURNED ||
+           image_turns(&turned);
 }
 
 const char *setting_options(const setting *s, bool with_number, char text[SETTING_TEXT]) {

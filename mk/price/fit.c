@@ -263,9 +263,9 @@ static double judge(const cost_fit *f, int board, cost_number number, cost_quant
             j.unseen++;
         }
         if (shows) {
-            fprintf(stderr, "    %.3f %s%s %s %s %s: %g, predicted %.4g%s\n", by,
-                    quantity_words[q], says[class], rows[r].column[3], rows[r].column[4],
-                    rows[r].column[6], rows[r].value[q], told, rows[r].fitted ? "" : " (test)");
+            fprintf(stderr, "    %.3f %s%s %s %s %s: %g, predicted %.4g%s\n", by, quantity_words[q],
+                    says[class], rows[r].column[3], rows[r].column[4], rows[r].column[6],
+                    rows[r].value[q], told, rows[r].fitted ? "" : " (test)");
             show_parts(f, &rows[r], q);
         }
     }

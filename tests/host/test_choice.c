@@ -248,8 +248,8 @@ static void test_settings_of_a_scene_are_those_that_differ(void) {
             int same = 0;
             for (int k = 0; k < count && code[i] != NULL; k++) {
                 const setting other = setting_at(k);
-                same += k != i && own[k] && other.number == s.number &&
-                        strcmp(code[i], code[k]) == 0;
+                same +=
+                    k != i && own[k] && other.number == s.number && strcmp(code[i], code[k]) == 0;
             }
             char options[SETTING_TEXT];
             setting_options(&s, true, options);
@@ -323,8 +323,8 @@ static void test_linear_scenes_have_the_matrix_on_their_front(void) {
                 cheapest = row;
             }
         }
-        printf("  %d rows, %d of the exact matrix, %d of them on the front\n", made->count, matrices,
-               on_front);
+        printf("  %d rows, %d of the exact matrix, %d of them on the front\n", made->count,
+               matrices, on_front);
         TEST_ASSERT_TRUE_MESSAGE(matrices >= 3 && on_front > 0, text);
         TEST_ASSERT_NOT_NULL_MESSAGE(cheapest, text);
         TEST_ASSERT_TRUE_MESSAGE(cheapest->setting.image.matrix == MATRIX_EXACT, text);
