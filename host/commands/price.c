@@ -18,17 +18,19 @@
 static const char head[] =
     "usage: whirl price SCENE|MECHANISM[:SCENE]|FILE[:SCENE] [options]\n"
     "\n"
-    "Tries all methods, numbers, forms and many steps on a scene, and prints how far each is off a\n"
-    "reference of higher precision, beside what it costs on a board: cycles a simulated second, or\n"
-    "instructions where nobody counts cycles; flash, RAM and stack. Of the rows those on the front are\n"
-    "shown: nothing is as cheap and errs less. Each figure says how it is known.\n"
+    "Tries all methods, numbers, forms, matrices, tables and many steps on a scene, as far as it takes\n"
+    "them, and prints how far each is off a reference of higher precision, beside what it costs on a\n"
+    "board: cycles a simulated second, or instructions where nobody counts cycles; flash, RAM and stack.\n"
+    "Of the rows those on the front are shown: nothing is as cheap and errs less. Each figure says how it\n"
+    "is known.\n"
     "What is run is named as for `whirl run`.\n"
     "\n";
 static const char tail[] =
     "  --all                every row, not the front alone\n"
     "  --csv FILE           every row, with the command lines that do it again; - is standard output\n"
     "                       (the table then goes to standard error)\n"
-    "  --plot FILE.svg|.png error against price, a line for each method and number, and the front\n"
+    "  --plot FILE.svg|.png error against price, a line for each method or matrix and number,\n"
+    "                       and the front\n"
     "  --quiet              no table, no progress\n"
     "\n";
 static const char *const own[] = {"--all", "--csv", "--plot", NULL};

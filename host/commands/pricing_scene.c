@@ -90,7 +90,19 @@ static bool same_settings(const image_settings *a, const image_settings *b) {
            a->matrix == b->matrix && a->tables == b->tables && a->cells == b->cells;
 }
 
-/* The image of a place with these settings, made once; its step and end are the scene's. NULL: told. */
+/* What `make` says of a setting that scenes need not take stays unsaid. */
+static diags *diags_of(pricing_scene *p, const image_settings *settings) {
+    return setting_may_be_refused(settings) ? diags_new() : p->errors;
+}
+
+static void forget_diags(pricing_scene *p, diags *of) {
+    if (of != p->errors) {
+        diags_free(of);
+    }
+}
+
+/* The image of a place with these settings, made once; its step and end are the scene's. NULL: told, or it does not take
+ * them. */
 static const image *base_of(pricing_scene *p, int point, const image_settings *settings) {
     for (int i = 0; i < p->made_count; i++) {
         if (p->made[i].point == point && same_settings(&p->made[i].settings, settings)) {
@@ -109,8 +121,10 @@ static const image *base_of(pricing_scene *p, int point, const image_settings *s
         }
     }
     const equations *e = p->equations[point];
-    image *made = image_make(e, e->instance->conserve, settings, IMAGE_TO_RUN, p->errors);
-    if (made != NULL) {
+    diags *errors = diags_of(p, settings);
+    image *made = image_make(e, e->instance->conserve, settings, IMAGE_TO_RUN, errors);
+    forget_diags(p, errors);
+    if (made != NULL || setting_may_be_refused(settings)) {
         p->made = room_more(p->made, p->made_count + 1, sizeof *p->made);
         p->made[p->made_count++] = (pricing_made){point, *settings, made};
     }
@@ -126,7 +140,9 @@ static image *make(void *context, int point, const setting *s, const char *step,
     const image *base = base_of(p, point, &s->image);
     instance *inst =
         base == NULL ? NULL : instance_make(p->mechanism, p->scene, &changes, p->errors);
-    image *made = inst == NULL ? NULL : image_again(base, inst, p->errors);
+    diags *errors = diags_of(p, &s->image);
+    image *made = inst == NULL ? NULL : image_again(base, inst, errors);
+    forget_diags(p, errors);
     instance_free(inst);
     forget(&changes);
     diags_flush(p->errors, stderr);

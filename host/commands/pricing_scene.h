@@ -10,7 +10,7 @@
 typedef struct pricing_made {
     int point;
     image_settings settings;
-    image *image;
+    image *image; /* NULL: the scene does not take them */
 } pricing_made;
 
 typedef struct pricing_scene {

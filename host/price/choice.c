@@ -136,6 +136,10 @@ static void climb(trials *t, const choice_wish *w, choice *c, const setting *s, 
         if (row.pace.records > (uint64_t)t->records) {
             continue;
         }
+        if (setting_price_varies(s)) {
+            bool own;
+            row.cost = trial_cost(t, s, row.pace, &own);
+        }
         judge(t, w, &row);
         if (c->found && c->has_second && !(row.worst < c->second.worst)) {
             return;
@@ -148,6 +152,9 @@ static void climb(trials *t, const choice_wish *w, choice *c, const setting *s, 
         tried = true;
         const double started = t->operations;
         row.result = trial_run(t, s, row.pace);
+        if (!row.result.ran && !t->stopped && setting_price_varies(s)) {
+            continue; /* the numbers of its matrix are too large */
+        }
         if (!row.result.ran) {
             return;
         }

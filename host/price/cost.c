@@ -144,10 +144,6 @@ cost cost_of(const image *im, const cost_board *board, cost_number number) {
         c.why = "no scene has been measured with this method: make price-rows price-fit";
         return c;
     }
-    if (im->settings.matrix != MATRIX_NONE || im->settings.tables != TABLES_NONE) {
-        c.why = "no figures were fitted to matrices and tables: they must be measured";
-        return c;
-    }
     double feature[COST_FEATURES];
     cost_counts counts = cost_counts_of(im, board, number);
     counts.smooth = 1.0;

@@ -26,6 +26,12 @@ static int wave_terms(const tape *t, const op *o) {
     return terms + (angles > 1 ? angles - 1 : 0);
 }
 
+static void add_look_up(const tape *t, const op *o, cost_list *l) {
+    l->lines += o->code == OP_LINE;
+    l->cubics += o->code == OP_CUBIC;
+    l->mirrored += t->tables.folds && t->tables.odd[(int)o->value / t->tables.terms];
+}
+
 static void add_operation(const tape *t, const op *o, cost_list *l) {
     switch (o->code) {
     case OP_CONSTANT: l->constants++; break;
@@ -55,9 +61,9 @@ static void add_operation(const tape *t, const op *o, cost_list *l) {
     case OP_MAX: l->choices++; break;
     case OP_CALL: l->calls[o->function]++; break;
     case OP_POW: l->powers++; break;
-    case OP_CELL:
+    case OP_CELL: l->cells++; break;
     case OP_LINE:
-    case OP_CUBIC: break; /* cost_of() does not know what they take */
+    case OP_CUBIC: add_look_up(t, o, l); break;
     }
 }
 
@@ -80,15 +86,49 @@ int cost_calls(const cost_list *l) {
     return calls;
 }
 
+/* Does stage s stand where an earlier one does? */
+static bool stands_again(const wh_tableau *by, unsigned s) {
+    for (unsigned e = 0; e < s; e++) {
+        bool same = by->node[e] == by->node[s] && by->reach[e].parts == by->reach[s].parts;
+        for (unsigned j = 0; j < by->stages; j++) {
+            same = same && by->reach[e].share[j] == by->reach[s].share[j];
+        }
+        if (same) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Where the stages of a row with a reach stand. */
+static void add_reach(const wh_tableau *by, cost_counts *c) {
+    c->places = 0;
+    for (unsigned s = 0; s < by->stages; s++) {
+        if (stands_again(by, s)) {
+            continue;
+        }
+        c->places++;
+        c->reaches += by->node[s] != 0;
+        for (unsigned j = 0; j < s; j++) {
+            c->reach_shares += by->reach[s].share[j] != 0;
+        }
+    }
+}
+
 /* What the method's row makes of a step. */
 static void add_method(const image *im, cost_counts *c) {
     const wh_tableau *by = wh_tableau_of(im->settings.method);
-    c->stages = (int)by->stages;
+    c->stages = c->places = (int)by->stages;
+    if (c->second && by->reach[0].parts != 0) {
+        add_reach(by, c);
+    }
     for (unsigned s = 0; s < by->stages; s++) {
         bool leans = false;
         for (unsigned j = 0; j < s; j++) {
-            c->shares += by->stage[s].share[j] != 0;
-            leans = leans || (j > 0 && by->stage[s].share[j] != 0);
+            const wh_real share = by->stage[s].share[j];
+            c->shares += share != 0;
+            c->scaled += share != 0 && share != 1 && share != -1;
+            leans = leans || (j > 0 && share != 0);
         }
         c->leans += leans;
         c->ends += by->rates[s] != 0;
@@ -134,7 +174,8 @@ static void add_reads(const tape *t, const op *o, cost_reads *r) {
     if (o->code == OP_RATE && o->a < IMAGE_COMPONENTS_MAX) {
         r->rate[o->a] = true;
     }
-    for (int k = 0; o->code == OP_PHASE && k < t->angles && o->turns != NULL; k++) {
+    const bool looks = o->code == OP_PHASE || o->code == OP_CELL;
+    for (int k = 0; looks && k < t->angles && o->turns != NULL; k++) {
         r->angle[k] = r->angle[k] || o->turns[k] != 0;
     }
 }
@@ -147,19 +188,40 @@ static void count_staged(const cost_reads *r, cost_counts *c) {
         const bool placed = is_angle ? r->angle[i] : r->position[i - c->angles];
         c->staged_angles += is_angle && (c->called || placed);
         c->staged_linears += !is_angle && (c->called || placed);
-        c->staged_rates += c->second && (c->called || placed || r->rate[i]);
+        c->staged_rates += c->second && (c->called || r->rate[i] || (placed && c->reaches == 0));
     }
+}
+
+/* Does operation i take rates, or call what a compiler does not look into? Told in takes[], of the earlier ones. */
+static bool takes_more_than_places(const tape *t, int i, const bool *takes) {
+    const op *o = &t->ops[i];
+    int operand[2];
+    bool does =
+        o->code == OP_RATE || o->code == OP_CALL || o->code == OP_POW ||
+        (o->code == OP_PHASE && o->b < 0); /* pairs of turn angles are counted by themselves */
+    for (int k = tape_operands(o, operand); k > 0; k--) {
+        does = does || (takes[operand[k - 1]] && t->ops[operand[k - 1]].code != OP_PHASE);
+    }
+    return does;
 }
 
 static void add_step(const image *im, cost_counts *c) {
     const tape *t = im->list[IMAGE_STEP];
     bool *varies = room(t->count, sizeof *varies);
+    bool *takes = room(t->count, sizeof *takes);
     cost_reads reads = {{false}, {false}, {false}};
     for (int i = 0; i < t->count; i++) {
         varies[i] = changes(t, i, varies);
-        add_operation(t, &t->ops[i], c->called || varies[i] ? &c->step : &c->fixed);
+        takes[i] = takes_more_than_places(t, i, takes);
+        const bool stays = c->places < c->stages && !takes[i] && !im->ledger.asked;
+        add_operation(t, &t->ops[i],
+                      c->called    ? &c->step
+                      : !varies[i] ? &c->fixed
+                      : stays      ? &c->placed
+                                   : &c->step);
         add_reads(t, &t->ops[i], &reads);
     }
+    free(takes);
     c->step.results = t->results;
     c->step.carried = tape_carried(t);
     c->step.operations = tape_operations(t);
@@ -176,16 +238,37 @@ static int state_words(const image *im) {
     return im->angles + 2 * im->reals + im->angles + im->inputs + books;
 }
 
+/* A step as one matrix: its list, and no stages. What matrices have in common with other steps is little, so their figures
+ * are their own. */
+static void add_matrix(const image *im, cost_counts *c) {
+    c->is_matrix = true;
+    add_list(im->list[IMAGE_MATRIX], &c->matrix);
+    c->stages = c->places = c->copies = 1;
+}
+
+static void add_tables(const image *im, const cost_board *board, cost_counts *c) {
+    const tape_tables *of = &im->list[IMAGE_STEP]->tables;
+    const double cells = of->count > 0 ? (double)(1U << (unsigned)of->bits) : 0.0;
+    c->folded = of->folds && !board->fpu && c->number == COST_FLOAT;
+    c->table_numbers = (c->folded ? cells / 2.0 + 1.0 : cells) * of->count * of->terms;
+}
+
 cost_counts cost_counts_of(const image *im, const cost_board *board, cost_number number) {
     cost_counts c = {.im = im,
                      .number = number,
                      .second = im->form == WH_SECOND_ORDER,
                      .turned = image_turns(im),
-                     .compensated = im->settings.compensated,
-                     .angles = im->angles,
-                     .reals = im->reals};
-    add_method(im, &c);
+                     .reals = im->reals,
+                     .state_words = state_words(im)};
     add_list(im->list[IMAGE_OBSERVE], &c.observe);
+    if (im->settings.matrix != MATRIX_NONE) {
+        add_matrix(im, &c);
+        return c;
+    }
+    c.compensated = im->settings.compensated;
+    c.angles = im->angles;
+    add_method(im, &c);
+    add_tables(im, board, &c);
     if (im->ledger.kept) {
         add_list(im->list[IMAGE_POWERS], &c.books);
     }
@@ -203,8 +286,7 @@ cost_counts cost_counts_of(const image *im, const cost_board *board, cost_number
     c.looped = is_avr && (unrolls_less || im->ledger.kept || im->contacts > 0);
     c.tabled = is_avr && unrolls_less && c.stages > 2;
     c.copies = c.called ? 1 : c.stages;
-    c.lookups = c.turned ? c.step.pairs : c.stages * c.step.pairs;
-    c.state_words = state_words(im);
+    c.lookups = c.turned ? c.step.pairs : (c.called ? c.stages : c.places) * c.step.pairs;
     c.evaluations = core_evaluations(im);
     return c;
 }

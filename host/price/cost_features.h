@@ -51,6 +51,10 @@ typedef struct cost_list {
     int terms;   /* further angles, or multiples, in these */
     int radians; /* pairs of what is in radians */
     int powers;
+    int cells;    /* of tables, that a phase is looked up in, */
+    int lines;    /* and what is interpolated there, by straight pieces */
+    int cubics;   /* and by cubic ones, */
+    int mirrored; /* of both, what is odd and told by its other half */
     int calls[FUNCTIONS];
     int carried;    /* between registers and memory, at best */
     int operations; /* all that compute */
@@ -62,11 +66,17 @@ typedef struct cost_counts {
     cost_list step; /* what a stage evaluates */
     cost_list
         fixed; /* of that, what does not change from stage to stage, where a compiler sees it: then not in step */
+    cost_list placed;  /* likewise what changes from place to place alone */
+    cost_list matrix;  /* a whole step, which then has no stages */
     cost_list books;   /* of the ledger, likewise */
     cost_list observe; /* the outputs */
     cost_list events;  /* signals, forces and sets of contacts */
     int stages;
-    int components; /* n: coordinates, or components of first order */
+    int places; /* where they stand: fewer than stages where some stand at the same place (core/method.h) */
+    int reaches;      /* of these, said by the row itself, other than where the step begins */
+    int reach_shares; /* of stages in these */
+    int scaled;       /* shares that take a product */
+    int components;   /* n: coordinates, or components of first order */
     int angles;
     int linears;      /* moved by what is a rate, or by slopes */
     int moving;       /* components whose derivative is no constant */
@@ -75,18 +85,21 @@ typedef struct cost_counts {
     int staged_angles;
     int reals; /* in the state */
     bool second;
+    bool is_matrix;
     bool turned;
     bool compensated;
     bool
         looped; /* the step is one that the old compiler of AVR does not unroll (WH_SMALL_STEP, core/unroll.h), */
-    bool tabled; /* and looks its method up in a table */
-    bool called; /* the list is a function of its own */
-    int copies;  /* of the list in the code */
-    int lookups; /* pairs looked up in a step */
-    int turns;   /* of each pair in a step */
-    int leans;   /* stages that lean */
-    int shares;  /* of stages in stages */
-    int ends;    /* products of stages at the step's end */
+    bool tabled;          /* and looks its method up in a table */
+    bool called;          /* the list is a function of its own */
+    bool folded;          /* half of each table says it all, and is all that is there */
+    double table_numbers; /* in flash */
+    int copies;           /* of the list in the code */
+    int lookups;          /* pairs looked up in a step */
+    int turns;            /* of each pair in a step */
+    int leans;            /* stages that lean */
+    int shares;           /* of stages in stages */
+    int ends;             /* products of stages at the step's end */
     int state_words;
     int evaluations; /* most in a step */
     double smooth;   /* a step without its contacts, predicted: filled in by cost.c */
@@ -94,14 +107,31 @@ typedef struct cost_counts {
 
 cost_counts cost_counts_of(const image *im, const cost_board *board, cost_number number);
 
-/* How often a step does what a list holds so many of. */
-#define COST_EACH(what) (c->stages * (c->step.what + c->books.what) + c->fixed.what)
+/* How often a step does what a list holds so many of, and how often its code has it. */
+#define COST_EACH(what) (c->stages * c->step.what + c->places * c->placed.what + c->fixed.what)
+#define COST_COPIES(what) \
+    (c->copies * c->step.what + (c->called ? 1 : c->places) * c->placed.what + c->fixed.what)
+/* What is so in any of the list. */
+#define COST_ALL(what) (c->step.what + c->placed.what + c->fixed.what)
 /* clang-format off */
 #define COST_CALL_ROW(X, FN) \
-    X(CALL_##FN, COST_TIME, COST_EACH(calls[FN_##FN])) \
+    X(CALL_##FN, COST_TIME, COST_EACH(calls[FN_##FN]) + c->stages * c->books.calls[FN_##FN]) \
     X(CODE_##FN, COST_CODE | COST_DATA | COST_DEPTH, c->step.calls[FN_##FN] + c->observe.calls[FN_##FN] > 0)
 #define COST_FEATURE_ROWS(X) \
-    X(ONE, COST_TIME | COST_CODE | COST_DATA | COST_DEPTH | COST_EVENTS, 1) \
+    X(ONE, COST_CODE | COST_DATA | COST_DEPTH | COST_EVENTS, 1) \
+    X(STAGED, COST_TIME, !c->is_matrix) \
+    X(MATRIX, COST_TIME | COST_CODE | COST_DEPTH, c->is_matrix) \
+    X(MATRIX_SUMS, COST_TIME | COST_CODE, c->matrix.sums) \
+    X(MATRIX_PRODUCTS, COST_TIME | COST_CODE, c->matrix.products) \
+    X(MATRIX_LEAVES, COST_TIME | COST_CODE, c->matrix.leaves) \
+    X(MATRIX_CONSTANTS, COST_TIME | COST_CODE, c->matrix.constants) \
+    X(MATRIX_CARRIED, COST_TIME | COST_CODE | COST_DEPTH, c->matrix.carried) \
+    X(MATRIX_REALS, COST_TIME | COST_CODE | COST_DEPTH, c->is_matrix ? c->reals : 0) \
+    X(MATRIX_ANGLES, COST_TIME | COST_CODE | COST_DEPTH, c->is_matrix ? c->im->angles : 0) \
+    X(MATRIX_SUMS_KEPT, COST_TIME | COST_CODE | COST_DEPTH, \
+      c->is_matrix && c->im->settings.compensated) \
+    X(MATRIX_CARRY, COST_TIME | COST_CODE | COST_DEPTH, \
+      c->is_matrix && c->im->settings.compensated ? c->reals : 0) \
     X(LATER_STAGES, COST_TIME | COST_CODE, c->stages - 1) \
     X(MANY_STAGES, COST_TIME | COST_CODE, c->stages > 1) \
     X(LOOPED, COST_TIME | COST_CODE | COST_DEPTH, c->looped) \
@@ -111,19 +141,29 @@ cost_counts cost_counts_of(const image *im, const cost_board *board, cost_number
     X(MANY_STAGES_MOVING, COST_TIME | COST_CODE, c->stages > 1 ? c->moving : 0) \
     X(ANGLES, COST_TIME | COST_CODE, c->angles) \
     X(LINEARS, COST_TIME | COST_CODE, c->linears) \
-    X(RATES, COST_TIME | COST_CODE | COST_DEPTH, c->components) \
+    X(RATES, COST_TIME | COST_CODE | COST_DEPTH, c->second ? c->components : 0) \
+    X(STILL, COST_TIME, c->components - c->moving) \
     X(MOVING, COST_TIME | COST_CODE, c->moving) \
     X(STAGE_RATES, COST_TIME | COST_CODE, (c->stages - 1) * c->staged_rates) \
-    X(STAGE_LINEARS, COST_TIME | COST_CODE, (c->stages - 1) * c->staged_linears) \
+    X(STAGE_LINEARS, COST_TIME | COST_CODE, c->reaches > 0 ? 0 : (c->stages - 1) * c->staged_linears) \
     X(STAGE_ANGLES, COST_TIME | COST_CODE, \
-      c->turned && !c->im->ledger.kept ? 0 : (c->stages - 1) * c->staged_angles) \
+      c->turned && !c->im->ledger.kept ? 0 \
+      : c->reaches > 0                 ? c->reaches * c->staged_angles \
+                                       : (c->stages - 1) * c->staged_angles) \
+    X(REACHES, COST_TIME | COST_CODE, \
+      c->reaches * (c->staged_linears + (c->turned ? 0 : c->staged_angles))) \
+    X(REACH_SHARES, COST_TIME | COST_CODE, \
+      c->reach_shares * (c->staged_linears + (c->turned ? 0 : c->staged_angles))) \
+    X(REACH_STAGES, COST_TIME | COST_CODE, c->reaches > 0 ? (c->stages - 1) * c->staged_rates : 0) \
+    X(REACH_LEANS, COST_TIME | COST_CODE, c->turned ? c->reach_shares * c->step.pairs : 0) \
     X(SHARES, COST_TIME | COST_CODE, c->shares * c->staged_rates) \
-    X(SHARES_LINEAR, COST_TIME | COST_CODE, c->shares * c->staged_linears) \
+    X(SHARES_LINEAR, COST_TIME | COST_CODE, c->reaches > 0 ? 0 : c->shares * c->staged_linears) \
+    X(SCALED, COST_TIME | COST_CODE, c->scaled * (c->staged_rates + (c->reaches > 0 ? 0 : c->staged_linears))) \
     X(ENDS, COST_TIME | COST_CODE, c->ends * c->moving) \
     X(LOOKED_UP_ONCE, COST_TIME | COST_CODE, c->turned ? c->lookups : 0) \
     X(LOOKED_UP, COST_TIME, (c->turned ? 0 : c->lookups) + c->stages * c->books.pairs) \
-    X(LOOKED_UP_CODE, COST_CODE, c->turned ? 0 : c->step.pairs * c->copies) \
-    X(LOOKED_UP_TERMS, COST_TIME | COST_CODE, c->step.terms * (c->turned ? 1 : c->stages)) \
+    X(LOOKED_UP_CODE, COST_CODE, c->turned ? 0 : c->step.pairs * (c->called ? 1 : c->places)) \
+    X(LOOKED_UP_TERMS, COST_TIME | COST_CODE, c->step.terms * (c->turned ? 1 : c->places)) \
     X(TURN_BEGIN, COST_TIME | COST_CODE, c->turned && c->turns > 0 ? c->step.pairs : 0) \
     X(TURNS, COST_TIME | COST_CODE, c->turned ? c->turns * c->step.pairs : 0) \
     X(LEANS, COST_TIME | COST_CODE, c->turned ? c->leans * c->step.pairs : 0) \
@@ -134,6 +174,16 @@ cost_counts cost_counts_of(const image *im, const cost_board *board, cost_number
     X(CARRY_ANGLES, COST_TIME | COST_CODE, c->compensated ? c->angles : 0) \
     X(CARRY_LINEARS, COST_TIME | COST_CODE, c->compensated ? c->linears : 0) \
     X(CARRY_REALS, COST_TIME | COST_CODE | COST_DEPTH, c->compensated ? c->reals : 0) \
+    X(CELLS, COST_TIME | COST_DEPTH, COST_EACH(cells)) \
+    X(LINES, COST_TIME, COST_EACH(lines)) \
+    X(CUBICS, COST_TIME, COST_EACH(cubics)) \
+    X(FOLDS, COST_TIME, c->folded ? COST_EACH(cells) : 0) \
+    X(MIRRORED, COST_TIME, c->folded ? COST_EACH(mirrored) : 0) \
+    X(CODE_CELLS, COST_CODE, COST_COPIES(cells)) \
+    X(CODE_LINES, COST_CODE, COST_COPIES(lines)) \
+    X(CODE_CUBICS, COST_CODE, COST_COPIES(cubics)) \
+    X(CODE_MIRRORED, COST_CODE, c->folded ? COST_COPIES(mirrored) : 0) \
+    X(TABLE_BYTES, COST_CODE, c->table_numbers * (c->number == COST_DOUBLE ? 8 : 4)) \
     X(SUMS, COST_TIME, COST_EACH(sums)) \
     X(PRODUCTS, COST_TIME, COST_EACH(products)) \
     X(QUOTIENTS, COST_TIME, COST_EACH(quotients)) \
@@ -141,15 +191,21 @@ cost_counts cost_counts_of(const image *im, const cost_board *board, cost_number
     X(SIZES, COST_TIME, COST_EACH(sizes)) \
     X(SIGNS, COST_TIME, COST_EACH(signs)) \
     X(CHOICES, COST_TIME, COST_EACH(choices)) \
-    X(LEAVES, COST_TIME, c->stages * c->step.leaves + c->fixed.leaves) \
+    X(LEAVES, COST_TIME, c->stages * c->step.leaves + c->places * c->placed.leaves + c->fixed.leaves) \
     X(CONSTANTS, COST_TIME, c->stages * c->step.constants + c->fixed.constants) \
     X(CONSTANTS_ONCE, COST_TIME | COST_DEPTH, c->step.constants) \
-    X(CARRIED, COST_TIME, c->stages * (c->step.carried + c->books.carried)) \
+    X(CARRIED, COST_TIME, c->stages * c->step.carried) \
     X(CALLED, COST_TIME, c->called ? c->stages : 0) \
     X(CALLED_DATA, COST_TIME, \
       c->called ? c->stages * (c->step.leaves + c->step.results + 2 * c->step.pairs) : 0) \
     X(RADIANS, COST_TIME, COST_EACH(radians)) \
-    X(POWERS, COST_TIME, COST_EACH(powers)) \
+    X(POWERS, COST_TIME, COST_EACH(powers) + c->stages * c->books.powers) \
+    X(BOOK_SUMS, COST_TIME, c->stages * (c->books.sums + c->books.sizes + c->books.choices)) \
+    X(BOOK_PRODUCTS, COST_TIME, c->stages * c->books.products) \
+    X(BOOK_QUOTIENTS, COST_TIME, c->stages * (c->books.quotients + c->books.roots)) \
+    X(BOOK_RADIANS, COST_TIME, c->stages * c->books.radians) \
+    X(BOOK_CARRIED, COST_TIME, c->stages * c->books.carried) \
+    X(BOOK_ANGLES, COST_TIME, c->im->ledger.kept ? c->stages * c->staged_angles : 0) \
     X(BOOKS, COST_TIME | COST_CODE | COST_DEPTH, c->im->ledger.kept) \
     X(BOOK_ENTRIES, COST_TIME | COST_CODE | COST_DEPTH, \
       c->im->ledger.kept ? c->im->ledger.entries : 0) \
@@ -168,18 +224,18 @@ cost_counts cost_counts_of(const image *im, const cost_board *board, cost_number
     COST_CALL_ROW(X, SINH) \
     COST_CALL_ROW(X, COSH) \
     COST_CALL_ROW(X, TANH) \
-    X(CODE_SUMS, COST_CODE, c->copies * c->step.sums + c->fixed.sums) \
-    X(CODE_PRODUCTS, COST_CODE, c->copies * c->step.products + c->fixed.products) \
-    X(CODE_QUOTIENTS, COST_CODE, c->copies * c->step.quotients + c->fixed.quotients) \
-    X(CODE_ROOTS, COST_CODE, c->copies * c->step.roots + c->fixed.roots) \
-    X(CODE_SIZES, COST_CODE, c->copies * c->step.sizes + c->fixed.sizes) \
-    X(CODE_SIGNS, COST_CODE, c->copies * c->step.signs + c->fixed.signs) \
-    X(CODE_CHOICES, COST_CODE, c->copies * c->step.choices + c->fixed.choices) \
-    X(CODE_LEAVES, COST_CODE, c->copies * c->step.leaves + c->fixed.leaves) \
+    X(CODE_SUMS, COST_CODE, COST_COPIES(sums)) \
+    X(CODE_PRODUCTS, COST_CODE, COST_COPIES(products)) \
+    X(CODE_QUOTIENTS, COST_CODE, COST_COPIES(quotients)) \
+    X(CODE_ROOTS, COST_CODE, COST_COPIES(roots)) \
+    X(CODE_SIZES, COST_CODE, COST_COPIES(sizes)) \
+    X(CODE_SIGNS, COST_CODE, COST_COPIES(signs)) \
+    X(CODE_CHOICES, COST_CODE, COST_COPIES(choices)) \
+    X(CODE_LEAVES, COST_CODE, COST_COPIES(leaves)) \
     X(CODE_CONSTANTS, COST_CODE, c->step.constants + c->fixed.constants) \
     X(CODE_CARRIED, COST_CODE, c->copies * c->step.carried) \
     X(CODE_CALLED, COST_CODE | COST_DEPTH, c->called) \
-    X(CODE_RADIANS, COST_CODE, c->copies * c->step.radians + c->observe.radians) \
+    X(CODE_RADIANS, COST_CODE, COST_COPIES(radians) + c->observe.radians) \
     X(CODE_CALLS, COST_CODE | COST_DEPTH, cost_calls(&c->step) * c->copies) \
     X(CODE_BOOKS, COST_CODE, c->books.operations) \
     X(OBSERVED, COST_CODE, c->observe.sums + c->observe.products + c->observe.sizes + c->observe.signs + c->observe.choices) \
@@ -187,20 +243,20 @@ cost_counts cost_counts_of(const image *im, const cost_board *board, cost_number
     X(OBSERVED_PAIRS, COST_CODE, c->observe.pairs) \
     X(OBSERVED_CALLS, COST_CODE, c->observe.quotients + cost_calls(&c->observe)) \
     X(OUTPUTS, COST_CODE | COST_DATA, c->im->outputs > 0 ? c->im->outputs : 1) \
-    X(ANY_PAIR, COST_CODE | COST_DATA | COST_DEPTH, c->step.pairs + c->step.radians + c->observe.pairs + c->observe.radians > 0) \
+    X(ANY_PAIR, COST_CODE | COST_DATA | COST_DEPTH, c->step.pairs + COST_ALL(radians) + c->observe.pairs + c->observe.radians > 0) \
     X(ANY_TURNED, COST_CODE | COST_DATA | COST_DEPTH, c->turned) \
     X(ANY_TURNED_SUMS, COST_CODE | COST_DEPTH, c->turned && c->compensated) \
-    X(ANY_RADIANS, COST_CODE | COST_DATA | COST_DEPTH, c->step.radians + c->observe.radians > 0) \
-    X(ANY_QUOTIENT, COST_CODE | COST_DATA | COST_DEPTH, c->step.quotients + c->observe.quotients > 0) \
-    X(ANY_ROOT, COST_CODE | COST_DATA | COST_DEPTH, c->step.roots + c->observe.roots > 0) \
+    X(ANY_RADIANS, COST_CODE | COST_DATA | COST_DEPTH, COST_ALL(radians) + c->observe.radians > 0) \
+    X(ANY_QUOTIENT, COST_CODE | COST_DATA | COST_DEPTH, COST_ALL(quotients) + c->observe.quotients > 0) \
+    X(ANY_ROOT, COST_CODE | COST_DATA | COST_DEPTH, COST_ALL(roots) + c->observe.roots > 0) \
     X(ANY_POWER, COST_CODE | COST_DATA | COST_DEPTH, c->step.powers + c->observe.powers > 0) \
     X(STATE_WORDS, COST_DATA, c->state_words) \
-    X(STARTS, COST_DATA | COST_CODE, 2 * c->angles + c->reals + c->im->inputs) \
+    X(STARTS, COST_DATA | COST_CODE, 2 * c->im->angles + c->reals + c->im->inputs) \
     X(LIES_STAGES, COST_DEPTH, c->stages * c->components) \
     X(LIES_PAIRS, COST_DEPTH, c->step.pairs) \
     X(LIES_TURNED, COST_DEPTH, c->turned ? c->stages * c->step.pairs : 0) \
     X(LIES_CARRIED, COST_DEPTH, c->step.carried) \
-    X(LIES_LEAVES, COST_DEPTH, c->step.leaves) \
+    X(LIES_LEAVES, COST_DEPTH, c->step.leaves + c->placed.leaves) \
     X(LIES_OPERATIONS, COST_DEPTH, c->step.operations) \
     X(SMOOTH, COST_EVENTS, c->smooth) \
     X(EVENT_CONTACTS, COST_EVENTS, c->im->contacts) \

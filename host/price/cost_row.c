@@ -16,6 +16,8 @@ double cost_fit_at(const cost_fit *fit, const double feature[static COST_FEATURE
 cost_class cost_class_of(const double feature[static COST_FEATURES]) {
     return feature[COST_F_BOOKS] != 0.0        ? COST_BOOKING
            : feature[COST_F_CODE_CALLS] != 0.0 ? COST_CALLING
+           : feature[COST_F_MATRIX] != 0.0     ? COST_AS_MATRIX
+           : feature[COST_F_CELLS] != 0.0      ? COST_TABLED
                                                : COST_PLAIN;
 }
 

@@ -15,7 +15,9 @@
 #define COST_CLASS_ROWS(X) \
     X(PLAIN, "") \
     X(CALLING, ", with functions") /* whose time depends on what they are given */ \
-    X(BOOKING, ", with books")     /* whose expressions a compiler may share with the step's */
+    X(BOOKING, ", with books")     /* whose expressions a compiler may share with the step's */ \
+    X(AS_MATRIX, ", as one matrix") \
+    X(TABLED, ", with tables")
 #define COST_CLASS_ID(id, says) COST_##id,
 typedef enum cost_class { COST_CLASS_ROWS(COST_CLASS_ID) COST_CLASSES } cost_class;
 #undef COST_CLASS_ID

@@ -45,9 +45,12 @@ deviation deviation_measure(const reference *r, const image *im, const engine_ki
         }
     }
     uint64_t most;
-    d.operations = (double)kind->evaluations(run, &most) * (double)im->list[IMAGE_STEP]->count;
+    const bool matrix = im->list[IMAGE_MATRIX] != NULL; /* of which a step evaluates one list */
+    const uint64_t evaluations = matrix ? kind->steps(run) : kind->evaluations(run, &most);
+    d.operations =
+        (double)evaluations * (double)im->list[matrix ? IMAGE_MATRIX : IMAGE_STEP]->count;
     const double time_s = ratio_times(kind->steps(run), im->step);
-    d.evaluations = time_s > 0.0 ? (double)kind->evaluations(run, &most) / time_s : 0.0;
+    d.evaluations = time_s > 0.0 ? (double)evaluations / time_s : 0.0;
     d.usable = good;
     kind->stop(run);
     records_close(now);

@@ -45,7 +45,7 @@ static void add(table *made, table_row row) {
     made->row[made->count++] = row;
 }
 
-/* One setting by ever finer steps, each of them as dear; `each`: operations that one trial may take. */
+/* One setting by ever finer steps, each of them as dear but for a matrix's; `each`: operations that one trial may take. */
 static void climb(trials *t, table *made, const setting *s, const cost *each_step, double each) {
     int stalled = 0;
     double before = (double)INFINITY;
@@ -55,6 +55,10 @@ static void climb(trials *t, table *made, const setting *s, const cost *each_ste
             continue;
         }
         bool known;
+        if (setting_price_varies(s)) {
+            bool own;
+            row.cost = trial_cost(t, s, row.pace, &own);
+        }
         row.price = table_price_of(&row.cost, ratio_times(1, trial_step(t, row.pace)), &known);
         if (!known && !made->counted) {
             made->unpriced++;
@@ -63,6 +67,10 @@ static void climb(trials *t, table *made, const setting *s, const cost *each_ste
         }
         const double started = t->operations;
         row.result = trial_run(t, s, row.pace);
+        if (!row.result.ran && !t->stopped && setting_price_varies(s)) {
+            made->coarse++; /* the numbers of its matrix are too large */
+            continue;
+        }
         if (!row.result.ran) {
             return;
         }

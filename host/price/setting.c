@@ -38,6 +38,39 @@ static void number_put(setting *s, int i) {
     s->image.compensated = numbers[i].compensated;
 }
 
+static const char *matrix_word(int i) { return image_matrix_words[i]; }
+static int matrix_of(const setting *s) { return (int)s->image.matrix; }
+static void matrix_put(setting *s, int i) { s->image.matrix = (image_matrix_of)i; }
+
+/* Tables of each form with the cells that it has by itself, and with a quarter or half, and four times as many. */
+static const struct {
+    const char *word;
+    const char *options;
+    image_tables form;
+    int cells;
+} tables[] = {{"none", "", TABLES_NONE, 0},
+              {"linear", " --tables linear", TABLES_LINEAR, 0},
+              {"linear 64", " --tables linear --cells 64", TABLES_LINEAR, 64},
+              {"linear 1024", " --tables linear --cells 1024", TABLES_LINEAR, 1024},
+              {"cubic", " --tables cubic", TABLES_CUBIC, 0},
+              {"cubic 32", " --tables cubic --cells 32", TABLES_CUBIC, 32},
+              {"cubic 256", " --tables cubic --cells 256", TABLES_CUBIC, 256}};
+enum { TABLES = sizeof tables / sizeof tables[0] };
+
+static const char *tables_word(int i) { return tables[i].word; }
+static int tables_of(const setting *s) {
+    int i = 0;
+    while (i < TABLES - 1 &&
+           (tables[i].form != s->image.tables || tables[i].cells != s->image.cells)) {
+        i++;
+    }
+    return i;
+}
+static void tables_put(setting *s, int i) {
+    s->image.tables = tables[i].form;
+    s->image.cells = tables[i].cells;
+}
+
 static const char *angles_word(int i) { return image_angles_words[i]; }
 static int angles_of(const setting *s) { return (int)s->image.angles; }
 static void angles_put(setting *s, int i) { s->image.angles = (image_angles)i; }
@@ -51,10 +84,14 @@ typedef struct axis_row {
     bool always_written; /* also its first word */
 } axis_row;
 
+static bool has_matrix(const setting *s) { return s->image.matrix != MATRIX_NONE; }
+
 static const axis_row rows[AXES] = {
     [AXIS_METHOD] = {WH_METHODS, method_word, method_of, method_put, "--method", true},
     [AXIS_NUMBER] = {NUMBERS, number_word, number_of, number_put, NULL, true},
-    [AXIS_ANGLES] = {IMAGE_ANGLES, angles_word, angles_of, angles_put, "--angles", false}};
+    [AXIS_ANGLES] = {IMAGE_ANGLES, angles_word, angles_of, angles_put, "--angles", false},
+    [AXIS_MATRIX] = {IMAGE_MATRICES, matrix_word, matrix_of, matrix_put, "--matrix", false},
+    [AXIS_TABLES] = {TABLES, tables_word, tables_of, tables_put, NULL, false}};
 
 const char *setting_heading(setting_axis axis) {
 #define SETTING_HEADING(id, heading) heading,
@@ -67,7 +104,7 @@ const char *setting_word(const setting *s, setting_axis axis) {
     return rows[axis].word(rows[axis].of(s));
 }
 
-int setting_count(void) {
+static int combinations(void) {
     int count = 1;
     for (int i = 0; i < AXES; i++) {
         count *= rows[i].count;
@@ -76,7 +113,7 @@ int setting_count(void) {
 }
 
 /* The last axis runs fastest. */
-setting setting_at(int i) {
+static setting combination(int i) {
     setting s = {IMAGE_SETTINGS_DEFAULT, &engine_double};
     for (int axis = AXES - 1; axis >= 0; axis--) {
         rows[axis].put(&s, i % rows[axis].count);
@@ -84,6 +121,39 @@ setting setting_at(int i) {
     }
     return s;
 }
+
+/* Does each of its words say something? */
+static bool makes_sense(const setting *s) {
+    const bool plain = s->image.angles == ANGLES_TURNED;
+    if (has_matrix(s)) {
+        return s->image.method == WH_METHOD_DEFAULT && plain && s->image.tables == TABLES_NONE;
+    }
+    return s->image.tables == TABLES_NONE || plain;
+}
+
+int setting_count(void) {
+    int count = 0;
+    for (int i = 0; i < combinations(); i++) {
+        const setting s = combination(i);
+        count += makes_sense(&s) ? 1 : 0;
+    }
+    return count;
+}
+
+setting setting_at(int i) {
+    for (int k = 0;; k++) {
+        const setting s = combination(k);
+        if (makes_sense(&s) && i-- == 0) {
+            return s;
+        }
+    }
+}
+
+bool setting_may_be_refused(const image_settings *s) {
+    return s->matrix != MATRIX_NONE || s->tables != TABLES_NONE;
+}
+
+bool setting_price_varies(const setting *s) { return has_matrix(s); }
 
 bool setting_is_own(const setting *s, const image *im) {
     diags *unsaid = diags_new();
@@ -94,7 +164,8 @@ bool setting_is_own(const setting *s, const image *im) {
     }
     image turned = *im;
     turned.settings.angles = ANGLES_TURNED;
-    return s->image.angles == ANGLES_TURNED || image_turns(&turned);
+    return setting_may_be_refused(&s->image) || s->image.angles == ANGLES_TURNED ||
+           image_turns(&turned);
 }
 
 const char *setting_options(const setting *s, bool with_number, char text[SETTING_TEXT]) {
@@ -103,9 +174,13 @@ const char *setting_options(const setting *s, bool with_number, char text[SETTIN
         const axis_row *row = &rows[axis];
         const int i = row->of(s);
         size_t used = strlen(text);
-        if (row->option == NULL) {
+        if (axis == AXIS_NUMBER) {
             snprintf(text + used, SETTING_TEXT - used, "%s%s", with_number ? numbers[i].run : "",
                      numbers[i].derive);
+        } else if (axis == AXIS_TABLES) {
+            snprintf(text + used, SETTING_TEXT - used, "%s", tables[i].options);
+        } else if (axis == AXIS_METHOD && has_matrix(s)) {
+            continue; /* it takes a method's place */
         } else if (row->always_written || i > 0) {
             snprintf(text + used, SETTING_TEXT - used, " %s %s", row->option, row->word(i));
         }

@@ -7,7 +7,7 @@
 
 /* What `whirl run` and `whirl derive` are told, but for the step. */
 typedef struct setting {
-    image_settings image; /* --method, --compensated, --angles */
+    image_settings image; /* --method, --compensated, --angles, --matrix, --tables, --cells */
     const engine_kind *number;
 } setting;
 
@@ -16,7 +16,9 @@ typedef struct setting {
 #define SETTING_AXES(X) \
     X(AXIS_METHOD, "method") \
     X(AXIS_NUMBER, "number") \
-    X(AXIS_ANGLES, "angles")
+    X(AXIS_ANGLES, "angles") \
+    X(AXIS_MATRIX, "matrix") \
+    X(AXIS_TABLES, "tables")
 #define SETTING_AXIS(id, heading) id,
 typedef enum setting_axis { SETTING_AXES(SETTING_AXIS) AXES } setting_axis;
 #undef SETTING_AXIS
@@ -25,12 +27,18 @@ const char *setting_heading(setting_axis axis);
 /* The word that a setting has on an axis. */
 const char *setting_word(const setting *s, setting_axis axis);
 
+/* All combinations that any scene takes: a matrix has neither method nor angles, and tables have no angles to turn. */
 int setting_count(void);
 setting setting_at(int i); /* 0 <= i < setting_count() */
+
+/* May a scene refuse to be written so, and is that no error of it? A matrix wants it linear, tables want one turn angle. */
+bool setting_may_be_refused(const image_settings *s);
 
 /* Is this setting another than those before it, for an image that was made with it? Not where its method does not take
  * the system, nor where its angles cannot turn, so that they are looked up by whatever word. */
 bool setting_is_own(const setting *s, const image *im);
+/* Is what a step takes another for another step? Entries of a matrix come and go with it. */
+bool setting_price_varies(const setting *s);
 
 /* Room for setting_options(). */
 enum { SETTING_TEXT = 160 };

@@ -45,11 +45,16 @@ static void put(picture *p, int i, const table_row *row) {
 /* Of the forms of one method and number at one step, the cheapest. */
 static bool is_cheapest(const table *made, int which) {
     const table_row *row = &made->row[which];
+    if (row->setting.image.tables != TABLES_NONE) {
+        return false; /* with errors of their own: they are on the front, or nowhere */
+    }
     for (int i = 0; i < which; i++) { /* by rising price */
         const table_row *other = &made->row[i];
         if (other->pace.steps == row->pace.steps && other->pace.records == row->pace.records &&
             other->setting.image.method == row->setting.image.method &&
             other->setting.number == row->setting.number &&
+            other->setting.image.matrix == row->setting.image.matrix &&
+            other->setting.image.tables == TABLES_NONE &&
             other->setting.image.compensated == row->setting.image.compensated) {
             return false;
         }
@@ -70,7 +75,9 @@ bool table_plot(const char *file, const trials *t, const table *made) {
     for (int i = 0; i < made->count; i++) {
         const table_row *row = &made->row[i];
         char name[NAME_SIZE];
-        snprintf(name, sizeof name, "%s, %s", setting_word(&row->setting, AXIS_METHOD),
+        const bool matrix = row->setting.image.matrix != MATRIX_NONE;
+        snprintf(name, sizeof name, "%s%s, %s", matrix ? "matrix " : "",
+                 setting_word(&row->setting, matrix ? AXIS_MATRIX : AXIS_METHOD),
                  setting_word(&row->setting, AXIS_NUMBER));
         if (is_cheapest(made, i)) {
             put(p, series_named(p, name, false), row);

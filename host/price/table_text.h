@@ -14,7 +14,8 @@ typedef struct table_words {
 void table_print(FILE *out, const trials *t, const table *made, const table_words *words);
 /* False when writing failed. */
 bool table_csv(FILE *out, const trials *t, const table *made, const table_words *words);
-/* Error against price, a line for each method and number at its cheapest form, and the front. False, told. */
+/* Error against price, a line for each method or matrix and number at its cheapest form but tables, and the front. False,
+ * told. */
 bool table_plot(const char *file, const trials *t, const table *made);
 
 /* The lines that do a row again: `whirl run ...` and `whirl derive ... --as c`; free them. */

@@ -236,7 +236,12 @@ cost trial_cost(trials *t, const setting *s, deviation_pace pace, bool *own) {
     *own = true;
     for (int p = 0; p < t->wish.source->points; p++) {
         image *im = image_of(t, p, s, pace);
+        if (im == NULL &&
+            setting_price_varies(s)) { /* a step that long has no matrix: its own may */
+            im = t->wish.source->make(t->wish.source->context, p, s, NULL, NULL);
+        }
         if (im == NULL) {
+            *own = !setting_may_be_refused(&s->image);
             return (cost){.why = "there is no image of it"};
         }
         *own = *own && setting_is_own(s, im);

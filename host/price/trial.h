@@ -11,7 +11,7 @@ typedef struct trial_source {
     void *context;
     int points; /* the scene itself, or so many places of its ranges */
     /* The image of a place, to run with this setting, step and end ("0.001", seconds; NULL: the scene's own). The caller
-     * frees it. NULL when there is none: told. */
+     * frees it. NULL when there is none: told, but where the scene does not take the setting (setting_may_be_refused()). */
     image *(*make)(void *context, int point, const setting *s, const char *step, const char *until);
     /* A place in words, for people: "duty=0.2"; "" where nothing varies. Valid until the next call. */
     const char *(*name)(void *context, int point);
@@ -61,7 +61,8 @@ void trial_end(trials *t);
 trial_result trial_run(trials *t, const setting *s, deviation_pace pace);
 /* Operations that it is going to evaluate, about, where no event takes more. */
 double trial_operations(const trials *t, const setting *s, deviation_pace pace);
-/* What it costs at the dearest of the points; *own: false where it is no setting of its own (setting_is_own()). */
+/* What it costs at the dearest of the points; *own: false where it is no setting of its own (setting_is_own()), or the
+ * scene does not take it. */
 cost trial_cost(trials *t, const setting *s, deviation_pace pace, bool *own);
 
 whole_ratio trial_step(const trials *t, deviation_pace pace);

@@ -37,7 +37,7 @@ static bool cut(counted *r) {
     return count == COLUMNS;
 }
 
-/* "rk38-compensated-lookup" as words of a command line; returns how many. */
+/* "rk38-compensated-lookup", "rk4-tables:linear-cells:64" as words of a command line; returns how many. */
 static int setting_words(char *setting, char *words[WORDS_MAX]) {
     static char of_angles[] = "--angles";
     static char of_method[] = "--method";
@@ -63,9 +63,18 @@ static int setting_words(char *setting, char *words[WORDS_MAX]) {
         if (is_angles) {
             words[count++] = of_angles;
         }
+        char *given = strchr(word, ':');
+        if (given != NULL) {
+            *given = '\0';
+        }
         snprintf(options[count], sizeof options[count], "%s%s", is_angles ? "" : "--", word);
         words[count] = options[count];
         count++;
+        if (given != NULL) {
+            snprintf(options[count], sizeof options[count], "%s", given + 1);
+            words[count] = options[count];
+            count++;
+        }
     }
     return count;
 }

@@ -15,7 +15,7 @@
 
 #include "counted.h"
 
-enum { SWEEPS = 1500, ROUNDS = 6, TESTED_LEAST = 8, WIDTH = 112, BOARDS_MAX = 32 };
+enum { SWEEPS = 1500, ROUNDS = 6, TESTED_LEAST = 8, WIDTH = 150, BOARDS_MAX = 32 };
 /* Beyond this a row counts less. */
 #define FAR_OFF 0.04
 /* Of the smallest figure that is fitted: what a compiler makes of the smallest steps is half chance. */
@@ -23,6 +23,9 @@ enum { SWEEPS = 1500, ROUNDS = 6, TESTED_LEAST = 8, WIDTH = 112, BOARDS_MAX = 32
 /* A bound is so many times as far as the farthest scene was: of 704 predictions for scenes drawn anew, 7 were beyond 1.25
  * times (make price-check, seed 5; these scenes have joined the others since). */
 #define MARGIN 1.6
+/* Of the stack: what compilers put there is the least known. Of 181 predictions for scenes drawn anew (seed 7), 2 were beyond
+ * the bound by MARGIN, by 8 % at most. */
+#define MARGIN_STACK 2.2
 
 /* What is fitted below this is nothing. */
 #define LEAST 1e-6
@@ -260,13 +263,14 @@ static double judge(const cost_fit *f, int board, cost_number number, cost_quant
             j.unseen++;
         }
         if (shows) {
-            fprintf(stderr, "    %.3f %s %s %s %s: %g, predicted %.4g%s\n", by, quantity_words[q],
-                    rows[r].column[3], rows[r].column[4], rows[r].column[6], rows[r].value[q], told,
-                    rows[r].fitted ? "" : " (test)");
+            fprintf(stderr, "    %.3f %s%s %s %s %s: %g, predicted %.4g%s\n", by, quantity_words[q],
+                    says[class], rows[r].column[3], rows[r].column[4], rows[r].column[6],
+                    rows[r].value[q], told, rows[r].fitted ? "" : " (test)");
             show_parts(f, &rows[r], q);
         }
     }
-    bound = 1.0 + ceil(MARGIN * (bound - 1.0) * 100.0) / 100.0;
+    const double margin = q == COST_OF_STACK ? MARGIN_STACK : MARGIN;
+    bound = 1.0 + ceil(margin * (bound - 1.0) * 100.0) / 100.0;
     char what[64];
     snprintf(what, sizeof what, "%s%s", quantity_words[q], says[class]);
     if (j.count[0] + j.count[1] + j.unseen > 0) {

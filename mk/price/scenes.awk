@@ -1,10 +1,11 @@
 # scenes.awk: smooth mechanisms drawn at random, a scene each, to count steps of: awk -v n=N -v seed=S -f scenes.awk </dev/null.
 #
-# Six families, by turns, so that the classes of work come in other proportions than in the built-in scenes, and apart
+# Ten families, by turns, so that the classes of work come in other proportions than in the built-in scenes, and apart
 # from each other: masses in a row with springs (no sine), a cart with pendulums, arms that carry each other with
-# springs between them (angles in radians), particles in potentials of functions, systems of first order, and wheels on
-# one shaft. Every third has books, every second outputs. Numbers are drawn by a generator of our own: the same files
-# from every awk.
+# springs between them (angles in radians), particles in potentials of functions, systems of first order, wheels on one
+# shaft; what is linear, of second and of first order (a step is one matrix); masses in a row that one wheel out of
+# balance shakes (tables of one angle), and systems of first order with turn angles. Of the first six every third has
+# books, every second outputs. Numbers are drawn by a generator of our own: the same files from every awk.
 function draw(bound) { # Park and Miller, Random number generators: good ones are hard to find, 1988
     state = (state * 16807) % 2147483647
     return int(state / 2147483647 * bound)
@@ -114,15 +115,83 @@ function wheels(k,    i, T, V, F) {
     start("a", k, "[rad]")
 }
 
+function linear(k,    i, T, V, F) {
+    say("input push = 0.7 [N]")
+    for (i = 1; i <= k; i++) {
+        say("coordinate x" i " [m]")
+        T = T " + " number(0.2, 3) " [kg]*x" i "'^2/2"
+        if (i == 1 || draw(4) > 0) { V = V " + " number(5, 90) " [N/m]*(x" i (i > 1 ? " - x" (i - 1) : "") ")^2/2" }
+        if (draw(2) == 0) { F = F " + " number(0.1, 2) " [N*s/m]*(x" i "'" (i > 1 && draw(2) ? " - x" (i - 1) "'" : "") ")^2/2" }
+    }
+    if (draw(2) == 0) { V = V " - " number(0.2, 3) " [kg]*9.81 [m/s^2]*x" k }
+    if (draw(2) == 0) { say("Q(x" 1 + draw(k) ") = push") }
+    bookless = 1
+    energies(T, V, F)
+    start("x", k, "[m]")
+}
+
+function linear_first_order(k,    i, j, e) {
+    for (i = 1; i <= k; i++) { say("state z" i) }
+    say("parameter rate = 1 [1/s]")
+    say("input drive = 0.4")
+    for (i = 1; i <= k; i++) {
+        e = "rate*(-" number(0.3, 2) "*z" i
+        for (j = draw(4); j > 0; j--) { e = e " + " number(0.1, 1) "*z" (draw(k) + 1) }
+        if (draw(3) == 0) { e = e " + " number(0.1, 2) "*drive" }
+        say("equation z" i "' = " e ")")
+    }
+    for (i = 1; i <= k; i++) { starts = starts (i > 1 ? ", " : "") "z" i " = " number(0.05, 0.4) }
+    say("scene " name " {\n  start " starts "\n  step 1 [ms]\n  until 1 [s]\n}")
+    starts = ""
+}
+
+function shaken(k,    i, T, V, F) {
+    say("coordinate a [rad]")
+    say("parameter l = " number(0.2, 0.9) " [m]")
+    say("parameter m = " number(0.1, 0.9) " [kg]")
+    say("input M = 0.3 [N*m]")
+    T = " + m*((x1' + l*a'*cos(a))^2 + (l*a'*sin(a))^2)/2 + " number(0.01, 0.1) " [kg*m^2]*a'^2/2"
+    V = " - m*9.81 [m/s^2]*l*cos(a)"
+    for (i = 1; i <= k; i++) {
+        say("coordinate x" i " [m]")
+        T = T " + " number(0.5, 4) " [kg]*x" i "'^2/2"
+        if (draw(4) > 0) { V = V " + " number(5, 90) " [N/m]*(x" i (i > 1 ? " - x" (i - 1) : "") ")^2/2" }
+        if (draw(2) == 0) { F = F " + " number(0.1, 2) " [N*s/m]*x" i "'^2/2" }
+    }
+    if (draw(2) == 0) { say("Q(a) = M") }
+    if (draw(3) == 0) { V = V " + " number(0.1, 2) " [J]*sin(2*a)" }
+    bookless = 1
+    energies(T, V, F)
+    start("x", k, "[m]", "a = " number(0.1, 0.9) " [rad], a' = " number(1, 9) " [rad/s], ")
+}
+
+function first_order_turning(k,    i, e) {
+    for (i = 1; i <= k; i++) { say("state b" i " [rad]") }
+    say("state z")
+    say("parameter rate = 1 [1/s]")
+    for (i = 1; i <= k; i++) {
+        e = "rate*(" number(0.3, 2) " [rad] + " number(0.1, 1) " [rad]*" (draw(2) ? "sin" : "cos") "(b" (draw(k) + 1) ")"
+        if (draw(2)) { e = e "*z" }
+        if (draw(3) == 0) { e = e " + " number(0.1, 1) " [rad]*sin(b" i (i > 1 ? " - b" (i - 1) : "") ")" }
+        say("equation b" i "' = " e ")")
+    }
+    say("equation z' = rate*(" number(0.1, 1) "*cos(b1) - " number(0.3, 2) "*z)")
+    for (i = 1; i <= k; i++) { starts = starts "b" i " = " number(0.1, 0.9) " [rad], " }
+    say("scene " name " {\n  start " starts "z = " number(0.05, 0.4) "\n  step 1 [ms]\n  until 1 [s]\n}")
+    starts = ""
+}
+
 function energies(T, V, F) {
     say("T =" substr(T, 3))
     if (V != "") { say("V = 0 [J]" V) }
     if (F != "") { say("F =" substr(F, 3)) }
 }
 
-function start(letter, k, unit,    i) {
+function start(letter, k, unit, more,    i) {
     for (i = draw(3); i > 0; i--) { say("output o" i " = " letter "1^" i "/(1 " unit ")^" i) }
-    printf("scene %s {\n%s  step 1 [ms]\n  until 1 [s]\n  start ", name, (draw(3) == 0 ? "  with ledger\n" : ""))
+    printf("scene %s {\n%s  step 1 [ms]\n  until 1 [s]\n  start ", name, (!bookless && draw(3) == 0 ? "  with ledger\n" : ""))
+    bookless = 0
+    printf("%s", more)
     for (i = 1; i <= k; i++) { printf("%s%s%d = %s %s", (i > 1 ? ", " : ""), letter, i, number(0.1, 0.5), unit) }
     print("\n}")
 }
@@ -138,11 +207,15 @@ BEGIN {
         name = "r" seed "_" s
         print "mechanism w" seed "_" s " \"Drawn at random\""
         size = 1 + draw(draw(4) == 0 ? 6 : 3)
-        if (s % 6 == 0) { row_of_masses(size + draw(3)) }
-        else if (s % 6 == 1) { cart(size) }
-        else if (s % 6 == 2) { arms(size > 3 ? 3 : size) }
-        else if (s % 6 == 3) { particles(size) }
-        else if (s % 6 == 4) { first_order(size + draw(4)) }
-        else { wheels(size) }
+        if (s % 10 == 0) { row_of_masses(size + draw(3)) }
+        else if (s % 10 == 1) { cart(size) }
+        else if (s % 10 == 2) { arms(size > 3 ? 3 : size) }
+        else if (s % 10 == 3) { particles(size) }
+        else if (s % 10 == 4) { first_order(size + draw(4)) }
+        else if (s % 10 == 5) { wheels(size) }
+        else if (s % 10 == 6) { linear(size + draw(3)) }
+        else if (s % 10 == 7) { shaken(size) }
+        else if (s % 10 == 8) { linear_first_order(size + draw(4)) }
+        else { first_order_turning(size) }
     }
 }

@@ -8,8 +8,11 @@
 #include <string.h>
 
 #include "command.h"
+#include "host/base/room.h"
 #include "host/commands/pricing_scene.h"
+#include "host/emit/emit.h"
 #include "host/price/choice.h"
+#include "host/run/start.h"
 #include "unity.h"
 
 void suite_choice(void);
@@ -26,7 +29,7 @@ static const char *const texts[] = {
     "scene s { start a = 1 [rad]; step 1 [ms]; until 1 [s] }\n",
     "mechanism decay\nstate y\nequation y' + 4 [1/s]*y + 1 [1/s]*y^3 = 1 [1/s]\n"
     "scene s { start y = 3; step 1 [ms]; until 1 [s] }\n"};
-enum { TEXTS = sizeof texts / sizeof texts[0] };
+enum { SPRING, PENDULUM, CART, TEXTS = sizeof texts / sizeof texts[0] };
 
 static const char *const boards[] = {"mps2-an386", "atmega328p", "mps2-an385"};
 
@@ -153,7 +156,7 @@ static void test_what_would_fit_does(void) {
     request q;
     open_request(&q, texts[1], "atmega328p", 100.0);
     q.wish.error = 1e-5;
-    q.wish.clock_Hz = 1e6;
+    q.wish.clock_Hz = 2e5;
     choice c = choice_make(&q.trial, &q.wish);
     TEST_ASSERT_FALSE(c.found);
     TEST_ASSERT_TRUE(c.failed[CHOICE_LOAD] > 0 || c.failed[CHOICE_ERROR] > 0);
@@ -206,7 +209,133 @@ static void test_times_come_back(void) {
     }
 }
 
+/* --- which settings a scene has ------------------------------------------------------------------------*/
+
+/* The code that a setting of this scene becomes; NULL: it does not take it. To be freed. */
+static char *code_of(const request *q, const setting *s, bool *own) {
+    char *text;
+    size_t length;
+    image *im = q->scene->source.make(q->scene, 0, s, NULL, NULL);
+    *own = im != NULL && setting_is_own(s, im);
+    if (im == NULL) {
+        return NULL;
+    }
+    FILE *out = room_text(&text, &length);
+    emit_c(out, im, "a file");
+    room_text_end(out);
+    image_free(im);
+    return text;
+}
+
+/* Of what a scene takes, a setting is its own where no other makes the same code, and one of each that do. */
+static void test_settings_of_a_scene_are_those_that_differ(void) {
+    for (int n = 0; n < TEXTS; n++) {
+        request q;
+        open_request(&q, texts[n], "mps2-an386", 20.0);
+        const int count = setting_count();
+        char **code = room(count, sizeof *code);
+        bool *own = room(count, sizeof *own);
+        int kinds[3] = {0};
+        for (int i = 0; i < count; i++) {
+            const setting s = setting_at(i);
+            code[i] = code_of(&q, &s, &own[i]);
+            kinds[0] += own[i];
+            kinds[1] += own[i] && s.image.matrix != MATRIX_NONE;
+            kinds[2] += own[i] && s.image.tables != TABLES_NONE;
+        }
+        for (int i = 0; i < count; i++) {
+            const setting s = setting_at(i);
+            int same = 0;
+            for (int k = 0; k < count && code[i] != NULL; k++) {
+                const setting other = setting_at(k);
+                same +=
+                    k != i && own[k] && other.number == s.number && strcmp(code[i], code[k]) == 0;
+            }
+            char options[SETTING_TEXT];
+            setting_options(&s, true, options);
+            diags *unsaid = diags_new();
+            image *im = code[i] == NULL ? NULL : q.scene->source.make(q.scene, 0, &s, NULL, NULL);
+            const bool takes = im != NULL && start_has_method(im, s.image.method, unsaid);
+            TEST_ASSERT_EQUAL_INT_MESSAGE(own[i] || !takes ? 0 : 1, same, options);
+            TEST_ASSERT_TRUE_MESSAGE(takes || !own[i], options);
+            image_free(im);
+            diags_free(unsaid);
+        }
+        for (int i = 0; i < count; i++) {
+            free(code[i]);
+        }
+        free(code);
+        free(own);
+        printf("  %.20s: %d settings, %d matrices, %d with tables\n", texts[n], kinds[0], kinds[1],
+               kinds[2]);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(n == SPRING ? 2 * 3 : 0, kinds[1], texts[n]);
+        TEST_ASSERT_TRUE_MESSAGE((n == PENDULUM || n == CART) == (kinds[2] > 0), texts[n]);
+        close_request(&q);
+    }
+}
+
+/* --- matrices and tables on the front ------------------------------------------------------------------*/
+
+/* Is another row in the table as cheap as this one, and errs no more? */
+static bool is_beaten(const table *made, const table_row *row) {
+    for (int i = 0; i < made->count; i++) {
+        const table_row *other = &made->row[i];
+        if (other != row && other->price.value <= row->price.value &&
+            other->result.error <= row->result.error) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Springs and dampers at random. The exact matrix errs by rounding alone, by any step: the cheapest row that errs by less than
+ * 1e-4 is one, and wherever no other row beats one it is on the front. */
+static void test_linear_scenes_have_the_matrix_on_their_front(void) {
+    dice d = dice_of("choice linear", 503);
+    for (unsigned n = 0; n < few_or_all(4, 30); n++) {
+        char text[700];
+        snprintf(text, sizeof text,
+                 "mechanism row\ncoordinate x [m]\ncoordinate y [m]\n"
+                 "T = %.3f [kg]*x'^2/2 + %.3f [kg]*y'^2/2\n"
+                 "V = %.3f [N/m]*x^2/2 + %.3f [N/m]*(x - y)^2/2 - 1 [N]*y\n"
+                 "F = %.3f [N*s/m]*y'^2/2\n"
+                 "scene s { start x = 1 [m]; step 1 [ms]; until 1 [s] }\n",
+                 dice_between(&d, 0.5, 4.0), dice_between(&d, 0.5, 4.0), dice_between(&d, 20, 90),
+                 dice_between(&d, 20, 90), dice_between(&d, 0.0, 1.0));
+        request q;
+        open_request(&q, text, boards[dice_one_of(&d, 3)], 500.0);
+        const table_wish wish = {.operations = 3e6};
+        table *made = table_new(&q.trial, &wish);
+        const table_row *cheapest = NULL;
+        int matrices = 0;
+        int on_front = 0;
+        TEST_ASSERT_FALSE_MESSAGE(made->counted, text);
+        for (int i = 0; i < made->count; i++) {
+            const table_row *row = &made->row[i];
+            const bool matrix = row->setting.image.matrix == MATRIX_EXACT;
+            matrices += matrix;
+            on_front += matrix && row->on_front;
+            TEST_ASSERT_TRUE_MESSAGE(row->setting.image.tables == TABLES_NONE, text);
+            TEST_ASSERT_TRUE_MESSAGE(!matrix || row->on_front || is_beaten(made, row), text);
+            TEST_ASSERT_TRUE_MESSAGE(!matrix || row->result.error < 1e-3, text);
+            if (row->result.error < 1e-4 &&
+                (cheapest == NULL || row->price.value < cheapest->price.value)) {
+                cheapest = row;
+            }
+        }
+        printf("  %d rows, %d of the exact matrix, %d of them on the front\n", made->count,
+               matrices, on_front);
+        TEST_ASSERT_TRUE_MESSAGE(matrices >= 3 && on_front > 0, text);
+        TEST_ASSERT_NOT_NULL_MESSAGE(cheapest, text);
+        TEST_ASSERT_TRUE_MESSAGE(cheapest->setting.image.matrix == MATRIX_EXACT, text);
+        table_free(made);
+        close_request(&q);
+    }
+}
+
 void suite_choice(void) {
+    RUN_TEST(test_settings_of_a_scene_are_those_that_differ);
+    RUN_TEST(test_linear_scenes_have_the_matrix_on_their_front);
     RUN_TEST(test_settings_are_all_others);
     RUN_TEST(test_times_come_back);
     RUN_TEST(test_drawn_requests);
