@@ -1,11 +1,13 @@
 /* image_make.c: from equations and lists to the image. */
 #include "image_make.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #include "blame.h"
 #include "core/contact.h"
 #include "host/image/tape_gauge.h"
+#include "host/lang/lexer.h"
 #include "host/lang/shown.h"
 #include "host/lang/words.h"
 #include "host/number/phase.h"
@@ -121,6 +123,28 @@ static void copy_quantities(image_draft *d, const program *p, const instance *in
             im->parameter[im->parameters++] =
                 image_quantity_of(d, m->parameters[i], inst->parameter[i]);
         }
+    }
+}
+
+static const char *primed_name(image_draft *d, const char *name, int primes) {
+    char text[NAME_LENGTH_MAX + 16];
+    snprintf(text, sizeof text, "%s%.*s", name, primes, "''''''''''");
+    return image_text(d, text);
+}
+
+/* What components and inputs keep to in fixed point, as far as it is declared. */
+static void copy_ranges(image_draft *d) {
+    image *im = d->made;
+    im->range = image_room(d, im->reals + im->inputs, sizeof *im->range);
+    for (int i = 0; i < im->reals; i++) {
+        const component c = im->real[i];
+        const image_unknown *u = &im->unknown[c.unknown];
+        im->range[i].name = primed_name(d, u->name, c.primes);
+        im->range[i].at = u->at;
+    }
+    for (int i = 0; i < im->inputs; i++) {
+        im->range[im->reals + i].name = im->input[i].name;
+        im->range[im->reals + i].at = im->input[i].at;
     }
 }
 
@@ -265,6 +289,7 @@ image *image_make(const equations *e, const bool *conserve, const image_settings
     copy_quantities(&d, p, e->instance);
     take_program(&d, p);
     start_components(&d);
+    copy_ranges(&d);
     program_free(p);
     if (use == IMAGE_TO_RUN) {
         blame_make(&d, e);
