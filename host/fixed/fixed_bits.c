@@ -153,8 +153,7 @@ static bool shift_product(fixed_op *o, int a_bits, int a_left, int b_bits, int b
     return o->b.shift <= b_left;
 }
 
-/* A constant as a factor: with 31 digits. */
-static int constant_bits(double value) {
+int fixed_factor_bits(double value) {
     const int bits = fixed_point_of(fabs(value), 31);
     return number_nearest(number_scaled(fabs(value), bits)) >= 2147483648.0 ? bits - 1 : bits;
 }
@@ -163,7 +162,7 @@ static bool finish_product(const fixed_list *l, fixed_op *o) {
     const fixed_op *a = &l->op[o->a.op];
     const fixed_op *b = &l->op[o->b.op];
     const bool constant = a->code == FIXED_CONSTANT;
-    const int a_bits = constant ? constant_bits(a->value) : a->bits;
+    const int a_bits = constant ? fixed_factor_bits(a->value) : a->bits;
     const int a_left = constant ? 0 : left_of(units(a));
     const int b_left = left_of(units(b));
     while (!shift_product(o, a_bits, a_left, b->bits, b_left) && o->bits > BITS_LEAST) {

@@ -12,8 +12,8 @@
 #include "interval.h"
 
 /* Of a value's size, binary digits: values fill 2^29 at most, so that what rounding adds, and twice that, fits; results
- * 2^28, since a step adds six of them. */
-enum { FIXED_DIGITS = 29, FIXED_RESULT_DIGITS = 28 };
+ * 2^28, since a step adds six of them; what is kept from step to step 2^30. */
+enum { FIXED_DIGITS = 29, FIXED_RESULT_DIGITS = 28, FIXED_KEPT_DIGITS = 30 };
 
 typedef enum fixed_code {
     FIXED_CONSTANT, /* number, or what it is as an operand */
@@ -88,5 +88,7 @@ bool fixed_fits(const fixed_list *list);
 
 /* Digits behind the point with which `size` fills at most `digits` binary digits; `most` of zero. */
 int fixed_point_of(double size, int digits);
+/* The same of a constant factor: with 31 binary digits, the last of them rounded. */
+int fixed_factor_bits(double value);
 
 #endif

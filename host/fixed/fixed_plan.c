@@ -61,7 +61,7 @@ static int room_for(double size, double most) {
 
 /* Times `factor` of a number of up to `size` units and so many bits, to so many. False: no room. */
 static bool make_gain(fixed_gain *gain, double factor, double size, int from, int to) {
-    const int bits = fixed_point_of(factor, 31) - 1;
+    const int bits = fixed_factor_bits(factor);
     int digits;
     (void)number_split(size + 1.0, &digits);
     const int by = from + bits - to - 32;
@@ -74,7 +74,7 @@ static bool make_gain(fixed_gain *gain, double factor, double size, int from, in
 /* A component of which 2 `by` is the most that a step adds: as fine as there is room for that, and for what is added to it
  * to be finer still. */
 static int kept_bits(interval range, double by, int list_bits) {
-    const int bits = fixed_point_of(interval_size(range), FIXED_DIGITS);
+    const int bits = fixed_point_of(interval_size(range), FIXED_KEPT_DIGITS);
     const int with = room_for(interval_size(range) + 2.0 * by, 2147483647.0);
     const int finest = bits < with ? bits : with;
     return finest < list_bits - 1 ? finest : list_bits - 1;
