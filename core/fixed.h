@@ -23,6 +23,18 @@ extern "C" {
 #define WH_FIXED_NARROW 0
 #endif
 
+/* Of generated functions: which are called, and those that are inlined where that is no waste of flash. */
+#if defined(__GNUC__)
+#define WH_FIXED_CALLED __attribute__((noinline, unused))
+#else
+#define WH_FIXED_CALLED
+#endif
+#if defined(__AVR__)
+#define WH_FIXED_LIST static WH_FIXED_CALLED
+#else
+#define WH_FIXED_LIST WH_INLINE
+#endif
+
 /* floor(a b / 2^32), by a product of 64 bits. */
 WH_INLINE int32_t wh_fixed_high_wide(int32_t a, int32_t b) {
     return (int32_t)(((int64_t)a * b) >> 32);
@@ -74,6 +86,13 @@ WH_INLINE int32_t wh_fixed_mul(int32_t a, int32_t b, int by) {
 /* Modulo 2^32, where the compiler knows nothing of it: sums whose parts may be larger than they are. */
 WH_INLINE int32_t wh_fixed_add(int32_t a, int32_t b) { return (int32_t)((uint32_t)a + (uint32_t)b); }
 WH_INLINE int32_t wh_fixed_sub(int32_t a, int32_t b) { return (int32_t)((uint32_t)a - (uint32_t)b); }
+
+/* x 2^by, modulo 2^32. */
+WH_INLINE int32_t wh_fixed_left(int32_t x, int by) { return (int32_t)((uint32_t)x << by); }
+
+WH_INLINE int32_t wh_fixed_least(int32_t a, int32_t b) { return b < a ? b : a; }
+WH_INLINE int32_t wh_fixed_most(int32_t a, int32_t b) { return b > a ? b : a; }
+WH_INLINE int32_t wh_fixed_size(int32_t x) { return x < 0 ? -x : x; }
 
 /* x, or the nearest of low to high; then one is counted. */
 WH_INLINE int32_t wh_fixed_limit(int32_t x, int32_t low, int32_t high, uint32_t *saturated) {

@@ -37,8 +37,7 @@ static int32_t taken(const fixed_run *run, fixed_operand from) {
 
 static int32_t factor(const fixed_run *run, fixed_operand from) {
     const bool constant = run->plan->list->op[from.op].code == FIXED_CONSTANT;
-    return (int32_t)((uint32_t)(constant ? from.number : run->value[from.op])
-                     << (unsigned)from.shift);
+    return wh_fixed_left(constant ? from.number : run->value[from.op], from.shift);
 }
 
 static int32_t quotient(const fixed_run *run, const fixed_op *o) {
@@ -59,8 +58,6 @@ static void look_up(fixed_run *run, int i, const uint32_t *phase) {
     }
     wh_fixed_sincos(sum, &run->sine[i], &run->cosine[i]);
 }
-
-static int32_t magnitude(int32_t x) { return x < 0 ? -x : x; }
 
 static void evaluate(fixed_run *run, fixed_at in, int32_t *result) {
     const fixed_list *l = run->plan->list;
@@ -83,19 +80,9 @@ static void evaluate(fixed_run *run, fixed_at in, int32_t *result) {
         case FIXED_PRODUCT: v = wh_fixed_mul(factor(run, o->a), factor(run, o->b), o->by); break;
         case FIXED_QUOTIENT: v = quotient(run, o); break;
         case FIXED_SAME: v = o->negated ? -taken(run, o->a) : taken(run, o->a); break;
-        case FIXED_ABS: v = magnitude(taken(run, o->a)); break;
-        case FIXED_LEAST: {
-            const int32_t b = taken(run, o->b);
-            v = taken(run, o->a);
-            v = b < v ? b : v;
-            break;
-        }
-        case FIXED_MOST: {
-            const int32_t b = taken(run, o->b);
-            v = taken(run, o->a);
-            v = b > v ? b : v;
-            break;
-        }
+        case FIXED_ABS: v = wh_fixed_size(taken(run, o->a)); break;
+        case FIXED_LEAST: v = wh_fixed_least(taken(run, o->a), taken(run, o->b)); break;
+        case FIXED_MOST: v = wh_fixed_most(taken(run, o->a), taken(run, o->b)); break;
         }
         run->value[i] = v;
     }
@@ -107,7 +94,7 @@ static void evaluate(fixed_run *run, fixed_at in, int32_t *result) {
 /* --- the step ------------------------------------------------------------------------------------------*/
 
 static int32_t gained(fixed_gain g, int32_t x) {
-    return wh_fixed_mul((int32_t)((uint32_t)x << (unsigned)g.shift), g.number, g.by);
+    return wh_fixed_mul(wh_fixed_left(x, g.shift), g.number, g.by);
 }
 
 /* Of a step on its way: what the list takes at a stage, and what it has given. */
