@@ -58,21 +58,25 @@ static void phase(FILE *out, const fixed_list *l, int i) {
 
 static void quotient(FILE *out, const fixed_list *l, int i) {
     const fixed_op *o = &l->op[i];
-    const char *sign = o->negated ? "0U - " : "";
-    if (o->zeros >= 0) {
-        fprintf(out, "    const uint32_t d%d = (%s(uint32_t)x%d) << %d;\n", i, sign, o->b.op,
-                o->zeros);
-    } else {
-        fprintf(out,
-                "    const uint32_t u%d = %s(uint32_t)x%d;\n"
-                "    const int z%d = wh_fixed_zeros(u%d);\n"
-                "    const uint32_t d%d = u%d << z%d;\n",
-                i, sign, o->b.op, i, i, i, i, i);
+    fprintf(out, "    const uint32_t %c%d = (%s(uint32_t)x%d) << %d;\n",
+            o->spread > 0 ? 'u' : 'd', i, o->negated ? "0U - " : "", o->b.op, o->zeros);
+    if (o->spread == 1) { /* none or one */
+        fprintf(out, "    const int z%d = (int)(~u%d >> 31);\n", i, i);
+    } else if (o->spread > 1) {
+        fprintf(out, "    const int z%d = wh_fixed_zeros(u%d);\n", i, i);
     }
-    fprintf(out, "    const int32_t x%d = %swh_fixed_mul(", i, o->negated ? "-" : "");
+    if (o->spread > 0) {
+        fprintf(out, "    const uint32_t d%d = u%d << z%d;\n", i, i, i);
+    }
+    const bool shifts = o->spread > 0 && o->follows;
+    fprintf(out, "    const int32_t x%d = %swh_fixed_mul(%s", i, o->negated ? "-" : "",
+            shifts ? "wh_fixed_left(" : "");
     factor(out, l, o->a);
+    if (shifts) {
+        fprintf(out, ", z%d)", i);
+    }
     fprintf(out, ", wh_fixed_reciprocal(d%d), %d", i, o->by);
-    if (o->zeros < 0) {
+    if (o->spread > 0 && !o->follows) {
         fprintf(out, " - z%d", i);
     }
     fputs(");\n", out);

@@ -43,10 +43,12 @@ static int32_t factor(const fixed_run *run, fixed_operand from) {
 static int32_t quotient(const fixed_run *run, const fixed_op *o) {
     const int32_t b = run->value[o->b.op];
     const uint32_t size = o->negated ? 0U - (uint32_t)b : (uint32_t)b;
-    const int zeros = o->zeros >= 0 ? o->zeros : wh_fixed_zeros(size);
-    const int by = o->zeros >= 0 ? o->by : o->by - zeros;
-    const int32_t q =
-        wh_fixed_mul(factor(run, o->a), wh_fixed_reciprocal(size << (unsigned)zeros), by);
+    const uint32_t begun = size << (unsigned)o->zeros;
+    const int more = o->spread == 0 ? 0 : wh_fixed_zeros(begun);
+    const int32_t a = factor(run, o->a);
+    const int32_t reciprocal = wh_fixed_reciprocal(begun << (unsigned)more);
+    const int32_t q = o->follows ? wh_fixed_mul(wh_fixed_left(a, more), reciprocal, o->by)
+                                 : wh_fixed_mul(a, reciprocal, o->by - more);
     return o->negated ? -q : q;
 }
 

@@ -187,17 +187,22 @@ static bool finish_quotient(const fixed_list *l, fixed_op *o) {
         return false;
     }
     o->negated = b->range.high < 0.0;
-    o->zeros = smallest == largest ? 32 - smallest : -1;
-    /* the least and the most zeros in front of |b| */
-    const int most_zeros = 32 - smallest;
-    const int a_bits = constant ? fixed_point_of(fabs(a->value), 30) : a->bits;
-    const int a_left = constant ? 0 : left_of(units(a));
-    while (!shift_product(o, a_bits, a_left, 61 - b->bits - most_zeros, 0) &&
+    o->zeros = 32 - largest;
+    o->spread = largest - smallest;
+    const int room = o->spread < 15 ? o->spread : 15;
+    const int a_bits = constant ? fixed_point_of(fabs(a->value), 30 - room) : a->bits;
+    const int a_left = constant ? room : left_of(units(a));
+    while (!shift_product(o, a_bits, a_left, 61 - b->bits - (32 - smallest), 0) &&
            o->bits > BITS_LEAST) {
         o->bits--;
     }
-    if (o->zeros < 0) {
-        o->by += most_zeros; /* less the zeros that there are */
+    o->follows = a_left >= o->spread;
+    if (o->follows) { /* shifts as they are where there are the least zeros */
+        const int more = most(o->spread - o->a.shift, 0);
+        o->a.shift += more - o->spread;
+        o->by += more;
+    } else {
+        o->by += o->spread;
     }
     if (constant) {
         o->a.number = whole(a->value, a_bits);
@@ -243,11 +248,14 @@ static bool is_result(const fixed_list *l, int i) {
     return false;
 }
 
-/* Zeros in front of |b| where it is `size` units. */
-static bool has_zeros(const fixed_op *b, double size, int zeros) {
-    int digits;
-    (void)number_split(number_scaled(size, b->bits), &digits);
-    return digits == 32 - zeros;
+/* Are there as many zeros in front of |b| as the quotient takes there to be? */
+static bool has_zeros(const fixed_op *o, const fixed_op *b) {
+    const interval size = interval_abs(b->range);
+    int smallest;
+    int largest;
+    (void)number_split(number_scaled(size.low, b->bits), &smallest);
+    (void)number_split(number_scaled(size.high, b->bits), &largest);
+    return largest <= 32 - o->zeros && smallest >= 32 - o->zeros - o->spread;
 }
 
 bool fixed_fits(const fixed_list *l) {
@@ -260,11 +268,8 @@ bool fixed_fits(const fixed_list *l) {
         if (units(o) > 1073741824.0 + 64.0) {
             return false;
         }
-        if (o->code == FIXED_QUOTIENT && o->zeros >= 0) {
-            const interval size = interval_abs(b->range);
-            if (!has_zeros(b, size.low, o->zeros) || !has_zeros(b, size.high, o->zeros)) {
-                return false;
-            }
+        if (o->code == FIXED_QUOTIENT && !has_zeros(o, b)) {
+            return false;
         }
     }
     return true;

@@ -26,7 +26,7 @@ typedef enum fixed_code {
     FIXED_SUM,        /* round(a) + round(b): each with its shift */
     FIXED_DIFFERENCE, /* round(a) - round(b) */
     FIXED_PRODUCT,    /* (a << shift) (b << shift) 2^-(32 + by), rounded */
-    FIXED_QUOTIENT,   /* (a << shift) reciprocal(|b| << zeros) 2^-(32 + by), rounded */
+    FIXED_QUOTIENT,   /* (a << shift + more) reciprocal(|b| << zeros + more) 2^-(32 + by), rounded */
     FIXED_SAME,       /* round(a), or -round(a): powers of two cost nothing but that */
     FIXED_ABS,        /* round(|a|) */
     FIXED_LEAST,      /* the lesser of round(a) and round(b) */
@@ -45,8 +45,12 @@ typedef struct fixed_op {
     fixed_operand b;
     int index;
     int by;
-    int zeros;       /* FIXED_QUOTIENT: in front of |b|; -1: not known before it runs, and then `by` is for none */
-    bool negated;    /* FIXED_SAME; FIXED_QUOTIENT: b is negative */
+    /* FIXED_QUOTIENT: the least zeros in front of |b|, and how many more there may be, `more`: by these a is shifted,
+     * too, or, where it has no room for that, `by` is less. */
+    int zeros;
+    int spread;
+    bool follows;
+    bool negated; /* FIXED_SAME; FIXED_QUOTIENT: b is negative */
     const int *turns; /* FIXED_PHASE: of the image's list */
     double offset_rad;
     uint32_t offset;

@@ -11,6 +11,9 @@ static interval twice(interval seen) {
     if (seen.low == 0.0 && seen.high == 0.0) {
         return (interval){-1.0, 1.0};
     }
+    if (seen.low == 0.0 || seen.high == 0.0) { /* begun at rest: either way */
+        return (interval){-2.0 * interval_size(seen), 2.0 * interval_size(seen)};
+    }
     return (interval){seen.low < 0.0 ? 2.0 * seen.low : 0.5 * seen.low,
                       seen.high > 0.0 ? 2.0 * seen.high : 0.5 * seen.high};
 }
