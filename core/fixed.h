@@ -23,6 +23,13 @@ extern "C" {
 #define WH_FIXED_NARROW 0
 #endif
 
+#if defined(__AVR__) && defined(__AVR_HAVE_MUL__) && defined(__AVR_HAVE_MOVW__) && \
+    defined(__GNUC__) && !defined(__clang__)
+#define WH_FIXED_AVR 1
+#else
+#define WH_FIXED_AVR 0
+#endif
+
 /* Of generated functions: which are called, and those that are inlined where that is no waste of flash. */
 #if defined(__GNUC__)
 #define WH_FIXED_CALLED __attribute__((noinline, unused))
@@ -40,16 +47,59 @@ WH_INLINE int32_t wh_fixed_high_wide(int32_t a, int32_t b) {
     return (int32_t)(((int64_t)a * b) >> 32);
 }
 
-/* The same by products of 16 bits. Where b is a constant whose lower half is zero, two of them go. */
+/* Products of 16 bits: uu of two without a sign, su of one with and one without, ss of two with. (avr-gcc makes one of 32
+ * bits of them where an operand is used again.) */
+#if WH_FIXED_AVR
+WH_INLINE uint32_t wh_fixed_uu(uint16_t a, uint16_t b) {
+    uint32_t product;
+    uint8_t none;
+    __asm__("clr %1\n\tmul %A2, %A3\n\tmovw %A0, r0\n\tmul %B2, %B3\n\tmovw %C0, r0\n\t"
+            "mul %B2, %A3\n\tadd %B0, r0\n\tadc %C0, r1\n\tadc %D0, %1\n\t"
+            "mul %A2, %B3\n\tadd %B0, r0\n\tadc %C0, r1\n\tadc %D0, %1\n\tclr r1"
+            : "=&r"(product), "=&r"(none)
+            : "r"(a), "r"(b)
+            : "r0");
+    return product;
+}
+
+WH_INLINE int32_t wh_fixed_su(int16_t a, uint16_t b) {
+    int32_t product;
+    uint8_t none;
+    __asm__("clr %1\n\tmul %A2, %A3\n\tmovw %A0, r0\n\tmulsu %B2, %B3\n\tmovw %C0, r0\n\t"
+            "mulsu %B2, %A3\n\tsbc %D0, %1\n\tadd %B0, r0\n\tadc %C0, r1\n\tadc %D0, %1\n\t"
+            "mul %A2, %B3\n\tadd %B0, r0\n\tadc %C0, r1\n\tadc %D0, %1\n\tclr r1"
+            : "=&r"(product), "=&r"(none)
+            : "a"(a), "a"(b)
+            : "r0");
+    return product;
+}
+
+WH_INLINE int32_t wh_fixed_ss(int16_t a, int16_t b) {
+    int32_t product;
+    uint8_t none;
+    __asm__("clr %1\n\tmul %A2, %A3\n\tmovw %A0, r0\n\tmuls %B2, %B3\n\tmovw %C0, r0\n\t"
+            "mulsu %B2, %A3\n\tsbc %D0, %1\n\tadd %B0, r0\n\tadc %C0, r1\n\tadc %D0, %1\n\t"
+            "mulsu %B3, %A2\n\tsbc %D0, %1\n\tadd %B0, r0\n\tadc %C0, r1\n\tadc %D0, %1\n\tclr r1"
+            : "=&r"(product), "=&r"(none)
+            : "a"(a), "a"(b)
+            : "r0");
+    return product;
+}
+#else
+WH_INLINE uint32_t wh_fixed_uu(uint16_t a, uint16_t b) { return (uint32_t)a * b; }
+WH_INLINE int32_t wh_fixed_su(int16_t a, uint16_t b) { return (int32_t)a * (int32_t)b; }
+WH_INLINE int32_t wh_fixed_ss(int16_t a, int16_t b) { return (int32_t)a * b; }
+#endif
+
+/* floor(a b / 2^32) by these. Where b is a constant whose lower half is zero, two of them go. */
 WH_INLINE int32_t wh_fixed_high_narrow(int32_t a, int32_t b) {
     const int16_t a_high = (int16_t)(a >> 16);
     const int16_t b_high = (int16_t)(b >> 16);
     const uint16_t a_low = (uint16_t)a;
     const uint16_t b_low = (uint16_t)b;
-    const uint32_t low = (uint32_t)a_low * b_low;
-    const int32_t one = (int32_t)a_high * (int32_t)b_low + (int32_t)(low >> 16);
-    const int32_t other = (int32_t)b_high * (int32_t)a_low + (int32_t)((uint32_t)one & 0xffffU);
-    return (int32_t)a_high * b_high + (one >> 16) + (other >> 16);
+    const int32_t one = wh_fixed_su(a_high, b_low) + (int32_t)(wh_fixed_uu(a_low, b_low) >> 16);
+    const int32_t other = wh_fixed_su(b_high, a_low) + (int32_t)((uint32_t)one & 0xffffU);
+    return wh_fixed_ss(a_high, b_high) + (one >> 16) + (other >> 16);
 }
 
 #define wh_fixed_high_called WH_NAME(wh_fixed_high_called)
@@ -153,15 +203,15 @@ WH_INLINE void wh_fixed_sincos_here(uint32_t phase, int32_t *sine, int32_t *cosi
     const int32_t y = (int32_t)(phase << WH_FIXED_SECTOR_BITS);
     const int16_t upper = (int16_t)(y >> 16);
     /* -(upper + 1/2)^2, 2^15 for 1: what lies below `upper` is half a unit, on the average */
-    const int16_t square = (int16_t)(((int32_t)upper * (int16_t)~upper) >> 15);
-    const int16_t cos_less_1 = (int16_t)(((int32_t)square * (int16_t)20211 + 16384) >> 15); /* 2^26 */
+    const int16_t square = (int16_t)(wh_fixed_ss(upper, (int16_t)~upper) >> 15);
+    const int16_t cos_less_1 = (int16_t)((wh_fixed_ss(square, 20211) + 16384) >> 15); /* 2^26 */
     const int32_t scale =
-        INT32_C(1686629713) + ((int32_t)square * (int16_t)21166 >> 12); /* sin r/y: 2^35/2^-1 */
+        INT32_C(1686629713) + (wh_fixed_ss(square, 21166) >> 12); /* sin r/y: 2^35/2^-1 */
     const int32_t sin_r = wh_fixed_high(y, scale);                       /* 2^35 */
     const int16_t s_short = (int16_t)((s + 32768) >> 16);
     const int16_t c_short = (int16_t)((c + 32768) >> 16);
-    const int32_t sine_rest = wh_fixed_high(c, sin_r) + ((int32_t)s_short * cos_less_1 >> 7);
-    const int32_t cosine_rest = ((int32_t)c_short * cos_less_1 >> 7) - wh_fixed_high(s, sin_r);
+    const int32_t sine_rest = wh_fixed_high(c, sin_r) + (wh_fixed_ss(s_short, cos_less_1) >> 7);
+    const int32_t cosine_rest = (wh_fixed_ss(c_short, cos_less_1) >> 7) - wh_fixed_high(s, sin_r);
     *sine = s + ((sine_rest + 4) >> 3);
     *cosine = c + ((cosine_rest + 4) >> 3);
 }
@@ -199,12 +249,12 @@ WH_INLINE int32_t wh_fixed_reciprocal(uint32_t d) {
     const uint16_t d_high = (uint16_t)(d >> 16);
     const uint16_t d_low = (uint16_t)d;
     const uint16_t x0 = wh_flash_uint16(&wh_fixed_seed_table[(d >> 24) & 127U]);
-    const int32_t off0 = (int32_t)(UINT32_C(0x80000000) - (uint32_t)d_high * x0);
+    const int32_t off0 = (int32_t)(UINT32_C(0x80000000) - wh_fixed_uu(d_high, x0));
     const uint16_t x1 =
-        (uint16_t)((int32_t)x0 + ((int32_t)(int16_t)(off0 >> 9) * (int32_t)x0 >> 22));
-    const uint32_t product = (uint32_t)d_high * x1 + ((uint32_t)d_low * x1 >> 16);
+        (uint16_t)((int32_t)x0 + (wh_fixed_su((int16_t)(off0 >> 9), x0) >> 22));
+    const uint32_t product = wh_fixed_uu(d_high, x1) + (wh_fixed_uu(d_low, x1) >> 16);
     const int32_t off1 = (int32_t)(UINT32_C(0x80000000) - product);
-    return (int32_t)((uint32_t)x1 << 14) + ((int32_t)(int16_t)(off1 >> 2) * (int32_t)x1 >> 15);
+    return (int32_t)((uint32_t)x1 << 14) + (wh_fixed_su((int16_t)(off1 >> 2), x1) >> 15);
 }
 
 #ifdef __cplusplus
