@@ -133,6 +133,11 @@ WH_INLINE int32_t wh_fixed_mul(int32_t a, int32_t b, int by) {
     return wh_fixed_round(wh_fixed_high(a, b), by);
 }
 
+/* The 15 upper digits of x (up to 2^28) times a number of 15, 2^-by: of what is small beside what it is added to. */
+WH_INLINE int32_t wh_fixed_mul_short(int32_t x, int16_t number, int by) {
+    return wh_fixed_round(wh_fixed_ss((int16_t)(x >> 14), number), by);
+}
+
 /* Modulo 2^32, where the compiler knows nothing of it: sums whose parts may be larger than they are. */
 WH_INLINE int32_t wh_fixed_add(int32_t a, int32_t b) { return (int32_t)((uint32_t)a + (uint32_t)b); }
 WH_INLINE int32_t wh_fixed_sub(int32_t a, int32_t b) { return (int32_t)((uint32_t)a - (uint32_t)b); }

@@ -16,12 +16,9 @@ static void gained(FILE *out, fixed_gain g, const char *x) {
     fprintf(out, ", %d)", g.by);
 }
 
-/* "    TO = the limited sum of FROM and ": its end is for the caller. */
-static void limited(FILE *out, const fixed_plan *p, int at, const char *to, int i,
-                    const char *from) {
-    (void)p;
-    (void)at;
-    fprintf(out, "    %s[%d] = wh_fixed_limit(wh_fixed_add(%s[%d], ", to, i, from, i);
+/* The limited sum of a component and what the caller writes next; limits() ends it. */
+static void limited(FILE *out, int i) {
+    fprintf(out, "    state->real[%d] = wh_fixed_limit(wh_fixed_add(state->real[%d], ", i, i);
 }
 
 static void limits(FILE *out, const fixed_plan *p, int at) {
@@ -34,22 +31,19 @@ static void limits(FILE *out, const fixed_plan *p, int at) {
 
 /* What a stage moves a place by. */
 static void put_more(FILE *out, const fixed_mover *m, int i, int stage) {
-    char x[24];
     fputs("wh_fixed_round(", out);
     if (stage == 1) {
         fprintf(out, "half[%d]", i);
     } else {
         fprintf(out, "wh_fixed_add(half[%d], ", i);
-        snprintf(x, sizeof x, "k%d[%d]", stage - 2, i);
-        gained(out, m->half_accel, x);
-        fputc(')', out);
+        fprintf(out, "wh_fixed_mul_short(k%d[%d], %" PRId32 ", %d))", stage - 2, i,
+                m->half_accel.number, m->half_accel.by);
     }
     fprintf(out, ", %d)", m->guard - (stage == 3));
 }
 
 static void stage_second(FILE *out, const fixed_plan *p, int stage) {
     const int angles = p->image->angles;
-    const int linears = p->coordinates - angles;
     for (int i = 0; i < p->coordinates; i++) {
         const fixed_mover *m = &p->mover[i];
         if (i < angles) {
@@ -57,13 +51,12 @@ static void stage_second(FILE *out, const fixed_plan *p, int stage) {
             put_more(out, m, i, stage);
             fputs(";\n", out);
         } else {
-            limited(out, p, i - angles, "linear", i - angles, "state->real");
+            fprintf(out, "    linear[%d] = wh_fixed_add(state->real[%d], ", i - angles, i - angles);
             put_more(out, m, i, stage);
-            limits(out, p, i - angles);
+            fputs(");\n", out);
         }
-        limited(out, p, linears + i, "rate", i, "old_rate");
-        fprintf(out, "wh_fixed_round(k%d[%d], %d)", stage - 1, i, m->to_kept - (stage == 3));
-        limits(out, p, linears + i);
+        fprintf(out, "    rate[%d] = wh_fixed_add(old_rate[%d], wh_fixed_round(k%d[%d], %d));\n", i,
+                i, stage - 1, i, m->to_kept - (stage == 3));
     }
 }
 
@@ -77,9 +70,9 @@ static void stage_first(FILE *out, const fixed_plan *p, int stage) {
                     "(uint32_t)wh_fixed_round(k%d[%d], %d);\n",
                     i, i, stage - 1, i, by);
         } else {
-            limited(out, p, i - angles, "linear", i - angles, "state->real");
-            fprintf(out, "wh_fixed_round(k%d[%d], %d)", stage - 1, i, by);
-            limits(out, p, i - angles);
+            fprintf(out,
+                    "    linear[%d] = wh_fixed_add(state->real[%d], wh_fixed_round(k%d[%d], %d));\n",
+                    i - angles, i - angles, stage - 1, i, by);
         }
     }
 }
@@ -100,7 +93,7 @@ static void end_second(FILE *out, const fixed_plan *p) {
         if (i < angles) {
             fprintf(out, "    state->angle[%d] += ", i);
         } else {
-            limited(out, p, i - angles, "state->real", i - angles, "state->real");
+            limited(out, i - angles);
         }
         fprintf(out, "wh_fixed_round(wh_fixed_add(2 * half[%d], ", i);
         gained(out, m->third_accel, x);
@@ -125,7 +118,7 @@ static void end_first(FILE *out, const fixed_plan *p) {
             put_sixths(out, &p->mover[i], i);
             fputs(";\n", out);
         } else {
-            limited(out, p, i - angles, "state->real", i - angles, "state->real");
+            limited(out, i - angles);
             put_sixths(out, &p->mover[i], i);
             limits(out, p, i - angles);
         }

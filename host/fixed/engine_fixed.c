@@ -108,15 +108,13 @@ typedef struct fixed_stages {
     int32_t given[4][IMAGE_COMPONENTS_MAX];
 } fixed_stages;
 
-static int32_t limited(fixed_run *run, int at, int32_t x) {
-    const wh_fixed_format *f = &run->plan->format[at];
-    return wh_fixed_limit(x, f->low, f->high, &run->state.saturated);
-}
-
-/* What stage s adds to a place, before that is rounded: its point, and 2^s_more. */
+/* What stage s adds to a place, before that is rounded. Stages are not held to ranges: the list has room for where they can
+ * be from within them (fixed_plan.c). */
 static int32_t place_more(const fixed_mover *m, const fixed_stages *k, int i, int stage) {
     return stage == 1 ? k->half_rate[i]
-                      : wh_fixed_add(k->half_rate[i], gained(m->half_accel, k->given[stage - 2][i]));
+                      : wh_fixed_add(k->half_rate[i], wh_fixed_mul_short(k->given[stage - 2][i],
+                                                                       (int16_t)m->half_accel.number,
+                                                                       m->half_accel.by));
 }
 
 static void at_stage_second(fixed_run *run, fixed_stages *k, int stage) {
@@ -130,12 +128,10 @@ static void at_stage_second(fixed_run *run, fixed_stages *k, int stage) {
         if (i < angles) {
             k->phase[i] = (uint32_t)run->state.angle[i] + (uint32_t)more;
         } else {
-            k->linear[i - angles] =
-                limited(run, i - angles, wh_fixed_add(run->state.real[i - angles], more));
+            k->linear[i - angles] = wh_fixed_add(run->state.real[i - angles], more);
         }
-        k->rate[i] = limited(run, linears + i,
-                             wh_fixed_add(run->state.real[linears + i],
-                                          wh_fixed_round(k->given[stage - 1][i], m->to_kept - twice)));
+        k->rate[i] = wh_fixed_add(run->state.real[linears + i],
+                                  wh_fixed_round(k->given[stage - 1][i], m->to_kept - twice));
     }
 }
 
@@ -149,10 +145,14 @@ static void at_stage_first(fixed_run *run, fixed_stages *k, int stage) {
         if (i < angles) {
             k->phase[i] = (uint32_t)run->state.angle[i] + (uint32_t)more;
         } else {
-            k->linear[i - angles] =
-                limited(run, i - angles, wh_fixed_add(run->state.real[i - angles], more));
+            k->linear[i - angles] = wh_fixed_add(run->state.real[i - angles], more);
         }
     }
+}
+
+static int32_t limited(fixed_run *run, int at, int32_t x) {
+    const wh_fixed_format *f = &run->plan->format[at];
+    return wh_fixed_limit(x, f->low, f->high, &run->state.saturated);
 }
 
 /* (k1 + 2 k2 + 2 k3 + k4)/3, at the point of what is kept. */

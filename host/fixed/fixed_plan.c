@@ -71,13 +71,24 @@ static bool make_gain(fixed_gain *gain, double factor, double size, int from, in
     return gain->shift <= 31 - digits;
 }
 
+/* The same of results of the list, with 15 digits: of what stages are moved by twice over. */
+static fixed_gain short_gain(double factor, int from, int to) {
+    const int bits = fixed_factor_bits(factor) - 16;
+    const double number = number_nearest(number_scaled(factor, bits));
+    return (fixed_gain){number > 32767.0 ? 32767 : (int32_t)number, 0, from - 14 + bits - to};
+}
+
 /* A component of which 2 `by` is the most that a step adds: as fine as there is room for that, and for what is added to it
  * to be finer still. */
 static int kept_bits(interval range, double by, int list_bits) {
-    const int bits = fixed_point_of(interval_size(range), FIXED_KEPT_DIGITS);
-    const int with = room_for(interval_size(range) + 2.0 * by, 2147483647.0);
-    const int finest = bits < with ? bits : with;
+    const int finest = fixed_point_of(interval_size(range) + 2.2 * by, FIXED_KEPT_DIGITS);
     return finest < list_bits - 1 ? finest : list_bits - 1;
+}
+
+static void too_far(const fixed_plan *p, diags *errors) {
+    diag_error(errors, p->image->at, "take a smaller --step, or declare narrower ranges",
+               "a step of %.9g s may move '%s' too far for fixed point", p->image->step_s,
+               p->image->name);
 }
 
 static const fixed_op *result_of(const fixed_plan *p, int i) {
@@ -108,7 +119,7 @@ static bool move_place(fixed_plan *p, int i) {
     const double unit = i < im->angles ? PHASE_PER_RAD : 1.0;
     const double half = 0.5 * im->step_s * unit;
     const double by = half * (interval_size(p->range[kept_at(p, i)]) +
-                              interval_size(accel->range)); /* half a step, at most */
+                              2.0 * interval_size(accel->range)); /* half a step, at most */
     int bits = 0;
     if (i < im->angles) {
         if (2.0 * by >= 1073741824.0) {
@@ -127,8 +138,8 @@ static bool move_place(fixed_plan *p, int i) {
     for (; m->guard >= 0; m->guard--) {
         const int to = bits + m->guard;
         if (make_gain(&m->half_rate, half, rate_size, rate->bits, to) &&
-            make_gain(&m->half_accel, half, accel_size, accel->bits, to) &&
             make_gain(&m->third_accel, half * (2.0 / 3.0), 3.0 * accel_size, accel->bits, to)) {
+            m->half_accel = short_gain(half, accel->bits, to);
             return true;
         }
     }
@@ -171,7 +182,56 @@ static void set_leaves(fixed_plan *p) {
 static fixed_leaves leaves_of(const fixed_plan *p) {
     const image *im = p->image;
     const int linears = p->second ? im->coordinates - im->angles : im->reals;
-    return (fixed_leaves){p->range, p->range + linears, p->range + im->reals};
+    return (fixed_leaves){p->stage, p->stage + linears, p->stage + im->reals};
+}
+
+/* The most that a whole step adds to a component of the reals, by the list's results. */
+static double most_added(const fixed_plan *p, int at) {
+    const image *im = p->image;
+    const int linears = p->second ? im->coordinates - im->angles : im->reals;
+    if (!p->second) {
+        return 2.0 * interval_size(result_of(p, im->angles + at)->range);
+    }
+    if (at >= linears) {
+        return 2.0 * interval_size(result_of(p, at - linears)->range);
+    }
+    const int i = im->angles + at;
+    return im->step_s * (interval_size(p->range[linears + i]) +
+                         2.0 * interval_size(result_of(p, i)->range));
+}
+
+/* Stages leave the ranges by what is added to them, and that depends on where they are: from nothing on until it is enough.
+ * False: it never was. */
+static bool widen_stages(fixed_plan *p) {
+    const image *im = p->image;
+    bool enough = true;
+    for (int at = 0; at < im->reals; at++) {
+        const double most = 1.0000001 * most_added(p, at) + number_scaled(4.0, -p->format[at].bits);
+        if (p->range[at].high + most > p->stage[at].high ||
+            p->range[at].low - most < p->stage[at].low) {
+            p->stage[at] = interval_widen(p->range[at], 1.1 * most);
+            enough = false;
+        }
+    }
+    return enough;
+}
+
+/* Encloses all values. */
+static bool enclose(fixed_plan *p, diags *errors) {
+    const image *im = p->image;
+    const fixed_leaves leaves = leaves_of(p);
+    bool enough = false;
+    memcpy(p->stage, p->range, (size_t)(im->reals + im->inputs) * sizeof *p->stage);
+    for (int pass = 0; pass < 12 && !enough; pass++) {
+        if (fixed_hull(p->list, im, &leaves, false, errors) == 0) {
+            return false;
+        }
+        enough = widen_stages(p);
+    }
+    if (!enough) {
+        too_far(p, errors);
+    }
+    return enough;
 }
 
 /* Points for all: those of what is kept follow from the list's results, and theirs from those. */
@@ -186,9 +246,7 @@ static bool make_points(fixed_plan *p, diags *errors) {
         set_leaves(p);
         good = fixed_bits(p->list, im, errors);
         if (good && !make_movers(p)) {
-            diag_error(errors, im->at, "take a smaller --step, or declare narrower ranges",
-                       "a step of %.9g s may move '%s' too far for fixed point", im->step_s,
-                       im->name);
+            too_far(p, errors);
             good = false;
         }
         stands = true;
@@ -255,13 +313,17 @@ static bool make(fixed_plan *p, diags *errors) {
             p->range[i], fixed_point_of(interval_size(p->range[i]), FIXED_DIGITS));
     }
     const fixed_leaves leaves = leaves_of(p);
-    if (fixed_hull(p->list, im, &leaves, false, errors) == 0 || !make_points(p, errors)) {
+    if (!enclose(p, errors) || !make_points(p, errors)) {
         return false;
     }
     p->cells = fixed_hull(p->list, im, &leaves, true, errors);
     if (p->cells > 0 && !fixed_fits(p->list)) {
         diag_error(errors, im->at, "declare other ranges: range NAME = A .. B",
                    "rounding takes values of '%s' beyond their room", im->name);
+        return false;
+    }
+    if (p->cells > 0 && !widen_stages(p)) { /* rounding took them further */
+        too_far(p, errors);
         return false;
     }
     return p->cells > 0;
@@ -278,6 +340,7 @@ fixed_plan *fixed_plan_make(const image *im, diags *errors) {
     p->coordinates = p->second ? im->coordinates : im->angles + im->reals;
     p->format = room(numbers, sizeof *p->format);
     p->range = room(numbers, sizeof *p->range);
+    p->stage = room(numbers, sizeof *p->stage);
     p->declared = room(numbers, sizeof *p->declared);
     p->mover = room(p->coordinates, sizeof *p->mover);
     if (!make(p, errors)) {
@@ -293,6 +356,7 @@ void fixed_plan_free(fixed_plan *plan) {
         fixed_list_free(plan->list);
         free(plan->format);
         free(plan->range);
+        free(plan->stage);
         free(plan->declared);
         free(plan->mover);
         free(plan->start_angle);

@@ -26,14 +26,15 @@ typedef struct fixed_mover {
     fixed_gain third;
     int guard; /* second order; and the next: of v, A and A1 + A2 + A3 */
     fixed_gain half_rate;
-    fixed_gain half_accel;
+    fixed_gain half_accel; /* number and by of wh_fixed_mul_short() */
     fixed_gain third_accel;
 } fixed_mover;
 
 typedef struct fixed_plan {
     const image *image;
     wh_fixed_format *format; /* [reals + inputs] as the scene has them */
-    interval *range;         /* [reals + inputs] */
+    interval *range;         /* [reals + inputs] where a step begins and ends, and */
+    interval *stage;         /* [reals + inputs] where its stages can be from there */
     bool *declared;          /* [reals + inputs]: else from a reference run */
     bool second;
     int coordinates; /* or components */
