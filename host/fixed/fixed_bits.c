@@ -275,11 +275,17 @@ bool fixed_fits(const fixed_list *l) {
     return true;
 }
 
+/* Sums have room for one more than products. */
+static int digits_of(const fixed_list *l, int i) {
+    const bool sums = l->op[i].code == FIXED_SUM || l->op[i].code == FIXED_DIFFERENCE;
+    return is_result(l, i) ? FIXED_RESULT_DIGITS : sums ? FIXED_KEPT_DIGITS : FIXED_DIGITS;
+}
+
 bool fixed_bits(fixed_list *l, const image *im, diags *errors) {
     bool good = true;
     for (int i = 0; i < l->count; i++) {
         if (l->op[i].used) {
-            choose(l, &l->op[i], is_result(l, i) ? FIXED_RESULT_DIGITS : FIXED_DIGITS);
+            choose(l, &l->op[i], digits_of(l, i));
         }
     }
     lower(l);
