@@ -158,6 +158,19 @@ WH_INLINE int32_t wh_fixed_limit(int32_t x, int32_t low, int32_t high, uint32_t 
     return x;
 }
 
+/* x >> by, 7, 15 or 22 digits of an x that has as many as are used here: an AVR shifts by bytes in no time, by one after
+ * the other else. */
+WH_INLINE int32_t wh_fixed_down(int32_t x, int by) {
+#if WH_FIXED_AVR
+    return by == 7    ? (x + x) >> 8
+           : by == 15 ? (x + x) >> 16
+           : by == 22 ? (int32_t)((int16_t)(x >> 16) >> 6)
+                      : x >> by;
+#else
+    return x >> by;
+#endif
+}
+
 /* --- sine and cosine -----------------------------------------------------------------------------------------*/
 
 /* Binary digits of a sine behind the point. */
@@ -201,22 +214,26 @@ WH_INLINE uint16_t wh_flash_uint16(const uint16_t *from) {
  * the rest y, 2^31 for pi/128: sin = s + (c sin r + s (cos r - 1)). What is small is a product of 16 bits. */
 WH_INLINE void wh_fixed_sincos_here(uint32_t phase, int32_t *sine, int32_t *cosine) {
     const unsigned rest_bits = 32U - WH_FIXED_SECTOR_BITS;
-    const uint16_t sector = (uint16_t)((phase + (UINT32_C(1) << (rest_bits - 1U))) >> rest_bits);
-    const int32_t *middle = &wh_fixed_sine_table[sector & ((1U << WH_FIXED_SECTOR_BITS) - 1U)];
+    const uint8_t sector = (uint8_t)((uint8_t)((phase + (UINT32_C(1) << (rest_bits - 1U))) >> 24) >> (rest_bits - 24U));
+    const int32_t *middle = &wh_fixed_sine_table[sector];
     const int32_t s = wh_flash_int32(&middle[0]);
     const int32_t c = wh_flash_int32(&middle[WH_FIXED_QUARTER]);
+    #if WH_FIXED_AVR /* likewise */
+    const int32_t y = (int32_t)((phase << 8) >> 1 | ((phase & UINT32_C(0x01000000)) != 0 ? UINT32_C(0x80000000) : 0U));
+#else
     const int32_t y = (int32_t)(phase << WH_FIXED_SECTOR_BITS);
+#endif
     const int16_t upper = (int16_t)(y >> 16);
     /* -(upper + 1/2)^2, 2^15 for 1: what lies below `upper` is half a unit, on the average */
-    const int16_t square = (int16_t)(wh_fixed_ss(upper, (int16_t)~upper) >> 15);
-    const int16_t cos_less_1 = (int16_t)((wh_fixed_ss(square, 20211) + 16384) >> 15); /* 2^26 */
+    const int16_t square = (int16_t)wh_fixed_down(wh_fixed_ss(upper, (int16_t)~upper), 15);
+    const int16_t cos_less_1 = (int16_t)wh_fixed_down(wh_fixed_ss(square, 20211) + 16384, 15); /* 2^26 */
     const int32_t scale =
-        INT32_C(1686629713) + (wh_fixed_ss(square, 21166) >> 12); /* sin r/y: 2^35/2^-1 */
+        INT32_C(1686629713) + (wh_fixed_ss(square, 1323) >> 8); /* sin r/y: 2^35/2^-1 */
     const int32_t sin_r = wh_fixed_high(y, scale);                       /* 2^35 */
     const int16_t s_short = (int16_t)((s + 32768) >> 16);
     const int16_t c_short = (int16_t)((c + 32768) >> 16);
-    const int32_t sine_rest = wh_fixed_high(c, sin_r) + (wh_fixed_ss(s_short, cos_less_1) >> 7);
-    const int32_t cosine_rest = (wh_fixed_ss(c_short, cos_less_1) >> 7) - wh_fixed_high(s, sin_r);
+    const int32_t sine_rest = wh_fixed_high(c, sin_r) + wh_fixed_down(wh_fixed_ss(s_short, cos_less_1), 7);
+    const int32_t cosine_rest = wh_fixed_down(wh_fixed_ss(c_short, cos_less_1), 7) - wh_fixed_high(s, sin_r);
     *sine = s + ((sine_rest + 4) >> 3);
     *cosine = c + ((cosine_rest + 4) >> 3);
 }
@@ -256,10 +273,11 @@ WH_INLINE int32_t wh_fixed_reciprocal(uint32_t d) {
     const uint16_t x0 = wh_flash_uint16(&wh_fixed_seed_table[(d >> 24) & 127U]);
     const int32_t off0 = (int32_t)(UINT32_C(0x80000000) - wh_fixed_uu(d_high, x0));
     const uint16_t x1 =
-        (uint16_t)((int32_t)x0 + (wh_fixed_su((int16_t)(off0 >> 9), x0) >> 22));
+        (uint16_t)((int32_t)x0 + wh_fixed_down(wh_fixed_su((int16_t)(off0 >> 9), x0), 22));
     const uint32_t product = wh_fixed_uu(d_high, x1) + (wh_fixed_uu(d_low, x1) >> 16);
     const int32_t off1 = (int32_t)(UINT32_C(0x80000000) - product);
-    return (int32_t)((uint32_t)x1 << 14) + (wh_fixed_su((int16_t)(off1 >> 2), x1) >> 15);
+    const int32_t more = wh_fixed_su((int16_t)(off1 >> 2), x1) >> 16;
+    return (int32_t)((uint32_t)x1 << 14) + more + more;
 }
 
 #ifdef __cplusplus
