@@ -16,7 +16,8 @@
 extern "C" {
 #endif
 
-#if defined(__AVR__) || defined(__ARM_ARCH_6M__) || defined(__ARM_ARCH_8M_BASE__) || \
+#if defined(WH_FIXED_NARROW) /* as it was asked for */
+#elif defined(__AVR__) || defined(__ARM_ARCH_6M__) || defined(__ARM_ARCH_8M_BASE__) || \
     (defined(__riscv) && !defined(__riscv_mul))
 #define WH_FIXED_NARROW 1
 #else

@@ -121,7 +121,7 @@ static void check_sine(uint32_t phase) {
     wh_real sine;
     wh_real cosine;
     /* its own error, 3.4e-8, and that of the reals */
-    const wh_real most = (WH_DOUBLE ? WH_R(3.5e-8) : WH_R(1.0e-7));
+    const wh_real most = (WH_DOUBLE ? WH_R(3.5e-8) : WH_R(1.3e-7));
     wh_fixed_sincos_called(phase, &s, &c);
     wh_fixed_sincos_here(phase, &s_here, &c_here);
     wh_sincos(real_phase(phase), &sine, &cosine);
