@@ -150,6 +150,11 @@ WH_INLINE int32_t wh_fixed_least(int32_t a, int32_t b) { return b < a ? b : a; }
 WH_INLINE int32_t wh_fixed_most(int32_t a, int32_t b) { return b > a ? b : a; }
 WH_INLINE int32_t wh_fixed_size(int32_t x) { return x < 0 ? -x : x; }
 
+/* -1, 0 or 1 with so many digits behind the point. */
+WH_INLINE int32_t wh_fixed_sign(int32_t x, int bits) {
+    return (int32_t)((uint32_t)(int32_t)((x > 0) - (x < 0)) << bits);
+}
+
 /* x, or the nearest of low to high; then one is counted. */
 WH_INLINE int32_t wh_fixed_limit(int32_t x, int32_t low, int32_t high, uint32_t *saturated) {
     if (WH_SELDOM((uint32_t)x - (uint32_t)low > (uint32_t)high - (uint32_t)low)) {

@@ -110,6 +110,7 @@ static void value(FILE *out, const fixed_list *l, const fixed_op *o) {
         taken(out, l, o->a);
         fputc(')', out);
         break;
+    case FIXED_SIGN: fprintf(out, "wh_fixed_sign(x%d, %d)", o->a.op, o->bits); break;
     case FIXED_PHASE:
     case FIXED_QUOTIENT: break; /* not in one expression */
     }

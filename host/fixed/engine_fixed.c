@@ -83,6 +83,7 @@ static void evaluate(fixed_run *run, fixed_at in, int32_t *result) {
         case FIXED_QUOTIENT: v = quotient(run, o); break;
         case FIXED_SAME: v = o->negated ? -taken(run, o->a) : taken(run, o->a); break;
         case FIXED_ABS: v = wh_fixed_size(taken(run, o->a)); break;
+        case FIXED_SIGN: v = wh_fixed_sign(run->value[o->a.op], o->bits); break;
         case FIXED_LEAST: v = wh_fixed_least(taken(run, o->a), taken(run, o->b)); break;
         case FIXED_MOST: v = wh_fixed_most(taken(run, o->a), taken(run, o->b)); break;
         }

@@ -72,6 +72,7 @@ static void choose(const fixed_list *l, fixed_op *o, int digits) {
         return;
     }
     case FIXED_ABS: o->bits = least(bits, l->op[o->a.op].bits); return;
+    case FIXED_SIGN: o->bits = FIXED_DIGITS - 1; return;
     case FIXED_CONSTANT:
     case FIXED_QUOTIENT: o->bits = bits; return;
     }
@@ -234,7 +235,8 @@ static bool finish(const fixed_list *l, fixed_op *o) {
     case FIXED_INPUT:
     case FIXED_PHASE:
     case FIXED_SINE:
-    case FIXED_COSINE: break;
+    case FIXED_COSINE:
+    case FIXED_SIGN: break;
     }
     return true;
 }

@@ -54,6 +54,7 @@ static interval value_of(hull *h, const fixed_op *o) {
     case FIXED_PRODUCT: return o->a.op == o->b.op ? interval_square(a) : interval_mul(a, b);
     case FIXED_SAME: return interval_mul(a, (interval){o->value, o->value});
     case FIXED_ABS: return interval_abs(a);
+    case FIXED_SIGN: return (interval){a.low > 0.0 ? 1.0 : -1.0, a.high < 0.0 ? -1.0 : 1.0};
     case FIXED_LEAST: return interval_min(a, b);
     case FIXED_MOST: return interval_max(a, b);
     case FIXED_QUOTIENT:

@@ -12,7 +12,6 @@
 static const char *without_form(const op *o) {
     switch (o->code) {
     case OP_SQRT: return "a square root";
-    case OP_SIGN: return "a sign";
     case OP_POW: return "a power";
     case OP_CALL: return function_name(o->function);
     case OP_PHASE: return o->b >= 0 || o->parts != NULL ? "the sine of what is no turn angle" : NULL;
@@ -35,6 +34,7 @@ static const char *without_form(const op *o) {
     case OP_DIV:
     case OP_NEG:
     case OP_ABS:
+    case OP_SIGN:
     case OP_MIN:
     case OP_MAX: break;
     }
@@ -116,11 +116,11 @@ static fixed_op copy_of(const tape *t, const op *o, const int *number) {
         made.negated = true;
         break;
     case OP_ABS: made.code = FIXED_ABS; break;
+    case OP_SIGN: made.code = FIXED_SIGN; break;
     case OP_MIN: made.code = FIXED_LEAST; break;
     case OP_MAX: made.code = FIXED_MOST; break;
     case OP_MUL:
     case OP_SQRT:
-    case OP_SIGN:
     case OP_POW:
     case OP_CALL:
     case OP_CELL:

@@ -29,6 +29,7 @@ typedef enum fixed_code {
     FIXED_QUOTIENT,   /* (a << shift + more) reciprocal(|b| << zeros + more) 2^-(32 + by), rounded */
     FIXED_SAME,       /* round(a), or -round(a): powers of two cost nothing but that */
     FIXED_ABS,        /* round(|a|) */
+    FIXED_SIGN,  /* of a: -1, 0 or 1 */
     FIXED_LEAST,      /* the lesser of round(a) and round(b) */
     FIXED_MOST
 } fixed_code;
