@@ -13,9 +13,22 @@
 
 /* --- what has no fixed step ---------------------------------------------------------------------------*/
 
+static bool has_noise(const image *im) {
+    const tape *t = im->list[IMAGE_OBSERVE];
+    for (int i = 0; t != NULL && i < t->count; i++) {
+        if (t->ops[i].code == OP_NOISE) {
+            return true;
+        }
+    }
+    return false;
+}
+
 static bool is_possible(const image *im, diags *errors) {
     const image_settings *s = &im->settings;
-    if (im->contacts > 0) {
+    if (has_noise(im)) {
+        diag_error(errors, im->at, "leave it out, --without; or choose --number float",
+                   "outputs of '%s' have noise, which fixed point has not", im->name);
+    } else if (im->contacts > 0) {
         diag_error(errors, im->contact[0].at, "leave it out, --without; or choose --number float",
                    "there are no events in fixed point: '%s' has this %s", im->name,
                    im->contact[0].word);

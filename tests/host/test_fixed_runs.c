@@ -99,23 +99,25 @@ static void write_ranges(char *text, const image *im, const double *far, double 
     }
 }
 
-/* The most that rounding may make of component i of the reals by the end: in each step a unit of what is kept, and of the
- * list's results what its points (28 binary digits, within some units) leave; positions take along what rates are off. The
+/* What rounding may make of component i of the reals by the end: in each step a unit of what is kept, one way or the other, and
+ * two units of the list's results, which constants may leave each time; positions take along what rates are off. The
  * mechanisms are damped: nothing of it grows by itself, but a swing may be passed on for a while. */
 static double bound_of(const fixed_plan *p, int i) {
     enum { PASSED_ON = 12 };
     const image *im = p->image;
     const int linears = p->second ? im->coordinates - im->angles : 0;
+    const double steps = (double)im->steps;
+    const double some = sqrt(steps);
     double rate = 0.0;
     for (int k = 0; k < p->coordinates; k++) {
         const fixed_op *result = &p->list->op[p->list->result[k]];
         const int at = p->second ? linears + k : k - im->angles;
         const double unit = at >= 0 ? ldexp(1.0, -p->format[at].bits) : 0.0;
-        const double most = fmax(fabs(result->range.low), fabs(result->range.high));
-        rate = fmax(rate, unit + 16.0 * ldexp(most, -FIXED_RESULT_DIGITS));
+        const double of_one = at >= 0 ? 1.0 : 6.283185307179586 / 4294967296.0; /* phases */
+        const double most = of_one * fmax(fabs(result->range.low), fabs(result->range.high));
+        rate = fmax(rate, some * unit + steps * 2.0 * ldexp(most, -FIXED_RESULT_DIGITS));
     }
-    return PASSED_ON * (double)im->steps *
-           (ldexp(1.0, -p->format[i].bits) + rate * (1.0 + im->until_s));
+    return PASSED_ON * (some * ldexp(1.0, -p->format[i].bits) + rate * (1.0 + im->until_s));
 }
 
 static void check_beside_double(const derived *d, bool declared, const char *text) {
@@ -227,6 +229,7 @@ static void test_refusals(void) {
         {"V = 1 [J]*exp(x/1 [m])", "", "hold exp, which"},
         {"V = 1 [J]*cos(x/1 [m])", "", "the sine of what is no turn angle"},
         {"Q(x) = -1 [N]*(2 + x/1 [m])^2.5", "", "hold"},
+        {"output o = x\nnoise o deviation 1 [mm] seed 7", "", "outputs of 's' have noise"},
         {"stop x >= -1 [m] restitution 0.5", "", "there are no events in fixed point"},
         {"friction x static 0.3 kinetic 0.2 normal 1 [N]", "", "has this friction"},
         {"V = 1 [J]*x^2/1 [m^2]", "with ledger", "keeps a ledger"},
