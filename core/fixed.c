@@ -55,28 +55,29 @@ int32_t wh_fixed_high_called(int32_t a, int32_t b) {
     uint8_t two;
     uint8_t three;
     uint8_t none;
-    __asm__("clr %4\n\tmul %A5, %A6\n\tmov %1, r1\n\tclr %2\n\tclr %3\n\tclr %A0\n\tclr %B0\n\tclr %C0\n\tclr %D0\n\t"
-            "mul %A5, %B6\n\tadd %1, r0\n\tadc %2, r1\n\tadc %3, %4\n\t"
-            "mul %B5, %A6\n\tadd %1, r0\n\tadc %2, r1\n\tadc %3, %4\n\t"
-            "mul %A5, %C6\n\tadd %2, r0\n\tadc %3, r1\n\tadc %A0, %4\n\t"
-            "mul %B5, %B6\n\tadd %2, r0\n\tadc %3, r1\n\tadc %A0, %4\n\t"
-            "mul %C5, %A6\n\tadd %2, r0\n\tadc %3, r1\n\tadc %A0, %4\n\t"
-            "mul %A5, %D6\n\tadd %3, r0\n\tadc %A0, r1\n\tadc %B0, %4\n\t"
-            "mul %B5, %C6\n\tadd %3, r0\n\tadc %A0, r1\n\tadc %B0, %4\n\t"
-            "mul %C5, %B6\n\tadd %3, r0\n\tadc %A0, r1\n\tadc %B0, %4\n\t"
-            "mul %D5, %A6\n\tadd %3, r0\n\tadc %A0, r1\n\tadc %B0, %4\n\t"
-            "mul %B5, %D6\n\tadd %A0, r0\n\tadc %B0, r1\n\tadc %C0, %4\n\t"
-            "mul %C5, %C6\n\tadd %A0, r0\n\tadc %B0, r1\n\tadc %C0, %4\n\t"
-            "mul %D5, %B6\n\tadd %A0, r0\n\tadc %B0, r1\n\tadc %C0, %4\n\t"
-            "mul %C5, %D6\n\tadd %B0, r0\n\tadc %C0, r1\n\tadc %D0, %4\n\t"
-            "mul %D5, %C6\n\tadd %B0, r0\n\tadc %C0, r1\n\tadc %D0, %4\n\t"
-            "mul %D5, %D6\n\tadd %C0, r0\n\tadc %D0, r1\n\t"
-            "clr r1\n\t"
-            "sbrs %D5, 7\n\trjmp 1f\n\tsub %A0, %A6\n\tsbc %B0, %B6\n\tsbc %C0, %C6\n\tsbc %D0, %D6\n\t1:\n\t"
-            "sbrs %D6, 7\n\trjmp 2f\n\tsub %A0, %A5\n\tsbc %B0, %B5\n\tsbc %C0, %C5\n\tsbc %D0, %D5\n\t2:"
-            : "=&r"(high), "=&r"(one), "=&r"(two), "=&r"(three), "=&r"(none)
-            : "r"(a), "r"(b)
-            : "r0");
+    __asm__(
+        "clr %4\n\tmul %A5, %A6\n\tmov %1, r1\n\tclr %2\n\tclr %3\n\tclr %A0\n\tclr %B0\n\tclr %C0\n\tclr %D0\n\t"
+        "mul %A5, %B6\n\tadd %1, r0\n\tadc %2, r1\n\tadc %3, %4\n\t"
+        "mul %B5, %A6\n\tadd %1, r0\n\tadc %2, r1\n\tadc %3, %4\n\t"
+        "mul %A5, %C6\n\tadd %2, r0\n\tadc %3, r1\n\tadc %A0, %4\n\t"
+        "mul %B5, %B6\n\tadd %2, r0\n\tadc %3, r1\n\tadc %A0, %4\n\t"
+        "mul %C5, %A6\n\tadd %2, r0\n\tadc %3, r1\n\tadc %A0, %4\n\t"
+        "mul %A5, %D6\n\tadd %3, r0\n\tadc %A0, r1\n\tadc %B0, %4\n\t"
+        "mul %B5, %C6\n\tadd %3, r0\n\tadc %A0, r1\n\tadc %B0, %4\n\t"
+        "mul %C5, %B6\n\tadd %3, r0\n\tadc %A0, r1\n\tadc %B0, %4\n\t"
+        "mul %D5, %A6\n\tadd %3, r0\n\tadc %A0, r1\n\tadc %B0, %4\n\t"
+        "mul %B5, %D6\n\tadd %A0, r0\n\tadc %B0, r1\n\tadc %C0, %4\n\t"
+        "mul %C5, %C6\n\tadd %A0, r0\n\tadc %B0, r1\n\tadc %C0, %4\n\t"
+        "mul %D5, %B6\n\tadd %A0, r0\n\tadc %B0, r1\n\tadc %C0, %4\n\t"
+        "mul %C5, %D6\n\tadd %B0, r0\n\tadc %C0, r1\n\tadc %D0, %4\n\t"
+        "mul %D5, %C6\n\tadd %B0, r0\n\tadc %C0, r1\n\tadc %D0, %4\n\t"
+        "mul %D5, %D6\n\tadd %C0, r0\n\tadc %D0, r1\n\t"
+        "clr r1\n\t"
+        "sbrs %D5, 7\n\trjmp 1f\n\tsub %A0, %A6\n\tsbc %B0, %B6\n\tsbc %C0, %C6\n\tsbc %D0, %D6\n\t1:\n\t"
+        "sbrs %D6, 7\n\trjmp 2f\n\tsub %A0, %A5\n\tsbc %B0, %B5\n\tsbc %C0, %C5\n\tsbc %D0, %D5\n\t2:"
+        : "=&r"(high), "=&r"(one), "=&r"(two), "=&r"(three), "=&r"(none)
+        : "r"(a), "r"(b)
+        : "r0");
     return high;
 }
 #else

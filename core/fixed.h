@@ -123,10 +123,10 @@ WH_INLINE int32_t wh_fixed_high(int32_t a, int32_t b) {
 
 /* x 2^-by to the nearest, halves up, |x| <= 2^30; a negative `by` shifts to the left, modulo 2^32. */
 WH_INLINE int32_t wh_fixed_round(int32_t x, int by) {
-    return by >= 31  ? 0
-           : by > 0  ? (x + (int32_t)(UINT32_C(1) << (by - 1))) >> by
+    return by >= 31   ? 0
+           : by > 0   ? (x + (int32_t)(UINT32_C(1) << (by - 1))) >> by
            : by < -31 ? 0
-                     : (int32_t)((uint32_t)x << -by);
+                      : (int32_t)((uint32_t)x << -by);
 }
 
 /* a b 2^-(32 + by) to the nearest, halves up; by >= 1. |a b| <= 2^62. */
@@ -140,8 +140,12 @@ WH_INLINE int32_t wh_fixed_mul_short(int32_t x, int16_t number, int by) {
 }
 
 /* Modulo 2^32, where the compiler knows nothing of it: sums whose parts may be larger than they are. */
-WH_INLINE int32_t wh_fixed_add(int32_t a, int32_t b) { return (int32_t)((uint32_t)a + (uint32_t)b); }
-WH_INLINE int32_t wh_fixed_sub(int32_t a, int32_t b) { return (int32_t)((uint32_t)a - (uint32_t)b); }
+WH_INLINE int32_t wh_fixed_add(int32_t a, int32_t b) {
+    return (int32_t)((uint32_t)a + (uint32_t)b);
+}
+WH_INLINE int32_t wh_fixed_sub(int32_t a, int32_t b) {
+    return (int32_t)((uint32_t)a - (uint32_t)b);
+}
 
 /* x 2^by, modulo 2^32. */
 WH_INLINE int32_t wh_fixed_left(int32_t x, int by) { return (int32_t)((uint32_t)x << by); }
@@ -220,26 +224,32 @@ WH_INLINE uint16_t wh_flash_uint16(const uint16_t *from) {
  * the rest y, 2^31 for pi/128: sin = s + (c sin r + s (cos r - 1)). What is small is a product of 16 bits. */
 WH_INLINE void wh_fixed_sincos_here(uint32_t phase, int32_t *sine, int32_t *cosine) {
     const unsigned rest_bits = 32U - WH_FIXED_SECTOR_BITS;
-    const uint8_t sector = (uint8_t)((uint8_t)((phase + (UINT32_C(1) << (rest_bits - 1U))) >> 24) >> (rest_bits - 24U));
+    const uint8_t sector = (uint8_t)((uint8_t)((phase + (UINT32_C(1) << (rest_bits - 1U))) >> 24) >>
+                                     (rest_bits - 24U));
     const int32_t *middle = &wh_fixed_sine_table[sector];
     const int32_t s = wh_flash_int32(&middle[0]);
     const int32_t c = wh_flash_int32(&middle[WH_FIXED_QUARTER]);
-    #if WH_FIXED_AVR /* likewise */
-    const int32_t y = (int32_t)((phase << 8) >> 1 | ((phase & UINT32_C(0x01000000)) != 0 ? UINT32_C(0x80000000) : 0U));
+#if WH_FIXED_AVR /* likewise */
+    const int32_t y = (int32_t)((phase << 8) >> 1 |
+                                ((phase & UINT32_C(0x01000000)) != 0 ? UINT32_C(0x80000000) : 0U));
 #else
     const int32_t y = (int32_t)(phase << WH_FIXED_SECTOR_BITS);
 #endif
     const int16_t upper = (int16_t)(y >> 16);
     /* -(upper + 1/2)^2, 2^15 for 1: what lies below `upper` is half a unit, on the average */
     const int16_t square = (int16_t)wh_fixed_down(wh_fixed_ss(upper, (int16_t)~upper), 15);
-    const int16_t cos_less_1 = (int16_t)wh_fixed_down(wh_fixed_ss(square, 20211) + 16384, 15); /* 2^26 */
-    const int32_t scale =
-        INT32_C(1686629713) + (wh_fixed_ss(square, 1323) >> 8); /* sin r/y: 2^35/2^-1 */
-    const int32_t sin_r = wh_fixed_high(y, scale);                       /* 2^35 */
+    const int16_t cos_less_1 =
+        (int16_t)wh_fixed_down(wh_fixed_ss(square, 20211) + 16384, 15); /* 2^26 */
+    /* sin r/y is 25735 2^16 and a rest, with which goes what sin r is short of r: 2^35/2^31 */
+    const int16_t rest = (int16_t)((wh_fixed_ss(square, 1323) >> 11) + 7594);
+    const int32_t sin_r =
+        wh_fixed_high(y, INT32_C(25735) * 65536) + (wh_fixed_ss(upper, rest) >> 13);
     const int16_t s_short = (int16_t)((s + 32768) >> 16);
     const int16_t c_short = (int16_t)((c + 32768) >> 16);
-    const int32_t sine_rest = wh_fixed_high(c, sin_r) + wh_fixed_down(wh_fixed_ss(s_short, cos_less_1), 7);
-    const int32_t cosine_rest = wh_fixed_down(wh_fixed_ss(c_short, cos_less_1), 7) - wh_fixed_high(s, sin_r);
+    const int32_t sine_rest =
+        wh_fixed_high(c, sin_r) + wh_fixed_down(wh_fixed_ss(s_short, cos_less_1), 7);
+    const int32_t cosine_rest =
+        wh_fixed_down(wh_fixed_ss(c_short, cos_less_1), 7) - wh_fixed_high(s, sin_r);
     *sine = s + ((sine_rest + 4) >> 3);
     *cosine = c + ((cosine_rest + 4) >> 3);
 }
@@ -248,7 +258,7 @@ WH_INLINE void wh_fixed_sincos_here(uint32_t phase, int32_t *sine, int32_t *cosi
 void wh_fixed_sincos_called(uint32_t phase, int32_t *sine, int32_t *cosine);
 
 WH_INLINE void wh_fixed_sincos(uint32_t phase, int32_t *sine, int32_t *cosine) {
-#if WH_FIXED_NARROW
+#if defined(__AVR__)
     wh_fixed_sincos_called(phase, sine, cosine);
 #else
     wh_fixed_sincos_here(phase, sine, cosine);

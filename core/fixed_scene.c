@@ -73,9 +73,9 @@ int32_t wh_fixed_of(const wh_fixed_format *format, wh_real value, uint32_t *satu
         *saturated += number == high ? 0U : 1U;
         return format->high;
     }
-    const int32_t near =
-        (int32_t)(WH_ABS(number) < WH_R(0x1p23) ? number + (number < WH_R(0.0) ? WH_R(-0.5) : WH_R(0.5))
-                                                : number);
+    const int32_t near = (int32_t)(WH_ABS(number) < WH_R(0x1p23)
+                                       ? number + (number < WH_R(0.0) ? WH_R(-0.5) : WH_R(0.5))
+                                       : number);
     return wh_fixed_limit(near, format->low, format->high, saturated);
 }
 

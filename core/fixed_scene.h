@@ -36,8 +36,9 @@ typedef struct wh_fixed_state {
     uint64_t steps;
     uint32_t saturated; /* values that stayed at an end of their range, since the start */
     int64_t *angle;     /* [scene->angles] 2^32 a turn, turns counted */
-    int32_t *real;      /* [scene->reals] as wh_state has them: linear positions, then all rates; or components */
-    int32_t *input;     /* [scene->inputs] */
+    int32_t *
+        real; /* [scene->reals] as wh_state has them: linear positions, then all rates; or components */
+    int32_t *input; /* [scene->inputs] */
 } wh_fixed_state;
 
 typedef struct wh_fixed_scene wh_fixed_scene;
@@ -57,7 +58,7 @@ struct wh_fixed_scene {
 };
 
 /* Bytes of caller memory for so many angles, and reals and inputs together. */
-#define WH_FIXED_BYTES(angles, numbers) ((size_t)(angles) * 8U + (size_t)(numbers) * 4U)
+#define WH_FIXED_BYTES(angles, numbers) ((size_t)(angles)*8U + (size_t)(numbers)*4U)
 
 #define wh_fixed_start WH_NAME(wh_fixed_start)
 #define wh_fixed_step WH_NAME(wh_fixed_step)

@@ -121,9 +121,8 @@ static const command_usage usage = {
         "built in (`whirl list`):\n",
     .tail = ""};
 static const command_usage options_of_derive = {.head = "",
-                                                .groups =
-                                                    OPTIONS_CHANGE | OPTIONS_STEP | OPTIONS_ENGINE |
-                                                    OPTIONS_NUMBER,
+                                                .groups = OPTIONS_CHANGE | OPTIONS_STEP |
+                                                          OPTIONS_ENGINE | OPTIONS_NUMBER,
                                                 .tail = "Numbers in formulas are SI. "};
 
 static void print_option(FILE *out, const char *option, bool (*of)(const form_row *form),
@@ -147,11 +146,12 @@ static void print_usage(FILE *out) {
                  "what the scene is called there, so that one program can hold it twice: with and "
                  "without an effect, compensated and not");
     options_usage(out, &options_of_derive);
-    fprintf(out,
-            "The method matters to %s only, and so does the number: what is generated\n"
-            "is of float and double alike, but for --number fixed. With --matrix, every form has the\n"
-            "matrix: octave in place of the equations, to the last digit.\n",
-            forms_with(has_steps, said));
+    fprintf(
+        out,
+        "The method matters to %s only, and so does the number: what is generated\n"
+        "is of float and double alike, but for --number fixed. With --matrix, every form has the\n"
+        "matrix: octave in place of the equations, to the last digit.\n",
+        forms_with(has_steps, said));
 }
 
 /* Does the option, "--header" or so, with its value's word, go with this form? Else it is said with which. */
@@ -380,8 +380,7 @@ int command_derive(int count, char **words) {
             if (i > 0) {
                 putchar('\n');
             }
-            code = derive_one(&from, from.model->mechanisms[i], NULL, &changes, as,
-                              &options, NULL);
+            code = derive_one(&from, from.model->mechanisms[i], NULL, &changes, as, &options, NULL);
         }
     } else if (code == EXIT_DONE) {
         const mechanism *of;

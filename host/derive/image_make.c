@@ -154,8 +154,8 @@ static void copy_ranges(image_draft *d, const equations *e, const layout *map) {
             const symbol *s = real ? e->unknowns[im->real[i].unknown].symbol
                                    : inst->mechanism->inputs[map->input[i - im->reals]];
             if (s == r->symbol && r->primes == (real ? im->real[i].primes : 0)) {
-                im->range[i] = (image_range){im->range[i].name, image_place(d, r->at), true, r->low,
-                                             r->high};
+                im->range[i] =
+                    (image_range){im->range[i].name, image_place(d, r->at), true, r->low, r->high};
             }
         }
     }

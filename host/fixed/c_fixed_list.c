@@ -44,8 +44,8 @@ static void pair(FILE *out, const fixed_list *l, const fixed_op *o, const char *
 
 static void phase(FILE *out, const fixed_list *l, int i) {
     const fixed_op *o = &l->op[i];
-    fprintf(out, "    int32_t s%d;\n    int32_t c%d;\n    wh_fixed_sincos(UINT32_C(%" PRIu32 ")", i, i,
-            o->offset);
+    fprintf(out, "    int32_t s%d;\n    int32_t c%d;\n    wh_fixed_sincos(UINT32_C(%" PRIu32 ")", i,
+            i, o->offset);
     for (int k = 0; k < l->angles && o->turns != NULL; k++) {
         if (o->turns[k] == 1) {
             fprintf(out, " + phase[%d]", k);
@@ -58,8 +58,8 @@ static void phase(FILE *out, const fixed_list *l, int i) {
 
 static void quotient(FILE *out, const fixed_list *l, int i) {
     const fixed_op *o = &l->op[i];
-    fprintf(out, "    const uint32_t %c%d = (%s(uint32_t)x%d) << %d;\n",
-            o->spread > 0 ? 'u' : 'd', i, o->negated ? "0U - " : "", o->b.op, o->zeros);
+    fprintf(out, "    const uint32_t %c%d = (%s(uint32_t)x%d) << %d;\n", o->spread > 0 ? 'u' : 'd',
+            i, o->negated ? "0U - " : "", o->b.op, o->zeros);
     if (o->spread == 1) { /* none or one */
         fprintf(out, "    const int z%d = (int)(~u%d >> 31);\n", i, i);
     } else if (o->spread > 1) {

@@ -15,8 +15,8 @@ typedef struct fixed_run {
     wh_fixed_scene scene;
     wh_fixed_state state;
     void *memory;
-    int32_t *value;  /* [list->count] */
-    int32_t *sine;   /* [list->count] of phases */
+    int32_t *value; /* [list->count] */
+    int32_t *sine;  /* [list->count] of phases */
     int32_t *cosine;
     evaluator *observe;
 } fixed_run;
@@ -112,10 +112,11 @@ typedef struct fixed_stages {
 /* What stage s adds to a place, before that is rounded. Stages are not held to ranges: the list has room for where they can
  * be from within them (fixed_plan.c). */
 static int32_t place_more(const fixed_mover *m, const fixed_stages *k, int i, int stage) {
-    return stage == 1 ? k->half_rate[i]
-                      : wh_fixed_add(k->half_rate[i], wh_fixed_mul_short(k->given[stage - 2][i],
-                                                                       (int16_t)m->half_accel.number,
-                                                                       m->half_accel.by));
+    return stage == 1
+               ? k->half_rate[i]
+               : wh_fixed_add(k->half_rate[i],
+                              wh_fixed_mul_short(k->given[stage - 2][i],
+                                                 (int16_t)m->half_accel.number, m->half_accel.by));
 }
 
 static void at_stage_second(fixed_run *run, fixed_stages *k, int stage) {
@@ -141,8 +142,7 @@ static void at_stage_first(fixed_run *run, fixed_stages *k, int stage) {
     const int angles = run->image->angles;
     const int twice = stage == 3 ? 1 : 0;
     for (int i = 0; i < p->coordinates; i++) {
-        const int32_t more =
-            wh_fixed_round(k->given[stage - 1][i], p->mover[i].to_kept - twice);
+        const int32_t more = wh_fixed_round(k->given[stage - 1][i], p->mover[i].to_kept - twice);
         if (i < angles) {
             k->phase[i] = (uint32_t)run->state.angle[i] + (uint32_t)more;
         } else {
@@ -355,6 +355,6 @@ static double run_angle_off(const void *of, int i, double *span_rad) {
 static uint64_t run_saturated(const void *of) { return ((const fixed_run *)of)->state.saturated; }
 
 const engine_kind engine_fixed = {
-    "fixed",   9,         run_start,  run_stop,        run_step,   run_set_input, run_state,
-    run_outputs, run_hash, run_steps, run_fault, run_events, run_evaluations, run_ledger,
-    run_angle_off, run_saturated};
+    "fixed",         9,           run_start,     run_stop,     run_step,  run_set_input,
+    run_state,       run_outputs, run_hash,      run_steps,    run_fault, run_events,
+    run_evaluations, run_ledger,  run_angle_off, run_saturated};

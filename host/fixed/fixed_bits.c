@@ -31,8 +31,7 @@ static int most(int a, int b) { return a > b ? a : b; }
 
 /* What the operands of a product can make at most has room, too: then shifts to the left do. */
 static int product_bits(const fixed_list *l, const fixed_op *o) {
-    const double size =
-        interval_size(l->op[o->a.op].range) * interval_size(l->op[o->b.op].range);
+    const double size = interval_size(l->op[o->a.op].range) * interval_size(l->op[o->b.op].range);
     return fixed_point_of(size, FIXED_DIGITS);
 }
 

@@ -7,7 +7,13 @@
 #include "host/number/functions.h"
 
 /* Cells a turn, and of all turn angles together. */
-enum { CELLS_LEAST = 4, CELLS = 64, CELLS_MOST = 1024, CELLS_ALL = 1 << 18, CELLS_ALL_MOST = 1 << 20 };
+enum {
+    CELLS_LEAST = 4,
+    CELLS = 64,
+    CELLS_MOST = 1024,
+    CELLS_ALL = 1 << 18,
+    CELLS_ALL_MOST = 1 << 20
+};
 
 #define TURN 6.283185307179586477
 /* What the core's sines are off, and its reciprocals of themselves (tests/core/test_fixed.c), and some. */
@@ -18,11 +24,11 @@ typedef struct hull {
     fixed_list *list;
     const fixed_leaves *leaves;
     bool bits_known;
-    interval *now;    /* [count] in this cell */
-    interval *angle;  /* [angles] */
-    int *cell;        /* [angles] */
-    bool *cut;        /* [angles] is any phase made of it? */
-    int cells;        /* a turn */
+    interval *now;   /* [count] in this cell */
+    interval *angle; /* [angles] */
+    int *cell;       /* [angles] */
+    bool *cut;       /* [angles] is any phase made of it? */
+    int cells;       /* a turn */
     bool divides_zero;
 } hull;
 
@@ -152,7 +158,8 @@ int fixed_hull(fixed_list *list, const image *im, const fixed_leaves *leaves, bo
     if (!good) {
         diag_error(errors, im->at,
                    "declare narrower ranges: range NAME = A .. B; or choose --number float",
-                   "a denominator of the equations of '%s' may be zero within the ranges", im->name);
+                   "a denominator of the equations of '%s' may be zero within the ranges",
+                   im->name);
     }
     free(h.now);
     free(h.angle);

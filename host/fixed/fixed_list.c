@@ -14,7 +14,8 @@ static const char *without_form(const op *o) {
     case OP_SQRT: return "a square root";
     case OP_POW: return "a power";
     case OP_CALL: return function_name(o->function);
-    case OP_PHASE: return o->b >= 0 || o->parts != NULL ? "the sine of what is no turn angle" : NULL;
+    case OP_PHASE:
+        return o->b >= 0 || o->parts != NULL ? "the sine of what is no turn angle" : NULL;
     case OP_CELL:
     case OP_LINE:
     case OP_CUBIC: return "a table";
@@ -135,7 +136,9 @@ static fixed_op copy_of(const tape *t, const op *o, const int *number) {
     int operand[2];
     const int operands = tape_operands(o, operand);
     (void)t;
-    made.a.op = op_rows[o->code].kind == OP_IS_WAVE ? number[o->a] : operands > 0 ? number[o->a] : -1;
+    made.a.op = op_rows[o->code].kind == OP_IS_WAVE ? number[o->a]
+                : operands > 0                      ? number[o->a]
+                                                    : -1;
     made.b.op = operands > 1 ? number[o->b] : -1;
     return made;
 }

@@ -26,11 +26,11 @@ typedef enum fixed_code {
     FIXED_SUM,        /* round(a) + round(b): each with its shift */
     FIXED_DIFFERENCE, /* round(a) - round(b) */
     FIXED_PRODUCT,    /* (a << shift) (b << shift) 2^-(32 + by), rounded */
-    FIXED_QUOTIENT,   /* (a << shift + more) reciprocal(|b| << zeros + more) 2^-(32 + by), rounded */
-    FIXED_SAME,       /* round(a), or -round(a): powers of two cost nothing but that */
-    FIXED_ABS,        /* round(|a|) */
-    FIXED_SIGN,  /* of a: -1, 0 or 1 */
-    FIXED_LEAST,      /* the lesser of round(a) and round(b) */
+    FIXED_QUOTIENT, /* (a << shift + more) reciprocal(|b| << zeros + more) 2^-(32 + by), rounded */
+    FIXED_SAME,     /* round(a), or -round(a): powers of two cost nothing but that */
+    FIXED_ABS,      /* round(|a|) */
+    FIXED_SIGN,     /* of a: -1, 0 or 1 */
+    FIXED_LEAST,    /* the lesser of round(a) and round(b) */
     FIXED_MOST
 } fixed_code;
 
@@ -51,7 +51,7 @@ typedef struct fixed_op {
     int zeros;
     int spread;
     bool follows;
-    bool negated; /* FIXED_SAME; FIXED_QUOTIENT: b is negative */
+    bool negated;     /* FIXED_SAME; FIXED_QUOTIENT: b is negative */
     const int *turns; /* FIXED_PHASE: of the image's list */
     double offset_rad;
     uint32_t offset;

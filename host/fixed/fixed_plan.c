@@ -58,8 +58,7 @@ static bool is_possible(const image *im, diags *errors) {
 /* --- formats -------------------------------------------------------------------------------------------*/
 
 static wh_fixed_format format_of(interval range, int bits) {
-    return (wh_fixed_format){(int16_t)bits,
-                             (int32_t)number_ceiling(number_scaled(range.low, bits)),
+    return (wh_fixed_format){(int16_t)bits, (int32_t)number_ceiling(number_scaled(range.low, bits)),
                              (int32_t)number_floor(number_scaled(range.high, bits))};
 }
 
@@ -209,8 +208,8 @@ static double most_added(const fixed_plan *p, int at) {
         return 2.0 * interval_size(result_of(p, at - linears)->range);
     }
     const int i = im->angles + at;
-    return im->step_s * (interval_size(p->range[linears + i]) +
-                         2.0 * interval_size(result_of(p, i)->range));
+    return im->step_s *
+           (interval_size(p->range[linears + i]) + 2.0 * interval_size(result_of(p, i)->range));
 }
 
 /* Stages leave the ranges by what is added to them, and that depends on where they are: from nothing on until it is enough.
@@ -273,8 +272,8 @@ static bool make_points(fixed_plan *p, diags *errors) {
 
 static void make_scale(const fixed_plan *p, double *scale) {
     for (int i = 0; i < p->coordinates; i++) {
-        scale[i] = 0.5 * p->image->step_s *
-                   (!p->second && i < p->image->angles ? PHASE_PER_RAD : 1.0);
+        scale[i] =
+            0.5 * p->image->step_s * (!p->second && i < p->image->angles ? PHASE_PER_RAD : 1.0);
     }
 }
 
@@ -287,8 +286,8 @@ static void make_starts(fixed_plan *p) {
         p->start_angle[i] = im->start_turns[i];
     }
     for (int i = 0; i < im->reals; i++) {
-        p->start_real[i] = (int32_t)number_nearest(
-            number_scaled(im->start_real[i], p->format[i].bits));
+        p->start_real[i] =
+            (int32_t)number_nearest(number_scaled(im->start_real[i], p->format[i].bits));
     }
     for (int i = 0; i < im->inputs; i++) {
         p->start_input[i] = (int32_t)number_nearest(
@@ -322,8 +321,8 @@ static bool make(fixed_plan *p, diags *errors) {
         return false;
     }
     for (int i = 0; i < numbers; i++) {
-        p->format[i] = format_of(
-            p->range[i], fixed_point_of(interval_size(p->range[i]), FIXED_DIGITS));
+        p->format[i] =
+            format_of(p->range[i], fixed_point_of(interval_size(p->range[i]), FIXED_DIGITS));
     }
     const fixed_leaves leaves = leaves_of(p);
     if (!enclose(p, errors) || !make_points(p, errors)) {

@@ -37,7 +37,7 @@ typedef struct fixed_plan {
     interval *stage;         /* [reals + inputs] where its stages can be from there */
     bool *declared;          /* [reals + inputs]: else from a reference run */
     bool second;
-    int coordinates; /* or components */
+    int coordinates;    /* or components */
     fixed_mover *mover; /* [coordinates], angles first */
     fixed_list *list;
     int cells; /* of a turn, with which no denominator was zero */

@@ -1,7 +1,6 @@
 /* interval.c: see interval.h. */
 #include "interval.h"
 
-
 #include <math.h>
 
 #include "host/number/functions.h"
@@ -19,7 +18,8 @@ interval interval_hull(interval a, interval b) {
 interval interval_mul(interval a, interval b) {
     const double low[2] = {a.low * b.low, a.low * b.high};
     const double high[2] = {a.high * b.low, a.high * b.high};
-    const interval of_low = low[0] < low[1] ? (interval){low[0], low[1]} : (interval){low[1], low[0]};
+    const interval of_low =
+        low[0] < low[1] ? (interval){low[0], low[1]} : (interval){low[1], low[0]};
     const interval of_high =
         high[0] < high[1] ? (interval){high[0], high[1]} : (interval){high[1], high[0]};
     return interval_hull(of_low, of_high);
@@ -35,7 +35,7 @@ interval interval_div(interval a, interval b) {
 }
 
 interval interval_abs(interval a) {
-    const double least = interval_holds_zero(a)                ? 0.0
+    const double least = interval_holds_zero(a)       ? 0.0
                          : fabs(a.low) < fabs(a.high) ? fabs(a.low)
                                                       : fabs(a.high);
     return (interval){least, interval_size(a)};

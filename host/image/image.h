@@ -301,8 +301,9 @@ typedef struct image {
         start_turns; /* [angles] the same as float keeps it: 2^32 a turn; 0 where that holds it not */
     double *start_real; /* [reals] */
 
-    image_range *range;              /* [reals + inputs] components, then inputs */
-    const struct fixed_plan *fixed; /* of a run in fixed point (host/fixed), which is not the image's; or NULL */
+    image_range *range; /* [reals + inputs] components, then inputs */
+    const struct fixed_plan
+        *fixed; /* of a run in fixed point (host/fixed), which is not the image's; or NULL */
 
     bool has_energies; /* not a system given outright */
     bool has_integral; /* the energy that is booked is not T + V (host/derive/energy.h) */

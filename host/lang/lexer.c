@@ -242,9 +242,11 @@ static void read_sign(lexer *in, token *made) {
     static const struct {
         char text[3];
         int sign;
-    } pairs[] = {
-        {"+=", SIGN_PLUS_ASSIGN}, {">=", SIGN_AT_LEAST}, {"<=", SIGN_AT_MOST}, {"==", SIGN_EQUAL},
-        {"..", SIGN_TO}};
+    } pairs[] = {{"+=", SIGN_PLUS_ASSIGN},
+                 {">=", SIGN_AT_LEAST},
+                 {"<=", SIGN_AT_MOST},
+                 {"==", SIGN_EQUAL},
+                 {"..", SIGN_TO}};
     const int c = at_offset(in, 0);
     for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
         if (c == pairs[i].text[0] && at_offset(in, 1) == pairs[i].text[1]) {

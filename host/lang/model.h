@@ -251,17 +251,17 @@ typedef struct instance {
     const bool *conserve; /* [coordinate_count] to be recovered from their momentum, or NULL */
     bool ledger;          /* keep the books of energy and momentum */
     bool balance; /* the same where there are contacts and it can be done, to balance the run */
-    double *parameter; /* [parameter_count] SI */
-    double *input;     /* [input_count] SI */
-    double **start;    /* [coordinate_count][order] value, rate, ...: SI; order >= 2 */
-    place **start_at;  /* like start: where it was given; no source where it was not */
-    int *start_count;  /* [coordinate_count] entries in start[i] (2 for coordinates) */
+    double *parameter;  /* [parameter_count] SI */
+    double *input;      /* [input_count] SI */
+    double **start;     /* [coordinate_count][order] value, rate, ...: SI; order >= 2 */
+    place **start_at;   /* like start: where it was given; no source where it was not */
+    int *start_count;   /* [coordinate_count] entries in start[i] (2 for coordinates) */
     range_value *range; /* [range_count] */
     int range_count;
-    double step_s;     /* default 1e-3 */
-    double until_s;    /* default 10 */
-    whole_ratio step;  /* step_s, as it was written */
-    uint64_t steps;    /* to the end: until_s / step_s to the nearest, at most 2^63 */
+    double step_s;    /* default 1e-3 */
+    double until_s;   /* default 10 */
+    whole_ratio step; /* step_s, as it was written */
+    uint64_t steps;   /* to the end: until_s / step_s to the nearest, at most 2^63 */
     struct arena *arena;
 } instance;
 

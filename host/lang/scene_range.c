@@ -39,8 +39,9 @@ static bool has_range(parser *in, const token *name, const named *found) {
     }
     for (int i = 0; i < made->range_count; i++) {
         if (made->ranges[i].symbol == what && made->ranges[i].primes == name->primes) {
-            diag_error(in->diags, name->at, NULL, "the range of '%s%.*s' was already given in line %d",
-                       what->name, name->primes, "'''''''''", made->ranges[i].at.line);
+            diag_error(in->diags, name->at, NULL,
+                       "the range of '%s%.*s' was already given in line %d", what->name,
+                       name->primes, "'''''''''", made->ranges[i].at.line);
             return false;
         }
     }
@@ -68,7 +69,9 @@ static bool range_item(parser *in, const statement_word *word) {
     const place low_at = in->token.at;
     const expr *low = parse_expression(in, CONTEXT_CONSTANT);
     if (low == NULL || !parser_is_sign(in, SIGN_TO)) {
-        return low == NULL ? false : parser_fail(in, word->form, "'..' is missing in the range of %s", words);
+        return low == NULL
+                   ? false
+                   : parser_fail(in, word->form, "'..' is missing in the range of %s", words);
     }
     parser_next(in);
     const place high_at = in->token.at;
@@ -83,8 +86,8 @@ static bool range_item(parser *in, const statement_word *word) {
     dimension_rule(rule, words, "is", wanted);
     if (check_dimension(in, low_at, low, wanted, rule) &&
         check_dimension(in, high_at, high, wanted, rule)) {
-        range_statement *longer =
-            arena_room(in->arena, (range_statement *)made->ranges, made->range_count, sizeof *longer);
+        range_statement *longer = arena_room(in->arena, (range_statement *)made->ranges,
+                                             made->range_count, sizeof *longer);
         longer[made->range_count++] =
             (range_statement){&found->symbol, name.primes, low, high, name.at};
         made->ranges = longer;

@@ -23,9 +23,9 @@ static uint32_t draw(void) {
 
 /* Of all sizes, ends among them. */
 static int32_t draw_number(void) {
-    static const int32_t edges[] = {0,         1,          -1,        0x7fff,     0x8000, -0x8000,
-                                    0x10000,   -0x10000,   0xffff,    -0xffff,    INT32_MAX,
-                                    -INT32_MAX, 0x7fff8000, 0x7fff7fff, -0x7fff8000};
+    static const int32_t edges[] = {0,         1,          -1,         0x7fff,     0x8000,
+                                    -0x8000,   0x10000,    -0x10000,   0xffff,     -0xffff,
+                                    INT32_MAX, -INT32_MAX, 0x7fff8000, 0x7fff7fff, -0x7fff8000};
     const uint32_t which = draw() % 40U;
     if (which < sizeof edges / sizeof edges[0]) {
         return edges[which];

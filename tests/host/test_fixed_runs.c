@@ -16,7 +16,8 @@ enum { KINDS = 5, CASES = 40, TEXT_SIZE = 3000, MOST = 8 };
 
 /* A mechanism m with a scene s that has these ranges, of kind `which`: masses between springs, one of them one-sided; a damped
  * pendulum on a carriage; a driven rotor with an uneven load; two coupled pendulums; a system of first order. */
-static void write_mechanism(char text[static TEXT_SIZE], int which, uint64_t seed, const char *ranges) {
+static void write_mechanism(char text[static TEXT_SIZE], int which, uint64_t seed,
+                            const char *ranges) {
     double r[10];
     for (int i = 0; i < 10; i++) {
         r[i] = random_between(&seed, 0.5, 2.0);
@@ -44,19 +45,21 @@ static void write_mechanism(char text[static TEXT_SIZE], int which, uint64_t see
                  0.8 * r[7], ranges);
         break;
     case 2:
-        snprintf(text, TEXT_SIZE,
-                 "mechanism m\ncoordinate a [rad]\ninput M = %.6f [N*m]\n"
-                 "T = %.6f [kg*m^2]*(1.5 + cos(2*a + 0.3))*a'^2/2\nV = %.6f [J]*sin(3*a)\n"
-                 "F = %.6f [N*m*s]*a'^2/2\nQ(a) = M\nscene s { start a' = %.6f [rad/s]; until 2 [s]\n%s }\n",
-                 r[0], 0.3 * r[1], 0.4 * r[2], 0.4 * r[3], 3 * r[4], ranges);
+        snprintf(
+            text, TEXT_SIZE,
+            "mechanism m\ncoordinate a [rad]\ninput M = %.6f [N*m]\n"
+            "T = %.6f [kg*m^2]*(1.5 + cos(2*a + 0.3))*a'^2/2\nV = %.6f [J]*sin(3*a)\n"
+            "F = %.6f [N*m*s]*a'^2/2\nQ(a) = M\nscene s { start a' = %.6f [rad/s]; until 2 [s]\n%s }\n",
+            r[0], 0.3 * r[1], 0.4 * r[2], 0.4 * r[3], 3 * r[4], ranges);
         break;
     case 3:
-        snprintf(text, TEXT_SIZE,
-                 "mechanism m\ncoordinate a [rad]\ncoordinate b [rad]\ninput M = %.6f [N*m]\n"
-                 "T = %.6f [kg*m^2]*(2*a'^2 + b'^2 + a'*b'*cos(a - b))/2\n"
-                 "V = -%.6f [J]*(2*cos(a) + cos(b))\nF = %.6f [N*m*s]*(a'^2 + (a' - b')^2)/2\nQ(a) = M\n"
-                 "scene s { start a = %.6f [rad]; until 2 [s]\n%s }\n",
-                 r[0], 0.5 * r[1], 4 * r[2], 0.2 * r[3], 0.7 * r[4], ranges);
+        snprintf(
+            text, TEXT_SIZE,
+            "mechanism m\ncoordinate a [rad]\ncoordinate b [rad]\ninput M = %.6f [N*m]\n"
+            "T = %.6f [kg*m^2]*(2*a'^2 + b'^2 + a'*b'*cos(a - b))/2\n"
+            "V = -%.6f [J]*(2*cos(a) + cos(b))\nF = %.6f [N*m*s]*(a'^2 + (a' - b')^2)/2\nQ(a) = M\n"
+            "scene s { start a = %.6f [rad]; until 2 [s]\n%s }\n",
+            r[0], 0.5 * r[1], 4 * r[2], 0.2 * r[3], 0.7 * r[4], ranges);
         break;
     default:
         snprintf(text, TEXT_SIZE,
@@ -92,10 +95,10 @@ static void write_ranges(char *text, const image *im, const double *far, double 
         const char *unit = real ? im->unknown[im->real[i].unknown].unit[im->real[i].primes].si
                                 : im->input[i - im->reals].unit.si;
         const double size = times * (real ? far[i] : im->input[i - im->reals].value) + 1e-3;
-        length += (size_t)snprintf(text + length, 1000 - length, "range %s = -%.6f .. %.6f%s%s%s\n",
-                                   im->range[i].name, size, size, strcmp(unit, "1") == 0 ? "" : " [",
-                                   strcmp(unit, "1") == 0 ? "" : unit,
-                                   strcmp(unit, "1") == 0 ? "" : "]");
+        length +=
+            (size_t)snprintf(text + length, 1000 - length, "range %s = -%.6f .. %.6f%s%s%s\n",
+                             im->range[i].name, size, size, strcmp(unit, "1") == 0 ? "" : " [",
+                             strcmp(unit, "1") == 0 ? "" : unit, strcmp(unit, "1") == 0 ? "" : "]");
     }
 }
 
@@ -233,18 +236,21 @@ static void test_refusals(void) {
         {"stop x >= -1 [m] restitution 0.5", "", "there are no events in fixed point"},
         {"friction x static 0.3 kinetic 0.2 normal 1 [N]", "", "has this friction"},
         {"V = 1 [J]*x^2/1 [m^2]", "with ledger", "keeps a ledger"},
-        {"V = 1 [J*m]/(x + 3 [m])", "range x = -4 .. 4 [m], x' = -9 .. 9 [m/s], a' = -1 .. 1 [rad/s]",
+        {"V = 1 [J*m]/(x + 3 [m])",
+         "range x = -4 .. 4 [m], x' = -9 .. 9 [m/s], a' = -1 .. 1 [rad/s]",
          "a denominator of the equations of 's' may be zero"},
         {"V = 1 [J]*x^2/1 [m^2]", "range x = 1 .. 2 [m]", "starts at 0, outside its range"},
-        {"V = 1 [J]*x^2/1 [m^2]", "step 1 [s]; range x = -1 .. 1 [m], x' = -1e9 .. 1e9 [m/s], a' = -1e9 .. 1e9 [rad/s]",
+        {"V = 1 [J]*x^2/1 [m^2]",
+         "step 1 [s]; range x = -1 .. 1 [m], x' = -1e9 .. 1e9 [m/s], a' = -1e9 .. 1e9 [rad/s]",
          "too far for fixed point"},
     };
     char text[TEXT_SIZE];
     for (size_t i = 0; i < sizeof tried / sizeof tried[0]; i++) {
-        snprintf(text, sizeof text,
-                 "mechanism m\ncoordinate a [rad]\ncoordinate x [m]\n"
-                 "T = 1 [kg]*x'^2/2 + 1 [kg*m^2]*a'^2/2\n%s\nscene s { start x' = 0.1 [m/s]; until 1 [s]\n%s }\n",
-                 tried[i].energy, tried[i].more);
+        snprintf(
+            text, sizeof text,
+            "mechanism m\ncoordinate a [rad]\ncoordinate x [m]\n"
+            "T = 1 [kg]*x'^2/2 + 1 [kg*m^2]*a'^2/2\n%s\nscene s { start x' = 0.1 [m/s]; until 1 [s]\n%s }\n",
+            tried[i].energy, tried[i].more);
         check_refused(text, tried[i].why);
     }
 }
@@ -253,7 +259,8 @@ static void test_refusals(void) {
 static void test_ranges_keep_denominators_from_zero(void) {
     derived d = derived_scene(
         "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 1 [J*m]/(x + 3 [m]) + 2 [N/m]*x^2\n"
-        "scene s { start x' = 0.1 [m/s]; range x = -2 .. 4 [m], x' = -9 .. 9 [m/s]; until 1 [s] }\n", "s");
+        "scene s { start x' = 0.1 [m/s]; range x = -2 .. 4 [m], x' = -9 .. 9 [m/s]; until 1 [s] }\n",
+        "s");
     derived_expect(&d, "denominator");
     check_beside_double(&d, true, "a denominator from 1 to 7");
     derived_free(&d);
@@ -273,16 +280,19 @@ static void test_ranges_in_the_language(void) {
     };
     char text[TEXT_SIZE];
     for (size_t i = 0; i < sizeof tried / sizeof tried[0]; i++) {
-        snprintf(text, sizeof text,
-                 "mechanism m\ncoordinate x [m]\nparameter k = 3\ninput u = 1 [N]\nT = 1 [kg]*x'^2/2\nQ(x) = u\n"
-                 "scene s { %s }\n",
-                 tried[i][0]);
+        snprintf(
+            text, sizeof text,
+            "mechanism m\ncoordinate x [m]\nparameter k = 3\ninput u = 1 [N]\nT = 1 [kg]*x'^2/2\nQ(x) = u\n"
+            "scene s { %s }\n",
+            tried[i][0]);
         derived d = derived_scene(text, "s");
         TEST_ASSERT_NOT_NULL_MESSAGE(strstr(d.errors, tried[i][1]), d.errors);
         derived_free(&d);
     }
-    derived d = derived_scene("mechanism m\ncoordinate x [m]\nparameter vm = 3 [m/s]\nT = 1 [kg]*x'^2/2\n"
-                              "scene s { range x = -500..250 [mm],\n x' = -vm .. 2*vm }\n", "s");
+    derived d =
+        derived_scene("mechanism m\ncoordinate x [m]\nparameter vm = 3 [m/s]\nT = 1 [kg]*x'^2/2\n"
+                      "scene s { range x = -500..250 [mm],\n x' = -vm .. 2*vm }\n",
+                      "s");
     derived_expect(&d, "ranges");
     TEST_ASSERT_EQUAL_DOUBLE(-0.5, d.image->range[0].low);
     TEST_ASSERT_EQUAL_DOUBLE(0.25, d.image->range[0].high);
