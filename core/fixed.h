@@ -265,6 +265,15 @@ WH_INLINE void wh_fixed_sincos(uint32_t phase, int32_t *sine, int32_t *cosine) {
 #endif
 }
 
+/* The same of one of several waves: where products are long, that is called. */
+WH_INLINE void wh_fixed_sincos_shared(uint32_t phase, int32_t *sine, int32_t *cosine) {
+#if WH_FIXED_NARROW
+    wh_fixed_sincos_called(phase, sine, cosine);
+#else
+    wh_fixed_sincos_here(phase, sine, cosine);
+#endif
+}
+
 /* --- quotients -----------------------------------------------------------------------------------------------*/
 
 /* Zeros in front of x > 0. */

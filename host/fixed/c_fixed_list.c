@@ -42,10 +42,18 @@ static void pair(FILE *out, const fixed_list *l, const fixed_op *o, const char *
     fputc(')', out);
 }
 
+static int waves(const fixed_list *l) {
+    int count = 0;
+    for (int i = 0; i < l->count; i++) {
+        count += l->op[i].used && l->op[i].code == FIXED_PHASE;
+    }
+    return count;
+}
+
 static void phase(FILE *out, const fixed_list *l, int i) {
     const fixed_op *o = &l->op[i];
-    fprintf(out, "    int32_t s%d;\n    int32_t c%d;\n    wh_fixed_sincos(UINT32_C(%" PRIu32 ")", i,
-            i, o->offset);
+    fprintf(out, "    int32_t s%d;\n    int32_t c%d;\n    wh_fixed_sincos%s(UINT32_C(%" PRIu32 ")",
+            i, i, waves(l) > 1 ? "_shared" : "", o->offset);
     for (int k = 0; k < l->angles && o->turns != NULL; k++) {
         if (o->turns[k] == 1) {
             fprintf(out, " + phase[%d]", k);
