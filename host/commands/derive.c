@@ -148,8 +148,8 @@ static void print_usage(FILE *out) {
     options_usage(out, &options_of_derive);
     fprintf(
         out,
-        "The method matters to %s only, and so does the number: what is generated\n"
-        "is of float and double alike, but for --number fixed. With --matrix, every form has the\n"
+        "The method matters to %s only, and so does --number fixed:\n"
+        "what is generated else is of float and double alike. With --matrix, every form has the\n"
         "matrix: octave in place of the equations, to the last digit.\n",
         forms_with(has_steps, said));
 }
