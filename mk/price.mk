@@ -250,6 +250,18 @@ bench-tables-now: $(GEN)/.stamp build/whirl
 	@mk/price/into_page.sh build/turn_tables/price.md docs/price.md turn-tables
 	@cat build/turn_tables/errors.md build/turn_tables/price.md
 
+# Steps in fixed point, on boards without an FPU.
+FIXED_BOARDS ?= mps2-an385-m0 mps2-an385 atmega328p
+FIXED_SCENES ?=
+.PHONY: price-fixed price-fixed-board
+price-fixed-board: build/whirl
+	@$(MAKE) $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl) $(LIB_FLOAT) $(B)/float/boards/host/board.o \
+	    $(if $(filter single,$(BOARD_IMAGES)),$(AVR_RUN),$(PLUGIN))
+	@$(TO_PRICE) TIMING=$(BOARD_TIMING) HOST_LIB=$(LIB_FLOAT) HOST_BOARD=$(B)/float/boards/host/board.o \
+	    $(if $(FIXED_SCENES),SCENES="$(FIXED_SCENES)") $(if $(filter single,$(BOARD_IMAGES)),PLUGIN=) mk/price/fixed.sh
+price-fixed: build/whirl ## Instructions of a step in fixed point, on boards without an FPU (FIXED_BOARDS, FIXED_SCENES)
+	+@for board in $(FIXED_BOARDS); do $(MAKE) BOARD=$$board price-fixed-board || exit 1; done
+
 # Work against precision of every method: the tables of docs/numerics.md. `@jumping`: inputs jump every 2 ms.
 PRECISION_SCENES ?= epicyclic_conserved thomson_a_conserved rig_fixed two_mass_relative spherical_flight \
     mk/price/separable.whirl:twins_swing build/precision_links.whirl:swing_4 \

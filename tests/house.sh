@@ -37,9 +37,10 @@ derive: algebra base core image lang number
 show: algebra base derive lang number
 run: base core image number plot
 emit: base image number
+fixed: base core emit image number run
 sweep: base core derive image lang number run
 price: base core image number plot run
-commands: base derive emit image lang number plot price run show sweep
+commands: base derive emit fixed image lang number plot price run show sweep
 '
 
 # included FILE...: "FILE FOLDER" for each folder of core or host that a file names in an include

@@ -8,6 +8,8 @@
 #include "files.h"
 #include "host/emit/emit.h"
 #include "host/emit/matrix.h"
+#include "host/fixed/c_fixed.h"
+#include "host/fixed/engine_fixed.h"
 #include "host/lang/lexer.h"
 #include "host/run/start.h"
 #include "host/show/show_equations.h"
@@ -119,8 +121,8 @@ static const command_usage usage = {
         "built in (`whirl list`):\n",
     .tail = ""};
 static const command_usage options_of_derive = {.head = "",
-                                                .groups =
-                                                    OPTIONS_CHANGE | OPTIONS_STEP | OPTIONS_ENGINE,
+                                                .groups = OPTIONS_CHANGE | OPTIONS_STEP |
+                                                          OPTIONS_ENGINE | OPTIONS_NUMBER,
                                                 .tail = "Numbers in formulas are SI. "};
 
 static void print_option(FILE *out, const char *option, bool (*of)(const form_row *form),
@@ -144,10 +146,12 @@ static void print_usage(FILE *out) {
                  "what the scene is called there, so that one program can hold it twice: with and "
                  "without an effect, compensated and not");
     options_usage(out, &options_of_derive);
-    fprintf(out,
-            "The method matters to %s only. With --matrix, every form has the\n"
-            "matrix: octave in place of the equations, to the last digit.\n",
-            forms_with(has_steps, said));
+    fprintf(
+        out,
+        "The method matters to %s only, and so does --number fixed:\n"
+        "what is generated else is of float and double alike. With --matrix, every form has the\n"
+        "matrix: octave in place of the equations, to the last digit.\n",
+        forms_with(has_steps, said));
 }
 
 /* Does the option, "--header" or so, with its value's word, go with this form? Else it is said with which. */
@@ -188,12 +192,16 @@ static bool header_is_apart(const source_model *from, const char *header) {
     return true;
 }
 
-static bool write_header(const form_row *as, const image *im, const char *file,
-                         const char *header) {
+static bool write_header(const form_row *as, const image *im, const fixed_plan *plan,
+                         const char *file, const char *header) {
     FILE *out = fopen(header, "w");
     bool written = out != NULL;
     if (written) {
-        as->print_header(out, im, file);
+        if (plan != NULL) {
+            c_fixed_header(out, plan, file);
+        } else {
+            as->print_header(out, im, file);
+        }
         written = fflush(out) == 0 && ferror(out) == 0;
     }
     if (!written) {
@@ -218,6 +226,18 @@ static bool has_name(const image *im, const source_model *from, const form_row *
     return taken_by == NULL;
 }
 
+/* Its step in fixed point where that is asked for; *good: or it is not. */
+static fixed_plan *plan_of(const image *im, const source_model *from, const engine_kind *number,
+                           bool *good) {
+    fixed_plan *plan = number == &engine_fixed ? fixed_plan_make(im, from->errors) : NULL;
+    *good = number != &engine_fixed || plan != NULL;
+    diags_flush(from->errors, stderr);
+    if (plan != NULL) {
+        fixed_plan_say(plan, stderr, "whirl derive: note: ");
+    }
+    return plan;
+}
+
 /* Can this be C for the core? Else it is said why. */
 static bool has_c_form(const image *im, source_model *from) {
     const bool has = start_angles_are_held(im, from->errors) &&
@@ -229,8 +249,9 @@ static bool has_c_form(const image *im, source_model *from) {
 }
 
 static int derive_one(source_model *from, const mechanism *of, const scene *in,
-                      const overrides *changes, const form_row *as, const image_settings *settings,
+                      const overrides *changes, const form_row *as, const common_options *options,
                       const char *header) {
+    const image_settings *settings = &options->integration;
     image_settings taken = *settings;
     if (!as->runs) { /* equations and other programs' code know no tables */
         taken.tables = TABLES_NONE;
@@ -246,19 +267,29 @@ static int derive_one(source_model *from, const mechanism *of, const scene *in,
     if (!as->shows) {
         source_forget(from);
     }
+    bool good = true;
+    fixed_plan *plan = NULL;
+    if (code == EXIT_DONE) {
+        plan = plan_of(made.image, from, options->number, &good);
+    }
     if (code == EXIT_DONE &&
-        ((has_a_name(as) && !has_name(made.image, from, as, header)) ||
+        (!good || (has_a_name(as) && !has_name(made.image, from, as, header)) ||
          (as->runs && !has_c_form(made.image, from)) ||
-         (header != NULL && !write_header(as, made.image, from->file, header)))) {
+         (header != NULL && !write_header(as, made.image, plan, from->file, header)))) {
         code = EXIT_BAD_INPUT;
     }
     if (code == EXIT_DONE) {
         say_hints(&made);
-        if (as->runs) {
-            say_float_range(made.image);
+        if (plan != NULL) {
+            c_fixed(stdout, plan, from->file);
+        } else {
+            if (as->runs) {
+                say_float_range(made.image);
+            }
+            as->print(&made, from->file);
         }
-        as->print(&made, from->file);
     }
+    fixed_plan_free(plan);
     unload(&made);
     return code;
 }
@@ -327,6 +358,13 @@ int command_derive(int count, char **words) {
     }
     bad = bad || (header != NULL && !goes_with("--header", "FILE", has_a_header, as)) ||
           (options.change.name != NULL && !goes_with("--name", "NAME", has_a_name, as));
+    if (!bad && options.number == &engine_fixed && !has_steps(as)) {
+        char said[FORMS_TEXT_SIZE];
+        fprintf(stderr, "whirl derive: error: --number fixed goes with %s\n",
+                forms_with(has_steps, said));
+        bad = true;
+        target = "";
+    }
     if (bad || target == NULL) {
         if (!bad) {
             print_usage(stderr);
@@ -342,8 +380,7 @@ int command_derive(int count, char **words) {
             if (i > 0) {
                 putchar('\n');
             }
-            code = derive_one(&from, from.model->mechanisms[i], NULL, &changes, as,
-                              &options.integration, NULL);
+            code = derive_one(&from, from.model->mechanisms[i], NULL, &changes, as, &options, NULL);
         }
     } else if (code == EXIT_DONE) {
         const mechanism *of;
@@ -353,7 +390,7 @@ int command_derive(int count, char **words) {
         if (code == EXIT_DONE) {
             code = header != NULL && !header_is_apart(&from, header)
                        ? EXIT_BAD_INPUT
-                       : derive_one(&from, of, in, &changes, as, &options.integration, header);
+                       : derive_one(&from, of, in, &changes, as, &options, header);
         }
     }
     source_close(&from);

@@ -7,6 +7,7 @@
 
 #include "host/base/nearest.h"
 #include "host/base/room.h"
+#include "host/fixed/engine_fixed.h"
 #include "host/image/turned.h"
 #include "host/run/methods.h"
 
@@ -267,11 +268,16 @@ static bool take_cells(const char *command, const char *value, int *cells) {
     return good;
 }
 
+/* Sweeps, and prices, look for no ranges. */
+static bool knows_fixed(const char *command) {
+    return strcmp(command, "run") == 0 || strcmp(command, "derive") == 0;
+}
+
 static bool take(common_option which, const char *command, const char *value, common_options *to) {
     static const struct {
         const char *word;
         const engine_kind *kind;
-    } numbers[] = {{"double", &engine_double}, {"float", &engine_float}};
+    } numbers[] = {{"double", &engine_double}, {"float", &engine_float}, {"fixed", &engine_fixed}};
     change_options *c = &to->change;
     const char *word = option_rows[which].word;
     int chosen;
@@ -306,7 +312,7 @@ static bool take(common_option which, const char *command, const char *value, co
     case OPTION_CELLS: return take_cells(command, value, &to->integration.cells);
     case OPTION_NUMBER:
         chosen = options_choose(command, "number", value, numbers, sizeof numbers[0],
-                                sizeof numbers / sizeof numbers[0]);
+                                (int)(sizeof numbers / sizeof numbers[0]) - !knows_fixed(command));
         to->number = chosen < 0 ? to->number : numbers[chosen].kind;
         return chosen >= 0;
     }

@@ -26,7 +26,8 @@
     X(OPTION_UNTIL, "--until", "9s", OPTIONS_CHANGE, "end of the run") \
     X(OPTION_METHOD, "--method", "M", OPTIONS_ENGINE, "") \
     X(OPTION_NUMBER, "--number", "N", OPTIONS_NUMBER, \
-      "double (default, the reference) or float (the boards, to the bit)") \
+      "double (default, the reference) or float (the boards, to the bit); fixed, of `whirl run`\n" \
+      "and `whirl derive --as c`: 32-bit integers (the boards without an FPU, to the bit)") \
     X(OPTION_COMPENSATED, "--compensated", "", OPTIONS_ENGINE, \
       "carry the rounding error of every sum along") \
     X(OPTION_ANGLES, "--angles", "A", OPTIONS_ENGINE, \

@@ -8,6 +8,8 @@
 
 #include "commands.h"
 #include "files.h"
+#include "host/fixed/engine_fixed.h"
+#include "host/fixed/fixed_plan.h"
 #include "host/number/decimal.h"
 #include "host/run/belief.h"
 #include "host/run/simulate.h"
@@ -223,6 +225,17 @@ static int run_image(run_options *o, const source_model *from, const image *im, 
     return EXIT_RUN_FAILED;
 }
 
+/* Its step in fixed point, which the image then has; NULL, reported. */
+static fixed_plan *plan_of(image *im, const source_model *from, bool says) {
+    fixed_plan *plan = fixed_plan_make(im, from->errors);
+    im->fixed = plan;
+    diags_flush(from->errors, stderr);
+    if (plan != NULL && says) {
+        fixed_plan_say(plan, stderr, "whirl run: note: ");
+    }
+    return plan;
+}
+
 int command_run(int count, char **words) {
     run_options o = {.common = options_defaults()};
     if (options_help(count, words, &usage)) {
@@ -257,9 +270,15 @@ int command_run(int count, char **words) {
         if (code == EXIT_DONE && o.settings.kind == &engine_float) {
             say_float_range(made.image);
         }
+        fixed_plan *plan = NULL;
+        if (code == EXIT_DONE && o.settings.kind == &engine_fixed) {
+            plan = plan_of(made.image, &from, !o.settings.quiet);
+            code = plan != NULL ? EXIT_DONE : EXIT_BAD_INPUT;
+        }
         if (code == EXIT_DONE) {
             code = run_image(&o, &from, made.image, every_s);
         }
+        fixed_plan_free(plan);
         unload(&made);
     }
     source_close(&from);

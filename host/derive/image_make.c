@@ -1,11 +1,13 @@
 /* image_make.c: from equations and lists to the image. */
 #include "image_make.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #include "blame.h"
 #include "core/contact.h"
 #include "host/image/tape_gauge.h"
+#include "host/lang/lexer.h"
 #include "host/lang/shown.h"
 #include "host/lang/words.h"
 #include "host/number/phase.h"
@@ -120,6 +122,41 @@ static void copy_quantities(image_draft *d, const program *p, const instance *in
         if (instance_lacks(inst, m->parameters[i]) == NULL) {
             im->parameter[im->parameters++] =
                 image_quantity_of(d, m->parameters[i], inst->parameter[i]);
+        }
+    }
+}
+
+static const char *primed_name(image_draft *d, const char *name, int primes) {
+    char text[NAME_LENGTH_MAX + 16];
+    snprintf(text, sizeof text, "%s%.*s", name, primes, "''''''''''");
+    return image_text(d, text);
+}
+
+/* What components and inputs keep to in fixed point, as far as it is declared. */
+static void copy_ranges(image_draft *d, const equations *e, const layout *map) {
+    image *im = d->made;
+    const instance *inst = e->instance;
+    im->range = image_room(d, im->reals + im->inputs, sizeof *im->range);
+    for (int i = 0; i < im->reals; i++) {
+        const component c = im->real[i];
+        const image_unknown *u = &im->unknown[c.unknown];
+        im->range[i].name = primed_name(d, u->name, c.primes);
+        im->range[i].at = u->at;
+    }
+    for (int i = 0; i < im->inputs; i++) {
+        im->range[im->reals + i].name = im->input[i].name;
+        im->range[im->reals + i].at = im->input[i].at;
+    }
+    for (int k = 0; k < inst->range_count; k++) {
+        const range_value *r = &inst->range[k];
+        for (int i = 0; i < im->reals + im->inputs; i++) {
+            const bool real = i < im->reals;
+            const symbol *s = real ? e->unknowns[im->real[i].unknown].symbol
+                                   : inst->mechanism->inputs[map->input[i - im->reals]];
+            if (s == r->symbol && r->primes == (real ? im->real[i].primes : 0)) {
+                im->range[i] =
+                    (image_range){im->range[i].name, image_place(d, r->at), true, r->low, r->high};
+            }
         }
     }
 }
@@ -265,6 +302,7 @@ image *image_make(const equations *e, const bool *conserve, const image_settings
     copy_quantities(&d, p, e->instance);
     take_program(&d, p);
     start_components(&d);
+    copy_ranges(&d, e, &p->layout);
     program_free(p);
     if (use == IMAGE_TO_RUN) {
         blame_make(&d, e);

@@ -4,7 +4,12 @@
 
 #include <stdio.h>
 
+#include "host/image/image.h"
+
 /* `text` as part of a comment that it cannot end, nor have compilers warn of: on one line. */
 void c_comment(FILE *out, const char *text);
+
+/* Enumerators of components and inputs, a line each. */
+void c_header_state(FILE *out, const image *im);
 
 #endif

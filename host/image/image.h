@@ -147,6 +147,15 @@ typedef struct component {
     int primes;
 } component;
 
+/* Of a component kept as a real, or an input: what it keeps to in fixed point. */
+typedef struct image_range {
+    const char *name; /* "theta'" */
+    place at;         /* of the range, or of what it would be of */
+    bool declared;
+    double low; /* SI; of what is declared */
+    double high;
+} image_range;
+
 /* --- contacts and ledger ---------------------------------------------------------------------------*/
 
 typedef struct image_contact {
@@ -291,6 +300,10 @@ typedef struct image {
     int64_t *
         start_turns; /* [angles] the same as float keeps it: 2^32 a turn; 0 where that holds it not */
     double *start_real; /* [reals] */
+
+    image_range *range; /* [reals + inputs] components, then inputs */
+    const struct fixed_plan
+        *fixed; /* of a run in fixed point (host/fixed), which is not the image's; or NULL */
 
     bool has_energies; /* not a system given outright */
     bool has_integral; /* the energy that is booked is not T + V (host/derive/energy.h) */

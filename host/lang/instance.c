@@ -221,6 +221,24 @@ static void evaluate_durations(plan *from, instance *made) {
     }
 }
 
+static void evaluate_ranges(plan *from, instance *made) {
+    const int count = made->scene != NULL ? made->scene->range_count : 0;
+    char what[WORDS_SIZE];
+    made->range = arena_alloc(made->arena, (size_t)count * sizeof *made->range);
+    for (int i = 0; i < count; i++) {
+        const range_statement *each = &made->scene->ranges[i];
+        snprintf(what, sizeof what, "the range of '%s'", each->symbol->name);
+        const double low = finite_value(each->low, &from->values, each->at, what);
+        const double high = finite_value(each->high, &from->values, each->at, what);
+        if (!(low < high)) {
+            diag_error(from->values.diags, each->at, "write the lesser end first",
+                       "%s holds nothing: from %.9g to %.9g", what, low, high);
+        }
+        made->range[made->range_count++] =
+            (range_value){each->symbol, each->primes, low, high, each->at};
+    }
+}
+
 static void evaluate(plan *from, instance *made) {
     const mechanism *of = made->mechanism;
     char what[WORDS_SIZE];
@@ -241,6 +259,7 @@ static void evaluate(plan *from, instance *made) {
                                     : finite_value(each->value, &from->values, each->at, what);
         }
     }
+    evaluate_ranges(from, made);
     evaluate_durations(from, made);
 }
 

@@ -94,7 +94,7 @@ static void read_number(lexer *in, token *made) {
     while (is_digit(at_offset(in, length))) {
         length++;
     }
-    if (at_offset(in, length) == '.') {
+    if (at_offset(in, length) == '.' && at_offset(in, length + 1) != '.') { /* 1 .. 2 */
         length++;
         while (is_digit(at_offset(in, length))) {
             length++;
@@ -242,8 +242,11 @@ static void read_sign(lexer *in, token *made) {
     static const struct {
         char text[3];
         int sign;
-    } pairs[] = {
-        {"+=", SIGN_PLUS_ASSIGN}, {">=", SIGN_AT_LEAST}, {"<=", SIGN_AT_MOST}, {"==", SIGN_EQUAL}};
+    } pairs[] = {{"+=", SIGN_PLUS_ASSIGN},
+                 {">=", SIGN_AT_LEAST},
+                 {"<=", SIGN_AT_MOST},
+                 {"==", SIGN_EQUAL},
+                 {"..", SIGN_TO}};
     const int c = at_offset(in, 0);
     for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
         if (c == pairs[i].text[0] && at_offset(in, 1) == pairs[i].text[1]) {

@@ -23,7 +23,7 @@ typedef enum token_kind {
     TOKEN_BAD     /* unreadable; already reported */
 } token_kind;
 
-enum { SIGN_PLUS_ASSIGN = 256, SIGN_AT_LEAST, SIGN_AT_MOST, SIGN_EQUAL };
+enum { SIGN_PLUS_ASSIGN = 256, SIGN_AT_LEAST, SIGN_AT_MOST, SIGN_EQUAL, SIGN_TO };
 
 typedef struct token {
     token_kind kind;

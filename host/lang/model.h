@@ -136,6 +136,15 @@ typedef struct noise {
     place at;
 } noise;
 
+/* `range NAME = A .. B` of a scene: what it keeps to in fixed point. */
+typedef struct range_statement {
+    const symbol *symbol; /* a coordinate, a state, an input */
+    int primes;
+    const expr *low; /* expressions of constants */
+    const expr *high;
+    place at;
+} range_statement;
+
 typedef struct mechanism {
     const char *name;
     const char *title;
@@ -182,6 +191,8 @@ typedef struct scene {
     bool ledger;                    /* `with ledger`: the books of energy and momentum are kept */
     const contact_statement *whens; /* `when` statements of the scene's own */
     int when_count;
+    const range_statement *ranges;
+    int range_count;
     const expr *step;  /* seconds, or NULL */
     const expr *until; /* seconds, or NULL */
 } scene;
@@ -223,6 +234,15 @@ typedef struct overrides {
     bool balance; /* keep books of contacts inside the run even where nobody asked for them */
 } overrides;
 
+/* The same in numbers, SI: low < high. */
+typedef struct range_value {
+    const symbol *symbol;
+    int primes;
+    double low;
+    double high;
+    place at;
+} range_value;
+
 typedef struct instance {
     const mechanism *mechanism;
     const scene *scene;   /* NULL for a bare mechanism */
@@ -231,15 +251,17 @@ typedef struct instance {
     const bool *conserve; /* [coordinate_count] to be recovered from their momentum, or NULL */
     bool ledger;          /* keep the books of energy and momentum */
     bool balance; /* the same where there are contacts and it can be done, to balance the run */
-    double *parameter; /* [parameter_count] SI */
-    double *input;     /* [input_count] SI */
-    double **start;    /* [coordinate_count][order] value, rate, ...: SI; order >= 2 */
-    place **start_at;  /* like start: where it was given; no source where it was not */
-    int *start_count;  /* [coordinate_count] entries in start[i] (2 for coordinates) */
-    double step_s;     /* default 1e-3 */
-    double until_s;    /* default 10 */
-    whole_ratio step;  /* step_s, as it was written */
-    uint64_t steps;    /* to the end: until_s / step_s to the nearest, at most 2^63 */
+    double *parameter;  /* [parameter_count] SI */
+    double *input;      /* [input_count] SI */
+    double **start;     /* [coordinate_count][order] value, rate, ...: SI; order >= 2 */
+    place **start_at;   /* like start: where it was given; no source where it was not */
+    int *start_count;   /* [coordinate_count] entries in start[i] (2 for coordinates) */
+    range_value *range; /* [range_count] */
+    int range_count;
+    double step_s;    /* default 1e-3 */
+    double until_s;   /* default 10 */
+    whole_ratio step; /* step_s, as it was written */
+    uint64_t steps;   /* to the end: until_s / step_s to the nearest, at most 2^63 */
     struct arena *arena;
 } instance;
 

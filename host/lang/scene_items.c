@@ -46,9 +46,8 @@ static bool with_item(parser *in, const statement_word *word) {
     return true;
 }
 
-/* NAME of a symbol of the mechanism; *found is NULL when it is none (reported). */
-static bool take_symbol(parser *in, draft *into, const statement_word *word, token *name,
-                        named **found) {
+bool scene_take_symbol(parser *in, draft *into, const statement_word *word, token *name,
+                       named **found) {
     if (in->token.kind != TOKEN_NAME) {
         return scene_fail_name(in, word);
     }
@@ -99,7 +98,7 @@ static bool set_item(parser *in, const statement_word *word) {
     token name;
     named *found = NULL;
     const expr *value = NULL;
-    if (!take_symbol(in, into, word, &name, &found)) {
+    if (!scene_take_symbol(in, into, word, &name, &found)) {
         return false;
     }
     bool usable = found != NULL && !found->is_placeholder;
@@ -163,7 +162,7 @@ static bool start_item(parser *in, const statement_word *word) {
     named *found = NULL;
     const expr *value = NULL;
     dimension wanted = dim_none();
-    if (!take_symbol(in, into, word, &name, &found)) {
+    if (!scene_take_symbol(in, into, word, &name, &found)) {
         return false;
     }
     bool usable = found != NULL && !found->is_placeholder;
@@ -200,7 +199,7 @@ static bool conserve_item(parser *in, const statement_word *word) {
     draft *into = in->draft;
     token name;
     named *found = NULL;
-    if (!take_symbol(in, into, word, &name, &found)) {
+    if (!scene_take_symbol(in, into, word, &name, &found)) {
         return false;
     }
     if (found == NULL || found->is_placeholder) {
@@ -214,8 +213,7 @@ static bool conserve_item(parser *in, const statement_word *word) {
     return true;
 }
 
-/* ITEM {, ITEM}: a line may end after a comma. */
-static bool parse_list(parser *in, const statement_word *word, statement_reader *read) {
+bool scene_list(parser *in, const statement_word *word, statement_reader *read) {
     for (;;) {
         if (!read(in, word)) {
             return false;
@@ -230,12 +228,12 @@ static bool parse_list(parser *in, const statement_word *word, statement_reader 
     }
 }
 
-bool read_with(parser *in, const statement_word *word) { return parse_list(in, word, with_item); }
+bool read_with(parser *in, const statement_word *word) { return scene_list(in, word, with_item); }
 
-bool read_set(parser *in, const statement_word *word) { return parse_list(in, word, set_item); }
+bool read_set(parser *in, const statement_word *word) { return scene_list(in, word, set_item); }
 
-bool read_start(parser *in, const statement_word *word) { return parse_list(in, word, start_item); }
+bool read_start(parser *in, const statement_word *word) { return scene_list(in, word, start_item); }
 
 bool read_conserve(parser *in, const statement_word *word) {
-    return parse_list(in, word, conserve_item);
+    return scene_list(in, word, conserve_item);
 }

@@ -94,7 +94,8 @@ enum {
     X(START, "start", IN_SCENE, RESERVED, read_start, 0, "start x' = 1.2 [m/s]") \
     X(STEP, "step", IN_SCENE, RESERVED, read_step, 0, "step 1 [ms]") \
     X(UNTIL, "until", IN_SCENE, RESERVED, read_until, 0, "until 9 [s]") \
-    X(CONSERVE, "conserve", IN_SCENE, RESERVED, read_conserve, 0, "conserve X")
+    X(CONSERVE, "conserve", IN_SCENE, RESERVED, read_conserve, 0, "conserve X") \
+    X(RANGE, "range", IN_SCENE, 0, read_range, 0, "range x' = -2 .. 2 [m/s]")
 
 /* Words inside statements: the statement, and whether they are reserved. */
 #define INNER_WORD_ROWS(X) \

@@ -9,7 +9,7 @@
 #include "host/image/image.h"
 
 typedef struct engine_kind {
-    const char *name; /* "float" or "double" */
+    const char *name; /* "float", "double" or "fixed" (host/fixed) */
     int digits;       /* significant digits that carry a number of this kind through text */
     void *(*start)(const image *im); /* must outlive the run */
     void (*stop)(void *run);
@@ -31,6 +31,8 @@ typedef struct engine_kind {
     /* Of turn angle i: the most that rounding its steps to whole units (2^32 a turn) has put it off what its rates
      * asked for, since the start, and the span that these asked for; rad. 0 in double, and compensated. */
     double (*angle_off)(const void *run, int i, double *span_rad);
+    /* Values that were held at an end of their range since the start; NULL: this number has no ranges. */
+    uint64_t (*saturated)(const void *run);
 } engine_kind;
 
 extern const engine_kind engine_float;

@@ -2,6 +2,7 @@
 #include "simulate.h"
 
 #include <errno.h>
+#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -230,6 +231,18 @@ static void say_interrupted(const simulation *sim) {
             sim->csv != NULL || sim->columns != NULL ? "; the records so far are kept" : "");
 }
 
+/* Held at an end of their ranges, which is no error of the run's but hardly what was meant. */
+static void say_saturated(const simulation *sim) {
+    const engine_kind *kind = sim->settings->kind;
+    const uint64_t held = kind->saturated != NULL ? kind->saturated(sim->run) : 0;
+    if (held > 0) {
+        fprintf(stderr,
+                "whirl run: warning: %" PRIu64 " value%s saturated: held at an end of the range\n"
+                "hint: widen it: range NAME = A .. B\n",
+                held, held == 1 ? "" : "s");
+    }
+}
+
 /* What the run came to, and the words for it. */
 static simulation_result judge(simulation *sim, wh_status status, bool interrupted,
                                const belief *balance) {
@@ -246,6 +259,7 @@ static simulation_result judge(simulation *sim, wh_status status, bool interrupt
         }
     }
     tell_outputs(sim);
+    say_saturated(sim);
     const bool undefined = diags_count(sim->undefined) > 0;
     diags_flush(sim->undefined, stderr);
     if (status != WH_OK || undefined) {

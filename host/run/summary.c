@@ -56,6 +56,10 @@ void summary_print(FILE *out, const image *im, const engine_kind *kind, void *ru
             im->settings.compensated ? " compensated" : "", kind->name, im->step_s, steps,
             ratio_times(steps, im->step));
     print_state(out, im, kind, run);
+    if (kind->saturated != NULL) {
+        const uint64_t held = kind->saturated(run);
+        fprintf(out, "%" PRIu64 " value%s saturated\n", held, held == 1 ? "" : "s");
+    }
     if (im->contacts > 0) {
         print_events(out, im, kind, run);
     }

@@ -121,11 +121,13 @@ while read -r word value group; do
         "$whirl" "$command" --help | grep -q -- " $word\( \|$\)" || continue
         case $command$word in
         sweep--start) set -- --start "x'=1" ;; # x is swept
+        derive--number) set -- --number fixed ;; # of float and double the code is one
         *) set -- "$word" "$(sample "$word")" ;;
         esac
         [ -n "$2" ] || set -- "$word"
         plain=$scratch/plain.whirl:plain_swings
         [ "$word" != --matrix ] || plain=$scratch/linear.whirl:plain_swings
+        [ "$command$word" != derive--number ] || plain=$scratch/linear.whirl:plain_swings
         base=
         [ "$word" != --cells ] || base="--tables cubic" # which has them
         # shellcheck disable=SC2086 # of words, or of none

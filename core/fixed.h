@@ -1,0 +1,311 @@
+/* fixed.h: arithmetic in fixed point: 32-bit integers that stand for x 2^-bits, the same bits on every machine.
+ *
+ * For processors without floating-point arithmetic. A number's `bits` are known where the code is generated and are no
+ * part of the number. Generated code keeps numbers within 2^30 in size (host/fixed), so that nothing here overflows.
+ *
+ * The one costly operation is the upper half of a product of two numbers. It is exact (rounded down), and there are two
+ * ways to it with the same bits: where the processor has a 32 x 32 = 64 bit product by that, elsewhere (Cortex-M0, AVR)
+ * by four of 16 x 16 = 32 bits.
+ */
+#ifndef WH_FIXED_H
+#define WH_FIXED_H
+
+#include "flash.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined(WH_FIXED_NARROW) /* as it was asked for */
+#elif defined(__AVR__) || defined(__ARM_ARCH_6M__) || defined(__ARM_ARCH_8M_BASE__) || \
+    (defined(__riscv) && !defined(__riscv_mul))
+#define WH_FIXED_NARROW 1
+#else
+#define WH_FIXED_NARROW 0
+#endif
+
+#if defined(__AVR__) && defined(__AVR_HAVE_MUL__) && defined(__AVR_HAVE_MOVW__) && \
+    defined(__GNUC__) && !defined(__clang__)
+#define WH_FIXED_AVR 1
+#else
+#define WH_FIXED_AVR 0
+#endif
+
+/* Of generated functions: which are called, and those that are inlined where that is no waste of flash. */
+#if defined(__GNUC__)
+#define WH_FIXED_CALLED __attribute__((noinline, unused))
+#else
+#define WH_FIXED_CALLED
+#endif
+#if defined(__AVR__)
+#define WH_FIXED_LIST static WH_FIXED_CALLED
+#else
+#define WH_FIXED_LIST WH_INLINE
+#endif
+
+/* floor(a b / 2^32), by a product of 64 bits. */
+WH_INLINE int32_t wh_fixed_high_wide(int32_t a, int32_t b) {
+    return (int32_t)(((int64_t)a * b) >> 32);
+}
+
+/* Products of 16 bits: uu of two without a sign, su of one with and one without, ss of two with. (avr-gcc makes one of 32
+ * bits of them where an operand is used again.) */
+#if WH_FIXED_AVR
+WH_INLINE uint32_t wh_fixed_uu(uint16_t a, uint16_t b) {
+    uint32_t product;
+    uint8_t none;
+    __asm__("clr %1\n\tmul %A2, %A3\n\tmovw %A0, r0\n\tmul %B2, %B3\n\tmovw %C0, r0\n\t"
+            "mul %B2, %A3\n\tadd %B0, r0\n\tadc %C0, r1\n\tadc %D0, %1\n\t"
+            "mul %A2, %B3\n\tadd %B0, r0\n\tadc %C0, r1\n\tadc %D0, %1\n\tclr r1"
+            : "=&r"(product), "=&r"(none)
+            : "r"(a), "r"(b)
+            : "r0");
+    return product;
+}
+
+WH_INLINE int32_t wh_fixed_su(int16_t a, uint16_t b) {
+    int32_t product;
+    uint8_t none;
+    __asm__("clr %1\n\tmul %A2, %A3\n\tmovw %A0, r0\n\tmulsu %B2, %B3\n\tmovw %C0, r0\n\t"
+            "mulsu %B2, %A3\n\tsbc %D0, %1\n\tadd %B0, r0\n\tadc %C0, r1\n\tadc %D0, %1\n\t"
+            "mul %A2, %B3\n\tadd %B0, r0\n\tadc %C0, r1\n\tadc %D0, %1\n\tclr r1"
+            : "=&r"(product), "=&r"(none)
+            : "a"(a), "a"(b)
+            : "r0");
+    return product;
+}
+
+WH_INLINE int32_t wh_fixed_ss(int16_t a, int16_t b) {
+    int32_t product;
+    uint8_t none;
+    __asm__("clr %1\n\tmul %A2, %A3\n\tmovw %A0, r0\n\tmuls %B2, %B3\n\tmovw %C0, r0\n\t"
+            "mulsu %B2, %A3\n\tsbc %D0, %1\n\tadd %B0, r0\n\tadc %C0, r1\n\tadc %D0, %1\n\t"
+            "mulsu %B3, %A2\n\tsbc %D0, %1\n\tadd %B0, r0\n\tadc %C0, r1\n\tadc %D0, %1\n\tclr r1"
+            : "=&r"(product), "=&r"(none)
+            : "a"(a), "a"(b)
+            : "r0");
+    return product;
+}
+#else
+WH_INLINE uint32_t wh_fixed_uu(uint16_t a, uint16_t b) { return (uint32_t)a * b; }
+WH_INLINE int32_t wh_fixed_su(int16_t a, uint16_t b) { return (int32_t)a * (int32_t)b; }
+WH_INLINE int32_t wh_fixed_ss(int16_t a, int16_t b) { return (int32_t)a * b; }
+#endif
+
+/* floor(a b / 2^32) by these. Where b is a constant whose lower half is zero, two of them go. */
+WH_INLINE int32_t wh_fixed_high_narrow(int32_t a, int32_t b) {
+    const int16_t a_high = (int16_t)(a >> 16);
+    const int16_t b_high = (int16_t)(b >> 16);
+    const uint16_t a_low = (uint16_t)a;
+    const uint16_t b_low = (uint16_t)b;
+    const int32_t one = wh_fixed_su(a_high, b_low) + (int32_t)(wh_fixed_uu(a_low, b_low) >> 16);
+    const int32_t other = wh_fixed_su(b_high, a_low) + (int32_t)((uint32_t)one & 0xffffU);
+    return wh_fixed_ss(a_high, b_high) + (one >> 16) + (other >> 16);
+}
+
+#define wh_fixed_high_called WH_NAME(wh_fixed_high_called)
+#define wh_fixed_sincos_called WH_NAME(wh_fixed_sincos_called)
+#define wh_fixed_sine_table WH_NAME(wh_fixed_sine_table)
+#define wh_fixed_seed_table WH_NAME(wh_fixed_seed_table)
+
+/* wh_fixed_high_narrow(), for processors on which it is long. */
+int32_t wh_fixed_high_called(int32_t a, int32_t b);
+
+WH_INLINE int32_t wh_fixed_high(int32_t a, int32_t b) {
+#if defined(__AVR__)
+    return wh_fixed_high_called(a, b);
+#elif WH_FIXED_NARROW
+    return wh_fixed_high_narrow(a, b);
+#else
+    return wh_fixed_high_wide(a, b);
+#endif
+}
+
+/* x 2^-by to the nearest, halves up, |x| <= 2^30; a negative `by` shifts to the left, modulo 2^32. */
+WH_INLINE int32_t wh_fixed_round(int32_t x, int by) {
+    return by >= 31   ? 0
+           : by > 0   ? (x + (int32_t)(UINT32_C(1) << (by - 1))) >> by
+           : by < -31 ? 0
+                      : (int32_t)((uint32_t)x << -by);
+}
+
+/* a b 2^-(32 + by) to the nearest, halves up; by >= 1. |a b| <= 2^62. */
+WH_INLINE int32_t wh_fixed_mul(int32_t a, int32_t b, int by) {
+    return wh_fixed_round(wh_fixed_high(a, b), by);
+}
+
+/* The 15 upper digits of x (up to 2^28) times a number of 15, 2^-by: of what is small beside what it is added to. */
+WH_INLINE int32_t wh_fixed_mul_short(int32_t x, int16_t number, int by) {
+    return wh_fixed_round(wh_fixed_ss((int16_t)(x >> 14), number), by);
+}
+
+/* Modulo 2^32, where the compiler knows nothing of it: sums whose parts may be larger than they are. */
+WH_INLINE int32_t wh_fixed_add(int32_t a, int32_t b) {
+    return (int32_t)((uint32_t)a + (uint32_t)b);
+}
+WH_INLINE int32_t wh_fixed_sub(int32_t a, int32_t b) {
+    return (int32_t)((uint32_t)a - (uint32_t)b);
+}
+
+/* x 2^by, modulo 2^32. */
+WH_INLINE int32_t wh_fixed_left(int32_t x, int by) { return (int32_t)((uint32_t)x << by); }
+
+WH_INLINE int32_t wh_fixed_least(int32_t a, int32_t b) { return b < a ? b : a; }
+WH_INLINE int32_t wh_fixed_most(int32_t a, int32_t b) { return b > a ? b : a; }
+WH_INLINE int32_t wh_fixed_size(int32_t x) { return x < 0 ? -x : x; }
+
+/* -1, 0 or 1 with so many digits behind the point. */
+WH_INLINE int32_t wh_fixed_sign(int32_t x, int bits) {
+    return (int32_t)((uint32_t)(int32_t)((x > 0) - (x < 0)) << bits);
+}
+
+/* x, or the nearest of low to high; then one is counted. */
+WH_INLINE int32_t wh_fixed_limit(int32_t x, int32_t low, int32_t high, uint32_t *saturated) {
+    if (WH_SELDOM((uint32_t)x - (uint32_t)low > (uint32_t)high - (uint32_t)low)) {
+        ++*saturated;
+        return x < low ? low : high;
+    }
+    return x;
+}
+
+/* x >> by, 7, 15 or 22 digits of an x that has as many as are used here: an AVR shifts by bytes in no time, by one after
+ * the other else. */
+WH_INLINE int32_t wh_fixed_down(int32_t x, int by) {
+#if WH_FIXED_AVR
+    return by == 7    ? (x + x) >> 8
+           : by == 15 ? (x + x) >> 16
+           : by == 22 ? (int32_t)((int16_t)(x >> 16) >> 6)
+                      : x >> by;
+#else
+    return x >> by;
+#endif
+}
+
+/* --- sine and cosine -----------------------------------------------------------------------------------------*/
+
+/* Binary digits of a sine behind the point. */
+#define WH_FIXED_SINE_BITS 30
+#define WH_FIXED_SECTOR_BITS 7
+#define WH_FIXED_QUARTER (1U << (WH_FIXED_SECTOR_BITS - 2))
+
+/* sin(2 pi i/128) 2^30, a turn and a quarter. */
+extern const int32_t wh_fixed_sine_table[(1U << WH_FIXED_SECTOR_BITS) + WH_FIXED_QUARTER] WH_FLASH;
+/* 2^31/(128.5 + i) 2^-8, reciprocals of 9 digits. */
+extern const uint16_t wh_fixed_seed_table[128] WH_FLASH;
+
+#if !defined(__AVR__) || defined(__AVR_TINY__) || WH_DOUBLE
+WH_INLINE int32_t wh_flash_int32(const int32_t *from) { return *from; }
+WH_INLINE uint16_t wh_flash_uint16(const uint16_t *from) { return *from; }
+#elif defined(__clang__)
+WH_INLINE int32_t wh_flash_int32(const int32_t *from) {
+    return *(const __attribute__((__address_space__(1))) int32_t *)(uintptr_t)from;
+}
+WH_INLINE uint16_t wh_flash_uint16(const uint16_t *from) {
+    return *(const __attribute__((__address_space__(1))) uint16_t *)(uintptr_t)from;
+}
+#else
+WH_INLINE int32_t wh_flash_int32(const int32_t *from) {
+    const float read = wh_flash_real((const float *)(const void *)from);
+    int32_t value;
+    __builtin_memcpy(&value, &read, sizeof value);
+    return value;
+}
+WH_INLINE uint16_t wh_flash_uint16(const uint16_t *from) {
+    const uint8_t *at = (const uint8_t *)from;
+    uint8_t low;
+    uint8_t high;
+    __asm__("lpm %0, Z" : "=r"(low) : "z"(at));
+    __asm__("lpm %0, Z" : "=r"(high) : "z"(at + 1));
+    return (uint16_t)(low | (uint16_t)high << 8);
+}
+#endif
+
+/* Sine and cosine of a phase (2^32 a turn), 2^30 each: the method of sine.h in integers. With s and c from the table and
+ * the rest y, 2^31 for pi/128: sin = s + (c sin r + s (cos r - 1)). What is small is a product of 16 bits. */
+WH_INLINE void wh_fixed_sincos_here(uint32_t phase, int32_t *sine, int32_t *cosine) {
+    const unsigned rest_bits = 32U - WH_FIXED_SECTOR_BITS;
+    const uint8_t sector = (uint8_t)((uint8_t)((phase + (UINT32_C(1) << (rest_bits - 1U))) >> 24) >>
+                                     (rest_bits - 24U));
+    const int32_t *middle = &wh_fixed_sine_table[sector];
+    const int32_t s = wh_flash_int32(&middle[0]);
+    const int32_t c = wh_flash_int32(&middle[WH_FIXED_QUARTER]);
+#if WH_FIXED_AVR /* likewise */
+    const int32_t y = (int32_t)((phase << 8) >> 1 |
+                                ((phase & UINT32_C(0x01000000)) != 0 ? UINT32_C(0x80000000) : 0U));
+#else
+    const int32_t y = (int32_t)(phase << WH_FIXED_SECTOR_BITS);
+#endif
+    const int16_t upper = (int16_t)(y >> 16);
+    /* -(upper + 1/2)^2, 2^15 for 1: what lies below `upper` is half a unit, on the average */
+    const int16_t square = (int16_t)wh_fixed_down(wh_fixed_ss(upper, (int16_t)~upper), 15);
+    const int16_t cos_less_1 =
+        (int16_t)wh_fixed_down(wh_fixed_ss(square, 20211) + 16384, 15); /* 2^26 */
+    /* sin r/y is 25735 2^16 and a rest, with which goes what sin r is short of r: 2^35/2^31 */
+    const int16_t rest = (int16_t)((wh_fixed_ss(square, 1323) >> 11) + 7594);
+    const int32_t sin_r =
+        wh_fixed_high(y, INT32_C(25735) * 65536) + (wh_fixed_ss(upper, rest) >> 13);
+    const int16_t s_short = (int16_t)((s + 32768) >> 16);
+    const int16_t c_short = (int16_t)((c + 32768) >> 16);
+    const int32_t sine_rest =
+        wh_fixed_high(c, sin_r) + wh_fixed_down(wh_fixed_ss(s_short, cos_less_1), 7);
+    const int32_t cosine_rest =
+        wh_fixed_down(wh_fixed_ss(c_short, cos_less_1), 7) - wh_fixed_high(s, sin_r);
+    *sine = s + ((sine_rest + 4) >> 3);
+    *cosine = c + ((cosine_rest + 4) >> 3);
+}
+
+/* The same, called. */
+void wh_fixed_sincos_called(uint32_t phase, int32_t *sine, int32_t *cosine);
+
+WH_INLINE void wh_fixed_sincos(uint32_t phase, int32_t *sine, int32_t *cosine) {
+#if defined(__AVR__)
+    wh_fixed_sincos_called(phase, sine, cosine);
+#else
+    wh_fixed_sincos_here(phase, sine, cosine);
+#endif
+}
+
+/* The same of one of several waves: where products are long, that is called. */
+WH_INLINE void wh_fixed_sincos_shared(uint32_t phase, int32_t *sine, int32_t *cosine) {
+#if WH_FIXED_NARROW
+    wh_fixed_sincos_called(phase, sine, cosine);
+#else
+    wh_fixed_sincos_here(phase, sine, cosine);
+#endif
+}
+
+/* --- quotients -----------------------------------------------------------------------------------------------*/
+
+/* Zeros in front of x > 0. */
+WH_INLINE int wh_fixed_zeros(uint32_t x) {
+#if defined(__GNUC__)
+    return sizeof(int) >= sizeof(uint32_t) ? __builtin_clz((unsigned)x)
+                                           : __builtin_clzl((unsigned long)x);
+#else
+    int zeros = 0;
+    for (; (x & UINT32_C(0x80000000)) == 0; x <<= 1) {
+        zeros++;
+    }
+    return zeros;
+#endif
+}
+
+/* 2^61/d for d >= 2^31, off by less than 2^-28 of itself: a table, then two steps of Newton's, the first with 16 digits, the
+ * second with as many of a result as are new. */
+WH_INLINE int32_t wh_fixed_reciprocal(uint32_t d) {
+    const uint16_t d_high = (uint16_t)(d >> 16);
+    const uint16_t d_low = (uint16_t)d;
+    const uint16_t x0 = wh_flash_uint16(&wh_fixed_seed_table[(d >> 24) & 127U]);
+    const int32_t off0 = (int32_t)(UINT32_C(0x80000000) - wh_fixed_uu(d_high, x0));
+    const uint16_t x1 =
+        (uint16_t)((int32_t)x0 + wh_fixed_down(wh_fixed_su((int16_t)(off0 >> 9), x0), 22));
+    const uint32_t product = wh_fixed_uu(d_high, x1) + (wh_fixed_uu(d_low, x1) >> 16);
+    const int32_t off1 = (int32_t)(UINT32_C(0x80000000) - product);
+    const int32_t more = wh_fixed_su((int16_t)(off1 >> 2), x1) >> 16;
+    return (int32_t)((uint32_t)x1 << 14) + more + more;
+}
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,100 @@
+/* fixed_scene.h: a scene that steps in fixed point (fixed.h), for processors without floating-point arithmetic.
+ *
+ * A file made by `whirl derive --as c --number fixed` defines one constant `wh_fixed_scene`; no step of it has a
+ * floating-point operation. What changes lives in a `wh_fixed_state` and in memory that the caller owns:
+ *
+ *     static uint64_t memory[gear_MEMORY_WORDS];
+ *     wh_fixed_state state;
+ *     wh_fixed_start(&gear, &state, memory, sizeof memory);
+ *     wh_fixed_set_input(&gear, &state, gear_INPUT_M, 1.5f);
+ *     while (wh_fixed_step(&gear, &state) == WH_OK) { ... wh_fixed_real(&gear, &state, gear_REAL_theta_rate); }
+ *
+ * Each component and input has a range. What would leave it stays at its end, and is counted in state.saturated: where
+ * that is not 0, the motion is not to be believed. Inside their ranges nothing overflows, which was proved when the
+ * code was made.
+ */
+#ifndef WH_FIXED_SCENE_H
+#define WH_FIXED_SCENE_H
+
+#include <stddef.h>
+
+#include "fixed.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* How a component or an input is kept: value 2^bits, from low to high. */
+typedef struct wh_fixed_format {
+    int16_t bits;
+    int32_t low;
+    int32_t high;
+} wh_fixed_format;
+
+/* The changing part of a run. The pointers point into the memory given to wh_fixed_start(). */
+typedef struct wh_fixed_state {
+    uint64_t steps;
+    uint32_t saturated; /* values that stayed at an end of their range, since the start */
+    int64_t *angle;     /* [scene->angles] 2^32 a turn, turns counted */
+    int32_t *
+        real; /* [scene->reals] as wh_state has them: linear positions, then all rates; or components */
+    int32_t *input; /* [scene->inputs] */
+} wh_fixed_state;
+
+typedef struct wh_fixed_scene wh_fixed_scene;
+struct wh_fixed_scene {
+    const char *name;
+    uint8_t angles;
+    uint8_t reals;
+    uint8_t inputs;
+    uint64_t steps;                /* to the scene's end */
+    const wh_fixed_format *format; /* [reals + inputs] */
+    const int64_t *start_angle;
+    const int32_t *start_real;
+    const int32_t *start_input;
+    const void *model; /* of the interpreter; NULL in generated code */
+    uint64_t model_hash;
+    void (*advance)(const wh_fixed_scene *scene, wh_fixed_state *state);
+};
+
+/* Bytes of caller memory for so many angles, and reals and inputs together. */
+#define WH_FIXED_BYTES(angles, numbers) ((size_t)(angles)*8U + (size_t)(numbers)*4U)
+
+#define wh_fixed_start WH_NAME(wh_fixed_start)
+#define wh_fixed_step WH_NAME(wh_fixed_step)
+#define wh_fixed_hash WH_NAME(wh_fixed_hash)
+#define wh_fixed_of WH_NAME(wh_fixed_of)
+#define wh_fixed_to WH_NAME(wh_fixed_to)
+#define wh_fixed_real WH_NAME(wh_fixed_real)
+#define wh_fixed_angle WH_NAME(wh_fixed_angle)
+#define wh_fixed_set_real WH_NAME(wh_fixed_set_real)
+#define wh_fixed_set_input WH_NAME(wh_fixed_set_input)
+
+/* Put `state` at the scene's start. Returns WH_OK, WH_E_ARGUMENT where a pointer is NULL or the memory is not aligned as
+ * a uint64_t, or WH_E_MEMORY where it is too little. */
+wh_status wh_fixed_start(const wh_fixed_scene *scene, wh_fixed_state *state, void *memory,
+                         size_t bytes);
+
+/* One step. Always WH_OK: nothing diverges, but state->saturated counts. */
+wh_status wh_fixed_step(const wh_fixed_scene *scene, wh_fixed_state *state);
+
+/* Of step count, saturations, angles and reals: equal runs on any two machines give equal hashes. */
+uint64_t wh_fixed_hash(const wh_fixed_scene *scene, const wh_fixed_state *state);
+
+/* The edges, in floating point, none of which a step calls. A number of this format: to the nearest, halves away from
+ * zero; beyond the range (or no number) the nearest end (low), and *saturated counts it. */
+int32_t wh_fixed_of(const wh_fixed_format *format, wh_real value, uint32_t *saturated);
+wh_real wh_fixed_to(const wh_fixed_format *format, int32_t number);
+
+/* Component i of the reals, SI; angle i, unwrapped radians. */
+wh_real wh_fixed_real(const wh_fixed_scene *scene, const wh_fixed_state *state, unsigned i);
+wh_real wh_fixed_angle(const wh_fixed_scene *scene, const wh_fixed_state *state, unsigned i);
+void wh_fixed_set_real(const wh_fixed_scene *scene, wh_fixed_state *state, unsigned i,
+                       wh_real value);
+void wh_fixed_set_input(const wh_fixed_scene *scene, wh_fixed_state *state, unsigned i,
+                        wh_real value);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

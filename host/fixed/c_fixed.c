@@ -1,0 +1,277 @@
+/* c_fixed.c: the file around the list: formats, start, one step written out as engine_fixed.c does it. */
+#include "c_fixed.h"
+
+#include "c_fixed_list.h"
+#include "host/emit/c_header.h"
+
+/* --- the step --------------------------------------------------------------------------------------------*/
+
+static void gained(FILE *out, fixed_gain g, const char *x) {
+    if (g.shift > 0) {
+        fprintf(out, "wh_fixed_mul(wh_fixed_left(%s, %d), ", x, g.shift);
+    } else {
+        fprintf(out, "wh_fixed_mul(%s, ", x);
+    }
+    c_fixed_number(out, g.number);
+    fprintf(out, ", %d)", g.by);
+}
+
+/* The limited sum of a component and what the caller writes next; limits() ends it. */
+static void limited(FILE *out, int i) {
+    fprintf(out, "    state->real[%d] = wh_fixed_limit(wh_fixed_add(state->real[%d], ", i, i);
+}
+
+static void limits(FILE *out, const fixed_plan *p, int at) {
+    fputs("), ", out);
+    c_fixed_number(out, p->format[at].low);
+    fputs(", ", out);
+    c_fixed_number(out, p->format[at].high);
+    fputs(", &saturated);\n", out);
+}
+
+/* What a stage moves a place by. */
+static void put_more(FILE *out, const fixed_mover *m, int i, int stage) {
+    fputs("wh_fixed_round(", out);
+    if (stage == 1) {
+        fprintf(out, "half[%d]", i);
+    } else {
+        fprintf(out, "wh_fixed_add(half[%d], ", i);
+        fprintf(out, "wh_fixed_mul_short(k%d[%d], %" PRId32 ", %d))", stage - 2, i,
+                m->half_accel.number, m->half_accel.by);
+    }
+    fprintf(out, ", %d)", m->guard - (stage == 3));
+}
+
+static void stage_second(FILE *out, const fixed_plan *p, int stage) {
+    const int angles = p->image->angles;
+    for (int i = 0; i < p->coordinates; i++) {
+        const fixed_mover *m = &p->mover[i];
+        if (i < angles) {
+            fprintf(out, "    phase[%d] = (uint32_t)state->angle[%d] + (uint32_t)", i, i);
+            put_more(out, m, i, stage);
+            fputs(";\n", out);
+        } else {
+            fprintf(out, "    linear[%d] = wh_fixed_add(state->real[%d], ", i - angles, i - angles);
+            put_more(out, m, i, stage);
+            fputs(");\n", out);
+        }
+        fprintf(out, "    rate[%d] = wh_fixed_add(old_rate[%d], wh_fixed_round(k%d[%d], %d));\n", i,
+                i, stage - 1, i, m->to_kept - (stage == 3));
+    }
+}
+
+static void stage_first(FILE *out, const fixed_plan *p, int stage) {
+    const int angles = p->image->angles;
+    for (int i = 0; i < p->coordinates; i++) {
+        const int by = p->mover[i].to_kept - (stage == 3);
+        if (i < angles) {
+            fprintf(out,
+                    "    phase[%d] = (uint32_t)state->angle[%d] + "
+                    "(uint32_t)wh_fixed_round(k%d[%d], %d);\n",
+                    i, i, stage - 1, i, by);
+        } else {
+            fprintf(
+                out,
+                "    linear[%d] = wh_fixed_add(state->real[%d], wh_fixed_round(k%d[%d], %d));\n",
+                i - angles, i - angles, stage - 1, i, by);
+        }
+    }
+}
+
+static void put_sixths(FILE *out, const fixed_mover *m, int i) {
+    char x[80];
+    snprintf(x, sizeof x, "k0[%d] + k3[%d] + 2 * (k1[%d] + k2[%d])", i, i, i, i);
+    gained(out, m->third, x);
+}
+
+static void end_second(FILE *out, const fixed_plan *p) {
+    const int angles = p->image->angles;
+    const int linears = p->coordinates - angles;
+    char x[80];
+    for (int i = 0; i < p->coordinates; i++) {
+        const fixed_mover *m = &p->mover[i];
+        snprintf(x, sizeof x, "k0[%d] + k1[%d] + k2[%d]", i, i, i);
+        if (i < angles) {
+            fprintf(out, "    state->angle[%d] += ", i);
+        } else {
+            limited(out, i - angles);
+        }
+        fprintf(out, "wh_fixed_round(wh_fixed_add(2 * half[%d], ", i);
+        gained(out, m->third_accel, x);
+        fprintf(out, "), %d)", m->guard);
+        if (i < angles) {
+            fputs(";\n", out);
+        } else {
+            limits(out, p, i - angles);
+        }
+        fprintf(out, "    state->real[%d] = wh_fixed_limit(wh_fixed_add(old_rate[%d], ",
+                linears + i, i);
+        put_sixths(out, m, i);
+        limits(out, p, linears + i);
+    }
+}
+
+static void end_first(FILE *out, const fixed_plan *p) {
+    const int angles = p->image->angles;
+    for (int i = 0; i < p->coordinates; i++) {
+        if (i < angles) {
+            fprintf(out, "    state->angle[%d] += ", i);
+            put_sixths(out, &p->mover[i], i);
+            fputs(";\n", out);
+        } else {
+            limited(out, i - angles);
+            put_sixths(out, &p->mover[i], i);
+            limits(out, p, i - angles);
+        }
+    }
+}
+
+/* None has no elements. */
+static int at_least_one(int count) { return count > 0 ? count : 1; }
+
+static void begin_step(FILE *out, const fixed_plan *p) {
+    const int angles = p->image->angles;
+    const int linears = p->coordinates - angles;
+    fprintf(out, "    uint32_t phase[%d];\n    int32_t linear[%d];\n", at_least_one(angles),
+            at_least_one(linears));
+    if (p->second) {
+        fprintf(out, "    int32_t rate[%d];\n    int32_t half[%d];\n", p->coordinates,
+                p->coordinates);
+        fprintf(out, "    const int32_t *old_rate = state->real + %d;\n", linears);
+    }
+    for (int stage = 0; stage < 4; stage++) {
+        fprintf(out, "    int32_t k%d[%d];\n", stage, p->coordinates);
+    }
+    fputs("    (void)scene;\n    (void)linear;\n    (void)phase;\n", out);
+    for (int i = 0; i < angles; i++) {
+        fprintf(out, "    phase[%d] = (uint32_t)state->angle[%d];\n", i, i);
+    }
+    for (int i = 0; i < p->coordinates && p->second; i++) {
+        char x[40];
+        snprintf(x, sizeof x, "old_rate[%d]", i);
+        fprintf(out, "    half[%d] = ", i);
+        gained(out, p->mover[i].half_rate, x);
+        fputs(";\n", out);
+    }
+}
+
+static void put_advance(FILE *out, const fixed_plan *p) {
+    fputs("static void advance(const wh_fixed_scene *scene, wh_fixed_state *state) {\n"
+          "    const int32_t *input = state->input;\n"
+          "    uint32_t saturated = state->saturated;\n",
+          out);
+    begin_step(out, p);
+    fprintf(out, "    accelerations(phase, state->real, %sinput, k0);\n",
+            p->second ? "old_rate, " : "");
+    for (int stage = 1; stage < 4; stage++) {
+        if (p->second) {
+            stage_second(out, p, stage);
+        } else {
+            stage_first(out, p, stage);
+        }
+        fprintf(out, "    accelerations(phase, linear, %sinput, k%d);\n", p->second ? "rate, " : "",
+                stage);
+    }
+    if (p->second) {
+        end_second(out, p);
+    } else {
+        end_first(out, p);
+    }
+    fputs("    state->saturated = saturated;\n}\n\n", out);
+}
+
+/* --- the file ------------------------------------------------------------------------------------------*/
+
+static void put_numbers(FILE *out, const char *name, const int32_t *number, int count) {
+    if (count > 0) {
+        fprintf(out, "static const int32_t %s[%d] = {", name, count);
+        for (int i = 0; i < count; i++) {
+            fputs(i > 0 ? ", " : "", out);
+            c_fixed_number(out, number[i]);
+        }
+        fputs("};\n", out);
+    }
+}
+
+static void put_starts(FILE *out, const fixed_plan *p) {
+    const image *im = p->image;
+    if (im->angles > 0) {
+        fprintf(out, "static const int64_t start_angle[%d] = {", im->angles);
+        for (int i = 0; i < im->angles; i++) {
+            fprintf(out, "%sINT64_C(%" PRId64 ")", i > 0 ? ", " : "", p->start_angle[i]);
+        }
+        fputs("};\n", out);
+    }
+    put_numbers(out, "start_real", p->start_real, im->reals);
+    put_numbers(out, "start_input", p->start_input, im->inputs);
+    if (im->reals + im->inputs > 0) {
+        fprintf(out, "static const wh_fixed_format formats[%d] = {\n", im->reals + im->inputs);
+        for (int i = 0; i < im->reals + im->inputs; i++) {
+            fprintf(out, "    {%d, ", p->format[i].bits);
+            c_fixed_number(out, p->format[i].low);
+            fputs(", ", out);
+            c_fixed_number(out, p->format[i].high);
+            fputs("}, /* ", out);
+            c_comment(out, im->range[i].name);
+            fprintf(out, ": %.6g to %.6g */\n", p->range[i].low, p->range[i].high);
+        }
+        fputs("};\n", out);
+    }
+    fputc('\n', out);
+}
+
+static void put_banner(FILE *out, const fixed_plan *p, const char *file) {
+    fputs("/* Generated by whirl from ", out);
+    c_comment(out, file);
+    fprintf(out,
+            ": do not edit.\n *\n * scene        %s, in fixed point\n * model hash   0x%016" PRIx64
+            "\n",
+            p->image->name, p->image->hash);
+    fixed_plan_say(p, out, " * ");
+    fputs(" */\n", out);
+}
+
+void c_fixed(FILE *out, const fixed_plan *p, const char *file) {
+    const image *im = p->image;
+    put_banner(out, p, file);
+    fputs("#include \"core/fixed_scene.h\"\n\n", out);
+    put_starts(out, p);
+    c_fixed_list(out, p->list, p->second);
+    put_advance(out, p);
+    fprintf(out,
+            "extern const wh_fixed_scene %s;\nconst wh_fixed_scene %s = {\n    .name = \"%s\",\n"
+            "    .angles = %d,\n    .reals = %d,\n    .inputs = %d,\n"
+            "    .steps = UINT64_C(%" PRIu64 "),\n",
+            im->name, im->name, im->name, im->angles, im->reals, im->inputs, im->steps);
+    fprintf(out, "    .format = %s,\n    .start_angle = %s,\n    .start_real = %s,\n",
+            im->reals + im->inputs > 0 ? "formats" : "NULL",
+            im->angles > 0 ? "start_angle" : "NULL", im->reals > 0 ? "start_real" : "NULL");
+    fprintf(out,
+            "    .start_input = %s,\n    .model = NULL,\n"
+            "    .model_hash = UINT64_C(0x%016" PRIx64 "),\n    .advance = advance,\n};\n",
+            im->inputs > 0 ? "start_input" : "NULL", im->hash);
+}
+
+void c_fixed_header(FILE *out, const fixed_plan *p, const char *file) {
+    const image *im = p->image;
+    fputs("/* Generated by whirl from ", out);
+    c_comment(out, file);
+    fprintf(out, ": do not edit.\n *\n * scene        %s, in fixed point%s", im->name,
+            im->title[0] != '\0' ? ": " : "");
+    c_comment(out, im->title);
+    fprintf(out,
+            " */\n#ifndef WHIRL_SCENE_%s_H\n#define WHIRL_SCENE_%s_H\n\n"
+            "#include \"core/fixed_scene.h\"\n\n"
+            "#ifdef __cplusplus\nextern \"C\" {\n#endif\n\nextern const wh_fixed_scene %s;\n\n",
+            im->name, im->name, im->name);
+    fprintf(out,
+            "/* What wh_fixed_start() takes: bytes; words for an array of uint64_t. */\n"
+            "#define %s_MEMORY_BYTES WH_FIXED_BYTES(%d, %d)\n"
+            "#define %s_MEMORY_WORDS ((%s_MEMORY_BYTES + 7U) / 8U)\n\n",
+            im->name, im->angles, im->reals + im->inputs, im->name, im->name);
+    fputs(
+        "/* Numbers that wh_fixed_angle(), wh_fixed_real(), wh_fixed_set_input() take. */\nenum {\n",
+        out);
+    c_header_state(out, im);
+    fprintf(out, "    %s_FIXED = 1\n};\n\n#ifdef __cplusplus\n}\n#endif\n\n#endif\n", im->name);
+}

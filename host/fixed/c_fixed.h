@@ -1,0 +1,13 @@
+/* c_fixed.h: a scene in fixed point as C: core/fixed.h's operations on integers, in the interpreter's order. */
+#ifndef FIXED_C_FIXED_H
+#define FIXED_C_FIXED_H
+
+#include <stdio.h>
+
+#include "fixed_plan.h"
+
+/* The scene as C for core/fixed_scene.h, and its header, for C and C++. */
+void c_fixed(FILE *out, const fixed_plan *plan, const char *file);
+void c_fixed_header(FILE *out, const fixed_plan *plan, const char *file);
+
+#endif

@@ -1,0 +1,360 @@
+/* engine_fixed.c: a run in fixed point without a compiler. c_fixed.c writes the same operations as C. */
+#include "engine_fixed.h"
+
+#include <stdlib.h>
+
+#include "fixed_plan.h"
+#include "host/base/room.h"
+#include "host/number/functions.h"
+
+#define RAD_PER_UNIT (6.283185307179586477 / 4294967296.0)
+
+typedef struct fixed_run {
+    const image *image;
+    const fixed_plan *plan;
+    wh_fixed_scene scene;
+    wh_fixed_state state;
+    void *memory;
+    int32_t *value; /* [list->count] */
+    int32_t *sine;  /* [list->count] of phases */
+    int32_t *cosine;
+    evaluator *observe;
+} fixed_run;
+
+/* --- the list ------------------------------------------------------------------------------------------*/
+
+typedef struct fixed_at {
+    const uint32_t *phase;
+    const int32_t *linear;
+    const int32_t *rate;
+    const int32_t *input;
+} fixed_at;
+
+static int32_t taken(const fixed_run *run, fixed_operand from) {
+    const bool constant = run->plan->list->op[from.op].code == FIXED_CONSTANT;
+    return constant ? from.number : wh_fixed_round(run->value[from.op], from.shift);
+}
+
+static int32_t factor(const fixed_run *run, fixed_operand from) {
+    const bool constant = run->plan->list->op[from.op].code == FIXED_CONSTANT;
+    return wh_fixed_left(constant ? from.number : run->value[from.op], from.shift);
+}
+
+static int32_t quotient(const fixed_run *run, const fixed_op *o) {
+    const int32_t b = run->value[o->b.op];
+    const uint32_t size = o->negated ? 0U - (uint32_t)b : (uint32_t)b;
+    const uint32_t begun = size << (unsigned)o->zeros;
+    const int more = o->spread == 0 ? 0 : wh_fixed_zeros(begun);
+    const int32_t a = factor(run, o->a);
+    const int32_t reciprocal = wh_fixed_reciprocal(begun << (unsigned)more);
+    const int32_t q = o->follows ? wh_fixed_mul(wh_fixed_left(a, more), reciprocal, o->by)
+                                 : wh_fixed_mul(a, reciprocal, o->by - more);
+    return o->negated ? -q : q;
+}
+
+static void look_up(fixed_run *run, int i, const uint32_t *phase) {
+    const fixed_op *o = &run->plan->list->op[i];
+    uint32_t sum = o->offset;
+    for (int k = 0; k < run->image->angles && o->turns != NULL; k++) {
+        sum += (uint32_t)o->turns[k] * phase[k];
+    }
+    wh_fixed_sincos(sum, &run->sine[i], &run->cosine[i]);
+}
+
+static void evaluate(fixed_run *run, fixed_at in, int32_t *result) {
+    const fixed_list *l = run->plan->list;
+    for (int i = 0; i < l->count; i++) {
+        const fixed_op *o = &l->op[i];
+        int32_t v = 0;
+        if (!o->used) {
+            continue;
+        }
+        switch (o->code) {
+        case FIXED_CONSTANT: v = o->a.number; break;
+        case FIXED_LINEAR: v = in.linear[o->index]; break;
+        case FIXED_RATE: v = in.rate[o->index]; break;
+        case FIXED_INPUT: v = in.input[o->index]; break;
+        case FIXED_PHASE: look_up(run, i, in.phase); break;
+        case FIXED_SINE: v = run->sine[o->a.op]; break;
+        case FIXED_COSINE: v = run->cosine[o->a.op]; break;
+        case FIXED_SUM: v = wh_fixed_add(taken(run, o->a), taken(run, o->b)); break;
+        case FIXED_DIFFERENCE: v = wh_fixed_sub(taken(run, o->a), taken(run, o->b)); break;
+        case FIXED_PRODUCT: v = wh_fixed_mul(factor(run, o->a), factor(run, o->b), o->by); break;
+        case FIXED_QUOTIENT: v = quotient(run, o); break;
+        case FIXED_SAME: v = o->negated ? -taken(run, o->a) : taken(run, o->a); break;
+        case FIXED_ABS: v = wh_fixed_size(taken(run, o->a)); break;
+        case FIXED_SIGN: v = wh_fixed_sign(run->value[o->a.op], o->bits); break;
+        case FIXED_LEAST: v = wh_fixed_least(taken(run, o->a), taken(run, o->b)); break;
+        case FIXED_MOST: v = wh_fixed_most(taken(run, o->a), taken(run, o->b)); break;
+        }
+        run->value[i] = v;
+    }
+    for (int i = 0; i < l->results; i++) {
+        result[i] = run->value[l->result[i]];
+    }
+}
+
+/* --- the step ------------------------------------------------------------------------------------------*/
+
+static int32_t gained(fixed_gain g, int32_t x) {
+    return wh_fixed_mul(wh_fixed_left(x, g.shift), g.number, g.by);
+}
+
+/* Of a step on its way: what the list takes at a stage, and what it has given. */
+typedef struct fixed_stages {
+    uint32_t phase[IMAGE_COMPONENTS_MAX];
+    int32_t linear[2 * IMAGE_COMPONENTS_MAX];
+    int32_t rate[IMAGE_COMPONENTS_MAX];
+    int32_t half_rate[IMAGE_COMPONENTS_MAX];
+    int32_t given[4][IMAGE_COMPONENTS_MAX];
+} fixed_stages;
+
+/* What stage s adds to a place, before that is rounded. Stages are not held to ranges: the list has room for where they can
+ * be from within them (fixed_plan.c). */
+static int32_t place_more(const fixed_mover *m, const fixed_stages *k, int i, int stage) {
+    return stage == 1
+               ? k->half_rate[i]
+               : wh_fixed_add(k->half_rate[i],
+                              wh_fixed_mul_short(k->given[stage - 2][i],
+                                                 (int16_t)m->half_accel.number, m->half_accel.by));
+}
+
+static void at_stage_second(fixed_run *run, fixed_stages *k, int stage) {
+    const fixed_plan *p = run->plan;
+    const int angles = run->image->angles;
+    const int linears = p->coordinates - angles;
+    const int twice = stage == 3 ? 1 : 0; /* the last stage is a whole step on */
+    for (int i = 0; i < p->coordinates; i++) {
+        const fixed_mover *m = &p->mover[i];
+        const int32_t more = wh_fixed_round(place_more(m, k, i, stage), m->guard - twice);
+        if (i < angles) {
+            k->phase[i] = (uint32_t)run->state.angle[i] + (uint32_t)more;
+        } else {
+            k->linear[i - angles] = wh_fixed_add(run->state.real[i - angles], more);
+        }
+        k->rate[i] = wh_fixed_add(run->state.real[linears + i],
+                                  wh_fixed_round(k->given[stage - 1][i], m->to_kept - twice));
+    }
+}
+
+static void at_stage_first(fixed_run *run, fixed_stages *k, int stage) {
+    const fixed_plan *p = run->plan;
+    const int angles = run->image->angles;
+    const int twice = stage == 3 ? 1 : 0;
+    for (int i = 0; i < p->coordinates; i++) {
+        const int32_t more = wh_fixed_round(k->given[stage - 1][i], p->mover[i].to_kept - twice);
+        if (i < angles) {
+            k->phase[i] = (uint32_t)run->state.angle[i] + (uint32_t)more;
+        } else {
+            k->linear[i - angles] = wh_fixed_add(run->state.real[i - angles], more);
+        }
+    }
+}
+
+static int32_t limited(fixed_run *run, int at, int32_t x) {
+    const wh_fixed_format *f = &run->plan->format[at];
+    return wh_fixed_limit(x, f->low, f->high, &run->state.saturated);
+}
+
+/* (k1 + 2 k2 + 2 k3 + k4)/3, at the point of what is kept. */
+static int32_t sixths(const fixed_mover *m, const fixed_stages *k, int i) {
+    const int32_t middle = k->given[1][i] + k->given[2][i];
+    return gained(m->third, k->given[0][i] + k->given[3][i] + 2 * middle);
+}
+
+static void end_second(fixed_run *run, const fixed_stages *k) {
+    const fixed_plan *p = run->plan;
+    const int angles = run->image->angles;
+    const int linears = p->coordinates - angles;
+    for (int i = 0; i < p->coordinates; i++) {
+        const fixed_mover *m = &p->mover[i];
+        const int32_t three = k->given[0][i] + k->given[1][i] + k->given[2][i];
+        const int32_t sum = wh_fixed_add(2 * k->half_rate[i], gained(m->third_accel, three));
+        const int32_t more = wh_fixed_round(sum, m->guard);
+        if (i < angles) {
+            run->state.angle[i] += more;
+        } else {
+            int32_t *at = &run->state.real[i - angles];
+            *at = limited(run, i - angles, wh_fixed_add(*at, more));
+        }
+        int32_t *rate = &run->state.real[linears + i];
+        *rate = limited(run, linears + i, wh_fixed_add(*rate, sixths(m, k, i)));
+    }
+}
+
+static void end_first(fixed_run *run, const fixed_stages *k) {
+    const fixed_plan *p = run->plan;
+    const int angles = run->image->angles;
+    for (int i = 0; i < p->coordinates; i++) {
+        const int32_t more = sixths(&p->mover[i], k, i);
+        if (i < angles) {
+            run->state.angle[i] += more;
+        } else {
+            int32_t *at = &run->state.real[i - angles];
+            *at = limited(run, i - angles, wh_fixed_add(*at, more));
+        }
+    }
+}
+
+static void advance(const wh_fixed_scene *scene, wh_fixed_state *state) {
+    fixed_run *run = (fixed_run *)(uintptr_t)scene->model;
+    const fixed_plan *p = run->plan;
+    const int angles = run->image->angles;
+    const int linears = p->coordinates - angles;
+    const int32_t *input = state->input;
+    fixed_stages k;
+    for (int i = 0; i < angles; i++) {
+        k.phase[i] = (uint32_t)state->angle[i];
+    }
+    if (p->second) {
+        for (int i = 0; i < p->coordinates; i++) {
+            k.half_rate[i] = gained(p->mover[i].half_rate, state->real[linears + i]);
+        }
+        evaluate(run, (fixed_at){k.phase, state->real, state->real + linears, input}, k.given[0]);
+    } else {
+        evaluate(run, (fixed_at){k.phase, state->real, NULL, input}, k.given[0]);
+    }
+    for (int stage = 1; stage < 4; stage++) {
+        if (p->second) {
+            at_stage_second(run, &k, stage);
+        } else {
+            at_stage_first(run, &k, stage);
+        }
+        evaluate(run, (fixed_at){k.phase, k.linear, k.rate, input}, k.given[stage]);
+    }
+    if (p->second) {
+        end_second(run, &k);
+    } else {
+        end_first(run, &k);
+    }
+}
+
+/* --- what a run is asked -----------------------------------------------------------------------------------*/
+
+static void *run_start(const image *im) {
+    const fixed_plan *p = im->fixed;
+    fixed_run *run = room(1, sizeof *run);
+    run->image = im;
+    run->plan = p;
+    run->value = room(p->list->count, sizeof *run->value);
+    run->sine = room(p->list->count, sizeof *run->sine);
+    run->cosine = room(p->list->count, sizeof *run->cosine);
+    run->scene = (wh_fixed_scene){.name = im->name,
+                                  .angles = (uint8_t)im->angles,
+                                  .reals = (uint8_t)im->reals,
+                                  .inputs = (uint8_t)im->inputs,
+                                  .steps = im->steps,
+                                  .format = p->format,
+                                  .start_angle = p->start_angle,
+                                  .start_real = p->start_real,
+                                  .start_input = p->start_input,
+                                  .model = run,
+                                  .advance = advance};
+    const size_t bytes = WH_FIXED_BYTES(im->angles, (size_t)im->reals + (size_t)im->inputs);
+    run->memory = room((int64_t)(bytes + 7U) / 8, sizeof(uint64_t));
+    if (wh_fixed_start(&run->scene, &run->state, run->memory, bytes) != WH_OK) {
+        abort();
+    }
+    run->observe = im->list[IMAGE_OBSERVE] != NULL ? evaluator_new(im->list[IMAGE_OBSERVE]) : NULL;
+    if (run->observe != NULL) {
+        evaluator_wrap(run->observe);
+    }
+    return run;
+}
+
+static void run_stop(void *of) {
+    fixed_run *run = of;
+    free(run->value);
+    free(run->sine);
+    free(run->cosine);
+    free(run->memory);
+    evaluator_free(run->observe);
+    free(run);
+}
+
+static wh_status run_step(void *of) {
+    fixed_run *run = of;
+    return wh_fixed_step(&run->scene, &run->state);
+}
+
+static void run_set_input(void *of, int input, double value) {
+    fixed_run *run = of;
+    const wh_fixed_format *f = &run->plan->format[run->image->reals + input];
+    const double low = f->low;
+    const double high = f->high;
+    const double wished = number_nearest(number_scaled(value, f->bits));
+    const double held = wished < low ? low : wished > high ? high : wished;
+    run->state.saturated += held != wished;
+    run->state.input[input] = (int32_t)held;
+}
+
+static void run_state(const void *of, double *angle_rad, double *real) {
+    const fixed_run *run = of;
+    for (int i = 0; i < run->scene.angles; i++) {
+        angle_rad[i] = (double)run->state.angle[i] * RAD_PER_UNIT;
+    }
+    for (int i = 0; i < run->scene.reals; i++) {
+        real[i] = number_scaled(run->state.real[i], -run->plan->format[i].bits);
+    }
+}
+
+static void run_outputs(void *of, double *output) {
+    const fixed_run *run = of;
+    const image *im = run->image;
+    double angle[IMAGE_COMPONENTS_MAX];
+    double real[2 * IMAGE_COMPONENTS_MAX];
+    double input[256];
+    run_state(of, angle, real);
+    for (int i = 0; i < im->inputs; i++) {
+        input[i] = number_scaled(run->state.input[i], -run->plan->format[im->reals + i].bits);
+    }
+    const int linears = run->plan->second ? im->coordinates - im->angles : im->reals;
+    if (run->observe != NULL) {
+        evaluator_run(run->observe, ratio_times(run->state.steps, im->step), angle, real,
+                      real + linears, input, output);
+    }
+}
+
+static uint64_t run_hash(const void *of) {
+    const fixed_run *run = of;
+    return wh_fixed_hash(&run->scene, &run->state);
+}
+
+static uint64_t run_steps(const void *of) { return ((const fixed_run *)of)->state.steps; }
+
+static int run_fault(const void *of) {
+    (void)of;
+    return -1;
+}
+
+static uint64_t run_events(const void *of, uint64_t *overruns) {
+    (void)of;
+    *overruns = 0;
+    return 0;
+}
+
+static uint64_t run_evaluations(const void *of, uint64_t *most) {
+    *most = 0;
+    return 4 * run_steps(of);
+}
+
+static void run_ledger(const void *of, double *total, double *error) {
+    (void)of;
+    (void)total;
+    (void)error;
+}
+
+/* A step is rounded once, by half a unit; the sum of these is what may be off. */
+static double run_angle_off(const void *of, int i, double *span_rad) {
+    const fixed_run *run = of;
+    const int64_t gone = run->state.angle[i] - run->plan->start_angle[i];
+    *span_rad = (double)(gone < 0 ? -gone : gone) * RAD_PER_UNIT;
+    return 0.0;
+}
+
+static uint64_t run_saturated(const void *of) { return ((const fixed_run *)of)->state.saturated; }
+
+const engine_kind engine_fixed = {
+    "fixed",         9,           run_start,     run_stop,     run_step,  run_set_input,
+    run_state,       run_outputs, run_hash,      run_steps,    run_fault, run_events,
+    run_evaluations, run_ledger,  run_angle_off, run_saturated};

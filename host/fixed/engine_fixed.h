@@ -1,0 +1,10 @@
+/* engine_fixed.h: the interpreter in fixed point: core/fixed.h's operations, one by one. */
+#ifndef FIXED_ENGINE_FIXED_H
+#define FIXED_ENGINE_FIXED_H
+
+#include "host/run/engine.h"
+
+/* Of images whose `fixed` is set. */
+extern const engine_kind engine_fixed;
+
+#endif

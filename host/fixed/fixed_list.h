@@ -1,0 +1,99 @@
+/* fixed_list.h: an operation list in fixed point: what the accelerations' list (host/image/tape.h) becomes when each value is
+ * a 32-bit integer with a binary point of its own.
+ *
+ * Made in three steps: copied (fixed_list.c: what has no fixed form is refused; the step goes into the results), its values
+ * enclosed (fixed_hull.c), its points chosen (fixed_bits.c). What runs it (engine_fixed.c) and what writes it as C (c_fixed.c)
+ * read numbers and shifts only, so both give the same bits.
+ */
+#ifndef FIXED_FIXED_LIST_H
+#define FIXED_FIXED_LIST_H
+
+#include "host/image/image.h"
+#include "interval.h"
+
+/* Of a value's size, binary digits: values fill 2^29 at most, so that what rounding adds, and twice that, fits; results
+ * 2^28, since a step adds six of them; what is kept from step to step 2^30. */
+enum { FIXED_DIGITS = 29, FIXED_RESULT_DIGITS = 28, FIXED_KEPT_DIGITS = 30 };
+
+typedef enum fixed_code {
+    FIXED_CONSTANT, /* number, or what it is as an operand */
+    FIXED_LINEAR,   /* leaf `index` */
+    FIXED_RATE,
+    FIXED_INPUT,
+    FIXED_PHASE,      /* offset + sum turns[i] phase[i] */
+    FIXED_SINE,       /* of phase a */
+    FIXED_COSINE,     /* likewise */
+    FIXED_SUM,        /* round(a) + round(b): each with its shift */
+    FIXED_DIFFERENCE, /* round(a) - round(b) */
+    FIXED_PRODUCT,    /* (a << shift) (b << shift) 2^-(32 + by), rounded */
+    FIXED_QUOTIENT, /* (a << shift + more) reciprocal(|b| << zeros + more) 2^-(32 + by), rounded */
+    FIXED_SAME,     /* round(a), or -round(a): powers of two cost nothing but that */
+    FIXED_ABS,      /* round(|a|) */
+    FIXED_SIGN,     /* of a: -1, 0 or 1 */
+    FIXED_LEAST,    /* the lesser of round(a) and round(b) */
+    FIXED_MOST
+} fixed_code;
+
+typedef struct fixed_operand {
+    int op;
+    int shift;      /* to the right where it is rounded, to the left where it is multiplied */
+    int32_t number; /* of a constant: as it is taken, the shift done */
+} fixed_operand;
+
+typedef struct fixed_op {
+    fixed_code code;
+    fixed_operand a;
+    fixed_operand b;
+    int index;
+    int by;
+    /* FIXED_QUOTIENT: the least zeros in front of |b|, and how many more there may be, `more`: by these a is shifted,
+     * too, or, where it has no room for that, `by` is less. */
+    int zeros;
+    int spread;
+    bool follows;
+    bool negated;     /* FIXED_SAME; FIXED_QUOTIENT: b is negative */
+    const int *turns; /* FIXED_PHASE: of the image's list */
+    double offset_rad;
+    uint32_t offset;
+    double value;   /* FIXED_CONSTANT; FIXED_SAME: the power of two, with its sign */
+    interval range; /* of the values that it can have */
+    int bits;       /* behind the binary point */
+    bool used;
+} fixed_op;
+
+typedef struct fixed_list {
+    fixed_op *op;
+    int count;
+    int *result;
+    int results;
+    int angles;
+} fixed_list;
+
+/* The list with its results times scale[results], or NULL: something has no fixed form (reported). */
+fixed_list *fixed_list_make(const image *im, const double *scale, diags *errors);
+void fixed_list_free(fixed_list *list);
+
+/* What the leaves can be. */
+typedef struct fixed_leaves {
+    const interval *linear;
+    const interval *rate;
+    const interval *input;
+} fixed_leaves;
+
+/* Enclose all values: op[].range. Turn angles are cut into cells. `bits_known`: rounding to op[].bits takes part. Returns the
+ * cells a turn, or 0: denominators were not kept from zero (reported). */
+int fixed_hull(fixed_list *list, const image *im, const fixed_leaves *leaves, bool bits_known,
+               diags *errors);
+
+/* Choose op[].bits, shifts and numbers. bits of leaves are given by op[].bits. False: a value has no room (reported). */
+bool fixed_bits(fixed_list *list, const image *im, diags *errors);
+
+/* With the ranges of fixed_hull(), rounding in them: does everything fit? */
+bool fixed_fits(const fixed_list *list);
+
+/* Digits behind the point with which `size` fills at most `digits` binary digits; `most` of zero. */
+int fixed_point_of(double size, int digits);
+/* The same of a constant factor: with 31 binary digits, the last of them rounded. */
+int fixed_factor_bits(double value);
+
+#endif

@@ -1,0 +1,390 @@
+/* fixed_plan.c: from an image to its step in fixed point. */
+#include "fixed_plan.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "fixed_range.h"
+#include "host/base/room.h"
+#include "host/number/functions.h"
+
+#define PHASE_PER_RAD 683565275.57643159 /* 2^32/(2 pi) */
+
+/* --- what has no fixed step ---------------------------------------------------------------------------*/
+
+static bool has_noise(const image *im) {
+    const tape *t = im->list[IMAGE_OBSERVE];
+    for (int i = 0; t != NULL && i < t->count; i++) {
+        if (t->ops[i].code == OP_NOISE) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool is_possible(const image *im, diags *errors) {
+    const image_settings *s = &im->settings;
+    if (has_noise(im)) {
+        diag_error(errors, im->at, "leave it out, --without; or choose --number float",
+                   "outputs of '%s' have noise, which fixed point has not", im->name);
+    } else if (im->contacts > 0) {
+        diag_error(errors, im->contact[0].at, "leave it out, --without; or choose --number float",
+                   "there are no events in fixed point: '%s' has this %s", im->name,
+                   im->contact[0].word);
+    } else if (im->ledger.kept) {
+        diag_error(errors, im->at, "--without ledger, or --number float",
+                   "'%s' keeps a ledger, which fixed point has not", im->name);
+    } else if (s->method != WH_RK4) {
+        diag_error(errors, im->at, "leave out --method, or choose --number float",
+                   "fixed point knows --method rk4 only, not %s", wh_methods[s->method].word);
+    } else if (s->compensated) {
+        diag_error(errors, im->at, "leave out --compensated, or choose --number float",
+                   "sums in fixed point are not compensated");
+    } else if (s->matrix != MATRIX_NONE) {
+        diag_error(errors, im->at, "leave out --matrix, or choose --number float",
+                   "there is no --matrix %s in fixed point", image_matrix_words[s->matrix]);
+    } else if (s->tables != TABLES_NONE) {
+        diag_error(errors, im->at, "leave out --tables, or choose --number float",
+                   "there are no --tables %s in fixed point", image_tables_words[s->tables]);
+    } else if (im->angles + im->reals == 0) {
+        diag_error(errors, im->at, NULL, "'%s' has no state to step", im->name);
+    } else {
+        return true;
+    }
+    return false;
+}
+
+/* --- formats -------------------------------------------------------------------------------------------*/
+
+static wh_fixed_format format_of(interval range, int bits) {
+    return (wh_fixed_format){(int16_t)bits, (int32_t)number_ceiling(number_scaled(range.low, bits)),
+                             (int32_t)number_floor(number_scaled(range.high, bits))};
+}
+
+/* Largest number of binary digits behind the point with which `size` has room in `most` units. */
+static int room_for(double size, double most) {
+    int bits = fixed_point_of(size, FIXED_DIGITS) + 3;
+    while (number_scaled(size, bits) > most) {
+        bits--;
+    }
+    return bits;
+}
+
+/* Times `factor` of a number of up to `size` units and so many bits, to so many. False: no room. */
+static bool make_gain(fixed_gain *gain, double factor, double size, int from, int to) {
+    const int bits = fixed_factor_bits(factor);
+    int digits;
+    (void)number_split(size + 1.0, &digits);
+    const int by = from + bits - to - 32;
+    gain->number = (int32_t)number_nearest(number_scaled(factor, bits));
+    gain->shift = by >= 1 ? 0 : 1 - by;
+    gain->by = by + gain->shift;
+    return gain->shift <= 31 - digits;
+}
+
+/* The same of results of the list, with 15 digits: of what stages are moved by twice over. */
+static fixed_gain short_gain(double factor, int from, int to) {
+    const int bits = fixed_factor_bits(factor) - 16;
+    const double number = number_nearest(number_scaled(factor, bits));
+    return (fixed_gain){number > 32767.0 ? 32767 : (int32_t)number, 0, from - 14 + bits - to};
+}
+
+/* A component of which 2 `by` is the most that a step adds: as fine as there is room for that, and for what is added to it
+ * to be finer still. */
+static int kept_bits(interval range, double by, int list_bits) {
+    const int finest = fixed_point_of(interval_size(range) + 2.2 * by, FIXED_KEPT_DIGITS);
+    return finest < list_bits - 1 ? finest : list_bits - 1;
+}
+
+static void too_far(const fixed_plan *p, diags *errors) {
+    diag_error(errors, p->image->at, "take a smaller --step, or declare narrower ranges",
+               "a step of %.9g s may move '%s' too far for fixed point", p->image->step_s,
+               p->image->name);
+}
+
+static const fixed_op *result_of(const fixed_plan *p, int i) {
+    return &p->list->op[p->list->result[i]];
+}
+
+/* The component of the reals that the results of the list move: all but first-order angles. */
+static int kept_at(const fixed_plan *p, int i) {
+    const int angles = p->image->angles;
+    return p->second ? (p->coordinates - angles) + i : i - angles;
+}
+
+enum { GUARD_MOST = 8 };
+
+/* Where results end: `kept` digits behind the point are what they are added to. */
+static bool move_kept(fixed_mover *m, const fixed_op *accel, int kept) {
+    const double size = number_scaled(1.0, FIXED_RESULT_DIGITS);
+    m->to_kept = accel->bits - kept;
+    return m->to_kept >= 1 && make_gain(&m->third, 1.0 / 3.0, 6.0 * size, accel->bits, kept);
+}
+
+/* A second-order coordinate by its rate and acceleration. */
+static bool move_place(fixed_plan *p, int i) {
+    const image *im = p->image;
+    fixed_mover *m = &p->mover[i];
+    const fixed_op *accel = result_of(p, i);
+    const wh_fixed_format *rate = &p->format[kept_at(p, i)];
+    const double unit = i < im->angles ? PHASE_PER_RAD : 1.0;
+    const double half = 0.5 * im->step_s * unit;
+    const double by = half * (interval_size(p->range[kept_at(p, i)]) +
+                              2.0 * interval_size(accel->range)); /* half a step, at most */
+    int bits = 0;
+    if (i < im->angles) {
+        if (2.0 * by >= 1073741824.0) {
+            return false;
+        }
+    } else {
+        wh_fixed_format *f = &p->format[i - im->angles];
+        const interval range = p->range[i - im->angles];
+        bits = kept_bits(range, by, 1000);
+        *f = format_of(range, bits);
+    }
+    m->guard = room_for(2.0 * by, 1073741824.0) - bits;
+    m->guard = m->guard > GUARD_MOST ? GUARD_MOST : m->guard < 0 ? 0 : m->guard;
+    const double rate_size = interval_size((interval){rate->low, rate->high});
+    const double accel_size = number_scaled(1.0, FIXED_RESULT_DIGITS);
+    for (; m->guard >= 0; m->guard--) {
+        const int to = bits + m->guard;
+        if (make_gain(&m->half_rate, half, rate_size, rate->bits, to) &&
+            make_gain(&m->third_accel, half * (2.0 / 3.0), 3.0 * accel_size, accel->bits, to)) {
+            m->half_accel = short_gain(half, accel->bits, to);
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool make_movers(fixed_plan *p) {
+    for (int i = 0; i < p->coordinates; i++) {
+        const fixed_op *accel = result_of(p, i);
+        const double by = interval_size(accel->range);
+        const int at = kept_at(p, i);
+        if (at >= 0) {
+            p->format[at] = format_of(p->range[at], kept_bits(p->range[at], by, accel->bits));
+        } else if (2.0 * by >= 1073741824.0) {
+            return false;
+        }
+        if (!move_kept(&p->mover[i], accel, at >= 0 ? p->format[at].bits : 0) ||
+            (p->second && !move_place(p, i))) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* --- the list's leaves -----------------------------------------------------------------------------------*/
+
+static void set_leaves(fixed_plan *p) {
+    const image *im = p->image;
+    const int linears = p->second ? im->coordinates - im->angles : im->reals;
+    for (int i = 0; i < p->list->count; i++) {
+        fixed_op *o = &p->list->op[i];
+        const int at = o->code == FIXED_LINEAR  ? o->index
+                       : o->code == FIXED_RATE  ? linears + o->index
+                       : o->code == FIXED_INPUT ? im->reals + o->index
+                                                : -1;
+        o->bits = at >= 0 ? p->format[at].bits : o->bits;
+    }
+}
+
+static fixed_leaves leaves_of(const fixed_plan *p) {
+    const image *im = p->image;
+    const int linears = p->second ? im->coordinates - im->angles : im->reals;
+    return (fixed_leaves){p->stage, p->stage + linears, p->stage + im->reals};
+}
+
+/* The most that a whole step adds to a component of the reals, by the list's results. */
+static double most_added(const fixed_plan *p, int at) {
+    const image *im = p->image;
+    const int linears = p->second ? im->coordinates - im->angles : im->reals;
+    if (!p->second) {
+        return 2.0 * interval_size(result_of(p, im->angles + at)->range);
+    }
+    if (at >= linears) {
+        return 2.0 * interval_size(result_of(p, at - linears)->range);
+    }
+    const int i = im->angles + at;
+    return im->step_s *
+           (interval_size(p->range[linears + i]) + 2.0 * interval_size(result_of(p, i)->range));
+}
+
+/* Stages leave the ranges by what is added to them, and that depends on where they are: from nothing on until it is enough.
+ * False: it never was. */
+static bool widen_stages(fixed_plan *p) {
+    const image *im = p->image;
+    bool enough = true;
+    for (int at = 0; at < im->reals; at++) {
+        const double most = 1.0000001 * most_added(p, at) + number_scaled(4.0, -p->format[at].bits);
+        if (p->range[at].high + most > p->stage[at].high ||
+            p->range[at].low - most < p->stage[at].low) {
+            p->stage[at] = interval_widen(p->range[at], 1.1 * most);
+            enough = false;
+        }
+    }
+    return enough;
+}
+
+/* Encloses all values. */
+static bool enclose(fixed_plan *p, diags *errors) {
+    const image *im = p->image;
+    const fixed_leaves leaves = leaves_of(p);
+    bool enough = false;
+    memcpy(p->stage, p->range, (size_t)(im->reals + im->inputs) * sizeof *p->stage);
+    for (int pass = 0; pass < 12 && !enough; pass++) {
+        if (fixed_hull(p->list, im, &leaves, false, errors) == 0) {
+            return false;
+        }
+        enough = widen_stages(p);
+    }
+    if (!enough) {
+        too_far(p, errors);
+    }
+    return enough;
+}
+
+/* Points for all: those of what is kept follow from the list's results, and theirs from those. */
+static bool make_points(fixed_plan *p, diags *errors) {
+    const image *im = p->image;
+    const int numbers = im->reals + im->inputs;
+    wh_fixed_format *before = room(numbers, sizeof *before);
+    bool stands = false;
+    bool good = true;
+    for (int pass = 0; pass < 8 && good && !stands; pass++) {
+        memcpy(before, p->format, (size_t)numbers * sizeof *before);
+        set_leaves(p);
+        good = fixed_bits(p->list, im, errors);
+        if (good && !make_movers(p)) {
+            too_far(p, errors);
+            good = false;
+        }
+        stands = true;
+        for (int i = 0; i < numbers; i++) {
+            stands = stands && before[i].bits == p->format[i].bits;
+        }
+    }
+    free(before);
+    return good && stands;
+}
+
+static void make_scale(const fixed_plan *p, double *scale) {
+    for (int i = 0; i < p->coordinates; i++) {
+        scale[i] =
+            0.5 * p->image->step_s * (!p->second && i < p->image->angles ? PHASE_PER_RAD : 1.0);
+    }
+}
+
+static void make_starts(fixed_plan *p) {
+    const image *im = p->image;
+    p->start_angle = room(im->angles, sizeof *p->start_angle);
+    p->start_real = room(im->reals, sizeof *p->start_real);
+    p->start_input = room(im->inputs, sizeof *p->start_input);
+    for (int i = 0; i < im->angles; i++) {
+        p->start_angle[i] = im->start_turns[i];
+    }
+    for (int i = 0; i < im->reals; i++) {
+        p->start_real[i] =
+            (int32_t)number_nearest(number_scaled(im->start_real[i], p->format[i].bits));
+    }
+    for (int i = 0; i < im->inputs; i++) {
+        p->start_input[i] = (int32_t)number_nearest(
+            number_scaled(im->input[i].value, p->format[im->reals + i].bits));
+    }
+}
+
+/* Does everything start within its range? */
+static bool starts_inside(const fixed_plan *p, diags *errors) {
+    const image *im = p->image;
+    bool good = true;
+    for (int i = 0; i < im->reals + im->inputs; i++) {
+        const double value = i < im->reals ? im->start_real[i] : im->input[i - im->reals].value;
+        if (value < p->range[i].low || value > p->range[i].high) {
+            diag_error(errors, im->range[i].at, "widen the range, or start within it",
+                       "'%s' starts at %.9g, outside its range", im->range[i].name, value);
+            good = false;
+        }
+    }
+    return good;
+}
+
+static bool make(fixed_plan *p, diags *errors) {
+    const image *im = p->image;
+    const int numbers = im->reals + im->inputs;
+    double scale[IMAGE_COMPONENTS_MAX];
+    make_scale(p, scale);
+    p->list = fixed_list_make(im, scale, errors);
+    if (p->list == NULL || !fixed_ranges(im, p->range, p->declared, errors) ||
+        !starts_inside(p, errors)) {
+        return false;
+    }
+    for (int i = 0; i < numbers; i++) {
+        p->format[i] =
+            format_of(p->range[i], fixed_point_of(interval_size(p->range[i]), FIXED_DIGITS));
+    }
+    const fixed_leaves leaves = leaves_of(p);
+    if (!enclose(p, errors) || !make_points(p, errors)) {
+        return false;
+    }
+    p->cells = fixed_hull(p->list, im, &leaves, true, errors);
+    if (p->cells > 0 && !fixed_fits(p->list)) {
+        diag_error(errors, im->at, "declare other ranges: range NAME = A .. B",
+                   "rounding takes values of '%s' beyond their room", im->name);
+        return false;
+    }
+    if (p->cells > 0 && !widen_stages(p)) { /* rounding took them further */
+        too_far(p, errors);
+        return false;
+    }
+    return p->cells > 0;
+}
+
+fixed_plan *fixed_plan_make(const image *im, diags *errors) {
+    if (!is_possible(im, errors)) {
+        return NULL;
+    }
+    fixed_plan *p = room(1, sizeof *p);
+    const int numbers = im->reals + im->inputs;
+    p->image = im;
+    p->second = im->form == WH_SECOND_ORDER;
+    p->coordinates = p->second ? im->coordinates : im->angles + im->reals;
+    p->format = room(numbers, sizeof *p->format);
+    p->range = room(numbers, sizeof *p->range);
+    p->stage = room(numbers, sizeof *p->stage);
+    p->declared = room(numbers, sizeof *p->declared);
+    p->mover = room(p->coordinates, sizeof *p->mover);
+    if (!make(p, errors)) {
+        fixed_plan_free(p);
+        return NULL;
+    }
+    make_starts(p);
+    return p;
+}
+
+void fixed_plan_free(fixed_plan *plan) {
+    if (plan != NULL) {
+        fixed_list_free(plan->list);
+        free(plan->format);
+        free(plan->range);
+        free(plan->stage);
+        free(plan->declared);
+        free(plan->mover);
+        free(plan->start_angle);
+        free(plan->start_real);
+        free(plan->start_input);
+        free(plan);
+    }
+}
+
+void fixed_plan_say(const fixed_plan *p, FILE *out, const char *begin) {
+    const image *im = p->image;
+    for (int i = 0; i < im->reals + im->inputs; i++) {
+        if (!p->declared[i]) {
+            fprintf(out, "%srange %s = %.6g .. %.6g: not declared, taken from %s\n", begin,
+                    im->range[i].name, p->range[i].low, p->range[i].high,
+                    i < im->reals ? "a run in double to the scene's end" : "its value");
+        }
+    }
+}

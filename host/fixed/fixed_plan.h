@@ -1,0 +1,56 @@
+/* fixed_plan.h: a scene's step in fixed point: ranges and formats of what is kept, the list of the accelerations, and the
+ * constants of the method. */
+#ifndef FIXED_FIXED_PLAN_H
+#define FIXED_FIXED_PLAN_H
+
+#include "core/fixed_scene.h"
+#include "fixed_list.h"
+
+/* x 2^shift number 2^-(32 + by), rounded: times a constant, to another binary point. */
+typedef struct fixed_gain {
+    int32_t number;
+    int shift;
+    int by;
+} fixed_gain;
+
+/* How Runge and Kutta's method of order 4 moves a component. Second order: its rate v by h/2 of the acceleration, A (a
+ * result of the list), and itself by h/2 of the rate, W, and of the A's:
+ *
+ *     v2 = v + A1   v3 = v + A2   v4 = v + 2 A3   v+ = v + (A1 + 2 A2 + 2 A3 + A4)/3
+ *     q2 = q + W    q3 = q + W + h/2 A1    q4 = q + 2 W + h A2    q+ = q + 2 W + h/3 (A1 + A2 + A3)
+ *
+ * First order: as v. A's point is `to_kept` digits behind that of v, those of W and of what is added to it are `guard` behind
+ * that of q. */
+typedef struct fixed_mover {
+    int to_kept;
+    fixed_gain third;
+    int guard; /* second order; and the next: of v, A and A1 + A2 + A3 */
+    fixed_gain half_rate;
+    fixed_gain half_accel; /* number and by of wh_fixed_mul_short() */
+    fixed_gain third_accel;
+} fixed_mover;
+
+typedef struct fixed_plan {
+    const image *image;
+    wh_fixed_format *format; /* [reals + inputs] as the scene has them */
+    interval *range;         /* [reals + inputs] where a step begins and ends, and */
+    interval *stage;         /* [reals + inputs] where its stages can be from there */
+    bool *declared;          /* [reals + inputs]: else from a reference run */
+    bool second;
+    int coordinates;    /* or components */
+    fixed_mover *mover; /* [coordinates], angles first */
+    fixed_list *list;
+    int cells; /* of a turn, with which no denominator was zero */
+    int64_t *start_angle;
+    int32_t *start_real;
+    int32_t *start_input;
+} fixed_plan;
+
+/* Of an image made with the default method; NULL, reported, where the scene has no such step. */
+fixed_plan *fixed_plan_make(const image *im, diags *errors);
+void fixed_plan_free(fixed_plan *plan);
+
+/* The ranges that were not declared, a line each, begun by `begin`: "the range of theta' is -40 .. 40 [rad/s], ...". */
+void fixed_plan_say(const fixed_plan *plan, FILE *out, const char *begin);
+
+#endif

@@ -1,0 +1,69 @@
+/* fixed_range.c: declared ranges, and a reference run for the others. */
+#include "fixed_range.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "host/base/room.h"
+#include "host/run/engine.h"
+
+static interval twice(interval seen) {
+    if (seen.low == 0.0 && seen.high == 0.0) {
+        return (interval){-1.0, 1.0};
+    }
+    if (seen.low == 0.0 || seen.high == 0.0) { /* begun at rest: either way */
+        return (interval){-2.0 * interval_size(seen), 2.0 * interval_size(seen)};
+    }
+    return (interval){seen.low < 0.0 ? 2.0 * seen.low : 0.5 * seen.low,
+                      seen.high > 0.0 ? 2.0 * seen.high : 0.5 * seen.high};
+}
+
+static bool look(const image *im, interval *seen, diags *errors) {
+    void *run = engine_double.start(im);
+    double *angle = room(im->angles, sizeof *angle);
+    double *real = room(im->reals, sizeof *real);
+    wh_status status = WH_OK;
+    engine_double.state(run, angle, real);
+    for (int i = 0; i < im->reals; i++) {
+        seen[i] = (interval){real[i], real[i]};
+    }
+    for (uint64_t step = 0; step < im->steps && status == WH_OK; step++) {
+        status = engine_double.step(run);
+        engine_double.state(run, angle, real);
+        for (int i = 0; i < im->reals; i++) {
+            seen[i] = interval_hull(seen[i], (interval){real[i], real[i]});
+        }
+    }
+    engine_double.stop(run);
+    free(angle);
+    free(real);
+    if (status != WH_OK) {
+        diag_error(errors, im->at, "declare the ranges: range NAME = A .. B",
+                   "the run of '%s' in double, from which ranges are taken, diverged", im->name);
+    }
+    return status == WH_OK;
+}
+
+bool fixed_ranges(const image *im, interval *range, bool *declared, diags *errors) {
+    bool good = true;
+    bool all = true;
+    for (int i = 0; i < im->reals + im->inputs; i++) {
+        const image_range *r = &im->range[i];
+        declared[i] = r->declared;
+        all = all && (r->declared || i >= im->reals);
+    }
+    if (!all) {
+        good = look(im, range, errors);
+    }
+    for (int i = 0; i < im->reals + im->inputs && good; i++) {
+        if (declared[i]) {
+            range[i] = (interval){im->range[i].low, im->range[i].high};
+        } else if (i < im->reals) {
+            range[i] = twice(range[i]);
+        } else {
+            const double value = im->input[i - im->reals].value;
+            range[i] = twice((interval){value, value});
+        }
+    }
+    return good;
+}

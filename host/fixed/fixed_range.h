@@ -1,0 +1,13 @@
+/* fixed_range.h: the ranges that components and inputs of a scene keep to. */
+#ifndef FIXED_FIXED_RANGE_H
+#define FIXED_FIXED_RANGE_H
+
+#include "host/image/image.h"
+#include "interval.h"
+
+/* range[reals + inputs] of components, then inputs: as declared; else twice as far from zero as a reference run of the scene
+ * gets (double, its method), or half as near, where that keeps on one side of it; -1 to 1 where it stays zero. False: that
+ * run failed (reported). */
+bool fixed_ranges(const image *im, interval *range, bool *declared, diags *errors);
+
+#endif

@@ -1,0 +1,184 @@
+#!/bin/sh
+# fixed.sh: fixed point. `whirl derive --as c --number fixed` compiles without a warning with gcc and clang, has no
+# floating-point operation, and steps to the bits of `whirl run --number fixed`, by both ways to a product: every built-in scene
+# that has such a step, and made-up mechanisms. What has none is refused with exit status 2 and a hint. Ranges are told.
+. "$(dirname "$0")/../checks.sh"
+
+warnings="-std=c11 -I. -Wall -Wextra -Wconversion -Wshadow -Wdouble-promotion -Werror"
+
+# --- made-up mechanisms: N NUMBERED ones of five kinds ---------------------------------------------------------------
+mkdir "$scratch/w"
+awk -v folder="$scratch/w" 'function r() { state = (state * 16807) % 2147483647; return 0.5 + 1.5 * state / 2147483647 }
+BEGIN {
+    state = 20061
+    for (i = 1; i <= 20; i++) {
+        file = folder "/made_" i ".whirl"
+        printf "mechanism made_%d\ninput u = %.4f\n", i, r() >file
+        if (i % 5 == 0) {
+            printf "state p [rad]\nstate v\nstate q\nequation p\047 = %.4f [1/s]*(1 + 0.3*sin(p)) + 0.1 [1/s]*q\n", 3*r() >file
+            printf "equation v\047 = %.4f [1/s]*(u - v + min(cos(2*p - 1), abs(q)))\n", 3*r() >file
+            printf "equation q\047\047/(30 [1/s^2]) + %.4f*q\047/(5 [1/s]) + q = v\n", r() >file
+        } else {
+            n = i % 5
+            for (k = 1; k <= n; k++) { printf "coordinate q%d%s\n", k, (i + k) % 2 ? " [rad]" : " [m]" >file }
+            printf "T = 0" >file
+            for (k = 1; k <= n; k++) {
+                unit = (i + k) % 2 ? "kg*m^2" : "kg"
+                printf " + %.4f [%s]*q%d\047^2/2", 1 + r(), unit, k >file
+                if (k > 1) {
+                    printf " + %.4f [kg*m]*q%d\047*q%d\047*cos(q%d)/3", r(), k, k - 1, (i + k) % 2 ? k : k - 1 >file
+                }
+            }
+            printf "\n" >file
+            for (k = 1; k <= n; k++) {
+                if ((i + k) % 2) { printf "V += -%.4f [J]*cos(q%d + %.3f)\n", 4*r(), k, r() >file }
+                else { printf "V += %.4f [N/m]*q%d^2 + 3 [N/m]*max(q%d, 0 [m])^2\n", 20*r(), k, k >file }
+                printf "F += %.4f [%s]*q%d\047^2/2\n", 0.2*r(), (i + k) % 2 ? "N*m*s" : "N*s/m", k >file
+            }
+            printf "Q(q1) = u*1 [%s]\n", (i + 1) % 2 ? "N*m" : "N" >file
+        }
+        printf "scene made_scene_%d { until 0.5 [s]; step %d [us]; range u = -5 .. 5", i, 500 + 100 * (i % 7) >file
+        if (i % 5) { printf "; start q1%s = %.3f%s", (i % 2 ? "" : "\047"), 0.3*r(), (i + 1) % 2 ? (i % 2 ? "" : " [rad/s]") : (i % 2 ? " [m]" : " [m/s]") >file }
+        print " }" >file
+        close(file)
+    }
+}'
+sed -i 's/^V += \(.*\)$/V += \1/' "$scratch"/w/*.whirl
+for file in "$scratch"/w/*.whirl; do # the first of several energies is an equation
+    awk '/^V \+=/ && !v { sub(/\+=/, "="); v = 1 } /^F \+=/ && !f { sub(/\+=/, "="); f = 1 }
+        /^[VF] \+=/ { print "effect more_" ++n " { " $0 " }"; next } { print }' "$file" >"$scratch/one"
+    mv "$scratch/one" "$file"
+done
+
+# --- derived and interpreted ------------------------------------------------------------------------------------------
+number=0
+refused=0
+: >"$scratch/numbers"
+try() { # try TARGET OPTION...
+    number=$((number + 1))
+    "$whirl" derive "$@" --as c --number fixed --name "scene_$number" >"$scratch/scene_$number.c" 2>"$scratch/err"
+    derived=$?
+    "$whirl" run "$@" --number fixed >"$scratch/$number.run" 2>"$scratch/$number.err"
+    ran=$?
+    if [ $derived -eq 2 ] && [ $ran -eq 2 ] && grep -q '^hint: ' "$scratch/err"; then
+        refused=$((refused + 1))
+        rm -f "$scratch/scene_$number.c"
+        return
+    fi
+    [ $derived -eq 0 ] && [ $ran -le 1 ] || { verdict 1 "$*: derive says $derived, run says $ran"; rm -f "$scratch/scene_$number.c"; return; }
+    echo "$number $*" >>"$scratch/numbers"
+}
+for scene in $("$whirl" list | awk '$1 == "scene" { print $2 }'); do
+    try "$scene" --until 0.2s
+done
+for file in "$scratch"/w/*.whirl; do
+    try "$file" --with all
+done
+for step in 0.1ms 4ms; do
+    try two_mass_relative --until 0.5s --step $step
+    try epicyclic_conserved --until 0.5s --step $step
+done
+try epicyclic_from_rest --until 1s --without conserve
+compared=$(wc -l <"$scratch/numbers")
+[ "$compared" -ge 30 ] && [ "$(grep -c made_ "$scratch/numbers")" -ge 16 ]
+verdict $? "$compared scenes have a step in fixed point, $refused are refused with a hint" "$scratch/numbers"
+
+# --- one program of all -----------------------------------------------------------------------------------------------
+{
+    echo '#include <inttypes.h>'
+    echo '#include <stdio.h>'
+    echo '#include "core/fixed_scene.h"'
+    sed 's/ .*//; s/.*/extern const wh_fixed_scene scene_&;/' "$scratch/numbers"
+    echo 'static const struct { int number; const wh_fixed_scene *scene; } all[] = {'
+    sed 's/ .*//; s/.*/    {&, \&scene_&},/' "$scratch/numbers"
+    cat <<'END'
+};
+static uint64_t memory[200];
+int main(void) {
+    for (unsigned i = 0; i < sizeof all / sizeof all[0]; i++) {
+        wh_fixed_state state;
+        wh_status status = wh_fixed_start(all[i].scene, &state, memory, sizeof memory);
+        while (status == WH_OK && state.steps < all[i].scene->steps) {
+            status = wh_fixed_step(all[i].scene, &state);
+        }
+        printf("%d 0x%016" PRIx64 "\n", all[i].number, wh_fixed_hash(all[i].scene, &state));
+    }
+    return 0;
+}
+END
+} >"$scratch/main.c"
+build() { # build COMPILER FLAGS
+    # shellcheck disable=SC2086 # lists of words
+    $1 $warnings $2 -o "$scratch/program" "$scratch"/scene_*.c "$scratch/main.c" core/*.c >"$scratch/err" 2>&1
+    verdict $? "$1 $2 compiles them without a warning"
+    "$scratch/program" >"$scratch/hashes"
+    differ=0
+    while read -r number hash; do
+        grep -q "state hash.*$hash" "$scratch/$number.run" || {
+            differ=$((differ + 1))
+            sed -n "s/^$number /    other bits: /p" "$scratch/numbers"
+        }
+    done <"$scratch/hashes"
+    [ $differ -eq 0 ] && [ "$(wc -l <"$scratch/hashes")" -eq "$compared" ]
+    verdict $? "$1 $2: the interpreter's bits in all of them"
+}
+build gcc "-O2"
+build gcc "-O1 -DWH_FIXED_NARROW=1"
+if command -v clang >/dev/null 2>&1; then
+    build clang "-O2 -DWH_FIXED_NARROW=1"
+fi
+
+# --- integers only ---------------------------------------------------------------------------------------------------
+if command -v arm-none-eabi-gcc >/dev/null 2>&1; then
+    for cpu in cortex-m0 cortex-m3; do
+        : >"$scratch/symbols"
+        for file in "$scratch"/scene_*.c core/fixed.c; do
+            arm-none-eabi-gcc -std=c11 -O2 -mcpu=$cpu -mthumb -I. -c "$file" -o "$scratch/one.o" 2>/dev/null
+            arm-none-eabi-nm "$scratch/one.o" >>"$scratch/symbols"
+        done
+        ! grep -E ' U __aeabi_([fdl]|i2f|ui2f|[a-z]*2[fd])' "$scratch/symbols" >"$scratch/err"
+        verdict $? "$cpu: no call for floating-point or 64-bit arithmetic"
+    done
+fi
+
+# --- what is said ------------------------------------------------------------------------------------------------------
+"$whirl" run two_mass_relative --number fixed --until 0.1s >"$scratch/out" 2>"$scratch/err"
+grep -q "note: range X' = .*not declared, taken from a run in double" "$scratch/err" && grep -q '^0 values saturated' "$scratch/out"
+verdict $? "a range that is not declared is told, and how many values were saturated"
+"$whirl" derive two_mass_relative --as c --number fixed 2>/dev/null | grep -q "^ \* range X' = .*not declared"
+verdict $? "and in generated code"
+cat >"$scratch/w/cart.whirl" <<'END'
+mechanism cart
+coordinate x [m]
+T = 1 [kg]*x'^2/2
+V = 50 [N/m]*x^2/2
+scene cart_narrow { start x = 0.1 [m]; range x = -0.2 .. 0.2 [m], x' = -300 .. 300 [mm/s]; until 1 [s] }
+scene cart_wide { start x = 0.1 [m]; range x = -0.2 .. 0.2 [m], x' = -900 .. 900 [mm/s]; until 1 [s] }
+END
+"$whirl" run "$scratch/w/cart.whirl:cart_narrow" --number fixed >"$scratch/out" 2>"$scratch/err"
+grep -q '^[1-9][0-9]* values saturated' "$scratch/out" && grep -q 'warning: .* values saturated' "$scratch/err"
+verdict $? "a range that is too small shows"
+"$whirl" run "$scratch/w/cart.whirl:cart_wide" --number fixed >"$scratch/out" 2>"$scratch/err"
+grep -q '^0 values saturated' "$scratch/out" && [ ! -s "$scratch/err" ]
+verdict $? "one that is large enough is quiet"
+refuse() { # refuse WORDS TARGET OPTION...
+    words=$1
+    shift
+    "$whirl" derive "$@" --as c --number fixed >"$scratch/out" 2>"$scratch/err"
+    status=$?
+    [ $status -eq 2 ] && [ ! -s "$scratch/out" ] && grep -q "$words" "$scratch/err" && grep -q '^hint: ' "$scratch/err"
+    verdict $? "refused: $words"
+}
+refuse "there are no events in fixed point" carriage_stop
+refuse "keeps a ledger" two_mass_relative --with ledger
+refuse "knows --method rk4 only, not heun" two_mass_relative --method heun
+refuse "are not compensated" two_mass_relative --compensated
+refuse "no --matrix exact in fixed point" two_mass_relative --matrix exact
+refuse "no --tables linear in fixed point" epicyclic_conserved --tables linear
+"$whirl" derive two_mass_relative --number fixed >"$scratch/out" 2>"$scratch/err"
+[ $? -eq 2 ] && grep -q -- '--number fixed goes with --as c' "$scratch/err"
+verdict $? "equations have no number"
+"$whirl" sweep two_mass_relative --number fixed >"$scratch/out" 2>"$scratch/err"
+[ $? -eq 2 ] && grep -q "no number 'fixed'" "$scratch/err"
+verdict $? "sweeps have none of it"
+exit $failed

@@ -1,0 +1,242 @@
+/* test_fixed.c: core/fixed.h's integers against 64-bit ones: both ways to a product, rounding, reciprocals, sines against those
+ * of the real build, and the ways from and to reals. */
+#include "core/angle.h"
+#include "core/fixed_scene.h"
+
+#include "unity.h"
+
+#ifndef WH_TEST_SMALL
+#define WH_TEST_SMALL (!__STDC_HOSTED__)
+#endif
+#define CASES (WH_TEST_SMALL ? 2000L : 400000L)
+
+void suite_fixed(void);
+
+static uint64_t drawn = UINT64_C(88172645463325252);
+
+static uint32_t draw(void) {
+    drawn ^= drawn << 13;
+    drawn ^= drawn >> 7;
+    drawn ^= drawn << 17;
+    return (uint32_t)(drawn >> 16);
+}
+
+/* Of all sizes, ends among them. */
+static int32_t draw_number(void) {
+    static const int32_t edges[] = {0,         1,          -1,         0x7fff,     0x8000,
+                                    -0x8000,   0x10000,    -0x10000,   0xffff,     -0xffff,
+                                    INT32_MAX, -INT32_MAX, 0x7fff8000, 0x7fff7fff, -0x7fff8000};
+    const uint32_t which = draw() % 40U;
+    if (which < sizeof edges / sizeof edges[0]) {
+        return edges[which];
+    }
+    return (int32_t)draw() >> (draw() % 31U);
+}
+
+static int64_t floor_shift(int64_t x, int by) {
+    const int64_t unit = (int64_t)1 << by;
+    const int64_t rest = x % unit;
+    return (x - (rest < 0 ? rest + unit : rest)) / unit;
+}
+
+static void test_products(void) {
+    for (long i = 0; i < CASES; i++) {
+        const int32_t a = draw_number();
+        const int32_t b = draw_number();
+        const int32_t expected = (int32_t)floor_shift((int64_t)a * b, 32);
+        TEST_ASSERT_EQUAL_INT32(expected, wh_fixed_high_wide(a, b));
+        TEST_ASSERT_EQUAL_INT32(expected, wh_fixed_high_narrow(a, b));
+        TEST_ASSERT_EQUAL_INT32(expected, wh_fixed_high_called(a, b));
+        TEST_ASSERT_EQUAL_INT32(expected, wh_fixed_high(a, b));
+    }
+}
+
+static void test_short_products(void) {
+    for (long i = 0; i < CASES; i++) {
+        const int16_t a = (int16_t)draw_number();
+        const int16_t b = (int16_t)draw_number();
+        TEST_ASSERT_EQUAL_INT32((int32_t)((int64_t)a * b), wh_fixed_ss(a, b));
+        TEST_ASSERT_EQUAL_INT32((int32_t)((int64_t)a * (uint16_t)b), wh_fixed_su(a, (uint16_t)b));
+        TEST_ASSERT_EQUAL_UINT32((uint32_t)((uint64_t)(uint16_t)a * (uint16_t)b),
+                                 wh_fixed_uu((uint16_t)a, (uint16_t)b));
+    }
+}
+
+static void test_rounding(void) {
+    for (long i = 0; i < CASES; i++) {
+        const int32_t a = draw_number() / 2;
+        const int32_t b = draw_number();
+        const int by = (int)(draw() % 30U) + 1;
+        const int64_t half = (int64_t)1 << (by - 1);
+        TEST_ASSERT_EQUAL_INT32((int32_t)floor_shift((int64_t)a + half, by), wh_fixed_round(a, by));
+        TEST_ASSERT_EQUAL_INT32((int32_t)floor_shift(floor_shift((int64_t)a * b, 32) + half, by),
+                                wh_fixed_mul(a, b, by));
+    }
+    TEST_ASSERT_EQUAL_INT32(5, wh_fixed_round(5, 0));
+    TEST_ASSERT_EQUAL_INT32(-40, wh_fixed_round(-5, -3));
+    TEST_ASSERT_EQUAL_INT32(0, wh_fixed_round(INT32_C(0x40000000), 31));
+    TEST_ASSERT_EQUAL_INT32(0, wh_fixed_round(-INT32_C(0x3fffffff), 60));
+}
+
+static void check_reciprocal(uint32_t d) {
+    /* x d near 2^61, by less than 2^61/2^27.3 */
+    const int64_t off =
+        (int64_t)((uint64_t)(uint32_t)wh_fixed_reciprocal(d) * d) - ((int64_t)1 << 61);
+    TEST_ASSERT_TRUE_MESSAGE(off < INT64_C(14000000000) && off > -INT64_C(14000000000),
+                             "a reciprocal is off");
+}
+
+static void test_reciprocals(void) {
+    check_reciprocal(UINT32_C(0x80000000));
+    check_reciprocal(UINT32_MAX);
+    for (uint32_t i = 0; i < 128; i++) { /* both ends of each cell */
+        check_reciprocal(UINT32_C(0x80000000) + (i << 24));
+        check_reciprocal(UINT32_C(0x80ffffff) + (i << 24));
+    }
+    for (long i = 0; i < CASES; i++) {
+        check_reciprocal(draw() | UINT32_C(0x80000000));
+    }
+}
+
+static void test_zeros(void) {
+    for (int i = 0; i < 32; i++) {
+        TEST_ASSERT_EQUAL_INT(31 - i, wh_fixed_zeros(UINT32_C(1) << i));
+        TEST_ASSERT_EQUAL_INT(31 - i, wh_fixed_zeros((UINT32_C(2) << i) - 1U));
+    }
+}
+
+static wh_phase real_phase(uint32_t phase) {
+#if WH_DOUBLE
+    return (double)phase * (6.283185307179586477 / 4294967296.0);
+#else
+    return phase;
+#endif
+}
+
+static void check_sine(uint32_t phase) {
+    int32_t s;
+    int32_t c;
+    int32_t s_here;
+    int32_t c_here;
+    wh_real sine;
+    wh_real cosine;
+    /* its own error, 3.4e-8, and that of the reals */
+    const wh_real most = (WH_DOUBLE ? WH_R(3.5e-8) : WH_R(1.3e-7));
+    wh_fixed_sincos_called(phase, &s, &c);
+    wh_fixed_sincos_here(phase, &s_here, &c_here);
+    wh_sincos(real_phase(phase), &sine, &cosine);
+    TEST_ASSERT_EQUAL_INT32(s, s_here);
+    TEST_ASSERT_EQUAL_INT32(c, c_here);
+    TEST_ASSERT_TRUE(WH_ABS((wh_real)s * WH_R(0x1p-30) - sine) < most);
+    TEST_ASSERT_TRUE(WH_ABS((wh_real)c * WH_R(0x1p-30) - cosine) < most);
+}
+
+static void test_sines(void) {
+    int32_t s;
+    int32_t c;
+    for (uint32_t i = 0; i < 4; i++) { /* quarter turns are exact */
+        wh_fixed_sincos(i << 30, &s, &c);
+        TEST_ASSERT_EQUAL_INT32(i == 1 ? 1 << 30 : i == 3 ? -(1 << 30) : 0, s);
+        TEST_ASSERT_EQUAL_INT32(i == 0 ? 1 << 30 : i == 2 ? -(1 << 30) : 0, c);
+    }
+    for (uint32_t i = 0; i < 256; i++) { /* both sides of each edge of a sector */
+        check_sine(i << 24);
+        check_sine((i << 24) - 1U);
+    }
+    for (long i = 0; i < CASES; i++) {
+        check_sine(draw());
+    }
+}
+
+static void test_limits(void) {
+    uint32_t held = 0;
+    for (long i = 0; i < CASES; i++) {
+        const int32_t a = draw_number() / 2;
+        const int32_t b = draw_number() / 2;
+        const int32_t low = wh_fixed_least(a, b);
+        const int32_t high = wh_fixed_most(a, b);
+        const int32_t x = draw_number();
+        const uint32_t before = held;
+        const int32_t y = wh_fixed_limit(x, low, high, &held);
+        TEST_ASSERT_EQUAL_INT32(x < low ? low : x > high ? high : x, y);
+        TEST_ASSERT_EQUAL_UINT32(before + (x < low || x > high), held);
+    }
+}
+
+static const wh_fixed_format formats[] = {{24, -100 * (1 << 24), 100 * (1 << 24)},
+                                          {-3, -1000, 1000}};
+static const int64_t start_angle[] = {INT64_C(-3) * (INT64_C(1) << 32) + (INT64_C(1) << 31)};
+static const int32_t start_number[] = {1 << 24};
+
+static void no_step(const wh_fixed_scene *scene, wh_fixed_state *state) {
+    (void)scene;
+    state->real[0]++;
+}
+
+static const wh_fixed_scene scene = {.name = "none",
+                                     .angles = 1,
+                                     .reals = 1,
+                                     .inputs = 1,
+                                     .steps = 1,
+                                     .format = formats,
+                                     .start_angle = start_angle,
+                                     .start_real = start_number,
+                                     .start_input = start_number,
+                                     .advance = no_step};
+
+static void test_scenes(void) {
+    uint64_t memory[2];
+    wh_fixed_state state;
+    TEST_ASSERT_EQUAL_INT(16, (int)WH_FIXED_BYTES(1, 2));
+    TEST_ASSERT_EQUAL_INT(WH_E_MEMORY, wh_fixed_start(&scene, &state, memory, 15));
+    TEST_ASSERT_EQUAL_INT(WH_E_MEMORY, wh_fixed_start(&scene, &state, NULL, 16));
+    TEST_ASSERT_EQUAL_INT(WH_E_ARGUMENT, wh_fixed_start(NULL, &state, memory, 16));
+    TEST_ASSERT_EQUAL_INT(WH_E_ARGUMENT, wh_fixed_start(&scene, NULL, memory, 16));
+    TEST_ASSERT_EQUAL_INT(WH_OK, wh_fixed_start(&scene, &state, memory, sizeof memory));
+    TEST_ASSERT_TRUE(wh_fixed_real(&scene, &state, 0) == WH_R(1.0));
+    TEST_ASSERT_TRUE(WH_ABS(wh_fixed_angle(&scene, &state, 0) + WH_R(15.707963267948966)) <
+                     WH_R(4e-6));
+    const uint64_t before = wh_fixed_hash(&scene, &state);
+    TEST_ASSERT_EQUAL_INT(WH_OK, wh_fixed_step(&scene, &state));
+    TEST_ASSERT_TRUE(before != wh_fixed_hash(&scene, &state));
+    TEST_ASSERT_EQUAL_INT32((1 << 24) + 1, state.real[0]);
+}
+
+static void test_edges(void) {
+    uint64_t memory[2];
+    wh_fixed_state state;
+    (void)wh_fixed_start(&scene, &state, memory, sizeof memory);
+    wh_fixed_set_real(&scene, &state, 0, WH_R(-2.5));
+    TEST_ASSERT_EQUAL_INT32(-5 * (1 << 23), state.real[0]);
+    wh_fixed_set_input(&scene, &state, 0, WH_R(804.0)); /* 100.5 eighths: away from zero */
+    TEST_ASSERT_EQUAL_INT32(101, state.input[0]);
+    wh_fixed_set_input(&scene, &state, 0, WH_R(-804.0));
+    TEST_ASSERT_EQUAL_INT32(-101, state.input[0]);
+    TEST_ASSERT_EQUAL_UINT32(0, state.saturated);
+    wh_fixed_set_real(&scene, &state, 0, WH_R(1e30));
+    TEST_ASSERT_EQUAL_INT32(formats[0].high, state.real[0]);
+    wh_fixed_set_real(&scene, &state, 0, WH_R(-100.5));
+    TEST_ASSERT_EQUAL_INT32(formats[0].low, state.real[0]);
+    wh_fixed_set_input(&scene, &state, 0, WH_R(8001.0));
+    TEST_ASSERT_EQUAL_UINT32(3, state.saturated);
+    TEST_ASSERT_EQUAL_INT32(1000, state.input[0]);
+    for (long i = 0; i < CASES; i++) { /* there and back: what float holds */
+        const int32_t x = draw_number() >> 8;
+        uint32_t held = 0;
+        const wh_fixed_format format = {(int16_t)(draw() % 50U), INT32_MIN / 2, INT32_MAX / 2};
+        TEST_ASSERT_EQUAL_INT32(x, wh_fixed_of(&format, wh_fixed_to(&format, x), &held));
+        TEST_ASSERT_EQUAL_UINT32(0, held);
+    }
+}
+
+void suite_fixed(void) {
+    RUN_TEST(test_products);
+    RUN_TEST(test_short_products);
+    RUN_TEST(test_rounding);
+    RUN_TEST(test_reciprocals);
+    RUN_TEST(test_zeros);
+    RUN_TEST(test_sines);
+    RUN_TEST(test_limits);
+    RUN_TEST(test_scenes);
+    RUN_TEST(test_edges);
+}
