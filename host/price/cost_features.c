@@ -88,10 +88,11 @@ int cost_calls(const cost_list *l) {
 
 /* Does stage s stand where an earlier one does? */
 static bool stands_again(const wh_tableau *by, unsigned s) {
+    const wh_places *at = by->places;
     for (unsigned e = 0; e < s; e++) {
-        bool same = by->node[e] == by->node[s] && by->reach[e].parts == by->reach[s].parts;
+        bool same = at->node[e] == at->node[s] && at->reach[e].parts == at->reach[s].parts;
         for (unsigned j = 0; j < by->stages; j++) {
-            same = same && by->reach[e].share[j] == by->reach[s].share[j];
+            same = same && at->reach[e].share[j] == at->reach[s].share[j];
         }
         if (same) {
             return true;
@@ -100,7 +101,7 @@ static bool stands_again(const wh_tableau *by, unsigned s) {
     return false;
 }
 
-/* Where the stages of a row with a reach stand. */
+/* Where the stages of a row stand that says so. */
 static void add_reach(const wh_tableau *by, cost_counts *c) {
     c->places = 0;
     for (unsigned s = 0; s < by->stages; s++) {
@@ -108,9 +109,9 @@ static void add_reach(const wh_tableau *by, cost_counts *c) {
             continue;
         }
         c->places++;
-        c->reaches += by->node[s] != 0;
+        c->reaches += by->places->node[s] != 0;
         for (unsigned j = 0; j < s; j++) {
-            c->reach_shares += by->reach[s].share[j] != 0;
+            c->reach_shares += by->places->reach[s].share[j] != 0;
         }
     }
 }
@@ -119,7 +120,7 @@ static void add_reach(const wh_tableau *by, cost_counts *c) {
 static void add_method(const image *im, cost_counts *c) {
     const wh_tableau *by = wh_tableau_of(im->settings.method);
     c->stages = c->places = (int)by->stages;
-    if (c->second && by->reach[0].parts != 0) {
+    if (c->second && by->places != NULL) {
         add_reach(by, c);
     }
     for (unsigned s = 0; s < by->stages; s++) {
