@@ -202,7 +202,7 @@ static void advance(const wh_fixed_scene *scene, wh_fixed_state *state) {
     const int angles = run->image->angles;
     const int linears = p->coordinates - angles;
     const int32_t *input = state->input;
-    fixed_stages k;
+    fixed_stages k = {0};
     for (int i = 0; i < angles; i++) {
         k.phase[i] = (uint32_t)state->angle[i];
     }
@@ -212,7 +212,7 @@ static void advance(const wh_fixed_scene *scene, wh_fixed_state *state) {
         }
         evaluate(run, (fixed_at){k.phase, state->real, state->real + linears, input}, k.given[0]);
     } else {
-        evaluate(run, (fixed_at){k.phase, state->real, NULL, input}, k.given[0]);
+        evaluate(run, (fixed_at){k.phase, state->real, k.rate, input}, k.given[0]);
     }
     for (int stage = 1; stage < 4; stage++) {
         if (p->second) {

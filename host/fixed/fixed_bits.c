@@ -269,7 +269,7 @@ bool fixed_fits(const fixed_list *l) {
         if (units(o) > 1073741824.0 + 64.0) {
             return false;
         }
-        if (o->code == FIXED_QUOTIENT && !has_zeros(o, b)) {
+        if (o->code == FIXED_QUOTIENT && (b == NULL || !has_zeros(o, b))) {
             return false;
         }
     }
