@@ -92,6 +92,12 @@ function all_boards(    i, d, line) {
     }
 }
 
+# In what form, where it is not the one without an option.
+function form_words(run) {
+    return (run ~ / --tables / ? ", " option_of(run, "--tables") " tables" : "") \
+        (run ~ / --matrix / ? ", one matrix" : "")
+}
+
 function first(    i, d) {
     printf "| error within |"
     for (i = 3; i <= words; i++) { printf " %s, `%s` |", core[word[i]], word[i] }
@@ -102,8 +108,8 @@ function first(    i, d) {
         printf "| %s |", decade_words(d)
         for (i = 3; i <= words; i++) {
             if ((word[i], d) in price) {
-                printf " %s%s: %s, %s, %s |", about(word[i], d), short(price[word[i], d]), method[word[i], d], \
-                    number[word[i], d], step_words(step[word[i], d])
+                printf " %s%s: %s, %s%s, %s |", about(word[i], d), short(price[word[i], d]), method[word[i], d], \
+                    number[word[i], d], form_words(run[word[i], d]), step_words(step[word[i], d])
             } else {
                 printf " – |"
             }

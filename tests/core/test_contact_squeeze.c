@@ -1,5 +1,9 @@
 /* test_contact_squeeze.c: what is done where a step had too many events: bodies beyond stops are put back by the least
  * move in the metric of the masses, and what closes there is stopped. Random mechanisms against all cases (exact.h). */
+
+/* No rows of longer methods, which an ATmega2560 has no room for beside the cases. */
+#define WH_STAGES 4
+
 #include "draw.h"
 #include "exact.h"
 
