@@ -7,6 +7,8 @@
     "core/stage_sums.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
 #endif
 
+#include <stddef.h>
+
 #include "method.h"
 #include "unroll.h"
 

@@ -21,8 +21,8 @@ static const char head[] =
     "Tries all methods, numbers, forms, matrices, tables and many steps on a scene, as far as it takes\n"
     "them, and prints how far each is off a reference of higher precision, beside what it costs on a\n"
     "board: cycles a simulated second, or instructions where nobody counts cycles; flash, RAM and stack.\n"
-    "Of the rows those on the front are shown: nothing is as cheap and errs less. Each figure says how it\n"
-    "is known.\n"
+    "Of the rows those on the front are shown: nothing is as cheap and errs less. Each figure says how\n"
+    "it is known.\n"
     "What is run is named as for `whirl run`.\n"
     "\n";
 static const char tail[] =

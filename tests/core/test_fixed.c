@@ -136,8 +136,8 @@ static void test_sines(void) {
     int32_t c;
     for (uint32_t i = 0; i < 4; i++) { /* quarter turns are exact */
         wh_fixed_sincos(i << 30, &s, &c);
-        TEST_ASSERT_EQUAL_INT32(i == 1 ? 1 << 30 : i == 3 ? -(1 << 30) : 0, s);
-        TEST_ASSERT_EQUAL_INT32(i == 0 ? 1 << 30 : i == 2 ? -(1 << 30) : 0, c);
+        TEST_ASSERT_EQUAL_INT32(i == 1 ? INT32_C(1) << 30 : i == 3 ? -(INT32_C(1) << 30) : 0, s);
+        TEST_ASSERT_EQUAL_INT32(i == 0 ? INT32_C(1) << 30 : i == 2 ? -(INT32_C(1) << 30) : 0, c);
     }
     for (uint32_t i = 0; i < 256; i++) { /* both sides of each edge of a sector */
         check_sine(i << 24);
@@ -163,10 +163,10 @@ static void test_limits(void) {
     }
 }
 
-static const wh_fixed_format formats[] = {{24, -100 * (1 << 24), 100 * (1 << 24)},
+static const wh_fixed_format formats[] = {{24, -100 * (INT32_C(1) << 24), 100 * (INT32_C(1) << 24)},
                                           {-3, -1000, 1000}};
 static const int64_t start_angle[] = {INT64_C(-3) * (INT64_C(1) << 32) + (INT64_C(1) << 31)};
-static const int32_t start_number[] = {1 << 24};
+static const int32_t start_number[] = {INT32_C(1) << 24};
 
 static void no_step(const wh_fixed_scene *scene, wh_fixed_state *state) {
     (void)scene;
@@ -199,7 +199,7 @@ static void test_scenes(void) {
     const uint64_t before = wh_fixed_hash(&scene, &state);
     TEST_ASSERT_EQUAL_INT(WH_OK, wh_fixed_step(&scene, &state));
     TEST_ASSERT_TRUE(before != wh_fixed_hash(&scene, &state));
-    TEST_ASSERT_EQUAL_INT32((1 << 24) + 1, state.real[0]);
+    TEST_ASSERT_EQUAL_INT32((INT32_C(1) << 24) + 1, state.real[0]);
 }
 
 static void test_edges(void) {
@@ -207,7 +207,7 @@ static void test_edges(void) {
     wh_fixed_state state;
     (void)wh_fixed_start(&scene, &state, memory, sizeof memory);
     wh_fixed_set_real(&scene, &state, 0, WH_R(-2.5));
-    TEST_ASSERT_EQUAL_INT32(-5 * (1 << 23), state.real[0]);
+    TEST_ASSERT_EQUAL_INT32(-5 * (INT32_C(1) << 23), state.real[0]);
     wh_fixed_set_input(&scene, &state, 0, WH_R(804.0)); /* 100.5 eighths: away from zero */
     TEST_ASSERT_EQUAL_INT32(101, state.input[0]);
     wh_fixed_set_input(&scene, &state, 0, WH_R(-804.0));
