@@ -90,7 +90,7 @@ judge_answer() {
     awk -v allowed="$allowed" -v vary="$vary" '
         { part = $1 == "inf" ? 1e9 : ($1 + $2) / allowed }
         vary != "-" && $5 == 4 { between = part; next }
-        part > worst { worst = part; error = $1; unknown = $2 }
+        !any++ || part > worst { worst = part; error = $1; unknown = $2 }
         $6 != "-" && $6 > 0.01 * allowed { matrix = 1 }
         END { print error, unknown, worst, (between == "" ? "-" : between), matrix + 0 }' "$out/$1.places" >"$out/$1.error"
     read -r measured unknown part inside matrix_off <"$out/$1.error"

@@ -8,6 +8,7 @@
 # the largest number there is, is left out, for it is nothing but rounding. Prints "ERROR UNKNOWN COLUMN ROWS"; inf for a run that ends early. Without RUN, of `of`:
 # "LARGEST UNKNOWN COLUMN ROWS".
 function size(v) { return v < 0 ? -v : v }
+{ sub(/\r$/, "") } # CSV's lines end so
 FNR == 1 {
     file++
     if (file == 1) {
