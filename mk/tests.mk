@@ -57,7 +57,7 @@ RUN_CORE = "portable suites, double" $(B)/tests/core_double "portable suites, fl
 # The host suites in four parts, so that all processors have work to the end; what takes longest goes first.
 part = "host suites$(comma) part $(1) of 4" '$(B)/tests/host $$(sh tests/part.sh $(B)/tests/host_suites.list $(1) 4)'
 RUN_HOST = $(foreach p,0 1 2 3,$(call part,$(p)))
-CLI_LONG := $(foreach t,emitted_c embed_names flags,tests/cli/$(t).sh)
+CLI_LONG := $(foreach t,emitted_c price embed_names flags,tests/cli/$(t).sh)
 run_cli = $(foreach t,$(1),"$(t)" "sh $(t)")
 RUN_LONG = $(call run_cli,$(CLI_LONG))
 RUN_CLI = $(call run_cli,$(filter-out $(CLI_LONG),$(CLI_TESTS)))
