@@ -15,6 +15,9 @@
 /* Most stages of a method. A generated scene defines those of its own: with more there would be more to spill. */
 #ifndef WH_STAGES
 #define WH_STAGES WH_STAGES_MAX
+#define WH_HAS_LONG_ROWS 1
+#elif WH_STAGES > 4
+#define WH_HAS_LONG_ROWS 1
 #endif
 
 /* All stages but the first: stage(s); for each. Unrolled by hand where the compiler cannot be asked to: else shares would be
@@ -32,13 +35,19 @@
     } while (false)
 #else
 _Static_assert(WH_STAGES_MAX <= 6, "a stage each below");
+#ifdef WH_HAS_LONG_ROWS
+#define WH_LAST_STAGES(stage) \
+    stage(4U); \
+    stage(5U)
+#else
+#define WH_LAST_STAGES(stage) (void)0
+#endif
 #define WH_LATER_STAGES(by, stage) \
     do { \
         stage(1U); \
         stage(2U); \
         stage(3U); \
-        stage(4U); \
-        stage(5U); \
+        WH_LAST_STAGES(stage); \
     } while (false)
 #endif
 
