@@ -1,6 +1,8 @@
 /* angle.c: angles between radians and their stored form, and the table behind the sine. */
 #include "angle.h"
 
+#include "small_turn.h"
+
 /* sin(2 pi i/128) to 17 digits; the nearest number of either build (tests/core/test_angle.c). */
 const wh_real wh_sine_table[(1U << WH_SINE_BITS) + WH_SINE_QUARTER] WH_FLASH = {
     /* clang-format off */
@@ -112,3 +114,5 @@ wh_phase wh_phase_times(wh_angle angle, wh_factor factor) {
 }
 
 #endif
+
+WH_COLD wh_wave wh_far_turn_called(wh_real d) { return wh_far_turn(d, false); }

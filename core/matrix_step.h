@@ -16,30 +16,33 @@
 #include "arithmetic.h"
 #include "step_end.h"
 
-/* As wh_first_absurd(). Without floating-point arithmetic in the processor, sizes are compared by their bits: a tenth of what
- * three sums and a comparison take on an ATmega328P. */
-WH_INLINE unsigned wh_matrix_absurd(const wh_real *value, unsigned n) {
+/* As wh_all_believable(). Without floating-point arithmetic in the processor, sizes are compared by their bits: a tenth of
+ * what three sums and a comparison take on an ATmega328P. */
+WH_INLINE bool wh_matrix_believable(const wh_real *value, unsigned n) {
 #if WH_SOFT_FLOAT && !WH_DOUBLE
-    static const uint32_t absurd =
-        0x58635fa9; /* WH_ABSURD; infinities and what is no number lie above it */
-    for (unsigned i = 0; i < n; i++) {
-        uint32_t bits;
-        __builtin_memcpy(&bits, &value[i], sizeof bits);
-        if ((bits & 0x7fffffffU) >= absurd) {
-            return i;
+    /* the upper byte of 2^39: what is below cannot sum up to WH_ABSURD */
+    static const uint8_t large = 0x53;
+    unsigned i = 0;
+    for (; i < n; i++) {
+        const union {
+            wh_real value;
+            uint32_t bits;
+        } size = {value[i]};
+        if (((uint8_t)(size.bits >> 24) & 0x7fU) >= large) {
+            break;
         }
     }
-    return n;
-#else
-    return wh_first_absurd(value, n);
+    if (i == n) {
+        return true;
+    }
 #endif
+    return wh_all_believable(value, n);
 }
 
 /* Take over what a list gave of a scene without turn angles and low parts, or refuse the step. */
 WH_INLINE wh_status wh_matrix_accept(const wh_real *given, unsigned reals, wh_state *state) {
-    const unsigned absurd = wh_matrix_absurd(given, reals);
-    if (absurd < reals) {
-        return wh_refuse(state, absurd);
+    if (!wh_matrix_believable(given, reals)) {
+        return wh_refuse_among(given, reals, 0, state);
     }
     WH_UNROLL
     for (unsigned i = 0; i < reals; i++) {

@@ -78,6 +78,14 @@ typedef float wh_real;
 #define WH_INLINE_WITH_FPU WH_INLINE
 #endif
 
+/* Are reals told to a function in the registers that they are computed in, on a chip whose flash is small? A way that is
+ * hardly ever taken is a call there, then, of a function that all scenes share. */
+#if defined(__ARM_PCS_VFP) && !WH_DOUBLE && !(defined(WH_AHEAD) && WH_AHEAD)
+#define WH_REALS_IN_REGISTERS 1
+#else
+#define WH_REALS_IN_REGISTERS 0
+#endif
+
 /* A function, and a way, that are hardly ever taken: for size, and out of the others' way. */
 #if defined(__GNUC__)
 #define WH_COLD __attribute__((cold))

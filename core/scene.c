@@ -4,6 +4,7 @@
 #include "arithmetic.h"
 #include "hash.h"
 #include "ledger.h"
+#include "refuse.h"
 
 #if WH_DOUBLE
 #define UNIT 0x1p-52
@@ -266,6 +267,29 @@ uint64_t wh_scene_hash(const wh_scene *scene, const wh_state *state) {
 const wh_real *wh_scene_rates(const wh_scene *scene, const wh_state *state) {
     /* reals = linear + coordinates and coordinates = linear + angles */
     return state->real + (scene->reals - scene->angles) / 2;
+}
+
+/* As wh_refuse_first(), not unrolled. */
+WH_COLD static wh_status refuse_first(const wh_real *value, unsigned n, unsigned first,
+                                      wh_state *state) {
+    unsigned at = 0;
+    while (at + 1 < n && wh_believable(value[at], WH_ABSURD)) {
+        at++;
+    }
+    return wh_refuse(state, first + at);
+}
+
+WH_COLD wh_status wh_refuse_four(wh_state *state, unsigned first, unsigned n, wh_real a, wh_real b,
+                                 wh_real c, wh_real d) {
+    const wh_real value[] = {a, b, c, d};
+    return refuse_first(value, n, first, state);
+}
+
+WH_COLD wh_status wh_refuse_eight(wh_state *state, unsigned first, unsigned n, wh_real a, wh_real b,
+                                  wh_real c, wh_real d, wh_real e, wh_real f, wh_real g,
+                                  wh_real h) {
+    const wh_real value[] = {a, b, c, d, e, f, g, h};
+    return refuse_first(value, n, first, state);
 }
 
 #define WORDS(name, value, words) \

@@ -42,20 +42,29 @@ WH_INLINE_WITH_FPU wh_wave wh_small_turn(wh_real d) {
 }
 
 /* The same for any d: the turn by d / 2^k, doubled k times, and what it errs by with it: within
- * 7e-7 |d| in float, 1.3e-15 |d| in double. Seldom needed, and no call, over
+ * 7e-7 |d| in float, 1.3e-15 |d| in double. `surely`: it is not small. Seldom needed, and no call, over
  * which all that a step holds in registers would have to be kept. */
-WH_INLINE_WITH_FPU WH_COLD wh_wave wh_far_turn(wh_real d) {
+WH_INLINE_WITH_FPU WH_COLD wh_wave wh_far_turn(wh_real d, bool surely) {
     unsigned doublings = 0;
-    for (; WH_ABS(d) > WH_TURN_SMALL && doublings < WH_TURN_HALVINGS; doublings++) {
-        d *= WH_R(0.5);
+    if (surely || WH_ABS(d) > WH_TURN_SMALL) {
+        do {
+            d *= WH_R(0.5);
+            doublings++;
+        } while (WH_ABS(d) > WH_TURN_SMALL && doublings < WH_TURN_HALVINGS);
     }
     wh_wave turn = wh_small_turn(d);
-    for (; doublings > 0; doublings--) {
-        const wh_real less = turn.cosine;
-        turn.sine = WH_R(2.0) * (turn.sine + turn.sine * less);
-        turn.cosine = WH_R(2.0) * less * (WH_R(2.0) + less);
+    if (surely || doublings > 0) {
+        do {
+            const wh_real less = turn.cosine;
+            turn.sine = WH_R(2.0) * (turn.sine + turn.sine * less);
+            turn.cosine = WH_R(2.0) * less * (WH_R(2.0) + less);
+        } while (--doublings > 0);
     }
     return turn;
 }
+
+/* wh_far_turn() of any d, called; in angle.c. */
+#define wh_far_turn_called WH_NAME(wh_far_turn_called)
+wh_wave wh_far_turn_called(wh_real d);
 
 #endif

@@ -108,6 +108,16 @@ WH_INLINE void wh_turning_look_up(const wh_waves *waves, const wh_angle *angle, 
     t->turns = 0;
 }
 
+/* turn[n] by d[n], which are not small together. More than one turn needs a frame in any case, and where it begins few
+ * numbers are in registers that a call would take. */
+WH_INLINE void wh_far_turns(const wh_real *d, unsigned n, wh_wave *turn) {
+    WH_UNROLL
+    for (unsigned i = 0; i < n; i++) {
+        turn[i] =
+            WH_REALS_IN_REGISTERS && n > 1 ? wh_far_turn_called(d[i]) : wh_far_turn(d[i], n == 1);
+    }
+}
+
 /* What the first turn adds, the angles having these rates: turn[waves->count]. */
 WH_INLINE void wh_turning_by(const wh_tableau *by, const wh_waves *waves, const wh_real *rate,
                              wh_real h, wh_wave *turn) {
@@ -124,10 +134,7 @@ WH_INLINE void wh_turning_by(const wh_tableau *by, const wh_waves *waves, const 
         all = w == 0 ? WH_ABS(d[w]) : all + WH_ABS(d[w]);
     }
     if (WH_SELDOM(!(all <= WH_TURN_SMALL))) {
-        WH_UNROLL
-        for (unsigned w = 0; w < waves->count; w++) {
-            turn[w] = wh_far_turn(d[w]);
-        }
+        wh_far_turns(d, waves->count, turn);
     } else {
         WH_UNROLL
         for (unsigned w = 0; w < waves->count; w++) {
@@ -225,7 +232,8 @@ WH_INLINE_WITH_FPU wh_wave wh_lean(wh_wave at, wh_sine_parts parts, wh_real lean
 
 /* The pair turned on by any lean. */
 WH_INLINE wh_wave wh_lean_far(wh_wave at, wh_sine_parts parts, wh_real lean, bool precise) {
-    const wh_wave turn = WH_ABS(lean) <= WH_TURN_SMALL ? wh_small_turn(lean) : wh_far_turn(lean);
+    const wh_wave turn =
+        WH_ABS(lean) <= WH_TURN_SMALL ? wh_small_turn(lean) : wh_far_turn(lean, true);
     const wh_real sine = at.sine * turn.cosine + at.cosine * turn.sine;
     const wh_real cosine = at.cosine * turn.cosine - at.sine * turn.sine;
     wh_wave leant;

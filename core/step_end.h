@@ -7,36 +7,11 @@
     "core/step_end.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
 #endif
 
+#include "refuse.h"
 #include "scene.h"
 #include "span.h"
 #include "stage_sums.h"
 #include "sum.h"
-
-/* A linear position or a rate beyond this is no mechanism's: the step is refused. */
-#define WH_ABSURD WH_R(1e15)
-
-/* True for finite numbers of a believable size; false for NaN. */
-WH_INLINE bool wh_believable(wh_real value, wh_real limit) { return WH_ABS(value) < limit; }
-
-/* The first of value[n] that is none, or n. Seldom is there one: first all are asked at once, by the sum of their sizes,
- * which is not below any of them. */
-WH_INLINE unsigned wh_first_absurd(const wh_real *value, unsigned n) {
-    wh_real all = WH_R(0.0);
-    WH_UNROLL
-    for (unsigned i = 0; i < n; i++) {
-        all = i == 0 ? WH_ABS(value[i]) : all + WH_ABS(value[i]);
-    }
-    if (all < WH_ABSURD) {
-        return n;
-    }
-    WH_UNROLL
-    for (unsigned i = 0; i < n; i++) {
-        if (!wh_believable(value[i], WH_ABSURD)) {
-            return i;
-        }
-    }
-    return n;
-}
 
 /* *angle moved on by `steps` phase units, less than WH_PHASE_STEP_MAX in size, rounded to the nearest: dropping the
  * fraction would slow every angle down by half a unit a step. Compensated, *carry goes in and is what is rounded away;
@@ -63,10 +38,41 @@ WH_INLINE void wh_angle_move(wh_angle *angle, wh_real steps, bool compensated, w
 #define WH_ANGLE_LOST(i, h, lost) ((void)0)
 #endif
 
-/* Refuse the step: component `fault` left all bounds. */
-WH_INLINE wh_status wh_refuse(wh_state *state, unsigned fault) {
-    state->fault = (int)fault;
-    return WH_E_DIVERGED;
+/* Is value[n] a mechanism's? All are asked at once, by the sum of their sizes, which is not below any of them. */
+WH_INLINE bool wh_all_believable(const wh_real *value, unsigned n) {
+    wh_real all = WH_R(0.0);
+    WH_UNROLL
+    for (unsigned i = 0; i < n; i++) {
+        all = i == 0 ? WH_ABS(value[i]) : all + WH_ABS(value[i]);
+    }
+    return n == 0 || all < WH_ABSURD;
+}
+
+/* Refuse the step for value[n], the components from `first` on, which are not all believable: the first that by itself
+ * is not is blamed, or else the last. */
+WH_INLINE wh_status wh_refuse_first(const wh_real *value, unsigned n, unsigned first,
+                                    wh_state *state) {
+    WH_UNROLL
+    for (unsigned i = 0; i + 1 < n; i++) {
+        if (!wh_believable(value[i], WH_ABSURD)) {
+            return wh_refuse(state, first + i);
+        }
+    }
+    return wh_refuse(state, first + n - 1);
+}
+
+/* wh_refuse_first(), with as little flash as may be. */
+WH_INLINE wh_status wh_refuse_among(const wh_real *value, unsigned n, unsigned first,
+                                    wh_state *state) {
+    if (WH_REALS_IN_REGISTERS && n > 1 && n <= 4) {
+        return wh_refuse_four(state, first, n, value[0], value[1], value[n > 2 ? 2 : 1],
+                              value[n - 1]);
+    }
+    if (WH_REALS_IN_REGISTERS && n > 4 && n <= 8) {
+        return wh_refuse_eight(state, first, n, value[0], value[1], value[2], value[3], value[4],
+                               value[n > 5 ? 5 : 4], value[n > 6 ? 6 : n - 1], value[n - 1]);
+    }
+    return wh_refuse_first(value, n, first, state);
 }
 
 /* Refuse the step where `far`, an angle that was to move by half a turn or more, is one. */
@@ -107,9 +113,8 @@ WH_INLINE void wh_commit(const wh_trial *trial, unsigned angles, unsigned reals,
 /* Take a sound trial over, or refuse the step. */
 WH_INLINE wh_status wh_accept(const wh_trial *trial, unsigned angles, unsigned reals,
                               bool compensated, wh_state *state) {
-    const unsigned absurd = wh_first_absurd(trial->real, reals);
-    if (absurd < reals) {
-        return wh_refuse(state, angles + absurd);
+    if (!wh_all_believable(trial->real, reals)) {
+        return wh_refuse_among(trial->real, reals, angles, state);
     }
     wh_commit(trial, angles, reals, compensated, state);
     return WH_OK;

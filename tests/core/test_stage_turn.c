@@ -371,7 +371,7 @@ static void test_far_turns_are_sines(void) {
                                (WH_ABS(d) > WH_R(1.0) ? WH_ABS(d) : WH_R(1.0));
         wh_real wanted[2];
         wh_sincos(wh_phase_from_rad(d), &wanted[0], &wanted[1]);
-        const wh_wave turn = wh_far_turn(d);
+        const wh_wave turn = wh_far_turn(d, d > WH_TURN_SMALL);
         TEST_ASSERT_TRUE(WH_ABS(turn.sine - wanted[0]) < within);
         TEST_ASSERT_TRUE(WH_ABS(WH_R(1.0) + turn.cosine - wanted[1]) < within);
         if (WH_ABS(d) <= WH_TURN_SMALL) {
@@ -382,7 +382,7 @@ static void test_far_turns_are_sines(void) {
     const wh_real none[] = {WH_R(1e9), WH_R(-1e9), WH_R(1e30), (wh_real)__builtin_inf(),
                             (wh_real)__builtin_nan("")};
     for (unsigned i = 0; i < sizeof none / sizeof none[0]; i++) {
-        const wh_wave turn = wh_far_turn(none[i]);
+        const wh_wave turn = wh_far_turn(none[i], false);
         TEST_ASSERT_FALSE(WH_ABS(turn.sine) < WH_R(1e15));
         TEST_ASSERT_FALSE(WH_ABS(turn.cosine) < WH_R(1e15));
     }

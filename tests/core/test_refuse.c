@@ -1,0 +1,106 @@
+/* test_refuse.c: which component a refused step is blamed with, in all the forms that chips have of it, against the rule as
+ * it is written: sizes that sum up to 1e15 or more, or to no number, are no mechanism's; the first that is so large by
+ * itself is blamed, or else the last. */
+#include "core/matrix_step.h"
+#include "tests/core/draw.h"
+#include "unity.h"
+
+#ifndef WH_TEST_SMALL
+#define WH_TEST_SMALL (!__STDC_HOSTED__)
+#endif
+
+void suite_refuse(void);
+
+enum { MOST = 12, NONE = -1 };
+
+static wh_real size_of(wh_real value) { return value < WH_R(0.0) ? -value : value; }
+
+/* Below 1e15, in comparisons that are false of what is no number. */
+static bool is_small(wh_real value) { return size_of(value) < WH_R(1e15); }
+
+static int blamed_by_rule(const wh_real *value, unsigned n) {
+    wh_real all = WH_R(0.0);
+    for (unsigned i = 0; i < n; i++) {
+        all += size_of(value[i]);
+    }
+    if (is_small(all)) {
+        return NONE;
+    }
+    unsigned at = 0;
+    while (at + 1 < n && is_small(value[at])) {
+        at++;
+    }
+    return (int)at;
+}
+
+/* Ordinary numbers, those about a bound, and what no state holds. */
+static wh_real drawn(uint64_t *seed) {
+    static const wh_real edge[] = {WH_R(0.0),
+                                   WH_R(1e-30),
+                                   WH_R(5.4e11),
+                                   WH_R(5.6e11),
+                                   WH_R(1.2e12),
+                                   WH_R(2.5e14),
+                                   WH_R(4.9e14),
+                                   WH_R(9.9e14),
+                                   WH_R(1e15),
+                                   WH_R(1e30),
+                                   (wh_real)__builtin_inf(),
+                                   (wh_real)__builtin_nan("")};
+    const wh_real sign = draw_one_in(seed, 2) ? WH_R(1.0) : WH_R(-1.0);
+    if (!draw_one_in(seed, 3)) {
+        return sign * draw_broken(seed, 0, 100);
+    }
+    return sign * edge[draw_one_of(seed, sizeof edge / sizeof edge[0])];
+}
+
+static void expect_blamed(int rule, unsigned first, wh_status status, const wh_state *state) {
+    TEST_ASSERT_TRUE(status == WH_E_DIVERGED);
+    TEST_ASSERT_TRUE(state->fault == (int)first + rule);
+}
+
+static wh_status by_registers(const wh_real *v, unsigned n, unsigned first, wh_state *state) {
+    const wh_real last = v[n - 1];
+    if (n <= 4) {
+        return wh_refuse_four(state, first, n, v[0], v[1], n > 2 ? v[2] : last, last);
+    }
+    return wh_refuse_eight(state, first, n, v[0], v[1], v[2], v[3], v[4], n > 5 ? v[5] : last,
+                           n > 6 ? v[6] : last, last);
+}
+
+static void test_the_first_absurd_one_is_blamed(void) {
+    uint64_t seed = 26;
+    unsigned refused = 0;
+    for (unsigned i = 0; i < (WH_TEST_SMALL ? 2000U : 200000U); i++) {
+        wh_real value[MOST] = {0};
+        wh_state state = {0};
+        const unsigned n = 1 + draw_one_of(&seed, MOST);
+        const unsigned first = draw_one_of(&seed, 5);
+        for (unsigned k = 0; k < n; k++) {
+            value[k] = drawn(&seed);
+        }
+        const int rule = blamed_by_rule(value, n);
+        TEST_ASSERT_TRUE(wh_all_believable(value, n) == (rule == NONE));
+        TEST_ASSERT_TRUE(wh_matrix_believable(value, n) == (rule == NONE));
+        if (rule == NONE) {
+            continue;
+        }
+        refused++;
+        expect_blamed(rule, first, wh_refuse_first(value, n, first, &state), &state);
+        expect_blamed(rule, first, wh_refuse_among(value, n, first, &state), &state);
+        if (n >= 2 && n <= 8) {
+            expect_blamed(rule, first, by_registers(value, n, first, &state), &state);
+        }
+    }
+    TEST_ASSERT_TRUE(refused > 500);
+}
+
+static void test_nothing_is_believable(void) {
+    TEST_ASSERT_TRUE(wh_all_believable(NULL, 0));
+    TEST_ASSERT_TRUE(wh_matrix_believable(NULL, 0));
+}
+
+void suite_refuse(void) {
+    RUN_TEST(test_the_first_absurd_one_is_blamed);
+    RUN_TEST(test_nothing_is_believable);
+}
