@@ -108,7 +108,7 @@ static int kept_below(request *q, double price) {
 
 static void test_drawn_requests(void) {
     dice d = dice_of("choice", 501);
-    const unsigned cases = dice_cases(few_or_all(4, 60));
+    const unsigned cases = dice_cases(few_or_all(usual_or(4, 3), 60));
     int found = 0;
     int limited[CHOICE_LIMITS] = {0};
     for (unsigned n = 0; n < cases; n++) {
@@ -292,7 +292,7 @@ static bool is_beaten(const table *made, const table_row *row) {
  * 1e-4 is one, and wherever no other row beats one it is on the front. */
 static void test_linear_scenes_have_the_matrix_on_their_front(void) {
     dice d = dice_of("choice linear", 503);
-    for (unsigned n = 0; n < few_or_all(4, 30); n++) {
+    for (unsigned n = 0; n < few_or_all(usual_or(4, 1), 30); n++) {
         char text[700];
         snprintf(text, sizeof text,
                  "mechanism row\ncoordinate x [m]\ncoordinate y [m]\n"
