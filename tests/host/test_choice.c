@@ -85,10 +85,10 @@ static bool keeps(request *q, const setting *s, uint64_t substeps, double *worst
 
 enum { SUBSTEPS_MOST = 40 };
 
-/* All settings and substeps below a price: how many keep everything? */
+/* All settings and substeps below a price (under the sanitizers some settings): how many keep everything? */
 static int kept_below(request *q, double price) {
     int kept = 0;
-    for (int i = 0; i < setting_count(); i++) {
+    for (int i = 0; i < setting_count(); i += (int)usual_or(1, 5)) {
         const setting s = setting_at(i);
         for (int k = 0; k < CHOICE_SUBSTEPS && choice_substeps(k) <= SUBSTEPS_MOST; k++) {
             bool own;

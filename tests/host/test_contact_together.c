@@ -44,7 +44,7 @@ static int run(const tangle *of, double *state, uint64_t *overruns) {
 /* Bodies that touch and are thrown at each other, alone and with friction, loads, holds and a crossing: from any order
  * of the statements comes the same motion, but for rounding. A step with too many events has no such promise. */
 static void test_the_order_of_the_file_does_not_matter(void) {
-    const long runs = wanted_runs((long)usual_or(130, 40));
+    const long runs = wanted_runs(130);
     int over = 0;
     double worst = 0.0;
     for (long i = 0; i < 2 * runs; i++) {
@@ -76,7 +76,7 @@ static void test_the_order_of_the_file_does_not_matter(void) {
 
 /* No stop, friction or hold ever gives energy, whatever happens together (but in a step that cannot hold all). */
 static void test_no_contact_gives_energy(void) {
-    const long runs = wanted_runs((long)few_or_all(usual_or(50, 15), 130));
+    const long runs = wanted_runs((long)few_or_all(50, 130));
     double worst = 0.0;
     for (long i = 0; i < 2 * runs; i++) {
         char text[4000];
