@@ -250,7 +250,7 @@ asked 0 '^  error       0 of the largest value, measured (x' "$scratch/glide.whi
 verdict $? "price of a motion without errors names a component" "$scratch/g.csv"
 asked 0 '^chosen' "$odd:odd_tiny" --of x --error 1mm
 asked 1 'nothing moves' "$odd:odd_rests" --error 1e-3
-asked 0 'left out .*: X' laskowitz_shifted --error 1e-2 --horizon 1s
+usual asked 0 'left out .*: X' laskowitz_shifted --error 1e-2 --horizon 1s
 # the place of a range where nothing moves is named
 asked 1 'trusted, with --start x=0: nothing moves' "$odd:odd_rings" --error 1e-2 --vary "x=0..1 [m]"
 # what rests at one place of a range alone is not left out
