@@ -30,12 +30,20 @@ objects: $(call objects,host,$(WHIRL_MAIN_C) $(WHIRL_C) $(GEN)/builtin_models.c 
 board-objects: board-own-objects $(call objects,$(BOARD),$(PORTABLE_C) $(PROGRAM_C) $(CORE_TEST_C) $(SCENE_C))
 board-own-objects: $(call objects,$(BOARD),$(BOARD_SOURCES) $(wildcard tests/boards/guard_*.c))
 
+# Where the main configuration has these very settings, as in CI (.ci/run), what it compiled already counts. Other gates
+# take both compilers' objects from where these two put them.
+STRICT := EXTRA=-Werror BOARD_EXTRA=-Werror OPT=-O2
+GCC_FOLDER := $(if $(filter gcc|-O2|-Werror|-Werror,$(CC)|$(OPT)|$(EXTRA)|$(BOARD_EXTRA)),build,build/check/gcc)
+CLANG_FOLDER := build/check/clang
+GCC_BUILD = $(MAKE) B=$(GCC_FOLDER) CC=gcc $(STRICT)
+CLANG_BUILD = $(MAKE) B=$(CLANG_FOLDER) CC=clang $(STRICT)
+
 gate-gcc: $(GEN)/.stamp
-	@$(MAKE) -k B=build/check/gcc CC=gcc EXTRA=-Werror BOARD_EXTRA=-Werror objects board-objects
-	+@$(foreach b,$(filter-out $(BOARD),$(BOARDS)),$(MAKE) -k B=build/check/gcc BOARD=$(b) BOARD_EXTRA=-Werror board-own-objects &&) true
+	@$(GCC_BUILD) -k objects board-objects
+	+@$(foreach b,$(filter-out $(BOARD),$(BOARDS)),$(GCC_BUILD) -k BOARD=$(b) board-own-objects &&) true
 
 gate-clang: $(GEN)/.stamp
-	@$(MAKE) -k B=build/check/clang CC=clang EXTRA=-Werror objects
+	@$(CLANG_BUILD) -k objects
 
 # --- layout and lint ------------------------------------------------------------------------------
 gate-format:
@@ -65,26 +73,32 @@ gate-cppcheck:
 	    $(filter %.c,$(C_FILES))
 
 # --- all cases of what `make test` takes fewer of, to be quick --------------------------------------------
-# These ask for WHIRL_FULL.
+# These ask for WHIRL_FULL. `rest`: what `make test` does whole is not done again.
 CLI_FULL = $(shell grep -l WHIRL_FULL $(CLI_TESTS))
 SUITES_FULL = $(patsubst tests/host/test_%.c,%,$(shell grep -l few_or_all tests/host/test_*.c))
 gate-full: $(GEN)/.stamp
 	@$(MAKE) test-programs
-	@WHIRL_FULL=1 WHIRL=build/whirl TEST_SECONDS=900 sh tests/run.sh build/check/log_full $(call run_cli,$(CLI_FULL)) \
+	@WHIRL_FULL=rest WHIRL=build/whirl TEST_SECONDS=900 sh tests/run.sh build/check/log_full $(call run_cli,$(CLI_FULL)) \
 	    "host suites, all cases" "build/tests/host $(SUITES_FULL)"
 
 # --- sanitizers -----------------------------------------------------------------------------------
-# Every test, with the cases of `make test`: all of them take instrumented programs a quarter of an hour, and gate-full
-# a few minutes.
+# WHIRL_FEW: a part of the cases of `make test`, of every class some, for an instrumented program takes six times as long;
+# what only compiles generated code, which is not instrumented, is left to `make test`.
 # Generated scenes with contacts take gcc half a minute each when they are optimised and instrumented.
 $(B)/float/$(GEN)/%.o $(B)/double/$(GEN)/%.o: FILE_FLAGS = $(SCENE_OPT)
-ASAN_BUILD = $(MAKE) B=build/asan CC=gcc OPT="-O1 -fno-omit-frame-pointer" SCENE_OPT=-O0 \
+ASAN_BUILD = $(MAKE) MAIN="CC='$(CC)' OPT='$(OPT)' EXTRA='$(EXTRA)'" B=build/asan CC=gcc OPT="-O1 -fno-omit-frame-pointer" SCENE_OPT=-O0 \
     EXTRA="-fsanitize=$(SANITIZE) -fno-sanitize-recover=all"
 
+# Scripts that run no instrumented program, or have it write what other scripts have it write, too.
+CLI_NOT_ASAN := $(foreach t,boards flags fresh headers help no_libm runners setup structure,tests/cli/$(t).sh)
+# What scripts make themselves belongs to the main configuration, and must have its settings, not ours: with ours it would
+# be compiled anew, and once more by the next gate.
 .PHONY: asan-run
 asan-run: test-programs $(B)/whirl
-	@EMITTED=once WHIRL=$(B)/whirl TEST_SECONDS=900 \
-	    sh tests/run.sh $(B)/tests/log $(RUN_LONG) $(RUN_HOST) $(RUN_CLI) $(RUN_CORE)
+	@env -u MAKEFLAGS -u MFLAGS -u MAKEOVERRIDES -u B -u SCENE_OPT -u MAIN $(MAIN) \
+	    ASAN_OPTIONS="malloc_context_size=5:$$ASAN_OPTIONS" WHIRL_FEW=1 WHIRL=$(B)/whirl TEST_SECONDS=900 \
+	    sh tests/run.sh $(B)/tests/log $(call run_cli,$(filter-out $(CLI_NOT_ASAN),$(CLI_LONG))) $(RUN_HOST) \
+	    $(call run_cli,$(filter-out $(CLI_NOT_ASAN) $(CLI_LONG),$(CLI_TESTS))) $(RUN_CORE)
 
 gate-sanitizers:
 	+@$(ASAN_BUILD) asan-run
@@ -93,11 +107,11 @@ gate-sanitizers:
 MEMCHECK = valgrind -q --error-exitcode=9
 gate-memcheck: test-programs build/whirl
 	@$(call need,valgrind)
-	$(Q)for real in float double; do \
-	    $(MEMCHECK) $(B)/tests/core_$$real contact ledger scene || exit 1; done
-	$(Q)for scene in shuttle_clamped thomson_magnet carriage_stop; do for real in float double; do \
-	    $(MEMCHECK) $(B)/whirl run $$scene --with ledger --number $$real --until 0.5s --quiet \
-	        || exit 1; done; done
+	$(Q){ for real in float double; do \
+	        for suite in scene contact ledger; do echo "$(B)/tests/core_$$real $$suite"; done; \
+	        for scene in shuttle_clamped thomson_magnet carriage_stop; do \
+	            echo "$(B)/whirl run $$scene --with ledger --number $$real --until 0.5s --quiet"; done; done; \
+	    } | xargs -P $(JOBS) -I COMMAND sh -c '$(MEMCHECK) COMMAND'
 
 # Files that are broken in every way: each must be refused with a message, and nothing else.
 gate-bad-input:
@@ -145,9 +159,12 @@ gate-cycles: $(GEN)/.stamp
 HASH_BUILDS := gcc-O0 gcc-O2 gcc-O3 clang-O0 clang-O2 clang-O3
 # The scenes' last states, on the boards $(1): build their images, then run them beside the interpreter and this
 # machine's builds.
+hash_folder = $(or $(hash_folder_$(1)),build/hash/$(1))
+hash_folder_gcc-O2 := $(GCC_FOLDER)
+hash_folder_clang-O2 := $(CLANG_FOLDER)
 build_hashes = $(MAKE) $(addprefix hash-,$(HASH_BUILDS)) && $(foreach b,$(1),$(call on_board,$(b),board-images) &&) true
 compare_hashes = sh tests/hashes.sh build/hash "the interpreter" "build/whirl hashes" \
-    $(foreach h,$(HASH_BUILDS),$(h) build/hash/$(h)/scenes) \
+    $(foreach h,$(HASH_BUILDS),$(h) $(call hash_folder,$(h))/scenes) \
     $(foreach b,$(1),"$(b)" "$(call on_board,$(b),print-hashes)")
 # Linear scenes again, a step as one matrix, on the boards $(1).
 compare_matrix_hashes = sh tests/hashes.sh build/hash/matrix "the interpreter" "sh tests/matrix_hashes.sh $(MATRIX)" \
@@ -187,6 +204,11 @@ $(B)/scenes_short: boards/programs/scenes.c $(call objects,float,boards/host/boa
 	$(say) LINK $@
 	$(Q)$(CC) $(FLAGS_float) -DSCENE_STEPS_MOST=$(SINGLE_STEPS)U -o $@ $(filter %.c %.o,$^) $(filter %.a,$^)
 
-$(addprefix hash-,$(HASH_BUILDS)): hash-%:
+# Those of the warnings' gates have their objects from there.
+hash-gcc-O2:
+	@$(GCC_BUILD) $(GCC_FOLDER)/scenes
+hash-clang-O2:
+	@$(CLANG_BUILD) $(CLANG_FOLDER)/scenes
+$(addprefix hash-,$(filter-out gcc-O2 clang-O2,$(HASH_BUILDS))): hash-%:
 	@$(MAKE) B=build/hash/$* CC=$(firstword $(subst -, ,$*)) OPT=-$(lastword $(subst -, ,$*)) \
 	    build/hash/$*/scenes

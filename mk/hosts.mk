@@ -6,13 +6,16 @@ MECHANISMS ?= 500
 SEED ?= 1
 
 HOSTS := gcc clang gcc-O0 musl m32 aarch64 armhf wasm
-HOSTS_CI := gcc clang musl
+# In CI: two builds that other gates have made, and one that differs most of what is quick to build.
+HOSTS_CI := gcc-O2 clang-O2 musl
 MULTIARCH = $(shell gcc -print-multiarch)
 
 # For each: the compiler, settings of its build, what runs it, and its words in the table.
 host_cc_gcc     = gcc
 host_cc_clang   = clang
 host_cc_gcc-O0  = gcc
+host_cc_gcc-O2  = gcc
+host_cc_clang-O2 = clang
 host_cc_musl    = musl-gcc
 host_cc_m32     = gcc -m32 -msse2 -mfpmath=sse -idirafter /usr/include/$(MULTIARCH)
 host_cc_aarch64 = aarch64-linux-gnu-gcc
@@ -20,11 +23,18 @@ host_cc_armhf   = arm-linux-gnueabihf-gcc
 host_cc_wasm    = clang --target=wasm32-wasi --sysroot=/usr
 
 host_set_gcc-O0  = OPT=-O0
+host_set_gcc-O2  = $(STRICT)
+host_set_clang-O2 = $(STRICT)
 host_set_musl    = LINK_EXTRA=-static
 host_set_aarch64 = LINK_EXTRA=-static
 host_set_armhf   = LINK_EXTRA=-static
 # WebAssembly has no processes and no signals, and a small stack unless it is told.
 host_set_wasm    = SYSTEM=none AR=llvm-ar EXTRA=-D_WASI_EMULATED_SIGNAL LINK_EXTRA=-Wl,-z,stack-size=8388608
+
+# Where each is built; the warnings' gates have built these two (mk/check.mk).
+host_folder = $(or $(host_folder_$(1)),build/hosts/$(1))
+host_folder_gcc-O2 = $(GCC_FOLDER)
+host_folder_clang-O2 = $(CLANG_FOLDER)
 
 host_run_aarch64 = qemu-aarch64
 host_run_armhf   = qemu-arm
@@ -33,18 +43,20 @@ host_run_wasm    = node --no-warnings tests/hosts/wasi.mjs
 host_is_gcc     = gcc -O1, x86-64
 host_is_clang   = clang -O1, x86-64
 host_is_gcc-O0  = gcc -O0, x86-64
+host_is_gcc-O2  = gcc -O2, x86-64
+host_is_clang-O2 = clang -O2, x86-64
 host_is_musl    = gcc -O1, x86-64, musl, static
 host_is_m32     = gcc -O1 -m32 -msse2 -mfpmath=sse
 host_is_aarch64 = gcc -O1, aarch64, static, qemu-aarch64
 host_is_armhf   = gcc -O1, armhf, static, qemu-arm
 host_is_wasm    = clang -O1, wasm32-wasi, node
 
-.PHONY: hosts-now gate-hosts $(addprefix host-,$(HOSTS))
+.PHONY: hosts-now gate-hosts $(addprefix host-,$(sort $(HOSTS) $(HOSTS_CI)))
 hosts-now:
 	+@$(MAKE) -j $(JOBS) $(addprefix host-,$(HOSTS))
 	@sh tests/hosts/compare.sh build/hosts/out $(foreach h,$(HOSTS),$(h) "$(host_is_$(h))")
 
-# In `make check`: the three that are quickest to build, and fewer mechanisms.
+# In `make check`: fewer of them, and fewer mechanisms.
 gate-hosts:
 	+@$(MAKE) -j $(JOBS) MECHANISMS=100 $(addprefix host-,$(HOSTS_CI))
 	@sh tests/hosts/compare.sh build/hosts/out $(foreach h,$(HOSTS_CI),$(h) "$(host_is_$(h))")
@@ -66,9 +78,9 @@ $(MECHANISMS_FILE): build/tools/mechanisms
 	$(say) GEN $@
 	$(Q)$< $(MECHANISMS) $(SEED) >$@
 
-$(addprefix host-,$(HOSTS)): host-%: $(GEN)/builtin_models.c $(MECHANISMS_FILE)
+$(addprefix host-,$(sort $(HOSTS) $(HOSTS_CI))): host-%: $(GEN)/builtin_models.c $(MECHANISMS_FILE)
 	@$(call need,$(host_cc_$*))
 	@[ -z "$(host_run_$*)" ] || { $(call need,$(host_run_$*)); }
-	@$(MAKE) B=build/hosts/$* CC="$(host_cc_$*)" OPT=-O1 $(host_set_$*) build/hosts/$*/whirl
+	@$(MAKE) B=$(call host_folder,$*) CC="$(host_cc_$*)" OPT=-O1 $(host_set_$*) $(call host_folder,$*)/whirl
 	$(say) WRITE build/hosts/out/$*
-	$(Q)sh tests/hosts/write.sh build/hosts/out/$* $(MECHANISMS_FILE) $(host_run_$*) build/hosts/$*/whirl
+	$(Q)sh tests/hosts/write.sh build/hosts/out/$* $(MECHANISMS_FILE) $(host_run_$*) $(call host_folder,$*)/whirl

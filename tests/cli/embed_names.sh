@@ -156,6 +156,7 @@ done
 # --- generated ones --------------------------------------------------------------------------------------------
 seed=${WHIRL_SEED:-$(date +%j)}
 cases=${WHIRL_CASES:-${WHIRL_FULL:+12}}
+[ -z "${WHIRL_FEW:-}" ] || cases=${cases:-2} # the sanitizers' gate
 cases=${cases:-6}
 echo "seed $seed, $cases cases (WHIRL_SEED, WHIRL_CASES)"
 made=""

@@ -90,12 +90,16 @@ double dice_between(dice *d, double low, double high) {
 
 unsigned dice_one_of(dice *d, unsigned count) { return (unsigned)(roll(d) >> 20) % count; }
 
+static bool asked(const char *variable) {
+    const char *given = getenv(variable);
+    return given != NULL && given[0] != '\0';
+}
+
+unsigned usual_or(unsigned usual, unsigned fewest) { return asked("WHIRL_FEW") ? fewest : usual; }
+
 unsigned dice_cases(unsigned usual) {
     const char *given = getenv("WHIRL_CASES");
     return given != NULL ? (unsigned)strtoul(given, NULL, 10) : usual;
 }
 
-unsigned few_or_all(unsigned few, unsigned all) {
-    const char *full = getenv("WHIRL_FULL");
-    return full != NULL && full[0] != '\0' ? all : few;
-}
+unsigned few_or_all(unsigned few, unsigned all) { return asked("WHIRL_FULL") ? all : few; }

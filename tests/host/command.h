@@ -33,4 +33,7 @@ unsigned dice_cases(unsigned usual);
 /* `few` cases, for `make test`; where the environment variable WHIRL_FULL is not empty (make check), `all`. */
 unsigned few_or_all(unsigned few, unsigned all);
 
+/* The `usual` cases; where WHIRL_FEW is not empty (the sanitizers' gate), the `fewest` that are some of every class. */
+unsigned usual_or(unsigned usual, unsigned fewest);
+
 #endif

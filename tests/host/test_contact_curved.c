@@ -1,4 +1,5 @@
 /* test_contact_curved.c: random curved contacts: whatever happens at dead centres, the energy is accounted for. */
+#include "command.h"
 #include "contacts.h"
 #include "curved.h"
 
@@ -47,7 +48,7 @@ static bool is_the_methods(uint64_t seed, double share) {
 }
 
 static void test_energy_is_accounted_for(void) {
-    const long runs = wanted_runs(300);
+    const long runs = wanted_runs((long)usual_or(300, 100));
     double worst = 0.0;
     int beyond = 0;
     int coarse = 0;
@@ -77,7 +78,7 @@ static void test_energy_is_accounted_for(void) {
 
 /* The same in float: a motion with contacts may part from the one in double, but not lose energy. */
 static void test_energy_is_accounted_for_in_float(void) {
-    const long runs = wanted_runs(300);
+    const long runs = wanted_runs((long)usual_or(300, 100));
     int beyond = 0;
     double worst = 0.0;
     for (uint64_t seed = 1; seed <= (uint64_t)runs; seed++) {

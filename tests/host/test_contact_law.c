@@ -2,6 +2,7 @@
  * the laws of core/contact_lcp.h and core/contact_resolve.h, solved here another way: every case is tried (which
  * contacts hold, which are at a limit), and the one that meets all conditions is the answer. Rates, places, and what
  * each contact gives to the energy and to each momentum. */
+#include "command.h"
 #include "contacts.h"
 #include "derived.h"
 #include "drawn.h"
@@ -112,7 +113,7 @@ static long wanted_runs(long usual) {
 typedef bool draw_moment(uint64_t *seed, double impact_s, drawn *b);
 
 static void check_impacts(draw_moment *draw, const engine_kind *kind, double bound) {
-    const long runs = wanted_runs(40);
+    const long runs = wanted_runs((long)usual_or(40, 12));
     uint64_t seed = 79;
     double worst = 0.0;
     double worst_books = 0.0;
@@ -194,7 +195,7 @@ static void draw_rest(uint64_t *seed, drawn *b) {
 
 /* Loads are constant, so are the accelerations: rates a h, places a h^2/2, each contact's impulse lambda h. */
 static void check_forces(const engine_kind *kind, double bound) {
-    const long runs = wanted_runs(40);
+    const long runs = wanted_runs((long)usual_or(40, 12));
     uint64_t seed = 72;
     double worst = 0.0;
     double worst_books = 0.0;
@@ -295,7 +296,7 @@ static double broken(const motion *m, const drawn *b, int k, double time_s) {
 }
 
 static void test_no_contact_does_more_than_it_can(void) {
-    const long runs = wanted_runs(40);
+    const long runs = wanted_runs((long)usual_or(40, 12));
     uint64_t seed = 73;
     double worst = 0.0;
     int over = 0;

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "command.h"
 #include "motion.h"
 
 #include "unity.h"
@@ -56,7 +57,7 @@ static void test_turning_errs_as_looking_up_does(void) {
         {"S16", "carriage_free"},      {"S16", "carriage_ratio"}};
     printf("| row | scene | error at 1 ms, turned | lookup | ratio | order, turned | lookup |\n"
            "|---|---|---|---|---|---|---|\n");
-    for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
+    for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i += usual_or(1, 3)) {
         const char *name = scenes[i][1];
         double exact[VALUES];
         double error[2];
