@@ -3,14 +3,16 @@
 # compiled of that, for this machine and for boards, must print the same.
 
 # Between them: a matrix, tables, angles that turn and that are looked up, every method, first order, stops, fixed point.
-SETTINGS_SCENES := two_mass_relative epicyclic_conserved rig_fixed mk/price/separable.whirl \
+SETTINGS_WHOLE := two_mass_relative epicyclic_conserved mk/price/separable.whirl \
     tests/boards/settings.whirl:mixed_turns tests/boards/settings.whirl:clapper_claps
+# One of four: they are those of the gear, but with an input and gravity.
+SETTINGS_PARTS := rig_fixed
 SETTINGS_STEPS := 500
-# `all` of them, or `some`: one of so many, as in the gate hashes.
+# `all` of them, or `some`: one of so many and all that have a word that none before has, as in the gate hashes.
 SETTINGS ?= all
-SETTINGS_EVERY_all := 1
-SETTINGS_EVERY_some := 11
-SETTINGS_KINDS := float double fixed
+SETTINGS_SCENES_all := $(foreach s,$(SETTINGS_WHOLE),1 $(s)) $(foreach s,$(SETTINGS_PARTS),4 $(s))
+SETTINGS_SCENES_some := $(foreach s,$(SETTINGS_WHOLE) $(SETTINGS_PARTS),16 $(s))
+SETTINGS_KINDS ?= float double fixed
 SETTINGS_IN := build/settings/$(SETTINGS)
 
 # What was compiled from as it was is left alone.
@@ -20,7 +22,7 @@ settings-written: hashed = $$(sed 's/^scene //; s/ .*//' $(1).hashes)
 settings-written: build/whirl
 	$(say) GEN "$(SETTINGS_IN)/*.c"
 	$(Q)rm -rf $(new) && mkdir -p $(new) $(SETTINGS_IN)
-	$(Q)build/whirl emit-settings $(new) $(SETTINGS_STEPS) $(SETTINGS_EVERY_$(SETTINGS)) $(SETTINGS_SCENES)
+	$(Q)build/whirl emit-settings $(new) $(SETTINGS_STEPS) $(SETTINGS_SCENES_$(SETTINGS))
 	$(Q)mk/count/index.sh $(call hashed,$(new)/float) >$(new)/table_real.c
 	$(Q)mk/count/index.sh --fixed $(call hashed,$(new)/fixed) >$(new)/table_fixed.c
 	$(Q)cp $(new)/*.hashes $(new)/settings.txt $(SETTINGS_IN)

@@ -19,14 +19,35 @@
 typedef enum kind_of { OF_FLOAT, OF_DOUBLE, OF_FIXED, KINDS } kind_of;
 static const engine_kind *const kinds[KINDS] = {&engine_float, &engine_double, &engine_fixed};
 
+/* Words of an axis, at most. */
+enum { WORDS = 40 };
+
 typedef struct emission {
     const char *folder;
     uint64_t steps; /* at most so many */
-    int every;      /* of so many settings one, */
-    int seen;       /* counted through all scenes, so that each has others */
+    int every;      /* of so many settings of a scene one, */
+    int seen; /* counted through all scenes, so that each has others; and all that have a new word */
+    const char *word[AXES][WORDS];
     FILE *hashes[KINDS];
     FILE *settings; /* NAME SCENE OPTIONS OF `whirl run`..., with the events of the run in float */
 } emission;
+
+/* Has none before it this word on some axis? */
+static bool has_new_word(emission *to, const setting *s) {
+    bool has = false;
+    for (int axis = 0; axis < AXES; axis++) {
+        const char *word = setting_word(s, (setting_axis)axis);
+        int i = 0;
+        while (i < WORDS && to->word[axis][i] != NULL && strcmp(to->word[axis][i], word) != 0) {
+            i++;
+        }
+        if (i == WORDS || to->word[axis][i] == NULL) {
+            has = true;
+            to->word[axis][i < WORDS ? i : 0] = word;
+        }
+    }
+    return has;
+}
 
 /* A scene's C or its header; the plan is NULL but for fixed point. False: reported. */
 static bool write_code(const emission *to, const image *im, const fixed_plan *plan,
@@ -116,8 +137,9 @@ static int write_scene(emission *to, source_model *from, const mechanism *of, co
             im->steps = im->steps < to->steps ? im->steps : to->steps;
             good = write_fixed(to, im, i, from->file);
             im->name = name;
-            good =
-                good && (to->seen++ % to->every > 0 || write_setting(to, im, &s, i, from, target));
+            const bool in_turn = to->seen++ % to->every == 0;
+            const bool taken = has_new_word(to, &s) || in_turn;
+            good = good && (!taken || write_setting(to, im, &s, i, from, target));
         }
         image_free(im);
         code = good ? EXIT_DONE : EXIT_RUN_FAILED;
@@ -165,17 +187,22 @@ static int whole_number(const char *word) {
 }
 
 int command_emit_settings(int count, char **words) {
-    const int steps = count < 4 ? 0 : whole_number(words[1]);
-    emission to = {.folder = words[0],
-                   .steps = (uint64_t)steps,
-                   .every = count < 4 ? 0 : whole_number(words[2])};
-    if (steps == 0 || to.every == 0) {
-        fputs("usage: whirl emit-settings FOLDER STEPS EVERY SCENE|FILE[:SCENE] ...\n", stderr);
+    emission to = {.folder = words[0]};
+    bool good = count >= 4 && count % 2 == 0;
+    for (int i = 1; i < count && good; i += i == 1 ? 1 : 2) {
+        good = whole_number(words[i]) > 0;
+    }
+    if (!good) {
+        fputs(
+            "usage: whirl emit-settings FOLDER STEPS EVERY SCENE|FILE[:SCENE] [EVERY SCENE ...]\n",
+            stderr);
         return EXIT_BAD_INPUT;
     }
+    to.steps = (uint64_t)whole_number(words[1]);
     int code = open_lists(&to) ? EXIT_DONE : EXIT_RUN_FAILED;
-    for (int i = 3; i < count && code == EXIT_DONE; i++) {
-        code = write_target(&to, words[i]);
+    for (int i = 2; i < count && code == EXIT_DONE; i += 2) {
+        to.every = whole_number(words[i]);
+        code = write_target(&to, words[i + 1]);
     }
     close_lists(&to);
     return code;
