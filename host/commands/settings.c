@@ -29,7 +29,8 @@ typedef struct emission {
     int seen; /* counted through all scenes, so that each has others; and all that have a new word */
     const char *word[AXES][WORDS];
     FILE *hashes[KINDS];
-    FILE *settings; /* NAME SCENE OPTIONS OF `whirl run`..., with the events of the run in float */
+    FILE *
+        settings; /* NAME SCENE OPTIONS OF `whirl run` but for float and double..., and the events of the run in float */
 } emission;
 
 /* Has none before it this word on some axis? */
@@ -71,7 +72,9 @@ static bool write_both(const emission *to, const image *im, const fixed_plan *pl
 }
 
 /* The same in fixed point, if it has such a step: few settings have, so each is written. */
-static bool write_fixed(const emission *to, image *im, int number, const char *file) {
+static bool write_fixed(const emission *to, image *im, const setting *s, int number,
+                        const char *file, const char *target) {
+    char options[SETTING_TEXT];
     diags *unsaid = diags_new();
     fixed_plan *plan = fixed_plan_make(im, unsaid);
     diags_free(unsaid);
@@ -82,6 +85,8 @@ static bool write_fixed(const emission *to, image *im, int number, const char *f
     im->name = name;
     im->fixed = plan;
     (void)scenes_write_hash(to->hashes[OF_FIXED], "scene", kinds[OF_FIXED], im);
+    fprintf(to->settings, "%s %s%s --number fixed events 0\n", name, target,
+            setting_options(s, false, options));
     const bool done = write_both(to, im, plan, file);
     im->fixed = NULL;
     fixed_plan_free(plan);
@@ -135,7 +140,7 @@ static int write_scene(emission *to, source_model *from, const mechanism *of, co
         if (good && im != NULL && setting_is_own(&s, im)) {
             const char *name = im->name;
             im->steps = im->steps < to->steps ? im->steps : to->steps;
-            good = write_fixed(to, im, i, from->file);
+            good = write_fixed(to, im, &s, i, from->file, target);
             im->name = name;
             const bool in_turn = to->seen++ % to->every == 0;
             const bool taken = has_new_word(to, &s) || in_turn;

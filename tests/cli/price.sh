@@ -167,12 +167,28 @@ none() { # WHAT TEXT OPTION...: nothing fits the pendulum, and TEXT is said
     "$whirl" choose "$scratch/pendulum.whirl" --effort 0.005 "$@" >"$scratch/out" 2>"$scratch/err"
     [ $? -eq 1 ] && grep -q '^nothing fits' "$scratch/out" && grep -q "$text" "$scratch/out"
     verdict $? "nothing fits: $what" "$scratch/out"
+    adds_up
+    verdict $? "and how many settings were tried: $what" "$scratch/out"
+}
+# Settings tried and not tried are all, each of these has a reason, and only where there are none is nothing left to be said.
+adds_up() {
+    awk '/^nothing fits: all [0-9]+ settings were tried$/ { all = $4 }
+        /^nothing fits of [0-9]+ settings tried; [0-9]+ not tried/ { of = $4; not = $7; raise = /: raise --effort$/ }
+        /^[0-9]+ settings, [0-9]+ of them tried, [0-9]+ not$/ { n++; settings = $1; tried = $3; left = $7 }
+        /^  [0-9]+ not tried/ { sum += $1; raises += /raise --effort/ }
+        END { exit !(n == 1 && tried + left == settings && sum == left &&
+            (all != "" ? left == 0 && all == settings : of == tried && not == left && left > 0 && !raise == !raises)) }' "$scratch/out"
 }
 none "load" '^  load .*fails' --error 1e-3 --rate 200Hz --clock 10kHz
 none "a faster chip would" '^  a clock of ' --error 1e-3 --rate 200Hz --clock 10kHz
 none "flash" '^  flash .*fails' --error 1e-3 --rate 200Hz --flash 1KB
 none "RAM" '^  RAM .*fails' --error 1e-3 --rate 200Hz --ram 20B
 none "error" '^  error .*fails' --error 1e-13 --rate 200Hz --clock 1MHz
+for effort in 0.0001 0.0002; do
+    "$whirl" choose "$scratch/pendulum.whirl" --effort $effort --error 1e-4 --rate 200Hz >"$scratch/out" 2>"$scratch/err"
+    [ $? -eq 1 ] && grep -q '^nothing fits of .* not tried: raise --effort$' "$scratch/out" && adds_up
+    verdict $? "what would fit and is not tried with --effort $effort is counted" "$scratch/out"
+done
 none "a weaker error would" '^  an error of ' --error 1e-13 --rate 200Hz --clock 1MHz
 
 # --- contacts: no price on a board, but evaluations that were counted ----------------------------------------------
