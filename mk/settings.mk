@@ -11,7 +11,8 @@ SETTINGS_STEPS := 500
 # `all` of them, or `some`: one of so many and all that have a word that none before has, as in the gate hashes.
 SETTINGS ?= all
 SETTINGS_SCENES_all := $(foreach s,$(SETTINGS_WHOLE),1 $(s)) $(foreach s,$(SETTINGS_PARTS),4 $(s))
-SETTINGS_SCENES_some := $(foreach s,$(SETTINGS_WHOLE) $(SETTINGS_PARTS),13 $(s))
+SETTINGS_SCENES_some := $(foreach s,$(SETTINGS_WHOLE),$(if $(findstring .whirl,$(s)),11,37) $(s)) \
+    $(foreach s,$(SETTINGS_PARTS),37 $(s))
 SETTINGS_KINDS ?= float double fixed
 SETTINGS_IN := build/settings/$(SETTINGS)
 

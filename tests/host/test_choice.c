@@ -189,9 +189,9 @@ static void test_what_fits_and_is_not_found_was_left(void) {
         const char *text = texts[dice_one_of(&d, TEXTS)];
         open_request(&q, text, boards[dice_one_of(&d, 3)], 20.0);
         q.wish.error = pow(10.0, dice_between(&d, -4.0, -1.5));
-        q.wish.clock_Hz =
-            pow(10.0, n % 2 == 0 ? dice_between(&d, 6.0, 7.0) : dice_between(&d, 3.5, 5.0));
-        q.wish.flash_bytes = n % 3 == 2 ? dice_between(&d, 3000.0, 9000.0) : 0.0;
+        static const double decade[] = {6.0, 3.5, 4.5};
+        q.wish.clock_Hz = pow(10.0, decade[n % 3] + dice_between(&d, 0.0, 1.0));
+        q.wish.flash_bytes = n % 4 == 3 ? dice_between(&d, 3000.0, 9000.0) : 0.0;
         const int fit = fitting(&q);
         for (double operations = 1e3; operations < 3e8; operations *= 4.0) {
             q.wish.operations = operations;
