@@ -175,6 +175,7 @@ hashes-now gate-hashes: $(GEN)/.stamp
 	+@$(call build_hashes,$(BOARDS))
 	@$(call compare_hashes,$(BOARDS))
 	@$(MAKE) hashes-matrix
+	@$(MAKE) hashes-settings SETTINGS=some
 # HASH_BOARDS="mps2-an386 atmega328p": on these.
 HASH_BOARDS ?= $(BOARDS)
 hashes-matrix: $(GEN)/.stamp ## the same bits on every board of linear scenes, a step as one matrix (minutes)

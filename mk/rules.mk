@@ -93,7 +93,7 @@ HOST_TOOL_C := $(wildcard mk/*/*.c)
 WHIRL_MAIN_C := $(wildcard host/*.c)
 WHIRL_C := $(wildcard host/*/*.c)
 ifeq ($(SYSTEM),none)
-WHIRL_C := $(filter-out $(addprefix host/commands/,run.c sweep.c price.c choose.c pricing.c pricing_open.c \
+WHIRL_C := $(filter-out $(addprefix host/commands/,run.c sweep.c price.c choose.c settings.c pricing.c pricing_open.c \
     pricing_scene.c) host/sweep/% host/plot/% host/price/%,$(WHIRL_C))
 endif
 TEST_C := $(wildcard tests/*.c tests/*/*.c)

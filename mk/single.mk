@@ -20,7 +20,7 @@ single_link = $(BOARD_CC) $(BOARD_CFLAGS) $(WARN) $(2) $(BOARD_LDFLAGS) -o $@ $(
     -Wl,--start-group $(filter %.a,$^) -Wl,--end-group $(BOARD_LDLIBS)
 
 $(SINGLE)/scene_%.elf: $(B)/$(BOARD)/$(GEN)/%.o $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl) \
-    boards/programs/scenes.c boards/programs/table.h mk/count/index.sh
+    boards/programs/scenes.c boards/programs/to_the_end.h boards/programs/table.h mk/count/index.sh
 	@mkdir -p $(@D)
 	$(say) LINK $@
 	$(Q)mk/count/index.sh $* >$(@:.elf=.c)
@@ -31,7 +31,7 @@ $(SINGLE)/scene_%.elf: $(B)/$(BOARD)/$(GEN)/%.o $(BOARD_OBJECTS) $(call librarie
 matrix_link = mk/count/index.sh $* >$(@:.elf=.c) && $(call single_link,$(1) $(@:.elf=.c),-Ibuild/matrix \
     -include build/matrix/$*.h -DWH_SCENE_WORDS=$*_MEMORY_WORDS -DBENCH_SMALL=1)
 MATRIX_NEEDS := $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl) boards/programs/table.h mk/count/index.sh
-$(SINGLE)/matrix_%.elf: $(B)/$(BOARD)/build/matrix/%.o boards/programs/scenes.c $(MATRIX_NEEDS)
+$(SINGLE)/matrix_%.elf: $(B)/$(BOARD)/build/matrix/%.o boards/programs/scenes.c boards/programs/to_the_end.h $(MATRIX_NEEDS)
 	@mkdir -p $(@D)
 	$(say) LINK $@
 	$(Q)$(call matrix_link,boards/programs/scenes.c)

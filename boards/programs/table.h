@@ -3,6 +3,7 @@
 #ifndef BOARDS_PROGRAMS_TABLE_H
 #define BOARDS_PROGRAMS_TABLE_H
 
+#include "core/fixed_scene.h"
 #include "core/scene.h"
 
 /* Memory for any of them: up to 16 angles, 48 reals, 16 inputs and as many contacts, with the ledger, compensated or
@@ -20,7 +21,8 @@ typedef struct wh_scene_bound {
 } wh_scene_bound;
 
 extern const wh_scene *const wh_scenes[];
-extern const wh_scene_bound wh_scene_bounds[]; /* of each; of index.sh only */
+extern const wh_scene_bound wh_scene_bounds[];        /* of each; of index.sh only */
+extern const wh_fixed_scene *const wh_fixed_scenes[]; /* of index.sh --fixed only */
 extern const unsigned wh_scene_count;
 
 #endif

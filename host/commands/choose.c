@@ -21,8 +21,8 @@ static const char head[] =
     "usage: whirl choose SCENE|MECHANISM[:SCENE]|FILE[:SCENE] --error E [options]\n"
     "\n"
     "The cheapest method, number, form and step that keep an error on a board with a margin of 2, what\n"
-    "they cost and what does them again. Each figure says how it is known. Errors are measured as by\n"
-    "`whirl price`, which shows all settings.\n"
+    "they cost and what does them again. Each figure says how it is known, and how many settings were\n"
+    "tried and why others were not. Errors are measured as by `whirl price`, which shows all settings.\n"
     "\n";
 static const char tail[] =
     "  --rate 500Hz         how often the firmware steps: a period takes whole steps (default: any\n"
@@ -44,8 +44,8 @@ static void print_help(FILE *out) {
         .why = {
             [EXIT_ROW_OF(EXIT_DONE)] = "",
             [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
-                "nothing fits (it says which limit failed, and what would fit), or there is no\n"
-                "       reference that could be trusted",
+                "nothing fits of what was tried (it says which limit failed, what would fit, and how\n"
+                "       many settings were left), or there is no reference that could be trusted",
             [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
             [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
     fputs(head, out);

@@ -10,9 +10,9 @@
 #include "host/base/room.h"
 #include "host/emit/emit.h"
 #include "host/lang/builtin.h"
-#include "host/run/engine.h"
 #include "host/show/show_equations.h"
 #include "load.h"
+#include "scenes.h"
 
 /* Called while the equations are still there (NULL: not wanted), and of the image alone. They return an exit code. */
 typedef int equations_visitor(void *context, const char *file, const loaded *made);
@@ -79,7 +79,7 @@ static int each_scene(int files, char **file, const visit *v) {
     return code;
 }
 
-static FILE *open_in(const char *folder, const char *name, const char *ending) {
+FILE *scenes_open(const char *folder, const char *name, const char *ending) {
     char path[1024];
     if (snprintf(path, sizeof path, "%s/%s%s", folder, name, ending) >= (int)sizeof path) {
         fprintf(stderr, "%s: error: the path is too long\n", folder);
@@ -99,8 +99,7 @@ typedef struct emission {
     bool all_forms; /* text, LaTeX, Octave and the runs' hashes too */
 } emission;
 
-/* The scene's run, as a line with the hash of its last state. */
-static void write_hash(FILE *out, const char *what, const engine_kind *kind, const image *im) {
+uint64_t scenes_write_hash(FILE *out, const char *what, const engine_kind *kind, const image *im) {
     void *run = kind->start(im);
     wh_status status = WH_OK;
     while (kind->steps(run) < im->steps && status == WH_OK) {
@@ -108,13 +107,16 @@ static void write_hash(FILE *out, const char *what, const engine_kind *kind, con
     }
     fprintf(out, "%s %s steps %" PRIu64 " hash 0x%016" PRIx64 " %s\n", what, im->name,
             kind->steps(run), kind->hash(run), wh_status_text(status));
+    uint64_t overruns;
+    const uint64_t events = kind->events(run, &overruns);
     kind->stop(run);
+    return events;
 }
 
 /* Of a file's scene, the forms that are printed from the equations, and Octave's. */
 static int emit_equations(void *context, const char *file, const loaded *made) {
     const emission *to = context;
-    FILE *out = open_in(to->folder, made->image->name, ".txt");
+    FILE *out = scenes_open(to->folder, made->image->name, ".txt");
     if (out == NULL) {
         return EXIT_RUN_FAILED;
     }
@@ -129,12 +131,12 @@ static int emit_equations(void *context, const char *file, const loaded *made) {
 
 /* Of a file's scene, what its runs come to. */
 static int emit_hashes(const emission *to, const image *im) {
-    FILE *out = open_in(to->folder, im->name, ".hash");
+    FILE *out = scenes_open(to->folder, im->name, ".hash");
     if (out == NULL) {
         return EXIT_RUN_FAILED;
     }
-    write_hash(out, "scene", &engine_float, im);
-    write_hash(out, "double", &engine_double, im);
+    (void)scenes_write_hash(out, "scene", &engine_float, im);
+    (void)scenes_write_hash(out, "double", &engine_double, im);
     fclose(out);
     return EXIT_DONE;
 }
@@ -147,13 +149,13 @@ static int emit_image(void *context, const char *file, const image *im) {
             return code;
         }
     }
-    FILE *out = open_in(to->folder, im->name, ".c");
+    FILE *out = scenes_open(to->folder, im->name, ".c");
     if (out == NULL) {
         return EXIT_RUN_FAILED;
     }
     emit_c(out, im, file);
     fclose(out);
-    out = open_in(to->folder, im->name, ".h");
+    out = scenes_open(to->folder, im->name, ".h");
     if (out == NULL) {
         return EXIT_RUN_FAILED;
     }
@@ -170,8 +172,8 @@ int command_emit_scenes(int count, char **words) {
         return EXIT_BAD_INPUT;
     }
     emission to = {.folder = words[0], .all_forms = count > 1};
-    to.declarations = open_in(to.folder, "scenes", ".h");
-    to.index = open_in(to.folder, "scenes", ".c");
+    to.declarations = scenes_open(to.folder, "scenes", ".h");
+    to.index = scenes_open(to.folder, "scenes", ".c");
     int code = to.declarations == NULL || to.index == NULL ? EXIT_RUN_FAILED : EXIT_DONE;
     if (code == EXIT_DONE) {
         fputs(
@@ -201,7 +203,7 @@ int command_emit_scenes(int count, char **words) {
 static int hash_one(void *context, const char *file, const image *im) {
     (void)context;
     (void)file;
-    write_hash(stdout, "scene", &engine_float, im);
+    (void)scenes_write_hash(stdout, "scene", &engine_float, im);
     return EXIT_DONE;
 }
 

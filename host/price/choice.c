@@ -124,9 +124,20 @@ static void count_failures(choice *c, const choice_row *row) {
     }
 }
 
+/* Can no step from this one on be of use, since none keeps flash, RAM or load? What a finer step takes is as much, and more
+ * of it a second; but that of a matrix comes and goes with its entries. */
+static bool is_hopeless(const setting *s, const choice_row *row) {
+    return !setting_price_varies(s) && fails_besides(row, CHOICE_ERROR);
+}
+
+/* How climbing a setting's steps ended: one of choice_left; or tried, until it kept the error or was too dear to win; until no
+ * finer step could be of use; or without one that could. */
+enum { CLIMB_DONE = CHOICE_LEFTS, CLIMB_ERRS, CLIMB_REFUSED };
+typedef int climb_end;
+
 /* One setting by ever finer steps, until it keeps the error, or could not be of use if it did. */
-static void climb(trials *t, const choice_wish *w, choice *c, const setting *s, const cost *price,
-                  double each) {
+static climb_end climb(trials *t, const choice_wish *w, choice *c, const setting *s,
+                       const cost *price, double each) {
     choice_row row = {.setting = *s, .cost = *price};
     choice_row before = row;
     bool has_before = false;
@@ -142,12 +153,13 @@ static void climb(trials *t, const choice_wish *w, choice *c, const setting *s, 
         }
         judge(t, w, &row);
         if (c->found && c->has_second && !(row.worst < c->second.worst)) {
-            return;
+            return CLIMB_DONE;
         }
         if (dear || trial_operations(t, s, row.pace) > (tried ? 1.0 : FIRST_MAY_TAKE) * each) {
-            /* where the step would not fit into its period anyway, nothing is missed */
-            c->broken_off += tried && !row.fails[CHOICE_LOAD] ? 1 : 0;
-            break;
+            if (is_hopeless(s, &row)) {
+                return has_before ? CLIMB_ERRS : CLIMB_REFUSED;
+            }
+            return tried ? CHOICE_LEFT_FINER : CHOICE_LEFT_WHOLE;
         }
         tried = true;
         const double started = t->operations;
@@ -156,20 +168,37 @@ static void climb(trials *t, const choice_wish *w, choice *c, const setting *s, 
             continue; /* the numbers of its matrix are too large */
         }
         if (!row.result.ran) {
-            return;
+            return CHOICE_LEFT_UNRUN;
         }
         row.fails[CHOICE_ERROR] = !row.result.usable || row.result.error * CHOICE_MARGIN > w->error;
         enter(c, &row, has_before ? &before : NULL);
         if (!row.fails[CHOICE_ERROR]) {
             count_failures(c, &row);
-            return;
+            return CLIMB_DONE;
         }
         before = row;
         has_before = true;
         dear = (t->operations - started) * 2.0 > each;
     }
-    c->untried += tried ? 0 : 1;
-    c->failed[CHOICE_ERROR] += tried ? 1 : 0;
+    return has_before ? CHOICE_LEFT_FINEST : CHOICE_LEFT_UNRUN;
+}
+
+static void enter_end(choice *c, climb_end end) {
+    if (end < CHOICE_LEFTS) {
+        c->left[end]++;
+        return;
+    }
+    c->tried++;
+    c->refused += end == CLIMB_REFUSED ? 1 : 0;
+    c->failed[CHOICE_ERROR] += end == CLIMB_ERRS ? 1 : 0;
+}
+
+int choice_not_tried(const choice *c) {
+    int count = c->unpriced;
+    for (int i = 0; i < CHOICE_LEFTS; i++) {
+        count += c->left[i];
+    }
+    return count;
 }
 
 static void count_reason(choice *c, const char *why) {
@@ -209,7 +238,7 @@ choice choice_make(trials *t, const choice_wish *w) {
         if (w->progress != NULL) {
             w->progress(w->context, done, wanted);
         }
-        climb(t, w, &c, &s, &price[i], w->operations / (2.0 * wanted));
+        enter_end(&c, climb(t, w, &c, &s, &price[i], w->operations / (2.0 * wanted)));
         done++;
     }
     free(price);

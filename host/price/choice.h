@@ -18,6 +18,18 @@ typedef enum choice_limit { CHOICE_LIMIT_ROWS(CHOICE_LIMIT_ID) CHOICE_LIMITS } c
 #undef CHOICE_LIMIT_ID
 extern const char *const choice_limit_words[CHOICE_LIMITS];
 
+/* Why a setting was not tried, or not as far as it could be of use: X(id, words, what tries it). Those without a price are
+ * apart: choice_reason. */
+#define CHOICE_LEFT_ROWS(X) \
+    X(CHOICE_LEFT_WHOLE, "even the coarsest step takes too long", \
+      "raise --effort, or a shorter --horizon") \
+    X(CHOICE_LEFT_FINER, "finer steps take too long", "raise --effort") \
+    X(CHOICE_LEFT_FINEST, "the finest step that is ever tried errs by more", "") \
+    X(CHOICE_LEFT_UNRUN, "no step of it can be run", "")
+#define CHOICE_LEFT_ID(id, words, more) id,
+typedef enum choice_left { CHOICE_LEFT_ROWS(CHOICE_LEFT_ID) CHOICE_LEFTS } choice_left;
+#undef CHOICE_LEFT_ID
+
 typedef struct choice_wish {
     double error;       /* in the unit of the trial's errors */
     double rate_Hz;     /* of calls, each of which takes whole steps; 0: any step will do */
@@ -68,15 +80,22 @@ typedef struct choice {
     choice_row larger; /* the least flash of all that keep the error and the load */
     bool has_any;
     choice_row any; /* the least load of all that keep the error */
+    /* Every setting is one of: without a price; left; tried until no step of it could be of use. Nothing fits where all
+     * are the last, and nothing was found. */
     int settings;
     int unpriced;
     choice_reason
         reason[CHOICE_REASONS]; /* why, as many as there are; further ones are the last's */
-    int untried;                /* settings whose coarsest step would take too long to try */
-    int failed
-        [CHOICE_LIMITS]; /* settings that fail by this at the coarsest step that keeps the error, or by the error */
-    int broken_off;
+    int left[CHOICE_LEFTS];
+    int tried;
+    /* Of those tried: settings that fail by this at the coarsest step that keeps the error, or by the error; or that
+     * keep flash, RAM or load by no step, so that there was nothing to run. */
+    int failed[CHOICE_LIMITS];
+    int refused;
 } choice;
+
+/* Settings that are not tried, or not to the end: without a price, or left. */
+int choice_not_tried(const choice *c);
 
 /* The substeps that are tried: entry `i` from 0 on, rising. */
 uint64_t choice_substeps(int i);

@@ -156,26 +156,38 @@ static void print_reasons(FILE *out, const choice *c) {
     fputc('\n', out);
 }
 
+/* How many settings there are, how many were tried, and why others were not. */
 static void print_counts(FILE *out, const choice *c) {
-    fprintf(out, "\n%d settings", c->settings);
+#define LEFT_WORDS(id, words, more) [id] = {words, more},
+    static const struct {
+        const char *why;
+        const char *more;
+    } left[CHOICE_LEFTS] = {CHOICE_LEFT_ROWS(LEFT_WORDS)};
+#undef LEFT_WORDS
+    fprintf(out, "\n%d settings, %d of them tried, %d not\n", c->settings, c->tried,
+            choice_not_tried(c));
     if (c->unpriced > 0) {
-        fprintf(out, ", %d of them without a price here: ", c->unpriced);
+        fprintf(out, "  %d not tried: no price here: ", c->unpriced);
         print_reasons(out, c);
-    } else {
-        fputc('\n', out);
     }
-    if (c->untried > 0) {
-        fprintf(out,
-                "%d settings were not tried: even their coarsest step takes too long; a shorter "
-                "--horizon, or more --effort\n",
-                c->untried);
+    for (int i = 0; i < CHOICE_LEFTS; i++) {
+        if (c->left[i] > 0) {
+            fprintf(out, "  %d not tried%s: %s%s%s\n", c->left[i],
+                    i == CHOICE_LEFT_WHOLE ? "" : " to the end", left[i].why,
+                    left[i].more[0] != '\0' ? ": " : "", left[i].more);
+        }
     }
-    if (c->broken_off > 0) {
-        fprintf(
-            out,
-            "%d settings have finer steps that were not tried: they take too long; more --effort tries them\n",
-            c->broken_off);
+}
+
+/* That nothing fits: proved where every setting was tried, and else of how many. */
+static void print_verdict(FILE *out, const choice *c) {
+    const int effort = c->left[CHOICE_LEFT_WHOLE] + c->left[CHOICE_LEFT_FINER];
+    if (choice_not_tried(c) == 0) {
+        fprintf(out, "\nnothing fits: all %d settings were tried\n", c->settings);
+        return;
     }
+    fprintf(out, "\nnothing fits of %d settings tried; %d not tried%s\n", c->tried,
+            choice_not_tried(c), effort > 0 ? ": raise --effort" : "");
 }
 
 /* What has contacts has no price that could be promised, but its steps can be counted. */
@@ -245,22 +257,25 @@ void choice_print_none(FILE *out, const trials *t, const choice_wish *w, const c
     char text[AMOUNT];
     char what[2 * AMOUNT];
     print_head(out, t);
+    print_verdict(out, c);
     if (c->unpriced == c->settings) {
-        fputs("\nnothing fits: no setting has a price here: ", out);
+        fputs("no setting has a price here: ", out);
         print_reasons(out, c);
         if (t->image[0]->contacts > 0) {
             print_contacts(out, t, words);
         }
         return;
     }
-    if (c->untried == c->settings - c->unpriced) {
-        fputs(
-            "\nnothing fits, for nothing was tried: at this rate even one step a period takes too long\n"
-            "hint: a shorter --horizon, a lower --rate, or more --effort\n",
-            out);
+    if (c->tried == 0 && c->left[CHOICE_LEFT_WHOLE] == c->settings - c->unpriced) {
+        fputs("at this rate even one step a period takes too long\n"
+              "hint: a shorter --horizon, a lower --rate, or more --effort\n",
+              out);
+        print_counts(out, c);
         return;
     }
-    fprintf(out, "\nnothing fits: of %d settings with a price\n", c->settings - c->unpriced);
+    if (c->refused > 0) {
+        fprintf(out, "  %d keep load, flash or RAM by no step\n", c->refused);
+    }
     for (int i = 0; i < CHOICE_LIMITS; i++) {
         if (c->failed[i] > 0) {
             fprintf(out, "  %-6s fails in %d%s\n", choice_limit_words[i], c->failed[i],

@@ -4,7 +4,7 @@
 # be, run by 1, 2, ... steps a period at every place of the range. What keeps half the error allowed then (a margin of 2 is
 # part of the answer) fits by what was counted. That is proof against `whirl choose` where even the most that could have
 # been promised of it fits: the counted figure times the promise's bound, twice. Else the caution of the promise refused it,
-# and that is told.
+# and that is told. An answer that says to have left settings for want of effort claims no proof, and gets none.
 
 # forms: option words of every setting, one a line, "NUMBER|WORDS". The axes are those of `whirl price --csv`.
 forms() {
@@ -103,6 +103,7 @@ prove() {
     small=0
     long=0
     fits=
+    left=
     while IFS='|' read -r number words cycles flash_is ram_is stack_is; do
         # how many steps a period can have, and what of them even the promises let pass
         echo "$limits $rate $cycles $flash_is $ram_is $stack_is $(cat "$out/$1.bounds")" | awk '{
@@ -122,7 +123,9 @@ prove() {
             keeps "$1" "$number|$words" $steps || continue
             echo "$number $words, $steps in a period, $cycles cycles" >>"$out/$1.fits"
             fits="$number $words"
-            if [ "$steps" -le "$steps_surely" ] && has_price "$1" "$number" "$words"; then
+            if grep -q '^nothing fits of .* raise --effort$' "$told"; then
+                left=yes # it did not claim to have tried them all
+            elif [ "$steps" -le "$steps_surely" ] && has_price "$1" "$number" "$words"; then
                 wrong "$1" "$number $words fits: $steps in a period, $cycles cycles, $flash_is bytes of flash, $ram_is + $stack_is of RAM"
             fi
             break
@@ -137,7 +140,8 @@ prove() {
     proof="proved, $settings settings, $small of them fit by no step, $unfit more cannot be linked, $tried runs"
     [ "$uncounted" -eq 0 ] || proof="not proved, $uncounted settings cannot be counted"
     [ $long -eq 0 ] || proof="not proved, $long of $settings settings have steps too fine to try; $tried runs"
-    [ -z "$fits" ] || proof="cautious, $settings settings, $(wc -l <"$out/$1.fits") fit by what was counted"
+    [ -z "$left" ] || proof="not claimed, $(wc -l <"$out/$1.fits") of $settings settings fit that may be among those left; "
+    [ -z "$fits" ] || [ -n "$left" ] || proof="cautious, $settings settings, $(wc -l <"$out/$1.fits") fit by what was counted"
 }
 
 # has_price ID NUMBER WORDS: does `whirl choose` know a price of it? Its count of those without is no names; `whirl price` has them.

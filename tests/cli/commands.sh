@@ -4,7 +4,7 @@
 . "$(dirname "$0")/../checks.sh"
 
 # What host/commands/commands.h declares, but for what only the project's own build calls.
-hidden='emit-scenes|hashes'
+hidden='emit-scenes|emit-settings|hashes'
 sed -n 's/^int command_\([a-z_]*\)(.*/\1/p' host/commands/commands.h | tr _ - | grep -vxE "$hidden" >"$scratch/commands"
 "$whirl" --help >"$scratch/help" 2>"$scratch/err"
 verdict $? "whirl --help"

@@ -178,10 +178,21 @@ none() { # WHAT TEXT OPTION...: nothing fits the pendulum, and TEXT is said
     [ $? -eq 1 ] && grep -q '^nothing fits' "$scratch/out"
     verdict $? "nothing fits: $what" "$scratch/out"
     said "$what" "$text"
+    adds_up
+    verdict $? "and how many settings were tried: $what" "$scratch/out"
 }
 said() { # WHAT TEXT: TEXT is said, too
     grep -q "$2" "$scratch/out"
     verdict $? "nothing fits: $1 is said" "$scratch/out"
+}
+# Settings tried and not tried are all, each of these has a reason, and only where there are none is nothing left to be said.
+adds_up() {
+    awk '/^nothing fits: all [0-9]+ settings were tried$/ { all = $4 }
+        /^nothing fits of [0-9]+ settings tried; [0-9]+ not tried/ { of = $4; not = $7; raise = /: raise --effort$/ }
+        /^[0-9]+ settings, [0-9]+ of them tried, [0-9]+ not$/ { n++; settings = $1; tried = $3; left = $7 }
+        /^  [0-9]+ not tried/ { sum += $1; raises += /raise --effort/ }
+        END { exit !(n == 1 && tried + left == settings && sum == left &&
+            (all != "" ? left == 0 && all == settings : of == tried && not == left && left > 0 && !raise == !raises)) }' "$scratch/out"
 }
 none "load" '^  load .*fails' --error 1e-3 --rate 200Hz --clock 10kHz
 said "a faster chip would" '^  a clock of '
@@ -189,6 +200,11 @@ usual none "flash" '^  flash .*fails' --error 1e-3 --rate 200Hz --flash 1KB
 none "RAM" '^  RAM .*fails' --error 1e-3 --rate 200Hz --ram 20B
 none "error" '^  error .*fails' --error 1e-13 --rate 200Hz --clock 1MHz
 said "a weaker error would" '^  an error of '
+for effort in 0.0001 0.0002; do
+    "$whirl" choose "$scratch/pendulum.whirl" --effort $effort --error 1e-8 --rate 200Hz >"$scratch/out" 2>"$scratch/err"
+    [ $? -eq 1 ] && grep -q '^nothing fits of .* not tried: raise --effort$' "$scratch/out" && adds_up
+    verdict $? "what would fit and is not tried with --effort $effort is counted" "$scratch/out"
+done
 
 # --- contacts: no price on a board, but evaluations that were counted ----------------------------------------------
 "$whirl" price ball_bounces --effort 0.005 --csv "$scratch/b.csv" >"$scratch/out" 2>"$scratch/err"
@@ -273,7 +289,7 @@ for rate in 7Hz 333.333Hz 0.6Hz 123.456789123456Hz; do
     echo "$step $inside ${rate%Hz}" | awk '{ off = $1 * $2 * $3 - 1; exit !(off < 1e-12 && off > -1e-12) }'
     verdict $? "a period of $rate takes whole steps" "$scratch/out"
 done
-asked 1 'nothing was tried' "$odd:odd_rings" --error 1e-2 --rate 1e9Hz
+asked 1 'nothing fits of 0 settings tried; .* not tried: raise --effort' "$odd:odd_rings" --error 1e-2 --rate 1e9Hz
 asked 2 'more than any step' "$odd:odd_rings" --error 1e-2 --rate 1e15Hz
 asked 2 'not one period' "$odd:odd_rings" --error 1e-2 --rate 1e-15Hz
 asked 1 'a clock of' "$odd:odd_rings" --error 1e-2 --clock 1Hz

@@ -151,6 +151,70 @@ static void test_drawn_requests(void) {
     TEST_ASSERT_TRUE(found > 0 && found < (int)cases); /* both happen */
 }
 
+/* --- what was tried, and what was not ------------------------------------------------------------------*/
+
+/* How many settings keep everything by some number of substeps? By trying all. */
+static int fitting(request *q) {
+    int count = 0;
+    for (int i = 0; i < setting_count(); i++) {
+        const setting s = setting_at(i);
+        bool fits = false;
+        for (int k = 0; k < CHOICE_SUBSTEPS && choice_substeps(k) <= SUBSTEPS_MOST && !fits; k++) {
+            double worst;
+            fits = keeps(q, &s, choice_substeps(k), &worst);
+        }
+        count += fits;
+    }
+    return count;
+}
+
+static int left_of(const choice *c) {
+    int count = 0;
+    for (int i = 0; i < CHOICE_LEFTS; i++) {
+        count += c->left[i];
+    }
+    return count;
+}
+
+/* With whatever effort, each setting is without a price, tried or left, and what fits and was not found is among those left: so
+ * nothing is left where it is said that nothing fits. */
+static void test_what_fits_and_is_not_found_was_left(void) {
+    dice d = dice_of("choice efforts", 504);
+    const unsigned cases = few_or_all(3, 25);
+    int missed = 0; /* nothing found, though something fits */
+    int proved = 0;
+    int some = 0; /* nothing found of some that were tried, and others left */
+    for (unsigned n = 0; n < cases; n++) {
+        request q;
+        const char *text = texts[dice_one_of(&d, TEXTS)];
+        open_request(&q, text, boards[dice_one_of(&d, 3)], 20.0);
+        q.wish.error = pow(10.0, dice_between(&d, -4.0, -1.5));
+        static const double decade[] = {6.0, 3.5, 4.5};
+        q.wish.clock_Hz = pow(10.0, decade[n % 3] + dice_between(&d, 0.0, 1.0));
+        q.wish.flash_bytes = n % 4 == 3 ? dice_between(&d, 3000.0, 9000.0) : 0.0;
+        const int fit = fitting(&q);
+        for (double operations = 1e3; operations < 3e8; operations *= 4.0) {
+            q.wish.operations = operations;
+            const choice c = choice_make(&q.trial, &q.wish);
+            const int left = left_of(&c);
+            char what[200];
+            snprintf(what, sizeof what, "case %u, %g operations: %d settings fit, %d are left", n,
+                     operations, fit, left);
+            TEST_ASSERT_EQUAL_INT_MESSAGE(c.settings, c.unpriced + c.tried + left, what);
+            TEST_ASSERT_EQUAL_INT_MESSAGE(c.unpriced + left, choice_not_tried(&c), what);
+            TEST_ASSERT_TRUE_MESSAGE(c.found || fit <= left, what);
+            missed += !c.found && fit > 0;
+            proved += !c.found && left == 0;
+            some += !c.found && left > 0 && c.tried > 0;
+        }
+        close_request(&q);
+    }
+    printf("  %d answers missed what fits, and said what they left; %d proved that nothing fits; "
+           "%d by some of the settings\n",
+           missed, proved, some);
+    TEST_ASSERT_TRUE(missed > 0 && proved > 0 && some > 0); /* all happen */
+}
+
 /* What would fit, does: a weaker error, a faster chip. */
 static void test_what_would_fit_does(void) {
     request q;
@@ -339,5 +403,6 @@ void suite_choice(void) {
     RUN_TEST(test_settings_are_all_others);
     RUN_TEST(test_times_come_back);
     RUN_TEST(test_drawn_requests);
+    RUN_TEST(test_what_fits_and_is_not_found_was_left);
     RUN_TEST(test_what_would_fit_does);
 }

@@ -1,0 +1,126 @@
+# settings.mk: the same bits on every board with every setting that `whirl price` tries (host/price/setting.h). The program
+# writes some scenes with every setting that each takes, and the interpreter's hashes (host/commands/settings.c); what is
+# compiled of that, for this machine and for boards, must print the same.
+
+# Between them: a matrix, tables, angles that turn and that are looked up, every method, first order, stops, fixed point.
+SETTINGS_WHOLE := two_mass_relative epicyclic_conserved mk/price/separable.whirl \
+    tests/boards/settings.whirl:mixed_turns tests/boards/settings.whirl:clapper_claps
+# One of four: they are those of the gear, but with an input and gravity.
+SETTINGS_PARTS := rig_fixed
+SETTINGS_STEPS := 500
+# `all` of them, or `some`: one of so many and all that have a word that none before has, as in the gate hashes.
+SETTINGS ?= all
+SETTINGS_SCENES_all := $(foreach s,$(SETTINGS_WHOLE),1 $(s)) $(foreach s,$(SETTINGS_PARTS),4 $(s))
+SETTINGS_SCENES_some := $(foreach s,$(SETTINGS_WHOLE),$(if $(findstring .whirl,$(s)),11,37) $(s)) \
+    $(foreach s,$(SETTINGS_PARTS),37 $(s))
+SETTINGS_KINDS ?= float double fixed
+SETTINGS_IN := build/settings/$(SETTINGS)
+
+# What was compiled from as it was is left alone.
+.PHONY: settings-written
+settings-written: new = $(SETTINGS_IN).new
+settings-written: hashed = $$(sed 's/^scene //; s/ .*//' $(1).hashes)
+settings-written: build/whirl
+	$(say) GEN "$(SETTINGS_IN)/*.c"
+	$(Q)rm -rf $(new) && mkdir -p $(new) $(SETTINGS_IN)
+	$(Q)build/whirl emit-settings $(new) $(SETTINGS_STEPS) $(SETTINGS_SCENES_$(SETTINGS))
+	$(Q)mk/count/index.sh $(call hashed,$(new)/float) >$(new)/table_real.c
+	$(Q)mk/count/index.sh --fixed $(call hashed,$(new)/fixed) >$(new)/table_fixed.c
+	$(Q)cp $(new)/*.hashes $(new)/settings.txt $(SETTINGS_IN)
+	$(Q)sh mk/setup/update_files.sh $(new) $(SETTINGS_IN)
+
+# Which files there are is known to the makes behind that one.
+settings_c_fixed = $(wildcard $(SETTINGS_IN)/*_fixed.c)
+settings_c_float = $(filter-out $(settings_c_fixed) $(SETTINGS_IN)/table_%.c,$(wildcard $(SETTINGS_IN)/*.c)) $(SETTINGS_IN)/table_real.c
+settings_c_double = $(settings_c_float)
+settings_main_float := boards/programs/scenes.c
+settings_main_double := $(settings_main_float)
+settings_main_fixed := boards/programs/fixed_scenes.c
+settings_files = $(settings_main_$(1)) $(settings_c_$(1))
+
+# Boards once more, in double.
+BOARD_IN_DOUBLE := $(BOARD)/double
+$(eval $(call build,$(BOARD_IN_DOUBLE),$(BOARD_CC),$(BOARD_CFLAGS) $(WARN) -DWH_DOUBLE=1 $(BOARD_EXTRA)))
+$(eval $(call library,$(B)/$(BOARD_IN_DOUBLE)/libwhirl.a,$(call objects,$(BOARD_IN_DOUBLE),$(CORE_C))))
+
+settings_build_float := float
+settings_build_double := double
+settings_build_fixed := float
+settings_board_float := $(BOARD)
+settings_board_double := $(BOARD_IN_DOUBLE)
+settings_board_fixed := $(BOARD)
+
+define settings_programs
+$(B)/bits/$(SETTINGS)_$(1): $$(call objects,$(settings_build_$(1)),$$(call settings_files,$(1)) boards/host/board.c) \
+    $(call libraries,$(settings_build_$(1)),whirl)
+	$$(link)
+$(ELF)/bits/$(SETTINGS)_$(1).elf: $$(call objects,$(settings_board_$(1)),$$(call settings_files,$(1))) $(BOARD_OBJECTS) \
+    $(call libraries,$(settings_board_$(1)),whirl) $(call libraries,$(BOARD),whirl)
+	@mkdir -p $$(@D)
+	$$(link_board)
+endef
+$(foreach k,$(SETTINGS_KINDS),$(eval $(call settings_programs,$(k))))
+
+ifneq ($(filter settings-% print-settings,$(MAKECMDGOALS)),)
+-include $(wildcard $(foreach b,float double $(BOARD) $(BOARD_IN_DOUBLE),$(B)/$(b)/$(SETTINGS_IN)/*.d))
+-include $(wildcard $(B)/$(BOARD_IN_DOUBLE)/core/*.d $(B)/$(BOARD_IN_DOUBLE)/boards/programs/*.d)
+endif
+
+.PHONY: settings-programs settings-images print-settings
+settings-programs: $(SETTINGS_KINDS:%=$(B)/bits/$(SETTINGS)_%)
+
+ifeq ($(BOARD_IMAGES),single)
+# An image a scene. One that does not fit is an empty file. What it counts as double is float.
+BITS := $(ELF)/bits/$(SETTINGS)
+settings_elf = $(patsubst $(SETTINGS_IN)/%.c,$(BITS)/%.elf,$(filter-out $(SETTINGS_IN)/table_%,$(settings_c_$(1))))
+$(BITS)/%.elf: $(B)/$(BOARD)/$(SETTINGS_IN)/%.o $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl) \
+    boards/programs/to_the_end.h boards/programs/table.h mk/count/index.sh
+	@mkdir -p $(@D)
+	$(say) LINK $@
+	$(Q)mk/count/index.sh $(if $(filter %_fixed,$*),--fixed) $* >$(@:.elf=.c)
+	$(Q)$(call single_link,$(if $(filter %_fixed,$*),$(settings_main_fixed),$(settings_main_float)) $(@:.elf=.c),\
+	    -I$(SETTINGS_IN) -include $(SETTINGS_IN)/$*.h -DWH_SCENE_WORDS=$*_MEMORY_WORDS) 2>$(@:.elf=.log) || \
+	    { grep -qE 'region|overflowed' $(@:.elf=.log) || { cat $(@:.elf=.log) >&2; exit 1; }; : >$@; }
+settings-images: $(call settings_elf,float) $(call settings_elf,fixed) $(AVR_RUN)
+# Exit status 123: its stack had too little room.
+print-settings:
+	@printf '%s\n' $(call settings_elf,$(KIND)) | xargs -r -P $(JOBS) -n 1 sh -c 'name=$$(basename $$1 .elf); \
+	    [ -s $$1 ] || { echo "without $$name"; exit 0; }; status=0; \
+	    $(call emulate,$$1) >$${1%.elf}.said || status=$$?; \
+	    if [ $$status -eq 123 ]; then echo "without $$name"; else cat $${1%.elf}.said; [ $$status -eq 0 ]; fi' _
+else
+settings-images: $(SETTINGS_KINDS:%=$(ELF)/bits/$(SETTINGS)_%.elf)
+print-settings: # of KIND
+	@$(call need,$(BOARD_EMULATOR))
+	@$(call emulate,$(ELF)/bits/$(SETTINGS)_$(KIND).elf)
+endif
+
+# --- all of them beside the interpreter ---------------------------------------------------------------------------------
+# This machine's compilers, processors that are no boards of ours (check.mk), and boards. AVR's compiler has no double.
+SETTINGS_BUILDS := gcc-O2 clang-O2
+SETTINGS_HOSTS ?= $(if $(filter all,$(SETTINGS)),$(HASH_HOSTS))
+SETTINGS_BOARDS ?= $(if $(filter all,$(SETTINGS)),$(BOARDS_ALL),$(BOARDS))
+settings_boards_float = $(SETTINGS_BOARDS)
+settings_boards_fixed = $(SETTINGS_BOARDS)
+settings_boards_double = $(filter-out $(BOARDS_SINGLE),$(SETTINGS_BOARDS))
+# A board's image holds hundreds of scenes.
+settings_on_board = $(call on_board,$(1),SETTINGS=$(SETTINGS) BOARD_SECONDS=3600 KIND=$(2) print-settings)
+
+compare_settings = "In $(1):" "interpreter $(1)" "cat $(SETTINGS_IN)/$(1).hashes" \
+    $(foreach h,$(SETTINGS_BUILDS),"$(h) $(1)" build/hash/$(h)/bits/$(SETTINGS)_$(1)) \
+    $(foreach h,$(SETTINGS_HOSTS),"$(h) $(1)" "$(host_run_$(h)) build/hosts/$(h)/bits/$(SETTINGS)_$(1)") \
+    $(foreach b,$(settings_boards_$(1)),"$(b) $(1)" "$(call settings_on_board,$(b),$(1))")
+
+.PHONY: hashes-settings $(addprefix settings-build-,$(SETTINGS_BUILDS)) $(addprefix settings-host-,$(HASH_HOSTS))
+$(addprefix settings-build-,$(SETTINGS_BUILDS)): settings-build-%:
+	@$(MAKE) B=build/hash/$* CC=$(firstword $(subst -, ,$*)) OPT=-$(lastword $(subst -, ,$*)) settings-programs
+$(addprefix settings-host-,$(HASH_HOSTS)): settings-host-%:
+	@$(call need,$(host_cc_$*))
+	@$(call need,$(host_run_$*))
+	@$(MAKE) B=build/hosts/$* CC="$(host_cc_$*)" OPT=-O1 $(host_set_$*) settings-programs
+
+##@ Tests and quality
+hashes-settings: settings-written ## the same bits on every board with every setting of six scenes (half an hour; SETTINGS=some SETTINGS_BOARDS="...")
+	+@$(MAKE) $(addprefix settings-build-,$(SETTINGS_BUILDS)) $(addprefix settings-host-,$(SETTINGS_HOSTS))
+	+@$(foreach b,$(SETTINGS_BOARDS),$(call on_board,$(b),SETTINGS=$(SETTINGS) settings-images) &&) true
+	@HASH_SECONDS=7200 sh tests/hashes.sh build/hash/settings_$(SETTINGS) $(foreach k,$(SETTINGS_KINDS),-- $(call compare_settings,$(k)))
