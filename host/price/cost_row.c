@@ -13,6 +13,15 @@ double cost_fit_at(const cost_fit *fit, const double feature[static COST_FEATURE
     return sum;
 }
 
+double cost_beyond(const cost_fit *fit, const double feature[static COST_FEATURES], double sum) {
+    double beyond = 0.0;
+    for (int f = 0; f < COST_FEATURES; f++) {
+        const double part = fit->figure[f] > 0.0 ? feature[f] * fit->figure[f] / sum : 0.0;
+        beyond += part > fit->part[f] ? part - fit->part[f] : 0.0;
+    }
+    return beyond;
+}
+
 cost_class cost_class_of(const double feature[static COST_FEATURES]) {
     return feature[COST_F_BOOKS] != 0.0        ? COST_BOOKING
            : feature[COST_F_CODE_CALLS] != 0.0 ? COST_CALLING

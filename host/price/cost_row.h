@@ -30,6 +30,7 @@ typedef struct cost_fit {
     double bound[COST_CLASSES]; /* no scene, fitted on or not, was off by more than this factor */
     double largest;             /* of what was fitted */
     double figure[COST_FEATURES];
+    double part[COST_FEATURES]; /* most that this feature was of a fitted row's sum */
 } cost_fit;
 
 typedef struct cost_row {
@@ -45,6 +46,8 @@ typedef struct cost_row {
 /* Between what a sum is promised to be. */
 double cost_least(const cost_fit *fit, double sum, double bound);
 double cost_most(const cost_fit *fit, double sum, double bound);
+/* How much of a sum, 0 to 1, is beyond what any fitted row had so much of: there it is extrapolated. */
+double cost_beyond(const cost_fit *fit, const double feature[static COST_FEATURES], double sum);
 /* The sum; negative where a feature is unseen, which is then *unseen. */
 double cost_fit_at(const cost_fit *fit, const double feature[static COST_FEATURES], int *unseen);
 

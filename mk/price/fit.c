@@ -135,6 +135,20 @@ static double weight_of(double ratio, cost_quantity q) {
     return share * share;
 }
 
+/* The most that each feature is of a fitted row. */
+static void add_parts(cost_fit *f, int board, cost_number number, cost_quantity q) {
+    for (int r = 0; r < row_count; r++) {
+        const double sum = takes_part(&rows[r], board, number, q) && rows[r].fitted
+                               ? sum_of(f, &rows[r], q)
+                               : 0.0;
+        for (int i = 0; i < COST_FEATURES && sum > 0.0; i++) {
+            const double part =
+                is_taken(i, q) && f->figure[i] > 0.0 ? f->figure[i] * rows[r].feature[i] / sum : 0.0;
+            f->part[i] = part > f->part[i] ? part : f->part[i];
+        }
+    }
+}
+
 /* Fitted in rounds, each with the weights that follow from the one before. */
 static cost_fit fit(int board, cost_number number, cost_quantity q, const cost_fit *like) {
     static double a[COST_FEATURES][COST_FEATURES];
@@ -174,6 +188,7 @@ static cost_fit fit(int board, cost_number number, cost_quantity q, const cost_f
             f.figure[i] = COST_UNSEEN;
         }
     }
+    add_parts(&f, board, number, q);
     return f;
 }
 
@@ -263,9 +278,11 @@ static double judge(const cost_fit *f, int board, cost_number number, cost_quant
             j.unseen++;
         }
         if (shows) {
-            fprintf(stderr, "    %.3f %s%s %s %s %s: %g, predicted %.4g%s\n", by, quantity_words[q],
+            double feature[COST_FEATURES];
+            for (int i = 0; i < COST_FEATURES; i++) feature[i] = is_taken(i, q) ? rows[r].feature[i] : 0.0;
+            fprintf(stderr, "    %.3f %s%s %s %s %s: %g, predicted %.4g%s beyond %.3f\n", by, quantity_words[q],
                     says[class], rows[r].column[3], rows[r].column[4], rows[r].column[6],
-                    rows[r].value[q], told, rows[r].fitted ? "" : " (test)");
+                    rows[r].value[q], told, rows[r].fitted ? "" : " (test)", by > 0 ? cost_beyond(f, feature, told) : 0);
             show_parts(f, &rows[r], q);
         }
     }
@@ -351,7 +368,8 @@ static void write_row(int board, cost_number number) {
     }
     printf("\",\n     .spread = %.3f, .spread_cycles = %.3f,\n     .fit = {\n", spread[0],
            spread[1]);
-    for (int q = 0; q < COST_QUANTITIES; q++) {
+    const int qs = getenv("PRICE_ONLY") != NULL ? 1 : COST_QUANTITIES;
+    for (int q = 0; q < qs; q++) {
         const char *like = number == COST_FLOAT ? likeness(board) : NULL;
         const int of = like != NULL ? (int)(cost_board_named(like) - cost_boards) : board;
         static cost_fit alike[BOARDS_MAX][COST_QUANTITIES];
@@ -384,7 +402,9 @@ static void write_all(void) {
         stderr,
         "| board | number | quantity | fitted | median | nine of ten | largest | not fitted | median | nine of ten | largest | unseen | bound |\n"
         "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+    const char *only = getenv("PRICE_ONLY");
     for (int b = 0; b < cost_board_count; b++) {
+        if (only != NULL && strstr(only, cost_boards[b].name) == NULL) continue;
         for (int n = 0; n < COST_NUMBERS; n++) {
             write_row(b, (cost_number)n);
         }
