@@ -135,12 +135,12 @@ static double weight_of(double ratio, cost_quantity q) {
     return share * share;
 }
 
-/* The most that each feature is of a fitted row. */
+/* The most that each feature is of a fitted row: asked of time. */
 static void add_parts(cost_fit *f, int board, cost_number number, cost_quantity q) {
+    f->is_parted = q == COST_OF_INSTRUCTIONS || q == COST_OF_CYCLES;
     for (int r = 0; r < row_count; r++) {
-        const double sum = takes_part(&rows[r], board, number, q) && rows[r].fitted
-                               ? sum_of(f, &rows[r], q)
-                               : 0.0;
+        const bool fitted = takes_part(&rows[r], board, number, q) && rows[r].fitted;
+        const double sum = fitted && f->is_parted ? sum_of(f, &rows[r], q) : 0.0;
         for (int i = 0; i < COST_FEATURES && sum > 0.0; i++) {
             const double part =
                 is_taken(i, q) && f->figure[i] > 0.0 ? f->figure[i] * rows[r].feature[i] / sum : 0.0;
@@ -251,6 +251,10 @@ static void tell(const char *board, cost_number number, const char *what, judged
     fprintf(stderr, " %d | %.2f |\n", j->unseen, bound);
 }
 
+static cost_class class_of(const cost_fit *f, const counted *r, cost_quantity q) {
+    return cost_class_at(f, r->feature, sum_of(f, r, q));
+}
+
 /* The rows of a class judged, and its line of the table. Returns the bound: the farthest of either half,
  * times MARGIN. *tested: how many were not fitted. */
 static double judge(const cost_fit *f, int board, cost_number number, cost_quantity q,
@@ -263,7 +267,7 @@ static double judge(const cost_fit *f, int board, cost_number number, cost_quant
     double bound = 1.0;
     memset(&j, 0, sizeof j);
     for (int r = 0; r < row_count; r++) {
-        if (!takes_part(&rows[r], board, number, q) || cost_class_of(rows[r].feature) != class) {
+        if (!takes_part(&rows[r], board, number, q) || class_of(f, &rows[r], q) != class) {
             continue;
         }
         double told;
@@ -278,11 +282,9 @@ static double judge(const cost_fit *f, int board, cost_number number, cost_quant
             j.unseen++;
         }
         if (shows) {
-            double feature[COST_FEATURES];
-            for (int i = 0; i < COST_FEATURES; i++) feature[i] = is_taken(i, q) ? rows[r].feature[i] : 0.0;
-            fprintf(stderr, "    %.3f %s%s %s %s %s: %g, predicted %.4g%s beyond %.3f\n", by, quantity_words[q],
+            fprintf(stderr, "    %.3f %s%s %s %s %s: %g, predicted %.4g%s\n", by, quantity_words[q],
                     says[class], rows[r].column[3], rows[r].column[4], rows[r].column[6],
-                    rows[r].value[q], told, rows[r].fitted ? "" : " (test)", by > 0 ? cost_beyond(f, feature, told) : 0);
+                    rows[r].value[q], told, rows[r].fitted ? "" : " (test)");
             show_parts(f, &rows[r], q);
         }
     }
@@ -311,6 +313,21 @@ static void judge_all(cost_fit *f, int board, cost_number number, cost_quantity 
 
 /* --- writing ------------------------------------------------------------------------------------------*/
 
+static void write_parts(const cost_fit *f) {
+    const char *before = ", .part = {\n            ";
+    int column = 0;
+    for (int i = 0; i < COST_FEATURES && f->is_parted; i++) {
+        if (f->part[i] > 0.0) {
+            column += printf("%sF(%s, %.2g)", before, cost_feature_words[i], f->part[i]);
+            before = column > WIDTH ? ",\n            " : ", ";
+            column = column > WIDTH ? 0 : column;
+        }
+    }
+    if (f->is_parted) {
+        printf("\n         }");
+    }
+}
+
 static void write_fit(const cost_fit *f, cost_quantity q) {
     static const char *const ids[COST_QUANTITIES] = {
 #define QUANTITY_ID(id, word) "COST_OF_" #id,
@@ -320,7 +337,8 @@ static void write_fit(const cost_fit *f, cost_quantity q) {
     for (int c = 0; c < COST_CLASSES; c++) {
         printf("%s%.2f", c > 0 ? ", " : "", f->bound[c]);
     }
-    printf("}, .largest = %.0f, .figure = {\n", f->largest);
+    printf("}, .largest = %.0f, .is_parted = %s, .figure = {\n", f->largest,
+           f->is_parted ? "true" : "false");
     for (int i = 0; i < COST_FEATURES; i++) {
         if (f->figure[i] != COST_UNSEEN && f->figure[i] < LEAST) {
             continue;
@@ -334,7 +352,9 @@ static void write_fit(const cost_fit *f, cost_quantity q) {
             column = 0;
         }
     }
-    printf("%s         }},\n", column > 0 ? "\n" : "");
+    printf("%s         }", column > 0 ? "\n" : "");
+    write_parts(f);
+    printf("},\n");
 }
 
 static void write_row(int board, cost_number number) {
@@ -368,8 +388,7 @@ static void write_row(int board, cost_number number) {
     }
     printf("\",\n     .spread = %.3f, .spread_cycles = %.3f,\n     .fit = {\n", spread[0],
            spread[1]);
-    const int qs = getenv("PRICE_ONLY") != NULL ? 1 : COST_QUANTITIES;
-    for (int q = 0; q < qs; q++) {
+    for (int q = 0; q < COST_QUANTITIES; q++) {
         const char *like = number == COST_FLOAT ? likeness(board) : NULL;
         const int of = like != NULL ? (int)(cost_board_named(like) - cost_boards) : board;
         static cost_fit alike[BOARDS_MAX][COST_QUANTITIES];
@@ -402,9 +421,7 @@ static void write_all(void) {
         stderr,
         "| board | number | quantity | fitted | median | nine of ten | largest | not fitted | median | nine of ten | largest | unseen | bound |\n"
         "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
-    const char *only = getenv("PRICE_ONLY");
     for (int b = 0; b < cost_board_count; b++) {
-        if (only != NULL && strstr(only, cost_boards[b].name) == NULL) continue;
         for (int n = 0; n < COST_NUMBERS; n++) {
             write_row(b, (cost_number)n);
         }
