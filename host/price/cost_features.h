@@ -57,12 +57,13 @@ typedef struct cost_list {
     int cubics;   /* and by cubic ones, */
     int mirrored; /* of both, what is odd and told by its other half */
     int calls[FUNCTIONS];
-    double zero_sums;     /* of the sums, those that are given a zero, */
-    double zero_products; /* and of the products: on average over a run's first steps (operands.h) */
-    double opposed;       /* sums of opposite signs, */
-    double bits;          /* and what all sums shift by */
-    int carried;          /* between registers and memory, at best */
-    int operations; /* all that compute */
+    double zero_sums; /* of the sums, those that are given a zero, */
+    double
+        zero_products; /* and of the products: on average over a run's first steps (operands.h) */
+    double opposed;    /* sums of opposite signs, */
+    double bits;       /* and what all sums shift by */
+    int carried;       /* between registers and memory, at best */
+    int operations;    /* all that compute */
 } cost_list;
 
 typedef struct cost_counts {
@@ -106,8 +107,9 @@ typedef struct cost_counts {
     int shares;           /* of stages in stages */
     int ends;             /* products of stages at the step's end */
     int state_words;
-    bool soft;       /* numbers are computed by software, whose time depends on operands: */
-    step_work moves; /* then what the step itself does beside its lists, or a step as one matrix in all */
+    bool soft; /* numbers are computed by software, whose time depends on operands: */
+    step_work
+        moves; /* then what the step itself does beside its lists, or a step as one matrix in all */
     int evaluations; /* most in a step */
     double smooth;   /* a step without its contacts, predicted: filled in by cost.c */
 } cost_counts;

@@ -18,7 +18,8 @@
     X(BOOKING, ", with books")     /* whose expressions a compiler may share with the step's */ \
     X(AS_MATRIX, ", as one matrix") \
     X(TABLED, ", with tables") \
-    X(FAR, ", beyond what was fitted") /* of any of these: told from what no fitted row had so much of */
+    X(FAR, \
+      ", beyond what was fitted") /* of any of these: told from what no fitted row had so much of */
 #define COST_CLASS_ID(id, says) COST_##id,
 typedef enum cost_class { COST_CLASS_ROWS(COST_CLASS_ID) COST_CLASSES } cost_class;
 #undef COST_CLASS_ID
