@@ -31,12 +31,6 @@ static cost_figure exactly(double value) {
     return (cost_figure){COST_EXACT, COST_EXACT, value, value, value, 1.0};
 }
 
-/* What is larger than all that was fitted is told with twice the bound's distance. */
-static double bound_at(const cost_fit *fit, const double *feature, double value) {
-    const double bound = fit->bound[cost_class_of(feature)];
-    return value > fit->largest ? 2.0 * bound - 1.0 : bound;
-}
-
 /* One quantity, or nothing of it, and why in *why. */
 static cost_figure predicted(const cost_row *row, cost_quantity quantity, cost_basis of,
                              const double *feature, const char **why) {
@@ -48,7 +42,7 @@ static cost_figure predicted(const cost_row *row, cost_quantity quantity, cost_b
                                : "the scene does something that no measured scene did: measure it";
         return (cost_figure){0};
     }
-    const double bound = bound_at(fit, feature, value);
+    const double bound = cost_bound_at(fit, feature, value);
     if (bound > COST_BOUND_MOST) {
         *why = "it depends on more than the image tells: measure it";
         return (cost_figure){0};

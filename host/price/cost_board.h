@@ -44,5 +44,7 @@ typedef struct cost_board {
 extern const cost_board cost_boards[];
 extern const int cost_board_count;
 const cost_board *cost_board_named(const char *name); /* NULL: there is none */
+/* Does software compute this number there? */
+bool cost_is_soft(const cost_board *board, cost_number number);
 
 #endif

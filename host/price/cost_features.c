@@ -6,6 +6,7 @@
 #include "host/base/room.h"
 #include "host/image/core_rows.h"
 #include "host/image/turned.h"
+#include "operands.h"
 
 /* As host/emit/c_list.c has it: longer lists are functions of their own. */
 enum { INLINED_MOST = 150, LONG_LEAST = 100 };
@@ -64,6 +65,16 @@ static void add_operation(const tape *t, const op *o, cost_list *l) {
     case OP_CELL: l->cells++; break;
     case OP_LINE:
     case OP_CUBIC: add_look_up(t, o, l); break;
+    }
+}
+
+static void add_operands(const op *o, const operand_share *given, cost_list *l) {
+    if (o->code == OP_MUL) {
+        l->zero_products += given->zero;
+    } else {
+        l->zero_sums += given->zero; /* nothing is told of what is no sum */
+        l->opposed += given->opposed;
+        l->bits += given->bits;
     }
 }
 
@@ -206,7 +217,7 @@ static bool takes_more_than_places(const tape *t, int i, const bool *takes) {
     return does;
 }
 
-static void add_step(const image *im, cost_counts *c) {
+static void add_step(const image *im, const operands *given, cost_counts *c) {
     const tape *t = im->list[IMAGE_STEP];
     bool *varies = room(t->count, sizeof *varies);
     bool *takes = room(t->count, sizeof *takes);
@@ -215,11 +226,14 @@ static void add_step(const image *im, cost_counts *c) {
         varies[i] = changes(t, i, varies);
         takes[i] = takes_more_than_places(t, i, takes);
         const bool stays = c->places < c->stages && !takes[i] && !im->ledger.asked;
-        add_operation(t, &t->ops[i],
-                      c->called    ? &c->step
-                      : !varies[i] ? &c->fixed
-                      : stays      ? &c->placed
-                                   : &c->step);
+        cost_list *to = c->called    ? &c->step
+                        : !varies[i] ? &c->fixed
+                        : stays      ? &c->placed
+                                     : &c->step;
+        add_operation(t, &t->ops[i], to);
+        if (c->soft) {
+            add_operands(&t->ops[i], &given->of[i], to);
+        }
         add_reads(t, &t->ops[i], &reads);
     }
     free(takes);
@@ -241,9 +255,19 @@ static int state_words(const image *im) {
 
 /* A step as one matrix: its list, and no stages. What matrices have in common with other steps is little, so their figures
  * are their own. */
-static void add_matrix(const image *im, cost_counts *c) {
+static void add_matrix(const image *im, const operands *given, cost_counts *c) {
+    const tape *t = im->list[IMAGE_MATRIX];
     c->is_matrix = true;
-    add_list(im->list[IMAGE_MATRIX], &c->matrix);
+    add_list(t, &c->matrix);
+    for (int i = 0; i < t->count && c->soft; i++) {
+        add_operands(&t->ops[i], &given->of[i], &c->matrix);
+    }
+    if (c->soft) { /* what it does costs as much as elsewhere */
+        c->moves = (step_work){.sums = c->matrix.sums - c->matrix.zero_sums + im->reals,
+                               .products = c->matrix.products - c->matrix.zero_products,
+                               .zero_sums = c->matrix.zero_sums,
+                               .zero_products = c->matrix.zero_products};
+    }
     c->stages = c->places = c->copies = 1;
 }
 
@@ -254,8 +278,10 @@ static void add_tables(const image *im, const cost_board *board, cost_counts *c)
     c->table_numbers = (c->folded ? cells / 2.0 + 1.0 : cells) * of->count * of->terms;
 }
 
-cost_counts cost_counts_of(const image *im, const cost_board *board, cost_number number) {
+static cost_counts count(const image *im, const cost_board *board, cost_number number,
+                         const operands *given) {
     cost_counts c = {.im = im,
+                     .soft = given->of != NULL,
                      .number = number,
                      .second = im->form == WH_SECOND_ORDER,
                      .turned = image_turns(im),
@@ -263,7 +289,7 @@ cost_counts cost_counts_of(const image *im, const cost_board *board, cost_number
                      .state_words = state_words(im)};
     add_list(im->list[IMAGE_OBSERVE], &c.observe);
     if (im->settings.matrix != MATRIX_NONE) {
-        add_matrix(im, &c);
+        add_matrix(im, given, &c);
         return c;
     }
     c.compensated = im->settings.compensated;
@@ -281,14 +307,25 @@ cost_counts cost_counts_of(const image *im, const cost_board *board, cost_number
     c.linears = c.second ? im->coordinates - im->angles : im->reals;
     c.called =
         tape_operations(im->list[IMAGE_STEP]) > INLINED_MOST || im->contacts > 0 || !board->fpu;
-    add_step(im, &c);
     const bool is_avr = board->cycles == COST_SIMULATED;
+    add_step(im, given, &c);
+    if (c.soft) {
+        c.moves = step_work_of(im, c.turned, is_avr, given);
+    }
     const bool unrolls_less = im->settings.compensated || c.step.operations >= LONG_LEAST;
     c.looped = is_avr && (unrolls_less || im->ledger.kept || im->contacts > 0);
     c.tabled = is_avr && unrolls_less && c.stages > 2;
     c.copies = c.called ? 1 : c.stages;
     c.lookups = c.turned ? c.step.pairs : (c.called ? c.stages : c.places) * c.step.pairs;
     c.evaluations = core_evaluations(im);
+    return c;
+}
+
+cost_counts cost_counts_of(const image *im, const cost_board *board, cost_number number) {
+    const bool soft = cost_is_soft(board, number);
+    operands given = soft ? operands_of(im, number) : (operands){.of = NULL};
+    const cost_counts c = count(im, board, number, &given);
+    operands_free(&given);
     return c;
 }
 

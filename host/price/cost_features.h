@@ -12,6 +12,7 @@
 
 #include "cost_board.h"
 #include "host/image/image.h"
+#include "step_work.h"
 
 /* Quantities that are fitted: X(id, word, whether it is a step's time). */
 #define COST_QUANTITY_ROWS(X) \
@@ -56,8 +57,13 @@ typedef struct cost_list {
     int cubics;   /* and by cubic ones, */
     int mirrored; /* of both, what is odd and told by its other half */
     int calls[FUNCTIONS];
-    int carried;    /* between registers and memory, at best */
-    int operations; /* all that compute */
+    double zero_sums; /* of the sums, those that are given a zero, */
+    double
+        zero_products; /* and of the products: on average over a run's first steps (operands.h) */
+    double opposed;    /* sums of opposite signs, */
+    double bits;       /* and what all sums shift by */
+    int carried;       /* between registers and memory, at best */
+    int operations;    /* all that compute */
 } cost_list;
 
 typedef struct cost_counts {
@@ -101,6 +107,9 @@ typedef struct cost_counts {
     int shares;           /* of stages in stages */
     int ends;             /* products of stages at the step's end */
     int state_words;
+    bool soft; /* numbers are computed by software, whose time depends on operands: */
+    step_work
+        moves; /* then what the step itself does beside its lists, or a step as one matrix in all */
     int evaluations; /* most in a step */
     double smooth;   /* a step without its contacts, predicted: filled in by cost.c */
 } cost_counts;
@@ -121,8 +130,10 @@ cost_counts cost_counts_of(const image *im, const cost_board *board, cost_number
     X(ONE, COST_CODE | COST_DATA | COST_DEPTH | COST_EVENTS, 1) \
     X(STAGED, COST_TIME, !c->is_matrix) \
     X(MATRIX, COST_TIME | COST_CODE | COST_DEPTH, c->is_matrix) \
-    X(MATRIX_SUMS, COST_TIME | COST_CODE, c->matrix.sums) \
-    X(MATRIX_PRODUCTS, COST_TIME | COST_CODE, c->matrix.products) \
+    X(MATRIX_SUMS, COST_TIME, c->soft ? 0 : c->matrix.sums) \
+    X(MATRIX_PRODUCTS, COST_TIME, c->soft ? 0 : c->matrix.products) \
+    X(MATRIX_CODE_SUMS, COST_CODE, c->matrix.sums) \
+    X(MATRIX_CODE_PRODUCTS, COST_CODE, c->matrix.products) \
     X(MATRIX_LEAVES, COST_TIME | COST_CODE, c->matrix.leaves) \
     X(MATRIX_CONSTANTS, COST_TIME | COST_CODE, c->matrix.constants) \
     X(MATRIX_CARRIED, COST_TIME | COST_CODE | COST_DEPTH, c->matrix.carried) \
@@ -184,8 +195,13 @@ cost_counts cost_counts_of(const image *im, const cost_board *board, cost_number
     X(CODE_CUBICS, COST_CODE, COST_COPIES(cubics)) \
     X(CODE_MIRRORED, COST_CODE, c->folded ? COST_COPIES(mirrored) : 0) \
     X(TABLE_BYTES, COST_CODE, c->table_numbers * (c->number == COST_DOUBLE ? 8 : 4)) \
-    X(SUMS, COST_TIME, COST_EACH(sums)) \
-    X(PRODUCTS, COST_TIME, COST_EACH(products)) \
+    X(SUMS, COST_TIME, COST_EACH(sums) - COST_EACH(zero_sums) + c->moves.sums) \
+    X(ZERO_SUMS, COST_TIME, COST_EACH(zero_sums) + c->moves.zero_sums) \
+    X(OPPOSED, COST_TIME, COST_EACH(opposed) + c->matrix.opposed) \
+    X(SHIFTED, COST_TIME, COST_EACH(bits) + c->matrix.bits) \
+    X(ZERO_PRODUCTS, COST_TIME, COST_EACH(zero_products) + c->moves.zero_products) \
+    X(PRODUCTS, COST_TIME, COST_EACH(products) - COST_EACH(zero_products) + c->moves.products) \
+    X(CONVERTED, COST_TIME, c->moves.conversions) \
     X(QUOTIENTS, COST_TIME, COST_EACH(quotients)) \
     X(ROOTS, COST_TIME, COST_EACH(roots)) \
     X(SIZES, COST_TIME, COST_EACH(sizes)) \

@@ -13,12 +13,38 @@ double cost_fit_at(const cost_fit *fit, const double feature[static COST_FEATURE
     return sum;
 }
 
-cost_class cost_class_of(const double feature[static COST_FEATURES]) {
+/* Of a sum's parts, so much may be more than any fitted row had of them. */
+#define FAR_LEAST 0.05
+
+static double beyond(const cost_fit *fit, const double feature[static COST_FEATURES], double sum) {
+    double all = 0.0;
+    for (int f = 0; f < COST_FEATURES; f++) {
+        const double part = fit->figure[f] > 0.0 ? feature[f] * fit->figure[f] / sum : 0.0;
+        all += part > fit->part[f] ? part - fit->part[f] : 0.0;
+    }
+    return all;
+}
+
+static cost_class class_of(const double feature[static COST_FEATURES]) {
     return feature[COST_F_BOOKS] != 0.0        ? COST_BOOKING
            : feature[COST_F_CODE_CALLS] != 0.0 ? COST_CALLING
            : feature[COST_F_MATRIX] != 0.0     ? COST_AS_MATRIX
            : feature[COST_F_CELLS] != 0.0      ? COST_TABLED
                                                : COST_PLAIN;
+}
+
+cost_class cost_class_at(const cost_fit *fit, const double feature[static COST_FEATURES],
+                         double sum) {
+    const bool is_far = fit->is_parted && sum > 0.0 && beyond(fit, feature, sum) > FAR_LEAST;
+    return is_far ? COST_FAR : class_of(feature);
+}
+
+/* What is larger than all that was fitted is told with twice the bound's distance. */
+double cost_bound_at(const cost_fit *fit, const double feature[static COST_FEATURES], double sum) {
+    const double far = fit->bound[cost_class_at(fit, feature, sum)];
+    const double own = fit->bound[class_of(feature)];
+    const double bound = far > own ? far : own;
+    return sum > fit->largest ? 2.0 * bound - 1.0 : bound;
 }
 
 double cost_least(const cost_fit *fit, double sum, double bound) {

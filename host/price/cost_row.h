@@ -17,12 +17,12 @@
     X(CALLING, ", with functions") /* whose time depends on what they are given */ \
     X(BOOKING, ", with books")     /* whose expressions a compiler may share with the step's */ \
     X(AS_MATRIX, ", as one matrix") \
-    X(TABLED, ", with tables")
+    X(TABLED, ", with tables") \
+    X(FAR, \
+      ", beyond what was fitted") /* of any of these: told from what no fitted row had so much of */
 #define COST_CLASS_ID(id, says) COST_##id,
 typedef enum cost_class { COST_CLASS_ROWS(COST_CLASS_ID) COST_CLASSES } cost_class;
 #undef COST_CLASS_ID
-cost_class cost_class_of(const double feature[static COST_FEATURES]);
-
 /* One quantity: the sum of figure[f] times feature f. */
 typedef struct cost_fit {
     int cases;    /* fitted on; 0: there is no such fit */
@@ -30,6 +30,8 @@ typedef struct cost_fit {
     double bound[COST_CLASSES]; /* no scene, fitted on or not, was off by more than this factor */
     double largest;             /* of what was fitted */
     double figure[COST_FEATURES];
+    bool is_parted;             /* is the next known? */
+    double part[COST_FEATURES]; /* most that this feature was of a fitted row's sum */
 } cost_fit;
 
 typedef struct cost_row {
@@ -45,6 +47,11 @@ typedef struct cost_row {
 /* Between what a sum is promised to be. */
 double cost_least(const cost_fit *fit, double sum, double bound);
 double cost_most(const cost_fit *fit, double sum, double bound);
+/* What a row of this sum is; with COST_FAR it may be another of the classes besides. */
+cost_class cost_class_at(const cost_fit *fit, const double feature[static COST_FEATURES],
+                         double sum);
+/* The bound that is promised of it. */
+double cost_bound_at(const cost_fit *fit, const double feature[static COST_FEATURES], double sum);
 /* The sum; negative where a feature is unseen, which is then *unseen. */
 double cost_fit_at(const cost_fit *fit, const double feature[static COST_FEATURES], int *unseen);
 

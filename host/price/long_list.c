@@ -1,6 +1,7 @@
 /* long_list.c: see long_list.h. */
 #include "long_list.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #include "host/base/room.h"
@@ -40,6 +41,15 @@ static long double phase_of(const tape *t, const op *o, const long_leaves *in) {
     return sum;
 }
 
+/* Where the numbers of the cell stand that a phase lies in. References are made of the exact list, which has none: the
+ * middle of the cell will do. */
+static long double cell_of(const tape *t, long double phase_rad) {
+    const long double turns = phase_rad / 6.28318530717958647692528676655900577L;
+    const double cells = (double)(1U << (unsigned)t->tables.bits);
+    const double at = floor((double)(turns - floorl(turns)) * cells + 0.5);
+    return (long double)((at < cells ? at : 0.0) * t->tables.count * t->tables.terms);
+}
+
 /* The operands of operation o, where these are values. */
 #define A (l->value[o->a])
 #define B (l->value[o->b])
@@ -72,9 +82,9 @@ static long double value_of(long_list *l, int i, const long_leaves *in) {
     case OP_MAX: return long_call(FN_MAX, A, B);
     case OP_CALL: return long_call(o->function, A, o->b >= 0 ? B : 0.0L);
     case OP_POW: return long_power(A, B);
-    case OP_CELL:
+    case OP_CELL: return cell_of(l->tape, phase_of(l->tape, o, in));
     case OP_LINE:
-    case OP_CUBIC: break; /* a reference is made of the exact list */
+    case OP_CUBIC: return (long double)l->tape->tables.number[(size_t)A + (size_t)o->value];
     }
     return 0.0L;
 }
@@ -91,6 +101,8 @@ void long_list_run(long_list *l, const long_leaves *in, long double *result) {
         result[i] = l->value[t->result[i]];
     }
 }
+
+long double long_list_value(const long_list *l, int operation) { return l->value[operation]; }
 
 bool long_list_asks(const tape *t, int result, op_code code) {
     bool *needed = room(t->count, sizeof *needed);

@@ -4,9 +4,10 @@
 #
 # Scenes: with SEED 1 every built-in one and pendulums of 1 to 10 links; with any
 # seed so many GENERATED mechanisms (build/tools/mechanisms), which call every function of the language, and so many
-# DRAWN ones (scenes.awk). Settings: each scene with the default, and with two others, in turn, so that every setting
-# meets scenes of every kind; a setting that whirl gets is one more word of the list below. What few scenes take (a step
-# as one matrix, tables, leapfrog) is tried with each, and those that take it are counted so, too.
+# DRAWN ones (scenes.awk), and a fifth as many of which something rests. Settings: each scene with the default, and with
+# two others, in turn, so that every setting meets scenes of every kind; a setting that whirl gets is one more word of the
+# list below. What few scenes take (a step as one matrix, tables, leapfrog) is tried with each, and those that take it are
+# counted so, too.
 set -eu
 here=$(dirname "$0")
 folder=$1 seed=$2 generated=$3 drawn=$4
@@ -26,6 +27,10 @@ mkdir -p "$folder"
     awk -v n="$drawn" -v seed="$seed" -f "$here/scenes.awk" </dev/null >"$folder/drawn_$seed.whirl"
     awk -v n="$drawn" -v seed="$seed" -v file="$folder/drawn_$seed.whirl" \
         'BEGIN { for (i = 1; i <= n; i++) { print file ":r" seed "_" i } }'
+    rest=$((drawn / 5 > 0 ? drawn / 5 : 1))
+    awk -v n="$rest" -v seed="$seed" -v rest=1 -f "$here/scenes.awk" </dev/null >"$folder/rest_$seed.whirl"
+    awk -v n="$rest" -v seed="$seed" -v file="$folder/rest_$seed.whirl" \
+        'BEGIN { for (i = 1; i <= n; i++) { print file ":q" seed "_" i } }'
 } >"$folder/scenes"
 
 # takes NAME OPTIONS...: a line "NAME SCENE" for each scene that can be written so

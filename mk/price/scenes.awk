@@ -1,4 +1,6 @@
 # scenes.awk: smooth mechanisms drawn at random, a scene each, to count steps of: awk -v n=N -v seed=S -f scenes.awk </dev/null.
+# With -v rest=1 mechanisms of which something does not move: what rests, goes on evenly, falls freely, or lies where
+# its force is zero, beside something that swings. (Software arithmetic takes less time of zeros.)
 #
 # Ten families, by turns, so that the classes of work come in other proportions than in the built-in scenes, and apart
 # from each other: masses in a row with springs (no sine), a cart with pendulums, arms that carry each other with
@@ -181,6 +183,32 @@ function first_order_turning(k,    i, e) {
     starts = ""
 }
 
+# A part of mechanism `rest`: kind 0 swings, 1 rests, 2 goes on evenly, 3 falls, 4 rests where its spring is slack, 5 is
+# tied to the first one.
+function resting(k,    i, T, V, F, kind, turns, x) {
+    for (i = 1; i <= k; i++) {
+        kind = i == 1 ? (draw(3) ? 0 : 3) : draw(6)
+        turns = i > 1 && kind < 5 && draw(3) == 0
+        x = (turns ? "a" : "x") i
+        say("coordinate " x (turns ? " [rad]" : " [m]"))
+        T = T " + " number(0.2, 3) (turns ? " [kg*m^2]*" : " [kg]*") x "'^2/2"
+        if (turns) {
+            if (kind == 0 || kind == 4) { V = V " - " number(0.2, 3) " [J]*cos(" x ")" }
+            if (kind == 3) { V = V " - " number(0.2, 3) " [J]*" x }
+        } else {
+            if (kind == 0 || kind == 4) { V = V " + " number(5, 90) " [N/m]*" x "^2/2" }
+            if (kind == 3) { V = V " + " number(0.2, 3) " [kg]*9.81 [m/s^2]*" x }
+            if (kind == 5) { V = V " + " number(5, 90) " [N/m]*(" x " - x1)^2/2" }
+        }
+        if (draw(3) == 0) { F = F " + " number(0.1, 2) (turns ? " [N*m*s]*" : " [N*s/m]*") x "'^2/2" }
+        starts = starts (i > 1 ? ", " : "") x " = " (kind == 4 || draw(4) == 0 && kind != 0 ? "0" : number(0.1, 0.5)) (turns ? " [rad]" : " [m]")
+        if (kind == 2) { starts = starts ", " x "' = " number(0.5, 3) (turns ? " [rad/s]" : " [m/s]") }
+    }
+    energies(T, V, F)
+    say("scene " name " {\n  start " starts "\n  step 1 [ms]\n  until 1 [s]\n}")
+    starts = ""
+}
+
 function energies(T, V, F) {
     say("T =" substr(T, 3))
     if (V != "") { say("V = 0 [J]" V) }
@@ -204,10 +232,11 @@ BEGIN {
     state = seed * 7919 + 1
     for (i = 0; i < 10; i++) { draw(2) }
     for (s = 1; s <= n; s++) {
-        name = "r" seed "_" s
-        print "mechanism w" seed "_" s " \"Drawn at random\""
+        name = (rest ? "q" : "r") seed "_" s
+        print "mechanism " (rest ? "v" : "w") seed "_" s " \"Drawn at random\""
         size = 1 + draw(draw(4) == 0 ? 6 : 3)
-        if (s % 10 == 0) { row_of_masses(size + draw(3)) }
+        if (rest) { resting(size + 1) }
+        else if (s % 10 == 0) { row_of_masses(size + draw(3)) }
         else if (s % 10 == 1) { cart(size) }
         else if (s % 10 == 2) { arms(size > 3 ? 3 : size) }
         else if (s % 10 == 3) { particles(size) }

@@ -8,6 +8,7 @@
 #include "derived.h"
 #include "host/lang/model.h"
 #include "host/price/cost.h"
+#include "host/price/cost_row.h"
 #include "unity.h"
 
 void suite_cost(void);
@@ -199,7 +200,75 @@ static void measured_rows_are_read(void) {
     TEST_ASSERT_FALSE(cost_measured("", m4, &c));
 }
 
+/* The arithmetic of a step whose list computes nothing, held against the calls of __aeabi_fmul, and of __aeabi_fadd and
+ * __aeabi_fsub, in what arm-none-eabi-gcc 12.2.1 -O2 makes of `cartesian_flight` for a Cortex-M3 (objdump -dr). */
+static void a_steps_own_arithmetic_is_counted(void) {
+    static const struct {
+        wh_method method;
+        bool compensated;
+        double products;
+        double sums;
+    } row[] = {{WH_EULER, false, 6, 11},     {WH_SEMI_IMPLICIT_EULER, false, 6, 11},
+               {WH_HEUN, false, 15, 23},     {WH_RK4, false, 18, 35},
+               {WH_RK38, false, 24, 62},     {WH_NYSTROEM4, false, 18, 35},
+               {WH_LEAPFROG, false, 12, 23}, {WH_EULER, true, 12, 41},
+               {WH_HEUN, true, 21, 53},      {WH_RK4, true, 24, 65},
+               {WH_LEAPFROG, true, 18, 53}};
+    derived d = derived_builtin("cartesian_flight");
+    derived_expect(&d, "cartesian_flight");
+    const image_settings before = d.image->settings;
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
+        d.image->settings.method = row[i].method;
+        d.image->settings.compensated = row[i].compensated;
+        const cost_counts c = cost_counts_of(d.image, cost_board_named("mps2-an385"), COST_FLOAT);
+        const char *word = wh_methods[row[i].method].word;
+        TEST_ASSERT_TRUE_MESSAGE(c.moves.products + c.moves.zero_products == row[i].products, word);
+        TEST_ASSERT_TRUE_MESSAGE(c.moves.sums + c.moves.zero_sums == row[i].sums, word);
+        /* it falls along z: of x and y no acceleration is other than zero */
+        TEST_ASSERT_TRUE_MESSAGE(c.moves.zero_products > 0.0, word);
+    }
+    d.image->settings = before;
+    derived_free(&d);
+}
+
+/* Of what lies still all is zero, of what swings nothing; and where an FPU computes nobody asks. */
+static void what_rests_is_seen(void) {
+    derived d = derived_text("mechanism two \"Two\"\ncoordinate x [m]\ncoordinate y [m]\n"
+                             "T = 2 [kg]*(x'^2 + y'^2)/2\nV = 30 [N/m]*(x^2 + y^2)/2\n"
+                             "scene two {\n  start x = 0.1 [m]\n  step 1 [ms]\n  until 1 [s]\n}\n");
+    derived_expect(&d, "two");
+    operands given = operands_of(d.image, COST_FLOAT);
+    TEST_ASSERT_TRUE(given.rate[0] == 0.0 && given.accel[0] == 0.0);
+    TEST_ASSERT_TRUE(given.rate[1] == 1.0 && given.accel[1] == 1.0);
+    operands_free(&given);
+    const cost_counts soft = cost_counts_of(d.image, cost_board_named("mps2-an385"), COST_FLOAT);
+    const cost_counts hard = cost_counts_of(d.image, cost_board_named("mps2-an386"), COST_FLOAT);
+    TEST_ASSERT_TRUE(soft.moves.zero_sums > 0.0 && soft.step.zero_products > 0.0);
+    TEST_ASSERT_TRUE(hard.moves.sums == 0.0 && hard.step.zero_products == 0.0);
+    derived_free(&d);
+}
+
+/* What is told from more of something than any fitted row had is promised within more. */
+static void what_is_extrapolated_is_promised_within_more(void) {
+    cost_fit f = {.cases = 9,
+                  .bound = {[COST_PLAIN] = 1.2, [COST_FAR] = 1.7},
+                  .largest = 1000.0,
+                  .is_parted = true};
+    double feature[COST_FEATURES] = {0.0};
+    f.figure[COST_F_SUMS] = f.figure[COST_F_PRODUCTS] = 2.0;
+    f.part[COST_F_SUMS] = f.part[COST_F_PRODUCTS] = 0.6;
+    for (int products = 0; products <= 10; products++) {
+        feature[COST_F_SUMS] = 10 - products;
+        feature[COST_F_PRODUCTS] = products;
+        const bool is_far = products < 4 || products > 6;
+        TEST_ASSERT_TRUE(cost_bound_at(&f, feature, 20.0) == (is_far ? 1.7 : 1.2));
+    }
+}
+
 void suite_cost(void) {
+    RUN_TEST(a_steps_own_arithmetic_is_counted);
+    RUN_TEST(what_rests_is_seen);
+    RUN_TEST(what_is_extrapolated_is_promised_within_more);
     RUN_TEST(prices_are_whole);
     RUN_TEST(more_stages_and_compensated_sums_are_never_cheaper);
     RUN_TEST(a_longer_row_costs_more);
