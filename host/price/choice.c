@@ -136,9 +136,13 @@ static void climb(trials *t, const choice_wish *w, choice *c, const setting *s, 
         if (row.pace.records > (uint64_t)t->records) {
             continue;
         }
+        const double started = t->operations;
         if (setting_price_varies(s)) {
             bool own;
             row.cost = trial_cost(t, s, row.pace, &own);
+            if (!own) {
+                continue; /* in fixed point a step may be too long */
+            }
         }
         judge(t, w, &row);
         if (c->found && c->has_second && !(row.worst < c->second.worst)) {
@@ -150,7 +154,6 @@ static void climb(trials *t, const choice_wish *w, choice *c, const setting *s, 
             break;
         }
         tried = true;
-        const double started = t->operations;
         row.result = trial_run(t, s, row.pace);
         if (!row.result.ran && !t->stopped && setting_price_varies(s)) {
             continue; /* the numbers of its matrix are too large */
@@ -192,7 +195,7 @@ choice choice_make(trials *t, const choice_wish *w) {
     for (int i = 0; i < count; i++) {
         const setting s = setting_at(i);
         bool own;
-        price[i] = trial_cost(t, &s, (deviation_pace){w->periods, 1}, &own);
+        price[i] = trial_any_cost(t, &s, (deviation_pace){w->periods, 1}, &own);
         priced[i] = own && is_known(&price[i].instructions_worst);
         c.settings += own ? 1 : 0;
         if (own && !priced[i]) {

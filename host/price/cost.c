@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cost_fixed.h"
 #include "cost_row.h"
 #include "host/image/core_rows.h"
 
@@ -131,6 +132,9 @@ static double state_bytes(const image *im, cost_number number) {
 }
 
 cost cost_of(const image *im, const cost_board *board, cost_number number) {
+    if (number == COST_FIXED) {
+        return cost_fixed_of(im, board);
+    }
     const cost_row *row = row_of(board, number);
     cost c = {.why = ""};
     if (im->contacts == 0) { /* what contacts keep is laid out by the board's compiler */
