@@ -171,8 +171,9 @@ static void add_motion(const image *im, cost_fixed_counts *c) {
 static cost_fixed_counts counts_of(const image *im) {
     const fixed_plan *p = im->fixed;
     cost_fixed_counts c = {.numbers = im->reals + im->inputs,
-                           .state_bytes = ((int)WH_FIXED_BYTES(im->angles, im->reals + im->inputs) + 7) /
-                                          8 * 8, /* the header's words */
+                           .state_bytes =
+                               ((int)WH_FIXED_BYTES(im->angles, im->reals + im->inputs) + 7) / 8 *
+                               8, /* the header's words */
                            .results = p->list->results};
     for (int i = 0; i < p->list->count; i++) {
         if (p->list->op[i].used) {

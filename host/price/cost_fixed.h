@@ -42,9 +42,9 @@ typedef struct cost_fixed_counts {
     int staged_rates;
     int components;
     int state_bytes;
-    int numbers;  /* of the state and inputs that have a format */
-    bool called;  /* the list is a function of its own */
-    bool one;     /* wave alone, which no board calls */
+    int numbers; /* of the state and inputs that have a format */
+    bool called; /* the list is a function of its own */
+    bool one;    /* wave alone, which no board calls */
 } cost_fixed_counts;
 
 /* A stage evaluates it; the code has it once, or at each stage. */

@@ -12,12 +12,11 @@ static char *line_of(const trials *t, const setting *s, deviation_pace pace, int
     char options[SETTING_TEXT];
     char step[TRIAL_TIME];
     char until[TRIAL_TIME];
-    return room_words("whirl %s %s%s%s%s%s --step %s --until %s%s", run ? "run" : "derive",
-                      words->target, words->changes,
-                      t->wish.source->name(t->wish.source->context, point),
-                      setting_options(s, run, options), run ? "" : setting_form(s),
-                      trial_time(trial_step(t, pace), step), trial_until(t, until),
-                      run ? "" : " --as c");
+    return room_words(
+        "whirl %s %s%s%s%s%s --step %s --until %s%s", run ? "run" : "derive", words->target,
+        words->changes, t->wish.source->name(t->wish.source->context, point),
+        setting_options(s, run, options), run ? "" : setting_form(s),
+        trial_time(trial_step(t, pace), step), trial_until(t, until), run ? "" : " --as c");
 }
 
 char *table_run_line(const trials *t, const setting *s, deviation_pace pace, int point,

@@ -289,9 +289,7 @@ double trial_operations(const trials *t, const setting *s, deviation_pace pace) 
 }
 
 static cost_number number_of(const setting *s) {
-    return setting_is_fixed(s)          ? COST_FIXED
-           : s->number == &engine_float ? COST_FLOAT
-                                        : COST_DOUBLE;
+    return setting_is_fixed(s) ? COST_FIXED : s->number == &engine_float ? COST_FLOAT : COST_DOUBLE;
 }
 
 cost trial_cost(trials *t, const setting *s, deviation_pace pace, bool *own) {

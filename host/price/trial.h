@@ -33,11 +33,11 @@ typedef struct trial_planned {
 
 typedef struct trials {
     trial_wish wish;
-    image **image;         /* [points] of the references */
-    reference **reference; /* [points] */
+    image **image;          /* [points] of the references */
+    reference **reference;  /* [points] */
     trial_planned *planned; /* [points] in fixed point: priced and to be run */
-    int worst;             /* the point whose reference ends first, or agrees least */
-    int records;           /* behind the start, that all references are trusted for */
+    int worst;              /* the point whose reference ends first, or agrees least */
+    int records;            /* behind the start, that all references are trusted for */
     deviation_of_what what;
     double
         tolerated; /* of one column: a run that is off by no more is of use, however small the values are */

@@ -136,9 +136,11 @@ static void read_rows(const char *path, bool checks) {
             fprintf(stderr, "price_fit_fixed: left out: %s %s\n", r->column[4], r->column[6]);
             continue;
         }
-        static const int columns[COST_QUANTITIES] = {
-            [COST_OF_INSTRUCTIONS] = 7, [COST_OF_CYCLES] = 9, [COST_OF_FLASH] = 12,
-            [COST_OF_RAM] = 13,         [COST_OF_STACK] = 14};
+        static const int columns[COST_QUANTITIES] = {[COST_OF_INSTRUCTIONS] = 7,
+                                                     [COST_OF_CYCLES] = 9,
+                                                     [COST_OF_FLASH] = 12,
+                                                     [COST_OF_RAM] = 13,
+                                                     [COST_OF_STACK] = 14};
         for (int q = 0; q < COST_QUANTITIES; q++) {
             r->value[q] = columns[q] > 0 ? strtod(r->column[columns[q]], NULL) : 0.0;
         }
@@ -242,7 +244,9 @@ static double judge(const cost_fixed_fit *f, const cost_board *board, int q) {
         fprintf(stderr, " %d |", n);
         for (int k = 0; k < 3 && n > 0; k++) {
             fprintf(stderr, " %.1f %% |",
-                    100.0 * off[half][k == 0 ? n / 2 : k == 1 ? n * 9 / 10 : n - 1]);
+                    100.0 * off[half][k == 0   ? n / 2
+                                      : k == 1 ? n * 9 / 10
+                                               : n - 1]);
         }
     }
     fprintf(stderr, " %.2f |\n", bound);
@@ -303,11 +307,14 @@ static void write_row(const cost_board *board) {
 }
 
 static void write_all(void) {
-    printf("/* cost_fixed_rows.h: what each class of work costs in fixed point, by board: fitted to counted steps and written "
-           "by\n * `make price-fit-fixed`. Do not edit. */\n/* clang-format off */\n#include \"cost_fixed.h\"\n\n"
-           "static const cost_fixed_row cost_fixed_rows[] = {\n");
-    fprintf(stderr, "| board | quantity | fitted | median | nine of ten | largest | not fitted | median | nine of ten | "
-                    "largest | bound |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
+    printf(
+        "/* cost_fixed_rows.h: what each class of work costs in fixed point, by board: fitted to counted steps and written "
+        "by\n * `make price-fit-fixed`. Do not edit. */\n/* clang-format off */\n#include \"cost_fixed.h\"\n\n"
+        "static const cost_fixed_row cost_fixed_rows[] = {\n");
+    fprintf(
+        stderr,
+        "| board | quantity | fitted | median | nine of ten | largest | not fitted | median | nine of ten | "
+        "largest | bound |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
     for (int b = 0; b < cost_board_count; b++) {
         write_row(&cost_boards[b]);
     }
@@ -324,10 +331,12 @@ static int check_all(void) {
     for (int n = 0; n < row_count; n++) {
         const counted_row *r = &rows[n];
         const cost *c = &r->predicted;
-        const cost_figure *const figures[COST_QUANTITIES] = {
-            [COST_OF_INSTRUCTIONS] = &c->instructions, [COST_OF_CYCLES] = &c->cycles,
-            [COST_OF_FLASH] = &c->flash_bytes,         [COST_OF_RAM] = &c->ram_bytes,
-            [COST_OF_STACK] = &c->stack_bytes};
+        const cost_figure *const figures[COST_QUANTITIES] = {[COST_OF_INSTRUCTIONS] =
+                                                                 &c->instructions,
+                                                             [COST_OF_CYCLES] = &c->cycles,
+                                                             [COST_OF_FLASH] = &c->flash_bytes,
+                                                             [COST_OF_RAM] = &c->ram_bytes,
+                                                             [COST_OF_STACK] = &c->stack_bytes};
         for (int q = 0; q < COST_QUANTITIES; q++) {
             const cost_figure *f = figures[q];
             if (f == NULL || f->basis != COST_PREDICTED || r->value[q] <= 0.0) {
@@ -339,9 +348,9 @@ static int check_all(void) {
             }
             if (r->value[q] < f->least || r->value[q] > f->most) {
                 beyond++;
-                printf("not within its bound: %s %s %s, %s: %g, promised %g to %g\n",
-                       r->column[3], r->column[4], r->column[6], quantity_words[q], r->value[q],
-                       f->least, f->most);
+                printf("not within its bound: %s %s %s, %s: %g, promised %g to %g\n", r->column[3],
+                       r->column[4], r->column[6], quantity_words[q], r->value[q], f->least,
+                       f->most);
             }
         }
     }
