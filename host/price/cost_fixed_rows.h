@@ -1,7 +1,7 @@
 /* cost_fixed_rows.h: what each class of work costs in fixed point, by board: fitted to counted steps and written by
  * `make price-fit-fixed`. Do not edit. */
 /* clang-format off */
-#include "cost_fixed.h"
+#include "cost_fixed_row.h"
 
 static const cost_fixed_row cost_fixed_rows[] = {
     {.board = "atmega328p",

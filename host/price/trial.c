@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cost_fixed.h"
 #include "host/base/nearest.h"
 #include "host/base/room.h"
 #include "host/fixed/fixed_plan.h"
@@ -288,8 +289,10 @@ double trial_operations(const trials *t, const setting *s, deviation_pace pace) 
     return runs * steps * each * wh_methods[s->image.method].stages * t->wish.source->points;
 }
 
-static cost_number number_of(const setting *s) {
-    return setting_is_fixed(s) ? COST_FIXED : s->number == &engine_float ? COST_FLOAT : COST_DOUBLE;
+static cost price_of(const trials *t, const setting *s, const image *im) {
+    const cost_number number = s->number == &engine_float ? COST_FLOAT : COST_DOUBLE;
+    return setting_is_fixed(s) ? cost_fixed_of(im, t->wish.board)
+                               : cost_of(im, t->wish.board, number);
 }
 
 cost trial_cost(trials *t, const setting *s, deviation_pace pace, bool *own) {
@@ -306,7 +309,7 @@ cost trial_cost(trials *t, const setting *s, deviation_pace pace, bool *own) {
             return (cost){.why = "there is no image of it"};
         }
         *own = *own && setting_is_own(s, im);
-        const cost c = *own ? cost_of(im, t->wish.board, number_of(s)) : (cost){.why = ""};
+        const cost c = *own ? price_of(t, s, im) : (cost){.why = ""};
         if (setting_is_fixed(s)) {
             keep(t, p, pace, im);
         } else {

@@ -4,7 +4,7 @@
  *     price_fit_fixed --check ROWS.csv               holds what the program predicts against rows that it was not fitted
  *                                                    to; exit status 1 where one is beyond its bound
  *
- * As fit.c does it for reals, with the features of host/price/cost_fixed.h: least squares of the relative error, no figure
+ * As fit.c does it for reals, with the features of host/price/cost_fixed_row.h: least squares of the relative error, no figure
  * below zero; scenes of one half, drawn by a hash of their names, are fitted, the others tell how far off it is. */
 #include <math.h>
 #include <stdio.h>
@@ -309,7 +309,7 @@ static void write_row(const cost_board *board) {
 static void write_all(void) {
     printf(
         "/* cost_fixed_rows.h: what each class of work costs in fixed point, by board: fitted to counted steps and written "
-        "by\n * `make price-fit-fixed`. Do not edit. */\n/* clang-format off */\n#include \"cost_fixed.h\"\n\n"
+        "by\n * `make price-fit-fixed`. Do not edit. */\n/* clang-format off */\n#include \"cost_fixed_row.h\"\n\n"
         "static const cost_fixed_row cost_fixed_rows[] = {\n");
     fprintf(
         stderr,
