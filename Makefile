@@ -192,6 +192,11 @@ price-rows: ## steps of hundreds of scenes counted on every board: build/cost/ro
 	@CC="$(CC)" mk/setup/deps.sh host firmware boards quality bench
 	@$(MAKE) price-rows-now
 
+.PHONY: price-rows-fixed
+price-rows-fixed: ## the same in fixed point, for price-fit-fixed: build/cost_fixed/rows.csv (a quarter of an hour)
+	@CC="$(CC)" mk/setup/deps.sh host firmware boards quality bench
+	@$(MAKE) price-rows-fixed-now
+
 .PHONY: worst-step
 worst-step: ## the most instructions of a step with events, over a million random steps a scene (minutes)
 	@CC="$(CC)" mk/setup/deps.sh host firmware bench

@@ -187,6 +187,9 @@ price-measure-host: build/whirl
 	    LIB_BOARD=$(LIB_FLOAT) PLUGIN= FLAGS="$(OPT)" EMULATE="@" mk/price/measure.sh $(PRICE_CASES) $(PRICE_CSV)
 
 PRICE_FIT_C := mk/price/fit.c mk/price/fit_check.c mk/price/counted.c
+$(B)/tools/price_fit_fixed: $(call objects,host,mk/price/fit_fixed.c) $(LIB_HOST) $(LIB_FLOAT) $(LIB_DOUBLE)
+	$(link)
+
 $(B)/tools/price_fit: $(call objects,host,$(PRICE_FIT_C)) $(LIB_HOST) $(LIB_FLOAT) $(LIB_DOUBLE)
 	$(link)
 
@@ -213,6 +216,23 @@ price-fit: build/tools/price_fit ## fit the figures that prices are predicted by
 	@cp $(PRICE_OUT)/cost_rows.h host/price/cost_rows.h
 	@mk/price/into_page.sh $(PRICE_OUT)/residuals.md docs/price.md cost
 	@cat $(PRICE_OUT)/residuals.md
+
+# The same of fixed point: its rows have figures of their own.
+FIXED_OUT := build/cost_fixed
+.PHONY: price-rows-fixed-now price-fit-fixed
+price-rows-fixed-now: build/whirl
+	@rm -rf $(FIXED_OUT) && mkdir -p $(FIXED_OUT)
+	@WHIRL=build/whirl sh mk/price/cases_fixed.sh $(FIXED_OUT) 1 160 >$(FIXED_OUT)/cases
+	+@for board in $(BOARDS_ALL); do \
+	    $(MAKE) BOARD=$$board NUMBERS=fixed PRICE_OUT=$(FIXED_OUT) price-measure-board || true; done
+	@wc -l <$(FIXED_OUT)/rows.csv
+
+price-fit-fixed: build/tools/price_fit_fixed ## the same of fixed point, from build/cost_fixed/rows.csv; host/price/cost_fixed_rows.h, docs/price.md
+	@build/tools/price_fit_fixed $(FIXED_OUT)/rows.csv >$(FIXED_OUT)/cost_fixed_rows.h 2>$(FIXED_OUT)/residuals
+	@grep '^|' $(FIXED_OUT)/residuals >$(FIXED_OUT)/residuals.md
+	@cp $(FIXED_OUT)/cost_fixed_rows.h host/price/cost_fixed_rows.h
+	@mk/price/into_page.sh $(FIXED_OUT)/residuals.md docs/price.md cost-fixed
+	@cat $(FIXED_OUT)/residuals.md
 
 # Scenes of another seed, which nothing was fitted to or judged by: PRICE_SEED, PRICE_CHECKED boards.
 PRICE_SEED ?= 5

@@ -39,7 +39,7 @@ run: base core image number plot
 emit: base image number
 fixed: base core emit image number run
 sweep: base core derive image lang number run
-price: base core image number plot run
+price: base core fixed image number plot run
 commands: base derive emit fixed image lang number plot price run show sweep
 '
 

@@ -2,6 +2,7 @@
  *
  *     fixed NAME FIRST LAST hash 0x... saturated N     intervals FIRST to LAST hold one step each
  *     stack NAME BYTES                                 deepest stack of the program during those steps
+ *     count NAME rk4 fixed FIRST LAST                  the intervals once more, as bench.c says them
  *
  * Interval 0 is around nothing. Built with FIXED_SCENE the scene's name, and its header included first. */
 #include "boards/board.h"
@@ -29,7 +30,7 @@ __attribute__((noinline)) void wh_count_begin(void) { __asm__ volatile("" : : "i
 __attribute__((noinline)) void wh_count_end(void) { __asm__ volatile("" : : "i"(2) : "memory"); }
 
 int main(void) {
-    char bytes[160];
+    char bytes[240];
     wh_text text;
     wh_fixed_state state;
     board_start();
@@ -61,6 +62,10 @@ int main(void) {
     wh_text_add(&text, FIXED_SCENE.name);
     wh_text_add_char(&text, ' ');
     wh_text_add_unsigned(&text, stack);
+    wh_text_add(&text, "\ncount ");
+    wh_text_add(&text, FIXED_SCENE.name);
+    wh_text_add(&text, " rk4 fixed 1 ");
+    wh_text_add_unsigned(&text, COUNTED_STEPS);
     wh_text_add_char(&text, '\n');
     hal_console_write(text.bytes, text.length);
     return 0;

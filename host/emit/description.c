@@ -48,8 +48,19 @@ static void put_unit(json *j, const image_unit *unit) {
     json_number(j, "unit_si", image_shows_si(unit) ? 1.0 : unit->scale / unit->divisor);
 }
 
+/* What it keeps to in fixed point, where that is declared. */
+static void put_range(json *j, const image_range *range) {
+    if (!range->declared) {
+        json_null(j, "range");
+        return;
+    }
+    json_open(j, "range", '[');
+    json_number(j, NULL, range->low);
+    json_number(j, NULL, range->high);
+    json_close(j, ']');
+}
+
 static void put_quantity(json *j, const image_quantity *q, int index, bool has_value) {
-    json_open(j, NULL, '{');
     json_whole(j, "index", index);
     json_text(j, "name", q->name);
     json_text(j, "text", q->text);
@@ -58,14 +69,26 @@ static void put_quantity(json *j, const image_quantity *q, int index, bool has_v
         json_number(j, "value", q->value);
     }
     put_place(j, q->at);
-    json_close(j, '}');
 }
 
 static void put_quantities(json *j, const char *key, const image_quantity *q, int count,
                            bool has_value) {
     json_open(j, key, '[');
     for (int i = 0; i < count; i++) {
+        json_open(j, NULL, '{');
         put_quantity(j, &q[i], i, has_value);
+        json_close(j, '}');
+    }
+    json_close(j, ']');
+}
+
+static void put_inputs(json *j, const image *im) {
+    json_open(j, "inputs", '[');
+    for (int i = 0; i < im->inputs; i++) {
+        json_open(j, NULL, '{');
+        put_quantity(j, &im->input[i], i, true);
+        put_range(j, &im->range[im->reals + i]);
+        json_close(j, '}');
     }
     json_close(j, ']');
 }
@@ -96,6 +119,7 @@ static void put_state(json *j, const image *im) {
         put_component(j, im, im->real[i], i);
         json_number(j, "start", im->start_real[i]);
         json_number(j, "start_float", (double)(float)im->start_real[i]);
+        put_range(j, &im->range[i]);
         json_close(j, '}');
     }
     json_close(j, ']');
@@ -104,7 +128,9 @@ static void put_state(json *j, const image *im) {
 static void put_outputs(json *j, const image *im) {
     json_open(j, "outputs", '[');
     for (int i = 0; i < im->own_outputs; i++) {
+        json_open(j, NULL, '{');
         put_quantity(j, &im->output[i], i, false);
+        json_close(j, '}');
     }
     for (int i = im->own_outputs; i < im->outputs; i++) { /* recovered from their momentum */
         const int k = i - im->own_outputs;
@@ -267,7 +293,7 @@ void describe_json(FILE *out, const image *im, const char *file) {
     put_effects(&j, im);
     put_quantities(&j, "parameters", im->parameter, im->parameters, true);
     put_state(&j, im);
-    put_quantities(&j, "inputs", im->input, im->inputs, true);
+    put_inputs(&j, im);
     put_outputs(&j, im);
     put_contacts(&j, im);
     put_ledger(&j, im);

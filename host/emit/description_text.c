@@ -79,6 +79,19 @@ static void put_ledger(FILE *out, const image *im) {
     }
 }
 
+/* Those that are declared: fixed point takes the others from a run. */
+static void put_ranges(FILE *out, const image *im) {
+    bool any = false;
+    for (int i = 0; i < im->reals + im->inputs; i++) {
+        const image_range *r = &im->range[i];
+        if (r->declared) {
+            fprintf(out, "%s  %-26s %.9g .. %.9g\n", any ? "" : "\nranges, SI, for fixed point\n",
+                    r->name, r->low, r->high);
+            any = true;
+        }
+    }
+}
+
 static void put_lists(FILE *out, const image *im) {
     fprintf(out, "\nlist       results   + - *     /  roots  waves  calls\n");
     for (int role = 0; role < IMAGE_ROLES; role++) {
@@ -120,6 +133,7 @@ void describe_text(FILE *out, const image *im, const char *file) {
     put_quantities(out, "outputs", "output", im->output, im->own_outputs, false);
     put_recovered(out, im);
     put_quantities(out, "parameters", "param ", im->parameter, im->parameters, true);
+    put_ranges(out, im);
     put_contacts(out, im);
     put_ledger(out, im);
     put_lists(out, im);

@@ -189,6 +189,12 @@ bool statement_unknown(parser *in, unsigned where) {
     }
     const token word = in->token;
     parser_next(in);
+    const statement_word *elsewhere = token_statement(&word);
+    if (elsewhere != NULL && elsewhere->stands == IN_SCENE && !parser_is_sign(in, '=')) {
+        snprintf(hint, sizeof hint, "in a scene: %s", elsewhere->form);
+        diag_error(in->diags, word.at, hint, "'%s' belongs into a scene", elsewhere->text);
+        return false;
+    }
     nearest search = nearest_start(word.text, word.length);
     for (int i = 0; i < STATEMENT_WORDS; i++) {
         const statement_word *each = word_row((word_id)i);

@@ -227,7 +227,8 @@ static void evaluate_ranges(plan *from, instance *made) {
     made->range = arena_alloc(made->arena, (size_t)count * sizeof *made->range);
     for (int i = 0; i < count; i++) {
         const range_statement *each = &made->scene->ranges[i];
-        snprintf(what, sizeof what, "the range of '%s'", each->symbol->name);
+        snprintf(what, sizeof what, "the range of '%s%.*s'", each->symbol->name, each->primes,
+                 "'''''''''");
         const double low = finite_value(each->low, &from->values, each->at, what);
         const double high = finite_value(each->high, &from->values, each->at, what);
         if (!(low < high)) {

@@ -147,9 +147,13 @@ static climb_end climb(trials *t, const choice_wish *w, choice *c, const setting
         if (row.pace.records > (uint64_t)t->records) {
             continue;
         }
+        const double started = t->operations;
         if (setting_price_varies(s)) {
             bool own;
             row.cost = trial_cost(t, s, row.pace, &own);
+            if (!own) {
+                continue; /* in fixed point a step may be too long */
+            }
         }
         judge(t, w, &row);
         if (c->found && c->has_second && !(row.worst < c->second.worst)) {
@@ -162,7 +166,6 @@ static climb_end climb(trials *t, const choice_wish *w, choice *c, const setting
             return tried ? CHOICE_LEFT_FINER : CHOICE_LEFT_WHOLE;
         }
         tried = true;
-        const double started = t->operations;
         row.result = trial_run(t, s, row.pace);
         if (!row.result.ran && !t->stopped && setting_price_varies(s)) {
             continue; /* the numbers of its matrix are too large */
@@ -221,7 +224,7 @@ choice choice_make(trials *t, const choice_wish *w) {
     for (int i = 0; i < count; i++) {
         const setting s = setting_at(i);
         bool own;
-        price[i] = trial_cost(t, &s, (deviation_pace){w->periods, 1}, &own);
+        price[i] = trial_any_cost(t, &s, (deviation_pace){w->periods, 1}, &own);
         priced[i] = own && is_known(&price[i].instructions_worst);
         c.settings += own ? 1 : 0;
         if (own && !priced[i]) {

@@ -125,6 +125,9 @@ static double state_bytes(const image *im, cost_number number) {
 }
 
 cost cost_of(const image *im, const cost_board *board, cost_number number) {
+    if (number == COST_FIXED) {
+        return (cost){.why = "steps in fixed point have prices of their own: cost_fixed_of()"};
+    }
     const cost_row *row = row_of(board, number);
     cost c = {.why = ""};
     if (im->contacts == 0) { /* what contacts keep is laid out by the board's compiler */

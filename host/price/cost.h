@@ -50,6 +50,7 @@ typedef struct cost {
     cost_figure state_bytes; /* of these RAM bytes, the scene's own: WH_MEMORY_BYTES */
 } cost;
 
+/* Of a step in fixed point: cost_fixed.h. */
 cost cost_of(const image *im, const cost_board *board, cost_number number);
 
 /* Columns of a measured row, and the row of measure_one.sh read: what it does not have (state_bytes) stays as it is. False where it is none, or of another board. */

@@ -6,7 +6,7 @@
 
 #define COST_BASIS_WORD(id, word, says) word,
 const char *const cost_basis_words[COST_BASES] = {COST_BASIS_ROWS(COST_BASIS_WORD)};
-const char *const cost_number_words[COST_NUMBERS] = {"float", "double"};
+const char *const cost_number_words[COST_NUMBERS] = {"float", "double", "fixed"};
 
 /* Cycles an instruction, where nobody counts them: the least is what a core that issues so many at once could reach, the
  * most twice to thrice what Arm's timing gives for such steps on a Cortex-M4 (1.2 to 1.7). */

@@ -23,8 +23,8 @@ enum { COST_BASES = COST_BASIS_ROWS(COST_BASIS_ONE) };
 extern const char *const cost_basis_words[COST_BASES];
 
 /* The number that a scene computes in. */
-typedef enum cost_number { COST_FLOAT, COST_DOUBLE, COST_NUMBERS } cost_number;
-extern const char *const cost_number_words[COST_NUMBERS]; /* "float", "double" */
+typedef enum cost_number { COST_FLOAT, COST_DOUBLE, COST_FIXED, COST_NUMBERS } cost_number;
+extern const char *const cost_number_words[COST_NUMBERS]; /* "float", "double", "fixed" */
 
 typedef struct cost_board {
     const char *name;  /* its folder of boards/, or "host" for this kind of machine (x86-64) */

@@ -51,7 +51,7 @@ deviation deviation_measure(const reference *r, const image *im, const engine_ki
         (double)evaluations * (double)im->list[matrix ? IMAGE_MATRIX : IMAGE_STEP]->count;
     const double time_s = ratio_times(kind->steps(run), im->step);
     d.evaluations = time_s > 0.0 ? (double)evaluations / time_s : 0.0;
-    d.usable = good;
+    d.usable = good && (kind->saturated == NULL || kind->saturated(run) == 0);
     kind->stop(run);
     records_close(now);
     return d;

@@ -18,7 +18,8 @@ typedef struct deviation_of_what {
 } deviation_of_what;
 
 typedef struct deviation {
-    bool usable;  /* it came to the end without being off by more than give_up */
+    bool
+        usable; /* it came to the end without being off by more than give_up, and nothing was held at an end of its range */
     double error; /* the largest of all records; where it is not usable, that of those it came to */
     int column;   /* where */
     double

@@ -55,9 +55,14 @@ static void climb(trials *t, table *made, const setting *s, const cost *each_ste
             continue;
         }
         bool known;
+        const double started = t->operations;
         if (setting_price_varies(s)) {
             bool own;
             row.cost = trial_cost(t, s, row.pace, &own);
+            if (!own) {
+                made->coarse++;
+                continue; /* in fixed point a step may be too long */
+            }
         }
         row.price = table_price_of(&row.cost, ratio_times(1, trial_step(t, row.pace)), &known);
         if (!known && !made->counted) {
@@ -65,7 +70,6 @@ static void climb(trials *t, table *made, const setting *s, const cost *each_ste
             made->why = row.cost.why;
             return;
         }
-        const double started = t->operations;
         row.result = trial_run(t, s, row.pace);
         if (!row.result.ran && !t->stopped && setting_price_varies(s)) {
             made->coarse++; /* the numbers of its matrix are too large */
@@ -121,7 +125,7 @@ table *table_new(trials *t, const table_wish *w) {
     int priced = 0;
     for (int i = 0; i < count && !t->stopped; i++) {
         const setting s = setting_at(i);
-        price[i] = trial_cost(t, &s, table_ladder(TABLE_COARSEST), &own[i]);
+        price[i] = trial_any_cost(t, &s, table_ladder(TABLE_COARSEST), &own[i]);
         made->settings += own[i] ? 1 : 0;
         bool known;
         (void)table_price_of(&price[i], 1.0, &known);

@@ -4,19 +4,23 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "host/fixed/engine_fixed.h"
 #include "host/image/turned.h"
 #include "host/run/start.h"
 
-/* Numbers: what computes, and whether sums carry their rounding along. */
+/* Numbers: what computes, and whether sums carry their rounding along. What C is to compute in is said where that is compiled,
+ * but of fixed point. */
 static const struct {
     const char *word;
     const char *run;    /* what `whirl run` is told besides */
     const char *derive; /* what both are told */
+    const char *form;   /* what `whirl derive` alone is told */
     const engine_kind *kind;
     bool compensated;
-} numbers[] = {{"float", " --number float", "", &engine_float, false},
-               {"float compensated", " --number float", " --compensated", &engine_float, true},
-               {"double", "", "", &engine_double, false}};
+} numbers[] = {{"float", " --number float", "", "", &engine_float, false},
+               {"float compensated", " --number float", " --compensated", "", &engine_float, true},
+               {"double", "", "", "", &engine_double, false},
+               {"fixed", " --number fixed", "", " --number fixed", &engine_fixed, false}};
 enum { NUMBERS = sizeof numbers / sizeof numbers[0] };
 
 static int number_of(const setting *s) {
@@ -122,9 +126,15 @@ static setting combination(int i) {
     return s;
 }
 
-/* Does each of its words say something? */
+bool setting_is_fixed(const setting *s) { return s->number == &engine_fixed; }
+
+/* Does each of its words say something? Fixed point knows one method, and one way to its sines (host/fixed). */
 static bool makes_sense(const setting *s) {
     const bool plain = s->image.angles == ANGLES_TURNED;
+    if (setting_is_fixed(s)) {
+        return s->image.method == WH_RK4 && plain && !has_matrix(s) &&
+               s->image.tables == TABLES_NONE;
+    }
     if (has_matrix(s)) {
         return s->image.method == WH_METHOD_DEFAULT && plain && s->image.tables == TABLES_NONE;
     }
@@ -153,7 +163,9 @@ bool setting_may_be_refused(const image_settings *s) {
     return s->matrix != MATRIX_NONE || s->tables != TABLES_NONE;
 }
 
-bool setting_price_varies(const setting *s) { return has_matrix(s); }
+bool setting_price_varies(const setting *s) { return has_matrix(s) || setting_is_fixed(s); }
+
+const char *setting_form(const setting *s) { return numbers[number_of(s)].form; }
 
 bool setting_is_own(const setting *s, const image *im) {
     diags *unsaid = diags_new();

@@ -27,7 +27,8 @@ const char *setting_heading(setting_axis axis);
 /* The word that a setting has on an axis. */
 const char *setting_word(const setting *s, setting_axis axis);
 
-/* All combinations that any scene takes: a matrix has neither method nor angles, and tables have no angles to turn. */
+/* All combinations that any scene takes: a matrix has neither method nor angles, and tables have no angles to turn; fixed point
+ * has one method and none of the others. */
 int setting_count(void);
 setting setting_at(int i); /* 0 <= i < setting_count() */
 
@@ -37,12 +38,16 @@ bool setting_may_be_refused(const image_settings *s);
 /* Is this setting another than those before it, for an image that was made with it? Not where its method does not take
  * the system, nor where its angles cannot turn, so that they are looked up by whatever word. */
 bool setting_is_own(const setting *s, const image *im);
-/* Is what a step takes another for another step? Entries of a matrix come and go with it. */
+/* In fixed point: a scene may have no such step, or none of this length (host/fixed). */
+bool setting_is_fixed(const setting *s);
+/* Is what a step takes another for another step? Entries of a matrix come and go with it, and so do shifts in fixed point. */
 bool setting_price_varies(const setting *s);
 
 /* Room for setting_options(). */
 enum { SETTING_TEXT = 160 };
 /* " --method rk4 --angles lookup": of `whirl derive`, or with the number those of `whirl run`. Returns text. */
 const char *setting_options(const setting *s, bool with_number, char text[SETTING_TEXT]);
+/* What else `whirl derive --as c` is told: " --number fixed", or "". */
+const char *setting_form(const setting *s);
 
 #endif

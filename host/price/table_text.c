@@ -12,12 +12,11 @@ static char *line_of(const trials *t, const setting *s, deviation_pace pace, int
     char options[SETTING_TEXT];
     char step[TRIAL_TIME];
     char until[TRIAL_TIME];
-    snprintf(until, sizeof until, "%.15g", trial_horizon_s(t));
-    return room_words("whirl %s %s%s%s%s --step %s --until %s%s", run ? "run" : "derive",
-                      words->target, words->changes,
-                      t->wish.source->name(t->wish.source->context, point),
-                      setting_options(s, run, options), trial_time(trial_step(t, pace), step),
-                      until, run ? "" : " --as c");
+    return room_words(
+        "whirl %s %s%s%s%s%s --step %s --until %s%s", run ? "run" : "derive", words->target,
+        words->changes, t->wish.source->name(t->wish.source->context, point),
+        setting_options(s, run, options), run ? "" : setting_form(s),
+        trial_time(trial_step(t, pace), step), trial_until(t, until), run ? "" : " --as c");
 }
 
 char *table_run_line(const trials *t, const setting *s, deviation_pace pace, int point,
@@ -34,10 +33,13 @@ char *table_measure_line(const trials *t, const setting *s, deviation_pace pace,
                          const table_words *words) {
     char options[SETTING_TEXT];
     char step[TRIAL_TIME];
-    return room_words("sh mk/price/measure_one.sh %s %s %s%s%s%s --step %s", t->wish.board->name,
-                      s->number->name, words->target, words->changes,
+    char until[TRIAL_TIME];
+    const bool ranged = setting_is_fixed(s); /* which are those to the end */
+    return room_words("sh mk/price/measure_one.sh %s %s %s%s%s%s --step %s%s%s",
+                      t->wish.board->name, s->number->name, words->target, words->changes,
                       t->wish.source->name(t->wish.source->context, point),
-                      setting_options(s, false, options), trial_time(trial_step(t, pace), step));
+                      setting_options(s, false, options), trial_time(trial_step(t, pace), step),
+                      ranged ? " --until " : "", ranged ? trial_until(t, until) : "");
 }
 
 static void print_row(FILE *out, const trials *t, const table_row *row) {

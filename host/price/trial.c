@@ -5,8 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cost_fixed.h"
 #include "host/base/nearest.h"
 #include "host/base/room.h"
+#include "host/fixed/fixed_plan.h"
 #include "host/number/decimal.h"
 #include "host/number/functions.h"
 
@@ -14,6 +16,8 @@
 #define REFERENCE_OPERATIONS 6e8
 /* A run that is off by more than this part of the largest value is of no use. */
 #define USABLE 1.0
+/* A scene that has no step in fixed point is asked for one a tenth as long, so many times. */
+enum { FINER_MOST = 3 };
 
 const char *trial_time(whole_ratio time, char text[TRIAL_TIME]) {
     const double value = ratio_times(1, time);
@@ -140,7 +144,8 @@ bool trial_begin(trials *t, const trial_wish *w) {
     const setting plain = {IMAGE_SETTINGS_DEFAULT, &engine_double};
     *t = (trials){.wish = *w,
                   .image = room(points, sizeof(image *)),
-                  .reference = room(points, sizeof(reference *))};
+                  .reference = room(points, sizeof(reference *)),
+                  .planned = room(points, sizeof(trial_planned))};
     for (int p = 0; p < points; p++) {
         t->image[p] = w->source->make(w->source->context, p, &plain, NULL, NULL);
         if (t->image[p] == NULL) {
@@ -161,25 +166,78 @@ bool trial_begin(trials *t, const trial_wish *w) {
     return true;
 }
 
+/* --- images ----------------------------------------------------------------------------------------*/
+
+const char *trial_until(const trials *t, char text[TRIAL_TIME]) {
+    snprintf(text, TRIAL_TIME, "%.15g", trial_horizon_s(t));
+    return text;
+}
+
+/* Of an image and its step in fixed point, if it has one. */
+static void drop(image *im) {
+    if (im != NULL) {
+        fixed_plan_free((fixed_plan *)(uintptr_t)im->fixed);
+        image_free(im);
+    }
+}
+
+/* Its step in fixed point; NULL, and no image, where it has none. What ranges are not declared, a run in double tells to the
+ * end that command lines are given: it is counted among what was evaluated. */
+static image *in_fixed_point(trials *t, image *im) {
+    diags *unsaid = diags_new();
+    im->fixed = fixed_plan_make(im, unsaid);
+    diags_free(unsaid);
+    t->operations += (double)im->steps * (double)im->list[IMAGE_STEP]->count *
+                     wh_methods[im->settings.method].stages;
+    if (im->fixed == NULL) {
+        drop(im);
+        return NULL;
+    }
+    return im;
+}
+
+/* In fixed point an image is asked for its price first, and then run: it is kept between the two. */
+static image *kept(trials *t, int point, deviation_pace pace) {
+    trial_planned *k = &t->planned[point];
+    image *im = k->pace.steps == pace.steps && k->pace.records == pace.records ? k->image : NULL;
+    k->image = im != NULL ? NULL : k->image;
+    return im;
+}
+
+static void keep(trials *t, int point, deviation_pace pace, image *im) {
+    drop(t->planned[point].image);
+    t->planned[point] = (trial_planned){im, pace};
+}
+
+static image *image_of(trials *t, int point, const setting *s, deviation_pace pace) {
+    char step[TRIAL_TIME];
+    char until[TRIAL_TIME];
+    trial_time(trial_step(t, pace), step);
+    if (!setting_is_fixed(s)) {
+        const whole_ratio spacing = t->wish.spacing;
+        snprintf(until, sizeof until, "%.17g", ratio_times((uint64_t)t->wish.records, spacing));
+        return t->wish.source->make(t->wish.source->context, point, s, step, until);
+    }
+    image *im = kept(t, point, pace);
+    if (im == NULL) {
+        im = t->wish.source->make(t->wish.source->context, point, s, step, trial_until(t, until));
+        im = im != NULL ? in_fixed_point(t, im) : NULL;
+    }
+    return im;
+}
+
 void trial_end(trials *t) {
     for (int p = 0; t->image != NULL && p < t->wish.source->points; p++) {
         reference_free(t->reference[p]);
         image_free(t->image[p]);
+        drop(t->planned[p].image);
     }
     free(t->reference);
     free(t->image);
+    free(t->planned);
 }
 
 /* --- trials ----------------------------------------------------------------------------------------*/
-
-static image *image_of(const trials *t, int point, const setting *s, deviation_pace pace) {
-    char step[TRIAL_TIME];
-    char until[TRIAL_TIME];
-    const whole_ratio spacing = t->wish.spacing;
-    trial_time(trial_step(t, pace), step);
-    snprintf(until, sizeof until, "%.17g", ratio_times((uint64_t)t->wish.records, spacing));
-    return t->wish.source->make(t->wish.source->context, point, s, step, until);
-}
 
 static void enter(const trials *t, int point, const deviation *d, trial_result *worst) {
     const bool bound = d->error < 3.0 * d->known;
@@ -210,7 +268,7 @@ trial_result trial_run(trials *t, const setting *s, deviation_pace pace) {
         }
         const deviation d =
             deviation_measure(t->reference[p], im, s->number, pace, what, t->wish.stop);
-        image_free(im);
+        drop(im);
         t->operations += d.operations;
         if (t->wish.stop != NULL && *t->wish.stop) {
             t->stopped = true;
@@ -227,29 +285,52 @@ trial_result trial_run(trials *t, const setting *s, deviation_pace pace) {
 double trial_operations(const trials *t, const setting *s, deviation_pace pace) {
     const double steps = (double)t->records * (double)pace.steps / (double)pace.records;
     const double each = (double)t->image[0]->list[IMAGE_STEP]->count + 1.0;
-    return steps * each * wh_methods[s->image.method].stages * t->wish.source->points;
+    const double runs = setting_is_fixed(s) ? 2.0 : 1.0; /* one for the ranges */
+    return runs * steps * each * wh_methods[s->image.method].stages * t->wish.source->points;
+}
+
+static cost price_of(const trials *t, const setting *s, const image *im) {
+    const cost_number number = s->number == &engine_float ? COST_FLOAT : COST_DOUBLE;
+    return setting_is_fixed(s) ? cost_fixed_of(im, t->wish.board)
+                               : cost_of(im, t->wish.board, number);
 }
 
 cost trial_cost(trials *t, const setting *s, deviation_pace pace, bool *own) {
     cost dearest = {0};
-    const cost_number number = s->number == &engine_float ? COST_FLOAT : COST_DOUBLE;
     *own = true;
     for (int p = 0; p < t->wish.source->points; p++) {
         image *im = image_of(t, p, s, pace);
-        if (im == NULL &&
-            setting_price_varies(s)) { /* a step that long has no matrix: its own may */
+        if (im == NULL && setting_price_varies(s) &&
+            !setting_is_fixed(s)) { /* a step that long has no matrix: its own may */
             im = t->wish.source->make(t->wish.source->context, p, s, NULL, NULL);
         }
         if (im == NULL) {
-            *own = !setting_may_be_refused(&s->image);
+            *own = !setting_may_be_refused(&s->image) && !setting_is_fixed(s);
             return (cost){.why = "there is no image of it"};
         }
         *own = *own && setting_is_own(s, im);
-        const cost c = *own ? cost_of(im, t->wish.board, number) : (cost){.why = ""};
-        image_free(im);
+        const cost c = *own ? price_of(t, s, im) : (cost){.why = ""};
+        if (setting_is_fixed(s)) {
+            keep(t, p, pace, im);
+        } else {
+            drop(im);
+        }
         if (p == 0 || c.instructions_worst.most > dearest.instructions_worst.most) {
             dearest = c;
         }
     }
     return dearest;
+}
+
+cost trial_any_cost(trials *t, const setting *s, deviation_pace pace, bool *own) {
+    cost c = trial_cost(t, s, pace, own);
+    for (int i = 0; i < FINER_MOST && setting_is_fixed(s) && !*own; i++) {
+        if (pace.records % 10U == 0) {
+            pace.records /= 10U;
+        } else {
+            pace.steps *= 10U;
+        }
+        c = trial_cost(t, s, pace, own);
+    }
+    return c;
 }

@@ -26,12 +26,18 @@ typedef struct trial_wish {
     const volatile sig_atomic_t *stop;
 } trial_wish;
 
+typedef struct trial_planned {
+    image *image;
+    deviation_pace pace;
+} trial_planned;
+
 typedef struct trials {
     trial_wish wish;
-    image **image;         /* [points] of the references */
-    reference **reference; /* [points] */
-    int worst;             /* the point whose reference ends first, or agrees least */
-    int records;           /* behind the start, that all references are trusted for */
+    image **image;          /* [points] of the references */
+    reference **reference;  /* [points] */
+    trial_planned *planned; /* [points] in fixed point: priced and to be run */
+    int worst;              /* the point whose reference ends first, or agrees least */
+    int records;            /* behind the start, that all references are trusted for */
     deviation_of_what what;
     double
         tolerated; /* of one column: a run that is off by no more is of use, however small the values are */
@@ -64,6 +70,8 @@ double trial_operations(const trials *t, const setting *s, deviation_pace pace);
 /* What it costs at the dearest of the points; *own: false where it is no setting of its own (setting_is_own()), or the
  * scene does not take it. */
 cost trial_cost(trials *t, const setting *s, deviation_pace pace, bool *own);
+/* The same where a scene may take the setting by finer steps alone, as in fixed point: by the first that it takes. */
+cost trial_any_cost(trials *t, const setting *s, deviation_pace pace, bool *own);
 
 whole_ratio trial_step(const trials *t, deviation_pace pace);
 double trial_horizon_s(const trials *t);
@@ -78,5 +86,7 @@ const char *trial_column(const trials *t, int column, char text[TRIAL_NAME]);
 /* A time as --step and --until take it: seconds in as few digits as bring back the same fraction. Returns text. */
 enum { TRIAL_TIME = 40 };
 const char *trial_time(whole_ratio time, char text[TRIAL_TIME]);
+/* The end of the motion that is looked at, as --until takes it: ranges in fixed point are those to there. Returns text. */
+const char *trial_until(const trials *t, char text[TRIAL_TIME]);
 
 #endif

@@ -19,7 +19,7 @@ FNR == 1 {
 
 {
     own = setting_of(field("run"))
-    sub(/ --number float/, "", own)
+    sub(/ --number (float|fixed)/, "", own)
     sub(/ --compensated/, "", own)
     if (own != "--method " field("method") || index(" " methods " ", " " field("method") " ") == 0) { next }
     # by rising price

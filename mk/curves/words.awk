@@ -43,10 +43,12 @@ function option_of(run, option) {
 # The number that a setting computes in: what measure_one.sh calls it.
 function number_of(run) { return run ~ / --number / ? option_of(run, "--number") : "double" }
 
-# The options that `whirl derive` is given, with the step: no number, no end.
-function derive_options(run,    step) {
+# The options that `whirl derive` is given, with the step: no number, no end, but in fixed point, whose ranges are those of the
+# motion to there.
+function derive_options(run,    step, end) {
     step = option_of(run, "--step")
+    end = number_of(run) == "fixed" ? " --until " option_of(run, "--until") : ""
     run = setting_of(run)
     sub(/ ?--number [^ ]*/, "", run)
-    return run " --step " step
+    return run " --step " step end
 }

@@ -3,7 +3,7 @@
 # call it with what TO_PRICE of mk/price.mk says (BOARD, its compiler, flags, objects and emulator), and
 #
 #   OUT      a folder to work in; generated C is kept there for the next board
-#   NUMBERS  "float", "double" or both; LIB_BOARD is the core's library in float. Default: float
+#   NUMBERS  some of "float", "double", "fixed"; LIB_BOARD is the core's library in float. Default: float
 #   STEPS    counted steps of each. Default: 50
 #   WORST    random steps of a scene with contacts (boards/programs/worst.c), whose longest one is told as the most, in
 #            QEMU; 0: the most is that of STEPS steps. Default: 5000
@@ -38,6 +38,10 @@ if [ "$1" = case ]; then
     shift 3
     gen=$OUT/gen/$id
     mine=$OUT/$BOARD/$number/$id
+    if [ "$number" = fixed ]; then
+        gen=$OUT/gen_fixed/$id
+        set -- --number fixed "$@"
+    fi
     if [ ! -s "$gen.h" ]; then
         "$WHIRL" derive "$target" --as c --name "$id" --header "$gen.h" "$@" >"$gen.c" 2>"$gen.errors" || {
             rm -f "$gen.h"
@@ -45,9 +49,11 @@ if [ "$1" = case ]; then
             exit 0
         }
     fi
-    [ "$number" = float ] || BOARD_CFLAGS="$BOARD_CFLAGS -DWH_DOUBLE=1"
+    [ "$number" != double ] || BOARD_CFLAGS="$BOARD_CFLAGS -DWH_DOUBLE=1"
     lib=$LIB_BOARD
-    [ "$number" = float ] || lib=$OUT/$BOARD/double/libwhirl.a
+    [ "$number" != double ] || lib=$OUT/$BOARD/double/libwhirl.a
+    smallest="-DPRICE_SCENE=$id boards/programs/size.c"
+    [ "$number" != fixed ] || smallest="-DFIXED_SCENE=$id boards/programs/size_fixed.c"
     # shellcheck disable=SC2086
     if ! $BOARD_CC $BOARD_CFLAGS -w -c "$gen.c" -o "$mine.o" 2>"$mine.errors"; then # a table larger than an array may be
         echo "measure.sh: $target $*: $BOARD's compiler refuses it: $(grep -m 1 error "$mine.errors")" >&2
@@ -56,7 +62,7 @@ if [ "$1" = case ]; then
     fi
     # shellcheck disable=SC2086
     {
-        $BOARD_CC $BOARD_CFLAGS -w "-DPRICE_SCENE=$id" -include "$gen.h" -c boards/programs/size.c -o "$mine.image.o"
+        $BOARD_CC $BOARD_CFLAGS -w -include "$gen.h" -c $smallest -o "$mine.image.o"
         if $BOARD_CC $BOARD_LDFLAGS -o "$mine.elf" "$mine.image.o" "$mine.o" $BOARD_OBJECTS "$lib" "$LIB_BOARD" $BOARD_LDLIBS \
             2>"$mine.errors"; then
             "$BOARD_SIZE" -A "$mine.elf" | awk -v id="$id" '
@@ -76,7 +82,7 @@ cases=$1
 csv=$2
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-mkdir -p "$OUT/gen"
+mkdir -p "$OUT/gen" "$OUT/gen_fixed"
 
 # core_in_double: the core's library once more
 core_in_double() {
@@ -116,15 +122,21 @@ bench() {
     *host) ;;
     $BOARD) one="-include $OUT/gen/$1.h -DWH_SCENE_WORDS=$1_MEMORY_WORDS -DBENCH_SMALL=1" ;;
     esac
+    program=bench
     "$here/../count/index.sh" "$@" >"$mine/scenes.c"
+    if [ "$number" = fixed ]; then
+        program=fixed
+        one="-include $OUT/gen_fixed/$1.h -DFIXED_SCENE=$1"
+        echo "typedef int none;" >"$mine/scenes.c"
+    fi
     objects=
     for id in "$@"; do objects="$objects $mine/$id.o"; done
-    for file in boards/programs/bench.c "$mine/scenes.c"; do
+    for file in boards/programs/$program.c "$mine/scenes.c"; do
         # shellcheck disable=SC2086
         $BOARD_CC $flags -w "-I$OUT/gen" "-DCOUNTED_STEPS=${STEPS}U" $one -c "$file" -o "$mine/$(basename "$file" .c)_.o"
     done
     # shellcheck disable=SC2086
-    if ! $BOARD_CC $BOARD_LDFLAGS -o "$elf" "$mine/bench_.o" "$mine/scenes_.o" $objects $BOARD_OBJECTS "$lib" "$LIB_BOARD" $BOARD_LDLIBS 2>"$mine/errors"; then
+    if ! $BOARD_CC $BOARD_LDFLAGS -o "$elf" "$mine/${program}_.o" "$mine/scenes_.o" $objects $BOARD_OBJECTS "$lib" "$LIB_BOARD" $BOARD_LDLIBS 2>"$mine/errors"; then
         echo "measure.sh: $*: the program that counts does not fit into $BOARD: $(head -n 1 "$mine/errors")" >&2
         return 0
     fi
@@ -196,13 +208,14 @@ for number in $NUMBERS; do
     ids=$(awk 'NF > 1 { print $1 }' "$cases" | while read -r id; do [ ! -s "$mine/$id.bytes" ] || [ ! -s "$mine/$id.o" ] || echo "$id"; done)
     each=60
     [ -n "${PLUGIN:-}" ] || [ "$BOARD" = host ] || each=1
+    [ "$number" != fixed ] || each=1
     echo "$ids" | xargs -n "$each" >"$work/groups"
     while read -r group; do
         # shellcheck disable=SC2086
         [ -z "$group" ] || bench $group </dev/null
     done <"$work/groups"
     for id in $ids; do
-        ! grep -q "${id}_CONTACTS = [1-9]" "$OUT/gen/$id.h" || echo "$id"
+        [ "$number" = fixed ] || ! grep -q "${id}_CONTACTS = [1-9]" "$OUT/gen/$id.h" || echo "$id"
     done >"$work/eventful"
     if [ -n "${PLUGIN:-}" ] && [ "$WORST" -gt 0 ]; then
         xargs -n 60 <"$work/eventful" >"$work/groups"

@@ -1,7 +1,7 @@
 #!/bin/sh
 # measure_one.sh BOARD NUMBER FILE[:SCENE] [OPTIONS OF whirl derive...]: what a step of one scene costs, counted.
 #
-# From the tree's root. BOARD is a folder of boards/, or `host`; NUMBER is float or double. Builds what is missing of the
+# From the tree's root. BOARD is a folder of boards/, or `host`; NUMBER is float, double or fixed. Builds what is missing of the
 # board's core, and prints the header and one row of host/price/cost.h (COST_HEADER). Exit status 2: words are wrong or a
 # tool is missing; 1: the scene cannot be derived, does not fit or does not run.
 set -eu
@@ -13,7 +13,10 @@ board=$1 number=$2
 shift 2
 case $number in
 float | double) ;;
-*) echo "measure_one.sh: error: number $number: float or double" >&2 && exit 2 ;;
+fixed)
+    [ "$board" != host ] || { echo "measure_one.sh: error: number fixed is counted on boards, not on host" >&2 && exit 2; }
+    ;;
+*) echo "measure_one.sh: error: number $number: float, double or fixed" >&2 && exit 2 ;;
 esac
 if [ "$board" != host ] && [ ! -f "boards/$board/board.mk" ]; then
     echo "measure_one.sh: error: there is no boards/$board (from the tree's root?)" >&2

@@ -172,6 +172,8 @@ refuse() { # refuse WORDS TARGET OPTION...
     verdict $? "refused: $words"
 }
 refuse "there are no events in fixed point" carriage_stop
+sed "s/x' = -300 .. 300/x' = 300 .. -300/" "$scratch/w/cart.whirl" >"$scratch/w/empty.whirl"
+refuse "the range of 'x'' holds nothing: from 0.3 to -0.3" "$scratch/w/empty.whirl:cart_narrow"
 refuse "keeps a ledger" two_mass_relative --with ledger
 refuse "knows --method rk4 only, not heun" two_mass_relative --method heun
 refuse "are not compensated" two_mass_relative --compensated

@@ -60,7 +60,7 @@ again() {
         rows=$((rows + 1))
         # shellcheck disable=SC2086 # words of a command line without quotes
         "$whirl" ${line#whirl } --csv - --quiet 2>/dev/null | tr -d '\r' | awk -F, -v name="$column" -v each="$spacing" \
-            -v step="$step" -v wanted="$error" -v digits="$(case $line in *float*) echo 6e-9 ;; *) echo 3e-15 ;; esac)" '
+            -v step="$step" -v wanted="$error" -v digits="$(case $line in *float* | *fixed*) echo 6e-9 ;; *) echo 3e-15 ;; esac)" '
             function abs(v) { return v < 0 ? -v : v }
             NR == 1 { for (i = 1; i <= NF; i++) { if ($i == name) { at = i } } next }
             { t = $1; n = t / (step > each ? step : each); if (abs(n - int(n + 0.5)) > 1e-6) { next }
@@ -104,6 +104,14 @@ only='--tables cubic'
 again "$scratch/pendulum.whirl" energy '2 - 8 * cos(1)' --of energy
 scale=1
 every=1
+only='--number fixed'
+scale=3
+again "$scratch/decay.whirl" y '3 * exp(-2 * t)' --of y --board mps2-an385-m0
+scale=30
+again "$scratch/pendulum.whirl" energy '2 - 8 * cos(1)' --of energy --board mps2-an385
+awk -F, 'NR > 1 && /--number fixed/ { n++; on += $1; line[n] = $0 } END { exit !(n >= 5 && on >= 3) }' "$scratch/rows.csv"
+verdict $? "without an FPU, fixed point is on the front" "$scratch/rows.csv"
+scale=1
 only='--matrix exact'
 again "$scratch/spring.whirl" x 'cos(8 * t)' --of x
 # The exact matrix errs by rounding alone, by any step: nothing that errs by less than 1e-6 is as cheap. (Rows stand by price.)
@@ -112,6 +120,23 @@ verdict $? "the cheapest that is near a linear scene is the exact matrix" "$scra
 only='--matrix rk4'
 again "$scratch/decay.whirl" y '3 * exp(-2 * t)' --of y
 # What a scene does not take is no setting of it, and nothing is said of it.
+cat >"$scratch/root.whirl" <<'END'
+mechanism root "a square root has no fixed-point form"
+coordinate x [m]
+T = 1 [kg]*x'^2/2
+V = 9 [N]*sqrt(x^2 + 1 [m^2])
+scene root_swings { start x = 1 [m]; step 1 [ms]; until 2 [s] }
+END
+for scene in "$scratch/root.whirl" ball_bounces; do
+    "$whirl" price "$scene" --effort 0.002 --board mps2-an385-m0 --csv "$scratch/p.csv" >"$scratch/out" 2>"$scratch/err"
+    [ $? -eq 0 ] && ! grep -q -e '--number fixed' "$scratch/p.csv" && ! grep -q 'error:' "$scratch/err"
+    verdict $? "$scene has no step in fixed point, which is no error" "$scratch/err"
+done
+# Ranges that it leaves are no motion to be believed: no row.
+sed "s/until 2/range a' = -1 .. 2 [rad\/s]; until 2/" "$scratch/pendulum.whirl" >"$scratch/narrow.whirl"
+"$whirl" price "$scratch/narrow.whirl" --effort 0.002 --board mps2-an385-m0 --csv "$scratch/p.csv" >"$scratch/out" 2>"$scratch/err"
+[ $? -eq 0 ] && ! grep -q -e '--number fixed' "$scratch/p.csv" && ! grep -q 'error:' "$scratch/err"
+verdict $? "nor where its declared ranges are too small" "$scratch/p.csv"
 "$whirl" price "$scratch/pendulum.whirl" --effort 0.002 --csv "$scratch/p.csv" >"$scratch/out" 2>"$scratch/err"
 [ $? -eq 0 ] && ! grep -q -e '--matrix' "$scratch/p.csv" && ! grep -q 'error:' "$scratch/err"
 verdict $? "a pendulum has no matrix, which is no error" "$scratch/err"

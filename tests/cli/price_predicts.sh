@@ -55,10 +55,29 @@ awk -F, 'BEGIN { OFS = "," } $1 != "commit" { $8 = $8 / 2 } { print }' "$scratch
 ! "$fit" --check "$scratch/cost/halved.csv" >"$scratch/told" 2>&1 && grep -q 'not within its bound' "$scratch/told"
 verdict $? "half of a count would be seen" "$scratch/told"
 
+# The same of fixed point, which has figures and features of its own.
+mkdir -p "$scratch/fixed"
+fit_fixed=$(dirname "$whirl")/tools/price_fit_fixed
+WHIRL=$whirl sh mk/price/cases_fixed.sh "$scratch/fixed" 78 18 >"$scratch/fixed/cases"
+cases=$(wc -l <"$scratch/fixed/cases")
+make -s B=build BOARD=mps2-an386 price-measure-board NUMBERS=fixed PRICE_OUT="$scratch/fixed" STEPS=20 >"$scratch/err" 2>&1
+[ "$cases" -ge 8 ] && [ "$(grep -c ',mps2-an386,.*,fixed,' "$scratch/fixed/rows.csv")" -eq "$cases" ]
+verdict $? "steps in fixed point of $cases scenes counted on the emulated board"
+"$fit_fixed" --check "$scratch/fixed/rows.csv" >"$scratch/told" 2>&1
+verdict $? "instructions, cycles, flash, RAM and stack within their bounds" "$scratch/told"
+awk '/^instructions:/ { found = $2; off = $4 } END { exit !(found >= 8 && off <= 10) }' "$scratch/told"
+verdict $? "the middle one's instructions within 10 %" "$scratch/told"
+awk -F, 'BEGIN { OFS = "," } $1 != "commit" { $8 = $8 / 3 } { print }' "$scratch/fixed/rows.csv" >"$scratch/fixed/third.csv"
+! "$fit_fixed" --check "$scratch/fixed/third.csv" >"$scratch/told" 2>&1 && grep -q 'not within its bound' "$scratch/told"
+verdict $? "a third of a count would be seen" "$scratch/told"
+
 # A user's own file and option, by the one command.
 sh mk/price/measure_one.sh mps2-an386 float "$scratch/cost/drawn.whirl:r77_2" --compensated >"$scratch/row" 2>"$scratch/err" &&
     [ "$(awk -F, 'END { print NR, $4, $6, $7, ($8 > 50) }' "$scratch/row")" = "2 mps2-an386 float rk4-compensated 1" ]
 verdict $? "measure_one.sh measures a file's scene"
+sh mk/price/measure_one.sh mps2-an386 fixed "$(awk 'NR == 1 { print $2 }' "$scratch/fixed/cases")" --until 1s >"$scratch/row" 2>"$scratch/err" &&
+    [ "$(awk -F, 'END { print NR, $4, $6, $7, ($8 > 50), ($15 > 50) }' "$scratch/row")" = "2 mps2-an386 fixed rk4-until:1s 1 1" ]
+verdict $? "and in fixed point"
 sh mk/price/measure_one.sh nowhere float thomson_a >"$scratch/out" 2>"$scratch/err"
 [ $? -eq 2 ] && grep -q 'there is no boards/nowhere' "$scratch/err"
 verdict $? "and refuses a board that there is not"

@@ -13,7 +13,7 @@
 
 void suite_cost(void);
 
-static const cost_number numbers[] = {COST_FLOAT, COST_DOUBLE};
+static const cost_number numbers[] = {COST_FLOAT, COST_DOUBLE, COST_FIXED};
 
 /* A figure holds together: nothing that is not known has a number, and no best number stands outside its bounds. */
 static void expect_whole(const cost_figure *f, const char *what) {

@@ -97,6 +97,43 @@ static void test_every_scene_is_described(void) {
     TEST_ASSERT_TRUE(each_builtin_scene(check_scene) > 60);
 }
 
+/* Declared ranges in SI, whatever unit and order they were declared in; of all others null. */
+static void test_ranges_are_described(void) {
+    static const char text[] =
+        "mechanism m\ncoordinate a [rad]\ncoordinate x [m]\nparameter p = 3 [m]\n"
+        "input push = 1 [N]\ninput pull = 1 [N]\n"
+        "T = 1 [kg*m^2]*a'^2/2 + 2 [kg]*x'^2/2\nQ(x) = push - pull\n"
+        "scene s { range pull = -2 .. 4 [kN], x = -p/2 .. p, a' = 1 .. 2 [rad/s]; until 1 [s] }\n";
+    derived d = derived_scene(text, "s");
+    derived_expect(&d, text);
+    char *json = described(d.image);
+    expect_valid(json, text);
+    for (int i = 0; i < d.image->reals + d.image->inputs; i++) {
+        static const struct {
+            const char *name;
+            double low, high;
+        } declared[] = {{"pull", -2000.0, 4000.0}, {"x", -1.5, 3.0}, {"a'", 1.0, 2.0}};
+        const bool is_input = i >= d.image->reals;
+        const char *list = is_input ? "inputs" : "reals";
+        const int index = is_input ? i - d.image->reals : i;
+        int found = -1;
+        char path[80];
+        for (int k = 0; k < 3; k++) {
+            found = strcmp(declared[k].name, d.image->range[i].name) == 0 ? k : found;
+        }
+        snprintf(path, sizeof path, "%s/%d/range", list, index);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(found < 0 ? -1 : 2, json_length(json, path), path);
+        if (found >= 0) {
+            snprintf(path, sizeof path, "%s/%d/range/0", list, index);
+            expect_number(json, path, declared[found].low);
+            snprintf(path, sizeof path, "%s/%d/range/1", list, index);
+            expect_number(json, path, declared[found].high);
+        }
+    }
+    free(json);
+    derived_free(&d);
+}
+
 /* Quotes and backslashes cannot stand in a description of the language; everything else can, malformed bytes too. */
 static void test_any_text_is_described(void) {
     static const char before[] = "mechanism m \"a \t \\ ";
@@ -207,5 +244,6 @@ void suite_describe(void) {
     RUN_TEST(test_every_field_is_documented);
     RUN_TEST(test_the_checker_is_strict);
     RUN_TEST(test_every_scene_is_described);
+    RUN_TEST(test_ranges_are_described);
     RUN_TEST(test_any_text_is_described);
 }
