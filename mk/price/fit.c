@@ -15,7 +15,7 @@
 
 #include "counted.h"
 
-enum { SWEEPS = 1500, ROUNDS = 6, TESTED_LEAST = 8, WIDTH = 150, BOARDS_MAX = 32 };
+enum { SWEEPS = 1500, ROUNDS = 6, TESTED_LEAST = 8, WIDTH = 260, BOARDS_MAX = 32 };
 /* Beyond this a row counts less. */
 #define FAR_OFF 0.04
 /* Of the smallest figure that is fitted: what a compiler makes of the smallest steps is half chance. */

@@ -233,9 +233,10 @@ static void a_steps_own_arithmetic_is_counted(void) {
 
 /* Of what lies still all is zero, of what swings nothing; and where an FPU computes nobody asks. */
 static void what_rests_is_seen(void) {
-    derived d = derived_text("mechanism two \"Two\"\ncoordinate x [m]\ncoordinate y [m]\n"
-                             "T = 2 [kg]*(x'^2 + y'^2)/2\nV = 30 [N/m]*(x^2 + y^2)/2\n"
-                             "scene two {\n  start x = 0.1 [m]\n  step 1 [ms]\n  until 1 [s]\n}\n");
+    derived d = derived_scene("mechanism two \"Two\"\ncoordinate x [m]\ncoordinate y [m]\n"
+                              "T = 2 [kg]*(x'^2 + y'^2)/2\nV = 30 [N/m]*(x^2 + y^2)/2\n"
+                              "scene two {\n  start x = 0.1 [m]\n  step 1 [ms]\n  until 1 [s]\n}\n",
+                              "two");
     derived_expect(&d, "two");
     operands given = operands_of(d.image, COST_FLOAT);
     TEST_ASSERT_TRUE(given.rate[0] == 0.0 && given.accel[0] == 0.0);
