@@ -70,7 +70,7 @@ judge_answer() {
     until=$(echo "$again" | sed 's/.*--until //')
     allowed=$(bare_error)
     said=$(sed -n 's/^  error *\(at most \)\{0,1\}\([0-9.e+-]*\) .*/\2/p' "$told")
-    eval "\"$whirl\" $code" >"$out/$1.c" 2>"$out/errors" && grep -q wh_scene "$out/$1.c" || wrong "$1" "its code is not derived"
+    eval "\"$whirl\" $code" >"$out/$1.c" 2>"$out/errors" && grep -qE 'wh_(fixed_)?scene' "$out/$1.c" || wrong "$1" "its code is not derived"
     : >"$out/$1.places"
     places "$vary" "$scene" >"$out/$1.where"
     [ "$vary" = - ] || between "$vary" "$scene" >>"$out/$1.where"

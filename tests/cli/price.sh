@@ -189,6 +189,15 @@ for request in '1e-3 200Hz' '1e-2 100Hz' '1e-4 500Hz' '1e-5 1kHz'; do
         grep -q '^  flash  .*predicted' "$scratch/out"
     verdict $? "choose --error $1: load, flash and runner-up" "$scratch/out"
 done
+# Without an FPU it is fixed point; the lines that it prints say all that its bits follow from.
+"$whirl" choose "$scratch/pendulum.whirl" --error 1e-4 --rate 100Hz --effort 0.02 --board mps2-an385-m0 >"$scratch/out" 2>"$scratch/err"
+[ $? -eq 0 ] && grep -q '^chosen .*--number fixed' "$scratch/out" && grep -q '^runner-up .*--number float' "$scratch/out" &&
+    grep -q '^counted by .* mps2-an385-m0 fixed .* --until 2$' "$scratch/out"
+verdict $? "choose on a Cortex-M0: fixed point" "$scratch/out"
+derive=$(sed -n 's/^as code *whirl //p' "$scratch/out")
+# shellcheck disable=SC2086
+"$whirl" $derive 2>"$scratch/err" | grep -q 'wh_fixed_scene'
+verdict $? "and its code"
 "$whirl" choose "$scratch/spring.whirl" --of x --error 0.1mm --rate 500Hz --effort 0.02 --board mps2-an505 >"$scratch/out" 2>&1
 case $? in
 0) grep -q 'cycles, range' "$scratch/out" ;;
