@@ -8,7 +8,7 @@ stage_turn.h. */
     "core/small_turn.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
 #endif
 
-#include "angle.h"
+#include "sine.h"
 
 /* rad, up to which turns are small */
 #define WH_TURN_SMALL WH_R(0.5)

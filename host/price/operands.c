@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "host/base/room.h"
 #include "host/run/engine.h"
@@ -57,10 +58,11 @@ static double kept(const looking *l, long double value) {
     return l->is_float ? (double)(float)value : (double)value;
 }
 
+/* Of two to which `value` is a factor of 1/2 to 1, by its bits; 0 for zero. */
 static int exponent(double value) {
-    int power;
-    (void)frexp(value, &power);
-    return power;
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return value == 0.0 ? 0 : (int)(bits >> 52 & 0x7ffU) - 1022;
 }
 
 /* Bits that a sum's smaller operand is shifted by, and its result when leading digits cancel. */
