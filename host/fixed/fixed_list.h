@@ -80,8 +80,14 @@ typedef struct fixed_leaves {
     const interval *input;
 } fixed_leaves;
 
+/* The largest size of a value that anything here has to do with: products of two of it are finite, so that intervals are of
+ * numbers throughout. */
+#define FIXED_SIZE_MOST 0x1p80
+
 /* Enclose all values: op[].range. Turn angles are cut into cells. `bits_known`: rounding to op[].bits takes part. Returns the
- * cells a turn, or 0: denominators were not kept from zero (reported). */
+ * cells a turn, or what else there is to say: denominators were not kept from zero (reported), or values are larger than
+ * FIXED_SIZE_MOST. */
+enum { FIXED_HULL_ZERO = 0, FIXED_HULL_UNBOUNDED = -1 };
 int fixed_hull(fixed_list *list, const image *im, const fixed_leaves *leaves, bool bits_known,
                diags *errors);
 

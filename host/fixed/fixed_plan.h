@@ -50,7 +50,7 @@ typedef struct fixed_plan {
 fixed_plan *fixed_plan_make(const image *im, diags *errors);
 void fixed_plan_free(fixed_plan *plan);
 
-/* The ranges that were not declared, a line each, begun by `begin`: "the range of theta' is -40 .. 40 [rad/s], ...". */
+/* Ranges that turn angles do not take, and those that were not declared, a line each, begun by `begin`: "the range of theta' is -40 .. 40 [rad/s], ...". */
 void fixed_plan_say(const fixed_plan *plan, FILE *out, const char *begin);
 
 #endif
