@@ -319,6 +319,26 @@ static bool take(common_option which, const char *command, const char *value, co
     return true;
 }
 
+/* Of which one would take the place of the other. */
+static bool is_single(common_option which) {
+    return option_rows[which].value[0] != '\0' && which != OPTION_SET && which != OPTION_START &&
+           which != OPTION_WITH && which != OPTION_WITHOUT;
+}
+
+static bool is_new(const char *command, common_option which, common_options *to) {
+    const uint32_t bit = UINT32_C(1) << which;
+    const bool again = is_single(which) && (to->taken & bit) != 0;
+    to->taken |= bit;
+    return !again || options_once(command, option_rows[which].word, "");
+}
+
+bool options_once(const char *command, const char *word, const char *before) {
+    if (before != NULL) {
+        fprintf(stderr, "whirl %s: error: %s is there twice\nhint: leave one out\n", command, word);
+    }
+    return before == NULL;
+}
+
 bool options_take(const char *command, unsigned groups, int count, char **words, int *at,
                   common_options *to, bool *bad) {
     for (int i = 0; i < OPTIONS && !*bad; i++) {
@@ -326,7 +346,8 @@ bool options_take(const char *command, unsigned groups, int count, char **words,
                                 ? common_value((common_option)i, count, words, at, bad)
                                 : NULL;
         if (value != NULL) {
-            *bad = !take((common_option)i, command, value, to);
+            *bad = !is_new(command, (common_option)i, to) ||
+                   !take((common_option)i, command, value, to);
             return true;
         }
     }

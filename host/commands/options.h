@@ -26,8 +26,9 @@
     X(OPTION_UNTIL, "--until", "9s", OPTIONS_CHANGE, "end of the run") \
     X(OPTION_METHOD, "--method", "M", OPTIONS_ENGINE, "") \
     X(OPTION_NUMBER, "--number", "N", OPTIONS_NUMBER, \
-      "double (default, the reference) or float (the boards, to the bit); fixed, of `whirl run`\n" \
-      "and `whirl derive --as c`: 32-bit integers (the boards without an FPU, to the bit)") \
+      "double (default, the reference) or float (the boards, to the bit); fixed, of " \
+      "`whirl run` and `whirl derive --as c`: 32-bit integers (the boards without " \
+      "an FPU, to the bit)") \
     X(OPTION_COMPENSATED, "--compensated", "", OPTIONS_ENGINE, \
       "carry the rounding error of every sum along") \
     X(OPTION_ANGLES, "--angles", "A", OPTIONS_ENGINE, \
@@ -35,8 +36,8 @@
       "allow it; lookup: at each stage, for angles that turn far in a step") \
     X(OPTION_MATRIX, "--matrix", "M", OPTIONS_ENGINE, \
       "a whole step as one constant matrix, of a linear mechanism without events:\n" \
-      "exact: the motion itself, inputs held over the step; rk4: what that method makes\n" \
-      "of it; none (default): stages") \
+      "exact: the motion itself, inputs held over the step; rk4: what that method " \
+      "makes of it; none (default): stages") \
     X(OPTION_TABLES, "--tables", "T", OPTIONS_ENGINE, \
       "linear, cubic: what the accelerations owe to one turn angle, sines and\n" \
       "divisions, is looked up in tables in flash; none (default): computed") \
@@ -108,11 +109,15 @@ typedef struct common_options {
     change_options change;
     image_settings integration; /* --method, --compensated, --angles, --matrix, --tables, --cells */
     const engine_kind *number;  /* --number: what computes */
+    uint32_t taken;             /* options there so far, a bit each */
 } common_options;
 
 /* As they are without any option. */
 common_options options_defaults(void);
 void options_forget(common_options *options);
+
+/* False, reported: there is a value of option `word` already; NULL: there is none. */
+bool options_once(const char *command, const char *word, const char *before);
 
 /* If words[*at] is an option of `groups`, takes it, steps *at past it and returns true. What is wrong with its value
  * is reported and sets *bad. */

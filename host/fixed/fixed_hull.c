@@ -93,6 +93,8 @@ static bool is_bounded(interval a) {
 
 static bool goes_on(const hull *h) { return !h->divides_zero && !h->unbounded; }
 
+static bool stops(const hull *h) { return fixed_watch_stops(h->list->watch); }
+
 static void enclose(hull *h, bool first) {
     fixed_list *l = h->list;
     for (int k = 0; k < l->angles; k++) {
@@ -148,7 +150,7 @@ static bool enclose_all(hull *h) {
     do {
         enclose(h, first);
         first = false;
-    } while (goes_on(h) && next(h));
+    } while (goes_on(h) && !stops(h) && next(h));
     return !h->divides_zero;
 }
 
@@ -184,12 +186,15 @@ int fixed_hull(fixed_list *list, const image *im, const fixed_leaves *leaves, bo
         h.cells *= 2;
         good = enclose_all(&h);
     }
-    if (!good) {
+    if (!good && !stops(&h)) {
         say_zero(&h, im, errors);
     }
     free(h.now);
     free(h.angle);
     free(h.cell);
     free(h.cut);
-    return h.unbounded ? FIXED_HULL_UNBOUNDED : good ? h.cells : FIXED_HULL_ZERO;
+    return stops(&h)     ? FIXED_HULL_STOPPED
+           : h.unbounded ? FIXED_HULL_UNBOUNDED
+           : good        ? h.cells
+                         : FIXED_HULL_ZERO;
 }

@@ -304,13 +304,16 @@ static wh_fixed_format first_format(interval range, interval stage) {
     return format_of(range, of_stage < bits ? of_stage : bits);
 }
 
-static bool make(fixed_plan *p, diags *errors) {
+static bool make(fixed_plan *p, const fixed_watch *watch, diags *errors) {
     const image *im = p->image;
     const int numbers = im->reals + im->inputs;
     double scale[IMAGE_COMPONENTS_MAX];
     make_scale(p, scale);
     p->list = fixed_list_make(im, scale, errors);
-    if (p->list == NULL || !fixed_ranges(im, p->range, p->declared, errors) ||
+    if (p->list != NULL) {
+        p->list->watch = watch;
+    }
+    if (p->list == NULL || !fixed_ranges(im, p->range, p->declared, watch, errors) ||
         !fixed_ranges_hold(im, p->range, errors)) {
         return false;
     }
@@ -327,6 +330,10 @@ static bool make(fixed_plan *p, diags *errors) {
 }
 
 fixed_plan *fixed_plan_make(const image *im, diags *errors) {
+    return fixed_plan_make_watched(im, NULL, errors);
+}
+
+fixed_plan *fixed_plan_make_watched(const image *im, const fixed_watch *watch, diags *errors) {
     if (!fixed_has_step(im, errors)) {
         return NULL;
     }
@@ -340,7 +347,7 @@ fixed_plan *fixed_plan_make(const image *im, diags *errors) {
     p->stage = room(numbers, sizeof *p->stage);
     p->declared = room(numbers, sizeof *p->declared);
     p->mover = room(p->coordinates, sizeof *p->mover);
-    if (!make(p, errors)) {
+    if (!make(p, watch, errors)) {
         fixed_plan_free(p);
         return NULL;
     }

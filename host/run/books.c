@@ -210,7 +210,10 @@ static void add_work(books *b, const double power_W[2]) {
             b->power_W[1][k] = power_W[k];
         } else {
             *work[k] -= 0.5 * b->step_s * (b->power_W[0][k] + b->power_W[1][k]);
-            *work[k] += b->step_s / 3.0 * (b->power_W[0][k] + 4.0 * b->power_W[1][k] + power_W[k]);
+            const double ends_W = b->power_W[0][k] + power_W[k];
+            const double middle_W = b->power_W[1][k];
+            *work[k] += b->step_s / 3.0 * (ends_W + 4.0 * middle_W);
+            b->rule_J += fabs(b->step_s / 6.0 * (2.0 * middle_W - ends_W));
             b->power_W[0][k] = power_W[k];
         }
     }

@@ -13,7 +13,7 @@
 #include "engine.h"
 
 #define SLOW_SHARE 1e-3
-#define SLOW_LEAST_RAD 3e-9   /* two units: what an angle that hardly moves may show of rounding */
+#define SLOW_LEAST_RAD 3e-9  /* two units: what an angle that hardly moves may show of rounding */
 #define SLOW_LEAST_UNITS 4.0 /* in fixed point, where the accelerations are of whole units, too */
 
 /* Is component i, angles first, one of those? */
