@@ -84,7 +84,8 @@ bool options_wants_help(int count, char **words);
 bool options_help(int count, char **words, const command_usage *usage);
 
 /* If words[*at] is `name` (or `name=VALUE`), returns its value and steps *at past it. Returns NULL if
- * it is not; a missing value is reported and sets *bad. */
+ * it is not; a missing value is reported and sets *bad, and so is an option that was there before, if it is none of those
+ * that may be: one value would take the place of the other. */
 const char *options_value(int count, char **words, int *at, const char *name, bool *bad);
 
 /* What changes an instance: --set, --start, --with, --without, --step, --until. */
@@ -109,15 +110,11 @@ typedef struct common_options {
     change_options change;
     image_settings integration; /* --method, --compensated, --angles, --matrix, --tables, --cells */
     const engine_kind *number;  /* --number: what computes */
-    uint32_t taken;             /* options there so far, a bit each */
 } common_options;
 
 /* As they are without any option. */
 common_options options_defaults(void);
 void options_forget(common_options *options);
-
-/* False, reported: there is a value of option `word` already; NULL: there is none. */
-bool options_once(const char *command, const char *word, const char *before);
 
 /* If words[*at] is an option of `groups`, takes it, steps *at past it and returns true. What is wrong with its value
  * is reported and sets *bad. */

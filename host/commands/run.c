@@ -100,16 +100,12 @@ static bool take_one(int count, char **words, int *at, run_options *o, bool *bad
         return true;
     }
     if (!*bad && (value = options_value(count, words, at, "--csv", bad)) != NULL) {
-        *bad = !options_once("run", "--csv", o->settings.csv);
         o->settings.csv = value;
     } else if (!*bad && (value = options_value(count, words, at, "--columns", bad)) != NULL) {
-        *bad = !options_once("run", "--columns", o->settings.columns);
         o->settings.columns = value;
     } else if (!*bad && (value = options_value(count, words, at, "--every", bad)) != NULL) {
-        *bad = !options_once("run", "--every", o->every);
         o->every = value;
     } else if (!*bad && (value = options_value(count, words, at, "--plot", bad)) != NULL) {
-        *bad = !options_once("run", "--plot", o->settings.plot);
         o->settings.plot = value;
     } else if (!*bad && take_flag(words, at, "--quiet")) {
         o->settings.quiet = true;
