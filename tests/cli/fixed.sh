@@ -201,6 +201,19 @@ refuse "no --tables linear in fixed point" epicyclic_conserved --tables linear
 refuse "may be zero within the ranges" "$scratch/w/slow.whirl:round"
 grep -q '^hint: turn angles go all the way round' "$scratch/err"
 verdict $? "and not with the hint to narrow a range that is none"
+# the example of core/fixed_scene.h
+"$whirl" derive epicyclic_conserved --as c --number fixed --name gear --until 1s --header "$scratch/gear.h" >"$scratch/gear.c" 2>/dev/null
+{
+    echo '#include "gear.h"'
+    echo 'int main(void) {'
+    sed -n 's/^ \*     //p' core/fixed_scene.h
+    echo 'return state.steps == gear.steps && theta_rad > 0 && rate_rad_s > 0 ? 0 : 3; }'
+} >"$scratch/example.c"
+# shellcheck disable=SC2086 # a list of words
+gcc $warnings -I"$scratch" -o "$scratch/example" "$scratch/example.c" "$scratch/gear.c" core/*.c 2>"$scratch/err" && "$scratch/example"
+verdict $? "the example in core/fixed_scene.h compiles and runs to its end" "$scratch/err"
+! grep -q 'wh_angle_to_rad' "$scratch/gear.h" && grep -q 'wh_fixed_angle()' "$scratch/gear.h"
+verdict $? "a header names the functions that there are in fixed point"
 "$whirl" derive two_mass_relative --number fixed >"$scratch/out" 2>"$scratch/err"
 [ $? -eq 2 ] && grep -q -- '--number fixed goes with --as c' "$scratch/err"
 verdict $? "equations have no number"
