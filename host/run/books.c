@@ -200,6 +200,14 @@ double books_lost_J(const books *b) { return (double)b->entries * b->lost_J; }
 
 /* --- the balance -------------------------------------------------------------------------------*/
 
+/* By how much two steps' work may be off: as Simpson's rule and trapezoids differ where the powers are smooth, else by as much
+ * as they change. */
+static double rule_off_J(double step_s, double begin_W, double middle_W, double end_W) {
+    const double rules_J = fabs(step_s / 6.0 * (2.0 * middle_W - begin_W - end_W));
+    const double change_J = 0.5 * step_s * (fabs(middle_W - begin_W) + fabs(end_W - middle_W));
+    return rules_J > 0.1 * change_J ? change_J : rules_J;
+}
+
 /* Simpson's rule needs pairs of steps: between them, the last step counts as a trapezoid, which the
  * next entry takes back. */
 static void add_work(books *b, const double power_W[2]) {
@@ -213,7 +221,7 @@ static void add_work(books *b, const double power_W[2]) {
             const double ends_W = b->power_W[0][k] + power_W[k];
             const double middle_W = b->power_W[1][k];
             *work[k] += b->step_s / 3.0 * (ends_W + 4.0 * middle_W);
-            b->rule_J += fabs(b->step_s / 6.0 * (2.0 * middle_W - ends_W));
+            b->rule_J += rule_off_J(b->step_s, b->power_W[0][k], middle_W, power_W[k]);
             b->power_W[0][k] = power_W[k];
         }
     }

@@ -47,7 +47,7 @@ typedef struct books {
     double
         computing_J; /* what rounding may leave of the energy's computation, at most of those looked at */
     double lost_J;      /* what a step may lose of entries too small for float, likewise */
-    double rule_J;      /* by how much Simpson's rule and trapezoids differ in all */
+    double rule_J;      /* by how much the rule may be off, in all */
     double kept_J;      /* error at the last even step */
     double jump_J;      /* its largest change between two even steps, */
     double jump_s;      /* which ended here */
