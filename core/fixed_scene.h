@@ -1,17 +1,21 @@
 /* fixed_scene.h: a scene that steps in fixed point (fixed.h), for processors without floating-point arithmetic.
  *
- * A file made by `whirl derive --as c --number fixed` defines one constant `wh_fixed_scene`; no step of it has a
- * floating-point operation. What changes lives in a `wh_fixed_state` and in memory that the caller owns:
+ * A file made by `whirl derive SCENE --as c --number fixed --name gear --header gear.h` defines one constant `gear`, a
+ * `wh_fixed_scene`; no step of it has a floating-point operation. What changes lives in a `wh_fixed_state` and in memory
+ * that the caller owns:
  *
  *     static uint64_t memory[gear_MEMORY_WORDS];
  *     wh_fixed_state state;
- *     wh_fixed_start(&gear, &state, memory, sizeof memory);
+ *     if (wh_fixed_start(&gear, &state, memory, sizeof memory) != WH_OK) { return 1; }
  *     wh_fixed_set_input(&gear, &state, gear_INPUT_M, 1.5f);
- *     while (wh_fixed_step(&gear, &state) == WH_OK) { ... wh_fixed_real(&gear, &state, gear_REAL_theta_rate); }
+ *     while (state.steps < gear.steps && state.saturated == 0) { wh_fixed_step(&gear, &state); }
+ *     const wh_real theta_rad = wh_fixed_angle(&gear, &state, gear_ANGLE_theta);
+ *     const wh_real rate_rad_s = wh_fixed_real(&gear, &state, gear_RATE_theta);
  *
- * Each component and input has a range. What would leave it stays at its end, and is counted in state.saturated: where
- * that is not 0, the motion is not to be believed. Inside their ranges nothing overflows, which was proved when the
- * code was made.
+ * Each input and each component but turn angles has a range. What would leave it stays at its end, and is counted in
+ * state.saturated: where that is not 0, the motion is not to be believed. Inside their ranges nothing overflows, which was
+ * proved when the code was made. What a step adds is rounded to the range's 2^-30 or so: below half of that it is gone,
+ * uncounted (`whirl run --number fixed` tells how much).
  */
 #ifndef WH_FIXED_SCENE_H
 #define WH_FIXED_SCENE_H
@@ -75,7 +79,7 @@ struct wh_fixed_scene {
 wh_status wh_fixed_start(const wh_fixed_scene *scene, wh_fixed_state *state, void *memory,
                          size_t bytes);
 
-/* One step. Always WH_OK: nothing diverges, but state->saturated counts. */
+/* One step, beyond the scene's end, too. Always WH_OK: nothing diverges, but state->saturated counts. */
 wh_status wh_fixed_step(const wh_fixed_scene *scene, wh_fixed_state *state);
 
 /* Of step count, saturations, angles and reals: equal runs on any two machines give equal hashes. */

@@ -102,18 +102,49 @@ bool options_help(int count, char **words, const command_usage *usage) {
     return wanted;
 }
 
+/* Is it `name`, or `name=VALUE`? */
+static bool is_option(const char *word, const char *name) {
+    const size_t length = strlen(name);
+    return strncmp(word, name, length) == 0 && (word[length] == '\0' || word[length] == '=');
+}
+
+/* The only ones of which there may be several. */
+static bool may_be_repeated(const char *name) {
+    static const char *const all[] = {"--set",  "--start",   "--with", "--without",
+                                      "--over", "--measure", "--vary"};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
+        if (strcmp(name, all[i]) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool is_new(char **words, int at, const char *name) {
+    for (int i = 0; i < at && !may_be_repeated(name); i++) {
+        if (is_option(words[i], name)) {
+            fprintf(stderr, "whirl: error: %s is there twice: '%s' and '%s'\nhint: leave one out\n",
+                    name, words[i], words[at]);
+            return false;
+        }
+    }
+    return true;
+}
+
 const char *options_value(int count, char **words, int *at, const char *name, bool *bad) {
     const size_t length = strlen(name);
     const char *word = words[*at];
-    if (strncmp(word, name, length) != 0) {
+    if (!is_option(word, name)) {
+        return NULL;
+    }
+    if (!is_new(words, *at, name)) {
+        *bad = true;
+        ++*at;
         return NULL;
     }
     if (word[length] == '=') {
         ++*at;
         return word + length + 1;
-    }
-    if (word[length] != '\0') {
-        return NULL;
     }
     if (*at + 1 >= count) {
         fprintf(stderr, "whirl: error: %s needs a value\nhint: %s VALUE, or %s=VALUE\n", name, name,
@@ -326,7 +357,7 @@ bool options_take(const char *command, unsigned groups, int count, char **words,
                                 ? common_value((common_option)i, count, words, at, bad)
                                 : NULL;
         if (value != NULL) {
-            *bad = !take((common_option)i, command, value, to);
+            *bad = *bad || !take((common_option)i, command, value, to);
             return true;
         }
     }

@@ -26,8 +26,9 @@
     X(OPTION_UNTIL, "--until", "9s", OPTIONS_CHANGE, "end of the run") \
     X(OPTION_METHOD, "--method", "M", OPTIONS_ENGINE, "") \
     X(OPTION_NUMBER, "--number", "N", OPTIONS_NUMBER, \
-      "double (default, the reference) or float (the boards, to the bit); fixed, of `whirl run`\n" \
-      "and `whirl derive --as c`: 32-bit integers (the boards without an FPU, to the bit)") \
+      "double (default, the reference) or float (the boards, to the bit); fixed, of " \
+      "`whirl run` and `whirl derive --as c`: 32-bit integers (the boards without " \
+      "an FPU, to the bit)") \
     X(OPTION_COMPENSATED, "--compensated", "", OPTIONS_ENGINE, \
       "carry the rounding error of every sum along") \
     X(OPTION_ANGLES, "--angles", "A", OPTIONS_ENGINE, \
@@ -35,8 +36,8 @@
       "allow it; lookup: at each stage, for angles that turn far in a step") \
     X(OPTION_MATRIX, "--matrix", "M", OPTIONS_ENGINE, \
       "a whole step as one constant matrix, of a linear mechanism without events:\n" \
-      "exact: the motion itself, inputs held over the step; rk4: what that method makes\n" \
-      "of it; none (default): stages") \
+      "exact: the motion itself, inputs held over the step; rk4: what that method " \
+      "makes of it; none (default): stages") \
     X(OPTION_TABLES, "--tables", "T", OPTIONS_ENGINE, \
       "linear, cubic: what the accelerations owe to one turn angle, sines and\n" \
       "divisions, is looked up in tables in flash; none (default): computed") \
@@ -83,7 +84,8 @@ bool options_wants_help(int count, char **words);
 bool options_help(int count, char **words, const command_usage *usage);
 
 /* If words[*at] is `name` (or `name=VALUE`), returns its value and steps *at past it. Returns NULL if
- * it is not; a missing value is reported and sets *bad. */
+ * it is not; a missing value is reported and sets *bad, and so is an option that was there before, if it is none of those
+ * that may be: one value would take the place of the other. */
 const char *options_value(int count, char **words, int *at, const char *name, bool *bad);
 
 /* What changes an instance: --set, --start, --with, --without, --step, --until. */

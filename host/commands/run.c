@@ -200,6 +200,19 @@ static bool count_every(const run_options *o, double spacing_s, const image *im,
     return true;
 }
 
+static bool shows_progress(const simulation_settings *s) {
+    return !s->quiet && isatty(STDERR_FILENO);
+}
+
+/* From here on, what is under way ends in order. */
+static void catch_interrupts(void) {
+    /* records go on being written; a second Ctrl-C ends it at once, whatever it waits for */
+    struct sigaction action = {.sa_handler = on_interrupt,
+                               .sa_flags = SA_RESTART | (int)SA_RESETHAND};
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+}
+
 static int run_image(run_options *o, const source_model *from, const image *im, double every_s) {
     if (!count_every(o, every_s, im, &o->settings.every)) {
         return EXIT_BAD_INPUT;
@@ -209,13 +222,9 @@ static int run_image(run_options *o, const source_model *from, const image *im, 
         diags_flush(from->errors, stderr);
         return EXIT_BAD_INPUT;
     }
-    /* records go on being written; a second Ctrl-C ends it at once, whatever it waits for */
-    struct sigaction action = {.sa_handler = on_interrupt,
-                               .sa_flags = SA_RESTART | (int)SA_RESETHAND};
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
+    catch_interrupts();
     o->settings.stop = &interrupted;
-    o->settings.progress = !o->settings.quiet && isatty(STDERR_FILENO);
+    o->settings.progress = shows_progress(&o->settings);
     switch (simulate(im, &o->settings)) {
     case SIMULATION_DONE: return EXIT_DONE;
     case SIMULATION_INTERRUPTED: return EXIT_INTERRUPTED;
@@ -225,15 +234,23 @@ static int run_image(run_options *o, const source_model *from, const image *im, 
     return EXIT_RUN_FAILED;
 }
 
-/* Its step in fixed point, which the image then has; NULL, reported. */
-static fixed_plan *plan_of(image *im, const source_model *from, bool says) {
-    fixed_plan *plan = fixed_plan_make(im, from->errors);
-    im->fixed = plan;
+/* Its step in fixed point, which the image then has: takes as long as a run where ranges are not declared. */
+static int plan_of(image *im, const source_model *from, const simulation_settings *s,
+                   fixed_plan **plan) {
+    const fixed_watch watch = {&interrupted, shows_progress(s)};
+    catch_interrupts();
+    *plan = fixed_plan_make_watched(im, &watch, from->errors);
+    im->fixed = *plan;
     diags_flush(from->errors, stderr);
-    if (plan != NULL && says) {
-        fixed_plan_say(plan, stderr, "whirl run: note: ");
+    if (*plan != NULL && !s->quiet) {
+        fixed_plan_say(*plan, stderr, "whirl run: note: ");
     }
-    return plan;
+    if (*plan == NULL && interrupted) {
+        fputs("whirl run: interrupted before the run in fixed point began, while its ranges were "
+              "looked for\nhint: range NAME = A .. B of all of them takes no run in double\n",
+              stderr);
+    }
+    return *plan != NULL ? EXIT_DONE : interrupted ? EXIT_INTERRUPTED : EXIT_BAD_INPUT;
 }
 
 int command_run(int count, char **words) {
@@ -272,8 +289,7 @@ int command_run(int count, char **words) {
         }
         fixed_plan *plan = NULL;
         if (code == EXIT_DONE && o.settings.kind == &engine_fixed) {
-            plan = plan_of(made.image, &from, !o.settings.quiet);
-            code = plan != NULL ? EXIT_DONE : EXIT_BAD_INPUT;
+            code = plan_of(made.image, &from, &o.settings, &plan);
         }
         if (code == EXIT_DONE) {
             code = run_image(&o, &from, made.image, every_s);

@@ -147,8 +147,18 @@ static void copy_ranges(image_draft *d, const equations *e, const layout *map) {
         im->range[im->reals + i].name = im->input[i].name;
         im->range[im->reals + i].at = im->input[i].at;
     }
+    im->angle_range = image_room(d, im->angles, sizeof *im->angle_range);
+    for (int i = 0; i < im->angles; i++) {
+        im->angle_range[i].name = im->unknown[im->angle[i].unknown].name;
+    }
     for (int k = 0; k < inst->range_count; k++) {
         const range_value *r = &inst->range[k];
+        for (int i = 0; i < im->angles; i++) {
+            if (e->unknowns[im->angle[i].unknown].symbol == r->symbol && r->primes == 0) {
+                im->angle_range[i] = (image_range){im->angle_range[i].name, image_place(d, r->at),
+                                                   true, r->low, r->high};
+            }
+        }
         for (int i = 0; i < im->reals + im->inputs; i++) {
             const bool real = i < im->reals;
             const symbol *s = real ? e->unknowns[im->real[i].unknown].symbol

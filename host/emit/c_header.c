@@ -97,9 +97,9 @@ static item item_of(const image *im, list of, int i) {
     return (item){"", "", "", 0};
 }
 
-static void write_items(FILE *out, const image *im, list of) {
+static void write_items(FILE *out, const image *im, list of, const char *where) {
     const char *prefix = im->name;
-    fprintf(out, "    /* %s */\n", lists[of].where);
+    fprintf(out, "    /* %s */\n", where);
     for (int i = 0; i < count_of(im, of); i++) {
         const item it = item_of(im, of, i);
         fprintf(out, "    %s_%s", prefix, it.primes > 0 ? lists[of].rate : lists[of].value);
@@ -148,10 +148,10 @@ static void write_memory(FILE *out, const image *im) {
         im->name, im->angles, core_memory_reals(im), im->contacts, im->name, im->name);
 }
 
-void c_header_state(FILE *out, const image *im) {
-    write_items(out, im, LIST_ANGLES);
-    write_items(out, im, LIST_REALS);
-    write_items(out, im, LIST_INPUTS);
+void c_header_fixed_state(FILE *out, const image *im) {
+    write_items(out, im, LIST_ANGLES, "wh_fixed_angle(): unwrapped");
+    write_items(out, im, LIST_REALS, "wh_fixed_real(), wh_fixed_set_real()");
+    write_items(out, im, LIST_INPUTS, "wh_fixed_set_input(), between steps");
 }
 
 void emit_c_header(FILE *out, const image *im, const char *file) {
@@ -169,7 +169,7 @@ void emit_c_header(FILE *out, const image *im, const char *file) {
     write_memory(out, im);
     fputs("enum {\n", out);
     for (int of = 0; of < LISTS; of++) {
-        write_items(out, im, (list)of);
+        write_items(out, im, (list)of, lists[of].where);
     }
     fprintf(
         out,

@@ -9,7 +9,7 @@
 /* `text` as part of a comment that it cannot end, nor have compilers warn of: on one line. */
 void c_comment(FILE *out, const char *text);
 
-/* Enumerators of components and inputs, a line each. */
-void c_header_state(FILE *out, const image *im);
+/* Enumerators of components and inputs of a scene in fixed point, a line each. */
+void c_header_fixed_state(FILE *out, const image *im);
 
 #endif

@@ -272,6 +272,6 @@ void c_fixed_header(FILE *out, const fixed_plan *p, const char *file) {
     fputs(
         "/* Numbers that wh_fixed_angle(), wh_fixed_real(), wh_fixed_set_input() take. */\nenum {\n",
         out);
-    c_header_state(out, im);
+    c_header_fixed_state(out, im);
     fprintf(out, "    %s_FIXED = 1\n};\n\n#ifdef __cplusplus\n}\n#endif\n\n#endif\n", im->name);
 }

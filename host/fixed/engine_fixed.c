@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 
+#include "fixed_loss.h"
 #include "fixed_plan.h"
 #include "host/base/room.h"
 #include "host/number/functions.h"
@@ -19,6 +20,7 @@ typedef struct fixed_run {
     int32_t *sine;  /* [list->count] of phases */
     int32_t *cosine;
     evaluator *observe;
+    fixed_loss *loss;
 } fixed_run;
 
 /* --- the list ------------------------------------------------------------------------------------------*/
@@ -255,6 +257,7 @@ static void *run_start(const image *im) {
     if (wh_fixed_start(&run->scene, &run->state, run->memory, bytes) != WH_OK) {
         abort();
     }
+    run->loss = fixed_loss_new(p, &run->state);
     run->observe = im->list[IMAGE_OBSERVE] != NULL ? evaluator_new(im->list[IMAGE_OBSERVE]) : NULL;
     if (run->observe != NULL) {
         evaluator_wrap(run->observe);
@@ -269,12 +272,16 @@ static void run_stop(void *of) {
     free(run->cosine);
     free(run->memory);
     evaluator_free(run->observe);
+    fixed_loss_free(run->loss);
     free(run);
 }
 
 static wh_status run_step(void *of) {
     fixed_run *run = of;
-    return wh_fixed_step(&run->scene, &run->state);
+    fixed_loss_before(run->loss, &run->state);
+    const wh_status status = wh_fixed_step(&run->scene, &run->state);
+    fixed_loss_after(run->loss, &run->state);
+    return status;
 }
 
 static void run_set_input(void *of, int input, double value) {
@@ -344,17 +351,17 @@ static void run_ledger(const void *of, double *total, double *error) {
     (void)error;
 }
 
-/* A step is rounded once, by half a unit; the sum of these is what may be off. */
-static double run_angle_off(const void *of, int i, double *span_rad) {
-    const fixed_run *run = of;
-    const int64_t gone = run->state.angle[i] - run->plan->start_angle[i];
-    *span_rad = (double)(gone < 0 ? -gone : gone) * RAD_PER_UNIT;
-    return 0.0;
+static double run_component_off(const void *of, int i, double *span) {
+    return fixed_loss_off(((const fixed_run *)of)->loss, i, span);
+}
+
+static double run_unit(const void *of, int i) {
+    return fixed_loss_unit(((const fixed_run *)of)->plan, i);
 }
 
 static uint64_t run_saturated(const void *of) { return ((const fixed_run *)of)->state.saturated; }
 
 const engine_kind engine_fixed = {
-    "fixed",         9,           run_start,     run_stop,     run_step,  run_set_input,
-    run_state,       run_outputs, run_hash,      run_steps,    run_fault, run_events,
-    run_evaluations, run_ledger,  run_angle_off, run_saturated};
+    "fixed",         9,           run_start,         run_stop,      run_step,  run_set_input,
+    run_state,       run_outputs, run_hash,          run_steps,     run_fault, run_events,
+    run_evaluations, run_ledger,  run_component_off, run_saturated, run_unit};

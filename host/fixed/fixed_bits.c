@@ -266,7 +266,7 @@ bool fixed_fits(const fixed_list *l) {
         if (!o->used || o->code == FIXED_CONSTANT || o->code == FIXED_PHASE) {
             continue;
         }
-        if (units(o) > 1073741824.0 + 64.0) {
+        if (!(units(o) <= 1073741824.0 + 64.0)) {
             return false;
         }
         if (o->code == FIXED_QUOTIENT && (b == NULL || !has_zeros(o, b))) {
@@ -294,7 +294,9 @@ bool fixed_bits(fixed_list *l, const image *im, diags *errors) {
         good = !l->op[i].used || finish(l, &l->op[i]);
     }
     if (!good) {
-        diag_error(errors, im->at, "declare narrower ranges: range NAME = A .. B",
+        diag_error(errors, im->at,
+                   "declare others, closer in size to what the run does: range NAME = A .. B; or "
+                   "choose --number float",
                    "the equations of '%s' have values with no room in 32 bits within the ranges",
                    im->name);
     }

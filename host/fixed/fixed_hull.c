@@ -29,7 +29,9 @@ typedef struct hull {
     int *cell;       /* [angles] */
     bool *cut;       /* [angles] is any phase made of it? */
     int cells;       /* a turn */
+    bool at_middles; /* leaves stay in the middle of what they can be */
     bool divides_zero;
+    bool unbounded;
 } hull;
 
 static interval phase_of(const hull *h, const fixed_op *o) {
@@ -43,15 +45,20 @@ static interval phase_of(const hull *h, const fixed_op *o) {
     return sum;
 }
 
+static interval leaf_of(const hull *h, interval range) {
+    const double middle = 0.5 * (range.low + range.high);
+    return h->at_middles ? (interval){middle, middle} : range;
+}
+
 static interval value_of(hull *h, const fixed_op *o) {
     const interval none = {0.0, 0.0};
     const interval a = o->a.op >= 0 ? h->now[o->a.op] : none;
     const interval b = o->b.op >= 0 ? h->now[o->b.op] : none;
     switch (o->code) {
     case FIXED_CONSTANT: return (interval){o->value, o->value};
-    case FIXED_LINEAR: return h->leaves->linear[o->index];
-    case FIXED_RATE: return h->leaves->rate[o->index];
-    case FIXED_INPUT: return h->leaves->input[o->index];
+    case FIXED_LINEAR: return leaf_of(h, h->leaves->linear[o->index]);
+    case FIXED_RATE: return leaf_of(h, h->leaves->rate[o->index]);
+    case FIXED_INPUT: return leaf_of(h, h->leaves->input[o->index]);
     case FIXED_PHASE: return phase_of(h, o);
     case FIXED_SINE: return interval_widen(interval_sin(a), SINE_OFF);
     case FIXED_COSINE: return interval_widen(interval_cos(a), SINE_OFF);
@@ -80,16 +87,25 @@ static double rounding_of(const hull *h, const fixed_op *o) {
     return h->bits_known && rounds ? number_scaled(4.0, -o->bits) : 0.0;
 }
 
+static bool is_bounded(interval a) {
+    return a.low >= -FIXED_SIZE_MOST && a.high <= FIXED_SIZE_MOST;
+}
+
+static bool goes_on(const hull *h) { return !h->divides_zero && !h->unbounded; }
+
+static bool stops(const hull *h) { return fixed_watch_stops(h->list->watch); }
+
 static void enclose(hull *h, bool first) {
     fixed_list *l = h->list;
     for (int k = 0; k < l->angles; k++) {
         const double width = TURN / h->cells;
         h->angle[k] = (interval){h->cell[k] * width, (h->cell[k] + 1) * width};
     }
-    for (int i = 0; i < l->count && !h->divides_zero; i++) {
+    for (int i = 0; i < l->count && goes_on(h); i++) {
         fixed_op *o = &l->op[i];
         if (o->used) {
             h->now[i] = interval_widen(value_of(h, o), rounding_of(h, o));
+            h->unbounded = !is_bounded(h->now[i]);
             o->range = first ? h->now[i] : interval_hull(o->range, h->now[i]);
         }
     }
@@ -134,8 +150,23 @@ static bool enclose_all(hull *h) {
     do {
         enclose(h, first);
         first = false;
-    } while (!h->divides_zero && next(h));
+    } while (goes_on(h) && !stops(h) && next(h));
     return !h->divides_zero;
+}
+
+/* Is it zero somewhere in the turn, wherever in their ranges the others are? Then no range keeps it from that. */
+static bool divides_zero_anyway(hull *h) {
+    h->at_middles = true;
+    return !enclose_all(h);
+}
+
+static void say_zero(hull *h, const image *im, diags *errors) {
+    diag_error(errors, im->at,
+               divides_zero_anyway(h)
+                   ? "turn angles go all the way round and have no range that could keep it from "
+                     "that: choose --number float"
+                   : "declare narrower ranges: range NAME = A .. B; or choose --number float",
+               "a denominator of the equations of '%s' may be zero within the ranges", im->name);
 }
 
 int fixed_hull(fixed_list *list, const image *im, const fixed_leaves *leaves, bool bits_known,
@@ -150,20 +181,20 @@ int fixed_hull(fixed_list *list, const image *im, const fixed_leaves *leaves, bo
         h.cells /= 2;
     }
     bool good = enclose_all(&h);
-    while (!good && cut > 0 && h.cells < CELLS_MOST &&
+    while (!good && !h.unbounded && cut > 0 && h.cells < CELLS_MOST &&
            all_cells(2 * h.cells, cut) <= CELLS_ALL_MOST) {
         h.cells *= 2;
         good = enclose_all(&h);
     }
-    if (!good) {
-        diag_error(errors, im->at,
-                   "declare narrower ranges: range NAME = A .. B; or choose --number float",
-                   "a denominator of the equations of '%s' may be zero within the ranges",
-                   im->name);
+    if (!good && !stops(&h)) {
+        say_zero(&h, im, errors);
     }
     free(h.now);
     free(h.angle);
     free(h.cell);
     free(h.cut);
-    return good ? h.cells : 0;
+    return stops(&h)     ? FIXED_HULL_STOPPED
+           : h.unbounded ? FIXED_HULL_UNBOUNDED
+           : good        ? h.cells
+                         : FIXED_HULL_ZERO;
 }

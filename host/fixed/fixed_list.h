@@ -8,6 +8,7 @@
 #ifndef FIXED_FIXED_LIST_H
 #define FIXED_FIXED_LIST_H
 
+#include "fixed_range.h"
 #include "host/image/image.h"
 #include "interval.h"
 
@@ -67,6 +68,7 @@ typedef struct fixed_list {
     int *result;
     int results;
     int angles;
+    const fixed_watch *watch;
 } fixed_list;
 
 /* The list with its results times scale[results], or NULL: something has no fixed form (reported). */
@@ -80,8 +82,14 @@ typedef struct fixed_leaves {
     const interval *input;
 } fixed_leaves;
 
+/* The largest size of a value that anything here has to do with: products of two of it are finite, so that intervals are of
+ * numbers throughout. */
+#define FIXED_SIZE_MOST 0x1p80
+
 /* Enclose all values: op[].range. Turn angles are cut into cells. `bits_known`: rounding to op[].bits takes part. Returns the
- * cells a turn, or 0: denominators were not kept from zero (reported). */
+ * cells a turn, or what else there is to say: denominators were not kept from zero (reported), or values are larger than
+ * FIXED_SIZE_MOST, or it was stopped. */
+enum { FIXED_HULL_ZERO = 0, FIXED_HULL_UNBOUNDED = -1, FIXED_HULL_STOPPED = -2 };
 int fixed_hull(fixed_list *list, const image *im, const fixed_leaves *leaves, bool bits_known,
                diags *errors);
 

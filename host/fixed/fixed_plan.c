@@ -6,54 +6,11 @@
 #include <string.h>
 
 #include "fixed_range.h"
+#include "fixed_refuse.h"
 #include "host/base/room.h"
 #include "host/number/functions.h"
 
 #define PHASE_PER_RAD 683565275.57643159 /* 2^32/(2 pi) */
-
-/* --- what has no fixed step ---------------------------------------------------------------------------*/
-
-static bool has_noise(const image *im) {
-    const tape *t = im->list[IMAGE_OBSERVE];
-    for (int i = 0; t != NULL && i < t->count; i++) {
-        if (t->ops[i].code == OP_NOISE) {
-            return true;
-        }
-    }
-    return false;
-}
-
-static bool is_possible(const image *im, diags *errors) {
-    const image_settings *s = &im->settings;
-    if (has_noise(im)) {
-        diag_error(errors, im->at, "leave it out, --without; or choose --number float",
-                   "outputs of '%s' have noise, which fixed point has not", im->name);
-    } else if (im->contacts > 0) {
-        diag_error(errors, im->contact[0].at, "leave it out, --without; or choose --number float",
-                   "there are no events in fixed point: '%s' has this %s", im->name,
-                   im->contact[0].word);
-    } else if (im->ledger.kept) {
-        diag_error(errors, im->at, "--without ledger, or --number float",
-                   "'%s' keeps a ledger, which fixed point has not", im->name);
-    } else if (s->method != WH_RK4) {
-        diag_error(errors, im->at, "leave out --method, or choose --number float",
-                   "fixed point knows --method rk4 only, not %s", wh_methods[s->method].word);
-    } else if (s->compensated) {
-        diag_error(errors, im->at, "leave out --compensated, or choose --number float",
-                   "sums in fixed point are not compensated");
-    } else if (s->matrix != MATRIX_NONE) {
-        diag_error(errors, im->at, "leave out --matrix, or choose --number float",
-                   "there is no --matrix %s in fixed point", image_matrix_words[s->matrix]);
-    } else if (s->tables != TABLES_NONE) {
-        diag_error(errors, im->at, "leave out --tables, or choose --number float",
-                   "there are no --tables %s in fixed point", image_tables_words[s->tables]);
-    } else if (im->angles + im->reals == 0) {
-        diag_error(errors, im->at, NULL, "'%s' has no state to step", im->name);
-    } else {
-        return true;
-    }
-    return false;
-}
 
 /* --- formats -------------------------------------------------------------------------------------------*/
 
@@ -64,11 +21,12 @@ static wh_fixed_format format_of(interval range, int bits) {
 
 /* Largest number of binary digits behind the point with which `size` has room in `most` units. */
 static int room_for(double size, double most) {
-    int bits = fixed_point_of(size, FIXED_DIGITS) + 3;
-    while (number_scaled(size, bits) > most) {
-        bits--;
+    const int finest = fixed_point_of(size, FIXED_DIGITS) + 3;
+    int less = 0;
+    while (less < 8 && !(number_scaled(size, finest - less) <= most)) {
+        less++;
     }
-    return bits;
+    return finest - less;
 }
 
 /* Times `factor` of a number of up to `size` units and so many bits, to so many. False: no room. */
@@ -101,6 +59,13 @@ static void too_far(const fixed_plan *p, diags *errors) {
     diag_error(errors, p->image->at, "take a smaller --step, or declare narrower ranges",
                "a step of %.9g s may move '%s' too far for fixed point", p->image->step_s,
                p->image->name);
+}
+
+static void no_room(const fixed_plan *p, diags *errors) {
+    diag_error(errors, p->image->at,
+               "take another --step, or declare other ranges: range NAME = A .. B; or choose "
+               "--number float",
+               "rounding takes values of '%s' beyond their room", p->image->name);
 }
 
 static const fixed_op *result_of(const fixed_plan *p, int i) {
@@ -219,8 +184,8 @@ static bool widen_stages(fixed_plan *p) {
     bool enough = true;
     for (int at = 0; at < im->reals; at++) {
         const double most = 1.0000001 * most_added(p, at) + number_scaled(4.0, -p->format[at].bits);
-        if (p->range[at].high + most > p->stage[at].high ||
-            p->range[at].low - most < p->stage[at].low) {
+        if (!(p->range[at].high + most <= p->stage[at].high &&
+              p->range[at].low - most >= p->stage[at].low)) {
             p->stage[at] = interval_widen(p->range[at], 1.1 * most);
             enough = false;
         }
@@ -228,14 +193,29 @@ static bool widen_stages(fixed_plan *p) {
     return enough;
 }
 
+/* What the values can be with the stages where they are. False, reported: within the ranges alone they may be too large, or
+ * where steps from there get. */
+static bool hull_of(fixed_plan *p, bool bits_known, bool ranges_alone, diags *errors) {
+    const image *im = p->image;
+    const fixed_leaves leaves = leaves_of(p);
+    p->cells = fixed_hull(p->list, im, &leaves, bits_known, errors);
+    if (p->cells == FIXED_HULL_UNBOUNDED && ranges_alone) {
+        diag_error(errors, im->at, "declare narrower ranges: range NAME = A .. B",
+                   "the equations of '%s' have values beyond %.2g within the ranges", im->name,
+                   FIXED_SIZE_MOST);
+    } else if (p->cells == FIXED_HULL_UNBOUNDED) {
+        too_far(p, errors);
+    }
+    return p->cells > 0;
+}
+
 /* Encloses all values. */
 static bool enclose(fixed_plan *p, diags *errors) {
     const image *im = p->image;
-    const fixed_leaves leaves = leaves_of(p);
     bool enough = false;
     memcpy(p->stage, p->range, (size_t)(im->reals + im->inputs) * sizeof *p->stage);
     for (int pass = 0; pass < 12 && !enough; pass++) {
-        if (fixed_hull(p->list, im, &leaves, false, errors) == 0) {
+        if (!hull_of(p, false, pass == 0, errors)) {
             return false;
         }
         enough = widen_stages(p);
@@ -267,7 +247,29 @@ static bool make_points(fixed_plan *p, diags *errors) {
         }
     }
     free(before);
+    if (good && !stands) {
+        no_room(p, errors);
+    }
     return good && stands;
+}
+
+/* Points for all, with which everything fits, rounding included: that takes the stages further, which is much where a step
+ * adds little. */
+static bool make_all_fit(fixed_plan *p, diags *errors) {
+    for (int pass = 0; pass < 6; pass++) {
+        if (!make_points(p, errors) || !hull_of(p, true, false, errors)) {
+            return false;
+        }
+        const bool fits = fixed_fits(p->list);
+        if (widen_stages(p)) {
+            if (!fits) {
+                no_room(p, errors);
+            }
+            return fits;
+        }
+    }
+    too_far(p, errors);
+    return false;
 }
 
 static void make_scale(const fixed_plan *p, double *scale) {
@@ -295,54 +297,44 @@ static void make_starts(fixed_plan *p) {
     }
 }
 
-/* Does everything start within its range? */
-static bool starts_inside(const fixed_plan *p, diags *errors) {
-    const image *im = p->image;
-    bool good = true;
-    for (int i = 0; i < im->reals + im->inputs; i++) {
-        const double value = i < im->reals ? im->start_real[i] : im->input[i - im->reals].value;
-        if (value < p->range[i].low || value > p->range[i].high) {
-            diag_error(errors, im->range[i].at, "widen the range, or start within it",
-                       "'%s' starts at %.9g, outside its range", im->range[i].name, value);
-            good = false;
-        }
-    }
-    return good;
+/* To begin with: room for where stages are. */
+static wh_fixed_format first_format(interval range, interval stage) {
+    const int bits = fixed_point_of(interval_size(range), FIXED_DIGITS);
+    const int of_stage = fixed_point_of(interval_size(stage), FIXED_KEPT_DIGITS);
+    return format_of(range, of_stage < bits ? of_stage : bits);
 }
 
-static bool make(fixed_plan *p, diags *errors) {
+static bool make(fixed_plan *p, const fixed_watch *watch, diags *errors) {
     const image *im = p->image;
     const int numbers = im->reals + im->inputs;
     double scale[IMAGE_COMPONENTS_MAX];
     make_scale(p, scale);
     p->list = fixed_list_make(im, scale, errors);
-    if (p->list == NULL || !fixed_ranges(im, p->range, p->declared, errors) ||
-        !starts_inside(p, errors)) {
+    if (p->list != NULL) {
+        p->list->watch = watch;
+    }
+    if (p->list == NULL || !fixed_ranges(im, p->range, p->declared, watch, errors) ||
+        !fixed_ranges_hold(im, p->range, errors)) {
         return false;
     }
     for (int i = 0; i < numbers; i++) {
-        p->format[i] =
-            format_of(p->range[i], fixed_point_of(interval_size(p->range[i]), FIXED_DIGITS));
+        p->format[i] = first_format(p->range[i], p->range[i]);
     }
-    const fixed_leaves leaves = leaves_of(p);
-    if (!enclose(p, errors) || !make_points(p, errors)) {
+    if (!enclose(p, errors)) {
         return false;
     }
-    p->cells = fixed_hull(p->list, im, &leaves, true, errors);
-    if (p->cells > 0 && !fixed_fits(p->list)) {
-        diag_error(errors, im->at, "declare other ranges: range NAME = A .. B",
-                   "rounding takes values of '%s' beyond their room", im->name);
-        return false;
+    for (int i = 0; i < im->reals; i++) { /* which may leave them by far */
+        p->format[i] = first_format(p->range[i], p->stage[i]);
     }
-    if (p->cells > 0 && !widen_stages(p)) { /* rounding took them further */
-        too_far(p, errors);
-        return false;
-    }
-    return p->cells > 0;
+    return make_all_fit(p, errors);
 }
 
 fixed_plan *fixed_plan_make(const image *im, diags *errors) {
-    if (!is_possible(im, errors)) {
+    return fixed_plan_make_watched(im, NULL, errors);
+}
+
+fixed_plan *fixed_plan_make_watched(const image *im, const fixed_watch *watch, diags *errors) {
+    if (!fixed_has_step(im, errors)) {
         return NULL;
     }
     fixed_plan *p = room(1, sizeof *p);
@@ -355,7 +347,7 @@ fixed_plan *fixed_plan_make(const image *im, diags *errors) {
     p->stage = room(numbers, sizeof *p->stage);
     p->declared = room(numbers, sizeof *p->declared);
     p->mover = room(p->coordinates, sizeof *p->mover);
-    if (!make(p, errors)) {
+    if (!make(p, watch, errors)) {
         fixed_plan_free(p);
         return NULL;
     }
@@ -380,6 +372,14 @@ void fixed_plan_free(fixed_plan *plan) {
 
 void fixed_plan_say(const fixed_plan *p, FILE *out, const char *begin) {
     const image *im = p->image;
+    for (int i = 0; i < im->angles; i++) {
+        if (im->angle_range[i].declared) {
+            fprintf(out,
+                    "%s'%s' is a turn angle, which goes round and has no range: that declared for "
+                    "it is not used\n",
+                    begin, im->angle_range[i].name);
+        }
+    }
     for (int i = 0; i < im->reals + im->inputs; i++) {
         if (!p->declared[i]) {
             fprintf(out, "%srange %s = %.6g .. %.6g: not declared, taken from %s\n", begin,

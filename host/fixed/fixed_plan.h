@@ -5,6 +5,7 @@
 
 #include "core/fixed_scene.h"
 #include "fixed_list.h"
+#include "fixed_range.h"
 
 /* x 2^shift number 2^-(32 + by), rounded: times a constant, to another binary point. */
 typedef struct fixed_gain {
@@ -48,9 +49,11 @@ typedef struct fixed_plan {
 
 /* Of an image made with the default method; NULL, reported, where the scene has no such step. */
 fixed_plan *fixed_plan_make(const image *im, diags *errors);
+/* The same, watched; also NULL when it was stopped. */
+fixed_plan *fixed_plan_make_watched(const image *im, const fixed_watch *watch, diags *errors);
 void fixed_plan_free(fixed_plan *plan);
 
-/* The ranges that were not declared, a line each, begun by `begin`: "the range of theta' is -40 .. 40 [rad/s], ...". */
+/* Ranges that turn angles do not take, and those that were not declared, a line each, begun by `begin`: "the range of theta' is -40 .. 40 [rad/s], ...". */
 void fixed_plan_say(const fixed_plan *plan, FILE *out, const char *begin);
 
 #endif

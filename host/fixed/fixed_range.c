@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include <stdio.h>
+
 #include "host/base/room.h"
 #include "host/run/engine.h"
 
@@ -18,7 +20,19 @@ static interval twice(interval seen) {
                       seen.high > 0.0 ? 2.0 * seen.high : 0.5 * seen.high};
 }
 
-static bool look(const image *im, interval *seen, diags *errors) {
+bool fixed_watch_stops(const fixed_watch *watch) {
+    return watch != NULL && watch->stop != NULL && *watch->stop != 0;
+}
+
+/* Often enough to be seen, seldom enough to cost nothing. */
+static void show(const fixed_watch *watch, uint64_t step, uint64_t steps) {
+    if (watch != NULL && watch->progress && (step & 0x3fffU) == 0x3fffU) {
+        fprintf(stderr, "\rranges, from a run in double: %5.1f %%",
+                100.0 * (double)step / (double)steps);
+    }
+}
+
+static bool look(const image *im, interval *seen, const fixed_watch *watch, diags *errors) {
     void *run = engine_double.start(im);
     double *angle = room(im->angles, sizeof *angle);
     double *real = room(im->reals, sizeof *real);
@@ -27,12 +41,17 @@ static bool look(const image *im, interval *seen, diags *errors) {
     for (int i = 0; i < im->reals; i++) {
         seen[i] = (interval){real[i], real[i]};
     }
-    for (uint64_t step = 0; step < im->steps && status == WH_OK; step++) {
+    for (uint64_t step = 0; step < im->steps && status == WH_OK && !fixed_watch_stops(watch);
+         step++) {
+        show(watch, step, im->steps);
         status = engine_double.step(run);
         engine_double.state(run, angle, real);
         for (int i = 0; i < im->reals; i++) {
             seen[i] = interval_hull(seen[i], (interval){real[i], real[i]});
         }
+    }
+    if (watch != NULL && watch->progress) {
+        fputs("\r                                      \r", stderr);
     }
     engine_double.stop(run);
     free(angle);
@@ -41,10 +60,11 @@ static bool look(const image *im, interval *seen, diags *errors) {
         diag_error(errors, im->at, "declare the ranges: range NAME = A .. B",
                    "the run of '%s' in double, from which ranges are taken, diverged", im->name);
     }
-    return status == WH_OK;
+    return status == WH_OK && !fixed_watch_stops(watch);
 }
 
-bool fixed_ranges(const image *im, interval *range, bool *declared, diags *errors) {
+bool fixed_ranges(const image *im, interval *range, bool *declared, const fixed_watch *watch,
+                  diags *errors) {
     bool good = true;
     bool all = true;
     for (int i = 0; i < im->reals + im->inputs; i++) {
@@ -53,7 +73,7 @@ bool fixed_ranges(const image *im, interval *range, bool *declared, diags *error
         all = all && (r->declared || i >= im->reals);
     }
     if (!all) {
-        good = look(im, range, errors);
+        good = look(im, range, watch, errors);
     }
     for (int i = 0; i < im->reals + im->inputs && good; i++) {
         if (declared[i]) {

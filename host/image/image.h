@@ -301,7 +301,8 @@ typedef struct image {
         start_turns; /* [angles] the same as float keeps it: 2^32 a turn; 0 where that holds it not */
     double *start_real; /* [reals] */
 
-    image_range *range; /* [reals + inputs] components, then inputs */
+    image_range *range;       /* [reals + inputs] components, then inputs */
+    image_range *angle_range; /* [angles] of which nothing takes one */
     const struct fixed_plan
         *fixed; /* of a run in fixed point (host/fixed), which is not the image's; or NULL */
 

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "ledger_read.h"
+#include "slow.h"
 
 /* Roundings of a whole step that a run of one step may be off by. Of N steps it is so many times the root of N:
  * that is also N of the same sign, as a rate that grows evenly has, for runs of a thousand steps. */
@@ -46,15 +47,21 @@ belief belief_of(books *b, const engine_kind *kind, const void *run) {
         made.losses_J = -b->loss_J;
         made.jump_s = fabs(b->jump_J) > 0.5 * fabs(made.energy.left) ? b->jump_s : -1.0;
     }
+    made.saturated = kind->saturated != NULL && kind->saturated(run) > 0;
+    made.slow = slow_count(kind, b->image, run) > 0;
     made.left_J = made.energy.left;
     made.largest_J = larger(made.energy.largest, b->kinetic_J[1] - b->kinetic_J[0]);
     made.largest_J = larger(made.largest_J, b->stored_J[1] - b->stored_J[0]);
     made.largest_J = larger(made.largest_J, books_swing_J(b));
     double computing_J;
-    const double step_J = books_rounding_J(b, kind, &computing_J);
+    const double step_J = books_rounding_J(b, kind, run, &computing_J);
     made.rounding_J = ROUNDINGS * number_root((double)b->entries) * step_J + 2.0 * computing_J;
     if (made.left_J != 0.0) { /* else there is nothing to explain */
         made.rounding_J += books_lost_J(b);
+    }
+    made.exact = b->image->settings.matrix == MATRIX_EXACT;
+    if (made.exact && made.left_J != 0.0) { /* the motion is right where the books are too coarse */
+        made.rounding_J += b->rule_J;
     }
     made.rounded = made.rounding_J / BELIEF_LIMIT > made.largest_J;
     made.largest_J = number_most(made.largest_J, made.rounding_J / BELIEF_LIMIT);
@@ -70,8 +77,10 @@ bool belief_lost(const belief *b, double limit) {
 void belief_print(FILE *out, const belief *b) {
     if (b->known) {
         fprintf(out, "energy left over   %.2e of %s, %.3g J\n", b->ratio,
-                b->rounded ? "the least entry that rounding lets one tell"
-                           : "the largest entry of the books",
+                b->rounded && b->exact
+                    ? "the least entry that rounding and the books' own integrals let one tell"
+                : b->rounded ? "the least entry that rounding lets one tell"
+                             : "the largest entry of the books",
                 b->largest_J);
     }
 }
@@ -89,6 +98,18 @@ void belief_say(FILE *out, const char *who, const belief *b, const engine_kind *
                 " steps had more moments with events than a step takes, and what was "
                 "left of them counts as rest or sticking: a smaller --step\n",
                 b->overruns);
+    } else if (b->exact) {
+        fputs(
+            "hint: the steps of --matrix exact are exact whatever their size: --number double tells "
+            "what rounding does\n",
+            out);
+    } else if (b->saturated) {
+        fputs("hint: values were held at an end of their range, which keeps no energy: widen it: "
+              "range NAME = A .. B\n",
+              out);
+    } else if (b->slow && kind->unit != NULL) {
+        fputs("hint: rounding took a share of what steps were to add: the note says of what\n",
+              out);
     } else if (b->jump_s >= 0.0) {
         fprintf(
             out,

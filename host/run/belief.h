@@ -17,7 +17,8 @@
  * It is the rounding of the state and of the accelerations to the run's numbers at each step, and that of the
  * energy's own computation at the start and at the end: of the terms in which it is computed, which are large where
  * a sum such as V = k (x - b)^2/2 is multiplied out and x is far from the origin.
- * With nothing left over, the ratio is 0. */
+ * With --matrix exact a step is the motion itself, however long it is, but what the books integrate between is not: by how
+ * much two rules of integration differ counts as rounding does. With nothing left over, the ratio is 0. */
 #ifndef RUN_BELIEF_H
 #define RUN_BELIEF_H
 
@@ -44,6 +45,9 @@ typedef struct belief {
         rounding_J; /* what rounding explains of it: of a step, by the root of the steps, and of the energy itself */
     double ratio;      /* |left| / largest, >= 0; infinite with something left over of nothing */
     uint64_t overruns; /* steps with more moments with events than a step takes */
+    bool saturated;    /* values were held at an end of their range */
+    bool slow;         /* rounding took a share of what steps were to add (slow.h) */
+    bool exact;        /* the steps are exact (--matrix exact) */
     double jump_s;     /* where the balance was lost at one go; below 0: nowhere */
 } belief;
 

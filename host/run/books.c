@@ -95,10 +95,26 @@ static double unit_rounding(const engine_kind *kind) {
     return kind == &engine_float ? 0x1p-24 : 0x1p-53;
 }
 
+/* How a component of the state is rounded in a step, and a change of it by which the energy's slope is taken. */
+typedef struct state_rounding {
+    double by;
+    double change;
+} state_rounding;
+
+static state_rounding rounding_of_component(const image *im, const engine_kind *kind,
+                                            const void *run, int i, double value) {
+    const bool turns = kind == &engine_float && i < im->angles;
+    if (kind->unit != NULL) { /* once itself, and what is added to it */
+        const double unit = kind->unit(run, i);
+        return (state_rounding){unit, number_most(SLOPE_SHARE * fabs(value), unit)};
+    }
+    return turns ? (state_rounding){0x1p-33 * 6.283185307179586, SLOPE_SHARE}
+                 : (state_rounding){unit_rounding(kind) * fabs(value), SLOPE_SHARE * value};
+}
+
 /* By how much the energy changes when each component of the state is rounded once. */
-static double state_rounding_J(const books *b, const engine_kind *kind) {
+static double state_rounding_J(const books *b, const engine_kind *kind, const void *run) {
     const image *im = b->image;
-    const bool is_float = kind == &engine_float;
     double angle_rad[IMAGE_COMPONENTS_MAX];
     double real[2 * IMAGE_COMPONENTS_MAX];
     double sum = 0.0;
@@ -107,18 +123,16 @@ static double state_rounding_J(const books *b, const engine_kind *kind) {
     for (int i = 0; i < im->angles + im->reals; i++) {
         double *at = i < im->angles ? &angle_rad[i] : &real[i - im->angles];
         const double kept = *at;
-        const bool turns = is_float && i < im->angles;
-        const double rounding =
-            turns ? 0x1p-33 * 6.283185307179586 : unit_rounding(kind) * fabs(kept);
-        const double change = turns ? SLOPE_SHARE : SLOPE_SHARE * kept;
+        const state_rounding rounding = rounding_of_component(im, kind, run, i, kept);
         const component c = image_component(im, i);
         /* a rate that nothing ever changed, as a clock's, was never rounded */
         const spread *rate = &b->rate[c.unknown];
         const bool still = c.primes == 1 && !rate->pushed && rate->squares == 0.0;
-        if (change != 0.0 && !still) {
-            *at = kept + change;
+        if (rounding.change != 0.0 && !still) {
+            *at = kept + rounding.change;
             evaluate_now(b, angle_rad, real, b->time_s);
-            sum += fabs((energy_of(im, b->value) - b->energy_J[1]) * (rounding / change));
+            sum +=
+                fabs((energy_of(im, b->value) - b->energy_J[1]) * (rounding.by / rounding.change));
             *at = kept;
         }
     }
@@ -166,8 +180,8 @@ static double step_lost_J(const books *b, const engine_kind *kind) {
 }
 
 /* Look at the present state. */
-static void look_at_rounding(books *b, const engine_kind *kind) {
-    const double state_J = state_rounding_J(b, kind);
+static void look_at_rounding(books *b, const engine_kind *kind, const void *run) {
+    const double state_J = state_rounding_J(b, kind, run);
     evaluate_now(b, b->angle_rad, b->real, b->time_s);
     evaluator_rounding(b->evaluator, b->angle_rad, 0.0, b->off);
     const double off_J = energy_of(b->image, b->off);
@@ -176,8 +190,8 @@ static void look_at_rounding(books *b, const engine_kind *kind) {
     b->lost_J = number_most(b->lost_J, step_lost_J(b, kind));
 }
 
-double books_rounding_J(books *b, const engine_kind *kind, double *computing_J) {
-    look_at_rounding(b, kind);
+double books_rounding_J(books *b, const engine_kind *kind, const void *run, double *computing_J) {
+    look_at_rounding(b, kind, run);
     *computing_J = b->computing_J;
     return b->rounding_J + 0x1p-52 * b->size_J;
 }
@@ -185,6 +199,14 @@ double books_rounding_J(books *b, const engine_kind *kind, double *computing_J) 
 double books_lost_J(const books *b) { return (double)b->entries * b->lost_J; }
 
 /* --- the balance -------------------------------------------------------------------------------*/
+
+/* By how much two steps' work may be off: as Simpson's rule and trapezoids differ where the powers are smooth, else by as much
+ * as they change. */
+static double rule_off_J(double step_s, double begin_W, double middle_W, double end_W) {
+    const double rules_J = fabs(step_s / 6.0 * (2.0 * middle_W - begin_W - end_W));
+    const double change_J = 0.5 * step_s * (fabs(middle_W - begin_W) + fabs(end_W - middle_W));
+    return rules_J > 0.1 * change_J ? change_J : rules_J;
+}
 
 /* Simpson's rule needs pairs of steps: between them, the last step counts as a trapezoid, which the
  * next entry takes back. */
@@ -196,7 +218,10 @@ static void add_work(books *b, const double power_W[2]) {
             b->power_W[1][k] = power_W[k];
         } else {
             *work[k] -= 0.5 * b->step_s * (b->power_W[0][k] + b->power_W[1][k]);
-            *work[k] += b->step_s / 3.0 * (b->power_W[0][k] + 4.0 * b->power_W[1][k] + power_W[k]);
+            const double ends_W = b->power_W[0][k] + power_W[k];
+            const double middle_W = b->power_W[1][k];
+            *work[k] += b->step_s / 3.0 * (ends_W + 4.0 * middle_W);
+            b->rule_J += rule_off_J(b->step_s, b->power_W[0][k], middle_W, power_W[k]);
             b->power_W[0][k] = power_W[k];
         }
     }
@@ -250,7 +275,7 @@ void books_enter(books *b, const engine_kind *kind, const void *run) {
     }
     if (b->entries == 0 || ((b->entries & (b->entries - 1)) == 0 && b->entries % 3 == 1)) {
         /* the start, 1, 4, 16, ...: seldom */
-        look_at_rounding(b, kind);
+        look_at_rounding(b, kind, run);
     }
     b->entries++;
     if (b->entries % 2 == 1) { /* Simpson's rule is complete */

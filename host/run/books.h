@@ -47,6 +47,7 @@ typedef struct books {
     double
         computing_J; /* what rounding may leave of the energy's computation, at most of those looked at */
     double lost_J;      /* what a step may lose of entries too small for float, likewise */
+    double rule_J;      /* by how much the rule may be off, in all */
     double kept_J;      /* error at the last even step */
     double jump_J;      /* its largest change between two even steps, */
     double jump_s;      /* which ended here */
@@ -68,7 +69,7 @@ book_account books_account(const books *b);
 double books_swing_J(const books *b);
 /* What a step's roundings to numbers of this kind change the energy by: of the state, of the accelerations and of the
  * powers that the books add up. *computing_J: what those of the energy itself, in double, leave at one time. */
-double books_rounding_J(books *b, const engine_kind *kind, double *computing_J);
+double books_rounding_J(books *b, const engine_kind *kind, const void *run, double *computing_J);
 /* What the run's own books, of a scene with contacts, may have lost of entries that are too small for float, in all
  * steps; after books_rounding_J(). */
 double books_lost_J(const books *b);

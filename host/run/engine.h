@@ -28,11 +28,14 @@ typedef struct engine_kind {
     uint64_t (*evaluations)(const void *run, uint64_t *most);
     /* The books so far: total[entries], error[accounts] (the numerical drift); SI. */
     void (*ledger)(const void *run, double *total, double *error);
-    /* Of turn angle i: the most that rounding its steps to whole units (2^32 a turn) has put it off what its rates
-     * asked for, since the start, and the span that these asked for; rad. 0 in double, and compensated. */
-    double (*angle_off)(const void *run, int i, double *span_rad);
+    /* Of component i, angles first: the most that rounding its steps to whole units has put it off what was asked for,
+     * since the start, and the span that this asked for; SI. Of numbers without a unit(): turn angles only, which move by
+     * units of 2^32 a turn in float; 0 in double, and compensated. */
+    double (*component_off)(const void *run, int i, double *span);
     /* Values that were held at an end of their range since the start; NULL: this number has no ranges. */
     uint64_t (*saturated)(const void *run);
+    /* What component i is kept in whole units of; SI. NULL: floating point. */
+    double (*unit)(const void *run, int i);
 } engine_kind;
 
 extern const engine_kind engine_float;

@@ -1,33 +1,69 @@
 #include "slow.h"
 
-bool slow_angle(const engine_kind *kind, const void *run, int i) {
-    double span_rad;
-    const double off_rad = kind->angle_off(run, i, &span_rad);
-    return off_rad > SLOW_SHARE * span_rad && off_rad > SLOW_LEAST_RAD;
+#include <string.h>
+
+bool slow_component(const engine_kind *kind, const void *run, int i) {
+    double span;
+    const double off = kind->component_off(run, i, &span);
+    const double least =
+        kind->unit != NULL ? SLOW_LEAST_UNITS * kind->unit(run, i) : SLOW_LEAST_RAD;
+    return off > SLOW_SHARE * span && off > least;
+}
+
+/* Float rounds angles only. What ends of ranges took is another matter, told by itself. */
+static int components(const engine_kind *kind, const image *im, const void *run) {
+    const bool held = kind->saturated != NULL && kind->saturated(run) > 0;
+    return held ? 0 : im->angles + (kind->unit != NULL ? im->reals : 0);
 }
 
 int slow_count(const engine_kind *kind, const image *im, const void *run) {
     int count = 0;
-    for (int i = 0; i < im->angles; i++) {
-        count += slow_angle(kind, run, i);
+    for (int i = 0; i < components(kind, im, run); i++) {
+        count += slow_component(kind, run, i);
     }
     return count;
 }
 
+static void say_angle(FILE *out, const image *im, const engine_kind *kind, const void *run, int i) {
+    double span_rad;
+    const double off_rad = kind->component_off(run, i, &span_rad);
+    fprintf(out,
+            "whirl run: note: '%s' turns so slowly that rounding its steps to 1.5e-9 rad, as float "
+            "does, put it off by up to %.2g rad, %.2g %% of the %.2g rad that it should cover\n",
+            im->unknown[im->angle[i].unknown].name, off_rad, 100.0 * off_rad / span_rad, span_rad);
+}
+
+static void say_fixed(FILE *out, const image *im, const engine_kind *kind, const void *run, int i) {
+    const component c = image_component(im, i);
+    const image_unknown *u = &im->unknown[c.unknown];
+    const char *si = u->unit[c.primes].si;
+    const char *unit = strcmp(si, "1") == 0 ? "" : si;
+    const char *space = unit[0] != '\0' ? " " : "";
+    double span;
+    const double off = kind->component_off(run, i, &span);
+    fprintf(out,
+            "whirl run: note: '%s%.*s' moves so slowly that rounding, to %.2g%s%s and of what is "
+            "added to it, put it off by up to %.2g%s%s",
+            u->name, c.primes, "''''''''''", kind->unit(run, i), space, unit, off, space, unit);
+    if (span > 0.0) {
+        fprintf(out, ", %.2g %% of the %.2g%s%s that it should cover", 100.0 * off / span, span,
+                space, unit);
+    }
+    fputc('\n', out);
+}
+
 void slow_say(FILE *out, const image *im, const engine_kind *kind, const void *run) {
-    for (int i = 0; i < im->angles; i++) {
-        double span_rad;
-        const double off_rad = kind->angle_off(run, i, &span_rad);
-        if (slow_angle(kind, run, i)) {
-            fprintf(
-                out,
-                "whirl run: note: '%s' turns so slowly that rounding its steps to 1.5e-9 rad, as float "
-                "does, put it off by up to %.2g rad, %.2g %% of the %.2g rad that it should cover\n",
-                im->unknown[im->angle[i].unknown].name, off_rad, 100.0 * off_rad / span_rad,
-                span_rad);
+    for (int i = 0; i < components(kind, im, run); i++) {
+        if (slow_component(kind, run, i)) {
+            (kind->unit != NULL ? say_fixed : say_angle)(out, im, kind, run, i);
         }
     }
     if (slow_count(kind, im, run) > 0) {
-        fputs("hint: --compensated carries what is rounded; a larger --step rounds less\n", out);
+        fputs(
+            kind->unit != NULL
+                ? "hint: a larger --step rounds less, and so do narrower ranges (turn angles have "
+                  "none); --number float --compensated carries what is rounded\n"
+                : "hint: --compensated carries what is rounded; a larger --step rounds less\n",
+            out);
     }
 }

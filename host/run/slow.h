@@ -1,9 +1,10 @@
-/* slow.h: float turn angles that turn too slowly for their steps' units: to be told, with the way out.
+/* slow.h: what moves too slowly for the units of its steps: to be told, with the way out.
  *
  * A float turn angle moves by whole units, 2^32 a turn, 1.5e-9 rad. Below half of one a step it stands still, and
- * near that its rate is off. It is told of an angle when what rounding took from its steps, summed since the start,
- * was at some time more than SLOW_SHARE of the span that they asked for, and more than SLOW_LEAST_RAD. So one that
- * swings or turns and is slow only now and then is not: what its slow steps lose is little beside its span. */
+ * near that its rate is off. In fixed point so do all components, by units of their ranges. It is told of one when
+ * what rounding took from its steps, summed since the start, was at some time more than SLOW_SHARE of the span that
+ * they asked for, and more than a few units. So one that swings or turns and is slow only now and then is not: what
+ * its slow steps lose is little beside its span. */
 #ifndef RUN_SLOW_H
 #define RUN_SLOW_H
 
@@ -12,12 +13,13 @@
 #include "engine.h"
 
 #define SLOW_SHARE 1e-3
-#define SLOW_LEAST_RAD 3e-9 /* two units: what an angle that hardly moves may show of rounding */
+#define SLOW_LEAST_RAD 3e-9  /* two units: what an angle that hardly moves may show of rounding */
+#define SLOW_LEAST_UNITS 4.0 /* in fixed point, where the accelerations are of whole units, too */
 
-/* Is turn angle i one of those? */
-bool slow_angle(const engine_kind *kind, const void *run, int i);
+/* Is component i, angles first, one of those? */
+bool slow_component(const engine_kind *kind, const void *run, int i);
 
-/* How many of the turn angles are. */
+/* How many are. */
 int slow_count(const engine_kind *kind, const image *im, const void *run);
 
 /* A note for each, and how to cure them. */

@@ -160,6 +160,29 @@ END
 "$whirl" run "$scratch/w/cart.whirl:cart_narrow" --number fixed >"$scratch/out" 2>"$scratch/err"
 grep -q '^[1-9][0-9]* values saturated' "$scratch/out" && grep -q 'warning: .* values saturated' "$scratch/err"
 verdict $? "a range that is too small shows"
+grep -q 'warning: .* values saturated' "$scratch/err" && ! grep -q 'smaller --step' "$scratch/err"
+verdict $? "and nothing else is blamed for it"
+cat >"$scratch/w/slow.whirl" <<'END'
+mechanism slow
+coordinate x [m]
+coordinate b [rad]
+input u = 6e-6 [N]
+T = 1 [kg]*x'^2/2 + 1 [kg*m^2]*b'^2/2
+V = -1e-3 [J]*cos(b)
+Q(x) = u
+scene slow { step 1 [ms]; until 1 [s]; range x = -10 .. 10 [m], x' = -10 .. 10 [m/s], u = -1 .. 1 [N], b = -5 .. 5 [deg], b' = -1 .. 1 [rad/s] }
+mechanism round
+coordinate th [rad]
+coordinate ph [rad]
+T = 1 [kg*m^2]*(th'^2 + sin(th)^2*ph'^2)/2
+V = -9.81 [J]*cos(th)
+scene round { start th = 1, ph' = 3 [rad/s]; until 1 [s] }
+END
+"$whirl" run "$scratch/w/slow.whirl:slow" --number fixed >"$scratch/out" 2>"$scratch/err"
+grep -q "note: 'x'' moves so slowly that rounding" "$scratch/err" && grep -q '^hint: a larger --step rounds less' "$scratch/err" && ! grep -q 'smaller --step' "$scratch/err"
+verdict $? "steps lost in rounding are told, with hints that help"
+grep -q "note: 'b' is a turn angle.* no range" "$scratch/err"
+verdict $? "a range of a turn angle is not used, and that is told"
 "$whirl" run "$scratch/w/cart.whirl:cart_wide" --number fixed >"$scratch/out" 2>"$scratch/err"
 grep -q '^0 values saturated' "$scratch/out" && [ ! -s "$scratch/err" ]
 verdict $? "one that is large enough is quiet"
@@ -179,6 +202,22 @@ refuse "knows --method rk4 only, not heun" two_mass_relative --method heun
 refuse "are not compensated" two_mass_relative --compensated
 refuse "no --matrix exact in fixed point" two_mass_relative --matrix exact
 refuse "no --tables linear in fixed point" epicyclic_conserved --tables linear
+refuse "may be zero within the ranges" "$scratch/w/slow.whirl:round"
+grep -q '^hint: turn angles go all the way round' "$scratch/err"
+verdict $? "and not with the hint to narrow a range that is none"
+# the example of core/fixed_scene.h
+"$whirl" derive epicyclic_conserved --as c --number fixed --name gear --until 1s --header "$scratch/gear.h" >"$scratch/gear.c" 2>/dev/null
+{
+    echo '#include "gear.h"'
+    echo 'int main(void) {'
+    sed -n 's/^ \*     //p' core/fixed_scene.h
+    echo 'return state.steps == gear.steps && theta_rad > 0 && rate_rad_s > 0 ? 0 : 3; }'
+} >"$scratch/example.c"
+# shellcheck disable=SC2086 # a list of words
+gcc $warnings -I"$scratch" -o "$scratch/example" "$scratch/example.c" "$scratch/gear.c" core/*.c 2>"$scratch/err" && "$scratch/example"
+verdict $? "the example in core/fixed_scene.h compiles and runs to its end" "$scratch/err"
+! grep -q 'wh_angle_to_rad' "$scratch/gear.h" && grep -q 'wh_fixed_angle()' "$scratch/gear.h"
+verdict $? "a header names the functions that there are in fixed point"
 "$whirl" derive two_mass_relative --number fixed >"$scratch/out" 2>"$scratch/err"
 [ $? -eq 2 ] && grep -q -- '--number fixed goes with --as c' "$scratch/err"
 verdict $? "equations have no number"

@@ -78,6 +78,22 @@ verdict $? "run without records: exit status 130, and when"
 grep -q '^energy book' "$scratch/out"
 verdict $? "run without records: its books are there" "$scratch/out"
 
+# a run in fixed point looks for its ranges first
+cat >"$scratch/long.whirl" <<'END'
+mechanism long
+coordinate x [m]
+T = 1 [kg]*x'^2/2
+V = 40 [N/m]*x^2/2
+scene long { start x = 0.1 [m]; until 1000000 [s]; step 1 [ms] }
+END
+"$whirl" run "$scratch/long.whirl" --number fixed >"$scratch/out" 2>"$scratch/err" &
+process=$!
+sleep 0.3
+kill -INT $process
+wait $process
+[ $? -eq 130 ] && grep -q '^whirl run: interrupted before the run in fixed point began' "$scratch/err" && [ ! -s "$scratch/out" ]
+verdict $? "run in fixed point, before it began: exit status 130, and why there is nothing" "$scratch/err"
+
 # a second one ends what waits: here for a reader that never comes
 mkfifo "$scratch/pipe"
 # shellcheck disable=SC2217 # it holds the pipe open and reads nothing

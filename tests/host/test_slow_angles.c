@@ -36,7 +36,7 @@ static outcome run(const char *text, stepping how, uint64_t steps) {
     const double start = motion_value(&m, "a");
     TEST_ASSERT_EQUAL_INT(1, m.image->angles);
     TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, steps));
-    const outcome result = {motion_value(&m, "a") - start, slow_angle(m.kind, m.run, 0)};
+    const outcome result = {motion_value(&m, "a") - start, slow_component(m.kind, m.run, 0)};
     TEST_ASSERT_EQUAL_INT(result.told, slow_count(m.kind, m.image, m.run));
     motion_close(&m);
     return result;
@@ -167,7 +167,7 @@ static void test_steps_with_events_count_once(void) {
         uint64_t overruns;
         TEST_ASSERT_TRUE(m.kind->events(m.run, &overruns) > 400);
         double span_rad;
-        const double off_rad = m.kind->angle_off(m.run, 0, &span_rad);
+        const double off_rad = m.kind->component_off(m.run, 0, &span_rad);
         const double way_rad = rates[i] * 2.0;
         TEST_ASSERT_TRUE(fabs(span_rad - way_rad) < 1e-5 * way_rad + UNIT_RAD);
         TEST_ASSERT_TRUE(fabs(off_rad - fabs(motion_value(&m, "a") - way_rad)) <

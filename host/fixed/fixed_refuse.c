@@ -1,0 +1,77 @@
+/* fixed_refuse.c: see fixed_refuse.h. */
+#include "fixed_refuse.h"
+
+#include "fixed_list.h"
+
+static bool has_noise(const image *im) {
+    const tape *t = im->list[IMAGE_OBSERVE];
+    for (int i = 0; t != NULL && i < t->count; i++) {
+        if (t->ops[i].code == OP_NOISE) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool fixed_has_step(const image *im, diags *errors) {
+    const image_settings *s = &im->settings;
+    if (has_noise(im)) {
+        diag_error(errors, im->at, "leave it out, --without; or choose --number float",
+                   "outputs of '%s' have noise, which fixed point has not", im->name);
+    } else if (im->contacts > 0) {
+        diag_error(errors, im->contact[0].at, "leave it out, --without; or choose --number float",
+                   "there are no events in fixed point: '%s' has this %s", im->name,
+                   im->contact[0].word);
+    } else if (im->ledger.kept) {
+        diag_error(errors, im->at, "--without ledger, or --number float",
+                   "'%s' keeps a ledger, which fixed point has not", im->name);
+    } else if (s->method != WH_RK4) {
+        diag_error(errors, im->at, "leave out --method, or choose --number float",
+                   "fixed point knows --method rk4 only, not %s", wh_methods[s->method].word);
+    } else if (s->compensated) {
+        diag_error(errors, im->at, "leave out --compensated, or choose --number float",
+                   "sums in fixed point are not compensated");
+    } else if (s->matrix != MATRIX_NONE) {
+        diag_error(errors, im->at, "leave out --matrix, or choose --number float",
+                   "there is no --matrix %s in fixed point", image_matrix_words[s->matrix]);
+    } else if (s->tables != TABLES_NONE) {
+        diag_error(errors, im->at, "leave out --tables, or choose --number float",
+                   "there are no --tables %s in fixed point", image_tables_words[s->tables]);
+    } else if (im->angles + im->reals == 0) {
+        diag_error(errors, im->at, NULL, "'%s' has no state to step", im->name);
+    } else {
+        return true;
+    }
+    return false;
+}
+
+/* Does everything start within its range? */
+static bool starts_inside(const image *im, const interval *range, diags *errors) {
+    bool good = true;
+    for (int i = 0; i < im->reals + im->inputs; i++) {
+        const double value = i < im->reals ? im->start_real[i] : im->input[i - im->reals].value;
+        if (value < range[i].low || value > range[i].high) {
+            diag_error(errors, im->range[i].at, "widen the range, or start within it",
+                       "'%s' starts at %.9g, outside its range", im->range[i].name, value);
+            good = false;
+        }
+    }
+    return good;
+}
+
+/* Ranges that are no larger than anything may be. */
+static bool ranges_are_bounded(const image *im, const interval *range, diags *errors) {
+    bool good = true;
+    for (int i = 0; i < im->reals + im->inputs; i++) {
+        if (!(interval_size(range[i]) <= FIXED_SIZE_MOST)) {
+            diag_error(errors, im->range[i].at, "declare a narrower one: range NAME = A .. B",
+                       "the range of '%s' reaches beyond %.2g", im->range[i].name, FIXED_SIZE_MOST);
+            good = false;
+        }
+    }
+    return good;
+}
+
+bool fixed_ranges_hold(const image *im, const interval *range, diags *errors) {
+    return ranges_are_bounded(im, range, errors) && starts_inside(im, range, errors);
+}

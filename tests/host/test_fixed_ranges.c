@@ -1,0 +1,196 @@
+/* test_fixed_ranges.c: ranges and steps of all sizes in fixed point: what is made of them ends, and is either a step or a
+ * refusal whose hint helps; and what has no acceleration moves all the same. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "derived.h"
+#include "host/base/room.h"
+#include "host/fixed/engine_fixed.h"
+#include "host/fixed/fixed_plan.h"
+
+#include "unity.h"
+
+void suite_fixed_ranges(void);
+
+/* What fixed_plan_make() makes of it, and what it says; `report` to be freed. */
+static fixed_plan *plan_of(const image *im, char **report) {
+    size_t length;
+    diags *errors = diags_new();
+    fixed_plan *p = fixed_plan_make(im, errors);
+    FILE *out = room_text(report, &length);
+    diags_flush(errors, out);
+    room_text_end(out);
+    diags_free(errors);
+    return p;
+}
+
+static bool is_made(const image *im) {
+    char *report;
+    fixed_plan *p = plan_of(im, &report);
+    const bool made = p != NULL;
+    free(report);
+    fixed_plan_free(p);
+    return made;
+}
+
+/* All ranges: -size to size. */
+static void set_ranges(image *im, double size) {
+    for (int i = 0; i < im->reals + im->inputs; i++) {
+        im->range[i].declared = true;
+        im->range[i].low = -size;
+        im->range[i].high = size;
+    }
+}
+
+static const char *const wide[] = {
+    "coordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 100 [N/m^3]*x^4/4\n",
+    "coordinate x [m]\ninput u = 0 [N]\nT = 1 [kg]*x'^2/2\nV = 1 [N/m^7]*x^8\nF = 3 [N*s/m]*x'^2\nQ(x) = u\n",
+    "coordinate x [m]\nT = 1 [kg]*x'^2/2 + 2 [kg/m^2]*x^2*x'^2\nV = 40 [N/m]*x^2/2\n",
+    "coordinate a [rad]\nT = 1 [kg*m^2]*a'^2/2\nV = -2 [J]*cos(a)\nF = 1e-3 [N*m*s]*a'^2\n",
+    "coordinate a [rad]\ncoordinate b [rad]\n"
+    "T = 1 [kg*m^2]*(2*a'^2 + b'^2 + a'*b'*cos(a - b))/2\nV = -2 [J]*cos(a)\n",
+    "state x\nequation x'*1 [s] = -x^3\n",
+    "state x\nequation x'*1 [s] = x - x^5\n",
+    "state x\nstate p [rad]\nequation x'*1 [s] = -x^3*sin(p)\nequation p'*1 [s] = x^2\n",
+    "state x\nstate y\nequation x'*1 [s] = 1/(1 + x^2) - y\nequation y'*1 [s] = x*y\n",
+};
+
+/* Who does what this hint says, and the next one, gets somewhere: by smaller steps, or narrower ranges. */
+static void check_hint(image *im, double size, const char *report) {
+    const double step_s = im->step_s;
+    bool helped = false;
+    for (double now = size; now > 1e-11 && !helped; now *= 0.1) {
+        set_ranges(im, now);
+        for (int k = 0; k <= 4 && !helped; k++) {
+            im->step_s = step_s * pow(0.1, k);
+            helped = is_made(im);
+        }
+    }
+    TEST_ASSERT_TRUE_MESSAGE(helped, report);
+}
+
+static void test_ranges_and_steps_of_all_sizes(void) {
+    static const double step_s[] = {1e-6, 1e-4, 1e-3, 1e-2, 1.0};
+    int made = 0;
+    int refused = 0;
+    for (size_t k = 0; k < sizeof wide / sizeof wide[0]; k++) {
+        char *text = room_words("mechanism m\n%sscene s { until 1 [s] }\n", wide[k]);
+        derived d = derived_scene(text, "s");
+        derived_expect(&d, text);
+        for (int power = -9; power <= 300; power += power < 12 ? 1 : 32) {
+            for (size_t n = 0; n < sizeof step_s / sizeof step_s[0]; n++) {
+                const double size = pow(10.0, power);
+                char *report;
+                set_ranges(d.image, size);
+                d.image->step_s = step_s[n];
+                fixed_plan *p = plan_of(d.image, &report);
+                made += p != NULL;
+                if (p == NULL) {
+                    refused++;
+                    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(report, "hint: "), report);
+                    check_hint(d.image, size, report);
+                }
+                free(report);
+                fixed_plan_free(p);
+            }
+        }
+        derived_free(&d);
+        free(text);
+    }
+    TEST_ASSERT_GREATER_THAN_INT(200, made);
+    TEST_ASSERT_GREATER_THAN_INT(200, refused);
+}
+
+/* A run's reals and angles at its end. */
+static void run_to_end(const image *im, double *angle, double *real) {
+    void *run = engine_fixed.start(im);
+    for (uint64_t k = 0; k < im->steps; k++) {
+        TEST_ASSERT_EQUAL_INT(WH_OK, engine_fixed.step(run));
+    }
+    TEST_ASSERT_EQUAL_UINT64(0, engine_fixed.saturated(run));
+    engine_fixed.state(run, angle, real);
+    engine_fixed.stop(run);
+}
+
+/* Half a unit of each step, and of the rate that goes into it. */
+static double bound_of(const fixed_plan *p, int at, int rate, double until_s) {
+    const double unit = at >= 0 ? ldexp(1.0, -p->format[at].bits) : 1.4629180793e-9;
+    const double of_rate = rate >= 0 ? ldexp(1.0, -p->format[rate].bits) : 0.0;
+    return 0.51 * (double)p->image->steps * unit + until_s * of_rate;
+}
+
+/* Straight on: closed forms. */
+static void test_what_has_no_acceleration_moves(void) {
+    static const struct {
+        const char *text;
+        int at, rate; /* of the reals; -1: the angle, or none */
+        bool moves;
+    } kinds[] = {
+        {"coordinate a [rad]\nT = 1 [kg*m^2]*a'^2/2\nscene s { start a' = %.9f [rad/s]", -1, 0,
+         true},
+        {"coordinate y [m]\nT = 3 [kg]*y'^2/2\nscene s { start y' = %.9f [m/s]", 0, 1, true},
+        {"coordinate t [s]\nT = 1e-9 [J]*t'^2/2\nscene s { start t' = %.9f", 0, 1, true},
+        {"coordinate x [m]\ncoordinate t [s]\nT = 2 [kg]*x'^2/2 + 1e-9 [J]*t'^2/2\n"
+         "V = 50 [N/m]*x^2/2\nQ(x) = 4 [N/s]*t\nscene s { start t' = %.9f",
+         1, 3, true},
+        {"state c\nstate d\nequation c'*1 [s] = 0\nequation d'*1 [s] = c - d\n"
+         "scene s { start c = %.9f",
+         0, -1, false},
+        {"state c\nequation c'*1 [s] = %.9f\nscene s {", 0, -1, true},
+    };
+    uint64_t seed = 91;
+    for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++) {
+        for (int i = 0; i < 12; i++) {
+            double angle[4] = {0};
+            double real[4] = {0};
+            const double value = pow(10.0, random_between(&seed, -2.0, 2.0));
+            const double until_s = 2.0;
+            char *with = room_words(kinds[k].text, value);
+            char *text = room_words("mechanism m\n%s; step %d [us]; until 2 [s] }\n", with,
+                                    (int[]){50, 100, 500, 1000, 5000, 20000}[i % 6]);
+            derived d = derived_scene(text, "s");
+            char *report;
+            derived_expect(&d, text);
+            fixed_plan *p = plan_of(d.image, &report);
+            TEST_ASSERT_NOT_NULL_MESSAGE(p, report);
+            d.image->fixed = p;
+            run_to_end(d.image, angle, real);
+            const double end = kinds[k].at < 0 ? angle[0] : real[kinds[k].at];
+            const double expected = kinds[k].moves ? value * until_s : value;
+            TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(bound_of(p, kinds[k].at, kinds[k].rate, until_s) +
+                                                  1e-9 * value,
+                                              expected, end, text);
+            fixed_plan_free(p);
+            derived_free(&d);
+            free(report);
+            free(text);
+            free(with);
+        }
+    }
+}
+
+/* A swing so small that a step adds more at the lowest place than the whole range of the rate: with all ranges not declared. */
+static void test_small_swings(void) {
+    for (int power = -7; power <= 0; power++) {
+        char *report;
+        char *text = room_words("mechanism m\ncoordinate th [rad]\nT = 0.144 [kg*m^2]*th'^2/2\n"
+                                "V = -2.3544 [J]*cos(th)\nF = 0.02 [N*m*s]*th'^2\n"
+                                "scene s { start th = %.9g [rad]; step 1 [ms]; until 2 [s] }\n",
+                                pow(10.0, power));
+        derived d = derived_scene(text, "s");
+        derived_expect(&d, text);
+        fixed_plan *p = plan_of(d.image, &report);
+        TEST_ASSERT_NOT_NULL_MESSAGE(p, report);
+        fixed_plan_free(p);
+        derived_free(&d);
+        free(report);
+        free(text);
+    }
+}
+
+void suite_fixed_ranges(void) {
+    RUN_TEST(test_ranges_and_steps_of_all_sizes);
+    RUN_TEST(test_what_has_no_acceleration_moves);
+    RUN_TEST(test_small_swings);
+}
