@@ -143,6 +143,7 @@ size-now: $(GEN)/.stamp
 	    FLAGS="$(call TOLD,$(BOARD_CFLAGS))" mk/size/size.sh $(FIGURES)/size.csv $(IMAGES)
 	@SIZE=$(BOARD_SIZE) mk/size/libraries.sh $(call libraries,$(BOARD),whirl rig virtual scenes)
 	@CC=$(BOARD_CC) CPU="$(BOARD_CPU)" SIZE=$(BOARD_SIZE) mk/size/functions.sh $(call libraries,$(BOARD),whirl)
+	@list=boards/$(BOARD)/most_bytes.txt; [ ! -f $$list ] || SIZE=$(BOARD_SIZE) mk/size/most.sh $(ELF)/$(GEN) $$list
 
 # What programs that build and count scenes of their own are told.
 TO_PRICE = WHIRL=build/whirl BOARD=$(BOARD) BOARD_CC=$(BOARD_CC) BOARD_NM=$(BOARD_NM) \
