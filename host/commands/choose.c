@@ -32,9 +32,12 @@ static const char tail[] =
     "  --flash 32KB         what the firmware may take; K, KB and KiB are 1024 bytes (default: what\n"
     "                       the board has, if it is one chip)\n"
     "  --ram 2KB            the same of its memory and stack\n"
+    "  --measure            count the steps of what is chosen and of the runner-up, instead of\n"
+    "                       predicting them: in Whirl's source tree, where the board's compiler and\n"
+    "                       emulator are\n"
     "  --quiet              no progress\n"
     "\n";
-static const char *const own[] = {"--rate", "--clock", "--flash", "--ram", NULL};
+static const char *const own[] = {"--rate", "--clock", "--flash", "--ram", "--measure", NULL};
 
 static void print_help(FILE *out) {
     const command_usage common = {.head = "", .groups = PRICING_GROUPS, .tail = ""};
@@ -61,6 +64,7 @@ typedef struct choose_options {
     const char *clock;
     const char *flash;
     const char *ram;
+    bool measure;
 } choose_options;
 
 static bool read_options(int count, char **words, choose_options *o) {
@@ -68,7 +72,12 @@ static bool read_options(int count, char **words, choose_options *o) {
     bool bad = false;
     for (int at = 0; at < count && !bad;) {
         bool taken = false;
-        for (int i = 0; own[i] != NULL && !taken && !bad; i++) {
+        if (strcmp(words[at], "--measure") == 0) {
+            o->measure = true;
+            at++;
+            continue;
+        }
+        for (int i = 0; i < (int)(sizeof values / sizeof values[0]) && !taken && !bad; i++) {
             const char *value = options_value(count, words, &at, own[i], &bad);
             taken = value != NULL;
             *values[i] = taken ? value : *values[i];
@@ -176,14 +185,29 @@ static void show_progress(void *context, int done, int of) {
 /* --error in the unit of the trial's errors. */
 static double allowed_of(const pricing *p) { return p->error_si / trial_error_si(&p->trial, 1.0); }
 
-static int choose_from(pricing *p, choice_wish *w) {
+static choice make(pricing *p, choice_wish *w, const table_words *words, bool counts,
+                   measured_end *end) {
+    measured m = {.words = words};
+    *end = MEASURED_COUNTED;
+    if (!counts) {
+        return choice_make(&p->trial, w);
+    }
+    const choice c = choice_counted(&p->trial, w, &m, end);
+    w->counted = NULL;
+    measured_free(&m);
+    return c;
+}
+
+static int choose_from(pricing *p, choice_wish *w, bool counts) {
     if (!p->trial.reliable) {
         figure_reference(stderr, &p->trial);
         return EXIT_RUN_FAILED;
     }
     w->error = allowed_of(p);
     p->trial.tolerated = w->error;
-    const choice c = choice_make(&p->trial, w);
+    const table_words words = {p->target, p->words, false};
+    measured_end end;
+    const choice c = make(p, w, &words, counts, &end);
     choice_row lower;
     const double lower_Hz =
         p->trial.stopped || c.found ? 0.0 : choice_lower_rate(&p->trial, w, &c, &lower);
@@ -193,7 +217,15 @@ static int choose_from(pricing *p, choice_wish *w) {
     if (p->trial.stopped) {
         return EXIT_INTERRUPTED;
     }
-    const table_words words = {p->target, p->words, false};
+    if (end == MEASURED_MISSING) {
+        fprintf(
+            stderr,
+            "whirl choose: error: --measure: a tool is missing that counts on %s\n"
+            "hint: without --measure prices are predicted; sh mk/price/measure_one.sh %s float %s "
+            "says what is missing\n",
+            p->board->name, p->board->name, p->target);
+        return EXIT_BAD_INPUT;
+    }
     if (c.found) {
         choice_print(stdout, &p->trial, w, &c, &words);
     } else {
@@ -205,6 +237,14 @@ static int choose_from(pricing *p, choice_wish *w) {
 static int choose_scene(const choose_options *o, pricing *p) {
     choice_wish w = {.operations = p->effort * OPERATIONS};
     whole_ratio spacing;
+    if (o->measure && !measured_here()) {
+        fputs(
+            "whirl choose: error: --measure counts in Whirl's source tree, and this is not its root: "
+            "there is no mk/price/measure_one.sh\n"
+            "hint: without --measure prices are predicted\n",
+            stderr);
+        return EXIT_BAD_INPUT;
+    }
     if (!read_limits(o, p, &w) || !space_records(p, &w, &spacing)) {
         return EXIT_BAD_INPUT;
     }
@@ -212,7 +252,7 @@ static int choose_scene(const choose_options *o, pricing *p) {
     pricing_catch_interrupts();
     int code = pricing_begin(p, spacing, &pricing_interrupted);
     if (code == EXIT_DONE) {
-        code = p->trial.stopped ? EXIT_INTERRUPTED : choose_from(p, &w);
+        code = p->trial.stopped ? EXIT_INTERRUPTED : choose_from(p, &w, o->measure);
     }
     if (code == EXIT_INTERRUPTED) {
         fputs("whirl choose: interrupted\n", stderr);

@@ -151,8 +151,9 @@ static climb_end climb(trials *t, const choice_wish *w, choice *c, const setting
         if (setting_price_varies(s)) {
             bool own;
             row.cost = trial_cost(t, s, row.pace, &own);
-            if (!own) {
-                continue; /* in fixed point a step may be too long */
+            measured_tell(w->counted, s, row.pace, &row.cost);
+            if (!own || !is_known(&row.cost.instructions_worst)) {
+                continue; /* in fixed point a step may be too long; or it was counted, and could not be */
             }
         }
         judge(t, w, &row);
@@ -166,7 +167,7 @@ static climb_end climb(trials *t, const choice_wish *w, choice *c, const setting
             return tried ? CHOICE_LEFT_FINER : CHOICE_LEFT_WHOLE;
         }
         tried = true;
-        row.result = trial_run(t, s, row.pace);
+        row.result = trial_memo_run(w->memo, t, s, row.pace);
         if (!row.result.ran && !t->stopped && setting_price_varies(s)) {
             continue; /* the numbers of its matrix are too large */
         }
@@ -225,6 +226,9 @@ choice choice_make(trials *t, const choice_wish *w) {
         const setting s = setting_at(i);
         bool own;
         price[i] = trial_any_cost(t, &s, (deviation_pace){w->periods, 1}, &own);
+        if (!setting_price_varies(&s)) {
+            measured_tell(w->counted, &s, (deviation_pace){w->periods, 1}, &price[i]);
+        }
         priced[i] = own && is_known(&price[i].instructions_worst);
         c.settings += own ? 1 : 0;
         if (own && !priced[i]) {
@@ -246,6 +250,60 @@ choice choice_make(trials *t, const choice_wish *w) {
     }
     free(price);
     free(priced);
+    return c;
+}
+
+/* A row that counting may change; NULL: there is none. */
+static const choice_row *uncounted(const measured *m, const choice *c) {
+    const choice_row *rows[] = {
+        c->found ? &c->best : NULL, c->found && c->has_second ? &c->second : NULL,
+        !c->found && c->has_dearer ? &c->dearer : NULL,
+        !c->found && c->has_larger ? &c->larger : NULL, !c->found && c->has_any ? &c->any : NULL};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        if (rows[i] != NULL && !measured_has(m, &rows[i]->setting, rows[i]->pace)) {
+            return rows[i];
+        }
+    }
+    return NULL;
+}
+
+/* Settings that nobody can tell a price of: methods and numbers that were not fitted. (Not those of scenes with contacts: the
+ * steps that are counted need not be the longest.) */
+static measured_end count_unpriced(trials *t, const choice_wish *w, measured *m) {
+    const int count = setting_count();
+    const deviation_pace pace = {w->periods, 1};
+    measured_end end = MEASURED_COUNTED;
+    for (int i = 0;
+         i < count && t->image[0]->contacts == 0 && !t->stopped && end != MEASURED_MISSING; i++) {
+        const setting s = setting_at(i);
+        bool own;
+        const cost c = trial_any_cost(t, &s, pace, &own);
+        if (w->progress != NULL) {
+            w->progress(w->context, i, count);
+        }
+        if (own && !is_known(&c.instructions_worst)) {
+            end = measured_count(m, t, &s, pace, 0, &c);
+        }
+    }
+    return end;
+}
+
+choice choice_counted(trials *t, choice_wish *w, measured *m, measured_end *end) {
+    trial_memo memo = {.count = 0};
+    w->counted = m;
+    w->memo = &memo;
+    *end = count_unpriced(t, w, m);
+    choice c = choice_make(t, w);
+    const choice_row *next = uncounted(m, &c);
+    while (next != NULL && !t->stopped && *end != MEASURED_MISSING) {
+        *end = measured_count(m, t, &next->setting, next->pace, next->result.point, &next->cost);
+        if (*end != MEASURED_MISSING) {
+            c = choice_make(t, w);
+            next = uncounted(m, &c);
+        }
+    }
+    w->memo = NULL;
+    trial_memo_free(&memo);
     return c;
 }
 

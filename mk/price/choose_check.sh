@@ -10,10 +10,11 @@
 #
 #   CHOOSE_ASKED=20 CHOOSE_TIGHTENED=10   how many requests
 #   CHOOSE_EFFORT=0.03                    of `whirl choose`
+#   CHOOSE_WORDS=--measure                more words for it
 set -eu
 here=$(dirname "$0")
 seed=${1:-1}
-: "${CHOOSE_ASKED:=20}" "${CHOOSE_TIGHTENED:=10}" "${CHOOSE_EFFORT:=0.03}"
+: "${CHOOSE_ASKED:=20}" "${CHOOSE_TIGHTENED:=10}" "${CHOOSE_EFFORT:=0.03}" "${CHOOSE_WORDS:=}"
 case $seed$CHOOSE_ASKED$CHOOSE_TIGHTENED in
 *[!0-9]*) echo "choose_check.sh: error: seed and numbers of requests are whole numbers" >&2 && exit 2 ;;
 esac
@@ -43,7 +44,8 @@ ask() {
     shift
     echo "whirl choose $*" >"$out/$id.asked"
     set +e
-    $nicely "$whirl" choose "$@" --quiet >"$out/$id.told" 2>"$out/$id.errors"
+    # shellcheck disable=SC2086 # words
+    $nicely "$whirl" choose "$@" $CHOOSE_WORDS --quiet >"$out/$id.told" 2>"$out/$id.errors"
     echo $? >"$out/$id.code"
     set -e
 }
