@@ -32,7 +32,7 @@ static const char tail[] =
     "  --flash 32KB         what the firmware may take; K, KB and KiB are 1024 bytes (default: what\n"
     "                       the board has, if it is one chip)\n"
     "  --ram 2KB            the same of its memory and stack\n"
-    "  --measure            count the steps of what is chosen and of the runner-up, instead of\n"
+    "  --measure            count the steps of what is chosen and of the runner-up instead of\n"
     "                       predicting them: in Whirl's source tree, where the board's compiler and\n"
     "                       emulator are\n"
     "  --quiet              no progress\n"
@@ -218,12 +218,7 @@ static int choose_from(pricing *p, choice_wish *w, bool counts) {
         return EXIT_INTERRUPTED;
     }
     if (end == MEASURED_MISSING) {
-        fprintf(
-            stderr,
-            "whirl choose: error: --measure: a tool is missing that counts on %s\n"
-            "hint: without --measure prices are predicted; sh mk/price/measure_one.sh %s float %s "
-            "says what is missing\n",
-            p->board->name, p->board->name, p->target);
+        pricing_says_missing(p);
         return EXIT_BAD_INPUT;
     }
     if (c.found) {
@@ -237,12 +232,7 @@ static int choose_from(pricing *p, choice_wish *w, bool counts) {
 static int choose_scene(const choose_options *o, pricing *p) {
     choice_wish w = {.operations = p->effort * OPERATIONS};
     whole_ratio spacing;
-    if (o->measure && !measured_here()) {
-        fputs(
-            "whirl choose: error: --measure counts in Whirl's source tree, and this is not its root: "
-            "there is no mk/price/measure_one.sh\n"
-            "hint: without --measure prices are predicted\n",
-            stderr);
+    if (o->measure && !pricing_can_measure("choose")) {
         return EXIT_BAD_INPUT;
     }
     if (!read_limits(o, p, &w) || !space_records(p, &w, &spacing)) {

@@ -8,6 +8,7 @@
 #include "commands.h"
 #include "files.h"
 #include "host/plot/plot.h"
+#include "host/price/table_counted.h"
 #include "pricing.h"
 
 /* Records to the horizon: so many to two and a half times as many. */
@@ -31,9 +32,11 @@ static const char tail[] =
     "                       (the table then goes to standard error)\n"
     "  --plot FILE.svg|.png error against price, a line for each method or matrix and number,\n"
     "                       and the front\n"
+    "  --measure            count what is on the front instead of predicting it: in Whirl's source\n"
+    "                       tree, where the board's compiler and emulator are\n"
     "  --quiet              no table, no progress\n"
     "\n";
-static const char *const own[] = {"--all", "--csv", "--plot", NULL};
+static const char *const own[] = {"--all", "--csv", "--plot", "--measure", NULL};
 
 static void print_help(FILE *out) {
     const command_usage common = {.head = "", .groups = PRICING_GROUPS, .tail = ""};
@@ -59,12 +62,18 @@ typedef struct price_options {
     const char *csv;
     const char *plot;
     bool all;
+    bool measure;
 } price_options;
 
 static bool take_own(int count, char **words, int *at, price_options *o, bool *bad) {
     const char *value;
     if (strcmp(words[*at], "--all") == 0) {
         o->all = true;
+        ++*at;
+        return true;
+    }
+    if (strcmp(words[*at], "--measure") == 0) {
+        o->measure = true;
         ++*at;
         return true;
     }
@@ -154,10 +163,22 @@ static int show(const price_options *o, pricing *p, const table *made) {
     return p->asks_error ? say_cheapest(out, p, made, &words) : EXIT_DONE;
 }
 
+static int count_front(pricing *p, table *made, const table_wish *w) {
+    const table_words words = {p->target, p->words, false};
+    measured m = {.words = &words};
+    const measured_end end = table_counted(&p->trial, made, &m, w);
+    measured_free(&m);
+    if (end == MEASURED_MISSING) {
+        pricing_says_missing(p);
+    }
+    return end == MEASURED_MISSING ? EXIT_BAD_INPUT : EXIT_DONE;
+}
+
 static int price_scene(const price_options *o, pricing *p) {
     const bool progress = !o->common.quiet && isatty(STDERR_FILENO);
     if (source_would_be_lost(&p->from, "--csv", o->csv, "") ||
-        source_would_be_lost(&p->from, "--plot", o->plot, "")) {
+        source_would_be_lost(&p->from, "--plot", o->plot, "") ||
+        (o->measure && !pricing_can_measure("price"))) {
         return EXIT_BAD_INPUT;
     }
     pricing_catch_interrupts();
@@ -169,6 +190,7 @@ static int price_scene(const price_options *o, pricing *p) {
     if (code == EXIT_DONE && p->trial.reliable && !p->trial.stopped) {
         const table_wish wish = {p->effort * OPERATIONS, progress ? show_progress : NULL, NULL};
         made = table_new(&p->trial, &wish);
+        code = o->measure && !p->trial.stopped ? count_front(p, made, &wish) : code;
     }
     if (progress) {
         fputs("\r                    \r", stderr);

@@ -116,6 +116,13 @@ static void mark_front(table *made) {
     }
 }
 
+void table_sort(table *made) {
+    if (made->count > 0) {
+        qsort(made->row, (size_t)made->count, sizeof *made->row, by_price);
+    }
+    mark_front(made);
+}
+
 table *table_new(trials *t, const table_wish *w) {
     table *made = room(1, sizeof *made);
     const int count = setting_count();
@@ -146,10 +153,7 @@ table *table_new(trials *t, const table_wish *w) {
     }
     free(own);
     free(price);
-    if (made->count > 0) {
-        qsort(made->row, (size_t)made->count, sizeof *made->row, by_price);
-    }
-    mark_front(made);
+    table_sort(made);
     return made;
 }
 

@@ -53,6 +53,8 @@ enum { TABLE_COARSEST = 5, TABLE_LADDER = TABLE_COARSEST + 3 * 8 };
 
 table *table_new(trials *t, const table_wish *w); /* look at t->stopped */
 void table_free(table *made);
+/* By price, and the front marked. */
+void table_sort(table *made);
 
 /* How a board's steps are priced; *known: false where nobody knows. */
 table_price table_price_of(const cost *c, double step_s, bool *known);

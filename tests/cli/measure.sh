@@ -45,6 +45,16 @@ if [ "${most:-0}" -gt "${counted:-0}" ]; then
     verdict $? "flash that is there is used" "$scratch/out"
 fi
 
+# A table's front is counted; one of its rows again, from the line that derives it.
+"$whirl" price "$scratch/drawn.whirl:r23_1" --effort 0.001 --measure --csv "$scratch/rows.csv" >"$scratch/out" 2>"$scratch/err"
+[ $? -eq 0 ] && awk -F, 'NR > 1 && $1 == 1 { n++; bad += $9 == "predicted" || $20 == "predicted" } END { exit bad || n < 3 }' "$scratch/rows.csv"
+verdict $? "nothing on the front is predicted" "$scratch/rows.csv"
+awk -F, '$1 == 1 && $15 == "float" { cycles = $7 * $13; line = $NF } END { print cycles; print line }' "$scratch/rows.csv" >"$scratch/last"
+line=$(sed -n '2s/^whirl derive \(.*\) --until .*/sh mk\/price\/measure_one.sh mps2-an386 float \1/p' "$scratch/last")
+sh -c "$line" 2>"$scratch/err" | tail -n 1 >"$scratch/row"
+awk -F, -v row="$(head -n 1 "$scratch/last")" '{ off = $(NF - 5) / row - 1; exit !(off < 1e-6 && off > -1e-6) }' "$scratch/row"
+verdict $? "and its last row in float is what its line counts: $line" "$scratch/row"
+
 MAKEFLAGS="BOARD_CC=no-such-compiler" choose "$scratch/drawn.whirl:r23_1" --error 1e-2 --measure
 [ $? -eq 2 ] && grep -q 'a tool is missing that counts on mps2-an386' "$scratch/err" && [ ! -s "$scratch/out" ]
 verdict $? "a tool that is missing: exit status 2, and who says which" "$scratch/err"
