@@ -148,6 +148,11 @@ static climb_end climb(trials *t, const choice_wish *w, choice *c, const setting
             continue;
         }
         const double started = t->operations;
+        const bool too_dear =
+            dear || trial_operations(t, s, row.pace) > (tried ? 1.0 : FIRST_MAY_TAKE) * each;
+        if (too_dear && setting_is_fixed(s)) { /* its price alone takes a run */
+            return tried ? CHOICE_LEFT_FINER : CHOICE_LEFT_WHOLE;
+        }
         if (setting_price_varies(s)) {
             bool own;
             row.cost = trial_cost(t, s, row.pace, &own);
@@ -160,7 +165,7 @@ static climb_end climb(trials *t, const choice_wish *w, choice *c, const setting
         if (c->found && c->has_second && !(row.worst < c->second.worst)) {
             return CLIMB_DONE;
         }
-        if (dear || trial_operations(t, s, row.pace) > (tried ? 1.0 : FIRST_MAY_TAKE) * each) {
+        if (too_dear) {
             if (is_hopeless(s, &row)) {
                 return has_before ? CLIMB_ERRS : CLIMB_REFUSED;
             }
@@ -222,6 +227,7 @@ choice choice_make(trials *t, const choice_wish *w) {
     cost *price = room(count, sizeof *price);
     bool *priced = room(count, sizeof *priced);
     int wanted = 0;
+    t->planned_most = FIRST_MAY_TAKE * w->operations / (2.0 * count);
     for (int i = 0; i < count; i++) {
         const setting s = setting_at(i);
         bool own;

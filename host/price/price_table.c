@@ -129,6 +129,7 @@ table *table_new(trials *t, const table_wish *w) {
     bool *own = room(count, sizeof *own);
     cost *price = room(count, sizeof *price);
     made->why = "";
+    t->planned_most = w->operations / (2.0 * count);
     int priced = 0;
     for (int i = 0; i < count && !t->stopped; i++) {
         const setting s = setting_at(i);

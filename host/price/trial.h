@@ -41,7 +41,8 @@ typedef struct trials {
     deviation_of_what what;
     double
         tolerated; /* of one column: a run that is off by no more is of use, however small the values are */
-    bool reliable; /* false: some reference is REFERENCE_NONE */
+    double planned_most; /* operations of a run that looks for ranges of fixed point; 0: any */
+    bool reliable;       /* false: some reference is REFERENCE_NONE */
     bool stopped;
     double operations; /* evaluated in trials so far */
 } trials;

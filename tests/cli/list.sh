@@ -169,7 +169,7 @@ says '.--name. is no name|is no name' derive thomson_a --as c --name 1x
 says 'is no name' derive thomson_a --as c --name=
 says 'is no name' derive thomson_a --as c --name 'a b'
 says 'is no name' derive thomson_a --as c --name "$(printf '%064d' 0 | tr 0 a)"
-says 'given twice' derive thomson_a --as c --name a --name b
+says 'there twice' derive thomson_a --as c --name a --name b
 says "'int' is a word of C" derive thomson_a --as c --name int
 says 'error: --name goes with --as octave or c' derive thomson_a --name other
 exit $failed

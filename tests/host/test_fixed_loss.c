@@ -53,14 +53,14 @@ static outcome run_of(derived *d, const char *text) {
 static void try_even_motion(int kind, double value, double times, int step_us, int *told,
                             int *quiet) {
     static const char *const texts[] = {
-        "coordinate x [m]\ninput u = %.9g [N]\nT = 1 [kg]*x'^2/2\nQ(x) = u\n"
-        "scene s { until 2 [s]; step %d [us]\n"
-        "range x = -%.9g .. %.9g [m], x' = -%.9g .. %.9g [m/s], u = -%.9g .. %.9g [N] }\n",
-        "coordinate b [rad]\ninput M = 0 [N*m]\nT = 1 [kg*m^2]*b'^2/2\nQ(b) = M\n"
-        "scene s { start b' = %.9g [rad/s]; until 2 [s]; step %d [us]\n"
-        "range b' = -%.9g .. %.9g [rad/s], M = -%.9g .. %.9g [N*m] }\n",
-        "state c [m]\ninput v = %.9g [m/s]\nequation c' = v\nscene s { until 2 [s]; step %d [us]\n"
-        "range c = -%.9g .. %.9g [m], v = -%.9g .. %.9g [m/s] }\n"};
+        ("coordinate x [m]\ninput u = %.9g [N]\nT = 1 [kg]*x'^2/2\nQ(x) = u\n"
+         "scene s { until 2 [s]; step %d [us]\n"
+         "range x = -%.9g .. %.9g [m], x' = -%.9g .. %.9g [m/s], u = -%.9g .. %.9g [N] }\n"),
+        ("coordinate b [rad]\ninput M = 0 [N*m]\nT = 1 [kg*m^2]*b'^2/2\nQ(b) = M\n"
+         "scene s { start b' = %.9g [rad/s]; until 2 [s]; step %d [us]\n"
+         "range b' = -%.9g .. %.9g [rad/s], M = -%.9g .. %.9g [N*m] }\n"),
+        ("state c [m]\ninput v = %.9g [m/s]\nequation c' = v\nscene s { until 2 [s]; step %d [us]\n"
+         "range c = -%.9g .. %.9g [m], v = -%.9g .. %.9g [m/s] }\n")};
     const double size = 3.0 * value * times;
     char *with = room_words(texts[kind], value, step_us, size, size, size, size, size, size);
     char *text = room_words("mechanism m\n%s", with);

@@ -48,8 +48,8 @@ static const char *const wide[] = {
     "coordinate x [m]\ninput u = 0 [N]\nT = 1 [kg]*x'^2/2\nV = 1 [N/m^7]*x^8\nF = 3 [N*s/m]*x'^2\nQ(x) = u\n",
     "coordinate x [m]\nT = 1 [kg]*x'^2/2 + 2 [kg/m^2]*x^2*x'^2\nV = 40 [N/m]*x^2/2\n",
     "coordinate a [rad]\nT = 1 [kg*m^2]*a'^2/2\nV = -2 [J]*cos(a)\nF = 1e-3 [N*m*s]*a'^2\n",
-    "coordinate a [rad]\ncoordinate b [rad]\n"
-    "T = 1 [kg*m^2]*(2*a'^2 + b'^2 + a'*b'*cos(a - b))/2\nV = -2 [J]*cos(a)\n",
+    ("coordinate a [rad]\ncoordinate b [rad]\n"
+     "T = 1 [kg*m^2]*(2*a'^2 + b'^2 + a'*b'*cos(a - b))/2\nV = -2 [J]*cos(a)\n"),
     "state x\nequation x'*1 [s] = -x^3\n",
     "state x\nequation x'*1 [s] = x - x^5\n",
     "state x\nstate p [rad]\nequation x'*1 [s] = -x^3*sin(p)\nequation p'*1 [s] = x^2\n",
