@@ -231,7 +231,7 @@ static void add_step(const image *im, const operands *given, cost_counts *c) {
                         : stays      ? &c->placed
                                      : &c->step;
         add_operation(t, &t->ops[i], to);
-        if (c->soft) {
+        if (given->of != NULL) {
             add_operands(&t->ops[i], &given->of[i], to);
         }
         add_reads(t, &t->ops[i], &reads);
@@ -259,7 +259,7 @@ static void add_matrix(const image *im, const operands *given, cost_counts *c) {
     const tape *t = im->list[IMAGE_MATRIX];
     c->is_matrix = true;
     add_list(t, &c->matrix);
-    for (int i = 0; i < t->count && c->soft; i++) {
+    for (int i = 0; i < t->count && given->of != NULL; i++) {
         add_operands(&t->ops[i], &given->of[i], &c->matrix);
     }
     if (c->soft) { /* what it does costs as much as elsewhere */

@@ -193,7 +193,8 @@ static void test_what_fits_and_is_not_found_was_left(void) {
         q.wish.clock_Hz = pow(10.0, decade[n % 3] + dice_between(&d, 0.0, 1.0));
         q.wish.flash_bytes = n % 4 == 3 ? dice_between(&d, 3000.0, 9000.0) : 0.0;
         const int fit = fitting(&q);
-        for (double operations = 1e3; operations < 3e8; operations *= 4.0) {
+        for (int power = 0; power < 10; power++) {
+            const double operations = 1e3 * pow(4.0, power);
             q.wish.operations = operations;
             const choice c = choice_make(&q.trial, &q.wish);
             const int left = left_of(&c);

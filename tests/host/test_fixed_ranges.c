@@ -60,8 +60,8 @@ static const char *const wide[] = {
 static void check_hint(image *im, double size, const char *report) {
     const double step_s = im->step_s;
     bool helped = false;
-    for (double now = size; now > 1e-11 && !helped; now *= 0.1) {
-        set_ranges(im, now);
+    for (int down = 0; size * pow(0.1, down) > 1e-11 && !helped; down++) {
+        set_ranges(im, size * pow(0.1, down));
         for (int k = 0; k <= 4 && !helped; k++) {
             im->step_s = step_s * pow(0.1, k);
             helped = is_made(im);
