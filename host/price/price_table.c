@@ -56,6 +56,10 @@ static void climb(trials *t, table *made, const setting *s, const cost *each_ste
         }
         bool known;
         const double started = t->operations;
+        if (setting_is_fixed(s) && trial_operations(t, s, row.pace) > each) {
+            made->broken_off++; /* its price alone takes a run */
+            return;
+        }
         if (setting_price_varies(s)) {
             bool own;
             row.cost = trial_cost(t, s, row.pace, &own);
