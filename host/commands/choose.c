@@ -187,7 +187,7 @@ static double allowed_of(const pricing *p) { return p->error_si / trial_error_si
 
 static choice make(pricing *p, choice_wish *w, const table_words *words, bool counts,
                    measured_end *end) {
-    measured m = {.words = words};
+    measured_prices m = {.words = words};
     *end = MEASURED_COUNTED;
     if (!counts) {
         return choice_make(&p->trial, w);

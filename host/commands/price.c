@@ -165,7 +165,7 @@ static int show(const price_options *o, pricing *p, const table *made) {
 
 static int count_front(pricing *p, table *made, const table_wish *w) {
     const table_words words = {p->target, p->words, false};
-    measured m = {.words = &words};
+    measured_prices m = {.words = &words};
     const measured_end end = table_counted(&p->trial, made, &m, w);
     measured_free(&m);
     if (end == MEASURED_MISSING) {

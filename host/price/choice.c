@@ -260,7 +260,7 @@ choice choice_make(trials *t, const choice_wish *w) {
 }
 
 /* A row that counting may change; NULL: there is none. */
-static const choice_row *uncounted(const measured *m, const choice *c) {
+static const choice_row *uncounted(const measured_prices *m, const choice *c) {
     const choice_row *rows[] = {
         c->found ? &c->best : NULL, c->found && c->has_second ? &c->second : NULL,
         !c->found && c->has_dearer ? &c->dearer : NULL,
@@ -275,7 +275,7 @@ static const choice_row *uncounted(const measured *m, const choice *c) {
 
 /* Settings that nobody can tell a price of: methods and numbers that were not fitted. (Not those of scenes with contacts: the
  * steps that are counted need not be the longest.) */
-static measured_end count_unpriced(trials *t, const choice_wish *w, measured *m) {
+static measured_end count_unpriced(trials *t, const choice_wish *w, measured_prices *m) {
     const int count = setting_count();
     const deviation_pace pace = {w->periods, 1};
     measured_end end = MEASURED_COUNTED;
@@ -294,7 +294,7 @@ static measured_end count_unpriced(trials *t, const choice_wish *w, measured *m)
     return end;
 }
 
-choice choice_counted(trials *t, choice_wish *w, measured *m, measured_end *end) {
+choice choice_counted(trials *t, choice_wish *w, measured_prices *m, measured_end *end) {
     trial_memo memo = {.count = 0};
     w->counted = m;
     w->memo = &memo;

@@ -32,15 +32,15 @@ typedef enum choice_left { CHOICE_LEFT_ROWS(CHOICE_LEFT_ID) CHOICE_LEFTS } choic
 #undef CHOICE_LEFT_ID
 
 typedef struct choice_wish {
-    double error;            /* in the unit of the trial's errors */
-    double rate_Hz;          /* of calls, each of which takes whole steps; 0: any step will do */
-    uint64_t periods;        /* of 1/rate in a record's spacing; 1 without a rate */
-    double clock_Hz;         /* 0: not known, and no limit */
-    double flash_bytes;      /* 0: no limit */
-    double ram_bytes;        /* with the stack; 0: no limit */
-    double operations;       /* most that all trials may evaluate */
-    const measured *counted; /* prices that take the place of predicted ones; NULL: none */
-    trial_memo *memo;        /* of trials that are asked for again; NULL: all are run */
+    double error;       /* in the unit of the trial's errors */
+    double rate_Hz;     /* of calls, each of which takes whole steps; 0: any step will do */
+    uint64_t periods;   /* of 1/rate in a record's spacing; 1 without a rate */
+    double clock_Hz;    /* 0: not known, and no limit */
+    double flash_bytes; /* 0: no limit */
+    double ram_bytes;   /* with the stack; 0: no limit */
+    double operations;  /* most that all trials may evaluate */
+    const measured_prices *counted; /* prices that take the place of predicted ones; NULL: none */
+    trial_memo *memo;               /* of trials that are asked for again; NULL: all are run */
     void (*progress)(void *context, int done, int of); /* may be NULL */
     void *context;
 } choice_wish;
@@ -108,7 +108,7 @@ choice choice_make(trials *t, const choice_wish *w); /* look at t->stopped */
 
 /* The same with counted prices of what is chosen and of the runner-up; where nothing fits, of what comes nearest. Whatever
  * these figures change is chosen anew. *end: MEASURED_MISSING where a tool is missing; nothing is chosen then. */
-choice choice_counted(trials *t, choice_wish *w, measured *m, measured_end *end);
+choice choice_counted(trials *t, choice_wish *w, measured_prices *m, measured_end *end);
 
 /* A rate that the dearer row would keep, a whole part of the wished one, and the row at that rate, checked by a trial: 0
  * where there is none. */

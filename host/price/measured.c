@@ -14,9 +14,9 @@
 
 bool measured_here(void) { return access(COUNTS, R_OK) == 0; }
 
-void measured_free(measured *m) { free(m->price); }
+void measured_free(measured_prices *m) { free(m->price); }
 
-static const measured_price *find(const measured *m, const setting *s, deviation_pace pace) {
+static const measured_price *find(const measured_prices *m, const setting *s, deviation_pace pace) {
     char options[SETTING_TEXT];
     setting_options(s, true, options);
     for (int i = 0; i < m->count; i++) {
@@ -30,11 +30,11 @@ static const measured_price *find(const measured *m, const setting *s, deviation
     return NULL;
 }
 
-bool measured_has(const measured *m, const setting *s, deviation_pace pace) {
+bool measured_has(const measured_prices *m, const setting *s, deviation_pace pace) {
     return find(m, s, pace) != NULL;
 }
 
-void measured_tell(const measured *m, const setting *s, deviation_pace pace, cost *c) {
+void measured_tell(const measured_prices *m, const setting *s, deviation_pace pace, cost *c) {
     const measured_price *p = m != NULL ? find(m, s, pace) : NULL;
     if (p != NULL) {
         *c = p->cost;
@@ -56,8 +56,8 @@ static int last_line(const char *command, char *line, int size) {
     return status != -1 && WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-measured_end measured_count(measured *m, const trials *t, const setting *s, deviation_pace pace,
-                            int point, const cost *predicted) {
+measured_end measured_count(measured_prices *m, const trials *t, const setting *s,
+                            deviation_pace pace, int point, const cost *predicted) {
     char row[1024] = "";
     char *line = table_measure_line(t, s, pace, point, m->words);
     char *command = room_words("%s 2>/dev/null", line);

@@ -17,20 +17,20 @@ typedef struct measured_price {
     cost cost;           /* no price where the setting is refused */
 } measured_price;
 
-typedef struct measured {
+typedef struct measured_prices {
     const table_words *words;
     measured_price *price; /* [count] */
     int count;
-} measured;
+} measured_prices;
 
 /* Is the working folder the root of a source tree? */
 bool measured_here(void);
-void measured_free(measured *m);
-bool measured_has(const measured *m, const setting *s, deviation_pace pace);
+void measured_free(measured_prices *m);
+bool measured_has(const measured_prices *m, const setting *s, deviation_pace pace);
 /* In place of what is predicted: what was counted, if it was. */
-void measured_tell(const measured *m, const setting *s, deviation_pace pace, cost *c);
+void measured_tell(const measured_prices *m, const setting *s, deviation_pace pace, cost *c);
 /* Count the steps of a setting; seconds. `predicted` says what counting does not. */
-measured_end measured_count(measured *m, const trials *t, const setting *s, deviation_pace pace,
-                            int point, const cost *predicted);
+measured_end measured_count(measured_prices *m, const trials *t, const setting *s,
+                            deviation_pace pace, int point, const cost *predicted);
 
 #endif

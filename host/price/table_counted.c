@@ -1,7 +1,7 @@
 /* table_counted.c: see table_counted.h. */
 #include "table_counted.h"
 
-static int uncounted(const table *made, const measured *m) {
+static int uncounted(const table *made, const measured_prices *m) {
     for (int i = 0; i < made->count; i++) {
         const table_row *row = &made->row[i];
         if (row->on_front && !measured_has(m, &row->setting, row->pace)) {
@@ -12,7 +12,7 @@ static int uncounted(const table *made, const measured *m) {
 }
 
 /* What was counted stands in all rows of its setting; what could not be built has none. */
-static void enter(const trials *t, table *made, const measured *m) {
+static void enter(const trials *t, table *made, const measured_prices *m) {
     int kept = 0;
     for (int i = 0; i < made->count; i++) {
         table_row row = made->row[i];
@@ -30,7 +30,7 @@ static void enter(const trials *t, table *made, const measured *m) {
     table_sort(made);
 }
 
-measured_end table_counted(trials *t, table *made, measured *m, const table_wish *w) {
+measured_end table_counted(trials *t, table *made, measured_prices *m, const table_wish *w) {
     for (int i = made->counted ? made->count : uncounted(made, m); i < made->count && !t->stopped;
          i = uncounted(made, m)) {
         const table_row *row = &made->row[i];

@@ -6,6 +6,6 @@
 
 /* Counts what is on the front, and sorts anew, until all of it is. A table by evaluations stays as it is. Look at t->stopped.
  * MEASURED_MISSING: a tool is missing. */
-measured_end table_counted(trials *t, table *made, measured *m, const table_wish *w);
+measured_end table_counted(trials *t, table *made, measured_prices *m, const table_wish *w);
 
 #endif
