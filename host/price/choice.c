@@ -231,6 +231,11 @@ choice choice_make(trials *t, const choice_wish *w) {
     for (int i = 0; i < count; i++) {
         const setting s = setting_at(i);
         bool own;
+        if (trial_is_slow_to_plan(t, &s, (deviation_pace){w->periods, 1})) {
+            c.settings++;
+            c.left[CHOICE_LEFT_WHOLE]++;
+            continue;
+        }
         price[i] = trial_any_cost(t, &s, (deviation_pace){w->periods, 1}, &own);
         if (!setting_price_varies(&s)) {
             measured_tell(w->counted, &s, (deviation_pace){w->periods, 1}, &price[i]);
@@ -287,7 +292,7 @@ static measured_end count_unpriced(trials *t, const choice_wish *w, measured_pri
         if (w->progress != NULL) {
             w->progress(w->context, i, count);
         }
-        if (own && !is_known(&c.instructions_worst)) {
+        if (own && !is_known(&c.instructions_worst) && !trial_is_slow_to_plan(t, &s, pace)) {
             end = measured_count(m, t, &s, pace, 0, &c);
         }
     }

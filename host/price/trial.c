@@ -323,18 +323,19 @@ cost trial_cost(trials *t, const setting *s, deviation_pace pace, bool *own) {
 }
 
 /* What ranges are not declared, a run in double to the end looks for. */
-static bool is_slow_to_plan(const trials *t, const setting *s, deviation_pace pace) {
+bool trial_is_slow_to_plan(const trials *t, const setting *s, deviation_pace pace) {
     return setting_is_fixed(s) && t->planned_most > 0.0 &&
            trial_operations(t, s, pace) > t->planned_most;
 }
 
 cost trial_any_cost(trials *t, const setting *s, deviation_pace pace, bool *own) {
-    if (is_slow_to_plan(t, s, pace)) {
+    if (trial_is_slow_to_plan(t, s, pace)) {
         *own = true;
         return (cost){.why = "its ranges take too long to look for: raise --effort"};
     }
     cost c = trial_cost(t, s, pace, own);
-    for (int i = 0; i < FINER_MOST && setting_is_fixed(s) && !*own && !is_slow_to_plan(t, s, pace);
+    for (int i = 0;
+         i < FINER_MOST && setting_is_fixed(s) && !*own && !trial_is_slow_to_plan(t, s, pace);
          i++) {
         if (pace.records % 10U == 0) {
             pace.records /= 10U;

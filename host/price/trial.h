@@ -73,6 +73,8 @@ double trial_operations(const trials *t, const setting *s, deviation_pace pace);
 cost trial_cost(trials *t, const setting *s, deviation_pace pace, bool *own);
 /* The same where a scene may take the setting by finer steps alone, as in fixed point: by the first that it takes. */
 cost trial_any_cost(trials *t, const setting *s, deviation_pace pace, bool *own);
+/* Would that take more than t->planned_most? */
+bool trial_is_slow_to_plan(const trials *t, const setting *s, deviation_pace pace);
 
 whole_ratio trial_step(const trials *t, deviation_pace pace);
 double trial_horizon_s(const trials *t);

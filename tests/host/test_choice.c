@@ -54,7 +54,7 @@ static void open_request(request *q, const char *text, const char *board, double
                              .records = (int)(rate_Hz + 0.5)};
     TEST_ASSERT_TRUE(trial_begin(&q->trial, &wish));
     TEST_ASSERT_TRUE(q->trial.reliable);
-    q->wish = (choice_wish){.rate_Hz = rate_Hz, .periods = 1, .operations = 2e8};
+    q->wish = (choice_wish){.rate_Hz = rate_Hz, .periods = 1, .operations = 8e8};
 }
 
 static void close_request(request *q) {
@@ -383,7 +383,8 @@ static void test_linear_scenes_have_the_matrix_on_their_front(void) {
             TEST_ASSERT_TRUE_MESSAGE(row->setting.image.tables == TABLES_NONE, text);
             TEST_ASSERT_TRUE_MESSAGE(!matrix || row->on_front || is_beaten(made, row), text);
             TEST_ASSERT_TRUE_MESSAGE(!matrix || row->result.error < 1e-3, text);
-            if (row->result.error < 1e-4 &&
+            /* in fixed point a step without an FPU may cost a third of a matrix' */
+            if (row->result.error < 1e-4 && !setting_is_fixed(&row->setting) &&
                 (cheapest == NULL || row->price.value < cheapest->price.value)) {
                 cheapest = row;
             }
