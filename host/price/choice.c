@@ -43,8 +43,10 @@ static void judge(const trials *t, const choice_wish *w, choice_row *row) {
     row->load_most = w->clock_Hz > 0.0 && cycles ? row->worst / w->clock_Hz : 0.0;
     judge_limit(row, CHOICE_LOAD, w->clock_Hz > 0.0 ? 1.0 : 0.0, cycles, row->load_most);
     judge_limit(row, CHOICE_FLASH, w->flash_bytes, is_known(&c->flash_bytes), c->flash_bytes.most);
-    judge_limit(row, CHOICE_RAM, w->ram_bytes, is_known(&c->ram_bytes) && is_known(&c->stack_bytes),
-                c->ram_bytes.most + c->stack_bytes.most);
+    /* what does not fit without the stack does not fit, whatever that takes */
+    const bool ram =
+        is_known(&c->ram_bytes) && (is_known(&c->stack_bytes) || c->ram_bytes.most > w->ram_bytes);
+    judge_limit(row, CHOICE_RAM, w->ram_bytes, ram, c->ram_bytes.most + c->stack_bytes.most);
 }
 
 static bool fails_besides(const choice_row *row, choice_limit but) {
