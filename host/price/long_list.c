@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "host/base/room.h"
+#include "host/number/functions.h"
 #include "long_functions.h"
 
 struct long_list {
@@ -46,7 +47,8 @@ static long double phase_of(const tape *t, const op *o, const long_leaves *in) {
 static long double cell_of(const tape *t, long double phase_rad) {
     const long double turns = phase_rad / 6.28318530717958647692528676655900577L;
     const double cells = (double)(1U << (unsigned)t->tables.bits);
-    const double at = floor((double)(turns - floorl(turns)) * cells + 0.5);
+    const long double whole = (long double)number_floor((double)turns);
+    const double at = number_floor((double)(turns - whole) * cells + 0.5);
     return (long double)((at < cells ? at : 0.0) * t->tables.count * t->tables.terms);
 }
 
