@@ -46,7 +46,7 @@ $(B)/tests/host: $(call objects,host,$(HOST_TEST_PARTS)) $(LIB_HOST) \
     $(call libraries,float,scenes whirl) $(LIB_DOUBLE)
 	$(link)
 
-TEST_PROGRAMS := $(B)/tests/core_double $(B)/tests/core_float $(B)/tests/host $(B)/tools/mechanisms $(B)/tools/price_fit $(B)/tools/price_fit_fixed
+TEST_PROGRAMS := $(B)/tests/core_double $(B)/tests/core_float $(B)/tests/host $(B)/tools/mechanisms $(B)/tools/linkages $(B)/tools/price_fit $(B)/tools/price_fit_fixed
 
 .PHONY: test-programs
 test-programs: $(TEST_PROGRAMS)
@@ -122,6 +122,10 @@ $(B)/tools/precision: $(call objects,host,tests/tools/precision.c) $(LIB_HOST) $
 # Generated mechanisms, all of which derive.
 $(B)/tools/mechanisms: $(call objects,host,tests/tools/mechanisms.c tests/host/mechanism.c) $(LIB_HOST) \
     $(LIB_FLOAT) $(LIB_DOUBLE)
+	$(link)
+
+# Random planar linkages.
+$(B)/tools/linkages: $(call objects,host,tests/tools/linkages.c tests/host/linkage.c)
 	$(link)
 
 # --- fuzzing ------------------------------------------------------------------------------------

@@ -197,6 +197,14 @@ for file in hoop gauge; do
     printf '%s\n' --with ledger >>"$scratch/$number.options"
 done
 
+# random planar linkages: the interpreter's motions are held to their energies by tests/host/test_linkages.c
+few=8
+[ -z "${WHIRL_FULL:-}" ] || few=40
+"$(dirname "$whirl")/tools/linkages" "${WHIRL_LINKAGES:-$few}" "${WHIRL_SEED:-14}" >"$scratch/w/linkages.whirl"
+for scene in $(sed -n 's/^scene \([a-z0-9_]*\) .*/\1/p' "$scratch/w/linkages.whirl"); do
+    add "$scratch/w/linkages.whirl:$scene"
+done
+
 # a clock that is conserved, on which a force depends: it is integrated
 cat >"$scratch/w/clock.whirl" <<'END'
 mechanism clock "a force of time"

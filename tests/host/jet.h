@@ -1,0 +1,26 @@
+/* jet.h: numbers that carry their first and second derivatives by all variables, in long double: what a Lagrangian's
+ * equations take, without any algebra. */
+#ifndef TESTS_HOST_JET_H
+#define TESTS_HOST_JET_H
+
+enum { JET_VARIABLES = 8 };
+
+typedef struct jet {
+    long double value;
+    long double slope[JET_VARIABLES];
+    long double curve[JET_VARIABLES][JET_VARIABLES]; /* symmetric */
+} jet;
+
+jet jet_number(long double value);
+/* A variable, at a value. */
+jet jet_variable(int which, long double value);
+jet jet_sum(jet a, jet b);
+jet jet_times(long double factor, jet a);
+jet jet_product(jet a, jet b);
+jet jet_square(jet a);
+jet jet_sine(jet a);
+jet jet_cosine(jet a);
+/* Of what is above zero. */
+jet jet_root(jet a);
+
+#endif

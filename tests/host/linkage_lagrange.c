@@ -1,0 +1,147 @@
+/* linkage_lagrange.c: a linkage's accelerations from its energies in numbers: no algebra, no simplification, long double
+ * (see linkage.h). With the variables q and q' and their jets,
+ *
+ *     sum_j L_q'i_q'j q''_j = Q_i - F_q'i + L_qi - sum_j L_q'i_qj q'_j. */
+#include "linkage.h"
+
+#include <math.h>
+
+#include "jet.h"
+
+_Static_assert(2 * LINKAGE_BODIES <= JET_VARIABLES, "a variable for each value and rate");
+
+/* A point and its velocity. */
+typedef struct moving {
+    jet x, y, u, v;
+} moving;
+
+/* A body: where it begins, the sine and cosine of its direction, how fast it turns. */
+typedef struct placed {
+    moving origin;
+    jet direction;
+    jet turning;
+} placed;
+
+/* The point `out` further along a direction. */
+static moving further(moving from, jet direction, jet turning, jet out, jet out_rate) {
+    const jet c = jet_cosine(direction);
+    const jet s = jet_sine(direction);
+    const jet across = jet_product(out, turning);
+    from.x = jet_sum(from.x, jet_product(out, c));
+    from.y = jet_sum(from.y, jet_product(out, s));
+    from.u = jet_sum(from.u, jet_product(out_rate, c));
+    from.u = jet_sum(from.u, jet_times(-1.0L, jet_product(across, s)));
+    from.v = jet_sum(from.v, jet_product(out_rate, s));
+    from.v = jet_sum(from.v, jet_product(across, c));
+    return from;
+}
+
+static moving along(const placed *b, double out_m) {
+    return further(b->origin, b->direction, b->turning, jet_number((long double)out_m),
+                   jet_number(0.0L));
+}
+
+static placed place_body(const linkage_body *b, const placed *parent, jet q, jet rate) {
+    placed made = {.origin = along(parent, b->at_m)};
+    if (b->slides) {
+        made.direction = jet_sum(parent->direction, jet_number((long double)b->rail_rad));
+        made.turning = parent->turning;
+        made.origin = further(made.origin, made.direction, made.turning, q, rate);
+    } else {
+        made.direction = b->relative ? jet_sum(parent->direction, q) : q;
+        made.turning = b->relative ? jet_sum(parent->turning, rate) : rate;
+    }
+    return made;
+}
+
+/* T - V, and F. */
+typedef struct sums {
+    jet lagrangian;
+    jet dissipation;
+} sums;
+
+static void into(jet *sum, long double factor, jet a) {
+    *sum = jet_sum(*sum, jet_times(factor, a));
+}
+
+static jet squares(jet a, jet b) { return jet_sum(jet_square(a), jet_square(b)); }
+
+static void add_body(const linkage *of, const linkage_body *b, const placed *at, jet q, jet rate,
+                     sums *s) {
+    const moving centre = along(at, b->centre_m);
+    const moving end = along(at, 2.0 * b->centre_m);
+    const long double mass = (long double)b->mass_kg;
+    const jet stretch = jet_sum(q, jet_number(-(long double)b->rest));
+    into(&s->lagrangian, mass / 2.0L, squares(centre.u, centre.v));
+    into(&s->lagrangian, (long double)b->inertia_kgm2 / 2.0L, jet_square(at->turning));
+    into(&s->lagrangian, mass * (long double)of->gravity_mps2[0], centre.x);
+    into(&s->lagrangian, mass * (long double)of->gravity_mps2[1], centre.y);
+    into(&s->lagrangian, -(long double)b->stiffness / 2.0L, jet_square(stretch));
+    into(&s->dissipation, (long double)b->damping / 2.0L, jet_square(rate));
+    into(&s->dissipation, (long double)b->drag_Nspm / 2.0L, squares(end.u, end.v));
+}
+
+static void add_spring(const linkage *of, const linkage_spring *spring, const placed *at, sums *s) {
+    const moving end = along(&at[spring->body], 2.0 * of->body[spring->body].centre_m);
+    const jet x = jet_sum(end.x, jet_number(-(long double)spring->x_m));
+    const jet y = jet_sum(end.y, jet_number(-(long double)spring->y_m));
+    jet energy = squares(x, y);
+    if (spring->length_m != 0.0) {
+        const jet length = jet_number(-(long double)spring->length_m);
+        energy = jet_square(jet_sum(jet_root(energy), length));
+    }
+    into(&s->lagrangian, -(long double)spring->stiffness_Npm / 2.0L, energy);
+}
+
+/* Solve a x = b, the last column, with pivots. */
+static void solve(int n, long double a[LINKAGE_BODIES][LINKAGE_BODIES + 1], long double *x) {
+    for (int c = 0; c < n; c++) {
+        int pivot = c;
+        for (int i = c + 1; i < n; i++) {
+            pivot = fabsl(a[i][c]) > fabsl(a[pivot][c]) ? i : pivot;
+        }
+        for (int j = 0; j <= n; j++) {
+            const long double swap = a[c][j];
+            a[c][j] = a[pivot][j];
+            a[pivot][j] = swap;
+        }
+        for (int i = 0; i < n; i++) {
+            const long double share = i == c ? 0.0L : a[i][c] / a[c][c];
+            for (int j = c; j <= n; j++) {
+                a[i][j] -= share * a[c][j];
+            }
+        }
+    }
+    for (int i = 0; i < n; i++) {
+        x[i] = a[i][n] / a[i][i];
+    }
+}
+
+void linkage_accelerations(const linkage *of, const double *q, const double *rate,
+                           long double accel[LINKAGE_BODIES]) {
+    const int n = of->bodies;
+    const placed ground = {.origin = {.x = jet_number(0.0L)}};
+    placed at[LINKAGE_BODIES];
+    sums s = {.lagrangian = jet_number(0.0L), .dissipation = jet_number(0.0L)};
+    long double a[LINKAGE_BODIES][LINKAGE_BODIES + 1];
+    for (int k = 0; k < n; k++) {
+        const linkage_body *b = &of->body[k];
+        const jet value = jet_variable(k, (long double)q[k]);
+        const jet speed = jet_variable(n + k, (long double)rate[k]);
+        at[k] = place_body(b, b->parent < 0 ? &ground : &at[b->parent], value, speed);
+        add_body(of, b, &at[k], value, speed, &s);
+    }
+    for (int k = 0; k < of->springs; k++) {
+        add_spring(of, &of->spring[k], at, &s);
+    }
+    for (int i = 0; i < n; i++) {
+        const linkage_body *b = &of->body[i];
+        a[i][n] = (long double)b->drive * cosl((long double)b->wave * (long double)q[i]);
+        a[i][n] += s.lagrangian.slope[i] - s.dissipation.slope[n + i];
+        for (int j = 0; j < n; j++) {
+            a[i][j] = s.lagrangian.curve[n + i][n + j];
+            a[i][n] -= s.lagrangian.curve[n + i][j] * (long double)rate[j];
+        }
+    }
+    solve(n, a, accel);
+}
