@@ -44,6 +44,7 @@ include mk/peers.mk
 include mk/figures.mk
 include mk/hosts.mk
 include mk/check.mk
+include mk/coverage.mk
 include mk/settings.mk
 
 ##@ Start here

@@ -3,6 +3,14 @@
 
 #include <math.h>
 
+static int variables = JET_VARIABLES;
+
+void jet_variables(int count) { variables = count; }
+
+long double jet_curve(const jet *a, int i, int j) {
+    return i >= j ? a->curve[i * (i + 1) / 2 + j] : a->curve[j * (j + 1) / 2 + i];
+}
+
 jet jet_number(long double value) { return (jet){.value = value}; }
 
 jet jet_variable(int which, long double value) {
@@ -13,11 +21,11 @@ jet jet_variable(int which, long double value) {
 
 jet jet_sum(jet a, jet b) {
     a.value += b.value;
-    for (int i = 0; i < JET_VARIABLES; i++) {
+    for (int i = 0; i < variables; i++) {
         a.slope[i] += b.slope[i];
-        for (int j = 0; j < JET_VARIABLES; j++) {
-            a.curve[i][j] += b.curve[i][j];
-        }
+    }
+    for (int k = 0; k < variables * (variables + 1) / 2; k++) {
+        a.curve[k] += b.curve[k];
     }
     return a;
 }
@@ -25,10 +33,10 @@ jet jet_sum(jet a, jet b) {
 /* f(a), with f, f' and f'' at a's value. */
 static jet chained(jet a, long double f, long double first, long double second) {
     jet made = {.value = f};
-    for (int i = 0; i < JET_VARIABLES; i++) {
+    for (int i = 0, k = 0; i < variables; i++) {
         made.slope[i] = first * a.slope[i];
-        for (int j = 0; j < JET_VARIABLES; j++) {
-            made.curve[i][j] = first * a.curve[i][j] + second * a.slope[i] * a.slope[j];
+        for (int j = 0; j <= i; j++, k++) {
+            made.curve[k] = first * a.curve[k] + second * a.slope[i] * a.slope[j];
         }
     }
     return made;
@@ -38,11 +46,11 @@ jet jet_times(long double factor, jet a) { return chained(a, factor * a.value, f
 
 jet jet_product(jet a, jet b) {
     jet made = {.value = a.value * b.value};
-    for (int i = 0; i < JET_VARIABLES; i++) {
+    for (int i = 0, k = 0; i < variables; i++) {
         made.slope[i] = a.slope[i] * b.value + a.value * b.slope[i];
-        for (int j = 0; j < JET_VARIABLES; j++) {
-            made.curve[i][j] = a.curve[i][j] * b.value + a.value * b.curve[i][j] +
-                               a.slope[i] * b.slope[j] + a.slope[j] * b.slope[i];
+        for (int j = 0; j <= i; j++, k++) {
+            made.curve[k] = a.curve[k] * b.value + a.value * b.curve[k] + a.slope[i] * b.slope[j] +
+                            a.slope[j] * b.slope[i];
         }
     }
     return made;

@@ -299,6 +299,7 @@ void linkage_write(const linkage *of, const char *name, linkage_writing how,
             text[before] = '\0';
         }
     }
+    say(&w, "%s", how.more == NULL ? "" : how.more);
     say(&w, "scene %s_moves \"half a second\" {\n", name);
     for (int part = 0; part < PARTS && how.forces == LINKAGE_EFFECTS_ON; part++) {
         if (has[part]) {

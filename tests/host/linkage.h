@@ -61,14 +61,30 @@ typedef enum linkage_forces {
 typedef struct linkage_writing {
     linkage_forces forces;
     bool backwards; /* coordinates and terms in the other order */
+    const char *
+        more; /* statements behind the others; they may name q0, q0', ..., and ey0, how high an end is; or NULL */
 } linkage_writing;
 
 /* A mechanism `name` with a scene `name_moves` of half a second. Coordinates are q0, q1, ... */
 void linkage_write(const linkage *of, const char *name, linkage_writing how,
                    char text[static LINKAGE_TEXT]);
 
-/* Accelerations from kinetic energy, potential energy, dissipation and forces at a state, in long double. */
-void linkage_accelerations(const linkage *of, const double *q, const double *rate,
-                           long double accel[LINKAGE_BODIES]);
+/* At a state: M q'' = force, by the derivatives of the energies in numbers, in long double. And of each body's end how
+ * high it is, y, with y' = row . q' and y'' = row . q'' + bend. */
+typedef struct linkage_numbers {
+    long double mass[LINKAGE_BODIES][LINKAGE_BODIES];
+    long double force[LINKAGE_BODIES];
+    struct {
+        long double y_m;
+        long double row[LINKAGE_BODIES];
+        long double bend_mps2;
+    } end[LINKAGE_BODIES];
+} linkage_numbers;
+void linkage_evaluate(const linkage *of, const long double *q, const long double *rate,
+                      linkage_numbers *at);
+
+/* Solve M x = y. */
+void linkage_solve(const linkage *of, const linkage_numbers *at, const long double *y,
+                   long double *x);
 
 #endif

@@ -5,6 +5,7 @@
 #include "linkage.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "jet.h"
 
@@ -93,21 +94,18 @@ static void add_spring(const linkage *of, const linkage_spring *spring, const pl
     into(&s->lagrangian, -(long double)spring->stiffness_Npm / 2.0L, energy);
 }
 
-/* Solve a x = b, the last column, with pivots. */
-static void solve(int n, long double a[LINKAGE_BODIES][LINKAGE_BODIES + 1], long double *x) {
-    for (int c = 0; c < n; c++) {
-        int pivot = c;
-        for (int i = c + 1; i < n; i++) {
-            pivot = fabsl(a[i][c]) > fabsl(a[pivot][c]) ? i : pivot;
-        }
-        for (int j = 0; j <= n; j++) {
-            const long double swap = a[c][j];
-            a[c][j] = a[pivot][j];
-            a[pivot][j] = swap;
-        }
+void linkage_solve(const linkage *of, const linkage_numbers *at, const long double *y,
+                   long double *x) {
+    const int n = of->bodies;
+    long double a[LINKAGE_BODIES][LINKAGE_BODIES + 1];
+    for (int i = 0; i < n; i++) {
+        memcpy(a[i], at->mass[i], sizeof at->mass[i]);
+        a[i][n] = y[i];
+    }
+    for (int c = 0; c < n; c++) { /* positive definite: no pivot is looked for */
         for (int i = 0; i < n; i++) {
             const long double share = i == c ? 0.0L : a[i][c] / a[c][c];
-            for (int j = c; j <= n; j++) {
+            for (int j = c; j <= n && i != c; j++) {
                 a[i][j] -= share * a[c][j];
             }
         }
@@ -117,31 +115,37 @@ static void solve(int n, long double a[LINKAGE_BODIES][LINKAGE_BODIES + 1], long
     }
 }
 
-void linkage_accelerations(const linkage *of, const double *q, const double *rate,
-                           long double accel[LINKAGE_BODIES]) {
+void linkage_evaluate(const linkage *of, const long double *q, const long double *rate,
+                      linkage_numbers *out) {
     const int n = of->bodies;
-    const placed ground = {.origin = {.x = jet_number(0.0L)}};
     placed at[LINKAGE_BODIES];
+    jet_variables(2 * n);
+    const placed ground = {.origin = {.x = jet_number(0.0L)}};
     sums s = {.lagrangian = jet_number(0.0L), .dissipation = jet_number(0.0L)};
-    long double a[LINKAGE_BODIES][LINKAGE_BODIES + 1];
     for (int k = 0; k < n; k++) {
         const linkage_body *b = &of->body[k];
-        const jet value = jet_variable(k, (long double)q[k]);
-        const jet speed = jet_variable(n + k, (long double)rate[k]);
+        const jet value = jet_variable(k, q[k]);
+        const jet speed = jet_variable(n + k, rate[k]);
         at[k] = place_body(b, b->parent < 0 ? &ground : &at[b->parent], value, speed);
         add_body(of, b, &at[k], value, speed, &s);
+        const moving end = along(&at[k], 2.0 * b->centre_m);
+        out->end[k].y_m = end.y.value;
+        out->end[k].bend_mps2 = 0.0L;
+        for (int i = 0; i < n; i++) {
+            out->end[k].row[i] = end.y.slope[i];
+            out->end[k].bend_mps2 += end.v.slope[i] * rate[i];
+        }
     }
     for (int k = 0; k < of->springs; k++) {
         add_spring(of, &of->spring[k], at, &s);
     }
     for (int i = 0; i < n; i++) {
         const linkage_body *b = &of->body[i];
-        a[i][n] = (long double)b->drive * cosl((long double)b->wave * (long double)q[i]);
-        a[i][n] += s.lagrangian.slope[i] - s.dissipation.slope[n + i];
+        out->force[i] = (long double)b->drive * cosl((long double)b->wave * q[i]);
+        out->force[i] += s.lagrangian.slope[i] - s.dissipation.slope[n + i];
         for (int j = 0; j < n; j++) {
-            a[i][j] = s.lagrangian.curve[n + i][n + j];
-            a[i][n] -= s.lagrangian.curve[n + i][j] * (long double)rate[j];
+            out->mass[i][j] = jet_curve(&s.lagrangian, n + i, n + j);
+            out->force[i] -= jet_curve(&s.lagrangian, n + i, j) * rate[j];
         }
     }
-    solve(n, a, accel);
 }

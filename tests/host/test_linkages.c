@@ -33,8 +33,8 @@ static const char *text_of(const linkage *of, linkage_writing how) {
     return text;
 }
 
-static const linkage_writing as_usual = {LINKAGE_INSIDE, false};
-static const linkage_writing backwards = {LINKAGE_INSIDE, true};
+static const linkage_writing as_usual = {.forces = LINKAGE_INSIDE};
+static const linkage_writing backwards = {.forces = LINKAGE_INSIDE, .backwards = true};
 
 /* Fails with the text. */
 static void expect(bool holds, const char *what, double figure, const char *text) {
@@ -68,18 +68,20 @@ static double worst_acceleration(const linkage *of, linkage_writing how, uint64_
     derived_expect(&d, text_of(of, how));
     for (int i = 0; i < STATES; i++) {
         state_values s = {.instance = d.instance};
-        double q[LINKAGE_BODIES];
-        double rate[LINKAGE_BODIES];
+        linkage_numbers at;
+        long double q[LINKAGE_BODIES];
+        long double rate[LINKAGE_BODIES];
         double found[LINKAGE_BODIES];
         long double wanted[LINKAGE_BODIES];
         long double most = 0.0L;
         for (int k = 0; k < of->bodies; k++) {
-            const int at = unknown_of(&d, k);
-            s.value[at][0] = q[k] = random_between(seed, -1.5, 1.5);
-            s.value[at][1] = rate[k] = random_between(seed, -3.0, 3.0);
+            double *value = s.value[unknown_of(&d, k)];
+            q[k] = (long double)(value[0] = random_between(seed, -1.5, 1.5));
+            rate[k] = (long double)(value[1] = random_between(seed, -3.0, 3.0));
         }
         derived_run(d.image->list[IMAGE_STEP], &d, &s, found);
-        linkage_accelerations(of, q, rate, wanted);
+        linkage_evaluate(of, q, rate, &at);
+        linkage_solve(of, &at, at.force, wanted);
         for (int k = 0; k < of->bodies; k++) {
             most = fmaxl(most, fabsl(wanted[k]));
         }
@@ -139,14 +141,10 @@ static moved run_of(const linkage *of, linkage_writing how, const engine_kind *k
 
 /* Runge-Kutta 4 in long double, by the numeric accelerations. */
 static void slopes(const linkage *of, const long double *state, long double *slope) {
-    double q[LINKAGE_BODIES];
-    double rate[LINKAGE_BODIES];
-    for (int k = 0; k < of->bodies; k++) {
-        q[k] = (double)state[k]; /* a double's rounding, as the run itself has */
-        rate[k] = (double)state[LINKAGE_BODIES + k];
-        slope[k] = state[LINKAGE_BODIES + k];
-    }
-    linkage_accelerations(of, q, rate, slope + LINKAGE_BODIES);
+    linkage_numbers at;
+    linkage_evaluate(of, state, state + LINKAGE_BODIES, &at);
+    linkage_solve(of, &at, at.force, slope + LINKAGE_BODIES);
+    memcpy(slope, state + LINKAGE_BODIES, LINKAGE_BODIES * sizeof *slope);
 }
 
 static moved integrated(const linkage *of, double step_s) {
@@ -241,8 +239,8 @@ static void test_forces_may_stand_in_effects(void) {
         const linkage of = drawn_linkage(&d, k);
         const engine_kind *kind = k % 2 == 0 ? &engine_double : &engine_float;
         for (int i = 0; i < 2; i++) {
-            const moved inside = run_of(&of, (linkage_writing){pair[i][0], false}, kind);
-            const moved called = run_of(&of, (linkage_writing){pair[i][1], false}, kind);
+            const moved inside = run_of(&of, (linkage_writing){.forces = pair[i][0]}, kind);
+            const moved called = run_of(&of, (linkage_writing){.forces = pair[i][1]}, kind);
             expect(memcmp(&inside, &called, sizeof inside) == 0, "other bits with effects",
                    apart(&of, &inside, &called), text_of(&of, as_usual));
         }

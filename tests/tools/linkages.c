@@ -18,7 +18,7 @@ int main(int count, char **words) {
         char text[LINKAGE_TEXT];
         const linkage of = linkage_draw(&seed);
         snprintf(name, sizeof name, "l%u", k);
-        linkage_write(&of, name, (linkage_writing){LINKAGE_INSIDE, false}, text);
+        linkage_write(&of, name, (linkage_writing){.forces = LINKAGE_INSIDE}, text);
         fputs(text, stdout);
     }
     return fflush(stdout) == 0 ? 0 : 1;

@@ -1,0 +1,47 @@
+/* hybrid.h: random planar linkages (linkage.h) with stops and dry friction, and their motion by a program of another
+ * kind: long double, accelerations from the energies in numbers, events bisected, modes found by trying all cases. */
+#ifndef TESTS_HOST_HYBRID_H
+#define TESTS_HOST_HYBRID_H
+
+#include "linkage.h"
+
+enum { HYBRID_CONTACTS = 3, HYBRID_TEXT = 1000 };
+
+typedef enum hybrid_kind {
+    HYBRID_LEAST,   /* a stop: the coordinate stays above */
+    HYBRID_MOST,    /* a stop: it stays below */
+    HYBRID_FLOOR,   /* a stop: the body's end stays above */
+    HYBRID_FRICTION /* on the coordinate, static and kinetic alike */
+} hybrid_kind;
+
+typedef struct hybrid_contact {
+    hybrid_kind kind;
+    int body;
+    double limit; /* of a stop: where it is, m or rad; of friction: N or N m */
+    double restitution;
+} hybrid_contact;
+
+typedef struct hybrid {
+    linkage of;
+    int contacts; /* stops first */
+    hybrid_contact contact[HYBRID_CONTACTS];
+} hybrid;
+
+/* One whose start is beyond no stop. */
+hybrid hybrid_draw(uint64_t *seed);
+
+/* Its contacts as statements. */
+void hybrid_statements(const hybrid *h, char text[static HYBRID_TEXT]);
+
+/* How a motion ended. */
+typedef struct hybrid_motion {
+    long double state[2 * LINKAGE_BODIES]; /* values, then rates */
+    int impacts;
+    int rests; /* a stop that stays closed, a rate that sticks */
+    bool
+        aside; /* a row of impacts on one stop that comes to an end (Zeno), or modes that no case fits */
+} hybrid_motion;
+/* Its motion until `until_s`. A bounce whose flight is shorter than `least_flight_s` ends it, as aside. */
+hybrid_motion hybrid_move(const hybrid *h, double until_s, double least_flight_s);
+
+#endif

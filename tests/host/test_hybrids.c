@@ -1,0 +1,80 @@
+/* test_hybrids.c: random planar linkages with up to three stops and dry frictions, against a program of another kind
+ * (hybrid.h). WHIRL_CASES=10000 WHIRL_SEED=...: so many, others. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "command.h"
+#include "derived.h"
+#include "hybrid.h"
+#include "motion.h"
+#include "unity.h"
+
+void suite_hybrids(void);
+
+#define STEP_S 0.25e-3
+#define UNTIL_S 0.5
+
+/* What is asked of every one of them. */
+#define OFF_MOST 1e-6
+
+/* How far the program's motion is off at the end. */
+static double off_at_end(const hybrid *h, const hybrid_motion *wanted, const char *text) {
+    motion m;
+    double most = 0.0;
+    motion_open_text(&m, text,
+                     (stepping){.kind = &engine_double, .method = WH_RK4, .step_s = STEP_S});
+    motion_to(&m, UNTIL_S);
+    for (int k = 0; k < h->of.bodies; k++) {
+        char name[8];
+        snprintf(name, sizeof name, "q%d", k);
+        most = fmax(most, fabs(motion_value(&m, name) - (double)wanted->state[k]));
+        snprintf(name, sizeof name, "q%d'", k);
+        most = fmax(most, fabs(motion_value(&m, name) - (double)wanted->state[LINKAGE_BODIES + k]));
+    }
+    motion_close(&m);
+    return most;
+}
+
+static void test_random_hybrids(void) {
+    dice d = dice_of("hybrids", 15);
+    const unsigned cases = dice_cases(few_or_all(usual_or(12, 4), 100));
+    uint64_t seed = d.state;
+    double worst = 0.0;
+    unsigned aside = 0;
+    unsigned eventful = 0;
+    unsigned beyond = 0;
+    int impacts = 0;
+    int rests = 0;
+    for (unsigned k = 0; k < cases;) {
+        char statements[HYBRID_TEXT];
+        char text[LINKAGE_TEXT];
+        const hybrid h = hybrid_draw(&seed);
+        const hybrid_motion wanted = hybrid_move(&h, UNTIL_S, STEP_S);
+        if (wanted.aside) {
+            aside++;
+            continue;
+        }
+        k++;
+        hybrid_statements(&h, statements);
+        linkage_write(&h.of, "hybrid", (linkage_writing){LINKAGE_INSIDE, .more = statements}, text);
+        const double off = off_at_end(&h, &wanted, text);
+        if (!(off <= OFF_MOST)) {
+            printf("%s# off by %.2e, with %d impacts, %d rests\n", text, off, wanted.impacts,
+                   wanted.rests);
+            beyond++;
+        }
+        worst = fmax(worst, off);
+        eventful += wanted.impacts + wanted.rests > 0 ? 1U : 0U;
+        impacts += wanted.impacts;
+        rests += wanted.rests;
+    }
+    printf(
+        "  %u hybrids, %u of them with events: %d impacts, %d rests; off by at most %.1e; %u beyond "
+        "%.0e; %u aside\n",
+        cases, eventful, impacts, rests, worst, beyond, OFF_MOST, aside);
+    TEST_ASSERT_EQUAL_UINT(0, beyond);
+    TEST_ASSERT_TRUE(eventful * 2 >= cases && aside <= cases);
+}
+
+void suite_hybrids(void) { RUN_TEST(test_random_hybrids); }
