@@ -275,7 +275,11 @@ static void ask_contact(maker *k, const contact_statement *h, image_contact *row
         ask_value(k, where, h->static_friction, "the static coefficient of this friction");
         ask_value(k, where, h->kinetic_friction, "the kinetic coefficient of this friction");
         break;
-    case CONTACT_WHEN: ask_value(k, where, h->value, "the value of this crossing"); break;
+    case CONTACT_WHEN:
+        ask_value(k, where, h->value,
+                  contact_loosens(h) ? "the normal force of this friction"
+                                     : "the value of this crossing");
+        break;
     }
     row->questions = b->questions - row->first_question;
     row->first_late = b->questions;

@@ -67,12 +67,48 @@ static void make_law(algebra *a, const mechanism *m, const contact_statement *fr
     }
 }
 
+bool contact_loosens(const contact_statement *h) {
+    return h->kind == CONTACT_WHEN && h->normal != NULL;
+}
+
+/* Does the motion change it? Inputs do so between steps only. */
+static bool moves(algebra *a, const mechanism *m, const poly *value) {
+    for (int i = 0; i < m->coordinate_count; i++) {
+        for (int primes = 0; primes < 2; primes++) {
+            if (!poly_is_zero(poly_derivative(a, value, m->coordinates[i], primes))) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+/* Behind all others, a crossing for every friction whose normal force may vanish; as far as there is room. */
+static void make_loosening(algebra *a, const mechanism *m, contact_laws *laws) {
+    const int written = laws->count;
+    laws->loose = room(written, sizeof *laws->loose);
+    for (int k = 0; k < written && laws->count < CONTACTS_MAX; k++) {
+        const contact_statement *of = laws->law[k].from;
+        if (of->kind == CONTACT_FRICTION && moves(a, m, poly_from_expr(a, of->normal))) {
+            contact_statement *h = &laws->loose[laws->loosening++];
+            *h = (contact_statement){.kind = CONTACT_WHEN,
+                                     .value = of->normal,
+                                     .normal = of->normal,
+                                     .effect = of->effect,
+                                     .at = of->at};
+            make_law(a, m, h, &laws->law[laws->count], &laws->sets[laws->count]);
+            laws->count++;
+        }
+    }
+}
+
 contact_laws *contact_laws_make(algebra *a, const instance *inst) {
     const mechanism *m = inst->mechanism;
     const int own = inst->scene != NULL ? inst->scene->when_count : 0;
+    const int most = 2 * m->contact_count + own; /* each friction with a crossing */
     contact_laws *laws = room(1, sizeof *laws);
-    laws->law = room(m->contact_count + own, sizeof *laws->law);
-    laws->sets = room(m->contact_count + own, sizeof *laws->sets);
+    laws->law = room(most, sizeof *laws->law);
+    laws->sets = room(most, sizeof *laws->sets);
     for (int k = 0; k < CONTACT_KINDS; k++) {
         for (int i = 0; i < m->contact_count + own; i++) {
             const contact_statement *h =
@@ -91,6 +127,7 @@ contact_laws *contact_laws_make(algebra *a, const instance *inst) {
         contact_laws_free(laws);
         return NULL;
     }
+    make_loosening(a, m, laws);
     return laws;
 }
 
@@ -102,6 +139,7 @@ void contact_laws_free(contact_laws *laws) {
         free(laws->law[k].row);
         free(laws->sets[k].value);
     }
+    free(laws->loose);
     free(laws->law);
     free(laws->sets);
     free(laws);

@@ -25,11 +25,17 @@ typedef struct contact_set {
 
 typedef struct contact_laws {
     int count;
-    int forced;        /* all but crossings, which come last */
-    contact_law *law;  /* [count] */
-    contact_set *sets; /* [count] */
-    int set_count;     /* of all crossings */
+    int forced;               /* all but crossings, which come last */
+    contact_law *law;         /* [count] */
+    contact_set *sets;        /* [count] */
+    int set_count;            /* of all crossings */
+    contact_statement *loose; /* [loosening] crossings that no file has: see contact_loosens() */
+    int loosening;
 } contact_laws;
+
+/* Is this the crossing at which a friction's normal force, which the motion changes, comes to zero or returns from there?
+ * There the force has a kink, which a step of fourth order must not lie across. It sets nothing. */
+bool contact_loosens(const contact_statement *h);
 
 /* Those that the instance calls for; NULL when there are none. */
 contact_laws *contact_laws_make(algebra *a, const instance *inst);

@@ -199,19 +199,21 @@ static void take_contacts(image_draft *d, contact_lists *c) {
     im->contact = image_room(d, c->count, sizeof *im->contact);
     for (int k = 0; k < c->count; k++) {
         const contact_row *row = &c->row[k];
+        const contact_statement *from = row->from;
         const char *gap = row->kind == WH_STOP
                               ? dimension_unit(row->from->value->dim, false, si, sizeof si)
                               : "1";
-        im->contact[k] =
-            (image_contact){.kind = row->kind,
-                            .word = image_text(d, contact_word(row->from->kind)),
-                            .undefined = image_text(d, contact_undefined(row->from->kind)),
-                            .direction = row->direction,
-                            .pin = row->pin,
-                            .first_set = row->first_set,
-                            .sets = row->sets,
-                            .unit = image_text(d, gap),
-                            .at = image_place(d, row->from->at)};
+        im->contact[k] = (image_contact){
+            .kind = row->kind,
+            .word = image_text(d, contact_loosens(from) ? "normal" : contact_word(from->kind)),
+            .undefined = image_text(d, contact_loosens(from) ? "the normal force of this friction"
+                                                             : contact_undefined(from->kind)),
+            .direction = row->direction,
+            .pin = row->pin,
+            .first_set = row->first_set,
+            .sets = row->sets,
+            .unit = image_text(d, gap),
+            .at = image_place(d, row->from->at)};
     }
     im->list[IMAGE_SIGNALS] = take(&c->signals);
     im->list[IMAGE_FORCES] = take(&c->forces);

@@ -2,7 +2,7 @@
 
 static void show_crossing(const show *s, const contact_law *law, const contact_set *set) {
     const contact_statement *from = law->from;
-    fputs("when ", s->out);
+    fputs(contact_loosens(from) ? "normal force that comes and goes: when " : "when ", s->out);
     show_poly(s, law->value);
     fputs(" crosses 0", s->out);
     fputs(from->direction > 0 ? " rising" : from->direction < 0 ? " falling" : "", s->out);

@@ -20,6 +20,7 @@ typedef enum mode { OPEN, CLOSED, STUCK, UP, DOWN } mode;
 typedef struct runner {
     const hybrid *h;
     mode mode[HYBRID_CONTACTS];
+    bool pressed[HYBRID_CONTACTS]; /* friction: is its limit above zero? */
     long double state[STATE];
     hybrid_motion *motion;
 } runner;
@@ -50,6 +51,15 @@ static gauge gauge_of(const hybrid *h, int k, const linkage_numbers *at, const l
     return g;
 }
 
+/* What a friction takes; below zero: nothing. */
+static long double load_of(const hybrid_contact *c, const long double *state) {
+    return (long double)c->limit + (long double)c->load * state[c->loaded_by];
+}
+
+static long double limit_of(const hybrid_contact *c, const long double *state) {
+    return fmaxl(load_of(c, state), 0.0L);
+}
+
 static bool holds(mode m) { return m == CLOSED || m == STUCK; }
 
 /* --- between events ------------------------------------------------------------------------------------------ */
@@ -75,7 +85,7 @@ static void accelerate(const runner *r, const long double *state, long double *a
             linkage_solve(&h->of, at, g[count].row, way[count]);
             held[count++] = k;
         } else if (r->mode[k] != OPEN) {
-            force[c->body] += (r->mode[k] == UP ? -1.0L : 1.0L) * (long double)c->limit;
+            force[c->body] += (r->mode[k] == UP ? -1.0L : 1.0L) * limit_of(c, state);
         }
     }
     linkage_solve(&h->of, at, force, accel);
@@ -140,6 +150,9 @@ static void step_of(const runner *r, long double h, long double *to) {
     }
 }
 
+/* Twice what the cases let pass (drawn.c), N or N m: a mode that has ended is not found again. */
+#define SLACK 2e-9L
+
 /* Has a contact's mode ended in this state? */
 static bool ended(const runner *r, const long double *state) {
     const hybrid *h = r->h;
@@ -149,9 +162,11 @@ static bool ended(const runner *r, const long double *state) {
     accelerate(r, state, accel, lambda, &at);
     for (int k = 0; k < h->contacts; k++) {
         const gauge g = gauge_of(h, k, &at, state);
-        const long double limit = (long double)h->contact[k].limit;
-        if ((r->mode[k] == OPEN && g.gap < 0.0L) || (r->mode[k] == CLOSED && lambda[k] < 0.0L) ||
-            (r->mode[k] == STUCK && fabsl(lambda[k]) > limit) ||
+        const hybrid_contact *c = &h->contact[k];
+        const bool presses = load_of(c, state) > 0.0L;
+        if ((r->mode[k] == OPEN && g.gap < 0.0L) || (r->mode[k] == CLOSED && lambda[k] < -SLACK) ||
+            (r->mode[k] == STUCK && fabsl(lambda[k]) > limit_of(c, state) + SLACK) ||
+            (c->kind == HYBRID_FRICTION && presses != r->pressed[k]) ||
             (r->mode[k] == UP && g.rate < 0.0L) || (r->mode[k] == DOWN && g.rate > 0.0L)) {
             return true;
         }
@@ -176,7 +191,7 @@ static drawn cases_of(const runner *r, const linkage_numbers *at, const gauge *g
     for (int c = 0; c < count; c++) {
         const bool friction = r->h->contact[member[c]].kind == HYBRID_FRICTION;
         b.contact[c].kind = friction ? 'f' : 's';
-        b.contact[c].limit = friction ? r->h->contact[member[c]].limit : 0.0;
+        b.contact[c].limit = friction ? (double)limit_of(&r->h->contact[member[c]], r->state) : 0.0;
         for (int i = 0; i < b.n; i++) {
             b.contact[c].row[i] = (double)g[member[c]].row[i];
         }
@@ -251,7 +266,7 @@ static bool settle(runner *r, const linkage_numbers *at, const gauge *g) {
             member[count++] = k;
         } else if (c->kind == HYBRID_FRICTION) {
             r->mode[k] = g[k].rate > 0.0L ? UP : DOWN;
-            force[c->body] += (r->mode[k] == UP ? -1.0L : 1.0L) * (long double)c->limit;
+            force[c->body] += (r->mode[k] == UP ? -1.0L : 1.0L) * limit_of(c, r->state);
         } else {
             r->mode[k] = OPEN;
         }
@@ -273,8 +288,14 @@ static bool settle(runner *r, const linkage_numbers *at, const gauge *g) {
     for (int c = 0; c < count; c++) {
         const int k = member[c];
         const double off = drawn_along(&b, c, to) - b.contact[c].target;
-        const bool stop = b.contact[c].kind == 's';
-        r->mode[k] = off > 1e-7 ? (stop ? OPEN : UP) : off < -1e-7 ? DOWN : stop ? CLOSED : STUCK;
+        const bool slides =
+            fabs(lambda[c]) >= b.contact[c].limit; /* exactly as much, where it does */
+        const bool up = lambda[c] < 0.0 || (lambda[c] == 0.0 && off > 0.0);
+        if (b.contact[c].kind == 's') {
+            r->mode[k] = lambda[c] == 0.0 ? OPEN : CLOSED;
+        } else {
+            r->mode[k] = !slides ? STUCK : up ? UP : DOWN;
+        }
         r->motion->rests += holds(r->mode[k]) ? 1 : 0;
     }
     return true;
@@ -287,6 +308,7 @@ static bool event(runner *r, long double least_flight_s) {
     linkage_evaluate(&r->h->of, r->state, r->state + LINKAGE_BODIES, &at);
     for (int k = 0; k < r->h->contacts; k++) {
         g[k] = gauge_of(r->h, k, &at, r->state);
+        r->pressed[k] = load_of(&r->h->contact[k], r->state) > 0.0L;
     }
     if (!impact(r, &at, g, least_flight_s)) {
         return false;

@@ -19,6 +19,8 @@ typedef struct hybrid_contact {
     int body;
     double limit; /* of a stop: where it is, m or rad; of friction: N or N m */
     double restitution;
+    int loaded_by; /* friction: the limit grows by `load` for each m or rad of this coordinate, and is never below zero */
+    double load;   /* 0: it stays */
 } hybrid_contact;
 
 typedef struct hybrid {

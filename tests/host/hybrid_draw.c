@@ -37,6 +37,8 @@ static bool friction_draw(const hybrid *h, uint64_t *seed, hybrid_contact *c) {
     c->kind = HYBRID_FRICTION;
     c->body = (int)(random_bits(seed) % (uint64_t)h->of.bodies);
     c->limit = eighths(seed, 8, 120);
+    c->loaded_by = (int)(random_bits(seed) % (uint64_t)h->of.bodies);
+    c->load = random_bits(seed) % 2 == 0 ? 0.0 : eighths(seed, -200, 200);
     for (int k = 0; k < h->contacts; k++) {
         if (h->contact[k].kind == HYBRID_FRICTION && h->contact[k].body == c->body) {
             return false;
@@ -73,8 +75,16 @@ void hybrid_statements(const hybrid *h, char text[static HYBRID_TEXT]) {
         const bool slides = h->of.body[c->body].slides;
         char line[160];
         if (c->kind == HYBRID_FRICTION) {
-            snprintf(line, sizeof line, "friction q%d static 1 kinetic 1 normal %.17g [%s]\n",
-                     c->body, c->limit, slides ? "N" : "N*m");
+            const char *unit = slides ? "N" : "N*m";
+            int end =
+                snprintf(line, sizeof line, "friction q%d static 1 kinetic 1 normal %.17g [%s]",
+                         c->body, c->limit, unit);
+            if (c->load != 0.0) {
+                end +=
+                    snprintf(line + end, sizeof line - (size_t)end, " + %.17g [%s/%s]*q%d", c->load,
+                             unit, h->of.body[c->loaded_by].slides ? "m" : "rad", c->loaded_by);
+            }
+            snprintf(line + end, sizeof line - (size_t)end, "\n");
         } else {
             snprintf(line, sizeof line, "stop %s%d %s %.17g [%s] restitution %.17g\n",
                      c->kind == HYBRID_FLOOR ? "ey" : "q", c->body,

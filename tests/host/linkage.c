@@ -300,7 +300,7 @@ void linkage_write(const linkage *of, const char *name, linkage_writing how,
         }
     }
     say(&w, "%s", how.more == NULL ? "" : how.more);
-    say(&w, "scene %s_moves \"half a second\" {\n", name);
+    say(&w, "scene %s_moves {\n", name);
     for (int part = 0; part < PARTS && how.forces == LINKAGE_EFFECTS_ON; part++) {
         if (has[part]) {
             say(&w, "with %s\n", names[part]);
@@ -312,5 +312,6 @@ void linkage_write(const linkage *of, const char *name, linkage_writing how,
         say(&w, "start q%d = %.17g [%s], q%d' = %.17g [%s/s]\n", k, of->start[k], unit, k,
             of->start_rate[k], unit);
     }
-    say(&w, "step 1 [ms]\nuntil 0.5 [s]\n}\n");
+    const double until_s = how.until_s > 0.0 ? how.until_s : 0.5;
+    say(&w, "step %.17g [s]\nuntil %.17g [s]\n}\n", until_s / 500.0, until_s);
 }

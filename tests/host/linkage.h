@@ -61,11 +61,12 @@ typedef enum linkage_forces {
 typedef struct linkage_writing {
     linkage_forces forces;
     bool backwards; /* coordinates and terms in the other order */
+    double until_s; /* of the scene, which takes 500 steps; 0: half a second */
     const char *
-        more; /* statements behind the others; they may name q0, q0', ..., and ey0, how high an end is; or NULL */
+        more; /* statements behind the others, which may name q0, q0', ..., and ey0, how high an end is */
 } linkage_writing;
 
-/* A mechanism `name` with a scene `name_moves` of half a second. Coordinates are q0, q1, ... */
+/* A mechanism `name` with a scene `name_moves`. Coordinates are q0, q1, ... */
 void linkage_write(const linkage *of, const char *name, linkage_writing how,
                    char text[static LINKAGE_TEXT]);
 
@@ -86,5 +87,12 @@ void linkage_evaluate(const linkage *of, const long double *q, const long double
 /* Solve M x = y. */
 void linkage_solve(const linkage *of, const linkage_numbers *at, const long double *y,
                    long double *x);
+
+/* Values, then rates. */
+typedef struct linkage_motion {
+    long double state[2 * LINKAGE_BODIES];
+} linkage_motion;
+/* The state after so many steps from the start: Runge-Kutta 4 in long double. */
+void linkage_integrate(const linkage *of, double step_s, int steps, linkage_motion *end);
 
 #endif

@@ -149,3 +149,40 @@ void linkage_evaluate(const linkage *of, const long double *q, const long double
         }
     }
 }
+
+/* --- motions ------------------------------------------------------------------------------------------------- */
+
+enum { STATE = 2 * LINKAGE_BODIES };
+
+static void slopes(const linkage *of, const long double *state, long double *slope) {
+    linkage_numbers at;
+    linkage_evaluate(of, state, state + LINKAGE_BODIES, &at);
+    linkage_solve(of, &at, at.force, slope + LINKAGE_BODIES);
+    memcpy(slope, state + LINKAGE_BODIES, LINKAGE_BODIES * sizeof *slope);
+}
+
+void linkage_integrate(const linkage *of, double step_s, int steps, linkage_motion *end) {
+    static const long double node[4] = {0.0L, 0.5L, 0.5L, 1.0L};
+    static const long double weight[4] = {1.0L / 6.0L, 1.0L / 3.0L, 1.0L / 3.0L, 1.0L / 6.0L};
+    const long double h = (long double)step_s;
+    *end = (linkage_motion){{0.0L}};
+    for (int k = 0; k < of->bodies; k++) {
+        end->state[k] = (long double)of->start[k];
+        end->state[LINKAGE_BODIES + k] = (long double)of->start_rate[k];
+    }
+    for (int step = 0; step < steps; step++) {
+        long double slope[STATE] = {0.0L};
+        linkage_motion next = *end;
+        for (int stage = 0; stage < 4; stage++) {
+            long double at[STATE];
+            for (int i = 0; i < STATE; i++) {
+                at[i] = end->state[i] + node[stage] * h * slope[i];
+            }
+            slopes(of, at, slope);
+            for (int i = 0; i < STATE; i++) {
+                next.state[i] += weight[stage] * h * slope[i];
+            }
+        }
+        *end = next;
+    }
+}

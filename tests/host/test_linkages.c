@@ -139,43 +139,12 @@ static moved run_of(const linkage *of, linkage_writing how, const engine_kind *k
     return end;
 }
 
-/* Runge-Kutta 4 in long double, by the numeric accelerations. */
-static void slopes(const linkage *of, const long double *state, long double *slope) {
-    linkage_numbers at;
-    linkage_evaluate(of, state, state + LINKAGE_BODIES, &at);
-    linkage_solve(of, &at, at.force, slope + LINKAGE_BODIES);
-    memcpy(slope, state + LINKAGE_BODIES, LINKAGE_BODIES * sizeof *slope);
-}
-
 static moved integrated(const linkage *of, double step_s) {
-    enum { SIZE = 2 * LINKAGE_BODIES };
-    static const long double node[4] = {0.0L, 0.5L, 0.5L, 1.0L};
-    static const long double weight[4] = {1.0L / 6.0L, 1.0L / 3.0L, 1.0L / 3.0L, 1.0L / 6.0L};
-    const long double h = (long double)step_s;
-    long double state[SIZE] = {0};
+    linkage_motion wanted;
     moved end = {{0}};
-    for (int k = 0; k < of->bodies; k++) {
-        state[k] = (long double)of->start[k];
-        state[LINKAGE_BODIES + k] = (long double)of->start_rate[k];
-    }
-    for (int step = 0; step < STEPS; step++) {
-        long double slope[SIZE] = {0};
-        long double next[SIZE];
-        memcpy(next, state, sizeof next);
-        for (int stage = 0; stage < 4; stage++) {
-            long double at[SIZE];
-            for (int i = 0; i < SIZE; i++) {
-                at[i] = state[i] + node[stage] * h * slope[i];
-            }
-            slopes(of, at, slope);
-            for (int i = 0; i < SIZE; i++) {
-                next[i] += weight[stage] * h * slope[i];
-            }
-        }
-        memcpy(state, next, sizeof state);
-    }
-    for (int i = 0; i < SIZE; i++) {
-        end.value[i] = (double)state[i];
+    linkage_integrate(of, step_s, STEPS, &wanted);
+    for (int i = 0; i < 2 * LINKAGE_BODIES; i++) {
+        end.value[i] = (double)wanted.state[i];
     }
     return end;
 }

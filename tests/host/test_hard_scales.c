@@ -1,0 +1,196 @@
+/* test_hard_scales.c: random planar linkages in other units, masses, lengths and times from 1e-12 to 1e12 of what they
+ * were: powers of two, which change no digit of a product or a quotient, so that the same motion must follow but for
+ * the order of sums; where float's range ends, a run says so and is never quietly another. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "command.h"
+#include "linkage.h"
+#include "motion.h"
+#include "unity.h"
+
+void suite_hard_scales(void);
+
+enum { STEPS = 50 };
+
+static unsigned cases(void) { return dice_cases(few_or_all(usual_or(12, 4), 100)); }
+
+typedef struct moved {
+    wh_status status;
+    double value[2 * LINKAGE_BODIES]; /* values, then rates; of the units before scaling */
+} moved;
+
+/* The units that it is written in, in its own. */
+typedef struct units {
+    double mass, length, time;
+} units;
+
+static linkage in_units(const linkage *of, units u) {
+    linkage s = *of;
+    const double force = u.mass * u.length / (u.time * u.time);
+    for (int axis = 0; axis < 2; axis++) {
+        s.gravity_mps2[axis] *= u.length / (u.time * u.time);
+    }
+    for (int k = 0; k < s.bodies; k++) {
+        linkage_body *b = &s.body[k];
+        const double way = b->slides ? u.length : 1.0; /* of its coordinate */
+        const double load = b->slides ? force : force * u.length;
+        b->at_m *= u.length;
+        b->centre_m *= u.length;
+        b->mass_kg *= u.mass;
+        b->inertia_kgm2 *= u.mass * u.length * u.length;
+        b->stiffness *= load / way;
+        b->rest *= way;
+        b->damping *= load * u.time / way;
+        b->drive *= load;
+        b->wave /= way;
+        b->drag_Nspm *= u.mass / u.time;
+        s.start[k] *= way;
+        s.start_rate[k] *= way / u.time;
+    }
+    for (int k = 0; k < s.springs; k++) {
+        s.spring[k].x_m *= u.length;
+        s.spring[k].y_m *= u.length;
+        s.spring[k].length_m *= u.length;
+        s.spring[k].stiffness_Npm *= u.mass / (u.time * u.time);
+    }
+    return s;
+}
+
+static const char *text_of(const linkage *of, units u) {
+    static char text[LINKAGE_TEXT];
+    linkage_write(of, "scaled",
+                  (linkage_writing){.forces = LINKAGE_INSIDE, .until_s = 500.0 / 1024.0 * u.time},
+                  text);
+    return text;
+}
+
+static moved run_of(const linkage *of, units u, const engine_kind *kind) {
+    const linkage s = in_units(of, u);
+    motion m;
+    moved end = {.status = WH_OK};
+    motion_open_text(&m, text_of(&s, u), (stepping){.kind = kind, .method = WH_RK4});
+    end.status = motion_step(&m, STEPS);
+    for (int k = 0; k < of->bodies; k++) {
+        const double way = of->body[k].slides ? u.length : 1.0;
+        char name[8];
+        snprintf(name, sizeof name, "q%d", k);
+        end.value[k] = motion_value(&m, name) / way;
+        snprintf(name, sizeof name, "q%d'", k);
+        end.value[LINKAGE_BODIES + k] = motion_value(&m, name) / (way / u.time);
+    }
+    motion_close(&m);
+    return end;
+}
+
+static double apart(const moved *a, const moved *b) {
+    double most = 0.0;
+    for (int k = 0; k < 2 * LINKAGE_BODIES; k++) {
+        most = fmax(most, fabs(a->value[k] - b->value[k]));
+    }
+    return most;
+}
+
+static double power_of_two(dice *d, int most) {
+    return ldexp(1.0, (int)dice_one_of(d, (unsigned)(2 * most + 1)) - most);
+}
+
+/* Within `most_off` of each other, or a run that was refused; how many were. */
+static unsigned refused(const engine_kind *kind, int most, double most_off) {
+    dice d = dice_of("hard_scales", 16);
+    uint64_t seed = d.state;
+    double worst = 0.0;
+    unsigned same = 0;
+    unsigned none = 0;
+    for (unsigned k = 0; k < cases(); k++) {
+        const linkage of = linkage_draw(&seed);
+        const units u = {power_of_two(&d, most), power_of_two(&d, most), power_of_two(&d, most)};
+        const moved plain = run_of(&of, (units){1.0, 1.0, 1.0}, kind);
+        const moved scaled = run_of(&of, u, kind);
+        const double off = apart(&plain, &scaled);
+        TEST_ASSERT_EQUAL_INT(WH_OK, plain.status);
+        if (scaled.status != WH_OK) {
+            none++;
+            continue;
+        }
+        if (!(off <= most_off)) {
+            char line[160];
+            const linkage s = in_units(&of, u);
+            printf("%s\n", text_of(&s, u));
+            snprintf(line, sizeof line, "masses by %g, lengths by %g, times by %g: off by %.2e",
+                     u.mass, u.length, u.time, off);
+            TEST_FAIL_MESSAGE(line);
+        }
+        worst = fmax(worst, off);
+        same += memcmp(&plain, &scaled, sizeof plain) == 0 ? 1U : 0U;
+    }
+    printf("  up to 2^%d: %u of %u in the same bits, off by at most %.1e; %u refused\n", most, same,
+           cases(), worst, none);
+    return none;
+}
+
+static void test_units_do_not_matter_in_double(void) {
+    TEST_ASSERT_EQUAL_UINT(0, refused(&engine_double, 4, 1e-11));
+    TEST_ASSERT_EQUAL_UINT(0, refused(&engine_double, 20, 1e-11));
+    TEST_ASSERT_TRUE(refused(&engine_double, 40, 1e-11) * 4 <= cases());
+}
+
+static void test_units_do_not_matter_in_float(void) {
+    TEST_ASSERT_EQUAL_UINT(0, refused(&engine_float, 4, 1e-4));
+    TEST_ASSERT_TRUE(refused(&engine_float, 12, 1e-4) * 4 <= cases());
+    TEST_ASSERT_TRUE(refused(&engine_float, 40, 1e-4) * 4 <= cases());
+}
+
+/* --- masses ---------------------------------------------------------------------------------------------------- */
+
+/* The same method with the same step, in long double and by the energies in numbers. */
+static moved by_numbers(const linkage *of) {
+    linkage_motion wanted;
+    moved end = {.status = WH_OK};
+    linkage_integrate(of, 1.0 / 1024.0, STEPS, &wanted);
+    for (int i = 0; i < 2 * LINKAGE_BODIES; i++) {
+        end.value[i] = (double)wanted.state[i];
+    }
+    return end;
+}
+
+/* Some bodies' masses and inertias by 1e-3 to 1e3: rates and values off by no more than this, of the largest. */
+static double worst_of_unequal(const engine_kind *kind) {
+    dice d = dice_of("hard_scales", 17);
+    uint64_t seed = d.state;
+    double worst = 0.0;
+    for (unsigned k = 0; k < cases(); k++) {
+        linkage of = linkage_draw(&seed);
+        for (int i = 0; i < of.bodies; i++) {
+            const double factor = pow(10.0, (double)dice_one_of(&d, 3) * 3.0 - 3.0);
+            of.body[i].mass_kg *= factor;
+            of.body[i].inertia_kgm2 *= factor;
+        }
+        const moved wanted = by_numbers(&of);
+        const moved found = run_of(&of, (units){1.0, 1.0, 1.0}, kind);
+        double largest = 1.0;
+        for (int i = 0; i < 2 * LINKAGE_BODIES; i++) {
+            largest = fmax(largest, fabs(wanted.value[i]));
+        }
+        if (found.status ==
+            WH_OK) { /* or refused: springs of the same stiffness on a thousandth of the mass */
+            worst = fmax(worst, apart(&wanted, &found) / largest);
+        }
+    }
+    return worst;
+}
+
+static void test_masses_of_very_different_size(void) {
+    const double in_double = worst_of_unequal(&engine_double);
+    const double in_float = worst_of_unequal(&engine_float);
+    printf("  off by at most %.1e in double, %.1e in float\n", in_double, in_float);
+    TEST_ASSERT_TRUE(in_double > 0.0 && in_double < 1e-9);
+    TEST_ASSERT_TRUE(in_float < 0.01);
+}
+
+void suite_hard_scales(void) {
+    RUN_TEST(test_units_do_not_matter_in_double);
+    RUN_TEST(test_units_do_not_matter_in_float);
+    RUN_TEST(test_masses_of_very_different_size);
+}
