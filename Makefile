@@ -115,6 +115,12 @@ mutants: ## small changes of the code, and whether the tests notice: MUTANTS, SE
 	@UNITY="$(UNITY)" mk/setup/unity.sh build/unity
 	@MAKE="$(MAKE)" sh mk/mutants/mutants.sh
 
+.PHONY: properties
+properties: ## random linkages and hybrids against their energies in numbers: PROPERTIES of each, SEED (1,000: ten minutes)
+	@UNITY="$(UNITY)" CC="$(CC)" mk/setup/deps.sh host tests
+	@UNITY="$(UNITY)" mk/setup/unity.sh build/unity
+	@$(MAKE) properties-now
+
 .PHONY: sine-exhaustive
 sine-exhaustive: $(B)/tools/sine_exhaustive ## the sine's worst error, over all 2^32 angles (minutes)
 	$(Q)$<

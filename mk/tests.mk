@@ -96,6 +96,15 @@ test-boards-now: $(GEN)/.stamp
 	+@$(foreach b,$(BOARDS_ALL),$(call on_board,$(b),image-rules) &&) true
 	@TEST_BEGINS=1 TEST_SECONDS=7200 sh tests/run.sh build/tests/log_boards $(foreach b,$(BOARDS_ALL),$(call run_board,$(b)))
 
+# Generated mechanisms against references of another kind; the seed is printed, and a new one taken unless it is given.
+PROPERTIES ?= 1000
+.PHONY: properties-now
+properties-now: $(GEN)/.stamp
+	@$(MAKE) build/tests/host
+	@for suite in linkages hard_scales hybrids; do \
+	    WHIRL_CASES=$(PROPERTIES) WHIRL_SEED=$(if $(filter file,$(origin SEED)),$$(date +%s),$(SEED)) build/tests/host $$suite || exit 1; \
+	done
+
 # The flag matrix: other people's flags give the interpreter's bits or are refused.
 .PHONY: flags-now
 flags-now: build/whirl
