@@ -160,6 +160,10 @@ static bool would_do(advice *a, double most_s, char text[CURE_TEXT]) {
     return text[0] != '\0';
 }
 
+static bool is_singular(const advice *a) {
+    return a->watch->singular.done && a->watch->singular.off >= NOT_RESOLVED;
+}
+
 /* --- the energy ----------------------------------------------------------------------------------------------*/
 
 static bool on_the_way(const advice *a) {
@@ -184,6 +188,23 @@ static double missing(const advice *a) {
     return number_most(b->ratio, way);
 }
 
+/* A singular position is told of by itself; NULL: no step may help. */
+static char *at_one_go(const advice *a) {
+    const bool singular = is_singular(a);
+    const watch_look *l = singular ? &a->watch->singular : &a->watch->worst;
+    char step[STEP_TEXT];
+    if (!l->resolved) {
+        return NULL;
+    }
+    step_text(linearised_nice_s(step_by_look_s(a, l)), step);
+    return singular ? room_words("these coordinates are singular about t = %.6g s; --step %s would "
+                                 "do, or others",
+                                 l->singular_s, step)
+                    : room_words("what happens about t = %.6g s is too fast for the step; --step "
+                                 "%s would do",
+                                 a->balance->jump_s, step);
+}
+
 char *advice_cure(advice *a) {
     const belief *b = a->balance;
     if (b->overruns > 0 || b->exact || b->saturated || (b->slow && a->kind->unit != NULL)) {
@@ -195,19 +216,12 @@ char *advice_cure(advice *a) {
     const linearised *l = motions_of(a);
     const watch_look *worst = &a->watch->worst;
     const double by_motion = number_least(linearised_worst(l), 1.0) / ratio;
-    const bool jumped =
-        b->jump_s >= 0.0 && by_motion < IS_CAUSE && worst->done && worst->off > NOT_RESOLVED;
-    double most_s = l->step_s;
-    if (jumped && !worst->resolved) {
-        return NULL; /* no step may help */
+    if (is_singular(a) ||
+        (b->jump_s >= 0.0 && by_motion < IS_CAUSE && worst->done && worst->off > NOT_RESOLVED)) {
+        return at_one_go(a);
     }
-    if (!(by_motion > IS_ALL)) { /* there is more to it than is linear */
-        most_s = step_by_order_s(a, ratio);
-    }
-    if (jumped) {
-        most_s = number_least(most_s, step_by_look_s(a, worst));
-    }
-    if (!would_do(a, most_s, cure)) {
+    /* else there is more to it than is linear */
+    if (!would_do(a, by_motion > IS_ALL ? l->step_s : step_by_order_s(a, ratio), cure)) {
         return NULL;
     }
     if (by_motion >= IS_CAUSE) {
@@ -215,10 +229,6 @@ char *advice_cure(advice *a) {
         return room_words("the step is too coarse for %s; %s %s; %s",
                           carried_text(a, l->worst, carried), title_of(a->image),
                           done_text(l, l->worst, done), cure);
-    }
-    if (jumped) {
-        return room_words("what happens about t = %.6g s is too fast for the step; %s", b->jump_s,
-                          cure);
     }
     return room_words("the step is too coarse for this motion; %s", cure);
 }
@@ -228,7 +238,7 @@ char *advice_cure(advice *a) {
 static void say_singular(FILE *out, const advice *a) {
     const watch_look *s = &a->watch->singular;
     const image *im = a->image;
-    if (!s->done || s->off < NOT_RESOLVED) {
+    if (!is_singular(a)) {
         return;
     }
     char near[120] = "";
@@ -241,22 +251,22 @@ static void say_singular(FILE *out, const advice *a) {
                  image_shown(unit, s->near_at), unit->shown);
     }
     if (s->component >= 0) {
-        snprintf(off, sizeof off, "'%.60s' %.2g%s",
-                 im->unknown[image_component(im, s->component).unknown].name, s->off,
-                 im->unknown[image_component(im, s->component).unknown].is_angle ? " rad"
-                                                                                 : " of its range");
+        const image_unknown *u = &im->unknown[image_component(im, s->component).unknown];
+        snprintf(off, sizeof off, "; the steps there put '%.60s' %.2g%s off", u->name, s->off,
+                 u->is_angle ? " rad" : " of its range");
     } else {
-        snprintf(off, sizeof off, "the rates %.2g %%", 100.0 * s->off);
+        snprintf(off, sizeof off, "; the steps there put the rates %.2g %% off", 100.0 * s->off);
     }
     fprintf(out,
-            "whirl run: warning: about t = %.6g s these coordinates are singular: the inertia of "
-            "'%s' falls to %.2g of its largest%s; the steps there put %s off\n",
-            s->singular_s, im->unknown[image_component(im, s->singular).unknown].name, s->inertia,
-            near, off);
+            "%s: about t = %.6g s these coordinates are singular: the inertia of '%s' falls to "
+            "%.2g of its largest%s%s\n",
+            s->failed ? "hint" : "whirl run: warning", s->singular_s,
+            im->unknown[image_component(im, s->singular).unknown].name, s->inertia, near,
+            s->failed ? "" : off);
     if (s->resolved) {
         fprintf(out,
-                "hint: --step %s resolves it; coordinates that are not singular there need "
-                "no smaller step\n",
+                "hint: --step %s resolves it; coordinates that are not singular there need no "
+                "smaller step\n",
                 step_text(linearised_nice_s(step_by_look_s(a, s)), step));
     } else {
         fputs("hint: no step resolves it: take coordinates that are not singular there\n", out);
@@ -289,7 +299,8 @@ void advice_say(FILE *out, advice *a) {
 
 /* Records are in the order of time: the first such motion is from before everything grew. */
 void advice_say_diverged(FILE *out, advice *a) {
-    if (a->image->settings.matrix == MATRIX_EXACT || a->watch->records == 0) {
+    say_singular(out, a);
+    if (a->image->settings.matrix == MATRIX_EXACT || a->watch->records == 0 || is_singular(a)) {
         return;
     }
     motions_of(a);

@@ -131,13 +131,18 @@ static void add_record(const watch *w, int record, const double *size, linearise
 
 static double weight(const linear_motion *m) { return m->share * number_least(m->off, 1.0); }
 
+/* Of a swing and the moments in which it stands on its head, the swing. */
+static double interest(const linear_motion *m) {
+    return (m->value.im > 0.1 * complex_size(m->value) ? 3.0 : 1.0) * weight(m);
+}
+
 static void choose(linearised *l) {
     for (int i = 0; i < l->motions; i++) {
         const linear_motion *m = &l->motion[i];
         if (m->share < SHARE_LEAST) {
             continue;
         }
-        if (l->worst == NULL || weight(m) > weight(l->worst)) {
+        if (l->worst == NULL || interest(m) > interest(l->worst)) {
             l->worst = m;
         }
         if (l->fastest == NULL || complex_size(m->value) > complex_size(l->fastest->value)) {

@@ -326,7 +326,7 @@ simulation_result simulate(const image *im, const simulation_settings *s) {
         sim.records->plain = sim.columns;
         records_header(sim.records);
         const wh_status status = loop(&sim, &interrupted);
-        watch_end(sim.watch);
+        watch_end(sim.watch, status != WH_OK);
         const belief balance = belief_of(sim.books, s->kind, sim.run);
         result = judge(&sim, status, interrupted, &balance);
         const bool csv_written = flush_records(s->csv, sim.csv);

@@ -18,6 +18,8 @@
 #define AGREED 1e-5
 /* On which so many places are asked for their mass matrix. */
 #define INERTIA_PLACES 512
+/* How far beyond a run that failed. */
+#define STEPS_AHEAD 2
 /* The books' rule is in doubt where its two halves differ by this part of the work, and that is this part of all. */
 #define DOUBT_SHARE 0.01
 #define DOUBT_LEAST 1e-7
@@ -227,19 +229,19 @@ static double apart(watch *w, double time_s, const double *run, const double *tr
     return most;
 }
 
-/* From step `begin` to `end` again. */
-static void look(watch *w, uint64_t begin, uint64_t end) {
+/* From step `begin` to `end` again, and `ahead` steps beyond, which the run could not take. */
+static void look(watch *w, uint64_t begin, uint64_t end, int ahead) {
     const size_t bytes = (size_t)w->field->n * sizeof *w->low;
     double *fine = w->scratch;
     double *coarse = w->scratch + w->field->n;
     watch_look made = {.done = true,
                        .begin_s = time_of(w, begin),
-                       .end_s = time_of(w, end),
+                       .end_s = time_of(w, end + (uint64_t)ahead),
                        .inertia = 1.0,
                        .near = -1,
                        .singular = -1};
     const double span_s = made.end_s - made.begin_s;
-    const int steps = (int)(end - begin);
+    const int steps = (int)(end - begin) + ahead;
     int parts = PARTS_FIRST;
     int ignored;
     memcpy(coarse, past(w, begin), bytes);
@@ -253,7 +255,8 @@ static void look(watch *w, uint64_t begin, uint64_t end) {
         }
         memcpy(coarse, fine, bytes);
     }
-    made.off = apart(w, made.end_s, past(w, end), fine, &made.component);
+    made.off = ahead > 0 ? 1.0 : apart(w, made.end_s, past(w, end), fine, &made.component);
+    made.failed = ahead > 0;
     made.fine_step_s = w->step_s / parts;
     if (w->field->rows > 0 && made.off > 10.0 * AGREED) {
         watch_inertia(w, past(w, begin), &made);
@@ -289,15 +292,15 @@ static void look_where_due(watch *w) {
         w->due = w->steps + WATCH_WINDOW / 2;
     }
     if (w->due != 0 && w->steps >= w->due) {
-        look(w, w->steps > WATCH_WINDOW ? w->steps - WATCH_WINDOW : 0, w->steps);
+        look(w, w->steps > WATCH_WINDOW ? w->steps - WATCH_WINDOW : 0, w->steps, 0);
         w->due = 0;
     }
 }
 
-void watch_end(watch *w) {
-    if (w->due != 0 && w->steps > 0) {
-        look(w, w->steps > WATCH_WINDOW ? w->steps - WATCH_WINDOW : 0, w->steps);
-        w->due = 0;
+void watch_end(watch *w, bool failed) {
+    if (w->smooth && w->steps > 0 && (w->due != 0 || failed)) {
+        look(w, w->steps > WATCH_WINDOW ? w->steps - WATCH_WINDOW : 0, w->steps,
+             failed ? STEPS_AHEAD : 0);
     }
 }
 

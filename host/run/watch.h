@@ -29,6 +29,7 @@ typedef struct watch_look {
     double
         off; /* the largest of: an angle, rad; a length, of its range; the rates, of their kinetic energy, by root */
     int component; /* whose position it is; -1: the rates */
+    bool failed;   /* the run could not take these steps: `off` is 1 */
     bool resolved;
     double fine_step_s; /* such steps of Runge-Kutta 4 resolve it, if any do */
     /* Of a scene with energies, on the accurate way: the least pivot of the mass matrix, of the largest it has had */
@@ -79,7 +80,7 @@ watch *watch_open(const image *im, const engine_kind *kind);
 void watch_close(watch *w);
 /* Enter the state after each step, the start included, after the books. */
 void watch_enter(watch *w, const engine_kind *kind, const books *b, const void *run);
-/* The run is over: what was to be looked at still is. */
-void watch_end(watch *w);
+/* The run is over: what was to be looked at still is, and where it failed the next steps are. */
+void watch_end(watch *w, bool failed);
 
 #endif
