@@ -22,8 +22,10 @@
 #define SWING_LOST 0.01
 /* So many times as many steps are no advice. */
 #define STEPS_MORE 200.0
+/* So many times as many in float are to be compensated. */
+#define FLOAT_MORE 10.0
 
-enum { STEP_TEXT = 40, CARRIED_TEXT = 240, CURE_TEXT = 120, DONE_TEXT = 80 };
+enum { STEP_WORD = 20, STEP_TEXT = 48, CARRIED_TEXT = 240, CURE_TEXT = 120, DONE_TEXT = 80 };
 
 advice advice_of(const image *im, const engine_kind *kind, const watch *w, const belief *balance) {
     return (advice){.image = im, .kind = kind, .watch = w, .balance = balance};
@@ -49,7 +51,7 @@ static const linearised *motions_of(advice *a) {
 
 /* --- words -----------------------------------------------------------------------------------------------*/
 
-static const char *step_text(double step_s, char text[STEP_TEXT]) {
+static const char *step_text(double step_s, char text[STEP_WORD]) {
     static const struct {
         double s;
         const char *unit;
@@ -58,7 +60,7 @@ static const char *step_text(double step_s, char text[STEP_TEXT]) {
     while (i < 3 && step_s < 0.9999 * units[i].s) {
         i++;
     }
-    snprintf(text, STEP_TEXT, "%.4g%s", step_s / units[i].s, units[i].unit);
+    snprintf(text, STEP_WORD, "%.4g%s", step_s / units[i].s, units[i].unit);
     return text;
 }
 
@@ -160,6 +162,16 @@ static bool would_do(advice *a, double most_s, char text[CURE_TEXT]) {
     return text[0] != '\0';
 }
 
+/* Options: so many small steps round a float's sums away, unless they are compensated. */
+static const char *options_text(const advice *a, double step_s, char text[STEP_TEXT]) {
+    const bool rounds = a->kind == &engine_float && !a->image->settings.compensated &&
+                        step_s * FLOAT_MORE <= a->watch->step_s;
+    char step[STEP_WORD];
+    step_text(step_s, step);
+    snprintf(text, STEP_TEXT, "--step %s%s", step, rounds ? " --compensated" : "");
+    return text;
+}
+
 static bool is_singular(const advice *a) {
     return a->watch->singular.done && a->watch->singular.off >= NOT_RESOLVED;
 }
@@ -196,12 +208,12 @@ static char *at_one_go(const advice *a) {
     if (!l->resolved) {
         return NULL;
     }
-    step_text(linearised_nice_s(step_by_look_s(a, l)), step);
-    return singular ? room_words("these coordinates are singular about t = %.6g s; --step %s would "
+    options_text(a, linearised_nice_s(step_by_look_s(a, l)), step);
+    return singular ? room_words("these coordinates are singular about t = %.6g s; %s would "
                                  "do, or others",
                                  l->singular_s, step)
-                    : room_words("what happens about t = %.6g s is too fast for the step; --step "
-                                 "%s would do",
+                    : room_words("what happens about t = %.6g s is too fast for the step; %s "
+                                 "would do",
                                  a->balance->jump_s, step);
 }
 
@@ -265,9 +277,9 @@ static void say_singular(FILE *out, const advice *a) {
             s->failed ? "" : off);
     if (s->resolved) {
         fprintf(out,
-                "hint: --step %s resolves it; coordinates that are not singular there need no "
+                "hint: %s resolves it; coordinates that are not singular there need no "
                 "smaller step\n",
-                step_text(linearised_nice_s(step_by_look_s(a, s)), step));
+                options_text(a, linearised_nice_s(step_by_look_s(a, s)), step));
     } else {
         fputs("hint: no step resolves it: take coordinates that are not singular there\n", out);
     }

@@ -29,8 +29,9 @@ typedef struct made_up {
     made_kind kind;
     int masses;
     double mass[MASSES];
-    double stiffness[MASSES]; /* of the spring to the one before, the first to the wall; of a pendulum, m g l */
-    double damping;           /* of the first, to the wall, N s/m */
+    double stiffness
+        [MASSES]; /* of the spring to the one before, the first to the wall; of a pendulum, m g l */
+    double damping; /* of the first, to the wall, N s/m */
     double start[MASSES];
     double rate;
     double fastest; /* 1/s, about */
@@ -143,8 +144,8 @@ static double energy_off(const made_up *m, wh_method method, double step_s, uint
 }
 
 static void run(const char *file, const char *method, const char *step, bool is_float, said *what) {
-    const char *words[10] = {file,  "--number", is_float ? "float" : "double", "--method", method,
-                             "--quiet", NULL};
+    const char *words[10] = {
+        file, "--number", is_float ? "float" : "double", "--method", method, "--quiet", NULL};
     if (step != NULL) {
         words[6] = "--step";
         words[7] = step;
@@ -201,9 +202,9 @@ static bool cure(const made_up *m, const said *warned, wh_method method, double 
         const double h = both ? step_of(step) : step_s;
         run(file, better, both ? step : NULL, is_float, &what);
         TEST_ASSERT_EQUAL_STRING_MESSAGE("", what.err, warned->err);
-        TEST_ASSERT_TRUE_MESSAGE(energy_off(m, method_named(better), h,
-                                            (uint64_t)(until_s / h + 0.5), is_float) < 1e-3,
-                                 warned->err);
+        TEST_ASSERT_TRUE_MESSAGE(
+            energy_off(m, method_named(better), h, (uint64_t)(until_s / h + 0.5), is_float) < 1e-3,
+            warned->err);
     }
     return has_step || has_method;
 }
@@ -261,12 +262,13 @@ static void test_energy_that_the_method_takes_is_told(void) {
 /* --- singular coordinates -----------------------------------------------------------------------------------*/
 
 /* A particle in spherical coordinates that passes the axis: how far off it is at the end, m. */
-static double flight_off(const char *text, const double end[3], wh_method method, double step_s,
-                         bool is_float) {
+static double flight_off(const char *text, const double end[3], double step_s, bool is_float,
+                         bool compensated) {
     motion at;
     motion_open_text(&at, text,
                      (stepping){.kind = is_float ? &engine_float : &engine_double,
-                                .method = method,
+                                .method = WH_RK4,
+                                .compensated = compensated,
                                 .step_s = step_s});
     const bool went = motion_step(&at, (uint64_t)(1.0 / step_s + 0.5)) == WH_OK;
     const double r = motion_value(&at, "r");
@@ -283,6 +285,7 @@ static void test_passing_a_pole_is_told(void) {
     dice d = dice_of("poles", 14002);
     const unsigned cases = dice_cases(usual_or(few_or_all(60, 400), 12));
     unsigned off_course = 0;
+    double worst_m = 0.0;
     unsigned sound = 0;
     for (unsigned i = 0; i < cases; i++) {
         const double past_m = pow(10.0, dice_between(&d, -3.7, -0.7));
@@ -302,15 +305,16 @@ static void test_passing_a_pole_is_told(void) {
         const double theta_rate = (rho_rate * cos(theta) - rise * sin(theta)) / r;
         const double end[3] = {away - speed, past_m, height + rise - 9.81 / 2.0};
         char text[1000];
-        snprintf(text, sizeof text,
-                 "mechanism flight\ncoordinate r [m]\ncoordinate theta [rad]\n"
-                 "coordinate phi [rad]\nparameter m = 1 [kg]\n"
-                 "T = m*(r'^2 + r^2*theta'^2 + r^2*sin(theta)^2*phi'^2)/2\n"
-                 "V = m*9.81 [m/s^2]*r*cos(theta)\n"
-                 "scene s { start r = %.15g [m], theta = %.15g, phi = %.15g\n"
-                 "start r' = %.15g [m/s], theta' = %.15g [rad/s], phi' = %.15g [rad/s]\nstep 1 [ms]\nuntil 1 [s] }\n",
-                 r, theta, phi, r_rate, theta_rate, phi_rate);
-        const double off_m = flight_off(text, end, WH_RK4, 1e-3, is_float);
+        snprintf(
+            text, sizeof text,
+            "mechanism flight\ncoordinate r [m]\ncoordinate theta [rad]\n"
+            "coordinate phi [rad]\nparameter m = 1 [kg]\n"
+            "T = m*(r'^2 + r^2*theta'^2 + r^2*sin(theta)^2*phi'^2)/2\n"
+            "V = m*9.81 [m/s^2]*r*cos(theta)\n"
+            "scene s { start r = %.15g [m], theta = %.15g, phi = %.15g\n"
+            "start r' = %.15g [m/s], theta' = %.15g [rad/s], phi' = %.15g [rad/s]\nstep 1 [ms]\nuntil 1 [s] }\n",
+            r, theta, phi, r_rate, theta_rate, phi_rate);
+        const double off_m = flight_off(text, end, 1e-3, is_float, false);
         said what;
         run(model_keep(text), "rk4", NULL, is_float, &what);
         char about[SAID_SIZE + 1200];
@@ -325,18 +329,28 @@ static void test_passing_a_pole_is_told(void) {
                                          strstr(what.err, "nearest at theta = ") != NULL,
                                      about);
             TEST_ASSERT_TRUE_MESSAGE(option_said(what.err, "--step", step), about);
-            const double cured_m = flight_off(text, end, WH_RK4, step_of(step), is_float);
-            run(model_keep(text), "rk4", step, is_float, &what);
+            const bool compensated = strstr(what.err, "--compensated") != NULL;
+            const double cured_m = flight_off(text, end, step_of(step), is_float, compensated);
+            const char *words[] = {model_keep(text),
+                                   "--quiet",
+                                   "--number",
+                                   is_float ? "float" : "double",
+                                   "--step",
+                                   step,
+                                   compensated ? "--compensated" : NULL,
+                                   NULL};
+            command_say(command_run, words, &what);
             TEST_ASSERT_EQUAL_STRING_MESSAGE("", what.err, about);
             TEST_ASSERT_TRUE_MESSAGE(cured_m < 2e-3 && cured_m < 0.1 * off_m, about);
+            worst_m = fmax(worst_m, cured_m);
         } else if (off_m < 1e-4) {
             sound++;
             TEST_ASSERT_EQUAL_STRING_MESSAGE("", what.err, about);
         }
     }
     model_drop();
-    printf("  %u flights: %u more than 2 cm off, all told and cured; %u sound\n", cases, off_course,
-           sound);
+    printf("  %u flights: %u more than 2 cm off, all told, and cured to %.1e m; %u sound\n", cases,
+           off_course, worst_m, sound);
     TEST_ASSERT_TRUE(off_course > cases / 10 && sound > cases / 10);
 }
 
