@@ -281,7 +281,10 @@ static void say_singular(FILE *out, const advice *a) {
                 "smaller step\n",
                 options_text(a, linearised_nice_s(step_by_look_s(a, s)), step));
     } else {
-        fputs("hint: no step resolves it: take coordinates that are not singular there\n", out);
+        fprintf(out,
+                "hint: steps down to %s do not resolve it: take coordinates that are not singular "
+                "there\n",
+                step_text(s->fine_step_s, step));
     }
 }
 
@@ -326,6 +329,9 @@ void advice_say_diverged(FILE *out, advice *a) {
             found = m;
         }
     }
+    for (int i = 0; i < l->motions && found == NULL; i++) {
+        found = l->motion[i].off > SWING_LOST ? &l->motion[i] : NULL;
+    }
     if (found != NULL) {
         char carried[CARRIED_TEXT];
         char cure[CURE_TEXT];
@@ -338,7 +344,13 @@ void advice_say_diverged(FILE *out, advice *a) {
         }
         l->motions = kept;
         const bool told = would_do(a, l->step_s, cure);
-        fprintf(out, "hint: %s is more than %s carries (%.3g in this direction)%s%s\n",
-                carried_text(a, found, carried), title_of(a->image), limit, told ? ": " : "", cure);
+        carried_text(a, found, carried);
+        if (limit < l->step_s * complex_size(found->value)) {
+            fprintf(out, "hint: %s is more than %s carries (%.3g in this direction)%s%s\n", carried,
+                    title_of(a->image), limit, told ? "; " : "", cure);
+        } else {
+            fprintf(out, "hint: the step is too coarse for %s%s%s\n", carried, told ? "; " : "",
+                    cure);
+        }
     }
 }

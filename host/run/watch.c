@@ -14,7 +14,7 @@
 #define LOOK_LARGER 1.3
 /* Steps of the accurate way in one of the run's, at first, and at most; they agree when the next finer ones do within this. */
 #define PARTS_FIRST 4
-#define PARTS_MOST 1024
+#define PARTS_MOST 4096
 #define AGREED 1e-5
 /* On which so many places are asked for their mass matrix. */
 #define INERTIA_PLACES 512
@@ -306,15 +306,19 @@ void watch_end(watch *w, bool failed) {
 
 /* --- the balance -------------------------------------------------------------------------------------------*/
 
-/* What the last two steps did to the energy, less what the accurate way from their begin does. */
-static double lost_on_the_way_J(watch *w, double energy_J) {
+static void lose(watch *w, double lost_J) {
+    w->lost_J += lost_J;
+    w->most_J = number_most(w->most_J, fabs(w->lost_J));
+    w->balanced = w->balanced && isfinite(w->lost_J);
+}
+
+/* What a step did to the energy, less what the accurate way from its begin does. */
+static void lose_on_the_way(watch *w, uint64_t begin, double energy_J) {
     double *x = w->scratch;
-    const double begin_s = time_of(w, w->steps - 2);
-    memcpy(x, past(w, w->steps - 2), (size_t)w->field->n * sizeof *x);
-    field_go(w->field, begin_s, 2.0 * w->step_s, 2 * DOUBT_PARTS, x);
-    field_slope(w->field, time_of(w, w->steps), x, w->scratch + w->field->n);
-    w->doubts++;
-    return energy_J - field_energy_J(w->field);
+    memcpy(x, past(w, begin), (size_t)w->field->n * sizeof *x);
+    field_go(w->field, time_of(w, begin), w->step_s, DOUBT_PARTS, x);
+    field_slope(w->field, time_of(w, begin + 1), x, w->scratch + w->field->n);
+    lose(w, energy_J - field_energy_J(w->field));
 }
 
 static void balance(watch *w, const books *b) {
@@ -327,6 +331,7 @@ static void balance(watch *w, const books *b) {
         w->energy_J = energy_J;
     }
     if (w->steps == 0 || w->steps % 2 == 1) {
+        w->middle_J = energy_J;
         return;
     }
     const double ends_W = w->power_W[0] + w->power_W[2];
@@ -336,9 +341,13 @@ static void balance(watch *w, const books *b) {
     const double doubt_J = fabs(w->step_s / 3.0 * (ends_W - 2.0 * w->power_W[1]));
     const bool doubt = doubt_J > DOUBT_SHARE * sizes_J && doubt_J > DOUBT_LEAST * b->size_J &&
                        w->doubts < DOUBTS_MOST;
-    w->lost_J += doubt ? lost_on_the_way_J(w, energy_J) : energy_J - w->energy_J - work_J;
-    w->most_J = number_most(w->most_J, fabs(w->lost_J));
-    w->balanced = w->balanced && isfinite(w->lost_J);
+    if (doubt) {
+        lose_on_the_way(w, w->steps - 2, w->middle_J);
+        lose_on_the_way(w, w->steps - 1, energy_J);
+        w->doubts++;
+    } else {
+        lose(w, energy_J - w->energy_J - work_J);
+    }
     w->power_W[0] = power_W;
     w->energy_J = energy_J;
 }

@@ -68,7 +68,8 @@ typedef struct watch {
     watch_look singular; /* of those near a singular position */
     /* balance */
     double power_W[3];
-    double energy_J; /* at the last even step */
+    double energy_J; /* at the last even step, */
+    double middle_J; /* and at the one behind it */
     double lost_J;   /* what the method took or gave so far */
     double most_J;   /* its largest size */
     uint64_t doubts;
