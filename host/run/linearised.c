@@ -109,7 +109,8 @@ static void add_record(const watch *w, int record, const double *size, linearise
         for (int i = 0; i < n; i++) {
             off[i] = off_of(l, l->method, value[i], l->step_s);
         }
-        for (int k = 0; k < MOTIONS_A_RECORD && l->motions < LINEARISED_MOST; k++) {
+        const int most = n > LINEARISED_SMALL ? MOTIONS_A_RECORD / 4 : MOTIONS_A_RECORD;
+        for (int k = 0; k < most && l->motions < LINEARISED_MOST; k++) {
             const int i = next_of(l, n, value, off);
             if (i < 0) {
                 break;
@@ -158,7 +159,7 @@ linearised *linearised_of(const watch *w, wh_method method) {
                       .step_s = w->step_s,
                       .method = method};
     double *size = room(w->field->n, sizeof *size);
-    const int apart = w->field->n > LINEARISED_SMALL ? WATCH_RECORDS / 2 : 1;
+    const int apart = w->field->n > LINEARISED_SMALL ? WATCH_RECORDS / 2 - 1 : 1;
     slope_sizes(w, size);
     for (int k = 0; k < w->records; k += apart) {
         add_record(w, k, size, l);

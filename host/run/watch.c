@@ -7,17 +7,14 @@
 
 #include "host/base/room.h"
 #include "host/number/functions.h"
+#include "look_close.h"
 
 /* A close look is due when the accelerations change so in a step that a rate changes by this part of its range less or
  * more than they said. */
 #define LOOK_AT 0.02
 #define LOOK_LARGER 1.3
-/* Steps of the accurate way in one of the run's, at first, and at most; they agree when the next finer ones do within this. */
-#define PARTS_FIRST 4
-#define PARTS_MOST 4096
-#define AGREED 1e-5
-/* On which so many places are asked for their mass matrix. */
-#define INERTIA_PLACES 512
+/* What has not gone further than this part of what the furthest of its unit has is measured by that. */
+#define ALIKE_SHARE 1e-3
 /* How far beyond a run that failed. */
 #define STEPS_AHEAD 2
 /* The books' rule is in doubt where its two halves differ by this part of the work, and that is this part of all. */
@@ -25,6 +22,13 @@
 #define DOUBT_LEAST 1e-7
 #define DOUBTS_MOST 4000
 #define DOUBT_PARTS 6
+
+static bool is_alike(const image *im, int i, int k) {
+    const component a = image_component(im, i);
+    const component b = image_component(im, k);
+    return strcmp(im->unknown[a.unknown].unit[a.primes].si,
+                  im->unknown[b.unknown].unit[b.primes].si) == 0;
+}
 
 watch *watch_open(const image *im, const engine_kind *kind) {
     watch *w = room(1, sizeof *w);
@@ -35,11 +39,18 @@ watch *watch_open(const image *im, const engine_kind *kind) {
     w->smooth = im->contacts == 0;
     w->stride = 1;
     w->record = room(WATCH_RECORDS * n, sizeof *w->record);
-    w->low = room((8 + WATCH_WINDOW) * n, sizeof *w->low);
+    w->low = room((10 + WATCH_WINDOW) * n, sizeof *w->low);
     w->high = w->low + n;
     w->slope = w->high + n;
     w->scratch = w->slope + 2 * n;
-    w->past = w->scratch + 3 * n;
+    w->range = w->scratch + 3 * n; /* and behind it the furthest of those alike */
+    w->past = w->range + 2 * n;
+    w->alike = room(n, sizeof *w->alike);
+    for (int i = 0; i < n; i++) {
+        while (!is_alike(im, i, w->alike[i])) {
+            w->alike[i]++;
+        }
+    }
     w->mass = room(rows * rows + rows, sizeof *w->mass);
     w->most = w->mass + rows * rows;
     w->worst.inertia = 1.0;
@@ -53,19 +64,10 @@ void watch_close(watch *w) {
         field_close(w->field);
         free(w->record);
         free(w->low);
+        free(w->alike);
         free(w->mass);
         free(w);
     }
-}
-
-static double *past(const watch *w, uint64_t step) {
-    return w->past + (ptrdiff_t)(step % (WATCH_WINDOW + 1)) * w->field->n;
-}
-
-static double time_of(const watch *w, uint64_t step) { return (double)step * w->step_s; }
-
-static bool is_rate(const watch *w, int i) {
-    return image_component(w->field->image, i).primes > 0;
 }
 
 /* --- records --------------------------------------------------------------------------------------------*/
@@ -88,194 +90,16 @@ static void enter_record(watch *w, const double *x) {
         }
     }
     memcpy(w->record + w->records * (ptrdiff_t)n, x, n * sizeof *w->record);
-    w->record_s[w->records++] = time_of(w, w->steps);
+    w->record_s[w->records++] = watch_time_s(w, w->steps);
 }
 
-/* --- a close look ------------------------------------------------------------------------------------------*/
-
-/* Of the size of a rate: what changes it by. */
-static void rate_sizes(const watch *w, double *size) {
-    for (int i = 0; i < w->field->n; i++) {
-        size[i] =
-            number_most(w->high[i] - w->low[i], number_most(fabs(w->low[i]), fabs(w->high[i])));
-    }
-}
-
-/* The least pivot of the mass matrix at x, of what its diagonal has been at most, and whose it is. */
-static double least_pivot(watch *w, double time_s, const double *x, int *row) {
-    const int rows = w->field->rows;
-    double least = 1.0;
-    double *size = w->scratch + 2 * (ptrdiff_t)w->field->n;
-    rate_sizes(w, size);
-    field_mass(w->field, time_s, x, size, w->mass);
-    for (int i = 0; i < rows; i++) {
-        w->most[i] = number_most(w->most[i], w->mass[i * rows + i]);
-    }
-    for (int c = 0; c < rows; c++) {
-        const double pivot = w->mass[c * rows + c];
-        const double part = w->most[c] > 0.0 ? fabs(pivot) / w->most[c] : 1.0;
-        if (part < least) {
-            least = part;
-            *row = c;
-        }
-        for (int i = c + 1; i < rows && pivot != 0.0; i++) {
-            const double factor = w->mass[i * rows + c] / pivot;
-            for (int j = c; j < rows; j++) {
-                w->mass[i * rows + j] -= factor * w->mass[c * rows + j];
-            }
-        }
-    }
-    return least;
-}
-
-/* Which position makes the diagonal entry of this row change most, by how far it moves a second. */
-static int position_near(watch *w, double time_s, const double *x, int row) {
-    const int n = w->field->n;
-    const int rows = w->field->rows;
-    double *at = room(2 * (int64_t)n, sizeof *at);
-    double *size = at + n;
-    double most = 0.0;
-    int found = -1;
-    memcpy(at, x, (size_t)n * sizeof *at);
-    rate_sizes(w, size);
-    field_mass(w->field, time_s, at, size, w->mass);
-    const double here = w->mass[row * rows + row];
-    for (int i = 0; i < n; i++) {
-        if (!is_rate(w, i)) {
-            at[i] = x[i] + 1e-3 * number_least(w->high[i] - w->low[i], 1.0);
-            field_mass(w->field, time_s, at, size, w->mass);
-            const double change = fabs(w->mass[row * rows + row] - here);
-            at[i] = x[i];
-            if (change > most) {
-                most = change;
-                found = i;
-            }
-        }
-    }
-    free(at);
-    return found;
-}
-
-/* Down the accurate way once more, past its least pivot. */
-static void watch_inertia(watch *w, const double *begin, watch_look *made) {
-    double *x = room(2 * (int64_t)w->field->n, sizeof *x);
-    double *least = x + w->field->n;
-    const double h = (made->end_s - made->begin_s) / INERTIA_PLACES;
-    const int parts = 1 + (int)(h / made->fine_step_s);
-    int row = -1;
-    for (int k = 0; k < w->records; k++) { /* what it is elsewhere */
-        least_pivot(w, w->record_s[k], w->record + k * (ptrdiff_t)w->field->n, &row);
-    }
-    memcpy(x, begin, (size_t)w->field->n * sizeof *x);
-    for (int k = 0; k <= INERTIA_PLACES; k++) {
-        const double inertia = least_pivot(w, made->begin_s + h * k, x, &row);
-        if (inertia < made->inertia) {
-            made->inertia = inertia;
-            made->singular = w->field->rate[row];
-            made->singular_s = made->begin_s + h * k;
-            made->near = row;
-            memcpy(least, x, (size_t)w->field->n * sizeof *x);
-        }
-        field_go(w->field, made->begin_s + h * k, h, parts, x);
-    }
-    if (made->inertia < 1.0) {
-        made->near = position_near(w, made->singular_s, least, made->near);
-        made->near_at = made->near >= 0 ? least[made->near] : 0.0;
-    }
-    free(x);
-}
-
-/* How far apart two ends of a way are; *whose: which component's; -1: the rates'. */
-static double apart(watch *w, double time_s, const double *run, const double *truth, int *whose) {
-    const int n = w->field->n;
-    const int rows = w->field->rows;
-    double most = 0.0;
-    *whose = -1;
-    for (int i = 0; i < n; i++) {
-        const double range = w->high[i] - w->low[i];
-        const bool angle =
-            w->field->image->unknown[image_component(w->field->image, i).unknown].is_angle;
-        if (is_rate(w, i) && rows > 0) {
-            continue;
-        }
-        const double off = fabs(run[i] - truth[i]) / (angle && range > 1.0 ? 1.0
-                                                      : range > 0.0        ? range
-                                                                           : 1.0);
-        if (off > most || !isfinite(off)) {
-            most = isfinite(off) ? off : 1.0;
-            *whose = i;
-        }
-    }
-    double off_2 = 0.0;
-    double all_2 = 0.0;
-    if (rows > 0) {
-        double *size = w->scratch + 2 * (ptrdiff_t)n;
-        rate_sizes(w, size);
-        field_mass(w->field, time_s, truth, size, w->mass);
-    }
-    for (int i = 0; i < rows; i++) {
-        for (int j = 0; j < rows; j++) {
-            const int a = w->field->rate[i];
-            const int b = w->field->rate[j];
-            off_2 += (run[a] - truth[a]) * w->mass[i * rows + j] * (run[b] - truth[b]);
-            all_2 += truth[a] * w->mass[i * rows + j] * truth[b];
-        }
-    }
-    const double rates = all_2 > 0.0 ? number_root(fabs(off_2) / all_2) : 0.0;
-    if (rates > most) {
-        most = rates;
-        *whose = -1;
-    }
-    return most;
-}
-
-/* From step `begin` to `end` again, and `ahead` steps beyond, which the run could not take. */
-static void look(watch *w, uint64_t begin, uint64_t end, int ahead) {
-    const size_t bytes = (size_t)w->field->n * sizeof *w->low;
-    double *fine = w->scratch;
-    double *coarse = w->scratch + w->field->n;
-    watch_look made = {.done = true,
-                       .begin_s = time_of(w, begin),
-                       .end_s = time_of(w, end + (uint64_t)ahead),
-                       .inertia = 1.0,
-                       .near = -1,
-                       .singular = -1};
-    const double span_s = made.end_s - made.begin_s;
-    const int steps = (int)(end - begin) + ahead;
-    int parts = PARTS_FIRST;
-    int ignored;
-    memcpy(coarse, past(w, begin), bytes);
-    field_go(w->field, made.begin_s, span_s, steps * parts, coarse);
-    for (; parts < PARTS_MOST; parts *= 4) {
-        memcpy(fine, past(w, begin), bytes);
-        field_go(w->field, made.begin_s, span_s, 4 * steps * parts, fine);
-        made.resolved = apart(w, made.end_s, coarse, fine, &ignored) < AGREED;
-        if (made.resolved) {
-            break;
-        }
-        memcpy(coarse, fine, bytes);
-    }
-    made.off = ahead > 0 ? 1.0 : apart(w, made.end_s, past(w, end), fine, &made.component);
-    made.failed = ahead > 0;
-    made.fine_step_s = w->step_s / parts;
-    if (w->field->rows > 0 && made.off > 10.0 * AGREED) {
-        watch_inertia(w, past(w, begin), &made);
-    }
-    if (isfinite(made.off) && (!w->worst.done || made.off > w->worst.off)) {
-        w->worst = made;
-    }
-    if (isfinite(made.off) && made.inertia < 0.01 &&
-        (!w->singular.done || made.off > w->singular.off)) {
-        w->singular = made;
-    }
-    w->looked++;
-}
+/* --- when to look ------------------------------------------------------------------------------------*/
 
 /* How much less or more a rate changes in the last step than the accelerations at its begin say, as a part of its range. */
 static double change_of_slopes(const watch *w) {
     double most = 0.0;
     for (int i = 0; i < w->field->n; i++) {
-        const double range = w->high[i] - w->low[i];
+        const double range = w->range[i];
         if (w->field->next[i] < 0 && range > 0.0) {
             const double off = fabs(w->slope[i] - w->slope[w->field->n + i]) * w->step_s / range;
             most = off > most ? off : most;
@@ -292,15 +116,14 @@ static void look_where_due(watch *w) {
         w->due = w->steps + WATCH_WINDOW / 2;
     }
     if (w->due != 0 && w->steps >= w->due) {
-        look(w, w->steps > WATCH_WINDOW ? w->steps - WATCH_WINDOW : 0, w->steps, 0);
+        look_close(w, 0);
         w->due = 0;
     }
 }
 
 void watch_end(watch *w, bool failed) {
     if (w->smooth && w->steps > 0 && (w->due != 0 || failed)) {
-        look(w, w->steps > WATCH_WINDOW ? w->steps - WATCH_WINDOW : 0, w->steps,
-             failed ? STEPS_AHEAD : 0);
+        look_close(w, failed ? STEPS_AHEAD : 0);
     }
 }
 
@@ -315,9 +138,9 @@ static void lose(watch *w, double lost_J) {
 /* What a step did to the energy, less what the accurate way from its begin does. */
 static void lose_on_the_way(watch *w, uint64_t begin, double energy_J) {
     double *x = w->scratch;
-    memcpy(x, past(w, begin), (size_t)w->field->n * sizeof *x);
-    field_go(w->field, time_of(w, begin), w->step_s, DOUBT_PARTS, x);
-    field_slope(w->field, time_of(w, begin + 1), x, w->scratch + w->field->n);
+    memcpy(x, watch_past(w, begin), (size_t)w->field->n * sizeof *x);
+    field_go(w->field, watch_time_s(w, begin), w->step_s, DOUBT_PARTS, x);
+    field_slope(w->field, watch_time_s(w, begin + 1), x, w->scratch + w->field->n);
     lose(w, energy_J - field_energy_J(w->field));
 }
 
@@ -359,7 +182,7 @@ static void read_slopes(watch *w, const books *b, const double *x) {
     const int n = w->field->n;
     memcpy(w->slope + n, w->slope, (size_t)n * sizeof *w->slope);
     if (b == NULL) {
-        field_slope(w->field, time_of(w, w->steps), x, w->slope);
+        field_slope(w->field, watch_time_s(w, w->steps), x, w->slope);
         return;
     }
     for (int i = 0; i < n; i++) {
@@ -368,15 +191,31 @@ static void read_slopes(watch *w, const books *b, const double *x) {
     }
 }
 
+/* What has hardly moved yet is measured by what moves. */
+static void find_ranges(watch *w) {
+    const int n = w->field->n;
+    double *furthest = w->range + n;
+    for (int i = 0; i < n; i++) {
+        const double range = w->high[i] - w->low[i];
+        double *most = &furthest[w->alike[i]];
+        *most = number_most(*most, range);
+        w->range[i] = range;
+    }
+    for (int i = 0; i < n; i++) {
+        w->range[i] = number_most(w->range[i], ALIKE_SHARE * furthest[w->alike[i]]);
+    }
+}
+
 void watch_enter(watch *w, const engine_kind *kind, const books *b, const void *run) {
     w->steps = kind->steps(run);
-    double *x = past(w, w->steps);
+    double *x = watch_past(w, w->steps);
     kind->state(run, x, x + w->field->image->angles);
     for (int i = 0; i < w->field->n; i++) {
         w->low[i] = w->steps == 0 || x[i] < w->low[i] ? x[i] : w->low[i];
         w->high[i] = w->steps == 0 || x[i] > w->high[i] ? x[i] : w->high[i];
     }
     enter_record(w, x);
+    find_ranges(w);
     if (!w->smooth) {
         return;
     }

@@ -53,6 +53,9 @@ typedef struct watch {
     /* ranges and the last steps */
     double *low; /* [n] */
     double *high;
+    int *alike; /* [n] the first component with this one's unit */
+    double *
+        range; /* [n] how far each has gone; at least a thousandth of the furthest of those alike */
     double
         *past; /* [(WATCH_WINDOW + 1) * n], a ring: the state of step k at k % (WATCH_WINDOW + 1) */
     double *slope;   /* [2 * n] now, before */
@@ -83,5 +86,14 @@ void watch_close(watch *w);
 void watch_enter(watch *w, const engine_kind *kind, const books *b, const void *run);
 /* The run is over: what was to be looked at still is, and where it failed the next steps are. */
 void watch_end(watch *w, bool failed);
+
+/* Of a step that is kept: the last WATCH_WINDOW + 1. */
+static inline double *watch_past(const watch *w, uint64_t step) {
+    return w->past + (ptrdiff_t)(step % (WATCH_WINDOW + 1)) * w->field->n;
+}
+
+static inline double watch_time_s(const watch *w, uint64_t step) {
+    return (double)step * w->step_s;
+}
 
 #endif
