@@ -133,6 +133,10 @@ functions-exhaustive: $(B)/tools/functions_exhaustive ## the float functions' wo
 root-exhaustive: $(B)/tools/root_exhaustive ## the square root in integers, over all 2^32 numbers (a minute)
 	$(Q)$<
 
+.PHONY: long-runs
+long-runs: $(B)/tools/long_runs ## energies and a centre of mass over LONG_STEPS steps, 10^8 when left out (a quarter of an hour)
+	$(Q)$< $(or $(LONG_STEPS),1e8)
+
 .PHONY: tables-exhaustive
 tables-exhaustive: $(B)/tools/tables_exhaustive ## tables of --tables against their functions, over all 2^32 phases (a quarter of an hour)
 	$(Q)$<

@@ -128,6 +128,11 @@ $(B)/tools/tables_exhaustive: $(call objects,host,tests/tools/tables_exhaustive.
 $(B)/tools/precision: $(call objects,host,tests/tools/precision.c) $(LIB_HOST) $(LIB_FLOAT) $(LIB_DOUBLE)
 	$(link)
 
+# Energies and the centre of mass over many steps.
+$(B)/tools/long_runs: $(call objects,host,tests/tools/long_runs.c tests/host/motion.c $(UNITY_DIR)/unity.c) \
+    $(LIB_HOST) $(LIB_FLOAT) $(LIB_DOUBLE)
+	$(link)
+
 # Generated mechanisms, all of which derive.
 $(B)/tools/mechanisms: $(call objects,host,tests/tools/mechanisms.c tests/host/mechanism.c) $(LIB_HOST) \
     $(LIB_FLOAT) $(LIB_DOUBLE)

@@ -86,13 +86,21 @@ void belief_print(FILE *out, const belief *b) {
 }
 
 void belief_say(FILE *out, const char *who, const belief *b, const engine_kind *kind,
-                wh_method method) {
-    fprintf(
-        out,
-        "%s: this run cannot be believed: %.3g J of its energy is left over, %.2e of the largest "
-        "entry of its books\n",
-        who, b->left_J, b->ratio);
-    if (b->overruns > 0) {
+                wh_method method, double way_J, const char *cure) {
+    if (way_J > 2.0 * fabs(b->left_J)) {
+        fprintf(out,
+                "%s: this run cannot be believed: up to %.3g J of its energy was missing on the "
+                "way, %.2e of the largest entry of its books\n",
+                who, way_J, way_J / b->largest_J);
+    } else {
+        fprintf(out,
+                "%s: this run cannot be believed: %.3g J of its energy is left over, %.2e of the "
+                "largest entry of its books\n",
+                who, b->left_J, b->ratio);
+    }
+    if (cure != NULL) {
+        fprintf(out, "hint: %s\n", cure);
+    } else if (b->overruns > 0) {
         fprintf(out,
                 "hint: %" PRIu64
                 " steps had more moments with events than a step takes, and what was "

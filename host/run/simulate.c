@@ -8,7 +8,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "belief.h"
+#include "advice.h"
 #include "envelope.h"
 #include "host/base/room.h"
 #include "host/base/statement.h"
@@ -24,6 +24,7 @@ typedef struct simulation {
     void *run;
     records *records;
     books *books;
+    watch *watch;
     FILE *csv;
     FILE *columns;
     envelope *plot; /* NULL without --plot */
@@ -153,6 +154,7 @@ static void enter(simulation *sim, uint64_t step) {
         books_enter(sim->books, sim->settings->kind, sim->run);
         tell_energies(sim);
     }
+    watch_enter(sim->watch, sim->settings->kind, sim->books, sim->run);
     if (!record && sim->plot == NULL) {
         return;
     }
@@ -220,6 +222,9 @@ static void say_failure(const simulation *sim, wh_status status) {
     }
     fprintf(stderr, " left all bounds\nhint: a smaller --step may carry it further; if it fails at "
                     "the same time, look for a singular position there\n");
+    advice about = advice_of(im, kind, sim->watch, NULL);
+    advice_say_diverged(stderr, &about);
+    advice_end(&about);
 }
 
 /* Said with --quiet, too: what was asked for is not what there is. */
@@ -241,6 +246,20 @@ static void say_saturated(const simulation *sim) {
                 "hint: widen it: range NAME = A .. B\n",
                 held, held == 1 ? "" : "s");
     }
+}
+
+/* What is not to be believed, why, and what would do. */
+static void say_advice(const simulation *sim, const belief *balance, bool fails) {
+    const engine_kind *kind = sim->settings->kind;
+    advice about = advice_of(sim->image, kind, sim->watch, balance);
+    if (fails || advice_lost(&about)) {
+        char *cure = advice_cure(&about);
+        belief_say(stderr, fails ? "whirl run: error" : "whirl run: warning", balance, kind,
+                   sim->image->settings.method, fails ? 0.0 : sim->watch->most_J, cure);
+        free(cure);
+    }
+    advice_say(stderr, &about);
+    advice_end(&about);
 }
 
 /* What the run came to, and the words for it. */
@@ -266,10 +285,7 @@ static simulation_result judge(simulation *sim, wh_status status, bool interrupt
         return SIMULATION_FAILED;
     }
     const bool fails = s->strict > 0.0 && belief_lost(balance, s->strict);
-    if (fails || belief_lost(balance, BELIEF_LIMIT)) {
-        belief_say(stderr, fails ? "whirl run: error" : "whirl run: warning", balance, s->kind,
-                   sim->image->settings.method);
-    }
+    say_advice(sim, balance, fails);
     return interrupted ? SIMULATION_INTERRUPTED : fails ? SIMULATION_FAILED : SIMULATION_DONE;
 }
 
@@ -304,11 +320,13 @@ simulation_result simulate(const image *im, const simulation_settings *s) {
         bool interrupted = false;
         sim.run = s->kind->start(im);
         sim.books = books_open(im);
+        sim.watch = watch_open(im, s->kind);
         sim.undefined = diags_new();
         sim.records->out = sim.csv;
         sim.records->plain = sim.columns;
         records_header(sim.records);
         const wh_status status = loop(&sim, &interrupted);
+        watch_end(sim.watch, status != WH_OK);
         const belief balance = belief_of(sim.books, s->kind, sim.run);
         result = judge(&sim, status, interrupted, &balance);
         const bool csv_written = flush_records(s->csv, sim.csv);
@@ -337,6 +355,7 @@ simulation_result simulate(const image *im, const simulation_settings *s) {
     close_records(sim.csv);
     close_records(sim.columns);
     books_close(sim.books);
+    watch_close(sim.watch);
     records_close(sim.records);
     envelope_free(sim.plot);
     return result;

@@ -1,0 +1,145 @@
+/* field.c: see field.h. */
+#include "field.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "host/base/room.h"
+#include "host/number/functions.h"
+
+/* A change of a component by which slopes are taken: the root of what a double rounds. */
+#define CHANGE 0x1p-20
+
+static int component_of(const image *im, int unknown, int primes) {
+    for (int i = 0; i < im->angles + im->reals; i++) {
+        const component c = image_component(im, i);
+        if (c.unknown == unknown && c.primes == primes) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+field *field_open(const image *im, const engine_kind *kind) {
+    field *f = room(1, sizeof *f);
+    f->image = im;
+    f->n = im->angles + im->reals;
+    f->evaluator = evaluator_new(im->list[IMAGE_BOOKS]);
+    if (kind == &engine_float) {
+        evaluator_wrap(f->evaluator);
+    }
+    f->value = room(im->list[IMAGE_BOOKS]->results, sizeof *f->value);
+    f->input = room(im->inputs, sizeof *f->input);
+    f->stage = room(5 * (int64_t)f->n, sizeof *f->stage);
+    f->base = room(im->count, sizeof *f->base);
+    f->next = room(f->n, sizeof *f->next);
+    f->rate = room(f->n, sizeof *f->rate);
+    image_inputs(im, f->input);
+    for (int i = 0; i < f->n; i++) {
+        const component c = image_component(im, i);
+        const bool top = c.primes + 1 >= im->unknown[c.unknown].order;
+        f->next[i] = top ? -1 - c.unknown : component_of(im, c.unknown, c.primes + 1);
+        if (c.primes == 1 && im->has_energies) {
+            f->rate[f->rows++] = i;
+        }
+    }
+    return f;
+}
+
+void field_close(field *f) {
+    if (f != NULL) {
+        evaluator_free(f->evaluator);
+        free(f->value);
+        free(f->input);
+        free(f->stage);
+        free(f->base);
+        free(f->next);
+        free(f->rate);
+        free(f);
+    }
+}
+
+void field_slope(field *f, double time_s, const double *x, double *slope) {
+    const image *im = f->image;
+    const double *real = x + im->angles;
+    evaluator_run(f->evaluator, time_s, x, real, real + (im->coordinates - im->angles), f->input,
+                  f->value);
+    for (int i = 0; i < f->n; i++) {
+        slope[i] = f->next[i] >= 0 ? x[f->next[i]] : f->value[-1 - f->next[i]];
+    }
+}
+
+double field_energy_J(const field *f) {
+    const image *im = f->image;
+    const double *entry = f->value + im->count;
+    return im->has_integral ? entry[BOOK_MOMENTA + im->count]
+                            : entry[BOOK_KINETIC] + entry[BOOK_STORED];
+}
+
+bool field_jacobian(field *f, double time_s, const double *x, const double *size, double *matrix) {
+    const int n = f->n;
+    bool finite = true;
+    double *at = room(3 * (int64_t)n, sizeof *at);
+    double *up = at + n;
+    double *down = up + n;
+    memcpy(at, x, (size_t)n * sizeof *at);
+    for (int k = 0; k < n; k++) {
+        const double change = CHANGE * number_most(fabs(size[k]), CHANGE);
+        at[k] = x[k] + change;
+        field_slope(f, time_s, at, up);
+        const double high = at[k];
+        at[k] = x[k] - change;
+        field_slope(f, time_s, at, down);
+        const double across = high - at[k]; /* as rounded */
+        at[k] = x[k];
+        for (int i = 0; i < n; i++) {
+            matrix[i * n + k] = (up[i] - down[i]) / across;
+            finite = finite && isfinite(matrix[i * n + k]);
+        }
+    }
+    free(at);
+    return finite;
+}
+
+/* The momenta are linear in the rates, or nearly so. */
+void field_mass(field *f, double time_s, const double *x, const double *size, double *matrix) {
+    const image *im = f->image;
+    double *at = room(2 * (int64_t)f->n, sizeof *at);
+    memcpy(at, x, (size_t)f->n * sizeof *at);
+    field_slope(f, time_s, at, at + f->n);
+    memcpy(f->base, f->value + im->count + BOOK_MOMENTA, (size_t)im->count * sizeof *f->base);
+    for (int k = 0; k < f->rows; k++) {
+        const int c = f->rate[k];
+        const double change = size[c] > 0.0 ? size[c] : 1.0;
+        at[c] = x[c] + change;
+        field_slope(f, time_s, at, at + f->n);
+        at[c] = x[c];
+        for (int i = 0; i < f->rows; i++) {
+            const int unknown = image_component(im, f->rate[i]).unknown;
+            const double *momentum = f->value + im->count + BOOK_MOMENTA;
+            matrix[i * f->rows + k] = (momentum[unknown] - f->base[unknown]) / change;
+        }
+    }
+    free(at);
+}
+
+void field_go(field *f, double time_s, double span_s, int parts, double *x) {
+    const int n = f->n;
+    double *at = f->stage;
+    double *k[4] = {at + n, at + 2 * n, at + 3 * n, at + 4 * n};
+    const double h = span_s / parts;
+    static const double reach[4] = {0.0, 0.5, 0.5, 1.0};
+    for (int step = 0; step < parts; step++) {
+        const double begin_s = time_s + h * step;
+        for (int s = 0; s < 4; s++) {
+            for (int i = 0; i < n; i++) {
+                at[i] = s == 0 ? x[i] : x[i] + reach[s] * h * k[s - 1][i];
+            }
+            field_slope(f, begin_s + reach[s] * h, at, k[s]);
+        }
+        for (int i = 0; i < n; i++) {
+            x[i] += h / 6.0 * (k[0][i] + 2.0 * (k[1][i] + k[2][i]) + k[3][i]);
+        }
+    }
+}

@@ -1,0 +1,39 @@
+/* field.h: a scene's right-hand side in double, whatever its run computes in: slopes, energy and mass matrix at any state,
+ * and the way from one state on. Of what goes on between contacts: their forces are not in it.
+ *
+ * A state is x[n]: angles first, then reals, as engine_kind.state() gives them. Inputs keep the values that they start
+ * with, as in the books. */
+#ifndef RUN_FIELD_H
+#define RUN_FIELD_H
+
+#include "engine.h"
+
+typedef struct field {
+    const image *image;
+    int n;    /* components of the state */
+    int rows; /* of the mass matrix: coordinates with a rate */
+    evaluator *evaluator;
+    double *value; /* results of the image's books list at the state looked at last */
+    double *input;
+    double *stage; /* [5 * n] */
+    double *base;  /* [unknowns] momenta */
+    int *next;     /* [n] the component that is the slope of this one; else -1 - its unknown */
+    int *rate;     /* [rows] the component that is the rate of this coordinate */
+} field;
+
+field *field_open(const image *im, const engine_kind *kind);
+void field_close(field *f);
+
+/* slope[n] at the state x[n]. */
+void field_slope(field *f, double time_s, const double *x, double *slope);
+/* What the books balance, at the state whose slope was asked for last. J. */
+double field_energy_J(const field *f);
+/* matrix[n * n], row by row: how the slope changes with the state; `size[n]` is the size of a component where it
+ * counts. False where it has no value. */
+bool field_jacobian(field *f, double time_s, const double *x, const double *size, double *matrix);
+/* matrix[rows * rows]; `size` as above. The scene must have energies. */
+void field_mass(field *f, double time_s, const double *x, const double *size, double *matrix);
+/* Carry x[n] on by `span_s` in `parts` equal steps of Runge-Kutta 4. */
+void field_go(field *f, double time_s, double span_s, int parts, double *x);
+
+#endif

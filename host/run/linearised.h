@@ -1,0 +1,51 @@
+/* linearised.h: the motions of a run about its records: the frequencies and time constants of the scene as it is linear
+ * there, which of them take part, and what the method makes of each. */
+#ifndef RUN_LINEARISED_H
+#define RUN_LINEARISED_H
+
+#include "limits.h"
+#include "watch.h"
+
+enum { LINEARISED_MOST = 8 * WATCH_RECORDS };
+
+/* Components beyond which the eigenvalues of so many records take longer than most runs: then of fewer of them. */
+#define LINEARISED_SMALL 24
+
+typedef struct linear_motion {
+    complex_number value; /* 1/s; im >= 0 */
+    double time_s;        /* the record's */
+    double
+        share; /* of a component's energy, at most of all: the square of its part in the slope; at most 1 */
+    double off;     /* limits_off() over the run, */
+    double ripple;  /* limits_ripple() where that is more; else 0 */
+    int unknown[2]; /* which carry it, most first; -1: none */
+} linear_motion;
+
+typedef struct linearised {
+    linear_motion motion[LINEARISED_MOST];
+    int motions;
+    const linear_motion *worst;   /* largest share * off, or NULL */
+    const linear_motion *fastest; /* that takes part, or NULL */
+    wh_form form;
+    double span_s;
+    double step_s;
+    wh_method method;
+} linearised;
+
+/* Of a run that `method` stepped. Free with linearised_free(). */
+linearised *linearised_of(const watch *w, wh_method method);
+void linearised_free(linearised *l); /* NULL is fine */
+
+/* The part of the energy that the method takes or gives in all, at most of all motions, in their share. */
+double linearised_off(const linearised *l, wh_method method, double step_s);
+/* What a motion would have lost is 2 off share; of the worst, as the run is. */
+double linearised_worst(const linearised *l);
+
+/* The largest of 1, 2 and 5 times powers of ten, s, not beyond `most_s`, at which no motion is off by more than
+ * `allowed`; 0: none within a ten-thousandth of that. */
+double linearised_step_s(const linearised *l, wh_method method, double most_s, double allowed);
+
+/* Such a number. */
+double linearised_nice_s(double most_s);
+
+#endif

@@ -1,0 +1,428 @@
+/* test_warnings.c: what `whirl run` warns of, on both sides: wherever more than a hundredth of the energy is gone over the
+ * run, and nowhere where it is less than a ten-thousandth; where coordinates are singular and the step does not resolve
+ * it. And what a warning says would do is done: then there is no warning, and the error is gone. Energies are those of
+ * formulas in this file, against closed forms. */
+#include "command.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "host/commands/commands.h"
+#include "motion.h"
+
+#include "unity.h"
+
+void suite_warnings(void);
+
+#define SOUND 1e-4
+#define GONE 1e-2
+
+enum { MASSES = 4, TEXT = 1600 };
+
+typedef enum made_kind { SPRING, CHAIN, PENDULUM, DAMPER, DAMPED, KINDS } made_kind;
+
+/* A mechanism of which the energy is known at any time. */
+typedef struct made_up {
+    made_kind kind;
+    int masses;
+    double mass[MASSES];
+    double stiffness
+        [MASSES]; /* of the spring to the one before, the first to the wall; of a pendulum, m g l */
+    double damping; /* of the first, to the wall, N s/m */
+    double start[MASSES];
+    double rate;
+    double fastest; /* 1/s, about */
+    char text[TEXT];
+} made_up;
+
+static const char *const names[MASSES] = {"x", "y", "z", "u"};
+
+static made_up drawn(dice *d, made_kind kind) {
+    made_up m = {.kind = kind, .masses = kind == CHAIN ? 2 + (int)dice_one_of(d, 3) : 1};
+    for (int i = 0; i < m.masses; i++) {
+        m.mass[i] = dice_between(d, 0.5, 2.0);
+        m.stiffness[i] = kind == DAMPER ? 0.0 : pow(10.0, dice_between(d, 0.0, 3.0));
+        m.start[i] = kind == DAMPER ? 0.0 : dice_between(d, 0.3, 1.0);
+        m.fastest = fmax(m.fastest, sqrt((i > 0 ? 4.0 : 1.0) * m.stiffness[i] / m.mass[i]));
+    }
+    if (kind == PENDULUM) {
+        m.start[0] = dice_between(d, 0.1, 2.5);
+    } else if (kind == DAMPER) {
+        m.damping = m.mass[0] * pow(10.0, dice_between(d, -1.0, 3.0));
+        m.rate = dice_between(d, 0.1, 3.0);
+        m.fastest = m.damping / m.mass[0];
+    } else if (kind == DAMPED) {
+        m.damping = 2.0 * m.mass[0] * m.fastest * pow(10.0, dice_between(d, -3.0, -0.5));
+    }
+    return m;
+}
+
+static void write(made_up *m, double step_s, double until_s) {
+    char kinetic[300] = "";
+    char stored[300] = "";
+    char start[300] = "";
+    char coordinates[200] = "";
+    for (int i = 0; i < m->masses; i++) {
+        const bool turns = m->kind == PENDULUM;
+        const char *n = names[i];
+        char *to = coordinates + strlen(coordinates);
+        sprintf(to, "coordinate %s [%s]\n", n, turns ? "rad" : "m");
+        sprintf(kinetic + strlen(kinetic), "%s%.9g [%s]*%s'^2/2", i > 0 ? " + " : "", m->mass[i],
+                turns ? "kg*m^2" : "kg", n);
+        if (turns) {
+            sprintf(stored, "-%.9g [J]*cos(x)", m->stiffness[i]);
+        } else if (i > 0) {
+            sprintf(stored + strlen(stored), " + %.9g [N/m]*(%s - %s)^2/2", m->stiffness[i], n,
+                    names[i - 1]);
+        } else {
+            sprintf(stored, "%.9g [N/m]*x^2/2", m->stiffness[i]);
+        }
+        sprintf(start + strlen(start), "%s%s = %.9g [%s]", i > 0 ? ", " : "", n, m->start[i],
+                turns ? "rad" : "m");
+    }
+    snprintf(m->text, TEXT,
+             "mechanism made\n%sT = %s\nV = %s\nF = %.9g [N*s/m%s]*x'^2/2\n"
+             "scene s { start %s, x' = %.9g [%s]\nstep %.12g [s]\nuntil %.12g [s] }\n",
+             coordinates, kinetic, stored, m->damping, m->kind == PENDULUM ? "*m^2" : "", start,
+             m->rate, m->kind == PENDULUM ? "rad/s" : "m/s", step_s, until_s);
+}
+
+/* The energy above that of rest. */
+static double energy_J(const made_up *m, const motion *at) {
+    double sum_J = 0.0;
+    double before = 0.0;
+    for (int i = 0; i < m->masses; i++) {
+        char rate[8];
+        snprintf(rate, sizeof rate, "%s'", names[i]);
+        const double q = motion_value(at, names[i]);
+        const double v = motion_value(at, rate);
+        sum_J += m->mass[i] * v * v / 2.0;
+        sum_J += m->kind == PENDULUM ? 2.0 * m->stiffness[i] * sin(q / 2.0) * sin(q / 2.0)
+                                     : m->stiffness[i] * (q - before) * (q - before) / 2.0;
+        before = q;
+    }
+    return sum_J;
+}
+
+/* What it is by the closed form. */
+static double truth_J(const made_up *m, double start_J, double t) {
+    const double decay = m->damping / m->mass[0];
+    if (m->kind == DAMPER) {
+        return start_J * exp(-2.0 * decay * t);
+    }
+    if (m->kind != DAMPED) {
+        return start_J;
+    }
+    const double stiffness = m->stiffness[0] / m->mass[0];
+    const double half = decay / 2.0;
+    const double w = sqrt(stiffness - half * half);
+    const double q = m->start[0] * exp(-half * t) * (cos(w * t) + half / w * sin(w * t));
+    const double v = -m->start[0] * exp(-half * t) * stiffness / w * sin(w * t);
+    return m->mass[0] * v * v / 2.0 + m->stiffness[0] * q * q / 2.0;
+}
+
+/* Largest error of the energy over the run, of what it starts with; infinite when it diverges. */
+static double energy_off(const made_up *m, wh_method method, double step_s, uint64_t steps,
+                         bool is_float) {
+    motion at;
+    motion_open_text(&at, m->text,
+                     (stepping){.kind = is_float ? &engine_float : &engine_double,
+                                .method = method,
+                                .step_s = step_s});
+    const double start_J = energy_J(m, &at);
+    double most = 0.0;
+    for (uint64_t k = 1; k <= steps && isfinite(most); k++) {
+        const bool stepped = motion_step(&at, 1) == WH_OK;
+        const double off = fabs(energy_J(m, &at) - truth_J(m, start_J, (double)k * step_s));
+        most = stepped ? fmax(most, off / start_J) : (double)INFINITY;
+    }
+    motion_close(&at);
+    return most;
+}
+
+static void run(const char *file, const char *method, const char *step, bool is_float, said *what) {
+    const char *words[10] = {
+        file, "--number", is_float ? "float" : "double", "--method", method, "--quiet", NULL};
+    if (step != NULL) {
+        words[6] = "--step";
+        words[7] = step;
+    }
+    command_say(command_run, words, what);
+}
+
+/* The word behind the last `option` in what was said, into word[]; false without one. */
+static bool option_said(const char *said_text, const char *option, char word[40]) {
+    bool found = false;
+    for (const char *next = said_text; (next = strstr(next, option)) != NULL; next++) {
+        char text[40];
+        if (sscanf(next + strlen(option), " %39[a-z0-9.-]", text) == 1 &&
+            (text[0] <= '9') == (option[2] == 's')) { /* "a smaller --step may" names none */
+            strcpy(word, text);
+            found = true;
+        }
+    }
+    return found;
+}
+
+/* A step as a warning writes it, s. */
+static double step_of(const char *word) {
+    char *unit;
+    const double number = strtod(word, &unit);
+    return number * (strcmp(unit, "ms") == 0   ? 1e-3
+                     : strcmp(unit, "us") == 0 ? 1e-6
+                     : strcmp(unit, "ns") == 0 ? 1e-9
+                                               : 1.0);
+}
+
+static wh_method method_named(const char *word) {
+    int m = 0;
+    while (m < WH_METHODS && strcmp(wh_methods[m].word, word) != 0) {
+        m++;
+    }
+    TEST_ASSERT_TRUE_MESSAGE(m < WH_METHODS, word);
+    return (wh_method)m;
+}
+
+/* What a warning says would do, done: nothing is said, and the energy is right. Returns false when it names nothing. */
+static bool cure(const made_up *m, const said *warned, wh_method method, double step_s,
+                 double until_s, bool is_float) {
+    char step[40] = "";
+    char better[40] = "";
+    said what;
+    const bool has_step = option_said(warned->err, "--step", step);
+    const bool has_method = option_said(warned->err, "--method", better);
+    const bool both = has_step && has_method && strstr(warned->err, "or --method") == NULL;
+    const char *file = model_keep(m->text);
+    if (has_step && !both) {
+        run(file, wh_methods[method].word, step, is_float, &what);
+        TEST_ASSERT_EQUAL_STRING_MESSAGE("", what.err, m->text);
+        const double h = step_of(step);
+        TEST_ASSERT_TRUE_MESSAGE(
+            energy_off(m, method, h, (uint64_t)(until_s / h + 0.5), is_float) < 1e-3, m->text);
+    }
+    if (has_method) {
+        const double h = both ? step_of(step) : step_s;
+        run(file, better, both ? step : NULL, is_float, &what);
+        TEST_ASSERT_EQUAL_STRING_MESSAGE("", what.err, warned->err);
+        TEST_ASSERT_TRUE_MESSAGE(
+            energy_off(m, method_named(better), h, (uint64_t)(until_s / h + 0.5), is_float) < 1e-3,
+            warned->err);
+    }
+    return has_step || has_method;
+}
+
+static void test_energy_that_the_method_takes_is_told(void) {
+    dice d = dice_of("warned", 14001);
+    const unsigned cases = dice_cases(usual_or(few_or_all(300, 2000), 60));
+    unsigned gone = 0;
+    unsigned sound = 0;
+    unsigned between = 0;
+    unsigned cured = 0;
+    unsigned without = 0;
+    for (unsigned i = 0; i < cases; i++) {
+        made_up m = drawn(&d, (made_kind)(i % KINDS));
+        wh_method method = (wh_method)dice_one_of(&d, WH_METHODS);
+        const bool rates = m.damping > 0.0;
+        method = wh_methods[method].takes == WH_NO_RATES && rates ? WH_RK4 : method;
+        const bool is_float = dice_one_of(&d, 2) == 0;
+        const double step_s = pow(10.0, dice_between(&d, -2.0, log10(3.0))) / m.fastest;
+        const uint64_t steps = (uint64_t)pow(10.0, dice_between(&d, 1.0, 3.0));
+        const double until_s = step_s * (double)steps;
+        said what;
+        write(&m, step_s, until_s);
+        const double off = energy_off(&m, method, step_s, steps, is_float);
+        run(model_keep(m.text), wh_methods[method].word, NULL, is_float, &what);
+        char about[TEXT + SAID_SIZE + 200];
+        snprintf(about, sizeof about, "%s %s, off by %.3g:\n%s%s", wh_methods[method].word,
+                 is_float ? "float" : "double", off, m.text, what.err);
+        if (off > GONE) {
+            gone++;
+            TEST_ASSERT_TRUE_MESSAGE(strstr(what.err, "cannot be believed") != NULL ||
+                                         strstr(what.err, "diverged") != NULL,
+                                     about);
+            TEST_ASSERT_TRUE_MESSAGE(strstr(what.err, "\nhint: ") != NULL, about);
+            TEST_ASSERT_EQUAL_INT_MESSAGE(strstr(what.err, "diverged") != NULL ? 1 : 0, what.status,
+                                          about);
+            const bool told = cure(&m, &what, method, step_s, until_s, is_float);
+            cured += told ? 1 : 0;
+            without += told ? 0 : 1;
+        } else if (off < SOUND) {
+            sound++;
+            TEST_ASSERT_EQUAL_STRING_MESSAGE("", what.err, about);
+        } else {
+            between++;
+        }
+    }
+    model_drop();
+    printf("  %u runs: of %u more than 1 %% of the energy is gone, %u of them with a cure that was "
+           "tried, %u without; %u are sound\n",
+           cases, gone, cured, without, sound);
+    TEST_ASSERT_TRUE(gone > cases / 10 && sound > cases / 10 && between < cases / 2);
+    TEST_ASSERT_TRUE(without <= gone / 20);
+}
+
+/* --- singular coordinates -----------------------------------------------------------------------------------*/
+
+/* A particle in spherical coordinates that passes the axis: how far off it is at the end, m. */
+static double flight_off(const char *text, const double end[3], double step_s, bool is_float,
+                         bool compensated) {
+    motion at;
+    motion_open_text(&at, text,
+                     (stepping){.kind = is_float ? &engine_float : &engine_double,
+                                .method = WH_RK4,
+                                .compensated = compensated,
+                                .step_s = step_s});
+    const bool went = motion_step(&at, (uint64_t)(1.0 / step_s + 0.5)) == WH_OK;
+    const double r = motion_value(&at, "r");
+    const double theta = motion_value(&at, "theta");
+    const double phi = motion_value(&at, "phi");
+    motion_close(&at);
+    const double x = r * sin(theta) * cos(phi) - end[0];
+    const double y = r * sin(theta) * sin(phi) - end[1];
+    const double z = r * cos(theta) - end[2];
+    return went ? sqrt(x * x + y * y + z * z) : (double)INFINITY;
+}
+
+static void test_passing_a_pole_is_told(void) {
+    dice d = dice_of("poles", 14002);
+    const unsigned cases = dice_cases(usual_or(few_or_all(300, 2000), 60)) / 6;
+    unsigned off_course = 0;
+    double worst_m = 0.0;
+    unsigned sound = 0;
+    for (unsigned i = 0; i < cases; i++) {
+        const double past_m = pow(10.0, dice_between(&d, -3.7, -0.7));
+        const double speed = dice_between(&d, 3.0, 9.0);
+        const double away = dice_between(&d, 0.35, 0.65) * speed; /* from the axis, m */
+        const double height = dice_between(&d, 3.0, 6.0);
+        const double rise = dice_between(&d, 1.0, 5.0);
+        const bool is_float = i % 3 == 2;
+        const double rho = sqrt(away * away + past_m * past_m);
+        const double r = sqrt(rho * rho + height * height);
+        /* at x = away, y = past: towards the axis with -speed along x, rising */
+        const double phi = atan2(past_m, away);
+        const double rho_rate = -speed * cos(phi);
+        const double phi_rate = speed * sin(phi) / rho;
+        const double theta = atan2(rho, height);
+        const double r_rate = rho_rate * sin(theta) + rise * cos(theta);
+        const double theta_rate = (rho_rate * cos(theta) - rise * sin(theta)) / r;
+        const double end[3] = {away - speed, past_m, height + rise - 9.81 / 2.0};
+        char text[1000];
+        snprintf(
+            text, sizeof text,
+            "mechanism flight\ncoordinate r [m]\ncoordinate theta [rad]\n"
+            "coordinate phi [rad]\nparameter m = 1 [kg]\n"
+            "T = m*(r'^2 + r^2*theta'^2 + r^2*sin(theta)^2*phi'^2)/2\n"
+            "V = m*9.81 [m/s^2]*r*cos(theta)\n"
+            "scene s { start r = %.15g [m], theta = %.15g, phi = %.15g\n"
+            "start r' = %.15g [m/s], theta' = %.15g [rad/s], phi' = %.15g [rad/s]\nstep 1 [ms]\nuntil 1 [s] }\n",
+            r, theta, phi, r_rate, theta_rate, phi_rate);
+        const double off_m = flight_off(text, end, 1e-3, is_float, false);
+        said what;
+        run(model_keep(text), "rk4", NULL, is_float, &what);
+        char about[SAID_SIZE + 1200];
+        snprintf(about, sizeof about, "past %.3g m, off by %.3g m\n%s%s", past_m, off_m, text,
+                 what.err);
+        if (off_m > 0.02) {
+            off_course++;
+            char step[40];
+            TEST_ASSERT_TRUE_MESSAGE(strstr(what.err, "these coordinates are singular") != NULL,
+                                     about);
+            TEST_ASSERT_TRUE_MESSAGE(strstr(what.err, "the inertia of 'phi'") != NULL &&
+                                         strstr(what.err, "nearest at theta = ") != NULL,
+                                     about);
+            TEST_ASSERT_TRUE_MESSAGE(option_said(what.err, "--step", step), about);
+            const bool compensated = strstr(what.err, "--compensated") != NULL;
+            const double cured_m = flight_off(text, end, step_of(step), is_float, compensated);
+            const char *words[] = {model_keep(text),
+                                   "--quiet",
+                                   "--number",
+                                   is_float ? "float" : "double",
+                                   "--step",
+                                   step,
+                                   compensated ? "--compensated" : NULL,
+                                   NULL};
+            command_say(command_run, words, &what);
+            TEST_ASSERT_EQUAL_STRING_MESSAGE("", what.err, about);
+            TEST_ASSERT_TRUE_MESSAGE(cured_m < 2e-3 && cured_m < 0.1 * off_m, about);
+            worst_m = fmax(worst_m, cured_m);
+        } else if (off_m < 1e-4) {
+            sound++;
+            TEST_ASSERT_EQUAL_STRING_MESSAGE("", what.err, about);
+        }
+    }
+    model_drop();
+    printf("  %u flights: %u more than 2 cm off, all told, and cured to %.1e m; %u sound\n", cases,
+           off_course, worst_m, sound);
+    TEST_ASSERT_TRUE(off_course > cases / 10 && sound > cases / 10);
+}
+
+/* --- systems --------------------------------------------------------------------------------------------------*/
+
+static void test_swings_of_a_system_are_told(void) {
+    dice d = dice_of("systems", 14003);
+    const unsigned cases = dice_cases(usual_or(60, 15));
+    for (unsigned i = 0; i < cases; i++) {
+        const double w = pow(10.0, dice_between(&d, -1.0, 3.0));
+        const double hw = pow(10.0, dice_between(&d, -2.0, 0.44));
+        const double steps = 200.0;
+        const double lost = steps * pow(hw, 6.0) / 72.0; /* of the energy, where that is little */
+        char text[500];
+        said what;
+        snprintf(text, sizeof text,
+                 "mechanism s\nstate a [m]\nstate b [m/s]\nequation a' = b\n"
+                 "equation b' = -%.12g [1/s^2]*a\n"
+                 "scene s { start a = 1 [m]\nstep %.12g [s]\nuntil %.12g [s] }\n",
+                 w * w, hw / w, hw / w * steps);
+        run(model_keep(text), "rk4", NULL, i % 2 == 0, &what);
+        if (lost > 0.02) {
+            char step[40];
+            TEST_ASSERT_TRUE_MESSAGE(strstr(what.err, "the step is too coarse for") != NULL, text);
+            TEST_ASSERT_TRUE_MESSAGE(strstr(what.err, "rad/s") != NULL, what.err);
+            TEST_ASSERT_TRUE_MESSAGE(option_said(what.err, "--step", step), what.err);
+            TEST_ASSERT_TRUE(pow(w * step_of(step), 5.0) * hw * steps / 72.0 < 1e-4);
+            run(model_keep(text), "rk4", step, i % 2 == 0, &what);
+            TEST_ASSERT_EQUAL_STRING_MESSAGE("", what.err, text);
+        } else if (lost < 1e-3) {
+            TEST_ASSERT_EQUAL_STRING_MESSAGE("", what.err, text);
+        }
+    }
+    model_drop();
+}
+
+/* --- built-in scenes ----------------------------------------------------------------------------------------------*/
+
+/* To their ends, unless they are long; in both numbers, as they are. */
+static void test_built_in_scenes_say_nothing(void) {
+    said list;
+    said what;
+    const char *none[] = {NULL};
+    unsigned scenes = 0;
+    command_say(command_list, none, &list);
+    char *rest = NULL;
+    for (char *line = strtok_r(list.out, "\n", &rest); line != NULL;
+         line = strtok_r(NULL, "\n", &rest)) {
+        char name[80];
+        if (sscanf(line, "scene %79s", name) != 1) {
+            continue;
+        }
+        for (int k = 0; k < 2; k++) {
+            const char *words[] = {name, "--quiet", "--number", k == 1 ? "float" : "double", NULL};
+            command_say(command_run, words, &what);
+            TEST_ASSERT_EQUAL_STRING_MESSAGE("", what.err, name);
+            TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, name);
+        }
+        scenes++;
+    }
+    TEST_ASSERT_TRUE(scenes > 40);
+    printf("  %u scenes, to their ends\n", scenes);
+}
+
+void suite_warnings(void) {
+    RUN_TEST(test_energy_that_the_method_takes_is_told);
+    RUN_TEST(test_passing_a_pole_is_told);
+    RUN_TEST(test_swings_of_a_system_are_told);
+    RUN_TEST(test_built_in_scenes_say_nothing);
+}

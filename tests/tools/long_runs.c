@@ -1,0 +1,139 @@
+/* long_runs.c: `long_runs [STEPS]` lets a pendulum swing from 1 rad and the epicyclic gear turn without a torque for
+ * so many steps of 1 ms (10^7 when left out), and prints, for every decade of steps, the largest error of the energy, as a
+ * part of it, and how far the gear's centre of mass has gone from where it was, m; and how they grow. Energies are those of
+ * formulas in this file, in double, of the states as they are. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "tests/host/motion.h"
+
+#include "unity.h"
+
+/* What Unity wants of a program. */
+void setUp(void);
+void tearDown(void);
+void setUp(void) {}
+void tearDown(void) {}
+
+#define STEP_S 1e-3
+enum { DECADES = 12 };
+
+typedef struct subject {
+    const char *what;
+    double (*energy_J)(const motion *m);
+    const char *text;
+    bool centre; /* has a centre of mass that stays */
+} subject;
+
+static double pendulum_J(const motion *m) {
+    const double half = sin(motion_value(m, "th") / 2.0);
+    const double rate = motion_value(m, "th'");
+    return rate * rate / 2.0 + 2.0 * 9.81 * half * half;
+}
+
+/* m = 2 kg, r = 0.3 m, I = m r^2/2. */
+static double gear_J(const motion *m) {
+    const double theta = motion_value(m, "theta");
+    const double turns = motion_value(m, "theta'");
+    const double vx = motion_value(m, "X'") - 0.6 * turns * sin(theta);
+    const double vy = 0.6 * turns * cos(theta);
+    const double vX = motion_value(m, "X'");
+    return vX * vX + vx * vx + vy * vy + 0.09 * 4.0 * turns * turns / 2.0;
+}
+
+static double centre_m(const motion *m) {
+    return motion_value(m, "X") + 0.3 * cos(motion_value(m, "theta"));
+}
+
+static const subject subjects[] = {
+    {"pendulum, 1 rad", pendulum_J,
+     "mechanism p\ncoordinate th [rad]\nT = 1 [kg*m^2]*th'^2/2\nV = -9.81 [J]*cos(th)\n"
+     "scene s { start th = 1 [rad]\nstep 1 [ms]\nuntil 1e12 [s] }\n",
+     false},
+    {"gear, no torque", gear_J,
+     "mechanism g\ncoordinate theta [rad]\ncoordinate X [m]\nparameter m = 2 [kg]\n"
+     "parameter r = 0.3 [m]\nparameter I = m*r^2/2\nlet vx = X' - 2*r*theta'*sin(theta)\n"
+     "let vy = 2*r*theta'*cos(theta)\nT = m*X'^2/2 + m*(vx^2 + vy^2)/2 + I*(2*theta')^2/2\n"
+     "scene s { start theta' = 5 [rad/s]\nstep 1 [ms]\nuntil 1e12 [s] }\n",
+     true}};
+
+typedef struct seen {
+    double energy; /* largest |E/E_0 - 1| */
+    double last;   /* the last one, signed */
+    double centre; /* largest distance, m */
+} seen;
+
+static void try_one(const subject *of, stepping how, const char *number, uint64_t steps) {
+    motion m;
+    seen decade[DECADES] = {{0}};
+    motion_open_text(&m, of->text, how);
+    const double begin_J = of->energy_J(&m);
+    const double begin_m = of->centre ? centre_m(&m) : 0.0;
+    uint64_t end = 1000;
+    int at = 0;
+    const uint64_t go = 37; /* no part of a period */
+    for (uint64_t k = 0; k + go <= steps;) {
+        if (motion_step(&m, go) != WH_OK) {
+            printf("%-16s %-18s %-10s refused\n", of->what, number, wh_methods[how.method].word);
+            break;
+        }
+        k += go;
+        if (k > end && at + 1 < DECADES) {
+            end *= 10;
+            at++;
+        }
+        const double off = of->energy_J(&m) / begin_J - 1.0;
+        decade[at].energy = fmax(decade[at].energy, fabs(off));
+        decade[at].last = off;
+        if (of->centre) {
+            decade[at].centre = fmax(decade[at].centre, fabs(centre_m(&m) - begin_m));
+        }
+    }
+    printf("%-16s %-18s %-10s energy", of->what, number, wh_methods[how.method].word);
+    for (int i = 1; i <= at; i++) {
+        printf(" %8.1e", decade[i].energy);
+    }
+    if (at > 1) {
+        printf("  last %+.1e, grows with steps^%.2f", decade[at].last,
+               log10(decade[at].energy / decade[at - 1].energy));
+    }
+    if (of->centre) {
+        printf("\n%47s centre", "");
+        for (int i = 1; i <= at; i++) {
+            printf(" %8.1e", decade[i].centre);
+        }
+        printf("  grows with steps^%.2f", log10(decade[at].centre / decade[at - 1].centre));
+    }
+    printf("\n");
+    fflush(stdout);
+    motion_close(&m);
+}
+
+int main(int count, char **words) {
+    const double wanted = count > 1 ? strtod(words[1], NULL) : 1e7;
+    const int only = count > 2 ? atoi(words[2]) : -1;
+    static const struct {
+        const char *number;
+        stepping how;
+    } ways[] = {{"float", {.kind = &engine_float, .method = WH_RK4, .step_s = STEP_S}},
+                {"float compensated",
+                 {.kind = &engine_float, .method = WH_RK4, .compensated = true, .step_s = STEP_S}},
+                {"double", {.kind = &engine_double, .method = WH_RK4, .step_s = STEP_S}},
+                {"double compensated",
+                 {.kind = &engine_double, .method = WH_RK4, .compensated = true, .step_s = STEP_S}},
+                {"double", {.kind = &engine_double, .method = WH_NYSTROEM5, .step_s = STEP_S}}};
+    if (!(wanted >= 1e5 && wanted <= 1e11)) {
+        fputs("usage: long_runs [STEPS [WAY]], 1e5 to 1e11\n", stderr);
+        return 2;
+    }
+    printf("largest in each decade of steps, from 10^3 to 10^4 on; %.0e steps of 1 ms\n", wanted);
+    for (size_t s = 0; s < sizeof subjects / sizeof subjects[0]; s++) {
+        for (size_t w = 0; w < sizeof ways / sizeof ways[0]; w++) {
+            if (only < 0 || only == (int)w) {
+                try_one(&subjects[s], ways[w].how, ways[w].number, (uint64_t)wanted);
+            }
+        }
+    }
+    return 0;
+}
