@@ -43,7 +43,8 @@ static void print_column(FILE *out, const horizon *h, int k) {
         break;
     case HORIZON_STILL: fputs("to the end      it does not move\n", out); break;
     case HORIZON_ROUNDING:
-        fprintf(out, "to the end      rounding alone moves it, by %.2e %s\n", c->range, unit);
+        fprintf(out, "to the end      rounding alone moves it, by %.2e %s\n",
+                c->off > c->range ? c->off : c->range, unit);
         break;
     }
 }
