@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "host/number/functions.h"
 #include "host/trust/horizon_text.h"
 
 load_keep trusting_keep(const image_settings *settings) {
@@ -29,7 +30,7 @@ static bool is_stdout(const char *file) { return file != NULL && strcmp(file, "-
 trusting trusting_look(const image *im, const image *plain, simulation_settings *s) {
     trusting t = {0};
     const image *without = plain != NULL ? plain : im;
-    s->trusted_s = -1.0;
+    s->trusted_s = 0.0;
     if ((s->quiet && s->plot == NULL) || im->steps == 0 ||
         twins_operations(im, without) > TRUSTING_OPERATIONS_1S) {
         return t;
@@ -38,7 +39,7 @@ trusting trusting_look(const image *im, const image *plain, simulation_settings 
     t.twins = twins_run(&wish);
     t.horizon = horizon_of(t.twins, HORIZON_TOLERANCE);
     if (t.twins->status == WH_OK && !t.twins->stopped && !t.horizon.to_the_end) {
-        s->trusted_s = t.horizon.until_s;
+        s->trusted_s = number_most(t.horizon.until_s, im->step_s);
     }
     return t;
 }

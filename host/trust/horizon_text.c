@@ -65,15 +65,14 @@ static void print_momenta(FILE *out, const horizon *h) {
 /* What holds of a run that is not the motion any more: what its books say. */
 static void print_invariants(FILE *out, const horizon *h) {
     books *b = h->of->books;
-    fputs("behind that the run is one of many that the scene could take: no single value is to be "
-          "relied on, only what holds of all of them",
-          out);
+    fputs("behind its end no single value of a coordinate is to be relied on", out);
     if (b == NULL) {
-        fputs("; a system of equations has no books that tell of it\n", out);
+        fputs("; a system of equations has no books that tell what still holds\n", out);
         return;
     }
     const belief balance = belief_of(b, h->of->shape->kind, h->of->run);
-    fputs(":\n", out);
+    fputs(", but what the books keep, to t = ", out);
+    fprintf(out, "%.9g s:\n", h->of->end_s);
     if (!balance.known) {
         fputs("  energy: its balance is not known\n", out);
     } else if (belief_lost(&balance, BELIEF_LIMIT)) {
@@ -99,6 +98,12 @@ static void print_verdict(FILE *out, const horizon *h) {
         fprintf(out, "with half the step it leaves all bounds behind t = %.9g s\n",
                 t->finer_failed_s);
     }
+    if (t->overrun_s >= 0.0) {
+        fprintf(out,
+                "behind t = %.9g s a step had more events than it takes: whether it is right there "
+                "only a smaller --step tells\n",
+                t->overrun_s);
+    }
     print_invariants(out, h);
 }
 
@@ -121,10 +126,9 @@ void horizon_print_line(FILE *out, const horizon *h) {
         fprintf(out, "trusted            to the end: every coordinate to %.3g of its range\n",
                 h->tolerance);
     } else {
-        fprintf(out,
-                "trusted            until t = %.6g s: behind that %s is off by %.3g of its range; "
-                "energy and momenta above still hold\n",
-                h->until_s, name_of(h, h->first, name), h->tolerance);
+        fprintf(out, "trusted            until t = %.6g s: behind that %s is off by %.3g of its range%s\n",
+                h->until_s, name_of(h, h->first, name), h->tolerance,
+                image_of(h)->has_energies ? "; the books above tell what still holds" : "");
     }
 }
 

@@ -198,6 +198,24 @@ static bool step_finer(pair *p) {
 
 static bool is_stopped(const twins_wish *w) { return w->stop != NULL && *w->stop; }
 
+/* Behind this time nothing is known. */
+static void end_passages(twins *t, double time_s) {
+    for (int k = 1; k < t->columns; k++) {
+        passages_enter(&t->column[k].off, time_s, (double)INFINITY);
+    }
+}
+
+/* A step with more events than it takes lets stops rest that do not: with half the step as well, so that the two agree. */
+static bool has_overrun(const pair *p) {
+    uint64_t ours = 0;
+    uint64_t finers = 0;
+    if (p->wish->image->contacts > 0) {
+        p->wish->kind->events(p->to->run, &ours);
+        engine_double.events(p->finer, &finers);
+    }
+    return ours > 0 || finers > 0;
+}
+
 static void run_both(pair *p) {
     twins *t = p->to;
     const image *im = p->wish->image;
@@ -210,6 +228,11 @@ static void run_both(pair *p) {
         }
         if (t->finer_failed_s < 0.0 && !step_finer(p)) {
             t->finer_failed_s = ratio_times(step, im->step);
+            end_passages(t, p->look_s);
+        }
+        if (t->overrun_s < 0.0 && has_overrun(p)) {
+            t->overrun_s = ratio_times(step, im->step);
+            end_passages(t, p->look_s);
         }
         step++;
         if (t->books != NULL) {
@@ -228,12 +251,6 @@ static void run_both(pair *p) {
     t->end_s = ratio_times(step, im->step);
 }
 
-/* Behind where the finer one failed nothing is known. */
-static void end_passages(pair *p) {
-    for (int k = 1; k < p->to->columns && p->to->finer_failed_s >= 0.0; k++) {
-        passages_enter(&p->to->column[k].off, p->look_s, (double)INFINITY);
-    }
-}
 
 twins *twins_run(const twins_wish *w) {
     twins *t = room(1, sizeof *t);
@@ -242,6 +259,7 @@ twins *twins_run(const twins_wish *w) {
     t->columns = t->shape->columns - w->image->own_outputs;
     t->column = room(t->columns, sizeof *t->column);
     t->finer_failed_s = -1.0;
+    t->overrun_s = -1.0;
     t->run = w->kind->start(w->image);
     t->books = w->books ? books_open(w->image) : NULL;
     if (t->books != NULL) {
@@ -255,7 +273,6 @@ twins *twins_run(const twins_wish *w) {
               .rounded = rounded_open(&t->finer),
               .stride = 1U + (w->image->steps - (w->image->steps > 0)) / TWINS_LOOKS};
     run_both(&p);
-    end_passages(&p);
     take_rounding(t, &p.rounded);
     rounded_close(&p.rounded);
     records_close(p.finers);

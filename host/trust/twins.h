@@ -46,6 +46,7 @@ typedef struct twins {
     wh_status status;     /* the run's: its last step */
     void *run;            /* where it ended */
     double finer_failed_s; /* the other left all bounds behind this time; below 0: it did not */
+    double overrun_s; /* behind this time one of them had more events in a step than it takes; below 0: neither */
     bool stopped;
     books *books; /* NULL: none */
 } twins;
