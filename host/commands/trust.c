@@ -9,6 +9,7 @@
 #include "host/fixed/engine_fixed.h"
 #include "host/fixed/fixed_plan.h"
 #include "host/number/decimal.h"
+#include "host/number/functions.h"
 #include "host/run/start.h"
 #include "host/run/undefined.h"
 #include "host/trust/horizon_text.h"
@@ -17,16 +18,18 @@
 
 /* Seconds that an effort of 1 may take, about. */
 #define SECONDS 60.0
+#define EFFORT_LEAST 1e-4
+#define EFFORT_MOST 1e4
 
 static const command_usage usage = {
     .head =
         "usage: whirl trust SCENE|MECHANISM[:SCENE]|FILE[:SCENE] [options]\n"
         "\n"
-        "Until when each coordinate and rate of a run is right to a tolerance: the run with half its step, in\n"
-        "double with compensated sums, is run beside it, and the first time is told at which they differ by\n"
-        "more. In a chaotic motion that time comes soon, whatever the step; behind it energy and momenta are\n"
-        "all that a run can be asked for. The options are those of `whirl run`, and tell the run that is\n"
-        "asked about.\n"
+        "Until when each coordinate and rate of a run is right to a tolerance: the run with half its\n"
+        "step, in double with compensated sums, is run beside it, and the first time is told at which\n"
+        "they differ by more. In a chaotic motion that time comes soon, whatever the step; behind it\n"
+        "energy and momenta are all that a run can be asked for. The options are those of `whirl run`,\n"
+        "and tell the run that is asked about.\n"
         "\n",
     .groups = OPTIONS_CHANGE | OPTIONS_STEP | OPTIONS_ENGINE | OPTIONS_NUMBER,
     .tail =
@@ -82,7 +85,8 @@ static bool take_one(int count, char **words, int *at, trust_options *o, bool *b
                             "a part of the range that a coordinate has: --tolerance 1e-3",
                             &o->tolerance);
     } else if (!*bad && (value = options_value(count, words, at, "--effort", bad)) != NULL) {
-        *bad = !read_number("--effort", value, 1e-4, 1e4, "1 is about a minute: --effort 10",
+        *bad = !read_number("--effort", value, EFFORT_LEAST, EFFORT_MOST,
+                            "1 is about a minute: --effort 10",
                             &o->effort);
     } else if (!*bad && (value = options_value(count, words, at, "--csv", bad)) != NULL) {
         o->csv = value;
@@ -140,14 +144,17 @@ static bool is_affordable(const image *im, const image *plain, double effort) {
     if (seconds <= effort * SECONDS) {
         return true;
     }
-    const bool long_one = seconds > 120.0;
+    const double wanted = number_ceiling(seconds / SECONDS);
     fprintf(stderr,
-            "whirl trust: error: this would take about %.2g %s: two runs beside each other, of %.3g "
+            "whirl trust: error: this would take about %.0f minutes: two runs beside each other, of %.3g "
             "and %.3g steps\n"
             "hint: a nearer --until tells it of the beginning, where trust ends in a chaotic motion; or "
-            "a longer --step, or --effort %.0g\n",
-            long_one ? seconds / 60.0 : seconds, long_one ? "minutes" : "seconds",
-            (double)im->steps, 2.0 * (double)im->steps, 1.5 * seconds / SECONDS + 1.0);
+            "a longer --step",
+            wanted, (double)im->steps, 2.0 * (double)im->steps);
+    if (wanted <= EFFORT_MOST) {
+        fprintf(stderr, "; or --effort %.0f", wanted);
+    }
+    fputc('\n', stderr);
     return false;
 }
 
@@ -179,20 +186,27 @@ static void say_failure(const image *im, const engine_kind *kind, const twins *t
     }
 }
 
-static int write_rows(const trust_options *o, const horizon *h) {
-    if (o->csv == NULL) {
-        return EXIT_DONE;
+static int say_unwritten(const char *file) {
+    fprintf(stderr, "%s: error: cannot be written: %s\n", file, strerror(errno));
+    return EXIT_BAD_INPUT;
+}
+
+static bool is_standard(const trust_options *o) {
+    return o->csv != NULL && strcmp(o->csv, "-") == 0;
+}
+
+/* Before the run, so that no long one is in vain; NULL without --csv. False: it cannot be written. */
+static bool open_rows(const trust_options *o, FILE **rows) {
+    *rows = o->csv == NULL ? NULL : is_standard(o) ? stdout : fopen(o->csv, "wb");
+    return o->csv == NULL || *rows != NULL;
+}
+
+static int write_rows(const trust_options *o, FILE *rows, const horizon *h) {
+    bool good = rows == NULL || horizon_write(rows, h);
+    if (rows != NULL && rows != stdout) {
+        good = fflush(rows) == 0 && good;
     }
-    const bool standard = strcmp(o->csv, "-") == 0;
-    FILE *out = standard ? stdout : fopen(o->csv, "wb");
-    bool good = out != NULL && horizon_write(out, h);
-    if (out != NULL && !standard) {
-        good = fclose(out) == 0 && good;
-    }
-    if (!good) {
-        fprintf(stderr, "%s: error: cannot be written: %s\n", o->csv, strerror(errno));
-    }
-    return good ? EXIT_DONE : EXIT_BAD_INPUT;
+    return good ? EXIT_DONE : say_unwritten(o->csv);
 }
 
 static int answer(const trust_options *o, const image *im, const image *plain) {
@@ -203,6 +217,10 @@ static int answer(const trust_options *o, const image *im, const image *plain) {
                              .books = true,
                              .stop = &interrupted,
                              .progress = shows_progress(o) ? show_progress : NULL};
+    FILE *rows;
+    if (!open_rows(o, &rows)) {
+        return say_unwritten(o->csv);
+    }
     twins *t = twins_run(&wish);
     if (wish.progress != NULL) {
         fprintf(stderr, "\r        \r");
@@ -215,16 +233,21 @@ static int answer(const trust_options *o, const image *im, const image *plain) {
                 t->end_s, ratio_times(im->steps, im->step));
     } else {
         horizon h = horizon_of(t, o->tolerance);
-        code = write_rows(o, &h);
-        const bool standard = o->csv != NULL && strcmp(o->csv, "-") == 0;
+        code = write_rows(o, rows, &h);
         if (!o->quiet || o->csv == NULL) {
-            horizon_print(standard ? stderr : stdout, &h);
+            horizon_print(is_standard(o) ? stderr : stdout, &h);
         }
         if (t->status != WH_OK) {
             say_failure(im, kind, t);
             code = code == EXIT_DONE ? EXIT_RUN_FAILED : code;
         }
         horizon_free(&h);
+    }
+    if (rows != NULL && rows != stdout) {
+        fclose(rows);
+        if (code == EXIT_INTERRUPTED) {
+            remove(o->csv); /* nothing is in it */
+        }
     }
     twins_free(t);
     return code;

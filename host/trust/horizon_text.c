@@ -29,13 +29,14 @@ static void print_head(FILE *out, const horizon *h) {
 
 static void print_column(FILE *out, const horizon *h, int k) {
     const horizon_column *c = &h->column[k];
-    const char *unit = h->of->shape->column[k].unit->shown;
+    const char *shown = h->of->shape->column[k].unit->shown;
+    const char *unit = strcmp(shown, "1") == 0 ? "" : shown;
     char name[NAME_SIZE];
     fprintf(out, "  %-*s ", NAME_WIDTH, name_of(h, k, name));
     switch (c->verdict) {
     case HORIZON_TO_THE_END:
         fprintf(out, "to the end      off by %.2e of its range, %.4g %s\n",
-                c->range > 0.0 ? c->off / c->range : 0.0, c->range, unit);
+                c->off / c->range, c->range, unit);
         break;
     case HORIZON_UNTIL:
         fprintf(out, "%-15.9g of its range, %.4g %s, %.2e is %.2g %s\n", c->until_s, c->range, unit,
@@ -89,7 +90,9 @@ static void print_verdict(FILE *out, const horizon *h) {
     const twins *t = h->of;
     char name[NAME_SIZE];
     if (h->to_the_end) {
-        fprintf(out, "trusted to the end, t = %.9g s\n", t->end_s);
+        fprintf(out, t->status == WH_OK ? "trusted to the end, t = %.9g s\n"
+                                        : "trusted to where the run fails, t = %.9g s\n",
+                t->end_s);
         return;
     }
     fprintf(out, "trusted until t = %.9g s of %.9g s: %s is off first\n", h->until_s, t->end_s,
