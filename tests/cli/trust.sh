@@ -82,11 +82,10 @@ verdict $? "to a tenth until $last s"
 # --- runs that are none ----------------------------------------------------------------------------------------------------
 cat >"$scratch/pole.whirl" <<'END'
 mechanism pole "x'' = 2 x^3 is infinite at 1 s"
-state x
-state v
-equation x' = v
-equation v' = 2*x^3
-scene blows { start x = 1, v = 1; step 1 [ms]; until 2 [s] }
+coordinate x [m]
+T = 1 [kg]*x'^2/2
+V = -0.5 [N/m^3]*x^4
+scene blows { start x = 1 [m], x' = 1 [m/s]; step 1 [ms]; until 2 [s] }
 END
 "$whirl" trust "$scratch/pole.whirl" >"$scratch/out" 2>"$scratch/err"
 [ $? -eq 1 ] && grep -q 'error: the run diverged in the step after t = 1' "$scratch/err" && grep -q '^trusted until t = 0.9' "$scratch/out"
@@ -125,4 +124,32 @@ refused 2 "there are no events in fixed point" carriage_stop --number fixed
 refused 2 "cannot be written" epicyclic_from_rest --csv "$scratch"
 cp "$scratch/pole.whirl" "$scratch/mine.whirl"
 refused 2 "would write over the model" "$scratch/mine.whirl" --csv "$scratch/mine.whirl"
+
+# --- what docs/stability.md prints -----------------------------------------------------------------------------------------
+mkdir "$scratch/board" "$scratch/board/build"
+ln -s "$PWD/core" "$scratch/board/core"
+ln -s "$(realpath "$whirl")" "$scratch/board/build/whirl"
+awk -v into="$scratch/board" '
+    /^```c$/ { file = into "/main.c"; next }
+    /^```sh/ { file = into "/commands"; next }
+    /^```/ { file = ""; next }
+    /^    / && !/^    [$]/ && main && !printed && file == "" { sub(/^    /, ""); print > (into "/wanted"); printed = 1 }
+    file ~ /main[.]c$/ { main = 1 }
+    file != "" { print > file }' docs/stability.md
+(cd "$scratch/board" && sh -e commands) >"$scratch/board/said" 2>"$scratch/err" && cmp "$scratch/board/said" "$scratch/board/wanted" 2>"$scratch/err"
+verdict $? "docs/stability.md: the twin of a board builds, and says what stands there: $(cat "$scratch/board/said")"
+shown=0
+grep '^    [$] build/whirl trust' docs/stability.md >"$scratch/calls"
+while read -r call; do
+    shown=$((shown + 1))
+    awk -v call="    $call" '$0 == call { on = 1; next }
+        on && /^    [$]/ { exit }
+        on && /^[^ ]/ { exit }
+        on { sub(/^    /, ""); print }' docs/stability.md | sed '${/^$/d;}' >"$scratch/wanted"
+    (cd "$scratch/board" && sh -c "${call#?}") >"$scratch/said" 2>"$scratch/err"
+    diff "$scratch/wanted" "$scratch/said" >"$scratch/err"
+    verdict $? "docs/stability.md: ${call#? }"
+done <"$scratch/calls"
+[ "$shown" -eq 2 ]
+verdict $? "$shown calls are shown there" /dev/null
 exit $failed
