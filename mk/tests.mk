@@ -77,6 +77,12 @@ test-core: $(GEN)/.stamp ## the portable suites alone, in float and double on th
 	@$(MAKE) build/tests/core_double build/tests/core_float
 	@sh tests/run.sh build/tests/log $(RUN_CORE)
 
+# Until when runs can be trusted, as `whirl trust` has it, against references in long double (docs/stability.md).
+TRUST_SEED ?= 14
+.PHONY: trust-check
+trust-check: build/tests/host ## whirl trust on thirty drawn chaotic mechanisms and all its scenes, against long double (a minute; TRUST_SEED=n)
+	@WHIRL_FULL=1 WHIRL_SEED=$(TRUST_SEED) build/tests/host trust trust_drawn trust_scenes
+
 test-host: $(GEN)/.stamp ## the suites of the program alone
 	@$(MAKE) build/tests/host
 	@sh tests/run.sh build/tests/log $(RUN_HOST)

@@ -40,7 +40,8 @@ emit: base image number
 fixed: base core emit image number run
 sweep: base core derive image lang number run
 price: base core fixed image number plot run
-commands: base derive emit fixed image lang number plot price run show sweep
+trust: base core image number run
+commands: base derive emit fixed image lang number plot price run show sweep trust
 '
 
 # included FILE...: "FILE FOLDER" for each folder of core or host that a file names in an include

@@ -301,7 +301,8 @@ static bool take_cells(const char *command, const char *value, int *cells) {
 
 /* Sweeps, and prices, look for no ranges. */
 static bool knows_fixed(const char *command) {
-    return strcmp(command, "run") == 0 || strcmp(command, "derive") == 0;
+    return strcmp(command, "run") == 0 || strcmp(command, "derive") == 0 ||
+           strcmp(command, "trust") == 0;
 }
 
 static bool take(common_option which, const char *command, const char *value, common_options *to) {

@@ -16,6 +16,7 @@
 #include "host/run/start.h"
 #include "load.h"
 #include "options.h"
+#include "trusting.h"
 
 static const command_usage usage = {
     .head =
@@ -213,7 +214,8 @@ static void catch_interrupts(void) {
     sigaction(SIGTERM, &action, NULL);
 }
 
-static int run_image(run_options *o, const source_model *from, const image *im, double every_s) {
+static int run_image(run_options *o, const source_model *from, const image *im,
+                     const image *plain, double every_s) {
     if (!count_every(o, every_s, im, &o->settings.every)) {
         return EXIT_BAD_INPUT;
     }
@@ -225,7 +227,13 @@ static int run_image(run_options *o, const source_model *from, const image *im, 
     catch_interrupts();
     o->settings.stop = &interrupted;
     o->settings.progress = shows_progress(&o->settings);
-    switch (simulate(im, &o->settings)) {
+    trusting trust = trusting_look(im, plain, &o->settings);
+    const simulation_result result = simulate(im, &o->settings);
+    if (result == SIMULATION_DONE) {
+        trusting_say(&trust, &o->settings);
+    }
+    trusting_end(&trust);
+    switch (result) {
     case SIMULATION_DONE: return EXIT_DONE;
     case SIMULATION_INTERRUPTED: return EXIT_INTERRUPTED;
     case SIMULATION_BAD_FILE: return EXIT_BAD_INPUT;
@@ -278,8 +286,9 @@ int command_run(int count, char **words) {
         changes.balance = true;
         const double every_s = read_every_s(&o, of);
         const load_wish wish = {
-            .settings = o.common.integration, .use = IMAGE_TO_RUN, .conserve = true};
+            .settings = o.common.integration, .use = IMAGE_TO_RUN, .keep = trusting_keep(&o.common.integration), .conserve = true};
         code = load(&made, &from, of, in, &changes, &wish);
+        image *plain = trusting_plain(&made);
         source_forget(&from);
         if (code == EXIT_DONE && !o.settings.quiet) {
             say_hints(&made);
@@ -292,9 +301,10 @@ int command_run(int count, char **words) {
             code = plan_of(made.image, &from, &o.settings, &plan);
         }
         if (code == EXIT_DONE) {
-            code = run_image(&o, &from, made.image, every_s);
+            code = run_image(&o, &from, made.image, plain, every_s);
         }
         fixed_plan_free(plan);
+        image_free(plain);
         unload(&made);
     }
     source_close(&from);

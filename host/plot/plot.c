@@ -126,8 +126,20 @@ static void write_panels(FILE *to, const plot_table *t, const curve *curves, int
 
 bool plot_can_draw(const char *file) { return gnuplot_can_draw(file); }
 
+/* Behind the curves of every panel, to the end of its axis. */
+static void write_shade(FILE *to, double trusted_s) {
+    if (trusted_s > 0.0) {
+        fprintf(to,
+                "set object 1 rectangle from first %.17g, graph 0 to graph 1, graph 1 behind "
+                "fillcolor rgb '#e4e4e4' fillstyle solid noborder\n"
+                "set xlabel 'time [s]; shaded, behind %.6g s: no single value is to be trusted, "
+                "energy and momenta are'\n",
+                trusted_s, trusted_s);
+    }
+}
+
 bool plot_draw(const char *file, const char *title, const curve *curves, int count,
-               const double *data, int rows, int columns) {
+               const double *data, int rows, int columns, double trusted_s) {
     const int panels = count_panels(curves, count);
     gnuplot g;
     if (!gnuplot_open(&g, file, 120 + 260 * panels)) {
@@ -146,6 +158,7 @@ bool plot_draw(const char *file, const char *title, const curve *curves, int cou
     fputs(" noenhanced\nset grid\nset key outside right top noenhanced\nset xlabel 'time [s]'\n",
           to);
     fprintf(to, "set lmargin %d\nset rmargin %d\n", LEFT_MARGIN, right_margin(curves, count));
+    write_shade(to, trusted_s);
     write_panels(to, &(plot_table){data, rows, columns}, curves, count);
     fputs("unset multiplot\n", to);
     return gnuplot_close(&g);

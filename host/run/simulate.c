@@ -303,8 +303,8 @@ static bool draw(const simulation *sim) {
     char *full = room_words("%s%s%s", im->name, im->title[0] != '\0' ? ": " : "", im->title);
     int rows;
     double *data = envelope_rows(sim->plot, &rows);
-    const bool drawn =
-        plot_draw(sim->settings->plot, full, curves, count, data, rows, sim->records->columns);
+    const bool drawn = plot_draw(sim->settings->plot, full, curves, count, data, rows,
+                                 sim->records->columns, sim->settings->trusted_s);
     free(data);
     free(full);
     free(curves);

@@ -16,6 +16,7 @@ typedef struct simulation_settings {
     double
         strict; /* a run that is out of balance by more (belief.h) has failed; 0: it is only told */
     bool progress;
+    double trusted_s; /* behind this time the plot is shaded (host/trust); not above 0: nowhere */
     const volatile sig_atomic_t *stop; /* set from outside to end the run cleanly; may be NULL */
 } simulation_settings;
 

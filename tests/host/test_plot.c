@@ -135,7 +135,7 @@ static void test_texts_are_no_commands(void) {
             mix(&d, unit[k], sizeof unit[k]);
         }
         const curve curves[] = {{name[0], unit[0], 1}, {name[1], unit[1], 2}};
-        TEST_ASSERT_TRUE(plot_draw(PICTURE, title, curves, 2, data, 2, 3));
+        TEST_ASSERT_TRUE(plot_draw(PICTURE, title, curves, 2, data, 2, 3, 0.0));
         TEST_ASSERT_TRUE_MESSAGE(access(MADE, F_OK) != 0, title);
         char *text = shown();
         find(text, title);

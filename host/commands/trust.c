@@ -1,0 +1,332 @@
+/* trust.c: `whirl trust`: until when each coordinate of a run is right to a tolerance. */
+#include <errno.h>
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "commands.h"
+#include "host/fixed/engine_fixed.h"
+#include "host/fixed/fixed_plan.h"
+#include "host/number/decimal.h"
+#include "host/number/functions.h"
+#include "host/run/start.h"
+#include "host/run/undefined.h"
+#include "host/trust/horizon_text.h"
+#include "options.h"
+#include "trusting.h"
+
+/* Seconds that an effort of 1 may take, about. */
+#define SECONDS 60.0
+#define EFFORT_LEAST 1e-4
+#define EFFORT_MOST 1e4
+
+static const command_usage usage = {
+    .head =
+        "usage: whirl trust SCENE|MECHANISM[:SCENE]|FILE[:SCENE] [options]\n"
+        "\n"
+        "Until when each coordinate and rate of a run is right to a tolerance: the run with half its\n"
+        "step, in double with compensated sums, is run beside it, and the first time is told at which\n"
+        "they differ by more. In a chaotic motion that time comes soon, whatever the step; behind it\n"
+        "energy and momenta are all that a run can be asked for. The options are those of `whirl run`,\n"
+        "and tell the run that is asked about.\n"
+        "\n",
+    .groups = OPTIONS_CHANGE | OPTIONS_STEP | OPTIONS_ENGINE | OPTIONS_NUMBER,
+    .tail =
+        "  --tolerance 1e-3     part of the range that a coordinate has in the run (default: 1e-3)\n"
+        "  --csv FILE           a row for each coordinate and rate; - is standard output, and the words then\n"
+        "                       go to standard error\n"
+        "  --effort 1           how long it may take: 1 is about a minute (1e-4 to 1e4)\n"
+        "  --quiet              no progress, and no words beside --csv\n",
+    .why = {[EXIT_ROW_OF(EXIT_DONE)] = "",
+            [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
+                "the run diverged: it says when, and until when it could be trusted",
+            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
+            [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
+
+static volatile sig_atomic_t interrupted;
+
+static void on_interrupt(int signal_number) {
+    (void)signal_number;
+    interrupted = 1;
+}
+
+typedef struct trust_options {
+    common_options common;
+    const char *target;
+    const char *csv;
+    double tolerance;
+    double effort;
+    bool quiet;
+} trust_options;
+
+/* A number between two bounds, both allowed. */
+static bool read_number(const char *option, const char *text, double least, double most,
+                        const char *hint, double *number) {
+    const char *end = text;
+    *number = decimal_read(text, &end);
+    const bool good = end != text && *end == '\0' && *number >= least && *number <= most;
+    if (!good) {
+        fprintf(stderr,
+                "whirl trust: error: %s takes a number from %g to %g, not '%.40s'\nhint: %s\n",
+                option, least, most, text, hint);
+    }
+    return good;
+}
+
+/* One option, with its value where it has one; false when the word is none. */
+static bool take_one(int count, char **words, int *at, trust_options *o, bool *bad) {
+    const char *value = NULL;
+    if (options_take("trust", usage.groups, count, words, at, &o->common, bad)) {
+        return true;
+    }
+    if (!*bad && (value = options_value(count, words, at, "--tolerance", bad)) != NULL) {
+        *bad = !read_number("--tolerance", value, 1e-15, 1.0,
+                            "a part of the range that a coordinate has: --tolerance 1e-3",
+                            &o->tolerance);
+    } else if (!*bad && (value = options_value(count, words, at, "--effort", bad)) != NULL) {
+        *bad = !read_number("--effort", value, EFFORT_LEAST, EFFORT_MOST,
+                            "1 is about a minute: --effort 10",
+                            &o->effort);
+    } else if (!*bad && (value = options_value(count, words, at, "--csv", bad)) != NULL) {
+        o->csv = value;
+    } else if (!*bad && strcmp(words[*at], "--quiet") == 0) {
+        o->quiet = true;
+        ++*at;
+        return true;
+    }
+    return value != NULL;
+}
+
+static bool read_options(int count, char **words, trust_options *o) {
+    bool bad = false;
+    for (int at = 0; at < count && !bad;) {
+        if (take_one(count, words, &at, o, &bad) || bad) {
+            continue;
+        }
+        if (words[at][0] == '-' && words[at][1] != '\0') {
+            options_unknown(
+                "trust", words[at], usage.groups,
+                (const char *const[]){"--tolerance", "--csv", "--effort", "--quiet", NULL});
+            return false;
+        }
+        if (o->target != NULL) {
+            fprintf(stderr, "whirl trust: error: one scene at a time, not also '%s'\n", words[at]);
+            return false;
+        }
+        o->target = words[at++];
+    }
+    if (!bad && o->target == NULL) {
+        options_usage(stderr, &usage);
+        return false;
+    }
+    return !bad;
+}
+
+static void catch_interrupts(void) {
+    struct sigaction action = {.sa_handler = on_interrupt,
+                               .sa_flags = SA_RESTART | (int)SA_RESETHAND};
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+}
+
+static bool shows_progress(const trust_options *o) { return !o->quiet && isatty(STDERR_FILENO); }
+
+static void show_progress(double share, void *told) {
+    (void)told;
+    fprintf(stderr, "\r%5.1f %%", 100.0 * share);
+}
+
+/* --- what is refused ---------------------------------------------------------------------------------*/
+
+static bool is_affordable(const image *im, const image *plain, double effort) {
+    const double seconds = twins_operations(im, plain) / TRUSTING_OPERATIONS_1S;
+    if (seconds <= effort * SECONDS) {
+        return true;
+    }
+    const double wanted = number_ceiling(seconds / SECONDS);
+    fprintf(stderr,
+            "whirl trust: error: this would take about %.0f minutes: two runs beside each other, of %.3g "
+            "and %.3g steps\n"
+            "hint: a nearer --until tells it of the beginning, where trust ends in a chaotic motion; or "
+            "a longer --step",
+            wanted, (double)im->steps, 2.0 * (double)im->steps);
+    if (wanted <= EFFORT_MOST) {
+        fprintf(stderr, "; or --effort %.0f", wanted);
+    }
+    fputc('\n', stderr);
+    return false;
+}
+
+static bool can_start(const image *im, const engine_kind *kind, diags *errors) {
+    const bool good = start_has_method(im, im->settings.method, errors) &&
+                      start_is_possible(im, kind, errors);
+    diags_flush(errors, stderr);
+    return good;
+}
+
+static bool would_be_lost(const source_model *from, const trust_options *o) {
+    return source_would_be_lost(from, "--csv", o->csv, "");
+}
+
+/* --- the answer --------------------------------------------------------------------------------------*/
+
+static void say_failure(const image *im, const engine_kind *kind, const twins *t) {
+    diags *errors = diags_new();
+    const bool known = undefined_step(im, kind, t->run, t->status, errors);
+    diags_flush(errors, stderr);
+    diags_free(errors);
+    if (!known) {
+        const int fault = kind->fault(t->run);
+        const component c = image_component(im, fault < 0 ? 0 : fault);
+        fprintf(stderr,
+                "whirl trust: error: the run diverged in the step after t = %.9g s: %s%.*s left all "
+                "bounds\nhint: a smaller --step may carry it further\n",
+                t->end_s, im->unknown[c.unknown].name, c.primes, "''''''''''");
+    }
+}
+
+static int say_unwritten(const char *file) {
+    fprintf(stderr, "%s: error: cannot be written: %s\n", file, strerror(errno));
+    return EXIT_BAD_INPUT;
+}
+
+static bool is_standard(const trust_options *o) {
+    return o->csv != NULL && strcmp(o->csv, "-") == 0;
+}
+
+/* Before the run, so that no long one is in vain; NULL without --csv. False: it cannot be written. */
+static bool open_rows(const trust_options *o, FILE **rows) {
+    *rows = o->csv == NULL ? NULL : is_standard(o) ? stdout : fopen(o->csv, "wb");
+    return o->csv == NULL || *rows != NULL;
+}
+
+static int write_rows(const trust_options *o, FILE *rows, const horizon *h) {
+    bool good = rows == NULL || horizon_write(rows, h);
+    if (rows != NULL && rows != stdout) {
+        good = fflush(rows) == 0 && good;
+    }
+    return good ? EXIT_DONE : say_unwritten(o->csv);
+}
+
+static int answer(const trust_options *o, const image *im, const image *plain) {
+    const engine_kind *kind = o->common.number;
+    const twins_wish wish = {.image = im,
+                             .kind = kind,
+                             .plain = plain,
+                             .books = true,
+                             .stop = &interrupted,
+                             .progress = shows_progress(o) ? show_progress : NULL};
+    FILE *rows;
+    if (!open_rows(o, &rows)) {
+        return say_unwritten(o->csv);
+    }
+    twins *t = twins_run(&wish);
+    if (wish.progress != NULL) {
+        fprintf(stderr, "\r        \r");
+    }
+    int code = EXIT_INTERRUPTED;
+    if (t->stopped) {
+        fprintf(stderr,
+                "whirl trust: interrupted at t = %.9g s of %.9g s: the range of a coordinate is that "
+                "of the whole run\n",
+                t->end_s, ratio_times(im->steps, im->step));
+    } else {
+        horizon h = horizon_of(t, o->tolerance);
+        code = write_rows(o, rows, &h);
+        if (!o->quiet || o->csv == NULL) {
+            horizon_print(is_standard(o) ? stderr : stdout, &h);
+        }
+        if (t->status != WH_OK) {
+            say_failure(im, kind, t);
+            code = code == EXIT_DONE ? EXIT_RUN_FAILED : code;
+        }
+        horizon_free(&h);
+    }
+    if (rows != NULL && rows != stdout) {
+        fclose(rows);
+        if (code == EXIT_INTERRUPTED) {
+            remove(o->csv); /* nothing is in it */
+        }
+    }
+    twins_free(t);
+    return code;
+}
+
+/* Its step in fixed point, which the image then has: found by a run in double where ranges are not declared. */
+static int plan_of(image *im, const trust_options *o, diags *errors, fixed_plan **plan) {
+    const fixed_watch watch = {&interrupted, shows_progress(o)};
+    *plan = fixed_plan_make_watched(im, &watch, errors);
+    im->fixed = *plan;
+    diags_flush(errors, stderr);
+    if (*plan != NULL) {
+        return EXIT_DONE;
+    }
+    if (interrupted) {
+        fputs("whirl trust: interrupted while the ranges for fixed point were looked for\n",
+              stderr);
+    }
+    return interrupted ? EXIT_INTERRUPTED : EXIT_BAD_INPUT;
+}
+
+static int trust_loaded(const trust_options *o, image *im, const image *plain, diags *errors) {
+    fixed_plan *plan = NULL;
+    if (!is_affordable(im, plain, o->effort) || !can_start(im, o->common.number, errors)) {
+        return EXIT_BAD_INPUT;
+    }
+    catch_interrupts();
+    int code = EXIT_DONE;
+    if (o->common.number == &engine_fixed) {
+        code = plan_of(im, o, errors, &plan);
+    }
+    if (code == EXIT_DONE) {
+        code = answer(o, im, plain);
+    }
+    fixed_plan_free(plan);
+    return code;
+}
+
+static int trust_source(const trust_options *o, source_model *from) {
+    const mechanism *of;
+    const scene *in;
+    int code = source_open(from, o->target);
+    code = code == EXIT_DONE ? source_pick(from, true, &of, &in) : code;
+    if (code != EXIT_DONE || would_be_lost(from, o)) {
+        return code != EXIT_DONE ? code : EXIT_BAD_INPUT;
+    }
+    overrides changes = options_overrides(&o->common.change);
+    changes.balance = true;
+    const load_wish wish = {.settings = o->common.integration,
+                            .use = IMAGE_TO_RUN,
+                            .keep = trusting_keep(&o->common.integration),
+                            .conserve = true};
+    loaded made;
+    code = load(&made, from, of, in, &changes, &wish);
+    image *plain = code == EXIT_DONE ? trusting_plain(&made) : NULL;
+    source_forget(from);
+    if (code == EXIT_DONE && o->common.number == &engine_float) {
+        say_float_range(made.image);
+    }
+    if (code == EXIT_DONE) {
+        code = trust_loaded(o, made.image, plain != NULL ? plain : made.image, from->errors);
+    }
+    image_free(plain);
+    unload(&made);
+    return code;
+}
+
+int command_trust(int count, char **words) {
+    trust_options o = {
+        .common = options_defaults(), .tolerance = HORIZON_TOLERANCE, .effort = 1.0};
+    source_model from = {0};
+    if (options_help(count, words, &usage)) {
+        return EXIT_DONE;
+    }
+    int code = EXIT_BAD_INPUT;
+    if (read_options(count, words, &o)) {
+        code = trust_source(&o, &from);
+        source_close(&from);
+    }
+    options_forget(&o.common);
+    return code;
+}

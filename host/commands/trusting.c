@@ -1,0 +1,59 @@
+/* trusting.c: see trusting.h. */
+#include "trusting.h"
+
+#include <string.h>
+
+#include "host/number/functions.h"
+#include "host/trust/horizon_text.h"
+
+load_keep trusting_keep(const image_settings *settings) {
+    return settings->tables != TABLES_NONE ? KEEP_EQUATIONS : KEEP_IMAGE;
+}
+
+image *trusting_plain(const loaded *made) {
+    const image *im = made->image;
+    if (im == NULL || im->settings.tables == TABLES_NONE || made->equations == NULL) {
+        return NULL;
+    }
+    image_settings plain = im->settings;
+    plain.tables = TABLES_NONE;
+    plain.cells = 0;
+    diags *unsaid = diags_new(); /* it has been said of the image with tables */
+    image *without = image_make(made->equations, made->equations->instance->conserve, &plain,
+                                IMAGE_TO_RUN, unsaid);
+    diags_free(unsaid);
+    return without;
+}
+
+static bool is_stdout(const char *file) { return file != NULL && strcmp(file, "-") == 0; }
+
+trusting trusting_look(const image *im, const image *plain, simulation_settings *s) {
+    trusting t = {0};
+    const image *without = plain != NULL ? plain : im;
+    s->trusted_s = 0.0;
+    if ((s->quiet && s->plot == NULL) || im->steps == 0 ||
+        twins_operations(im, without) > TRUSTING_OPERATIONS_1S) {
+        return t;
+    }
+    const twins_wish wish = {.image = im, .kind = s->kind, .plain = without, .stop = s->stop};
+    t.twins = twins_run(&wish);
+    t.horizon = horizon_of(t.twins, HORIZON_TOLERANCE);
+    if (t.twins->status == WH_OK && !t.twins->stopped && !t.horizon.to_the_end) {
+        s->trusted_s = number_most(t.horizon.until_s, im->step_s);
+    }
+    return t;
+}
+
+void trusting_say(const trusting *t, const simulation_settings *s) {
+    if (!s->quiet && t->twins != NULL && t->twins->status == WH_OK && !t->twins->stopped) {
+        horizon_print_line(is_stdout(s->csv) || is_stdout(s->columns) ? stderr : stdout,
+                           &t->horizon);
+    }
+}
+
+void trusting_end(trusting *t) {
+    if (t->twins != NULL) {
+        horizon_free(&t->horizon);
+        twins_free(t->twins);
+    }
+}

@@ -1,0 +1,30 @@
+/* trusting.h: what `whirl trust` and `whirl run` share: the scene's image for the run beside it, and what may be taken of
+ * time. */
+#ifndef COMMANDS_TRUSTING_H
+#define COMMANDS_TRUSTING_H
+
+#include "host/run/simulate.h"
+#include "host/trust/horizon.h"
+#include "load.h"
+
+/* Operations that a second takes, about, on a slow machine. */
+#define TRUSTING_OPERATIONS_1S 6e7
+
+/* What load() is to keep for trusting_plain(). */
+load_keep trusting_keep(const image_settings *settings);
+/* The scene's image without tables, where it has some: to be freed. NULL: it is the image itself. */
+image *trusting_plain(const loaded *made);
+
+/* What `whirl run` says of trust: nothing where it is not asked for or takes too long. */
+typedef struct trusting {
+    twins *twins; /* NULL: not known */
+    horizon horizon;
+} trusting;
+
+/* Looks, where it takes less than a second, and sets where the plot's shade begins. Moves no bit of the run. */
+trusting trusting_look(const image *im, const image *plain, simulation_settings *s);
+/* The line below the summary. */
+void trusting_say(const trusting *t, const simulation_settings *s);
+void trusting_end(trusting *t);
+
+#endif

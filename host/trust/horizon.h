@@ -1,0 +1,37 @@
+/* horizon.h: until when a run is right to a tolerance, coordinate by coordinate, as far as a run with half its step tells
+ * (twins.h): until the first time at which the two differ by more than the tolerance times the range that the coordinate
+ * has in the whole of the finer run. What this is worth is measured in docs/stability.md. */
+#ifndef TRUST_HORIZON_H
+#define TRUST_HORIZON_H
+
+#include "twins.h"
+
+#define HORIZON_TOLERANCE 1e-3
+
+typedef enum horizon_verdict {
+    HORIZON_TO_THE_END,
+    HORIZON_UNTIL,    /* until_s */
+    HORIZON_STILL,    /* it does not move: right to the end */
+    HORIZON_ROUNDING, /* what moves of it is rounding alone: as good as still */
+} horizon_verdict;
+
+typedef struct horizon_column {
+    horizon_verdict verdict;
+    double range; /* in the column's unit: the most less the least value, but a thousandth of its size at the least */
+    double off;   /* the most that the two differ by, in the same; what the finer one is itself off added */
+    double until_s; /* the last look at which it was right; the run's end where it is right to the end */
+} horizon_column;
+
+typedef struct horizon {
+    const twins *of;
+    double tolerance;
+    horizon_column *column; /* [of->columns]; 0, the time, is not used */
+    bool to_the_end;        /* all of them */
+    int first;              /* the column that ends first; -1: none does */
+    double until_s;         /* when; or the end */
+} horizon;
+
+horizon horizon_of(const twins *t, double tolerance);
+void horizon_free(horizon *h);
+
+#endif

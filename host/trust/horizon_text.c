@@ -1,0 +1,152 @@
+/* horizon_text.c: see horizon_text.h. */
+#include "horizon_text.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <string.h>
+
+/* Names of columns in tables; longer ones shift what follows. */
+enum { NAME_WIDTH = 16, NAME_SIZE = 160 };
+
+static const image *image_of(const horizon *h) { return h->of->shape->image; }
+
+static const char *name_of(const horizon *h, int k, char text[NAME_SIZE]) {
+    const record_column *c = &h->of->shape->column[k];
+    snprintf(text, NAME_SIZE, "%.120s%.*s", c->name, c->primes, "''''''''''''''''");
+    return text;
+}
+
+static void print_head(FILE *out, const horizon *h) {
+    const image *im = image_of(h);
+    const image *finer = &h->of->finer;
+    fprintf(out, "%s%s%s\n", im->name, im->title[0] != '\0' ? ": " : "", im->title);
+    fprintf(out, "  %s%s, %s, step %.9g s, %" PRIu64 " steps to t = %.15g s\n", image_stepper(im),
+            im->settings.compensated ? " compensated" : "", h->of->shape->kind->name, im->step_s,
+            im->steps, ratio_times(im->steps, im->step));
+    fprintf(out, "  beside %s compensated, double, step %.9g s\n", image_stepper(finer),
+            finer->step_s);
+}
+
+static void print_column(FILE *out, const horizon *h, int k) {
+    const horizon_column *c = &h->column[k];
+    const char *shown = h->of->shape->column[k].unit->shown;
+    const char *unit = strcmp(shown, "1") == 0 ? "" : shown;
+    char name[NAME_SIZE];
+    fprintf(out, "  %-*s ", NAME_WIDTH, name_of(h, k, name));
+    switch (c->verdict) {
+    case HORIZON_TO_THE_END:
+        fprintf(out, "to the end      off by %.2e of its range, %.4g %s\n",
+                c->off / c->range, c->range, unit);
+        break;
+    case HORIZON_UNTIL:
+        fprintf(out, "%-15.9g of its range, %.4g %s, %.2e is %.2g %s\n", c->until_s, c->range, unit,
+                h->tolerance, h->tolerance * c->range, unit);
+        break;
+    case HORIZON_STILL: fputs("to the end      it does not move\n", out); break;
+    case HORIZON_ROUNDING:
+        fprintf(out, "to the end      rounding alone moves it, by %.2e %s\n",
+                c->off > c->range ? c->off : c->range, unit);
+        break;
+    }
+}
+
+/* --- behind the horizon ------------------------------------------------------------------------------*/
+
+static void print_momenta(FILE *out, const horizon *h) {
+    const image *im = image_of(h);
+    const books *b = h->of->books;
+    for (int i = 0; i < im->count; i++) {
+        if (im->unknown[i].conserved) {
+            fprintf(out, "  momentum of %s: drifts by at most %.2e %s\n", im->unknown[i].name,
+                    b->drift[i], im->unknown[i].momentum_si);
+        }
+    }
+}
+
+/* What holds of a run that is not the motion any more: what its books say. */
+static void print_invariants(FILE *out, const horizon *h) {
+    books *b = h->of->books;
+    fputs("behind its end no single value of a coordinate is to be relied on", out);
+    if (b == NULL) {
+        fputs("; a system of equations has no books that tell what still holds\n", out);
+        return;
+    }
+    const belief balance = belief_of(b, h->of->shape->kind, h->of->run);
+    fputs(", but what the books keep, to t = ", out);
+    fprintf(out, "%.9g s:\n", h->of->end_s);
+    if (!balance.known) {
+        fputs("  energy: its balance is not known\n", out);
+    } else if (belief_lost(&balance, BELIEF_LIMIT)) {
+        fprintf(out, "  energy: not kept either, %.2e of the largest entry of its books is left over\n",
+                balance.ratio);
+    } else {
+        fprintf(out, "  energy: %.2e of the largest entry of its books is left over\n",
+                balance.ratio);
+    }
+    print_momenta(out, h);
+}
+
+static void print_verdict(FILE *out, const horizon *h) {
+    const twins *t = h->of;
+    char name[NAME_SIZE];
+    if (h->to_the_end) {
+        fprintf(out, t->status == WH_OK ? "trusted to the end, t = %.9g s\n"
+                                        : "trusted to where the run fails, t = %.9g s\n",
+                t->end_s);
+        return;
+    }
+    fprintf(out, "trusted until t = %.9g s of %.9g s: %s is off first\n", h->until_s, t->end_s,
+            name_of(h, h->first, name));
+    if (t->finer_failed_s >= 0.0) {
+        fprintf(out, "with half the step it leaves all bounds behind t = %.9g s\n",
+                t->finer_failed_s);
+    }
+    if (t->overrun_s >= 0.0) {
+        fprintf(out,
+                "behind t = %.9g s a step had more events than it takes: whether it is right there "
+                "only a smaller --step tells\n",
+                t->overrun_s);
+    }
+    print_invariants(out, h);
+}
+
+void horizon_print(FILE *out, const horizon *h) {
+    print_head(out, h);
+    if (image_of(h)->contacts > 0) {
+        fputs("  about an event, rates may differ for the steps that it lies in: that does not count\n",
+              out);
+    }
+    fprintf(out, "\nright to %.3g of its range until [s]\n", h->tolerance);
+    for (int k = 1; k < h->of->columns; k++) {
+        print_column(out, h, k);
+    }
+    print_verdict(out, h);
+}
+
+void horizon_print_line(FILE *out, const horizon *h) {
+    char name[NAME_SIZE];
+    if (h->to_the_end) {
+        fprintf(out, "trusted            to the end: every coordinate to %.3g of its range\n",
+                h->tolerance);
+    } else {
+        fprintf(out, "trusted            until t = %.6g s: behind that %s is off by %.3g of its range%s\n",
+                h->until_s, name_of(h, h->first, name), h->tolerance,
+                image_of(h)->has_energies ? "; the books above tell what still holds" : "");
+    }
+}
+
+bool horizon_write(FILE *out, const horizon *h) {
+    static const char *const verdicts[] = {[HORIZON_TO_THE_END] = "end",
+                                           [HORIZON_UNTIL] = "until",
+                                           [HORIZON_STILL] = "still",
+                                           [HORIZON_ROUNDING] = "rounding"};
+    char name[NAME_SIZE];
+    fputs("column,unit,verdict,until,range,off\r\n", out);
+    for (int k = 1; k < h->of->columns; k++) {
+        const horizon_column *c = &h->column[k];
+        fprintf(out, "%s,%s,%s,%.15g,%.17g,%.17g\r\n", name_of(h, k, name),
+                h->of->shape->column[k].unit->shown, verdicts[c->verdict], c->until_s, c->range,
+                c->off);
+    }
+    return ferror(out) == 0;
+}

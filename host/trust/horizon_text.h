@@ -1,0 +1,16 @@
+/* horizon_text.h: until when a run can be trusted, in words and as comma-separated values. */
+#ifndef TRUST_HORIZON_TEXT_H
+#define TRUST_HORIZON_TEXT_H
+
+#include <stdio.h>
+
+#include "horizon.h"
+
+/* All of it: of each coordinate and rate, of the run, and what can be relied on behind that. */
+void horizon_print(FILE *out, const horizon *h);
+/* One line, for a summary. */
+void horizon_print_line(FILE *out, const horizon *h);
+/* A header, and a row for each coordinate and rate. False when writing failed. */
+bool horizon_write(FILE *out, const horizon *h);
+
+#endif

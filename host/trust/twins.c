@@ -1,0 +1,295 @@
+/* twins.c: see twins.h. */
+#include "twins.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "host/base/room.h"
+#include "host/number/functions.h"
+
+/* What looking for events takes of evaluations, beside a step's own. */
+#define EVALUATIONS_OF_EVENTS 8.0
+
+/* --- the finer run's image ---------------------------------------------------------------------------*/
+
+static whole_ratio half_of(whole_ratio step) {
+    if (step.numerator % 2U == 0) {
+        return (whole_ratio){step.numerator / 2U, step.denominator};
+    }
+    if (step.denominator < (uint64_t)1 << 59) {
+        return (whole_ratio){step.numerator, 2U * step.denominator};
+    }
+    return ratio_of(0.5 * ratio_times(1, step));
+}
+
+/* The order by which the finer run's error falls, where it shares the run's method; 0 where it does not. */
+static int shared_order(const image *im) {
+    const wh_method_row *row = &wh_methods[im->settings.method];
+    return im->settings.matrix == MATRIX_NONE && row->order >= wh_methods[WH_METHOD_DEFAULT].order
+               ? row->order
+               : 0;
+}
+
+static void make_finer(twins *t, const twins_wish *w) {
+    const image *im = w->image;
+    t->finer = *w->plain;
+    t->finer.fixed = NULL;
+    t->finer.settings.compensated = true;
+    t->each = 1;
+    t->left_out = 1.0;
+    if (im->settings.matrix == MATRIX_EXACT) {
+        t->finer.list[IMAGE_MATRIX] = im->list[IMAGE_MATRIX];
+        return;
+    }
+    const int order = shared_order(im);
+    t->finer.settings.method = order > 0 ? im->settings.method : WH_METHOD_DEFAULT;
+    t->finer.settings.matrix = MATRIX_NONE;
+    t->finer.list[IMAGE_MATRIX] = NULL;
+    t->finer.step = half_of(im->step);
+    t->finer.step_s = ratio_times(1, t->finer.step);
+    t->finer.steps = 2U * im->steps;
+    t->each = 2;
+    if (order > 0) {
+        t->left_out = 1.0 / (1.0 - number_scaled(1.0, -order));
+    }
+}
+
+double twins_operations(const image *im, const image *plain) {
+    const double stages = wh_methods[im->settings.method].stages;
+    const double finer = number_most(stages, wh_methods[WH_METHOD_DEFAULT].stages);
+    const double events = im->contacts > 0 ? EVALUATIONS_OF_EVENTS : 0.0;
+    const double sides = (stages + events) * im->list[IMAGE_STEP]->count +
+                         2.0 * (finer + events) * plain->list[IMAGE_STEP]->count;
+    return (double)im->steps * sides;
+}
+
+/* --- what rounding alone can move --------------------------------------------------------------------*/
+
+typedef struct rounded {
+    const image *image;
+    evaluator *evaluator;
+    double *input;
+    double *result;
+    double *off;
+    double *most; /* [results] */
+} rounded;
+
+static rounded rounded_open(const image *im) {
+    const tape *list = im->list[IMAGE_STEP];
+    rounded r = {im,
+                 evaluator_new(list),
+                 room(im->inputs, sizeof(double)),
+                 room(list->results, sizeof(double)),
+                 room(list->results, sizeof(double)),
+                 room(list->results, sizeof(double))};
+    image_inputs(im, r.input);
+    return r;
+}
+
+static void rounded_look(rounded *r, const void *run) {
+    const image *im = r->image;
+    const int linear = im->form == WH_SECOND_ORDER ? im->coordinates - im->angles : im->reals;
+    double angle_rad[IMAGE_COMPONENTS_MAX];
+    double real[2 * IMAGE_COMPONENTS_MAX];
+    engine_double.state(run, angle_rad, real);
+    evaluator_run(r->evaluator, 0.0, angle_rad, real, real + linear, r->input, r->result);
+    evaluator_rounding(r->evaluator, angle_rad, 0.0, r->off);
+    for (int i = 0; i < im->list[IMAGE_STEP]->results; i++) {
+        r->most[i] = isfinite(r->off[i]) ? number_most(r->most[i], r->off[i]) : r->most[i];
+    }
+}
+
+static void rounded_close(rounded *r) {
+    evaluator_free(r->evaluator);
+    free(r->input);
+    free(r->result);
+    free(r->off);
+    free(r->most);
+}
+
+/* The result of the list that is this derivative, or -1. */
+static int result_of(const image *im, int unknown, int primes) {
+    if (im->form == WH_SECOND_ORDER) {
+        return primes == 2 ? im->place[unknown] : -1;
+    }
+    for (int i = 0; i < im->angles + im->reals; i++) {
+        const component c = image_component(im, i);
+        if (c.unknown == unknown && c.primes == primes - 1) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+/* Each derivative's rounding, the highest first, moves the next lower one for all of the time: in the columns' units. */
+static void take_rounding(twins *t, const rounded *r) {
+    const double unit = 0.5 * 0x1p-52;
+    for (int k = t->columns - 1; k > 0; k--) {
+        const record_column *c = &t->shape->column[k];
+        twins_column *to = &t->column[k];
+        double slope = 0.0;
+        for (int i = k + 1; i < t->columns; i++) {
+            const record_column *above = &t->shape->column[i];
+            if (above->unknown == c->unknown && above->primes == c->primes + 1) {
+                slope = t->column[i].rounding * above->unit->divisor / above->unit->scale;
+            }
+        }
+        const int result = result_of(r->image, c->unknown, c->primes + 1);
+        if (result >= 0) {
+            slope += unit * r->most[result];
+        }
+        const double size = number_most(fabs(to->low), fabs(to->high));
+        to->rounding = image_shown(c->unit, slope * t->end_s) + unit * size;
+    }
+}
+
+/* --- side by side ------------------------------------------------------------------------------------*/
+
+typedef struct pair {
+    twins *to;
+    const twins_wish *wish;
+    records *ours;
+    records *finers;
+    void *finer;
+    rounded rounded;
+    uint64_t stride; /* steps between looks */
+    double look_s;   /* the last look, */
+    double before_s; /* and the one before it */
+    uint64_t looks;
+} pair;
+
+/* Where there are contacts, what differs at one look alone does not count: one of the two has had an event already that
+ * the other has within the step. */
+static void look(pair *p, double time_s) {
+    twins *t = p->to;
+    const bool events = p->wish->image->contacts > 0;
+    records_read(p->ours, t->run, time_s);
+    records_read(p->finers, p->finer, time_s);
+    for (int k = 1; k < t->columns; k++) {
+        twins_column *c = &t->column[k];
+        const double value = p->finers->row[k];
+        const double off = fabs(p->ours->row[k] - value);
+        const double now = isfinite(off) ? off : (double)INFINITY;
+        c->low = p->looks == 0 || value < c->low ? value : c->low;
+        c->high = p->looks == 0 || value > c->high ? value : c->high;
+        if (events) {
+            passages_enter(&c->off, p->before_s, number_least(now, c->last));
+        } else {
+            passages_enter(&c->off, p->look_s, now);
+        }
+        c->last = now;
+    }
+    if (p->looks % 64U == 0) {
+        rounded_look(&p->rounded, p->finer);
+    }
+    p->looks++;
+    p->before_s = p->look_s;
+    p->look_s = time_s;
+}
+
+static bool step_finer(pair *p) {
+    wh_status status = WH_OK;
+    for (uint64_t i = 0; i < p->to->each && status == WH_OK; i++) {
+        status = engine_double.step(p->finer);
+    }
+    return status == WH_OK;
+}
+
+static bool is_stopped(const twins_wish *w) { return w->stop != NULL && *w->stop; }
+
+/* Behind this time nothing is known. */
+static void end_passages(twins *t, double time_s) {
+    for (int k = 1; k < t->columns; k++) {
+        passages_enter(&t->column[k].off, time_s, (double)INFINITY);
+    }
+}
+
+/* A step with more events than it takes lets stops rest that do not: with half the step as well, so that the two agree. */
+static bool has_overrun(const pair *p) {
+    uint64_t ours = 0;
+    uint64_t finers = 0;
+    if (p->wish->image->contacts > 0) {
+        p->wish->kind->events(p->to->run, &ours);
+        engine_double.events(p->finer, &finers);
+    }
+    return ours > 0 || finers > 0;
+}
+
+static void run_both(pair *p) {
+    twins *t = p->to;
+    const image *im = p->wish->image;
+    uint64_t step = 0;
+    look(p, 0.0);
+    while (step < im->steps && !t->stopped) {
+        t->status = p->wish->kind->step(t->run);
+        if (t->status != WH_OK) {
+            break;
+        }
+        if (t->finer_failed_s < 0.0 && !step_finer(p)) {
+            t->finer_failed_s = ratio_times(step, im->step);
+            end_passages(t, p->look_s);
+        }
+        if (t->overrun_s < 0.0 && has_overrun(p)) {
+            t->overrun_s = ratio_times(step, im->step);
+            end_passages(t, p->look_s);
+        }
+        step++;
+        if (t->books != NULL) {
+            books_enter(t->books, p->wish->kind, t->run);
+        }
+        if (t->finer_failed_s < 0.0 && (step % p->stride == 0 || step == im->steps)) {
+            look(p, ratio_times(step, im->step));
+        }
+        if ((step & 255U) == 0) {
+            t->stopped = is_stopped(p->wish);
+            if (p->wish->progress != NULL) {
+                p->wish->progress((double)step / (double)im->steps, p->wish->told);
+            }
+        }
+    }
+    t->end_s = ratio_times(step, im->step);
+}
+
+
+twins *twins_run(const twins_wish *w) {
+    twins *t = room(1, sizeof *t);
+    make_finer(t, w);
+    t->shape = records_open(NULL, w->image, w->kind);
+    t->columns = t->shape->columns - w->image->own_outputs;
+    t->column = room(t->columns, sizeof *t->column);
+    t->finer_failed_s = -1.0;
+    t->overrun_s = -1.0;
+    t->run = w->kind->start(w->image);
+    t->books = w->books ? books_open(w->image) : NULL;
+    if (t->books != NULL) {
+        books_enter(t->books, w->kind, t->run);
+    }
+    pair p = {.to = t,
+              .wish = w,
+              .ours = t->shape,
+              .finers = records_open(NULL, &t->finer, &engine_double),
+              .finer = engine_double.start(&t->finer),
+              .rounded = rounded_open(&t->finer),
+              .stride = 1U + (w->image->steps - (w->image->steps > 0)) / TWINS_LOOKS};
+    run_both(&p);
+    take_rounding(t, &p.rounded);
+    rounded_close(&p.rounded);
+    records_close(p.finers);
+    engine_double.stop(p.finer);
+    return t;
+}
+
+void twins_free(twins *t) {
+    if (t == NULL) {
+        return;
+    }
+    t->shape->kind->stop(t->run);
+    books_close(t->books);
+    for (int k = 0; k < t->columns; k++) {
+        passages_free(&t->column[k].off);
+    }
+    records_close(t->shape);
+    free(t->column);
+    free(t);
+}

@@ -1,0 +1,61 @@
+/* twins.h: a run beside a finer one of the same scene, and by how much the two differ, when.
+ *
+ * The finer run takes half the step, in double with compensated sums, computes what the run looks up in tables, and
+ * takes the run's method where that is of order 4 or more, else RK4. So it differs from the run in all that puts the run
+ * off: rounding, the step, tables, formats. Its own error is a part of that. Of a step that is the motion itself
+ * (--matrix exact) it takes the same, and tells what rounding does. */
+#ifndef TRUST_TWINS_H
+#define TRUST_TWINS_H
+
+#include <signal.h>
+
+#include "host/run/belief.h"
+#include "host/run/records.h"
+#include "passage.h"
+
+/* The two are compared at so many evenly spaced ends of steps, at most. */
+enum { TWINS_LOOKS = 20000 };
+
+typedef struct twins_wish {
+    const image *image;
+    const engine_kind *kind;
+    const image *plain; /* the scene without tables: the image itself where it has none */
+    bool books;         /* keep the run's books, and tell what they leave over */
+    const volatile sig_atomic_t *stop;          /* may be NULL */
+    void (*progress)(double share, void *told); /* now and then; or NULL */
+    void *told;
+} twins_wish;
+
+/* A coordinate or rate. */
+typedef struct twins_column {
+    double low; /* in the finer run, in the column's unit */
+    double high;
+    double rounding; /* what may move of it by rounding alone, in the finer run */
+    double last;     /* difference at the last look */
+    passages off;
+} twins_column;
+
+typedef struct twins {
+    image finer;     /* the other's image; shares its lists */
+    uint64_t each;   /* its steps in one of the run's */
+    double left_out; /* of the run's error, as a part of what the two differ by: the finer one's own */
+    records *shape;  /* names and units of the columns: 0 is the time, outputs come last */
+    int columns;     /* the time and those that follow: coordinates and rates, no outputs */
+    twins_column *column; /* [columns] */
+    double end_s;         /* of the run: its last step that was done */
+    wh_status status;     /* the run's: its last step */
+    void *run;            /* where it ended */
+    double finer_failed_s; /* the other left all bounds behind this time; below 0: it did not */
+    double overrun_s; /* behind this time one of them had more events in a step than it takes; below 0: neither */
+    bool stopped;
+    books *books; /* NULL: none */
+} twins;
+
+/* The two, from the start to the end of the run, or to where one of them fails. The images must outlive them. */
+twins *twins_run(const twins_wish *w);
+void twins_free(twins *t); /* NULL is fine */
+
+/* Operations that this evaluates, about. */
+double twins_operations(const image *im, const image *plain);
+
+#endif

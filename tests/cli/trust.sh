@@ -1,0 +1,155 @@
+#!/bin/sh
+# trust.sh: `whirl trust`, the line of `whirl run` and the shade of its plot: that they say the same, move no bit of a run and
+# stay out of what programs read; and what is refused. Whether it is true is asked by build/tests/host trust trust_drawn
+# trust_scenes.
+. "$(dirname "$0")/../checks.sh"
+
+# end_of FILE: the least end of the rows that --csv wrote, or "end"
+end_of() { awk -F, '$3 == "until" && (least == "" || $4 + 0 < least + 0) { least = $4 } END { print least == "" ? "end" : least }' "$1"; }
+# refused STATUS PATTERN WORD...: that status, these words on standard error, nothing on standard output
+refused() {
+    status=$1
+    pattern=$2
+    shift 2
+    "$whirl" trust "$@" >"$scratch/out" 2>"$scratch/err"
+    [ $? -eq "$status" ] && grep -q -- "$pattern" "$scratch/err" && [ ! -s "$scratch/out" ]
+    verdict $? "whirl trust $*: status $status, $pattern"
+}
+
+# --- one answer, three places ------------------------------------------------------------------------------------------
+while read -r scene options; do
+    # shellcheck disable=SC2086 # words
+    "$whirl" trust "$scene" $options --csv "$scratch/rows" >"$scratch/words" 2>"$scratch/err"
+    status=$?
+    end=$(end_of "$scratch/rows")
+    if [ "$end" = end ]; then
+        [ $status -eq 0 ] && grep -q '^trusted to the end, t = ' "$scratch/words"
+    else
+        [ $status -eq 0 ] && grep -q "^trusted until t = $end s of " "$scratch/words"
+    fi
+    verdict $? "$scene $options: $end, in words and in rows" "$scratch/words"
+    # shellcheck disable=SC2086
+    "$whirl" run "$scene" $options --plot "$scratch/plot.svg" >"$scratch/summary" 2>"$scratch/err"
+    if [ "$end" = end ]; then
+        grep -q '^trusted  *to the end: every coordinate to 0.001 of its range$' "$scratch/summary" &&
+            ! grep -q shaded "$scratch/plot.svg"
+    else
+        short=$(awk -v x="$end" 'BEGIN { printf "%.6g", x }')
+        grep -q "^trusted  *until t = $short s: behind that" "$scratch/summary" &&
+            grep -q "shaded, behind $short s: no single value is to be trusted" "$scratch/plot.svg"
+    fi
+    verdict $? "$scene $options: and so say whirl run and its plot" "$scratch/summary"
+done <<'END'
+thomson_a --number float --step 1ms
+thomson_a --number float --step 1ms --compensated
+thomson_a
+epicyclic_from_rest
+epicyclic_from_rest --number fixed
+epicyclic_from_rest --method semi-implicit-euler
+epicyclic_conserved --number float --tables linear
+rig_coupled --number float --with ledger
+carriage_stop --number float
+tests/mechanisms/lorenz.whirl --start x=1 --step 2ms --until 30s
+tests/mechanisms/van_der_pol.whirl --step 10ms --until 20s
+END
+
+# --- nothing else is moved ---------------------------------------------------------------------------------------------
+"$whirl" run thomson_a --step 1ms --csv - --every 50ms >"$scratch/loud" 2>"$scratch/said"
+"$whirl" run thomson_a --step 1ms --csv - --every 50ms --quiet >"$scratch/still" 2>"$scratch/err"
+cmp "$scratch/loud" "$scratch/still" >"$scratch/diff" 2>&1 && grep -q '^trusted ' "$scratch/said" && [ ! -s "$scratch/err" ]
+verdict $? "records on standard output are clean; the line goes with the summary; --quiet says nothing" "$scratch/diff"
+hash=$("$whirl" run thomson_a --number float --step 1ms --until 9s | sed -n 's/^state hash *//p')
+whole=$("$whirl" run thomson_a --number float --step 1ms --until 9s --plot "$scratch/p.svg" | sed -n 's/^state hash *//p')
+[ -n "$hash" ] && [ "$hash" = "$whole" ]
+verdict $? "the state hash is the same with a plot" /dev/null
+[ "$("$whirl" run thomson_a | grep -c '^trusted ')" -eq 1 ] && ! "$whirl" run thomson_a --until 0 | grep -q '^trusted '
+verdict $? "one line; none where nothing runs" /dev/null
+! "$whirl" run thomson_a --step 0.002ms --until 1s | grep -q '^trusted '
+verdict $? "none where it would take seconds" /dev/null
+
+# --- tolerances: a larger one ends no earlier ----------------------------------------------------------------------------
+last=0
+for tolerance in 1e-9 1e-7 1e-5 1e-4 1e-3 1e-2 0.1; do
+    "$whirl" trust thomson_a --number float --step 1ms --tolerance $tolerance --csv "$scratch/rows" --quiet 2>"$scratch/err"
+    end=$(end_of "$scratch/rows")
+    awk -v a="$last" -v b="$end" 'BEGIN { exit !(b == "end" || b + 0 >= a + 0) }'
+    verdict $? "to $tolerance: until $end s, not before $last s"
+    last=$end
+done
+awk -v x="$last" 'BEGIN { exit !(x > 8 && x < 10) }'
+verdict $? "to a tenth until $last s"
+
+# --- runs that are none ----------------------------------------------------------------------------------------------------
+cat >"$scratch/pole.whirl" <<'END'
+mechanism pole "x'' = 2 x^3 is infinite at 1 s"
+coordinate x [m]
+T = 1 [kg]*x'^2/2
+V = -0.5 [N/m^3]*x^4
+scene blows { start x = 1 [m], x' = 1 [m/s]; step 1 [ms]; until 2 [s] }
+END
+"$whirl" trust "$scratch/pole.whirl" >"$scratch/out" 2>"$scratch/err"
+[ $? -eq 1 ] && grep -q 'error: the run diverged in the step after t = 1' "$scratch/err" && grep -q '^trusted until t = 0.9' "$scratch/out"
+verdict $? "a run that diverges: status 1, and until when it was right" "$scratch/out"
+"$whirl" run "$scratch/pole.whirl" >"$scratch/out" 2>"$scratch/err"
+[ $? -eq 1 ] && ! grep -q '^trusted' "$scratch/out"
+verdict $? "whirl run says nothing of trust where it fails" "$scratch/out"
+"$whirl" trust thomson_a --until 0 >"$scratch/out" 2>"$scratch/err" && grep -q '^trusted to the end, t = 0 s' "$scratch/out"
+verdict $? "a run of no step" "$scratch/out"
+"$whirl" trust ball_between >"$scratch/out" 2>"$scratch/err" && grep -q '^behind t = 0 s a step had more events than it takes' "$scratch/out"
+verdict $? "steps with more events than they take: nothing is known" "$scratch/out"
+for signal in INT TERM; do
+    "$whirl" trust thomson_a --step 0.001ms --until 1000s --effort 1000 --csv "$scratch/i.csv" >"$scratch/out" 2>"$scratch/err" &
+    process=$!
+    sleep 1
+    kill -$signal $process
+    wait $process
+    [ $? -eq 130 ] && grep -q '^whirl trust: interrupted at t = ' "$scratch/err" && [ ! -e "$scratch/i.csv" ]
+    verdict $? "$signal: exit status 130, and no rows"
+done
+
+# --- what is refused -------------------------------------------------------------------------------------------------------
+for bad in 0 -1 2 1e-16 nan x 1e-3m ''; do
+    refused 2 "error: --tolerance takes a number from 1e-15 to 1" thomson_a --tolerance "$bad"
+    refused 2 "error: --effort takes a number from 0.0001 to 10000" thomson_a --effort "${bad%2}x"
+done
+refused 2 "error: this would take about .* minutes" thomson_a --until 1e5s
+refused 2 "or --effort [0-9]*$" thomson_a --until 1e5s
+refused 2 "^hint: a nearer --until" thomson_a --until 1e5s
+refused 2 "is less than one step" thomson_a --until 0.0001s
+refused 2 "there is no file and no built-in scene" nothing
+refused 2 "one scene at a time" thomson_a thomson_b
+refused 2 "unknown option '--plot'" thomson_a --plot x.svg
+refused 2 "is not defined here" thomson_a --method leapfrog
+refused 2 "there are no events in fixed point" carriage_stop --number fixed
+refused 2 "cannot be written" epicyclic_from_rest --csv "$scratch"
+cp "$scratch/pole.whirl" "$scratch/mine.whirl"
+refused 2 "would write over the model" "$scratch/mine.whirl" --csv "$scratch/mine.whirl"
+
+# --- what docs/stability.md prints -----------------------------------------------------------------------------------------
+mkdir "$scratch/board" "$scratch/board/build"
+ln -s "$PWD/core" "$scratch/board/core"
+ln -s "$(realpath "$whirl")" "$scratch/board/build/whirl"
+awk -v into="$scratch/board" '
+    /^```c$/ { file = into "/main.c"; next }
+    /^```sh/ { file = into "/commands"; next }
+    /^```/ { file = ""; next }
+    /^    / && !/^    [$]/ && main && !printed && file == "" { sub(/^    /, ""); print > (into "/wanted"); printed = 1 }
+    file ~ /main[.]c$/ { main = 1 }
+    file != "" { print > file }' docs/stability.md
+(cd "$scratch/board" && sh -e commands) >"$scratch/board/said" 2>"$scratch/err" && cmp "$scratch/board/said" "$scratch/board/wanted" 2>"$scratch/err"
+verdict $? "docs/stability.md: the twin of a board builds, and says what stands there: $(cat "$scratch/board/said")"
+shown=0
+grep '^    [$] build/whirl trust' docs/stability.md >"$scratch/calls"
+while read -r call; do
+    shown=$((shown + 1))
+    awk -v call="    $call" '$0 == call { on = 1; next }
+        on && /^    [$]/ { exit }
+        on && /^[^ ]/ { exit }
+        on { sub(/^    /, ""); print }' docs/stability.md | sed '${/^$/d;}' >"$scratch/wanted"
+    (cd "$scratch/board" && sh -c "${call#?}") >"$scratch/said" 2>"$scratch/err"
+    diff "$scratch/wanted" "$scratch/said" >"$scratch/err"
+    verdict $? "docs/stability.md: ${call#? }"
+done <"$scratch/calls"
+[ "$shown" -eq 2 ]
+verdict $? "$shown calls are shown there" /dev/null
+exit $failed

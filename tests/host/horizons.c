@@ -1,0 +1,239 @@
+/* horizons.c: see horizons.h. */
+#include "horizons.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "host/lang/builtin.h"
+#include "host/price/extrapolation.h"
+#include "host/price/reference_rows.h"
+#include "unity.h"
+
+/* Looks of the reference, at most, and the least steps between two. */
+enum { LOOKS = 10000 };
+
+/* --- a reference --------------------------------------------------------------------------------------*/
+
+typedef struct reference_of {
+    extrapolation *smooth; /* or, with contacts: */
+    image fine;
+    void *run;
+    uint64_t each; /* its steps in one of the run's */
+    long_rows *rows;
+    records *records;
+    long double *row;
+    bool failed;
+} reference_of;
+
+static void reference_open(reference_of *r, const image *im, const records *shape, bool finer) {
+    *r = (reference_of){.row = calloc((size_t)shape->columns, sizeof(long double))};
+    TEST_ASSERT_NOT_NULL(r->row);
+    if (im->contacts == 0) {
+        const extrapolation_setting how = {finer ? 6 : 5,
+                                           (finer ? 16.0 : 64.0) * (double)LDBL_EPSILON};
+        r->smooth = extrapolation_new(im, how, 1e13);
+        r->rows = long_rows_new(shape);
+        return;
+    }
+    r->each = finer ? 32 : 16;
+    r->fine = *im;
+    r->fine.settings.compensated = true;
+    r->fine.settings.method = WH_RK4;
+    r->fine.step.denominator *= r->each;
+    r->fine.step_s = ratio_times(1, r->fine.step);
+    r->run = engine_double.start(&r->fine);
+    r->records = records_open(NULL, &r->fine, &engine_double);
+}
+
+static void reference_close(reference_of *r) {
+    free(r->row);
+    extrapolation_free(r->smooth);
+    if (r->rows != NULL) {
+        long_rows_free(r->rows);
+    }
+    if (r->run != NULL) {
+        engine_double.stop(r->run);
+        records_close(r->records);
+    }
+}
+
+/* On by so many of the run's steps, to time_s. */
+static void reference_go(reference_of *r, const image *im, uint64_t steps, double time_s) {
+    if (r->smooth != NULL) {
+        const long double span_s = (long double)steps * (long double)im->step.numerator /
+                                   (long double)im->step.denominator;
+        r->failed = r->failed || (steps > 0 && extrapolation_go(r->smooth, span_s) != EXTRAPOLATION_OK);
+        long_rows_read(r->rows, extrapolation_state(r->smooth), (long double)time_s, r->row);
+        return;
+    }
+    for (uint64_t i = 0; i < steps * r->each && !r->failed; i++) {
+        r->failed = engine_double.step(r->run) != WH_OK;
+    }
+    records_read(r->records, r->run, time_s);
+    for (int k = 0; k < r->records->columns; k++) {
+        r->row[k] = (long double)r->records->row[k];
+    }
+}
+
+/* --- the run beside it ---------------------------------------------------------------------------------*/
+
+typedef struct beside {
+    horizons *h;
+    reference_of fine, other;
+    records *now;
+    double *last;  /* [columns] the difference at the look before */
+    double before_s, look_s;
+    int open; /* columns whose end is not known yet */
+} beside;
+
+static void enter(beside *b) {
+    horizons *h = b->h;
+    for (int k = 1; k < h->twins->columns; k++) {
+        const double level = h->estimate.tolerance * h->estimate.column[k].range;
+        const double off = (double)fabsl((long double)b->now->row[k] - b->fine.row[k]);
+        const bool events = h->image->contacts > 0;
+        const double now = isfinite(off) && !b->fine.failed ? off : (double)INFINITY;
+        const double counts = events ? fmin(now, b->last[k]) : now;
+        b->last[k] = now;
+        if (h->estimate.column[k].verdict == HORIZON_ROUNDING ||
+            h->estimate.column[k].verdict == HORIZON_STILL || isfinite(h->true_s[k]) ||
+            counts <= level) {
+            continue;
+        }
+        h->true_s[k] = events ? b->before_s : b->look_s;
+        b->open--;
+        const double differ = (double)fabsl(b->other.row[k] - b->fine.row[k]) / level;
+        if (!events) { /* at events the two differ for a step */
+            h->known = fmax(h->known, isfinite(differ) ? differ : (double)INFINITY);
+        }
+    }
+}
+
+static void run_beside(horizons *h, uint64_t stride) {
+    const image *im = h->image;
+    const engine_kind *kind = h->twins->shape->kind;
+    beside b = {.h = h,
+                .now = records_open(NULL, im, kind),
+                .last = calloc((size_t)h->twins->columns, sizeof(double)),
+                .open = h->twins->columns - 1};
+    void *run = kind->start(im);
+    reference_open(&b.fine, h->plain, b.now, true);
+    reference_open(&b.other, h->plain, b.now, false);
+    uint64_t step = 0;
+    while (step < im->steps && b.open > 0) {
+        const uint64_t more = step + stride < im->steps ? stride : im->steps - step;
+        wh_status status = WH_OK;
+        for (uint64_t i = 0; i < more && status == WH_OK; i++) {
+            status = kind->step(run);
+        }
+        step += more;
+        const double time_s = ratio_times(step, im->step);
+        reference_go(&b.fine, im, more, time_s);
+        reference_go(&b.other, im, more, time_s);
+        records_read(b.now, run, time_s);
+        enter(&b);
+        b.before_s = b.look_s;
+        b.look_s = time_s;
+        if (status != WH_OK) {
+            break;
+        }
+    }
+    kind->stop(run);
+    reference_close(&b.fine);
+    reference_close(&b.other);
+    records_close(b.now);
+    free(b.last);
+}
+
+/* --- both ------------------------------------------------------------------------------------------------*/
+
+static image *image_with(const derived *d, horizons_setting how, bool tables) {
+    diags *errors = diags_new();
+    const image_settings settings = {.method = how.method,
+                                     .compensated = how.compensated,
+                                     .tables = tables ? how.tables : TABLES_NONE};
+    image *im = image_make(d->equations, d->equations->instance->conserve, &settings,
+                           IMAGE_TO_RUN, errors);
+    diags_flush(errors, stdout);
+    diags_free(errors);
+    TEST_ASSERT_NOT_NULL(im);
+    return im;
+}
+
+horizons horizons_of(const char *text, const char *name, horizons_setting how, double tolerance) {
+    horizons h = {.made = derived_scene(text, name)};
+    derived_expect(&h.made, text);
+    h.image = image_with(&h.made, how, true);
+    h.plain = image_with(&h.made, how, false);
+    const twins_wish wish = {.image = h.image, .kind = how.kind, .plain = h.plain};
+    h.twins = twins_run(&wish);
+    h.estimate = horizon_of(h.twins, tolerance);
+    h.true_s = calloc((size_t)h.twins->columns, sizeof *h.true_s);
+    TEST_ASSERT_NOT_NULL(h.true_s);
+    for (int k = 1; k < h.twins->columns; k++) {
+        h.true_s[k] = (double)INFINITY;
+    }
+    const uint64_t stride = 1 + h.image->steps / LOOKS;
+    h.look_s = ratio_times(stride, h.image->step);
+    run_beside(&h, stride);
+    h.true_until_s = h.twins->end_s;
+    for (int k = 1; k < h.twins->columns; k++) {
+        h.true_until_s = fmin(h.true_until_s, h.true_s[k]);
+    }
+    return h;
+}
+
+void horizons_free(horizons *h) {
+    horizon_free(&h->estimate);
+    twins_free(h->twins);
+    image_free(h->plain);
+    image_free(h->image);
+    free(h->true_s);
+    derived_free(&h->made);
+}
+
+double horizons_ratio(const horizons *h) {
+    return h->true_until_s > 0.0 ? h->estimate.until_s / h->true_until_s
+                                 : (h->estimate.until_s > 0.0 ? (double)INFINITY : 1.0);
+}
+
+double horizons_column_ratio(const horizons *h, int column) {
+    const double real = fmin(h->true_s[column], h->twins->end_s);
+    const double guess = h->estimate.column[column].until_s;
+    return real > 0.0 ? guess / real : (guess > 0.0 ? (double)INFINITY : 1.0);
+}
+
+/* --- texts -----------------------------------------------------------------------------------------------*/
+
+static char *joined(const char *text, size_t length, const char *more) {
+    char *all = malloc(length + strlen(more) + 1);
+    TEST_ASSERT_NOT_NULL(all);
+    memcpy(all, text, length);
+    memcpy(all + length, more, strlen(more) + 1);
+    return all;
+}
+
+char *horizons_builtin(const char *file, const char *more) {
+    for (size_t i = 0; i < builtin_model_count; i++) {
+        const struct builtin_model *b = &builtin_models[i];
+        const char *slash = strrchr(b->file, '/');
+        if (strcmp(slash != NULL ? slash + 1 : b->file, file) == 0) {
+            return joined(b->text, b->length, more);
+        }
+    }
+    TEST_FAIL_MESSAGE(file);
+    return NULL;
+}
+
+char *horizons_file(const char *path, const char *more) {
+    char text[16384];
+    FILE *in = fopen(path, "rb");
+    TEST_ASSERT_NOT_NULL_MESSAGE(in, path);
+    const size_t length = fread(text, 1, sizeof text, in);
+    fclose(in);
+    TEST_ASSERT_TRUE_MESSAGE(length < sizeof text, path);
+    return joined(text, length, more);
+}
