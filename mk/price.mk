@@ -187,7 +187,7 @@ price-measure-host: build/whirl
 	    BOARD_CFLAGS="$(FLAGS_float)" BOARD_LDFLAGS="" BOARD_LDLIBS="" BOARD_OBJECTS=$(B)/float/boards/host/board.o \
 	    LIB_BOARD=$(LIB_FLOAT) PLUGIN= FLAGS="$(OPT)" EMULATE="@" mk/price/measure.sh $(PRICE_CASES) $(PRICE_CSV)
 
-PRICE_FIT_C := mk/price/fit.c mk/price/fit_check.c mk/price/counted.c
+PRICE_FIT_C := $(patsubst %,mk/price/%.c,fit fitted judged fit_check counted)
 $(B)/tools/price_fit_fixed: $(call objects,host,mk/price/fit_fixed.c) $(LIB_HOST) $(LIB_FLOAT) $(LIB_DOUBLE)
 	$(link)
 
