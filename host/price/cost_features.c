@@ -78,6 +78,20 @@ static void add_operands(const op *o, const operand_share *given, cost_list *l) 
     }
 }
 
+/* A pair of turn angles: does it stay where it is, and at zero? */
+static void add_pair(const tape *t, const op *o, const operands *given, cost_list *l) {
+    double still = 1.0;
+    double zero = o->value == 0.0 ? 1.0 : 0.0;
+    for (int k = 0; k < t->angles && o->turns != NULL; k++) {
+        if (o->turns[k] != 0) {
+            still = given->still[k] < still ? given->still[k] : still;
+            zero = given->at_zero[k] < zero ? given->at_zero[k] : zero;
+        }
+    }
+    l->still_pairs += still;
+    l->zero_pairs += zero;
+}
+
 static void add_list(const tape *t, cost_list *l) {
     for (int i = 0; t != NULL && i < t->count; i++) {
         add_operation(t, &t->ops[i], l);
@@ -130,6 +144,8 @@ static void add_reach(const wh_tableau *by, cost_counts *c) {
 /* What the method's row makes of a step. */
 static void add_method(const image *im, cost_counts *c) {
     const wh_tableau *by = wh_tableau_of(im->settings.method);
+    bool moves = false;
+    bool rests = false;
     c->stages = c->places = (int)by->stages;
     if (c->second && by->places != NULL) {
         add_reach(by, c);
@@ -145,8 +161,11 @@ static void add_method(const image *im, cost_counts *c) {
         c->leans += leans;
         c->ends += by->rates[s] != 0;
         c->ends += by->positions[s] != 0 && by->positions[s] != by->rates[s];
+        moves = moves || by->positions[s] != 0;
+        rests = rests || by->positions[s] != by->rates[s];
         c->turns = by->turns[s] > c->turns ? by->turns[s] : c->turns;
     }
+    c->ends_twice = c->second && moves && !rests;
 }
 
 /* --- what of a list a stage must do anew ----------------------------------------------------------*/
@@ -234,6 +253,9 @@ static void add_step(const image *im, const operands *given, cost_counts *c) {
         if (given->of != NULL) {
             add_operands(&t->ops[i], &given->of[i], to);
         }
+        if (given->of != NULL && t->ops[i].code == OP_PHASE && t->ops[i].b < 0) {
+            add_pair(t, &t->ops[i], given, &c->step);
+        }
         add_reads(t, &t->ops[i], &reads);
     }
     free(takes);
@@ -263,10 +285,11 @@ static void add_matrix(const image *im, const operands *given, cost_counts *c) {
         add_operands(&t->ops[i], &given->of[i], &c->matrix);
     }
     if (c->soft) { /* what it does costs as much as elsewhere */
-        c->moves = (step_work){.sums = c->matrix.sums - c->matrix.zero_sums + im->reals,
-                               .products = c->matrix.products - c->matrix.zero_products,
-                               .zero_sums = c->matrix.zero_sums,
-                               .zero_products = c->matrix.zero_products};
+        c->moves = step_work_of_matrix(im, given);
+        c->moves.sums += c->matrix.sums - c->matrix.zero_sums;
+        c->moves.products += c->matrix.products - c->matrix.zero_products;
+        c->moves.zero_sums += c->matrix.zero_sums;
+        c->moves.zero_products += c->matrix.zero_products;
     }
     c->stages = c->places = c->copies = 1;
 }
@@ -310,11 +333,13 @@ static cost_counts count(const image *im, const cost_board *board, cost_number n
     const bool is_avr = board->cycles == COST_SIMULATED;
     add_step(im, given, &c);
     if (c.soft) {
-        c.moves = step_work_of(im, c.turned, is_avr, given);
     }
     const bool unrolls_less = im->settings.compensated || c.step.operations >= LONG_LEAST;
     c.looped = is_avr && (unrolls_less || im->ledger.kept || im->contacts > 0);
     c.tabled = is_avr && unrolls_less && c.stages > 2;
+    if (c.soft) {
+        c.moves = step_work_of(im, c.turned, is_avr, c.tabled, given);
+    }
     c.copies = c.called ? 1 : c.stages;
     c.lookups = c.turned ? c.step.pairs : (c.called ? c.stages : c.places) * c.step.pairs;
     c.evaluations = core_evaluations(im);
