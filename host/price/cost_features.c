@@ -301,6 +301,17 @@ static void add_tables(const image *im, const cost_board *board, cost_counts *c)
     c->table_numbers = (c->folded ? cells / 2.0 + 1.0 : cells) * of->count * of->terms;
 }
 
+/* What is wanted again after a list's evaluation: the state, what stages gave so far and its sums, pairs that are turned
+ * on. What registers do not hold is carried to memory and back. */
+static void add_pressure(int registers, cost_counts *c) {
+    const int each = c->stages == 1 ? 2 : c->second ? 4 : 3;
+    const int kept = each * c->components + (c->turned && c->stages > 1 ? 3 * c->step.pairs : 0);
+    if (registers > 0) {
+        c->pressed = kept > registers / 2 ? kept - registers / 2 : 0;
+        c->spilled = kept > registers ? kept - registers : 0;
+    }
+}
+
 static cost_counts count(const image *im, const cost_board *board, cost_number number,
                          const operands *given) {
     cost_counts c = {.im = im,
@@ -342,6 +353,7 @@ static cost_counts count(const image *im, const cost_board *board, cost_number n
     }
     c.copies = c.called ? 1 : c.stages;
     c.lookups = c.turned ? c.step.pairs : (c.called ? c.stages : c.places) * c.step.pairs;
+    add_pressure(cost_registers(board, number), &c);
     c.evaluations = core_evaluations(im);
     return c;
 }

@@ -113,6 +113,8 @@ typedef struct cost_counts {
     bool soft; /* numbers are computed by software, whose time depends on operands: */
     step_work
         moves; /* then what the step itself does beside its lists, or a step as one matrix in all */
+    double pressed; /* of the values that a stage leaves to later ones, those beyond half of an FPU's registers, */
+    double spilled; /* and beyond all of them */
     int evaluations; /* most in a step */
     double smooth;   /* a step without its contacts, predicted: filled in by cost.c */
 } cost_counts;
@@ -159,6 +161,8 @@ cost_counts cost_counts_of(const image *im, const cost_board *board, cost_number
     X(ANGLES, COST_TIME | COST_CODE, c->angles) \
     X(LINEARS, COST_TIME | COST_CODE, c->linears) \
     X(RATES, COST_TIME | COST_CODE | COST_DEPTH, c->second ? c->components : 0) \
+    X(PRESSED, COST_TIME, c->stages * c->pressed) \
+    X(SPILLED, COST_TIME, c->stages * c->spilled) \
     X(STILL, COST_TIME, c->components - c->moving) \
     X(MOVING, COST_TIME | COST_CODE, c->moving) \
     X(STAGE_RATES, COST_TIME | COST_CODE, (c->stages - 1) * c->staged_rates) \
