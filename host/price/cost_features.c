@@ -10,6 +10,9 @@
 
 /* As host/emit/c_list.c has it: longer lists are functions of their own. */
 enum { INLINED_MOST = 150, LONG_LEAST = 100 };
+/* With books compilers decide: gcc 12 makes functions of lists of more operations than this, and of the ledger's where both
+ * have more. A sine of radians stands in the list, too, and is as long as so many. */
+enum { BOOKING_MOST = 50, BOTH_MOST = 85, RADIANS_LENGTH = 25 };
 
 #define COST_WORD(id, taken, count) #id,
 const char *const cost_feature_words[COST_FEATURES] = {COST_FEATURE_ROWS(COST_WORD)};
@@ -90,6 +93,49 @@ static void add_pair(const tape *t, const op *o, const operands *given, cost_lis
     }
     l->still_pairs += still;
     l->zero_pairs += zero;
+}
+
+/* Do operations of two lists take the same? Of operation i of the one, same[i] of the other is it, or -1. */
+static bool takes_same(const tape *t, const op *o, const op *other,
+                       const int *same) {
+    int operand[2];
+    int others[2];
+    bool is = o->code == other->code && o->function == other->function && o->value == other->value;
+    const int count = is ? tape_operands(o, operand) : 0;
+    if (is && count == 0) { /* leaves and cells; pairs of turn angles by their multiples */
+        is = o->a == other->a && o->b == other->b;
+        for (int k = 0; k < t->angles && is; k++) {
+            is = (o->turns != NULL ? o->turns[k] : 0) ==
+                 (other->turns != NULL ? other->turns[k] : 0);
+        }
+        return is;
+    }
+    is = is && tape_operands(other, others) == count;
+    for (int k = 0; k < count && is; k++) {
+        is = same[operand[k]] == others[k];
+    }
+    return is;
+}
+
+/* Counts of the ledger's list what is not in the step's anyway. `turned`: its sines are not the same, which are turned. */
+static void add_unshared(const tape *t, const tape *step, bool turned, cost_list *l) {
+    int *same = room(t->count, sizeof *same);
+    for (int i = 0; i < t->count; i++) {
+        same[i] = -1;
+        for (int k = 0; k < step->count && same[i] < 0; k++) {
+            const bool is_pair = step->ops[k].code == OP_PHASE && step->ops[k].b < 0;
+            same[i] =
+                !(turned && is_pair) && takes_same(t, &t->ops[i], &step->ops[k], same) ? k
+                                                                                             : -1;
+        }
+        if (same[i] < 0) {
+            add_operation(t, &t->ops[i], l);
+        }
+    }
+    free(same);
+    l->results = t->results;
+    l->carried = tape_carried(t);
+    l->operations = tape_operations(t);
 }
 
 static void add_list(const tape *t, cost_list *l) {
@@ -312,6 +358,28 @@ static void add_pressure(int registers, cost_counts *c) {
     }
 }
 
+static int length_of(const tape *t) {
+    int length = tape_operations(t);
+    for (int i = 0; i < t->count; i++) {
+        length += t->ops[i].code == OP_PHASE && t->ops[i].b >= 0 ? RADIANS_LENGTH : 0;
+    }
+    return length;
+}
+
+/* Where both lists stand in the step, compilers compute once what both want. */
+static void add_books(const image *im, cost_counts *c) {
+    const tape *step = im->list[IMAGE_STEP];
+    const tape *books = im->list[IMAGE_POWERS];
+    const int length = length_of(step);
+    c->books_called = c->called || length + length_of(books) > BOTH_MOST;
+    c->called = c->called || length > BOOKING_MOST;
+    if (c->called || c->books_called) {
+        add_list(books, &c->books);
+    } else {
+        add_unshared(books, step, c->turned, &c->books);
+    }
+}
+
 static cost_counts count(const image *im, const cost_board *board, cost_number number,
                          const operands *given) {
     cost_counts c = {.im = im,
@@ -330,9 +398,6 @@ static cost_counts count(const image *im, const cost_board *board, cost_number n
     c.angles = im->angles;
     add_method(im, &c);
     add_tables(im, board, &c);
-    if (im->ledger.kept) {
-        add_list(im->list[IMAGE_POWERS], &c.books);
-    }
     if (im->contacts > 0) {
         add_list(im->list[IMAGE_SIGNALS], &c.events);
         add_list(im->list[IMAGE_FORCES], &c.events);
@@ -341,6 +406,9 @@ static cost_counts count(const image *im, const cost_board *board, cost_number n
     c.linears = c.second ? im->coordinates - im->angles : im->reals;
     c.called =
         tape_operations(im->list[IMAGE_STEP]) > INLINED_MOST || im->contacts > 0 || !board->fpu;
+    if (im->ledger.kept) {
+        add_books(im, &c);
+    }
     const bool is_avr = board->cycles == COST_SIMULATED;
     add_step(im, given, &c);
     if (c.soft) {

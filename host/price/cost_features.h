@@ -99,7 +99,8 @@ typedef struct cost_counts {
     bool
         looped; /* the step is one that the old compiler of AVR does not unroll (WH_SMALL_STEP, core/unroll.h), */
     bool tabled;          /* and looks its method up in a table */
-    bool called;          /* the list is a function of its own */
+    bool called;          /* the list is a function of its own, */
+    bool books_called;    /* and the ledger's */
     bool folded;          /* half of each table says it all, and is all that is there */
     double table_numbers; /* in flash */
     int copies;           /* of the list in the code */
@@ -246,7 +247,9 @@ cost_counts cost_counts_of(const image *im, const cost_board *board, cost_number
     X(BOOK_ENTRIES, COST_TIME | COST_CODE | COST_DEPTH, \
       c->im->ledger.kept ? c->im->ledger.entries : 0) \
     X(BOOK_STAGES, COST_TIME, c->im->ledger.kept ? c->stages * c->im->ledger.smooth : 0) \
-    X(BOOK_CALLED, COST_TIME, c->im->ledger.kept ? c->stages : 0) \
+    X(BOOK_CALLED, COST_TIME, c->books_called ? c->stages : 0) \
+    X(BOOK_CALLED_WITH, COST_TIME, \
+      c->books_called ? c->stages * (c->books.leaves + c->books.results) : 0) \
     X(BOOK_DATA, COST_TIME, c->stages * (c->books.leaves + c->books.constants)) \
     X(BOOK_CALLED_DATA, COST_TIME, \
       c->im->ledger.asked ? c->stages * (c->step.leaves + c->step.results + 2 * c->step.pairs) : 0) \
