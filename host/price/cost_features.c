@@ -211,7 +211,7 @@ static void add_method(const image *im, cost_counts *c) {
         rests = rests || by->positions[s] != by->rates[s];
         c->turns = by->turns[s] > c->turns ? by->turns[s] : c->turns;
     }
-    c->ends_twice = c->second && moves && !rests;
+    c->ends_twice = c->second && c->turned && moves && !rests;
 }
 
 /* --- what of a list a stage must do anew ----------------------------------------------------------*/

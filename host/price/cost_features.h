@@ -109,7 +109,7 @@ typedef struct cost_counts {
     int leans;            /* stages that lean */
     int shares;           /* of stages in stages */
     int ends;             /* products of stages at the step's end */
-    bool ends_twice;      /* what moves positions is all that moves rates: few compilers see that */
+    bool ends_twice;      /* what moves positions is all that moves rates: where sines are turned compilers do not see that */
     int state_words;
     bool soft; /* numbers are computed by software, whose time depends on operands: */
     step_work

@@ -12,6 +12,7 @@ typedef struct counting {
     bool is_float;
     bool keeps;       /* what no list reads; other compilers leave it out but for the last stage, */
     bool tabled;
+    bool twice; /* compilers do not see that the same moves rates and positions */
     bool places_read; /* by the list, of any component */
     bool rates_read;
     bool angles_read;
@@ -194,7 +195,7 @@ static void end(counting *c, bool is_angle) {
         }
     }
     const double leads = c->second ? (moved && c->accel < c->rate ? c->accel : c->rate) : c->accel;
-    if (moved && (rest || !c->keeps)) { /* else it is what moves the rate, which some compilers see */
+    if (moved && (rest || c->twice)) { /* else it is what moves the rate */
         sum(c, c->rate, product(c, c->accel));
     } else if (moved && c->compensated) {
         sum(c, c->rate, c->accel);
@@ -248,7 +249,8 @@ step_work step_work_of(const image *im, bool turned, bool keeps, bool tabled,
                   .compensated = im->settings.compensated,
                   .is_float = given->is_float,
                   .keeps = keeps,
-                  .tabled = tabled};
+                  .tabled = tabled,
+                  .twice = turned && !keeps};
     add_reads(im->list[IMAGE_STEP], &c);
     for (int i = 0; i < components; i++) {
         c.rate = given->rate[i];

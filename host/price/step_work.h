@@ -16,7 +16,7 @@ typedef struct step_work {
 
 /* Of a step by stages, not as one matrix. `turned`: sines are turned on, and angles with them (core/stage_turn.h).
  * `keeps`: the compiler keeps positions of stages that no list reads, and sees
- * what is computed twice. `tabled`: shares are looked up in a table and multiplied by, whatever they are. */
+ * in turned steps, too, what is the same. `tabled`: shares are looked up in a table and multiplied by, whatever they are. */
 step_work step_work_of(const image *im, bool turned, bool keeps, bool tabled,
                        const operands *given);
 
