@@ -113,6 +113,29 @@ static double judge(const cost_fit *f, int board, cost_number number, cost_quant
     return bound;
 }
 
+/* Of all classes together what was not fitted, in a line of a table of its own. */
+static void tell_tested(const cost_fit *f, int board, cost_number number, cost_quantity q) {
+    static double off[ROWS_MAX];
+    int count = 0;
+    int within = 0;
+    for (int r = 0; r < row_count; r++) {
+        double told;
+        const bool is_tested = takes_part(&rows[r], board, number, q) && !rows[r].fitted;
+        const double by = is_tested ? off_by(f, &rows[r], q, &told) : 0.0;
+        if (by > 0.0) {
+            off[count++] = by;
+            within += by <= 1.1;
+        }
+    }
+    qsort(off, (size_t)count, sizeof off[0], by_size);
+    if (count > 0) {
+        fprintf(stderr, "@| `%s` | %s | %d | %d | %.0f %% | %.1f %% | %.1f %% | %.1f %% |\n",
+                cost_boards[board].name, cost_number_words[number], f->cases, count,
+                100.0 * within / count, 100.0 * (off[count / 2] - 1.0),
+                100.0 * (off[count * 9 / 10] - 1.0), 100.0 * (off[count - 1] - 1.0));
+    }
+}
+
 void judge_all(cost_fit *f, int board, cost_number number, cost_quantity q) {
     for (int c = 0; c < COST_CLASSES; c++) {
         int tested = 0;
@@ -124,5 +147,8 @@ void judge_all(cost_fit *f, int board, cost_number number, cost_quantity q) {
     for (int c = 0; f->is_parted && c < COST_CLASSES; c++) {
         const double least = c == COST_BOOKING ? BOOKING_LEAST : f->cases < FEW ? FEW_LEAST : 1.0;
         f->bound[c] = f->bound[c] > least ? f->bound[c] : least;
+    }
+    if (q == COST_OF_INSTRUCTIONS) {
+        tell_tested(f, board, number, q);
     }
 }
