@@ -27,10 +27,6 @@ static bool has_word(const char *words, const char *word) {
     return strstr(words, framed) != NULL;
 }
 
-static cost_figure exactly(double value) {
-    return (cost_figure){COST_EXACT, COST_EXACT, value, value, value, 1.0};
-}
-
 /* One quantity, or nothing of it, and why in *why. */
 static cost_figure predicted(const cost_row *row, cost_quantity quantity, cost_basis of,
                              const double *feature, const char **why) {
@@ -55,35 +51,16 @@ static cost_figure predicted(const cost_row *row, cost_quantity quantity, cost_b
                          .bound = cost_most(fit, value, bound) / value};
 }
 
-/* Instructions times cycles an instruction. */
-static cost_figure ranged(const cost_board *board, const cost_figure *instructions) {
-    if (instructions->basis == COST_NOT_KNOWN) {
-        return (cost_figure){0};
-    }
-    return (cost_figure){.basis = COST_RANGE,
-                         .of = instructions->basis,
-                         .least = instructions->least * board->cycles_least,
-                         .most = instructions->most * board->cycles_most,
-                         .bound = 1.0};
-}
-
-/* The longest step where the mean one is this: in soft arithmetic, operands make the difference. */
-static cost_figure longest(cost_figure mean, double spread) {
-    mean.value *= spread;
-    mean.most *= spread;
-    return mean;
-}
-
 static void price_smooth(const cost_row *row, const cost_board *board, const double *feature,
                          cost *c) {
     c->instructions = predicted(row, COST_OF_INSTRUCTIONS, COST_MEASURED, feature, &c->why);
-    c->instructions_worst = longest(c->instructions, row->spread);
+    c->instructions_worst = cost_longest(c->instructions, row->spread);
     if (board->cycles == COST_RANGE) {
-        c->cycles = ranged(board, &c->instructions);
-        c->cycles_worst = ranged(board, &c->instructions_worst);
+        c->cycles = cost_ranged(board, &c->instructions);
+        c->cycles_worst = cost_ranged(board, &c->instructions_worst);
     } else {
         c->cycles = predicted(row, COST_OF_CYCLES, board->cycles, feature, &c->why);
-        c->cycles_worst = longest(c->cycles, row->spread_cycles);
+        c->cycles_worst = cost_longest(c->cycles, row->spread_cycles);
     }
 }
 
@@ -131,7 +108,7 @@ cost cost_of(const image *im, const cost_board *board, cost_number number) {
     const cost_row *row = row_of(board, number);
     cost c = {.why = ""};
     if (im->contacts == 0) { /* what contacts keep is laid out by the board's compiler */
-        c.state_bytes = exactly(state_bytes(im, number));
+        c.state_bytes = cost_known(state_bytes(im, number), COST_EXACT);
     }
     if (row == NULL) {
         c.why = "no scene has been measured on this board in this number";
@@ -181,10 +158,8 @@ static int cut(char *row, char *column[COLUMNS]) {
 }
 
 static cost_figure told(const char *text, cost_basis basis) {
-    const double value = strtod(text, NULL);
-    return text[0] == '\0' || text[0] == '\n'
-               ? (cost_figure){0}
-               : (cost_figure){basis, basis, value, value, value, 1.0};
+    return text[0] == '\0' || text[0] == '\n' ? (cost_figure){0}
+                                              : cost_known(strtod(text, NULL), basis);
 }
 
 bool cost_measured(const char *row, const cost_board *board, cost *c) {
@@ -202,8 +177,8 @@ bool cost_measured(const char *row, const cost_board *board, cost *c) {
     c->instructions = told(column[7], COST_MEASURED);
     c->instructions_worst = told(column[8], COST_MEASURED);
     if (board->cycles == COST_RANGE) {
-        c->cycles = ranged(board, &c->instructions);
-        c->cycles_worst = ranged(board, &c->instructions_worst);
+        c->cycles = cost_ranged(board, &c->instructions);
+        c->cycles_worst = cost_ranged(board, &c->instructions_worst);
     } else {
         c->cycles = told(column[9], board->cycles);
         c->cycles_worst = told(column[10], board->cycles);

@@ -19,21 +19,8 @@
 #ifndef PRICE_COST_H
 #define PRICE_COST_H
 
-#include "cost_board.h"
+#include "cost_figure.h"
 #include "host/image/image.h"
-
-/* A figure. `value` is the best one number, and between `least` and `most` it is promised to be; where `basis` is
- * COST_RANGE there is no best number, and `value` is 0. COST_NOT_KNOWN: all are 0. */
-typedef struct cost_figure {
-    cost_basis basis;
-    cost_basis
-        of; /* of a prediction: of what kind the figures were that it was fitted to; else as basis */
-    double value;
-    double least;
-    double most;
-    double
-        bound; /* of a prediction: most is value * bound, and least not far below value / bound; else 1 */
-} cost_figure;
 
 typedef struct cost {
     bool

@@ -41,3 +41,8 @@ const cost_board *cost_board_named(const char *name) {
 bool cost_is_soft(const cost_board *board, cost_number number) {
     return !board->fpu || (number == COST_DOUBLE && strcmp(board->name, "host") != 0);
 }
+
+int cost_registers(const cost_board *board, cost_number number) {
+    const bool few = strcmp(board->name, "host") == 0; /* SSE has 16, the others' FPUs 32 */
+    return cost_is_soft(board, number) ? 0 : few ? 16 : 32;
+}

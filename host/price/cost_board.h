@@ -46,5 +46,7 @@ extern const int cost_board_count;
 const cost_board *cost_board_named(const char *name); /* NULL: there is none */
 /* Does software compute this number there? */
 bool cost_is_soft(const cost_board *board, cost_number number);
+/* How many of these numbers its FPU's registers hold; 0 where software computes them. */
+int cost_registers(const cost_board *board, cost_number number);
 
 #endif

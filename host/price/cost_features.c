@@ -10,6 +10,9 @@
 
 /* As host/emit/c_list.c has it: longer lists are functions of their own. */
 enum { INLINED_MOST = 150, LONG_LEAST = 100 };
+/* With books compilers decide: gcc 12 makes functions of lists of more operations than this, and of the ledger's where both
+ * have more. A sine of radians stands in the list, too, and is as long as so many. */
+enum { BOOKING_MOST = 50, BOTH_MOST = 85, RADIANS_LENGTH = 25 };
 
 #define COST_WORD(id, taken, count) #id,
 const char *const cost_feature_words[COST_FEATURES] = {COST_FEATURE_ROWS(COST_WORD)};
@@ -78,6 +81,63 @@ static void add_operands(const op *o, const operand_share *given, cost_list *l) 
     }
 }
 
+/* A pair of turn angles: does it stay where it is, and at zero? */
+static void add_pair(const tape *t, const op *o, const operands *given, cost_list *l) {
+    double still = 1.0;
+    double zero = o->value == 0.0 ? 1.0 : 0.0;
+    for (int k = 0; k < t->angles && o->turns != NULL; k++) {
+        if (o->turns[k] != 0) {
+            still = given->still[k] < still ? given->still[k] : still;
+            zero = given->at_zero[k] < zero ? given->at_zero[k] : zero;
+        }
+    }
+    l->still_pairs += still;
+    l->zero_pairs += zero;
+}
+
+/* Do operations of two lists take the same? Of operation i of the one, same[i] of the other is it, or -1. */
+static bool takes_same(const tape *t, const op *o, const op *other,
+                       const int *same) {
+    int operand[2];
+    int others[2];
+    bool is = o->code == other->code && o->function == other->function && o->value == other->value;
+    const int count = is ? tape_operands(o, operand) : 0;
+    if (is && count == 0) { /* leaves and cells; pairs of turn angles by their multiples */
+        is = o->a == other->a && o->b == other->b;
+        for (int k = 0; k < t->angles && is; k++) {
+            is = (o->turns != NULL ? o->turns[k] : 0) ==
+                 (other->turns != NULL ? other->turns[k] : 0);
+        }
+        return is;
+    }
+    is = is && tape_operands(other, others) == count;
+    for (int k = 0; k < count && is; k++) {
+        is = same[operand[k]] == others[k];
+    }
+    return is;
+}
+
+/* Counts of the ledger's list what is not in the step's anyway. `turned`: its sines are not the same, which are turned. */
+static void add_unshared(const tape *t, const tape *step, bool turned, cost_list *l) {
+    int *same = room(t->count, sizeof *same);
+    for (int i = 0; i < t->count; i++) {
+        same[i] = -1;
+        for (int k = 0; k < step->count && same[i] < 0; k++) {
+            const bool is_pair = step->ops[k].code == OP_PHASE && step->ops[k].b < 0;
+            same[i] =
+                !(turned && is_pair) && takes_same(t, &t->ops[i], &step->ops[k], same) ? k
+                                                                                             : -1;
+        }
+        if (same[i] < 0) {
+            add_operation(t, &t->ops[i], l);
+        }
+    }
+    free(same);
+    l->results = t->results;
+    l->carried = tape_carried(t);
+    l->operations = tape_operations(t);
+}
+
 static void add_list(const tape *t, cost_list *l) {
     for (int i = 0; t != NULL && i < t->count; i++) {
         add_operation(t, &t->ops[i], l);
@@ -130,6 +190,8 @@ static void add_reach(const wh_tableau *by, cost_counts *c) {
 /* What the method's row makes of a step. */
 static void add_method(const image *im, cost_counts *c) {
     const wh_tableau *by = wh_tableau_of(im->settings.method);
+    bool moves = false;
+    bool rests = false;
     c->stages = c->places = (int)by->stages;
     if (c->second && by->places != NULL) {
         add_reach(by, c);
@@ -145,8 +207,11 @@ static void add_method(const image *im, cost_counts *c) {
         c->leans += leans;
         c->ends += by->rates[s] != 0;
         c->ends += by->positions[s] != 0 && by->positions[s] != by->rates[s];
+        moves = moves || by->positions[s] != 0;
+        rests = rests || by->positions[s] != by->rates[s];
         c->turns = by->turns[s] > c->turns ? by->turns[s] : c->turns;
     }
+    c->ends_twice = c->second && c->turned && moves && !rests;
 }
 
 /* --- what of a list a stage must do anew ----------------------------------------------------------*/
@@ -234,6 +299,9 @@ static void add_step(const image *im, const operands *given, cost_counts *c) {
         if (given->of != NULL) {
             add_operands(&t->ops[i], &given->of[i], to);
         }
+        if (given->of != NULL && t->ops[i].code == OP_PHASE && t->ops[i].b < 0) {
+            add_pair(t, &t->ops[i], given, &c->step);
+        }
         add_reads(t, &t->ops[i], &reads);
     }
     free(takes);
@@ -263,10 +331,11 @@ static void add_matrix(const image *im, const operands *given, cost_counts *c) {
         add_operands(&t->ops[i], &given->of[i], &c->matrix);
     }
     if (c->soft) { /* what it does costs as much as elsewhere */
-        c->moves = (step_work){.sums = c->matrix.sums - c->matrix.zero_sums + im->reals,
-                               .products = c->matrix.products - c->matrix.zero_products,
-                               .zero_sums = c->matrix.zero_sums,
-                               .zero_products = c->matrix.zero_products};
+        c->moves = step_work_of_matrix(im, given);
+        c->moves.sums += c->matrix.sums - c->matrix.zero_sums;
+        c->moves.products += c->matrix.products - c->matrix.zero_products;
+        c->moves.zero_sums += c->matrix.zero_sums;
+        c->moves.zero_products += c->matrix.zero_products;
     }
     c->stages = c->places = c->copies = 1;
 }
@@ -276,6 +345,39 @@ static void add_tables(const image *im, const cost_board *board, cost_counts *c)
     const double cells = of->count > 0 ? (double)(1U << (unsigned)of->bits) : 0.0;
     c->folded = of->folds && !board->fpu && c->number == COST_FLOAT;
     c->table_numbers = (c->folded ? cells / 2.0 + 1.0 : cells) * of->count * of->terms;
+}
+
+/* What is wanted again after a list's evaluation: the state, what stages gave so far and its sums, pairs that are turned
+ * on. What registers do not hold is carried to memory and back. */
+static void add_pressure(int registers, cost_counts *c) {
+    const int each = c->stages == 1 ? 2 : c->second ? 4 : 3;
+    const int kept = each * c->components + (c->turned && c->stages > 1 ? 3 * c->step.pairs : 0);
+    if (registers > 0) {
+        c->pressed = kept > registers / 2 ? kept - registers / 2 : 0;
+        c->spilled = kept > registers ? kept - registers : 0;
+    }
+}
+
+static int length_of(const tape *t) {
+    int length = tape_operations(t);
+    for (int i = 0; i < t->count; i++) {
+        length += t->ops[i].code == OP_PHASE && t->ops[i].b >= 0 ? RADIANS_LENGTH : 0;
+    }
+    return length;
+}
+
+/* Where both lists stand in the step, compilers compute once what both want. */
+static void add_books(const image *im, cost_counts *c) {
+    const tape *step = im->list[IMAGE_STEP];
+    const tape *books = im->list[IMAGE_POWERS];
+    const int length = length_of(step);
+    c->books_called = c->called || length + length_of(books) > BOTH_MOST;
+    c->called = c->called || length > BOOKING_MOST;
+    if (c->called || c->books_called) {
+        add_list(books, &c->books);
+    } else {
+        add_unshared(books, step, c->turned, &c->books);
+    }
 }
 
 static cost_counts count(const image *im, const cost_board *board, cost_number number,
@@ -296,9 +398,6 @@ static cost_counts count(const image *im, const cost_board *board, cost_number n
     c.angles = im->angles;
     add_method(im, &c);
     add_tables(im, board, &c);
-    if (im->ledger.kept) {
-        add_list(im->list[IMAGE_POWERS], &c.books);
-    }
     if (im->contacts > 0) {
         add_list(im->list[IMAGE_SIGNALS], &c.events);
         add_list(im->list[IMAGE_FORCES], &c.events);
@@ -307,16 +406,22 @@ static cost_counts count(const image *im, const cost_board *board, cost_number n
     c.linears = c.second ? im->coordinates - im->angles : im->reals;
     c.called =
         tape_operations(im->list[IMAGE_STEP]) > INLINED_MOST || im->contacts > 0 || !board->fpu;
+    if (im->ledger.kept) {
+        add_books(im, &c);
+    }
     const bool is_avr = board->cycles == COST_SIMULATED;
     add_step(im, given, &c);
     if (c.soft) {
-        c.moves = step_work_of(im, c.turned, is_avr, given);
     }
     const bool unrolls_less = im->settings.compensated || c.step.operations >= LONG_LEAST;
     c.looped = is_avr && (unrolls_less || im->ledger.kept || im->contacts > 0);
     c.tabled = is_avr && unrolls_less && c.stages > 2;
+    if (c.soft) {
+        c.moves = step_work_of(im, c.turned, is_avr, c.tabled, given);
+    }
     c.copies = c.called ? 1 : c.stages;
     c.lookups = c.turned ? c.step.pairs : (c.called ? c.stages : c.places) * c.step.pairs;
+    add_pressure(cost_registers(board, number), &c);
     c.evaluations = core_evaluations(im);
     return c;
 }

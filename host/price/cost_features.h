@@ -62,6 +62,8 @@ typedef struct cost_list {
         zero_products; /* and of the products: on average over a run's first steps (operands.h) */
     double opposed;    /* sums of opposite signs, */
     double bits;       /* and what all sums shift by */
+    double still_pairs; /* of those of turn angles, that stay where they are, */
+    double zero_pairs;  /* and whose angle is zero */
     int carried;       /* between registers and memory, at best */
     int operations;    /* all that compute */
 } cost_list;
@@ -97,7 +99,8 @@ typedef struct cost_counts {
     bool
         looped; /* the step is one that the old compiler of AVR does not unroll (WH_SMALL_STEP, core/unroll.h), */
     bool tabled;          /* and looks its method up in a table */
-    bool called;          /* the list is a function of its own */
+    bool called;          /* the list is a function of its own, */
+    bool books_called;    /* and the ledger's */
     bool folded;          /* half of each table says it all, and is all that is there */
     double table_numbers; /* in flash */
     int copies;           /* of the list in the code */
@@ -106,10 +109,13 @@ typedef struct cost_counts {
     int leans;            /* stages that lean */
     int shares;           /* of stages in stages */
     int ends;             /* products of stages at the step's end */
+    bool ends_twice;      /* what moves positions is all that moves rates: where sines are turned compilers do not see that */
     int state_words;
     bool soft; /* numbers are computed by software, whose time depends on operands: */
     step_work
         moves; /* then what the step itself does beside its lists, or a step as one matrix in all */
+    double pressed; /* of the values that a stage leaves to later ones, those beyond half of an FPU's registers, */
+    double spilled; /* and beyond all of them */
     int evaluations; /* most in a step */
     double smooth;   /* a step without its contacts, predicted: filled in by cost.c */
 } cost_counts;
@@ -143,16 +149,21 @@ cost_counts cost_counts_of(const image *im, const cost_board *board, cost_number
       c->is_matrix && c->im->settings.compensated) \
     X(MATRIX_CARRY, COST_TIME | COST_CODE | COST_DEPTH, \
       c->is_matrix && c->im->settings.compensated ? c->reals : 0) \
-    X(LATER_STAGES, COST_TIME | COST_CODE, c->stages - 1) \
-    X(MANY_STAGES, COST_TIME | COST_CODE, c->stages > 1) \
+    X(LATER_STAGES, COST_TIME | COST_CODE, c->moving > 0 ? c->stages - 1 : 0) \
+    X(MANY_STAGES, COST_TIME | COST_CODE, c->moving > 0 && c->stages > 1) \
     X(LOOPED, COST_TIME | COST_CODE | COST_DEPTH, c->looped) \
     X(TABLEAU, COST_CODE | COST_DATA, c->tabled) \
     X(LOOPED_STAGES, COST_TIME, c->looped ? c->stages * c->components : 0) \
+    X(TABLED_STAGES, COST_TIME, c->tabled ? c->stages * c->components : 0) \
+    X(TABLED_SHARES, COST_TIME, \
+      c->tabled ? (c->stages - 1) * c->stages * c->components * (c->second ? 2 : 1) : 0) \
     X(LOOPED_PAIRS, COST_TIME | COST_DEPTH, c->looped ? c->stages * c->step.pairs : 0) \
     X(MANY_STAGES_MOVING, COST_TIME | COST_CODE, c->stages > 1 ? c->moving : 0) \
     X(ANGLES, COST_TIME | COST_CODE, c->angles) \
     X(LINEARS, COST_TIME | COST_CODE, c->linears) \
     X(RATES, COST_TIME | COST_CODE | COST_DEPTH, c->second ? c->components : 0) \
+    X(PRESSED, COST_TIME, c->stages * c->pressed) \
+    X(SPILLED, COST_TIME, c->stages * c->spilled) \
     X(STILL, COST_TIME, c->components - c->moving) \
     X(MOVING, COST_TIME | COST_CODE, c->moving) \
     X(STAGE_RATES, COST_TIME | COST_CODE, (c->stages - 1) * c->staged_rates) \
@@ -171,14 +182,23 @@ cost_counts cost_counts_of(const image *im, const cost_board *board, cost_number
     X(SHARES_LINEAR, COST_TIME | COST_CODE, c->reaches > 0 ? 0 : c->shares * c->staged_linears) \
     X(SCALED, COST_TIME | COST_CODE, c->scaled * (c->staged_rates + (c->reaches > 0 ? 0 : c->staged_linears))) \
     X(ENDS, COST_TIME | COST_CODE, c->ends * c->moving) \
-    X(LOOKED_UP_ONCE, COST_TIME | COST_CODE, c->turned ? c->lookups : 0) \
-    X(LOOKED_UP, COST_TIME, (c->turned ? 0 : c->lookups) + c->stages * c->books.pairs) \
+    X(ENDS_TWICE, COST_TIME, c->ends_twice ? c->moving : 0) \
+    X(LOOKED_UP_ONCE, COST_TIME, c->turned ? c->lookups - c->step.zero_pairs : 0) \
+    X(LOOKED_UP_ZERO, COST_TIME, (c->turned ? 1 : c->stages) * c->step.zero_pairs) \
+    X(LOOKED_UP_ONCE_CODE, COST_CODE, c->turned ? c->lookups : 0) \
+    X(LOOKED_UP, COST_TIME, \
+      (c->turned ? 0 : c->lookups - c->stages * c->step.zero_pairs) + c->stages * c->books.pairs) \
     X(LOOKED_UP_CODE, COST_CODE, c->turned ? 0 : c->step.pairs * (c->called ? 1 : c->places)) \
     X(LOOKED_UP_TERMS, COST_TIME | COST_CODE, c->step.terms * (c->turned ? 1 : c->places)) \
     X(TURN_BEGIN, COST_TIME | COST_CODE, c->turned && c->turns > 0 ? c->step.pairs : 0) \
-    X(TURNS, COST_TIME | COST_CODE, c->turned ? c->turns * c->step.pairs : 0) \
-    X(LEANS, COST_TIME | COST_CODE, c->turned ? c->leans * c->step.pairs : 0) \
-    X(LEANS_FAR, COST_TIME | COST_CODE, c->turned && !c->second ? c->leans * c->step.pairs : 0) \
+    X(TURNS, COST_TIME, c->turned ? c->turns * (c->step.pairs - c->step.still_pairs) : 0) \
+    X(LEANS, COST_TIME, c->turned ? c->leans * (c->step.pairs - c->step.still_pairs) : 0) \
+    X(LEANS_FAR, COST_TIME, \
+      c->turned && !c->second ? c->leans * (c->step.pairs - c->step.still_pairs) : 0) \
+    X(TURNS_STILL, COST_TIME, c->turned ? (c->turns + c->leans) * c->step.still_pairs : 0) \
+    X(TURNS_CODE, COST_CODE, c->turned ? c->turns * c->step.pairs : 0) \
+    X(LEANS_CODE, COST_CODE, c->turned ? c->leans * c->step.pairs : 0) \
+    X(LEANS_FAR_CODE, COST_CODE, c->turned && !c->second ? c->leans * c->step.pairs : 0) \
     X(LEAN_TERMS, COST_TIME | COST_CODE, c->turned ? c->leans * c->step.terms : 0) \
     X(TURNED_SUMS, COST_TIME | COST_CODE, \
       c->turned && c->compensated ? (c->turns + c->leans) * c->step.pairs : 0) \
@@ -202,6 +222,7 @@ cost_counts cost_counts_of(const image *im, const cost_board *board, cost_number
     X(ZERO_PRODUCTS, COST_TIME, COST_EACH(zero_products) + c->moves.zero_products) \
     X(PRODUCTS, COST_TIME, COST_EACH(products) - COST_EACH(zero_products) + c->moves.products) \
     X(CONVERTED, COST_TIME, c->moves.conversions) \
+    X(CONVERTED_ZERO, COST_TIME, c->moves.zero_conversions) \
     X(QUOTIENTS, COST_TIME, COST_EACH(quotients)) \
     X(ROOTS, COST_TIME, COST_EACH(roots)) \
     X(SIZES, COST_TIME, COST_EACH(sizes)) \
@@ -226,7 +247,9 @@ cost_counts cost_counts_of(const image *im, const cost_board *board, cost_number
     X(BOOK_ENTRIES, COST_TIME | COST_CODE | COST_DEPTH, \
       c->im->ledger.kept ? c->im->ledger.entries : 0) \
     X(BOOK_STAGES, COST_TIME, c->im->ledger.kept ? c->stages * c->im->ledger.smooth : 0) \
-    X(BOOK_CALLED, COST_TIME, c->im->ledger.kept ? c->stages : 0) \
+    X(BOOK_CALLED, COST_TIME, c->books_called ? c->stages : 0) \
+    X(BOOK_CALLED_WITH, COST_TIME, \
+      c->books_called ? c->stages * (c->books.leaves + c->books.results) : 0) \
     X(BOOK_DATA, COST_TIME, c->stages * (c->books.leaves + c->books.constants)) \
     X(BOOK_CALLED_DATA, COST_TIME, \
       c->im->ledger.asked ? c->stages * (c->step.leaves + c->step.results + 2 * c->step.pairs) : 0) \

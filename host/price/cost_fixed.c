@@ -221,7 +221,7 @@ static const cost_fixed_row *row_of(const cost_board *board) {
     return NULL;
 }
 
-/* Or nothing of it, and why in *why. What is larger than all that was fitted is told with twice the bound's distance. */
+/* Or nothing of it, and why in *why. */
 static cost_figure predicted(const cost_fixed_row *row, cost_quantity q, cost_basis of,
                              const double *feature, const char **why) {
     const cost_fixed_fit *fit = &row->fit[q];
@@ -230,30 +230,13 @@ static cost_figure predicted(const cost_fixed_row *row, cost_quantity q, cost_ba
         *why = "the scene does something that no measured scene in fixed point did: measure it";
         return (cost_figure){0};
     }
-    const double bound = value > fit->largest ? 2.0 * fit->bound - 1.0 : fit->bound;
+    const double bound = cost_bound_of(value, fit->largest, fit->bound);
     return (cost_figure){.basis = COST_PREDICTED,
                          .of = of,
                          .value = value,
                          .least = value / bound,
                          .most = value * bound,
                          .bound = bound};
-}
-
-static cost_figure longest(cost_figure mean, double spread) {
-    mean.value *= spread;
-    mean.most *= spread;
-    return mean;
-}
-
-static cost_figure ranged(const cost_board *board, const cost_figure *instructions) {
-    if (instructions->basis == COST_NOT_KNOWN) {
-        return (cost_figure){0};
-    }
-    return (cost_figure){.basis = COST_RANGE,
-                         .of = instructions->basis,
-                         .least = instructions->least * board->cycles_least,
-                         .most = instructions->most * board->cycles_most,
-                         .bound = 1.0};
 }
 
 cost cost_fixed_of(const image *im, const cost_board *board) {
@@ -264,7 +247,7 @@ cost cost_fixed_of(const image *im, const cost_board *board) {
         return c;
     }
     const double bytes = (double)WH_FIXED_BYTES(im->angles, im->reals + im->inputs);
-    c.state_bytes = (cost_figure){COST_EXACT, COST_EXACT, bytes, bytes, bytes, 1.0};
+    c.state_bytes = cost_known(bytes, COST_EXACT);
     if (row == NULL) {
         c.why = "no scene has been measured on this board in fixed point: it must be measured";
         return c;
@@ -273,13 +256,13 @@ cost cost_fixed_of(const image *im, const cost_board *board) {
     cost_fixed_features(im, feature);
     c.predictable = true;
     c.instructions = predicted(row, COST_OF_INSTRUCTIONS, COST_MEASURED, feature, &c.why);
-    c.instructions_worst = longest(c.instructions, row->spread);
+    c.instructions_worst = cost_longest(c.instructions, row->spread);
     if (board->cycles == COST_RANGE) {
-        c.cycles = ranged(board, &c.instructions);
-        c.cycles_worst = ranged(board, &c.instructions_worst);
+        c.cycles = cost_ranged(board, &c.instructions);
+        c.cycles_worst = cost_ranged(board, &c.instructions_worst);
     } else {
         c.cycles = predicted(row, COST_OF_CYCLES, board->cycles, feature, &c.why);
-        c.cycles_worst = longest(c.cycles, row->spread_cycles);
+        c.cycles_worst = cost_longest(c.cycles, row->spread_cycles);
     }
     c.flash_bytes = predicted(row, COST_OF_FLASH, COST_MEASURED, feature, &c.why);
     c.ram_bytes = predicted(row, COST_OF_RAM, COST_MEASURED, feature, &c.why);

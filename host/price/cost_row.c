@@ -1,6 +1,8 @@
 /* cost_row.c: see cost_row.h. */
 #include "cost_row.h"
 
+#include "cost_figure.h"
+
 double cost_fit_at(const cost_fit *fit, const double feature[static COST_FEATURES], int *unseen) {
     double sum = 0.0;
     for (int f = 0; f < COST_FEATURES; f++) {
@@ -39,12 +41,10 @@ cost_class cost_class_at(const cost_fit *fit, const double feature[static COST_F
     return is_far ? COST_FAR : class_of(feature);
 }
 
-/* What is larger than all that was fitted is told with twice the bound's distance. */
 double cost_bound_at(const cost_fit *fit, const double feature[static COST_FEATURES], double sum) {
     const double far = fit->bound[cost_class_at(fit, feature, sum)];
     const double own = fit->bound[class_of(feature)];
-    const double bound = far > own ? far : own;
-    return sum > fit->largest ? 2.0 * bound - 1.0 : bound;
+    return cost_bound_of(sum, fit->largest, far > own ? far : own);
 }
 
 double cost_least(const cost_fit *fit, double sum, double bound) {

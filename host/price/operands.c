@@ -97,8 +97,17 @@ static void look_at_components(const looking *l, operands *to) {
     const int components = second ? im->coordinates : im->angles + im->reals;
     const long double *rate = l->state + im->angles + linears_of(im);
     for (int i = 0; i < components && l->list == im->list[IMAGE_STEP]; i++) {
-        to->accel[i] += kept(l, l->result[i]) == 0.0;
-        to->rate[i] += second && kept(l, rate[i]) == 0.0;
+        const bool is_led = second && kept(l, rate[i]) != 0.0;
+        const bool is_driven = kept(l, l->result[i]) != 0.0;
+        to->accel[i] += !is_driven;
+        to->rate[i] += second && !is_led;
+        if (i < im->angles) {
+            to->still[i] += !is_led && !is_driven;
+            to->at_zero[i] += l->state[i] == 0.0L;
+        }
+    }
+    for (int i = 0; i < im->reals; i++) {
+        to->real[i] += kept(l, l->state[im->angles + i]) == 0.0;
     }
 }
 
@@ -135,6 +144,9 @@ static void take_means(operands *to, int operations, int looks) {
     for (int i = 0; i < IMAGE_COMPONENTS_MAX; i++) {
         to->rate[i] *= part;
         to->accel[i] *= part;
+        to->still[i] *= part;
+        to->at_zero[i] *= part;
+        to->real[i] *= part;
     }
 }
 

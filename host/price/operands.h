@@ -22,6 +22,10 @@ typedef struct operands {
     /* Of each component, angles first, how often this is zero: */
     double rate[IMAGE_COMPONENTS_MAX];
     double accel[IMAGE_COMPONENTS_MAX]; /* of first order: its slope */
+    /* Of each angle, how often it stays where it is, and how often that is at zero. */
+    double still[IMAGE_COMPONENTS_MAX];
+    double at_zero[IMAGE_COMPONENTS_MAX];
+    double real[IMAGE_COMPONENTS_MAX]; /* of each real of the state, how often it is zero */
 } operands;
 
 /* Nothing is zero where nothing is known: of a scene with contacts, and behind what has no finite value. */

@@ -11,6 +11,8 @@ typedef struct counting {
     bool compensated;
     bool is_float;
     bool keeps;       /* what no list reads; other compilers leave it out but for the last stage, */
+    bool tabled;
+    bool twice; /* compilers do not see that the same moves rates and positions */
     bool places_read; /* by the list, of any component */
     bool rates_read;
     bool angles_read;
@@ -33,10 +35,18 @@ static double sum(counting *c, double a, double b) {
 
 /* share * value: twice a value is a sum to compilers. */
 static double shared(counting *c, wh_real share, double value) {
+    if (c->tabled) {
+        return product(c, value);
+    }
     if (share == WH_R(2.0)) {
         return sum(c, value, value);
     }
     return share == WH_R(1.0) || share == WH_R(-1.0) ? value : product(c, value);
+}
+
+static void convert(counting *c, double times, double of) {
+    c->work.conversions += times * (1.0 - of);
+    c->work.zero_conversions += times * of;
 }
 
 /* h / parts * sum_j share[j] * value of stage j; a constant zero where there is no share. */
@@ -78,8 +88,7 @@ static void reach(counting *c, unsigned s, bool is_angle) {
     const double given = stage_sum(c, c->by->places->reach[s].share, s, c->accel);
     const double moved = sum(c, led, given);
     if (is_angle) {
-        product(c, moved);
-        c->work.conversions++;
+        convert(c, 1.0, product(c, moved));
     } else {
         sum(c, 0.0, moved);
     }
@@ -90,7 +99,7 @@ static void stage_place(counting *c, unsigned s, bool is_angle) {
     const double value = c->second ? c->rate : c->accel;
     const double moved = stage_sum(c, share, s, value);
     if (is_angle) {
-        c->work.conversions++;
+        convert(c, 1.0, moved);
     } else {
         sum(c, 0.0, moved);
     }
@@ -165,14 +174,13 @@ static void sum_product(counting *c, double value, double by) {
 }
 
 static void angle_move(counting *c, double by) {
-    product(c, by);
-    c->work.conversions++;
+    convert(c, 1.0, product(c, by));
     if (c->compensated && c->is_float) {
         product(c, by);
         for (int i = 0; i < 4; i++) {
             sum(c, by, by);
         }
-        c->work.conversions += 3;
+        convert(c, 3.0, by);
     }
 }
 
@@ -187,7 +195,7 @@ static void end(counting *c, bool is_angle) {
         }
     }
     const double leads = c->second ? (moved && c->accel < c->rate ? c->accel : c->rate) : c->accel;
-    if (moved && rest) { /* else it is what moves the rate */
+    if (moved && (rest || c->twice)) { /* else it is what moves the rate */
         sum(c, c->rate, product(c, c->accel));
     } else if (moved && c->compensated) {
         sum(c, c->rate, c->accel);
@@ -216,14 +224,33 @@ static void add_reads(const tape *t, counting *c) {
     }
 }
 
-step_work step_work_of(const image *im, bool turned, bool keeps, const operands *given) {
+/* Sizes are added up to be checked, unless they are compared by their bits (wh_matrix_believable()). */
+step_work step_work_of_matrix(const image *im, const operands *given) {
+    const bool compensated = im->settings.compensated;
+    counting c = {.compensated = compensated, .is_float = given->is_float};
+    for (int i = 0; i < im->angles; i++) {
+        angle_move(&c, 0.0);
+    }
+    for (int i = 0; i < im->reals && compensated; i++) {
+        for (int k = 0; k < (c.is_float ? 9 : 8); k++) {
+            sum(&c, 0.0, given->real[i]);
+        }
+    }
+    c.work.sums += im->angles == 0 && !compensated && c.is_float ? 0 : im->reals;
+    return c.work;
+}
+
+step_work step_work_of(const image *im, bool turned, bool keeps, bool tabled,
+                       const operands *given) {
     const bool second = im->form == WH_SECOND_ORDER;
     const int components = second ? im->coordinates : im->angles + im->reals;
     counting c = {.by = wh_tableau_of(im->settings.method),
                   .second = second,
                   .compensated = im->settings.compensated,
                   .is_float = given->is_float,
-                  .keeps = keeps};
+                  .keeps = keeps,
+                  .tabled = tabled,
+                  .twice = turned && !keeps};
     add_reads(im->list[IMAGE_STEP], &c);
     for (int i = 0; i < components; i++) {
         c.rate = given->rate[i];

@@ -11,10 +11,16 @@ typedef struct step_work {
     double zero_sums; /* with a zero among what is added */
     double zero_products;
     double conversions; /* between whole numbers and others: of turn angles */
+    double zero_conversions;
 } step_work;
 
 /* Of a step by stages, not as one matrix. `turned`: sines are turned on, and angles with them (core/stage_turn.h).
- * `keeps`: the compiler keeps positions of stages that no list reads. */
-step_work step_work_of(const image *im, bool turned, bool keeps, const operands *given);
+ * `keeps`: the compiler keeps positions of stages that no list reads, and sees
+ * in turned steps, too, what is the same. `tabled`: shares are looked up in a table and multiplied by, whatever they are. */
+step_work step_work_of(const image *im, bool turned, bool keeps, bool tabled,
+                       const operands *given);
+
+/* Of a step as one matrix, without the list's own. */
+step_work step_work_of_matrix(const image *im, const operands *given);
 
 #endif

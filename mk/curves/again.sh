@@ -43,8 +43,8 @@ sort -u -t, -k1,1 -k12,12 "$out/rows" >"$out/errors"
 while IFS=, read -r scene _ error component each step until _ _ _ _ run; do
     fine=$(awk -v each="$each" 'BEGIN { print each / 100 }')
     coarse=$(awk -v each="$each" 'BEGIN { print each / 50 }')
-    records "$out/$scene.reference" "$scene" --compensated --step "$fine" --every "$each" --until "$until"
-    records "$out/$scene.coarser" "$scene" --compensated --step "$coarse" --every "$each" --until "$until"
+    records "$out/$scene.reference" "${scene%+*}" --compensated --step "$fine" --every "$each" --until "$until"
+    records "$out/$scene.coarser" "${scene%+*}" --compensated --step "$coarse" --every "$each" --until "$until"
     every=$(awk -v each="$each" -v step="$step" 'BEGIN { print (step > each ? step : each) }')
     rm -f "$out/records"
     # shellcheck disable=SC2086 # words of a command line without quotes

@@ -61,6 +61,11 @@ function axes(what) {
     print "set yrange [1e-10:1]"
 }
 
+# "thomson_a+4s": a part of the motion.
+function titled(scene) {
+    return index(scene, "+") ? substr(scene, 1, index(scene, "+") - 1) ", to " until_s " s" : scene
+}
+
 function panel(b,    i, k, n, plot) {
     data("front", front[b])
     plot = "$front using 1:2 with lines lw 6 lc rgb '#d0d0d0' title 'front'"
@@ -108,7 +113,7 @@ END {
         lines_of_boards()
     } else {
         print "set key outside right top samplen 2 font ',12' noenhanced"
-        print "set multiplot layout " panels ",1 title " quoted(scene ": error against price") " noenhanced"
+        print "set multiplot layout " panels ",1 title " quoted(titled(scene) ": error against price") " noenhanced"
         for (i = 1; i <= panels; i++) { panel(board[i]) }
         print "unset multiplot"
     }

@@ -1,7 +1,7 @@
 #!/bin/sh
 # count.sh BOARD OUT <CASES >ROWS: what steps take, counted on BOARD as by mk/price/measure.sh.
 #
-# CASES are lines "SCENE,whirl run SCENE ... --step S --until U". ROWS has a header. A case whose counted steps, which are more
+# CASES are lines "NAME,whirl run SCENE ... --step S --until U", NAME is SCENE or, of a part of its motion, SCENE+4s. ROWS has a header. A case whose counted steps, which are more
 # than a motion by coarse steps has, do not stay finite is told on standard error and left out. Whatever else cannot be
 # counted is an error: exit status 1.
 set -eu
@@ -20,7 +20,7 @@ for number in $numbers; do
     # ID SCENE OPTIONS, and the same line's command. IDs of one length: an image holds them
     awk -F, -v number="$number" -v out="$out" -f "$here/words.awk" -f /dev/stdin "$out/all" <<'AWK'
 number_of($2) == number {
-    printf "c%04d %s %s\n", ++n, $1, derive_options($2) > (out "/cases_" number)
+    printf "c%04d %s %s\n", ++n, scene_of($2), derive_options($2) > (out "/cases_" number)
     print $0 > (out "/lines_" number)
 }
 AWK
@@ -39,6 +39,6 @@ AWK
         mv "$out/lines_left" "$out/lines_$number"
     fi
     sed 1d "$out/rows_$number" | paste -d, "$out/lines_$number" - |
-        awk -F, '{ if ($7 != $1) { exit 1 } print $1, $6, $10, $12, $14, $15, $16, $17, $4, $2 }' OFS=,
+        awk -F, '{ split($2, word, " "); if ($7 != word[3]) { exit 1 } print $1, $6, $10, $12, $14, $15, $16, $17, $4, $2 }' OFS=,
     rm -rf "${out:?}/$number"
 done

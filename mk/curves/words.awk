@@ -26,6 +26,12 @@ function plain_row() {
     if (/"/) { wrong("a quoted field") }
 }
 
+# The scene of a command line.
+function scene_of(run,    word) {
+    split(run, word, " ")
+    return word[3]
+}
+
 # What of a command line "whirl run SCENE ... --step S --until U" is the setting: "--method rk4 --number float".
 function setting_of(run) {
     sub(/^whirl run [^ ]* /, "", run)

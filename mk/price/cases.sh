@@ -4,7 +4,7 @@
 #
 # Scenes: with SEED 1 every built-in one and pendulums of 1 to 10 links; with any
 # seed so many GENERATED mechanisms (build/tools/mechanisms), which call every function of the language, and so many
-# DRAWN ones (scenes.awk), and a fifth as many of which something rests. Settings: each scene with the default, and with
+# DRAWN ones (scenes.awk), three tenths as many of which something rests, and a tenth that flies. Settings: each scene with the default, and with
 # two others, in turn, so that every setting meets scenes of every kind; a setting that whirl gets is one more word of the
 # list below. What few scenes take (a step as one matrix, tables, leapfrog) is tried with each, and those that take it are
 # counted so, too.
@@ -12,6 +12,12 @@ set -eu
 here=$(dirname "$0")
 folder=$1 seed=$2 generated=$3 drawn=$4
 mkdir -p "$folder"
+
+# of_kind KIND LETTER N: so many drawn scenes of this kind
+of_kind() {
+    awk -v n="$3" -v seed="$seed" -v "$1=1" -f "$here/scenes.awk" </dev/null >"$folder/$1_$seed.whirl"
+    awk -v n="$3" -v name="$folder/$1_$seed.whirl:$2$seed" 'BEGIN { for (i = 1; i <= n; i++) { print name "_" i } }'
+}
 
 {
     [ "$seed" -ne 1 ] || {
@@ -27,10 +33,9 @@ mkdir -p "$folder"
     awk -v n="$drawn" -v seed="$seed" -f "$here/scenes.awk" </dev/null >"$folder/drawn_$seed.whirl"
     awk -v n="$drawn" -v seed="$seed" -v file="$folder/drawn_$seed.whirl" \
         'BEGIN { for (i = 1; i <= n; i++) { print file ":r" seed "_" i } }'
-    rest=$((drawn / 5 > 0 ? drawn / 5 : 1))
-    awk -v n="$rest" -v seed="$seed" -v rest=1 -f "$here/scenes.awk" </dev/null >"$folder/rest_$seed.whirl"
-    awk -v n="$rest" -v seed="$seed" -v file="$folder/rest_$seed.whirl" \
-        'BEGIN { for (i = 1; i <= n; i++) { print file ":q" seed "_" i } }'
+    few=$((drawn / 10 > 0 ? drawn / 10 : 1))
+    of_kind rest q $((3 * few))
+    of_kind flies p $few
 } >"$folder/scenes"
 
 # takes NAME OPTIONS...: a line "NAME SCENE" for each scene that can be written so

@@ -1,6 +1,7 @@
 # scenes.awk: smooth mechanisms drawn at random, a scene each, to count steps of: awk -v n=N -v seed=S -f scenes.awk </dev/null.
 # With -v rest=1 mechanisms of which something does not move: what rests, goes on evenly, falls freely, or lies where
-# its force is zero, beside something that swings. (Software arithmetic takes less time of zeros.)
+# its force is zero, beside something that swings. (Software arithmetic takes less time of zeros.) With -v flies=1 such
+# of which no part swings: all accelerations are constants, which compilers fold away.
 #
 # Ten families, by turns, so that the classes of work come in other proportions than in the built-in scenes, and apart
 # from each other: masses in a row with springs (no sine), a cart with pendulums, arms that carry each other with
@@ -209,6 +210,22 @@ function resting(k,    i, T, V, F, kind, turns, x) {
     starts = ""
 }
 
+# All of it falls, rolls down or goes on evenly.
+function flying(k,    i, T, V, turns, x) {
+    for (i = 1; i <= k; i++) {
+        turns = draw(3) == 0
+        x = (turns ? "a" : "x") i
+        say("coordinate " x (turns ? " [rad]" : " [m]"))
+        T = T " + " number(0.2, 3) (turns ? " [kg*m^2]*" : " [kg]*") x "'^2/2"
+        if (draw(2) == 0) { V = V " + " number(0.2, 3) (turns ? " [J]*" : " [kg]*9.81 [m/s^2]*") x }
+        starts = starts (i > 1 ? ", " : "") x " = " number(0.1, 0.5) (turns ? " [rad]" : " [m]")
+        if (draw(3) > 0) { starts = starts ", " x "' = " number(0.5, 3) (turns ? " [rad/s]" : " [m/s]") }
+    }
+    energies(T, V)
+    say("scene " name " {\n  start " starts "\n  step 1 [ms]\n  until 1 [s]\n}")
+    starts = ""
+}
+
 function energies(T, V, F) {
     say("T =" substr(T, 3))
     if (V != "") { say("V = 0 [J]" V) }
@@ -232,10 +249,11 @@ BEGIN {
     state = seed * 7919 + 1
     for (i = 0; i < 10; i++) { draw(2) }
     for (s = 1; s <= n; s++) {
-        name = (rest ? "q" : "r") seed "_" s
-        print "mechanism " (rest ? "v" : "w") seed "_" s " \"Drawn at random\""
+        name = (flies ? "p" : rest ? "q" : "r") seed "_" s
+        print "mechanism " (flies ? "u" : rest ? "v" : "w") seed "_" s " \"Drawn at random\""
         size = 1 + draw(draw(4) == 0 ? 6 : 3)
-        if (rest) { resting(size + 1) }
+        if (flies) { flying(size) }
+        else if (rest) { resting(size + 1) }
         else if (s % 10 == 0) { row_of_masses(size + draw(3)) }
         else if (s % 10 == 1) { cart(size) }
         else if (s % 10 == 2) { arms(size > 3 ? 3 : size) }

@@ -40,7 +40,9 @@ FNR == 1 { header(); next }
     off = a_step / field("step_s") / field("per_s") - 1
     if (off > 1e-5 || off < -1e-5) { print FNR ": the price is not that of a step over the step"; bad = 1 }
     if (field("basis") !~ /^(counted|predicted)$/) { print FNR ": basis"; bad = 1 }
-    if (field("run") !~ ("^whirl run " field("scene") " .*--step " field("step_s") " --until " field("until_s") "$")) {
+    name = field("scene")
+    sub(/[+].*/, "", name) # a part of its motion
+    if (field("run") !~ ("^whirl run " name " .*--step " field("step_s") " --until " field("until_s") "$")) {
         print FNR ": another line"; bad = 1
     }
     key = field("scene") " " field("board")
@@ -105,8 +107,8 @@ AWK
 verdict $? "numbers in three digits" "$scratch/said"
 
 # --- charts: a ring for each counted row -----------------------------------------------------------------------------
-for scene in epicyclic_from_rest thomson_a rig_fixed; do
-    svg=docs/figures/price_$scene.svg
+for scene in epicyclic_from_rest thomson_a thomson_a+4s rig_fixed; do
+    svg=docs/figures/price_$(echo "$scene" | tr + _).svg
     rows=$(awk -F, -v scene="$scene" -f mk/curves/words.awk -f /dev/stdin docs/figures/price.csv <<'AWK'
 FNR == 1 { header(); next }
 field("scene") == scene && field("basis") == "counted" && field("error") >= 1e-10 { n++ }
@@ -114,7 +116,7 @@ END { print n }
 AWK
     )
     rings=$(grep -o "<use xlink:href='#gpPt5' [^>]*color='rgb(  0,   0,   0)'" "$svg" | wc -l)
-    grep -q "figures/price_$scene.svg" docs/price.md && [ "$rings" -eq $((rows + 2)) ] # and one in each panel's key
+    grep -q "${svg#docs/}" docs/price.md && [ "$rings" -eq $((rows + 2)) ] # and one in each panel's key
     verdict $? "$svg: $rings rings, $rows counted rows and two in the keys" "$svg"
 done
 if command -v gnuplot >/dev/null; then

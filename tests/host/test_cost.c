@@ -249,6 +249,64 @@ static void what_rests_is_seen(void) {
     derived_free(&d);
 }
 
+/* Angles that stay: where they hang, at zero, and beside what swings. Their pair is turned by nothing. */
+static void angles_that_rest_are_seen(void) {
+    static const struct {
+        const char *start;
+        double still, zero;
+    } row[] = {{"a = 0 [rad], b = 0.2 [rad]", 1.0, 1.0},
+               {"a = 0.1 [rad], b = 0.2 [rad]", 0.0, 0.0},
+               {"a = 0 [rad], b = 0 [rad]", 2.0, 2.0},
+               {"a = 0 [rad], a' = 1 [rad/s], b = 0.2 [rad]", 0.0, 0.0}};
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
+        char text[512];
+        snprintf(text, sizeof text,
+                 "mechanism two \"Two\"\ncoordinate a [rad]\ncoordinate b [rad]\n"
+                 "T = 2 [kg*m^2]*(a'^2 + b'^2)/2\nV = -3 [J]*cos(a) - 4 [J]*cos(b)\n"
+                 "scene two {\n  start %s\n  step 1 [ms]\n  until 1 [s]\n}\n",
+                 row[i].start);
+        derived d = derived_scene(text, "two");
+        derived_expect(&d, text);
+        const cost_counts soft =
+            cost_counts_of(d.image, cost_board_named("mps2-an385"), COST_FLOAT);
+        const cost_counts hard =
+            cost_counts_of(d.image, cost_board_named("mps2-an386"), COST_FLOAT);
+        TEST_ASSERT_TRUE_MESSAGE(soft.step.still_pairs == row[i].still, row[i].start);
+        TEST_ASSERT_TRUE_MESSAGE(soft.step.zero_pairs == row[i].zero, row[i].start);
+        TEST_ASSERT_TRUE_MESSAGE(hard.step.still_pairs == 0.0, row[i].start);
+        derived_free(&d);
+    }
+}
+
+/* Of a ledger beside a short list only what the step does not compute anyway; beside a long one all of it. */
+static void books_share_with_short_lists(void) {
+    static const char *const head = "mechanism row \"Row\"\n";
+    for (int n = 1; n <= 16; n += 15) {
+        char *T = repeated(head, "coordinate x# [m]\n", n, "T = 0 [J]");
+        char *energy = repeated("", " + 2 [kg]*x#'^2/2", n, "\nV = 0 [J]");
+        char *spring = repeated("", " + 30 [N/m]*(x# + x#^3/(1 [m^2]))^2/2", n, "\n");
+        char *begin = repeated("scene row {\n  with ledger\n  step 1 [ms]\n  until 1 [s]\n  start ",
+                               "x# = 0.1 [m], ", n - 1, "");
+        char text[8192];
+        snprintf(text, sizeof text, "%s%s%s%sx%d = 0.1 [m]\n}\n", T, energy, spring, begin, n);
+        derived d = derived_scene(text, "row");
+        derived_expect(&d, text);
+        const cost_counts hard =
+            cost_counts_of(d.image, cost_board_named("mps2-an386"), COST_FLOAT);
+        const cost_counts soft =
+            cost_counts_of(d.image, cost_board_named("mps2-an385"), COST_FLOAT);
+        TEST_ASSERT_TRUE(d.image->ledger.kept && soft.books_called && soft.books.products > 0);
+        TEST_ASSERT_TRUE(hard.books_called == (n > 1) && hard.called == (n > 1));
+        TEST_ASSERT_TRUE(n > 1 ? hard.books.products == soft.books.products
+                               : hard.books.products < soft.books.products);
+        derived_free(&d);
+        free(T);
+        free(energy);
+        free(spring);
+        free(begin);
+    }
+}
+
 /* What is told from more of something than any fitted row had is promised within more. */
 static void what_is_extrapolated_is_promised_within_more(void) {
     cost_fit f = {.cases = 9,
@@ -269,6 +327,8 @@ static void what_is_extrapolated_is_promised_within_more(void) {
 void suite_cost(void) {
     RUN_TEST(a_steps_own_arithmetic_is_counted);
     RUN_TEST(what_rests_is_seen);
+    RUN_TEST(angles_that_rest_are_seen);
+    RUN_TEST(books_share_with_short_lists);
     RUN_TEST(what_is_extrapolated_is_promised_within_more);
     RUN_TEST(prices_are_whole);
     RUN_TEST(more_stages_and_compensated_sums_are_never_cheaper);
