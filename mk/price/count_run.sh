@@ -114,7 +114,7 @@ if [ -n "${PLUGIN:-}" ]; then
     elf=$mine/worst.elf
     link "$elf" "$mine/worst.o" "$mine/scenes.o" "$mine/marked.o"
     "$BOARD_OBJCOPY" --dump-section .wh_marks="$work/section" "$elf" "$work/copy"
-    od -A n -v -t u4 -w8 "$work/section" | awk '{ print $1 - $1 % 2, $2 }' >"$work/marks"
+    od -A n -v -t u4 -w8 "$work/section" | awk '{ printf "%.0f %d\n", $1 - $1 % 2, $2 }' >"$work/marks"
     EMULATE=$(emulated "$elf")
     (count ",every=$WORST,marks=$work/marks") >/dev/null 2>&1 || true
     mv "$work/console" "$work/declared"
