@@ -110,8 +110,8 @@ typedef struct interval {
     uint64_t cycles;
     uint64_t longest[KINDS]; /* stretch, in instructions */
     uint64_t longest_cycles[KINDS];
-    uint64_t most[KINDS];    /* stretches */
-    uint64_t members;        /* how many count as this one, and their sums */
+    uint64_t most[KINDS]; /* stretches */
+    uint64_t members;     /* how many count as this one, and their sums */
     uint64_t all;
     uint64_t all_cycles;
 } interval;
@@ -286,8 +286,8 @@ static void report(qemu_plugin_id_t id, void *data) {
             qemu_plugin_outs(line);
         }
         for (unsigned kind = 0; kind < KINDS && marked; kind++) {
-            snprintf(line, sizeof line, "stretches %zu %u %" PRIu64 " %" PRIu64 " %" PRIu64 "\n",
-                     i, kind, intervals[i].longest[kind], intervals[i].most[kind],
+            snprintf(line, sizeof line, "stretches %zu %u %" PRIu64 " %" PRIu64 " %" PRIu64 "\n", i,
+                     kind, intervals[i].longest[kind], intervals[i].most[kind],
                      intervals[i].longest_cycles[kind]);
             qemu_plugin_outs(line);
         }
