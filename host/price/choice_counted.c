@@ -1,6 +1,8 @@
 /* choice_counted.c: see choice_counted.h. */
 #include "choice_counted.h"
 
+#include "choice_price.h"
+
 /* What an answer is made of that was not counted yet; NULL: it all was. */
 static const choice_row *uncounted(const measured_prices *m, const choice *c) {
     const choice_row *rows[] = {c->found ? &c->best : NULL,
@@ -15,18 +17,6 @@ static const choice_row *uncounted(const measured_prices *m, const choice *c) {
         }
     }
     return NULL;
-}
-
-/* What a run's longest step took of what was expected of it: the next are expected by that. */
-static void learn(measured_prices *m, const choice_row *row) {
-    cost counted = row->cost;
-    measured_tell(m, &row->setting, row->pace, &counted);
-    const double expected = row->cost.instructions_worst.value;
-    if (m->by_run && counted.instructions_worst.basis == COST_MEASURED && expected > 0.0) {
-        measured_learn(m, &row->setting,
-                       measured_share(m, &row->setting) * counted.instructions_worst.value /
-                           expected);
-    }
 }
 
 choice choice_counted(trials *t, choice_wish *w, measured_prices *m, measured_end *end) {
@@ -44,7 +34,7 @@ choice choice_counted(trials *t, choice_wish *w, measured_prices *m, measured_en
         *end = measured_count(m, t, &next->setting, next->pace, next->result.point, &next->cost);
         t->stopped = t->stopped || (t->wish.stop != NULL && *t->wish.stop);
         if (*end != MEASURED_MISSING) {
-            learn(m, next);
+            choice_learn_run(m, next);
             c = choice_make(t, w);
             next = uncounted(m, &c);
         }

@@ -4,7 +4,12 @@
 #include "host/number/functions.h"
 
 /* Behind so many that were counted, others are taken to cost the most that is promised: an answer comes to an end. */
-enum { PLENTY = 40 };
+enum { PLENTY = 40, PLENTY_OF_RUNS = 8 };
+/* Before that, a run's longest step may take this part of what is expected by another's. */
+#define RUN_MAY_TAKE 0.85
+/* No step in double was seen to take less than so many in float, both in software, or with an FPU for the float. */
+#define DOUBLE_OF_FLOAT 1.3
+#define DOUBLE_OF_FPU 4.0
 /* Instructions of a run that an emulator is given: some ten seconds of it. */
 #define RUN_INSTRUCTIONS 1e9
 
@@ -30,8 +35,15 @@ static void scale(cost_figure *f, double by) {
     f->most *= by;
 }
 
-/* Of what has no figures: in float, which takes no more than double; by the classic method where its own was not fitted,
- * by how many stages it has. */
+static void scale_steps(cost *c, double by) {
+    scale(&c->instructions, by);
+    scale(&c->instructions_worst, by);
+    scale(&c->cycles, by);
+    scale(&c->cycles_worst, by);
+}
+
+/* Of what has no figures: no less than in float; by the classic method where its own was not fitted, by how many stages
+ * it has. */
 static cost stand_in(trials *t, const setting *s, deviation_pace pace, const cost *unknown) {
     setting as = *s;
     bool own;
@@ -42,10 +54,12 @@ static cost stand_in(trials *t, const setting *s, deviation_pace pace, const cos
         c = trial_cost(t, &as, pace, &own);
         const double stages =
             (double)wh_methods[s->image.method].stages / (double)wh_methods[WH_RK4].stages;
-        scale(&c.instructions, stages);
-        scale(&c.instructions_worst, stages);
-        scale(&c.cycles, stages);
-        scale(&c.cycles_worst, stages);
+        scale_steps(&c, stages);
+    }
+    if (s->number == &engine_double) {
+        scale_steps(&c, cost_is_soft(t->wish.board, COST_DOUBLE)
+                            ? (t->wish.board->fpu ? DOUBLE_OF_FPU : DOUBLE_OF_FLOAT)
+                            : 1.0);
     }
     c.state_bytes = unknown->state_bytes;
     c.flash_bytes = c.ram_bytes = c.stack_bytes = (cost_figure){0};
@@ -74,6 +88,8 @@ cost choice_price(trials *t, const choice_wish *w, const setting *s, deviation_p
 
 bool choice_prices_runs(const choice_wish *w) { return w->counted != NULL && w->counted->by_run; }
 
+static double may_take(int counted) { return counted < PLENTY_OF_RUNS ? RUN_MAY_TAKE : 1.0; }
+
 cost choice_price_of_run(const trials *t, const choice_wish *w, const setting *s,
                          deviation_pace pace, const cost *step, const trial_result *r) {
     cost c = *step;
@@ -85,7 +101,8 @@ cost choice_price_of_run(const trials *t, const choice_wish *w, const setting *s
     const double each_s = ratio_times(1, trial_step(t, pace));
     const double share = measured_share(w->counted, s);
     const double mean = number_most(1.0, r->evaluations * each_s / stages);
-    const double worst = number_most(1.0, share * r->evaluations_most / stages);
+    const double worst =
+        number_most(1.0, may_take(w->counted->count) * share * r->evaluations_most / stages);
     scale(&c.instructions, mean);
     scale(&c.cycles, mean);
     scale(&c.instructions_worst, worst);
@@ -96,4 +113,14 @@ cost choice_price_of_run(const trials *t, const choice_wish *w, const setting *s
 bool choice_run_is_long(const trials *t, deviation_pace pace, const cost *run) {
     const double steps = trial_horizon_s(t) / ratio_times(1, trial_step(t, pace));
     return run->instructions.value * steps * t->wish.source->points > RUN_INSTRUCTIONS;
+}
+
+void choice_learn_run(measured_prices *m, const choice_row *row) {
+    cost counted = row->cost;
+    measured_tell(m, &row->setting, row->pace, &counted);
+    const double expected = row->cost.instructions_worst.value / may_take(m->count - 1);
+    if (m->by_run && counted.instructions_worst.basis == COST_MEASURED && expected > 0.0) {
+        const double share = counted.instructions_worst.value / expected;
+        measured_learn(m, &row->setting, share * measured_share(m, &row->setting));
+    }
 }

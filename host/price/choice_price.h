@@ -19,5 +19,8 @@ cost choice_price_of_run(const trials *t, const choice_wish *w, const setting *s
                          deviation_pace pace, const cost *step, const trial_result *r);
 /* Would its run take too long to be counted? */
 bool choice_run_is_long(const trials *t, deviation_pace pace, const cost *run);
+/* A row as it was before it was counted: what its run's longest step took of what was expected of it, the next ones' are
+ * expected by. */
+void choice_learn_run(measured_prices *m, const choice_row *row);
 
 #endif

@@ -5,7 +5,7 @@
 #   OUT         a folder to work in
 #   NUMBER      float or double; LIB_DOUBLE is the core's library in double
 #   RUN_EVERY   intervals that the counter tells as one. Default: 100
-#   WORST       random steps (boards/programs/worst.c) whose stretches the bound is made of. Default: 5000
+#   WORST       random steps (boards/programs/worst.c) whose stretches the bound is made of. Default: 2000
 #
 # CASES has one line "ID TARGET OPTIONS OF whirl derive...". Writes a header and a row:
 #
@@ -20,7 +20,7 @@
 set -eu
 here=$(dirname "$0")
 . "$here/../count/common.sh"
-: "${RUN_EVERY:=100}" "${WORST:=5000}"
+: "${RUN_EVERY:=100}" "${WORST:=2000}"
 NM=${BOARD_NM:-nm}
 cases=$1
 csv=$2
