@@ -263,23 +263,48 @@ static int choose_from(pricing *p, choice_wish *w, const choose_options *o, bool
     return code;
 }
 
-/* Why nothing is counted, or NULL. */
-static const char *not_counted(const choose_options *o, const pricing *p,
-                               char text[MEASURED_TEXT]) {
-    return o->predict ? "" : measured_missing(p->board, text);
+/* Why nothing is counted, or NULL; and what is said of prices. */
+typedef struct basis {
+    const char *missing;
+    char text[MEASURED_TEXT];
+    char told[PRICES_TEXT];
+} basis;
+
+/* Where --measure asks for what cannot be had, EXIT_BAD_INPUT. */
+static int look_for_tools(const choose_options *o, const pricing *p, basis *b) {
+    b->missing = o->predict ? "" : measured_missing(p->board, b->text);
+    if (b->missing == NULL && p->has_trial && p->trial.image[0]->contacts > 0 &&
+        !measured_takes_runs(p->board)) {
+        b->missing = "runs with contacts are counted in emulators alone";
+    }
+    if (o->measure && b->missing != NULL) {
+        pricing_says_missing(p, b->missing);
+        return EXIT_BAD_INPUT;
+    }
+    return EXIT_DONE;
+}
+
+static int choose_begun(const choose_options *o, pricing *p, choice_wish *w) {
+    basis b;
+    if (p->trial.stopped) {
+        return EXIT_INTERRUPTED;
+    }
+    const int code = look_for_tools(o, p, &b);
+    if (code != EXIT_DONE) {
+        return code;
+    }
+    w->prices = b.missing == NULL ? prices_counted
+                : o->predict      ? prices_asked
+                                  : predicted_since(b.missing, b.told);
+    return choose_from(p, w, o, b.missing == NULL);
 }
 
 static int choose_scene(const choose_options *o, pricing *p) {
     choice_wish w = {.operations = p->effort * OPERATIONS};
     whole_ratio spacing;
-    if (!read_limits(o, p, &w) || !space_records(p, &w, &spacing)) {
-        return EXIT_BAD_INPUT;
-    }
-    char text[MEASURED_TEXT];
-    char told[PRICES_TEXT];
-    const char *missing = not_counted(o, p, text);
-    if (o->measure && missing != NULL) {
-        pricing_says_missing(p, missing);
+    basis early;
+    if (!read_limits(o, p, &w) || !space_records(p, &w, &spacing) ||
+        (o->measure && look_for_tools(o, p, &early) != EXIT_DONE)) {
         return EXIT_BAD_INPUT;
     }
     const bool shows = !o->common.quiet && isatty(STDERR_FILENO);
@@ -287,18 +312,8 @@ static int choose_scene(const choose_options *o, pricing *p) {
     w.counting = shows ? show_counting : NULL;
     pricing_catch_interrupts();
     int code = pricing_begin(p, spacing, &pricing_interrupted);
-    if (code == EXIT_DONE && p->trial.image[0]->contacts > 0 && !measured_takes_runs(p->board)) {
-        missing = missing != NULL ? missing : "runs with contacts are counted in emulators alone";
-        if (o->measure) {
-            pricing_says_missing(p, missing);
-            return EXIT_BAD_INPUT;
-        }
-    }
-    w.prices = missing == NULL ? prices_counted
-               : o->predict    ? prices_asked
-                               : predicted_since(missing, told);
     if (code == EXIT_DONE) {
-        code = p->trial.stopped ? EXIT_INTERRUPTED : choose_from(p, &w, o, missing == NULL);
+        code = choose_begun(o, p, &w);
     }
     if (code == EXIT_INTERRUPTED) {
         fputs("whirl choose: interrupted\n", stderr);

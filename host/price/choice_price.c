@@ -4,7 +4,7 @@
 #include "host/number/functions.h"
 
 /* Behind so many that were counted, others are taken to cost the most that is promised: an answer comes to an end. */
-enum { PLENTY = 40, PLENTY_OF_RUNS = 8 };
+enum { PLENTY = 40, PLENTY_OF_RUNS = 4 };
 /* Before that, a run's longest step may take this part of what is expected by another's. */
 #define RUN_MAY_TAKE 0.85
 /* No step in double was seen to take less than so many in float, both in software, or with an FPU for the float. */
