@@ -173,15 +173,29 @@ PRICE_CASES ?= $(PRICE_OUT)/cases
 PRICE_CSV ?= $(PRICE_OUT)/rows.csv
 NUMBERS ?= float
 
-.PHONY: price-measure-board price-measure-host
-price-measure-board: build/whirl
-	@$(MAKE) $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl) \
+# The board's core in double, for what is counted in it.
+$(eval $(call build,double_$(BOARD),$(BOARD_CC),$(BOARD_CFLAGS) -DWH_DOUBLE=1 -w))
+$(eval $(call library,$(B)/double_$(BOARD)/libwhirl.a,$(call objects,double_$(BOARD),$(CORE_C))))
+LIB_DOUBLE_BOARD := $(B)/double_$(BOARD)/libwhirl.a
+
+# What counting takes: what is compiled once, and the emulator. Whoever asks whether a board can be counted on makes it.
+.PHONY: price-ready-board price-ready-host price-measure-board price-measure-host price-count-run-board
+price-ready-board: build/whirl
+	@$(if $(filter single,$(BOARD_IMAGES)),true,$(call need,$(BOARD_EMULATOR)))
+	@$(MAKE) $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl) $(if $(filter double,$(NUMBERS)),$(LIB_DOUBLE_BOARD)) \
 	    $(if $(filter single,$(BOARD_IMAGES)),$(AVR_RUN),$(PLUGIN))
-	@mkdir -p $(PRICE_OUT)
-	@OUT=$(PRICE_OUT) NUMBERS="$(NUMBERS)" TIMING=$(BOARD_TIMING) $(TO_PRICE) \
-	    $(if $(filter single,$(BOARD_IMAGES)),PLUGIN=) mk/price/measure.sh $(PRICE_CASES) $(PRICE_CSV)
-price-measure-host: build/whirl
+price-ready-host: build/whirl
+	@$(call need,valgrind)
 	@$(MAKE) $(LIB_FLOAT) $(B)/float/boards/host/board.o
+price-measure-board: price-ready-board
+	@mkdir -p $(PRICE_OUT)
+	@OUT=$(PRICE_OUT) NUMBERS="$(NUMBERS)" TIMING=$(BOARD_TIMING) $(TO_PRICE) LIB_DOUBLE=$(LIB_DOUBLE_BOARD) \
+	    $(if $(filter single,$(BOARD_IMAGES)),PLUGIN=) mk/price/measure.sh $(PRICE_CASES) $(PRICE_CSV)
+price-count-run-board: price-ready-board
+	@mkdir -p $(PRICE_OUT)
+	@OUT=$(PRICE_OUT) NUMBER=$(NUMBERS) TIMING=$(BOARD_TIMING) BOARD_OBJCOPY=$(BOARD_OBJCOPY) $(TO_PRICE) \
+	    LIB_DOUBLE=$(LIB_DOUBLE_BOARD) $(if $(filter single,$(BOARD_IMAGES)),PLUGIN=) mk/price/count_run.sh $(PRICE_CASES) $(PRICE_CSV)
+price-measure-host: price-ready-host
 	@mkdir -p $(PRICE_OUT)
 	@OUT=$(PRICE_OUT) NUMBERS="$(NUMBERS)" WHIRL=build/whirl BOARD=host BOARD_CC=$(CC) BOARD_NM=nm BOARD_SIZE=size \
 	    BOARD_CFLAGS="$(FLAGS_float)" BOARD_LDFLAGS="" BOARD_LDLIBS="" BOARD_OBJECTS=$(B)/float/boards/host/board.o \

@@ -7,6 +7,7 @@
 #include "commands.h"
 #include "host/number/decimal.h"
 #include "host/number/functions.h"
+#include "host/price/choice_counted.h"
 #include "host/price/choice_text.h"
 #include "host/price/figure_text.h"
 #include "pricing.h"
@@ -23,6 +24,9 @@ static const char head[] =
     "The cheapest method, number, form and step that keep an error on a board with a margin of 2, what\n"
     "they cost and what does them again. Each figure says how it is known, and how many settings were\n"
     "tried and why others were not. Errors are measured as by `whirl price`, which shows all settings.\n"
+    "In Whirl's source tree, where the board's compiler and emulator are, the steps of what is chosen and\n"
+    "of the runner-up are counted; of a scene with contacts, all steps to the horizon. Elsewhere they are\n"
+    "predicted, which it says, and no scene with contacts has an answer.\n"
     "\n";
 static const char tail[] =
     "  --rate 500Hz         how often the firmware steps: a period takes whole steps (default: any\n"
@@ -32,12 +36,12 @@ static const char tail[] =
     "  --flash 32KB         what the firmware may take; K, KB and KiB are 1024 bytes (default: what\n"
     "                       the board has, if it is one chip)\n"
     "  --ram 2KB            the same of its memory and stack\n"
-    "  --measure            count the steps of what is chosen and of the runner-up instead of\n"
-    "                       predicting them: in Whirl's source tree, where the board's compiler and\n"
-    "                       emulator are\n"
+    "  --predict            predict what steps take, though it could be counted: a few seconds less\n"
+    "  --measure            count, or fail where that cannot be\n"
     "  --quiet              no progress\n"
     "\n";
-static const char *const own[] = {"--rate", "--clock", "--flash", "--ram", "--measure", NULL};
+static const char *const own[] = {"--rate",    "--clock",   "--flash", "--ram",
+                                  "--predict", "--measure", NULL};
 
 static void print_help(FILE *out) {
     const command_usage common = {.head = "", .groups = PRICING_GROUPS, .tail = ""};
@@ -64,7 +68,8 @@ typedef struct choose_options {
     const char *clock;
     const char *flash;
     const char *ram;
-    bool measure;
+    bool measure; /* or fail */
+    bool predict;
 } choose_options;
 
 static bool read_options(int count, char **words, choose_options *o) {
@@ -72,8 +77,11 @@ static bool read_options(int count, char **words, choose_options *o) {
     bool bad = false;
     for (int at = 0; at < count && !bad;) {
         bool taken = false;
-        if (strcmp(words[at], "--measure") == 0) {
-            o->measure = true;
+        bool *const asked = strcmp(words[at], "--measure") == 0   ? &o->measure
+                            : strcmp(words[at], "--predict") == 0 ? &o->predict
+                                                                  : NULL;
+        if (asked != NULL) {
+            *asked = true;
             at++;
             continue;
         }
@@ -89,6 +97,10 @@ static bool read_options(int count, char **words, choose_options *o) {
         return false;
     }
     if (bad || !pricing_complete(&o->common)) {
+        return false;
+    }
+    if (o->measure && o->predict) {
+        fputs("whirl choose: error: --measure and --predict: one of the two\n", stderr);
         return false;
     }
     if (o->common.value[PRICING_ERROR] == NULL) {
@@ -185,20 +197,42 @@ static void show_progress(void *context, int done, int of) {
 /* --error in the unit of the trial's errors. */
 static double allowed_of(const pricing *p) { return p->error_si / trial_error_si(&p->trial, 1.0); }
 
-static choice make(pricing *p, choice_wish *w, const table_words *words, bool counts,
-                   measured_end *end) {
-    measured_prices m = {.words = words};
-    *end = MEASURED_COUNTED;
-    if (!counts) {
-        return choice_make(&p->trial, w);
-    }
-    const choice c = choice_counted(&p->trial, w, &m, end);
-    w->counted = NULL;
-    measured_free(&m);
-    return c;
+static void show_counting(void *context, int counted) {
+    (void)context;
+    fprintf(stderr, "\rcounting on the board: %d so far ", counted);
 }
 
-static int choose_from(pricing *p, choice_wish *w, bool counts) {
+/* What can be said of how prices are known. */
+static const char prices_counted[] =
+    "counted on the board: of what is named, its step or its whole run, and its bytes";
+static const char prices_asked[] = "predicted, as --predict asks for";
+
+enum { PRICES_TEXT = 64 + MEASURED_TEXT };
+static const char *predicted_since(const char *missing, char text[PRICES_TEXT]) {
+    snprintf(text, PRICES_TEXT, "predicted, since nothing can be counted: %s", missing);
+    return text;
+}
+
+/* An answer, or EXIT_BAD_INPUT. *counts: by counted prices; false afterwards where it could not be. */
+static int choose_by(pricing *p, choice_wish *w, measured_prices *m, const choose_options *o,
+                     choice *c) {
+    measured_end end = MEASURED_COUNTED;
+    *c = m != NULL ? choice_counted(&p->trial, w, m, &end) : choice_make(&p->trial, w);
+    if (end == MEASURED_COUNTED || end == MEASURED_REFUSED) {
+        return EXIT_DONE;
+    }
+    if (o->measure) {
+        pricing_says_missing(p, "a tool is missing");
+        return EXIT_BAD_INPUT;
+    }
+    w->counted = NULL;
+    w->prices = "predicted, since a tool is missing that counts";
+    p->trial.without_events = false;
+    *c = choice_make(&p->trial, w);
+    return EXIT_DONE;
+}
+
+static int choose_from(pricing *p, choice_wish *w, const choose_options *o, bool counts) {
     if (!p->trial.reliable) {
         figure_reference(stderr, &p->trial);
         return EXIT_RUN_FAILED;
@@ -206,43 +240,80 @@ static int choose_from(pricing *p, choice_wish *w, bool counts) {
     w->error = allowed_of(p);
     p->trial.tolerated = w->error;
     const table_words words = {p->target, p->words, false};
-    measured_end end;
-    const choice c = make(p, w, &words, counts, &end);
+    measured_prices m = {.words = &words};
+    choice c;
+    int code = choose_by(p, w, counts ? &m : NULL, o, &c);
     choice_row lower;
-    const double lower_Hz =
-        p->trial.stopped || c.found ? 0.0 : choice_lower_rate(&p->trial, w, &c, &lower);
+    const double lower_Hz = code != EXIT_DONE || p->trial.stopped || c.found
+                                ? 0.0
+                                : choice_lower_rate(&p->trial, w, &c, &lower);
     if (w->progress != NULL) {
-        fputs("\r                    \r", stderr);
+        fputs("\r                                        \r", stderr);
     }
+    if (code == EXIT_DONE && p->trial.stopped) {
+        code = EXIT_INTERRUPTED;
+    }
+    if (code == EXIT_DONE && c.found) {
+        choice_print(stdout, &p->trial, w, &c, &words);
+    } else if (code == EXIT_DONE) {
+        choice_print_none(stdout, &p->trial, w, &c, &words, lower_Hz, &lower);
+        code = EXIT_RUN_FAILED;
+    }
+    measured_free(&m);
+    return code;
+}
+
+/* Why nothing is counted, or NULL; and what is said of prices. */
+typedef struct basis {
+    const char *missing;
+    char text[MEASURED_TEXT];
+    char told[PRICES_TEXT];
+} basis;
+
+/* Where --measure asks for what cannot be had, EXIT_BAD_INPUT. */
+static int look_for_tools(const choose_options *o, const pricing *p, basis *b) {
+    b->missing = o->predict ? "" : measured_missing(p->board, b->text);
+    if (b->missing == NULL && p->has_trial && p->trial.image[0]->contacts > 0 &&
+        !measured_takes_runs(p->board)) {
+        b->missing = "runs with contacts are counted in emulators alone";
+    }
+    if (o->measure && b->missing != NULL) {
+        pricing_says_missing(p, b->missing);
+        return EXIT_BAD_INPUT;
+    }
+    return EXIT_DONE;
+}
+
+static int choose_begun(const choose_options *o, pricing *p, choice_wish *w) {
+    basis b;
     if (p->trial.stopped) {
         return EXIT_INTERRUPTED;
     }
-    if (end == MEASURED_MISSING) {
-        pricing_says_missing(p);
-        return EXIT_BAD_INPUT;
+    const int code = look_for_tools(o, p, &b);
+    if (code != EXIT_DONE) {
+        return code;
     }
-    if (c.found) {
-        choice_print(stdout, &p->trial, w, &c, &words);
-    } else {
-        choice_print_none(stdout, &p->trial, w, &c, &words, lower_Hz, &lower);
-    }
-    return c.found ? EXIT_DONE : EXIT_RUN_FAILED;
+    w->prices = b.missing == NULL ? prices_counted
+                : o->predict      ? prices_asked
+                                  : predicted_since(b.missing, b.told);
+    return choose_from(p, w, o, b.missing == NULL);
 }
 
 static int choose_scene(const choose_options *o, pricing *p) {
     choice_wish w = {.operations = p->effort * OPERATIONS};
     whole_ratio spacing;
-    if (o->measure && !pricing_can_measure("choose")) {
+    basis early;
+    if (!read_limits(o, p, &w) || !space_records(p, &w, &spacing) ||
+        (o->measure && look_for_tools(o, p, &early) != EXIT_DONE)) {
         return EXIT_BAD_INPUT;
     }
-    if (!read_limits(o, p, &w) || !space_records(p, &w, &spacing)) {
-        return EXIT_BAD_INPUT;
-    }
-    w.progress = !o->common.quiet && isatty(STDERR_FILENO) ? show_progress : NULL;
+    const bool shows = !o->common.quiet && isatty(STDERR_FILENO);
+    w.progress = shows ? show_progress : NULL;
+    w.counting = shows ? show_counting : NULL;
     pricing_catch_interrupts();
     int code = pricing_begin(p, spacing, &pricing_interrupted);
     if (code == EXIT_DONE) {
-        code = p->trial.stopped ? EXIT_INTERRUPTED : choose_from(p, &w, o->measure);
+        code = choose_begun(o, p, &w);
     }
     if (code == EXIT_INTERRUPTED) {
         fputs("whirl choose: interrupted\n", stderr);

@@ -169,16 +169,24 @@ static int count_front(pricing *p, table *made, const table_wish *w) {
     const measured_end end = table_counted(&p->trial, made, &m, w);
     measured_free(&m);
     if (end == MEASURED_MISSING) {
-        pricing_says_missing(p);
+        pricing_says_missing(p, "a tool is missing");
     }
     return end == MEASURED_MISSING ? EXIT_BAD_INPUT : EXIT_DONE;
+}
+
+static bool can_measure(const pricing *p) {
+    char text[MEASURED_TEXT];
+    const char *missing = measured_missing(p->board, text);
+    if (missing != NULL) {
+        pricing_says_missing(p, missing);
+    }
+    return missing == NULL;
 }
 
 static int price_scene(const price_options *o, pricing *p) {
     const bool progress = !o->common.quiet && isatty(STDERR_FILENO);
     if (source_would_be_lost(&p->from, "--csv", o->csv, "") ||
-        source_would_be_lost(&p->from, "--plot", o->plot, "") ||
-        (o->measure && !pricing_can_measure("price"))) {
+        source_would_be_lost(&p->from, "--plot", o->plot, "") || (o->measure && !can_measure(p))) {
         return EXIT_BAD_INPUT;
     }
     pricing_catch_interrupts();

@@ -7,7 +7,6 @@
 
 #include "host/base/nearest.h"
 #include "host/base/room.h"
-#include "host/price/measured.h"
 
 typedef struct pricing_row {
     const char *word;
@@ -96,22 +95,10 @@ void pricing_unknown(const char *command, const char *word, const char *const *o
     options_unknown(command, word, PRICING_GROUPS, all);
 }
 
-bool pricing_can_measure(const char *command) {
-    if (measured_here()) {
-        return true;
-    }
-    fprintf(stderr,
-            "whirl %s: error: --measure counts in Whirl's source tree, and this is not its root: "
-            "there is no mk/price/measure_one.sh\n"
-            "hint: without --measure prices are predicted\n",
-            command);
-    return false;
-}
-
-void pricing_says_missing(const pricing *p) {
-    fprintf(stderr,
-            "whirl %s: error: --measure: a tool is missing that counts on %s\n"
-            "hint: without --measure prices are predicted; sh mk/price/measure_one.sh %s float %s "
-            "says what is missing\n",
-            p->options->command, p->board->name, p->board->name, p->target);
+void pricing_says_missing(const pricing *p, const char *why) {
+    fprintf(
+        stderr,
+        "whirl %s: error: --measure: nothing can be counted on %s: %s\n"
+        "hint: without --measure prices are predicted; `make deps` installs compilers and emulators\n",
+        p->options->command, p->board->name, why);
 }

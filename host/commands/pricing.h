@@ -48,8 +48,6 @@ void pricing_describe(FILE *out);
 bool pricing_take(int count, char **words, int *at, pricing_options *o, bool *bad);
 /* Is there a target, and no more than one? Told. */
 bool pricing_complete(const pricing_options *o);
-/* Is --measure of use here? Told. */
-bool pricing_can_measure(const char *command);
 /* What no option takes; `own`: the command's own words, NULL at the end. */
 void pricing_unknown(const char *command, const char *word, const char *const *own);
 
@@ -78,8 +76,8 @@ typedef struct pricing {
 /* Reads all that the options say of the scene. Returns an exit code, what is wrong is told; pricing_close() in any case. */
 int pricing_open(pricing *p, const pricing_options *o);
 void pricing_close(pricing *p);
-/* That a tool is missing which counts. */
-void pricing_says_missing(const pricing *p);
+/* That --measure cannot be had, and why. */
+void pricing_says_missing(const pricing *p, const char *why);
 /* A quantity of the command line in SI: false, told. `wanted` by exponents of metre, kilogram, second. */
 bool pricing_quantity(const pricing *p, const char *what, const char *text, dimension wanted,
                       double *value);

@@ -1,10 +1,10 @@
 /* choice.c: see choice.h. */
 #include "choice.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "choice_price.h"
 #include "host/base/room.h"
 #include "host/number/functions.h"
 
@@ -127,7 +127,7 @@ static void count_failures(choice *c, const choice_row *row) {
 }
 
 /* Can no step from this one on be of use, since none keeps flash, RAM or load? What a finer step takes is as much, and more
- * of it a second; but that of a matrix comes and goes with its entries. */
+ * of it a second; but that of a matrix comes and goes with its entries. (With contacts, it is a step without an event.) */
 static bool is_hopeless(const setting *s, const choice_row *row) {
     return !setting_price_varies(s) && fails_besides(row, CHOICE_ERROR);
 }
@@ -137,10 +137,27 @@ static bool is_hopeless(const setting *s, const choice_row *row) {
 enum { CLIMB_DONE = CHOICE_LEFTS, CLIMB_ERRS, CLIMB_REFUSED };
 typedef int climb_end;
 
+/* With contacts, the price of a row that was run, and what it is judged by then. Not CLIMB_DONE: the setting is left. */
+static climb_end price_run(trials *t, const choice_wish *w, const cost *price, choice_row *row) {
+    if (!choice_prices_runs(w)) {
+        return CLIMB_DONE;
+    }
+    row->cost = choice_price_of_run(t, w, &row->setting, row->pace, price, &row->result);
+    row->run = measured_run_of(w->counted, &row->setting, row->pace);
+    if (!is_known(&row->cost.instructions_worst)) {
+        return CHOICE_LEFT_UNBUILT;
+    }
+    if (!(row->run.steps > 0.0) && choice_run_is_long(t, row->pace, &row->cost)) {
+        return CHOICE_LEFT_LONG;
+    }
+    judge(t, w, row);
+    return CLIMB_DONE;
+}
+
 /* One setting by ever finer steps, until it keeps the error, or could not be of use if it did. */
 static climb_end climb(trials *t, const choice_wish *w, choice *c, const setting *s,
                        const cost *price, double each) {
-    choice_row row = {.setting = *s, .cost = *price};
+    choice_row row = {.setting = *s};
     choice_row before = row;
     bool has_before = false;
     bool tried = false;
@@ -150,6 +167,7 @@ static climb_end climb(trials *t, const choice_wish *w, choice *c, const setting
             continue;
         }
         const double started = t->operations;
+        row.cost = *price;
         const bool too_dear =
             dear || trial_operations(t, s, row.pace) > (tried ? 1.0 : FIRST_MAY_TAKE) * each;
         if (too_dear && setting_is_fixed(s)) { /* its price alone takes a run */
@@ -157,8 +175,7 @@ static climb_end climb(trials *t, const choice_wish *w, choice *c, const setting
         }
         if (setting_price_varies(s)) {
             bool own;
-            row.cost = trial_cost(t, s, row.pace, &own);
-            measured_tell(w->counted, s, row.pace, &row.cost);
+            row.cost = choice_price(t, w, s, row.pace, false, &own);
             if (!own || !is_known(&row.cost.instructions_worst)) {
                 continue; /* in fixed point a step may be too long; or it was counted, and could not be */
             }
@@ -182,6 +199,10 @@ static climb_end climb(trials *t, const choice_wish *w, choice *c, const setting
             return CHOICE_LEFT_UNRUN;
         }
         row.fails[CHOICE_ERROR] = !row.result.usable || row.result.error * CHOICE_MARGIN > w->error;
+        const climb_end run = price_run(t, w, price, &row);
+        if (run != CLIMB_DONE) {
+            return run;
+        }
         enter(c, &row, has_before ? &before : NULL);
         if (!row.fails[CHOICE_ERROR]) {
             count_failures(c, &row);
@@ -238,10 +259,7 @@ choice choice_make(trials *t, const choice_wish *w) {
             c.left[CHOICE_LEFT_WHOLE]++;
             continue;
         }
-        price[i] = trial_any_cost(t, &s, (deviation_pace){w->periods, 1}, &own);
-        if (!setting_price_varies(&s)) {
-            measured_tell(w->counted, &s, (deviation_pace){w->periods, 1}, &price[i]);
-        }
+        price[i] = choice_price(t, w, &s, (deviation_pace){w->periods, 1}, true, &own);
         priced[i] = own && is_known(&price[i].instructions_worst);
         c.settings += own ? 1 : 0;
         if (own && !priced[i]) {
@@ -266,63 +284,9 @@ choice choice_make(trials *t, const choice_wish *w) {
     return c;
 }
 
-/* A row that counting may change; NULL: there is none. */
-static const choice_row *uncounted(const measured_prices *m, const choice *c) {
-    const choice_row *rows[] = {
-        c->found ? &c->best : NULL, c->found && c->has_second ? &c->second : NULL,
-        !c->found && c->has_dearer ? &c->dearer : NULL,
-        !c->found && c->has_larger ? &c->larger : NULL, !c->found && c->has_any ? &c->any : NULL};
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        if (rows[i] != NULL && !measured_has(m, &rows[i]->setting, rows[i]->pace)) {
-            return rows[i];
-        }
-    }
-    return NULL;
-}
-
-/* Settings that nobody can tell a price of: methods and numbers that were not fitted. (Not those of scenes with contacts: the
- * steps that are counted need not be the longest.) */
-static measured_end count_unpriced(trials *t, const choice_wish *w, measured_prices *m) {
-    const int count = setting_count();
-    const deviation_pace pace = {w->periods, 1};
-    measured_end end = MEASURED_COUNTED;
-    for (int i = 0;
-         i < count && t->image[0]->contacts == 0 && !t->stopped && end != MEASURED_MISSING; i++) {
-        const setting s = setting_at(i);
-        bool own;
-        const cost c = trial_any_cost(t, &s, pace, &own);
-        if (w->progress != NULL) {
-            w->progress(w->context, i, count);
-        }
-        if (own && !is_known(&c.instructions_worst) && !trial_is_slow_to_plan(t, &s, pace)) {
-            end = measured_count(m, t, &s, pace, 0, &c);
-        }
-    }
-    return end;
-}
-
-choice choice_counted(trials *t, choice_wish *w, measured_prices *m, measured_end *end) {
-    trial_memo memo = {.count = 0};
-    w->counted = m;
-    w->memo = &memo;
-    *end = count_unpriced(t, w, m);
-    choice c = choice_make(t, w);
-    const choice_row *next = uncounted(m, &c);
-    while (next != NULL && !t->stopped && *end != MEASURED_MISSING) {
-        *end = measured_count(m, t, &next->setting, next->pace, next->result.point, &next->cost);
-        if (*end != MEASURED_MISSING) {
-            c = choice_make(t, w);
-            next = uncounted(m, &c);
-        }
-    }
-    w->memo = NULL;
-    trial_memo_free(&memo);
-    return c;
-}
-
 double choice_lower_rate(trials *t, const choice_wish *w, const choice *c, choice_row *row) {
     *row = c->dearer;
-    if (!c->has_dearer || !(w->rate_Hz > 0.0) || c->dearer.substeps != 1) {
+    if (!c->has_dearer || choice_prices_runs(w) || !(w->rate_Hz > 0.0) || c->dearer.substeps != 1) {
         return 0.0; /* as many steps a second as now would be taken at any rate */
     }
     const double slower = number_ceiling(c->dearer.load_most);

@@ -26,7 +26,9 @@ extern const char *const choice_limit_words[CHOICE_LIMITS];
       "raise --effort, or a shorter --horizon") \
     X(CHOICE_LEFT_FINER, "finer steps take too long", "raise --effort") \
     X(CHOICE_LEFT_FINEST, "the finest step that is ever tried errs by more", "") \
-    X(CHOICE_LEFT_UNRUN, "no step of it can be run", "")
+    X(CHOICE_LEFT_UNRUN, "no step of it can be run", "") \
+    X(CHOICE_LEFT_LONG, "its run has too many steps to be counted", "a shorter --horizon") \
+    X(CHOICE_LEFT_UNBUILT, "it cannot be built, linked or run to its end on the board", "")
 #define CHOICE_LEFT_ID(id, words, more) id,
 typedef enum choice_left { CHOICE_LEFT_ROWS(CHOICE_LEFT_ID) CHOICE_LEFTS } choice_left;
 #undef CHOICE_LEFT_ID
@@ -40,8 +42,10 @@ typedef struct choice_wish {
     double ram_bytes;   /* with the stack; 0: no limit */
     double operations;  /* most that all trials may evaluate */
     const measured_prices *counted; /* prices that take the place of predicted ones; NULL: none */
+    const char *prices;             /* for people: how they are known; NULL: nothing is said */
     trial_memo *memo;               /* of trials that are asked for again; NULL: all are run */
     void (*progress)(void *context, int done, int of); /* may be NULL */
+    void (*counting)(void *context, int counted);      /* likewise */
     void *context;
 } choice_wish;
 
@@ -52,6 +56,7 @@ typedef struct choice_row {
     uint64_t substeps; /* in a period; 0 without a rate */
     trial_result result;
     cost cost;
+    measured_run run; /* of a scene with contacts, once it was counted */
     double
         worst; /* what it is judged by: cycles a second of the longest step, or instructions, the most promised */
     double load;      /* of the clock, by the best one number; 0: not known */
@@ -105,10 +110,6 @@ uint64_t choice_substeps(int i);
 enum { CHOICE_SUBSTEPS = 10 + 9 * 5 };
 
 choice choice_make(trials *t, const choice_wish *w); /* look at t->stopped */
-
-/* The same with counted prices of what is chosen and of the runner-up; where nothing fits, of what comes nearest. Whatever
- * these figures change is chosen anew. *end: MEASURED_MISSING where a tool is missing; nothing is chosen then. */
-choice choice_counted(trials *t, choice_wish *w, measured_prices *m, measured_end *end);
 
 /* A rate that the dearer row would keep, a whole part of the wished one, and the row at that rate, checked by a trial: 0
  * where there is none. */

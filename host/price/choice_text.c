@@ -44,6 +44,11 @@ static void print_figure(FILE *out, const char *name, const cost_figure *f, cons
     }
 }
 
+/* The most that a step is declared to take, in what the row's steps are told; 0: not known. */
+static double declared_of(const choice_row *row) {
+    return is_counted(&row->cost) ? row->run.cycles_bound : row->run.instructions_bound;
+}
+
 static void print_load(FILE *out, const choice_wish *w, const choice_row *row) {
     if (!(w->clock_Hz > 0.0)) {
         fputs("  load        not asked: give --clock\n", out);
@@ -66,7 +71,33 @@ static void print_load(FILE *out, const choice_wish *w, const choice_row *row) {
     } else {
         fputs(" of real time", out);
     }
-    fprintf(out, " at %.6g MHz, by the longest step\n", 1e-6 * w->clock_Hz);
+    fprintf(out, " at %.6g MHz, by the longest", 1e-6 * w->clock_Hz);
+    if (row->run.steps > 0.0) {
+        fprintf(out, " of %.0f counted steps", row->run.steps);
+    } else {
+        fputs(" step", out);
+    }
+    if (declared_of(row) > 0.0) {
+        fprintf(out, "; %.3g %% by the declared one",
+                100.0 * row->load_most * declared_of(row) /
+                    (is_counted(&row->cost) ? f->most : row->cost.instructions_worst.most));
+    }
+    fputc('\n', out);
+}
+
+/* With contacts: of how many steps these are the mean and the longest, and what none can be longer than. */
+static void print_run(FILE *out, const choice_row *row) {
+    if (!(row->run.steps > 0.0)) {
+        return;
+    }
+    fprintf(out, "  of          %.0f counted steps: every one to the horizon, events included\n",
+            row->run.steps);
+    if (declared_of(row) > 0.0) {
+        fprintf(out, "  declared    %.0f %s are the most that a step can take: docs/events.md\n",
+                declared_of(row), is_counted(&row->cost) ? "cycles" : "instructions");
+    } else {
+        fputs("  declared    not known: nobody counts stretches of a step on this board\n", out);
+    }
 }
 
 static void print_row(FILE *out, const trials *t, const choice_wish *w, const choice_row *row) {
@@ -95,6 +126,7 @@ static void print_row(FILE *out, const trials *t, const choice_wish *w, const ch
                  is_counted(c) ? "cycles" : "instructions");
     print_figure(out, "the longest", is_counted(c) ? &c->cycles_worst : &c->instructions_worst,
                  is_counted(c) ? "cycles" : "instructions");
+    print_run(out, row);
     if (!is_counted(c)) {
         print_figure(out, "in cycles", &c->cycles_worst, "cycles");
     }
@@ -141,9 +173,12 @@ static void print_lines(FILE *out, const trials *t, const choice_row *row,
     free(derive);
 }
 
-static void print_head(FILE *out, const trials *t) {
+static void print_head(FILE *out, const trials *t, const choice_wish *w) {
     fprintf(out, "%s on %s (%s)\n", t->image[0]->name, t->wish.board->name, t->wish.board->core);
     figure_reference(out, t);
+    if (w->prices != NULL) {
+        fprintf(out, "  prices      %s\n", w->prices);
+    }
 }
 
 static void print_reasons(FILE *out, const choice *c) {
@@ -190,19 +225,24 @@ static void print_verdict(FILE *out, const choice *c) {
             choice_not_tried(c), effort > 0 ? ": raise --effort" : "");
 }
 
-/* What has contacts has no price that could be promised, but its steps can be counted. */
+/* What has contacts has no price that could be predicted, but its run can be counted. */
 static void print_contacts(FILE *out, const trials *t, const table_words *words) {
-    fprintf(out,
-            "\nby evaluations  whirl price %s%s\n"
-            "counted by  sh mk/price/measure_one.sh %s float %s%s\n",
-            words->target, words->changes, t->wish.board->name, words->target, words->changes);
+    char until[TRIAL_TIME];
+    fprintf(
+        out,
+        "nothing can be promised of contacts without counting: in Whirl's source tree, where the\n"
+        "board's compiler and emulator are, `whirl choose` counts\n"
+        "\nby evaluations  whirl price %s%s\n"
+        "counted by  sh mk/price/measure_one.sh --whole-run %s float %s%s --until %s\n",
+        words->target, words->changes, t->wish.board->name, words->target, words->changes,
+        trial_until(t, until));
 }
 
 void choice_print(FILE *out, const trials *t, const choice_wish *w, const choice *c,
                   const table_words *words) {
     char text[AMOUNT];
     char step[TRIAL_TIME];
-    print_head(out, t);
+    print_head(out, t, w);
     fputs("\nchosen      ", out);
     print_options(out, t, &c->best);
     fputc('\n', out);
@@ -256,7 +296,7 @@ void choice_print_none(FILE *out, const trials *t, const choice_wish *w, const c
                        const table_words *words, double lower_rate_Hz, const choice_row *lower) {
     char text[AMOUNT];
     char what[2 * AMOUNT];
-    print_head(out, t);
+    print_head(out, t, w);
     print_verdict(out, c);
     if (c->unpriced == c->settings) {
         fputs("no setting has a price here: ", out);

@@ -26,6 +26,17 @@ static bool enter(const reference *r, const records *now, int record, deviation_
     return d->error <= what.give_up;
 }
 
+/* One step; *most: evaluations of the one that took most, where that is not the same for all. */
+static bool take_step(const engine_kind *kind, void *run, const image *im, double *most) {
+    uint64_t declared;
+    const bool differ = im->contacts > 0;
+    const uint64_t before = differ ? kind->evaluations(run, &declared) : 0;
+    const bool good = kind->step(run) == WH_OK;
+    const double taken = differ ? (double)(kind->evaluations(run, &declared) - before) : 1.0;
+    *most = taken > *most ? taken : *most;
+    return good;
+}
+
 deviation deviation_measure(const reference *r, const image *im, const engine_kind *kind,
                             deviation_pace pace, deviation_of_what what,
                             const volatile sig_atomic_t *stop) {
@@ -37,7 +48,7 @@ deviation deviation_measure(const reference *r, const image *im, const engine_ki
     const int each = (int)pace.records;
     for (int i = each; i <= r->records && good && (stop == NULL || !*stop); i += each) {
         for (uint64_t k = 0; k < pace.steps && good; k++) {
-            good = kind->step(run) == WH_OK;
+            good = take_step(kind, run, im, &d.evaluations_most);
         }
         if (good) {
             records_read(now, run, 0.0);
@@ -51,6 +62,9 @@ deviation deviation_measure(const reference *r, const image *im, const engine_ki
         (double)evaluations * (double)im->list[matrix ? IMAGE_MATRIX : IMAGE_STEP]->count;
     const double time_s = ratio_times(kind->steps(run), im->step);
     d.evaluations = time_s > 0.0 ? (double)evaluations / time_s : 0.0;
+    if (im->contacts == 0) {
+        d.evaluations_most = matrix ? 1.0 : (double)wh_methods[im->settings.method].stages;
+    }
     d.usable = good && (kind->saturated == NULL || kind->saturated(run) == 0);
     kind->stop(run);
     records_close(now);

@@ -26,6 +26,7 @@ typedef struct deviation {
         known; /* and how well the reference knows that column there: errors near it are no more than bounds */
     double operations;  /* evaluated: what it took */
     double evaluations; /* of the accelerations, or of the matrix, a simulated second */
+    double evaluations_most; /* in one step */
 } deviation;
 
 /* `im`: the reference's scene, with a step of this pace. */

@@ -11,25 +11,45 @@ typedef enum measured_end {
     MEASURED_MISSING  /* a tool is */
 } measured_end;
 
+/* Of a scene with contacts all steps of its run are counted, at each place of a range: mean and longest are its price. */
+typedef struct measured_run {
+    double steps; /* counted, of all places; 0: these were no whole runs */
+    double
+        instructions_bound; /* the most that a step is declared to take (docs/events.md); 0: not known */
+    double cycles_bound; /* the same; 0: not known, or nobody counts cycles there */
+} measured_run;
+
 typedef struct measured_price {
     char options[SETTING_TEXT];
     deviation_pace pace; /* any, where the price does not vary with it */
     cost cost;           /* no price where the setting is refused */
+    measured_run run;
 } measured_price;
 
 typedef struct measured_prices {
     const table_words *words;
     measured_price *price; /* [count] */
     int count;
+    bool by_run; /* prices are those of whole runs, which each pace has for itself */
+    double share
+        [COST_NUMBERS]; /* of a run's longest step, what was counted of what was expected: of the latest; 0: none yet */
 } measured_prices;
 
-/* Is the working folder the root of a source tree? */
-bool measured_here(void);
+/* Why can nothing be counted on a board? NULL where it can; what is compiled once for it is then there. `text` has room for
+ * the answer. */
+enum { MEASURED_TEXT = 160 };
+const char *measured_missing(const cost_board *board, char text[MEASURED_TEXT]);
+/* Runs with contacts are counted in emulators, and not on a PC. */
+bool measured_takes_runs(const cost_board *board);
 void measured_free(measured_prices *m);
+/* The share that holds for a setting, or 1. */
+double measured_share(const measured_prices *m, const setting *s);
+void measured_learn(measured_prices *m, const setting *s, double share);
 bool measured_has(const measured_prices *m, const setting *s, deviation_pace pace);
 /* In place of what is predicted: what was counted, if it was. */
 void measured_tell(const measured_prices *m, const setting *s, deviation_pace pace, cost *c);
-/* Count the steps of a setting; seconds. `predicted` says what counting does not. */
+measured_run measured_run_of(const measured_prices *m, const setting *s, deviation_pace pace);
+/* Count the steps of a setting; seconds. `predicted` says what counting does not. `point` is of no matter to whole runs. */
 measured_end measured_count(measured_prices *m, const trials *t, const setting *s,
                             deviation_pace pace, int point, const cost *predicted);
 

@@ -34,9 +34,10 @@ char *table_measure_line(const trials *t, const setting *s, deviation_pace pace,
     char options[SETTING_TEXT];
     char step[TRIAL_TIME];
     char until[TRIAL_TIME];
-    const bool ranged = setting_is_fixed(s); /* which are those to the end */
-    return room_words("sh mk/price/measure_one.sh %s %s %s%s%s%s --step %s%s%s",
-                      t->wish.board->name, s->number->name, words->target, words->changes,
+    const bool runs = t->image[0]->contacts > 0;
+    const bool ranged = runs || setting_is_fixed(s); /* whose ranges are those to the end */
+    return room_words("sh mk/price/measure_one.sh%s %s %s %s%s%s%s --step %s%s%s",
+                      runs ? " --whole-run" : "", t->wish.board->name, s->number->name, words->target, words->changes,
                       t->wish.source->name(t->wish.source->context, point),
                       setting_options(s, false, options), trial_time(trial_step(t, pace), step),
                       ranged ? " --until " : "", ranged ? trial_until(t, until) : "");

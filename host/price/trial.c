@@ -244,6 +244,7 @@ static void enter(const trials *t, int point, const deviation *d, trial_result *
     const double error = bound ? d->error + d->known : d->error;
     const bool first = point == 0;
     worst->evaluations = number_most(worst->evaluations, d->evaluations);
+    worst->evaluations_most = number_most(worst->evaluations_most, d->evaluations_most);
     worst->usable = (first || worst->usable) && d->usable;
     (void)t;
     if (first || !(error <= worst->error)) {
@@ -291,8 +292,10 @@ double trial_operations(const trials *t, const setting *s, deviation_pace pace) 
 
 static cost price_of(const trials *t, const setting *s, const image *im) {
     const cost_number number = s->number == &engine_float ? COST_FLOAT : COST_DOUBLE;
+    image priced = *im;
+    priced.contacts = t->without_events ? 0 : im->contacts;
     return setting_is_fixed(s) ? cost_fixed_of(im, t->wish.board)
-                               : cost_of(im, t->wish.board, number);
+                               : cost_of(&priced, t->wish.board, number);
 }
 
 cost trial_cost(trials *t, const setting *s, deviation_pace pace, bool *own) {

@@ -43,6 +43,7 @@ typedef struct trials {
         tolerated; /* of one column: a run that is off by no more is of use, however small the values are */
     double planned_most; /* operations of a run that looks for ranges of fixed point; 0: any */
     bool reliable;       /* false: some reference is REFERENCE_NONE */
+    bool without_events; /* prices of scenes with contacts are those of a step that has no event */
     bool stopped;
     double operations; /* evaluated in trials so far */
 } trials;
@@ -59,6 +60,7 @@ typedef struct trial_result {
     int point;          /* where it is the worst */
     int column;         /* which component */
     double evaluations; /* of the accelerations, a simulated second, at the place that takes most */
+    double evaluations_most; /* in one step */
 } trial_result;
 
 /* Computes the references. False, told on standard error, when `of` is nothing of the scene, or an image is missing. */

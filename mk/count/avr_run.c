@@ -1,6 +1,6 @@
 /* avr_run.c: run an AVR program on simavr, which counts the processor's cycles.
  *
- *     avr_run mcu=atmega328p hz=16000000 [counts=FILE] PROGRAM.elf
+ *     avr_run mcu=atmega328p hz=16000000 [counts=FILE [every=N]] PROGRAM.elf
  *
  * What the program sends by its first USART goes to standard output. It ends by falling asleep with its interrupts off;
  * its exit status is then the byte in GPIOR0 (boards/avr/board.c). 125: simavr cannot run it; 123: it crashed, or its
@@ -11,6 +11,8 @@
  *
  *     interval NUMBER INSTRUCTIONS             from the return of wh_count_begin() to that of wh_count_end(), both left out
  *     cycles NUMBER CYCLES                     of the same interval
+ *     sums NUMBER HOW-MANY INSTRUCTIONS CYCLES with every=N, N above 1: N intervals count as one, which has the largest of each,
+ *                                              and these sums
  *     unfinished INSTRUCTIONS                  if it ended inside an interval
  *     intervals TOTAL                          always the last line
  *
@@ -70,11 +72,12 @@ typedef struct settings {
     const char *mcu;
     uint32_t hz;
     const char *counts;
+    uint32_t every;
     const char *program;
 } settings;
 
 static settings read_arguments(int argc, char **argv) {
-    settings all = {.mcu = NULL};
+    settings all = {.every = 1};
     for (int i = 1; i < argc; i++) {
         const char *value = NULL;
         if ((value = value_of(argv[i], "mcu")) != NULL) {
@@ -83,12 +86,14 @@ static settings read_arguments(int argc, char **argv) {
             all.hz = number_of(value);
         } else if ((value = value_of(argv[i], "counts")) != NULL) {
             all.counts = value;
+        } else if ((value = value_of(argv[i], "every")) != NULL) {
+            all.every = number_of(value);
         } else {
             all.program = argv[i];
         }
     }
-    if (all.mcu == NULL || all.hz == 0 || all.program == NULL) {
-        fail("usage: avr_run mcu=NAME hz=NUMBER [counts=FILE] PROGRAM.elf");
+    if (all.mcu == NULL || all.hz == 0 || all.every == 0 || all.program == NULL) {
+        fail("usage: avr_run mcu=NAME hz=NUMBER [counts=FILE [every=N]] PROGRAM.elf");
     }
     return all;
 }
@@ -155,6 +160,31 @@ static bool step(avr_t *avr) {
     return state != cpu_Done;
 }
 
+/* Intervals that count as one: the largest of each, and sums. */
+typedef struct group {
+    uint64_t members;
+    uint64_t instructions, cycles;
+    uint64_t all, all_cycles;
+} group;
+
+static void join(group *g, uint64_t instructions, uint64_t cycles) {
+    g->members++;
+    g->instructions = instructions > g->instructions ? instructions : g->instructions;
+    g->cycles = cycles > g->cycles ? cycles : g->cycles;
+    g->all += instructions;
+    g->all_cycles += cycles;
+}
+
+static void write_group(FILE *file, group *g, unsigned number, uint32_t every) {
+    fprintf(file, "interval %u %" PRIu64 "\ncycles %u %" PRIu64 "\n", number, g->instructions,
+            number, g->cycles);
+    if (every > 1) {
+        fprintf(file, "sums %u %" PRIu64 " %" PRIu64 " %" PRIu64 "\n", number, g->members, g->all,
+                g->all_cycles);
+    }
+    *g = (group){0};
+}
+
 static void run_counting(avr_t *avr, const settings *all, const elf_firmware_t *firmware) {
     const uint32_t begin = address_of(firmware, "wh_count_begin");
     const uint32_t end = address_of(firmware, "wh_count_end");
@@ -169,6 +199,7 @@ static void run_counting(avr_t *avr, const settings *all, const elf_firmware_t *
     bool counting = false;
     uint64_t instructions = 0;
     avr_cycle_count_t began = 0;
+    group g = {0};
     bool running = true;
     while (running) {
         const uint32_t at = (uint32_t)avr->pc;
@@ -180,12 +211,16 @@ static void run_counting(avr_t *avr, const settings *all, const elf_firmware_t *
             began = avr->cycle;
         } else if (at == end && counting) {
             counting = false;
-            fprintf(file, "interval %u %" PRIu64 "\ncycles %u %" PRIu64 "\n", intervals,
-                    instructions, intervals, (uint64_t)(before - began));
-            intervals++;
+            join(&g, instructions, (uint64_t)(before - began));
+            if (g.members == all->every) {
+                write_group(file, &g, intervals++, all->every);
+            }
         } else {
             instructions++;
         }
+    }
+    if (g.members > 0) {
+        write_group(file, &g, intervals++, all->every);
     }
     if (counting) {
         fprintf(file, "unfinished %" PRIu64 "\n", instructions);

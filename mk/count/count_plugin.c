@@ -7,7 +7,8 @@
  *                   one return instruction each
  *     profile=on    also say how often every single address was executed between markers
  *     first, last   the intervals (numbered from 0) whose instructions go into the profile
- *     every=N       N intervals after each other count as one, which has the instructions of the largest
+ *     every=N       N intervals after each other count as one, which has the instructions of the largest; the last ones
+ *                   may be fewer
  *     cycles=CORE   estimate cycles, too, as a Cortex of that name takes them: m0, m3 or m4 (thumb_cycles.h)
  *     marks=FILE    lines "ADDRESS KIND": places that cut intervals into stretches. A stretch runs from one
  *                   mark (or the interval's begin, which is kind 0) to the next, or to the interval's end
@@ -18,9 +19,11 @@
  *
  *     interval NUMBER INSTRUCTIONS             one line each
  *     cycles NUMBER CYCLES                     with cycles=CORE: the estimate for the same interval
- *     stretches NUMBER KIND LONGEST MOST       with marks=FILE, one line an interval and kind: instructions
- *                                              of the longest stretch of that kind, and how many there were
- *                                              (the most, where several intervals count as one)
+ *     sums NUMBER HOW-MANY INSTRUCTIONS CYCLES with every=N: of all the intervals that count as this one
+ *     stretches NUMBER KIND LONGEST MOST CYCLES  with marks=FILE, one line an interval and kind: instructions
+ *                                              of the longest stretch of that kind, how many there were
+ *                                              (the most, where several intervals count as one), and the
+ *                                              most cycles of one, with cycles=CORE
  *     address ADDRESS EXECUTIONS JUMPS         decimal, with profile=on; JUMPS: how often what was executed
  *                                              next was not what follows it in memory
  *     unfinished INSTRUCTIONS                  if it ended inside an interval
@@ -97,6 +100,7 @@ static place *last; /* executed in this interval, or NULL */
 #define KINDS 4U
 static bool marked;
 static uint64_t stretch_begin; /* `count` there */
+static uint64_t stretch_begin_cycles;
 static unsigned stretch_kind;
 static uint64_t stretches[KINDS]; /* in this interval, by kind */
 
@@ -105,10 +109,13 @@ typedef struct interval {
     uint64_t count;
     uint64_t cycles;
     uint64_t longest[KINDS]; /* stretch, in instructions */
-    uint64_t most[KINDS];    /* stretches */
+    uint64_t longest_cycles[KINDS];
+    uint64_t most[KINDS]; /* stretches */
+    uint64_t members;     /* how many count as this one, and their sums */
+    uint64_t all;
+    uint64_t all_cycles;
 } interval;
 
-static uint64_t group_size; /* intervals in the present group */
 static interval group;
 static interval *intervals;
 static size_t interval_count;
@@ -138,11 +145,13 @@ static void keep_larger(uint64_t *most, uint64_t value) { *most = value > *most 
 
 static void end_stretch(void) {
     keep_larger(&group.longest[stretch_kind], count - stretch_begin);
+    keep_larger(&group.longest_cycles[stretch_kind], cycles - stretch_begin_cycles);
     stretches[stretch_kind]++;
 }
 
 static void begin_stretch(unsigned kind) {
     stretch_begin = count;
+    stretch_begin_cycles = cycles;
     stretch_kind = kind;
 }
 
@@ -195,6 +204,19 @@ static void on_begin(unsigned cpu, void *data) {
     begin_stretch(0);
 }
 
+static void end_group(void) {
+    if (interval_count == interval_room) {
+        interval_room = interval_room == 0 ? 1024 : 2 * interval_room;
+        interval *const more = realloc(intervals, interval_room * sizeof *intervals);
+        if (more == NULL) {
+            fail("out of memory");
+        }
+        intervals = more;
+    }
+    intervals[interval_count++] = group;
+    memset(&group, 0, sizeof group);
+}
+
 static void on_end(unsigned cpu, void *data) {
     (void)cpu;
     if (!counting) {
@@ -208,20 +230,11 @@ static void on_end(unsigned cpu, void *data) {
     for (unsigned kind = 0; kind < KINDS; kind++) {
         keep_larger(&group.most[kind], stretches[kind]);
     }
-    if (++group_size < every) {
-        return;
+    group.all += count;
+    group.all_cycles += cycles;
+    if (++group.members == every) {
+        end_group();
     }
-    if (interval_count == interval_room) {
-        interval_room = interval_room == 0 ? 1024 : 2 * interval_room;
-        interval *const more = realloc(intervals, interval_room * sizeof *intervals);
-        if (more == NULL) {
-            fail("out of memory");
-        }
-        intervals = more;
-    }
-    intervals[interval_count++] = group;
-    group_size = 0;
-    memset(&group, 0, sizeof group);
 }
 
 static void learn(place *here, const struct qemu_plugin_insn *insn) {
@@ -256,7 +269,10 @@ static void on_translate(qemu_plugin_id_t id, struct qemu_plugin_tb *tb) {
 static void report(qemu_plugin_id_t id, void *data) {
     (void)id;
     (void)data;
-    char line[80];
+    char line[112];
+    if (group.members > 0) {
+        end_group();
+    }
     for (size_t i = 0; i < interval_count; i++) {
         snprintf(line, sizeof line, "interval %zu %" PRIu64 "\n", i, intervals[i].count);
         qemu_plugin_outs(line);
@@ -264,9 +280,15 @@ static void report(qemu_plugin_id_t id, void *data) {
             snprintf(line, sizeof line, "cycles %zu %" PRIu64 "\n", i, intervals[i].cycles);
             qemu_plugin_outs(line);
         }
+        if (every > 1) {
+            snprintf(line, sizeof line, "sums %zu %" PRIu64 " %" PRIu64 " %" PRIu64 "\n", i,
+                     intervals[i].members, intervals[i].all, intervals[i].all_cycles);
+            qemu_plugin_outs(line);
+        }
         for (unsigned kind = 0; kind < KINDS && marked; kind++) {
-            snprintf(line, sizeof line, "stretches %zu %u %" PRIu64 " %" PRIu64 "\n", i, kind,
-                     intervals[i].longest[kind], intervals[i].most[kind]);
+            snprintf(line, sizeof line, "stretches %zu %u %" PRIu64 " %" PRIu64 " %" PRIu64 "\n", i,
+                     kind, intervals[i].longest[kind], intervals[i].most[kind],
+                     intervals[i].longest_cycles[kind]);
             qemu_plugin_outs(line);
         }
     }

@@ -84,8 +84,12 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir -p "$OUT/gen" "$OUT/gen_fixed"
 
-# core_in_double: the core's library once more
+# core_in_double: the core's library once more, where nobody has made it (LIB_DOUBLE)
 core_in_double() {
+    if [ -n "${LIB_DOUBLE:-}" ]; then
+        cp "$LIB_DOUBLE" "$OUT/$BOARD/double/libwhirl.a"
+        return
+    fi
     for file in core/*.c; do
         # shellcheck disable=SC2086
         $BOARD_CC $BOARD_CFLAGS -DWH_DOUBLE=1 -w -c "$file" -o "$OUT/$BOARD/double/core_$(basename "$file" .c).o"

@@ -1,10 +1,17 @@
 #!/bin/sh
-# measure_one.sh BOARD NUMBER FILE[:SCENE] [OPTIONS OF whirl derive...]: what a step of one scene costs, counted.
+# measure_one.sh [--whole-run] BOARD NUMBER FILE[:SCENE] [OPTIONS OF whirl derive...]: what a step of one scene costs, counted.
 #
 # From the tree's root. BOARD is a folder of boards/, or `host`; NUMBER is float, double or fixed. Builds what is missing of the
 # board's core, and prints the header and one row of host/price/cost.h (COST_HEADER). Exit status 2: words are wrong or a
 # tool is missing; 1: the scene cannot be derived, does not fit or does not run.
+#
+# --whole-run, of a scene with contacts: all steps to its end (--until) are counted, and it prints what count_run.sh does.
 set -eu
+target=price-measure
+if [ "${1:-}" = --whole-run ]; then
+    target=price-count-run
+    shift
+fi
 if [ $# -lt 3 ]; then
     sed -n '2s/^# //p' "$0" >&2
     exit 2
@@ -38,7 +45,11 @@ esac
 for word in "$@"; do
     printf ' %s' "$(printf '%s' "$word" | tr -d '[:blank:]')"
 done | sed 's/^/one/; s/$/\n/' >"$work/case"
-if ! make -s $([ "$board" = host ] || echo "BOARD=$board") "price-measure-$([ "$board" = host ] && echo host || echo board)" \
+if [ $target = price-count-run ] && [ "$board$number" != "${board#host}${number#fixed}" ]; then
+    echo "measure_one.sh: error: whole runs are counted on boards, in float and double" >&2
+    exit 2
+fi
+if ! make -s $([ "$board" = host ] || echo "BOARD=$board") "$target-$([ "$board" = host ] && echo host || echo board)" \
     PRICE_CASES="$work/case" PRICE_CSV="$work/rows" PRICE_OUT="$work/out" NUMBERS="$number" >"$work/log" 2>&1; then
     grep -vE '^make|Error [0-9]|^  [A-Z]+ ' "$work/log" | head -n 20 >&2
     grep -qE 'is missing' "$work/log" && exit 2

@@ -111,7 +111,7 @@ ends() { # COMMAND [OPTION...]: all that it comes to
     sweep) "$whirl" sweep "$plain" --over x=1..1.5:2 --quiet "$@" ;;
     trust) "$whirl" trust "$plain" --csv - --quiet "$@" ;;
     price) "$whirl" price "$plain" --csv - --quiet --effort 0.001 "$@" ;;
-    choose) "$whirl" choose "$plain" --error 1e-2 --quiet --effort 0.001 "$@" ;;
+    choose) "$whirl" choose --predict "$plain" --error 1e-2 --quiet --effort 0.001 "$@" ;;
     *) echo "no call of $command in $0" ;;
     esac
 }

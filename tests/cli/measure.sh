@@ -1,6 +1,6 @@
 #!/bin/sh
-# measure.sh: what `whirl choose --measure` promises is what the line that it prints counts; mechanisms drawn anew, on the
-# emulated board of `make test`.
+# measure.sh: what `whirl choose` promises where it can count is what the line that it prints counts: mechanisms drawn anew and
+# built-in scenes with contacts, on the emulated board of `make test`. With WHIRL_FULL=1 more of both.
 . "$(dirname "$0")/../checks.sh"
 
 if ! command -v arm-none-eabi-gcc >/dev/null 2>&1 || ! command -v qemu-system-arm >/dev/null 2>&1; then
@@ -15,35 +15,106 @@ choose() { # OPTION...: to $scratch/out
 # figure WORD: the number behind it
 figure() { sed -n "s/^  $1  *\([0-9.e+]*\) .*/\1/p" "$scratch/out"; }
 
+# counted: the row of the line that is printed, to $scratch/row
+counted() { sh -c "$(sed -n 's/^counted by  //p' "$scratch/out")" 2>"$scratch/err" | tail -n 1 >"$scratch/row"; }
+
 awk -v n=3 -v seed=23 -f mk/price/scenes.awk </dev/null >"$scratch/drawn.whirl"
-for scene in r23_1 r23_3; do
-    choose "$scratch/drawn.whirl:$scene" --error 1e-2 --measure
+for scene in r23_1 ${WHIRL_FULL:+r23_2} r23_3; do
+    choose "$scratch/drawn.whirl:$scene" --error 1e-2
     code=$?
     if [ $code -eq 1 ] && grep -q '^nothing fits' "$scratch/out"; then
         echo "ok - $scene: nothing fits, and nothing is promised"
         continue
     fi
-    [ $code -eq 0 ] && grep -q 'flash .*measured' "$scratch/out" && ! grep -q 'predicted' "$scratch/out"
+    [ $code -eq 0 ] && grep -q '^  prices  *counted' "$scratch/out" && grep -q 'flash .*measured' "$scratch/out" &&
+        ! grep -q 'predicted' "$scratch/out"
     verdict $? "$scene: what is chosen has no predicted figure" "$scratch/out"
-    line=$(sed -n 's/^counted by  //p' "$scratch/out")
-    sh -c "$line" 2>"$scratch/err" | tail -n 1 >"$scratch/row"
+    counted
     awk -F, -v cycles="$(figure 'the longest')" -v flash="$(figure flash)" -v ram="$(figure RAM)" -v stack="$(figure stack)" \
         '{ ok = $(NF - 4) + 0 == cycles && $(NF - 2) == flash && $(NF - 1) == ram && $NF == stack } END { exit !ok }' "$scratch/row"
     verdict $? "$scene: cycles, flash, RAM and stack are those that the printed line counts" "$scratch/row"
     cp "$scratch/out" "$scratch/measured"
-    choose "$scratch/drawn.whirl:$scene" --error 1e-2
-    [ $? -eq 0 ] && grep -q 'predicted' "$scratch/out"
-    verdict $? "$scene: without --measure all is predicted" "$scratch/out"
+    choose "$scratch/drawn.whirl:$scene" --error 1e-2 --predict
+    [ $? -eq 0 ] && grep -q '^  flash .*predicted' "$scratch/out" && grep -q '^  prices  *predicted, as --predict asks' "$scratch/out"
+    verdict $? "$scene: with --predict all is predicted" "$scratch/out"
 done
 
 # A limit that lies between what is counted and the most that is promised of it is kept by what is counted.
 most=$(sed -n 's/^  flash .* at most \([0-9]*\).*/\1/p' "$scratch/out")
-counted=$(sed -n 's/^  flash  *\([0-9]*\) .*/\1/p' "$scratch/measured")
-if [ "${most:-0}" -gt "${counted:-0}" ]; then
-    choose "$scratch/drawn.whirl:r23_3" --error 1e-2 --measure --flash "$counted"
-    [ $? -eq 0 ] && [ "$(figure flash)" -le "$counted" ]
+flash=$(sed -n 's/^  flash  *\([0-9]*\) .*/\1/p' "$scratch/measured")
+if [ "${most:-0}" -gt "${flash:-0}" ]; then
+    choose "$scratch/drawn.whirl:r23_3" --error 1e-2 --flash "$flash"
+    [ $? -eq 0 ] && [ "$(figure flash)" -le "$flash" ]
     verdict $? "flash that is there is used" "$scratch/out"
 fi
+
+# --- contacts: every step of the run is counted ----------------------------------------------------------------------
+# scenes with contacts FILE...: names of those that have some
+with_contacts() {
+    "$whirl" list --as table core/models/*.whirl | awk -F '\t' '
+        $8 ~ /contacts/ && $1 != "scene" { has[$3, $2] = 1 }
+        $1 == "scene" { n = split($6, on, ","); for (i = 1; i <= n; i++) { if (($3, on[i]) in has) { print $2; next } }
+            if (($3, $3) in has || $8 ~ /contacts/) { print $2 } }'
+}
+# row N: a field of the row that the printed line counts
+field() { awk -F, -v n="$1" '{ printf "%.9g", $n }' "$scratch/row"; }
+
+# The step that follows no event is a part of the mean, the mean no more than the longest, and that no more than declared.
+contacts() { # SCENE HORIZON RATE
+    choose "$1" --error 0.1 --horizon "$2" --rate "$3" --clock 1GHz
+    if [ $? -eq 1 ] && grep -qE 'nothing moves|none that could be trusted' "$scratch/out" "$scratch/err"; then
+        echo "ok - $1: no reference, and nothing is promised"
+        return
+    fi
+    grep -q '^chosen' "$scratch/out" && ! grep -q 'predicted' "$scratch/out"
+    verdict $? "$1: an answer, counted" "$scratch/out"
+    horizon=$(sed -n 's/^  horizon *\([0-9.e-]*\) s.*/\1/p' "$scratch/out")
+    counted
+    steps=$(figure of)
+    echo "$horizon $(figure step) $steps $(field 3)" | awk '{ off = $1 / $2 / $3 - 1; exit !($3 == $4 && off < 1e-9 && off > -1e-9) }'
+    verdict $? "$1: $steps steps are the whole run" "$scratch/out"
+    echo "$(figure 'a step') $(figure 'the longest') $(figure declared) $(figure flash) $(figure RAM) $(figure stack)" \
+        "$(field 7) $(field 8) $(field 9) $(field 11) $(field 12) $(field 13)" | awk '{
+            d = $1 - $7; exit !(NF == 12 && d <= 0.5 && d >= -0.5 && $2 == $8 && $3 == $9 && $4 == $10 && $5 == $11 && $6 == $12 &&
+                $7 > 50 && $8 >= $7 && $9 > 3 * $8) }'
+    verdict $? "$1: mean, longest and declared step, flash, RAM and stack are those that the line counts" "$scratch/row"
+    sed -n 's/^  load  *\([0-9.e+-]*\) %.* by the longest of \([0-9]*\) counted steps; \([0-9.e+-]*\) % by the declared one/\1 \2 \3/p' \
+        "$scratch/out" >"$scratch/load"
+    echo "$(cat "$scratch/load") $(figure 'the longest') $(figure declared) $(figure step) $steps" | awk '
+        function near(a, b) { return a > 0.99 * b && a < 1.01 * b }
+        { exit !(NF == 7 && near($1, $4 / $6 / 1e7) && near($3, $5 / $6 / 1e7) && $2 == $7) }'
+    verdict $? "$1: the load is that of the longest step" "$scratch/out"
+}
+few="ball_bounces table_drifts crash_both thomson_magnet"
+for scene in $few; do contacts "$scene" 1s 200Hz; done
+if [ -n "${WHIRL_FULL:-}" ]; then
+    with_contacts >"$scratch/names"
+    [ "$(wc -l <"$scratch/names")" -ge 20 ]
+    verdict $? "there are scenes with contacts" "$scratch/names"
+    while read -r scene; do
+        case " $few " in *" $scene "*) continue ;; esac
+        contacts "$scene" 1s 200Hz
+    done <"$scratch/names"
+fi
+
+# Limits hold for them, too: a clock on both sides of the longest step, and flash.
+choose ball_bounces --error 0.1 --horizon 2s --rate 200Hz
+cycles=$(figure 'the longest')
+steps=$(sed -n 's/^  step .*, \([0-9]*\) in a period/\1/p' "$scratch/out")
+bytes=$(figure flash)
+choose ball_bounces --error 0.1 --horizon 2s --rate 200Hz --clock "$((cycles * 200 * steps + 1))Hz" --flash "$bytes"
+[ $? -eq 0 ] && [ "$(figure flash)" -le "$bytes" ]
+verdict $? "a clock that the longest step fits is enough" "$scratch/out"
+choose ball_bounces --error 0.1 --horizon 2s --rate 200Hz --clock "$((cycles * 20 * steps))Hz"
+[ $? -eq 1 ] && grep -q '^  load .*fails' "$scratch/out" && grep -q '^  a clock of' "$scratch/out"
+verdict $? "a tenth of it is not" "$scratch/out"
+choose ball_bounces --error 0.1 --horizon 2s --rate 200Hz --flash 4KB
+[ $? -eq 1 ] && grep -q '^nothing fits' "$scratch/out" && grep -q '^  flash .*fails' "$scratch/out"
+verdict $? "nor is 4 KB of flash" "$scratch/out"
+# Of a range it is the longest of all places.
+choose ball_bounces --error 0.1 --horizon 1s --rate 200Hz --vary e=0.2..0.9
+[ $? -eq 0 ] && [ "$(figure of)" -eq $((3 * 200 * $(sed -n 's/^  step .*, \([0-9]*\) in a period/\1/p' "$scratch/out"))) ]
+verdict $? "three places are counted" "$scratch/out"
 
 # A table's front is counted; one of its rows again, from the line that derives it.
 "$whirl" price "$scratch/drawn.whirl:r23_1" --effort 0.001 --measure --csv "$scratch/rows.csv" >"$scratch/out" 2>"$scratch/err"
@@ -55,12 +126,26 @@ sh -c "$line" 2>"$scratch/err" | tail -n 1 >"$scratch/row"
 awk -F, -v row="$(head -n 1 "$scratch/last")" '{ off = $(NF - 5) / row - 1; exit !(off < 1e-6 && off > -1e-6) }' "$scratch/row"
 verdict $? "and its last row in float is what its line counts: $line" "$scratch/row"
 
-MAKEFLAGS="BOARD_CC=no-such-compiler" choose "$scratch/drawn.whirl:r23_1" --error 1e-2 --measure
-[ $? -eq 2 ] && grep -q 'a tool is missing that counts on mps2-an386' "$scratch/err" && [ ! -s "$scratch/out" ]
-verdict $? "a tool that is missing: exit status 2, and who says which" "$scratch/err"
+# --- what cannot be counted -------------------------------------------------------------------------------------------
+missing() { # EXIT-STATUS SCENE TEXT OPTION...: where the compiler is missing
+    wanted=$1 scene=$2 text=$3
+    shift 3
+    MAKEFLAGS="BOARD_CC=no-such-compiler" choose "$scene" --error 1e-2 "$@"
+    [ $? -eq "$wanted" ] && cat "$scratch/out" "$scratch/err" | grep -q "$text"
+    verdict $? "a compiler that is missing, choose $scene $*: exit status $wanted, $text" "$scratch/out"
+}
+missing 2 "$scratch/drawn.whirl:r23_1" "nothing can be counted on mps2-an386: 'no-such-compiler' is missing" --measure
+missing 0 "$scratch/drawn.whirl:r23_1" "^  prices  *predicted, since nothing can be counted: 'no-such-compiler' is missing"
+missing 1 ball_bounces 'nothing can be promised of contacts without counting'
+choose ball_bounces --error 1e-2 --board host --horizon 1s
+[ $? -eq 1 ] && grep -q 'counted in emulators alone' "$scratch/out"
+verdict $? "a run with contacts is not counted on this machine, which is said" "$scratch/out"
 program=$(cd "$(dirname "$whirl")" && pwd)/whirl
-(cd "$scratch" && "$program" choose drawn.whirl:r23_1 --error 1e-2 --measure >"$scratch/out" 2>"$scratch/err")
-[ $? -eq 2 ] && grep -q "counts in Whirl's source tree" "$scratch/err"
-verdict $? "outside of the source tree: exit status 2" "$scratch/err"
+(cd "$scratch" && "$program" choose drawn.whirl:r23_1 --error 1e-2 --effort 0.01 --measure >"$scratch/out" 2>"$scratch/err")
+[ $? -eq 2 ] && grep -q "not the root of Whirl's source tree" "$scratch/err"
+verdict $? "outside of the source tree --measure fails: exit status 2" "$scratch/err"
+(cd "$scratch" && "$program" choose drawn.whirl:r23_1 --error 1e-2 --effort 0.01 >"$scratch/out" 2>"$scratch/err")
+[ $? -eq 0 ] && grep -q "^  prices  *predicted, since .* not the root of Whirl's source tree" "$scratch/out"
+verdict $? "and without it prices are predicted, which is said" "$scratch/out"
 
 exit $failed

@@ -1,6 +1,6 @@
 #!/bin/sh
-# price.sh: `whirl price` and `whirl choose`: every row's error measured again from the command line that the row prints,
-# against closed forms; what is chosen, run; bad input of every option; interrupts. With WHIRL_FEW=1 (sanitizers) fewer rows of
+# price.sh: `whirl price` and `whirl choose --predict` (measure.sh has what is counted): every row's error measured again
+# from the command line that the row prints, against closed forms; what is chosen, run; bad input of every option; interrupts. With WHIRL_FEW=1 (sanitizers) fewer rows of
 # fewer scenes, and fewer requests.
 . "$(dirname "$0")/../checks.sh"
 
@@ -172,7 +172,7 @@ for request in '1e-3 200Hz' '1e-2 100Hz' '1e-4 500Hz' '1e-5 1kHz'; do
     [ -z "${WHIRL_FEW:-}" ] || [ "$request" = '1e-3 200Hz' ] || continue
     # shellcheck disable=SC2086 # two words
     set -- $request
-    "$whirl" choose "$scratch/spring.whirl" --of x --error "$1" --rate "$2" --clock 16MHz --effort 0.02 >"$scratch/out" 2>"$scratch/err"
+    "$whirl" choose --predict "$scratch/spring.whirl" --of x --error "$1" --rate "$2" --clock 16MHz --effort 0.02 >"$scratch/out" 2>"$scratch/err"
     verdict $? "choose --error $1 --rate $2"
     line=$(sed -n 's/^again *whirl //p' "$scratch/out")
     # shellcheck disable=SC2086
@@ -190,7 +190,7 @@ for request in '1e-3 200Hz' '1e-2 100Hz' '1e-4 500Hz' '1e-5 1kHz'; do
     verdict $? "choose --error $1: load, flash and runner-up" "$scratch/out"
 done
 # Without an FPU it is fixed point; the lines that it prints say all that its bits follow from.
-"$whirl" choose "$scratch/pendulum.whirl" --error 1e-4 --rate 100Hz --effort 0.02 --board mps2-an385-m0 >"$scratch/out" 2>"$scratch/err"
+"$whirl" choose --predict "$scratch/pendulum.whirl" --error 1e-4 --rate 100Hz --effort 0.02 --board mps2-an385-m0 >"$scratch/out" 2>"$scratch/err"
 [ $? -eq 0 ] && grep -q '^chosen .*--number fixed' "$scratch/out" && grep -q '^runner-up .*--number float' "$scratch/out" &&
     grep -q '^counted by .* mps2-an385-m0 fixed .* --until 2$' "$scratch/out"
 verdict $? "choose on a Cortex-M0: fixed point" "$scratch/out"
@@ -198,7 +198,7 @@ derive=$(sed -n 's/^as code *whirl //p' "$scratch/out")
 # shellcheck disable=SC2086
 "$whirl" $derive 2>"$scratch/err" | grep -q 'wh_fixed_scene'
 verdict $? "and its code"
-"$whirl" choose "$scratch/spring.whirl" --of x --error 0.1mm --rate 500Hz --effort 0.02 --board mps2-an505 >"$scratch/out" 2>&1
+"$whirl" choose --predict "$scratch/spring.whirl" --of x --error 0.1mm --rate 500Hz --effort 0.02 --board mps2-an505 >"$scratch/out" 2>&1
 case $? in
 0) grep -q 'cycles, range' "$scratch/out" ;;
 *) grep -q 'no setting has a price here' "$scratch/out" ;;
@@ -208,7 +208,7 @@ none() { # WHAT TEXT OPTION...: nothing fits the pendulum, and TEXT is said
     what=$1
     text=$2
     shift 2
-    "$whirl" choose "$scratch/pendulum.whirl" --effort 0.005 "$@" >"$scratch/out" 2>"$scratch/err"
+    "$whirl" choose --predict "$scratch/pendulum.whirl" --effort 0.005 "$@" >"$scratch/out" 2>"$scratch/err"
     [ $? -eq 1 ] && grep -q '^nothing fits' "$scratch/out"
     verdict $? "nothing fits: $what" "$scratch/out"
     said "$what" "$text"
@@ -235,7 +235,7 @@ none "RAM" '^  RAM .*fails' --error 1e-3 --rate 200Hz --ram 20B
 none "error" '^  error .*fails' --error 1e-13 --rate 200Hz --clock 1MHz
 said "a weaker error would" '^  an error of '
 for effort in 0.0001 0.0002; do
-    "$whirl" choose "$scratch/pendulum.whirl" --effort $effort --error 1e-8 --rate 200Hz >"$scratch/out" 2>"$scratch/err"
+    "$whirl" choose --predict "$scratch/pendulum.whirl" --effort $effort --error 1e-8 --rate 200Hz >"$scratch/out" 2>"$scratch/err"
     [ $? -eq 1 ] && grep -q '^nothing fits of .* not tried: raise --effort$' "$scratch/out" && adds_up
     verdict $? "what would fit and is not tried with --effort $effort is counted" "$scratch/out"
 done
@@ -277,7 +277,7 @@ asked() { # EXIT-STATUS TEXT WORD...: choose ends so, in time, says TEXT, and no
     wanted=$1
     text=$2
     shift 2
-    timeout 120 "$whirl" choose "$@" --effort 0.005 --quiet >"$scratch/out" 2>"$scratch/err" </dev/null
+    timeout 120 "$whirl" choose --predict "$@" --effort 0.005 --quiet >"$scratch/out" 2>"$scratch/err" </dev/null
     [ $? -eq "$wanted" ] && cat "$scratch/out" "$scratch/err" | grep -q -e "$text" &&
         ! grep -qiE '[^a-z](nan|inf)[^a-z]' "$scratch/out"
     verdict $? "choose $*: exit status $wanted, $text" "$scratch/out"
@@ -345,7 +345,8 @@ verdict $? "and what all of them would have to be" "$scratch/out"
 # contacts: no price, and it says why, and what can be had instead
 for board in mps2-an386 atmega328p host; do
     asked 1 'contacts must be measured' ball_bounces --error 1e-3 --board $board
-    grep -q "^counted by  sh mk/price/measure_one.sh $board float ball_bounces" "$scratch/out"
+    grep -q "^counted by  sh mk/price/measure_one.sh --whole-run $board float ball_bounces" "$scratch/out" &&
+        grep -q 'nothing can be promised of contacts without counting' "$scratch/out"
     verdict $? "and what measures it on $board" "$scratch/out"
 done
 
@@ -395,6 +396,7 @@ refused '.svg and .png' price "$s" --plot "$scratch/p.pdf"
 refused 'cannot share a file' price "$s" --plot "$scratch/p.svg" --csv "$scratch/p.svg"
 refused 'error:' price "$s" --csv "$s"
 refused 'error is missing' choose "$s"
+refused 'one of the two' choose "$s" --error 1e-3 --predict --measure
 refused 'error:' choose "$s" --error 1e-3 --rate 1ms
 refused 'above zero' choose "$s" --error 1e-3 --rate 0
 refused 'error:' choose "$s" --error 1e-3 --clock fast

@@ -1,0 +1,50 @@
+/* whole_run.c: every step of a scene's run, from its start to its end, counted: what steps with events take is known of no
+ * few of them. Says on the console
+ *
+ *     run NAME STEPS       all steps were made; the intervals from number 1 on hold one each, number 0 is around nothing
+ *     stack NAME BYTES     deepest stack of the program during those steps
+ *     failed NAME STATUS   a step could not be made
+ *
+ * RUN_EVERY intervals count as one (count_plugin.c, every=): so many are around nothing. */
+#include "boards/programs/counted.h"
+#include "core/scene.h"
+
+#ifndef RUN_EVERY
+#define RUN_EVERY 100U
+#endif
+
+static void say_number(const char *word, const char *name, uint64_t number) {
+    line_begin(word, name);
+    wh_text_add_char(&line, ' ');
+    wh_text_add_unsigned(&line, number);
+    line_end();
+}
+
+static bool run(const wh_scene *scene) {
+    wh_state state;
+    wh_status status = wh_scene_start(scene, &state, memory, sizeof memory);
+    board_stack_paint();
+    while (status == WH_OK && state.steps < scene->steps) {
+        wh_count_begin();
+        status = wh_scene_step(scene, &state);
+        wh_count_end();
+    }
+    if (status != WH_OK) {
+        line_begin("failed", scene->name);
+        line_word(wh_status_text(status));
+        line_end();
+        return false;
+    }
+    say_number("stack", scene->name, board_stack_used_bytes());
+    say_number("run", scene->name, state.steps);
+    return true;
+}
+
+int main(void) {
+    board_start();
+    for (unsigned i = 0; i < RUN_EVERY; i++) {
+        wh_count_begin();
+        wh_count_end();
+    }
+    return wh_scene_count == 1U && run(wh_scenes[0]) ? 0 : 1;
+}
