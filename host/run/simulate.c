@@ -13,6 +13,7 @@
 #include "host/base/room.h"
 #include "host/base/statement.h"
 #include "host/plot/plot.h"
+#include "narrow.h"
 #include "records.h"
 #include "slow.h"
 #include "summary.h"
@@ -260,6 +261,10 @@ static void say_advice(const simulation *sim, const belief *balance, bool fails)
     }
     advice_say(stderr, &about);
     advice_end(&about);
+    if (kind == &engine_float) {
+        const narrow lost = narrow_of(sim->watch);
+        narrow_say(stderr, sim->image, &lost);
+    }
 }
 
 /* What the run came to, and the words for it. */
