@@ -248,7 +248,7 @@ static int answer(const trust_options *o, const image *im, const image *plain) {
     if (rows != NULL && rows != stdout) {
         fclose(rows);
         if (code == EXIT_INTERRUPTED) {
-            remove(o->csv); /* nothing is in it */
+            (void)remove(o->csv); /* nothing is in it */
         }
     }
     twins_free(t);
