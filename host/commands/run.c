@@ -214,8 +214,8 @@ static void catch_interrupts(void) {
     sigaction(SIGTERM, &action, NULL);
 }
 
-static int run_image(run_options *o, const source_model *from, const image *im,
-                     const image *plain, double every_s) {
+static int run_image(run_options *o, const source_model *from, const image *im, const image *plain,
+                     double every_s) {
     if (!count_every(o, every_s, im, &o->settings.every)) {
         return EXIT_BAD_INPUT;
     }
@@ -285,8 +285,10 @@ int command_run(int count, char **words) {
         overrides changes = options_overrides(&o.common.change);
         changes.balance = true;
         const double every_s = read_every_s(&o, of);
-        const load_wish wish = {
-            .settings = o.common.integration, .use = IMAGE_TO_RUN, .keep = trusting_keep(&o.common.integration), .conserve = true};
+        const load_wish wish = {.settings = o.common.integration,
+                                .use = IMAGE_TO_RUN,
+                                .keep = trusting_keep(&o.common.integration),
+                                .conserve = true};
         code = load(&made, &from, of, in, &changes, &wish);
         image *plain = trusting_plain(&made);
         source_forget(&from);

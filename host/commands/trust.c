@@ -86,8 +86,7 @@ static bool take_one(int count, char **words, int *at, trust_options *o, bool *b
                             &o->tolerance);
     } else if (!*bad && (value = options_value(count, words, at, "--effort", bad)) != NULL) {
         *bad = !read_number("--effort", value, EFFORT_LEAST, EFFORT_MOST,
-                            "1 is about a minute: --effort 10",
-                            &o->effort);
+                            "1 is about a minute: --effort 10", &o->effort);
     } else if (!*bad && (value = options_value(count, words, at, "--csv", bad)) != NULL) {
         o->csv = value;
     } else if (!*bad && strcmp(words[*at], "--quiet") == 0) {
@@ -145,12 +144,13 @@ static bool is_affordable(const image *im, const image *plain, double effort) {
         return true;
     }
     const double wanted = number_ceiling(seconds / SECONDS);
-    fprintf(stderr,
-            "whirl trust: error: this would take about %.0f minutes: two runs beside each other, of %.3g "
-            "and %.3g steps\n"
-            "hint: a nearer --until tells it of the beginning, where trust ends in a chaotic motion; or "
-            "a longer --step",
-            wanted, (double)im->steps, 2.0 * (double)im->steps);
+    fprintf(
+        stderr,
+        "whirl trust: error: this would take about %.0f minutes: two runs beside each other, of %.3g "
+        "and %.3g steps\n"
+        "hint: a nearer --until tells it of the beginning, where trust ends in a chaotic motion; or "
+        "a longer --step",
+        wanted, (double)im->steps, 2.0 * (double)im->steps);
     if (wanted <= EFFORT_MOST) {
         fprintf(stderr, "; or --effort %.0f", wanted);
     }
@@ -159,8 +159,8 @@ static bool is_affordable(const image *im, const image *plain, double effort) {
 }
 
 static bool can_start(const image *im, const engine_kind *kind, diags *errors) {
-    const bool good = start_has_method(im, im->settings.method, errors) &&
-                      start_is_possible(im, kind, errors);
+    const bool good =
+        start_has_method(im, im->settings.method, errors) && start_is_possible(im, kind, errors);
     diags_flush(errors, stderr);
     return good;
 }
@@ -179,10 +179,11 @@ static void say_failure(const image *im, const engine_kind *kind, const twins *t
     if (!known) {
         const int fault = kind->fault(t->run);
         const component c = image_component(im, fault < 0 ? 0 : fault);
-        fprintf(stderr,
-                "whirl trust: error: the run diverged in the step after t = %.9g s: %s%.*s left all "
-                "bounds\nhint: a smaller --step may carry it further\n",
-                t->end_s, im->unknown[c.unknown].name, c.primes, "''''''''''");
+        fprintf(
+            stderr,
+            "whirl trust: error: the run diverged in the step after t = %.9g s: %s%.*s left all "
+            "bounds\nhint: a smaller --step may carry it further\n",
+            t->end_s, im->unknown[c.unknown].name, c.primes, "''''''''''");
     }
 }
 
@@ -227,10 +228,11 @@ static int answer(const trust_options *o, const image *im, const image *plain) {
     }
     int code = EXIT_INTERRUPTED;
     if (t->stopped) {
-        fprintf(stderr,
-                "whirl trust: interrupted at t = %.9g s of %.9g s: the range of a coordinate is that "
-                "of the whole run\n",
-                t->end_s, ratio_times(im->steps, im->step));
+        fprintf(
+            stderr,
+            "whirl trust: interrupted at t = %.9g s of %.9g s: the range of a coordinate is that "
+            "of the whole run\n",
+            t->end_s, ratio_times(im->steps, im->step));
     } else {
         horizon h = horizon_of(t, o->tolerance);
         code = write_rows(o, rows, &h);
@@ -246,7 +248,7 @@ static int answer(const trust_options *o, const image *im, const image *plain) {
     if (rows != NULL && rows != stdout) {
         fclose(rows);
         if (code == EXIT_INTERRUPTED) {
-            remove(o->csv); /* nothing is in it */
+            (void)remove(o->csv); /* nothing is in it */
         }
     }
     twins_free(t);
@@ -316,8 +318,7 @@ static int trust_source(const trust_options *o, source_model *from) {
 }
 
 int command_trust(int count, char **words) {
-    trust_options o = {
-        .common = options_defaults(), .tolerance = HORIZON_TOLERANCE, .effort = 1.0};
+    trust_options o = {.common = options_defaults(), .tolerance = HORIZON_TOLERANCE, .effort = 1.0};
     source_model from = {0};
     if (options_help(count, words, &usage)) {
         return EXIT_DONE;

@@ -31,8 +31,8 @@ trusting trusting_look(const image *im, const image *plain, simulation_settings 
     trusting t = {0};
     const image *without = plain != NULL ? plain : im;
     s->trusted_s = 0.0;
-    if ((s->quiet && s->plot == NULL) || im->steps == 0 ||
-        twins_operations(im, without) > TRUSTING_OPERATIONS_1S) {
+    t.dear = twins_operations(im, without) > TRUSTING_OPERATIONS_1S;
+    if ((s->quiet && s->plot == NULL) || im->steps == 0 || t.dear) {
         return t;
     }
     const twins_wish wish = {.image = im, .kind = s->kind, .plain = without, .stop = s->stop};
@@ -45,9 +45,15 @@ trusting trusting_look(const image *im, const image *plain, simulation_settings 
 }
 
 void trusting_say(const trusting *t, const simulation_settings *s) {
-    if (!s->quiet && t->twins != NULL && t->twins->status == WH_OK && !t->twins->stopped) {
-        horizon_print_line(is_stdout(s->csv) || is_stdout(s->columns) ? stderr : stdout,
-                           &t->horizon);
+    FILE *out = is_stdout(s->csv) || is_stdout(s->columns) ? stderr : stdout;
+    if (s->quiet) {
+        return;
+    }
+    if (t->dear) {
+        fputs("trusted            whirl trust tells until when: it takes more than a second\n",
+              out);
+    } else if (t->twins != NULL && t->twins->status == WH_OK && !t->twins->stopped) {
+        horizon_print_line(out, &t->horizon);
     }
 }
 

@@ -7,17 +7,18 @@
 #include "host/trust/horizon.h"
 #include "load.h"
 
-/* Operations that a second takes, about, on a slow machine. */
-#define TRUSTING_OPERATIONS_1S 6e7
+/* Operations that a second takes, about. */
+#define TRUSTING_OPERATIONS_1S 2.4e8
 
 /* What load() is to keep for trusting_plain(). */
 load_keep trusting_keep(const image_settings *settings);
 /* The scene's image without tables, where it has some: to be freed. NULL: it is the image itself. */
 image *trusting_plain(const loaded *made);
 
-/* What `whirl run` says of trust: nothing where it is not asked for or takes too long. */
+/* What `whirl run` says of trust. */
 typedef struct trusting {
-    twins *twins; /* NULL: not known */
+    twins *twins; /* NULL: not known, */
+    bool dear;    /* as it takes too long */
     horizon horizon;
 } trusting;
 

@@ -17,9 +17,12 @@ typedef enum horizon_verdict {
 
 typedef struct horizon_column {
     horizon_verdict verdict;
-    double range; /* in the column's unit: the most less the least value, but a thousandth of its size at the least */
-    double off;   /* the most that the two differ by, in the same; what the finer one is itself off added */
-    double until_s; /* the last look at which it was right; the run's end where it is right to the end */
+    double
+        range; /* in the column's unit: the most less the least value, but a thousandth of its size at the least */
+    double
+        off; /* the most that the two differ by, in the same; what the finer one is itself off added */
+    double
+        until_s; /* the last look at which it was right; the run's end where it is right to the end */
 } horizon_column;
 
 typedef struct horizon {

@@ -35,8 +35,8 @@ static void print_column(FILE *out, const horizon *h, int k) {
     fprintf(out, "  %-*s ", NAME_WIDTH, name_of(h, k, name));
     switch (c->verdict) {
     case HORIZON_TO_THE_END:
-        fprintf(out, "to the end      off by %.2e of its range, %.4g %s\n",
-                c->off / c->range, c->range, unit);
+        fprintf(out, "to the end      off by %.2e of its range, %.4g %s\n", c->off / c->range,
+                c->range, unit);
         break;
     case HORIZON_UNTIL:
         fprintf(out, "%-15.9g of its range, %.4g %s, %.2e is %.2g %s\n", c->until_s, c->range, unit,
@@ -77,7 +77,8 @@ static void print_invariants(FILE *out, const horizon *h) {
     if (!balance.known) {
         fputs("  energy: its balance is not known\n", out);
     } else if (belief_lost(&balance, BELIEF_LIMIT)) {
-        fprintf(out, "  energy: not kept either, %.2e of the largest entry of its books is left over\n",
+        fprintf(out,
+                "  energy: not kept either, %.2e of the largest entry of its books is left over\n",
                 balance.ratio);
     } else {
         fprintf(out, "  energy: %.2e of the largest entry of its books is left over\n",
@@ -90,8 +91,9 @@ static void print_verdict(FILE *out, const horizon *h) {
     const twins *t = h->of;
     char name[NAME_SIZE];
     if (h->to_the_end) {
-        fprintf(out, t->status == WH_OK ? "trusted to the end, t = %.9g s\n"
-                                        : "trusted to where the run fails, t = %.9g s\n",
+        fprintf(out,
+                t->status == WH_OK ? "trusted to the end, t = %.9g s\n"
+                                   : "trusted to where the run fails, t = %.9g s\n",
                 t->end_s);
         return;
     }
@@ -113,8 +115,9 @@ static void print_verdict(FILE *out, const horizon *h) {
 void horizon_print(FILE *out, const horizon *h) {
     print_head(out, h);
     if (image_of(h)->contacts > 0) {
-        fputs("  about an event, rates may differ for the steps that it lies in: that does not count\n",
-              out);
+        fputs(
+            "  about an event, rates may differ for the steps that it lies in: that does not count\n",
+            out);
     }
     fprintf(out, "\nright to %.3g of its range until [s]\n", h->tolerance);
     for (int k = 1; k < h->of->columns; k++) {
@@ -129,9 +132,11 @@ void horizon_print_line(FILE *out, const horizon *h) {
         fprintf(out, "trusted            to the end: every coordinate to %.3g of its range\n",
                 h->tolerance);
     } else {
-        fprintf(out, "trusted            until t = %.6g s: behind that %s is off by %.3g of its range%s\n",
-                h->until_s, name_of(h, h->first, name), h->tolerance,
-                image_of(h)->has_energies ? "; the books above tell what still holds" : "");
+        fprintf(
+            out,
+            "trusted            until t = %.6g s: behind that %s is off by %.3g of its range%s\n",
+            h->until_s, name_of(h, h->first, name), h->tolerance,
+            image_of(h)->has_energies ? "; the books above tell what still holds" : "");
     }
 }
 

@@ -251,7 +251,6 @@ static void run_both(pair *p) {
     t->end_s = ratio_times(step, im->step);
 }
 
-
 twins *twins_run(const twins_wish *w) {
     twins *t = room(1, sizeof *t);
     make_finer(t, w);

@@ -36,17 +36,19 @@ typedef struct twins_column {
 } twins_column;
 
 typedef struct twins {
-    image finer;     /* the other's image; shares its lists */
-    uint64_t each;   /* its steps in one of the run's */
-    double left_out; /* of the run's error, as a part of what the two differ by: the finer one's own */
-    records *shape;  /* names and units of the columns: 0 is the time, outputs come last */
-    int columns;     /* the time and those that follow: coordinates and rates, no outputs */
-    twins_column *column; /* [columns] */
-    double end_s;         /* of the run: its last step that was done */
-    wh_status status;     /* the run's: its last step */
-    void *run;            /* where it ended */
+    image finer;   /* the other's image; shares its lists */
+    uint64_t each; /* its steps in one of the run's */
+    double
+        left_out; /* of the run's error, as a part of what the two differ by: the finer one's own */
+    records *shape;        /* names and units of the columns: 0 is the time, outputs come last */
+    int columns;           /* the time and those that follow: coordinates and rates, no outputs */
+    twins_column *column;  /* [columns] */
+    double end_s;          /* of the run: its last step that was done */
+    wh_status status;      /* the run's: its last step */
+    void *run;             /* where it ended */
     double finer_failed_s; /* the other left all bounds behind this time; below 0: it did not */
-    double overrun_s; /* behind this time one of them had more events in a step than it takes; below 0: neither */
+    double
+        overrun_s; /* behind this time one of them had more events in a step than it takes; below 0: neither */
     bool stopped;
     books *books; /* NULL: none */
 } twins;

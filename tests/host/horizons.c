@@ -65,7 +65,8 @@ static void reference_go(reference_of *r, const image *im, uint64_t steps, doubl
     if (r->smooth != NULL) {
         const long double span_s = (long double)steps * (long double)im->step.numerator /
                                    (long double)im->step.denominator;
-        r->failed = r->failed || (steps > 0 && extrapolation_go(r->smooth, span_s) != EXTRAPOLATION_OK);
+        r->failed =
+            r->failed || (steps > 0 && extrapolation_go(r->smooth, span_s) != EXTRAPOLATION_OK);
         long_rows_read(r->rows, extrapolation_state(r->smooth), (long double)time_s, r->row);
         return;
     }
@@ -84,7 +85,7 @@ typedef struct beside {
     horizons *h;
     reference_of fine, other;
     records *now;
-    double *last;  /* [columns] the difference at the look before */
+    double *last; /* [columns] the difference at the look before */
     double before_s, look_s;
     int open; /* columns whose end is not known yet */
 } beside;
@@ -155,8 +156,8 @@ static image *image_with(const derived *d, horizons_setting how, bool tables) {
     const image_settings settings = {.method = how.method,
                                      .compensated = how.compensated,
                                      .tables = tables ? how.tables : TABLES_NONE};
-    image *im = image_make(d->equations, d->equations->instance->conserve, &settings,
-                           IMAGE_TO_RUN, errors);
+    image *im =
+        image_make(d->equations, d->equations->instance->conserve, &settings, IMAGE_TO_RUN, errors);
     diags_flush(errors, stdout);
     diags_free(errors);
     TEST_ASSERT_NOT_NULL(im);

@@ -22,10 +22,11 @@ typedef struct horizons {
     image *plain; /* without tables; for the reference */
     twins *twins;
     horizon estimate;
-    double *true_s; /* [columns] last look at which it was right; infinite: to the end */
+    double *true_s;      /* [columns] last look at which it was right; infinite: to the end */
     double true_until_s; /* the least of them; the end */
-    double known;        /* what the references differ by at the passages, in parts of the tolerance times the range: the most */
-    double look_s;       /* between looks */
+    double
+        known; /* what the references differ by at the passages, in parts of the tolerance times the range: the most */
+    double look_s; /* between looks */
 } horizons;
 
 /* A scene of a text; `tolerance` as of `whirl trust`. */

@@ -83,19 +83,19 @@ static int on_a_spring(dice *d, char *to) {
 }
 
 static int on_an_arm(dice *d, char *to) {
-    return snprintf(to, TEXT,
-                    "mechanism drawn \"two pendulums on a turning arm\"\ncoordinate w [rad]\n"
-                    "coordinate a [rad]\ncoordinate b [rad]\n"
-                    "parameter J = %g [kg*m^2]\nparameter R = %g [m]\nparameter p = %g [kg]\n"
-                    "parameter l = %g [m]\nparameter q = %g [kg]\nparameter k = %g [m]\n"
-                    "parameter g = 9.81 [m/s^2]\n"
-                    "T = (J*w'^2/2 + p*((R*w' + l*a'*cos(a))^2 + (l*a'*sin(a))^2 + (l*w'*sin(a))^2)/2\n"
-                    "     + q*((R*w' + k*b'*cos(b))^2 + (k*b'*sin(b))^2 + (k*w'*sin(b))^2)/2)\n"
-                    "V = -p*g*l*cos(a) - q*g*k*cos(b) + %g [J]*cos(a - b)\n"
-                    "scene s {\n  start a = %g, b = %g, w' = %g [rad/s]\n",
-                    of(d, 0.02, 0.2), of(d, 0.2, 0.6), of(d, 0.3, 1), of(d, 0.2, 0.6),
-                    of(d, 0.3, 1), of(d, 0.2, 0.6), of(d, 0, 2), of(d, 2, 3), of(d, -3, 3),
-                    of(d, -4, 4));
+    return snprintf(
+        to, TEXT,
+        "mechanism drawn \"two pendulums on a turning arm\"\ncoordinate w [rad]\n"
+        "coordinate a [rad]\ncoordinate b [rad]\n"
+        "parameter J = %g [kg*m^2]\nparameter R = %g [m]\nparameter p = %g [kg]\n"
+        "parameter l = %g [m]\nparameter q = %g [kg]\nparameter k = %g [m]\n"
+        "parameter g = 9.81 [m/s^2]\n"
+        "T = (J*w'^2/2 + p*((R*w' + l*a'*cos(a))^2 + (l*a'*sin(a))^2 + (l*w'*sin(a))^2)/2\n"
+        "     + q*((R*w' + k*b'*cos(b))^2 + (k*b'*sin(b))^2 + (k*w'*sin(b))^2)/2)\n"
+        "V = -p*g*l*cos(a) - q*g*k*cos(b) + %g [J]*cos(a - b)\n"
+        "scene s {\n  start a = %g, b = %g, w' = %g [rad/s]\n",
+        of(d, 0.02, 0.2), of(d, 0.2, 0.6), of(d, 0.3, 1), of(d, 0.2, 0.6), of(d, 0.3, 1),
+        of(d, 0.2, 0.6), of(d, 0, 2), of(d, 2, 3), of(d, -3, 3), of(d, -4, 4));
 }
 
 /* As Thomson's device, with discs of any size. */
@@ -210,8 +210,8 @@ static int by_size(const void *a, const void *b) {
 static void spread_of(const char *what, double *ratio, unsigned count) {
     qsort(ratio, count, sizeof *ratio, by_size);
     printf("  %-28s %u ratios: least %.3f, tenth %.3f, middle %.3f, ninth tenth %.3f, most %.3f\n",
-           what, count, ratio[0], ratio[count / 10], ratio[count / 2], ratio[count - 1 - count / 10],
-           ratio[count - 1]);
+           what, count, ratio[0], ratio[count / 10], ratio[count / 2],
+           ratio[count - 1 - count / 10], ratio[count - 1]);
 }
 
 enum { MOST_CASES = 400 };
@@ -235,7 +235,8 @@ static void test_drawn_mechanisms(void) {
         horizons h = horizons_of(text, "s", s.how, HORIZON_TOLERANCE);
         char what[60] = "";
         sscanf(text, "mechanism drawn \"%59[^\"]", what);
-        if (h.known >= 0.05) { /* the references part before the run does: they know nothing of it */
+        if (h.known >=
+            0.05) { /* the references part before the run does: they know nothing of it */
             beyond++;
         } else if (h.estimate.to_the_end && h.true_until_s >= h.twins->end_s) {
             regular++; /* both say so */

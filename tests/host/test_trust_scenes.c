@@ -59,12 +59,11 @@ static void test_where_nothing_diverges(void) {
 
 /* --- the step, not chaos, ends it ------------------------------------------------------------------------*/
 
-static const char swing[] =
-    "mechanism swing \"two pendulums that exchange their swing\"\n"
-    "coordinate a [rad]\ncoordinate b [rad]\n"
-    "T = 1 [kg*m^2]*(a'^2 + b'^2)/2\n"
-    "V = -40 [J]*cos(a) - 40 [J]*cos(b) + 3 [J]*(a - b)^2/2\n"
-    "scene s {\n  start a = 1.1 [rad]\n  step %g [ms]\n  until 60 [s]\n}\n";
+static const char swing[] = "mechanism swing \"two pendulums that exchange their swing\"\n"
+                            "coordinate a [rad]\ncoordinate b [rad]\n"
+                            "T = 1 [kg*m^2]*(a'^2 + b'^2)/2\n"
+                            "V = -40 [J]*cos(a) - 40 [J]*cos(b) + 3 [J]*(a - b)^2/2\n"
+                            "scene s {\n  start a = 1.1 [rad]\n  step %g [ms]\n  until 60 [s]\n}\n";
 
 static void expect_ratio(const char *what, const horizons *h, double least, double most) {
     say(what, h);
@@ -80,10 +79,11 @@ static void test_steps_and_methods_that_are_too_coarse(void) {
         wh_method method;
         double step_ms;
         double tolerance;
-    } cases[] = {{WH_RK4, 60.0, 1e-3},      {WH_RK4, 40.0, 3e-4},     {WH_RK4, 10.0, 1e-6},
-                 {WH_RK4, 5.0, 3e-8},       {WH_RK38, 20.0, 1e-4},    {WH_NYSTROEM5, 20.0, 1e-5},
-                 {WH_NYSTROEM3, 5.0, 1e-4}, {WH_HEUN, 1.0, 1e-5},     {WH_LEAPFROG, 5.0, 1e-3},
-                 {WH_EULER, 0.1, 1e-2},     {WH_LEAPFROG, 5.0, 3e-4}, {WH_SEMI_IMPLICIT_EULER, 0.5, 1e-4}};
+    } cases[] = {
+        {WH_RK4, 60.0, 1e-3},      {WH_RK4, 40.0, 3e-4},     {WH_RK4, 10.0, 1e-6},
+        {WH_RK4, 5.0, 3e-8},       {WH_RK38, 20.0, 1e-4},    {WH_NYSTROEM5, 20.0, 1e-5},
+        {WH_NYSTROEM3, 5.0, 1e-4}, {WH_HEUN, 1.0, 1e-5},     {WH_LEAPFROG, 5.0, 1e-3},
+        {WH_EULER, 0.1, 1e-2},     {WH_LEAPFROG, 5.0, 3e-4}, {WH_SEMI_IMPLICIT_EULER, 0.5, 1e-4}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         char text[500];
         char what[100];
@@ -114,8 +114,7 @@ static void test_rounding_and_tables(void) {
             snprintf(what, sizeof what, "epicyclic_conserved, %s, tables %s, to %g",
                      settings[i].kind->name, image_tables_words[settings[i].tables], tolerances[k]);
             say(what, &h);
-            TEST_ASSERT_TRUE_MESSAGE(
-                horizons_ratio(&h) >= 0.9 && horizons_ratio(&h) <= 1.1, what);
+            TEST_ASSERT_TRUE_MESSAGE(horizons_ratio(&h) >= 0.9 && horizons_ratio(&h) <= 1.1, what);
             TEST_ASSERT_TRUE_MESSAGE(h.known < KNOWN, what);
             ended += !h.estimate.to_the_end;
             horizons_free(&h);
@@ -146,12 +145,12 @@ static unsigned expect_contacts(const char *name, horizons_setting how, double t
 }
 
 static void test_contacts(void) {
-    static const char *const names[] = {"crash_cart",    "belt_stick_slip", "plank_shaken",
-                                        "table_drifts",  "hopper_hops",     "shuttle_buffers",
-                                        "thomson_magnet", "carriage_stop",  "crash_both",
-                                        "ball_in_air",   "belt_stiffening", "escapement_ticks"};
+    static const char *const names[] = {"crash_cart",     "belt_stick_slip", "plank_shaken",
+                                        "table_drifts",   "hopper_hops",     "shuttle_buffers",
+                                        "thomson_magnet", "carriage_stop",   "crash_both",
+                                        "ball_in_air",    "belt_stiffening", "escapement_ticks"};
     static const double tolerances[] = {1e-3, 1e-5, 1e-7};
-    const unsigned count = few_or_all(usual_or(4, 2), sizeof names / sizeof names[0]);
+    const unsigned count = few_or_all(usual_or(3, 2), sizeof names / sizeof names[0]);
     unsigned ended = 0;
     for (unsigned i = 0; i < count; i++) {
         for (size_t k = 0; k < sizeof tolerances / sizeof tolerances[0]; k++) {
