@@ -203,7 +203,7 @@ static void test_eigenvalues_are_the_known_ones(void) {
         const int n = made_matrix(&seed, a, known);
         TEST_ASSERT_TRUE(modes_values(n, a, found));
         for (int i = 0; i < n; i++) {
-            double nearest = INFINITY;
+            double nearest = (double)INFINITY;
             for (int j = 0; j < n; j++) {
                 nearest =
                     fmin(nearest, hypot(found[j].re - known[i].re, found[j].im - known[i].im));
