@@ -37,6 +37,10 @@ static const command_usage usage = {
         "                       is left over; without it such a run is only warned of\n"
         "  --quiet              no summary, no progress\n"
         "\n"
+        "Standard error warns of energy that the step takes or gives, of motions that are too fast for\n"
+        "it, and of singular coordinates that it passed, with a step or a method that would do\n"
+        "(docs/stability.md).\n"
+        "\n"
         "Summary, records and plot are in the units that the file declares; a record's column whose name\n"
         "has no unit is SI: theta [deg] is in degrees, theta in radians.\n",
     .why = {

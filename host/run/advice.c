@@ -87,17 +87,17 @@ static const char *carried_text(const advice *a, const linear_motion *m, char te
 static const char *done_text(const linearised *l, const linear_motion *m, char text[DONE_TEXT]) {
     const double twice = (1.0 + m->off) * (1.0 + m->off) - 1.0;
     if (m->ripple > 0.0) {
-        snprintf(text, DONE_TEXT, "lets its energy go %.2g %% up and down",
+        snprintf(text, DONE_TEXT, "lets its energy go %.3g %% up and down",
                  100.0 * number_least(m->ripple, 1.0));
     } else if (limits_growth(l->method, l->form, m->value, l->step_s) <=
                limits_exact(m->value, l->step_s)) {
         const double left = 1.0 - number_least(m->off, 1.0);
-        snprintf(text, DONE_TEXT, "takes %.2g %% of its energy over the run",
+        snprintf(text, DONE_TEXT, "takes %.3g %% of its energy over the run",
                  100.0 * (1.0 - left * left));
     } else if (twice < 1.0) {
-        snprintf(text, DONE_TEXT, "adds %.2g %% to its energy over the run", 100.0 * twice);
+        snprintf(text, DONE_TEXT, "adds %.3g %% to its energy over the run", 100.0 * twice);
     } else {
-        snprintf(text, DONE_TEXT, "adds %.2g times its energy over the run", twice);
+        snprintf(text, DONE_TEXT, "adds %.3g times its energy over the run", twice);
     }
     return text;
 }

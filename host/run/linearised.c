@@ -13,6 +13,8 @@
 #define MOTION_LEAST 1e-2
 /* Less than this is no part in the motion. */
 #define SHARE_LEAST 1e-6
+/* Of steps: from 1000 s down. */
+#define DECADES 16
 
 /* Root mean squares of the slopes over the records, times the root of two: the size of a swing. */
 static void slope_sizes(const watch *w, double *size) {
@@ -190,12 +192,14 @@ double linearised_worst(const linearised *l) {
 
 double linearised_nice_s(double most_s) {
     static const double steps[] = {5.0, 2.0, 1.0};
-    for (double decade = 1e3; decade > 1e-12; decade /= 10.0) {
+    double decade = 1e3;
+    for (int i = 0; i < DECADES; i++) {
         for (int k = 0; k < 3; k++) {
             if (steps[k] * decade <= most_s * (1.0 + 1e-9)) {
                 return steps[k] * decade;
             }
         }
+        decade /= 10.0;
     }
     return 0.0;
 }

@@ -3,7 +3,7 @@
 #ifndef RUN_LOOK_CLOSE_H
 #define RUN_LOOK_CLOSE_H
 
-#include "watch.h"
+#include "watched.h"
 
 /* At the last WATCH_WINDOW steps, and at `ahead` steps beyond, which the run could not take. What is found is kept in
  * w->worst and w->singular where it is more than what is there. */

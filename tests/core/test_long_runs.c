@@ -1,5 +1,7 @@
 /* test_long_runs.c: counts and times of runs of years: nothing wraps, and times are right to one rounding. */
 #include "core/angle.h"
+#include "core/rig/speed.h"
+#include "core/sum.h"
 #include "hand.h"
 
 #include "unity.h"
@@ -196,7 +198,56 @@ static void test_turns_wrap_and_the_phase_goes_on(void) {
 }
 #endif
 
+/* The books' sums at the end of 50 years of 1 ms, 1.6e12 entries of one size: what a hundred thousand more add is not
+ * lost in them. */
+static void test_sums_of_years_do_not_stall(void) {
+    static const wh_real each[] = {WH_R(1.0), WH_R(-3e-7), WH_R(0.0123), WH_R(7.7e9), WH_R(-1e-20)};
+    const wh_real years = WH_R(1.57788e12);
+    for (unsigned i = 0; i < sizeof each / sizeof each[0]; i++) {
+        const wh_real begin = each[i] * years;
+        wh_real sum = begin;
+        wh_real carry = WH_R(0.0);
+        for (unsigned long k = 0; k < 100000UL; k++) {
+            sum = wh_sum(sum, each[i], true, &carry);
+        }
+        const wh_real parts = ((sum - begin) + carry) / each[i];
+        TEST_ASSERT_TRUE(parts > WH_R(99000.0) && parts < WH_R(101000.0));
+    }
+}
+
+/* Quarter turns and pulses wrap after 2^32 of them, six years at 330 rpm, and capture ticks after 71.6 minutes: the speed
+ * goes on, no pulse counts as lost, and no position is another. */
+static void test_the_count_of_quarters_wraps(void) {
+    static wh_speed speed;
+    const uint32_t quarter_ticks = 45454U;
+    uint32_t ticks = UINT32_MAX - 20U * quarter_ticks;
+    wh_speed_start(&speed, WH_R(1e3));
+    for (uint32_t k = 0; k < 60U; k++) {
+        if (k == 8U) { /* years later, at the same sensor: a multiple of a turn */
+            const uint32_t on = (UINT32_MAX - 15U) - (speed.quarter & ~UINT32_C(3));
+            speed.quarter += on;
+            speed.seen_quarter[0] += on;
+            speed.seen_quarter[1] += on;
+            speed.taken = UINT32_MAX - 5U;
+        }
+        if (k % 4U <= 1U) { /* the slots stand at a quarter of a turn from each other */
+            TEST_ASSERT_TRUE(wh_speed_pulse(&speed, k % 4U, ticks));
+            TEST_ASSERT_TRUE(speed.quarter % 4U == k % 4U);
+        }
+        if (k > 5U) {
+            const wh_real wanted = WH_R(6.2831853) / (WH_R(4e-6) * (wh_real)quarter_ticks);
+            TEST_ASSERT_TRUE(speed.known);
+            TEST_ASSERT_TRUE(WH_ABS(speed.turn_radps - wanted) < WH_R(1e-4) * wanted);
+        }
+        ticks += quarter_ticks;
+    }
+    TEST_ASSERT_TRUE(speed.lost == 0 && speed.rejected == 0 && speed.restarts == 0);
+    TEST_ASSERT_TRUE(speed.quarter < 100U && speed.taken < 100U); /* they did wrap */
+}
+
 void suite_long_runs(void) {
+    RUN_TEST(test_sums_of_years_do_not_stall);
+    RUN_TEST(test_the_count_of_quarters_wraps);
     RUN_TEST(test_times_are_right_to_one_rounding);
     RUN_TEST(test_a_fraction_stays_below_one);
     RUN_TEST(test_time_without_a_fraction);

@@ -192,6 +192,35 @@ static void test_rest_is_waited_for(void) {
     TEST_ASSERT_TRUE(rig.state == WH_RIG_DONE);
 }
 
+/* The times since then wrap after 71.6 minutes, and with them what follows from them; a rig that came to rest after a trip
+ * stays at rest through two wraps. */
+static void test_a_rig_at_rest_stays_so_when_the_timer_wraps(void) {
+    const wh_trip trips[] = {WH_TRIP_WATCHDOG,
+                             WH_TRIP_PULSES}; /* the second waits for its time alone */
+    for (unsigned i = 0; i < 2; i++) {
+        stand_in(WH_RIG_TRIPPED);
+        rig.guard.trip = trips[i];
+        rig.speed.ticks = now;
+        const uint32_t begin = now;
+        unsigned waited = 0;
+        for (; waited < 20000U && !wh_rig_is_over(&rig); waited++) {
+            now += STEP_TICKS;
+            wh_rig_step(&config, &rig, now, false);
+        }
+        TEST_ASSERT_TRUE(waited > STEPS_PER_S && waited < 20000U);
+        for (unsigned k = 0; k < 9000U; k++) { /* a second and a bit each: 2.6 hours */
+            now += 1048573U;
+            wh_rig_step(&config, &rig, now, false);
+            TEST_ASSERT_TRUE(wh_rig_is_over(&rig));
+        }
+        for (unsigned k = 0; k < 3000U; k++) { /* and right behind the next wrap, step by step */
+            now = begin + k * STEP_TICKS;
+            wh_rig_step(&config, &rig, now, false);
+            TEST_ASSERT_TRUE(wh_rig_is_over(&rig));
+        }
+    }
+}
+
 /* In any state a late controller, and from spin-up to the ramp down too high a speed, end the run. */
 static void test_what_trips_in_which_state(void) {
     for (wh_rig_state state = WH_RIG_TARE; state <= WH_RIG_DONE; state++) {
@@ -376,6 +405,7 @@ void suite_rig_steps(void) {
     RUN_TEST(test_the_speed_settles_within_its_band);
     RUN_TEST(test_the_speed_stays_while_it_is_recorded);
     RUN_TEST(test_rest_is_waited_for);
+    RUN_TEST(test_a_rig_at_rest_stays_so_when_the_timer_wraps);
     RUN_TEST(test_what_trips_in_which_state);
     RUN_TEST(test_what_a_full_record_comes_to);
     RUN_TEST(test_samples_come_when_they_are_due);
