@@ -418,6 +418,10 @@ static cost_counts count(const image *im, const cost_board *board, cost_number n
     c.tabled = is_avr && unrolls_less && c.stages > 2;
     if (c.soft) {
         c.moves = step_work_of(im, c.turned, is_avr, c.tabled, given);
+        const double at_zero = c.turned ? 0.0 : c.stages * c.step.zero_pairs;
+        c.moves.zero_products += COST_ZERO_PRODUCTS * at_zero;
+        c.moves.zero_sums += COST_ZERO_SUMS * at_zero;
+        c.moves.zero_conversions += at_zero;
     }
     c.copies = c.called ? 1 : c.stages;
     c.lookups = c.turned ? c.step.pairs : (c.called ? c.stages : c.places) * c.step.pairs;

@@ -122,6 +122,9 @@ typedef struct cost_counts {
 
 cost_counts cost_counts_of(const image *im, const cost_board *board, cost_number number);
 
+/* What is computed of zeros where a pair is looked up at an angle of zero (wh_sincos_parts()). */
+enum { COST_ZERO_PRODUCTS = 8, COST_ZERO_SUMS = 5 };
+
 /* How often a step does what a list holds so many of, and how often its code has it. */
 #define COST_EACH(what) (c->stages * c->step.what + c->places * c->placed.what + c->fixed.what)
 #define COST_COPIES(what) \
@@ -184,7 +187,7 @@ cost_counts cost_counts_of(const image *im, const cost_board *board, cost_number
     X(ENDS, COST_TIME | COST_CODE, c->ends * c->moving) \
     X(ENDS_TWICE, COST_TIME, c->ends_twice ? c->moving : 0) \
     X(LOOKED_UP_ONCE, COST_TIME, c->turned ? c->lookups - c->step.zero_pairs : 0) \
-    X(LOOKED_UP_ZERO, COST_TIME, (c->turned ? 1 : c->stages) * c->step.zero_pairs) \
+    X(LOOKED_UP_ZERO, COST_TIME, c->turned ? c->step.zero_pairs : 0) \
     X(LOOKED_UP_ONCE_CODE, COST_CODE, c->turned ? c->lookups : 0) \
     X(LOOKED_UP, COST_TIME, \
       (c->turned ? 0 : c->lookups - c->stages * c->step.zero_pairs) + c->stages * c->books.pairs) \
