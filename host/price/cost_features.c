@@ -19,136 +19,6 @@ const char *const cost_feature_words[COST_FEATURES] = {COST_FEATURE_ROWS(COST_WO
 #define COST_TAKEN(id, taken, count) taken,
 const unsigned cost_feature_taken[COST_FEATURES] = {COST_FEATURE_ROWS(COST_TAKEN)};
 
-/* Angles of a wave beyond the first, and multiples of one. */
-static int wave_terms(const tape *t, const op *o) {
-    int terms = o->value != 0.0;
-    int angles = 0;
-    for (int k = 0; k < t->angles && o->turns != NULL; k++) {
-        angles += o->turns[k] != 0;
-        terms += o->turns[k] != 0 && o->turns[k] != 1;
-    }
-    return terms + (angles > 1 ? angles - 1 : 0);
-}
-
-static void add_look_up(const tape *t, const op *o, cost_list *l) {
-    l->lines += o->code == OP_LINE;
-    l->cubics += o->code == OP_CUBIC;
-    l->mirrored += t->tables.folds && t->tables.odd[(int)o->value / t->tables.terms];
-}
-
-static void add_operation(const tape *t, const op *o, cost_list *l) {
-    switch (o->code) {
-    case OP_CONSTANT: l->constants++; break;
-    case OP_LINEAR:
-    case OP_RATE:
-    case OP_INPUT:
-    case OP_ACCEL:
-    case OP_TIME:
-    case OP_RADIANS:
-    case OP_NOISE: l->leaves++; break;
-    case OP_PHASE:
-        l->pairs += o->b < 0;
-        l->radians += o->b >= 0;
-        l->terms += wave_terms(t, o);
-        break;
-    case OP_SIN:
-    case OP_COS: break;
-    case OP_ADD:
-    case OP_SUB: l->sums++; break;
-    case OP_MUL: l->products++; break;
-    case OP_DIV: l->quotients++; break;
-    case OP_SQRT: l->roots++; break;
-    case OP_NEG:
-    case OP_ABS: l->sizes++; break;
-    case OP_SIGN: l->signs++; break;
-    case OP_MIN:
-    case OP_MAX: l->choices++; break;
-    case OP_CALL: l->calls[o->function]++; break;
-    case OP_POW: l->powers++; break;
-    case OP_CELL: l->cells++; break;
-    case OP_LINE:
-    case OP_CUBIC: add_look_up(t, o, l); break;
-    }
-}
-
-static void add_operands(const op *o, const operand_share *given, cost_list *l) {
-    if (o->code == OP_MUL) {
-        l->zero_products += given->zero;
-    } else {
-        l->zero_sums += given->zero; /* nothing is told of what is no sum */
-        l->opposed += given->opposed;
-        l->bits += given->bits;
-    }
-}
-
-/* A pair of turn angles: does it stay where it is, and at zero? */
-static void add_pair(const tape *t, const op *o, const operands *given, cost_list *l) {
-    double still = 1.0;
-    double zero = o->value == 0.0 ? 1.0 : 0.0;
-    for (int k = 0; k < t->angles && o->turns != NULL; k++) {
-        if (o->turns[k] != 0) {
-            still = given->still[k] < still ? given->still[k] : still;
-            zero = given->at_zero[k] < zero ? given->at_zero[k] : zero;
-        }
-    }
-    l->still_pairs += still;
-    l->zero_pairs += zero;
-}
-
-/* Do operations of two lists take the same? Of operation i of the one, same[i] of the other is it, or -1. */
-static bool takes_same(const tape *t, const op *o, const op *other,
-                       const int *same) {
-    int operand[2];
-    int others[2];
-    bool is = o->code == other->code && o->function == other->function && o->value == other->value;
-    const int count = is ? tape_operands(o, operand) : 0;
-    if (is && count == 0) { /* leaves and cells; pairs of turn angles by their multiples */
-        is = o->a == other->a && o->b == other->b;
-        for (int k = 0; k < t->angles && is; k++) {
-            is = (o->turns != NULL ? o->turns[k] : 0) ==
-                 (other->turns != NULL ? other->turns[k] : 0);
-        }
-        return is;
-    }
-    is = is && tape_operands(other, others) == count;
-    for (int k = 0; k < count && is; k++) {
-        is = same[operand[k]] == others[k];
-    }
-    return is;
-}
-
-/* Counts of the ledger's list what is not in the step's anyway. `turned`: its sines are not the same, which are turned. */
-static void add_unshared(const tape *t, const tape *step, bool turned, cost_list *l) {
-    int *same = room(t->count, sizeof *same);
-    for (int i = 0; i < t->count; i++) {
-        same[i] = -1;
-        for (int k = 0; k < step->count && same[i] < 0; k++) {
-            const bool is_pair = step->ops[k].code == OP_PHASE && step->ops[k].b < 0;
-            same[i] =
-                !(turned && is_pair) && takes_same(t, &t->ops[i], &step->ops[k], same) ? k
-                                                                                             : -1;
-        }
-        if (same[i] < 0) {
-            add_operation(t, &t->ops[i], l);
-        }
-    }
-    free(same);
-    l->results = t->results;
-    l->carried = tape_carried(t);
-    l->operations = tape_operations(t);
-}
-
-static void add_list(const tape *t, cost_list *l) {
-    for (int i = 0; t != NULL && i < t->count; i++) {
-        add_operation(t, &t->ops[i], l);
-    }
-    if (t != NULL) {
-        l->results += t->results;
-        l->carried += tape_carried(t);
-        l->operations += tape_operations(t);
-    }
-}
-
 int cost_calls(const cost_list *l) {
     int calls = l->powers;
     for (int i = 0; i < FUNCTIONS; i++) {
@@ -295,12 +165,12 @@ static void add_step(const image *im, const operands *given, cost_counts *c) {
                         : !varies[i] ? &c->fixed
                         : stays      ? &c->placed
                                      : &c->step;
-        add_operation(t, &t->ops[i], to);
+        cost_list_add(t, &t->ops[i], to);
         if (given->of != NULL) {
-            add_operands(&t->ops[i], &given->of[i], to);
+            cost_list_add_operands(&t->ops[i], &given->of[i], to);
         }
         if (given->of != NULL && t->ops[i].code == OP_PHASE && t->ops[i].b < 0) {
-            add_pair(t, &t->ops[i], given, &c->step);
+            cost_list_add_pair(t, &t->ops[i], given, &c->step);
         }
         add_reads(t, &t->ops[i], &reads);
     }
@@ -326,9 +196,9 @@ static int state_words(const image *im) {
 static void add_matrix(const image *im, const operands *given, cost_counts *c) {
     const tape *t = im->list[IMAGE_MATRIX];
     c->is_matrix = true;
-    add_list(t, &c->matrix);
+    cost_list_add_all(t, &c->matrix);
     for (int i = 0; i < t->count && given->of != NULL; i++) {
-        add_operands(&t->ops[i], &given->of[i], &c->matrix);
+        cost_list_add_operands(&t->ops[i], &given->of[i], &c->matrix);
     }
     if (c->soft) { /* what it does costs as much as elsewhere */
         c->moves = step_work_of_matrix(im, given);
@@ -374,9 +244,9 @@ static void add_books(const image *im, cost_counts *c) {
     c->books_called = c->called || length + length_of(books) > BOTH_MOST;
     c->called = c->called || length > BOOKING_MOST;
     if (c->called || c->books_called) {
-        add_list(books, &c->books);
+        cost_list_add_all(books, &c->books);
     } else {
-        add_unshared(books, step, c->turned, &c->books);
+        cost_list_add_unshared(books, step, c->turned, &c->books);
     }
 }
 
@@ -389,7 +259,7 @@ static cost_counts count(const image *im, const cost_board *board, cost_number n
                      .turned = image_turns(im),
                      .reals = im->reals,
                      .state_words = state_words(im)};
-    add_list(im->list[IMAGE_OBSERVE], &c.observe);
+    cost_list_add_all(im->list[IMAGE_OBSERVE], &c.observe);
     if (im->settings.matrix != MATRIX_NONE) {
         add_matrix(im, given, &c);
         return c;
@@ -399,8 +269,8 @@ static cost_counts count(const image *im, const cost_board *board, cost_number n
     add_method(im, &c);
     add_tables(im, board, &c);
     if (im->contacts > 0) {
-        add_list(im->list[IMAGE_SIGNALS], &c.events);
-        add_list(im->list[IMAGE_FORCES], &c.events);
+        cost_list_add_all(im->list[IMAGE_SIGNALS], &c.events);
+        cost_list_add_all(im->list[IMAGE_FORCES], &c.events);
     }
     c.components = c.second ? im->coordinates : im->angles + im->reals;
     c.linears = c.second ? im->coordinates - im->angles : im->reals;
@@ -418,6 +288,10 @@ static cost_counts count(const image *im, const cost_board *board, cost_number n
     c.tabled = is_avr && unrolls_less && c.stages > 2;
     if (c.soft) {
         c.moves = step_work_of(im, c.turned, is_avr, c.tabled, given);
+        const double at_zero = c.turned ? 0.0 : c.stages * c.step.zero_pairs;
+        c.moves.zero_products += COST_ZERO_PRODUCTS * at_zero;
+        c.moves.zero_sums += COST_ZERO_SUMS * at_zero;
+        c.moves.zero_conversions += at_zero;
     }
     c.copies = c.called ? 1 : c.stages;
     c.lookups = c.turned ? c.step.pairs : (c.called ? c.stages : c.places) * c.step.pairs;

@@ -11,6 +11,7 @@
 #define PRICE_COST_FEATURES_H
 
 #include "cost_board.h"
+#include "cost_list.h"
 #include "host/image/image.h"
 #include "step_work.h"
 
@@ -35,38 +36,6 @@ enum {
     COST_DEPTH = 1 << COST_OF_STACK,
     COST_EVENTS = 1 << COST_OF_CONTACT_MEAN | 1 << COST_OF_CONTACT_WORST
 };
-
-/* What lists of operations hold. */
-typedef struct cost_list {
-    int sums;
-    int products;
-    int quotients;
-    int roots;
-    int sizes; /* and negations */
-    int signs;
-    int choices;   /* the lesser, the larger */
-    int leaves;    /* that are read */
-    int constants; /* that differ */
-    int results;
-    int pairs;   /* of sine and cosine, of turn angles */
-    int terms;   /* further angles, or multiples, in these */
-    int radians; /* pairs of what is in radians */
-    int powers;
-    int cells;    /* of tables, that a phase is looked up in, */
-    int lines;    /* and what is interpolated there, by straight pieces */
-    int cubics;   /* and by cubic ones, */
-    int mirrored; /* of both, what is odd and told by its other half */
-    int calls[FUNCTIONS];
-    double zero_sums; /* of the sums, those that are given a zero, */
-    double
-        zero_products; /* and of the products: on average over a run's first steps (operands.h) */
-    double opposed;    /* sums of opposite signs, */
-    double bits;       /* and what all sums shift by */
-    double still_pairs; /* of those of turn angles, that stay where they are, */
-    double zero_pairs;  /* and whose angle is zero */
-    int carried;       /* between registers and memory, at best */
-    int operations;    /* all that compute */
-} cost_list;
 
 typedef struct cost_counts {
     const image *im;
@@ -109,18 +78,23 @@ typedef struct cost_counts {
     int leans;            /* stages that lean */
     int shares;           /* of stages in stages */
     int ends;             /* products of stages at the step's end */
-    bool ends_twice;      /* what moves positions is all that moves rates: where sines are turned compilers do not see that */
+    bool
+        ends_twice; /* what moves positions is all that moves rates: where sines are turned compilers do not see that */
     int state_words;
     bool soft; /* numbers are computed by software, whose time depends on operands: */
     step_work
         moves; /* then what the step itself does beside its lists, or a step as one matrix in all */
-    double pressed; /* of the values that a stage leaves to later ones, those beyond half of an FPU's registers, */
-    double spilled; /* and beyond all of them */
+    double
+        pressed; /* of the values that a stage leaves to later ones, those beyond half of an FPU's registers, */
+    double spilled;  /* and beyond all of them */
     int evaluations; /* most in a step */
     double smooth;   /* a step without its contacts, predicted: filled in by cost.c */
 } cost_counts;
 
 cost_counts cost_counts_of(const image *im, const cost_board *board, cost_number number);
+
+/* What is computed of zeros where a pair is looked up at an angle of zero (wh_sincos_parts()). */
+enum { COST_ZERO_PRODUCTS = 8, COST_ZERO_SUMS = 5 };
 
 /* How often a step does what a list holds so many of, and how often its code has it. */
 #define COST_EACH(what) (c->stages * c->step.what + c->places * c->placed.what + c->fixed.what)
@@ -184,7 +158,7 @@ cost_counts cost_counts_of(const image *im, const cost_board *board, cost_number
     X(ENDS, COST_TIME | COST_CODE, c->ends * c->moving) \
     X(ENDS_TWICE, COST_TIME, c->ends_twice ? c->moving : 0) \
     X(LOOKED_UP_ONCE, COST_TIME, c->turned ? c->lookups - c->step.zero_pairs : 0) \
-    X(LOOKED_UP_ZERO, COST_TIME, (c->turned ? 1 : c->stages) * c->step.zero_pairs) \
+    X(LOOKED_UP_ZERO, COST_TIME, c->turned ? c->step.zero_pairs : 0) \
     X(LOOKED_UP_ONCE_CODE, COST_CODE, c->turned ? c->lookups : 0) \
     X(LOOKED_UP, COST_TIME, \
       (c->turned ? 0 : c->lookups - c->stages * c->step.zero_pairs) + c->stages * c->books.pairs) \

@@ -10,9 +10,9 @@ typedef struct counting {
     bool second;
     bool compensated;
     bool is_float;
-    bool keeps;       /* what no list reads; other compilers leave it out but for the last stage, */
+    bool keeps; /* what no list reads; other compilers leave it out but for the last stage, */
     bool tabled;
-    bool twice; /* compilers do not see that the same moves rates and positions */
+    bool twice;       /* compilers do not see that the same moves rates and positions */
     bool places_read; /* by the list, of any component */
     bool rates_read;
     bool angles_read;

@@ -1,9 +1,9 @@
 #!/bin/sh
 # count.sh BOARD OUT <CASES >ROWS: what steps take, counted on BOARD as by mk/price/measure.sh.
 #
-# CASES are lines "NAME,whirl run SCENE ... --step S --until U", NAME is SCENE or, of a part of its motion, SCENE+4s. ROWS has a header. A case whose counted steps, which are more
-# than a motion by coarse steps has, do not stay finite is told on standard error and left out. Whatever else cannot be
-# counted is an error: exit status 1.
+# CASES are lines "NAME,whirl run SCENE ... --step S --until U"; NAME is SCENE, or SCENE+4s of a part of its motion. ROWS has
+# a header. A case whose counted steps, which are more than a motion by coarse steps has, do not stay finite is told on
+# standard error and left out. Whatever else cannot be counted is an error: exit status 1.
 set -eu
 here=$(dirname "$0")
 board=$1

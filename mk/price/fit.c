@@ -14,7 +14,7 @@
 
 #include "judged.h"
 
-enum { WIDTH = 260, BOARDS_MAX = 32 };
+enum { WIDTH = 300, BOARDS_MAX = 32 };
 /* What is fitted below this is nothing. */
 #define LEAST 1e-6
 
