@@ -34,16 +34,16 @@ typedef enum choice_left { CHOICE_LEFT_ROWS(CHOICE_LEFT_ID) CHOICE_LEFTS } choic
 #undef CHOICE_LEFT_ID
 
 typedef struct choice_wish {
-    double error;       /* in the unit of the trial's errors */
-    double rate_Hz;     /* of calls, each of which takes whole steps; 0: any step will do */
-    uint64_t periods;   /* of 1/rate in a record's spacing; 1 without a rate */
-    double clock_Hz;    /* 0: not known, and no limit */
-    double flash_bytes; /* 0: no limit */
-    double ram_bytes;   /* with the stack; 0: no limit */
-    double operations;  /* most that all trials may evaluate */
-    const measured_prices *counted; /* prices that take the place of predicted ones; NULL: none */
-    const char *prices;             /* for people: how they are known; NULL: nothing is said */
-    trial_memo *memo;               /* of trials that are asked for again; NULL: all are run */
+    double error;             /* in the unit of the trial's errors */
+    double rate_Hz;           /* of calls, each of which takes whole steps; 0: any step will do */
+    uint64_t periods;         /* of 1/rate in a record's spacing; 1 without a rate */
+    double clock_Hz;          /* 0: not known, and no limit */
+    double flash_bytes;       /* 0: no limit */
+    double ram_bytes;         /* with the stack; 0: no limit */
+    double operations;        /* most that all trials may evaluate */
+    measured_prices *counted; /* prices that take the place of predicted ones; NULL: none */
+    const char *prices;       /* for people: how they are known; NULL: nothing is said */
+    trial_memo *memo;         /* of trials that are asked for again; NULL: all are run */
     void (*progress)(void *context, int done, int of); /* may be NULL */
     void (*counting)(void *context, int counted);      /* likewise */
     void *context;
