@@ -53,7 +53,7 @@ fi
 with_contacts() {
     "$whirl" list --as table core/models/*.whirl | awk -F '\t' '
         $8 ~ /contacts/ && $1 != "scene" { has[$3, $2] = 1 }
-        $1 == "scene" { n = split($6, on, ","); for (i = 1; i <= n; i++) { if (($3, on[i]) in has) { print $2; next } }
+        $1 == "scene" { n = split($7, on, ","); for (i = 1; i <= n; i++) { if (($3, on[i]) in has) { print $2; next } }
             if (($3, $3) in has || $8 ~ /contacts/) { print $2 } }'
 }
 # row N: a field of the row that the printed line counts
