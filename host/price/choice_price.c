@@ -11,6 +11,8 @@ enum { PLENTY = 40, PLENTY_OF_RUNS = 4 };
 /* No step in double was seen to take less than so many in float, both in software, or with an FPU for the float. */
 #define DOUBLE_OF_FLOAT 1.3
 #define DOUBLE_OF_FPU 4.0
+/* Of another board's instructions, in place of one's own. */
+#define ELSEWHERE 0.5
 /* Bytes of what has no figures, of those of what stands for it: no more is sure. */
 #define STAND_IN_BYTES 0.8
 /* Instructions of a run that an emulator is given: some ten seconds of it. */
@@ -51,19 +53,38 @@ static void scale_bytes(cost *c, double by) {
     scale(&c->stack_bytes, by);
 }
 
+/* By the figures of a board whose arithmetic is alike, where it does what none fitted here did: cores differ, so half of it. */
+static cost elsewhere(trials *t, const setting *s, deviation_pace pace, bool *own) {
+    const cost_board *here = t->wish.board;
+    t->wish.board = cost_board_named(here->fpu ? "mps2-an386" : "mps2-an385");
+    cost c = trial_cost(t, s, pace, own);
+    t->wish.board = here;
+    scale_steps(&c, ELSEWHERE);
+    const bool range = here->cycles == COST_RANGE;
+    c.cycles = c.instructions;
+    c.cycles_worst = c.instructions_worst;
+    scale(&c.cycles, range ? here->cycles_most : 1.0);
+    scale(&c.cycles_worst, range ? here->cycles_most : 1.0);
+    c.flash_bytes = c.ram_bytes = c.stack_bytes = (cost_figure){0};
+    return c;
+}
+
 /* Of what has no figures: no less than in float; by the classic method where its own was not fitted, by how many stages
- * it has. */
+ * it has; or by another board's. */
 static cost stand_in(trials *t, const setting *s, deviation_pace pace, const cost *unknown) {
     setting as = *s;
     bool own;
     as.number = &engine_float;
     cost c = trial_cost(t, &as, pace, &own);
-    if (!(own && is_known(&c.instructions_worst))) {
+    if (own && !is_known(&c.instructions_worst)) {
+        const setting before = as;
         as.image.method = WH_RK4;
         c = trial_cost(t, &as, pace, &own);
-        const double stages =
-            (double)wh_methods[s->image.method].stages / (double)wh_methods[WH_RK4].stages;
-        scale_steps(&c, stages);
+        scale_steps(&c,
+                    (double)wh_methods[s->image.method].stages / (double)wh_methods[WH_RK4].stages);
+        if (!(own && is_known(&c.instructions_worst))) {
+            c = elsewhere(t, &before, pace, &own);
+        }
     }
     if (s->number == &engine_double) {
         scale_steps(&c, cost_is_soft(t->wish.board, COST_DOUBLE)
