@@ -289,6 +289,9 @@ static int choose_begun(const choose_options *o, pricing *p, choice_wish *w) {
     if (p->trial.stopped) {
         return EXIT_INTERRUPTED;
     }
+    if (w->progress != NULL && !o->predict) {
+        fputs("\rbuilding what counts ", stderr);
+    }
     const int code = look_for_tools(o, p, &b);
     if (code != EXIT_DONE) {
         return code;

@@ -33,7 +33,7 @@ static const char tail[] =
     "  --plot FILE.svg|.png error against price, a line for each method or matrix and number,\n"
     "                       and the front\n"
     "  --measure            count what is on the front instead of predicting it: in Whirl's source\n"
-    "                       tree, where the board's compiler and emulator are\n"
+    "                       tree, where the board's compiler and emulator are; takes minutes\n"
     "  --quiet              no table, no progress\n"
     "\n";
 static const char *const own[] = {"--all", "--csv", "--plot", "--measure", NULL};

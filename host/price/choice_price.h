@@ -2,7 +2,7 @@
 #ifndef PRICE_CHOICE_PRICE_H
 #define PRICE_CHOICE_PRICE_H
 
-#include "choice.h"
+#include "choice_wish.h"
 
 /* As trial_cost(), or trial_any_cost() where `any` step will do. Where nothing is counted, what is predicted. Else what was
  * counted of it; and of the rest, since whatever is chosen is counted before it is told, no more than is likely: the best one number

@@ -24,8 +24,8 @@ typedef struct deviation {
     int column;   /* where */
     double
         known; /* and how well the reference knows that column there: errors near it are no more than bounds */
-    double operations;  /* evaluated: what it took */
-    double evaluations; /* of the accelerations, or of the matrix, a simulated second */
+    double operations;       /* evaluated: what it took */
+    double evaluations;      /* of the accelerations, or of the matrix, a simulated second */
     double evaluations_most; /* in one step */
 } deviation;
 

@@ -20,13 +20,8 @@ static cost_number number_of(const setting *s) {
     return setting_is_fixed(s) ? COST_FIXED : s->number == &engine_float ? COST_FLOAT : COST_DOUBLE;
 }
 
-double measured_share(const measured_prices *m, const setting *s) {
-    const double share = m->share[number_of(s)];
-    return share > 0.0 ? share : 1.0;
-}
-
-void measured_learn(measured_prices *m, const setting *s, double share) {
-    m->share[number_of(s)] = share;
+measured_lesson *measured_lesson_of(measured_prices *m, const setting *s) {
+    return &m->lesson[number_of(s)];
 }
 
 static const measured_price *find(const measured_prices *m, const setting *s, deviation_pace pace) {
@@ -85,6 +80,11 @@ static int line_from(const char *command, const char *with, char *line, int size
 static bool is_host(const cost_board *board) { return strcmp(board->name, "host") == 0; }
 
 bool measured_takes_runs(const cost_board *board) { return !is_host(board); }
+
+bool measured_takes(const cost_board *board, const setting *s) {
+    return setting_is_fixed(s) ? !is_host(board)
+                               : s->number != &engine_double || strcmp(board->core, "AVR") != 0;
+}
 
 const char *measured_missing(const cost_board *board, char text[MEASURED_TEXT]) {
     static const char missing[] = " is missing";

@@ -26,13 +26,18 @@ typedef struct measured_price {
     measured_run run;
 } measured_price;
 
+/* What a run with contacts took beside what was expected of it: the next are expected by that. */
+typedef struct measured_lesson {
+    double share;                               /* of its longest step; 0: none was counted yet */
+    double flash_bytes, ram_bytes, stack_bytes; /* more than a step without events */
+} measured_lesson;
+
 typedef struct measured_prices {
     const table_words *words;
     measured_price *price; /* [count] */
     int count;
     bool by_run; /* prices are those of whole runs, which each pace has for itself */
-    double share
-        [COST_NUMBERS]; /* of a run's longest step, what was counted of what was expected: of the latest; 0: none yet */
+    measured_lesson lesson[COST_NUMBERS]; /* of the run that was counted last */
 } measured_prices;
 
 /* Why can nothing be counted on a board? NULL where it can; what is compiled once for it is then there. `text` has room for
@@ -41,10 +46,11 @@ enum { MEASURED_TEXT = 160 };
 const char *measured_missing(const cost_board *board, char text[MEASURED_TEXT]);
 /* Runs with contacts are counted in emulators, and not on a PC. */
 bool measured_takes_runs(const cost_board *board);
+/* Is a number counted there? Double is none of an AVR's compiler, and fixed point is for boards. */
+bool measured_takes(const cost_board *board, const setting *s);
 void measured_free(measured_prices *m);
-/* The share that holds for a setting, or 1. */
-double measured_share(const measured_prices *m, const setting *s);
-void measured_learn(measured_prices *m, const setting *s, double share);
+/* Of a setting's number. */
+measured_lesson *measured_lesson_of(measured_prices *m, const setting *s);
 bool measured_has(const measured_prices *m, const setting *s, deviation_pace pace);
 /* In place of what is predicted: what was counted, if it was. */
 void measured_tell(const measured_prices *m, const setting *s, deviation_pace pace, cost *c);

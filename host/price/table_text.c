@@ -37,7 +37,8 @@ char *table_measure_line(const trials *t, const setting *s, deviation_pace pace,
     const bool runs = t->image[0]->contacts > 0;
     const bool ranged = runs || setting_is_fixed(s); /* whose ranges are those to the end */
     return room_words("sh mk/price/measure_one.sh%s %s %s %s%s%s%s --step %s%s%s",
-                      runs ? " --whole-run" : "", t->wish.board->name, s->number->name, words->target, words->changes,
+                      runs ? " --whole-run" : "", t->wish.board->name, s->number->name,
+                      words->target, words->changes,
                       t->wish.source->name(t->wish.source->context, point),
                       setting_options(s, false, options), trial_time(trial_step(t, pace), step),
                       ranged ? " --until " : "", ranged ? trial_until(t, until) : "");
@@ -96,11 +97,20 @@ static void print_notes(FILE *out, const trials *t, const table *made, const tab
             "  evaluations of the accelerations a simulated second, since no setting has a price "
             "on this board:\n  %s\n",
             made->why);
+        fputs(
+            "  `whirl choose` counts whole runs of what has contacts, where a board's compiler and "
+            "emulator are\n",
+            out);
     } else {
         fprintf(out, "  %s a simulated second: %s\n", table_unit_words[first->price.unit],
                 figure_words(first->price.unit == PRICE_CYCLES ? &first->cost.cycles
                                                                : &first->cost.instructions,
                              text));
+        if (first->price.basis == COST_PREDICTED) {
+            fputs(
+                "  --measure counts those on the front instead, in Whirl's source tree: minutes\n",
+                out);
+        }
     }
     fprintf(
         out,

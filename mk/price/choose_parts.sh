@@ -51,8 +51,16 @@ references() {
 }
 
 # figure NAME, figure_most NAME: of the answer in $told; "" where it is not known. Steps are rounded to whole numbers there.
-figure() { sed -n "s/^  $1 *\([0-9]*\) .*at most.*/\1/p" "$told"; }
-figure_most() { sed -n "s/^  $1 .*at most \([0-9]*\):.*/\1/p" "$told"; }
+# What was counted has no other most.
+figure() { sed -n "s/^  $1  *\([0-9][0-9]*\) .*/\1/p" "$told"; }
+figure_most() {
+    most=$(sed -n "s/^  $1 .*at most \([0-9]*\):.*/\1/p" "$told")
+    [ -n "$most" ] || most=$(figure "$1")
+    echo "$most"
+}
+
+# eventful SCENE: has it contacts?
+eventful() { grep -q "^$1|.*|contacts\$" "$here/choose_scenes.rows"; }
 
 # clock_of CLOCK BOARD: in Hz; 0: no limit. bytes_of LIMIT BOARD flash|RAM: what is asked for, or what the chip has (data sheets)
 clock_of() {

@@ -4,7 +4,8 @@
 # be, run by 1, 2, ... steps a period at every place of the range. What keeps half the error allowed then (a margin of 2 is
 # part of the answer) fits by what was counted. That is proof against `whirl choose` where even the most that could have
 # been promised of it fits: the counted figure times the promise's bound, twice. Else the caution of the promise refused it,
-# and that is told. An answer that says to have left settings for want of effort claims no proof, and gets none.
+# and that is told. With contacts the longest step of the whole run by the coarsest step that keeps the error is counted for every
+# setting, and what does not fit by that fits by none (a step without an event, counted, bounds how many there can be). An answer that says to have left settings for want of effort claims no proof, and gets none.
 
 # forms: option words of every setting, one a line, "NUMBER|WORDS". The axes are those of `whirl price --csv`.
 forms() {
@@ -25,9 +26,13 @@ forms() {
             "$out/forms" >"$out/more"
         mv "$out/more" "$out/forms"
     done <"$out/axes"
-    # sums are compensated in float; double is priced where a board's rows have it
+    # sums are compensated in float; double is predicted where a board's rows have it, and counted where there is one
     sed 's/^/float|/' "$out/forms"
-    case $board in mps2-an386 | host) grep -v -e --compensated "$out/forms" | sed 's/^/double|/' ;; esac
+    case $board in
+    atmega*) ;;
+    mps2-an386 | host) grep -v -e --compensated "$out/forms" | sed 's/^/double|/' ;;
+    *) case " $CHOOSE_WORDS " in *" --predict "*) ;; *) grep -v -e --compensated "$out/forms" | sed 's/^/double|/' ;; esac ;;
+    esac
 }
 
 # count_forms ID: "NUMBER|WORDS|CYCLES|FLASH|RAM|STACK" of what can be built, to $out/ID.costs
@@ -77,6 +82,26 @@ keeps() {
     done <"$out/$1.where"
 }
 
+# run_fits ID NUMBER|WORDS STEPS: with contacts, do the counted steps of its whole run keep the limits, at all places? 0 where they
+# do; their longest step, flash, RAM and stack to $out/run_figures
+run_fits() {
+    number=${2%%|*}
+    : >"$out/run_rows"
+    while read -r where; do
+        # shellcheck disable=SC2086 # words
+        $nicely sh "$here/measure_one.sh" --whole-run "$board" "$number" "$scene" $where ${2#*|} --step "1/$rate/$3" --until "$until" \
+            2>"$out/errors" | tail -n 1 >>"$out/run_rows" || true
+    done <"$out/$1.where"
+    [ "$(grep -c "^$board," "$out/run_rows")" -eq "$(wc -l <"$out/$1.where")" ] || return 1
+    case $board in *an500 | *an505) each=3 ;; rv32imac) each=4 ;; *) each=5 ;; esac
+    awk -F, -v each=$each '
+        { longest = $8 != "" ? $8 : $5 * each
+          if (longest > c) { c = longest } if ($11 > f) { f = $11 } if ($12 > r) { r = $12 } if ($13 > s) { s = $13 } }
+        END { print c, f, r, s }' "$out/run_rows" >"$out/run_figures"
+    echo "$limits $rate $3 $(cat "$out/run_figures")" |
+        awk '{ exit !(!($1 && $6 * $4 * $5 > $1) && !($2 && $7 > $2) && !($3 && $8 + $9 > $3)) }'
+}
+
 # prove ID: $proof, words; `wrong` where something fits that had to be found
 prove() {
     told=$out/$1.told
@@ -99,6 +124,9 @@ prove() {
     for tens in 1 10 100; do
         for steps in 12 15 20 25 30 40 50 60 80 100; do ladder="$ladder $((steps * tens))"; done
     done
+    by_run=
+    ! eventful "$scene" || by_run=yes
+    runs_counted=0
     tried=0
     small=0
     long=0
@@ -112,6 +140,8 @@ prove() {
             n = $1 ? int($1 / $4 / $5) : 1e9
             print (fits ? n : 0), (surely ? ($1 ? int($1 / $4 / ($5 * $9 * $9)) : 1e9) : 0) }' >"$out/most"
         read -r steps_most steps_surely <"$out/most"
+        counted_in=$number # keeps() has a word of its own
+        [ -z "$by_run" ] || steps_surely=$steps_most
         [ "$steps_most" -gt 0 ] || small=$((small + 1))
         for steps in $ladder; do
             [ "$steps" -le "$steps_most" ] || break
@@ -120,13 +150,17 @@ prove() {
                 break
             fi
             tried=$((tried + 1))
-            keeps "$1" "$number|$words" $steps || continue
-            echo "$number $words, $steps in a period, $cycles cycles" >>"$out/$1.fits"
-            fits="$number $words"
+            keeps "$1" "$counted_in|$words" $steps || continue
+            if [ -n "$by_run" ]; then
+                runs_counted=$((runs_counted + 1))
+                run_fits "$1" "$counted_in|$words" $steps || break
+            fi
+            echo "$counted_in $words, $steps in a period, $cycles cycles" >>"$out/$1.fits"
+            fits="$counted_in $words"
             if grep -q '^nothing fits of .* raise --effort$' "$told"; then
                 left=yes # it did not claim to have tried them all
-            elif [ "$steps" -le "$steps_surely" ] && has_price "$1" "$number" "$words"; then
-                wrong "$1" "$number $words fits: $steps in a period, $cycles cycles, $flash_is bytes of flash, $ram_is + $stack_is of RAM"
+            elif [ "$steps" -le "$steps_surely" ] && { [ -n "$by_run" ] || has_price "$1" "$counted_in" "$words"; }; then
+                wrong "$1" "$counted_in $words fits: $steps in a period, $cycles cycles, $flash_is bytes of flash, $ram_is + $stack_is of RAM"
             fi
             break
         done
@@ -138,6 +172,7 @@ prove() {
     [ $((settings + unfit)) -gt 0 ] || wrong "$1" "no setting could be built and counted"
     rate=$asked_rate
     proof="proved, $settings settings, $small of them fit by no step, $unfit more cannot be linked, $tried runs"
+    [ -z "$by_run" ] || proof="$proof, $runs_counted of them counted to their end"
     [ "$uncounted" -eq 0 ] || proof="not proved, $uncounted settings cannot be counted"
     [ $long -eq 0 ] || proof="not proved, $long of $settings settings have steps too fine to try; $tried runs"
     [ -z "$left" ] || proof="not claimed, $(wc -l <"$out/$1.fits") of $settings settings fit that may be among those left; "
@@ -146,6 +181,7 @@ prove() {
 
 # has_price ID NUMBER WORDS: does `whirl choose` know a price of it? Its count of those without is no names; `whirl price` has them.
 has_price() {
+    case " $CHOOSE_WORDS " in *" --predict "*) ;; *) return 0 ;; esac # what can be built is counted
     [ -s "$out/$1.priced" ] ||
         "$whirl" price "$scene" --board "$board" --horizon 0.1s --effort 0.02 --quiet --csv "$out/$1.priced" >/dev/null 2>&1 || true
     run=$([ "$2" = double ] || echo " --number float")

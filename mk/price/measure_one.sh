@@ -7,9 +7,9 @@
 #
 # --whole-run, of a scene with contacts: all steps to its end (--until) are counted, and it prints what count_run.sh does.
 set -eu
-target=price-measure
+way=price-measure
 if [ "${1:-}" = --whole-run ]; then
-    target=price-count-run
+    way=price-count-run
     shift
 fi
 if [ $# -lt 3 ]; then
@@ -45,11 +45,11 @@ esac
 for word in "$@"; do
     printf ' %s' "$(printf '%s' "$word" | tr -d '[:blank:]')"
 done | sed 's/^/one/; s/$/\n/' >"$work/case"
-if [ $target = price-count-run ] && [ "$board$number" != "${board#host}${number#fixed}" ]; then
+if [ "$way" = price-count-run ] && [ "$board$number" != "${board#host}${number#fixed}" ]; then
     echo "measure_one.sh: error: whole runs are counted on boards, in float and double" >&2
     exit 2
 fi
-if ! make -s $([ "$board" = host ] || echo "BOARD=$board") "$target-$([ "$board" = host ] && echo host || echo board)" \
+if ! make -s $([ "$board" = host ] || echo "BOARD=$board") "$way-$([ "$board" = host ] && echo host || echo board)" \
     PRICE_CASES="$work/case" PRICE_CSV="$work/rows" PRICE_OUT="$work/out" NUMBERS="$number" >"$work/log" 2>&1; then
     grep -vE '^make|Error [0-9]|^  [A-Z]+ ' "$work/log" | head -n 20 >&2
     grep -qE 'is missing' "$work/log" && exit 2
