@@ -112,9 +112,9 @@ double limits_growth(wh_method method, wh_form form, complex_number value, doubl
     return growth_of_second(&o);
 }
 
-/* The damped oscillator has such an ellipse by itself: only what does not decay is judged. */
+/* As if it were not damped: a damped oscillator has such an ellipse by itself. Not of one that soon decays. */
 double limits_ripple(wh_method method, wh_form form, complex_number value, double step_s) {
-    if (form == WH_FIRST_ORDER || fabs(value.re) > 1e-3 * fabs(value.im)) {
+    if (form == WH_FIRST_ORDER || fabs(value.re) > 0.1 * fabs(value.im)) {
         return 0.0;
     }
     const oscillator o = oscillator_of(method, (complex_number){0.0, complex_size(value) * step_s});
