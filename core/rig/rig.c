@@ -191,15 +191,14 @@ static void settle(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks)
 
 /* Motor off: wait for the pulses to stay away. When it is the pulses that failed, only time tells. */
 static void coast(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
-    if (rig->at_rest) { /* and stays so: the times below wrap every 71.6 minutes */
-        return;
-    }
     const bool blind = rig->guard.trip == WH_TRIP_PULSES;
     const bool waited = since_s(rig->since_ticks, now_ticks) >= config->rest_s;
     const bool silent =
         !rig->speed.running || wh_speed_silence_s(&rig->speed, now_ticks) >= config->rest_s;
     const bool late = since_s(rig->since_ticks, now_ticks) > config->rest_max_s;
-    rig->at_rest = waited && silent && !blind;
+    if (waited && silent && !blind) { /* and stays so: these times wrap every 71.6 minutes */
+        rig->at_rest = true;
+    }
     if (rig->state == WH_RIG_COAST && rig->at_rest) {
         enter(rig, WH_RIG_DONE, now_ticks);
     } else if (rig->state == WH_RIG_COAST && late) {

@@ -17,6 +17,10 @@
 #define IS_CAUSE 0.1
 /* And all of it, where there is nothing else to expect: at least this part. */
 #define IS_ALL 0.3
+/* Where so much is missing, or all bounds were left, nothing is known of the motion as it should have been: a cure is to
+ * leave so much less. */
+#define SATURATED 0.3
+#define SATURATED_LEAVES 0.1
 /* Of a system's swing: its part of what moves, and of that what is lost. */
 #define SWING_SHARE 0.01
 #define SWING_LOST 0.01
@@ -105,7 +109,7 @@ static const char *done_text(const linearised *l, const linear_motion *m, char t
 /* --- what would do ------------------------------------------------------------------------------------------*/
 
 /* The cheapest other method of a higher order that takes this system and leaves little at the same step; -1: none. */
-static int method_that_would_do(advice *a) {
+static int method_that_would_do(advice *a, double allowed) {
     const linearised *l = motions_of(a);
     const wh_method own = method_of(a->image);
     int found = -1;
@@ -116,7 +120,7 @@ static int method_that_would_do(advice *a) {
             (found >= 0 && row->stages >= wh_methods[found].stages)) {
             continue;
         }
-        if (linearised_off(l, (wh_method)m, l->step_s) <= CURED) {
+        if (linearised_off(l, (wh_method)m, l->step_s) <= allowed) {
             found = m;
         }
     }
@@ -139,13 +143,14 @@ static double step_by_look_s(const advice *a, const watch_look *l) {
 
 /* What would do, as options; false where nothing is known that would. A step that is not beyond `most_s`: where it is so
  * small that a better method has more of it, that one is named with its own. */
-static bool would_do(advice *a, double most_s, char text[CURE_TEXT]) {
+static bool would_do(advice *a, double most_s, bool saturated, char text[CURE_TEXT]) {
+    const double allowed = saturated ? SATURATED_LEAVES * CURED : CURED;
     const linearised *l = motions_of(a);
     const bool crude = wh_methods[l->method].order < wh_methods[WH_METHOD_DEFAULT].order;
-    const int method = method_that_would_do(a);
-    const double own_s = linearised_step_s(l, l->method, most_s, CURED);
+    const int method = method_that_would_do(a, allowed);
+    const double own_s = linearised_step_s(l, l->method, most_s, allowed);
     const double usual_s =
-        crude ? linearised_step_s(l, WH_METHOD_DEFAULT, 0.5 * l->step_s, CURED) : 0.0;
+        crude ? linearised_step_s(l, WH_METHOD_DEFAULT, 0.5 * l->step_s, allowed) : 0.0;
     char step[STEP_TEXT];
     text[0] = '\0';
     if (own_s * STEPS_MORE > l->step_s && method >= 0) {
@@ -233,7 +238,8 @@ char *advice_cure(advice *a) {
         return at_one_go(a);
     }
     /* else there is more to it than is linear */
-    if (!would_do(a, by_motion > IS_ALL ? l->step_s : step_by_order_s(a, ratio), cure)) {
+    if (!would_do(a, by_motion > IS_ALL ? l->step_s : step_by_order_s(a, ratio), ratio > SATURATED,
+                  cure)) {
         return NULL;
     }
     if (by_motion >= IS_CAUSE) {
@@ -302,7 +308,7 @@ static void say_swing(FILE *out, advice *a) {
     }
     fprintf(out, "whirl run: warning: the step is too coarse for %s; %s %s\n",
             carried_text(a, l->worst, carried), title_of(a->image), done_text(l, l->worst, done));
-    if (would_do(a, l->step_s, cure)) {
+    if (would_do(a, l->step_s, l->worst->off > SATURATED, cure)) {
         fprintf(out, "hint: %s\n", cure);
     }
 }
@@ -343,7 +349,7 @@ void advice_say_diverged(FILE *out, advice *a) {
             kept++;
         }
         l->motions = kept;
-        const bool told = would_do(a, l->step_s, cure);
+        const bool told = would_do(a, l->step_s, true, cure);
         carried_text(a, found, carried);
         if (limit < l->step_s * complex_size(found->value)) {
             fprintf(out, "hint: %s is more than %s carries (%.3g in this direction)%s%s\n", carried,

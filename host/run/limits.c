@@ -112,9 +112,9 @@ double limits_growth(wh_method method, wh_form form, complex_number value, doubl
     return growth_of_second(&o);
 }
 
-/* The damped oscillator has such an ellipse by itself: only what does not decay is judged. */
+/* As if it were not damped: a damped oscillator has such an ellipse by itself. Not of one that soon decays. */
 double limits_ripple(wh_method method, wh_form form, complex_number value, double step_s) {
-    if (form == WH_FIRST_ORDER || fabs(value.re) > 1e-3 * fabs(value.im)) {
+    if (form == WH_FIRST_ORDER || fabs(value.re) > 0.1 * fabs(value.im)) {
         return 0.0;
     }
     const oscillator o = oscillator_of(method, (complex_number){0.0, complex_size(value) * step_s});
@@ -135,7 +135,8 @@ double limits_off(wh_method method, wh_form form, complex_number value, double s
         return more < LOG_MOST ? number_call(FN_EXP, more, 0.0) - 1.0 : (double)INFINITY;
     }
     if (exact >= 1.0) {
-        return number_least(1.0, steps * (1.0 - growth / exact));
+        const double left = steps * number_call(FN_LOG, growth / exact, 0.0);
+        return 1.0 - number_call(FN_EXP, number_least(left, 0.0), 0.0);
     }
     /* what steps have taken is largest when the motion has gone down to a third */
     const double lasts = number_most(number_least(steps, -1.0 / (value.re * step_s)), 1.0);
