@@ -24,9 +24,9 @@ static const char head[] =
     "The cheapest method, number, form and step that keep an error on a board with a margin of 2, what\n"
     "they cost and what does them again. Each figure says how it is known, and how many settings were\n"
     "tried and why others were not. Errors are measured as by `whirl price`, which shows all settings.\n"
-    "In Whirl's source tree, where the board's compiler and emulator are, the steps of what is chosen and\n"
-    "of the runner-up are counted; of a scene with contacts, all steps to the horizon. Elsewhere they are\n"
-    "predicted, which it says, and no scene with contacts has an answer.\n"
+    "In Whirl's source tree, where the board's compiler and emulator are, the steps of what is chosen\n"
+    "and of the runner-up are counted; of a scene with contacts, all steps to the horizon. Elsewhere\n"
+    "they are predicted, which it says, and no scene with contacts has an answer.\n"
     "\n";
 static const char tail[] =
     "  --rate 500Hz         how often the firmware steps: a period takes whole steps (default: any\n"
