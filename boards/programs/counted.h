@@ -43,8 +43,8 @@ static void line_end(void) {
 }
 
 /* The intervals `first` to `last` are of that method, `more` of it. */
-static void say_counted(const char *name, const char *method, const char *more, unsigned first,
-                        unsigned last) {
+static inline void say_counted(const char *name, const char *method, const char *more,
+                               unsigned first, unsigned last) {
     line_begin("count", name);
     line_word(method);
     wh_text_add(&line, more);

@@ -71,7 +71,8 @@ try restitution 0 'stop x <= 1.2 [m] restitution sqrt(d)'
 try condition 0 'hold y while sqrt(d) > 9 and y < 1 [m]'
 try either 0 'hold y while y > 1 [m] or sqrt(d) > 9'
 try held 0 'hold y + u*sqrt(d) while y > 1 [m]'
-try sticks 1 'friction y static 0.5 kinetic 0.4 normal 1 [N]*sqrt(d)'
+# 2: the crossing at which the normal force vanishes is looked at first
+try sticks 2 'friction y static 0.5 kinetic 0.4 normal 1 [N]*sqrt(d)'
 try slides 1 'friction y static 0.5 kinetic 0.4*sqrt(d) normal 1 [N]' ", y' = 9 [m/s]"
 try crossing 1 'when sqrt(d) crosses 9 { set y = 1 [m] }'
 
