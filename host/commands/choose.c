@@ -299,7 +299,9 @@ static int choose_begun(const choose_options *o, pricing *p, choice_wish *w) {
     w->prices = b.missing == NULL ? prices_counted
                 : o->predict      ? prices_asked
                                   : predicted_since(b.missing, b.told);
-    return choose_from(p, w, o, b.missing == NULL);
+    const int done = choose_from(p, w, o, b.missing == NULL);
+    w->prices = NULL; /* `b` may hold it */
+    return done;
 }
 
 static int choose_scene(const choose_options *o, pricing *p) {

@@ -11,8 +11,6 @@
 #include "unity.h"
 
 /* What Unity wants of a program. */
-void setUp(void);
-void tearDown(void);
 void setUp(void) {}
 void tearDown(void) {}
 
@@ -112,7 +110,7 @@ static void try_one(const subject *of, stepping how, const char *number, uint64_
 
 int main(int count, char **words) {
     const double wanted = count > 1 ? strtod(words[1], NULL) : 1e7;
-    const int only = count > 2 ? atoi(words[2]) : -1;
+    const int only = count > 2 ? (int)strtol(words[2], NULL, 10) : -1;
     static const struct {
         const char *number;
         stepping how;
