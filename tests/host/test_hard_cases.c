@@ -41,27 +41,32 @@ static linkage shaker(double torque_Nm) {
     return of;
 }
 
-/* The rotor's speed after 12 s, as the program and as the reference have it. */
-static double speed_after(double torque_Nm, stepping how, double *reference_radps) {
+/* The rotor's speed after 12 s, as the reference has it, */
+static double reference_after(double torque_Nm) {
     const linkage of = shaker(torque_Nm);
     linkage_motion wanted;
+    linkage_integrate(&of, 1e-3, 12000, &wanted);
+    return (double)wanted.state[LINKAGE_BODIES + 1];
+}
+
+/* and as the program has it. */
+static double speed_after(double torque_Nm, stepping how) {
+    const linkage of = shaker(torque_Nm);
     motion m;
     how.step_s = 1e-3;
     open_linkage(&m, &of, 12.0, how);
     motion_to(&m, 12.0);
-    linkage_integrate(&of, 1e-3, 12000, &wanted);
-    *reference_radps = (double)wanted.state[LINKAGE_BODIES + 1];
     const double speed = motion_value(&m, "q1'");
     motion_close(&m);
     return speed;
 }
 
 static void test_a_motor_at_a_resonance(void) {
-    double weak_reference;
-    double strong_reference;
-    const double weak = speed_after(0.25, IN_DOUBLE, &weak_reference);
-    const double strong = speed_after(1.5, IN_DOUBLE, &strong_reference);
-    const double in_float = speed_after(0.25, IN_FLOAT_COMPENSATED, &weak_reference);
+    const double weak_reference = reference_after(0.25);
+    const double strong_reference = reference_after(1.5);
+    const double weak = speed_after(0.25, IN_DOUBLE);
+    const double strong = speed_after(1.5, IN_DOUBLE);
+    const double in_float = speed_after(0.25, IN_FLOAT_COMPENSATED);
     printf("  0.25 N m: %.4f rad/s, off by %.1e, in float by %.1e; 1.5 N m: %.4f, off by %.1e\n",
            weak, weak - weak_reference, in_float - weak_reference, strong,
            strong - strong_reference);
@@ -78,7 +83,7 @@ static void test_a_motor_at_a_resonance(void) {
  * beside the pendulum's, whose coordinate takes part in its angle. */
 static void test_a_disc_of_hardly_any_inertia(void) {
     double worst[2] = {0.0, 0.0};
-    for (int k = 0; k <= 12; k++) {
+    for (int k = 0; k <= 12; k += 3) {
         for (int real = 0; real < 2; real++) {
             linkage of = {.bodies = 2, .gravity_mps2 = {0.0, -9.875}};
             linkage_motion wanted;

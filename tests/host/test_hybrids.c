@@ -39,7 +39,7 @@ static double off_at_end(const hybrid *h, const hybrid_motion *wanted, double st
 
 static void test_random_hybrids(void) {
     dice d = dice_of("hybrids", 15);
-    const unsigned cases = dice_cases(few_or_all(usual_or(12, 4), 100));
+    const unsigned cases = dice_cases(few_or_all(usual_or(8, 4), 100));
     uint64_t seed = d.state;
     double worst = 0.0;
     unsigned aside = 0;
@@ -75,7 +75,7 @@ static void test_random_hybrids(void) {
         "%.0e; %u aside\n",
         cases, eventful, impacts, rests, worst, beyond, OFF_MOST, aside);
     TEST_ASSERT_EQUAL_UINT(0, beyond);
-    TEST_ASSERT_TRUE(cases < 12 || (eventful * 3 >= cases && aside <= cases));
+    TEST_ASSERT_TRUE(cases < 8 || (eventful * 3 >= cases && aside <= cases));
 }
 
 /* Blocks on springs, whose friction comes and goes with the load of a mass that swings: the moments at which it vanishes
