@@ -81,7 +81,8 @@ test-core: $(GEN)/.stamp ## the portable suites alone, in float and double on th
 TRUST_SEED ?= 14
 .PHONY: trust-check
 trust-check: build/tests/host ## whirl trust on thirty drawn chaotic mechanisms and all its scenes, against long double (a minute; TRUST_SEED=n)
-	@WHIRL_FULL=1 WHIRL_SEED=$(TRUST_SEED) build/tests/host trust trust_drawn trust_scenes
+	@WHIRL_FULL=1 WHIRL_SEED=$(TRUST_SEED) build/tests/host trust trust_scenes
+	@WHIRL_CASES=30 WHIRL_SEED=$(TRUST_SEED) build/tests/host trust_drawn
 
 test-host: $(GEN)/.stamp ## the suites of the program alone
 	@$(MAKE) build/tests/host

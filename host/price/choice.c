@@ -154,6 +154,23 @@ static climb_end price_run(trials *t, const choice_wish *w, const cost *price, c
     return CLIMB_DONE;
 }
 
+/* Constants that happen to be alike at one step cost less there: a price varies by so much of itself at most where it is
+ * not said to vary. */
+#define PRICE_VARIES 0.02
+
+static bool may_win(const choice *c, const choice_row *row) {
+    return !c->found || !c->has_second || row->worst * (1.0 - PRICE_VARIES) < c->second.worst;
+}
+
+/* What is predicted of a row that was run is predicted of its own step. */
+static void price_own_step(trials *t, const choice_wish *w, choice_row *row) {
+    bool own;
+    if (w->counted == NULL && !setting_price_varies(&row->setting)) {
+        row->cost = choice_price(t, w, &row->setting, row->pace, false, &own);
+        judge(t, w, row);
+    }
+}
+
 /* One setting by ever finer steps, until it keeps the error, or could not be of use if it did. */
 static climb_end climb(trials *t, const choice_wish *w, choice *c, const setting *s,
                        const cost *price, double each) {
@@ -181,7 +198,7 @@ static climb_end climb(trials *t, const choice_wish *w, choice *c, const setting
             }
         }
         judge(t, w, &row);
-        if (c->found && c->has_second && !(row.worst < c->second.worst)) {
+        if (!may_win(c, &row)) {
             return CLIMB_DONE;
         }
         if (too_dear) {
@@ -199,6 +216,7 @@ static climb_end climb(trials *t, const choice_wish *w, choice *c, const setting
             return CHOICE_LEFT_UNRUN;
         }
         row.fails[CHOICE_ERROR] = !row.result.usable || row.result.error * CHOICE_MARGIN > w->error;
+        price_own_step(t, w, &row);
         const climb_end run = price_run(t, w, price, &row);
         if (run != CLIMB_DONE) {
             return run;

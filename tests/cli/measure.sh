@@ -91,10 +91,12 @@ if [ -n "${WHIRL_FULL:-}" ]; then
     with_contacts >"$scratch/names"
     [ "$(wc -l <"$scratch/names")" -ge 20 ]
     verdict $? "there are scenes with contacts" "$scratch/names"
+    # one of seven, or more with MEASURE_EVERY=1: each takes some seconds
+    awk -v every="${MEASURE_EVERY:-7}" 'NR % every == 0' "$scratch/names" >"$scratch/some"
     while read -r scene; do
         case " $few " in *" $scene "*) continue ;; esac
         contacts "$scene" 1s 200Hz
-    done <"$scratch/names"
+    done <"$scratch/some"
 fi
 
 # Limits hold for them, too: a clock on both sides of the longest step, and flash.
@@ -113,8 +115,8 @@ more() {
     [ $? -eq 1 ] && grep -q '^nothing fits' "$scratch/out" && grep -q '^  flash .*fails' "$scratch/out"
     verdict $? "nor is 4 KB of flash" "$scratch/out"
     # Of a range it is the longest of all places.
-    choose hopper_hops --error 0.1 --horizon 1s --rate 200Hz --vary e=0.2..0.9
-    [ $? -eq 0 ] && [ "$(figure of)" -eq $((3 * 200 * $(sed -n 's/^  step .*, \([0-9]*\) in a period/\1/p' "$scratch/out"))) ]
+    choose hopper_hops --error 0.1 --horizon 0.5s --rate 200Hz --vary e=0.2..0.9
+    [ $? -eq 0 ] && [ "$(figure of)" -eq $((3 * 100 * $(sed -n 's/^  step .*, \([0-9]*\) in a period/\1/p' "$scratch/out"))) ]
     verdict $? "three places are counted" "$scratch/out"
 }
 [ -z "${WHIRL_FULL:-}" ] || more

@@ -216,7 +216,7 @@ static bool cure(const made_up *m, const said *warned, wh_method method, double 
 
 static void test_energy_that_the_method_takes_is_told(void) {
     dice d = dice_of("warned", 14001);
-    const unsigned cases = dice_cases(few_or_all(usual_or(120, 60), 600));
+    const unsigned cases = dice_cases(few_or_all(usual_or(120, 60), 300));
     unsigned gone = 0;
     unsigned sound = 0;
     unsigned between = 0;
@@ -288,7 +288,7 @@ static double flight_off(const char *text, const double end[3], double step_s, b
 
 static void test_passing_a_pole_is_told(void) {
     dice d = dice_of("poles", 14002);
-    const unsigned cases = dice_cases(few_or_all(usual_or(120, 60), 600)) / 6;
+    const unsigned cases = dice_cases(few_or_all(usual_or(120, 60), 300)) / 6;
     unsigned off_course = 0;
     double worst_m = 0.0;
     unsigned sound = 0;
