@@ -95,6 +95,7 @@ CLI_NOT_ASAN := $(foreach t,boards flags fresh headers help no_libm runners setu
 # be compiled anew, and once more by the next gate.
 .PHONY: asan-run
 asan-run: test-programs $(B)/whirl
+	@mkdir -p build/tests
 	@env -u MAKEFLAGS -u MFLAGS -u MAKEOVERRIDES -u B -u SCENE_OPT -u MAIN $(MAIN) \
 	    ASAN_OPTIONS="malloc_context_size=5:$$ASAN_OPTIONS" WHIRL_FEW=1 WHIRL=$(B)/whirl TEST_SECONDS=900 \
 	    sh tests/run.sh $(B)/tests/log $(call run_cli,$(filter-out $(CLI_NOT_ASAN),$(CLI_LONG))) $(RUN_HOST) \

@@ -22,9 +22,10 @@ for gate in "$@"; do
         failed=$((failed + 1))
         printf '  FAIL  %-12s %4d s   make gate-%s; %s\n' "$gate" "$(($(date +%s) - start))" \
             "$gate" "$log"
-        # What counts comes first in a compiler's log and last in a script's.
-        { grep -E '(error|warning|FAIL|differs)' "$log" | grep -v 'generated\.$' || tail -n 8 "$log"; } |
-            head -n 8 | cut -c 1-160 | sed 's/^/        /'
+        # What counts comes first in a compiler's log and last in a script's; warnings alone fail no gate but those where
+        # they are errors.
+        { grep -E -A 2 '(error[: ]|ERROR|FAIL|^not ok|differs)' "$log" || tail -n 8 "$log"; } |
+            head -n 16 | cut -c 1-160 | sed 's/^/        /'
     fi
 done
 echo "$passed passed, $failed failed"

@@ -108,7 +108,7 @@ static int kept_below(request *q, double price) {
 
 static void test_drawn_requests(void) {
     dice d = dice_of("choice", 501);
-    const unsigned cases = dice_cases(few_or_all(usual_or(4, 3), 60));
+    const unsigned cases = dice_cases(few_or_all(usual_or(4, 3), 20));
     int found = 0;
     int limited[CHOICE_LIMITS] = {0};
     for (unsigned n = 0; n < cases; n++) {
@@ -180,7 +180,7 @@ static int left_of(const choice *c) {
  * nothing is left where it is said that nothing fits. */
 static void test_what_fits_and_is_not_found_was_left(void) {
     dice d = dice_of("choice efforts", 504);
-    const unsigned cases = few_or_all(3, 25);
+    const unsigned cases = dice_cases(few_or_all(3, 8));
     int missed = 0; /* nothing found, though something fits */
     int proved = 0;
     int some = 0; /* nothing found of some that were tried, and others left */
@@ -357,7 +357,7 @@ static bool is_beaten(const table *made, const table_row *row) {
  * 1e-4 is one, and wherever no other row beats one it is on the front. */
 static void test_linear_scenes_have_the_matrix_on_their_front(void) {
     dice d = dice_of("choice linear", 503);
-    for (unsigned n = 0; n < few_or_all(usual_or(4, 1), 30); n++) {
+    for (unsigned n = 0; n < dice_cases(few_or_all(usual_or(4, 1), 10)); n++) {
         char text[700];
         snprintf(text, sizeof text,
                  "mechanism row\ncoordinate x [m]\ncoordinate y [m]\n"
