@@ -88,6 +88,9 @@ WH_INLINE bool wh_begins_away(const wh_tableau *by) {
     return by->places != NULL && by->places->node[0] != WH_R(0.0);
 }
 
+/* Do all its stages stand at the begin? */
+WH_INLINE bool wh_all_begin(const wh_tableau *by) { return by->stages == 1 && !wh_begins_away(by); }
+
 /* How far component i, of rate `rate`, of such a stage stands from the begin. */
 WH_INLINE wh_real wh_stage_reach(const wh_tableau *by, unsigned stage, wh_real rate,
                                  wh_given accels, wh_real h, unsigned i) {

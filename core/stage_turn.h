@@ -404,7 +404,7 @@ WH_INLINE wh_status wh_turn_second(const void *model, wh_turned_accel_fn *accel,
                          &list, &k)
     WH_LATER_STAGES(by, WH_STAGE);
 #undef WH_STAGE
-    return wh_second_end(by, k.a1, k.alike, compensated, angles, n, h, state);
+    return wh_second_end(by, k.a1, k.alike, true, compensated, angles, n, h, state);
 }
 
 /* A step of x' = f(x, u) on its way. */

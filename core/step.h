@@ -157,7 +157,7 @@ WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_met
     WH_REFUSE_FAR(wh_step_second_stage(model, accel, by, stage, angles, n, h.s, state, &list, &k))
     WH_LATER_STAGES(by, WH_STAGE);
 #undef WH_STAGE
-    return wh_second_end(by, k.a1, k.alike, compensated, angles, n, h, state);
+    return wh_second_end(by, k.a1, k.alike, false, compensated, angles, n, h, state);
 }
 
 /* A step of x' = f(x, u) on its way. */

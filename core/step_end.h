@@ -120,9 +120,9 @@ WH_INLINE wh_status wh_accept(const wh_trial *trial, unsigned angles, unsigned r
     return WH_OK;
 }
 
-/* trial->angle[] of this step, h long: the state's, each moved on by move[] times rad_a_move. The first angle that was
- * to move by half a turn or more, or by NaN, or `angles`. Seldom is there one: first all are asked at once, by the sum
- * of their sizes. */
+/* trial->angle[] of this step, h long: the state's, each moved on by move[] times rad_a_move; trial->carry[], where sums
+ * are compensated, goes in and is what is left. The first angle that was to move by half a turn or more, or by NaN, or
+ * `angles`. Seldom is there one: first all are asked at once, by the sum of their sizes. */
 WH_INLINE unsigned wh_angles_move(const wh_real *move, wh_span rad_a_move, wh_real h,
                                   bool compensated, unsigned angles, const wh_state *state,
                                   wh_trial *trial) {
@@ -133,7 +133,6 @@ WH_INLINE unsigned wh_angles_move(const wh_real *move, wh_span rad_a_move, wh_re
     WH_UNROLL
     for (unsigned i = 0; i < angles; i++) {
         trial->angle[i] = state->angle[i];
-        trial->carry[i] = compensated ? state->carry[i] : WH_R(0.0);
         steps[i] = move[i] * phases.s;
         if (compensated && !WH_DOUBLE) {
             trial->carry[i] += move[i] * phases.rest_s;
@@ -176,11 +175,53 @@ WH_INLINE wh_real wh_sum_product(wh_real value, wh_span by, wh_real factor, wh_r
     return sum;
 }
 
-/* The end of a step of q'' = f: what the stages gave, a1 and the sums of those that count alike, moves the state.
- * Returns as wh_step_second(). */
+/* What h^2 over the row's parts is short of, as two roundings and the stages leave it: a sum of accelerations is to be taken
+ * by it once more where it moves positions. Stages go by h.s, whose rest would be rounded away there. So they stand short of
+ * where they should by a part e of their way, which changes the rates as if h/2 e times the forces' change were missing, and
+ * the energy in every step by as much, always the same way: 5e-13 of a pendulum's in a millisecond. Where the positions lack
+ * the part e of h^2/2 times the accelerations, too, both together are the derivative of what stays small, and the energy
+ * stays (docs/numerics.md). A row of one stage where the step begins has none that stands elsewhere. */
+WH_INLINE wh_real wh_square_short(const wh_tableau *by, wh_span h, wh_span part) {
+    const wh_real stages = wh_all_begin(by) ? WH_R(0.0) : h.rest_s / by->parts;
+    return h.s * (part.rest_s + stages);
+}
+
+/* The same of angles, in phase units. Stages that turn sines on (stage_turn.h) go by h.s alone, others by its product with
+ * WH_PHASE_PER_RAD, rounded, or by one after the other. */
+WH_INLINE wh_real wh_turn_short(const wh_tableau *by, wh_span h, wh_span part, bool turned) {
+    const wh_span per_rad = {WH_PHASE_PER_RAD, WH_PHASE_PER_RAD_REST};
+    const wh_span phases = wh_span_times(h, per_rad);
+    if (turned || wh_all_begin(by)) {
+        return WH_PHASE_PER_RAD * wh_square_short(by, h, part);
+    }
+    if (wh_stage_reaches(by)) {
+        return WH_PHASE_PER_RAD * wh_square_short(by, h, part) +
+               h.s * part.s * WH_PHASE_PER_RAD_REST;
+    }
+    return phases.s * part.rest_s + part.s * phases.rest_s; /* wh_stage_angle() */
+}
+
+/* The carries that go into the positions of this step, pulled[] being the sums of accelerations that move them. Not where
+ * the step has no rest, as in wh_sum_product(); but a turn has one. */
+WH_INLINE void wh_carry_positions(const wh_tableau *by, const wh_real *pulled, wh_span part,
+                                  wh_span h, bool turned, unsigned angles, unsigned linears,
+                                  const wh_state *state, wh_trial *trial) {
+    const wh_real of_angle = wh_turn_short(by, h, part, turned);
+    const wh_real of_linear = wh_square_short(by, h, part);
+    WH_UNROLL
+    for (unsigned i = 0; i < angles + linears; i++) {
+        trial->carry[i] = state->carry[i];
+        if (!WH_DOUBLE && (i < angles || h.rest_s != WH_R(0.0))) {
+            trial->carry[i] += pulled[i] * (i < angles ? of_angle : of_linear);
+        }
+    }
+}
+
+/* The end of a step of q'' = f: what the stages gave, a1 and the sums of those that count alike, moves the state. `turned`:
+ * they turned sines on. Returns as wh_step_second(). */
 WH_INLINE wh_status wh_second_end(const wh_tableau *by, const wh_real *a1,
-                                  wh_real (*alike)[WH_COORDS], bool compensated, unsigned angles,
-                                  unsigned n, wh_span h, wh_state *state) {
+                                  wh_real (*alike)[WH_COORDS], bool turned, bool compensated,
+                                  unsigned angles, unsigned n, wh_span h, wh_state *state) {
     const wh_span part = wh_span_over(h, by->parts);
     const unsigned linears = n - angles;
     const wh_real *linear = state->real;
@@ -189,6 +230,7 @@ WH_INLINE wh_status wh_second_end(const wh_tableau *by, const wh_real *a1,
     wh_real move[WH_COORDS] = {0}; /* mean rate that moves the position over this step */
     wh_real gain[WH_COORDS] = {0}; /* sum of the accelerations over its parts */
     wh_real kick[WH_COORDS] = {0}; /* change of the rate over this step */
+    wh_real pulled[WH_COORDS] = {0};
     wh_trial trial = {0};
 
     WH_UNROLL
@@ -208,13 +250,16 @@ WH_INLINE wh_status wh_second_end(const wh_tableau *by, const wh_real *a1,
         move[i] = any_moved ? rate[i] + part.s * moved : rate[i];
         gain[i] = any_moved && any_rest ? moved + rest : any_moved ? moved : rest;
         kick[i] = part.s * gain[i];
+        pulled[i] = moved;
     }
 
+    if (compensated) {
+        wh_carry_positions(by, pulled, part, h, turned, angles, linears, state, &trial);
+    }
     WH_REFUSE_FAR(wh_angles_move(move, h, h.s, compensated, angles, state, &trial));
     WH_UNROLL
     for (unsigned i = 0; i < linears; i++) {
         wh_real *carry = &trial.carry[angles + i];
-        *carry = compensated ? state->carry[angles + i] : WH_R(0.0);
         trial.real[i] = wh_sum_product(linear[i], h, move[angles + i], h.s * move[angles + i], h,
                                        compensated, carry);
     }
@@ -249,6 +294,10 @@ WH_INLINE wh_status wh_first_end(const wh_tableau *by, const wh_real *k1,
         }
     }
 
+    WH_UNROLL
+    for (unsigned i = 0; i < angles; i++) {
+        trial.carry[i] = compensated ? state->carry[i] : WH_R(0.0);
+    }
     WH_REFUSE_FAR(wh_angles_move(total, part, h.s, compensated, angles, state, &trial));
     WH_UNROLL
     for (unsigned i = 0; i < reals; i++) {

@@ -78,8 +78,8 @@ CLI_FULL = $(shell grep -l WHIRL_FULL $(CLI_TESTS))
 SUITES_FULL = $(patsubst tests/host/test_%.c,%,$(shell grep -l few_or_all tests/host/test_*.c))
 gate-full: $(GEN)/.stamp
 	@$(MAKE) test-programs
-	@WHIRL_FULL=rest WHIRL=build/whirl TEST_SECONDS=900 sh tests/run.sh build/check/log_full $(call run_cli,$(CLI_FULL)) \
-	    "host suites, all cases" "build/tests/host $(SUITES_FULL)"
+	@WHIRL_FULL=rest WHIRL=build/whirl TEST_SECONDS=900 sh tests/run.sh build/check/log_full \
+	    "host suites, all cases" "build/tests/host $(SUITES_FULL)" $(call run_cli,$(CLI_FULL))
 
 # --- sanitizers -----------------------------------------------------------------------------------
 # WHIRL_FEW: a part of the cases of `make test`, of every class some, for an instrumented program takes six times as long;

@@ -54,6 +54,12 @@ static const subject subjects[] = {
      "parameter r = 0.3 [m]\nparameter I = m*r^2/2\nlet vx = X' - 2*r*theta'*sin(theta)\n"
      "let vy = 2*r*theta'*cos(theta)\nT = m*X'^2/2 + m*(vx^2 + vy^2)/2 + I*(2*theta')^2/2\n"
      "scene s { start theta' = 5 [rad/s]\nstep 1 [ms]\nuntil 1e12 [s] }\n",
+     true},
+    {"gear, X conserved", gear_J,
+     "mechanism g\ncoordinate theta [rad]\ncoordinate X [m]\nparameter m = 2 [kg]\n"
+     "parameter r = 0.3 [m]\nparameter I = m*r^2/2\nlet vx = X' - 2*r*theta'*sin(theta)\n"
+     "let vy = 2*r*theta'*cos(theta)\nT = m*X'^2/2 + m*(vx^2 + vy^2)/2 + I*(2*theta')^2/2\n"
+     "scene s { conserve X\nstart theta' = 5 [rad/s]\nstep 1 [ms]\nuntil 1e12 [s] }\n",
      true}};
 
 typedef struct seen {
@@ -73,7 +79,7 @@ static void try_one(const subject *of, stepping how, const char *number, uint64_
     const uint64_t go = 37; /* no part of a period */
     for (uint64_t k = 0; k + go <= steps;) {
         if (motion_step(&m, go) != WH_OK) {
-            printf("%-16s %-18s %-10s refused\n", of->what, number, wh_methods[how.method].word);
+            printf("%-18s %-18s %-10s refused\n", of->what, number, wh_methods[how.method].word);
             break;
         }
         k += go;
@@ -88,7 +94,7 @@ static void try_one(const subject *of, stepping how, const char *number, uint64_
             decade[at].centre = fmax(decade[at].centre, fabs(centre_m(&m) - begin_m));
         }
     }
-    printf("%-16s %-18s %-10s energy", of->what, number, wh_methods[how.method].word);
+    printf("%-18s %-18s %-10s energy", of->what, number, wh_methods[how.method].word);
     for (int i = 1; i <= at; i++) {
         printf(" %8.1e", decade[i].energy);
     }
@@ -97,7 +103,7 @@ static void try_one(const subject *of, stepping how, const char *number, uint64_
                log10(decade[at].energy / decade[at - 1].energy));
     }
     if (of->rates) {
-        printf("\n%47s centre", "");
+        printf("\n%49s centre", "");
         for (int i = 1; i <= at; i++) {
             printf(" %8.1e", decade[i].centre);
         }
@@ -122,6 +128,8 @@ int main(int count, char **words) {
         {"double compensated",
          {.kind = &engine_double, .method = WH_RK4, .compensated = true, .step_s = STEP_S}},
         {"double", {.kind = &engine_double, .method = WH_NYSTROEM5, .step_s = STEP_S}},
+        {"double compensated",
+         {.kind = &engine_double, .method = WH_NYSTROEM5, .compensated = true, .step_s = STEP_S}},
         {"float compensated",
          {.kind = &engine_float, .method = WH_NYSTROEM5, .compensated = true, .step_s = STEP_S}},
         {"float compensated",
