@@ -203,6 +203,9 @@ static void end(counting *c, bool is_angle) {
     if (moved && rest) {
         sum(c, c->accel, c->accel);
     }
+    if (c->second && moved && c->compensated && c->is_float) { /* wh_carry_positions() */
+        sum(c, 0.0, product(c, c->accel));
+    }
     if (is_angle) {
         angle_move(c, leads);
     } else {
