@@ -3,8 +3,11 @@
 
 #include "files.h"
 
+#include <errno.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "host/base/room.h"
 
@@ -53,4 +56,22 @@ bool files_same(const char *one, const char *other) {
     return strcmp(one, other) == 0 ||
            (stat(one, &first) == 0 && stat(other, &second) == 0 && S_ISREG(first.st_mode) &&
             files_are_one(&first, one, &second, other));
+}
+
+bool files_can_write(const char *name) {
+    struct stat there;
+    if (name == NULL || strcmp(name, "-") == 0) {
+        return true;
+    }
+    const bool was_there = stat(name, &there) == 0;
+    FILE *try = fopen(name, "ab");
+    if (try == NULL) {
+        fprintf(stderr, "%s: error: cannot be written: %s\n", name, strerror(errno));
+        return false;
+    }
+    fclose(try);
+    if (!was_there) {
+        unlink(name);
+    }
+    return true;
 }

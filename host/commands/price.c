@@ -186,7 +186,8 @@ static bool can_measure(const pricing *p) {
 static int price_scene(const price_options *o, pricing *p) {
     const bool progress = !o->common.quiet && isatty(STDERR_FILENO);
     if (source_would_be_lost(&p->from, "--csv", o->csv, "") ||
-        source_would_be_lost(&p->from, "--plot", o->plot, "") || (o->measure && !can_measure(p))) {
+        source_would_be_lost(&p->from, "--plot", o->plot, "") || !files_can_write(o->csv) ||
+        !files_can_write(o->plot) || (o->measure && !can_measure(p))) {
         return EXIT_BAD_INPUT;
     }
     pricing_catch_interrupts();

@@ -393,6 +393,13 @@ for command in price choose; do
     refused 'cannot be' $command "$scratch/none.whirl" $e
 done
 refused '.svg and .png' price "$s" --plot "$scratch/p.pdf"
+# What cannot be written is told before anything is run, and what is there stays when nothing comes of it.
+refused 'cannot be written' price "$s" --plot "$scratch/none/p.svg"
+refused 'cannot be written' price "$s" --csv "$scratch/none/p.csv"
+echo kept >"$scratch/kept.csv"
+refused 'cannot be written' price "$s" --csv "$scratch/kept.csv" --plot "$scratch/none/p.svg"
+grep -q kept "$scratch/kept.csv"
+verdict $? "a file that was there stays" "$scratch/kept.csv"
 refused 'cannot share a file' price "$s" --plot "$scratch/p.svg" --csv "$scratch/p.svg"
 refused 'error:' price "$s" --csv "$s"
 refused 'error is missing' choose "$s"
