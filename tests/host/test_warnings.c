@@ -288,7 +288,7 @@ static double flight_off(const char *text, const double end[3], double step_s, b
 
 static void test_passing_a_pole_is_told(void) {
     dice d = dice_of("poles", 14002);
-    const unsigned cases = dice_cases(few_or_all(usual_or(120, 60), 300)) / 6;
+    const unsigned cases = dice_cases(few_or_all(20, 50));
     unsigned off_course = 0;
     double worst_m = 0.0;
     unsigned sound = 0;
