@@ -212,8 +212,8 @@ static void a_steps_own_arithmetic_is_counted(void) {
                {WH_HEUN, false, 15, 23},     {WH_RK4, false, 18, 35},
                {WH_RK38, false, 24, 62},     {WH_NYSTROEM4, false, 18, 35},
                {WH_LEAPFROG, false, 12, 23}, {WH_EULER, true, 12, 41},
-               {WH_HEUN, true, 21, 53},      {WH_RK4, true, 24, 65},
-               {WH_LEAPFROG, true, 18, 53}};
+               {WH_HEUN, true, 24, 56},      {WH_RK4, true, 27, 68},
+               {WH_LEAPFROG, true, 21, 56}};
     derived d = derived_builtin("cartesian_flight");
     derived_expect(&d, "cartesian_flight");
     const image_settings before = d.image->settings;
