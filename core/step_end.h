@@ -206,13 +206,13 @@ WH_INLINE wh_real wh_turn_short(const wh_tableau *by, wh_span h, wh_span part, b
 WH_INLINE void wh_carry_positions(const wh_tableau *by, const wh_real *pulled, wh_span part,
                                   wh_span h, bool turned, unsigned angles, unsigned linears,
                                   const wh_state *state, wh_trial *trial) {
-    const wh_real of_angle = wh_turn_short(by, h, part, turned);
-    const wh_real of_linear = wh_square_short(by, h, part);
     WH_UNROLL
     for (unsigned i = 0; i < angles + linears; i++) {
         trial->carry[i] = state->carry[i];
-        if (!WH_DOUBLE && (i < angles || h.rest_s != WH_R(0.0))) {
-            trial->carry[i] += pulled[i] * (i < angles ? of_angle : of_linear);
+        if (!WH_DOUBLE && i < angles) {
+            trial->carry[i] += pulled[i] * wh_turn_short(by, h, part, turned);
+        } else if (!WH_DOUBLE && h.rest_s != WH_R(0.0)) {
+            trial->carry[i] += pulled[i] * wh_square_short(by, h, part);
         }
     }
 }
