@@ -81,10 +81,7 @@ WH_INLINE wh_status wh_step_matrix(const void *model, wh_accel_fn *matrix, bool 
         return wh_matrix_accept(given, reals, state);
     }
     wh_trial trial = {0};
-    WH_UNROLL
-    for (unsigned i = 0; i < angles; i++) {
-        trial.carry[i] = compensated ? state->carry[i] : WH_R(0.0);
-    }
+    wh_carry_begin(state, compensated, angles, &trial);
     WH_REFUSE_FAR(wh_angles_move(given, h, h.s, compensated, angles, state, &trial));
     WH_UNROLL
     for (unsigned i = 0; i < reals; i++) {

@@ -120,6 +120,15 @@ WH_INLINE wh_status wh_accept(const wh_trial *trial, unsigned angles, unsigned r
     return WH_OK;
 }
 
+/* trial->carry[count] as a step begins: what the last one's sums left, where they are compensated. */
+WH_INLINE void wh_carry_begin(const wh_state *state, bool compensated, unsigned count,
+                              wh_trial *trial) {
+    WH_UNROLL
+    for (unsigned i = 0; i < count; i++) {
+        trial->carry[i] = compensated ? state->carry[i] : WH_R(0.0);
+    }
+}
+
 /* trial->angle[] of this step, h long: the state's, each moved on by move[] times rad_a_move; trial->carry[], where sums
  * are compensated, goes in and is what is left. The first angle that was to move by half a turn or more, or by NaN, or
  * `angles`. Seldom is there one: first all are asked at once, by the sum of their sizes. */
@@ -175,19 +184,20 @@ WH_INLINE wh_real wh_sum_product(wh_real value, wh_span by, wh_real factor, wh_r
     return sum;
 }
 
-/* What h^2 over the row's parts is short of, as two roundings and the stages leave it: a sum of accelerations is to be taken
- * by it once more where it moves positions. Stages go by h.s, whose rest would be rounded away there. So they stand short of
- * where they should by a part e of their way, which changes the rates as if h/2 e times the forces' change were missing, and
- * the energy in every step by as much, always the same way: 5e-13 of a pendulum's in a millisecond. Where the positions lack
- * the part e of h^2/2 times the accelerations, too, both together are the derivative of what stays small, and the energy
- * stays (docs/numerics.md). A row of one stage where the step begins has none that stands elsewhere. */
+/* What h^2 over the row's parts is short of, in s^2, as two roundings and the stages leave it: a sum of accelerations is
+ * to be taken by it once more where it moves positions. Stages go by h.s, whose rest would be rounded away there. So they
+ * stand short of where they should by a part e of their way, which changes the rates as if h/2 e times the forces' change
+ * were missing, and the energy in every step by as much, always the same way: 5e-13 of a pendulum's in a millisecond.
+ * Where the positions lack the part e of h^2/2 times the accelerations, too, both together are the derivative of what
+ * stays small, and the energy stays, where the mass matrix is constant; where it is not, most of it (docs/numerics.md). A
+ * row of one stage where the step begins has none that stands elsewhere. */
 WH_INLINE wh_real wh_square_short(const wh_tableau *by, wh_span h, wh_span part) {
     const wh_real stages = wh_all_begin(by) ? WH_R(0.0) : h.rest_s / by->parts;
     return h.s * (part.rest_s + stages);
 }
 
-/* The same of angles, in phase units. Stages that turn sines on (stage_turn.h) go by h.s alone, others by its product with
- * WH_PHASE_PER_RAD, rounded, or by one after the other. */
+/* The same of angles, in phase units times s^2. Stages that turn sines on (stage_turn.h) go by h.s alone, others by its
+ * product with WH_PHASE_PER_RAD, rounded, or by one after the other. */
 WH_INLINE wh_real wh_turn_short(const wh_tableau *by, wh_span h, wh_span part, bool turned) {
     const wh_span per_rad = {WH_PHASE_PER_RAD, WH_PHASE_PER_RAD_REST};
     const wh_span phases = wh_span_times(h, per_rad);
@@ -201,14 +211,13 @@ WH_INLINE wh_real wh_turn_short(const wh_tableau *by, wh_span h, wh_span part, b
     return phases.s * part.rest_s + part.s * phases.rest_s; /* wh_stage_angle() */
 }
 
-/* The carries that go into the positions of this step, pulled[] being the sums of accelerations that move them. Not where
+/* What positions lack of this step, into their carries, pulled[] being the sums of accelerations that move them. Not where
  * the step has no rest, as in wh_sum_product(); but a turn has one. */
 WH_INLINE void wh_carry_positions(const wh_tableau *by, const wh_real *pulled, wh_span part,
                                   wh_span h, bool turned, unsigned angles, unsigned linears,
-                                  const wh_state *state, wh_trial *trial) {
+                                  wh_trial *trial) {
     WH_UNROLL
     for (unsigned i = 0; i < angles + linears; i++) {
-        trial->carry[i] = state->carry[i];
         if (!WH_DOUBLE && i < angles) {
             trial->carry[i] += pulled[i] * wh_turn_short(by, h, part, turned);
         } else if (!WH_DOUBLE && h.rest_s != WH_R(0.0)) {
@@ -227,10 +236,10 @@ WH_INLINE wh_status wh_second_end(const wh_tableau *by, const wh_real *a1,
     const wh_real *linear = state->real;
     const wh_real *rate = state->real + linears;
     /* zeroed for the compiler, which cannot know that no scene uses what it did not fill */
-    wh_real move[WH_COORDS] = {0}; /* mean rate that moves the position over this step */
-    wh_real gain[WH_COORDS] = {0}; /* sum of the accelerations over its parts */
-    wh_real kick[WH_COORDS] = {0}; /* change of the rate over this step */
-    wh_real pulled[WH_COORDS] = {0};
+    wh_real move[WH_COORDS] = {0};   /* mean rate that moves the position over this step */
+    wh_real gain[WH_COORDS] = {0};   /* sum of the accelerations over its parts */
+    wh_real kick[WH_COORDS] = {0};   /* change of the rate over this step */
+    wh_real pulled[WH_COORDS] = {0}; /* sum of the accelerations that moves the position */
     wh_trial trial = {0};
 
     WH_UNROLL
@@ -253,8 +262,9 @@ WH_INLINE wh_status wh_second_end(const wh_tableau *by, const wh_real *a1,
         pulled[i] = moved;
     }
 
+    wh_carry_begin(state, compensated, angles + linears, &trial);
     if (compensated) {
-        wh_carry_positions(by, pulled, part, h, turned, angles, linears, state, &trial);
+        wh_carry_positions(by, pulled, part, h, turned, angles, linears, &trial);
     }
     WH_REFUSE_FAR(wh_angles_move(move, h, h.s, compensated, angles, state, &trial));
     WH_UNROLL
@@ -294,10 +304,7 @@ WH_INLINE wh_status wh_first_end(const wh_tableau *by, const wh_real *k1,
         }
     }
 
-    WH_UNROLL
-    for (unsigned i = 0; i < angles; i++) {
-        trial.carry[i] = compensated ? state->carry[i] : WH_R(0.0);
-    }
+    wh_carry_begin(state, compensated, angles, &trial);
     WH_REFUSE_FAR(wh_angles_move(total, part, h.s, compensated, angles, state, &trial));
     WH_UNROLL
     for (unsigned i = 0; i < reals; i++) {

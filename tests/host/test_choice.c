@@ -176,6 +176,36 @@ static int left_of(const choice *c) {
     return count;
 }
 
+/* Prices that are predicted are those of the step that is told: constants of one length of it may be alike, and those of
+ * another not. */
+static void test_a_price_is_that_of_its_own_step(void) {
+    dice d = dice_of("choice own steps", 505);
+    const unsigned cases = dice_cases(few_or_all(usual_or(12, 4), 60));
+    int others = 0; /* cost something else by the coarsest step */
+    for (unsigned n = 0; n < cases; n++) {
+        request q;
+        char text[400];
+        snprintf(text, sizeof text,
+                 "mechanism decay\nstate y\nequation y' + %.3g [1/s]*y + %.3g [1/s]*y^3 = 1 [1/s]\n"
+                 "scene s { start y = 3; step 1 [ms]; until 1 [s] }\n",
+                 dice_between(&d, 1.0, 9.0), dice_between(&d, 0.5, 2.0));
+        open_request(&q, text, boards[dice_one_of(&d, 3)], 10.0 * (1 + dice_one_of(&d, 10)));
+        q.wish.error = pow(10.0, dice_between(&d, -3.0, -1.5));
+        const choice c = choice_make(&q.trial, &q.wish);
+        if (c.found) {
+            double worst;
+            double coarsest;
+            (void)keeps(&q, &c.best.setting, 1, &coarsest);
+            TEST_ASSERT_TRUE_MESSAGE(keeps(&q, &c.best.setting, c.best.substeps, &worst), text);
+            TEST_ASSERT_TRUE_MESSAGE(fabs(worst / c.best.worst - 1.0) < 1e-9, text);
+            others += fabs(coarsest * (double)c.best.substeps / worst - 1.0) > 1e-9;
+        }
+        close_request(&q);
+    }
+    printf("  %u requests, %d of another price by the coarsest step\n", cases, others);
+    TEST_ASSERT_TRUE(others > 0);
+}
+
 /* With whatever effort, each setting is without a price, tried or left, and what fits and was not found is among those left: so
  * nothing is left where it is said that nothing fits. */
 static void test_what_fits_and_is_not_found_was_left(void) {
@@ -408,6 +438,7 @@ void suite_choice(void) {
     RUN_TEST(test_settings_are_all_others);
     RUN_TEST(test_times_come_back);
     RUN_TEST(test_drawn_requests);
+    RUN_TEST(test_a_price_is_that_of_its_own_step);
     RUN_TEST(test_what_fits_and_is_not_found_was_left);
     RUN_TEST(test_what_would_fit_does);
 }

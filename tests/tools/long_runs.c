@@ -44,23 +44,20 @@ static double centre_m(const motion *m) {
     return motion_value(m, "X") + 0.3 * cos(motion_value(m, "theta"));
 }
 
+#define GEAR \
+    "mechanism g\ncoordinate theta [rad]\ncoordinate X [m]\nparameter m = 2 [kg]\n" \
+    "parameter r = 0.3 [m]\nparameter I = m*r^2/2\nlet vx = X' - 2*r*theta'*sin(theta)\n" \
+    "let vy = 2*r*theta'*cos(theta)\nT = m*X'^2/2 + m*(vx^2 + vy^2)/2 + I*(2*theta')^2/2\n"
+
 static const subject subjects[] = {
     {"pendulum, 1 rad", pendulum_J,
      "mechanism p\ncoordinate th [rad]\nT = 1 [kg*m^2]*th'^2/2\nV = -9.81 [J]*cos(th)\n"
      "scene s { start th = 1 [rad]\nstep 1 [ms]\nuntil 1e12 [s] }\n",
      false},
     {"gear, no torque", gear_J,
-     "mechanism g\ncoordinate theta [rad]\ncoordinate X [m]\nparameter m = 2 [kg]\n"
-     "parameter r = 0.3 [m]\nparameter I = m*r^2/2\nlet vx = X' - 2*r*theta'*sin(theta)\n"
-     "let vy = 2*r*theta'*cos(theta)\nT = m*X'^2/2 + m*(vx^2 + vy^2)/2 + I*(2*theta')^2/2\n"
-     "scene s { start theta' = 5 [rad/s]\nstep 1 [ms]\nuntil 1e12 [s] }\n",
-     true},
+     GEAR "scene s { start theta' = 5 [rad/s]\nstep 1 [ms]\nuntil 1e12 [s] }\n", true},
     {"gear, X conserved", gear_J,
-     "mechanism g\ncoordinate theta [rad]\ncoordinate X [m]\nparameter m = 2 [kg]\n"
-     "parameter r = 0.3 [m]\nparameter I = m*r^2/2\nlet vx = X' - 2*r*theta'*sin(theta)\n"
-     "let vy = 2*r*theta'*cos(theta)\nT = m*X'^2/2 + m*(vx^2 + vy^2)/2 + I*(2*theta')^2/2\n"
-     "scene s { conserve X\nstart theta' = 5 [rad/s]\nstep 1 [ms]\nuntil 1e12 [s] }\n",
-     true}};
+     GEAR "scene s { conserve X\nstart theta' = 5 [rad/s]\nstep 1 [ms]\nuntil 1e12 [s] }\n", true}};
 
 typedef struct seen {
     double energy; /* largest |E/E_0 - 1| */
