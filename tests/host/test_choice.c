@@ -186,11 +186,11 @@ static void test_a_price_is_that_of_its_own_step(void) {
         request q;
         char text[400];
         snprintf(text, sizeof text,
-                 "mechanism decay\nstate y\nequation y' + %.3g [1/s]*y + %.3g [1/s]*y^3 = 1 [1/s]\n"
+                 "mechanism decay\nstate y\nequation y' + %u [1/s]*y + %u [1/s]*y^3 = %u [1/s]\n"
                  "scene s { start y = 3; step 1 [ms]; until 1 [s] }\n",
-                 dice_between(&d, 1.0, 9.0), dice_between(&d, 0.5, 2.0));
+                 1 + dice_one_of(&d, 5), 1 + dice_one_of(&d, 2), 1 + dice_one_of(&d, 2));
         open_request(&q, text, boards[dice_one_of(&d, 3)], 10.0 * (1 + dice_one_of(&d, 10)));
-        q.wish.error = pow(10.0, dice_between(&d, -3.0, -1.5));
+        q.wish.error = pow(10.0, dice_between(&d, -5.0, -1.0));
         const choice c = choice_make(&q.trial, &q.wish);
         if (c.found) {
             double worst;
@@ -198,7 +198,8 @@ static void test_a_price_is_that_of_its_own_step(void) {
             (void)keeps(&q, &c.best.setting, 1, &coarsest);
             TEST_ASSERT_TRUE_MESSAGE(keeps(&q, &c.best.setting, c.best.substeps, &worst), text);
             TEST_ASSERT_TRUE_MESSAGE(fabs(worst / c.best.worst - 1.0) < 1e-9, text);
-            others += fabs(coarsest * (double)c.best.substeps / worst - 1.0) > 1e-9;
+            others += !setting_price_varies(&c.best.setting) &&
+                      fabs(coarsest * (double)c.best.substeps / worst - 1.0) > 1e-9;
         }
         close_request(&q);
     }
