@@ -74,7 +74,7 @@ static void close_records(FILE *file) {
 static bool open_files(simulation *sim) {
     const simulation_settings *s = sim->settings;
     if (s->plot != NULL && !plot_can_draw(s->plot)) {
-        fprintf(stderr, "whirl run: error: --plot draws .svg and .png files, not %s\n", s->plot);
+        fprintf(stderr, "whirl run: error: --plot draws .svg and .png files, not '%s'\n", s->plot);
         return false;
     }
     if (!open_records(s->csv, &sim->csv) || !open_records(s->columns, &sim->columns)) {
