@@ -114,10 +114,11 @@ gate-memcheck: test-programs build/whirl
 	            echo "$(B)/whirl run $$scene --with ledger --number $$real --until 0.5s --quiet"; done; done; \
 	    } | xargs -P $(JOBS) -I COMMAND sh -c '$(MEMCHECK) COMMAND'
 
-# Files that are broken in every way: each must be refused with a message, and nothing else.
+# Files that are broken in every way: each must be refused with a message, and nothing else. And what fuzzers kept.
 gate-bad-input:
 	+@$(ASAN_BUILD) build/asan/whirl
 	@sh tests/bad_input.sh build/asan/whirl
+	+@$(ASAN_BUILD) kept-inputs
 
 # --- firmware -------------------------------------------------------------------------------------
 # No heap, no libm, no double arithmetic and no recursion in any image's symbols.
