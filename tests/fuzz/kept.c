@@ -32,10 +32,12 @@ int main(int count, char **path) {
         fprintf(stderr, "\r%s", path[i]);
         const long size = bytes_of(path[i]);
         if (size < 0) {
-            fprintf(stderr, ": error: cannot be read, or is longer than %d bytes\n", (int)SIZE_MAX_BYTES);
+            fprintf(stderr, ": error: cannot be read, or is longer than %d bytes\n",
+                    (int)SIZE_MAX_BYTES);
             return 2;
         }
-        uint8_t *given = malloc(size > 0 ? (size_t)size : 1); /* of its size, so that what is read behind it is seen */
+        /* of its size, so that what is read behind it is seen */
+        uint8_t *given = malloc(size > 0 ? (size_t)size : 1);
         if (given == NULL) {
             return 2;
         }
