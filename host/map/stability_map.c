@@ -7,6 +7,7 @@
 #include "host/base/room.h"
 #include "host/derive/image_make.h"
 #include "host/derive/lagrange.h"
+#include "host/number/functions.h"
 #include "host/lang/model.h"
 #include "host/run/belief.h"
 #include "host/run/linearised.h"
@@ -95,14 +96,23 @@ static bool try_point(const map_wish *w, uint64_t point, map_cell *cell) {
 
 /* --- the theory -----------------------------------------------------------------------------------------*/
 
+/* What takes part in a motion by less is not seen in it. */
+#define SHARE_LEAST 1e-3
+
+/* Of all motions that take part and do not grow by themselves the shortest. */
 static double longest_stable_s(const linearised *l) {
-    const linear_motion *fastest = l == NULL ? NULL : l->fastest;
-    const double size = fastest == NULL ? 0.0 : complex_size(fastest->value);
-    if (!(size > 0.0)) {
-        return NAN;
+    double limit_s = NAN;
+    for (int i = 0; l != NULL && i < l->motions; i++) {
+        const linear_motion *each = &l->motion[i];
+        const double size = complex_size(each->value);
+        if (!(size > 0.0) || each->value.re > 0.0 || each->share < SHARE_LEAST) {
+            continue;
+        }
+        const complex_number direction = {each->value.re / size, each->value.im / size};
+        const double longest_s = limits_interval(l->method, l->form, direction) / size;
+        limit_s = longest_s > 0.0 ? number_least(longest_s, limit_s) : limit_s;
     }
-    const complex_number direction = {fastest->value.re / size, fastest->value.im / size};
-    return limits_interval(l->method, l->form, direction) / size;
+    return limit_s;
 }
 
 /* Of the run of this point: NAN where it is not known. */
