@@ -2,41 +2,53 @@
 #include <errno.h>
 #include <signal.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "commands.h"
 #include "files.h"
+#include "host/base/room.h"
 #include "host/fixed/engine_fixed.h"
+#include "host/map/map_plot.h"
 #include "host/map/map_text.h"
 #include "host/number/decimal.h"
-#include "host/plot/plot.h"
+#include "host/number/functions.h"
+#include "host/plot/gnuplot.h"
 #include "host/run/start.h"
-#include "host/trust/horizon.h"
-#include "load.h"
+#include "host/sweep/changes.h"
 #include "options.h"
+#include "trusting.h"
 
 enum { AXES = 2 };
-#define POINTS_MOST 250000
+/* Of a map that can be looked at. */
+#define PAIRS_MOST 250000
+/* Seconds that an effort of 1 may take, about. */
+#define SECONDS 60.0
+#define EFFORT_LEAST 1e-4
+#define EFFORT_MOST 1e4
 
 static const command_usage usage = {
     .head =
-        "usage: whirl map SCENE|MECHANISM[:SCENE]|FILE[:SCENE] --over A=FROM..TO:COUNT --over "
-        "B=FROM..TO:COUNT [options]\n"
+        "usage: whirl map SCENE|MECHANISM[:SCENE]|FILE[:SCENE] --over NAME=FROM..TO:COUNT[,log]\n"
+        "                 --over NAME=FROM..TO:COUNT[,log] [options]\n"
         "\n"
         "A stability map: the scene is run for each pair of two swept values, one of which may be the\n"
         "step, and a mark tells what became of it: right to the tolerance, off by more, its energy not\n"
         "kept, or out of all bounds. Where one is the step, the longest that the linear theory lets be\n"
         "stable stands beside it.\n"
         "\n"
-        "  --over step=1ms..0.1s:20,log  COUNT even values of a parameter, an input, a start value or\n"
-        "                       the step; log: even in the logarithm (twice)\n",
+        "  whirl map two_mass_relative --over step=5ms..0.5s:21,log --over 'm1=1..100 [kg]:5,log'\n"
+        "\n"
+        "  --over RANGE         twice: COUNT values of a parameter, an input, a start value or the\n"
+        "                       step, even or even in the logarithm; a bare number is SI\n",
     .groups = OPTIONS_CHANGE | OPTIONS_STEP | OPTIONS_ENGINE | OPTIONS_NUMBER,
     .tail =
         "  --tolerance 1e-3     part of the range that a coordinate has in a run (default: 1e-3)\n"
         "  --csv FILE           a row for each pair; - is standard output, and the map then goes to\n"
         "                       standard error\n"
         "  --plot FILE.svg|.png a square for each pair, and the theory's limit as a line\n"
+        "  --effort 10          how long it may take: 1 is about a minute (1e-4 to 1e4)\n"
         "  --quiet              no progress, and no map beside --csv or --plot\n",
     .why = {[EXIT_ROW_OF(EXIT_DONE)] = "whatever became of the runs",
             [EXIT_ROW_OF(EXIT_RUN_FAILED)] = "no pair has a run",
@@ -58,57 +70,46 @@ typedef struct map_options {
     const char *csv;
     const char *plot;
     double tolerance;
+    double effort;
     bool quiet;
 } map_options;
 
-static bool read_tolerance(const char *text, double *tolerance) {
+static bool read_number(const char *option, const char *text, double least, double most,
+                        const char *hint, double *number) {
     const char *end = text;
-    *tolerance = decimal_read(text, &end);
-    const bool good = end != text && *end == '\0' && *tolerance >= 1e-15 && *tolerance <= 1.0;
+    *number = decimal_read(text, &end);
+    const bool good = end != text && *end == '\0' && *number >= least && *number <= most;
     if (!good) {
-        fprintf(stderr,
-                "whirl map: error: --tolerance takes a number from 1e-15 to 1, not '%.40s'\n"
-                "hint: a part of the range that a coordinate has: --tolerance 1e-3\n",
-                text);
+        fprintf(stderr, "whirl map: error: %s takes a number from %g to %g, not '%.40s'\nhint: %s\n",
+                option, least, most, text, hint);
     }
     return good;
 }
 
 static bool take_over(const char *text, map_options *o) {
-    if (o->over_count == AXES) {
+    const bool room_left = o->over_count < AXES;
+    if (!room_left) {
         fprintf(stderr, "whirl map: error: two --over, not also '%.60s'\n", text);
-        return false;
+    } else {
+        o->over[o->over_count++] = text;
     }
-    o->over[o->over_count++] = text;
-    return true;
-}
-
-/* `--over VALUE`, or `--over=VALUE`: which may be there twice. */
-static bool take_axis(int count, char **words, int *at, map_options *o, bool *bad) {
-    const size_t length = strlen("--over");
-    const char *word = words[*at];
-    if (strncmp(word, "--over", length) != 0 || (word[length] != '\0' && word[length] != '=')) {
-        return false;
-    }
-    if (word[length] == '\0' && *at + 1 == count) {
-        fputs("whirl map: error: --over needs a value\n", stderr);
-        *bad = true;
-        return true;
-    }
-    const char *value = word[length] == '=' ? word + length + 1 : words[++*at];
-    ++*at;
-    *bad = !take_over(value, o);
-    return true;
+    return room_left;
 }
 
 static bool take_one(int count, char **words, int *at, map_options *o, bool *bad) {
     const char *value = NULL;
-    if (take_axis(count, words, at, o, bad) ||
-        options_take("map", usage.groups, count, words, at, &o->common, bad)) {
+    if (options_take("map", usage.groups, count, words, at, &o->common, bad)) {
         return true;
     }
-    if (!*bad && (value = options_value(count, words, at, "--tolerance", bad)) != NULL) {
-        *bad = !read_tolerance(value, &o->tolerance);
+    if (!*bad && (value = options_value(count, words, at, "--over", bad)) != NULL) {
+        *bad = !take_over(value, o);
+    } else if (!*bad && (value = options_value(count, words, at, "--tolerance", bad)) != NULL) {
+        *bad = !read_number("--tolerance", value, 1e-15, 1.0,
+                            "a part of the range that a coordinate has: --tolerance 1e-3",
+                            &o->tolerance);
+    } else if (!*bad && (value = options_value(count, words, at, "--effort", bad)) != NULL) {
+        *bad = !read_number("--effort", value, EFFORT_LEAST, EFFORT_MOST,
+                            "1 is about a minute: --effort 60", &o->effort);
     } else if (!*bad && (value = options_value(count, words, at, "--csv", bad)) != NULL) {
         o->csv = value;
     } else if (!*bad && (value = options_value(count, words, at, "--plot", bad)) != NULL) {
@@ -124,12 +125,13 @@ static bool take_one(int count, char **words, int *at, map_options *o, bool *bad
 /* Nothing is missing, and nothing contradicts. */
 static bool is_whole(const map_options *o) {
     if (o->over_count < AXES) {
-        fputs("whirl map: error: two --over are wanted\nhint: --over step=1ms..0.1s:20,log --over "
-              "'k=1..100 [N/m]:20,log'\n",
-              stderr);
+        fprintf(stderr,
+                "whirl map: error: two --over are wanted, %s\nhint: such as --over "
+                "step=1ms..0.1s:20,log --over 'k=1..100 [N/m]:20,log'\n",
+                o->over_count == 0 ? "there is none" : "there is one");
         return false;
     }
-    if (o->plot != NULL && !plot_can_draw(o->plot)) {
+    if (o->plot != NULL && !gnuplot_can_draw(o->plot)) {
         fprintf(stderr, "whirl map: error: --plot draws .svg and .png files, not %s\n", o->plot);
         return false;
     }
@@ -155,7 +157,7 @@ static bool read_options(int count, char **words, map_options *o) {
         if (words[at][0] == '-' && words[at][1] != '\0') {
             options_unknown(
                 "map", words[at], usage.groups,
-                (const char *const[]){"--over", "--tolerance", "--csv", "--plot", "--quiet", NULL});
+                (const char *const[]){"--over", "--tolerance", "--effort", "--csv", "--plot", "--quiet", NULL});
             return false;
         }
         if (o->target != NULL) {
@@ -171,80 +173,164 @@ static bool read_options(int count, char **words, map_options *o) {
     return !bad && is_whole(o);
 }
 
-static void show_progress(void *told, uint64_t done, uint64_t of) {
-    (void)told;
-    fprintf(stderr, "\r%llu of %llu runs ", (unsigned long long)done, (unsigned long long)of);
-}
-
 /* --- the answer -----------------------------------------------------------------------------------------*/
 
-static bool write_rows(const char *file, const stability_map *m) {
-    FILE *out = strcmp(file, "-") == 0 ? stdout : fopen(file, "wb");
+static bool is_standard(const map_options *o) {
+    return o->csv != NULL && strcmp(o->csv, "-") == 0;
+}
+
+/* What standard output did not take is told at the program's end. */
+static bool write_rows(const map_options *o, const stability_map *m) {
+    if (is_standard(o)) {
+        (void)map_csv(stdout, m);
+        return true;
+    }
+    FILE *out = fopen(o->csv, "wb");
     const bool good = out != NULL && map_csv(out, m);
     if (!good) {
-        fprintf(stderr, "%s: error: cannot be written: %s\n", file, strerror(errno));
+        fprintf(stderr, "%s: error: cannot be written: %s\n", o->csv, strerror(errno));
     }
-    if (out != NULL && out != stdout) {
+    if (out != NULL) {
         fclose(out);
     }
     return good;
 }
 
-static int show(const map_options *o, const stability_map *m) {
-    char how[200];
-    snprintf(how, sizeof how, "%s, %s%s, tolerance %g",
-             wh_methods[o->common.integration.method].word, o->common.number->name,
-             o->common.integration.compensated ? " compensated" : "", o->tolerance);
-    const map_words words = {o->target, how, o->tolerance};
-    const bool standard = o->csv != NULL && strcmp(o->csv, "-") == 0;
+static int show(const map_options *o, const stability_map *m, const char *words) {
     if (!o->quiet || (o->csv == NULL && o->plot == NULL)) {
-        map_print(standard ? stderr : stdout, m, &words);
+        map_print(is_standard(o) ? stderr : stdout, m, words);
     }
-    if (o->csv != NULL && !write_rows(o->csv, m)) {
-        return EXIT_BAD_INPUT;
+    int code = o->csv == NULL || write_rows(o, m) ? EXIT_DONE : EXIT_BAD_INPUT;
+    if (o->plot != NULL && !map_plot(o->plot, m, words)) {
+        code = EXIT_BAD_INPUT;
     }
     if (m->done < m->grid->points) {
         fprintf(stderr, "whirl map: interrupted after %llu of %llu runs\n",
                 (unsigned long long)m->done, (unsigned long long)m->grid->points);
-        return EXIT_INTERRUPTED;
+        return code == EXIT_DONE ? EXIT_INTERRUPTED : code;
     }
     if (map_count(m, MAP_NONE) == m->grid->points) {
         fputs("whirl map: error: no pair has a run\nhint: `whirl run` with the values of one tells "
               "why\n",
               stderr);
-        return EXIT_RUN_FAILED;
+        return code == EXIT_DONE ? EXIT_RUN_FAILED : code;
     }
-    return o->plot == NULL || map_plot(o->plot, m, &words) ? EXIT_DONE : EXIT_BAD_INPUT;
+    return code;
 }
 
-static int map_grid(const map_options *o, const mechanism *of, const scene *in,
-                    const overrides *changes, const grid *g) {
-    const bool progress = !o->quiet && isatty(STDERR_FILENO);
-    const map_wish wish = {.grid = g,
-                           .mechanism = of,
-                           .scene = in,
-                           .changes = changes,
-                           .kind = o->common.number,
-                           .settings = o->common.integration,
-                           .tolerance = o->tolerance,
-                           .stop = &interrupted,
-                           .progress = progress ? show_progress : NULL};
+/* --- the runs -------------------------------------------------------------------------------------------*/
+
+static void show_progress(double runs, void *told) {
+    const grid *g = told;
+    fprintf(stderr, "\r%.1f of %llu runs ", runs, (unsigned long long)g->points);
+}
+
+static void catch_interrupts(void) {
     struct sigaction action = {.sa_handler = on_interrupt,
                                .sa_flags = SA_RESTART | (int)SA_RESETHAND};
-    if (g->points > POINTS_MOST) {
-        fprintf(stderr, "whirl map: error: %llu pairs, at most %d\nhint: fewer in each --over\n",
-                (unsigned long long)g->points, POINTS_MOST);
-        return EXIT_BAD_INPUT;
-    }
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
-    stability_map m = map_make(&wish);
-    if (progress) {
-        fputs("\r                              \r", stderr);
+}
+
+/* Seconds that all runs take, about: as many steps as each step's length makes of the scene as it stands. */
+static double seconds_of(const grid *g, const image *base) {
+    double runs = 0.0;
+    for (int i = 0; i < AXES; i++) {
+        for (uint64_t k = 0; g->axes[i].symbol == NULL && k < g->axes[i].count; k++) {
+            double value[AXES];
+            grid_values(g, i == 0 ? k * g->axes[1].count : k, value);
+            runs += base->step_s / value[i] * (double)g->axes[1 - i].count;
+        }
     }
-    const int code = show(o, &m);
+    runs = runs > 0.0 ? runs : (double)g->points;
+    return runs * twins_operations(base, base) / TRUSTING_OPERATIONS_1S;
+}
+
+static bool is_affordable(const map_options *o, const grid *g, const image *base) {
+    if (g->points > PAIRS_MOST) {
+        fprintf(stderr, "whirl map: error: %llu pairs, at most %d\nhint: fewer in each --over\n",
+                (unsigned long long)g->points, PAIRS_MOST);
+        return false;
+    }
+    const double seconds = seconds_of(g, base);
+    const double efforts = number_ceiling(seconds / SECONDS);
+    if (seconds <= o->effort * SECONDS) {
+        return true;
+    }
+    fprintf(stderr,
+            "whirl map: error: this would take about %.0f minutes: %llu pairs, two runs beside each "
+            "other for each\nhint: fewer pairs, longer steps, a nearer --until",
+            efforts, (unsigned long long)g->points);
+    if (efforts <= EFFORT_MOST) {
+        fprintf(stderr, "; or --effort %.0f", efforts);
+    }
+    fputc('\n', stderr);
+    return false;
+}
+
+static int map_loaded(const map_options *o, const map_wish *plan, const image *base) {
+    if (!is_affordable(o, plan->grid, base)) {
+        return EXIT_BAD_INPUT;
+    }
+    map_wish wish = *plan;
+    wish.told = (void *)(uintptr_t)plan->grid;
+    wish.progress = !o->quiet && isatty(STDERR_FILENO) ? show_progress : NULL;
+    wish.stop = &interrupted;
+    char *words = room_words("%s: %s%s, %s, tolerance %g", o->target, image_stepper(base),
+                             base->settings.compensated ? " compensated" : "", wish.kind->name,
+                             o->tolerance);
+    catch_interrupts();
+    stability_map m = map_make(&wish);
+    if (wish.progress != NULL) {
+        fputs("\r                                        \r", stderr);
+    }
+    const int code = show(o, &m, words);
     map_free(&m);
+    free(words);
     return code;
+}
+
+/* What is wrong with every pair is told of the scene as it stands. */
+static int map_scene(const map_options *o, source_model *from, const mechanism *of,
+                     const scene *in, const grid *g) {
+    overrides changes = options_overrides(&o->common.change);
+    changes.balance = true;
+    const load_wish wish = {.settings = o->common.integration,
+                            .use = IMAGE_TO_RUN,
+                            .keep = KEEP_INSTANCE,
+                            .conserve = true};
+    const map_wish plan = {.grid = g,
+                           .mechanism = of,
+                           .scene = in,
+                           .changes = &changes,
+                           .kind = o->common.number,
+                           .settings = o->common.integration,
+                           .tolerance = o->tolerance};
+    if (!changes_are_apart(g, &changes)) {
+        return EXIT_BAD_INPUT;
+    }
+    loaded base;
+    int code = load(&base, from, of, in, &changes, &wish);
+    if (code == EXIT_DONE && o->common.number == &engine_float) {
+        say_float_range(base.image);
+    }
+    if (code == EXIT_DONE && (!changes_take_part(g, base.instance) ||
+                              !start_has_method(base.image, plan.settings.method, from->errors))) {
+        diags_flush(from->errors, stderr);
+        code = EXIT_BAD_INPUT;
+    }
+    if (code == EXIT_DONE) {
+        code = map_loaded(o, &plan, base.image);
+    }
+    unload(&base);
+    return code;
+}
+
+/* Before the work, which else would be in vain. */
+static bool can_write(const map_options *o, const source_model *from) {
+    return !source_would_be_lost(from, "--csv", o->csv, "") &&
+           !source_would_be_lost(from, "--plot", o->plot, "") && files_can_write(o->csv) &&
+           files_can_write(o->plot) && (o->plot == NULL || gnuplot_is_there());
 }
 
 static int map_source(const map_options *o, source_model *from) {
@@ -252,13 +338,8 @@ static int map_source(const map_options *o, source_model *from) {
     const scene *in;
     int code = source_open(from, o->target);
     code = code == EXIT_DONE ? source_pick(from, true, &of, &in) : code;
-    if (code != EXIT_DONE) {
-        return code;
-    }
-    if (source_would_be_lost(from, "--csv", o->csv, "") ||
-        source_would_be_lost(from, "--plot", o->plot, "") || !files_can_write(o->csv) ||
-        !files_can_write(o->plot)) {
-        return EXIT_BAD_INPUT;
+    if (code != EXIT_DONE || !can_write(o, from)) {
+        return code != EXIT_DONE ? code : EXIT_BAD_INPUT;
     }
     grid g = {.command = "map"};
     bool good = true;
@@ -266,31 +347,13 @@ static int map_source(const map_options *o, source_model *from) {
         good = grid_add(&g, of, o->over[i], from->errors);
     }
     diags_flush(from->errors, stderr);
-    overrides changes = options_overrides(&o->common.change);
-    changes.balance = true;
-    /* what is wrong with every pair is told of the scene as it stands */
-    const load_wish wish = {.settings = o->common.integration,
-                            .use = IMAGE_TO_RUN,
-                            .keep = KEEP_INSTANCE,
-                            .conserve = true};
-    loaded base;
-    code = EXIT_BAD_INPUT;
-    if (good) {
-        code = load(&base, from, of, in, &changes, &wish);
-        if (code == EXIT_DONE &&
-            !start_has_method(base.image, o->common.integration.method, from->errors)) {
-            diags_flush(from->errors, stderr);
-            code = EXIT_BAD_INPUT;
-        }
-        unload(&base);
-        code = code == EXIT_DONE ? map_grid(o, of, in, &changes, &g) : code;
-    }
+    code = good ? map_scene(o, from, of, in, &g) : EXIT_BAD_INPUT;
     grid_free(&g);
     return code;
 }
 
 int command_map(int count, char **words) {
-    map_options o = {.common = options_defaults(), .tolerance = HORIZON_TOLERANCE};
+    map_options o = {.common = options_defaults(), .tolerance = HORIZON_TOLERANCE, .effort = 10.0};
     source_model from = {0};
     if (options_help(count, words, &usage)) {
         return EXIT_DONE;

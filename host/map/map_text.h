@@ -1,4 +1,4 @@
-/* map_text.h: a stability map for people, for programs and as a picture. */
+/* map_text.h: a stability map for people and for programs. */
 #ifndef MAP_MAP_TEXT_H
 #define MAP_MAP_TEXT_H
 
@@ -6,17 +6,11 @@
 
 #include "stability_map.h"
 
-typedef struct map_words {
-    const char *target; /* as the user named it */
-    const char *how;    /* method and number */
-    double tolerance;
-} map_words;
-
-/* A row for each value of the axis that is not the step, a mark for each step, `|` behind the last one that theory lets be. */
-void map_print(FILE *out, const stability_map *m, const map_words *words);
-/* A row for each pair: both values, verdict, times, what is missing of the energy, the theory's limit. False: errno tells. */
+/* A row for each place, a mark for each value along it, rising; `|` behind the last step that theory lets be. `words`
+ * tell what was run. */
+void map_print(FILE *out, const stability_map *m, const char *words);
+/* A row for each pair that was tried: both values, verdict, times, what is missing of the energy, the theory's limit.
+ * False: errno tells. */
 bool map_csv(FILE *out, const stability_map *m);
-/* A square for each pair and the limit as a line, to .svg or .png. False: told on standard error. */
-bool map_plot(const char *file, const stability_map *m, const map_words *words);
 
 #endif

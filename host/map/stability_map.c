@@ -7,8 +7,8 @@
 #include "host/base/room.h"
 #include "host/derive/image_make.h"
 #include "host/derive/lagrange.h"
-#include "host/number/functions.h"
 #include "host/lang/model.h"
+#include "host/number/functions.h"
 #include "host/run/belief.h"
 #include "host/run/linearised.h"
 #include "host/run/start.h"
@@ -18,36 +18,49 @@
 #define MAP_VERDICT_ROW(id, mark, word, words) [id] = {mark, word, words},
 const map_verdict_row map_verdicts[MAP_VERDICTS] = {MAP_VERDICT_ROWS(MAP_VERDICT_ROW)};
 
-/* The image of a point without tables, too: what the finer run takes. */
+/* --- values ----------------------------------------------------------------------------------------------*/
+
+uint64_t map_point(const stability_map *m, uint64_t place, uint64_t at) {
+    const axis *along = &m->grid->axes[m->along];
+    const uint64_t i = along->from <= along->to ? at : along->count - 1 - at;
+    const uint64_t second = m->grid->axes[1].count;
+    return m->along == 1 ? place * second + i : i * second + place;
+}
+
+static double value_of(const stability_map *m, uint64_t point, int which) {
+    double value[2];
+    grid_values(m->grid, point, value);
+    return value[which];
+}
+
+double map_along(const stability_map *m, uint64_t at) {
+    return value_of(m, map_point(m, 0, at), m->along);
+}
+
+double map_place(const stability_map *m, uint64_t place) {
+    return value_of(m, map_point(m, place, 0), 1 - m->along);
+}
+
+/* --- a point's images ------------------------------------------------------------------------------------*/
+
 typedef struct map_images {
     image *of;
-    image *plain; /* NULL: the same */
+    image *plain; /* without tables, for the finer run; NULL: the same */
 } map_images;
 
-static map_images images_at(const map_wish *w, uint64_t point) {
+static map_images images_of(const map_wish *w, const instance *inst, diags *errors) {
     map_images made = {NULL, NULL};
-    diags *errors =
-        diags_new(); /* a point without a run is a verdict, and its reason the user's: whirl run tells it */
-    overrides changes = changes_at(w->grid, w->changes, point);
-    instance *inst = instance_make(w->mechanism, w->scene, &changes, errors);
-    equations *e = inst == NULL ? NULL : equations_derive(inst, errors);
+    equations *e = equations_derive(inst, errors);
     if (e != NULL) {
+        made.of = image_make(e, inst->conserve, &w->settings, IMAGE_TO_RUN, errors);
+    }
+    if (made.of != NULL && w->settings.tables != TABLES_NONE) {
         image_settings plain = w->settings;
         plain.tables = TABLES_NONE;
-        made.of = image_make(e, inst->conserve, &w->settings, IMAGE_TO_RUN, errors);
-        if (made.of != NULL && w->settings.tables != TABLES_NONE) {
-            made.plain = image_make(e, inst->conserve, &plain, IMAGE_TO_RUN, errors);
-        }
-    }
-    if (made.of != NULL && (!start_has_method(made.of, w->settings.method, errors) ||
-                            !start_is_possible(made.of, w->kind, errors))) {
-        image_free(made.of);
-        made.of = NULL;
+        plain.cells = 0;
+        made.plain = image_make(e, inst->conserve, &plain, IMAGE_TO_RUN, errors);
     }
     equations_free(e);
-    instance_free(inst);
-    changes_forget(w->changes, &changes);
-    diags_free(errors);
     return made;
 }
 
@@ -56,126 +69,215 @@ static void images_free(map_images *made) {
     image_free(made->plain);
 }
 
-static map_cell cell_of(const map_wish *w, const twins *t, double step_s) {
-    map_cell cell = {
-        .verdict = MAP_DIVERGES, .step_s = step_s, .end_s = t->end_s, .left_over = NAN};
-    horizon h = horizon_of(t, w->tolerance);
-    cell.until_s = h.until_s;
-    if (t->books != NULL) {
-        const belief b = belief_of(t->books, w->kind, t->run);
-        cell.left_over = b.known ? b.ratio : (double)NAN;
+/* None where the point has no run: that is a verdict, and `whirl run` tells why. */
+static map_images images_at(const map_wish *w, uint64_t point) {
+    map_images made = {NULL, NULL};
+    diags *errors = diags_new();
+    overrides changes = changes_at(w->grid, w->changes, point);
+    instance *inst = instance_make(w->mechanism, w->scene, &changes, errors);
+    if (inst != NULL) {
+        made = images_of(w, inst, errors);
     }
-    if (t->status == WH_OK) {
-        cell.verdict = cell.left_over > BELIEF_LIMIT ? MAP_LOSES
-                       : h.to_the_end                ? MAP_KEEPS
-                                                     : MAP_OFF;
+    if (made.of != NULL && (!start_has_method(made.of, w->settings.method, errors) ||
+                            !start_is_possible(made.of, w->kind, errors))) {
+        images_free(&made);
+        made = (map_images){NULL, NULL};
     }
-    horizon_free(&h);
-    return cell;
+    instance_free(inst);
+    changes_forget(w->changes, &changes);
+    diags_free(errors);
+    return made;
 }
 
-/* False: stopped. */
-static bool try_point(const map_wish *w, uint64_t point, map_cell *cell) {
-    map_images made = images_at(w, point);
-    *cell = (map_cell){.verdict = MAP_NONE, .left_over = NAN};
-    bool whole = true;
-    if (made.of != NULL) {
-        const twins_wish wish = {.image = made.of,
-                                 .kind = w->kind,
-                                 .plain = made.plain != NULL ? made.plain : made.of,
-                                 .books = true,
-                                 .stop = w->stop};
-        twins *t = twins_run(&wish);
-        whole = !t->stopped;
-        *cell = cell_of(w, t, made.of->step_s);
-        twins_free(t);
-    }
-    images_free(&made);
-    return whole;
-}
-
-/* --- the theory -----------------------------------------------------------------------------------------*/
+/* --- the theory ------------------------------------------------------------------------------------------*/
 
 /* What takes part in a motion by less is not seen in it. */
 #define SHARE_LEAST 1e-3
+/* Growth and decay below this part of the frequency are those of the differences that linearise. */
+#define DAMPING_LEAST 1e-6
 
-/* Of all motions that take part and do not grow by themselves the shortest. */
-static double longest_stable_s(const linearised *l) {
+/* The longest step that lets none of these motions grow but those that grow by themselves. */
+static double longest_stable_s(const linearised *l, wh_method method) {
     double limit_s = NAN;
-    for (int i = 0; l != NULL && i < l->motions; i++) {
+    for (int i = 0; i < l->motions; i++) {
         const linear_motion *each = &l->motion[i];
         const double size = complex_size(each->value);
-        if (!(size > 0.0) || each->value.re > 0.0 || each->share < SHARE_LEAST) {
-            continue;
+        complex_number direction = {each->value.re / size, each->value.im / size};
+        if (fabs(direction.re) < DAMPING_LEAST) {
+            direction.re = 0.0;
         }
-        const complex_number direction = {each->value.re / size, each->value.im / size};
-        const double longest_s = limits_interval(l->method, l->form, direction) / size;
-        limit_s = longest_s > 0.0 ? number_least(longest_s, limit_s) : limit_s;
+        if (size > 0.0 && direction.re <= 0.0 && each->share >= SHARE_LEAST) {
+            const double longest_s = limits_interval(method, l->form, direction) / size;
+            limit_s = number_least(longest_s, limit_s);
+        }
     }
     return limit_s;
+}
+
+static bool is_stopped(const map_wish *w) { return w->stop != NULL && *w->stop; }
+
+static void watch_run(const map_wish *w, const image *im, watch *seen) {
+    void *run = w->kind->start(im);
+    wh_status status = WH_OK;
+    watch_enter(seen, w->kind, NULL, run);
+    for (uint64_t step = 0; step < im->steps && status == WH_OK && !is_stopped(w); step++) {
+        status = w->kind->step(run);
+        watch_enter(seen, w->kind, NULL, run);
+    }
+    watch_end(seen, status != WH_OK);
+    w->kind->stop(run);
 }
 
 /* Of the run of this point: NAN where it is not known. */
 static double limit_at(const map_wish *w, uint64_t point) {
     map_images made = images_at(w, point);
     double limit_s = NAN;
-    if (made.of != NULL && made.of->contacts == 0) {
-        void *run = w->kind->start(made.of);
+    if (made.of != NULL && made.of->contacts == 0 && w->settings.matrix != MATRIX_EXACT) {
+        const wh_method method = w->settings.matrix == MATRIX_RK4 ? WH_RK4 : w->settings.method;
         watch *seen = watch_open(made.of, w->kind);
-        books *b = books_open(made.of);
-        wh_status status = WH_OK;
-        for (uint64_t step = 0;; step++) {
-            if (b != NULL) {
-                books_enter(b, w->kind, run);
-            }
-            watch_enter(seen, w->kind, b, run);
-            if (step == made.of->steps || status != WH_OK || (w->stop != NULL && *w->stop)) {
-                break;
-            }
-            status = w->kind->step(run);
-        }
-        watch_end(seen, status != WH_OK);
-        linearised *l = linearised_of(seen, w->settings.method);
-        limit_s = longest_stable_s(l);
+        watch_run(w, made.of, seen);
+        linearised *l = linearised_of(seen, method);
+        limit_s = is_stopped(w) ? (double)NAN : longest_stable_s(l, method);
         linearised_free(l);
-        books_close(b);
         watch_close(seen);
-        w->kind->stop(run);
     }
     images_free(&made);
     return limit_s;
 }
 
-uint64_t map_point(const grid *g, uint64_t first, uint64_t second) {
-    return first * g->axes[1].count + second;
+/* --- a place ---------------------------------------------------------------------------------------------*/
+
+/* Its runs are judged by the least range that each column has had in a finer run: that of the finest, unless this is
+ * out of bounds itself. */
+typedef struct place_runs {
+    const map_wish *wish;
+    stability_map *map;
+    double *range; /* [columns], in the columns' units; NULL: none yet */
+} place_runs;
+
+/* Is there no column of its derivative? */
+static bool is_highest(const twins *t, int k) {
+    const record_column *c = &t->shape->column[k];
+    bool highest = true;
+    for (int i = 1; i < t->columns; i++) {
+        const record_column *other = &t->shape->column[i];
+        highest = highest && (other->unknown != c->unknown || other->primes <= c->primes);
+    }
+    return highest;
 }
 
-/* By the shortest step of each place. */
-static void find_limits(const map_wish *w, stability_map *m) {
-    const axis *step = &w->grid->axes[m->step_axis];
-    const axis *other = &w->grid->axes[1 - m->step_axis];
-    const uint64_t finest = step->from <= step->to ? 0 : step->count - 1;
-    m->limit_s = room((int64_t)other->count, sizeof *m->limit_s);
-    for (uint64_t i = 0; i < other->count; i++) {
-        m->limit_s[i] = limit_at(w, m->step_axis == 0 ? map_point(w->grid, finest, i)
-                                                      : map_point(w->grid, i, finest));
+static void take_ranges(place_runs *p, const horizon *h) {
+    const bool first = p->range == NULL;
+    p->range = first ? room(h->of->columns, sizeof *p->range) : p->range;
+    for (int k = 1; k < h->of->columns; k++) {
+        p->range[k] = first ? h->column[k].range : number_least(p->range[k], h->column[k].range);
     }
 }
 
-stability_map map_make(const map_wish *w) {
-    stability_map m = {.grid = w->grid, .step_axis = -1};
-    m.cell = room((int64_t)w->grid->points, sizeof *m.cell);
-    for (int i = 0; i < w->grid->count; i++) {
-        m.step_axis = w->grid->axes[i].symbol == NULL ? i : m.step_axis;
+/* Where the finer one is, half the step being too long, the run is as well. */
+static bool is_out_of_bounds(const place_runs *p, const horizon *h) {
+    bool out = h->of->status != WH_OK || h->of->finer_failed_s >= 0.0;
+    for (int k = 1; k < h->of->columns; k++) {
+        const horizon_column *c = &h->column[k];
+        out = out || (c->verdict == HORIZON_UNTIL && is_highest(h->of, k) && isfinite(c->off) &&
+                      c->off > MAP_BOUND * p->range[k]);
     }
-    while (m.done < w->grid->points && try_point(w, m.done, &m.cell[m.done])) {
-        m.done++;
+    return out;
+}
+
+static map_cell cell_of(place_runs *p, const twins *t) {
+    const map_wish *w = p->wish;
+    horizon h = horizon_of(t, w->tolerance);
+    map_cell cell = {
+        .verdict = MAP_OFF, .end_s = t->end_s, .until_s = h.until_s, .left_over = NAN};
+    take_ranges(p, &h);
+    if (t->books != NULL) {
+        const belief b = belief_of(t->books, w->kind, t->run);
+        cell.left_over = b.known ? b.ratio : (double)NAN;
+    }
+    if (is_out_of_bounds(p, &h)) {
+        cell.verdict = MAP_DIVERGES;
+    } else if (cell.left_over > BELIEF_LIMIT) {
+        cell.verdict = MAP_LOSES;
+    } else if (h.to_the_end) {
+        cell.verdict = MAP_KEEPS;
+    }
+    horizon_free(&h);
+    return cell;
+}
+
+static void show_share(double share, void *told) {
+    const place_runs *p = told;
+    p->wish->progress((double)p->map->done + share, p->wish->told);
+}
+
+/* Stopped: nothing is known of it. */
+static void try_point(place_runs *p, uint64_t point) {
+    const map_wish *w = p->wish;
+    map_images made = images_at(w, point);
+    map_cell cell = {.verdict = MAP_NONE, .left_over = NAN};
+    bool whole = true;
+    if (made.of != NULL) {
+        const twins_wish wish = {.image = made.of,
+                                 .kind = w->kind,
+                                 .plain = made.plain != NULL ? made.plain : made.of,
+                                 .books = true,
+                                 .stop = w->stop,
+                                 .progress = w->progress != NULL ? show_share : NULL,
+                                 .told = p};
+        twins *t = twins_run(&wish);
+        whole = !t->stopped;
+        if (whole) {
+            cell = cell_of(p, t);
+        }
+        twins_free(t);
+    }
+    images_free(&made);
+    if (whole) {
+        p->map->cell[point] = cell;
+        p->map->done++;
+    }
+}
+
+static void try_place(const map_wish *w, stability_map *m, uint64_t place) {
+    place_runs p = {.wish = w, .map = m};
+    for (uint64_t i = 0; i < w->grid->axes[m->along].count && !is_stopped(w); i++) {
+        const uint64_t point = map_point(m, place, i);
+        if (i == 0 && m->has_limit) {
+            m->limit_s[place] = limit_at(w, point);
+        }
+        if (!m->has_limit) { /* another scene, not the same in other steps */
+            free(p.range);
+            p.range = NULL;
+        }
+        if (!is_stopped(w)) {
+            try_point(&p, point);
+        }
         if (w->progress != NULL) {
-            w->progress(w->told, m.done, w->grid->points);
+            show_share(0.0, &p);
         }
     }
-    if (m.step_axis >= 0 && m.done == w->grid->points) {
-        find_limits(w, &m);
+    free(p.range);
+}
+
+/* --- the map ---------------------------------------------------------------------------------------------*/
+
+stability_map map_make(const map_wish *w) {
+    const grid *g = w->grid;
+    stability_map m = {.grid = g,
+                       .along = g->axes[0].symbol == NULL ? 0 : 1,
+                       .has_limit = g->axes[0].symbol == NULL || g->axes[1].symbol == NULL};
+    const uint64_t places = g->axes[1 - m.along].count;
+    m.cell = room((int64_t)g->points, sizeof *m.cell);
+    m.limit_s = room((int64_t)places, sizeof *m.limit_s);
+    for (uint64_t i = 0; i < g->points; i++) {
+        m.cell[i] = (map_cell){.verdict = MAP_UNTRIED, .left_over = NAN};
+    }
+    for (uint64_t i = 0; i < places; i++) {
+        m.limit_s[i] = NAN;
+    }
+    for (uint64_t i = 0; i < places && !is_stopped(w); i++) {
+        try_place(w, &m, i);
     }
     return m;
 }
@@ -188,7 +290,7 @@ void map_free(stability_map *m) {
 
 uint64_t map_count(const stability_map *m, map_verdict verdict) {
     uint64_t count = 0;
-    for (uint64_t i = 0; i < m->done; i++) {
+    for (uint64_t i = 0; i < m->grid->points; i++) {
         count += m->cell[i].verdict == verdict ? 1 : 0;
     }
     return count;
