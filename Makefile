@@ -1,8 +1,9 @@
 # Whirl: energies in, firmware out. `make` lists the targets; the machinery is in mk/.
 #
 # V=1 shows the commands. Nothing is written outside build/, but for `make figures-docs`, `make price-effects`,
-# `make price`, `make bench-boards`, `make bench-tables`, `make bench-precision`, `make bench-peers`, `make bench-links` and
-# `make price-fit` and `make stability`, which renew their part of docs/, and `make too-large`, which lists what does not fit into a board.
+# `make price`, `make bench-boards`, `make bench-tables`, `make bench-precision`, `make bench-peers`, `make bench-links`,
+# `make price-fit` and `make stability`, which renew their part of docs/, and `make too-large`, which lists what does not fit
+# into a board.
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:

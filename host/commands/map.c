@@ -80,7 +80,8 @@ static bool read_number(const char *option, const char *text, double least, doub
     *number = decimal_read(text, &end);
     const bool good = end != text && *end == '\0' && *number >= least && *number <= most;
     if (!good) {
-        fprintf(stderr, "whirl map: error: %s takes a number from %g to %g, not '%.40s'\nhint: %s\n",
+        fprintf(stderr,
+                "whirl map: error: %s takes a number from %g to %g, not '%.40s'\nhint: %s\n",
                 option, least, most, text, hint);
     }
     return good;
@@ -155,9 +156,9 @@ static bool read_options(int count, char **words, map_options *o) {
             continue;
         }
         if (words[at][0] == '-' && words[at][1] != '\0') {
-            options_unknown(
-                "map", words[at], usage.groups,
-                (const char *const[]){"--over", "--tolerance", "--effort", "--csv", "--plot", "--quiet", NULL});
+            options_unknown("map", words[at], usage.groups,
+                            (const char *const[]){"--over", "--tolerance", "--effort", "--csv",
+                                                  "--plot", "--quiet", NULL});
             return false;
         }
         if (o->target != NULL) {
@@ -175,9 +176,7 @@ static bool read_options(int count, char **words, map_options *o) {
 
 /* --- the answer -----------------------------------------------------------------------------------------*/
 
-static bool is_standard(const map_options *o) {
-    return o->csv != NULL && strcmp(o->csv, "-") == 0;
-}
+static bool is_standard(const map_options *o) { return o->csv != NULL && strcmp(o->csv, "-") == 0; }
 
 /* What standard output did not take is told at the program's end. */
 static bool write_rows(const map_options *o, const stability_map *m) {
@@ -257,10 +256,11 @@ static bool is_affordable(const map_options *o, const grid *g, const image *base
     if (seconds <= o->effort * SECONDS) {
         return true;
     }
-    fprintf(stderr,
-            "whirl map: error: this would take about %.0f minutes: %llu pairs, two runs beside each "
-            "other for each\nhint: fewer pairs, longer steps, a nearer --until",
-            efforts, (unsigned long long)g->points);
+    fprintf(
+        stderr,
+        "whirl map: error: this would take about %.0f minutes: %llu pairs, two runs beside each "
+        "other for each\nhint: fewer pairs, longer steps, a nearer --until",
+        efforts, (unsigned long long)g->points);
     if (efforts <= EFFORT_MOST) {
         fprintf(stderr, "; or --effort %.0f", efforts);
     }
@@ -276,9 +276,9 @@ static int map_loaded(const map_options *o, const map_wish *plan, const image *b
     wish.told = (void *)(uintptr_t)plan->grid;
     wish.progress = !o->quiet && isatty(STDERR_FILENO) ? show_progress : NULL;
     wish.stop = &interrupted;
-    char *words = room_words("%s: %s%s, %s, tolerance %g", o->target, image_stepper(base),
-                             base->settings.compensated ? " compensated" : "", wish.kind->name,
-                             o->tolerance);
+    char *words =
+        room_words("%s: %s%s, %s, tolerance %g", o->target, image_stepper(base),
+                   base->settings.compensated ? " compensated" : "", wish.kind->name, o->tolerance);
     catch_interrupts();
     stability_map m = map_make(&wish);
     if (wish.progress != NULL) {
@@ -291,8 +291,8 @@ static int map_loaded(const map_options *o, const map_wish *plan, const image *b
 }
 
 /* What is wrong with every pair is told of the scene as it stands. */
-static int map_scene(const map_options *o, source_model *from, const mechanism *of,
-                     const scene *in, const grid *g) {
+static int map_scene(const map_options *o, source_model *from, const mechanism *of, const scene *in,
+                     const grid *g) {
     overrides changes = options_overrides(&o->common.change);
     changes.balance = true;
     const load_wish wish = {.settings = o->common.integration,

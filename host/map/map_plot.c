@@ -9,8 +9,10 @@
 enum { HEIGHT = 560 };
 
 /* From good to bad; whoever sees no colours tells them apart by lightness. NULL: left white. */
-static const char *const colours[MAP_VERDICTS] = {
-    [MAP_KEEPS] = "#d0e6f0", [MAP_OFF] = "#8fbf7f", [MAP_LOSES] = "#e08b3c", [MAP_DIVERGES] = "#8e1420"};
+static const char *const colours[MAP_VERDICTS] = {[MAP_KEEPS] = "#d0e6f0",
+                                                  [MAP_OFF] = "#8fbf7f",
+                                                  [MAP_LOSES] = "#e08b3c",
+                                                  [MAP_DIVERGES] = "#8e1420"};
 
 /* A gnuplot axis is logarithmic where its values are above zero: those below are drawn evenly. */
 static bool is_log(const axis *a) { return a->is_log && a->from > 0.0; }
@@ -42,34 +44,34 @@ static void set_axis(FILE *to, const axis *a, char letter, const char *unit) {
 /* x, y and the cell's edges. */
 static void write_cells(FILE *to, const stability_map *m, map_verdict verdict) {
     const axis *along = &m->grid->axes[m->along];
-    const axis *places = &m->grid->axes[1 - m->along];
+    const axis *rows = &m->grid->axes[1 - m->along];
     fprintf(to, "$%s << EOD\n", map_verdicts[verdict].word);
-    for (uint64_t place = 0; place < places->count; place++) {
+    for (uint64_t row = 0; row < rows->count; row++) {
         for (uint64_t at = 0; at < along->count; at++) {
-            if (m->cell[map_point(m, place, at)].verdict == verdict) {
+            if (m->cell[map_point(m, row, at)].verdict == verdict) {
                 const double x = map_along(m, at);
-                const double y = map_place(m, place);
+                const double y = map_row(m, row);
                 fprintf(to, "%.9g %.9g %.9g %.9g %.9g %.9g\n", x, y, edge(along, x, false),
-                        edge(along, x, true), edge(places, y, false), edge(places, y, true));
+                        edge(along, x, true), edge(rows, y, false), edge(rows, y, true));
             }
         }
     }
     fputs("EOD\n", to);
 }
 
-/* As high as its cell, so that a place alone has a line, too; what lies beyond the picture is none of it. How many. */
+/* As high as its cell, so that a row alone has a line, too; what lies beyond the picture is none of it. How many. */
 static uint64_t write_limits(FILE *to, const stability_map *m) {
     const axis *along = &m->grid->axes[m->along];
-    const axis *places = &m->grid->axes[1 - m->along];
+    const axis *rows = &m->grid->axes[1 - m->along];
     const double least = edge(along, map_along(m, 0), false);
     const double most = edge(along, map_along(m, along->count - 1), true);
     uint64_t count = 0;
     fputs("$limit << EOD\n", to);
-    for (uint64_t place = 0; place < places->count; place++) {
-        const double y = map_place(m, place);
-        if (m->limit_s[place] > least && m->limit_s[place] < most) {
-            fprintf(to, "%.9g %.9g\n%.9g %.9g\n", m->limit_s[place], edge(places, y, false),
-                    m->limit_s[place], edge(places, y, true));
+    for (uint64_t row = 0; row < rows->count; row++) {
+        const double y = map_row(m, row);
+        if (m->limit_s[row] > least && m->limit_s[row] < most) {
+            fprintf(to, "%.9g %.9g\n%.9g %.9g\n", m->limit_s[row], edge(rows, y, false),
+                    m->limit_s[row], edge(rows, y, true));
             count++;
         } else {
             fputc('\n', to);

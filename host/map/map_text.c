@@ -4,10 +4,10 @@
 #include <math.h>
 
 static const axis *along_of(const stability_map *m) { return &m->grid->axes[m->along]; }
-static const axis *places_of(const stability_map *m) { return &m->grid->axes[1 - m->along]; }
+static const axis *rows_of(const stability_map *m) { return &m->grid->axes[1 - m->along]; }
 
-static map_verdict verdict_at(const stability_map *m, uint64_t place, uint64_t at) {
-    return m->cell[map_point(m, place, at)].verdict;
+static map_verdict verdict_at(const stability_map *m, uint64_t row, uint64_t at) {
+    return m->cell[map_point(m, row, at)].verdict;
 }
 
 /* --- for people ------------------------------------------------------------------------------------------*/
@@ -20,34 +20,34 @@ static void print_limit(FILE *out, double limit_s) {
     }
 }
 
-static void print_place(FILE *out, const stability_map *m, uint64_t place) {
+static void print_row(FILE *out, const stability_map *m, uint64_t row) {
     const uint64_t count = along_of(m)->count;
-    const double limit_s = m->limit_s[place];
+    const double limit_s = m->limit_s[row];
     bool behind = !isfinite(limit_s);
-    fprintf(out, "  %-12.6g ", map_place(m, place));
+    fprintf(out, "  %-12.6g ", map_row(m, row));
     for (uint64_t i = 0; i < count; i++) {
         if (!behind && limit_s < map_along(m, i)) {
             fputc('|', out);
             behind = true;
         }
-        fputc(map_verdicts[verdict_at(m, place, i)].mark, out);
+        fputc(map_verdicts[verdict_at(m, row, i)].mark, out);
     }
     fputs(behind ? "" : "|", out);
     print_limit(out, limit_s);
     fputc('\n', out);
 }
 
-/* The largest value of a place on top, as in the picture. */
+/* The largest value of a row on top, as in the picture. */
 void map_print(FILE *out, const stability_map *m, const char *words) {
     const axis *along = along_of(m);
-    const axis *places = places_of(m);
-    fprintf(out, "%s\n\n  %-12.40s %.40s from %.6g to %.6g%s%s\n", words, places->column,
+    const axis *rows = rows_of(m);
+    fprintf(out, "%s\n\n  %-12.40s %.40s from %.6g to %.6g%s%s\n", words, rows->column,
             along->column, map_along(m, 0), map_along(m, along->count - 1),
             along->is_log ? ", logarithmic" : "",
             m->has_limit ? "; |: longest stable step, by the linear theory" : "");
-    const bool rises = places->from <= places->to;
-    for (uint64_t i = 0; i < places->count; i++) {
-        print_place(out, m, rises ? places->count - 1 - i : i);
+    const bool rises = rows->from <= rows->to;
+    for (uint64_t i = 0; i < rows->count; i++) {
+        print_row(out, m, rises ? rows->count - 1 - i : i);
     }
     fputc('\n', out);
     for (int i = 0; i < MAP_VERDICTS; i++) {

@@ -20,11 +20,11 @@ const map_verdict_row map_verdicts[MAP_VERDICTS] = {MAP_VERDICT_ROWS(MAP_VERDICT
 
 /* --- values ----------------------------------------------------------------------------------------------*/
 
-uint64_t map_point(const stability_map *m, uint64_t place, uint64_t at) {
+uint64_t map_point(const stability_map *m, uint64_t row, uint64_t at) {
     const axis *along = &m->grid->axes[m->along];
     const uint64_t i = along->from <= along->to ? at : along->count - 1 - at;
     const uint64_t second = m->grid->axes[1].count;
-    return m->along == 1 ? place * second + i : i * second + place;
+    return m->along == 1 ? row * second + i : i * second + row;
 }
 
 static double value_of(const stability_map *m, uint64_t point, int which) {
@@ -37,8 +37,8 @@ double map_along(const stability_map *m, uint64_t at) {
     return value_of(m, map_point(m, 0, at), m->along);
 }
 
-double map_place(const stability_map *m, uint64_t place) {
-    return value_of(m, map_point(m, place, 0), 1 - m->along);
+double map_row(const stability_map *m, uint64_t row) {
+    return value_of(m, map_point(m, row, 0), 1 - m->along);
 }
 
 /* --- a point's images ------------------------------------------------------------------------------------*/
@@ -118,13 +118,17 @@ static bool is_stopped(const map_wish *w) { return w->stop != NULL && *w->stop; 
 
 static void watch_run(const map_wish *w, const image *im, watch *seen) {
     void *run = w->kind->start(im);
+    books *b = books_open(im);
     wh_status status = WH_OK;
-    watch_enter(seen, w->kind, NULL, run);
-    for (uint64_t step = 0; step < im->steps && status == WH_OK && !is_stopped(w); step++) {
-        status = w->kind->step(run);
-        watch_enter(seen, w->kind, NULL, run);
+    for (uint64_t step = 0; status == WH_OK && step <= im->steps && !is_stopped(w); step++) {
+        if (b != NULL) {
+            books_enter(b, w->kind, run);
+        }
+        watch_enter(seen, w->kind, b, run);
+        status = step < im->steps ? w->kind->step(run) : WH_OK;
     }
     watch_end(seen, status != WH_OK);
+    books_close(b);
     w->kind->stop(run);
 }
 
@@ -145,15 +149,15 @@ static double limit_at(const map_wish *w, uint64_t point) {
     return limit_s;
 }
 
-/* --- a place ---------------------------------------------------------------------------------------------*/
+/* --- a row ---------------------------------------------------------------------------------------------*/
 
 /* Its runs are judged by the least range that each column has had in a finer run: that of the finest, unless this is
  * out of bounds itself. */
-typedef struct place_runs {
+typedef struct row_runs {
     const map_wish *wish;
     stability_map *map;
     double *range; /* [columns], in the columns' units; NULL: none yet */
-} place_runs;
+} row_runs;
 
 /* Is there no column of its derivative? */
 static bool is_highest(const twins *t, int k) {
@@ -166,7 +170,7 @@ static bool is_highest(const twins *t, int k) {
     return highest;
 }
 
-static void take_ranges(place_runs *p, const horizon *h) {
+static void take_ranges(row_runs *p, const horizon *h) {
     const bool first = p->range == NULL;
     p->range = first ? room(h->of->columns, sizeof *p->range) : p->range;
     for (int k = 1; k < h->of->columns; k++) {
@@ -175,7 +179,7 @@ static void take_ranges(place_runs *p, const horizon *h) {
 }
 
 /* Where the finer one is, half the step being too long, the run is as well. */
-static bool is_out_of_bounds(const place_runs *p, const horizon *h) {
+static bool is_out_of_bounds(const row_runs *p, const horizon *h) {
     bool out = h->of->status != WH_OK || h->of->finer_failed_s >= 0.0;
     for (int k = 1; k < h->of->columns; k++) {
         const horizon_column *c = &h->column[k];
@@ -185,11 +189,10 @@ static bool is_out_of_bounds(const place_runs *p, const horizon *h) {
     return out;
 }
 
-static map_cell cell_of(place_runs *p, const twins *t) {
+static map_cell cell_of(row_runs *p, const twins *t) {
     const map_wish *w = p->wish;
     horizon h = horizon_of(t, w->tolerance);
-    map_cell cell = {
-        .verdict = MAP_OFF, .end_s = t->end_s, .until_s = h.until_s, .left_over = NAN};
+    map_cell cell = {.verdict = MAP_OFF, .end_s = t->end_s, .until_s = h.until_s, .left_over = NAN};
     take_ranges(p, &h);
     if (t->books != NULL) {
         const belief b = belief_of(t->books, w->kind, t->run);
@@ -207,12 +210,12 @@ static map_cell cell_of(place_runs *p, const twins *t) {
 }
 
 static void show_share(double share, void *told) {
-    const place_runs *p = told;
+    const row_runs *p = told;
     p->wish->progress((double)p->map->done + share, p->wish->told);
 }
 
 /* Stopped: nothing is known of it. */
-static void try_point(place_runs *p, uint64_t point) {
+static void try_point(row_runs *p, uint64_t point) {
     const map_wish *w = p->wish;
     map_images made = images_at(w, point);
     map_cell cell = {.verdict = MAP_NONE, .left_over = NAN};
@@ -239,12 +242,12 @@ static void try_point(place_runs *p, uint64_t point) {
     }
 }
 
-static void try_place(const map_wish *w, stability_map *m, uint64_t place) {
-    place_runs p = {.wish = w, .map = m};
+static void try_row(const map_wish *w, stability_map *m, uint64_t row) {
+    row_runs p = {.wish = w, .map = m};
     for (uint64_t i = 0; i < w->grid->axes[m->along].count && !is_stopped(w); i++) {
-        const uint64_t point = map_point(m, place, i);
+        const uint64_t point = map_point(m, row, i);
         if (i == 0 && m->has_limit) {
-            m->limit_s[place] = limit_at(w, point);
+            m->limit_s[row] = limit_at(w, point);
         }
         if (!m->has_limit) { /* another scene, not the same in other steps */
             free(p.range);
@@ -267,17 +270,17 @@ stability_map map_make(const map_wish *w) {
     stability_map m = {.grid = g,
                        .along = g->axes[0].symbol == NULL ? 0 : 1,
                        .has_limit = g->axes[0].symbol == NULL || g->axes[1].symbol == NULL};
-    const uint64_t places = g->axes[1 - m.along].count;
+    const uint64_t rows = g->axes[1 - m.along].count;
     m.cell = room((int64_t)g->points, sizeof *m.cell);
-    m.limit_s = room((int64_t)places, sizeof *m.limit_s);
+    m.limit_s = room((int64_t)rows, sizeof *m.limit_s);
     for (uint64_t i = 0; i < g->points; i++) {
         m.cell[i] = (map_cell){.verdict = MAP_UNTRIED, .left_over = NAN};
     }
-    for (uint64_t i = 0; i < places; i++) {
+    for (uint64_t i = 0; i < rows; i++) {
         m.limit_s[i] = NAN;
     }
-    for (uint64_t i = 0; i < places && !is_stopped(w); i++) {
-        try_place(w, &m, i);
+    for (uint64_t i = 0; i < rows && !is_stopped(w); i++) {
+        try_row(w, &m, i);
     }
     return m;
 }

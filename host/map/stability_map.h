@@ -2,8 +2,8 @@
  * keep a tolerance? And where a method's stability ends by the linear theory.
  *
  * Each run has a finer one beside it (host/trust/twins.h), which says until when it is right, and books, which say what of
- * its energy is missing (host/run/belief.h). A map's places are the values of the axis that is no step; the theory's limit of
- * a place is the longest step that lets no motion grow which takes part in the run by the finest step there, linearised
+ * its energy is missing (host/run/belief.h). A map's rows are the values of the axis that is no step; the theory's limit of
+ * a row is the longest step that lets no motion grow which takes part in the run by the finest step there, linearised
  * along its way (host/run/linearised.h). It knows no contacts, and nothing of motions that get faster when the step is
  * long. */
 #ifndef MAP_STABILITY_MAP_H
@@ -14,7 +14,7 @@
 #include "host/run/engine.h"
 #include "host/sweep/grid.h"
 
-/* A rate that is off by so many times the range that it has in the finest run of its place has left all bounds: what
+/* A rate that is off by so many times the range that it has in the finest run of its row has left all bounds: what
  * grows step by step passes that long before numbers end. */
 #define MAP_BOUND 100.0
 
@@ -60,23 +60,23 @@ typedef struct map_wish {
 
 typedef struct stability_map {
     const grid *grid;
-    map_cell *cell; /* [grid->points] */
-    uint64_t done;  /* cells; fewer than points where it was stopped */
-    int along;      /* the step's axis, or where neither is the step 1 */
-    bool has_limit; /* one is the step */
+    map_cell *cell;  /* [grid->points] */
+    uint64_t done;   /* cells; fewer than points where it was stopped */
+    int along;       /* the step's axis, or where neither is the step 1 */
+    bool has_limit;  /* one is the step */
     double *limit_s; /* [count of the other axis] longest stable step; 0: none is, NAN: not known */
 } stability_map;
 
-/* Place by place, from the shortest step of each on. */
+/* Place by row, from the shortest step of each on. */
 stability_map map_make(const map_wish *w);
 void map_free(stability_map *m);
 
 /* How many cells have this verdict. */
 uint64_t map_count(const stability_map *m, map_verdict verdict);
-/* The grid's point of the `at`-th value along m->along, from the least on, and of value `place` of the other axis. */
-uint64_t map_point(const stability_map *m, uint64_t place, uint64_t at);
+/* The grid's point of the `at`-th value along m->along, from the least on, and of value `row` of the other axis. */
+uint64_t map_point(const stability_map *m, uint64_t row, uint64_t at);
 /* These values: SI. */
 double map_along(const stability_map *m, uint64_t at);
-double map_place(const stability_map *m, uint64_t place);
+double map_row(const stability_map *m, uint64_t row);
 
 #endif

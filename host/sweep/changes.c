@@ -75,11 +75,10 @@ static bool names(const char *const *texts, int count, const char *name) {
 bool changes_are_apart(const grid *g, const overrides *base) {
     for (int i = 0; i < g->count; i++) {
         const axis *a = &g->axes[i];
-        const char *option =
-            a->symbol == NULL ? (base->step != NULL ? "--step" : NULL)
-            : names(base->sets, base->set_count, a->name)     ? "--set"
-            : names(base->starts, base->start_count, a->name) ? "--start"
-                                                              : NULL;
+        const char *option = a->symbol == NULL ? (base->step != NULL ? "--step" : NULL)
+                             : names(base->sets, base->set_count, a->name)     ? "--set"
+                             : names(base->starts, base->start_count, a->name) ? "--start"
+                                                                               : NULL;
         if (option != NULL) {
             fprintf(stderr,
                     "whirl %s: error: '%s' is swept by --over and given by %s\nhint: leave out one "

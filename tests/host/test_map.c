@@ -60,8 +60,8 @@ static void close_map(drawn_map *m) {
     derived_free(&m->d);
 }
 
-static const map_cell *cell_of(const drawn_map *m, uint64_t place, uint64_t at) {
-    return &m->map.cell[map_point(&m->map, place, at)];
+static const map_cell *cell_of(const drawn_map *m, uint64_t across, uint64_t at) {
+    return &m->map.cell[map_point(&m->map, across, at)];
 }
 
 /* --- limits ----------------------------------------------------------------------------------------------*/
@@ -100,9 +100,9 @@ static const struct {
     int order;
     double undamped;
     double known_to;
-} rows[] = {{WH_RK4, 4, 0.0, 1e-3},     {WH_EULER, 1, 0.0, 1e-3},
-            {WH_LEAPFROG, 0, 2.0, 1e-3}, {WH_HEUN, 2, 0.0, 1e-3},
-            {WH_RK38, 4, 0.0, 1e-3},    {WH_SEMI_IMPLICIT_EULER, 0, 2.0, 1e-3},
+} rows[] = {{WH_RK4, 4, 0.0, 1e-3},         {WH_EULER, 1, 0.0, 1e-3},
+            {WH_LEAPFROG, 0, 2.0, 1e-3},    {WH_HEUN, 2, 0.0, 1e-3},
+            {WH_RK38, 4, 0.0, 1e-3},        {WH_SEMI_IMPLICIT_EULER, 0, 2.0, 1e-3},
             {WH_NYSTROEM3, 0, 2.141, 3e-3}, {WH_NYSTROEM4, 0, 2.586, 3e-3},
             {WH_NYSTROEM5, 0, 2.395, 3e-3}};
 enum { ROWS = sizeof rows / sizeof rows[0], STEPS = 49, PLACES = 3 };
@@ -139,7 +139,7 @@ static void hold_to(const map_asked *a, const double *limit_s, double known_to, 
 
 /* Steps from 0.7 to 1.3 of the limit of the first of three places, the last 1.2 of it; the shorter step first, or last,
  * the step's axis the first, or the second. */
-static void hold_drawn(dice *d, const char *text, wh_method method, const char *place,
+static void hold_drawn(dice *d, const char *text, wh_method method, const char *across,
                        const double *limit_s, double known_to, tally *sum) {
     char step[120];
     const double ends[2] = {0.7 * fmin(limit_s[0], limit_s[PLACES - 1]),
@@ -149,7 +149,7 @@ static void hold_drawn(dice *d, const char *text, wh_method method, const char *
     snprintf(step, sizeof step, "step=%.17g..%.17g:%d%s", ends[falls], ends[!falls], STEPS,
              dice_one_of(d, 2) == 1 ? ",log" : "");
     const map_asked a = {.text = text,
-                         .over = {second ? place : step, second ? step : place},
+                         .over = {second ? across : step, second ? step : across},
                          .method = method,
                          .tolerance = 1e-3};
     hold_to(&a, limit_s, known_to, sum);
@@ -164,16 +164,16 @@ static void test_springs_of_all_methods(void) {
         const wh_method method = rows[k % ROWS].method;
         const int order = rows[k % ROWS].order;
         const bool must = order == 1 || order == 2; /* nothing else is stable */
-        const double zeta = order == 0 || (!must && dice_one_of(&d, 2) == 0)
-                                ? 0.0
-                                : dice_between(&d, 0.1, 0.9);
+        const double zeta =
+            order == 0 || (!must && dice_one_of(&d, 2) == 0) ? 0.0 : dice_between(&d, 0.1, 0.9);
         const double mass_kg = pow(10.0, dice_between(&d, -2.0, 2.0));
         const double w = pow(10.0, dice_between(&d, -1.0, 3.0));
-        const double z = order > 0 ? longest(order, -zeta + sqrt(1.0 - zeta * zeta) * (double complex)I)
-                                   : rows[k % ROWS].undamped;
+        const double z = order > 0
+                             ? longest(order, -zeta + sqrt(1.0 - zeta * zeta) * (double complex)I)
+                             : rows[k % ROWS].undamped;
         double limit_s[PLACES];
         char text[600];
-        char place[100];
+        char across[100];
         for (int i = 0; i < PLACES; i++) { /* m, c and k are scaled alike by s: w is w/s */
             limit_s[i] = z / w * (1.0 + 0.1 * i);
         }
@@ -182,8 +182,8 @@ static void test_springs_of_all_methods(void) {
                  "V = %.17g [N/m]*x^2/2\nF = %.17g [N*s/m]*s*x'^2/2\n"
                  "scene s { start x = 1 [m]; step 1 [s]; until %.17g [s] }\n",
                  mass_kg, mass_kg * w * w, 2.0 * zeta * w * mass_kg, 1000.0 * z / w);
-        snprintf(place, sizeof place, "s=1..1.2:%d", PLACES);
-        hold_drawn(&d, text, method, place, limit_s, rows[k % ROWS].known_to, &sum);
+        snprintf(across, sizeof across, "s=1..1.2:%d", PLACES);
+        hold_drawn(&d, text, method, across, limit_s, rows[k % ROWS].known_to, &sum);
     }
     printf("  %u springs: %u runs within the limit, none out of bounds; %u beyond, all are; theory "
            "%.1e off\n",
@@ -202,7 +202,7 @@ static void test_decays_of_all_methods(void) {
         const double z = longest(rows[which].order, -1.0);
         double limit_s[PLACES];
         char text[400];
-        char place[100];
+        char across[100];
         for (int i = 0; i < PLACES; i++) {
             limit_s[i] = z / rate / (1.0 + 0.1 * i);
         }
@@ -210,8 +210,8 @@ static void test_decays_of_all_methods(void) {
                  "mechanism decay\nstate x [m]\nparameter s = 1\nequation x' = -%.17g [1/s]*s*x\n"
                  "scene s { start x = 1 [m]; step 1 [s]; until %.17g [s] }\n",
                  rate, 1000.0 * z / rate);
-        snprintf(place, sizeof place, "s=1..1.2:%d", PLACES);
-        hold_drawn(&d, text, rows[which].method, place, limit_s, 1e-3, &sum);
+        snprintf(across, sizeof across, "s=1..1.2:%d", PLACES);
+        hold_drawn(&d, text, rows[which].method, across, limit_s, 1e-3, &sum);
     }
     printf("  %u decays: %u within, %u beyond; theory %.1e off\n", cases, sum.within, sum.beyond,
            sum.off);
@@ -227,8 +227,8 @@ static void test_no_limit(void) {
     const wh_method methods[] = {WH_EULER, WH_HEUN};
     for (int i = 0; i < 2; i++) {
         drawn_map m;
-        open_map(&m, &(map_asked){spring_text, {"step=0.5..2:4", "k=1..4:3"}, methods[i], 1e-3,
-                                  NULL, NULL});
+        open_map(&m, &(map_asked){
+                         spring_text, {"step=0.5..2:4", "k=1..4:3"}, methods[i], 1e-3, NULL, NULL});
         for (uint64_t p = 0; p < PLACES; p++) {
             TEST_ASSERT_EQUAL_DOUBLE(0.0, m.map.limit_s[p]);
         }
@@ -289,8 +289,8 @@ static void test_pairs_without_a_run(void) {
         "stop z >= 0 [m] restitution e\n"
         "scene s { start z = 1 [m]; step 1 [ms]; until 0.2 [s] }\n";
     drawn_map m;
-    open_map(&m, &(map_asked){spring_text, {"step=0.01..400:2", "m=0..1:2"}, WH_RK4, 1e-3, NULL,
-                              NULL});
+    open_map(&m,
+             &(map_asked){spring_text, {"step=0.01..400:2", "m=0..1:2"}, WH_RK4, 1e-3, NULL, NULL});
     TEST_ASSERT_EQUAL_INT(MAP_NONE, cell_of(&m, 0, 0)->verdict);
     TEST_ASSERT_EQUAL_INT(MAP_KEEPS, cell_of(&m, 1, 0)->verdict);
     TEST_ASSERT_EQUAL_INT(MAP_NONE, cell_of(&m, 1, 1)->verdict);
@@ -317,8 +317,9 @@ static void stop_after_six(double runs, void *told) {
 static void test_stopped_maps_keep_what_is_done(void) {
     drawn_map m;
     stop = 0;
-    open_map(&m, &(map_asked){spring_text, {"step=0.1..4:4", "k=1..4:3"}, WH_RK4, 1e-3, &stop,
-                              stop_after_six});
+    open_map(&m,
+             &(map_asked){
+                 spring_text, {"step=0.1..4:4", "k=1..4:3"}, WH_RK4, 1e-3, &stop, stop_after_six});
     TEST_ASSERT_EQUAL_UINT64(6, m.map.done);
     TEST_ASSERT_EQUAL_UINT64(6, map_count(&m.map, MAP_UNTRIED));
     TEST_ASSERT_DOUBLE_WITHIN(1e-3, sqrt(8.0), m.map.limit_s[0]);
@@ -355,9 +356,8 @@ static void test_words_that_are_refused(void) {
         said what;
         command_say(command_map, wrong[i], &what);
         TEST_ASSERT_EQUAL_INT_MESSAGE(2, what.status, what.err);
-        TEST_ASSERT_TRUE_MESSAGE(strstr(what.err, "error: ") != NULL ||
-                                     strstr(what.err, "usage: ") != NULL,
-                                 what.err);
+        TEST_ASSERT_TRUE_MESSAGE(
+            strstr(what.err, "error: ") != NULL || strstr(what.err, "usage: ") != NULL, what.err);
         TEST_ASSERT_EQUAL_STRING("", what.out);
     }
 }
