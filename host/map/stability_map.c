@@ -96,8 +96,8 @@ static map_images images_at(const map_wish *w, uint64_t point) {
 /* Growth and decay below this part of the frequency are those of the differences that linearise. */
 #define DAMPING_LEAST 1e-6
 
-/* The longest step that lets none of these motions grow but those that grow by themselves. */
-static double longest_stable_s(const linearised *l, wh_method method) {
+/* The longest step that lets none of these motions grow, but for those that grow by themselves or take part by less. */
+static double longest_of(const linearised *l, wh_method method, double share) {
     double limit_s = NAN;
     for (int i = 0; i < l->motions; i++) {
         const linear_motion *each = &l->motion[i];
@@ -106,12 +106,18 @@ static double longest_stable_s(const linearised *l, wh_method method) {
         if (fabs(direction.re) < DAMPING_LEAST) {
             direction.re = 0.0;
         }
-        if (size > 0.0 && direction.re <= 0.0 && each->share >= SHARE_LEAST) {
+        if (size > 0.0 && direction.re <= 0.0 && each->share >= share) {
             const double longest_s = limits_interval(method, l->form, direction) / size;
             limit_s = number_least(longest_s, limit_s);
         }
     }
     return limit_s;
+}
+
+/* Where all has come to rest between two records none is seen to take part: then of all. */
+static double longest_stable_s(const linearised *l, wh_method method) {
+    const double limit_s = longest_of(l, method, SHARE_LEAST);
+    return isnan(limit_s) ? longest_of(l, method, 0.0) : limit_s;
 }
 
 static bool is_stopped(const map_wish *w) { return w->stop != NULL && *w->stop; }

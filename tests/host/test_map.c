@@ -69,10 +69,10 @@ static const map_cell *cell_of(const drawn_map *m, uint64_t across, uint64_t at)
 /* |R(z)| of Runge and Kutta's methods with as many stages as their order: exp() cut off behind z^order. */
 static double growth(int order, double complex z) {
     double complex sum = 1.0;
-    double complex term = 1.0;
+    double complex next = 1.0;
     for (int k = 1; k <= order; k++) {
-        term *= z / k;
-        sum += term;
+        next *= z / k;
+        sum += next;
     }
     return cabs(sum);
 }
@@ -94,18 +94,19 @@ static double longest(int order, double complex direction) {
 
 /* `order`: of those whose polynomial is known by that. Else where an undamped oscillation ends: 2 of leapfrog's and
  * semi-implicit Euler's (Hairer, Lubich & Wanner, Geometric Numerical Integration, section I.1), and of Nystroem's methods
- * what docs/stability.md has of runs of 40,000 steps. */
+ * what docs/stability.md has of runs of 40,000 steps. `steps`: what grows by a hundred, 2 % beyond the limit. */
 static const struct {
     wh_method method;
     int order;
     double undamped;
     double known_to;
-} rows[] = {{WH_RK4, 4, 0.0, 1e-3},         {WH_EULER, 1, 0.0, 1e-3},
-            {WH_LEAPFROG, 0, 2.0, 1e-3},    {WH_HEUN, 2, 0.0, 1e-3},
-            {WH_RK38, 4, 0.0, 1e-3},        {WH_SEMI_IMPLICIT_EULER, 0, 2.0, 1e-3},
-            {WH_NYSTROEM3, 0, 2.141, 3e-3}, {WH_NYSTROEM4, 0, 2.586, 3e-3},
-            {WH_NYSTROEM5, 0, 2.395, 3e-3}};
-enum { ROWS = sizeof rows / sizeof rows[0], STEPS = 49, PLACES = 3 };
+    double steps;
+} rows[] = {{WH_RK4, 4, 0.0, 1e-3, 1e3},         {WH_EULER, 1, 0.0, 1e-3, 2e4},
+            {WH_LEAPFROG, 0, 2.0, 1e-3, 1e3},    {WH_HEUN, 2, 0.0, 1e-3, 1e3},
+            {WH_RK38, 4, 0.0, 1e-3, 1e3},        {WH_SEMI_IMPLICIT_EULER, 0, 2.0, 1e-3, 1e3},
+            {WH_NYSTROEM3, 0, 2.141, 3e-3, 1e3}, {WH_NYSTROEM4, 0, 2.586, 3e-3, 1e3},
+            {WH_NYSTROEM5, 0, 2.395, 3e-3, 2e4}};
+enum { ROWS = sizeof rows / sizeof rows[0], STEPS = 25, PLACES = 3 };
 
 typedef struct tally {
     unsigned within, beyond;
@@ -124,12 +125,14 @@ static void hold_to(const map_asked *a, const double *limit_s, double known_to, 
         for (uint64_t i = 0; i < STEPS; i++) {
             const double part = map_along(&m.map, i) / limit_s[p];
             const map_cell *c = cell_of(&m, p, i);
+            char what[900];
+            snprintf(what, sizeof what, "%s: %.5g of the limit, %s\n%s", wh_methods[a->method].word,
+                     part, map_verdicts[c->verdict].word, a->text);
             if (part < 1.0 - 0.003 - known_to) {
-                TEST_ASSERT_TRUE_MESSAGE(c->verdict != MAP_DIVERGES && c->verdict != MAP_NONE,
-                                         a->text);
+                TEST_ASSERT_TRUE_MESSAGE(c->verdict < MAP_DIVERGES, what);
                 sum->within++;
             } else if (part > 1.02) {
-                TEST_ASSERT_EQUAL_INT_MESSAGE(MAP_DIVERGES, c->verdict, a->text);
+                TEST_ASSERT_EQUAL_INT_MESSAGE(MAP_DIVERGES, c->verdict, what);
                 sum->beyond++;
             }
         }
@@ -158,7 +161,7 @@ static void hold_drawn(dice *d, const char *text, wh_method method, const char *
 /* m x'' + c x' + k x = 0, of all masses and stiffnesses, undamped and damped below the critical. */
 static void test_springs_of_all_methods(void) {
     dice d = dice_of("map", 1421);
-    const unsigned cases = dice_cases(few_or_all(usual_or(2, 1), 8) * ROWS);
+    const unsigned cases = dice_cases(few_or_all(1, 6) * ROWS);
     tally sum = {0};
     for (unsigned k = 0; k < cases; k++) {
         const wh_method method = rows[k % ROWS].method;
@@ -180,15 +183,16 @@ static void test_springs_of_all_methods(void) {
         snprintf(text, sizeof text,
                  "mechanism spring\ncoordinate x [m]\nparameter s = 1\nT = %.17g [kg]*s^2*x'^2/2\n"
                  "V = %.17g [N/m]*x^2/2\nF = %.17g [N*s/m]*s*x'^2/2\n"
-                 "scene s { start x = 1 [m]; step 1 [s]; until %.17g [s] }\n",
-                 mass_kg, mass_kg * w * w, 2.0 * zeta * w * mass_kg, 1000.0 * z / w);
+                 "scene s { start x = 1 [m]; step %.17g [s]; until %.17g [s] }\n",
+                 mass_kg, mass_kg * w * w, 2.0 * zeta * w * mass_kg, z / w,
+                 rows[k % ROWS].steps * z / w);
         snprintf(across, sizeof across, "s=1..1.2:%d", PLACES);
         hold_drawn(&d, text, method, across, limit_s, rows[k % ROWS].known_to, &sum);
     }
     printf("  %u springs: %u runs within the limit, none out of bounds; %u beyond, all are; theory "
            "%.1e off\n",
            cases, sum.within, sum.beyond, sum.off);
-    TEST_ASSERT_TRUE(sum.within > cases * 30 && sum.beyond > cases * 20);
+    TEST_ASSERT_TRUE(sum.within > cases * 20 && sum.beyond > cases * 20);
 }
 
 /* x' = -a x, which has no energy. */
@@ -208,14 +212,14 @@ static void test_decays_of_all_methods(void) {
         }
         snprintf(text, sizeof text,
                  "mechanism decay\nstate x [m]\nparameter s = 1\nequation x' = -%.17g [1/s]*s*x\n"
-                 "scene s { start x = 1 [m]; step 1 [s]; until %.17g [s] }\n",
-                 rate, 1000.0 * z / rate);
+                 "scene s { start x = 1 [m]; step %.17g [s]; until %.17g [s] }\n",
+                 rate, z / rate, 1000.0 * z / rate);
         snprintf(across, sizeof across, "s=1..1.2:%d", PLACES);
         hold_drawn(&d, text, rows[which].method, across, limit_s, 1e-3, &sum);
     }
     printf("  %u decays: %u within, %u beyond; theory %.1e off\n", cases, sum.within, sum.beyond,
            sum.off);
-    TEST_ASSERT_TRUE(sum.within > cases * 30 && sum.beyond > cases * 20);
+    TEST_ASSERT_TRUE(sum.within > cases * 20 && sum.beyond > cases * 20);
 }
 
 static const char spring_text[] =
@@ -228,7 +232,7 @@ static void test_no_limit(void) {
     for (int i = 0; i < 2; i++) {
         drawn_map m;
         open_map(&m, &(map_asked){
-                         spring_text, {"step=0.5..2:4", "k=1..4:3"}, methods[i], 1e-3, NULL, NULL});
+                         spring_text, {"step=0.2..2:4", "k=1..4:3"}, methods[i], 1e-3, NULL, NULL});
         for (uint64_t p = 0; p < PLACES; p++) {
             TEST_ASSERT_EQUAL_DOUBLE(0.0, m.map.limit_s[p]);
         }
@@ -240,7 +244,8 @@ static void test_no_limit(void) {
 /* --- the tolerance and the energy ------------------------------------------------------------------------*/
 
 /* Runge-Kutta 4's phase is (h w)^5/120 a step off and its energy (h w)^6/72: over w T that is w T z^4/120 of the amplitude,
- * half of which is a part of the range, and w T z^5/72 of the energy. */
+ * half of which is a part of the range, and w T z^5/72 of the energy. Of its books the largest entry is what changes of
+ * speed passed on, half the root mean square of the momentum times the swing of the rate: root 2 of the energy. */
 static void test_where_a_tolerance_and_the_energy_end(void) {
     dice d = dice_of("map tolerance", 1423);
     const unsigned cases = dice_cases(few_or_all(usual_or(8, 4), 32));
@@ -250,13 +255,14 @@ static void test_where_a_tolerance_and_the_energy_end(void) {
         const double radians = dice_between(&d, 100.0, 400.0);
         const double tolerance = pow(10.0, dice_between(&d, -4.0, -2.5));
         const double right = pow(240.0 * tolerance / radians, 0.25);
-        const double kept = pow(72.0 * 1e-3 / radians, 0.2);
+        const double kept = pow(72.0 * sqrt(2.0) * 1e-3 / radians, 0.2);
         char text[400];
         char step[100];
-        snprintf(text, sizeof text,
-                 "mechanism spring\ncoordinate x [m]\nparameter k = 1 [N/m]\nT = 1 [kg]*x'^2/2\n"
-                 "V = %.17g*k*x^2/2\nscene s { start x = 1 [m]; step 1 [s]; until %.17g [s] }\n",
-                 w * w, radians / w);
+        snprintf(
+            text, sizeof text,
+            "mechanism spring\ncoordinate x [m]\nparameter k = 1 [N/m]\nT = 1 [kg]*x'^2/2\n"
+            "V = %.17g*k*x^2/2\nscene s { start x = 1 [m]; step %.17g [s]; until %.17g [s] }\n",
+            w * w, 0.1 / w, radians / w);
         snprintf(step, sizeof step, "step=%.17g..%.17g:40,log", 0.03 / w, 0.5 / w);
         drawn_map m;
         open_map(&m, &(map_asked){text, {step, "k=1..1:1"}, WH_RK4, tolerance, NULL, NULL});
