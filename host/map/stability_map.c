@@ -157,12 +157,12 @@ static double limit_at(const map_wish *w, uint64_t point) {
 
 /* --- a row ---------------------------------------------------------------------------------------------*/
 
-/* Its runs are judged by the least range that each column has had in a finer run: that of the finest, unless this is
- * out of bounds itself. */
+/* Its runs are judged by the range that each column has in the first of them, the finest: of a coarse one the looks are
+ * few, and where half its step is too long as well, the finer one grows with it. */
 typedef struct row_runs {
     const map_wish *wish;
     stability_map *map;
-    double *range; /* [columns], in the columns' units; NULL: none yet */
+    double *range; /* [columns], in the columns' units; NULL: not known yet */
 } row_runs;
 
 /* Is there no column of its derivative? */
@@ -177,10 +177,9 @@ static bool is_highest(const twins *t, int k) {
 }
 
 static void take_ranges(row_runs *p, const horizon *h) {
-    const bool first = p->range == NULL;
-    p->range = first ? room(h->of->columns, sizeof *p->range) : p->range;
+    p->range = room(h->of->columns, sizeof *p->range);
     for (int k = 1; k < h->of->columns; k++) {
-        p->range[k] = first ? h->column[k].range : number_least(p->range[k], h->column[k].range);
+        p->range[k] = h->column[k].range;
     }
 }
 
@@ -199,7 +198,9 @@ static map_cell cell_of(row_runs *p, const twins *t) {
     const map_wish *w = p->wish;
     horizon h = horizon_of(t, w->tolerance);
     map_cell cell = {.verdict = MAP_OFF, .end_s = t->end_s, .until_s = h.until_s, .left_over = NAN};
-    take_ranges(p, &h);
+    if (p->range == NULL) {
+        take_ranges(p, &h);
+    }
     if (t->books != NULL) {
         const belief b = belief_of(t->books, w->kind, t->run);
         cell.left_over = b.known ? b.ratio : (double)NAN;

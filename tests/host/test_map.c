@@ -241,6 +241,37 @@ static void test_no_limit(void) {
     }
 }
 
+/* What has grown twentyfold is bounded, ten thousandfold is not; and where half the step is too long as well, so that the
+ * two runs grow alike, the finest run of the row tells. */
+static void test_what_bounds_are(void) {
+    dice d = dice_of("map bounds", 1424);
+    for (unsigned k = 0; k < dice_cases(12); k++) {
+        const double w = pow(10.0, dice_between(&d, -1.0, 2.0));
+        const double z = dice_between(&d, 2.95, 3.2);
+        const double grown = k % 2 == 0 ? 20.0 : 1e4;
+        const double far = dice_between(&d, 7.0, 12.0);
+        const double steps = ceil(log(grown) / log(growth(4, z * (double complex)I)));
+        const double until[2] = {steps * z, 6.0 * far};
+        const double step[2] = {z, far};
+        for (int i = 0; i < 2; i++) {
+            char text[400];
+            char over[100];
+            snprintf(
+                text, sizeof text,
+                "mechanism spring\ncoordinate x [m]\nparameter k = 1 [N/m]\nT = 1 [kg]*x'^2/2\n"
+                "V = %.17g*k*x^2/2\nscene s { start x = 1 [m]; step %.17g [s]; until %.17g [s] }\n",
+                w * w, 0.1 / w, until[i] / w);
+            snprintf(over, sizeof over, "step=%.17g..%.17g:2", 0.1 / w, step[i] / w);
+            drawn_map m;
+            open_map(&m, &(map_asked){text, {over, "k=1..1:1"}, WH_RK4, 1e-3, NULL, NULL});
+            TEST_ASSERT_TRUE_MESSAGE(cell_of(&m, 0, 0)->verdict < MAP_LOSES, text);
+            TEST_ASSERT_EQUAL_INT_MESSAGE(i == 0 && grown < 100.0 ? MAP_LOSES : MAP_DIVERGES,
+                                          cell_of(&m, 0, 1)->verdict, text);
+            close_map(&m);
+        }
+    }
+}
+
 /* --- the tolerance and the energy ------------------------------------------------------------------------*/
 
 /* Runge-Kutta 4's phase is (h w)^5/120 a step off and its energy (h w)^6/72: over w T that is w T z^4/120 of the amplitude,
@@ -372,6 +403,7 @@ void suite_map(void) {
     RUN_TEST(test_springs_of_all_methods);
     RUN_TEST(test_decays_of_all_methods);
     RUN_TEST(test_no_limit);
+    RUN_TEST(test_what_bounds_are);
     RUN_TEST(test_where_a_tolerance_and_the_energy_end);
     RUN_TEST(test_pairs_without_a_run);
     RUN_TEST(test_stopped_maps_keep_what_is_done);
