@@ -41,18 +41,23 @@ static void set_axis(FILE *to, const axis *a, char letter, const char *unit) {
     fprintf(to, "set %crange [%.17g:%.17g]\n", letter, edge(a, least, false), edge(a, most, true));
 }
 
-/* x, y and the cell's edges. */
+/* x, y and the edges of each stretch of cells of a row that have this verdict. */
 static void write_cells(FILE *to, const stability_map *m, map_verdict verdict) {
     const axis *along = &m->grid->axes[m->along];
     const axis *rows = &m->grid->axes[1 - m->along];
     fprintf(to, "$%s << EOD\n", map_verdicts[verdict].word);
     for (uint64_t row = 0; row < rows->count; row++) {
+        const double y = map_row(m, row);
         for (uint64_t at = 0; at < along->count; at++) {
-            if (m->cell[map_point(m, row, at)].verdict == verdict) {
-                const double x = map_along(m, at);
-                const double y = map_row(m, row);
-                fprintf(to, "%.9g %.9g %.9g %.9g %.9g %.9g\n", x, y, edge(along, x, false),
-                        edge(along, x, true), edge(rows, y, false), edge(rows, y, true));
+            const uint64_t from = at;
+            while (at < along->count && m->cell[map_point(m, row, at)].verdict == verdict) {
+                at++;
+            }
+            if (at > from) {
+                fprintf(to, "%.9g %.9g %.9g %.9g %.9g %.9g\n", map_along(m, from), y,
+                        edge(along, map_along(m, from), false),
+                        edge(along, map_along(m, at - 1), true), edge(rows, y, false),
+                        edge(rows, y, true));
             }
         }
     }
@@ -95,7 +100,7 @@ bool map_plot(const char *file, const stability_map *m, const char *words) {
     fputs(" noenhanced\n", g.to);
     set_axis(g.to, &m->grid->axes[m->along], 'x', m->has_limit ? " [s]" : "");
     set_axis(g.to, &m->grid->axes[1 - m->along], 'y', "");
-    fputs("set key outside bottom center horizontal\nset tics out\nset style fill solid noborder\n",
+    fputs("set key outside right top samplen 2\nset tics out\nset style fill solid noborder\n",
           g.to);
     for (int i = 0; i < MAP_VERDICTS; i++) {
         if (is_drawn(m, i)) {
@@ -112,8 +117,7 @@ bool map_plot(const char *file, const stability_map *m, const char *words) {
         }
     }
     if (limits > 0) {
-        fprintf(g.to, "%s$limit with lines lw 3 lc rgb 'black' title 'longest stable step, theory'",
-                comma);
+        fprintf(g.to, "%s$limit with lines lw 3 lc rgb 'black' title 'limit of theory'", comma);
     } else if (*comma == 'p') {
         fputs("plot NaN notitle", g.to);
     }
