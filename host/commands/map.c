@@ -9,7 +9,6 @@
 #include "commands.h"
 #include "files.h"
 #include "host/base/room.h"
-#include "host/fixed/engine_fixed.h"
 #include "host/map/map_plot.h"
 #include "host/map/map_text.h"
 #include "host/number/decimal.h"
@@ -25,6 +24,8 @@ enum { AXES = 2 };
 #define PAIRS_MOST 250000
 /* Seconds that an effort of 1 may take, about. */
 #define SECONDS 60.0
+/* What looking, books and comparing take of operations, about, beside those of the step's lists. */
+#define OPERATIONS_A_STEP 200.0
 #define EFFORT_LEAST 1e-4
 #define EFFORT_MOST 1e4
 
@@ -140,12 +141,6 @@ static bool is_whole(const map_options *o) {
         fputs("whirl map: error: --csv and --plot cannot share a file\n", stderr);
         return false;
     }
-    if (o->common.number == &engine_fixed) {
-        fputs("whirl map: error: --number is double or float here\nhint: fixed point has formats "
-              "of its own for each pair; `whirl run --number fixed` tells of one\n",
-              stderr);
-        return false;
-    }
     return true;
 }
 
@@ -242,7 +237,9 @@ static double seconds_of(const grid *g, const image *base) {
         }
     }
     runs = runs > 0.0 ? runs : (double)g->points;
-    return runs * twins_operations(base, base) / TRUSTING_OPERATIONS_1S;
+    const double operations =
+        twins_operations(base, base) + OPERATIONS_A_STEP * (double)base->steps;
+    return runs * operations / TRUSTING_OPERATIONS_1S;
 }
 
 static bool is_affordable(const map_options *o, const grid *g, const image *base) {

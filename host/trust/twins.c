@@ -38,7 +38,8 @@ static void make_finer(twins *t, const twins_wish *w) {
     t->finer.settings.compensated = true;
     t->each = 1;
     t->left_out = 1.0;
-    if (im->settings.matrix == MATRIX_EXACT) {
+    if (im->settings.matrix == MATRIX_EXACT) { /* whose list is made for sums of one kind */
+        t->finer.settings.compensated = im->settings.compensated;
         t->finer.list[IMAGE_MATRIX] = im->list[IMAGE_MATRIX];
         return;
     }

@@ -3,7 +3,7 @@
  * The finer run takes half the step, in double with compensated sums, computes what the run looks up in tables, and
  * takes the run's method where that is of order 4 or more, else RK4. So it differs from the run in all that puts the run
  * off: rounding, the step, tables, formats. Its own error is a part of that. Of a step that is the motion itself
- * (--matrix exact) it takes the same, and tells what rounding does. */
+ * (--matrix exact) it takes the same in double, with sums like the run's, and tells what float's rounding does. */
 #ifndef TRUST_TWINS_H
 #define TRUST_TWINS_H
 

@@ -110,7 +110,8 @@ enum { ROWS = sizeof rows / sizeof rows[0], STEPS = 25, PLACES = 3 };
 
 typedef struct tally {
     unsigned within, beyond;
-    double off; /* the theory's, from the closed form */
+    double off;      /* the theory's, from the closed form */
+    double off_runs; /* and from runs, where there is none */
 } tally;
 
 /* A scene of size w of `unit` 1/s at scale 1, whose limit is `z` over that times the root of the scale. */
@@ -121,7 +122,8 @@ static void hold_to(const map_asked *a, const double *limit_s, double known_to, 
     for (uint64_t p = 0; p < PLACES; p++) {
         const double off = fabs(m.map.limit_s[p] / limit_s[p] - 1.0);
         TEST_ASSERT_TRUE_MESSAGE(off < known_to, a->text);
-        sum->off = fmax(sum->off, off);
+        double *worst = known_to > 1e-3 ? &sum->off_runs : &sum->off;
+        *worst = fmax(*worst, off);
         for (uint64_t i = 0; i < STEPS; i++) {
             const double part = map_along(&m.map, i) / limit_s[p];
             const map_cell *c = cell_of(&m, p, i);
@@ -190,8 +192,8 @@ static void test_springs_of_all_methods(void) {
         hold_drawn(&d, text, method, across, limit_s, rows[k % ROWS].known_to, &sum);
     }
     printf("  %u springs: %u runs within the limit, none out of bounds; %u beyond, all are; theory "
-           "%.1e off\n",
-           cases, sum.within, sum.beyond, sum.off);
+           "%.1e off, of Nystroem's %.1e\n",
+           cases, sum.within, sum.beyond, sum.off, sum.off_runs);
     TEST_ASSERT_TRUE(sum.within > cases * 20 && sum.beyond > cases * 20);
 }
 
