@@ -5,8 +5,9 @@ set -eu
 whirl=${1:?usage: maps.sh WHIRL DOCS}
 docs=${2:?usage: maps.sh WHIRL DOCS}
 mkdir -p "$docs/figures"
-grep '^build/whirl map .*--plot docs/figures/map_' "$docs/stability.md" | while read -r call; do
-    words=${call#build/whirl }
-    eval "\"\$whirl\" ${words%docs/figures/*}\"\$docs\"/figures/${words##*/} --quiet"
-    echo "Drawn: $docs/figures/${words##*/}"
-done
+sed -e ':join' -e '/\\$/{N;s/ *\\\n */ /;b join' -e '}' "$docs/stability.md" | grep '^build/whirl map .*--plot docs/figures/map_' |
+    while read -r call; do
+        words=${call#build/whirl }
+        eval "\"\$whirl\" ${words%docs/figures/*}\"\$docs\"/figures/${words##*/} --quiet"
+        echo "Drawn: $docs/figures/${words##*/}"
+    done
