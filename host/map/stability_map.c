@@ -98,7 +98,7 @@ static map_images images_at(const map_wish *w, uint64_t point) {
 
 /* The longest step that lets none of these motions grow, but for those that grow by themselves or take part by less. */
 static double longest_of(const linearised *l, wh_method method, double share) {
-    double limit_s = NAN;
+    double limit_s = (double)NAN;
     for (int i = 0; i < l->motions; i++) {
         const linear_motion *each = &l->motion[i];
         const double size = complex_size(each->value);
@@ -141,7 +141,7 @@ static void watch_run(const map_wish *w, const image *im, watch *seen) {
 /* Of the run of this point: NAN where it is not known. */
 static double limit_at(const map_wish *w, uint64_t point) {
     map_images made = images_at(w, point);
-    double limit_s = NAN;
+    double limit_s = (double)NAN;
     if (made.of != NULL && made.of->contacts == 0 && w->settings.matrix != MATRIX_EXACT) {
         const wh_method method = w->settings.matrix == MATRIX_RK4 ? WH_RK4 : w->settings.method;
         watch *seen = watch_open(made.of, w->kind);
@@ -197,7 +197,8 @@ static bool is_out_of_bounds(const row_runs *p, const horizon *h) {
 static map_cell cell_of(row_runs *p, const twins *t) {
     const map_wish *w = p->wish;
     horizon h = horizon_of(t, w->tolerance);
-    map_cell cell = {.verdict = MAP_OFF, .end_s = t->end_s, .until_s = h.until_s, .left_over = NAN};
+    map_cell cell = {
+        .verdict = MAP_OFF, .end_s = t->end_s, .until_s = h.until_s, .left_over = (double)NAN};
     if (p->range == NULL) {
         take_ranges(p, &h);
     }
@@ -225,7 +226,7 @@ static void show_share(double share, void *told) {
 static void try_point(row_runs *p, uint64_t point) {
     const map_wish *w = p->wish;
     map_images made = images_at(w, point);
-    map_cell cell = {.verdict = MAP_NONE, .left_over = NAN};
+    map_cell cell = {.verdict = MAP_NONE, .left_over = (double)NAN};
     bool whole = true;
     if (made.of != NULL) {
         const twins_wish wish = {.image = made.of,
@@ -281,10 +282,10 @@ stability_map map_make(const map_wish *w) {
     m.cell = room((int64_t)g->points, sizeof *m.cell);
     m.limit_s = room((int64_t)rows, sizeof *m.limit_s);
     for (uint64_t i = 0; i < g->points; i++) {
-        m.cell[i] = (map_cell){.verdict = MAP_UNTRIED, .left_over = NAN};
+        m.cell[i] = (map_cell){.verdict = MAP_UNTRIED, .left_over = (double)NAN};
     }
     for (uint64_t i = 0; i < rows; i++) {
-        m.limit_s[i] = NAN;
+        m.limit_s[i] = (double)NAN;
     }
     for (uint64_t i = 0; i < rows && !is_stopped(w); i++) {
         try_row(w, &m, i);
