@@ -369,7 +369,7 @@ if command -v gnuplot >/dev/null 2>&1; then
 fi
 
 # --- an option twice: one value would take the place of the other ---------------------------------------------------
-for command in run derive price choose sweep; do
+for command in run derive price choose sweep map; do
     "$whirl" $command --help | grep -oE '^ +--[a-z-]+( [^ ]|=)|^ *--.*as for|--[a-z]+' | grep -oE -- '--[a-z]+' | sort -u |
         grep -vxE -- '--(set|start|with|without|over|measure|vary|help|quiet|strict|compensated|all|resume|force|dry|steps|ranges)' >"$scratch/options"
     twice=0
