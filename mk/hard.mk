@@ -74,3 +74,7 @@ hashes-hard: build/whirl $(HARD_C) ## the same bits on every board of the hard c
 	    $(foreach h,$(HARD_BUILDS),$(h) build/hash/$(h)/scenes_hard) \
 	    $(foreach h,$(HARD_HOSTS),"$(h)" "$(host_run_$(h)) build/hosts/$(h)/scenes_hard") \
 	    $(foreach b,$(HARD_BOARDS),"$(b)" "$(call on_board,$(b),print-hard-hashes)")
+
+.PHONY: guards
+guards: build/tests/host ## takes each guard of a hard case away: does a test fail? (minutes; in a copy of the tree)
+	@MAKE="$(MAKE)" sh mk/mutants/guards.sh
