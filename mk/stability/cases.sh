@@ -6,7 +6,8 @@ whirl=${1:-build/whirl}
 here=$(dirname "$0")
 out=build/figures/hard
 command -v gnuplot >/dev/null || { echo "cases.sh: gnuplot is missing; 'make deps' installs it" >&2; exit 1; }
-rm -rf "$out/data"
+rm -rf "$out"
+mkdir -p "$out"
 # What a run says of the step, the range or the angle is what the page is about.
 sh "$here/../figures/figures.sh" "$whirl" "$out" "$here"/*.fig 2>"$out.said" || { cat "$out.said" >&2; exit 1; }
 mkdir -p docs/figures/hard

@@ -54,8 +54,8 @@ static breaking run_breaking(const char *scene, const char *second, const engine
         TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
         const double t = i * step_s;
         const double wanted = moved_m(t, factor, against);
-        const double off = fmax(fabs(motion_value(&m, first) - wanted),
-                                fabs(motion_value(&m, second) - wanted));
+        const double off =
+            fmax(fabs(motion_value(&m, first) - wanted), fabs(motion_value(&m, second) - wanted));
         b.off_m = fmax(b.off_m, off);
         if (t < t0 - step_s) {
             b.at_rest_m = fmax(b.at_rest_m, off);
@@ -102,8 +102,8 @@ static void test_two_blocks_break_loose_together(void) {
 static void slide(double p, double s, int pressed, double *v, double *x) {
     const double w = PHASE_RATE;
     const double k = pressed ? KINETIC * LOAD_N : 0.0;
-    *x += *v * s + PULL_N * s * s / 2.0 +
-          k / (w * w) * (cos(p + w * s) - cos(p)) + k / w * sin(p) * s;
+    *x += *v * s + PULL_N * s * s / 2.0 + k / (w * w) * (cos(p + w * s) - cos(p)) +
+          k / w * sin(p) * s;
     *v += PULL_N * s - k / w * (sin(p + w * s) - sin(p));
 }
 
@@ -136,7 +136,7 @@ static double pulled_m(double t, double *speed) {
     const double w = PHASE_RATE;
     const double quarter = acos(-1.0) / 2.0;
     const double loose = acos(PULL_N / (STATIC * LOAD_N)); /* where it breaks loose */
-    double now = 0.0; /* phase */
+    double now = 0.0;                                      /* phase */
     double v = 0.0;
     double x = 0.0;
     const double end = w * t;

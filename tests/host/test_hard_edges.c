@@ -74,9 +74,10 @@ static void test_a_floor_stiffer_than_the_step_bears(void) {
             TEST_ASSERT_EQUAL_STRING_MESSAGE("", what.err, about);
         }
     }
-    printf("  %u floors, h w from 0.01 to 100: %u change the energy by more than 2 %%, all told; %u "
-           "sound\n",
-           cases, gone, sound);
+    printf(
+        "  %u floors, h w from 0.01 to 100: %u change the energy by more than 2 %%, all told; %u "
+        "sound\n",
+        cases, gone, sound);
     TEST_ASSERT_TRUE(gone > cases / 10 && sound > cases / 10);
 }
 
@@ -117,11 +118,9 @@ static double jumps_off_m(dice *d, double step_s, image_matrix_of matrix) {
     motion m;
     double x = 0.0;
     double v = 0.0;
-    motion_open_file(&m, HARD "jump.whirl", "scene drawn { start t' = 1 }\n", "drawn",
-                     (stepping){.kind = &engine_double,
-                                .method = WH_RK4,
-                                .step_s = step_s,
-                                .matrix = matrix});
+    motion_open_file(
+        &m, HARD "jump.whirl", "scene drawn { start t' = 1 }\n", "drawn",
+        (stepping){.kind = &engine_double, .method = WH_RK4, .step_s = step_s, .matrix = matrix});
     for (int i = 0; i < 10; i++) {
         const double u = dice_between(d, -10.0, 10.0);
         const int steps = 8 * (10 + (int)dice_one_of(d, 40));
@@ -187,11 +186,9 @@ static double swing_off(double A_m, const engine_kind *kind, bool compensated) {
     motion m;
     double most = 0.0;
     snprintf(set, sizeof set, "A=%.17g", A_m);
-    motion_open_file(&m, HARD "scales.whirl", "", "scales_usual",
-                     (stepping){.kind = kind,
-                                .method = WH_RK4,
-                                .compensated = compensated,
-                                .set = set});
+    motion_open_file(
+        &m, HARD "scales.whirl", "", "scales_usual",
+        (stepping){.kind = kind, .method = WH_RK4, .compensated = compensated, .set = set});
     for (int i = 1; i <= 1000 && isfinite(most); i++) {
         const bool stepped = motion_step(&m, 1) == WH_OK;
         const double off = fabs(motion_value(&m, "x") / A_m - cos(1e-2 * i));
@@ -222,7 +219,8 @@ static void scales(bool is_float, double least, double last) {
         told += tells(&what) ? 1U : 0U;
         right += off < 1e-4 ? 1U : 0U;
     }
-    printf("  %s: right at %u amplitudes, told of %u\n", is_float ? "float" : "double", right, told);
+    printf("  %s: right at %u amplitudes, told of %u\n", is_float ? "float" : "double", right,
+           told);
     TEST_ASSERT_TRUE(right > 20 && told > 2);
 }
 
@@ -309,9 +307,10 @@ static void test_two_bodies_of_very_different_mass(void) {
         TEST_ASSERT_EQUAL_INT_MESSAGE(2, what.status, set);
         TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, "singular mass matrix"), what.err);
     }
-    printf("  masses 1e-12 to 1e8 beside 1 kg: off by at most %.1e m in double, %.1e m in float; to "
-           "1e13: %.1e m\n",
-           worst[0], worst[1], beyond);
+    printf(
+        "  masses 1e-12 to 1e8 beside 1 kg: off by at most %.1e m in double, %.1e m in float; to "
+        "1e13: %.1e m\n",
+        worst[0], worst[1], beyond);
     TEST_ASSERT_TRUE(worst[0] > 1e-12 && worst[0] < 1e-8);
     TEST_ASSERT_TRUE(worst[1] > 1e-9 && worst[1] < 1e-5);
 }

@@ -22,9 +22,15 @@ void suite_hard_origin(void);
 /* What `whirl run` says of it; `set` may be NULL. */
 static void run_with(const char *target, const char *set, bool is_float, const char *step,
                      said *what) {
-    const char *words[] = {target,   "--quiet", "--number", is_float ? "float" : "double",
-                           "--step", step,      set != NULL ? "--set" : NULL,
-                           set,      NULL};
+    const char *words[] = {target,
+                           "--quiet",
+                           "--number",
+                           is_float ? "float" : "double",
+                           "--step",
+                           step,
+                           set != NULL ? "--set" : NULL,
+                           set,
+                           NULL};
     command_say(command_run, words, what);
 }
 
@@ -154,12 +160,13 @@ static flight flight_drawn(dice *d, double d_m) {
     const double rho2 = f.at[0] * f.at[0] + f.at[1] * f.at[1];
     const double r = sqrt(dot(f.at, f.at));
     const double r_rate = dot(f.at, f.rate) / r;
-    snprintf(f.text, sizeof f.text,
-             "scene drawn {\nset g = 0 [m/s^2]\nstart r = %.17g [m], theta = %.17g, phi = %.17g\n"
-             "start r' = %.17g [m/s], theta' = %.17g [rad/s], phi' = %.17g [rad/s]\nuntil 1 [s]\n}\n",
-             r, atan2(sqrt(rho2), f.at[2]), atan2(f.at[1], f.at[0]), r_rate,
-             (f.at[2] / r * r_rate - f.rate[2]) / sqrt(rho2),
-             (f.at[0] * f.rate[1] - f.at[1] * f.rate[0]) / rho2);
+    snprintf(
+        f.text, sizeof f.text,
+        "scene drawn {\nset g = 0 [m/s^2]\nstart r = %.17g [m], theta = %.17g, phi = %.17g\n"
+        "start r' = %.17g [m/s], theta' = %.17g [rad/s], phi' = %.17g [rad/s]\nuntil 1 [s]\n}\n",
+        r, atan2(sqrt(rho2), f.at[2]), atan2(f.at[1], f.at[0]), r_rate,
+        (f.at[2] / r * r_rate - f.rate[2]) / sqrt(rho2),
+        (f.at[0] * f.rate[1] - f.at[1] * f.rate[0]) / rho2);
     return f;
 }
 
@@ -168,11 +175,9 @@ static double flight_off_m(const flight *f, double step_s, const engine_kind *ki
     static const char *const names[] = {"x", "y", "z"};
     double sum = 0.0;
     motion m;
-    motion_open_more(&m, "spherical_particle.whirl", f->text,
-                     (stepping){.kind = kind,
-                                .method = WH_RK4,
-                                .compensated = compensated,
-                                .step_s = step_s});
+    motion_open_more(
+        &m, "spherical_particle.whirl", f->text,
+        (stepping){.kind = kind, .method = WH_RK4, .compensated = compensated, .step_s = step_s});
     const bool went = motion_step(&m, (uint64_t)(1.0 / step_s + 0.5)) == WH_OK;
     for (int i = 0; i < 3; i++) {
         const double off = motion_value(&m, names[i]) - (f->at[i] + f->rate[i]);
