@@ -20,13 +20,14 @@ build || { tail "$top/build.log" >&2; exit 1; }
 
 bad=0
 number=0
-while IFS='|' read -r name file change suites; do
+while IFS='@' read -r name file change suites; do
     case $name in '#'* | '') continue ;; esac
     number=$((number + 1))
     case " $* " in "  " | *" $number "*) ;; *) continue ;; esac
     file=$(echo "$file" | tr -d ' ')
     change=$(echo "$change" | sed 's/^ *//; s/ *$//')
     verdict="held by nothing"
+    held=""
     cp -p "$file" "$top/kept"
     sed "$change" "$file" >"$top/tree/$file"
     if cmp -s "$file" "$top/tree/$file"; then
@@ -35,10 +36,10 @@ while IFS='|' read -r name file change suites; do
         verdict="does not compile: $(grep -m 1 error "$top/build.log")"
     else
         for suite in $suites; do
-            # shellcheck disable=SC2016 # for the other shell
             (cd "$top/tree" && timeout 300 build/tests/host "$suite") >"$top/$suite.log" 2>&1 ||
-                verdict="held by $suite: $(grep -m 1 -o '[a-z_0-9]*:FAIL' "$top/$suite.log" || echo 'time or crash')"
+                held="$held, $suite ($(grep -o '[a-z_0-9]*:FAIL' "$top/$suite.log" | sed 's/:FAIL//' | head -n 1))"
         done
+        [ -z "$held" ] || verdict="held by ${held#, }"
     fi
     cp -p "$top/kept" "$top/tree/$file"
     touch "$top/tree/$file"

@@ -284,15 +284,15 @@ static void test_centres_crept_over(void) {
 }
 
 /* The scenes of docs/hard/dead_centre.whirl: the linkage with the numbers of that file. */
-static void check_scene(const char *scene, const machine *c, double until_s) {
+static void check_scene(const char *name, const machine *c, double until_s) {
     long double s[2];
     TEST_ASSERT_TRUE(reference(c, wide(until_s), s));
     for (int n = 0; n < 2; n++) {
         motion m;
-        motion_open_file(&m, "docs/hard/dead_centre.whirl", "", scene, n ? IN_FLOAT : IN_DOUBLE);
+        motion_open_file(&m, "docs/hard/dead_centre.whirl", "", name, n ? IN_FLOAT : IN_DOUBLE);
         motion_to(&m, until_s);
         const double off_rad = fabs(motion_value(&m, "a") - (double)s[0]);
-        printf("  %s, %s: %.9g rad, off by %.1e\n", scene, m.kind->name, (double)s[0], off_rad);
+        printf("  %s, %s: %.9g rad, off by %.1e\n", name, m.kind->name, (double)s[0], off_rad);
         TEST_ASSERT_TRUE(off_rad < (n ? 1e-2 : 1e-6));
         TEST_ASSERT_EQUAL_UINT64(0, contacts_overruns(&m));
         motion_close(&m);

@@ -13,9 +13,9 @@ void suite_hard_contacts(void);
 
 #define HARD "docs/hard/"
 
-static void open(motion *m, const char *file, const char *scene, const engine_kind *kind,
+static void open(motion *m, const char *file, const char *name, const engine_kind *kind,
                  double step_s) {
-    motion_open_file(m, file, "", scene,
+    motion_open_file(m, file, "", name,
                      (stepping){.kind = kind, .method = WH_RK4, .step_s = step_s});
 }
 
@@ -42,12 +42,12 @@ typedef struct breaking {
 } breaking;
 
 /* Until 1 s; both coordinates move as one. */
-static breaking run_breaking(const char *scene, const char *second, const engine_kind *kind,
+static breaking run_breaking(const char *name, const char *second, const engine_kind *kind,
                              double step_s, double factor, double against) {
     const char *first = second[0] == 's' ? "y" : "x";
     breaking b = {0.0, 0.0, 0};
     motion m;
-    open(&m, HARD "redundant.whirl", scene, kind, step_s);
+    open(&m, HARD "redundant.whirl", name, kind, step_s);
     const double t0 = asin(LIFTS_N / P0) / RATE;
     const int steps = (int)(1.0 / step_s + 0.5);
     for (int i = 1; i <= steps; i++) {
@@ -66,12 +66,12 @@ static breaking run_breaking(const char *scene, const char *second, const engine
     return b;
 }
 
-static void check_breaking(const char *scene, const char *second, double factor, double against) {
+static void check_breaking(const char *name, const char *second, double factor, double against) {
     for (int real = 0; real < 2; real++) {
         const engine_kind *kind = real == 0 ? &engine_double : &engine_float;
-        const breaking coarse = run_breaking(scene, second, kind, 1e-3, factor, against);
-        const breaking fine = run_breaking(scene, second, kind, 0.25e-3, factor, against);
-        printf("  %s, %s: at rest to %.1e m; off by %.1e m at 1 ms, %.1e m at 0.25 ms\n", scene,
+        const breaking coarse = run_breaking(name, second, kind, 1e-3, factor, against);
+        const breaking fine = run_breaking(name, second, kind, 0.25e-3, factor, against);
+        printf("  %s, %s: at rest to %.1e m; off by %.1e m at 1 ms, %.1e m at 0.25 ms\n", name,
                kind->name, coarse.at_rest_m, coarse.off_m, fine.off_m);
         TEST_ASSERT_TRUE(coarse.at_rest_m <= (real == 0 ? 1e-12 : 1e-9)); /* not a creep */
         TEST_ASSERT_TRUE(coarse.off_m < (real == 0 ? 1e-6 : 1e-4));
