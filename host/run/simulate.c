@@ -10,10 +10,10 @@
 
 #include "advice.h"
 #include "envelope.h"
+#include "faint.h"
 #include "host/base/room.h"
 #include "host/base/statement.h"
 #include "host/plot/plot.h"
-#include "faint.h"
 #include "narrow.h"
 #include "records.h"
 #include "slow.h"
