@@ -201,7 +201,9 @@ static double swing_off(double A_m, const engine_kind *kind, bool compensated) {
 static void scales(bool is_float, double least, double last) {
     unsigned told = 0;
     unsigned right = 0;
-    for (double decade = least; decade <= last; decade += is_float ? 0.5 : 2.5) {
+    const double apart = is_float ? 0.5 : 2.5;
+    for (int i = 0; least + apart * i <= last; i++) {
+        const double decade = least + apart * i;
         const double A_m = pow(10.0, decade);
         const double off = swing_off(A_m, is_float ? &engine_float : &engine_double, false);
         char set[60];

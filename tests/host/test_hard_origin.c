@@ -40,11 +40,11 @@ static bool tells(const said *what) { return what->status != 0 || what->err[0] !
 /* The step that a hint names, s; 0 without one. */
 static double step_named(const char *text) {
     const char *at = strstr(text, "--step ");
-    double number = 0.0;
-    char unit[4] = "";
-    if (at == NULL || sscanf(at + 7, "%lf%3[mun]", &number, unit) < 1) {
+    if (at == NULL) {
         return 0.0;
     }
+    char *unit;
+    const double number = strtod(at + 7, &unit);
     return number * (unit[0] == 'm' ? 1e-3 : unit[0] == 'u' ? 1e-6 : unit[0] == 'n' ? 1e-9 : 1.0);
 }
 
@@ -135,8 +135,8 @@ static double dot(const double a[3], const double b[3]) {
 }
 
 static flight flight_drawn(dice *d, double d_m) {
-    flight f;
-    double away[3];
+    flight f = {{0.0}, {0.0}, ""};
+    double away[3] = {0.0};
     double size = 0.0;
     while (size < 0.2) { /* a direction, and one across it, neither along the axis */
         for (int i = 0; i < 3; i++) {
