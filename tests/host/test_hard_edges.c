@@ -229,6 +229,54 @@ static void scales(bool is_float, double least, double last) {
 static void test_amplitudes_to_the_ends_of_float(void) { scales(true, -45.0, 38.5); }
 static void test_amplitudes_to_the_ends_of_double(void) { scales(false, -322.5, 307.5); }
 
+/* A swing under a cube of the way: x/A at ten moments; the same at every amplitude. */
+static bool cubic(double A_m, const engine_kind *kind, double x[10]) {
+    char set[60];
+    motion m;
+    bool went = true;
+    snprintf(set, sizeof set, "A=%.17g", A_m);
+    motion_open_file(&m, HARD "scales.whirl", "", "cubic_small",
+                     (stepping){.kind = kind, .method = WH_RK4, .set = set});
+    for (int i = 0; i < 10; i++) {
+        went = went && motion_step(&m, 100) == WH_OK;
+        x[i] = motion_value(&m, "x") / A_m;
+    }
+    motion_close(&m);
+    return went;
+}
+
+/* Its cube falls below what float holds long before the way does: told by that name. */
+static void test_products_that_fall_below_float(void) {
+    double wanted[10];
+    unsigned off_course = 0;
+    unsigned sound = 0;
+    TEST_ASSERT_TRUE(cubic(1.0, &engine_double, wanted));
+    for (int k = 0; k <= 32; k++) {
+        const double A_m = pow(10.0, -8.0 - 0.25 * k);
+        double x[10];
+        double off = cubic(A_m, &engine_float, x) ? 0.0 : (double)INFINITY;
+        for (int i = 0; i < 10; i++) {
+            off = fmax(off, fabs(x[i] - wanted[i]));
+        }
+        char set[60];
+        char about[SAID_SIZE + 100];
+        said what;
+        snprintf(set, sizeof set, "A=%.17g", A_m);
+        run_with(HARD "scales.whirl:cubic_small", set, true, "1ms", &what);
+        snprintf(about, sizeof about, "%.3g m, off by %.3g: %s", A_m, off, what.err);
+        if (off > 1e-2) {
+            off_course++;
+            TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, "float has no room for what"), about);
+        } else if (off < 1e-4) {
+            sound++;
+            TEST_ASSERT_EQUAL_STRING_MESSAGE("", what.err, about);
+        }
+    }
+    printf("  cubes of 1e-24 to 1e-48 m^3: %u amplitudes off by a hundredth, all told; %u sound\n",
+           off_course, sound);
+    TEST_ASSERT_TRUE(off_course >= 3 && sound >= 20);
+}
+
 /* Beyond 1e15 no step is believed; beyond 6.28e9 rad no start of an angle in float. */
 static void test_starts_that_are_too_large(void) {
     static const struct {
@@ -324,6 +372,7 @@ void suite_hard_edges(void) {
     RUN_TEST(test_a_jump_inside_a_step);
     RUN_TEST(test_amplitudes_to_the_ends_of_float);
     RUN_TEST(test_amplitudes_to_the_ends_of_double);
+    RUN_TEST(test_products_that_fall_below_float);
     RUN_TEST(test_starts_that_are_too_large);
     RUN_TEST(test_two_bodies_of_very_different_mass);
 }
