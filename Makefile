@@ -48,6 +48,7 @@ include mk/hosts.mk
 include mk/check.mk
 include mk/coverage.mk
 include mk/settings.mk
+include mk/hard.mk
 
 ##@ Start here
 

@@ -177,6 +177,7 @@ hashes-now gate-hashes: $(GEN)/.stamp
 	+@$(call build_hashes,$(BOARDS))
 	@$(call compare_hashes,$(BOARDS))
 	@$(MAKE) hashes-matrix
+	@$(MAKE) hashes-hard
 	@$(MAKE) hashes-settings SETTINGS=some
 # HASH_BOARDS="mps2-an386 atmega328p": on these.
 HASH_BOARDS ?= $(BOARDS)
@@ -202,6 +203,7 @@ hashes-all-now: $(GEN)/.stamp
 	    $(foreach h,$(HASH_HOSTS),"$(h)" "$(host_run_$(h)) build/hosts/$(h)/scenes") \
 	    -- "The first $(SINGLE_STEPS) steps:" "this machine" build/scenes_short \
 	    $(foreach b,$(BOARDS_SINGLE),"$(b)" "$(call on_board,$(b),print-hashes)")
+	@$(MAKE) hashes-hard HARD_BOARDS="$(BOARDS_ALL)" HARD_HOSTS="$(HASH_HOSTS)" HARD_BUILDS="$(HASH_BUILDS)"
 
 $(B)/scenes_short: boards/programs/scenes.c $(call objects,float,boards/host/board.c) $(call libraries,float,scenes whirl)
 	$(say) LINK $@

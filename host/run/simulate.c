@@ -10,6 +10,7 @@
 
 #include "advice.h"
 #include "envelope.h"
+#include "faint.h"
 #include "host/base/room.h"
 #include "host/base/statement.h"
 #include "host/plot/plot.h"
@@ -261,6 +262,7 @@ static void say_advice(const simulation *sim, const belief *balance, bool fails)
     }
     advice_say(stderr, &about);
     advice_end(&about);
+    faint_say(stderr, sim->image, kind, sim->watch);
     if (kind == &engine_float) {
         const narrow lost = narrow_of(sim->watch);
         narrow_say(stderr, sim->image, &lost);
