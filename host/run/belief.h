@@ -44,7 +44,6 @@ typedef struct belief {
     double
         rounding_J; /* what rounding explains of it: of a step, by the root of the steps, and of the energy itself */
     double ratio;      /* |left| / largest, >= 0; infinite with something left over of nothing */
-    uint64_t overruns; /* steps with more moments with events than a step takes */
     bool saturated;    /* values were held at an end of their range */
     bool slow;         /* rounding took a share of what steps were to add (slow.h) */
     bool exact;        /* the steps are exact (--matrix exact) */
