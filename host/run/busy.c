@@ -143,9 +143,10 @@ double busy_off(const busy *b, const busy *truth) {
     double most = 0.0;
     for (int i = 0; i < b->n; i++) {
         const double range = range_of(truth, i);
-        for (int k = 0; k < b->looks && k < truth->looks && image_component(b->image, i).primes == 0;
-             k++) {
-            const double off = fabs(b->look[k * (ptrdiff_t)b->n + i] - truth->look[k * (ptrdiff_t)b->n + i]);
+        for (int k = 0;
+             k < b->looks && k < truth->looks && image_component(b->image, i).primes == 0; k++) {
+            const double off =
+                fabs(b->look[k * (ptrdiff_t)b->n + i] - truth->look[k * (ptrdiff_t)b->n + i]);
             most = off > 0.0 ? number_most(most, off / range) : most;
         }
     }

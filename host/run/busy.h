@@ -22,9 +22,10 @@ typedef struct busy {
     uint64_t overran_at;                     /* steps before the first of them */
     uint64_t in_overruns[WH_CONTACTS_LIMIT]; /* events of each contact in them */
     double energy_J;                         /* after the last step, as the books have it */
-    double taken_J;                          /* by how much it changed in steps that overran, in all */
+    double taken_J; /* by how much it changed in steps that overran, in all */
     int mode[WH_CONTACTS_LIMIT];
-    uint32_t changed[WH_CONTACTS_LIMIT]; /* in which of the last steps, as bits, the last the lowest */
+    uint32_t
+        changed[WH_CONTACTS_LIMIT]; /* in which of the last steps, as bits, the last the lowest */
     uint64_t changes[WH_CONTACTS_LIMIT]; /* steps with one, in such windows */
     uint64_t chatters_at;                /* steps before the first such window */
     int chatters;                        /* the contact whose it is; -1: none does */

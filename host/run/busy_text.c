@@ -70,8 +70,9 @@ static void say_overruns(FILE *out, const char *who, const busy *b) {
 
 static void say_chatter(FILE *out, const char *who, const busy *b) {
     char *name = quoted(b->image, b->chatters);
-    fprintf(out, "%s: %s changes at the pace of the steps, in %" PRIu64 " of %" PRIu64
-                 " steps from t = %.6g s on",
+    fprintf(out,
+            "%s: %s changes at the pace of the steps, in %" PRIu64 " of %" PRIu64
+            " steps from t = %.6g s on",
             who, name, b->changes[b->chatters], b->steps - b->chatters_at,
             time_of(b, b->chatters_at));
     free(name);
@@ -93,7 +94,9 @@ static void say_scene(FILE *out, const busy *b, const retrial *r) {
                 name);
         break;
     case WH_FRICTION:
-        fprintf(out, "a static friction that it does not break, or a softer drive, ends what %s does\n", name);
+        fprintf(out,
+                "a static friction that it does not break, or a softer drive, ends what %s does\n",
+                name);
         break;
     case WH_WHEN:
     case WH_CONTACT_KIND_COUNT:

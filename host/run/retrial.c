@@ -63,7 +63,8 @@ static busy *run_again(trials *t, uint64_t parts) {
         good = t->kind->step(run) == WH_OK;
         busy_enter(b, t->kind, run, 0.0);
         if (i % 256 == 0) {
-            good = good && !is_stopped(t) && t->spent + operations(t, run, &finer) < OPERATIONS_MOST;
+            good =
+                good && !is_stopped(t) && t->spent + operations(t, run, &finer) < OPERATIONS_MOST;
         }
     }
     t->last = operations(t, run, &finer);
@@ -79,9 +80,8 @@ static busy *run_again(trials *t, uint64_t parts) {
 
 /* Twice as many steps take twice as long. */
 static bool is_dear(const trials *t) {
-    const double grows = t->count == 0 ? 1.0
-                                       : (double)parts_tried[t->count] /
-                                             (double)parts_tried[t->count - 1];
+    const double grows =
+        t->count == 0 ? 1.0 : (double)parts_tried[t->count] / (double)parts_tried[t->count - 1];
     const busy *b = t->of;
     const double least = 5.0 * (b->image->list[IMAGE_STEP]->count + OPERATIONS_BESIDE) *
                          (double)b->steps * (double)parts_tried[0];
@@ -91,8 +91,7 @@ static bool is_dear(const trials *t) {
 /* The coarsest of those before `finest` that have no overruns and agree with it; -1: none. */
 static int agrees(const trials *t, int finest) {
     for (int i = 0; i < finest; i++) {
-        if (t->made[i]->overruns == 0 &&
-            busy_off(t->made[i], t->made[finest]) < RETRIAL_CURED) {
+        if (t->made[i]->overruns == 0 && busy_off(t->made[i], t->made[finest]) < RETRIAL_CURED) {
             return i;
         }
     }
@@ -120,8 +119,8 @@ static void judge(const trials *t, double largest_J, int finest, int found, retr
     made->finest = t->count > 0 ? parts_tried[t->count - 1] : 1;
     made->known = finest >= 0;
     made->off = made->known ? busy_off(b, t->made[finest]) : 0.0;
-    made->told = made->known ? made->off > RETRIAL_TOLD
-                             : b->overruns > 0 && !is_little(b, largest_J);
+    made->told =
+        made->known ? made->off > RETRIAL_TOLD : b->overruns > 0 && !is_little(b, largest_J);
     made->agreed = found >= 0;
     made->parts = found >= 0 ? parts_tried[found] : rests >= 0 ? parts_tried[rests] : 0;
 }

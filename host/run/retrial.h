@@ -14,8 +14,8 @@
 #define RETRIAL_CURED 1e-3
 
 typedef struct retrial {
-    bool told;    /* it is to be warned of */
-    bool known;   /* there was a finer run without overruns: it is off by, of its range, */
+    bool told;  /* it is to be warned of */
+    bool known; /* there was a finer run without overruns: it is off by, of its range, */
     double off;
     uint64_t parts;  /* of the step, that would do; 0: none was found, */
     uint64_t finest; /* down to this one; 1: none was tried, as it would take too long */

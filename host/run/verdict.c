@@ -41,8 +41,7 @@ void verdict_end(verdict *v, const void *run, bool failed, const volatile sig_at
     if (failed) {
         return;
     }
-    v->retrial =
-        retrial_of(v->busy, v->kind, v->balance.known ? v->balance.largest_J : 0.0, stop);
+    v->retrial = retrial_of(v->busy, v->kind, v->balance.known ? v->balance.largest_J : 0.0, stop);
     v->against = (advice_lost(&v->about) ? VERDICT_BIT(VERDICT_ENERGY) : 0U) |
                  (advice_singular(&v->about) ? VERDICT_BIT(VERDICT_SINGULAR) : 0U) |
                  (advice_swing(&v->about) ? VERDICT_BIT(VERDICT_SWING) : 0U) |

@@ -23,9 +23,9 @@ typedef struct sitting {
     uint64_t ran; /* points delivered, now */
     uint64_t overrun_points;
     uint64_t overrun_steps;
-    uint64_t overrun_first; /* point */
-    uint64_t slow_points;   /* with float angles that turn too slowly */
-    uint64_t slow_first;    /* point */
+    uint64_t overrun_first;          /* point */
+    uint64_t slow_points;            /* with float angles that turn too slowly */
+    uint64_t slow_first;             /* point */
     uint64_t against[VERDICT_KINDS]; /* points of which `whirl run` would warn so, */
     uint64_t against_first[VERDICT_KINDS];
 } sitting;

@@ -8,9 +8,9 @@
 #include <string.h>
 
 #include "command.h"
-#include "hybrid.h"
 #include "host/commands/commands.h"
 #include "host/run/busy.h"
+#include "hybrid.h"
 #include "motion.h"
 #include "unity.h"
 
@@ -26,11 +26,12 @@ typedef enum rattle_kind { BALL, HOLD, BELT, KINDS } rattle_kind;
 /* A mechanism with a closed form, which goes on from where it is. */
 typedef struct rattle {
     rattle_kind kind;
-    double number[6]; /* ball: gap, gravity, restitutions below and above; hold: threshold, acceleration; belt: stiffness,
+    double number
+        [6]; /* ball: gap, gravity, restitutions below and above; hold: threshold, acceleration; belt: stiffness,
                        * speed, friction static and kinetic */
     double step_s;
     int steps;
-    double at_s;      /* of the ball's */
+    double at_s; /* of the ball's */
     double place_m;
     double speed_mps;
 } rattle;
@@ -183,9 +184,13 @@ static measured run_beside(const rattle *of, const char *text, double step_s, bo
 }
 
 static void say(const char *text, const char *step, bool is_float, said *what) {
-    const char *words[] = {model_keep(text), "--quiet", "--number",
+    const char *words[] = {model_keep(text),
+                           "--quiet",
+                           "--number",
                            is_float ? "float" : "double",
-                           step != NULL ? "--step" : NULL, step, NULL};
+                           step != NULL ? "--step" : NULL,
+                           step,
+                           NULL};
     command_say(command_run, words, what);
     TEST_ASSERT_EQUAL_INT_MESSAGE(0, what->status, text);
 }

@@ -45,9 +45,10 @@ static void write(const plate *p, bool falls, char text[TEXT]) {
                       "T = %.17g [kg]*y'^2/2 + %.17g [kg*m^2]*a'^2/2 + 1 [kg*m^2]*c'^2/2\n"
                       "V = %.17g [N]*y\n",
                       p->mass_kg, p->inertia_kgm2, p->mass_kg * GRAVITY);
-    at += falls ? snprintf(text + at, (size_t)(TEXT - at), "Q(y) = %.17g [N]*sin(c)\n",
-                           p->mass_kg * p->height * p->rate * p->rate)
-                : snprintf(text + at, (size_t)(TEXT - at), "Q(a) = %.17g [N*m]*sin(c)\n", p->height);
+    at += falls
+              ? snprintf(text + at, (size_t)(TEXT - at), "Q(y) = %.17g [N]*sin(c)\n",
+                         p->mass_kg * p->height * p->rate * p->rate)
+              : snprintf(text + at, (size_t)(TEXT - at), "Q(a) = %.17g [N*m]*sin(c)\n", p->height);
     for (int i = 0; i < p->supports; i++) {
         at += snprintf(text + at, (size_t)(TEXT - at),
                        "stop y - %.17g [m]*a >= 0 [m] restitution 0\n", p->place_m[i]);
@@ -109,8 +110,8 @@ static void expect(bool falls, const char *words) {
         worst[0] = fmax(worst[0], run(&p, falls, &engine_double, fmin(until_s, 1.0)));
         worst[1] = fmax(worst[1], run(&p, falls, &engine_float, fmin(until_s, 1.0)));
     }
-    printf("  %s, %u plates: off by at most %.1e in double, %.1e in float\n", words, cases, worst[0],
-           worst[1]);
+    printf("  %s, %u plates: off by at most %.1e in double, %.1e in float\n", words, cases,
+           worst[0], worst[1]);
     TEST_ASSERT_TRUE(worst[0] < 1e-9);
     TEST_ASSERT_TRUE(worst[1] < 1e-5);
 }

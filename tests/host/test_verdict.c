@@ -28,10 +28,11 @@ static void draw(dice *d, unsigned shape, char text[TEXT]) {
     const double until = coarse * (10.0 + dice_one_of(d, 200));
     switch (shape) {
     case 0:
-        snprintf(text, TEXT,
-                 "mechanism m\ncoordinate x [m]\nparameter p = 1\nT = 1 [kg]*x'^2/2\n"
-                 "V = 1 [N/m]*x^2/2\nscene s { start x = 1 [m]\nstep %.12g [s]\nuntil %.12g [s] }\n",
-                 coarse, until);
+        snprintf(
+            text, TEXT,
+            "mechanism m\ncoordinate x [m]\nparameter p = 1\nT = 1 [kg]*x'^2/2\n"
+            "V = 1 [N/m]*x^2/2\nscene s { start x = 1 [m]\nstep %.12g [s]\nuntil %.12g [s] }\n",
+            coarse, until);
         break;
     case 1: /* the books' own rule is in doubt */
         snprintf(text, TEXT,
@@ -85,10 +86,11 @@ static void test_a_point_is_judged_as_its_run(void) {
         const unsigned method = shape == 0 || shape == 2 ? dice_one_of(&d, shape == 0 ? 5 : 2) : 0;
         const char *file = model_keep(text);
         const char *number = dice_one_of(&d, 2) == 0 ? "double" : "float";
-        const char *run[] = {file, "--quiet", "--method", methods[method], "--number", number, NULL};
-        const char *sweep[] = {file,       "--quiet",       "--method", methods[method],
-                               "--number", number,          "--over",   "p=1..1:1",
-                               "--jobs",   "1",             NULL};
+        const char *run[] = {file,       "--quiet", "--method", methods[method],
+                             "--number", number,    NULL};
+        const char *sweep[] = {file,       "--quiet", "--method", methods[method],
+                               "--number", number,    "--over",   "p=1..1:1",
+                               "--jobs",   "1",       NULL};
         command_say(command_run, run, &ran);
         command_say(command_sweep, sweep, &swept);
         snprintf(about, sizeof about, "%s--method %s --number %s\n%s\n%s", text, methods[method],

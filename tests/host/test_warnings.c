@@ -398,8 +398,8 @@ static void test_swings_of_a_system_are_told(void) {
 static void expect_ball_between(said *what, const char **words) {
     char step[40];
     const char *again[8];
-    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what->err, "1 step of 1000, the first at t = 0 s, had more"),
-                                 what->err);
+    TEST_ASSERT_NOT_NULL_MESSAGE(
+        strstr(what->err, "1 step of 1000, the first at t = 0 s, had more"), what->err);
     TEST_ASSERT_TRUE_MESSAGE(option_said(what->err, "--step", step), what->err);
     memcpy(again, words, 4 * sizeof *words);
     again[4] = "--step";
