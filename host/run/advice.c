@@ -177,7 +177,7 @@ static const char *options_text(const advice *a, double step_s, char text[STEP_T
     return text;
 }
 
-static bool is_singular(const advice *a) {
+bool advice_singular(const advice *a) {
     return a->watch->singular.done && a->watch->singular.off >= NOT_RESOLVED;
 }
 
@@ -207,7 +207,7 @@ static double missing(const advice *a) {
 
 /* A singular position is told of by itself; NULL: no step may help. */
 static char *at_one_go(const advice *a) {
-    const bool singular = is_singular(a);
+    const bool singular = advice_singular(a);
     const watch_look *l = singular ? &a->watch->singular : &a->watch->worst;
     char step[STEP_TEXT];
     if (!l->resolved) {
@@ -224,7 +224,7 @@ static char *at_one_go(const advice *a) {
 
 char *advice_cure(advice *a) {
     const belief *b = a->balance;
-    if (b->overruns > 0 || b->exact || b->saturated || (b->slow && a->kind->unit != NULL)) {
+    if (b->exact || b->saturated || (b->slow && a->kind->unit != NULL)) {
         return NULL;
     }
     char carried[CARRIED_TEXT];
@@ -233,7 +233,7 @@ char *advice_cure(advice *a) {
     const linearised *l = motions_of(a);
     const watch_look *worst = &a->watch->worst;
     const double by_motion = number_least(linearised_worst(l), 1.0) / ratio;
-    if (is_singular(a) ||
+    if (advice_singular(a) ||
         (b->jump_s >= 0.0 && by_motion < IS_CAUSE && worst->done && worst->off > NOT_RESOLVED)) {
         return at_one_go(a);
     }
@@ -256,7 +256,7 @@ char *advice_cure(advice *a) {
 static void say_singular(FILE *out, const advice *a) {
     const watch_look *s = &a->watch->singular;
     const image *im = a->image;
-    if (!is_singular(a)) {
+    if (!advice_singular(a)) {
         return;
     }
     char near[120] = "";
@@ -295,17 +295,22 @@ static void say_singular(FILE *out, const advice *a) {
 }
 
 /* A system has no energy to miss: its motions are asked. */
-static void say_swing(FILE *out, advice *a) {
+bool advice_swing(advice *a) {
     if (a->image->has_energies || a->image->settings.matrix == MATRIX_EXACT) {
-        return;
+        return false;
     }
     const linearised *l = motions_of(a);
+    return l->worst != NULL && l->worst->share >= SWING_SHARE && linearised_worst(l) >= SWING_LOST;
+}
+
+static void say_swing(FILE *out, advice *a) {
     char carried[CARRIED_TEXT];
     char cure[CURE_TEXT];
     char done[DONE_TEXT];
-    if (l->worst == NULL || l->worst->share < SWING_SHARE || linearised_worst(l) < SWING_LOST) {
+    if (!advice_swing(a)) {
         return;
     }
+    const linearised *l = motions_of(a);
     fprintf(out, "whirl run: warning: the step is too coarse for %s; %s %s\n",
             carried_text(a, l->worst, carried), title_of(a->image), done_text(l, l->worst, done));
     if (would_do(a, l->step_s, l->worst->off > SATURATED, cure)) {
@@ -321,7 +326,7 @@ void advice_say(FILE *out, advice *a) {
 /* Records are in the order of time: the first such motion is from before everything grew. */
 void advice_say_diverged(FILE *out, advice *a) {
     say_singular(out, a);
-    if (a->image->settings.matrix == MATRIX_EXACT || a->watch->records == 0 || is_singular(a)) {
+    if (a->image->settings.matrix == MATRIX_EXACT || a->watch->records == 0 || advice_singular(a)) {
         return;
     }
     motions_of(a);

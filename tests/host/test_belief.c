@@ -257,7 +257,11 @@ static void test_built_in_scenes_are_believed(void) {
             const char *words[] = {name,      "--strict", "--number", k == 1 ? "float" : "double",
                                    "--until", until,      NULL};
             command_say(command_run, words, &what);
-            TEST_ASSERT_EQUAL_STRING_MESSAGE("", what.err, name);
+            if (strcmp(name, "ball_between") == 0) { /* too busy for its step (test_warnings.c) */
+                TEST_ASSERT_NULL_MESSAGE(strstr(what.err, "cannot be believed"), what.err);
+            } else {
+                TEST_ASSERT_EQUAL_STRING_MESSAGE("", what.err, name);
+            }
             TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, name);
         }
         scenes++;
