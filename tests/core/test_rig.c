@@ -237,6 +237,8 @@ static wh_trip trip_at(wh_real turn_rpm, wh_real interval_rpm, unsigned pulses) 
 
 static void test_over_speed_trips(void) {
     TEST_ASSERT_TRUE(trip_at(WH_R(399.0), WH_R(430.0), 5) == WH_TRIP_NONE);
+    TEST_ASSERT_TRUE(trip_at(wh_rig_standard.guard.limit_radps / RPM, WH_R(400.0), 5) ==
+                     WH_TRIP_NONE); /* the limit itself is allowed */
     TEST_ASSERT_TRUE(trip_at(WH_R(401.0), WH_R(400.0), 1) == WH_TRIP_OVERSPEED);
     TEST_ASSERT_TRUE(trip_at(WH_R(350.0), WH_R(450.0), 1) == WH_TRIP_NONE); /* a disturbance? */
     TEST_ASSERT_TRUE(trip_at(WH_R(350.0), WH_R(450.0), 2) == WH_TRIP_OVERSPEED);
