@@ -21,8 +21,6 @@ endif
 OPT ?= -O2
 # Extra compiler and linker flags, such as -Werror or -fsanitize=address.
 EXTRA ?=
-# Such flags for the portable code alone.
-PORTABLE_EXTRA ?=
 # The board of emulate and size: a folder of boards/ with a board.mk.
 BOARD ?= mps2-an386
 # A checkout of the Unity test framework, instead of Debian's copy.

@@ -7,19 +7,17 @@
 # counts and methods are constants, and most conditions are settled when they are compiled.
 
 COVERAGE = build/coverage
-COUNTED = -O0 --coverage -fprofile-update=single -Dalways_inline=unused -fkeep-inline-functions
-NOT_COUNTED = -O1 -Ualways_inline -fno-profile-arcs -fno-test-coverage -fno-keep-inline-functions
-COVERAGE_BUILD = $(MAKE) B=$(COVERAGE) CC=gcc OPT=-O2 PORTABLE_EXTRA="$(COUNTED)" SCENE_OPT="$(NOT_COUNTED)" \
-    LINK_EXTRA=--coverage
+COVERAGE_BUILD = $(MAKE) B=$(COVERAGE) CC=gcc OPT=-O2 LINK_EXTRA=--coverage \
+    COUNTED="-O0 --coverage -fprofile-update=single -Dalways_inline=unused -fkeep-inline-functions -w"
 # The least of each, in per cent.
 LINES_LEAST = 0
 BRANCHES_LEAST = 0
 # Suites of the program: those that step (others take time and reach nothing more).
 COVERAGE_SUITES =
 
-# What of the program is counted: where it includes what steps.
-ifneq ($(PORTABLE_EXTRA),)
-$(call objects,host,$(addprefix host/run/,engine_double.c engine_float.c undefined.c)): FILE_FLAGS = $(PORTABLE_EXTRA)
+ifdef COUNTED
+$(foreach b,float double,$(eval $(B)/$(b)/core/%.o $(B)/$(b)/tests/core/%.o: FILE_FLAGS += $(COUNTED)))
+$(call objects,host,$(addprefix host/run/,engine_double.c engine_float.c undefined.c)): FILE_FLAGS += $(COUNTED)
 endif
 
 ##@ Tests and quality

@@ -22,7 +22,7 @@ BASE := -std=c11 -ffp-contract=off -I. $(WARN)
 NATIVE := -g1 $(OPT) $(EXTRA)
 
 FLAGS_host := $(BASE) $(NATIVE) -D_POSIX_C_SOURCE=200809L $(if $(filter none,$(SYSTEM)),-DWHIRL_NO_SYSTEM=1)
-FLAGS_float := $(BASE) $(NATIVE) -D_POSIX_C_SOURCE=200809L $(PORTABLE_EXTRA)
+FLAGS_float := $(BASE) $(NATIVE) -D_POSIX_C_SOURCE=200809L
 FLAGS_double := $(FLAGS_float) -DWH_DOUBLE=1
 
 .PHONY: FORCE
