@@ -9,7 +9,14 @@
 
 void suite_ahead(void);
 
-enum { STEPS = 4096 };
+#ifndef WH_TEST_SMALL
+#define WH_TEST_SMALL (!__STDC_HOSTED__)
+#endif
+
+enum { STEPS = WH_TEST_SMALL ? 256 : 4096 };
+
+/* Where a double is no more than a float, as on AVR, it is no reference. */
+#define HAS_REFERENCE (__DBL_MANT_DIG__ >= 53)
 
 static uint64_t memory[WH_STATE_WORDS(1, 3, 1)];
 static wh_state state;
@@ -104,6 +111,7 @@ static void test_steps_ahead_are_steps(void) {
 
 /* --- by a matrix ------------------------------------------------------------------------------------------ */
 
+#if HAS_REFERENCE
 /* A rotation by a small angle: t is the tangent of half of it. */
 #define HALF_TANGENT (1.0 / 1024.0)
 static const double turn_sine = 2.0 * HALF_TANGENT / (1.0 + HALF_TANGENT * HALF_TANGENT);
@@ -164,8 +172,10 @@ static void test_a_matrix_turns_as_far_as_its_power(void) {
     const double compensated = rotation_error(true);
     TEST_ASSERT_TRUE(plain < (WH_DOUBLE ? 3e-12 : 3e-4));
     TEST_ASSERT_TRUE(compensated < (WH_DOUBLE ? 1e-13 : 3e-7));
-    TEST_ASSERT_TRUE(WH_DOUBLE || 4.0 * compensated < plain);
+    TEST_ASSERT_TRUE(WH_DOUBLE || WH_TEST_SMALL || 4.0 * compensated < plain);
 }
+
+#endif
 
 /* A shaft (angle, rate) that the input speeds up: mean rate r + u h/2, and r + u h behind it, or the change. */
 static bool changes_only;
@@ -230,6 +240,7 @@ static void test_what_a_matrix_spoils_is_refused(void) {
     }
 }
 
+#if HAS_REFERENCE
 /* --- what a step's length lacks ----------------------------------------------------------------------------- */
 
 static void pull(const void *model, const wh_phase *phase, const wh_real *linear,
@@ -279,10 +290,14 @@ static void test_a_length_in_two_parts_lasts_as_long_as_it_should(void) {
     }
 }
 
+#endif
+
 void suite_ahead(void) {
     RUN_TEST(test_steps_ahead_are_steps);
+#if HAS_REFERENCE
     RUN_TEST(test_a_matrix_turns_as_far_as_its_power);
+    RUN_TEST(test_a_length_in_two_parts_lasts_as_long_as_it_should);
+#endif
     RUN_TEST(test_a_matrix_moves_angles);
     RUN_TEST(test_what_a_matrix_spoils_is_refused);
-    RUN_TEST(test_a_length_in_two_parts_lasts_as_long_as_it_should);
 }

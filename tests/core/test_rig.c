@@ -258,40 +258,6 @@ static void test_only_a_known_turn_can_be_overdue(void) {
     TEST_ASSERT_TRUE(wh_speed_is_overdue(&speed, 1000U + 183000U));
 }
 
-/* A record that is full, of marks of one sensor alone or of none: no load at the other's slot, or no measurement; further
- * samples change nothing of it. */
-static void test_a_full_record_with_few_marks(void) {
-    static wh_rig rig;
-    wh_rig_config config = wh_rig_standard;
-    config.newton_per_count = WH_R(0.01);
-    config.load_period_ticks = 2000;
-    config.guard.load_raw_max = 32767;
-    for (unsigned marked = 0; marked < 3; marked++) {
-        uint32_t now = 5000;
-        wh_rig_start(&config, &rig, WH_R(330.0) * RPM, now);
-        rig.state = WH_RIG_RECORD;
-        rig.speed.known = rig.speed.running = true;
-        rig.speed.turn_radps = rig.target_radps;
-        rig.drive.setpoint_radps = rig.drive.target_radps = rig.target_radps;
-        for (unsigned i = 0; i < WH_RIG_RECORD_SAMPLES + 3U; i++) {
-            wh_rig_load(&config, &rig, now + i * 2000U,
-                        (int16_t)(i < WH_RIG_RECORD_SAMPLES ? 50 : -9));
-        }
-        TEST_ASSERT_EQUAL_UINT(WH_RIG_RECORD_SAMPLES, rig.samples);
-        TEST_ASSERT_EQUAL_INT(50, rig.raw[WH_RIG_RECORD_SAMPLES - 1U]);
-        for (unsigned i = 0; i < 5 && marked > 0; i++) {
-            rig.marks[marked - 1U][i] = (wh_mark){now + 1000U + i * 182000U, 4U * i};
-            rig.mark_count[marked - 1U]++;
-        }
-        now += (WH_RIG_RECORD_SAMPLES + 3U) * 2000U;
-        rig.speed.ticks = rig.guard.load_ticks = now;
-        wh_rig_step(&config, &rig, now, false);
-        TEST_ASSERT_TRUE(rig.guard.trip == (marked == 1 ? WH_TRIP_NONE : WH_TRIP_RECORD));
-        TEST_ASSERT_FLOAT_WITHIN(1e-5f, marked == 1 ? 0.5f : 0.0f, (float)rig.result.at_spike_N[0]);
-        TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)rig.result.at_spike_N[1]);
-    }
-}
-
 static void test_lost_pulses_and_silence_trip(void) {
     const wh_guard_config *config = &wh_rig_standard.guard;
     wh_guard guard;
@@ -395,7 +361,6 @@ void suite_rig(void) {
     RUN_TEST(test_guard_refuses_set_points);
     RUN_TEST(test_over_speed_trips);
     RUN_TEST(test_only_a_known_turn_can_be_overdue);
-    RUN_TEST(test_a_full_record_with_few_marks);
     RUN_TEST(test_lost_pulses_and_silence_trip);
     RUN_TEST(test_a_stuck_load_cell_trips);
     RUN_TEST(test_an_overloaded_load_cell_trips);
