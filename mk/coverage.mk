@@ -9,8 +9,8 @@ COVERAGE = build/coverage
 COVERAGE_BUILD = $(MAKE) B=$(COVERAGE) CC=gcc OPT=-O2 LINK_EXTRA=--coverage \
     COUNTED="-O0 --coverage -fprofile-update=single -Dalways_inline=unused -fkeep-inline-functions -w"
 # The least of each, in per cent.
-LINES_LEAST = 98
-BRANCHES_LEAST = 95
+LINES_LEAST = 99
+BRANCHES_LEAST = 97
 
 ifdef COUNTED
 $(foreach b,float double,$(eval $(B)/$(b)/core/%.o $(B)/$(b)/tests/core/%.o: FILE_FLAGS += $(COUNTED)))
@@ -18,7 +18,7 @@ endif
 
 ##@ Tests and quality
 .PHONY: coverage coverage-now
-coverage: ## lines and branches of the core that the portable suites reach; fails below 98 and 95 per cent (minutes)
+coverage: ## lines and branches of the core that the portable suites reach; fails below 99 and 97 per cent (minutes)
 	@UNITY="$(UNITY)" CC=gcc mk/setup/deps.sh host tests
 	@UNITY="$(UNITY)" mk/setup/unity.sh build/unity
 	@$(MAKE) coverage-now

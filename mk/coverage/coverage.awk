@@ -6,6 +6,7 @@
 # of a line's conditions have fewer of its branches: these cannot be told apart by their numbers, so that only those
 # objects speak of a line's branches that have the most of them; a branch is reached if one of these took it.
 /^ *[-0-9#=*]+: *0:Source:/ {
+    settle()
     file = $0
     sub(/^.*0:Source:/, "", file)
     sub(/^\.\//, "", file)

@@ -344,16 +344,16 @@ static void test_a_full_record_with_few_marks(void) {
         rig.speed.turn_radps = rig.target_radps;
         rig.drive.setpoint_radps = rig.drive.target_radps = rig.target_radps;
         for (unsigned i = 0; i < WH_RIG_RECORD_SAMPLES + 3U; i++) {
-            wh_rig_load(&config, &rig, now + i * STEP_TICKS,
+            wh_rig_load(&config, &rig, now + (uint32_t)i * STEP_TICKS,
                         (int16_t)(i < WH_RIG_RECORD_SAMPLES ? 50 : -9));
         }
         TEST_ASSERT_EQUAL_UINT(WH_RIG_RECORD_SAMPLES, rig.samples);
         TEST_ASSERT_EQUAL_INT(50, rig.raw[WH_RIG_RECORD_SAMPLES - 1U]);
         for (unsigned i = 0; i < 5 && marked > 0; i++) {
-            rig.marks[marked - 1U][i] = (wh_mark){now + 1000U + i * 18STEP_TICKS, 4U * i};
+            rig.marks[marked - 1U][i] = (wh_mark){now + 1000U + i * 182000U, 4U * i};
             rig.mark_count[marked - 1U]++;
         }
-        now += (WH_RIG_RECORD_SAMPLES + 3U) * STEP_TICKS;
+        now += (WH_RIG_RECORD_SAMPLES + UINT32_C(3)) * STEP_TICKS;
         rig.speed.ticks = rig.guard.load_ticks = now;
         wh_rig_step(&config, &rig, now, false);
         TEST_ASSERT_TRUE(rig.guard.trip == (marked == 1 ? WH_TRIP_NONE : WH_TRIP_RECORD));
