@@ -175,6 +175,21 @@ static void test_integral_does_not_wind_up(void) {
     TEST_ASSERT_TRUE(steps < 450U); /* (0.84 - 0.06 - 0.574) / (0.042 * 6): 0.82 s */
 }
 
+/* An integral that is out of its bounds, by whatever, comes back into them. */
+static void test_the_integral_comes_back(void) {
+    const wh_drive_config *config = &wh_rig_standard.drive;
+    const wh_real bounds[] = {config->duty_min, config->duty_max};
+    for (unsigned i = 0; i < 2; i++) {
+        const wh_real side = i == 0 ? WH_R(-1.0) : WH_R(1.0);
+        wh_drive drive;
+        wh_drive_start(config, &drive, WH_R(30.0), WH_R(0.5));
+        drive.integral = bounds[i] + side;
+        const wh_real duty =
+            wh_drive_step(config, &drive, WH_R(30.0) + side * WH_R(0.01), WH_R(0.002));
+        TEST_ASSERT_TRUE(duty == bounds[i] && drive.integral == bounds[i]);
+    }
+}
+
 static void test_duty_stays_in_range(void) {
     const wh_drive_config *config = &wh_rig_standard.drive;
     wh_drive drive;
@@ -356,6 +371,7 @@ void suite_rig(void) {
     RUN_TEST(test_ramp_keeps_its_rate_and_arrives);
     RUN_TEST(test_loop_leaves_no_steady_error);
     RUN_TEST(test_integral_does_not_wind_up);
+    RUN_TEST(test_the_integral_comes_back);
     RUN_TEST(test_duty_stays_in_range);
     RUN_TEST(test_speed_limit_follows_from_the_shaft);
     RUN_TEST(test_guard_refuses_set_points);
