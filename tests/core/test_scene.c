@@ -332,6 +332,8 @@ static void test_half_a_turn_in_a_step_is_refused(void) {
         TEST_ASSERT_TRUE(steps(&scene, 1));
         state.real[1] = WH_R(-3200.0);
         expect_refused(&scene, 0);
+        state.real[1] = WH_R(7000.0); /* by the middle of the step already */
+        expect_refused(&scene, 0);
     }
 }
 
