@@ -118,7 +118,7 @@ gate-memcheck: test-programs build/whirl
 gate-bad-input:
 	+@$(ASAN_BUILD) build/asan/whirl
 	@sh tests/bad_input.sh build/asan/whirl
-	+@$(ASAN_BUILD) kept-inputs
+	+@$(ASAN_BUILD) kept-now
 
 # --- firmware -------------------------------------------------------------------------------------
 # No heap, no libm, no double arithmetic and no recursion in any image's symbols.

@@ -165,8 +165,8 @@ $(B)/fuzz/%.kept: $(B)/host/tests/fuzz/%.o $(B)/host/tests/fuzz/kept.o $(LIB_HOS
 	@mkdir -p $(@D)
 	$(link)
 
-.PHONY: fuzz-now fuzz-programs kept-inputs
-kept-inputs: $(KEPT_INPUTS)
+.PHONY: fuzz-now fuzz-programs kept-now
+kept-now: $(KEPT_INPUTS)
 	@sh tests/fuzz/kept.sh $^
 fuzz-programs: $(FUZZERS)
 fuzz-now:
