@@ -219,7 +219,7 @@ static double seconds(const char *word) {
 }
 
 static void test_busy_contacts_are_told_and_cured(void) {
-    dice d = dice_of("busy", 15001);
+    dice d = dice_of("busy", 15005);
     const unsigned cases = dice_cases(few_or_all(usual_or(60, 30), 300));
     unsigned off = 0;
     unsigned right = 0;
