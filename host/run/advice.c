@@ -8,6 +8,7 @@
 
 #include "host/base/room.h"
 #include "host/number/functions.h"
+#include "swing.h"
 
 /* What a cure leaves over, of the largest entry: well below what is warned of. */
 #define CURED 3e-5
@@ -24,6 +25,8 @@
 /* Of a system's swing: its part of what moves, and of that what is lost. */
 #define SWING_SHARE 0.01
 #define SWING_LOST 0.01
+/* Of the range, where it varies. */
+#define SWING_OFF 0.01
 /* So many times as many steps are no advice. */
 #define STEPS_MORE 200.0
 /* So many times as many in float are to be compensated. */
@@ -294,13 +297,26 @@ static void say_singular(FILE *out, const advice *a) {
     }
 }
 
+/* A swing that varies along its way is to be off by as much, or by half of what linearising it at one place says. */
+static bool is_borne_out(advice *a, const linear_motion *m) {
+    const double half = 0.25 * number_least(m->off, 1.0) * number_root(m->share);
+    if (!swing_varies(a->motions, m)) {
+        return true;
+    }
+    a->swing_off = swing_off(a->watch);
+    return a->swing_off >= number_most(number_least(half, SWING_OFF), 0.5 * SWING_OFF);
+}
+
 /* A system has no energy to miss: its motions are asked. */
 bool advice_swing(advice *a) {
-    if (a->image->has_energies || a->image->settings.matrix == MATRIX_EXACT) {
-        return false;
+    if (!a->swing_known) {
+        const bool is_asked = !a->image->has_energies && a->image->settings.matrix != MATRIX_EXACT;
+        const linear_motion *m = is_asked ? motions_of(a)->worst : NULL;
+        a->swing_known = true;
+        a->swing = m != NULL && m->share >= SWING_SHARE &&
+                   linearised_worst(a->motions) >= SWING_LOST && is_borne_out(a, m);
     }
-    const linearised *l = motions_of(a);
-    return l->worst != NULL && l->worst->share >= SWING_SHARE && linearised_worst(l) >= SWING_LOST;
+    return a->swing;
 }
 
 static void say_swing(FILE *out, advice *a) {
@@ -311,8 +327,13 @@ static void say_swing(FILE *out, advice *a) {
         return;
     }
     const linearised *l = motions_of(a);
+    if (a->swing_off > 0.0) {
+        snprintf(done, sizeof done, "puts it up to %.2g %% of its range off", 100.0 * a->swing_off);
+    } else {
+        done_text(l, l->worst, done);
+    }
     fprintf(out, "whirl run: warning: the step is too coarse for %s; %s %s\n",
-            carried_text(a, l->worst, carried), title_of(a->image), done_text(l, l->worst, done));
+            carried_text(a, l->worst, carried), title_of(a->image), done);
     if (would_do(a, l->step_s, l->worst->off > SATURATED, cure)) {
         fprintf(out, "hint: %s\n", cure);
     }

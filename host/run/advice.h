@@ -18,6 +18,9 @@ typedef struct advice {
     const watch *watch;
     const belief *balance;
     linearised *motions; /* NULL until they are asked for */
+    bool swing_known;    /* it has been asked whether */
+    bool swing;
+    double swing_off; /* of a swing that varies along its way: swing_off(); else 0 */
 } advice;
 
 advice advice_of(const image *im, const engine_kind *kind, const watch *w, const belief *balance);
