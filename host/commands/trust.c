@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "commands.h"
+#include "files.h"
 #include "host/fixed/engine_fixed.h"
 #include "host/fixed/fixed_plan.h"
 #include "host/number/decimal.h"
@@ -248,7 +249,7 @@ static int answer(const trust_options *o, const image *im, const image *plain) {
     if (rows != NULL && rows != stdout) {
         fclose(rows);
         if (code == EXIT_INTERRUPTED) {
-            (void)remove(o->csv); /* nothing is in it */
+            files_drop(o->csv); /* nothing is in it */
         }
     }
     twins_free(t);

@@ -40,13 +40,12 @@ static const char *step_text(double step_s, char text[STEP_WORD]) {
         i++;
     }
     for (int digits = 3; digits <= 17; digits++) { /* 200us, not 2e+02us */
-        snprintf(text, STEP_WORD, "%.*g", digits, step_s / units[i].s);
+        snprintf(text, STEP_WORD, "%.*g%s", digits, step_s / units[i].s, units[i].unit);
         const double off = strtod(text, NULL) * units[i].s / step_s - 1.0;
         if (off < 1e-14 && off > -1e-14) {
             break;
         }
     }
-    strcat(text, units[i].unit);
     return text;
 }
 

@@ -137,4 +137,19 @@ for signal in INT TERM; do
     verdict $? "map, $signal: says how far it came"
     rm -f "$scratch/m.csv"
 done
+
+# trust has nothing for its file yet: an ordinary one goes, a pipe (or a device: the file of nothing is one) stays
+mkfifo "$scratch/trusted"
+for kind in file trusted; do # `trusted` is a pipe
+    rm -f "$scratch/file"
+    [ $kind = file ] || cat "$scratch/trusted" >"$scratch/read" &
+    "$whirl" trust epicyclic_from_rest --until 3000s --step 1ms --effort 1000 --csv "$scratch/$kind" >"$scratch/out" 2>"$scratch/err" &
+    process=$!
+    sleep 1
+    kill -INT $process
+    wait $process
+    code=$?
+    [ $code -eq 130 ] && grep -q '^whirl trust: interrupted at t = ' "$scratch/err" && [ ! -e "$scratch/file" ] && [ -p "$scratch/trusted" ]
+    verdict $? "trust to a file, $kind: exit status 130, an ordinary one goes and a pipe stays"
+done
 exit $failed
