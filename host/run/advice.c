@@ -225,7 +225,7 @@ static char *at_one_go(const advice *a) {
                                  a->balance->jump_s, step);
 }
 
-char *advice_cure(advice *a) {
+static char *cure_of(advice *a) {
     const belief *b = a->balance;
     if (b->exact || b->saturated || (b->slow && a->kind->unit != NULL)) {
         return NULL;
@@ -252,6 +252,18 @@ char *advice_cure(advice *a) {
                           done_text(l, l->worst, done), cure);
     }
     return room_words("the step is too coarse for this motion; %s", cure);
+}
+
+/* What tables round does not fall with the step. */
+char *advice_cure(advice *a) {
+    char *cure = cure_of(a);
+    if (a->image->settings.tables == TABLES_NONE) {
+        return cure;
+    }
+    char *all = room_words("the tables may be too coarse: more --cells, or no --tables, tell%s%s",
+                           cure != NULL ? "; if it is not they, " : "", cure != NULL ? cure : "");
+    free(cure);
+    return all;
 }
 
 /* --- the others ------------------------------------------------------------------------------------------------*/
