@@ -20,6 +20,8 @@ void suite_busy(void);
 #define OFF 0.02
 #define RIGHT 3e-3
 #define CURED 5e-3
+/* What a bounce's moment rounds in float, of the gap: some units of the last place. */
+#define ROUNDED 1e-6
 
 typedef enum rattle_kind { BALL, HOLD, BELT, KINDS } rattle_kind;
 
@@ -218,6 +220,11 @@ static double seconds(const char *word) {
                                                : 1.0);
 }
 
+/* How often a ball passes its gap, at most: it may do so thousands of times. */
+static double bounces_of(const rattle *r) {
+    return r->kind == BALL ? fabs(r->speed_mps) * r->step_s * r->steps / r->number[0] : 0.0;
+}
+
 static void test_busy_contacts_are_told_and_cured(void) {
     dice d = dice_of("busy", 15005);
     const unsigned cases = dice_cases(few_or_all(usual_or(60, 30), 300));
@@ -250,10 +257,11 @@ static void test_busy_contacts_are_told_and_cured(void) {
             cured++;
             worst = fmax(worst, then.off);
             say(text, step, is_float, &what);
-            if (then.off >= CURED || what.err[0] != '\0') {
+            const double allowed = CURED + (is_float ? ROUNDED * bounces_of(&r) : 0.0);
+            if (then.off >= allowed || what.err[0] != '\0') {
                 printf("%s# with it off by %.3g: %s\n", about, then.off, what.err);
             }
-            TEST_ASSERT_TRUE(then.off < CURED);
+            TEST_ASSERT_TRUE(then.off < allowed);
             TEST_ASSERT_EQUAL_STRING("", what.err);
         } else if (seen.off < RIGHT || !seen.busy) {
             right++;
