@@ -91,8 +91,8 @@ $(B)/float/$(GEN)/%.o $(B)/double/$(GEN)/%.o: FILE_FLAGS = $(SCENE_OPT)
 ASAN_BUILD = $(MAKE) MAIN="CC='$(CC)' OPT='$(OPT)' EXTRA='$(EXTRA)'" B=build/asan CC=gcc OPT="-O1 -fno-omit-frame-pointer" SCENE_OPT=-O0 \
     EXTRA="-fsanitize=$(SANITIZE) -fno-sanitize-recover=all"
 
-# Scripts that run no instrumented program, or have it write what other scripts have it write, too.
-CLI_NOT_ASAN := $(foreach t,boards flags fresh headers help no_libm runners setup structure,tests/cli/$(t).sh)
+# Scripts that run no instrumented program, or have it do what other scripts or a suite have it do, too.
+CLI_NOT_ASAN := $(foreach t,boards flags fresh headers help map no_libm runners setup structure,tests/cli/$(t).sh)
 # What scripts make themselves belongs to the main configuration, and must have its settings, not ours: with ours it would
 # be compiled anew, and once more by the next gate.
 .PHONY: asan-run

@@ -227,7 +227,7 @@ static double bounces_of(const rattle *r) {
 
 static void test_busy_contacts_are_told_and_cured(void) {
     dice d = dice_of("busy", 15005);
-    const unsigned cases = dice_cases(few_or_all(usual_or(60, 30), 300));
+    const unsigned cases = dice_cases(few_or_all(usual_or(60, 30), 120));
     unsigned off = 0;
     unsigned right = 0;
     unsigned cured = 0;
@@ -347,7 +347,7 @@ static double hybrid_off(const hybrid *h, const hybrid_motion *wanted, double st
 
 static void test_hybrids_in_coarse_steps(void) {
     dice d = dice_of("busy_hybrids", 15003);
-    const unsigned cases = dice_cases(few_or_all(usual_or(10, 4), 200));
+    const unsigned cases = dice_cases(few_or_all(usual_or(10, 4), 60));
     uint64_t seed = d.state;
     unsigned tried = 0;
     unsigned busy_ones = 0;
