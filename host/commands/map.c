@@ -11,7 +11,6 @@
 #include "host/base/room.h"
 #include "host/map/map_plot.h"
 #include "host/map/map_text.h"
-#include "host/number/decimal.h"
 #include "host/number/functions.h"
 #include "host/plot/gnuplot.h"
 #include "host/run/start.h"
@@ -75,19 +74,6 @@ typedef struct map_options {
     bool quiet;
 } map_options;
 
-static bool read_number(const char *option, const char *text, double least, double most,
-                        const char *hint, double *number) {
-    const char *end = text;
-    *number = decimal_read(text, &end);
-    const bool good = end != text && *end == '\0' && *number >= least && *number <= most;
-    if (!good) {
-        fprintf(stderr,
-                "whirl map: error: %s takes a number from %g to %g, not '%.40s'\nhint: %s\n",
-                option, least, most, text, hint);
-    }
-    return good;
-}
-
 static bool take_over(const char *text, map_options *o) {
     const bool room_left = o->over_count < AXES;
     if (!room_left) {
@@ -106,12 +92,12 @@ static bool take_one(int count, char **words, int *at, map_options *o, bool *bad
     if (!*bad && (value = options_value(count, words, at, "--over", bad)) != NULL) {
         *bad = !take_over(value, o);
     } else if (!*bad && (value = options_value(count, words, at, "--tolerance", bad)) != NULL) {
-        *bad = !read_number("--tolerance", value, 1e-15, 1.0,
-                            "a part of the range that a coordinate has: --tolerance 1e-3",
-                            &o->tolerance);
+        *bad = !options_number("map", "--tolerance", value, 1e-15, 1.0,
+                               "a part of the range that a coordinate has: --tolerance 1e-3",
+                               &o->tolerance);
     } else if (!*bad && (value = options_value(count, words, at, "--effort", bad)) != NULL) {
-        *bad = !read_number("--effort", value, EFFORT_LEAST, EFFORT_MOST,
-                            "1 is about a minute: --effort 60", &o->effort);
+        *bad = !options_number("map", "--effort", value, EFFORT_LEAST, EFFORT_MOST,
+                               "1 is about a minute: --effort 60", &o->effort);
     } else if (!*bad && (value = options_value(count, words, at, "--csv", bad)) != NULL) {
         o->csv = value;
     } else if (!*bad && (value = options_value(count, words, at, "--plot", bad)) != NULL) {

@@ -8,6 +8,7 @@
 
 #include "host/base/room.h"
 #include "host/number/functions.h"
+#include "step_text.h"
 #include "swing.h"
 
 /* What a cure leaves over, of the largest entry: well below what is warned of. */
@@ -32,7 +33,7 @@
 /* So many times as many in float are to be compensated. */
 #define FLOAT_MORE 10.0
 
-enum { STEP_WORD = 20, STEP_TEXT = 48, CARRIED_TEXT = 240, CURE_TEXT = 120, DONE_TEXT = 80 };
+enum { STEP_TEXT = 80, CARRIED_TEXT = 240, CURE_TEXT = 160, DONE_TEXT = 80 };
 
 advice advice_of(const image *im, const engine_kind *kind, const watch *w, const belief *balance) {
     return (advice){.image = im, .kind = kind, .watch = w, .balance = balance};
@@ -57,19 +58,6 @@ static const linearised *motions_of(advice *a) {
 }
 
 /* --- words -----------------------------------------------------------------------------------------------*/
-
-static const char *step_text(double step_s, char text[STEP_WORD]) {
-    static const struct {
-        double s;
-        const char *unit;
-    } units[] = {{1.0, "s"}, {1e-3, "ms"}, {1e-6, "us"}, {1e-9, "ns"}};
-    int i = 0;
-    while (i < 3 && step_s < 0.9999 * units[i].s) {
-        i++;
-    }
-    snprintf(text, STEP_WORD, "%.4g%s", step_s / units[i].s, units[i].unit);
-    return text;
-}
 
 /* Who carries a motion, how fast it is and what that is in steps. */
 static const char *carried_text(const advice *a, const linear_motion *m, char text[CARRIED_TEXT]) {

@@ -6,11 +6,16 @@ set -u
 bad=0
 for program in "$@"; do
     name=$(basename "$program" .kept)
-    if timeout --kill-after=5 600 "$program" tests/fuzz/kept/"$name"/* >/dev/null 2>"$program.said"; then
-        printf '%s: %s\n' "$name" "$(tr '\r' '\n' <"$program.said" | tail -n 1)"
+    said=$program.said
+    [ -x "$program" ] || { echo "kept.sh: error: there is no program $program" >&2 && exit 2; }
+    timeout --kill-after=5 600 "$program" tests/fuzz/kept/"$name"/* >/dev/null 2>"$said"
+    status=$?
+    tr '\r' '\n' <"$said" >"$said.lines"
+    if [ $status -eq 0 ]; then
+        printf '%s: %s\n' "$name" "$(tail -n 1 "$said.lines")"
     else
-        echo "FAIL $name: at $(tr '\r' '\n' <"$program.said" | grep -m 1 -B 1 -E 'ERROR|runtime error|error:' | head -n 1)"
-        tr '\r' '\n' <"$program.said" | grep -E 'ERROR|SUMMARY|runtime error|error:' | head -n 5 | sed 's/^/    /'
+        echo "FAIL $name: exit status $status (124: it hangs) at $(grep '^tests/fuzz/kept/' "$said.lines" | tail -n 1)"
+        grep -E 'ERROR|SUMMARY|runtime error|error:' "$said.lines" | head -n 5 | sed 's/^/    /'
         bad=1
     fi
 done

@@ -211,15 +211,6 @@ static bool step_said(const said *what, char word[40]) {
     return hint != NULL && sscanf(hint, "\nhint: --step %39s", word) == 1;
 }
 
-static double seconds(const char *word) {
-    char *unit;
-    const double number = strtod(word, &unit);
-    return number * (strcmp(unit, "ms") == 0   ? 1e-3
-                     : strcmp(unit, "us") == 0 ? 1e-6
-                     : strcmp(unit, "ns") == 0 ? 1e-9
-                                               : 1.0);
-}
-
 /* How often a ball passes its gap, at most: it may do so thousands of times. */
 static double bounces_of(const rattle *r) {
     return r->kind == BALL ? fabs(r->speed_mps) * r->step_s * r->steps / r->number[0] : 0.0;
@@ -253,7 +244,7 @@ static void test_busy_contacts_are_told_and_cured(void) {
                 without++;
                 continue;
             }
-            const measured then = run_beside(&r, text, seconds(step), is_float);
+            const measured then = run_beside(&r, text, said_step_s(step), is_float);
             cured++;
             worst = fmax(worst, then.off);
             say(text, step, is_float, &what);
@@ -378,7 +369,7 @@ static void test_hybrids_in_coarse_steps(void) {
         }
         told += is_told(&what) ? 1U : 0U;
         if (is_told(&what) && step_said(&what, step)) {
-            const double cured = hybrid_off(&h, &wanted, seconds(step), text, &is_busy);
+            const double cured = hybrid_off(&h, &wanted, said_step_s(step), text, &is_busy);
             say(text, step, false, &what);
             TEST_ASSERT_FALSE_MESSAGE(is_told(&what), what.err);
             worst = fmax(worst, cured);

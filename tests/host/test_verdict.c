@@ -59,7 +59,7 @@ static void draw(dice *d, unsigned shape, char text[TEXT]) {
                  r, -4.0 / r, 4.0 * past / (r * r));
         break;
     }
-    default:
+    case 4: /* an elastic ball between stops */
         snprintf(text, TEXT,
                  "mechanism m\ncoordinate x [m]\nparameter p = 1\nT = 1 [kg]*x'^2/2\n"
                  "stop x >= 0 [m] restitution 1\nstop x <= 1 [mm] restitution 1\n"
