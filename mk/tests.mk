@@ -32,7 +32,7 @@ $(B)/tests/core_suites.c $(B)/tests/host_suites.c: $(B)/tests/%_suites.c: tests/
 
 CORE_TEST_PARTS := $(CORE_TEST_C) $(B)/tests/core_suites.c $(UNITY_DIR)/unity.c
 HOST_TEST_PARTS := $(HOST_TEST_C) $(B)/tests/host_suites.c $(UNITY_DIR)/unity.c
-$(foreach b,host float double $(BOARD),$(call objects,$(b),$(CORE_TEST_PARTS) $(HOST_TEST_PARTS))): \
+$(foreach b,host float double $(BOARD),$(call objects,$(b),$(CORE_TEST_PARTS) $(HOST_TEST_PARTS) tests/tools/long_runs.c)): \
     | $(UNITY_DIR)/unity.c
 
 $(B)/tests/core_float: $(call objects,float,$(CORE_TEST_PARTS)) \

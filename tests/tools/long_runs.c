@@ -1,4 +1,4 @@
-/* long_runs.c: `long_runs [STEPS]` lets a pendulum swing from 1 rad and the epicyclic gear turn without a torque for
+/* long_runs.c: `long_runs [STEPS [WAY [SUBJECT]]]` lets a pendulum swing from 1 rad and the epicyclic gear turn without a torque for
  * so many steps of 1 ms (10^7 when left out), and prints, for every decade of steps, the largest error of the energy, as a
  * part of it, and how far the gear's centre of mass has gone from where it was, m; and how they grow. Energies are those of
  * formulas in this file, in double, of the states as they are. */
@@ -57,7 +57,14 @@ static const subject subjects[] = {
     {"gear, no torque", gear_J,
      GEAR "scene s { start theta' = 5 [rad/s]\nstep 1 [ms]\nuntil 1e12 [s] }\n", true},
     {"gear, X conserved", gear_J,
-     GEAR "scene s { conserve X\nstart theta' = 5 [rad/s]\nstep 1 [ms]\nuntil 1e12 [s] }\n", true}};
+     GEAR "scene s { conserve X\nstart theta' = 5 [rad/s]\nstep 1 [ms]\nuntil 1e12 [s] }\n", true},
+    /* A force that asks where X is, of no strength: then X does not follow from the angle and the time, and is
+     * integrated from the rate that its momentum gives. */
+    {"gear, X' conserved", gear_J,
+     GEAR
+     "input pull = 0 [N]\nQ(theta) = pull*X\nscene s { conserve X\nstart theta' = 5 [rad/s]\nstep 1 [ms]\n"
+     "until 1e12 [s] }\n",
+     true}};
 
 typedef struct seen {
     double energy; /* largest |E/E_0 - 1| */
@@ -114,6 +121,7 @@ static void try_one(const subject *of, stepping how, const char *number, uint64_
 int main(int count, char **words) {
     const double wanted = count > 1 ? strtod(words[1], NULL) : 1e7;
     const int only = count > 2 ? (int)strtol(words[2], NULL, 10) : -1;
+    const int only_subject = count > 3 ? (int)strtol(words[3], NULL, 10) : -1;
     static const struct {
         const char *number;
         stepping how;
@@ -133,7 +141,8 @@ int main(int count, char **words) {
          {.kind = &engine_float, .method = WH_LEAPFROG, .compensated = true, .step_s = STEP_S}},
         {"double", {.kind = &engine_double, .method = WH_LEAPFROG, .step_s = STEP_S}}};
     if (!(wanted >= 1e5 && wanted <= 1e11)) {
-        fputs("usage: long_runs [STEPS [WAY]], 1e5 to 1e11\n", stderr);
+        fputs("usage: long_runs [STEPS [WAY [SUBJECT]]], 1e5 to 1e11; both from 0, -1: all\n",
+              stderr);
         return 2;
     }
     printf("largest in each decade of steps, from 10^3 to 10^4 on; %.0e steps of 1 ms\n", wanted);
@@ -141,7 +150,9 @@ int main(int count, char **words) {
         for (size_t w = 0; w < sizeof ways / sizeof ways[0]; w++) {
             const bool takes =
                 !subjects[s].rates || wh_methods[ways[w].how.method].takes != WH_NO_RATES;
-            if (takes && (only < 0 || only == (int)w)) {
+            const bool asked =
+                (only < 0 || only == (int)w) && (only_subject < 0 || only_subject == (int)s);
+            if (takes && asked) {
                 try_one(&subjects[s], ways[w].how, ways[w].number, (uint64_t)wanted);
             }
         }
