@@ -43,7 +43,7 @@ trusting trusting_look(const image *im, const image *plain, simulation_settings 
     return t;
 }
 
-void trusting_say(const trusting *t, const simulation_settings *s) {
+void trusting_say(const trusting *t, const simulation_settings *s, bool doubted) {
     FILE *out = is_stdout(s->csv) || is_stdout(s->columns) ? stderr : stdout;
     if (s->quiet) {
         return;
@@ -52,7 +52,7 @@ void trusting_say(const trusting *t, const simulation_settings *s) {
         fputs("trusted            whirl trust tells until when: it takes more than a second\n",
               out);
     } else if (t->twins != NULL && t->twins->status == WH_OK && !t->twins->stopped) {
-        horizon_print_line(out, &t->horizon);
+        horizon_print_line(out, &t->horizon, doubted);
     }
 }
 

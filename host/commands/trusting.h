@@ -24,8 +24,8 @@ typedef struct trusting {
 
 /* Looks, where it takes less than a second, and sets where the plot's shade begins. Moves no bit of the run. */
 trusting trusting_look(const image *im, const image *plain, simulation_settings *s);
-/* The line below the summary. */
-void trusting_say(const trusting *t, const simulation_settings *s);
+/* The line below the summary. `doubted`: the run has been warned of, and that both agree is no reason to trust it. */
+void trusting_say(const trusting *t, const simulation_settings *s, bool doubted);
 void trusting_end(trusting *t);
 
 #endif

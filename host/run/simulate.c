@@ -303,7 +303,8 @@ static bool draw(const simulation *sim) {
     return drawn;
 }
 
-simulation_result simulate(const image *im, const simulation_settings *s) {
+simulation_result simulate(const image *im, const simulation_settings *s, unsigned *against) {
+    *against = 0;
     simulation sim = {.image = im, .settings = s, .output = -1};
     sim.steps = im->steps;
     sim.records = records_open(NULL, im, s->kind);
@@ -319,6 +320,7 @@ simulation_result simulate(const image *im, const simulation_settings *s) {
         const wh_status status = loop(&sim, &interrupted);
         verdict_end(sim.verdict, sim.run, status != WH_OK, s->stop);
         result = judge(&sim, status, interrupted);
+        *against = sim.verdict->against;
         const bool csv_written = flush_records(s->csv, sim.csv);
         const bool columns_written = flush_records(s->columns, sim.columns);
         if (!csv_written || !columns_written) {

@@ -28,6 +28,7 @@ typedef enum simulation_result {
     SIMULATION_BAD_FILE     /* a file could not be written, or gnuplot failed; said */
 } simulation_result;
 
-simulation_result simulate(const image *im, const simulation_settings *s);
+/* *against: what is to be said against a run that is done (verdict.h), as bits. */
+simulation_result simulate(const image *im, const simulation_settings *s, unsigned *against);
 
 #endif

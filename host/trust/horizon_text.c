@@ -126,9 +126,13 @@ void horizon_print(FILE *out, const horizon *h) {
     print_verdict(out, h);
 }
 
-void horizon_print_line(FILE *out, const horizon *h) {
+void horizon_print_line(FILE *out, const horizon *h, bool doubted) {
     char name[NAME_SIZE];
-    if (h->to_the_end) {
+    if (h->to_the_end && doubted) {
+        fputs(
+            "trusted            not to be told: the runs beside it agree to the end, and may share what was warned of\n",
+            out);
+    } else if (h->to_the_end) {
         fprintf(out, "trusted            to the end: every coordinate to %.3g of its range\n",
                 h->tolerance);
     } else {

@@ -53,6 +53,23 @@ tests/mechanisms/lorenz.whirl --start x=1 --step 2ms --until 30s
 tests/mechanisms/van_der_pol.whirl --step 10ms --until 20s
 END
 
+# --- what both runs jump over: that they agree is no reason to trust them ----------------------------------------------
+# A wall 10 um thick, and steps of both that meet it at its middle only, where nothing pushes.
+for speed in 1 2 5; do
+    cat >"$scratch/wall.whirl" <<END
+mechanism wall "A ball whose steps jump through a wall"
+coordinate x [m]
+T = 1 [kg]*x'^2/2
+V = 1000 [J]*exp(-((x - 1 [m])/1e-5 [m])^2)
+scene through { start x' = $speed [m/s]
+step 1 [ms]
+until 2 [s] }
+END
+    "$whirl" run "$scratch/wall.whirl" >"$scratch/summary" 2>"$scratch/err"
+    grep -q 'cannot be believed' "$scratch/err" && grep -q '^trusted  *not to be told: ' "$scratch/summary"
+    verdict $? "a wall that $speed m/s pass unseen: not believed, and not trusted" "$scratch/summary"
+done
+
 # --- a step that is the motion itself: right to the end, with sums of either kind ------------------------------------------
 for number in double float; do
     for sums in '' --compensated; do
