@@ -13,8 +13,8 @@ and this page, which is made from the descriptions `mk/figures/*.fig`, into `doc
 no date and no machine's name: drawn twice, they are the same files. The commands below print the
 numbers behind each figure.
 
-Not here: figures 1 to 18, 21 to 31, 35, 41 to 43, 47 to 49 and 56 are drawings, photographs and
-measurements; those of the rig (17, 24 to 26) are a matter of [rig.md](rig.md).
+Not here: figures 1 to 10, 12 to 18, 21 to 25, 27 to 31, 35, 41 to 43, 47 to 49 and 56 are drawings,
+photographs and measurements; those of the rig (17, 24, 25) are a matter of [rig.md](rig.md).
 END
 for fig in "$@"; do
     name=$(basename "$fig" .fig)

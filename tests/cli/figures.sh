@@ -20,8 +20,10 @@ while IFS='|' read -r number drawn x y; do
     [ -z "$wrong" ]
     verdict $? "$number${wrong:- has its curves and axes}"
 done <<'END'
+11|2|motor's frequency / spring's natural frequency|deflection / deflection at rest
 19|2|time [s]|pin force [lbf]
 20|3|eccentric weight / carriage weight|free / fixed pin force
+26|5|time [s]|carriage [m]
 32|2|time [s]|position [in]
 33|2|time [s]|stretch [in]
 34|2|time [s]|position [in]
@@ -47,6 +49,20 @@ END
 awk -F, 'NR > 1 { n++; d = $2 / $3 * (1 + $1) - 1; if (d < 0) d = -d; if (d > 0.001) bad++ }
     END { exit !(n == 21 && bad == 0) }' "$scratch"/one/data/sweep-carriage_ratio*.csv
 verdict $? "20 is 1/(1 + ratio) within 0.1 %, at 21 ratios"
+
+# Fig. 11 against the forced oscillation: peaks are those of samples, 9 degrees apart at the least damped.
+awk -F, 'NR > 1 {
+        n++; x = $4; due = 1 / sqrt((1 - x * x) ^ 2 + (13 / (0.33 * 188.4956) * x * x) ^ 2)
+        d = $2 / $3 / due - 1; if (d < 0) d = -d; if (d > 0.005) bad++; if (x > 1) above++
+    }
+    END { exit !(n == 61 && above > 20 && above < 41 && bad == 0) }' "$scratch"/one/data/sweep-halvorson_smooth*.csv
+verdict $? "11 is a forced oscillation within 0.5 %, at 61 springs"
+
+# Fig. 26: what remains at the end swings by S/(all masses), about a place behind which it no longer comes.
+awk -F, 'NR > 1 && $1 > 55 { if (!n++ || $3 > high) high = $3; if (n == 1 || $3 < low) low = $3 }
+    END { a = (high - low) / 2 * 1000 / 32.0864 - 1; exit !(n > 1000 && a > -0.01 && a < 0.01 && low > 5) }' \
+    "$scratch"/one/data/run-carriage_stop*every_4ms*.csv
+verdict $? "26 ends in a swing of 32.09 mm, metres from the stop"
 
 # The swing's action stays within 0.5 % from 4 s on, while its energy grows.
 sh mk/figures/swing.sh "$whirl" cycles | awk -F, '
