@@ -59,6 +59,15 @@ MATRIX := two_mass_relative cartesian_flight
 $(eval $(call program,scenes,boards/programs/scenes.c,scenes whirl))
 $(eval $(call program,firmware,boards/programs/rig.c,whirl rig virtual scenes))
 
+# Firmware whose plant is at the other end of a line (`whirl pil`), of families that have one: BOARD_LINK.
+define pil_program
+$(B)/$(1): $(call objects,float,$(2) boards/host/board.c boards/host/link.c) $(call libraries,float,$(3))
+	$$(link)
+$(ELF)/$(1).elf: $(call objects,$(BOARD),$(2) $(BOARD_LINK)) $(BOARD_OBJECTS) $(call libraries,$(BOARD),$(3))
+	$$(link_board)
+endef
+$(eval $(call pil_program,pil_rig,boards/programs/pil_rig.c,frames rig whirl))
+
 # Only the test framework takes something from a C library: the jump out of a failed test.
 $(ELF)/tests.elf: IMAGE_LIBS := -lc
 $(ELF)/tests.elf: $(call objects,$(BOARD),$(CORE_TEST_PARTS)) $(BOARD_OBJECTS) \
