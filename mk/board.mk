@@ -67,6 +67,16 @@ $(ELF)/$(1).elf: $(call objects,$(BOARD),$(2) $(BOARD_LINK)) $(BOARD_OBJECTS) $(
 	$$(link_board)
 endef
 $(eval $(call pil_program,pil_rig,boards/programs/pil_rig.c,frames rig whirl))
+$(eval $(call pil_program,pil_cart,boards/programs/pil_cart.c,frames whirl))
+PIL_PROGRAMS := pil_rig pil_cart
+PIL_IMAGES := $(if $(BOARD_LINK),$(PIL_PROGRAMS:%=$(ELF)/%.elf))
+
+##@ Start here
+.PHONY: pil-images pil-now
+pil-images: $(PIL_PROGRAMS:%=$(B)/%) $(PIL_IMAGES) ## firmware for `whirl pil`, for this machine and for BOARD
+pil-now: $(B)/whirl pil-images
+	@$(call need,qemu-system-arm)
+	@sh mk/demo/pil.sh $(B)/whirl $(ELF)/pil_rig.elf $(BOARD)
 
 # Only the test framework takes something from a C library: the jump out of a failed test.
 $(ELF)/tests.elf: IMAGE_LIBS := -lc
