@@ -71,12 +71,15 @@ $(eval $(call pil_program,pil_cart,boards/programs/pil_cart.c,frames whirl))
 PIL_PROGRAMS := pil_rig pil_cart
 PIL_IMAGES := $(if $(BOARD_LINK),$(PIL_PROGRAMS:%=$(ELF)/%.elf))
 
-##@ Start here
+# On BOARD and on an M3: the tape of one on the other.
+PIL_BOARDS := $(BOARD) $(filter-out $(BOARD),mps2-an385)
+##@ Tests and quality
 .PHONY: pil-images pil-now
 pil-images: $(PIL_PROGRAMS:%=$(B)/%) $(PIL_IMAGES) ## firmware for `whirl pil`, for this machine and for BOARD
-pil-now: $(B)/whirl pil-images
+pil-now: $(B)/whirl
 	@$(call need,qemu-system-arm)
-	@sh mk/demo/pil.sh $(B)/whirl $(ELF)/pil_rig.elf $(BOARD)
+	+@$(foreach b,$(PIL_BOARDS),$(call on_board,$(b),pil-images) &&) true
+	@sh mk/demo/pil.sh $(B)/whirl $(PIL_BOARDS)
 
 # Only the test framework takes something from a C library: the jump out of a failed test.
 $(ELF)/tests.elf: IMAGE_LIBS := -lc
