@@ -102,7 +102,7 @@ $(GUARDS): $(ELF)/%.elf: $(B)/$(BOARD)/tests/boards/%.o $(BOARD_OBJECTS) $(call 
 
 .PHONY: board-images board-tests run-suites print-hashes print-matrix-hashes bench-matrix
 board-images: $(IMAGES)
-board-tests: $(ELF)/tests.elf $(GUARDS)
+board-tests: $(ELF)/tests.elf $(GUARDS) $(PIL_IMAGES)
 run-suites: # the portable suites, then what guards the stack
 	@status=0; $(call emulate,$(ELF)/tests.elf) || status=1; sh tests/boards/guard.sh $(BOARD) || status=1; exit $$status
 print-hashes: # a line for each scene, with the hash of its last state

@@ -127,8 +127,8 @@ gate-bad-input:
 .PHONY: image-rules
 gate-firmware:
 	@for board in $(BOARDS); do $(MAKE) B=build BOARD=$$board image-rules || exit 1; done
-image-rules: board-images
-	@NM=$(BOARD_NM) sh boards/check_image.sh $(IMAGES)
+image-rules: board-images $(PIL_IMAGES)
+	@NM=$(BOARD_NM) sh boards/check_image.sh $(IMAGES) $(PIL_IMAGES)
 
 gate-size:
 	@for board in $(BOARDS); do $(MAKE) BOARD=$$board size-now || exit 1; done

@@ -135,9 +135,9 @@ static bool bind_one(bound *b, const image *im, const char *renames) {
     }
     if (!is_same_unit(unit, b->signal.unit)) {
         fprintf(stderr,
-                "whirl pil: error: '%s' is in %s in the firmware, and in %s in '%s'\n"
+                "whirl pil: error: the firmware's '%s' is in %s, and '%s' of '%s' in %s\n"
                 "hint: what goes over the line is SI on both sides\n",
-                name, b->signal.unit, unit, im->name);
+                b->signal.name, b->signal.unit, name, im->name, unit);
         return false;
     }
     return has_good_range(b);

@@ -24,7 +24,7 @@ echo "=== Its tape, $(wc -c <"$out/rig.tape") bytes, on this PC and on $*"
 for board in "$@"; do
     "$whirl" pil --replay "$out/rig.tape" --firmware "$build/$board/pil_rig.elf" --board "$board" >>"$out/replay.txt" || failed=1
 done
-cat "$out/replay.txt"
+grep -aE '^(firmware|exchanges|command stream) ' "$out/replay.txt"
 echo
 echo "=== Another plant: a rod upright on a cart"
 echo
