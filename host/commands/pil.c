@@ -8,6 +8,7 @@
 #include "commands.h"
 #include "files.h"
 #include "host/number/decimal.h"
+#include "host/pil/lockstep.h"
 #include "host/pil/pil_text.h"
 #include "host/run/start.h"
 #include "load.h"

@@ -11,9 +11,9 @@ static double now_s(void) {
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static void note_most(most *m, double value, double at_s) {
+static void note_most(peak *m, double value, double at_s) {
     if (value > m->value) {
-        *m = (most){value, at_s};
+        *m = (peak){value, at_s};
     }
 }
 

@@ -2,7 +2,7 @@
 #ifndef PIL_PIL_TEXT_H
 #define PIL_PIL_TEXT_H
 
-#include "lockstep.h"
+#include "report.h"
 
 /* `im` is the plant's; NULL: it was a tape. */
 void pil_print(FILE *out, const lockstep_wish *wish, const image *im, const lockstep_report *r);

@@ -5,6 +5,7 @@
 
 #include "core/hash.h"
 #include "host/base/room.h"
+#include "lockstep.h"
 #include "talk.h"
 
 /* A tape is the frames that went over the line, in their order: hello, then readings and orders in turns. */

@@ -164,7 +164,7 @@ is_gone() {
     return 1
 }
 end_of() { # STATUS WHAT: how the host ended, and that both are gone
-    wait "$wrapper"
+    wait "$wrapper" 2>/dev/null
     got=$?
     [ "$got" -eq "$1" ] && is_gone "$host" && is_gone "$guest" && [ -z "$(find "$scratch" -type p)" ]
     verdict $? "$2 (status $got), no process and no FIFO is left"
