@@ -32,7 +32,7 @@ bool wh_hello_get(wh_hello *hello, wh_signal *signal, const uint8_t *bytes, unsi
     hello->ticks_per_s = wh_bytes_get(&in, 4);
     hello->timer_per_s = wh_bytes_get(&in, 4);
     hello->start_ticks = wh_bytes_get(&in, 4);
-    hello->signals = wh_bytes_get(&in, 1);
+    hello->signals = (unsigned)wh_bytes_get(&in, 1);
     hello->signal = signal;
     if (hello->signals > WH_SIGNALS_MAX) {
         return false;
@@ -74,7 +74,7 @@ bool wh_orders_get(wh_orders *orders, const uint8_t *bytes, unsigned length) {
     orders->busy_timer = wh_bytes_get(&in, 4);
     orders->watchdog_ticks = wh_bytes_get(&in, 4);
     orders->flags = (uint8_t)wh_bytes_get(&in, 1);
-    orders->outputs = wh_bytes_get(&in, 1);
+    orders->outputs = (unsigned)wh_bytes_get(&in, 1);
     if (orders->outputs > WH_SIGNALS_MAX) {
         return false;
     }
@@ -105,8 +105,8 @@ unsigned wh_readings_put(const wh_readings *readings, uint8_t *bytes, unsigned r
 bool wh_readings_get(wh_readings *readings, const uint8_t *bytes, unsigned length) {
     wh_bytes in = {.from = bytes, .room = length};
     readings->flags = (uint8_t)wh_bytes_get(&in, 1);
-    readings->edges = wh_bytes_get(&in, 1);
-    readings->samples = wh_bytes_get(&in, 1);
+    readings->edges = (unsigned)wh_bytes_get(&in, 1);
+    readings->samples = (unsigned)wh_bytes_get(&in, 1);
     if (readings->edges > WH_EDGES_MAX || readings->samples > WH_SAMPLES_MAX) {
         return false;
     }
