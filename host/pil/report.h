@@ -8,7 +8,8 @@
 #include "plant.h"
 
 /* The seam for faults of the line and of the sensors: asked in turn, after the firmware has spoken and before it is
- * spoken to. What they make of a message is what the other side hears, and what a tape keeps. NULL: not asked. */
+ * spoken to. What they make of a message is what the other side hears. A tape has what the firmware heard and said. NULL:
+ * not asked. */
 typedef struct tap {
     const char *name;
     void *of;
