@@ -15,7 +15,7 @@
 
 /* Of the guest (hal/link.h has the same numbers). */
 enum { DOWN = 3, UP = 4, ABOVE = 10 };
-enum { EXEC_FAILED = 127, POLL_MS = 50 };
+enum { POLL_MS = 50 };
 
 static double now_s(void) {
     struct timespec t;
@@ -95,7 +95,7 @@ static _Noreturn void become(const guest *g, int down, int up, pid_t parent) {
     fprintf(stderr, "%s: error: cannot be run: %s\n",
             g->emulated ? "qemu-system-arm" : g->wish.image, strerror(errno));
     fflush(stderr);
-    _exit(EXEC_FAILED);
+    _exit(GUEST_NOT_RUN);
 }
 
 static bool make_line(int down[2], int up[2]) {

@@ -17,6 +17,9 @@
 /* How QEMU counts: an instruction is 2^GUEST_SHIFT ns of the guest's time, so that a timer of 25 MHz tells them apart. */
 #define GUEST_SHIFT 6
 
+/* Exit status of what could not be run, as shells have it. */
+#define GUEST_NOT_RUN 127
+
 typedef struct guest_wish {
     const char *image;                 /* an ELF file: for Arm, or a program of this machine */
     const char *board;                 /* QEMU's machine */

@@ -109,15 +109,27 @@ uint64_t talk_hash(uint64_t hash, const wh_orders *orders) {
 
 /* --- beginning and end ------------------------------------------------------------------------------------------*/
 
+/* It ended before it has said anything; what cannot be run at all has been told by what was to become it. */
+static void say_no_hello(talk *t) {
+    const guest_end_status end = guest_end(&t->guest);
+    t->report->end = LOCKSTEP_BAD;
+    if (end.status == GUEST_NOT_RUN) {
+        fputs(t->guest.emulated ? "hint: make deps installs QEMU\n"
+                                : "hint: is it a program of this machine, and executable?\n",
+              stderr);
+    } else {
+        fprintf(stderr,
+                "%s: error: it ended without a hello\nhint: is it made for `whirl pil`, as "
+                "build/pil_rig and build/BOARD/pil_rig.elf are?\n",
+                t->guest.wish.image);
+    }
+}
+
 static bool hear_hello(talk *t) {
     wh_frame frame;
     if (!hear_frame(t, &frame)) {
         if (t->report->end == LOCKSTEP_DONE) { /* before it has said anything */
-            t->report->end = LOCKSTEP_BAD;
-            fprintf(stderr,
-                    "%s: error: it ended without a hello\nhint: is it made for `whirl pil`, as "
-                    "build/pil_rig and build/BOARD/pil_rig.elf are?\n",
-                    t->guest.wish.image);
+            say_no_hello(t);
         }
         return false;
     }

@@ -118,6 +118,8 @@ refused 2 'takes no scene' rig_coupled --replay "$scratch/pc.tape" --firmware "$
 refused 2 'cannot be read' rig_coupled --firmware "$scratch/none"
 refused 2 'no firmware image' rig_coupled --firmware README.md
 refused 2 'ended without a hello' rig_coupled --firmware "$build/whirl"
+cp "$build/pil_rig" "$scratch/closed" && chmod a-x "$scratch/closed"
+refused 2 'cannot be run' rig_coupled --firmware "$scratch/closed"
 refused 2 "sets 'push', which 'rig_coupled' does not have" rig_coupled --firmware "$build/pil_cart"
 sed 's/theta/tilt/g' docs/plants/cart.whirl >"$scratch/tilt.whirl"
 refused 2 "reads 'theta', which" "$scratch/tilt.whirl" --firmware "$build/pil_cart"
