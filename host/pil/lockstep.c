@@ -5,6 +5,8 @@
 
 #include "talk.h"
 
+#define PIECE_S 0.1
+
 static double now_s(void) {
     struct timespec t;
     clock_gettime(CLOCK_MONOTONIC, &t);
@@ -60,6 +62,24 @@ static double next_ticks(loop *l, const wh_orders *orders, double busy_ticks) {
     return wanted;
 }
 
+/* In pieces, so that somebody who interrupts is heard while the plant has far to go; no further than is wished. */
+static bool advance(loop *l, double until_ticks) {
+    const lockstep_wish *wish = l->talk.wish;
+    const double most = wish->until_s * l->ticks_per_s;
+    const double end = until_ticks < most ? until_ticks : most;
+    const double piece = PIECE_S * l->ticks_per_s;
+    while (!plant_has_reached(&l->plant, end)) {
+        const double next = plant_now(&l->plant) + piece;
+        if (!plant_advance(&l->plant, next < end ? next : end)) {
+            return false;
+        }
+        if (wish->guest.stop != NULL && *wish->guest.stop != 0) {
+            break;
+        }
+    }
+    return true;
+}
+
 static bool plant_goes_on(loop *l, const wh_orders *orders) {
     lockstep_report *r = l->report;
     const double acted = (double)orders->acted_timer * l->per_count;
@@ -68,7 +88,7 @@ static bool plant_goes_on(loop *l, const wh_orders *orders) {
     note_most(&r->acted, acted, plant_s(l));
     note_most(&r->busy, busy, plant_s(l));
     plant_order(&l->plant, orders, acted * ticks);
-    if (!plant_advance(&l->plant, next_ticks(l, orders, busy * ticks))) {
+    if (!advance(l, next_ticks(l, orders, busy * ticks))) {
         fprintf(stderr,
                 "whirl pil: error: the plant left all bounds at t = %.9g s (%s)\n"
                 "hint: a smaller --step, or look at what the firmware told it to do\n",

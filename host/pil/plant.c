@@ -69,6 +69,8 @@ void plant_stop(plant *p) {
 
 double plant_now(const plant *p) { return (double)p->steps * p->step_ticks; }
 
+bool plant_has_reached(const plant *p, double ticks) { return plant_now(p) + NEARLY >= ticks; }
+
 /* A timer shows whole ticks, and wraps. */
 static uint32_t shown(const plant *p, double ticks) {
     return p->start_ticks + (uint32_t)(uint64_t)number_floor(ticks + NEARLY);
@@ -270,8 +272,8 @@ static bool step(plant *p) {
 }
 
 bool plant_advance(plant *p, double until_ticks) {
-    while (plant_now(p) + NEARLY < until_ticks) {
-        if (p->waits && plant_now(p) + NEARLY >= p->act_ticks) {
+    while (!plant_has_reached(p, until_ticks)) {
+        if (p->waits && plant_has_reached(p, p->act_ticks)) {
             take_effect(p);
         }
         watch(p);

@@ -71,6 +71,8 @@ void plant_stop(plant *p);
 /* Now, in ticks since the start and as the controller's timer shows it. */
 double plant_now(const plant *p);
 uint32_t plant_ticks(const plant *p);
+/* Is it there, but for rounding? */
+bool plant_has_reached(const plant *p, double ticks);
 
 /* Orders that were sent now and take effect `late_ticks` later, or at the next orders if those come before. */
 void plant_order(plant *p, const wh_orders *orders, double late_ticks);

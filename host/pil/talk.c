@@ -85,7 +85,7 @@ bool talk_hear(talk *t, wh_orders *orders) {
     if (frame.kind != WH_FRAME_ORDERS || frame.sequence != t->sequence) {
         return fail(t, "a frame that is no answer");
     }
-    if (!wh_orders_get(orders, frame.payload, frame.length)) {
+    if (!wh_orders_get(orders, frame.payload, frame.length) || orders->outputs != t->outputs) {
         return fail(t, "orders that are none");
     }
     keep_heard(t, &frame);
@@ -139,6 +139,9 @@ static bool hear_hello(talk *t) {
     memcpy(t->words, frame.payload, frame.length);
     if (!wh_hello_get(&t->hello, t->signal, t->words, frame.length) || t->hello.ticks_per_s == 0) {
         return fail(t, "a hello that is none");
+    }
+    for (unsigned i = 0; i < t->hello.signals; i++) {
+        t->outputs += t->signal[i].kind == WH_SIGNAL_OUTPUT;
     }
     keep_heard(t, &frame);
     snprintf(t->report->program, sizeof t->report->program, "%s", t->hello.program);

@@ -11,6 +11,7 @@ typedef struct talk {
     wh_hello hello;
     wh_signal signal[WH_SIGNALS_MAX];
     uint8_t words[GUEST_LINE_BYTES]; /* of the hello */
+    unsigned outputs;                /* that it declares */
     uint16_t sequence;               /* of the last readings */
     FILE *tape;                      /* or NULL */
 } talk;
