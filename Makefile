@@ -69,6 +69,11 @@ run: ## the whole way: a mechanism's energies, its motion, its firmware on an em
 	@CC="$(CC)" mk/setup/deps.sh host plot firmware
 	@$(MAKE) run-now
 
+.PHONY: pil
+pil: ## processor in the loop: the rig's firmware on BOARD against a plant of its own, and its tape everywhere
+	@CC="$(CC)" mk/setup/deps.sh host firmware
+	@$(MAKE) pil-now
+
 .PHONY: whirl
 whirl: $(B)/whirl ## the command line program, build/whirl
 

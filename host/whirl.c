@@ -33,6 +33,7 @@ static const command commands[] = {
      "the cheapest setting that keeps an error on a board"},
     {"trust", command_trust, "SCENE|FILE[:SCENE] ...", "until when a run can be trusted"},
     {"map", command_map, "SCENE|FILE[:SCENE] ...", "which pairs of two values a run survives"},
+    {"pil", command_pil, "SCENE --firmware IMAGE", "firmware in an emulator against a scene"},
     {"emit-settings", command_emit_settings, NULL, NULL},
 #endif
     {"emit-scenes", command_emit_scenes, NULL, NULL},

@@ -59,6 +59,28 @@ MATRIX := two_mass_relative cartesian_flight
 $(eval $(call program,scenes,boards/programs/scenes.c,scenes whirl))
 $(eval $(call program,firmware,boards/programs/rig.c,whirl rig virtual scenes))
 
+# Firmware whose plant is at the other end of a line (`whirl pil`), of families that have one: BOARD_LINK.
+define pil_program
+$(B)/$(1): $(call objects,float,$(2) boards/host/board.c boards/host/link.c) $(call libraries,float,$(3))
+	$$(link)
+$(ELF)/$(1).elf: $(call objects,$(BOARD),$(2) $(BOARD_LINK)) $(BOARD_OBJECTS) $(call libraries,$(BOARD),$(3))
+	$$(link_board)
+endef
+$(eval $(call pil_program,pil_rig,boards/programs/pil_rig.c,frames rig whirl))
+$(eval $(call pil_program,pil_cart,boards/programs/pil_cart.c,frames whirl))
+PIL_PROGRAMS := pil_rig pil_cart
+PIL_IMAGES := $(if $(BOARD_LINK),$(PIL_PROGRAMS:%=$(ELF)/%.elf))
+
+# On BOARD and on an M3: the tape of one on the other.
+PIL_BOARDS := $(BOARD) $(filter-out $(BOARD),mps2-an385)
+##@ Tests and quality
+.PHONY: pil-images pil-now
+pil-images: $(PIL_PROGRAMS:%=$(B)/%) $(PIL_IMAGES) ## firmware for `whirl pil`, for this machine and for BOARD
+pil-now: $(B)/whirl
+	@$(call need,qemu-system-arm)
+	+@$(foreach b,$(PIL_BOARDS),$(call on_board,$(b),pil-images) &&) true
+	@sh mk/demo/pil.sh $(B)/whirl $(PIL_BOARDS)
+
 # Only the test framework takes something from a C library: the jump out of a failed test.
 $(ELF)/tests.elf: IMAGE_LIBS := -lc
 $(ELF)/tests.elf: $(call objects,$(BOARD),$(CORE_TEST_PARTS)) $(BOARD_OBJECTS) \
@@ -80,7 +102,7 @@ $(GUARDS): $(ELF)/%.elf: $(B)/$(BOARD)/tests/boards/%.o $(BOARD_OBJECTS) $(call 
 
 .PHONY: board-images board-tests run-suites print-hashes print-matrix-hashes bench-matrix
 board-images: $(IMAGES)
-board-tests: $(ELF)/tests.elf $(GUARDS)
+board-tests: $(ELF)/tests.elf $(GUARDS) $(PIL_IMAGES)
 run-suites: # the portable suites, then what guards the stack
 	@status=0; $(call emulate,$(ELF)/tests.elf) || status=1; sh tests/boards/guard.sh $(BOARD) || status=1; exit $$status
 print-hashes: # a line for each scene, with the hash of its last state

@@ -28,7 +28,7 @@ objects: $(call objects,host,$(WHIRL_MAIN_C) $(WHIRL_C) $(GEN)/builtin_models.c 
     $(call objects,float,$(PORTABLE_C) $(PC_BOARD_C) $(CORE_TEST_C) $(SCENE_C)) \
     $(call objects,double,$(CORE_C) $(RIG_C) $(CORE_TEST_C) $(SCENE_C))
 board-objects: board-own-objects $(call objects,$(BOARD),$(PORTABLE_C) $(PROGRAM_C) $(CORE_TEST_C) $(SCENE_C))
-board-own-objects: $(call objects,$(BOARD),$(BOARD_SOURCES) $(wildcard tests/boards/guard_*.c))
+board-own-objects: $(call objects,$(BOARD),$(BOARD_SOURCES) $(BOARD_LINK) $(wildcard tests/boards/guard_*.c))
 
 # Where the main configuration has these very settings, as in CI (.ci/run), what it compiled already counts. Other gates
 # take both compilers' objects from where these two put them.
@@ -61,7 +61,7 @@ gate-tidy:
 
 .PHONY: tidy-board
 tidy-board:
-	@$(call tidy,$(BOARD_SOURCES) $(wildcard tests/boards/guard_*.c),$(BOARD_TIDY) $(LINT_FLAGS))
+	@$(call tidy,$(BOARD_SOURCES) $(BOARD_LINK) $(wildcard tests/boards/guard_*.c),$(BOARD_TIDY) $(LINT_FLAGS))
 
 gate-cppcheck:
 	@$(call need,cppcheck)
@@ -127,8 +127,8 @@ gate-bad-input:
 .PHONY: image-rules
 gate-firmware:
 	@for board in $(BOARDS); do $(MAKE) B=build BOARD=$$board image-rules || exit 1; done
-image-rules: board-images
-	@NM=$(BOARD_NM) sh boards/check_image.sh $(IMAGES)
+image-rules: board-images $(PIL_IMAGES)
+	@NM=$(BOARD_NM) sh boards/check_image.sh $(IMAGES) $(PIL_IMAGES)
 
 gate-size:
 	@for board in $(BOARDS); do $(MAKE) BOARD=$$board size-now || exit 1; done

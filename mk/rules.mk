@@ -86,7 +86,8 @@ GEN := build/gen
 CORE_C := $(wildcard core/*.c)
 RIG_C := $(wildcard core/rig/*.c)
 VIRTUAL_C := $(wildcard hal/virtual/*.c)
-PORTABLE_C := $(CORE_C) $(RIG_C) $(VIRTUAL_C)
+FRAMES_C := $(wildcard hal/frames/*.c)
+PORTABLE_C := $(CORE_C) $(RIG_C) $(VIRTUAL_C) $(FRAMES_C)
 PROGRAM_C := $(wildcard boards/programs/*.c)
 BOARD_C := $(wildcard boards/*/*.c)
 HOST_TOOL_C := $(wildcard mk/*/*.c)
@@ -94,7 +95,7 @@ WHIRL_MAIN_C := $(wildcard host/*.c)
 WHIRL_C := $(wildcard host/*/*.c)
 ifeq ($(SYSTEM),none)
 WHIRL_C := $(filter-out $(addprefix host/commands/,run.c sweep.c price.c choose.c settings.c pricing.c pricing_open.c \
-    pricing_scene.c trust.c trusting.c map.c) host/map/% host/sweep/% host/plot/% host/price/% host/trust/%,$(WHIRL_C))
+    pricing_scene.c trust.c trusting.c map.c pil.c) host/map/% host/pil/% host/sweep/% host/plot/% host/price/% host/trust/%,$(WHIRL_C))
 endif
 TEST_C := $(wildcard tests/*.c tests/*/*.c)
 C_FILES := $(sort $(PORTABLE_C) $(BOARD_C) $(HOST_TOOL_C) $(WHIRL_MAIN_C) $(WHIRL_C) $(TEST_C) \

@@ -8,6 +8,7 @@ MODELS := $(sort $(wildcard core/models/*.whirl))
 #   libwhirl    the core, all that a scene needs
 #   librig      the rig's controller
 #   libvirtual  the rig's hardware, played by a scene
+#   libframes   hardware at the other end of a line
 #   libscenes   the generated scenes
 # Archives, so that a program takes only what it calls. The double build's exported names carry a
 # suffix (core/real.h), so one program may hold both numbers.
@@ -17,6 +18,7 @@ define portable_libraries
 $(call library,$(B)/$(1)/libwhirl.a,$(call objects,$(1),$(CORE_C)))
 $(call library,$(B)/$(1)/librig.a,$(call objects,$(1),$(RIG_C)))
 $(call library,$(B)/$(1)/libvirtual.a,$(call objects,$(1),$(VIRTUAL_C)))
+$(call library,$(B)/$(1)/libframes.a,$(call objects,$(1),$(FRAMES_C)))
 $(call scenes_library,$(B)/$(1)/libscenes.a,$(1))
 endef
 

@@ -15,6 +15,7 @@
 #   BOARD_LDFLAGS  everything for linking, before the objects
 #   BOARD_LDLIBS   after the objects
 #   BOARD_SOURCES  the board's own code, to be linked with every program
+#   BOARD_LINK     its hal/link.h, of programs whose plant is elsewhere (may be missing)
 #   BOARD_TIDY     what clang-tidy takes these sources for
 #   BOARD_EMULATOR the emulator's command
 #   BOARD_EMULATE  $(call BOARD_EMULATE,program.elf) runs it for BOARD_SECONDS at most; console on stdout,
@@ -38,6 +39,7 @@ BOARD_LDLIBS   := -lgcc
 BOARD_TIDY     := --target=arm-none-eabi $(filter -mcpu=%,$(BOARD_CPU)) -ffreestanding -Iboards/$(BOARD)
 BOARD_SOURCES  := boards/cortexm/startup.c boards/cortexm/guard.c boards/cortexm/board.c \
                   boards/cortexm/fault.c boards/cortexm/cmsdk.c boards/shared/mem.c boards/shared/stack.c
+BOARD_LINK     := boards/cortexm/link.c
 BOARD_EMULATOR := qemu-system-arm
 BOARD_EMULATE   = timeout $(BOARD_SECONDS) $(BOARD_EMULATOR) -M $(BOARD_MACHINE) -nographic \
                   -semihosting-config enable=on,target=native -kernel $(1) </dev/null

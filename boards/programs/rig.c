@@ -8,6 +8,7 @@
 #include "boards/board.h"
 #include "core/arithmetic.h"
 #include "core/rig/datasheet.h"
+#include "core/scene.h"
 #include "core/text.h"
 #include "hal/clock.h"
 #include "hal/console.h"

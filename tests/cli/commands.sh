@@ -74,8 +74,10 @@ mechanism plain "a mass on a spring, with drag, and a pendulum"
 coordinate x [m]
 coordinate a [rad]
 parameter k = 8 [N/m]
+input push = 0 [N]
 T = 2 [kg]*x'^2/2 + 0.01 [kg*m^2]*a'^2/2
 V = k*x^2/2 - 9 [J]*cos(a)
+Q(x) = push
 output place [m] = x
 output swing [rad] = a
 effect drag "drag" { Q(x) += -0.1 [N*s/m]*x' }
@@ -111,6 +113,10 @@ ends() { # COMMAND [OPTION...]: all that it comes to
     sweep) "$whirl" sweep "$plain" --over x=1..1.5:2 --quiet "$@" ;;
     map) "$whirl" map "$plain" --over x=1..1.5:2 --over a=1..1.2:2 --csv - --quiet "$@" ;;
     trust) "$whirl" trust "$plain" --csv - --quiet "$@" ;;
+    pil) # the cart's firmware; the hash of the motion that it meets
+        case " $* " in *' --until '*) ;; *) set -- --until 0.1s "$@" ;; esac
+        "$whirl" pil "$plain" --firmware "$(dirname "$whirl")/pil_cart" --bind theta=a "$@" | grep -a "^plant's state"
+        ;;
     price) "$whirl" price "$plain" --csv - --quiet --effort 0.001 "$@" ;;
     choose) "$whirl" choose --predict "$plain" --error 1e-2 --quiet --effort 0.001 "$@" ;;
     *) echo "no call of $command in $0" ;;

@@ -1,0 +1,126 @@
+/* exchange.h: what a controller and the plant that it runs against tell each other: the payloads of their frames.
+ *
+ * The controller speaks first: a `hello` names its inputs and outputs, with units and ranges. From then on they take
+ * turns. The plant tells the time, and what the sensors gave since the last turn (`wh_readings`); the controller says
+ * what its outputs are from now on, and when it wants to be told again (`wh_orders`). Both sides are this file, so that
+ * there is one place of what a byte means.
+ *
+ * Times are ticks of the controller's own timer, 32 bits, wrapping; values are SI, as floats; converters give counts.
+ */
+#ifndef WH_EXCHANGE_H
+#define WH_EXCHANGE_H
+
+#include "frame.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What a frame is. */
+enum { WH_FRAME_HELLO = 1, WH_FRAME_ORDERS = 2, WH_FRAME_READINGS = 3 };
+
+#define WH_SIGNALS_MAX 12U /* of all kinds together */
+#define WH_EDGES_MAX 16U   /* in one turn; later ones are lost */
+#define WH_SAMPLES_MAX 16U
+
+typedef enum wh_signal_kind {
+    WH_SIGNAL_OUTPUT, /* a value that the controller sets, from `low` to `high` */
+    WH_SIGNAL_SAMPLE, /* a converter's counts: every period_ticks the nearest of value / per_count, whose ends
+                       * stand for `low` and `high` */
+    WH_SIGNAL_EDGE /* a pulse when the value comes to lie from `low` to `high`; of an angle, in any turn */
+} wh_signal_kind;
+
+/* The signals of a kind are its channels, numbered from 0 in the order in which they stand. */
+typedef struct wh_signal {
+    wh_signal_kind kind;
+    const char *name; /* of what it is in the plant: an input; an output, coordinate or rate */
+    const char *unit; /* SI */
+    float low;
+    float high;
+    float per_count;       /* of a sample: unit a count */
+    uint32_t period_ticks; /* of a sample */
+} wh_signal;
+
+typedef struct wh_hello {
+    const char *program;
+    const char *board;
+    uint32_t ticks_per_s; /* of all time stamps */
+    uint32_t timer_per_s; /* of what computing time is counted in; 0: it is not counted */
+    uint32_t start_ticks; /* the timer at the plant's time 0 */
+    const wh_signal *signal;
+    unsigned signals;
+} wh_hello;
+
+/* What a board's memory must hold for a hello whose words have so many characters in all. */
+#define WH_HELLO_BYTES(signals, words) (15U + 19U * (signals) + (words))
+
+enum { WH_ORDER_ALIVE = 1 }; /* wh_orders.flags: the watchdog is kicked */
+
+typedef struct wh_orders {
+    uint32_t until_ticks; /* to be told again then */
+    uint32_t acted_timer; /* counts from the readings' arrival until the outputs were set, */
+    uint32_t busy_timer;  /* and until these orders were sent */
+    uint32_t
+        watchdog_ticks; /* so long without WH_ORDER_ALIVE: outputs go to zero for good; 0: never */
+    uint8_t flags;
+    unsigned outputs;
+    float output[WH_SIGNALS_MAX];
+} wh_orders;
+
+typedef struct wh_edge {
+    uint32_t ticks;
+    uint8_t channel;
+} wh_edge;
+
+/* What a sample is worth. */
+typedef enum wh_sample_status {
+    WH_SAMPLE_GOOD,
+    WH_SAMPLE_SATURATED, /* at an end of the converter */
+    WH_SAMPLE_DISCONNECTED
+} wh_sample_status;
+
+typedef struct wh_sample {
+    uint32_t ticks;
+    int32_t raw;
+    uint8_t channel;
+    uint8_t status; /* wh_sample_status */
+} wh_sample;
+
+enum { WH_READING_CUT = 1 }; /* wh_readings.flags: the watchdog has cut the outputs */
+
+/* In the order of their ticks. The time is that of the frame. */
+typedef struct wh_readings {
+    uint8_t flags;
+    unsigned edges;
+    unsigned samples;
+    wh_edge edge[WH_EDGES_MAX];
+    wh_sample sample[WH_SAMPLES_MAX];
+} wh_readings;
+
+/* The longest payloads; of readings it is the longer. */
+#define WH_ORDERS_BYTES (18U + 4U * WH_SIGNALS_MAX)
+#define WH_READINGS_BYTES (3U + 5U * WH_EDGES_MAX + 10U * WH_SAMPLES_MAX)
+
+#define wh_hello_put WH_NAME(wh_hello_put)
+#define wh_hello_get WH_NAME(wh_hello_get)
+#define wh_orders_put WH_NAME(wh_orders_put)
+#define wh_orders_get WH_NAME(wh_orders_get)
+#define wh_readings_put WH_NAME(wh_readings_put)
+#define wh_readings_get WH_NAME(wh_readings_get)
+
+/* Write a payload into bytes[room]; returns its length, 0 when there is no room. */
+unsigned wh_hello_put(const wh_hello *hello, uint8_t *bytes, unsigned room);
+unsigned wh_orders_put(const wh_orders *orders, uint8_t *bytes, unsigned room);
+unsigned wh_readings_put(const wh_readings *readings, uint8_t *bytes, unsigned room);
+
+/* Read a payload; false when it is none: too short, too long, or with counts or kinds that there are not. Strings of
+ * a hello point into `bytes`; its signals go to signal[WH_SIGNALS_MAX]. */
+bool wh_hello_get(wh_hello *hello, wh_signal *signal, const uint8_t *bytes, unsigned length);
+bool wh_orders_get(wh_orders *orders, const uint8_t *bytes, unsigned length);
+bool wh_readings_get(wh_readings *readings, const uint8_t *bytes, unsigned length);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

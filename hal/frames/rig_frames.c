@@ -1,0 +1,86 @@
+/* rig_frames.c: the rig's hal_ functions, on a plant at the other end of a line.
+ *
+ * Names are those of core/models/eccentric.whirl. Time stands still while the controller computes; how long it took goes
+ * with the outputs, and the plant makes them wait so long. */
+#include "hal/clock.h"
+#include "hal/loadcell.h"
+#include "hal/motor.h"
+#include "hal/slots.h"
+#include "hal/watchdog.h"
+#include "turns.h"
+
+#if !WH_DOUBLE
+
+#define RAD_PER_DEG 0.0174532925f
+#define WRAP_AFTER_S 5U /* as hal/virtual has it: every run crosses the timer's wrap */
+
+/* A slot sensor: the slot, 2 * HAL_SLOT_LEAD_DEG wide, covers it. */
+#define SLOT_AT(deg) \
+    { \
+        .kind = WH_SIGNAL_EDGE, .name = "theta", .unit = "rad", \
+        .low = ((deg)-HAL_SLOT_LEAD_DEG) * RAD_PER_DEG, \
+        .high = ((deg) + HAL_SLOT_LEAD_DEG) * RAD_PER_DEG \
+    }
+
+static const wh_signal signals[] = {
+    {.kind = WH_SIGNAL_OUTPUT, .name = "duty", .unit = "1", .low = 0.0f, .high = 1.0f},
+    SLOT_AT(0.0f),
+    SLOT_AT(90.0f),
+    {.kind = WH_SIGNAL_SAMPLE,
+     .name = "cell_force",
+     .unit = "N",
+     .low = -HAL_LOADCELL_RAW_MAX * HAL_LOADCELL_N_PER_COUNT,
+     .high = HAL_LOADCELL_RAW_MAX * HAL_LOADCELL_N_PER_COUNT,
+     .per_count = HAL_LOADCELL_N_PER_COUNT,
+     .period_ticks = HAL_LOADCELL_PERIOD_TICKS},
+};
+
+/* The board's one plant: hardware is global. */
+static hal_turns plant;
+
+bool hal_clock_start(void) {
+    const wh_hello hello = {.program = "rig",
+                            .ticks_per_s = HAL_TICKS_PER_S,
+                            .start_ticks = 0U - WRAP_AFTER_S * HAL_TICKS_PER_S,
+                            .signal = signals,
+                            .signals = sizeof signals / sizeof signals[0]};
+    return hal_turns_start(&plant, &hello);
+}
+
+uint32_t hal_clock_ticks(void) { return plant.ticks; }
+
+void hal_clock_wait_until(uint32_t ticks) {
+    if ((int32_t)(ticks - plant.ticks) > 0) {
+        hal_turns_wait(&plant, ticks);
+    }
+}
+
+void hal_motor_set_duty(float duty) {
+    hal_turns_set(&plant, 0, duty > 1.0f ? 1.0f : duty > 0.0f ? duty : 0.0f);
+}
+
+bool hal_slots_take(hal_slot_pulse *pulse) {
+    wh_edge edge;
+    if (!hal_turns_take_edge(&plant, &edge)) {
+        return false;
+    }
+    *pulse = (hal_slot_pulse){.ticks = edge.ticks, .sensor = edge.channel};
+    return true;
+}
+
+bool hal_loadcell_take(hal_load_sample *sample) {
+    wh_sample one;
+    if (!hal_turns_take_sample(&plant, &one)) {
+        return false;
+    }
+    *sample = (hal_load_sample){.ticks = one.ticks, .raw = (int16_t)one.raw};
+    return true;
+}
+
+void hal_watchdog_start(uint32_t timeout_ticks) { hal_turns_watch(&plant, timeout_ticks); }
+
+void hal_watchdog_kick(void) { hal_turns_alive(&plant); }
+
+bool hal_watchdog_has_cut(void) { return hal_turns_is_cut(&plant); }
+
+#endif

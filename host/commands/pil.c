@@ -1,0 +1,370 @@
+/* pil.c: `whirl pil`: a firmware image against a scene as its plant, or against a tape. */
+#include <errno.h>
+#include <inttypes.h>
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "commands.h"
+#include "files.h"
+#include "host/number/decimal.h"
+#include "host/pil/lockstep.h"
+#include "host/pil/pil_text.h"
+#include "host/run/start.h"
+#include "load.h"
+#include "options.h"
+
+#define FINE_STEP "50us"
+#define PATIENCE_S 10.0
+#define LONGEST_S 3600.0
+#define CLOCK_HZ 16e6
+#define CYCLES 1.5
+
+static const command_usage usage = {
+    .head =
+        "usage: whirl pil SCENE|MECHANISM[:SCENE]|FILE[:SCENE] --firmware IMAGE [options]\n"
+        "       whirl pil --replay TAPE --firmware IMAGE [options]\n"
+        "\n"
+        "Processor in the loop: IMAGE runs in QEMU (or here, when it is a program of this machine), the\n"
+        "scene beside it in double, with a step of its own (50us), and each waits while the other\n"
+        "computes. The firmware says what it sets and reads, and when; these are the scene's inputs,\n"
+        "outputs, coordinates and rates of the same names. What it computes with takes the plant's time:\n"
+        "instructions, counted in the guest, times --cycles over --clock. docs/pil.md says more.\n"
+        "\n",
+    .groups = OPTIONS_CHANGE | OPTIONS_STEP | OPTIONS_ENGINE,
+    .tail =
+        "  --firmware IMAGE     the program: build/BOARD/pil_rig.elf, build/pil_rig, or your own\n"
+        "  --board B            which machine QEMU is: mps2-an386 (Cortex-M4F; when left out), mps2-an385\n"
+        "                       (M3), mps2-an500 (M7), mps2-an505 (M33)\n"
+        "  --tape FILE          keep all that goes over the line\n"
+        "  --replay TAPE        no scene: what TAPE has is said to the firmware, whose answers must be\n"
+        "                       those of the tape, to the bit\n"
+        "  --bind A=B,...       the firmware's A is the scene's B\n"
+        "  --place X,...        so far each edge of the firmware's stands off its place, in its order:\n"
+        "                       degrees of an angle, else SI\n"
+        "  --jitter 20us        standard deviation of the edges' times (default: none)\n"
+        "  --delay 1ms          by which every sample comes late (default: none)\n"
+        "  --seed N             of the jitter (default: 1)\n"
+        "  --clock HZ           the processor's clock (default: 16e6)\n"
+        "  --cycles C           cycles an instruction takes (default: 1.5; 0: computing takes no time)\n"
+        "  --patience S         seconds that the firmware may be silent (default: 10)\n"
+        "  --quiet              no report: what the firmware says, and errors\n"
+        "\n"
+        "Without --until it goes on until the firmware ends, for an hour of the plant's time at most.\n",
+    .why = {[EXIT_ROW_OF(EXIT_DONE)] = "the firmware ended with status 0, or --until came",
+            [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
+                "the firmware ended with another status (it is told), died or fell silent, the\n"
+                "       plant left all bounds, or answers differ from the tape's",
+            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
+            [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
+
+static volatile sig_atomic_t interrupted;
+
+static void on_interrupt(int signal_number) {
+    (void)signal_number;
+    interrupted = 1;
+}
+
+static void catch_interrupts(void) {
+    struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = (int)SA_RESETHAND};
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+    sigaction(SIGHUP, &action, NULL);
+}
+
+typedef struct pil_options {
+    common_options common;
+    const char *target;
+    const char *firmware;
+    const char *board;
+    const char *tape;
+    const char *replay;
+    const char *bind;
+    const char *place;
+    const char *jitter;
+    const char *delay;
+    double seed;
+    double clock_Hz;
+    double cycles;
+    double patience_s;
+    bool quiet;
+} pil_options;
+
+/* --- options ------------------------------------------------------------------------------------------------*/
+
+static bool take_words(int count, char **words, int *at, pil_options *o, bool *bad) {
+    const struct {
+        const char *option;
+        const char **value;
+    } rows[] = {{"--firmware", &o->firmware}, {"--board", &o->board}, {"--tape", &o->tape},
+                {"--replay", &o->replay},     {"--bind", &o->bind},   {"--place", &o->place},
+                {"--jitter", &o->jitter},     {"--delay", &o->delay}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0] && !*bad; i++) {
+        const char *value = options_value(count, words, at, rows[i].option, bad);
+        if (value != NULL) {
+            *rows[i].value = value;
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool take_numbers(int count, char **words, int *at, pil_options *o, bool *bad) {
+    const struct {
+        const char *option;
+        double *number;
+        double least;
+        double most;
+        const char *hint;
+    } rows[] = {{"--seed", &o->seed, 0.0, 4294967295.0, "a whole number: --seed 7"},
+                {"--clock", &o->clock_Hz, 1e3, 1e11, "in Hz: --clock 16e6"},
+                {"--cycles", &o->cycles, 0.0, 1e4, "cycles an instruction: --cycles 1.5"},
+                {"--patience", &o->patience_s, 0.01, 1e6, "in seconds: --patience 10"}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0] && !*bad; i++) {
+        const char *value = options_value(count, words, at, rows[i].option, bad);
+        if (value != NULL) {
+            *bad = !options_number("pil", rows[i].option, value, rows[i].least, rows[i].most,
+                                   rows[i].hint, rows[i].number);
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool take_one(int count, char **words, int *at, pil_options *o, bool *bad) {
+    if (options_take("pil", usage.groups, count, words, at, &o->common, bad) ||
+        (!*bad && take_words(count, words, at, o, bad)) ||
+        (!*bad && take_numbers(count, words, at, o, bad))) {
+        return true;
+    }
+    if (!*bad && strcmp(words[*at], "--quiet") == 0) {
+        o->quiet = true;
+        ++*at;
+        return true;
+    }
+    return false;
+}
+
+/* What stands together, and what does not. */
+static bool go_together(const pil_options *o) {
+    if (o->firmware == NULL) {
+        fprintf(stderr, "whirl pil: error: no --firmware IMAGE\nhint: make pil-images builds "
+                        "build/mps2-an386/pil_rig.elf, which runs against rig_coupled\n");
+        return false;
+    }
+    if (o->target == NULL && o->replay == NULL) {
+        fprintf(stderr, "whirl pil: error: no scene to be the plant\n"
+                        "hint: whirl pil rig_coupled --firmware ...; or a tape: --replay TAPE\n");
+        return false;
+    }
+    if (o->replay != NULL && (o->target != NULL || o->tape != NULL)) {
+        fprintf(stderr, "whirl pil: error: --replay takes no %s: the tape is the plant\n",
+                o->target != NULL ? "scene" : "--tape");
+        return false;
+    }
+    return true;
+}
+
+static bool is_known_board(pil_options *o) {
+    static const struct {
+        const char *word;
+    } boards[] = {{"mps2-an386"}, {"mps2-an385"}, {"mps2-an500"}, {"mps2-an505"}};
+    return o->board == NULL || options_choose("pil", "board", o->board, boards, sizeof boards[0],
+                                              (int)(sizeof boards / sizeof boards[0])) >= 0;
+}
+
+static bool read_options(int count, char **words, pil_options *o) {
+    bool bad = false;
+    for (int at = 0; at < count && !bad;) {
+        if (take_one(count, words, &at, o, &bad) || bad) {
+            continue;
+        }
+        if (words[at][0] == '-' && words[at][1] != '\0') {
+            options_unknown("pil", words[at], usage.groups,
+                            (const char *const[]){"--firmware", "--board", "--tape", "--replay",
+                                                  "--bind", "--place", "--jitter", "--delay",
+                                                  "--seed", "--clock", "--cycles", "--patience",
+                                                  "--quiet", NULL});
+            return false;
+        }
+        if (o->target != NULL) {
+            fprintf(stderr, "whirl pil: error: one scene at a time, not also '%s'\n", words[at]);
+            return false;
+        }
+        o->target = words[at++];
+    }
+    return !bad && is_known_board(o) && go_together(o);
+}
+
+/* --- what is wished ---------------------------------------------------------------------------------------------*/
+
+static bool read_time(const char *option, const char *text, const mechanism *of, double *time_s) {
+    *time_s = 0.0;
+    if (text == NULL) {
+        return true;
+    }
+    diags *errors = diags_new();
+    const bool good = instance_duration(of, NULL, NULL, option, text, errors, time_s);
+    diags_free(errors); /* what it is not says more than why it is not */
+    if (!good) {
+        fprintf(stderr, "whirl pil: error: --%s %s is not a time\nhint: such as 20us, or 1ms\n",
+                option, text);
+    }
+    return good;
+}
+
+/* Numbers between commas, off[WH_SIGNALS_MAX]. */
+static bool read_places(const char *text, double *off) {
+    int count = 0;
+    for (const char *at = text; at != NULL;) {
+        const char *end = at;
+        const double number = decimal_read(at, &end);
+        if (end == at || (*end != '\0' && *end != ',') || count == (int)WH_SIGNALS_MAX) {
+            fprintf(stderr,
+                    "whirl pil: error: --place %s: numbers between commas, one an edge\n"
+                    "hint: --place 0,2.5 puts the second edge 2.5 degrees on\n",
+                    text);
+            return false;
+        }
+        off[count++] = number;
+        at = *end == ',' ? end + 1 : NULL;
+    }
+    return true;
+}
+
+static lockstep_wish wish_of(const pil_options *o) {
+    return (lockstep_wish){.guest = {.image = o->firmware,
+                                     .board = o->board != NULL ? o->board : "mps2-an386",
+                                     .patience_s = o->patience_s,
+                                     .stop = &interrupted},
+                           .plant = {.seed = (uint32_t)o->seed},
+                           .renames = o->bind,
+                           .until_s = LONGEST_S,
+                           .instruction_s = o->cycles / o->clock_Hz};
+}
+
+static int code_of(const lockstep_report *r) {
+    switch (r->end) {
+    case LOCKSTEP_DONE: return r->status.status == 0 ? EXIT_DONE : EXIT_RUN_FAILED;
+    case LOCKSTEP_LET_GO: return EXIT_DONE;
+    case LOCKSTEP_BAD: return EXIT_BAD_INPUT;
+    case LOCKSTEP_STOPPED: return EXIT_INTERRUPTED;
+    case LOCKSTEP_FAILED:
+    case LOCKSTEP_DIFFERENT: break;
+    }
+    return EXIT_RUN_FAILED;
+}
+
+static int tell(const pil_options *o, const lockstep_wish *wish, const image *im,
+                const lockstep_report *r) {
+    if (r->end == LOCKSTEP_DONE && r->status.status != 0) {
+        fprintf(stderr, "whirl pil: the firmware ended with status %d\n", r->status.status);
+    }
+    if (r->end == LOCKSTEP_STOPPED) {
+        fprintf(stderr, "whirl pil: interrupted after %" PRIu64 " exchanges\n", r->exchanges);
+    }
+    if (!o->quiet && r->end != LOCKSTEP_BAD) {
+        pil_print(stdout, wish, im, r);
+    }
+    return code_of(r);
+}
+
+/* --- against a scene ----------------------------------------------------------------------------------------------*/
+
+static bool open_tape(const pil_options *o, const source_model *from, FILE **file) {
+    *file = NULL;
+    if (o->tape == NULL) {
+        return true;
+    }
+    if (source_would_be_lost(from, "--tape", o->tape, "") || files_same(o->tape, o->firmware)) {
+        fprintf(stderr, "whirl pil: error: --tape would be written over a file that is read\n");
+        return false;
+    }
+    *file = fopen(o->tape, "wb");
+    if (*file == NULL) {
+        fprintf(stderr, "%s: error: cannot be written: %s\n", o->tape, strerror(errno));
+    }
+    return *file != NULL;
+}
+
+static int run_image(const pil_options *o, const source_model *from, const image *im,
+                     lockstep_wish *wish) {
+    lockstep_report report;
+    if (!start_has_method(im, im->settings.method, from->errors) ||
+        !start_is_possible(im, &engine_double, from->errors)) {
+        diags_flush(from->errors, stderr);
+        return EXIT_BAD_INPUT;
+    }
+    if (!open_tape(o, from, &wish->tape)) {
+        return EXIT_BAD_INPUT;
+    }
+    if (o->common.change.until != NULL) {
+        wish->until_s = im->until_s;
+    }
+    catch_interrupts();
+    lockstep_run(wish, im, &report);
+    if (wish->tape != NULL && fclose(wish->tape) != 0 && report.end != LOCKSTEP_BAD) {
+        fprintf(stderr, "%s: error: cannot be written: %s\n", o->tape, strerror(errno));
+        report.end = LOCKSTEP_FAILED;
+    }
+    return tell(o, wish, im, &report);
+}
+
+static int run_source(const pil_options *o, source_model *from) {
+    const mechanism *of;
+    const scene *in;
+    lockstep_wish wish = wish_of(o);
+    int code = source_open(from, o->target);
+    code = code == EXIT_DONE ? source_pick(from, true, &of, &in) : code;
+    if (code != EXIT_DONE) {
+        return code;
+    }
+    if (!read_time("jitter", o->jitter, of, &wish.plant.jitter_s) ||
+        !read_time("delay", o->delay, of, &wish.plant.delay_s) ||
+        !read_places(o->place, wish.plant.place)) {
+        return EXIT_BAD_INPUT;
+    }
+    loaded made;
+    overrides changes = options_overrides(&o->common.change);
+    changes.step = changes.step != NULL ? changes.step : FINE_STEP;
+    const load_wish what = {
+        .settings = o->common.integration, .use = IMAGE_TO_RUN, .conserve = true};
+    code = load(&made, from, of, in, &changes, &what);
+    source_forget(from);
+    if (code == EXIT_DONE) {
+        code = run_image(o, from, made.image, &wish);
+    }
+    unload(&made);
+    return code;
+}
+
+static int replay(const pil_options *o) {
+    const lockstep_wish wish = wish_of(o);
+    lockstep_report report;
+    catch_interrupts();
+    lockstep_replay(&wish, o->replay, &report);
+    return tell(o, &wish, NULL, &report);
+}
+
+int command_pil(int count, char **words) {
+    pil_options o = {.common = options_defaults(),
+                     .seed = 1.0,
+                     .clock_Hz = CLOCK_HZ,
+                     .cycles = CYCLES,
+                     .patience_s = PATIENCE_S};
+    if (options_help(count, words, &usage)) {
+        return EXIT_DONE;
+    }
+    int code = EXIT_BAD_INPUT;
+    if (read_options(count, words, &o)) {
+        if (o.replay != NULL) {
+            code = replay(&o);
+        } else {
+            source_model from;
+            code = run_source(&o, &from);
+            source_close(&from);
+        }
+    }
+    options_forget(&o.common);
+    return code;
+}

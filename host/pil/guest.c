@@ -1,0 +1,243 @@
+/* guest.c: starting, hearing and ending the process that runs the firmware. */
+#include "guest.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+#if defined(__linux__)
+#include <sys/prctl.h>
+#endif
+
+/* Of the guest (hal/link.h has the same numbers). */
+enum { DOWN = 3, UP = 4, ABOVE = 10 };
+enum { POLL_MS = 50 };
+
+static double now_s(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* --- what kind of image ---------------------------------------------------------------------------------*/
+
+/* Executable and linkable format: magic, then at byte 18 the machine, in the file's byte order. */
+static bool is_elf(const unsigned char *head, size_t count, bool *arm) {
+    enum { MACHINE = 18, ARM = 40, LITTLE = 1 };
+    if (count < MACHINE + 2 || memcmp(head, "\177ELF", 4) != 0) {
+        return false;
+    }
+    const unsigned machine = head[5] == LITTLE ? head[MACHINE] | (unsigned)head[MACHINE + 1] << 8
+                                               : head[MACHINE + 1] | (unsigned)head[MACHINE] << 8;
+    *arm = machine == ARM;
+    return true;
+}
+
+static bool look_at_image(const char *name, bool *arm) {
+    unsigned char head[20];
+    FILE *file = fopen(name, "rb");
+    if (file == NULL) {
+        fprintf(stderr,
+                "%s: error: cannot be read: %s\nhint: make pil-images builds build/pil_rig and "
+                "build/BOARD/pil_rig.elf\n",
+                name, strerror(errno));
+        return false;
+    }
+    const size_t count = fread(head, 1, sizeof head, file);
+    fclose(file);
+    if (!is_elf(head, count, arm)) {
+        fprintf(stderr,
+                "%s: error: no firmware image: it is not in ELF\nhint: an image for Arm that QEMU "
+                "runs, or a program of this machine (docs/pil.md)\n",
+                name);
+        return false;
+    }
+    return true;
+}
+
+/* --- start ------------------------------------------------------------------------------------------------*/
+
+/* Whatever numbers the pipes have: first out of the way, then to their places. The rest closes by itself. */
+static bool place_line(int down, int up) {
+    const int high_down = fcntl(down, F_DUPFD_CLOEXEC, ABOVE);
+    const int high_up = fcntl(up, F_DUPFD_CLOEXEC, ABOVE);
+    const int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC);
+    return high_down >= 0 && high_up >= 0 && nothing >= 0 && dup2(nothing, STDIN_FILENO) >= 0 &&
+           dup2(high_down, DOWN) >= 0 && dup2(high_up, UP) >= 0;
+}
+
+/* In a group of its own, so that Ctrl-C comes to us alone and we end it in order; and not without us. */
+static bool tie_to(pid_t parent) {
+#if defined(__linux__)
+    if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0) {
+        return false;
+    }
+#endif
+    return setpgid(0, 0) == 0 && getppid() == parent;
+}
+
+static _Noreturn void become(const guest *g, int down, int up, pid_t parent) {
+    char shift[64];
+    snprintf(shift, sizeof shift, "shift=%d,align=off,sleep=off", GUEST_SHIFT);
+    if (tie_to(parent) && place_line(down, up)) {
+        if (g->emulated) {
+            execlp("qemu-system-arm", "qemu-system-arm", "-M", g->wish.board, "-display", "none",
+                   "-monitor", "none", "-serial", "stdio", "-icount", shift, "-semihosting-config",
+                   "enable=on,target=native", "-kernel", g->wish.image, (char *)NULL);
+        } else {
+            execl(g->wish.image, g->wish.image, (char *)NULL);
+        }
+    }
+    fprintf(stderr, "%s: error: cannot be run: %s\n",
+            g->emulated ? "qemu-system-arm" : g->wish.image, strerror(errno));
+    fflush(stderr);
+    _exit(GUEST_NOT_RUN);
+}
+
+static bool make_line(int down[2], int up[2]) {
+    if (pipe(down) != 0) {
+        return false;
+    }
+    if (pipe(up) != 0) {
+        close(down[0]);
+        close(down[1]);
+        return false;
+    }
+    return fcntl(down[0], F_SETFD, FD_CLOEXEC) == 0 && fcntl(down[1], F_SETFD, FD_CLOEXEC) == 0 &&
+           fcntl(up[0], F_SETFD, FD_CLOEXEC) == 0 && fcntl(up[1], F_SETFD, FD_CLOEXEC) == 0;
+}
+
+bool guest_start(guest *g, const guest_wish *wish) {
+    *g = (guest){.wish = *wish, .up = -1, .down = -1};
+    wh_frame_reader_start(&g->reader, g->frame, sizeof g->frame);
+    if (!look_at_image(wish->image, &g->emulated)) {
+        return false;
+    }
+    int down[2];
+    int up[2];
+    if (!make_line(down, up)) {
+        fprintf(stderr, "whirl pil: error: no pipe: %s\n", strerror(errno));
+        return false;
+    }
+    signal(SIGPIPE, SIG_IGN); /* a guest that has gone is told by what is written to it */
+    fflush(stdout);           /* the guest's console is the same file */
+    const pid_t parent = getpid();
+    g->pid = fork();
+    if (g->pid == 0) {
+        become(g, down[0], up[1], parent);
+    }
+    close(down[0]);
+    close(up[1]);
+    g->down = down[1];
+    g->up = up[0];
+    if (g->pid < 0) {
+        g->pid = 0;
+        fprintf(stderr, "whirl pil: error: no process: %s\n", strerror(errno));
+        return false;
+    }
+    return true;
+}
+
+/* --- the line -----------------------------------------------------------------------------------------------*/
+
+static bool is_stopped(const guest *g) { return g->wish.stop != NULL && *g->wish.stop != 0; }
+
+/* Waits until the line can be read; in pieces, so that an interrupt that came before the wait is seen. */
+static guest_heard wait_to_read(const guest *g) {
+    const double end_s = now_s() + g->wish.patience_s;
+    struct pollfd line = {.fd = g->up, .events = POLLIN};
+    do {
+        if (is_stopped(g)) {
+            return GUEST_STOPPED;
+        }
+        if (poll(&line, 1, POLL_MS) > 0) {
+            return GUEST_FRAME;
+        }
+    } while (now_s() < end_s);
+    return GUEST_SILENT;
+}
+
+guest_heard guest_receive(guest *g, wh_frame *frame) {
+    for (;;) {
+        while (g->line_at < g->line_end) {
+            if (wh_frame_take(&g->reader, g->line[g->line_at++], frame)) {
+                return GUEST_FRAME;
+            }
+        }
+        const guest_heard heard = wait_to_read(g);
+        if (heard != GUEST_FRAME) {
+            return heard;
+        }
+        const ssize_t count = read(g->up, g->line, sizeof g->line);
+        if (count == 0 || (count < 0 && errno != EINTR)) {
+            return GUEST_ENDED;
+        }
+        g->line_at = 0;
+        g->line_end = count > 0 ? (unsigned)count : 0;
+    }
+}
+
+/* A pipe takes a few kilobytes without waiting, and in turns there is never more than one frame in it. */
+guest_heard guest_send(guest *g, const uint8_t *bytes, unsigned count) {
+    for (unsigned done = 0; done < count;) {
+        const ssize_t more = write(g->down, bytes + done, count - done);
+        if (more < 0 && errno != EINTR) {
+            return GUEST_ENDED;
+        }
+        done += more > 0 ? (unsigned)more : 0;
+        if (more < 0 && is_stopped(g)) {
+            return GUEST_STOPPED;
+        }
+    }
+    return GUEST_FRAME;
+}
+
+/* --- end ------------------------------------------------------------------------------------------------------*/
+
+static void close_line(int *descriptor) {
+    if (*descriptor >= 0) {
+        close(*descriptor);
+        *descriptor = -1;
+    }
+}
+
+/* False: it still runs when the patience is at its end. */
+static bool wait_for_end(const guest *g, int *status) {
+    const double end_s = now_s() + g->wish.patience_s;
+    const struct timespec pause = {.tv_nsec = 1000000};
+    pid_t ended = 0;
+    do {
+        ended = waitpid(g->pid, status, WNOHANG);
+        if (ended == 0) {
+            nanosleep(&pause, NULL);
+        }
+    } while (ended == 0 && now_s() < end_s);
+    return ended != 0;
+}
+
+guest_end_status guest_end(guest *g) {
+    guest_end_status end = {.status = -1};
+    int status = 0;
+    close_line(&g->down);
+    close_line(&g->up);
+    if (g->pid == 0) {
+        return end;
+    }
+    if (!wait_for_end(g, &status)) {
+        end.killed = true;
+        kill(g->pid, SIGKILL);
+        while (waitpid(g->pid, &status, 0) < 0 && errno == EINTR) {
+        }
+    }
+    g->pid = 0;
+    if (WIFEXITED(status)) {
+        end.status = WEXITSTATUS(status);
+    } else if (WIFSIGNALED(status)) {
+        end.signal_number = WTERMSIG(status);
+    }
+    return end;
+}

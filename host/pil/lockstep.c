@@ -1,0 +1,155 @@
+/* lockstep.c: firmware and plant in turns. */
+#include "lockstep.h"
+
+#include <time.h>
+
+#include "talk.h"
+
+#define PIECE_S 0.1
+
+static double now_s(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void note_most(peak *m, double value, double at_s) {
+    if (value > m->value) {
+        *m = (peak){value, at_s};
+    }
+}
+
+typedef struct loop {
+    talk talk;
+    plant plant;
+    binding binding;
+    lockstep_report *report;
+    double ticks_per_s;
+    double per_count; /* instructions */
+} loop;
+
+static double plant_s(const loop *l) { return plant_now(&l->plant) / l->ticks_per_s; }
+
+static void tell_taps_orders(const loop *l, wh_orders *orders) {
+    const lockstep_wish *wish = l->talk.wish;
+    for (int i = 0; i < wish->tap_count; i++) {
+        if (wish->taps[i].orders != NULL) {
+            wish->taps[i].orders(wish->taps[i].of, plant_s(l), orders);
+        }
+    }
+}
+
+static void tell_taps_readings(const loop *l, wh_readings *readings) {
+    const lockstep_wish *wish = l->talk.wish;
+    for (int i = 0; i < wish->tap_count; i++) {
+        if (wish->taps[i].readings != NULL) {
+            wish->taps[i].readings(wish->taps[i].of, plant_s(l), readings);
+        }
+    }
+}
+
+/* When the firmware hears again: when it wants to, or when it has computed, whichever is later. */
+static double next_ticks(loop *l, const wh_orders *orders, double busy_ticks) {
+    const double now = plant_now(&l->plant);
+    const int32_t ahead = (int32_t)(orders->until_ticks - plant_ticks(&l->plant));
+    const double wanted = now + (ahead > 0 ? (double)ahead : 0.0);
+    const double late = now + busy_ticks - wanted;
+    if (late > 0.0) {
+        l->report->overruns++;
+        note_most(&l->report->late_s, late / l->ticks_per_s, now / l->ticks_per_s);
+        return now + busy_ticks;
+    }
+    return wanted;
+}
+
+/* In pieces, so that somebody who interrupts is heard while the plant has far to go; no further than is wished. */
+static bool advance(loop *l, double until_ticks) {
+    const lockstep_wish *wish = l->talk.wish;
+    const double most = wish->until_s * l->ticks_per_s;
+    const double end = until_ticks < most ? until_ticks : most;
+    const double piece = PIECE_S * l->ticks_per_s;
+    while (!plant_has_reached(&l->plant, end)) {
+        const double next = plant_now(&l->plant) + piece;
+        if (!plant_advance(&l->plant, next < end ? next : end)) {
+            return false;
+        }
+        if (wish->guest.stop != NULL && *wish->guest.stop != 0) {
+            break;
+        }
+    }
+    return true;
+}
+
+static bool plant_goes_on(loop *l, const wh_orders *orders) {
+    lockstep_report *r = l->report;
+    const double acted = (double)orders->acted_timer * l->per_count;
+    const double busy = (double)orders->busy_timer * l->per_count;
+    const double ticks = l->talk.wish->instruction_s * l->ticks_per_s; /* an instruction */
+    note_most(&r->acted, acted, plant_s(l));
+    note_most(&r->busy, busy, plant_s(l));
+    plant_order(&l->plant, orders, acted * ticks);
+    if (!advance(l, next_ticks(l, orders, busy * ticks))) {
+        fprintf(stderr,
+                "whirl pil: error: the plant left all bounds at t = %.9g s (%s)\n"
+                "hint: a smaller --step, or look at what the firmware told it to do\n",
+                plant_s(l), wh_status_text(l->plant.status));
+        r->end = LOCKSTEP_FAILED;
+        return false;
+    }
+    if (l->plant.cut && !r->cut) {
+        r->cut = true;
+        r->cut_s = plant_s(l);
+    }
+    return true;
+}
+
+static void take_turns(loop *l) {
+    wh_readings readings;
+    wh_orders orders;
+    for (;;) {
+        plant_read(&l->plant, &readings);
+        tell_taps_readings(l, &readings);
+        if (!talk_tell(&l->talk, plant_ticks(&l->plant), &readings) ||
+            !talk_hear(&l->talk, &orders)) {
+            return;
+        }
+        tell_taps_orders(l, &orders);
+        if (!plant_goes_on(l, &orders)) {
+            return;
+        }
+        if (plant_s(l) >= l->talk.wish->until_s) {
+            l->report->end = LOCKSTEP_LET_GO;
+            return;
+        }
+    }
+}
+
+static void run_bound(loop *l, const image *im) {
+    const wh_hello *hello = &l->talk.hello;
+    l->ticks_per_s = (double)hello->ticks_per_s;
+    l->per_count = l->talk.guest.emulated ? talk_instructions_per_count(hello) : 0.0;
+    l->report->counted = l->per_count > 0.0;
+    plant_start(&l->plant, im, &l->binding, hello, &l->talk.wish->plant);
+    const double begun_s = now_s();
+    take_turns(l);
+    l->report->wall_s = now_s() - begun_s;
+    l->report->time_s = plant_s(l);
+    l->report->edges = l->plant.edges_seen;
+    l->report->samples = l->plant.samples_seen;
+    l->report->lost = l->plant.lost;
+    l->report->plant_hash = engine_double.hash(l->plant.run);
+    plant_stop(&l->plant);
+}
+
+void lockstep_run(const lockstep_wish *wish, const image *im, lockstep_report *report) {
+    loop l = {.report = report};
+    *report = (lockstep_report){.end = LOCKSTEP_DONE};
+    if (talk_start(&l.talk, wish, report, wish->tape)) {
+        if (bind_signals(&l.binding, &l.talk.hello, im, wish->renames)) {
+            run_bound(&l, im);
+        } else {
+            report->end = LOCKSTEP_BAD;
+        }
+    }
+    talk_end(&l.talk);
+}

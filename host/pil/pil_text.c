@@ -1,0 +1,58 @@
+/* pil_text.c: the report of `whirl pil`. */
+#include "pil_text.h"
+
+#include <inttypes.h>
+
+static void print_computing(FILE *out, const lockstep_wish *wish, const lockstep_report *r) {
+    if (!r->counted) {
+        fputs("computing          not counted: no emulator\n", out);
+        return;
+    }
+    fprintf(out, "until outputs set  %.0f instructions at most, %.4g ms, at t = %.6g s\n",
+            r->acted.value, 1e3 * r->acted.value * wish->instruction_s, r->acted.at_s);
+    fprintf(out, "until it waits     %.0f instructions at most, %.4g ms, at t = %.6g s\n",
+            r->busy.value, 1e3 * r->busy.value * wish->instruction_s, r->busy.at_s);
+    fprintf(out, "overruns           %" PRIu64, r->overruns);
+    if (r->overruns > 0) {
+        fprintf(out, ", the longest by %.4g ms after t = %.6g s", 1e3 * r->late_s.value,
+                r->late_s.at_s);
+    }
+    fputc('\n', out);
+}
+
+static void print_plant(FILE *out, const image *im, const lockstep_report *r) {
+    fprintf(out, "plant              %s, step %.9g us, double, %s", im->name, 1e6 * im->step_s,
+            image_stepper(im));
+    for (int i = 0; i < im->effects; i++) {
+        if (im->effect[i].with) {
+            fprintf(out, ", with %s", im->effect[i].name);
+        }
+    }
+    fprintf(out, "\nreadings           %" PRIu64 " edges, %" PRIu64 " samples, %" PRIu64 " lost\n",
+            r->edges, r->samples, r->lost);
+    if (r->cut) {
+        fprintf(out, "watchdog           cut the outputs at t = %.6g s\n", r->cut_s);
+    }
+}
+
+void pil_print(FILE *out, const lockstep_wish *wish, const image *im, const lockstep_report *r) {
+    fprintf(out, "\nfirmware           %s on board %s, %s\n", r->program, r->board,
+            wish->guest.image);
+    if (im != NULL) {
+        print_plant(out, im, r);
+        print_computing(out, wish, r);
+    }
+    fprintf(out, "exchanges          %" PRIu64 " in %.9g s of the plant's time", r->exchanges,
+            r->time_s);
+    if (im != NULL && r->wall_s > 0.0) {
+        fprintf(out, "; %.0f a second, %.0f x real time", (double)r->exchanges / r->wall_s,
+                r->time_s / r->wall_s);
+    }
+    fprintf(out, "\ncommand stream     0x%016" PRIx64 "%s\n", r->hash,
+            im != NULL                     ? ""
+            : r->end == LOCKSTEP_DIFFERENT ? ", not as on the tape"
+                                           : ", as on the tape");
+    if (im != NULL) {
+        fprintf(out, "plant's state      0x%016" PRIx64 "\n", r->plant_hash);
+    }
+}

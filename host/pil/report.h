@@ -1,0 +1,69 @@
+/* report.h: what is wished of a run in the loop, and what became of it. */
+#ifndef PIL_REPORT_H
+#define PIL_REPORT_H
+
+#include <stdio.h>
+
+#include "guest.h"
+#include "plant.h"
+
+/* The seam for faults of the line and of the sensors: asked in turn, after the firmware has spoken and before it is
+ * spoken to. What they make of a message is what the other side hears. A tape has what the firmware heard and said. NULL:
+ * not asked. */
+typedef struct tap {
+    const char *name;
+    void *of;
+    void (*orders)(void *of, double time_s, wh_orders *orders);
+    void (*readings)(void *of, double time_s, wh_readings *readings);
+} tap;
+
+typedef struct lockstep_wish {
+    guest_wish guest;
+    plant_wish plant;
+    const char *renames;  /* see bind_signals() */
+    double until_s;       /* the firmware is let go then, if it has not ended */
+    double instruction_s; /* what an instruction takes */
+    FILE *tape;           /* NULL: none is kept */
+    const tap *taps;      /* [tap_count] */
+    int tap_count;
+} lockstep_wish;
+
+typedef enum lockstep_end {
+    LOCKSTEP_DONE,      /* the firmware ended: status */
+    LOCKSTEP_LET_GO,    /* until_s, or the tape's end */
+    LOCKSTEP_BAD,       /* what was asked for cannot be: reported */
+    LOCKSTEP_FAILED,    /* reported */
+    LOCKSTEP_DIFFERENT, /* from the tape: reported */
+    LOCKSTEP_STOPPED    /* interrupted */
+} lockstep_end;
+
+/* The most of something, and when it was. */
+typedef struct peak {
+    double value;
+    double at_s;
+} peak;
+
+typedef struct lockstep_report {
+    lockstep_end end;
+    guest_end_status status;
+    char program[40];
+    char board[40];
+    uint64_t exchanges;
+    double time_s; /* of the plant */
+    double wall_s;
+    bool counted; /* the firmware counts what it computes */
+    peak acted;   /* instructions until the outputs were set, */
+    peak busy;    /* and until it waited */
+    uint64_t overruns;
+    peak late_s; /* beyond when it wanted to hear again */
+    uint64_t edges;
+    uint64_t samples;
+    uint64_t lost;
+    bool cut;            /* the watchdog has cut the outputs, */
+    double cut_s;        /* then */
+    uint64_t hash;       /* of all orders, but for what was counted */
+    uint64_t tape_hash;  /* of a tape's */
+    uint64_t plant_hash; /* of the scene's last state */
+} lockstep_report;
+
+#endif

@@ -1,0 +1,181 @@
+/* talk.c: frames to and from the firmware, and its beginning and end. */
+#include "talk.h"
+
+#include <string.h>
+
+#include "core/hash.h"
+
+/* --- frames ---------------------------------------------------------------------------------------------------*/
+
+static void keep_on_tape(talk *t, const uint8_t *bytes, unsigned count) {
+    if (t->tape != NULL && fwrite(bytes, 1, count, t->tape) != count) {
+        fprintf(stderr, "whirl pil: error: the tape cannot be written\n");
+        t->report->end = LOCKSTEP_FAILED;
+        t->tape = NULL;
+    }
+}
+
+/* A frame as it was heard, coded again: frames are coded in one way only. */
+static void keep_heard(talk *t, const wh_frame *frame) {
+    uint8_t coded[WH_FRAME_BYTES(GUEST_LINE_BYTES)];
+    keep_on_tape(t, coded, wh_frame_write(frame, coded, sizeof coded));
+}
+
+static void say_silent(const talk *t) {
+    fprintf(stderr,
+            "whirl pil: error: the firmware has said nothing for %g s\n"
+            "hint: an endless loop, or a read that nobody answers; --patience says how long to "
+            "wait\n",
+            t->guest.wish.patience_s);
+}
+
+static bool hear_frame(talk *t, wh_frame *frame) {
+    switch (guest_receive(&t->guest, frame)) {
+    case GUEST_FRAME: break;
+    case GUEST_ENDED: t->report->end = LOCKSTEP_DONE; return false;
+    case GUEST_SILENT:
+        say_silent(t);
+        t->report->end = LOCKSTEP_FAILED;
+        return false;
+    case GUEST_STOPPED: t->report->end = LOCKSTEP_STOPPED; return false;
+    }
+    if (frame->version != WH_FRAME_VERSION) {
+        fprintf(stderr,
+                "whirl pil: error: the firmware speaks version %u of the exchange, this program "
+                "version %u\nhint: build both from one source\n",
+                frame->version, WH_FRAME_VERSION);
+        t->report->end = LOCKSTEP_BAD;
+        return false;
+    }
+    return true;
+}
+
+static bool fail(talk *t, const char *what) {
+    fprintf(stderr, "whirl pil: error: the firmware sent %s in exchange %llu\n", what,
+            (unsigned long long)t->report->exchanges);
+    t->report->end = LOCKSTEP_FAILED;
+    return false;
+}
+
+bool talk_tell(talk *t, uint32_t ticks, const wh_readings *readings) {
+    uint8_t payload[WH_READINGS_BYTES];
+    uint8_t coded[WH_FRAME_BYTES(WH_READINGS_BYTES)];
+    const wh_frame frame = {.kind = WH_FRAME_READINGS,
+                            .sequence = t->sequence,
+                            .ticks = ticks,
+                            .payload = payload,
+                            .length = wh_readings_put(readings, payload, sizeof payload)};
+    const unsigned count = wh_frame_write(&frame, coded, sizeof coded);
+    keep_on_tape(t, coded, count);
+    switch (guest_send(&t->guest, coded, count)) {
+    case GUEST_FRAME: return true;
+    case GUEST_STOPPED: t->report->end = LOCKSTEP_STOPPED; return false;
+    case GUEST_ENDED:
+    case GUEST_SILENT: break;
+    }
+    t->report->end = LOCKSTEP_DONE; /* how it ended tells the rest */
+    return false;
+}
+
+bool talk_hear(talk *t, wh_orders *orders) {
+    wh_frame frame;
+    if (!hear_frame(t, &frame)) {
+        return false;
+    }
+    if (frame.kind != WH_FRAME_ORDERS || frame.sequence != t->sequence) {
+        return fail(t, "a frame that is no answer");
+    }
+    if (!wh_orders_get(orders, frame.payload, frame.length) || orders->outputs != t->outputs) {
+        return fail(t, "orders that are none");
+    }
+    keep_heard(t, &frame);
+    t->sequence++;
+    t->report->exchanges++;
+    t->report->hash = talk_hash(t->report->hash, orders);
+    return t->report->end != LOCKSTEP_FAILED;
+}
+
+uint64_t talk_hash(uint64_t hash, const wh_orders *orders) {
+    hash = wh_hash_u64(hash, orders->until_ticks);
+    hash = wh_hash_u64(hash, orders->watchdog_ticks);
+    hash = wh_hash_u64(hash, orders->flags);
+    for (unsigned i = 0; i < orders->outputs; i++) {
+        uint32_t bits;
+        memcpy(&bits, &orders->output[i], sizeof bits);
+        hash = wh_hash_u64(hash, bits);
+    }
+    return hash;
+}
+
+/* --- beginning and end ------------------------------------------------------------------------------------------*/
+
+/* It ended before it has said anything; what cannot be run at all has been told by what was to become it. */
+static void say_no_hello(talk *t) {
+    const guest_end_status end = guest_end(&t->guest);
+    t->report->end = LOCKSTEP_BAD;
+    if (end.status == GUEST_NOT_RUN) {
+        fputs(t->guest.emulated ? "hint: make deps installs QEMU\n"
+                                : "hint: is it a program of this machine, and executable?\n",
+              stderr);
+    } else {
+        fprintf(stderr,
+                "%s: error: it ended without a hello\nhint: is it made for `whirl pil`, as "
+                "build/pil_rig and build/BOARD/pil_rig.elf are?\n",
+                t->guest.wish.image);
+    }
+}
+
+static bool hear_hello(talk *t) {
+    wh_frame frame;
+    if (!hear_frame(t, &frame)) {
+        if (t->report->end == LOCKSTEP_DONE) { /* before it has said anything */
+            say_no_hello(t);
+        }
+        return false;
+    }
+    if (frame.kind != WH_FRAME_HELLO || frame.length > sizeof t->words) {
+        return fail(t, "no hello");
+    }
+    memcpy(t->words, frame.payload, frame.length);
+    if (!wh_hello_get(&t->hello, t->signal, t->words, frame.length) || t->hello.ticks_per_s == 0) {
+        return fail(t, "a hello that is none");
+    }
+    for (unsigned i = 0; i < t->hello.signals; i++) {
+        t->outputs += t->signal[i].kind == WH_SIGNAL_OUTPUT;
+    }
+    keep_heard(t, &frame);
+    snprintf(t->report->program, sizeof t->report->program, "%s", t->hello.program);
+    snprintf(t->report->board, sizeof t->report->board, "%s", t->hello.board);
+    return true;
+}
+
+bool talk_start(talk *t, const lockstep_wish *wish, lockstep_report *report, FILE *onto) {
+    *t = (talk){.wish = wish, .report = report, .tape = onto};
+    report->hash = WH_HASH_START;
+    if (!guest_start(&t->guest, &wish->guest)) {
+        report->end = LOCKSTEP_BAD;
+        return false;
+    }
+    return hear_hello(t);
+}
+
+double talk_instructions_per_count(const wh_hello *hello) {
+    return hello->timer_per_s == 0 ? 0.0
+                                   : 1e9 / (double)hello->timer_per_s / (double)(1 << GUEST_SHIFT);
+}
+
+void talk_end(talk *t) {
+    const bool failed_alone = t->report->end == LOCKSTEP_DONE;
+    t->report->status = guest_end(&t->guest);
+    if (!failed_alone) {
+        return;
+    }
+    if (t->report->status.killed) {
+        fprintf(stderr, "whirl pil: error: the firmware closed the line and did not end: killed\n");
+        t->report->end = LOCKSTEP_FAILED;
+    } else if (t->report->status.signal_number != 0) {
+        fprintf(stderr, "whirl pil: error: the firmware's process was ended by signal %d (%s)\n",
+                t->report->status.signal_number, strsignal(t->report->status.signal_number));
+        t->report->end = LOCKSTEP_FAILED;
+    }
+}

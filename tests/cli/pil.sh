@@ -1,0 +1,203 @@
+#!/bin/sh
+# pil.sh: `whirl pil`: the rig and another mechanism in the loop, on this machine and on an emulated board; tapes; that
+# computing takes time; what is refused; and that nothing is left behind whoever is killed. WHIRL_FULL: more of the kills,
+# and a Cortex-M3.
+. "$(dirname "$0")/../checks.sh"
+
+build=$(dirname "$whirl")
+rig="rig_coupled --with dry_friction --without sensor_noise"
+m4=build/mps2-an386/pil_rig.elf
+rounds=1
+[ -z "${WHIRL_FULL:-}" ] || rounds=20
+
+[ -x "$build/pil_rig" ] && [ -x "$build/pil_cart" ]
+verdict $? "build/pil_rig and build/pil_cart are there (make pil-images)"
+
+# line NAME FILE: what the report's line of that name says; number NAME FILE: the first number in it
+line() { grep -a "^ *$1  *" "$2" | sed "s/^ *$1  *//"; }
+number() { line "$1" "$2" | head -n 1 | sed 's/^[^-0-9]*\([-0-9.]*\).*/\1/'; }
+# close_to VALUE WANTED MOST
+close_to() { awk -v a="$1" -v b="$2" -v most="$3" 'BEGIN { d = a - b; exit !(a != "" && d <= most && d >= -most) }'; }
+
+# --- the rig, whole ---------------------------------------------------------------------------------------------------
+# The plant has a coupling and dry friction that the controller knows nothing of; the force is the formula's.
+# shellcheck disable=SC2086 # words
+timeout 60 "$whirl" pil $rig --firmware "$build/pil_rig" --tape "$scratch/pc.tape" >"$scratch/pc" 2>"$scratch/err"
+verdict $? "the rig's software on this machine runs to its end"
+close_to "$(number speed "$scratch/pc")" 330 0.5 && close_to "$(number 'measured \/ formula' "$scratch/pc")" 100 0.5 &&
+    close_to "$(number 'mean force' "$scratch/pc")" 0 0.05
+verdict $? "330 rpm, and the formula's force" "$scratch/pc"
+
+boards=
+if command -v qemu-system-arm >/dev/null 2>&1 && [ -f "$m4" ]; then
+    boards=mps2-an386
+    [ -z "${WHIRL_FULL:-}" ] || [ ! -f build/mps2-an385/pil_rig.elf ] || boards="$boards mps2-an385"
+else
+    echo "ok - no qemu-system-arm, or no $m4: no emulated board # SKIP"
+fi
+for board in $boards; do
+    # where computing takes no time, all processors give the same orders
+    # shellcheck disable=SC2086
+    timeout 60 "$whirl" pil $rig --firmware "build/$board/pil_rig.elf" --board "$board" --cycles 0 --tape "$scratch/$board.tape" \
+        >"$scratch/board" 2>"$scratch/err"
+    verdict $? "and on an emulated $board"
+    [ "$(line 'command stream' "$scratch/board")" = "$(line 'command stream' "$scratch/pc")" ] &&
+        [ "$(line "plant's state" "$scratch/board")" = "$(line "plant's state" "$scratch/pc")" ]
+    verdict $? "with the same orders, to the bit, and the same motion" "$scratch/board"
+    [ "$(number overruns "$scratch/board")" = 0 ]
+    verdict $? "no overrun with --cycles 0" "$scratch/board"
+    timeout 60 "$whirl" pil --replay "$scratch/pc.tape" --firmware "build/$board/pil_rig.elf" --board "$board" >"$scratch/out" 2>"$scratch/err" &&
+        grep -aq "^command stream  *$(line 'command stream' "$scratch/pc"), as on the tape$" "$scratch/out"
+    verdict $? "the tape of this machine gives the same answers on $board"
+    timeout 60 "$whirl" pil --replay "$scratch/$board.tape" --firmware "$build/pil_rig" >"$scratch/out" 2>"$scratch/err" &&
+        grep -aq "^command stream  *$(line 'command stream' "$scratch/board"), as on the tape$" "$scratch/out"
+    verdict $? "and the other way round"
+done
+if [ -n "$boards" ]; then
+    # ten times slower: the burst that evaluates the record takes 0.1 s, and is late by more than a period
+    for cycles in 0 1.5 15; do
+        # shellcheck disable=SC2086
+        timeout 60 "$whirl" pil $rig --firmware "$m4" --cycles $cycles --until 8.7s >"$scratch/out.$cycles" 2>"$scratch/err"
+        verdict $? "--cycles $cycles"
+    done
+    [ "$(number overruns "$scratch/out.0")" -eq 0 ] && [ "$(number overruns "$scratch/out.1.5")" -ge 1 ] &&
+        [ "$(number 'until outputs set' "$scratch/out.0")" = "$(number 'until outputs set' "$scratch/out.1.5")" ] &&
+        [ "$(line 'command stream' "$scratch/out.1.5")" != "$(line 'command stream' "$scratch/out.15")" ]
+    verdict $? "what is slower overruns, with as many instructions" "$scratch/out.1.5"
+fi
+
+# --- any scene ----------------------------------------------------------------------------------------------------------
+for start in 0.1 -0.1 0.17; do
+    timeout 60 "$whirl" pil docs/plants/cart.whirl --start theta=$start --firmware "$build/pil_cart" >"$scratch/cart" 2>"$scratch/err" &&
+        close_to "$(number rod "$scratch/cart")" 0 0.02 && close_to "$(number cart "$scratch/cart")" 0 0.03 &&
+        [ "$(line exchanges "$scratch/cart" | cut -d' ' -f1)" = 10000 ]
+    verdict $? "a rod on a cart, leaning by $start rad, comes to stand" "$scratch/cart"
+done
+timeout 60 "$whirl" pil docs/plants/cart.whirl --start theta=1.2 --firmware "$build/pil_cart" >"$scratch/cart" 2>"$scratch/err"
+[ $? -eq 1 ] && grep -q 'the firmware ended with status 1' "$scratch/err"
+verdict $? "by 1.2 rad it does not, and whirl says so"
+sed 's/^\(input  *\)push/\1motor/; s/= push$/= motor/' docs/plants/cart.whirl >"$scratch/renamed.whirl"
+timeout 60 "$whirl" pil "$scratch/renamed.whirl" --bind push=motor --until 1s --firmware "$build/pil_cart" >"$scratch/cart" 2>"$scratch/err" &&
+    [ "$(line exchanges "$scratch/cart" | cut -d' ' -f1)" = 1000 ]
+verdict $? "--bind, and --until lets the firmware go" "$scratch/cart"
+timeout 60 "$whirl" pil docs/plants/cart.whirl --until 2s --firmware "$build/pil_cart" >"$scratch/plain" 2>"$scratch/err"
+for option in '--delay 5ms' '--place 0.02' '--jitter 3ms' '--set l=0.4' '--step 200us'; do
+    # shellcheck disable=SC2086
+    timeout 60 "$whirl" pil docs/plants/cart.whirl --until 2s --firmware "$build/pil_cart" $option --tape "$scratch/cart.tape" >"$scratch/cart" 2>"$scratch/err"
+    verdict $? "$option"
+    timeout 60 "$whirl" pil --replay "$scratch/cart.tape" --firmware "$build/pil_cart" >"$scratch/out" 2>"$scratch/err"
+    verdict $? "and its tape"
+done
+
+# --- tapes that are none --------------------------------------------------------------------------------------------------
+# refused STATUS PATTERN WORD...: that status, and these words on standard error
+refused() {
+    status=$1
+    pattern=$2
+    shift 2
+    timeout 60 "$whirl" pil "$@" >"$scratch/out" 2>"$scratch/err"
+    [ $? -eq "$status" ] && grep -q -- "$pattern" "$scratch/err"
+    verdict $? "whirl pil $*: status $status, $pattern"
+}
+head -c 3000 "$scratch/pc.tape" >"$scratch/cut.tape"
+refused 2 'it is broken' --replay "$scratch/cut.tape" --firmware "$build/pil_rig"
+{ head -c 3000 "$scratch/pc.tape" && printf X && tail -c +3002 "$scratch/pc.tape"; } >"$scratch/flip.tape"
+refused 2 'it is broken' --replay "$scratch/flip.tape" --firmware "$build/pil_rig"
+refused 2 'no tape' --replay "$build/pil_rig" --firmware "$build/pil_rig"
+refused 2 'cannot be read' --replay "$scratch/none" --firmware "$build/pil_rig"
+refused 2 "of 'rig'" --replay "$scratch/pc.tape" --firmware "$build/pil_cart"
+# the begin of one run and the end of another: frames end in zeros
+timeout 60 "$whirl" pil docs/plants/cart.whirl --until 2s --set l=0.5 --firmware "$build/pil_cart" --tape "$scratch/long.tape" >"$scratch/out" 2>"$scratch/err"
+{ tr '\0\n' '\n\0' <"$scratch/cart.tape" | head -n 1001 && tr '\0\n' '\n\0' <"$scratch/long.tape" | tail -n +1002; } | tr '\0\n' '\n\0' >"$scratch/mixed.tape"
+refused 1 'exchange 50[0-9], .*other orders than on the tape' --replay "$scratch/mixed.tape" --firmware "$build/pil_cart"
+
+# --- what is refused --------------------------------------------------------------------------------------------------------
+refused 2 'no --firmware' rig_coupled
+refused 2 'no scene' --firmware "$build/pil_rig"
+refused 2 'takes no scene' rig_coupled --replay "$scratch/pc.tape" --firmware "$build/pil_rig"
+refused 2 'cannot be read' rig_coupled --firmware "$scratch/none"
+refused 2 'no firmware image' rig_coupled --firmware README.md
+refused 2 'ended without a hello' rig_coupled --firmware "$build/whirl"
+cp "$build/pil_rig" "$scratch/closed" && chmod a-x "$scratch/closed"
+refused 2 'cannot be run' rig_coupled --firmware "$scratch/closed"
+refused 2 "sets 'push', which 'rig_coupled' does not have" rig_coupled --firmware "$build/pil_cart"
+sed 's/theta/tilt/g' docs/plants/cart.whirl >"$scratch/tilt.whirl"
+refused 2 "reads 'theta', which" "$scratch/tilt.whirl" --firmware "$build/pil_cart"
+refused 2 "'push' is in N, and 'duty' of 'rig_coupled' in 1" rig_coupled --bind push=duty --firmware "$build/pil_cart"
+refused 2 'no signal of that name' docs/plants/cart.whirl --bind pull=push --firmware "$build/pil_cart"
+refused 2 'numbers between commas' docs/plants/cart.whirl --place 1,x --firmware "$build/pil_cart"
+refused 2 'is not a time' docs/plants/cart.whirl --delay 3kg --firmware "$build/pil_cart"
+refused 2 "no board 'pdp11'" rig_coupled --board pdp11 --firmware "$build/pil_rig"
+refused 2 'takes a number' rig_coupled --cycles -1 --firmware "$build/pil_rig"
+refused 2 'cannot be written' docs/plants/cart.whirl --tape "$scratch/no/tape" --firmware "$build/pil_cart"
+cp docs/plants/cart.whirl "$scratch/mine.whirl"
+refused 2 'over' "$scratch/mine.whirl" --tape "$scratch/mine.whirl" --firmware "$build/pil_cart"
+cmp -s docs/plants/cart.whirl "$scratch/mine.whirl"
+verdict $? "and the scene is still there"
+
+# --- nothing is left behind ----------------------------------------------------------------------------------------------
+# Seconds of plant time in steps of 2 us: long enough to be killed in the middle.
+# child PID: its first child; state PID: R, S, T, Z or nothing, as Linux has them
+child() { sed -n "s/^\([0-9]*\) (.*) [A-Za-z] $1 .*/\1/p" /proc/[0-9]*/stat 2>/dev/null | head -n 1; }
+state() { sed 's/.*) \([A-Za-z]\) .*/\1/' "/proc/$1/stat" 2>/dev/null; }
+# begin IMAGE: $host and $guest, with the line between them at work
+begin() {
+    # shellcheck disable=SC2086
+    timeout 60 "$whirl" pil $rig --step 2us --patience 1 --firmware "$1" >"$scratch/out" 2>"$scratch/err" &
+    wrapper=$!
+    host= guest=
+    for _ in $(seq 200); do
+        host=$(child "$wrapper")
+        [ -z "$host" ] || guest=$(child "$host")
+        [ -z "$guest" ] || ! grep -aq tare "$scratch/out" || return 0
+        sleep 0.02
+    done
+    return 1
+}
+# pause: up to 0.3 s, another each time
+seed=$$
+pause() {
+    seed=$(((seed * 1103515245 + 12345) % 2147483648))
+    sleep "0.$(((seed / 65536) % 3))$(((seed / 512) % 10))"
+}
+# is_gone PID: it has ended, within five seconds (a process that is dead and not yet waited for has)
+is_gone() {
+    for _ in $(seq 250); do
+        case $(state "$1") in '' | Z) return 0 ;; esac
+        sleep 0.02
+    done
+    return 1
+}
+end_of() { # STATUS WHAT: how the host ended, and that both are gone
+    wait "$wrapper" 2>/dev/null
+    got=$?
+    [ "$got" -eq "$1" ] && is_gone "$host" && is_gone "$guest" && [ -z "$(find "$scratch" -type p)" ]
+    verdict $? "$2 (status $got), no process and no FIFO is left"
+}
+[ -r /proc/self/stat ] || echo "ok - no /proc: nobody is killed # SKIP"
+for image in $([ -r /proc/self/stat ] && echo "$build/pil_rig" ${boards:+"$m4"}); do
+    for round in $(seq $rounds); do
+        begin "$image" && pause && kill -KILL "$guest"
+        end_of 1 "$image, round $round: the guest is killed"
+        grep -q 'was ended by signal 9' "$scratch/err"
+        verdict $? "and that is said"
+        begin "$image" && pause && kill -KILL "$host"
+        end_of 137 "$image, round $round: the host is killed"
+        begin "$image" && pause && kill -KILL "$host" "$guest"
+        end_of 137 "$image, round $round: both are killed"
+        begin "$image" && pause && kill -TERM "$host"
+        end_of 130 "$image, round $round: the host is interrupted"
+    done
+    begin "$image" && pause && kill -STOP "$guest" && kill -KILL "$host"
+    end_of 137 "$image: the guest stands still, and the host is killed"
+    begin "$image" && pause && kill -STOP "$guest"
+    end_of 1 "$image: the guest stands still"
+    grep -q 'has said nothing for 1 s' "$scratch/err"
+    verdict $? "and that is said"
+done
+# one that listens to nothing, and to no end of the line
+many=$(command -v yes)
+timeout 60 "$whirl" pil rig_coupled --firmware "$many" --patience 0.2 >/dev/null 2>"$scratch/err"
+[ $? -eq 1 ] && grep -q 'has said nothing for 0.2 s' "$scratch/err"
+verdict $? "a program that is no firmware and does not end is ended"
+exit $failed

@@ -1,0 +1,348 @@
+/* test_plant.c: the sensors and actuators round a scene, against closed forms: when edges are, what samples say, when
+ * orders take effect, when the watchdog cuts; and which of a scene's quantities a signal is. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "derived.h"
+#include "host/pil/plant.h"
+#include "host/pil/talk.h"
+#include "motion.h"
+#include "unity.h"
+
+void suite_plant(void);
+
+#define TICKS_PER_S 1000000U
+#define TURN_RAD 6.283185307179586477
+
+/* A rotor that nothing brakes, a spring, and a mass that is pushed. */
+static const char *const text =
+    "mechanism bench \"three of them\"\n"
+    "coordinate a [rad]\ncoordinate x [m]\ncoordinate y [m]\n"
+    "input push = 0 [N]\n"
+    "parameter k = 100 [N/m]\n"
+    "T = 1 [kg*m^2]*a'^2/2 + 1 [kg]*x'^2/2 + 1 [kg]*y'^2/2\n"
+    "V = k*x^2/2\n"
+    "Q(y) = push\n"
+    "output twice [m] = 2*x\n"
+    "scene s { start a = %.17g, a' = %.17g [rad/s], x = 1 [m], x' = 0; step %.17g [s]; until 10 [s] }\n";
+
+static motion bench;
+static plant on;
+static binding bound_to;
+static wh_hello hello;
+static wh_signal signals[WH_SIGNALS_MAX];
+
+static void open_bench(double a_rad, double a_radps, double step_s, const plant_wish *wish) {
+    char words[1000];
+    snprintf(words, sizeof words, text, a_rad, a_radps, step_s);
+    motion_open_text(&bench, words, IN_DOUBLE);
+    hello.program = "bench";
+    hello.board = "here";
+    hello.ticks_per_s = TICKS_PER_S;
+    hello.start_ticks = 0xFFFFFF00U; /* it wraps soon */
+    hello.signal = signals;
+    TEST_ASSERT_TRUE(bind_signals(&bound_to, &hello, bench.image, NULL));
+    plant_start(&on, bench.image, &bound_to, &hello, wish);
+}
+
+static void close_bench(void) {
+    plant_stop(&on);
+    motion_close(&bench);
+    hello.signals = 0;
+}
+
+static void add(wh_signal signal) { signals[hello.signals++] = signal; }
+
+static wh_signal edge(const char *name, const char *unit, float low, float high) {
+    return (wh_signal){
+        .kind = WH_SIGNAL_EDGE, .name = name, .unit = unit, .low = low, .high = high};
+}
+
+/* Reads every 2 ms until `until_s`; the edges of channel 0, in seconds; returns how many. */
+static int edges_until(double until_s, double *at_s, int most) {
+    int count = 0;
+    const int reads = (int)(until_s * TICKS_PER_S / 2000.0 + 0.5);
+    for (int read = 1; read <= reads; read++) {
+        const double t = 2000.0 * read;
+        wh_readings r;
+        TEST_ASSERT_TRUE(plant_advance(&on, t));
+        plant_read(&on, &r);
+        uint32_t last = 0;
+        for (unsigned i = 0; i < r.edges; i++) {
+            const uint32_t since = r.edge[i].ticks - hello.start_ticks;
+            TEST_ASSERT_TRUE(since >= last && since <= (uint32_t)t);
+            last = since;
+            if (r.edge[i].channel == 0 && count < most) {
+                at_s[count++] = (double)since / TICKS_PER_S;
+            }
+        }
+    }
+    return count;
+}
+
+/* An angle comes into the range in each turn, from below at its lower end, from above at the upper. */
+static void test_edges_of_an_angle(void) {
+    uint64_t seed = 1;
+    for (int round = 0; round < 60; round++) {
+        const double speed =
+            (random_bits(&seed) % 2 == 0 ? 1.0 : -1.0) * pow(10.0, random_between(&seed, 0.5, 2.0));
+        const double start = random_between(&seed, -10.0, 10.0);
+        const double middle = random_between(&seed, -3.0, 3.0);
+        const float low = (float)(middle - 0.02);
+        const float high = (float)(middle + 0.02);
+        const plant_wish wish = {.place = {random_between(&seed, -5.0, 5.0)}};
+        add(edge("a", "rad", low, high));
+        open_bench(start, speed, 50e-6, &wish);
+        double at_s[64];
+        const int count = edges_until(1.0, at_s, 64);
+        close_bench();
+        const double level = (double)(speed > 0.0 ? low : high) + wish.place[0] * TURN_RAD / 360.0;
+        double turns = (level - start) / TURN_RAD * (speed > 0.0 ? 1.0 : -1.0);
+        turns -= floor(turns); /* of the way to the first */
+        const int wanted = (int)(fabs(speed) / TURN_RAD - turns + 1.0); /* within the second */
+        TEST_ASSERT_INT_WITHIN(1, wanted, count); /* one more or less in the last moments */
+        for (int i = 0; i < count; i++) {
+            const double t = (turns + i) * TURN_RAD / fabs(speed);
+            /* the timer drops what is below a tick */
+            TEST_ASSERT_TRUE(at_s[i] <= t + 1e-9 && at_s[i] > t - 1e-6 - 1e-9);
+        }
+    }
+}
+
+/* x = cos(10 t) comes into a range twice a period; its double, an output without a rate, too. */
+static void test_edges_of_a_length(void) {
+    for (int output = 0; output < 2; output++) {
+        const float low = 0.2F;
+        const float high = 0.4F;
+        const float scale = output == 1 ? 2.0F : 1.0F;
+        const plant_wish wish = {.seed = 1};
+        add(edge(output == 1 ? "twice" : "x", "m", scale * low, scale * high));
+        open_bench(0.0, 0.0, 50e-6, &wish);
+        double at_s[32];
+        const int count = edges_until(2.0, at_s, 32);
+        close_bench();
+        int wanted = 0;
+        for (int turn = 0; turn < 3; turn++) {
+            const double down = (acos((double)high) + turn * TURN_RAD) / 10.0;
+            const double up = (TURN_RAD - acos((double)low) + turn * TURN_RAD) / 10.0;
+            const double both[2] = {down, up};
+            for (int i = 0; i < 2; i++) {
+                TEST_ASSERT_TRUE(wanted < count);
+                TEST_ASSERT_TRUE(fabs(at_s[wanted++] + 0.5e-6 - both[i]) < 0.6e-6);
+            }
+        }
+    }
+}
+
+/* Edges scatter as they are told to, and none is handed out before it is there. */
+static void test_jitter(void) {
+    const plant_wish wish = {.jitter_s = 20e-6, .seed = 5};
+    const double speed = 100.0;
+    add(edge("a", "rad", -0.01F, 0.01F));
+    open_bench(1.0, speed, 50e-6, &wish);
+    double at_s[200];
+    const int count = edges_until(10.0, at_s, 200);
+    close_bench();
+    TEST_ASSERT_INT_WITHIN(1, 159, count);
+    double sum = 0.0;
+    double squares = 0.0;
+    for (int i = 0; i < count; i++) {
+        const double off = at_s[i] + 0.5e-6 - ((double)-0.01F - 1.0 + (i + 1) * TURN_RAD) / speed;
+        sum += off;
+        squares += off * off;
+    }
+    /* of 159: the mean within four, the deviation within three and a half of its own deviations */
+    TEST_ASSERT_TRUE(fabs(sum / count) < 4.0 * 20e-6 / sqrt(count));
+    TEST_ASSERT_TRUE(fabs(sqrt(squares / count) / 20e-6 - 1.0) < 0.2);
+}
+
+static wh_signal sample(float per_count, float most, uint32_t period_ticks) {
+    return (wh_signal){.kind = WH_SIGNAL_SAMPLE,
+                       .name = "x",
+                       .unit = "m",
+                       .low = -most,
+                       .high = most,
+                       .per_count = per_count,
+                       .period_ticks = period_ticks};
+}
+
+/* cos(10 t) in counts, at the instants that were asked for and no other; late by so much when told to be. */
+static void test_samples(void) {
+    const double delays_s[] = {0.0, 150e-6, 1.3e-3};
+    for (int d = 0; d < 3; d++) {
+        const plant_wish wish = {.delay_s = delays_s[d]};
+        unsigned seen = 0;
+        unsigned saturated = 0;
+        add(sample(1e-4F, 0.9F, 500));
+        open_bench(0.0, 0.0, 50e-6, &wish);
+        for (int read = 1; read <= 500; read++) {
+            wh_readings r;
+            TEST_ASSERT_TRUE(plant_advance(&on, 2000.0 * read));
+            plant_read(&on, &r);
+            for (unsigned i = 0; i < r.samples; i++) {
+                const double stamp_s = (r.sample[i].ticks - hello.start_ticks) / 1e6;
+                const double at_s = ++seen * 500e-6;
+                TEST_ASSERT_TRUE(fabs(stamp_s - at_s - delays_s[d]) < 1e-6);
+                const double x = cos(10.0 * at_s);
+                const double held = x > (double)0.9F    ? (double)0.9F
+                                    : x < -(double)0.9F ? -(double)0.9F
+                                                        : x;
+                TEST_ASSERT_TRUE(fabs(r.sample[i].raw - held / (double)1e-4F) < 0.501);
+                TEST_ASSERT_EQUAL_INT(held != x, r.sample[i].status == WH_SAMPLE_SATURATED);
+                saturated += held != x;
+            }
+        }
+        TEST_ASSERT_EQUAL_UINT((unsigned)((1.0 - delays_s[d]) / 500e-6 + 1e-6), seen);
+        TEST_ASSERT_TRUE(saturated > 100 && saturated < seen - 100);
+        TEST_ASSERT_EQUAL_UINT(0, on.lost);
+        close_bench();
+    }
+}
+
+/* More than a reading holds: the newest are lost, and counted. */
+static void test_too_many(void) {
+    const plant_wish wish = {.seed = 1};
+    wh_readings r;
+    add(sample(1e-4F, 2.0F, 50));
+    open_bench(0.0, 0.0, 50e-6, &wish);
+    TEST_ASSERT_TRUE(plant_advance(&on, 2000.0));
+    plant_read(&on, &r);
+    TEST_ASSERT_EQUAL_UINT(WH_SAMPLES_MAX, r.samples);
+    TEST_ASSERT_EQUAL_UINT32(50, r.sample[0].ticks - hello.start_ticks);
+    TEST_ASSERT_EQUAL_UINT(40 - WH_SAMPLES_MAX, on.lost);
+    plant_read(&on, &r);
+    TEST_ASSERT_EQUAL_UINT(0, r.samples);
+    close_bench();
+}
+
+static double speed_of_y(void) {
+    double angle[8];
+    double real[16];
+    engine_double.state(on.run, angle, real);
+    const component last =
+        image_component(bench.image, bench.image->angles + bench.image->reals - 1);
+    TEST_ASSERT_TRUE(last.unknown == 2 && last.primes == 1);
+    return real[bench.image->reals - 1];
+}
+
+static void add_push(void) {
+    add((wh_signal){
+        .kind = WH_SIGNAL_OUTPUT, .name = "push", .unit = "N", .low = -2.0F, .high = 2.0F});
+}
+
+/* A push of 1 N that takes effect late by so much leaves 1 kg slower by as much; whole steps, or the next one's begin. */
+static void test_late_orders(void) {
+    for (int late = 0; late <= 1000; late += 125) {
+        const plant_wish wish = {.seed = 1};
+        add_push();
+        open_bench(0.0, 0.0, 50e-6, &wish);
+        const wh_orders orders = {.outputs = 1, .output = {1.0F}};
+        plant_order(&on, &orders, late);
+        TEST_ASSERT_TRUE(plant_advance(&on, 4000.0));
+        const double begins_s = ceil(late / 50.0 - 1e-9) * 50e-6;
+        TEST_ASSERT_TRUE(fabs(speed_of_y() - (4e-3 - begins_s)) < 1e-12);
+        close_bench();
+    }
+}
+
+/* What the firmware declared is what the plant takes; what is no number is the least. */
+static void test_held_orders(void) {
+    const float asked[] = {5.0F, -5.0F, 0.5F, NAN};
+    const double taken[] = {2.0, -2.0, 0.5, -2.0};
+    for (int i = 0; i < 4; i++) {
+        const plant_wish wish = {.seed = 1};
+        add_push();
+        open_bench(0.0, 0.0, 50e-6, &wish);
+        const wh_orders orders = {.outputs = 1, .output = {asked[i]}};
+        plant_order(&on, &orders, 0.0);
+        TEST_ASSERT_TRUE(plant_advance(&on, 1000.0));
+        TEST_ASSERT_TRUE(fabs(speed_of_y() - taken[i] * 1e-3) < 1e-12);
+        close_bench();
+    }
+}
+
+/* Alive at 0 and no more: 10 ms on, and a step, the push is gone for good, and that is told. */
+static void test_watchdog(void) {
+    const plant_wish wish = {.seed = 1};
+    wh_readings r;
+    add_push();
+    open_bench(0.0, 0.0, 50e-6, &wish);
+    wh_orders orders = {
+        .outputs = 1, .output = {1.0F}, .watchdog_ticks = 10000, .flags = WH_ORDER_ALIVE};
+    for (int turn = 0; turn < 10; turn++) {
+        plant_order(&on, &orders, 0.0);
+        TEST_ASSERT_TRUE(plant_advance(&on, (turn + 1) * 2000.0));
+        plant_read(&on, &r);
+        TEST_ASSERT_EQUAL_INT(turn < 5 ? 0 : WH_READING_CUT, r.flags);
+        orders.flags = turn == 7 ? WH_ORDER_ALIVE : 0; /* too late */
+    }
+    TEST_ASSERT_TRUE(fabs(speed_of_y() - 10.05e-3) < 1e-12);
+    close_bench();
+}
+
+static bool binds(const char *name, const char *unit, wh_signal_kind kind, const char *renames) {
+    binding b;
+    const wh_signal one = {.kind = kind,
+                           .name = name,
+                           .unit = unit,
+                           .high = 1.0F,
+                           .per_count = 1.0F,
+                           .period_ticks = 1};
+    const wh_hello of = {
+        .program = "p", .board = "b", .ticks_per_s = 1, .signal = &one, .signals = 1};
+    return bind_signals(&b, &of, bench.image, renames);
+}
+
+static void test_names(void) {
+    const plant_wish wish = {.seed = 1};
+    open_bench(0.0, 0.0, 1e-3, &wish);
+    TEST_ASSERT_TRUE(binds("x'", "m/s", WH_SIGNAL_SAMPLE, NULL));
+    TEST_ASSERT_TRUE(binds("a'", "1/s", WH_SIGNAL_SAMPLE, NULL)); /* an angle is a number */
+    TEST_ASSERT_TRUE(binds("twice", "m", WH_SIGNAL_SAMPLE, NULL));
+    TEST_ASSERT_TRUE(binds("other", "m", WH_SIGNAL_EDGE, "other=x"));
+    TEST_ASSERT_TRUE(binds("x", "rad", WH_SIGNAL_EDGE, "x=a"));
+    fputs("(seven refusals follow)\n", stderr);
+    TEST_ASSERT_FALSE(binds("x'", "m", WH_SIGNAL_SAMPLE, NULL));
+    TEST_ASSERT_FALSE(binds("x''", "m/s^2", WH_SIGNAL_SAMPLE, NULL));
+    TEST_ASSERT_FALSE(binds("push", "N", WH_SIGNAL_SAMPLE, NULL));
+    TEST_ASSERT_FALSE(binds("x", "m", WH_SIGNAL_OUTPUT, NULL));
+    TEST_ASSERT_FALSE(binds("", "m", WH_SIGNAL_SAMPLE, NULL));
+    TEST_ASSERT_FALSE(binds("x", "m", WH_SIGNAL_SAMPLE, "y=x"));
+    TEST_ASSERT_FALSE(binds("x", "m", WH_SIGNAL_SAMPLE, "x"));
+    close_bench();
+}
+
+/* Equal orders have equal hashes whatever was counted; each other field moves it. */
+static void test_hash(void) {
+    const wh_orders base = {
+        .until_ticks = 1, .watchdog_ticks = 2, .flags = 1, .outputs = 2, .output = {1.0F, 2.0F}};
+    wh_orders other = base;
+    const uint64_t hash = talk_hash(7, &base);
+    other.acted_timer = 5;
+    other.busy_timer = 6;
+    TEST_ASSERT_TRUE(talk_hash(7, &other) == hash);
+    TEST_ASSERT_TRUE(talk_hash(8, &base) != hash);
+    for (int i = 0; i < 5; i++) {
+        other = base;
+        other.until_ticks += i == 0;
+        other.watchdog_ticks += i == 1;
+        other.flags = (uint8_t)(other.flags + (i == 2));
+        other.outputs -= i == 3;
+        other.output[1] = i == 4 ? -2.0F : other.output[1];
+        TEST_ASSERT_TRUE(talk_hash(7, &other) != hash);
+    }
+}
+
+void suite_plant(void) {
+    RUN_TEST(test_edges_of_an_angle);
+    RUN_TEST(test_edges_of_a_length);
+    RUN_TEST(test_jitter);
+    RUN_TEST(test_samples);
+    RUN_TEST(test_too_many);
+    RUN_TEST(test_late_orders);
+    RUN_TEST(test_held_orders);
+    RUN_TEST(test_watchdog);
+    RUN_TEST(test_names);
+    RUN_TEST(test_hash);
+}
