@@ -41,7 +41,8 @@ fixed: base core emit image number run
 sweep: base core derive image lang number run
 price: base core fixed image number plot run
 trust: base core image number run
-commands: base derive emit fixed image lang number plot price run show sweep trust
+prove: base core image lang number run
+commands: base derive emit fixed image lang number plot price prove run show sweep trust
 '
 
 # included FILE...: "FILE FOLDER" for each folder of core or host that a file names in an include

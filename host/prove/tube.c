@@ -1,0 +1,273 @@
+/* tube.c: see tube.h. */
+#include "tube.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "frame.h"
+#include "host/base/room.h"
+#include "host/number/functions.h"
+
+/* The step is as long as the remainder, in parts of the largest value that a state has had, stays below this... */
+#define REMAINDER 0x1p-54
+/* ... and shorter ones than this lead nowhere, s. */
+#define STEP_LEAST_S 1e-9
+#define STEP_FIRST_S 0.01
+enum { TRIALS = 60 };
+
+struct tube {
+    const exact_motion *motion;
+    int states;
+    int order;
+    taylor *middle;   /* from the middle of what is known */
+    taylor *all;      /* from all of it, with slopes */
+    taylor *over;     /* over a whole step, one order more */
+    double *centre;   /* [states] x is centre + axes off, */
+    double *axes;     /* [states * states] */
+    enclosure *off;   /* [states] */
+    enclosure *box;   /* [states] that, along the states */
+    enclosure *turn;  /* [order + 1][states * states] coefficients of the slopes times the axes */
+    enclosure *stay;  /* [states] over the step */
+    double *largest;  /* [states] */
+    double open_s;    /* of the open step; 0: none */
+    double guess_s;   /* of the next one */
+    uint64_t steps;
+};
+
+tube *tube_new(const exact_motion *m, int order) {
+    const int n = m->states;
+    tube *t = room(1, sizeof *t);
+    *t = (tube){.motion = m,
+                .states = n,
+                .order = order,
+                .middle = taylor_new(m, order, false),
+                .all = taylor_new(m, order, true),
+                .over = taylor_new(m, order + 1, false),
+                .centre = room(n, sizeof(double)),
+                .axes = room((int64_t)n * n, sizeof(double)),
+                .off = room(n, sizeof(enclosure)),
+                .box = room(n, sizeof(enclosure)),
+                .turn = room((int64_t)(order + 1) * n * n, sizeof(enclosure)),
+                .stay = room(n, sizeof(enclosure)),
+                .largest = room(n, sizeof(double)),
+                .guess_s = STEP_FIRST_S};
+    for (int i = 0; i < n; i++) {
+        t->axes[i * n + i] = 1.0;
+        t->centre[i] = enclosure_middle(m->start[i]);
+        t->off[i] = enclosure_sub(m->start[i], enclosure_of(t->centre[i]));
+        t->box[i] = m->start[i];
+    }
+    return t;
+}
+
+void tube_free(tube *t) {
+    if (t != NULL) {
+        taylor_free(t->middle);
+        taylor_free(t->all);
+        taylor_free(t->over);
+        free(t->centre);
+        free(t->axes);
+        free(t->off);
+        free(t->box);
+        free(t->turn);
+        free(t->stay);
+        free(t->largest);
+        free(t);
+    }
+}
+
+uint64_t tube_steps(const tube *t) { return t->steps; }
+
+/* --- where the motion stays over a step --------------------------------------------------------------*/
+
+/* sum of [0, h]^k x_k over k <= order, from the whole box. */
+static enclosure polynomial_over(const tube *t, int i, enclosure span) {
+    enclosure sum = taylor_of(t->all, i, t->order)[0];
+    for (int k = t->order - 1; k >= 0; k--) {
+        sum = enclosure_add(taylor_of(t->all, i, k)[0], enclosure_mul(span, sum));
+    }
+    return sum;
+}
+
+static enclosure power_of(enclosure h, int n) { return enclosure_whole_power(h, n); }
+
+/* tau^(order + 1) times the next coefficient, wherever in `stay` it is taken: Lagrange's remainder. */
+static enclosure remainder_of(const tube *t, int i, enclosure tau) {
+    return enclosure_mul(power_of(tau, t->order + 1), taylor_of(t->over, i, t->order + 1)[0]);
+}
+
+static enclosure widened(enclosure a, double by) {
+    return enclosure_add(a, (enclosure){-by, by});
+}
+
+/* Does a motion from the box stay in `stay` for h_s? If it left it for the first time at t, its Taylor polynomial with
+ * Lagrange's remainder up to then, taken in `stay`, would put it inside. *excess: the largest remainder in parts of what is
+ * wished. */
+static bool stays(tube *t, double h_s, double *excess) {
+    const enclosure span = {0.0, h_s};
+    *excess = (double)INFINITY;
+    for (int i = 0; i < t->states; i++) {
+        const enclosure to = polynomial_over(t, i, span);
+        t->stay[i] = widened(to, REMAINDER * (enclosure_size(to) + t->largest[i]) * 16.0 + 1e-300);
+    }
+    if (!taylor_find(t->over, t->stay)) {
+        return false;
+    }
+    bool good = true;
+    double most = 0.0;
+    for (int i = 0; i < t->states; i++) {
+        const enclosure rest = remainder_of(t, i, span);
+        const enclosure to = enclosure_add(polynomial_over(t, i, span), rest);
+        const double wish =
+            REMAINDER * enclosure_larger(t->largest[i], enclosure_size(t->stay[i])) + 1e-300;
+        good = good && enclosure_inside(to, t->stay[i]);
+        most = enclosure_larger(most, enclosure_size(rest) / wish);
+    }
+    *excess = most;
+    return good;
+}
+
+/* The next trial's length by the remainder's order, neither much shorter nor much longer. */
+static double changed(double h_s, double excess, int order) {
+    const double factor =
+        excess > 0.0 ? 0.9 * number_power(1.0 / excess, 1.0 / (double)(order + 1)) : 2.0;
+    return h_s * enclosure_larger(0.4, enclosure_lesser(factor, 1.5));
+}
+
+static void find_turns(tube *t) {
+    const int n = t->states;
+    for (int k = 0; k <= t->order; k++) {
+        for (int i = 0; i < n; i++) {
+            const enclosure *slope = &taylor_of(t->all, i, k)[1];
+            for (int j = 0; j < n; j++) {
+                enclosure sum = enclosure_of(0.0);
+                for (int l = 0; l < n; l++) {
+                    const enclosure axis = enclosure_of(t->axes[l * n + j]);
+                    sum = enclosure_add(sum, enclosure_mul(slope[l], axis));
+                }
+                t->turn[(k * n + i) * n + j] = sum;
+            }
+        }
+    }
+}
+
+double tube_open(tube *t, double most_s) {
+    const int n = t->states;
+    enclosure *centre = room(n, sizeof *centre);
+    for (int i = 0; i < n; i++) {
+        centre[i] = enclosure_of(t->centre[i]);
+        t->largest[i] = enclosure_larger(t->largest[i], enclosure_size(t->box[i]));
+    }
+    t->open_s = 0.0;
+    bool good = taylor_find(t->middle, centre) && taylor_find(t->all, t->box);
+    free(centre);
+    double h_s = enclosure_lesser(t->guess_s, most_s);
+    for (int trial = 0; good && trial < TRIALS && h_s >= STEP_LEAST_S; trial++) {
+        double excess;
+        const bool stay = stays(t, h_s, &excess);
+        t->guess_s = changed(h_s, stay ? excess : enclosure_larger(excess, 1e6), t->order);
+        if (stay) {
+            t->open_s = h_s;
+            find_turns(t);
+            break;
+        }
+        h_s = t->guess_s < h_s ? t->guess_s : 0.5 * h_s;
+    }
+    return t->open_s;
+}
+
+/* --- in the step -------------------------------------------------------------------------------------*/
+
+/* Where the middle gets to: its polynomial and the remainder. */
+static enclosure middle_at(const tube *t, int i, enclosure tau) {
+    enclosure sum = taylor_of(t->middle, i, t->order)[0];
+    for (int k = t->order - 1; k >= 0; k--) {
+        sum = enclosure_add(taylor_of(t->middle, i, k)[0], enclosure_mul(tau, sum));
+    }
+    return enclosure_add(sum, remainder_of(t, i, tau));
+}
+
+static enclosure turn_at(const tube *t, int entry, enclosure tau) {
+    const int all = t->states * t->states;
+    enclosure sum = t->turn[t->order * all + entry];
+    for (int k = t->order - 1; k >= 0; k--) {
+        sum = enclosure_add(t->turn[k * all + entry], enclosure_mul(tau, sum));
+    }
+    return sum;
+}
+
+void tube_at(const tube *t, enclosure tau_s, enclosure *x) {
+    for (int i = 0; i < t->states; i++) {
+        x[i] = middle_at(t, i, tau_s);
+        for (int j = 0; j < t->states; j++) {
+            const enclosure turn = turn_at(t, i * t->states + j, tau_s);
+            x[i] = enclosure_add(x[i], enclosure_mul(turn, t->off[j]));
+        }
+    }
+}
+
+/* centre + turned off, with the new centre and along new axes: off' = A'^-1 turn off + A'^-1 (what the centre is rounded). */
+static bool turn_axes(tube *t, const enclosure *turned, const enclosure *rounded) {
+    const int n = t->states;
+    double *middle = room((int64_t)n * n, sizeof *middle);
+    double *radius = room(n, sizeof *radius);
+    enclosure *inverse = room((int64_t)n * n, sizeof *inverse);
+    enclosure *product = room((int64_t)n * n, sizeof *product);
+    enclosure *more = room(n, sizeof *more);
+    for (int i = 0; i < n * n; i++) {
+        middle[i] = enclosure_middle(turned[i]);
+    }
+    for (int i = 0; i < n; i++) {
+        radius[i] = enclosure_larger(enclosure_size(t->off[i]), 1e-30);
+    }
+    frame_axes(n, middle, radius, t->axes);
+    const bool good = frame_inverse(n, t->axes, inverse);
+    if (good) {
+        frame_product(n, inverse, turned, product);
+        frame_apply(n, inverse, rounded, more);
+        enclosure *off = room(n, sizeof *off);
+        frame_apply(n, product, t->off, off);
+        for (int i = 0; i < n; i++) {
+            t->off[i] = enclosure_add(off[i], more[i]);
+        }
+        free(off);
+    }
+    free(middle);
+    free(radius);
+    free(inverse);
+    free(product);
+    free(more);
+    return good;
+}
+
+static bool all_finite(const tube *t) {
+    bool good = true;
+    for (int i = 0; i < t->states; i++) {
+        good = good && enclosure_is_finite(t->off[i]) && enclosure_is_finite(t->box[i]);
+    }
+    return good;
+}
+
+bool tube_on(tube *t, enclosure tau_s) {
+    const int n = t->states;
+    enclosure *turned = room((int64_t)n * n, sizeof *turned);
+    enclosure *rounded = room(n, sizeof *rounded);
+    tube_at(t, tau_s, t->box);
+    for (int i = 0; i < n * n; i++) {
+        turned[i] = turn_at(t, i, tau_s);
+    }
+    for (int i = 0; i < n; i++) {
+        const enclosure to = middle_at(t, i, tau_s);
+        t->centre[i] = enclosure_middle(to);
+        /* slopes are taken between the centre and where the motion may be */
+        t->box[i] = enclosure_hull(t->box[i], enclosure_of(t->centre[i]));
+        rounded[i] = enclosure_sub(to, enclosure_of(t->centre[i]));
+    }
+    const bool good = turn_axes(t, turned, rounded) && all_finite(t);
+    free(turned);
+    free(rounded);
+    t->open_s = 0.0;
+    t->steps++;
+    return good;
+}
