@@ -126,7 +126,8 @@ static bool read_within(const prove_options *o, const mechanism *of, const exact
 
 static int answer(const prove_options *o, const image *im, const exact_motion *m,
                   const double *within) {
-    struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = SA_RESTART | (int)SA_RESETHAND};
+    struct sigaction action = {.sa_handler = on_interrupt,
+                               .sa_flags = SA_RESTART | (int)SA_RESETHAND};
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
     const held_wish wish = {.motion = m,

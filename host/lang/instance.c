@@ -275,8 +275,10 @@ static void allocate(instance *made) {
     made->input = arena_alloc(memory, (size_t)of->input_count * sizeof *made->input);
     made->start = arena_alloc(memory, (size_t)of->coordinate_count * sizeof *made->start);
     made->start_at = arena_alloc(memory, (size_t)of->coordinate_count * sizeof *made->start_at);
-    made->start_given = arena_alloc(memory, (size_t)of->coordinate_count * sizeof *made->start_given);
-    made->parameter_given = arena_alloc(memory, (size_t)of->parameter_count * sizeof *made->parameter_given);
+    made->start_given =
+        arena_alloc(memory, (size_t)of->coordinate_count * sizeof *made->start_given);
+    made->parameter_given =
+        arena_alloc(memory, (size_t)of->parameter_count * sizeof *made->parameter_given);
     made->input_given = arena_alloc(memory, (size_t)of->input_count * sizeof *made->input_given);
     made->start_count =
         arena_alloc(memory, (size_t)of->coordinate_count * sizeof *made->start_count);

@@ -6,6 +6,7 @@
 #include <stddef.h>
 
 #include "host/base/diag.h"
+#include "host/number/enclosure.h"
 
 enum {
     NAME_LENGTH_MAX = 63, /* characters of a name */

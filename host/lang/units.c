@@ -270,7 +270,8 @@ static bool read_factor(reader *in, unit_scale *result) {
         if (found == NULL) {
             return unknown_unit(in, start, in->at - start);
         }
-        *result = (unit_scale){found->scale, found->divisor, dim_of_quantity(found->of), exact(found)};
+        *result =
+            (unit_scale){found->scale, found->divisor, dim_of_quantity(found->of), exact(found)};
     } else if (c == '\0' && in->at >= in->length) {
         return fail(in, start, "a unit is missing here", "");
     } else if ((unsigned char)c >= 0x80) {

@@ -48,9 +48,9 @@ double enclosure_middle(enclosure a) { return 0.5 * a.low + 0.5 * a.high; }
 
 double enclosure_radius(enclosure a) {
     const double middle = enclosure_middle(a);
-    return enclosure_is_point(a)
-               ? 0.0
-               : enclosure_larger(enclosure_above(middle - a.low), enclosure_above(a.high - middle));
+    return enclosure_is_point(a) ? 0.0
+                                 : enclosure_larger(enclosure_above(middle - a.low),
+                                                    enclosure_above(a.high - middle));
 }
 
 double enclosure_size(enclosure a) { return enclosure_larger(-a.low, a.high); }
@@ -93,8 +93,8 @@ static bool reduce(enclosure x, enclosure *rest, int *quarters) {
     *quarters = (int)number & 3;
     enclosure left = enclosure_sub(x, enclosure_of(number * QUARTER_HIGH));
     left = enclosure_sub(left, enclosure_of(number * QUARTER_MIDDLE));
-    *rest = enclosure_sub(left, enclosure_mul(enclosure_of(number),
-                                              enclosure_about(QUARTER_LOW, 0)));
+    *rest =
+        enclosure_sub(left, enclosure_mul(enclosure_of(number), enclosure_about(QUARTER_LOW, 0)));
     return enclosure_size(*rest) <= 1.0;
 }
 
@@ -108,7 +108,8 @@ static enclosure wave(enclosure rest, int quarters) {
     const enclosure swing = {-radius, radius};
     const enclosure half = enclosure_mul(enclosure_of(0.5), enclosure_square(enclosure_of(radius)));
     const enclosure held = {enclosure_below(1.0 - half.high), 1.0};
-    const enclosure of_sine = enclosure_add(enclosure_mul(sine, held), enclosure_mul(cosine, swing));
+    const enclosure of_sine =
+        enclosure_add(enclosure_mul(sine, held), enclosure_mul(cosine, swing));
     const enclosure of_cosine =
         enclosure_sub(enclosure_mul(cosine, held), enclosure_mul(sine, swing));
     switch (quarters & 3) {
@@ -132,9 +133,7 @@ static enclosure turned(enclosure a, int quarters) {
     return (enclosure){enclosure_larger(all.low, -1.0), enclosure_lesser(all.high, 1.0)};
 }
 
-enclosure enclosure_sine(enclosure a) {
-    return enclosure_is_zero(a) ? a : turned(a, 0);
-}
+enclosure enclosure_sine(enclosure a) { return enclosure_is_zero(a) ? a : turned(a, 0); }
 
 enclosure enclosure_cosine(enclosure a) {
     return enclosure_is_zero(a) ? enclosure_of(1.0) : turned(a, 1);
@@ -186,13 +185,13 @@ enclosure enclosure_exp(enclosure a) {
 /* log x = y + log(1 + z), z = x e^-y - 1, with y nearly log x, whoever found it; z / (1 + z) <= log(1 + z) <= z. */
 static enclosure logarithm(double x) {
     const double y = number_call(FN_LOG, x, 0.0);
-    const enclosure z =
-        enclosure_sub(enclosure_mul(enclosure_of(x), enclosure_exp(enclosure_of(-y))),
-                      enclosure_of(1.0));
+    const enclosure z = enclosure_sub(
+        enclosure_mul(enclosure_of(x), enclosure_exp(enclosure_of(-y))), enclosure_of(1.0));
     if (!enclosure_is_finite(z) || !(z.low > -0.5)) {
         return none();
     }
-    const enclosure low = enclosure_div(enclosure_of(z.low), enclosure_add(enclosure_of(1.0), enclosure_of(z.low)));
+    const enclosure low =
+        enclosure_div(enclosure_of(z.low), enclosure_add(enclosure_of(1.0), enclosure_of(z.low)));
     return enclosure_add(enclosure_of(y), (enclosure){low.low, z.high});
 }
 

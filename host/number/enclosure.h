@@ -69,7 +69,9 @@ static inline enclosure enclosure_mul(enclosure a, enclosure b) {
 
 /* The least that holds both. */
 static inline enclosure enclosure_hull(enclosure a, enclosure b) {
-    return enclosure_is_finite(a) ? (enclosure){enclosure_lesser(a.low, b.low), enclosure_larger(a.high, b.high)} : a;
+    return enclosure_is_finite(a)
+               ? (enclosure){enclosure_lesser(a.low, b.low), enclosure_larger(a.high, b.high)}
+               : a;
 }
 
 enclosure enclosure_div(enclosure a, enclosure b);

@@ -10,7 +10,7 @@ typedef struct making {
     reader_symbols symbols;
     graph *graph;
     const instance *instance;
-    int count;   /* unknowns */
+    int count; /* unknowns */
     int states;
     int *matrix; /* [count * count] M of M x = f, */
     int *force;  /* [count] and f */
@@ -25,7 +25,8 @@ static bool is_smooth(const instance *inst, diags *errors) {
     for (int i = 0; i < m->contact_count; i++) {
         const contact_statement *c = &m->contacts[i];
         if (instance_has_contact(inst, c)) {
-            diag_error(errors, c->at, "only smooth scenes can be proved about; whirl trust estimates",
+            diag_error(errors, c->at,
+                       "only smooth scenes can be proved about; whirl trust estimates",
                        "%s changes the equations at moments of its own, which are not enclosed",
                        contact_called(c->kind));
             return false;
@@ -80,8 +81,8 @@ static bool lagrange(making *k) {
                               graph_slope(g, lagrangian, q));
         for (int j = 0; j < k->count; j++) {
             const int other = k->symbols.first[j];
-            const int drift = graph_mul(g, graph_slope(g, momentum, other),
-                                        graph_variable(g, other + 1));
+            const int drift =
+                graph_mul(g, graph_slope(g, momentum, other), graph_variable(g, other + 1));
             right = graph_sub(g, right, drift);
             k->matrix[i * k->count + j] = graph_slope(g, momentum, other + 1);
         }
@@ -147,7 +148,8 @@ static void take_row(making *k, int i, int p, int c) {
     const int by = graph_div(g, k->matrix[i * n + c], k->matrix[p * n + c]);
     for (int j = 0; j < n; j++) {
         int *at = &k->matrix[i * n + j];
-        *at = j == c ? graph_whole(g, 0) : graph_sub(g, *at, graph_mul(g, by, k->matrix[p * n + j]));
+        *at =
+            j == c ? graph_whole(g, 0) : graph_sub(g, *at, graph_mul(g, by, k->matrix[p * n + j]));
     }
     k->force[i] = graph_sub(g, k->force[i], graph_mul(g, by, k->force[p]));
 }
@@ -265,7 +267,8 @@ static bool read_starts(making *k, exact_motion *m) {
     for (int i = 0; i < k->count; i++) {
         for (int p = 0; p < k->symbols.order[i]; p++) {
             const expr *given = k->instance->start_given[i][p];
-            const int start = given != NULL ? read_node(&k->symbols, given) : graph_whole(k->graph, 0);
+            const int start =
+                given != NULL ? read_node(&k->symbols, given) : graph_whole(k->graph, 0);
             if (start < 0 || !graph_is_number(k->graph, start)) {
                 return false;
             }

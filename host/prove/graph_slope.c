@@ -28,8 +28,7 @@ static int outer_slope(graph *g, int a) {
     case NODE_COSINE: return graph_neg(g, graph_sine(g, n.left));
     case NODE_EXP: return a;
     case NODE_LOG: return graph_div(g, graph_whole(g, 1), n.left);
-    case NODE_POWER:
-        return graph_mul(g, graph_number(g, n.number), graph_div(g, a, n.left));
+    case NODE_POWER: return graph_mul(g, graph_number(g, n.number), graph_div(g, a, n.left));
     case NODE_NUMBER:
     case NODE_VARIABLE:
     case NODE_SUM:

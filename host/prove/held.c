@@ -25,7 +25,7 @@ static void put(const reading *r, int unknown, int primes, double value) {
     }
 }
 
-static void read_run(const reading *r, const void *run) {
+static void read_run(const reading *r, void *run) {
     const image *im = r->wish->image;
     double angle_rad[IMAGE_COMPONENTS_MAX];
     double real[2 * IMAGE_COMPONENTS_MAX];
@@ -120,10 +120,10 @@ typedef struct going {
     held *held;
     tube *tube;
     void *run;
-    enclosure step_s;   /* the run's step */
-    enclosure next_s;   /* from the tube's time to the run's next record */
-    enclosure *exact;   /* [states] */
-    uint64_t done;      /* the run's steps */
+    enclosure step_s; /* the run's step */
+    enclosure next_s; /* from the tube's time to the run's next record */
+    enclosure *exact; /* [states] */
+    uint64_t done;    /* the run's steps */
 } going;
 
 /* The records within the open step, of h_s; *last_s: the last one's time in it. Returns how many. */

@@ -16,7 +16,7 @@ typedef struct held_wish {
     const image *image;
     const engine_kind *kind;
     double tolerance;
-    const double *within; /* [states] SI; 0: the tolerance times the range */
+    const double *within;              /* [states] SI; 0: the tolerance times the range */
     const volatile sig_atomic_t *stop; /* may be NULL */
     /* At the end of each of the run's steps: where the exact motion is, exact[states]. May be NULL. */
     void (*see)(void *told, uint64_t step, const enclosure *exact);
@@ -44,11 +44,11 @@ typedef struct held_state {
 typedef struct held {
     held_state *state; /* [motion->states] */
     int states;
-    wh_status status;  /* of the run's last step */
+    wh_status status;   /* of the run's last step */
     uint64_t run_steps; /* that were done */
     uint64_t tube_steps;
-    double tube_s;     /* the tube's last time */
-    bool tube_ended;   /* before the end of the run */
+    double tube_s;   /* the tube's last time */
+    bool tube_ended; /* before the end of the run */
     bool stopped;
 } held;
 

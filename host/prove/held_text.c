@@ -45,10 +45,9 @@ static void print_state(FILE *out, const held *h, const held_wish *w, int i) {
     char until[40];
     snprintf(until, sizeof until, "%.9g", s->until_s);
     fprintf(out, "  %-*s %-12s within %.2e %s: off by at most %.1e, the tube %.1e wide%s\n",
-            NAME_WIDTH, name_of(w, i, name),
-            s->verdict == HELD_TO_THE_END ? "to the end" : until, image_shown(unit, s->within),
-            strcmp(unit->shown, "1") == 0 ? "" : unit->shown, image_shown(unit, s->off),
-            image_shown(unit, 2.0 * s->radius), behind[s->verdict]);
+            NAME_WIDTH, name_of(w, i, name), s->verdict == HELD_TO_THE_END ? "to the end" : until,
+            image_shown(unit, s->within), strcmp(unit->shown, "1") == 0 ? "" : unit->shown,
+            image_shown(unit, s->off), image_shown(unit, 2.0 * s->radius), behind[s->verdict]);
 }
 
 void held_print(FILE *out, const held *h, const held_wish *w) {

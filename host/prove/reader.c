@@ -47,8 +47,12 @@ static enclosure size_of(enclosure a) {
 }
 
 static enclosure sign_of(enclosure a) {
-    return (enclosure){a.low > 0.0 ? 1.0 : a.low < 0.0 ? -1.0 : 0.0,
-                       a.high > 0.0 ? 1.0 : a.high < 0.0 ? -1.0 : 0.0};
+    return (enclosure){a.low > 0.0   ? 1.0
+                       : a.low < 0.0 ? -1.0
+                                     : 0.0,
+                       a.high > 0.0   ? 1.0
+                       : a.high < 0.0 ? -1.0
+                                      : 0.0};
 }
 
 /* What has corners is known of numbers only. */
@@ -59,16 +63,14 @@ static int read_corner(reader_symbols *s, const expr *tree, int a, int b) {
     }
     const enclosure x = g->node[a].number;
     const enclosure y = b >= 0 ? g->node[b].number : x;
-    switch (tree->function) {
-    case FN_ABS: return graph_number(g, size_of(x));
-    case FN_SIGN: return graph_number(g, sign_of(x));
-    case FN_MIN:
-        return graph_number(g, (enclosure){enclosure_lesser(x.low, y.low),
-                                           enclosure_lesser(x.high, y.high)});
-    default:
-        return graph_number(g, (enclosure){enclosure_larger(x.low, y.low),
-                                           enclosure_larger(x.high, y.high)});
+    if (tree->function == FN_ABS || tree->function == FN_SIGN) {
+        return graph_number(g, tree->function == FN_ABS ? size_of(x) : sign_of(x));
     }
+    const bool least = tree->function == FN_MIN;
+    return graph_number(g, (enclosure){least ? enclosure_lesser(x.low, y.low)
+                                             : enclosure_larger(x.low, y.low),
+                                       least ? enclosure_lesser(x.high, y.high)
+                                             : enclosure_larger(x.high, y.high)});
 }
 
 static int read_call(reader_symbols *s, const expr *tree) {
@@ -102,9 +104,8 @@ static int read_call(reader_symbols *s, const expr *tree) {
 
 static int read_power(reader_symbols *s, int base, int exponent) {
     graph *g = s->graph;
-    return graph_is_number(g, exponent)
-               ? graph_power(g, base, g->node[exponent].number)
-               : graph_exp(g, graph_mul(g, exponent, graph_log(g, base)));
+    return graph_is_number(g, exponent) ? graph_power(g, base, g->node[exponent].number)
+                                        : graph_exp(g, graph_mul(g, exponent, graph_log(g, base)));
 }
 
 int read_node(reader_symbols *s, const expr *tree) {

@@ -9,8 +9,10 @@
 typedef struct reader_symbols {
     graph *graph;
     const instance *instance;
-    int *first;     /* [coordinate_count] the variable that is an unknown's value; its rate is the next one */
-    int *order;     /* [coordinate_count] of its highest derivative, which is the variable highest + unknown */
+    int *
+        first; /* [coordinate_count] the variable that is an unknown's value; its rate is the next one */
+    int *
+        order; /* [coordinate_count] of its highest derivative, which is the variable highest + unknown */
     int highest;    /* how many variables the state has */
     int *parameter; /* [parameter_count] nodes; -1: not yet */
     int *let;       /* [let_count] the same */

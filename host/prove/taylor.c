@@ -23,8 +23,8 @@ void taylor_free(taylor *t) {
     }
 }
 
-static enclosure *at(const taylor *t, int node, int k) {
-    return &t->value[((int64_t)node * (t->order + 1) + k) * t->width];
+static enclosure *at(const taylor *t, int which, int k) {
+    return &t->value[((int64_t)which * (t->order + 1) + k) * t->width];
 }
 
 const enclosure *taylor_of(const taylor *t, int i, int k) { return at(t, i, k); }

@@ -8,8 +8,8 @@
 
 typedef struct taylor {
     const exact_motion *motion;
-    int order; /* coefficients from 0 to this one */
-    int width; /* 1, or 1 + states: with slopes */
+    int order;        /* coefficients from 0 to this one */
+    int width;        /* 1, or 1 + states: with slopes */
     enclosure *value; /* [nodes][order + 1][width] */
 } taylor;
 

@@ -20,18 +20,18 @@ struct tube {
     const exact_motion *motion;
     int states;
     int order;
-    taylor *middle;   /* from the middle of what is known */
-    taylor *all;      /* from all of it, with slopes */
-    taylor *over;     /* over a whole step, one order more */
-    double *centre;   /* [states] x is centre + axes off, */
-    double *axes;     /* [states * states] */
-    enclosure *off;   /* [states] */
-    enclosure *box;   /* [states] that, along the states */
-    enclosure *turn;  /* [order + 1][states * states] coefficients of the slopes times the axes */
-    enclosure *stay;  /* [states] over the step */
-    double *largest;  /* [states] */
-    double open_s;    /* of the open step; 0: none */
-    double guess_s;   /* of the next one */
+    taylor *middle;  /* from the middle of what is known */
+    taylor *all;     /* from all of it, with slopes */
+    taylor *over;    /* over a whole step, one order more */
+    double *centre;  /* [states] x is centre + axes off, */
+    double *axes;    /* [states * states] */
+    enclosure *off;  /* [states] */
+    enclosure *box;  /* [states] that, along the states */
+    enclosure *turn; /* [order + 1][states * states] coefficients of the slopes times the axes */
+    enclosure *stay; /* [states] over the step */
+    double *largest; /* [states] */
+    double open_s;   /* of the open step; 0: none */
+    double guess_s;  /* of the next one */
     uint64_t steps;
 };
 
@@ -97,9 +97,7 @@ static enclosure remainder_of(const tube *t, int i, enclosure tau) {
     return enclosure_mul(power_of(tau, t->order + 1), taylor_of(t->over, i, t->order + 1)[0]);
 }
 
-static enclosure widened(enclosure a, double by) {
-    return enclosure_add(a, (enclosure){-by, by});
-}
+static enclosure widened(enclosure a, double by) { return enclosure_add(a, (enclosure){-by, by}); }
 
 /* Does a motion from the box stay in `stay` for h_s? If it left it for the first time at t, its Taylor polynomial with
  * Lagrange's remainder up to then, taken in `stay`, would put it inside. *excess: the largest remainder in parts of what is

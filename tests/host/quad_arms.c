@@ -1,0 +1,166 @@
+/* quad_arms.c: see quad_arms.h. */
+#include "quad_arms.h"
+
+/* --- sine and cosine ----------------------------------------------------------------------------------*/
+
+enum { TERMS = 16 };
+
+/* The sine (from 1) or the cosine (from 0) of what is below an eighth turn. */
+static quad series(quad x, int from) {
+    quad sum = 1;
+    for (int i = TERMS; i > 0; i--) {
+        sum = 1 - x * x * sum / (quad)((from + 2 * i - 1) * (from + 2 * i));
+    }
+    return from == 1 ? x * sum : sum;
+}
+
+static quad wave(quad rad, int quarters) {
+    const quad quarter =
+        (quad)0x1.921fb54442d18p+0 + (quad)0x1.1a62633145c07p-54 + (quad)-0x1.f1976b7ed8fbcp-110;
+    const quad turns = rad / quarter;
+    const long whole = (long)(turns + (turns < 0 ? (quad)-0.5 : (quad)0.5));
+    const quad rest = rad - (quad)whole * quarter;
+    switch ((whole + quarters) & 3) {
+    case 0: return series(rest, 1);
+    case 1: return series(rest, 0);
+    case 2: return -series(rest, 1);
+    default: return -series(rest, 0);
+    }
+}
+
+quad quad_sine(quad rad) { return wave(rad, 0); }
+quad quad_cosine(quad rad) { return wave(rad, 1); }
+
+/* --- the equations ------------------------------------------------------------------------------------*/
+
+/* How the body's place moves with each coordinate, and how it is accelerated by the rates alone. */
+typedef struct moving {
+    quad x[QUAD_COORDINATES];
+    quad y[QUAD_COORDINATES];
+    quad bend_x;
+    quad bend_y;
+} moving;
+
+static moving body_moves(const quad_arms *of, const quad_body *b, const quad *state) {
+    moving m = {.bend_x = 0, .bend_y = 0};
+    for (int i = 0; i < of->coordinates; i++) {
+        m.x[i] = i == of->carriage ? 1 : 0;
+        m.y[i] = 0;
+    }
+    for (int a = 0; a < b->arms; a++) {
+        const quad_arm *arm = &b->arm[a];
+        const quad times = (quad)arm->multiple;
+        const quad angle = times * state[2 * arm->coordinate];
+        const quad rate = times * state[2 * arm->coordinate + 1];
+        const quad x = arm->length_m * quad_cosine(angle);
+        const quad y = arm->length_m * quad_sine(angle);
+        m.x[arm->coordinate] -= times * y;
+        m.y[arm->coordinate] += times * x;
+        m.bend_x -= rate * rate * x;
+        m.bend_y -= rate * rate * y;
+    }
+    return m;
+}
+
+static void eliminate(int n, quad m[QUAD_COORDINATES][QUAD_COORDINATES], quad *f) {
+    for (int k = 0; k < n; k++) {
+        for (int i = k + 1; i < n; i++) {
+            const quad by = m[i][k] / m[k][k];
+            for (int j = k; j < n; j++) {
+                m[i][j] -= by * m[k][j];
+            }
+            f[i] -= by * f[k];
+        }
+    }
+    for (int k = n - 1; k >= 0; k--) {
+        for (int j = k + 1; j < n; j++) {
+            f[k] -= m[k][j] * f[j];
+        }
+        f[k] /= m[k][k];
+    }
+}
+
+static void slope(const quad_arms *of, const quad *state, quad *to) {
+    const int n = of->coordinates;
+    quad mass[QUAD_COORDINATES][QUAD_COORDINATES];
+    quad force[QUAD_COORDINATES];
+    for (int i = 0; i < n; i++) {
+        force[i] = of->load[i];
+        for (int j = 0; j < n; j++) {
+            mass[i][j] = i == j ? of->spin_kgm2[i] : 0;
+        }
+    }
+    for (int b = 0; b < of->bodies; b++) {
+        const quad_body *body = &of->body[b];
+        const moving m = body_moves(of, body, state);
+        for (int i = 0; i < n; i++) {
+            force[i] +=
+                body->mass_kg * (m.x[i] * (of->gravity_mps2 - m.bend_x) - m.y[i] * m.bend_y);
+            for (int j = 0; j < n; j++) {
+                mass[i][j] += body->mass_kg * (m.x[i] * m.x[j] + m.y[i] * m.y[j]);
+            }
+        }
+    }
+    eliminate(n, mass, force);
+    for (int i = 0; i < n; i++) {
+        to[2 * i] = state[2 * i + 1];
+        to[2 * i + 1] = force[i];
+    }
+}
+
+/* --- the motion -----------------------------------------------------------------------------------------*/
+
+enum { COLUMNS = 14, STATES = 2 * QUAD_COORDINATES };
+#define SPAN_MOST_S 0.0125
+
+/* Gragg's: the modified midpoint rule, whose error has even powers of the substep only. */
+static void midpoint(const quad_arms *of, quad span_s, int substeps, const quad *from, quad *to) {
+    const int n = 2 * of->coordinates;
+    const quad h = span_s / (quad)substeps;
+    quad before[STATES];
+    quad rate[STATES];
+    slope(of, from, rate);
+    for (int i = 0; i < n; i++) {
+        before[i] = from[i];
+        to[i] = from[i] + h * rate[i];
+    }
+    for (int s = 1; s < substeps; s++) {
+        slope(of, to, rate);
+        for (int i = 0; i < n; i++) {
+            const quad next = before[i] + 2 * h * rate[i];
+            before[i] = to[i];
+            to[i] = next;
+        }
+    }
+    slope(of, to, rate);
+    for (int i = 0; i < n; i++) {
+        to[i] = (to[i] + before[i] + h * rate[i]) / 2;
+    }
+}
+
+static void extrapolate(const quad_arms *of, quad span_s, quad *state) {
+    const int n = 2 * of->coordinates;
+    quad row[COLUMNS][STATES];
+    for (int k = 0; k < COLUMNS; k++) {
+        midpoint(of, span_s, 2 * (k + 1), state, row[k]);
+        for (int j = k - 1; j >= 0; j--) { /* row[j] becomes column k - j of line k */
+            const quad ratio = (quad)(k + 1) / (quad)(j + 1);
+            for (int i = 0; i < n; i++) {
+                row[j][i] = row[j + 1][i] + (row[j + 1][i] - row[j][i]) / (ratio * ratio - 1);
+            }
+        }
+    }
+    for (int i = 0; i < n; i++) {
+        state[i] = row[0][i];
+    }
+}
+
+void quad_go(const quad_arms *of, quad span_s, quad *state) {
+    int pieces = 1;
+    while (span_s / (quad)pieces > (quad)SPAN_MOST_S) {
+        pieces++;
+    }
+    for (int i = 0; i < pieces; i++) {
+        extrapolate(of, span_s / (quad)pieces, state);
+    }
+}

@@ -1,0 +1,166 @@
+/* test_enclosure.c: interval arithmetic holds what is exact: operations on drawn ends and on drawn numbers between them,
+ * against numbers of 113 bits, in which sums and products of doubles are exact; and is no wider than it must be. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "command.h"
+#include "host/number/enclosure.h"
+#include "quad_arms.h"
+#include "unity.h"
+
+void suite_enclosure(void);
+
+static dice die;
+
+/* Of every size between 2^-20 and 2^20, either sign, with all bits or with few: sums have 113 bits at most. */
+static double drawn(void) {
+    const double size = ldexp(dice_between(&die, 1.0, 2.0), (int)dice_one_of(&die, 40) - 20);
+    const double few = dice_one_of(&die, 4) == 0 ? nearbyint(size) : size;
+    return dice_one_of(&die, 2) == 0 ? few : -few;
+}
+
+/* A point, a narrow one, or a wide one, which may hold zero. */
+static enclosure drawn_enclosure(void) {
+    const double a = drawn();
+    const unsigned kind = dice_one_of(&die, 3);
+    const double b = kind == 0 ? a : kind == 1 ? a + 1e-12 * fabs(drawn()) : drawn();
+    return (enclosure){fmin(a, b), fmax(a, b)};
+}
+
+static double between(enclosure a) {
+    const double x = a.low + dice_between(&die, 0.0, 1.0) * (a.high - a.low);
+    return dice_one_of(&die, 3) == 0 ? a.low : fmin(fmax(x, a.low), a.high);
+}
+
+static void expect_holds(const char *what, enclosure got, quad exact) {
+    char message[160];
+    snprintf(message, sizeof message, "%s: %.17g is not in [%.17g, %.17g]", what, (double)exact,
+             got.low, got.high);
+    TEST_ASSERT_TRUE_MESSAGE((quad)got.low <= exact && exact <= (quad)got.high, message);
+}
+
+/* Of points: at most so many units of the last place between the ends. */
+static void expect_narrow(const char *what, enclosure got, double units) {
+    const double unit = fmax(fabs(got.low), fabs(got.high)) * 0x1p-52;
+    TEST_ASSERT_TRUE_MESSAGE(got.high - got.low <= units * unit, what);
+}
+
+static void test_four_operations(void) {
+#ifdef QUAD_KNOWN
+    for (unsigned i = 0; i < dice_cases(200000); i++) {
+        const enclosure a = drawn_enclosure();
+        const enclosure b = drawn_enclosure();
+        const double x = between(a);
+        const double y = between(b);
+        expect_holds("a sum", enclosure_add(a, b), (quad)x + (quad)y);
+        expect_holds("a difference", enclosure_sub(a, b), (quad)x - (quad)y);
+        expect_holds("a product", enclosure_mul(a, b), (quad)x * (quad)y);
+        expect_holds("a square", enclosure_square(a), (quad)x * (quad)x);
+        const enclosure ratio = enclosure_div(a, b);
+        if (b.low <= 0.0 && b.high >= 0.0) {
+            TEST_ASSERT_FALSE(enclosure_is_finite(ratio));
+        } else { /* x = r y in exact products */
+            const quad low = (quad)ratio.low * (quad)y;
+            const quad high = (quad)ratio.high * (quad)y;
+            expect_holds("a ratio", ratio, (quad)x / (quad)y);
+            TEST_ASSERT_TRUE(y > 0.0 ? low <= (quad)x && (quad)x <= high
+                                     : low >= (quad)x && (quad)x >= high);
+        }
+        if (a.low == a.high && b.low == b.high) {
+            expect_narrow("a sum", enclosure_add(a, b), 4.0);
+            expect_narrow("a product", enclosure_mul(a, b), 4.0);
+        }
+    }
+#else
+    TEST_IGNORE_MESSAGE("no numbers of 113 bits here");
+#endif
+}
+
+/* At the ends of the range, where the products that tell the next double from this one lose their bits. */
+static void test_smallest_and_largest(void) {
+    static const double sizes[] = {0x1p-1074, 0x1.8p-1073, 0x1p-1022, 0x1.fffffffffffffp-1022,
+                                   0x1p-1000, 1.0,         0x1p1022,  0x1.fffffffffffffp1023};
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+        for (int sign = -1; sign <= 1; sign += 2) {
+            const double x = sign * sizes[i];
+            TEST_ASSERT_TRUE(enclosure_below(x) <= nextafter(x, -INFINITY));
+            TEST_ASSERT_TRUE(enclosure_above(x) >= nextafter(x, INFINITY));
+        }
+    }
+    const enclosure tiny = enclosure_mul(enclosure_of(0x1p-600), enclosure_of(0x1p-600));
+    TEST_ASSERT_TRUE(tiny.low <= 0.0 && tiny.high > 0.0);
+    TEST_ASSERT_FALSE(enclosure_is_finite(enclosure_mul(enclosure_of(1e300), enclosure_of(1e300))));
+    TEST_ASSERT_FALSE(enclosure_is_finite(enclosure_root((enclosure){-1e-300, 1.0})));
+    TEST_ASSERT_FALSE(enclosure_is_finite(enclosure_log((enclosure){0.0, 1.0})));
+    const enclosure lost = enclosure_div(enclosure_of(1.0), (enclosure){-1.0, 1.0});
+    TEST_ASSERT_FALSE(enclosure_is_finite(enclosure_mul(enclosure_of(0.0), lost)));
+    TEST_ASSERT_FALSE(enclosure_is_finite(enclosure_hull(enclosure_of(0.0), lost)));
+    TEST_ASSERT_FALSE(enclosure_is_finite(enclosure_add(lost, enclosure_of(0.0))));
+}
+
+static void test_roots(void) {
+#ifdef QUAD_KNOWN
+    for (unsigned i = 0; i < dice_cases(50000); i++) {
+        const double x = fabs(drawn());
+        const enclosure root = enclosure_root(enclosure_of(x));
+        TEST_ASSERT_TRUE((quad)root.low * (quad)root.low <= (quad)x);
+        TEST_ASSERT_TRUE((quad)root.high * (quad)root.high >= (quad)x);
+        expect_narrow("a root", root, 4.0);
+    }
+#endif
+}
+
+static void test_sines(void) {
+#ifdef QUAD_KNOWN
+    for (unsigned i = 0; i < dice_cases(20000); i++) {
+        const double middle = dice_one_of(&die, 2) == 0 ? dice_between(&die, -2.0, 2.0)
+                                                        : dice_between(&die, -3e4, 3e4);
+        const double radius =
+            dice_one_of(&die, 2) == 0 ? 0.0 : pow(10.0, dice_between(&die, -16, 0.5));
+        const enclosure a = {middle - radius, middle + radius};
+        const double x = between(a);
+        const enclosure sine = enclosure_sine(a);
+        const enclosure cosine = enclosure_cosine(a);
+        expect_holds("a sine", sine, quad_sine((quad)x));
+        expect_holds("a cosine", cosine, quad_cosine((quad)x));
+        TEST_ASSERT_TRUE(sine.high - sine.low <= 2.2 * (a.high - a.low) + 6e-16);
+        TEST_ASSERT_TRUE(cosine.high - cosine.low <= 2.2 * (a.high - a.low) + 6e-16);
+    }
+#endif
+}
+
+/* Against the C library in long double, which is right to some 1e-19 of them. */
+static void test_exponentials(void) {
+    const long double known = 4.0L * (long double)LDBL_EPSILON;
+    if (LDBL_MANT_DIG < 64) {
+        TEST_IGNORE_MESSAGE("no long double of more bits here");
+    }
+    for (unsigned i = 0; i < dice_cases(20000); i++) {
+        const double x = dice_between(&die, -300.0, 300.0);
+        const double y = ldexp(dice_between(&die, 1.0, 2.0), (int)dice_one_of(&die, 200) - 100);
+        const double e = dice_between(&die, -3.0, 3.0);
+        const enclosure exponential = enclosure_exp(enclosure_of(x));
+        const enclosure logarithm = enclosure_log(enclosure_of(y));
+        const enclosure power = enclosure_power(enclosure_of(y), enclosure_of(e));
+        const long double wanted[] = {expl((long double)x), logl((long double)y),
+                                      powl((long double)y, (long double)e)};
+        const enclosure got[] = {exponential, logarithm, power};
+        for (int k = 0; k < 3; k++) {
+            const long double slack = known * fabsl(wanted[k]);
+            TEST_ASSERT_TRUE((long double)got[k].low <= wanted[k] + slack);
+            TEST_ASSERT_TRUE((long double)got[k].high >= wanted[k] - slack);
+        }
+        expect_narrow("an exponential", exponential, 20000.0);
+        expect_narrow("a power", power, 100000.0);
+    }
+}
+
+void suite_enclosure(void) {
+    die = dice_of("enclosure", 15);
+    RUN_TEST(test_four_operations);
+    RUN_TEST(test_smallest_and_largest);
+    RUN_TEST(test_roots);
+    RUN_TEST(test_sines);
+    RUN_TEST(test_exponentials);
+}
