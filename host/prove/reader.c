@@ -67,10 +67,10 @@ static int read_corner(reader_symbols *s, const expr *tree, int a, int b) {
         return graph_number(g, tree->function == FN_ABS ? size_of(x) : sign_of(x));
     }
     const bool least = tree->function == FN_MIN;
-    return graph_number(g, (enclosure){least ? enclosure_lesser(x.low, y.low)
-                                             : enclosure_larger(x.low, y.low),
-                                       least ? enclosure_lesser(x.high, y.high)
-                                             : enclosure_larger(x.high, y.high)});
+    return graph_number(
+        g,
+        (enclosure){least ? enclosure_lesser(x.low, y.low) : enclosure_larger(x.low, y.low),
+                    least ? enclosure_lesser(x.high, y.high) : enclosure_larger(x.high, y.high)});
 }
 
 static int read_call(reader_symbols *s, const expr *tree) {

@@ -5,33 +5,34 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "frame.h"
 #include "host/base/room.h"
 #include "host/number/functions.h"
+#include "zonotope.h"
 
 /* The step is as long as the remainder, in parts of the largest value that a state has had, stays below this... */
 #define REMAINDER 0x1p-54
 /* ... and shorter ones than this lead nowhere, s. */
 #define STEP_LEAST_S 1e-9
 #define STEP_FIRST_S 0.01
-enum { TRIALS = 60 };
+enum { TRIALS = 60, GENERATORS = 3000 };
 
 struct tube {
     const exact_motion *motion;
     int states;
     int order;
-    taylor *middle;  /* from the middle of what is known */
-    taylor *all;     /* from all of it, with slopes */
-    taylor *over;    /* over a whole step, one order more */
-    double *centre;  /* [states] x is centre + axes off, */
-    double *axes;    /* [states * states] */
-    enclosure *off;  /* [states] */
-    enclosure *box;  /* [states] that, along the states */
-    enclosure *turn; /* [order + 1][states * states] coefficients of the slopes times the axes */
-    enclosure *stay; /* [states] over the step */
-    double *largest; /* [states] */
-    double open_s;   /* of the open step; 0: none */
-    double guess_s;  /* of the next one */
+    taylor *middle;   /* from the middle of what is known */
+    taylor *all;      /* from all of it, with slopes */
+    taylor *over;     /* over a whole step, one order more */
+    double *centre;   /* [states] x is centre and off, */
+    zonotope *off;    /* which lies in a box... */
+    enclosure *box;   /* [states] of x, along the states, */
+    double *axes;     /* [states * states] and along these axes */
+    enclosure *along; /* [states] */
+    enclosure *turn;  /* [order + 1][states * states] coefficients of the slopes times the axes */
+    enclosure *stay;  /* [states] over the step */
+    double *largest;  /* [states] */
+    double open_s;    /* of the open step; 0: none */
+    double guess_s;   /* of the next one */
     uint64_t steps;
 };
 
@@ -46,18 +47,19 @@ tube *tube_new(const exact_motion *m, int order) {
                 .over = taylor_new(m, order + 1, false),
                 .centre = room(n, sizeof(double)),
                 .axes = room((int64_t)n * n, sizeof(double)),
-                .off = room(n, sizeof(enclosure)),
+                .off = zonotope_new(n, GENERATORS),
+                .along = room(n, sizeof(enclosure)),
                 .box = room(n, sizeof(enclosure)),
                 .turn = room((int64_t)(order + 1) * n * n, sizeof(enclosure)),
                 .stay = room(n, sizeof(enclosure)),
                 .largest = room(n, sizeof(double)),
                 .guess_s = STEP_FIRST_S};
     for (int i = 0; i < n; i++) {
-        t->axes[i * n + i] = 1.0;
         t->centre[i] = enclosure_middle(m->start[i]);
-        t->off[i] = enclosure_sub(m->start[i], enclosure_of(t->centre[i]));
+        t->along[i] = enclosure_sub(m->start[i], enclosure_of(t->centre[i]));
         t->box[i] = m->start[i];
     }
+    zonotope_map(t->off, t->turn, t->along); /* of nothing yet: the map does not matter */
     return t;
 }
 
@@ -68,7 +70,8 @@ void tube_free(tube *t) {
         taylor_free(t->over);
         free(t->centre);
         free(t->axes);
-        free(t->off);
+        zonotope_free(t->off);
+        free(t->along);
         free(t->box);
         free(t->turn);
         free(t->stay);
@@ -167,6 +170,7 @@ double tube_open(tube *t, double most_s) {
         t->guess_s = changed(h_s, stay ? excess : enclosure_larger(excess, 1e6), t->order);
         if (stay) {
             t->open_s = h_s;
+            zonotope_frame(t->off, t->axes, t->along);
             find_turns(t);
             break;
         }
@@ -177,13 +181,13 @@ double tube_open(tube *t, double most_s) {
 
 /* --- in the step -------------------------------------------------------------------------------------*/
 
-/* Where the middle gets to: its polynomial and the remainder. */
-static enclosure middle_at(const tube *t, int i, enclosure tau) {
+/* How far the middle gets: its polynomial less its start, and the remainder. */
+static enclosure way_at(const tube *t, int i, enclosure tau) {
     enclosure sum = taylor_of(t->middle, i, t->order)[0];
-    for (int k = t->order - 1; k >= 0; k--) {
+    for (int k = t->order - 1; k > 0; k--) {
         sum = enclosure_add(taylor_of(t->middle, i, k)[0], enclosure_mul(tau, sum));
     }
-    return enclosure_add(sum, remainder_of(t, i, tau));
+    return enclosure_add(enclosure_mul(tau, sum), remainder_of(t, i, tau));
 }
 
 static enclosure turn_at(const tube *t, int entry, enclosure tau) {
@@ -195,77 +199,61 @@ static enclosure turn_at(const tube *t, int entry, enclosure tau) {
     return sum;
 }
 
-void tube_at(const tube *t, enclosure tau_s, enclosure *x) {
-    for (int i = 0; i < t->states; i++) {
-        x[i] = middle_at(t, i, tau_s);
-        for (int j = 0; j < t->states; j++) {
-            const enclosure turn = turn_at(t, i * t->states + j, tau_s);
-            x[i] = enclosure_add(x[i], enclosure_mul(turn, t->off[j]));
-        }
+static enclosure slope_at(const tube *t, int i, int j, enclosure tau) {
+    enclosure sum = taylor_of(t->all, i, t->order)[1 + j];
+    for (int k = t->order - 1; k >= 0; k--) {
+        sum = enclosure_add(taylor_of(t->all, i, k)[1 + j], enclosure_mul(tau, sum));
     }
+    return sum;
 }
 
-/* centre + turned off, with the new centre and along new axes: off' = A'^-1 turn off + A'^-1 (what the centre is rounded). */
-static bool turn_axes(tube *t, const enclosure *turned, const enclosure *rounded) {
-    const int n = t->states;
-    double *middle = room((int64_t)n * n, sizeof *middle);
-    double *radius = room(n, sizeof *radius);
-    enclosure *inverse = room((int64_t)n * n, sizeof *inverse);
-    enclosure *product = room((int64_t)n * n, sizeof *product);
-    enclosure *more = room(n, sizeof *more);
-    for (int i = 0; i < n * n; i++) {
-        middle[i] = enclosure_middle(turned[i]);
-    }
-    for (int i = 0; i < n; i++) {
-        radius[i] = enclosure_larger(enclosure_size(t->off[i]), 1e-30);
-    }
-    frame_axes(n, middle, radius, t->axes);
-    const bool good = frame_inverse(n, t->axes, inverse);
-    if (good) {
-        frame_product(n, inverse, turned, product);
-        frame_apply(n, inverse, rounded, more);
-        enclosure *off = room(n, sizeof *off);
-        frame_apply(n, product, t->off, off);
-        for (int i = 0; i < n; i++) {
-            t->off[i] = enclosure_add(off[i], more[i]);
+void tube_at(const tube *t, enclosure tau_s, enclosure *x) {
+    for (int i = 0; i < t->states; i++) {
+        x[i] = enclosure_add(enclosure_of(t->centre[i]), way_at(t, i, tau_s));
+        for (int j = 0; j < t->states; j++) {
+            const enclosure turn = turn_at(t, i * t->states + j, tau_s);
+            x[i] = enclosure_add(x[i], enclosure_mul(turn, t->along[j]));
         }
-        free(off);
     }
-    free(middle);
-    free(radius);
-    free(inverse);
-    free(product);
-    free(more);
-    return good;
 }
 
 static bool all_finite(const tube *t) {
     bool good = true;
     for (int i = 0; i < t->states; i++) {
-        good = good && enclosure_is_finite(t->off[i]) && enclosure_is_finite(t->box[i]);
+        good = good && enclosure_is_finite(t->box[i]);
     }
     return good;
 }
 
+/* The new centre, and what the way there leaves over, which is small: so little is lost of it. */
+static void go_to(tube *t, enclosure tau, enclosure *left) {
+    for (int i = 0; i < t->states; i++) {
+        const enclosure way = way_at(t, i, tau);
+        const double before = t->centre[i];
+        t->centre[i] += enclosure_middle(way);
+        left[i] =
+            enclosure_add(enclosure_sub(enclosure_of(before), enclosure_of(t->centre[i])), way);
+    }
+}
+
 bool tube_on(tube *t, enclosure tau_s) {
     const int n = t->states;
-    enclosure *turned = room((int64_t)n * n, sizeof *turned);
-    enclosure *rounded = room(n, sizeof *rounded);
-    tube_at(t, tau_s, t->box);
+    enclosure *slope = room((int64_t)n * n, sizeof *slope);
+    enclosure *left = room(n, sizeof *left);
     for (int i = 0; i < n * n; i++) {
-        turned[i] = turn_at(t, i, tau_s);
+        slope[i] = slope_at(t, i / n, i % n, tau_s);
     }
+    go_to(t, tau_s, left);
+    zonotope_map(t->off, slope, left);
+    zonotope_box(t->off, t->box);
     for (int i = 0; i < n; i++) {
-        const enclosure to = middle_at(t, i, tau_s);
-        t->centre[i] = enclosure_middle(to);
         /* slopes are taken between the centre and where the motion may be */
-        t->box[i] = enclosure_hull(t->box[i], enclosure_of(t->centre[i]));
-        rounded[i] = enclosure_sub(to, enclosure_of(t->centre[i]));
+        const enclosure centre = enclosure_of(t->centre[i]);
+        t->box[i] = enclosure_hull(enclosure_add(centre, t->box[i]), centre);
     }
-    const bool good = turn_axes(t, turned, rounded) && all_finite(t);
-    free(turned);
-    free(rounded);
+    free(slope);
+    free(left);
     t->open_s = 0.0;
     t->steps++;
-    return good;
+    return all_finite(t);
 }
