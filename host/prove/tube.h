@@ -13,7 +13,7 @@
 
 #include "taylor.h"
 
-enum { TUBE_ORDER = 20 };
+enum { TUBE_ORDER = 26 };
 
 typedef struct tube tube;
 
