@@ -80,7 +80,8 @@ static void eliminate(int n, quad m[QUAD_COORDINATES][QUAD_COORDINATES], quad *f
     }
 }
 
-static void slope(const quad_arms *of, const quad *state, quad *to) {
+void quad_arms_slopes(const void *which, const quad *state, quad *to) {
+    const quad_arms *of = which;
     const int n = of->coordinates;
     quad mass[QUAD_COORDINATES][QUAD_COORDINATES];
     quad force[QUAD_COORDINATES];
@@ -110,57 +111,62 @@ static void slope(const quad_arms *of, const quad *state, quad *to) {
 
 /* --- the motion -----------------------------------------------------------------------------------------*/
 
-enum { COLUMNS = 14, STATES = 2 * QUAD_COORDINATES };
+enum { COLUMNS = 14 };
 #define SPAN_MOST_S 0.0125
 
+typedef struct following {
+    quad_slopes *slopes;
+    const void *of;
+    int states;
+} following;
+
 /* Gragg's: the modified midpoint rule, whose error has even powers of the substep only. */
-static void midpoint(const quad_arms *of, quad span_s, int substeps, const quad *from, quad *to) {
-    const int n = 2 * of->coordinates;
+static void midpoint(const following *f, quad span_s, int substeps, const quad *from, quad *to) {
     const quad h = span_s / (quad)substeps;
-    quad before[STATES];
-    quad rate[STATES];
-    slope(of, from, rate);
-    for (int i = 0; i < n; i++) {
+    quad before[QUAD_STATES];
+    quad rate[QUAD_STATES];
+    f->slopes(f->of, from, rate);
+    for (int i = 0; i < f->states; i++) {
         before[i] = from[i];
         to[i] = from[i] + h * rate[i];
     }
     for (int s = 1; s < substeps; s++) {
-        slope(of, to, rate);
-        for (int i = 0; i < n; i++) {
+        f->slopes(f->of, to, rate);
+        for (int i = 0; i < f->states; i++) {
             const quad next = before[i] + 2 * h * rate[i];
             before[i] = to[i];
             to[i] = next;
         }
     }
-    slope(of, to, rate);
-    for (int i = 0; i < n; i++) {
+    f->slopes(f->of, to, rate);
+    for (int i = 0; i < f->states; i++) {
         to[i] = (to[i] + before[i] + h * rate[i]) / 2;
     }
 }
 
-static void extrapolate(const quad_arms *of, quad span_s, quad *state) {
-    const int n = 2 * of->coordinates;
-    quad row[COLUMNS][STATES];
+static void extrapolate(const following *f, quad span_s, quad *state) {
+    quad row[COLUMNS][QUAD_STATES];
     for (int k = 0; k < COLUMNS; k++) {
-        midpoint(of, span_s, 2 * (k + 1), state, row[k]);
+        midpoint(f, span_s, 2 * (k + 1), state, row[k]);
         for (int j = k - 1; j >= 0; j--) { /* row[j] becomes column k - j of line k */
             const quad ratio = (quad)(k + 1) / (quad)(j + 1);
-            for (int i = 0; i < n; i++) {
+            for (int i = 0; i < f->states; i++) {
                 row[j][i] = row[j + 1][i] + (row[j + 1][i] - row[j][i]) / (ratio * ratio - 1);
             }
         }
     }
-    for (int i = 0; i < n; i++) {
+    for (int i = 0; i < f->states; i++) {
         state[i] = row[0][i];
     }
 }
 
-void quad_go(const quad_arms *of, quad span_s, quad *state) {
+void quad_follow(quad_slopes *slopes, const void *of, int states, quad span_s, quad *state) {
+    const following f = {slopes, of, states};
     int pieces = 1;
     while (span_s / (quad)pieces > (quad)SPAN_MOST_S) {
         pieces++;
     }
     for (int i = 0; i < pieces; i++) {
-        extrapolate(of, span_s / (quad)pieces, state);
+        extrapolate(&f, span_s / (quad)pieces, state);
     }
 }

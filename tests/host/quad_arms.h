@@ -45,7 +45,13 @@ typedef struct quad_arms {
 quad quad_sine(quad rad);
 quad quad_cosine(quad rad);
 
-/* On by span_s: state[2 * coordinates] are q0, q0', q1, q1', ... */
-void quad_go(const quad_arms *of, quad span_s, quad *state);
+/* to[states] = the slopes at state[states] */
+typedef void quad_slopes(const void *of, const quad *state, quad *to);
+enum { QUAD_STATES = 8 };
+/* Any system on by span_s. */
+void quad_follow(quad_slopes *slopes, const void *of, int states, quad span_s, quad *state);
+
+/* Of arms: state[2 * coordinates] are q0, q0', q1, q1', ... */
+quad_slopes quad_arms_slopes;
 
 #endif
