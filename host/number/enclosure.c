@@ -84,7 +84,8 @@ static enclosure waves(enclosure t, int from) {
     return sum;
 }
 
-/* x less the nearest whole number of quarter turns, of which *quarters is the number within a turn; false: too far. */
+/* x less the nearest whole number of quarter turns, of which *quarters is the number within a turn; false: too
+ * far, or so wide that little would be told. */
 static bool reduce(enclosure x, enclosure *rest, int *quarters) {
     const double number = number_nearest(enclosure_middle(x) * 0.63661977236758134);
     if (!(number > -QUARTERS_MOST && number < QUARTERS_MOST)) {
@@ -95,7 +96,8 @@ static bool reduce(enclosure x, enclosure *rest, int *quarters) {
     left = enclosure_sub(left, enclosure_of(number * QUARTER_MIDDLE));
     *rest =
         enclosure_sub(left, enclosure_mul(enclosure_of(number), enclosure_about(QUARTER_LOW, 0)));
-    return enclosure_size(*rest) <= 1.0;
+    return enclosure_radius(*rest) <= 1.5 &&
+           enclosure_size(enclosure_of(enclosure_middle(*rest))) <= 1.0;
 }
 
 /* The sine of `rest` and so many quarter turns: from the middle's, whose slope is at most 1 in size. */

@@ -111,7 +111,7 @@ void quad_arms_slopes(const void *which, const quad *state, quad *to) {
 
 /* --- the motion -----------------------------------------------------------------------------------------*/
 
-enum { COLUMNS = 14 };
+enum { COLUMNS_LEAST = 7, COLUMNS = 14 };
 #define SPAN_MOST_S 0.0125
 
 typedef struct following {
@@ -146,7 +146,9 @@ static void midpoint(const following *f, quad span_s, int substeps, const quad *
 
 static void extrapolate(const following *f, quad span_s, quad *state) {
     quad row[COLUMNS][QUAD_STATES];
-    for (int k = 0; k < COLUMNS; k++) {
+    const int columns =
+        COLUMNS_LEAST + (int)((double)span_s / SPAN_MOST_S * (COLUMNS - COLUMNS_LEAST) + 0.5);
+    for (int k = 0; k < columns; k++) {
         midpoint(f, span_s, 2 * (k + 1), state, row[k]);
         for (int j = k - 1; j >= 0; j--) { /* row[j] becomes column k - j of line k */
             const quad ratio = (quad)(k + 1) / (quad)(j + 1);
