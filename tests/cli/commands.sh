@@ -110,6 +110,7 @@ ends() { # COMMAND [OPTION...]: all that it comes to
     run) "$whirl" run "$plain" --csv - --quiet "$@" ;;
     sweep) "$whirl" sweep "$plain" --over x=1..1.5:2 --quiet "$@" ;;
     trust) "$whirl" trust "$plain" --csv - --quiet "$@" ;;
+    prove) "$whirl" prove "$plain" "$@" ;;
     price) "$whirl" price "$plain" --csv - --quiet --effort 0.001 "$@" ;;
     choose) "$whirl" choose --predict "$plain" --error 1e-2 --quiet --effort 0.001 "$@" ;;
     *) echo "no call of $command in $0" ;;
