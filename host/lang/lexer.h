@@ -34,7 +34,7 @@ typedef struct token {
     size_t length;
     int primes;
     double number;
-    enclosure exact; /* what is written, which a double may not be */
+    enclosure exact;  /* what is written, which a double may not be */
     bool starts_line; /* nothing but space before it on its line */
 } token;
 

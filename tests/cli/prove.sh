@@ -35,3 +35,4 @@ refused "'Y' is unknown" epicyclic_from_rest --within Y=1mm
 refused "'X' is given twice" epicyclic_from_rest --within X=1mm --within X=2mm
 refused "there is no number 'fixed'" epicyclic_from_rest --number fixed
 refused '--tolerance takes a number' epicyclic_from_rest --tolerance 2
+exit $failed

@@ -139,8 +139,8 @@ static void expect_proved(const scene_case *c, double widest) {
     beside b;
     const double until_s = few_or_all(0, 1) == 1 ? c->until_s : 0.4 * c->until_s;
     held h = hold_scene(c, until_s, 0.0, &b);
-    printf("  %-20s %g s: %u records inside, widest %.2e, %u steps of the tube\n", c->name,
-           until_s, (unsigned)b.records, b.widest, (unsigned)h.tube_steps);
+    printf("  %-20s %g s: %u records inside, widest %.2e, %u steps of the tube\n", c->name, until_s,
+           (unsigned)b.records, b.widest, (unsigned)h.tube_steps);
     TEST_ASSERT_EQUAL_UINT64_MESSAGE(0, b.outside, c->name);
     TEST_ASSERT_EQUAL_UINT64_MESSAGE(h.run_steps, b.records, c->name);
     TEST_ASSERT_TRUE_MESSAGE(b.widest < widest && b.widest > 1e-15, c->name);
