@@ -1,8 +1,9 @@
 # Whirl: energies in, firmware out. `make` lists the targets; the machinery is in mk/.
 #
 # V=1 shows the commands. Nothing is written outside build/, but for `make figures-docs`, `make price-effects`,
-# `make price`, `make bench-boards`, `make bench-tables`, `make bench-precision`, `make bench-peers`, `make bench-links` and
-# `make price-fit`, which renew their part of docs/, and `make too-large`, which lists what does not fit into a board.
+# `make price`, `make bench-boards`, `make bench-tables`, `make bench-precision`, `make bench-peers`, `make bench-links`,
+# `make price-fit` and `make stability`, which renew their part of docs/, and `make too-large`, which lists what does not fit
+# into a board.
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
@@ -42,10 +43,12 @@ include mk/price.mk
 include mk/curves.mk
 include mk/peers.mk
 include mk/figures.mk
+include mk/stability.mk
 include mk/hosts.mk
 include mk/check.mk
 include mk/coverage.mk
 include mk/settings.mk
+include mk/hard.mk
 
 ##@ Start here
 
@@ -229,6 +232,11 @@ figures: ## the dissertation's figures and the findings' plots, in build/figures
 octave-check: ## the generated Octave files under ode45, against whirl run (installs Octave, large)
 	@CC="$(CC)" mk/setup/deps.sh host octave
 	@$(MAKE) octave-check-now
+
+.PHONY: stability
+stability: ## the stability maps of docs/stability.md, anew: every script of mk/stability (minutes)
+	@CC="$(CC)" mk/setup/deps.sh host plot
+	@$(MAKE) stability-now
 
 ##@ Boards
 

@@ -174,6 +174,25 @@ WH_INLINE void wh_contact_slide(const wh_contact_system *of, wh_contact_work *w,
     wh_contact_set_modes(of, w, slides[1], 1);
 }
 
+/* Resting stops that bear nothing but rounding and push the way that a stop of `gone`, as bits, does: they go with it.
+ * Where there are more supports than it takes, all of them lose their load at one moment; of those that stayed, the one
+ * that is gone would be hit again by rounding, and let go again. */
+WH_INLINE unsigned wh_contact_idle(const wh_contact_system *of, const wh_contact_work *w,
+                                   unsigned gone) {
+    unsigned bits = 0;
+    for (unsigned k = 0; k < of->forced && of->forced > 1; k++) {
+        const bool rests = wh_contact_of(of, k, WH_STOP) && wh_contact_constrains(of, w, k);
+        bool along = false;
+        for (unsigned l = 0; l < of->forced && rests; l++) {
+            const bool lets_go = (gone >> l & 1U) != 0 && wh_contact_of(of, l, WH_STOP) && l != k;
+            along = along || (lets_go && wh_delassus(of, w, l, k) > WH_R(0.0));
+        }
+        const bool idle = along && wh_contact_beyond(of, w, k, -WH_ABS(w->force[k])) >= WH_R(0.0);
+        bits |= idle ? 1U << k : 0U;
+    }
+    return bits;
+}
+
 /* Which resting stops would have to pull and fly, which stuck coordinates break loose? What breaks loose pushes less
  * than before, so others may follow: each round lets at least one go. Of those in `must`, as bits, whose force was
  * found beyond its limit, one does at least, if only by rounding. */
@@ -203,6 +222,10 @@ static inline void wh_contact_give_way(const wh_contact_system *of, wh_contact_w
         }
         giving = giving != 0 ? giving : must;
         first = wh_contact_first(of, w, giving);
+        for (unsigned i = 0; i < count && exceeds; i++) {
+            w->force[member[i]] = lambda[i];
+        }
+        first |= wh_contact_idle(of, w, first);
         for (unsigned i = 0; i < count; i++) {
             const unsigned bit = first & 1U << member[i];
             slides[left[i] > WH_R(0.0)] |= wh_contact_of(of, member[i], WH_FRICTION) ? bit : 0U;

@@ -33,6 +33,7 @@ static const command commands[] = {
      "the cheapest setting that keeps an error on a board"},
     {"trust", command_trust, "SCENE|FILE[:SCENE] ...", "until when a run can be trusted"},
     {"prove", command_prove, "SCENE|FILE[:SCENE] ...", "until when it is proved to be the motion"},
+    {"map", command_map, "SCENE|FILE[:SCENE] ...", "which pairs of two values a run survives"},
     {"emit-settings", command_emit_settings, NULL, NULL},
 #endif
     {"emit-scenes", command_emit_scenes, NULL, NULL},

@@ -75,11 +75,13 @@ gate-cppcheck:
 # --- all cases of what `make test` takes fewer of, to be quick --------------------------------------------
 # These ask for WHIRL_FULL. `rest`: what `make test` does whole is not done again.
 CLI_FULL = $(shell grep -l WHIRL_FULL $(CLI_TESTS))
-SUITES_FULL = $(patsubst tests/host/test_%.c,%,$(shell grep -l few_or_all tests/host/test_*.c))
+FULL_LIST := build/check/full.list
+full_part = "host suites$(comma) all cases$(comma) part $(1) of 3" 'build/tests/host $$(sh tests/part.sh $(FULL_LIST) $(1) 3)'
 gate-full: $(GEN)/.stamp
 	@$(MAKE) test-programs
+	@mkdir -p $(dir $(FULL_LIST)) && grep -l few_or_all tests/host/test_*.c | sed 's|.*/||' >$(FULL_LIST)
 	@WHIRL_FULL=rest WHIRL=build/whirl TEST_SECONDS=900 sh tests/run.sh build/check/log_full \
-	    "host suites, all cases" "build/tests/host $(SUITES_FULL)" $(call run_cli,$(CLI_FULL))
+	    $(foreach p,0 1 2,$(call full_part,$(p))) $(call run_cli,$(CLI_FULL))
 
 # --- sanitizers -----------------------------------------------------------------------------------
 # WHIRL_FEW: a part of the cases of `make test`, of every class some, for an instrumented program takes six times as long;
@@ -89,8 +91,8 @@ $(B)/float/$(GEN)/%.o $(B)/double/$(GEN)/%.o: FILE_FLAGS = $(SCENE_OPT)
 ASAN_BUILD = $(MAKE) MAIN="CC='$(CC)' OPT='$(OPT)' EXTRA='$(EXTRA)'" B=build/asan CC=gcc OPT="-O1 -fno-omit-frame-pointer" SCENE_OPT=-O0 \
     EXTRA="-fsanitize=$(SANITIZE) -fno-sanitize-recover=all"
 
-# Scripts that run no instrumented program, or have it write what other scripts have it write, too.
-CLI_NOT_ASAN := $(foreach t,boards flags fresh headers help no_libm runners setup structure,tests/cli/$(t).sh)
+# Scripts that run no instrumented program, or have it do what other scripts or a suite have it do, too.
+CLI_NOT_ASAN := $(foreach t,boards flags fresh headers help map no_libm runners setup structure,tests/cli/$(t).sh)
 # What scripts make themselves belongs to the main configuration, and must have its settings, not ours: with ours it would
 # be compiled anew, and once more by the next gate.
 .PHONY: asan-run
@@ -114,10 +116,11 @@ gate-memcheck: test-programs build/whirl
 	            echo "$(B)/whirl run $$scene --with ledger --number $$real --until 0.5s --quiet"; done; done; \
 	    } | xargs -P $(JOBS) -I COMMAND sh -c '$(MEMCHECK) COMMAND'
 
-# Files that are broken in every way: each must be refused with a message, and nothing else.
+# Files that are broken in every way: each must be refused with a message, and nothing else. And what fuzzers kept.
 gate-bad-input:
 	+@$(ASAN_BUILD) build/asan/whirl
 	@sh tests/bad_input.sh build/asan/whirl
+	+@$(ASAN_BUILD) kept-now
 
 # --- firmware -------------------------------------------------------------------------------------
 # No heap, no libm, no double arithmetic and no recursion in any image's symbols.
@@ -176,6 +179,7 @@ hashes-now gate-hashes: $(GEN)/.stamp
 	+@$(call build_hashes,$(BOARDS))
 	@$(call compare_hashes,$(BOARDS))
 	@$(MAKE) hashes-matrix
+	@$(MAKE) hashes-hard
 	@$(MAKE) hashes-settings SETTINGS=some
 # HASH_BOARDS="mps2-an386 atmega328p": on these.
 HASH_BOARDS ?= $(BOARDS)
@@ -201,6 +205,7 @@ hashes-all-now: $(GEN)/.stamp
 	    $(foreach h,$(HASH_HOSTS),"$(h)" "$(host_run_$(h)) build/hosts/$(h)/scenes") \
 	    -- "The first $(SINGLE_STEPS) steps:" "this machine" build/scenes_short \
 	    $(foreach b,$(BOARDS_SINGLE),"$(b)" "$(call on_board,$(b),print-hashes)")
+	@$(MAKE) hashes-hard HARD_BOARDS="$(BOARDS_ALL)" HARD_HOSTS="$(HASH_HOSTS)" HARD_BUILDS="$(HASH_BUILDS)"
 
 $(B)/scenes_short: boards/programs/scenes.c $(call objects,float,boards/host/board.c) $(call libraries,float,scenes whirl)
 	$(say) LINK $@

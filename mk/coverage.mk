@@ -1,17 +1,28 @@
-# coverage.mk: which lines and branches of the core the suites reach: the portable suites in float and double, the
-# program's own suites (whose interpreter steps by the core), the scripts that compile generated code not among them.
-# Counted by gcc, summed by gcovr: a line of a header counts once, wherever it was compiled in.
+# coverage.mk: which lines and branches of the core the portable suites reach. docs/testing.md says what counts.
+#
+# Counted are the core's own files and the tests that include its headers: compiled without optimisation, no function
+# inlined (the attribute is taken away: else each copy would have conditions of its own), those that nobody calls kept, so
+# that they count as not reached. Generated scenes run, but are not counted: in them counts and methods are constants, and
+# most conditions are settled when they are compiled.
 
 COVERAGE = build/coverage
-COVERAGE_BUILD = $(MAKE) B=$(COVERAGE) CC=gcc OPT=-O0 EXTRA="--coverage -fprofile-update=single"
+COVERAGE_BUILD = $(MAKE) B=$(COVERAGE) CC=gcc OPT=-O2 LINK_EXTRA=--coverage \
+    COUNTED="-O0 --coverage -fprofile-update=single -Dalways_inline=unused -fkeep-inline-functions -w"
+# The least of each, in per cent.
+LINES_LEAST = 99
+BRANCHES_LEAST = 97
+
+ifdef COUNTED
+$(foreach b,float double,$(eval $(B)/$(b)/core/%.o $(B)/$(b)/tests/core/%.o: FILE_FLAGS += $(COUNTED)))
+endif
 
 ##@ Tests and quality
 .PHONY: coverage coverage-now
-coverage: ## lines and branches of the core that the suites reach (many minutes)
-	@UNITY="$(UNITY)" CC=gcc mk/setup/deps.sh host tests coverage
+coverage: ## lines and branches of the core that the portable suites reach; fails below 99 and 97 per cent (minutes)
+	@UNITY="$(UNITY)" CC=gcc mk/setup/deps.sh host tests
 	@UNITY="$(UNITY)" mk/setup/unity.sh build/unity
 	@$(MAKE) coverage-now
 
 coverage-now: $(GEN)/.stamp
-	+@$(COVERAGE_BUILD) $(COVERAGE)/tests/core_float $(COVERAGE)/tests/core_double $(COVERAGE)/tests/host
-	@sh mk/coverage/coverage.sh $(COVERAGE) "$(COVERAGE_SUITES)"
+	+@$(COVERAGE_BUILD) $(COVERAGE)/tests/core_float $(COVERAGE)/tests/core_double
+	@LINES_LEAST=$(LINES_LEAST) BRANCHES_LEAST=$(BRANCHES_LEAST) sh mk/coverage/coverage.sh $(COVERAGE)

@@ -151,7 +151,7 @@ $(B)/tools/linkages: $(call objects,host,tests/tools/linkages.c tests/host/linka
 
 # --- fuzzing ------------------------------------------------------------------------------------
 # Each tests/fuzz/x.c defines LLVMFuzzerTestOneInput(). Findings stay in build/fuzz/x.found.
-FUZZERS := $(patsubst tests/fuzz/%.c,build/fuzz/%.fuzzer,$(wildcard tests/fuzz/*.c))
+FUZZERS := $(patsubst tests/fuzz/%.c,build/fuzz/%.fuzzer,$(wildcard tests/fuzz/fuzz_*.c))
 SANITIZE := address,undefined,float-cast-overflow
 
 build/fuzz/%.fuzzer: build/fuzz/host/tests/fuzz/%.o $(LIB_HOST) $(LIB_FLOAT) $(LIB_DOUBLE)
@@ -159,7 +159,15 @@ build/fuzz/%.fuzzer: build/fuzz/host/tests/fuzz/%.o $(LIB_HOST) $(LIB_FLOAT) $(L
 	$(Q)$(CC) $(NATIVE) -fsanitize=fuzzer -o $@ $(filter %.o,$^) \
 	    -Wl,--start-group $(filter %.a,$^) -Wl,--end-group -lm
 
-.PHONY: fuzz-now fuzz-programs
+# What they found worth keeping, once more, without a fuzzer.
+KEPT_INPUTS := $(patsubst tests/fuzz/%.c,$(B)/fuzz/%.kept,$(wildcard tests/fuzz/fuzz_*.c))
+$(B)/fuzz/%.kept: $(B)/host/tests/fuzz/%.o $(B)/host/tests/fuzz/kept.o $(LIB_HOST) $(LIB_FLOAT) $(LIB_DOUBLE)
+	@mkdir -p $(@D)
+	$(link)
+
+.PHONY: fuzz-now fuzz-programs kept-now
+kept-now: $(KEPT_INPUTS)
+	@sh tests/fuzz/kept.sh $^
 fuzz-programs: $(FUZZERS)
 fuzz-now:
 	@$(MAKE) B=build/fuzz CC=clang OPT=-O1 \

@@ -1,6 +1,6 @@
 #!/bin/sh
-# fuzz.sh SECONDS FUZZER...: run each fuzzer on a copy of the built-in models, for so many seconds. Words
-# to try are in tests/fuzz/NAME.dict, if there is one.
+# fuzz.sh SECONDS FUZZER...: run each fuzzer, for so many seconds, on a copy of the built-in models, the broken files and
+# what was kept of the runs before (tests/fuzz/kept). Words to try are in tests/fuzz/NAME.dict, if there is one.
 set -u
 
 seconds=${1:?usage: fuzz.sh SECONDS FUZZER...}
@@ -12,7 +12,9 @@ for fuzzer in "$@"; do
     found=${fuzzer%.fuzzer}.found
     mkdir -p "$corpus" "$found"
     cp core/models/*.whirl "$corpus/"
-    [ ! -d tests/bad ] || cp tests/bad/* "$corpus/"
+    cp tests/bad/* "$corpus/"
+    kept=tests/fuzz/kept/$(basename "$fuzzer" .fuzzer)
+    [ ! -d "$kept" ] || cp "$kept"/* "$corpus/"
     log=${fuzzer%.fuzzer}.log
     words=tests/fuzz/$(basename "$fuzzer" .fuzzer).dict
     if [ -f "$words" ]; then words=-dict=$words; else words=; fi

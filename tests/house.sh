@@ -42,7 +42,8 @@ sweep: base core derive image lang number run
 price: base core fixed image number plot run
 trust: base core image number run
 prove: base core image lang number run
-commands: base derive emit fixed image lang number plot price prove run show sweep trust
+map: base core derive image lang number plot run sweep trust
+commands: base derive emit fixed image lang map number plot price prove run show sweep trust
 '
 
 # included FILE...: "FILE FOLDER" for each folder of core or host that a file names in an include

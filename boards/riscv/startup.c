@@ -6,13 +6,13 @@
 void board_entry(void);
 _Noreturn void board_reset(void);
 
-/* First in flash. No code may be relaxed to lean on gp, which nothing sets. */
+/* First in flash. No code may be relaxed to lean on gp, which nothing sets. A plain jump would reach no further than 1 MB. */
 __attribute__((naked, used, section(".vectors"))) void board_entry(void) {
     __asm__ volatile(".option norelax\n\t"
                      "la sp, board_stack_top\n\t"
                      "la t0, board_fault\n\t"
                      "csrw mtvec, t0\n\t"
-                     "j board_reset");
+                     "tail board_reset");
 }
 
 static void enable_fpu(void) {

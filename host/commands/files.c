@@ -71,7 +71,14 @@ bool files_can_write(const char *name) {
     }
     fclose(try);
     if (!was_there) {
-        unlink(name);
+        files_drop(name);
     }
     return true;
+}
+
+void files_drop(const char *name) {
+    struct stat there;
+    if (lstat(name, &there) == 0 && S_ISREG(there.st_mode)) {
+        unlink(name);
+    }
 }

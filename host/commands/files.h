@@ -19,4 +19,7 @@ bool files_same(const char *one, const char *other);
  * is told on standard error. NULL and "-" can. */
 bool files_can_write(const char *name);
 
+/* Removes a file that was begun in vain. What is no ordinary file, such as a device or a pipe, stays. */
+void files_drop(const char *name);
+
 #endif

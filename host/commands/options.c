@@ -9,6 +9,7 @@
 #include "host/base/room.h"
 #include "host/fixed/engine_fixed.h"
 #include "host/image/turned.h"
+#include "host/number/decimal.h"
 #include "host/run/methods.h"
 
 typedef struct option_row {
@@ -280,6 +281,18 @@ int options_choose(const char *command, const char *what, const char *value, con
     }
     fputc('\n', stderr);
     return -1;
+}
+
+bool options_number(const char *command, const char *option, const char *text, double least,
+                    double most, const char *hint, double *number) {
+    const char *end = text;
+    *number = decimal_read(text, &end);
+    const bool good = end != text && *end == '\0' && *number >= least && *number <= most;
+    if (!good) {
+        fprintf(stderr, "whirl %s: error: %s takes a number from %g to %g, not '%.40s'\nhint: %s\n",
+                command, option, least, most, text, hint);
+    }
+    return good;
 }
 
 static bool take_cells(const char *command, const char *value, int *cells) {

@@ -88,6 +88,11 @@ bool options_help(int count, char **words, const command_usage *usage);
  * that may be: one value would take the place of the other. */
 const char *options_value(int count, char **words, int *at, const char *name, bool *bad);
 
+/* A number between two bounds, both allowed, for this option of this command; false, reported with the hint, where it is
+ * none. */
+bool options_number(const char *command, const char *option, const char *text, double least,
+                    double most, const char *hint, double *number);
+
 /* What changes an instance: --set, --start, --with, --without, --step, --until. */
 typedef struct change_options {
     const char **sets;

@@ -87,7 +87,8 @@ static bool take_own(int count, char **words, int *at, price_options *o, bool *b
 
 static bool files_fit(const price_options *o) {
     if (o->plot != NULL && !plot_can_draw(o->plot)) {
-        fprintf(stderr, "whirl price: error: --plot draws .svg and .png files, not %s\n", o->plot);
+        fprintf(stderr, "whirl price: error: --plot draws .svg and .png files, not '%s'\n",
+                o->plot);
         return false;
     }
     if (o->csv != NULL && o->plot != NULL && files_same(o->csv, o->plot)) {

@@ -10,6 +10,7 @@
 #include "host/base/room.h"
 #include "host/lang/builtin.h"
 #include "host/run/start.h"
+#include "host/sweep/changes.h"
 #include "host/sweep/fingerprint.h"
 #include "host/sweep/jobs.h"
 #include "host/sweep/session.h"
@@ -183,30 +184,13 @@ static const char *model_text(const source_model *from) {
     return from->text != NULL ? from->text : "";
 }
 
-/* A sweep over what takes no part would write the same row again and again. */
-static bool axes_take_part(const grid *g, const instance *base) {
-    for (int i = 0; i < g->count; i++) {
-        const symbol *swept = g->axes[i].symbol;
-        const effect *missing = swept != NULL ? instance_lacks(base, swept) : NULL;
-        if (missing != NULL) {
-            fprintf(
-                stderr,
-                "whirl sweep: error: '%s' belongs to the effect '%s', which takes no part here\n"
-                "hint: add --with %s\n",
-                swept->name, missing->name, missing->name);
-            return false;
-        }
-    }
-    return true;
-}
-
 static int sweep_loaded(const sweep_options *o, const source_model *from, const loaded *base,
                         sweep *s) {
     if (!start_has_method(base->image, s->engine.method, from->errors)) {
         diags_flush(from->errors, stderr);
         return EXIT_BAD_INPUT;
     }
-    if (!axes_take_part(s->grid, base->instance)) {
+    if (!changes_take_part(s->grid, base->instance)) {
         return EXIT_BAD_INPUT;
     }
     s->shared = sweep_can_share(s->grid, base->image) ? base->image : NULL;

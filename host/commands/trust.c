@@ -6,9 +6,9 @@
 #include <unistd.h>
 
 #include "commands.h"
+#include "files.h"
 #include "host/fixed/engine_fixed.h"
 #include "host/fixed/fixed_plan.h"
-#include "host/number/decimal.h"
 #include "host/number/functions.h"
 #include "host/run/start.h"
 #include "host/run/undefined.h"
@@ -60,20 +60,6 @@ typedef struct trust_options {
     bool quiet;
 } trust_options;
 
-/* A number between two bounds, both allowed. */
-static bool read_number(const char *option, const char *text, double least, double most,
-                        const char *hint, double *number) {
-    const char *end = text;
-    *number = decimal_read(text, &end);
-    const bool good = end != text && *end == '\0' && *number >= least && *number <= most;
-    if (!good) {
-        fprintf(stderr,
-                "whirl trust: error: %s takes a number from %g to %g, not '%.40s'\nhint: %s\n",
-                option, least, most, text, hint);
-    }
-    return good;
-}
-
 /* One option, with its value where it has one; false when the word is none. */
 static bool take_one(int count, char **words, int *at, trust_options *o, bool *bad) {
     const char *value = NULL;
@@ -81,12 +67,12 @@ static bool take_one(int count, char **words, int *at, trust_options *o, bool *b
         return true;
     }
     if (!*bad && (value = options_value(count, words, at, "--tolerance", bad)) != NULL) {
-        *bad = !read_number("--tolerance", value, 1e-15, 1.0,
-                            "a part of the range that a coordinate has: --tolerance 1e-3",
-                            &o->tolerance);
+        *bad = !options_number("trust", "--tolerance", value, 1e-15, 1.0,
+                               "a part of the range that a coordinate has: --tolerance 1e-3",
+                               &o->tolerance);
     } else if (!*bad && (value = options_value(count, words, at, "--effort", bad)) != NULL) {
-        *bad = !read_number("--effort", value, EFFORT_LEAST, EFFORT_MOST,
-                            "1 is about a minute: --effort 10", &o->effort);
+        *bad = !options_number("trust", "--effort", value, EFFORT_LEAST, EFFORT_MOST,
+                               "1 is about a minute: --effort 10", &o->effort);
     } else if (!*bad && (value = options_value(count, words, at, "--csv", bad)) != NULL) {
         o->csv = value;
     } else if (!*bad && strcmp(words[*at], "--quiet") == 0) {
@@ -248,7 +234,7 @@ static int answer(const trust_options *o, const image *im, const image *plain) {
     if (rows != NULL && rows != stdout) {
         fclose(rows);
         if (code == EXIT_INTERRUPTED) {
-            (void)remove(o->csv); /* nothing is in it */
+            files_drop(o->csv); /* nothing is in it */
         }
     }
     twins_free(t);

@@ -7,18 +7,17 @@
 #include "host/trust/horizon_text.h"
 
 load_keep trusting_keep(const image_settings *settings) {
-    return settings->tables != TABLES_NONE ? KEEP_EQUATIONS : KEEP_IMAGE;
+    image_settings plain;
+    return twins_plain(settings, &plain) ? KEEP_EQUATIONS : KEEP_IMAGE;
 }
 
 image *trusting_plain(const loaded *made) {
     const image *im = made->image;
-    if (im == NULL || im->settings.tables == TABLES_NONE || made->equations == NULL) {
+    image_settings plain;
+    if (im == NULL || made->equations == NULL || !twins_plain(&im->settings, &plain)) {
         return NULL;
     }
-    image_settings plain = im->settings;
-    plain.tables = TABLES_NONE;
-    plain.cells = 0;
-    diags *unsaid = diags_new(); /* it has been said of the image with tables */
+    diags *unsaid = diags_new(); /* it has been said of the run's image */
     image *without = image_make(made->equations, made->equations->instance->conserve, &plain,
                                 IMAGE_TO_RUN, unsaid);
     diags_free(unsaid);

@@ -12,7 +12,7 @@
 
 /* What load() is to keep for trusting_plain(). */
 load_keep trusting_keep(const image_settings *settings);
-/* The scene's image without tables, where it has some: to be freed. NULL: it is the image itself. */
+/* The image of twins_plain(), to be freed. NULL: it is the image itself. */
 image *trusting_plain(const loaded *made);
 
 /* What `whirl run` says of trust. */

@@ -79,7 +79,7 @@ static const char *momentum_unit(image_draft *d, const symbol *q) {
     dim.any = false;
     dim.twelfths[DIM_LENGTH] = (short)(dim.twelfths[DIM_LENGTH] + 2 * DIM_DENOMINATOR);
     dim.twelfths[DIM_MASS] = (short)(dim.twelfths[DIM_MASS] + DIM_DENOMINATOR);
-    dim.twelfths[DIM_TIME] = (short)(-DIM_DENOMINATOR);
+    dim.twelfths[DIM_TIME] = (short)(dim.twelfths[DIM_TIME] - DIM_DENOMINATOR);
     return image_text(d, dimension_unit(dim, false, si, sizeof si));
 }
 

@@ -78,10 +78,17 @@ static void show_said(FILE *said) {
     }
 }
 
-bool gnuplot_open(gnuplot *g, const char *file, int height) {
-    if (system("command -v gnuplot >/dev/null 2>&1") != 0) {
+bool gnuplot_is_there(void) {
+    const bool there = system("command -v gnuplot >/dev/null 2>&1") == 0;
+    if (!there) {
         fprintf(stderr, "whirl: error: plots need gnuplot, which is not installed\n"
                         "hint: make deps installs it (Debian package gnuplot-nox)\n");
+    }
+    return there;
+}
+
+bool gnuplot_open(gnuplot *g, const char *file, int height) {
+    if (!gnuplot_is_there()) {
         return false;
     }
     FILE *picture = fopen(file, "wb");

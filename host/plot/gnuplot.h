@@ -15,6 +15,9 @@ typedef struct gnuplot {
 /* True when the file's ending is one that can be drawn. */
 bool gnuplot_can_draw(const char *file);
 
+/* False, told on standard error, when gnuplot is missing. */
+bool gnuplot_is_there(void);
+
 /* Begins a picture of 900 by `height` pixels in `file` (.svg or .png). False, told on standard error, when the file
  * cannot be written or gnuplot is missing. */
 bool gnuplot_open(gnuplot *g, const char *file, int height);

@@ -8,6 +8,8 @@
 
 #include "host/base/room.h"
 #include "host/number/functions.h"
+#include "step_text.h"
+#include "swing.h"
 
 /* What a cure leaves over, of the largest entry: well below what is warned of. */
 #define CURED 3e-5
@@ -24,12 +26,14 @@
 /* Of a system's swing: its part of what moves, and of that what is lost. */
 #define SWING_SHARE 0.01
 #define SWING_LOST 0.01
+/* Of the range, where it varies. */
+#define SWING_OFF 0.01
 /* So many times as many steps are no advice. */
 #define STEPS_MORE 200.0
 /* So many times as many in float are to be compensated. */
 #define FLOAT_MORE 10.0
 
-enum { STEP_WORD = 20, STEP_TEXT = 48, CARRIED_TEXT = 240, CURE_TEXT = 120, DONE_TEXT = 80 };
+enum { STEP_TEXT = 80, CARRIED_TEXT = 240, CURE_TEXT = 160, DONE_TEXT = 80 };
 
 advice advice_of(const image *im, const engine_kind *kind, const watch *w, const belief *balance) {
     return (advice){.image = im, .kind = kind, .watch = w, .balance = balance};
@@ -54,19 +58,6 @@ static const linearised *motions_of(advice *a) {
 }
 
 /* --- words -----------------------------------------------------------------------------------------------*/
-
-static const char *step_text(double step_s, char text[STEP_WORD]) {
-    static const struct {
-        double s;
-        const char *unit;
-    } units[] = {{1.0, "s"}, {1e-3, "ms"}, {1e-6, "us"}, {1e-9, "ns"}};
-    int i = 0;
-    while (i < 3 && step_s < 0.9999 * units[i].s) {
-        i++;
-    }
-    snprintf(text, STEP_WORD, "%.4g%s", step_s / units[i].s, units[i].unit);
-    return text;
-}
 
 /* Who carries a motion, how fast it is and what that is in steps. */
 static const char *carried_text(const advice *a, const linear_motion *m, char text[CARRIED_TEXT]) {
@@ -177,7 +168,7 @@ static const char *options_text(const advice *a, double step_s, char text[STEP_T
     return text;
 }
 
-static bool is_singular(const advice *a) {
+bool advice_singular(const advice *a) {
     return a->watch->singular.done && a->watch->singular.off >= NOT_RESOLVED;
 }
 
@@ -207,7 +198,7 @@ static double missing(const advice *a) {
 
 /* A singular position is told of by itself; NULL: no step may help. */
 static char *at_one_go(const advice *a) {
-    const bool singular = is_singular(a);
+    const bool singular = advice_singular(a);
     const watch_look *l = singular ? &a->watch->singular : &a->watch->worst;
     char step[STEP_TEXT];
     if (!l->resolved) {
@@ -222,9 +213,9 @@ static char *at_one_go(const advice *a) {
                                  a->balance->jump_s, step);
 }
 
-char *advice_cure(advice *a) {
+static char *cure_of(advice *a) {
     const belief *b = a->balance;
-    if (b->overruns > 0 || b->exact || b->saturated || (b->slow && a->kind->unit != NULL)) {
+    if (b->exact || b->saturated || (b->slow && a->kind->unit != NULL)) {
         return NULL;
     }
     char carried[CARRIED_TEXT];
@@ -233,7 +224,7 @@ char *advice_cure(advice *a) {
     const linearised *l = motions_of(a);
     const watch_look *worst = &a->watch->worst;
     const double by_motion = number_least(linearised_worst(l), 1.0) / ratio;
-    if (is_singular(a) ||
+    if (advice_singular(a) ||
         (b->jump_s >= 0.0 && by_motion < IS_CAUSE && worst->done && worst->off > NOT_RESOLVED)) {
         return at_one_go(a);
     }
@@ -251,12 +242,24 @@ char *advice_cure(advice *a) {
     return room_words("the step is too coarse for this motion; %s", cure);
 }
 
+/* What tables round does not fall with the step. */
+char *advice_cure(advice *a) {
+    char *cure = cure_of(a);
+    if (a->image->settings.tables == TABLES_NONE) {
+        return cure;
+    }
+    char *all = room_words("the tables may be too coarse: more --cells, or no --tables, tell%s%s",
+                           cure != NULL ? "; if it is not they, " : "", cure != NULL ? cure : "");
+    free(cure);
+    return all;
+}
+
 /* --- the others ------------------------------------------------------------------------------------------------*/
 
 static void say_singular(FILE *out, const advice *a) {
     const watch_look *s = &a->watch->singular;
     const image *im = a->image;
-    if (!is_singular(a)) {
+    if (!advice_singular(a)) {
         return;
     }
     char near[120] = "";
@@ -294,20 +297,43 @@ static void say_singular(FILE *out, const advice *a) {
     }
 }
 
-/* A system has no energy to miss: its motions are asked. */
-static void say_swing(FILE *out, advice *a) {
-    if (a->image->has_energies || a->image->settings.matrix == MATRIX_EXACT) {
-        return;
+/* A swing that varies along its way is to be off by as much, or by half of what linearising it at one place says. */
+static bool is_borne_out(advice *a, const linear_motion *m) {
+    const double half = 0.25 * number_least(m->off, 1.0) * number_root(m->share);
+    if (!swing_varies(a->motions, m)) {
+        return true;
     }
-    const linearised *l = motions_of(a);
+    a->swing_off = swing_off(a->watch);
+    return a->swing_off >= number_most(number_least(half, SWING_OFF), 0.5 * SWING_OFF);
+}
+
+/* A system has no energy to miss: its motions are asked. */
+bool advice_swing(advice *a) {
+    if (!a->swing_known) {
+        const bool is_asked = !a->image->has_energies && a->image->settings.matrix != MATRIX_EXACT;
+        const linear_motion *m = is_asked ? motions_of(a)->worst : NULL;
+        a->swing_known = true;
+        a->swing = m != NULL && m->share >= SWING_SHARE &&
+                   linearised_worst(a->motions) >= SWING_LOST && is_borne_out(a, m);
+    }
+    return a->swing;
+}
+
+static void say_swing(FILE *out, advice *a) {
     char carried[CARRIED_TEXT];
     char cure[CURE_TEXT];
     char done[DONE_TEXT];
-    if (l->worst == NULL || l->worst->share < SWING_SHARE || linearised_worst(l) < SWING_LOST) {
+    if (!advice_swing(a)) {
         return;
     }
+    const linearised *l = motions_of(a);
+    if (a->swing_off > 0.0) {
+        snprintf(done, sizeof done, "puts it up to %.2g %% of its range off", 100.0 * a->swing_off);
+    } else {
+        done_text(l, l->worst, done);
+    }
     fprintf(out, "whirl run: warning: the step is too coarse for %s; %s %s\n",
-            carried_text(a, l->worst, carried), title_of(a->image), done_text(l, l->worst, done));
+            carried_text(a, l->worst, carried), title_of(a->image), done);
     if (would_do(a, l->step_s, l->worst->off > SATURATED, cure)) {
         fprintf(out, "hint: %s\n", cure);
     }
@@ -321,7 +347,7 @@ void advice_say(FILE *out, advice *a) {
 /* Records are in the order of time: the first such motion is from before everything grew. */
 void advice_say_diverged(FILE *out, advice *a) {
     say_singular(out, a);
-    if (a->image->settings.matrix == MATRIX_EXACT || a->watch->records == 0 || is_singular(a)) {
+    if (a->image->settings.matrix == MATRIX_EXACT || a->watch->records == 0 || advice_singular(a)) {
         return;
     }
     motions_of(a);

@@ -18,6 +18,9 @@ typedef struct advice {
     const watch *watch;
     const belief *balance;
     linearised *motions; /* NULL until they are asked for */
+    bool swing_known;    /* it has been asked whether */
+    bool swing;
+    double swing_off; /* of a swing that varies along its way: swing_off(); else 0 */
 } advice;
 
 advice advice_of(const image *im, const engine_kind *kind, const watch *w, const belief *balance);
@@ -29,8 +32,10 @@ bool advice_lost(const advice *a);
 /* The cause and the cure of that, a sentence to stand behind "hint: "; NULL: none that is known better than belief_say()'s.
  * To be freed. */
 char *advice_cure(advice *a);
-/* Singular positions that the step does not resolve, swings that a system given by its equations loses, and steps with more
- * events than they take, with what would do. */
+/* Is there a singular position that the step does not resolve? A swing that a system given by its equations loses? */
+bool advice_singular(const advice *a);
+bool advice_swing(advice *a);
+/* Both, with what would do. */
 void advice_say(FILE *out, advice *a);
 /* A run that has ended for leaving all bounds: the motion that the method does not carry, if it is one. */
 void advice_say_diverged(FILE *out, advice *a);

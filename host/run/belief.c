@@ -1,7 +1,6 @@
 /* belief.c: measuring what is left over. */
 #include "belief.h"
 
-#include <inttypes.h>
 #include <math.h>
 
 #include "ledger_read.h"
@@ -40,7 +39,6 @@ belief belief_of(books *b, const engine_kind *kind, const void *run) {
     if (b->image->contacts > 0) {
         made.energy = account_of(b->energy_J);
         enter_kept(b->image, kind, run, &made);
-        kind->events(run, &made.overruns);
     } else {
         made.energy = books_account(b);
         made.inputs_J = b->input_J;
@@ -100,12 +98,6 @@ void belief_say(FILE *out, const char *who, const belief *b, const engine_kind *
     }
     if (cure != NULL) {
         fprintf(out, "hint: %s\n", cure);
-    } else if (b->overruns > 0) {
-        fprintf(out,
-                "hint: %" PRIu64
-                " steps had more moments with events than a step takes, and what was "
-                "left of them counts as rest or sticking: a smaller --step\n",
-                b->overruns);
     } else if (b->exact) {
         fputs(
             "hint: the steps of --matrix exact are exact whatever their size: --number double tells "

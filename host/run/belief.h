@@ -43,12 +43,11 @@ typedef struct belief {
     bool rounded;     /* it is rounding that sets it */
     double
         rounding_J; /* what rounding explains of it: of a step, by the root of the steps, and of the energy itself */
-    double ratio;      /* |left| / largest, >= 0; infinite with something left over of nothing */
-    uint64_t overruns; /* steps with more moments with events than a step takes */
-    bool saturated;    /* values were held at an end of their range */
-    bool slow;         /* rounding took a share of what steps were to add (slow.h) */
-    bool exact;        /* the steps are exact (--matrix exact) */
-    double jump_s;     /* where the balance was lost at one go; below 0: nowhere */
+    double ratio;   /* |left| / largest, >= 0; infinite with something left over of nothing */
+    bool saturated; /* values were held at an end of their range */
+    bool slow;      /* rounding took a share of what steps were to add (slow.h) */
+    bool exact;     /* the steps are exact (--matrix exact) */
+    double jump_s;  /* where the balance was lost at one go; below 0: nowhere */
 } belief;
 
 belief belief_of(books *b, const engine_kind *kind, const void *run);

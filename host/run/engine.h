@@ -8,6 +8,12 @@
 
 #include "host/image/image.h"
 
+/* What happened to a contact (its number in the image) in a step, and the mode it was in then (core/state.h). */
+typedef struct engine_event {
+    int contact;
+    int mode;
+} engine_event;
+
 typedef struct engine_kind {
     const char *name; /* "float", "double" or "fixed" (host/fixed) */
     int digits;       /* significant digits that carry a number of this kind through text */
@@ -24,6 +30,8 @@ typedef struct engine_kind {
     int (*fault)(const void *run);
     /* Events since the start, and steps with more than WH_EVENTS_MAX moments of them. */
     uint64_t (*events)(const void *run, uint64_t *overruns);
+    /* Of the last step, in their order, list[WH_EVENT_LOG]; returns how many. */
+    int (*happened)(const void *run, engine_event *list);
     /* Evaluations of the accelerations since the start; *most: declared for one step with contacts. */
     uint64_t (*evaluations)(const void *run, uint64_t *most);
     /* The books so far: total[entries], error[accounts] (the numerical drift); SI. */

@@ -38,15 +38,26 @@ static void ask(asked *a, double time_s, const double *x) {
     evaluator_rounding(a->evaluator, x, FLOAT_LEAST, a->with);
 }
 
+/* Would a slope that large have moved it by a part that counts? What stands still has no range to tell: then what the slope
+ * alone would make of its place in that time is asked. A slope of nothing but rounding moves nothing. */
+static bool moves(const asked *a, const watch *w, int i, double slope) {
+    const int c = component_of(a->image, i);
+    const double time_s = watch_time_s(w, w->steps);
+    if (w->range[c] > 0.0) {
+        return slope * time_s > PART_TOLD * w->range[c];
+    }
+    const bool first = a->image->form == WH_FIRST_ORDER;
+    const double size = number_most(number_most(fabs(w->low[i]), fabs(w->high[i])), w->range[i]);
+    return slope * time_s * (first ? 1.0 : time_s) > PART_TOLD * size;
+}
+
 /* What is lost at a record, of the largest slopes. */
 static void judge(const asked *a, const watch *w, int record, const double *most, narrow *n) {
     for (int i = 0; i < a->results; i++) {
         const int c = component_of(a->image, i);
         const double lost = FLOAT_ROUNDING * (a->with[i] - a->without[i]);
         const double part = most[i] > 0.0 ? lost / most[i] : 0.0;
-        /* a slope of nothing but rounding moves nothing */
-        const bool moves = most[i] * watch_time_s(w, w->steps) > PART_TOLD * w->range[c];
-        if (isfinite(part) && moves && w->range[c] > 0.0 && part > n->part) {
+        if (isfinite(part) && part > n->part && moves(a, w, i, most[i])) {
             *n = (narrow){part, c, w->record_s[record]};
         }
     }

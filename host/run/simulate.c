@@ -8,8 +8,8 @@
 #include <string.h>
 #include <time.h>
 
-#include "advice.h"
 #include "envelope.h"
+#include "faint.h"
 #include "host/base/room.h"
 #include "host/base/statement.h"
 #include "host/plot/plot.h"
@@ -18,14 +18,14 @@
 #include "slow.h"
 #include "summary.h"
 #include "undefined.h"
+#include "verdict.h"
 
 typedef struct simulation {
     const image *image;
     const simulation_settings *settings;
     void *run;
     records *records;
-    books *books;
-    watch *watch;
+    verdict *verdict;
     FILE *csv;
     FILE *columns;
     envelope *plot; /* NULL without --plot */
@@ -74,7 +74,7 @@ static void close_records(FILE *file) {
 static bool open_files(simulation *sim) {
     const simulation_settings *s = sim->settings;
     if (s->plot != NULL && !plot_can_draw(s->plot)) {
-        fprintf(stderr, "whirl run: error: --plot draws .svg and .png files, not %s\n", s->plot);
+        fprintf(stderr, "whirl run: error: --plot draws .svg and .png files, not '%s'\n", s->plot);
         return false;
     }
     if (!open_records(s->csv, &sim->csv) || !open_records(s->columns, &sim->columns)) {
@@ -94,7 +94,7 @@ static bool open_files(simulation *sim) {
 
 /* Energies that are no numbers end as a failed run: the motion goes on, and so do its records. */
 static void tell_energies(simulation *sim) {
-    const books *b = sim->books;
+    const books *b = sim->verdict->books;
     char when[60];
     if (b == NULL || !b->undefined || sim->energies_told) {
         return;
@@ -151,11 +151,8 @@ static void tell_outputs(simulation *sim) {
 static void enter(simulation *sim, uint64_t step) {
     const bool record =
         (sim->csv != NULL || sim->columns != NULL) && (step % sim->settings->every == 0);
-    if (sim->books != NULL) {
-        books_enter(sim->books, sim->settings->kind, sim->run);
-        tell_energies(sim);
-    }
-    watch_enter(sim->watch, sim->settings->kind, sim->books, sim->run);
+    verdict_enter(sim->verdict, sim->run);
+    tell_energies(sim);
     if (!record && sim->plot == NULL) {
         return;
     }
@@ -223,9 +220,7 @@ static void say_failure(const simulation *sim, wh_status status) {
     }
     fprintf(stderr, " left all bounds\nhint: a smaller --step may carry it further; if it fails at "
                     "the same time, look for a singular position there\n");
-    advice about = advice_of(im, kind, sim->watch, NULL);
-    advice_say_diverged(stderr, &about);
-    advice_end(&about);
+    advice_say_diverged(stderr, &sim->verdict->about);
 }
 
 /* Said with --quiet, too: what was asked for is not what there is. */
@@ -250,26 +245,18 @@ static void say_saturated(const simulation *sim) {
 }
 
 /* What is not to be believed, why, and what would do. */
-static void say_advice(const simulation *sim, const belief *balance, bool fails) {
-    const engine_kind *kind = sim->settings->kind;
-    advice about = advice_of(sim->image, kind, sim->watch, balance);
-    if (fails || advice_lost(&about)) {
-        char *cure = advice_cure(&about);
-        belief_say(stderr, fails ? "whirl run: error" : "whirl run: warning", balance, kind,
-                   sim->image->settings.method, fails ? 0.0 : sim->watch->most_J, cure);
-        free(cure);
-    }
-    advice_say(stderr, &about);
-    advice_end(&about);
-    if (kind == &engine_float) {
-        const narrow lost = narrow_of(sim->watch);
+static void say_against(const simulation *sim, bool fails) {
+    const watch *w = sim->verdict->watch;
+    verdict_say(stderr, sim->verdict, fails);
+    faint_say(stderr, sim->image, sim->settings->kind, w);
+    if (sim->settings->kind == &engine_float) {
+        const narrow lost = narrow_of(w);
         narrow_say(stderr, sim->image, &lost);
     }
 }
 
 /* What the run came to, and the words for it. */
-static simulation_result judge(simulation *sim, wh_status status, bool interrupted,
-                               const belief *balance) {
+static simulation_result judge(simulation *sim, wh_status status, bool interrupted) {
     const simulation_settings *s = sim->settings;
     if (status != WH_OK) { /* which says why the energies are no numbers either */
         say_failure(sim, status);
@@ -289,8 +276,8 @@ static simulation_result judge(simulation *sim, wh_status status, bool interrupt
     if (status != WH_OK || undefined) {
         return SIMULATION_FAILED;
     }
-    const bool fails = s->strict > 0.0 && belief_lost(balance, s->strict);
-    say_advice(sim, balance, fails);
+    const bool fails = s->strict > 0.0 && belief_lost(&sim->verdict->balance, s->strict);
+    say_against(sim, fails);
     return interrupted ? SIMULATION_INTERRUPTED : fails ? SIMULATION_FAILED : SIMULATION_DONE;
 }
 
@@ -324,16 +311,14 @@ simulation_result simulate(const image *im, const simulation_settings *s) {
     if (open_files(&sim)) {
         bool interrupted = false;
         sim.run = s->kind->start(im);
-        sim.books = books_open(im);
-        sim.watch = watch_open(im, s->kind);
+        sim.verdict = verdict_open(im, s->kind);
         sim.undefined = diags_new();
         sim.records->out = sim.csv;
         sim.records->plain = sim.columns;
         records_header(sim.records);
         const wh_status status = loop(&sim, &interrupted);
-        watch_end(sim.watch, status != WH_OK);
-        const belief balance = belief_of(sim.books, s->kind, sim.run);
-        result = judge(&sim, status, interrupted, &balance);
+        verdict_end(sim.verdict, sim.run, status != WH_OK, s->stop);
+        result = judge(&sim, status, interrupted);
         const bool csv_written = flush_records(s->csv, sim.csv);
         const bool columns_written = flush_records(s->columns, sim.columns);
         if (!csv_written || !columns_written) {
@@ -348,7 +333,7 @@ simulation_result simulate(const image *im, const simulation_settings *s) {
             const uint64_t samples = (done + 63) / 64;
             const double sampled = (double)samples;
             summary_print(sim.csv == stdout || sim.columns == stdout ? stderr : stdout, im, s->kind,
-                          sim.run, sim.books, &balance,
+                          sim.run, sim.verdict->books, &sim.verdict->balance,
                           sampled > 0.0 ? 1e9 * sim.wall_s / sampled : 0.0);
         }
         if (s->plot != NULL && result != SIMULATION_BAD_FILE && !draw(&sim)) {
@@ -359,8 +344,7 @@ simulation_result simulate(const image *im, const simulation_settings *s) {
     }
     close_records(sim.csv);
     close_records(sim.columns);
-    books_close(sim.books);
-    watch_close(sim.watch);
+    verdict_close(sim.verdict);
     records_close(sim.records);
     envelope_free(sim.plot);
     return result;

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "changes.h"
 #include "host/base/room.h"
 #include "host/derive/image_make.h"
 #include "host/derive/lagrange.h"
@@ -21,45 +22,6 @@ bool sweep_can_share(const grid *g, const image *im) {
 }
 
 /* --- the point in numbers ----------------------------------------------------------------------*/
-
-/* The swept values as changes of the command line, behind the others and so over them. Numbers of
- * 17 digits: none is lost. Free `.values` and what it points to with forget(). */
-static overrides changes_at(const sweep *s, uint64_t point) {
-    const grid *g = s->grid;
-    overrides changes = *s->changes;
-    double *value = room(g->count, sizeof *value);
-    const char **texts = room(g->count, sizeof(const char *));
-    grid_values(g, point, value);
-    changes.value_count = 0;
-    for (int i = 0; i < g->count; i++) {
-        const axis *a = &g->axes[i];
-        const size_t size = strlen(a->name) + NUMBER_SIZE;
-        char *text = room((int64_t)size, 1);
-        if (a->symbol == NULL) {
-            snprintf(text, size, "%.17g", value[i]);
-            if (changes.step != s->changes->step) {
-                free((void *)(uintptr_t)changes.step); /* a step swept twice: the last holds */
-            }
-            changes.step = text;
-        } else {
-            snprintf(text, size, "%s=%.17g", a->name, value[i]);
-            texts[changes.value_count++] = text;
-        }
-    }
-    changes.values = texts;
-    free(value);
-    return changes;
-}
-
-static void forget(const sweep *s, overrides *changes) {
-    for (int i = 0; i < changes->value_count; i++) {
-        free((void *)(uintptr_t)changes->values[i]);
-    }
-    free((void *)(uintptr_t)changes->values);
-    if (changes->step != s->changes->step) {
-        free((void *)(uintptr_t)changes->step);
-    }
-}
 
 /* The first message, without its place, source line and hint. */
 static void tell_first(diags *errors, FILE *reason) {
@@ -118,7 +80,7 @@ static bool measure_image(const sweep *s, const image *im, bool (*abandon)(void)
 static bool measure_point(const sweep *s, uint64_t point, bool (*abandon)(void), double *value,
                           FILE *reason, point_notes *notes) {
     diags *errors = diags_new();
-    overrides changes = changes_at(s, point);
+    overrides changes = changes_at(s->grid, s->changes, point);
     instance *inst = instance_make(&s->measures->mechanism, s->scene, &changes, errors);
     image *im = inst != NULL ? image_at(s, inst, errors) : NULL;
     instance_free(inst); /* what follows reads the image only */
@@ -129,7 +91,7 @@ static bool measure_point(const sweep *s, uint64_t point, bool (*abandon)(void),
         tell_first(errors, reason);
     }
     image_free(im);
-    forget(s, &changes);
+    changes_forget(s->changes, &changes);
     diags_free(errors);
     return good;
 }

@@ -6,8 +6,8 @@
 
 #include "host/base/exit.h"
 #include "host/base/room.h"
-#include "host/run/belief.h"
 #include "host/run/slow.h"
+#include "host/run/verdict.h"
 #include "jobs.h"
 #include "progress.h"
 #include "sheet.h"
@@ -23,24 +23,24 @@ typedef struct sitting {
     uint64_t ran; /* points delivered, now */
     uint64_t overrun_points;
     uint64_t overrun_steps;
-    uint64_t overrun_first; /* point */
-    uint64_t slow_points;   /* with float angles that turn too slowly */
-    uint64_t slow_first;    /* point */
-    uint64_t unbelieved;    /* points whose energies do not balance */
-    uint64_t unbelieved_first;
+    uint64_t overrun_first;          /* point */
+    uint64_t slow_points;            /* with float angles that turn too slowly */
+    uint64_t slow_first;             /* point */
+    uint64_t against[VERDICT_KINDS]; /* points of which `whirl run` would warn so, */
+    uint64_t against_first[VERDICT_KINDS];
 } sitting;
 
 enum { TOLD_MAX = 20 };
 
 /* Of a point that did not fail, `reason` is what is to be told of it, if there is anything: its numbers of
- * overruns and of slow angles, and whether its energies do not balance, blanks between. */
+ * overruns and of slow angles, and what is to be said against it, as bits, blanks between. */
 static bool work(void *context, uint64_t point, FILE *row, FILE *reason) {
     const sitting *s = context;
     point_notes notes;
     const bool good = sweep_point(s->sweep, point, jobs_orphaned, row, reason, &notes);
-    if (good && (notes.overruns > 0 || notes.slow > 0 || notes.unbelieved)) {
-        fprintf(reason, "%llu %d %d", (unsigned long long)notes.overruns, notes.slow,
-                notes.unbelieved ? 1 : 0);
+    if (good && (notes.overruns > 0 || notes.slow > 0 || notes.against != 0)) {
+        fprintf(reason, "%llu %d %u", (unsigned long long)notes.overruns, notes.slow,
+                notes.against);
     }
     return good;
 }
@@ -57,9 +57,12 @@ static void count_notes(sitting *s, uint64_t point, const char *notes) {
         s->slow_first = s->slow_points == 0 ? point : s->slow_first;
         s->slow_points++;
     }
-    if (strtol(rest, NULL, 10) != 0) {
-        s->unbelieved_first = s->unbelieved == 0 ? point : s->unbelieved_first;
-        s->unbelieved++;
+    const unsigned long against = strtoul(rest, NULL, 10);
+    for (int k = 0; k < VERDICT_KINDS; k++) {
+        if ((against & VERDICT_BIT(k)) != 0) {
+            s->against_first[k] = s->against[k] == 0 ? point : s->against_first[k];
+            s->against[k]++;
+        }
     }
 }
 
@@ -139,18 +142,25 @@ static void say_slow(const sitting *s) {
     fputs("\nhint: --compensated carries what is rounded; a larger --step rounds less\n", stderr);
 }
 
-/* The same of energies that do not balance. */
-static void say_unbelieved(const sitting *s) {
-    if (s->unbelieved == 0) {
-        return;
+/* What `whirl run` would warn of. */
+static void say_against(const sitting *s) {
+    static const char *const words[VERDICT_KINDS] = {
+        [VERDICT_ENERGY] = "cannot be believed: what is left over of their energy books "
+                           "(" BELIEF_COLUMN "), or was missing on the way, is too much of the "
+                           "largest entry",
+        [VERDICT_SINGULAR] = "passed where their coordinates are singular, in steps that do not "
+                             "resolve it",
+        [VERDICT_SWING] = "have a motion that the method takes or feeds",
+        [VERDICT_CONTACTS] = "end elsewhere than in finer steps, as their contacts are too busy "
+                             "for the step"};
+    for (int k = 0; k < VERDICT_KINDS; k++) {
+        if (s->against[k] > 0) {
+            fprintf(stderr, "whirl sweep: warning: %llu of %llu points %s; first: ",
+                    (unsigned long long)s->against[k], (unsigned long long)s->ran, words[k]);
+            name_point(s->sweep, s->against_first[k]);
+            fputs("\nhint: a smaller --step; `whirl run` of the point says more\n", stderr);
+        }
     }
-    fprintf(
-        stderr,
-        "whirl sweep: warning: %llu of %llu points cannot be believed: more than %g of the largest "
-        "entry of their energy books is left over (" BELIEF_COLUMN "); first: ",
-        (unsigned long long)s->unbelieved, (unsigned long long)s->ran, BELIEF_LIMIT);
-    name_point(s->sweep, s->unbelieved_first);
-    fputs("\nhint: a smaller --step; `whirl run` of the point says more\n", stderr);
 }
 
 static void say_end(const session_settings *o, const sitting *s, int workers) {
@@ -199,7 +209,7 @@ static int run_points(const session_settings *o, sitting *s) {
     }
     say_overruns(s);
     say_slow(s);
-    say_unbelieved(s);
+    say_against(s);
     const char *hint = s->sheet.is_file ? "hint: the same command goes on from there\n" : "";
     switch (result) {
     case JOBS_DONE: say_end(o, s, workers); break;

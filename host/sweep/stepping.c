@@ -7,9 +7,9 @@
 
 #include "host/base/room.h"
 #include "host/number/functions.h"
-#include "host/run/belief.h"
 #include "host/run/slow.h"
 #include "host/run/undefined.h"
+#include "host/run/verdict.h"
 
 /* Steps between two questions whether to give up. */
 #define ABANDON_STEPS 4096U
@@ -18,7 +18,7 @@ typedef struct meter {
     const measuring *wanted;
     const image *image;
     void *run;
-    books *books;  /* NULL without energies */
+    verdict *verdict;
     gauge *gauges; /* [measures] */
     double *output;
     bool series;            /* some measure takes a sample each step */
@@ -28,7 +28,7 @@ typedef struct meter {
 static meter meter_open(const measuring *w, const image *im, void *run) {
     const int count = w->count;
     meter m = {.wanted = w, .image = im, .run = run};
-    m.books = books_open(im);
+    m.verdict = verdict_open(im, w->kind);
     m.gauges = room(count, sizeof *m.gauges);
     m.output = room(im->outputs, sizeof *m.output);
     for (int i = 0; i < count; i++) {
@@ -46,7 +46,7 @@ static void meter_close(meter *m) {
     for (int i = 0; i < m->wanted->count; i++) {
         gauge_end(&m->gauges[i]);
     }
-    books_close(m->books);
+    verdict_close(m->verdict);
     free(m->gauges);
     free(m->output);
 }
@@ -83,29 +83,31 @@ static bool keeps_samples(const measuring *w) {
 /* Why the step or the energies are no numbers, if it can be told. */
 static bool tell_undefined(const meter *m, wh_status status, diags *errors) {
     const engine_kind *kind = m->wanted->kind;
+    const books *b = m->verdict->books;
     if (status != WH_OK) {
         return undefined_step(m->image, kind, m->run, status, errors);
     }
     char when[60];
-    snprintf(when, sizeof when, "at t = %.9g s", m->books->undefined_s);
+    snprintf(when, sizeof when, "at t = %.9g s", b->undefined_s);
     const undefined_at at = {.image = m->image,
-                             .angle_rad = m->books->angle_rad,
-                             .real = m->books->real,
+                             .angle_rad = b->angle_rad,
+                             .real = b->real,
                              .turns = kind == &engine_float,
                              .when = when};
     return undefined_angle(&at, errors) || undefined_term(&at, errors);
 }
 
-/* Enter the books. False when an energy is not a finite number, said. */
+/* Enter what the run is judged by. False when an energy is not a finite number, said. */
 static bool balance(meter *m, diags *errors, FILE *reason) {
-    if (m->books == NULL) {
+    const books *b = m->verdict->books;
+    verdict_enter(m->verdict, m->run);
+    if (b == NULL || !b->undefined) {
         return true;
     }
-    books_enter(m->books, m->wanted->kind, m->run);
-    if (m->books->undefined && !tell_undefined(m, WH_OK, errors)) {
-        fprintf(reason, "the energies are not finite numbers at t = %.9g s", m->books->undefined_s);
+    if (!tell_undefined(m, WH_OK, errors)) {
+        fprintf(reason, "the energies are not finite numbers at t = %.9g s", b->undefined_s);
     }
-    return !m->books->undefined;
+    return false;
 }
 
 /* Step to the end. False when the run failed, said on `reason` or reported. */
@@ -165,9 +167,9 @@ static bool read_measures(const meter *m, double *value, FILE *reason, point_not
             return false;
         }
     }
-    const belief kept = belief_of(m->books, w->kind, m->run);
-    value[w->count] = kept.known ? kept.ratio : (double)NAN;
-    notes->unbelieved = belief_lost(&kept, BELIEF_LIMIT);
+    verdict_end(m->verdict, m->run, false, NULL);
+    value[w->count] = m->verdict->balance.known ? m->verdict->balance.ratio : (double)NAN;
+    notes->against = m->verdict->against;
     return true;
 }
 

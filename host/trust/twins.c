@@ -31,6 +31,14 @@ static int shared_order(const image *im) {
                : 0;
 }
 
+bool twins_plain(const image_settings *of, image_settings *plain) {
+    *plain = *of;
+    plain->tables = TABLES_NONE;
+    plain->cells = 0;
+    plain->compensated = of->compensated || of->matrix == MATRIX_EXACT;
+    return plain->tables != of->tables || plain->compensated != of->compensated;
+}
+
 static void make_finer(twins *t, const twins_wish *w) {
     const image *im = w->image;
     t->finer = *w->plain;
@@ -39,7 +47,6 @@ static void make_finer(twins *t, const twins_wish *w) {
     t->each = 1;
     t->left_out = 1.0;
     if (im->settings.matrix == MATRIX_EXACT) {
-        t->finer.list[IMAGE_MATRIX] = im->list[IMAGE_MATRIX];
         return;
     }
     const int order = shared_order(im);

@@ -19,7 +19,7 @@ enum { TWINS_LOOKS = 20000 };
 typedef struct twins_wish {
     const image *image;
     const engine_kind *kind;
-    const image *plain; /* the scene without tables: the image itself where it has none */
+    const image *plain; /* as twins_plain() says: the image itself where it says nothing */
     bool books;         /* keep the run's books, and tell what they leave over */
     const volatile sig_atomic_t *stop;          /* may be NULL */
     void (*progress)(double share, void *told); /* now and then; or NULL */
@@ -52,6 +52,10 @@ typedef struct twins {
     bool stopped;
     books *books; /* NULL: none */
 } twins;
+
+/* The settings of the image that the finer run goes by, where the run's own will not do: without tables, and a matrix that
+ * is written for compensated sums. False: it does. */
+bool twins_plain(const image_settings *of, image_settings *plain);
 
 /* The two, from the start to the end of the run, or to where one of them fails. The images must outlive them. */
 twins *twins_run(const twins_wish *w);

@@ -2,7 +2,7 @@
 # deps.sh GROUP...: install the Debian packages that a make target needs, and only those missing.
 #
 # Groups: host (compiler), plot, firmware (Arm compiler and emulator), boards (other processors'), tests, quality
-# (linters, sanitizers, AVR), bench; hosts (other compilers, C libraries and processors), octave and peers (other solvers), coverage only when they are named.
+# (linters, sanitizers, AVR), bench; hosts (other compilers, C libraries and processors), octave and peers (other solvers) only when they are named.
 # What is there already is recognised by its command or file, not by its package, so a compiler from elsewhere
 # counts. With nothing missing this says nothing and takes milliseconds. What will be installed is told before, with
 # what needs it and the size; where it cannot be, the line that does it (exit status 1).
@@ -91,10 +91,6 @@ quality() {
     want libelf-dev "the same" have_file /usr/include/libelf.h
 }
 
-coverage() {
-    want gcovr "lines and branches that the suites reach" have gcovr
-}
-
 bench() {
     want valgrind "instruction counts on the PC" have valgrind
 }
@@ -141,7 +137,6 @@ peers() {
 for group in "$@"; do
     case $group in
     host) part="whirl" ;;
-    coverage) part="make coverage" ;;
     plot) part="plots" ;;
     firmware) part="boards" ;;
     boards) part="make check" ;;

@@ -197,7 +197,10 @@ says 2 '--every 0 is not a whole number' run thomson_a --every 0
 says 2 '--every -1ms is not a time' run thomson_a --every -1ms
 says 2 '--every often is not a time' run thomson_a --every often
 says 2 '/nonexistent/x.csv: error: cannot be written' run thomson_a --csv /nonexistent/x.csv
-says 2 'plot draws .svg and .png files, not x.pdf' run thomson_a --plot x.pdf
+for plot in x.pdf '' -; do
+    says 2 "plot draws .svg and .png files, not '$plot'" run thomson_a --plot "$plot"
+    says 2 "plot draws .svg and .png files, not '$plot'" price thomson_a --plot "$plot"
+done
 says 2 '/nonexistent/x.svg: error: cannot be written' run thomson_a --plot /nonexistent/x.svg
 says 2 'error' accel epicyclic theta
 says 2 "unknown option '--angles'" accel epicyclic --angles lookup
@@ -366,7 +369,7 @@ if command -v gnuplot >/dev/null 2>&1; then
 fi
 
 # --- an option twice: one value would take the place of the other ---------------------------------------------------
-for command in run derive price choose sweep; do
+for command in run derive price choose sweep map; do
     "$whirl" $command --help | grep -oE '^ +--[a-z-]+( [^ ]|=)|^ *--.*as for|--[a-z]+' | grep -oE -- '--[a-z]+' | sort -u |
         grep -vxE -- '--(set|start|with|without|over|measure|vary|help|quiet|strict|compensated|all|resume|force|dry|steps|ranges)' >"$scratch/options"
     twice=0

@@ -109,6 +109,7 @@ ends() { # COMMAND [OPTION...]: all that it comes to
     describe) "$whirl" describe "$plain" --json "$@" ;;
     run) "$whirl" run "$plain" --csv - --quiet "$@" ;;
     sweep) "$whirl" sweep "$plain" --over x=1..1.5:2 --quiet "$@" ;;
+    map) "$whirl" map "$plain" --over x=1..1.5:2 --over a=1..1.2:2 --csv - --quiet "$@" ;;
     trust) "$whirl" trust "$plain" --csv - --quiet "$@" ;;
     prove) "$whirl" prove "$plain" "$@" ;;
     price) "$whirl" price "$plain" --csv - --quiet --effort 0.001 "$@" ;;
@@ -122,7 +123,7 @@ while read -r word value group; do
     while read -r command; do
         "$whirl" "$command" --help | grep -q -- " $word\( \|$\)" || continue
         case $command$word in
-        sweep--start) set -- --start "x'=1" ;; # x is swept
+        sweep--start | map--start) set -- --start "x'=1" ;; # x is swept
         derive--number) set -- --number fixed ;; # of float and double the code is one
         *) set -- "$word" "$(sample "$word")" ;;
         esac

@@ -1,5 +1,5 @@
 #!/bin/sh
-# interrupt.sh: `whirl run` and `whirl sweep`, interrupted by real signals: exit status 130, what was reached is said, the
+# interrupt.sh: `whirl run`, `whirl sweep` and `whirl map`, interrupted by real signals: exit status 130, what was reached is said, the
 # records up to there and the summary are whole.
 . "$(dirname "$0")/../checks.sh"
 
@@ -119,5 +119,37 @@ for signal in INT TERM; do
     grep -q "^whirl sweep: interrupted after $rows of 1000000 points; their rows are kept\$" "$scratch/err"
     verdict $? "sweep, $signal: says how far it came: $rows rows"
     rm -f "$scratch/s.csv" "$scratch/s.csv.sweep"
+done
+
+# a map keeps the places that are done, as words and as rows
+for signal in INT TERM; do
+    "$whirl" map epicyclic_from_rest --over m=1..3:1000 --over step=1..10[ms]:10 --effort 1000 --csv "$scratch/m.csv" >"$scratch/out" 2>"$scratch/err" &
+    process=$!
+    sleep 2
+    kill -$signal $process
+    wait $process
+    code=$?
+    rows=$(($(wc -l <"$scratch/m.csv") - 1))
+    [ "$code" -eq 130 ] && [ "$rows" -gt 0 ] && [ "$rows" -lt 10000 ]
+    verdict $? "map, $signal: exit status 130, $rows rows"
+    grep -q "^whirl map: interrupted after $rows of 10000 runs\$" "$scratch/err" &&
+        grep -q "^  ?  untried  *$((10000 - rows)) " "$scratch/out" && ! grep -q untried "$scratch/m.csv"
+    verdict $? "map, $signal: says how far it came"
+    rm -f "$scratch/m.csv"
+done
+
+# trust has nothing for its file yet: an ordinary one goes, a pipe (or a device: the file of nothing is one) stays
+mkfifo "$scratch/trusted"
+for kind in file trusted; do # `trusted` is a pipe
+    rm -f "$scratch/file"
+    [ $kind = file ] || cat "$scratch/trusted" >"$scratch/read" &
+    "$whirl" trust epicyclic_from_rest --until 3000s --step 1ms --effort 1000 --csv "$scratch/$kind" >"$scratch/out" 2>"$scratch/err" &
+    process=$!
+    sleep 1
+    kill -INT $process
+    wait $process
+    code=$?
+    [ $code -eq 130 ] && grep -q '^whirl trust: interrupted at t = ' "$scratch/err" && [ ! -e "$scratch/file" ] && [ -p "$scratch/trusted" ]
+    verdict $? "trust to a file, $kind: exit status 130, an ordinary one goes and a pipe stays"
 done
 exit $failed

@@ -27,7 +27,7 @@ verdict $? "time, coordinates, rates, outputs"
 awk -F, 'NR > 1 && ($1 - 0.002*(NR - 2))^2 > 1e-24 { bad = 1 } END { exit bad || NR != 252 }' "$scratch/a.csv"
 verdict $? "a record every 2 ms, the start and the end included"
 
-run thomson_a --until 0.5s --quiet --csv - && cmp -s "$scratch/err" /dev/null && well_formed "$scratch/out"
+run thomson_a --until 0.5s --quiet --csv - && [ ! -s "$scratch/err" ] && well_formed "$scratch/out"
 verdict $? "--csv - writes records, and nothing else, to standard output"
 run thomson_a --until 0 --quiet --csv "$scratch/z.csv" && [ "$(wc -l <"$scratch/z.csv")" -eq 2 ]
 verdict $? "a run of no length records its start"

@@ -53,6 +53,16 @@ tests/mechanisms/lorenz.whirl --start x=1 --step 2ms --until 30s
 tests/mechanisms/van_der_pol.whirl --step 10ms --until 20s
 END
 
+# --- a step that is the motion itself: right to the end, with sums of either kind ------------------------------------------
+for number in double float; do
+    for sums in '' --compensated; do
+        # shellcheck disable=SC2086 # perhaps no word
+        "$whirl" trust mk/stability/spring.whirl --matrix exact --step 100ms --until 10s --number $number $sums --csv "$scratch/rows" >"$scratch/words" 2>"$scratch/err" &&
+            [ "$(end_of "$scratch/rows")" = end ] && grep -q '^  x  *to the end .* of its range, 0.2 m$' "$scratch/words"
+        verdict $? "an exact matrix, $number $sums: to the end" "$scratch/words"
+    done
+done
+
 # --- nothing else is moved ---------------------------------------------------------------------------------------------
 "$whirl" run thomson_a --step 1ms --csv - --every 50ms >"$scratch/loud" 2>"$scratch/said"
 "$whirl" run thomson_a --step 1ms --csv - --every 50ms --quiet >"$scratch/still" 2>"$scratch/err"
@@ -130,6 +140,7 @@ mkdir "$scratch/board" "$scratch/board/build"
 ln -s "$PWD/core" "$scratch/board/core"
 ln -s "$(realpath "$whirl")" "$scratch/board/build/whirl"
 awk -v into="$scratch/board" '
+    /^## Warnings$/ { exit }
     /^```c$/ { file = into "/main.c"; next }
     /^```sh/ { file = into "/commands"; next }
     /^```/ { file = ""; next }

@@ -66,6 +66,9 @@ static void hand_forces(const void *model, const wh_phase *phase, const wh_real 
         if (m->contact[k].kind == WH_HOLD && m->contact[k].direction == 0 && linear != NULL &&
             m->law[k].first == WH_R(0.0)) {
             law[WH_LAW_FIRST] = along(m, k, linear); /* as a curved one has */
+        } else if (m->contact[k].kind == WH_HOLD && m->contact[k].direction < 0 && linear != NULL) {
+            law[WH_LAW_FIRST] =
+                along(m, k, linear) - m->law[k].offset; /* as one that inputs move */
         }
         for (unsigned i = 0; i < m->n; i++) {
             law[WH_LAW_ROWS + i] = m->law[k].row[i];

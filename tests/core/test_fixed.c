@@ -78,6 +78,33 @@ static void test_rounding(void) {
     TEST_ASSERT_EQUAL_INT32(0, wh_fixed_round(-INT32_C(0x3fffffff), 60));
 }
 
+/* Sums modulo 2^32, signs, sizes, shifts beyond all digits, and a product of which the upper digits do. */
+static void test_small_operations(void) {
+    for (long i = 0; i < CASES; i++) {
+        const int32_t a = draw_number();
+        const int32_t b = draw_number();
+        const int by = (int)(draw() % 31U);
+        const int16_t number = (int16_t)draw_number();
+        const int32_t x = a / 8; /* up to 2^28 */
+        const int64_t half = by > 0 ? (int64_t)1 << (by - 1) : 0;
+        TEST_ASSERT_EQUAL_UINT32((uint32_t)((int64_t)a + b), (uint32_t)wh_fixed_add(a, b));
+        TEST_ASSERT_EQUAL_UINT32((uint32_t)((int64_t)a - b), (uint32_t)wh_fixed_sub(a, b));
+        TEST_ASSERT_EQUAL_UINT32((uint32_t)((uint64_t)(int64_t)a << by),
+                                 (uint32_t)wh_fixed_left(a, by));
+        TEST_ASSERT_EQUAL_INT32(a < 0 ? -a : a, wh_fixed_size(a));
+        TEST_ASSERT_EQUAL_INT32((int32_t)floor_shift(floor_shift(x, 14) * number + half, by),
+                                wh_fixed_mul_short(x, number, by));
+        if (by <= 30) {
+            TEST_ASSERT_EQUAL_INT32((a > 0) * (INT32_C(1) << by) - (a < 0) * (INT32_C(1) << by),
+                                    wh_fixed_sign(a, by));
+        }
+    }
+    for (int by = 31; by < 70; by++) {
+        TEST_ASSERT_EQUAL_INT32(0, wh_fixed_round(-INT32_C(0x40000000), by));
+        TEST_ASSERT_EQUAL_INT32(0, wh_fixed_round(3, -by - 1));
+    }
+}
+
 static void check_reciprocal(uint32_t d) {
     /* x d near 2^61, by less than 2^61/2^27.3 */
     const int64_t off =
@@ -123,6 +150,8 @@ static void check_sine(uint32_t phase) {
     /* its own error, 3.4e-8, and that of the reals */
     const wh_real most = (WH_DOUBLE ? WH_R(3.5e-8) : WH_R(1.3e-7));
     wh_fixed_sincos_called(phase, &s, &c);
+    wh_fixed_sincos_shared(phase, &s_here, &c_here);
+    TEST_ASSERT_TRUE(s == s_here && c == c_here);
     wh_fixed_sincos_here(phase, &s_here, &c_here);
     wh_sincos(real_phase(phase), &sine, &cosine);
     TEST_ASSERT_EQUAL_INT32(s, s_here);
@@ -192,6 +221,14 @@ static void test_scenes(void) {
     TEST_ASSERT_EQUAL_INT(WH_E_MEMORY, wh_fixed_start(&scene, &state, NULL, 16));
     TEST_ASSERT_EQUAL_INT(WH_E_ARGUMENT, wh_fixed_start(NULL, &state, memory, 16));
     TEST_ASSERT_EQUAL_INT(WH_E_ARGUMENT, wh_fixed_start(&scene, NULL, memory, 16));
+    struct behind_a_byte {
+        char byte;
+        int64_t angle;
+    };
+    for (size_t off = 1; off < offsetof(struct behind_a_byte, angle); off++) { /* not aligned */
+        TEST_ASSERT_EQUAL_INT(WH_E_ARGUMENT,
+                              wh_fixed_start(&scene, &state, (char *)memory + off, 16));
+    }
     TEST_ASSERT_EQUAL_INT(WH_OK, wh_fixed_start(&scene, &state, memory, sizeof memory));
     TEST_ASSERT_TRUE(wh_fixed_real(&scene, &state, 0) == WH_R(1.0));
     TEST_ASSERT_TRUE(WH_ABS(wh_fixed_angle(&scene, &state, 0) + WH_R(15.707963267948966)) <
@@ -233,6 +270,7 @@ void suite_fixed(void) {
     RUN_TEST(test_products);
     RUN_TEST(test_short_products);
     RUN_TEST(test_rounding);
+    RUN_TEST(test_small_operations);
     RUN_TEST(test_reciprocals);
     RUN_TEST(test_zeros);
     RUN_TEST(test_sines);

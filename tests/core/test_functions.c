@@ -164,6 +164,11 @@ static void test_exact_powers_of_two(void) {
         TEST_ASSERT_TRUE(wh_pow(-TWO, power) == (n % 2 == 0 ? wanted : -wanted));
         wanted *= TWO;
     }
+    for (int n = LEAST_POWER - 1; n > LEAST_POWER - 40;
+         n--) { /* half the least: to the even one, none */
+        TEST_ASSERT_TRUE(wh_pow(TWO, (wh_real)n) == ZERO);
+        TEST_ASSERT_TRUE(wh_pow(HALF, (wh_real)-n) == ZERO);
+    }
 }
 
 static void test_exact_powers(void) {

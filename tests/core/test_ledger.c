@@ -150,10 +150,109 @@ static void test_books_of_a_spring_that_is_changed(void) {
     }
 }
 
+/* --- books that name an angle itself ------------------------------------------------------------------- */
+
+/* A shaft of 1 kg m^2 under a torque of 1/2 N m, whose account names its angle, turns included, and two inputs, of which the
+ * energies hold one each: 1/2 r^2 + a th + b. */
+static void shaft_accel(const void *model, const wh_phase *phase, const wh_real *linear,
+                        const wh_real *rate, const wh_real *input, wh_real *accel) {
+    (void)model;
+    (void)phase;
+    (void)linear;
+    (void)rate;
+    accel[0] = WH_R(0.5) - input[0];
+}
+
+/* What the torque gives to the energy a second, and, so that the angle is named, its multiple less the same again. */
+static void shaft_powers(const void *model, const wh_angle *angle, const wh_real *linear,
+                         const wh_real *rate, const wh_real *input, wh_real *power) {
+    (void)model;
+    (void)linear;
+    (void)input;
+    power[0] = WH_R(0.5) * rate[0];
+    power[1] = wh_angle_to_rad(angle[0]);
+}
+
+static void shaft_levels(const void *model, const wh_angle *angle, const wh_real *linear,
+                         const wh_real *rate, const wh_real *input, wh_real *level) {
+    (void)model;
+    (void)linear;
+    level[0] = WH_R(0.5) * rate[0] * rate[0] + input[0] * wh_angle_to_rad(angle[0]) + input[1];
+    level[1] = rate[0];
+}
+
+static const uint8_t shaft_account[] = {0, 1};
+static const uint8_t shaft_input[] = {0, 1};
+static const wh_ledger_form shaft_books = {.powers = NULL,
+                                           .turned = shaft_powers,
+                                           .levels = shaft_levels,
+                                           .account = shaft_account,
+                                           .input = shaft_input,
+                                           .smooth = 2,
+                                           .entries = 4,
+                                           .accounts = 4,
+                                           .coordinates = 1,
+                                           .angles = 1,
+                                           .inputs = 2};
+
+static wh_status shaft_advance(const wh_scene *scene, wh_state *state) {
+    return wh_step_ledger(&shaft_books, NULL, shaft_accel, WH_RK4, false,
+                          (wh_span){scene->step_s, WH_R(0.0)}, state);
+}
+
+/* Entry 1 is the integral of the angle, 1/12 t^3 + r t^2/2 + th t: counted from the turns that the shaft has, not from its
+ * phase. Each input is entered by itself: the first by what it does to the energy, the second by what is left. */
+static void test_books_name_angles_with_their_turns(void) {
+    static uint64_t memory[WH_STATE_WORDS(1, 1, 2) + WH_LEDGER_WORDS(4, 4)];
+    static const wh_real start_real[1] = {WH_R(3.0)};
+    static const wh_real start_input[2] = {WH_R(0.0), WH_R(0.0)};
+    for (unsigned which = 0; which < 3; which++) {
+        const wh_angle start_angle[1] = {wh_angle_from_rad(WH_R(20.0))};
+        const wh_scene scene = {.name = "shaft",
+                                .form = WH_SECOND_ORDER,
+                                .angles = 1,
+                                .reals = 1,
+                                .inputs = 2,
+                                .step_s = WH_R(0.0078125),
+                                .start_angle = start_angle,
+                                .start_real = start_real,
+                                .start_input = start_input,
+                                .ledger = &shaft_books,
+                                .advance = shaft_advance};
+        wh_state state;
+        wh_real level[2];
+        TEST_ASSERT_TRUE(wh_scene_start(&scene, &state, memory, sizeof memory) == WH_OK);
+        TEST_ASSERT_TRUE(wh_ledger_sum(&shaft_books, &state, 0) == WH_R(0.0));
+        for (unsigned i = 0; i < 256; i++) { /* two seconds */
+            TEST_ASSERT_TRUE(wh_scene_step(&scene, &state) == WH_OK);
+        }
+        TEST_ASSERT_TRUE(hand_near(state.ledger[0], WH_R(3.5), 1e-12, 3e-5)); /* (4^2 - 3^2)/2 */
+        TEST_ASSERT_TRUE(hand_near(state.ledger[1], WH_R(8.0) / 12 + WH_R(46.0), 1e-11, 4e-4));
+        TEST_ASSERT_TRUE(
+            hand_near(wh_ledger_error(&shaft_books, &state, 0, level), WH_R(0.0), 1e-12, 3e-5));
+        state.input[0] = which != 1 ? WH_R(0.25) : WH_R(0.0);
+        state.input[1] = which != 0 ? WH_R(0.75) : WH_R(0.0);
+        const wh_real rad = wh_angle_to_rad(state.angle[0]);
+        TEST_ASSERT_TRUE(wh_scene_step(&scene, &state) == WH_OK);
+        TEST_ASSERT_TRUE(hand_near(state.ledger[2], which != 1 ? rad / 4 : WH_R(0.0), 1e-13, 1e-6));
+        TEST_ASSERT_TRUE(
+            hand_near(state.ledger[3], which != 0 ? WH_R(0.75) : WH_R(0.0), 1e-13, 2e-6));
+        /* what is refused enters nothing */
+        const wh_real before[4] = {state.ledger[0], state.ledger[1], state.ledger[2],
+                                   state.ledger[3]};
+        state.input[0] = WH_R(-1e16);
+        TEST_ASSERT_TRUE(wh_scene_step(&scene, &state) == WH_E_DIVERGED);
+        for (unsigned i = 0; i < 4; i++) {
+            TEST_ASSERT_TRUE(state.ledger[i] == before[i]);
+        }
+    }
+}
+
 void suite_ledger(void) {
     RUN_TEST(test_books_of_the_ball);
     RUN_TEST(test_books_of_the_thrown_block);
     RUN_TEST(test_books_of_impacts_and_settings);
     RUN_TEST(test_books_do_not_touch_the_run);
     RUN_TEST(test_books_of_a_spring_that_is_changed);
+    RUN_TEST(test_books_name_angles_with_their_turns);
 }

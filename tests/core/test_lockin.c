@@ -147,6 +147,11 @@ static void test_less_than_a_turn_is_refused(void) {
     TEST_ASSERT_FALSE(wh_lockin(&record, marks, 0, WH_R(0.0), &found));
     marks[0].ticks += 3000000U; /* outside the record */
     TEST_ASSERT_FALSE(wh_lockin(&record, marks, 1, WH_R(0.0), &found));
+    marks[0].ticks = 100U; /* turns between two samples: there is no load to see */
+    marks[1] = (wh_mark){600U, marks[0].quarter + 4U};
+    TEST_ASSERT_FALSE(wh_lockin(&record, marks, 2, WH_R(0.0), &found));
+    marks[1].ticks = PERIOD_TICKS + 600U; /* nor at one sample alone */
+    TEST_ASSERT_FALSE(wh_lockin(&record, marks, 2, WH_R(0.0), &found));
     const wh_load_record empty = {raw, 0, 0, PERIOD_TICKS};
     TEST_ASSERT_FALSE(wh_lockin(&empty, marks, MARKS, WH_R(0.0), &found));
 }

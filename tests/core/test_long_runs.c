@@ -145,12 +145,28 @@ static void test_a_fraction_stays_below_one(void) {
     TEST_ASSERT_TRUE(time.whole_s == 0 && time.fraction_s == WH_R(0x1p-60));
 }
 
-/* One that does not say its step exactly has the time of its real step. */
+/* One that does not say its step exactly has the time of its real step. Steps of 2^k s, so many that their product is
+ * exact: whole seconds and fraction are the bits of it above and below the point, at any size below 2^56 s. (From there on there is no more than that.) */
 static void test_time_without_a_fraction(void) {
-    const wh_scene scene = {.step_s = WH_R(0.25)};
-    const wh_state state = {.steps = 4 * 100000 + 3};
-    const wh_time time = wh_scene_time(&scene, &state);
-    TEST_ASSERT_TRUE(time.whole_s == 100000 && time.fraction_s == WH_R(0.75));
+    random_state = UINT64_C(0x20261123);
+    for (int k = -20; k <= 33; k++) {
+        wh_scene scene = {.step_s = WH_R(1.0)};
+        for (int i = 0; i < (k < 0 ? -k : k); i++) {
+            scene.step_s *= k < 0 ? WH_R(0.5) : WH_R(2.0);
+        }
+        for (unsigned i = 0; i < 24; i++) {
+            const uint64_t steps = i < 2 ? (UINT64_C(1) << 22) - i : random_bits() >> 42 >> i % 22;
+            const wh_state state = {.steps = steps};
+            const wh_time time = wh_scene_time(&scene, &state);
+            const uint64_t whole = k < 0 ? steps >> -k : steps << k;
+            const uint64_t below = k < 0 ? steps - (whole << -k) : 0U;
+            TEST_ASSERT_TRUE(time.whole_s == whole);
+            TEST_ASSERT_TRUE(time.fraction_s == (wh_real)below * scene.step_s);
+        }
+    }
+    const wh_scene scene = {.step_s = WH_R(0x1p55)};
+    const wh_state state = {.steps = 2};
+    TEST_ASSERT_TRUE(wh_scene_time(&scene, &state).whole_s >= (uint64_t)UINT32_MAX << 24);
 }
 
 /* --- counts ----------------------------------------------------------------------------------------- */

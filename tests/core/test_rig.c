@@ -175,6 +175,21 @@ static void test_integral_does_not_wind_up(void) {
     TEST_ASSERT_TRUE(steps < 450U); /* (0.84 - 0.06 - 0.574) / (0.042 * 6): 0.82 s */
 }
 
+/* An integral that is out of its bounds, by whatever, comes back into them. */
+static void test_the_integral_comes_back(void) {
+    const wh_drive_config *config = &wh_rig_standard.drive;
+    const wh_real bounds[] = {config->duty_min, config->duty_max};
+    for (unsigned i = 0; i < 2; i++) {
+        const wh_real side = i == 0 ? WH_R(-1.0) : WH_R(1.0);
+        wh_drive drive;
+        wh_drive_start(config, &drive, WH_R(30.0), WH_R(0.5));
+        drive.integral = bounds[i] + side;
+        const wh_real duty =
+            wh_drive_step(config, &drive, WH_R(30.0) + side * WH_R(0.01), WH_R(0.002));
+        TEST_ASSERT_TRUE(duty == bounds[i] && drive.integral == bounds[i]);
+    }
+}
+
 static void test_duty_stays_in_range(void) {
     const wh_drive_config *config = &wh_rig_standard.drive;
     wh_drive drive;
@@ -237,9 +252,25 @@ static wh_trip trip_at(wh_real turn_rpm, wh_real interval_rpm, unsigned pulses) 
 
 static void test_over_speed_trips(void) {
     TEST_ASSERT_TRUE(trip_at(WH_R(399.0), WH_R(430.0), 5) == WH_TRIP_NONE);
+    TEST_ASSERT_TRUE(trip_at(wh_rig_standard.guard.limit_radps / RPM, WH_R(400.0), 5) ==
+                     WH_TRIP_NONE); /* the limit itself is allowed */
     TEST_ASSERT_TRUE(trip_at(WH_R(401.0), WH_R(400.0), 1) == WH_TRIP_OVERSPEED);
     TEST_ASSERT_TRUE(trip_at(WH_R(350.0), WH_R(450.0), 1) == WH_TRIP_NONE); /* a disturbance? */
     TEST_ASSERT_TRUE(trip_at(WH_R(350.0), WH_R(450.0), 2) == WH_TRIP_OVERSPEED);
+}
+
+/* Without a turn known nothing is overdue, however long it takes. */
+static void test_only_a_known_turn_can_be_overdue(void) {
+    wh_speed speed;
+    wh_speed_start(&speed, WH_R(800.0) * RPM);
+    TEST_ASSERT_FALSE(wh_speed_is_overdue(&speed, UINT32_MAX));
+    TEST_ASSERT_TRUE(wh_speed_pulse(&speed, 0, 1000));
+    speed.turn_radps = WH_R(330.0) * RPM;
+    TEST_ASSERT_FALSE(wh_speed_is_overdue(&speed, 100000000U));
+    speed.known = true;
+    TEST_ASSERT_TRUE(wh_speed_is_overdue(&speed, 100000000U));
+    TEST_ASSERT_FALSE(wh_speed_is_overdue(&speed, 1000U + 181000U)); /* a turn takes 181818 */
+    TEST_ASSERT_TRUE(wh_speed_is_overdue(&speed, 1000U + 183000U));
 }
 
 static void test_lost_pulses_and_silence_trip(void) {
@@ -340,10 +371,12 @@ void suite_rig(void) {
     RUN_TEST(test_ramp_keeps_its_rate_and_arrives);
     RUN_TEST(test_loop_leaves_no_steady_error);
     RUN_TEST(test_integral_does_not_wind_up);
+    RUN_TEST(test_the_integral_comes_back);
     RUN_TEST(test_duty_stays_in_range);
     RUN_TEST(test_speed_limit_follows_from_the_shaft);
     RUN_TEST(test_guard_refuses_set_points);
     RUN_TEST(test_over_speed_trips);
+    RUN_TEST(test_only_a_known_turn_can_be_overdue);
     RUN_TEST(test_lost_pulses_and_silence_trip);
     RUN_TEST(test_a_stuck_load_cell_trips);
     RUN_TEST(test_an_overloaded_load_cell_trips);

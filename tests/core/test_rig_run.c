@@ -334,6 +334,34 @@ static void test_a_moving_rig_gets_no_tare(void) {
     TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_MOVING);
 }
 
+/* A record that is full, of marks of one sensor alone or of none: no load at the other's slot, or no measurement; further
+ * samples change nothing of it. */
+static void test_a_full_record_with_few_marks(void) {
+    for (unsigned marked = 0; marked < 3; marked++) {
+        begin(WH_R(330.0), (failure){.in = WH_RIG_TRIPPED});
+        rig.state = WH_RIG_RECORD;
+        rig.speed.known = rig.speed.running = true;
+        rig.speed.turn_radps = rig.target_radps;
+        rig.drive.setpoint_radps = rig.drive.target_radps = rig.target_radps;
+        for (unsigned i = 0; i < WH_RIG_RECORD_SAMPLES + 3U; i++) {
+            wh_rig_load(&config, &rig, now + (uint32_t)i * STEP_TICKS,
+                        (int16_t)(i < WH_RIG_RECORD_SAMPLES ? 50 : -9));
+        }
+        TEST_ASSERT_EQUAL_UINT(WH_RIG_RECORD_SAMPLES, rig.samples);
+        TEST_ASSERT_EQUAL_INT(50, rig.raw[WH_RIG_RECORD_SAMPLES - 1U]);
+        for (unsigned i = 0; i < 5 && marked > 0; i++) {
+            rig.marks[marked - 1U][i] = (wh_mark){now + 1000U + i * 182000U, 4U * i};
+            rig.mark_count[marked - 1U]++;
+        }
+        now += (WH_RIG_RECORD_SAMPLES + UINT32_C(3)) * STEP_TICKS;
+        rig.speed.ticks = rig.guard.load_ticks = now;
+        wh_rig_step(&config, &rig, now, false);
+        TEST_ASSERT_TRUE(rig.guard.trip == (marked == 1 ? WH_TRIP_NONE : WH_TRIP_RECORD));
+        TEST_ASSERT_FLOAT_WITHIN(1e-5f, marked == 1 ? 0.5f : 0.0f, (float)rig.result.at_spike_N[0]);
+        TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)rig.result.at_spike_N[1]);
+    }
+}
+
 void suite_rig_run(void) {
     RUN_TEST(test_a_faultless_run_finds_the_load);
     RUN_TEST(test_lost_pulses_in_the_record_change_nothing);
@@ -352,4 +380,5 @@ void suite_rig_run(void) {
     RUN_TEST(test_a_refused_target_never_moves_the_motor);
     RUN_TEST(test_a_rotor_that_does_not_start_trips);
     RUN_TEST(test_a_moving_rig_gets_no_tare);
+    RUN_TEST(test_a_full_record_with_few_marks);
 }

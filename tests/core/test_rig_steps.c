@@ -265,7 +265,8 @@ static void test_what_a_full_record_comes_to(void) {
     }
     rig.marks[1][9].ticks = now - 1U; /* outside: it does not count */
     rig.mark_count[0] = 10;
-    rig.mark_count[1] = 10;
+    rig.mark_count[1] = 10; /* what stands behind them is none */
+    rig.marks[0][10] = rig.marks[1][10] = (wh_mark){now + 500U * STEP_TICKS, 40U};
     now += WH_RIG_RECORD_SAMPLES * STEP_TICKS;
     rig.speed.ticks = now;
     rig.guard.load_ticks = now;

@@ -172,6 +172,18 @@ static void test_a_method_that_the_form_does_not_have_is_refused(void) {
     }
 }
 
+/* A number that is no method's, as a board's memory may hold. */
+static void test_what_is_no_method_is_refused(void) {
+    for (unsigned i = 0; i < 3; i++) {
+        wh_scene scene = oscillator(WH_RK4, false, WH_R(0.25));
+        scene.method = (wh_method)(i == 0 ? (unsigned)WH_METHODS : 77U + 99U * i);
+        state.steps = 5;
+        TEST_ASSERT_TRUE(wh_scene_start(&scene, &state, memory, sizeof memory) == WH_E_ARGUMENT);
+        TEST_ASSERT_TRUE(state.steps == 5);
+        TEST_ASSERT_TRUE(wh_tableau_of(scene.method) == wh_tableau_of(WH_RK4));
+    }
+}
+
 static void test_start_takes_over_the_start_values_again(void) {
     const wh_scene scene = shaft(WH_RK4);
     TEST_ASSERT_TRUE(start(&scene));
@@ -320,6 +332,8 @@ static void test_half_a_turn_in_a_step_is_refused(void) {
         TEST_ASSERT_TRUE(steps(&scene, 1));
         state.real[1] = WH_R(-3200.0);
         expect_refused(&scene, 0);
+        state.real[1] = WH_R(7000.0); /* by the middle of the step already */
+        expect_refused(&scene, 0);
     }
 }
 
@@ -350,6 +364,8 @@ static void test_every_status_has_its_own_words(void) {
         for (unsigned j = 0; j < i; j++) {
             TEST_ASSERT_TRUE(wh_status_text(all[i]) != wh_status_text(all[j]));
         }
+        TEST_ASSERT_TRUE(wh_status_text(all[i]) != wh_status_text((wh_status)1));
+        TEST_ASSERT_TRUE(wh_status_text((wh_status)1)[0] != '\0');
     }
 }
 
@@ -358,6 +374,7 @@ void suite_scene(void) {
     RUN_TEST(test_compensated_scene_needs_more_memory_within_the_macro);
     RUN_TEST(test_many_steps_are_steps);
     RUN_TEST(test_a_method_that_the_form_does_not_have_is_refused);
+    RUN_TEST(test_what_is_no_method_is_refused);
     RUN_TEST(test_start_takes_over_the_start_values_again);
     RUN_TEST(test_time_is_steps_times_step);
     RUN_TEST(test_inputs_act_from_the_next_step_on);

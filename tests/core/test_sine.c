@@ -91,6 +91,10 @@ static void test_out_of_range_is_nan(void) {
         TEST_ASSERT_TRUE(is_nan(cosine_of(bad[i])));
     }
     TEST_ASSERT_FALSE(is_nan(sine_of(5e8)));
+    double sine = 0.5;
+    double cosine = 0.25;
+    wh_sincos_of_range(1e300, &sine, &cosine); /* only a phase of float needs to be told */
+    TEST_ASSERT_TRUE(sine == 0.5 && cosine == 0.25);
 }
 
 #if __STDC_HOSTED__

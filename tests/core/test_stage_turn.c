@@ -372,6 +372,8 @@ static void test_far_turns_are_sines(void) {
         wh_real wanted[2];
         wh_sincos(wh_phase_from_rad(d), &wanted[0], &wanted[1]);
         const wh_wave turn = wh_far_turn(d, d > WH_TURN_SMALL);
+        const wh_wave called = wh_far_turn_called(d);
+        TEST_ASSERT_TRUE(called.sine == turn.sine && called.cosine == turn.cosine);
         TEST_ASSERT_TRUE(WH_ABS(turn.sine - wanted[0]) < within);
         TEST_ASSERT_TRUE(WH_ABS(WH_R(1.0) + turn.cosine - wanted[1]) < within);
         if (WH_ABS(d) <= WH_TURN_SMALL) {

@@ -90,6 +90,21 @@ static void test_fixed_extremes(void) {
     expect("nan");
 }
 
+/* More decimals than there are to be had are as many as there are; a little more than half is no half; what lies below 2^-160
+ * is nothing. */
+static void test_fixed_beyond_its_room(void) {
+    expect_fixed("0.500000000000000000", WH_R(0.5), WH_TEXT_DECIMALS_MAX + 1U);
+    expect_fixed("-3.250000000000000000", WH_R(-3.25), 1000);
+    expect_fixed("0", WH_R(0.5), 0);
+    expect_fixed("1", WH_R(0.5) + WH_R(0x1p-20), 0);
+    expect_fixed("0.2", WH_R(0.25), 1);
+    expect_fixed("0.3", WH_R(0.25) + WH_R(0x1p-20), 1);
+#if WH_DOUBLE
+    expect_fixed("0.000000000000000000", 1e-300, 18);
+    expect_fixed("-0.0", -0x1.8p-161, 1);
+#endif
+}
+
 static void test_full_buffer_keeps_its_bounds(void) {
     for (unsigned i = 0; i < sizeof buffer; i++) {
         buffer[i] = '#';
@@ -140,6 +155,7 @@ void suite_text(void) {
     RUN_TEST(test_fixed);
     RUN_TEST(test_fixed_rounding);
     RUN_TEST(test_fixed_extremes);
+    RUN_TEST(test_fixed_beyond_its_room);
     RUN_TEST(test_full_buffer_keeps_its_bounds);
 #if __STDC_HOSTED__
     RUN_TEST(test_fixed_agrees_with_printf);

@@ -72,6 +72,15 @@ void model_drop(void) {
     }
 }
 
+double said_step_s(const char *word) {
+    char *unit;
+    const double number = strtod(word, &unit);
+    return number * (strcmp(unit, "ms") == 0   ? 1e-3
+                     : strcmp(unit, "us") == 0 ? 1e-6
+                     : strcmp(unit, "ns") == 0 ? 1e-9
+                                               : 1.0);
+}
+
 dice dice_of(const char *suite, unsigned long seed) {
     const char *given = getenv("WHIRL_SEED");
     const unsigned long long used = given != NULL ? strtoull(given, NULL, 10) : seed;

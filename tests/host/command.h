@@ -15,6 +15,9 @@ typedef struct said {
 /* Runs `command` (command_run, ...) on the words, the last of which is followed by NULL. */
 void command_say(int (*command)(int count, char **words), const char *const *words, said *what);
 
+/* A step as a warning writes it, "200us": s. */
+double said_step_s(const char *word);
+
 /* Writes a model's text into a file of its own, whose name it returns; static. Gone with model_drop(). */
 const char *model_keep(const char *text);
 void model_drop(void);

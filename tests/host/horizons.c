@@ -151,13 +151,10 @@ static void run_beside(horizons *h, uint64_t stride) {
 
 /* --- both ------------------------------------------------------------------------------------------------*/
 
-static image *image_with(const derived *d, horizons_setting how, bool tables) {
+static image *image_with(const derived *d, const image_settings *settings) {
     diags *errors = diags_new();
-    const image_settings settings = {.method = how.method,
-                                     .compensated = how.compensated,
-                                     .tables = tables ? how.tables : TABLES_NONE};
     image *im =
-        image_make(d->equations, d->equations->instance->conserve, &settings, IMAGE_TO_RUN, errors);
+        image_make(d->equations, d->equations->instance->conserve, settings, IMAGE_TO_RUN, errors);
     diags_flush(errors, stdout);
     diags_free(errors);
     TEST_ASSERT_NOT_NULL(im);
@@ -167,8 +164,14 @@ static image *image_with(const derived *d, horizons_setting how, bool tables) {
 horizons horizons_of(const char *text, const char *name, horizons_setting how, double tolerance) {
     horizons h = {.made = derived_scene(text, name)};
     derived_expect(&h.made, text);
-    h.image = image_with(&h.made, how, true);
-    h.plain = image_with(&h.made, how, false);
+    const image_settings settings = {.method = how.method,
+                                     .compensated = how.compensated,
+                                     .tables = how.tables,
+                                     .matrix = how.matrix};
+    image_settings plain;
+    (void)twins_plain(&settings, &plain);
+    h.image = image_with(&h.made, &settings);
+    h.plain = image_with(&h.made, &plain);
     const twins_wish wish = {.image = h.image, .kind = how.kind, .plain = h.plain};
     h.twins = twins_run(&wish);
     h.estimate = horizon_of(h.twins, tolerance);

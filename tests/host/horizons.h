@@ -14,12 +14,13 @@ typedef struct horizons_setting {
     bool compensated;
     wh_method method;
     image_tables tables;
+    image_matrix_of matrix;
 } horizons_setting;
 
 typedef struct horizons {
     derived made;
     image *image; /* with the setting */
-    image *plain; /* without tables; for the reference */
+    image *plain; /* as the finer run wants it (host/trust/twins.h); for the reference, too */
     twins *twins;
     horizon estimate;
     double *true_s;      /* [columns] last look at which it was right; infinite: to the end */

@@ -102,6 +102,35 @@ void motion_open_more(motion *m, const char *file, const char *more, stepping ho
     TEST_FAIL_MESSAGE(file);
 }
 
+/* A file's text with more behind it; to be freed. */
+static char *text_of_file(const char *path, const char *more) {
+    FILE *in = fopen(path, "rb");
+    TEST_ASSERT_NOT_NULL_MESSAGE(in, path);
+    TEST_ASSERT_EQUAL_INT(0, fseek(in, 0, SEEK_END));
+    const long size = ftell(in);
+    TEST_ASSERT_TRUE_MESSAGE(size > 0, path);
+    char *text = malloc((size_t)size + strlen(more) + 1);
+    TEST_ASSERT_NOT_NULL(text);
+    rewind(in);
+    TEST_ASSERT_EQUAL_size_t((size_t)size, fread(text, 1, (size_t)size, in));
+    fclose(in);
+    memcpy(text + size, more, strlen(more) + 1);
+    return text;
+}
+
+void motion_open_file(motion *m, const char *path, const char *more, const char *scene_name,
+                      stepping how) {
+    char *text = text_of_file(path, more);
+    *m = (motion){.errors = diags_new()};
+    m->model = model_parse(path, text, strlen(text), m->errors);
+    free(text);
+    diags_flush(m->errors, stdout);
+    TEST_ASSERT_NOT_NULL_MESSAGE(m->model, more);
+    const scene *in = scene_named(m->model, scene_name);
+    TEST_ASSERT_NOT_NULL_MESSAGE(in, scene_name);
+    start(m, in, how);
+}
+
 void motion_close(motion *m) {
     m->kind->stop(m->run);
     image_free(m->image);

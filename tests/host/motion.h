@@ -47,6 +47,9 @@ void motion_open(motion *m, const char *scene, stepping how);
 void motion_open_text(motion *m, const char *text, stepping how);
 /* The same for a built-in file, "epicyclic.whirl", with more text behind it: the last scene. */
 void motion_open_more(motion *m, const char *file, const char *more, stepping how);
+/* The same for a file, "docs/hard/rotor.whirl", with more text behind it, or "": the scene of that name. */
+void motion_open_file(motion *m, const char *path, const char *more, const char *scene,
+                      stepping how);
 void motion_close(motion *m);
 
 /* Do `steps` more steps; the status of the last, and no further one after a failure. */

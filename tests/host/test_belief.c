@@ -252,12 +252,16 @@ static void test_built_in_scenes_are_believed(void) {
         if (sscanf(line, "scene %79s", name) != 1) {
             continue;
         }
-        /* both numbers; under the sanitizers by turns */
-        for (unsigned k = usual_or(0, scenes % 2); k < usual_or(2, scenes % 2 + 1); k++) {
+        /* by turns in double and in float; both with all cases */
+        for (unsigned k = few_or_all(scenes % 2, 0); k < few_or_all(scenes % 2 + 1, 2); k++) {
             const char *words[] = {name,      "--strict", "--number", k == 1 ? "float" : "double",
                                    "--until", until,      NULL};
             command_say(command_run, words, &what);
-            TEST_ASSERT_EQUAL_STRING_MESSAGE("", what.err, name);
+            if (strcmp(name, "ball_between") == 0) { /* too busy for its step (test_warnings.c) */
+                TEST_ASSERT_NULL_MESSAGE(strstr(what.err, "cannot be believed"), what.err);
+            } else {
+                TEST_ASSERT_EQUAL_STRING_MESSAGE("", what.err, name);
+            }
             TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, name);
         }
         scenes++;

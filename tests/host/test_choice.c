@@ -180,7 +180,7 @@ static int left_of(const choice *c) {
  * another not. */
 static void test_a_price_is_that_of_its_own_step(void) {
     dice d = dice_of("choice own steps", 505);
-    const unsigned cases = dice_cases(few_or_all(usual_or(12, 4), 60));
+    const unsigned cases = dice_cases(few_or_all(usual_or(4, 2), 20));
     int others = 0; /* cost something else by the coarsest step */
     for (unsigned n = 0; n < cases; n++) {
         request q;

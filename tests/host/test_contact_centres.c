@@ -283,7 +283,33 @@ static void test_centres_crept_over(void) {
     check_machines(3, "creeping over the centre", 2.0, few_or_all(3, 6));
 }
 
+/* The scenes of docs/hard/dead_centre.whirl: the linkage with the numbers of that file. */
+static void check_scene(const char *name, const machine *c, double until_s) {
+    long double s[2];
+    TEST_ASSERT_TRUE(reference(c, wide(until_s), s));
+    for (int n = 0; n < 2; n++) {
+        motion m;
+        motion_open_file(&m, "docs/hard/dead_centre.whirl", "", name, n ? IN_FLOAT : IN_DOUBLE);
+        motion_to(&m, until_s);
+        const double off_rad = fabs(motion_value(&m, "a") - (double)s[0]);
+        printf("  %s, %s: %.9g rad, off by %.1e\n", name, m.kind->name, (double)s[0], off_rad);
+        TEST_ASSERT_TRUE(off_rad < (n ? 1e-2 : 1e-6));
+        TEST_ASSERT_EQUAL_UINT64(0, contacts_overruns(&m));
+        motion_close(&m);
+    }
+}
+
+static void test_the_scenes_of_the_catalogue(void) {
+    machine c = {LINKAGE, 0.1, 1.0, 0.1, 100.0, 1.0, 0.0, 0.005, 0.5, 10.0};
+    check_scene("crank_turns", &c, 2.0);
+    c.torque_Nm = 8.0;
+    c.a = 0.0;
+    c.rate = 0.0;
+    check_scene("crank_starts", &c, 0.4);
+}
+
 void suite_contact_centres(void) {
+    RUN_TEST(test_the_scenes_of_the_catalogue);
     RUN_TEST(test_the_cam_goes_on);
     RUN_TEST(test_centres_passed);
     RUN_TEST(test_centres_from_rest);

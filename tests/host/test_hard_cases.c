@@ -1,9 +1,9 @@
-/* test_hard_cases.c: cases that are hard for an integrator, each against a closed form or the same energies in numbers
- * (linkage.h): a motor too weak for the resonance that it must pass (Sommerfeld), an inertia that all but vanishes,
- * hops on a moving floor that come to an end, a table that falls away faster than what lies on it, fast rotation. */
+/* test_hard_cases.c: cases that are hard for an integrator (docs/hard, docs/hard_cases.md), each against a closed form or
+ * the same energies in numbers (linkage.h): a motor too weak for the resonance that it must pass (Sommerfeld), an inertia
+ * that all but vanishes, hops on a moving floor that come to an end, a table that falls away faster than what lies on
+ * it, fast rotation. */
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "linkage.h"
 #include "motion.h"
@@ -11,13 +11,7 @@
 
 void suite_hard_cases(void);
 
-/* Opens a linkage's scene. */
-static void open_linkage(motion *m, const linkage *of, double until_s, stepping how) {
-    static char text[LINKAGE_TEXT];
-    linkage_write(of, "hard", (linkage_writing){.forces = LINKAGE_INSIDE, .until_s = until_s},
-                  text);
-    motion_open_text(m, text, how);
-}
+#define HARD "docs/hard/"
 
 /* --- resonance ------------------------------------------------------------------------------------------------- */
 
@@ -51,12 +45,13 @@ static double reference_after(double torque_Nm) {
 
 /* and as the program has it. */
 static double speed_after(double torque_Nm, stepping how) {
-    const linkage of = shaker(torque_Nm);
+    char stall[40];
     motion m;
-    how.step_s = 1e-3;
-    open_linkage(&m, &of, 12.0, how);
+    snprintf(stall, sizeof stall, "stall=%.17g", torque_Nm);
+    how.set = stall;
+    motion_open_file(&m, HARD "sommerfeld.whirl", "", "shaker_stays", how);
     motion_to(&m, 12.0);
-    const double speed = motion_value(&m, "q1'");
+    const double speed = motion_value(&m, "a'");
     motion_close(&m);
     return speed;
 }
@@ -97,14 +92,16 @@ static void test_a_disc_of_hardly_any_inertia(void) {
                                         .inertia_kgm2 = pow(10.0, -k),
                                         .wave = 1.0};
             of.start_rate[1] = 5.0;
-            open_linkage(&m, &of, 2.0,
-                         (stepping){.kind = real == 0 ? &engine_double : &engine_float,
-                                    .method = WH_RK4,
-                                    .step_s = 1e-3});
+            char inertia[40];
+            snprintf(inertia, sizeof inertia, "I=%.17g", of.body[1].inertia_kgm2);
+            motion_open_file(&m, HARD "disc.whirl", "", "disc_swings",
+                             (stepping){.kind = real == 0 ? &engine_double : &engine_float,
+                                        .method = WH_RK4,
+                                        .set = inertia});
             motion_to(&m, 2.0);
             linkage_integrate(&of, 1e-3, 2000, &wanted);
-            const double spin = motion_value(&m, "q0'") + motion_value(&m, "q1'");
-            const double swing = motion_value(&m, "q0");
+            const double spin = motion_value(&m, "q'") + motion_value(&m, "s'");
+            const double swing = motion_value(&m, "q");
             worst[real] =
                 fmax(worst[real], fmax(fabs(spin - 5.0), fabs(swing - (double)wanted.state[0])));
             motion_close(&m);
@@ -118,20 +115,14 @@ static void test_a_disc_of_hardly_any_inertia(void) {
 
 /* --- floors that move ------------------------------------------------------------------------------------------ */
 
-/* A table, so heavy that nothing moves it, goes up and down with amplitude A and frequency w; a ball lies on it or
- * falls upon it. */
 static void open_table(motion *m, double A_m, double w_radps, double height_m, double restitution,
                        double step_s) {
-    static char text[1000];
-    snprintf(text, sizeof text,
-             "mechanism table\ncoordinate f [m]\ncoordinate b [m]\n"
-             "T = 1e9 [kg]*f'^2/2 + 1 [kg]*b'^2/2\n"
-             "V = 1e9 [kg]*%.17g [1/s^2]*f^2/2 + 1 [kg]*9.81 [m/s^2]*b\n"
-             "stop b >= f restitution %.17g\n"
-             "scene s {\nstart f = %.17g [m], b = %.17g [m]\nuntil 5 [s]\n}\n",
-             w_radps * w_radps, restitution, -A_m, height_m - A_m);
-    motion_open_text(m, text,
-                     (stepping){.kind = &engine_double, .method = WH_RK4, .step_s = step_s});
+    char more[400];
+    snprintf(more, sizeof more,
+             "scene drawn {\nset A = %.17g [m], w = %.17g [rad/s], h0 = %.17g [m], e = %.17g\n"
+             "start f = -A, b = h0 - A\nuntil 5 [s]\n}\n",
+             A_m, w_radps, height_m, restitution);
+    motion_open_file(m, HARD "moving_floor.whirl", more, "drawn", IN_DOUBLE_STEP(step_s));
 }
 
 static void test_hops_on_a_moving_floor_end(void) {
@@ -172,14 +163,11 @@ static void test_a_table_falls_away(void) {
 static void test_fast_rotation(void) {
     for (int k = 0; k < 5; k++) {
         const double rate = 600.0 * (k + 1) + 17.0 * k; /* up to 3068 rad/s: 0.49 turns a step */
-        char text[400];
+        char start[60];
         motion m;
-        snprintf(text, sizeof text,
-                 "mechanism rotor\ncoordinate th [rad]\nT = 1 [kg*m^2]*th'^2/2\n"
-                 "scene s {\nstart th' = %.17g [rad/s]\nuntil 200 [s]\n}\n",
-                 rate);
-        motion_open_text(&m, text,
-                         (stepping){.kind = &engine_float, .method = WH_RK4, .step_s = 1e-3});
+        snprintf(start, sizeof start, "th'=%.17g", rate);
+        motion_open_file(&m, HARD "rotor.whirl", "", "rotor_fast",
+                         (stepping){.kind = &engine_float, .method = WH_RK4, .start = start});
         TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 100000));
         /* a step's part of a turn is rounded to 2^-32, and its rate and length are floats */
         const double turned = rate * 100.0;

@@ -18,10 +18,10 @@ typedef struct arithmetic {
 } arithmetic;
 
 static const arithmetic arithmetics[] = {
-    {"float, 1 ms", "1 [ms]", {&engine_float, false, WH_RK4, TABLES_NONE}},
-    {"float compensated, 1 ms", "1 [ms]", {&engine_float, true, WH_RK4, TABLES_NONE}},
-    {"double, 1 ms", "1 [ms]", {&engine_double, false, WH_RK4, TABLES_NONE}},
-    {"double, 0.1 ms", "0.1 [ms]", {&engine_double, false, WH_RK4, TABLES_NONE}},
+    {"float, 1 ms", "1 [ms]", {&engine_float, false, WH_RK4, TABLES_NONE, MATRIX_NONE}},
+    {"float compensated, 1 ms", "1 [ms]", {&engine_float, true, WH_RK4, TABLES_NONE, MATRIX_NONE}},
+    {"double, 1 ms", "1 [ms]", {&engine_double, false, WH_RK4, TABLES_NONE, MATRIX_NONE}},
+    {"double, 0.1 ms", "0.1 [ms]", {&engine_double, false, WH_RK4, TABLES_NONE, MATRIX_NONE}},
 };
 enum { ARITHMETICS = sizeof arithmetics / sizeof arithmetics[0] };
 

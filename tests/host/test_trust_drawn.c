@@ -128,13 +128,15 @@ typedef struct drawn_setting {
 
 static drawn_setting setting_of(dice *d) {
     static const drawn_setting all[] = {
-        {"float", {&engine_float, false, WH_RK4, TABLES_NONE}, 1.0},
-        {"float compensated", {&engine_float, true, WH_RK4, TABLES_NONE}, 1.0},
-        {"double", {&engine_double, false, WH_RK4, TABLES_NONE}, 1.0},
-        {"double, nystroem5", {&engine_double, false, WH_NYSTROEM5, TABLES_NONE}, 1.0},
-        {"float, heun", {&engine_float, false, WH_HEUN, TABLES_NONE}, 1.0},
-        {"float, nystroem4", {&engine_float, false, WH_NYSTROEM4, TABLES_NONE}, 1.0},
-        {"double compensated, rk38", {&engine_double, true, WH_RK38, TABLES_NONE}, 1.0},
+        {"float", {&engine_float, false, WH_RK4, TABLES_NONE, MATRIX_NONE}, 1.0},
+        {"float compensated", {&engine_float, true, WH_RK4, TABLES_NONE, MATRIX_NONE}, 1.0},
+        {"double", {&engine_double, false, WH_RK4, TABLES_NONE, MATRIX_NONE}, 1.0},
+        {"double, nystroem5", {&engine_double, false, WH_NYSTROEM5, TABLES_NONE, MATRIX_NONE}, 1.0},
+        {"float, heun", {&engine_float, false, WH_HEUN, TABLES_NONE, MATRIX_NONE}, 1.0},
+        {"float, nystroem4", {&engine_float, false, WH_NYSTROEM4, TABLES_NONE, MATRIX_NONE}, 1.0},
+        {"double compensated, rk38",
+         {&engine_double, true, WH_RK38, TABLES_NONE, MATRIX_NONE},
+         1.0},
     };
     static const double steps_ms[] = {0.5, 1.0, 1.0, 2.0};
     drawn_setting s = all[dice_one_of(d, sizeof all / sizeof all[0])];

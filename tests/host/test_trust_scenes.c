@@ -31,10 +31,10 @@ static void say(const char *what, const horizons *h) {
 
 /* --- nothing diverges --------------------------------------------------------------------------------*/
 
-static const horizons_setting in_double = {&engine_double, false, WH_RK4, TABLES_NONE};
-static const horizons_setting in_float = {&engine_float, false, WH_RK4, TABLES_NONE};
-static const horizons_setting compensated = {&engine_float, true, WH_RK4, TABLES_NONE};
-static const horizons_setting in_tables = {&engine_float, false, WH_RK4, TABLES_CUBIC};
+static const horizons_setting in_double = {&engine_double, false, WH_RK4, TABLES_NONE, MATRIX_NONE};
+static const horizons_setting in_float = {&engine_float, false, WH_RK4, TABLES_NONE, MATRIX_NONE};
+static const horizons_setting compensated = {&engine_float, true, WH_RK4, TABLES_NONE, MATRIX_NONE};
+static const horizons_setting in_tables = {&engine_float, false, WH_RK4, TABLES_CUBIC, MATRIX_NONE};
 
 static void expect_the_end(const char *file, const char *name, horizons_setting how) {
     horizons h = built_in(file, name, how, HORIZON_TOLERANCE);
@@ -88,7 +88,8 @@ static void test_steps_and_methods_that_are_too_coarse(void) {
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i += apart) {
         char text[500];
         char what[100];
-        const horizons_setting how = {&engine_double, false, cases[i].method, TABLES_NONE};
+        const horizons_setting how = {&engine_double, false, cases[i].method, TABLES_NONE,
+                                      MATRIX_NONE};
         snprintf(text, sizeof text, swing, cases[i].step_ms);
         snprintf(what, sizeof what, "swing by %s, %g ms, to %g", wh_methods[cases[i].method].word,
                  cases[i].step_ms, cases[i].tolerance);
@@ -102,9 +103,9 @@ static void test_steps_and_methods_that_are_too_coarse(void) {
 static void test_rounding_and_tables(void) {
     static const double tolerances[] = {1e-4, 3e-6, 3e-7};
     static const horizons_setting settings[] = {
-        {&engine_float, false, WH_RK4, TABLES_NONE},
-        {&engine_float, false, WH_RK4, TABLES_LINEAR},
-        {&engine_double, false, WH_RK4, TABLES_CUBIC},
+        {&engine_float, false, WH_RK4, TABLES_NONE, MATRIX_NONE},
+        {&engine_float, false, WH_RK4, TABLES_LINEAR, MATRIX_NONE},
+        {&engine_double, false, WH_RK4, TABLES_CUBIC, MATRIX_NONE},
     };
     int ended = 0;
     for (size_t i = 0; i < sizeof settings / sizeof settings[0]; i++) {

@@ -1,0 +1,126 @@
+/* map_plot.c: see map_plot.h. */
+#include "map_plot.h"
+
+#include <math.h>
+
+#include "host/number/functions.h"
+#include "host/plot/gnuplot.h"
+
+enum { HEIGHT = 560 };
+
+/* From good to bad; whoever sees no colours tells them apart by lightness. NULL: left white. */
+static const char *const colours[MAP_VERDICTS] = {[MAP_KEEPS] = "#d0e6f0",
+                                                  [MAP_OFF] = "#8fbf7f",
+                                                  [MAP_LOSES] = "#e08b3c",
+                                                  [MAP_DIVERGES] = "#8e1420"};
+
+/* A gnuplot axis is logarithmic where its values are above zero: those below are drawn evenly. */
+static bool is_log(const axis *a) { return a->is_log && a->from > 0.0; }
+
+/* The value half a cell further along the axis, down or up. */
+static double edge(const axis *a, double value, bool up) {
+    const double cells = a->count > 1 ? (double)(a->count - 1) : 1.0;
+    if (a->is_log) {
+        const double ratio = a->count > 1 ? number_most(a->to / a->from, a->from / a->to) : 1.1;
+        const double half = number_power(ratio, 0.5 / cells);
+        return up == (value > 0.0) ? value * half : value / half;
+    }
+    const double width = a->count > 1 ? fabs(a->to - a->from) : number_most(fabs(a->from), 1.0);
+    return up ? value + 0.5 * width / cells : value - 0.5 * width / cells;
+}
+
+static void set_axis(FILE *to, const axis *a, char letter, const char *unit) {
+    const double least = number_least(a->from, a->to);
+    const double most = number_most(a->from, a->to);
+    fprintf(to, "set %clabel ", letter);
+    gnuplot_quote(to, a->column);
+    fprintf(to, ".'%s' noenhanced\n", unit);
+    if (is_log(a)) {
+        fprintf(to, "set logscale %c\n", letter);
+    }
+    fprintf(to, "set %crange [%.17g:%.17g]\n", letter, edge(a, least, false), edge(a, most, true));
+}
+
+/* x, y and the edges of each stretch of cells of a row that have this verdict. */
+static void write_cells(FILE *to, const stability_map *m, map_verdict verdict) {
+    const axis *along = &m->grid->axes[m->along];
+    const axis *rows = &m->grid->axes[1 - m->along];
+    fprintf(to, "$%s << EOD\n", map_verdicts[verdict].word);
+    for (uint64_t row = 0; row < rows->count; row++) {
+        const double y = map_row(m, row);
+        for (uint64_t at = 0; at < along->count; at++) {
+            const uint64_t from = at;
+            while (at < along->count && m->cell[map_point(m, row, at)].verdict == verdict) {
+                at++;
+            }
+            if (at > from) {
+                fprintf(to, "%.9g %.9g %.9g %.9g %.9g %.9g\n", map_along(m, from), y,
+                        edge(along, map_along(m, from), false),
+                        edge(along, map_along(m, at - 1), true), edge(rows, y, false),
+                        edge(rows, y, true));
+            }
+        }
+    }
+    fputs("EOD\n", to);
+}
+
+/* As high as its cell, so that a row alone has a line, too; what lies beyond the picture is none of it. How many. */
+static uint64_t write_limits(FILE *to, const stability_map *m) {
+    const axis *along = &m->grid->axes[m->along];
+    const axis *rows = &m->grid->axes[1 - m->along];
+    const double least = edge(along, map_along(m, 0), false);
+    const double most = edge(along, map_along(m, along->count - 1), true);
+    uint64_t count = 0;
+    fputs("$limit << EOD\n", to);
+    for (uint64_t row = 0; row < rows->count; row++) {
+        const double y = map_row(m, row);
+        if (m->limit_s[row] > least && m->limit_s[row] < most) {
+            fprintf(to, "%.9g %.9g\n%.9g %.9g\n", m->limit_s[row], edge(rows, y, false),
+                    m->limit_s[row], edge(rows, y, true));
+            count++;
+        } else {
+            fputc('\n', to);
+        }
+    }
+    fputs("EOD\n", to);
+    return count;
+}
+
+static bool is_drawn(const stability_map *m, int verdict) {
+    return colours[verdict] != NULL && map_count(m, (map_verdict)verdict) > 0;
+}
+
+bool map_plot(const char *file, const stability_map *m, const char *words) {
+    gnuplot g;
+    if (!gnuplot_open(&g, file, HEIGHT)) {
+        return false;
+    }
+    fputs("set title ", g.to);
+    gnuplot_quote(g.to, words);
+    fputs(" noenhanced\n", g.to);
+    set_axis(g.to, &m->grid->axes[m->along], 'x', m->has_limit ? " [s]" : "");
+    set_axis(g.to, &m->grid->axes[1 - m->along], 'y', "");
+    fputs("set key outside right top samplen 2\nset tics out\nset style fill solid noborder\n",
+          g.to);
+    for (int i = 0; i < MAP_VERDICTS; i++) {
+        if (is_drawn(m, i)) {
+            write_cells(g.to, m, (map_verdict)i);
+        }
+    }
+    const uint64_t limits = write_limits(g.to, m);
+    const char *comma = "plot ";
+    for (int i = 0; i < MAP_VERDICTS; i++) {
+        if (is_drawn(m, i)) {
+            fprintf(g.to, "%s$%s with boxxyerror lc rgb '%s' title '%s'", comma,
+                    map_verdicts[i].word, colours[i], map_verdicts[i].word);
+            comma = ", ";
+        }
+    }
+    if (limits > 0) {
+        fprintf(g.to, "%s$limit with lines lw 3 lc rgb 'black' title 'limit of theory'", comma);
+    } else if (*comma == 'p') {
+        fputs("plot NaN notitle", g.to);
+    }
+    fputc('\n', g.to);
+    return gnuplot_close(&g);
+}

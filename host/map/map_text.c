@@ -1,0 +1,96 @@
+/* map_text.c: see map_text.h. */
+#include "map_text.h"
+
+#include <math.h>
+
+static const axis *along_of(const stability_map *m) { return &m->grid->axes[m->along]; }
+static const axis *rows_of(const stability_map *m) { return &m->grid->axes[1 - m->along]; }
+
+static map_verdict verdict_at(const stability_map *m, uint64_t row, uint64_t at) {
+    return m->cell[map_point(m, row, at)].verdict;
+}
+
+/* --- for people ------------------------------------------------------------------------------------------*/
+
+static void print_limit(FILE *out, double limit_s) {
+    if (limit_s > 0.0) {
+        fprintf(out, "  %.4g s", limit_s);
+    } else if (isfinite(limit_s)) {
+        fputs("  none", out);
+    }
+}
+
+static void print_row(FILE *out, const stability_map *m, uint64_t row) {
+    const uint64_t count = along_of(m)->count;
+    const double limit_s = m->limit_s[row];
+    bool behind = !isfinite(limit_s);
+    fprintf(out, "  %-12.6g ", map_row(m, row));
+    for (uint64_t i = 0; i < count; i++) {
+        if (!behind && limit_s < map_along(m, i)) {
+            fputc('|', out);
+            behind = true;
+        }
+        fputc(map_verdicts[verdict_at(m, row, i)].mark, out);
+    }
+    fputs(behind ? "" : "|", out);
+    print_limit(out, limit_s);
+    fputc('\n', out);
+}
+
+/* The largest value of a row on top, as in the picture. */
+void map_print(FILE *out, const stability_map *m, const char *words) {
+    const axis *along = along_of(m);
+    const axis *rows = rows_of(m);
+    fprintf(out, "%s\n\n  %-12.40s %.40s from %.6g to %.6g%s%s\n", words, rows->column,
+            along->column, map_along(m, 0), map_along(m, along->count - 1),
+            along->is_log ? ", logarithmic" : "",
+            m->has_limit ? "; |: longest stable step, by the linear theory" : "");
+    const bool rises = rows->from <= rows->to;
+    for (uint64_t i = 0; i < rows->count; i++) {
+        print_row(out, m, rises ? rows->count - 1 - i : i);
+    }
+    fputc('\n', out);
+    for (int i = 0; i < MAP_VERDICTS; i++) {
+        const uint64_t count = map_count(m, (map_verdict)i);
+        if (count > 0) {
+            fprintf(out, "  %c  %-8s %6llu  %s\n", map_verdicts[i].mark, map_verdicts[i].word,
+                    (unsigned long long)count, map_verdicts[i].words);
+        }
+    }
+}
+
+/* --- for programs ----------------------------------------------------------------------------------------*/
+
+static void field(FILE *out, double value) {
+    char text[NUMBER_SIZE];
+    fprintf(out, ",%s", isfinite(value) ? number_shortest(value, text) : "");
+}
+
+static void write_row(FILE *out, const stability_map *m, uint64_t point) {
+    const map_cell *c = &m->cell[point];
+    const uint64_t second = m->grid->axes[1].count;
+    const bool known = c->verdict != MAP_NONE;
+    char text[NUMBER_SIZE];
+    double value[2];
+    grid_values(m->grid, point, value);
+    fprintf(out, "%s", number_shortest(value[0], text));
+    field(out, value[1]);
+    fprintf(out, ",%s", map_verdicts[c->verdict].word);
+    field(out, known ? c->until_s : (double)NAN);
+    field(out, known ? c->end_s : (double)NAN);
+    field(out, c->left_over);
+    field(out, m->limit_s[m->along == 1 ? point / second : point % second]);
+    fputs("\r\n", out);
+}
+
+bool map_csv(FILE *out, const stability_map *m) {
+    const grid *g = m->grid;
+    fprintf(out, "%s,%s,verdict,until,end,energy_left_over,limit\r\n", g->axes[0].column,
+            g->axes[1].column);
+    for (uint64_t i = 0; i < g->points; i++) {
+        if (m->cell[i].verdict != MAP_UNTRIED) {
+            write_row(out, m, i);
+        }
+    }
+    return fflush(out) == 0 && ferror(out) == 0;
+}

@@ -1,0 +1,82 @@
+/* stability_map.h: what becomes of a scene's run for each pair of two swept values: does it stay bounded, keep its energy,
+ * keep a tolerance? And where a method's stability ends by the linear theory.
+ *
+ * Each run has a finer one beside it (host/trust/twins.h), which says until when it is right, and books, which say what of
+ * its energy is missing (host/run/belief.h). A map's rows are the values of the axis that is no step; the theory's limit of
+ * a row is the longest step that lets no motion grow which takes part in the run by the finest step there, linearised
+ * along its way (host/run/linearised.h). It knows no contacts, and nothing of motions that get faster when the step is
+ * long. */
+#ifndef MAP_STABILITY_MAP_H
+#define MAP_STABILITY_MAP_H
+
+#include <signal.h>
+
+#include "host/run/engine.h"
+#include "host/sweep/grid.h"
+
+/* A rate that is off by so many times the range that it has in the finest run of its row has left all bounds: what
+ * grows step by step passes that long before numbers end. */
+#define MAP_BOUND 100.0
+
+/* What becomes of a run, from good to bad. X(id, mark, word, words) */
+#define MAP_VERDICT_ROWS(X) \
+    X(MAP_KEEPS, '.', "keeps", "right to the tolerance, to its end") \
+    X(MAP_OFF, 'o', "off", "bounded, and off by more than the tolerance before its end") \
+    X(MAP_LOSES, 'x', "loses", \
+      "bounded, and more than a thousandth of its energy is not accounted for") \
+    X(MAP_DIVERGES, '#', "diverges", "out of all bounds, or a rate a hundred times its range off") \
+    X(MAP_NONE, '-', "none", "no such run: its values are refused") \
+    X(MAP_UNTRIED, '?', "untried", "interrupted before it was run")
+#define MAP_VERDICT_ID(id, mark, word, words) id,
+typedef enum map_verdict { MAP_VERDICT_ROWS(MAP_VERDICT_ID) MAP_VERDICTS } map_verdict;
+#undef MAP_VERDICT_ID
+
+typedef struct map_verdict_row {
+    char mark;
+    const char *word;
+    const char *words;
+} map_verdict_row;
+extern const map_verdict_row map_verdicts[MAP_VERDICTS];
+
+typedef struct map_cell {
+    map_verdict verdict; /* of MAP_NONE and MAP_UNTRIED nothing else is known */
+    double end_s;        /* until then it went */
+    double until_s;      /* until then it is right to the tolerance */
+    double left_over;    /* part of the energy's largest entry that is missing; NAN: not known */
+} map_cell;
+
+typedef struct map_wish {
+    const grid *grid; /* two axes */
+    const mechanism *mechanism;
+    const scene *scene; /* NULL for a bare mechanism */
+    const overrides *changes;
+    const engine_kind *kind; /* float or double */
+    image_settings settings;
+    double tolerance;
+    const volatile sig_atomic_t *stop;         /* may be NULL */
+    void (*progress)(double runs, void *told); /* so many are done; or NULL */
+    void *told;
+} map_wish;
+
+typedef struct stability_map {
+    const grid *grid;
+    map_cell *cell;  /* [grid->points] */
+    uint64_t done;   /* cells; fewer than points where it was stopped */
+    int along;       /* the step's axis, or where neither is the step 1 */
+    bool has_limit;  /* one is the step */
+    double *limit_s; /* [count of the other axis] longest stable step; 0: none is, NAN: not known */
+} stability_map;
+
+/* Place by row, from the shortest step of each on. */
+stability_map map_make(const map_wish *w);
+void map_free(stability_map *m);
+
+/* How many cells have this verdict. */
+uint64_t map_count(const stability_map *m, map_verdict verdict);
+/* The grid's point of the `at`-th value along m->along, from the least on, and of value `row` of the other axis. */
+uint64_t map_point(const stability_map *m, uint64_t row, uint64_t at);
+/* These values: SI. */
+double map_along(const stability_map *m, uint64_t at);
+double map_row(const stability_map *m, uint64_t row);
+
+#endif

@@ -1,0 +1,10 @@
+/* step_text.h: a step as --step takes it. */
+#ifndef RUN_STEP_TEXT_H
+#define RUN_STEP_TEXT_H
+
+enum { STEP_WORD = 40 };
+
+/* "200us", in as many digits as it takes to be read back as it is; returns `text`. */
+const char *step_text(double step_s, char text[STEP_WORD]);
+
+#endif

@@ -1,0 +1,80 @@
+# hard.mk: the hard cases of docs/hard (docs/hard_cases.md) with the same bits everywhere: fast rotation, whole turns far
+# from zero, resonance and the passage through it, dead centres, subnormals and the rest. Few steps each, so that boards
+# which take long for a step take part.
+
+# FILE:SCENE of docs/hard; the scene's name is its name in the table.
+HARD := rotor:rotor_fast rotor:rotor_weighted rotor:rotor_far rotor:rotor_slow resonance:resonance_grows \
+    sommerfeld:shaker_through dead_centre:crank_turns dead_centre:crank_starts polar:polar_passes disc:disc_swings \
+    masses:masses_swing stiff_spring:stiff_spring_swings stiff_stop:floor_of_spring stiff_stop:floor_of_stop \
+    pulsating_load:load_pulsates moving_floor:hops_end moving_floor:table_falls_away redundant:beam_lifts \
+    redundant:blocks_slide cradle:cradle_swings jump:jump_inside scales:scales_least scales:scales_subnormal \
+    scales:scales_most
+HARD_UNTIL := 0.8s
+HARD_IN := build/hard
+hard_names := $(foreach s,$(HARD),$(lastword $(subst :, ,$(s))))
+HARD_C := $(patsubst %,$(HARD_IN)/%.c,scenes $(hard_names))
+
+# hard_scene FILE SCENE
+define hard_scene
+$(HARD_IN)/$(2).c: docs/hard/$(1).whirl build/whirl mk/hard.mk
+	@mkdir -p $$(@D)
+	$$(say) GEN $$@
+	$$(Q)build/whirl derive $$<:$(2) --as c --until $(HARD_UNTIL) --header $$(@:.c=.h) >$$@
+endef
+$(foreach s,$(HARD),$(eval $(call hard_scene,$(firstword $(subst :, ,$(s))),$(lastword $(subst :, ,$(s))))))
+$(HARD_IN)/scenes.c: mk/count/index.sh mk/hard.mk $(hard_names:%=$(HARD_IN)/%.c)
+	@mkdir -p $(@D)
+	$(say) GEN $@
+	$(Q)$< $(hard_names) >$@
+.SECONDARY: $(HARD_C)
+
+$(eval $(call program,scenes_hard,boards/programs/scenes.c $(HARD_C),whirl))
+
+.PHONY: hard-images print-hard-hashes
+ifeq ($(BOARD_IMAGES),single)
+# An image a scene; one that does not fit is an empty file.
+hard_elf := $(hard_names:%=$(SINGLE)/hard_%.elf)
+$(hard_elf): $(SINGLE)/hard_%.elf: $(B)/$(BOARD)/$(HARD_IN)/%.o boards/programs/scenes.c boards/programs/to_the_end.h $(MATRIX_NEEDS)
+	@mkdir -p $(@D)
+	$(say) LINK $@
+	$(Q)mk/count/index.sh $* >$(@:.elf=.c)
+	$(Q)$(call single_link,boards/programs/scenes.c $(@:.elf=.c),-I$(HARD_IN) -include $(HARD_IN)/$*.h \
+	    -DWH_SCENE_WORDS=$*_MEMORY_WORDS) 2>$(@:.elf=.log) || \
+	    { grep -qE 'region|overflowed' $(@:.elf=.log) || { cat $(@:.elf=.log) >&2; exit 1; }; : >$@; }
+hard-images: $(hard_elf) $(AVR_RUN)
+# Exit status 123: its stack had too little room.
+print-hard-hashes:
+	@for name in $(hard_names); do elf=$(SINGLE)/hard_$$name.elf; status=0; \
+	    [ -s $$elf ] || { echo "without $$name"; continue; }; \
+	    $(call emulate,$$elf) >$${elf%.elf}.said || status=$$?; \
+	    if [ $$status -eq 123 ]; then echo "without $$name"; else cat $${elf%.elf}.said; [ $$status -eq 0 ] || exit 1; fi; done
+else
+hard-images: $(ELF)/scenes_hard.elf
+print-hard-hashes: # of the hard cases
+	@$(call need,$(BOARD_EMULATOR))
+	@$(call emulate,$(ELF)/scenes_hard.elf)
+endif
+
+# Beside the interpreter: this machine's compilers, other processors, boards. HARD_BOARDS="mps2-an386": on these.
+HARD_BUILDS ?= gcc-O0 gcc-O2 clang-O2
+HARD_HOSTS ?=
+HARD_BOARDS ?= $(BOARDS)
+.PHONY: hashes-hard $(addprefix hard-build-,$(HASH_BUILDS)) $(addprefix hard-host-,$(HASH_HOSTS))
+$(addprefix hard-build-,$(HASH_BUILDS)): hard-build-%:
+	@$(MAKE) B=build/hash/$* CC=$(firstword $(subst -, ,$*)) OPT=-$(lastword $(subst -, ,$*)) build/hash/$*/scenes_hard
+$(addprefix hard-host-,$(HASH_HOSTS)): hard-host-%:
+	@$(call need,$(host_cc_$*))
+	@$(call need,$(host_run_$*))
+	@$(MAKE) B=build/hosts/$* CC="$(host_cc_$*)" OPT=-O1 $(host_set_$*) build/hosts/$*/scenes_hard
+##@ Tests and quality
+hashes-hard: build/whirl $(HARD_C) ## the same bits on every board of the hard cases of docs/hard_cases.md (a minute; HARD_BOARDS="...")
+	+@$(MAKE) $(addprefix hard-build-,$(HARD_BUILDS)) $(addprefix hard-host-,$(HARD_HOSTS))
+	+@$(foreach b,$(HARD_BOARDS),$(call on_board,$(b),hard-images) &&) true
+	@sh tests/hashes.sh build/hash/hard "the interpreter" "sh tests/hard_hashes.sh $(HARD_UNTIL) $(HARD)" \
+	    $(foreach h,$(HARD_BUILDS),$(h) build/hash/$(h)/scenes_hard) \
+	    $(foreach h,$(HARD_HOSTS),"$(h)" "$(host_run_$(h)) build/hosts/$(h)/scenes_hard") \
+	    $(foreach b,$(HARD_BOARDS),"$(b)" "$(call on_board,$(b),print-hard-hashes)")
+
+.PHONY: guards
+guards: build/tests/host ## takes each guard of a hard case away: does a test fail? (minutes; in a copy of the tree)
+	@MAKE="$(MAKE)" sh mk/mutants/guards.sh

@@ -1,0 +1,63 @@
+#!/bin/sh
+# guards.sh [ROW...]: takes each guard of guards.rows away, in a copy of the tree under build/guards, and asks the suites beside
+# it: one must fail. Rows are numbers from 1 on; all when left out. The tree itself is only read. Exit status 1: a guard is
+# held by nothing, or its line is not found.
+set -eu
+
+here=mk/mutants
+top=build/guards
+: "${MAKE:=make}"
+parts="Makefile README.md mk core hal boards host tests docs"
+# A copy that is there already may have been built of a guard taken away: what is the same stays, with its time, and what is
+# put back is newer than what was built of it.
+if [ -d "$top/tree" ]; then
+    # shellcheck disable=SC2086 # a list
+    find $parts -type f | while read -r file; do
+        mkdir -p "$top/tree/$(dirname "$file")"
+        cmp -s "$file" "$top/tree/$file" || cp "$file" "$top/tree/$file"
+    done
+    # shellcheck disable=SC2086
+    (cd "$top/tree" && find $parts -type f) | while read -r file; do
+        [ -e "$file" ] || rm "$top/tree/$file"
+    done
+else
+    mkdir -p "$top/tree/build"
+    for part in $parts; do
+        cp -a "$part" "$top/tree/"
+    done
+fi
+for part in host float double gen unity tests whirl; do
+    [ -e "$top/tree/build/$part" ] || [ ! -e "build/$part" ] || cp -a "build/$part" "$top/tree/build/"
+done
+build() { (cd "$top/tree" && $MAKE build/tests/host) >"$top/build.log" 2>&1; }
+build || { tail "$top/build.log" >&2; exit 1; }
+
+bad=0
+number=0
+while IFS='@' read -r name file change suites; do
+    case $name in '#'* | '') continue ;; esac
+    number=$((number + 1))
+    case " $* " in "  " | *" $number "*) ;; *) continue ;; esac
+    file=$(echo "$file" | tr -d ' ')
+    change=$(echo "$change" | sed 's/^ *//; s/ *$//')
+    verdict="held by nothing"
+    held=""
+    cp -p "$file" "$top/kept"
+    sed "$change" "$file" >"$top/tree/$file"
+    if cmp -s "$file" "$top/tree/$file"; then
+        verdict="its line is not there"
+    elif ! build; then
+        verdict="does not compile: $(grep -m 1 error "$top/build.log")"
+    else
+        for suite in $suites; do
+            (cd "$top/tree" && timeout 300 build/tests/host "$suite") >"$top/$suite.log" 2>&1 ||
+                held="$held, $suite ($(grep -o '[a-z_0-9]*:FAIL' "$top/$suite.log" | sed 's/:FAIL//' | head -n 1))"
+        done
+        [ -z "$held" ] || verdict="held by ${held#, }"
+    fi
+    cp -p "$top/kept" "$top/tree/$file"
+    touch "$top/tree/$file"
+    case $verdict in "held by nothing" | its* | does*) bad=1 ;; esac
+    printf '%2d %s: %s\n' "$number" "$(echo "$name" | sed 's/ *$//')" "$verdict"
+done <"$here/guards.rows"
+exit $bad

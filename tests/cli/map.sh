@@ -1,0 +1,173 @@
+#!/bin/sh
+# map.sh: `whirl map`: that its map, its rows and its picture say the same, and what is refused. Whether it is true is asked by
+# build/tests/host map.
+. "$(dirname "$0")/../checks.sh"
+
+# refused STATUS PATTERN WORD...: that status, these words on standard error, nothing on standard output
+refused() {
+    status=$1
+    pattern=$2
+    shift 2
+    timeout 60 "$whirl" map "$@" >"$scratch/out" 2>"$scratch/err"
+    [ $? -eq "$status" ] && grep -q -- "$pattern" "$scratch/err" && [ ! -s "$scratch/out" ]
+    verdict $? "whirl map $*: status $status, $pattern"
+}
+spring=mk/stability/spring.whirl
+steps=--over=step=10ms..1s:21,log
+places=--over=k=50..200:5
+
+# --- one answer, three places ------------------------------------------------------------------------------------------
+while read -r scene options; do
+    # shellcheck disable=SC2086 # words
+    "$whirl" map "$scene" $options --csv "$scratch/rows" --plot "$scratch/map.svg" >"$scratch/words" 2>"$scratch/err"
+    [ $? -eq 0 ] && [ ! -s "$scratch/err" ]
+    verdict $? "whirl map $scene $options"
+    awk -F, 'NR > 1 { seen[$3]++ } END { for (each in seen) { print each, seen[each] } }' "$scratch/rows" | sort >"$scratch/counted"
+    sed -n 's/^  [^ ]  \([a-z][a-z]*\)  *\([0-9][0-9]*\)  .*/\1 \2/p' "$scratch/words" | sort | cmp - "$scratch/counted" >"$scratch/err" 2>&1 &&
+        [ "$(wc -l <"$scratch/counted")" -ge 2 ]
+    verdict $? "its words count as many of each as there are rows: $(tr '\n' ' ' <"$scratch/counted")" "$scratch/words"
+    # the marks of the map, without the limits, are those of the legend, as often as it says
+    awk '/^$/ { block++; next }
+        block == 1 && lines++ { for (i = 1; i <= length($2); i++) { seen[substr($2, i, 1)]++ } }
+        block == 2 { wanted[$1] = $3 }
+        END { for (each in wanted) { if (seen[each] != wanted[each]) { exit 1 } } }' "$scratch/words"
+    verdict $? "and as many marks" "$scratch/words"
+    sed -n 's/.*<title>\([a-z]*\)<.title>.*/\1/p' "$scratch/map.svg" | sort >"$scratch/drawn"
+    sed 's/ .*//' "$scratch/counted" | cmp - "$scratch/drawn" >"$scratch/err" 2>&1
+    verdict $? "and so does the picture's key" "$scratch/drawn"
+    rm -f "$scratch/map.svg" "$scratch/rows"
+done <<END
+$spring $steps $places
+$spring $places $steps --method nystroem5 --number float
+$spring $steps $places --method euler
+$spring --over=step=1s..10ms:21,log --over=k=200..50:5
+belt_stick_slip --over=step=1..100[ms]:5,log --over=k=100..1e4:3 --until 2s
+epicyclic_from_rest --over=M=1..3:3 --over=theta'=0..5:2 --until 1s --step 100ms --tolerance 1e-6
+END
+
+# --- the limit, in words and in rows --------------------------------------------------------------------------------------
+"$whirl" map $spring $steps $places --csv - >"$scratch/rows" 2>"$scratch/words"
+verdict $? "rows on standard output, the map on standard error" "$scratch/words"
+tr -d '\r' <"$scratch/rows" | awk -F, 'NR > 1 { off = $7*sqrt($2)/sqrt(8) - 1; if (off < -1e-4 || off > 1e-4) { bad++ } } END { exit bad || NR != 106 }'
+verdict $? "each row's limit is sqrt(8 m/k), Runge-Kutta 4's" "$scratch/rows"
+# `|` stands in front of the first step that is longer
+tr -d '\r' <"$scratch/rows" | awk -F, -v words="$scratch/words" '
+    NR > 1 { within[$2 + 0] += $1 <= $7 }
+    END { while ((getline line < words) > 0) {
+        n = split(line, part, " ")
+        if (n == 4 && part[4] == "s" && index(part[2], "|")) { found++; if (index(part[2], "|") - 1 != within[part[1] + 0]) { bad++ } }
+    } exit bad || found != 5 }'
+verdict $? "and so stands the mark" "$scratch/words"
+"$whirl" map $spring --over=step=1s..10ms:21,log --over=k=200..50:5 2>"$scratch/err" | sed 's/^[^:]*: //' >"$scratch/falls"
+"$whirl" map $spring $places $steps 2>"$scratch/err" | sed 's/^[^:]*: //' | cmp - "$scratch/falls" 2>"$scratch/err"
+verdict $? "the same map, whichever way its ranges go" "$scratch/falls"
+"$whirl" map $spring $steps $places --method euler | grep -c '  none$' | grep -qx 5
+verdict $? "where no step is stable, it says none" /dev/null
+"$whirl" map $spring $steps $places --matrix exact --until 2s >"$scratch/words" 2>"$scratch/err" &&
+    ! grep -qE 'diverges|loses|[0-9] s$' "$scratch/words" && grep -q '^  [.]  keeps  *105 ' "$scratch/words"
+verdict $? "a step that is the motion has no limit, and keeps all" "$scratch/words"
+
+# --- pairs without a run ----------------------------------------------------------------------------------------------------
+"$whirl" map $spring --over=m=0..1:3 $steps >"$scratch/words" 2>"$scratch/err" && grep -q '^  -  none  *21 ' "$scratch/words"
+verdict $? "a mass of nothing: no run, and the others are there" "$scratch/words"
+"$whirl" map $spring --over=m=0..1:2 --over=step=10..20[ms]:2 --csv "$scratch/n.csv" --quiet >"$scratch/out" 2>&1 && [ ! -s "$scratch/out" ] &&
+    [ "$(tr -d '\r' <"$scratch/n.csv" | grep -c '^0,0.0[12],none,,,,$')" -eq 2 ] && [ "$(wc -l <"$scratch/n.csv")" -eq 5 ]
+verdict $? "in rows: no time, no energy, no limit" "$scratch/n.csv"
+refused 1 'error: no pair has a run' $spring --over=m=0..0:1 $steps --csv "$scratch/n.csv" --quiet
+refused 1 'error: no pair has a run' ball_bounces --over=z=-2..-1:3 --over=e=0.1..0.9:3 --plot "$scratch/n.svg" --quiet
+
+# --- what is refused --------------------------------------------------------------------------------------------------------
+refused 2 'usage: whirl map'
+refused 2 'two --over are wanted, there is none' $spring
+refused 2 'two --over are wanted, there is one' $spring "$steps"
+refused 2 "two --over, not also 'm=1..2:2'" $spring "$steps" "$places" --over m=1..2:2
+for bad in 'k=1..2' 'k=:3' '=1..2:3' 'k=1...2:3' '' 'k' 'k=1..2:x' 'k=1..2:0' 'k=1..2:1' 'k=1..2:-3' 'k=1..2:1.5' 'k=-1..2:3,log' \
+    'k=0..2:3,log' 'k=nan..2:3' 'k=1..inf:3' 'k=1..nan:3' 'nothing=1..2:3' 'x=1..m:3' 'k=1..2:3,lin' 'k=1..2 [kg]:3' 'k=1..2:99999999999999'; do
+    refused 2 'error: ' $spring "$steps" --over "$bad"
+done
+refused 2 'step must be above zero' $spring "$places" --over step=0..1:3
+refused 2 'step must be above zero' $spring "$places" --over step=-1..1:3
+refused 2 'error: .*swept already' $spring "$steps" --over step=1ms..2ms:3
+refused 2 'error: .*swept already' $spring "$places" "$places"
+refused 2 "'k' is swept by --over and given by --set" $spring "$steps" "$places" --set 'k = 3'
+refused 2 "'x' is swept by --over and given by --start" $spring "$steps" --over x=1..2:2 --start x=3
+refused 2 "'step' is swept by --over and given by --step" $spring "$steps" "$places" --step 1ms
+refused 2 '1000000 pairs, at most 250000' $spring --over k=1..2:1000 --over x=1..2:1000
+refused 2 'pairs, at most 250000' $spring --over k=1..2:999999 --over x=1..2:999999
+refused 2 'this would take about .* minutes: 105 pairs' $spring "$places" --over step=1e-9..1e-3:21,log
+refused 2 'hint: fewer pairs, .*; or --effort [0-9]*$' $spring "$steps" "$places" --until 1e7s
+refused 2 "belongs to the effect 'rail_drag', which takes no part" epicyclic_from_rest --over=b=1..2:3 "$steps"
+refused 2 "there is no number 'fixed'" $spring "$steps" "$places" --number fixed
+refused 2 'is not defined here' tests/mechanisms/lorenz.whirl "$steps" --over x=1..2:2 --method leapfrog
+refused 2 'there is no file and no built-in scene' nothing "$steps" "$places"
+refused 2 'one scene at a time' $spring thomson_a "$steps" "$places"
+for bad in 0 -1 2 1e-16 nan x 1e-3m ''; do
+    refused 2 'error: --tolerance takes a number from 1e-15 to 1' $spring "$steps" "$places" --tolerance "$bad"
+    refused 2 'error: --effort takes a number from 0.0001 to 10000' $spring "$steps" "$places" --effort "${bad%2}x"
+done
+# before the work: it would take hours
+slow="--over=step=1..2[us]:100 $places --until 10s --effort 1e4"
+for file in "$scratch" "$scratch/none/map.svg"; do
+    # shellcheck disable=SC2086 # words
+    refused 2 'cannot be written' $spring $slow --csv "$file"
+done
+# shellcheck disable=SC2086
+refused 2 'map.svg: error: cannot be written' $spring $slow --plot "$scratch/none/map.svg"
+# shellcheck disable=SC2086
+refused 2 'draws .svg and .png files' $spring $slow --plot map.pdf
+# shellcheck disable=SC2086
+refused 2 'cannot share a file' $spring $slow --plot "$scratch/map.svg" --csv "$scratch/map.svg"
+cp $spring "$scratch/mine.whirl"
+# shellcheck disable=SC2086
+refused 2 'would write over the model' "$scratch/mine.whirl" $slow --csv "$scratch/mine.whirl"
+ln -s "$scratch/mine.whirl" "$scratch/mine.svg"
+# shellcheck disable=SC2086
+refused 2 'would write over the model' "$scratch/mine.whirl" $slow --plot "$scratch/mine.svg"
+mkdir "$scratch/bin"
+for tool in sh env timeout; do ln -s "$(command -v $tool)" "$scratch/bin/$tool"; done
+program=$(realpath "$whirl")
+# shellcheck disable=SC2086
+PATH=$scratch/bin timeout 60 "$program" map $spring $slow --plot "$scratch/map.svg" >"$scratch/out" 2>"$scratch/err"
+[ $? -eq 2 ] && grep -q 'plots need gnuplot' "$scratch/err" && [ ! -s "$scratch/out" ]
+verdict $? "no gnuplot: told before the work"
+
+# --- progress, on a terminal alone ------------------------------------------------------------------------------------------
+if command -v script >/dev/null 2>&1; then
+    script -qec "'$whirl' map $spring $steps $places" "$scratch/typed" >/dev/null 2>&1 </dev/null
+    tr '\r' '\n' <"$scratch/typed" | grep -q '^105.0 of 105 runs'
+    verdict $? "progress on a terminal" "$scratch/typed"
+    script -qec "'$whirl' map $spring $steps $places --quiet" "$scratch/typed" >/dev/null 2>&1 </dev/null
+    ! grep -q ' of 105 runs' "$scratch/typed"
+    verdict $? "none with --quiet" "$scratch/typed"
+fi
+
+# --- what docs/stability.md shows ------------------------------------------------------------------------------------------------
+awk '/^## Stability maps/ { on = 1 } /^## Long runs/ { on = 0 } on' docs/stability.md >"$scratch/section"
+shown=0
+grep '^    [$] build/whirl map' "$scratch/section" >"$scratch/calls"
+while read -r call; do
+    shown=$((shown + 1))
+    awk -v call="    $call" '$0 == call { on = 1; next } on && /^[^ ]/ { exit } on { sub(/^    /, ""); print }' "$scratch/section" |
+        sed '${/^$/d;}' >"$scratch/wanted"
+    words=${call#* build/whirl }
+    eval "\"\$whirl\" $words" >"$scratch/said" 2>"$scratch/err"
+    diff "$scratch/wanted" "$scratch/said" >"$scratch/err"
+    verdict $? "docs/stability.md: $words"
+done <"$scratch/calls"
+[ "$shown" -ge 1 ]
+verdict $? "$shown calls are shown there" /dev/null
+# its pictures are those of the commands: drawn anew, they are the same, where gnuplot is
+mkdir "$scratch/docs"
+cp docs/stability.md "$scratch/docs"
+sh mk/stability/maps.sh "$whirl" "$scratch/docs" >"$scratch/out" 2>"$scratch/err"
+verdict $? "mk/stability/maps.sh draws them"
+pictures=0
+for picture in $(sed -n 's/.*(\(figures\/map_[a-z0-9_]*[.]svg\)).*/\1/p' "$scratch/section"); do
+    pictures=$((pictures + 1))
+    { [ "$(grep '^<desc>' "$scratch/docs/$picture")" != "$(grep '^<desc>' "docs/$picture")" ] && [ -s "$scratch/docs/$picture" ]; } ||
+        cmp "$scratch/docs/$picture" "docs/$picture" 2>"$scratch/err"
+    verdict $? "docs/$picture is what its command draws (make stability)"
+done
+[ $pictures -ge 3 ] && [ "$pictures" -eq "$(find docs/figures -name 'map_*.svg' | wc -l)" ]
+verdict $? "$pictures pictures, each of a command" /dev/null
+exit $failed

@@ -1,0 +1,126 @@
+/* test_contact_assign.c: what a crossing assigns (contact_resolve.h): turn angles and reals, evaluated before any is set, with
+ * their low parts gone; what no component can hold is blamed; on mechanisms that are drawn (bench.h). */
+#include "bench.h"
+
+#include "unity.h"
+
+void suite_contact_assign(void);
+
+static wh_real values[WH_SETS_MAX];
+static uint8_t target[WH_SETS_MAX];
+
+static void give(const void *model, const wh_phase *phase, const wh_real *linear,
+                 const wh_real *rate, const wh_real *input, wh_real *result) {
+    (void)model;
+    (void)phase;
+    (void)linear;
+    (void)rate;
+    (void)input;
+    result[0] = values[0];
+}
+
+/* One crossing on a drawn mechanism, of `angles` angles, that sets component `to`. Its number. */
+static unsigned draw_crossing(uint64_t *seed, unsigned n, unsigned angles, unsigned to,
+                              wh_contact_work *w, wh_contact_state *s) {
+    bench_build(seed, n, angles);
+    bench_add_some(seed, WH_KIND_BIT(WH_STOP) | WH_KIND_BIT(WH_HOLD));
+    while (bench_now.system.forced > BENCH_FORCED - 1U) { /* room for one more */
+        bench_build(seed, n, angles);
+        bench_add_some(seed, WH_KIND_BIT(WH_STOP));
+    }
+    const unsigned k = bench_add(seed, WH_WHEN, -1);
+    bench_now.contact[k].sets = 1;
+    bench_now.system.sets = give;
+    bench_now.system.target = target;
+    bench_now.system.ledger = NULL;
+    bench_now.system.compensated = draw_one_in(seed, 2);
+    target[0] = (uint8_t)to;
+    bench_work(seed, true, w);
+    bench_state(seed, s);
+    for (unsigned i = 0; i < 2U * WH_COORDS; i++) {
+        s->carry[i] = WH_R(0.125);
+    }
+    w->mode[k] = draw_one_in(seed, 2) ? 1 : -1;
+    w->books = NULL;
+    w->fault = -1;
+    w->moved = 0;
+    return k;
+}
+
+static void test_each_component_can_be_assigned(void) {
+    uint64_t seed = 2311;
+    for (unsigned round = 0; round < 300; round++) {
+        wh_contact_work w;
+        wh_contact_state s;
+        const unsigned n = 1U + draw_one_of(&seed, BENCH_COORDS);
+        const unsigned angles = draw_one_of(&seed, n + 1U);
+        const unsigned components = 2U * n;
+        const unsigned to = draw_one_of(&seed, components);
+        const unsigned k = draw_crossing(&seed, n, angles, to, &w, &s);
+        const wh_contact_state before = s;
+        const int8_t side = w.mode[k];
+        values[0] = draw_broken(&seed, -1000, 1000);
+        wh_contact_assign(&bench_now.system, &w, k, NULL, &s);
+        TEST_ASSERT_EQUAL_INT(-side, w.mode[k]); /* it is on the other side */
+        TEST_ASSERT_EQUAL_INT(-1, w.fault);
+        for (unsigned i = 0; i < components; i++) {
+            const wh_real carry = bench_now.system.compensated && i == to ? WH_R(0.0) : WH_R(0.125);
+            TEST_ASSERT_TRUE(s.carry[i] == carry);
+            if (i < angles) {
+                TEST_ASSERT_TRUE(s.angle[i] ==
+                                 (i == to ? wh_angle_from_rad(values[0]) : before.angle[i]));
+            } else {
+                TEST_ASSERT_TRUE(s.real[i - angles] ==
+                                 (i == to ? values[0] : before.real[i - angles]));
+            }
+        }
+        TEST_ASSERT_EQUAL_UINT(k, w.mover);
+    }
+}
+
+/* A turn angle holds less than 1e9 rad, all else less than 1e15; no number is none. */
+static void test_what_cannot_be_held_is_blamed(void) {
+    uint64_t seed = 1123;
+    for (unsigned round = 0; round < 200; round++) {
+        wh_contact_work w;
+        wh_contact_state s;
+        const unsigned n = 1U + draw_one_of(&seed, BENCH_COORDS);
+        const unsigned angles = draw_one_of(&seed, n + 1U);
+        const unsigned to = draw_one_of(&seed, 2U * n);
+        const wh_real most = to < angles ? WH_R(1e9) : WH_R(1e15);
+        const wh_real sizes[] = {WH_R(0.99), WH_R(1.01), WH_R(1e10), (wh_real)__builtin_nan("")};
+        const unsigned which = draw_one_of(&seed, 4);
+        const unsigned k = draw_crossing(&seed, n, angles, to, &w, &s);
+        values[0] = (draw_one_in(&seed, 2) ? most : -most) * sizes[which];
+        wh_contact_assign(&bench_now.system, &w, k, NULL, &s);
+        TEST_ASSERT_EQUAL_INT(which == 0 ? -1 : (int)to, w.fault);
+    }
+}
+
+/* Without anything to set a crossing changes its side, and nothing else. */
+static void test_nothing_to_set(void) {
+    uint64_t seed = 311;
+    for (unsigned round = 0; round < 40; round++) {
+        wh_contact_work w;
+        wh_contact_state s;
+        const unsigned k = draw_crossing(&seed, 2, 1, 0, &w, &s);
+        const wh_contact_state before = s;
+        const int8_t side = w.mode[k];
+        values[0] = WH_R(7.0);
+        if (round % 2 == 0) {
+            bench_now.contact[k].sets = 0;
+        } else {
+            bench_now.system.sets = NULL;
+        }
+        wh_contact_assign(&bench_now.system, &w, k, NULL, &s);
+        TEST_ASSERT_TRUE(w.mode[k] == -side && w.moved == 0);
+        TEST_ASSERT_TRUE(s.angle[0] == before.angle[0] && s.real[0] == before.real[0]);
+        TEST_ASSERT_TRUE(s.real[1] == before.real[1] && s.real[2] == before.real[2]);
+    }
+}
+
+void suite_contact_assign(void) {
+    RUN_TEST(test_each_component_can_be_assigned);
+    RUN_TEST(test_what_cannot_be_held_is_blamed);
+    RUN_TEST(test_nothing_to_set);
+}

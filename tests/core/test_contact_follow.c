@@ -1,0 +1,156 @@
+/* test_contact_follow.c: what an input moves between steps: a stop that a body rests on, and what a curved hold holds; and the
+ * accelerations that records show, with the contacts' forces. On mechanisms with closed forms (hand.h). */
+#include "hand.h"
+
+#include "unity.h"
+
+void suite_contact_follow(void);
+
+#define STEP_S WH_R(0.001)
+#define REACH_M (WH_R(0.5) * HAND_G * STEP_S * STEP_S) /* what a body falls in a step */
+
+/* A ball of 1 kg at rest on a stop that the input moves. */
+static void rest_on_a_stop(bool books) {
+    hand_build_ball(WH_R(0.5));
+    hand_now.weighs = true;
+    hand_now.start[0] = WH_R(0.0);
+    hand_now.contact[0].direction = 1;
+    hand_start(books);
+    hand_steps(3);
+    TEST_ASSERT_TRUE(hand_state.contacts->mode[0] == WH_ACTIVE && hand_state.real[0] == WH_R(0.0));
+}
+
+/* Raised, or lowered by no more than the ball falls in a step, the stop takes the ball along: it rests where the stop is,
+ * and the energy m g s is the stop's. */
+static void test_a_stop_takes_along_what_rests_on_it(void) {
+    const wh_real moves[] = {WH_R(1e-3), WH_R(3e-5), WH_R(0.25), WH_R(-0.5) * REACH_M,
+                             WH_R(-0.9) * REACH_M};
+    for (unsigned i = 0; i < sizeof moves / sizeof moves[0]; i++) {
+        rest_on_a_stop(true);
+        hand_now.law[0].offset = moves[i];
+        hand_steps(1);
+        TEST_ASSERT_TRUE(hand_state.contacts->mode[0] == WH_ACTIVE);
+        TEST_ASSERT_TRUE(hand_near(hand_state.real[0], moves[i], 1e-18, 1e-9));
+        TEST_ASSERT_TRUE(hand_state.real[1] == WH_R(0.0));
+        const wh_real work = hand_state.ledger[wh_ledger_of_contact(&hand_books, 0)];
+        TEST_ASSERT_TRUE(hand_near(work, HAND_G * moves[i], 1e-15, 4e-7));
+        hand_steps(5);
+        TEST_ASSERT_TRUE(hand_near(hand_state.real[0], moves[i], 1e-18, 1e-9));
+    }
+}
+
+/* Lowered by more, it leaves the ball behind, which falls freely from where it was. */
+static void test_a_stop_that_drops_away_leaves_the_ball(void) {
+    const wh_real moves[] = {WH_R(-1.2) * REACH_M, WH_R(-2.0) * REACH_M, WH_R(-1e-3), WH_R(-2.0)};
+    for (unsigned i = 0; i < sizeof moves / sizeof moves[0]; i++) {
+        rest_on_a_stop(true);
+        hand_now.law[0].offset = moves[i];
+        hand_steps(1);
+        TEST_ASSERT_TRUE(hand_state.contacts->mode[0] == WH_FREE);
+        TEST_ASSERT_TRUE(hand_near(hand_state.real[0], -REACH_M, 1e-18, 1e-12));
+        TEST_ASSERT_TRUE(hand_near(hand_state.real[1], -HAND_G * STEP_S, 1e-16, 1e-9));
+        TEST_ASSERT_TRUE(hand_state.ledger[wh_ledger_of_contact(&hand_books, 0)] == WH_R(0.0));
+        hand_steps(
+            40); /* it comes down onto the stop, if that is near: loses its height, bounces by half */
+        TEST_ASSERT_TRUE(i == 3 || hand_state.contacts->events > 0);
+        TEST_ASSERT_TRUE(hand_state.real[0] >= moves[i] - WH_R(1e-9));
+    }
+}
+
+/* One that no input moves (direction 0) is looked at as well: nothing is off. And of two on two stops only the one whose
+ * stop was moved is taken along. */
+static void test_others_stay_where_they_are(void) {
+    for (unsigned moved = 0; moved < 2; moved++) {
+        hand_build(2, WH_R(1.0), WH_R(0.0), WH_R(2.0));
+        hand_now.load[0] = -HAND_G;
+        hand_now.load[1] = WH_R(-2.0) * HAND_G;
+        hand_add(WH_STOP, 0, WH_R(1.0), WH_R(0.0), WH_R(0.0), WH_R(0.0), WH_R(0.0));
+        hand_add(WH_STOP, 1, WH_R(0.0), WH_R(1.0), WH_R(0.0), WH_R(0.0), WH_R(0.0));
+        hand_now.contact[moved].direction = 1;
+        hand_start(false);
+        hand_steps(3);
+        hand_now.law[moved].offset = WH_R(0.125);
+        hand_steps(2);
+        TEST_ASSERT_TRUE(hand_state.real[moved] == WH_R(0.125));
+        TEST_ASSERT_TRUE(hand_state.real[1 - moved] == WH_R(0.0));
+        hand_now.law[moved].offset = WH_R(-0.25);
+        hand_steps(2);
+        TEST_ASSERT_TRUE(hand_state.contacts->mode[moved] == WH_FREE);
+        TEST_ASSERT_TRUE(hand_state.contacts->mode[1 - moved] == WH_ACTIVE);
+        TEST_ASSERT_TRUE(hand_state.real[1 - moved] == WH_R(0.0));
+    }
+}
+
+/* --- holds ------------------------------------------------------------------------------------------------ */
+
+/* Two bodies of 1 and 3 kg held at a distance that an input names, too, drawn by a load: the input moves nobody, whatever
+ * it does; both go on as one body of 4 kg. */
+static void test_an_input_moves_nobody_that_is_held(void) {
+    hand_build(2, WH_R(1.0), WH_R(0.0), WH_R(3.0));
+    hand_add(WH_HOLD, -1, WH_R(1.0), WH_R(-1.0), WH_R(0.0), WH_R(0.0), WH_R(0.0));
+    hand_now.contact[0].direction = -1;
+    hand_now.system.held = 1;
+    hand_now.load[0] = WH_R(4.0);
+    hand_now.start[0] = WH_R(0.5);
+    hand_pushed = WH_R(1.0);
+    hand_start(false);
+    for (unsigned i = 0; i < 100; i++) {
+        hand_now.law[0].offset = WH_R(0.01) * (wh_real)(i % 7U);
+        hand_steps(1);
+    }
+    const wh_real way = WH_R(0.005); /* 1 m/s^2 for 0.1 s */
+    TEST_ASSERT_TRUE(hand_state.contacts->mode[0] == WH_ACTIVE);
+    TEST_ASSERT_TRUE(hand_near(hand_state.real[0], WH_R(0.5) + way, 1e-13, 3e-6));
+    TEST_ASSERT_TRUE(hand_near(hand_state.real[1], way, 1e-13, 3e-6));
+    hand_pushed = WH_R(0.0);
+}
+
+/* --- what records show --------------------------------------------------------------------------------------- */
+
+static wh_real shown(unsigned i) {
+    wh_real accel[WH_COORDS];
+    const uint64_t before = wh_scene_hash(&hand_now.scene, &hand_state);
+    wh_contact_observe(&hand_now.system, &hand_state, accel);
+    TEST_ASSERT_TRUE(wh_scene_hash(&hand_now.scene, &hand_state) == before);
+    return accel[i];
+}
+
+/* Before the first step as after it: at rest on a stop nothing accelerates, above it all falls; friction holds what it can
+ * and slows what slides by what it has. */
+static void test_accelerations_with_their_contacts(void) {
+    for (unsigned k = 0; k < 2; k++) {
+        hand_build_ball(WH_R(0.5));
+        hand_now.start[0] = WH_R(0.25) * (wh_real)k;
+        hand_start(false);
+        for (unsigned i = 0; i < 2; i++) {
+            TEST_ASSERT_TRUE(shown(0) == (k == 0 ? WH_R(0.0) : -HAND_G));
+            hand_steps(1);
+        }
+    }
+    const wh_real loads[] = {WH_R(0.0), WH_R(1.0), WH_R(-1.9), WH_R(2.1), WH_R(-6.0)};
+    for (unsigned k = 0; k < 3 * sizeof loads / sizeof loads[0]; k++) {
+        const wh_real load = loads[k / 3];
+        hand_build(1, WH_R(2.0), WH_R(0.0), WH_R(1.0));
+        hand_add(WH_FRICTION, 0, WH_R(1.0), WH_R(0.0), WH_R(0.0), WH_R(2.0), WH_R(1.0));
+        hand_now.load[0] = load;
+        hand_now.start[1] = WH_R(1.0) - (wh_real)(k % 3U); /* forward, still, backward */
+        hand_start(false);
+        const wh_real way = k % 3U != 1        ? hand_now.start[1]
+                            : load > WH_R(0.0) ? WH_R(1.0)
+                                               : WH_R(-1.0);
+        const bool sticks = k % 3U == 1 && WH_ABS(load) < WH_R(2.0);
+        for (unsigned i = 0; i < 2; i++) {
+            TEST_ASSERT_TRUE(
+                hand_near(shown(0), sticks ? WH_R(0.0) : (load - way) / 2, 1e-15, 3e-7));
+            hand_steps(1);
+        }
+    }
+}
+
+void suite_contact_follow(void) {
+    RUN_TEST(test_a_stop_takes_along_what_rests_on_it);
+    RUN_TEST(test_a_stop_that_drops_away_leaves_the_ball);
+    RUN_TEST(test_others_stay_where_they_are);
+    RUN_TEST(test_an_input_moves_nobody_that_is_held);
+    RUN_TEST(test_accelerations_with_their_contacts);
+}

@@ -1,0 +1,61 @@
+/* test_coarse_tables.c: energy that coarse tables lose is told with the tables as its cause: drawn slider-cranks. More cells
+ * cure it, and no step does. */
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "command.h"
+#include "host/commands/commands.h"
+#include "unity.h"
+
+void suite_coarse_tables(void);
+
+static void run(const char *text, const char *form, int cells, const char *step, said *what) {
+    char count[20];
+    snprintf(count, sizeof count, "%d", cells);
+    const char *words[] = {model_keep(text), "--tables", form,      "--cells", count,
+                           "--step",         step,       "--quiet", NULL};
+    command_say(command_run, words, what);
+}
+
+static void test_tables_are_named_and_more_cells_cure(void) {
+    dice d = dice_of("coarse tables", 14006);
+    const unsigned cases = dice_cases(few_or_all(usual_or(6, 2), 40));
+    unsigned told = 0;
+    for (unsigned i = 0; i < cases; i++) {
+        const bool cubic = dice_one_of(&d, 2) != 0;
+        const char *form = cubic ? "cubic" : "linear";
+        const int cells = cubic ? 8 : 16;
+        char text[700];
+        said what;
+        snprintf(text, sizeof text,
+                 "mechanism crank\ncoordinate a [rad]\nparameter r = 5 [cm]\n"
+                 "parameter l = %.4f [cm]\n"
+                 "let s = r*cos(a) + sqrt(l^2 - r^2*sin(a)^2)\n"
+                 "let v = -r*sin(a)*a'*(1 + r*cos(a)/sqrt(l^2 - r^2*sin(a)^2))\n"
+                 "T = %.4g [kg*m^2]*a'^2/2 + %.3f [kg]*v^2/2\nV = 300 [N/m]*(s - 6 [cm])^2/2\n"
+                 "Q(a) = 0.1 [N*m]\n"
+                 "scene s { start a = 0.4 [rad]; step 1 [ms]; until 3 [s] }\n",
+                 dice_between(&d, 5.2, 6.0), dice_between(&d, 1e-3, 3e-3),
+                 dice_between(&d, 0.3, 0.6));
+        const char *plain[] = {model_keep(text), "--quiet", NULL};
+        command_say(command_run, plain, &what);
+        const bool is_fine = what.err[0] == '\0';
+        run(text, form, cells, "1ms", &what);
+        if (!is_fine || what.err[0] == '\0') {
+            continue; /* the step is too coarse, or nothing is */
+        }
+        told++;
+        TEST_ASSERT_TRUE_MESSAGE(strstr(what.err, "more --cells, or no --tables") != NULL,
+                                 what.err);
+        run(text, form, cells, "0.1ms", &what);
+        TEST_ASSERT_TRUE_MESSAGE(strstr(what.err, "more --cells") != NULL, text);
+        run(text, form, cells * 128, "1ms", &what);
+        TEST_ASSERT_EQUAL_STRING_MESSAGE("", what.err, text);
+    }
+    model_drop();
+    printf("  %u of %u told\n", told, cases);
+    TEST_ASSERT_TRUE(told > 0);
+}
+
+void suite_coarse_tables(void) { RUN_TEST(test_tables_are_named_and_more_cells_cure); }

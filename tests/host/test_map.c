@@ -1,0 +1,413 @@
+/* test_map.c: stability maps of drawn springs, dampers and decays, method by method, held to closed forms on both sides:
+ * where runs leave all bounds, the theory's limit, where a tolerance ends and where the energy is lost; pairs that have no
+ * run, maps that are stopped, and words that are refused. */
+#include <complex.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "command.h"
+#include "derived.h"
+#include "host/commands/commands.h"
+#include "host/map/map_text.h"
+
+#include "unity.h"
+
+void suite_map(void);
+
+typedef struct drawn_map {
+    derived d;
+    diags *errors;
+    grid grid;
+    overrides changes;
+    stability_map map;
+} drawn_map;
+
+typedef struct map_asked {
+    const char *text; /* whose scene is s */
+    const char *over[2];
+    wh_method method;
+    double tolerance;
+    const volatile sig_atomic_t *stop;
+    void (*progress)(double runs, void *told);
+} map_asked;
+
+static void open_map(drawn_map *m, const map_asked *a) {
+    *m = (drawn_map){.d = derived_scene(a->text, "s"), .errors = diags_new()};
+    derived_expect(&m->d, a->text);
+    m->changes.balance = true;
+    const mechanism *of = m->d.model->mechanisms[0];
+    for (int i = 0; i < 2; i++) {
+        TEST_ASSERT_TRUE_MESSAGE(grid_add(&m->grid, of, a->over[i], m->errors), a->over[i]);
+    }
+    const map_wish wish = {.grid = &m->grid,
+                           .mechanism = of,
+                           .scene = m->d.model->scenes[0],
+                           .changes = &m->changes,
+                           .kind = &engine_double,
+                           .settings = {.method = a->method},
+                           .tolerance = a->tolerance,
+                           .stop = a->stop,
+                           .progress = a->progress};
+    m->map = map_make(&wish);
+}
+
+static void close_map(drawn_map *m) {
+    map_free(&m->map);
+    grid_free(&m->grid);
+    diags_free(m->errors);
+    derived_free(&m->d);
+}
+
+static const map_cell *cell_of(const drawn_map *m, uint64_t across, uint64_t at) {
+    return &m->map.cell[map_point(&m->map, across, at)];
+}
+
+/* --- limits ----------------------------------------------------------------------------------------------*/
+
+/* |R(z)| of Runge and Kutta's methods with as many stages as their order: exp() cut off behind z^order. */
+static double growth(int order, double complex z) {
+    double complex sum = 1.0;
+    double complex next = 1.0;
+    for (int k = 1; k <= order; k++) {
+        next *= z / k;
+        sum += next;
+    }
+    return cabs(sum);
+}
+
+/* Up to which |z| in this direction it does not grow; 0: nowhere. */
+static double longest(int order, double complex direction) {
+    double low = 0.0;
+    double high = 0.0;
+    while (high < 6.0 && growth(order, high * direction) <= 1.0 + 1e-12) {
+        low = high;
+        high += 0.01;
+    }
+    for (int i = 0; i < 50 && low > 0.0; i++) {
+        const double middle = 0.5 * (low + high);
+        *(growth(order, middle * direction) <= 1.0 + 1e-12 ? &low : &high) = middle;
+    }
+    return low;
+}
+
+/* `order`: of those whose polynomial is known by that. Else where an undamped oscillation ends: 2 of leapfrog's and
+ * semi-implicit Euler's (Hairer, Lubich & Wanner, Geometric Numerical Integration, section I.1), and of Nystroem's methods
+ * what docs/stability.md has of runs of 40,000 steps. `steps`: what grows by a hundred, 2 % beyond the limit. */
+static const struct {
+    wh_method method;
+    int order;
+    double undamped;
+    double known_to;
+    double steps;
+} rows[] = {{WH_RK4, 4, 0.0, 1e-3, 1e3},         {WH_EULER, 1, 0.0, 1e-3, 2e4},
+            {WH_LEAPFROG, 0, 2.0, 1e-3, 1e3},    {WH_HEUN, 2, 0.0, 1e-3, 1e3},
+            {WH_RK38, 4, 0.0, 1e-3, 1e3},        {WH_SEMI_IMPLICIT_EULER, 0, 2.0, 1e-3, 1e3},
+            {WH_NYSTROEM3, 0, 2.141, 3e-3, 1e3}, {WH_NYSTROEM4, 0, 2.586, 3e-3, 1e3},
+            {WH_NYSTROEM5, 0, 2.395, 3e-3, 2e4}};
+enum { ROWS = sizeof rows / sizeof rows[0], STEPS = 25, PLACES = 3 };
+
+typedef struct tally {
+    unsigned within, beyond;
+    double off;      /* the theory's, from the closed form */
+    double off_runs; /* and from runs, where there is none */
+} tally;
+
+/* A scene of size w of `unit` 1/s at scale 1, whose limit is `z` over that times the root of the scale. */
+static void hold_to(const map_asked *a, const double *limit_s, double known_to, tally *sum) {
+    drawn_map m;
+    open_map(&m, a);
+    TEST_ASSERT_TRUE(m.map.has_limit && m.map.done == m.grid.points);
+    for (uint64_t p = 0; p < PLACES; p++) {
+        const double off = fabs(m.map.limit_s[p] / limit_s[p] - 1.0);
+        TEST_ASSERT_TRUE_MESSAGE(off < known_to, a->text);
+        double *worst = known_to > 1e-3 ? &sum->off_runs : &sum->off;
+        *worst = fmax(*worst, off);
+        for (uint64_t i = 0; i < STEPS; i++) {
+            const double part = map_along(&m.map, i) / limit_s[p];
+            const map_cell *c = cell_of(&m, p, i);
+            char what[900];
+            snprintf(what, sizeof what, "%s: %.5g of the limit, %s\n%s", wh_methods[a->method].word,
+                     part, map_verdicts[c->verdict].word, a->text);
+            if (part < 1.0 - 0.003 - known_to) {
+                TEST_ASSERT_TRUE_MESSAGE(c->verdict < MAP_DIVERGES, what);
+                sum->within++;
+            } else if (part > 1.02) {
+                TEST_ASSERT_EQUAL_INT_MESSAGE(MAP_DIVERGES, c->verdict, what);
+                sum->beyond++;
+            }
+        }
+    }
+    close_map(&m);
+}
+
+/* Steps from 0.7 to 1.3 of the limit of the first of three places, the last 1.2 of it; the shorter step first, or last,
+ * the step's axis the first, or the second. */
+static void hold_drawn(dice *d, const char *text, wh_method method, const char *across,
+                       const double *limit_s, double known_to, tally *sum) {
+    char step[120];
+    const double ends[2] = {0.7 * fmin(limit_s[0], limit_s[PLACES - 1]),
+                            1.3 * fmax(limit_s[0], limit_s[PLACES - 1])};
+    const bool falls = dice_one_of(d, 2) == 1;
+    const bool second = dice_one_of(d, 2) == 1;
+    snprintf(step, sizeof step, "step=%.17g..%.17g:%d%s", ends[falls], ends[!falls], STEPS,
+             dice_one_of(d, 2) == 1 ? ",log" : "");
+    const map_asked a = {.text = text,
+                         .over = {second ? across : step, second ? step : across},
+                         .method = method,
+                         .tolerance = 1e-3};
+    hold_to(&a, limit_s, known_to, sum);
+}
+
+/* m x'' + c x' + k x = 0, of all masses and stiffnesses, undamped and damped below the critical. */
+static void test_springs_of_all_methods(void) {
+    dice d = dice_of("map", 1421);
+    const unsigned cases = dice_cases(few_or_all(1, 6) * ROWS);
+    tally sum = {0};
+    for (unsigned k = 0; k < cases; k++) {
+        const wh_method method = rows[k % ROWS].method;
+        const int order = rows[k % ROWS].order;
+        const bool must = order == 1 || order == 2; /* nothing else is stable */
+        const double zeta =
+            order == 0 || (!must && dice_one_of(&d, 2) == 0) ? 0.0 : dice_between(&d, 0.1, 0.9);
+        const double mass_kg = pow(10.0, dice_between(&d, -2.0, 2.0));
+        const double w = pow(10.0, dice_between(&d, -1.0, 3.0));
+        const double z = order > 0
+                             ? longest(order, -zeta + sqrt(1.0 - zeta * zeta) * (double complex)I)
+                             : rows[k % ROWS].undamped;
+        double limit_s[PLACES];
+        char text[600];
+        char across[100];
+        for (int i = 0; i < PLACES; i++) { /* m, c and k are scaled alike by s: w is w/s */
+            limit_s[i] = z / w * (1.0 + 0.1 * i);
+        }
+        snprintf(text, sizeof text,
+                 "mechanism spring\ncoordinate x [m]\nparameter s = 1\nT = %.17g [kg]*s^2*x'^2/2\n"
+                 "V = %.17g [N/m]*x^2/2\nF = %.17g [N*s/m]*s*x'^2/2\n"
+                 "scene s { start x = 1 [m]; step %.17g [s]; until %.17g [s] }\n",
+                 mass_kg, mass_kg * w * w, 2.0 * zeta * w * mass_kg, z / w,
+                 rows[k % ROWS].steps * z / w);
+        snprintf(across, sizeof across, "s=1..1.2:%d", PLACES);
+        hold_drawn(&d, text, method, across, limit_s, rows[k % ROWS].known_to, &sum);
+    }
+    printf("  %u springs: %u runs within the limit, none out of bounds; %u beyond, all are; theory "
+           "%.1e off, of Nystroem's %.1e\n",
+           cases, sum.within, sum.beyond, sum.off, sum.off_runs);
+    TEST_ASSERT_TRUE(sum.within > cases * 20 && sum.beyond > cases * 20);
+}
+
+/* x' = -a x, which has no energy. */
+static void test_decays_of_all_methods(void) {
+    dice d = dice_of("map decays", 1422);
+    const unsigned cases = dice_cases(few_or_all(usual_or(8, 4), 32));
+    tally sum = {0};
+    for (unsigned k = 0; k < cases; k++) {
+        const int which = (int[]){0, 1, 3, 4}[k % 4];
+        const double rate = pow(10.0, dice_between(&d, -2.0, 4.0));
+        const double z = longest(rows[which].order, -1.0);
+        double limit_s[PLACES];
+        char text[400];
+        char across[100];
+        for (int i = 0; i < PLACES; i++) {
+            limit_s[i] = z / rate / (1.0 + 0.1 * i);
+        }
+        snprintf(text, sizeof text,
+                 "mechanism decay\nstate x [m]\nparameter s = 1\nequation x' = -%.17g [1/s]*s*x\n"
+                 "scene s { start x = 1 [m]; step %.17g [s]; until %.17g [s] }\n",
+                 rate, z / rate, 1000.0 * z / rate);
+        snprintf(across, sizeof across, "s=1..1.2:%d", PLACES);
+        hold_drawn(&d, text, rows[which].method, across, limit_s, 1e-3, &sum);
+    }
+    printf("  %u decays: %u within, %u beyond; theory %.1e off\n", cases, sum.within, sum.beyond,
+           sum.off);
+    TEST_ASSERT_TRUE(sum.within > cases * 20 && sum.beyond > cases * 20);
+}
+
+static const char spring_text[] =
+    "mechanism spring\ncoordinate x [m]\nparameter k = 1 [N/m]\nparameter m = 1 [kg]\n"
+    "T = m*x'^2/2\nV = k*x^2/2\nscene s { start x = 1 [m]; step 1 [s]; until 200 [s] }\n";
+
+/* Of an undamped oscillation explicit Euler and Heun have none. */
+static void test_no_limit(void) {
+    const wh_method methods[] = {WH_EULER, WH_HEUN};
+    for (int i = 0; i < 2; i++) {
+        drawn_map m;
+        open_map(&m, &(map_asked){
+                         spring_text, {"step=0.2..2:4", "k=1..4:3"}, methods[i], 1e-3, NULL, NULL});
+        for (uint64_t p = 0; p < PLACES; p++) {
+            TEST_ASSERT_EQUAL_DOUBLE(0.0, m.map.limit_s[p]);
+        }
+        TEST_ASSERT_EQUAL_INT(MAP_DIVERGES, cell_of(&m, 2, 3)->verdict);
+        close_map(&m);
+    }
+}
+
+/* What has grown twentyfold is bounded, ten thousandfold is not; and where half the step is too long as well, so that the
+ * two runs grow alike, the finest run of the row tells. */
+static void test_what_bounds_are(void) {
+    dice d = dice_of("map bounds", 1424);
+    for (unsigned k = 0; k < dice_cases(12); k++) {
+        const double w = pow(10.0, dice_between(&d, -1.0, 2.0));
+        const double z = dice_between(&d, 2.95, 3.2);
+        const double grown = k % 2 == 0 ? 20.0 : 1e4;
+        const double far = dice_between(&d, 7.0, 12.0);
+        const double steps = ceil(log(grown) / log(growth(4, z * (double complex)I)));
+        const double until[2] = {steps * z, 6.0 * far};
+        const double step[2] = {z, far};
+        for (int i = 0; i < 2; i++) {
+            char text[400];
+            char over[100];
+            snprintf(
+                text, sizeof text,
+                "mechanism spring\ncoordinate x [m]\nparameter k = 1 [N/m]\nT = 1 [kg]*x'^2/2\n"
+                "V = %.17g*k*x^2/2\nscene s { start x = 1 [m]; step %.17g [s]; until %.17g [s] }\n",
+                w * w, 0.1 / w, until[i] / w);
+            snprintf(over, sizeof over, "step=%.17g..%.17g:2", 0.1 / w, step[i] / w);
+            drawn_map m;
+            open_map(&m, &(map_asked){text, {over, "k=1..1:1"}, WH_RK4, 1e-3, NULL, NULL});
+            TEST_ASSERT_TRUE_MESSAGE(cell_of(&m, 0, 0)->verdict < MAP_LOSES, text);
+            TEST_ASSERT_EQUAL_INT_MESSAGE(i == 0 && grown < 100.0 ? MAP_LOSES : MAP_DIVERGES,
+                                          cell_of(&m, 0, 1)->verdict, text);
+            close_map(&m);
+        }
+    }
+}
+
+/* --- the tolerance and the energy ------------------------------------------------------------------------*/
+
+/* Runge-Kutta 4's phase is (h w)^5/120 a step off and its energy (h w)^6/72: over w T that is w T z^4/120 of the amplitude,
+ * half of which is a part of the range, and w T z^5/72 of the energy. Of its books the largest entry is what changes of
+ * speed passed on, half the root mean square of the momentum times the swing of the rate: root 2 of the energy. */
+static void test_where_a_tolerance_and_the_energy_end(void) {
+    dice d = dice_of("map tolerance", 1423);
+    const unsigned cases = dice_cases(few_or_all(usual_or(8, 4), 32));
+    unsigned seen[MAP_VERDICTS] = {0};
+    for (unsigned k = 0; k < cases; k++) {
+        const double w = pow(10.0, dice_between(&d, -1.0, 2.0));
+        const double radians = dice_between(&d, 100.0, 400.0);
+        const double tolerance = pow(10.0, dice_between(&d, -4.0, -2.5));
+        const double right = pow(240.0 * tolerance / radians, 0.25);
+        const double kept = pow(72.0 * sqrt(2.0) * 1e-3 / radians, 0.2);
+        char text[400];
+        char step[100];
+        snprintf(
+            text, sizeof text,
+            "mechanism spring\ncoordinate x [m]\nparameter k = 1 [N/m]\nT = 1 [kg]*x'^2/2\n"
+            "V = %.17g*k*x^2/2\nscene s { start x = 1 [m]; step %.17g [s]; until %.17g [s] }\n",
+            w * w, 0.1 / w, radians / w);
+        snprintf(step, sizeof step, "step=%.17g..%.17g:40,log", 0.03 / w, 0.5 / w);
+        drawn_map m;
+        open_map(&m, &(map_asked){text, {step, "k=1..1:1"}, WH_RK4, tolerance, NULL, NULL});
+        for (uint64_t i = 0; i < 40; i++) {
+            const double z = map_along(&m.map, i) * w;
+            const map_cell *c = cell_of(&m, 0, i);
+            seen[c->verdict]++;
+            if (z > 1.05 * kept) {
+                TEST_ASSERT_EQUAL_INT_MESSAGE(MAP_LOSES, c->verdict, text);
+            } else if (z < 0.95 * kept && z > 1.05 * right) {
+                TEST_ASSERT_EQUAL_INT_MESSAGE(MAP_OFF, c->verdict, text);
+                TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(0.12 * c->end_s + 2.0 / w,
+                                                  c->end_s * pow(right / z, 4.0), c->until_s, text);
+            } else if (z < 0.95 * right && z < 0.95 * kept) {
+                TEST_ASSERT_EQUAL_INT_MESSAGE(MAP_KEEPS, c->verdict, text);
+            }
+        }
+        close_map(&m);
+    }
+    printf("  %u keep, %u are off, %u lose\n", seen[MAP_KEEPS], seen[MAP_OFF], seen[MAP_LOSES]);
+    TEST_ASSERT_TRUE(seen[MAP_KEEPS] > cases && seen[MAP_OFF] > cases && seen[MAP_LOSES] > cases);
+}
+
+/* --- no run, no limit, no end ----------------------------------------------------------------------------*/
+
+/* Without mass there is no acceleration; beyond the stop there is no start; a step beyond the end is none. */
+static void test_pairs_without_a_run(void) {
+    static const char ball[] =
+        "mechanism ball\ncoordinate z [m]\nparameter e = 0.5\nT = 1 [kg]*z'^2/2\nV = 9.81 [N]*z\n"
+        "stop z >= 0 [m] restitution e\n"
+        "scene s { start z = 1 [m]; step 1 [ms]; until 0.2 [s] }\n";
+    drawn_map m;
+    open_map(&m,
+             &(map_asked){spring_text, {"step=0.01..400:2", "m=0..1:2"}, WH_RK4, 1e-3, NULL, NULL});
+    TEST_ASSERT_EQUAL_INT(MAP_NONE, cell_of(&m, 0, 0)->verdict);
+    TEST_ASSERT_EQUAL_INT(MAP_KEEPS, cell_of(&m, 1, 0)->verdict);
+    TEST_ASSERT_EQUAL_INT(MAP_NONE, cell_of(&m, 1, 1)->verdict);
+    TEST_ASSERT_TRUE(isnan(m.map.limit_s[0]));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-3, sqrt(8.0), m.map.limit_s[1]);
+    close_map(&m);
+    open_map(&m, &(map_asked){ball, {"z=-1..1:3", "step=1e-3..2e-3:2"}, WH_RK4, 1e-3, NULL, NULL});
+    TEST_ASSERT_EQUAL_INT(MAP_NONE, cell_of(&m, 0, 0)->verdict);
+    TEST_ASSERT_EQUAL_INT(MAP_KEEPS, cell_of(&m, 2, 1)->verdict);
+    TEST_ASSERT_TRUE(isnan(m.map.limit_s[2]));
+    close_map(&m);
+    open_map(&m, &(map_asked){ball, {"z=0.5..1:3", "e=0.1..0.9:2"}, WH_RK4, 1e-3, NULL, NULL});
+    TEST_ASSERT_FALSE(m.map.has_limit);
+    TEST_ASSERT_EQUAL_UINT64(6, map_count(&m.map, MAP_KEEPS));
+    close_map(&m);
+}
+
+static volatile sig_atomic_t stop;
+static void stop_after_six(double runs, void *told) {
+    (void)told;
+    stop = runs >= 6.0;
+}
+
+static void test_stopped_maps_keep_what_is_done(void) {
+    drawn_map m;
+    stop = 0;
+    open_map(&m,
+             &(map_asked){
+                 spring_text, {"step=0.1..4:4", "k=1..4:3"}, WH_RK4, 1e-3, &stop, stop_after_six});
+    TEST_ASSERT_EQUAL_UINT64(6, m.map.done);
+    TEST_ASSERT_EQUAL_UINT64(6, map_count(&m.map, MAP_UNTRIED));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-3, sqrt(8.0), m.map.limit_s[0]);
+    TEST_ASSERT_TRUE(isnan(m.map.limit_s[2]));
+    char *text = NULL;
+    size_t length = 0;
+    FILE *out = open_memstream(&text, &length);
+    TEST_ASSERT_TRUE(map_csv(out, &m.map));
+    fclose(out);
+    unsigned lines = 0;
+    for (size_t i = 0; i < length; i++) {
+        lines += text[i] == '\n';
+    }
+    TEST_ASSERT_EQUAL_UINT(7, lines);
+    free(text);
+    close_map(&m);
+}
+
+/* --- words -----------------------------------------------------------------------------------------------*/
+
+static void test_words_that_are_refused(void) {
+    static const char *const wrong[][10] = {
+        {"two_mass_relative", NULL},
+        {"two_mass_relative", "--over", "step=1ms..10ms:3", NULL},
+        {"two_mass_relative", "--over", "step=1ms..10ms:3", "--over", "nothing=1..2:3", NULL},
+        {"two_mass_relative", "--over", "step=1ms..10ms:3", "--over", NULL},
+        {"two_mass_relative", "--over=step=1ms..10ms:3", "--over=m1=1..2:2",
+         "--over=step=1ms..3ms:2", NULL},
+        {"two_mass_relative", "--over=step=1ms..10ms:3", "--over=step=1ms..3ms:2", NULL},
+        {"two_mass_relative", "--tolerance", "2", NULL},
+        {"--over", "step=1ms..10ms:3", "--over", "m1=1..2:3", NULL},
+        {"no_such_scene", "--over", "step=1ms..10ms:3", "--over", "m1=1..2:3", NULL}};
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        said what;
+        command_say(command_map, wrong[i], &what);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(2, what.status, what.err);
+        TEST_ASSERT_TRUE_MESSAGE(
+            strstr(what.err, "error: ") != NULL || strstr(what.err, "usage: ") != NULL, what.err);
+        TEST_ASSERT_EQUAL_STRING("", what.out);
+    }
+}
+
+void suite_map(void) {
+    RUN_TEST(test_springs_of_all_methods);
+    RUN_TEST(test_decays_of_all_methods);
+    RUN_TEST(test_no_limit);
+    RUN_TEST(test_what_bounds_are);
+    RUN_TEST(test_where_a_tolerance_and_the_energy_end);
+    RUN_TEST(test_pairs_without_a_run);
+    RUN_TEST(test_stopped_maps_keep_what_is_done);
+    RUN_TEST(test_words_that_are_refused);
+}
