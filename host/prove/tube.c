@@ -20,15 +20,16 @@ struct tube {
     const exact_motion *motion;
     int states;
     int order;
-    taylor *middle;   /* from the middle of what is known */
-    taylor *all;      /* from all of it, with slopes */
+    int first;        /* coefficients up to this one are told by their slopes, */
+    taylor *middle;   /* from the middle of what is known; those behind it are so small... */
+    taylor *all;      /* that they are taken wherever the motion may be */
     taylor *over;     /* over a whole step, one order more */
     double *centre;   /* [states] x is centre and off, */
     zonotope *off;    /* which lies in a box... */
     enclosure *box;   /* [states] of x, along the states, */
     double *axes;     /* [states * states] and along these axes */
     enclosure *along; /* [states] */
-    enclosure *turn;  /* [order + 1][states * states] coefficients of the slopes times the axes */
+    enclosure *turn;  /* [first + 1][states * states] coefficients of the slopes times the axes */
     enclosure *stay;  /* [states] over the step */
     double *largest;  /* [states] */
     double open_s;    /* of the open step; 0: none */
@@ -42,15 +43,16 @@ tube *tube_new(const exact_motion *m, int order) {
     *t = (tube){.motion = m,
                 .states = n,
                 .order = order,
-                .middle = taylor_new(m, order, false),
-                .all = taylor_new(m, order, true),
-                .over = taylor_new(m, order + 1, false),
+                .first = order / 2,
+                .middle = taylor_new(m, order / 2, -1),
+                .all = taylor_new(m, order, order / 2),
+                .over = taylor_new(m, order + 1, -1),
                 .centre = room(n, sizeof(double)),
                 .axes = room((int64_t)n * n, sizeof(double)),
                 .off = zonotope_new(n, GENERATORS),
                 .along = room(n, sizeof(enclosure)),
                 .box = room(n, sizeof(enclosure)),
-                .turn = room((int64_t)(order + 1) * n * n, sizeof(enclosure)),
+                .turn = room((int64_t)(order / 2 + 1) * n * n, sizeof(enclosure)),
                 .stay = room(n, sizeof(enclosure)),
                 .largest = room(n, sizeof(double)),
                 .guess_s = STEP_FIRST_S};
@@ -138,7 +140,7 @@ static double changed(double h_s, double excess, int order) {
 
 static void find_turns(tube *t) {
     const int n = t->states;
-    for (int k = 0; k <= t->order; k++) {
+    for (int k = 0; k <= t->first; k++) {
         for (int i = 0; i < n; i++) {
             const enclosure *slope = &taylor_of(t->all, i, k)[1];
             for (int j = 0; j < n; j++) {
@@ -181,27 +183,28 @@ double tube_open(tube *t, double most_s) {
 
 /* --- in the step -------------------------------------------------------------------------------------*/
 
-/* How far the middle gets: its polynomial less its start, and the remainder. */
+/* How far the middle gets: its polynomial less its start, what the later coefficients add, and the remainder. */
 static enclosure way_at(const tube *t, int i, enclosure tau) {
-    enclosure sum = taylor_of(t->middle, i, t->order)[0];
+    enclosure sum = taylor_of(t->all, i, t->order)[0];
     for (int k = t->order - 1; k > 0; k--) {
-        sum = enclosure_add(taylor_of(t->middle, i, k)[0], enclosure_mul(tau, sum));
+        const taylor *from = k <= t->first ? t->middle : t->all;
+        sum = enclosure_add(taylor_of(from, i, k)[0], enclosure_mul(tau, sum));
     }
     return enclosure_add(enclosure_mul(tau, sum), remainder_of(t, i, tau));
 }
 
 static enclosure turn_at(const tube *t, int entry, enclosure tau) {
     const int all = t->states * t->states;
-    enclosure sum = t->turn[t->order * all + entry];
-    for (int k = t->order - 1; k >= 0; k--) {
+    enclosure sum = t->turn[t->first * all + entry];
+    for (int k = t->first - 1; k >= 0; k--) {
         sum = enclosure_add(t->turn[k * all + entry], enclosure_mul(tau, sum));
     }
     return sum;
 }
 
 static enclosure slope_at(const tube *t, int i, int j, enclosure tau) {
-    enclosure sum = taylor_of(t->all, i, t->order)[1 + j];
-    for (int k = t->order - 1; k >= 0; k--) {
+    enclosure sum = taylor_of(t->all, i, t->first)[1 + j];
+    for (int k = t->first - 1; k >= 0; k--) {
         sum = enclosure_add(taylor_of(t->all, i, k)[1 + j], enclosure_mul(tau, sum));
     }
     return sum;
