@@ -1,20 +1,30 @@
 /* prove.c: `whirl prove`: until when a run is proved to be within a tolerance of the exact motion. */
+#include <errno.h>
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "commands.h"
+#include "files.h"
 #include "host/base/arena.h"
 #include "host/base/room.h"
 #include "host/lang/override.h"
 #include "host/lang/value.h"
-#include "host/number/decimal.h"
+#include "host/number/functions.h"
 #include "host/prove/held_text.h"
 #include "host/run/start.h"
 #include "load.h"
 #include "options.h"
+#include "trusting.h"
+
+/* Seconds that an effort of 1 may take, about, and products of enclosures that a second takes. */
+#define SECONDS 60.0
+#define PRODUCTS_1S 7e7
+#define EFFORT_LEAST 1e-4
+#define EFFORT_MOST 1e4
 
 static const command_usage usage = {
     .head =
@@ -29,11 +39,17 @@ static const command_usage usage = {
     .groups = OPTIONS_CHANGE | OPTIONS_STEP | OPTIONS_ENGINE | OPTIONS_NUMBER,
     .tail =
         "  --within X=1mm       what a coordinate or rate is to be within (repeatable, each name once)\n"
-        "  --tolerance 1e-3     of the others: part of the range that each has in the run (default: 1e-3)\n",
-    .why = {[EXIT_ROW_OF(EXIT_DONE)] = "",
+        "  --tolerance 1e-3     of the others: part of the range that each has in the run (default: 1e-3)\n"
+        "  --csv FILE           a row for each step: the time, and of each coordinate and rate, in SI, the\n"
+        "                       least and the most that the exact motion may be, and the run's; - is\n"
+        "                       standard output, and the words then go to standard error\n"
+        "  --effort 1           how long it may take: 1 is about a minute (1e-4 to 1e4). Where it is\n"
+        "                       spent, what is proved until there is told\n"
+        "  --quiet              no progress, and no words beside --csv\n",
+    .why = {[EXIT_ROW_OF(EXIT_DONE)] = "also where it is proved until some time only",
             [EXIT_ROW_OF(EXIT_RUN_FAILED)] = "the run diverged: what is proved before that is told",
             [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
-            [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
+            [EXIT_ROW_OF(EXIT_INTERRUPTED)] = "what is proved until then is told"}};
 
 static volatile sig_atomic_t interrupted;
 
@@ -42,57 +58,84 @@ static void on_interrupt(int signal_number) {
     interrupted = 1;
 }
 
-enum { WITHIN_MOST = 64 };
-
 typedef struct prove_options {
     common_options common;
     const char *target;
-    const char *within[WITHIN_MOST];
+    const char **within; /* [within_count] */
     int within_count;
+    const char *csv;
     double tolerance;
+    double effort;
+    bool quiet;
 } prove_options;
 
-static bool read_tolerance(const char *text, double *number) {
-    const char *end = text;
-    *number = decimal_read(text, &end);
-    const bool good = end != text && *end == '\0' && *number >= 1e-15 && *number <= 1.0;
-    if (!good) {
-        fprintf(stderr,
-                "whirl prove: error: --tolerance takes a number from 1e-15 to 1, not '%.40s'\n"
-                "hint: a part of the range that a coordinate has: --tolerance 1e-3\n",
-                text);
+/* One option, with its value where it has one; false when the word is none. */
+static bool take_one(int count, char **words, int *at, prove_options *o, bool *bad) {
+    const char *value = NULL;
+    if (options_take("prove", usage.groups, count, words, at, &o->common, bad)) {
+        return true;
     }
-    return good;
+    if (!*bad && (value = options_value(count, words, at, "--within", bad)) != NULL) {
+        o->within[o->within_count++] = value;
+    } else if (!*bad && (value = options_value(count, words, at, "--tolerance", bad)) != NULL) {
+        *bad = !options_number("prove", "--tolerance", value, 1e-15, 1.0,
+                               "a part of the range that a coordinate has: --tolerance 1e-3",
+                               &o->tolerance);
+    } else if (!*bad && (value = options_value(count, words, at, "--effort", bad)) != NULL) {
+        *bad = !options_number("prove", "--effort", value, EFFORT_LEAST, EFFORT_MOST,
+                               "1 is about a minute: --effort 10", &o->effort);
+    } else if (!*bad && (value = options_value(count, words, at, "--csv", bad)) != NULL) {
+        o->csv = value;
+    } else if (!*bad && strcmp(words[*at], "--quiet") == 0) {
+        o->quiet = true;
+        ++*at;
+        return true;
+    }
+    return value != NULL;
 }
 
 static bool read_options(int count, char **words, prove_options *o) {
     bool bad = false;
+    o->within = room(count, sizeof *o->within);
     for (int at = 0; at < count && !bad;) {
-        const char *value;
-        if (options_take("prove", usage.groups, count, words, &at, &o->common, &bad) || bad) {
+        if (take_one(count, words, &at, o, &bad) || bad) {
             continue;
         }
-        if (strcmp(words[at], "--within") == 0 && at + 1 < count && o->within_count < WITHIN_MOST) {
-            o->within[o->within_count++] = words[at + 1];
-            at += 2;
-        } else if ((value = options_value(count, words, &at, "--tolerance", &bad)) != NULL || bad) {
-            bad = bad || !read_tolerance(value, &o->tolerance);
-        } else if (words[at][0] == '-' && words[at][1] != '\0') {
+        if (words[at][0] == '-' && words[at][1] != '\0') {
             options_unknown("prove", words[at], usage.groups,
-                            (const char *const[]){"--within", "--tolerance", NULL});
+                            (const char *const[]){"--within", "--tolerance", "--csv", "--effort",
+                                                  "--quiet", NULL});
             return false;
-        } else if (o->target != NULL) {
+        }
+        if (o->target != NULL) {
             fprintf(stderr, "whirl prove: error: one scene at a time, not also '%s'\n", words[at]);
             return false;
-        } else {
-            o->target = words[at++];
         }
+        o->target = words[at++];
     }
     if (!bad && o->target == NULL) {
         options_usage(stderr, &usage);
         return false;
     }
     return !bad;
+}
+
+/* Two runs, the range's and the one that is held; the tube is bounded on its way. */
+static bool is_affordable(const image *im, double effort) {
+    const double seconds = twins_operations(im, im) / TRUSTING_OPERATIONS_1S;
+    if (seconds <= effort * SECONDS) {
+        return true;
+    }
+    const double wanted = number_ceiling(seconds / SECONDS);
+    fprintf(stderr,
+            "whirl prove: error: the run alone, of %.3g steps, would take about %.0f minutes\n"
+            "hint: a nearer --until, or a longer --step",
+            (double)im->steps, wanted);
+    if (wanted <= EFFORT_MOST) {
+        fprintf(stderr, "; or --effort %.0f", wanted);
+    }
+    fputc('\n', stderr);
+    return false;
 }
 
 /* within[states]: SI, 0 where nothing was said. False: reported. */
@@ -124,42 +167,126 @@ static bool read_within(const prove_options *o, const mechanism *of, const exact
     return diags_calls(errors) == before;
 }
 
-static int answer(const prove_options *o, const image *im, const exact_motion *m,
-                  const double *within) {
+static void catch_interrupts(void) {
     struct sigaction action = {.sa_handler = on_interrupt,
                                .sa_flags = SA_RESTART | (int)SA_RESETHAND};
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
+}
+
+static void show_progress(double share) { fprintf(stderr, "\r%5.1f %%", 100.0 * share); }
+
+static bool is_standard(const prove_options *o) {
+    return o->csv != NULL && strcmp(o->csv, "-") == 0;
+}
+
+static int say_unwritten(const char *file) {
+    fprintf(stderr, "%s: error: cannot be written: %s\n", file, strerror(errno));
+    return EXIT_BAD_INPUT;
+}
+
+typedef struct rows {
+    FILE *file; /* NULL: none are wished */
+    const held_wish *wish;
+} rows;
+
+static void write_row(void *told, uint64_t step, const enclosure *exact, const double *run) {
+    const rows *r = told;
+    held_row(r->file, r->wish, step, exact, run);
+}
+
+/* What ended the tube before its end. */
+static void say_end(const held *h, double end_s) {
+    switch (h->end) {
+    case HELD_AT_END:
+    case HELD_RUN_ENDS: break;
+    case HELD_NO_STEP:
+        fprintf(stderr,
+                "whirl prove: the tube ends at t = %.9g s: behind it the exact motion is not enclosed\n",
+                h->tube_s);
+        break;
+    case HELD_SPENT:
+        fprintf(stderr,
+                "whirl prove: the effort is spent at t = %.9g s of %.9g s\n"
+                "hint: a larger --effort goes on, 1 being about a minute\n",
+                h->tube_s, end_s);
+        break;
+    case HELD_STOPPED:
+        fprintf(stderr, "whirl prove: interrupted at t = %.9g s of %.9g s%s\n", h->tube_s, end_s,
+                h->ranged ? "" : ": the range of a coordinate is that of the whole run");
+        break;
+    }
+}
+
+static int status_of(const held *h, const image *im) {
+    if (h->status != WH_OK) {
+        fprintf(stderr,
+                "whirl prove: error: the run diverged in the step after t = %.9g s\n"
+                "hint: a smaller --step may carry it further\n",
+                ratio_times(h->run_steps, im->step));
+    }
+    return h->end == HELD_STOPPED  ? EXIT_INTERRUPTED
+           : h->status == WH_OK ? EXIT_DONE
+                                : EXIT_RUN_FAILED;
+}
+
+/* Whole rows? */
+static bool close_rows(const rows *r) {
+    bool good = r->file == NULL || ferror(r->file) == 0;
+    if (r->file != NULL && r->file != stdout) {
+        good = fclose(r->file) == 0 && good;
+    }
+    return good;
+}
+
+static int held_out(const prove_options *o, const held_wish *w, const rows *r) {
+    held h = held_run(w);
+    if (w->progress != NULL) {
+        fprintf(stderr, "\r        \r");
+    }
+    if (h.ranged && (!o->quiet || o->csv == NULL)) {
+        held_print(is_standard(o) ? stderr : stdout, &h, w);
+    }
+    say_end(&h, ratio_times(w->image->steps, w->image->step));
+    const int code = status_of(&h, w->image);
+    const bool good = close_rows(r);
+    if (!h.ranged && r->file != NULL && r->file != stdout) {
+        files_drop(o->csv); /* nothing is in it */
+    }
+    held_free(&h);
+    return good || code == EXIT_INTERRUPTED ? code : say_unwritten(o->csv);
+}
+
+static int answer(const prove_options *o, const image *im, const exact_motion *m,
+                  const double *within) {
+    rows r = {.file = o->csv == NULL ? NULL : is_standard(o) ? stdout : fopen(o->csv, "wb")};
+    if (o->csv != NULL && r.file == NULL) {
+        return say_unwritten(o->csv);
+    }
     const held_wish wish = {.motion = m,
                             .image = im,
                             .kind = o->common.number,
                             .tolerance = o->tolerance,
                             .within = within,
-                            .stop = &interrupted};
-    held h = held_run(&wish);
-    int code = EXIT_DONE;
-    if (h.stopped) {
-        fprintf(stderr, "whirl prove: interrupted, the tube being at t = %.9g s\n", h.tube_s);
-        code = EXIT_INTERRUPTED;
-    } else {
-        held_print(stdout, &h, &wish);
-        if (h.status != WH_OK) {
-            fprintf(stderr,
-                    "whirl prove: error: the run diverged in the step after t = %.9g s\n"
-                    "hint: a smaller --step may carry it further\n",
-                    ratio_times(h.run_steps, im->step));
-            code = EXIT_RUN_FAILED;
-        }
+                            .products_most = o->effort * SECONDS * PRODUCTS_1S,
+                            .stop = &interrupted,
+                            .see = r.file != NULL ? write_row : NULL,
+                            .told = &r,
+                            .progress =
+                                !o->quiet && isatty(STDERR_FILENO) ? show_progress : NULL};
+    r.wish = &wish;
+    if (r.file != NULL) {
+        held_rows_head(r.file, &wish);
     }
-    held_free(&h);
-    return code;
+    catch_interrupts();
+    return held_out(o, &wish, &r);
 }
 
 static int prove_loaded(const prove_options *o, const loaded *made, const mechanism *of,
                         diags *errors) {
     const image *im = made->image;
     exact_motion *m = NULL;
-    if (start_has_method(im, im->settings.method, errors) &&
+    if (is_affordable(im, o->effort) && start_has_method(im, im->settings.method, errors) &&
         start_is_possible(im, o->common.number, errors)) {
         m = exact_motion_make(made->instance, errors);
     }
@@ -181,8 +308,8 @@ static int prove_source(const prove_options *o, source_model *from) {
     const scene *in;
     int code = source_open(from, o->target);
     code = code == EXIT_DONE ? source_pick(from, true, &of, &in) : code;
-    if (code != EXIT_DONE) {
-        return code;
+    if (code != EXIT_DONE || source_would_be_lost(from, "--csv", o->csv, "")) {
+        return code != EXIT_DONE ? code : EXIT_BAD_INPUT;
     }
     const overrides changes = options_overrides(&o->common.change);
     const load_wish wish = {.settings = o->common.integration,
@@ -197,7 +324,7 @@ static int prove_source(const prove_options *o, source_model *from) {
 }
 
 int command_prove(int count, char **words) {
-    prove_options o = {.common = options_defaults(), .tolerance = HELD_TOLERANCE};
+    prove_options o = {.common = options_defaults(), .tolerance = HELD_TOLERANCE, .effort = 1.0};
     source_model from = {0};
     if (options_help(count, words, &usage)) {
         return EXIT_DONE;
@@ -208,5 +335,6 @@ int command_prove(int count, char **words) {
         source_close(&from);
     }
     options_forget(&o.common);
+    free(o.within);
     return code;
 }

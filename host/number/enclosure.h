@@ -12,6 +12,12 @@
 
 #include <stdbool.h>
 
+#include "core/real.h" /* refuses compilers set to other arithmetic; whirl's start, processors (core/arithmetic.h) */
+
+#if __DBL_MANT_DIG__ != 53 || __DBL_MIN_EXP__ != -1021
+#error "Whirl needs IEEE 754 numbers of 64 bits."
+#endif
+
 typedef struct enclosure {
     double low;
     double high;
@@ -65,6 +71,20 @@ static inline enclosure enclosure_mul(enclosure a, enclosure b) {
     return (enclosure){
         enclosure_below(enclosure_lesser(enclosure_lesser(p, q), enclosure_lesser(r, s))),
         enclosure_above(enclosure_larger(enclosure_larger(p, q), enclosure_larger(r, s)))};
+}
+
+/* a x */
+static inline enclosure enclosure_times(enclosure a, double x) {
+    const double p = a.low * x;
+    const double q = a.high * x;
+    const double bad = p + q;
+    if (!(bad - bad == 0.0)) {
+        return (enclosure){bad - bad, bad - bad};
+    }
+    if (enclosure_is_zero(a) || x == 0.0) {
+        return enclosure_of(0.0);
+    }
+    return (enclosure){enclosure_below(x < 0.0 ? q : p), enclosure_above(x < 0.0 ? p : q)};
 }
 
 /* The least that holds both. */

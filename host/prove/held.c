@@ -63,8 +63,8 @@ static void find_ranges(const held_wish *w, const reading *r, held *h) {
             high[i] = step == 0 ? r->value[i] : number_most(high[i], r->value[i]);
         }
         h->run_steps = step;
-        h->stopped = (step & 255U) == 0 && is_stopped(w);
-        if (step == w->image->steps || h->stopped) {
+        h->ranged = (step & 255U) != 0 || !is_stopped(w);
+        if (step == w->image->steps || !h->ranged) {
             break;
         }
         h->status = w->kind->step(run);
@@ -104,6 +104,7 @@ static void look(held *h, const double *value, const enclosure *exact, double ti
             continue;
         }
         if (enclosure_is_finite(off) && most <= s->within) {
+            s->begun = true;
             s->until_s = time_s;
             s->off = number_most(s->off, most);
             s->radius = number_most(s->radius, enclosure_radius(exact[i]));
@@ -126,13 +127,20 @@ typedef struct going {
     uint64_t done;    /* the run's steps */
 } going;
 
+static void look_now(going *g) {
+    const held_wish *w = g->wish;
+    read_run(g->reading, g->run);
+    look(g->held, g->reading->value, g->exact, ratio_times(g->done, w->image->step));
+    if (w->see != NULL) {
+        w->see(w->told, g->done, g->exact, g->reading->value);
+    }
+}
+
 /* The records within the open step, of h_s; *last_s: the last one's time in it. Returns how many. */
 static uint64_t look_within(going *g, double h_s, enclosure *last_s) {
-    const image *im = g->wish->image;
     uint64_t count = 0;
     while (g->done < g->held->run_steps && !all_closed(g->held)) {
-        const enclosure tau =
-            enclosure_add(g->next_s, enclosure_mul(enclosure_of((double)count), g->step_s));
+        const enclosure tau = enclosure_add(g->next_s, enclosure_times(g->step_s, (double)count));
         if (!(tau.high <= h_s) || g->wish->kind->step(g->run) != WH_OK) {
             break;
         }
@@ -140,11 +148,7 @@ static uint64_t look_within(going *g, double h_s, enclosure *last_s) {
         count++;
         *last_s = tau;
         tube_at(g->tube, tau, g->exact);
-        read_run(g->reading, g->run);
-        look(g->held, g->reading->value, g->exact, ratio_times(g->done, im->step));
-        if (g->wish->see != NULL) {
-            g->wish->see(g->wish->told, g->done, g->exact);
-        }
+        look_now(g);
     }
     return count;
 }
@@ -170,21 +174,32 @@ static bool go_on(going *g) {
     return good && g->next_s.low > 0.0;
 }
 
+/* What ends it now; HELD_AT_END: nothing yet, if `more` is to come. */
+static held_end ended(const going *g, bool on) {
+    const held_wish *w = g->wish;
+    const bool spent = w->products_most > 0.0 && tube_products(g->tube) > w->products_most;
+    return is_stopped(w) ? HELD_STOPPED : !on ? HELD_NO_STEP : spent ? HELD_SPENT : HELD_AT_END;
+}
+
 static void hold(going *g) {
     held *h = g->held;
-    bool good = true;
-    read_run(g->reading, g->run);
-    look(h, g->reading->value, g->wish->motion->start, 0.0);
-    while (good && g->done < h->run_steps && !all_closed(h) && !h->stopped) {
-        good = go_on(g);
-        h->stopped = is_stopped(g->wish);
+    for (int i = 0; i < h->states; i++) {
+        g->exact[i] = g->wish->motion->start[i];
     }
-    h->tube_ended = !good;
+    look_now(g);
+    while (h->end == HELD_AT_END && g->done < h->run_steps && !all_closed(h)) {
+        h->end = ended(g, go_on(g));
+        if (g->wish->progress != NULL && (tube_steps(g->tube) & 7U) == 0) {
+            g->wish->progress((double)g->done / (double)h->run_steps);
+        }
+    }
+    const bool whole = g->done == h->run_steps;
+    h->end = whole ? h->status == WH_OK ? HELD_AT_END : HELD_RUN_ENDS : h->end;
     h->tube_steps = tube_steps(g->tube);
     h->tube_s = ratio_times(g->done, g->wish->image->step);
     for (int i = 0; i < h->states; i++) {
         if (h->state[i].open) {
-            h->state[i].verdict = h->tube_ended ? HELD_TUBE_ENDS : HELD_TO_THE_END;
+            h->state[i].verdict = h->end == HELD_AT_END ? HELD_TO_THE_END : HELD_UNENDED;
         }
     }
 }
@@ -196,11 +211,12 @@ static enclosure counted(uint64_t count) {
 
 held held_run(const held_wish *w) {
     const image *im = w->image;
-    held h = {.states = w->motion->states};
+    held h = {.states = w->motion->states, .end = HELD_STOPPED};
     h.state = room(h.states, sizeof *h.state);
     const reading r = {w, room(im->outputs, sizeof(double)), room(h.states, sizeof(double))};
     find_ranges(w, &r, &h);
-    if (!h.stopped) {
+    if (h.ranged) {
+        h.end = HELD_AT_END;
         going g = {.wish = w,
                    .reading = &r,
                    .held = &h,

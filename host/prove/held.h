@@ -17,23 +17,36 @@ typedef struct held_wish {
     const engine_kind *kind;
     double tolerance;
     const double *within;              /* [states] SI; 0: the tolerance times the range */
+    double products_most;              /* of enclosures that it may take; 0: as many as it wants */
     const volatile sig_atomic_t *stop; /* may be NULL */
-    /* At the end of each of the run's steps: where the exact motion is, exact[states]. May be NULL. */
-    void (*see)(void *told, uint64_t step, const enclosure *exact);
+    /* At the start, and at the end of each of the run's steps that the tube gets to: where the exact motion is,
+     * exact[states], and the run, SI. May be NULL. */
+    void (*see)(void *told, uint64_t step, const enclosure *exact, const double *run);
     void *told;
+    void (*progress)(double share); /* may be NULL */
 } held_wish;
 
 typedef enum held_verdict {
     HELD_TO_THE_END, /* within, at every step's end: proved */
     HELD_LEFT,       /* proved until until_s; and at the step behind it proved to be further off */
     HELD_UNTOLD,     /* proved until until_s; behind it the tube is too wide to tell */
-    HELD_TUBE_ENDS   /* proved until until_s, where the tube ends */
+    HELD_UNENDED     /* proved until until_s, where the tube or the run ends: held's `end` says why */
 } held_verdict;
+
+/* What ended it. */
+typedef enum held_end {
+    HELD_AT_END,   /* of the run's steps, or all states have left */
+    HELD_RUN_ENDS, /* the run failed */
+    HELD_NO_STEP,  /* no step of the tube leads on */
+    HELD_SPENT,    /* it would take more than it may */
+    HELD_STOPPED   /* it was asked to stop */
+} held_end;
 
 /* Of a state of the motion; SI. */
 typedef struct held_state {
     held_verdict verdict;
     bool open;
+    bool begun;    /* it is within at the start: else nothing is proved */
     double range;  /* the most less the least value in the run, at least a thousandth of its size */
     double within; /* what it is to be within */
     double until_s;
@@ -47,9 +60,9 @@ typedef struct held {
     wh_status status;   /* of the run's last step */
     uint64_t run_steps; /* that were done */
     uint64_t tube_steps;
-    double tube_s;   /* the tube's last time */
-    bool tube_ended; /* before the end of the run */
-    bool stopped;
+    double tube_s; /* the tube's last time */
+    held_end end;
+    bool ranged; /* the run was done, so that it is known what it is to be within */
 } held;
 
 held held_run(const held_wish *w);

@@ -32,43 +32,96 @@ static void print_head(FILE *out, const held *h, const held_wish *w) {
             TUBE_ORDER, h->tube_steps, h->tube_s);
 }
 
+/* What is behind the last proved time. */
+static const char *behind(const held *h, const held_state *s) {
+    static const char *const ends[] = {[HELD_AT_END] = "",
+                                       [HELD_RUN_ENDS] = "; there the run fails",
+                                       [HELD_NO_STEP] = "; there the tube ends",
+                                       [HELD_SPENT] = "; there the effort is spent",
+                                       [HELD_STOPPED] = "; there it was interrupted"};
+    switch (s->verdict) {
+    case HELD_TO_THE_END: return "";
+    case HELD_LEFT: return "; behind it off by more: proved";
+    case HELD_UNTOLD: return "; behind it the tube is too wide to tell";
+    case HELD_UNENDED: return ends[h->end];
+    }
+    return "";
+}
+
 static void print_state(FILE *out, const held *h, const held_wish *w, int i) {
-    static const char *const behind[] = {
-        [HELD_TO_THE_END] = "",
-        [HELD_LEFT] = "; behind it off by more: proved",
-        [HELD_UNTOLD] = "; behind it the tube is too wide to tell",
-        [HELD_TUBE_ENDS] = "; there the tube ends",
-    };
     const held_state *s = &h->state[i];
     const image_unit *unit = unit_of(w, i);
+    const char *shown = strcmp(unit->shown, "1") == 0 ? "" : unit->shown;
     char name[NAME_SIZE];
     char until[40];
     snprintf(until, sizeof until, "%.9g", s->until_s);
-    fprintf(out, "  %-*s %-12s within %.2e %s: off by at most %.1e, the tube %.1e wide%s\n",
-            NAME_WIDTH, name_of(w, i, name), s->verdict == HELD_TO_THE_END ? "to the end" : until,
-            image_shown(unit, s->within), strcmp(unit->shown, "1") == 0 ? "" : unit->shown,
-            image_shown(unit, s->off), image_shown(unit, 2.0 * s->radius), behind[s->verdict]);
+    fprintf(out, "  %-*s ", NAME_WIDTH, name_of(w, i, name));
+    if (!s->begun) {
+        fprintf(out, "%-12s within %.2e %s: %s\n", "never", image_shown(unit, s->within), shown,
+                s->verdict == HELD_LEFT ? "its start is off by more: proved"
+                                        : "its start is not known so well");
+        return;
+    }
+    fprintf(out, "%-12s within %.2e %s: off by at most %.1e, the tube %.1e wide%s\n",
+            s->verdict == HELD_TO_THE_END ? "to the end" : until, image_shown(unit, s->within),
+            shown, image_shown(unit, s->off), image_shown(unit, 2.0 * s->radius), behind(h, s));
+}
+
+/* The state of which the least is proved; -1: all is. */
+static int first_of(const held *h) {
+    int first = -1;
+    for (int i = 0; i < h->states; i++) {
+        const held_state *s = &h->state[i];
+        if (s->verdict != HELD_TO_THE_END &&
+            (first < 0 || !s->begun ||
+             (h->state[first].begun && s->until_s < h->state[first].until_s))) {
+            first = i;
+            if (!s->begun) {
+                break;
+            }
+        }
+    }
+    return first;
 }
 
 void held_print(FILE *out, const held *h, const held_wish *w) {
-    int first = -1;
+    const double end_s = ratio_times(w->image->steps, w->image->step);
+    const int first = first_of(h);
+    char name[NAME_SIZE];
     print_head(out, h, w);
     fputs("\nproved at the end of every step until [s]\n", out);
     for (int i = 0; i < h->states; i++) {
         print_state(out, h, w, i);
-        if (h->state[i].verdict != HELD_TO_THE_END &&
-            (first < 0 || h->state[i].until_s < h->state[first].until_s)) {
-            first = i;
-        }
     }
-    const double end_s = ratio_times(w->image->steps, w->image->step);
-    char name[NAME_SIZE];
     if (first < 0) {
-        fprintf(out, "proved to %s, t = %.9g s\n",
-                h->run_steps == w->image->steps ? "the end" : "where the run fails",
-                ratio_times(h->run_steps, w->image->step));
+        fprintf(out, "proved to the end, t = %.9g s\n", end_s);
+    } else if (!h->state[first].begun) {
+        fprintf(out, "nothing is proved: %s is not within at the start\n",
+                name_of(w, first, name));
     } else {
         fprintf(out, "proved until t = %.9g s of %.9g s: %s is the first that is not\n",
                 h->state[first].until_s, end_s, name_of(w, first, name));
     }
+}
+
+/* --- rows ----------------------------------------------------------------------------------------------*/
+
+void held_rows_head(FILE *out, const held_wish *w) {
+    char name[NAME_SIZE];
+    fputs("time [s]", out);
+    for (int i = 0; i < w->motion->states; i++) {
+        const char *si = unit_of(w, i)->si;
+        name_of(w, i, name);
+        fprintf(out, ",%s least [%s],%s most [%s],%s run [%s]", name, si, name, si, name, si);
+    }
+    fputs("\r\n", out);
+}
+
+void held_row(FILE *out, const held_wish *w, uint64_t step, const enclosure *exact,
+              const double *run) {
+    fprintf(out, "%.15g", ratio_times(step, w->image->step));
+    for (int i = 0; i < w->motion->states; i++) {
+        fprintf(out, ",%.17g,%.17g,%.17g", exact[i].low, exact[i].high, run[i]);
+    }
+    fputs("\r\n", out);
 }

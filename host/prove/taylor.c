@@ -199,3 +199,29 @@ bool taylor_find(taylor *t, const enclosure *x) {
     }
     return all_finite(t);
 }
+
+/* A product's: each coefficient is a sum of products, and each of its slopes one of two. */
+static double products_to(int order) { return 0.5 * (double)(order + 1) * (double)(order + 2); }
+
+double taylor_products(const taylor *t) {
+    double sums = 0.0;
+    for (int i = 0; i < t->motion->nodes; i++) {
+        switch (t->motion->node[i].kind) {
+        case NODE_NUMBER:
+        case NODE_VARIABLE:
+        case NODE_SUM:
+        case NODE_DIFFERENCE:
+        case NODE_MULTIPLE: break;
+        case NODE_PRODUCT:
+        case NODE_SQUARE:
+        case NODE_RATIO:
+        case NODE_SINE:
+        case NODE_COSINE:
+        case NODE_EXP:
+        case NODE_LOG:
+        case NODE_POWER: sums += 1.0;
+        }
+    }
+    return sums * (products_to(t->order) +
+                   2.0 * (double)(t->width - 1) * (t->width > 1 ? products_to(t->slopes_to) : 0.0));
+}

@@ -20,6 +20,9 @@ void taylor_free(taylor *t);
 /* All coefficients at the states x[states]. False: not all of them are finite there. */
 bool taylor_find(taylor *t, const enclosure *x);
 
+/* Products of enclosures that this takes, about. */
+double taylor_products(const taylor *t);
+
 /* Coefficient k of state i: the value, then, up to slopes_to, its slopes. */
 const enclosure *taylor_of(const taylor *t, int i, int k);
 

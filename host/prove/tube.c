@@ -35,6 +35,7 @@ struct tube {
     double open_s;    /* of the open step; 0: none */
     double guess_s;   /* of the next one */
     uint64_t steps;
+    double products;
 };
 
 tube *tube_new(const exact_motion *m, int order) {
@@ -83,6 +84,12 @@ void tube_free(tube *t) {
 }
 
 uint64_t tube_steps(const tube *t) { return t->steps; }
+double tube_products(const tube *t) { return t->products; }
+
+static bool find(tube *t, taylor *series, const enclosure *x) {
+    t->products += taylor_products(series);
+    return taylor_find(series, x);
+}
 
 /* --- where the motion stays over a step --------------------------------------------------------------*/
 
@@ -114,7 +121,7 @@ static bool stays(tube *t, double h_s, double *excess) {
         const enclosure to = polynomial_over(t, i, span);
         t->stay[i] = widened(to, REMAINDER * (enclosure_size(to) + t->largest[i]) * 16.0 + 1e-300);
     }
-    if (!taylor_find(t->over, t->stay)) {
+    if (!find(t, t->over, t->stay)) {
         return false;
     }
     bool good = true;
@@ -146,8 +153,7 @@ static void find_turns(tube *t) {
             for (int j = 0; j < n; j++) {
                 enclosure sum = enclosure_of(0.0);
                 for (int l = 0; l < n; l++) {
-                    const enclosure axis = enclosure_of(t->axes[l * n + j]);
-                    sum = enclosure_add(sum, enclosure_mul(slope[l], axis));
+                    sum = enclosure_add(sum, enclosure_times(slope[l], t->axes[l * n + j]));
                 }
                 t->turn[(k * n + i) * n + j] = sum;
             }
@@ -163,7 +169,7 @@ double tube_open(tube *t, double most_s) {
         t->largest[i] = enclosure_larger(t->largest[i], enclosure_size(t->box[i]));
     }
     t->open_s = 0.0;
-    bool good = taylor_find(t->middle, centre) && taylor_find(t->all, t->box);
+    bool good = find(t, t->middle, centre) && find(t, t->all, t->box);
     free(centre);
     double h_s = enclosure_lesser(t->guess_s, most_s);
     for (int trial = 0; good && trial < TRIALS && h_s >= STEP_LEAST_S; trial++) {
@@ -249,6 +255,7 @@ bool tube_on(tube *t, enclosure tau_s) {
     go_to(t, tau_s, left);
     zonotope_map(t->off, slope, left);
     zonotope_box(t->off, t->box);
+    t->products += 2.0 * (double)n * (double)n * (double)t->off->count; /* here, and when it opens */
     for (int i = 0; i < n; i++) {
         /* slopes are taken between the centre and where the motion may be */
         const enclosure centre = enclosure_of(t->centre[i]);

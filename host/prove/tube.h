@@ -27,7 +27,8 @@ double tube_open(tube *t, double most_s);
 void tube_at(const tube *t, enclosure tau_s, enclosure *x);
 /* The present time becomes this one of the open step. False: nothing is known there any more. */
 bool tube_on(tube *t, enclosure tau_s);
-/* Steps so far. */
+/* Steps so far, and products of enclosures, about: what they cost. */
 uint64_t tube_steps(const tube *t);
+double tube_products(const tube *t);
 
 #endif

@@ -78,8 +78,8 @@ static void reach(const zonotope *z, const enclosure *inverse, int from, double 
         for (int k = from; k < z->count; k++) {
             enclosure sum = enclosure_of(0.0);
             for (int j = 0; j < n; j++) {
-                const enclosure g = enclosure_of(z->generator[k * n + j]);
-                sum = enclosure_add(sum, enclosure_mul(inverse[i * n + j], g));
+                const double g = z->generator[k * n + j];
+                sum = enclosure_add(sum, enclosure_times(inverse[i * n + j], g));
             }
             radius[i] = sum_up(radius[i], enclosure_size(sum));
         }
@@ -167,8 +167,7 @@ static void reduce(zonotope *z, double *noise) {
     z->count = kept;
     for (int j = 0; j < n; j++) {
         for (int i = 0; i < n; i++) {
-            const enclosure corner =
-                enclosure_mul(enclosure_of(axes[i * n + j]), enclosure_of(radius[j]));
+            const enclosure corner = enclosure_times(enclosure_of(axes[i * n + j]), radius[j]);
             z->generator[z->count * n + i] = enclosure_middle(corner);
             noise[i] = sum_up(noise[i], enclosure_radius(corner));
         }
@@ -189,8 +188,7 @@ static void map_vector(int n, const enclosure *map, double *vector, const enclos
         to[i] = more != NULL ? more[i] : enclosure_of(0.0);
         for (int j = 0; j < n; j++) {
             if (vector[j] != 0.0) {
-                const enclosure x = enclosure_of(vector[j]);
-                to[i] = enclosure_add(to[i], enclosure_mul(map[i * n + j], x));
+                to[i] = enclosure_add(to[i], enclosure_times(map[i * n + j], vector[j]));
             }
         }
     }
