@@ -22,7 +22,7 @@
 
 /* Seconds that an effort of 1 may take, about, and products of enclosures that a second takes. */
 #define SECONDS 60.0
-#define PRODUCTS_1S 7e7
+#define PRODUCTS_1S 1e8
 #define EFFORT_LEAST 1e-4
 #define EFFORT_MOST 1e4
 

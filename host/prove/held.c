@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "host/base/room.h"
 #include "host/number/functions.h"
@@ -50,6 +51,26 @@ static bool is_stopped(const held_wish *w) { return w->stop != NULL && *w->stop;
 
 /* --- what it is to be within -------------------------------------------------------------------------*/
 
+/* Of a size, and of the range that another state of the same unit has: what has less of a range hardly moves. */
+#define LITTLE 1e-3
+
+static const char *unit_of(const held_wish *w, int i) {
+    const exact_state s = w->motion->state[i];
+    return w->image->unknown[s.unknown].unit[s.primes].si;
+}
+
+static void set_within(const held_wish *w, held *h) {
+    for (int i = 0; i < h->states; i++) {
+        double most = h->state[i].range;
+        for (int j = 0; j < h->states; j++) {
+            if (strcmp(unit_of(w, i), unit_of(w, j)) == 0) {
+                most = number_most(most, LITTLE * h->state[j].range);
+            }
+        }
+        h->state[i].within = w->within[i] > 0.0 ? w->within[i] : w->tolerance * most;
+    }
+}
+
 static void find_ranges(const held_wish *w, const reading *r, held *h) {
     void *run = w->kind->start(w->image);
     const int n = h->states;
@@ -74,11 +95,11 @@ static void find_ranges(const held_wish *w, const reading *r, held *h) {
     }
     w->kind->stop(run);
     for (int i = 0; i < n; i++) {
-        held_state *s = &h->state[i];
-        s->open = true;
-        s->range = number_most(high[i] - low[i], 1e-3 * number_most(fabs(low[i]), fabs(high[i])));
-        s->within = w->within[i] > 0.0 ? w->within[i] : w->tolerance * s->range;
+        h->state[i].open = true;
+        h->state[i].range = number_most(high[i] - low[i],
+                                        LITTLE * number_most(fabs(low[i]), fabs(high[i])));
     }
+    set_within(w, h);
     free(low);
     free(high);
 }

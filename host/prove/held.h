@@ -48,7 +48,8 @@ typedef struct held_state {
     bool open;
     bool begun;    /* it is within at the start: else nothing is proved */
     double range;  /* the most less the least value in the run, at least a thousandth of its size */
-    double within; /* what it is to be within */
+    double within; /* what it is to be within: asked for, or the tolerance times its range, or times a thousandth of the
+                      largest range of its unit */
     double until_s;
     double off;    /* not less than it has been off, until then */
     double radius; /* of the tube, the most until then */

@@ -99,8 +99,10 @@ void held_print(FILE *out, const held *h, const held_wish *w) {
         fprintf(out, "nothing is proved: %s is not within at the start\n",
                 name_of(w, first, name));
     } else {
-        fprintf(out, "proved until t = %.9g s of %.9g s: %s is the first that is not\n",
-                h->state[first].until_s, end_s, name_of(w, first, name));
+        const held_state *s = &h->state[first];
+        fprintf(out, "proved until t = %.9g s of %.9g s", s->until_s, end_s);
+        fprintf(out, s->verdict == HELD_UNENDED ? "\n" : ": %s is the first that is not\n",
+                name_of(w, first, name));
     }
 }
 
