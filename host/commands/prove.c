@@ -201,9 +201,10 @@ static void say_end(const held *h, double end_s) {
     case HELD_AT_END:
     case HELD_RUN_ENDS: break;
     case HELD_NO_STEP:
-        fprintf(stderr,
-                "whirl prove: the tube ends at t = %.9g s: behind it the exact motion is not enclosed\n",
-                h->tube_s);
+        fprintf(
+            stderr,
+            "whirl prove: the tube ends at t = %.9g s: behind it the exact motion is not enclosed\n",
+            h->tube_s);
         break;
     case HELD_SPENT:
         fprintf(stderr,
@@ -225,9 +226,9 @@ static int status_of(const held *h, const image *im) {
                 "hint: a smaller --step may carry it further\n",
                 ratio_times(h->run_steps, im->step));
     }
-    return h->end == HELD_STOPPED  ? EXIT_INTERRUPTED
-           : h->status == WH_OK ? EXIT_DONE
-                                : EXIT_RUN_FAILED;
+    return h->end == HELD_STOPPED ? EXIT_INTERRUPTED
+           : h->status == WH_OK   ? EXIT_DONE
+                                  : EXIT_RUN_FAILED;
 }
 
 /* Whole rows? */
@@ -272,8 +273,7 @@ static int answer(const prove_options *o, const image *im, const exact_motion *m
                             .stop = &interrupted,
                             .see = r.file != NULL ? write_row : NULL,
                             .told = &r,
-                            .progress =
-                                !o->quiet && isatty(STDERR_FILENO) ? show_progress : NULL};
+                            .progress = !o->quiet && isatty(STDERR_FILENO) ? show_progress : NULL};
     r.wish = &wish;
     if (r.file != NULL) {
         held_rows_head(r.file, &wish);

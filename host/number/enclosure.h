@@ -89,9 +89,10 @@ static inline enclosure enclosure_times(enclosure a, double x) {
 
 /* The least that holds both. */
 static inline enclosure enclosure_hull(enclosure a, enclosure b) {
-    return enclosure_is_finite(a)
-               ? (enclosure){enclosure_lesser(a.low, b.low), enclosure_larger(a.high, b.high)}
-               : a;
+    if (!enclosure_is_finite(a) || !enclosure_is_finite(b)) {
+        return enclosure_is_finite(a) ? b : a;
+    }
+    return (enclosure){enclosure_lesser(a.low, b.low), enclosure_larger(a.high, b.high)};
 }
 
 enclosure enclosure_div(enclosure a, enclosure b);

@@ -96,8 +96,8 @@ static void find_ranges(const held_wish *w, const reading *r, held *h) {
     w->kind->stop(run);
     for (int i = 0; i < n; i++) {
         h->state[i].open = true;
-        h->state[i].range = number_most(high[i] - low[i],
-                                        LITTLE * number_most(fabs(low[i]), fabs(high[i])));
+        h->state[i].range =
+            number_most(high[i] - low[i], LITTLE * number_most(fabs(low[i]), fabs(high[i])));
     }
     set_within(w, h);
     free(low);

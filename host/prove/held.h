@@ -30,7 +30,7 @@ typedef enum held_verdict {
     HELD_TO_THE_END, /* within, at every step's end: proved */
     HELD_LEFT,       /* proved until until_s; and at the step behind it proved to be further off */
     HELD_UNTOLD,     /* proved until until_s; behind it the tube is too wide to tell */
-    HELD_UNENDED     /* proved until until_s, where the tube or the run ends: held's `end` says why */
+    HELD_UNENDED /* proved until until_s, where the tube or the run ends: held's `end` says why */
 } held_verdict;
 
 /* What ended it. */
@@ -46,9 +46,10 @@ typedef enum held_end {
 typedef struct held_state {
     held_verdict verdict;
     bool open;
-    bool begun;    /* it is within at the start: else nothing is proved */
-    double range;  /* the most less the least value in the run, at least a thousandth of its size */
-    double within; /* what it is to be within: asked for, or the tolerance times its range, or times a thousandth of the
+    bool begun;   /* it is within at the start: else nothing is proved */
+    double range; /* the most less the least value in the run, at least a thousandth of its size */
+    double
+        within; /* what it is to be within: asked for, or the tolerance times its range, or times a thousandth of the
                       largest range of its unit */
     double until_s;
     double off;    /* not less than it has been off, until then */

@@ -96,8 +96,7 @@ void held_print(FILE *out, const held *h, const held_wish *w) {
     if (first < 0) {
         fprintf(out, "proved to the end, t = %.9g s\n", end_s);
     } else if (!h->state[first].begun) {
-        fprintf(out, "nothing is proved: %s is not within at the start\n",
-                name_of(w, first, name));
+        fprintf(out, "nothing is proved: %s is not within at the start\n", name_of(w, first, name));
     } else {
         const held_state *s = &h->state[first];
         fprintf(out, "proved until t = %.9g s of %.9g s", s->until_s, end_s);

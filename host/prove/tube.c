@@ -255,7 +255,8 @@ bool tube_on(tube *t, enclosure tau_s) {
     go_to(t, tau_s, left);
     zonotope_map(t->off, slope, left);
     zonotope_box(t->off, t->box);
-    t->products += 2.0 * (double)n * (double)n * (double)t->off->count; /* here, and when it opens */
+    t->products +=
+        2.0 * (double)n * (double)n * (double)t->off->count; /* here, and when it opens */
     for (int i = 0; i < n; i++) {
         /* slopes are taken between the centre and where the motion may be */
         const enclosure centre = enclosure_of(t->centre[i]);

@@ -99,6 +99,100 @@ static void test_smallest_and_largest(void) {
     TEST_ASSERT_FALSE(enclosure_is_finite(enclosure_add(lost, enclosure_of(0.0))));
 }
 
+/* Any finite double, subnormal ones and the largest as often as others. */
+static double drawn_bits(void) {
+    const int exponent = (int)dice_one_of(&die, 2098) - 1074;
+    const double size = ldexp(dice_between(&die, 1.0, 2.0), exponent);
+    return dice_one_of(&die, 40) == 0 ? 0.0 : dice_one_of(&die, 2) == 0 ? size : -size;
+}
+
+/* What an operation may give up on: what is as large as the largest doubles. */
+static void expect_holds_or_large(const char *what, enclosure got, quad exact) {
+    if (enclosure_is_finite(got)) {
+        expect_holds(what, got, exact);
+    } else {
+        const double size = fabs((double)exact);
+        TEST_ASSERT_TRUE_MESSAGE(size > 0x1p1020, what);
+    }
+}
+
+static void expect_whole_range(double x, double y) {
+    const enclosure a = enclosure_of(x);
+    const enclosure b = enclosure_of(y);
+    expect_holds_or_large("a sum", enclosure_add(a, b), (quad)x + (quad)y);
+    expect_holds_or_large("a difference", enclosure_sub(a, b), (quad)x - (quad)y);
+    expect_holds_or_large("a product", enclosure_mul(a, b), (quad)x * (quad)y);
+    expect_holds_or_large("a product by a point", enclosure_times(a, y), (quad)x * (quad)y);
+    expect_holds_or_large("a square", enclosure_square(a), (quad)x * (quad)x);
+    const enclosure both = {fmin(x, y), fmax(x, y)};
+    const enclosure parts[] = {enclosure_mul(both, a), enclosure_times(both, x)};
+    for (int i = 0; i < 2; i++) { /* what lies between holds both products, or one is large */
+        const bool finite = enclosure_is_finite(parts[i]);
+        expect_holds_or_large("all products", parts[i],
+                              finite || fabs(x) > fabs(y) ? (quad)x * (quad)x : (quad)x * (quad)y);
+        expect_holds_or_large("all products", parts[i],
+                              finite || fabs(y) > fabs(x) ? (quad)x * (quad)y : (quad)x * (quad)x);
+    }
+    if (y != 0.0) {
+        expect_holds_or_large("a ratio", enclosure_div(a, b), (quad)x / (quad)y);
+    } else {
+        TEST_ASSERT_FALSE(enclosure_is_finite(enclosure_div(a, b)));
+    }
+    if (x >= 0.0) {
+        const enclosure root = enclosure_root(a);
+        TEST_ASSERT_TRUE((quad)root.low * (quad)root.low <= (quad)x &&
+                         (quad)root.high * (quad)root.high >= (quad)x);
+    }
+    const double middle = enclosure_middle(both);
+    const double radius = enclosure_radius(both);
+    TEST_ASSERT_TRUE((quad)middle - (quad)radius <= (quad)both.low &&
+                     (quad)both.high <= (quad)middle + (quad)radius);
+}
+
+static void test_whole_range(void) {
+#ifdef QUAD_KNOWN
+    for (unsigned i = 0; i < dice_cases(few_or_all(usual_or(100000, 10000), 2000000)); i++) {
+        const double x = drawn_bits();
+        const double y = drawn_bits();
+        /* with products and ratios that are subnormal, too */
+        const double near = dice_one_of(&die, 2) == 0
+                                ? y
+                                : ldexp(y, -ilogb(y == 0.0 ? 1.0 : y) - ilogb(x == 0.0 ? 1.0 : x) -
+                                               1060 + (int)dice_one_of(&die, 60));
+        expect_whole_range(x, isfinite(near) ? near : y);
+        TEST_ASSERT_TRUE(enclosure_below(x) < x && enclosure_above(x) > x);
+    }
+#else
+    TEST_IGNORE_MESSAGE("no numbers of 113 bits here");
+#endif
+}
+
+/* What is not finite stays so, whatever is done with it. */
+static void test_not_finite(void) {
+    static const double ends[] = {-INFINITY, INFINITY, NAN, 0.0, 1.0, -0x1.fffffffffffffp1023};
+    for (int i = 0; i < 36; i++) {
+        const enclosure bad = {ends[i / 6], ends[i % 6]};
+        for (unsigned k = 0; k < 100 && !enclosure_is_finite(bad); k++) {
+            const enclosure a = k == 0 ? enclosure_of(0.0) : drawn_enclosure();
+            TEST_ASSERT_FALSE(enclosure_is_finite(enclosure_add(bad, a)));
+            TEST_ASSERT_FALSE(enclosure_is_finite(enclosure_sub(a, bad)));
+            TEST_ASSERT_FALSE(enclosure_is_finite(enclosure_mul(bad, a)));
+            TEST_ASSERT_FALSE(enclosure_is_finite(enclosure_mul(a, bad)));
+            TEST_ASSERT_FALSE(enclosure_is_finite(enclosure_times(bad, a.low)));
+            TEST_ASSERT_FALSE(enclosure_is_finite(enclosure_div(bad, a)));
+            TEST_ASSERT_FALSE(enclosure_is_finite(enclosure_div(a, bad)));
+            TEST_ASSERT_FALSE(enclosure_is_finite(enclosure_square(bad)));
+            TEST_ASSERT_FALSE(enclosure_is_finite(enclosure_hull(bad, a)));
+            TEST_ASSERT_FALSE(enclosure_is_finite(enclosure_hull(a, bad)));
+            TEST_ASSERT_FALSE(enclosure_is_finite(enclosure_sine(bad)));
+            TEST_ASSERT_FALSE(enclosure_is_finite(enclosure_cosine(bad)));
+            TEST_ASSERT_FALSE(enclosure_is_finite(enclosure_root(bad)));
+            TEST_ASSERT_FALSE(enclosure_is_finite(enclosure_exp(bad)));
+            TEST_ASSERT_FALSE(enclosure_is_finite(enclosure_log(bad)));
+        }
+    }
+}
+
 static void test_roots(void) {
 #ifdef QUAD_KNOWN
     for (unsigned i = 0; i < dice_cases(50000); i++) {
@@ -160,6 +254,8 @@ void suite_enclosure(void) {
     die = dice_of("enclosure", 15);
     RUN_TEST(test_four_operations);
     RUN_TEST(test_smallest_and_largest);
+    RUN_TEST(test_whole_range);
+    RUN_TEST(test_not_finite);
     RUN_TEST(test_roots);
     RUN_TEST(test_sines);
     RUN_TEST(test_exponentials);
