@@ -149,17 +149,23 @@ static void expect_whole_range(double x, double y) {
                      (quad)both.high <= (quad)middle + (quad)radius);
 }
 
+/* Any double, or one whose product with x, or ratio, is subnormal. */
+static double drawn_beside(double x) {
+    const double y = drawn_bits();
+    if (x == 0.0 || y == 0.0 || dice_one_of(&die, 2) == 0) {
+        return y;
+    }
+    const int least = -1060 + (int)dice_one_of(&die, 60);
+    const int sign = dice_one_of(&die, 2) == 0 ? 1 : -1;
+    const double other = ldexp(y, -ilogb(y) + sign * (least - ilogb(x)));
+    return isfinite(other) ? other : y;
+}
+
 static void test_whole_range(void) {
 #ifdef QUAD_KNOWN
     for (unsigned i = 0; i < dice_cases(few_or_all(usual_or(100000, 10000), 2000000)); i++) {
         const double x = drawn_bits();
-        const double y = drawn_bits();
-        /* with products and ratios that are subnormal, too */
-        const double near = dice_one_of(&die, 2) == 0
-                                ? y
-                                : ldexp(y, -ilogb(y == 0.0 ? 1.0 : y) - ilogb(x == 0.0 ? 1.0 : x) -
-                                               1060 + (int)dice_one_of(&die, 60));
-        expect_whole_range(x, isfinite(near) ? near : y);
+        expect_whole_range(x, drawn_beside(x));
         TEST_ASSERT_TRUE(enclosure_below(x) < x && enclosure_above(x) > x);
     }
 #else
