@@ -6,8 +6,10 @@
 
 unity=$(dirname "$whirl")/unity
 cat >"$scratch/main.c" <<'END'
+#include <stdio.h>
 #include <stdlib.h>
 
+#include "core/arithmetic.h"
 #include "tests/host/command.h"
 #include "unity.h"
 
@@ -38,6 +40,10 @@ unsigned usual_or(unsigned usual, unsigned fewest) {
 void setUp(void) {}
 void tearDown(void) {}
 int main(void) {
+    if (wh_arithmetic_wrong(wh_arithmetic) != WH_PROBED_COUNT) { /* as whirl does */
+        puts("other arithmetic");
+        return 3;
+    }
     UNITY_BEGIN();
     suite_enclosure();
     return UNITY_END();
@@ -94,8 +100,10 @@ for by in gcc clang; do
         if [ $? -ne 0 ]; then
             grep -q 'Whirl computes the same bits everywhere' "$scratch/said"
             verdict $? "$by $fast is refused" "$scratch/said"
-        else # no macro tells of it: whirl asks the processor when it starts (core/arithmetic.h)
-            holds $by -O2 $fast
+        else # no macro tells of it
+            build $by -O2 $fast >"$scratch/err" 2>&1 && "$scratch/program" >"$scratch/said" 2>&1
+            grep -q '^other arithmetic$' "$scratch/said"
+            verdict $? "$by $fast is refused at the start" "$scratch/said"
         fi
     done
 done
