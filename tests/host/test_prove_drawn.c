@@ -146,7 +146,7 @@ static void test_drawn_arms(void) {
 #ifdef QUAD_KNOWN
     static drawn_arms d;
     dice die = dice_of("prove_drawn", 23);
-    const unsigned cases = dice_cases(few_or_all(usual_or(6, 2), 100));
+    const unsigned cases = dice_cases(few_or_all(usual_or(6, 2), 40));
     unsigned to_the_end = 0;
     unsigned little_out = 0;
     double widest = 0.0;
@@ -212,7 +212,7 @@ static void test_drawn_linkages(void) {
     unsigned to_the_end = 0;
     const bool all = few_or_all(0, 1) == 1;
     const double until_s = all ? 0.5 : 0.05; /* 500 steps */
-    const unsigned cases = dice_cases(few_or_all(usual_or(1, 1), 60));
+    const unsigned cases = dice_cases(few_or_all(usual_or(1, 1), 8));
     for (unsigned k = 0; k < cases; k++) {
         uint64_t seed = first + 1000003U * k;
         const linkage of = linkage_draw(&seed);
