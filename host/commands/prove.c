@@ -159,7 +159,8 @@ static bool read_within(const prove_options *o, const mechanism *of, const exact
                                "'%s%.*s' is given twice on the command line", a.symbol->name,
                                a.primes, "'''''''''");
                 }
-                within[s] = value;
+                within[s] =
+                    enclosure_below(value); /* what is written may be less than the double */
             }
         }
     }
@@ -203,17 +204,17 @@ static void say_end(const held *h, double end_s) {
     case HELD_NO_STEP:
         fprintf(
             stderr,
-            "whirl prove: the tube ends at t = %.9g s: behind it the exact motion is not enclosed\n",
+            "whirl prove: the tube ends at t = %.15g s: behind it the exact motion is not enclosed\n",
             h->tube_s);
         break;
     case HELD_SPENT:
         fprintf(stderr,
-                "whirl prove: the effort is spent at t = %.9g s of %.9g s\n"
+                "whirl prove: the effort is spent at t = %.15g s of %.15g s\n"
                 "hint: a larger --effort goes on, 1 being about a minute\n",
                 h->tube_s, end_s);
         break;
     case HELD_STOPPED:
-        fprintf(stderr, "whirl prove: interrupted at t = %.9g s of %.9g s%s\n", h->tube_s, end_s,
+        fprintf(stderr, "whirl prove: interrupted at t = %.15g s of %.15g s%s\n", h->tube_s, end_s,
                 h->ranged ? "" : ": the range of a coordinate is that of the whole run");
         break;
     }
@@ -222,7 +223,7 @@ static void say_end(const held *h, double end_s) {
 static int status_of(const held *h, const image *im) {
     if (h->status != WH_OK) {
         fprintf(stderr,
-                "whirl prove: error: the run diverged in the step after t = %.9g s\n"
+                "whirl prove: error: the run diverged in the step after t = %.15g s\n"
                 "hint: a smaller --step may carry it further\n",
                 ratio_times(h->run_steps, im->step));
     }

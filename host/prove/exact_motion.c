@@ -91,7 +91,15 @@ static bool lagrange(making *k) {
     return true;
 }
 
-/* left - right = 0, linear in the highest derivatives, which host/derive has seen to. */
+static bool not_linear(making *k, const term *t) {
+    diag_error(
+        k->errors, t->value->at, "write each highest derivative times what has none of them",
+        "it cannot be seen, without rounding, that this is linear in the highest derivatives");
+    return false;
+}
+
+/* left - right = 0, linear in the highest derivatives: host/derive has seen to it, but as far as its normal form tells,
+ * in which the smallest terms are dropped. */
 static bool given_outright(making *k) {
     graph *g = k->graph;
     const mechanism *m = k->instance->mechanism;
@@ -108,8 +116,11 @@ static bool given_outright(making *k) {
         }
         const int rest = graph_sub(g, left, right);
         for (int j = 0; j < k->count; j++) {
-            k->matrix[row * k->count + j] =
-                graph_without(g, graph_slope(g, rest, k->states + j), k->states);
+            const int slope = graph_slope(g, rest, k->states + j);
+            if (graph_without(g, slope, k->states) != slope) {
+                return not_linear(k, t);
+            }
+            k->matrix[row * k->count + j] = slope;
         }
         k->force[row++] = graph_neg(g, graph_without(g, rest, k->states));
     }

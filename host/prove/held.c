@@ -53,6 +53,8 @@ static bool is_stopped(const held_wish *w) { return w->stop != NULL && *w->stop;
 
 /* Of a size, and of the range that another state of the same unit has: what has less of a range hardly moves. */
 #define LITTLE 1e-3
+/* SI, in place of the range of what does not move at all, nor another of its unit: the tube has a width even there. */
+#define STILL 1e-9
 
 static const char *unit_of(const held_wish *w, int i) {
     const exact_state s = w->motion->state[i];
@@ -67,6 +69,7 @@ static void set_within(const held_wish *w, held *h) {
                 most = number_most(most, LITTLE * h->state[j].range);
             }
         }
+        most = most > 0.0 ? most : STILL;
         h->state[i].within = w->within[i] > 0.0 ? w->within[i] : w->tolerance * most;
     }
 }

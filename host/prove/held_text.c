@@ -4,6 +4,7 @@
 #include <inttypes.h>
 #include <string.h>
 
+#include "host/number/decimal.h"
 #include "host/number/ratio.h"
 
 enum { NAME_WIDTH = 16, NAME_SIZE = 160 };
@@ -28,8 +29,25 @@ static void print_head(FILE *out, const held *h, const held_wish *w) {
             ratio_times(im->steps, im->step));
     fprintf(out,
             "  held against a tube round the exact motion: Taylor steps of order %d, %" PRIu64
-            " of them to t = %.9g s\n",
+            " of them to t = %.15g s\n",
             TUBE_ORDER, h->tube_steps, h->tube_s);
+}
+
+typedef struct figure {
+    char text[40];
+} figure;
+
+/* Not less than x, with so many places: what is proved of x is true of what is printed. */
+static figure not_less(double x, int places) {
+    figure f;
+    const char *end;
+    double shown = enclosure_above(enclosure_above(x)); /* it may have been divided by its unit */
+    snprintf(f.text, sizeof f.text, "%.*e", places, x);
+    while (x > 0.0 && decimal_read(f.text, &end) < x) {
+        shown *= 1.001;
+        snprintf(f.text, sizeof f.text, "%.*e", places, shown);
+    }
+    return f;
 }
 
 /* What is behind the last proved time. */
@@ -53,18 +71,21 @@ static void print_state(FILE *out, const held *h, const held_wish *w, int i) {
     const image_unit *unit = unit_of(w, i);
     const char *shown = strcmp(unit->shown, "1") == 0 ? "" : unit->shown;
     char name[NAME_SIZE];
+    const figure within = not_less(image_shown(unit, s->within), 2);
     char until[40];
-    snprintf(until, sizeof until, "%.9g", s->until_s);
+    snprintf(until, sizeof until, "%.15g", s->until_s);
     fprintf(out, "  %-*s ", NAME_WIDTH, name_of(w, i, name));
     if (!s->begun) {
-        fprintf(out, "%-12s within %.2e %s: %s\n", "never", image_shown(unit, s->within), shown,
+        fprintf(out, "%-12s within %s %s: %s\n", "never", within.text, shown,
                 s->verdict == HELD_LEFT ? "its start is off by more: proved"
                                         : "its start is not known so well");
         return;
     }
-    fprintf(out, "%-12s within %.2e %s: off by at most %.1e, the tube %.1e wide%s\n",
-            s->verdict == HELD_TO_THE_END ? "to the end" : until, image_shown(unit, s->within),
-            shown, image_shown(unit, s->off), image_shown(unit, 2.0 * s->radius), behind(h, s));
+    const figure off = not_less(image_shown(unit, s->off), 1);
+    const figure wide = not_less(image_shown(unit, 2.0 * s->radius), 1);
+    fprintf(out, "%-12s within %s %s: off by at most %s, the tube %s wide%s\n",
+            s->verdict == HELD_TO_THE_END ? "to the end" : until, within.text, shown, off.text,
+            wide.text, behind(h, s));
 }
 
 /* The state of which the least is proved; -1: all is. */
@@ -94,12 +115,12 @@ void held_print(FILE *out, const held *h, const held_wish *w) {
         print_state(out, h, w, i);
     }
     if (first < 0) {
-        fprintf(out, "proved to the end, t = %.9g s\n", end_s);
+        fprintf(out, "proved to the end, t = %.15g s\n", end_s);
     } else if (!h->state[first].begun) {
         fprintf(out, "nothing is proved: %s is not within at the start\n", name_of(w, first, name));
     } else {
         const held_state *s = &h->state[first];
-        fprintf(out, "proved until t = %.9g s of %.9g s", s->until_s, end_s);
+        fprintf(out, "proved until t = %.15g s of %.15g s", s->until_s, end_s);
         fprintf(out, s->verdict == HELD_UNENDED ? "\n" : ": %s is the first that is not\n",
                 name_of(w, first, name));
     }

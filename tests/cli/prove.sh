@@ -155,6 +155,9 @@ Q(x) = 1 [N]*sqrt(x/1 [m])
 scene begins { start x = 0 [m]; step 1 [ms]; until 1 [s] }
 END
 ended 0 'the tube ends at t = 0 s' 'there the tube ends$' "$scratch/root.whirl"
+# where the run does
+ended 1 'error: the run diverged in the step after t = 0 s' '^proved until t = 0 s of' tests/mechanisms/kepler.whirl
+proved '^proved to the end, t = 10 s$' tests/mechanisms/double_pendulum.whirl # it hangs still
 for signal in INT TERM; do
     "$whirl" prove thomson_a --csv "$scratch/i.csv" >"$scratch/out" 2>"$scratch/err" &
     process=$!
