@@ -214,8 +214,14 @@ static void say_end(const held *h, double end_s) {
                 h->tube_s, end_s);
         break;
     case HELD_STOPPED:
-        fprintf(stderr, "whirl prove: interrupted at t = %.15g s of %.15g s%s\n", h->tube_s, end_s,
-                h->ranged ? "" : ": the range of a coordinate is that of the whole run");
+        if (h->ranged) {
+            fprintf(stderr, "whirl prove: interrupted at t = %.15g s of %.15g s\n", h->tube_s,
+                    end_s);
+        } else {
+            fputs("whirl prove: interrupted in the run that tells the range of each coordinate: "
+                  "nothing is proved yet\n",
+                  stderr);
+        }
         break;
     }
 }

@@ -153,8 +153,9 @@ enclosure enclosure_root(enclosure a) {
 
 /* e^x of one number: the series of x / 2^n, squared n times. */
 static enclosure exponential(double x) {
+    const double size = x < 0.0 ? -x : x;
     int halvings = 0;
-    for (double size = x < 0.0 ? -x : x; size > 0.25; size *= 0.5) {
+    while (number_scaled(size, -halvings) > 0.25) {
         if (++halvings > 11) {
             return none(); /* beyond 512 */
         }

@@ -226,7 +226,8 @@ int graph_power(graph *g, int a, enclosure exponent) {
         if (n == 0) {
             return graph_whole(g, 1);
         }
-        const int half = n > 1 ? graph_power(g, a, enclosure_of((double)(n / 2))) : a;
+        const int halved = n / 2;
+        const int half = n > 1 ? graph_power(g, a, enclosure_of((double)halved)) : a;
         const int even = n > 1 ? graph_mul(g, half, half) : a;
         const int whole = n > 1 && n % 2 != 0 ? graph_mul(g, even, a) : even;
         return e < 0.0 ? graph_div(g, graph_whole(g, 1), whole) : whole;

@@ -175,6 +175,15 @@ for signal in INT TERM; do
     rm -f "$scratch/i.csv"
 done
 
+"$whirl" prove thomson_a --until 100000s --effort 10000 --csv "$scratch/i.csv" >"$scratch/out" 2>"$scratch/err" &
+process=$!
+sleep 1
+kill -INT $process
+wait $process
+[ $? -eq 130 ] && grep -q '^whirl prove: interrupted in the run that tells the range' "$scratch/err" &&
+    [ ! -s "$scratch/out" ] && [ ! -e "$scratch/i.csv" ]
+verdict $? "interrupted before anything is proved: no rows" "$scratch/err"
+
 # --- what is refused -------------------------------------------------------------------------------------------------------
 refused 'the stop changes the equations' carriage_stop
 refused 'the hold changes the equations' thomson_magnet
