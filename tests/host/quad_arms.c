@@ -72,7 +72,7 @@ static void eliminate(int n, quad m[QUAD_COORDINATES][QUAD_COORDINATES], quad *f
             f[i] -= by * f[k];
         }
     }
-    for (int k = n - 1; k >= 0; k--) {
+    for (int k = n; k-- > 0;) {
         for (int j = k + 1; j < n; j++) {
             f[k] -= m[k][j] * f[j];
         }
@@ -83,8 +83,8 @@ static void eliminate(int n, quad m[QUAD_COORDINATES][QUAD_COORDINATES], quad *f
 void quad_arms_slopes(const void *which, const quad *state, quad *to) {
     const quad_arms *of = which;
     const int n = of->coordinates;
-    quad mass[QUAD_COORDINATES][QUAD_COORDINATES];
-    quad force[QUAD_COORDINATES];
+    quad mass[QUAD_COORDINATES][QUAD_COORDINATES] = {{0}};
+    quad force[QUAD_COORDINATES] = {0};
     for (int i = 0; i < n; i++) {
         force[i] = of->load[i];
         for (int j = 0; j < n; j++) {
@@ -145,7 +145,7 @@ static void midpoint(const following *f, quad span_s, int substeps, const quad *
 }
 
 static void extrapolate(const following *f, quad span_s, quad *state) {
-    quad row[COLUMNS][QUAD_STATES];
+    quad row[COLUMNS][QUAD_STATES] = {{0}};
     const int columns =
         COLUMNS_LEAST + (int)((double)span_s / SPAN_MOST_S * (COLUMNS - COLUMNS_LEAST) + 0.5);
     for (int k = 0; k < columns; k++) {
