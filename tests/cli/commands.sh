@@ -111,7 +111,7 @@ ends() { # COMMAND [OPTION...]: all that it comes to
     sweep) "$whirl" sweep "$plain" --over x=1..1.5:2 --quiet "$@" ;;
     map) "$whirl" map "$plain" --over x=1..1.5:2 --over a=1..1.2:2 --csv - --quiet "$@" ;;
     trust) "$whirl" trust "$plain" --csv - --quiet "$@" ;;
-    prove) "$whirl" prove "$plain" "$@" ;;
+    prove) "$whirl" prove "$plain" --csv - --quiet "$@" ;;
     price) "$whirl" price "$plain" --csv - --quiet --effort 0.001 "$@" ;;
     choose) "$whirl" choose --predict "$plain" --error 1e-2 --quiet --effort 0.001 "$@" ;;
     *) echo "no call of $command in $0" ;;
