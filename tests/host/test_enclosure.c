@@ -84,8 +84,8 @@ static void test_smallest_and_largest(void) {
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
         for (int sign = -1; sign <= 1; sign += 2) {
             const double x = sign * sizes[i];
-            TEST_ASSERT_TRUE(enclosure_below(x) <= nextafter(x, -INFINITY));
-            TEST_ASSERT_TRUE(enclosure_above(x) >= nextafter(x, INFINITY));
+            TEST_ASSERT_TRUE(enclosure_below(x) <= nextafter(x, -(double)INFINITY));
+            TEST_ASSERT_TRUE(enclosure_above(x) >= nextafter(x, (double)INFINITY));
         }
     }
     const enclosure tiny = enclosure_mul(enclosure_of(0x1p-600), enclosure_of(0x1p-600));
@@ -175,7 +175,8 @@ static void test_whole_range(void) {
 
 /* What is not finite stays so, whatever is done with it. */
 static void test_not_finite(void) {
-    static const double ends[] = {-INFINITY, INFINITY, NAN, 0.0, 1.0, -0x1.fffffffffffffp1023};
+    static const double large = 0x1.fffffffffffffp1023;
+    const double ends[] = {-(double)INFINITY, (double)INFINITY, (double)NAN, 0.0, 1.0, -large};
     for (int i = 0; i < 36; i++) {
         const enclosure bad = {ends[i / 6], ends[i % 6]};
         for (unsigned k = 0; k < 100 && !enclosure_is_finite(bad); k++) {
