@@ -164,8 +164,12 @@ static uint64_t rounded(uint64_t quotient, int exponent, bool rest, int *side) {
     const uint64_t scale =
         power >= EXPONENT_LEAST ? (uint64_t)(power - EXPONENT_LEAST) << (MANTISSA - 1) : 0;
     const uint64_t made = scale + whole + (up ? 1U : 0U);
+    if (made >= INFINITY_BITS) {
+        *side = -1;
+        return INFINITY_BITS;
+    }
     *side = is_exact ? 0 : up ? -1 : 1;
-    return made < INFINITY_BITS ? made : INFINITY_BITS;
+    return made;
 }
 
 static uint64_t nearest(digits *d, int *side) {

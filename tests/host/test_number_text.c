@@ -49,11 +49,11 @@ static void agrees(const char *text) {
         snprintf(message, sizeof message, "%.300s: %a instead of %a, %d characters instead of %d",
                  text, got, wanted, (int)(end - text), (int)(wanted_end - text));
         TEST_FAIL_MESSAGE(message);
-        int side;
+    }
+    int side;
     const double again = decimal_read_side(text, NULL, &side);
     TEST_ASSERT_TRUE_MESSAGE(bits_of(again) == bits_of(got), text);
     TEST_ASSERT_EQUAL_INT_MESSAGE(end != text ? side_of(text, wanted) : 0, side, text);
-}
 }
 
 static size_t put_digits(char *text, size_t at, int count) {
