@@ -197,7 +197,7 @@ static void write_row(void *told, uint64_t step, const enclosure *exact, const d
 }
 
 /* What ended the tube before its end. */
-static void say_end(const held *h, double end_s) {
+static void say_end(const held_found *h, double end_s) {
     switch (h->end) {
     case HELD_AT_END:
     case HELD_RUN_ENDS: break;
@@ -226,7 +226,7 @@ static void say_end(const held *h, double end_s) {
     }
 }
 
-static int status_of(const held *h, const image *im) {
+static int status_of(const held_found *h, const image *im) {
     if (h->status != WH_OK) {
         fprintf(stderr,
                 "whirl prove: error: the run diverged in the step after t = %.15g s\n"
@@ -248,7 +248,7 @@ static bool close_rows(const rows *r) {
 }
 
 static int held_out(const prove_options *o, const held_wish *w, const rows *r) {
-    held h = held_run(w);
+    held_found h = held_run(w);
     if (w->progress != NULL) {
         fprintf(stderr, "\r        \r");
     }

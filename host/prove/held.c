@@ -61,7 +61,7 @@ static const char *unit_of(const held_wish *w, int i) {
     return w->image->unknown[s.unknown].unit[s.primes].si;
 }
 
-static void set_within(const held_wish *w, held *h) {
+static void set_within(const held_wish *w, held_found *h) {
     for (int i = 0; i < h->states; i++) {
         double most = h->state[i].range;
         for (int j = 0; j < h->states; j++) {
@@ -74,7 +74,7 @@ static void set_within(const held_wish *w, held *h) {
     }
 }
 
-static void find_ranges(const held_wish *w, const reading *r, held *h) {
+static void find_ranges(const held_wish *w, const reading *r, held_found *h) {
     void *run = w->kind->start(w->image);
     const int n = h->states;
     double *low = room(n, sizeof *low);
@@ -110,7 +110,7 @@ static void find_ranges(const held_wish *w, const reading *r, held *h) {
 /* --- record by record --------------------------------------------------------------------------------*/
 
 /* No state is asked about any more? */
-static bool all_closed(const held *h) {
+static bool all_closed(const held_found *h) {
     for (int i = 0; i < h->states; i++) {
         if (h->state[i].open) {
             return false;
@@ -119,7 +119,7 @@ static bool all_closed(const held *h) {
     return true;
 }
 
-static void look(held *h, const double *value, const enclosure *exact, double time_s) {
+static void look(held_found *h, const double *value, const enclosure *exact, double time_s) {
     for (int i = 0; i < h->states; i++) {
         held_state *s = &h->state[i];
         const enclosure off = enclosure_sub(enclosure_of(value[i]), exact[i]);
@@ -142,7 +142,7 @@ static void look(held *h, const double *value, const enclosure *exact, double ti
 typedef struct going {
     const held_wish *wish;
     const reading *reading;
-    held *held;
+    held_found *held;
     tube *tube;
     void *run;
     enclosure step_s; /* the run's step */
@@ -206,7 +206,7 @@ static held_end ended(const going *g, bool on) {
 }
 
 static void hold(going *g) {
-    held *h = g->held;
+    held_found *h = g->held;
     for (int i = 0; i < h->states; i++) {
         g->exact[i] = g->wish->motion->start[i];
     }
@@ -233,9 +233,9 @@ static enclosure counted(uint64_t count) {
     return near < 0x1p53 ? enclosure_of(near) : enclosure_about(near, 0);
 }
 
-held held_run(const held_wish *w) {
+held_found held_run(const held_wish *w) {
     const image *im = w->image;
-    held h = {.states = w->motion->states, .end = HELD_STOPPED};
+    held_found h = {.states = w->motion->states, .end = HELD_STOPPED};
     h.state = room(h.states, sizeof *h.state);
     const reading r = {w, room(im->outputs, sizeof(double)), room(h.states, sizeof(double))};
     find_ranges(w, &r, &h);
@@ -259,4 +259,4 @@ held held_run(const held_wish *w) {
     return h;
 }
 
-void held_free(held *h) { free(h->state); }
+void held_free(held_found *h) { free(h->state); }

@@ -30,7 +30,7 @@ typedef enum held_verdict {
     HELD_TO_THE_END, /* within, at every step's end: proved */
     HELD_LEFT,       /* proved until until_s; and at the step behind it proved to be further off */
     HELD_UNTOLD,     /* proved until until_s; behind it the tube is too wide to tell */
-    HELD_UNENDED /* proved until until_s, where the tube or the run ends: held's `end` says why */
+    HELD_UNENDED /* proved until until_s, where the tube or the run ends: held_found's `end` says why */
 } held_verdict;
 
 /* What ended it. */
@@ -56,7 +56,7 @@ typedef struct held_state {
     double radius; /* of the tube, the most until then */
 } held_state;
 
-typedef struct held {
+typedef struct held_found {
     held_state *state; /* [motion->states] */
     int states;
     wh_status status;   /* of the run's last step */
@@ -65,9 +65,9 @@ typedef struct held {
     double tube_s; /* the tube's last time */
     held_end end;
     bool ranged; /* the run was done, so that it is known what it is to be within */
-} held;
+} held_found;
 
-held held_run(const held_wish *w);
-void held_free(held *h);
+held_found held_run(const held_wish *w);
+void held_free(held_found *h);
 
 #endif

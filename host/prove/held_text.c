@@ -21,7 +21,7 @@ static const image_unit *unit_of(const held_wish *w, int i) {
     return &w->image->unknown[s.unknown].unit[s.primes];
 }
 
-static void print_head(FILE *out, const held *h, const held_wish *w) {
+static void print_head(FILE *out, const held_found *h, const held_wish *w) {
     const image *im = w->image;
     fprintf(out, "%s%s%s\n", im->name, im->title[0] != '\0' ? ": " : "", im->title);
     fprintf(out, "  %s%s, %s, step %.9g s, %" PRIu64 " steps to t = %.15g s\n", image_stepper(im),
@@ -51,7 +51,7 @@ static figure not_less(double x, int places) {
 }
 
 /* What is behind the last proved time. */
-static const char *behind(const held *h, const held_state *s) {
+static const char *behind(const held_found *h, const held_state *s) {
     static const char *const ends[] = {[HELD_AT_END] = "",
                                        [HELD_RUN_ENDS] = "; there the run fails",
                                        [HELD_NO_STEP] = "; there the tube ends",
@@ -66,7 +66,7 @@ static const char *behind(const held *h, const held_state *s) {
     return "";
 }
 
-static void print_state(FILE *out, const held *h, const held_wish *w, int i) {
+static void print_state(FILE *out, const held_found *h, const held_wish *w, int i) {
     const held_state *s = &h->state[i];
     const image_unit *unit = unit_of(w, i);
     const char *shown = strcmp(unit->shown, "1") == 0 ? "" : unit->shown;
@@ -89,7 +89,7 @@ static void print_state(FILE *out, const held *h, const held_wish *w, int i) {
 }
 
 /* The state of which the least is proved; -1: all is. */
-static int first_of(const held *h) {
+static int first_of(const held_found *h) {
     int first = -1;
     for (int i = 0; i < h->states; i++) {
         const held_state *s = &h->state[i];
@@ -105,7 +105,7 @@ static int first_of(const held *h) {
     return first;
 }
 
-void held_print(FILE *out, const held *h, const held_wish *w) {
+void held_print(FILE *out, const held_found *h, const held_wish *w) {
     const double end_s = ratio_times(w->image->steps, w->image->step);
     const int first = first_of(h);
     char name[NAME_SIZE];

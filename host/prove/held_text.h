@@ -6,7 +6,7 @@
 
 #include "held.h"
 
-void held_print(FILE *out, const held *h, const held_wish *w);
+void held_print(FILE *out, const held_found *h, const held_wish *w);
 
 /* Rows of comma-separated values, in SI, with all digits: the time, and of each state the least and the most that the exact
  * motion may be, and what the run has. */

@@ -36,7 +36,7 @@ static void see(void *told, uint64_t step, const enclosure *exact, const double 
     }
 }
 
-held beside_hold(const char *text, const char *name, const engine_kind *kind, beside *b) {
+held_found beside_hold(const char *text, const char *name, const engine_kind *kind, beside *b) {
     derived d = derived_scene(text, name);
     derived_expect(&d, text);
     diags *errors = diags_new();
@@ -53,7 +53,7 @@ held beside_hold(const char *text, const char *name, const engine_kind *kind, be
                             .within = within,
                             .see = see,
                             .told = &s};
-    held h = held_run(&wish);
+    held_found h = held_run(&wish);
     free(within);
     exact_motion_free(m);
     diags_free(errors);

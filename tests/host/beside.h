@@ -19,6 +19,6 @@ typedef struct beside {
 } beside;
 
 /* The scene `name` of the text, run by `kind` and held against its tube. */
-held beside_hold(const char *text, const char *name, const engine_kind *kind, beside *b);
+held_found beside_hold(const char *text, const char *name, const engine_kind *kind, beside *b);
 
 #endif

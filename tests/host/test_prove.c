@@ -71,12 +71,12 @@ static char *text_of(const scene_case *c, double until_s) {
 }
 
 /* The scene until then, beside a reference whose length is off by this part. */
-static held hold_scene(const scene_case *c, double until_s, double part, beside *b) {
+static held_found hold_scene(const scene_case *c, double until_s, double part, beside *b) {
     const quad_arms of = c->by_hand(c->length_m * (1 + (quad)part));
     *b = (beside){.slopes = quad_arms_slopes, .of = &of, .step_s = c->step_s};
     memcpy(b->state, c->start, sizeof c->start);
     char *text = text_of(c, until_s);
-    const held h = beside_hold(text, "proved", &engine_double, b);
+    const held_found h = beside_hold(text, "proved", &engine_double, b);
     free(text);
     return h;
 }
@@ -87,7 +87,7 @@ static void expect_proved(const scene_case *c, double widest) {
 #ifdef QUAD_KNOWN
     beside b;
     const double until_s = few_or_all(0, 1) == 1 ? c->until_s : c->usual_s;
-    held h = hold_scene(c, until_s, 0.0, &b);
+    held_found h = hold_scene(c, until_s, 0.0, &b);
     printf("  %-20s %g s: %u records inside, widest %.2e, %u steps of the tube\n", c->name, until_s,
            (unsigned)b.records, b.widest, (unsigned)h.tube_steps);
     TEST_ASSERT_EQUAL_UINT64_MESSAGE(0, b.outside, c->name);

@@ -135,7 +135,7 @@ static beside hold_arms(const drawn_arms *d, const char *text, unsigned which, d
     *coefficient[which % (sizeof coefficient / sizeof coefficient[0])] *= 1 + (quad)part;
     beside b = {.slopes = quad_arms_slopes, .of = &of, .step_s = (quad)1 / 500};
     memcpy(b.state, d->start, sizeof b.state);
-    held h = beside_hold(text, "drawn", &engine_double, &b);
+    held_found h = beside_hold(text, "drawn", &engine_double, &b);
     *end = h.end;
     TEST_ASSERT_TRUE_MESSAGE(h.end != HELD_AT_END || b.records == h.run_steps, text);
     held_free(&h);
@@ -222,7 +222,7 @@ static void test_drawn_linkages(void) {
             b.state[2 * i] = (quad)of.start[i];
             b.state[2 * i + 1] = (quad)of.start_rate[i];
         }
-        held h = beside_hold(text, "linkage_moves", &engine_float, &b);
+        held_found h = beside_hold(text, "linkage_moves", &engine_float, &b);
         TEST_ASSERT_EQUAL_UINT64_MESSAGE(0, b.outside, text);
         to_the_end += h.end == HELD_AT_END && b.records == h.run_steps ? 1 : 0;
         widest = fmax(widest, b.widest);
