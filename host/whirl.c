@@ -32,6 +32,7 @@ static const command commands[] = {
     {"choose", command_choose, "SCENE|FILE[:SCENE] ...",
      "the cheapest setting that keeps an error on a board"},
     {"trust", command_trust, "SCENE|FILE[:SCENE] ...", "until when a run can be trusted"},
+    {"prove", command_prove, "SCENE|FILE[:SCENE] ...", "until when it is proved to be the motion"},
     {"map", command_map, "SCENE|FILE[:SCENE] ...", "which pairs of two values a run survives"},
     {"pil", command_pil, "SCENE --firmware IMAGE", "firmware in an emulator against a scene"},
     {"emit-settings", command_emit_settings, NULL, NULL},

@@ -92,7 +92,7 @@ ASAN_BUILD = $(MAKE) MAIN="CC='$(CC)' OPT='$(OPT)' EXTRA='$(EXTRA)'" B=build/asa
     EXTRA="-fsanitize=$(SANITIZE) -fno-sanitize-recover=all"
 
 # Scripts that run no instrumented program, or have it do what other scripts or a suite have it do, too.
-CLI_NOT_ASAN := $(foreach t,boards flags fresh headers help map no_libm runners setup structure,tests/cli/$(t).sh)
+CLI_NOT_ASAN := $(foreach t,boards enclosures flags fresh headers help map no_libm runners setup structure,tests/cli/$(t).sh)
 # What scripts make themselves belongs to the main configuration, and must have its settings, not ours: with ours it would
 # be compiled anew, and once more by the next gate.
 .PHONY: asan-run

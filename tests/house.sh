@@ -41,9 +41,10 @@ fixed: base core emit image number run
 sweep: base core derive image lang number run
 price: base core fixed image number plot run
 trust: base core image number run
+prove: base core image lang number run
 map: base core derive image lang number plot run sweep trust
 pil: base core image number run
-commands: base derive emit fixed image lang map number pil plot price run show sweep trust
+commands: base derive emit fixed image lang map number pil plot price prove run show sweep trust
 '
 
 # included FILE...: "FILE FOLDER" for each folder of core or host that a file names in an include

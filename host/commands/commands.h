@@ -12,6 +12,7 @@ int command_sweep(int count, char **words);
 int command_price(int count, char **words);
 int command_choose(int count, char **words);
 int command_trust(int count, char **words);
+int command_prove(int count, char **words);
 int command_map(int count, char **words);
 int command_pil(int count, char **words);
 int command_emit_scenes(int count, char **words);

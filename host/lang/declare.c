@@ -174,7 +174,7 @@ bool read_output(parser *in, const statement_word *word) {
         diag_error(in->diags, name.at, NULL, "'time' is the first column of every record");
     }
     symbol *made = declare(in, &name, SYM_OUTPUT);
-    unit_scale written = {1.0, 1.0, dim_none()};
+    unit_scale written = {1.0, 1.0, dim_none(), enclosure_of(1.0)};
     const char *unit_text = "";
     const bool has_unit = in->token.kind == TOKEN_UNIT;
     if (has_unit) {

@@ -32,7 +32,7 @@ bool parse_unit(parser *in, unit_scale *result, const char **text) {
     if (!good) {
         diag_error(in->diags, place_after(bracket.at, 1 + error.offset),
                    error.hint[0] == '\0' ? NULL : error.hint, "%s", error.message);
-        *result = (unit_scale){1.0, 1.0, dim_none()};
+        *result = (unit_scale){1.0, 1.0, dim_none(), enclosure_of(1.0)};
         result->dim.unknown = true;
     }
     char *bare = parser_copy_text(in, &bracket);
@@ -51,6 +51,7 @@ bool parse_unit(parser *in, unit_scale *result, const char **text) {
 static const expr *parse_number(parser *in) {
     expr *made = expr_new(in, EXPR_NUMBER, in->token.at);
     made->number = in->token.number;
+    made->exact = in->token.exact;
     made->dim.any = made->number == 0.0;
     parser_next(in);
     if (in->token.kind == TOKEN_UNIT) {
@@ -59,6 +60,7 @@ static const expr *parse_number(parser *in) {
         parse_unit(in, &written, &in->number_unit_text);
         in->number_unit = written;
         made->number = made->number * written.scale / written.divisor;
+        made->exact = enclosure_mul(made->exact, written.exact);
         made->dim = written.dim;
         made->uses = USES_UNIT;
         if (!(made->number - made->number == 0.0)) {

@@ -245,9 +245,11 @@ static void evaluate(plan *from, instance *made) {
     char what[WORDS_SIZE];
     for (int i = 0; i < of->parameter_count; i++) {
         made->parameter[i] = parameter_value(&from->values, i);
+        made->parameter_given[i] = from->values.parameter_expr[i];
     }
     for (int i = 0; i < of->input_count; i++) {
         snprintf(what, sizeof what, "input '%s'", of->inputs[i]->name);
+        made->input_given[i] = from->input[i].value;
         made->input[i] = finite_value(from->input[i].value, &from->values, from->input[i].at, what);
     }
     for (int i = 0; i < of->coordinate_count; i++) {
@@ -255,6 +257,7 @@ static void evaluate(plan *from, instance *made) {
             const given *each = &from->start[i][k];
             snprintf(what, sizeof what, "the initial value of '%s'", of->coordinates[i]->name);
             made->start_at[i][k] = each->at;
+            made->start_given[i][k] = each->value;
             made->start[i][k] = each->value == NULL
                                     ? 0.0
                                     : finite_value(each->value, &from->values, each->at, what);
@@ -272,6 +275,11 @@ static void allocate(instance *made) {
     made->input = arena_alloc(memory, (size_t)of->input_count * sizeof *made->input);
     made->start = arena_alloc(memory, (size_t)of->coordinate_count * sizeof *made->start);
     made->start_at = arena_alloc(memory, (size_t)of->coordinate_count * sizeof *made->start_at);
+    made->start_given =
+        arena_alloc(memory, (size_t)of->coordinate_count * sizeof *made->start_given);
+    made->parameter_given =
+        arena_alloc(memory, (size_t)of->parameter_count * sizeof *made->parameter_given);
+    made->input_given = arena_alloc(memory, (size_t)of->input_count * sizeof *made->input_given);
     made->start_count =
         arena_alloc(memory, (size_t)of->coordinate_count * sizeof *made->start_count);
     for (int i = 0; i < of->coordinate_count; i++) {
@@ -280,6 +288,7 @@ static void allocate(instance *made) {
         made->start[i] =
             arena_alloc(memory, (size_t)(order < 2 ? 2 : order) * sizeof **made->start);
         made->start_at[i] = arena_alloc(memory, (size_t)order * sizeof **made->start_at);
+        made->start_given[i] = arena_alloc(memory, (size_t)order * sizeof **made->start_given);
     }
 }
 

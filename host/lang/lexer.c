@@ -121,7 +121,10 @@ static void read_number(lexer *in, token *made) {
     } else {
         memcpy(digits, made->text, length);
         digits[length] = '\0';
-        made->number = decimal_read(digits, NULL);
+        int side;
+        made->number = decimal_read_side(digits, NULL, &side);
+        made->exact = (enclosure){side < 0 ? enclosure_below(made->number) : made->number,
+                                  side > 0 ? enclosure_above(made->number) : made->number};
         if (isinf(made->number)) {
             diag_error(in->diags, made->at, NULL,
                        "this number is too large (1.7e308 is the limit)");

@@ -6,6 +6,7 @@
 #include <stddef.h>
 
 #include "host/base/diag.h"
+#include "host/number/enclosure.h"
 
 enum {
     NAME_LENGTH_MAX = 63, /* characters of a name */
@@ -33,6 +34,7 @@ typedef struct token {
     size_t length;
     int primes;
     double number;
+    enclosure exact;  /* what is written, which a double may not be */
     bool starts_line; /* nothing but space before it on its line */
 } token;
 

@@ -11,6 +11,7 @@
 #include <stdint.h>
 
 #include "host/base/diag.h"
+#include "host/number/enclosure.h"
 #include "host/number/functions.h"
 #include "host/number/ratio.h"
 #include "kinds.h"
@@ -53,8 +54,9 @@ typedef enum expr_op {
 struct expr {
     expr_op op;
     function_id function;
-    int primes;    /* time derivatives on a symbol: 0, 1, 2, ... */
-    double number; /* SI value of EXPR_NUMBER */
+    int primes;      /* time derivatives on a symbol: 0, 1, 2, ... */
+    double number;   /* SI value of EXPR_NUMBER */
+    enclosure exact; /* the same as it is written, which a double may not be */
     const symbol *symbol;
     const expr *left;
     const expr *right;
@@ -251,12 +253,15 @@ typedef struct instance {
     const bool *conserve; /* [coordinate_count] to be recovered from their momentum, or NULL */
     bool ledger;          /* keep the books of energy and momentum */
     bool balance; /* the same where there are contacts and it can be done, to balance the run */
-    double *parameter;  /* [parameter_count] SI */
-    double *input;      /* [input_count] SI */
-    double **start;     /* [coordinate_count][order] value, rate, ...: SI; order >= 2 */
-    place **start_at;   /* like start: where it was given; no source where it was not */
-    int *start_count;   /* [coordinate_count] entries in start[i] (2 for coordinates) */
-    range_value *range; /* [range_count] */
+    double *parameter;            /* [parameter_count] SI */
+    double *input;                /* [input_count] SI */
+    const expr **parameter_given; /* what the values are of, */
+    const expr **input_given;
+    const expr ***start_given; /* NULL: nothing, which is 0 */
+    double **start;            /* [coordinate_count][order] value, rate, ...: SI; order >= 2 */
+    place **start_at;          /* like start: where it was given; no source where it was not */
+    int *start_count;          /* [coordinate_count] entries in start[i] (2 for coordinates) */
+    range_value *range;        /* [range_count] */
     int range_count;
     double step_s;    /* default 1e-3 */
     double until_s;   /* default 10 */

@@ -43,6 +43,7 @@ static const expr *parse_plain_quantity(parser *in) {
     made->uses = USES_UNIT;
     if (unit_parse(typed->text + offset, typed->length - offset, &written, &error)) {
         made->number = number.number * written.scale / written.divisor;
+        made->exact = enclosure_mul(number.exact, written.exact);
         made->dim = written.dim;
     } else {
         diag_error(in->diags, place_after(in->token.at, error.offset),

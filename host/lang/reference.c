@@ -214,6 +214,7 @@ const expr *expr_name(parser *in, const token *name) {
     if (token_is_word(name, WORD_PI)) {
         made->op = EXPR_NUMBER;
         made->number = PI;
+        made->exact = enclosure_pi();
         return made;
     }
     if (word_is_reserved(name->text, name->length)) {

@@ -148,6 +148,22 @@ static const unit_entry *find_unit(const char *name, size_t length) {
     return NULL;
 }
 
+/* A factor of the table, between what it may be: a whole number is one; the others are decimals or multiples of pi, to the
+ * nearest double, perhaps times a number. */
+static enclosure exact_factor(double factor) {
+    return number_nearest(factor) == factor ? enclosure_of(factor) : enclosure_about(factor, 1);
+}
+
+static enclosure exact(const unit_entry *u) {
+    return enclosure_div(exact_factor(u->scale), exact_factor(u->divisor));
+}
+
+/* An exponent that is no whole number of halves is the double next to it. */
+static enclosure exact_power(enclosure base, double exponent) {
+    const bool is_exact = number_nearest(2.0 * exponent) == 2.0 * exponent;
+    return enclosure_power(base, is_exact ? enclosure_of(exponent) : enclosure_about(exponent, 0));
+}
+
 static bool unknown_unit(reader *in, size_t start, size_t length) {
     const char *name = in->text + start;
     const int shown = length > 40 ? 40 : (int)length;
@@ -226,7 +242,7 @@ static bool read_product(reader *in, unit_scale *result);
 static bool read_factor(reader *in, unit_scale *result) {
     const char c = peek(in);
     const size_t start = in->at;
-    *result = (unit_scale){1.0, 1.0, dim_none()};
+    *result = (unit_scale){1.0, 1.0, dim_none(), enclosure_of(1.0)};
     if (c == '(') {
         if (++in->nesting > 20) {
             return fail(in, start, "too many parentheses in a unit", "");
@@ -254,7 +270,8 @@ static bool read_factor(reader *in, unit_scale *result) {
         if (found == NULL) {
             return unknown_unit(in, start, in->at - start);
         }
-        *result = (unit_scale){found->scale, found->divisor, dim_of_quantity(found->of)};
+        *result =
+            (unit_scale){found->scale, found->divisor, dim_of_quantity(found->of), exact(found)};
     } else if (c == '\0' && in->at >= in->length) {
         return fail(in, start, "a unit is missing here", "");
     } else if ((unsigned char)c >= 0x80) {
@@ -272,6 +289,7 @@ static bool read_factor(reader *in, unit_scale *result) {
         const double size = fabs(exponent); /* 1/ms is 1000/s: its factors change places */
         result->scale = number_power(exponent < 0.0 ? base.divisor : base.scale, size);
         result->divisor = number_power(exponent < 0.0 ? base.scale : base.divisor, size);
+        result->exact = exact_power(base.exact, exponent);
         if (!dim_power(base.dim, exponent, &result->dim)) {
             return fail(in, sign_at, "this exponent gives no dimension we can keep", "");
         }
@@ -294,10 +312,12 @@ static bool read_product(reader *in, unit_scale *result) {
         if (c == '*') {
             result->scale *= factor.scale;
             result->divisor *= factor.divisor;
+            result->exact = enclosure_mul(result->exact, factor.exact);
             kept = dim_multiply(before, factor.dim, &result->dim);
         } else {
             result->scale *= factor.divisor;
             result->divisor *= factor.scale;
+            result->exact = enclosure_div(result->exact, factor.exact);
             kept = dim_divide(before, factor.dim, &result->dim);
         }
         if (!kept) {

@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "host/number/enclosure.h"
 #include "quantities.h"
 
 /* Exponents of m, kg, s, A, K in twelfths, so that square and cube roots stay exact. Angles are
@@ -49,6 +50,7 @@ typedef struct unit_scale {
     double scale;
     double divisor;
     dimension dim;
+    enclosure exact; /* what one of it is in SI, which two doubles may not be */
 } unit_scale;
 
 typedef struct unit_error {

@@ -145,11 +145,12 @@ static uint64_t divide(big *n, const big *m, bool *rest) {
 }
 
 /* The bits of the double nearest to quotient * 2^exponent and, if `rest`, a little more. The quotient's highest bit
- * is 62 or 63. */
-static uint64_t rounded(uint64_t quotient, int exponent, bool rest) {
+ * is 62 or 63. *side: where that number lies of the double. */
+static uint64_t rounded(uint64_t quotient, int exponent, bool rest, int *side) {
     const int bits = quotient >> (QUOTIENT_BITS - 1) != 0 ? QUOTIENT_BITS : QUOTIENT_BITS - 1;
     const int power = exponent + bits - 1; /* of the highest bit */
     const int kept = power >= EXPONENT_LEAST ? MANTISSA : MANTISSA - (EXPONENT_LEAST - power);
+    *side = 1;
     if (kept < 0) {
         return 0;
     }
@@ -157,23 +158,32 @@ static uint64_t rounded(uint64_t quotient, int exponent, bool rest) {
     const uint64_t whole = dropped < QUOTIENT_BITS ? quotient >> dropped : 0;
     const uint64_t half = UINT64_C(1) << (dropped - 1);
     const uint64_t left = quotient & (half | (half - 1));
+    const bool is_exact = left == 0 && !rest;
     const bool up = left > half || (left == half && (rest || (whole & 1U) != 0));
     /* a normal number's highest bit, and a carry, count into the exponent above it */
     const uint64_t scale =
         power >= EXPONENT_LEAST ? (uint64_t)(power - EXPONENT_LEAST) << (MANTISSA - 1) : 0;
     const uint64_t made = scale + whole + (up ? 1U : 0U);
-    return made < INFINITY_BITS ? made : INFINITY_BITS;
+    if (made >= INFINITY_BITS) {
+        *side = -1;
+        return INFINITY_BITS;
+    }
+    *side = is_exact ? 0 : up ? -1 : 1;
+    return made;
 }
 
-static uint64_t nearest(digits *d) {
+static uint64_t nearest(digits *d, int *side) {
+    *side = 0;
     if (d->whole.count == 0) {
         return 0;
     }
     const int64_t first = d->exponent + d->held - 1; /* 10^first <= the number */
     if (first > PLACE_MOST) {
+        *side = -1;
         return INFINITY_BITS;
     }
     if (first < PLACE_LEAST) {
+        *side = 1;
         return 0;
     }
     if (d->more) {
@@ -187,10 +197,10 @@ static uint64_t nearest(digits *d) {
     shift_left(longer > 0 ? &under : &d->whole, longer > 0 ? longer : -longer);
     bool rest;
     const uint64_t quotient = divide(&d->whole, &under, &rest);
-    return rounded(quotient, longer + exponent - (QUOTIENT_BITS - 1), rest);
+    return rounded(quotient, longer + exponent - (QUOTIENT_BITS - 1), rest, side);
 }
 
-double decimal_read(const char *text, const char **end) {
+double decimal_read_side(const char *text, const char **end, int *side) {
     const bool negative = *text == '-';
     const char *at = text + (negative || *text == '+' ? 1 : 0);
     digits d = {.held = 0};
@@ -211,11 +221,18 @@ double decimal_read(const char *text, const char **end) {
     if (end != NULL) {
         *end = found ? at : text;
     }
+    *side = 0;
     if (!found) {
         return 0.0;
     }
-    const uint64_t bits = nearest(&d) | (negative ? UINT64_C(1) << 63 : 0);
+    const uint64_t bits = nearest(&d, side) | (negative ? UINT64_C(1) << 63 : 0);
+    *side = negative ? -*side : *side;
     double value;
     memcpy(&value, &bits, sizeof value);
     return value;
+}
+
+double decimal_read(const char *text, const char **end) {
+    int side;
+    return decimal_read_side(text, end, &side);
 }

@@ -9,4 +9,7 @@
  * numbers, no "inf", no "nan". */
 double decimal_read(const char *text, const char **end);
 
+/* The same; *side is where the number lies of the double: -1 below it, 0 on it, 1 above it. */
+double decimal_read_side(const char *text, const char **end, int *side);
+
 #endif

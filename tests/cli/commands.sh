@@ -117,6 +117,7 @@ ends() { # COMMAND [OPTION...]: all that it comes to
         case " $* " in *' --until '*) ;; *) set -- --until 0.1s "$@" ;; esac
         "$whirl" pil "$plain" --firmware "$(dirname "$whirl")/pil_cart" --bind theta=a "$@" | grep -a "^plant's state"
         ;;
+    prove) "$whirl" prove "$plain" --csv - --quiet "$@" ;;
     price) "$whirl" price "$plain" --csv - --quiet --effort 0.001 "$@" ;;
     choose) "$whirl" choose --predict "$plain" --error 1e-2 --quiet --effort 0.001 "$@" ;;
     *) echo "no call of $command in $0" ;;

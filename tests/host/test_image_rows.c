@@ -14,7 +14,7 @@ void suite_image_rows(void);
 
 /* In twelfths: what the unit's text says. */
 static dimension dimension_of(const char *unit) {
-    unit_scale read = {1.0, 1.0, dim_none()};
+    unit_scale read = {1.0, 1.0, dim_none(), enclosure_of(1.0)};
     unit_error error = {.offset = 0};
     if (strcmp(unit, "1") != 0) {
         TEST_ASSERT_TRUE_MESSAGE(unit_parse(unit, strlen(unit), &read, &error), unit);

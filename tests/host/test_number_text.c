@@ -1,6 +1,7 @@
 /* test_number_text.c: decimals are read as the nearest double, hexadecimal ones are written to the bit. What is compared
  * with is the C library's strtod() and printf("%a"), which glibc rounds correctly. WHIRL_NUMBERS is the number of
  * texts of each kind. */
+#include <fenv.h>
 #include <float.h>
 #include <inttypes.h>
 #include <math.h>
@@ -28,6 +29,16 @@ static int count_of(int least) {
 
 static int draw(int bound) { return (int)(random_bits(&seed) % (unsigned)bound); }
 
+/* Where the number lies of the nearest double: the C library, told to round down and up, says between which two it is. */
+static int side_of(const char *text, double nearest) {
+    fesetround(FE_DOWNWARD);
+    const double down = strtod(text, NULL);
+    fesetround(FE_UPWARD);
+    const double up = strtod(text, NULL);
+    fesetround(FE_TONEAREST);
+    return down == up ? 0 : nearest == down ? 1 : -1;
+}
+
 static void agrees(const char *text) {
     char *wanted_end;
     const char *end;
@@ -39,6 +50,10 @@ static void agrees(const char *text) {
                  text, got, wanted, (int)(end - text), (int)(wanted_end - text));
         TEST_FAIL_MESSAGE(message);
     }
+    int side;
+    const double again = decimal_read_side(text, NULL, &side);
+    TEST_ASSERT_TRUE_MESSAGE(bits_of(again) == bits_of(got), text);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(end != text ? side_of(text, wanted) : 0, side, text);
 }
 
 static size_t put_digits(char *text, size_t at, int count) {

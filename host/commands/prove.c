@@ -1,0 +1,347 @@
+/* prove.c: `whirl prove`: until when a run is proved to be within a tolerance of the exact motion. */
+#include <errno.h>
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "commands.h"
+#include "files.h"
+#include "host/base/arena.h"
+#include "host/base/room.h"
+#include "host/lang/override.h"
+#include "host/lang/value.h"
+#include "host/number/functions.h"
+#include "host/prove/held_text.h"
+#include "host/run/start.h"
+#include "load.h"
+#include "options.h"
+#include "trusting.h"
+
+/* Seconds that an effort of 1 may take, about, and products of enclosures that a second takes. */
+#define SECONDS 60.0
+#define PRODUCTS_1S 1e8
+#define EFFORT_LEAST 1e-4
+#define EFFORT_MOST 1e4
+
+static const command_usage usage = {
+    .head =
+        "usage: whirl prove SCENE|MECHANISM[:SCENE]|FILE[:SCENE] [options]\n"
+        "\n"
+        "Until when each coordinate and rate of a run is within a tolerance of the exact motion, proved:\n"
+        "a tube in which the exact motion lies is computed from the energies, with parameters as the\n"
+        "decimals that are written, in intervals that are rounded outwards, and every step's end of the\n"
+        "run is held against it. For smooth scenes: no stops, holds, dry friction or whens. The options\n"
+        "are those of `whirl run`, and tell the run that is asked about.\n"
+        "\n",
+    .groups = OPTIONS_CHANGE | OPTIONS_STEP | OPTIONS_ENGINE | OPTIONS_NUMBER,
+    .tail =
+        "  --within X=1mm       what a coordinate or rate is to be within (repeatable, each name once)\n"
+        "  --tolerance 1e-3     of the others: part of the range that each has in the run (default: 1e-3)\n"
+        "  --csv FILE           a row for each step: the time, and of each coordinate and rate, in SI, the\n"
+        "                       least and the most that the exact motion may be, and the run's; - is\n"
+        "                       standard output, and the words then go to standard error\n"
+        "  --effort 1           how long it may take: 1 is about a minute (1e-4 to 1e4). Where it is\n"
+        "                       spent, what is proved until there is told\n"
+        "  --quiet              no progress, and no words beside --csv\n",
+    .why = {[EXIT_ROW_OF(EXIT_DONE)] = "also where it is proved until some time only",
+            [EXIT_ROW_OF(EXIT_RUN_FAILED)] = "the run diverged: what is proved before that is told",
+            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
+            [EXIT_ROW_OF(EXIT_INTERRUPTED)] = "what is proved until then is told"}};
+
+static volatile sig_atomic_t interrupted;
+
+static void on_interrupt(int signal_number) {
+    (void)signal_number;
+    interrupted = 1;
+}
+
+typedef struct prove_options {
+    common_options common;
+    const char *target;
+    const char **within; /* [within_count] */
+    int within_count;
+    const char *csv;
+    double tolerance;
+    double effort;
+    bool quiet;
+} prove_options;
+
+/* One option, with its value where it has one; false when the word is none. */
+static bool take_one(int count, char **words, int *at, prove_options *o, bool *bad) {
+    const char *value = NULL;
+    if (options_take("prove", usage.groups, count, words, at, &o->common, bad)) {
+        return true;
+    }
+    if (!*bad && (value = options_value(count, words, at, "--within", bad)) != NULL) {
+        o->within[o->within_count++] = value;
+    } else if (!*bad && (value = options_value(count, words, at, "--tolerance", bad)) != NULL) {
+        *bad = !options_number("prove", "--tolerance", value, 1e-15, 1.0,
+                               "a part of the range that a coordinate has: --tolerance 1e-3",
+                               &o->tolerance);
+    } else if (!*bad && (value = options_value(count, words, at, "--effort", bad)) != NULL) {
+        *bad = !options_number("prove", "--effort", value, EFFORT_LEAST, EFFORT_MOST,
+                               "1 is about a minute: --effort 10", &o->effort);
+    } else if (!*bad && (value = options_value(count, words, at, "--csv", bad)) != NULL) {
+        o->csv = value;
+    } else if (!*bad && strcmp(words[*at], "--quiet") == 0) {
+        o->quiet = true;
+        ++*at;
+        return true;
+    }
+    return value != NULL;
+}
+
+static bool read_options(int count, char **words, prove_options *o) {
+    bool bad = false;
+    o->within = room(count, sizeof *o->within);
+    for (int at = 0; at < count && !bad;) {
+        if (take_one(count, words, &at, o, &bad) || bad) {
+            continue;
+        }
+        if (words[at][0] == '-' && words[at][1] != '\0') {
+            options_unknown("prove", words[at], usage.groups,
+                            (const char *const[]){"--within", "--tolerance", "--csv", "--effort",
+                                                  "--quiet", NULL});
+            return false;
+        }
+        if (o->target != NULL) {
+            fprintf(stderr, "whirl prove: error: one scene at a time, not also '%s'\n", words[at]);
+            return false;
+        }
+        o->target = words[at++];
+    }
+    if (!bad && o->target == NULL) {
+        options_usage(stderr, &usage);
+        return false;
+    }
+    return !bad;
+}
+
+/* Two runs, the range's and the one that is held; the tube is bounded on its way. */
+static bool is_affordable(const image *im, double effort) {
+    const double seconds = twins_operations(im, im) / TRUSTING_OPERATIONS_1S;
+    if (seconds <= effort * SECONDS) {
+        return true;
+    }
+    const double wanted = number_ceiling(seconds / SECONDS);
+    fprintf(stderr,
+            "whirl prove: error: the run alone, of %.3g steps, would take about %.0f minutes\n"
+            "hint: a nearer --until, or a longer --step",
+            (double)im->steps, wanted);
+    if (wanted <= EFFORT_MOST) {
+        fprintf(stderr, "; or --effort %.0f", wanted);
+    }
+    fputc('\n', stderr);
+    return false;
+}
+
+/* within[states]: SI, 0 where nothing was said. False: reported. */
+static bool read_within(const prove_options *o, const mechanism *of, const exact_motion *m,
+                        double *within, diags *errors) {
+    struct arena *memory = arena_new();
+    const size_t before = diags_calls(errors);
+    for (int i = 0; i < o->within_count; i++) {
+        assignment a;
+        if (!override_parse(of, OVERRIDE_START, o->within[i], memory, errors, &a)) {
+            continue;
+        }
+        const double value = expr_value(a.value, NULL);
+        if (!isfinite(value) || !(value > 0.0)) {
+            diag_error(errors, a.at, "--within X=1mm", "a number above zero is wanted");
+        }
+        for (int s = 0; s < m->states; s++) {
+            if (m->state[s].unknown == a.symbol->index && m->state[s].primes == a.primes) {
+                if (within[s] > 0.0) {
+                    diag_error(errors, a.at, "once is enough: leave one of them out",
+                               "'%s%.*s' is given twice on the command line", a.symbol->name,
+                               a.primes, "'''''''''");
+                }
+                within[s] =
+                    enclosure_below(value); /* what is written may be less than the double */
+            }
+        }
+    }
+    arena_free(memory);
+    return diags_calls(errors) == before;
+}
+
+static void catch_interrupts(void) {
+    struct sigaction action = {.sa_handler = on_interrupt,
+                               .sa_flags = SA_RESTART | (int)SA_RESETHAND};
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+}
+
+static void show_progress(double share) { fprintf(stderr, "\r%5.1f %%", 100.0 * share); }
+
+static bool is_standard(const prove_options *o) {
+    return o->csv != NULL && strcmp(o->csv, "-") == 0;
+}
+
+static int say_unwritten(const char *file) {
+    fprintf(stderr, "%s: error: cannot be written: %s\n", file, strerror(errno));
+    return EXIT_BAD_INPUT;
+}
+
+typedef struct rows {
+    FILE *file; /* NULL: none are wished */
+    const held_wish *wish;
+} rows;
+
+static void write_row(void *told, uint64_t step, const enclosure *exact, const double *run) {
+    const rows *r = told;
+    held_row(r->file, r->wish, step, exact, run);
+}
+
+/* What ended the tube before its end. */
+static void say_end(const held_found *h, double end_s) {
+    switch (h->end) {
+    case HELD_AT_END:
+    case HELD_RUN_ENDS: break;
+    case HELD_NO_STEP:
+        fprintf(
+            stderr,
+            "whirl prove: the tube ends at t = %.15g s: behind it the exact motion is not enclosed\n",
+            h->tube_s);
+        break;
+    case HELD_SPENT:
+        fprintf(stderr,
+                "whirl prove: the effort is spent at t = %.15g s of %.15g s\n"
+                "hint: a larger --effort goes on, 1 being about a minute\n",
+                h->tube_s, end_s);
+        break;
+    case HELD_STOPPED:
+        if (h->ranged) {
+            fprintf(stderr, "whirl prove: interrupted at t = %.15g s of %.15g s\n", h->tube_s,
+                    end_s);
+        } else {
+            fputs("whirl prove: interrupted in the run that tells the range of each coordinate: "
+                  "nothing is proved yet\n",
+                  stderr);
+        }
+        break;
+    }
+}
+
+static int status_of(const held_found *h, const image *im) {
+    if (h->status != WH_OK) {
+        fprintf(stderr,
+                "whirl prove: error: the run diverged in the step after t = %.15g s\n"
+                "hint: a smaller --step may carry it further\n",
+                ratio_times(h->run_steps, im->step));
+    }
+    return h->end == HELD_STOPPED ? EXIT_INTERRUPTED
+           : h->status == WH_OK   ? EXIT_DONE
+                                  : EXIT_RUN_FAILED;
+}
+
+/* Whole rows? */
+static bool close_rows(const rows *r) {
+    bool good = r->file == NULL || ferror(r->file) == 0;
+    if (r->file != NULL && r->file != stdout) {
+        good = fclose(r->file) == 0 && good;
+    }
+    return good;
+}
+
+static int held_out(const prove_options *o, const held_wish *w, const rows *r) {
+    held_found h = held_run(w);
+    if (w->progress != NULL) {
+        fprintf(stderr, "\r        \r");
+    }
+    if (h.ranged && (!o->quiet || o->csv == NULL)) {
+        held_print(is_standard(o) ? stderr : stdout, &h, w);
+    }
+    say_end(&h, ratio_times(w->image->steps, w->image->step));
+    const int code = status_of(&h, w->image);
+    const bool good = close_rows(r);
+    if (!h.ranged && r->file != NULL && r->file != stdout) {
+        files_drop(o->csv); /* nothing is in it */
+    }
+    held_free(&h);
+    return good || code == EXIT_INTERRUPTED ? code : say_unwritten(o->csv);
+}
+
+static int answer(const prove_options *o, const image *im, const exact_motion *m,
+                  const double *within) {
+    rows r = {.file = o->csv == NULL ? NULL : is_standard(o) ? stdout : fopen(o->csv, "wb")};
+    if (o->csv != NULL && r.file == NULL) {
+        return say_unwritten(o->csv);
+    }
+    const held_wish wish = {.motion = m,
+                            .image = im,
+                            .kind = o->common.number,
+                            .tolerance = o->tolerance,
+                            .within = within,
+                            .products_most = o->effort * SECONDS * PRODUCTS_1S,
+                            .stop = &interrupted,
+                            .see = r.file != NULL ? write_row : NULL,
+                            .told = &r,
+                            .progress = !o->quiet && isatty(STDERR_FILENO) ? show_progress : NULL};
+    r.wish = &wish;
+    if (r.file != NULL) {
+        held_rows_head(r.file, &wish);
+    }
+    catch_interrupts();
+    return held_out(o, &wish, &r);
+}
+
+static int prove_loaded(const prove_options *o, const loaded *made, const mechanism *of,
+                        diags *errors) {
+    const image *im = made->image;
+    exact_motion *m = NULL;
+    if (is_affordable(im, o->effort) && start_has_method(im, im->settings.method, errors) &&
+        start_is_possible(im, o->common.number, errors)) {
+        m = exact_motion_make(made->instance, errors);
+    }
+    int code = EXIT_BAD_INPUT;
+    if (m != NULL) {
+        double *within = room(m->states, sizeof *within);
+        const bool good = read_within(o, of, m, within, errors);
+        diags_flush(errors, stderr);
+        code = good ? answer(o, im, m, within) : EXIT_BAD_INPUT;
+        free(within);
+    }
+    diags_flush(errors, stderr);
+    exact_motion_free(m);
+    return code;
+}
+
+static int prove_source(const prove_options *o, source_model *from) {
+    const mechanism *of;
+    const scene *in;
+    int code = source_open(from, o->target);
+    code = code == EXIT_DONE ? source_pick(from, true, &of, &in) : code;
+    if (code != EXIT_DONE || source_would_be_lost(from, "--csv", o->csv, "")) {
+        return code != EXIT_DONE ? code : EXIT_BAD_INPUT;
+    }
+    const overrides changes = options_overrides(&o->common.change);
+    const load_wish wish = {.settings = o->common.integration,
+                            .use = IMAGE_TO_RUN,
+                            .keep = KEEP_INSTANCE,
+                            .conserve = true};
+    loaded made;
+    code = load(&made, from, of, in, &changes, &wish);
+    code = code == EXIT_DONE ? prove_loaded(o, &made, of, from->errors) : code;
+    unload(&made);
+    return code;
+}
+
+int command_prove(int count, char **words) {
+    prove_options o = {.common = options_defaults(), .tolerance = HELD_TOLERANCE, .effort = 1.0};
+    source_model from = {0};
+    if (options_help(count, words, &usage)) {
+        return EXIT_DONE;
+    }
+    int code = EXIT_BAD_INPUT;
+    if (read_options(count, words, &o)) {
+        code = prove_source(&o, &from);
+        source_close(&from);
+    }
+    options_forget(&o.common);
+    free(o.within);
+    return code;
+}

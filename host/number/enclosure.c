@@ -1,0 +1,232 @@
+/* enclosure.c: see enclosure.h. Series are cut where their terms fall, with signs that alternate or by a geometric series:
+ * what is left out is added as an interval. */
+#include "enclosure.h"
+
+#include <math.h>
+
+#include "functions.h"
+
+/* --- quotients and sizes -----------------------------------------------------------------------------*/
+
+static enclosure none(void) { return (enclosure){(double)NAN, (double)NAN}; }
+
+enclosure enclosure_div(enclosure a, enclosure b) {
+    if (!(b.low > 0.0 || b.high < 0.0) || !enclosure_is_finite(b)) {
+        return none();
+    }
+    const double p = a.low / b.low;
+    const double q = a.low / b.high;
+    const double r = a.high / b.low;
+    const double s = a.high / b.high;
+    const double bad = (p + q) + (r + s);
+    if (!(bad - bad == 0.0)) {
+        return none();
+    }
+    if (enclosure_is_zero(a)) {
+        return a;
+    }
+    return (enclosure){
+        enclosure_below(enclosure_lesser(enclosure_lesser(p, q), enclosure_lesser(r, s))),
+        enclosure_above(enclosure_larger(enclosure_larger(p, q), enclosure_larger(r, s)))};
+}
+
+enclosure enclosure_square(enclosure a) {
+    const enclosure whole = enclosure_mul(a, a);
+    return whole.low < 0.0 ? (enclosure){a.low > 0.0 || a.high < 0.0 ? whole.low : 0.0, whole.high}
+                           : whole;
+}
+
+enclosure enclosure_about(double value, int more) {
+    enclosure a = enclosure_of(value);
+    for (int i = 0; i <= more; i++) {
+        a = (enclosure){enclosure_below(a.low), enclosure_above(a.high)};
+    }
+    return a;
+}
+
+double enclosure_middle(enclosure a) { return 0.5 * a.low + 0.5 * a.high; }
+
+double enclosure_radius(enclosure a) {
+    const double middle = enclosure_middle(a);
+    return enclosure_is_point(a) ? 0.0
+                                 : enclosure_larger(enclosure_above(middle - a.low),
+                                                    enclosure_above(a.high - middle));
+}
+
+double enclosure_size(enclosure a) { return enclosure_larger(-a.low, a.high); }
+
+bool enclosure_inside(enclosure a, enclosure b) { return a.low > b.low && a.high < b.high; }
+
+bool enclosure_has(enclosure a, double x) { return a.low <= x && x <= a.high; }
+
+/* --- sine and cosine -----------------------------------------------------------------------------------*/
+
+/* pi / 2 in three parts: whole multiples of the first two, up to this, are exact. */
+#define QUARTER_HIGH 0x1.921fb544p+0
+#define QUARTER_MIDDLE 0x1.0b4611a6p-34
+#define QUARTER_LOW 0x1.3198a2e037073p-69
+#define QUARTERS_MOST 0x1p20
+
+enclosure enclosure_pi(void) { return (enclosure){0x1.921fb54442d18p+1, 0x1.921fb54442d19p+1}; }
+
+/* Terms of the series, for arguments within 1. */
+enum { TERMS = 13 };
+
+/* sum of (-t)^i / ((from + 1) (from + 2) ... (from + 2 i)), t = x^2 from 0 to 1: the terms fall and alternate, so what
+ * is left out is within the first one that is. */
+static enclosure waves(enclosure t, int from) {
+    enclosure sum = {0.0, 1.0};
+    for (int i = TERMS; i > 0; i--) {
+        const double divisor = (double)((from + 2 * i - 1) * (from + 2 * i));
+        sum = enclosure_sub(enclosure_of(1.0),
+                            enclosure_div(enclosure_mul(t, sum), enclosure_of(divisor)));
+    }
+    return sum;
+}
+
+/* x less the nearest whole number of quarter turns, of which *quarters is the number within a turn; false: too
+ * far, or so wide that little would be told. */
+static bool reduce(enclosure x, enclosure *rest, int *quarters) {
+    const double number = number_nearest(enclosure_middle(x) * 0.63661977236758134);
+    if (!(number > -QUARTERS_MOST && number < QUARTERS_MOST)) {
+        return false;
+    }
+    *quarters = (int)number & 3;
+    enclosure left = enclosure_sub(x, enclosure_of(number * QUARTER_HIGH));
+    left = enclosure_sub(left, enclosure_of(number * QUARTER_MIDDLE));
+    *rest =
+        enclosure_sub(left, enclosure_mul(enclosure_of(number), enclosure_about(QUARTER_LOW, 0)));
+    return enclosure_radius(*rest) <= 1.5 &&
+           enclosure_size(enclosure_of(enclosure_middle(*rest))) <= 1.0;
+}
+
+/* The sine of `rest` and so many quarter turns: from the middle's, whose slope is at most 1 in size. */
+static enclosure wave(enclosure rest, int quarters) {
+    const double middle = enclosure_middle(rest);
+    const double radius = enclosure_radius(rest);
+    const enclosure t = enclosure_square(enclosure_of(middle));
+    const enclosure sine = enclosure_mul(enclosure_of(middle), waves(t, 1));
+    const enclosure cosine = waves(t, 0);
+    const enclosure swing = {-radius, radius};
+    const enclosure half = enclosure_mul(enclosure_of(0.5), enclosure_square(enclosure_of(radius)));
+    const enclosure held = {enclosure_below(1.0 - half.high), 1.0};
+    const enclosure of_sine =
+        enclosure_add(enclosure_mul(sine, held), enclosure_mul(cosine, swing));
+    const enclosure of_cosine =
+        enclosure_sub(enclosure_mul(cosine, held), enclosure_mul(sine, swing));
+    switch (quarters & 3) {
+    case 0: return of_sine;
+    case 1: return of_cosine;
+    case 2: return enclosure_neg(of_sine);
+    default: return enclosure_neg(of_cosine);
+    }
+}
+
+static enclosure turned(enclosure a, int quarters) {
+    enclosure rest;
+    int found;
+    if (!enclosure_is_finite(a)) {
+        return none();
+    }
+    if (!reduce(a, &rest, &found)) {
+        return (enclosure){-1.0, 1.0};
+    }
+    const enclosure all = wave(rest, found + quarters);
+    return (enclosure){enclosure_larger(all.low, -1.0), enclosure_lesser(all.high, 1.0)};
+}
+
+enclosure enclosure_sine(enclosure a) { return enclosure_is_zero(a) ? a : turned(a, 0); }
+
+enclosure enclosure_cosine(enclosure a) {
+    return enclosure_is_zero(a) ? enclosure_of(1.0) : turned(a, 1);
+}
+
+/* --- roots, exponentials, powers -----------------------------------------------------------------------*/
+
+enclosure enclosure_root(enclosure a) {
+    if (!(a.low >= 0.0) || !enclosure_is_finite(a)) {
+        return none();
+    }
+    const double low = enclosure_below(number_root(a.low));
+    return (enclosure){enclosure_larger(low, 0.0), enclosure_above(number_root(a.high))};
+}
+
+/* e^x of one number: the series of x / 2^n, squared n times. */
+static enclosure exponential(double x) {
+    const double size = x < 0.0 ? -x : x;
+    int halvings = 0;
+    while (number_scaled(size, -halvings) > 0.25) {
+        if (++halvings > 11) {
+            return none(); /* beyond 512 */
+        }
+    }
+    const enclosure y = enclosure_of(number_scaled(x, -halvings));
+    enclosure sum = {0.0, 2.0}; /* of 1 + y/n (1 + y/(n+1) ...) */
+    for (int n = 20; n > 0; n--) {
+        sum = enclosure_add(enclosure_of(1.0),
+                            enclosure_div(enclosure_mul(y, sum), enclosure_of((double)n)));
+    }
+    for (; halvings > 0; halvings--) {
+        sum = enclosure_square(sum);
+    }
+    return sum;
+}
+
+enclosure enclosure_exp(enclosure a) {
+    if (!enclosure_is_finite(a)) {
+        return none();
+    }
+    if (enclosure_is_zero(a)) {
+        return enclosure_of(1.0);
+    }
+    const enclosure low = exponential(a.low);
+    const enclosure high = enclosure_is_point(a) ? low : exponential(a.high);
+    return enclosure_is_finite(low) && enclosure_is_finite(high) ? (enclosure){low.low, high.high}
+                                                                 : none();
+}
+
+/* log x = y + log(1 + z), z = x e^-y - 1, with y nearly log x, whoever found it; z / (1 + z) <= log(1 + z) <= z. */
+static enclosure logarithm(double x) {
+    const double y = number_call(FN_LOG, x, 0.0);
+    const enclosure z = enclosure_sub(
+        enclosure_mul(enclosure_of(x), enclosure_exp(enclosure_of(-y))), enclosure_of(1.0));
+    if (!enclosure_is_finite(z) || !(z.low > -0.5)) {
+        return none();
+    }
+    const enclosure low =
+        enclosure_div(enclosure_of(z.low), enclosure_add(enclosure_of(1.0), enclosure_of(z.low)));
+    return enclosure_add(enclosure_of(y), (enclosure){low.low, z.high});
+}
+
+enclosure enclosure_log(enclosure a) {
+    if (!(a.low > 0.0) || !enclosure_is_finite(a)) {
+        return none();
+    }
+    const enclosure low = logarithm(a.low);
+    const enclosure high = enclosure_is_point(a) ? low : logarithm(a.high);
+    return enclosure_is_finite(low) && enclosure_is_finite(high) ? (enclosure){low.low, high.high}
+                                                                 : none();
+}
+
+enclosure enclosure_whole_power(enclosure a, int n) {
+    if (n < 0) {
+        return enclosure_div(enclosure_of(1.0), enclosure_whole_power(a, -n));
+    }
+    if (n == 0 || n == 1) {
+        return n == 0 ? enclosure_of(1.0) : a;
+    }
+    const enclosure half = enclosure_square(enclosure_whole_power(a, n / 2));
+    return n % 2 == 0 ? half : enclosure_mul(half, a);
+}
+
+enclosure enclosure_power(enclosure a, enclosure exponent) {
+    const double e = exponent.low;
+    const bool is_point = enclosure_is_point(exponent) && e > -1e6 && e < 1e6;
+    if (is_point && number_nearest(e) == e) {
+        return enclosure_whole_power(a, (int)e);
+    }
+    if (is_point && number_nearest(2.0 * e) == 2.0 * e) {
+        return enclosure_whole_power(enclosure_root(a), (int)(2.0 * e));
+    }
+    return enclosure_exp(enclosure_mul(exponent, enclosure_log(a)));
+}

@@ -1,0 +1,122 @@
+/* enclosure.h: interval arithmetic with outward rounding: two doubles between which a real number lies for certain,
+ * whatever rounding did on the way (Moore, Kearfott, Cloud, Introduction to Interval Analysis, 2009).
+ *
+ * The rounding mode is the usual one, to nearest: behind each operation the ends are moved outwards by one or two
+ * units of the last place, by an addition and a product that need no bits of the number (Rump, Zimmermann, Boldo,
+ * Melquiond, Computing predecessor and successor in rounding to nearest, BIT 49, 2009). What is exactly zero stays so.
+ *
+ * An enclosure that could not be found (division by what may be zero, a root of what may be negative, overflow) is
+ * NaN at both ends, and so is all that follows from it: who asks enclosure_is_finite() of the last result knows of all. */
+#ifndef NUMBER_ENCLOSURE_H
+#define NUMBER_ENCLOSURE_H
+
+#include <stdbool.h>
+
+#include "core/real.h" /* refuses compilers set to other arithmetic; whirl's start, processors (core/arithmetic.h) */
+
+#if __DBL_MANT_DIG__ != 53 || __DBL_MIN_EXP__ != -1021
+#error "Whirl needs IEEE 754 numbers of 64 bits."
+#endif
+
+typedef struct enclosure {
+    double low;
+    double high;
+} enclosure;
+
+/* Below the double in front of x, or that, and above the one behind it. */
+static inline double enclosure_below(double x) {
+    return x - (0x1.0000000000001p-53 * (x < 0.0 ? -x : x) + 0x1p-1074);
+}
+static inline double enclosure_above(double x) {
+    return x + (0x1.0000000000001p-53 * (x < 0.0 ? -x : x) + 0x1p-1074);
+}
+
+static inline enclosure enclosure_of(double value) { return (enclosure){value, value}; }
+static inline bool enclosure_is_zero(enclosure a) { return a.low == 0.0 && a.high == 0.0; }
+static inline bool enclosure_is_point(enclosure a) { return a.low == a.high; }
+static inline bool enclosure_is_finite(enclosure a) {
+    return a.low - a.low == 0.0 && a.high - a.high == 0.0;
+}
+static inline enclosure enclosure_neg(enclosure a) { return (enclosure){-a.high, -a.low}; }
+
+static inline enclosure enclosure_add(enclosure a, enclosure b) {
+    if (enclosure_is_zero(a)) {
+        return b;
+    }
+    if (enclosure_is_zero(b)) {
+        return a;
+    }
+    return (enclosure){enclosure_below(a.low + b.low), enclosure_above(a.high + b.high)};
+}
+
+static inline enclosure enclosure_sub(enclosure a, enclosure b) {
+    return enclosure_add(a, enclosure_neg(b));
+}
+
+static inline double enclosure_lesser(double a, double b) { return a < b ? a : b; }
+static inline double enclosure_larger(double a, double b) { return a > b ? a : b; }
+
+static inline enclosure enclosure_mul(enclosure a, enclosure b) {
+    const double p = a.low * b.low;
+    const double q = a.low * b.high;
+    const double r = a.high * b.low;
+    const double s = a.high * b.high;
+    const double bad = (p + q) + (r + s); /* an infinity or a NaN among them does not get lost */
+    if (!(bad - bad == 0.0)) {
+        return (enclosure){bad - bad, bad - bad};
+    }
+    if (enclosure_is_zero(a) || enclosure_is_zero(b)) {
+        return enclosure_of(0.0);
+    }
+    return (enclosure){
+        enclosure_below(enclosure_lesser(enclosure_lesser(p, q), enclosure_lesser(r, s))),
+        enclosure_above(enclosure_larger(enclosure_larger(p, q), enclosure_larger(r, s)))};
+}
+
+/* a x */
+static inline enclosure enclosure_times(enclosure a, double x) {
+    const double p = a.low * x;
+    const double q = a.high * x;
+    const double bad = p + q;
+    if (!(bad - bad == 0.0)) {
+        return (enclosure){bad - bad, bad - bad};
+    }
+    if (enclosure_is_zero(a) || x == 0.0) {
+        return enclosure_of(0.0);
+    }
+    return (enclosure){enclosure_below(x < 0.0 ? q : p), enclosure_above(x < 0.0 ? p : q)};
+}
+
+/* The least that holds both. */
+static inline enclosure enclosure_hull(enclosure a, enclosure b) {
+    if (!enclosure_is_finite(a) || !enclosure_is_finite(b)) {
+        return enclosure_is_finite(a) ? b : a;
+    }
+    return (enclosure){enclosure_lesser(a.low, b.low), enclosure_larger(a.high, b.high)};
+}
+
+enclosure enclosure_div(enclosure a, enclosure b);
+enclosure enclosure_square(enclosure a);
+/* From the double to that below and above it, and `more` further on each side: what lies about there. */
+enclosure enclosure_about(double value, int more);
+/* A double somewhere in the middle, and what is not less than the distance to either end. */
+double enclosure_middle(enclosure a);
+double enclosure_radius(enclosure a);
+/* Not less than the size of any number in it. */
+double enclosure_size(enclosure a);
+/* Is a between the ends of b, and touches neither? */
+bool enclosure_inside(enclosure a, enclosure b);
+bool enclosure_has(enclosure a, double x);
+
+enclosure enclosure_pi(void);
+enclosure enclosure_root(enclosure a);
+enclosure enclosure_sine(enclosure a);
+enclosure enclosure_cosine(enclosure a);
+enclosure enclosure_exp(enclosure a);
+enclosure enclosure_log(enclosure a);
+/* a^n. */
+enclosure enclosure_whole_power(enclosure a, int n);
+/* a^exponent of a > 0; also of other a where the exponent is a whole number. */
+enclosure enclosure_power(enclosure a, enclosure exponent);
+
+#endif

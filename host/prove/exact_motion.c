@@ -1,0 +1,388 @@
+/* exact_motion.c: see exact_motion.h. */
+#include "exact_motion.h"
+
+#include <stdlib.h>
+
+#include "host/base/room.h"
+#include "reader.h"
+
+typedef struct making {
+    reader_symbols symbols;
+    graph *graph;
+    const instance *instance;
+    int count; /* unknowns */
+    int states;
+    int *matrix; /* [count * count] M of M x = f, */
+    int *force;  /* [count] and f */
+    int *solved; /* [count] x, by unknown */
+    diags *errors;
+} making;
+
+/* --- what is refused ---------------------------------------------------------------------------------*/
+
+static bool is_smooth(const instance *inst, diags *errors) {
+    const mechanism *m = inst->mechanism;
+    for (int i = 0; i < m->contact_count; i++) {
+        const contact_statement *c = &m->contacts[i];
+        if (instance_has_contact(inst, c)) {
+            diag_error(errors, c->at,
+                       "only smooth scenes can be proved about; whirl trust estimates",
+                       "%s changes the equations at moments of its own, which are not enclosed",
+                       contact_called(c->kind));
+            return false;
+        }
+    }
+    if (inst->scene != NULL && inst->scene->when_count > 0) {
+        diag_error(errors, inst->scene->whens[0].at,
+                   "only smooth scenes can be proved about; whirl trust estimates",
+                   "%s changes the equations at moments of its own, which are not enclosed",
+                   contact_called(CONTACT_WHEN));
+        return false;
+    }
+    return true;
+}
+
+/* --- the equations -----------------------------------------------------------------------------------*/
+
+/* The sum of what the terms of a kind say; -1: reported. */
+static int sum_of_terms(making *k, term_kind kind, int unknown) {
+    const mechanism *m = k->instance->mechanism;
+    int sum = graph_whole(k->graph, 0);
+    for (int i = 0; i < m->term_count && sum >= 0; i++) {
+        const term *t = &m->terms[i];
+        if (t->kind != kind || !instance_has_term(k->instance, t) ||
+            (unknown >= 0 && t->coordinate->index != unknown)) {
+            continue;
+        }
+        const int value = read_node(&k->symbols, t->value);
+        sum = value < 0 ? -1 : graph_add(k->graph, sum, value);
+    }
+    return sum;
+}
+
+/* d/dt dL/dq' - dL/dq = Q - dF/dq', with the terms of q'' on the left and all others on the right. */
+static bool lagrange(making *k) {
+    graph *g = k->graph;
+    const int kinetic = sum_of_terms(k, TERM_T, -1);
+    const int stored = sum_of_terms(k, TERM_V, -1);
+    const int loss = sum_of_terms(k, TERM_F, -1);
+    if (kinetic < 0 || stored < 0 || loss < 0) {
+        return false;
+    }
+    const int lagrangian = graph_sub(g, kinetic, stored);
+    for (int i = 0; i < k->count && g->count < GRAPH_NODES_MAX; i++) {
+        const int q = k->symbols.first[i];
+        const int momentum = graph_slope(g, lagrangian, q + 1);
+        const int applied = sum_of_terms(k, TERM_Q, i);
+        if (applied < 0) {
+            return false;
+        }
+        int right = graph_add(g, graph_sub(g, applied, graph_slope(g, loss, q + 1)),
+                              graph_slope(g, lagrangian, q));
+        for (int j = 0; j < k->count; j++) {
+            const int other = k->symbols.first[j];
+            const int drift =
+                graph_mul(g, graph_slope(g, momentum, other), graph_variable(g, other + 1));
+            right = graph_sub(g, right, drift);
+            k->matrix[i * k->count + j] = graph_slope(g, momentum, other + 1);
+        }
+        k->force[i] = right;
+    }
+    return true;
+}
+
+static bool not_linear(making *k, const term *t) {
+    diag_error(
+        k->errors, t->value->at, "write each highest derivative times what has none of them",
+        "it cannot be seen, without rounding, that this is linear in the highest derivatives");
+    return false;
+}
+
+/* left - right = 0, linear in the highest derivatives: host/derive has seen to it, but as far as its normal form tells,
+ * in which the smallest terms are dropped. */
+static bool given_outright(making *k) {
+    graph *g = k->graph;
+    const mechanism *m = k->instance->mechanism;
+    int row = 0;
+    for (int i = 0; i < m->term_count && row < k->count; i++) {
+        const term *t = &m->terms[i];
+        if (t->kind != TERM_EQUATION || !instance_has_term(k->instance, t)) {
+            continue;
+        }
+        const int left = read_node(&k->symbols, t->value);
+        const int right = read_node(&k->symbols, t->right);
+        if (left < 0 || right < 0) {
+            return false;
+        }
+        const int rest = graph_sub(g, left, right);
+        for (int j = 0; j < k->count; j++) {
+            const int slope = graph_slope(g, rest, k->states + j);
+            if (graph_without(g, slope, k->states) != slope) {
+                return not_linear(k, t);
+            }
+            k->matrix[row * k->count + j] = slope;
+        }
+        k->force[row++] = graph_neg(g, graph_without(g, rest, k->states));
+    }
+    return true;
+}
+
+/* --- solved ------------------------------------------------------------------------------------------*/
+
+/* What may stand in the denominator: a number best, then anything but zero. On the diagonal only where the matrix is one
+ * of inertia: positive definite, so none of its pivots is zero. */
+static bool find_pivot(const making *k, const bool *row_done, const bool *column_done, int *row,
+                       int *column) {
+    const bool diagonal = !k->instance->mechanism->is_system;
+    int best = 0;
+    for (int i = 0; i < k->count; i++) {
+        for (int j = 0; j < k->count; j++) {
+            const int a = k->matrix[i * k->count + j];
+            const int worth = graph_is_zero(k->graph, a) ? 0 : graph_is_number(k->graph, a) ? 2 : 1;
+            if (!row_done[i] && !column_done[j] && worth > best && (i == j || !diagonal)) {
+                best = worth;
+                *row = i;
+                *column = j;
+            }
+        }
+    }
+    return best > 0;
+}
+
+/* Row i less a multiple of row p, so that column c of it becomes zero. */
+static void take_row(making *k, int i, int p, int c) {
+    graph *g = k->graph;
+    const int n = k->count;
+    if (graph_is_zero(g, k->matrix[i * n + c])) {
+        return;
+    }
+    const int by = graph_div(g, k->matrix[i * n + c], k->matrix[p * n + c]);
+    for (int j = 0; j < n; j++) {
+        int *at = &k->matrix[i * n + j];
+        *at =
+            j == c ? graph_whole(g, 0) : graph_sub(g, *at, graph_mul(g, by, k->matrix[p * n + j]));
+    }
+    k->force[i] = graph_sub(g, k->force[i], graph_mul(g, by, k->force[p]));
+}
+
+/* Row p of column c, where all unknowns but those of earlier pivots are known. */
+static void substitute(making *k, int p, int c, const bool *known) {
+    graph *g = k->graph;
+    int right = k->force[p];
+    for (int j = 0; j < k->count; j++) {
+        if (known[j]) {
+            right = graph_sub(g, right, graph_mul(g, k->matrix[p * k->count + j], k->solved[j]));
+        }
+    }
+    k->solved[c] = graph_div(g, right, k->matrix[p * k->count + c]);
+}
+
+static bool solve(making *k) {
+    const int n = k->count;
+    bool *row_done = room(n, sizeof *row_done);
+    bool *column_done = room(n, sizeof *column_done);
+    bool *known = room(n, sizeof *known);
+    int *row = room(n, sizeof *row);
+    int *column = room(n, sizeof *column);
+    bool good = true;
+    for (int s = 0; s < n && good; s++) {
+        good = find_pivot(k, row_done, column_done, &row[s], &column[s]) &&
+               k->graph->count < GRAPH_NODES_MAX;
+        if (good) {
+            row_done[row[s]] = column_done[column[s]] = true;
+            for (int i = 0; i < n; i++) {
+                if (!row_done[i]) {
+                    take_row(k, i, row[s], column[s]);
+                }
+            }
+        }
+    }
+    for (int s = n - 1; s >= 0 && good; s--) {
+        substitute(k, row[s], column[s], known);
+        known[column[s]] = true;
+    }
+    free(row_done);
+    free(column_done);
+    free(known);
+    free(row);
+    free(column);
+    return good;
+}
+
+/* --- what is needed of it ----------------------------------------------------------------------------*/
+
+static void need(const graph *g, bool *needed, int a) {
+    for (int i = a; i >= 0; i--) { /* operands stand before what is made of them */
+        const node *n = &g->node[i];
+        if (i == a) {
+            needed[i] = true;
+        }
+        if (needed[i] && n->kind != NODE_NUMBER && n->kind != NODE_VARIABLE) {
+            needed[n->left] = true;
+            if (n->right >= 0) {
+                needed[n->right] = true;
+            }
+        }
+        if (needed[i] && n->kind == NODE_SINE) {
+            needed[i + 1] = true; /* its cosine */
+        }
+    }
+}
+
+static void take_nodes(exact_motion *m, const graph *g, const int *rate) {
+    bool *needed = room(g->count, sizeof *needed);
+    int *to = room(g->count, sizeof *to);
+    for (int i = 0; i < m->states; i++) {
+        need(g, needed, rate[i]);
+    }
+    m->node = room(g->count + m->states, sizeof *m->node);
+    for (int i = 0; i < m->states; i++) {
+        m->node[m->nodes++] = (node){NODE_VARIABLE, i, -1, enclosure_of(0.0)};
+    }
+    for (int i = 0; i < g->count; i++) {
+        node n = g->node[i];
+        if (n.kind == NODE_VARIABLE) {
+            to[i] = n.left;
+        } else if (needed[i]) {
+            n.left = n.left >= 0 ? to[n.left] : -1;
+            n.right = n.right >= 0 ? to[n.right] : -1;
+            to[i] = m->nodes;
+            m->node[m->nodes++] = n;
+        }
+    }
+    for (int i = 0; i < m->states; i++) {
+        m->rate[i] = to[rate[i]];
+    }
+    free(needed);
+    free(to);
+}
+
+/* --- all of it -----------------------------------------------------------------------------------------*/
+
+static void number_states(making *k, exact_motion *m) {
+    const mechanism *of = k->instance->mechanism;
+    for (int i = 0; i < k->count; i++) {
+        k->symbols.first[i] = k->states;
+        k->symbols.order[i] = of->coordinates[i]->order;
+        k->states += k->symbols.order[i];
+    }
+    k->symbols.highest = k->states;
+    m->states = k->states;
+    m->state = room(k->states, sizeof *m->state);
+    m->start = room(k->states, sizeof *m->start);
+    m->rate = room(k->states, sizeof *m->rate);
+}
+
+static bool read_starts(making *k, exact_motion *m) {
+    int at = 0;
+    for (int i = 0; i < k->count; i++) {
+        for (int p = 0; p < k->symbols.order[i]; p++) {
+            const expr *given = k->instance->start_given[i][p];
+            const int start =
+                given != NULL ? read_node(&k->symbols, given) : graph_whole(k->graph, 0);
+            if (start < 0 || !graph_is_number(k->graph, start)) {
+                return false;
+            }
+            m->state[at] = (exact_state){i, p};
+            m->start[at++] = k->graph->node[start].number;
+        }
+    }
+    return true;
+}
+
+/* A number that could not be enclosed (1/0, the root of -1) is NaN. */
+static bool is_defined(const exact_motion *m, const mechanism *of, diags *errors) {
+    bool good = true;
+    for (int i = 0; i < m->nodes; i++) {
+        good = good && enclosure_is_finite(m->node[i].number);
+    }
+    for (int i = 0; i < m->states; i++) {
+        good = good && enclosure_is_finite(m->start[i]);
+    }
+    if (!good) {
+        diag_error(errors, of->at, NULL, "a number in the equations of '%s' cannot be enclosed",
+                   of->name);
+    }
+    return good;
+}
+
+static bool derive(making *k, exact_motion *m) {
+    const mechanism *of = k->instance->mechanism;
+    if (!read_starts(k, m) || !(of->is_system ? given_outright(k) : lagrange(k))) {
+        return false;
+    }
+    if (!solve(k)) {
+        diag_error(k->errors, of->at, "fewer coordinates, or simpler energies",
+                   "the equations of '%s' grow beyond what can be enclosed, or cannot be solved",
+                   of->name);
+        return false;
+    }
+    int *rate = room(k->states, sizeof *rate);
+    for (int i = 0; i < k->states; i++) {
+        const exact_state s = m->state[i];
+        const bool top = s.primes + 1 == k->symbols.order[s.unknown];
+        rate[i] = top ? k->solved[s.unknown] : graph_variable(k->graph, i + 1);
+    }
+    take_nodes(m, k->graph, rate);
+    free(rate);
+    return is_defined(m, of, k->errors);
+}
+
+static making begin(const instance *inst, diags *errors) {
+    const mechanism *of = inst->mechanism;
+    const int n = of->coordinate_count;
+    making k = {.graph = graph_new(), .instance = inst, .count = n, .errors = errors};
+    k.symbols = (reader_symbols){.graph = k.graph,
+                                 .instance = inst,
+                                 .first = room(n, sizeof(int)),
+                                 .order = room(n, sizeof(int)),
+                                 .parameter = room(of->parameter_count, sizeof(int)),
+                                 .let = room(of->let_count, sizeof(int)),
+                                 .errors = errors};
+    for (int i = 0; i < of->parameter_count; i++) {
+        k.symbols.parameter[i] = -1;
+    }
+    for (int i = 0; i < of->let_count; i++) {
+        k.symbols.let[i] = -1;
+    }
+    k.matrix = room((int64_t)n * n, sizeof(int));
+    k.force = room(n, sizeof(int));
+    k.solved = room(n, sizeof(int));
+    return k;
+}
+
+static void end(making *k) {
+    graph_free(k->graph);
+    free(k->symbols.first);
+    free(k->symbols.order);
+    free(k->symbols.parameter);
+    free(k->symbols.let);
+    free(k->matrix);
+    free(k->force);
+    free(k->solved);
+}
+
+exact_motion *exact_motion_make(const instance *inst, diags *errors) {
+    if (!is_smooth(inst, errors)) {
+        return NULL;
+    }
+    making k = begin(inst, errors);
+    exact_motion *m = room(1, sizeof *m);
+    number_states(&k, m);
+    if (!derive(&k, m)) {
+        exact_motion_free(m);
+        m = NULL;
+    }
+    end(&k);
+    return m;
+}
+
+void exact_motion_free(exact_motion *m) {
+    if (m != NULL) {
+        free(m->state);
+        free(m->start);
+        free(m->rate);
+        free(m->node);
+        free(m);
+    }
+}

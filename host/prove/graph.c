@@ -1,0 +1,236 @@
+/* graph.c: see graph.h. */
+#include "graph.h"
+
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "host/base/room.h"
+#include "host/number/functions.h"
+
+/* --- nodes that are one ------------------------------------------------------------------------------*/
+
+graph *graph_new(void) { return room(1, sizeof(graph)); }
+
+void graph_free(graph *g) {
+    if (g != NULL) {
+        free(g->node);
+        free(g->slot);
+        free(g);
+    }
+}
+
+static uint64_t mixed(uint64_t hash, uint64_t with) {
+    hash = (hash ^ with) * UINT64_C(0x9e3779b97f4a7c15);
+    return hash ^ (hash >> 29);
+}
+
+static uint64_t bits_of(double x) {
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+
+static uint64_t hash_of(const node *n) {
+    uint64_t hash = mixed((uint64_t)n->kind, (uint64_t)(n->left + 1));
+    hash = mixed(hash, (uint64_t)(n->right + 1));
+    return mixed(mixed(hash, bits_of(n->number.low)), bits_of(n->number.high));
+}
+
+static bool same(const node *a, const node *b) {
+    return a->kind == b->kind && a->left == b->left && a->right == b->right &&
+           bits_of(a->number.low) == bits_of(b->number.low) &&
+           bits_of(a->number.high) == bits_of(b->number.high);
+}
+
+static int *slot_of(const graph *g, const node *n) {
+    const uint64_t mask = (uint64_t)g->slots - 1U;
+    uint64_t at = hash_of(n) & mask;
+    while (g->slot[at] >= 0 && !same(&g->node[g->slot[at]], n)) {
+        at = (at + 1) & mask;
+    }
+    return &g->slot[at];
+}
+
+static void make_room(graph *g) {
+    if (g->count < g->room) {
+        return;
+    }
+    g->room = g->room == 0 ? 256 : 2 * g->room;
+    g->node = room_more(g->node, g->room, sizeof *g->node);
+    g->slots = 4 * g->room;
+    g->slot = room_more(g->slot, g->slots, sizeof *g->slot);
+    for (int i = 0; i < g->slots; i++) {
+        g->slot[i] = -1;
+    }
+    for (int i = 0; i < g->count; i++) {
+        *slot_of(g, &g->node[i]) = i;
+    }
+}
+
+static int entered(graph *g, node_kind kind, int left, int right, enclosure number) {
+    make_room(g);
+    const node made = {kind, left, right, number};
+    int *slot = slot_of(g, &made);
+    if (*slot < 0) {
+        g->node[g->count] = made;
+        *slot = g->count++;
+    }
+    return *slot;
+}
+
+/* --- looking -------------------------------------------------------------------------------------------*/
+
+bool graph_is_number(const graph *g, int a) { return g->node[a].kind == NODE_NUMBER; }
+
+static bool is_number(const graph *g, int a, double value) {
+    const node *n = &g->node[a];
+    return n->kind == NODE_NUMBER && n->number.low == value && n->number.high == value;
+}
+
+bool graph_is_zero(const graph *g, int a) { return is_number(g, a, 0.0); }
+bool graph_is_one(const graph *g, int a) { return is_number(g, a, 1.0); }
+
+/* --- making --------------------------------------------------------------------------------------------*/
+
+int graph_number(graph *g, enclosure value) {
+    const enclosure clean = enclosure_is_zero(value) ? enclosure_of(0.0) : value; /* no -0 */
+    return entered(g, NODE_NUMBER, -1, -1, clean);
+}
+
+int graph_whole(graph *g, int value) { return graph_number(g, enclosure_of((double)value)); }
+
+int graph_variable(graph *g, int which) {
+    return entered(g, NODE_VARIABLE, which, -1, enclosure_of(0.0));
+}
+
+static int made_of_two(graph *g, node_kind kind, int a, int b) {
+    return entered(g, kind, a, b, enclosure_of(0.0));
+}
+
+static int multiple(graph *g, enclosure by, int a) {
+    if (enclosure_is_zero(by)) {
+        return graph_whole(g, 0);
+    }
+    if (by.low == 1.0 && by.high == 1.0) {
+        return a;
+    }
+    const node n = g->node[a];
+    if (n.kind == NODE_NUMBER) {
+        return graph_number(g, enclosure_mul(by, n.number));
+    }
+    if (n.kind == NODE_MULTIPLE) {
+        return multiple(g, enclosure_mul(by, n.number), n.left);
+    }
+    return entered(g, NODE_MULTIPLE, a, -1, by);
+}
+
+int graph_neg(graph *g, int a) { return multiple(g, enclosure_of(-1.0), a); }
+
+int graph_add(graph *g, int a, int b) {
+    if (graph_is_zero(g, a) || graph_is_zero(g, b)) {
+        return graph_is_zero(g, a) ? b : a;
+    }
+    if (graph_is_number(g, a) && graph_is_number(g, b)) {
+        return graph_number(g, enclosure_add(g->node[a].number, g->node[b].number));
+    }
+    if (a == b) {
+        return multiple(g, enclosure_of(2.0), a);
+    }
+    return made_of_two(g, NODE_SUM, a < b ? a : b, a < b ? b : a);
+}
+
+int graph_sub(graph *g, int a, int b) {
+    if (a == b) {
+        return graph_whole(g, 0);
+    }
+    if (graph_is_zero(g, a) || graph_is_zero(g, b)) {
+        return graph_is_zero(g, b) ? a : graph_neg(g, b);
+    }
+    if (graph_is_number(g, a) && graph_is_number(g, b)) {
+        return graph_number(g, enclosure_sub(g->node[a].number, g->node[b].number));
+    }
+    return made_of_two(g, NODE_DIFFERENCE, a, b);
+}
+
+/* Numbers come to the front: what is constant in a product is one multiple. */
+int graph_mul(graph *g, int a, int b) {
+    const node x = g->node[a];
+    const node y = g->node[b];
+    if (x.kind == NODE_NUMBER || y.kind == NODE_NUMBER) {
+        return x.kind == NODE_NUMBER ? multiple(g, x.number, b) : multiple(g, y.number, a);
+    }
+    if (x.kind == NODE_MULTIPLE) {
+        return multiple(g, x.number, graph_mul(g, x.left, b));
+    }
+    if (y.kind == NODE_MULTIPLE) {
+        return multiple(g, y.number, graph_mul(g, a, y.left));
+    }
+    if (a == b) {
+        return entered(g, NODE_SQUARE, a, -1, enclosure_of(0.0));
+    }
+    return made_of_two(g, NODE_PRODUCT, a < b ? a : b, a < b ? b : a);
+}
+
+int graph_div(graph *g, int a, int b) {
+    const node y = g->node[b];
+    if (y.kind == NODE_NUMBER) {
+        return multiple(g, enclosure_div(enclosure_of(1.0), y.number), a);
+    }
+    if (graph_is_zero(g, a)) {
+        return a;
+    }
+    if (y.kind == NODE_MULTIPLE) {
+        return multiple(g, enclosure_div(enclosure_of(1.0), y.number), graph_div(g, a, y.left));
+    }
+    return made_of_two(g, NODE_RATIO, a, b);
+}
+
+/* A sine and its cosine are made together, one behind the other: their Taylor coefficients need each other. */
+static int wave(graph *g, int a, bool cosine) {
+    const enclosure of = g->node[a].number;
+    if (graph_is_number(g, a)) {
+        return graph_number(g, cosine ? enclosure_cosine(of) : enclosure_sine(of));
+    }
+    const int sine = entered(g, NODE_SINE, a, -1, enclosure_of(0.0));
+    return cosine ? entered(g, NODE_COSINE, a, sine, enclosure_of(0.0)) : sine;
+}
+
+int graph_sine(graph *g, int a) {
+    wave(g, a, true);
+    return wave(g, a, false);
+}
+
+int graph_cosine(graph *g, int a) { return wave(g, a, true); }
+
+int graph_exp(graph *g, int a) {
+    return graph_is_number(g, a) ? graph_number(g, enclosure_exp(g->node[a].number))
+                                 : entered(g, NODE_EXP, a, -1, enclosure_of(0.0));
+}
+
+int graph_log(graph *g, int a) {
+    return graph_is_number(g, a) ? graph_number(g, enclosure_log(g->node[a].number))
+                                 : entered(g, NODE_LOG, a, -1, enclosure_of(0.0));
+}
+
+enum { PRODUCTS_MOST = 64 }; /* a whole exponent up to this is multiplied out */
+
+int graph_power(graph *g, int a, enclosure exponent) {
+    const double e = exponent.low;
+    if (graph_is_number(g, a)) {
+        return graph_number(g, enclosure_power(g->node[a].number, exponent));
+    }
+    if (enclosure_is_point(exponent) && number_nearest(e) == e && e <= PRODUCTS_MOST &&
+        e >= -PRODUCTS_MOST) {
+        const int n = (int)(e < 0.0 ? -e : e);
+        if (n == 0) {
+            return graph_whole(g, 1);
+        }
+        const int halved = n / 2;
+        const int half = n > 1 ? graph_power(g, a, enclosure_of((double)halved)) : a;
+        const int even = n > 1 ? graph_mul(g, half, half) : a;
+        const int whole = n > 1 && n % 2 != 0 ? graph_mul(g, even, a) : even;
+        return e < 0.0 ? graph_div(g, graph_whole(g, 1), whole) : whole;
+    }
+    return entered(g, NODE_POWER, a, -1, exponent);
+}

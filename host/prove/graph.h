@@ -1,0 +1,74 @@
+/* graph.h: expressions as a graph of operations, in which what is equal is one node. Nothing is rounded in it and nothing
+ * is left out: numbers are enclosures, and only what is true of all real values is simplified (0 + x, 1 x, x - x). So a
+ * motion that is enclosed by its nodes is enclosed by what the energies say; the algebra's normal form, which drops
+ * terms below 1e-14, takes no part.
+ *
+ * Nodes are numbers from 0 on, operands before what is made of them. */
+#ifndef PROVE_GRAPH_H
+#define PROVE_GRAPH_H
+
+#include <stdbool.h>
+
+#include "host/number/enclosure.h"
+
+typedef enum node_kind {
+    NODE_NUMBER,   /* number */
+    NODE_VARIABLE, /* left: which */
+    NODE_SUM,
+    NODE_DIFFERENCE,
+    NODE_PRODUCT,
+    NODE_MULTIPLE, /* number * left */
+    NODE_SQUARE,
+    NODE_RATIO,
+    NODE_SINE, /* right: the cosine of the same, the next node */
+    NODE_COSINE,
+    NODE_EXP,
+    NODE_LOG,
+    NODE_POWER /* left ^ number, left > 0 */
+} node_kind;
+
+typedef struct node {
+    node_kind kind;
+    int left; /* -1: none */
+    int right;
+    enclosure number;
+} node;
+
+typedef struct graph {
+    node *node;
+    int count;
+    int room;
+    int *slot; /* [slots] nodes by their hash; -1: none */
+    int slots;
+} graph;
+
+/* More nodes than this are too many to be evaluated again and again. */
+enum { GRAPH_NODES_MAX = 20000 };
+
+graph *graph_new(void);
+void graph_free(graph *g);
+
+int graph_number(graph *g, enclosure value);
+int graph_whole(graph *g, int value);
+int graph_variable(graph *g, int which);
+int graph_add(graph *g, int a, int b);
+int graph_sub(graph *g, int a, int b);
+int graph_mul(graph *g, int a, int b);
+int graph_div(graph *g, int a, int b);
+int graph_neg(graph *g, int a);
+int graph_sine(graph *g, int a);
+int graph_cosine(graph *g, int a);
+int graph_exp(graph *g, int a);
+int graph_log(graph *g, int a);
+int graph_power(graph *g, int a, enclosure exponent);
+
+bool graph_is_number(const graph *g, int a);
+bool graph_is_zero(const graph *g, int a);
+bool graph_is_one(const graph *g, int a);
+
+/* The derivative by a variable. */
+int graph_slope(graph *g, int a, int variable);
+/* `a` with numbers 0 in place of the variables from `first` on. */
+int graph_without(graph *g, int a, int first);
+
+#endif

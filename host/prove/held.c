@@ -1,0 +1,262 @@
+/* held.c: see held.h. */
+#include "held.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "host/base/room.h"
+#include "host/number/functions.h"
+#include "host/number/ratio.h"
+
+/* --- the run's states, SI, in the order of the motion's -----------------------------------------------*/
+
+typedef struct reading {
+    const held_wish *wish;
+    double *output;
+    double *value; /* [states] */
+} reading;
+
+static void put(const reading *r, int unknown, int primes, double value) {
+    const exact_motion *m = r->wish->motion;
+    for (int i = 0; i < m->states; i++) {
+        if (m->state[i].unknown == unknown && m->state[i].primes == primes) {
+            r->value[i] = value;
+        }
+    }
+}
+
+static void read_run(const reading *r, void *run) {
+    const image *im = r->wish->image;
+    double angle_rad[IMAGE_COMPONENTS_MAX];
+    double real[2 * IMAGE_COMPONENTS_MAX];
+    r->wish->kind->state(run, angle_rad, real);
+    for (int i = 0; i < im->angles; i++) {
+        put(r, im->angle[i].unknown, im->angle[i].primes, angle_rad[i]);
+    }
+    for (int i = 0; i < im->reals; i++) {
+        put(r, im->real[i].unknown, im->real[i].primes, real[i]);
+    }
+    if (im->recovered > 0) {
+        r->wish->kind->outputs(run, r->output);
+        for (int k = 0; k < im->recovered; k++) {
+            const int at = im->own_outputs + 2 * k;
+            put(r, im->from_momentum[k], 0, r->output[at]);
+            put(r, im->from_momentum[k], 1, r->output[at + 1]);
+        }
+    }
+}
+
+static bool is_stopped(const held_wish *w) { return w->stop != NULL && *w->stop; }
+
+/* --- what it is to be within -------------------------------------------------------------------------*/
+
+/* Of a size, and of the range that another state of the same unit has: what has less of a range hardly moves. */
+#define LITTLE 1e-3
+/* SI, in place of the range of what does not move at all, nor another of its unit: the tube has a width even there. */
+#define STILL 1e-9
+
+static const char *unit_of(const held_wish *w, int i) {
+    const exact_state s = w->motion->state[i];
+    return w->image->unknown[s.unknown].unit[s.primes].si;
+}
+
+static void set_within(const held_wish *w, held_found *h) {
+    for (int i = 0; i < h->states; i++) {
+        double most = h->state[i].range;
+        for (int j = 0; j < h->states; j++) {
+            if (strcmp(unit_of(w, i), unit_of(w, j)) == 0) {
+                most = number_most(most, LITTLE * h->state[j].range);
+            }
+        }
+        most = most > 0.0 ? most : STILL;
+        h->state[i].within = w->within[i] > 0.0 ? w->within[i] : w->tolerance * most;
+    }
+}
+
+static void find_ranges(const held_wish *w, const reading *r, held_found *h) {
+    void *run = w->kind->start(w->image);
+    const int n = h->states;
+    double *low = room(n, sizeof *low);
+    double *high = room(n, sizeof *high);
+    h->status = WH_OK;
+    for (uint64_t step = 0;; step++) {
+        read_run(r, run);
+        for (int i = 0; i < n; i++) {
+            low[i] = step == 0 ? r->value[i] : number_least(low[i], r->value[i]);
+            high[i] = step == 0 ? r->value[i] : number_most(high[i], r->value[i]);
+        }
+        h->run_steps = step;
+        h->ranged = (step & 255U) != 0 || !is_stopped(w);
+        if (step == w->image->steps || !h->ranged) {
+            break;
+        }
+        h->status = w->kind->step(run);
+        if (h->status != WH_OK) {
+            break;
+        }
+    }
+    w->kind->stop(run);
+    for (int i = 0; i < n; i++) {
+        h->state[i].open = true;
+        h->state[i].range =
+            number_most(high[i] - low[i], LITTLE * number_most(fabs(low[i]), fabs(high[i])));
+    }
+    set_within(w, h);
+    free(low);
+    free(high);
+}
+
+/* --- record by record --------------------------------------------------------------------------------*/
+
+/* No state is asked about any more? */
+static bool all_closed(const held_found *h) {
+    for (int i = 0; i < h->states; i++) {
+        if (h->state[i].open) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static void look(held_found *h, const double *value, const enclosure *exact, double time_s) {
+    for (int i = 0; i < h->states; i++) {
+        held_state *s = &h->state[i];
+        const enclosure off = enclosure_sub(enclosure_of(value[i]), exact[i]);
+        const double most = enclosure_size(off);
+        if (!s->open) {
+            continue;
+        }
+        if (enclosure_is_finite(off) && most <= s->within) {
+            s->begun = true;
+            s->until_s = time_s;
+            s->off = number_most(s->off, most);
+            s->radius = number_most(s->radius, enclosure_radius(exact[i]));
+        } else {
+            s->open = false;
+            s->verdict = off.low > s->within || off.high < -s->within ? HELD_LEFT : HELD_UNTOLD;
+        }
+    }
+}
+
+typedef struct going {
+    const held_wish *wish;
+    const reading *reading;
+    held_found *held;
+    tube *tube;
+    void *run;
+    enclosure step_s; /* the run's step */
+    enclosure next_s; /* from the tube's time to the run's next record */
+    enclosure *exact; /* [states] */
+    uint64_t done;    /* the run's steps */
+} going;
+
+static void look_now(going *g) {
+    const held_wish *w = g->wish;
+    read_run(g->reading, g->run);
+    look(g->held, g->reading->value, g->exact, ratio_times(g->done, w->image->step));
+    if (w->see != NULL) {
+        w->see(w->told, g->done, g->exact, g->reading->value);
+    }
+}
+
+/* The records within the open step, of h_s; *last_s: the last one's time in it. Returns how many. */
+static uint64_t look_within(going *g, double h_s, enclosure *last_s) {
+    uint64_t count = 0;
+    while (g->done < g->held->run_steps && !all_closed(g->held)) {
+        const enclosure tau = enclosure_add(g->next_s, enclosure_times(g->step_s, (double)count));
+        if (!(tau.high <= h_s) || g->wish->kind->step(g->run) != WH_OK) {
+            break;
+        }
+        g->done++;
+        count++;
+        *last_s = tau;
+        tube_at(g->tube, tau, g->exact);
+        look_now(g);
+    }
+    return count;
+}
+
+/* One step of the tube, and the run's steps that end in it. False: the tube ends. */
+static bool go_on(going *g) {
+    const image *im = g->wish->image;
+    const double left_s = 1.001 * ratio_times(g->held->run_steps - g->done, im->step);
+    const double h_s = tube_open(g->tube, left_s);
+    if (!(h_s > 0.0)) {
+        return false;
+    }
+    enclosure last_s;
+    bool good;
+    if (look_within(g, h_s, &last_s) > 0) {
+        good = tube_on(g->tube, last_s);
+        g->next_s = g->step_s;
+    } else { /* it is shorter than what is left of the run's step */
+        const double part_s = number_least(h_s, 0.5 * g->next_s.low);
+        good = tube_on(g->tube, enclosure_of(part_s));
+        g->next_s = enclosure_sub(g->next_s, enclosure_of(part_s));
+    }
+    return good && g->next_s.low > 0.0;
+}
+
+/* What ends it now; HELD_AT_END: nothing yet, if `more` is to come. */
+static held_end ended(const going *g, bool on) {
+    const held_wish *w = g->wish;
+    const bool spent = w->products_most > 0.0 && tube_products(g->tube) > w->products_most;
+    return is_stopped(w) ? HELD_STOPPED : !on ? HELD_NO_STEP : spent ? HELD_SPENT : HELD_AT_END;
+}
+
+static void hold(going *g) {
+    held_found *h = g->held;
+    for (int i = 0; i < h->states; i++) {
+        g->exact[i] = g->wish->motion->start[i];
+    }
+    look_now(g);
+    while (h->end == HELD_AT_END && g->done < h->run_steps && !all_closed(h)) {
+        h->end = ended(g, go_on(g));
+        if (g->wish->progress != NULL && (tube_steps(g->tube) & 7U) == 0) {
+            g->wish->progress((double)g->done / (double)h->run_steps);
+        }
+    }
+    const bool whole = g->done == h->run_steps;
+    h->end = whole ? h->status == WH_OK ? HELD_AT_END : HELD_RUN_ENDS : h->end;
+    h->tube_steps = tube_steps(g->tube);
+    h->tube_s = ratio_times(g->done, g->wish->image->step);
+    for (int i = 0; i < h->states; i++) {
+        if (h->state[i].open) {
+            h->state[i].verdict = h->end == HELD_AT_END ? HELD_TO_THE_END : HELD_UNENDED;
+        }
+    }
+}
+
+static enclosure counted(uint64_t count) {
+    const double near = (double)count;
+    return near < 0x1p53 ? enclosure_of(near) : enclosure_about(near, 0);
+}
+
+held_found held_run(const held_wish *w) {
+    const image *im = w->image;
+    held_found h = {.states = w->motion->states, .end = HELD_STOPPED};
+    h.state = room(h.states, sizeof *h.state);
+    const reading r = {w, room(im->outputs, sizeof(double)), room(h.states, sizeof(double))};
+    find_ranges(w, &r, &h);
+    if (h.ranged) {
+        h.end = HELD_AT_END;
+        going g = {.wish = w,
+                   .reading = &r,
+                   .held = &h,
+                   .tube = tube_new(w->motion, TUBE_ORDER),
+                   .run = w->kind->start(im),
+                   .exact = room(h.states, sizeof(enclosure))};
+        g.step_s = enclosure_div(counted(im->step.numerator), counted(im->step.denominator));
+        g.next_s = g.step_s;
+        hold(&g);
+        w->kind->stop(g.run);
+        tube_free(g.tube);
+        free(g.exact);
+    }
+    free(r.output);
+    free(r.value);
+    return h;
+}
+
+void held_free(held_found *h) { free(h->state); }

@@ -1,0 +1,25 @@
+/* reader.h: what a model's expressions say, as nodes of a graph: parameters, inputs and starts as they are written, not as
+ * doubles. */
+#ifndef PROVE_READER_H
+#define PROVE_READER_H
+
+#include "graph.h"
+#include "host/lang/model.h"
+
+typedef struct reader_symbols {
+    graph *graph;
+    const instance *instance;
+    int *
+        first; /* [coordinate_count] the variable that is an unknown's value; its rate is the next one */
+    int *
+        order; /* [coordinate_count] of its highest derivative, which is the variable highest + unknown */
+    int highest;    /* how many variables the state has */
+    int *parameter; /* [parameter_count] nodes; -1: not yet */
+    int *let;       /* [let_count] the same */
+    diags *errors;
+} reader_symbols;
+
+/* The node, or -1: reported. */
+int read_node(reader_symbols *s, const expr *tree);
+
+#endif

@@ -1,0 +1,220 @@
+/* zonotope.c: see zonotope.h. */
+#include "zonotope.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "frame.h"
+#include "host/base/room.h"
+
+zonotope *zonotope_new(int n, int most) {
+    zonotope *z = room(1, sizeof *z);
+    z->n = n;
+    z->most = most > 4 * n ? most : 4 * n;
+    z->drift = room(n, sizeof *z->drift);
+    z->generator = room((int64_t)z->most * n, sizeof *z->generator);
+    return z;
+}
+
+void zonotope_free(zonotope *z) {
+    if (z != NULL) {
+        free(z->drift);
+        free(z->generator);
+        free(z);
+    }
+}
+
+static double size_of(double x) { return x < 0.0 ? -x : x; }
+
+/* The sum of sizes, rounded up. */
+static double sum_up(double a, double b) { return b == 0.0 ? a : enclosure_above(a + b); }
+
+void zonotope_box(const zonotope *z, enclosure *box) {
+    for (int i = 0; i < z->n; i++) {
+        double radius = 0.0;
+        for (int k = 0; k < z->count; k++) {
+            radius = sum_up(radius, size_of(z->generator[k * z->n + i]));
+        }
+        box[i] = enclosure_add(enclosure_of(z->drift[i]), (enclosure){-radius, radius});
+    }
+}
+
+/* --- along axes -----------------------------------------------------------------------------------------*/
+
+/* The n longest generators as columns, or axes where there are fewer. */
+static void longest(const zonotope *z, double *columns, double *radii) {
+    const int n = z->n;
+    double *length = room(n, sizeof *length);
+    for (int i = 0; i < n * n; i++) {
+        columns[i] = i % (n + 1) == 0 ? 1.0 : 0.0;
+    }
+    for (int k = 0; k < z->count; k++) {
+        double sum = 0.0;
+        for (int i = 0; i < n; i++) {
+            sum += z->generator[k * n + i] * z->generator[k * n + i];
+        }
+        int least = 0;
+        for (int j = 1; j < n; j++) {
+            least = length[j] < length[least] ? j : least;
+        }
+        if (sum > length[least]) {
+            length[least] = sum;
+            for (int i = 0; i < n; i++) {
+                columns[i * n + least] = z->generator[k * n + i];
+            }
+        }
+    }
+    for (int j = 0; j < n; j++) {
+        radii[j] = length[j] > 0.0 ? 1.0 : 1e-300;
+    }
+    free(length);
+}
+
+/* How far generators `from` on reach along each row of the inverse axes. */
+static void reach(const zonotope *z, const enclosure *inverse, int from, double *radius) {
+    const int n = z->n;
+    for (int i = 0; i < n; i++) {
+        radius[i] = 0.0;
+        for (int k = from; k < z->count; k++) {
+            enclosure sum = enclosure_of(0.0);
+            for (int j = 0; j < n; j++) {
+                const double g = z->generator[k * n + j];
+                sum = enclosure_add(sum, enclosure_times(inverse[i * n + j], g));
+            }
+            radius[i] = sum_up(radius[i], enclosure_size(sum));
+        }
+    }
+}
+
+/* Axes and their inverse; where those of the generators are no good, those of the dimensions. */
+static void find_axes(const zonotope *z, double *axes, enclosure *inverse) {
+    const int n = z->n;
+    double *columns = room((int64_t)n * n, sizeof *columns);
+    double *radii = room(n, sizeof *radii);
+    longest(z, columns, radii);
+    frame_axes(n, columns, radii, axes);
+    if (!frame_inverse(n, axes, inverse)) {
+        for (int i = 0; i < n * n; i++) {
+            axes[i] = i % (n + 1) == 0 ? 1.0 : 0.0;
+            inverse[i] = enclosure_of(axes[i]);
+        }
+    }
+    free(columns);
+    free(radii);
+}
+
+void zonotope_frame(const zonotope *z, double *axes, enclosure *off) {
+    const int n = z->n;
+    enclosure *inverse = room((int64_t)n * n, sizeof *inverse);
+    enclosure *drift = room(n, sizeof *drift);
+    double *radius = room(n, sizeof *radius);
+    find_axes(z, axes, inverse);
+    reach(z, inverse, 0, radius);
+    for (int i = 0; i < n; i++) {
+        drift[i] = enclosure_of(z->drift[i]);
+    }
+    frame_apply(n, inverse, drift, off);
+    for (int i = 0; i < n; i++) {
+        off[i] = enclosure_add(off[i], (enclosure){-radius[i], radius[i]});
+    }
+    free(inverse);
+    free(drift);
+    free(radius);
+}
+
+/* --- fewer ---------------------------------------------------------------------------------------------*/
+
+typedef struct ranked {
+    double size;
+    int which;
+} ranked;
+
+static int by_size(const void *a, const void *b) {
+    const ranked *x = a;
+    const ranked *y = b;
+    return x->size > y->size ? -1 : x->size < y->size ? 1 : x->which - y->which;
+}
+
+static void sort_by_size(zonotope *z) {
+    const int n = z->n;
+    ranked *order = room(z->count, sizeof *order);
+    double *sorted = room((int64_t)z->count * n, sizeof *sorted);
+    for (int k = 0; k < z->count; k++) {
+        order[k].which = k;
+        for (int i = 0; i < n; i++) {
+            order[k].size += size_of(z->generator[k * n + i]);
+        }
+    }
+    qsort(order, (size_t)z->count, sizeof *order, by_size);
+    for (int k = 0; k < z->count; k++) {
+        memcpy(&sorted[k * n], &z->generator[order[k].which * n], (size_t)n * sizeof *sorted);
+    }
+    memcpy(z->generator, sorted, (size_t)z->count * (size_t)n * sizeof *sorted);
+    free(order);
+    free(sorted);
+}
+
+/* The smaller half becomes one box along axes. What its corners are rounded is added to noise[n]. */
+static void reduce(zonotope *z, double *noise) {
+    const int n = z->n;
+    double *axes = room((int64_t)n * n, sizeof *axes);
+    enclosure *inverse = room((int64_t)n * n, sizeof *inverse);
+    double *radius = room(n, sizeof *radius);
+    sort_by_size(z);
+    find_axes(z, axes, inverse);
+    const int kept = z->most / 2;
+    reach(z, inverse, kept, radius);
+    z->count = kept;
+    for (int j = 0; j < n; j++) {
+        for (int i = 0; i < n; i++) {
+            const enclosure corner = enclosure_times(enclosure_of(axes[i * n + j]), radius[j]);
+            z->generator[z->count * n + i] = enclosure_middle(corner);
+            noise[i] = sum_up(noise[i], enclosure_radius(corner));
+        }
+        z->count++;
+    }
+    free(axes);
+    free(inverse);
+    free(radius);
+}
+
+/* --- mapped --------------------------------------------------------------------------------------------*/
+
+/* vector[n] becomes the middle of map vector + more (NULL: nothing); what that is off is added to noise[n]. to[n] is
+ * room. */
+static void map_vector(int n, const enclosure *map, double *vector, const enclosure *more,
+                       enclosure *to, double *noise) {
+    for (int i = 0; i < n; i++) {
+        to[i] = more != NULL ? more[i] : enclosure_of(0.0);
+        for (int j = 0; j < n; j++) {
+            if (vector[j] != 0.0) {
+                to[i] = enclosure_add(to[i], enclosure_times(map[i * n + j], vector[j]));
+            }
+        }
+    }
+    for (int i = 0; i < n; i++) {
+        vector[i] = enclosure_middle(to[i]);
+        noise[i] = sum_up(noise[i], enclosure_radius(to[i]));
+    }
+}
+
+void zonotope_map(zonotope *z, const enclosure *map, const enclosure *more) {
+    const int n = z->n;
+    double *noise = room(n, sizeof *noise);
+    enclosure *to = room(n, sizeof *to);
+    map_vector(n, map, z->drift, more, to, noise);
+    for (int k = 0; k < z->count; k++) {
+        map_vector(n, map, &z->generator[k * n], NULL, to, noise);
+    }
+    if (z->count + 2 * n > z->most) {
+        reduce(z, noise);
+    }
+    for (int i = 0; i < n; i++) {
+        double *made = &z->generator[z->count * n];
+        memset(made, 0, (size_t)n * sizeof *made);
+        made[i] = noise[i];
+        z->count += noise[i] != 0.0 ? 1 : 0;
+    }
+    free(noise);
+    free(to);
+}

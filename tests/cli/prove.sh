@@ -1,0 +1,230 @@
+#!/bin/sh
+# prove.sh: `whirl prove`: what it says of a run, its rows, its bounds, and what it refuses. Whether it is true is asked by
+# build/tests/host enclosure prove prove_drawn.
+. "$(dirname "$0")/../checks.sh"
+
+# proved PATTERN WORD...: status 0, and these words on standard output
+proved() {
+    pattern=$1
+    shift
+    "$whirl" prove "$@" >"$scratch/out" 2>"$scratch/err"
+    [ $? -eq 0 ] && grep -qE -- "$pattern" "$scratch/out" && [ ! -s "$scratch/err" ]
+    verdict $? "whirl prove $*: $pattern" "$scratch/out"
+}
+# refused PATTERN WORD...: status 2, these words on standard error, nothing on standard output
+refused() {
+    pattern=$1
+    shift
+    "$whirl" prove "$@" >"$scratch/out" 2>"$scratch/err"
+    [ $? -eq 2 ] && grep -q -- "$pattern" "$scratch/err" && [ ! -s "$scratch/out" ]
+    verdict $? "whirl prove $*: $pattern" "$scratch/err"
+}
+# ended STATUS PATTERN WORDS WORD...: that status, the pattern on standard error, the words on standard output
+ended() {
+    status=$1
+    pattern=$2
+    words=$3
+    shift 3
+    "$whirl" prove "$@" >"$scratch/out" 2>"$scratch/err"
+    [ $? -eq "$status" ] && grep -q -- "$pattern" "$scratch/err" && grep -q -- "$words" "$scratch/out" &&
+        ! grep -q '^proved to the end' "$scratch/out"
+    verdict $? "whirl prove $*: status $status, $pattern" "$scratch/err"
+}
+
+# --- what is proved ------------------------------------------------------------------------------------------------------
+proved '^proved to the end, t = 1 s$' epicyclic_from_rest --until 1s
+proved '^  X  *to the end  *within 1.00e-03 m: off by at most' epicyclic_from_rest --until 1s --number float --within X=1mm
+proved "^  theta'  *to the end  *within 5.00e-01 rad/s: off by at most" epicyclic_from_rest --until 1s --within "theta'=0.5" --within=X=1mm
+proved '^proved to the end, t = 1 s$' epicyclic_conserved --until 1s --number float
+proved '^proved to the end, t = 5 s$' tests/mechanisms/lorenz.whirl --start x=1 --step 2ms --until 5s
+proved '^proved to the end, t = 0 s$' epicyclic_from_rest --until 0
+# a step that is too coarse is off, and that is proved, too
+proved 'behind it off by more: proved$' epicyclic_from_rest --until 3s --method semi-implicit-euler --step 10ms --tolerance 1e-4
+# a start that float cannot have is off from the beginning
+proved '^  theta  *never  *within 1.00e-12 rad: its start is off by more: proved$' epicyclic_from_rest --until 0.1s --number float --start theta=0.1 --within theta=1e-12
+grep -q '^nothing is proved: theta is not within at the start$' "$scratch/out"
+verdict $? "a start that is off: nothing is proved" "$scratch/out"
+# noise is of what is recorded: the motion is the same
+cat >"$scratch/noisy.whirl" <<'END'
+mechanism noisy "a swing whose angle is read with noise"
+coordinate a [rad]
+parameter g = 9.81 [m/s^2]
+parameter l = 0.7 [m]
+T = 1 [kg]*l^2*a'^2/2
+V = -1 [kg]*g*l*cos(a)
+output read [rad] = a
+noise read deviation 0.1 [rad] seed 7
+scene swings { start a = 2 [rad]; step 1 [ms]; until 1 [s] }
+END
+proved '^proved to the end, t = 1 s$' "$scratch/noisy.whirl" --number float
+# more names than there is any list for
+many=''
+coordinates=''
+energy='T = 0 [J]'
+i=0
+while [ $i -lt 70 ]; do
+    coordinates="$coordinates
+coordinate x$i [m]"
+    energy="$energy + 1 [kg]*x$i'^2/2"
+    many="$many --within x$i=1mm"
+    i=$((i + 1))
+done
+printf 'mechanism many%s\n%s\nscene lies { step 10 [ms]; until 0.1 [s] }\n' "$coordinates" "$energy" >"$scratch/many.whirl"
+# shellcheck disable=SC2086 # words
+"$whirl" prove "$scratch/many.whirl" $many >"$scratch/out" 2>"$scratch/err"
+many_status=$?
+{ [ $many_status -eq 0 ] && [ "$(grep -c 'within 1.00e-03 m' "$scratch/out")" -eq 70 ]; } ||
+    { [ $many_status -eq 2 ] && grep -q 'coordinates' "$scratch/err"; }
+verdict $? "70 --within: as many as there are names" "$scratch/err"
+
+# --- rows ------------------------------------------------------------------------------------------------------------------
+"$whirl" prove epicyclic_from_rest --until 0.5s --number float --csv "$scratch/rows" --quiet >"$scratch/out" 2>"$scratch/err"
+[ $? -eq 0 ] && [ ! -s "$scratch/out" ] && [ ! -s "$scratch/err" ]
+verdict $? "--csv and --quiet: no words" "$scratch/err"
+tr -d '\r' <"$scratch/rows" | awk -F, '
+    NR == 1 { bad = $0 !~ /^time \[s\],theta least \[rad\],theta most \[rad\],theta run \[rad\],theta. least \[rad\/s\],/; next }
+    NF != 13 { bad = 1 }
+    { late = $1 - (NR - 2) * 0.001; if (late > 1e-12 || late < -1e-12) bad = 1
+      for (i = 2; i < 13; i += 3) {
+          if ($i > $(i + 1) || $(i + 1) - $i > 1e-9) bad = 1
+          off = $(i + 2) - $i; if (off > 1e-4 || off < -1e-4) bad = 1
+          if (off != 0) moved = 1 } }
+    END { exit bad || !moved || NR != 502 }'
+verdict $? "a row for each step: the time, least, most and the run's" "$scratch/rows"
+"$whirl" run epicyclic_from_rest --until 0.5s --number float --csv - --quiet 2>"$scratch/err" | tr -d '\r' | tail -n 1 >"$scratch/last"
+tail -n 1 "$scratch/rows" | tr -d '\r' | awk -F, -v run="$(cut -d, -f2 "$scratch/last")" \
+    '{ d = $4 - run; exit !(d < 1e-6 && d > -1e-6) }'
+verdict $? "the run's column is what whirl run says" "$scratch/last"
+"$whirl" prove epicyclic_from_rest --until 0.5s --number float --csv - >"$scratch/out" 2>"$scratch/err"
+[ $? -eq 0 ] && cmp "$scratch/out" "$scratch/rows" >"$scratch/diff" && grep -q '^proved to the end' "$scratch/err"
+verdict $? "--csv -: the rows, and the words on standard error" "$scratch/diff"
+
+# --- the C that boards run: its floats are those that were held, and lie within a millimetre of all that the motion may be ----
+cat >"$scratch/main.c" <<'END'
+#include <stdio.h>
+
+#include "gear.h"
+
+static uint64_t memory[gear_MEMORY_WORDS];
+
+int main(void) {
+    wh_state state;
+    wh_status status = wh_scene_start(&gear, &state, memory, sizeof memory);
+    while (status == WH_OK) {
+        printf("%.17g\n", (double)state.real[gear_REAL_X]);
+        if (state.steps == gear.steps) {
+            break;
+        }
+        status = wh_scene_step(&gear, &state);
+    }
+    return status == WH_OK ? 0 : 1;
+}
+END
+if [ -z "${WHIRL_FEW:-}" ]; then
+    "$whirl" derive epicyclic_from_rest --as c --until 3s --name gear --header "$scratch/gear.h" >"$scratch/gear.c" 2>"$scratch/err" &&
+        "${CC:-cc}" -std=c11 -O2 -I. -I"$scratch" -o "$scratch/gear" "$scratch/main.c" "$scratch/gear.c" core/*.c 2>"$scratch/err" &&
+        "$scratch/gear" >"$scratch/board" &&
+        "$whirl" prove epicyclic_from_rest --until 3s --number float --within X=1mm --csv "$scratch/rows" >"$scratch/out" 2>"$scratch/err" &&
+        grep -q '^  X  *to the end  *within 1.00e-03 m' "$scratch/out"
+    verdict $? "until 3 s the generated C's X is within 1 mm of the exact motion: proved"
+    tr -d '\r' <"$scratch/rows" | sed 1d | cut -d, -f8-10 | paste -d, - "$scratch/board" | awk -F, '
+        NF != 4 || $3 != $4 || $4 - $1 > 1e-3 || $2 - $4 > 1e-3 { bad = 1 }
+        $1 <= $4 && $4 <= $2 { inside++ }
+        END { exit bad || NR != 3001 || inside > 300 }'
+    verdict $? "its records are those that were held" "$scratch/board"
+fi
+
+# --- what ends it ------------------------------------------------------------------------------------------------------------
+ended 0 '^whirl prove: the effort is spent at t = [0-9.]* s of 10 s$' 'there the effort is spent$' thomson_a --step 1ms --effort 0.005
+ended 0 '^hint: a larger --effort goes on' '^proved until t = [0-9.]* s of 10 s$' thomson_a --step 1ms --effort 0.005
+cat >"$scratch/pole.whirl" <<'END'
+mechanism pole "x'' = 2 x^3 is infinite at 1 s"
+coordinate x [m]
+T = 1 [kg]*x'^2/2
+V = -0.5 [N/m^3]*x^4
+scene blows { start x = 1 [m], x' = 1 [m/s]; step 1 [ms]; until 2 [s] }
+END
+ended 1 'error: the run diverged in the step after t = 1 s' '^proved until t = 0.99' "$scratch/pole.whirl"
+ended 1 'the tube ends at t = 0.99.* s: behind it the exact motion is not enclosed' 'there the tube ends$' "$scratch/pole.whirl" --within x=1e9m --within "x'=1e9m/s"
+# where the first step already leads nowhere
+cat >"$scratch/root.whirl" <<'END'
+mechanism root "a force that has no slope at the start"
+coordinate x [m]
+T = 1 [kg]*x'^2/2
+Q(x) = 1 [N]*sqrt(x/1 [m])
+scene begins { start x = 0 [m]; step 1 [ms]; until 1 [s] }
+END
+ended 0 'the tube ends at t = 0 s' 'there the tube ends$' "$scratch/root.whirl"
+# where the run does
+ended 1 'error: the run diverged in the step after t = 0 s' '^proved until t = 0 s of' tests/mechanisms/kepler.whirl
+proved '^proved to the end, t = 10 s$' tests/mechanisms/double_pendulum.whirl # it hangs still
+for signal in INT TERM; do
+    "$whirl" prove thomson_a --csv "$scratch/i.csv" >"$scratch/out" 2>"$scratch/err" &
+    process=$!
+    tries=0
+    while [ "$(wc -c 2>/dev/null <"$scratch/i.csv" || echo 0)" -lt 200000 ] && [ $tries -lt 1000 ]; do
+        sleep 0.02
+        tries=$((tries + 1))
+    done
+    kill -$signal $process
+    wait $process
+    [ $? -eq 130 ] && grep -q '^whirl prove: interrupted at t = [0-9.]* s of 10 s$' "$scratch/err" &&
+        grep -q 'there it was interrupted$' "$scratch/out" &&
+        grep -q "^proved until t = $(tail -n 1 "$scratch/i.csv" | cut -d, -f1) s of 10 s" "$scratch/out"
+    verdict $? "$signal: status 130, and what is proved until the last row" "$scratch/out"
+    rm -f "$scratch/i.csv"
+done
+
+"$whirl" prove thomson_a --until 100000s --effort 10000 --csv "$scratch/i.csv" >"$scratch/out" 2>"$scratch/err" &
+process=$!
+sleep 1
+kill -INT $process
+wait $process
+[ $? -eq 130 ] && grep -q '^whirl prove: interrupted in the run that tells the range' "$scratch/err" &&
+    [ ! -s "$scratch/out" ] && [ ! -e "$scratch/i.csv" ]
+verdict $? "interrupted before anything is proved: no rows" "$scratch/err"
+
+# --- what is refused -------------------------------------------------------------------------------------------------------
+refused 'the stop changes the equations' carriage_stop
+refused 'the hold changes the equations' thomson_magnet
+refused 'the friction changes the equations' incline_slides
+refused 'abs of what moves cannot be enclosed' epicyclic_from_rest --with air_drag
+refused 'a number above zero is wanted' epicyclic_from_rest --within X=-1mm
+refused 'a number above zero is wanted' epicyclic_from_rest --within X=0
+refused "'Y' is unknown" epicyclic_from_rest --within Y=1mm
+refused "'X' is given twice" epicyclic_from_rest --within X=1mm --within X=2mm
+refused '--within needs a value' epicyclic_from_rest --within
+refused "there is no number 'fixed'" epicyclic_from_rest --number fixed
+for bad in 0 -1 2 1e-16 nan x 1e-3m ''; do
+    refused 'error: --tolerance takes a number from 1e-15 to 1' epicyclic_from_rest --tolerance "$bad"
+    refused 'error: --effort takes a number from 0.0001 to 10000' epicyclic_from_rest --effort "${bad%2}x"
+done
+refused '--csv is there twice' epicyclic_from_rest --csv a --csv b
+refused 'error: the run alone, of .* steps, would take about' thomson_a --until 1e6s
+refused 'or --effort [0-9]*$' thomson_a --until 1e6s
+refused 'one scene at a time' thomson_a thomson_b
+refused "unknown option '--plot'" thomson_a --plot x.svg
+refused 'is not defined here' thomson_a --method leapfrog
+refused 'cannot be written' epicyclic_from_rest --csv "$scratch"
+cp "$scratch/pole.whirl" "$scratch/mine.whirl"
+refused 'would write over the model' "$scratch/mine.whirl" --csv "$scratch/mine.whirl"
+
+# --- what docs/stability.md prints -----------------------------------------------------------------------------------------
+# (with WHIRL_FEW=1, under the sanitizers, they would take minutes)
+[ -z "${WHIRL_FEW:-}" ] || exit $failed
+shown=0
+grep '^    [$] build/whirl prove' docs/stability.md >"$scratch/calls"
+while read -r call; do
+    shown=$((shown + 1))
+    awk -v call="    $call" '$0 == call { on = 1; next }
+        on && /^    [$]/ { exit }
+        on && /^[^ ]/ { exit }
+        on { sub(/^    /, ""); print }' docs/stability.md | sed '${/^$/d;}' >"$scratch/wanted"
+    words=${call#*whirl }
+    (eval "'$whirl' $words") >"$scratch/said" 2>"$scratch/err"
+    diff "$scratch/wanted" "$scratch/said" >"$scratch/err"
+    verdict $? "docs/stability.md: ${call#? }" "$scratch/err"
+done <"$scratch/calls"
+[ "$shown" -ge 2 ]
+verdict $? "$shown calls are shown there" /dev/null
+exit $failed
