@@ -31,8 +31,8 @@ typedef struct shown_map {
     stability_map map;
     map_cell cell[MOST * MOST];
     double limit_s[MOST];
-    double value[2][MOST];    /* of the axis along, and of the rows; rising */
-    uint64_t place[2][MOST];  /* which of its axis each is */
+    double value[2][MOST];   /* of the axis along, and of the rows; rising */
+    uint64_t place[2][MOST]; /* which of its axis each is */
     const map_cell *at[MOST][MOST];
     double limit_of[MOST]; /* of the rows as they rise */
 } shown_map;
@@ -148,7 +148,8 @@ static void expect_row(const shown_map *s, uint64_t row, const char *line) {
     char behind[LINE] = "";
     double value = 0.0;
     marks_of(s, row, marks);
-    TEST_ASSERT_TRUE_MESSAGE(sscanf(line, " %lf %399s %399[^\n]", &value, found, behind) >= 2, line);
+    TEST_ASSERT_TRUE_MESSAGE(sscanf(line, " %lf %399s %399[^\n]", &value, found, behind) >= 2,
+                             line);
     TEST_ASSERT_DOUBLE_WITHIN(1e-5 * fabs(s->value[1][row]) + 1e-9, s->value[1][row], value);
     TEST_ASSERT_EQUAL_STRING(marks, found);
     const double limit_s = s->limit_of[row];
@@ -350,8 +351,8 @@ static unsigned expect_limits(const shown_map *s, const double ends[2], const ch
             continue;
         }
         box b;
-        TEST_ASSERT_EQUAL_INT(
-            4, sscanf(text, "%lf %lf %lf %lf", &b.left, &b.low, &b.right, &b.high));
+        TEST_ASSERT_EQUAL_INT(4,
+                              sscanf(text, "%lf %lf %lf %lf", &b.left, &b.low, &b.right, &b.high));
         text = strchr(strchr(text, '\n') + 1, '\n') + 1;
         TEST_ASSERT_DOUBLE_WITHIN(1e-8 * limit_s, limit_s, b.left);
         TEST_ASSERT_DOUBLE_WITHIN(1e-8 * limit_s, limit_s, b.right);
@@ -364,7 +365,8 @@ static unsigned expect_limits(const shown_map *s, const double ends[2], const ch
 }
 
 /* A range, its logarithm and its label. */
-static void expect_axis(const char *told, const axis *a, const double *v, char letter, double *ends) {
+static void expect_axis(const char *told, const axis *a, const double *v, char letter,
+                        double *ends) {
     char what[80];
     snprintf(what, sizeof what, "set %crange [", letter);
     const char *at = strstr(told, what);
