@@ -7,7 +7,8 @@
 #include "derived.h"
 #include "host/emit/description.h"
 #include "host/emit/emit.h"
-#include "host/run/watch.h"
+#include "host/run/summary.h"
+#include "host/run/verdict.h"
 #include "host/trust/horizon.h"
 
 #include "unity.h"
@@ -74,9 +75,14 @@ static void test_scenes_give_everything_back(void) {
 
 /* --- made otherwise, run and written ------------------------------------------------------------------- */
 
+static const char kept_books[] =
+    "mechanism m\ncoordinate x [m]\ncoordinate y [m]\ninput u = 2 [N]\nT = 1 [kg]*(x'^2 + y'^2)/2\n"
+    "V = 9 [N/m]*(x - y)^2/2\nF = 0.5 [N*s/m]*x'^2/2\nQ(y) = u\nstop x >= 0 [m] restitution 0.5\n"
+    "scene s { with ledger; start x' = -1 [m/s]; step 1 [ms]; until 1 [s] }\n";
+
 /* Contacts, ledgers, angles, inputs and outputs, a linear mechanism, a system. */
 static const char *const scenes[] = {"epicyclic_from_rest", "carriage_stop", "two_mass_relative",
-                                     "rig_fixed", "ball_bounces"};
+                                     "rig_fixed",           "ball_bounces",  kept_books};
 
 static const image_settings ways[] = {
     {.method = WH_RK4, .compensated = true},
@@ -96,22 +102,25 @@ static void write_all(const image *im) {
     fclose(out);
 }
 
-/* A run of some steps beside a finer one, with books, watched, and until when it is right. */
+/* A run of some steps with all that is kept, judged and said of it, and until when a finer one beside it says it is right. */
 static void run_watched(const image *im, const image *plain) {
     static const engine_kind *const kinds[] = {&engine_double, &engine_float};
     for (int k = 0; k < 2; k++) {
         void *run = kinds[k]->start(im);
-        books *b = books_open(im);
-        watch *w = watch_open(im, kinds[k]);
+        verdict *v = verdict_open(im, kinds[k]);
         wh_status status = WH_OK;
-        for (int i = 0; i < 20 && status == WH_OK; i++) {
-            books_enter(b, kinds[k], run);
-            watch_enter(w, kinds[k], b, run);
+        verdict_enter(v, run);
+        for (uint64_t i = 0; i < im->steps && status == WH_OK; i++) {
             status = kinds[k]->step(run);
+            verdict_enter(v, run);
         }
-        watch_end(w, status != WH_OK);
-        watch_close(w);
-        books_close(b);
+        verdict_end(v, run, status != WH_OK, NULL);
+        FILE *out = tmpfile();
+        TEST_ASSERT_NOT_NULL(out);
+        verdict_say(out, v, true);
+        summary_print(out, im, kinds[k], run, v->books, &v->balance, 1.0);
+        fclose(out);
+        verdict_close(v);
         kinds[k]->stop(run);
         const twins_wish wish = {.image = im, .kind = kinds[k], .plain = plain, .books = true};
         twins *t = twins_run(&wish);
@@ -132,7 +141,8 @@ static image *made_in(const derived *d, const image_settings *how) {
 /* How many can be made so. */
 static int make_all_ways(const char *name) {
     int made = 0;
-    derived d = derived_builtin(name);
+    derived d =
+        strncmp(name, "mechanism", 9) == 0 ? derived_scene(name, "s") : derived_builtin(name);
     derived_expect(&d, name);
     for (size_t i = 0; i < sizeof ways / sizeof ways[0]; i++) {
         image *im = made_in(&d, &ways[i]);
