@@ -422,8 +422,8 @@ static void expect_picture(const shown_map *s) {
 
 /* --- all three -------------------------------------------------------------------------------------------*/
 
-/* `cat` in the place of gnuplot, in front of all other folders with programs. */
-static char *play_gnuplot(void) {
+/* A script of this line in the place of gnuplot, in front of all other folders with programs. */
+static char *play_gnuplot(const char *part) {
     const char *path = getenv("PATH");
     char *before = strdup(path != NULL ? path : "");
     char *longer = malloc(strlen(before) + sizeof PLAYERS + 1);
@@ -432,7 +432,7 @@ static char *play_gnuplot(void) {
     (void)unlink(PLAYERS "/gnuplot");
     FILE *player = fopen(PLAYERS "/gnuplot", "w");
     TEST_ASSERT_NOT_NULL(player);
-    fputs("#!/bin/sh\nexec cat\n", player);
+    fprintf(player, "#!/bin/sh\n%s\n", part);
     fclose(player);
     TEST_ASSERT_EQUAL_INT(0, chmod(PLAYERS "/gnuplot", 0777));
     sprintf(longer, PLAYERS ":%s", before);
@@ -441,16 +441,7 @@ static char *play_gnuplot(void) {
     return before;
 }
 
-static void test_maps_say_what_they_hold(void) {
-    dice d = dice_of("map_shown", 2311);
-    char *path = play_gnuplot();
-    shown_map s;
-    for (unsigned i = few_or_all(usual_or(60, 15), 400); i > 0; i--) {
-        draw_map(&d, &s);
-        expect_words(&s);
-        expect_csv(&s);
-        expect_picture(&s);
-    }
+static void stop_playing(char *path) {
     setenv("PATH", path, 1);
     free(path);
     unlink(PICTURE);
@@ -458,4 +449,31 @@ static void test_maps_say_what_they_hold(void) {
     rmdir(PLAYERS);
 }
 
-void suite_map_shown(void) { RUN_TEST(test_maps_say_what_they_hold); }
+static void test_maps_say_what_they_hold(void) {
+    dice d = dice_of("map_shown", 2311);
+    char *path = play_gnuplot("exec cat");
+    shown_map s;
+    for (unsigned i = few_or_all(usual_or(60, 15), 400); i > 0; i--) {
+        draw_map(&d, &s);
+        expect_words(&s);
+        expect_csv(&s);
+        expect_picture(&s);
+    }
+    stop_playing(path);
+}
+
+/* Told, and no picture that is said to be there. */
+static void test_pictures_that_cannot_be_drawn(void) {
+    dice d = dice_of("map_shown", 2320);
+    shown_map s;
+    draw_map(&d, &s);
+    TEST_ASSERT_FALSE(map_plot("build/tests/none/map.svg", &s.map, "words"));
+    char *path = play_gnuplot("exit 1");
+    TEST_ASSERT_FALSE(map_plot(PICTURE, &s.map, "words"));
+    stop_playing(path);
+}
+
+void suite_map_shown(void) {
+    RUN_TEST(test_pictures_that_cannot_be_drawn);
+    RUN_TEST(test_maps_say_what_they_hold);
+}
