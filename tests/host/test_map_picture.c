@@ -71,9 +71,9 @@ static void expect_boxes(const shown_map *s, map_verdict verdict, const char *te
         uint64_t end = 0;
         while (next_stretch(s, row, verdict, &from, &end)) {
             box b;
-            TEST_ASSERT_EQUAL_INT(6, sscanf(text, "%lf %lf %lf %lf %lf %lf", &b.x, &b.y, &b.left,
-                                            &b.right, &b.low, &b.high));
-            text = strchr(text, '\n') + 1;
+            text = said_number(said_number(text, &b.x), &b.y);
+            text = said_number(said_number(text, &b.left), &b.right);
+            text = said_words(said_number(said_number(text, &b.low), &b.high), "\n");
             TEST_ASSERT_TRUE(b.left < b.x && b.x < b.right && b.low < b.y && b.y < b.high);
             expect_end(along, s->value[0], from, false, b.left);
             expect_end(along, s->value[0], end - 1, true, b.right);
@@ -97,9 +97,8 @@ static unsigned expect_limits(const shown_map *s, const double ends[2], const ch
             continue;
         }
         box b;
-        TEST_ASSERT_EQUAL_INT(4,
-                              sscanf(text, "%lf %lf %lf %lf", &b.left, &b.low, &b.right, &b.high));
-        text = strchr(strchr(text, '\n') + 1, '\n') + 1;
+        text = said_words(said_number(said_number(text, &b.left), &b.low), "\n");
+        text = said_words(said_number(said_number(text, &b.right), &b.high), "\n");
         TEST_ASSERT_DOUBLE_WITHIN(1e-8 * limit_s, limit_s, b.left);
         TEST_ASSERT_DOUBLE_WITHIN(1e-8 * limit_s, limit_s, b.right);
         expect_end(rows, s->value[1], row, false, b.low);
@@ -117,7 +116,8 @@ static void expect_axis(const char *told, const axis *a, const double *v, char l
     snprintf(what, sizeof what, "set %crange [", letter);
     const char *at = strstr(told, what);
     TEST_ASSERT_NOT_NULL(at);
-    TEST_ASSERT_EQUAL_INT(2, sscanf(at + strlen(what), "%lf:%lf]", &ends[0], &ends[1]));
+    at = said_words(said_number(at + strlen(what), &ends[0]), ":");
+    said_words(said_number(at, &ends[1]), "]\n");
     expect_end(a, v, 0, false, ends[0]);
     expect_end(a, v, a->count - 1, true, ends[1]);
     snprintf(what, sizeof what, "set logscale %c\n", letter);
