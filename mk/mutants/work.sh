@@ -64,13 +64,13 @@ changed_objects() {
 }
 
 # --- tests ----------------------------------------------------------------------------------------------
-# Quick ones first, and those that killed before.
+# Quick ones first, and those that killed before: in this row, and a little what killed in other rows or draws.
 order() {
-    awk -F '\t' -v longest="$LONGEST" -v always="$ALWAYS" -v never="$NEVER" '
-        FILENAME == ARGV[1] {
+    awk -F '\t' -v own="$1" -v longest="$LONGEST" -v always="$ALWAYS" -v never="$NEVER" '
+        FILENAME ~ /\.found$/ {
             if ($2 == "killed") {
                 sub(/ \(.*/, "", $3)
-                kills[$3]++
+                kills[$3] += FILENAME == own ? 1 : 0.1
             }
             next
         }
@@ -79,7 +79,7 @@ order() {
             if ((t[1] <= longest || (always != "" && t[3] ~ always)) && t[3] !~ never) {
                 print -(kills[t[2] " " t[3]] + 0.1) / (t[1] + 0.03), t[1], t[2], t[3]
             }
-        }' "$1" "$top/times" | sort -n | cut -d ' ' -f 2-
+        }' "$top"/*.found "$top/times" | sort -n | cut -d ' ' -f 2-
 }
 
 # A suite of a program in which nothing changed has nothing to say; neither has one of generated scenes, when

@@ -81,6 +81,27 @@ double said_step_s(const char *word) {
                                                : 1.0);
 }
 
+const char *said_words(const char *text, const char *words) {
+    text += strspn(text, " ");
+    TEST_ASSERT_EQUAL_STRING_LEN(words, text, strlen(words));
+    return text + strlen(words);
+}
+
+const char *said_number(const char *text, double *number) {
+    char *behind;
+    *number = strtod(text, &behind);
+    TEST_ASSERT_TRUE_MESSAGE(behind != text, text);
+    return behind;
+}
+
+const char *said_word(const char *text, char *word, size_t size) {
+    text += strspn(text, " ");
+    const size_t length = strcspn(text, " \n");
+    TEST_ASSERT_TRUE_MESSAGE(length > 0 && length < size, text);
+    snprintf(word, size, "%.*s", (int)length, text);
+    return text + length;
+}
+
 dice dice_of(const char *suite, unsigned long seed) {
     const char *given = getenv("WHIRL_SEED");
     const unsigned long long used = given != NULL ? strtoull(given, NULL, 10) : seed;

@@ -18,6 +18,12 @@ void command_say(int (*command)(int count, char **words), const char *const *wor
 /* A step as a warning writes it, "200us": s. */
 double said_step_s(const char *word);
 
+/* Text read bit by bit; each fails the test where it does not go on so, and returns what is behind it. Blanks may stand in
+ * front. Words as they are; a number; what there is up to the next blank, in word[size]. */
+const char *said_words(const char *text, const char *words);
+const char *said_number(const char *text, double *number);
+const char *said_word(const char *text, char *word, size_t size);
+
 /* Writes a model's text into a file of its own, whose name it returns; static. Gone with model_drop(). */
 const char *model_keep(const char *text);
 void model_drop(void);

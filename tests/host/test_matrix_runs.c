@@ -236,6 +236,28 @@ static void test_systems_of_first_order(void) {
     }
 }
 
+/* x' = c y, y' = 0: however weak y is in x, nothing else moves x. Constants of all sizes that stay finite. */
+static void test_weak_couplings(void) {
+    for (int exponent = -280; exponent <= 0; exponent += 20) {
+        char text[400];
+        motion m;
+        double angle[1];
+        double real[2];
+        const double weak = 3.0 * pow(10.0, exponent);
+        snprintf(text, sizeof text,
+                 "mechanism m\nstate x [m]\nstate y [m]\nparameter c = %.17g [1/s]\n"
+                 "equation x' = c*y\nequation y' = 0 [m/s]\n"
+                 "scene s { start y = 7 [m]; step 250 [ms]; until 10 [s] }\n",
+                 weak);
+        motion_open_text(&m, text, as_matrix(&engine_double, MATRIX_EXACT, false));
+        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 16));
+        m.kind->state(m.run, angle, real);
+        TEST_ASSERT_TRUE_MESSAGE(fabs(real[0] / (weak * 28.0) - 1.0) < 1e-14, text);
+        TEST_ASSERT_TRUE(real[1] == 7.0);
+        motion_close(&m);
+    }
+}
+
 /* --- bounds, and another step ------------------------------------------------------------------------ */
 
 /* An unstable balance: refused at the step at which RK4's stages are, with the last good state kept. */
@@ -333,6 +355,17 @@ static void test_what_is_not_linear_is_refused_where_it_stands(void) {
     expect_not_linear("let a = 2*x; V = 1 [N]*sqrt(a^2 + 1 [m^2])", "sqrt", "sqrt() of x");
     expect_not_linear("let a = x^3; V = 1 [N/m^2]*a", "^3", "a power of x");
     expect_not_linear("F = 1 [kg/m]*abs(x')^3/3", "abs", "abs() of x");
+    static const char *const powers[] = {"^3",   "^4",  "^7",    "^8",     "^9",  "^12",
+                                         "^0.5", "^-1", "^-2.5", "^(4/3)", "^2.5"};
+    for (size_t i = 0; i < sizeof powers / sizeof powers[0]; i++) {
+        static const char *const lines[] = {"V = 1 [J]*(2 + x/(1 [m]))%s",
+                                            "V = 1 [N/m]*x^2 - 3 [J]*(5 - (1 + x/(1 [m]))%s/2)/4"};
+        for (int k = 0; k < 2; k++) {
+            char line[200];
+            snprintf(line, sizeof line, lines[k], powers[i]);
+            expect_not_linear(line, powers[i], "a power of x");
+        }
+    }
 }
 
 static void test_what_has_no_matrix_is_refused(void) {
@@ -357,6 +390,7 @@ void suite_matrix_runs(void) {
     RUN_TEST(test_rounding_the_change_is_better);
     RUN_TEST(test_turn_angles);
     RUN_TEST(test_systems_of_first_order);
+    RUN_TEST(test_weak_couplings);
     RUN_TEST(test_runs_that_diverge_end_alike);
     RUN_TEST(test_another_step_has_another_matrix);
     RUN_TEST(test_what_is_not_linear_is_refused_where_it_stands);

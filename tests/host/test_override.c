@@ -106,6 +106,12 @@ static void test_wrong_overrides(void) {
                        "<command line>:1:3: error: 'm' is mass [kg], but this is length");
     expect_set_refused("m=3 m", "<command line>:1:3: error: 'm' is mass [kg], but this is length");
     expect_set_refused("m=3 [kgs]", "<command line>:1:6: error: unknown unit 'kgs'");
+    expect_set_refused("m=3 [kg^100]", "<command line>:1:11: error: this exponent is above 99\n");
+    expect_set_refused("m=3 [kg^(1/0)]", "error: division by zero in an exponent\n");
+    expect_set_refused("m=3 [kg^(1/2]", "error: ')' is missing in this exponent\n");
+    expect_set_refused("m=3 [(kg*m]", "error: ')' is missing in this unit\n");
+    expect_set_refused("m=3 [kg*]", "error: a unit is missing here\n");
+    expect_set_refused("m=3 [qqqqqqqqq]", "<command line>:1:6: error: unknown unit 'qqqqqqqqq'\n");
     expect_set_refused("mm=3",
                        "<command line>:1:1: error: 'mm' is unknown in mechanism 'epicyclic'");
     expect_set_refused("m=", "<command line>:1:3: error: a value is missing before the end");

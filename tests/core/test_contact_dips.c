@@ -1,0 +1,101 @@
+/* test_contact_dips.c: stops into which a try dips (contact_step.h): of drawn bodies that move freely under constant loads,
+ * so that both ends are known, those that end passed and on their way out are told, and of these the ones that were
+ * open, or closing, at the begin were hit. */
+#include "draw.h"
+#include "hand.h"
+
+#include "unity.h"
+
+void suite_contact_dips(void);
+
+#define H WH_R(0.0009765625)
+
+static wh_contact_work w;
+static wh_contact_attempt a;
+
+typedef struct drawn_stop {
+    wh_real gap[2];  /* at the begin and at the end */
+    wh_real rate[2]; /* likewise */
+} drawn_stop;
+
+/* On x0 from below, on x1, on x0 from above. */
+static drawn_stop stop_of(unsigned k, const wh_real *at, const wh_real *accel, wh_real offset) {
+    const unsigned i = k == 1 ? 1 : 0;
+    const wh_real sign = k == 2 ? WH_R(-1.0) : WH_R(1.0);
+    drawn_stop s;
+    s.gap[0] = sign * at[i] - offset;
+    s.rate[0] = sign * at[2 + i];
+    s.gap[1] = s.gap[0] + H * (s.rate[0] + WH_R(0.5) * H * sign * accel[i]);
+    s.rate[1] = s.rate[0] + H * sign * accel[i];
+    return s;
+}
+
+/* Too near to zero for rounding to tell. */
+static bool is_plain(const drawn_stop *s) {
+    return WH_ABS(s->gap[1]) > WH_R(1e-6) && WH_ABS(s->rate[1]) > WH_R(1e-4) &&
+           WH_ABS(s->gap[0]) > WH_R(1e-6) && WH_ABS(s->rate[0]) > WH_R(1e-4);
+}
+
+static void test_what_dips_and_comes_back(void) {
+    uint64_t seed = 2322;
+    unsigned dips = 0;
+    unsigned leaves = 0;
+    for (unsigned round = 0; round < 3000; round++) {
+        wh_real input[1] = {WH_R(0.0)};
+        wh_real offset[3];
+        drawn_stop stop[3];
+        bool plain = true;
+        hand_build(2, WH_R(1.0), WH_R(0.0), WH_R(1.0));
+        for (unsigned i = 0; i < 2; i++) {
+            hand_now.load[i] = draw_broken(&seed, -6000, 6000);
+            hand_now.start[i] = draw_broken(&seed, -1, 1) * WH_R(0.0009765625);
+            hand_now.start[2 + i] = draw_broken(&seed, -2, 2);
+        }
+        for (unsigned k = 0; k < 3; k++) {
+            offset[k] = draw_broken(&seed, -1, 1) * WH_R(0.0009765625);
+            hand_add(WH_STOP, k == 1 ? 1 : 0,
+                     k == 0   ? WH_R(1.0)
+                     : k == 2 ? WH_R(-1.0)
+                              : WH_R(0.0),
+                     k == 1 ? WH_R(1.0) : WH_R(0.0), offset[k], WH_R(0.5), WH_R(0.0));
+            stop[k] = stop_of(k, hand_now.start, hand_now.load, offset[k]);
+            plain = plain && is_plain(&stop[k]);
+        }
+        if (!plain) {
+            continue;
+        }
+        hand_start(false);
+        wh_contact_work_begin(&hand_now.system, &hand_state, &w);
+        for (unsigned k = 0; k < 3; k++) {
+            w.mode[k] = WH_FREE;
+        }
+        w.hit_next = w.turned = w.inside = w.moved = 0;
+        for (unsigned i = 0; i < 4; i++) {
+            a.now.real[i] = hand_now.start[i];
+            a.now.carry[i] = WH_R(0.0);
+        }
+        a.next = a.now;
+        wh_contact_attempt_make(&hand_now.system, &w, H, input, &a);
+        TEST_ASSERT_TRUE(a.made && a.sound);
+        unsigned leaving = 0;
+        for (unsigned k = 0; k < 3; k++) {
+            leaving |= stop[k].gap[1] < WH_R(0.0) && stop[k].rate[1] > WH_R(0.0) ? 1U << k : 0U;
+        }
+        TEST_ASSERT_EQUAL_UINT(leaving, a.leaving);
+        const unsigned inside = w.inside;
+        const wh_margins before = a.margins;
+        wh_contact_attempt_dipped(&hand_now.system, &w, input, &a);
+        for (unsigned k = 0; k < 3; k++) {
+            const bool open = stop[k].gap[0] > WH_R(0.0) || stop[k].rate[0] < WH_R(0.0);
+            const bool hit = open && (leaving >> k & 1U) != 0;
+            TEST_ASSERT_EQUAL_UINT(hit ? 0U : inside >> k & 1U, w.inside >> k & 1U);
+            TEST_ASSERT_TRUE(a.margins.value[k] == (hit ? before.signal[2 * k] : before.value[k]));
+            TEST_ASSERT_TRUE(!hit || a.margins.value[k] < WH_R(0.0));
+            dips += hit;
+            leaves += (leaving >> k & 1U) != 0 && !hit;
+        }
+    }
+    TEST_ASSERT_TRUE(dips > 60 && leaves > 60);
+}
+
+void suite_contact_dips(void) { RUN_TEST(test_what_dips_and_comes_back); }

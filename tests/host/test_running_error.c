@@ -1,0 +1,267 @@
+/* test_running_error.c: how far off a list's results may be for rounding, on drawn lists of every kind of operation, against
+ * the definition: each operation's own rounding, and what its operands are off, times its slopes, which are taken
+ * here as differences of its values. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "command.h"
+#include "host/run/rounding.h"
+
+#include "unity.h"
+
+void suite_running_error(void);
+
+enum { LEAVES = 6, ANGLES = 2, DRAWN = 14, MOST_OPS = 80 };
+
+/* A list, and what each of its operations comes to at a state. */
+typedef struct drawn_list {
+    tape *list;
+    double leaf[LEAVES];
+    double phase_rad[ANGLES];
+    double angle_rad[ANGLES];
+    double value[MOST_OPS];
+    double sine[MOST_OPS];
+    double cosine[MOST_OPS];
+} drawn_list;
+
+/* --- values ------------------------------------------------------------------------------------------------*/
+
+static double phase_of(const drawn_list *l, const op *o) {
+    double sum = o->value + (o->b >= 0 ? l->value[o->b] : 0.0);
+    for (int i = 0; i < ANGLES; i++) {
+        sum += (o->turns != NULL ? o->turns[i] * l->phase_rad[i] : 0.0) +
+               (o->parts != NULL ? o->parts[i] * l->angle_rad[i] : 0.0);
+    }
+    return sum;
+}
+
+/* Of operands x and y. */
+static double computed(const drawn_list *l, const op *o, double x, double y) {
+    switch (o->code) {
+    case OP_CONSTANT: return o->value;
+    case OP_LINEAR:
+    case OP_RATE:
+    case OP_INPUT:
+    case OP_ACCEL: return l->leaf[o->a];
+    case OP_TIME: return 7.5;
+    case OP_RADIANS: return l->angle_rad[o->a];
+    case OP_PHASE: return phase_of(l, o);
+    case OP_SIN: return sin(x);
+    case OP_COS: return cos(x);
+    case OP_ADD: return x + y;
+    case OP_SUB: return x - y;
+    case OP_MUL: return x * y;
+    case OP_DIV: return x / y;
+    case OP_NEG: return -x;
+    case OP_SQRT: return sqrt(x);
+    case OP_ABS: return fabs(x);
+    case OP_SIGN: return x < 0.0 ? -1.0 : 1.0;
+    case OP_MIN: return fmin(x, y);
+    case OP_MAX: return fmax(x, y);
+    case OP_CALL: return number_call(o->function, x, y);
+    case OP_POW: return pow(x, y);
+    case OP_NOISE:
+    case OP_CELL:
+    case OP_LINE:
+    case OP_CUBIC: break;
+    }
+    TEST_FAIL_MESSAGE("not drawn");
+    return 0.0;
+}
+
+static bool takes_two(const op *o) {
+    return op_rows[o->code].kind == OP_IS_BINARY ||
+           (op_rows[o->code].kind == OP_IS_CALL && o->b >= 0);
+}
+
+static bool takes_one(const op *o) {
+    return takes_two(o) || op_rows[o->code].kind == OP_IS_UNARY ||
+           op_rows[o->code].kind == OP_IS_WAVE || op_rows[o->code].kind == OP_IS_CALL;
+}
+
+/* False where something has no value, is large, or is next to a place where its slope jumps. */
+static bool compute(drawn_list *l) {
+    for (int i = 0; i < l->list->count; i++) {
+        const op *o = &l->list->ops[i];
+        const double x = takes_one(o) ? l->value[o->a] : 0.0;
+        const double y = takes_two(o) ? l->value[o->b] : 0.0;
+        l->value[i] = computed(l, o, x, y);
+        l->sine[i] = sin(l->value[i]);
+        l->cosine[i] = cos(l->value[i]);
+        const bool jumps = o->code == OP_ABS || o->code == OP_SIGN || o->code == OP_CALL;
+        const bool turns = o->code == OP_MIN || o->code == OP_MAX;
+        if (!isfinite(l->value[i]) || fabs(l->value[i]) > 1e6 || (jumps && fabs(x) < 1e-3) ||
+            (turns && fabs(x - y) < 1e-3) || (o->code == OP_POW && !(x > 1e-3))) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* --- errors ------------------------------------------------------------------------------------------------*/
+
+/* The size of the slope by the first operand, or by the second: a difference over this part of it. */
+static double slope(const drawn_list *l, const op *o, double x, double y, bool second,
+                    double part) {
+    const double step = part * fmax(1e-3, fabs(second ? y : x));
+    const double up = second ? computed(l, o, x, y + step) : computed(l, o, x + step, y);
+    const double down = second ? computed(l, o, x, y - step) : computed(l, o, x - step, y);
+    return fabs(up - down) / (2.0 * step);
+}
+
+/* What comes without a rounding of its own: what is stored, and what changes no digit. */
+static bool is_exact(op_code code) {
+    return code == OP_LINEAR || code == OP_RATE || code == OP_INPUT || code == OP_ACCEL ||
+           code == OP_TIME || code == OP_RADIANS || code == OP_NEG || code == OP_ABS ||
+           code == OP_SIGN || code == OP_MIN || code == OP_MAX;
+}
+
+static double phase_error(const drawn_list *l, const op *o, const double *error) {
+    double sum = fabs(o->value) + (o->b >= 0 ? fabs(l->value[o->b]) + error[o->b] : 0.0);
+    for (int i = 0; i < ANGLES; i++) {
+        sum += (o->turns != NULL ? fabs(o->turns[i] * l->phase_rad[i]) : 0.0) +
+               (o->parts != NULL ? fabs(o->parts[i] * l->angle_rad[i]) : 0.0);
+    }
+    return sum;
+}
+
+static void define(const drawn_list *l, double least, double part, double *error) {
+    for (int i = 0; i < l->list->count; i++) {
+        const op *o = &l->list->ops[i];
+        const double x = takes_one(o) ? l->value[o->a] : 0.0;
+        const double y = takes_two(o) ? l->value[o->b] : 0.0;
+        error[i] = takes_one(o) ? slope(l, o, x, y, false, part) * error[o->a] : 0.0;
+        error[i] += takes_two(o) ? slope(l, o, x, y, true, part) * error[o->b] : 0.0;
+        if (o->code == OP_CONSTANT) { /* what a float holds is exact */
+            error[i] = (double)(float)o->value == o->value ? 0.0 : fabs(o->value);
+        } else if (o->code == OP_PHASE) {
+            error[i] = phase_error(l, o, error);
+        } else if (o->code == OP_SIN || o->code == OP_COS) { /* as of a table of them: of 1 */
+            error[i] += 1.0;
+        } else if (!is_exact(o->code)) {
+            error[i] += fmax(fabs(l->value[i]), least);
+        }
+    }
+}
+
+/* --- lists -------------------------------------------------------------------------------------------------*/
+
+static int draw_leaf(dice *d, tape *t) {
+    static const op_code leaves[] = {OP_LINEAR, OP_RATE, OP_INPUT, OP_ACCEL};
+    switch (dice_one_of(d, 8)) {
+    case 0: return tape_constant(t, dice_between(d, -2.0, 2.0)); /* no float */
+    case 1: return tape_constant(t, 0.25 * (1.0 + dice_one_of(d, 9)));
+    case 2: return tape_leaf(t, OP_TIME, 0);
+    case 3: return tape_leaf(t, OP_RADIANS, (int)dice_one_of(d, ANGLES));
+    default: return tape_leaf(t, leaves[dice_one_of(d, 4)], (int)dice_one_of(d, LEAVES));
+    }
+}
+
+static int draw_wave(dice *d, tape *t, int radians) {
+    static const double multiples[] = {0.0, 1.0, -2.0, 3.0, 0.5, -1.25};
+    const double multiple[ANGLES] = {multiples[dice_one_of(d, 6)], multiples[dice_one_of(d, 6)]};
+    const double offset_rad = dice_one_of(d, 2) == 0 ? 0.0 : dice_between(d, -1.0, 1.0);
+    const int phase = tape_phase(t, multiple, offset_rad, dice_one_of(d, 2) == 0 ? radians : -1);
+    return tape_unary(t, dice_one_of(d, 2) == 0 ? OP_SIN : OP_COS, phase);
+}
+
+static int draw_op(dice *d, tape *t, int a, int b) {
+    static const op_code unary[] = {OP_SQRT, OP_ABS, OP_SIGN, OP_NEG};
+    const function_id function = (function_id)dice_one_of(d, FUNCTIONS);
+    switch (dice_one_of(d, 9)) {
+    case 0: return tape_add(t, a, b);
+    case 1: return tape_sub(t, a, b);
+    case 2: return tape_mul(t, a, b);
+    case 3: return tape_div(t, a, b);
+    case 4: return tape_unary(t, unary[dice_one_of(d, 4)], a);
+    case 5: return tape_pow(t, a, b);
+    case 6: return draw_wave(d, t, a);
+    default: return tape_call(t, function, a, function_arguments(function) == 2 ? b : -1);
+    }
+}
+
+/* Of leaves and of what is made of them; its results are the last operations and some others. */
+static void draw_list(dice *d, drawn_list *l) {
+    int made[LEAVES + DRAWN];
+    l->list = tape_new(ANGLES, 4);
+    for (int i = 0; i < LEAVES; i++) {
+        l->leaf[i] = dice_between(d, 0.2, 0.95) * (dice_one_of(d, 3) == 0 ? 3.0 : 1.0);
+        made[i] = draw_leaf(d, l->list);
+    }
+    for (int i = 0; i < ANGLES; i++) {
+        l->angle_rad[i] = dice_between(d, -20.0, 20.0);
+        l->phase_rad[i] = remainder(l->angle_rad[i], 2.0 * acos(-1.0));
+    }
+    for (int i = 0; i < DRAWN; i++) {
+        const unsigned known = LEAVES + (unsigned)i;
+        made[known] = draw_op(d, l->list, made[dice_one_of(d, known)], made[dice_one_of(d, known)]);
+    }
+    for (int i = 0; i < 4; i++) {
+        l->list->result[i] = made[LEAVES + DRAWN - 1 - i];
+    }
+    TEST_ASSERT_TRUE(l->list->count <= MOST_OPS);
+}
+
+static void test_drawn_lists(void) {
+    dice d = dice_of("running_error", 2315);
+    unsigned of_code[OPS] = {0};
+    unsigned held = 0;
+    for (unsigned n = few_or_all(3000, 60000); n > 0; n--) {
+        drawn_list l;
+        draw_list(&d, &l);
+        const double least = dice_one_of(&d, 2) == 0 ? 0.0 : dice_between(&d, 0.1, 2.0);
+        if (compute(&l)) {
+            double wanted[MOST_OPS];
+            double coarser[MOST_OPS];
+            double got[4];
+            const rounding_values at = {l.value, l.sine, l.cosine, l.phase_rad, l.angle_rad, least};
+            define(&l, least, 1e-6, wanted);
+            define(&l, least, 1e-5, coarser);
+            rounding_of(l.list, &at, got);
+            for (int i = 0; i < 4; i++) {
+                const double error = wanted[l.list->result[i]];
+                /* else a difference reaches to where a function bends sharply, or ends */
+                if (fabs(coarser[l.list->result[i]] - error) < 1e-4 * error) {
+                    TEST_ASSERT_DOUBLE_WITHIN(1e-3 * error, error, got[i]);
+                    held++;
+                }
+            }
+            for (int i = 0; i < l.list->count; i++) {
+                of_code[l.list->ops[i].code]++;
+            }
+        }
+        tape_free(l.list);
+    }
+    printf("  %u results\n", held);
+    TEST_ASSERT_TRUE(held > 1000);
+    for (int code = 0; code < OPS; code++) {
+        const bool drawn =
+            code != OP_NOISE && code != OP_CELL && code != OP_LINE && code != OP_CUBIC;
+        TEST_ASSERT_TRUE(!drawn || of_code[code] > 20);
+    }
+}
+
+/* What rounds a sum or a root of nothing, exactly: nothing, but for what is too small to be a normal number. */
+static void test_nothing_is_off_by_nothing(void) {
+    tape *t = tape_new(0, 2);
+    const int x = tape_leaf(t, OP_LINEAR, 0);
+    const int y = tape_leaf(t, OP_LINEAR, 1);
+    t->result[0] = tape_unary(t, OP_SQRT, tape_mul(t, x, x));
+    t->result[1] = tape_add(t, x, y);
+    const double value[8] = {0.0};
+    const rounding_values at = {value, value, value, NULL, NULL, 0.0};
+    double error[2] = {1.0, 1.0};
+    rounding_of(t, &at, error);
+    TEST_ASSERT_TRUE(error[0] == 0.0 && error[1] == 0.0);
+    const rounding_values small = {value, value, value, NULL, NULL, 1e-38};
+    rounding_of(t, &small, error);
+    TEST_ASSERT_EQUAL_DOUBLE(1e-38, error[1]);
+    TEST_ASSERT_TRUE(error[0] > 1e-38); /* its root has no slope there */
+    tape_free(t);
+}
+
+void suite_running_error(void) {
+    RUN_TEST(test_drawn_lists);
+    RUN_TEST(test_nothing_is_off_by_nothing);
+}

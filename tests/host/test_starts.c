@@ -1,0 +1,146 @@
+/* test_starts.c: whether a run can start: drawn scenes with stops on some of their coordinates, of which any may be passed,
+ * and with losses on some of their rates, which methods of kicks at positions do not take. Each stop that is passed is
+ * told, where it stands and by how much, and no other; the coordinate that is told is the first with a loss. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "command.h"
+#include "derived.h"
+#include "host/run/engine.h"
+#include "host/run/start.h"
+
+#include "unity.h"
+
+void suite_starts(void);
+
+enum { MOST = 5, TEXT = 4000 };
+
+static char *told_of(diags *errors) {
+    static char told[TEXT];
+    FILE *out = fmemopen(told, sizeof told, "w");
+    TEST_ASSERT_NOT_NULL(out);
+    told[0] = '\0';
+    diags_flush(errors, out);
+    fclose(out);
+    return told;
+}
+
+static unsigned times(const char *text, const char *what) {
+    unsigned count = 0;
+    for (const char *at = strstr(text, what); at != NULL; at = strstr(at + 1, what)) {
+        count++;
+    }
+    return count;
+}
+
+/* Line 2 + i has coordinate i, and line 10 + i its stop, at 0 m or at 1 m. */
+static void test_stops_that_are_passed(void) {
+    dice d = dice_of("starts", 2316);
+    unsigned refused = 0;
+    for (unsigned n = few_or_all(60, 600); n > 0; n--) {
+        char text[TEXT] = "mechanism m\n";
+        char starts[TEXT] = "";
+        double beyond[MOST] = {0.0};
+        size_t at = strlen(text);
+        const int count = 1 + (int)dice_one_of(&d, MOST);
+        unsigned wanted = 0;
+        for (int i = 0; i < 8; i++) {
+            at += (size_t)snprintf(text + at, sizeof text - at,
+                                   i < count ? "coordinate q%d [m]\n" : "\n", i);
+        }
+        at += (size_t)snprintf(text + at, sizeof text - at, "T = 1 [kg]*(q0'^2");
+        for (int i = 1; i < count; i++) {
+            at += (size_t)snprintf(text + at, sizeof text - at, " + q%d'^2", i);
+        }
+        at += (size_t)snprintf(text + at, sizeof text - at, ")/2\n");
+        for (int i = 0; i < count; i++) {
+            const bool upper = dice_one_of(&d, 2) == 0;
+            const bool passed = dice_one_of(&d, 3) == 0;
+            const bool on_it = !passed && dice_one_of(&d, 3) == 0;
+            const double gap = on_it ? 0.0 : dice_between(&d, 1e-6, 0.9) * (passed ? -1.0 : 1.0);
+            beyond[i] = passed ? -gap : 0.0;
+            wanted += passed;
+            at += (size_t)snprintf(text + at, sizeof text - at,
+                                   upper ? "stop q%d <= 1 [m] restitution 0.5\n"
+                                         : "stop q%d >= 0 [m] restitution 0.5\n",
+                                   i);
+            snprintf(starts + strlen(starts), sizeof starts - strlen(starts), "%s q%d = %.17g [m]",
+                     i > 0 ? "," : "", i, upper ? 1.0 - gap : gap);
+        }
+        snprintf(text + at, sizeof text - at, "scene s { start%s; step 1 [ms]; until 1 [s] }\n",
+                 starts);
+        derived made = derived_scene(text, "s");
+        derived_expect(&made, text);
+        diags *errors = diags_new();
+        TEST_ASSERT_EQUAL_INT_MESSAGE(wanted == 0,
+                                      start_is_possible(made.image, &engine_double, errors), text);
+        const char *told = told_of(errors);
+        TEST_ASSERT_EQUAL_UINT_MESSAGE(wanted, times(told, "error: "), told);
+        for (int i = 0; i < count; i++) {
+            char what[80];
+            snprintf(what, sizeof what, "t.whirl:%d:", 11 + i);
+            const char *line = strstr(told, what);
+            TEST_ASSERT_EQUAL_INT_MESSAGE(beyond[i] > 0.0, line != NULL, told);
+            if (line != NULL) {
+                const char *by = strstr(line, "starts beyond this stop, by ");
+                TEST_ASSERT_NOT_NULL(by);
+                char *unit;
+                TEST_ASSERT_DOUBLE_WITHIN(1e-5 * beyond[i], beyond[i], strtod(by + 28, &unit));
+                TEST_ASSERT_EQUAL_STRING_LEN(" m\n", unit, 3);
+            }
+        }
+        refused += wanted > 0;
+        diags_free(errors);
+        derived_free(&made);
+    }
+    TEST_ASSERT_TRUE(refused > 20);
+}
+
+/* A loss on one of the rates or on none. */
+static void test_kicks_know_no_rates(void) {
+    for (int count = 1; count <= MOST; count++) {
+        for (int lossy = -1; lossy < count; lossy++) {
+            char text[TEXT] = "mechanism m\n";
+            size_t at = strlen(text);
+            for (int i = 0; i < count; i++) {
+                at += (size_t)snprintf(text + at, sizeof text - at, "coordinate q%d [m]\n", i);
+            }
+            at += (size_t)snprintf(text + at, sizeof text - at, "T = 1 [kg]*(q0'^2");
+            for (int i = 1; i < count; i++) {
+                at += (size_t)snprintf(text + at, sizeof text - at, " + q%d'^2", i);
+            }
+            at += (size_t)snprintf(text + at, sizeof text - at, ")/2\nV = 3 [N/m]*q0^2\n");
+            if (lossy >= 0) {
+                at += (size_t)snprintf(text + at, sizeof text - at, "F = 1 [N*s/m]*q%d'^2/2\n",
+                                       lossy);
+            }
+            snprintf(text + at, sizeof text - at, "scene s { step 1 [ms]; until 1 [s] }\n");
+            derived made = derived_scene(text, "s");
+            derived_expect(&made, text);
+            for (int method = 0; method < WH_METHODS; method++) {
+                char what[120];
+                diags *errors = diags_new();
+                const bool kicks = wh_methods[method].takes == WH_NO_RATES;
+                TEST_ASSERT_EQUAL_INT(!kicks || lossy < 0,
+                                      start_has_method(made.image, (wh_method)method, errors));
+                const char *told = told_of(errors);
+                snprintf(
+                    what, sizeof what,
+                    "t.whirl:%d:12: error: %s is not defined here: accelerations take the rate "
+                    "of 'q%d'",
+                    2 + lossy, wh_methods[method].title, lossy);
+                TEST_ASSERT_EQUAL_INT_MESSAGE(kicks && lossy >= 0, strstr(told, what) != NULL,
+                                              told);
+                diags_free(errors);
+            }
+            derived_free(&made);
+        }
+    }
+}
+
+void suite_starts(void) {
+    RUN_TEST(test_stops_that_are_passed);
+    RUN_TEST(test_kicks_know_no_rates);
+}
