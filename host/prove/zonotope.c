@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "frame.h"
 #include "host/base/room.h"
+#include "orthogonal.h"
 
 zonotope *zonotope_new(int n, int most) {
     zonotope *z = room(1, sizeof *z);
@@ -92,8 +92,8 @@ static void find_axes(const zonotope *z, double *axes, enclosure *inverse) {
     double *columns = room((int64_t)n * n, sizeof *columns);
     double *radii = room(n, sizeof *radii);
     longest(z, columns, radii);
-    frame_axes(n, columns, radii, axes);
-    if (!frame_inverse(n, axes, inverse)) {
+    orthogonal_axes(n, columns, radii, axes);
+    if (!orthogonal_inverse(n, axes, inverse)) {
         for (int i = 0; i < n * n; i++) {
             axes[i] = i % (n + 1) == 0 ? 1.0 : 0.0;
             inverse[i] = enclosure_of(axes[i]);

@@ -1,5 +1,5 @@
-/* frame.c: see frame.h. */
-#include "frame.h"
+/* orthogonal.c: see orthogonal.h. */
+#include "orthogonal.h"
 
 #include <stdlib.h>
 
@@ -49,7 +49,7 @@ static void reflect(int n, double *m, const double *v, int k, int from) {
     }
 }
 
-void frame_axes(int n, const double *of, const double *radii, double *axes) {
+void orthogonal_axes(int n, const double *of, const double *radii, double *axes) {
     double *a = room((int64_t)n * n, sizeof *a);
     double *v = room((int64_t)n * n, sizeof *v); /* a row for each reflection */
     sorted(n, of, radii, a);
@@ -114,7 +114,7 @@ static double off_orthogonal(int n, const double *axes) {
 }
 
 /* A^-1 = (I - E)^-1 A^T with E = I - A^T A, and (I - E)^-1 is off I by at most |E| / (1 - |E|) in the row norm. */
-bool frame_inverse(int n, const double *axes, enclosure *inverse) {
+bool orthogonal_inverse(int n, const double *axes, enclosure *inverse) {
     const double e = off_orthogonal(n, axes);
     if (!(e < 0.25)) {
         return false;
