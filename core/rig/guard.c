@@ -43,12 +43,15 @@ void wh_guard_load(const wh_guard_config *config, wh_guard *guard, const wh_spee
     if (load->status == WH_LOAD_SATURATED || load->status == WH_LOAD_DISCONNECTED) {
         wh_guard_trip(guard, WH_TRIP_LOAD_CELL);
     }
-    /* measured in turns, not in time: the load of a jammed rotor stands still as well */
+    /* measured in turns, not in time: the load of a jammed rotor stands still as well. And one pulse a
+     * sample: all that a late controller finds waiting are no turns of the samples behind them. */
+    guard->still_pulses += speed->taken != guard->load_pulses ? 1U : 0U;
+    guard->load_pulses = speed->taken;
     const wh_real still_N = config->load_still_kgm * speed->turn_radps * speed->turn_radps;
     if (!turning || !(WH_ABS(load->force_N - guard->still_N) <= still_N)) {
-        guard->still_pulses = speed->taken;
+        guard->still_pulses = 0;
         guard->still_N = load->force_N;
-    } else if (speed->taken - guard->still_pulses >= config->stuck_pulses) {
+    } else if (guard->still_pulses >= config->stuck_pulses) {
         wh_guard_trip(guard, WH_TRIP_LOAD_CELL);
     }
 }

@@ -41,7 +41,8 @@ typedef struct wh_guard {
     uint32_t pulses_seen;
     uint32_t lost_before;  /* pulses already lost when the motor began to drive */
     uint32_t load_ticks;   /* of the last load sample; at first, the start */
-    uint32_t still_pulses; /* pulses taken when the load last moved, */
+    uint32_t load_pulses;  /* pulses taken by then */
+    uint32_t still_pulses; /* samples with a new pulse since the load last moved, */
     wh_real still_N;       /* and where to */
 } wh_guard;
 

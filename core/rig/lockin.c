@@ -104,6 +104,16 @@ static void pop(wh_lockin *lockin) {
     lockin->count--;
 }
 
+/* Take what is older than the turn of interest, the last of it apart; so many at most. */
+static void drop_stale(wh_lockin *lockin, uint32_t begin_ticks) {
+    for (unsigned i = 0; i < WH_LOCKIN_STALE_AT_ONCE && lockin->count > 0; i++) {
+        if ((int32_t)(lockin->ticks[lockin->first] - begin_ticks) > 0) {
+            break;
+        }
+        pop(lockin);
+    }
+}
+
 static void count_equal(wh_lockin *lockin, wh_real force_N) {
     const bool same = !(force_N < lockin->newest_N) && !(force_N > lockin->newest_N);
     lockin->equal = (uint16_t)(same && lockin->equal < FROZEN_SAMPLES ? lockin->equal + 1U
@@ -206,12 +216,12 @@ static wh_real load_between(const wh_lockin *lockin, uint32_t ticks) {
 static bool take_samples(wh_lockin *lockin) {
     wh_lockin_turn *turn = &lockin->next;
     const uint32_t end_ticks = turn->begin_ticks + turn->turn_ticks;
+    drop_stale(lockin, turn->begin_ticks);
     for (unsigned i = 0; i < WH_LOCKIN_AT_ONCE && lockin->count > 0; i++) {
         const uint32_t ticks = lockin->ticks[lockin->first];
         const wh_real force_N = lockin->force_N[lockin->first];
         if ((int32_t)(ticks - turn->begin_ticks) <= 0) {
-            pop(lockin);
-            continue;
+            break;
         }
         if (lockin->stage == WH_LOCKIN_BEGINS) {
             turn->at_mark_N[0] = load_between(lockin, turn->begin_ticks);
@@ -296,7 +306,11 @@ static void begin_turn(wh_lockin *lockin) {
 bool wh_lockin_work(const wh_rotor_config *rotor, const wh_cell_config *cell, wh_lockin *lockin) {
     const wh_lockin_turn *turn = &lockin->next;
     switch (lockin->stage) {
-    case WH_LOCKIN_WAITS: break;
+    case WH_LOCKIN_WAITS:
+        if (lockin->open) {
+            drop_stale(lockin, lockin->begin_ticks);
+        }
+        break;
     case WH_LOCKIN_SHAPES:
         wh_turn_angle_shape(rotor, &lockin->angle,
                             WH_RIG_TWO_PI * (wh_real)WH_RIG_TICKS_PER_S /

@@ -158,14 +158,23 @@ static void begin_record(wh_rig *rig, uint32_t now_ticks) {
     rig->merge = (wh_merge){.turns = 0};
     rig->due = 0;
     rig->peaks = false;
+    rig->ends = false;
     rig->skipped_before = rig->lockin.skipped;
     enter(rig, WH_RIG_RECORD, now_ticks);
 }
 
-/* The record's time is over: the last whole turn may still be worked on, for a fraction of another one. */
+/* A turn's samples are through within a fraction of the next turn. */
+#define LAST_TURN_MAX_S WH_R(0.5)
+
+/* The record's time is over: the last whole turn may still be worked on, and then all are merged once more, with what
+ * was skipped. */
 static void end_record(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
-    const bool late = since_s(rig->since_ticks, now_ticks) > config->record_s + config->record_s;
-    if ((rig->lockin.stage != WH_LOCKIN_WAITS || rig->due > 0) && !late) {
+    const bool late = since_s(rig->since_ticks, now_ticks) > config->record_s + LAST_TURN_MAX_S;
+    if (!rig->ends && (rig->lockin.stage == WH_LOCKIN_WAITS || late) && rig->due == 0) {
+        rig->ends = true;
+        rig->due = 2;
+    }
+    if (!rig->ends || rig->due > 0) {
         return;
     }
     if (rig->merge.turns == 0) {

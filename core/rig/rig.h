@@ -85,6 +85,7 @@ typedef struct wh_rig {
     wh_merge merge;   /* of the record */
     uint8_t due;      /* pieces of work that the last turn has left */
     bool peaks;       /* low_N and high_N are of something */
+    bool ends;        /* the record's last turn is through */
     uint32_t skipped_before; /* turns, when the record began */
     wh_rig_result result;    /* grows with each turn of the record, whole from RAMP_DOWN on */
 } wh_rig;

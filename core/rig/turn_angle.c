@@ -8,6 +8,9 @@
 /* Beyond this the series says nothing any more: a rotor that hardly gets over the top. */
 #define SWING_MOST WH_R(0.35)
 
+/* How much the split changes with the swing, at least, if anything shall be found from it. */
+#define SLOPE_LEAST WH_R(0.15)
+
 /* The first splits correct an inertia that may be far off, by Newton's method; then they are averaged. */
 #define SPLITS_TO_FIND 3U
 
@@ -74,8 +77,12 @@ wh_real wh_turn_angle_split(const wh_rotor_config *config, wh_turn_angle *angle,
     const wh_real begin_per_swing = (lag_per_swing - from.sine) * bends;
     const wh_real split_per_swing = (to.sine - from.sine) + swing * turns * begin_per_swing;
     const wh_real base_per_swing = -from.sine - swing * from.cosine * begin_per_swing;
-    /* gravity along a diagonal leaves the split as it is: nothing can be found from it then */
-    if (!(WH_ABS(split_per_swing) > WH_R(0.2))) {
+    if (!(WH_ABS(split_per_swing) > SLOPE_LEAST)) {
+        /* the lag of too light a rotor turns the split back: from a heavier one Newton's method arrives.
+         * But gravity along a diagonal leaves the split as it is, whatever the rotor. */
+        if (WH_ABS(to.sine - from.sine) > WH_R(2.0) * SLOPE_LEAST) {
+            angle->inertia_kgm2 *= WH_R(1.25);
+        }
         return off;
     }
     angle->base_per_split = base_per_swing / split_per_swing;

@@ -40,10 +40,10 @@ static float fastest_radps; /* of the rotor itself, not as measured */
 
 static void begin(float target_rpm) {
     config = wh_rig_standard;
-    config.newton_per_count = HAL_LOADCELL_N_PER_COUNT;
-    config.slot_lead_rad = HAL_SLOT_LEAD_DEG / WH_RIG_DEG_PER_RAD;
-    config.load_period_ticks = HAL_LOADCELL_PERIOD_TICKS;
-    config.guard.load_raw_max = HAL_LOADCELL_RAW_MAX;
+    config.cell = (wh_cell_config){.newton_per_count = HAL_LOADCELL_N_PER_COUNT,
+                                   .period_ticks = HAL_LOADCELL_PERIOD_TICKS,
+                                   .raw_max = HAL_LOADCELL_RAW_MAX};
+    wh_rig_slots(&config, HAL_SLOT_LEAD_DEG / WH_RIG_DEG_PER_RAD);
     fastest_radps = 0.0f;
     TEST_ASSERT_TRUE(hal_clock_start());
     wh_rig_start(&config, &rig, target_rpm * RPM, hal_clock_ticks());
@@ -62,7 +62,7 @@ static void control(void) {
     }
     hal_load_sample sample;
     while (hal_loadcell_take(&sample)) {
-        wh_rig_load(&config, &rig, sample.ticks, sample.raw);
+        wh_rig_load(&config, &rig, sample.ticks, sample.raw, (wh_load_status)sample.status);
     }
     hal_motor_set_duty(wh_rig_step(&config, &rig, hal_clock_ticks(), hal_watchdog_has_cut()));
     const float speed = hal_virtual_rig_speed_radps(hal_virtual_rig_instance());
@@ -83,14 +83,24 @@ static void check_stopped(void) {
     TEST_ASSERT_FLOAT_WITHIN(0.1f, 0.0f, hal_virtual_rig_speed_radps(hal_virtual_rig_instance()));
 }
 
-/* The run is done and measured what the formula says: within 2 rpm, 2 %, 2 degrees. */
+/* The run is done and measured S <w^2>: within 2 rpm, and within 0.1 % of what the mean speed and the speed's swing,
+ * here from the model's own inertia, make of it; the phase within 0.1 degrees of 0, which it is for every rotor that
+ * comes round at the speed it went with (docs/rig.md). */
 static void check_measurement(float target_rpm) {
     TEST_ASSERT_TRUE(rig.state == WH_RIG_DONE);
-    const wh_rig_result *result = &rig.result;
-    const float formula_N = WH_RIG_MASS_MOMENT_KGM * (target_rpm * RPM) * (target_rpm * RPM);
-    TEST_ASSERT_FLOAT_WITHIN(2.0f, target_rpm, result->speed_radps / RPM);
-    TEST_ASSERT_FLOAT_WITHIN(0.02f * formula_N, formula_N, result->amplitude_N);
-    TEST_ASSERT_FLOAT_WITHIN(2.0f, 0.0f, result->phase_rad * WH_RIG_DEG_PER_RAD);
+    const wh_measured *force = &rig.result.force;
+    const float omega = target_rpm * RPM;
+    const float swing = WH_RIG_MASS_MOMENT_KGM * WH_RIG_GRAVITY_MPS2 /
+                        (WH_RIG_INERTIA_KGM2 * omega * omega);
+    const float wanted_N =
+        WH_RIG_MASS_MOMENT_KGM * omega * omega * (1.0f + 1.5f * swing * swing);
+    TEST_ASSERT_FLOAT_WITHIN(2.0f, target_rpm, force->speed_radps / RPM);
+    /* the speed itself, the damping's part of the swing */
+    TEST_ASSERT_FLOAT_WITHIN(0.005f * wanted_N, wanted_N, force->amplitude_N);
+    TEST_ASSERT_FLOAT_WITHIN(0.001f * wanted_N, force->expected_N, force->amplitude_N);
+    TEST_ASSERT_FLOAT_WITHIN(0.1f, 0.0f, force->phase_rad * WH_RIG_DEG_PER_RAD);
+    TEST_ASSERT_TRUE(force->quality == WH_GOOD);
+    TEST_ASSERT_FLOAT_WITHIN(0.02f * WH_RIG_INERTIA_KGM2, WH_RIG_INERTIA_KGM2, force->inertia_kgm2);
 }
 
 static void test_measurement_of_the_force(void) {
@@ -99,10 +109,10 @@ static void test_measurement_of_the_force(void) {
     check_measurement(330.0f);
     check_stopped();
     const wh_rig_result *result = &rig.result;
-    TEST_ASSERT_TRUE(result->turns >= 9U);
+    TEST_ASSERT_EQUAL_UINT32(10, result->force.turns);
     TEST_ASSERT_EQUAL_UINT32(0, result->lost + result->rejected);
     /* what moves in circles has no mean acceleration: the tare must come out */
-    TEST_ASSERT_FLOAT_WITHIN(0.1f, 0.0f, result->mean_N);
+    TEST_ASSERT_FLOAT_WITHIN(0.1f, 0.0f, result->force.mean_N);
     /* 12 lb of frame and 0.604 lb of arms and discs */
     TEST_ASSERT_FLOAT_WITHIN(0.01f, 12.604f * 4.4482216f, result->tare_N);
 }
@@ -113,8 +123,8 @@ static void test_gravity_shows_in_the_peaks_and_spikes(void) {
     const wh_rig_result *result = &rig.result;
     TEST_ASSERT_FLOAT_WITHIN(0.5f, 42.0f + 4.2f, result->high_N);
     TEST_ASSERT_FLOAT_WITHIN(0.5f, -42.0f + 4.2f, result->low_N);
-    TEST_ASSERT_FLOAT_WITHIN(0.2f, result->high_N, result->at_spike_N[0]);
-    TEST_ASSERT_FLOAT_WITHIN(2.5f, 0.0f, result->at_spike_N[1]);
+    TEST_ASSERT_FLOAT_WITHIN(0.2f, result->high_N, result->force.at_mark_N[0]);
+    TEST_ASSERT_FLOAT_WITHIN(2.5f, 0.0f, result->force.at_mark_N[1]);
 }
 
 /* Once settled, each pulse stands where the rotor is: the phase at the step after it, less what
@@ -143,7 +153,7 @@ static void test_pulses_stand_at_their_angles(void) {
     TEST_ASSERT_TRUE(pulses >= 21U && pulses <= 23U); /* two a turn, 5.5 turns a second */
 }
 
-/* In the middle of the record, where the lock-in's turns lie; as good as with none lost. */
+/* In the middle of the record, where the lock-in's turns lie: each costs its turn and, with the first, the next. */
 static void test_lost_pulses_do_not_spoil_the_run(void) {
     for (unsigned lost = 1; lost <= wh_rig_standard.guard.lost_max; lost++) {
         begin(330.0f);
@@ -151,15 +161,16 @@ static void test_lost_pulses_do_not_spoil_the_run(void) {
         for (unsigned i = 0; i < 250U; i++) {
             control();
         }
-        hal_virtual_rig_instance()->faults.lose_pulses[0] = lost;
+        hal_virtual_rig_instance()->faults.lose_pulses[lost == 1 ? 0 : 1] = lost;
         go_on_until(WH_RIG_DONE);
         check_measurement(330.0f);
         TEST_ASSERT_EQUAL_UINT32(lost, rig.result.lost);
-        TEST_ASSERT_EQUAL_UINT(10, rig.result.turns);
+        TEST_ASSERT_EQUAL_UINT32(lost == 1 ? 8 : 10, rig.result.force.turns);
+        TEST_ASSERT_EQUAL_UINT32(lost == 1 ? 2 : 0, rig.result.force.left_out);
     }
 }
 
-/* 2 % of what the formula says, 2 rpm, 2 degrees: also at both ends of the range of set-points. */
+/* Also at both ends of the range of set-points. */
 static void test_slowest_and_fastest_set_points_run(void) {
     static const wh_real targets_rpm[] = {WH_RIG_TARGET_MIN_RPM, WH_RIG_TARGET_MAX_RPM};
     for (unsigned i = 0; i < 2; i++) {
