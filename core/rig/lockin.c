@@ -283,8 +283,10 @@ static void end_turn(const wh_cell_config *cell, wh_lockin *lockin) {
                                                                : WH_R(0.0);
     turn->mean_N = lockin->mean;
     turn->fault = fault_of(cell, lockin);
-    lockin->expects = turn->fault <= WH_TURN_FIRST;
-    if (lockin->expects) {
+    const bool whole = turn->fault <= WH_TURN_FIRST;
+    /* a gap says nothing against what was expected */
+    lockin->expects = whole || (lockin->expects && turn->fault == WH_TURN_GAP);
+    if (whole) {
         lockin->expected_N = turn->force_N;
         lockin->outlier_N =
             OUTLIER_DEVIATIONS * turn->residual_N +

@@ -141,6 +141,7 @@ static void measure(const wh_rig_config *config, wh_rig *rig) {
     }
     if (rig->due > 0) {
         rig->due--;
+        return;
     }
     if (!wh_lockin_work(&config->rotor, &config->cell, &rig->lockin)) {
         return;
@@ -209,7 +210,7 @@ static void tare(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
     rig->duty = config->spin_up_duty;
     /* what was seen so far is that shiver, and it grows old */
     wh_speed_start(&rig->speed, config->impossible_radps);
-    wh_lockin_start(&config->rotor, &rig->lockin);
+    wh_lockin_gap(&rig->lockin);
     enter(rig, WH_RIG_SPIN_UP, now_ticks);
 }
 
