@@ -99,13 +99,16 @@ static wh_real marks_rad2(const wh_merge *merge, const wh_turn_angle *angle, wh_
     const wh_real turns = (wh_real)merge->turns;
     /* a turn has the mean of its two marks, so its variance is one half; the mean of many has one of n */
     const wh_real shared = WH_R(0.5) * jitter2 / turns;
-    /* the split at a quarter: variances of 1, 9/16 and 1/16 */
-    const wh_real averaged =
-        angle->splits < WH_TURN_ANGLE_PATIENCE ? (wh_real)angle->splits
-                                               : (wh_real)WH_TURN_ANGLE_PATIENCE;
-    const wh_real split = averaged > WH_R(0.0) ? square_of(angle->base_per_split) * jitter2 *
-                                                     WH_R(1.625) / averaged
-                                               : WH_R(0.0);
+    if (angle->splits == 0) {
+        return shared;
+    }
+    /* the split at a quarter: variances of 1, 9/16 and 1/16. On average half of the turns that it comes from are of those
+     * that are merged, and with them it shares marks. */
+    const wh_real averaged = (wh_real)(angle->splits < WH_TURN_ANGLE_PATIENCE
+                                           ? angle->splits
+                                           : WH_TURN_ANGLE_PATIENCE);
+    const wh_real follows = WH_ABS(angle->base_per_split);
+    const wh_real split = follows * (WH_R(1.0) + WH_R(1.625) * follows) * jitter2 / averaged;
     return shared + split;
 }
 

@@ -34,7 +34,7 @@ static double bend(const rig_plant *p, double drive_Nm, double theta, double w) 
     return acceleration(p, drive_Nm, theta, w) / w;
 }
 
-#define STEPS 8192U
+#define STEPS 2048U
 static double speed_at[2U * STEPS + 1U]; /* at every half step of the angle */
 static double time_at[STEPS + 1U];
 
@@ -147,7 +147,7 @@ void rig_orbit_find(const rig_plant *plant, double speed_rpm, double lead_rad, r
 
 static double uniform(void) { return ((double)(scattered() >> 11) + 0.5) * 0x1p-53; }
 
-/* Two normal numbers (Box and Muller, Annals of Mathematical Statistics 29 (1958) 610). */
+/* A normal number (Box and Muller, Annals of Mathematical Statistics 29 (1958) 610). */
 static double normal(void) {
     return sqrt(-2.0 * log(uniform())) * cos(2.0 * PI * uniform());
 }
@@ -187,6 +187,7 @@ void rig_measure(const rig_orbit *orbit, const rig_noise *noise, const wh_rotor_
     unsigned marks = 0;
     double due_s = first_mark_s + noise->jitter_s * normal();
     unsigned done = 0;
+    double shown_N = orbit->tare_N;
     for (uint32_t i = 1; merge.turns + merge.left_out < turns && done < before + turns; i++) {
         const double now_s = i * 0.002;
         while (due_s <= now_s) { /* the timer drops fractions */
@@ -196,9 +197,18 @@ void rig_measure(const rig_orbit *orbit, const rig_noise *noise, const wh_rotor_
             due_s = first_mark_s + (marks / 2U + marks % 2U * orbit->split) * orbit->turn_s +
                     noise->jitter_s * normal();
         }
-        const double force_N = orbit->tare_N + force_at(orbit, now_s - first_mark_s + orbit->turn_s) +
-                               noise->cell_N * normal();
-        const double raw = force_N / (double)HAL_LOADCELL_N_PER_COUNT;
+        const double t_s = now_s - first_mark_s + (1.0 + noise->turned_by) * orbit->turn_s;
+        double force_N = orbit->tare_N +
+                         (noise->mute ? 0.0 : (1.0 + noise->gain_off) * force_at(orbit, t_s)) +
+                         noise->cell_N * normal() + noise->hum_N * sin(2.0 * PI * 60.0 * now_s);
+        if (noise->spikes > 0.0 && uniform() < noise->spikes) {
+            force_N += noise->spike_N;
+        }
+        const double frozen_from_s = (before + 0.43 * turns) * orbit->turn_s;
+        if (now_s < frozen_from_s || now_s > frozen_from_s + noise->frozen_s) {
+            shown_N = force_N;
+        }
+        const double raw = shown_N / (double)HAL_LOADCELL_N_PER_COUNT;
         const wh_load load = wh_cell_load(&cell, begin + i * 2000U,
                                           (int32_t)lround(raw), WH_LOAD_OK);
         wh_lockin_load(&lockin, &load);

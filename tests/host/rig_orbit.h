@@ -20,7 +20,7 @@ typedef struct rig_plant {
 
 extern const rig_plant rig_plant_nominal;
 
-#define ORBIT_NODES 8192U
+#define ORBIT_NODES 4096U
 
 typedef struct rig_orbit {
     double turn_s;
@@ -42,6 +42,14 @@ void rig_orbit_find(const rig_plant *plant, double speed_rpm, double lead_rad, r
 typedef struct rig_noise {
     double cell_N;   /* standard deviations: of each sample's force, */
     double jitter_s; /* and of each mark's time */
+    /* faults of the cell, all 0 for none */
+    double gain_off;  /* it shows so much more, as a part */
+    double hum_N;     /* amplitude of what a mains of 60 Hz adds */
+    double frozen_s;  /* it stands still for so long in the middle of the turns that are kept */
+    double spikes;    /* this part of the samples */
+    double spike_N;   /* is off by so much */
+    bool mute;        /* no force, but all of the above */
+    double turned_by; /* part of a turn by which both sensors stand wrong */
 } rig_noise;
 
 /* The configurations that the firmware uses. */
