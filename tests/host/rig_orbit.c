@@ -34,7 +34,7 @@ static double bend(const rig_plant *p, double drive_Nm, double theta, double w) 
     return acceleration(p, drive_Nm, theta, w) / w;
 }
 
-#define STEPS 2048U
+#define STEPS 1024U
 static double speed_at[2U * STEPS + 1U]; /* at every half step of the angle */
 static double time_at[STEPS + 1U];
 
