@@ -31,8 +31,9 @@ typedef struct wh_guard_config {
     uint32_t lost_max;          /* pulses that may be lost in a run */
     wh_real silence_max_s;      /* longest time without a pulse while the motor drives */
     wh_real load_silence_max_s; /* longest time without a load sample */
-    wh_real load_still_kgm; /* a load that moves by less than this times the speed's square is still */
-    uint32_t stuck_pulses;  /* slot pulses that come while the load does not move: stuck */
+    wh_real
+        load_still_kgm; /* a load that moves by less than this times the speed's square is still */
+    uint32_t stuck_pulses; /* slot pulses that come while the load does not move: stuck */
 } wh_guard_config;
 
 typedef struct wh_guard {

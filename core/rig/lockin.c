@@ -279,8 +279,8 @@ static void end_turn(const wh_cell_config *cell, wh_lockin *lockin) {
     }
     const wh_real samples = (wh_real)turn->samples;
     const wh_real spare = samples - (wh_real)WH_LOCKIN_ORDERS;
-    turn->residual_N = square > WH_R(0.0) && spare > WH_R(0.0) ? WH_SQRT(square * samples / spare)
-                                                               : WH_R(0.0);
+    turn->residual_N =
+        square > WH_R(0.0) && spare > WH_R(0.0) ? WH_SQRT(square * samples / spare) : WH_R(0.0);
     turn->mean_N = lockin->mean;
     turn->fault = fault_of(cell, lockin);
     const bool whole = turn->fault <= WH_TURN_FIRST;

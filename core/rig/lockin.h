@@ -29,8 +29,8 @@
 extern "C" {
 #endif
 
-#define WH_LOCKIN_SAMPLES 320U /* that can wait: a turn at 100 rpm, 2 ms a sample, and some */
-#define WH_LOCKIN_AT_ONCE 2U   /* taken in one control step, */
+#define WH_LOCKIN_SAMPLES 320U     /* that can wait: a turn at 100 rpm, 2 ms a sample, and some */
+#define WH_LOCKIN_AT_ONCE 2U       /* taken in one control step, */
 #define WH_LOCKIN_STALE_AT_ONCE 8U /* and so many that belong to no turn */
 
 /* Why a turn does not count: X(name, words). */
@@ -57,12 +57,12 @@ typedef struct wh_lockin_turn {
     uint32_t begin_ticks; /* sensor 1's mark */
     uint32_t turn_ticks;
     wh_turn_fault fault;
-    wh_orders force_N;       /* at[1]: amplitude cos(phase); at[2]: -amplitude sin(phase) */
-    wh_real mean_N;          /* over the time */
-    wh_real residual_N;      /* what orders 0 to 2 leave, rms */
-    wh_real at_mark_N[2];    /* load at each sensor's mark */
-    bool split_seen;         /* sensor 2's mark was there */
-    uint32_t split_ticks;    /* it, when seen */
+    wh_orders force_N;    /* at[1]: amplitude cos(phase); at[2]: -amplitude sin(phase) */
+    wh_real mean_N;       /* over the time */
+    wh_real residual_N;   /* what orders 0 to 2 leave, rms */
+    wh_real at_mark_N[2]; /* load at each sensor's mark */
+    bool split_seen;      /* sensor 2's mark was there */
+    uint32_t split_ticks; /* it, when seen */
     uint16_t samples;
     uint16_t outliers;
 } wh_lockin_turn;
@@ -125,7 +125,7 @@ typedef struct wh_lockin {
     wh_orders sum;
     wh_real square;
     wh_real mean;
-    wh_real widest; /* part between two nodes */
+    wh_real widest;     /* part between two nodes */
     wh_real before_rad; /* of the node before the last, */
     wh_real before_part;
     wh_lockin_node last; /* and the last one, whose weight the next decides */

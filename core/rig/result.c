@@ -35,7 +35,8 @@ static void add_marks(wh_merge *merge, const wh_lockin_turn *turn) {
     if (adjoins) {
         add_jitter(merge, merge->last_ticks, turn->turn_ticks);
     }
-    const bool split_adjoins = adjoins && merge->split_ticks != merge->begin_ticks && turn->split_seen;
+    const bool split_adjoins =
+        adjoins && merge->split_ticks != merge->begin_ticks && turn->split_seen;
     const uint32_t split_turn = turn->split_ticks - merge->split_ticks;
     if (split_adjoins && merge->split_follows) {
         add_jitter(merge, merge->split_turn_ticks, split_turn);
@@ -76,8 +77,7 @@ void wh_merge_add(const wh_result_config *config, const wh_rotor_config *rotor, 
     const wh_real swing2 = angle->swing_rad * angle->swing_rad;
     /* S <w^2> over the angle: the cube of the speed over time, and so 3/2 of the square of the swing */
     const wh_real expected = config->mount_factor * rotor->mass_moment_kgm *
-                             square_of(WH_RIG_TWO_PI / turn_s) *
-                             (WH_R(1.0) + WH_R(1.5) * swing2);
+                             square_of(WH_RIG_TWO_PI / turn_s) * (WH_R(1.0) + WH_R(1.5) * swing2);
     merge->mean_N += part * (turn->mean_N - merge->mean_N);
     merge->residual_N2 += part * (square_of(turn->residual_N) - merge->residual_N2);
     merge->expected_N += part * (expected - merge->expected_N);
@@ -104,9 +104,8 @@ static wh_real marks_rad2(const wh_merge *merge, const wh_turn_angle *angle, wh_
     }
     /* the split at a quarter: variances of 1, 9/16 and 1/16. On average half of the turns that it comes from are of those
      * that are merged, and with them it shares marks. */
-    const wh_real averaged = (wh_real)(angle->splits < WH_TURN_ANGLE_PATIENCE
-                                           ? angle->splits
-                                           : WH_TURN_ANGLE_PATIENCE);
+    const wh_real averaged =
+        (wh_real)(angle->splits < WH_TURN_ANGLE_PATIENCE ? angle->splits : WH_TURN_ANGLE_PATIENCE);
     const wh_real follows = WH_ABS(angle->base_per_split);
     const wh_real split = follows * (WH_R(1.0) + WH_R(1.625) * follows) * jitter2 / averaged;
     return shared + split;
@@ -126,8 +125,7 @@ void wh_merge_mean(const wh_result_config *config, const wh_rotor_config *rotor,
     measured->speed_radps = WH_RIG_TWO_PI / merge->turn_s;
     measured->mean_N = merge->mean_N - tare_N;
     measured->at_mark_N[0] = merge->at_mark_N[0] - tare_N;
-    measured->at_mark_N[1] =
-        merge->split_turns > 0 ? merge->at_mark_N[1] - tare_N : WH_R(0.0);
+    measured->at_mark_N[1] = merge->split_turns > 0 ? merge->at_mark_N[1] - tare_N : WH_R(0.0);
     measured->residual_N = WH_SQRT(merge->residual_N2);
     const wh_real x = merge->in_phase_N;
     const wh_real y = -merge->quadrature_N;
@@ -152,11 +150,10 @@ void wh_merge_mean(const wh_result_config *config, const wh_rotor_config *rotor,
     const wh_real swing = merge->swing_rad;
     const wh_real third = WH_R(0.125) * swing * swing * swing;
     const wh_real lag = WH_ABS(angle->base_per_lag) * rotor->damping_tolerance * angle->lag_rad;
-    const wh_real drift = WH_R(0.5) *
-                          (wh_real)(int32_t)(merge->last_ticks - merge->first_ticks) /
+    const wh_real drift = WH_R(0.5) * (wh_real)(int32_t)(merge->last_ticks - merge->first_ticks) /
                           (n * merge->turn_s * (wh_real)WH_RIG_TICKS_PER_S);
-    const wh_real amplitude2 = square_of(config->amplitude_floor) +
-                               square_of(WH_R(1.5) * swing * lag) + square_of(third);
+    const wh_real amplitude2 =
+        square_of(config->amplitude_floor) + square_of(WH_R(1.5) * swing * lag) + square_of(third);
     measured->amplitude_half_N = WH_SQRT(along_N2 + amplitude2 * size2);
     measured->phase_half_rad = WH_SQRT(
         across_N2 / size2 + t2 * marks_rad2(merge, angle, measured->jitter_s) + square_of(lag) +
@@ -186,7 +183,8 @@ static wh_why reason(const wh_result_config *config, const wh_rotor_config *roto
     if (!(phase <= config->phase_wrong_rad)) {
         return WH_WHY_PHASE;
     }
-    if (!(half <= WH_R(0.25) * measured->amplitude_N) || !(measured->phase_half_rad <= WH_R(0.25))) {
+    if (!(half <= WH_R(0.25) * measured->amplitude_N) ||
+        !(measured->phase_half_rad <= WH_R(0.25))) {
         return WH_WHY_UNSURE;
     }
     if (off > config->amplitude_off * expected) {

@@ -27,11 +27,13 @@ typedef enum wh_quality { WH_GOOD, WH_DOUBTFUL, WH_REFUSED } wh_quality;
 #define WH_WHY_ROWS(X) \
     X(WH_WHY_NONE, WH_GOOD, "nothing against it") \
     X(WH_WHY_FEW_TURNS, WH_REFUSED, "less than three turns could be used") \
-    X(WH_WHY_POLARITY, WH_REFUSED, "the force is against the masses: polarity of the cell, or the sensors") \
+    X(WH_WHY_POLARITY, WH_REFUSED, \
+      "the force is against the masses: polarity of the cell, or the sensors") \
     X(WH_WHY_AMPLITUDE, WH_REFUSED, "the force is not what masses, speed and mount let expect") \
     X(WH_WHY_PHASE, WH_REFUSED, "the force is not in line with the masses: sensors, or delays") \
     X(WH_WHY_UNSURE, WH_REFUSED, "the interval is wider than a quarter of the force") \
-    X(WH_WHY_AMPLITUDE_OFF, WH_DOUBTFUL, "the force is off what masses, speed and mount let expect") \
+    X(WH_WHY_AMPLITUDE_OFF, WH_DOUBTFUL, \
+      "the force is off what masses, speed and mount let expect") \
     X(WH_WHY_PHASE_OFF, WH_DOUBTFUL, "the force is off the line of the masses") \
     X(WH_WHY_LEFT_OUT, WH_DOUBTFUL, "more than a quarter of the turns could not be used") \
     X(WH_WHY_OUTLIERS, WH_DOUBTFUL, "more than one sample in a hundred was left out") \
@@ -45,10 +47,10 @@ typedef enum wh_why { WH_WHY_ROWS(WH_WHY_NAME) WH_WHYS } wh_why;
 #undef WH_WHY_NAME
 
 typedef struct wh_result_config {
-    wh_real mount_factor;    /* force as a part of that on a fixed mount: 1; carriage: 1/(1 + ratio) */
+    wh_real mount_factor; /* force as a part of that on a fixed mount: 1; carriage: 1/(1 + ratio) */
     wh_real amplitude_floor; /* calibration, 95 %: as a part of the force, */
     wh_real phase_floor_rad; /* of the sensors' places and the delays */
-    wh_real amplitude_off;   /* so far from what is expected, as a part of it, a force is doubtful, */
+    wh_real amplitude_off; /* so far from what is expected, as a part of it, a force is doubtful, */
     wh_real amplitude_wrong; /* or refused */
     wh_real phase_off_rad;   /* likewise its phase */
     wh_real phase_wrong_rad;

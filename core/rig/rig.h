@@ -59,12 +59,12 @@ typedef struct wh_rig_config {
 } wh_rig_config;
 
 typedef struct wh_rig_result {
-    wh_measured force; /* the load's once-per-turn part: see result.h */
-    wh_real tare_N;    /* reading at rest */
+    wh_measured force;    /* the load's once-per-turn part: see result.h */
+    wh_real tare_N;       /* reading at rest */
     wh_real tare_error_N; /* its standard error */
-    wh_real low_N;     /* peaks of the whole record, without tare */
+    wh_real low_N;        /* peaks of the whole record, without tare */
     wh_real high_N;
-    wh_real duty; /* at the record's end */
+    wh_real duty;  /* at the record's end */
     uint32_t lost; /* pulses */
     uint32_t rejected;
 } wh_rig_result;
@@ -81,11 +81,11 @@ typedef struct wh_rig {
     wh_guard guard;
     wh_tare tare;
     uint32_t tare_pulses[WH_SPEED_SENSORS];
-    wh_lockin lockin; /* lockin.turn: the last turn's load, whatever the state */
-    wh_merge merge;   /* of the record */
-    uint8_t due;      /* pieces of work that the last turn has left */
-    bool peaks;       /* low_N and high_N are of something */
-    bool ends;        /* the record's last turn is through */
+    wh_lockin lockin;        /* lockin.turn: the last turn's load, whatever the state */
+    wh_merge merge;          /* of the record */
+    uint8_t due;             /* pieces of work that the last turn has left */
+    bool peaks;              /* low_N and high_N are of something */
+    bool ends;               /* the record's last turn is through */
     uint32_t skipped_before; /* turns, when the record began */
     wh_rig_result result;    /* grows with each turn of the record, whole from RAMP_DOWN on */
 } wh_rig;

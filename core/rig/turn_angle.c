@@ -22,8 +22,7 @@ static wh_wave wave_of(wh_real rad) {
 
 /* What the swing adds to base + phi where u has these sine and cosine. */
 static wh_real added(const wh_turn_angle *angle, wh_wave u) {
-    return angle->swing_rad * u.sine +
-           angle->second_sine * (WH_R(2.0) * u.sine * u.cosine) +
+    return angle->swing_rad * u.sine + angle->second_sine * (WH_R(2.0) * u.sine * u.cosine) +
            angle->second_cosine * (WH_R(2.0) * u.cosine * u.cosine - WH_R(1.0));
 }
 
@@ -42,8 +41,9 @@ void wh_turn_angle_shape(const wh_rotor_config *config, wh_turn_angle *angle, wh
     const wh_real sine = config->damping_Nms / sum;
     const wh_real square = sine * sine;
     /* the arc sine to 1e-4 below 0.5 */
-    angle->lag_rad = sine * (WH_R(1.0) + square * (WH_R(0.16666667) +
-                                                   square * (WH_R(0.075) + square * WH_R(0.0446))));
+    angle->lag_rad =
+        sine *
+        (WH_R(1.0) + square * (WH_R(0.16666667) + square * (WH_R(0.075) + square * WH_R(0.0446))));
     const wh_real second = WH_R(0.125) * angle->swing_rad * angle->swing_rad;
     const wh_real half = WH_R(0.5) * angle->lag_rad;
     angle->second_sine = second * (WH_R(1.0) - WH_R(0.5) * half * half);
@@ -86,8 +86,7 @@ wh_real wh_turn_angle_split(const wh_rotor_config *config, wh_turn_angle *angle,
         return off;
     }
     angle->base_per_split = base_per_swing / split_per_swing;
-    angle->base_per_lag =
-        -swing * bends * (from.cosine + angle->base_per_split * turns);
+    angle->base_per_lag = -swing * bends * (from.cosine + angle->base_per_split * turns);
 
     angle->splits += angle->splits < WH_TURN_ANGLE_PATIENCE + SPLITS_TO_FIND ? 1U : 0U;
     const uint32_t turns_averaged =

@@ -40,7 +40,7 @@ typedef struct wh_turn_angle {
     wh_real lag_rad;      /* psi */
     wh_real begin_rad;    /* u at the turn's begin */
     wh_real base_rad;
-    wh_real second_sine;    /* of sin 2u and cos 2u */
+    wh_real second_sine; /* of sin 2u and cos 2u */
     wh_real second_cosine;
     wh_real base_per_split; /* how base_rad follows the split, with the lag that goes with it */
     wh_real base_per_lag;   /* and a lag that does not, the split kept */

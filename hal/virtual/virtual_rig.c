@@ -109,7 +109,7 @@ static int32_t convert(float force_N) {
 
 static uint8_t status_of(int32_t raw) {
     return raw >= HAL_LOADCELL_RAW_MAX || raw <= -HAL_LOADCELL_RAW_MAX ? HAL_LOAD_SATURATED
-                                                                        : HAL_LOAD_OK;
+                                                                       : HAL_LOAD_OK;
 }
 
 static void read_load_cell(hal_virtual_rig *rig) {

@@ -24,14 +24,14 @@ typedef struct made_up {
     wh_real mean_N;
     wh_real amplitude_N;
     wh_real phase_rad;
-    wh_real third_N;        /* amplitude of the third order */
-    unsigned lost_mark[2];  /* of sensor 1 and of sensor 2 this one is lost; 0: none */
-    unsigned spoilt;        /* from this sample on, 0: none, */
-    unsigned spoilt_count;  /* so many samples */
-    wh_real spoilt_N;       /* show so much more, */
-    wh_load_status status;  /* have this status, */
-    bool frozen;            /* or show the first of them */
-    unsigned slower_turn;   /* from this turn on each takes a 40th longer */
+    wh_real third_N;       /* amplitude of the third order */
+    unsigned lost_mark[2]; /* of sensor 1 and of sensor 2 this one is lost; 0: none */
+    unsigned spoilt;       /* from this sample on, 0: none, */
+    unsigned spoilt_count; /* so many samples */
+    wh_real spoilt_N;      /* show so much more, */
+    wh_load_status status; /* have this status, */
+    bool frozen;           /* or show the first of them */
+    unsigned slower_turn;  /* from this turn on each takes a 40th longer */
 } made_up;
 
 static wh_rotor_config rotor;
@@ -53,9 +53,8 @@ static void settings(void) {
     rotor.gravity_mps2 = WH_R(0.0);
     rotor.mark_rad[0] = WH_R(0.0);
     rotor.mark_rad[1] = WH_R(0.5) * PI;
-    cell = (wh_cell_config){.newton_per_count = WH_R(0.01),
-                            .period_ticks = PERIOD_TICKS,
-                            .raw_max = INT32_C(32767)};
+    cell = (wh_cell_config){
+        .newton_per_count = WH_R(0.01), .period_ticks = PERIOD_TICKS, .raw_max = INT32_C(32767)};
 }
 
 static uint32_t turn_ticks_of(const made_up *made, unsigned turn) {
@@ -75,8 +74,8 @@ static wh_real load_of(const made_up *made, wh_real part) {
 static void run(const made_up *made, unsigned wanted) {
     wh_lockin_start(&rotor, &lockin);
     turns_done = 0;
-    unsigned turn = 0;      /* the rotor is in the one before mark `turn` */
-    unsigned second = 0;    /* next mark of sensor 2 */
+    unsigned turn = 0;                /* the rotor is in the one before mark `turn` */
+    unsigned second = 0;              /* next mark of sensor 2 */
     uint32_t mark = made->late_ticks; /* of `turn`, after the first sample */
     uint32_t before = mark - TURN_TICKS;
     wh_real kept_N = WH_R(0.0);
@@ -98,8 +97,7 @@ static void run(const made_up *made, unsigned wanted) {
             before = mark;
             mark += turn_ticks_of(made, turn);
         }
-        const wh_real part =
-            (wh_real)(int32_t)(now - before) / (wh_real)(mark - before);
+        const wh_real part = (wh_real)(int32_t)(now - before) / (wh_real)(mark - before);
         wh_real force_N = load_of(made, part);
         wh_load load = {.ticks = made->first_ticks + now, .status = WH_LOAD_OK};
         const bool spoilt = made->spoilt > 0 && i >= made->spoilt &&
@@ -134,8 +132,7 @@ static void check_turn(const wh_lockin_turn *turn, const made_up *made) {
 static void check_all(const made_up *made, unsigned wanted) {
     TEST_ASSERT_TRUE(turns_done >= wanted);
     for (unsigned i = 0; i < turns_done; i++) {
-        const wh_turn_fault fault =
-            i == 0 ? WH_TURN_UNSTEADY : i == 1 ? WH_TURN_FIRST : WH_TURN_OK;
+        const wh_turn_fault fault = i == 0 ? WH_TURN_UNSTEADY : i == 1 ? WH_TURN_FIRST : WH_TURN_OK;
         TEST_ASSERT_EQUAL_INT(fault, turns[i].fault);
         TEST_ASSERT_EQUAL_UINT32(TURN_TICKS, turns[i].turn_ticks);
         if (i >= 2) {
@@ -409,9 +406,9 @@ static void test_level_arms_turn_evenly(void) {
     wh_turn_angle angle;
     wh_turn_angle_start(&rotor, &angle);
     wh_turn_angle_shape(&rotor, &angle, WH_R(30.0));
-    TEST_ASSERT_FLOAT_WITHIN(1e-4f, 0.1f,
-                             (float)wh_turn_angle_split(&rotor, &angle,
-                                                        WH_R(0.25) - WH_R(0.1) / WH_RIG_TWO_PI));
+    TEST_ASSERT_FLOAT_WITHIN(
+        1e-4f, 0.1f,
+        (float)wh_turn_angle_split(&rotor, &angle, WH_R(0.25) - WH_R(0.1) / WH_RIG_TWO_PI));
     TEST_ASSERT_TRUE(angle.inertia_kgm2 == rotor.inertia_kgm2 && angle.splits == 0);
     for (unsigned i = 0; i <= 8; i++) {
         TEST_ASSERT_FLOAT_WITHIN(1e-6f, 6.2831853f * (float)i / 8.0f,

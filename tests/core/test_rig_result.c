@@ -58,10 +58,10 @@ static void test_students_factor(void) {
     static const struct {
         uint32_t freedom;
         wh_real factor;
-    } rows[] = {{1, WH_R(12.706)}, {2, WH_R(4.303)},   {3, WH_R(3.182)},   {4, WH_R(2.776)},
-                {5, WH_R(2.571)},  {6, WH_R(2.447)},   {7, WH_R(2.365)},   {8, WH_R(2.306)},
-                {9, WH_R(2.262)},  {10, WH_R(2.228)},  {15, WH_R(2.131)},  {19, WH_R(2.093)},
-                {30, WH_R(2.042)}, {60, WH_R(2.000)},  {120, WH_R(1.980)}, {100000, WH_R(1.960)}};
+    } rows[] = {{1, WH_R(12.706)}, {2, WH_R(4.303)},  {3, WH_R(3.182)},   {4, WH_R(2.776)},
+                {5, WH_R(2.571)},  {6, WH_R(2.447)},  {7, WH_R(2.365)},   {8, WH_R(2.306)},
+                {9, WH_R(2.262)},  {10, WH_R(2.228)}, {15, WH_R(2.131)},  {19, WH_R(2.093)},
+                {30, WH_R(2.042)}, {60, WH_R(2.000)}, {120, WH_R(1.980)}, {100000, WH_R(1.960)}};
     for (unsigned i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         TEST_ASSERT_FLOAT_WITHIN(6e-4f, (float)rows[i].factor, (float)wh_student(rows[i].freedom));
     }
@@ -108,7 +108,8 @@ static void test_the_interval_is_students(void) {
             squares[1] += across * across;
         }
         for (unsigned i = 0; i < 2; i++) {
-            const wh_real half = i == 0 ? measured.amplitude_half_N : measured.phase_half_rad * size;
+            const wh_real half =
+                i == 0 ? measured.amplitude_half_N : measured.phase_half_rad * size;
             const wh_real t = wh_student(turns - 1U);
             const wh_real wanted2 = t * t * squares[i] / (n * (n - WH_R(1.0)));
             TEST_ASSERT_FLOAT_WITHIN(2e-3f, 1.0f, (float)(half * half / wanted2));
@@ -312,7 +313,9 @@ static void test_motion_is_seen_through_noise(void) {
         wh_tare tare = {.count = 0};
         for (unsigned i = 0; i < 250; i++) {
             const wh_real part = (wh_real)i / WH_R(250.0);
-            const wh_real moved = k % 2U == 0 ? WH_R(2.0) * part : part < WH_R(0.5) ? WH_R(1.0) : WH_R(-1.0);
+            const wh_real moved = k % 2U == 0        ? WH_R(2.0) * part
+                                  : part < WH_R(0.5) ? WH_R(1.0)
+                                                     : WH_R(-1.0);
             wh_tare_add(&tare, WH_R(56.0) + moved + WH_R(0.33) * scatter());
         }
         TEST_ASSERT_FALSE(wh_tare_is_still(&wh_rig_standard.tare, &tare));

@@ -151,8 +151,7 @@ static void check_measured(unsigned turns_wanted) {
     const wh_measured *result = &rig.result.force;
     TEST_ASSERT_EQUAL_UINT32(turns_wanted, result->turns);
     TEST_ASSERT_TRUE(result->quality == WH_GOOD && result->why == WH_WHY_NONE);
-    TEST_ASSERT_TRUE(result->amplitude_half_N > WH_R(0.0) &&
-                     result->amplitude_half_N < WH_R(0.02));
+    TEST_ASSERT_TRUE(result->amplitude_half_N > WH_R(0.0) && result->amplitude_half_N < WH_R(0.02));
     TEST_ASSERT_TRUE(result->phase_half_rad > WH_R(0.0) && result->phase_half_rad < WH_R(5e-4));
     TEST_ASSERT_FLOAT_WITHIN(0.003f, 330.0f, (float)(result->speed_radps / RPM));
     TEST_ASSERT_FLOAT_WITHIN(0.011f, (float)LOAD_N, (float)result->amplitude_N);
@@ -292,9 +291,9 @@ static void test_samples_missing_in_the_record(void) {
  * they are none. */
 static void test_the_converters_word_counts(void) {
     for (wh_load_status status = WH_LOAD_SATURATED; status < WH_LOAD_STATUSES; status++) {
-        run(WH_R(330.0),
-            (failure){.in = WH_RIG_RECORD, .after_ticks = 700000U, .status = status});
-        TEST_ASSERT_EQUAL_INT(status == WH_LOAD_LATE ? WH_TRIP_NONE : WH_TRIP_LOAD_CELL, rig.guard.trip);
+        run(WH_R(330.0), (failure){.in = WH_RIG_RECORD, .after_ticks = 700000U, .status = status});
+        TEST_ASSERT_EQUAL_INT(status == WH_LOAD_LATE ? WH_TRIP_NONE : WH_TRIP_LOAD_CELL,
+                              rig.guard.trip);
     }
     /* late ones from 0.7 s on: three whole turns are left, each of the others is a gap */
     run(WH_R(330.0),
@@ -369,7 +368,8 @@ static void test_a_moving_rig_gets_no_tare(void) {
     TEST_ASSERT_TRUE(rig.state == WH_RIG_SPIN_UP);
     /* 0.2 N either way, 250 times */
     TEST_ASSERT_FLOAT_WITHIN(2e-4f, 0.01267f, (float)wh_tare_error_N(&rig.tare));
-    run(WH_R(330.0), (failure){.in = WH_RIG_TARE, .shows = 500}); /* a mean that is not known to 0.25 N */
+    run(WH_R(330.0),
+        (failure){.in = WH_RIG_TARE, .shows = 500}); /* a mean that is not known to 0.25 N */
     TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_MOVING);
 }
 
@@ -379,8 +379,8 @@ static void test_what_cannot_be_is_not_called_good(void) {
     config.cell.newton_per_count = -config.cell.newton_per_count; /* the cell the other way round */
     go_on_until(WH_RIG_DONE);
     TEST_ASSERT_TRUE(rig.result.force.why == WH_WHY_POLARITY);
-    static const wh_real gains[] = {WH_R(0.5), WH_R(0.9), WH_R(0.96), WH_R(1.04), WH_R(1.1),
-                                    WH_R(2.0)};
+    static const wh_real gains[] = {WH_R(0.5),  WH_R(0.9), WH_R(0.96),
+                                    WH_R(1.04), WH_R(1.1), WH_R(2.0)};
     for (unsigned i = 0; i < 6; i++) {
         begin(WH_R(330.0), (failure){.in = WH_RIG_DONE});
         config.cell.newton_per_count *= gains[i];

@@ -19,9 +19,8 @@ static uint32_t now;
 
 static void begin(void) {
     config = wh_rig_standard;
-    config.cell = (wh_cell_config){.newton_per_count = WH_R(0.01),
-                                   .period_ticks = STEP_TICKS,
-                                   .raw_max = INT32_C(32767)};
+    config.cell = (wh_cell_config){
+        .newton_per_count = WH_R(0.01), .period_ticks = STEP_TICKS, .raw_max = INT32_C(32767)};
     config.rotor.gravity_mps2 = WH_R(0.0);
     wh_rig_slots(&config, WH_R(0.0));
     now = UINT32_MAX - 3000000U; /* the timer wraps on the way */
@@ -90,7 +89,7 @@ static void test_the_tare_takes_its_samples(void) {
     TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.04f, (float)rig.tare.mean_N); /* of 0 and 8 counts */
     TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.4f, (float)rig.duty);
     TEST_ASSERT_FALSE(rig.speed.running); /* what was seen before is forgotten */
-    begin(); /* samples that are none do not count */
+    begin();                              /* samples that are none do not count */
     for (unsigned i = 0; i < 500; i++) {
         wh_rig_load(&config, &rig, now, 9, WH_LOAD_LATE);
     }
@@ -293,7 +292,8 @@ static void test_what_a_record_comes_to(void) {
     TEST_ASSERT_FLOAT_WITHIN(2e-3f, 19.0f, (float)result->force.at_mark_N[1]);
     /* 2 (0 + ... + 45) 0.4 / 91 of them */
     TEST_ASSERT_FLOAT_WITHIN(0.01f, 10.0f + 9.0989f, (float)result->force.mean_N);
-    TEST_ASSERT_TRUE(result->force.quality == WH_REFUSED); /* 8 N, against the masses: not the rig's */
+    TEST_ASSERT_TRUE(result->force.quality ==
+                     WH_REFUSED); /* 8 N, against the masses: not the rig's */
     TEST_ASSERT_EQUAL_UINT32(2, result->lost);
     TEST_ASSERT_EQUAL_UINT32(4, result->rejected);
     TEST_ASSERT_FLOAT_WITHIN(1e-3f, 200.0f, (float)(rig.drive.target_radps / RPM));

@@ -90,10 +90,9 @@ static void check_measurement(float target_rpm) {
     TEST_ASSERT_TRUE(rig.state == WH_RIG_DONE);
     const wh_measured *force = &rig.result.force;
     const float omega = target_rpm * RPM;
-    const float swing = WH_RIG_MASS_MOMENT_KGM * WH_RIG_GRAVITY_MPS2 /
-                        (WH_RIG_INERTIA_KGM2 * omega * omega);
-    const float wanted_N =
-        WH_RIG_MASS_MOMENT_KGM * omega * omega * (1.0f + 1.5f * swing * swing);
+    const float swing =
+        WH_RIG_MASS_MOMENT_KGM * WH_RIG_GRAVITY_MPS2 / (WH_RIG_INERTIA_KGM2 * omega * omega);
+    const float wanted_N = WH_RIG_MASS_MOMENT_KGM * omega * omega * (1.0f + 1.5f * swing * swing);
     TEST_ASSERT_FLOAT_WITHIN(2.0f, target_rpm, force->speed_radps / RPM);
     /* the speed itself, the damping's part of the swing */
     TEST_ASSERT_FLOAT_WITHIN(0.005f * wanted_N, wanted_N, force->amplitude_N);

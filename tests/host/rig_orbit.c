@@ -13,9 +13,8 @@
 const rig_plant rig_plant_nominal = {
     /* two sets: arm 0.152 lb, 7.25 in long; discs 0.15 lb at 6.5 in; 5e-4 kg m^2 of motor and shafts */
     .mass_moment_kgm = 2.0 * (0.152 * 3.625 + 0.15 * 6.5) * 0.45359237 * 0.0254,
-    .inertia_kgm2 = 2.0 * (0.152 * 7.25 * 7.25 / 3.0 + 0.15 * 6.5 * 6.5) * 0.45359237 * 0.0254 *
-                        0.0254 +
-                    5e-4,
+    .inertia_kgm2 =
+        2.0 * (0.152 * 7.25 * 7.25 / 3.0 + 0.15 * 6.5 * 6.5) * 0.45359237 * 0.0254 * 0.0254 + 5e-4,
     .drag_Nms = 0.001,
     .line_Nms = 1.5 / (600.0 * 2.0 * PI / 60.0),
     .gravity_mps2 = 9.80665,
@@ -51,8 +50,7 @@ static double turn(const rig_plant *p, double drive_Nm, double from, double w) {
         const double k4 = bend(p, drive_Nm, a + h, w + h * k3);
         const double next = w + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
         /* Hermite's cubic at the middle */
-        const double middle =
-            (w + next) / 2.0 + h / 8.0 * (k1 - bend(p, drive_Nm, a + h, next));
+        const double middle = (w + next) / 2.0 + h / 8.0 * (k1 - bend(p, drive_Nm, a + h, next));
         time_at[i + 1U] = time_at[i] + h / 6.0 * (1.0 / w + 4.0 / middle + 1.0 / next);
         speed_at[2U * i + 1U] = middle;
         speed_at[2U * i + 2U] = next;
@@ -66,7 +64,8 @@ static double periodic(const rig_plant *p, double drive_Nm, double from) {
     double w = drive_Nm / (p->line_Nms + p->drag_Nms);
     for (unsigned round = 0; round < 60; round++) {
         const double off = turn(p, drive_Nm, from, w) - w;
-        const double slope = (turn(p, drive_Nm, from, w * (1.0 + 1e-6)) - w * (1.0 + 1e-6) - off) / (w * 1e-6);
+        const double slope =
+            (turn(p, drive_Nm, from, w * (1.0 + 1e-6)) - w * (1.0 + 1e-6) - off) / (w * 1e-6);
         w -= off / slope;
         if (fabs(off) < 1e-13 * w) {
             break;
@@ -148,9 +147,7 @@ void rig_orbit_find(const rig_plant *plant, double speed_rpm, double lead_rad, r
 static double uniform(void) { return ((double)(scattered() >> 11) + 0.5) * 0x1p-53; }
 
 /* A normal number (Box and Muller, Annals of Mathematical Statistics 29 (1958) 610). */
-static double normal(void) {
-    return sqrt(-2.0 * log(uniform())) * cos(2.0 * PI * uniform());
-}
+static double normal(void) { return sqrt(-2.0 * log(uniform())) * cos(2.0 * PI * uniform()); }
 
 void rig_measure_config(wh_result_config *result, wh_rotor_config *rotor, wh_cell_config *cell) {
     *result = wh_rig_standard.result;
@@ -209,8 +206,8 @@ void rig_measure(const rig_orbit *orbit, const rig_noise *noise, const wh_rotor_
             shown_N = force_N;
         }
         const double raw = shown_N / (double)HAL_LOADCELL_N_PER_COUNT;
-        const wh_load load = wh_cell_load(&cell, begin + i * 2000U,
-                                          (int32_t)lround(raw), WH_LOAD_OK);
+        const wh_load load =
+            wh_cell_load(&cell, begin + i * 2000U, (int32_t)lround(raw), WH_LOAD_OK);
         wh_lockin_load(&lockin, &load);
         if (wh_lockin_work(rotor, &cell, &lockin) && ++done > before) {
             wh_merge_add(&judged, rotor, &merge, &lockin.turn, &lockin.angle);

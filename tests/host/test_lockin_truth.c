@@ -89,12 +89,13 @@ static double median_half(unsigned i) {
 
 static void print_row(double rpm, const rig_noise *noise) {
     if (full()) {
-        printf("%4.0f rpm %4.2f N %2.0f us %4u runs: bias %+.4f %% %+.4f deg, rms %.4f %% %.4f deg, half %.4f %% "
-               "%.4f deg, covered %.1f %% %.1f %%, good %u\n",
-               rpm, noise->cell_N, 1e6 * noise->jitter_s, found.runs, 100.0 * bias(0),
-               DEG * bias(1), 100.0 * rms(0), DEG * rms(1), 100.0 * median_half(0),
-               DEG * median_half(1), 100.0 * found.covered[0] / found.runs,
-               100.0 * found.covered[1] / found.runs, found.good);
+        printf(
+            "%4.0f rpm %4.2f N %2.0f us %4u runs: bias %+.4f %% %+.4f deg, rms %.4f %% %.4f deg, half %.4f %% "
+            "%.4f deg, covered %.1f %% %.1f %%, good %u\n",
+            rpm, noise->cell_N, 1e6 * noise->jitter_s, found.runs, 100.0 * bias(0), DEG * bias(1),
+            100.0 * rms(0), DEG * rms(1), 100.0 * median_half(0), DEG * median_half(1),
+            100.0 * found.covered[0] / found.runs, 100.0 * found.covered[1] / found.runs,
+            found.good);
     }
 }
 
@@ -280,8 +281,7 @@ static void test_no_fault_is_called_good(void) {
             good++;
             const double off = fabs((double)measured.amplitude_N - orbit.amplitude_N);
             const double turned = fabs((double)measured.phase_rad - orbit.phase_rad);
-            check_below((double)measured.amplitude_half_N + 0.01 * orbit.amplitude_N,
-                                         off);
+            check_below((double)measured.amplitude_half_N + 0.01 * orbit.amplitude_N, off);
             check_below((double)measured.phase_half_rad + 0.01, turned);
         }
     }
