@@ -217,13 +217,10 @@ static wh_why reason(const wh_result_config *config, const wh_rotor_config *roto
 
 void wh_merge_judge(const wh_result_config *config, const wh_rotor_config *rotor,
                     const wh_merge *merge, wh_measured *measured) {
-#define WH_WHY_QUALITY(name, its_quality, words) \
-    case name: measured->quality = its_quality; break;
+#define WH_WHY_QUALITY(name, its_quality, words) (uint8_t)(its_quality),
+    static const uint8_t qualities[] = {WH_WHY_ROWS(WH_WHY_QUALITY)};
     measured->why = reason(config, rotor, merge, measured);
-    switch (measured->why) {
-        WH_WHY_ROWS(WH_WHY_QUALITY)
-    case WH_WHYS: break;
-    }
+    measured->quality = (wh_quality)qualities[measured->why];
 }
 
 const char *wh_why_text(wh_why why) {
