@@ -191,8 +191,9 @@ void rig_measure(const rig_orbit *orbit, const rig_noise *noise, const wh_rotor_
             wh_lockin_mark(&lockin, marks % 2U, begin + (uint32_t)(due_s * 1e6),
                            marks / 2U * 4U + marks % 2U);
             marks++;
+            const unsigned whole = marks / 2U;
             due_s = first_mark_s +
-                    ((double)(marks / 2U) + (double)(marks % 2U) * orbit->split) * orbit->turn_s +
+                    ((double)whole + (double)(marks % 2U) * orbit->split) * orbit->turn_s +
                     noise->jitter_s * normal();
         }
         const double t_s = now_s - first_mark_s + (1.0 + noise->turned_by) * orbit->turn_s;

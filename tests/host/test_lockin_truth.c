@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "command.h"
 #include "core/rig/datasheet.h"
 #include "hal/virtual/virtual_rig.h"
 #include "rig_orbit.h"
@@ -28,8 +29,7 @@ static void check_below(double bound, double value) {
 #define BEFORE 14U /* turns: what the firmware waits for the speed to settle is more */
 #define TURNS 20U
 
-static bool full(void) { return getenv("WHIRL_FULL") != NULL; }
-static unsigned runs_of(unsigned many, unsigned few) { return full() ? many : few; }
+static bool full(void) { return few_or_all(0, 1) == 1; }
 
 static wh_result_config judged;
 static wh_rotor_config rotor;
@@ -152,7 +152,7 @@ static void test_bias_and_scatter(void) {
         for (unsigned i = 0; i < 4; i++) {
             const rig_noise noise = {.cell_N = i % 2U == 0 ? 0.07 : 1.0,
                                      .jitter_s = i < 2U ? 0.0 : 60e-6};
-            measure_many(&noise, runs_of(200, 10), 1000U * k + 250U * i);
+            measure_many(&noise, few_or_all(10, 200), 1000U * k + 250U * i);
             print_row(rpm[k], &noise);
             const double samples = TURNS * orbit.turn_s / 0.002;
             const double cells = 1.3 * noise.cell_N * sqrt(2.0 / samples) / orbit.amplitude_N;
@@ -175,7 +175,7 @@ static void test_intervals_hold_what_they_promise(void) {
     rig_orbit_find(&rig_plant_nominal, 330.0, LEAD_RAD, &orbit);
     for (unsigned i = 0; i < 6; i++) {
         const rig_noise noise = {.cell_N = cells_N[i % 3U], .jitter_s = i < 3U ? 0.0 : 60e-6};
-        const unsigned runs = runs_of(1000, 60);
+        const unsigned runs = few_or_all(60, 1000);
         measure_many(&noise, runs, 100000U + 2000U * i);
         print_row(330.0, &noise);
         for (unsigned what = 0; what < 2; what++) {
@@ -194,7 +194,7 @@ static void test_intervals_where_floors_rule(void) {
     rig_orbit_find(&rig_plant_nominal, 330.0, LEAD_RAD, &orbit);
     for (unsigned i = 0; i < 2; i++) {
         const rig_noise noise = {.cell_N = 0.07, .jitter_s = i == 0 ? 0.0 : 60e-6};
-        const unsigned runs = runs_of(1000, 40);
+        const unsigned runs = few_or_all(40, 1000);
         measure_many(&noise, runs, 200000U + 2000U * i);
         print_row(330.0, &noise);
         for (unsigned what = 0; what < 2; what++) {
@@ -215,7 +215,7 @@ static double drawn(double least, double most) {
 static void test_drawn_rotors(void) {
     for (unsigned i = 0; i < 2; i++) {
         const rig_noise noise = {.cell_N = i == 0 ? 0.07 : 1.0, .jitter_s = i == 0 ? 0.0 : 60e-6};
-        const unsigned runs = runs_of(1000, 20);
+        const unsigned runs = few_or_all(20, 1000);
         found = (tally){0};
         uint64_t seed = UINT64_C(0x5eed0170);
         for (unsigned k = 0; k < runs; k++) {
@@ -270,7 +270,7 @@ static void test_no_fault_is_called_good(void) {
     const unsigned many = sizeof faults / sizeof faults[0];
     for (unsigned k = 0; k < 3; k++) {
         rig_orbit_find(&rig_plant_nominal, rpm[k], LEAD_RAD, &orbit);
-        for (unsigned i = 0; i < many * runs_of(50, 2); i++) {
+        for (unsigned i = 0; i < many * few_or_all(2, 50); i++) {
             const rig_noise *noise = &faults[i % many];
             wh_measured measured;
             rig_measure(&orbit, noise, &rotor, BEFORE, TURNS, 400000U + 1000U * k + i, &measured);
@@ -286,7 +286,7 @@ static void test_no_fault_is_called_good(void) {
         }
     }
     if (full()) {
-        printf("%u faults of the cell: good %u, doubtful %u\n", 3U * many * runs_of(50, 2), good,
+        printf("%u faults of the cell: good %u, doubtful %u\n", 3U * many * few_or_all(2, 50), good,
                doubtful);
     }
     TEST_ASSERT_TRUE(good > 0 && doubtful > 0);
