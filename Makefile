@@ -49,6 +49,7 @@ include mk/check.mk
 include mk/coverage.mk
 include mk/settings.mk
 include mk/hard.mk
+include mk/rig.mk
 
 ##@ Start here
 
@@ -128,6 +129,12 @@ properties: ## random linkages and hybrids against their energies in numbers: PR
 	@UNITY="$(UNITY)" CC="$(CC)" mk/setup/deps.sh host tests
 	@UNITY="$(UNITY)" mk/setup/unity.sh build/unity
 	@$(MAKE) properties-now
+
+.PHONY: rig-truth
+rig-truth: ## the rig's measurement against the truth, its intervals against 1,000 noisy runs of each kind (a minute)
+	@UNITY="$(UNITY)" CC="$(CC)" mk/setup/deps.sh host tests
+	@UNITY="$(UNITY)" mk/setup/unity.sh build/unity
+	@$(MAKE) rig-truth-now
 
 .PHONY: sine-exhaustive
 sine-exhaustive: $(B)/tools/sine_exhaustive ## the sine's worst error, over all 2^32 angles (minutes)
@@ -220,6 +227,11 @@ price-rows-fixed: ## the same in fixed point, for price-fit-fixed: build/cost_fi
 worst-step: ## the most instructions of a step with events, over a million random steps a scene (minutes)
 	@CC="$(CC)" mk/setup/deps.sh host firmware bench
 	@$(MAKE) worst-now
+
+.PHONY: rig-steps
+rig-steps: ## instructions that a control step of the rig takes on BOARD, at most RIG_STEP_MOST (a minute)
+	@CC="$(CC)" mk/setup/deps.sh host firmware bench
+	@$(MAKE) rig-steps-now
 
 .PHONY: size
 size: ## bytes of flash, of memory and of stack of BOARD's images, and of the functions

@@ -21,9 +21,19 @@ extern "C" {
 /* Time between samples, as in Almesallmy (2006), I.3.2.1: 2 ms. */
 #define HAL_LOADCELL_PERIOD_TICKS 2000U
 
+/* What the converter says of a sample; wh_load_status of core/rig/cell.h has the same. */
+typedef enum hal_load_status {
+    HAL_LOAD_OK,
+    HAL_LOAD_SATURATED,
+    HAL_LOAD_DISCONNECTED,
+    HAL_LOAD_LATE,
+    HAL_LOAD_REPEATED
+} hal_load_status;
+
 typedef struct hal_load_sample {
     uint32_t ticks; /* of the capture timer (clock.h) when it was taken */
-    int16_t raw;    /* counts; +-full scale when the cell is overloaded */
+    int32_t raw;    /* counts; +-full scale when the cell is overloaded */
+    uint8_t status; /* a hal_load_status */
 } hal_load_sample;
 
 /* Take the oldest sample not yet taken. Returns false when there is none. At least 4 samples are

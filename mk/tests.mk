@@ -51,7 +51,7 @@ $(B)/tests/core_double: $(call objects,double,$(CORE_TEST_PARTS)) $(call librari
 	$(link)
 
 $(B)/tests/host: $(call objects,host,$(HOST_TEST_PARTS)) $(LIB_HOST) \
-    $(call libraries,float,scenes whirl) $(LIB_DOUBLE) | $(B)/pil_cart
+    $(call libraries,float,scenes rig whirl) $(LIB_DOUBLE) | $(B)/pil_cart
 	$(link)
 
 TEST_PROGRAMS := $(B)/tests/core_double $(B)/tests/core_float $(B)/tests/host $(B)/tools/mechanisms $(B)/tools/linkages $(B)/tools/price_fit $(B)/tools/price_fit_fixed \

@@ -2,7 +2,7 @@
  *
  * One test run as core/rig/rig.h describes it, on whatever hardware hal/ offers: tare, ramp to
  * 330 rpm in closed loop on the slot pulses, record the load cell for 2 s, report, stop. Exit status
- * 0: done; 1: the guard tripped, the report says why; 2: not started, for the hardware does not answer or
+ * 0: done; 1: the guard tripped, or what was measured is refused, the report says why; 2: not started, for the hardware does not answer or
  * the arithmetic is not that of the tests. */
 #include "core/rig/rig.h"
 #include "boards/board.h"
@@ -26,6 +26,11 @@
 #endif
 
 _Static_assert(HAL_TICKS_PER_S == WH_RIG_TICKS_PER_S, "one clock");
+_Static_assert((int)HAL_LOAD_SATURATED == (int)WH_LOAD_SATURATED &&
+                   (int)HAL_LOAD_DISCONNECTED == (int)WH_LOAD_DISCONNECTED &&
+                   (int)HAL_LOAD_LATE == (int)WH_LOAD_LATE &&
+                   (int)HAL_LOAD_REPEATED == (int)WH_LOAD_REPEATED,
+               "one list of a sample's states");
 
 #define CONTROL_TICKS 2000U /* 500 Hz, as wh_rig_standard.step_s */
 #define WATCHDOG_TICKS (10U * CONTROL_TICKS)
@@ -90,19 +95,45 @@ static void put_state(uint32_t started_ticks) {
     hal_console_write(text.bytes, text.length);
 }
 
+/* A line of what is known to within an interval. */
+static void put_interval(const char *name, float half, unsigned decimals, const char *unit) {
+    char bytes[32];
+    wh_text text;
+    wh_text_start(&text, bytes, sizeof bytes);
+    wh_text_add(&text, unit);
+    wh_text_add(&text, ", either way");
+    put_value(name, half, decimals, text.bytes);
+}
+
+static void put_verdict(const wh_measured *force) {
+    put("  verdict                       ");
+    put(wh_quality_text(force->quality));
+    put(": ");
+    put(wh_why_text(force->why));
+    put("\n");
+}
+
 static void put_result(const wh_rig_result *result) {
     const float nominal_radps = WH_RIG_NOMINAL_RPM * WH_RIG_RADPS_PER_RPM;
     const float formula_N = WH_RIG_MASS_MOMENT_KGM * nominal_radps * nominal_radps;
+    const wh_measured *force = &result->force;
     put("Measured, over whole turns of a 2 s record at 500 samples/s\n");
-    put_value("turns", (float)result->turns, 0, "");
-    put_value("speed", result->speed_radps * RPM_PER_RADPS, 2, "rpm");
-    put_force("force, once per turn", result->amplitude_N);
-    put_value("its phase to the masses", result->phase_rad * WH_RIG_DEG_PER_RAD, 2, "deg");
-    put_force("mean force", result->mean_N);
+    put_value("turns", (float)force->turns, 0, "");
+    put_value("speed", force->speed_radps * RPM_PER_RADPS, 2, "rpm");
+    put_force("force, once per turn", force->amplitude_N);
+    put_interval("  known to within", force->amplitude_half_N, 3, "N");
+    put_value("its phase to the masses", force->phase_rad * WH_RIG_DEG_PER_RAD, 2, "deg");
+    put_interval("  known to within", force->phase_half_rad * WH_RIG_DEG_PER_RAD, 3, "deg");
+    put_verdict(force);
+    put_force("expected of masses and speed", force->expected_N);
+    put_value("rest of the load, rms", force->residual_N, 3, "N");
+    put_value("samples left out", (float)force->outliers, 0, "");
+    put_value("turns left out", (float)force->left_out, 0, "");
+    put_force("mean force", force->mean_N);
     put_force("lowest peak", result->low_N);
     put_force("highest peak", result->high_N);
-    put_force("load at sensor 1's spikes", result->at_spike_N[0]);
-    put_force("load at sensor 2's spikes", result->at_spike_N[1]);
+    put_force("load at sensor 1's spikes", force->at_mark_N[0]);
+    put_force("load at sensor 2's spikes", force->at_mark_N[1]);
     put_force("tare taken off", result->tare_N);
     put_value("motor duty", result->duty, 3, "");
     put_value("slot pulses lost", (float)result->lost, 0, "");
@@ -111,7 +142,7 @@ static void put_result(const wh_rig_result *result) {
     put_value("speed", WH_RIG_NOMINAL_RPM, 2, "rpm");
     put_force("force", formula_N);
     put_value("phase", 0.0f, 2, "deg");
-    put_value("measured / formula", 100.0f * result->amplitude_N / formula_N, 2, "%");
+    put_value("measured / formula", 100.0f * force->amplitude_N / formula_N, 2, "%");
 }
 
 #if HAL_VIRTUAL
@@ -151,7 +182,7 @@ static void run(const wh_rig_config *config) {
         }
         hal_load_sample sample;
         while (hal_loadcell_take(&sample)) {
-            wh_rig_load(config, &rig, sample.ticks, sample.raw);
+            wh_rig_load(config, &rig, sample.ticks, sample.raw, (wh_load_status)sample.status);
         }
         hal_motor_set_duty(wh_rig_step(config, &rig, hal_clock_ticks(), hal_watchdog_has_cut()));
         if (rig.state != shown) {
@@ -194,10 +225,10 @@ int main(void) {
         refuse(wh_status_text(WH_E_ARITHMETIC));
     }
     wh_rig_config config = wh_rig_standard;
-    config.newton_per_count = HAL_LOADCELL_N_PER_COUNT;
-    config.slot_lead_rad = HAL_SLOT_LEAD_DEG / WH_RIG_DEG_PER_RAD;
-    config.load_period_ticks = HAL_LOADCELL_PERIOD_TICKS;
-    config.guard.load_raw_max = HAL_LOADCELL_RAW_MAX;
+    config.cell = (wh_cell_config){.newton_per_count = HAL_LOADCELL_N_PER_COUNT,
+                                   .period_ticks = HAL_LOADCELL_PERIOD_TICKS,
+                                   .raw_max = HAL_LOADCELL_RAW_MAX};
+    wh_rig_slots(&config, HAL_SLOT_LEAD_DEG / WH_RIG_DEG_PER_RAD);
     run(&config);
 
     const bool tripped = rig.guard.trip != WH_TRIP_NONE;
@@ -211,5 +242,5 @@ int main(void) {
 #if HAL_VIRTUAL
     put_plant_hash();
 #endif
-    board_exit(tripped ? 1 : 0);
+    board_exit(tripped || rig.result.force.quality == WH_REFUSED ? 1 : 0);
 }

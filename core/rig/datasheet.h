@@ -20,6 +20,19 @@
     (WH_R(2.0) * (WH_R(0.152) * WH_R(3.625) + WH_R(0.15) * WH_R(6.5)) * \
      (WH_R(0.45359237) * WH_R(0.0254)))
 
+/* Of all that turns: two sets, the arm a slender rod, the discs points; 5e-4 kg m^2 of motor, couplings and
+ * shafts, which is assumed. */
+#define WH_RIG_INERTIA_KGM2 \
+    (WH_R(2.0) * (WH_R(0.152) * WH_R(17.520833333333332) + WH_R(0.15) * WH_R(42.25)) * \
+         (WH_R(0.45359237) * WH_R(0.0254) * WH_R(0.0254)) + \
+     WH_R(5e-4))
+
+/* What a turn's mean speed is held back with when it rises: the motor's torque line, 1.5 N m over 600 rpm, and
+ * 0.001 N m s of the bearings. */
+#define WH_RIG_DAMPING_NMS (WH_R(1.5) / (WH_R(600.0) * WH_RIG_RADPS_PER_RPM) + WH_R(0.001))
+
+#define WH_RIG_GRAVITY_MPS2 WH_R(9.80665)
+
 /* Speed of the measurement (I.3.2.1): 5.5 turns a second. */
 #define WH_RIG_NOMINAL_RPM WH_R(330.0)
 

@@ -35,17 +35,23 @@ void wh_guard_speed(const wh_guard_config *config, wh_guard *guard, const wh_spe
 }
 
 void wh_guard_load(const wh_guard_config *config, wh_guard *guard, const wh_speed *speed,
-                   uint32_t ticks, int16_t raw, bool turning) {
-    guard->load_ticks = ticks;
-    if (raw >= config->load_raw_max || raw <= -config->load_raw_max) {
+                   const wh_load *load, bool turning) {
+    if (load->status == WH_LOAD_REPEATED) {
+        return;
+    }
+    guard->load_ticks = load->ticks;
+    if (load->status == WH_LOAD_SATURATED || load->status == WH_LOAD_DISCONNECTED) {
         wh_guard_trip(guard, WH_TRIP_LOAD_CELL);
     }
-    /* measured in turns, not in time: the load of a jammed rotor stands still as well */
-    const int moved = raw - guard->still_raw;
-    if (!turning || moved > config->load_still_raw || moved < -config->load_still_raw) {
-        guard->still_pulses = speed->taken;
-        guard->still_raw = raw;
-    } else if (speed->taken - guard->still_pulses >= config->stuck_pulses) {
+    /* measured in turns, not in time: the load of a jammed rotor stands still as well. And one pulse a
+     * sample: all that a late controller finds waiting are no turns of the samples behind them. */
+    guard->still_pulses += speed->taken != guard->load_pulses ? 1U : 0U;
+    guard->load_pulses = speed->taken;
+    const wh_real still_N = config->load_still_kgm * speed->turn_radps * speed->turn_radps;
+    if (!turning || !(WH_ABS(load->force_N - guard->still_N) <= still_N)) {
+        guard->still_pulses = 0;
+        guard->still_N = load->force_N;
+    } else if (guard->still_pulses >= config->stuck_pulses) {
         wh_guard_trip(guard, WH_TRIP_LOAD_CELL);
     }
 }
@@ -66,7 +72,7 @@ const char *wh_trip_text(wh_trip reason) {
     case WH_TRIP_OVERSPEED: return "over-speed";
     case WH_TRIP_PULSES: return "slot pulses are missing or out of order";
     case WH_TRIP_STALLED: return "the rotor does not start";
-    case WH_TRIP_LOAD_CELL: return "the load cell is silent, stuck or overloaded";
+    case WH_TRIP_LOAD_CELL: return "the load cell is silent, stuck, overloaded or disconnected";
     case WH_TRIP_WATCHDOG: return "the watchdog cut the motor";
     case WH_TRIP_MOVING: return "the rig was not at rest for the tare";
     case WH_TRIP_UNSETTLED: return "the speed does not settle or stay";

@@ -2,6 +2,7 @@
 #ifndef WH_RIG_GUARD_H
 #define WH_RIG_GUARD_H
 
+#include "cell.h"
 #include "speed.h"
 
 #ifdef __cplusplus
@@ -14,7 +15,7 @@ typedef enum wh_trip {
     WH_TRIP_OVERSPEED, /* faster than the shaft carries */
     WH_TRIP_PULSES,    /* slot pulses lost, missing or in the wrong order while the motor drives */
     WH_TRIP_STALLED,   /* the rotor does not start */
-    WH_TRIP_LOAD_CELL, /* silent, stuck, or overloaded */
+    WH_TRIP_LOAD_CELL, /* silent, stuck, overloaded or disconnected */
     WH_TRIP_WATCHDOG,  /* the controller was late and the watchdog cut the motor */
     WH_TRIP_MOVING,    /* the tare was not at rest */
     WH_TRIP_UNSETTLED, /* the speed does not settle, or does not stay during the record */
@@ -30,9 +31,9 @@ typedef struct wh_guard_config {
     uint32_t lost_max;          /* pulses that may be lost in a run */
     wh_real silence_max_s;      /* longest time without a pulse while the motor drives */
     wh_real load_silence_max_s; /* longest time without a load sample */
-    int16_t load_still_raw;     /* so much, and no more, the counts move when the load does not */
-    uint32_t stuck_pulses;      /* slot pulses that come while the load does not move: stuck */
-    int16_t load_raw_max;       /* counts of a full-scale load, either sign: overloaded */
+    wh_real
+        load_still_kgm; /* a load that moves by less than this times the speed's square is still */
+    uint32_t stuck_pulses; /* slot pulses that come while the load does not move: stuck */
 } wh_guard_config;
 
 typedef struct wh_guard {
@@ -41,8 +42,9 @@ typedef struct wh_guard {
     uint32_t pulses_seen;
     uint32_t lost_before;  /* pulses already lost when the motor began to drive */
     uint32_t load_ticks;   /* of the last load sample; at first, the start */
-    uint32_t still_pulses; /* pulses taken when the load last moved, */
-    int16_t still_raw;     /* and where to */
+    uint32_t load_pulses;  /* pulses taken by then */
+    uint32_t still_pulses; /* samples with a new pulse since the load last moved, */
+    wh_real still_N;       /* and where to */
 } wh_guard;
 
 #define wh_guard_start WH_NAME(wh_guard_start)
@@ -66,10 +68,10 @@ void wh_guard_trip(wh_guard *guard, wh_trip reason);
 void wh_guard_speed(const wh_guard_config *config, wh_guard *guard, const wh_speed *speed,
                     uint32_t now_ticks);
 
-/* Look at a load sample taken at `ticks`, counts with the tare in them. `turning`: the load must be
- * changing with the rotor's turns. */
+/* Look at a load sample, the tare in it. `turning`: the load must be changing with the rotor's turns. A
+ * sample that repeats the last one is none. */
 void wh_guard_load(const wh_guard_config *config, wh_guard *guard, const wh_speed *speed,
-                   uint32_t ticks, int16_t raw, bool turning);
+                   const wh_load *load, bool turning);
 
 /* Look whether load samples still come, each control step in which they are needed. */
 void wh_guard_load_silence(const wh_guard_config *config, wh_guard *guard, uint32_t now_ticks);

@@ -1,10 +1,27 @@
-/* lockin.c: amplitude of the load's once-per-turn part, and its phase to the masses. */
+/* lockin.c: the load's once-per-turn part, turn by turn, as the samples come. */
 #include "lockin.h"
 
 #include "core/angle.h"
+#include "core/root.h"
 #include "datasheet.h"
 
 #define PI WH_R(3.141592653589793)
+
+/* Nodes further apart than so many periods leave a turn without a result; a tenth of outliers likewise. */
+#define GAP_PERIODS WH_R(3.5)
+#define OUTLIERS_PER_TURN 10U
+
+/* So many equal samples running are no load that changes: not even the peak at 100 rpm without noise. */
+#define FROZEN_SAMPLES 8U
+
+/* An outlier is further off than six standard deviations of the rest, and than what a speed that is
+ * just 1 % different makes of the load. */
+#define OUTLIER_DEVIATIONS WH_R(6.0)
+#define OUTLIER_PART WH_R(0.02)
+
+/* A turn's time against the one before: not to count, and not to find the inertia from. */
+#define STEADY_PART 64U
+#define STILL_PART 256U
 
 void wh_polar(wh_real x, wh_real y, wh_real *radius, wh_real *angle_rad) {
     wh_real angle = WH_R(0.0);
@@ -30,99 +47,312 @@ void wh_polar(wh_real x, wh_real y, wh_real *radius, wh_real *angle_rad) {
     *angle_rad = angle;
 }
 
-/* Position of a time in the record, samples from the first; negative before it. */
-static wh_real sample_at(const wh_load_record *record, uint32_t ticks) {
-    return (wh_real)(int32_t)(ticks - record->first_ticks) / (wh_real)record->period_ticks;
+void wh_lockin_start(const wh_rotor_config *rotor, wh_lockin *lockin) {
+    *lockin = (wh_lockin){.stage = WH_LOCKIN_WAITS};
+    wh_turn_angle_start(rotor, &lockin->angle);
 }
 
-static bool within(const wh_load_record *record, uint32_t ticks) {
-    const int64_t after = (int32_t)(ticks - record->first_ticks);
-    return record->samples > 0 && after >= 0 &&
-           after <= (int64_t)record->period_ticks * (int64_t)(record->samples - 1U);
+/* --- marks -------------------------------------------------------------------------------------- */
+
+static void close_turn(wh_lockin *lockin, uint32_t ticks) {
+    if (lockin->stage != WH_LOCKIN_WAITS) { /* a cell that fell silent in the middle of a turn */
+        lockin->skipped++;
+        return;
+    }
+    lockin->next = (wh_lockin_turn){.begin_ticks = lockin->begin_ticks,
+                                    .turn_ticks = ticks - lockin->begin_ticks,
+                                    .split_seen = lockin->split_seen,
+                                    .split_ticks = lockin->split_ticks};
+    lockin->next_equal = lockin->most_equal;
+    lockin->stage = WH_LOCKIN_SHAPES;
 }
 
-bool wh_load_at(const wh_load_record *record, uint32_t ticks, wh_real *counts) {
-    if (!within(record, ticks)) {
-        return false;
-    }
-    const wh_real at = sample_at(record, ticks);
-    const unsigned before = (unsigned)at;
-    const wh_real left = (wh_real)record->raw[before];
-    const wh_real right = before + 1U < record->samples ? (wh_real)record->raw[before + 1U] : left;
-    *counts = left + (at - (wh_real)before) * (right - left);
-    return true;
-}
-
-/* Whole turns from one mark to a later one of the same sensor. */
-static uint32_t turns_between(const wh_mark *from, const wh_mark *to) {
-    return (to->quarter - from->quarter) / 4U;
-}
-
-bool wh_lockin(const wh_load_record *record, const wh_mark *marks, unsigned mark_count,
-               wh_real mark_rad, wh_lockin_result *result) {
-    unsigned begin = 0;
-    while (begin < mark_count && !within(record, marks[begin].ticks)) {
-        begin++;
-    }
-    unsigned end = mark_count;
-    while (end > begin && !within(record, marks[end - 1U].ticks)) {
-        end--;
-    }
-    if (end < begin + 2U) {
-        return false;
-    }
-    const unsigned last_mark = end - 1U;
-    const wh_real from = sample_at(record, marks[begin].ticks);
-    const wh_real to = sample_at(record, marks[last_mark].ticks);
-    unsigned first = (unsigned)from;
-    if ((wh_real)first < from) {
-        first++;
-    }
-    const unsigned last = (unsigned)to;
-    if (last <= first) {
-        return false;
-    }
-    /* A turn is no whole number of samples: the end samples stand for what is left over too. */
-    const wh_real first_weight = WH_R(0.5) + ((wh_real)first - from);
-    const wh_real last_weight = WH_R(0.5) + (to - (wh_real)last);
-
-    wh_real weights = WH_R(0.0);
-    wh_real mean = WH_R(0.0);
-    for (unsigned i = first; i <= last; i++) {
-        const wh_real weight = i == first ? first_weight : i == last ? last_weight : WH_R(1.0);
-        weights += weight;
-        mean += weight * (wh_real)record->raw[i];
-    }
-    mean /= weights;
-
-    wh_real in_phase = WH_R(0.0);
-    wh_real quadrature = WH_R(0.0);
-    unsigned mark = begin;
-    for (unsigned i = first; i <= last; i++) {
-        const uint32_t ticks = record->first_ticks + i * record->period_ticks;
-        while (mark + 1U < last_mark && (int32_t)(ticks - marks[mark + 1U].ticks) >= 0) {
-            mark++;
+void wh_lockin_mark(wh_lockin *lockin, unsigned sensor, uint32_t ticks, uint32_t quarter) {
+    const uint32_t quarters = quarter - lockin->begin_quarter;
+    if (sensor != 0) {
+        if (lockin->open && quarters == 1U) {
+            lockin->split_seen = true;
+            lockin->split_ticks = ticks;
         }
-        const wh_mark *from_mark = &marks[mark];
-        const wh_mark *to_mark = &marks[mark + 1U];
-        const wh_real turned = (wh_real)turns_between(from_mark, to_mark) *
-                               (wh_real)(int32_t)(ticks - from_mark->ticks) /
-                               (wh_real)(to_mark->ticks - from_mark->ticks);
-        wh_real sine;
-        wh_real cosine;
-        wh_sincos(wh_phase_from_rad(mark_rad + WH_RIG_TWO_PI * turned), &sine, &cosine);
-        const wh_real weight = i == first ? first_weight : i == last ? last_weight : WH_R(1.0);
-        const wh_real load = weight * ((wh_real)record->raw[i] - mean);
-        in_phase += load * cosine;
-        quadrature += load * sine;
+        return;
     }
-    result->turns = (unsigned)turns_between(&marks[begin], &marks[last_mark]);
-    result->turn_s = (wh_real)(marks[last_mark].ticks - marks[begin].ticks) /
-                     ((wh_real)result->turns * (wh_real)WH_RIG_TICKS_PER_S);
-    result->mean_counts = mean;
-    result->in_phase_counts = WH_R(2.0) * in_phase / weights;
-    result->quadrature_counts = WH_R(2.0) * quadrature / weights;
-    wh_polar(result->in_phase_counts, -result->quadrature_counts, &result->amplitude_counts,
-             &result->phase_rad);
-    return true;
+    if (lockin->open && quarters == 4U) {
+        close_turn(lockin, ticks);
+    } else if (lockin->open) {
+        lockin->skipped += quarters / 4U;
+    }
+    lockin->open = true;
+    lockin->split_seen = false;
+    lockin->begin_ticks = ticks;
+    lockin->begin_quarter = quarter;
+    lockin->most_equal = 0;
+}
+
+void wh_lockin_gap(wh_lockin *lockin) {
+    lockin->skipped += lockin->open ? 1U : 0U;
+    lockin->open = false;
+}
+
+/* --- samples ------------------------------------------------------------------------------------ */
+
+/* Take the oldest sample. */
+static void pop(wh_lockin *lockin) {
+    lockin->taken = true;
+    lockin->taken_ticks = lockin->ticks[lockin->first];
+    lockin->taken_N = lockin->force_N[lockin->first];
+    lockin->first = (uint16_t)(lockin->first + 1U == WH_LOCKIN_SAMPLES ? 0U : lockin->first + 1U);
+    lockin->count--;
+}
+
+/* Take what is older than the turn of interest, the last of it apart; so many at most. */
+static void drop_stale(wh_lockin *lockin, uint32_t begin_ticks) {
+    for (unsigned i = 0; i < WH_LOCKIN_STALE_AT_ONCE && lockin->count > 0; i++) {
+        if ((int32_t)(lockin->ticks[lockin->first] - begin_ticks) > 0) {
+            break;
+        }
+        pop(lockin);
+    }
+}
+
+static void count_equal(wh_lockin *lockin, wh_real force_N) {
+    const bool same = !(force_N < lockin->newest_N) && !(force_N > lockin->newest_N);
+    lockin->equal = (uint16_t)(same && lockin->equal < FROZEN_SAMPLES ? lockin->equal + 1U
+                               : same                                 ? FROZEN_SAMPLES
+                                                                      : 0U);
+    if (lockin->equal > lockin->most_equal) {
+        lockin->most_equal = lockin->equal;
+    }
+}
+
+void wh_lockin_load(wh_lockin *lockin, const wh_load *load) {
+    if (load->status != WH_LOAD_OK ||
+        (lockin->any && (int32_t)(load->ticks - lockin->newest_ticks) <= 0)) {
+        lockin->refused++;
+        return;
+    }
+    if (lockin->any) {
+        count_equal(lockin, load->force_N);
+    }
+    lockin->any = true;
+    lockin->newest_ticks = load->ticks;
+    lockin->newest_N = load->force_N;
+    /* what no turn will ask for, or what a turn slower than all that are measured leaves no room for */
+    if (lockin->count == WH_LOCKIN_SAMPLES) {
+        pop(lockin);
+    }
+    uint32_t at = (uint32_t)lockin->first + lockin->count;
+    at -= at >= WH_LOCKIN_SAMPLES ? WH_LOCKIN_SAMPLES : 0U;
+    lockin->force_N[at] = load->force_N;
+    lockin->ticks[at] = load->ticks;
+    lockin->count++;
+    if (lockin->stage == WH_LOCKIN_WAITS && !lockin->open) {
+        pop(lockin);
+    }
+}
+
+/* --- one turn ----------------------------------------------------------------------------------- */
+
+/* The last node stands for half the way to either of its neighbours. */
+static void weigh_last(wh_lockin *lockin, wh_real theta_rad, wh_real part) {
+    const wh_lockin_node *node = &lockin->last;
+    const wh_real rest = WH_R(0.5) * (theta_rad - lockin->before_rad) * node->rest_N;
+    const wh_real cosine = node->cosine;
+    const wh_real sine = node->sine;
+    lockin->sum.at[0] += rest;
+    lockin->sum.at[1] += rest * cosine;
+    lockin->sum.at[2] += rest * sine;
+    lockin->sum.at[3] += rest * (WH_R(2.0) * cosine * cosine - WH_R(1.0));
+    lockin->sum.at[4] += rest * (WH_R(2.0) * cosine * sine);
+    lockin->square += rest * node->rest_N;
+    lockin->mean += WH_R(0.5) * (part - lockin->before_part) * node->force_N;
+}
+
+/* The load was force_N at this time of the turn. `edge`: at a mark, between two samples. */
+static void add_node(wh_lockin *lockin, uint32_t ticks, wh_real force_N, bool edge) {
+    wh_lockin_node node = {.force_N = force_N};
+    node.part = (wh_real)(ticks - lockin->next.begin_ticks) * lockin->part_per_tick;
+    node.theta_rad = wh_turn_angle_at(&lockin->angle, node.part);
+    wh_sincos(wh_phase_from_rad(node.theta_rad), &node.sine, &node.cosine);
+    const wh_real *expected = lockin->expected_N.at;
+    node.rest_N = force_N - expected[0] - expected[1] * node.cosine - expected[2] * node.sine -
+                  expected[3] * (WH_R(2.0) * node.cosine * node.cosine - WH_R(1.0)) -
+                  expected[4] * (WH_R(2.0) * node.cosine * node.sine);
+    if (lockin->expects && !(WH_ABS(node.rest_N) <= lockin->outlier_N)) {
+        if (!edge) {
+            lockin->next.outliers++;
+            return;
+        }
+        node.force_N -= node.rest_N; /* at the mark the load is as expected, then */
+        node.rest_N = WH_R(0.0);
+    }
+    if (ticks == lockin->next.begin_ticks) {
+        lockin->before_rad = node.theta_rad;
+        lockin->before_part = node.part;
+    } else {
+        weigh_last(lockin, node.theta_rad, node.part);
+        lockin->before_rad = lockin->last.theta_rad;
+        lockin->before_part = lockin->last.part;
+        const wh_real way = node.part - lockin->last.part;
+        lockin->widest = way > lockin->widest ? way : lockin->widest;
+    }
+    if (!edge) {
+        lockin->next.samples++;
+    }
+    lockin->last = node;
+}
+
+/* The load at a time between the sample that was taken and the oldest that waits. */
+static wh_real load_between(const wh_lockin *lockin, uint32_t ticks) {
+    const wh_real later_N = lockin->force_N[lockin->first];
+    if (!lockin->taken) {
+        return later_N;
+    }
+    const wh_real all = (wh_real)(lockin->ticks[lockin->first] - lockin->taken_ticks);
+    const wh_real part = (wh_real)(ticks - lockin->taken_ticks) / all;
+    return lockin->taken_N + part * (later_N - lockin->taken_N);
+}
+
+/* Take samples of the turn, a few; true when it is through. */
+static bool take_samples(wh_lockin *lockin) {
+    wh_lockin_turn *turn = &lockin->next;
+    const uint32_t end_ticks = turn->begin_ticks + turn->turn_ticks;
+    drop_stale(lockin, turn->begin_ticks);
+    for (unsigned i = 0; i < WH_LOCKIN_AT_ONCE && lockin->count > 0; i++) {
+        const uint32_t ticks = lockin->ticks[lockin->first];
+        const wh_real force_N = lockin->force_N[lockin->first];
+        if ((int32_t)(ticks - turn->begin_ticks) <= 0) {
+            break;
+        }
+        if (lockin->stage == WH_LOCKIN_BEGINS) {
+            turn->at_mark_N[0] = load_between(lockin, turn->begin_ticks);
+            add_node(lockin, turn->begin_ticks, turn->at_mark_N[0], true);
+            lockin->stage = WH_LOCKIN_SUMS;
+            continue;
+        }
+        if ((int32_t)(ticks - end_ticks) > 0) {
+            add_node(lockin, end_ticks, load_between(lockin, end_ticks), true);
+            return true;
+        }
+        if (turn->split_seen && (int32_t)(ticks - turn->split_ticks) >= 0 &&
+            (!lockin->taken || (int32_t)(lockin->taken_ticks - turn->split_ticks) < 0)) {
+            turn->at_mark_N[1] = load_between(lockin, turn->split_ticks);
+        }
+        pop(lockin);
+        add_node(lockin, ticks, force_N, false);
+    }
+    return false;
+}
+
+static bool is_steady(const wh_lockin *lockin, uint32_t part) {
+    const uint32_t now = lockin->next.turn_ticks;
+    const uint32_t before = lockin->turn.turn_ticks;
+    return (now > before ? now - before : before - now) <= now / part;
+}
+
+static wh_turn_fault fault_of(const wh_cell_config *cell, const wh_lockin *lockin) {
+    const wh_lockin_turn *turn = &lockin->next;
+    const wh_real widest_ticks = lockin->widest * (wh_real)turn->turn_ticks;
+    if (lockin->next_equal >= FROZEN_SAMPLES) {
+        return WH_TURN_FROZEN;
+    }
+    if (turn->outliers * OUTLIERS_PER_TURN > turn->samples) {
+        return WH_TURN_OUTLIERS;
+    }
+    if (!(widest_ticks <= GAP_PERIODS * (wh_real)cell->period_ticks) || turn->samples < 16U) {
+        return WH_TURN_GAP;
+    }
+    if (!is_steady(lockin, STEADY_PART)) {
+        return WH_TURN_UNSTEADY;
+    }
+    return lockin->expects ? WH_TURN_OK : WH_TURN_FIRST;
+}
+
+/* The turn is through: from its sums to its result. */
+static void end_turn(const wh_cell_config *cell, wh_lockin *lockin) {
+    wh_lockin_turn *turn = &lockin->next;
+    weigh_last(lockin, lockin->last.theta_rad, lockin->last.part);
+    wh_real square = lockin->square / WH_RIG_TWO_PI;
+    for (unsigned i = 0; i < WH_LOCKIN_ORDERS; i++) {
+        const wh_real more = lockin->sum.at[i] / (i == 0 ? WH_RIG_TWO_PI : PI);
+        square -= (i == 0 ? WH_R(1.0) : WH_R(0.5)) * more * more;
+        turn->force_N.at[i] = lockin->expected_N.at[i] + more;
+    }
+    const wh_real samples = (wh_real)turn->samples;
+    const wh_real spare = samples - (wh_real)WH_LOCKIN_ORDERS;
+    turn->residual_N =
+        square > WH_R(0.0) && spare > WH_R(0.0) ? WH_SQRT(square * samples / spare) : WH_R(0.0);
+    turn->mean_N = lockin->mean;
+    turn->fault = fault_of(cell, lockin);
+    const bool whole = turn->fault <= WH_TURN_FIRST;
+    /* a gap says nothing against what was expected */
+    lockin->expects = whole || (lockin->expects && turn->fault == WH_TURN_GAP);
+    if (whole) {
+        lockin->expected_N = turn->force_N;
+        lockin->outlier_N =
+            OUTLIER_DEVIATIONS * turn->residual_N +
+            OUTLIER_PART * (WH_ABS(turn->force_N.at[1]) + WH_ABS(turn->force_N.at[2]));
+    }
+    lockin->turn = *turn;
+}
+
+static void begin_turn(wh_lockin *lockin) {
+    if (!lockin->expects) {
+        lockin->expected_N = (wh_orders){{WH_R(0.0)}};
+    }
+    lockin->part_per_tick = WH_R(1.0) / (wh_real)lockin->next.turn_ticks;
+    lockin->sum = (wh_orders){{WH_R(0.0)}};
+    lockin->square = lockin->mean = lockin->widest = WH_R(0.0);
+    lockin->stage = WH_LOCKIN_BEGINS;
+}
+
+bool wh_lockin_work(const wh_rotor_config *rotor, const wh_cell_config *cell, wh_lockin *lockin) {
+    const wh_lockin_turn *turn = &lockin->next;
+    switch (lockin->stage) {
+    case WH_LOCKIN_WAITS:
+        if (lockin->open) {
+            drop_stale(lockin, lockin->begin_ticks);
+        }
+        break;
+    case WH_LOCKIN_SHAPES:
+        wh_turn_angle_shape(rotor, &lockin->angle,
+                            WH_RIG_TWO_PI * (wh_real)WH_RIG_TICKS_PER_S /
+                                (wh_real)turn->turn_ticks);
+        lockin->stage = WH_LOCKIN_CORRECTS;
+        break;
+    case WH_LOCKIN_CORRECTS:
+        if (turn->split_seen && is_steady(lockin, STILL_PART)) {
+            wh_turn_angle_split(rotor, &lockin->angle,
+                                (wh_real)(turn->split_ticks - turn->begin_ticks) /
+                                    (wh_real)turn->turn_ticks);
+        }
+        lockin->stage = WH_LOCKIN_RESHAPES;
+        break;
+    case WH_LOCKIN_RESHAPES:
+        wh_turn_angle_shape(rotor, &lockin->angle,
+                            WH_RIG_TWO_PI * (wh_real)WH_RIG_TICKS_PER_S /
+                                (wh_real)turn->turn_ticks);
+        begin_turn(lockin);
+        break;
+    case WH_LOCKIN_BEGINS:
+    case WH_LOCKIN_SUMS:
+        if (take_samples(lockin)) {
+            lockin->stage = WH_LOCKIN_ENDS;
+        }
+        break;
+    case WH_LOCKIN_ENDS:
+        end_turn(cell, lockin);
+        lockin->stage = WH_LOCKIN_WAITS;
+        return true;
+    }
+    return false;
+}
+
+const char *wh_turn_text(wh_turn_fault fault) {
+#define WH_TURN_CASE(name, words) \
+    case name: return words;
+    switch (fault) {
+        WH_TURN_ROWS(WH_TURN_CASE)
+    case WH_TURN_FAULTS: break;
+    }
+    return "unknown fault";
 }

@@ -1,68 +1,165 @@
-/* lockin.h: amplitude of the load's once-per-turn part, and its phase to the masses.
+/* lockin.h: the load's once-per-turn part, turn by turn, as the samples come.
  *
  * Almesallmy (2006), I.3.3 and I.3.4, read the phase off an oscilloscope: sensor 1's spike sits on
  * the load's peak. Here the load is multiplied with the cosine and sine of the rotor's angle and
- * averaged over whole turns (lock-in, or order tracking with one mark a turn): what is not once per
- * turn averages out.
+ * integrated over the angle of whole turns, from one mark of sensor 1 to its next:
  *
- * The reference runs evenly from one mark of sensor 1 to the next (over two turns when the mark in
- * between was lost), so `amplitude` is the component at the frequency of rotation, as a spectrum of
- * the record would show it. Signs: the load counts
- * positive along the loading-train axis towards the mass at theta = 0, and
+ *     in_phase = 1/pi of the integral of F cos(theta) d theta, quadrature likewise with the sine
+ *
+ * so a turn's result is the first Fourier coefficient over the angle (order tracking). Signs: the load
+ * counts positive along the loading-train axis towards the mass at theta = 0, and
  *     load(theta) = mean + amplitude cos(theta + phase) + the rest:
- * phase 0 has the load's peak with the mass on the axis; positive, the peak comes before the mass. */
+ * phase 0 has the load's peak with the mass on the axis; positive, the peak comes before the mass.
+ *
+ * Samples wait until the mark that ends their turn; then some are taken each control step, so that no step
+ * has much to do. What the turn before lets expect (mean, first and second order) is taken off first and
+ * added again: the trapezoidal rule then integrates little more than what is new, and a sample that is far
+ * from what is expected is an outlier, left out and counted.
+ *
+ *     every control step:
+ *         wh_lockin_mark() for each slot pulse that was taken, wh_lockin_load() for each sample
+ *         if (wh_lockin_work(...)) lockin.turn is the result of a turn more */
 #ifndef WH_RIG_LOCKIN_H
 #define WH_RIG_LOCKIN_H
 
-#include "core/real.h"
+#include "cell.h"
+#include "turn_angle.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/* Evenly sampled load: sample i was taken at first_ticks + i period_ticks. */
-typedef struct wh_load_record {
-    const int16_t *raw; /* [samples] counts */
-    unsigned samples;
-    uint32_t first_ticks;
-    uint32_t period_ticks;
-} wh_load_record;
+#define WH_LOCKIN_SAMPLES 320U     /* that can wait: a turn at 100 rpm, 2 ms a sample, and some */
+#define WH_LOCKIN_AT_ONCE 2U       /* taken in one control step, */
+#define WH_LOCKIN_STALE_AT_ONCE 8U /* and so many that belong to no turn */
 
-/* A passing of a sensor: when, and the count of quarter turns (wrapping) the rotor had made by then. */
-typedef struct wh_mark {
-    uint32_t ticks;
-    uint32_t quarter;
-} wh_mark;
+/* Why a turn does not count: X(name, words). */
+#define WH_TURN_ROWS(X) \
+    X(WH_TURN_OK, "ok") \
+    /* nothing yet to compare it with */ \
+    X(WH_TURN_FIRST, "first") \
+    X(WH_TURN_GAP, "load samples are missing") \
+    X(WH_TURN_OUTLIERS, "too many outliers") \
+    X(WH_TURN_FROZEN, "the load stands still") \
+    X(WH_TURN_UNSTEADY, "the speed changes")
 
-typedef struct wh_lockin_result {
-    unsigned turns;            /* whole turns used */
-    wh_real turn_s;            /* mean time of one */
-    wh_real mean_counts;       /* over these turns */
-    wh_real in_phase_counts;   /* amplitude cos(phase) */
-    wh_real quadrature_counts; /* -amplitude sin(phase): the sine's coefficient */
-    wh_real amplitude_counts;
-    wh_real phase_rad; /* -pi ... pi */
-} wh_lockin_result;
+#define WH_TURN_NAME(name, words) name,
+typedef enum wh_turn_fault { WH_TURN_ROWS(WH_TURN_NAME) WH_TURN_FAULTS } wh_turn_fault;
+#undef WH_TURN_NAME
 
-#define wh_lockin WH_NAME(wh_lockin)
+/* Fourier coefficients of the load over the angle, up to the second order. */
+#define WH_LOCKIN_ORDERS 5U
+typedef struct wh_orders {
+    wh_real at[WH_LOCKIN_ORDERS]; /* mean, cosine, sine, cosine of twice the angle, sine of it */
+} wh_orders;
+
+typedef struct wh_lockin_turn {
+    uint32_t begin_ticks; /* sensor 1's mark */
+    uint32_t turn_ticks;
+    wh_turn_fault fault;
+    wh_orders force_N;    /* at[1]: amplitude cos(phase); at[2]: -amplitude sin(phase) */
+    wh_real mean_N;       /* over the time */
+    wh_real residual_N;   /* what orders 0 to 2 leave, rms */
+    wh_real at_mark_N[2]; /* load at each sensor's mark */
+    bool split_seen;      /* sensor 2's mark was there */
+    uint32_t split_ticks; /* it, when seen */
+    uint16_t samples;
+    uint16_t outliers;
+} wh_lockin_turn;
+
+typedef enum wh_lockin_stage {
+    WH_LOCKIN_WAITS, /* for a mark */
+    WH_LOCKIN_SHAPES,
+    WH_LOCKIN_CORRECTS,
+    WH_LOCKIN_RESHAPES,
+    WH_LOCKIN_BEGINS,
+    WH_LOCKIN_SUMS,
+    WH_LOCKIN_ENDS
+} wh_lockin_stage;
+
+/* A point of the load's course within the turn. */
+typedef struct wh_lockin_node {
+    wh_real part; /* of the turn's time */
+    wh_real theta_rad;
+    wh_real force_N;
+    wh_real rest_N; /* less what is expected */
+    wh_real cosine;
+    wh_real sine;
+} wh_lockin_node;
+
+typedef struct wh_lockin {
+    wh_lockin_stage stage;
+    wh_turn_angle angle;
+    wh_lockin_turn turn; /* the last one that is done */
+
+    /* samples that wait, the oldest first; the last one taken; the newest */
+    wh_real force_N[WH_LOCKIN_SAMPLES];
+    uint32_t ticks[WH_LOCKIN_SAMPLES];
+    uint16_t first;
+    uint16_t count;
+    bool taken;
+    uint32_t taken_ticks;
+    wh_real taken_N;
+    bool any;
+    uint32_t newest_ticks;
+    wh_real newest_N;
+    uint16_t equal; /* samples running that are equal to the one before */
+    uint16_t most_equal;
+    uint32_t refused; /* samples that were not ok, or out of order */
+
+    /* the turn that the rotor makes: since this mark */
+    bool open;
+    bool split_seen;
+    uint32_t begin_ticks;
+    uint32_t begin_quarter;
+    uint32_t split_ticks;
+    uint32_t skipped; /* turns without both their marks */
+
+    /* the turn that is worked on */
+    wh_lockin_turn next;
+    uint16_t next_equal;
+    wh_real part_per_tick;
+    bool expects;
+    wh_orders expected_N;
+    wh_real outlier_N;
+    wh_orders sum;
+    wh_real square;
+    wh_real mean;
+    wh_real widest;     /* part between two nodes */
+    wh_real before_rad; /* of the node before the last, */
+    wh_real before_part;
+    wh_lockin_node last; /* and the last one, whose weight the next decides */
+} wh_lockin;
+
+#define wh_lockin_start WH_NAME(wh_lockin_start)
+#define wh_lockin_mark WH_NAME(wh_lockin_mark)
+#define wh_lockin_gap WH_NAME(wh_lockin_gap)
+#define wh_lockin_load WH_NAME(wh_lockin_load)
+#define wh_lockin_work WH_NAME(wh_lockin_work)
+#define wh_turn_text WH_NAME(wh_turn_text)
 #define wh_polar WH_NAME(wh_polar)
-#define wh_load_at WH_NAME(wh_load_at)
 
-/* Lock in over the turns between marks[0] and marks[mark_count - 1] that lie within the record;
- * marks are of one sensor, rising in time and by one or more whole turns of four quarters each: at
- * each the rotor's angle was mark_rad. Returns false, with
- * nothing written, when that is less than one whole turn or the turns have no samples. */
-bool wh_lockin(const wh_load_record *record, const wh_mark *marks, unsigned mark_count,
-               wh_real mark_rad, wh_lockin_result *result);
+void wh_lockin_start(const wh_rotor_config *rotor, wh_lockin *lockin);
+
+/* Sensor 0 or 1 was passed at `ticks`, the rotor having made `quarter` quarter turns (wrapping). */
+void wh_lockin_mark(wh_lockin *lockin, unsigned sensor, uint32_t ticks, uint32_t quarter);
+
+/* The count of quarter turns has begun afresh: the turn that is under way does not count. */
+void wh_lockin_gap(wh_lockin *lockin);
+
+/* A sample of the load, in order of time. One that is not ok, or not newer than the last, is left out. */
+void wh_lockin_load(wh_lockin *lockin, const wh_load *load);
+
+/* A bounded piece of the work, once a control step. Returns true when lockin->turn is new. */
+bool wh_lockin_work(const wh_rotor_config *rotor, const wh_cell_config *cell, wh_lockin *lockin);
+
+/* Why a turn does not count, in words. */
+const char *wh_turn_text(wh_turn_fault fault);
 
 /* x = radius cos(angle), y = radius sin(angle) without square root and arc tangent: the angle is
  * improved with the core's own sine until y vanishes in the turned frame. angle_rad: -pi ... pi.
  * (0, 0) gives 0 and 0. */
 void wh_polar(wh_real x, wh_real y, wh_real *radius, wh_real *angle_rad);
-
-/* Load at a time within the record, counts, on the straight line between two samples; *counts is
- * left alone and false returned outside it. */
-bool wh_load_at(const wh_load_record *record, uint32_t ticks, wh_real *counts);
 
 #ifdef __cplusplus
 }

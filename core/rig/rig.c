@@ -22,16 +22,33 @@ const wh_rig_config wh_rig_standard = {
               .lost_max = 3,
               .silence_max_s = WH_R(0.5),
               .load_silence_max_s = WH_R(0.02), /* ten samples' periods */
-              .load_still_raw = 8,
+              /* a tenth of what the masses' force moves it by */
+              .load_still_kgm = WH_R(0.1) * WH_RIG_MASS_MOMENT_KGM,
               .stuck_pulses = 3}, /* a whole turn from the first to the last */
+    .rotor = {.mass_moment_kgm = WH_RIG_MASS_MOMENT_KGM,
+              .gravity_mps2 = WH_RIG_GRAVITY_MPS2,
+              .damping_Nms = WH_RIG_DAMPING_NMS,
+              .damping_tolerance = WH_R(0.03),
+              .inertia_kgm2 = WH_RIG_INERTIA_KGM2},
+    .tare = {.samples = 250, .still_N = WH_R(0.05), .most_N = WH_R(0.25)},
+    .result = {.mount_factor = WH_R(1.0),
+               .amplitude_floor = WH_R(1e-4),
+               .phase_floor_rad = WH_R(0.01) / WH_RIG_DEG_PER_RAD,
+               .amplitude_off = WH_R(0.05),
+               .amplitude_wrong = WH_R(0.25),
+               .phase_off_rad = WH_R(5.0) / WH_RIG_DEG_PER_RAD,
+               .phase_wrong_rad = WH_R(20.0) / WH_RIG_DEG_PER_RAD,
+               .residual_large = WH_R(0.25),
+               .mean_off = WH_R(0.1),
+               .inertia_off = WH_R(0.5)},
     .impossible_radps = WH_RIG_IMPOSSIBLE_RPM * WH_RIG_RADPS_PER_RPM,
-    .tare_samples = 250,
     .spin_up_duty = WH_R(0.4),
     .take_over_radps = RPM(150.0),
     .spin_up_max_s = WH_R(5.0),
     .settle_band_radps = RPM(0.5),
     .settle_s = WH_R(2.5),
     .settle_max_s = WH_R(20.0),
+    .record_s = WH_R(2.0),
     .record_band_radps = RPM(2.0),
     .slow_radps = RPM(200.0),
     .rest_s = WH_R(1.5),
@@ -52,11 +69,17 @@ static bool motor_drives(const wh_rig *rig) {
     return rig->state >= WH_RIG_SPIN_UP && rig->state <= WH_RIG_RAMP_DOWN;
 }
 
+void wh_rig_slots(wh_rig_config *config, wh_real lead_rad) {
+    config->rotor.mark_rad[0] = -lead_rad;
+    config->rotor.mark_rad[1] = WH_R(0.25) * WH_RIG_TWO_PI - lead_rad;
+}
+
 void wh_rig_start(const wh_rig_config *config, wh_rig *rig, wh_real target_radps,
                   uint32_t now_ticks) {
     *rig = (wh_rig){.target_radps = target_radps};
     wh_speed_start(&rig->speed, config->impossible_radps);
     wh_guard_start(&rig->guard, now_ticks);
+    wh_lockin_start(&config->rotor, &rig->lockin);
     enter(rig, WH_RIG_TARE, now_ticks);
     if (!wh_guard_allows(&config->guard, target_radps)) {
         wh_guard_trip(&rig->guard, WH_TRIP_TARGET);
@@ -65,100 +88,129 @@ void wh_rig_start(const wh_rig_config *config, wh_rig *rig, wh_real target_radps
 
 void wh_rig_pulse(wh_rig *rig, unsigned sensor, uint32_t ticks) {
     const uint32_t restarts = rig->speed.restarts;
-    if (!wh_speed_pulse(&rig->speed, sensor, ticks) || rig->state != WH_RIG_RECORD) {
+    if (!wh_speed_pulse(&rig->speed, sensor, ticks)) {
         return;
     }
-    if (rig->speed.restarts != restarts) {
-        rig->record_is_broken = true; /* nobody knows how many turns the gap had */
-    } else if (rig->mark_count[sensor] < WH_RIG_MARKS_MAX) {
-        rig->marks[sensor][rig->mark_count[sensor]++] =
-            (wh_mark){.ticks = ticks, .quarter = rig->speed.quarter};
-    }
-}
-
-/* Sample i of a record must have been taken i periods after the first: the lock-in counts on it. */
-static void record(const wh_rig_config *config, wh_rig *rig, uint32_t ticks, int16_t raw) {
-    if (rig->samples == 0) {
-        rig->first_ticks = ticks;
-    }
-    const uint32_t due_ticks = rig->first_ticks + rig->samples * config->load_period_ticks;
-    const uint32_t half = config->load_period_ticks / 2U;
-    if (ticks - due_ticks + half > 2U * half) {
-        rig->record_is_broken = true;
-    }
-    rig->raw[rig->samples++] = raw;
-}
-
-void wh_rig_load(const wh_rig_config *config, wh_rig *rig, uint32_t ticks, int16_t raw) {
-    const bool turning = rig->state >= WH_RIG_RAMP && rig->state <= WH_RIG_RAMP_DOWN;
-    wh_guard_load(&config->guard, &rig->guard, &rig->speed, ticks, raw, turning);
     if (rig->state == WH_RIG_TARE) {
-        const bool first = rig->tare_count == 0;
-        rig->tare_low_raw = first || raw < rig->tare_low_raw ? raw : rig->tare_low_raw;
-        rig->tare_high_raw = first || raw > rig->tare_high_raw ? raw : rig->tare_high_raw;
-        rig->tare_sum_raw += raw;
-        rig->tare_count++;
-    } else if (rig->state == WH_RIG_RECORD && rig->samples < WH_RIG_RECORD_SAMPLES) {
-        record(config, rig, ticks, raw);
+        rig->tare_pulses[sensor]++;
+    }
+    if (rig->speed.restarts != restarts) {
+        wh_lockin_gap(&rig->lockin); /* nobody knows how many turns the gap had */
+    }
+    wh_lockin_mark(&rig->lockin, sensor, ticks, rig->speed.quarter);
+}
+
+static bool record_lasts(const wh_rig_config *config, const wh_rig *rig, uint32_t ticks) {
+    return rig->state == WH_RIG_RECORD && since_s(rig->since_ticks, ticks) <= config->record_s;
+}
+
+static void see_peaks(wh_rig *rig, wh_real force_N) {
+    wh_rig_result *result = &rig->result;
+    result->low_N = rig->peaks && result->low_N < force_N ? result->low_N : force_N;
+    result->high_N = rig->peaks && result->high_N > force_N ? result->high_N : force_N;
+    rig->peaks = true;
+}
+
+void wh_rig_load(const wh_rig_config *config, wh_rig *rig, uint32_t ticks, int32_t raw,
+                 wh_load_status status) {
+    const wh_load load = wh_cell_load(&config->cell, ticks, raw, status);
+    const bool turning = rig->state >= WH_RIG_RAMP && rig->state <= WH_RIG_RAMP_DOWN;
+    wh_guard_load(&config->guard, &rig->guard, &rig->speed, &load, turning);
+    if (rig->state != WH_RIG_TARE) {
+        wh_lockin_load(&rig->lockin, &load);
+    }
+    if (load.status != WH_LOAD_OK) {
+        return;
+    }
+    if (rig->state == WH_RIG_TARE) {
+        wh_tare_add(&rig->tare, load.force_N);
+    } else if (record_lasts(config, rig, load.ticks)) {
+        see_peaks(rig, load.force_N - rig->tare.mean_N);
     }
 }
 
-/* The result of a full record; trips when there is no whole turn in it. */
-static void evaluate(const wh_rig_config *config, wh_rig *rig) {
-    const wh_load_record record = {rig->raw, rig->samples, rig->first_ticks,
-                                   config->load_period_ticks};
-    wh_lockin_result found;
-    if (!wh_lockin(&record, rig->marks[0], rig->mark_count[0], -config->slot_lead_rad, &found)) {
+/* A turn is measured: what follows from it, in pieces, one a control step. */
+static void measure(const wh_rig_config *config, wh_rig *rig) {
+    wh_measured *force = &rig->result.force;
+    if (rig->due == 2U) {
+        wh_merge_mean(&config->result, &config->rotor, &rig->merge, &rig->lockin.angle,
+                      rig->tare.mean_N, force);
+        force->left_out += rig->lockin.skipped - rig->skipped_before;
+    } else if (rig->due == 1U) {
+        wh_merge_judge(&config->result, &config->rotor, &rig->merge, force);
+    }
+    if (rig->due > 0) {
+        rig->due--;
+        return;
+    }
+    if (!wh_lockin_work(&config->rotor, &config->cell, &rig->lockin)) {
+        return;
+    }
+    /* turns that lie within the record as a whole */
+    const wh_lockin_turn *turn = &rig->lockin.turn;
+    const bool begins_within = (int32_t)(turn->begin_ticks - rig->since_ticks) >= 0;
+    if (begins_within && record_lasts(config, rig, turn->begin_ticks + turn->turn_ticks)) {
+        wh_merge_add(&config->result, &config->rotor, &rig->merge, turn, &rig->lockin.angle);
+        rig->due = 2;
+    }
+}
+
+static void begin_record(wh_rig *rig, uint32_t now_ticks) {
+    rig->merge = (wh_merge){.turns = 0};
+    rig->due = 0;
+    rig->peaks = false;
+    rig->ends = false;
+    rig->skipped_before = rig->lockin.skipped;
+    enter(rig, WH_RIG_RECORD, now_ticks);
+}
+
+/* A turn's samples are through within a fraction of the next turn. */
+#define LAST_TURN_MAX_S WH_R(0.5)
+
+/* The record's time is over: the last whole turn may still be worked on, and then all are merged once more, with what
+ * was skipped. */
+static void end_record(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
+    const bool late = since_s(rig->since_ticks, now_ticks) > config->record_s + LAST_TURN_MAX_S;
+    if (!rig->ends && (rig->lockin.stage == WH_LOCKIN_WAITS || late) && rig->due == 0) {
+        rig->ends = true;
+        rig->due = 2;
+    }
+    if (!rig->ends || rig->due > 0) {
+        return;
+    }
+    if (rig->merge.turns == 0) {
         wh_guard_trip(&rig->guard, WH_TRIP_RECORD);
         return;
     }
-    const wh_real gain = config->newton_per_count;
     wh_rig_result *result = &rig->result;
-    result->turns = found.turns;
-    result->speed_radps = WH_RIG_TWO_PI / found.turn_s;
-    result->tare_N = gain * rig->tare_raw;
-    result->mean_N = gain * (found.mean_counts - rig->tare_raw);
-    result->amplitude_N = gain * found.amplitude_counts;
-    result->phase_rad = found.phase_rad;
-
-    int16_t low = rig->raw[0];
-    int16_t high = rig->raw[0];
-    for (unsigned i = 1; i < rig->samples; i++) {
-        low = rig->raw[i] < low ? rig->raw[i] : low;
-        high = rig->raw[i] > high ? rig->raw[i] : high;
-    }
-    result->low_N = gain * ((wh_real)low - rig->tare_raw);
-    result->high_N = gain * ((wh_real)high - rig->tare_raw);
-
-    for (unsigned sensor = 0; sensor < WH_SPEED_SENSORS; sensor++) {
-        wh_real sum = WH_R(0.0);
-        unsigned count = 0;
-        for (unsigned i = 0; i < rig->mark_count[sensor]; i++) {
-            wh_real counts;
-            if (wh_load_at(&record, rig->marks[sensor][i].ticks, &counts)) {
-                sum += counts - rig->tare_raw;
-                count++;
-            }
-        }
-        result->at_spike_N[sensor] = count == 0 ? WH_R(0.0) : gain * sum / (wh_real)count;
-    }
+    result->tare_N = rig->tare.mean_N;
+    result->tare_error_N = wh_tare_error_N(&rig->tare);
     result->duty = rig->duty;
     result->lost = rig->speed.lost - rig->guard.lost_before;
     result->rejected = rig->speed.rejected;
+    if (config->slow_radps < rig->target_radps) {
+        rig->drive.target_radps = config->slow_radps;
+    }
+    enter(rig, WH_RIG_RAMP_DOWN, now_ticks);
 }
 
+/* The slot of a hanging rotor stands at sensor 1, where a shiver makes pulses; but one that passes sensor 2, or
+ * passes sensor 1 again and again, is no hanging rotor. */
+#define TARE_PULSES_MOST 2U
+
 static void tare(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
-    if (rig->tare_count < config->tare_samples) {
+    if (rig->tare.count < config->tare.samples) {
         return;
     }
-    if (rig->tare_high_raw - rig->tare_low_raw > config->guard.load_still_raw) {
+    if (rig->tare_pulses[0] > TARE_PULSES_MOST || rig->tare_pulses[1] > 0 ||
+        !wh_tare_is_still(&config->tare, &rig->tare)) {
         wh_guard_trip(&rig->guard, WH_TRIP_MOVING);
         return;
     }
-    rig->tare_raw = (wh_real)rig->tare_sum_raw / (wh_real)rig->tare_count;
     rig->duty = config->spin_up_duty;
-    /* the slot of a hanging rotor stands at sensor 1: a shiver gives a pulse, and it grows old */
+    /* what was seen so far is that shiver, and it grows old */
     wh_speed_start(&rig->speed, config->impossible_radps);
+    wh_lockin_gap(&rig->lockin);
     enter(rig, WH_RIG_SPIN_UP, now_ticks);
 }
 
@@ -183,7 +235,7 @@ static void settle(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks)
         rig->band_ticks = now_ticks;
     }
     if (since_s(rig->band_ticks, now_ticks) >= config->settle_s) {
-        enter(rig, WH_RIG_RECORD, now_ticks);
+        begin_record(rig, now_ticks);
     } else if (since_s(rig->since_ticks, now_ticks) > config->settle_max_s) {
         wh_guard_trip(&rig->guard, WH_TRIP_UNSETTLED);
     }
@@ -227,6 +279,7 @@ wh_real wh_rig_step(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks
     if (motor_drives(rig)) {
         wh_guard_speed(&config->guard, &rig->guard, &rig->speed, now_ticks);
     }
+    measure(config, rig);
     switch (rig->state) {
     case WH_RIG_TARE: tare(config, rig, now_ticks); break;
     case WH_RIG_SPIN_UP: spin_up(config, rig, now_ticks); break;
@@ -242,18 +295,11 @@ wh_real wh_rig_step(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks
         break;
     case WH_RIG_RECORD:
         close_loop(config, rig, now_ticks);
-        if (rig->record_is_broken) {
-            wh_guard_trip(&rig->guard, WH_TRIP_RECORD);
-        }
         if (off_target(rig) > config->record_band_radps) {
             wh_guard_trip(&rig->guard, WH_TRIP_UNSETTLED);
         }
-        if (rig->samples == WH_RIG_RECORD_SAMPLES) {
-            evaluate(config, rig);
-            if (config->slow_radps < rig->target_radps) {
-                rig->drive.target_radps = config->slow_radps;
-            }
-            enter(rig, WH_RIG_RAMP_DOWN, now_ticks);
+        if (!record_lasts(config, rig, now_ticks)) {
+            end_record(config, rig, now_ticks);
         }
         break;
     case WH_RIG_RAMP_DOWN:

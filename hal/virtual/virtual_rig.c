@@ -95,7 +95,7 @@ static void watch_slots(hal_virtual_rig *rig, const slice *during, uint32_t tick
     }
 }
 
-static int16_t convert(float force_N) {
+static int32_t convert(float force_N) {
     const float counts = force_N / HAL_LOADCELL_N_PER_COUNT;
     const float top = (float)HAL_LOADCELL_RAW_MAX;
     if (!(counts < top)) {
@@ -104,7 +104,12 @@ static int16_t convert(float force_N) {
     if (counts < -top) {
         return -HAL_LOADCELL_RAW_MAX;
     }
-    return (int16_t)(counts + (counts < 0.0f ? -0.5f : 0.5f));
+    return (int32_t)(counts + (counts < 0.0f ? -0.5f : 0.5f));
+}
+
+static uint8_t status_of(int32_t raw) {
+    return raw >= HAL_LOADCELL_RAW_MAX || raw <= -HAL_LOADCELL_RAW_MAX ? HAL_LOAD_SATURATED
+                                                                       : HAL_LOAD_OK;
 }
 
 static void read_load_cell(hal_virtual_rig *rig) {
@@ -118,7 +123,8 @@ static void read_load_cell(hal_virtual_rig *rig) {
         return;
     }
     if (rig->samples < HAL_VIRTUAL_SAMPLES) {
-        rig->sample[rig->samples++] = (hal_load_sample){.ticks = rig->ticks, .raw = rig->last_raw};
+        rig->sample[rig->samples++] = (hal_load_sample){
+            .ticks = rig->ticks, .raw = rig->last_raw, .status = status_of(rig->last_raw)};
     }
 }
 

@@ -45,7 +45,7 @@ typedef struct hal_virtual_rig {
     uint32_t step_ticks;   /* one step of the model */
     float duty;            /* as commanded */
     uint32_t sample_ticks; /* the next load sample is due */
-    int16_t last_raw;
+    int32_t last_raw;
     hal_slot_pulse pulse[HAL_VIRTUAL_PULSES];
     unsigned pulses;
     hal_load_sample sample[HAL_VIRTUAL_SAMPLES];

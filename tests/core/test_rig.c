@@ -298,65 +298,87 @@ static void test_lost_pulses_and_silence_trip(void) {
     TEST_ASSERT_TRUE(guard.trip == WH_TRIP_PULSES);
 }
 
-static wh_guard_config load_guard(void) {
-    wh_guard_config config = wh_rig_standard.guard;
-    config.load_raw_max = 32767;
-    return config;
-}
-
-/* Load samples that swing by `swing` counts about 5000, a slot pulse with every 20th. */
-static wh_trip trip_on_swing(int swing, bool turning, unsigned samples) {
-    const wh_guard_config config = load_guard();
+/* Load samples that swing by `swing_N` about 50 N, a slot pulse with every 20th, at 330 rpm. */
+static wh_trip trip_on_swing(wh_real swing_N, bool turning, unsigned samples) {
+    const wh_guard_config *config = &wh_rig_standard.guard;
     wh_guard guard;
     wh_guard_start(&guard, 0);
     wh_speed speed;
     wh_speed_start(&speed, WH_R(800.0) * RPM);
+    speed.turn_radps = WH_R(330.0) * RPM;
     for (unsigned i = 0; i < samples; i++) {
         speed.taken = i / 20U;
-        wh_guard_load(&config, &guard, &speed, i * 2000U,
-                      (int16_t)(5000 + (i % 2U == 0 ? swing : -swing)), turning);
+        const wh_load load = {.ticks = i * UINT32_C(2000),
+                              .force_N = WH_R(50.0) + (i % 2U == 0 ? swing_N : -swing_N)};
+        wh_guard_load(config, &guard, &speed, &load, turning);
     }
     return guard.trip;
 }
 
 static void test_a_stuck_load_cell_trips(void) {
     const unsigned enough = (unsigned)(20U * wh_rig_standard.guard.stuck_pulses + 1U);
-    TEST_ASSERT_TRUE(trip_on_swing(0, false, 1000) ==
+    TEST_ASSERT_TRUE(trip_on_swing(WH_R(0.0), false, 1000) ==
                      WH_TRIP_NONE); /* at rest it may stand still */
-    TEST_ASSERT_TRUE(trip_on_swing(0, true, enough - 1U) == WH_TRIP_NONE);
-    TEST_ASSERT_TRUE(trip_on_swing(0, true, enough) == WH_TRIP_LOAD_CELL);
-    /* a converter's noise on a dead cell; load_still_raw = 8 counts is what a tare may show */
-    TEST_ASSERT_TRUE(trip_on_swing(4, true, enough) == WH_TRIP_LOAD_CELL);
-    TEST_ASSERT_TRUE(trip_on_swing(5, true, 1000) == WH_TRIP_NONE);
+    TEST_ASSERT_TRUE(trip_on_swing(WH_R(0.0), true, enough - 1U) == WH_TRIP_NONE);
+    TEST_ASSERT_TRUE(trip_on_swing(WH_R(0.0), true, enough) == WH_TRIP_LOAD_CELL);
+    /* noise on a dead cell; a tenth of the masses' 42 N is what a load that lives shows at least */
+    TEST_ASSERT_TRUE(trip_on_swing(WH_R(2.0), true, enough) == WH_TRIP_LOAD_CELL);
+    TEST_ASSERT_TRUE(trip_on_swing(WH_R(2.2), true, 1000) == WH_TRIP_NONE);
 }
 
-static void test_an_overloaded_load_cell_trips(void) {
-    const wh_guard_config config = load_guard();
-    static const int16_t raw[] = {32766, -32766, 32767, -32767, INT16_MIN};
-    const wh_speed speed = {.taken = 7};
-    for (unsigned i = 0; i < 5; i++) {
-        wh_guard guard;
-        wh_guard_start(&guard, 0);
-        wh_guard_load(&config, &guard, &speed, 0, raw[i], false);
-        TEST_ASSERT_TRUE(guard.trip == (i < 2 ? WH_TRIP_NONE : WH_TRIP_LOAD_CELL));
+/* What the converter says of a sample, and what it shows at full scale. */
+static void test_the_cells_counts_are_newtons(void) {
+    const wh_cell_config cell = {.newton_per_count = WH_R(-0.01),
+                                 .offset_N = WH_R(2.0),
+                                 .delay_ticks = 300,
+                                 .period_ticks = 2000,
+                                 .raw_max = INT32_C(100000)};
+    wh_load load = wh_cell_load(&cell, 100, INT32_C(-50000), WH_LOAD_OK);
+    TEST_ASSERT_FLOAT_WITHIN(1e-4f, 498.0f, (float)load.force_N);
+    TEST_ASSERT_EQUAL_UINT32(UINT32_MAX - 199U, load.ticks);
+    TEST_ASSERT_TRUE(load.status == WH_LOAD_OK);
+    static const int32_t raw[] = {99999, -99999, 100000, -100000, INT32_MAX, INT32_MIN + 1};
+    for (unsigned i = 0; i < 6; i++) {
+        load = wh_cell_load(&cell, 100, raw[i], WH_LOAD_OK);
+        TEST_ASSERT_TRUE(load.status == (i < 2 ? WH_LOAD_OK : WH_LOAD_SATURATED));
+    }
+    for (wh_load_status status = WH_LOAD_SATURATED; status < WH_LOAD_STATUSES; status++) {
+        TEST_ASSERT_TRUE(wh_cell_load(&cell, 0, 7, status).status == status);
+        TEST_ASSERT_NOT_NULL(wh_load_text(status));
     }
 }
 
-/* load_silence_max_s: ten periods of 2 ms, across the timer's wrap. */
+static void test_an_overloaded_or_disconnected_load_cell_trips(void) {
+    const wh_speed speed = {.taken = 7};
+    for (wh_load_status status = WH_LOAD_OK; status < WH_LOAD_STATUSES; status++) {
+        wh_guard guard;
+        wh_guard_start(&guard, 0);
+        const wh_load load = {.status = status};
+        wh_guard_load(&wh_rig_standard.guard, &guard, &speed, &load, false);
+        const bool fails = status == WH_LOAD_SATURATED || status == WH_LOAD_DISCONNECTED;
+        TEST_ASSERT_TRUE(guard.trip == (fails ? WH_TRIP_LOAD_CELL : WH_TRIP_NONE));
+    }
+}
+
+/* load_silence_max_s: ten periods of 2 ms, across the timer's wrap; the same sample again is none. */
 static void test_a_silent_load_cell_trips(void) {
-    const wh_guard_config config = load_guard();
+    const wh_guard_config *config = &wh_rig_standard.guard;
     const uint32_t last = UINT32_MAX - 4000U;
     const wh_speed speed = {.taken = 7};
     for (unsigned sampled = 0; sampled < 2; sampled++) {
         wh_guard guard;
         wh_guard_start(&guard, sampled == 0 ? last : 0);
         if (sampled == 1) {
-            wh_guard_load(&config, &guard, &speed, last, 100, false);
+            wh_load load = {.ticks = last, .force_N = WH_R(1.0)};
+            wh_guard_load(config, &guard, &speed, &load, false);
+            load.ticks += 10000U;
+            load.status = WH_LOAD_REPEATED;
+            wh_guard_load(config, &guard, &speed, &load, false);
         }
-        wh_guard_load_silence(&config, &guard, last - 100U); /* read before the sample */
-        wh_guard_load_silence(&config, &guard, last + 19900U);
+        wh_guard_load_silence(config, &guard, last - 100U); /* read before the sample */
+        wh_guard_load_silence(config, &guard, last + 19900U);
         TEST_ASSERT_TRUE(guard.trip == WH_TRIP_NONE);
-        wh_guard_load_silence(&config, &guard, last + 20100U);
+        wh_guard_load_silence(config, &guard, last + 20100U);
         TEST_ASSERT_TRUE(guard.trip == WH_TRIP_LOAD_CELL);
     }
 }
@@ -379,6 +401,7 @@ void suite_rig(void) {
     RUN_TEST(test_only_a_known_turn_can_be_overdue);
     RUN_TEST(test_lost_pulses_and_silence_trip);
     RUN_TEST(test_a_stuck_load_cell_trips);
-    RUN_TEST(test_an_overloaded_load_cell_trips);
+    RUN_TEST(test_the_cells_counts_are_newtons);
+    RUN_TEST(test_an_overloaded_or_disconnected_load_cell_trips);
     RUN_TEST(test_a_silent_load_cell_trips);
 }

@@ -19,9 +19,10 @@ static uint32_t now;
 
 static void begin(void) {
     config = wh_rig_standard;
-    config.newton_per_count = WH_R(0.01);
-    config.load_period_ticks = STEP_TICKS;
-    config.guard.load_raw_max = 32767;
+    config.cell = (wh_cell_config){
+        .newton_per_count = WH_R(0.01), .period_ticks = STEP_TICKS, .raw_max = INT32_C(32767)};
+    config.rotor.gravity_mps2 = WH_R(0.0);
+    wh_rig_slots(&config, WH_R(0.0));
     now = UINT32_MAX - 3000000U; /* the timer wraps on the way */
     wh_rig_start(&config, &rig, WH_R(330.0) * RPM, now);
 }
@@ -46,7 +47,7 @@ static unsigned stay(wh_real speed_rpm, unsigned steps) {
         now += STEP_TICKS;
         rig.speed.turn_radps = speed_rpm * RPM;
         rig.speed.ticks = now;
-        wh_rig_load(&config, &rig, now, (int16_t)(done % 2U == 0 ? 0 : 8));
+        wh_rig_load(&config, &rig, now, done % 2U == 0 ? 0 : 8, WH_LOAD_OK);
         wh_rig_step(&config, &rig, now, false);
         done++;
     }
@@ -85,17 +86,25 @@ static void test_the_tare_takes_its_samples(void) {
     begin();
     TEST_ASSERT_EQUAL_UINT(250, stay(WH_R(0.0), 1000)); /* half a second */
     TEST_ASSERT_TRUE(rig.state == WH_RIG_SPIN_UP);
-    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 4.0f, (float)rig.tare_raw); /* of 0 and 8 */
+    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.04f, (float)rig.tare.mean_N); /* of 0 and 8 counts */
     TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.4f, (float)rig.duty);
     TEST_ASSERT_FALSE(rig.speed.running); /* what was seen before is forgotten */
-    begin();
-    wh_rig_load(&config, &rig, now, -1); /* nine counts in all: eight may be noise */
-    stay(WH_R(0.0), 1000);
-    TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_MOVING);
-    begin();
-    wh_rig_load(&config, &rig, now, 9);
-    stay(WH_R(0.0), 1000);
-    TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_MOVING);
+    begin();                              /* samples that are none do not count */
+    for (unsigned i = 0; i < 500; i++) {
+        wh_rig_load(&config, &rig, now, 9, WH_LOAD_LATE);
+    }
+    TEST_ASSERT_EQUAL_UINT(250, stay(WH_R(0.0), 1000));
+    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.04f, (float)rig.tare.mean_N);
+    for (unsigned pulses = 2; pulses <= 3; pulses++) { /* the hanging rotor's shiver, or more */
+        begin();
+        for (unsigned i = 0; i < pulses; i++) {
+            now += 100000U;
+            wh_rig_load(&config, &rig, now, 0, WH_LOAD_OK);
+            wh_rig_pulse(&rig, 0, now);
+        }
+        stay(WH_R(0.0), 1000);
+        TEST_ASSERT_TRUE(rig.guard.trip == (pulses == 2U ? WH_TRIP_NONE : WH_TRIP_MOVING));
+    }
 }
 
 static void test_the_loop_takes_over_at_its_speed(void) {
@@ -244,65 +253,63 @@ static void test_what_trips_in_which_state(void) {
 
 /* --- the record ------------------------------------------------------------------------------------------ */
 
-/* A load of a known mean, of a half wave up and another down at places of their own, marks on the slots. */
-static void test_what_a_full_record_comes_to(void) {
-    stand_in(WH_RIG_RECORD);
-    rig.tare_raw = WH_R(40.0);
+/* Turns of a load that is known, given to the run as a lock-in would that finds them; the record ends after its time. */
+static void test_what_a_record_comes_to(void) {
+    stand_in(WH_RIG_SETTLE);
+    rig.tare.mean_N = WH_R(0.4);
     rig.speed.lost = 5;
     rig.guard.lost_before = 3;
     rig.speed.rejected = 4;
     rig.duty = WH_R(0.5);
-    for (unsigned i = 0; i < WH_RIG_RECORD_SAMPLES; i++) {
-        rig.raw[i] = (int16_t)(1040 + (int)(i % 91U)); /* 90.909 samples a turn */
+    /* 91 samples a turn, of which the load is a triangle: its mean 10.45 N */
+    const uint32_t turn = 91U * STEP_TICKS;
+    uint32_t first = now + STEP_TICKS;
+    unsigned sample = 0;
+    while (rig.state <= WH_RIG_RECORD && sample < 5000U) {
+        now += STEP_TICKS;
+        rig.speed.turn_radps = WH_R(330.0) * RPM;
+        rig.speed.ticks = now;
+        const uint32_t part = (now - first) % turn;
+        if (part == 0) {
+            wh_lockin_mark(&rig.lockin, 0, now - 1000U, 4U * ((now - first) / turn));
+        } else if (part == 23U * STEP_TICKS) {
+            wh_lockin_mark(&rig.lockin, 1, now - 1000U, 4U * ((now - first) / turn) + 1U);
+        }
+        const unsigned k = sample % 91U;
+        wh_rig_load(&config, &rig, now, (int32_t)(1040 + 40 * (k < 46U ? k : 91U - k)), WH_LOAD_OK);
+        wh_rig_step(&config, &rig, now, false);
+        sample++;
     }
-    rig.raw[500] = -2960;
-    rig.raw[501] = 5040;
-    rig.samples = WH_RIG_RECORD_SAMPLES;
-    rig.first_ticks = now;
-    for (unsigned i = 0; i < 10; i++) { /* between the same two samples each */
-        rig.marks[0][i] = (wh_mark){now + 1000U + i * 91U * STEP_TICKS, 4U * i};
-        rig.marks[1][i] = (wh_mark){now + 21000U + i * 91U * STEP_TICKS, 4U * i + 1U};
-    }
-    rig.marks[1][9].ticks = now - 1U; /* outside: it does not count */
-    rig.mark_count[0] = 10;
-    rig.mark_count[1] = 10; /* what stands behind them is none */
-    rig.marks[0][10] = rig.marks[1][10] = (wh_mark){now + 500U * STEP_TICKS, 40U};
-    now += WH_RIG_RECORD_SAMPLES * STEP_TICKS;
-    rig.speed.ticks = now;
-    rig.guard.load_ticks = now;
-    wh_rig_step(&config, &rig, now, false);
     TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_NONE && rig.state == WH_RIG_RAMP_DOWN);
     const wh_rig_result *result = &rig.result;
-    TEST_ASSERT_EQUAL_UINT(9, result->turns);
-    TEST_ASSERT_FLOAT_WITHIN(1e-4f, 60.0f / 0.182f, (float)(result->speed_radps / RPM));
+    TEST_ASSERT_EQUAL_UINT32(10, result->force.turns);
+    TEST_ASSERT_FLOAT_WITHIN(1e-3f, 60.0f / 0.182f, (float)(result->force.speed_radps / RPM));
     TEST_ASSERT_FLOAT_WITHIN(1e-5f, 0.4f, (float)result->tare_N);
-    TEST_ASSERT_FLOAT_WITHIN(1e-4f, -30.0f, (float)result->low_N);
-    TEST_ASSERT_FLOAT_WITHIN(1e-4f, 50.0f, (float)result->high_N);
-    /* half a sample behind the turn's begin, and ten and a half */
-    TEST_ASSERT_FLOAT_WITHIN(1e-3f, 10.005f, (float)result->at_spike_N[0]);
-    TEST_ASSERT_FLOAT_WITHIN(1e-3f, 10.105f, (float)result->at_spike_N[1]);
-    /* 0 ... 90 have the mean 45; the two that are none, among 819 */
-    TEST_ASSERT_FLOAT_WITHIN(0.02f, 10.45f, (float)result->mean_N);
+    TEST_ASSERT_FLOAT_WITHIN(1e-4f, 10.0f, (float)result->low_N);
+    TEST_ASSERT_FLOAT_WITHIN(1e-4f, 28.0f, (float)result->high_N);
+    /* half a sample before the turn's first sample, and before its 23rd */
+    TEST_ASSERT_FLOAT_WITHIN(2e-3f, 10.2f, (float)result->force.at_mark_N[0]);
+    TEST_ASSERT_FLOAT_WITHIN(2e-3f, 19.0f, (float)result->force.at_mark_N[1]);
+    /* 2 (0 + ... + 45) 0.4 / 91 of them */
+    TEST_ASSERT_FLOAT_WITHIN(0.01f, 10.0f + 9.0989f, (float)result->force.mean_N);
+    TEST_ASSERT_TRUE(result->force.quality ==
+                     WH_REFUSED); /* 8 N, against the masses: not the rig's */
     TEST_ASSERT_EQUAL_UINT32(2, result->lost);
     TEST_ASSERT_EQUAL_UINT32(4, result->rejected);
     TEST_ASSERT_FLOAT_WITHIN(1e-3f, 200.0f, (float)(rig.drive.target_radps / RPM));
     TEST_ASSERT_TRUE(result->duty >= WH_R(0.0) && result->duty <= WH_R(1.0));
 }
 
-/* Half a period early or late a sample is still the one that is due. */
-static void test_samples_come_when_they_are_due(void) {
-    for (int late = -1002; late <= 1002; late++) {
-        if (late > -998 && late < 998 && late % 100 != 0) {
-            continue;
-        }
-        stand_in(WH_RIG_RECORD);
-        wh_rig_load(&config, &rig, now, 1);
-        for (unsigned i = 1; i < 5; i++) {
-            wh_rig_load(&config, &rig, now + i * STEP_TICKS + (i == 4 ? (uint32_t)late : 0U), 1);
-        }
-        TEST_ASSERT_EQUAL_UINT(5, rig.samples);
-        TEST_ASSERT_TRUE(rig.record_is_broken == (late < -1000 || late > 1000));
-    }
+/* Without a turn there is no result. */
+static void test_a_record_without_turns_trips(void) {
+    stand_in(WH_RIG_RECORD);
+    TEST_ASSERT_EQUAL_UINT(1003, stay(WH_R(330.0), 5000));
+    TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_RECORD);
+    stand_in(WH_RIG_RECORD); /* a lock-in that waits for samples which never come */
+    rig.lockin.stage = WH_LOCKIN_SUMS;
+    rig.lockin.next.begin_ticks = now + 100000000U;
+    TEST_ASSERT_EQUAL_UINT(1253, stay(WH_R(330.0), 5000));
+    TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_RECORD);
 }
 
 /* A band's edge belongs to it. */
@@ -317,25 +324,10 @@ static void test_edges_belong_to_the_bands(void) {
         rig.speed.turn_radps = WH_R(32.0) + (wh_real)side;
         now += STEP_TICKS;
         rig.speed.ticks = now;
-        wh_rig_load(&config, &rig, now, 1);
+        wh_rig_load(&config, &rig, now, 1, WH_LOAD_OK);
         wh_rig_step(&config, &rig, now, false);
         TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_NONE);
     }
-}
-
-/* More pulses than there is room for, of one sensor after the other, write nothing beside it. */
-static void test_marks_stay_in_their_room(void) {
-    stand_in(WH_RIG_RECORD);
-    wh_speed_start(&rig.speed, config.impossible_radps);
-    for (unsigned i = 0; i < 4U * WH_RIG_MARKS_MAX; i++) {
-        now += TURN_TICKS / 2U;
-        wh_rig_pulse(&rig, i < 2U * WH_RIG_MARKS_MAX ? 0 : 1, now);
-        TEST_ASSERT_TRUE(rig.mark_count[0] <= WH_RIG_MARKS_MAX);
-        TEST_ASSERT_TRUE(rig.mark_count[1] <= WH_RIG_MARKS_MAX);
-    }
-    TEST_ASSERT_EQUAL_UINT(WH_RIG_MARKS_MAX, rig.mark_count[0]);
-    TEST_ASSERT_EQUAL_UINT(WH_RIG_MARKS_MAX, rig.mark_count[1]);
-    TEST_ASSERT_EQUAL_UINT32(0, rig.result.turns);
 }
 
 /* Two lost running: no speed of that interval, and the turn's stays until there is a new one. */
@@ -408,10 +400,9 @@ void suite_rig_steps(void) {
     RUN_TEST(test_rest_is_waited_for);
     RUN_TEST(test_a_rig_at_rest_stays_so_when_the_timer_wraps);
     RUN_TEST(test_what_trips_in_which_state);
-    RUN_TEST(test_what_a_full_record_comes_to);
-    RUN_TEST(test_samples_come_when_they_are_due);
+    RUN_TEST(test_what_a_record_comes_to);
+    RUN_TEST(test_a_record_without_turns_trips);
     RUN_TEST(test_edges_belong_to_the_bands);
-    RUN_TEST(test_marks_stay_in_their_room);
     RUN_TEST(test_a_gap_has_no_speed_of_its_own);
     RUN_TEST(test_the_drive_keeps_its_law);
 }

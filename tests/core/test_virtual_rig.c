@@ -4,6 +4,7 @@
 #include "core/rig/datasheet.h"
 #include "core/rig/rig.h"
 
+#include "tests/scattered.h"
 #include "unity.h"
 
 void suite_virtual_rig(void);
@@ -37,14 +38,25 @@ static void test_mass_moment_gives_the_dissertations_force(void) {
 static wh_rig rig;
 static wh_rig_config config;
 static float fastest_radps; /* of the rotor itself, not as measured */
+static float noise_N;       /* standard deviation of what is added to each sample */
+
+/* A normal number, nearly: twelve even ones. */
+static float normal(void) {
+    float sum = -6.0f;
+    for (unsigned i = 0; i < 12; i++) {
+        sum += (float)(scattered() >> 40) / 16777216.0f;
+    }
+    return sum;
+}
 
 static void begin(float target_rpm) {
     config = wh_rig_standard;
-    config.newton_per_count = HAL_LOADCELL_N_PER_COUNT;
-    config.slot_lead_rad = HAL_SLOT_LEAD_DEG / WH_RIG_DEG_PER_RAD;
-    config.load_period_ticks = HAL_LOADCELL_PERIOD_TICKS;
-    config.guard.load_raw_max = HAL_LOADCELL_RAW_MAX;
+    config.cell = (wh_cell_config){.newton_per_count = HAL_LOADCELL_N_PER_COUNT,
+                                   .period_ticks = HAL_LOADCELL_PERIOD_TICKS,
+                                   .raw_max = HAL_LOADCELL_RAW_MAX};
+    wh_rig_slots(&config, HAL_SLOT_LEAD_DEG / WH_RIG_DEG_PER_RAD);
     fastest_radps = 0.0f;
+    noise_N = 0.0f;
     TEST_ASSERT_TRUE(hal_clock_start());
     wh_rig_start(&config, &rig, target_rpm * RPM, hal_clock_ticks());
     hal_watchdog_start(10U * CONTROL_TICKS);
@@ -62,7 +74,10 @@ static void control(void) {
     }
     hal_load_sample sample;
     while (hal_loadcell_take(&sample)) {
-        wh_rig_load(&config, &rig, sample.ticks, sample.raw);
+        if (noise_N > 0.0f) {
+            sample.raw += (int32_t)(noise_N * normal() / HAL_LOADCELL_N_PER_COUNT);
+        }
+        wh_rig_load(&config, &rig, sample.ticks, sample.raw, (wh_load_status)sample.status);
     }
     hal_motor_set_duty(wh_rig_step(&config, &rig, hal_clock_ticks(), hal_watchdog_has_cut()));
     const float speed = hal_virtual_rig_speed_radps(hal_virtual_rig_instance());
@@ -83,14 +98,23 @@ static void check_stopped(void) {
     TEST_ASSERT_FLOAT_WITHIN(0.1f, 0.0f, hal_virtual_rig_speed_radps(hal_virtual_rig_instance()));
 }
 
-/* The run is done and measured what the formula says: within 2 rpm, 2 %, 2 degrees. */
+/* The run is done and measured S <w^2>: within 2 rpm, and within 0.1 % of what the mean speed and the speed's swing,
+ * here from the model's own inertia, make of it; the phase within 0.1 degrees of 0, which it is for every rotor that
+ * comes round at the speed it went with (docs/rig.md). */
 static void check_measurement(float target_rpm) {
     TEST_ASSERT_TRUE(rig.state == WH_RIG_DONE);
-    const wh_rig_result *result = &rig.result;
-    const float formula_N = WH_RIG_MASS_MOMENT_KGM * (target_rpm * RPM) * (target_rpm * RPM);
-    TEST_ASSERT_FLOAT_WITHIN(2.0f, target_rpm, result->speed_radps / RPM);
-    TEST_ASSERT_FLOAT_WITHIN(0.02f * formula_N, formula_N, result->amplitude_N);
-    TEST_ASSERT_FLOAT_WITHIN(2.0f, 0.0f, result->phase_rad * WH_RIG_DEG_PER_RAD);
+    const wh_measured *force = &rig.result.force;
+    const float omega = target_rpm * RPM;
+    const float swing =
+        WH_RIG_MASS_MOMENT_KGM * WH_RIG_GRAVITY_MPS2 / (WH_RIG_INERTIA_KGM2 * omega * omega);
+    const float wanted_N = WH_RIG_MASS_MOMENT_KGM * omega * omega * (1.0f + 1.5f * swing * swing);
+    TEST_ASSERT_FLOAT_WITHIN(2.0f, target_rpm, force->speed_radps / RPM);
+    /* the speed itself, the damping's part of the swing */
+    TEST_ASSERT_FLOAT_WITHIN(0.005f * wanted_N, wanted_N, force->amplitude_N);
+    TEST_ASSERT_FLOAT_WITHIN(0.001f * wanted_N, force->expected_N, force->amplitude_N);
+    TEST_ASSERT_FLOAT_WITHIN(0.1f, 0.0f, force->phase_rad * WH_RIG_DEG_PER_RAD);
+    TEST_ASSERT_TRUE(force->quality == WH_GOOD);
+    TEST_ASSERT_FLOAT_WITHIN(0.02f * WH_RIG_INERTIA_KGM2, WH_RIG_INERTIA_KGM2, force->inertia_kgm2);
 }
 
 static void test_measurement_of_the_force(void) {
@@ -99,12 +123,35 @@ static void test_measurement_of_the_force(void) {
     check_measurement(330.0f);
     check_stopped();
     const wh_rig_result *result = &rig.result;
-    TEST_ASSERT_TRUE(result->turns >= 9U);
+    TEST_ASSERT_EQUAL_UINT32(10, result->force.turns);
     TEST_ASSERT_EQUAL_UINT32(0, result->lost + result->rejected);
     /* what moves in circles has no mean acceleration: the tare must come out */
-    TEST_ASSERT_FLOAT_WITHIN(0.1f, 0.0f, result->mean_N);
+    TEST_ASSERT_FLOAT_WITHIN(0.1f, 0.0f, result->force.mean_N);
     /* 12 lb of frame and 0.604 lb of arms and discs */
     TEST_ASSERT_FLOAT_WITHIN(0.01f, 12.604f * 4.4482216f, result->tare_N);
+}
+
+/* The cell's own noise (cell_noise of the model has 0.07 N), and far more: at the tare, while the guard watches, and in
+ * what is measured, which says how much worse it is and is no further off than that, by a good margin here. */
+static void test_a_noisy_cell_is_no_fault(void) {
+    static const float noises_N[] = {0.07f, 0.5f, 1.0f, 3.0f};
+    scattered_state = UINT64_C(0x5eed0041);
+    float before_N = 0.0f;
+    for (unsigned i = 0; i < 4; i++) {
+        begin(330.0f);
+        noise_N = noises_N[i];
+        go_on_until(WH_RIG_DONE);
+        const wh_rig_result *result = &rig.result;
+        TEST_ASSERT_TRUE(rig.state == WH_RIG_DONE && result->force.quality == WH_GOOD);
+        TEST_ASSERT_FLOAT_WITHIN(2.0f * result->force.amplitude_half_N, 42.15f,
+                                 result->force.amplitude_N);
+        TEST_ASSERT_FLOAT_WITHIN(2.0f * result->force.phase_half_rad, 0.0f,
+                                 result->force.phase_rad);
+        TEST_ASSERT_FLOAT_WITHIN(0.25f * noises_N[i], noises_N[i], result->force.residual_N);
+        TEST_ASSERT_FLOAT_WITHIN(0.015f * noises_N[i], noises_N[i] / 15.8f, result->tare_error_N);
+        TEST_ASSERT_TRUE(result->force.amplitude_half_N > before_N);
+        before_N = result->force.amplitude_half_N;
+    }
 }
 
 /* Gravity speeds the arms up on the way down: both peaks lie 2 S^2 g / I = 4.2 N off the formula,
@@ -113,8 +160,8 @@ static void test_gravity_shows_in_the_peaks_and_spikes(void) {
     const wh_rig_result *result = &rig.result;
     TEST_ASSERT_FLOAT_WITHIN(0.5f, 42.0f + 4.2f, result->high_N);
     TEST_ASSERT_FLOAT_WITHIN(0.5f, -42.0f + 4.2f, result->low_N);
-    TEST_ASSERT_FLOAT_WITHIN(0.2f, result->high_N, result->at_spike_N[0]);
-    TEST_ASSERT_FLOAT_WITHIN(2.5f, 0.0f, result->at_spike_N[1]);
+    TEST_ASSERT_FLOAT_WITHIN(0.2f, result->high_N, result->force.at_mark_N[0]);
+    TEST_ASSERT_FLOAT_WITHIN(2.5f, 0.0f, result->force.at_mark_N[1]);
 }
 
 /* Once settled, each pulse stands where the rotor is: the phase at the step after it, less what
@@ -143,7 +190,7 @@ static void test_pulses_stand_at_their_angles(void) {
     TEST_ASSERT_TRUE(pulses >= 21U && pulses <= 23U); /* two a turn, 5.5 turns a second */
 }
 
-/* In the middle of the record, where the lock-in's turns lie; as good as with none lost. */
+/* In the middle of the record, where the lock-in's turns lie: each costs its turn and, with the first, the next. */
 static void test_lost_pulses_do_not_spoil_the_run(void) {
     for (unsigned lost = 1; lost <= wh_rig_standard.guard.lost_max; lost++) {
         begin(330.0f);
@@ -151,15 +198,16 @@ static void test_lost_pulses_do_not_spoil_the_run(void) {
         for (unsigned i = 0; i < 250U; i++) {
             control();
         }
-        hal_virtual_rig_instance()->faults.lose_pulses[0] = lost;
+        hal_virtual_rig_instance()->faults.lose_pulses[lost == 1 ? 0 : 1] = lost;
         go_on_until(WH_RIG_DONE);
         check_measurement(330.0f);
         TEST_ASSERT_EQUAL_UINT32(lost, rig.result.lost);
-        TEST_ASSERT_EQUAL_UINT(10, rig.result.turns);
+        TEST_ASSERT_EQUAL_UINT32(lost == 1 ? 8 : 10, rig.result.force.turns);
+        TEST_ASSERT_EQUAL_UINT32(lost == 1 ? 2 : 0, rig.result.force.left_out);
     }
 }
 
-/* 2 % of what the formula says, 2 rpm, 2 degrees: also at both ends of the range of set-points. */
+/* Also at both ends of the range of set-points. */
 static void test_slowest_and_fastest_set_points_run(void) {
     static const wh_real targets_rpm[] = {WH_RIG_TARGET_MIN_RPM, WH_RIG_TARGET_MAX_RPM};
     for (unsigned i = 0; i < 2; i++) {
@@ -304,6 +352,17 @@ static void test_data_sheet_agrees_with_the_model(void) {
     rig_fixed.observe(&rig_fixed, &state, output);
     TEST_ASSERT_FLOAT_WITHIN(1e-5f, 100.0f * WH_RIG_MASS_MOMENT_KGM, output[2]);
     TEST_ASSERT_FLOAT_WITHIN(1e-5f, output[2], output[1]); /* mass on the axis: all of it shows */
+    /* level, the force is S times what the speed changes by: gravity, and the damping with the speed */
+    state.angle[0] = wh_angle_from_rad(0.25f * WH_RIG_TWO_PI);
+    state.real[0] = 0.0f;
+    state.input[0] = 0.0f;
+    rig_fixed.observe(&rig_fixed, &state, output);
+    const float falls = WH_RIG_MASS_MOMENT_KGM * WH_RIG_GRAVITY_MPS2 / WH_RIG_INERTIA_KGM2;
+    TEST_ASSERT_FLOAT_WITHIN(1e-5f, -WH_RIG_MASS_MOMENT_KGM * falls, output[1]);
+    state.real[0] = 20.0f;
+    rig_fixed.observe(&rig_fixed, &state, output);
+    const float slows = WH_RIG_DAMPING_NMS * 20.0f / WH_RIG_INERTIA_KGM2;
+    TEST_ASSERT_FLOAT_WITHIN(1e-5f, -WH_RIG_MASS_MOMENT_KGM * (falls + slows), output[1]);
 }
 
 static void test_a_foreign_scene_is_refused(void) {
@@ -321,6 +380,7 @@ void suite_virtual_rig(void) {
 #if !WH_DOUBLE
     RUN_TEST(test_measurement_of_the_force);
     RUN_TEST(test_gravity_shows_in_the_peaks_and_spikes);
+    RUN_TEST(test_a_noisy_cell_is_no_fault);
     RUN_TEST(test_pulses_stand_at_their_angles);
     RUN_TEST(test_lost_pulses_do_not_spoil_the_run);
     RUN_TEST(test_slowest_and_fastest_set_points_run);

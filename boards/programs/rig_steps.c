@@ -1,0 +1,118 @@
+/* rig_steps.c: what each control step of the rig's run costs, the hardware's part left out.
+ *
+ * The firmware's loop (rig.c) on the virtual rig, for several runs: each step's pulses and samples are taken first, then
+ * the controller is counted that is given them. Interval 0 is around nothing. Says on the console
+ *
+ *     run NAME FIRST LAST TURNS QUALITY    a run's intervals, and what it measured */
+#include "boards/programs/counted.h"
+#include "core/rig/datasheet.h"
+#include "core/rig/rig.h"
+#include "hal/virtual/virtual_rig.h"
+#include "hal/watchdog.h"
+
+#include "hal/clock.h"
+#include "hal/motor.h"
+
+#define CONTROL_TICKS UINT32_C(2000)
+#define STEPS_MOST 20000U
+
+static wh_rig rig;
+static wh_rig_config config;
+static unsigned intervals = 1;
+
+/* What goes wrong in the middle of the record. */
+typedef struct trial {
+    const char *name;
+    float target_rpm;
+    unsigned lose_pulses[2];
+    unsigned lose_samples;
+    float noise; /* counts, either way */
+} trial;
+
+static const trial trials[] = {
+    {.name = "170_rpm", .target_rpm = 170.0f},
+    {.name = "330_rpm", .target_rpm = 330.0f},
+    {.name = "360_rpm", .target_rpm = 360.0f},
+    {.name = "330_rpm_noise", .target_rpm = 330.0f, .noise = 200.0f},
+    {.name = "330_rpm_lost_marks", .target_rpm = 330.0f, .lose_pulses = {2, 1}},
+    {.name = "330_rpm_lost_samples", .target_rpm = 330.0f, .lose_samples = 9},
+    {.name = "170_rpm_lost_both", .target_rpm = 170.0f, .lose_pulses = {1, 1}, .lose_samples = 9},
+};
+
+static uint32_t seed = 1;
+static int32_t noise_of(float counts) {
+    seed = seed * UINT32_C(1664525) + UINT32_C(1013904223);
+    return (int32_t)(counts * ((float)(int32_t)seed / 2147483648.0f));
+}
+
+static void control(const trial *tried) {
+    hal_slot_pulse pulses[8];
+    hal_load_sample samples[8];
+    unsigned pulse_count = 0;
+    unsigned sample_count = 0;
+    hal_clock_wait_until(hal_clock_ticks() + CONTROL_TICKS);
+    hal_watchdog_kick();
+    while (pulse_count < 8U && hal_slots_take(&pulses[pulse_count])) {
+        pulse_count++;
+    }
+    while (sample_count < 8U && hal_loadcell_take(&samples[sample_count])) {
+        samples[sample_count++].raw += noise_of(tried->noise);
+    }
+    const uint32_t now = hal_clock_ticks();
+    wh_count_begin();
+    for (unsigned i = 0; i < pulse_count; i++) {
+        wh_rig_pulse(&rig, pulses[i].sensor, pulses[i].ticks);
+    }
+    for (unsigned i = 0; i < sample_count; i++) {
+        wh_rig_load(&config, &rig, samples[i].ticks, samples[i].raw,
+                    (wh_load_status)samples[i].status);
+    }
+    const wh_real duty = wh_rig_step(&config, &rig, now, false);
+    wh_count_end();
+    intervals++;
+    hal_motor_set_duty((float)duty);
+}
+
+static bool run(const trial *tried) {
+    config = wh_rig_standard;
+    config.cell = (wh_cell_config){.newton_per_count = HAL_LOADCELL_N_PER_COUNT,
+                                   .period_ticks = HAL_LOADCELL_PERIOD_TICKS,
+                                   .raw_max = HAL_LOADCELL_RAW_MAX};
+    wh_rig_slots(&config, HAL_SLOT_LEAD_DEG / WH_RIG_DEG_PER_RAD);
+    if (!hal_clock_start()) {
+        return false;
+    }
+    const unsigned first = intervals;
+    wh_rig_start(&config, &rig, tried->target_rpm * WH_RIG_RADPS_PER_RPM, hal_clock_ticks());
+    hal_watchdog_start(10U * CONTROL_TICKS);
+    unsigned recorded = 0;
+    for (unsigned i = 0; i < STEPS_MOST && !wh_rig_is_over(&rig); i++) {
+        control(tried);
+        recorded += rig.state == WH_RIG_RECORD ? 1U : 0U;
+        if (rig.state == WH_RIG_RECORD && recorded == 250U) {
+            hal_virtual_faults *faults = &hal_virtual_rig_instance()->faults;
+            faults->lose_pulses[0] = tried->lose_pulses[0];
+            faults->lose_pulses[1] = tried->lose_pulses[1];
+            faults->lose_samples = tried->lose_samples;
+        }
+    }
+    line_begin("run", tried->name);
+    line_number(first);
+    line_number(intervals - 1U);
+    line_number((unsigned)rig.result.force.turns);
+    line_word(wh_quality_text(rig.result.force.quality));
+    line_end();
+    return wh_rig_is_over(&rig);
+}
+
+int main(void) {
+    board_start();
+    (void)memory; /* counted.h's: the virtual rig has its own */
+    wh_count_begin();
+    wh_count_end();
+    bool all = true;
+    for (unsigned i = 0; i < sizeof trials / sizeof trials[0]; i++) {
+        all = run(&trials[i]) && all;
+    }
+    return all ? 0 : 1;
+}

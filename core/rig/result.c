@@ -1,0 +1,243 @@
+/* result.c: turns merged to a measurement that says how wrong it may be. */
+#include "result.h"
+
+#include "core/root.h"
+#include "datasheet.h"
+
+#define PI WH_R(3.141592653589793)
+
+static wh_real square_of(wh_real x) { return x * x; }
+
+wh_real wh_student(uint32_t freedom) {
+    static const wh_real first[] = {WH_R(0.0),   WH_R(12.706), WH_R(4.303), WH_R(3.182),
+                                    WH_R(2.776), WH_R(2.571),  WH_R(2.447), WH_R(2.365)};
+    if (freedom < sizeof first / sizeof first[0]) {
+        return first[freedom];
+    }
+    /* Cornish and Fisher's expansion about the normal distribution's 1.95996 */
+    const wh_real per = WH_R(1.0) / (wh_real)freedom;
+    return WH_R(1.95996) + per * (WH_R(2.3723) + per * (WH_R(2.8225) + per * WH_R(2.5556)));
+}
+
+/* --- turns -------------------------------------------------------------------------------------- */
+
+static void add_jitter(wh_merge *merge, uint32_t before_ticks, uint32_t now_ticks) {
+    const wh_real off_s =
+        (wh_real)(int32_t)(now_ticks - before_ticks) / (wh_real)WH_RIG_TICKS_PER_S;
+    merge->jitter_s2 += off_s * off_s;
+    merge->jitters++;
+}
+
+/* Second differences of either sensor's marks: of the turns' times, where a turn follows one. */
+static void add_marks(wh_merge *merge, const wh_lockin_turn *turn) {
+    const bool adjoins =
+        merge->follows && merge->begin_ticks + merge->last_ticks == turn->begin_ticks;
+    if (adjoins) {
+        add_jitter(merge, merge->last_ticks, turn->turn_ticks);
+    }
+    const bool split_adjoins =
+        adjoins && merge->split_ticks != merge->begin_ticks && turn->split_seen;
+    const uint32_t split_turn = turn->split_ticks - merge->split_ticks;
+    if (split_adjoins && merge->split_follows) {
+        add_jitter(merge, merge->split_turn_ticks, split_turn);
+    }
+    merge->split_follows = split_adjoins;
+    merge->split_turn_ticks = split_turn;
+    merge->begin_ticks = turn->begin_ticks;
+    merge->split_ticks = turn->split_seen ? turn->split_ticks : turn->begin_ticks;
+    merge->last_ticks = turn->turn_ticks;
+    merge->follows = true;
+}
+
+void wh_merge_add(const wh_result_config *config, const wh_rotor_config *rotor, wh_merge *merge,
+                  const wh_lockin_turn *turn, const wh_turn_angle *angle) {
+    merge->outliers += turn->outliers;
+    merge->samples += turn->samples;
+    if (turn->fault != WH_TURN_OK) {
+        merge->left_out++;
+        merge->follows = false;
+        merge->split_follows = false;
+        return;
+    }
+    add_marks(merge, turn);
+    if (merge->turns == 0) {
+        merge->first_ticks = turn->turn_ticks;
+    }
+    merge->turns++;
+    const wh_real part = WH_R(1.0) / (wh_real)merge->turns;
+    const wh_real in_phase = turn->force_N.at[1] - merge->in_phase_N;
+    const wh_real quadrature = turn->force_N.at[2] - merge->quadrature_N;
+    merge->in_phase_N += part * in_phase;
+    merge->quadrature_N += part * quadrature;
+    merge->scatter_N2[0] += in_phase * (turn->force_N.at[1] - merge->in_phase_N);
+    merge->scatter_N2[1] += in_phase * (turn->force_N.at[2] - merge->quadrature_N);
+    merge->scatter_N2[2] += quadrature * (turn->force_N.at[2] - merge->quadrature_N);
+
+    const wh_real turn_s = (wh_real)turn->turn_ticks / (wh_real)WH_RIG_TICKS_PER_S;
+    const wh_real swing2 = angle->swing_rad * angle->swing_rad;
+    /* S <w^2> over the angle: the cube of the speed over time, and so 3/2 of the square of the swing */
+    const wh_real expected = config->mount_factor * rotor->mass_moment_kgm *
+                             square_of(WH_RIG_TWO_PI / turn_s) * (WH_R(1.0) + WH_R(1.5) * swing2);
+    merge->mean_N += part * (turn->mean_N - merge->mean_N);
+    merge->residual_N2 += part * (square_of(turn->residual_N) - merge->residual_N2);
+    merge->expected_N += part * (expected - merge->expected_N);
+    merge->swing_rad += part * (angle->swing_rad - merge->swing_rad);
+    merge->turn_s += part * (turn_s - merge->turn_s);
+    merge->at_mark_N[0] += part * (turn->at_mark_N[0] - merge->at_mark_N[0]);
+    if (turn->split_seen) {
+        merge->split_turns++;
+        merge->at_mark_N[1] +=
+            (turn->at_mark_N[1] - merge->at_mark_N[1]) / (wh_real)merge->split_turns;
+    }
+}
+
+/* --- their mean --------------------------------------------------------------------------------- */
+
+/* Square of the phase's half-width from the marks, beside what the turns' scatter shows of them. */
+static wh_real marks_rad2(const wh_merge *merge, const wh_turn_angle *angle, wh_real jitter_s) {
+    const wh_real jitter2 = square_of(jitter_s * WH_RIG_TWO_PI / merge->turn_s);
+    const wh_real turns = (wh_real)merge->turns;
+    /* a turn has the mean of its two marks, so its variance is one half; the mean of many has one of n */
+    const wh_real shared = WH_R(0.5) * jitter2 / turns;
+    if (angle->splits == 0) {
+        return shared;
+    }
+    /* the split at a quarter: variances of 1, 9/16 and 1/16. On average half of the turns that it comes from are of those
+     * that are merged, and with them it shares marks. */
+    const wh_real averaged =
+        (wh_real)(angle->splits < WH_TURN_ANGLE_PATIENCE ? angle->splits : WH_TURN_ANGLE_PATIENCE);
+    const wh_real follows = WH_ABS(angle->base_per_split);
+    const wh_real split = follows * (WH_R(1.0) + WH_R(1.625) * follows) * jitter2 / averaged;
+    return shared + split;
+}
+
+void wh_merge_mean(const wh_result_config *config, const wh_rotor_config *rotor,
+                   const wh_merge *merge, const wh_turn_angle *angle, wh_real tare_N,
+                   wh_measured *measured) {
+    *measured = (wh_measured){.turns = merge->turns,
+                              .left_out = merge->left_out,
+                              .outliers = merge->outliers,
+                              .expected_N = merge->expected_N,
+                              .inertia_kgm2 = angle->inertia_kgm2};
+    if (merge->turns == 0) {
+        return;
+    }
+    measured->speed_radps = WH_RIG_TWO_PI / merge->turn_s;
+    measured->mean_N = merge->mean_N - tare_N;
+    measured->at_mark_N[0] = merge->at_mark_N[0] - tare_N;
+    measured->at_mark_N[1] = merge->split_turns > 0 ? merge->at_mark_N[1] - tare_N : WH_R(0.0);
+    measured->residual_N = WH_SQRT(merge->residual_N2);
+    const wh_real x = merge->in_phase_N;
+    const wh_real y = -merge->quadrature_N;
+    wh_polar(x, y, &measured->amplitude_N, &measured->phase_rad);
+    if (merge->jitters > 0) {
+        measured->jitter_s = WH_SQRT(merge->jitter_s2 / (WH_R(6.0) * (wh_real)merge->jitters));
+    }
+    const wh_real size2 = x * x + y * y;
+    if (merge->turns < 2U || !(size2 > WH_R(0.0))) {
+        return;
+    }
+    /* scatter along the mean and across it */
+    const wh_real *s = merge->scatter_N2;
+    const wh_real both = WH_R(2.0) * x * y * s[1];
+    const wh_real n = (wh_real)merge->turns;
+    const wh_real student = wh_student(merge->turns - 1U);
+    const wh_real t2 = student * student;
+    const wh_real factor = t2 / (n * (n - WH_R(1.0)) * size2);
+    const wh_real along_N2 = factor * (x * x * s[0] - both + y * y * s[2]);
+    const wh_real across_N2 = factor * (y * y * s[0] + both + x * x * s[2]);
+
+    const wh_real swing = merge->swing_rad;
+    const wh_real third = WH_R(0.125) * swing * swing * swing;
+    const wh_real lag = WH_ABS(angle->base_per_lag) * rotor->damping_tolerance * angle->lag_rad;
+    const wh_real drift = WH_R(0.5) * (wh_real)(int32_t)(merge->last_ticks - merge->first_ticks) /
+                          (n * merge->turn_s * (wh_real)WH_RIG_TICKS_PER_S);
+    const wh_real amplitude2 =
+        square_of(config->amplitude_floor) + square_of(WH_R(1.5) * swing * lag) + square_of(third);
+    measured->amplitude_half_N = WH_SQRT(along_N2 + amplitude2 * size2);
+    measured->phase_half_rad = WH_SQRT(
+        across_N2 / size2 + t2 * marks_rad2(merge, angle, measured->jitter_s) + square_of(lag) +
+        square_of(third) + square_of(drift) + square_of(config->phase_floor_rad));
+}
+
+/* --- verdict ------------------------------------------------------------------------------------ */
+
+static wh_why reason(const wh_result_config *config, const wh_rotor_config *rotor,
+                     const wh_merge *merge, const wh_measured *measured) {
+    const wh_real expected = measured->expected_N;
+    const wh_real off = WH_ABS(measured->amplitude_N - expected);
+    const wh_real half = measured->amplitude_half_N;
+    const wh_real phase = WH_ABS(measured->phase_rad);
+    const wh_real inertia = measured->inertia_kgm2 / rotor->inertia_kgm2;
+    const wh_real heavier = inertia < WH_R(1.0) ? WH_R(1.0) / inertia : inertia;
+    if (measured->turns < 3U) {
+        return WH_WHY_FEW_TURNS;
+    }
+    if (phase > WH_R(0.5) * PI) {
+        return WH_WHY_POLARITY;
+    }
+    /* written so that what is not a number is refused */
+    if (!(off <= config->amplitude_wrong * expected)) {
+        return WH_WHY_AMPLITUDE;
+    }
+    if (!(phase <= config->phase_wrong_rad)) {
+        return WH_WHY_PHASE;
+    }
+    if (!(half <= WH_R(0.25) * measured->amplitude_N) ||
+        !(measured->phase_half_rad <= WH_R(0.25))) {
+        return WH_WHY_UNSURE;
+    }
+    if (off > config->amplitude_off * expected) {
+        return WH_WHY_AMPLITUDE_OFF;
+    }
+    if (phase > config->phase_off_rad) {
+        return WH_WHY_PHASE_OFF;
+    }
+    if (measured->left_out * 3U > measured->turns) {
+        return WH_WHY_LEFT_OUT;
+    }
+    if (measured->outliers * 100U > merge->samples) {
+        return WH_WHY_OUTLIERS;
+    }
+    if (measured->residual_N > config->residual_large * expected) {
+        return WH_WHY_RESIDUAL;
+    }
+    if (merge->swing_rad > WH_R(0.0) &&
+        (merge->split_turns == 0 || !(heavier <= WH_R(1.0) + config->inertia_off))) {
+        return WH_WHY_ROTOR;
+    }
+    if (WH_ABS(measured->mean_N) > config->mean_off * expected) {
+        return WH_WHY_MEAN;
+    }
+    if (half > WH_R(0.05) * measured->amplitude_N) {
+        return WH_WHY_WIDE;
+    }
+    return WH_WHY_NONE;
+}
+
+void wh_merge_judge(const wh_result_config *config, const wh_rotor_config *rotor,
+                    const wh_merge *merge, wh_measured *measured) {
+#define WH_WHY_QUALITY(name, its_quality, words) (uint8_t)(its_quality),
+    static const uint8_t qualities[] = {WH_WHY_ROWS(WH_WHY_QUALITY)};
+    measured->why = reason(config, rotor, merge, measured);
+    measured->quality = (wh_quality)qualities[measured->why];
+}
+
+const char *wh_why_text(wh_why why) {
+#define WH_WHY_CASE(name, quality, words) \
+    case name: return words;
+    switch (why) {
+        WH_WHY_ROWS(WH_WHY_CASE)
+    case WH_WHYS: break;
+    }
+    return "unknown reason";
+}
+
+const char *wh_quality_text(wh_quality quality) {
+    switch (quality) {
+    case WH_GOOD: return "good";
+    case WH_DOUBTFUL: return "doubtful";
+    case WH_REFUSED: return "refused";
+    }
+    return "unknown quality";
+}

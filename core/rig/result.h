@@ -1,0 +1,139 @@
+/* result.h: turns merged to a measurement that says how wrong it may be, and whether to believe it.
+ *
+ * The half-widths are for 95 %: roots of the sum of squares of
+ *
+ *     scatter     Student's factor times the standard error of the mean over the turns
+ *     marks       (phase) neighbouring turns share a mark, so their scatter shows but half of what jitter of
+ *                 the marks does to the mean; how much there is, the second differences of the marks tell
+ *     split       (phase) the rotor's inertia comes from marks with the same jitter
+ *     reference   what the angle within the turn would be off if the rotor's damping were off by its tolerance,
+ *                 and the third order that it leaves out
+ *     drift       (phase) the reference runs at a constant mean speed within a turn
+ *     floors      calibration: as configured
+ *
+ * A result is good; or doubtful or refused, and then there is a reason. */
+#ifndef WH_RIG_RESULT_H
+#define WH_RIG_RESULT_H
+
+#include "lockin.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum wh_quality { WH_GOOD, WH_DOUBTFUL, WH_REFUSED } wh_quality;
+
+/* Reasons, the strongest first: X(name, quality, words). */
+#define WH_WHY_ROWS(X) \
+    X(WH_WHY_NONE, WH_GOOD, "nothing against it") \
+    X(WH_WHY_FEW_TURNS, WH_REFUSED, "less than three turns could be used") \
+    X(WH_WHY_POLARITY, WH_REFUSED, \
+      "the force is against the masses: polarity of the cell, or the sensors") \
+    X(WH_WHY_AMPLITUDE, WH_REFUSED, "the force is not what masses, speed and mount let expect") \
+    X(WH_WHY_PHASE, WH_REFUSED, "the force is not in line with the masses: sensors, or delays") \
+    X(WH_WHY_UNSURE, WH_REFUSED, "the interval is wider than a quarter of the force") \
+    X(WH_WHY_AMPLITUDE_OFF, WH_DOUBTFUL, \
+      "the force is off what masses, speed and mount let expect") \
+    X(WH_WHY_PHASE_OFF, WH_DOUBTFUL, "the force is off the line of the masses") \
+    X(WH_WHY_LEFT_OUT, WH_DOUBTFUL, "more than a quarter of the turns could not be used") \
+    X(WH_WHY_OUTLIERS, WH_DOUBTFUL, "more than one sample in a hundred was left out") \
+    X(WH_WHY_RESIDUAL, WH_DOUBTFUL, "noise or other orders than the first are large") \
+    X(WH_WHY_ROTOR, WH_DOUBTFUL, "the second sensor's marks do not fit the rotor") \
+    X(WH_WHY_MEAN, WH_DOUBTFUL, "the mean force is not zero: the tare has moved") \
+    X(WH_WHY_WIDE, WH_DOUBTFUL, "the interval is wider than a twentieth of the force")
+
+#define WH_WHY_NAME(name, quality, words) name,
+typedef enum wh_why { WH_WHY_ROWS(WH_WHY_NAME) WH_WHYS } wh_why;
+#undef WH_WHY_NAME
+
+typedef struct wh_result_config {
+    wh_real mount_factor; /* force as a part of that on a fixed mount: 1; carriage: 1/(1 + ratio) */
+    wh_real amplitude_floor; /* calibration, 95 %: as a part of the force, */
+    wh_real phase_floor_rad; /* of the sensors' places and the delays */
+    wh_real amplitude_off; /* so far from what is expected, as a part of it, a force is doubtful, */
+    wh_real amplitude_wrong; /* or refused */
+    wh_real phase_off_rad;   /* likewise its phase */
+    wh_real phase_wrong_rad;
+    wh_real residual_large; /* as a part of the force expected */
+    wh_real mean_off;       /* likewise */
+    wh_real inertia_off;    /* as a part of what the rotor is said to have, either way */
+} wh_result_config;
+
+/* Turns as they come; zeros: none yet. */
+typedef struct wh_merge {
+    uint32_t turns;
+    uint32_t left_out;
+    uint32_t samples;
+    uint32_t outliers;
+    wh_real in_phase_N; /* means over the turns */
+    wh_real quadrature_N;
+    wh_real scatter_N2[3]; /* sums of squares about them: in phase, both, quadrature */
+    wh_real mean_N;
+    wh_real residual_N2;
+    wh_real expected_N;
+    wh_real swing_rad;
+    wh_real turn_s;
+    wh_real at_mark_N[2];
+    uint32_t split_turns; /* of which at_mark_N[1] is the mean */
+    wh_real jitter_s2;    /* sum of squares of second differences of marks, */
+    uint32_t jitters;     /* so many */
+    uint32_t first_ticks; /* a turn's time: of the first, and of the last that was used */
+    uint32_t last_ticks;
+    bool follows; /* the last turn was used: the next one's differences count */
+    bool split_follows;
+    uint32_t split_turn_ticks;
+    uint32_t begin_ticks;
+    uint32_t split_ticks;
+} wh_merge;
+
+typedef struct wh_measured {
+    wh_quality quality;
+    wh_why why;
+    uint32_t turns;
+    uint32_t left_out;
+    uint32_t outliers;
+    wh_real speed_radps;
+    wh_real mean_N; /* over time, the tare taken off */
+    wh_real amplitude_N;
+    wh_real amplitude_half_N; /* half-width of the interval, 95 % */
+    wh_real phase_rad;        /* -pi ... pi */
+    wh_real phase_half_rad;
+    wh_real expected_N; /* amplitude: what masses, speed and mount let expect */
+    wh_real residual_N; /* rms of what orders 0 to 2 leave */
+    wh_real jitter_s;   /* of the marks, standard deviation */
+    wh_real inertia_kgm2;
+    wh_real at_mark_N[2]; /* the tare taken off */
+} wh_measured;
+
+#define wh_merge_add WH_NAME(wh_merge_add)
+#define wh_merge_mean WH_NAME(wh_merge_mean)
+#define wh_merge_judge WH_NAME(wh_merge_judge)
+#define wh_student WH_NAME(wh_student)
+#define wh_why_text WH_NAME(wh_why_text)
+#define wh_quality_text WH_NAME(wh_quality_text)
+
+/* Take a turn; `angle` as it was found with. A turn that does not count breaks the row. */
+void wh_merge_add(const wh_result_config *config, const wh_rotor_config *rotor, wh_merge *merge,
+                  const wh_lockin_turn *turn, const wh_turn_angle *angle);
+
+/* Means and half-widths; the half-widths are 0 with less than two turns. `tare_N` is taken off. */
+void wh_merge_mean(const wh_result_config *config, const wh_rotor_config *rotor,
+                   const wh_merge *merge, const wh_turn_angle *angle, wh_real tare_N,
+                   wh_measured *measured);
+
+/* Quality and reason of what wh_merge_mean() has found. */
+void wh_merge_judge(const wh_result_config *config, const wh_rotor_config *rotor,
+                    const wh_merge *merge, wh_measured *measured);
+
+/* Student's factor, two-sided, 95 %. Within 0.3 % for 2 and more degrees of freedom, 0 for none. */
+wh_real wh_student(uint32_t freedom);
+
+/* In words, for consoles. */
+const char *wh_why_text(wh_why why);
+const char *wh_quality_text(wh_quality quality);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,104 @@
+/* turn_angle.c: the rotor's angle within a turn, from the two sensors' marks and the rotor's lag. */
+#include "turn_angle.h"
+
+#include "core/angle.h"
+#include "core/root.h"
+#include "datasheet.h"
+
+/* Beyond this the series says nothing any more: a rotor that hardly gets over the top. */
+#define SWING_MOST WH_R(0.35)
+
+/* How much the split changes with the swing, at least, if anything shall be found from it. */
+#define SLOPE_LEAST WH_R(0.15)
+
+/* The first splits correct an inertia that may be far off, by Newton's method; then they are averaged. */
+#define SPLITS_TO_FIND 3U
+
+static wh_wave wave_of(wh_real rad) {
+    wh_wave wave;
+    wh_sincos(wh_phase_from_rad(rad), &wave.sine, &wave.cosine);
+    return wave;
+}
+
+/* What the swing adds to base + phi where u has these sine and cosine. */
+static wh_real added(const wh_turn_angle *angle, wh_wave u) {
+    return angle->swing_rad * u.sine + angle->second_sine * (WH_R(2.0) * u.sine * u.cosine) +
+           angle->second_cosine * (WH_R(2.0) * u.cosine * u.cosine - WH_R(1.0));
+}
+
+void wh_turn_angle_start(const wh_rotor_config *config, wh_turn_angle *angle) {
+    *angle = (wh_turn_angle){.inertia_kgm2 = config->inertia_kgm2};
+    angle->base_rad = config->mark_rad[0];
+    angle->begin_rad = config->mark_rad[0] - config->gravity_rad;
+}
+
+void wh_turn_angle_shape(const wh_rotor_config *config, wh_turn_angle *angle, wh_real speed_radps) {
+    const wh_real weight_Nm = config->mass_moment_kgm * config->gravity_mps2;
+    const wh_real turning = angle->inertia_kgm2 * speed_radps;
+    const wh_real sum = WH_SQRT(turning * turning + config->damping_Nms * config->damping_Nms);
+    const wh_real swing = weight_Nm / (speed_radps * sum);
+    angle->swing_rad = swing < SWING_MOST ? swing : SWING_MOST; /* NaN too */
+    const wh_real sine = config->damping_Nms / sum;
+    const wh_real square = sine * sine;
+    /* the arc sine to 1e-4 below 0.5 */
+    angle->lag_rad =
+        sine *
+        (WH_R(1.0) + square * (WH_R(0.16666667) + square * (WH_R(0.075) + square * WH_R(0.0446))));
+    const wh_real second = WH_R(0.125) * angle->swing_rad * angle->swing_rad;
+    const wh_real half = WH_R(0.5) * angle->lag_rad;
+    angle->second_sine = second * (WH_R(1.0) - WH_R(0.5) * half * half);
+    angle->second_cosine = -second * half * (WH_R(1.0) - half * half * (WH_R(1.0) / WH_R(6.0)));
+
+    /* base + what is added at the begin is the mark's angle, and u there is base + psi - gamma */
+    const wh_real begins = config->mark_rad[0] + angle->lag_rad - config->gravity_rad;
+    for (unsigned round = 0; round < 2U; round++) {
+        const wh_wave u = wave_of(angle->begin_rad);
+        angle->begin_rad -= (angle->begin_rad + added(angle, u) - begins) /
+                            (WH_R(1.0) + angle->swing_rad * u.cosine);
+    }
+    angle->base_rad = config->mark_rad[0] - added(angle, wave_of(angle->begin_rad));
+}
+
+wh_real wh_turn_angle_split(const wh_rotor_config *config, wh_turn_angle *angle, wh_real split) {
+    const wh_real passed = WH_RIG_TWO_PI * split;
+    const wh_wave from = wave_of(angle->begin_rad);
+    const wh_wave to = wave_of(angle->begin_rad + passed);
+    const wh_real off = config->mark_rad[1] - (angle->base_rad + passed + added(angle, to));
+    const wh_real swing = angle->swing_rad;
+    if (!(swing > WH_R(0.0))) {
+        return off;
+    }
+    const wh_real sine = angle->lag_rad * (WH_R(1.0) - angle->lag_rad * angle->lag_rad / WH_R(6.0));
+    const wh_real cosine2 = WH_R(1.0) - sine * sine;
+    const wh_real bends = WH_R(1.0) / (WH_R(1.0) + swing * from.cosine);
+    const wh_real turns = to.cosine - from.cosine;
+    /* of the swing, the lag following it: d psi = tan psi dE / E */
+    const wh_real lag_per_swing = sine / (WH_SQRT(cosine2) * swing);
+    const wh_real begin_per_swing = (lag_per_swing - from.sine) * bends;
+    const wh_real split_per_swing = (to.sine - from.sine) + swing * turns * begin_per_swing;
+    const wh_real base_per_swing = -from.sine - swing * from.cosine * begin_per_swing;
+    if (!(WH_ABS(split_per_swing) > SLOPE_LEAST)) {
+        /* the lag of too light a rotor turns the split back: from a heavier one Newton's method arrives.
+         * But gravity along a diagonal leaves the split as it is, whatever the rotor. */
+        if (WH_ABS(to.sine - from.sine) > WH_R(2.0) * SLOPE_LEAST) {
+            angle->inertia_kgm2 *= WH_R(1.25);
+        }
+        return off;
+    }
+    angle->base_per_split = base_per_swing / split_per_swing;
+    angle->base_per_lag = -swing * bends * (from.cosine + angle->base_per_split * turns);
+
+    angle->splits += angle->splits < WH_TURN_ANGLE_PATIENCE + SPLITS_TO_FIND ? 1U : 0U;
+    const uint32_t turns_averaged =
+        angle->splits > SPLITS_TO_FIND ? angle->splits - SPLITS_TO_FIND : 1U;
+    /* d ln E / d ln I = -cos^2 psi; within a factor of two, whatever the mark */
+    wh_real change = -off / (split_per_swing * swing * cosine2);
+    change = change < WH_R(0.5) ? change > WH_R(-0.5) ? change : WH_R(-0.5) : WH_R(0.5);
+    angle->inertia_kgm2 *= WH_R(1.0) + change / (wh_real)turns_averaged;
+    return off;
+}
+
+wh_real wh_turn_angle_at(const wh_turn_angle *angle, wh_real part) {
+    const wh_real passed = WH_RIG_TWO_PI * part;
+    return angle->base_rad + passed + added(angle, wave_of(angle->begin_rad + passed));
+}

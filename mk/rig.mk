@@ -1,0 +1,17 @@
+# rig.mk: what the rig's controller costs, and its measurement against noise.
+
+# A control step of the rig on BOARD: no more instructions than this.
+RIG_STEP_MOST ?= 1500
+$(eval $(call program,rig_steps,boards/programs/rig_steps.c,whirl rig virtual scenes))
+
+.PHONY: rig-steps-now rig-truth-now
+rig-steps-now: $(GEN)/.stamp
+	@$(MAKE) $(ELF)/rig_steps.elf $(PLUGIN)
+	@BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) PLUGIN=$(PLUGIN) \
+	    EMULATE="$(subst timeout $(BOARD_SECONDS),timeout 900,$(call emulate,$(ELF)/rig_steps.elf))" \
+	    mk/count/rig_steps.sh $(ELF)/rig_steps.elf $(RIG_STEP_MOST)
+
+# The measurement against the truth, and its intervals against 1,000 noisy runs of each kind.
+rig-truth-now: $(GEN)/.stamp
+	@$(MAKE) build/tests/host
+	@WHIRL_FULL=1 build/tests/host lockin_truth

@@ -1,0 +1,345 @@
+/* test_rig_result.c: turns merged, against sums done anew; what each reason for doubt needs; the tare. */
+#include "core/rig/datasheet.h"
+#include "core/rig/rig.h"
+
+#include "tests/scattered.h"
+#include "unity.h"
+
+void suite_rig_result(void);
+
+#define DEG WH_R(0.017453292519943295)
+#define TURN_TICKS UINT32_C(181818)
+
+static wh_merge merge;
+static wh_turn_angle angle;
+static wh_measured measured;
+static wh_rotor_config rotor;
+
+/* Evenly distributed about 0, of standard deviation 1. */
+static wh_real scatter(void) {
+    return ((wh_real)(scattered() >> 40) / WH_R(16777216.0) - WH_R(0.5)) * WH_R(3.4641016);
+}
+
+static wh_lockin_turn turn_of(wh_real in_phase, wh_real quadrature, unsigned number) {
+    wh_lockin_turn turn = {.begin_ticks = UINT32_MAX - 300000U + number * TURN_TICKS,
+                           .turn_ticks = TURN_TICKS,
+                           .samples = 91,
+                           .split_seen = true};
+    turn.force_N.at[1] = in_phase;
+    turn.force_N.at[2] = quadrature;
+    turn.mean_N = WH_R(56.0);
+    turn.residual_N = WH_R(0.1);
+    turn.at_mark_N[0] = WH_R(98.0);
+    turn.at_mark_N[1] = WH_R(55.0);
+    turn.split_ticks = turn.begin_ticks + TURN_TICKS / 4U;
+    return turn;
+}
+
+static void begin(void) {
+    merge = (wh_merge){.turns = 0};
+    rotor = wh_rig_standard.rotor;
+    wh_turn_angle_start(&rotor, &angle);
+    wh_turn_angle_shape(&rotor, &angle, WH_R(330.0) * WH_RIG_RADPS_PER_RPM);
+}
+
+static void add(const wh_lockin_turn *turn) {
+    wh_merge_add(&wh_rig_standard.result, &rotor, &merge, turn, &angle);
+}
+
+static void conclude(const wh_result_config *config) {
+    wh_merge_mean(config, &rotor, &merge, &angle, WH_R(56.0), &measured);
+    wh_merge_judge(config, &rotor, &merge, &measured);
+}
+
+/* --- Student's factor ----------------------------------------------------------------------------- */
+
+/* Two-sided, 95 %: from the distribution's tables. */
+static void test_students_factor(void) {
+    static const struct {
+        uint32_t freedom;
+        wh_real factor;
+    } rows[] = {{1, WH_R(12.706)}, {2, WH_R(4.303)},  {3, WH_R(3.182)},   {4, WH_R(2.776)},
+                {5, WH_R(2.571)},  {6, WH_R(2.447)},  {7, WH_R(2.365)},   {8, WH_R(2.306)},
+                {9, WH_R(2.262)},  {10, WH_R(2.228)}, {15, WH_R(2.131)},  {19, WH_R(2.093)},
+                {30, WH_R(2.042)}, {60, WH_R(2.000)}, {120, WH_R(1.980)}, {100000, WH_R(1.960)}};
+    for (unsigned i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        TEST_ASSERT_FLOAT_WITHIN(6e-4f, (float)rows[i].factor, (float)wh_student(rows[i].freedom));
+    }
+    TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)wh_student(0));
+}
+
+/* --- the mean -------------------------------------------------------------------------------------- */
+
+/* Without floors, tolerances and jitter: Student's interval of the components along the mean and across it. */
+static void test_the_interval_is_students(void) {
+    scattered_state = UINT64_C(0x5eed0031);
+    for (unsigned k = 0; k < 12; k++) {
+        const unsigned turns = 3U + k;
+        static wh_real x[16];
+        static wh_real y[16];
+        begin();
+        wh_real sums[2] = {WH_R(0.0), WH_R(0.0)};
+        for (unsigned i = 0; i < turns; i++) {
+            x[i] = WH_R(40.0) + WH_R(0.5) * scatter();
+            y[i] = WH_R(12.0) + WH_R(0.2) * scatter() + WH_R(0.3) * (x[i] - WH_R(40.0));
+            const wh_lockin_turn turn = turn_of(x[i], -y[i], i);
+            add(&turn);
+            sums[0] += x[i];
+            sums[1] += y[i];
+        }
+        wh_result_config config = wh_rig_standard.result;
+        config.amplitude_floor = config.phase_floor_rad = WH_R(0.0);
+        rotor.damping_tolerance = WH_R(0.0);
+        merge.swing_rad = WH_R(0.0);
+        conclude(&config);
+        const wh_real n = (wh_real)turns;
+        const wh_real mx = sums[0] / n;
+        const wh_real my = sums[1] / n;
+        wh_real size;
+        wh_real phase;
+        wh_polar(mx, my, &size, &phase);
+        TEST_ASSERT_FLOAT_WITHIN(1e-4f, (float)size, (float)measured.amplitude_N);
+        TEST_ASSERT_FLOAT_WITHIN(1e-6f, (float)phase, (float)measured.phase_rad);
+        wh_real squares[2] = {WH_R(0.0), WH_R(0.0)};
+        for (unsigned i = 0; i < turns; i++) {
+            const wh_real along = ((x[i] - mx) * mx + (y[i] - my) * my) / size;
+            const wh_real across = ((y[i] - my) * mx - (x[i] - mx) * my) / size;
+            squares[0] += along * along;
+            squares[1] += across * across;
+        }
+        for (unsigned i = 0; i < 2; i++) {
+            const wh_real half =
+                i == 0 ? measured.amplitude_half_N : measured.phase_half_rad * size;
+            const wh_real t = wh_student(turns - 1U);
+            const wh_real wanted2 = t * t * squares[i] / (n * (n - WH_R(1.0)));
+            TEST_ASSERT_FLOAT_WITHIN(2e-3f, 1.0f, (float)(half * half / wanted2));
+        }
+        TEST_ASSERT_EQUAL_UINT32(turns, measured.turns);
+        TEST_ASSERT_FLOAT_WITHIN(1e-4f, 0.0f, (float)measured.mean_N);
+        TEST_ASSERT_FLOAT_WITHIN(1e-4f, 42.0f, (float)measured.at_mark_N[0]);
+        TEST_ASSERT_FLOAT_WITHIN(1e-4f, -1.0f, (float)measured.at_mark_N[1]);
+        TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.1f, (float)measured.residual_N);
+        TEST_ASSERT_FLOAT_WITHIN(1e-4f, 330.0003f,
+                                 (float)(measured.speed_radps / WH_RIG_RADPS_PER_RPM));
+    }
+}
+
+/* Floors alone: each as it is said. And without scatter no interval is nothing. */
+static void test_floors_are_kept(void) {
+    begin();
+    for (unsigned i = 0; i < 10; i++) {
+        const wh_lockin_turn turn = turn_of(WH_R(42.0), WH_R(0.0), i);
+        add(&turn);
+    }
+    rotor.damping_tolerance = WH_R(0.0);
+    merge.swing_rad = WH_R(0.0);
+    conclude(&wh_rig_standard.result);
+    TEST_ASSERT_FLOAT_WITHIN(1e-5f, 0.0042f, (float)measured.amplitude_half_N);
+    TEST_ASSERT_FLOAT_WITHIN(1e-4f, 0.01f, (float)(measured.phase_half_rad / DEG));
+}
+
+/* Marks that come early and late: their standard deviation is found from the second differences, of both sensors, and
+ * across a turn that does not count none is taken. */
+static void test_jitter_is_found(void) {
+    scattered_state = UINT64_C(0x5eed0032);
+    begin();
+    wh_real late_us = WH_R(60.0) * scatter();
+    for (unsigned i = 0; i < 400; i++) {
+        const wh_real next_us = WH_R(60.0) * scatter();
+        wh_lockin_turn turn = turn_of(WH_R(42.0), WH_R(0.0), i);
+        turn.begin_ticks += (uint32_t)(int32_t)late_us;
+        turn.turn_ticks += (uint32_t)((int32_t)next_us - (int32_t)late_us);
+        turn.split_ticks += (uint32_t)(int32_t)(WH_R(60.0) * scatter());
+        if (i == 200U) {
+            turn.fault = WH_TURN_GAP;
+            turn.turn_ticks += 50000U;
+        }
+        add(&turn);
+        late_us = next_us;
+    }
+    conclude(&wh_rig_standard.result);
+    TEST_ASSERT_EQUAL_UINT32(399, measured.turns);
+    TEST_ASSERT_EQUAL_UINT32(1, measured.left_out);
+    /* 399 turns in two rows: 397 differences of the one sensor, 395 of the other's marks */
+    TEST_ASSERT_EQUAL_UINT32(397 + 395, merge.jitters);
+    TEST_ASSERT_FLOAT_WITHIN(5.0f, 60.0f, (float)(measured.jitter_s * WH_R(1e6)));
+}
+
+/* --- verdicts --------------------------------------------------------------------------------------- */
+
+static wh_why why_of(wh_real in_phase, wh_real quadrature, wh_lockin_turn like, unsigned turns,
+                     unsigned bad) {
+    begin();
+    for (unsigned i = 0; i < turns + bad; i++) {
+        wh_lockin_turn turn = turn_of(in_phase, quadrature, i);
+        turn.mean_N += like.mean_N;
+        turn.residual_N += like.residual_N;
+        turn.outliers = like.outliers;
+        turn.split_seen = !like.split_seen;
+        turn.fault = i < bad ? WH_TURN_GAP : WH_TURN_OK;
+        turn.force_N.at[1] += i % 2U == 0 ? like.force_N.at[1] : -like.force_N.at[1];
+        add(&turn);
+    }
+    conclude(&wh_rig_standard.result);
+    return measured.why;
+}
+
+static void test_every_reason_has_its_case(void) {
+    const wh_lockin_turn plain = {.samples = 0};
+    const wh_real full_N = WH_R(42.146); /* S <w^2> at 330 rpm */
+    TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), plain, 10, 0) == WH_WHY_NONE);
+    TEST_ASSERT_FLOAT_WITHIN(0.01f, (float)full_N, (float)measured.expected_N);
+    TEST_ASSERT_TRUE(measured.quality == WH_GOOD);
+    TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), plain, 0, 10) == WH_WHY_FEW_TURNS);
+    TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), plain, 2, 0) == WH_WHY_FEW_TURNS);
+    TEST_ASSERT_TRUE(measured.quality == WH_REFUSED);
+    TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), plain, 3, 0) == WH_WHY_NONE);
+    TEST_ASSERT_TRUE(why_of(-full_N, WH_R(0.0), plain, 10, 0) == WH_WHY_POLARITY);
+    TEST_ASSERT_TRUE(why_of(WH_R(0.0), WH_R(0.0), plain, 10, 0) == WH_WHY_AMPLITUDE);
+    for (int side = -1; side <= 1; side += 2) {
+        const wh_real s = (wh_real)side;
+        TEST_ASSERT_TRUE(why_of(full_N * (WH_R(1.0) + s * WH_R(0.26)), WH_R(0.0), plain, 10, 0) ==
+                         WH_WHY_AMPLITUDE);
+        TEST_ASSERT_TRUE(why_of(full_N * (WH_R(1.0) + s * WH_R(0.06)), WH_R(0.0), plain, 10, 0) ==
+                         WH_WHY_AMPLITUDE_OFF);
+        TEST_ASSERT_TRUE(measured.quality == WH_DOUBTFUL);
+        TEST_ASSERT_TRUE(why_of(full_N * (WH_R(1.0) + s * WH_R(0.04)), WH_R(0.0), plain, 10, 0) ==
+                         WH_WHY_NONE);
+        TEST_ASSERT_TRUE(why_of(full_N * WH_R(0.92), s * full_N * WH_R(0.39), plain, 10, 0) ==
+                         WH_WHY_PHASE); /* 23 degrees */
+        TEST_ASSERT_TRUE(why_of(full_N * WH_R(0.994), s * full_N * WH_R(0.104), plain, 10, 0) ==
+                         WH_WHY_PHASE_OFF); /* 6 */
+        TEST_ASSERT_TRUE(why_of(full_N * WH_R(0.997), s * full_N * WH_R(0.07), plain, 10, 0) ==
+                         WH_WHY_NONE); /* 4 */
+    }
+    wh_lockin_turn odd = plain;
+    odd.force_N.at[1] = WH_R(20.0); /* up and down, from turn to turn */
+    TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), odd, 10, 0) == WH_WHY_UNSURE);
+    odd.force_N.at[1] = WH_R(5.0);
+    TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), odd, 10, 0) == WH_WHY_WIDE);
+    TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), plain, 9, 4) == WH_WHY_LEFT_OUT);
+    TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), plain, 9, 3) == WH_WHY_NONE);
+    odd = plain;
+    odd.outliers = 1; /* of 91 */
+    TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), odd, 10, 0) == WH_WHY_OUTLIERS);
+    odd = plain;
+    odd.residual_N = WH_R(11.0);
+    TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), odd, 10, 0) == WH_WHY_RESIDUAL);
+    odd = plain;
+    odd.mean_N = WH_R(-5.0);
+    TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), odd, 10, 0) == WH_WHY_MEAN);
+    odd = plain;
+    odd.split_seen = true; /* that is, not seen */
+    TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), odd, 10, 0) == WH_WHY_ROTOR);
+    for (unsigned i = 0; i < 4; i++) { /* an inertia that is not the rotor's */
+        static const wh_real times[] = {WH_R(1.45), WH_R(0.7), WH_R(1.55), WH_R(0.6)};
+        TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), plain, 10, 0) == WH_WHY_NONE);
+        angle.inertia_kgm2 = rotor.inertia_kgm2 * times[i];
+        conclude(&wh_rig_standard.result);
+        TEST_ASSERT_TRUE(measured.why == (i < 2U ? WH_WHY_NONE : WH_WHY_ROTOR));
+    }
+    /* what is not a number is refused */
+    const wh_real nan = (wh_real)__builtin_nanf("");
+    TEST_ASSERT_TRUE(why_of(nan, WH_R(0.0), plain, 10, 0) == WH_WHY_AMPLITUDE);
+}
+
+/* A carriage of three times the masses' weight takes a quarter of the force away. */
+static void test_the_mount_decides_what_is_expected(void) {
+    begin();
+    wh_result_config config = wh_rig_standard.result;
+    config.mount_factor = WH_R(0.75);
+    for (unsigned i = 0; i < 10; i++) {
+        const wh_lockin_turn turn = turn_of(WH_R(0.75) * WH_R(42.146), WH_R(0.0), i);
+        wh_merge_add(&config, &rotor, &merge, &turn, &angle);
+    }
+    conclude(&config);
+    TEST_ASSERT_TRUE(measured.why == WH_WHY_NONE);
+    TEST_ASSERT_FLOAT_WITHIN(0.01f, 31.61f, (float)measured.expected_N);
+}
+
+static bool same_text(const char *x, const char *y) {
+    while (*x != 0 && *x == *y) {
+        x++;
+        y++;
+    }
+    return *x == *y;
+}
+
+static void test_every_reason_has_words_of_its_own(void) {
+    for (int i = 0; i <= (int)WH_WHYS; i++) {
+        for (int k = 0; k < i; k++) {
+            TEST_ASSERT_FALSE(same_text(wh_why_text((wh_why)i), wh_why_text((wh_why)k)));
+        }
+    }
+    for (int i = 0; i <= (int)WH_TURN_FAULTS; i++) {
+        for (int k = 0; k < i; k++) {
+            TEST_ASSERT_FALSE(
+                same_text(wh_turn_text((wh_turn_fault)i), wh_turn_text((wh_turn_fault)k)));
+        }
+    }
+    for (int i = 0; i <= (int)WH_REFUSED + 1; i++) {
+        for (int k = 0; k < i; k++) {
+            TEST_ASSERT_FALSE(
+                same_text(wh_quality_text((wh_quality)i), wh_quality_text((wh_quality)k)));
+        }
+    }
+}
+
+/* --- the tare --------------------------------------------------------------------------------------- */
+
+/* Noise of any size that leaves the mean known is no motion; a hundred draws of each. */
+static void test_noise_is_no_motion(void) {
+    static const wh_real noise_N[] = {WH_R(0.0), WH_R(0.007), WH_R(0.07), WH_R(1.0), WH_R(3.0)};
+    scattered_state = UINT64_C(0x5eed0033);
+    for (unsigned k = 0; k < 500; k++) {
+        const wh_real size = noise_N[k % 5U];
+        wh_tare tare = {.count = 0};
+        for (unsigned i = 0; i < 250; i++) {
+            wh_tare_add(&tare, WH_R(56.0) + size * scatter());
+        }
+        TEST_ASSERT_TRUE(wh_tare_is_still(&wh_rig_standard.tare, &tare));
+        const wh_real error = size / WH_R(15.811); /* the root of 250 */
+        TEST_ASSERT_FLOAT_WITHIN(0.15f * (float)error + 1e-5f, (float)error,
+                                 (float)wh_tare_error_N(&tare));
+        TEST_ASSERT_FLOAT_WITHIN(5.0f * (float)error + 1e-4f, 56.0f, (float)tare.mean_N);
+    }
+}
+
+/* Drifts and swings of a newton are motion, below noise of a third of it too; more noise than leaves the mean known to
+ * 0.25 N is too much; and of no samples or one nothing is known. */
+static void test_motion_is_seen_through_noise(void) {
+    scattered_state = UINT64_C(0x5eed0034);
+    for (unsigned k = 0; k < 200; k++) {
+        wh_tare tare = {.count = 0};
+        for (unsigned i = 0; i < 250; i++) {
+            const wh_real part = (wh_real)i / WH_R(250.0);
+            const wh_real moved = k % 2U == 0        ? WH_R(2.0) * part
+                                  : part < WH_R(0.5) ? WH_R(1.0)
+                                                     : WH_R(-1.0);
+            wh_tare_add(&tare, WH_R(56.0) + moved + WH_R(0.33) * scatter());
+        }
+        TEST_ASSERT_FALSE(wh_tare_is_still(&wh_rig_standard.tare, &tare));
+    }
+    wh_tare tare = {.count = 0};
+    for (unsigned i = 0; i < 250; i++) {
+        wh_tare_add(&tare, WH_R(8.0) * scatter());
+    }
+    TEST_ASSERT_FALSE(wh_tare_is_still(&wh_rig_standard.tare, &tare));
+    tare = (wh_tare){.count = 0};
+    TEST_ASSERT_FALSE(wh_tare_is_still(&wh_rig_standard.tare, &tare));
+    wh_tare_add(&tare, WH_R(1.0));
+    TEST_ASSERT_FALSE(wh_tare_is_still(&wh_rig_standard.tare, &tare));
+    TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)wh_tare_error_N(&tare));
+}
+
+void suite_rig_result(void) {
+    RUN_TEST(test_students_factor);
+    RUN_TEST(test_the_interval_is_students);
+    RUN_TEST(test_floors_are_kept);
+    RUN_TEST(test_jitter_is_found);
+    RUN_TEST(test_every_reason_has_its_case);
+    RUN_TEST(test_the_mount_decides_what_is_expected);
+    RUN_TEST(test_every_reason_has_words_of_its_own);
+    RUN_TEST(test_noise_is_no_motion);
+    RUN_TEST(test_motion_is_seen_through_noise);
+}

@@ -1,0 +1,220 @@
+/* rig_orbit.c: one turn of the eccentric-mass rig, integrated finely, and measurements of it. */
+#include "rig_orbit.h"
+
+#include <math.h>
+
+#include "core/rig/rig.h"
+#include "hal/loadcell.h"
+#include "hal/slots.h"
+#include "tests/scattered.h"
+
+#define PI 3.14159265358979323846
+
+const rig_plant rig_plant_nominal = {
+    /* two sets: arm 0.152 lb, 7.25 in long; discs 0.15 lb at 6.5 in; 5e-4 kg m^2 of motor and shafts */
+    .mass_moment_kgm = 2.0 * (0.152 * 3.625 + 0.15 * 6.5) * 0.45359237 * 0.0254,
+    .inertia_kgm2 =
+        2.0 * (0.152 * 7.25 * 7.25 / 3.0 + 0.15 * 6.5 * 6.5) * 0.45359237 * 0.0254 * 0.0254 + 5e-4,
+    .drag_Nms = 0.001,
+    .line_Nms = 1.5 / (600.0 * 2.0 * PI / 60.0),
+    .gravity_mps2 = 9.80665,
+    .tare_N = (12.0 + 2.0 * (0.152 + 0.15)) * 0.45359237 * 9.80665,
+};
+
+/* --- the turn: speed over the angle, dw/dtheta = torque/(I w), dt/dtheta = 1/w ------------------ */
+
+static double acceleration(const rig_plant *p, double drive_Nm, double theta, double w) {
+    return (drive_Nm - (p->line_Nms + p->drag_Nms) * w -
+            p->mass_moment_kgm * p->gravity_mps2 * sin(theta)) /
+           p->inertia_kgm2;
+}
+
+static double bend(const rig_plant *p, double drive_Nm, double theta, double w) {
+    return acceleration(p, drive_Nm, theta, w) / w;
+}
+
+#define STEPS 1024U
+static double speed_at[2U * STEPS + 1U]; /* at every half step of the angle */
+static double time_at[STEPS + 1U];
+
+/* w at the end of a turn that begins with w at the angle `from`; time_at, speed_at on the way. */
+static double turn(const rig_plant *p, double drive_Nm, double from, double w) {
+    const double h = 2.0 * PI / STEPS;
+    time_at[0] = 0.0;
+    speed_at[0] = w;
+    for (unsigned i = 0; i < STEPS; i++) {
+        const double a = from + h * i;
+        const double k1 = bend(p, drive_Nm, a, w);
+        const double k2 = bend(p, drive_Nm, a + h / 2.0, w + h / 2.0 * k1);
+        const double k3 = bend(p, drive_Nm, a + h / 2.0, w + h / 2.0 * k2);
+        const double k4 = bend(p, drive_Nm, a + h, w + h * k3);
+        const double next = w + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+        /* Hermite's cubic at the middle */
+        const double middle = (w + next) / 2.0 + h / 8.0 * (k1 - bend(p, drive_Nm, a + h, next));
+        time_at[i + 1U] = time_at[i] + h / 6.0 * (1.0 / w + 4.0 / middle + 1.0 / next);
+        speed_at[2U * i + 1U] = middle;
+        speed_at[2U * i + 2U] = next;
+        w = next;
+    }
+    return w;
+}
+
+/* The periodic turn under this torque: what begins as it ends, by secants. */
+static double periodic(const rig_plant *p, double drive_Nm, double from) {
+    double w = drive_Nm / (p->line_Nms + p->drag_Nms);
+    for (unsigned round = 0; round < 60; round++) {
+        const double off = turn(p, drive_Nm, from, w) - w;
+        const double slope =
+            (turn(p, drive_Nm, from, w * (1.0 + 1e-6)) - w * (1.0 + 1e-6) - off) / (w * 1e-6);
+        w -= off / slope;
+        if (fabs(off) < 1e-13 * w) {
+            break;
+        }
+    }
+    turn(p, drive_Nm, from, w);
+    return time_at[STEPS];
+}
+
+static double force(const rig_plant *p, double drive_Nm, double theta, double w) {
+    return p->mass_moment_kgm *
+           (w * w * cos(theta) + acceleration(p, drive_Nm, theta, w) * sin(theta));
+}
+
+/* Step in which the time `t` of the turn lies. */
+static unsigned step_of(double t) {
+    unsigned low = 0;
+    unsigned high = STEPS;
+    while (high - low > 1U) {
+        const unsigned middle = (low + high) / 2U;
+        if (time_at[middle] <= t) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
+void rig_orbit_find(const rig_plant *plant, double speed_rpm, double lead_rad, rig_orbit *orbit) {
+    const double from = -lead_rad;
+    const double wanted_s = 60.0 / speed_rpm;
+    double drive_Nm = (plant->line_Nms + plant->drag_Nms) * 2.0 * PI / wanted_s;
+    for (unsigned round = 0; round < 60; round++) {
+        const double off = periodic(plant, drive_Nm, from) - wanted_s;
+        const double more = drive_Nm * (1.0 + 1e-5);
+        const double slope = (periodic(plant, more, from) - wanted_s - off) / (drive_Nm * 1e-5);
+        if (fabs(off) < 1e-11) {
+            break;
+        }
+        drive_Nm -= off / slope;
+    }
+    orbit->turn_s = periodic(plant, drive_Nm, from);
+    orbit->tare_N = plant->tare_N;
+    const double h = 2.0 * PI / STEPS;
+    orbit->split = time_at[STEPS / 4U] / orbit->turn_s;
+    orbit->in_phase_N = 0.0;
+    orbit->quadrature_N = 0.0;
+    double least = speed_at[0];
+    double most = speed_at[0];
+    for (unsigned i = 0; i < STEPS; i++) { /* smooth and periodic: the sum is the integral */
+        const double theta = from + h * i;
+        const double w = speed_at[2U * i];
+        const double f = force(plant, drive_Nm, theta, w);
+        orbit->in_phase_N += h / PI * f * cos(theta);
+        orbit->quadrature_N += h / PI * f * sin(theta);
+        least = fmin(least, w);
+        most = fmax(most, w);
+    }
+    orbit->swing = (most - least) / 2.0 * orbit->turn_s / (2.0 * PI);
+    orbit->amplitude_N = hypot(orbit->in_phase_N, orbit->quadrature_N);
+    orbit->phase_rad = atan2(-orbit->quadrature_N, orbit->in_phase_N);
+    orbit->node_s = orbit->turn_s / ORBIT_NODES;
+    for (unsigned k = 0; k <= ORBIT_NODES; k++) {
+        const double t = fmin(k * orbit->node_s, time_at[STEPS]);
+        const unsigned i = step_of(t);
+        /* way within the step, by its speeds at both ends and the middle */
+        double part = (t - time_at[i]) / (time_at[i + 1U] - time_at[i]);
+        const double w0 = speed_at[2U * i];
+        const double w1 = speed_at[2U * i + 2U];
+        part = part + part * (1.0 - part) * (w0 - w1) / (w0 + w1);
+        const double w = w0 + part * (w1 - w0);
+        orbit->force_N[k] = force(plant, drive_Nm, from + h * (i + part), w);
+    }
+}
+
+/* --- measurements --------------------------------------------------------------------------------- */
+
+static double uniform(void) { return ((double)(scattered() >> 11) + 0.5) * 0x1p-53; }
+
+/* A normal number (Box and Muller, Annals of Mathematical Statistics 29 (1958) 610). */
+static double normal(void) { return sqrt(-2.0 * log(uniform())) * cos(2.0 * PI * uniform()); }
+
+void rig_measure_config(wh_result_config *result, wh_rotor_config *rotor, wh_cell_config *cell) {
+    *result = wh_rig_standard.result;
+    *rotor = wh_rig_standard.rotor;
+    rotor->mark_rad[0] = (wh_real)(-(double)HAL_SLOT_LEAD_DEG * PI / 180.0);
+    rotor->mark_rad[1] = (wh_real)((90.0 - (double)HAL_SLOT_LEAD_DEG) * PI / 180.0);
+    *cell = (wh_cell_config){.newton_per_count = HAL_LOADCELL_N_PER_COUNT,
+                             .period_ticks = HAL_LOADCELL_PERIOD_TICKS,
+                             .raw_max = HAL_LOADCELL_RAW_MAX};
+}
+
+static double force_at(const rig_orbit *orbit, double t_s) {
+    const double at = t_s / orbit->node_s;
+    const double whole = floor(at);
+    const unsigned k = (unsigned)fmod(whole, ORBIT_NODES);
+    return orbit->force_N[k] + (at - whole) * (orbit->force_N[k + 1U] - orbit->force_N[k]);
+}
+
+void rig_measure(const rig_orbit *orbit, const rig_noise *noise, const wh_rotor_config *rotor,
+                 unsigned before, unsigned turns, uint64_t scattered_seed, wh_measured *measured) {
+    static wh_lockin lockin;
+    wh_result_config judged;
+    wh_rotor_config unused;
+    wh_cell_config cell;
+    rig_measure_config(&judged, &unused, &cell);
+    scattered_state = scattered_seed * UINT64_C(0x9e3779b97f4a7c15) + 1U;
+    for (unsigned i = 0; i < 16; i++) {
+        scattered();
+    }
+    wh_lockin_start(rotor, &lockin);
+    wh_merge merge = {0};
+    const uint32_t begin = UINT32_MAX - 1500000U; /* the timer wraps on the way */
+    const double first_mark_s = uniform() * 0.002 + 0.001;
+    unsigned marks = 0;
+    double due_s = first_mark_s + noise->jitter_s * normal();
+    unsigned done = 0;
+    double shown_N = orbit->tare_N;
+    for (uint32_t i = 1; merge.turns + merge.left_out < turns && done < before + turns; i++) {
+        const double now_s = i * 0.002;
+        while (due_s <= now_s) { /* the timer drops fractions */
+            wh_lockin_mark(&lockin, marks % 2U, begin + (uint32_t)(due_s * 1e6),
+                           marks / 2U * 4U + marks % 2U);
+            marks++;
+            const unsigned whole = marks / 2U;
+            due_s = first_mark_s +
+                    ((double)whole + (double)(marks % 2U) * orbit->split) * orbit->turn_s +
+                    noise->jitter_s * normal();
+        }
+        const double t_s = now_s - first_mark_s + (1.0 + noise->turned_by) * orbit->turn_s;
+        double force_N = orbit->tare_N +
+                         (noise->mute ? 0.0 : (1.0 + noise->gain_off) * force_at(orbit, t_s)) +
+                         noise->cell_N * normal() + noise->hum_N * sin(2.0 * PI * 60.0 * now_s);
+        if (noise->spikes > 0.0 && uniform() < noise->spikes) {
+            force_N += noise->spike_N;
+        }
+        const double frozen_from_s = (before + 0.43 * turns) * orbit->turn_s;
+        if (now_s < frozen_from_s || now_s > frozen_from_s + noise->frozen_s) {
+            shown_N = force_N;
+        }
+        const double raw = shown_N / (double)HAL_LOADCELL_N_PER_COUNT;
+        const wh_load load =
+            wh_cell_load(&cell, begin + i * 2000U, (int32_t)lround(raw), WH_LOAD_OK);
+        wh_lockin_load(&lockin, &load);
+        if (wh_lockin_work(rotor, &cell, &lockin) && ++done > before) {
+            wh_merge_add(&judged, rotor, &merge, &lockin.turn, &lockin.angle);
+        }
+    }
+    wh_merge_mean(&judged, rotor, &merge, &lockin.angle, (wh_real)orbit->tare_N, measured);
+    wh_merge_judge(&judged, rotor, &merge, measured);
+}

@@ -1,0 +1,63 @@
+/* rig_orbit.h: one turn of the eccentric-mass rig at a steady mean speed, integrated finely in double, and
+ * measurements of it with made-up noise by core/rig's lock-in, which knows nothing of it. */
+#ifndef TESTS_RIG_ORBIT_H
+#define TESTS_RIG_ORBIT_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "core/rig/result.h"
+
+/* The plant: eccentric_fixed with gravity of core/models/eccentric.whirl, written down once more. */
+typedef struct rig_plant {
+    double mass_moment_kgm;
+    double inertia_kgm2;
+    double drag_Nms; /* of the bearings */
+    double line_Nms; /* slope of the motor's torque line */
+    double gravity_mps2;
+    double tare_N;
+} rig_plant;
+
+extern const rig_plant rig_plant_nominal;
+
+#define ORBIT_NODES 4096U
+
+typedef struct rig_orbit {
+    double turn_s;
+    double split; /* part of the turn's time at which sensor 2 fires */
+    double node_s;
+    double force_N[ORBIT_NODES + 1U]; /* without tare, evenly over the time since sensor 1's mark */
+    double tare_N;
+    /* truth: first Fourier coefficients over the angle */
+    double in_phase_N;
+    double quadrature_N;
+    double amplitude_N;
+    double phase_rad;
+    double swing; /* half the range of the speed, over its mean */
+} rig_orbit;
+
+/* The steady turn at this mean speed. The marks are where the arms are lead_rad short of the sensors. */
+void rig_orbit_find(const rig_plant *plant, double speed_rpm, double lead_rad, rig_orbit *orbit);
+
+typedef struct rig_noise {
+    double cell_N;   /* standard deviations: of each sample's force, */
+    double jitter_s; /* and of each mark's time */
+    /* faults of the cell, all 0 for none */
+    double gain_off;  /* it shows so much more, as a part */
+    double hum_N;     /* amplitude of what a mains of 60 Hz adds */
+    double frozen_s;  /* it stands still for so long in the middle of the turns that are kept */
+    double spikes;    /* this part of the samples */
+    double spike_N;   /* is off by so much */
+    bool mute;        /* no force, but all of the above */
+    double turned_by; /* part of a turn by which both sensors stand wrong */
+} rig_noise;
+
+/* The configurations that the firmware uses. */
+void rig_measure_config(wh_result_config *result, wh_rotor_config *rotor, wh_cell_config *cell);
+
+/* Measure over `turns` turns, after `before` turns of which nothing is kept. What noise there is is drawn
+ * from scattered_seed. */
+void rig_measure(const rig_orbit *orbit, const rig_noise *noise, const wh_rotor_config *rotor,
+                 unsigned before, unsigned turns, uint64_t scattered_seed, wh_measured *measured);
+
+#endif
