@@ -59,7 +59,7 @@ static double believe(const char *text, bool is_float) {
 static void test_falls_through_a_centre_of_force(void) {
     static const char *const powers[] = {"0.5", "1", "2"};
     dice d = dice_of("falls", 4001);
-    const unsigned cases = dice_cases(usual_or(30, 12));
+    const unsigned cases = dice_cases(few_or_all(12, 30));
     for (unsigned i = 0; i < cases; i++) {
         const unsigned which = dice_one_of(&d, 3);
         const double power = strtod(powers[which], NULL);
@@ -110,7 +110,7 @@ static void coarse_spring(dice *d, char *text, size_t size, bool clock, bool sto
 
 static void test_springs_too_stiff_for_their_step(void) {
     dice d = dice_of("coarse springs", 4002);
-    const unsigned cases = dice_cases(usual_or(40, 12));
+    const unsigned cases = dice_cases(few_or_all(12, 40));
     for (unsigned i = 0; i < cases; i++) {
         char text[800];
         coarse_spring(&d, text, sizeof text, i % 4 == 1, i % 4 == 2);
@@ -220,7 +220,7 @@ static void fine_mechanism(dice *d, fine_kind kind, char *text, size_t size) {
 
 static void test_fine_mechanisms_say_nothing(void) {
     dice d = dice_of("fine mechanisms", 4003);
-    const unsigned rounds = dice_cases(usual_or(8, 3));
+    const unsigned rounds = dice_cases(few_or_all(usual_or(3, 2), 8));
     double worst[2] = {0.0, 0.0};
     for (unsigned i = 0; i < rounds; i++) {
         for (fine_kind kind = SPRING; kind < FINE; kind++) {
@@ -292,7 +292,7 @@ static void tiny_mechanism(dice *d, double length, double stiffness, char *text,
 static void test_energies_that_are_small_for_float(void) {
     dice d = dice_of("tiny", 3417);
     char text[800];
-    const unsigned rounds = dice_cases(usual_or(60, 20));
+    const unsigned rounds = dice_cases(few_or_all(20, 60));
     for (unsigned i = 0; i < rounds; i++) {
         tiny_mechanism(&d, pow(10.0, dice_between(&d, -37.0, 1.0)), 1.0, text, sizeof text);
         believe(text, true);

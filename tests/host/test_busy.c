@@ -218,7 +218,7 @@ static double bounces_of(const rattle *r) {
 
 static void test_busy_contacts_are_told_and_cured(void) {
     dice d = dice_of("busy", 15005);
-    const unsigned cases = dice_cases(few_or_all(usual_or(60, 30), 120));
+    const unsigned cases = dice_cases(few_or_all(30, 120));
     unsigned off = 0;
     unsigned right = 0;
     unsigned cured = 0;
@@ -272,7 +272,7 @@ static void test_busy_contacts_are_told_and_cured(void) {
 /* A million events a step and more; what the warning says of the scene is done. */
 static void test_where_no_step_helps_the_scene_is_changed(void) {
     dice d = dice_of("busy_scenes", 15002);
-    const unsigned cases = dice_cases(few_or_all(usual_or(6, 3), 60));
+    const unsigned cases = dice_cases(few_or_all(usual_or(4, 3), 60));
     for (unsigned i = 0; i < cases; i++) {
         static const char *const words[] = {"ends its bounces", "take longer to come true again"};
         rattle r = drawn(&d, i % 2 == 0 ? BALL : HOLD);
@@ -338,7 +338,7 @@ static double hybrid_off(const hybrid *h, const hybrid_motion *wanted, double st
 
 static void test_hybrids_in_coarse_steps(void) {
     dice d = dice_of("busy_hybrids", 15003);
-    const unsigned cases = dice_cases(few_or_all(usual_or(10, 4), 60));
+    const unsigned cases = dice_cases(few_or_all(usual_or(6, 4), 60));
     uint64_t seed = d.state;
     unsigned tried = 0;
     unsigned busy_ones = 0;

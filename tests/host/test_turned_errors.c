@@ -5,6 +5,7 @@
  * double, sums compensated, so that the errors are the method's. */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "command.h"
 #include "motion.h"
@@ -57,8 +58,12 @@ static void test_turning_errs_as_looking_up_does(void) {
         {"S16", "carriage_free"},      {"S16", "carriage_ratio"}};
     printf("| row | scene | error at 1 ms, turned | lookup | ratio | order, turned | lookup |\n"
            "|---|---|---|---|---|---|---|\n");
+    const bool first_only = few_or_all(usual_or(1, 0), 0) != 0; /* of each row */
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i += usual_or(1, 3)) {
         const char *name = scenes[i][1];
+        if (first_only && i > 0 && strcmp(scenes[i][0], scenes[i - 1][0]) == 0) {
+            continue;
+        }
         double exact[VALUES];
         double error[2];
         double order[2];

@@ -206,7 +206,7 @@ static bool cure(const made_up *m, const said *warned, wh_method method, double 
 
 static void test_energy_that_the_method_takes_is_told(void) {
     dice d = dice_of("warned", 14001);
-    const unsigned cases = dice_cases(few_or_all(usual_or(120, 60), 300));
+    const unsigned cases = dice_cases(few_or_all(usual_or(60, 40), 300));
     unsigned gone = 0;
     unsigned sound = 0;
     unsigned between = 0;
@@ -353,7 +353,7 @@ static void test_passing_a_pole_is_told(void) {
 
 static void test_swings_of_a_system_are_told(void) {
     dice d = dice_of("systems", 14003);
-    const unsigned cases = dice_cases(usual_or(60, 15));
+    const unsigned cases = dice_cases(few_or_all(usual_or(20, 15), 60));
     for (unsigned i = 0; i < cases; i++) {
         const double w = pow(10.0, dice_between(&d, -1.0, 3.0));
         const double hw = pow(10.0, dice_between(&d, -2.0, 0.44));
