@@ -2,9 +2,9 @@
 # emitted_c.sh: `whirl derive --as c` compiles by itself without a warning, in float and in double, with
 # gcc and with clang, and steps to the same bits as the interpreter, a step or many a call: for every built-in scene, every file
 # of tests/mechanisms, and scenes made for the odd corners of the operation list.
-# `make test` takes the two builds that differ most; with WHIRL_FULL=1 there are two more, with WHIRL_FULL=rest (make
-# gate-full) these alone. With WHIRL_FEW=1 (sanitizers, where the program is what is tested) every other one is derived and
-# interpreted, and nothing compiled.
+# `make test` takes the two builds that differ most, by turns: a scene is compiled by one of them. WHIRL_FULL=rest (make gate-full)
+# compiles each by the other, and all by two more; WHIRL_FULL=1 takes all. With WHIRL_FEW=1 (sanitizers, where the program is
+# what is tested) every other one is derived and interpreted, and nothing compiled.
 . "$(dirname "$0")/../checks.sh"
 
 compared=0
@@ -267,6 +267,15 @@ done
 # --- deriving and interpreting ----------------------------------------------------------------------
 : >"$scratch/numbers"
 [ -z "${WHIRL_FEW:-}" ] || sed -i 'n;d' "$scratch/list"
+# by_turns NUMBER: which build of `make test` takes it: by no rhythm that the list has, too (Thue and Morse's); tables that are
+# folded are so in float alone.
+by_turns() {
+    if [ ! -e "$scratch/$1.folded" ] && [ $((($1 ^ $1 >> 1 ^ $1 >> 2 ^ $1 >> 3 ^ $1 >> 4 ^ $1 >> 5 ^ $1 >> 6 ^ $1 >> 7 ^ $1 >> 8) & 1)) -eq 0 ]; then
+        echo double
+    else
+        echo float
+    fi
+}
 while read -r number what; do
     set --
     while read -r word; do
@@ -280,7 +289,9 @@ while read -r number what; do
         grep -q 'wh_table_half' "$scratch/folded.c" || verdict 1 "$what: its tables fold"
         mv "$scratch/folded.c" "$scratch/scene_$number.c"
     fi
-    "$whirl" run "$@" --number float >"$scratch/$number.float" 2>"$scratch/$number.run"
+    real=float
+    [ -n "${WHIRL_FULL:-}${WHIRL_FEW:-}" ] || real=$(by_turns "$number")
+    "$whirl" run "$@" --number "$real" >"$scratch/$number.$real" 2>"$scratch/$number.run"
     ran=$?
     # status 1: it diverges, and must do so after the same step in both
     if [ $derived -ne 0 ] || [ $ran -gt 1 ]; then
@@ -289,7 +300,7 @@ while read -r number what; do
         rm -f "$scratch/scene_$number.c"
         continue
     fi
-    "$whirl" run "$@" --number double >"$scratch/$number.double" 2>&1
+    [ -z "${WHIRL_FULL:-}${WHIRL_FEW:-}" ] || "$whirl" run "$@" --number double >"$scratch/$number.double" 2>&1
     echo "$number" >>"$scratch/numbers"
 done <"$scratch/list"
 if [ -e "$scratch/$links" ]; then # else the sanitizers' gate left it out
@@ -297,14 +308,14 @@ if [ -e "$scratch/$links" ]; then # else the sanitizers' gate left it out
     verdict $? "a large list is called"
 fi
 
-# --- one program of all -----------------------------------------------------------------------------
-{
+# --- one program of all, or of some -----------------------------------------------------------------
+program_of() { # FILE: of the scenes whose numbers it holds
     echo '#include <inttypes.h>'
     echo '#include <stdio.h>'
     echo '#include "core/scene.h"'
-    sed 's/.*/extern const wh_scene scene_&;/' "$scratch/numbers"
+    sed 's/.*/extern const wh_scene scene_&;/' "$1"
     echo 'static const struct { int number; const wh_scene *scene; } all[] = {'
-    sed 's/.*/    {&, \&scene_&},/' "$scratch/numbers"
+    sed 's/.*/    {&, \&scene_&},/' "$1"
     cat <<'END'
 };
 static uint64_t memory[WH_STATE_WORDS(64, 128, 64) + WH_CONTACT_WORDS(16) + WH_LEDGER_WORDS(2048, 65)];
@@ -331,14 +342,18 @@ int main(void) {
     return 0;
 }
 END
-} >"$scratch/main.c"
+}
+while read -r number; do
+    echo "$number" >>"$scratch/numbers.$(by_turns "$number")"
+done <"$scratch/numbers"
 
-build() { # build COMPILER OPTIMISATION REAL WH_DOUBLE WH_AHEAD
-    # shellcheck disable=SC2086 # lists of words
-    $1 $warnings $2 -DWH_DOUBLE="$4" -DWH_AHEAD="$5" -o "$scratch/$1_$3" "$scratch"/scene_*.c "$scratch/main.c" \
+build() { # build COMPILER OPTIMISATION REAL WH_DOUBLE WH_AHEAD NUMBERS
+    program_of "$6" >"$scratch/main.c"
+    # shellcheck disable=SC2046,SC2086 # lists of words
+    $1 $warnings $2 -DWH_DOUBLE="$4" -DWH_AHEAD="$5" -o "$scratch/$1_$3" $(sed "s|.*|$scratch/scene_&.c|" "$6") "$scratch/main.c" \
         core/*.c >"$scratch/$1_$3.log" 2>&1
     status=$?
-    verdict $status "$1 $2 compiles $(wc -l <"$scratch/numbers") emitted scenes in $3 without a warning"
+    verdict $status "$1 $2 compiles $(wc -l <"$6") emitted scenes in $3 without a warning"
     [ $status -eq 0 ] || { grep -E "error|warning|undefined" "$scratch/$1_$3.log" | head -n 5; return; }
     "$scratch/$1_$3" >"$scratch/$1_$3.hashes"
     while read -r number hash; do
@@ -357,12 +372,14 @@ if [ -n "${WHIRL_FEW:-}" ]; then
     exit $failed
 fi
 if [ "${WHIRL_FULL:-}" != rest ]; then
-    build gcc -O2 float 0 1
-    build $other -O0 double 1 0
+    build gcc -O2 float 0 1 "$scratch/numbers.float"
+    build $other -O0 double 1 0 "$scratch/numbers.double"
 fi
 if [ -n "${WHIRL_FULL:-}" ]; then
-    build gcc -O1 double 1 1
-    [ $other = gcc ] || build clang -O1 float 0 0
+    build gcc -O2 float 0 1 "$scratch/numbers.double"
+    build $other -O0 double 1 0 "$scratch/numbers.float"
+    build gcc -O1 double 1 1 "$scratch/numbers"
+    [ $other = gcc ] || build clang -O1 float 0 0 "$scratch/numbers"
 fi
 
 [ "$compared" -ge "$(wc -l <"$scratch/numbers")" ] && [ "$compared" -ge 120 ]

@@ -159,7 +159,8 @@ static void test_books_have_the_order_of_the_name(void) {
         for (int m = 0; m < WH_METHODS && forms[i].ledger; m++) {
             double left_J[2];
             const int wanted = wh_methods[m].order;
-            if ((unsigned)(i + m) % few_or_all(usual_or(2, 3), 1) != 0 || !takes(&forms[i], (wh_method)m, true)) {
+            if ((unsigned)(i + m) % few_or_all(usual_or(2, 3), 1) != 0 ||
+                !takes(&forms[i], (wh_method)m, true)) {
                 continue;
             }
             for (int k = 0; k < 2; k++) {
