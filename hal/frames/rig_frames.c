@@ -68,12 +68,19 @@ bool hal_slots_take(hal_slot_pulse *pulse) {
     return true;
 }
 
+static uint8_t load_status(uint8_t status) {
+    return status == WH_SAMPLE_GOOD        ? HAL_LOAD_OK
+           : status == WH_SAMPLE_SATURATED ? HAL_LOAD_SATURATED
+                                           : HAL_LOAD_DISCONNECTED;
+}
+
 bool hal_loadcell_take(hal_load_sample *sample) {
     wh_sample one;
     if (!hal_turns_take_sample(&plant, &one)) {
         return false;
     }
-    *sample = (hal_load_sample){.ticks = one.ticks, .raw = (int16_t)one.raw};
+    *sample =
+        (hal_load_sample){.ticks = one.ticks, .raw = one.raw, .status = load_status(one.status)};
     return true;
 }
 

@@ -1,6 +1,6 @@
 #!/bin/sh
 # price_predicts.sh: what host/price says of steps, against counted ones: mechanisms drawn anew (none of those that the
-# figures were fitted to), on the emulated board of `make test`. (All boards: `make price-check`.)
+# figures were fitted to), on the emulated board of `make test`; with WHIRL_FULL more. (All boards: `make price-check`.)
 . "$(dirname "$0")/../checks.sh"
 
 fit=$(dirname "$whirl")/tools/price_fit
@@ -37,7 +37,11 @@ done >"$scratch/cost/cases" <<'END'
 12 --method nystroem5
 12 --method euler --compensated
 END
+# every other one, and one that looks up; each of the settings by itself stands among them
+[ -n "${WHIRL_FULL:-}" ] || sed -i -n '1~2p; 4p' "$scratch/cost/cases"
 cases=$(wc -l <"$scratch/cost/cases")
+[ "$cases" -ge 11 ]
+verdict $? "$cases cases"
 
 # The rows name what they were derived from, so files of a temporary folder do.
 make -s B=build BOARD=mps2-an386 price-measure-board PRICE_OUT="$scratch/cost" STEPS=20 WORST=0 >"$scratch/err" 2>&1
@@ -57,8 +61,10 @@ verdict $? "half of a count would be seen" "$scratch/told"
 
 # The same of fixed point, which has figures and features of its own.
 mkdir -p "$scratch/fixed"
+drawn=9
+[ -z "${WHIRL_FULL:-}" ] || drawn=18
 fit_fixed=$(dirname "$whirl")/tools/price_fit_fixed
-WHIRL=$whirl sh mk/price/cases_fixed.sh "$scratch/fixed" 78 18 >"$scratch/fixed/cases"
+WHIRL=$whirl sh mk/price/cases_fixed.sh "$scratch/fixed" 78 "$drawn" >"$scratch/fixed/cases"
 cases=$(wc -l <"$scratch/fixed/cases")
 make -s B=build BOARD=mps2-an386 price-measure-board NUMBERS=fixed PRICE_OUT="$scratch/fixed" STEPS=20 >"$scratch/err" 2>&1
 [ "$cases" -ge 8 ] && [ "$(grep -c ',mps2-an386,.*,fixed,' "$scratch/fixed/rows.csv")" -eq "$cases" ]
