@@ -297,10 +297,10 @@ static void end_turn(const wh_cell_config *cell, wh_lockin *lockin) {
 
 static void begin_turn(wh_lockin *lockin) {
     if (!lockin->expects) {
-        lockin->expected_N = (wh_orders){{WH_R(0.0)}};
+        lockin->expected_N = (wh_lockin_orders){{WH_R(0.0)}};
     }
     lockin->part_per_tick = WH_R(1.0) / (wh_real)lockin->next.turn_ticks;
-    lockin->sum = (wh_orders){{WH_R(0.0)}};
+    lockin->sum = (wh_lockin_orders){{WH_R(0.0)}};
     lockin->square = lockin->mean = lockin->widest = WH_R(0.0);
     lockin->stage = WH_LOCKIN_BEGINS;
 }

@@ -49,20 +49,20 @@ typedef enum wh_turn_fault { WH_TURN_ROWS(WH_TURN_NAME) WH_TURN_FAULTS } wh_turn
 
 /* Fourier coefficients of the load over the angle, up to the second order. */
 #define WH_LOCKIN_ORDERS 5U
-typedef struct wh_orders {
+typedef struct wh_lockin_orders {
     wh_real at[WH_LOCKIN_ORDERS]; /* mean, cosine, sine, cosine of twice the angle, sine of it */
-} wh_orders;
+} wh_lockin_orders;
 
 typedef struct wh_lockin_turn {
     uint32_t begin_ticks; /* sensor 1's mark */
     uint32_t turn_ticks;
     wh_turn_fault fault;
-    wh_orders force_N;    /* at[1]: amplitude cos(phase); at[2]: -amplitude sin(phase) */
-    wh_real mean_N;       /* over the time */
-    wh_real residual_N;   /* what orders 0 to 2 leave, rms */
-    wh_real at_mark_N[2]; /* load at each sensor's mark */
-    bool split_seen;      /* sensor 2's mark was there */
-    uint32_t split_ticks; /* it, when seen */
+    wh_lockin_orders force_N; /* at[1]: amplitude cos(phase); at[2]: -amplitude sin(phase) */
+    wh_real mean_N;           /* over the time */
+    wh_real residual_N;       /* what orders 0 to 2 leave, rms */
+    wh_real at_mark_N[2];     /* load at each sensor's mark */
+    bool split_seen;          /* sensor 2's mark was there */
+    uint32_t split_ticks;     /* it, when seen */
     uint16_t samples;
     uint16_t outliers;
 } wh_lockin_turn;
@@ -120,9 +120,9 @@ typedef struct wh_lockin {
     uint16_t next_equal;
     wh_real part_per_tick;
     bool expects;
-    wh_orders expected_N;
+    wh_lockin_orders expected_N;
     wh_real outlier_N;
-    wh_orders sum;
+    wh_lockin_orders sum;
     wh_real square;
     wh_real mean;
     wh_real widest;     /* part between two nodes */
