@@ -93,18 +93,30 @@ ASAN_BUILD = $(MAKE) MAIN="CC='$(CC)' OPT='$(OPT)' EXTRA='$(EXTRA)'" B=build/asa
 
 # Scripts that run no instrumented program, or have it do what other scripts or a suite have it do, too.
 CLI_NOT_ASAN := $(foreach t,boards enclosures flags fresh headers help map no_libm runners setup structure,tests/cli/$(t).sh)
+# And what is left to `make sanitizers-all`: scripts and suites that derive and step as others do, to compare digits.
+CLI_LESS_ASAN := $(foreach t,asked_first effects_cost_nothing embed_names measure price_predicts recorded_bits settings_bits,\
+    tests/cli/$(t).sh)
+HOST_LESS_ASAN := contact_bound exact_books far_origin force_free hybrids ledger_scenes methods prove_drawn reference rounding \
+    tape_gauge trajectory trust_scenes turned turned_errors
+ASAN_LIST = $(B)/tests/asan_suites.list
+asan_cli = $(call run_cli,$(filter-out $(CLI_NOT_ASAN) $(CLI_LESS_ASAN),$(1)))
 # What scripts make themselves belongs to the main configuration, and must have its settings, not ours: with ours it would
 # be compiled anew, and once more by the next gate.
 .PHONY: asan-run
 asan-run: test-programs $(B)/whirl
 	@mkdir -p build/tests
+	@printf 'test_%s.c\n' $(HOST_LESS_ASAN) | grep -vxFf - $(B)/tests/host_suites.list >$(ASAN_LIST)
 	@env -u MAKEFLAGS -u MFLAGS -u MAKEOVERRIDES -u B -u SCENE_OPT -u MAIN $(MAIN) \
 	    ASAN_OPTIONS="malloc_context_size=5:$$ASAN_OPTIONS" WHIRL_FEW=1 WHIRL=$(B)/whirl TEST_SECONDS=900 \
-	    sh tests/run.sh $(B)/tests/log $(call run_cli,$(filter-out $(CLI_NOT_ASAN),$(CLI_LONG))) $(RUN_HOST) \
-	    $(call run_cli,$(filter-out $(CLI_NOT_ASAN) $(CLI_LONG),$(CLI_TESTS))) $(RUN_CORE)
+	    sh tests/run.sh $(B)/tests/log $(call asan_cli,$(CLI_LONG)) $(call run_host,$(ASAN_LIST)) \
+	    $(call asan_cli,$(filter-out $(CLI_LONG),$(CLI_TESTS))) $(RUN_CORE)
 
 gate-sanitizers:
 	+@$(ASAN_BUILD) asan-run
+
+.PHONY: sanitizers-all
+sanitizers-all: $(GEN)/.stamp ## gate-sanitizers with all suites and scripts that run an instrumented program (half an hour)
+	+@$(ASAN_BUILD) CLI_LESS_ASAN= HOST_LESS_ASAN= asan-run
 
 # Values read before they are written, which the sanitizers do not see.
 MEMCHECK = valgrind -q --error-exitcode=9

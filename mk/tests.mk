@@ -64,8 +64,9 @@ test-programs: $(TEST_PROGRAMS)
 # tests/run.sh takes pairs: what it is, and the command.
 RUN_CORE = "portable suites, double" $(B)/tests/core_double "portable suites, float" $(B)/tests/core_float
 # The host suites in four parts, so that all processors have work to the end; what takes longest goes first.
-part = "host suites$(comma) part $(1) of 4" '$(B)/tests/host $$(sh tests/part.sh $(B)/tests/host_suites.list $(1) 4)'
-RUN_HOST = $(foreach p,0 1 2 3,$(call part,$(p)))
+part = "host suites$(comma) part $(1) of 4" '$(B)/tests/host $$(sh tests/part.sh $(2) $(1) 4)'
+run_host = $(foreach p,0 1 2 3,$(call part,$(p),$(1)))
+RUN_HOST = $(call run_host,$(B)/tests/host_suites.list)
 CLI_LONG := $(foreach t,emitted_c price embed_names flags,tests/cli/$(t).sh)
 run_cli = $(foreach t,$(1),"$(t)" "sh $(t)")
 RUN_LONG = $(call run_cli,$(CLI_LONG))
