@@ -89,7 +89,13 @@ if [ -n "${WHIRL_FULL:-}" ]; then
     holds clang -O2
     if grep -q ' fma ' /proc/cpuinfo 2>/dev/null; then
         holds gcc -O3 -march=haswell -ffp-contract=fast
-        holds clang -O3 -march=haswell -ffp-contract=fast
+        # clang takes that above the core's pragma: whirl would not start
+        if command -v clang >/dev/null 2>&1; then
+            build clang -O3 -march=haswell -ffp-contract=fast >"$scratch/err" 2>&1
+            "$scratch/program" >"$scratch/said" 2>&1
+            grep -q '^other arithmetic$' "$scratch/said"
+            verdict $? "clang -O3 -march=haswell -ffp-contract=fast is refused at the start" "$scratch/said"
+        fi
     fi
 fi
 for by in gcc clang; do
