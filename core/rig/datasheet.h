@@ -31,6 +31,9 @@
  * 0.001 N m s of the bearings. */
 #define WH_RIG_DAMPING_NMS (WH_R(1.5) / (WH_R(600.0) * WH_RIG_RADPS_PER_RPM) + WH_R(0.001))
 
+/* Supply for which the torque line above is the motor's. */
+#define WH_RIG_RATED_V WH_R(24.0)
+
 #define WH_RIG_GRAVITY_MPS2 WH_R(9.80665)
 
 /* Speed of the measurement (I.3.2.1): 5.5 turns a second. */
