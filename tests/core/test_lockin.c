@@ -49,7 +49,7 @@ static wh_real cosine_of(wh_real rad) {
 }
 
 static void settings(void) {
-    rotor = wh_rig_standard.rotor;
+    rotor = wh_rig_standard.measure.rotor;
     rotor.gravity_mps2 = WH_R(0.0);
     rotor.mark_rad[0] = WH_R(0.0);
     rotor.mark_rad[1] = WH_R(0.5) * PI;
