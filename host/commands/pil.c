@@ -149,12 +149,13 @@ static bool take_one(int count, char **words, int *at, pil_options *o, bool *bad
 static bool go_together(const pil_options *o) {
     if (o->firmware == NULL) {
         fprintf(stderr, "whirl pil: error: no --firmware IMAGE\nhint: make pil-images builds "
-                        "build/mps2-an386/pil_rig.elf, which runs against rig_coupled\n");
+                        "build/mps2-an386/pil_rig.elf, which runs against docs/plants/rig.whirl\n");
         return false;
     }
     if (o->target == NULL && o->replay == NULL) {
-        fprintf(stderr, "whirl pil: error: no scene to be the plant\n"
-                        "hint: whirl pil rig_coupled --firmware ...; or a tape: --replay TAPE\n");
+        fprintf(stderr,
+                "whirl pil: error: no scene to be the plant\n"
+                "hint: whirl pil docs/plants/rig.whirl --firmware ...; or a tape: --replay TAPE\n");
         return false;
     }
     if (o->replay != NULL && (o->target != NULL || o->tape != NULL)) {

@@ -43,12 +43,21 @@ typedef struct peak {
     double at_s;
 } peak;
 
+/* What a firmware tells of itself: the last value. */
+typedef struct told {
+    char name[32];
+    char unit[16];
+    double value;
+} told;
+
 typedef struct lockstep_report {
     lockstep_end end;
     guest_end_status status;
     char program[40];
     char board[40];
     uint64_t exchanges;
+    told note[WH_SIGNALS_MAX];
+    unsigned notes;
     double time_s; /* of the plant */
     double wall_s;
     bool counted; /* the firmware counts what it computes */
