@@ -39,7 +39,7 @@ bool wh_hello_get(wh_hello *hello, wh_signal *signal, const uint8_t *bytes, unsi
     }
     for (unsigned i = 0; i < hello->signals; i++) {
         const uint32_t kind = wh_bytes_get(&in, 1);
-        if (kind > WH_SIGNAL_EDGE) {
+        if (kind > WH_SIGNAL_NOTE) {
             return false;
         }
         signal[i].kind = (wh_signal_kind)kind;

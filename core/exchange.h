@@ -19,7 +19,7 @@ extern "C" {
 /* What a frame is. */
 enum { WH_FRAME_HELLO = 1, WH_FRAME_ORDERS = 2, WH_FRAME_READINGS = 3 };
 
-#define WH_SIGNALS_MAX 12U /* of all kinds together */
+#define WH_SIGNALS_MAX 20U /* of all kinds together */
 #define WH_EDGES_MAX 16U   /* in one turn; later ones are lost */
 #define WH_SAMPLES_MAX 16U
 
@@ -27,7 +27,8 @@ typedef enum wh_signal_kind {
     WH_SIGNAL_OUTPUT, /* a value that the controller sets, from `low` to `high` */
     WH_SIGNAL_SAMPLE, /* a converter's counts: every period_ticks the nearest of value / per_count, whose ends
                        * stand for `low` and `high` */
-    WH_SIGNAL_EDGE /* a pulse when the value comes to lie from `low` to `high`; of an angle, in any turn */
+    WH_SIGNAL_EDGE, /* a pulse when the value comes to lie from `low` to `high`; of an angle, in any turn */
+    WH_SIGNAL_NOTE /* a value that the controller tells of itself: its state, a result. No plant has it */
 } wh_signal_kind;
 
 /* The signals of a kind are its channels, numbered from 0 in the order in which they stand. */
@@ -63,8 +64,8 @@ typedef struct wh_orders {
     uint32_t
         watchdog_ticks; /* so long without WH_ORDER_ALIVE: outputs go to zero for good; 0: never */
     uint8_t flags;
-    unsigned outputs;
-    float output[WH_SIGNALS_MAX];
+    unsigned outputs;             /* and notes */
+    float output[WH_SIGNALS_MAX]; /* by channel: the outputs, behind them the notes */
 } wh_orders;
 
 typedef struct wh_edge {

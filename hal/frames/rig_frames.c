@@ -1,7 +1,8 @@
 /* rig_frames.c: the rig's hal_ functions, on a plant at the other end of a line.
  *
- * Names are those of core/models/eccentric.whirl. Time stands still while the controller computes; how long it took goes
+ * Names are those of docs/plants/rig.whirl. Time stands still while the controller computes; how long it took goes
  * with the outputs, and the plant makes them wait so long. */
+#include "rig_frames.h"
 #include "hal/clock.h"
 #include "hal/loadcell.h"
 #include "hal/motor.h"
@@ -12,6 +13,10 @@
 #if !WH_DOUBLE
 
 #define RAD_PER_DEG 0.0174532925f
+/* The supply's converter: 12 bits of 60 V. */
+#define SUPPLY_V_PER_COUNT (60.0f / 4096.0f)
+#define SUPPLY_RATED_V 24.0f /* until it is measured */
+
 #define WRAP_AFTER_S 5U /* as hal/virtual has it: every run crosses the timer's wrap */
 
 /* A slot sensor: the slot, 2 * HAL_SLOT_LEAD_DEG wide, covers it. */
@@ -22,8 +27,12 @@
         .high = ((deg) + HAL_SLOT_LEAD_DEG) * RAD_PER_DEG \
     }
 
+enum { DUTY, ENABLE };       /* outputs */
+enum { CELL_FORCE, SUPPLY }; /* samples */
+
 static const wh_signal signals[] = {
     {.kind = WH_SIGNAL_OUTPUT, .name = "duty", .unit = "1", .low = 0.0f, .high = 1.0f},
+    {.kind = WH_SIGNAL_OUTPUT, .name = "enable", .unit = "1", .low = 0.0f, .high = 1.0f},
     SLOT_AT(0.0f),
     SLOT_AT(90.0f),
     {.kind = WH_SIGNAL_SAMPLE,
@@ -33,10 +42,30 @@ static const wh_signal signals[] = {
      .high = HAL_LOADCELL_RAW_MAX * HAL_LOADCELL_N_PER_COUNT,
      .per_count = HAL_LOADCELL_N_PER_COUNT,
      .period_ticks = HAL_LOADCELL_PERIOD_TICKS},
+    {.kind = WH_SIGNAL_SAMPLE,
+     .name = "supply",
+     .unit = "V",
+     .low = 0.0f,
+     .high = 4095.0f * SUPPLY_V_PER_COUNT,
+     .per_count = SUPPLY_V_PER_COUNT,
+     .period_ticks = HAL_LOADCELL_PERIOD_TICKS},
+#define ROW(channel, word, si) {.kind = WH_SIGNAL_NOTE, .name = (word), .unit = (si)},
+    HAL_NOTE_ROWS(ROW)
+#undef ROW
 };
 
 /* The board's one plant: hardware is global. */
 static hal_turns plant;
+static float supply_V = SUPPLY_RATED_V;
+
+/* The newest of what is not yet taken. */
+static void see_supply(void) {
+    for (unsigned i = plant.sample; i < plant.readings.samples; i++) {
+        if (plant.readings.sample[i].channel == SUPPLY) {
+            supply_V = (float)plant.readings.sample[i].raw * SUPPLY_V_PER_COUNT;
+        }
+    }
+}
 
 bool hal_clock_start(void) {
     const wh_hello hello = {.program = "rig",
@@ -52,12 +81,29 @@ uint32_t hal_clock_ticks(void) { return plant.ticks; }
 void hal_clock_wait_until(uint32_t ticks) {
     if ((int32_t)(ticks - plant.ticks) > 0) {
         hal_turns_wait(&plant, ticks);
+        see_supply();
     }
 }
 
-void hal_motor_set_duty(float duty) {
-    hal_turns_set(&plant, 0, duty > 1.0f ? 1.0f : duty > 0.0f ? duty : 0.0f);
+/* NaN: 0. */
+static void drive(float duty) {
+    hal_turns_set(&plant, DUTY, duty > 1.0f ? 1.0f : duty > 0.0f ? duty : 0.0f);
+    hal_turns_set(&plant, ENABLE, 1.0f);
 }
+
+/* Without a supply nothing drives, and nothing is divided by. */
+void hal_motor_set_voltage(float volts) {
+    drive(supply_V > SUPPLY_V_PER_COUNT ? volts / supply_V : 0.0f);
+}
+
+void hal_motor_off(hal_motor_off_way way) {
+    hal_turns_set(&plant, DUTY, 0.0f);
+    hal_turns_set(&plant, ENABLE, way == HAL_MOTOR_BRAKE ? 1.0f : 0.0f);
+}
+
+float hal_motor_supply_V(void) { return supply_V; }
+
+void hal_frames_note(unsigned channel, float value) { hal_turns_note(&plant, channel, value); }
 
 bool hal_slots_take(hal_slot_pulse *pulse) {
     wh_edge edge;
@@ -76,9 +122,11 @@ static uint8_t load_status(uint8_t status) {
 
 bool hal_loadcell_take(hal_load_sample *sample) {
     wh_sample one;
-    if (!hal_turns_take_sample(&plant, &one)) {
-        return false;
-    }
+    do {
+        if (!hal_turns_take_sample(&plant, &one)) {
+            return false;
+        }
+    } while (one.channel != CELL_FORCE);
     *sample =
         (hal_load_sample){.ticks = one.ticks, .raw = one.raw, .status = load_status(one.status)};
     return true;

@@ -78,7 +78,9 @@ bool hal_turns_start(hal_turns *turns, const wh_hello *hello) {
     *turns = (hal_turns){.ticks = hello->start_ticks};
     wh_frame_reader_start(&turns->reader, turns->frame, sizeof turns->frame);
     for (unsigned i = 0; i < hello->signals; i++) {
-        turns->orders.outputs += hello->signal[i].kind == WH_SIGNAL_OUTPUT;
+        turns->outputs += hello->signal[i].kind == WH_SIGNAL_OUTPUT;
+        turns->orders.outputs +=
+            hello->signal[i].kind == WH_SIGNAL_OUTPUT || hello->signal[i].kind == WH_SIGNAL_NOTE;
     }
     full.board = hal_link_board();
     full.timer_per_s = hal_link_timer_per_s();
@@ -92,10 +94,16 @@ bool hal_turns_start(hal_turns *turns, const wh_hello *hello) {
 }
 
 void hal_turns_set(hal_turns *turns, unsigned channel, float value) {
-    if (channel < turns->orders.outputs) {
+    if (channel < turns->outputs) {
         turns->orders.output[channel] = value;
         turns->orders.acted_timer = hal_link_timer() - turns->arrived_timer;
         turns->acted = true;
+    }
+}
+
+void hal_turns_note(hal_turns *turns, unsigned channel, float value) {
+    if (channel < turns->orders.outputs - turns->outputs) {
+        turns->orders.output[turns->outputs + channel] = value;
     }
 }
 

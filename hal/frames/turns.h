@@ -11,13 +11,14 @@
 extern "C" {
 #endif
 
-#define HAL_HELLO_BYTES 400U /* the longest hello */
+#define HAL_HELLO_BYTES 512U /* the longest hello */
 
 typedef struct hal_turns {
     uint32_t ticks;         /* now */
     uint32_t arrived_timer; /* the last readings */
     uint16_t sequence;      /* of the readings that are waited for */
     bool acted;             /* outputs were set since */
+    unsigned outputs;       /* of orders.output; behind them stand the notes */
     wh_orders orders;
     wh_readings readings; /* what is not yet taken begins at: */
     unsigned edge;
@@ -38,6 +39,9 @@ bool hal_turns_start(hal_turns *turns, const wh_hello *hello);
 
 /* An output from now on, of this channel. */
 void hal_turns_set(hal_turns *turns, unsigned channel, float value);
+
+/* What the controller tells of itself, from now on: a note, of this channel. It takes no time. */
+void hal_turns_note(hal_turns *turns, unsigned channel, float value);
 
 /* Hand over the outputs and wait until `until_ticks`, or for the next word if that is past already. */
 void hal_turns_wait(hal_turns *turns, uint32_t until_ticks);

@@ -3,11 +3,14 @@
 #include <inttypes.h>
 #include <signal.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "commands.h"
 #include "files.h"
+#include "host/base/room.h"
 #include "host/number/decimal.h"
+#include "host/pil/fault.h"
 #include "host/pil/lockstep.h"
 #include "host/pil/pil_text.h"
 #include "host/run/start.h"
@@ -44,7 +47,11 @@ static const command_usage usage = {
         "                       degrees of an angle, else SI\n"
         "  --jitter 20us        standard deviation of the edges' times (default: none)\n"
         "  --delay 1ms          by which every sample comes late (default: none)\n"
-        "  --seed N             of the jitter (default: 1)\n"
+        "  --fault KIND[:CHANNEL][=SIZE][@WHEN][+DURATION],...\n"
+        "                       what breaks (repeatable): WHEN is a time (1.5s), a note of the firmware's\n"
+        "                       (state=4), or so long after one (state=4~200ms)\n"
+        "  --faults             list the kinds of faults, and end\n"
+        "  --seed N             of the jitter and of faults (default: 1)\n"
         "  --clock HZ           the processor's clock (default: 16e6)\n"
         "  --cycles C           cycles an instruction takes (default: 1.5; 0: computing takes no time)\n"
         "  --patience S         seconds that the firmware may be silent (default: 10)\n"
@@ -83,11 +90,13 @@ typedef struct pil_options {
     const char *place;
     const char *jitter;
     const char *delay;
+    fault_plan faults;
     double seed;
     double clock_Hz;
     double cycles;
     double patience_s;
     bool quiet;
+    bool kinds; /* of faults are listed */
 } pil_options;
 
 /* --- options ------------------------------------------------------------------------------------------------*/
@@ -137,29 +146,40 @@ static bool take_one(int count, char **words, int *at, pil_options *o, bool *bad
         (!*bad && take_numbers(count, words, at, o, bad))) {
         return true;
     }
-    if (!*bad && strcmp(words[*at], "--quiet") == 0) {
-        o->quiet = true;
-        ++*at;
+    const char *value = *bad ? NULL : options_value(count, words, at, "--fault", bad);
+    if (value != NULL) {
+        *bad = !fault_read(&o->faults, value);
         return true;
     }
-    return false;
+    const bool quiet = !*bad && strcmp(words[*at], "--quiet") == 0;
+    const bool kinds = !*bad && strcmp(words[*at], "--faults") == 0;
+    o->quiet = o->quiet || quiet;
+    o->kinds = o->kinds || kinds;
+    *at += quiet || kinds;
+    return quiet || kinds;
 }
 
 /* What stands together, and what does not. */
 static bool go_together(const pil_options *o) {
+    if (o->kinds) {
+        return true;
+    }
     if (o->firmware == NULL) {
         fprintf(stderr, "whirl pil: error: no --firmware IMAGE\nhint: make pil-images builds "
-                        "build/mps2-an386/pil_rig.elf, which runs against rig_coupled\n");
+                        "build/mps2-an386/pil_rig.elf, which runs against docs/plants/rig.whirl\n");
         return false;
     }
     if (o->target == NULL && o->replay == NULL) {
-        fprintf(stderr, "whirl pil: error: no scene to be the plant\n"
-                        "hint: whirl pil rig_coupled --firmware ...; or a tape: --replay TAPE\n");
+        fprintf(stderr,
+                "whirl pil: error: no scene to be the plant\n"
+                "hint: whirl pil docs/plants/rig.whirl --firmware ...; or a tape: --replay TAPE\n");
         return false;
     }
-    if (o->replay != NULL && (o->target != NULL || o->tape != NULL)) {
+    if (o->replay != NULL && (o->target != NULL || o->tape != NULL || o->faults.count > 0)) {
         fprintf(stderr, "whirl pil: error: --replay takes no %s: the tape is the plant\n",
-                o->target != NULL ? "scene" : "--tape");
+                o->target != NULL ? "scene"
+                : o->tape != NULL ? "--tape"
+                                  : "--fault");
         return false;
     }
     return true;
@@ -184,7 +204,7 @@ static bool read_options(int count, char **words, pil_options *o) {
                             (const char *const[]){"--firmware", "--board", "--tape", "--replay",
                                                   "--bind", "--place", "--jitter", "--delay",
                                                   "--seed", "--clock", "--cycles", "--patience",
-                                                  "--quiet", NULL});
+                                                  "--fault", "--faults", "--quiet", NULL});
             return false;
         }
         if (o->target != NULL) {
@@ -310,7 +330,35 @@ static int run_image(const pil_options *o, const source_model *from, const image
     return tell(o, wish, im, &report);
 }
 
-static int run_source(const pil_options *o, source_model *from) {
+/* Changes of parameters that are faults come last. */
+static int load_plant(const pil_options *o, source_model *from, const mechanism *of,
+                      const scene *in, loaded *made) {
+    char *parameter[FAULTS_MAX];
+    int count = 0;
+    overrides changes = options_overrides(&o->common.change);
+    const char **sets = room(changes.set_count + FAULTS_MAX, sizeof *sets);
+    for (int i = 0; i < changes.set_count; i++) {
+        sets[i] = changes.sets[i];
+    }
+    for (unsigned i = 0; i < o->faults.count; i++) {
+        parameter[count] = fault_parameter(&o->faults, i);
+        if (parameter[count] != NULL) {
+            sets[changes.set_count++] = parameter[count++];
+        }
+    }
+    changes.sets = sets;
+    changes.step = changes.step != NULL ? changes.step : FINE_STEP;
+    const load_wish what = {
+        .settings = o->common.integration, .use = IMAGE_TO_RUN, .conserve = true};
+    const int code = load(made, from, of, in, &changes, &what);
+    while (count > 0) {
+        free(parameter[--count]);
+    }
+    free(sets);
+    return code;
+}
+
+static int run_source(pil_options *o, source_model *from) {
     const mechanism *of;
     const scene *in;
     lockstep_wish wish = wish_of(o);
@@ -325,11 +373,11 @@ static int run_source(const pil_options *o, source_model *from) {
         return EXIT_BAD_INPUT;
     }
     loaded made;
-    overrides changes = options_overrides(&o->common.change);
-    changes.step = changes.step != NULL ? changes.step : FINE_STEP;
-    const load_wish what = {
-        .settings = o->common.integration, .use = IMAGE_TO_RUN, .conserve = true};
-    code = load(&made, from, of, in, &changes, &what);
+    o->faults.seed = (uint32_t)o->seed;
+    const tap faults = fault_tap(&o->faults);
+    wish.taps = &faults;
+    wish.tap_count = 1;
+    code = load_plant(o, from, of, in, &made);
     source_forget(from);
     if (code == EXIT_DONE) {
         code = run_image(o, from, made.image, &wish);
@@ -357,7 +405,10 @@ int command_pil(int count, char **words) {
     }
     int code = EXIT_BAD_INPUT;
     if (read_options(count, words, &o)) {
-        if (o.replay != NULL) {
+        if (o.kinds) {
+            fault_print_kinds(stdout);
+            code = EXIT_DONE;
+        } else if (o.replay != NULL) {
             code = replay(&o);
         } else {
             source_model from;

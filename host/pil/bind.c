@@ -126,6 +126,10 @@ static bool has_good_range(const bound *b) {
 }
 
 static bool bind_one(bound *b, const image *im, const char *renames) {
+    if (b->signal.kind == WH_SIGNAL_NOTE) {
+        b->place = BOUND_NOWHERE;
+        return true;
+    }
     char name[NAME_BYTES];
     rename_signal(renames, b->signal.name, name);
     const char *unit = is_output(b) ? find_set(b, im, name) : find_read(b, im, name);
@@ -172,6 +176,7 @@ bool bind_signals(binding *b, const wh_hello *hello, const image *im, const char
         case WH_SIGNAL_OUTPUT: b->bound[i].channel = b->outputs++; break;
         case WH_SIGNAL_SAMPLE: b->bound[i].channel = b->samples++; break;
         case WH_SIGNAL_EDGE: b->bound[i].channel = b->edges++; break;
+        case WH_SIGNAL_NOTE: b->bound[i].channel = b->notes++; break;
         }
         if (!bind_one(&b->bound[i], im, renames)) {
             return false;

@@ -5,7 +5,7 @@
 #include "core/exchange.h"
 #include "host/image/image.h"
 
-typedef enum bound_place { BOUND_INPUT, BOUND_OUTPUT, BOUND_COMPONENT } bound_place;
+typedef enum bound_place { BOUND_INPUT, BOUND_OUTPUT, BOUND_COMPONENT, BOUND_NOWHERE } bound_place;
 
 typedef struct bound {
     wh_signal signal; /* its words belong to the hello */
@@ -22,6 +22,7 @@ typedef struct binding {
     unsigned outputs;            /* of the firmware */
     unsigned edges;
     unsigned samples;
+    unsigned notes; /* which are bound to nothing */
 } binding;
 
 /* `renames` are words NAME=OTHER between commas, or NULL: the firmware's NAME is the scene's OTHER. False, reported. */

@@ -6,6 +6,7 @@
 #include "talk.h"
 
 #define PIECE_S 0.1
+#define WATCHED_PIECE_S 1e-3
 
 static double now_s(void) {
     struct timespec t;
@@ -26,15 +27,28 @@ typedef struct loop {
     lockstep_report *report;
     double ticks_per_s;
     double per_count; /* instructions */
+    bool watched;
 } loop;
 
 static double plant_s(const loop *l) { return plant_now(&l->plant) / l->ticks_per_s; }
 
-static void tell_taps_orders(const loop *l, wh_orders *orders) {
+static bool start_taps(loop *l) {
+    const lockstep_wish *wish = l->talk.wish;
+    for (int i = 0; i < wish->tap_count; i++) {
+        const tap *t = &wish->taps[i];
+        if (t->start != NULL && !t->start(t->of, &l->talk.hello, &l->plant)) {
+            return false;
+        }
+        l->watched = l->watched || t->watch != NULL;
+    }
+    return true;
+}
+
+static void tell_taps_orders(const loop *l, wh_orders *orders, double *late_s) {
     const lockstep_wish *wish = l->talk.wish;
     for (int i = 0; i < wish->tap_count; i++) {
         if (wish->taps[i].orders != NULL) {
-            wish->taps[i].orders(wish->taps[i].of, plant_s(l), orders);
+            wish->taps[i].orders(wish->taps[i].of, plant_s(l), orders, late_s);
         }
     }
 }
@@ -44,6 +58,15 @@ static void tell_taps_readings(const loop *l, wh_readings *readings) {
     for (int i = 0; i < wish->tap_count; i++) {
         if (wish->taps[i].readings != NULL) {
             wish->taps[i].readings(wish->taps[i].of, plant_s(l), readings);
+        }
+    }
+}
+
+static void let_taps_watch(const loop *l) {
+    const lockstep_wish *wish = l->talk.wish;
+    for (int i = 0; i < wish->tap_count; i++) {
+        if (wish->taps[i].watch != NULL) {
+            wish->taps[i].watch(wish->taps[i].of, plant_s(l), &l->plant);
         }
     }
 }
@@ -67,12 +90,13 @@ static bool advance(loop *l, double until_ticks) {
     const lockstep_wish *wish = l->talk.wish;
     const double most = wish->until_s * l->ticks_per_s;
     const double end = until_ticks < most ? until_ticks : most;
-    const double piece = PIECE_S * l->ticks_per_s;
+    const double piece = (l->watched ? WATCHED_PIECE_S : PIECE_S) * l->ticks_per_s;
     while (!plant_has_reached(&l->plant, end)) {
         const double next = plant_now(&l->plant) + piece;
         if (!plant_advance(&l->plant, next < end ? next : end)) {
             return false;
         }
+        let_taps_watch(l);
         if (wish->guest.stop != NULL && *wish->guest.stop != 0) {
             break;
         }
@@ -80,15 +104,16 @@ static bool advance(loop *l, double until_ticks) {
     return true;
 }
 
-static bool plant_goes_on(loop *l, const wh_orders *orders) {
+static bool plant_goes_on(loop *l, const wh_orders *orders, double late_s) {
     lockstep_report *r = l->report;
     const double acted = (double)orders->acted_timer * l->per_count;
     const double busy = (double)orders->busy_timer * l->per_count;
     const double ticks = l->talk.wish->instruction_s * l->ticks_per_s; /* an instruction */
     note_most(&r->acted, acted, plant_s(l));
     note_most(&r->busy, busy, plant_s(l));
-    plant_order(&l->plant, orders, acted * ticks);
-    if (!advance(l, next_ticks(l, orders, busy * ticks))) {
+    const double late = late_s * l->ticks_per_s;
+    plant_order(&l->plant, orders, acted * ticks + late);
+    if (!advance(l, next_ticks(l, orders, busy * ticks + late))) {
         fprintf(stderr,
                 "whirl pil: error: the plant left all bounds at t = %.9g s (%s)\n"
                 "hint: a smaller --step, or look at what the firmware told it to do\n",
@@ -113,8 +138,9 @@ static void take_turns(loop *l) {
             !talk_hear(&l->talk, &orders)) {
             return;
         }
-        tell_taps_orders(l, &orders);
-        if (!plant_goes_on(l, &orders)) {
+        double late_s = 0.0;
+        tell_taps_orders(l, &orders, &late_s);
+        if (!plant_goes_on(l, &orders, late_s)) {
             return;
         }
         if (plant_s(l) >= l->talk.wish->until_s) {
@@ -131,7 +157,11 @@ static void run_bound(loop *l, const image *im) {
     l->report->counted = l->per_count > 0.0;
     plant_start(&l->plant, im, &l->binding, hello, &l->talk.wish->plant);
     const double begun_s = now_s();
-    take_turns(l);
+    if (start_taps(l)) {
+        take_turns(l);
+    } else {
+        l->report->end = LOCKSTEP_BAD;
+    }
     l->report->wall_s = now_s() - begun_s;
     l->report->time_s = plant_s(l);
     l->report->edges = l->plant.edges_seen;

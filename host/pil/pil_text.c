@@ -2,6 +2,7 @@
 #include "pil_text.h"
 
 #include <inttypes.h>
+#include <string.h>
 
 static void print_computing(FILE *out, const lockstep_wish *wish, const lockstep_report *r) {
     if (!r->counted) {
@@ -35,6 +36,16 @@ static void print_plant(FILE *out, const image *im, const lockstep_report *r) {
     }
 }
 
+static void print_notes(FILE *out, const lockstep_report *r) {
+    for (unsigned i = 0; i < r->notes; i++) {
+        const told *note = &r->note[i];
+        const bool bare = strcmp(note->unit, "1") == 0;
+        fprintf(out, "%s%s %.6g%s%s", i == 0 ? "it tells           " : ", ", note->name,
+                note->value, bare ? "" : " ", bare ? "" : note->unit);
+    }
+    fputs(r->notes > 0 ? "\n" : "", out);
+}
+
 void pil_print(FILE *out, const lockstep_wish *wish, const image *im, const lockstep_report *r) {
     fprintf(out, "\nfirmware           %s on board %s, %s\n", r->program, r->board,
             wish->guest.image);
@@ -42,6 +53,7 @@ void pil_print(FILE *out, const lockstep_wish *wish, const image *im, const lock
         print_plant(out, im, r);
         print_computing(out, wish, r);
     }
+    print_notes(out, r);
     fprintf(out, "exchanges          %" PRIu64 " in %.9g s of the plant's time", r->exchanges,
             r->time_s);
     if (im != NULL && r->wall_s > 0.0) {

@@ -7,14 +7,17 @@
 #include "guest.h"
 #include "plant.h"
 
-/* The seam for faults of the line and of the sensors: asked in turn, after the firmware has spoken and before it is
- * spoken to. What they make of a message is what the other side hears. A tape has what the firmware heard and said. NULL:
- * not asked. */
+/* The seam for faults (fault.h), and for whoever watches: asked in turn, before the first word, after the firmware has
+ * spoken and before it is spoken to. What they make of a message is what the other side hears; the answer may take
+ * *late_s longer. A tape has what the firmware heard and said. NULL: not asked. */
 typedef struct tap {
     const char *name;
     void *of;
-    void (*orders)(void *of, double time_s, wh_orders *orders);
+    bool (*start)(void *of, const wh_hello *hello, plant *plant); /* false: reported */
+    void (*orders)(void *of, double time_s, wh_orders *orders, double *late_s);
     void (*readings)(void *of, double time_s, wh_readings *readings);
+    void (*watch)(void *of, double time_s,
+                  const plant *plant); /* every millisecond of the plant's */
 } tap;
 
 typedef struct lockstep_wish {
@@ -43,12 +46,21 @@ typedef struct peak {
     double at_s;
 } peak;
 
+/* What a firmware tells of itself: the last value. */
+typedef struct told {
+    char name[32];
+    char unit[16];
+    double value;
+} told;
+
 typedef struct lockstep_report {
     lockstep_end end;
     guest_end_status status;
     char program[40];
     char board[40];
     uint64_t exchanges;
+    told note[WH_SIGNALS_MAX];
+    unsigned notes;
     double time_s; /* of the plant */
     double wall_s;
     bool counted; /* the firmware counts what it computes */

@@ -92,6 +92,9 @@ bool talk_hear(talk *t, wh_orders *orders) {
     t->sequence++;
     t->report->exchanges++;
     t->report->hash = talk_hash(t->report->hash, orders);
+    for (unsigned i = 0; i < t->report->notes; i++) {
+        t->report->note[i].value = (double)orders->output[t->outputs - t->report->notes + i];
+    }
     return t->report->end != LOCKSTEP_FAILED;
 }
 
@@ -141,7 +144,13 @@ static bool hear_hello(talk *t) {
         return fail(t, "a hello that is none");
     }
     for (unsigned i = 0; i < t->hello.signals; i++) {
-        t->outputs += t->signal[i].kind == WH_SIGNAL_OUTPUT;
+        const wh_signal *s = &t->signal[i];
+        t->outputs += s->kind == WH_SIGNAL_OUTPUT || s->kind == WH_SIGNAL_NOTE;
+        if (s->kind == WH_SIGNAL_NOTE) {
+            told *note = &t->report->note[t->report->notes++];
+            snprintf(note->name, sizeof note->name, "%s", s->name);
+            snprintf(note->unit, sizeof note->unit, "%s", s->unit);
+        }
     }
     keep_heard(t, &frame);
     snprintf(t->report->program, sizeof t->report->program, "%s", t->hello.program);

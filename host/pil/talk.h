@@ -11,7 +11,7 @@ typedef struct talk {
     wh_hello hello;
     wh_signal signal[WH_SIGNALS_MAX];
     uint8_t words[GUEST_LINE_BYTES]; /* of the hello */
-    unsigned outputs;                /* that it declares */
+    unsigned outputs;                /* that it declares, and notes behind them */
     uint16_t sequence;               /* of the last readings */
     FILE *tape;                      /* or NULL */
 } talk;

@@ -16,7 +16,7 @@ failed=0
 
 echo "=== The rig's control software on $1, the coupled mechanism with dry friction on this PC"
 echo
-"$whirl" pil rig_coupled --with dry_friction --without sensor_noise --firmware "$build/$1/pil_rig.elf" --board "$1" \
+"$whirl" pil docs/plants/rig.whirl --firmware "$build/$1/pil_rig.elf" --board "$1" \
     --tape "$out/rig.tape" || failed=1
 echo
 echo "=== Its tape, $(wc -c <"$out/rig.tape") bytes, on this PC and on $*"

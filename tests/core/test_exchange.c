@@ -103,6 +103,7 @@ static const wh_signal signals[] = {
     {WH_SIGNAL_OUTPUT, "duty", "1", 0.0f, 1.0f, 0.0f, 0},
     {WH_SIGNAL_SAMPLE, "cell_force", "N", -222.0f, 222.0f, 0.0068f, 2000},
     {WH_SIGNAL_EDGE, "theta", "rad", -0.017f, 0.017f, 0.0f, 0},
+    {WH_SIGNAL_NOTE, "state", "1", 0.0f, 0.0f, 0.0f, 0},
 };
 static wh_hello hello_out;
 static wh_signal signals_out[WH_SIGNALS_MAX];
@@ -111,9 +112,10 @@ static bool get_hello(unsigned length) {
 }
 
 static void test_hello(void) {
-    const wh_hello hello = {"rig", "mps2", 1000000U, 25000000U, 0xFFB3B4C0U, signals, 3};
+    const wh_hello hello = {"rig", "mps2", 1000000U, 25000000U, 0xFFB3B4C0U, signals, 4};
     const unsigned length = wh_hello_put(&hello, bytes, sizeof bytes);
-    TEST_ASSERT_EQUAL_UINT(WH_HELLO_BYTES(3U, 3U + 4U + 4U + 1U + 10U + 1U + 5U + 3U), length);
+    TEST_ASSERT_EQUAL_UINT(WH_HELLO_BYTES(4U, 3U + 4U + 4U + 1U + 10U + 1U + 5U + 3U + 5U + 1U),
+                           length);
     expect_length(length, get_hello);
     TEST_ASSERT_TRUE(get_hello(length));
     TEST_ASSERT_EQUAL_STRING("rig", hello_out.program);
@@ -121,8 +123,8 @@ static void test_hello(void) {
     TEST_ASSERT_EQUAL_UINT32(1000000U, hello_out.ticks_per_s);
     TEST_ASSERT_EQUAL_UINT32(25000000U, hello_out.timer_per_s);
     TEST_ASSERT_EQUAL_UINT32(0xFFB3B4C0U, hello_out.start_ticks);
-    TEST_ASSERT_EQUAL_UINT(3, hello_out.signals);
-    for (unsigned i = 0; i < 3; i++) {
+    TEST_ASSERT_EQUAL_UINT(4, hello_out.signals);
+    for (unsigned i = 0; i < 4; i++) {
         TEST_ASSERT_EQUAL_INT(signals[i].kind, signals_out[i].kind);
         TEST_ASSERT_EQUAL_STRING(signals[i].name, signals_out[i].name);
         TEST_ASSERT_EQUAL_STRING(signals[i].unit, signals_out[i].unit);
@@ -130,7 +132,7 @@ static void test_hello(void) {
             0, __builtin_memcmp(&signals[i].low, &signals_out[i].low, 3U * sizeof(float)));
         TEST_ASSERT_EQUAL_UINT32(signals[i].period_ticks, signals_out[i].period_ticks);
     }
-    bytes[22] = WH_SIGNAL_EDGE + 1U; /* what the first signal is: behind 4 + 5 + 12 + 1 bytes */
+    bytes[22] = WH_SIGNAL_NOTE + 1U; /* what the first signal is: behind 4 + 5 + 12 + 1 bytes */
     TEST_ASSERT_FALSE(get_hello(length));
     bytes[22] = WH_SIGNAL_OUTPUT;
     TEST_ASSERT_TRUE(get_hello(length));

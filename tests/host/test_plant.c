@@ -246,6 +246,22 @@ static void test_late_orders(void) {
     }
 }
 
+/* A note is bound to nothing and moves nothing, whatever it says; outputs keep their channels. */
+static void test_notes(void) {
+    const plant_wish wish = {.seed = 1};
+    add((wh_signal){.kind = WH_SIGNAL_NOTE, .name = "state", .unit = "1"});
+    add_push();
+    add((wh_signal){.kind = WH_SIGNAL_NOTE, .name = "x", .unit = "kg"});
+    open_bench(0.0, 0.0, 50e-6, &wish);
+    TEST_ASSERT_EQUAL_UINT(2, bound_to.notes);
+    TEST_ASSERT_EQUAL_UINT(1, bound_to.outputs);
+    const wh_orders orders = {.outputs = 3, .output = {1.0F, NAN, -7.0F}};
+    plant_order(&on, &orders, 0.0);
+    TEST_ASSERT_TRUE(plant_advance(&on, 4000.0));
+    TEST_ASSERT_TRUE(fabs(speed_of_y() - 4e-3) < 1e-12);
+    close_bench();
+}
+
 /* What the firmware declared is what the plant takes; what is no number is the least. */
 static void test_held_orders(void) {
     const float asked[] = {5.0F, -5.0F, 0.5F, NAN};
@@ -341,6 +357,7 @@ void suite_plant(void) {
     RUN_TEST(test_samples);
     RUN_TEST(test_too_many);
     RUN_TEST(test_late_orders);
+    RUN_TEST(test_notes);
     RUN_TEST(test_held_orders);
     RUN_TEST(test_watchdog);
     RUN_TEST(test_names);

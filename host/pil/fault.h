@@ -1,0 +1,172 @@
+/* fault.h: what breaks in a run in the loop: sensors, load cell, supply, drive stage, mechanism, line, and the time that
+ * the controller takes. Never the controller itself.
+ *
+ * A fault is words: KIND[:CHANNEL][=SIZE][@WHEN][+DURATION]. CHANNEL counts from 1, of edges or of samples; left out, it
+ * is all edges, or the first sample. WHEN is a time, or NOTE=VALUE, or NOTE=VALUE~TIME: so long after the firmware's note
+ * of that name has come to that value. What is left out: at the start, to the end. */
+#ifndef PIL_FAULT_H
+#define PIL_FAULT_H
+
+#include "report.h"
+
+typedef enum fault_place {
+    FAULT_EDGES,
+    FAULT_SAMPLES,
+    FAULT_INPUT,     /* of the scene; it has to have one of the name that fault_tap.c knows */
+    FAULT_ORDERS,    /* and how long they take */
+    FAULT_LINE,      /* what gets lost on it */
+    FAULT_PARAMETER, /* of the scene, for the whole run: whoever loads it asks fault_parameters() */
+    FAULT_SENSORS    /* where edges stand, and their jitter */
+} fault_place;
+
+/* X(which, word, place, size when left out, least, most, unit, words). Where least and most are equal there is no size. */
+#define FAULT_ROWS(X) \
+    X(FAULT_EDGE_DEAD, "edge-dead", FAULT_EDGES, 0, 0, 0, "", "no pulses come") \
+    X(FAULT_EDGE_LOST, "edge-lost", FAULT_EDGES, 1, 1, 1e6, "", "so many pulses are lost") \
+    X(FAULT_EDGE_DOUBLE, "edge-double", FAULT_EDGES, 1e-3, 1e-6, 10, "s", \
+      "each pulse comes again so much later") \
+    X(FAULT_EDGE_INVENTED, "edge-invented", FAULT_EDGES, 1, 1, 1e6, "", \
+      "so many pulses of nothing, up to 0.1 s from one to the next") \
+    X(FAULT_EDGE_STORM, "edge-storm", FAULT_EDGES, 5e3, 1, 1e6, "Hz", "so many pulses a second") \
+    X(FAULT_EDGE_SWAPPED, "edge-swapped", FAULT_EDGES, 0, 0, 0, "", \
+      "first and second sensor are exchanged") \
+    X(FAULT_EDGE_STAMP, "edge-stamp", FAULT_EDGES, 1e-6, -10, 10, "s", \
+      "time stamps are off by so much: positive is in the future") \
+    X(FAULT_EDGE_LATE, "edge-late", FAULT_EDGES, 5e-3, 0, 10, "s", \
+      "pulses are told of so much later, with their right stamps") \
+    X(FAULT_EDGE_PLACE, "edge-place", FAULT_SENSORS, 2, -180, 180, "deg", \
+      "a sensor stands off its place") \
+    X(FAULT_EDGE_JITTER, "edge-jitter", FAULT_SENSORS, 60e-6, 0, 1, "s", \
+      "standard deviation of their times") \
+    X(FAULT_CELL_DEAD, "cell-dead", FAULT_SAMPLES, 0, 0, 0, "", "no samples come") \
+    X(FAULT_CELL_LOST, "cell-lost", FAULT_SAMPLES, 0.1, 0, 1, "", \
+      "this share of the samples is lost") \
+    X(FAULT_CELL_FROZEN, "cell-frozen", FAULT_SAMPLES, 0, 0, 0, "", \
+      "the last value comes on and on") \
+    X(FAULT_CELL_OPEN, "cell-open", FAULT_SAMPLES, 0, 0, 0, "", \
+      "disconnected, and the converter says so") \
+    X(FAULT_CELL_PICKUP, "cell-pickup", FAULT_SAMPLES, 5, 0, 1e6, "N", \
+      "disconnected, unnoticed: 60 Hz of this amplitude about nothing") \
+    X(FAULT_CELL_HUM, "cell-hum", FAULT_SAMPLES, 5, 0, 1e6, "N", \
+      "60 Hz of this amplitude are added") \
+    X(FAULT_CELL_NOISE, "cell-noise", FAULT_SAMPLES, 1, 0, 1e6, "N", \
+      "standard deviation of noise") \
+    X(FAULT_CELL_SPIKES, "cell-spikes", FAULT_SAMPLES, 50, 0, 1e6, "N", \
+      "one sample in 50 is off by this, either way") \
+    X(FAULT_CELL_SATURATED, "cell-saturated", FAULT_SAMPLES, 0, 0, 0, "", \
+      "at its end, and the converter says so") \
+    X(FAULT_CELL_REPEATED, "cell-repeated", FAULT_SAMPLES, 0, 0, 0, "", "each sample comes twice") \
+    X(FAULT_CELL_LATE, "cell-late", FAULT_SAMPLES, 10e-3, 0, 10, "s", \
+      "samples are told of so much later, with their right stamps") \
+    X(FAULT_READS, "reads", FAULT_SAMPLES, 0, -1e6, 1e6, "SI", "samples say this, whatever is") \
+    X(FAULT_CELL_TURNED, "cell-turned", FAULT_INPUT, 0, 0, 0, "", "polarity reversed") \
+    X(FAULT_CELL_GAIN, "cell-gain", FAULT_INPUT, 0.5, -100, 100, "", "times its gain") \
+    X(FAULT_CELL_OFFSET, "cell-offset", FAULT_INPUT, 10, -1e6, 1e6, "N", "a jump of its zero") \
+    X(FAULT_SUPPLY, "supply", FAULT_INPUT, 0.5, 0, 10, "", "times the supply's voltage") \
+    X(FAULT_FREEWHEEL, "freewheel", FAULT_INPUT, 0, 0, 0, "", "the drive stage cannot brake") \
+    X(FAULT_RUNAWAY, "runaway", FAULT_INPUT, 0, 0, 0, "", \
+      "the drive stage ignores the duty, full supply; it obeys its enable") \
+    X(FAULT_STUCK, "stuck", FAULT_INPUT, 0, 0, 0, "", "it ignores its enable, too") \
+    X(FAULT_MOTOR, "motor", FAULT_INPUT, 0.5, 0, 10, "", "times the motor's torque") \
+    X(FAULT_FRICTION, "friction", FAULT_INPUT, 0.2, 0, 1e3, "N*m", "of the arms' bearings") \
+    X(FAULT_JAM, "jam", FAULT_INPUT, 20, 0, 1e3, "N*m", "so much friction holds the arms") \
+    X(FAULT_COUPLING, "coupling", FAULT_INPUT, 0.1, 0, 100, "", "times the coupling's stiffness") \
+    X(FAULT_INERTIA, "inertia", FAULT_PARAMETER, 2, 0.01, 100, "", \
+      "times all that turns; the whole run") \
+    X(FAULT_SLOW, "slow", FAULT_ORDERS, 20, 0, 1e6, "", \
+      "computing takes so many times as long, where it is counted") \
+    X(FAULT_LATE, "late", FAULT_ORDERS, 3e-3, 0, 10, "s", "every answer takes so much longer") \
+    X(FAULT_HANG, "hang", FAULT_ORDERS, 0.1, 0, 100, "s", "one answer takes so much longer") \
+    X(FAULT_UNKICKED, "unkicked", FAULT_ORDERS, 0, 0, 0, "", "the watchdog hears nothing") \
+    X(FAULT_UNWATCHED, "unwatched", FAULT_ORDERS, 0, 0, 0, "", "the watchdog never cuts") \
+    X(FAULT_READINGS_LOST, "readings-lost", FAULT_LINE, 0.1, 0, 1, "", \
+      "this share of the readings comes empty") \
+    X(FAULT_ORDERS_LOST, "orders-lost", FAULT_LINE, 0.1, 0, 1, "", \
+      "this share of the orders is lost: outputs stay")
+
+#define FAULT_NAME(which, word, place, size, least, most, unit, words) which,
+typedef enum fault_kind { FAULT_ROWS(FAULT_NAME) } fault_kind;
+#undef FAULT_NAME
+#define FAULT_ONE(which, word, place, size, least, most, unit, words) +1
+enum { FAULT_KINDS = FAULT_ROWS(FAULT_ONE) };
+#undef FAULT_ONE
+
+typedef struct fault_row {
+    const char *word;
+    fault_place place;
+    double size;
+    double least;
+    double most;
+    const char *unit;
+    const char *words;
+} fault_row;
+
+extern const fault_row fault_rows[FAULT_KINDS];
+
+#define FAULTS_MAX 16
+#define FAULT_PENDING 64
+
+/* What is told later. */
+typedef struct fault_pending {
+    double at_s;
+    bool is_edge;
+    wh_edge edge;
+    wh_sample sample;
+} fault_pending;
+
+typedef struct fault {
+    fault_kind kind;
+    int channel; /* -1: none was named */
+    double size;
+    char note[32]; /* "": the time alone counts */
+    double value;  /* of the note */
+    double after_s;
+    double duration_s;
+    /* While it runs: */
+    int note_at;    /* in orders.output */
+    int input;      /* of the scene; of FAULT_STUCK the first of two */
+    double healthy; /* the input's value, or what was wished of a sensor */
+    bool reached;   /* the note's value, */
+    bool active;
+    bool happened; /* it was active once */
+    double begin_s;
+    uint64_t draws;
+    uint32_t left; /* pulses */
+    double next_s; /* one more */
+    bool holds;    /* a sample that was the last good one */
+    wh_sample held;
+    unsigned pending_count;
+    fault_pending pending[FAULT_PENDING];
+} fault;
+
+typedef struct fault_plan {
+    uint32_t seed;
+    unsigned count;
+    fault fault[FAULTS_MAX];
+    /* While it runs: */
+    plant *plant;
+    double ticks_per_s;
+    wh_orders last; /* that got through */
+} fault_plan;
+
+/* Adds the faults of `text`, between commas. False, reported. */
+bool fault_read(fault_plan *plan, const char *text);
+
+/* The `set` of its parameters, such as "inertia=2", to be freed; NULL: fault i is of no parameter. */
+char *fault_parameter(const fault_plan *plan, unsigned i);
+
+/* As taps have it; one run. */
+tap fault_tap(fault_plan *plan);
+
+/* A table of all kinds. */
+void fault_print_kinds(FILE *out);
+
+/* --- between the files of faults --------------------------------------------------------------------------------*/
+
+/* From 0 to below 1, another each time. */
+double fault_draw(const fault_plan *plan, fault *f);
+
+/* What an active fault, or one that has something to tell yet, makes of readings at time_s. */
+void fault_readings(fault_plan *plan, fault *f, double time_s, wh_readings *r);
+
+#endif
