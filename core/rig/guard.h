@@ -80,9 +80,9 @@ void wh_guard_start(wh_guard *guard, uint32_t now_ticks);
 /* True for set-points that the loop can hold, with gravity `fed` forward or not, and the shaft carries; false for NaN. */
 bool wh_guard_allows(const wh_guard_config *config, wh_real target_radps, bool fed);
 
-/* The fastest interval between two pulses of a rotor that is led to no more than base_radps: faster by `over`, and
- * falling from the top. */
-wh_real wh_guard_bound_radps(const wh_guard_config *config, wh_real base_radps);
+/* The fastest interval between two pulses of a rotor that is led to no more than base_radps: faster by `over`, and, if it
+ * `falls`, by what falling from the top makes of it. From rest at the bottom gravity adds nothing. */
+wh_real wh_guard_bound_radps(const wh_guard_config *config, wh_real base_radps, bool falls);
 
 /* Stop for this reason, unless there is one already. */
 void wh_guard_trip(wh_guard *guard, wh_trip reason);

@@ -279,8 +279,9 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
 static void look_ahead(const wh_rig_config *config, wh_rig *rig) {
     const bool steady =
         rig->run.phase == WH_PHASE_SETTLE || rig->run.phase == WH_PHASE_RECORD;
-    rig->pulses.bound_radps =
-        wh_guard_bound_radps(&config->guard, wh_run_base_radps(&config->run, &rig->run));
+    const bool from_rest = rig->run.phase == WH_PHASE_SPIN_UP && !rig->pulses.speed.known;
+    rig->pulses.bound_radps = wh_guard_bound_radps(
+        &config->guard, wh_run_base_radps(&config->run, &rig->run), !from_rest);
     rig->pulses.window = steady ? STEADY_WINDOW : RAMP_WINDOW;
 }
 

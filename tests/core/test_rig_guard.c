@@ -74,12 +74,14 @@ static void test_the_bound_is_what_gravity_makes_of_a_speed(void) {
         const double base = (double)((wh_real)rpm_led * RPM);
         const float wanted = (float)root(1.05 * 1.05 * base * base + falls2);
         TEST_ASSERT_FLOAT_WITHIN(0.05f, wanted,
-                                 (float)wh_guard_bound_radps(config, (wh_real)base));
+                                 (float)wh_guard_bound_radps(config, (wh_real)base, true));
+        TEST_ASSERT_FLOAT_WITHIN(0.001f, 1.05f * (float)base,
+                                 (float)wh_guard_bound_radps(config, (wh_real)base, false));
     }
     const float most = 1.1f * (float)config->limit_radps;
-    TEST_ASSERT_FLOAT_WITHIN(1e-3f, most, (float)wh_guard_bound_radps(config, WH_R(90.0)));
+    TEST_ASSERT_FLOAT_WITHIN(1e-3f, most, (float)wh_guard_bound_radps(config, WH_R(90.0), true));
     TEST_ASSERT_FLOAT_WITHIN(
-        1e-3f, most, (float)wh_guard_bound_radps(config, (wh_real)__builtin_nanf("")));
+        1e-3f, most, (float)wh_guard_bound_radps(config, (wh_real)__builtin_nanf(""), true));
 }
 
 static void test_lost_pulses_and_silence_trip(void) {
