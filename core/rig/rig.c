@@ -232,8 +232,8 @@ static void take_orders(const wh_rig_config *config, wh_rig *rig, const wh_rig_i
 
 /* --- the guard, in every state ------------------------------------------------------------------- */
 
-/* At a slow speed a turn takes longer than the silence that is allowed. */
-#define SILENT_RAD WH_R(8.0)
+/* At a slow speed silence is measured in turns: two lost pulses leave nearly two. */
+#define SILENT_RAD WH_R(12.0)
 
 static wh_real silence_s(const wh_rig_config *config, const wh_rig *rig) {
     if (!wh_run_is_closed(&rig->run)) {
