@@ -213,7 +213,7 @@ static void obey(const wh_rig_command *command) {
 static void control(const wh_rig_config *config) {
     hal_slot_pulse pulse;
     while (hal_slots_take(&pulse)) {
-        wh_rig_pulse(&rig, pulse.sensor, pulse.ticks);
+        wh_rig_pulse(config, &rig, pulse.sensor, pulse.ticks);
     }
     hal_load_sample sample;
     while (hal_loadcell_take(&sample)) {

@@ -63,7 +63,7 @@ static void control(const trial *tried) {
     const wh_rig_inputs inputs = {.now_ticks = hal_clock_ticks(), .supply_V = hal_motor_supply_V()};
     wh_count_begin();
     for (unsigned i = 0; i < pulse_count; i++) {
-        wh_rig_pulse(&rig, pulses[i].sensor, pulses[i].ticks);
+        wh_rig_pulse(&config, &rig, pulses[i].sensor, pulses[i].ticks);
     }
     for (unsigned i = 0; i < sample_count; i++) {
         wh_rig_load(&config, &rig, samples[i].ticks, samples[i].raw,

@@ -52,6 +52,18 @@ void wh_lockin_start(const wh_rotor_config *rotor, wh_lockin *lockin) {
     wh_turn_angle_start(rotor, &lockin->angle);
 }
 
+void wh_lockin_forget(const wh_rotor_config *rotor, wh_lockin *lockin) {
+    lockin->stage = WH_LOCKIN_WAITS;
+    lockin->count = 0;
+    lockin->taken = false;
+    lockin->any = false;
+    lockin->equal = 0;
+    lockin->most_equal = 0;
+    lockin->open = false;
+    lockin->expects = false;
+    wh_turn_angle_start(rotor, &lockin->angle);
+}
+
 /* --- marks -------------------------------------------------------------------------------------- */
 
 static void close_turn(wh_lockin *lockin, uint32_t ticks) {

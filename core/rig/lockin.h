@@ -132,6 +132,7 @@ typedef struct wh_lockin {
 } wh_lockin;
 
 #define wh_lockin_start WH_NAME(wh_lockin_start)
+#define wh_lockin_forget WH_NAME(wh_lockin_forget)
 #define wh_lockin_mark WH_NAME(wh_lockin_mark)
 #define wh_lockin_gap WH_NAME(wh_lockin_gap)
 #define wh_lockin_load WH_NAME(wh_lockin_load)
@@ -140,6 +141,9 @@ typedef struct wh_lockin {
 #define wh_polar WH_NAME(wh_polar)
 
 void wh_lockin_start(const wh_rotor_config *rotor, wh_lockin *lockin);
+
+/* Begin anew, the counters apart: within a control step, where clearing the samples' memory would take too long. */
+void wh_lockin_forget(const wh_rotor_config *rotor, wh_lockin *lockin);
 
 /* Sensor 0 or 1 was passed at `ticks`, the rotor having made `quarter` quarter turns (wrapping). */
 void wh_lockin_mark(wh_lockin *lockin, unsigned sensor, uint32_t ticks, uint32_t quarter);

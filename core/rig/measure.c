@@ -15,6 +15,13 @@ void wh_measure_start(const wh_measure_config *config, wh_measure *measure) {
     wh_lockin_start(&config->rotor, &measure->lockin);
 }
 
+void wh_measure_begin(const wh_measure_config *config, wh_measure *measure) {
+    measure->tare = (wh_tare){.count = 0};
+    measure->records = false;
+    measure->due = 0;
+    wh_lockin_forget(&config->rotor, &measure->lockin);
+}
+
 void wh_measure_mark(wh_measure *measure, const wh_mark *mark) {
     if (mark->gap) {
         wh_lockin_gap(&measure->lockin);

@@ -46,6 +46,7 @@ typedef struct wh_measure {
 } wh_measure;
 
 #define wh_measure_start WH_NAME(wh_measure_start)
+#define wh_measure_begin WH_NAME(wh_measure_begin)
 #define wh_measure_mark WH_NAME(wh_measure_mark)
 #define wh_measure_load WH_NAME(wh_measure_load)
 #define wh_measure_work WH_NAME(wh_measure_work)
@@ -53,8 +54,11 @@ typedef struct wh_measure {
 #define wh_measure_lasts WH_NAME(wh_measure_lasts)
 #define wh_measure_end WH_NAME(wh_measure_end)
 
-/* Forget everything. */
+/* Before the first use. */
 void wh_measure_start(const wh_measure_config *config, wh_measure *measure);
+
+/* A run begins, with the tare. */
+void wh_measure_begin(const wh_measure_config *config, wh_measure *measure);
 
 /* A mark that is sure, in order of time. */
 void wh_measure_mark(wh_measure *measure, const wh_mark *mark);

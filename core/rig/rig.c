@@ -46,8 +46,26 @@ bool wh_rig_post(wh_rig *rig, wh_rig_event event, wh_real value) {
     return true;
 }
 
-void wh_rig_pulse(wh_rig *rig, unsigned sensor, uint32_t ticks) {
+/* How fast, and how early, may a pulse come? */
+#define SETTLE_WINDOW WH_R(0.03)
+#define RAMP_WINDOW WH_R(0.2)
+#define RECORD_PART WH_R(0.8) /* of what the record lets the speed be off */
+
+static void expect_pulses(const wh_rig_config *config, wh_rig *rig) {
+    const wh_rig_phase phase = rig->run.phase;
+    const bool from_rest = phase == WH_PHASE_SPIN_UP && !rig->pulses.speed.known;
+    rig->pulses.bound_radps = wh_guard_bound_radps(
+        &config->guard, wh_run_base_radps(&config->run, &rig->run), !from_rest);
+    rig->pulses.window =
+        phase == WH_PHASE_RECORD
+            ? RECORD_PART * config->run.record_band_radps / rig->run.target_radps
+            : (phase == WH_PHASE_SETTLE ? SETTLE_WINDOW : RAMP_WINDOW);
+}
+
+void wh_rig_pulse(const wh_rig_config *config, wh_rig *rig, unsigned sensor, uint32_t ticks) {
     rig->pulses_ever++;
+    rig->busy = true;
+    expect_pulses(config, rig);
     if (rig->run.phase == WH_PHASE_TARE && sensor < WH_SPEED_SENSORS) {
         rig->run.tare_pulses[sensor]++;
     }
@@ -160,7 +178,7 @@ static void trip(wh_rig *rig, const wh_rig_inputs *inputs) {
 static void begin_run(const wh_rig_config *config, wh_rig *rig, wh_real target_radps,
                       uint32_t now_ticks) {
     wh_pulses_start(&rig->pulses, config->impossible_radps);
-    wh_measure_start(&config->measure, &rig->measure);
+    wh_measure_begin(&config->measure, &rig->measure);
     rig->guard.lost_before = 0;
     rig->guard.rejected_before = 0;
     wh_run_start(&rig->run, target_radps, now_ticks);
@@ -251,8 +269,10 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
         wh_guard_trip(guard, WH_TRIP_WATCHDOG);
     }
     wh_guard_quiet(&config->guard, guard, rig->pulses_ever, inputs->now_ticks);
-    if (guard->quiet && !drives) { /* times of old pulses wrap */
+    if (guard->quiet && !drives && rig->pulses.speed.running) { /* times of old pulses wrap */
         wh_pulses_start(&rig->pulses, config->impossible_radps);
+    }
+    if (guard->quiet && !drives) {
         rig->run.off_radps = WH_R(0.0);
     }
     /* with the motor off nothing speeds up a rotor whose speed was known */
@@ -270,19 +290,6 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
     if (needed && !wh_guard_load_comes(&config->guard, guard, inputs->now_ticks)) {
         wh_guard_trip(guard, WH_TRIP_LOAD_CELL);
     }
-}
-
-/* Before pulses of the next step come: how fast may they be? */
-#define STEADY_WINDOW WH_R(0.03)
-#define RAMP_WINDOW WH_R(0.2)
-
-static void look_ahead(const wh_rig_config *config, wh_rig *rig) {
-    const bool steady =
-        rig->run.phase == WH_PHASE_SETTLE || rig->run.phase == WH_PHASE_RECORD;
-    const bool from_rest = rig->run.phase == WH_PHASE_SPIN_UP && !rig->pulses.speed.known;
-    rig->pulses.bound_radps = wh_guard_bound_radps(
-        &config->guard, wh_run_base_radps(&config->run, &rig->run), !from_rest);
-    rig->pulses.window = steady ? STEADY_WINDOW : RAMP_WINDOW;
 }
 
 /* --- states -------------------------------------------------------------------------------------- */
@@ -337,10 +344,12 @@ static void measure(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks
     wh_mark mark;
     while (wh_pulses_mark(&rig->pulses, now_ticks, &mark)) {
         wh_measure_mark(&rig->measure, &mark);
+        rig->busy = true;
     }
-    if (wh_run_drives(&rig->run)) {
+    if (wh_run_drives(&rig->run) && !rig->busy) {
         wh_measure_work(&config->measure, &rig->measure);
     }
+    rig->busy = false;
 }
 
 static wh_rig_command command_of(const wh_rig_config *config, const wh_rig *rig) {
@@ -362,6 +371,5 @@ wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_ri
     if (rig->guard.trip != WH_TRIP_NONE && rig->state != WH_LIFE_TRIPPED) {
         finds(config, rig, inputs, WH_EVENT_TRIP);
     }
-    look_ahead(config, rig);
     return command_of(config, rig);
 }

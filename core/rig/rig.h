@@ -4,7 +4,7 @@
  *
  *     wh_rig_start(&config, &rig, now_ticks, NULL);
  *     every control step:
- *         wh_rig_pulse(&rig, ...) for each slot pulse, in order of time
+ *         wh_rig_pulse(&config, &rig, ...) for each slot pulse, in order of time
  *         wh_rig_load(&config, &rig, ...) for each load sample
  *         wh_rig_post(&rig, ...) for each order from outside: nothing moves without `arm` and then `start`
  *         command = wh_rig_step(&config, &rig, &inputs)
@@ -71,6 +71,7 @@ typedef struct wh_rig {
     wh_measure measure;
     uint32_t since_ticks; /* the state began */
     uint32_t pulses_ever;
+    bool busy; /* a pulse or a mark is work enough for one step: the measurement waits for the next */
     bool rested;         /* motor off, and the rotor rests, or will not: all that can be done is done */
     wh_rig_result result; /* of the last run that was through; kept until the next is */
     bool has_result;
@@ -105,7 +106,7 @@ void wh_rig_start(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks,
 bool wh_rig_post(wh_rig *rig, wh_rig_event event, wh_real value);
 
 /* A slot pulse of sensor 0 or 1, captured at `ticks`. */
-void wh_rig_pulse(wh_rig *rig, unsigned sensor, uint32_t ticks);
+void wh_rig_pulse(const wh_rig_config *config, wh_rig *rig, unsigned sensor, uint32_t ticks);
 
 /* A load sample as the hardware has it: counts, stamped `ticks`, and what it says of it. */
 void wh_rig_load(const wh_rig_config *config, wh_rig *rig, uint32_t ticks, int32_t raw,
