@@ -64,12 +64,12 @@ static void give_pulses(even_rig *even) {
             even->fails.lose[due]--;
             continue;
         }
-        wh_rig_pulse(&even->rig, even->fails.swapped ? 1U - due : due, ticks);
+        wh_rig_pulse(&even->config, &even->rig, even->fails.swapped ? 1U - due : due, ticks);
     }
     for (unsigned sensor = 0; sensor < WH_SPEED_SENSORS; sensor++) {
         if (even->failing && even->fails.adds[sensor]) {
             even->fails.adds[sensor] = false;
-            wh_rig_pulse(&even->rig, sensor, even->inputs.now_ticks);
+            wh_rig_pulse(&even->config, &even->rig, sensor, even->inputs.now_ticks);
         }
     }
 }
