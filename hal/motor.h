@@ -10,7 +10,7 @@ extern "C" {
 
 typedef enum hal_motor_off_way {
     HAL_MOTOR_COAST, /* the enable goes off: no torque, the rotor turns freely */
-    HAL_MOTOR_BRAKE  /* the enable stays on, at 0 V: a drive stage that can short the motor brakes it */
+    HAL_MOTOR_BRAKE /* the enable stays on, at 0 V: a drive stage that can short the motor brakes it */
 } hal_motor_off_way;
 
 /* Drive the motor with a mean voltage of 0 to hal_motor_supply_V(), the enable on. What lies outside is clamped, NaN to

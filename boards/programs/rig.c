@@ -27,6 +27,9 @@
 #if HAL_VIRTUAL
 #include "hal/virtual/virtual_rig.h"
 #endif
+
+/* The model that goes with the rotor, wherever that is: core/models/eccentric.whirl. */
+extern const wh_scene rig_fixed;
 #ifndef HAL_FRAMES
 #define HAL_FRAMES 0
 #endif
@@ -310,6 +313,7 @@ int main(void) {
                                            .period_ticks = HAL_LOADCELL_PERIOD_TICKS,
                                            .raw_max = HAL_LOADCELL_RAW_MAX};
     wh_rig_slots(&config, HAL_SLOT_LEAD_DEG / WH_RIG_DEG_PER_RAD);
+    config.observer.scene = &rig_fixed;
     run(&config);
 
     if (rig.state == WH_LIFE_TRIPPED) {
@@ -327,7 +331,7 @@ int main(void) {
 #if HAL_VIRTUAL
     put_plant_hash();
 #endif
-    const bool good = rig.state != WH_LIFE_TRIPPED && rig.has_result &&
-                      rig.result.force.quality != WH_REFUSED;
+    const bool good =
+        rig.state != WH_LIFE_TRIPPED && rig.has_result && rig.result.force.quality != WH_REFUSED;
     board_exit(good ? 0 : 1);
 }

@@ -85,6 +85,7 @@ static bool run(const trial *tried) {
                                            .period_ticks = HAL_LOADCELL_PERIOD_TICKS,
                                            .raw_max = HAL_LOADCELL_RAW_MAX};
     wh_rig_slots(&config, HAL_SLOT_LEAD_DEG / WH_RIG_DEG_PER_RAD);
+    config.observer.scene = &rig_fixed;
     if (!hal_clock_start()) {
         return false;
     }

@@ -51,6 +51,9 @@
  * loop (docs/rig.md). Set-points keep a sixth away from that, as the loop dips. */
 #define WH_RIG_TARGET_MIN_RPM WH_R(170.0)
 
+/* With gravity's torque fed forward to the motor. */
+#define WH_RIG_TARGET_MIN_FED_RPM WH_R(100.0)
+
 /* The motor's speed without load is 600 rpm; pulses that would need more than this are no pulses. */
 #define WH_RIG_IMPOSSIBLE_RPM WH_R(800.0)
 

@@ -4,13 +4,7 @@
 #include "core/angle.h"
 #include "datasheet.h"
 
-const wh_feed_config wh_feed_standard = {
-    .weight_Nm = WH_RIG_MASS_MOMENT_KGM * WH_RIG_GRAVITY_MPS2,
-    .stall_Nm = WH_RIG_STALL_NM,
-    .lead_ticks = 3000, /* one and a half control steps */
-    .fade_s = WH_R(0.5),
-    .most = WH_R(0.3),
-};
+const wh_feed_config wh_feed_standard = WH_FEED_STANDARD;
 
 wh_real wh_feed_step(const wh_feed_config *config, wh_feed *feed, const wh_observer *observer,
                      uint32_t now_ticks, wh_real step_s) {

@@ -27,6 +27,11 @@ typedef struct wh_feed {
 } wh_feed;
 
 /* For the rig of eccentric.whirl. */
+#define WH_FEED_STANDARD \
+    { \
+        .weight_Nm = WH_RIG_MASS_MOMENT_KGM * WH_RIG_GRAVITY_MPS2, .stall_Nm = WH_RIG_STALL_NM, \
+        .lead_ticks = 3000, .fade_s = WH_R(0.5), .most = WH_R(0.3), \
+    }
 #define wh_feed_standard WH_NAME(wh_feed_standard)
 extern const wh_feed_config wh_feed_standard;
 

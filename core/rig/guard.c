@@ -10,8 +10,7 @@ static wh_real since_s(uint32_t then_ticks, uint32_t now_ticks) {
 }
 
 void wh_guard_start(wh_guard *guard, uint32_t now_ticks) {
-    *guard =
-        (wh_guard){.trip = WH_TRIP_NONE, .load_ticks = now_ticks, .pulse_ticks = now_ticks};
+    *guard = (wh_guard){.trip = WH_TRIP_NONE, .load_ticks = now_ticks, .pulse_ticks = now_ticks};
 }
 
 bool wh_guard_allows(const wh_guard_config *config, wh_real target_radps, bool fed) {
@@ -47,8 +46,11 @@ void wh_guard_quiet(const wh_guard_config *config, wh_guard *guard, uint32_t pul
 }
 
 void wh_guard_speed(const wh_guard_config *config, wh_guard *guard, const wh_pulses *pulses,
-                    wh_trip reason) {
+                    wh_trip reason, bool driven) {
     const wh_speed *speed = &pulses->speed;
+    if (!driven && pulses->alternate < 2U) {
+        return;
+    }
     /* one early pulse may be a disturbance, two are a speed */
     if ((speed->known && speed->turn_radps > config->limit_radps) || pulses->fast >= 2U) {
         wh_guard_trip(guard, reason);
@@ -93,8 +95,7 @@ void wh_guard_load(const wh_guard_config *config, wh_guard *guard, const wh_spee
     }
 }
 
-bool wh_guard_load_comes(const wh_guard_config *config, const wh_guard *guard,
-                         uint32_t now_ticks) {
+bool wh_guard_load_comes(const wh_guard_config *config, const wh_guard *guard, uint32_t now_ticks) {
     return since_s(guard->load_ticks, now_ticks) <= config->load_silence_max_s;
 }
 

@@ -33,10 +33,11 @@ typedef struct wh_guard_config {
     wh_real target_min_fed_radps;
     wh_real target_max_radps; /* largest */
     wh_real limit_radps;      /* largest speed, mean of a turn */
-    wh_real ripple;           /* by how much a part of a turn may be faster, as a fraction, at the limit */
-    wh_real over;             /* by how much the speed may be above where it is led, as a fraction */
-    wh_real fall_radps; /* what gravity makes of standstill at the top: 2 sqrt(S g / I), at the bottom */
-    uint32_t lost_max;  /* pulses that may be lost in a run */
+    wh_real ripple; /* by how much a part of a turn may be faster, as a fraction, at the limit */
+    wh_real over;   /* by how much the speed may be above where it is led, as a fraction */
+    wh_real
+        fall_radps; /* what gravity makes of standstill at the top: 2 sqrt(S g / I), at the bottom */
+    uint32_t lost_max;          /* pulses that may be lost in a run */
     uint32_t rejected_max;      /* and be none */
     wh_real silence_max_s;      /* longest time without a pulse while the loop is closed */
     wh_real slow_silence_max_s; /* and while the rotor starts */
@@ -51,7 +52,7 @@ typedef struct wh_guard_config {
 
 typedef struct wh_guard {
     wh_trip trip;
-    bool quiet;         /* no pulse for rest_s: latched, since times wrap */
+    bool quiet; /* no pulse for rest_s: latched, since times wrap */
     uint32_t pulses_seen;
     uint32_t pulse_ticks;     /* of the last pulse, true or not; at first, the start */
     uint32_t lost_before;     /* pulses already lost when the motor began to drive, */
@@ -92,9 +93,10 @@ void wh_guard_quiet(const wh_guard_config *config, wh_guard *guard, uint32_t pul
                     uint32_t now_ticks);
 
 /* Each step, in every state: over-speed, of a turn or of two pulse intervals running beyond the bound. `reason` is
- * what that means: WH_TRIP_OVERSPEED, or WH_TRIP_RUNS_ON with the motor off. */
+ * what that means: WH_TRIP_OVERSPEED, or WH_TRIP_RUNS_ON with the motor off. Where it is not `driven`, a sensor that
+ * fires again and again is one in whose slot the rotor swings: only pulses that alternate are turns. */
 void wh_guard_speed(const wh_guard_config *config, wh_guard *guard, const wh_pulses *pulses,
-                    wh_trip reason);
+                    wh_trip reason, bool driven);
 
 /* While the motor drives: lost and invented pulses, silence for longer than silence_max_s. */
 void wh_guard_pulses(const wh_guard_config *config, wh_guard *guard, const wh_pulses *pulses,

@@ -74,8 +74,7 @@ void wh_measure_work(const wh_measure_config *config, wh_measure *measure) {
     /* turns that lie within the record as a whole */
     const wh_lockin_turn *turn = &measure->lockin.turn;
     const bool begins_within = (int32_t)(turn->begin_ticks - measure->begin_ticks) >= 0;
-    if (begins_within &&
-        wh_measure_lasts(config, measure, turn->begin_ticks + turn->turn_ticks)) {
+    if (begins_within && wh_measure_lasts(config, measure, turn->begin_ticks + turn->turn_ticks)) {
         wh_merge_add(&config->result, &config->rotor, &measure->merge, turn,
                      &measure->lockin.angle);
         measure->due = 2;
@@ -94,10 +93,8 @@ void wh_measure_record(wh_measure *measure, uint32_t now_ticks) {
 }
 
 bool wh_measure_end(const wh_measure_config *config, wh_measure *measure, uint32_t now_ticks) {
-    const bool late =
-        since_s(measure->begin_ticks, now_ticks) > config->record_s + LAST_TURN_MAX_S;
-    if (!measure->ends && (measure->lockin.stage == WH_LOCKIN_WAITS || late) &&
-        measure->due == 0) {
+    const bool late = since_s(measure->begin_ticks, now_ticks) > config->record_s + LAST_TURN_MAX_S;
+    if (!measure->ends && (measure->lockin.stage == WH_LOCKIN_WAITS || late) && measure->due == 0) {
         measure->ends = true;
         measure->due = 2;
     }

@@ -7,21 +7,7 @@
 /* More than a turn without a mark: one was missed, whichever sensor's. */
 #define MISSED_RAD (WH_R(1.06) * WH_RIG_TWO_PI)
 
-const wh_observer_config wh_observer_standard = {
-    .stall_Nm = WH_RIG_STALL_NM,
-    .no_load_radps = WH_RIG_NO_LOAD_RADPS,
-    /* sensor 1's mark ends three quarters of a turn, over the top, sensor 2's the other */
-    .angle_gain = {WH_R(1.2), WH_R(0.6)},
-    .speed_gain = {WH_R(0.65), WH_R(1.3)},
-    .torque_gain_kgm2 = {WH_R(0.009), WH_R(0.002)},
-    .torque_most_Nm = WH_R(0.5),
-    .trusted_rad = WH_R(0.3),
-    .trusted_marks = 3,
-    .lost_rad = WH_R(2.0),
-    .slowest_radps = WH_R(40.0) * WH_RIG_RADPS_PER_RPM,
-    .fastest_radps = WH_RIG_IMPOSSIBLE_RPM * WH_RIG_RADPS_PER_RPM,
-    .silence_ticks = 3U * (WH_RIG_TICKS_PER_S / 2U), /* a turn at 40 rpm */
-};
+const wh_observer_config wh_observer_standard = WH_OBSERVER_STANDARD;
 
 /* The difference of two phases, -pi ... pi. */
 static wh_real signed_rad(wh_phase difference) {

@@ -14,6 +14,7 @@
 #define WH_RIG_OBSERVER_H
 
 #include "core/scene.h"
+#include "datasheet.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -63,7 +64,18 @@ typedef struct wh_observer {
  * half to six times the inertia, 30 % more or less gravity and 0.2 N m of friction between 80 and 400 rpm. What the
  * errors of angle, speed and torque are multiplied with in a turn has then, at a steady speed, a spectral radius of 0.72
  * at 80 rpm, 0.65 at 100, 0.32 at 170, 0.59 at 330 and 0.64 at 400: over the top gravity drives errors apart, the more
- * the slower. Half these gains for the torque: 0.82 at 80. */
+ * the slower. Half these gains for the torque: 0.82 at 80. Sensor 1's mark ends three quarters of a turn, over the top,
+ * sensor 2's the other. */
+#define WH_OBSERVER_STANDARD \
+    { \
+        .stall_Nm = WH_RIG_STALL_NM, .no_load_radps = WH_RIG_NO_LOAD_RADPS, \
+        .angle_gain = {WH_R(1.2), WH_R(0.6)}, .speed_gain = {WH_R(0.65), WH_R(1.3)}, \
+        .torque_gain_kgm2 = {WH_R(0.009), WH_R(0.002)}, .torque_most_Nm = WH_R(0.5), \
+        .trusted_rad = WH_R(0.3), .trusted_marks = 3, .lost_rad = WH_R(2.0), \
+        .slowest_radps = WH_R(40.0) * WH_RIG_RADPS_PER_RPM, \
+        .fastest_radps = WH_RIG_IMPOSSIBLE_RPM * WH_RIG_RADPS_PER_RPM, \
+        .silence_ticks = 3U * (WH_RIG_TICKS_PER_S / 2U), \
+    }
 #define wh_observer_standard WH_NAME(wh_observer_standard)
 extern const wh_observer_config wh_observer_standard;
 

@@ -60,10 +60,11 @@ static bool is_fast(const wh_pulses *pulses, const wh_speed *speed) {
 static void accept(wh_pulses *pulses, const wh_pulse *pulse, const wh_speed *before,
                    const wh_speed *after) {
     const bool fast = is_fast(pulses, after);
+    const bool alternates = after->lost == before->lost && before->running;
     pulses->fast = fast ? pulses->fast + 1U : 0U;
-    pulses->last = (wh_mark){.pulse = *pulse,
-                             .quarter = after->quarter,
-                             .gap = after->restarts != before->restarts};
+    pulses->alternate = alternates ? pulses->alternate + 1U : 0U;
+    pulses->last = (wh_mark){
+        .pulse = *pulse, .quarter = after->quarter, .gap = after->restarts != before->restarts};
     pulses->waits = true;
     const wh_speed kept = *before; /* it may be what it replaces */
     pulses->speed = *after;

@@ -31,16 +31,18 @@ typedef struct wh_mark {
 } wh_mark;
 
 typedef struct wh_pulses {
-    wh_speed speed;       /* of the pulses that were taken */
-    wh_speed before;      /* the same without the last one */
-    wh_real bound_radps;  /* a faster interval is not expected; the caller renews it. 0: no bound */
-    wh_real window;       /* so early, as a part of a turn, a pulse may come; ditto */
-    wh_pulse suspect;     /* when `suspects` */
+    wh_speed speed;      /* of the pulses that were taken */
+    wh_speed before;     /* the same without the last one */
+    wh_real bound_radps; /* a faster interval is not expected; the caller renews it. 0: no bound */
+    wh_real window;      /* so early, as a part of a turn, a pulse may come; ditto */
+    wh_pulse suspect;    /* when `suspects` */
     bool suspects;
-    bool waits;           /* the last pulse is not sure yet: */
+    bool waits; /* the last pulse is not sure yet: */
     wh_mark last;
-    unsigned fast;        /* intervals beyond the bound, running */
-    uint32_t rejected;    /* pulses that are none */
+    unsigned fast; /* intervals beyond the bound, running */
+    unsigned
+        alternate; /* pulses running whose sensor was not the one before's: a rotor that swings has none */
+    uint32_t rejected;             /* pulses that are none */
     wh_mark mark[WH_PULSES_MARKS]; /* sure, not yet taken */
     unsigned marks;
 } wh_pulses;

@@ -4,6 +4,7 @@
 #include <stddef.h>
 
 #include "datasheet.h"
+#include "orders.h"
 
 static wh_real since_s(uint32_t then_ticks, uint32_t now_ticks) {
     return (wh_real)(now_ticks - then_ticks) / (wh_real)WH_RIG_TICKS_PER_S;
@@ -12,6 +13,8 @@ static wh_real since_s(uint32_t then_ticks, uint32_t now_ticks) {
 void wh_rig_slots(wh_rig_config *config, wh_real lead_rad) {
     config->measure.rotor.mark_rad[0] = -lead_rad;
     config->measure.rotor.mark_rad[1] = WH_R(0.25) * WH_RIG_TWO_PI - lead_rad;
+    config->observer.mark_rad[0] = config->measure.rotor.mark_rad[0];
+    config->observer.mark_rad[1] = config->measure.rotor.mark_rad[1];
 }
 
 static void enter(wh_rig *rig, wh_life state, uint32_t now_ticks) {
@@ -26,6 +29,8 @@ void wh_rig_start(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks,
     wh_pulses_start(&rig->pulses, config->impossible_radps);
     wh_guard_start(&rig->guard, now_ticks);
     wh_measure_start(&config->measure, &rig->measure);
+    (void)wh_observer_start(&config->observer, &rig->observer,
+                            now_ticks); /* then it is never valid */
     enter(rig, WH_LIFE_IDLE, now_ticks);
     /* who knows how fast the rotor turned before */
     rig->run.off_radps = config->guard.limit_radps;
@@ -39,7 +44,7 @@ void wh_rig_start(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks,
 /* --- what comes in ------------------------------------------------------------------------------- */
 
 bool wh_rig_post(wh_rig *rig, wh_rig_event event, wh_real value) {
-    if (rig->orders == WH_RIG_ORDERS) {
+    if (rig->orders == WH_RIG_ORDERS_MOST) {
         return false;
     }
     rig->order[rig->orders++] = (wh_rig_order){.event = event, .value = value};
@@ -56,10 +61,9 @@ static void expect_pulses(const wh_rig_config *config, wh_rig *rig) {
     const bool from_rest = phase == WH_PHASE_SPIN_UP && !rig->pulses.speed.known;
     rig->pulses.bound_radps = wh_guard_bound_radps(
         &config->guard, wh_run_base_radps(&config->run, &rig->run), !from_rest);
-    rig->pulses.window =
-        phase == WH_PHASE_RECORD
-            ? RECORD_PART * config->run.record_band_radps / rig->run.target_radps
-            : (phase == WH_PHASE_SETTLE ? SETTLE_WINDOW : RAMP_WINDOW);
+    rig->pulses.window = phase == WH_PHASE_RECORD
+                             ? RECORD_PART * config->run.record_band_radps / rig->run.target_radps
+                             : (phase == WH_PHASE_SETTLE ? SETTLE_WINDOW : RAMP_WINDOW);
 }
 
 void wh_rig_pulse(const wh_rig_config *config, wh_rig *rig, unsigned sensor, uint32_t ticks) {
@@ -84,86 +88,6 @@ void wh_rig_load(const wh_rig_config *config, wh_rig *rig, uint32_t ticks, int32
     }
 }
 
-/* --- orders -------------------------------------------------------------------------------------- */
-
-static wh_refusal may_arm(const wh_rig_config *config, const wh_rig *rig,
-                          const wh_rig_inputs *inputs) {
-    if (inputs->stop_pressed) {
-        return WH_REFUSED_STOP_INPUT;
-    }
-    if (inputs->watchdog_has_cut) {
-        return WH_REFUSED_WATCHDOG;
-    }
-    if (inputs->clock_is_fallback) {
-        return WH_REFUSED_CLOCK;
-    }
-    if (!wh_guard_supply(&config->guard, inputs->supply_V)) {
-        return WH_REFUSED_SUPPLY;
-    }
-    if (!rig->guard.load_good ||
-        !wh_guard_load_comes(&config->guard, &rig->guard, inputs->now_ticks)) {
-        return WH_REFUSED_LOAD_CELL;
-    }
-    return rig->guard.quiet ? WH_ALLOWED : WH_REFUSED_TURNING;
-}
-
-static wh_refusal may_turn(const wh_rig_config *config, const wh_rig_inputs *inputs,
-                           wh_real target_radps) {
-    if (!wh_guard_allows(&config->guard, target_radps, false)) {
-        return WH_REFUSED_TARGET;
-    }
-    return wh_run_needs_V(&config->run, target_radps) <= inputs->supply_V ? WH_ALLOWED
-                                                                          : WH_REFUSED_VOLTAGE;
-}
-
-/* Rest, and the cause gone. Without pulses that can be believed rest is a matter of time. */
-static wh_refusal may_clear(const wh_rig_config *config, const wh_rig *rig,
-                            const wh_rig_inputs *inputs) {
-    if (!rig->rested || !rig->guard.quiet) {
-        return WH_REFUSED_TURNING;
-    }
-    switch (rig->guard.trip) {
-    case WH_TRIP_WATCHDOG:
-        return inputs->watchdog_has_cut ? WH_REFUSED_WATCHDOG : WH_ALLOWED;
-    case WH_TRIP_SUPPLY:
-        return wh_guard_supply(&config->guard, inputs->supply_V) ? WH_ALLOWED : WH_REFUSED_SUPPLY;
-    case WH_TRIP_LOAD_CELL:
-        return rig->guard.load_good &&
-                       wh_guard_load_comes(&config->guard, &rig->guard, inputs->now_ticks)
-                   ? WH_ALLOWED
-                   : WH_REFUSED_LOAD_CELL;
-    case WH_TRIP_NONE:
-    case WH_TRIP_OVERSPEED:
-    case WH_TRIP_PULSES:
-    case WH_TRIP_STALLED:
-    case WH_TRIP_MOVING:
-    case WH_TRIP_UNSETTLED:
-    case WH_TRIP_RECORD:
-    case WH_TRIP_RUNS_ON: break;
-    }
-    return WH_ALLOWED;
-}
-
-static wh_refusal allows(const wh_rig_config *config, const wh_rig *rig,
-                         const wh_rig_inputs *inputs, const wh_rig_order *order) {
-    switch (order->event) {
-    case WH_EVENT_ARM: return may_arm(config, rig, inputs);
-    case WH_EVENT_START:
-        return inputs->stop_pressed ? WH_REFUSED_STOP_INPUT
-                                    : may_turn(config, inputs, order->value);
-    case WH_EVENT_SET: return may_turn(config, inputs, order->value);
-    case WH_EVENT_CLEAR: return may_clear(config, rig, inputs);
-    case WH_EVENT_STOP:
-    case WH_EVENT_HOST_LOST:
-    case WH_EVENT_DONE:
-    case WH_EVENT_RESTED:
-    case WH_EVENT_EXPIRED:
-    case WH_EVENT_TRIP:
-    case WH_EVENTS: break;
-    }
-    return WH_ALLOWED;
-}
-
 /* --- what follows from an event ------------------------------------------------------------------ */
 
 static void trip(wh_rig *rig, const wh_rig_inputs *inputs) {
@@ -179,6 +103,8 @@ static void begin_run(const wh_rig_config *config, wh_rig *rig, wh_real target_r
                       uint32_t now_ticks) {
     wh_pulses_start(&rig->pulses, config->impossible_radps);
     wh_measure_begin(&config->measure, &rig->measure);
+    wh_observer_forget(&rig->observer);
+    rig->observed = 0;
     rig->guard.lost_before = 0;
     rig->guard.rejected_before = 0;
     wh_run_start(&rig->run, target_radps, now_ticks);
@@ -222,9 +148,8 @@ static wh_refusal happens(const wh_rig_config *config, wh_rig *rig, const wh_rig
     if (rule.refusal != WH_ALLOWED) {
         return rule.refusal;
     }
-    const wh_refusal refusal = allows(config, rig, inputs, order);
-    if (refusal == WH_ALLOWED &&
-        (order->event != WH_EVENT_HOST_LOST || config->host_loss_stops)) {
+    const wh_refusal refusal = wh_rig_refuses(config, rig, inputs, order);
+    if (refusal == WH_ALLOWED && (order->event != WH_EVENT_HOST_LOST || config->host_loss_stops)) {
         follow(config, rig, inputs, order, rule.next);
     }
     return refusal;
@@ -276,9 +201,9 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
         rig->run.off_radps = WH_R(0.0);
     }
     /* with the motor off nothing speeds up a rotor whose speed was known */
-    const bool driven = !drives && rig->run.off_radps < config->guard.limit_radps;
-    wh_guard_speed(&config->guard, guard, &rig->pulses,
-                   driven ? WH_TRIP_RUNS_ON : WH_TRIP_OVERSPEED);
+    const bool slows = !drives && rig->run.off_radps < config->guard.limit_radps;
+    wh_guard_speed(&config->guard, guard, &rig->pulses, slows ? WH_TRIP_RUNS_ON : WH_TRIP_OVERSPEED,
+                   drives);
     if (drives) {
         wh_guard_pulses(&config->guard, guard, &rig->pulses, silence_s(config, rig),
                         inputs->now_ticks);
@@ -292,13 +217,44 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
     }
 }
 
+/* --- where the rotor is --------------------------------------------------------------------------- */
+
+static void observe(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
+    const wh_real drive = rig->command.way == WH_MOTOR_COASTS
+                              ? wh_observer_coasting(&config->observer, &rig->observer)
+                              : rig->command.volts / config->run.rated_V;
+    wh_observer_step(&config->observer, &rig->observer, now_ticks, drive);
+    if (rig->pulses.speed.taken != rig->observed) {
+        rig->observed = rig->pulses.speed.taken;
+        wh_observer_mark(&config->observer, &rig->observer, rig->pulses.last.pulse.sensor,
+                         rig->pulses.last.pulse.ticks);
+    }
+}
+
+static bool is_fed(const wh_rig_config *config, const wh_rig *rig) {
+    return wh_run_is_closed(&rig->run) &&
+           (config->feeds == WH_FEED_ALWAYS ||
+            (config->feeds == WH_FEED_SLOW &&
+             rig->run.target_radps < config->guard.target_min_radps));
+}
+
+/* What gravity takes of the voltage, V. */
+static wh_real feed_V(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
+    if (!is_fed(config, rig)) {
+        rig->feed.part = WH_R(0.0);
+        return WH_R(0.0);
+    }
+    return config->run.rated_V *
+           wh_feed_step(&config->feed, &rig->feed, &rig->observer, now_ticks, config->run.step_s);
+}
+
 /* --- states -------------------------------------------------------------------------------------- */
 
 /* Motor off: the rotor rests when pulses stay away. */
 static void wait_for_rest(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
-    const wh_real passed_s = since_s(rig->state == WH_LIFE_STOPPING ? rig->run.since_ticks
-                                                                    : rig->since_ticks,
-                                     inputs->now_ticks);
+    const wh_real passed_s =
+        since_s(rig->state == WH_LIFE_STOPPING ? rig->run.since_ticks : rig->since_ticks,
+                inputs->now_ticks);
     const bool late = passed_s > config->rest_max_s;
     const bool blind = rig->guard.trip == WH_TRIP_PULSES;
     const bool silent = rig->guard.quiet && passed_s >= config->guard.rest_s;
@@ -331,7 +287,7 @@ static void live(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *
                                 .measure = &rig->measure,
                                 .impossible_radps = config->impossible_radps,
                                 .supply_V = inputs->supply_V,
-                                .fed = false,
+                                .fed = rig->feed.part >= WH_R(1.0),
                                 .now_ticks = inputs->now_ticks};
     if (wh_run_step(&rig->run, &scene)) {
         rig->result = rig->measure.result;
@@ -352,15 +308,21 @@ static void measure(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks
     rig->busy = false;
 }
 
-static wh_rig_command command_of(const wh_rig_config *config, const wh_rig *rig) {
+static wh_rig_command command_of(const wh_rig_config *config, wh_rig *rig,
+                                 const wh_rig_inputs *inputs) {
     if (rig->guard.trip == WH_TRIP_NONE && wh_run_drives(&rig->run)) {
-        return (wh_rig_command){WH_MOTOR_DRIVES, rig->run.volts};
+        const wh_real volts = rig->run.volts + feed_V(config, rig, inputs->now_ticks);
+        const wh_real most = volts < inputs->supply_V ? volts : inputs->supply_V;
+        return (wh_rig_command){WH_MOTOR_DRIVES, most > WH_R(0.0) ? most : WH_R(0.0)};
     }
     const bool brakes = config->stop_brakes && rig->run.phase == WH_PHASE_OFF;
     return (wh_rig_command){brakes ? WH_MOTOR_BRAKES : WH_MOTOR_COASTS, WH_R(0.0)};
 }
 
 wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
+    if (wh_run_drives(&rig->run)) {
+        observe(config, rig, inputs->now_ticks);
+    }
     watch(config, rig, inputs);
     if (inputs->stop_pressed) {
         finds(config, rig, inputs, WH_EVENT_STOP);
@@ -371,5 +333,6 @@ wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_ri
     if (rig->guard.trip != WH_TRIP_NONE && rig->state != WH_LIFE_TRIPPED) {
         finds(config, rig, inputs, WH_EVENT_TRIP);
     }
-    return command_of(config, rig);
+    rig->command = command_of(config, rig, inputs);
+    return rig->command;
 }

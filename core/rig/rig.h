@@ -12,6 +12,7 @@
 #ifndef WH_RIG_RIG_H
 #define WH_RIG_RIG_H
 
+#include "feed.h"
 #include "life.h"
 #include "run.h"
 
@@ -19,17 +20,29 @@
 extern "C" {
 #endif
 
-#define WH_RIG_ORDERS 4U /* that may be posted between two control steps */
+#define WH_RIG_ORDERS_MOST 4U /* that may be posted between two control steps */
+
+/* When gravity's torque is fed forward to the motor. It takes the ripple out of the speed, and with it gravity's part of the
+ * load's peaks. */
+typedef enum wh_feed_when {
+    WH_FEED_NEVER,
+    WH_FEED_SLOW, /* where the set-point is too slow without */
+    WH_FEED_ALWAYS
+} wh_feed_when;
 
 typedef struct wh_rig_config {
     wh_run_config run;
     wh_guard_config guard;
     wh_measure_config measure;
+    wh_observer_config observer;
+    wh_feed_config feed;
+    wh_feed_when feeds;
     wh_real impossible_radps; /* see wh_speed_start() */
     wh_real armed_max_s;
-    wh_real rest_max_s;    /* with the motor off, to come to rest */
-    bool stop_brakes;      /* motor off brakes (a run's end, `stop`), else it coasts; a trip coasts always */
-    bool host_loss_stops;  /* a run ends when who gives orders is gone, else it goes on */
+    wh_real rest_max_s; /* with the motor off, to come to rest */
+    bool
+        stop_brakes; /* motor off brakes (a run's end, `stop`), else it coasts; a trip coasts always */
+    bool host_loss_stops; /* a run ends when who gives orders is gone, else it goes on */
 } wh_rig_config;
 
 /* What a control step sees beside pulses, samples and orders. */
@@ -69,22 +82,27 @@ typedef struct wh_rig {
     wh_guard guard;
     wh_pulses pulses;
     wh_measure measure;
-    uint32_t since_ticks; /* the state began */
+    wh_observer observer;
+    wh_feed feed;
+    wh_rig_command command; /* since the last step */
+    uint32_t observed;      /* pulses that the observer has seen */
+    uint32_t since_ticks;   /* the state began */
     uint32_t pulses_ever;
-    bool busy; /* a pulse or a mark is work enough for one step: the measurement waits for the next */
-    bool rested;         /* motor off, and the rotor rests, or will not: all that can be done is done */
+    bool
+        busy; /* a pulse or a mark is work enough for one step: the measurement waits for the next */
+    bool rested; /* motor off, and the rotor rests, or will not: all that can be done is done */
     wh_rig_result result; /* of the last run that was through; kept until the next is */
     bool has_result;
     wh_trip_record record; /* of the last trip */
-    wh_rig_order order[WH_RIG_ORDERS];
+    wh_rig_order order[WH_RIG_ORDERS_MOST];
     unsigned orders;
     wh_rig_event asked; /* the last order that was taken, */
-    wh_refusal answer; /* and what became of it */
-    uint32_t answers;  /* so many were */
+    wh_refusal answer;  /* and what became of it */
+    uint32_t answers;   /* so many were */
 } wh_rig;
 
-/* The rig of eccentric.whirl. measure.cell and measure.rotor.mark_rad come from the hardware: wh_rig_slots() and the
- * caller fill them in. */
+/* The rig of eccentric.whirl. measure.cell and the sensors' angles come from the hardware: wh_rig_slots() and the
+ * caller fill them in; observer.scene is rig_fixed, or NULL: then nothing is fed forward. */
 #define wh_rig_standard WH_NAME(wh_rig_standard)
 extern const wh_rig_config wh_rig_standard;
 
@@ -102,7 +120,7 @@ void wh_rig_slots(wh_rig_config *config, wh_real lead_rad);
 void wh_rig_start(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks,
                   const wh_trip_record *before);
 
-/* An order for the next control step. False: WH_RIG_ORDERS wait already. rig->answer says what became of it. */
+/* An order for the next control step. False: WH_RIG_ORDERS_MOST wait already. rig->answer says what became of it. */
 bool wh_rig_post(wh_rig *rig, wh_rig_event event, wh_real value);
 
 /* A slot pulse of sensor 0 or 1, captured at `ticks`. */

@@ -150,8 +150,7 @@ static void close_loop(wh_run *run, const wh_run_scene *scene) {
         run->volts = wh_drive_step(&config->drive, &run->drive, speed->turn_radps, scene->supply_V,
                                    config->step_s);
     }
-    const bool too_slow =
-        run->drive.setpoint_radps - speed->turn_radps > config->record_band_radps;
+    const bool too_slow = run->drive.setpoint_radps - speed->turn_radps > config->record_band_radps;
     if (!too_slow || run->volts < scene->supply_V) {
         run->ample_ticks = scene->now_ticks;
     } else if (since_s(run->ample_ticks, scene->now_ticks) > config->short_max_s) {

@@ -31,10 +31,10 @@ typedef enum wh_rig_phase { WH_PHASE_ROWS(WH_PHASE_NAME) WH_PHASES } wh_rig_phas
 typedef struct wh_run_config {
     wh_real step_s; /* time between control steps */
     wh_drive_config drive;
-    wh_real rated_V;        /* supply for which the rig is made, */
-    wh_real no_load_radps;  /* and the motor's speed at it without load */
-    wh_real drag_V;         /* what friction takes of the voltage, about */
-    wh_real spin_up_V;      /* at first, */
+    wh_real rated_V;         /* supply for which the rig is made, */
+    wh_real no_load_radps;   /* and the motor's speed at it without load */
+    wh_real drag_V;          /* what friction takes of the voltage, about */
+    wh_real spin_up_V;       /* at first, */
     wh_real spin_up_V_per_s; /* and more and more, to the voltage of rated_V */
     wh_real take_over_radps; /* from this speed on the loop is closed */
     wh_real spin_up_max_s;
@@ -52,8 +52,8 @@ typedef struct wh_run {
     uint32_t band_ticks;  /* speed has been within the band since */
     uint32_t ample_ticks; /* the supply has been enough since */
     wh_real target_radps;
-    wh_real volts;        /* mean voltage of the motor that is asked for */
-    wh_real off_radps;    /* speed when the motor went off */
+    wh_real volts;     /* mean voltage of the motor that is asked for */
+    wh_real off_radps; /* speed when the motor went off */
     uint32_t tare_pulses[WH_SPEED_SENSORS];
     wh_drive drive;
 } wh_run;
@@ -68,7 +68,7 @@ typedef struct wh_run_scene {
     wh_measure *measure;
     wh_real impossible_radps; /* see wh_speed_start() */
     wh_real supply_V;
-    bool fed;                 /* gravity is fed forward: slower set-points can be held */
+    bool fed; /* gravity is fed forward: slower set-points can be held */
     uint32_t now_ticks;
 } wh_run_scene;
 

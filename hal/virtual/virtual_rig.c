@@ -137,7 +137,8 @@ static float duty_of(const hal_virtual_rig *rig) {
     if (!rig->enabled || rig->cut) {
         return back_emf;
     }
-    const float volts = rig->faults.runaway_motor || rig->volts > rig->supply_V ? rig->supply_V : rig->volts;
+    const float volts =
+        rig->faults.runaway_motor || rig->volts > rig->supply_V ? rig->supply_V : rig->volts;
     const float duty = volts * (1.0f / HAL_VIRTUAL_RATED_V);
     return rig->faults.freewheels && duty < back_emf ? back_emf : duty;
 }

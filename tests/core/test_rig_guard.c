@@ -67,8 +67,8 @@ static void test_over_speed_trips(void) {
 /* A rotor without drive that is led round at the bottom and falls from the top has there what its energy gives it. */
 static void test_the_bound_is_what_gravity_makes_of_a_speed(void) {
     const wh_guard_config *config = &wh_rig_standard.guard;
-    const double falls2 = 4.0 * (double)(WH_RIG_MASS_MOMENT_KGM * WH_RIG_GRAVITY_MPS2) /
-                          (double)WH_RIG_INERTIA_KGM2;
+    const double falls2 =
+        4.0 * (double)(WH_RIG_MASS_MOMENT_KGM * WH_RIG_GRAVITY_MPS2) / (double)WH_RIG_INERTIA_KGM2;
     TEST_ASSERT_FLOAT_WITHIN(0.05f, (float)root(falls2), (float)config->fall_radps);
     for (unsigned rpm_led = 0; rpm_led <= 340U; rpm_led += 20U) {
         const double base = (double)((wh_real)rpm_led * RPM);
