@@ -28,8 +28,8 @@
 #include "hal/virtual/virtual_rig.h"
 #endif
 
-/* The model that goes with the rotor, wherever that is: core/models/eccentric.whirl. */
-extern const wh_scene rig_fixed;
+/* The model that goes with the rotor: rig_fixed of core/models/eccentric.whirl, in control steps (mk/whirl.mk). */
+extern const wh_scene rig_observed;
 #ifndef HAL_FRAMES
 #define HAL_FRAMES 0
 #endif
@@ -43,6 +43,11 @@ _Static_assert((int)HAL_LOAD_SATURATED == (int)WH_LOAD_SATURATED &&
                    (int)HAL_LOAD_LATE == (int)WH_LOAD_LATE &&
                    (int)HAL_LOAD_REPEATED == (int)WH_LOAD_REPEATED,
                "one list of a sample's states");
+
+/* The set-point of the run. */
+#ifndef RIG_TARGET_RPM
+#define RIG_TARGET_RPM WH_RIG_NOMINAL_RPM
+#endif
 
 #define CONTROL_TICKS 2000U /* 500 Hz, as wh_rig_standard.step_s */
 #define WATCHDOG_TICKS (10U * CONTROL_TICKS)
@@ -154,7 +159,7 @@ static void put_result(const wh_rig_result *result) {
     const float nominal_radps = WH_RIG_NOMINAL_RPM * WH_RIG_RADPS_PER_RPM;
     const float formula_N = WH_RIG_MASS_MOMENT_KGM * nominal_radps * nominal_radps;
     const wh_measured *force = &result->force;
-    put("Measured, over whole turns of a 2 s record at 500 samples/s\n");
+    put("Measured, over the whole turns of a record at 500 samples/s\n");
     put_value("turns", (float)force->turns, 0, "");
     put_value("speed", force->speed_radps * RPM_PER_RADPS, 2, "rpm");
     put_force("force, once per turn", force->amplitude_N);
@@ -245,7 +250,7 @@ static bool operate(operator_step *at, uint32_t waited_ticks) {
         return false;
     case HAS_ARMED:
         *at = HAS_STARTED;
-        (void)wh_rig_post(&rig, WH_EVENT_START, WH_RIG_NOMINAL_RPM * WH_RIG_RADPS_PER_RPM);
+        (void)wh_rig_post(&rig, WH_EVENT_START, RIG_TARGET_RPM * WH_RIG_RADPS_PER_RPM);
         return rig.state != WH_LIFE_ARMED; /* refused */
     case HAS_STARTED: break;
     }
@@ -313,7 +318,7 @@ int main(void) {
                                            .period_ticks = HAL_LOADCELL_PERIOD_TICKS,
                                            .raw_max = HAL_LOADCELL_RAW_MAX};
     wh_rig_slots(&config, HAL_SLOT_LEAD_DEG / WH_RIG_DEG_PER_RAD);
-    config.observer.scene = &rig_fixed;
+    config.observer.scene = &rig_observed;
     run(&config);
 
     if (rig.state == WH_LIFE_TRIPPED) {

@@ -18,6 +18,9 @@
 #define CONTROL_TICKS UINT32_C(2000)
 #define STEPS_MOST 20000U
 
+/* rig_fixed of core/models/eccentric.whirl, in control steps (mk/whirl.mk). */
+extern const wh_scene rig_observed;
+
 static wh_rig rig;
 static wh_rig_config config;
 static unsigned intervals = 1;
@@ -29,13 +32,16 @@ typedef struct trial {
     unsigned lose_pulses[2];
     unsigned lose_samples;
     float noise; /* counts, either way */
+    bool fed;    /* gravity forward, though it need not */
 } trial;
 
 static const trial trials[] = {
+    {.name = "100_rpm", .target_rpm = 100.0f},
     {.name = "170_rpm", .target_rpm = 170.0f},
     {.name = "330_rpm", .target_rpm = 330.0f},
     {.name = "360_rpm", .target_rpm = 360.0f},
     {.name = "330_rpm_noise", .target_rpm = 330.0f, .noise = 200.0f},
+    {.name = "330_rpm_fed", .target_rpm = 330.0f, .fed = true},
     {.name = "330_rpm_lost_marks", .target_rpm = 330.0f, .lose_pulses = {2, 1}},
     {.name = "330_rpm_lost_samples", .target_rpm = 330.0f, .lose_samples = 9},
     {.name = "170_rpm_lost_both", .target_rpm = 170.0f, .lose_pulses = {1, 1}, .lose_samples = 9},
@@ -85,7 +91,8 @@ static bool run(const trial *tried) {
                                            .period_ticks = HAL_LOADCELL_PERIOD_TICKS,
                                            .raw_max = HAL_LOADCELL_RAW_MAX};
     wh_rig_slots(&config, HAL_SLOT_LEAD_DEG / WH_RIG_DEG_PER_RAD);
-    config.observer.scene = &rig_fixed;
+    config.observer.scene = &rig_observed;
+    config.feeds = tried->fed ? WH_FEED_ALWAYS : wh_rig_standard.feeds;
     if (!hal_clock_start()) {
         return false;
     }

@@ -29,8 +29,8 @@ void wh_measure_mark(wh_measure *measure, const wh_mark *mark) {
     wh_lockin_mark(&measure->lockin, mark->pulse.sensor, mark->pulse.ticks, mark->quarter);
 }
 
-bool wh_measure_lasts(const wh_measure_config *config, const wh_measure *measure, uint32_t ticks) {
-    return measure->records && since_s(measure->begin_ticks, ticks) <= config->record_s;
+bool wh_measure_lasts(const wh_measure *measure, uint32_t ticks) {
+    return measure->records && since_s(measure->begin_ticks, ticks) <= measure->record_s;
 }
 
 static void see_peaks(wh_measure *measure, wh_real force_N) {
@@ -50,7 +50,7 @@ void wh_measure_load(const wh_measure_config *config, wh_measure *measure, const
     }
     if (at_rest) {
         wh_tare_add(&measure->tare, load->force_N);
-    } else if (wh_measure_lasts(config, measure, load->ticks)) {
+    } else if (wh_measure_lasts(measure, load->ticks)) {
         see_peaks(measure, load->force_N - measure->tare.mean_N);
     }
 }
@@ -74,14 +74,17 @@ void wh_measure_work(const wh_measure_config *config, wh_measure *measure) {
     /* turns that lie within the record as a whole */
     const wh_lockin_turn *turn = &measure->lockin.turn;
     const bool begins_within = (int32_t)(turn->begin_ticks - measure->begin_ticks) >= 0;
-    if (begins_within && wh_measure_lasts(config, measure, turn->begin_ticks + turn->turn_ticks)) {
+    if (begins_within && wh_measure_lasts(measure, turn->begin_ticks + turn->turn_ticks)) {
         wh_merge_add(&config->result, &config->rotor, &measure->merge, turn,
                      &measure->lockin.angle);
         measure->due = 2;
     }
 }
 
-void wh_measure_record(wh_measure *measure, uint32_t now_ticks) {
+void wh_measure_record(const wh_measure_config *config, wh_measure *measure, wh_real speed_radps,
+                       uint32_t now_ticks) {
+    const wh_real turns_s = config->record_turns * WH_RIG_TWO_PI / speed_radps;
+    measure->record_s = turns_s > config->record_s ? turns_s : config->record_s;
     measure->merge = (wh_merge){.turns = 0};
     measure->result = (wh_rig_result){.lost = 0};
     measure->records = true;
@@ -92,8 +95,9 @@ void wh_measure_record(wh_measure *measure, uint32_t now_ticks) {
     measure->skipped_before = measure->lockin.skipped;
 }
 
-bool wh_measure_end(const wh_measure_config *config, wh_measure *measure, uint32_t now_ticks) {
-    const bool late = since_s(measure->begin_ticks, now_ticks) > config->record_s + LAST_TURN_MAX_S;
+bool wh_measure_end(wh_measure *measure, uint32_t now_ticks) {
+    const bool late =
+        since_s(measure->begin_ticks, now_ticks) > measure->record_s + LAST_TURN_MAX_S;
     if (!measure->ends && (measure->lockin.stage == WH_LOCKIN_WAITS || late) && measure->due == 0) {
         measure->ends = true;
         measure->due = 2;

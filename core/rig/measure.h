@@ -18,7 +18,8 @@ typedef struct wh_measure_config {
     wh_cell_config cell;
     wh_tare_config tare;
     wh_result_config result;
-    wh_real record_s; /* whole turns within this time are measured */
+    wh_real record_s;     /* whole turns within this time are measured, */
+    wh_real record_turns; /* or within that of so many turns if that is longer */
 } wh_measure_config;
 
 typedef struct wh_rig_result {
@@ -37,7 +38,8 @@ typedef struct wh_measure {
     wh_lockin lockin; /* lockin.turn: the last turn's load */
     wh_merge merge;   /* of the record */
     bool records;
-    uint32_t begin_ticks;    /* of the record */
+    uint32_t begin_ticks;    /* of the record, */
+    wh_real record_s;        /* and how long it lasts */
     uint8_t due;             /* pieces of work that the last turn has left */
     bool peaks;              /* low_N and high_N are of something */
     bool ends;               /* the record's last turn is through */
@@ -70,15 +72,16 @@ void wh_measure_load(const wh_measure_config *config, wh_measure *measure, const
 /* A bounded piece of the work, once a control step. */
 void wh_measure_work(const wh_measure_config *config, wh_measure *measure);
 
-/* The record begins now; what an earlier one merged is forgotten. */
-void wh_measure_record(wh_measure *measure, uint32_t now_ticks);
+/* The record begins now, at a speed > 0; what an earlier one merged is forgotten. */
+void wh_measure_record(const wh_measure_config *config, wh_measure *measure, wh_real speed_radps,
+                       uint32_t now_ticks);
 
 /* True during the record, at `ticks`. */
-bool wh_measure_lasts(const wh_measure_config *config, const wh_measure *measure, uint32_t ticks);
+bool wh_measure_lasts(const wh_measure *measure, uint32_t ticks);
 
 /* Once the record's time is over, each control step until it returns true: its last turn is through, and all are merged once
  * more. result.force.turns is then 0 if not one could be used. */
-bool wh_measure_end(const wh_measure_config *config, wh_measure *measure, uint32_t now_ticks);
+bool wh_measure_end(wh_measure *measure, uint32_t now_ticks);
 
 #ifdef __cplusplus
 }

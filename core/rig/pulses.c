@@ -129,6 +129,13 @@ static void compare(wh_pulses *pulses, const wh_pulse *pulse) {
     }
 }
 
+/* The same sensor again, and not half a turn later. */
+static bool follows_too_soon(const wh_pulses *pulses, const wh_pulse *pulse) {
+    const wh_pulse *last = &pulses->last.pulse;
+    return pulses->waits && pulses->speed.known && pulse->sensor == last->sensor &&
+           (wh_real)(pulse->ticks - last->ticks) < WH_R(0.5) * turn_ticks(&pulses->speed);
+}
+
 void wh_pulses_take(wh_pulses *pulses, unsigned sensor, uint32_t ticks) {
     const wh_pulse pulse = {.ticks = ticks, .sensor = sensor};
     if (sensor >= WH_SPEED_SENSORS) {
@@ -140,7 +147,7 @@ void wh_pulses_take(wh_pulses *pulses, unsigned sensor, uint32_t ticks) {
         return;
     }
     wh_speed after;
-    if (!with(&pulses->speed, &pulse, &after)) {
+    if (follows_too_soon(pulses, &pulse) || !with(&pulses->speed, &pulse, &after)) {
         compare(pulses, &pulse);
         return;
     }

@@ -53,7 +53,7 @@ bool wh_rig_post(wh_rig *rig, wh_rig_event event, wh_real value) {
 
 /* How fast, and how early, may a pulse come? */
 #define SETTLE_WINDOW WH_R(0.03)
-#define RAMP_WINDOW WH_R(0.2)
+#define RAMP_WINDOW WH_R(0.12) /* no mark is sure before */
 #define RECORD_PART WH_R(0.8) /* of what the record lets the speed be off */
 
 static void expect_pulses(const wh_rig_config *config, wh_rig *rig) {
@@ -219,28 +219,27 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
 
 /* --- where the rotor is --------------------------------------------------------------------------- */
 
+/* Is gravity fed forward to this run? Then the observer goes with the rotor from the start. */
+static bool is_fed(const wh_rig_config *config, const wh_rig *rig) {
+    return config->feeds == WH_FEED_ALWAYS ||
+           (config->feeds == WH_FEED_SLOW &&
+            rig->run.target_radps < config->guard.target_min_radps);
+}
+
 static void observe(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
-    const wh_real drive = rig->command.way == WH_MOTOR_COASTS
-                              ? wh_observer_coasting(&config->observer, &rig->observer)
-                              : rig->command.volts / config->run.rated_V;
-    wh_observer_step(&config->observer, &rig->observer, now_ticks, drive);
-    if (rig->pulses.speed.taken != rig->observed) {
+    wh_observer_step(&config->observer, &rig->observer, now_ticks,
+                     rig->command.volts / config->run.rated_V);
+    if (!rig->busy && rig->pulses.speed.taken != rig->observed) {
+        rig->busy = true;
         rig->observed = rig->pulses.speed.taken;
         wh_observer_mark(&config->observer, &rig->observer, rig->pulses.last.pulse.sensor,
                          rig->pulses.last.pulse.ticks);
     }
 }
 
-static bool is_fed(const wh_rig_config *config, const wh_rig *rig) {
-    return wh_run_is_closed(&rig->run) &&
-           (config->feeds == WH_FEED_ALWAYS ||
-            (config->feeds == WH_FEED_SLOW &&
-             rig->run.target_radps < config->guard.target_min_radps));
-}
-
 /* What gravity takes of the voltage, V. */
 static wh_real feed_V(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
-    if (!is_fed(config, rig)) {
+    if (!wh_run_is_closed(&rig->run) || !is_fed(config, rig)) {
         rig->feed.part = WH_R(0.0);
         return WH_R(0.0);
     }
@@ -320,7 +319,7 @@ static wh_rig_command command_of(const wh_rig_config *config, wh_rig *rig,
 }
 
 wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
-    if (wh_run_drives(&rig->run)) {
+    if (wh_run_drives(&rig->run) && is_fed(config, rig)) {
         observe(config, rig, inputs->now_ticks);
     }
     watch(config, rig, inputs);

@@ -32,14 +32,6 @@ void wh_run_off(wh_run *run, wh_real speed_radps, uint32_t now_ticks) {
     enter(run, WH_PHASE_OFF, now_ticks);
 }
 
-bool wh_run_drives(const wh_run *run) {
-    return run->phase >= WH_PHASE_SPIN_UP && run->phase <= WH_PHASE_RAMP_DOWN;
-}
-
-bool wh_run_is_closed(const wh_run *run) {
-    return run->phase >= WH_PHASE_RAMP && run->phase <= WH_PHASE_RAMP_DOWN;
-}
-
 wh_real wh_run_base_radps(const wh_run_config *config, const wh_run *run) {
     if (!wh_run_drives(run)) {
         return run->off_radps;
@@ -111,7 +103,7 @@ static void settle(wh_run *run, const wh_run_scene *scene) {
         run->band_ticks = now;
     }
     if (since_s(run->band_ticks, now) >= config->settle_s) {
-        wh_measure_record(scene->measure, now);
+        wh_measure_record(scene->measuring, scene->measure, run->target_radps, now);
         enter(run, WH_PHASE_RECORD, now);
     } else if (since_s(run->since_ticks, now) > config->settle_max_s) {
         wh_guard_trip(scene->guard, WH_TRIP_UNSETTLED);
@@ -124,8 +116,7 @@ static bool record(wh_run *run, const wh_run_scene *scene) {
         return false;
     }
     wh_measure *measure = scene->measure;
-    if (wh_measure_lasts(scene->measuring, measure, scene->now_ticks) ||
-        !wh_measure_end(scene->measuring, measure, scene->now_ticks)) {
+    if (wh_measure_lasts(measure, scene->now_ticks) || !wh_measure_end(measure, scene->now_ticks)) {
         return false;
     }
     if (measure->merge.turns == 0) {
@@ -146,7 +137,7 @@ static void close_loop(wh_run *run, const wh_run_scene *scene) {
     const wh_run_config *config = scene->config;
     const wh_speed *speed = &scene->pulses->speed;
     /* a speed that is no longer confirmed by pulses must not move the motor */
-    if (!wh_speed_is_overdue(speed, scene->now_ticks)) {
+    if (speed->known && !wh_speed_is_overdue(speed, scene->now_ticks)) {
         run->volts = wh_drive_step(&config->drive, &run->drive, speed->turn_radps, scene->supply_V,
                                    config->step_s);
     }

@@ -76,8 +76,6 @@ typedef struct wh_run_scene {
 #define wh_run_set WH_NAME(wh_run_set)
 #define wh_run_off WH_NAME(wh_run_off)
 #define wh_run_step WH_NAME(wh_run_step)
-#define wh_run_drives WH_NAME(wh_run_drives)
-#define wh_run_is_closed WH_NAME(wh_run_is_closed)
 #define wh_run_base_radps WH_NAME(wh_run_base_radps)
 #define wh_run_needs_V WH_NAME(wh_run_needs_V)
 #define wh_phase_text WH_NAME(wh_phase_text)
@@ -96,8 +94,12 @@ void wh_run_off(wh_run *run, wh_real speed_radps, uint32_t now_ticks);
 bool wh_run_step(wh_run *run, const wh_run_scene *scene);
 
 /* Does the motor drive; is the loop closed? */
-bool wh_run_drives(const wh_run *run);
-bool wh_run_is_closed(const wh_run *run);
+WH_INLINE bool wh_run_drives(const wh_run *run) {
+    return run->phase >= WH_PHASE_SPIN_UP && run->phase <= WH_PHASE_RAMP_DOWN;
+}
+WH_INLINE bool wh_run_is_closed(const wh_run *run) {
+    return run->phase >= WH_PHASE_RAMP && run->phase <= WH_PHASE_RAMP_DOWN;
+}
 
 /* The fastest that the rotor is led to, for the guard's bound. */
 wh_real wh_run_base_radps(const wh_run_config *config, const wh_run *run);

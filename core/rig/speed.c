@@ -51,6 +51,8 @@ bool wh_speed_pulse(wh_speed *speed, unsigned sensor, uint32_t ticks) {
     if (speed->known && due_quarters > (wh_real)(moved + 1U)) {
         speed->lost += 2;
         speed->restarts++;
+        /* one gap keeps the speed; a second one running says that it was wrong */
+        speed->known = speed->interval_radps > WH_R(0.0);
         speed->interval_radps = WH_R(0.0);
         speed->seen[0] = false;
         speed->seen[1] = false;

@@ -45,7 +45,8 @@ void wh_speed_start(wh_speed *speed, wh_real impossible_radps);
  *
  * One lost pulse is bridged. A pulse that comes more than a quarter turn later than the turn's speed
  * lets expect is taken for the first one after a gap in which two or more were lost: they are counted
- * as two, measuring starts afresh, and the last speed stays until a whole turn has been seen again.
+ * as two, measuring starts afresh, and the last speed stays until a whole turn has been seen again. (Behind two gaps
+ * running it is unknown: it may be what was wrong.)
  * Sensors in the wrong order, or a rotor turning backwards, look like such a gap each turn. */
 bool wh_speed_pulse(wh_speed *speed, unsigned sensor, uint32_t ticks);
 
