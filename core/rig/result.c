@@ -202,7 +202,7 @@ static wh_why reason(const wh_result_config *config, const wh_rotor_config *roto
     if (measured->residual_N > config->residual_large * expected) {
         return WH_WHY_RESIDUAL;
     }
-    if (merge->swing_rad > WH_R(0.0) &&
+    if (WH_ABS(merge->swing_rad) > WH_R(0.0) &&
         (merge->split_turns == 0 || !(heavier <= WH_R(1.0) + config->inertia_off))) {
         return WH_WHY_ROTOR;
     }
