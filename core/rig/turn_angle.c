@@ -96,6 +96,7 @@ wh_real wh_turn_angle_split(const wh_rotor_config *config, wh_turn_angle *angle,
         return off;
     }
     angle->base_per_split = base_per_swing / split_per_swing;
+    angle->base_per_quadrature = WH_R(1.0) / split_per_swing;
     angle->base_per_lag = -swing * bends * (from.cosine + angle->base_per_split * turns);
 
     angle->splits += angle->splits < WH_TURN_ANGLE_PATIENCE + SPLITS_TO_FIND ? 1U : 0U;

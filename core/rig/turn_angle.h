@@ -31,6 +31,7 @@ typedef struct wh_rotor_config {
     wh_real gravity_rad;       /* gamma: the angle theta at which the arms hang */
     wh_real damping_Nms;       /* c */
     wh_real damping_tolerance; /* c may be off by this fraction, at 95 % */
+    wh_real fed_tolerance_rad; /* gravity may be fed at an angle that is off by this, at 95 % */
     wh_real inertia_kgm2;      /* to begin with */
     wh_real mark_rad[2];       /* angle theta of the arms at a pulse of each sensor */
 } wh_rotor_config;
@@ -50,7 +51,9 @@ typedef struct wh_turn_angle {
     wh_real second_sine; /* of sin 2u and cos 2u */
     wh_real second_cosine;
     wh_real base_per_split; /* how base_rad follows the split, with the lag that goes with it */
-    wh_real base_per_lag;   /* and a lag that does not, the split kept */
+    wh_real base_per_lag;   /* and a lag that does not, the split kept; */
+    wh_real
+        base_per_quadrature; /* and a swing a quarter turn on from E, which the split is mistaken for E in */
 } wh_turn_angle;
 
 #define wh_turn_angle_start WH_NAME(wh_turn_angle_start)
