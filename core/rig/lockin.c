@@ -100,6 +100,13 @@ void wh_lockin_mark(wh_lockin *lockin, unsigned sensor, uint32_t ticks, uint32_t
     lockin->most_equal = 0;
 }
 
+void wh_lockin_feed(wh_lockin *lockin, bool fed) {
+    if (lockin->angle.fed != fed) {
+        wh_lockin_gap(lockin);
+        wh_turn_angle_feed(&lockin->angle, fed);
+    }
+}
+
 void wh_lockin_gap(wh_lockin *lockin) {
     lockin->skipped += lockin->open ? 1U : 0U;
     lockin->open = false;
@@ -296,8 +303,10 @@ static void end_turn(const wh_cell_config *cell, wh_lockin *lockin) {
     turn->mean_N = lockin->mean;
     turn->fault = fault_of(cell, lockin);
     const bool whole = turn->fault <= WH_TURN_FIRST;
-    /* a gap says nothing against what was expected */
-    lockin->expects = whole || (lockin->expects && turn->fault == WH_TURN_GAP);
+    /* a gap says nothing against what was expected, unless outliers made it: what is far from it turn after turn is
+     * what must be expected */
+    lockin->expects =
+        whole || (lockin->expects && turn->fault == WH_TURN_GAP && turn->outliers == 0);
     if (whole) {
         lockin->expected_N = turn->force_N;
         lockin->outlier_N =

@@ -134,6 +134,7 @@ typedef struct wh_lockin {
 #define wh_lockin_start WH_NAME(wh_lockin_start)
 #define wh_lockin_forget WH_NAME(wh_lockin_forget)
 #define wh_lockin_mark WH_NAME(wh_lockin_mark)
+#define wh_lockin_feed WH_NAME(wh_lockin_feed)
 #define wh_lockin_gap WH_NAME(wh_lockin_gap)
 #define wh_lockin_load WH_NAME(wh_lockin_load)
 #define wh_lockin_work WH_NAME(wh_lockin_work)
@@ -147,6 +148,10 @@ void wh_lockin_forget(const wh_rotor_config *rotor, wh_lockin *lockin);
 
 /* Sensor 0 or 1 was passed at `ticks`, the rotor having made `quarter` quarter turns (wrapping). */
 void wh_lockin_mark(wh_lockin *lockin, unsigned sensor, uint32_t ticks, uint32_t quarter);
+
+/* Gravity is fed forward from now on, or no longer: see wh_turn_angle_feed(). The turn that is under way does not count
+ * when that changes. */
+void wh_lockin_feed(wh_lockin *lockin, bool fed);
 
 /* The count of quarter turns has begun afresh: the turn that is under way does not count. */
 void wh_lockin_gap(wh_lockin *lockin);
