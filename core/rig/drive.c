@@ -13,7 +13,8 @@ void wh_drive_start(wh_drive *drive, wh_real speed_radps, wh_real volts) {
 
 wh_real wh_drive_step(const wh_drive_config *config, wh_drive *drive, wh_real speed_radps,
                       wh_real most_V, wh_real step_s) {
-    const wh_real most = config->ramp_radps2 * step_s;
+    const bool gently = drive->setpoint_radps < config->gentle_radps;
+    const wh_real most = config->ramp_radps2 * (gently ? WH_R(0.25) : WH_R(1.0)) * step_s;
     const wh_real way = drive->target_radps - drive->setpoint_radps;
     /* the last stretch lands on the target exactly: at_target() compares for equality */
     if (WH_ABS(way) <= most) {

@@ -12,7 +12,8 @@ extern "C" {
 typedef struct wh_drive_config {
     wh_real proportional_V_per_radps; /* volts per rad/s of error */
     wh_real integral_V_per_rad;       /* volts per second, per rad/s of error */
-    wh_real ramp_radps2;              /* fastest change of the set-point, > 0 */
+    wh_real ramp_radps2;              /* fastest change of the set-point, > 0; */
+    wh_real gentle_radps; /* below this a quarter of it: a loop that dips must not stop there */
 } wh_drive_config;
 
 typedef struct wh_drive {

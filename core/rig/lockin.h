@@ -29,8 +29,8 @@
 extern "C" {
 #endif
 
-#define WH_LOCKIN_SAMPLES 320U     /* that can wait: a turn at 100 rpm, 2 ms a sample, and some */
-#define WH_LOCKIN_AT_ONCE 2U       /* taken in one control step, */
+#define WH_LOCKIN_SAMPLES 384U /* that can wait: a turn at 100 rpm, 2 ms a sample, and a quarter */
+#define WH_LOCKIN_AT_ONCE 2U   /* taken in one control step, */
 #define WH_LOCKIN_STALE_AT_ONCE 8U /* and so many that belong to no turn */
 
 /* Why a turn does not count: X(name, words). */

@@ -54,7 +54,7 @@ bool wh_rig_post(wh_rig *rig, wh_rig_event event, wh_real value) {
 /* How fast, and how early, may a pulse come? */
 #define SETTLE_WINDOW WH_R(0.03)
 #define RAMP_WINDOW WH_R(0.12) /* no mark is sure before */
-#define RECORD_PART WH_R(0.8) /* of what the record lets the speed be off */
+#define RECORD_PART WH_R(0.8)  /* of what the record lets the speed be off */
 
 static void expect_pulses(const wh_rig_config *config, wh_rig *rig) {
     const wh_rig_phase phase = rig->run.phase;
@@ -243,6 +243,7 @@ static wh_real feed_V(const wh_rig_config *config, wh_rig *rig, uint32_t now_tic
         rig->feed.part = WH_R(0.0);
         return WH_R(0.0);
     }
+    wh_lockin_feed(&rig->measure.lockin, rig->feed.part >= WH_R(1.0));
     return config->run.rated_V *
            wh_feed_step(&config->feed, &rig->feed, &rig->observer, now_ticks, config->run.step_s);
 }
