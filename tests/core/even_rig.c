@@ -41,8 +41,24 @@ static uint32_t ticks_of_turn(wh_real speed_radps) {
 /* The turn that begins now is as fast as it is led. */
 static void lead(even_rig *even) {
     const wh_run *run = &even->rig.run;
-    even->turn_ticks = ticks_of_turn(wh_run_is_closed(run) ? run->drive.setpoint_radps
-                                                           : EVEN_BEGIN_RPM * EVEN_RPM);
+    const wh_real open_rpm = even->hand_rpm > WH_R(0.0) ? even->hand_rpm : EVEN_BEGIN_RPM;
+    even->turn_ticks =
+        ticks_of_turn(wh_run_is_closed(run) ? run->drive.setpoint_radps : open_rpm * EVEN_RPM);
+}
+
+static void begin_turning(even_rig *even, uint32_t from_ticks) {
+    even->turns = true;
+    even->from_ticks = from_ticks;
+    even->due_sensor = 0;
+    lead(even);
+}
+
+void even_turn_by_hand(even_rig *even, wh_real rpm) {
+    even->hand_rpm = rpm;
+    even->turns = false;
+    if (rpm > WH_R(0.0)) {
+        begin_turning(even, even->inputs.now_ticks);
+    }
 }
 
 static void give_pulses(even_rig *even) {
@@ -110,13 +126,10 @@ void even_step(even_rig *even) {
         even->phase = phase;
         even->phase_ticks = even->inputs.now_ticks;
         if (phase == WH_PHASE_SPIN_UP) {
-            even->turns = true;
-            even->from_ticks = even->inputs.now_ticks + 100000U;
-            even->due_sensor = 0;
-            lead(even);
+            begin_turning(even, even->inputs.now_ticks + 100000U);
         }
     }
-    even->turns = even->turns && (wh_run_drives(&even->rig.run) || even->turned_by_hand);
+    even->turns = even->turns && (wh_run_drives(&even->rig.run) || even->hand_rpm > WH_R(0.0));
 }
 
 void even_steps(even_rig *even, unsigned steps) {
@@ -141,11 +154,15 @@ void even_rest(even_rig *even) {
     TEST_ASSERT_TRUE(even->rig.guard.quiet);
 }
 
-void even_begin(even_rig *even, wh_real target_rpm, const even_failure *failure) {
+void even_arm(even_rig *even) {
     even_start(even);
-    even->fails = *failure;
     even_rest(even);
     TEST_ASSERT_TRUE(even_order(even, WH_EVENT_ARM, WH_R(0.0)) == WH_ALLOWED);
+}
+
+void even_begin(even_rig *even, wh_real target_rpm, const even_failure *failure) {
+    even_arm(even);
+    even->fails = *failure;
     TEST_ASSERT_TRUE(even_order(even, WH_EVENT_START, target_rpm * EVEN_RPM) == WH_ALLOWED);
     TEST_ASSERT_TRUE(even->rig.run.phase == WH_PHASE_TARE);
 }
@@ -159,6 +176,15 @@ void even_go_on_until(even_rig *even, wh_rig_phase phase) {
     for (unsigned i = 0; i < 90000U && even->rig.run.phase != phase && !even_is_over(even); i++) {
         even_step(even);
     }
+}
+
+void even_reach(even_rig *even, wh_rig_phase phase) {
+    even_begin(even, WH_RIG_NOMINAL_RPM, &(even_failure){.in = EVEN_NEVER});
+    even_go_on_until(even, phase == WH_PHASE_OFF ? WH_PHASE_SETTLE : phase);
+    if (phase == WH_PHASE_OFF) {
+        TEST_ASSERT_TRUE(even_order(even, WH_EVENT_STOP, WH_R(0.0)) == WH_ALLOWED);
+    }
+    TEST_ASSERT_TRUE(even->rig.run.phase == phase);
 }
 
 void even_run(even_rig *even, wh_real target_rpm, const even_failure *failure) {

@@ -43,7 +43,7 @@ typedef struct even_rig {
     wh_rig_phase phase;   /* at the last step, */
     uint32_t phase_ticks; /* which began then */
     bool turns;
-    bool turned_by_hand; /* also with the motor off */
+    wh_real hand_rpm; /* not 0: somebody turns it, whatever the motor does */
     uint32_t turn_ticks;
     uint32_t from_ticks; /* the rotor's angle is 0, and a turn begins */
     unsigned due_sensor; /* the next pulse */
@@ -62,10 +62,14 @@ void even_steps(even_rig *even, unsigned steps);
 /* Post an order, step, and return the answer. */
 wh_refusal even_order(even_rig *even, wh_rig_event event, wh_real value);
 
+/* Somebody turns the rotor from now on, or (0) lets it go, which stops it. */
+void even_turn_by_hand(even_rig *even, wh_real rpm);
+
 /* Until rest is known: then `arm` is allowed. */
 void even_rest(even_rig *even);
 
-/* From even_start() to the tare of a run. */
+/* From even_start() to where `arm` is done; or to the tare of a run. */
+void even_arm(even_rig *even);
 void even_begin(even_rig *even, wh_real target_rpm, const even_failure *failure);
 
 /* Nothing is left to wait for: idle, or tripped and at rest. */
@@ -73,6 +77,9 @@ bool even_is_over(const even_rig *even);
 
 /* Steps until a phase begins, or nothing is left to wait for. */
 void even_go_on_until(even_rig *even, wh_rig_phase phase);
+
+/* From even_start() to this phase of a run to 330 rpm; WH_PHASE_OFF: by `stop`. */
+void even_reach(even_rig *even, wh_rig_phase phase);
 
 /* A whole run; checks that the motor is off at the end. */
 void even_run(even_rig *even, wh_real target_rpm, const even_failure *failure);
