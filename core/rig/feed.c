@@ -12,8 +12,10 @@ wh_real wh_feed_step(const wh_feed_config *config, wh_feed *feed, const wh_obser
         feed->part = WH_R(0.0);
         return WH_R(0.0);
     }
-    const wh_real part = feed->part * config->fade_s + step_s;
-    feed->part = part < config->fade_s ? part / config->fade_s : WH_R(1.0);
+    if (feed->part < WH_R(1.0)) {
+        const wh_real part = feed->part * config->fade_s + step_s;
+        feed->part = part < config->fade_s ? part / config->fade_s : WH_R(1.0);
+    }
     wh_real sine;
     wh_real cosine;
     wh_sincos(wh_observer_phase(observer, now_ticks + config->lead_ticks) -

@@ -4,11 +4,6 @@
 #include "core/root.h"
 #include "datasheet.h"
 
-static wh_real since_s(uint32_t then_ticks, uint32_t now_ticks) {
-    /* signed: a stamp may be later than the step's own reading of the timer */
-    return (wh_real)(int32_t)(now_ticks - then_ticks) / (wh_real)WH_RIG_TICKS_PER_S;
-}
-
 void wh_guard_start(wh_guard *guard, uint32_t now_ticks) {
     *guard = (wh_guard){.trip = WH_TRIP_NONE, .load_ticks = now_ticks, .pulse_ticks = now_ticks};
 }
@@ -34,43 +29,7 @@ void wh_guard_trip(wh_guard *guard, wh_trip reason) {
 
 /* --- the rotor ----------------------------------------------------------------------------------- */
 
-void wh_guard_quiet(const wh_guard_config *config, wh_guard *guard, uint32_t pulses_ever,
-                    uint32_t now_ticks) {
-    if (pulses_ever != guard->pulses_seen) {
-        guard->pulses_seen = pulses_ever;
-        guard->pulse_ticks = now_ticks;
-        guard->quiet = false;
-    } else if (since_s(guard->pulse_ticks, now_ticks) >= config->rest_s) {
-        guard->quiet = true; /* and stays so: these times wrap every 71.6 minutes */
-    }
-}
-
-void wh_guard_speed(const wh_guard_config *config, wh_guard *guard, const wh_pulses *pulses,
-                    wh_trip reason, bool driven) {
-    const wh_speed *speed = &pulses->speed;
-    if (!driven && pulses->alternate < 2U) {
-        return;
-    }
-    /* one early pulse may be a disturbance, two are a speed */
-    if ((speed->known && speed->turn_radps > config->limit_radps) || pulses->fast >= 2U) {
-        wh_guard_trip(guard, reason);
-    }
-}
-
-void wh_guard_pulses(const wh_guard_config *config, wh_guard *guard, const wh_pulses *pulses,
-                     wh_real silence_max_s, uint32_t now_ticks) {
-    if (pulses->speed.lost - guard->lost_before > config->lost_max ||
-        pulses->rejected - guard->rejected_before > config->rejected_max ||
-        wh_speed_silence_s(&pulses->speed, now_ticks) > silence_max_s) {
-        wh_guard_trip(guard, WH_TRIP_PULSES);
-    }
-}
-
 /* --- what it stands on --------------------------------------------------------------------------- */
-
-bool wh_guard_supply(const wh_guard_config *config, wh_real supply_V) {
-    return supply_V >= config->supply_min_V && supply_V <= config->supply_max_V;
-}
 
 void wh_guard_load(const wh_guard_config *config, wh_guard *guard, const wh_speed *speed,
                    const wh_load *load, bool turning, bool needed) {
@@ -93,10 +52,6 @@ void wh_guard_load(const wh_guard_config *config, wh_guard *guard, const wh_spee
     } else if (guard->still_pulses >= config->stuck_pulses) {
         wh_guard_trip(guard, WH_TRIP_LOAD_CELL);
     }
-}
-
-bool wh_guard_load_comes(const wh_guard_config *config, const wh_guard *guard, uint32_t now_ticks) {
-    return since_s(guard->load_ticks, now_ticks) <= config->load_silence_max_s;
 }
 
 #define CASE(name, number, words) \

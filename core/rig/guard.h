@@ -3,6 +3,7 @@
 #define WH_RIG_GUARD_H
 
 #include "cell.h"
+#include "datasheet.h"
 #include "pulses.h"
 
 #ifdef __cplusplus
@@ -68,12 +69,7 @@ typedef struct wh_guard {
 #define wh_guard_allows WH_NAME(wh_guard_allows)
 #define wh_guard_bound_radps WH_NAME(wh_guard_bound_radps)
 #define wh_guard_trip WH_NAME(wh_guard_trip)
-#define wh_guard_quiet WH_NAME(wh_guard_quiet)
-#define wh_guard_speed WH_NAME(wh_guard_speed)
-#define wh_guard_pulses WH_NAME(wh_guard_pulses)
-#define wh_guard_supply WH_NAME(wh_guard_supply)
 #define wh_guard_load WH_NAME(wh_guard_load)
-#define wh_guard_load_comes WH_NAME(wh_guard_load_comes)
 #define wh_trip_text WH_NAME(wh_trip_text)
 
 void wh_guard_start(wh_guard *guard, uint32_t now_ticks);
@@ -89,21 +85,47 @@ wh_real wh_guard_bound_radps(const wh_guard_config *config, wh_real base_radps, 
 void wh_guard_trip(wh_guard *guard, wh_trip reason);
 
 /* Each step, in every state, with the number of pulses that ever came: does the rotor rest? */
-void wh_guard_quiet(const wh_guard_config *config, wh_guard *guard, uint32_t pulses_ever,
-                    uint32_t now_ticks);
+WH_INLINE void wh_guard_quiet(const wh_guard_config *config, wh_guard *guard, uint32_t pulses_ever,
+                              uint32_t now_ticks) {
+    if (pulses_ever != guard->pulses_seen) {
+        guard->pulses_seen = pulses_ever;
+        guard->pulse_ticks = now_ticks;
+        guard->quiet = false;
+    } else if ((wh_real)(int32_t)(now_ticks - guard->pulse_ticks) >=
+               config->rest_s * (wh_real)WH_RIG_TICKS_PER_S) {
+        guard->quiet = true; /* and stays so: these times wrap every 71.6 minutes */
+    }
+}
 
 /* Each step, in every state: over-speed, of a turn or of two pulse intervals running beyond the bound. `reason` is
  * what that means: WH_TRIP_OVERSPEED, or WH_TRIP_RUNS_ON with the motor off. Where it is not `driven`, a sensor that
  * fires again and again is one in whose slot the rotor swings: only pulses that alternate are turns. */
-void wh_guard_speed(const wh_guard_config *config, wh_guard *guard, const wh_pulses *pulses,
-                    wh_trip reason, bool driven);
+WH_INLINE void wh_guard_speed(const wh_guard_config *config, wh_guard *guard,
+                              const wh_pulses *pulses, wh_trip reason, bool driven) {
+    const wh_speed *speed = &pulses->speed;
+    if (!driven && pulses->alternate < 2U) {
+        return;
+    }
+    /* one early pulse may be a disturbance, two are a speed */
+    if ((speed->known && speed->turn_radps > config->limit_radps) || pulses->fast >= 2U) {
+        wh_guard_trip(guard, reason);
+    }
+}
 
 /* While the motor drives: lost and invented pulses, silence for longer than silence_max_s. */
-void wh_guard_pulses(const wh_guard_config *config, wh_guard *guard, const wh_pulses *pulses,
-                     wh_real silence_max_s, uint32_t now_ticks);
+WH_INLINE void wh_guard_pulses(const wh_guard_config *config, wh_guard *guard,
+                               const wh_pulses *pulses, wh_real silence_max_s, uint32_t now_ticks) {
+    if (pulses->speed.lost - guard->lost_before > config->lost_max ||
+        pulses->rejected - guard->rejected_before > config->rejected_max ||
+        wh_speed_silence_s(&pulses->speed, now_ticks) > silence_max_s) {
+        wh_guard_trip(guard, WH_TRIP_PULSES);
+    }
+}
 
 /* While the motor may drive. NaN is out of range. */
-bool wh_guard_supply(const wh_guard_config *config, wh_real supply_V);
+WH_INLINE bool wh_guard_supply(const wh_guard_config *config, wh_real supply_V) {
+    return supply_V >= config->supply_min_V && supply_V <= config->supply_max_V;
+}
 
 /* Look at a load sample, the tare in it, in every state. `turning`: the load must be changing with the rotor's turns;
  * `needed`: a bad one stops the rig. A sample that repeats the last one is none. */
@@ -111,7 +133,12 @@ void wh_guard_load(const wh_guard_config *config, wh_guard *guard, const wh_spee
                    const wh_load *load, bool turning, bool needed);
 
 /* True while load samples still come. */
-bool wh_guard_load_comes(const wh_guard_config *config, const wh_guard *guard, uint32_t now_ticks);
+WH_INLINE bool wh_guard_load_comes(const wh_guard_config *config, const wh_guard *guard,
+                                   uint32_t now_ticks) {
+    /* signed: a stamp may be later than the step's own reading of the timer */
+    return (wh_real)(int32_t)(now_ticks - guard->load_ticks) <=
+           config->load_silence_max_s * (wh_real)WH_RIG_TICKS_PER_S;
+}
 
 /* The reason in words, for consoles. */
 const char *wh_trip_text(wh_trip reason);

@@ -30,8 +30,8 @@ extern "C" {
 #endif
 
 #define WH_LOCKIN_SAMPLES 384U /* that can wait: a turn at 100 rpm, 2 ms a sample, and a quarter */
-#define WH_LOCKIN_AT_ONCE 2U   /* taken in one control step, */
-#define WH_LOCKIN_STALE_AT_ONCE 8U /* and so many that belong to no turn */
+#define WH_LOCKIN_HALVES_AT_ONCE 3U /* half nodes worked on in one control step, */
+#define WH_LOCKIN_STALE_AT_ONCE 8U  /* and so many samples dropped that belong to no turn */
 
 /* Why a turn does not count: X(name, words). */
 #define WH_TURN_ROWS(X) \
@@ -76,6 +76,14 @@ typedef enum wh_lockin_stage {
     WH_LOCKIN_SUMS,
     WH_LOCKIN_ENDS
 } wh_lockin_stage;
+
+/* Where in the turn a node lies whose place is known and whose weight is not yet: at the marks, or at a sample. */
+typedef enum wh_lockin_place {
+    WH_LOCKIN_NOWHERE,
+    WH_LOCKIN_BEGIN,
+    WH_LOCKIN_WITHIN,
+    WH_LOCKIN_END
+} wh_lockin_place;
 
 /* A point of the load's course within the turn. */
 typedef struct wh_lockin_node {
@@ -129,6 +137,8 @@ typedef struct wh_lockin {
     wh_real before_rad; /* of the node before the last, */
     wh_real before_part;
     wh_lockin_node last; /* and the last one, whose weight the next decides */
+    wh_lockin_place place;
+    wh_lockin_node placed; /* unless `place` is nowhere */
 } wh_lockin;
 
 #define wh_lockin_start WH_NAME(wh_lockin_start)
@@ -139,7 +149,6 @@ typedef struct wh_lockin {
 #define wh_lockin_load WH_NAME(wh_lockin_load)
 #define wh_lockin_work WH_NAME(wh_lockin_work)
 #define wh_turn_text WH_NAME(wh_turn_text)
-#define wh_polar WH_NAME(wh_polar)
 
 void wh_lockin_start(const wh_rotor_config *rotor, wh_lockin *lockin);
 
@@ -164,11 +173,6 @@ bool wh_lockin_work(const wh_rotor_config *rotor, const wh_cell_config *cell, wh
 
 /* Why a turn does not count, in words. */
 const char *wh_turn_text(wh_turn_fault fault);
-
-/* x = radius cos(angle), y = radius sin(angle) without square root and arc tangent: the angle is
- * improved with the core's own sine until y vanishes in the turned frame. angle_rad: -pi ... pi.
- * (0, 0) gives 0 and 0. */
-void wh_polar(wh_real x, wh_real y, wh_real *radius, wh_real *angle_rad);
 
 #ifdef __cplusplus
 }

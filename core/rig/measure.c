@@ -40,8 +40,7 @@ static void see_peaks(wh_measure *measure, wh_real force_N) {
     measure->peaks = true;
 }
 
-void wh_measure_load(const wh_measure_config *config, wh_measure *measure, const wh_load *load,
-                     bool at_rest) {
+void wh_measure_load(wh_measure *measure, const wh_load *load, bool at_rest) {
     if (!at_rest) {
         wh_lockin_load(&measure->lockin, load);
     }

@@ -66,8 +66,7 @@ void wh_measure_begin(const wh_measure_config *config, wh_measure *measure);
 void wh_measure_mark(wh_measure *measure, const wh_mark *mark);
 
 /* A sample: of the tare, or of a turning rotor. */
-void wh_measure_load(const wh_measure_config *config, wh_measure *measure, const wh_load *load,
-                     bool at_rest);
+void wh_measure_load(wh_measure *measure, const wh_load *load, bool at_rest);
 
 /* A bounded piece of the work, once a control step. */
 void wh_measure_work(const wh_measure_config *config, wh_measure *measure);

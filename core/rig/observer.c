@@ -82,13 +82,20 @@ void wh_observer_step(const wh_observer_config *config, wh_observer *observer, u
         return;
     }
     wh_state *state = &observer->state;
-    const wh_real coasting = wh_observer_coasting(config, observer);
-    const wh_real voltage = config->freewheels && drive < coasting ? coasting : drive;
+    wh_real voltage = drive;
+    if (config->freewheels) {
+        const wh_real coasting = wh_observer_coasting(config, observer);
+        voltage = drive < coasting ? coasting : drive;
+    }
     state->input[0] = voltage + observer->torque_Nm / config->stall_Nm;
     const uint32_t steps = late_ticks / observer->step_ticks;
     const uint32_t way_ticks = steps * observer->step_ticks;
     const wh_real before_radps = state->real[0];
-    if (wh_scene_steps(config->scene, state, steps) != WH_OK) { /* a drive that is no number */
+    wh_status status = WH_OK;
+    for (uint32_t i = 0; i < steps && status == WH_OK; i++) { /* one, as a rule */
+        status = wh_scene_step(config->scene, state);
+    }
+    if (status != WH_OK) { /* a drive that is no number */
         wh_observer_forget(observer);
         observer->ticks = now_ticks;
         return;

@@ -33,7 +33,7 @@ static void release(wh_pulses *pulses) {
     pulses->waits = false;
 }
 
-bool wh_pulses_mark(wh_pulses *pulses, uint32_t now_ticks, wh_mark *mark) {
+bool wh_pulses_sure(wh_pulses *pulses, uint32_t now_ticks, wh_mark *mark) {
     if (pulses->waits && pulses->speed.known &&
         (wh_real)(int32_t)(now_ticks - pulses->last.pulse.ticks) >
             SURE_PART * turn_ticks(&pulses->speed)) {
@@ -56,19 +56,16 @@ static bool is_fast(const wh_pulses *pulses, const wh_speed *speed) {
     return pulses->bound_radps > WH_R(0.0) && speed->interval_radps > pulses->bound_radps;
 }
 
-/* `after` is the speed with this pulse, `before` without. */
-static void accept(wh_pulses *pulses, const wh_pulse *pulse, const wh_speed *before,
-                   const wh_speed *after) {
-    const bool fast = is_fast(pulses, after);
+/* The speed after this pulse; what it replaces is the speed without it, or before the last one where that is taken back. */
+static void accept(wh_pulses *pulses, const wh_pulse *pulse, const wh_speed *after) {
+    const wh_speed *before = &pulses->before;
     const bool alternates = after->lost == before->lost && before->running;
-    pulses->fast = fast ? pulses->fast + 1U : 0U;
+    pulses->fast = is_fast(pulses, after) ? pulses->fast + 1U : 0U;
     pulses->alternate = alternates ? pulses->alternate + 1U : 0U;
     pulses->last = (wh_mark){
         .pulse = *pulse, .quarter = after->quarter, .gap = after->restarts != before->restarts};
     pulses->waits = true;
-    const wh_speed kept = *before; /* it may be what it replaces */
     pulses->speed = *after;
-    pulses->before = kept;
 }
 
 /* The speed with a pulse more. False: it cannot be. */
@@ -83,27 +80,31 @@ static bool is_likely(const wh_pulses *pulses, const wh_speed *speed) {
 
 static void take_next(wh_pulses *pulses, const wh_pulse *pulse, const wh_speed *after) {
     release(pulses);
-    accept(pulses, pulse, &pulses->speed, after);
+    pulses->before = pulses->speed;
+    accept(pulses, pulse, after);
 }
 
-/* The pulse after a suspect: with it, or without? */
+/* The pulse after a suspect: with it, or without? Without, if that is likely, and more so than both together. */
 static void decide(wh_pulses *pulses, const wh_pulse *pulse) {
     const wh_pulse suspect = pulses->suspect;
+    wh_speed without;
     wh_speed suspected;
     wh_speed both;
-    wh_speed without;
     pulses->suspects = false;
-    const bool true_then = with(&pulses->speed, &suspect, &suspected);
-    const bool both_are = true_then && with(&suspected, pulse, &both);
-    const bool alone_is = with(&pulses->speed, pulse, &without);
-    const bool both_likely = both_are && is_likely(pulses, &both);
-    const bool alone_likely = alone_is && is_likely(pulses, &without);
-    if (alone_likely && !(both_likely && pulse->sensor != suspect.sensor)) {
+    const bool alone_likely = with(&pulses->speed, pulse, &without) && is_likely(pulses, &without);
+    if (alone_likely && pulse->sensor == suspect.sensor) {
         pulses->rejected++;
         take_next(pulses, pulse, &without);
         return;
     }
-    if (true_then) {
+    const bool was_true = with(&pulses->speed, &suspect, &suspected);
+    const bool both_are = was_true && with(&suspected, pulse, &both);
+    if (alone_likely && !(both_are && is_likely(pulses, &both))) {
+        pulses->rejected++;
+        take_next(pulses, pulse, &without);
+        return;
+    }
+    if (was_true) {
         take_next(pulses, &suspect, &suspected);
     }
     if (both_are) {
@@ -124,8 +125,7 @@ static void compare(wh_pulses *pulses, const wh_pulse *pulse) {
     const wh_real last = early_ticks(&pulses->before, &pulses->last.pulse);
     const wh_real this = early_ticks(&pulses->before, pulse);
     if (WH_ABS(this) < WH_ABS(last)) {
-        const wh_speed before = pulses->before;
-        accept(pulses, pulse, &before, &instead);
+        accept(pulses, pulse, &instead);
     }
 }
 
@@ -153,7 +153,8 @@ void wh_pulses_take(wh_pulses *pulses, unsigned sensor, uint32_t ticks) {
     }
     const bool early = pulses->speed.known && early_ticks(&pulses->speed, &pulse) >
                                                   pulses->window * turn_ticks(&pulses->speed);
-    if (pulses->speed.running && (is_fast(pulses, &after) || early)) {
+    /* where one fast interval is true already, the next is the speed's */
+    if (pulses->speed.running && pulses->fast == 0 && (is_fast(pulses, &after) || early)) {
         pulses->suspect = pulse;
         pulses->suspects = true;
         return;

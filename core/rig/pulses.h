@@ -49,7 +49,7 @@ typedef struct wh_pulses {
 
 #define wh_pulses_start WH_NAME(wh_pulses_start)
 #define wh_pulses_take WH_NAME(wh_pulses_take)
-#define wh_pulses_mark WH_NAME(wh_pulses_mark)
+#define wh_pulses_sure WH_NAME(wh_pulses_sure)
 
 /* Forget everything. impossible_radps as for wh_speed_start(). */
 void wh_pulses_start(wh_pulses *pulses, wh_real impossible_radps);
@@ -57,8 +57,13 @@ void wh_pulses_start(wh_pulses *pulses, wh_real impossible_radps);
 /* A pulse of sensor 0 or 1 captured at `ticks`, in order of time. */
 void wh_pulses_take(wh_pulses *pulses, unsigned sensor, uint32_t ticks);
 
+/* The same where there may be one. */
+bool wh_pulses_sure(wh_pulses *pulses, uint32_t now_ticks, wh_mark *mark);
+
 /* The next mark that is sure by now; false when there is none. To be asked until there is none, each control step. */
-bool wh_pulses_mark(wh_pulses *pulses, uint32_t now_ticks, wh_mark *mark);
+WH_INLINE bool wh_pulses_mark(wh_pulses *pulses, uint32_t now_ticks, wh_mark *mark) {
+    return (pulses->waits || pulses->marks > 0) && wh_pulses_sure(pulses, now_ticks, mark);
+}
 
 #ifdef __cplusplus
 }

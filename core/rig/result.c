@@ -3,6 +3,7 @@
 
 #include "core/root.h"
 #include "datasheet.h"
+#include "polar.h"
 
 #define PI WH_R(3.141592653589793)
 

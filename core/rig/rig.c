@@ -84,7 +84,7 @@ void wh_rig_load(const wh_rig_config *config, wh_rig *rig, uint32_t ticks, int32
                   wh_run_is_closed(&rig->run), needed);
     const bool at_rest = rig->run.phase == WH_PHASE_TARE;
     if (at_rest || wh_run_drives(&rig->run)) {
-        wh_measure_load(&config->measure, &rig->measure, &load, at_rest);
+        wh_measure_load(&rig->measure, &load, at_rest);
     }
 }
 
@@ -99,12 +99,19 @@ static void trip(wh_rig *rig, const wh_rig_inputs *inputs) {
                                    .supply_V = inputs->supply_V};
 }
 
+/* Is gravity fed forward to a run at this speed? */
+static bool feeds(const wh_rig_config *config, wh_real target_radps) {
+    return config->feeds == WH_FEED_ALWAYS ||
+           (config->feeds == WH_FEED_SLOW && target_radps < config->guard.target_min_radps);
+}
+
 static void begin_run(const wh_rig_config *config, wh_rig *rig, wh_real target_radps,
                       uint32_t now_ticks) {
     wh_pulses_start(&rig->pulses, config->impossible_radps);
     wh_measure_begin(&config->measure, &rig->measure);
     wh_observer_forget(&rig->observer);
     rig->observed = 0;
+    rig->fed = feeds(config, target_radps);
     rig->guard.lost_before = 0;
     rig->guard.rejected_before = 0;
     wh_run_start(&rig->run, target_radps, now_ticks);
@@ -117,7 +124,10 @@ static void follow(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs
     const bool moves = rig->state == WH_LIFE_RUNNING || rig->state == WH_LIFE_STOPPING;
     switch (order->event) {
     case WH_EVENT_START: begin_run(config, rig, order->value, now); break;
-    case WH_EVENT_SET: wh_run_set(&rig->run, order->value, now); break;
+    case WH_EVENT_SET:
+        wh_run_set(&rig->run, order->value, now);
+        rig->fed = feeds(config, order->value);
+        break;
     case WH_EVENT_STOP:
     case WH_EVENT_HOST_LOST:
         if (moves && rig->run.phase != WH_PHASE_OFF) {
@@ -219,13 +229,6 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
 
 /* --- where the rotor is --------------------------------------------------------------------------- */
 
-/* Is gravity fed forward to this run? Then the observer goes with the rotor from the start. */
-static bool is_fed(const wh_rig_config *config, const wh_rig *rig) {
-    return config->feeds == WH_FEED_ALWAYS ||
-           (config->feeds == WH_FEED_SLOW &&
-            rig->run.target_radps < config->guard.target_min_radps);
-}
-
 static void observe(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
     wh_observer_step(&config->observer, &rig->observer, now_ticks,
                      rig->command.volts / config->run.rated_V);
@@ -239,11 +242,13 @@ static void observe(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks
 
 /* What gravity takes of the voltage, V. */
 static wh_real feed_V(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
-    if (!wh_run_is_closed(&rig->run) || !is_fed(config, rig)) {
+    if (!rig->fed || !wh_run_is_closed(&rig->run)) {
         rig->feed.part = WH_R(0.0);
         return WH_R(0.0);
     }
-    wh_lockin_feed(&rig->measure.lockin, rig->feed.part >= WH_R(1.0));
+    if (rig->measure.lockin.angle.fed != (rig->feed.part >= WH_R(1.0))) {
+        wh_lockin_feed(&rig->measure.lockin, rig->feed.part >= WH_R(1.0));
+    }
     return config->run.rated_V *
            wh_feed_step(&config->feed, &rig->feed, &rig->observer, now_ticks, config->run.step_s);
 }
@@ -320,7 +325,7 @@ static wh_rig_command command_of(const wh_rig_config *config, wh_rig *rig,
 }
 
 wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
-    if (wh_run_drives(&rig->run) && is_fed(config, rig)) {
+    if (rig->fed && wh_run_is_closed(&rig->run)) {
         observe(config, rig, inputs->now_ticks);
     }
     watch(config, rig, inputs);
@@ -328,8 +333,10 @@ wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_ri
         finds(config, rig, inputs, WH_EVENT_STOP);
     }
     take_orders(config, rig, inputs);
-    measure(config, rig, inputs->now_ticks);
+    const wh_rig_phase phase = rig->run.phase;
     live(config, rig, inputs);
+    rig->busy = rig->busy || rig->run.phase != phase;
+    measure(config, rig, inputs->now_ticks);
     if (rig->guard.trip != WH_TRIP_NONE && rig->state != WH_LIFE_TRIPPED) {
         finds(config, rig, inputs, WH_EVENT_TRIP);
     }

@@ -84,6 +84,8 @@ typedef struct wh_rig {
     wh_measure measure;
     wh_observer observer;
     wh_feed feed;
+    bool
+        fed; /* the run's: the observer goes with the rotor, and once it is valid gravity is fed forward */
     wh_rig_command command; /* since the last step */
     uint32_t observed;      /* pulses that the observer has seen */
     uint32_t since_ticks;   /* the state began */

@@ -50,6 +50,9 @@ wh_real wh_run_needs_V(const wh_run_config *config, wh_real speed_radps) {
 static bool ramp(wh_run *run, const wh_run_scene *scene) {
     const bool allowed = wh_guard_allows(scene->guarding, run->target_radps, scene->fed);
     run->drive.target_radps = allowed ? run->target_radps : scene->guarding->target_min_radps;
+    if (since_s(run->since_ticks, scene->now_ticks) > scene->config->ramp_max_s) {
+        wh_guard_trip(scene->guard, WH_TRIP_UNSETTLED); /* gravity that cannot be fed, for one */
+    }
     return allowed && wh_drive_at_target(&run->drive);
 }
 

@@ -38,6 +38,7 @@ typedef struct wh_run_config {
     wh_real spin_up_V_per_s; /* and more and more, to the voltage of rated_V */
     wh_real take_over_radps; /* from this speed on the loop is closed */
     wh_real spin_up_max_s;
+    wh_real ramp_max_s;
     wh_real settle_band_radps;
     wh_real settle_s;          /* so long within the band */
     wh_real settle_max_s;      /* to get there */

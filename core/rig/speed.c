@@ -73,13 +73,3 @@ bool wh_speed_pulse(wh_speed *speed, unsigned sensor, uint32_t ticks) {
     remember(speed, sensor, ticks);
     return true;
 }
-
-wh_real wh_speed_silence_s(const wh_speed *speed, uint32_t now_ticks) {
-    /* signed: a pulse may be stamped later than the step's own reading of the timer */
-    const int32_t age_ticks = (int32_t)(now_ticks - speed->ticks);
-    return speed->running && age_ticks > 0 ? seconds((uint32_t)age_ticks) : WH_R(0.0);
-}
-
-bool wh_speed_is_overdue(const wh_speed *speed, uint32_t now_ticks) {
-    return speed->known && wh_speed_silence_s(speed, now_ticks) * speed->turn_radps > WH_RIG_TWO_PI;
-}

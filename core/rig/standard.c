@@ -20,6 +20,7 @@ const wh_rig_config wh_rig_standard = {
             .spin_up_V_per_s = WH_R(2.0),
             .take_over_radps = RPM(150.0),
             .spin_up_max_s = WH_R(8.0),
+            .ramp_max_s = WH_R(25.0),
             .settle_band_radps = RPM(0.5),
             .settle_s = WH_R(2.5),
             .settle_max_s = WH_R(20.0),
