@@ -129,7 +129,7 @@ static void set_out(const wh_observer_config *config, wh_observer *observer, uns
     const wh_real time_s = seconds(observer->mark_ticks, ticks);
     wh_real turned_rad = signed_rad(wh_phase_from_rad(config->mark_rad[sensor]) -
                                     wh_phase_from_rad(config->mark_rad[observer->mark_sensor]));
-    if (sensor == observer->mark_sensor || !(turned_rad > WH_R(0.0))) {
+    if (!(turned_rad > WH_R(0.0))) { /* the same sensor: a whole turn */
         turned_rad += WH_RIG_TWO_PI;
     }
     const wh_real speed_radps = turned_rad / time_s;

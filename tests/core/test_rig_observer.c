@@ -198,11 +198,88 @@ static void test_a_false_mark_is_noticed(void) {
     TEST_ASSERT_TRUE(fed.observer.innovation_rad == before);
 }
 
+/* Two marks set it out: from the second, at the mean speed since the first, wherever within a step they were. */
+static void test_two_marks_set_it_out(void) {
+    static const wh_real turned[2][2] = {{WH_R(1.0), WH_R(0.25)}, {WH_R(0.75), WH_R(1.0)}};
+    for (unsigned i = 0; i < 8; i++) {
+        const unsigned first = i % 2U;
+        const unsigned second = i / 2U % 2U;
+        const bool slow = i >= 4U;
+        begin(3, WH_R(330.0));
+        const uint32_t from = fed.rotor.ticks;
+        const uint32_t took = slow ? UINT32_C(1400000) : UINT32_C(101300);
+        for (uint32_t k = 2000; k <= took + 3000U; k += 2000U) {
+            wh_observer_step(&fed.observing, &fed.observer, from + k, WH_R(0.5));
+            if (k == 2000U) {
+                wh_observer_mark(&fed.observing, &fed.observer, first, from + 1300U);
+            }
+        }
+        wh_observer_mark(&fed.observing, &fed.observer, second, from + 1300U + took);
+        /* a turn in 1.4 s is 43 rpm, less than that too slow */
+        TEST_ASSERT_TRUE(fed.observer.runs == (!slow || first == second));
+        if (!slow) {
+            const wh_real speed = turned[first][second] * WH_RIG_TWO_PI / WH_R(0.1013);
+            TEST_ASSERT_FLOAT_WITHIN(1e-4f * (float)speed, (float)speed,
+                                     (float)wh_observer_speed_radps(&fed.observer));
+            TEST_ASSERT_FLOAT_WITHIN(
+                1e-5f, (float)fed.observing.mark_rad[second],
+                (float)wh_observer_angle_rad(&fed.observer, from + 1300U + took));
+        }
+    }
+}
+
+/* Without marks it is valid for a turn and a little, and no longer when it stops before. */
+static void test_a_missed_turn_is_noticed(void) {
+    for (unsigned i = 0; i < 2; i++) {
+        begin(3, WH_R(250.0));
+        fed_rotor_run(&fed, WH_R(250.0), WH_R(3.0));
+        while (fed.rotor.marks == 0 || fed.rotor.mark_sensor[0] != 0) {
+            fed_rotor_run(&fed, WH_R(250.0), FED_STEP_S);
+        }
+        if (i == 1U) { /* it would hang below */
+            fed.observer.state.real[0] = WH_R(5.0);
+        }
+        const wh_real drive = i == 0 ? fed.voltage : WH_R(0.0);
+        uint32_t steps = 0;
+        while (fed.observer.valid && steps < 700U) {
+            steps++;
+            wh_observer_step(&fed.observing, &fed.observer,
+                             fed.rotor.ticks + steps * FED_STEP_TICKS, drive);
+        }
+        const wh_real part = (wh_real)steps * FED_STEP_S * WH_R(250.0) / WH_R(60.0);
+        TEST_ASSERT_TRUE(i == 0 ? part > WH_R(1.01) && part < WH_R(1.12) : steps < 300U);
+    }
+}
+
+/* Control steps that are no multiple of the scene's: what is left over is not lost. */
+static void test_uneven_steps_lose_no_time(void) {
+    begin(3, WH_R(330.0));
+    fed_rotor_hold(&fed, WH_R(330.0));
+    uint32_t seen = 0;
+    for (unsigned i = 0; i < 4000; i++) {
+        rotor_turn(&fed.kind, &fed.rotor, fed.voltage, i % 3U == 0 ? 2500 : 1500);
+        wh_observer_step(&fed.observing, &fed.observer, fed.rotor.ticks, fed.voltage);
+        for (unsigned k = 0; k < fed.rotor.marks; k++) {
+            wh_observer_mark(&fed.observing, &fed.observer, fed.rotor.mark_sensor[k],
+                             fed.rotor.mark_ticks[k]);
+        }
+        if (i >= 2000U) {
+            const wh_real angle = wh_observer_angle_rad(&fed.observer, fed.rotor.ticks);
+            TEST_ASSERT_FLOAT_WITHIN(0.02f * (float)DEG, 0.0f,
+                                     (float)rotor_ahead_rad(&fed.rotor, angle));
+            seen += fed.observer.valid ? 1U : 0U;
+        }
+    }
+    TEST_ASSERT_EQUAL_UINT32(2000, seen);
+}
+
 /* Too late, silent for too long, a drive that is no number: it begins anew, and finds again what there is. */
 static void test_it_begins_anew(void) {
     const wh_real nan = (wh_real)__builtin_nanf("");
     for (unsigned i = 0; i < 4; i++) {
-        begin(5, WH_R(330.0));
+        fed_rotor_standard(&fed, 5);
+        fed.kind.friction_Nm = WH_R(0.05);
+        TEST_ASSERT_TRUE(fed_rotor_start(&fed, WH_R(330.0)) == WH_OK);
         fed_rotor_run(&fed, WH_R(330.0), WH_R(2.0));
         TEST_ASSERT_TRUE(fed.observer.valid && fed.observer.runs);
         const uint32_t now = fed.rotor.ticks;
@@ -220,6 +297,7 @@ static void test_it_begins_anew(void) {
         }
         TEST_ASSERT_FALSE(fed.observer.valid);
         TEST_ASSERT_FALSE(fed.observer.runs);
+        TEST_ASSERT_TRUE(fed.observer.torque_Nm == WH_R(0.0));
         fed.rotor.ticks = fed.observer.ticks; /* the rotor stood for as long */
         fed_rotor_run(&fed, WH_R(330.0), WH_R(4.0));
         TEST_ASSERT_TRUE(fed.observer.valid);
@@ -265,9 +343,11 @@ static void test_the_wrap_changes_nothing(void) {
 static void test_other_scenes_are_refused(void) {
     fed_rotor_standard(&fed, 1);
     wh_scene other = rig_fixed;
-    const wh_scene *scenes[] = {NULL, &thomson_a, &carriage_free, &other};
+    wh_scene without = rig_fixed;
+    const wh_scene *scenes[] = {NULL, &thomson_a, &carriage_free, &other, &without};
     other.step_s = WH_R(0.0010005);
-    for (unsigned i = 0; i < 4; i++) {
+    without.inputs = 0;
+    for (unsigned i = 0; i < 5; i++) {
         fed.observing.scene = scenes[i];
         TEST_ASSERT_TRUE(fed_rotor_start(&fed, WH_R(330.0)) == WH_E_ARGUMENT);
         fed_rotor_run(&fed, WH_R(330.0), WH_R(1.0));
@@ -285,6 +365,9 @@ void suite_rig_observer(void) {
     RUN_TEST(test_drawn_rotors_are_followed);
     RUN_TEST(test_marks_make_it_valid);
     RUN_TEST(test_a_false_mark_is_noticed);
+    RUN_TEST(test_two_marks_set_it_out);
+    RUN_TEST(test_a_missed_turn_is_noticed);
+    RUN_TEST(test_uneven_steps_lose_no_time);
     RUN_TEST(test_it_begins_anew);
     RUN_TEST(test_shivers_set_nothing_going);
     RUN_TEST(test_the_wrap_changes_nothing);
