@@ -10,6 +10,7 @@
 #include "host/price/choice_counted.h"
 #include "host/price/choice_text.h"
 #include "host/price/figure_text.h"
+#include "interrupts.h"
 #include "pricing.h"
 
 /* Records to the horizon: so many to two and a half times as many. */
@@ -315,8 +316,8 @@ static int choose_scene(const choose_options *o, pricing *p) {
     const bool shows = !o->common.quiet && isatty(STDERR_FILENO);
     w.progress = shows ? show_progress : NULL;
     w.counting = shows ? show_counting : NULL;
-    pricing_catch_interrupts();
-    int code = pricing_begin(p, spacing, &pricing_interrupted);
+    interrupts_catch();
+    int code = pricing_begin(p, spacing, &interrupted);
     if (code == EXIT_DONE) {
         code = choose_begun(o, p, &w);
     }

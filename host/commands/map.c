@@ -1,6 +1,5 @@
 /* map.c: `whirl map`: for which pairs of two swept values a run stays bounded, keeps its energy and a tolerance. */
 #include <errno.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,6 +14,7 @@
 #include "host/plot/gnuplot.h"
 #include "host/run/start.h"
 #include "host/sweep/changes.h"
+#include "interrupts.h"
 #include "options.h"
 #include "trusting.h"
 
@@ -54,13 +54,6 @@ static const command_usage usage = {
             [EXIT_ROW_OF(EXIT_RUN_FAILED)] = "no pair has a run",
             [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
             [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
-
-static volatile sig_atomic_t interrupted;
-
-static void on_interrupt(int signal_number) {
-    (void)signal_number;
-    interrupted = 1;
-}
 
 typedef struct map_options {
     common_options common;
@@ -205,13 +198,6 @@ static void show_progress(double runs, void *told) {
     fprintf(stderr, "\r%.1f of %llu runs ", runs, (unsigned long long)g->points);
 }
 
-static void catch_interrupts(void) {
-    struct sigaction action = {.sa_handler = on_interrupt,
-                               .sa_flags = SA_RESTART | (int)SA_RESETHAND};
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
-}
-
 /* Seconds that all runs take, about: as many steps as each step's length makes of the scene as it stands. */
 static double seconds_of(const grid *g, const image *base) {
     double runs = 0.0;
@@ -262,7 +248,7 @@ static int map_loaded(const map_options *o, const map_wish *plan, const image *b
     char *words =
         room_words("%s: %s%s, %s, tolerance %g", o->target, image_stepper(base),
                    base->settings.compensated ? " compensated" : "", wish.kind->name, o->tolerance);
-    catch_interrupts();
+    interrupts_catch();
     stability_map m = map_make(&wish);
     if (wish.progress != NULL) {
         fputs("\r                                        \r", stderr);

@@ -1,7 +1,6 @@
 /* pil.c: `whirl pil`: a firmware image against a scene as its plant, or against a tape. */
 #include <errno.h>
 #include <inttypes.h>
-#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -11,6 +10,7 @@
 #include "host/pil/lockstep.h"
 #include "host/pil/pil_text.h"
 #include "host/run/start.h"
+#include "interrupts.h"
 #include "load.h"
 #include "options.h"
 
@@ -57,20 +57,6 @@ static const command_usage usage = {
                 "       plant left all bounds, or answers differ from the tape's",
             [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
             [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
-
-static volatile sig_atomic_t interrupted;
-
-static void on_interrupt(int signal_number) {
-    (void)signal_number;
-    interrupted = 1;
-}
-
-static void catch_interrupts(void) {
-    struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = (int)SA_RESETHAND};
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
-    sigaction(SIGHUP, &action, NULL);
-}
 
 typedef struct pil_options {
     common_options common;
@@ -301,7 +287,7 @@ static int run_image(const pil_options *o, const source_model *from, const image
     if (o->common.change.until != NULL) {
         wish->until_s = im->until_s;
     }
-    catch_interrupts();
+    interrupts_catch_waiting();
     lockstep_run(wish, im, &report);
     if (wish->tape != NULL && fclose(wish->tape) != 0 && report.end != LOCKSTEP_BAD) {
         fprintf(stderr, "%s: error: cannot be written: %s\n", o->tape, strerror(errno));
@@ -341,7 +327,7 @@ static int run_source(const pil_options *o, source_model *from) {
 static int replay(const pil_options *o) {
     const lockstep_wish wish = wish_of(o);
     lockstep_report report;
-    catch_interrupts();
+    interrupts_catch_waiting();
     lockstep_replay(&wish, o->replay, &report);
     return tell(o, &wish, NULL, &report);
 }

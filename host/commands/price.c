@@ -9,6 +9,7 @@
 #include "files.h"
 #include "host/plot/plot.h"
 #include "host/price/table_counted.h"
+#include "interrupts.h"
 #include "pricing.h"
 
 /* Records to the horizon: so many to two and a half times as many. */
@@ -191,11 +192,11 @@ static int price_scene(const price_options *o, pricing *p) {
         !files_can_write(o->plot) || (o->measure && !can_measure(p))) {
         return EXIT_BAD_INPUT;
     }
-    pricing_catch_interrupts();
+    interrupts_catch();
     if (progress) {
         fputs("\rthe reference   ", stderr);
     }
-    int code = pricing_begin(p, pricing_spacing(p->until_s, RECORDS), &pricing_interrupted);
+    int code = pricing_begin(p, pricing_spacing(p->until_s, RECORDS), &interrupted);
     table *made = NULL;
     if (code == EXIT_DONE && p->trial.reliable && !p->trial.stopped) {
         const table_wish wish = {p->effort * OPERATIONS, progress ? show_progress : NULL, NULL};

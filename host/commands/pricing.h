@@ -86,8 +86,4 @@ int pricing_begin(pricing *p, whole_ratio spacing, const volatile sig_atomic_t *
 /* A spacing of about so many to two and a half times so many records, 1, 2 or 5 times a power of ten. */
 whole_ratio pricing_spacing(double until_s, double count);
 
-/* Ends cleanly by Ctrl-C: this is then set. */
-extern volatile sig_atomic_t pricing_interrupted;
-void pricing_catch_interrupts(void);
-
 #endif

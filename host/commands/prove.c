@@ -1,7 +1,6 @@
 /* prove.c: `whirl prove`: until when a run is proved to be within a tolerance of the exact motion. */
 #include <errno.h>
 #include <math.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,6 +15,7 @@
 #include "host/number/functions.h"
 #include "host/prove/held_text.h"
 #include "host/run/start.h"
+#include "interrupts.h"
 #include "load.h"
 #include "options.h"
 #include "trusting.h"
@@ -50,13 +50,6 @@ static const command_usage usage = {
             [EXIT_ROW_OF(EXIT_RUN_FAILED)] = "the run diverged: what is proved before that is told",
             [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
             [EXIT_ROW_OF(EXIT_INTERRUPTED)] = "what is proved until then is told"}};
-
-static volatile sig_atomic_t interrupted;
-
-static void on_interrupt(int signal_number) {
-    (void)signal_number;
-    interrupted = 1;
-}
 
 typedef struct prove_options {
     common_options common;
@@ -166,13 +159,6 @@ static bool read_within(const prove_options *o, const mechanism *of, const exact
     }
     arena_free(memory);
     return diags_calls(errors) == before;
-}
-
-static void catch_interrupts(void) {
-    struct sigaction action = {.sa_handler = on_interrupt,
-                               .sa_flags = SA_RESTART | (int)SA_RESETHAND};
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
 }
 
 static void show_progress(double share) { fprintf(stderr, "\r%5.1f %%", 100.0 * share); }
@@ -285,7 +271,7 @@ static int answer(const prove_options *o, const image *im, const exact_motion *m
     if (r.file != NULL) {
         held_rows_head(r.file, &wish);
     }
-    catch_interrupts();
+    interrupts_catch();
     return held_out(o, &wish, &r);
 }
 

@@ -1,6 +1,5 @@
 /* run.c: `whirl run`: simulate, keep records, balance the books. */
 #include <math.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,6 +13,7 @@
 #include "host/run/belief.h"
 #include "host/run/simulate.h"
 #include "host/run/start.h"
+#include "interrupts.h"
 #include "load.h"
 #include "options.h"
 #include "trusting.h"
@@ -50,13 +50,6 @@ static const command_usage usage = {
             "       try; the records so far are kept), or --strict does not believe it",
         [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
         [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
-
-static volatile sig_atomic_t interrupted;
-
-static void on_interrupt(int signal_number) {
-    (void)signal_number;
-    interrupted = 1;
-}
 
 typedef struct run_options {
     common_options common;
@@ -209,15 +202,6 @@ static bool shows_progress(const simulation_settings *s) {
     return !s->quiet && isatty(STDERR_FILENO);
 }
 
-/* From here on, what is under way ends in order. */
-static void catch_interrupts(void) {
-    /* records go on being written; a second Ctrl-C ends it at once, whatever it waits for */
-    struct sigaction action = {.sa_handler = on_interrupt,
-                               .sa_flags = SA_RESTART | (int)SA_RESETHAND};
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
-}
-
 static int run_image(run_options *o, const source_model *from, const image *im, const image *plain,
                      double every_s) {
     if (!count_every(o, every_s, im, &o->settings.every)) {
@@ -228,7 +212,7 @@ static int run_image(run_options *o, const source_model *from, const image *im, 
         diags_flush(from->errors, stderr);
         return EXIT_BAD_INPUT;
     }
-    catch_interrupts();
+    interrupts_catch();
     o->settings.stop = &interrupted;
     o->settings.progress = shows_progress(&o->settings);
     trusting trust = trusting_look(im, plain, &o->settings);
@@ -251,7 +235,7 @@ static int run_image(run_options *o, const source_model *from, const image *im, 
 static int plan_of(image *im, const source_model *from, const simulation_settings *s,
                    fixed_plan **plan) {
     const fixed_watch watch = {&interrupted, shows_progress(s)};
-    catch_interrupts();
+    interrupts_catch();
     *plan = fixed_plan_make_watched(im, &watch, from->errors);
     im->fixed = *plan;
     diags_flush(from->errors, stderr);

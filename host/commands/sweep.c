@@ -1,6 +1,5 @@
 /* sweep.c: `whirl sweep`: a run for every point of a grid, a row of measures each. */
 #include <math.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,6 +13,7 @@
 #include "host/sweep/fingerprint.h"
 #include "host/sweep/jobs.h"
 #include "host/sweep/session.h"
+#include "interrupts.h"
 #include "load.h"
 #include "options.h"
 
@@ -49,13 +49,6 @@ static const command_usage usage = {
                 "       not be written",
             [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "such as the FILE of another sweep",
             [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
-
-static volatile sig_atomic_t interrupted;
-
-static void on_interrupt(int signal_number) {
-    (void)signal_number;
-    interrupted = 1;
-}
 
 /* --- options -----------------------------------------------------------------------------------*/
 
@@ -207,10 +200,7 @@ static int sweep_loaded(const sweep_options *o, const source_model *from, const 
                                        .fresh = o->fresh,
                                        .quiet = o->quiet,
                                        .stop = &interrupted};
-    struct sigaction action = {.sa_handler = on_interrupt,
-                               .sa_flags = SA_RESTART | (int)SA_RESETHAND};
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
+    interrupts_catch();
     const int code = session_run(s, &settings);
     free(fingerprint);
     return code;

@@ -1,6 +1,5 @@
 /* trust.c: `whirl trust`: until when each coordinate of a run is right to a tolerance. */
 #include <errno.h>
-#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -13,6 +12,7 @@
 #include "host/run/start.h"
 #include "host/run/undefined.h"
 #include "host/trust/horizon_text.h"
+#include "interrupts.h"
 #include "options.h"
 #include "trusting.h"
 
@@ -43,13 +43,6 @@ static const command_usage usage = {
                 "the run diverged: it says when, and until when it could be trusted",
             [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
             [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
-
-static volatile sig_atomic_t interrupted;
-
-static void on_interrupt(int signal_number) {
-    (void)signal_number;
-    interrupted = 1;
-}
 
 typedef struct trust_options {
     common_options common;
@@ -106,13 +99,6 @@ static bool read_options(int count, char **words, trust_options *o) {
         return false;
     }
     return !bad;
-}
-
-static void catch_interrupts(void) {
-    struct sigaction action = {.sa_handler = on_interrupt,
-                               .sa_flags = SA_RESTART | (int)SA_RESETHAND};
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
 }
 
 static bool shows_progress(const trust_options *o) { return !o->quiet && isatty(STDERR_FILENO); }
@@ -262,7 +248,7 @@ static int trust_loaded(const trust_options *o, image *im, const image *plain, d
     if (!is_affordable(im, plain, o->effort) || !can_start(im, o->common.number, errors)) {
         return EXIT_BAD_INPUT;
     }
-    catch_interrupts();
+    interrupts_catch();
     int code = EXIT_DONE;
     if (o->common.number == &engine_fixed) {
         code = plan_of(im, o, errors, &plan);
