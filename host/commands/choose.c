@@ -73,31 +73,29 @@ typedef struct choose_options {
     bool predict;
 } choose_options;
 
-static bool read_options(int count, char **words, choose_options *o) {
+static bool take_one(int count, char **words, int *at, void *options, bool *bad) {
+    choose_options *o = options;
     const char **const values[] = {&o->rate, &o->clock, &o->flash, &o->ram};
-    bool bad = false;
-    for (int at = 0; at < count && !bad;) {
-        bool taken = false;
-        bool *const asked = strcmp(words[at], "--measure") == 0   ? &o->measure
-                            : strcmp(words[at], "--predict") == 0 ? &o->predict
-                                                                  : NULL;
-        if (asked != NULL) {
-            *asked = true;
-            at++;
-            continue;
-        }
-        for (int i = 0; i < (int)(sizeof values / sizeof values[0]) && !taken && !bad; i++) {
-            const char *value = options_value(count, words, &at, own[i], &bad);
-            taken = value != NULL;
-            *values[i] = taken ? value : *values[i];
-        }
-        if (taken || bad || pricing_take(count, words, &at, &o->common, &bad)) {
-            continue;
-        }
-        pricing_unknown("choose", words[at], own);
-        return false;
+    bool *const asked = strcmp(words[*at], "--measure") == 0   ? &o->measure
+                        : strcmp(words[*at], "--predict") == 0 ? &o->predict
+                                                               : NULL;
+    if (asked != NULL) {
+        *asked = true;
+        ++*at;
+        return true;
     }
-    if (bad || !pricing_complete(&o->common)) {
+    for (int i = 0; i < (int)(sizeof values / sizeof values[0]) && !*bad; i++) {
+        const char *value = options_value(count, words, at, own[i], bad);
+        if (value != NULL) {
+            *values[i] = value;
+            return true;
+        }
+    }
+    return !*bad && pricing_take(count, words, at, &o->common, bad);
+}
+
+static bool read_options(int count, char **words, choose_options *o) {
+    if (!pricing_read(count, words, own, take_one, o, &o->common)) {
         return false;
     }
     if (o->measure && o->predict) {

@@ -15,7 +15,7 @@
 #include "host/run/start.h"
 #include "host/sweep/changes.h"
 #include "interrupts.h"
-#include "options.h"
+#include "target.h"
 #include "trusting.h"
 
 enum { AXES = 2 };
@@ -77,11 +77,9 @@ static bool take_over(const char *text, map_options *o) {
     return room_left;
 }
 
-static bool take_one(int count, char **words, int *at, map_options *o, bool *bad) {
+static bool take_one(int count, char **words, int *at, void *options, bool *bad) {
+    map_options *o = options;
     const char *value = NULL;
-    if (options_take("map", usage.groups, count, words, at, &o->common, bad)) {
-        return true;
-    }
     if (!*bad && (value = options_value(count, words, at, "--over", bad)) != NULL) {
         *bad = !take_over(value, o);
     } else if (!*bad && (value = options_value(count, words, at, "--tolerance", bad)) != NULL) {
@@ -124,28 +122,12 @@ static bool is_whole(const map_options *o) {
 }
 
 static bool read_options(int count, char **words, map_options *o) {
-    bool bad = false;
-    for (int at = 0; at < count && !bad;) {
-        if (take_one(count, words, &at, o, &bad) || bad) {
-            continue;
-        }
-        if (words[at][0] == '-' && words[at][1] != '\0') {
-            options_unknown("map", words[at], usage.groups,
-                            (const char *const[]){"--over", "--tolerance", "--effort", "--csv",
-                                                  "--plot", "--quiet", NULL});
-            return false;
-        }
-        if (o->target != NULL) {
-            fprintf(stderr, "whirl map: error: one scene at a time, not also '%s'\n", words[at]);
-            return false;
-        }
-        o->target = words[at++];
-    }
-    if (!bad && o->target == NULL) {
-        options_usage(stderr, &usage);
-        return false;
-    }
-    return !bad && is_whole(o);
+    static const char *const own[] = {"--over", "--tolerance", "--effort", "--csv",
+                                      "--plot", "--quiet",     NULL};
+    const target_reader reader = {
+        .command = "map", .groups = usage.groups, .own = own, .take = take_one};
+    return target_read(&reader, count, words, &o->common, o, &o->target) &&
+           target_is_there(o->target, &usage) && is_whole(o);
 }
 
 /* --- the answer -----------------------------------------------------------------------------------------*/

@@ -12,7 +12,7 @@
 #include "host/run/start.h"
 #include "interrupts.h"
 #include "load.h"
-#include "options.h"
+#include "target.h"
 
 #define FINE_STEP "50us"
 #define PATIENCE_S 10.0
@@ -117,10 +117,9 @@ static bool take_numbers(int count, char **words, int *at, pil_options *o, bool 
     return false;
 }
 
-static bool take_one(int count, char **words, int *at, pil_options *o, bool *bad) {
-    if (options_take("pil", usage.groups, count, words, at, &o->common, bad) ||
-        (!*bad && take_words(count, words, at, o, bad)) ||
-        (!*bad && take_numbers(count, words, at, o, bad))) {
+static bool take_one(int count, char **words, int *at, void *options, bool *bad) {
+    pil_options *o = options;
+    if (take_words(count, words, at, o, bad) || (!*bad && take_numbers(count, words, at, o, bad))) {
         return true;
     }
     if (!*bad && strcmp(words[*at], "--quiet") == 0) {
@@ -160,26 +159,13 @@ static bool is_known_board(pil_options *o) {
 }
 
 static bool read_options(int count, char **words, pil_options *o) {
-    bool bad = false;
-    for (int at = 0; at < count && !bad;) {
-        if (take_one(count, words, &at, o, &bad) || bad) {
-            continue;
-        }
-        if (words[at][0] == '-' && words[at][1] != '\0') {
-            options_unknown("pil", words[at], usage.groups,
-                            (const char *const[]){"--firmware", "--board", "--tape", "--replay",
-                                                  "--bind", "--place", "--jitter", "--delay",
-                                                  "--seed", "--clock", "--cycles", "--patience",
-                                                  "--quiet", NULL});
-            return false;
-        }
-        if (o->target != NULL) {
-            fprintf(stderr, "whirl pil: error: one scene at a time, not also '%s'\n", words[at]);
-            return false;
-        }
-        o->target = words[at++];
-    }
-    return !bad && is_known_board(o) && go_together(o);
+    static const char *const own[] = {"--firmware", "--board",    "--tape",  "--replay", "--bind",
+                                      "--place",    "--jitter",   "--delay", "--seed",   "--clock",
+                                      "--cycles",   "--patience", "--quiet", NULL};
+    const target_reader reader = {
+        .command = "pil", .groups = usage.groups, .own = own, .take = take_one};
+    return target_read(&reader, count, words, &o->common, o, &o->target) && is_known_board(o) &&
+           go_together(o);
 }
 
 /* --- what is wished ---------------------------------------------------------------------------------------------*/

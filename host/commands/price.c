@@ -99,17 +99,13 @@ static bool files_fit(const price_options *o) {
     return true;
 }
 
+static bool take_one(int count, char **words, int *at, void *options, bool *bad) {
+    price_options *o = options;
+    return take_own(count, words, at, o, bad) || pricing_take(count, words, at, &o->common, bad);
+}
+
 static bool read_options(int count, char **words, price_options *o) {
-    bool bad = false;
-    for (int at = 0; at < count && !bad;) {
-        if (take_own(count, words, &at, o, &bad) ||
-            pricing_take(count, words, &at, &o->common, &bad)) {
-            continue;
-        }
-        pricing_unknown("price", words[at], own);
-        return false;
-    }
-    return !bad && pricing_complete(&o->common) && files_fit(o);
+    return pricing_read(count, words, own, take_one, o, &o->common) && files_fit(o);
 }
 
 static void show_progress(void *context, int done, int of) {

@@ -17,7 +17,7 @@
 #include "host/run/start.h"
 #include "interrupts.h"
 #include "load.h"
-#include "options.h"
+#include "target.h"
 #include "trusting.h"
 
 /* Seconds that an effort of 1 may take, about, and products of enclosures that a second takes. */
@@ -63,11 +63,9 @@ typedef struct prove_options {
 } prove_options;
 
 /* One option, with its value where it has one; false when the word is none. */
-static bool take_one(int count, char **words, int *at, prove_options *o, bool *bad) {
+static bool take_one(int count, char **words, int *at, void *options, bool *bad) {
+    prove_options *o = options;
     const char *value = NULL;
-    if (options_take("prove", usage.groups, count, words, at, &o->common, bad)) {
-        return true;
-    }
     if (!*bad && (value = options_value(count, words, at, "--within", bad)) != NULL) {
         o->within[o->within_count++] = value;
     } else if (!*bad && (value = options_value(count, words, at, "--tolerance", bad)) != NULL) {
@@ -88,29 +86,13 @@ static bool take_one(int count, char **words, int *at, prove_options *o, bool *b
 }
 
 static bool read_options(int count, char **words, prove_options *o) {
-    bool bad = false;
+    static const char *const own[] = {"--within", "--tolerance", "--csv",
+                                      "--effort", "--quiet",     NULL};
+    const target_reader reader = {
+        .command = "prove", .groups = usage.groups, .own = own, .take = take_one};
     o->within = room(count, sizeof *o->within);
-    for (int at = 0; at < count && !bad;) {
-        if (take_one(count, words, &at, o, &bad) || bad) {
-            continue;
-        }
-        if (words[at][0] == '-' && words[at][1] != '\0') {
-            options_unknown("prove", words[at], usage.groups,
-                            (const char *const[]){"--within", "--tolerance", "--csv", "--effort",
-                                                  "--quiet", NULL});
-            return false;
-        }
-        if (o->target != NULL) {
-            fprintf(stderr, "whirl prove: error: one scene at a time, not also '%s'\n", words[at]);
-            return false;
-        }
-        o->target = words[at++];
-    }
-    if (!bad && o->target == NULL) {
-        options_usage(stderr, &usage);
-        return false;
-    }
-    return !bad;
+    return target_read(&reader, count, words, &o->common, o, &o->target) &&
+           target_is_there(o->target, &usage);
 }
 
 /* Two runs, the range's and the one that is held; the tube is bounded on its way. */

@@ -15,7 +15,7 @@
 #include "host/run/start.h"
 #include "interrupts.h"
 #include "load.h"
-#include "options.h"
+#include "target.h"
 #include "trusting.h"
 
 static const command_usage usage = {
@@ -91,10 +91,10 @@ static bool take_strict(char **words, int *at, double *limit, bool *bad) {
 }
 
 /* One option, with its value where it has one; false when the word is none. */
-static bool take_one(int count, char **words, int *at, run_options *o, bool *bad) {
+static bool take_one(int count, char **words, int *at, void *options, bool *bad) {
+    run_options *o = options;
     const char *value = NULL;
-    if (options_take("run", usage.groups, count, words, at, &o->common, bad) ||
-        (!*bad && take_strict(words, at, &o->settings.strict, bad))) {
+    if (take_strict(words, at, &o->settings.strict, bad)) {
         return true;
     }
     if (!*bad && (value = options_value(count, words, at, "--csv", bad)) != NULL) {
@@ -131,29 +131,16 @@ static bool files_are_apart(const simulation_settings *s) {
 }
 
 static bool read_options(int count, char **words, run_options *o) {
-    bool bad = false;
-    for (int at = 0; at < count && !bad;) {
-        if (take_one(count, words, &at, o, &bad) || bad) {
-            continue;
-        }
-        if (words[at][0] == '-' && words[at][1] != '\0') {
-            options_unknown("run", words[at], usage.groups,
-                            (const char *const[]){"--csv", "--columns", "--every", "--plot",
-                                                  "--strict", "--quiet", NULL});
-            return false;
-        }
-        if (o->target != NULL) {
-            fprintf(stderr, "whirl run: error: one scene at a time, not also '%s'\n", words[at]);
-            return false;
-        }
-        o->target = words[at++];
-    }
-    if (!bad && o->target == NULL) {
-        options_usage(stderr, &usage);
+    static const char *const own[] = {"--csv",    "--columns", "--every", "--plot",
+                                      "--strict", "--quiet",   NULL};
+    const target_reader reader = {
+        .command = "run", .groups = usage.groups, .own = own, .take = take_one};
+    if (!target_read(&reader, count, words, &o->common, o, &o->target) ||
+        !target_is_there(o->target, &usage)) {
         return false;
     }
     o->settings.kind = o->common.number;
-    return !bad && files_are_apart(&o->settings);
+    return files_are_apart(&o->settings);
 }
 
 static bool model_would_be_lost(const source_model *from, const simulation_settings *s) {

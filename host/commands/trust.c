@@ -13,7 +13,7 @@
 #include "host/run/undefined.h"
 #include "host/trust/horizon_text.h"
 #include "interrupts.h"
-#include "options.h"
+#include "target.h"
 #include "trusting.h"
 
 /* Seconds that an effort of 1 may take, about. */
@@ -54,11 +54,9 @@ typedef struct trust_options {
 } trust_options;
 
 /* One option, with its value where it has one; false when the word is none. */
-static bool take_one(int count, char **words, int *at, trust_options *o, bool *bad) {
+static bool take_one(int count, char **words, int *at, void *options, bool *bad) {
+    trust_options *o = options;
     const char *value = NULL;
-    if (options_take("trust", usage.groups, count, words, at, &o->common, bad)) {
-        return true;
-    }
     if (!*bad && (value = options_value(count, words, at, "--tolerance", bad)) != NULL) {
         *bad = !options_number("trust", "--tolerance", value, 1e-15, 1.0,
                                "a part of the range that a coordinate has: --tolerance 1e-3",
@@ -77,28 +75,11 @@ static bool take_one(int count, char **words, int *at, trust_options *o, bool *b
 }
 
 static bool read_options(int count, char **words, trust_options *o) {
-    bool bad = false;
-    for (int at = 0; at < count && !bad;) {
-        if (take_one(count, words, &at, o, &bad) || bad) {
-            continue;
-        }
-        if (words[at][0] == '-' && words[at][1] != '\0') {
-            options_unknown(
-                "trust", words[at], usage.groups,
-                (const char *const[]){"--tolerance", "--csv", "--effort", "--quiet", NULL});
-            return false;
-        }
-        if (o->target != NULL) {
-            fprintf(stderr, "whirl trust: error: one scene at a time, not also '%s'\n", words[at]);
-            return false;
-        }
-        o->target = words[at++];
-    }
-    if (!bad && o->target == NULL) {
-        options_usage(stderr, &usage);
-        return false;
-    }
-    return !bad;
+    static const char *const own[] = {"--tolerance", "--csv", "--effort", "--quiet", NULL};
+    const target_reader reader = {
+        .command = "trust", .groups = usage.groups, .own = own, .take = take_one};
+    return target_read(&reader, count, words, &o->common, o, &o->target) &&
+           target_is_there(o->target, &usage);
 }
 
 static bool shows_progress(const trust_options *o) { return !o->quiet && isatty(STDERR_FILENO); }
