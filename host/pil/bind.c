@@ -33,16 +33,6 @@ static bool is_component(const image *im, int i, const char *name) {
     return strspn(name + length, "'") == (size_t)c.primes;
 }
 
-static int component_of(const image *im, int unknown, int primes) {
-    for (int i = 0; i < im->angles + im->reals; i++) {
-        const component c = image_component(im, i);
-        if (c.unknown == unknown && c.primes == primes) {
-            return i;
-        }
-    }
-    return -1;
-}
-
 /* Returns the unit; NULL when there is no such quantity. */
 static const char *find_read(bound *b, const image *im, const char *name) {
     for (int i = 0; i < im->own_outputs; i++) {
@@ -59,7 +49,7 @@ static const char *find_read(bound *b, const image *im, const char *name) {
             const component c = image_component(im, i);
             b->place = BOUND_COMPONENT;
             b->index = i;
-            b->rate = component_of(im, c.unknown, c.primes + 1);
+            b->rate = image_find_component(im, c.unknown, c.primes + 1);
             b->turns = c.primes == 0 && im->unknown[c.unknown].is_angle;
             return im->unknown[c.unknown].unit[c.primes].si;
         }
