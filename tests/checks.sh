@@ -28,3 +28,22 @@ check() {
     "$@" >"$scratch/check" 2>&1
     verdict $? "$what" "$scratch/check"
 }
+
+# shown_calls FILE COMMAND LEAST: each "    $ build/whirl COMMAND ..." that FILE shows must print what stands below it; there
+# must be so many at least.
+shown_calls() {
+    shown=0
+    grep "^    [$] build/whirl $2" "$1" >"$scratch/calls"
+    while read -r call; do
+        shown=$((shown + 1))
+        awk -v call="    $call" '$0 == call { on = 1; next }
+            on && (/^    [$]/ || /^[^ ]/) { exit }
+            on { sub(/^    /, ""); print }' "$1" | sed '${/^$/d;}' >"$scratch/wanted"
+        words=${call#* build/whirl }
+        (eval "\"\$whirl\" $words") >"$scratch/said" 2>"$scratch/shown" </dev/null
+        diff "$scratch/wanted" "$scratch/said" >>"$scratch/shown"
+        verdict $? "$1: whirl $words" "$scratch/shown"
+    done <"$scratch/calls"
+    [ "$shown" -ge "$3" ]
+    verdict $? "$shown calls of whirl $2 are shown in $1" /dev/null
+}
