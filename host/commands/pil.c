@@ -1,12 +1,14 @@
 /* pil.c: `whirl pil`: a firmware image against a scene as its plant, or against a tape. */
 #include <errno.h>
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "commands.h"
 #include "files.h"
 #include "host/number/decimal.h"
+#include "host/number/functions.h"
 #include "host/pil/lockstep.h"
 #include "host/pil/pil_text.h"
 #include "host/run/start.h"
@@ -95,6 +97,16 @@ static bool take_words(int count, char **words, int *at, pil_options *o, bool *b
     return false;
 }
 
+/* Another option, or a whole number. */
+static bool is_seed(const char *option, const char *text, const pil_options *o) {
+    const bool good = number_floor(o->seed) == o->seed;
+    if (!good) {
+        fprintf(stderr, "whirl pil: error: %s takes a whole number, not '%.40s'\nhint: --seed 7\n",
+                option, text);
+    }
+    return good;
+}
+
 static bool take_numbers(int count, char **words, int *at, pil_options *o, bool *bad) {
     const struct {
         const char *option;
@@ -110,7 +122,8 @@ static bool take_numbers(int count, char **words, int *at, pil_options *o, bool 
         const char *value = options_value(count, words, at, rows[i].option, bad);
         if (value != NULL) {
             *bad = !options_number("pil", rows[i].option, value, rows[i].least, rows[i].most,
-                                   rows[i].hint, rows[i].number);
+                                   rows[i].hint, rows[i].number) ||
+                   !is_seed(rows[i].option, value, o);
             return true;
         }
     }
@@ -176,31 +189,36 @@ static bool read_time(const char *option, const char *text, const mechanism *of,
         return true;
     }
     diags *errors = diags_new();
-    const bool good = instance_duration(of, NULL, NULL, option, text, errors, time_s);
+    const bool good =
+        instance_duration(of, NULL, NULL, option, text, errors, time_s) && *time_s <= LONGEST_S;
     diags_free(errors); /* what it is not says more than why it is not */
     if (!good) {
-        fprintf(stderr, "whirl pil: error: --%s %s is not a time\nhint: such as 20us, or 1ms\n",
+        fprintf(stderr,
+                "whirl pil: error: --%s '%s' is not a time, from 0 to an hour\n"
+                "hint: such as 20us, or 1ms\n",
                 option, text);
     }
     return good;
 }
 
-/* Numbers between commas, off[WH_SIGNALS_MAX]. */
-static bool read_places(const char *text, double *off) {
-    int count = 0;
+/* Numbers between commas. */
+static bool read_places(const char *text, plant_wish *to) {
+    unsigned count = 0;
     for (const char *at = text; at != NULL;) {
         const char *end = at;
         const double number = decimal_read(at, &end);
-        if (end == at || (*end != '\0' && *end != ',') || count == (int)WH_SIGNALS_MAX) {
+        if (end == at || (*end != '\0' && *end != ',') || !isfinite(number) ||
+            count == WH_SIGNALS_MAX) {
             fprintf(stderr,
-                    "whirl pil: error: --place %s: numbers between commas, one an edge\n"
+                    "whirl pil: error: --place '%s': numbers between commas, one an edge\n"
                     "hint: --place 0,2.5 puts the second edge 2.5 degrees on\n",
                     text);
             return false;
         }
-        off[count++] = number;
+        to->place[count++] = number;
         at = *end == ',' ? end + 1 : NULL;
     }
+    to->places = count;
     return true;
 }
 
@@ -293,7 +311,7 @@ static int run_source(const pil_options *o, source_model *from) {
     }
     if (!read_time("jitter", o->jitter, of, &wish.plant.jitter_s) ||
         !read_time("delay", o->delay, of, &wish.plant.delay_s) ||
-        !read_places(o->place, wish.plant.place)) {
+        !read_places(o->place, &wish.plant)) {
         return EXIT_BAD_INPUT;
     }
     loaded made;

@@ -135,7 +135,7 @@ static bool bind_one(bound *b, const image *im, const char *renames) {
 
 /* A name that the firmware does not have would rename nothing, without a word. */
 static bool all_are_used(const binding *b, const char *renames) {
-    for (const char *at = renames; at != NULL && *at != '\0';) {
+    for (const char *at = renames; at != NULL;) {
         const size_t length = strcspn(at, ",");
         bool found = false;
         for (unsigned i = 0; i < b->count; i++) {
@@ -144,12 +144,12 @@ static bool all_are_used(const binding *b, const char *renames) {
         }
         if (!found) {
             fprintf(stderr,
-                    "whirl pil: error: --bind %.*s: the firmware has no signal of that name\n"
+                    "whirl pil: error: --bind '%.*s': the firmware has no signal of that name\n"
                     "hint: --bind NAME=OTHER, the firmware's name first\n",
                     (int)length, at);
             return false;
         }
-        at += length + (at[length] == ',');
+        at = at[length] == ',' ? at + length + 1 : NULL;
     }
     return true;
 }
