@@ -47,3 +47,27 @@ shown_calls() {
     [ "$shown" -ge "$3" ]
     verdict $? "$shown calls of whirl $2 are shown in $1" /dev/null
 }
+
+# The rows of host/commands/options.h: "--word VALUE GROUP".
+option_rows() {
+    tr -d '\n\\' <host/commands/options.h | grep -o 'X(OPTION_[A-Z]*, "--[a-z]*", "[^"]*", OPTIONS_[A-Z]*' |
+        sed 's/X([A-Z_]*, "\(.*\)", "\(.*\)", OPTIONS_\(.*\)/\1 \2 \3/; s/  / - /'
+}
+
+# options_of FILE: the options that a help text lists, each "--word" or "--word VALUE".
+options_of() {
+    awk '/^  --[a-z]+ (--|[(]as)/ { words = 1 } # those of `whirl run`, by their words
+        words { for (i = 1; i <= NF; i++) { if ($i ~ /^--[a-z]+$/) { print $i, "?" } } }
+        /[(]as for `whirl run`[)]/ { words = 0; next }
+        !words && /^  --[a-z]+/ {
+            word = $1
+            sub(/[^-a-z].*/, "", word)
+            print word, $0 ~ /^  --[a-z]+ [^ ]/ ? $2 : ""
+        }' "$1" | sort -u -k 1,1 | while read -r word value; do
+        if [ "$value" = '?' ]; then
+            option_rows | sed -n "s/^\($word .*\) [A-Z]*$/\1/p" | sed 's/ -$//'
+        else
+            echo "$word $value"
+        fi
+    done
+}

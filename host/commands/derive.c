@@ -1,11 +1,11 @@
 /* derive.c: `whirl derive`: the equations of motion, the first-order form, the code. */
-#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "commands.h"
 #include "files.h"
+#include "host/base/unwritten.h"
 #include "host/emit/emit.h"
 #include "host/emit/matrix.h"
 #include "host/fixed/c_fixed.h"
@@ -205,7 +205,7 @@ static bool write_header(const form_row *as, const image *im, const fixed_plan *
         written = fflush(out) == 0 && ferror(out) == 0;
     }
     if (!written) {
-        fprintf(stderr, "%s: error: cannot be written: %s\n", header, strerror(errno));
+        unwritten_say(header);
     }
     if (out != NULL) {
         fclose(out);

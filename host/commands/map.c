@@ -1,5 +1,4 @@
 /* map.c: `whirl map`: for which pairs of two swept values a run stays bounded, keeps its energy and a tolerance. */
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,6 +7,7 @@
 #include "commands.h"
 #include "files.h"
 #include "host/base/room.h"
+#include "host/base/unwritten.h"
 #include "host/map/map_plot.h"
 #include "host/map/map_text.h"
 #include "host/number/functions.h"
@@ -143,7 +143,7 @@ static bool write_rows(const map_options *o, const stability_map *m) {
     FILE *out = fopen(o->csv, "wb");
     const bool good = out != NULL && map_csv(out, m);
     if (!good) {
-        fprintf(stderr, "%s: error: cannot be written: %s\n", o->csv, strerror(errno));
+        unwritten_say(o->csv);
     }
     if (out != NULL) {
         fclose(out);

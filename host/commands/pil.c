@@ -1,5 +1,4 @@
 /* pil.c: `whirl pil`: a firmware image against a scene as its plant, or against a tape. */
-#include <errno.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
@@ -7,6 +6,7 @@
 
 #include "commands.h"
 #include "files.h"
+#include "host/base/unwritten.h"
 #include "host/number/decimal.h"
 #include "host/number/functions.h"
 #include "host/pil/lockstep.h"
@@ -272,7 +272,7 @@ static bool open_tape(const pil_options *o, const source_model *from, FILE **fil
     }
     *file = fopen(o->tape, "wb");
     if (*file == NULL) {
-        fprintf(stderr, "%s: error: cannot be written: %s\n", o->tape, strerror(errno));
+        unwritten_say(o->tape);
     }
     return *file != NULL;
 }
@@ -294,7 +294,7 @@ static int run_image(const pil_options *o, const source_model *from, const image
     interrupts_catch_waiting();
     lockstep_run(wish, im, &report);
     if (wish->tape != NULL && fclose(wish->tape) != 0 && report.end != LOCKSTEP_BAD) {
-        fprintf(stderr, "%s: error: cannot be written: %s\n", o->tape, strerror(errno));
+        unwritten_say(o->tape);
         report.end = LOCKSTEP_FAILED;
     }
     return tell(o, wish, im, &report);

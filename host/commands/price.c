@@ -1,5 +1,4 @@
 /* price.c: `whirl price`: error against price, for all settings of a scene. */
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,6 +6,7 @@
 
 #include "commands.h"
 #include "files.h"
+#include "host/base/unwritten.h"
 #include "host/plot/plot.h"
 #include "host/price/table_counted.h"
 #include "interrupts.h"
@@ -116,9 +116,9 @@ static void show_progress(void *context, int done, int of) {
 static bool write_csv(const char *file, const trials *t, const table *made,
                       const table_words *words) {
     FILE *out = strcmp(file, "-") == 0 ? stdout : fopen(file, "wb");
-    const bool good = out != NULL && table_csv(out, t, made, words);
+    const bool good = out != NULL && (table_csv(out, t, made, words) || out == stdout);
     if (!good) {
-        fprintf(stderr, "%s: error: cannot be written: %s\n", file, strerror(errno));
+        unwritten_say(file);
     }
     if (out != NULL && out != stdout) {
         fclose(out);
@@ -152,6 +152,8 @@ static int show(const price_options *o, pricing *p, const table *made) {
         table_print(out, &p->trial, made, &words);
     }
     if (!p->trial.reliable || made == NULL || made->count == 0) {
+        fprintf(stderr, "whirl price: error: no error of '%s' is known%s\n", p->options->target,
+                p->trial.reliable ? ": no setting has a row" : ", without a reference to trust");
         return EXIT_RUN_FAILED;
     }
     if ((o->csv != NULL && !write_csv(o->csv, &p->trial, made, &words)) ||

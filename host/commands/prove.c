@@ -1,5 +1,4 @@
 /* prove.c: `whirl prove`: until when a run is proved to be within a tolerance of the exact motion. */
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,6 +9,7 @@
 #include "files.h"
 #include "host/base/arena.h"
 #include "host/base/room.h"
+#include "host/base/unwritten.h"
 #include "host/lang/override.h"
 #include "host/lang/value.h"
 #include "host/number/functions.h"
@@ -150,7 +150,7 @@ static bool is_standard(const prove_options *o) {
 }
 
 static int say_unwritten(const char *file) {
-    fprintf(stderr, "%s: error: cannot be written: %s\n", file, strerror(errno));
+    unwritten_say(file);
     return EXIT_BAD_INPUT;
 }
 
@@ -230,7 +230,7 @@ static int held_out(const prove_options *o, const held_wish *w, const rows *r) {
         files_drop(o->csv); /* nothing is in it */
     }
     held_free(&h);
-    return good || code == EXIT_INTERRUPTED ? code : say_unwritten(o->csv);
+    return good || is_standard(o) || code == EXIT_INTERRUPTED ? code : say_unwritten(o->csv);
 }
 
 static int answer(const prove_options *o, const image *im, const exact_motion *m,

@@ -1,11 +1,11 @@
 /* trust.c: `whirl trust`: until when each coordinate of a run is right to a tolerance. */
-#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "commands.h"
 #include "files.h"
+#include "host/base/unwritten.h"
 #include "host/fixed/engine_fixed.h"
 #include "host/fixed/fixed_plan.h"
 #include "host/number/functions.h"
@@ -141,7 +141,7 @@ static void say_failure(const image *im, const engine_kind *kind, const twins *t
 }
 
 static int say_unwritten(const char *file) {
-    fprintf(stderr, "%s: error: cannot be written: %s\n", file, strerror(errno));
+    unwritten_say(file);
     return EXIT_BAD_INPUT;
 }
 
@@ -160,7 +160,7 @@ static int write_rows(const trust_options *o, FILE *rows, const horizon *h) {
     if (rows != NULL && rows != stdout) {
         good = fflush(rows) == 0 && good;
     }
-    return good ? EXIT_DONE : say_unwritten(o->csv);
+    return good || is_standard(o) ? EXIT_DONE : say_unwritten(o->csv);
 }
 
 static int answer(const trust_options *o, const image *im, const image *plain) {
