@@ -222,6 +222,8 @@ for image in $([ -r /proc/self/stat ] && echo "$build/pil_rig" ${boards:+"$m4"})
         end_of 137 "$image, round $round: both are killed"
         begin "$image" && pause && kill -TERM "$host"
         end_of 130 "$image, round $round: the host is interrupted"
+        begin "$image" && pause && kill -HUP "$host"
+        end_of 130 "$image, round $round: the host's terminal goes away"
     done
     begin "$image" && pause && kill -STOP "$guest" && kill -KILL "$host"
     end_of 137 "$image: the guest stands still, and the host is killed"
