@@ -161,6 +161,10 @@ $(B)/tools/mechanisms: $(call objects,host,tests/tools/mechanisms.c tests/host/m
 $(B)/tools/linkages: $(call objects,host,tests/tools/linkages.c tests/host/linkage.c)
 	$(link)
 
+# The campaign of faults (rig.mk).
+$(B)/tools/faults: $(call objects,host,$(wildcard tests/tools/faults*.c)) $(LIB_HOST) $(call libraries,float,rig whirl) $(LIB_DOUBLE)
+	$(link)
+
 # --- fuzzing ------------------------------------------------------------------------------------
 # Each tests/fuzz/x.c defines LLVMFuzzerTestOneInput(). Findings stay in build/fuzz/x.found.
 FUZZERS := $(patsubst tests/fuzz/%.c,build/fuzz/%.fuzzer,$(wildcard tests/fuzz/fuzz_*.c))

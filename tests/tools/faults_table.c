@@ -1,0 +1,216 @@
+/* faults_table.c: a campaign in Markdown: what became of which fault in which state, and the worst with their commands. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "faults.h"
+#include "host/base/room.h"
+
+#define OVERSPEED_SHARE 0.02 /* of all runs, allowed */
+enum { WORST = 10, TRIPS = 32 };
+
+static bool is_lie(const verdict *v) { return v->lie > 0.0; }
+static bool is_hang(const verdict *v) { return v->outcome == OUTCOME_HANG; }
+static bool runs_on(const verdict *v) { return v->runs_on; }
+static bool is_overspeed(const verdict *v) { return v->overspeed; }
+static bool is_violation(const verdict *v) {
+    return is_lie(v) || is_hang(v) || runs_on(v) || is_overspeed(v);
+}
+
+void campaign_print_command(FILE *out, const campaign *c, unsigned i) {
+    campaign_case one;
+    campaign_draw(&one, c->seed, i, c->only, strstr(c->firmware, ".elf") != NULL);
+    fprintf(out, "build/whirl pil %s --firmware %s", c->plant, c->firmware);
+    if (strstr(c->firmware, ".elf") != NULL) {
+        fprintf(out, " --board %s", c->board);
+    }
+    fprintf(out, " --step %s --jitter " CAMPAIGN_JITTER " --seed %u --fault %s", c->step, one.seed,
+            one.words);
+}
+
+/* --- fault by state ---------------------------------------------------------------------------------------------*/
+
+typedef struct cell_count {
+    unsigned of[OUTCOMES];
+    unsigned runs;
+    unsigned wrong;
+} cell_count;
+
+static void count_in(cell_count *cell, const verdict *v) {
+    cell->runs++;
+    cell->of[v->outcome]++;
+    cell->wrong += is_violation(v);
+}
+
+static void print_cell(FILE *out, const cell_count *cell) {
+    if (cell->runs == 0) {
+        fputs(" |", out);
+        return;
+    }
+    fprintf(out, " %u·%u·%u·%u", cell->of[OUTCOME_TRIPPED], cell->of[OUTCOME_GOOD],
+            cell->of[OUTCOME_DOUBTFUL], cell->of[OUTCOME_REFUSED] + cell->of[OUTCOME_NONE]);
+    if (cell->wrong > 0) {
+        fprintf(out, " **%u**", cell->wrong);
+    }
+    fputs(" |", out);
+}
+
+static void print_matrix(FILE *out, const verdict *all, unsigned count) {
+    rig_stage stage[RIG_STAGES_MAX];
+    const unsigned stages = rig_stages(stage);
+    fputs("| fault |", out);
+    for (unsigned s = 0; s < stages; s++) {
+        fprintf(out, " %s |", stage[s].word);
+    }
+    fputs(" else |\n|---|", out);
+    for (unsigned s = 0; s <= stages; s++) {
+        fputs("---|", out);
+    }
+    fputc('\n', out);
+    for (unsigned row = 0; row < campaign_rows(); row++) {
+        cell_count cell[RIG_STAGES_MAX + 1] = {{.runs = 0}};
+        unsigned runs = 0;
+        for (unsigned i = 0; i < count; i++) {
+            if (all[i].row == row) {
+                count_in(&cell[all[i].stage >= 0 ? (unsigned)all[i].stage : stages], &all[i]);
+                runs++;
+            }
+        }
+        if (runs > 0) {
+            fprintf(out, "| %s |", campaign_row_word(row));
+            for (unsigned s = 0; s <= stages; s++) {
+                print_cell(out, &cell[s]);
+            }
+            fputc('\n', out);
+        }
+    }
+}
+
+/* --- what tripped, and what was broken ----------------------------------------------------------------------------*/
+
+static unsigned count_of(const verdict *all, unsigned count, int row,
+                         bool (*is)(const verdict *v)) {
+    unsigned found = 0;
+    for (unsigned i = 0; i < count; i++) {
+        found += (row < 0 || all[i].row == (unsigned)row) && is(&all[i]);
+    }
+    return found;
+}
+
+static void print_trips(FILE *out, const verdict *all, unsigned count) {
+    fputs("\n| fault | runs | fastest turn, rpm | trips: number, runs |\n|---|---|---|---|\n", out);
+    for (unsigned row = 0; row < campaign_rows(); row++) {
+        unsigned trips[TRIPS] = {0};
+        unsigned runs = 0;
+        double fastest = 0.0;
+        for (unsigned i = 0; i < count; i++) {
+            if (all[i].row == row) {
+                runs++;
+                trips[all[i].trip >= 0 && all[i].trip < TRIPS ? all[i].trip : 0]++;
+                fastest = all[i].turn_rpm > fastest ? all[i].turn_rpm : fastest;
+            }
+        }
+        if (runs == 0) {
+            continue;
+        }
+        fprintf(out, "| %s | %u | %.0f |", campaign_row_word(row), runs, fastest);
+        for (int t = 1; t < TRIPS; t++) {
+            if (trips[t] > 0) {
+                fprintf(out, " %d: %u", t, trips[t]);
+            }
+        }
+        fputs(" |\n", out);
+    }
+    fputs("\nTrips:", out);
+    for (int t = 1; t < TRIPS; t++) {
+        unsigned runs = 0;
+        for (unsigned i = 0; i < count; i++) {
+            runs += all[i].trip == t;
+        }
+        if (runs > 0) {
+            fprintf(out, " %d %s (%u).", t, rig_trip_word(t), runs);
+        }
+    }
+    fputc('\n', out);
+}
+
+/* --- the worst ----------------------------------------------------------------------------------------------------*/
+
+static double by_lie(const verdict *v) { return v->lie; }
+static double by_speed(const verdict *v) { return v->turn_rpm; }
+
+static void print_worst(FILE *out, const campaign *c, const verdict *all, unsigned count,
+                        const char *what, bool (*is)(const verdict *v),
+                        double (*by)(const verdict *v)) {
+    bool *shown = room(count, sizeof *shown);
+    const unsigned found = count_of(all, count, -1, is);
+    fprintf(out, "\n%s: %u of %u runs\n", what, found, count);
+    for (unsigned n = 0; n < found && n < WORST; n++) {
+        unsigned worst = count;
+        for (unsigned i = 0; i < count; i++) {
+            if (is(&all[i]) && !shown[i] && (worst == count || by(&all[i]) > by(&all[worst]))) {
+                worst = i;
+            }
+        }
+        const verdict *v = &all[worst];
+        shown[worst] = true;
+        fprintf(out, "\n    # run %u: ", v->run);
+        if (is == is_lie) {
+            fprintf(out, "off by %.3g %% more than it may be", 100.0 * v->lie);
+        } else {
+            fprintf(out, "fastest turn %.1f rpm, fastest instant %.1f rpm", v->turn_rpm,
+                    v->peak_rpm);
+        }
+        fputs("\n    ", out);
+        campaign_print_command(out, c, v->run);
+        fputc('\n', out);
+    }
+    free(shown);
+}
+
+/* A drive that ignores the voltage: how long until the enable was off, and how fast it became. */
+static void print_runaways(FILE *out, const verdict *all, unsigned count) {
+    rig_stage stage[RIG_STAGES_MAX];
+    const unsigned stages = rig_stages(stage);
+    fputs("\n| a drive that ignores the voltage, from | runs | off after, s, at most | not off | "
+          "fastest turn, rpm | fastest instant, rpm |\n|---|---|---|---|---|---|\n",
+          out);
+    for (unsigned s = 0; s < stages; s++) {
+        unsigned runs = 0;
+        unsigned never = 0;
+        double off_s = 0.0;
+        double turn_rpm = 0.0;
+        double peak_rpm = 0.0;
+        for (unsigned i = 0; i < count; i++) {
+            const verdict *v = &all[i];
+            if (strcmp(campaign_row_word(v->row), "runaway") != 0 || v->stage != (int)s) {
+                continue;
+            }
+            runs++;
+            never += v->off_s < 0.0;
+            off_s = v->off_s > off_s ? v->off_s : off_s;
+            turn_rpm = v->turn_rpm > turn_rpm ? v->turn_rpm : turn_rpm;
+            peak_rpm = v->peak_rpm > peak_rpm ? v->peak_rpm : peak_rpm;
+        }
+        if (runs > 0) {
+            fprintf(out, "| %s | %u | %.3f | %u | %.0f | %.0f |\n", stage[s].word, runs, off_s,
+                    never, turn_rpm, peak_rpm);
+        }
+    }
+}
+
+int campaign_print(FILE *out, const campaign *c, const verdict *all, unsigned count) {
+    print_matrix(out, all, count);
+    print_trips(out, all, count);
+    print_runaways(out, all, count);
+    print_worst(out, c, all, count, "Does not end, or is silent", is_hang, by_speed);
+    print_worst(out, c, all, count, "Ends with the motor on, and too fast", runs_on, by_speed);
+    print_worst(out, c, all, count, "Called good, and is not", is_lie, by_lie);
+    print_worst(out, c, all, count, "Too fast, and the controller's doing", is_overspeed, by_speed);
+    const bool good = count_of(all, count, -1, is_hang) == 0 &&
+                      count_of(all, count, -1, runs_on) == 0 &&
+                      count_of(all, count, -1, is_lie) == 0 &&
+                      count_of(all, count, -1, is_overspeed) <= OVERSPEED_SHARE * count;
+    fprintf(out, "\n%u runs, seed %u, %s: %s\n", count, c->seed, c->firmware,
+            good ? "nothing is wrong" : "there are violations");
+    return good ? 0 : 1;
+}
