@@ -67,7 +67,9 @@ typedef struct verdict {
     double peak_rpm; /* and instant */
     double
         lie; /* a good result is off by so much more than its interval and 1 %; as a share of the truth */
-    double off_s; /* from a runaway until the enable was off; -1: it was not, or none */
+    bool lasting;      /* a drive that ignores the voltage for longer than it may take to stop it */
+    double off_s;      /* from then until the enable was off; -1: it was not */
+    double caught_rpm; /* the fastest instant until then */
     double time_s;
 } verdict;
 

@@ -7,7 +7,8 @@
 
 #define TURN_RAD 6.283185307179586477
 #define RPM_PER_RADPS 9.5492965855137202
-#define SHARE 0.01                /* that a good result may be off beside its interval */
+#define SHARE 0.01 /* that a good result may be off beside its interval */
+#define LASTING_S 1.0
 #define SHIFTS 3                  /* turns by which its turns may be earlier than the last ones */
 enum { GOOD, DOUBTFUL, REFUSED }; /* wh_quality */
 
@@ -181,10 +182,15 @@ static void hear(void *of, double time_s, wh_orders *orders, double *late_s) {
     look_for_fault(j, (int)j->told[HAL_NOTE_STATE]);
     take_notes(j, orders);
     const bool enabled = orders->output[j->at_enable] > 0.0F && !j->plant->cut;
-    j->driven = enabled && orders->output[j->at_duty] > 0.0F;
     const fault *f = &j->plan->fault[j->plan->count - 1U];
-    if (j->of->runs_away && f->happened && !enabled && j->verdict.off_s < 0.0) {
-        j->verdict.off_s = time_s - f->begin_s;
+    const bool ignores = j->of->runs_away && f->active;
+    j->driven = enabled && (orders->output[j->at_duty] > 0.0F || ignores);
+    if (ignores && f->duration_s >= LASTING_S) {
+        j->verdict.lasting = true;
+        if (!enabled && j->verdict.off_s < 0.0) {
+            j->verdict.off_s = time_s - f->begin_s;
+            j->verdict.caught_rpm = j->verdict.peak_rpm;
+        }
     }
 }
 

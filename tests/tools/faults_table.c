@@ -6,14 +6,20 @@
 #include "host/base/room.h"
 
 #define OVERSPEED_SHARE 0.02 /* of all runs, allowed */
+#define CAUGHT_S 0.35        /* a drive that ignores the voltage is off after so long, from rest, */
+#define CAUGHT_RPM 480.0     /* and no faster, swings within a turn included */
 enum { WORST = 10, TRIPS = 32 };
 
 static bool is_lie(const verdict *v) { return v->lie > 0.0; }
 static bool is_hang(const verdict *v) { return v->outcome == OUTCOME_HANG; }
 static bool runs_on(const verdict *v) { return v->runs_on; }
 static bool is_overspeed(const verdict *v) { return v->overspeed; }
+static bool is_not_caught(const verdict *v) {
+    return v->lasting && !(v->off_s >= 0.0 && v->off_s <= CAUGHT_S && v->caught_rpm <= CAUGHT_RPM);
+}
+
 static bool is_violation(const verdict *v) {
-    return is_lie(v) || is_hang(v) || runs_on(v) || is_overspeed(v);
+    return is_lie(v) || is_hang(v) || runs_on(v) || is_overspeed(v) || is_not_caught(v);
 }
 
 void campaign_print_command(FILE *out, const campaign *c, unsigned i) {
@@ -167,33 +173,30 @@ static void print_worst(FILE *out, const campaign *c, const verdict *all, unsign
     free(shown);
 }
 
-/* A drive that ignores the voltage: how long until the enable was off, and how fast it became. */
+/* Of drives that ignore the voltage for longer than that: how long until the enable was off, and how fast by then. */
 static void print_runaways(FILE *out, const verdict *all, unsigned count) {
     rig_stage stage[RIG_STAGES_MAX];
     const unsigned stages = rig_stages(stage);
-    fputs("\n| a drive that ignores the voltage, from | runs | off after, s, at most | not off | "
-          "fastest turn, rpm | fastest instant, rpm |\n|---|---|---|---|---|---|\n",
+    fputs("\n| the drive ignores the voltage, from | runs | never off | off after, s, at most | "
+          "fastest instant until then, rpm |\n|---|---|---|---|---|\n",
           out);
     for (unsigned s = 0; s < stages; s++) {
         unsigned runs = 0;
         unsigned never = 0;
         double off_s = 0.0;
-        double turn_rpm = 0.0;
-        double peak_rpm = 0.0;
+        double rpm = 0.0;
         for (unsigned i = 0; i < count; i++) {
             const verdict *v = &all[i];
-            if (strcmp(campaign_row_word(v->row), "runaway") != 0 || v->stage != (int)s) {
-                continue;
+            if (v->lasting && v->stage == (int)s) {
+                runs++;
+                never += v->off_s < 0.0;
+                off_s = v->off_s > off_s ? v->off_s : off_s;
+                rpm = v->caught_rpm > rpm ? v->caught_rpm : rpm;
             }
-            runs++;
-            never += v->off_s < 0.0;
-            off_s = v->off_s > off_s ? v->off_s : off_s;
-            turn_rpm = v->turn_rpm > turn_rpm ? v->turn_rpm : turn_rpm;
-            peak_rpm = v->peak_rpm > peak_rpm ? v->peak_rpm : peak_rpm;
         }
         if (runs > 0) {
-            fprintf(out, "| %s | %u | %.3f | %u | %.0f | %.0f |\n", stage[s].word, runs, off_s,
-                    never, turn_rpm, peak_rpm);
+            fprintf(out, "| %s | %u | %u | %.3f | %.0f |\n", stage[s].word, runs, never, off_s,
+                    rpm);
         }
     }
 }
@@ -206,10 +209,12 @@ int campaign_print(FILE *out, const campaign *c, const verdict *all, unsigned co
     print_worst(out, c, all, count, "Ends with the motor on, and too fast", runs_on, by_speed);
     print_worst(out, c, all, count, "Called good, and is not", is_lie, by_lie);
     print_worst(out, c, all, count, "Too fast, and the controller's doing", is_overspeed, by_speed);
-    const bool good = count_of(all, count, -1, is_hang) == 0 &&
-                      count_of(all, count, -1, runs_on) == 0 &&
-                      count_of(all, count, -1, is_lie) == 0 &&
-                      count_of(all, count, -1, is_overspeed) <= OVERSPEED_SHARE * count;
+    print_worst(out, c, all, count, "Ignores the voltage, and is not off in time", is_not_caught,
+                by_speed);
+    const bool good =
+        count_of(all, count, -1, is_hang) == 0 && count_of(all, count, -1, runs_on) == 0 &&
+        count_of(all, count, -1, is_lie) == 0 && count_of(all, count, -1, is_not_caught) == 0 &&
+        count_of(all, count, -1, is_overspeed) <= OVERSPEED_SHARE * count;
     fprintf(out, "\n%u runs, seed %u, %s: %s\n", count, c->seed, c->firmware,
             good ? "nothing is wrong" : "there are violations");
     return good ? 0 : 1;
