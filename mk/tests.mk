@@ -162,7 +162,7 @@ $(B)/tools/linkages: $(call objects,host,tests/tools/linkages.c tests/host/linka
 	$(link)
 
 # The campaign of faults (rig.mk).
-$(B)/tools/faults: $(call objects,host,$(wildcard tests/tools/faults*.c)) $(LIB_HOST) $(call libraries,float,rig whirl) $(LIB_DOUBLE)
+$(B)/tools/faults: $(call objects,host,tests/tools/faults.c $(wildcard tests/host/faults_*.c)) $(LIB_HOST) $(call libraries,float,rig whirl) $(LIB_DOUBLE)
 	$(link)
 
 # --- fuzzing ------------------------------------------------------------------------------------

@@ -11,7 +11,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "faults.h"
+#include "tests/host/faults.h"
 #include "host/base/room.h"
 #include "host/commands/load.h"
 #include "host/commands/options.h"
