@@ -114,7 +114,7 @@ static void watch(void *of, double time_s, const plant *p) {
 static double off_by(const judge *j, unsigned turns) {
     const double amplitude = (double)j->told[HAL_NOTE_AMPLITUDE];
     const double phase = (double)j->told[HAL_NOTE_PHASE];
-    double least = INFINITY;
+    double least = (double)INFINITY;
     for (unsigned shift = 0; shift < SHIFTS; shift++) {
         true_turn mean = {0.0, 0.0};
         if (turns + shift > j->turns || turns + shift > JUDGE_TURNS) {

@@ -95,13 +95,14 @@ static void run_with(const char *words, heard *h) {
         wh_orders *o = &h->orders[i];
         wh_readings r;
         double output[INPUTS + 1];
+        const int state = i / 100;
         *o = (wh_orders){.outputs = 2,
                          .flags = WH_ORDER_ALIVE,
                          .watchdog_ticks = 77,
                          .acted_timer = 10,
                          .busy_timer = 20,
                          .until_ticks = (uint32_t)i,
-                         .output = {(float)i, (float)(i / 100)}};
+                         .output = {(float)i, (float)state}};
         t.orders(t.of, before_s, o, &h->late_s[i]);
         TEST_ASSERT_TRUE(plant_advance(&on, i * (double)PERIOD_TICKS));
         plant_read(&on, &r);
@@ -200,6 +201,7 @@ static void test_pulses_of_nothing(void) {
 /* Of a channel. */
 static int samples_of(const heard *h, int channel, const wh_sample **first) {
     int count = 0;
+    *first = &h->sample[0];
     for (int i = h->samples - 1; i >= 0; i--) {
         if (h->sample[i].channel == channel) {
             *first = &h->sample[i];
@@ -212,8 +214,8 @@ static int samples_of(const heard *h, int channel, const wh_sample **first) {
 /* The least, the largest and the mean raw of the first channel. */
 static void raws_of(const heard *h, double *least, double *most, double *mean) {
     int count = 0;
-    *least = INFINITY;
-    *most = -INFINITY;
+    *least = (double)INFINITY;
+    *most = -(double)INFINITY;
     *mean = 0.0;
     for (int i = 0; i < h->samples; i++) {
         if (h->sample[i].channel == 0) {
@@ -231,7 +233,7 @@ static void expect_raws(const char *words, double least, double most, double wit
     double a;
     double b;
     double mean;
-    const wh_sample *other = NULL;
+    const wh_sample *other;
     run_with(words, &ill);
     raws_of(&ill, &a, &b, &mean);
     TEST_ASSERT_TRUE_MESSAGE(fabs(a - least) <= within && fabs(b - most) <= within, words);
@@ -241,7 +243,7 @@ static void expect_raws(const char *words, double least, double most, double wit
 
 /* Well: 40 N and 10 N to either side. */
 static void test_samples(void) {
-    const wh_sample *s = NULL;
+    const wh_sample *s;
     expect_raws(NULL, 3000, 5000, 1);
     expect_raws("cell-frozen@0.1", 4025, 4951, 10);
     TEST_ASSERT_EQUAL_INT32(ill.sample[2 * 60].raw, ill.sample[2 * 400].raw);

@@ -201,7 +201,8 @@ static void test_no_lies(void) {
 static void test_speeds(void) {
     made_up m = honest;
     m.swing_J = 0.0;
-    for (double rpm = 385.0; rpm <= 420.0; rpm += 10.0) {
+    for (int over = -15; over <= 15; over += 10) {
+        const double rpm = 400.0 + over;
         m.rpm = rpm;
         m.off_s = 99.0;
         const verdict v = judged(&m);
