@@ -44,6 +44,9 @@ void campaign_draw(campaign_case *c, uint32_t seed, unsigned i, const char *only
 
 /* --- how a run is judged (faults_judge.c) --------------------------------------------------------------------------*/
 
+/* Instructions of a control step, in bins of so many; the last is for all above. */
+enum { STEP_BIN = 250, STEP_BINS = 9 };
+
 typedef enum outcome {
     OUTCOME_TRIPPED,
     OUTCOME_GOOD,
@@ -71,6 +74,10 @@ typedef struct verdict {
     double off_s;      /* from then until the enable was off; -1: it was not */
     double caught_rpm; /* the fastest instant until then */
     double time_s;
+    uint64_t overruns;
+    uint32_t steps
+        [STEP_BINS]; /* answers by what they took until the outputs were set; none where it is not counted */
+    double most; /* instructions of one */
 } verdict;
 
 enum { JUDGE_TURNS = 64 };
@@ -88,7 +95,9 @@ typedef struct judge {
     bound angle;
     bound rate;
     bound force;
-    int at_duty; /* in orders.output; -1: there is none */
+    double per_count; /* instructions; 0: they are not counted */
+    bool stepped;     /* it has answered before */
+    int at_duty;      /* in orders.output; -1: there is none */
     int at_enable;
     int at_note[8]; /* as hal/frames/rig_frames.h names them */
     /* Of the turn that is under way: */

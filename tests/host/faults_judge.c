@@ -4,6 +4,7 @@
 
 #include "faults.h"
 #include "hal/frames/rig_frames.h"
+#include "host/pil/talk.h"
 
 #define TURN_RAD 6.283185307179586477
 #define RPM_PER_RADPS 9.5492965855137202
@@ -50,6 +51,7 @@ static bool find_outputs(judge *j, const wh_hello *hello) {
 static bool start(void *of, const wh_hello *hello, plant *p) {
     judge *j = of;
     j->plant = p;
+    j->per_count = talk_instructions_per_count(hello);
     const bool good = find_outputs(j, hello) && bind_read(&j->angle, p->image, "theta") != NULL &&
                       bind_read(&j->rate, p->image, "theta'") != NULL &&
                       bind_read(&j->force, p->image, "pin_force") != NULL;
@@ -176,11 +178,24 @@ static void take_notes(judge *j, const wh_orders *orders) {
     }
 }
 
+/* The first answer says who it is, before there is a loop. */
+static void count_step(judge *j, const wh_orders *orders) {
+    const double instructions = (double)orders->acted_timer * j->per_count;
+    verdict *v = &j->verdict;
+    if (j->stepped && instructions > 0.0) {
+        const unsigned bin = (unsigned)(instructions / STEP_BIN);
+        v->steps[bin < STEP_BINS ? bin : STEP_BINS - 1]++;
+        v->most = instructions > v->most ? instructions : v->most;
+    }
+    j->stepped = true;
+}
+
 static void hear(void *of, double time_s, wh_orders *orders, double *late_s) {
     (void)late_s;
     judge *j = of;
     look_for_fault(j, (int)j->told[HAL_NOTE_STATE]);
     take_notes(j, orders);
+    count_step(j, orders);
     const bool enabled = orders->output[j->at_enable] > 0.0F && !j->plant->cut;
     const fault *f = &j->plan->fault[j->plan->count - 1U];
     const bool ignores = j->of->runs_away && f->active;
@@ -203,6 +218,7 @@ void judge_end(judge *j, const lockstep_report *report) {
     verdict *v = &j->verdict;
     const int quality = (int)j->told[HAL_NOTE_QUALITY];
     v->time_s = report->time_s;
+    v->overruns = report->overruns;
     if (report->end != LOCKSTEP_DONE) {
         v->outcome = OUTCOME_HANG;
     } else if (rig_is_tripped((int)j->told[HAL_NOTE_STATE])) {

@@ -126,17 +126,16 @@ static void print_trips(FILE *out, const verdict *all, unsigned count) {
         }
         fputs(" |\n", out);
     }
-    fputs("\nTrips:", out);
+    fputs("\n| trip | runs | |\n|---|---|---|\n", out);
     for (int t = 1; t < TRIPS; t++) {
         unsigned runs = 0;
         for (unsigned i = 0; i < count; i++) {
             runs += all[i].trip == t;
         }
         if (runs > 0) {
-            fprintf(out, " %d %s (%u).", t, rig_trip_word(t), runs);
+            fprintf(out, "| %d | %u | %s |\n", t, runs, rig_trip_word(t));
         }
     }
-    fputc('\n', out);
 }
 
 /* --- the worst ----------------------------------------------------------------------------------------------------*/
@@ -201,10 +200,46 @@ static void print_runaways(FILE *out, const verdict *all, unsigned count) {
     }
 }
 
+static bool takes_time(const verdict *v) {
+    static const char *const words[] = {"slow", "late", "hang"};
+    bool takes = false;
+    for (int i = 0; i < 3; i++) {
+        takes = takes || strcmp(campaign_row_word(v->row), words[i]) == 0;
+    }
+    return takes;
+}
+
+/* Where the emulator counts them: until the outputs are set, of runs in which nothing makes computing slower. */
+static void print_steps(FILE *out, const verdict *all, unsigned count) {
+    uint64_t steps[STEP_BINS] = {0};
+    uint64_t sum = 0;
+    uint64_t overruns = 0;
+    double most = 0.0;
+    for (unsigned i = 0; i < count; i++) {
+        for (int bin = 0; bin < STEP_BINS && !takes_time(&all[i]); bin++) {
+            steps[bin] += all[i].steps[bin];
+            sum += all[i].steps[bin];
+        }
+        overruns += takes_time(&all[i]) ? 0 : all[i].overruns;
+        most = !takes_time(&all[i]) && all[i].most > most ? all[i].most : most;
+    }
+    if (sum == 0) {
+        return;
+    }
+    fputs("\n| instructions of a control step | steps |\n|---|---|\n", out);
+    for (int bin = 0; bin < STEP_BINS; bin++) {
+        fprintf(out, "| %s%d | %llu |\n", bin == STEP_BINS - 1 ? "from " : "below ",
+                STEP_BIN * (bin + (bin < STEP_BINS - 1)), (unsigned long long)steps[bin]);
+    }
+    fprintf(out, "\nThe longest: %.0f instructions. Overruns: %llu.\n", most,
+            (unsigned long long)overruns);
+}
+
 int campaign_print(FILE *out, const campaign *c, const verdict *all, unsigned count) {
     print_matrix(out, all, count);
     print_trips(out, all, count);
     print_runaways(out, all, count);
+    print_steps(out, all, count);
     print_worst(out, c, all, count, "Does not end, or is silent", is_hang, by_speed);
     print_worst(out, c, all, count, "Ends with the motor on, and too fast", runs_on, by_speed);
     print_worst(out, c, all, count, "Called good, and is not", is_lie, by_lie);
