@@ -22,6 +22,23 @@ const char *rig_trip_word(int trip);
 /* The shaft's limit. */
 double rig_limit_rpm(void);
 
+/* --- what is wished ----------------------------------------------------------------------------------------------------*/
+
+typedef struct campaign {
+    const char *plant;
+    const char *firmware;
+    const char *board;
+    const char *step;
+    const char *only; /* rows whose word is this; or NULL */
+    const char *also; /* faults that every run has; or NULL */
+    unsigned runs;
+    uint32_t seed;
+    int jobs;
+} campaign;
+
+/* Its firmware runs in an emulator, which counts instructions. */
+bool campaign_is_emulated(const campaign *c);
+
 /* --- what is drawn (faults_draw.c) -----------------------------------------------------------------------------------*/
 
 /* A row of the matrix. */
@@ -39,8 +56,8 @@ typedef struct campaign_case {
     char words[400];  /* of --fault: the fault, and the noise that every run has */
 } campaign_case;
 
-/* Run i of the campaign with this seed; `only`: rows whose word is this, or NULL. */
-void campaign_draw(campaign_case *c, uint32_t seed, unsigned i, const char *only, bool counted);
+/* Run i of the campaign. */
+void campaign_draw(campaign_case *one, const campaign *c, unsigned i);
 
 /* --- how a run is judged (faults_judge.c) --------------------------------------------------------------------------*/
 
@@ -122,17 +139,6 @@ tap judge_tap(judge *j, const campaign_case *of, const fault_plan *plan);
 void judge_end(judge *j, const lockstep_report *report);
 
 /* --- what is told (faults_table.c) ---------------------------------------------------------------------------------*/
-
-typedef struct campaign {
-    const char *plant;
-    const char *firmware;
-    const char *board;
-    const char *step;
-    const char *only; /* or NULL */
-    unsigned runs;
-    uint32_t seed;
-    int jobs;
-} campaign;
 
 /* The words that repeat run i. */
 void campaign_print_command(FILE *out, const campaign *c, unsigned i);

@@ -150,35 +150,41 @@ static void put_time(text *t, drawing *d, const rig_stage *stage) {
     }
 }
 
-void campaign_draw(campaign_case *c, uint32_t seed, unsigned i, const char *only, bool counted) {
-    drawing d = {.hash = wh_hash_u64(wh_hash_u64(WH_HASH_START, seed), i)};
+bool campaign_is_emulated(const campaign *c) { return strstr(c->firmware, ".elf") != NULL; }
+
+void campaign_draw(campaign_case *one, const campaign *c, unsigned i) {
+    drawing d = {.hash = wh_hash_u64(wh_hash_u64(WH_HASH_START, c->seed), i)};
     rig_stage stage[RIG_STAGES_MAX];
     const unsigned stages = rig_stages(stage);
-    *c = (campaign_case){.seed = (uint32_t)(wh_hash_u64(d.hash, 0x73656564U) >> 32)};
+    *one = (campaign_case){.seed = (uint32_t)(wh_hash_u64(d.hash, 0x73656564U) >> 32)};
     do {
-        c->row = draw_of(&d, ROWS);
-    } while ((!counted && (rows[c->row].is & COUNTED_ONLY) != 0) ||
-             (only != NULL && strcmp(only, campaign_row_word(c->row)) != 0));
-    const unsigned is = rows[c->row].is;
-    c->stage = draw_of(&d, stages);
-    text t = {c->words, sizeof c->words};
+        one->row = draw_of(&d, ROWS);
+    } while ((!campaign_is_emulated(c) && (rows[one->row].is & COUNTED_ONLY) != 0) ||
+             (c->only != NULL && strcmp(c->only, campaign_row_word(one->row)) != 0));
+    const fault_kind kind = rows[one->row].kind;
+    const unsigned is = rows[one->row].is;
+    one->stage = draw_of(&d, stages);
+    text t = {one->words, sizeof one->words};
     put(&t, NOISE);
+    if (c->also != NULL) {
+        put(&t, ",%s", c->also);
+        one->drives = true;
+    }
     if ((is & HEALTHY) != 0) {
         return;
     }
-    const double size = draw_size(&d, c->row);
-    const fault_row *row = &fault_rows[rows[c->row].kind];
-    put(&t, ",%s", row->word);
-    put_channel(&t, &d, rows[c->row].channel);
-    if (rows[c->row].how != NO_SIZE) {
+    const double size = draw_size(&d, one->row);
+    put(&t, ",%s", fault_rows[kind].word);
+    put_channel(&t, &d, rows[one->row].channel);
+    if (rows[one->row].how != NO_SIZE) {
         put(&t, "=%.4g", size);
     }
-    if (row->place != FAULT_PARAMETER) {
-        put_time(&t, &d, &stage[c->stage]);
+    if (fault_rows[kind].place != FAULT_PARAMETER) {
+        put_time(&t, &d, &stage[one->stage]);
     }
-    c->runs_away = (is & RUNS_AWAY) != 0;
-    c->drives = (is & DRIVES) != 0 || (rows[c->row].kind == FAULT_SUPPLY && size > 1.0) ||
-                (rows[c->row].kind == FAULT_MOTOR && size > 1.0);
-    c->calibration = (is & CALIBRATION) != 0 ||
-                     (rows[c->row].kind == FAULT_CELL_GAIN && fabs(size - 1.0) < GAIN_CALIBRATION);
+    one->runs_away = (is & RUNS_AWAY) != 0;
+    one->drives = one->drives || (is & DRIVES) != 0 ||
+                  ((kind == FAULT_SUPPLY || kind == FAULT_MOTOR) && size > 1.0);
+    one->calibration =
+        (is & CALIBRATION) != 0 || (kind == FAULT_CELL_GAIN && fabs(size - 1.0) < GAIN_CALIBRATION);
 }

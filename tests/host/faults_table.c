@@ -24,9 +24,9 @@ static bool is_violation(const verdict *v) {
 
 void campaign_print_command(FILE *out, const campaign *c, unsigned i) {
     campaign_case one;
-    campaign_draw(&one, c->seed, i, c->only, strstr(c->firmware, ".elf") != NULL);
+    campaign_draw(&one, c, i);
     fprintf(out, "build/whirl pil %s --firmware %s", c->plant, c->firmware);
-    if (strstr(c->firmware, ".elf") != NULL) {
+    if (campaign_is_emulated(c)) {
         fprintf(out, " --board %s", c->board);
     }
     fprintf(out, " --step %s --jitter " CAMPAIGN_JITTER " --seed %u --fault %s", c->step, one.seed,
@@ -141,6 +141,7 @@ static void print_trips(FILE *out, const verdict *all, unsigned count) {
 /* --- the worst ----------------------------------------------------------------------------------------------------*/
 
 static double by_lie(const verdict *v) { return v->lie; }
+static double by_off(const verdict *v) { return v->off_s < 0.0 ? 1e9 : v->off_s; }
 static double by_speed(const verdict *v) { return v->turn_rpm; }
 
 static void print_worst(FILE *out, const campaign *c, const verdict *all, unsigned count,
@@ -161,6 +162,10 @@ static void print_worst(FILE *out, const campaign *c, const verdict *all, unsign
         fprintf(out, "\n    # run %u: ", v->run);
         if (is == is_lie) {
             fprintf(out, "off by %.3g %% more than it may be", 100.0 * v->lie);
+        } else if (is == is_not_caught && v->off_s < 0.0) {
+            fputs("never off", out);
+        } else if (is == is_not_caught) {
+            fprintf(out, "off after %.3f s, by then up to %.1f rpm", v->off_s, v->caught_rpm);
         } else {
             fprintf(out, "fastest turn %.1f rpm, fastest instant %.1f rpm", v->turn_rpm,
                     v->peak_rpm);
@@ -245,7 +250,7 @@ int campaign_print(FILE *out, const campaign *c, const verdict *all, unsigned co
     print_worst(out, c, all, count, "Called good, and is not", is_lie, by_lie);
     print_worst(out, c, all, count, "Too fast, and the controller's doing", is_overspeed, by_speed);
     print_worst(out, c, all, count, "Ignores the voltage, and is not off in time", is_not_caught,
-                by_speed);
+                by_off);
     const bool good =
         count_of(all, count, -1, is_hang) == 0 && count_of(all, count, -1, runs_on) == 0 &&
         count_of(all, count, -1, is_lie) == 0 && count_of(all, count, -1, is_not_caught) == 0 &&

@@ -16,13 +16,14 @@ void suite_faults(void);
 static void test_draws(void) {
     unsigned drawn[CAMPAIGN_ROWS_MAX] = {0};
     unsigned stages[RIG_STAGES_MAX] = {0};
+    const campaign all = {.firmware = "x.elf", .seed = 3};
     TEST_ASSERT_TRUE(campaign_rows() <= CAMPAIGN_ROWS_MAX);
     for (unsigned i = 0; i < 4000; i++) {
         campaign_case one;
         campaign_case again;
         fault_plan plan = {.count = 0};
-        campaign_draw(&one, 3, i, NULL, true);
-        campaign_draw(&again, 3, i, NULL, true);
+        campaign_draw(&one, &all, i);
+        campaign_draw(&again, &all, i);
         TEST_ASSERT_EQUAL_STRING(one.words, again.words);
         TEST_ASSERT_EQUAL_UINT32(one.seed, again.seed);
         TEST_ASSERT_TRUE_MESSAGE(fault_read(&plan, one.words), one.words);
@@ -39,7 +40,10 @@ static void test_draws(void) {
     for (unsigned row = 0; row < campaign_rows(); row++) {
         campaign_case one;
         TEST_ASSERT_TRUE(drawn[row] > 30);
-        campaign_draw(&one, 1, 2, campaign_row_word(row), true);
+        const campaign only = {
+            .firmware = "x.elf", .seed = 1, .only = campaign_row_word(row), .also = "jam"};
+        campaign_draw(&one, &only, 2);
+        TEST_ASSERT_TRUE(strstr(one.words, ",jam") != NULL && one.drives);
         TEST_ASSERT_EQUAL_STRING(campaign_row_word(row), campaign_row_word(one.row));
     }
 }

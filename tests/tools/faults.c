@@ -2,6 +2,7 @@
  * from the plant, and prints a matrix.
  *
  *     build/tools/faults --firmware IMAGE [--board B] [--runs N] [--seed S] [--jobs J] [--step 200us] [--only KIND]
+ *         [--also FAULTS]
  *
  * Run i with a seed is the same whatever the other runs are, on however many processes. Exit status 0: nothing is wrong;
  * 1: there are violations; 2: bad input; 130: interrupted, what was done is told. */
@@ -11,10 +12,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "tests/host/faults.h"
 #include "host/base/room.h"
 #include "host/commands/load.h"
 #include "host/commands/options.h"
+#include "tests/host/faults.h"
 
 #define UNTIL_S 60.0
 #define PATIENCE_S 20.0
@@ -73,14 +74,12 @@ static const image *plant_of(plants *p, const fault_plan *plan) {
 
 /* --- one run -------------------------------------------------------------------------------------------------------*/
 
-static bool is_emulated(const campaign *c) { return strstr(c->firmware, ".elf") != NULL; }
-
 static bool run_one(const campaign *c, plants *from, unsigned i, verdict *v) {
     campaign_case one;
     fault_plan plan = {.count = 0};
     judge j;
     lockstep_report report;
-    campaign_draw(&one, c->seed, i, c->only, is_emulated(c));
+    campaign_draw(&one, c, i);
     plan.seed = one.seed;
     if (!fault_read(&plan, one.words)) {
         return false;
@@ -204,6 +203,8 @@ static bool read_words(int count, char **words, campaign *c) {
             c->step = value;
         } else if (strcmp(option, "--only") == 0) {
             c->only = value;
+        } else if (strcmp(option, "--also") == 0) {
+            c->also = value;
         } else if (strcmp(option, "--runs") == 0 && is && number > 0 && number <= 10000000) {
             c->runs = (unsigned)number;
         } else if (strcmp(option, "--seed") == 0 && is && number <= UINT32_MAX) {
@@ -238,7 +239,7 @@ int main(int count, char **words) {
     if (!read_words(count, words, &c) || !has_row(c.only)) {
         fprintf(stderr,
                 "usage: faults --firmware IMAGE [--board B] [--runs N] [--seed S] [--jobs J] "
-                "[--step 200us] [--only KIND]\n");
+                "[--step 200us] [--only KIND] [--also FAULTS]\n");
         return 2;
     }
     plants from = {.step = c.step};
