@@ -136,6 +136,11 @@ rig-truth: ## the rig's measurement against the truth, its intervals against 1,0
 	@UNITY="$(UNITY)" mk/setup/unity.sh build/unity
 	@$(MAKE) rig-truth-now
 
+.PHONY: faults
+faults: ## the rig's controller against faults of plant and links: RUNS (20,000: half an hour; with BOARD= in its emulator 2,000), SEED
+	@CC="$(CC)" mk/setup/deps.sh host $(if $(filter command environment,$(firstword $(origin BOARD))),firmware boards)
+	@$(MAKE) faults-now
+
 .PHONY: sine-exhaustive
 sine-exhaustive: $(B)/tools/sine_exhaustive ## the sine's worst error, over all 2^32 angles (minutes)
 	$(Q)$<

@@ -4,7 +4,7 @@
 RIG_STEP_MOST ?= 1500
 $(eval $(call program,rig_steps,boards/programs/rig_steps.c,whirl rig virtual scenes))
 
-.PHONY: rig-steps-now rig-truth-now
+.PHONY: rig-steps-now rig-truth-now faults-now
 rig-steps-now: $(GEN)/.stamp
 	@$(MAKE) $(ELF)/rig_steps.elf $(PLUGIN)
 	@BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) PLUGIN=$(PLUGIN) \
@@ -15,3 +15,21 @@ rig-steps-now: $(GEN)/.stamp
 rig-truth-now: $(GEN)/.stamp
 	@$(MAKE) build/tests/host
 	@WHIRL_FULL=1 build/tests/host lockin_truth
+
+# Faults in the plant and the links of the rig's firmware: of this machine; with BOARD= given, in its emulator.
+FAULTS_BOARD := $(if $(filter command environment,$(firstword $(origin BOARD))),$(BOARD))
+RUNS ?= $(if $(FAULTS_BOARD),2000,20000)
+FAULTS_OUT := build/faults$(addprefix _,$(FAULTS_BOARD)).md
+faults-now: $(GEN)/.stamp
+	@$(MAKE) build/tools/faults $(if $(FAULTS_BOARD),$(ELF)/pil_rig.elf,$(B)/pil_rig)
+	@build/tools/faults --firmware $(if $(FAULTS_BOARD),$(ELF)/pil_rig.elf --board $(BOARD),$(B)/pil_rig) \
+	    --runs $(RUNS) --seed $(SEED) >$(FAULTS_OUT); code=$$?; cat $(FAULTS_OUT); exit $$code
+
+# What the last campaign on this machine found, between the marks of docs/rig.md.
+##@ Tests and quality
+.PHONY: faults-page
+faults-page: ## docs/rig.md shows what the last make faults found
+	@[ -s build/faults.md ] || { echo "faults-page: no build/faults.md: make faults first" >&2; exit 1; }
+	@awk '/<!-- faults: end -->/ { held = 0 } !held { print } \
+	    /<!-- faults: begin -->/ { held = 1; print ""; while ((getline line <"build/faults.md") > 0) print line; print "" }' \
+	    docs/rig.md >build/rig_page.md && cp build/rig_page.md docs/rig.md

@@ -57,7 +57,7 @@ $(B)/tests/host: $(call objects,host,$(HOST_TEST_PARTS)) $(LIB_HOST) \
 	$(link)
 
 TEST_PROGRAMS := $(B)/tests/core_double $(B)/tests/core_float $(B)/tests/host $(B)/tools/mechanisms $(B)/tools/linkages $(B)/tools/price_fit $(B)/tools/price_fit_fixed \
-    $(B)/pil_rig $(B)/pil_cart
+    $(B)/pil_rig $(B)/pil_cart $(B)/tools/faults
 
 .PHONY: test-programs
 test-programs: $(TEST_PROGRAMS)
@@ -159,6 +159,10 @@ $(B)/tools/mechanisms: $(call objects,host,tests/tools/mechanisms.c tests/host/m
 
 # Random planar linkages.
 $(B)/tools/linkages: $(call objects,host,tests/tools/linkages.c tests/host/linkage.c)
+	$(link)
+
+# The campaign of faults (rig.mk).
+$(B)/tools/faults: $(call objects,host,tests/tools/faults.c $(wildcard tests/host/faults_*.c)) $(LIB_HOST) $(call libraries,float,rig whirl) $(LIB_DOUBLE)
 	$(link)
 
 # --- fuzzing ------------------------------------------------------------------------------------

@@ -142,7 +142,7 @@ static void follow(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs
     case WH_EVENT_RESTED:
     case WH_EVENT_EXPIRED: rig->run.phase = WH_PHASE_NONE; break;
     case WH_EVENT_CLEAR: rig->guard.trip = WH_TRIP_NONE; break;
-    case WH_EVENT_ARM: wh_pulses_start(&rig->pulses, config->impossible_radps); break;
+    case WH_EVENT_ARM: rig->pulses_before = rig->pulses_ever; break;
     case WH_EVENT_DONE:
     case WH_EVENTS: break;
     }
@@ -278,7 +278,7 @@ static void wait_for_rest(const wh_rig_config *config, wh_rig *rig, const wh_rig
 static void live(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
     const bool armed = rig->state == WH_LIFE_ARMED;
     if (armed && (since_s(rig->since_ticks, inputs->now_ticks) > config->armed_max_s ||
-                  rig->pulses.speed.taken > ARMED_PULSES_MOST)) {
+                  rig->pulses_ever - rig->pulses_before > ARMED_PULSES_MOST)) {
         finds(config, rig, inputs, WH_EVENT_EXPIRED);
     }
     if (rig->run.phase == WH_PHASE_OFF || rig->state == WH_LIFE_TRIPPED) {

@@ -90,6 +90,7 @@ typedef struct wh_rig {
     uint32_t observed;      /* pulses that the observer has seen */
     uint32_t since_ticks;   /* the state began */
     uint32_t pulses_ever;
+    uint32_t pulses_before; /* `arm` */
     bool
         busy; /* a pulse or a mark is work enough for one step: the measurement waits for the next */
     bool rested; /* motor off, and the rotor rests, or will not: all that can be done is done */

@@ -67,10 +67,10 @@ static void hear(hal_turns *turns) {
     } while (frame.version != WH_FRAME_VERSION || frame.kind != WH_FRAME_READINGS ||
              frame.sequence != turns->sequence ||
              !wh_readings_get(&news, frame.payload, frame.length));
-    turns->arrived_timer = hal_link_timer();
     turns->ticks = frame.ticks;
     turns->acted = false;
     keep(turns, &news);
+    turns->arrived_timer = hal_link_timer();
 }
 
 bool hal_turns_start(hal_turns *turns, const wh_hello *hello) {

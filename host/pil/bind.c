@@ -33,8 +33,7 @@ static bool is_component(const image *im, int i, const char *name) {
     return strspn(name + length, "'") == (size_t)c.primes;
 }
 
-/* Returns the unit; NULL when there is no such quantity. */
-static const char *find_read(bound *b, const image *im, const char *name) {
+const char *bind_read(bound *b, const image *im, const char *name) {
     for (int i = 0; i < im->own_outputs; i++) {
         if (strcmp(im->output[i].name, name) == 0) {
             b->place = BOUND_OUTPUT;
@@ -122,7 +121,7 @@ static bool bind_one(bound *b, const image *im, const char *renames) {
     }
     char name[NAME_BYTES];
     rename_signal(renames, b->signal.name, name);
-    const char *unit = is_output(b) ? find_set(b, im, name) : find_read(b, im, name);
+    const char *unit = is_output(b) ? find_set(b, im, name) : bind_read(b, im, name);
     if (unit == NULL) {
         say_unknown(b, im, name);
         return false;

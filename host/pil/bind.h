@@ -25,6 +25,10 @@ typedef struct binding {
     unsigned notes; /* which are bound to nothing */
 } binding;
 
+/* What a firmware may read: an output, a coordinate or a rate of that name, to place, index, rate and turns. Returns its
+ * unit; NULL: there is none. */
+const char *bind_read(bound *b, const image *im, const char *name);
+
 /* `renames` are words NAME=OTHER between commas, or NULL: the firmware's NAME is the scene's OTHER. False, reported. */
 bool bind_signals(binding *b, const wh_hello *hello, const image *im, const char *renames);
 

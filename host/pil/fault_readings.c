@@ -130,7 +130,7 @@ static void change_value(const fault_plan *plan, fault *f, double time_s, wh_sam
     } else if (f->kind == FAULT_READS) {
         set_value(plan, s, f->size, false);
     } else if (f->kind == FAULT_CELL_SATURATED) {
-        set_value(plan, s, INFINITY, false);
+        set_value(plan, s, (double)INFINITY, false);
     } else if (f->kind == FAULT_CELL_OPEN) {
         s->raw = 0;
         s->status = WH_SAMPLE_DISCONNECTED;

@@ -141,7 +141,7 @@ static bool read_when(words_of_fault *w, fault *f) {
 }
 
 static bool read_duration(words_of_fault *w, fault *f) {
-    f->duration_s = INFINITY;
+    f->duration_s = (double)INFINITY;
     if (!takes(w, '+')) {
         return true;
     }

@@ -80,10 +80,16 @@ static bool tie_to(pid_t parent) {
     return setpgid(0, 0) == 0 && getppid() == parent;
 }
 
+/* Its console is our standard output. */
+static bool mute(bool wished) {
+    const int nowhere = wished ? open("/dev/null", O_WRONLY | O_CLOEXEC) : -1;
+    return !wished || (nowhere >= 0 && dup2(nowhere, STDOUT_FILENO) >= 0);
+}
+
 static _Noreturn void become(const guest *g, int down, int up, pid_t parent) {
     char shift[64];
     snprintf(shift, sizeof shift, "shift=%d,align=off,sleep=off", GUEST_SHIFT);
-    if (tie_to(parent) && place_line(down, up)) {
+    if (tie_to(parent) && mute(g->wish.mute) && place_line(down, up)) {
         if (g->emulated) {
             execlp("qemu-system-arm", "qemu-system-arm", "-M", g->wish.board, "-display", "none",
                    "-monitor", "none", "-serial", "stdio", "-icount", shift, "-semihosting-config",

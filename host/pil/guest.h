@@ -23,6 +23,7 @@
 typedef struct guest_wish {
     const char *image;                 /* an ELF file: for Arm, or a program of this machine */
     const char *board;                 /* QEMU's machine */
+    bool mute;                         /* what it says to people is not shown */
     double patience_s;                 /* so long it may be silent, or take to end */
     const volatile sig_atomic_t *stop; /* NULL: nobody interrupts */
 } guest_wish;

@@ -123,7 +123,7 @@ static bool plant_goes_on(loop *l, const wh_orders *orders, double late_s) {
     }
     if (l->plant.cut && !r->cut) {
         r->cut = true;
-        r->cut_s = plant_s(l);
+        r->cut_s = l->plant.cut_ticks / l->ticks_per_s;
     }
     return true;
 }

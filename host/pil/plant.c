@@ -114,6 +114,7 @@ static void watch(plant *p) {
     if (!p->cut && p->orders.watchdog_ticks > 0 &&
         plant_now(p) - (double)p->alive_ticks > (double)p->orders.watchdog_ticks) {
         p->cut = true;
+        p->cut_ticks = plant_now(p);
         set_inputs(p);
     }
 }

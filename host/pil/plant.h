@@ -55,7 +55,8 @@ typedef struct plant {
     bool waits;                      /* which have not yet taken effect: */
     double act_ticks;                /* then they do */
     uint64_t alive_ticks;            /* the watchdog was kicked */
-    bool cut;
+    bool cut;                        /* it has cut, */
+    double cut_ticks;                /* then */
     plant_queue edges;
     plant_queue samples;
     uint64_t edges_made;

@@ -51,8 +51,8 @@ static wh_trip trip_at(wh_real turn_rpm, unsigned fast) {
     pulses.speed.known = true;
     pulses.speed.turn_radps = turn_rpm * RPM;
     pulses.fast = fast;
-    wh_guard_speed(&wh_rig_standard.guard, &guard, &pulses, WH_TRIP_RUNS_ON);
-    wh_guard_speed(&wh_rig_standard.guard, &guard, &pulses, WH_TRIP_OVERSPEED);
+    wh_guard_speed(&wh_rig_standard.guard, &guard, &pulses, WH_TRIP_RUNS_ON, true);
+    wh_guard_speed(&wh_rig_standard.guard, &guard, &pulses, WH_TRIP_OVERSPEED, true);
     return guard.trip;
 }
 

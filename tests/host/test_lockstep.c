@@ -48,9 +48,10 @@ typedef struct listener {
     float most_N;
 } listener;
 
-static void hear_orders(void *of, double time_s, wh_orders *orders) {
+static void hear_orders(void *of, double time_s, wh_orders *orders, double *late_s) {
     listener *l = of;
     l->orders++;
+    TEST_ASSERT_TRUE(*late_s == 0.0);
     TEST_ASSERT_TRUE(time_s >= l->last_s);
     l->last_s = time_s;
     l->most_N = fmaxf(l->most_N, fabsf(orders->output[0]));
@@ -64,9 +65,10 @@ static void hear_readings(void *of, double time_s, wh_readings *readings) {
     l->last_s = time_s;
 }
 
-static void forget_orders(void *of, double time_s, wh_orders *orders) {
+static void forget_orders(void *of, double time_s, wh_orders *orders, double *late_s) {
     (void)of;
     (void)time_s;
+    (void)late_s;
     orders->output[0] = 0.0F;
 }
 
@@ -74,6 +76,33 @@ static void lose_samples(void *of, double time_s, wh_readings *readings) {
     (void)of;
     (void)time_s;
     readings->samples = 0;
+}
+
+static void take_ten_ms(void *of, double time_s, wh_orders *orders, double *late_s) {
+    (void)of;
+    (void)time_s;
+    (void)orders;
+    *late_s += 10e-3;
+}
+
+static bool see_start(void *of, const wh_hello *hello, plant *on) {
+    listener *l = of;
+    l->last_s = plant_now(on);
+    return strcmp(hello->program, "cart") == 0;
+}
+
+static bool refuse_start(void *of, const wh_hello *hello, plant *on) {
+    (void)of;
+    return hello == NULL || on == NULL;
+}
+
+/* Every millisecond, and no step between. */
+static void see_plant(void *of, double time_s, const plant *on) {
+    listener *l = of;
+    l->readings++;
+    TEST_ASSERT_TRUE(time_s > l->last_s && time_s < l->last_s + 1.1e-3);
+    TEST_ASSERT_TRUE(fabs(plant_now(on) - time_s * 1e6) < 1e-3);
+    l->last_s = time_s;
 }
 
 /* Who only listens hears all of it, and changes nothing. */
@@ -93,6 +122,36 @@ static void test_listening(void) {
     TEST_ASSERT_EQUAL_UINT64(1500, heard.readings);
     TEST_ASSERT_EQUAL_UINT64(2 * 1499, heard.samples); /* the first reading is of the start */
     TEST_ASSERT_TRUE(heard.most_N > 1.0F && heard.most_N <= 20.0F);
+}
+
+/* Who watches the plant sees it go on and changes nothing, also while the firmware computes for ten milliseconds. */
+static void test_watching(void) {
+    for (int late = 0; late < 2; late++) {
+        lockstep_wish wish = wish_until(1.5);
+        listener seen = {.orders = 0};
+        const tap taps[] = {{.name = "late", .orders = late ? take_ten_ms : NULL},
+                            {.name = "watch", .of = &seen, .start = see_start, .watch = see_plant}};
+        wish.taps = taps;
+        wish.tap_count = 1;
+        run(&wish);
+        const lockstep_report without = report;
+        wish.tap_count = 2;
+        run(&wish);
+        TEST_ASSERT_TRUE(report.hash == without.hash && report.plant_hash == without.plant_hash);
+        TEST_ASSERT_EQUAL_UINT64(1500, seen.readings);
+        TEST_ASSERT_EQUAL_UINT64(late ? 150 : 1500, report.exchanges);
+        TEST_ASSERT_EQUAL_UINT64(late ? 150 : 0, report.overruns);
+    }
+}
+
+static void test_refused_start(void) {
+    lockstep_wish wish = wish_until(1.0);
+    const tap taps[] = {{.name = "no", .start = refuse_start}};
+    wish.taps = taps;
+    wish.tap_count = 1;
+    lockstep_run(&wish, cart.image, &report);
+    TEST_ASSERT_TRUE(report.end == LOCKSTEP_BAD);
+    TEST_ASSERT_EQUAL_UINT64(0, report.exchanges);
 }
 
 /* Whose orders are lost on the way has a plant that moves as if it were alone. */
@@ -162,6 +221,8 @@ void suite_lockstep(void) {
     find_firmware();
     motion_open_file(&cart, "docs/plants/cart.whirl", "", "leaning", IN_DOUBLE_STEP(50e-6));
     RUN_TEST(test_listening);
+    RUN_TEST(test_watching);
+    RUN_TEST(test_refused_start);
     RUN_TEST(test_deaf_plant);
     RUN_TEST(test_blind_firmware);
     RUN_TEST(test_tapes_of_tapped_runs);

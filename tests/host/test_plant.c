@@ -294,6 +294,7 @@ static void test_watchdog(void) {
         orders.flags = turn == 7 ? WH_ORDER_ALIVE : 0; /* too late */
     }
     TEST_ASSERT_TRUE(fabs(speed_of_y() - 10.05e-3) < 1e-12);
+    TEST_ASSERT_TRUE(fabs(on.cut_ticks - 10050.0) < 1e-6);
     close_bench();
 }
 

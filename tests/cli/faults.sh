@@ -1,0 +1,102 @@
+#!/bin/sh
+# faults.sh: `whirl pil --fault` and the campaign of faults: every kind is taken, what is none is refused with a hint, a
+# small campaign is the same on one process and on two, finds nothing wrong, and a run of it can be repeated by its command.
+# WHIRL_FULL: a larger one, and one in the emulator.
+. "$(dirname "$0")/../checks.sh"
+
+build=$(dirname "$whirl")
+runs=60
+[ -z "${WHIRL_FULL:-}" ] || runs=400
+rig="docs/plants/rig.whirl --step 200us --firmware $build/pil_rig"
+
+# --- words ------------------------------------------------------------------------------------------------------------
+"$whirl" pil --faults >"$scratch/kinds" 2>"$scratch/err" && [ "$(wc -l <"$scratch/kinds")" -ge 30 ]
+verdict $? "whirl pil --faults lists the kinds"
+awk '{ print $1 }' "$scratch/kinds" | while read -r kind; do
+    # shellcheck disable=SC2086 # words
+    timeout 20 "$whirl" pil $rig --until 30ms --fault "$kind" >"$scratch/out" 2>"$scratch/err" || echo "$kind"
+    # shellcheck disable=SC2016
+    grep -q "^| .*\`$kind\`" docs/pil.md || echo "docs/pil.md: $kind"
+done >"$scratch/bad"
+[ ! -s "$scratch/bad" ]
+verdict $? "each is taken, and docs/pil.md tells of it" "$scratch/bad"
+# refused PATTERN WORD...
+refused() {
+    pattern=$1
+    shift
+    # shellcheck disable=SC2086
+    timeout 20 "$whirl" pil $rig "$@" >"$scratch/out" 2>"$scratch/err"
+    [ $? -eq 2 ] && grep -q -- "$pattern" "$scratch/err"
+    verdict $? "whirl pil $*: $pattern"
+}
+refused "did you mean 'supply'" --fault suply=2
+refused 'a number from 0 to 10' --fault supply=11
+refused 'it has no size' --fault jam,runaway=1
+refused 'no such time' --fault jam@noon
+refused 'no such duration' --fault jam@1+long
+refused "tells no 'mood'" --fault jam@mood=3
+refused 'has 2 such channels' --fault edge-dead:3
+timeout 20 "$whirl" pil docs/plants/cart.whirl --firmware "$build/pil_cart" --fault runaway >"$scratch/out" 2>"$scratch/err"
+[ $? -eq 2 ] && grep -q "has no input 'runaway'" "$scratch/err"
+verdict $? "a scene without such an input is told"
+timeout 20 "$whirl" pil --replay "$scratch/none" --firmware "$build/pil_rig" --fault jam >"$scratch/out" 2>"$scratch/err"
+[ $? -eq 2 ] && grep -q 'takes no --fault' "$scratch/err"
+verdict $? "a tape takes no faults"
+
+# --- what they do -----------------------------------------------------------------------------------------------------
+# told WORD FILE: what the firmware's note of that name came to
+told() { sed -n "s/^it tells .*$1 \([-0-9.e]*\).*/\1/p" "$2"; }
+# run FAULTS: the rig with them
+run() {
+    # shellcheck disable=SC2086
+    timeout 60 "$whirl" pil $rig --fault "$1" >"$scratch/run" 2>"$scratch/err"
+}
+run cell-noise=0.07
+verdict $? "with noise alone the rig's run is done" "$scratch/run"
+healthy=$(told amplitude "$scratch/run")
+run cell-noise=0.07
+[ "$(told amplitude "$scratch/run")" = "$healthy" ]
+verdict $? "and again to the bit"
+run cell-dead@6s
+[ "$(told trip "$scratch/run")" -ne 0 ]
+verdict $? "a load cell that dies trips it" "$scratch/run"
+run edge-dead@6s
+[ "$(told trip "$scratch/run")" -ne 0 ]
+verdict $? "and so do sensors that die" "$scratch/run"
+run hang=100ms@5s
+grep -aq '^watchdog .* t = 5.02' "$scratch/run" && [ "$(told trip "$scratch/run")" -ne 0 ]
+verdict $? "one that hangs is cut by the watchdog" "$scratch/run"
+
+# --- the campaign -----------------------------------------------------------------------------------------------------
+faults=$build/tools/faults
+for jobs in 2 1; do
+    timeout 300 "$faults" --firmware "$build/pil_rig" --runs $runs --seed 4 --jobs $jobs >"$scratch/campaign.$jobs" 2>"$scratch/err"
+    verdict $? "$runs runs on $jobs processes find nothing wrong" "$scratch/campaign.$jobs"
+    [ -n "${WHIRL_FULL:-}" ] || break
+done
+if [ -n "${WHIRL_FULL:-}" ]; then
+    cmp -s "$scratch/campaign.1" "$scratch/campaign.2"
+    verdict $? "the same on one process as on two"
+fi
+[ "$(grep -c '^| none |' "$scratch/campaign.2")" -eq 2 ]
+verdict $? "healthy runs are among them" "$scratch/campaign.2"
+m4=build/mps2-an386/pil_rig.elf
+if [ -n "${WHIRL_FULL:-}" ] && command -v qemu-system-arm >/dev/null 2>&1 && [ -f "$m4" ]; then
+    timeout 300 "$faults" --firmware "$m4" --runs 60 --seed 4 >"$scratch/campaign" 2>"$scratch/err"
+    verdict $? "nor in the emulator" "$scratch/campaign"
+fi
+for words in '' '--firmware' "--firmware $build/pil_rig --runs x" "--firmware $build/pil_rig --only nothing" '--what 3'; do
+    # shellcheck disable=SC2086
+    timeout 20 "$faults" $words >"$scratch/out" 2>"$scratch/err"
+    [ $? -eq 2 ] && grep -q '^usage' "$scratch/err"
+    verdict $? "faults $words: refused"
+done
+# interrupted, it tells of what was done
+timeout 60 "$faults" --firmware "$build/pil_rig" --runs 100000 >"$scratch/out" 2>"$scratch/err" &
+wrapper=$!
+sleep 2
+kill -INT $wrapper
+wait $wrapper
+[ $? -eq 130 ] && grep -q '^| fault' "$scratch/out"
+verdict $? "interrupted, it tells of what was done" "$scratch/out"
+exit $failed

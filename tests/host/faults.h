@@ -1,0 +1,150 @@
+/* faults.h: the campaign of faults against the rig's controller (`make faults`): what is drawn, how a run is judged, what
+ * is told of them all. */
+#ifndef TESTS_FAULTS_H
+#define TESTS_FAULTS_H
+
+#include "host/pil/fault.h"
+#include "host/pil/lockstep.h"
+
+/* --- the controller's words (faults_words.c) ---------------------------------------------------------------------------*/
+
+/* Where faults begin: the note `state` in these, in order. */
+typedef struct rig_stage {
+    int state;
+    const char *word;
+    double span_s; /* a healthy run is in it for so long, about */
+} rig_stage;
+
+enum { RIG_STAGES_MAX = 16 };
+unsigned rig_stages(rig_stage *stage);
+bool rig_is_tripped(int state);
+const char *rig_trip_word(int trip);
+/* The shaft's limit. */
+double rig_limit_rpm(void);
+
+/* --- what is wished ----------------------------------------------------------------------------------------------------*/
+
+typedef struct campaign {
+    const char *plant;
+    const char *firmware;
+    const char *board;
+    const char *step;
+    const char *only; /* rows whose word is this; or NULL */
+    const char *also; /* faults that every run has; or NULL */
+    unsigned runs;
+    uint32_t seed;
+    int jobs;
+} campaign;
+
+/* Its firmware runs in an emulator, which counts instructions. */
+bool campaign_is_emulated(const campaign *c);
+
+/* --- what is drawn (faults_draw.c) -----------------------------------------------------------------------------------*/
+
+/* A row of the matrix. */
+enum { CAMPAIGN_ROWS_MAX = 64 };
+unsigned campaign_rows(void);
+const char *campaign_row_word(unsigned row);
+
+typedef struct campaign_case {
+    unsigned row;
+    unsigned stage;
+    uint32_t seed;    /* of this run */
+    bool drives;      /* the plant itself drives beyond what the controller asks for */
+    bool calibration; /* only calibration can tell: a result that is off by it is no lie */
+    bool runs_away;   /* the drive ignores the voltage */
+    char words[400];  /* of --fault: the fault, and the noise that every run has */
+} campaign_case;
+
+/* Run i of the campaign. */
+void campaign_draw(campaign_case *one, const campaign *c, unsigned i);
+
+/* --- how a run is judged (faults_judge.c) --------------------------------------------------------------------------*/
+
+/* Instructions of a control step, in bins of so many; the last is for all above. */
+enum { STEP_BIN = 250, STEP_BINS = 9 };
+
+typedef enum outcome {
+    OUTCOME_TRIPPED,
+    OUTCOME_GOOD,
+    OUTCOME_DOUBTFUL,
+    OUTCOME_REFUSED,
+    OUTCOME_NONE, /* it ended without a result and without a trip */
+    OUTCOME_HANG, /* silent, or not over within a minute */
+    OUTCOMES
+} outcome;
+
+typedef struct verdict {
+    unsigned run;
+    unsigned row;
+    int stage; /* in which the fault began; -1: it never did, or was there from the start */
+    bool happened;
+    outcome outcome;
+    int trip;
+    bool runs_on;    /* ended with the motor commanded on, and too fast */
+    bool overspeed;  /* caused by the controller */
+    double turn_rpm; /* the fastest turn, */
+    double peak_rpm; /* and instant */
+    double
+        lie; /* a good result is off by so much more than its interval and 1 %; as a share of the truth */
+    bool lasting;      /* a drive that ignores the voltage for longer than it may take to stop it */
+    double off_s;      /* from then until the enable was off; -1: it was not */
+    double caught_rpm; /* the fastest instant until then */
+    double time_s;
+    uint64_t overruns;
+    uint32_t steps
+        [STEP_BINS]; /* answers by what they took until the outputs were set; none where it is not counted */
+    double most; /* instructions of one */
+} verdict;
+
+enum { JUDGE_TURNS = 64 };
+
+/* The arms' first Fourier coefficients over a turn, of what they truly do to the mount. */
+typedef struct true_turn {
+    double cosine_N;
+    double sine_N;
+} true_turn;
+
+typedef struct judge {
+    const campaign_case *of;
+    const fault_plan *plan;
+    const plant *plant;
+    bound angle;
+    bound rate;
+    bound force;
+    double per_count; /* instructions; 0: they are not counted */
+    bool stepped;     /* it has answered before */
+    int at_duty;      /* in orders.output; -1: there is none */
+    int at_enable;
+    int at_note[8]; /* as hal/frames/rig_frames.h names them */
+    /* Of the turn that is under way: */
+    double theta;
+    double force_N;
+    double begun_s;
+    bool whole; /* it began at a turn's begin, */
+    true_turn sum;
+    double last_s;
+    true_turn turn[JUDGE_TURNS];
+    unsigned turns;
+    float told[8];
+    bool driven; /* by the last orders */
+    bool has_result;
+    bool began;
+    double speed_rpm;
+    verdict verdict;
+} judge;
+
+tap judge_tap(judge *j, const campaign_case *of, const fault_plan *plan);
+/* When the run is over. */
+void judge_end(judge *j, const lockstep_report *report);
+
+/* --- what is told (faults_table.c) ---------------------------------------------------------------------------------*/
+
+/* The words that repeat run i. */
+void campaign_print_command(FILE *out, const campaign *c, unsigned i);
+/* The matrix and the worst, in Markdown. Returns the exit status. */
+int campaign_print(FILE *out, const campaign *c, const verdict *all, unsigned count);
+
+#define CAMPAIGN_JITTER "60us"
+
+#endif

@@ -1,0 +1,235 @@
+/* faults_judge.c: what became of a run, from the plant's truth, not from the firmware's word. */
+#include <math.h>
+#include <string.h>
+
+#include "faults.h"
+#include "hal/frames/rig_frames.h"
+#include "host/pil/talk.h"
+
+#define TURN_RAD 6.283185307179586477
+#define RPM_PER_RADPS 9.5492965855137202
+#define SHARE 0.01 /* that a good result may be off beside its interval */
+#define LASTING_S 1.0
+#define SHIFTS 3                  /* turns by which its turns may be earlier than the last ones */
+enum { GOOD, DOUBTFUL, REFUSED }; /* wh_quality */
+
+/* --- what there is -----------------------------------------------------------------------------------------------*/
+
+static bool find_outputs(judge *j, const wh_hello *hello) {
+    static const char *const notes[] = {
+#define WORD(name, word, unit) word,
+        HAL_NOTE_ROWS(WORD)
+#undef WORD
+    };
+    int outputs = 0;
+    int note = 0;
+    j->at_duty = -1;
+    j->at_enable = -1;
+    memset(j->at_note, -1, sizeof j->at_note);
+    for (unsigned i = 0; i < hello->signals; i++) {
+        const wh_signal *s = &hello->signal[i];
+        if (s->kind == WH_SIGNAL_OUTPUT) {
+            j->at_duty = strcmp(s->name, "duty") == 0 ? outputs : j->at_duty;
+            j->at_enable = strcmp(s->name, "enable") == 0 ? outputs : j->at_enable;
+            outputs++;
+        }
+    }
+    for (unsigned i = 0; i < hello->signals; i++) {
+        const wh_signal *s = &hello->signal[i];
+        for (int n = 0; s->kind == WH_SIGNAL_NOTE && n < 8; n++) {
+            j->at_note[n] = strcmp(s->name, notes[n]) == 0 ? outputs + note : j->at_note[n];
+        }
+        note += s->kind == WH_SIGNAL_NOTE;
+    }
+    bool all = j->at_duty >= 0 && j->at_enable >= 0;
+    for (int n = 0; n < 8; n++) {
+        all = all && j->at_note[n] >= 0;
+    }
+    return all;
+}
+
+static bool start(void *of, const wh_hello *hello, plant *p) {
+    judge *j = of;
+    j->plant = p;
+    j->per_count = talk_instructions_per_count(hello);
+    const bool good = find_outputs(j, hello) && bind_read(&j->angle, p->image, "theta") != NULL &&
+                      bind_read(&j->rate, p->image, "theta'") != NULL &&
+                      bind_read(&j->force, p->image, "pin_force") != NULL;
+    if (!good) {
+        fprintf(stderr,
+                "faults: error: no rig on its bench: theta, pin_force, duty, enable, notes\n");
+    }
+    return good;
+}
+
+/* --- the truth -----------------------------------------------------------------------------------------------------*/
+
+/* Trapezoids over the angle: a millisecond is two degrees at 330 rpm. */
+static void add_up(judge *j, double from, double force_from, double to, double force_to) {
+    const double half = (to - from) / 2.0;
+    j->sum.cosine_N += half * (force_from * cos(from) + force_to * cos(to));
+    j->sum.sine_N += half * (force_from * sin(from) + force_to * sin(to));
+}
+
+static void end_turn(judge *j, double at_s) {
+    verdict *v = &j->verdict;
+    if (j->whole) {
+        true_turn *t = &j->turn[j->turns++ % JUDGE_TURNS];
+        *t = (true_turn){j->sum.cosine_N * 2.0 / TURN_RAD, j->sum.sine_N * 2.0 / TURN_RAD};
+        const double rpm = TURN_RAD / (at_s - j->begun_s) * RPM_PER_RADPS;
+        v->turn_rpm = rpm > v->turn_rpm ? rpm : v->turn_rpm;
+    }
+    j->sum = (true_turn){0.0, 0.0};
+    j->begun_s = at_s;
+    j->whole = true;
+}
+
+static void watch(void *of, double time_s, const plant *p) {
+    judge *j = of;
+    double output[64];
+    engine_double.outputs(p->run, output);
+    const double theta = p->after[j->angle.index];
+    const double force = output[j->force.index];
+    const double rpm = fabs(p->after[j->rate.index]) * RPM_PER_RADPS;
+    const double turn = floor(theta / TURN_RAD);
+    const double turn_before = floor(j->theta / TURN_RAD);
+    j->speed_rpm = rpm;
+    j->verdict.peak_rpm = rpm > j->verdict.peak_rpm ? rpm : j->verdict.peak_rpm;
+    if (turn == turn_before) {
+        add_up(j, j->theta, j->force_N, theta, force);
+    } else {
+        const double edge = TURN_RAD * (turn > turn_before ? turn : turn_before);
+        const double part = (edge - j->theta) / (theta - j->theta);
+        const double there = j->force_N + part * (force - j->force_N);
+        add_up(j, j->theta, j->force_N, edge, there);
+        j->whole = j->whole && turn > turn_before;
+        end_turn(j, j->last_s + part * (time_s - j->last_s));
+        j->whole = turn > turn_before;
+        add_up(j, edge, there, theta, force);
+    }
+    j->theta = theta;
+    j->force_N = force;
+    j->last_s = time_s;
+}
+
+/* By how much a result is off beside its interval and 1 %, as a share: the least over the turns that may be meant. */
+static double off_by(const judge *j, unsigned turns) {
+    const double amplitude = (double)j->told[HAL_NOTE_AMPLITUDE];
+    const double phase = (double)j->told[HAL_NOTE_PHASE];
+    double least = (double)INFINITY;
+    for (unsigned shift = 0; shift < SHIFTS; shift++) {
+        true_turn mean = {0.0, 0.0};
+        if (turns + shift > j->turns || turns + shift > JUDGE_TURNS) {
+            break;
+        }
+        for (unsigned i = 0; i < turns; i++) {
+            const true_turn *t = &j->turn[(j->turns - 1U - shift - i) % JUDGE_TURNS];
+            mean.cosine_N += t->cosine_N / turns;
+            mean.sine_N += t->sine_N / turns;
+        }
+        const double truth = hypot(mean.cosine_N, mean.sine_N);
+        const double angle = remainder(phase - atan2(-mean.sine_N, mean.cosine_N), TURN_RAD);
+        const double amplitude_off =
+            (fabs(amplitude - truth) - (double)j->told[HAL_NOTE_AMPLITUDE_HALF]) / truth - SHARE;
+        const double phase_off = fabs(angle) - (double)j->told[HAL_NOTE_PHASE_HALF] - SHARE;
+        const double most = amplitude_off > phase_off ? amplitude_off : phase_off;
+        least = most < least ? most : least;
+    }
+    return isfinite(least) ? least : 1.0; /* more turns than there were */
+}
+
+/* --- what the controller says ----------------------------------------------------------------------------------*/
+
+static int stage_of(int state) {
+    rig_stage stage[RIG_STAGES_MAX];
+    const unsigned count = rig_stages(stage);
+    for (unsigned i = 0; i < count; i++) {
+        if (stage[i].state == state) {
+            return (int)i;
+        }
+    }
+    return -1;
+}
+
+static void look_for_fault(judge *j, int state) {
+    const fault *f = &j->plan->fault[j->plan->count - 1U];
+    if (j->plan->count > 1 && f->happened && !j->began) {
+        j->began = true;
+        j->verdict.happened = true;
+        j->verdict.stage = fault_rows[f->kind].place == FAULT_PARAMETER ? -1 : stage_of(state);
+    }
+}
+
+static void take_notes(judge *j, const wh_orders *orders) {
+    bool changed = false;
+    for (int n = 0; n < 8; n++) {
+        const float value = orders->output[j->at_note[n]];
+        changed = changed || (n >= HAL_NOTE_QUALITY && value != j->told[n]);
+        j->told[n] = value;
+    }
+    const unsigned turns = (unsigned)j->told[HAL_NOTE_TURNS];
+    if (j->told[HAL_NOTE_TRIP] != 0.0F) {
+        j->verdict.trip = (int)j->told[HAL_NOTE_TRIP];
+    }
+    j->has_result = turns > 0;
+    if (changed && turns > 0 && (int)j->told[HAL_NOTE_QUALITY] == GOOD && !j->of->calibration) {
+        const double off = off_by(j, turns);
+        j->verdict.lie = off > j->verdict.lie ? off : j->verdict.lie;
+    }
+}
+
+/* The first answer says who it is, before there is a loop. */
+static void count_step(judge *j, const wh_orders *orders) {
+    const double instructions = (double)orders->acted_timer * j->per_count;
+    verdict *v = &j->verdict;
+    if (j->stepped && instructions > 0.0) {
+        const unsigned bin = (unsigned)(instructions / STEP_BIN);
+        v->steps[bin < STEP_BINS ? bin : STEP_BINS - 1]++;
+        v->most = instructions > v->most ? instructions : v->most;
+    }
+    j->stepped = true;
+}
+
+static void hear(void *of, double time_s, wh_orders *orders, double *late_s) {
+    (void)late_s;
+    judge *j = of;
+    look_for_fault(j, (int)j->told[HAL_NOTE_STATE]);
+    take_notes(j, orders);
+    count_step(j, orders);
+    const bool enabled = orders->output[j->at_enable] > 0.0F && !j->plant->cut;
+    const fault *f = &j->plan->fault[j->plan->count - 1U];
+    const bool ignores = j->of->runs_away && f->active;
+    j->driven = enabled && (orders->output[j->at_duty] > 0.0F || ignores);
+    if (ignores && f->duration_s >= LASTING_S) {
+        j->verdict.lasting = true;
+        if (!enabled && j->verdict.off_s < 0.0) {
+            j->verdict.off_s = time_s - f->begin_s;
+            j->verdict.caught_rpm = j->verdict.peak_rpm;
+        }
+    }
+}
+
+tap judge_tap(judge *j, const campaign_case *of, const fault_plan *plan) {
+    *j = (judge){.of = of, .plan = plan, .verdict = {.row = of->row, .stage = -1, .off_s = -1.0}};
+    return (tap){.name = "judge", .of = j, .start = start, .orders = hear, .watch = watch};
+}
+
+void judge_end(judge *j, const lockstep_report *report) {
+    verdict *v = &j->verdict;
+    const int quality = (int)j->told[HAL_NOTE_QUALITY];
+    v->time_s = report->time_s;
+    v->overruns = report->overruns;
+    if (report->end != LOCKSTEP_DONE) {
+        v->outcome = OUTCOME_HANG;
+    } else if (rig_is_tripped((int)j->told[HAL_NOTE_STATE])) {
+        v->outcome = OUTCOME_TRIPPED;
+    } else if (j->has_result) {
+        v->outcome = quality == GOOD       ? OUTCOME_GOOD
+                     : quality == DOUBTFUL ? OUTCOME_DOUBTFUL
+                                           : OUTCOME_REFUSED;
+    } else {
+        v->outcome = OUTCOME_NONE;
+    }
+    v->runs_on = j->driven && j->speed_rpm > rig_limit_rpm();
+    v->overspeed = !j->of->drives && v->turn_rpm > rig_limit_rpm();
+}

@@ -1,0 +1,262 @@
+/* test_faults.c: the campaign of faults judges: what is drawn can be drawn again and read; the judge's truth is that of
+ * closed forms, it finds what is wrong and nothing else. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "faults.h"
+#include "hal/frames/rig_frames.h"
+#include "motion.h"
+#include "unity.h"
+
+void suite_faults(void);
+
+/* --- what is drawn -----------------------------------------------------------------------------------------------------*/
+
+static void test_draws(void) {
+    unsigned drawn[CAMPAIGN_ROWS_MAX] = {0};
+    unsigned stages[RIG_STAGES_MAX] = {0};
+    const campaign all = {.firmware = "x.elf", .seed = 3};
+    TEST_ASSERT_TRUE(campaign_rows() <= CAMPAIGN_ROWS_MAX);
+    for (unsigned i = 0; i < 4000; i++) {
+        campaign_case one;
+        campaign_case again;
+        fault_plan plan = {.count = 0};
+        campaign_draw(&one, &all, i);
+        campaign_draw(&again, &all, i);
+        TEST_ASSERT_EQUAL_STRING(one.words, again.words);
+        TEST_ASSERT_EQUAL_UINT32(one.seed, again.seed);
+        TEST_ASSERT_TRUE_MESSAGE(fault_read(&plan, one.words), one.words);
+        TEST_ASSERT_EQUAL_UINT(strcmp(campaign_row_word(one.row), "none") == 0 ? 1 : 2, plan.count);
+        TEST_ASSERT_TRUE(strlen(one.words) + 1 < sizeof one.words);
+        drawn[one.row]++;
+        stages[one.stage]++;
+    }
+    rig_stage stage[RIG_STAGES_MAX];
+    for (unsigned s = 0; s < rig_stages(stage); s++) {
+        TEST_ASSERT_TRUE(stages[s] > 300);
+        TEST_ASSERT_FALSE(rig_is_tripped(stage[s].state));
+    }
+    for (unsigned row = 0; row < campaign_rows(); row++) {
+        campaign_case one;
+        TEST_ASSERT_TRUE(drawn[row] > 30);
+        const campaign only = {
+            .firmware = "x.elf", .seed = 1, .only = campaign_row_word(row), .also = "jam"};
+        campaign_draw(&one, &only, 2);
+        TEST_ASSERT_TRUE(strstr(one.words, ",jam") != NULL && one.drives);
+        TEST_ASSERT_EQUAL_STRING(campaign_row_word(row), campaign_row_word(one.row));
+    }
+}
+
+/* --- the judge -------------------------------------------------------------------------------------------------------*/
+
+#define AMPLITUDE_N 42.0
+#define PHASE_RAD 0.3
+
+/* A rotor whose speed swings by a twentieth within a turn; of a second order and of a mean the first knows nothing. */
+static const char *const text =
+    "mechanism bench \"a rotor with a known force\"\n"
+    "coordinate theta [rad]\ninput duty = 0\ninput enable = 0\n"
+    "input runaway = 0\ninput enable_stuck = 0\n"
+    "T = 1 [kg*m^2]*theta'^2/2\nV = -%g [J]*cos(theta)\n"
+    "output pin_force [N] = 42 [N]*cos(theta + 0.3) + 7 [N]*cos(2*theta) + 3 [N]\n"
+    "scene s { start theta' = %g [rpm]; step 200 [us]; until 10 [s] }\n";
+
+static const wh_signal signals[] = {
+    {.kind = WH_SIGNAL_OUTPUT, .name = "duty", .unit = "1", .high = 1.0F},
+    {.kind = WH_SIGNAL_OUTPUT, .name = "enable", .unit = "1", .high = 1.0F},
+#define NOTE(name_, word, si) {.kind = WH_SIGNAL_NOTE, .name = (word), .unit = (si)},
+    HAL_NOTE_ROWS(NOTE)
+#undef NOTE
+};
+static const wh_hello hello = {.program = "bench",
+                               .board = "here",
+                               .ticks_per_s = 1000000U,
+                               .signal = signals,
+                               .signals = sizeof signals / sizeof signals[0]};
+enum { NOTES_AT = 2 };
+
+/* What a made-up controller says from said_s on, and how it ends. */
+typedef struct made_up {
+    double rpm;
+    double swing_J;
+    double said_s;
+    double amplitude_N;
+    double half_N;
+    double phase_rad;
+    double phase_half_rad;
+    int quality;
+    int turns;
+    const char *fault;
+    double off_s; /* the enable goes off */
+    bool drives;
+    bool calibration;
+    bool runs_away;
+    lockstep_end end;
+} made_up;
+
+static const made_up honest = {.rpm = 330.0,
+                               .swing_J = 30.0,
+                               .said_s = 2.5,
+                               .amplitude_N = AMPLITUDE_N,
+                               .half_N = 0.01,
+                               .phase_rad = PHASE_RAD,
+                               .phase_half_rad = 1e-4,
+                               .turns = 10,
+                               .fault = "runaway@9",
+                               .off_s = 2.9,
+                               .end = LOCKSTEP_DONE};
+
+static verdict judged(const made_up *m) {
+    static char words[1500];
+    motion bench;
+    plant on;
+    binding b;
+    judge j;
+    fault_plan plan = {.seed = 1};
+    const campaign_case of = {
+        .drives = m->drives, .calibration = m->calibration, .runs_away = m->runs_away};
+    const plant_wish wish = {.seed = 1};
+    TEST_ASSERT_TRUE(fault_read(&plan, "unwatched"));
+    TEST_ASSERT_TRUE(fault_read(&plan, m->fault));
+    snprintf(words, sizeof words, text, m->swing_J, m->rpm);
+    motion_open_text(&bench, words, IN_DOUBLE);
+    TEST_ASSERT_TRUE(bind_signals(&b, &hello, bench.image, NULL));
+    plant_start(&on, bench.image, &b, &hello, &wish);
+    const tap taps[] = {fault_tap(&plan), judge_tap(&j, &of, &plan)};
+    TEST_ASSERT_TRUE(taps[0].start(taps[0].of, &hello, &on) &&
+                     taps[1].start(taps[1].of, &hello, &on));
+    for (int ms = 0; ms < 3000; ms++) {
+        const double now_s = ms * 1e-3;
+        wh_orders orders = {.outputs = NOTES_AT + 8,
+                            .output = {0.5F, now_s < m->off_s ? 1.0F : 0.0F}};
+        if (now_s >= m->said_s) {
+            float *note = orders.output + NOTES_AT;
+            note[HAL_NOTE_QUALITY] = (float)m->quality;
+            note[HAL_NOTE_AMPLITUDE] = (float)m->amplitude_N;
+            note[HAL_NOTE_AMPLITUDE_HALF] = (float)m->half_N;
+            note[HAL_NOTE_PHASE] = (float)m->phase_rad;
+            note[HAL_NOTE_PHASE_HALF] = (float)m->phase_half_rad;
+            note[HAL_NOTE_TURNS] = (float)m->turns;
+        }
+        double late_s = 0.0;
+        for (int t = 0; t < 2 && ms % 2 == 0; t++) {
+            taps[t].orders(taps[t].of, now_s, &orders, &late_s);
+        }
+        TEST_ASSERT_TRUE(plant_advance(&on, (ms + 1) * 1e3));
+        taps[1].watch(taps[1].of, (ms + 1) * 1e-3, &on);
+    }
+    const lockstep_report report = {.end = m->end, .time_s = 3.0};
+    judge_end(&j, &report);
+    plant_stop(&on);
+    motion_close(&bench);
+    return j.verdict;
+}
+
+/* What is beyond the interval and 1 % is a lie, by so much. */
+static void test_truth(void) {
+    for (int i = -6; i <= 6; i++) {
+        for (int which = 0; which < 2; which++) {
+            made_up m = honest;
+            const double off = i * 0.005;
+            m.amplitude_N *= which == 0 ? 1.0 + off : 1.0;
+            m.phase_rad += which == 1 ? off : 0.0;
+            const double half = which == 0 ? m.half_N / AMPLITUDE_N : m.phase_half_rad;
+            const double lie = fabs(off) - half - 0.01;
+            const verdict v = judged(&m);
+            TEST_ASSERT_TRUE(fabs(v.lie - (lie > 0.0 ? lie : 0.0)) < 5e-4);
+            TEST_ASSERT_EQUAL_INT(OUTCOME_GOOD, v.outcome);
+            TEST_ASSERT_FALSE(v.runs_on || v.overspeed || v.lasting);
+        }
+    }
+}
+
+/* Whom nobody believes does not lie: not good, no turns, or what only calibration can tell; who states it does not either. */
+static void test_no_lies(void) {
+    made_up wrong = honest;
+    wrong.amplitude_N = 21.0;
+    TEST_ASSERT_TRUE(judged(&wrong).lie > 0.4);
+    made_up m = wrong;
+    m.quality = 1;
+    verdict v = judged(&m);
+    TEST_ASSERT_TRUE(v.lie == 0.0 && v.outcome == OUTCOME_DOUBTFUL);
+    m.quality = 2;
+    v = judged(&m);
+    TEST_ASSERT_TRUE(v.lie == 0.0 && v.outcome == OUTCOME_REFUSED);
+    m = wrong;
+    m.turns = 0;
+    v = judged(&m);
+    TEST_ASSERT_TRUE(v.lie == 0.0 && v.outcome == OUTCOME_NONE);
+    m = wrong;
+    m.calibration = true;
+    TEST_ASSERT_TRUE(judged(&m).lie == 0.0);
+    m = wrong;
+    m.half_N = 25.0;
+    TEST_ASSERT_TRUE(judged(&m).lie == 0.0);
+    m = honest; /* more turns than there were */
+    m.turns = 40;
+    TEST_ASSERT_TRUE(judged(&m).lie > 0.5);
+    m = honest;
+    m.said_s = 0.3;
+    TEST_ASSERT_TRUE(judged(&m).lie > 0.5);
+}
+
+/* The mean speed of a turn counts, not the swing within it. */
+static void test_speeds(void) {
+    made_up m = honest;
+    m.swing_J = 0.0;
+    for (int over = -15; over <= 15; over += 10) {
+        const double rpm = 400.0 + over;
+        m.rpm = rpm;
+        m.off_s = 99.0;
+        const verdict v = judged(&m);
+        TEST_ASSERT_TRUE(fabs(v.turn_rpm - rpm) < 0.1 && fabs(v.peak_rpm - rpm) < 0.1);
+        TEST_ASSERT_TRUE(v.overspeed == (rpm > 400.0) && v.runs_on == (rpm > 400.0));
+        m.drives = true;
+        TEST_ASSERT_FALSE(judged(&m).overspeed);
+        m.drives = false;
+        m.off_s = 2.0; /* commanded off is enough, where the drive obeys */
+        TEST_ASSERT_FALSE(judged(&m).runs_on);
+    }
+    m = honest;
+    m.rpm = 410.0; /* fastest, at the bottom */
+    m.swing_J = 60.0;
+    const verdict v = judged(&m);
+    TEST_ASSERT_TRUE(v.turn_rpm < 400.0 && v.peak_rpm > 409.0 && !v.overspeed);
+}
+
+static void test_runaways(void) {
+    made_up m = honest;
+    m.runs_away = true;
+    m.fault = "runaway@2";
+    m.off_s = 2.25;
+    verdict v = judged(&m);
+    TEST_ASSERT_TRUE(v.lasting && fabs(v.off_s - 0.25) < 2.1e-3 && v.happened);
+    m.off_s = 99.0;
+    v = judged(&m);
+    TEST_ASSERT_TRUE(v.lasting && v.off_s < 0.0 && !v.runs_on);
+    m.rpm = 420.0; /* such a drive is on with whatever duty */
+    TEST_ASSERT_TRUE(judged(&m).runs_on);
+    m.fault = "runaway@2+0.3";
+    TEST_ASSERT_FALSE(judged(&m).lasting);
+    m.fault = "runaway@9";
+    v = judged(&m);
+    TEST_ASSERT_FALSE(v.lasting || v.happened);
+}
+
+static void test_hangs(void) {
+    made_up m = honest;
+    m.end = LOCKSTEP_FAILED;
+    TEST_ASSERT_EQUAL_INT(OUTCOME_HANG, judged(&m).outcome);
+    m.end = LOCKSTEP_LET_GO;
+    TEST_ASSERT_EQUAL_INT(OUTCOME_HANG, judged(&m).outcome);
+}
+
+void suite_faults(void) {
+    RUN_TEST(test_draws);
+    RUN_TEST(test_truth);
+    RUN_TEST(test_no_lies);
+    RUN_TEST(test_speeds);
+    RUN_TEST(test_runaways);
+    RUN_TEST(test_hangs);
+}
