@@ -39,6 +39,7 @@ typedef struct wh_guard_config {
     wh_real
         fall_radps; /* what gravity makes of standstill at the top: 2 sqrt(S g / I), at the bottom */
     uint32_t lost_max;          /* pulses that may be lost in a run */
+    unsigned doubt_max;         /* see wh_pulses */
     uint32_t rejected_max;      /* and be none */
     wh_real silence_max_s;      /* longest time without a pulse while the loop is closed */
     wh_real slow_silence_max_s; /* and while the rotor starts */
@@ -112,11 +113,12 @@ WH_INLINE void wh_guard_speed(const wh_guard_config *config, wh_guard *guard,
     }
 }
 
-/* While the motor drives: lost and invented pulses, silence for longer than silence_max_s. */
+/* While the motor drives: lost, invented and doubtful pulses, silence for longer than silence_max_s. */
 WH_INLINE void wh_guard_pulses(const wh_guard_config *config, wh_guard *guard,
                                const wh_pulses *pulses, wh_real silence_max_s, uint32_t now_ticks) {
     if (pulses->speed.lost - guard->lost_before > config->lost_max ||
         pulses->rejected - guard->rejected_before > config->rejected_max ||
+        pulses->doubt > config->doubt_max ||
         wh_speed_silence_s(&pulses->speed, now_ticks) > silence_max_s) {
         wh_guard_trip(guard, WH_TRIP_PULSES);
     }

@@ -42,6 +42,8 @@ typedef struct wh_pulses {
     unsigned fast; /* intervals beyond the bound, running */
     unsigned
         alternate; /* pulses running whose sensor was not the one before's: a rotor that swings has none */
+    unsigned
+        doubt; /* grows by two with each pulse whose truth was doubtful and shrinks by one with each that fits */
     uint32_t rejected;             /* pulses that are none */
     wh_mark mark[WH_PULSES_MARKS]; /* sure, not yet taken */
     unsigned marks;

@@ -257,13 +257,13 @@ static wh_real feed_V(const wh_rig_config *config, wh_rig *rig, uint32_t now_tic
 
 /* Motor off: the rotor rests when pulses stay away. */
 static void wait_for_rest(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
+    const bool tripped = rig->state == WH_LIFE_TRIPPED;
     const wh_real passed_s =
-        since_s(rig->state == WH_LIFE_STOPPING ? rig->run.since_ticks : rig->since_ticks,
-                inputs->now_ticks);
-    const bool late = passed_s > config->rest_max_s;
+        since_s(tripped ? rig->since_ticks : rig->run.since_ticks, inputs->now_ticks);
+    const bool late = passed_s > (tripped ? config->tripped_max_s : config->rest_max_s);
     const bool blind = rig->guard.trip == WH_TRIP_PULSES;
     const bool silent = rig->guard.quiet && passed_s >= config->guard.rest_s;
-    if (rig->state == WH_LIFE_TRIPPED) {
+    if (tripped) {
         rig->rested = rig->rested || late || (silent && !blind);
     } else if (silent) {
         finds(config, rig, inputs, WH_EVENT_RESTED);

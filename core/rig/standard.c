@@ -35,6 +35,7 @@ const wh_rig_config wh_rig_standard = {
               .over = WH_R(0.05),
               .fall_radps = WH_R(15.5),
               .lost_max = 3,
+              .doubt_max = 6,
               .rejected_max = 40,
               .silence_max_s = WH_R(0.5),
               .slow_silence_max_s = WH_R(2.0),
@@ -70,6 +71,7 @@ const wh_rig_config wh_rig_standard = {
     .impossible_radps = WH_RIG_IMPOSSIBLE_RPM * WH_RIG_RADPS_PER_RPM,
     .armed_max_s = WH_R(60.0),
     .rest_max_s = WH_R(120.0),
+    .tripped_max_s = WH_R(20.0),
     .stop_brakes = true,
     .host_loss_stops = true,
 };

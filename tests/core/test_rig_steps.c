@@ -38,7 +38,7 @@ static void stand_in(wh_rig_phase phase) {
     rig.pulses.speed.turn_radps = WH_R(330.0) * RPM;
     rig.run.drive.setpoint_radps = rig.run.drive.target_radps = rig.run.target_radps;
     rig.run.off_radps = WH_R(330.0) * RPM;
-    wh_measure_record(&rig.measure, inputs.now_ticks);
+    wh_measure_record(&config.measure, &rig.measure, rig.run.target_radps, inputs.now_ticks);
 }
 
 static void stand_tripped(wh_trip trip) {

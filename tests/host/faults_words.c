@@ -4,25 +4,33 @@
 #include "core/rig/rig.h"
 #include "faults.h"
 
+#define PHASE(phase) (WH_RIG_STAGE_OF_PHASE + (unsigned)(phase))
+
 /* About as long as a healthy run to 330 rpm is there. */
 static const struct {
-    wh_rig_state state;
+    unsigned stage;
     double span_s;
 } stages[] = {
-    {WH_RIG_TARE, 0.5},   {WH_RIG_SPIN_UP, 0.86},  {WH_RIG_RAMP, 2.1},  {WH_RIG_SETTLE, 3.2},
-    {WH_RIG_RECORD, 2.0}, {WH_RIG_RAMP_DOWN, 2.2}, {WH_RIG_COAST, 2.5},
+    {WH_LIFE_IDLE, 1.4},
+    {PHASE(WH_PHASE_TARE), 0.5},
+    {PHASE(WH_PHASE_SPIN_UP), 0.6},
+    {PHASE(WH_PHASE_RAMP), 2.8},
+    {PHASE(WH_PHASE_SETTLE), 3.2},
+    {PHASE(WH_PHASE_RECORD), 2.0},
+    {PHASE(WH_PHASE_RAMP_DOWN), 2.2},
+    {PHASE(WH_PHASE_OFF), 2.5},
 };
 
 unsigned rig_stages(rig_stage *stage) {
     const unsigned count = sizeof stages / sizeof stages[0];
     for (unsigned i = 0; i < count; i++) {
         stage[i] =
-            (rig_stage){(int)stages[i].state, wh_rig_state_text(stages[i].state), stages[i].span_s};
+            (rig_stage){(int)stages[i].stage, wh_rig_stage_text(stages[i].stage), stages[i].span_s};
     }
     return count;
 }
 
-bool rig_is_tripped(int state) { return state == (int)WH_RIG_TRIPPED; }
+bool rig_is_tripped(int state) { return state == (int)WH_LIFE_TRIPPED; }
 
 const char *rig_trip_word(int trip) { return wh_trip_text((wh_trip)trip); }
 
