@@ -86,7 +86,8 @@ static void count(fed_rotor *fed) {
 static void control(fed_rotor *fed) {
     const uint32_t now = fed->rotor.ticks;
     const wh_real speed = fed->speed.known ? fed->speed.turn_radps : fed->drive.setpoint_radps;
-    wh_real voltage = wh_drive_step(&fed->driving, &fed->drive, speed, FED_STEP_S);
+    wh_real voltage = wh_drive_step(&fed->driving, &fed->drive, speed, WH_RIG_RATED_V, FED_STEP_S) /
+                      WH_RIG_RATED_V;
     const wh_real fed_in = wh_feed_step(&fed->feeding, &fed->feed, &fed->observer, now, FED_STEP_S);
     if (fed->by == FED_BY_OBSERVER) {
         voltage += fed_in;
