@@ -29,6 +29,20 @@ void wh_guard_trip(wh_guard *guard, wh_trip reason) {
 
 /* --- the rotor ----------------------------------------------------------------------------------- */
 
+void wh_guard_rise(const wh_guard_config *config, wh_guard *guard, const wh_speed *speed,
+                   wh_real setpoint_radps) {
+    if (speed->taken == guard->pulses_risen) {
+        return;
+    }
+    const wh_real most = setpoint_radps + config->above_radps;
+    const bool rises = speed->turn_radps > guard->risen_radps * (WH_R(1.0) + config->rise);
+    if (speed->known && guard->pulses_risen > 0 && rises && speed->turn_radps > most) {
+        wh_guard_trip(guard, WH_TRIP_OVERSPEED);
+    }
+    guard->pulses_risen = speed->taken;
+    guard->risen_radps = speed->turn_radps;
+}
+
 /* --- what it stands on --------------------------------------------------------------------------- */
 
 void wh_guard_load(const wh_guard_config *config, wh_guard *guard, const wh_speed *speed,

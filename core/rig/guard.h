@@ -36,6 +36,8 @@ typedef struct wh_guard_config {
     wh_real limit_radps;      /* largest speed, mean of a turn */
     wh_real ripple; /* by how much a part of a turn may be faster, as a fraction, at the limit */
     wh_real over;   /* by how much the speed may be above where it is led, as a fraction */
+    wh_real above_radps; /* so far above the set-point a turn that still gets faster, */
+    wh_real rise;        /* by this fraction in half a turn, is no regulated one */
     wh_real
         fall_radps; /* what gravity makes of standstill at the top: 2 sqrt(S g / I), at the bottom */
     uint32_t lost_max;          /* pulses that may be lost in a run */
@@ -59,6 +61,8 @@ typedef struct wh_guard {
     uint32_t pulse_ticks;     /* of the last pulse, true or not; at first, the start */
     uint32_t lost_before;     /* pulses already lost when the motor began to drive, */
     uint32_t rejected_before; /* or rejected */
+    uint32_t pulses_risen;    /* pulses taken when the speed was */
+    wh_real risen_radps;      /* this */
     uint32_t load_ticks;      /* of the last load sample; at first, the start */
     bool load_good;           /* it was ok */
     uint32_t load_pulses;     /* pulses taken by then */
@@ -71,6 +75,7 @@ typedef struct wh_guard {
 #define wh_guard_bound_radps WH_NAME(wh_guard_bound_radps)
 #define wh_guard_trip WH_NAME(wh_guard_trip)
 #define wh_guard_load WH_NAME(wh_guard_load)
+#define wh_guard_rise WH_NAME(wh_guard_rise)
 #define wh_trip_text WH_NAME(wh_trip_text)
 
 void wh_guard_start(wh_guard *guard, uint32_t now_ticks);
@@ -112,6 +117,10 @@ WH_INLINE void wh_guard_speed(const wh_guard_config *config, wh_guard *guard,
         wh_guard_trip(guard, reason);
     }
 }
+
+/* While the loop is closed: over-speed, of a turn that gets faster although it is faster than the set-point already. */
+void wh_guard_rise(const wh_guard_config *config, wh_guard *guard, const wh_speed *speed,
+                   wh_real setpoint_radps);
 
 /* While the motor drives: lost, invented and doubtful pulses, silence for longer than silence_max_s. */
 WH_INLINE void wh_guard_pulses(const wh_guard_config *config, wh_guard *guard,

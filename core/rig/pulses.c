@@ -4,6 +4,7 @@
 #include "datasheet.h"
 
 #define TWICE_PART WH_R(0.5) /* of a turn, within which a sensor sees the slot but once */
+#define ALERT_PART WH_R(0.005)
 #define BOUNCE_PART WH_R(0.02)
 #define SURE_PART WH_R(0.125) /* of a turn, after which no pulse takes back the last one */
 
@@ -99,6 +100,7 @@ static void decide(wh_pulses *pulses, const wh_pulse *pulse) {
     wh_speed suspected;
     wh_speed both;
     pulses->suspects = false;
+    pulses->alert = false;
     const bool alone_likely = with(&pulses->speed, pulse, &without) && is_likely(pulses, &without);
     if (alone_likely && pulse->sensor == suspect.sensor) {
         doubt(pulses);
@@ -163,10 +165,13 @@ void wh_pulses_take(wh_pulses *pulses, unsigned sensor, uint32_t ticks) {
         compare(pulses, &pulse);
         return;
     }
-    const bool early = pulses->speed.known && early_ticks(&pulses->speed, &pulse) >
-                                                  pulses->window * turn_ticks(&pulses->speed);
-    /* where one fast interval is true already, the next is the speed's */
-    if (pulses->speed.running && pulses->fast == 0 && (is_fast(pulses, &after) || early)) {
+    const wh_real early = pulses->speed.known
+                              ? early_ticks(&pulses->speed, &pulse) / turn_ticks(&pulses->speed)
+                              : WH_R(0.0);
+    /* where one interval was fast, or the last pulse early, the next is the speed's */
+    const bool trusted = !pulses->speed.running || pulses->fast > 0 || pulses->alert;
+    pulses->alert = early > ALERT_PART;
+    if (!trusted && (is_fast(pulses, &after) || early > pulses->window)) {
         pulses->suspect = pulse;
         pulses->suspects = true;
         return;

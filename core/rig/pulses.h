@@ -39,6 +39,7 @@ typedef struct wh_pulses {
     bool suspects;
     bool waits; /* the last pulse is not sure yet: */
     wh_mark last;
+    bool alert;    /* the last pulse came a little early: the next that does is no disturbance */
     unsigned fast; /* intervals beyond the bound, running */
     unsigned
         alternate; /* pulses running whose sensor was not the one before's: a rotor that swings has none */

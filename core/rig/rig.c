@@ -114,6 +114,7 @@ static void begin_run(const wh_rig_config *config, wh_rig *rig, wh_real target_r
     rig->fed = feeds(config, target_radps);
     rig->guard.lost_before = 0;
     rig->guard.rejected_before = 0;
+    rig->guard.pulses_risen = 0;
     wh_run_start(&rig->run, target_radps, now_ticks);
 }
 
@@ -214,6 +215,10 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
     const bool slows = !drives && rig->run.off_radps < config->guard.limit_radps;
     wh_guard_speed(&config->guard, guard, &rig->pulses, slows ? WH_TRIP_RUNS_ON : WH_TRIP_OVERSPEED,
                    drives);
+    /* the first turns are faster than the set-point that begins with their mean */
+    if (rig->run.phase >= WH_PHASE_SETTLE && wh_run_is_closed(&rig->run)) {
+        wh_guard_rise(&config->guard, guard, &rig->pulses.speed, rig->run.drive.setpoint_radps);
+    }
     if (drives) {
         wh_guard_pulses(&config->guard, guard, &rig->pulses, silence_s(config, rig),
                         inputs->now_ticks);
