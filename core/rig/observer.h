@@ -63,7 +63,7 @@ typedef struct wh_observer {
  * half to six times the inertia, 30 % more or less gravity and 0.2 N m of friction between 80 and 400 rpm. What the
  * errors of angle, speed and torque are multiplied with in a turn has then, at a steady speed, a spectral radius of 0.72
  * at 80 rpm, 0.65 at 100, 0.32 at 170, 0.59 at 330 and 0.64 at 400: over the top gravity drives errors apart, the more
- * the slower. Half these gains for the torque: 0.82 at 80. */
+ * the slower. */
 #define wh_observer_standard WH_NAME(wh_observer_standard)
 extern const wh_observer_config wh_observer_standard;
 
