@@ -61,6 +61,7 @@ typedef struct wh_guard {
     uint32_t pulse_ticks;     /* of the last pulse, true or not; at first, the start */
     uint32_t lost_before;     /* pulses already lost when the motor began to drive, */
     uint32_t rejected_before; /* or rejected */
+    unsigned regulated;       /* pulses running at which the speed was near the set-point */
     uint32_t pulses_risen;    /* pulses taken when the speed was */
     wh_real risen_radps;      /* this */
     uint32_t load_ticks;      /* of the last load sample; at first, the start */
@@ -76,6 +77,7 @@ typedef struct wh_guard {
 #define wh_guard_trip WH_NAME(wh_guard_trip)
 #define wh_guard_load WH_NAME(wh_guard_load)
 #define wh_guard_rise WH_NAME(wh_guard_rise)
+#define WH_GUARD_REGULATED_PULSES 6U
 #define wh_trip_text WH_NAME(wh_trip_text)
 
 void wh_guard_start(wh_guard *guard, uint32_t now_ticks);
@@ -118,7 +120,13 @@ WH_INLINE void wh_guard_speed(const wh_guard_config *config, wh_guard *guard,
     }
 }
 
-/* While the loop is closed: over-speed, of a turn that gets faster although it is faster than the set-point already. */
+/* Three turns near the set-point, and the loop has the speed in hand. */
+WH_INLINE bool wh_guard_is_regulated(const wh_guard *guard) {
+    return guard->regulated >= WH_GUARD_REGULATED_PULSES;
+}
+
+/* While the loop is closed: over-speed, of a turn that gets faster although it is faster than the set-point already,
+ * once the loop has had it in hand. */
 void wh_guard_rise(const wh_guard_config *config, wh_guard *guard, const wh_speed *speed,
                    wh_real setpoint_radps);
 

@@ -60,7 +60,8 @@ static void expect_pulses(const wh_rig_config *config, wh_rig *rig) {
     const wh_rig_phase phase = rig->run.phase;
     const bool from_rest = phase == WH_PHASE_SPIN_UP && !rig->pulses.speed.known;
     rig->pulses.bound_radps = wh_guard_bound_radps(
-        &config->guard, wh_run_base_radps(&config->run, &rig->run), !from_rest);
+        &config->guard,
+        wh_run_base_radps(&config->run, &rig->run, wh_guard_is_regulated(&rig->guard)), !from_rest);
     rig->pulses.window = phase == WH_PHASE_RECORD
                              ? RECORD_PART * config->run.record_band_radps / rig->run.target_radps
                              : (phase == WH_PHASE_SETTLE ? SETTLE_WINDOW : RAMP_WINDOW);
@@ -114,7 +115,7 @@ static void begin_run(const wh_rig_config *config, wh_rig *rig, wh_real target_r
     rig->fed = feeds(config, target_radps);
     rig->guard.lost_before = 0;
     rig->guard.rejected_before = 0;
-    rig->guard.pulses_risen = 0;
+    rig->guard.regulated = 0;
     wh_run_start(&rig->run, target_radps, now_ticks);
 }
 
@@ -128,6 +129,7 @@ static void follow(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs
     case WH_EVENT_SET:
         wh_run_set(&rig->run, order->value, now);
         rig->fed = feeds(config, order->value);
+        rig->guard.regulated = 0;
         break;
     case WH_EVENT_STOP:
     case WH_EVENT_HOST_LOST:
@@ -215,8 +217,7 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
     const bool slows = !drives && rig->run.off_radps < config->guard.limit_radps;
     wh_guard_speed(&config->guard, guard, &rig->pulses, slows ? WH_TRIP_RUNS_ON : WH_TRIP_OVERSPEED,
                    drives);
-    /* the first turns are faster than the set-point that begins with their mean */
-    if (rig->run.phase >= WH_PHASE_SETTLE && wh_run_is_closed(&rig->run)) {
+    if (wh_run_is_closed(&rig->run)) {
         wh_guard_rise(&config->guard, guard, &rig->pulses.speed, rig->run.drive.setpoint_radps);
     }
     if (drives) {

@@ -205,7 +205,7 @@ static void test_lost_marks_take_it_away(void) {
 static void test_what_is_left_is_found_from_the_split(void) {
     static const wh_real parts[] = {WH_R(0.0), WH_R(0.3), WH_R(-0.3), WH_R(0.05)};
     static const wh_real rpm[] = {WH_R(130.0), WH_R(170.0), WH_R(330.0)};
-    wh_rotor_config rotor = wh_rig_standard.rotor;
+    wh_rotor_config rotor = wh_rig_standard.measure.rotor;
     rotor.mark_rad[0] = -DEG;
     rotor.mark_rad[1] = WH_R(89.0) * DEG;
     for (unsigned k = 0; k < 12; k++) {
@@ -246,7 +246,7 @@ static void test_what_is_left_is_found_from_the_split(void) {
 /* The turn under way when that changes does not count, and the interval is wider for it. */
 static void test_the_lockin_is_told(void) {
     static wh_lockin lockin;
-    const wh_rotor_config *rotor = &wh_rig_standard.rotor;
+    const wh_rotor_config *rotor = &wh_rig_standard.measure.rotor;
     wh_lockin_start(rotor, &lockin);
     wh_lockin_mark(&lockin, 0, 1000, 0);
     wh_lockin_feed(&lockin, false);

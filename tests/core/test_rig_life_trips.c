@@ -45,6 +45,7 @@ static void check_clears(void) {
         even_step(&even);
         check_off();
     }
+    even_rest(&even);
     TEST_ASSERT_TRUE(clear() == WH_ALLOWED);
     TEST_ASSERT_TRUE(even.rig.state == WH_LIFE_IDLE && even.rig.guard.trip == WH_TRIP_NONE);
     check_off();
@@ -159,6 +160,20 @@ static void test_a_trip_for_its_pulses_waits_longer(void) {
     TEST_ASSERT_TRUE(even.rig.state == WH_LIFE_IDLE);
 }
 
+/* Nothing more is waited for, but `clear` still is refused to a rotor that turns. */
+static void test_a_turning_rotor_is_not_cleared(void) {
+    even_arm(&even);
+    break_supply(true);
+    even_step(&even);
+    break_supply(false);
+    even_turn_by_hand(&even, WH_R(60.0));
+    even_steps(&even, 25U * 500U);
+    TEST_ASSERT_TRUE(even.rig.rested && clear() == WH_REFUSED_TURNING);
+    check_tripped(WH_TRIP_SUPPLY);
+    even_turn_by_hand(&even, WH_R(0.0));
+    check_clears();
+}
+
 /* --- stop ------------------------------------------------------------------------------------------ */
 
 typedef enum stop_way { STOP_ORDER, STOP_INPUT, STOP_HOST_LOST, STOP_WAYS } stop_way;
@@ -255,6 +270,7 @@ void suite_rig_life_trips(void) {
     RUN_TEST(test_trips_latch);
     RUN_TEST(test_a_reset_without_a_trip_is_idle);
     RUN_TEST(test_a_trip_for_its_pulses_waits_longer);
+    RUN_TEST(test_a_turning_rotor_is_not_cleared);
     RUN_TEST(test_stop_is_at_once);
     RUN_TEST(test_a_run_may_outlive_its_host);
     RUN_TEST(test_a_reset_while_the_rotor_turns);

@@ -161,6 +161,7 @@ static outcome play(uint32_t early) {
                                ? 1U
                                : 0U;
             out.off_ticks = off > out.off_ticks ? off : out.off_ticks;
+            TEST_ASSERT_TRUE((int32_t)(now - mark.pulse.ticks) > 0); /* the next may take it back */
             out.marks++;
         }
         wh_guard_speed(&config.guard, &rig.guard, &rig.pulses, WH_TRIP_OVERSPEED, true);
