@@ -3,21 +3,28 @@
 #ifndef TESTS_FAULTS_H
 #define TESTS_FAULTS_H
 
+#include "hal/frames/rig_frames.h"
 #include "host/pil/fault.h"
 #include "host/pil/lockstep.h"
 
 /* --- the controller's words (faults_words.c) ---------------------------------------------------------------------------*/
 
-/* Where faults begin: the note `state` in these, in order. */
+/* Where faults begin, in order. */
 typedef struct rig_stage {
-    int state;
+    char when[32]; /* NOTE=VALUE */
     const char *word;
     double span_s; /* a healthy run is in it for so long, about */
 } rig_stage;
 
+/* What the firmware tells: told[HAL_NOTES], as hal/frames/rig_frames.h has them. */
+#define NOTE_ONE(name, word, unit) +1
+enum { HAL_NOTES = HAL_NOTE_ROWS(NOTE_ONE) };
+#undef NOTE_ONE
+
 enum { RIG_STAGES_MAX = 16 };
 unsigned rig_stages(rig_stage *stage);
-bool rig_is_tripped(int state);
+int rig_stage_of(const float *note); /* -1: none of them */
+bool rig_is_tripped(const float *note);
 const char *rig_trip_word(int trip);
 /* The shaft's limit. */
 double rig_limit_rpm(void);
@@ -116,7 +123,7 @@ typedef struct judge {
     bool stepped;     /* it has answered before */
     int at_duty;      /* in orders.output; -1: there is none */
     int at_enable;
-    int at_note[8]; /* as hal/frames/rig_frames.h names them */
+    int at_note[HAL_NOTES];
     /* Of the turn that is under way: */
     double theta;
     double force_N;
@@ -126,7 +133,7 @@ typedef struct judge {
     double last_s;
     true_turn turn[JUDGE_TURNS];
     unsigned turns;
-    float told[8];
+    float told[HAL_NOTES];
     bool driven; /* by the last orders */
     bool has_result;
     bool began;

@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "faults.h"
-#include "hal/frames/rig_frames.h"
 #include "host/pil/talk.h"
 
 #define TURN_RAD 6.283185307179586477
@@ -36,13 +35,13 @@ static bool find_outputs(judge *j, const wh_hello *hello) {
     }
     for (unsigned i = 0; i < hello->signals; i++) {
         const wh_signal *s = &hello->signal[i];
-        for (int n = 0; s->kind == WH_SIGNAL_NOTE && n < 8; n++) {
+        for (int n = 0; s->kind == WH_SIGNAL_NOTE && n < HAL_NOTES; n++) {
             j->at_note[n] = strcmp(s->name, notes[n]) == 0 ? outputs + note : j->at_note[n];
         }
         note += s->kind == WH_SIGNAL_NOTE;
     }
     bool all = j->at_duty >= 0 && j->at_enable >= 0;
-    for (int n = 0; n < 8; n++) {
+    for (int n = 0; n < HAL_NOTES; n++) {
         all = all && j->at_note[n] >= 0;
     }
     return all;
@@ -140,31 +139,26 @@ static double off_by(const judge *j, unsigned turns) {
 
 /* --- what the controller says ----------------------------------------------------------------------------------*/
 
-static int stage_of(int state) {
-    rig_stage stage[RIG_STAGES_MAX];
-    const unsigned count = rig_stages(stage);
-    for (unsigned i = 0; i < count; i++) {
-        if (stage[i].state == state) {
-            return (int)i;
-        }
-    }
-    return -1;
-}
-
-static void look_for_fault(judge *j, int state) {
+static void look_for_fault(judge *j) {
     const fault *f = &j->plan->fault[j->plan->count - 1U];
     if (j->plan->count > 1 && f->happened && !j->began) {
         j->began = true;
         j->verdict.happened = true;
-        j->verdict.stage = fault_rows[f->kind].place == FAULT_PARAMETER ? -1 : stage_of(state);
+        j->verdict.stage =
+            fault_rows[f->kind].place == FAULT_PARAMETER ? -1 : rig_stage_of(j->told);
     }
+}
+
+static bool is_of_result(int note) {
+    return note == HAL_NOTE_QUALITY || note == HAL_NOTE_AMPLITUDE || note == HAL_NOTE_PHASE ||
+           note == HAL_NOTE_AMPLITUDE_HALF || note == HAL_NOTE_PHASE_HALF || note == HAL_NOTE_TURNS;
 }
 
 static void take_notes(judge *j, const wh_orders *orders) {
     bool changed = false;
-    for (int n = 0; n < 8; n++) {
+    for (int n = 0; n < HAL_NOTES; n++) {
         const float value = orders->output[j->at_note[n]];
-        changed = changed || (n >= HAL_NOTE_QUALITY && value != j->told[n]);
+        changed = changed || (is_of_result(n) && value != j->told[n]);
         j->told[n] = value;
     }
     const unsigned turns = (unsigned)j->told[HAL_NOTE_TURNS];
@@ -193,7 +187,7 @@ static void count_step(judge *j, const wh_orders *orders) {
 static void hear(void *of, double time_s, wh_orders *orders, double *late_s) {
     (void)late_s;
     judge *j = of;
-    look_for_fault(j, (int)j->told[HAL_NOTE_STATE]);
+    look_for_fault(j);
     take_notes(j, orders);
     count_step(j, orders);
     const bool enabled = orders->output[j->at_enable] > 0.0F && !j->plant->cut;
@@ -221,7 +215,7 @@ void judge_end(judge *j, const lockstep_report *report) {
     v->overruns = report->overruns;
     if (report->end != LOCKSTEP_DONE) {
         v->outcome = OUTCOME_HANG;
-    } else if (rig_is_tripped((int)j->told[HAL_NOTE_STATE])) {
+    } else if (rig_is_tripped(j->told)) {
         v->outcome = OUTCOME_TRIPPED;
     } else if (j->has_result) {
         v->outcome = quality == GOOD       ? OUTCOME_GOOD

@@ -3,8 +3,51 @@
 #include "core/rig/datasheet.h"
 #include "core/rig/rig.h"
 #include "faults.h"
+#include "hal/frames/rig_frames.h"
+
+#if __has_include("core/rig/life.h")
+#include "core/rig/life.h"
+#include "core/rig/run.h"
+
+enum {
+    RUNNING_AT = 100
+}; /* phases of a run are numbered from here, states of the life cycle from 0 */
 
 /* About as long as a healthy run to 330 rpm is there. */
+static const struct {
+    int state;
+    double span_s;
+} stages[] = {
+    {WH_LIFE_IDLE, 1.5},
+    {RUNNING_AT + WH_PHASE_TARE, 0.5},
+    {RUNNING_AT + WH_PHASE_SPIN_UP, 1.0},
+    {RUNNING_AT + WH_PHASE_RAMP, 2.5},
+    {RUNNING_AT + WH_PHASE_SETTLE, 3.2},
+    {RUNNING_AT + WH_PHASE_RECORD, 2.0},
+    {RUNNING_AT + WH_PHASE_RAMP_DOWN, 2.2},
+    {RUNNING_AT + WH_PHASE_OFF, 2.5},
+};
+
+static const char *word_of(int state) {
+    return state >= RUNNING_AT ? wh_phase_text((wh_rig_phase)(state - RUNNING_AT))
+                               : wh_life_text((wh_life)state);
+}
+
+static void when_of(int state, rig_stage *stage) {
+    const bool runs = state >= RUNNING_AT;
+    snprintf(stage->when, sizeof stage->when, "%s=%d", runs ? "phase_of_run" : "state",
+             runs ? state - RUNNING_AT : state);
+}
+
+static int state_of(const float *note) {
+    const int phase = (int)note[HAL_NOTE_PHASE_OF_RUN];
+    return phase != (int)WH_PHASE_NONE ? RUNNING_AT + phase : (int)note[HAL_NOTE_STATE];
+}
+
+bool rig_is_tripped(const float *note) { return (int)note[HAL_NOTE_STATE] == (int)WH_LIFE_TRIPPED; }
+
+#else
+
 static const struct {
     wh_rig_state state;
     double span_s;
@@ -13,16 +56,36 @@ static const struct {
     {WH_RIG_RECORD, 2.0}, {WH_RIG_RAMP_DOWN, 2.2}, {WH_RIG_COAST, 2.5},
 };
 
-unsigned rig_stages(rig_stage *stage) {
-    const unsigned count = sizeof stages / sizeof stages[0];
-    for (unsigned i = 0; i < count; i++) {
-        stage[i] =
-            (rig_stage){(int)stages[i].state, wh_rig_state_text(stages[i].state), stages[i].span_s};
-    }
-    return count;
+static const char *word_of(wh_rig_state state) { return wh_rig_state_text(state); }
+
+static void when_of(wh_rig_state state, rig_stage *stage) {
+    snprintf(stage->when, sizeof stage->when, "state=%d", (int)state);
 }
 
-bool rig_is_tripped(int state) { return state == (int)WH_RIG_TRIPPED; }
+static wh_rig_state state_of(const float *note) { return (wh_rig_state)note[HAL_NOTE_STATE]; }
+
+bool rig_is_tripped(const float *note) { return (int)note[HAL_NOTE_STATE] == (int)WH_RIG_TRIPPED; }
+
+#endif
+
+enum { STAGES = sizeof stages / sizeof stages[0] };
+
+unsigned rig_stages(rig_stage *stage) {
+    for (unsigned i = 0; i < STAGES; i++) {
+        stage[i] = (rig_stage){.word = word_of(stages[i].state), .span_s = stages[i].span_s};
+        when_of(stages[i].state, &stage[i]);
+    }
+    return STAGES;
+}
+
+int rig_stage_of(const float *note) {
+    for (int i = 0; i < STAGES; i++) {
+        if (stages[i].state == state_of(note)) {
+            return i;
+        }
+    }
+    return -1;
+}
 
 const char *rig_trip_word(int trip) { return wh_trip_text((wh_trip)trip); }
 

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "faults.h"
-#include "hal/frames/rig_frames.h"
 #include "motion.h"
 #include "unity.h"
 
@@ -35,7 +34,7 @@ static void test_draws(void) {
     rig_stage stage[RIG_STAGES_MAX];
     for (unsigned s = 0; s < rig_stages(stage); s++) {
         TEST_ASSERT_TRUE(stages[s] > 300);
-        TEST_ASSERT_FALSE(rig_is_tripped(stage[s].state));
+        TEST_ASSERT_TRUE(stage[s].span_s > 0.0 && strchr(stage[s].when, '=') != NULL);
     }
     for (unsigned row = 0; row < campaign_rows(); row++) {
         campaign_case one;
@@ -128,7 +127,7 @@ static verdict judged(const made_up *m) {
                      taps[1].start(taps[1].of, &hello, &on));
     for (int ms = 0; ms < 3000; ms++) {
         const double now_s = ms * 1e-3;
-        wh_orders orders = {.outputs = NOTES_AT + 8,
+        wh_orders orders = {.outputs = NOTES_AT + HAL_NOTES,
                             .output = {0.5F, now_s < m->off_s ? 1.0F : 0.0F}};
         if (now_s >= m->said_s) {
             float *note = orders.output + NOTES_AT;
