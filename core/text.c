@@ -157,11 +157,8 @@ void wh_text_add_fixed(wh_text *text, wh_real value, unsigned decimals) {
         wh_text_add(text, "nan");
         return;
     }
-    if (number.negative) {
-        wh_text_add_char(text, '-');
-    }
     if (number.special) {
-        wh_text_add(text, "inf");
+        wh_text_add(text, number.negative ? "-inf" : "inf");
         return;
     }
     if (decimals > WH_TEXT_DECIMALS_MAX) {
@@ -176,7 +173,7 @@ void wh_text_add_fixed(wh_text *text, wh_real value, unsigned decimals) {
         }
         const int place = number.exponent + bit + 16 * (int)FRACTION_LIMBS;
         if (place >= 16 * (int)(FRACTION_LIMBS + WHOLE_LIMBS)) {
-            wh_text_add(text, "huge");
+            wh_text_add(text, number.negative ? "-huge" : "huge");
             return;
         }
         /* Bits below 2^-160 belong to doubles below 2^-107: far from any tie at 18 decimals. */
@@ -199,6 +196,13 @@ void wh_text_add_fixed(wh_text *text, wh_real value, unsigned decimals) {
         } else {
             digit[i]++;
         }
+    }
+    unsigned zeros = 0;
+    while (zeros < count && digit[zeros] == 0) {
+        zeros++;
+    }
+    if (number.negative && zeros < count) {
+        wh_text_add_char(text, '-');
     }
     add_digits(text, digit + decimals, count - decimals);
     if (decimals > 0) {

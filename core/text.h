@@ -53,8 +53,9 @@ void wh_text_add_signed(wh_text *text, int64_t value);
 void wh_text_add_hex(wh_text *text, uint64_t value, unsigned digits);
 
 /* Add value with `decimals` digits after the point (at most WH_TEXT_DECIMALS_MAX), correctly
- * rounded, ties to even: the characters of C's "%.*f". Not-a-number gives "nan", infinities "inf"
- * and "-inf"; a double of magnitude 2^128 or more gives "huge" or "-huge" (no float is so large). */
+ * rounded, ties to even: the characters of C's "%.*f", but for the sign of what rounds to zero, which
+ * has none. Not-a-number gives "nan", infinities "inf" and "-inf"; a double of magnitude 2^128 or more
+ * gives "huge" or "-huge" (no float is so large). */
 void wh_text_add_fixed(wh_text *text, wh_real value, unsigned decimals);
 
 #ifdef __cplusplus

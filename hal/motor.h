@@ -1,4 +1,6 @@
-/* motor.h: the motor's drive stage. One direction only; zero duty shorts the motor, which brakes it. */
+/* motor.h: the motor's drive stage. One direction only: a chopper (PWM) of the supply, and an enable.
+ *
+ * The enable is the second way off: with it off nothing drives the motor, whatever the chopper does. */
 #ifndef HAL_MOTOR_H
 #define HAL_MOTOR_H
 
@@ -6,21 +8,20 @@
 extern "C" {
 #endif
 
-/* Drive the motor with `duty`, 0 (braked) to 1 (full supply). Values outside, and NaN, are clamped
- * to the range (NaN to 0). Has no effect once the watchdog has cut the drive. */
-void hal_motor_set_duty(float duty);
-
-/* The mean voltage over the motor, 0 to the supply; clamped to that, NaN to 0. */
-void hal_motor_set_voltage(float volts);
-
 typedef enum hal_motor_off_way {
-    HAL_MOTOR_COAST, /* the drive's enable goes off; the motor turns freely */
-    HAL_MOTOR_BRAKE  /* it stays on, with zero duty */
+    HAL_MOTOR_COAST, /* the enable goes off: no torque, the rotor turns freely */
+    HAL_MOTOR_BRAKE /* the enable stays on, at 0 V: a drive stage that can short the motor brakes it */
 } hal_motor_off_way;
 
+/* Drive the motor with a mean voltage of 0 to hal_motor_supply_V(), the enable on. What lies outside is clamped, NaN to
+ * 0. In effect from this call on, until the next. Has no effect once the watchdog has cut the drive. */
+void hal_motor_set_voltage(float volts);
+
+/* Stop driving at once. May be called at any time, also from an interrupt or a fault's handler, and before
+ * hal_clock_start(). */
 void hal_motor_off(hal_motor_off_way way);
 
-/* The supply, as it was measured last. */
+/* The supply, V, as last measured: at least once a control step. */
 float hal_motor_supply_V(void);
 
 #ifdef __cplusplus

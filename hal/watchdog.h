@@ -9,7 +9,7 @@
 extern "C" {
 #endif
 
-/* Arm the watchdog: from now on the motor's duty is cut to zero, for good, when
+/* Arm the watchdog: from now on the drive is cut, for good, when
  * hal_watchdog_kick() stays away for more than `timeout_ticks`. Cannot be disarmed. */
 void hal_watchdog_start(uint32_t timeout_ticks);
 

@@ -66,7 +66,7 @@ $(B)/$(1): $(call objects,float,$(2) boards/host/board.c boards/host/link.c) $(c
 $(ELF)/$(1).elf: $(call objects,$(BOARD),$(2) $(BOARD_LINK)) $(BOARD_OBJECTS) $(call libraries,$(BOARD),$(3))
 	$$(link_board)
 endef
-$(eval $(call pil_program,pil_rig,boards/programs/pil_rig.c,frames rig whirl))
+$(eval $(call pil_program,pil_rig,boards/programs/pil_rig.c,frames rig whirl scenes))
 $(eval $(call pil_program,pil_cart,boards/programs/pil_cart.c,frames whirl))
 PIL_PROGRAMS := pil_rig pil_cart
 PIL_IMAGES := $(if $(BOARD_LINK),$(PIL_PROGRAMS:%=$(ELF)/%.elf))

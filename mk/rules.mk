@@ -95,8 +95,8 @@ WHIRL_MAIN_C := $(wildcard host/*.c)
 WHIRL_C := $(wildcard host/*/*.c)
 ifeq ($(SYSTEM),none)
 WHIRL_C := $(filter-out $(addprefix host/commands/,run.c sweep.c price.c choose.c settings.c pricing.c pricing_open.c \
-    pricing_scene.c trust.c trusting.c map.c pil.c prove.c) host/map/% host/pil/% host/sweep/% host/plot/% host/price/% \
-    host/trust/% host/prove/%,$(WHIRL_C))
+    pricing_scene.c trust.c trusting.c map.c pil.c prove.c interrupts.c) host/map/% host/pil/% host/sweep/% \
+    host/plot/% host/price/% host/trust/% host/prove/%,$(WHIRL_C))
 endif
 TEST_C := $(wildcard tests/*.c tests/*/*.c)
 C_FILES := $(sort $(PORTABLE_C) $(BOARD_C) $(HOST_TOOL_C) $(WHIRL_MAIN_C) $(WHIRL_C) $(TEST_C) \

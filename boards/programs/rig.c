@@ -1,10 +1,13 @@
 /* rig.c: the firmware of the eccentric-mass rig, the same on every board.
  *
- * One test run as core/rig/rig.h describes it, on whatever hardware hal/ offers: tare, ramp to
- * 330 rpm in closed loop on the slot pulses, record the load cell for 2 s, report, stop. Exit status
- * 0: done; 1: the guard tripped, or what was measured is refused, the report says why; 2: not started, for the hardware does not answer or
- * the arithmetic is not that of the tests. */
+ * The controller of core/rig/rig.h on whatever hardware hal/ offers, and for want of a console the orders for one test run:
+ * `arm` as soon as the rotor rests, `start` at 330 rpm; then the report. Exit status 0: done; 1: the guard tripped, an order
+ * or what was measured is refused, the report says why; 2: not started, for the hardware does not answer or the arithmetic
+ * is not that of the tests. */
 #include "core/rig/rig.h"
+
+#include <stddef.h>
+
 #include "boards/board.h"
 #include "core/arithmetic.h"
 #include "core/rig/datasheet.h"
@@ -24,6 +27,9 @@
 #if HAL_VIRTUAL
 #include "hal/virtual/virtual_rig.h"
 #endif
+
+/* The model that goes with the rotor: rig_fixed of core/models/eccentric.whirl, in control steps (mk/whirl.mk). */
+extern const wh_scene rig_observed;
 #ifndef HAL_FRAMES
 #define HAL_FRAMES 0
 #endif
@@ -38,26 +44,34 @@ _Static_assert((int)HAL_LOAD_SATURATED == (int)WH_LOAD_SATURATED &&
                    (int)HAL_LOAD_REPEATED == (int)WH_LOAD_REPEATED,
                "one list of a sample's states");
 
+/* The set-point of the run. */
+#ifndef RIG_TARGET_RPM
+#define RIG_TARGET_RPM WH_RIG_NOMINAL_RPM
+#endif
+
 #define CONTROL_TICKS 2000U /* 500 Hz, as wh_rig_standard.step_s */
 #define WATCHDOG_TICKS (10U * CONTROL_TICKS)
 #define RPM_PER_RADPS (1.0f / WH_RIG_RADPS_PER_RPM)
 
-/* Static, not on the stack: a run holds its two seconds of record. */
+/* The rotor must rest before `arm`: one that turned on before the reset gets so long. */
+#define PATIENCE_TICKS (120U * HAL_TICKS_PER_S)
+
+/* Static, not on the stack: it holds the samples of a turn. */
 static wh_rig rig;
 
 /* To whoever judges a run in the loop (docs/pil.md). */
 static void tell(void) {
 #if HAL_FRAMES
     const wh_measured *force = &rig.result.force;
-    const bool whole = rig.state > WH_RIG_RECORD && rig.state < WH_RIG_TRIPPED;
     hal_frames_note(HAL_NOTE_STATE, (float)rig.state);
+    hal_frames_note(HAL_NOTE_PHASE_OF_RUN, (float)rig.run.phase);
     hal_frames_note(HAL_NOTE_TRIP, (float)rig.guard.trip);
     hal_frames_note(HAL_NOTE_QUALITY, (float)force->quality);
     hal_frames_note(HAL_NOTE_AMPLITUDE, force->amplitude_N);
     hal_frames_note(HAL_NOTE_AMPLITUDE_HALF, force->amplitude_half_N);
     hal_frames_note(HAL_NOTE_PHASE, force->phase_rad);
     hal_frames_note(HAL_NOTE_PHASE_HALF, force->phase_half_rad);
-    hal_frames_note(HAL_NOTE_TURNS, whole ? (float)force->turns : 0.0f);
+    hal_frames_note(HAL_NOTE_TURNS, rig.has_result ? (float)force->turns : 0.0f);
 #endif
 }
 
@@ -99,6 +113,11 @@ static void put_force(const char *name, float force_N) {
     put_value(name, force_N, 2, text.bytes);
 }
 
+/* The phase of a run; else the state. */
+static const char *state_text(void) {
+    return rig.run.phase == WH_PHASE_NONE ? wh_life_text(rig.state) : wh_phase_text(rig.run.phase);
+}
+
 static void put_state(uint32_t started_ticks) {
     char bytes[96];
     wh_text text;
@@ -106,12 +125,13 @@ static void put_state(uint32_t started_ticks) {
     wh_text_add_fixed(&text, (float)(hal_clock_ticks() - started_ticks) / (float)HAL_TICKS_PER_S,
                       3);
     wh_text_add(&text, " s  ");
-    wh_text_add(&text, wh_rig_state_text(rig.state));
-    if (rig.state >= WH_RIG_RAMP && rig.state <= WH_RIG_RAMP_DOWN) {
+    wh_text_add(&text, state_text());
+    if (wh_run_is_closed(&rig.run)) {
         wh_text_add(&text, ", ");
-        wh_text_add_fixed(&text, rig.speed.turn_radps * RPM_PER_RADPS, 1);
-        wh_text_add(&text, " rpm, duty ");
-        wh_text_add_fixed(&text, rig.duty, 3);
+        wh_text_add_fixed(&text, rig.pulses.speed.turn_radps * RPM_PER_RADPS, 1);
+        wh_text_add(&text, " rpm, ");
+        wh_text_add_fixed(&text, rig.run.volts, 2);
+        wh_text_add(&text, " V");
     }
     wh_text_add_char(&text, '\n');
     hal_console_write(text.bytes, text.length);
@@ -139,7 +159,7 @@ static void put_result(const wh_rig_result *result) {
     const float nominal_radps = WH_RIG_NOMINAL_RPM * WH_RIG_RADPS_PER_RPM;
     const float formula_N = WH_RIG_MASS_MOMENT_KGM * nominal_radps * nominal_radps;
     const wh_measured *force = &result->force;
-    put("Measured, over whole turns of a 2 s record at 500 samples/s\n");
+    put("Measured, over the whole turns of a record at 500 samples/s\n");
     put_value("turns", (float)force->turns, 0, "");
     put_value("speed", force->speed_radps * RPM_PER_RADPS, 2, "rpm");
     put_force("force, once per turn", force->amplitude_N);
@@ -157,7 +177,7 @@ static void put_result(const wh_rig_result *result) {
     put_force("load at sensor 1's spikes", force->at_mark_N[0]);
     put_force("load at sensor 2's spikes", force->at_mark_N[1]);
     put_force("tare taken off", result->tare_N);
-    put_value("motor duty", result->duty, 3, "");
+    put_value("motor voltage", result->volts, 2, "V");
     put_value("slot pulses lost", (float)result->lost, 0, "");
     put_value("slot pulses rejected", (float)result->rejected, 0, "");
     put("Formula, sum of m r w^2 at the nominal speed\n");
@@ -184,37 +204,82 @@ static void put_plant_hash(void) {
 }
 #endif
 
+static wh_rig_inputs inputs_now(void) {
+    return (wh_rig_inputs){.now_ticks = hal_clock_ticks(),
+                           .supply_V = hal_motor_supply_V(),
+                           .watchdog_has_cut = hal_watchdog_has_cut()};
+}
+
+static void obey(const wh_rig_command *command) {
+    switch (command->way) {
+    case WH_MOTOR_DRIVES: hal_motor_set_voltage(command->volts); break;
+    case WH_MOTOR_BRAKES: hal_motor_off(HAL_MOTOR_BRAKE); break;
+    case WH_MOTOR_COASTS: hal_motor_off(HAL_MOTOR_COAST); break;
+    }
+}
+
+static void control(const wh_rig_config *config) {
+    hal_slot_pulse pulse;
+    while (hal_slots_take(&pulse)) {
+        wh_rig_pulse(config, &rig, pulse.sensor, pulse.ticks);
+    }
+    hal_load_sample sample;
+    while (hal_loadcell_take(&sample)) {
+        wh_rig_load(config, &rig, sample.ticks, sample.raw, (wh_load_status)sample.status);
+    }
+    const wh_rig_inputs inputs = inputs_now();
+    const wh_rig_command command = wh_rig_step(config, &rig, &inputs);
+    obey(&command);
+    hal_watchdog_kick(); /* tripped too: a watchdog that resets would start all over */
+}
+
+/* Who gives the orders: `arm` once the rotor rests, then `start`. */
+typedef enum operator_step { WAITS_FOR_REST, HAS_ARMED, HAS_STARTED } operator_step;
+
+/* Returns true when there is nothing more to wait for. */
+static bool operate(operator_step *at, uint32_t waited_ticks) {
+    if (rig.state == WH_LIFE_TRIPPED) {
+        return rig.rested;
+    }
+    switch (*at) {
+    case WAITS_FOR_REST:
+        if (rig.guard.quiet || waited_ticks > PATIENCE_TICKS) {
+            *at = HAS_ARMED;
+            (void)wh_rig_post(&rig, WH_EVENT_ARM, 0.0f);
+        }
+        return false;
+    case HAS_ARMED:
+        *at = HAS_STARTED;
+        (void)wh_rig_post(&rig, WH_EVENT_START, RIG_TARGET_RPM * WH_RIG_RADPS_PER_RPM);
+        return rig.state != WH_LIFE_ARMED; /* refused */
+    case HAS_STARTED: break;
+    }
+    return rig.state == WH_LIFE_IDLE || rig.answer != WH_ALLOWED;
+}
+
 /* The control loop, until the run is over. */
 static void run(const wh_rig_config *config) {
     const uint32_t started = hal_clock_ticks();
     uint32_t due = started;
-    wh_rig_start(config, &rig, WH_RIG_NOMINAL_RPM * WH_RIG_RADPS_PER_RPM, started);
-    wh_rig_state shown = rig.state;
+    operator_step operator_at = WAITS_FOR_REST;
+    wh_rig_start(config, &rig, started, NULL);
+    wh_life shown_state = rig.state;
+    wh_rig_phase shown_phase = rig.run.phase;
     put_state(started);
     tell();
     hal_watchdog_start(WATCHDOG_TICKS);
-    while (!wh_rig_is_over(&rig)) {
+    do {
         due += CONTROL_TICKS;
         hal_clock_wait_until(due);
-        if (rig.guard.trip == WH_TRIP_NONE) {
-            hal_watchdog_kick(); /* tripped, let the watchdog cut the motor too: a second way off */
-        }
-        hal_slot_pulse pulse;
-        while (hal_slots_take(&pulse)) {
-            wh_rig_pulse(&rig, pulse.sensor, pulse.ticks);
-        }
-        hal_load_sample sample;
-        while (hal_loadcell_take(&sample)) {
-            wh_rig_load(config, &rig, sample.ticks, sample.raw, (wh_load_status)sample.status);
-        }
-        hal_motor_set_duty(wh_rig_step(config, &rig, hal_clock_ticks(), hal_watchdog_has_cut()));
+        control(config);
         tell();
-        if (rig.state != shown) {
-            shown = rig.state;
+        if (rig.state != shown_state || rig.run.phase != shown_phase) {
+            shown_state = rig.state;
+            shown_phase = rig.run.phase;
             put_state(started);
         }
-    }
-    hal_motor_set_duty(0.0f);
+    } while (!operate(&operator_at, hal_clock_ticks() - started));
+    hal_motor_off(HAL_MOTOR_COAST);
 }
 
 /* Why hal_clock_start() failed. */
@@ -245,26 +310,33 @@ int main(void) {
         refuse(why_no_hardware());
     }
     if (wh_arithmetic_wrong(wh_arithmetic) != WH_PROBED_COUNT) {
-        hal_motor_set_duty(0.0f);
+        hal_motor_off(HAL_MOTOR_COAST);
         refuse(wh_status_text(WH_E_ARITHMETIC));
     }
     wh_rig_config config = wh_rig_standard;
-    config.cell = (wh_cell_config){.newton_per_count = HAL_LOADCELL_N_PER_COUNT,
-                                   .period_ticks = HAL_LOADCELL_PERIOD_TICKS,
-                                   .raw_max = HAL_LOADCELL_RAW_MAX};
+    config.measure.cell = (wh_cell_config){.newton_per_count = HAL_LOADCELL_N_PER_COUNT,
+                                           .period_ticks = HAL_LOADCELL_PERIOD_TICKS,
+                                           .raw_max = HAL_LOADCELL_RAW_MAX};
     wh_rig_slots(&config, HAL_SLOT_LEAD_DEG / WH_RIG_DEG_PER_RAD);
+    config.observer.scene = &rig_observed;
     run(&config);
 
-    const bool tripped = rig.guard.trip != WH_TRIP_NONE;
-    if (tripped) {
+    if (rig.state == WH_LIFE_TRIPPED) {
         put("TRIPPED: ");
         put(wh_trip_text(rig.guard.trip));
         put("; the motor is off\n");
-    } else {
+    } else if (!rig.has_result) {
+        put("REFUSED: ");
+        put(wh_refusal_text(rig.answer));
+        put("; the motor is off\n");
+    }
+    if (rig.has_result) {
         put_result(&rig.result);
     }
 #if HAL_VIRTUAL
     put_plant_hash();
 #endif
-    board_exit(tripped || rig.result.force.quality == WH_REFUSED ? 1 : 0);
+    const bool good =
+        rig.state != WH_LIFE_TRIPPED && rig.has_result && rig.result.force.quality != WH_REFUSED;
+    board_exit(good ? 0 : 1);
 }

@@ -4,6 +4,8 @@
  * the controller is counted that is given them. Interval 0 is around nothing. Says on the console
  *
  *     run NAME FIRST LAST TURNS QUALITY    a run's intervals, and what it measured */
+#include <stddef.h>
+
 #include "boards/programs/counted.h"
 #include "core/rig/datasheet.h"
 #include "core/rig/rig.h"
@@ -16,6 +18,9 @@
 #define CONTROL_TICKS UINT32_C(2000)
 #define STEPS_MOST 20000U
 
+/* rig_fixed of core/models/eccentric.whirl, in control steps (mk/whirl.mk). */
+extern const wh_scene rig_observed;
+
 static wh_rig rig;
 static wh_rig_config config;
 static unsigned intervals = 1;
@@ -27,13 +32,16 @@ typedef struct trial {
     unsigned lose_pulses[2];
     unsigned lose_samples;
     float noise; /* counts, either way */
+    bool fed;    /* gravity forward, though it need not */
 } trial;
 
 static const trial trials[] = {
+    {.name = "100_rpm", .target_rpm = 100.0f},
     {.name = "170_rpm", .target_rpm = 170.0f},
     {.name = "330_rpm", .target_rpm = 330.0f},
     {.name = "360_rpm", .target_rpm = 360.0f},
     {.name = "330_rpm_noise", .target_rpm = 330.0f, .noise = 200.0f},
+    {.name = "330_rpm_fed", .target_rpm = 330.0f, .fed = true},
     {.name = "330_rpm_lost_marks", .target_rpm = 330.0f, .lose_pulses = {2, 1}},
     {.name = "330_rpm_lost_samples", .target_rpm = 330.0f, .lose_samples = 9},
     {.name = "170_rpm_lost_both", .target_rpm = 170.0f, .lose_pulses = {1, 1}, .lose_samples = 9},
@@ -58,43 +66,56 @@ static void control(const trial *tried) {
     while (sample_count < 8U && hal_loadcell_take(&samples[sample_count])) {
         samples[sample_count++].raw += noise_of(tried->noise);
     }
-    const uint32_t now = hal_clock_ticks();
+    const wh_rig_inputs inputs = {.now_ticks = hal_clock_ticks(), .supply_V = hal_motor_supply_V()};
     wh_count_begin();
     for (unsigned i = 0; i < pulse_count; i++) {
-        wh_rig_pulse(&rig, pulses[i].sensor, pulses[i].ticks);
+        wh_rig_pulse(&config, &rig, pulses[i].sensor, pulses[i].ticks);
     }
     for (unsigned i = 0; i < sample_count; i++) {
         wh_rig_load(&config, &rig, samples[i].ticks, samples[i].raw,
                     (wh_load_status)samples[i].status);
     }
-    const wh_real duty = wh_rig_step(&config, &rig, now, false);
+    const wh_rig_command command = wh_rig_step(&config, &rig, &inputs);
     wh_count_end();
     intervals++;
-    hal_motor_set_duty((float)duty);
+    if (command.way == WH_MOTOR_DRIVES) {
+        hal_motor_set_voltage(command.volts);
+    } else {
+        hal_motor_off(command.way == WH_MOTOR_BRAKES ? HAL_MOTOR_BRAKE : HAL_MOTOR_COAST);
+    }
 }
 
 static bool run(const trial *tried) {
     config = wh_rig_standard;
-    config.cell = (wh_cell_config){.newton_per_count = HAL_LOADCELL_N_PER_COUNT,
-                                   .period_ticks = HAL_LOADCELL_PERIOD_TICKS,
-                                   .raw_max = HAL_LOADCELL_RAW_MAX};
+    config.measure.cell = (wh_cell_config){.newton_per_count = HAL_LOADCELL_N_PER_COUNT,
+                                           .period_ticks = HAL_LOADCELL_PERIOD_TICKS,
+                                           .raw_max = HAL_LOADCELL_RAW_MAX};
     wh_rig_slots(&config, HAL_SLOT_LEAD_DEG / WH_RIG_DEG_PER_RAD);
+    config.observer.scene = &rig_observed;
+    config.feeds = tried->fed ? WH_FEED_ALWAYS : wh_rig_standard.feeds;
     if (!hal_clock_start()) {
         return false;
     }
     const unsigned first = intervals;
-    wh_rig_start(&config, &rig, tried->target_rpm * WH_RIG_RADPS_PER_RPM, hal_clock_ticks());
+    wh_rig_start(&config, &rig, hal_clock_ticks(), NULL);
     hal_watchdog_start(10U * CONTROL_TICKS);
     unsigned recorded = 0;
-    for (unsigned i = 0; i < STEPS_MOST && !wh_rig_is_over(&rig); i++) {
+    unsigned ordered = 0; /* `arm`, then `start` */
+    bool over = false;
+    for (unsigned i = 0; i < STEPS_MOST && !over; i++) {
+        if (ordered == 0 && rig.guard.quiet) {
+            ordered += wh_rig_post(&rig, WH_EVENT_ARM, 0.0f) ? 1U : 0U;
+            ordered += wh_rig_post(&rig, WH_EVENT_START, tried->target_rpm * WH_RIG_RADPS_PER_RPM);
+        }
         control(tried);
-        recorded += rig.state == WH_RIG_RECORD ? 1U : 0U;
-        if (rig.state == WH_RIG_RECORD && recorded == 250U) {
+        recorded += rig.run.phase == WH_PHASE_RECORD ? 1U : 0U;
+        if (rig.run.phase == WH_PHASE_RECORD && recorded == 250U) {
             hal_virtual_faults *faults = &hal_virtual_rig_instance()->faults;
             faults->lose_pulses[0] = tried->lose_pulses[0];
             faults->lose_pulses[1] = tried->lose_pulses[1];
             faults->lose_samples = tried->lose_samples;
         }
+        over = rig.has_result && rig.state == WH_LIFE_IDLE;
     }
     line_begin("run", tried->name);
     line_number(first);
@@ -102,7 +123,7 @@ static bool run(const trial *tried) {
     line_number((unsigned)rig.result.force.turns);
     line_word(wh_quality_text(rig.result.force.quality));
     line_end();
-    return wh_rig_is_over(&rig);
+    return over;
 }
 
 int main(void) {

@@ -27,9 +27,15 @@
          (WH_R(0.45359237) * WH_R(0.0254) * WH_R(0.0254)) + \
      WH_R(5e-4))
 
-/* What a turn's mean speed is held back with when it rises: the motor's torque line, 1.5 N m over 600 rpm, and
- * 0.001 N m s of the bearings. */
-#define WH_RIG_DAMPING_NMS (WH_R(1.5) / (WH_R(600.0) * WH_RIG_RADPS_PER_RPM) + WH_R(0.001))
+/* The motor's torque line at rated voltage: at standstill, and the speed without load. */
+#define WH_RIG_STALL_NM WH_R(1.5)
+#define WH_RIG_NO_LOAD_RADPS (WH_R(600.0) * WH_RIG_RADPS_PER_RPM)
+
+/* What a turn's mean speed is held back with when it rises: the torque line, and 0.001 N m s of the bearings. */
+#define WH_RIG_DAMPING_NMS (WH_RIG_STALL_NM / WH_RIG_NO_LOAD_RADPS + WH_R(0.001))
+
+/* Supply for which the torque line above is the motor's. */
+#define WH_RIG_RATED_V WH_R(24.0)
 
 #define WH_RIG_GRAVITY_MPS2 WH_R(9.80665)
 
@@ -44,6 +50,9 @@
 /* Below some 145 rpm gravity stops the rotor on its way over the top before the pulses can tell the
  * loop (docs/rig.md). Set-points keep a sixth away from that, as the loop dips. */
 #define WH_RIG_TARGET_MIN_RPM WH_R(170.0)
+
+/* With gravity's torque fed forward to the motor. */
+#define WH_RIG_TARGET_MIN_FED_RPM WH_R(100.0)
 
 /* The motor's speed without load is 600 rpm; pulses that would need more than this are no pulses. */
 #define WH_RIG_IMPOSSIBLE_RPM WH_R(800.0)

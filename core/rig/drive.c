@@ -5,16 +5,16 @@ static wh_real clamp(wh_real value, wh_real low, wh_real high) {
     return value < low ? low : value > high ? high : value;
 }
 
-void wh_drive_start(const wh_drive_config *config, wh_drive *drive, wh_real speed_radps,
-                    wh_real duty) {
+void wh_drive_start(wh_drive *drive, wh_real speed_radps, wh_real volts) {
     drive->target_radps = speed_radps;
     drive->setpoint_radps = speed_radps;
-    drive->integral = clamp(duty, config->duty_min, config->duty_max);
+    drive->integral_V = volts;
 }
 
 wh_real wh_drive_step(const wh_drive_config *config, wh_drive *drive, wh_real speed_radps,
-                      wh_real step_s) {
-    const wh_real most = config->ramp_radps2 * step_s;
+                      wh_real most_V, wh_real step_s) {
+    const bool gently = drive->setpoint_radps < config->gentle_radps;
+    const wh_real most = config->ramp_radps2 * (gently ? WH_R(0.25) : WH_R(1.0)) * step_s;
     const wh_real way = drive->target_radps - drive->setpoint_radps;
     /* the last stretch lands on the target exactly: at_target() compares for equality */
     if (WH_ABS(way) <= most) {
@@ -24,15 +24,13 @@ wh_real wh_drive_step(const wh_drive_config *config, wh_drive *drive, wh_real sp
     }
 
     const wh_real error = drive->setpoint_radps - speed_radps;
-    const wh_real wanted = config->proportional_per_radps * error + drive->integral;
-    const wh_real duty = clamp(wanted, config->duty_min, config->duty_max);
+    const wh_real wanted = config->proportional_V_per_radps * error + drive->integral_V;
+    const wh_real volts = clamp(wanted, WH_R(0.0), most_V);
     const bool pushes_further =
-        wanted > duty ? error > WH_R(0.0) : wanted < duty && error < WH_R(0.0);
-    if (!pushes_further) {
-        drive->integral = clamp(drive->integral + config->integral_per_rad * error * step_s,
-                                config->duty_min, config->duty_max);
-    }
-    return duty;
+        wanted > volts ? error > WH_R(0.0) : wanted < volts && error < WH_R(0.0);
+    const wh_real change = pushes_further ? WH_R(0.0) : config->integral_V_per_rad * error * step_s;
+    drive->integral_V = clamp(drive->integral_V + change, WH_R(0.0), most_V);
+    return volts;
 }
 
 bool wh_drive_at_target(const wh_drive *drive) {

@@ -1,80 +1,144 @@
-/* guard.h: what stops the rig. The first reason to stop stays; nothing but a restart clears it. */
+/* guard.h: what stops the rig, in every state. The first reason to stop stays until it is cleared. */
 #ifndef WH_RIG_GUARD_H
 #define WH_RIG_GUARD_H
 
 #include "cell.h"
-#include "speed.h"
+#include "datasheet.h"
+#include "pulses.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-typedef enum wh_trip {
-    WH_TRIP_NONE,
-    WH_TRIP_TARGET, /* the set-point is below what the loop holds or above what the shaft carries */
-    WH_TRIP_OVERSPEED, /* faster than the shaft carries */
-    WH_TRIP_PULSES,    /* slot pulses lost, missing or in the wrong order while the motor drives */
-    WH_TRIP_STALLED,   /* the rotor does not start */
-    WH_TRIP_LOAD_CELL, /* silent, stuck, overloaded or disconnected */
-    WH_TRIP_WATCHDOG,  /* the controller was late and the watchdog cut the motor */
-    WH_TRIP_MOVING,    /* the tare was not at rest */
-    WH_TRIP_UNSETTLED, /* the speed does not settle, or does not stay during the record */
-    WH_TRIP_RECORD,    /* the record lacks load samples, or the count of its turns */
-    WH_TRIP_RUNS_ON    /* the rotor does not stop with the motor off */
-} wh_trip;
+/* Reasons to stop: X(name, number, words). Numbers are for consoles and records, and stay; 1 was a refused set-point, which
+ * is a refusal now (life.h). */
+#define WH_TRIP_ROWS(X) \
+    X(WH_TRIP_NONE, 0, "no fault") \
+    X(WH_TRIP_OVERSPEED, 2, "over-speed") \
+    X(WH_TRIP_PULSES, 3, "slot pulses are missing, too many or out of order") \
+    X(WH_TRIP_STALLED, 4, "the rotor does not start") \
+    X(WH_TRIP_LOAD_CELL, 5, "the load cell is silent, stuck, overloaded or disconnected") \
+    X(WH_TRIP_WATCHDOG, 6, "the watchdog cut the motor") \
+    X(WH_TRIP_MOVING, 7, "the rig was not at rest for the tare") \
+    X(WH_TRIP_UNSETTLED, 8, "the speed does not settle or stay") \
+    X(WH_TRIP_RECORD, 9, "the record lacks load samples or counted turns") \
+    X(WH_TRIP_RUNS_ON, 10, "the rotor does not come to rest, or is driven with the motor off") \
+    X(WH_TRIP_SUPPLY, 11, "the motor's supply is out of its range, or too low for the speed")
+
+#define WH_TRIP_NAME(name, number, words) name = (number),
+typedef enum wh_trip { WH_TRIP_ROWS(WH_TRIP_NAME) } wh_trip;
+#undef WH_TRIP_NAME
 
 typedef struct wh_guard_config {
-    wh_real target_min_radps;   /* smallest set-point, see docs/rig.md */
-    wh_real target_max_radps;   /* largest */
-    wh_real limit_radps;        /* largest speed, mean of a turn */
-    wh_real ripple;             /* by how much a part of a turn may be faster, as a fraction */
+    wh_real target_min_radps; /* smallest set-point, see docs/rig.md; with gravity fed forward, */
+    wh_real target_min_fed_radps;
+    wh_real target_max_radps; /* largest */
+    wh_real limit_radps;      /* largest speed, mean of a turn */
+    wh_real ripple; /* by how much a part of a turn may be faster, as a fraction, at the limit */
+    wh_real over;   /* by how much the speed may be above where it is led, as a fraction */
+    wh_real
+        fall_radps; /* what gravity makes of standstill at the top: 2 sqrt(S g / I), at the bottom */
     uint32_t lost_max;          /* pulses that may be lost in a run */
-    wh_real silence_max_s;      /* longest time without a pulse while the motor drives */
+    uint32_t rejected_max;      /* and be none */
+    wh_real silence_max_s;      /* longest time without a pulse while the loop is closed */
+    wh_real slow_silence_max_s; /* and while the rotor starts */
     wh_real load_silence_max_s; /* longest time without a load sample */
     wh_real
         load_still_kgm; /* a load that moves by less than this times the speed's square is still */
     uint32_t stuck_pulses; /* slot pulses that come while the load does not move: stuck */
+    wh_real supply_min_V;
+    wh_real supply_max_V;
+    wh_real rest_s; /* so long without a pulse: at rest */
 } wh_guard_config;
 
 typedef struct wh_guard {
     wh_trip trip;
-    unsigned fast_intervals; /* too fast, running */
+    bool quiet; /* no pulse for rest_s: latched, since times wrap */
     uint32_t pulses_seen;
-    uint32_t lost_before;  /* pulses already lost when the motor began to drive */
-    uint32_t load_ticks;   /* of the last load sample; at first, the start */
-    uint32_t load_pulses;  /* pulses taken by then */
-    uint32_t still_pulses; /* samples with a new pulse since the load last moved, */
-    wh_real still_N;       /* and where to */
+    uint32_t pulse_ticks;     /* of the last pulse, true or not; at first, the start */
+    uint32_t lost_before;     /* pulses already lost when the motor began to drive, */
+    uint32_t rejected_before; /* or rejected */
+    uint32_t load_ticks;      /* of the last load sample; at first, the start */
+    bool load_good;           /* it was ok */
+    uint32_t load_pulses;     /* pulses taken by then */
+    uint32_t still_pulses;    /* samples with a new pulse since the load last moved, */
+    wh_real still_N;          /* and where to */
 } wh_guard;
 
 #define wh_guard_start WH_NAME(wh_guard_start)
 #define wh_guard_allows WH_NAME(wh_guard_allows)
+#define wh_guard_bound_radps WH_NAME(wh_guard_bound_radps)
 #define wh_guard_trip WH_NAME(wh_guard_trip)
-#define wh_guard_speed WH_NAME(wh_guard_speed)
 #define wh_guard_load WH_NAME(wh_guard_load)
-#define wh_guard_load_silence WH_NAME(wh_guard_load_silence)
 #define wh_trip_text WH_NAME(wh_trip_text)
 
 void wh_guard_start(wh_guard *guard, uint32_t now_ticks);
 
-/* True for set-points that the loop can hold and the shaft carries; false for NaN. */
-bool wh_guard_allows(const wh_guard_config *config, wh_real target_radps);
+/* True for set-points that the loop can hold, with gravity `fed` forward or not, and the shaft carries; false for NaN. */
+bool wh_guard_allows(const wh_guard_config *config, wh_real target_radps, bool fed);
+
+/* The fastest interval between two pulses of a rotor that is led to no more than base_radps: faster by `over`, and, if it
+ * `falls`, by what falling from the top makes of it. From rest at the bottom gravity adds nothing. */
+wh_real wh_guard_bound_radps(const wh_guard_config *config, wh_real base_radps, bool falls);
 
 /* Stop for this reason, unless there is one already. */
 void wh_guard_trip(wh_guard *guard, wh_trip reason);
 
-/* Look at the speed, each control step while the motor drives: over-speed (of a turn; or of two
- * pulse intervals running beyond limit and ripple, which is seen sooner), lost pulses, silence. */
-void wh_guard_speed(const wh_guard_config *config, wh_guard *guard, const wh_speed *speed,
-                    uint32_t now_ticks);
+/* Each step, in every state, with the number of pulses that ever came: does the rotor rest? */
+WH_INLINE void wh_guard_quiet(const wh_guard_config *config, wh_guard *guard, uint32_t pulses_ever,
+                              uint32_t now_ticks) {
+    if (pulses_ever != guard->pulses_seen) {
+        guard->pulses_seen = pulses_ever;
+        guard->pulse_ticks = now_ticks;
+        guard->quiet = false;
+    } else if ((wh_real)(int32_t)(now_ticks - guard->pulse_ticks) >=
+               config->rest_s * (wh_real)WH_RIG_TICKS_PER_S) {
+        guard->quiet = true; /* and stays so: these times wrap every 71.6 minutes */
+    }
+}
 
-/* Look at a load sample, the tare in it. `turning`: the load must be changing with the rotor's turns. A
- * sample that repeats the last one is none. */
+/* Each step, in every state: over-speed, of a turn or of two pulse intervals running beyond the bound. `reason` is
+ * what that means: WH_TRIP_OVERSPEED, or WH_TRIP_RUNS_ON with the motor off. Where it is not `driven`, a sensor that
+ * fires again and again is one in whose slot the rotor swings: only pulses that alternate are turns. */
+WH_INLINE void wh_guard_speed(const wh_guard_config *config, wh_guard *guard,
+                              const wh_pulses *pulses, wh_trip reason, bool driven) {
+    const wh_speed *speed = &pulses->speed;
+    if (!driven && pulses->alternate < 2U) {
+        return;
+    }
+    /* one early pulse may be a disturbance, two are a speed */
+    if ((speed->known && speed->turn_radps > config->limit_radps) || pulses->fast >= 2U) {
+        wh_guard_trip(guard, reason);
+    }
+}
+
+/* While the motor drives: lost and invented pulses, silence for longer than silence_max_s. */
+WH_INLINE void wh_guard_pulses(const wh_guard_config *config, wh_guard *guard,
+                               const wh_pulses *pulses, wh_real silence_max_s, uint32_t now_ticks) {
+    if (pulses->speed.lost - guard->lost_before > config->lost_max ||
+        pulses->rejected - guard->rejected_before > config->rejected_max ||
+        wh_speed_silence_s(&pulses->speed, now_ticks) > silence_max_s) {
+        wh_guard_trip(guard, WH_TRIP_PULSES);
+    }
+}
+
+/* While the motor may drive. NaN is out of range. */
+WH_INLINE bool wh_guard_supply(const wh_guard_config *config, wh_real supply_V) {
+    return supply_V >= config->supply_min_V && supply_V <= config->supply_max_V;
+}
+
+/* Look at a load sample, the tare in it, in every state. `turning`: the load must be changing with the rotor's turns;
+ * `needed`: a bad one stops the rig. A sample that repeats the last one is none. */
 void wh_guard_load(const wh_guard_config *config, wh_guard *guard, const wh_speed *speed,
-                   const wh_load *load, bool turning);
+                   const wh_load *load, bool turning, bool needed);
 
-/* Look whether load samples still come, each control step in which they are needed. */
-void wh_guard_load_silence(const wh_guard_config *config, wh_guard *guard, uint32_t now_ticks);
+/* True while load samples still come. */
+WH_INLINE bool wh_guard_load_comes(const wh_guard_config *config, const wh_guard *guard,
+                                   uint32_t now_ticks) {
+    /* signed: a stamp may be later than the step's own reading of the timer */
+    return (wh_real)(int32_t)(now_ticks - guard->load_ticks) <=
+           config->load_silence_max_s * (wh_real)WH_RIG_TICKS_PER_S;
+}
 
 /* The reason in words, for consoles. */
 const char *wh_trip_text(wh_trip reason);

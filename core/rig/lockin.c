@@ -23,32 +23,20 @@
 #define STEADY_PART 64U
 #define STILL_PART 256U
 
-void wh_polar(wh_real x, wh_real y, wh_real *radius, wh_real *angle_rad) {
-    wh_real angle = WH_R(0.0);
-    if (WH_ABS(y) > WH_ABS(x)) {
-        angle = y < WH_R(0.0) ? WH_R(-0.5) * PI : WH_R(0.5) * PI;
-    } else if (x < WH_R(0.0)) {
-        angle = y < WH_R(0.0) ? -PI : PI;
-    }
-    wh_real along = WH_R(0.0);
-    /* |t| <= 1 at first and each round takes it to about its fifth power: four are plenty */
-    for (unsigned round = 0; round < 4; round++) {
-        wh_real sine;
-        wh_real cosine;
-        wh_sincos(wh_phase_from_rad(angle), &sine, &cosine);
-        along = x * cosine + y * sine;
-        if (!(along > WH_R(0.0))) {
-            break;
-        }
-        const wh_real t = (y * cosine - x * sine) / along;
-        angle += t * (WH_R(1.0) - t * t * (WH_R(1.0) / WH_R(3.0)));
-    }
-    *radius = along;
-    *angle_rad = angle;
-}
-
 void wh_lockin_start(const wh_rotor_config *rotor, wh_lockin *lockin) {
     *lockin = (wh_lockin){.stage = WH_LOCKIN_WAITS};
+    wh_turn_angle_start(rotor, &lockin->angle);
+}
+
+void wh_lockin_forget(const wh_rotor_config *rotor, wh_lockin *lockin) {
+    lockin->stage = WH_LOCKIN_WAITS;
+    lockin->count = 0;
+    lockin->taken = false;
+    lockin->any = false;
+    lockin->equal = 0;
+    lockin->most_equal = 0;
+    lockin->open = false;
+    lockin->expects = false;
     wh_turn_angle_start(rotor, &lockin->angle);
 }
 
@@ -86,6 +74,13 @@ void wh_lockin_mark(wh_lockin *lockin, unsigned sensor, uint32_t ticks, uint32_t
     lockin->begin_ticks = ticks;
     lockin->begin_quarter = quarter;
     lockin->most_equal = 0;
+}
+
+void wh_lockin_feed(wh_lockin *lockin, bool fed) {
+    if (lockin->angle.fed != fed) {
+        wh_lockin_gap(lockin);
+        wh_turn_angle_feed(&lockin->angle, fed);
+    }
 }
 
 void wh_lockin_gap(wh_lockin *lockin) {
@@ -167,38 +162,50 @@ static void weigh_last(wh_lockin *lockin, wh_real theta_rad, wh_real part) {
     lockin->mean += WH_R(0.5) * (part - lockin->before_part) * node->force_N;
 }
 
-/* The load was force_N at this time of the turn. `edge`: at a mark, between two samples. */
-static void add_node(wh_lockin *lockin, uint32_t ticks, wh_real force_N, bool edge) {
-    wh_lockin_node node = {.force_N = force_N};
-    node.part = (wh_real)(ticks - lockin->next.begin_ticks) * lockin->part_per_tick;
-    node.theta_rad = wh_turn_angle_at(&lockin->angle, node.part);
-    wh_sincos(wh_phase_from_rad(node.theta_rad), &node.sine, &node.cosine);
+/* The load was force_N at this time of the turn: first half of a node's work, its place. */
+static void place_node(wh_lockin *lockin, uint32_t ticks, wh_real force_N, wh_lockin_place place) {
+    wh_lockin_node *node = &lockin->placed;
+    node->force_N = force_N;
+    node->part = (wh_real)(ticks - lockin->next.begin_ticks) * lockin->part_per_tick;
+    node->theta_rad = wh_turn_angle_at(&lockin->angle, node->part);
+    wh_sincos(wh_phase_from_rad(node->theta_rad), &node->sine, &node->cosine);
+    lockin->place = place;
+}
+
+/* Second half: its weight. Marks lie between two samples. */
+static void weigh_node(wh_lockin *lockin) {
+    wh_lockin_node *node = &lockin->placed;
+    const wh_lockin_place place = lockin->place;
     const wh_real *expected = lockin->expected_N.at;
-    node.rest_N = force_N - expected[0] - expected[1] * node.cosine - expected[2] * node.sine -
-                  expected[3] * (WH_R(2.0) * node.cosine * node.cosine - WH_R(1.0)) -
-                  expected[4] * (WH_R(2.0) * node.cosine * node.sine);
-    if (lockin->expects && !(WH_ABS(node.rest_N) <= lockin->outlier_N)) {
-        if (!edge) {
+    lockin->place = WH_LOCKIN_NOWHERE;
+    const wh_real cosine = node->cosine;
+    const wh_real sine = node->sine;
+    wh_real rest_N = node->force_N - expected[0] - expected[1] * cosine - expected[2] * sine -
+                     expected[3] * (WH_R(2.0) * cosine * cosine - WH_R(1.0)) -
+                     expected[4] * (WH_R(2.0) * cosine * sine);
+    if (lockin->expects && !(WH_ABS(rest_N) <= lockin->outlier_N)) {
+        if (place == WH_LOCKIN_WITHIN) {
             lockin->next.outliers++;
             return;
         }
-        node.force_N -= node.rest_N; /* at the mark the load is as expected, then */
-        node.rest_N = WH_R(0.0);
+        node->force_N -= rest_N; /* at the mark the load is as expected, then */
+        rest_N = WH_R(0.0);
     }
-    if (ticks == lockin->next.begin_ticks) {
-        lockin->before_rad = node.theta_rad;
-        lockin->before_part = node.part;
+    node->rest_N = rest_N;
+    if (place == WH_LOCKIN_BEGIN) {
+        lockin->before_rad = node->theta_rad;
+        lockin->before_part = node->part;
     } else {
-        weigh_last(lockin, node.theta_rad, node.part);
+        weigh_last(lockin, node->theta_rad, node->part);
         lockin->before_rad = lockin->last.theta_rad;
         lockin->before_part = lockin->last.part;
-        const wh_real way = node.part - lockin->last.part;
+        const wh_real way = node->part - lockin->last.part;
         lockin->widest = way > lockin->widest ? way : lockin->widest;
     }
-    if (!edge) {
+    if (place == WH_LOCKIN_WITHIN) {
         lockin->next.samples++;
     }
-    lockin->last = node;
+    lockin->last = *node;
 }
 
 /* The load at a time between the sample that was taken and the oldest that waits. */
@@ -212,33 +219,48 @@ static wh_real load_between(const wh_lockin *lockin, uint32_t ticks) {
     return lockin->taken_N + part * (later_N - lockin->taken_N);
 }
 
-/* Take samples of the turn, a few; true when it is through. */
-static bool take_samples(wh_lockin *lockin) {
+/* The next node of the turn, if its sample is there. */
+static void place_next(wh_lockin *lockin) {
     wh_lockin_turn *turn = &lockin->next;
     const uint32_t end_ticks = turn->begin_ticks + turn->turn_ticks;
-    drop_stale(lockin, turn->begin_ticks);
-    for (unsigned i = 0; i < WH_LOCKIN_AT_ONCE && lockin->count > 0; i++) {
-        const uint32_t ticks = lockin->ticks[lockin->first];
-        const wh_real force_N = lockin->force_N[lockin->first];
-        if ((int32_t)(ticks - turn->begin_ticks) <= 0) {
-            break;
-        }
-        if (lockin->stage == WH_LOCKIN_BEGINS) {
-            turn->at_mark_N[0] = load_between(lockin, turn->begin_ticks);
-            add_node(lockin, turn->begin_ticks, turn->at_mark_N[0], true);
-            lockin->stage = WH_LOCKIN_SUMS;
+    const uint32_t ticks = lockin->ticks[lockin->first];
+    const wh_real force_N = lockin->force_N[lockin->first];
+    if (lockin->count == 0 || (int32_t)(ticks - turn->begin_ticks) <= 0) {
+        return;
+    }
+    if (lockin->stage == WH_LOCKIN_BEGINS) {
+        turn->at_mark_N[0] = load_between(lockin, turn->begin_ticks);
+        place_node(lockin, turn->begin_ticks, turn->at_mark_N[0], WH_LOCKIN_BEGIN);
+        lockin->stage = WH_LOCKIN_SUMS;
+        return;
+    }
+    if ((int32_t)(ticks - end_ticks) > 0) {
+        place_node(lockin, end_ticks, load_between(lockin, end_ticks), WH_LOCKIN_END);
+        return;
+    }
+    if (turn->split_seen && (int32_t)(ticks - turn->split_ticks) >= 0 &&
+        (!lockin->taken || (int32_t)(lockin->taken_ticks - turn->split_ticks) < 0)) {
+        turn->at_mark_N[1] = load_between(lockin, turn->split_ticks);
+    }
+    pop(lockin);
+    place_node(lockin, ticks, force_N, WH_LOCKIN_WITHIN);
+}
+
+/* Half nodes, a few; true when the turn is through. */
+static bool take_samples(wh_lockin *lockin) {
+    if (lockin->stage == WH_LOCKIN_BEGINS) {
+        drop_stale(lockin, lockin->next.begin_ticks);
+    }
+    for (unsigned half = 0; half < WH_LOCKIN_HALVES_AT_ONCE; half++) {
+        if (lockin->place == WH_LOCKIN_NOWHERE) {
+            place_next(lockin);
             continue;
         }
-        if ((int32_t)(ticks - end_ticks) > 0) {
-            add_node(lockin, end_ticks, load_between(lockin, end_ticks), true);
+        const bool ends = lockin->place == WH_LOCKIN_END;
+        weigh_node(lockin);
+        if (ends) {
             return true;
         }
-        if (turn->split_seen && (int32_t)(ticks - turn->split_ticks) >= 0 &&
-            (!lockin->taken || (int32_t)(lockin->taken_ticks - turn->split_ticks) < 0)) {
-            turn->at_mark_N[1] = load_between(lockin, turn->split_ticks);
-        }
-        pop(lockin);
-        add_node(lockin, ticks, force_N, false);
     }
     return false;
 }
@@ -284,8 +306,10 @@ static void end_turn(const wh_cell_config *cell, wh_lockin *lockin) {
     turn->mean_N = lockin->mean;
     turn->fault = fault_of(cell, lockin);
     const bool whole = turn->fault <= WH_TURN_FIRST;
-    /* a gap says nothing against what was expected */
-    lockin->expects = whole || (lockin->expects && turn->fault == WH_TURN_GAP);
+    /* a gap says nothing against what was expected, unless outliers made it: what is far from it turn after turn is
+     * what must be expected */
+    lockin->expects =
+        whole || (lockin->expects && turn->fault == WH_TURN_GAP && turn->outliers == 0);
     if (whole) {
         lockin->expected_N = turn->force_N;
         lockin->outlier_N =
@@ -302,6 +326,7 @@ static void begin_turn(wh_lockin *lockin) {
     lockin->part_per_tick = WH_R(1.0) / (wh_real)lockin->next.turn_ticks;
     lockin->sum = (wh_lockin_orders){{WH_R(0.0)}};
     lockin->square = lockin->mean = lockin->widest = WH_R(0.0);
+    lockin->place = WH_LOCKIN_NOWHERE;
     lockin->stage = WH_LOCKIN_BEGINS;
 }
 

@@ -29,9 +29,9 @@
 extern "C" {
 #endif
 
-#define WH_LOCKIN_SAMPLES 320U     /* that can wait: a turn at 100 rpm, 2 ms a sample, and some */
-#define WH_LOCKIN_AT_ONCE 2U       /* taken in one control step, */
-#define WH_LOCKIN_STALE_AT_ONCE 8U /* and so many that belong to no turn */
+#define WH_LOCKIN_SAMPLES 384U /* that can wait: a turn at 100 rpm, 2 ms a sample, and a quarter */
+#define WH_LOCKIN_HALVES_AT_ONCE 3U /* half nodes worked on in one control step, */
+#define WH_LOCKIN_STALE_AT_ONCE 8U  /* and so many samples dropped that belong to no turn */
 
 /* Why a turn does not count: X(name, words). */
 #define WH_TURN_ROWS(X) \
@@ -76,6 +76,14 @@ typedef enum wh_lockin_stage {
     WH_LOCKIN_SUMS,
     WH_LOCKIN_ENDS
 } wh_lockin_stage;
+
+/* Where in the turn a node lies whose place is known and whose weight is not yet: at the marks, or at a sample. */
+typedef enum wh_lockin_place {
+    WH_LOCKIN_NOWHERE,
+    WH_LOCKIN_BEGIN,
+    WH_LOCKIN_WITHIN,
+    WH_LOCKIN_END
+} wh_lockin_place;
 
 /* A point of the load's course within the turn. */
 typedef struct wh_lockin_node {
@@ -129,20 +137,30 @@ typedef struct wh_lockin {
     wh_real before_rad; /* of the node before the last, */
     wh_real before_part;
     wh_lockin_node last; /* and the last one, whose weight the next decides */
+    wh_lockin_place place;
+    wh_lockin_node placed; /* unless `place` is nowhere */
 } wh_lockin;
 
 #define wh_lockin_start WH_NAME(wh_lockin_start)
+#define wh_lockin_forget WH_NAME(wh_lockin_forget)
 #define wh_lockin_mark WH_NAME(wh_lockin_mark)
+#define wh_lockin_feed WH_NAME(wh_lockin_feed)
 #define wh_lockin_gap WH_NAME(wh_lockin_gap)
 #define wh_lockin_load WH_NAME(wh_lockin_load)
 #define wh_lockin_work WH_NAME(wh_lockin_work)
 #define wh_turn_text WH_NAME(wh_turn_text)
-#define wh_polar WH_NAME(wh_polar)
 
 void wh_lockin_start(const wh_rotor_config *rotor, wh_lockin *lockin);
 
+/* Begin anew, the counters apart: within a control step, where clearing the samples' memory would take too long. */
+void wh_lockin_forget(const wh_rotor_config *rotor, wh_lockin *lockin);
+
 /* Sensor 0 or 1 was passed at `ticks`, the rotor having made `quarter` quarter turns (wrapping). */
 void wh_lockin_mark(wh_lockin *lockin, unsigned sensor, uint32_t ticks, uint32_t quarter);
+
+/* Gravity is fed forward from now on, or no longer: see wh_turn_angle_feed(). The turn that is under way does not count
+ * when that changes. */
+void wh_lockin_feed(wh_lockin *lockin, bool fed);
 
 /* The count of quarter turns has begun afresh: the turn that is under way does not count. */
 void wh_lockin_gap(wh_lockin *lockin);
@@ -155,11 +173,6 @@ bool wh_lockin_work(const wh_rotor_config *rotor, const wh_cell_config *cell, wh
 
 /* Why a turn does not count, in words. */
 const char *wh_turn_text(wh_turn_fault fault);
-
-/* x = radius cos(angle), y = radius sin(angle) without square root and arc tangent: the angle is
- * improved with the core's own sine until y vanishes in the turned frame. angle_rad: -pi ... pi.
- * (0, 0) gives 0 and 0. */
-void wh_polar(wh_real x, wh_real y, wh_real *radius, wh_real *angle_rad);
 
 #ifdef __cplusplus
 }

@@ -3,6 +3,7 @@
 
 #include "core/root.h"
 #include "datasheet.h"
+#include "polar.h"
 
 #define PI WH_R(3.141592653589793)
 
@@ -150,14 +151,19 @@ void wh_merge_mean(const wh_result_config *config, const wh_rotor_config *rotor,
     const wh_real swing = merge->swing_rad;
     const wh_real third = WH_R(0.125) * swing * swing * swing;
     const wh_real lag = WH_ABS(angle->base_per_lag) * rotor->damping_tolerance * angle->lag_rad;
+    /* fed at another angle, gravity leaves a swing that the split takes for one a quarter turn on */
+    const wh_real quadrature = angle->fed ? rotor->fed_tolerance_rad * angle->whole_rad : WH_R(0.0);
+    const wh_real turned = quadrature * angle->base_per_quadrature;
     const wh_real drift = WH_R(0.5) * (wh_real)(int32_t)(merge->last_ticks - merge->first_ticks) /
                           (n * merge->turn_s * (wh_real)WH_RIG_TICKS_PER_S);
-    const wh_real amplitude2 =
-        square_of(config->amplitude_floor) + square_of(WH_R(1.5) * swing * lag) + square_of(third);
+    const wh_real amplitude2 = square_of(config->amplitude_floor) +
+                               square_of(WH_R(1.5) * swing * lag) + square_of(third) +
+                               square_of(WH_R(3.0) * quadrature * quadrature);
     measured->amplitude_half_N = WH_SQRT(along_N2 + amplitude2 * size2);
-    measured->phase_half_rad = WH_SQRT(
-        across_N2 / size2 + t2 * marks_rad2(merge, angle, measured->jitter_s) + square_of(lag) +
-        square_of(third) + square_of(drift) + square_of(config->phase_floor_rad));
+    measured->phase_half_rad =
+        WH_SQRT(across_N2 / size2 + t2 * marks_rad2(merge, angle, measured->jitter_s) +
+                square_of(lag) + square_of(third) + square_of(turned) + square_of(drift) +
+                square_of(config->phase_floor_rad));
 }
 
 /* --- verdict ------------------------------------------------------------------------------------ */
@@ -202,7 +208,7 @@ static wh_why reason(const wh_result_config *config, const wh_rotor_config *roto
     if (measured->residual_N > config->residual_large * expected) {
         return WH_WHY_RESIDUAL;
     }
-    if (merge->swing_rad > WH_R(0.0) &&
+    if (WH_ABS(merge->swing_rad) > WH_R(0.0) &&
         (merge->split_turns == 0 || !(heavier <= WH_R(1.0) + config->inertia_off))) {
         return WH_WHY_ROTOR;
     }

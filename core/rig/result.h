@@ -5,9 +5,10 @@
  *     scatter     Student's factor times the standard error of the mean over the turns
  *     marks       (phase) neighbouring turns share a mark, so their scatter shows but half of what jitter of
  *                 the marks does to the mean; how much there is, the second differences of the marks tell
- *     split       (phase) the rotor's inertia comes from marks with the same jitter
+ *     split       (phase) the rotor's inertia, or the part of gravity that is left, comes from marks with the same jitter
  *     reference   what the angle within the turn would be off if the rotor's damping were off by its tolerance,
- *                 and the third order that it leaves out
+ *                 and the third order that it leaves out; and if gravity were fed at an angle that is off by its
+ *                 tolerance
  *     drift       (phase) the reference runs at a constant mean speed within a turn
  *     floors      calibration: as configured
  *

@@ -1,343 +1,345 @@
-/* rig.c: the eccentric-mass rig's test run as a state machine, without hardware. */
+/* rig.c: the eccentric-mass rig's controller: orders, guard and run in their order, each control step. */
 #include "rig.h"
 
+#include <stddef.h>
+
 #include "datasheet.h"
-
-#define RPM(x) (WH_R(x) * WH_RIG_RADPS_PER_RPM)
-
-/* The loop: from duty to mean speed the rotor is a lag of about 0.24 s with a gain of 60 rad/s, and
- * a speed taken over the last turn is some 0.15 s old. The integral's zero cancels the lag, the gain
- * puts the crossover at 2.5 rad/s: 65 degrees of phase margin. docs/rig.md has the reasons. */
-const wh_rig_config wh_rig_standard = {
-    .step_s = WH_R(0.002),
-    .drive = {.proportional_per_radps = WH_R(0.010),
-              .integral_per_rad = WH_R(0.042),
-              .ramp_radps2 = RPM(60.0),
-              .duty_min = WH_R(0.0),
-              .duty_max = WH_R(1.0)},
-    .guard = {.target_min_radps = WH_RIG_TARGET_MIN_RPM * WH_RIG_RADPS_PER_RPM,
-              .target_max_radps = WH_RIG_TARGET_MAX_RPM * WH_RIG_RADPS_PER_RPM,
-              .limit_radps = WH_RIG_SHAFT_LIMIT_RPM * WH_RIG_RADPS_PER_RPM,
-              .ripple = WH_R(0.1),
-              .lost_max = 3,
-              .silence_max_s = WH_R(0.5),
-              .load_silence_max_s = WH_R(0.02), /* ten samples' periods */
-              /* a tenth of what the masses' force moves it by */
-              .load_still_kgm = WH_R(0.1) * WH_RIG_MASS_MOMENT_KGM,
-              .stuck_pulses = 3}, /* a whole turn from the first to the last */
-    .rotor = {.mass_moment_kgm = WH_RIG_MASS_MOMENT_KGM,
-              .gravity_mps2 = WH_RIG_GRAVITY_MPS2,
-              .damping_Nms = WH_RIG_DAMPING_NMS,
-              .damping_tolerance = WH_R(0.03),
-              .inertia_kgm2 = WH_RIG_INERTIA_KGM2},
-    .tare = {.samples = 250, .still_N = WH_R(0.05), .most_N = WH_R(0.25)},
-    .result = {.mount_factor = WH_R(1.0),
-               .amplitude_floor = WH_R(1e-4),
-               .phase_floor_rad = WH_R(0.01) / WH_RIG_DEG_PER_RAD,
-               .amplitude_off = WH_R(0.05),
-               .amplitude_wrong = WH_R(0.25),
-               .phase_off_rad = WH_R(5.0) / WH_RIG_DEG_PER_RAD,
-               .phase_wrong_rad = WH_R(20.0) / WH_RIG_DEG_PER_RAD,
-               .residual_large = WH_R(0.25),
-               .mean_off = WH_R(0.1),
-               .inertia_off = WH_R(0.5)},
-    .impossible_radps = WH_RIG_IMPOSSIBLE_RPM * WH_RIG_RADPS_PER_RPM,
-    .spin_up_duty = WH_R(0.4),
-    .take_over_radps = RPM(150.0),
-    .spin_up_max_s = WH_R(5.0),
-    .settle_band_radps = RPM(0.5),
-    .settle_s = WH_R(2.5),
-    .settle_max_s = WH_R(20.0),
-    .record_s = WH_R(2.0),
-    .record_band_radps = RPM(2.0),
-    .slow_radps = RPM(200.0),
-    .rest_s = WH_R(1.5),
-    .rest_max_s = WH_R(10.0),
-};
+#include "orders.h"
 
 static wh_real since_s(uint32_t then_ticks, uint32_t now_ticks) {
     return (wh_real)(now_ticks - then_ticks) / (wh_real)WH_RIG_TICKS_PER_S;
 }
 
-static void enter(wh_rig *rig, wh_rig_state state, uint32_t now_ticks) {
+void wh_rig_slots(wh_rig_config *config, wh_real lead_rad) {
+    config->measure.rotor.mark_rad[0] = -lead_rad;
+    config->measure.rotor.mark_rad[1] = WH_R(0.25) * WH_RIG_TWO_PI - lead_rad;
+    config->observer.mark_rad[0] = config->measure.rotor.mark_rad[0];
+    config->observer.mark_rad[1] = config->measure.rotor.mark_rad[1];
+}
+
+static void enter(wh_rig *rig, wh_life state, uint32_t now_ticks) {
     rig->state = state;
     rig->since_ticks = now_ticks;
-    rig->band_ticks = now_ticks;
+    rig->rested = false;
 }
 
-static bool motor_drives(const wh_rig *rig) {
-    return rig->state >= WH_RIG_SPIN_UP && rig->state <= WH_RIG_RAMP_DOWN;
-}
-
-void wh_rig_slots(wh_rig_config *config, wh_real lead_rad) {
-    config->rotor.mark_rad[0] = -lead_rad;
-    config->rotor.mark_rad[1] = WH_R(0.25) * WH_RIG_TWO_PI - lead_rad;
-}
-
-void wh_rig_start(const wh_rig_config *config, wh_rig *rig, wh_real target_radps,
-                  uint32_t now_ticks) {
-    *rig = (wh_rig){.target_radps = target_radps};
-    wh_speed_start(&rig->speed, config->impossible_radps);
+void wh_rig_start(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks,
+                  const wh_trip_record *before) {
+    *rig = (wh_rig){.state = WH_LIFE_IDLE};
+    wh_pulses_start(&rig->pulses, config->impossible_radps);
     wh_guard_start(&rig->guard, now_ticks);
-    wh_lockin_start(&config->rotor, &rig->lockin);
-    enter(rig, WH_RIG_TARE, now_ticks);
-    if (!wh_guard_allows(&config->guard, target_radps)) {
-        wh_guard_trip(&rig->guard, WH_TRIP_TARGET);
+    wh_measure_start(&config->measure, &rig->measure);
+    (void)wh_observer_start(&config->observer, &rig->observer,
+                            now_ticks); /* then it is never valid */
+    enter(rig, WH_LIFE_IDLE, now_ticks);
+    /* who knows how fast the rotor turned before */
+    rig->run.off_radps = config->guard.limit_radps;
+    if (before != NULL && before->trip != WH_TRIP_NONE) {
+        rig->record = *before;
+        rig->guard.trip = before->trip;
+        enter(rig, WH_LIFE_TRIPPED, now_ticks);
     }
 }
 
-void wh_rig_pulse(wh_rig *rig, unsigned sensor, uint32_t ticks) {
-    const uint32_t restarts = rig->speed.restarts;
-    if (!wh_speed_pulse(&rig->speed, sensor, ticks)) {
-        return;
+/* --- what comes in ------------------------------------------------------------------------------- */
+
+bool wh_rig_post(wh_rig *rig, wh_rig_event event, wh_real value) {
+    if (rig->orders == WH_RIG_ORDERS_MOST) {
+        return false;
     }
-    if (rig->state == WH_RIG_TARE) {
-        rig->tare_pulses[sensor]++;
-    }
-    if (rig->speed.restarts != restarts) {
-        wh_lockin_gap(&rig->lockin); /* nobody knows how many turns the gap had */
-    }
-    wh_lockin_mark(&rig->lockin, sensor, ticks, rig->speed.quarter);
+    rig->order[rig->orders++] = (wh_rig_order){.event = event, .value = value};
+    return true;
 }
 
-static bool record_lasts(const wh_rig_config *config, const wh_rig *rig, uint32_t ticks) {
-    return rig->state == WH_RIG_RECORD && since_s(rig->since_ticks, ticks) <= config->record_s;
+/* How fast, and how early, may a pulse come? */
+#define SETTLE_WINDOW WH_R(0.03)
+#define RAMP_WINDOW WH_R(0.12) /* no mark is sure before */
+#define RECORD_PART WH_R(0.8)  /* of what the record lets the speed be off */
+
+static void expect_pulses(const wh_rig_config *config, wh_rig *rig) {
+    const wh_rig_phase phase = rig->run.phase;
+    const bool from_rest = phase == WH_PHASE_SPIN_UP && !rig->pulses.speed.known;
+    rig->pulses.bound_radps = wh_guard_bound_radps(
+        &config->guard, wh_run_base_radps(&config->run, &rig->run), !from_rest);
+    rig->pulses.window = phase == WH_PHASE_RECORD
+                             ? RECORD_PART * config->run.record_band_radps / rig->run.target_radps
+                             : (phase == WH_PHASE_SETTLE ? SETTLE_WINDOW : RAMP_WINDOW);
 }
 
-static void see_peaks(wh_rig *rig, wh_real force_N) {
-    wh_rig_result *result = &rig->result;
-    result->low_N = rig->peaks && result->low_N < force_N ? result->low_N : force_N;
-    result->high_N = rig->peaks && result->high_N > force_N ? result->high_N : force_N;
-    rig->peaks = true;
+void wh_rig_pulse(const wh_rig_config *config, wh_rig *rig, unsigned sensor, uint32_t ticks) {
+    rig->pulses_ever++;
+    rig->busy = true;
+    expect_pulses(config, rig);
+    if (rig->run.phase == WH_PHASE_TARE && sensor < WH_SPEED_SENSORS) {
+        rig->run.tare_pulses[sensor]++;
+    }
+    wh_pulses_take(&rig->pulses, sensor, ticks);
 }
 
 void wh_rig_load(const wh_rig_config *config, wh_rig *rig, uint32_t ticks, int32_t raw,
                  wh_load_status status) {
-    const wh_load load = wh_cell_load(&config->cell, ticks, raw, status);
-    const bool turning = rig->state >= WH_RIG_RAMP && rig->state <= WH_RIG_RAMP_DOWN;
-    wh_guard_load(&config->guard, &rig->guard, &rig->speed, &load, turning);
-    if (rig->state != WH_RIG_TARE) {
-        wh_lockin_load(&rig->lockin, &load);
-    }
-    if (load.status != WH_LOAD_OK) {
-        return;
-    }
-    if (rig->state == WH_RIG_TARE) {
-        wh_tare_add(&rig->tare, load.force_N);
-    } else if (record_lasts(config, rig, load.ticks)) {
-        see_peaks(rig, load.force_N - rig->tare.mean_N);
+    const wh_load load = wh_cell_load(&config->measure.cell, ticks, raw, status);
+    const bool needed = rig->state == WH_LIFE_ARMED || rig->run.phase != WH_PHASE_NONE;
+    wh_guard_load(&config->guard, &rig->guard, &rig->pulses.speed, &load,
+                  wh_run_is_closed(&rig->run), needed);
+    const bool at_rest = rig->run.phase == WH_PHASE_TARE;
+    if (at_rest || wh_run_drives(&rig->run)) {
+        wh_measure_load(&rig->measure, &load, at_rest);
     }
 }
 
-/* A turn is measured: what follows from it, in pieces, one a control step. */
-static void measure(const wh_rig_config *config, wh_rig *rig) {
-    wh_measured *force = &rig->result.force;
-    if (rig->due == 2U) {
-        wh_merge_mean(&config->result, &config->rotor, &rig->merge, &rig->lockin.angle,
-                      rig->tare.mean_N, force);
-        force->left_out += rig->lockin.skipped - rig->skipped_before;
-    } else if (rig->due == 1U) {
-        wh_merge_judge(&config->result, &config->rotor, &rig->merge, force);
+/* --- what follows from an event ------------------------------------------------------------------ */
+
+static void trip(wh_rig *rig, const wh_rig_inputs *inputs) {
+    rig->record = (wh_trip_record){.trip = rig->guard.trip,
+                                   .phase = rig->run.phase,
+                                   .ticks = inputs->now_ticks,
+                                   .speed_radps = rig->pulses.speed.turn_radps,
+                                   .volts = rig->run.volts,
+                                   .supply_V = inputs->supply_V};
+}
+
+/* Is gravity fed forward to a run at this speed? */
+static bool feeds(const wh_rig_config *config, wh_real target_radps) {
+    return config->feeds == WH_FEED_ALWAYS ||
+           (config->feeds == WH_FEED_SLOW && target_radps < config->guard.target_min_radps);
+}
+
+static void begin_run(const wh_rig_config *config, wh_rig *rig, wh_real target_radps,
+                      uint32_t now_ticks) {
+    wh_pulses_start(&rig->pulses, config->impossible_radps);
+    wh_measure_begin(&config->measure, &rig->measure);
+    wh_observer_forget(&rig->observer);
+    rig->observed = 0;
+    rig->fed = feeds(config, target_radps);
+    rig->guard.lost_before = 0;
+    rig->guard.rejected_before = 0;
+    wh_run_start(&rig->run, target_radps, now_ticks);
+}
+
+/* The state is left for `next`, or is begun anew. */
+static void follow(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs,
+                   const wh_rig_order *order, wh_life next) {
+    const uint32_t now = inputs->now_ticks;
+    const bool moves = rig->state == WH_LIFE_RUNNING || rig->state == WH_LIFE_STOPPING;
+    switch (order->event) {
+    case WH_EVENT_START: begin_run(config, rig, order->value, now); break;
+    case WH_EVENT_SET:
+        wh_run_set(&rig->run, order->value, now);
+        rig->fed = feeds(config, order->value);
+        break;
+    case WH_EVENT_STOP:
+    case WH_EVENT_HOST_LOST:
+        if (moves && rig->run.phase != WH_PHASE_OFF) {
+            wh_run_off(&rig->run, rig->pulses.speed.turn_radps, now);
+        }
+        break;
+    case WH_EVENT_TRIP:
+        trip(rig, inputs);
+        wh_run_off(&rig->run, rig->pulses.speed.turn_radps, now);
+        rig->run.phase = WH_PHASE_NONE;
+        break;
+    case WH_EVENT_RESTED:
+    case WH_EVENT_EXPIRED: rig->run.phase = WH_PHASE_NONE; break;
+    case WH_EVENT_CLEAR: rig->guard.trip = WH_TRIP_NONE; break;
+    case WH_EVENT_ARM: wh_pulses_start(&rig->pulses, config->impossible_radps); break;
+    case WH_EVENT_DONE:
+    case WH_EVENTS: break;
     }
-    if (rig->due > 0) {
-        rig->due--;
-        return;
-    }
-    if (!wh_lockin_work(&config->rotor, &config->cell, &rig->lockin)) {
-        return;
-    }
-    /* turns that lie within the record as a whole */
-    const wh_lockin_turn *turn = &rig->lockin.turn;
-    const bool begins_within = (int32_t)(turn->begin_ticks - rig->since_ticks) >= 0;
-    if (begins_within && record_lasts(config, rig, turn->begin_ticks + turn->turn_ticks)) {
-        wh_merge_add(&config->result, &config->rotor, &rig->merge, turn, &rig->lockin.angle);
-        rig->due = 2;
+    if (next != rig->state) {
+        enter(rig, next, now);
     }
 }
 
-static void begin_record(wh_rig *rig, uint32_t now_ticks) {
-    rig->merge = (wh_merge){.turns = 0};
-    rig->due = 0;
-    rig->peaks = false;
-    rig->ends = false;
-    rig->skipped_before = rig->lockin.skipped;
-    enter(rig, WH_RIG_RECORD, now_ticks);
+/* Returns what is against it. */
+static wh_refusal happens(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs,
+                          const wh_rig_order *order) {
+    const wh_life_rule rule = wh_life_rule_of(rig->state, order->event);
+    if (rule.refusal != WH_ALLOWED) {
+        return rule.refusal;
+    }
+    const wh_refusal refusal = wh_rig_refuses(config, rig, inputs, order);
+    if (refusal == WH_ALLOWED && (order->event != WH_EVENT_HOST_LOST || config->host_loss_stops)) {
+        follow(config, rig, inputs, order, rule.next);
+    }
+    return refusal;
 }
 
-/* A turn's samples are through within a fraction of the next turn. */
-#define LAST_TURN_MAX_S WH_R(0.5)
-
-/* The record's time is over: the last whole turn may still be worked on, and then all are merged once more, with what
- * was skipped. */
-static void end_record(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
-    const bool late = since_s(rig->since_ticks, now_ticks) > config->record_s + LAST_TURN_MAX_S;
-    if (!rig->ends && (rig->lockin.stage == WH_LOCKIN_WAITS || late) && rig->due == 0) {
-        rig->ends = true;
-        rig->due = 2;
-    }
-    if (!rig->ends || rig->due > 0) {
-        return;
-    }
-    if (rig->merge.turns == 0) {
-        wh_guard_trip(&rig->guard, WH_TRIP_RECORD);
-        return;
-    }
-    wh_rig_result *result = &rig->result;
-    result->tare_N = rig->tare.mean_N;
-    result->tare_error_N = wh_tare_error_N(&rig->tare);
-    result->duty = rig->duty;
-    result->lost = rig->speed.lost - rig->guard.lost_before;
-    result->rejected = rig->speed.rejected;
-    if (config->slow_radps < rig->target_radps) {
-        rig->drive.target_radps = config->slow_radps;
-    }
-    enter(rig, WH_RIG_RAMP_DOWN, now_ticks);
+static void finds(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs,
+                  wh_rig_event event) {
+    const wh_rig_order order = {.event = event};
+    (void)happens(config, rig, inputs, &order);
 }
 
-/* The slot of a hanging rotor stands at sensor 1, where a shiver makes pulses; but one that passes sensor 2, or
- * passes sensor 1 again and again, is no hanging rotor. */
-#define TARE_PULSES_MOST 2U
-
-static void tare(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
-    if (rig->tare.count < config->tare.samples) {
-        return;
+/* Orders are for others to give; what the rig finds itself is none. */
+static void take_orders(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
+    for (unsigned i = 0; i < rig->orders; i++) {
+        const wh_rig_order *order = &rig->order[i];
+        rig->asked = order->event;
+        rig->answer = order->event <= WH_EVENT_HOST_LOST ? happens(config, rig, inputs, order)
+                                                         : WH_REFUSED_EVENT;
+        rig->answers++;
     }
-    if (rig->tare_pulses[0] > TARE_PULSES_MOST || rig->tare_pulses[1] > 0 ||
-        !wh_tare_is_still(&config->tare, &rig->tare)) {
-        wh_guard_trip(&rig->guard, WH_TRIP_MOVING);
-        return;
-    }
-    rig->duty = config->spin_up_duty;
-    /* what was seen so far is that shiver, and it grows old */
-    wh_speed_start(&rig->speed, config->impossible_radps);
-    wh_lockin_gap(&rig->lockin);
-    enter(rig, WH_RIG_SPIN_UP, now_ticks);
+    rig->orders = 0;
 }
 
-static void spin_up(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
-    if (rig->speed.known && rig->speed.turn_radps >= config->take_over_radps) {
-        wh_drive_start(&config->drive, &rig->drive, rig->speed.turn_radps, rig->duty);
-        rig->drive.target_radps = rig->target_radps;
-        /* the first turns swing so much that the count of lost pulses means nothing */
-        rig->guard.lost_before = rig->speed.lost;
-        enter(rig, WH_RIG_RAMP, now_ticks);
-    } else if (since_s(rig->since_ticks, now_ticks) > config->spin_up_max_s) {
-        wh_guard_trip(&rig->guard, WH_TRIP_STALLED);
+/* --- the guard, in every state ------------------------------------------------------------------- */
+
+/* At a slow speed silence is measured in turns: two lost pulses leave nearly two. */
+#define SILENT_RAD WH_R(12.0)
+
+static wh_real silence_s(const wh_rig_config *config, const wh_rig *rig) {
+    if (!wh_run_is_closed(&rig->run)) {
+        return config->guard.slow_silence_max_s;
     }
+    const wh_real least = config->guard.silence_max_s * rig->run.drive.setpoint_radps;
+    return least >= SILENT_RAD ? config->guard.silence_max_s
+                               : SILENT_RAD / rig->run.drive.setpoint_radps;
 }
 
-static wh_real off_target(const wh_rig *rig) {
-    return WH_ABS(rig->speed.turn_radps - rig->target_radps);
-}
-
-static void settle(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
-    if (off_target(rig) > config->settle_band_radps) {
-        rig->band_ticks = now_ticks;
+static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
+    wh_guard *guard = &rig->guard;
+    const bool drives = wh_run_drives(&rig->run);
+    if (inputs->watchdog_has_cut) {
+        wh_guard_trip(guard, WH_TRIP_WATCHDOG);
     }
-    if (since_s(rig->band_ticks, now_ticks) >= config->settle_s) {
-        begin_record(rig, now_ticks);
-    } else if (since_s(rig->since_ticks, now_ticks) > config->settle_max_s) {
-        wh_guard_trip(&rig->guard, WH_TRIP_UNSETTLED);
+    wh_guard_quiet(&config->guard, guard, rig->pulses_ever, inputs->now_ticks);
+    if (guard->quiet && !drives && rig->pulses.speed.running) { /* times of old pulses wrap */
+        wh_pulses_start(&rig->pulses, config->impossible_radps);
+    }
+    if (guard->quiet && !drives) {
+        rig->run.off_radps = WH_R(0.0);
+    }
+    /* with the motor off nothing speeds up a rotor whose speed was known */
+    const bool slows = !drives && rig->run.off_radps < config->guard.limit_radps;
+    wh_guard_speed(&config->guard, guard, &rig->pulses, slows ? WH_TRIP_RUNS_ON : WH_TRIP_OVERSPEED,
+                   drives);
+    if (drives) {
+        wh_guard_pulses(&config->guard, guard, &rig->pulses, silence_s(config, rig),
+                        inputs->now_ticks);
+    }
+    const bool needed = rig->state == WH_LIFE_ARMED || rig->state == WH_LIFE_RUNNING || drives;
+    if (needed && !wh_guard_supply(&config->guard, inputs->supply_V)) {
+        wh_guard_trip(guard, WH_TRIP_SUPPLY);
+    }
+    if (needed && !wh_guard_load_comes(&config->guard, guard, inputs->now_ticks)) {
+        wh_guard_trip(guard, WH_TRIP_LOAD_CELL);
     }
 }
 
-/* Motor off: wait for the pulses to stay away. When it is the pulses that failed, only time tells. */
-static void coast(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
+/* --- where the rotor is --------------------------------------------------------------------------- */
+
+static void observe(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
+    wh_observer_step(&config->observer, &rig->observer, now_ticks,
+                     rig->command.volts / config->run.rated_V);
+    if (!rig->busy && rig->pulses.speed.taken != rig->observed) {
+        rig->busy = true;
+        rig->observed = rig->pulses.speed.taken;
+        wh_observer_mark(&config->observer, &rig->observer, rig->pulses.last.pulse.sensor,
+                         rig->pulses.last.pulse.ticks);
+    }
+}
+
+/* What gravity takes of the voltage, V. */
+static wh_real feed_V(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
+    if (!rig->fed || !wh_run_is_closed(&rig->run)) {
+        rig->feed.part = WH_R(0.0);
+        return WH_R(0.0);
+    }
+    if (rig->measure.lockin.angle.fed != (rig->feed.part >= WH_R(1.0))) {
+        wh_lockin_feed(&rig->measure.lockin, rig->feed.part >= WH_R(1.0));
+    }
+    return config->run.rated_V *
+           wh_feed_step(&config->feed, &rig->feed, &rig->observer, now_ticks, config->run.step_s);
+}
+
+/* --- states -------------------------------------------------------------------------------------- */
+
+/* Motor off: the rotor rests when pulses stay away. */
+static void wait_for_rest(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
+    const wh_real passed_s =
+        since_s(rig->state == WH_LIFE_STOPPING ? rig->run.since_ticks : rig->since_ticks,
+                inputs->now_ticks);
+    const bool late = passed_s > config->rest_max_s;
     const bool blind = rig->guard.trip == WH_TRIP_PULSES;
-    const bool waited = since_s(rig->since_ticks, now_ticks) >= config->rest_s;
-    const bool silent =
-        !rig->speed.running || wh_speed_silence_s(&rig->speed, now_ticks) >= config->rest_s;
-    const bool late = since_s(rig->since_ticks, now_ticks) > config->rest_max_s;
-    if (waited && silent && !blind) { /* and stays so: these times wrap every 71.6 minutes */
-        rig->at_rest = true;
-    }
-    if (rig->state == WH_RIG_COAST && rig->at_rest) {
-        enter(rig, WH_RIG_DONE, now_ticks);
-    } else if (rig->state == WH_RIG_COAST && late) {
-        wh_guard_trip(&rig->guard, WH_TRIP_RUNS_ON);
+    const bool silent = rig->guard.quiet && passed_s >= config->guard.rest_s;
+    if (rig->state == WH_LIFE_TRIPPED) {
+        rig->rested = rig->rested || late || (silent && !blind);
+    } else if (silent) {
+        finds(config, rig, inputs, WH_EVENT_RESTED);
     } else if (late) {
-        rig->at_rest = true; /* tripped, and nothing more can be done from here */
+        wh_guard_trip(&rig->guard, WH_TRIP_RUNS_ON);
     }
 }
 
-static void close_loop(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
-    /* a speed that is no longer confirmed by pulses must not move the motor */
-    if (!wh_speed_is_overdue(&rig->speed, now_ticks)) {
-        rig->duty =
-            wh_drive_step(&config->drive, &rig->drive, rig->speed.turn_radps, config->step_s);
+/* More pulses than a shiver's: somebody turns the rotor. */
+#define ARMED_PULSES_MOST 2U
+
+static void live(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
+    const bool armed = rig->state == WH_LIFE_ARMED;
+    if (armed && (since_s(rig->since_ticks, inputs->now_ticks) > config->armed_max_s ||
+                  rig->pulses.speed.taken > ARMED_PULSES_MOST)) {
+        finds(config, rig, inputs, WH_EVENT_EXPIRED);
+    }
+    if (rig->run.phase == WH_PHASE_OFF || rig->state == WH_LIFE_TRIPPED) {
+        wait_for_rest(config, rig, inputs);
+    }
+    const wh_run_scene scene = {.config = &config->run,
+                                .measuring = &config->measure,
+                                .guarding = &config->guard,
+                                .guard = &rig->guard,
+                                .pulses = &rig->pulses,
+                                .measure = &rig->measure,
+                                .impossible_radps = config->impossible_radps,
+                                .supply_V = inputs->supply_V,
+                                .fed = rig->feed.part >= WH_R(1.0),
+                                .now_ticks = inputs->now_ticks};
+    if (wh_run_step(&rig->run, &scene)) {
+        rig->result = rig->measure.result;
+        rig->has_result = true;
+        finds(config, rig, inputs, WH_EVENT_DONE);
     }
 }
 
-wh_real wh_rig_step(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks,
-                    bool watchdog_has_cut) {
-    if (watchdog_has_cut) {
-        wh_guard_trip(&rig->guard, WH_TRIP_WATCHDOG);
+static void measure(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
+    wh_mark mark;
+    while (wh_pulses_mark(&rig->pulses, now_ticks, &mark)) {
+        wh_measure_mark(&rig->measure, &mark);
+        rig->busy = true;
     }
-    if (rig->state < WH_RIG_COAST) {
-        wh_guard_load_silence(&config->guard, &rig->guard, now_ticks);
+    if (wh_run_drives(&rig->run) && !rig->busy) {
+        wh_measure_work(&config->measure, &rig->measure);
     }
-    if (motor_drives(rig)) {
-        wh_guard_speed(&config->guard, &rig->guard, &rig->speed, now_ticks);
-    }
-    measure(config, rig);
-    switch (rig->state) {
-    case WH_RIG_TARE: tare(config, rig, now_ticks); break;
-    case WH_RIG_SPIN_UP: spin_up(config, rig, now_ticks); break;
-    case WH_RIG_RAMP:
-        close_loop(config, rig, now_ticks);
-        if (wh_drive_at_target(&rig->drive)) {
-            enter(rig, WH_RIG_SETTLE, now_ticks);
-        }
-        break;
-    case WH_RIG_SETTLE:
-        close_loop(config, rig, now_ticks);
-        settle(config, rig, now_ticks);
-        break;
-    case WH_RIG_RECORD:
-        close_loop(config, rig, now_ticks);
-        if (off_target(rig) > config->record_band_radps) {
-            wh_guard_trip(&rig->guard, WH_TRIP_UNSETTLED);
-        }
-        if (!record_lasts(config, rig, now_ticks)) {
-            end_record(config, rig, now_ticks);
-        }
-        break;
-    case WH_RIG_RAMP_DOWN:
-        close_loop(config, rig, now_ticks);
-        if (wh_drive_at_target(&rig->drive)) {
-            rig->duty = WH_R(0.0);
-            enter(rig, WH_RIG_COAST, now_ticks);
-        }
-        break;
-    case WH_RIG_COAST:
-    case WH_RIG_TRIPPED: coast(config, rig, now_ticks); break;
-    case WH_RIG_DONE: break;
-    }
-    if (rig->guard.trip != WH_TRIP_NONE && rig->state != WH_RIG_TRIPPED) {
-        rig->at_rest = false;
-        enter(rig, WH_RIG_TRIPPED, now_ticks);
-    }
-    if (rig->state == WH_RIG_TRIPPED) {
-        rig->duty = WH_R(0.0);
-    }
-    return rig->duty;
+    rig->busy = false;
 }
 
-bool wh_rig_is_over(const wh_rig *rig) {
-    return rig->state == WH_RIG_DONE || (rig->state == WH_RIG_TRIPPED && rig->at_rest);
+static wh_rig_command command_of(const wh_rig_config *config, wh_rig *rig,
+                                 const wh_rig_inputs *inputs) {
+    if (rig->guard.trip == WH_TRIP_NONE && wh_run_drives(&rig->run)) {
+        const wh_real volts = rig->run.volts + feed_V(config, rig, inputs->now_ticks);
+        const wh_real most = volts < inputs->supply_V ? volts : inputs->supply_V;
+        return (wh_rig_command){WH_MOTOR_DRIVES, most > WH_R(0.0) ? most : WH_R(0.0)};
+    }
+    const bool brakes = config->stop_brakes && rig->run.phase == WH_PHASE_OFF;
+    return (wh_rig_command){brakes ? WH_MOTOR_BRAKES : WH_MOTOR_COASTS, WH_R(0.0)};
 }
 
-const char *wh_rig_state_text(wh_rig_state state) {
-    switch (state) {
-    case WH_RIG_TARE: return "tare";
-    case WH_RIG_SPIN_UP: return "spin up";
-    case WH_RIG_RAMP: return "ramp";
-    case WH_RIG_SETTLE: return "settle";
-    case WH_RIG_RECORD: return "record";
-    case WH_RIG_RAMP_DOWN: return "ramp down";
-    case WH_RIG_COAST: return "coast";
-    case WH_RIG_DONE: return "done";
-    case WH_RIG_TRIPPED: return "tripped";
+wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
+    if (rig->fed && wh_run_is_closed(&rig->run)) {
+        observe(config, rig, inputs->now_ticks);
     }
-    return "unknown state";
+    watch(config, rig, inputs);
+    if (inputs->stop_pressed) {
+        finds(config, rig, inputs, WH_EVENT_STOP);
+    }
+    take_orders(config, rig, inputs);
+    const wh_rig_phase phase = rig->run.phase;
+    live(config, rig, inputs);
+    rig->busy = rig->busy || rig->run.phase != phase;
+    measure(config, rig, inputs->now_ticks);
+    if (rig->guard.trip != WH_TRIP_NONE && rig->state != WH_LIFE_TRIPPED) {
+        finds(config, rig, inputs, WH_EVENT_TRIP);
+    }
+    rig->command = command_of(config, rig, inputs);
+    return rig->command;
 }

@@ -1,131 +1,139 @@
-/* rig.h: the eccentric-mass rig's test run as a state machine, without hardware.
+/* rig.h: the eccentric-mass rig's controller, without hardware: life cycle, guard, test run, measurement.
  *
- * The run repeats Almesallmy (2006), I.3.2.1 and I.3.3: tare, spin up, hold 330 rpm, record the load
- * cell for 2 s at 500 samples a second together with the slot pulses, stop. The caller moves data in
- * and the duty out, at a steady rate; nothing here waits or touches hardware:
+ * The caller moves data in and the motor's command out, at a steady rate; nothing here waits or touches hardware:
  *
- *     wh_rig_start(&config, &rig, target_radps, now_ticks);
- *     every control step, until wh_rig_is_over(&rig):
- *         wh_rig_pulse(&rig, ...) for each slot pulse, in order of time
+ *     wh_rig_start(&config, &rig, now_ticks, NULL);
+ *     every control step:
+ *         wh_rig_pulse(&config, &rig, ...) for each slot pulse, in order of time
  *         wh_rig_load(&config, &rig, ...) for each load sample
- *         duty = wh_rig_step(&config, &rig, now_ticks, watchdog_has_cut)
- */
+ *         wh_rig_post(&rig, ...) for each order from outside: nothing moves without `arm` and then `start`
+ *         command = wh_rig_step(&config, &rig, &inputs)
+ *         motor as commanded, watchdog kicked: also when the rig is tripped */
 #ifndef WH_RIG_RIG_H
 #define WH_RIG_RIG_H
 
-#include "drive.h"
-#include "guard.h"
-#include "lockin.h"
-#include "result.h"
-#include "speed.h"
-#include "tare.h"
+#include "feed.h"
+#include "life.h"
+#include "run.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-typedef enum wh_rig_state {
-    WH_RIG_TARE,      /* motor off; the load cell's reading at rest */
-    WH_RIG_SPIN_UP,   /* constant duty, until the pulses give a speed */
-    WH_RIG_RAMP,      /* closed loop, set-point on its way */
-    WH_RIG_SETTLE,    /* closed loop, speed must stay near the target */
-    WH_RIG_RECORD,    /* closed loop, measuring */
-    WH_RIG_RAMP_DOWN, /* closed loop, slowing */
-    WH_RIG_COAST,     /* motor off, until the rotor rests */
-    WH_RIG_DONE,      /* the result is there */
-    WH_RIG_TRIPPED    /* motor off; guard.trip says why */
-} wh_rig_state;
+#define WH_RIG_ORDERS_MOST 4U /* that may be posted between two control steps */
+
+/* When gravity's torque is fed forward to the motor. It takes the ripple out of the speed, and with it gravity's part of the
+ * load's peaks. */
+typedef enum wh_feed_when {
+    WH_FEED_NEVER,
+    WH_FEED_SLOW, /* where the set-point is too slow without */
+    WH_FEED_ALWAYS
+} wh_feed_when;
 
 typedef struct wh_rig_config {
-    wh_real step_s; /* time between calls of wh_rig_step() */
-    wh_drive_config drive;
+    wh_run_config run;
     wh_guard_config guard;
+    wh_measure_config measure;
+    wh_observer_config observer;
+    wh_feed_config feed;
+    wh_feed_when feeds;
     wh_real impossible_radps; /* see wh_speed_start() */
-    wh_rotor_config rotor;
-    wh_cell_config cell;
-    wh_tare_config tare;
-    wh_result_config result;
-    wh_real spin_up_duty;
-    wh_real take_over_radps; /* from this speed on the loop is closed */
-    wh_real spin_up_max_s;
-    wh_real settle_band_radps;
-    wh_real settle_s;          /* so long within the band */
-    wh_real settle_max_s;      /* to get there */
-    wh_real record_s;          /* whole turns within this time are measured */
-    wh_real record_band_radps; /* meanwhile */
-    wh_real slow_radps; /* ramp down to here (or stay, when slower already), then motor off */
-    wh_real rest_s;     /* so long without a pulse: at rest */
-    wh_real rest_max_s; /* to get there */
+    wh_real armed_max_s;
+    wh_real rest_max_s; /* with the motor off, to come to rest */
+    bool
+        stop_brakes; /* motor off brakes (a run's end, `stop`), else it coasts; a trip coasts always */
+    bool host_loss_stops; /* a run ends when who gives orders is gone, else it goes on */
 } wh_rig_config;
 
-typedef struct wh_rig_result {
-    wh_measured force;    /* the load's once-per-turn part: see result.h */
-    wh_real tare_N;       /* reading at rest */
-    wh_real tare_error_N; /* its standard error */
-    wh_real low_N;        /* peaks of the whole record, without tare */
-    wh_real high_N;
-    wh_real duty;  /* at the record's end */
-    uint32_t lost; /* pulses */
-    uint32_t rejected;
-} wh_rig_result;
+/* What a control step sees beside pulses, samples and orders. */
+typedef struct wh_rig_inputs {
+    uint32_t now_ticks;
+    wh_real supply_V;
+    bool stop_pressed;
+    bool clock_is_fallback; /* too inexact for a speed */
+    bool watchdog_has_cut;
+} wh_rig_inputs;
+
+typedef enum wh_motor_way { WH_MOTOR_COASTS, WH_MOTOR_BRAKES, WH_MOTOR_DRIVES } wh_motor_way;
+
+typedef struct wh_rig_command {
+    wh_motor_way way;
+    wh_real volts; /* mean voltage, 0 to the supply; 0 unless the motor drives */
+} wh_rig_command;
+
+/* What a trip leaves for whoever reads it later. Handed to wh_rig_start() after a reset, it is latched again. */
+typedef struct wh_trip_record {
+    wh_trip trip;
+    wh_rig_phase phase;
+    uint32_t ticks;
+    wh_real speed_radps;
+    wh_real volts;
+    wh_real supply_V;
+} wh_trip_record;
+
+typedef struct wh_rig_order {
+    wh_rig_event event;
+    wh_real value;
+} wh_rig_order;
 
 typedef struct wh_rig {
-    wh_rig_state state;
-    uint32_t since_ticks; /* the state began */
-    uint32_t band_ticks;  /* speed has been within the band since */
-    wh_real target_radps;
-    wh_real duty;
-    bool at_rest;
-    wh_speed speed;
-    wh_drive drive;
+    wh_life state;
+    wh_run run;
     wh_guard guard;
-    wh_tare tare;
-    uint32_t tare_pulses[WH_SPEED_SENSORS];
-    wh_lockin lockin;        /* lockin.turn: the last turn's load, whatever the state */
-    wh_merge merge;          /* of the record */
-    uint8_t due;             /* pieces of work that the last turn has left */
-    bool peaks;              /* low_N and high_N are of something */
-    bool ends;               /* the record's last turn is through */
-    uint32_t skipped_before; /* turns, when the record began */
-    wh_rig_result result;    /* grows with each turn of the record, whole from RAMP_DOWN on */
+    wh_pulses pulses;
+    wh_measure measure;
+    wh_observer observer;
+    wh_feed feed;
+    bool
+        fed; /* the run's: the observer goes with the rotor, and once it is valid gravity is fed forward */
+    wh_rig_command command; /* since the last step */
+    uint32_t observed;      /* pulses that the observer has seen */
+    uint32_t since_ticks;   /* the state began */
+    uint32_t pulses_ever;
+    bool
+        busy; /* a pulse or a mark is work enough for one step: the measurement waits for the next */
+    bool rested; /* motor off, and the rotor rests, or will not: all that can be done is done */
+    wh_rig_result result; /* of the last run that was through; kept until the next is */
+    bool has_result;
+    wh_trip_record record; /* of the last trip */
+    wh_rig_order order[WH_RIG_ORDERS_MOST];
+    unsigned orders;
+    wh_rig_event asked; /* the last order that was taken, */
+    wh_refusal answer;  /* and what became of it */
+    uint32_t answers;   /* so many were */
 } wh_rig;
 
-/* The rig of eccentric.whirl. cell and rotor.mark_rad come from the hardware: wh_rig_slots() and the caller
- * fill them in. */
+/* The rig of eccentric.whirl. measure.cell and the sensors' angles come from the hardware: wh_rig_slots() and the
+ * caller fill them in; observer.scene is rig_fixed, or NULL: then nothing is fed forward. */
 #define wh_rig_standard WH_NAME(wh_rig_standard)
 extern const wh_rig_config wh_rig_standard;
 
 #define wh_rig_slots WH_NAME(wh_rig_slots)
 #define wh_rig_start WH_NAME(wh_rig_start)
+#define wh_rig_post WH_NAME(wh_rig_post)
 #define wh_rig_pulse WH_NAME(wh_rig_pulse)
 #define wh_rig_load WH_NAME(wh_rig_load)
 #define wh_rig_step WH_NAME(wh_rig_step)
-#define wh_rig_is_over WH_NAME(wh_rig_is_over)
-#define wh_rig_state_text WH_NAME(wh_rig_state_text)
 
 /* Sensors on the loading-train axis and a quarter turn on, whose pulses come with the arms so far short. */
 void wh_rig_slots(wh_rig_config *config, wh_real lead_rad);
 
-/* Begin a run to target_radps. A target that the guard refuses trips at once. */
-void wh_rig_start(const wh_rig_config *config, wh_rig *rig, wh_real target_radps,
-                  uint32_t now_ticks);
+/* Idle, motor off, whatever the rotor does; or tripped, if `before` (may be NULL) is the record of a trip. */
+void wh_rig_start(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks,
+                  const wh_trip_record *before);
+
+/* An order for the next control step. False: WH_RIG_ORDERS_MOST wait already. rig->answer says what became of it. */
+bool wh_rig_post(wh_rig *rig, wh_rig_event event, wh_real value);
 
 /* A slot pulse of sensor 0 or 1, captured at `ticks`. */
-void wh_rig_pulse(wh_rig *rig, unsigned sensor, uint32_t ticks);
+void wh_rig_pulse(const wh_rig_config *config, wh_rig *rig, unsigned sensor, uint32_t ticks);
 
 /* A load sample as the hardware has it: counts, stamped `ticks`, and what it says of it. */
 void wh_rig_load(const wh_rig_config *config, wh_rig *rig, uint32_t ticks, int32_t raw,
                  wh_load_status status);
 
-/* One control step. Returns the motor's duty, 0 to 1; 0 whenever the rig is tripped. */
-wh_real wh_rig_step(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks,
-                    bool watchdog_has_cut);
-
-/* True when the run is done, or has tripped and the rotor rests (or will not rest). */
-bool wh_rig_is_over(const wh_rig *rig);
-
-/* The state in words, for consoles. */
-const char *wh_rig_state_text(wh_rig_state state);
+/* One control step. */
+wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs);
 
 #ifdef __cplusplus
 }

@@ -51,6 +51,8 @@ bool wh_speed_pulse(wh_speed *speed, unsigned sensor, uint32_t ticks) {
     if (speed->known && due_quarters > (wh_real)(moved + 1U)) {
         speed->lost += 2;
         speed->restarts++;
+        /* one gap keeps the speed; a second one running says that it was wrong */
+        speed->known = speed->interval_radps > WH_R(0.0);
         speed->interval_radps = WH_R(0.0);
         speed->seen[0] = false;
         speed->seen[1] = false;
@@ -70,12 +72,4 @@ bool wh_speed_pulse(wh_speed *speed, unsigned sensor, uint32_t ticks) {
     }
     remember(speed, sensor, ticks);
     return true;
-}
-
-wh_real wh_speed_silence_s(const wh_speed *speed, uint32_t now_ticks) {
-    return speed->running ? seconds(now_ticks - speed->ticks) : WH_R(0.0);
-}
-
-bool wh_speed_is_overdue(const wh_speed *speed, uint32_t now_ticks) {
-    return speed->known && wh_speed_silence_s(speed, now_ticks) * speed->turn_radps > WH_RIG_TWO_PI;
 }

@@ -8,6 +8,7 @@
 #define WH_RIG_SPEED_H
 
 #include "core/real.h"
+#include "datasheet.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -34,8 +35,6 @@ typedef struct wh_speed {
 
 #define wh_speed_start WH_NAME(wh_speed_start)
 #define wh_speed_pulse WH_NAME(wh_speed_pulse)
-#define wh_speed_silence_s WH_NAME(wh_speed_silence_s)
-#define wh_speed_is_overdue WH_NAME(wh_speed_is_overdue)
 
 /* Forget everything. impossible_radps > 0: no pulse can come faster than this. */
 void wh_speed_start(wh_speed *speed, wh_real impossible_radps);
@@ -45,16 +44,25 @@ void wh_speed_start(wh_speed *speed, wh_real impossible_radps);
  *
  * One lost pulse is bridged. A pulse that comes more than a quarter turn later than the turn's speed
  * lets expect is taken for the first one after a gap in which two or more were lost: they are counted
- * as two, measuring starts afresh, and the last speed stays until a whole turn has been seen again.
+ * as two, measuring starts afresh, and the last speed stays until a whole turn has been seen again. (Behind two gaps
+ * running it is unknown: it may be what was wrong.)
  * Sensors in the wrong order, or a rotor turning backwards, look like such a gap each turn. */
 bool wh_speed_pulse(wh_speed *speed, unsigned sensor, uint32_t ticks);
 
 /* Seconds since the last pulse taken; 0 when there was none. */
-wh_real wh_speed_silence_s(const wh_speed *speed, uint32_t now_ticks);
+WH_INLINE wh_real wh_speed_silence_s(const wh_speed *speed, uint32_t now_ticks) {
+    /* signed: a pulse may be stamped later than the step's own reading of the timer */
+    const int32_t age_ticks = (int32_t)(now_ticks - speed->ticks);
+    return speed->running && age_ticks > 0
+               ? (wh_real)age_ticks * (WH_R(1.0) / (wh_real)WH_RIG_TICKS_PER_S)
+               : WH_R(0.0);
+}
 
 /* True when no pulse has come for more than a whole turn at the known speed, so that at least one
  * was lost (regular intervals are at most three quarters of a turn). */
-bool wh_speed_is_overdue(const wh_speed *speed, uint32_t now_ticks);
+WH_INLINE bool wh_speed_is_overdue(const wh_speed *speed, uint32_t now_ticks) {
+    return speed->known && wh_speed_silence_s(speed, now_ticks) * speed->turn_radps > WH_RIG_TWO_PI;
+}
 
 #ifdef __cplusplus
 }

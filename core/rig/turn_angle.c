@@ -27,17 +27,27 @@ static wh_real added(const wh_turn_angle *angle, wh_wave u) {
 }
 
 void wh_turn_angle_start(const wh_rotor_config *config, wh_turn_angle *angle) {
-    *angle = (wh_turn_angle){.inertia_kgm2 = config->inertia_kgm2};
+    *angle = (wh_turn_angle){.inertia_kgm2 = config->inertia_kgm2, .part = WH_R(1.0)};
     angle->base_rad = config->mark_rad[0];
     angle->begin_rad = config->mark_rad[0] - config->gravity_rad;
+}
+
+void wh_turn_angle_feed(wh_turn_angle *angle, bool fed) {
+    if (angle->fed != fed) {
+        angle->fed = fed;
+        angle->part = fed ? WH_R(0.0) : WH_R(1.0);
+        angle->splits = 0;
+    }
 }
 
 void wh_turn_angle_shape(const wh_rotor_config *config, wh_turn_angle *angle, wh_real speed_radps) {
     const wh_real weight_Nm = config->mass_moment_kgm * config->gravity_mps2;
     const wh_real turning = angle->inertia_kgm2 * speed_radps;
     const wh_real sum = WH_SQRT(turning * turning + config->damping_Nms * config->damping_Nms);
-    const wh_real swing = weight_Nm / (speed_radps * sum);
-    angle->swing_rad = swing < SWING_MOST ? swing : SWING_MOST; /* NaN too */
+    angle->whole_rad = weight_Nm / (speed_radps * sum);
+    const wh_real swing = angle->part * angle->whole_rad;
+    angle->swing_rad =
+        swing < SWING_MOST ? swing > -SWING_MOST ? swing : -SWING_MOST : SWING_MOST; /* NaN too */
     const wh_real sine = config->damping_Nms / sum;
     const wh_real square = sine * sine;
     /* the arc sine to 1e-4 below 0.5 */
@@ -65,32 +75,39 @@ wh_real wh_turn_angle_split(const wh_rotor_config *config, wh_turn_angle *angle,
     const wh_wave to = wave_of(angle->begin_rad + passed);
     const wh_real off = config->mark_rad[1] - (angle->base_rad + passed + added(angle, to));
     const wh_real swing = angle->swing_rad;
-    if (!(swing > WH_R(0.0))) {
+    if (!(angle->whole_rad > WH_R(0.0))) {
         return off;
     }
     const wh_real sine = angle->lag_rad * (WH_R(1.0) - angle->lag_rad * angle->lag_rad / WH_R(6.0));
     const wh_real cosine2 = WH_R(1.0) - sine * sine;
     const wh_real bends = WH_R(1.0) / (WH_R(1.0) + swing * from.cosine);
     const wh_real turns = to.cosine - from.cosine;
-    /* of the swing, the lag following it: d psi = tan psi dE / E */
-    const wh_real lag_per_swing = sine / (WH_SQRT(cosine2) * swing);
+    /* of the swing, the lag following it where it is the inertia's: d psi = tan psi dE / E */
+    const wh_real lag_per_swing = angle->fed ? WH_R(0.0) : sine / (WH_SQRT(cosine2) * swing);
     const wh_real begin_per_swing = (lag_per_swing - from.sine) * bends;
     const wh_real split_per_swing = (to.sine - from.sine) + swing * turns * begin_per_swing;
     const wh_real base_per_swing = -from.sine - swing * from.cosine * begin_per_swing;
     if (!(WH_ABS(split_per_swing) > SLOPE_LEAST)) {
         /* the lag of too light a rotor turns the split back: from a heavier one Newton's method arrives.
          * But gravity along a diagonal leaves the split as it is, whatever the rotor. */
-        if (WH_ABS(to.sine - from.sine) > WH_R(2.0) * SLOPE_LEAST) {
+        if (!angle->fed && WH_ABS(to.sine - from.sine) > WH_R(2.0) * SLOPE_LEAST) {
             angle->inertia_kgm2 *= WH_R(1.25);
         }
         return off;
     }
     angle->base_per_split = base_per_swing / split_per_swing;
+    angle->base_per_quadrature = WH_R(1.0) / split_per_swing;
     angle->base_per_lag = -swing * bends * (from.cosine + angle->base_per_split * turns);
 
     angle->splits += angle->splits < WH_TURN_ANGLE_PATIENCE + SPLITS_TO_FIND ? 1U : 0U;
     const uint32_t turns_averaged =
         angle->splits > SPLITS_TO_FIND ? angle->splits - SPLITS_TO_FIND : 1U;
+    if (angle->fed) {
+        const wh_real part =
+            angle->part + off / (split_per_swing * angle->whole_rad * (wh_real)turns_averaged);
+        angle->part = part < WH_R(1.0) ? part > WH_R(-1.0) ? part : WH_R(-1.0) : WH_R(1.0);
+        return off;
+    }
     /* d ln E / d ln I = -cos^2 psi; within a factor of two, whatever the mark */
     wh_real change = -off / (split_per_swing * swing * cosine2);
     change = change < WH_R(0.5) ? change > WH_R(-0.5) ? change : WH_R(-0.5) : WH_R(0.5);

@@ -11,7 +11,11 @@
  * S is the sum of mass times radius, gamma the direction in which gravity pulls, c the slope of the motor's
  * torque line with the bearings' drag, I the rotor's inertia. An even angle (E = 0) is off by 2.6 % and 2.0
  * degrees of the force at 170 rpm. I is not asked of the user but found: how a turn is split by sensor 2's
- * mark gives E, thus I. What stays assumed is c, which the split does not show. */
+ * mark gives E, thus I. What stays assumed is c, which the split does not show.
+ *
+ * Where gravity is fed forward (feed.h) a part of it is left, of either sign: E is that part of the above. The split then
+ * tells the part, and I stays what it was found to be before. A motor that cannot brake as much as is asked of it leaves
+ * more than a sine: at 100 rpm the angle is then known to some tenths of a degree. */
 #ifndef WH_RIG_TURN_ANGLE_H
 #define WH_RIG_TURN_ANGLE_H
 
@@ -27,6 +31,7 @@ typedef struct wh_rotor_config {
     wh_real gravity_rad;       /* gamma: the angle theta at which the arms hang */
     wh_real damping_Nms;       /* c */
     wh_real damping_tolerance; /* c may be off by this fraction, at 95 % */
+    wh_real fed_tolerance_rad; /* gravity may be fed at an angle that is off by this, at 95 % */
     wh_real inertia_kgm2;      /* to begin with */
     wh_real mark_rad[2];       /* angle theta of the arms at a pulse of each sensor */
 } wh_rotor_config;
@@ -35,18 +40,24 @@ typedef struct wh_rotor_config {
 
 typedef struct wh_turn_angle {
     wh_real inertia_kgm2; /* as found so far */
-    uint32_t splits;      /* turns that it comes from */
-    wh_real swing_rad;    /* E */
-    wh_real lag_rad;      /* psi */
-    wh_real begin_rad;    /* u at the turn's begin */
+    bool fed;
+    wh_real part;      /* of gravity that is left, as found so far: 1 when it is not fed */
+    uint32_t splits;   /* turns that inertia or part come from */
+    wh_real whole_rad; /* E of all of gravity */
+    wh_real swing_rad; /* E */
+    wh_real lag_rad;   /* psi */
+    wh_real begin_rad; /* u at the turn's begin */
     wh_real base_rad;
     wh_real second_sine; /* of sin 2u and cos 2u */
     wh_real second_cosine;
     wh_real base_per_split; /* how base_rad follows the split, with the lag that goes with it */
-    wh_real base_per_lag;   /* and a lag that does not, the split kept */
+    wh_real base_per_lag;   /* and a lag that does not, the split kept; */
+    wh_real
+        base_per_quadrature; /* and a swing a quarter turn on from E, which the split is mistaken for E in */
 } wh_turn_angle;
 
 #define wh_turn_angle_start WH_NAME(wh_turn_angle_start)
+#define wh_turn_angle_feed WH_NAME(wh_turn_angle_feed)
 #define wh_turn_angle_shape WH_NAME(wh_turn_angle_shape)
 #define wh_turn_angle_split WH_NAME(wh_turn_angle_split)
 #define wh_turn_angle_at WH_NAME(wh_turn_angle_at)
@@ -54,12 +65,16 @@ typedef struct wh_turn_angle {
 /* Forget what was found. */
 void wh_turn_angle_start(const wh_rotor_config *config, wh_turn_angle *angle);
 
+/* From now on gravity is fed forward, or no longer: what is left of it is found anew, the inertia kept. Without a change
+ * nothing happens. */
+void wh_turn_angle_feed(wh_turn_angle *angle, bool fed);
+
 /* The angle's shape at a mean speed > 0, with the inertia as found so far. Bounded work; each call takes
  * begin_rad closer, and from one turn to the next little is left to do. */
 void wh_turn_angle_shape(const wh_rotor_config *config, wh_turn_angle *angle, wh_real speed_radps);
 
-/* Sensor 2's mark came when the part `split` (0 to 1) of the turn's time was over: correct the inertia,
- * for which the shape must be that of this turn's speed. Returns by how much the mark was off, rad. */
+/* Sensor 2's mark came when the part `split` (0 to 1) of the turn's time was over: correct the inertia, or the
+ * part of gravity that is left, for which the shape must be that of this turn's speed. Returns by how much the mark was off, rad. */
 wh_real wh_turn_angle_split(const wh_rotor_config *config, wh_turn_angle *angle, wh_real split);
 
 /* theta when the part `part` (0 to 1) of the turn's time is over. */

@@ -91,8 +91,6 @@ static void drive(float duty) {
     hal_turns_set(&plant, ENABLE, 1.0f);
 }
 
-void hal_motor_set_duty(float duty) { drive(duty); }
-
 /* Without a supply nothing drives, and nothing is divided by. */
 void hal_motor_set_voltage(float volts) {
     drive(supply_V > SUPPLY_V_PER_COUNT ? volts / supply_V : 0.0f);

@@ -11,6 +11,7 @@ extern "C" {
  * core/rig; the others are the result's, which is none while it has no turns. */
 #define HAL_NOTE_ROWS(X) \
     X(HAL_NOTE_STATE, "state", "1") \
+    X(HAL_NOTE_PHASE_OF_RUN, "phase_of_run", "1") \
     X(HAL_NOTE_TRIP, "trip", "1") \
     X(HAL_NOTE_QUALITY, "quality", "1") \
     X(HAL_NOTE_AMPLITUDE, "amplitude", "N") \

@@ -19,7 +19,11 @@ uint32_t hal_clock_ticks(void) { return board_rig.ticks; }
 
 void hal_clock_wait_until(uint32_t ticks) { hal_virtual_rig_advance(&board_rig, ticks); }
 
-void hal_motor_set_duty(float duty) { hal_virtual_rig_set_duty(&board_rig, duty); }
+void hal_motor_set_voltage(float volts) { hal_virtual_rig_set_voltage(&board_rig, volts); }
+
+void hal_motor_off(hal_motor_off_way way) { hal_virtual_rig_motor_off(&board_rig, way); }
+
+float hal_motor_supply_V(void) { return board_rig.supply_V; }
 
 bool hal_slots_take(hal_slot_pulse *pulse) { return hal_virtual_rig_take_pulse(&board_rig, pulse); }
 

@@ -13,7 +13,9 @@
 
 bool hal_virtual_rig_start(hal_virtual_rig *rig, const wh_scene *scene) {
     const float step_ticks = scene->step_s * (float)HAL_TICKS_PER_S;
-    *rig = (hal_virtual_rig){.scene = scene, .step_ticks = (uint32_t)(step_ticks + 0.5f)};
+    *rig = (hal_virtual_rig){.scene = scene,
+                             .step_ticks = (uint32_t)(step_ticks + 0.5f),
+                             .supply_V = HAL_VIRTUAL_RATED_V};
     if (scene->angles != 1 || scene->reals != 1 || scene->inputs != 1 || scene->observe == NULL ||
         scene->outputs < 1 || scene->outputs > OUTPUTS_MAX || rig->step_ticks == 0) {
         return false;
@@ -128,11 +130,24 @@ static void read_load_cell(hal_virtual_rig *rig) {
     }
 }
 
+/* What the drive stage makes of its command, as the model's duty. Without current, which is without torque, the motor
+ * shows its back-EMF. */
+static float duty_of(const hal_virtual_rig *rig) {
+    const float back_emf = hal_virtual_rig_speed_radps(rig) * (1.0f / HAL_VIRTUAL_NO_LOAD_RADPS);
+    if (!rig->enabled || rig->cut) {
+        return back_emf;
+    }
+    const float volts =
+        rig->faults.runaway_motor || rig->volts > rig->supply_V ? rig->supply_V : rig->volts;
+    const float duty = volts * (1.0f / HAL_VIRTUAL_RATED_V);
+    return rig->faults.freewheels && duty < back_emf ? back_emf : duty;
+}
+
 static void step(hal_virtual_rig *rig) {
     if (rig->watched && rig->ticks - rig->kicked_ticks > rig->watchdog_ticks) {
         rig->cut = true;
     }
-    rig->state.input[0] = rig->cut ? 0.0f : rig->faults.runaway_motor ? 1.0f : rig->duty;
+    rig->state.input[0] = duty_of(rig);
 
     const wh_angle angle = rig->state.angle[0];
     const float scale = WH_PHASE_PER_RAD * rig->scene->step_s;
@@ -159,8 +174,14 @@ void hal_virtual_rig_advance(hal_virtual_rig *rig, uint32_t ticks) {
     }
 }
 
-void hal_virtual_rig_set_duty(hal_virtual_rig *rig, float duty) {
-    rig->duty = duty > 1.0f ? 1.0f : duty > 0.0f ? duty : 0.0f;
+void hal_virtual_rig_set_voltage(hal_virtual_rig *rig, float volts) {
+    rig->volts = volts > 0.0f ? volts : 0.0f;
+    rig->enabled = true;
+}
+
+void hal_virtual_rig_motor_off(hal_virtual_rig *rig, hal_motor_off_way way) {
+    rig->volts = 0.0f;
+    rig->enabled = way == HAL_MOTOR_BRAKE;
 }
 
 bool hal_virtual_rig_take_pulse(hal_virtual_rig *rig, hal_slot_pulse *pulse) {

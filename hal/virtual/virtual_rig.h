@@ -15,6 +15,7 @@
 
 #include "core/scene.h"
 #include "hal/loadcell.h"
+#include "hal/motor.h"
 #include "hal/slots.h"
 
 #ifdef __cplusplus
@@ -23,6 +24,11 @@ extern "C" {
 
 #define HAL_VIRTUAL_PULSES 16U
 #define HAL_VIRTUAL_SAMPLES 8U
+
+/* Supply at which the model's duty of 1 is full duty, and the speed, rad/s, that the motor has then without load:
+ * where back-EMF equals the voltage. tests/core/test_virtual_rig.c compares it with the model. */
+#define HAL_VIRTUAL_RATED_V 24.0f
+#define HAL_VIRTUAL_NO_LOAD_RADPS 62.831853f
 
 /* The timer wraps so long after the start that every run crosses the wrap. */
 #define HAL_VIRTUAL_WRAP_AFTER_S 5U
@@ -33,7 +39,8 @@ typedef struct hal_virtual_faults {
     bool dead_sensor[2];     /* gives no pulse */
     unsigned lose_samples;   /* so many of the next load samples are swallowed */
     bool stuck_load_cell;    /* repeats its last count */
-    bool runaway_motor;      /* full supply, whatever the duty; the watchdog still cuts it */
+    bool runaway_motor; /* full supply, whatever the voltage; enable and watchdog still cut it */
+    bool freewheels;    /* the drive stage cannot brake: it only pushes */
 } hal_virtual_faults;
 
 typedef struct hal_virtual_rig {
@@ -43,7 +50,9 @@ typedef struct hal_virtual_rig {
     wh_status status;      /* WH_E_DIVERGED: the model gave up; time goes on, nothing moves */
     uint32_t ticks;        /* now, 1 MHz, wrapping */
     uint32_t step_ticks;   /* one step of the model */
-    float duty;            /* as commanded */
+    float volts;           /* as commanded, */
+    bool enabled;          /* and whether the drive is on */
+    float supply_V;        /* HAL_VIRTUAL_RATED_V at the start; may be set at any time */
     uint32_t sample_ticks; /* the next load sample is due */
     int32_t last_raw;
     hal_slot_pulse pulse[HAL_VIRTUAL_PULSES];
@@ -64,8 +73,9 @@ bool hal_virtual_rig_start(hal_virtual_rig *rig, const wh_scene *scene);
 /* Let time pass until `ticks`, in whole steps of the model: may end up to one step later. */
 void hal_virtual_rig_advance(hal_virtual_rig *rig, uint32_t ticks);
 
-/* As hal_motor_set_duty(), hal_slots_take(), hal_loadcell_take() on this rig. */
-void hal_virtual_rig_set_duty(hal_virtual_rig *rig, float duty);
+/* As hal_motor_set_voltage(), hal_motor_off(), hal_slots_take(), hal_loadcell_take() on this rig. */
+void hal_virtual_rig_set_voltage(hal_virtual_rig *rig, float volts);
+void hal_virtual_rig_motor_off(hal_virtual_rig *rig, hal_motor_off_way way);
 bool hal_virtual_rig_take_pulse(hal_virtual_rig *rig, hal_slot_pulse *pulse);
 bool hal_virtual_rig_take_sample(hal_virtual_rig *rig, hal_load_sample *sample);
 

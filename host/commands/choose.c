@@ -10,6 +10,7 @@
 #include "host/price/choice_counted.h"
 #include "host/price/choice_text.h"
 #include "host/price/figure_text.h"
+#include "interrupts.h"
 #include "pricing.h"
 
 /* Records to the horizon: so many to two and a half times as many. */
@@ -72,31 +73,29 @@ typedef struct choose_options {
     bool predict;
 } choose_options;
 
-static bool read_options(int count, char **words, choose_options *o) {
+static bool take_one(int count, char **words, int *at, void *options, bool *bad) {
+    choose_options *o = options;
     const char **const values[] = {&o->rate, &o->clock, &o->flash, &o->ram};
-    bool bad = false;
-    for (int at = 0; at < count && !bad;) {
-        bool taken = false;
-        bool *const asked = strcmp(words[at], "--measure") == 0   ? &o->measure
-                            : strcmp(words[at], "--predict") == 0 ? &o->predict
-                                                                  : NULL;
-        if (asked != NULL) {
-            *asked = true;
-            at++;
-            continue;
-        }
-        for (int i = 0; i < (int)(sizeof values / sizeof values[0]) && !taken && !bad; i++) {
-            const char *value = options_value(count, words, &at, own[i], &bad);
-            taken = value != NULL;
-            *values[i] = taken ? value : *values[i];
-        }
-        if (taken || bad || pricing_take(count, words, &at, &o->common, &bad)) {
-            continue;
-        }
-        pricing_unknown("choose", words[at], own);
-        return false;
+    bool *const asked = strcmp(words[*at], "--measure") == 0   ? &o->measure
+                        : strcmp(words[*at], "--predict") == 0 ? &o->predict
+                                                               : NULL;
+    if (asked != NULL) {
+        *asked = true;
+        ++*at;
+        return true;
     }
-    if (bad || !pricing_complete(&o->common)) {
+    for (int i = 0; i < (int)(sizeof values / sizeof values[0]) && !*bad; i++) {
+        const char *value = options_value(count, words, at, own[i], bad);
+        if (value != NULL) {
+            *values[i] = value;
+            return true;
+        }
+    }
+    return !*bad && pricing_take(count, words, at, &o->common, bad);
+}
+
+static bool read_options(int count, char **words, choose_options *o) {
+    if (!pricing_read(count, words, own, take_one, o, &o->common)) {
         return false;
     }
     if (o->measure && o->predict) {
@@ -315,8 +314,8 @@ static int choose_scene(const choose_options *o, pricing *p) {
     const bool shows = !o->common.quiet && isatty(STDERR_FILENO);
     w.progress = shows ? show_progress : NULL;
     w.counting = shows ? show_counting : NULL;
-    pricing_catch_interrupts();
-    int code = pricing_begin(p, spacing, &pricing_interrupted);
+    interrupts_catch();
+    int code = pricing_begin(p, spacing, &interrupted);
     if (code == EXIT_DONE) {
         code = choose_begun(o, p, &w);
     }

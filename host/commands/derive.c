@@ -1,11 +1,11 @@
 /* derive.c: `whirl derive`: the equations of motion, the first-order form, the code. */
-#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "commands.h"
 #include "files.h"
+#include "host/base/unwritten.h"
 #include "host/emit/emit.h"
 #include "host/emit/matrix.h"
 #include "host/fixed/c_fixed.h"
@@ -14,7 +14,7 @@
 #include "host/run/start.h"
 #include "host/show/show_equations.h"
 #include "load.h"
-#include "options.h"
+#include "target.h"
 
 static void text(const loaded *made, const char *file) {
     (void)file;
@@ -205,7 +205,7 @@ static bool write_header(const form_row *as, const image *im, const fixed_plan *
         written = fflush(out) == 0 && ferror(out) == 0;
     }
     if (!written) {
-        fprintf(stderr, "%s: error: cannot be written: %s\n", header, strerror(errno));
+        unwritten_say(header);
     }
     if (out != NULL) {
         fclose(out);
@@ -294,14 +294,17 @@ static int derive_one(source_model *from, const mechanism *of, const scene *in,
     return code;
 }
 
+typedef struct derive_options {
+    common_options common;
+    const char *target;
+    const char *header;
+    const form_row *as;
+} derive_options;
+
 /* The scene's name in generated code: as a name in a .whirl file. */
 static bool take_name(change_options *options, const char *name) {
     static const char letters[] = "_ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789";
     const size_t length = strlen(name);
-    if (options->name != NULL) {
-        fputs("whirl derive: error: --name is given twice\n", stderr);
-        return false;
-    }
     if (length == 0 || length > NAME_LENGTH_MAX || strspn(name, letters) != length ||
         (name[0] >= '0' && name[0] <= '9')) {
         fprintf(stderr,
@@ -314,86 +317,83 @@ static bool take_name(change_options *options, const char *name) {
     return true;
 }
 
+static bool take_one(int count, char **words, int *at, void *options, bool *bad) {
+    derive_options *o = options;
+    const char *value = options_value(count, words, at, "--as", bad);
+    if (value != NULL) {
+        const int chosen = options_choose("derive", "form", value, forms, sizeof forms[0], FORMS);
+        *bad = chosen < 0;
+        o->as = chosen < 0 ? o->as : &forms[chosen];
+    } else if (!*bad && (value = options_value(count, words, at, "--header", bad)) != NULL) {
+        o->header = value;
+    } else if (!*bad && (value = options_value(count, words, at, "--name", bad)) != NULL) {
+        *bad = !take_name(&o->common.change, value);
+    }
+    return value != NULL;
+}
+
+static bool read_options(int count, char **words, derive_options *o) {
+    static const char *const own[] = {"--as", "--header", "--name", NULL};
+    const target_reader reader = {.command = "derive",
+                                  .groups = options_of_derive.groups,
+                                  .own = own,
+                                  .take = take_one,
+                                  .derives = true};
+    if (!target_read(&reader, count, words, &o->common, o, &o->target) ||
+        (o->header != NULL && !goes_with("--header", "FILE", has_a_header, o->as)) ||
+        (o->common.change.name != NULL && !goes_with("--name", "NAME", has_a_name, o->as))) {
+        return false;
+    }
+    if (o->common.number == &engine_fixed && !has_steps(o->as)) {
+        char said[FORMS_TEXT_SIZE];
+        fprintf(stderr, "whirl derive: error: --number fixed goes with %s\n",
+                forms_with(has_steps, said));
+        return false;
+    }
+    if (o->target == NULL) {
+        print_usage(stderr);
+    }
+    return o->target != NULL;
+}
+
+/* All mechanisms of a file, where none is named and the form shows them; else the one that is meant. */
+static int derive_opened(source_model *from, const derive_options *o) {
+    const overrides changes = options_overrides(&o->common.change);
+    const mechanism *of;
+    const scene *in;
+    int code = EXIT_DONE;
+    if (from->name[0] == '\0' && o->as->shows) {
+        for (int i = 0; i < from->model->mechanism_count && code == EXIT_DONE; i++) {
+            fputs(i > 0 ? "\n" : "", stdout);
+            code = derive_one(from, from->model->mechanisms[i], NULL, &changes, o->as, &o->common,
+                              NULL);
+        }
+        return code;
+    }
+    /* the file's only scene; of several, none is meant: the mechanism */
+    code = source_pick(from, from->model->scene_count == 1, &of, &in);
+    if (code == EXIT_DONE && o->header != NULL && !header_is_apart(from, o->header)) {
+        code = EXIT_BAD_INPUT;
+    }
+    return code == EXIT_DONE ? derive_one(from, of, in, &changes, o->as, &o->common, o->header)
+                             : code;
+}
+
 int command_derive(int count, char **words) {
-    const char *target = NULL;
-    const char *header = NULL;
-    const form_row *as = &forms[0];
-    common_options options = options_defaults();
-    bool bad = false;
+    derive_options o = {.common = options_defaults(), .as = &forms[0]};
     if (options_wants_help(count, words)) {
         print_usage(stdout);
         return EXIT_DONE;
     }
-    for (int at = 0; at < count && !bad;) {
-        const char *value = options_value(count, words, &at, "--as", &bad);
-        if (value != NULL) {
-            const int chosen =
-                options_choose("derive", "form", value, forms, sizeof forms[0], FORMS);
-            bad = chosen < 0;
-            as = bad ? as : &forms[chosen];
-        } else if (!bad && (value = options_value(count, words, &at, "--header", &bad)) != NULL) {
-            if (header != NULL) {
-                fputs("whirl derive: error: --header is given twice\n", stderr);
-                bad = true;
-            }
-            header = value;
-        } else if (!bad && (value = options_value(count, words, &at, "--name", &bad)) != NULL) {
-            bad = !take_name(&options.change, value);
-        } else if (!bad &&
-                   !options_take("derive", options_of_derive.groups, count, words, &at, &options,
-                                 &bad) &&
-                   !bad) {
-            if (words[at][0] == '-' && words[at][1] != '\0') {
-                options_unknown("derive", words[at], options_of_derive.groups,
-                                (const char *const[]){"--as", "--header", "--name", NULL});
-                bad = true;
-            } else if (target != NULL) {
-                fprintf(stderr, "whirl derive: error: more than one thing to derive: %s\n",
-                        words[at]);
-                bad = true;
-            } else {
-                target = words[at++];
-            }
-        }
-    }
-    bad = bad || (header != NULL && !goes_with("--header", "FILE", has_a_header, as)) ||
-          (options.change.name != NULL && !goes_with("--name", "NAME", has_a_name, as));
-    if (!bad && options.number == &engine_fixed && !has_steps(as)) {
-        char said[FORMS_TEXT_SIZE];
-        fprintf(stderr, "whirl derive: error: --number fixed goes with %s\n",
-                forms_with(has_steps, said));
-        bad = true;
-        target = "";
-    }
-    if (bad || target == NULL) {
-        if (!bad) {
-            print_usage(stderr);
-        }
-        options_forget(&options);
-        return EXIT_BAD_INPUT;
-    }
-    source_model from;
-    int code = source_open(&from, target);
-    const overrides changes = options_overrides(&options.change);
-    if (code == EXIT_DONE && from.name[0] == '\0' && as->shows) {
-        for (int i = 0; i < from.model->mechanism_count && code == EXIT_DONE; i++) {
-            if (i > 0) {
-                putchar('\n');
-            }
-            code = derive_one(&from, from.model->mechanisms[i], NULL, &changes, as, &options, NULL);
-        }
-    } else if (code == EXIT_DONE) {
-        const mechanism *of;
-        const scene *in;
-        /* the file's only scene; of several, none is meant: the mechanism */
-        code = source_pick(&from, from.model->scene_count == 1, &of, &in);
+    int code = EXIT_BAD_INPUT;
+    if (read_options(count, words, &o)) {
+        source_model from;
+        code = source_open(&from, o.target);
         if (code == EXIT_DONE) {
-            code = header != NULL && !header_is_apart(&from, header)
-                       ? EXIT_BAD_INPUT
-                       : derive_one(&from, of, in, &changes, as, &options, header);
+            code = derive_opened(&from, &o);
         }
+        source_close(&from);
     }
-    source_close(&from);
-    options_forget(&options);
+    options_forget(&o.common);
     return code;
 }

@@ -5,7 +5,7 @@
 #include "commands.h"
 #include "host/emit/description.h"
 #include "load.h"
-#include "options.h"
+#include "target.h"
 
 static const command_usage usage = {
     .head =
@@ -25,32 +25,27 @@ typedef struct describe_options {
     bool as_json;
 } describe_options;
 
+static bool take_one(int count, char **words, int *at, void *options, bool *bad) {
+    (void)count;
+    (void)bad;
+    describe_options *o = options;
+    const bool is_json = strcmp(words[*at], "--json") == 0;
+    if (is_json) {
+        o->as_json = true;
+        ++*at;
+    }
+    return is_json;
+}
+
 static bool read_options(int count, char **words, describe_options *o) {
-    bool bad = false;
-    for (int at = 0; at < count && !bad;) {
-        if (strcmp(words[at], "--json") == 0) {
-            o->as_json = true;
-            at++;
-        } else if (!options_take("describe", usage.groups, count, words, &at, &o->common, &bad) &&
-                   !bad) {
-            if (words[at][0] == '-' && words[at][1] != '\0') {
-                options_unknown("describe", words[at], usage.groups,
-                                (const char *const[]){"--json", NULL});
-                bad = true;
-            } else if (o->target != NULL) {
-                fprintf(stderr, "whirl describe: error: more than one thing to describe: %s\n",
-                        words[at]);
-                bad = true;
-            } else {
-                o->target = words[at++];
-            }
-        }
-    }
-    if (!bad && o->target == NULL) {
-        options_usage(stderr, &usage);
-        bad = true;
-    }
-    return !bad;
+    static const char *const own[] = {"--json", NULL};
+    const target_reader reader = {.command = "describe",
+                                  .groups = usage.groups,
+                                  .own = own,
+                                  .take = take_one,
+                                  .derives = true};
+    return target_read(&reader, count, words, &o->common, o, &o->target) &&
+           target_is_there(o->target, &usage);
 }
 
 static int describe_loaded(source_model *from, const describe_options *o) {

@@ -3,13 +3,13 @@
 
 #include "files.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "host/base/room.h"
+#include "host/base/unwritten.h"
 
 #ifdef __wasi__ /* has none: a file goes by the name it is called by */
 static char *realpath(const char *path, char *resolved) {
@@ -66,7 +66,7 @@ bool files_can_write(const char *name) {
     const bool was_there = stat(name, &there) == 0;
     FILE *try = fopen(name, "ab");
     if (try == NULL) {
-        fprintf(stderr, "%s: error: cannot be written: %s\n", name, strerror(errno));
+        unwritten_say(name);
         return false;
     }
     fclose(try);

@@ -43,10 +43,16 @@ char *read_all(const char *path, size_t *length) {
         size *= 2;
         text = room_more(text, (int64_t)size, 1);
     }
+    if (ferror(in) != 0) { /* what was read so far may be a model, but not the one that is meant */
+        fprintf(stderr, "%s: error: cannot be read: %s\n", path, strerror(errno));
+        free(text);
+        text = NULL;
+    } else {
+        text[*length] = '\0';
+    }
     if (in != stdin) {
         fclose(in);
     }
-    text[*length] = '\0';
     return text;
 }
 

@@ -1,6 +1,4 @@
 /* map.c: `whirl map`: for which pairs of two swept values a run stays bounded, keeps its energy and a tolerance. */
-#include <errno.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,13 +7,15 @@
 #include "commands.h"
 #include "files.h"
 #include "host/base/room.h"
+#include "host/base/unwritten.h"
 #include "host/map/map_plot.h"
 #include "host/map/map_text.h"
 #include "host/number/functions.h"
 #include "host/plot/gnuplot.h"
 #include "host/run/start.h"
 #include "host/sweep/changes.h"
-#include "options.h"
+#include "interrupts.h"
+#include "target.h"
 #include "trusting.h"
 
 enum { AXES = 2 };
@@ -55,13 +55,6 @@ static const command_usage usage = {
             [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
             [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
 
-static volatile sig_atomic_t interrupted;
-
-static void on_interrupt(int signal_number) {
-    (void)signal_number;
-    interrupted = 1;
-}
-
 typedef struct map_options {
     common_options common;
     const char *target;
@@ -84,11 +77,9 @@ static bool take_over(const char *text, map_options *o) {
     return room_left;
 }
 
-static bool take_one(int count, char **words, int *at, map_options *o, bool *bad) {
+static bool take_one(int count, char **words, int *at, void *options, bool *bad) {
+    map_options *o = options;
     const char *value = NULL;
-    if (options_take("map", usage.groups, count, words, at, &o->common, bad)) {
-        return true;
-    }
     if (!*bad && (value = options_value(count, words, at, "--over", bad)) != NULL) {
         *bad = !take_over(value, o);
     } else if (!*bad && (value = options_value(count, words, at, "--tolerance", bad)) != NULL) {
@@ -131,28 +122,12 @@ static bool is_whole(const map_options *o) {
 }
 
 static bool read_options(int count, char **words, map_options *o) {
-    bool bad = false;
-    for (int at = 0; at < count && !bad;) {
-        if (take_one(count, words, &at, o, &bad) || bad) {
-            continue;
-        }
-        if (words[at][0] == '-' && words[at][1] != '\0') {
-            options_unknown("map", words[at], usage.groups,
-                            (const char *const[]){"--over", "--tolerance", "--effort", "--csv",
-                                                  "--plot", "--quiet", NULL});
-            return false;
-        }
-        if (o->target != NULL) {
-            fprintf(stderr, "whirl map: error: one scene at a time, not also '%s'\n", words[at]);
-            return false;
-        }
-        o->target = words[at++];
-    }
-    if (!bad && o->target == NULL) {
-        options_usage(stderr, &usage);
-        return false;
-    }
-    return !bad && is_whole(o);
+    static const char *const own[] = {"--over", "--tolerance", "--effort", "--csv",
+                                      "--plot", "--quiet",     NULL};
+    const target_reader reader = {
+        .command = "map", .groups = usage.groups, .own = own, .take = take_one};
+    return target_read(&reader, count, words, &o->common, o, &o->target) &&
+           target_is_there(o->target, &usage) && is_whole(o);
 }
 
 /* --- the answer -----------------------------------------------------------------------------------------*/
@@ -168,7 +143,7 @@ static bool write_rows(const map_options *o, const stability_map *m) {
     FILE *out = fopen(o->csv, "wb");
     const bool good = out != NULL && map_csv(out, m);
     if (!good) {
-        fprintf(stderr, "%s: error: cannot be written: %s\n", o->csv, strerror(errno));
+        unwritten_say(o->csv);
     }
     if (out != NULL) {
         fclose(out);
@@ -203,13 +178,6 @@ static int show(const map_options *o, const stability_map *m, const char *words)
 static void show_progress(double runs, void *told) {
     const grid *g = told;
     fprintf(stderr, "\r%.1f of %llu runs ", runs, (unsigned long long)g->points);
-}
-
-static void catch_interrupts(void) {
-    struct sigaction action = {.sa_handler = on_interrupt,
-                               .sa_flags = SA_RESTART | (int)SA_RESETHAND};
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
 }
 
 /* Seconds that all runs take, about: as many steps as each step's length makes of the scene as it stands. */
@@ -262,7 +230,7 @@ static int map_loaded(const map_options *o, const map_wish *plan, const image *b
     char *words =
         room_words("%s: %s%s, %s, tolerance %g", o->target, image_stepper(base),
                    base->settings.compensated ? " compensated" : "", wish.kind->name, o->tolerance);
-    catch_interrupts();
+    interrupts_catch();
     stability_map m = map_make(&wish);
     if (wish.progress != NULL) {
         fputs("\r                                        \r", stderr);

@@ -1,7 +1,6 @@
 /* pil.c: `whirl pil`: a firmware image against a scene as its plant, or against a tape. */
-#include <errno.h>
 #include <inttypes.h>
-#include <signal.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,13 +8,16 @@
 #include "commands.h"
 #include "files.h"
 #include "host/base/room.h"
+#include "host/base/unwritten.h"
 #include "host/number/decimal.h"
+#include "host/number/functions.h"
 #include "host/pil/fault.h"
 #include "host/pil/lockstep.h"
 #include "host/pil/pil_text.h"
 #include "host/run/start.h"
+#include "interrupts.h"
 #include "load.h"
-#include "options.h"
+#include "target.h"
 
 #define FINE_STEP "50us"
 #define PATIENCE_S 10.0
@@ -65,20 +67,6 @@ static const command_usage usage = {
             [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
             [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
 
-static volatile sig_atomic_t interrupted;
-
-static void on_interrupt(int signal_number) {
-    (void)signal_number;
-    interrupted = 1;
-}
-
-static void catch_interrupts(void) {
-    struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = (int)SA_RESETHAND};
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
-    sigaction(SIGHUP, &action, NULL);
-}
-
 typedef struct pil_options {
     common_options common;
     const char *target;
@@ -118,6 +106,16 @@ static bool take_words(int count, char **words, int *at, pil_options *o, bool *b
     return false;
 }
 
+/* Another option, or a whole number. */
+static bool is_seed(const char *option, const char *text, const pil_options *o) {
+    const bool good = number_floor(o->seed) == o->seed;
+    if (!good) {
+        fprintf(stderr, "whirl pil: error: %s takes a whole number, not '%.40s'\nhint: --seed 7\n",
+                option, text);
+    }
+    return good;
+}
+
 static bool take_numbers(int count, char **words, int *at, pil_options *o, bool *bad) {
     const struct {
         const char *option;
@@ -133,17 +131,17 @@ static bool take_numbers(int count, char **words, int *at, pil_options *o, bool 
         const char *value = options_value(count, words, at, rows[i].option, bad);
         if (value != NULL) {
             *bad = !options_number("pil", rows[i].option, value, rows[i].least, rows[i].most,
-                                   rows[i].hint, rows[i].number);
+                                   rows[i].hint, rows[i].number) ||
+                   !is_seed(rows[i].option, value, o);
             return true;
         }
     }
     return false;
 }
 
-static bool take_one(int count, char **words, int *at, pil_options *o, bool *bad) {
-    if (options_take("pil", usage.groups, count, words, at, &o->common, bad) ||
-        (!*bad && take_words(count, words, at, o, bad)) ||
-        (!*bad && take_numbers(count, words, at, o, bad))) {
+static bool take_one(int count, char **words, int *at, void *options, bool *bad) {
+    pil_options *o = options;
+    if (take_words(count, words, at, o, bad) || (!*bad && take_numbers(count, words, at, o, bad))) {
         return true;
     }
     const char *value = *bad ? NULL : options_value(count, words, at, "--fault", bad);
@@ -194,26 +192,14 @@ static bool is_known_board(pil_options *o) {
 }
 
 static bool read_options(int count, char **words, pil_options *o) {
-    bool bad = false;
-    for (int at = 0; at < count && !bad;) {
-        if (take_one(count, words, &at, o, &bad) || bad) {
-            continue;
-        }
-        if (words[at][0] == '-' && words[at][1] != '\0') {
-            options_unknown("pil", words[at], usage.groups,
-                            (const char *const[]){"--firmware", "--board", "--tape", "--replay",
-                                                  "--bind", "--place", "--jitter", "--delay",
-                                                  "--seed", "--clock", "--cycles", "--patience",
-                                                  "--fault", "--faults", "--quiet", NULL});
-            return false;
-        }
-        if (o->target != NULL) {
-            fprintf(stderr, "whirl pil: error: one scene at a time, not also '%s'\n", words[at]);
-            return false;
-        }
-        o->target = words[at++];
-    }
-    return !bad && is_known_board(o) && go_together(o);
+    static const char *const own[] = {"--firmware", "--board",  "--tape",   "--replay",
+                                      "--bind",     "--place",  "--jitter", "--delay",
+                                      "--seed",     "--clock",  "--cycles", "--patience",
+                                      "--fault",    "--faults", "--quiet",  NULL};
+    const target_reader reader = {
+        .command = "pil", .groups = usage.groups, .own = own, .take = take_one};
+    return target_read(&reader, count, words, &o->common, o, &o->target) && is_known_board(o) &&
+           go_together(o);
 }
 
 /* --- what is wished ---------------------------------------------------------------------------------------------*/
@@ -224,31 +210,36 @@ static bool read_time(const char *option, const char *text, const mechanism *of,
         return true;
     }
     diags *errors = diags_new();
-    const bool good = instance_duration(of, NULL, NULL, option, text, errors, time_s);
+    const bool good =
+        instance_duration(of, NULL, NULL, option, text, errors, time_s) && *time_s <= LONGEST_S;
     diags_free(errors); /* what it is not says more than why it is not */
     if (!good) {
-        fprintf(stderr, "whirl pil: error: --%s %s is not a time\nhint: such as 20us, or 1ms\n",
+        fprintf(stderr,
+                "whirl pil: error: --%s '%s' is not a time, from 0 to an hour\n"
+                "hint: such as 20us, or 1ms\n",
                 option, text);
     }
     return good;
 }
 
-/* Numbers between commas, off[WH_SIGNALS_MAX]. */
-static bool read_places(const char *text, double *off) {
-    int count = 0;
+/* Numbers between commas. */
+static bool read_places(const char *text, plant_wish *to) {
+    unsigned count = 0;
     for (const char *at = text; at != NULL;) {
         const char *end = at;
         const double number = decimal_read(at, &end);
-        if (end == at || (*end != '\0' && *end != ',') || count == (int)WH_SIGNALS_MAX) {
+        if (end == at || (*end != '\0' && *end != ',') || !isfinite(number) ||
+            count == WH_SIGNALS_MAX) {
             fprintf(stderr,
-                    "whirl pil: error: --place %s: numbers between commas, one an edge\n"
+                    "whirl pil: error: --place '%s': numbers between commas, one an edge\n"
                     "hint: --place 0,2.5 puts the second edge 2.5 degrees on\n",
                     text);
             return false;
         }
-        off[count++] = number;
+        to->place[count++] = number;
         at = *end == ',' ? end + 1 : NULL;
     }
+    to->places = count;
     return true;
 }
 
@@ -302,7 +293,7 @@ static bool open_tape(const pil_options *o, const source_model *from, FILE **fil
     }
     *file = fopen(o->tape, "wb");
     if (*file == NULL) {
-        fprintf(stderr, "%s: error: cannot be written: %s\n", o->tape, strerror(errno));
+        unwritten_say(o->tape);
     }
     return *file != NULL;
 }
@@ -321,10 +312,10 @@ static int run_image(const pil_options *o, const source_model *from, const image
     if (o->common.change.until != NULL) {
         wish->until_s = im->until_s;
     }
-    catch_interrupts();
+    interrupts_catch_waiting();
     lockstep_run(wish, im, &report);
     if (wish->tape != NULL && fclose(wish->tape) != 0 && report.end != LOCKSTEP_BAD) {
-        fprintf(stderr, "%s: error: cannot be written: %s\n", o->tape, strerror(errno));
+        unwritten_say(o->tape);
         report.end = LOCKSTEP_FAILED;
     }
     return tell(o, wish, im, &report);
@@ -369,7 +360,7 @@ static int run_source(pil_options *o, source_model *from) {
     }
     if (!read_time("jitter", o->jitter, of, &wish.plant.jitter_s) ||
         !read_time("delay", o->delay, of, &wish.plant.delay_s) ||
-        !read_places(o->place, wish.plant.place)) {
+        !read_places(o->place, &wish.plant)) {
         return EXIT_BAD_INPUT;
     }
     loaded made;
@@ -389,7 +380,7 @@ static int run_source(pil_options *o, source_model *from) {
 static int replay(const pil_options *o) {
     const lockstep_wish wish = wish_of(o);
     lockstep_report report;
-    catch_interrupts();
+    interrupts_catch_waiting();
     lockstep_replay(&wish, o->replay, &report);
     return tell(o, &wish, NULL, &report);
 }

@@ -1,5 +1,4 @@
 /* price.c: `whirl price`: error against price, for all settings of a scene. */
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,8 +6,10 @@
 
 #include "commands.h"
 #include "files.h"
+#include "host/base/unwritten.h"
 #include "host/plot/plot.h"
 #include "host/price/table_counted.h"
+#include "interrupts.h"
 #include "pricing.h"
 
 /* Records to the horizon: so many to two and a half times as many. */
@@ -98,17 +99,13 @@ static bool files_fit(const price_options *o) {
     return true;
 }
 
+static bool take_one(int count, char **words, int *at, void *options, bool *bad) {
+    price_options *o = options;
+    return take_own(count, words, at, o, bad) || pricing_take(count, words, at, &o->common, bad);
+}
+
 static bool read_options(int count, char **words, price_options *o) {
-    bool bad = false;
-    for (int at = 0; at < count && !bad;) {
-        if (take_own(count, words, &at, o, &bad) ||
-            pricing_take(count, words, &at, &o->common, &bad)) {
-            continue;
-        }
-        pricing_unknown("price", words[at], own);
-        return false;
-    }
-    return !bad && pricing_complete(&o->common) && files_fit(o);
+    return pricing_read(count, words, own, take_one, o, &o->common) && files_fit(o);
 }
 
 static void show_progress(void *context, int done, int of) {
@@ -119,9 +116,9 @@ static void show_progress(void *context, int done, int of) {
 static bool write_csv(const char *file, const trials *t, const table *made,
                       const table_words *words) {
     FILE *out = strcmp(file, "-") == 0 ? stdout : fopen(file, "wb");
-    const bool good = out != NULL && table_csv(out, t, made, words);
+    const bool good = out != NULL && (table_csv(out, t, made, words) || out == stdout);
     if (!good) {
-        fprintf(stderr, "%s: error: cannot be written: %s\n", file, strerror(errno));
+        unwritten_say(file);
     }
     if (out != NULL && out != stdout) {
         fclose(out);
@@ -155,6 +152,8 @@ static int show(const price_options *o, pricing *p, const table *made) {
         table_print(out, &p->trial, made, &words);
     }
     if (!p->trial.reliable || made == NULL || made->count == 0) {
+        fprintf(stderr, "whirl price: error: no error of '%s' is known%s\n", p->options->target,
+                p->trial.reliable ? ": no setting has a row" : ", without a reference to trust");
         return EXIT_RUN_FAILED;
     }
     if ((o->csv != NULL && !write_csv(o->csv, &p->trial, made, &words)) ||
@@ -191,11 +190,11 @@ static int price_scene(const price_options *o, pricing *p) {
         !files_can_write(o->plot) || (o->measure && !can_measure(p))) {
         return EXIT_BAD_INPUT;
     }
-    pricing_catch_interrupts();
+    interrupts_catch();
     if (progress) {
         fputs("\rthe reference   ", stderr);
     }
-    int code = pricing_begin(p, pricing_spacing(p->until_s, RECORDS), &pricing_interrupted);
+    int code = pricing_begin(p, pricing_spacing(p->until_s, RECORDS), &interrupted);
     table *made = NULL;
     if (code == EXIT_DONE && p->trial.reliable && !p->trial.stopped) {
         const table_wish wish = {p->effort * OPERATIONS, progress ? show_progress : NULL, NULL};

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/base/nearest.h"
 #include "host/base/room.h"
 
 typedef struct pricing_row {
@@ -41,9 +40,6 @@ void pricing_describe(FILE *out) {
 }
 
 bool pricing_take(int count, char **words, int *at, pricing_options *o, bool *bad) {
-    if (options_take(o->command, PRICING_GROUPS, count, words, at, &o->common, bad) || *bad) {
-        return true;
-    }
     for (int i = 0; i < PRICING_OPTIONS && !*bad; i++) {
         const char *value = options_value(count, words, at, rows[i].word, bad);
         if (value != NULL) {
@@ -59,20 +55,25 @@ bool pricing_take(int count, char **words, int *at, pricing_options *o, bool *ba
         ++*at;
         return true;
     }
-    if (*bad || (words[*at][0] == '-' && words[*at][1] != '\0')) {
-        return *bad;
-    }
-    if (o->target != NULL) {
-        fprintf(stderr, "whirl %s: error: one scene at a time, not also '%s'\n", o->command,
-                words[*at]);
-        *bad = true;
-    }
-    o->target = words[*at];
-    ++*at;
-    return true;
+    return false;
 }
 
-bool pricing_complete(const pricing_options *o) {
+bool pricing_read(int count, char **words, const char *const *own, target_take *take, void *options,
+                  pricing_options *o) {
+    enum { WORDS_MOST = PRICING_OPTIONS + 32 };
+    const char *all[WORDS_MOST] = {"--quiet"};
+    int all_count = 1;
+    for (int i = 0; i < PRICING_OPTIONS; i++) {
+        all[all_count++] = rows[i].word;
+    }
+    for (; *own != NULL && all_count < WORDS_MOST - 1; own++) {
+        all[all_count++] = *own;
+    }
+    const target_reader reader = {
+        .command = o->command, .groups = PRICING_GROUPS, .own = all, .take = take};
+    if (!target_read(&reader, count, words, &o->common, options, &o->target)) {
+        return false;
+    }
     if (o->target == NULL) {
         fprintf(stderr,
                 "whirl %s: error: there is no scene\nhint: whirl %s SCENE, FILE or FILE:SCENE; "
@@ -80,19 +81,6 @@ bool pricing_complete(const pricing_options *o) {
                 o->command, o->command);
     }
     return o->target != NULL;
-}
-
-void pricing_unknown(const char *command, const char *word, const char *const *own) {
-    enum { WORDS_MOST = PRICING_OPTIONS + 32 };
-    const char *all[WORDS_MOST] = {"--quiet"};
-    int count = 1;
-    for (int i = 0; i < PRICING_OPTIONS; i++) {
-        all[count++] = rows[i].word;
-    }
-    for (; *own != NULL && count < WORDS_MOST - 1; own++) {
-        all[count++] = *own;
-    }
-    options_unknown(command, word, PRICING_GROUPS, all);
 }
 
 void pricing_says_missing(const pricing *p, const char *why) {

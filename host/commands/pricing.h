@@ -6,6 +6,7 @@
 #include "load.h"
 #include "options.h"
 #include "pricing_scene.h"
+#include "target.h"
 
 /* X(id, word, what stands behind it, text) of both. */
 #define PRICING_OPTION_ROWS(X) \
@@ -44,12 +45,12 @@ pricing_options pricing_defaults(const char *command, int word_count);
 void pricing_forget(pricing_options *o);
 /* Prints the lines of a help text. */
 void pricing_describe(FILE *out);
-/* Takes the word at *at if it is an option of both, or the target; else false, *at as it was. *bad: told. */
+/* Takes the word at *at if it is an option of both alone; else false, *at as it was. *bad: told. */
 bool pricing_take(int count, char **words, int *at, pricing_options *o, bool *bad);
-/* Is there a target, and no more than one? Told. */
-bool pricing_complete(const pricing_options *o);
-/* What no option takes; `own`: the command's own words, NULL at the end. */
-void pricing_unknown(const char *command, const char *word, const char *const *own);
+/* All words: `take` takes those of the command, `own` (NULL at the end), and calls pricing_take(). False: told; also where
+ * no scene is named. */
+bool pricing_read(int count, char **words, const char *const *own, target_take *take, void *options,
+                  pricing_options *o);
 
 /* --- the scene -------------------------------------------------------------------------------------*/
 
@@ -85,9 +86,5 @@ bool pricing_quantity(const pricing *p, const char *what, const char *text, dime
 int pricing_begin(pricing *p, whole_ratio spacing, const volatile sig_atomic_t *stop);
 /* A spacing of about so many to two and a half times so many records, 1, 2 or 5 times a power of ten. */
 whole_ratio pricing_spacing(double until_s, double count);
-
-/* Ends cleanly by Ctrl-C: this is then set. */
-extern volatile sig_atomic_t pricing_interrupted;
-void pricing_catch_interrupts(void);
 
 #endif

@@ -1,6 +1,5 @@
 /* pricing_open.c: from the options of `whirl price` and `whirl choose` to references (pricing.h). */
 #include <math.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,20 +11,6 @@
 #include "host/number/functions.h"
 #include "host/run/start.h"
 #include "pricing.h"
-
-volatile sig_atomic_t pricing_interrupted;
-
-static void on_interrupt(int signal_number) {
-    (void)signal_number;
-    pricing_interrupted = 1;
-}
-
-void pricing_catch_interrupts(void) {
-    struct sigaction action = {.sa_handler = on_interrupt,
-                               .sa_flags = SA_RESTART | (int)SA_RESETHAND};
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
-}
 
 bool pricing_quantity(const pricing *p, const char *what, const char *text, dimension wanted,
                       double *value) {

@@ -1,7 +1,5 @@
 /* prove.c: `whirl prove`: until when a run is proved to be within a tolerance of the exact motion. */
-#include <errno.h>
 #include <math.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,13 +9,15 @@
 #include "files.h"
 #include "host/base/arena.h"
 #include "host/base/room.h"
+#include "host/base/unwritten.h"
 #include "host/lang/override.h"
 #include "host/lang/value.h"
 #include "host/number/functions.h"
 #include "host/prove/held_text.h"
 #include "host/run/start.h"
+#include "interrupts.h"
 #include "load.h"
-#include "options.h"
+#include "target.h"
 #include "trusting.h"
 
 /* Seconds that an effort of 1 may take, about, and products of enclosures that a second takes. */
@@ -51,13 +51,6 @@ static const command_usage usage = {
             [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
             [EXIT_ROW_OF(EXIT_INTERRUPTED)] = "what is proved until then is told"}};
 
-static volatile sig_atomic_t interrupted;
-
-static void on_interrupt(int signal_number) {
-    (void)signal_number;
-    interrupted = 1;
-}
-
 typedef struct prove_options {
     common_options common;
     const char *target;
@@ -70,11 +63,9 @@ typedef struct prove_options {
 } prove_options;
 
 /* One option, with its value where it has one; false when the word is none. */
-static bool take_one(int count, char **words, int *at, prove_options *o, bool *bad) {
+static bool take_one(int count, char **words, int *at, void *options, bool *bad) {
+    prove_options *o = options;
     const char *value = NULL;
-    if (options_take("prove", usage.groups, count, words, at, &o->common, bad)) {
-        return true;
-    }
     if (!*bad && (value = options_value(count, words, at, "--within", bad)) != NULL) {
         o->within[o->within_count++] = value;
     } else if (!*bad && (value = options_value(count, words, at, "--tolerance", bad)) != NULL) {
@@ -95,29 +86,13 @@ static bool take_one(int count, char **words, int *at, prove_options *o, bool *b
 }
 
 static bool read_options(int count, char **words, prove_options *o) {
-    bool bad = false;
+    static const char *const own[] = {"--within", "--tolerance", "--csv",
+                                      "--effort", "--quiet",     NULL};
+    const target_reader reader = {
+        .command = "prove", .groups = usage.groups, .own = own, .take = take_one};
     o->within = room(count, sizeof *o->within);
-    for (int at = 0; at < count && !bad;) {
-        if (take_one(count, words, &at, o, &bad) || bad) {
-            continue;
-        }
-        if (words[at][0] == '-' && words[at][1] != '\0') {
-            options_unknown("prove", words[at], usage.groups,
-                            (const char *const[]){"--within", "--tolerance", "--csv", "--effort",
-                                                  "--quiet", NULL});
-            return false;
-        }
-        if (o->target != NULL) {
-            fprintf(stderr, "whirl prove: error: one scene at a time, not also '%s'\n", words[at]);
-            return false;
-        }
-        o->target = words[at++];
-    }
-    if (!bad && o->target == NULL) {
-        options_usage(stderr, &usage);
-        return false;
-    }
-    return !bad;
+    return target_read(&reader, count, words, &o->common, o, &o->target) &&
+           target_is_there(o->target, &usage);
 }
 
 /* Two runs, the range's and the one that is held; the tube is bounded on its way. */
@@ -168,13 +143,6 @@ static bool read_within(const prove_options *o, const mechanism *of, const exact
     return diags_calls(errors) == before;
 }
 
-static void catch_interrupts(void) {
-    struct sigaction action = {.sa_handler = on_interrupt,
-                               .sa_flags = SA_RESTART | (int)SA_RESETHAND};
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
-}
-
 static void show_progress(double share) { fprintf(stderr, "\r%5.1f %%", 100.0 * share); }
 
 static bool is_standard(const prove_options *o) {
@@ -182,7 +150,7 @@ static bool is_standard(const prove_options *o) {
 }
 
 static int say_unwritten(const char *file) {
-    fprintf(stderr, "%s: error: cannot be written: %s\n", file, strerror(errno));
+    unwritten_say(file);
     return EXIT_BAD_INPUT;
 }
 
@@ -262,7 +230,7 @@ static int held_out(const prove_options *o, const held_wish *w, const rows *r) {
         files_drop(o->csv); /* nothing is in it */
     }
     held_free(&h);
-    return good || code == EXIT_INTERRUPTED ? code : say_unwritten(o->csv);
+    return good || is_standard(o) || code == EXIT_INTERRUPTED ? code : say_unwritten(o->csv);
 }
 
 static int answer(const prove_options *o, const image *im, const exact_motion *m,
@@ -285,7 +253,7 @@ static int answer(const prove_options *o, const image *im, const exact_motion *m
     if (r.file != NULL) {
         held_rows_head(r.file, &wish);
     }
-    catch_interrupts();
+    interrupts_catch();
     return held_out(o, &wish, &r);
 }
 

@@ -1,6 +1,5 @@
 /* run.c: `whirl run`: simulate, keep records, balance the books. */
 #include <math.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,8 +13,9 @@
 #include "host/run/belief.h"
 #include "host/run/simulate.h"
 #include "host/run/start.h"
+#include "interrupts.h"
 #include "load.h"
-#include "options.h"
+#include "target.h"
 #include "trusting.h"
 
 static const command_usage usage = {
@@ -50,13 +50,6 @@ static const command_usage usage = {
             "       try; the records so far are kept), or --strict does not believe it",
         [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
         [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
-
-static volatile sig_atomic_t interrupted;
-
-static void on_interrupt(int signal_number) {
-    (void)signal_number;
-    interrupted = 1;
-}
 
 typedef struct run_options {
     common_options common;
@@ -98,10 +91,10 @@ static bool take_strict(char **words, int *at, double *limit, bool *bad) {
 }
 
 /* One option, with its value where it has one; false when the word is none. */
-static bool take_one(int count, char **words, int *at, run_options *o, bool *bad) {
+static bool take_one(int count, char **words, int *at, void *options, bool *bad) {
+    run_options *o = options;
     const char *value = NULL;
-    if (options_take("run", usage.groups, count, words, at, &o->common, bad) ||
-        (!*bad && take_strict(words, at, &o->settings.strict, bad))) {
+    if (take_strict(words, at, &o->settings.strict, bad)) {
         return true;
     }
     if (!*bad && (value = options_value(count, words, at, "--csv", bad)) != NULL) {
@@ -138,29 +131,16 @@ static bool files_are_apart(const simulation_settings *s) {
 }
 
 static bool read_options(int count, char **words, run_options *o) {
-    bool bad = false;
-    for (int at = 0; at < count && !bad;) {
-        if (take_one(count, words, &at, o, &bad) || bad) {
-            continue;
-        }
-        if (words[at][0] == '-' && words[at][1] != '\0') {
-            options_unknown("run", words[at], usage.groups,
-                            (const char *const[]){"--csv", "--columns", "--every", "--plot",
-                                                  "--strict", "--quiet", NULL});
-            return false;
-        }
-        if (o->target != NULL) {
-            fprintf(stderr, "whirl run: error: one scene at a time, not also '%s'\n", words[at]);
-            return false;
-        }
-        o->target = words[at++];
-    }
-    if (!bad && o->target == NULL) {
-        options_usage(stderr, &usage);
+    static const char *const own[] = {"--csv",    "--columns", "--every", "--plot",
+                                      "--strict", "--quiet",   NULL};
+    const target_reader reader = {
+        .command = "run", .groups = usage.groups, .own = own, .take = take_one};
+    if (!target_read(&reader, count, words, &o->common, o, &o->target) ||
+        !target_is_there(o->target, &usage)) {
         return false;
     }
     o->settings.kind = o->common.number;
-    return !bad && files_are_apart(&o->settings);
+    return files_are_apart(&o->settings);
 }
 
 static bool model_would_be_lost(const source_model *from, const simulation_settings *s) {
@@ -209,15 +189,6 @@ static bool shows_progress(const simulation_settings *s) {
     return !s->quiet && isatty(STDERR_FILENO);
 }
 
-/* From here on, what is under way ends in order. */
-static void catch_interrupts(void) {
-    /* records go on being written; a second Ctrl-C ends it at once, whatever it waits for */
-    struct sigaction action = {.sa_handler = on_interrupt,
-                               .sa_flags = SA_RESTART | (int)SA_RESETHAND};
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
-}
-
 static int run_image(run_options *o, const source_model *from, const image *im, const image *plain,
                      double every_s) {
     if (!count_every(o, every_s, im, &o->settings.every)) {
@@ -228,7 +199,7 @@ static int run_image(run_options *o, const source_model *from, const image *im, 
         diags_flush(from->errors, stderr);
         return EXIT_BAD_INPUT;
     }
-    catch_interrupts();
+    interrupts_catch();
     o->settings.stop = &interrupted;
     o->settings.progress = shows_progress(&o->settings);
     trusting trust = trusting_look(im, plain, &o->settings);
@@ -251,7 +222,7 @@ static int run_image(run_options *o, const source_model *from, const image *im, 
 static int plan_of(image *im, const source_model *from, const simulation_settings *s,
                    fixed_plan **plan) {
     const fixed_watch watch = {&interrupted, shows_progress(s)};
-    catch_interrupts();
+    interrupts_catch();
     *plan = fixed_plan_make_watched(im, &watch, from->errors);
     im->fixed = *plan;
     diags_flush(from->errors, stderr);

@@ -1,6 +1,5 @@
 /* scenes.c: for the project's own build: every built-in scene, or every scene of some files, as C, and its
  * state hash. */
-#include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,6 +7,7 @@
 
 #include "commands.h"
 #include "host/base/room.h"
+#include "host/base/unwritten.h"
 #include "host/emit/emit.h"
 #include "host/lang/builtin.h"
 #include "host/show/show_equations.h"
@@ -87,7 +87,7 @@ FILE *scenes_open(const char *folder, const char *name, const char *ending) {
     }
     FILE *out = fopen(path, "w");
     if (out == NULL) {
-        fprintf(stderr, "%s: error: cannot be written: %s\n", path, strerror(errno));
+        unwritten_say(path);
     }
     return out;
 }

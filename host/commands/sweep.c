@@ -1,6 +1,5 @@
 /* sweep.c: `whirl sweep`: a run for every point of a grid, a row of measures each. */
 #include <math.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,8 +13,9 @@
 #include "host/sweep/fingerprint.h"
 #include "host/sweep/jobs.h"
 #include "host/sweep/session.h"
+#include "interrupts.h"
 #include "load.h"
-#include "options.h"
+#include "target.h"
 
 static const command_usage usage = {
     .head =
@@ -49,13 +49,6 @@ static const command_usage usage = {
                 "       not be written",
             [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "such as the FILE of another sweep",
             [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
-
-static volatile sig_atomic_t interrupted;
-
-static void on_interrupt(int signal_number) {
-    (void)signal_number;
-    interrupted = 1;
-}
 
 /* --- options -----------------------------------------------------------------------------------*/
 
@@ -142,35 +135,26 @@ static bool take_flag(char **words, int *at, sweep_options *o) {
     return false;
 }
 
+static bool take_one(int count, char **words, int *at, void *options, bool *bad) {
+    sweep_options *o = options;
+    return take_flag(words, at, o) || take_valued(count, words, at, o, bad);
+}
+
 static bool read_options(int count, char **words, sweep_options *o) {
-    bool bad = false;
-    for (int at = 0; at < count && !bad;) {
-        if (take_flag(words, &at, o) || take_valued(count, words, &at, o, &bad) || bad ||
-            options_take("sweep", usage.groups, count, words, &at, &o->common, &bad) || bad) {
-            continue;
-        }
-        if (words[at][0] == '-' && words[at][1] != '\0') {
-            options_unknown("sweep", words[at], usage.groups,
-                            (const char *const[]){"--over", "--measure", "--from", "--csv",
-                                                  "--fresh", "--jobs", "--shard", "--quiet", NULL});
-            return false;
-        }
-        if (o->target != NULL) {
-            fprintf(stderr, "whirl sweep: error: one scene at a time, not also '%s'\n", words[at]);
-            return false;
-        }
-        o->target = words[at++];
-    }
-    if (!bad && o->target == NULL) {
-        options_usage(stderr, &usage);
+    static const char *const own[] = {"--over", "--measure", "--from",  "--csv", "--fresh",
+                                      "--jobs", "--shard",   "--quiet", NULL};
+    const target_reader reader = {
+        .command = "sweep", .groups = usage.groups, .own = own, .take = take_one};
+    if (!target_read(&reader, count, words, &o->common, o, &o->target) ||
+        !target_is_there(o->target, &usage)) {
         return false;
     }
-    if (!bad && o->over_count == 0) {
+    if (o->over_count == 0) {
         fprintf(stderr, "whirl sweep: error: nothing to sweep over\n"
                         "hint: such as --over \"r=10..60 [mm]:11\"\n");
         return false;
     }
-    return !bad;
+    return true;
 }
 
 /* --- the sweep ---------------------------------------------------------------------------------*/
@@ -207,10 +191,7 @@ static int sweep_loaded(const sweep_options *o, const source_model *from, const 
                                        .fresh = o->fresh,
                                        .quiet = o->quiet,
                                        .stop = &interrupted};
-    struct sigaction action = {.sa_handler = on_interrupt,
-                               .sa_flags = SA_RESTART | (int)SA_RESETHAND};
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
+    interrupts_catch();
     const int code = session_run(s, &settings);
     free(fingerprint);
     return code;

@@ -1,19 +1,19 @@
 /* trust.c: `whirl trust`: until when each coordinate of a run is right to a tolerance. */
-#include <errno.h>
-#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "commands.h"
 #include "files.h"
+#include "host/base/unwritten.h"
 #include "host/fixed/engine_fixed.h"
 #include "host/fixed/fixed_plan.h"
 #include "host/number/functions.h"
 #include "host/run/start.h"
 #include "host/run/undefined.h"
 #include "host/trust/horizon_text.h"
-#include "options.h"
+#include "interrupts.h"
+#include "target.h"
 #include "trusting.h"
 
 /* Seconds that an effort of 1 may take, about. */
@@ -44,13 +44,6 @@ static const command_usage usage = {
             [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
             [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
 
-static volatile sig_atomic_t interrupted;
-
-static void on_interrupt(int signal_number) {
-    (void)signal_number;
-    interrupted = 1;
-}
-
 typedef struct trust_options {
     common_options common;
     const char *target;
@@ -61,11 +54,9 @@ typedef struct trust_options {
 } trust_options;
 
 /* One option, with its value where it has one; false when the word is none. */
-static bool take_one(int count, char **words, int *at, trust_options *o, bool *bad) {
+static bool take_one(int count, char **words, int *at, void *options, bool *bad) {
+    trust_options *o = options;
     const char *value = NULL;
-    if (options_take("trust", usage.groups, count, words, at, &o->common, bad)) {
-        return true;
-    }
     if (!*bad && (value = options_value(count, words, at, "--tolerance", bad)) != NULL) {
         *bad = !options_number("trust", "--tolerance", value, 1e-15, 1.0,
                                "a part of the range that a coordinate has: --tolerance 1e-3",
@@ -84,35 +75,11 @@ static bool take_one(int count, char **words, int *at, trust_options *o, bool *b
 }
 
 static bool read_options(int count, char **words, trust_options *o) {
-    bool bad = false;
-    for (int at = 0; at < count && !bad;) {
-        if (take_one(count, words, &at, o, &bad) || bad) {
-            continue;
-        }
-        if (words[at][0] == '-' && words[at][1] != '\0') {
-            options_unknown(
-                "trust", words[at], usage.groups,
-                (const char *const[]){"--tolerance", "--csv", "--effort", "--quiet", NULL});
-            return false;
-        }
-        if (o->target != NULL) {
-            fprintf(stderr, "whirl trust: error: one scene at a time, not also '%s'\n", words[at]);
-            return false;
-        }
-        o->target = words[at++];
-    }
-    if (!bad && o->target == NULL) {
-        options_usage(stderr, &usage);
-        return false;
-    }
-    return !bad;
-}
-
-static void catch_interrupts(void) {
-    struct sigaction action = {.sa_handler = on_interrupt,
-                               .sa_flags = SA_RESTART | (int)SA_RESETHAND};
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
+    static const char *const own[] = {"--tolerance", "--csv", "--effort", "--quiet", NULL};
+    const target_reader reader = {
+        .command = "trust", .groups = usage.groups, .own = own, .take = take_one};
+    return target_read(&reader, count, words, &o->common, o, &o->target) &&
+           target_is_there(o->target, &usage);
 }
 
 static bool shows_progress(const trust_options *o) { return !o->quiet && isatty(STDERR_FILENO); }
@@ -174,7 +141,7 @@ static void say_failure(const image *im, const engine_kind *kind, const twins *t
 }
 
 static int say_unwritten(const char *file) {
-    fprintf(stderr, "%s: error: cannot be written: %s\n", file, strerror(errno));
+    unwritten_say(file);
     return EXIT_BAD_INPUT;
 }
 
@@ -193,7 +160,7 @@ static int write_rows(const trust_options *o, FILE *rows, const horizon *h) {
     if (rows != NULL && rows != stdout) {
         good = fflush(rows) == 0 && good;
     }
-    return good ? EXIT_DONE : say_unwritten(o->csv);
+    return good || is_standard(o) ? EXIT_DONE : say_unwritten(o->csv);
 }
 
 static int answer(const trust_options *o, const image *im, const image *plain) {
@@ -262,7 +229,7 @@ static int trust_loaded(const trust_options *o, image *im, const image *plain, d
     if (!is_affordable(im, plain, o->effort) || !can_start(im, o->common.number, errors)) {
         return EXIT_BAD_INPUT;
     }
-    catch_interrupts();
+    interrupts_catch();
     int code = EXIT_DONE;
     if (o->common.number == &engine_fixed) {
         code = plan_of(im, o, errors, &plan);

@@ -19,6 +19,16 @@ component image_component(const image *im, int i) {
     return i < im->angles ? im->angle[i] : im->real[i - im->angles];
 }
 
+int image_find_component(const image *im, int unknown, int primes) {
+    for (int i = 0; i < im->angles + im->reals; i++) {
+        const component c = image_component(im, i);
+        if (c.unknown == unknown && c.primes == primes) {
+            return i;
+        }
+    }
+    return -1;
+}
+
 const char *image_stepper(const image *im) {
     switch (im->settings.matrix) {
     case MATRIX_NONE: break;

@@ -328,6 +328,8 @@ void image_free(image *im); /* NULL is fine */
 
 /* Component i of the state: angles first. */
 component image_component(const image *im, int i);
+/* Which of them is this derivative of this unknown; -1: none. */
+int image_find_component(const image *im, int unknown, int primes);
 
 /* What steps it, in words: the method's title, or which matrix. */
 const char *image_stepper(const image *im);

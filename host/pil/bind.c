@@ -33,16 +33,6 @@ static bool is_component(const image *im, int i, const char *name) {
     return strspn(name + length, "'") == (size_t)c.primes;
 }
 
-static int component_of(const image *im, int unknown, int primes) {
-    for (int i = 0; i < im->angles + im->reals; i++) {
-        const component c = image_component(im, i);
-        if (c.unknown == unknown && c.primes == primes) {
-            return i;
-        }
-    }
-    return -1;
-}
-
 const char *bind_read(bound *b, const image *im, const char *name) {
     for (int i = 0; i < im->own_outputs; i++) {
         if (strcmp(im->output[i].name, name) == 0) {
@@ -58,7 +48,7 @@ const char *bind_read(bound *b, const image *im, const char *name) {
             const component c = image_component(im, i);
             b->place = BOUND_COMPONENT;
             b->index = i;
-            b->rate = component_of(im, c.unknown, c.primes + 1);
+            b->rate = image_find_component(im, c.unknown, c.primes + 1);
             b->turns = c.primes == 0 && im->unknown[c.unknown].is_angle;
             return im->unknown[c.unknown].unit[c.primes].si;
         }
@@ -148,7 +138,7 @@ static bool bind_one(bound *b, const image *im, const char *renames) {
 
 /* A name that the firmware does not have would rename nothing, without a word. */
 static bool all_are_used(const binding *b, const char *renames) {
-    for (const char *at = renames; at != NULL && *at != '\0';) {
+    for (const char *at = renames; at != NULL;) {
         const size_t length = strcspn(at, ",");
         bool found = false;
         for (unsigned i = 0; i < b->count; i++) {
@@ -157,12 +147,12 @@ static bool all_are_used(const binding *b, const char *renames) {
         }
         if (!found) {
             fprintf(stderr,
-                    "whirl pil: error: --bind %.*s: the firmware has no signal of that name\n"
+                    "whirl pil: error: --bind '%.*s': the firmware has no signal of that name\n"
                     "hint: --bind NAME=OTHER, the firmware's name first\n",
                     (int)length, at);
             return false;
         }
-        at += length + (at[length] == ',');
+        at = at[length] == ',' ? at + length + 1 : NULL;
     }
     return true;
 }

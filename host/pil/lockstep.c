@@ -171,11 +171,23 @@ static void run_bound(loop *l, const image *im) {
     plant_stop(&l->plant);
 }
 
+static bool has_places(const loop *l, unsigned places) {
+    const bool has = places <= l->binding.edges;
+    if (!has) {
+        fprintf(stderr,
+                "whirl pil: error: --place has %u places, and the firmware %u edges\n"
+                "hint: one an edge, in the firmware's order\n",
+                places, l->binding.edges);
+    }
+    return has;
+}
+
 void lockstep_run(const lockstep_wish *wish, const image *im, lockstep_report *report) {
     loop l = {.report = report};
     *report = (lockstep_report){.end = LOCKSTEP_DONE};
     if (talk_start(&l.talk, wish, report, wish->tape)) {
-        if (bind_signals(&l.binding, &l.talk.hello, im, wish->renames)) {
+        if (bind_signals(&l.binding, &l.talk.hello, im, wish->renames) &&
+            has_places(&l, wish->plant.places)) {
             run_bound(&l, im);
         } else {
             report->end = LOCKSTEP_BAD;

@@ -15,6 +15,7 @@
 typedef struct plant_wish {
     double place[WH_SIGNALS_MAX]; /* of each edge: so far its place is off; degrees of an angle,
                                    * else SI */
+    unsigned places;              /* so many of them were given */
     double jitter_s;              /* standard deviation of an edge's time */
     double delay_s;               /* of every sample */
     uint32_t seed;                /* of the jitter */

@@ -13,28 +13,36 @@ typedef struct tape_reader {
     const char *name;
     FILE *file;
     wh_frame_reader reader;
+    bool endless; /* no frame where there had to be one */
     uint8_t bytes[WH_FRAME_BYTES(GUEST_LINE_BYTES)];
 } tape_reader;
 
+/* A frame and the zeros round it have so many bytes at most: a device that never ends is no tape. */
 static bool read_frame(tape_reader *t, wh_frame *frame) {
-    for (int byte = getc(t->file); byte != EOF; byte = getc(t->file)) {
-        if (wh_frame_take(&t->reader, (uint8_t)byte, frame)) {
-            return true;
+    for (size_t i = 0; i < sizeof t->bytes + 2; i++) {
+        const int byte = getc(t->file);
+        if (byte == EOF || wh_frame_take(&t->reader, (uint8_t)byte, frame)) {
+            return byte != EOF;
         }
     }
+    t->endless = true;
     return false;
 }
 
-/* It ends within a frame, or had what is none. */
+/* It ends within a frame, had what is none, or could not be read on. */
 static bool is_cut_off(const tape_reader *t) {
-    return t->reader.dropped > 0 || t->reader.length > 0;
+    return t->reader.dropped > 0 || t->reader.length > 0 || t->endless || ferror(t->file) != 0;
 }
 
 /* What a tape cannot be. */
 static bool is_no_tape(tape_reader *t, lockstep_report *r, const char *why) {
-    fprintf(stderr,
-            "%s: error: %s after %llu exchanges\nhint: whirl pil SCENE --tape FILE makes one\n",
-            t->name, why, (unsigned long long)r->exchanges);
+    if (ferror(t->file) != 0) {
+        fprintf(stderr, "%s: error: cannot be read: %s\n", t->name, strerror(errno));
+    } else {
+        fprintf(stderr,
+                "%s: error: %s after %llu exchanges\nhint: whirl pil SCENE --tape FILE makes one\n",
+                t->name, why, (unsigned long long)r->exchanges);
+    }
     r->end = LOCKSTEP_BAD;
     return false;
 }

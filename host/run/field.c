@@ -11,16 +11,6 @@
 /* A change of a component by which slopes are taken: the root of what a double rounds. */
 #define CHANGE 0x1p-20
 
-static int component_of(const image *im, int unknown, int primes) {
-    for (int i = 0; i < im->angles + im->reals; i++) {
-        const component c = image_component(im, i);
-        if (c.unknown == unknown && c.primes == primes) {
-            return i;
-        }
-    }
-    return -1;
-}
-
 field *field_open(const image *im, const engine_kind *kind) {
     field *f = room(1, sizeof *f);
     f->image = im;
@@ -39,7 +29,7 @@ field *field_open(const image *im, const engine_kind *kind) {
     for (int i = 0; i < f->n; i++) {
         const component c = image_component(im, i);
         const bool top = c.primes + 1 >= im->unknown[c.unknown].order;
-        f->next[i] = top ? -1 - c.unknown : component_of(im, c.unknown, c.primes + 1);
+        f->next[i] = top ? -1 - c.unknown : image_find_component(im, c.unknown, c.primes + 1);
         if (c.primes == 1 && im->has_energies) {
             f->rate[f->rows++] = i;
         }

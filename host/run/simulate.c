@@ -1,7 +1,6 @@
 /* simulate.c: the loop of a run and what surrounds it. */
 #include "simulate.h"
 
-#include <errno.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
@@ -12,6 +11,7 @@
 #include "faint.h"
 #include "host/base/room.h"
 #include "host/base/statement.h"
+#include "host/base/unwritten.h"
 #include "host/plot/plot.h"
 #include "narrow.h"
 #include "records.h"
@@ -50,7 +50,7 @@ static bool open_records(const char *name, FILE **file) {
     if (name != NULL) {
         *file = strcmp(name, "-") == 0 ? stdout : fopen(name, "wb");
         if (*file == NULL) {
-            fprintf(stderr, "%s: error: cannot be written: %s\n", name, strerror(errno));
+            unwritten_say(name);
         }
     }
     return name == NULL || *file != NULL;
@@ -59,7 +59,7 @@ static bool open_records(const char *name, FILE **file) {
 /* Standard output is the same for all commands: the program looks at it when all is said (host/whirl.c). */
 static bool flush_records(const char *name, FILE *file) {
     if (file != NULL && file != stdout && (fflush(file) != 0 || ferror(file) != 0)) {
-        fprintf(stderr, "%s: error: cannot be written: %s\n", name, strerror(errno));
+        unwritten_say(name);
         return false;
     }
     return true;
@@ -83,7 +83,7 @@ static bool open_files(simulation *sim) {
     if (s->plot != NULL) {
         FILE *try = fopen(s->plot, "wb");
         if (try == NULL) {
-            fprintf(stderr, "%s: error: cannot be written: %s\n", s->plot, strerror(errno));
+            unwritten_say(s->plot);
             return false;
         }
         fclose(try);

@@ -37,19 +37,11 @@ static void tell_first(diags *errors, FILE *reason) {
 }
 
 static channel channel_of(const image *im, const expr *e, int output) {
-    for (int i = 0; i < im->angles && e->op == EXPR_SYMBOL; i++) {
-        if (im->angle[i].unknown == e->symbol->index && im->angle[i].primes == e->primes &&
-            e->symbol->order > 0) {
-            return (channel){FROM_ANGLE, i};
-        }
-    }
-    for (int i = 0; i < im->reals && e->op == EXPR_SYMBOL; i++) {
-        if (im->real[i].unknown == e->symbol->index && im->real[i].primes == e->primes &&
-            e->symbol->order > 0) {
-            return (channel){FROM_REAL, i};
-        }
-    }
-    return (channel){FROM_OUTPUT, output};
+    const bool moves = e->op == EXPR_SYMBOL && e->symbol->order > 0;
+    const int i = moves ? image_find_component(im, e->symbol->index, e->primes) : -1;
+    return i < 0            ? (channel){FROM_OUTPUT, output}
+           : i < im->angles ? (channel){FROM_ANGLE, i}
+                            : (channel){FROM_REAL, i - im->angles};
 }
 
 /* The point's image; NULL, reported, when it has none. */

@@ -10,6 +10,7 @@
 
 #include "host/base/exit.h"
 #include "host/base/room.h"
+#include "host/base/unwritten.h"
 
 static int refuse(const char *path, const char *why) {
     fprintf(stderr, "%s: error: %s\nhint: another --csv keeps it; --fresh overwrites it\n", path,
@@ -18,7 +19,7 @@ static int refuse(const char *path, const char *why) {
 }
 
 static int cannot_write(const char *path) {
-    fprintf(stderr, "%s: error: cannot be written: %s\n", path, strerror(errno));
+    unwritten_say(path);
     return EXIT_RUN_FAILED;
 }
 
@@ -186,7 +187,7 @@ static int go_on(sheet *sh, const sheet_settings *s, const char *beside_path, of
 }
 
 int sheet_open(sheet *sh, const sheet_settings *s) {
-    *sh = (sheet){0};
+    *sh = (sheet){.path = s->path};
     struct stat about = {0};
     const bool is_stdout = strcmp(s->path, "-") == 0;
     const bool exists = !is_stdout && stat(s->path, &about) == 0;
@@ -229,8 +230,7 @@ bool sheet_close(sheet *s) {
     const bool good = !is_file || (fflush(s->out) == 0 && ferror(s->out) == 0);
     const bool closed = !is_file || fclose(s->out) == 0;
     if (!good || !closed) {
-        fprintf(stderr, "whirl sweep: error: the rows could not all be written: %s\n",
-                strerror(errno));
+        unwritten_say(s->path);
     }
     s->out = NULL;
     return good && closed;

@@ -13,6 +13,7 @@
 
 typedef struct sheet {
     FILE *out;
+    const char *path;
     bool is_file;    /* not standard output, a pipe or a device: can be gone on with */
     uint64_t rows;   /* already there */
     uint64_t failed; /* of them, with empty measures */

@@ -120,13 +120,7 @@ static int result_of(const image *im, int unknown, int primes) {
     if (im->form == WH_SECOND_ORDER) {
         return primes == 2 ? im->place[unknown] : -1;
     }
-    for (int i = 0; i < im->angles + im->reals; i++) {
-        const component c = image_component(im, i);
-        if (c.unknown == unknown && c.primes == primes - 1) {
-            return i;
-        }
-    }
-    return -1;
+    return image_find_component(im, unknown, primes - 1);
 }
 
 /* Each derivative's rounding, the highest first, moves the next lower one for all of the time: in the columns' units. */

@@ -60,6 +60,15 @@ says 2 '`whirl list` shows' run nosuchthing
 says 2 'no file and no built-in' run ''
 says 2 'nofile.whirl: error: cannot be read: No such file' derive nofile.whirl
 says 2 'error: cannot be read: Is a directory' derive /tmp
+for file in /dev/zero /dev/full; do # without an end, a file is read to its limit
+    for command in run prove derive describe list; do
+        [ ! -c $file ] || says 2 "$file:1:1: error: the text is longer than" $command $file
+    done
+done
+if [ -r /proc/self/mem ]; then # a file that breaks off in reading is no shorter model
+    says 2 '/proc/self/mem: error: cannot be read: ' run /proc/self/mem
+    says 2 '/proc/self/mem: error: cannot be read: ' list /proc/self/mem
+fi
 says 2 'it has more than one scene' run core/models/thomson.whirl
 says 2 'hint: name one: core/models/thomson.whirl:thomson_a ' run core/models/thomson.whirl:foo
 says 2 'no mechanism here' derive -

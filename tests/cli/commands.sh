@@ -11,25 +11,7 @@ verdict $? "whirl --help"
 sed -n 's/^  whirl \([a-z-]*\) .*/\1/p' "$scratch/help" | diff "$scratch/commands" - >"$scratch/err"
 verdict $? "whirl --help lists every command, and no other"
 
-# FILE: the options that a help text lists, each "--word" or "--word VALUE".
-options_of() {
-    awk '/^  --[a-z]+ (--|[(]as)/ { words = 1 } # those of `whirl run`, by their words
-        words { for (i = 1; i <= NF; i++) { if ($i ~ /^--[a-z]+$/) { print $i, "?" } } }
-        /[(]as for `whirl run`[)]/ { words = 0; next }
-        !words && /^  --[a-z]+/ {
-            word = $1
-            sub(/[^-a-z].*/, "", word)
-            print word, $0 ~ /^  --[a-z]+ [^ ]/ ? $2 : ""
-        }' "$1" | sort -u -k 1,1 | while read -r word value; do
-        if [ "$value" = '?' ]; then row_of "$word"; else echo "$word $value"; fi
-    done
-}
-# The rows of host/commands/options.h: "--word VALUE GROUP".
-tr -d '\n\\' <host/commands/options.h | grep -o 'X(OPTION_[A-Z]*, "--[a-z]*", "[^"]*", OPTIONS_[A-Z]*' |
-    sed 's/X([A-Z_]*, "\(.*\)", "\(.*\)", OPTIONS_\(.*\)/\1 \2 \3/; s/  / - /' >"$scratch/rows"
-row_of() { # "--word VALUE", or "--word"
-    sed -n "s/^\($1 .*\) [A-Z]*$/\1/p" "$scratch/rows" | sed 's/ -$//'
-}
+option_rows >"$scratch/rows"
 [ "$(wc -l <"$scratch/rows")" -eq "$(grep -c '^ *X(OPTION_' host/commands/options.h)" ]
 verdict $? "the rows of options.h are read" "$scratch/rows"
 

@@ -143,19 +143,7 @@ fi
 
 # --- what docs/stability.md shows ------------------------------------------------------------------------------------------------
 awk '/^## Stability maps/ { on = 1 } /^## Long runs/ { on = 0 } on' docs/stability.md >"$scratch/section"
-shown=0
-grep '^    [$] build/whirl map' "$scratch/section" >"$scratch/calls"
-while read -r call; do
-    shown=$((shown + 1))
-    awk -v call="    $call" '$0 == call { on = 1; next } on && /^[^ ]/ { exit } on { sub(/^    /, ""); print }' "$scratch/section" |
-        sed '${/^$/d;}' >"$scratch/wanted"
-    words=${call#* build/whirl }
-    eval "\"\$whirl\" $words" >"$scratch/said" 2>"$scratch/err"
-    diff "$scratch/wanted" "$scratch/said" >"$scratch/err"
-    verdict $? "docs/stability.md: $words"
-done <"$scratch/calls"
-[ "$shown" -ge 1 ]
-verdict $? "$shown calls are shown there" /dev/null
+shown_calls docs/stability.md map 1
 # its pictures are those of the commands: drawn anew, they are the same, where gnuplot is
 mkdir "$scratch/docs"
 cp docs/stability.md "$scratch/docs"

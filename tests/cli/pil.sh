@@ -158,6 +158,40 @@ refused 2 'is not a time' docs/plants/cart.whirl --delay 3kg --firmware "$build/
 refused 2 "no board 'pdp11'" rig_coupled --board pdp11 --firmware "$build/pil_rig"
 refused 2 'takes a number' rig_coupled --cycles -1 --firmware "$build/pil_rig"
 refused 2 'cannot be written' docs/plants/cart.whirl --tape "$scratch/no/tape" --firmware "$build/pil_cart"
+# values that are none, in each option
+cart="docs/plants/cart.whirl --until 0.02s --firmware $build/pil_cart"
+while read -r option pattern values; do
+    for value in $values; do
+        [ "$value" != empty ] || value=
+        # shellcheck disable=SC2086 # words
+        refused 2 "$(echo "$pattern" | tr _ ' ')" $cart "$option" "$value"
+    done
+done <<'END'
+--jitter --jitter_.*_is_not_a_time -1us nan inf 1kg 3601s 1e300 1e999 / empty
+--delay --delay_.*_is_not_a_time -1ms nan inf 1kg 1e9s 1e300 1e999 / empty
+--seed --seed_takes_a -1 1.5 nan inf 1e300 4294967296 0x10 empty
+--clock --clock_takes_a_number 0 -1 999 nan inf 1e12 16MHz empty
+--cycles --cycles_takes_a_number -1 nan inf 1e5 empty
+--patience --patience_takes_a_number -1 0 nan inf 1e7 empty
+--place --place_.*:_numbers_between_commas nan inf -inf 1e999 , 1, ,1 0x10 1,nan empty
+--place --place_has_[2-9]_places,_and_the_firmware 0,0,0
+--bind no_signal_of_that_name = =push , push=push, ,push=push push empty
+--bind sets_'' push= push=,push=
+--board no_board nan , empty
+--tape cannot_be_written /dev/null/x empty
+END
+for image in /dev/null /dev/zero .; do
+    refused 2 'no firmware image' docs/plants/cart.whirl --firmware $image
+done
+refused 2 'cannot be read' docs/plants/cart.whirl --firmware ''
+[ ! -c /dev/full ] ||
+    refused 1 'cannot be written' docs/plants/cart.whirl --until 0.02s --firmware "$build/pil_cart" --tape /dev/full
+for tape in /dev/null /dev/zero /dev/urandom; do
+    refused 2 'no tape of this version' --replay $tape --firmware "$build/pil_cart"
+done
+refused 2 'cannot be read: Is a directory' --replay "$scratch" --firmware "$build/pil_cart"
+{ cat "$scratch/cart.tape" && head -c 100000 /dev/zero; } >"$scratch/long_end.tape"
+refused 2 'it is broken' --replay "$scratch/long_end.tape" --firmware "$build/pil_cart"
 cp docs/plants/cart.whirl "$scratch/mine.whirl"
 refused 2 'over' "$scratch/mine.whirl" --tape "$scratch/mine.whirl" --firmware "$build/pil_cart"
 cmp -s docs/plants/cart.whirl "$scratch/mine.whirl"
@@ -215,6 +249,8 @@ for image in $([ -r /proc/self/stat ] && echo "$build/pil_rig" ${boards:+"$m4"})
         end_of 137 "$image, round $round: both are killed"
         begin "$image" && pause && kill -TERM "$host"
         end_of 130 "$image, round $round: the host is interrupted"
+        begin "$image" && pause && kill -HUP "$host"
+        end_of 130 "$image, round $round: the host's terminal goes away"
     done
     begin "$image" && pause && kill -STOP "$guest" && kill -KILL "$host"
     end_of 137 "$image: the guest stands still, and the host is killed"

@@ -212,19 +212,5 @@ refused 'would write over the model' "$scratch/mine.whirl" --csv "$scratch/mine.
 # --- what docs/stability.md prints -----------------------------------------------------------------------------------------
 # (with WHIRL_FEW=1, under the sanitizers, they would take minutes)
 [ -z "${WHIRL_FEW:-}" ] || exit $failed
-shown=0
-grep '^    [$] build/whirl prove' docs/stability.md >"$scratch/calls"
-while read -r call; do
-    shown=$((shown + 1))
-    awk -v call="    $call" '$0 == call { on = 1; next }
-        on && /^    [$]/ { exit }
-        on && /^[^ ]/ { exit }
-        on { sub(/^    /, ""); print }' docs/stability.md | sed '${/^$/d;}' >"$scratch/wanted"
-    words=${call#*whirl }
-    (eval "'$whirl' $words") >"$scratch/said" 2>"$scratch/err"
-    diff "$scratch/wanted" "$scratch/said" >"$scratch/err"
-    verdict $? "docs/stability.md: ${call#? }" "$scratch/err"
-done <"$scratch/calls"
-[ "$shown" -ge 2 ]
-verdict $? "$shown calls are shown there" /dev/null
+shown_calls docs/stability.md prove 2
 exit $failed

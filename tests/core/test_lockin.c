@@ -32,6 +32,7 @@ typedef struct made_up {
     wh_load_status status; /* have this status, */
     bool frozen;           /* or show the first of them */
     unsigned slower_turn;  /* from this turn on each takes a 40th longer */
+    unsigned bumpy_turn;   /* from this turn on each has a bump of 20 N, five samples wide */
 } made_up;
 
 static wh_rotor_config rotor;
@@ -49,7 +50,7 @@ static wh_real cosine_of(wh_real rad) {
 }
 
 static void settings(void) {
-    rotor = wh_rig_standard.rotor;
+    rotor = wh_rig_standard.measure.rotor;
     rotor.gravity_mps2 = WH_R(0.0);
     rotor.mark_rad[0] = WH_R(0.0);
     rotor.mark_rad[1] = WH_R(0.5) * PI;
@@ -107,6 +108,10 @@ static void run(const made_up *made, unsigned wanted) {
             kept_N = i == made->spoilt ? force_N : kept_N;
             force_N = made->frozen ? kept_N : force_N;
             load.status = made->status;
+        }
+        if (made->bumpy_turn > 0 && turn >= made->bumpy_turn && part > WH_R(0.6) &&
+            part < WH_R(0.655)) {
+            force_N += WH_R(20.0);
         }
         load.force_N = force_N;
         wh_lockin_load(&lockin, &load);
@@ -291,6 +296,21 @@ static void test_outliers_are_left_out(void) {
     }
 }
 
+/* A load that is another from some turn on, in a few samples running: they are outliers once, a gap, and then what must be
+ * expected. */
+static void test_what_stays_is_expected(void) {
+    settings();
+    made_up made = plain;
+    made.bumpy_turn = 5;
+    run(&made, 10);
+    TEST_ASSERT_TRUE(turns_done >= 10U);
+    for (unsigned i = 2; i < turns_done; i++) {
+        const wh_turn_fault fault = i == 4U ? WH_TURN_GAP : i == 5U ? WH_TURN_FIRST : WH_TURN_OK;
+        TEST_ASSERT_EQUAL_INT(fault, turns[i].fault);
+        TEST_ASSERT_EQUAL_UINT(i == 4U ? 5U : 0U, turns[i].outliers);
+    }
+}
+
 /* Nine equal samples running are no load of a rotor that turns. */
 static void test_a_frozen_load_does_not_count(void) {
     settings();
@@ -446,6 +466,7 @@ void suite_lockin(void) {
     RUN_TEST(test_a_gap_costs_one_turn);
     RUN_TEST(test_missing_samples);
     RUN_TEST(test_outliers_are_left_out);
+    RUN_TEST(test_what_stays_is_expected);
     RUN_TEST(test_a_frozen_load_does_not_count);
     RUN_TEST(test_a_speed_that_changes_does_not_count);
     RUN_TEST(test_samples_out_of_order_are_refused);

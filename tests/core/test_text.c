@@ -55,7 +55,7 @@ static void test_hex(void) {
 
 static void test_fixed(void) {
     expect_fixed("0.00", WH_R(0.0), 2);
-    expect_fixed("-0.0", -WH_R(0.0), 1);
+    expect_fixed("0.0", -WH_R(0.0), 1);
     expect_fixed("3.14159", WH_R(3.14159274101257324), 5);
     expect_fixed("-12345.5", WH_R(-12345.5), 1);
     expect_fixed("0.0009765625", WH_R(0.0009765625), 10);
@@ -69,7 +69,7 @@ static void test_fixed_rounding(void) {
     expect_fixed("0.12", WH_R(0.125), 2);
     expect_fixed("0.38", WH_R(0.375), 2);
     expect_fixed("100.0", WH_R(99.96875), 1);
-    expect_fixed("-0.00", WH_R(-0.001), 2);
+    expect_fixed("0.00", WH_R(-0.001), 2);
 }
 
 static void test_fixed_extremes(void) {
@@ -101,8 +101,44 @@ static void test_fixed_beyond_its_room(void) {
     expect_fixed("0.3", WH_R(0.25) + WH_R(0x1p-20), 1);
 #if WH_DOUBLE
     expect_fixed("0.000000000000000000", 1e-300, 18);
-    expect_fixed("-0.0", -0x1.8p-161, 1);
+    expect_fixed("0.0", -0x1.8p-161, 1);
 #endif
+}
+
+/* A minus sign stands before digits of which one is not 0, and before no others: values about half of the last digit, by
+ * factors from 2^-30 to 2^4, a tie and its neighbours. */
+static void test_fixed_sign(void) {
+    uint32_t random = 1;
+    unsigned bare = 0;
+    unsigned signs = 0;
+    wh_real half = WH_R(0.5);
+    for (unsigned decimals = 0; decimals <= WH_TEXT_DECIMALS_MAX; decimals++) {
+        for (unsigned i = 0; i < 100; i++) {
+            random = random * UINT32_C(1664525) + UINT32_C(1013904223);
+            wh_real value = half * (WH_R(1.0) + (wh_real)(random >> 8) * WH_R(0x1p-24));
+            for (unsigned k = (random >> 4) % 20U; k < 10U; k++) {
+                value *= WH_R(0.5);
+            }
+            for (unsigned k = 10; k < (random >> 4) % 20U; k++) {
+                value *= WH_R(2.0);
+            }
+            value = i == 0   ? half
+                    : i == 1 ? half * (WH_R(1.0) - WH_R(0x1p-20))
+                    : i == 2 ? half * (WH_R(1.0) + WH_R(0x1p-20))
+                             : value;
+            start();
+            wh_text_add_fixed(&text, -value, decimals);
+            bool any = false;
+            for (const char *c = buffer; *c != '\0'; c++) {
+                any = any || (*c >= '1' && *c <= '9');
+            }
+            TEST_ASSERT_EQUAL_INT(any ? '-' : '0', buffer[0]);
+            bare += !any;
+            signs += any;
+        }
+        half /= WH_R(10.0);
+    }
+    TEST_ASSERT_TRUE(bare > 300 && signs > 300);
 }
 
 static void test_full_buffer_keeps_its_bounds(void) {
@@ -138,6 +174,9 @@ static void test_fixed_agrees_with_printf(void) {
         const unsigned decimals = (unsigned)(random >> 40) % 13U;
         char wanted[80];
         snprintf(wanted, sizeof wanted, "%.*f", (int)decimals, (double)value);
+        if (strpbrk(wanted, "123456789") == NULL && wanted[0] == '-') {
+            memmove(wanted, wanted + 1, strlen(wanted)); /* its zero has no sign here */
+        }
         start();
         wh_text_add_fixed(&text, (wh_real)value, decimals);
         if (strcmp(wanted, buffer) != 0) {
@@ -156,6 +195,7 @@ void suite_text(void) {
     RUN_TEST(test_fixed_rounding);
     RUN_TEST(test_fixed_extremes);
     RUN_TEST(test_fixed_beyond_its_room);
+    RUN_TEST(test_fixed_sign);
     RUN_TEST(test_full_buffer_keeps_its_bounds);
 #if __STDC_HOSTED__
     RUN_TEST(test_fixed_agrees_with_printf);

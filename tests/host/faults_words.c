@@ -1,13 +1,11 @@
 /* faults_words.c: the controller's states and trips, as its headers have them: the only place of the campaign that knows
  * which controller it is. */
 #include "core/rig/datasheet.h"
+#include "core/rig/life.h"
 #include "core/rig/rig.h"
+#include "core/rig/run.h"
 #include "faults.h"
 #include "hal/frames/rig_frames.h"
-
-#if __has_include("core/rig/life.h")
-#include "core/rig/life.h"
-#include "core/rig/run.h"
 
 enum {
     RUNNING_AT = 100
@@ -45,28 +43,6 @@ static int state_of(const float *note) {
 }
 
 bool rig_is_tripped(const float *note) { return (int)note[HAL_NOTE_STATE] == (int)WH_LIFE_TRIPPED; }
-
-#else
-
-static const struct {
-    wh_rig_state state;
-    double span_s;
-} stages[] = {
-    {WH_RIG_TARE, 0.5},   {WH_RIG_SPIN_UP, 0.86},  {WH_RIG_RAMP, 2.1},  {WH_RIG_SETTLE, 3.2},
-    {WH_RIG_RECORD, 2.0}, {WH_RIG_RAMP_DOWN, 2.2}, {WH_RIG_COAST, 2.5},
-};
-
-static const char *word_of(wh_rig_state state) { return wh_rig_state_text(state); }
-
-static void when_of(wh_rig_state state, rig_stage *stage) {
-    snprintf(stage->when, sizeof stage->when, "state=%d", (int)state);
-}
-
-static wh_rig_state state_of(const float *note) { return (wh_rig_state)note[HAL_NOTE_STATE]; }
-
-bool rig_is_tripped(const float *note) { return (int)note[HAL_NOTE_STATE] == (int)WH_RIG_TRIPPED; }
-
-#endif
 
 enum { STAGES = sizeof stages / sizeof stages[0] };
 

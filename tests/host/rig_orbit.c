@@ -24,7 +24,8 @@ const rig_plant rig_plant_nominal = {
 /* --- the turn: speed over the angle, dw/dtheta = torque/(I w), dt/dtheta = 1/w ------------------ */
 
 static double acceleration(const rig_plant *p, double drive_Nm, double theta, double w) {
-    return (drive_Nm - (p->line_Nms + p->drag_Nms) * w -
+    const double given_Nm = fmax(0.0, drive_Nm + p->fed_Nm * sin(theta - p->fed_late_rad));
+    return (given_Nm - (p->line_Nms + p->drag_Nms) * w -
             p->mass_moment_kgm * p->gravity_mps2 * sin(theta)) /
            p->inertia_kgm2;
 }
@@ -110,6 +111,7 @@ void rig_orbit_find(const rig_plant *plant, double speed_rpm, double lead_rad, r
     }
     orbit->turn_s = periodic(plant, drive_Nm, from);
     orbit->tare_N = plant->tare_N;
+    orbit->fed = plant->fed_Nm > 0.0;
     const double h = 2.0 * PI / STEPS;
     orbit->split = time_at[STEPS / 4U] / orbit->turn_s;
     orbit->in_phase_N = 0.0;
@@ -178,6 +180,7 @@ void rig_measure(const rig_orbit *orbit, const rig_noise *noise, const wh_rotor_
         scattered();
     }
     wh_lockin_start(rotor, &lockin);
+    wh_lockin_feed(&lockin, orbit->fed);
     wh_merge merge = {0};
     const uint32_t begin = UINT32_MAX - 1500000U; /* the timer wraps on the way */
     const double first_mark_s = uniform() * 0.002 + 0.001;

@@ -16,6 +16,8 @@ typedef struct rig_plant {
     double line_Nms; /* slope of the motor's torque line */
     double gravity_mps2;
     double tare_N;
+    double fed_Nm;       /* gravity's torque as the motor is given it; 0: it is not, */
+    double fed_late_rad; /* at an angle that is so much behind; no voltage is below 0 */
 } rig_plant;
 
 extern const rig_plant rig_plant_nominal;
@@ -33,6 +35,7 @@ typedef struct rig_orbit {
     double quadrature_N;
     double amplitude_N;
     double phase_rad;
+    bool fed;
     double swing; /* half the range of the speed, over its mean */
 } rig_orbit;
 

@@ -71,6 +71,7 @@ static void check_components(const image *im, const char *name) {
         TEST_ASSERT_TRUE_MESSAGE(c.primes >= 0 && c.primes < im->unknown[c.unknown].order, name);
         seen[c.unknown][c.primes]++;
         TEST_ASSERT_TRUE_MESSAGE(i >= im->angles || c.primes == 0, name);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(i, image_find_component(im, c.unknown, c.primes), name);
     }
     int recovered = 0;
     for (int u = 0; u < im->count; u++) {
@@ -82,6 +83,7 @@ static void check_components(const image *im, const char *name) {
             TEST_ASSERT_TRUE_MESSAGE(recovered < im->recovered, name);
             TEST_ASSERT_EQUAL_INT_MESSAGE(u, im->from_momentum[recovered], name);
             TEST_ASSERT_TRUE_MESSAGE(im->unknown[u].conserved, name);
+            TEST_ASSERT_EQUAL_INT_MESSAGE(-1, image_find_component(im, u, 0), name);
             recovered++;
         } else if (im->form == WH_SECOND_ORDER) {
             const int at = im->place[u];

@@ -1,0 +1,61 @@
+/* life.c: the rig's life cycle, as one table. */
+#include "life.h"
+
+#define TO(state) \
+    { WH_LIFE_##state, WH_ALLOWED }
+#define NO(state, why) \
+    { WH_LIFE_##state, WH_REFUSED_##why }
+
+/* Columns as in WH_LIFE_ROWS. `stop` and a trip are heard everywhere; what a state already is it stays. */
+/* clang-format off */
+static const wh_life_rule rules[WH_EVENTS][WH_LIVES] = {
+    /*                       idle                   armed                   running               stopping                tripped */
+    [WH_EVENT_ARM]       = { TO(ARMED),             NO(ARMED, ARMED),       NO(RUNNING, RUNNING), NO(STOPPING, STOPPING), NO(TRIPPED, TRIPPED) },
+    [WH_EVENT_START]     = { NO(IDLE, NOT_ARMED),   TO(RUNNING),            NO(RUNNING, RUNNING), NO(STOPPING, STOPPING), NO(TRIPPED, TRIPPED) },
+    [WH_EVENT_SET]       = { NO(IDLE, NOT_RUNNING), NO(ARMED, NOT_RUNNING), TO(RUNNING),          NO(STOPPING, STOPPING), NO(TRIPPED, TRIPPED) },
+    [WH_EVENT_STOP]      = { TO(IDLE),              TO(IDLE),               TO(STOPPING),         TO(STOPPING),           TO(TRIPPED) },
+    [WH_EVENT_CLEAR]     = { NO(IDLE, NO_TRIP),     NO(ARMED, NO_TRIP),     NO(RUNNING, NO_TRIP), NO(STOPPING, NO_TRIP),  TO(IDLE) },
+    [WH_EVENT_HOST_LOST] = { TO(IDLE),              TO(IDLE),               TO(STOPPING),         TO(STOPPING),           TO(TRIPPED) },
+    [WH_EVENT_DONE]      = { NO(IDLE, NOT_RUNNING), NO(ARMED, NOT_RUNNING), TO(STOPPING),         NO(STOPPING, STOPPING), NO(TRIPPED, TRIPPED) },
+    [WH_EVENT_RESTED]    = { TO(IDLE),              TO(ARMED),              TO(RUNNING),          TO(IDLE),               TO(TRIPPED) },
+    [WH_EVENT_EXPIRED]   = { TO(IDLE),              TO(IDLE),               TO(RUNNING),          TO(STOPPING),           TO(TRIPPED) },
+    [WH_EVENT_TRIP]      = { TO(TRIPPED),           TO(TRIPPED),            TO(TRIPPED),          TO(TRIPPED),            TO(TRIPPED) },
+};
+/* clang-format on */
+
+wh_life_rule wh_life_rule_of(wh_life state, wh_rig_event event) {
+    if ((unsigned)state >= (unsigned)WH_LIVES || (unsigned)event >= (unsigned)WH_EVENTS) {
+        return (wh_life_rule){state, WH_REFUSED_EVENT};
+    }
+    return rules[event][state];
+}
+
+/* The words of a row, without or with a number. */
+/* clang-format off */
+#define CASE(name, words) case name: return words;
+#define NUMBERED_CASE(name, number, words) case name: return words;
+/* clang-format on */
+
+const char *wh_life_text(wh_life state) {
+    switch (state) {
+        WH_LIFE_ROWS(CASE)
+    case WH_LIVES: break;
+    }
+    return "unknown state";
+}
+
+const char *wh_rig_event_text(wh_rig_event event) {
+    switch (event) {
+        WH_EVENT_ROWS(CASE)
+    case WH_EVENTS: break;
+    }
+    return "unknown event";
+}
+
+const char *wh_refusal_text(wh_refusal refusal) {
+    switch (refusal) {
+        WH_REFUSAL_ROWS(NUMBERED_CASE)
+    case WH_REFUSALS: break;
+    }
+    return "unknown refusal";
+}

@@ -1,0 +1,91 @@
+/* life.h: the rig's life cycle: which states there are, what may happen in each, and what is refused, by name.
+ *
+ *     IDLE --arm--> ARMED --start--> RUNNING --done, stop--> STOPPING --rested--> IDLE
+ *       \_____________\________________\_______trip___________/--> TRIPPED --clear--> IDLE
+ *
+ * Nothing moves without `arm` and then `start`. One table has every pair of state and event; a test goes through it.
+ * What else an event asks for (a supply, a rig at rest) is in rig.c, and refused by the names that are here. */
+#ifndef WH_RIG_LIFE_H
+#define WH_RIG_LIFE_H
+
+#include "core/real.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* X(name, words) */
+#define WH_LIFE_ROWS(X) \
+    X(WH_LIFE_IDLE, "idle")         /* motor off; the rotor is watched */ \
+    X(WH_LIFE_ARMED, "armed")       /* motor off; `start` is allowed, for a minute */ \
+    X(WH_LIFE_RUNNING, "running")   /* a test run: run.h has its phases */ \
+    X(WH_LIFE_STOPPING, "stopping") /* slowing down, or motor off, until the rotor rests */ \
+    X(WH_LIFE_TRIPPED, "tripped")   /* motor off; latched until `clear` */
+
+/* X(name, words): orders from outside, then what the rig itself finds. */
+#define WH_EVENT_ROWS(X) \
+    X(WH_EVENT_ARM, "arm") \
+    X(WH_EVENT_START, "start")         /* value: set-point, rad/s */ \
+    X(WH_EVENT_SET, "set")             /* value: another set-point, rad/s */ \
+    X(WH_EVENT_STOP, "stop")           /* motor off at once */ \
+    X(WH_EVENT_CLEAR, "clear")         /* the trip is understood, its cause gone */ \
+    X(WH_EVENT_HOST_LOST, "host lost") /* who gives orders is gone: as configured */ \
+    X(WH_EVENT_DONE, "done")           /* the run is through */ \
+    X(WH_EVENT_RESTED, "rested")       /* the rotor rests */ \
+    X(WH_EVENT_EXPIRED, "expired")     /* armed for too long */ \
+    X(WH_EVENT_TRIP, "trip")           /* the guard has a reason to stop */
+
+/* X(name, number, words): numbers are for consoles and records, and stay. */
+#define WH_REFUSAL_ROWS(X) \
+    X(WH_ALLOWED, 0, "done") \
+    X(WH_REFUSED_NOT_ARMED, 1, "the rig is not armed") \
+    X(WH_REFUSED_ARMED, 2, "the rig is armed already") \
+    X(WH_REFUSED_RUNNING, 3, "the rig is running") \
+    X(WH_REFUSED_STOPPING, 4, "the rig is stopping") \
+    X(WH_REFUSED_TRIPPED, 5, "a trip is latched: clear it first") \
+    X(WH_REFUSED_NO_TRIP, 6, "there is no trip to clear") \
+    X(WH_REFUSED_NOT_RUNNING, 7, "the rig is not running") \
+    X(WH_REFUSED_STOP_INPUT, 8, "the stop input is pressed") \
+    X(WH_REFUSED_SUPPLY, 9, "the motor's supply is out of its range") \
+    X(WH_REFUSED_CLOCK, 10, "the clock runs on its fallback, and speeds would be wrong") \
+    X(WH_REFUSED_TURNING, 11, "the rotor is not at rest") \
+    X(WH_REFUSED_LOAD_CELL, 12, "the load cell gives no good samples") \
+    X(WH_REFUSED_WATCHDOG, 13, "the watchdog has cut the drive: only a reset brings it back") \
+    X(WH_REFUSED_TARGET, 14, \
+      "the set-point is below what the loop can hold or above what the shaft carries") \
+    X(WH_REFUSED_VOLTAGE, 15, "the supply is too low for the set-point") \
+    X(WH_REFUSED_QUEUE, 16, "too many orders at once") \
+    X(WH_REFUSED_EVENT, 17, "there is no such order")
+
+#define WH_LIFE_NAME(name, words) name,
+#define WH_REFUSAL_NAME(name, number, words) name = (number),
+typedef enum wh_life { WH_LIFE_ROWS(WH_LIFE_NAME) WH_LIVES } wh_life;
+typedef enum wh_rig_event { WH_EVENT_ROWS(WH_LIFE_NAME) WH_EVENTS } wh_rig_event;
+typedef enum wh_refusal { WH_REFUSAL_ROWS(WH_REFUSAL_NAME) WH_REFUSALS } wh_refusal;
+#undef WH_LIFE_NAME
+#undef WH_REFUSAL_NAME
+
+/* What becomes of an event in a state. */
+typedef struct wh_life_rule {
+    wh_life next;       /* the state it leads to, if nothing else is against it */
+    wh_refusal refusal; /* WH_ALLOWED, or why it is refused: then `next` is where the rig is */
+} wh_life_rule;
+
+#define wh_life_rule_of WH_NAME(wh_life_rule_of)
+#define wh_life_text WH_NAME(wh_life_text)
+#define wh_rig_event_text WH_NAME(wh_rig_event_text)
+#define wh_refusal_text WH_NAME(wh_refusal_text)
+
+/* From the table. An event or state that there is not is refused. */
+wh_life_rule wh_life_rule_of(wh_life state, wh_rig_event event);
+
+/* In words, for consoles. */
+const char *wh_life_text(wh_life state);
+const char *wh_rig_event_text(wh_rig_event event);
+const char *wh_refusal_text(wh_refusal refusal);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

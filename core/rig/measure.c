@@ -1,0 +1,111 @@
+/* measure.c: what a run measures. */
+#include "measure.h"
+
+#include "datasheet.h"
+
+/* A turn's samples are through within a fraction of the next turn. */
+#define LAST_TURN_MAX_S WH_R(0.5)
+
+static wh_real since_s(uint32_t then_ticks, uint32_t now_ticks) {
+    return (wh_real)(now_ticks - then_ticks) / (wh_real)WH_RIG_TICKS_PER_S;
+}
+
+void wh_measure_start(const wh_measure_config *config, wh_measure *measure) {
+    *measure = (wh_measure){.records = false};
+    wh_lockin_start(&config->rotor, &measure->lockin);
+}
+
+void wh_measure_begin(const wh_measure_config *config, wh_measure *measure) {
+    measure->tare = (wh_tare){.count = 0};
+    measure->records = false;
+    measure->due = 0;
+    wh_lockin_forget(&config->rotor, &measure->lockin);
+}
+
+void wh_measure_mark(wh_measure *measure, const wh_mark *mark) {
+    if (mark->gap) {
+        wh_lockin_gap(&measure->lockin);
+    }
+    wh_lockin_mark(&measure->lockin, mark->pulse.sensor, mark->pulse.ticks, mark->quarter);
+}
+
+bool wh_measure_lasts(const wh_measure *measure, uint32_t ticks) {
+    return measure->records && since_s(measure->begin_ticks, ticks) <= measure->record_s;
+}
+
+static void see_peaks(wh_measure *measure, wh_real force_N) {
+    wh_rig_result *result = &measure->result;
+    result->low_N = measure->peaks && result->low_N < force_N ? result->low_N : force_N;
+    result->high_N = measure->peaks && result->high_N > force_N ? result->high_N : force_N;
+    measure->peaks = true;
+}
+
+void wh_measure_load(wh_measure *measure, const wh_load *load, bool at_rest) {
+    if (!at_rest) {
+        wh_lockin_load(&measure->lockin, load);
+    }
+    if (load->status != WH_LOAD_OK) {
+        return;
+    }
+    if (at_rest) {
+        wh_tare_add(&measure->tare, load->force_N);
+    } else if (wh_measure_lasts(measure, load->ticks)) {
+        see_peaks(measure, load->force_N - measure->tare.mean_N);
+    }
+}
+
+void wh_measure_work(const wh_measure_config *config, wh_measure *measure) {
+    wh_measured *force = &measure->result.force;
+    if (measure->due == 2U) {
+        wh_merge_mean(&config->result, &config->rotor, &measure->merge, &measure->lockin.angle,
+                      measure->tare.mean_N, force);
+        force->left_out += measure->lockin.skipped - measure->skipped_before;
+    } else if (measure->due == 1U) {
+        wh_merge_judge(&config->result, &config->rotor, &measure->merge, force);
+    }
+    if (measure->due > 0) {
+        measure->due--;
+        return;
+    }
+    if (!wh_lockin_work(&config->rotor, &config->cell, &measure->lockin)) {
+        return;
+    }
+    /* turns that lie within the record as a whole */
+    const wh_lockin_turn *turn = &measure->lockin.turn;
+    const bool begins_within = (int32_t)(turn->begin_ticks - measure->begin_ticks) >= 0;
+    if (begins_within && wh_measure_lasts(measure, turn->begin_ticks + turn->turn_ticks)) {
+        wh_merge_add(&config->result, &config->rotor, &measure->merge, turn,
+                     &measure->lockin.angle);
+        measure->due = 2;
+    }
+}
+
+void wh_measure_record(const wh_measure_config *config, wh_measure *measure, wh_real speed_radps,
+                       uint32_t now_ticks) {
+    const wh_real turns_s = config->record_turns * WH_RIG_TWO_PI / speed_radps;
+    measure->record_s = turns_s > config->record_s ? turns_s : config->record_s;
+    measure->merge = (wh_merge){.turns = 0};
+    measure->result = (wh_rig_result){.lost = 0};
+    measure->records = true;
+    measure->begin_ticks = now_ticks;
+    measure->due = 0;
+    measure->peaks = false;
+    measure->ends = false;
+    measure->skipped_before = measure->lockin.skipped;
+}
+
+bool wh_measure_end(wh_measure *measure, uint32_t now_ticks) {
+    const bool late =
+        since_s(measure->begin_ticks, now_ticks) > measure->record_s + LAST_TURN_MAX_S;
+    if (!measure->ends && (measure->lockin.stage == WH_LOCKIN_WAITS || late) && measure->due == 0) {
+        measure->ends = true;
+        measure->due = 2;
+    }
+    if (!measure->ends || measure->due > 0) {
+        return false;
+    }
+    measure->result.tare_N = measure->tare.mean_N;
+    measure->result.tare_error_N = wh_tare_error_N(&measure->tare);
+    measure->records = false;
+    return true;
+}

@@ -1,0 +1,89 @@
+/* measure.h: what a run measures: turns from the lock-in, merged over the record to a result.
+ *
+ * The work of a turn is done in pieces, one a control step. Only turns that lie within the record as a whole count. */
+#ifndef WH_RIG_MEASURE_H
+#define WH_RIG_MEASURE_H
+
+#include "lockin.h"
+#include "pulses.h"
+#include "result.h"
+#include "tare.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct wh_measure_config {
+    wh_rotor_config rotor;
+    wh_cell_config cell;
+    wh_tare_config tare;
+    wh_result_config result;
+    wh_real record_s;     /* whole turns within this time are measured, */
+    wh_real record_turns; /* or within that of so many turns if that is longer */
+} wh_measure_config;
+
+typedef struct wh_rig_result {
+    wh_measured force;    /* the load's once-per-turn part: see result.h */
+    wh_real tare_N;       /* reading at rest */
+    wh_real tare_error_N; /* its standard error */
+    wh_real low_N;        /* peaks of the whole record, without tare */
+    wh_real high_N;
+    wh_real volts; /* at the record's end */
+    uint32_t lost; /* pulses */
+    uint32_t rejected;
+} wh_rig_result;
+
+typedef struct wh_measure {
+    wh_tare tare;
+    wh_lockin lockin; /* lockin.turn: the last turn's load */
+    wh_merge merge;   /* of the record */
+    bool records;
+    uint32_t begin_ticks;    /* of the record, */
+    wh_real record_s;        /* and how long it lasts */
+    uint8_t due;             /* pieces of work that the last turn has left */
+    bool peaks;              /* low_N and high_N are of something */
+    bool ends;               /* the record's last turn is through */
+    uint32_t skipped_before; /* turns, when the record began */
+    wh_rig_result result;    /* grows with each turn of the record */
+} wh_measure;
+
+#define wh_measure_start WH_NAME(wh_measure_start)
+#define wh_measure_begin WH_NAME(wh_measure_begin)
+#define wh_measure_mark WH_NAME(wh_measure_mark)
+#define wh_measure_load WH_NAME(wh_measure_load)
+#define wh_measure_work WH_NAME(wh_measure_work)
+#define wh_measure_record WH_NAME(wh_measure_record)
+#define wh_measure_lasts WH_NAME(wh_measure_lasts)
+#define wh_measure_end WH_NAME(wh_measure_end)
+
+/* Before the first use. */
+void wh_measure_start(const wh_measure_config *config, wh_measure *measure);
+
+/* A run begins, with the tare. */
+void wh_measure_begin(const wh_measure_config *config, wh_measure *measure);
+
+/* A mark that is sure, in order of time. */
+void wh_measure_mark(wh_measure *measure, const wh_mark *mark);
+
+/* A sample: of the tare, or of a turning rotor. */
+void wh_measure_load(wh_measure *measure, const wh_load *load, bool at_rest);
+
+/* A bounded piece of the work, once a control step. */
+void wh_measure_work(const wh_measure_config *config, wh_measure *measure);
+
+/* The record begins now, at a speed > 0; what an earlier one merged is forgotten. */
+void wh_measure_record(const wh_measure_config *config, wh_measure *measure, wh_real speed_radps,
+                       uint32_t now_ticks);
+
+/* True during the record, at `ticks`. */
+bool wh_measure_lasts(const wh_measure *measure, uint32_t ticks);
+
+/* Once the record's time is over, each control step until it returns true: its last turn is through, and all are merged once
+ * more. result.force.turns is then 0 if not one could be used. */
+bool wh_measure_end(wh_measure *measure, uint32_t now_ticks);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,163 @@
+/* pulses.c: which slot pulses are true. */
+#include "pulses.h"
+
+#include "datasheet.h"
+
+#define SURE_PART WH_R(0.125) /* of a turn, after which no pulse takes back the last one */
+
+void wh_pulses_start(wh_pulses *pulses, wh_real impossible_radps) {
+    *pulses = (wh_pulses){.window = WH_R(1.0)};
+    wh_speed_start(&pulses->speed, impossible_radps);
+    pulses->before = pulses->speed;
+}
+
+static wh_real turn_ticks(const wh_speed *speed) {
+    return WH_RIG_TWO_PI / speed->turn_radps * (wh_real)WH_RIG_TICKS_PER_S;
+}
+
+/* How much earlier than a turn after its sensor's last one a pulse comes, ticks; 0 where nobody knows. */
+static wh_real early_ticks(const wh_speed *speed, const wh_pulse *pulse) {
+    if (!speed->known || !speed->seen[pulse->sensor] ||
+        speed->quarter - speed->seen_quarter[pulse->sensor] > 3U) {
+        return WH_R(0.0);
+    }
+    return turn_ticks(speed) - (wh_real)(pulse->ticks - speed->seen_ticks[pulse->sensor]);
+}
+
+/* --- what is sure -------------------------------------------------------------------------------- */
+
+static void release(wh_pulses *pulses) {
+    if (pulses->waits && pulses->marks < WH_PULSES_MARKS) {
+        pulses->mark[pulses->marks++] = pulses->last;
+    }
+    pulses->waits = false;
+}
+
+bool wh_pulses_sure(wh_pulses *pulses, uint32_t now_ticks, wh_mark *mark) {
+    if (pulses->waits && pulses->speed.known &&
+        (wh_real)(int32_t)(now_ticks - pulses->last.pulse.ticks) >
+            SURE_PART * turn_ticks(&pulses->speed)) {
+        release(pulses);
+    }
+    if (pulses->marks == 0) {
+        return false;
+    }
+    *mark = pulses->mark[0];
+    pulses->marks--;
+    for (unsigned i = 0; i < pulses->marks; i++) {
+        pulses->mark[i] = pulses->mark[i + 1U];
+    }
+    return true;
+}
+
+/* --- what is true -------------------------------------------------------------------------------- */
+
+static bool is_fast(const wh_pulses *pulses, const wh_speed *speed) {
+    return pulses->bound_radps > WH_R(0.0) && speed->interval_radps > pulses->bound_radps;
+}
+
+/* The speed after this pulse; what it replaces is the speed without it, or before the last one where that is taken back. */
+static void accept(wh_pulses *pulses, const wh_pulse *pulse, const wh_speed *after) {
+    const wh_speed *before = &pulses->before;
+    const bool alternates = after->lost == before->lost && before->running;
+    pulses->fast = is_fast(pulses, after) ? pulses->fast + 1U : 0U;
+    pulses->alternate = alternates ? pulses->alternate + 1U : 0U;
+    pulses->last = (wh_mark){
+        .pulse = *pulse, .quarter = after->quarter, .gap = after->restarts != before->restarts};
+    pulses->waits = true;
+    pulses->speed = *after;
+}
+
+/* The speed with a pulse more. False: it cannot be. */
+static bool with(const wh_speed *speed, const wh_pulse *pulse, wh_speed *after) {
+    *after = *speed;
+    return wh_speed_pulse(after, pulse->sensor, pulse->ticks);
+}
+
+static bool is_likely(const wh_pulses *pulses, const wh_speed *speed) {
+    return speed->interval_radps > WH_R(0.0) && !is_fast(pulses, speed);
+}
+
+static void take_next(wh_pulses *pulses, const wh_pulse *pulse, const wh_speed *after) {
+    release(pulses);
+    pulses->before = pulses->speed;
+    accept(pulses, pulse, after);
+}
+
+/* The pulse after a suspect: with it, or without? Without, if that is likely, and more so than both together. */
+static void decide(wh_pulses *pulses, const wh_pulse *pulse) {
+    const wh_pulse suspect = pulses->suspect;
+    wh_speed without;
+    wh_speed suspected;
+    wh_speed both;
+    pulses->suspects = false;
+    const bool alone_likely = with(&pulses->speed, pulse, &without) && is_likely(pulses, &without);
+    if (alone_likely && pulse->sensor == suspect.sensor) {
+        pulses->rejected++;
+        take_next(pulses, pulse, &without);
+        return;
+    }
+    const bool was_true = with(&pulses->speed, &suspect, &suspected);
+    const bool both_are = was_true && with(&suspected, pulse, &both);
+    if (alone_likely && !(both_are && is_likely(pulses, &both))) {
+        pulses->rejected++;
+        take_next(pulses, pulse, &without);
+        return;
+    }
+    if (was_true) {
+        take_next(pulses, &suspect, &suspected);
+    }
+    if (both_are) {
+        take_next(pulses, pulse, &both);
+    } else {
+        pulses->rejected++;
+    }
+}
+
+/* A pulse that cannot follow the last one: is it that one which is none? */
+static void compare(wh_pulses *pulses, const wh_pulse *pulse) {
+    wh_speed instead;
+    pulses->rejected++;
+    if (!pulses->waits || pulse->sensor != pulses->last.pulse.sensor ||
+        !with(&pulses->before, pulse, &instead) || !is_likely(pulses, &instead)) {
+        return;
+    }
+    const wh_real last = early_ticks(&pulses->before, &pulses->last.pulse);
+    const wh_real this = early_ticks(&pulses->before, pulse);
+    if (WH_ABS(this) < WH_ABS(last)) {
+        accept(pulses, pulse, &instead);
+    }
+}
+
+/* The same sensor again, and not half a turn later. */
+static bool follows_too_soon(const wh_pulses *pulses, const wh_pulse *pulse) {
+    const wh_pulse *last = &pulses->last.pulse;
+    return pulses->waits && pulses->speed.known && pulse->sensor == last->sensor &&
+           (wh_real)(pulse->ticks - last->ticks) < WH_R(0.5) * turn_ticks(&pulses->speed);
+}
+
+void wh_pulses_take(wh_pulses *pulses, unsigned sensor, uint32_t ticks) {
+    const wh_pulse pulse = {.ticks = ticks, .sensor = sensor};
+    if (sensor >= WH_SPEED_SENSORS) {
+        pulses->rejected++;
+        return;
+    }
+    if (pulses->suspects) {
+        decide(pulses, &pulse);
+        return;
+    }
+    wh_speed after;
+    if (follows_too_soon(pulses, &pulse) || !with(&pulses->speed, &pulse, &after)) {
+        compare(pulses, &pulse);
+        return;
+    }
+    const bool early = pulses->speed.known && early_ticks(&pulses->speed, &pulse) >
+                                                  pulses->window * turn_ticks(&pulses->speed);
+    /* where one fast interval is true already, the next is the speed's */
+    if (pulses->speed.running && pulses->fast == 0 && (is_fast(pulses, &after) || early)) {
+        pulses->suspect = pulse;
+        pulses->suspects = true;
+        return;
+    }
+    take_next(pulses, &pulse, &after);
+}

@@ -1,0 +1,190 @@
+/* run.c: a test run of the eccentric-mass rig, phase by phase. */
+#include "run.h"
+
+#include "datasheet.h"
+
+static wh_real since_s(uint32_t then_ticks, uint32_t now_ticks) {
+    return (wh_real)(now_ticks - then_ticks) / (wh_real)WH_RIG_TICKS_PER_S;
+}
+
+static void enter(wh_run *run, wh_rig_phase phase, uint32_t now_ticks) {
+    run->phase = phase;
+    run->since_ticks = now_ticks;
+    run->band_ticks = now_ticks;
+    run->ample_ticks = now_ticks;
+}
+
+void wh_run_start(wh_run *run, wh_real target_radps, uint32_t now_ticks) {
+    *run = (wh_run){.target_radps = target_radps};
+    enter(run, WH_PHASE_TARE, now_ticks);
+}
+
+void wh_run_set(wh_run *run, wh_real target_radps, uint32_t now_ticks) {
+    run->target_radps = target_radps;
+    if (wh_run_is_closed(run)) {
+        enter(run, WH_PHASE_RAMP, now_ticks);
+    }
+}
+
+void wh_run_off(wh_run *run, wh_real speed_radps, uint32_t now_ticks) {
+    run->volts = WH_R(0.0);
+    run->off_radps = speed_radps;
+    enter(run, WH_PHASE_OFF, now_ticks);
+}
+
+wh_real wh_run_base_radps(const wh_run_config *config, const wh_run *run) {
+    if (!wh_run_drives(run)) {
+        return run->off_radps;
+    }
+    /* without load the motor goes where the voltage takes it; from there the set-point may lead down */
+    const wh_real led = run->volts / config->rated_V * config->no_load_radps;
+    return wh_run_is_closed(run) && run->drive.setpoint_radps > led ? run->drive.setpoint_radps
+                                                                    : led;
+}
+
+wh_real wh_run_needs_V(const wh_run_config *config, wh_real speed_radps) {
+    return speed_radps / config->no_load_radps * config->rated_V + config->drag_V;
+}
+
+/* Slower than gravity allows only once it is fed forward. */
+static bool ramp(wh_run *run, const wh_run_scene *scene) {
+    const bool allowed = wh_guard_allows(scene->guarding, run->target_radps, scene->fed);
+    run->drive.target_radps = allowed ? run->target_radps : scene->guarding->target_min_radps;
+    if (since_s(run->since_ticks, scene->now_ticks) > scene->config->ramp_max_s) {
+        wh_guard_trip(scene->guard, WH_TRIP_UNSETTLED); /* gravity that cannot be fed, for one */
+    }
+    return allowed && wh_drive_at_target(&run->drive);
+}
+
+/* The slot of a hanging rotor stands at sensor 1, where a shiver makes pulses; but one that passes sensor 2, or
+ * passes sensor 1 again and again, is no hanging rotor. */
+#define TARE_PULSES_MOST 2U
+
+static void tare(wh_run *run, const wh_run_scene *scene) {
+    const wh_measure *measure = scene->measure;
+    if (measure->tare.count < scene->measuring->tare.samples) {
+        return;
+    }
+    if (run->tare_pulses[0] > TARE_PULSES_MOST || run->tare_pulses[1] > 0 ||
+        !wh_tare_is_still(&scene->measuring->tare, &measure->tare)) {
+        wh_guard_trip(scene->guard, WH_TRIP_MOVING);
+        return;
+    }
+    run->volts = scene->config->spin_up_V;
+    /* what was seen so far is that shiver, and it grows old */
+    wh_pulses_start(scene->pulses, scene->impossible_radps);
+    wh_lockin_gap(&scene->measure->lockin);
+    enter(run, WH_PHASE_SPIN_UP, scene->now_ticks);
+}
+
+static void spin_up(wh_run *run, const wh_run_scene *scene) {
+    const wh_run_config *config = scene->config;
+    const wh_speed *speed = &scene->pulses->speed;
+    const wh_real wanted =
+        config->spin_up_V + config->spin_up_V_per_s * since_s(run->since_ticks, scene->now_ticks);
+    const wh_real most = scene->supply_V < config->rated_V ? scene->supply_V : config->rated_V;
+    run->volts = wanted < most ? wanted : most;
+    if (speed->known && speed->turn_radps >= config->take_over_radps) {
+        wh_drive_start(&run->drive, speed->turn_radps, run->volts);
+        /* the first turns swing so much that the count of lost pulses means nothing */
+        scene->guard->lost_before = speed->lost;
+        scene->guard->rejected_before = scene->pulses->rejected;
+        enter(run, WH_PHASE_RAMP, scene->now_ticks);
+    } else if (since_s(run->since_ticks, scene->now_ticks) > config->spin_up_max_s) {
+        wh_guard_trip(scene->guard, WH_TRIP_STALLED);
+    }
+}
+
+static wh_real off_target(const wh_run *run, const wh_run_scene *scene) {
+    return WH_ABS(scene->pulses->speed.turn_radps - run->target_radps);
+}
+
+static void settle(wh_run *run, const wh_run_scene *scene) {
+    const wh_run_config *config = scene->config;
+    const uint32_t now = scene->now_ticks;
+    if (off_target(run, scene) > config->settle_band_radps) {
+        run->band_ticks = now;
+    }
+    if (since_s(run->band_ticks, now) >= config->settle_s) {
+        wh_measure_record(scene->measuring, scene->measure, run->target_radps, now);
+        enter(run, WH_PHASE_RECORD, now);
+    } else if (since_s(run->since_ticks, now) > config->settle_max_s) {
+        wh_guard_trip(scene->guard, WH_TRIP_UNSETTLED);
+    }
+}
+
+static bool record(wh_run *run, const wh_run_scene *scene) {
+    if (off_target(run, scene) > scene->config->record_band_radps) {
+        wh_guard_trip(scene->guard, WH_TRIP_UNSETTLED);
+        return false;
+    }
+    wh_measure *measure = scene->measure;
+    if (wh_measure_lasts(measure, scene->now_ticks) || !wh_measure_end(measure, scene->now_ticks)) {
+        return false;
+    }
+    if (measure->merge.turns == 0) {
+        wh_guard_trip(scene->guard, WH_TRIP_RECORD);
+        return false;
+    }
+    measure->result.volts = run->volts;
+    measure->result.lost = scene->pulses->speed.lost - scene->guard->lost_before;
+    measure->result.rejected = scene->pulses->rejected - scene->guard->rejected_before;
+    if (scene->config->slow_radps < run->target_radps) {
+        run->drive.target_radps = scene->config->slow_radps;
+    }
+    enter(run, WH_PHASE_RAMP_DOWN, scene->now_ticks);
+    return true;
+}
+
+static void close_loop(wh_run *run, const wh_run_scene *scene) {
+    const wh_run_config *config = scene->config;
+    const wh_speed *speed = &scene->pulses->speed;
+    /* a speed that is no longer confirmed by pulses must not move the motor */
+    if (speed->known && !wh_speed_is_overdue(speed, scene->now_ticks)) {
+        run->volts = wh_drive_step(&config->drive, &run->drive, speed->turn_radps, scene->supply_V,
+                                   config->step_s);
+    }
+    const bool too_slow = run->drive.setpoint_radps - speed->turn_radps > config->record_band_radps;
+    if (!too_slow || run->volts < scene->supply_V) {
+        run->ample_ticks = scene->now_ticks;
+    } else if (since_s(run->ample_ticks, scene->now_ticks) > config->short_max_s) {
+        wh_guard_trip(scene->guard, WH_TRIP_SUPPLY);
+    }
+}
+
+bool wh_run_step(wh_run *run, const wh_run_scene *scene) {
+    if (wh_run_is_closed(run)) {
+        close_loop(run, scene);
+    }
+    switch (run->phase) {
+    case WH_PHASE_TARE: tare(run, scene); break;
+    case WH_PHASE_SPIN_UP: spin_up(run, scene); break;
+    case WH_PHASE_RAMP:
+        if (ramp(run, scene)) {
+            enter(run, WH_PHASE_SETTLE, scene->now_ticks);
+        }
+        break;
+    case WH_PHASE_SETTLE: settle(run, scene); break;
+    case WH_PHASE_RECORD: return record(run, scene);
+    case WH_PHASE_RAMP_DOWN:
+        if (wh_drive_at_target(&run->drive)) {
+            wh_run_off(run, scene->pulses->speed.turn_radps, scene->now_ticks);
+        }
+        break;
+    case WH_PHASE_NONE:
+    case WH_PHASE_OFF:
+    case WH_PHASES: break;
+    }
+    return false;
+}
+
+#define CASE(name, words) \
+    case name: return words;
+
+const char *wh_phase_text(wh_rig_phase phase) {
+    switch (phase) {
+        WH_PHASE_ROWS(CASE)
+    case WH_PHASES: break;
+    }
+    return "unknown phase";
+}

@@ -1,0 +1,118 @@
+/* run.h: a test run of the eccentric-mass rig, phase by phase.
+ *
+ * It repeats Almesallmy (2006), I.3.2.1 and I.3.3: tare, spin up, hold 330 rpm, record the load cell for 2 s at 500
+ * samples a second together with the slot pulses, slow down, stop. */
+#ifndef WH_RIG_RUN_H
+#define WH_RIG_RUN_H
+
+#include "drive.h"
+#include "guard.h"
+#include "measure.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* X(name, words) */
+#define WH_PHASE_ROWS(X) \
+    X(WH_PHASE_NONE, "none")           /* no run: motor off */ \
+    X(WH_PHASE_TARE, "tare")           /* motor off; the load cell's reading at rest */ \
+    X(WH_PHASE_SPIN_UP, "spin up")     /* open loop, until the pulses give a speed */ \
+    X(WH_PHASE_RAMP, "ramp")           /* closed loop, set-point on its way */ \
+    X(WH_PHASE_SETTLE, "settle")       /* closed loop, speed must stay near the target */ \
+    X(WH_PHASE_RECORD, "record")       /* closed loop, measuring */ \
+    X(WH_PHASE_RAMP_DOWN, "ramp down") /* closed loop, slowing; the result is there */ \
+    X(WH_PHASE_OFF, "coast")           /* motor off, until the rotor rests */
+
+#define WH_PHASE_NAME(name, words) name,
+typedef enum wh_rig_phase { WH_PHASE_ROWS(WH_PHASE_NAME) WH_PHASES } wh_rig_phase;
+#undef WH_PHASE_NAME
+
+typedef struct wh_run_config {
+    wh_real step_s; /* time between control steps */
+    wh_drive_config drive;
+    wh_real rated_V;         /* supply for which the rig is made, */
+    wh_real no_load_radps;   /* and the motor's speed at it without load */
+    wh_real drag_V;          /* what friction takes of the voltage, about */
+    wh_real spin_up_V;       /* at first, */
+    wh_real spin_up_V_per_s; /* and more and more, to the voltage of rated_V */
+    wh_real take_over_radps; /* from this speed on the loop is closed */
+    wh_real spin_up_max_s;
+    wh_real ramp_max_s;
+    wh_real settle_band_radps;
+    wh_real settle_s;          /* so long within the band */
+    wh_real settle_max_s;      /* to get there */
+    wh_real short_max_s;       /* so long may the supply be too little for the set-point */
+    wh_real record_band_radps; /* meanwhile */
+    wh_real slow_radps; /* ramp down to here (or stay, when slower already), then motor off */
+} wh_run_config;
+
+typedef struct wh_run {
+    wh_rig_phase phase;
+    uint32_t since_ticks; /* the phase began */
+    uint32_t band_ticks;  /* speed has been within the band since */
+    uint32_t ample_ticks; /* the supply has been enough since */
+    wh_real target_radps;
+    wh_real volts;     /* mean voltage of the motor that is asked for */
+    wh_real off_radps; /* speed when the motor went off */
+    uint32_t tare_pulses[WH_SPEED_SENSORS];
+    wh_drive drive;
+} wh_run;
+
+/* What a step of a run sees and may change. */
+typedef struct wh_run_scene {
+    const wh_run_config *config;
+    const wh_measure_config *measuring;
+    const wh_guard_config *guarding;
+    wh_guard *guard;
+    wh_pulses *pulses;
+    wh_measure *measure;
+    wh_real impossible_radps; /* see wh_speed_start() */
+    wh_real supply_V;
+    bool fed; /* gravity is fed forward: slower set-points can be held */
+    uint32_t now_ticks;
+} wh_run_scene;
+
+#define wh_run_start WH_NAME(wh_run_start)
+#define wh_run_set WH_NAME(wh_run_set)
+#define wh_run_off WH_NAME(wh_run_off)
+#define wh_run_step WH_NAME(wh_run_step)
+#define wh_run_base_radps WH_NAME(wh_run_base_radps)
+#define wh_run_needs_V WH_NAME(wh_run_needs_V)
+#define wh_phase_text WH_NAME(wh_phase_text)
+
+/* Begin a run to target_radps > 0, with the tare. */
+void wh_run_start(wh_run *run, wh_real target_radps, uint32_t now_ticks);
+
+/* Another target, in any phase before WH_PHASE_RAMP_DOWN: what was measured of the record is dropped. */
+void wh_run_set(wh_run *run, wh_real target_radps, uint32_t now_ticks);
+
+/* Motor off, from any phase: WH_PHASE_OFF. */
+void wh_run_off(wh_run *run, wh_real speed_radps, uint32_t now_ticks);
+
+/* One control step. Trips where a phase takes too long or finds what must not be. Returns true in the step in which the
+ * record is through and measured. */
+bool wh_run_step(wh_run *run, const wh_run_scene *scene);
+
+/* Does the motor drive; is the loop closed? */
+WH_INLINE bool wh_run_drives(const wh_run *run) {
+    return run->phase >= WH_PHASE_SPIN_UP && run->phase <= WH_PHASE_RAMP_DOWN;
+}
+WH_INLINE bool wh_run_is_closed(const wh_run *run) {
+    return run->phase >= WH_PHASE_RAMP && run->phase <= WH_PHASE_RAMP_DOWN;
+}
+
+/* The fastest that the rotor is led to, for the guard's bound. */
+wh_real wh_run_base_radps(const wh_run_config *config, const wh_run *run);
+
+/* The voltage that a steady speed takes. */
+wh_real wh_run_needs_V(const wh_run_config *config, wh_real speed_radps);
+
+/* The phase in words, for consoles. */
+const char *wh_phase_text(wh_rig_phase phase);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,43 @@
+/* target.c: see target.h. */
+#include "target.h"
+
+#include <stdio.h>
+
+static bool take_target(const target_reader *r, const char *word, const char **target) {
+    if (word[0] == '-' && word[1] != '\0') {
+        options_unknown(r->command, word, r->groups, r->own);
+        return false;
+    }
+    if (*target != NULL) {
+        if (r->derives) {
+            fprintf(stderr, "whirl %s: error: more than one thing to %s: %s\n", r->command,
+                    r->command, word);
+        } else {
+            fprintf(stderr, "whirl %s: error: one scene at a time, not also '%s'\n", r->command,
+                    word);
+        }
+        return false;
+    }
+    *target = word;
+    return true;
+}
+
+bool target_read(const target_reader *r, int count, char **words, common_options *common,
+                 void *options, const char **target) {
+    bool bad = false;
+    *target = NULL;
+    for (int at = 0; at < count && !bad;) {
+        if (!options_take(r->command, r->groups, count, words, &at, common, &bad) && !bad &&
+            !r->take(count, words, &at, options, &bad) && !bad) {
+            bad = !take_target(r, words[at++], target);
+        }
+    }
+    return !bad;
+}
+
+bool target_is_there(const char *target, const command_usage *usage) {
+    if (target == NULL) {
+        options_usage(stderr, usage);
+    }
+    return target != NULL;
+}

@@ -1,0 +1,27 @@
+/* target.h: reading the words of a command that works on one scene. */
+#ifndef COMMANDS_TARGET_H
+#define COMMANDS_TARGET_H
+
+#include "options.h"
+
+/* Takes one of a command's own options, with its value, and steps *at past it; false when the word at *at is none. *bad:
+ * told. */
+typedef bool target_take(int count, char **words, int *at, void *options, bool *bad);
+
+typedef struct target_reader {
+    const char *command;
+    unsigned groups;        /* of the common options that it takes */
+    const char *const *own; /* the words of its own options, NULL at the end */
+    target_take *take;
+    bool derives; /* what is no scene will do, too: another word for a second one */
+} target_reader;
+
+/* All options, of both kinds, and the one word that is none: *target, NULL when there is no such word. False when
+ * something is wrong: told. */
+bool target_read(const target_reader *reader, int count, char **words, common_options *common,
+                 void *options, const char **target);
+
+/* Was something named? Else the usage goes to standard error. */
+bool target_is_there(const char *target, const command_usage *usage);
+
+#endif

@@ -1,0 +1,93 @@
+#!/bin/sh
+# odd_values.sh: every option of every command that has a value, with what is no value: refused soon, with a message and in
+# little memory, and nothing is begun. (`whirl pil`'s are in pil.sh.)
+. "$(dirname "$0")/../checks.sh"
+
+gear=epicyclic_from_rest
+values='1e999 nan = -1e300'
+if [ -n "${WHIRL_FEW:-}" ]; then
+    values=nan # and no limit: the sanitizers speak for all of the address space
+else
+    ulimit -v 4000000
+fi
+
+# COMMAND, options of it that take any words (files, expressions), and what the command needs
+while read -r command any words; do
+    "$whirl" "$command" --help >"$scratch/help" 2>"$scratch/err"
+    options_of "$scratch/help" >"$scratch/options"
+    asked=0
+    while read -r option value; do
+        case ",$any," in *",$option,"*) value= ;; esac
+        [ -n "$value" ] || continue
+        asked=$((asked + 1))
+        for value in $values ''; do
+            case $words in # once is enough, but for what may be repeated
+            *"$option "*) [ "$option" = --over ] || continue ;;
+            esac
+            # shellcheck disable=SC2086 # words
+            timeout 60 "$whirl" "$command" $words "$option" "$value" >"$scratch/out" 2>"$scratch/err" </dev/null
+            status=$?
+            [ $status -eq 2 ] && grep -q 'error: ' "$scratch/err" && [ ! -s "$scratch/out" ] ||
+                { echo "$option '$value': status $status" && cat "$scratch/err"; } >>"$scratch/passed"
+        done
+    done <"$scratch/options"
+    [ $asked -ge 1 ] && [ ! -s "$scratch/passed" ]
+    verdict $? "whirl $command: $asked options refuse what is no value" "$scratch/passed"
+    rm -f "$scratch/passed"
+done <<END
+run --csv,--columns,--strict $gear
+derive --header $gear --as c
+describe - $gear
+sweep --csv,--measure $gear --over r=0.1..0.2:2
+map --csv $gear --over step=1ms..2ms:2 --over r=0.1..0.2:2
+trust --csv $gear
+prove --csv $gear
+price --csv $gear
+choose - $gear --error 1e-2
+list -
+END
+
+# --- files ---------------------------------------------------------------------------------------------------------------
+while read -r command option words; do
+    for file in /dev/null/x "$scratch" ''; do
+        # shellcheck disable=SC2086
+        timeout 60 "$whirl" "$command" $words --until 50ms "$option" "$file" >"$scratch/out" 2>"$scratch/err" </dev/null
+        status=$?
+        [ $status -ge 1 ] && [ $status -le 2 ] && [ ! -s "$scratch/out" ] &&
+            grep -qE "^('*|$file): error: cannot be written: |error: --plot draws|error: --header takes" "$scratch/err"
+        verdict $? "whirl $command $option '$file': status $status"
+    done
+    [ -c /dev/full ] && [ "$option" != --plot ] || continue
+    # shellcheck disable=SC2086
+    timeout 60 "$whirl" "$command" $words --until 50ms "$option" /dev/full >"$scratch/out" 2>"$scratch/err" </dev/null
+    status=$?
+    [ $status -ge 1 ] && [ $status -le 2 ] && grep -q '^/dev/full: error: cannot be written: ' "$scratch/err"
+    verdict $? "whirl $command $option /dev/full: status $status"
+    [ "$option" = --csv ] || [ "$option" = --columns ] || continue
+    # shellcheck disable=SC2086 # enough rows that a part is written before the end
+    timeout 60 "$whirl" "$command" $words --until 50ms "$option" - >/dev/full 2>"$scratch/err" </dev/null
+    status=$?
+    [ $status -eq 1 ] && grep -q '^whirl: error: standard output cannot be written' "$scratch/err" &&
+        ! grep -q '^-: ' "$scratch/err"
+    verdict $? "whirl $command $option - into what is full: status $status"
+done <<END
+run --csv thomson_a
+run --columns thomson_a
+run --plot thomson_a
+derive --header thomson_a --as c
+sweep --csv $gear --over r=0.1..0.2:300
+map --csv $gear --over step=1ms..2ms:2 --over r=0.1..0.2:100
+map --plot $gear --over step=1ms..2ms:2 --over r=0.1..0.2:2
+trust --csv $gear
+prove --csv $gear
+price --csv $gear --effort 0.001
+price --plot $gear --effort 0.001
+END
+# what a price has no error for is said, with or without a table
+for quiet in '' --quiet; do
+    # shellcheck disable=SC2086
+    "$whirl" price $gear --effort 0.001 --until 0.1s --horizon 1e18s $quiet >"$scratch/out" 2>"$scratch/err"
+    [ $? -eq 1 ] && grep -q '^whirl price: error: no error of .* is known' "$scratch/err"
+    verdict $? "whirl price ${quiet:-(with its table)}: that no error is known"
+done
+exit $failed

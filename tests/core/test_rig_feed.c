@@ -1,0 +1,208 @@
+/* test_rig_feed.c: the feed-forward of gravity: what it says, when it says nothing, and what it does to a rotor's ripple
+ * in closed loop (fed_rotor.c), also where controller and rotor disagree. */
+#include "core/angle.h"
+#include "core/rig/datasheet.h"
+#include "fed_rotor.h"
+
+#include "unity.h"
+
+void suite_rig_feed(void);
+
+#define RPM WH_RIG_RADPS_PER_RPM
+#define DEG (WH_R(1.0) / WH_RIG_DEG_PER_RAD)
+#define JITTER_S WH_R(104e-6) /* evenly: a standard deviation of 60 us */
+
+static fed_rotor fed;
+
+static void check_between(wh_real least, wh_real most, wh_real value) {
+    TEST_ASSERT_TRUE(value > least && value < most);
+}
+
+static wh_real sine_of(wh_real rad) {
+    wh_real sine;
+    wh_real cosine;
+    wh_sincos(wh_phase_from_rad(rad), &sine, &cosine);
+    return sine;
+}
+
+/* --- what it says ------------------------------------------------------------------------------------- */
+
+/* S g sin(theta - gamma) over the stall torque, the lead ahead, limited, after it has been faded in evenly. */
+static void test_it_says_gravitys_voltage(void) {
+    static const wh_real gravity_rad[] = {WH_R(0.0), WH_R(1.2), WH_R(-2.8)};
+    for (unsigned i = 0; i < 6; i++) {
+        fed_rotor_standard(&fed, 1);
+        TEST_ASSERT_TRUE(fed_rotor_start(&fed, WH_R(330.0)) == WH_OK);
+        fed_rotor_run(&fed, WH_R(330.0), WH_R(3.0));
+        wh_feed_config config = wh_feed_standard;
+        config.gravity_rad = gravity_rad[i % 3U];
+        config.weight_Nm *= i < 3U ? WH_R(1.0) : WH_R(10.0);
+        wh_feed feed = {WH_R(0.0)};
+        for (unsigned k = 1; k <= 300; k++) {
+            fed_rotor_run(&fed, WH_R(330.0), FED_STEP_S);
+            const wh_real said =
+                wh_feed_step(&config, &feed, &fed.observer, fed.rotor.ticks, FED_STEP_S);
+            const wh_real part = k < 250U ? (wh_real)k / WH_R(250.0) : WH_R(1.0);
+            const wh_real at =
+                fed.rotor.angle_rad + WH_R(0.003) * fed.rotor.speed_radps - config.gravity_rad;
+            const wh_real all = part * config.weight_Nm / WH_R(1.5) * sine_of(at);
+            const wh_real most = WH_R(0.3);
+            const wh_real wanted = all > most ? most : all < -most ? -most : all;
+            TEST_ASSERT_FLOAT_WITHIN(i < 3U ? 5e-4f : 5e-3f, (float)wanted, (float)said);
+            TEST_ASSERT_FLOAT_WITHIN(1e-4f, (float)part, (float)feed.part);
+        }
+    }
+}
+
+/* Nothing at once when the observer is not valid, then faded in from nothing; and no number is never said. */
+static void test_it_says_nothing_without_an_angle(void) {
+    const wh_real nan = (wh_real)__builtin_nanf("");
+    fed_rotor_standard(&fed, 1);
+    TEST_ASSERT_TRUE(fed_rotor_start(&fed, WH_R(330.0)) == WH_OK);
+    fed_rotor_run(&fed, WH_R(330.0), WH_R(3.0));
+    TEST_ASSERT_TRUE(fed.observer.valid && fed.feed.part >= WH_R(1.0));
+    fed.observer.valid = false;
+    const uint32_t now = fed.rotor.ticks;
+    TEST_ASSERT_TRUE(wh_feed_step(&fed.feeding, &fed.feed, &fed.observer, now, FED_STEP_S) ==
+                     WH_R(0.0));
+    TEST_ASSERT_TRUE(fed.feed.part == WH_R(0.0));
+    fed.observer.valid = true;
+    TEST_ASSERT_TRUE(WH_ABS(wh_feed_step(&fed.feeding, &fed.feed, &fed.observer, now, FED_STEP_S)) <
+                     WH_R(0.001));
+    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.004f, (float)fed.feed.part);
+    fed.feeding.fade_s = WH_R(0.0);
+    wh_feed_step(&fed.feeding, &fed.feed, &fed.observer, now, FED_STEP_S);
+    TEST_ASSERT_TRUE(fed.feed.part == WH_R(1.0));
+    for (unsigned i = 0; i < 4; i++) {
+        wh_feed_config config = wh_feed_standard;
+        wh_real *const numbers[] = {&config.weight_Nm, &config.gravity_rad, &config.stall_Nm,
+                                    &config.fade_s};
+        *numbers[i] = nan;
+        const wh_real said = wh_feed_step(&config, &fed.feed, &fed.observer, now, FED_STEP_S);
+        TEST_ASSERT_TRUE(WH_ABS(said) <= config.most);
+    }
+}
+
+/* --- what it does -------------------------------------------------------------------------------------- */
+
+/* From 200 rpm to this speed, and there, with jitter and 0.02 N m of friction. */
+static void run_at(wh_real rpm) {
+    fed.kind.jitter_s = JITTER_S;
+    fed.kind.friction_Nm += WH_R(0.02);
+    TEST_ASSERT_TRUE(fed_rotor_start(&fed, WH_R(200.0)) == WH_OK);
+    fed_rotor_run(&fed, WH_R(200.0), WH_R(3.0));
+    fed_rotor_run(&fed, rpm, WH_R(6.0));
+    fed_rotor_count(&fed);
+    fed_rotor_run(&fed, rpm, WH_R(3.0));
+    TEST_ASSERT_FALSE(fed.stood);
+    /* of a turn that is not whole the ripple is left in the mean */
+    TEST_ASSERT_FLOAT_WITHIN(2.5f, (float)rpm, (float)fed_rotor_mean_rpm(&fed));
+}
+
+static void begin(fed_by by) {
+    fed_rotor_standard(&fed, 17);
+    fed.by = by;
+}
+
+/* The ripple at 330 rpm from 5 % to a hundredth of that, at 170 from 18 %; at 100, where the rotor would not get over the
+ * top by itself, to what a motor leaves that cannot brake more than with its terminals shorted: less with more friction. */
+static void test_the_ripple_goes(void) {
+    begin(FED_BY_NOBODY);
+    run_at(WH_R(330.0));
+    check_between(WH_R(0.045), WH_R(0.055), fed_rotor_ripple(&fed));
+    begin(FED_BY_NOBODY);
+    run_at(WH_R(170.0));
+    check_between(WH_R(0.17), WH_R(0.19), fed_rotor_ripple(&fed));
+    begin(FED_BY_OBSERVER);
+    run_at(WH_R(330.0));
+    check_between(WH_R(0.00005), WH_R(0.001), fed_rotor_ripple(&fed));
+    begin(FED_BY_OBSERVER);
+    run_at(WH_R(170.0));
+    check_between(WH_R(0.00005), WH_R(0.0015), fed_rotor_ripple(&fed));
+    begin(FED_BY_OBSERVER);
+    run_at(WH_R(100.0));
+    check_between(WH_R(0.02), WH_R(0.05), fed_rotor_ripple(&fed));
+    begin(FED_BY_OBSERVER);
+    fed.kind.friction_Nm = WH_R(0.1);
+    run_at(WH_R(100.0));
+    check_between(WH_R(0.0005), WH_R(0.02), fed_rotor_ripple(&fed));
+    TEST_ASSERT_EQUAL_UINT32(fed.steps, fed.valid);
+}
+
+/* The lead is the voltage's: with none, or twice as much, a tenth of a radian's part is left. */
+static void test_the_lead_is_right(void) {
+    for (uint32_t lead = 0; lead <= 6000U; lead += 6000U) {
+        begin(FED_BY_OBSERVER);
+        fed.feeding.lead_ticks = lead;
+        run_at(WH_R(330.0));
+        check_between(WH_R(0.004), WH_R(0.007), fed_rotor_ripple(&fed));
+    }
+}
+
+/* Gravity's torque 30 % off leaves 30 % of the ripple. */
+static void test_another_weight_leaves_its_part(void) {
+    for (unsigned i = 0; i < 4; i++) {
+        begin(FED_BY_OBSERVER);
+        fed.kind.weight_Nm *= i % 2U == 0 ? WH_R(1.3) : WH_R(0.7);
+        run_at(i < 2U ? WH_R(330.0) : WH_R(170.0));
+        const wh_real whole = i < 2U ? WH_R(0.05) : WH_R(0.18);
+        check_between(WH_R(0.25) * whole, WH_R(0.35) * whole, fed_rotor_ripple(&fed));
+        TEST_ASSERT_EQUAL_UINT32(fed.steps, fed.valid);
+    }
+}
+
+/* Sensors 3 degrees off, together or against each other: a twentieth of it at most. */
+static void test_sensors_may_stand_wrong(void) {
+    for (unsigned i = 0; i < 8; i++) {
+        begin(FED_BY_OBSERVER);
+        fed.kind.mark_rad[0] += (i % 2U == 0 ? WH_R(3.0) : WH_R(-3.0)) * DEG;
+        fed.kind.mark_rad[1] += (i / 2U % 2U == 0 ? WH_R(3.0) : WH_R(-3.0)) * DEG;
+        run_at(i < 4U ? WH_R(330.0) : WH_R(170.0));
+        const wh_real whole = i < 4U ? WH_R(0.05) : WH_R(0.18);
+        check_between(WH_R(0.002) * whole, WH_R(0.07) * whole, fed_rotor_ripple(&fed));
+        TEST_ASSERT_EQUAL_UINT32(fed.steps, fed.valid);
+    }
+}
+
+/* The wrong sign doubles the ripple, and that is all: the mean is kept, and the shaft's limit. */
+static void test_the_wrong_sign_is_survived(void) {
+    for (unsigned i = 0; i < 4; i++) {
+        begin(FED_BY_OBSERVER);
+        if (i % 2U == 0) {
+            fed.feeding.weight_Nm = -fed.feeding.weight_Nm;
+        } else {
+            fed.feeding.gravity_rad = WH_R(0.5) * WH_RIG_TWO_PI;
+        }
+        run_at(i < 2U ? WH_R(330.0) : WH_R(170.0));
+        const wh_real whole = i < 2U ? WH_R(0.05) : WH_R(0.18);
+        check_between(WH_R(1.8) * whole, WH_R(2.2) * whole, fed_rotor_ripple(&fed));
+        TEST_ASSERT_TRUE(fed.most_radps < WH_RIG_SHAFT_LIMIT_RPM * RPM);
+        TEST_ASSERT_TRUE(fed.least_radps > WH_R(90.0) * RPM);
+    }
+}
+
+/* Marks that stay away in the middle: the voltage goes at once, the ripple is gravity's again, and goes when they are back. */
+static void test_lost_marks_take_it_away(void) {
+    begin(FED_BY_OBSERVER);
+    run_at(WH_R(330.0));
+    fed.lose_marks = 4;
+    fed_rotor_count(&fed);
+    fed_rotor_run(&fed, WH_R(330.0), WH_R(0.6));
+    TEST_ASSERT_TRUE(fed.valid < fed.steps);
+    check_between(WH_R(0.01), WH_R(0.08), fed_rotor_ripple(&fed));
+    fed_rotor_run(&fed, WH_R(330.0), WH_R(4.0));
+    fed_rotor_count(&fed);
+    fed_rotor_run(&fed, WH_R(330.0), WH_R(1.0));
+    check_between(WH_R(0.00001), WH_R(0.001), fed_rotor_ripple(&fed));
+}
+
+void suite_rig_feed(void) {
+    RUN_TEST(test_it_says_gravitys_voltage);
+    RUN_TEST(test_it_says_nothing_without_an_angle);
+    RUN_TEST(test_the_ripple_goes);
+    RUN_TEST(test_the_lead_is_right);
+    RUN_TEST(test_another_weight_leaves_its_part);
+    RUN_TEST(test_sensors_may_stand_wrong);
+    RUN_TEST(test_the_wrong_sign_is_survived);
+    RUN_TEST(test_lost_marks_take_it_away);
+}

@@ -1,0 +1,224 @@
+/* test_rig_guard.c: what stops the rig, reason by reason. */
+#include "core/rig/datasheet.h"
+#include "core/rig/rig.h"
+#include "core/root.h"
+
+#include "unity.h"
+
+void suite_rig_guard(void);
+
+#define RPM WH_RIG_RADPS_PER_RPM
+
+static double root(double x) { return (double)WH_SQRT((wh_real)x); }
+
+/* --- guard -------------------------------------------------------------------------------------- */
+
+/* docs/rig.md: reversed bending at the bearing, 1 in from the arm, notch factor 2, safety 2, against
+ * the corrected endurance limit of steel with 440 MPa tensile strength. */
+static void test_speed_limit_follows_from_the_shaft(void) {
+    const wh_real pi = WH_R(3.14159265);
+    const wh_real endurance_Pa = WH_R(220e6) * WH_R(0.899) * WH_R(0.753);
+    const wh_real d_m = WH_R(0.25) * WH_R(0.0254);
+    const wh_real section_m3 = pi * d_m * d_m * d_m / WH_R(32.0);
+    const wh_real carried_N = endurance_Pa / (WH_R(2.0) * WH_R(2.0)) * section_m3 / WH_R(0.0254);
+    const wh_real others_N =
+        WH_R(1.34) + WH_R(2.10); /* one set's weight; its share of the ripple */
+    const wh_real limit = wh_rig_standard.guard.limit_radps;
+    const wh_real at_limit_N = WH_RIG_MASS_MOMENT_KGM / WH_R(2.0) * limit * limit + others_N;
+    TEST_ASSERT_TRUE(at_limit_N < carried_N);
+    TEST_ASSERT_TRUE(at_limit_N > WH_R(0.85) * carried_N); /* and no lower than it need be */
+    TEST_ASSERT_TRUE(wh_rig_standard.guard.target_max_radps < limit);
+    TEST_ASSERT_TRUE(WH_RIG_NOMINAL_RPM * RPM < wh_rig_standard.guard.target_max_radps);
+}
+
+static void test_guard_refuses_set_points(void) {
+    const wh_guard_config *config = &wh_rig_standard.guard;
+    TEST_ASSERT_TRUE(wh_guard_allows(config, WH_R(330.0) * RPM, false));
+    TEST_ASSERT_TRUE(wh_guard_allows(config, config->target_min_radps, false));
+    TEST_ASSERT_TRUE(wh_guard_allows(config, config->target_max_radps, false));
+    TEST_ASSERT_FALSE(wh_guard_allows(config, WH_R(361.0) * RPM, false));
+    TEST_ASSERT_FALSE(wh_guard_allows(config, WH_R(169.0) * RPM, false));
+    TEST_ASSERT_FALSE(wh_guard_allows(config, WH_R(0.0), false));
+    TEST_ASSERT_FALSE(wh_guard_allows(config, WH_R(-1.0), false));
+    TEST_ASSERT_FALSE(wh_guard_allows(config, (wh_real)__builtin_nanf(""), false));
+}
+
+static wh_trip trip_at(wh_real turn_rpm, unsigned fast) {
+    wh_guard guard;
+    wh_guard_start(&guard, 0);
+    wh_pulses pulses;
+    wh_pulses_start(&pulses, WH_R(800.0) * RPM);
+    pulses.speed.known = true;
+    pulses.speed.turn_radps = turn_rpm * RPM;
+    pulses.fast = fast;
+    wh_guard_speed(&wh_rig_standard.guard, &guard, &pulses, WH_TRIP_RUNS_ON);
+    wh_guard_speed(&wh_rig_standard.guard, &guard, &pulses, WH_TRIP_OVERSPEED);
+    return guard.trip;
+}
+
+static void test_over_speed_trips(void) {
+    TEST_ASSERT_TRUE(trip_at(WH_R(399.0), 1) == WH_TRIP_NONE); /* one interval: a disturbance? */
+    TEST_ASSERT_TRUE(trip_at(wh_rig_standard.guard.limit_radps / RPM, 0) ==
+                     WH_TRIP_NONE); /* the limit itself is allowed */
+    TEST_ASSERT_TRUE(trip_at(WH_R(401.0), 0) == WH_TRIP_RUNS_ON);
+    TEST_ASSERT_TRUE(trip_at(WH_R(200.0), 2) == WH_TRIP_RUNS_ON);
+}
+
+/* A rotor without drive that is led round at the bottom and falls from the top has there what its energy gives it. */
+static void test_the_bound_is_what_gravity_makes_of_a_speed(void) {
+    const wh_guard_config *config = &wh_rig_standard.guard;
+    const double falls2 =
+        4.0 * (double)(WH_RIG_MASS_MOMENT_KGM * WH_RIG_GRAVITY_MPS2) / (double)WH_RIG_INERTIA_KGM2;
+    TEST_ASSERT_FLOAT_WITHIN(0.05f, (float)root(falls2), (float)config->fall_radps);
+    for (unsigned rpm_led = 0; rpm_led <= 340U; rpm_led += 20U) {
+        const double base = (double)((wh_real)rpm_led * RPM);
+        const float wanted = (float)root(1.05 * 1.05 * base * base + falls2);
+        TEST_ASSERT_FLOAT_WITHIN(0.05f, wanted,
+                                 (float)wh_guard_bound_radps(config, (wh_real)base, true));
+        TEST_ASSERT_FLOAT_WITHIN(0.001f, 1.05f * (float)base,
+                                 (float)wh_guard_bound_radps(config, (wh_real)base, false));
+    }
+    const float most = 1.1f * (float)config->limit_radps;
+    TEST_ASSERT_FLOAT_WITHIN(1e-3f, most, (float)wh_guard_bound_radps(config, WH_R(90.0), true));
+    TEST_ASSERT_FLOAT_WITHIN(
+        1e-3f, most, (float)wh_guard_bound_radps(config, (wh_real)__builtin_nanf(""), true));
+}
+
+static void test_lost_pulses_and_silence_trip(void) {
+    const wh_guard_config *config = &wh_rig_standard.guard;
+    const wh_real silence_s = WH_R(0.5);
+    wh_guard guard;
+    wh_guard_start(&guard, 0);
+    wh_pulses pulses;
+    wh_pulses_start(&pulses, WH_R(800.0) * RPM);
+    pulses.speed.lost = 5;
+    guard.lost_before = 2;
+    wh_guard_pulses(config, &guard, &pulses, silence_s, 0);
+    TEST_ASSERT_TRUE(guard.trip == WH_TRIP_NONE);
+    pulses.speed.lost = 6;
+    wh_guard_pulses(config, &guard, &pulses, silence_s, 0);
+    TEST_ASSERT_TRUE(guard.trip == WH_TRIP_PULSES);
+    wh_guard_trip(&guard, WH_TRIP_OVERSPEED);
+    TEST_ASSERT_TRUE(guard.trip == WH_TRIP_PULSES); /* the first reason stays */
+
+    wh_guard_start(&guard, 0);
+    wh_pulses_start(&pulses, WH_R(800.0) * RPM);
+    wh_pulses_take(&pulses, 0, 1000U);
+    wh_guard_pulses(config, &guard, &pulses, silence_s, 999U); /* the step's own time is earlier */
+    wh_guard_pulses(config, &guard, &pulses, silence_s, 1000U + 499000U);
+    TEST_ASSERT_TRUE(guard.trip == WH_TRIP_NONE);
+    wh_guard_pulses(config, &guard, &pulses, silence_s, 1000U + 501000U);
+    TEST_ASSERT_TRUE(guard.trip == WH_TRIP_PULSES);
+
+    wh_guard_start(&guard, 0);
+    wh_pulses_start(&pulses, WH_R(800.0) * RPM);
+    guard.rejected_before = 7;
+    pulses.rejected = 7 + config->rejected_max;
+    wh_guard_pulses(config, &guard, &pulses, silence_s, 0);
+    TEST_ASSERT_TRUE(guard.trip == WH_TRIP_NONE);
+    pulses.rejected++;
+    wh_guard_pulses(config, &guard, &pulses, silence_s, 0);
+    TEST_ASSERT_TRUE(guard.trip == WH_TRIP_PULSES);
+}
+
+/* At rest is who gave no pulse for 1.5 s, and who was so stays so until one comes: also behind the timer's wrap. */
+static void test_rest_is_remembered(void) {
+    const wh_guard_config *config = &wh_rig_standard.guard;
+    wh_guard guard;
+    wh_guard_start(&guard, UINT32_MAX - 1000U);
+    wh_guard_quiet(config, &guard, 0, UINT32_MAX - 1000U + 1499000U);
+    TEST_ASSERT_FALSE(guard.quiet);
+    wh_guard_quiet(config, &guard, 0, UINT32_MAX - 1000U + 1501000U);
+    TEST_ASSERT_TRUE(guard.quiet);
+    wh_guard_quiet(config, &guard, 0, UINT32_MAX - 1000U); /* 71.6 minutes later */
+    TEST_ASSERT_TRUE(guard.quiet);
+    wh_guard_quiet(config, &guard, 1, 5000U);
+    TEST_ASSERT_FALSE(guard.quiet);
+    wh_guard_quiet(config, &guard, 1, 5000U + 1501000U);
+    TEST_ASSERT_TRUE(guard.quiet);
+}
+
+static void test_the_supplys_range(void) {
+    const wh_guard_config *config = &wh_rig_standard.guard;
+    TEST_ASSERT_TRUE(wh_guard_supply(config, WH_R(12.0)) && wh_guard_supply(config, WH_R(36.0)));
+    TEST_ASSERT_FALSE(wh_guard_supply(config, WH_R(10.0)));
+    TEST_ASSERT_FALSE(wh_guard_supply(config, WH_R(38.0)));
+    TEST_ASSERT_FALSE(wh_guard_supply(config, (wh_real)__builtin_nanf("")));
+}
+
+/* Load samples that swing by `swing_N` about 50 N, a slot pulse with every 20th, at 330 rpm. */
+static wh_trip trip_on_swing(wh_real swing_N, bool turning, unsigned samples) {
+    const wh_guard_config *config = &wh_rig_standard.guard;
+    wh_guard guard;
+    wh_guard_start(&guard, 0);
+    wh_speed speed;
+    wh_speed_start(&speed, WH_R(800.0) * RPM);
+    speed.turn_radps = WH_R(330.0) * RPM;
+    for (unsigned i = 0; i < samples; i++) {
+        speed.taken = i / 20U;
+        const wh_load load = {.ticks = i * UINT32_C(2000),
+                              .force_N = WH_R(50.0) + (i % 2U == 0 ? swing_N : -swing_N)};
+        wh_guard_load(config, &guard, &speed, &load, turning, true);
+    }
+    return guard.trip;
+}
+
+static void test_a_stuck_load_cell_trips(void) {
+    const unsigned enough = (unsigned)(20U * wh_rig_standard.guard.stuck_pulses + 1U);
+    TEST_ASSERT_TRUE(trip_on_swing(WH_R(0.0), false, 1000) ==
+                     WH_TRIP_NONE); /* at rest it may stand still */
+    TEST_ASSERT_TRUE(trip_on_swing(WH_R(0.0), true, enough - 1U) == WH_TRIP_NONE);
+    TEST_ASSERT_TRUE(trip_on_swing(WH_R(0.0), true, enough) == WH_TRIP_LOAD_CELL);
+    /* noise on a dead cell; a tenth of the masses' 42 N is what a load that lives shows at least */
+    TEST_ASSERT_TRUE(trip_on_swing(WH_R(2.0), true, enough) == WH_TRIP_LOAD_CELL);
+    TEST_ASSERT_TRUE(trip_on_swing(WH_R(2.2), true, 1000) == WH_TRIP_NONE);
+}
+
+static void test_an_overloaded_or_disconnected_load_cell_trips(void) {
+    const wh_speed speed = {.taken = 7};
+    for (wh_load_status status = WH_LOAD_OK; status < WH_LOAD_STATUSES; status++) {
+        wh_guard guard;
+        wh_guard_start(&guard, 0);
+        const wh_load load = {.status = status};
+        wh_guard_load(&wh_rig_standard.guard, &guard, &speed, &load, false, true);
+        const bool fails = status == WH_LOAD_SATURATED || status == WH_LOAD_DISCONNECTED;
+        TEST_ASSERT_TRUE(guard.trip == (fails ? WH_TRIP_LOAD_CELL : WH_TRIP_NONE));
+        wh_guard_start(&guard, 0);
+        wh_guard_load(&wh_rig_standard.guard, &guard, &speed, &load, false, false);
+        TEST_ASSERT_TRUE(guard.trip == WH_TRIP_NONE); /* nobody needs it now */
+    }
+}
+
+/* load_silence_max_s: ten periods of 2 ms, across the timer's wrap; the same sample again is none. */
+static void test_a_silent_load_cell_trips(void) {
+    const wh_guard_config *config = &wh_rig_standard.guard;
+    const uint32_t last = UINT32_MAX - 4000U;
+    const wh_speed speed = {.taken = 7};
+    for (unsigned sampled = 0; sampled < 2; sampled++) {
+        wh_guard guard;
+        wh_guard_start(&guard, sampled == 0 ? last : 0);
+        if (sampled == 1) {
+            wh_load load = {.ticks = last, .force_N = WH_R(1.0)};
+            wh_guard_load(config, &guard, &speed, &load, false, true);
+            load.ticks += 10000U;
+            load.status = WH_LOAD_REPEATED;
+            wh_guard_load(config, &guard, &speed, &load, false, true);
+        }
+        TEST_ASSERT_TRUE(wh_guard_load_comes(config, &guard, last - 100U)); /* read before it */
+        TEST_ASSERT_TRUE(wh_guard_load_comes(config, &guard, last + 19900U));
+        TEST_ASSERT_FALSE(wh_guard_load_comes(config, &guard, last + 20100U));
+    }
+}
+
+void suite_rig_guard(void) {
+    RUN_TEST(test_speed_limit_follows_from_the_shaft);
+    RUN_TEST(test_guard_refuses_set_points);
+    RUN_TEST(test_over_speed_trips);
+    RUN_TEST(test_lost_pulses_and_silence_trip);
+    RUN_TEST(test_the_bound_is_what_gravity_makes_of_a_speed);
+    RUN_TEST(test_rest_is_remembered);
+    RUN_TEST(test_the_supplys_range);
+    RUN_TEST(test_a_stuck_load_cell_trips);
+    RUN_TEST(test_an_overloaded_or_disconnected_load_cell_trips);
+    RUN_TEST(test_a_silent_load_cell_trips);
+}

@@ -1,0 +1,78 @@
+/* test_rig_law.c: the rig's speed drive against its law, written down once more; and a gap's speed. */
+#include "core/rig/datasheet.h"
+#include "core/rig/rig.h"
+
+#include "tests/scattered.h"
+#include "unity.h"
+
+void suite_rig_law(void);
+
+#define TURN_TICKS 181818U /* 330 rpm */
+
+/* Two lost running: no speed of that interval, and the turn's stays until there is a new one. */
+static void test_a_gap_has_no_speed_of_its_own(void) {
+    wh_speed speed;
+    wh_speed_start(&speed, wh_rig_standard.impossible_radps);
+    uint32_t ticks = 500;
+    for (unsigned i = 0; i < 8; i++, ticks += TURN_TICKS) {
+        wh_speed_pulse(&speed, 0, ticks);
+        wh_speed_pulse(&speed, 1, ticks + TURN_TICKS / 4U);
+    }
+    const wh_real before = speed.turn_radps;
+    TEST_ASSERT_TRUE(wh_speed_pulse(&speed, 0, ticks + TURN_TICKS));
+    TEST_ASSERT_EQUAL_UINT32(1, speed.restarts);
+    TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)speed.interval_radps);
+    TEST_ASSERT_FLOAT_WITHIN(0.0f, (float)before, (float)speed.turn_radps);
+}
+
+/* --- the drive, against its law written down once more --------------------------------------------------- */
+
+static double between(double low, double high) {
+    return low + (high - low) * (double)(scattered() >> 11) * 0x1p-53;
+}
+
+static double limited(double value, double most) {
+    return value < 0.0 ? 0.0 : value > most ? most : value;
+}
+
+static void test_the_drive_keeps_its_law(void) {
+    scattered_state = UINT64_C(0x5eed0011);
+    const wh_drive_config *law = &wh_rig_standard.run.drive;
+    unsigned held = 0;
+    for (unsigned i = 0; i < 2000U; i++) {
+        wh_drive drive;
+        const wh_real supply_V = (wh_real)between(10.8, 37.2);
+        const double most = (double)supply_V;
+        wh_drive_start(&drive, (wh_real)between(0.0, 40.0), (wh_real)between(-12.0, 48.0));
+        TEST_ASSERT_TRUE(wh_drive_at_target(&drive));
+        double setpoint = (double)drive.setpoint_radps;
+        double integral = (double)drive.integral_V;
+        drive.target_radps = (wh_real)(setpoint + between(-0.03, 0.03));
+        const double target = (double)drive.target_radps;
+        TEST_ASSERT_FALSE(wh_drive_at_target(&drive));
+        for (unsigned step = 0; step < 4; step++) {
+            const double speed = setpoint + between(-60.0, 60.0);
+            const double way = (double)law->ramp_radps2 * 0.002;
+            setpoint = target > setpoint + way   ? setpoint + way
+                       : target < setpoint - way ? setpoint - way
+                                                 : target;
+            const double error = setpoint - speed;
+            const double wanted = 0.24 * error + integral;
+            const bool further = (wanted > most && error > 0.0) || (wanted < 0.0 && error < 0.0);
+            const wh_real volts = wh_drive_step(law, &drive, (wh_real)speed, supply_V, WH_R(0.002));
+            integral = limited(further ? integral : integral + error * 0.002, most);
+            held += further;
+            TEST_ASSERT_FLOAT_WITHIN(4e-4f, (float)limited(wanted, most), (float)volts);
+            TEST_ASSERT_FLOAT_WITHIN(4e-4f, (float)integral, (float)drive.integral_V);
+            TEST_ASSERT_FLOAT_WITHIN(2e-5f, (float)setpoint, (float)drive.setpoint_radps);
+        }
+        TEST_ASSERT_TRUE(
+            wh_drive_at_target(&drive)); /* 0.03 rad/s are less than three steps' way */
+    }
+    TEST_ASSERT_GREATER_THAN_UINT(500, held);
+}
+
+void suite_rig_law(void) {
+    RUN_TEST(test_a_gap_has_no_speed_of_its_own);
+    RUN_TEST(test_the_drive_keeps_its_law);
+}

@@ -1,0 +1,284 @@
+/* test_rig_life.c: the rig's life cycle: every state and event, every refusal by its name, how `arm` ends. */
+#include <stddef.h>
+
+#include "even_rig.h"
+#include "unity.h"
+
+void suite_rig_life(void);
+
+static even_rig even;
+static even_rig stood;
+
+static void stand_tripped(void) {
+    even_arm(&even);
+    even.inputs.supply_V = WH_R(0.0);
+    even_step(&even);
+    even.inputs.supply_V = WH_RIG_RATED_V;
+    TEST_ASSERT_TRUE(even.rig.state == WH_LIFE_TRIPPED);
+    even_go_on_until(&even, EVEN_NEVER);
+    TEST_ASSERT_TRUE(even.rig.rested);
+}
+
+/* With nothing against any order but the state. */
+static void stand_in(wh_life state) {
+    switch (state) {
+    case WH_LIFE_IDLE:
+        even_start(&even);
+        even_rest(&even);
+        break;
+    case WH_LIFE_ARMED: even_arm(&even); break;
+    case WH_LIFE_RUNNING: even_reach(&even, WH_PHASE_TARE); break;
+    case WH_LIFE_STOPPING: even_reach(&even, WH_PHASE_OFF); break;
+    case WH_LIFE_TRIPPED: stand_tripped(); break;
+    case WH_LIVES: break;
+    }
+    TEST_ASSERT_TRUE(even.rig.state == state);
+}
+
+/* --- the table ------------------------------------------------------------------------------------ */
+
+/* What an event does, state by state (idle, armed, running, stopping, tripped): the state it leads to, by its first
+ * letter; or why not: - not armed, a armed, r running, s stopping, t tripped, n no trip, x not running. */
+typedef struct expectation {
+    wh_rig_event event;
+    bool is_order; /* from outside; else refused when posted */
+    const char *becomes;
+} expectation;
+
+static const expectation expected[] = {
+    {WH_EVENT_ARM, true, "Aarst"},      {WH_EVENT_START, true, "-Rrst"},
+    {WH_EVENT_SET, true, "xxRst"},      {WH_EVENT_STOP, true, "IISST"},
+    {WH_EVENT_CLEAR, true, "nnnnI"},    {WH_EVENT_HOST_LOST, true, "IISST"},
+    {WH_EVENT_DONE, false, "xxSst"},    {WH_EVENT_RESTED, false, "IARIT"},
+    {WH_EVENT_EXPIRED, false, "IIRST"}, {WH_EVENT_TRIP, false, "TTTTT"},
+};
+
+static bool is_state(char letter) { return letter >= 'A' && letter <= 'Z'; }
+
+static wh_life state_of(char letter) {
+    return letter == 'I'   ? WH_LIFE_IDLE
+           : letter == 'A' ? WH_LIFE_ARMED
+           : letter == 'R' ? WH_LIFE_RUNNING
+           : letter == 'S' ? WH_LIFE_STOPPING
+                           : WH_LIFE_TRIPPED;
+}
+
+static wh_refusal refusal_of(char letter) {
+    return is_state(letter) ? WH_ALLOWED
+           : letter == '-'  ? WH_REFUSED_NOT_ARMED
+           : letter == 'a'  ? WH_REFUSED_ARMED
+           : letter == 'r'  ? WH_REFUSED_RUNNING
+           : letter == 's'  ? WH_REFUSED_STOPPING
+           : letter == 't'  ? WH_REFUSED_TRIPPED
+           : letter == 'n'  ? WH_REFUSED_NO_TRIP
+                            : WH_REFUSED_NOT_RUNNING;
+}
+
+static void test_the_table_has_every_pair(void) {
+    TEST_ASSERT_EQUAL_UINT(WH_EVENTS, sizeof expected / sizeof expected[0]);
+    for (unsigned i = 0; i < WH_EVENTS; i++) {
+        for (unsigned state = 0; state < WH_LIVES; state++) {
+            const char letter = expected[i].becomes[state];
+            const wh_life_rule rule = wh_life_rule_of((wh_life)state, expected[i].event);
+            TEST_ASSERT_TRUE(rule.refusal == refusal_of(letter));
+            TEST_ASSERT_TRUE(rule.next == (is_state(letter) ? state_of(letter) : (wh_life)state));
+        }
+    }
+    static const int strange[] = {-1, 100, INT16_MIN, INT16_MAX};
+    for (unsigned i = 0; i < 4; i++) {
+        const wh_life_rule event = wh_life_rule_of(WH_LIFE_ARMED, (wh_rig_event)strange[i]);
+        const wh_life_rule state = wh_life_rule_of((wh_life)strange[i], WH_EVENT_ARM);
+        TEST_ASSERT_TRUE(event.refusal == WH_REFUSED_EVENT && event.next == WH_LIFE_ARMED);
+        TEST_ASSERT_TRUE(state.refusal == WH_REFUSED_EVENT);
+    }
+    TEST_ASSERT_TRUE(wh_life_rule_of(WH_LIVES, WH_EVENT_ARM).refusal == WH_REFUSED_EVENT);
+    TEST_ASSERT_TRUE(wh_life_rule_of(WH_LIFE_ARMED, WH_EVENTS).refusal == WH_REFUSED_EVENT);
+}
+
+static void check_answer(const expectation *of, wh_life state) {
+    const char letter = of->becomes[state];
+    const wh_refusal answer = even_order(&even, of->event, WH_R(250.0) * EVEN_RPM);
+    TEST_ASSERT_TRUE(answer == (of->is_order ? refusal_of(letter) : WH_REFUSED_EVENT));
+    const bool goes = of->is_order && is_state(letter);
+    TEST_ASSERT_TRUE(even.rig.state == (goes ? state_of(letter) : state));
+    TEST_ASSERT_TRUE(even.rig.state == WH_LIFE_TRIPPED || even.rig.guard.trip == WH_TRIP_NONE);
+    TEST_ASSERT_TRUE(even.command.way != WH_MOTOR_DRIVES || wh_run_drives(&even.rig.run));
+}
+
+/* Posted, in each state and phase, with nothing else against it. */
+static void test_every_event_in_every_state(void) {
+    for (wh_life state = WH_LIFE_IDLE; state < WH_LIVES; state++) {
+        stand_in(state);
+        stood = even;
+        for (unsigned i = 0; i < WH_EVENTS; i++) {
+            even = stood;
+            check_answer(&expected[i], state);
+        }
+    }
+    for (wh_rig_phase phase = WH_PHASE_TARE; phase <= WH_PHASE_RAMP_DOWN; phase++) {
+        even_reach(&even, phase);
+        stood = even;
+        for (unsigned i = 0; i < WH_EVENTS; i++) {
+            even = stood;
+            check_answer(&expected[i],
+                         phase == WH_PHASE_RAMP_DOWN ? WH_LIFE_STOPPING : WH_LIFE_RUNNING);
+        }
+    }
+}
+
+/* --- refusals -------------------------------------------------------------------------------------- */
+
+static wh_refusal arm(void) { return even_order(&even, WH_EVENT_ARM, WH_R(0.0)); }
+
+static void check_refused(wh_refusal answer, wh_refusal why, wh_life state) {
+    TEST_ASSERT_EQUAL_INT(why, answer);
+    TEST_ASSERT_TRUE(even.rig.state == state);
+    TEST_ASSERT_TRUE(even.command.way == WH_MOTOR_COASTS);
+}
+
+static void test_what_arm_asks_for(void) {
+    stand_in(WH_LIFE_IDLE);
+    stood = even;
+    even.inputs.stop_pressed = true;
+    check_refused(arm(), WH_REFUSED_STOP_INPUT, WH_LIFE_IDLE);
+    even = stood;
+    even.inputs.clock_is_fallback = true;
+    check_refused(arm(), WH_REFUSED_CLOCK, WH_LIFE_IDLE);
+    const wh_real supplies_V[] = {WH_R(0.0),
+                                  WH_R(-24.0),
+                                  WH_R(10.0),
+                                  WH_R(38.0),
+                                  WH_R(1e30),
+                                  (wh_real)__builtin_inff(),
+                                  (wh_real)-__builtin_inff(),
+                                  (wh_real)__builtin_nanf("")};
+    for (unsigned i = 0; i < sizeof supplies_V / sizeof supplies_V[0]; i++) {
+        even = stood;
+        even.inputs.supply_V = supplies_V[i];
+        check_refused(arm(), WH_REFUSED_SUPPLY, WH_LIFE_IDLE);
+        TEST_ASSERT_TRUE(even.rig.guard.trip == WH_TRIP_NONE); /* idle, nobody needs it */
+    }
+    even = stood;
+    even.fails = (even_failure){.in = WH_PHASE_NONE, .lose_samples = EVEN_ALWAYS};
+    even_steps(&even, 11);
+    check_refused(arm(), WH_REFUSED_LOAD_CELL, WH_LIFE_IDLE);
+    for (wh_load_status status = WH_LOAD_SATURATED; status <= WH_LOAD_DISCONNECTED; status++) {
+        even = stood;
+        even.fails = (even_failure){.in = WH_PHASE_NONE, .status = status};
+        check_refused(arm(), WH_REFUSED_LOAD_CELL, WH_LIFE_IDLE);
+    }
+    even = stood; /* a trip as well, as soon as orders are through */
+    even.inputs.watchdog_has_cut = true;
+    check_refused(arm(), WH_REFUSED_WATCHDOG, WH_LIFE_TRIPPED);
+    even_start(&even); /* rest is not known yet */
+    check_refused(arm(), WH_REFUSED_TURNING, WH_LIFE_IDLE);
+    even = stood; /* a single pulse */
+    even.fails = (even_failure){.in = WH_PHASE_NONE, .adds = {true, false}};
+    check_refused(arm(), WH_REFUSED_TURNING, WH_LIFE_IDLE);
+    even_steps(&even, 740);
+    check_refused(arm(), WH_REFUSED_TURNING, WH_LIFE_IDLE);
+    even_steps(&even, 20);
+    TEST_ASSERT_TRUE(arm() == WH_ALLOWED && even.rig.state == WH_LIFE_ARMED);
+}
+
+static void test_what_start_and_set_ask_for(void) {
+    const wh_real wrong_rpm[] = {WH_R(0.0),
+                                 WH_R(-330.0),
+                                 WH_R(1.0),
+                                 WH_R(361.0),
+                                 WH_R(1e30),
+                                 (wh_real)__builtin_inff(),
+                                 (wh_real)-__builtin_inff(),
+                                 (wh_real)__builtin_nanf("")};
+    for (unsigned running = 0; running < 2; running++) {
+        const wh_rig_event event = running == 0 ? WH_EVENT_START : WH_EVENT_SET;
+        const wh_life state = running == 0 ? WH_LIFE_ARMED : WH_LIFE_RUNNING;
+        stand_in(state);
+        stood = even;
+        for (unsigned i = 0; i < sizeof wrong_rpm / sizeof wrong_rpm[0]; i++) {
+            check_refused(even_order(&even, event, wrong_rpm[i] * EVEN_RPM), WH_REFUSED_TARGET,
+                          state);
+        }
+        even.inputs.supply_V = WH_R(12.0); /* 330 rpm take 14 V, 250 rpm 10.8 V */
+        check_refused(even_order(&even, event, WH_R(330.0) * EVEN_RPM), WH_REFUSED_VOLTAGE, state);
+        TEST_ASSERT_TRUE(even_order(&even, event, WH_R(250.0) * EVEN_RPM) == WH_ALLOWED);
+        TEST_ASSERT_FLOAT_WITHIN(1e-3f, 250.0f, (float)(even.rig.run.target_radps / EVEN_RPM));
+    }
+    stand_in(WH_LIFE_ARMED); /* the stop input disarms before the order is heard */
+    even.inputs.stop_pressed = true;
+    check_refused(even_order(&even, WH_EVENT_START, WH_R(330.0) * EVEN_RPM), WH_REFUSED_NOT_ARMED,
+                  WH_LIFE_IDLE);
+}
+
+/* Four orders a step; the fifth is not even taken. All of them are answered, in their order. */
+static void test_too_many_orders(void) {
+    stand_in(WH_LIFE_IDLE);
+    for (unsigned i = 0; i < WH_RIG_ORDERS_MOST; i++) {
+        TEST_ASSERT_TRUE(wh_rig_post(&even.rig, i < 2U ? WH_EVENT_STOP : WH_EVENT_ARM, WH_R(0.0)));
+    }
+    TEST_ASSERT_FALSE(wh_rig_post(&even.rig, WH_EVENT_START, WH_R(330.0) * EVEN_RPM));
+    const uint32_t answers = even.rig.answers;
+    even_step(&even);
+    TEST_ASSERT_EQUAL_UINT32(answers + WH_RIG_ORDERS_MOST, even.rig.answers);
+    check_refused(even.rig.answer, WH_REFUSED_ARMED, WH_LIFE_ARMED);
+    TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_STOP, WH_R(0.0)) == WH_ALLOWED);
+}
+
+/* What the rig finds itself nobody can tell it, nor what there is not. */
+static void test_unknown_and_internal_events_are_refused(void) {
+    for (wh_life state = WH_LIFE_IDLE; state < WH_LIVES; state++) {
+        stand_in(state);
+        for (int event = (int)WH_EVENT_DONE; event < (int)WH_EVENTS + 3; event++) {
+            TEST_ASSERT_TRUE(even_order(&even, (wh_rig_event)event, WH_R(1.0)) == WH_REFUSED_EVENT);
+            TEST_ASSERT_TRUE(even.rig.state == state);
+        }
+        TEST_ASSERT_TRUE(even_order(&even, (wh_rig_event)-1, WH_R(1.0)) == WH_REFUSED_EVENT);
+        TEST_ASSERT_TRUE(even.rig.state == state);
+    }
+}
+
+/* --- armed ------------------------------------------------------------------------------------------ */
+
+static void test_armed_lasts_a_minute(void) {
+    stand_in(WH_LIFE_ARMED);
+    even_steps(&even, 30000U);
+    TEST_ASSERT_TRUE(even.rig.state == WH_LIFE_ARMED);
+    even_step(&even);
+    check_refused(even_order(&even, WH_EVENT_START, WH_R(330.0) * EVEN_RPM), WH_REFUSED_NOT_ARMED,
+                  WH_LIFE_IDLE);
+    TEST_ASSERT_TRUE(arm() == WH_ALLOWED); /* the rotor rests, nothing tripped */
+}
+
+/* Somebody turns the rotor: no trip, and no start. At a hand's speed, or at a fast one's. */
+static void test_armed_ends_when_the_rotor_turns(void) {
+    static const wh_real hands_rpm[] = {WH_R(20.0), WH_R(60.0), WH_R(100.0), WH_R(140.0)};
+    for (unsigned i = 0; i < 4; i++) {
+        stand_in(WH_LIFE_ARMED);
+        even_turn_by_hand(&even, hands_rpm[i]);
+        unsigned steps = 0;
+        for (; steps < 5000U && even.rig.state == WH_LIFE_ARMED; steps++) {
+            even_step(&even);
+            TEST_ASSERT_TRUE(even.command.way == WH_MOTOR_COASTS);
+        }
+        TEST_ASSERT_TRUE(even.rig.state == WH_LIFE_IDLE);
+        /* two pulses are a shiver's, and the third comes after a turn */
+        TEST_ASSERT_TRUE((float)steps <= 60.0f / (float)hands_rpm[i] * 500.0f + 2.0f);
+        even_steps(&even, 2000);
+        TEST_ASSERT_TRUE(even.rig.state == WH_LIFE_IDLE && even.rig.guard.trip == WH_TRIP_NONE);
+        TEST_ASSERT_TRUE(arm() == WH_REFUSED_TURNING);
+        even_turn_by_hand(&even, WH_R(0.0));
+        even_rest(&even);
+        TEST_ASSERT_TRUE(arm() == WH_ALLOWED);
+    }
+}
+
+void suite_rig_life(void) {
+    RUN_TEST(test_the_table_has_every_pair);
+    RUN_TEST(test_every_event_in_every_state);
+    RUN_TEST(test_what_arm_asks_for);
+    RUN_TEST(test_what_start_and_set_ask_for);
+    RUN_TEST(test_too_many_orders);
+    RUN_TEST(test_unknown_and_internal_events_are_refused);
+    RUN_TEST(test_armed_lasts_a_minute);
+    RUN_TEST(test_armed_ends_when_the_rotor_turns);
+}

@@ -1,0 +1,362 @@
+/* test_rig_pulses.c: which slot pulses are true: trains of a made-up rotor that gravity swings, with jitter, and what
+ * disturbances, losses and bounces make of them. */
+#include <stddef.h>
+
+#include "draw.h"
+#include "even_rig.h"
+#include "rotor.h"
+#include "unity.h"
+
+void suite_rig_pulses(void);
+
+#define RPM EVEN_RPM
+#define STEP_TICKS EVEN_STEP_TICKS
+#define TRAIN_PULSES 24U
+#define SETTLED 6U    /* from this mark on the speed is to be right */
+#define DISTURBED 12U /* behind this one comes what is none */
+#define MOST_PULSES (TRAIN_PULSES * 5U)
+#define JITTER_TICKS 60U
+/* A pulse this close to a true one of its sensor may be taken for it: four jitters make what is known of its time. */
+#define TELLING_TICKS (4U * JITTER_TICKS)
+
+static const wh_real speeds_rpm[] = {WH_R(100.0), WH_R(140.0), WH_R(170.0),
+                                     WH_R(250.0), WH_R(330.0), WH_R(360.0)};
+#define SPEEDS (sizeof speeds_rpm / sizeof speeds_rpm[0])
+
+static wh_rig rig;
+static wh_rig_config config;
+static uint64_t seed;
+
+/* True pulses, from one of sensor 0 on; they cross the timer's wrap. */
+static wh_pulse train[TRAIN_PULSES];
+static wh_real mean_radps;
+
+/* What comes, in order of time. */
+static wh_pulse given[MOST_PULSES];
+static unsigned given_count;
+
+/* Where no set-point is allowed without it, gravity is fed forward, and the rotor turns evenly. */
+static rotor_kind kind_at(wh_real rpm) {
+    rotor_kind kind = rotor_nominal();
+    kind.jitter_s = WH_R(1e-6) * (wh_real)JITTER_TICKS;
+    kind.weight_Nm = rpm < WH_RIG_TARGET_MIN_RPM ? WH_R(0.0) : kind.weight_Nm;
+    return kind;
+}
+
+static wh_real drive_at(const rotor_kind *kind, wh_real speed_radps) {
+    return speed_radps / kind->no_load_radps + kind->drag_Nms * speed_radps / kind->stall_Nm;
+}
+
+static void make_train(wh_real rpm) {
+    const rotor_kind kind = kind_at(rpm);
+    const wh_real drive = drive_at(&kind, rpm * RPM);
+    rotor_state rotor = {
+        .ticks = UINT32_MAX - 4500000U, .speed_radps = rpm * RPM, .seed = draw_bits(&seed)};
+    rotor_turn(&kind, &rotor, drive, 3000000U);
+    unsigned count = 0;
+    while (count < TRAIN_PULSES) {
+        rotor_turn(&kind, &rotor, drive, STEP_TICKS);
+        for (unsigned i = 0; i < rotor.marks && count < TRAIN_PULSES; i++) {
+            if (rotor.mark_sensor[i] == count % 2U) {
+                train[count++] =
+                    (wh_pulse){.ticks = rotor.mark_ticks[i], .sensor = rotor.mark_sensor[i]};
+            }
+        }
+    }
+    const unsigned turns = TRAIN_PULSES / 2U - 1U;
+    mean_radps = WH_RIG_TWO_PI * (wh_real)turns * (wh_real)WH_RIG_TICKS_PER_S /
+                 (wh_real)(train[2U * turns].ticks - train[0].ticks);
+    TEST_ASSERT_FLOAT_WITHIN(0.03f * (float)rpm, (float)rpm, (float)(mean_radps / RPM));
+}
+
+static unsigned quarters_of(unsigned pulse) { return pulse / 2U * 4U + pulse % 2U; }
+
+static uint32_t apart(uint32_t a_ticks, uint32_t b_ticks) {
+    const uint32_t ticks = a_ticks - b_ticks;
+    return ticks >> 31 != 0 ? 0U - ticks : ticks;
+}
+
+/* The train without `lost` pulses from DISTURBED on. */
+static void give_train(unsigned lost) {
+    given_count = 0;
+    for (unsigned i = 0; i < TRAIN_PULSES; i++) {
+        if (i < DISTURBED || i >= DISTURBED + lost) {
+            given[given_count++] = train[i];
+        }
+    }
+}
+
+/* A pulse more; before or behind what comes at the same time. */
+static void give(unsigned sensor, uint32_t ticks, bool behind) {
+    TEST_ASSERT_TRUE(given_count < MOST_PULSES);
+    unsigned at = given_count++;
+    for (; at > 0; at--) {
+        const int32_t later = (int32_t)(given[at - 1U].ticks - ticks);
+        if (later < 0 || (later == 0 && behind)) {
+            break;
+        }
+        given[at] = given[at - 1U];
+    }
+    given[at] = (wh_pulse){.ticks = ticks, .sensor = sensor};
+}
+
+/* A run at the train's speed, just before the train. */
+static void stand_in(wh_rig_phase phase) {
+    config = even_config();
+    const uint32_t now = train[0].ticks - STEP_TICKS;
+    wh_rig_start(&config, &rig, now, NULL);
+    wh_run_start(&rig.run, mean_radps, now);
+    rig.state = WH_LIFE_RUNNING;
+    rig.run.phase = phase;
+    rig.run.volts = wh_run_needs_V(&config.run, mean_radps);
+    wh_drive_start(&rig.run.drive, mean_radps, rig.run.volts);
+}
+
+/* What came of the given pulses. */
+typedef struct outcome {
+    unsigned marks;
+    unsigned gaps;
+    unsigned strange;   /* marks that are no true pulse's, or not at its position */
+    uint32_t off_ticks; /* the worst mark */
+    wh_real off_rpm;    /* the worst speed */
+} outcome;
+
+/* The train's pulse that a mark is of, after the one before's. */
+static unsigned true_pulse(const wh_mark *mark, unsigned from) {
+    unsigned best = from;
+    for (unsigned i = from; i < TRAIN_PULSES && i < from + 6U; i++) {
+        if (apart(train[i].ticks, mark->pulse.ticks) <
+            apart(train[best].ticks, mark->pulse.ticks)) {
+            best = i;
+        }
+    }
+    return best;
+}
+
+/* All that was given, at control steps whose time is up to `early` behind the pulses'. */
+static outcome play(uint32_t early) {
+    outcome out = {.marks = 0};
+    uint32_t now = train[0].ticks - 1000U;
+    const uint32_t end = train[TRAIN_PULSES - 1U].ticks + 200000U;
+    unsigned next = 0;
+    unsigned from = 0;
+    uint32_t base = 0; /* the count of quarters, less the true one */
+    while ((int32_t)(end - now) > 0) {
+        const uint32_t due = next < given_count ? given[next].ticks - early : end;
+        now = early > 0 && (int32_t)(due - now) > 0 && apart(due, now) < STEP_TICKS
+                  ? due
+                  : now + STEP_TICKS;
+        for (; next < given_count && (int32_t)(now + early - given[next].ticks) >= 0; next++) {
+            wh_rig_pulse(&config, &rig, given[next].sensor, given[next].ticks);
+        }
+        wh_mark mark;
+        while (wh_pulses_mark(&rig.pulses, now, &mark)) {
+            const unsigned at = true_pulse(&mark, from);
+            const uint32_t off = apart(mark.pulse.ticks, train[at].ticks);
+            from = at + 1U;
+            base = out.marks == 0 || mark.gap ? mark.quarter - quarters_of(at) : base;
+            out.gaps += mark.gap ? 1U : 0U;
+            out.strange += mark.pulse.sensor != train[at].sensor || off > TELLING_TICKS ||
+                                   mark.quarter - quarters_of(at) != base
+                               ? 1U
+                               : 0U;
+            out.off_ticks = off > out.off_ticks ? off : out.off_ticks;
+            out.marks++;
+        }
+        wh_guard_speed(&config.guard, &rig.guard, &rig.pulses, WH_TRIP_OVERSPEED, true);
+        wh_guard_pulses(&config.guard, &rig.guard, &rig.pulses, WH_R(2.0), now);
+        if (out.marks >= SETTLED) {
+            const wh_real off_rpm = WH_ABS(rig.pulses.speed.turn_radps - mean_radps) / RPM;
+            out.off_rpm = off_rpm > out.off_rpm ? off_rpm : out.off_rpm;
+        }
+    }
+    TEST_ASSERT_EQUAL_UINT(given_count, next);
+    return out;
+}
+
+/* All true pulses are marks, where they are; none is another. `off_ticks`: some could not be told from a true one. */
+static void check_marks(const outcome *out, uint32_t off_ticks) {
+    TEST_ASSERT_EQUAL_UINT(TRAIN_PULSES, out->marks);
+    TEST_ASSERT_EQUAL_UINT(0, out->strange + out->gaps);
+    TEST_ASSERT_TRUE(out->off_ticks <= off_ticks);
+    TEST_ASSERT_EQUAL_UINT32(0, rig.pulses.speed.lost);
+}
+
+static void test_a_train_is_its_marks(void) {
+    seed = 1;
+    for (unsigned i = 0; i < SPEEDS; i++) {
+        for (wh_rig_phase phase = WH_PHASE_RAMP; phase <= WH_PHASE_RECORD; phase++) {
+            make_train(speeds_rpm[i]);
+            give_train(0);
+            stand_in(phase);
+            const outcome out = play(0);
+            check_marks(&out, 0);
+            TEST_ASSERT_EQUAL_UINT32(0, rig.pulses.rejected);
+            TEST_ASSERT_TRUE(out.off_rpm < WH_R(0.5));
+            TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_NONE);
+        }
+    }
+}
+
+/* --- one too many --------------------------------------------------------------------------------- */
+
+/* How far from the next true pulse of its own sensor. */
+static uint32_t apart_from_its_own(unsigned sensor, uint32_t ticks) {
+    uint32_t least = UINT32_MAX;
+    for (unsigned i = sensor; i < TRAIN_PULSES; i += 2U) {
+        const uint32_t ticks_apart = apart(train[i].ticks, ticks);
+        least = ticks_apart < least ? ticks_apart : least;
+    }
+    return least;
+}
+
+/* Rejected, or taken back: the marks are the true ones. Closer to its sensor's true one than their jitter tells, either
+ * may be it. */
+static outcome disturb(wh_rig_phase phase, unsigned sensor, uint32_t ticks, bool behind) {
+    give_train(0);
+    give(sensor, ticks, behind);
+    stand_in(phase);
+    const outcome out = play(0);
+    const uint32_t near = apart_from_its_own(sensor, ticks);
+    check_marks(&out, near < TELLING_TICKS ? near : 0);
+    TEST_ASSERT_EQUAL_UINT32(1, rig.pulses.rejected);
+    TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_NONE);
+    return out;
+}
+
+#define PLACES 60U
+
+/* In the record a speed that is off stops the run; while it settles a pulse that is early by less than the window
+ * shows until the true one comes. */
+static void check_disturbed(wh_rig_phase phase, unsigned sensor, uint32_t ticks) {
+    for (unsigned behind = 0; behind < 2; behind++) {
+        const outcome out = disturb(phase, sensor, ticks, behind == 1);
+        const wh_real most_rpm =
+            phase == WH_PHASE_RECORD ? WH_R(2.0) : WH_R(0.035) * mean_radps / RPM;
+        TEST_ASSERT_TRUE(out.off_rpm <= most_rpm);
+    }
+}
+
+static void check_places(wh_rig_phase phase) {
+    static const uint32_t near_ticks[] = {0, 1, 30, 60, 150, 400, 1000, 4000};
+    seed = 2;
+    for (unsigned i = 0; i < SPEEDS; i++) {
+        make_train(speeds_rpm[i]);
+        const uint32_t turn = train[DISTURBED + 2U].ticks - train[DISTURBED].ticks;
+        for (unsigned sensor = 0; sensor < 2; sensor++) {
+            for (unsigned place = 0; place < PLACES; place++) {
+                check_disturbed(phase, sensor,
+                                train[DISTURBED].ticks + (2U * place + 1U) * (turn / PLACES / 2U));
+            }
+            for (unsigned k = 0; k < 8; k++) { /* beside the true pulses of either sensor */
+                for (unsigned at = DISTURBED; at < DISTURBED + 2U; at++) {
+                    check_disturbed(phase, sensor, train[at].ticks - near_ticks[k]);
+                    check_disturbed(phase, sensor, train[at].ticks + near_ticks[k]);
+                }
+            }
+        }
+    }
+}
+
+static void test_a_pulse_too_many_in_the_record(void) { check_places(WH_PHASE_RECORD); }
+
+static void test_a_pulse_too_many_while_it_settles(void) { check_places(WH_PHASE_SETTLE); }
+
+/* --- some too few --------------------------------------------------------------------------------- */
+
+/* One is bridged, more are a gap: the position begins afresh, the speed stays. */
+static void test_lost_pulses(void) {
+    seed = 3;
+    for (unsigned i = 0; i < SPEEDS; i++) {
+        for (wh_rig_phase phase = WH_PHASE_RAMP; phase <= WH_PHASE_RECORD; phase++) {
+            for (unsigned lost = 1; lost <= 3; lost++) {
+                make_train(speeds_rpm[i]);
+                give_train(lost);
+                stand_in(phase);
+                const outcome out = play(0);
+                TEST_ASSERT_EQUAL_UINT(TRAIN_PULSES - lost, out.marks);
+                TEST_ASSERT_EQUAL_UINT(lost > 1U ? 1U : 0U, out.gaps);
+                TEST_ASSERT_EQUAL_UINT(0, out.strange + out.off_ticks);
+                TEST_ASSERT_EQUAL_UINT32(lost > 2U ? 2U : lost, rig.pulses.speed.lost);
+                TEST_ASSERT_EQUAL_UINT32(0, rig.pulses.rejected);
+                TEST_ASSERT_TRUE(out.off_rpm <= WH_R(2.0));
+                TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_NONE);
+            }
+        }
+    }
+}
+
+/* --- stamps, bounces, storms ----------------------------------------------------------------------- */
+
+/* A pulse may be captured after the step's own reading of the timer; and the train crosses its wrap. */
+static void test_stamps_from_the_future(void) {
+    seed = 4;
+    for (unsigned i = 0; i < SPEEDS; i++) {
+        for (uint32_t early = 1; early <= 3; early += 2) {
+            make_train(speeds_rpm[i]);
+            TEST_ASSERT_TRUE(train[TRAIN_PULSES - 1U].ticks < train[0].ticks);
+            give_train(0);
+            stand_in(WH_PHASE_RECORD);
+            const outcome out = play(early);
+            check_marks(&out, 0);
+            TEST_ASSERT_EQUAL_UINT32(0, rig.pulses.rejected);
+            TEST_ASSERT_TRUE(out.off_rpm < WH_R(0.5));
+            TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_NONE);
+        }
+    }
+}
+
+/* The edge of a slot that fires again and again: counted, harmless, and too many of them stop the rig. */
+static void test_bounces(void) {
+    seed = 5;
+    for (unsigned each = 1; each <= 4; each++) {
+        for (unsigned i = 0; i < SPEEDS; i++) {
+            make_train(speeds_rpm[i]);
+            give_train(0);
+            for (unsigned k = 0; k < TRAIN_PULSES; k++) {
+                for (unsigned n = 0; n < each; n++) {
+                    give(train[k].sensor,
+                         train[k].ticks + 300U + (uint32_t)(draw_bits(&seed) % 3000U), true);
+                }
+            }
+            stand_in(WH_PHASE_RECORD);
+            const outcome out = play(0);
+            check_marks(&out, 0);
+            TEST_ASSERT_TRUE(out.off_rpm < WH_R(0.5));
+            TEST_ASSERT_EQUAL_UINT32(each * TRAIN_PULSES, rig.pulses.rejected);
+            const bool many = each * TRAIN_PULSES > config.guard.rejected_max;
+            TEST_ASSERT_TRUE(rig.guard.trip == (many ? WH_TRIP_PULSES : WH_TRIP_NONE));
+        }
+    }
+}
+
+/* Pulses of both sensors at random, some twenty times as many as there should be. */
+static void test_a_storm_stops_the_rig(void) {
+    seed = 6;
+    for (unsigned i = 0; i < SPEEDS; i++) {
+        for (wh_rig_phase phase = WH_PHASE_SPIN_UP; phase <= WH_PHASE_RAMP_DOWN; phase++) {
+            make_train(speeds_rpm[i]);
+            stand_in(phase);
+            const uint32_t turn = train[2].ticks - train[0].ticks;
+            uint32_t now = train[0].ticks;
+            for (unsigned k = 0; k < 200U && rig.guard.trip == WH_TRIP_NONE; k++) {
+                now += (uint32_t)(draw_bits(&seed) % (turn / 20U));
+                wh_rig_pulse(&config, &rig, draw_one_of(&seed, 2), now);
+                wh_guard_speed(&config.guard, &rig.guard, &rig.pulses, WH_TRIP_OVERSPEED, true);
+                wh_guard_pulses(&config.guard, &rig.guard, &rig.pulses, WH_R(2.0), now);
+            }
+            TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_PULSES ||
+                             rig.guard.trip == WH_TRIP_OVERSPEED);
+        }
+    }
+}
+
+void suite_rig_pulses(void) {
+    RUN_TEST(test_a_train_is_its_marks);
+    RUN_TEST(test_a_pulse_too_many_in_the_record);
+    RUN_TEST(test_a_pulse_too_many_while_it_settles);
+    RUN_TEST(test_lost_pulses);
+    RUN_TEST(test_stamps_from_the_future);
+    RUN_TEST(test_bounces);
+    RUN_TEST(test_a_storm_stops_the_rig);
+}

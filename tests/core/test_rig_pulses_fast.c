@@ -1,0 +1,83 @@
+/* test_rig_pulses_fast.c: how soon a runaway shows in the pulses. */
+#include <stddef.h>
+
+#include "draw.h"
+#include "even_rig.h"
+#include "rotor.h"
+#include "unity.h"
+
+void suite_rig_pulses_fast(void);
+
+#define STEP_TICKS EVEN_STEP_TICKS
+
+static wh_rig rig;
+static wh_rig_config config;
+static uint64_t seed;
+static const wh_real nominal_radps = WH_RIG_NOMINAL_RPM * EVEN_RPM;
+
+/* A run at 330 rpm, or on its way to it. */
+static void stand_in(wh_rig_phase phase, uint32_t now_ticks) {
+    config = even_config();
+    wh_rig_start(&config, &rig, now_ticks, NULL);
+    wh_run_start(&rig.run, nominal_radps, now_ticks);
+    rig.state = WH_LIFE_RUNNING;
+    rig.run.phase = phase;
+    rig.run.volts = wh_run_needs_V(&config.run, nominal_radps);
+    wh_drive_start(&rig.run.drive, nominal_radps, rig.run.volts);
+}
+
+/* Full voltage on the rotor, whatever the controller asks for; returns how long until it trips, s. */
+static wh_real run_away(rotor_state *rotor) {
+    const rotor_kind kind = rotor_nominal();
+    const uint32_t begin = rotor->ticks;
+    wh_rig_inputs inputs = {.supply_V = WH_RIG_RATED_V};
+    for (unsigned step = 0; step < 500U && rig.state != WH_LIFE_TRIPPED; step++) {
+        rotor_turn(&kind, rotor, WH_R(1.0), STEP_TICKS);
+        for (unsigned i = 0; i < rotor->marks; i++) {
+            wh_rig_pulse(&config, &rig, rotor->mark_sensor[i], rotor->mark_ticks[i]);
+        }
+        inputs.now_ticks = rotor->ticks;
+        wh_rig_load(&config, &rig, rotor->ticks, step % 2U == 0 ? 3000 : -3000, WH_LOAD_OK);
+        (void)wh_rig_step(&config, &rig, &inputs);
+    }
+    TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_OVERSPEED);
+    return (wh_real)(rotor->ticks - begin) / (wh_real)WH_RIG_TICKS_PER_S;
+}
+
+static void test_a_runaway_is_seen_at_any_place(void) {
+    seed = 7;
+    const rotor_kind kind = rotor_nominal();
+    const wh_real drive =
+        nominal_radps / kind.no_load_radps + kind.drag_Nms * nominal_radps / kind.stall_Nm;
+    for (unsigned place = 0; place < 46U; place++) { /* 4 ms each: a turn */
+        rotor_state rotor = {
+            .ticks = UINT32_MAX - 2000000U, .speed_radps = nominal_radps, .seed = draw_bits(&seed)};
+        stand_in(WH_PHASE_SETTLE, rotor.ticks);
+        for (unsigned step = 0; step < 1000U + 2U * place; step++) {
+            rotor_turn(&kind, &rotor, drive, STEP_TICKS);
+            for (unsigned i = 0; i < rotor.marks; i++) {
+                wh_rig_pulse(&config, &rig, rotor.mark_sensor[i], rotor.mark_ticks[i]);
+            }
+        }
+        rig.run.since_ticks = rig.run.band_ticks = rig.run.ample_ticks = rotor.ticks;
+        TEST_ASSERT_TRUE(run_away(&rotor) <= WH_R(0.25));
+    }
+}
+
+static void test_a_runaway_from_rest_is_seen(void) {
+    seed = 8;
+    for (int place = -2; place <= 2; place++) { /* hanging, but for a few degrees of friction */
+        rotor_state rotor = {.ticks = UINT32_MAX - 100000U,
+                             .angle_rad = place < 0 ? WH_RIG_TWO_PI + WH_R(0.04) * (wh_real)place
+                                                    : WH_R(0.04) * (wh_real)place,
+                             .seed = draw_bits(&seed)};
+        stand_in(WH_PHASE_SPIN_UP, rotor.ticks);
+        rig.run.volts = config.run.spin_up_V;
+        TEST_ASSERT_TRUE(run_away(&rotor) <= WH_R(0.35));
+    }
+}
+
+void suite_rig_pulses_fast(void) {
+    RUN_TEST(test_a_runaway_is_seen_at_any_place);
+    RUN_TEST(test_a_runaway_from_rest_is_seen);
+}
