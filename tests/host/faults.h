@@ -77,7 +77,7 @@ typedef enum outcome {
     OUTCOME_DOUBTFUL,
     OUTCOME_REFUSED,
     OUTCOME_NONE, /* it ended without a result and without a trip */
-    OUTCOME_HANG, /* silent, or not over within a minute */
+    OUTCOME_HANG, /* silent, or after a minute neither over nor with the motor off */
     OUTCOMES
 } outcome;
 
@@ -115,6 +115,8 @@ typedef struct true_turn {
 typedef struct judge {
     const campaign_case *of;
     const fault_plan *plan;
+    double *until_s;
+    double off_since_s; /* tripped and off; -1: it is not */
     const plant *plant;
     bound angle;
     bound rate;
@@ -141,7 +143,8 @@ typedef struct judge {
     verdict verdict;
 } judge;
 
-tap judge_tap(judge *j, const campaign_case *of, const fault_plan *plan);
+/* *until_s: when the run is let go; nothing more is to be seen some time after a trip, so then it is now. */
+tap judge_tap(judge *j, const campaign_case *of, const fault_plan *plan, double *until_s);
 /* When the run is over. */
 void judge_end(judge *j, const lockstep_report *report);
 

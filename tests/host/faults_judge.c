@@ -9,6 +9,7 @@
 #define RPM_PER_RADPS 9.5492965855137202
 #define SHARE 0.01 /* that a good result may be off beside its interval */
 #define LASTING_S 1.0
+#define WATCHED_S 12.0
 #define SHIFTS 3                  /* turns by which its turns may be earlier than the last ones */
 enum { GOOD, DOUBTFUL, REFUSED }; /* wh_quality */
 
@@ -184,6 +185,17 @@ static void count_step(judge *j, const wh_orders *orders) {
     j->stepped = true;
 }
 
+/* A controller that has tripped may watch the rotor for a long time. */
+static void let_go(judge *j, double time_s) {
+    if (!rig_is_tripped(j->told) || j->driven) {
+        j->off_since_s = -1.0;
+    } else if (j->off_since_s < 0.0) {
+        j->off_since_s = time_s;
+    } else if (time_s > j->off_since_s + WATCHED_S && *j->until_s > time_s) {
+        *j->until_s = time_s;
+    }
+}
+
 static void hear(void *of, double time_s, wh_orders *orders, double *late_s) {
     (void)late_s;
     judge *j = of;
@@ -194,6 +206,7 @@ static void hear(void *of, double time_s, wh_orders *orders, double *late_s) {
     const fault *f = &j->plan->fault[j->plan->count - 1U];
     const bool ignores = j->of->runs_away && f->active;
     j->driven = enabled && (orders->output[j->at_duty] > 0.0F || ignores);
+    let_go(j, time_s);
     if (ignores && f->duration_s >= LASTING_S) {
         j->verdict.lasting = true;
         if (!enabled && j->verdict.off_s < 0.0) {
@@ -203,8 +216,12 @@ static void hear(void *of, double time_s, wh_orders *orders, double *late_s) {
     }
 }
 
-tap judge_tap(judge *j, const campaign_case *of, const fault_plan *plan) {
-    *j = (judge){.of = of, .plan = plan, .verdict = {.row = of->row, .stage = -1, .off_s = -1.0}};
+tap judge_tap(judge *j, const campaign_case *of, const fault_plan *plan, double *until_s) {
+    *j = (judge){.of = of,
+                 .plan = plan,
+                 .until_s = until_s,
+                 .off_since_s = -1.0,
+                 .verdict = {.row = of->row, .stage = -1, .off_s = -1.0}};
     return (tap){.name = "judge", .of = j, .start = start, .orders = hear, .watch = watch};
 }
 
@@ -213,7 +230,8 @@ void judge_end(judge *j, const lockstep_report *report) {
     const int quality = (int)j->told[HAL_NOTE_QUALITY];
     v->time_s = report->time_s;
     v->overruns = report->overruns;
-    if (report->end != LOCKSTEP_DONE) {
+    const bool off = report->end == LOCKSTEP_LET_GO && !j->driven;
+    if (report->end != LOCKSTEP_DONE && !off) {
         v->outcome = OUTCOME_HANG;
     } else if (rig_is_tripped(j->told)) {
         v->outcome = OUTCOME_TRIPPED;
