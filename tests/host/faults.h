@@ -101,7 +101,8 @@ typedef struct verdict {
     uint64_t overruns;
     uint32_t steps
         [STEP_BINS]; /* answers by what they took until the outputs were set; none where it is not counted */
-    double most; /* instructions of one */
+    double most;   /* instructions of one, */
+    double most_s; /* then */
 } verdict;
 
 enum { JUDGE_TURNS = 64 };

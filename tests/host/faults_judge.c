@@ -174,12 +174,13 @@ static void take_notes(judge *j, const wh_orders *orders) {
 }
 
 /* The first answer says who it is, before there is a loop. */
-static void count_step(judge *j, const wh_orders *orders) {
+static void count_step(judge *j, double time_s, const wh_orders *orders) {
     const double instructions = (double)orders->acted_timer * j->per_count;
     verdict *v = &j->verdict;
     if (j->stepped && instructions > 0.0) {
         const unsigned bin = (unsigned)(instructions / STEP_BIN);
         v->steps[bin < STEP_BINS ? bin : STEP_BINS - 1]++;
+        v->most_s = instructions > v->most ? time_s : v->most_s;
         v->most = instructions > v->most ? instructions : v->most;
     }
     j->stepped = true;
@@ -201,7 +202,7 @@ static void hear(void *of, double time_s, wh_orders *orders, double *late_s) {
     judge *j = of;
     look_for_fault(j);
     take_notes(j, orders);
-    count_step(j, orders);
+    count_step(j, time_s, orders);
     const bool enabled = orders->output[j->at_enable] > 0.0F && !j->plant->cut;
     const fault *f = &j->plan->fault[j->plan->count - 1U];
     const bool ignores = j->of->runs_away && f->active;
