@@ -63,8 +63,7 @@ static wh_rig rig;
 static void tell(void) {
 #if HAL_FRAMES
     const wh_measured *force = &rig.result.force;
-    hal_frames_note(HAL_NOTE_STATE, (float)rig.state);
-    hal_frames_note(HAL_NOTE_PHASE_OF_RUN, (float)rig.run.phase);
+    hal_frames_note(HAL_NOTE_STATE, (float)wh_rig_stage(&rig));
     hal_frames_note(HAL_NOTE_TRIP, (float)rig.guard.trip);
     hal_frames_note(HAL_NOTE_QUALITY, (float)force->quality);
     hal_frames_note(HAL_NOTE_AMPLITUDE, force->amplitude_N);
@@ -113,11 +112,6 @@ static void put_force(const char *name, float force_N) {
     put_value(name, force_N, 2, text.bytes);
 }
 
-/* The phase of a run; else the state. */
-static const char *state_text(void) {
-    return rig.run.phase == WH_PHASE_NONE ? wh_life_text(rig.state) : wh_phase_text(rig.run.phase);
-}
-
 static void put_state(uint32_t started_ticks) {
     char bytes[96];
     wh_text text;
@@ -125,7 +119,7 @@ static void put_state(uint32_t started_ticks) {
     wh_text_add_fixed(&text, (float)(hal_clock_ticks() - started_ticks) / (float)HAL_TICKS_PER_S,
                       3);
     wh_text_add(&text, " s  ");
-    wh_text_add(&text, state_text());
+    wh_text_add(&text, wh_rig_stage_text(wh_rig_stage(&rig)));
     if (wh_run_is_closed(&rig.run)) {
         wh_text_add(&text, ", ");
         wh_text_add_fixed(&text, rig.pulses.speed.turn_radps * RPM_PER_RADPS, 1);
@@ -263,8 +257,7 @@ static void run(const wh_rig_config *config) {
     uint32_t due = started;
     operator_step operator_at = WAITS_FOR_REST;
     wh_rig_start(config, &rig, started, NULL);
-    wh_life shown_state = rig.state;
-    wh_rig_phase shown_phase = rig.run.phase;
+    unsigned shown = wh_rig_stage(&rig);
     put_state(started);
     tell();
     hal_watchdog_start(WATCHDOG_TICKS);
@@ -273,9 +266,8 @@ static void run(const wh_rig_config *config) {
         hal_clock_wait_until(due);
         control(config);
         tell();
-        if (rig.state != shown_state || rig.run.phase != shown_phase) {
-            shown_state = rig.state;
-            shown_phase = rig.run.phase;
+        if (wh_rig_stage(&rig) != shown) {
+            shown = wh_rig_stage(&rig);
             put_state(started);
         }
     } while (!operate(&operator_at, hal_clock_ticks() - started));

@@ -36,9 +36,12 @@ typedef struct wh_guard_config {
     wh_real limit_radps;      /* largest speed, mean of a turn */
     wh_real ripple; /* by how much a part of a turn may be faster, as a fraction, at the limit */
     wh_real over;   /* by how much the speed may be above where it is led, as a fraction */
+    wh_real above_radps; /* so far above the set-point a turn that still gets faster, */
+    wh_real rise;        /* by this fraction in half a turn, is no regulated one */
     wh_real
         fall_radps; /* what gravity makes of standstill at the top: 2 sqrt(S g / I), at the bottom */
     uint32_t lost_max;          /* pulses that may be lost in a run */
+    unsigned doubt_max;         /* see wh_pulses */
     uint32_t rejected_max;      /* and be none */
     wh_real silence_max_s;      /* longest time without a pulse while the loop is closed */
     wh_real slow_silence_max_s; /* and while the rotor starts */
@@ -58,6 +61,9 @@ typedef struct wh_guard {
     uint32_t pulse_ticks;     /* of the last pulse, true or not; at first, the start */
     uint32_t lost_before;     /* pulses already lost when the motor began to drive, */
     uint32_t rejected_before; /* or rejected */
+    unsigned regulated;       /* pulses running at which the speed was near the set-point */
+    uint32_t pulses_risen;    /* pulses taken when the speed was */
+    wh_real risen_radps;      /* this */
     uint32_t load_ticks;      /* of the last load sample; at first, the start */
     bool load_good;           /* it was ok */
     uint32_t load_pulses;     /* pulses taken by then */
@@ -70,6 +76,8 @@ typedef struct wh_guard {
 #define wh_guard_bound_radps WH_NAME(wh_guard_bound_radps)
 #define wh_guard_trip WH_NAME(wh_guard_trip)
 #define wh_guard_load WH_NAME(wh_guard_load)
+#define wh_guard_rise WH_NAME(wh_guard_rise)
+#define WH_GUARD_REGULATED_PULSES 6U
 #define wh_trip_text WH_NAME(wh_trip_text)
 
 void wh_guard_start(wh_guard *guard, uint32_t now_ticks);
@@ -112,11 +120,22 @@ WH_INLINE void wh_guard_speed(const wh_guard_config *config, wh_guard *guard,
     }
 }
 
-/* While the motor drives: lost and invented pulses, silence for longer than silence_max_s. */
+/* Three turns near the set-point, and the loop has the speed in hand. */
+WH_INLINE bool wh_guard_is_regulated(const wh_guard *guard) {
+    return guard->regulated >= WH_GUARD_REGULATED_PULSES;
+}
+
+/* While the loop is closed: over-speed, of a turn that gets faster although it is faster than the set-point already,
+ * once the loop has had it in hand. */
+void wh_guard_rise(const wh_guard_config *config, wh_guard *guard, const wh_speed *speed,
+                   wh_real setpoint_radps);
+
+/* While the motor drives: lost, invented and doubtful pulses, silence for longer than silence_max_s. */
 WH_INLINE void wh_guard_pulses(const wh_guard_config *config, wh_guard *guard,
                                const wh_pulses *pulses, wh_real silence_max_s, uint32_t now_ticks) {
     if (pulses->speed.lost - guard->lost_before > config->lost_max ||
         pulses->rejected - guard->rejected_before > config->rejected_max ||
+        pulses->doubt > config->doubt_max ||
         wh_speed_silence_s(&pulses->speed, now_ticks) > silence_max_s) {
         wh_guard_trip(guard, WH_TRIP_PULSES);
     }

@@ -64,7 +64,7 @@ typedef struct wh_observer {
  * half to six times the inertia, 30 % more or less gravity and 0.2 N m of friction between 80 and 400 rpm. What the
  * errors of angle, speed and torque are multiplied with in a turn has then, at a steady speed, a spectral radius of 0.72
  * at 80 rpm, 0.65 at 100, 0.32 at 170, 0.59 at 330 and 0.64 at 400: over the top gravity drives errors apart, the more
- * the slower. Half these gains for the torque: 0.82 at 80. Sensor 1's mark ends three quarters of a turn, over the top,
+ * the slower. Sensor 1's mark ends three quarters of a turn, over the top,
  * sensor 2's the other. */
 #define WH_OBSERVER_STANDARD \
     { \

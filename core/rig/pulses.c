@@ -3,6 +3,9 @@
 
 #include "datasheet.h"
 
+#define TWICE_PART WH_R(0.5) /* of a turn, within which a sensor sees the slot but once */
+#define ALERT_PART WH_R(0.005)
+#define BOUNCE_PART WH_R(0.02)
 #define SURE_PART WH_R(0.125) /* of a turn, after which no pulse takes back the last one */
 
 void wh_pulses_start(wh_pulses *pulses, wh_real impossible_radps) {
@@ -84,6 +87,12 @@ static void take_next(wh_pulses *pulses, const wh_pulse *pulse, const wh_speed *
     accept(pulses, pulse, after);
 }
 
+/* A pulse that is none, not a mere bounce: disturbances are rare, and where they are not it is the speed that is wrong. */
+static void doubt(wh_pulses *pulses) {
+    pulses->rejected++;
+    pulses->doubt += 2U;
+}
+
 /* The pulse after a suspect: with it, or without? Without, if that is likely, and more so than both together. */
 static void decide(wh_pulses *pulses, const wh_pulse *pulse) {
     const wh_pulse suspect = pulses->suspect;
@@ -91,16 +100,17 @@ static void decide(wh_pulses *pulses, const wh_pulse *pulse) {
     wh_speed suspected;
     wh_speed both;
     pulses->suspects = false;
+    pulses->alert = false;
     const bool alone_likely = with(&pulses->speed, pulse, &without) && is_likely(pulses, &without);
     if (alone_likely && pulse->sensor == suspect.sensor) {
-        pulses->rejected++;
+        doubt(pulses);
         take_next(pulses, pulse, &without);
         return;
     }
     const bool was_true = with(&pulses->speed, &suspect, &suspected);
     const bool both_are = was_true && with(&suspected, pulse, &both);
     if (alone_likely && !(both_are && is_likely(pulses, &both))) {
-        pulses->rejected++;
+        doubt(pulses);
         take_next(pulses, pulse, &without);
         return;
     }
@@ -110,14 +120,25 @@ static void decide(wh_pulses *pulses, const wh_pulse *pulse) {
     if (both_are) {
         take_next(pulses, pulse, &both);
     } else {
-        pulses->rejected++;
+        doubt(pulses);
     }
+}
+
+/* The sensor of the last pulse again, within that part of a turn. */
+static bool soon_after(const wh_pulses *pulses, const wh_pulse *pulse, wh_real part) {
+    const wh_pulse *last = &pulses->last.pulse;
+    return pulses->waits && pulses->speed.known && pulse->sensor == last->sensor &&
+           (wh_real)(pulse->ticks - last->ticks) < part * turn_ticks(&pulses->speed);
 }
 
 /* A pulse that cannot follow the last one: is it that one which is none? */
 static void compare(wh_pulses *pulses, const wh_pulse *pulse) {
     wh_speed instead;
-    pulses->rejected++;
+    if (soon_after(pulses, pulse, BOUNCE_PART)) {
+        pulses->rejected++;
+    } else {
+        doubt(pulses);
+    }
     if (!pulses->waits || pulse->sensor != pulses->last.pulse.sensor ||
         !with(&pulses->before, pulse, &instead) || !is_likely(pulses, &instead)) {
         return;
@@ -127,13 +148,6 @@ static void compare(wh_pulses *pulses, const wh_pulse *pulse) {
     if (WH_ABS(this) < WH_ABS(last)) {
         accept(pulses, pulse, &instead);
     }
-}
-
-/* The same sensor again, and not half a turn later. */
-static bool follows_too_soon(const wh_pulses *pulses, const wh_pulse *pulse) {
-    const wh_pulse *last = &pulses->last.pulse;
-    return pulses->waits && pulses->speed.known && pulse->sensor == last->sensor &&
-           (wh_real)(pulse->ticks - last->ticks) < WH_R(0.5) * turn_ticks(&pulses->speed);
 }
 
 void wh_pulses_take(wh_pulses *pulses, unsigned sensor, uint32_t ticks) {
@@ -147,17 +161,21 @@ void wh_pulses_take(wh_pulses *pulses, unsigned sensor, uint32_t ticks) {
         return;
     }
     wh_speed after;
-    if (follows_too_soon(pulses, &pulse) || !with(&pulses->speed, &pulse, &after)) {
+    if (soon_after(pulses, &pulse, TWICE_PART) || !with(&pulses->speed, &pulse, &after)) {
         compare(pulses, &pulse);
         return;
     }
-    const bool early = pulses->speed.known && early_ticks(&pulses->speed, &pulse) >
-                                                  pulses->window * turn_ticks(&pulses->speed);
-    /* where one fast interval is true already, the next is the speed's */
-    if (pulses->speed.running && pulses->fast == 0 && (is_fast(pulses, &after) || early)) {
+    const wh_real early = pulses->speed.known
+                              ? early_ticks(&pulses->speed, &pulse) / turn_ticks(&pulses->speed)
+                              : WH_R(0.0);
+    /* where one interval was fast, or the last pulse early, the next is the speed's */
+    const bool trusted = !pulses->speed.running || pulses->fast > 0 || pulses->alert;
+    pulses->alert = early > ALERT_PART;
+    if (!trusted && (is_fast(pulses, &after) || early > pulses->window)) {
         pulses->suspect = pulse;
         pulses->suspects = true;
         return;
     }
+    pulses->doubt -= pulses->doubt > 0 ? 1U : 0U;
     take_next(pulses, &pulse, &after);
 }

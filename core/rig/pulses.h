@@ -39,9 +39,12 @@ typedef struct wh_pulses {
     bool suspects;
     bool waits; /* the last pulse is not sure yet: */
     wh_mark last;
+    bool alert;    /* the last pulse came a little early: the next that does is no disturbance */
     unsigned fast; /* intervals beyond the bound, running */
     unsigned
         alternate; /* pulses running whose sensor was not the one before's: a rotor that swings has none */
+    unsigned
+        doubt; /* grows by two with each pulse whose truth was doubtful and shrinks by one with each that fits */
     uint32_t rejected;             /* pulses that are none */
     wh_mark mark[WH_PULSES_MARKS]; /* sure, not yet taken */
     unsigned marks;

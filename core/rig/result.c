@@ -154,16 +154,18 @@ void wh_merge_mean(const wh_result_config *config, const wh_rotor_config *rotor,
     /* fed at another angle, gravity leaves a swing that the split takes for one a quarter turn on */
     const wh_real quadrature = angle->fed ? rotor->fed_tolerance_rad * angle->whole_rad : WH_R(0.0);
     const wh_real turned = quadrature * angle->base_per_quadrature;
+    /* what a motor that cannot brake enough leaves (tests/host/test_lockin_truth.c) */
+    const wh_real cut = angle->cut * angle->cut;
     const wh_real drift = WH_R(0.5) * (wh_real)(int32_t)(merge->last_ticks - merge->first_ticks) /
                           (n * merge->turn_s * (wh_real)WH_RIG_TICKS_PER_S);
-    const wh_real amplitude2 = square_of(config->amplitude_floor) +
-                               square_of(WH_R(1.5) * swing * lag) + square_of(third) +
-                               square_of(WH_R(3.0) * quadrature * quadrature);
+    const wh_real amplitude2 =
+        square_of(config->amplitude_floor) + square_of(WH_R(1.5) * swing * lag) + square_of(third) +
+        square_of(WH_R(3.0) * quadrature * quadrature) + square_of(WH_R(0.04) * cut);
     measured->amplitude_half_N = WH_SQRT(along_N2 + amplitude2 * size2);
     measured->phase_half_rad =
         WH_SQRT(across_N2 / size2 + t2 * marks_rad2(merge, angle, measured->jitter_s) +
-                square_of(lag) + square_of(third) + square_of(turned) + square_of(drift) +
-                square_of(config->phase_floor_rad));
+                square_of(lag) + square_of(third) + square_of(turned) + square_of(WH_R(0.4) * cut) +
+                square_of(drift) + square_of(config->phase_floor_rad));
 }
 
 /* --- verdict ------------------------------------------------------------------------------------ */

@@ -60,7 +60,8 @@ static void expect_pulses(const wh_rig_config *config, wh_rig *rig) {
     const wh_rig_phase phase = rig->run.phase;
     const bool from_rest = phase == WH_PHASE_SPIN_UP && !rig->pulses.speed.known;
     rig->pulses.bound_radps = wh_guard_bound_radps(
-        &config->guard, wh_run_base_radps(&config->run, &rig->run), !from_rest);
+        &config->guard,
+        wh_run_base_radps(&config->run, &rig->run, wh_guard_is_regulated(&rig->guard)), !from_rest);
     rig->pulses.window = phase == WH_PHASE_RECORD
                              ? RECORD_PART * config->run.record_band_radps / rig->run.target_radps
                              : (phase == WH_PHASE_SETTLE ? SETTLE_WINDOW : RAMP_WINDOW);
@@ -114,6 +115,7 @@ static void begin_run(const wh_rig_config *config, wh_rig *rig, wh_real target_r
     rig->fed = feeds(config, target_radps);
     rig->guard.lost_before = 0;
     rig->guard.rejected_before = 0;
+    rig->guard.regulated = 0;
     wh_run_start(&rig->run, target_radps, now_ticks);
 }
 
@@ -127,6 +129,7 @@ static void follow(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs
     case WH_EVENT_SET:
         wh_run_set(&rig->run, order->value, now);
         rig->fed = feeds(config, order->value);
+        rig->guard.regulated = 0;
         break;
     case WH_EVENT_STOP:
     case WH_EVENT_HOST_LOST:
@@ -142,7 +145,7 @@ static void follow(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs
     case WH_EVENT_RESTED:
     case WH_EVENT_EXPIRED: rig->run.phase = WH_PHASE_NONE; break;
     case WH_EVENT_CLEAR: rig->guard.trip = WH_TRIP_NONE; break;
-    case WH_EVENT_ARM: wh_pulses_start(&rig->pulses, config->impossible_radps); break;
+    case WH_EVENT_ARM: rig->pulses_before = rig->pulses_ever; break;
     case WH_EVENT_DONE:
     case WH_EVENTS: break;
     }
@@ -214,6 +217,9 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
     const bool slows = !drives && rig->run.off_radps < config->guard.limit_radps;
     wh_guard_speed(&config->guard, guard, &rig->pulses, slows ? WH_TRIP_RUNS_ON : WH_TRIP_OVERSPEED,
                    drives);
+    if (wh_run_is_closed(&rig->run)) {
+        wh_guard_rise(&config->guard, guard, &rig->pulses.speed, rig->run.drive.setpoint_radps);
+    }
     if (drives) {
         wh_guard_pulses(&config->guard, guard, &rig->pulses, silence_s(config, rig),
                         inputs->now_ticks);
@@ -257,13 +263,13 @@ static wh_real feed_V(const wh_rig_config *config, wh_rig *rig, uint32_t now_tic
 
 /* Motor off: the rotor rests when pulses stay away. */
 static void wait_for_rest(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
+    const bool tripped = rig->state == WH_LIFE_TRIPPED;
     const wh_real passed_s =
-        since_s(rig->state == WH_LIFE_STOPPING ? rig->run.since_ticks : rig->since_ticks,
-                inputs->now_ticks);
-    const bool late = passed_s > config->rest_max_s;
+        since_s(tripped ? rig->since_ticks : rig->run.since_ticks, inputs->now_ticks);
+    const bool late = passed_s > (tripped ? config->tripped_max_s : config->rest_max_s);
     const bool blind = rig->guard.trip == WH_TRIP_PULSES;
     const bool silent = rig->guard.quiet && passed_s >= config->guard.rest_s;
-    if (rig->state == WH_LIFE_TRIPPED) {
+    if (tripped) {
         rig->rested = rig->rested || late || (silent && !blind);
     } else if (silent) {
         finds(config, rig, inputs, WH_EVENT_RESTED);
@@ -278,7 +284,7 @@ static void wait_for_rest(const wh_rig_config *config, wh_rig *rig, const wh_rig
 static void live(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
     const bool armed = rig->state == WH_LIFE_ARMED;
     if (armed && (since_s(rig->since_ticks, inputs->now_ticks) > config->armed_max_s ||
-                  rig->pulses.speed.taken > ARMED_PULSES_MOST)) {
+                  rig->pulses_ever - rig->pulses_before > ARMED_PULSES_MOST)) {
         finds(config, rig, inputs, WH_EVENT_EXPIRED);
     }
     if (rig->run.phase == WH_PHASE_OFF || rig->state == WH_LIFE_TRIPPED) {

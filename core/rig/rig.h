@@ -39,7 +39,8 @@ typedef struct wh_rig_config {
     wh_feed_when feeds;
     wh_real impossible_radps; /* see wh_speed_start() */
     wh_real armed_max_s;
-    wh_real rest_max_s; /* with the motor off, to come to rest */
+    wh_real tripped_max_s; /* after a trip nothing more can be done than to wait so long */
+    wh_real rest_max_s;    /* with the motor off, to come to rest */
     bool
         stop_brakes; /* motor off brakes (a run's end, `stop`), else it coasts; a trip coasts always */
     bool host_loss_stops; /* a run ends when who gives orders is gone, else it goes on */
@@ -90,6 +91,7 @@ typedef struct wh_rig {
     uint32_t observed;      /* pulses that the observer has seen */
     uint32_t since_ticks;   /* the state began */
     uint32_t pulses_ever;
+    uint32_t pulses_before; /* `arm` */
     bool
         busy; /* a pulse or a mark is work enough for one step: the measurement waits for the next */
     bool rested; /* motor off, and the rotor rests, or will not: all that can be done is done */
@@ -114,6 +116,20 @@ extern const wh_rig_config wh_rig_standard;
 #define wh_rig_pulse WH_NAME(wh_rig_pulse)
 #define wh_rig_load WH_NAME(wh_rig_load)
 #define wh_rig_step WH_NAME(wh_rig_step)
+
+/* Where the rig is, as one number for consoles and records: of a run WH_RIG_STAGE_OF_PHASE + its phase, else the state. */
+#define WH_RIG_STAGE_OF_PHASE 8U
+WH_INLINE unsigned wh_rig_stage(const wh_rig *rig) {
+    return rig->run.phase == WH_PHASE_NONE ? (unsigned)rig->state
+                                           : WH_RIG_STAGE_OF_PHASE + (unsigned)rig->run.phase;
+}
+
+/* It in words. */
+WH_INLINE const char *wh_rig_stage_text(unsigned stage) {
+    return stage < WH_RIG_STAGE_OF_PHASE
+               ? wh_life_text((wh_life)stage)
+               : wh_phase_text((wh_rig_phase)(stage - WH_RIG_STAGE_OF_PHASE));
+}
 
 /* Sensors on the loading-train axis and a quarter turn on, whose pulses come with the arms so far short. */
 void wh_rig_slots(wh_rig_config *config, wh_real lead_rad);

@@ -32,14 +32,15 @@ void wh_run_off(wh_run *run, wh_real speed_radps, uint32_t now_ticks) {
     enter(run, WH_PHASE_OFF, now_ticks);
 }
 
-wh_real wh_run_base_radps(const wh_run_config *config, const wh_run *run) {
+wh_real wh_run_base_radps(const wh_run_config *config, const wh_run *run, bool regulated) {
     if (!wh_run_drives(run)) {
         return run->off_radps;
     }
-    /* without load the motor goes where the voltage takes it; from there the set-point may lead down */
+    /* without load the motor goes where the voltage takes it; once the rotor follows it is the set-point that leads */
     const wh_real led = run->volts / config->rated_V * config->no_load_radps;
-    return wh_run_is_closed(run) && run->drive.setpoint_radps > led ? run->drive.setpoint_radps
-                                                                    : led;
+    const wh_real setpoint = run->drive.setpoint_radps;
+    const bool starts = run->phase == WH_PHASE_SPIN_UP || (!regulated && led > setpoint);
+    return starts ? led : setpoint;
 }
 
 wh_real wh_run_needs_V(const wh_run_config *config, wh_real speed_radps) {

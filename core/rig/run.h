@@ -102,8 +102,8 @@ WH_INLINE bool wh_run_is_closed(const wh_run *run) {
     return run->phase >= WH_PHASE_RAMP && run->phase <= WH_PHASE_RAMP_DOWN;
 }
 
-/* The fastest that the rotor is led to, for the guard's bound. */
-wh_real wh_run_base_radps(const wh_run_config *config, const wh_run *run);
+/* The fastest that the rotor is led to, for the guard's bound; `regulated`: the loop has had its speed in hand. */
+wh_real wh_run_base_radps(const wh_run_config *config, const wh_run *run, bool regulated);
 
 /* The voltage that a steady speed takes. */
 wh_real wh_run_needs_V(const wh_run_config *config, wh_real speed_radps);

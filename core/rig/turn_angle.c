@@ -45,6 +45,9 @@ void wh_turn_angle_shape(const wh_rotor_config *config, wh_turn_angle *angle, wh
     const wh_real turning = angle->inertia_kgm2 * speed_radps;
     const wh_real sum = WH_SQRT(turning * turning + config->damping_Nms * config->damping_Nms);
     angle->whole_rad = weight_Nm / (speed_radps * sum);
+    const wh_real brakes_Nm = config->damping_Nms * speed_radps;
+    angle->cut =
+        angle->fed && brakes_Nm < weight_Nm ? WH_R(1.0) - brakes_Nm / weight_Nm : WH_R(0.0);
     const wh_real swing = angle->part * angle->whole_rad;
     angle->swing_rad =
         swing < SWING_MOST ? swing > -SWING_MOST ? swing : -SWING_MOST : SWING_MOST; /* NaN too */

@@ -14,8 +14,8 @@
  * mark gives E, thus I. What stays assumed is c, which the split does not show.
  *
  * Where gravity is fed forward (feed.h) a part of it is left, of either sign: E is that part of the above. The split then
- * tells the part, and I stays what it was found to be before. A motor that cannot brake as much as is asked of it leaves
- * more than a sine: at 100 rpm the angle is then known to some tenths of a degree. */
+ * tells the part, and I stays what it was found to be before. A motor that gets no voltage below 0 brakes with c omega at
+ * most: where that is less than S g it is cut off, and more than a sine is left. */
 #ifndef WH_RIG_TURN_ANGLE_H
 #define WH_RIG_TURN_ANGLE_H
 
@@ -44,6 +44,7 @@ typedef struct wh_turn_angle {
     wh_real part;      /* of gravity that is left, as found so far: 1 when it is not fed */
     uint32_t splits;   /* turns that inertia or part come from */
     wh_real whole_rad; /* E of all of gravity */
+    wh_real cut;       /* part of S g for which a motor that is fed cannot brake enough */
     wh_real swing_rad; /* E */
     wh_real lag_rad;   /* psi */
     wh_real begin_rad; /* u at the turn's begin */
@@ -52,8 +53,8 @@ typedef struct wh_turn_angle {
     wh_real second_cosine;
     wh_real base_per_split; /* how base_rad follows the split, with the lag that goes with it */
     wh_real base_per_lag;   /* and a lag that does not, the split kept; */
-    wh_real
-        base_per_quadrature; /* and a swing a quarter turn on from E, which the split is mistaken for E in */
+    /* and a swing a quarter turn on from E, which the split takes for E */
+    wh_real base_per_quadrature;
 } wh_turn_angle;
 
 #define wh_turn_angle_start WH_NAME(wh_turn_angle_start)

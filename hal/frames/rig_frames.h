@@ -7,11 +7,10 @@
 extern "C" {
 #endif
 
-/* Notes, in the order of their channels: X(name, word, unit). Numbers of the state, the trip and the quality are those of
+/* Notes, in the order of their channels: X(name, word, unit). The state is wh_rig_stage(); its, the trip's and the quality's numbers are those of
  * core/rig; the others are the result's, which is none while it has no turns. */
 #define HAL_NOTE_ROWS(X) \
     X(HAL_NOTE_STATE, "state", "1") \
-    X(HAL_NOTE_PHASE_OF_RUN, "phase_of_run", "1") \
     X(HAL_NOTE_TRIP, "trip", "1") \
     X(HAL_NOTE_QUALITY, "quality", "1") \
     X(HAL_NOTE_AMPLITUDE, "amplitude", "N") \

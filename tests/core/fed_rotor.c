@@ -13,7 +13,7 @@ void fed_rotor_standard(fed_rotor *fed, uint64_t seed) {
     *fed = (fed_rotor){.kind = rotor_nominal(),
                        .observing = wh_observer_standard,
                        .feeding = wh_feed_standard,
-                       .driving = wh_rig_standard.drive};
+                       .driving = wh_rig_standard.run.drive};
     fed->observing.scene = &rig_fixed;
     for (unsigned i = 0; i < 2; i++) {
         fed->observing.mark_rad[i] = fed->kind.mark_rad[i];
@@ -29,9 +29,9 @@ static wh_real voltage_of(const rotor_kind *kind, wh_real speed_radps) {
 }
 
 void fed_rotor_hold(fed_rotor *fed, wh_real speed_rpm) {
-    fed->driving.proportional_per_radps = fed->driving.integral_per_rad = WH_R(0.0);
-    wh_drive_start(&fed->driving, &fed->drive, speed_rpm * RPM,
-                   voltage_of(&fed->kind, speed_rpm * RPM));
+    fed->driving.proportional_V_per_radps = fed->driving.integral_V_per_rad = WH_R(0.0);
+    wh_drive_start(&fed->drive, speed_rpm * RPM,
+                   WH_RIG_RATED_V * voltage_of(&fed->kind, speed_rpm * RPM));
 }
 
 wh_status fed_rotor_start(fed_rotor *fed, wh_real speed_rpm) {
@@ -40,7 +40,7 @@ wh_status fed_rotor_start(fed_rotor *fed, wh_real speed_rpm) {
     fed->rotor.angle_rad = WH_R(3.0);
     fed->voltage = voltage_of(&fed->kind, speed);
     wh_speed_start(&fed->speed, WH_RIG_IMPOSSIBLE_RPM * RPM);
-    wh_drive_start(&fed->driving, &fed->drive, speed, fed->voltage);
+    wh_drive_start(&fed->drive, speed, WH_RIG_RATED_V * fed->voltage);
     fed_rotor_count(fed);
     return wh_observer_start(&fed->observing, &fed->observer, fed->rotor.ticks);
 }
@@ -86,7 +86,8 @@ static void count(fed_rotor *fed) {
 static void control(fed_rotor *fed) {
     const uint32_t now = fed->rotor.ticks;
     const wh_real speed = fed->speed.known ? fed->speed.turn_radps : fed->drive.setpoint_radps;
-    wh_real voltage = wh_drive_step(&fed->driving, &fed->drive, speed, FED_STEP_S);
+    wh_real voltage = wh_drive_step(&fed->driving, &fed->drive, speed, WH_RIG_RATED_V, FED_STEP_S) /
+                      WH_RIG_RATED_V;
     const wh_real fed_in = wh_feed_step(&fed->feeding, &fed->feed, &fed->observer, now, FED_STEP_S);
     if (fed->by == FED_BY_OBSERVER) {
         voltage += fed_in;

@@ -56,6 +56,7 @@ void plant_arm(on_plant *on) {
                                                .period_ticks = HAL_LOADCELL_PERIOD_TICKS,
                                                .raw_max = HAL_LOADCELL_RAW_MAX};
     wh_rig_slots(&on->config, HAL_SLOT_LEAD_DEG / WH_RIG_DEG_PER_RAD);
+    on->config.tripped_max_s = on->config.rest_max_s; /* a rotor that coasts takes a minute */
     scattered_state = UINT64_C(0x5eed0041);
     on->fastest_radps = 0.0f;
     on->noise_N = 0.0f;

@@ -4,6 +4,7 @@
 #include "core/angle.h"
 #include "core/rig/datasheet.h"
 #include "core/rig/lockin.h"
+#include "core/rig/polar.h"
 #include "core/rig/rig.h"
 
 #include "unity.h"

@@ -124,25 +124,35 @@ static void test_impossible_pulses_are_rejected(void) {
 
 /* --- drive -------------------------------------------------------------------------------------- */
 
+static unsigned steps_to_target(wh_drive *drive) {
+    unsigned steps = 0;
+    while (!wh_drive_at_target(drive) && steps < 10000U) {
+        wh_drive_step(&wh_rig_standard.run.drive, drive, drive->setpoint_radps, SUPPLY_V,
+                      WH_R(0.002));
+        steps++;
+    }
+    return steps;
+}
+
 static void test_ramp_keeps_its_rate_and_arrives(void) {
     const wh_drive_config *config = &wh_rig_standard.run.drive;
     wh_drive drive;
-    wh_drive_start(&drive, WH_R(10.0), WH_R(0.3));
+    wh_drive_start(&drive, WH_R(20.0), WH_R(0.3));
     TEST_ASSERT_TRUE(wh_drive_at_target(&drive));
     /* no bump: at the take-over speed the voltage stays */
-    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.3f,
-                             (float)wh_drive_step(config, &drive, WH_R(10.0), SUPPLY_V, WH_R(0.002)));
-    drive.target_radps = WH_R(15.0);
-    unsigned steps = 0;
-    while (!wh_drive_at_target(&drive) && steps < 10000U) {
-        wh_drive_step(config, &drive, drive.setpoint_radps, SUPPLY_V, WH_R(0.002));
-        steps++;
-    }
-    const float expected = 5.0f / (float)config->ramp_radps2 / 0.002f;
-    TEST_ASSERT_FLOAT_WITHIN(1.5f, expected, (float)steps);
+    TEST_ASSERT_FLOAT_WITHIN(
+        1e-6f, 0.3f, (float)wh_drive_step(config, &drive, WH_R(20.0), SUPPLY_V, WH_R(0.002)));
+    const float rate = (float)config->ramp_radps2;
+    drive.target_radps = WH_R(25.0);
+    TEST_ASSERT_FLOAT_WITHIN(1.5f, 5.0f / rate / 0.002f, (float)steps_to_target(&drive));
+    /* a quarter of the rate where it is slow */
+    drive.target_radps = config->gentle_radps;
+    (void)steps_to_target(&drive);
+    drive.target_radps -= WH_R(2.0);
+    TEST_ASSERT_FLOAT_WITHIN(4.0f, 8.0f / rate / 0.002f, (float)steps_to_target(&drive));
     drive.target_radps = WH_R(14.0);
     wh_drive_step(config, &drive, WH_R(15.0), SUPPLY_V, WH_R(0.002));
-    TEST_ASSERT_TRUE(drive.setpoint_radps < WH_R(15.0) && drive.setpoint_radps > WH_R(14.9));
+    TEST_ASSERT_TRUE(drive.setpoint_radps > config->gentle_radps - WH_R(2.1));
 }
 
 static void test_loop_leaves_no_steady_error(void) {
@@ -164,22 +174,22 @@ static void test_integral_does_not_wind_up(void) {
     static const wh_real supplies_V[] = {WH_R(12.0), WH_R(24.0), WH_R(36.0)};
     for (unsigned i = 0; i < 3; i++) {
         wh_drive drive;
-        wh_drive_start(&drive, WH_R(0.0), WH_R(0.0));
-        drive.target_radps = WH_R(34.0);
+        wh_drive_start(&drive, config->gentle_radps, WH_R(0.0));
+        drive.target_radps = WH_R(60.0);
         wh_real volts = WH_R(0.0);
         for (unsigned step = 0; step < 30000U; step++) {
-            volts = wh_drive_step(config, &drive, WH_R(0.0), supplies_V[i], WH_R(0.002));
+            volts = wh_drive_step(config, &drive, config->gentle_radps, supplies_V[i], WH_R(0.002));
         }
         TEST_ASSERT_TRUE(volts == supplies_V[i]);
         /* On the ramp the error is 6.28 t, the voltage 1.508 t + 3.142 t^2: full at t, and the integral
          * stands still from then on, at 3.142 t^2. A mere clamp would let it go on to the supply. */
-        const double full_s = (root(1.508 * 1.508 + 4.0 * 3.142 * (double)supplies_V[i]) - 1.508) /
-                              (2.0 * 3.142);
+        const double full_s =
+            (root(1.508 * 1.508 + 4.0 * 3.142 * (double)supplies_V[i]) - 1.508) / (2.0 * 3.142);
         const double kept_V = 3.142 * full_s * full_s;
         TEST_ASSERT_FLOAT_WITHIN(0.02f * (float)kept_V, (float)kept_V, (float)drive.integral_V);
         unsigned steps = 0;
         do {
-            volts = wh_drive_step(config, &drive, WH_R(40.0), supplies_V[i], WH_R(0.002));
+            volts = wh_drive_step(config, &drive, WH_R(66.0), supplies_V[i], WH_R(0.002));
             steps++;
         } while (volts > WH_R(13.8) && steps < 10000U);
         /* 6 rad/s too fast take 1.44 V at once and 6 V a second */
@@ -197,8 +207,8 @@ static void test_the_integral_comes_back(void) {
         const wh_real side = i == 0 ? WH_R(-1.0) : WH_R(1.0);
         wh_drive drive;
         wh_drive_start(&drive, WH_R(30.0), out_V[i]);
-        const wh_real volts = wh_drive_step(config, &drive, WH_R(30.0) + side * WH_R(0.01), SUPPLY_V,
-                                            WH_R(0.002));
+        const wh_real volts =
+            wh_drive_step(config, &drive, WH_R(30.0) + side * WH_R(0.01), SUPPLY_V, WH_R(0.002));
         TEST_ASSERT_TRUE(volts == bound && drive.integral_V == bound);
     }
     wh_drive drive;

@@ -2,6 +2,8 @@
  * in closed loop (fed_rotor.c), also where controller and rotor disagree. */
 #include "core/angle.h"
 #include "core/rig/datasheet.h"
+#include "core/rig/lockin.h"
+#include "core/rig/rig.h"
 #include "fed_rotor.h"
 
 #include "unity.h"
@@ -196,6 +198,70 @@ static void test_lost_marks_take_it_away(void) {
     check_between(WH_R(0.00001), WH_R(0.001), fed_rotor_ripple(&fed));
 }
 
+/* --- what the measurement makes of it -------------------------------------------------------------------- */
+
+/* What is left of gravity, of either sign, is found from the split alone, the inertia kept; and is forgotten when gravity
+ * is fed no longer. */
+static void test_what_is_left_is_found_from_the_split(void) {
+    static const wh_real parts[] = {WH_R(0.0), WH_R(0.3), WH_R(-0.3), WH_R(0.05)};
+    static const wh_real rpm[] = {WH_R(130.0), WH_R(170.0), WH_R(330.0)};
+    wh_rotor_config rotor = wh_rig_standard.measure.rotor;
+    rotor.mark_rad[0] = -DEG;
+    rotor.mark_rad[1] = WH_R(89.0) * DEG;
+    for (unsigned k = 0; k < 12; k++) {
+        const wh_real speed = rpm[k / 4U] * RPM;
+        wh_turn_angle wanted;
+        wh_turn_angle_start(&rotor, &wanted);
+        wh_turn_angle_feed(&wanted, true);
+        wanted.part = parts[k % 4U];
+        wh_turn_angle found;
+        wh_turn_angle_start(&rotor, &found);
+        wh_turn_angle_feed(&found, true);
+        for (unsigned i = 0; i < 4; i++) {
+            wh_turn_angle_shape(&rotor, &wanted, speed);
+        }
+        wh_real split = WH_R(0.25); /* when the angle is that of sensor 2 */
+        for (unsigned i = 0; i < 30; i++) {
+            split -= (wh_turn_angle_at(&wanted, split) - rotor.mark_rad[1]) / WH_RIG_TWO_PI;
+        }
+        for (unsigned i = 0; i < 12; i++) {
+            wh_turn_angle_feed(&found, true); /* nothing new */
+            wh_turn_angle_shape(&rotor, &found, speed);
+            wh_turn_angle_split(&rotor, &found, split);
+        }
+        TEST_ASSERT_EQUAL_UINT32(12, found.splits);
+        TEST_ASSERT_FLOAT_WITHIN(1e-3f, (float)wanted.part, (float)found.part);
+        TEST_ASSERT_TRUE(found.inertia_kgm2 == rotor.inertia_kgm2);
+        wh_turn_angle_shape(&rotor, &found, speed);
+        for (unsigned i = 0; i <= 16; i++) {
+            const wh_real part = (wh_real)i / WH_R(16.0);
+            TEST_ASSERT_FLOAT_WITHIN(2e-4f, (float)wh_turn_angle_at(&wanted, part),
+                                     (float)wh_turn_angle_at(&found, part));
+        }
+        wh_turn_angle_feed(&found, false);
+        TEST_ASSERT_TRUE(found.part == WH_R(1.0) && found.splits == 0);
+    }
+}
+
+/* The turn under way when that changes does not count, and the interval is wider for it. */
+static void test_the_lockin_is_told(void) {
+    static wh_lockin lockin;
+    const wh_rotor_config *rotor = &wh_rig_standard.measure.rotor;
+    wh_lockin_start(rotor, &lockin);
+    wh_lockin_mark(&lockin, 0, 1000, 0);
+    wh_lockin_feed(&lockin, false);
+    TEST_ASSERT_TRUE(lockin.open && lockin.skipped == 0);
+    wh_lockin_feed(&lockin, true);
+    TEST_ASSERT_TRUE(!lockin.open && lockin.skipped == 1U && lockin.angle.fed);
+    wh_lockin_mark(&lockin, 0, 2000, 4);
+    wh_lockin_feed(&lockin, true);
+    TEST_ASSERT_TRUE(lockin.open && lockin.skipped == 1U);
+    wh_turn_angle_shape(rotor, &lockin.angle, WH_R(100.0) * RPM);
+    TEST_ASSERT_FLOAT_WITHIN(2e-3f, 0.243f, (float)lockin.angle.cut);
+    wh_turn_angle_shape(rotor, &lockin.angle, WH_R(140.0) * RPM);
+    TEST_ASSERT_TRUE(lockin.angle.cut == WH_R(0.0));
+}
+
 void suite_rig_feed(void) {
     RUN_TEST(test_it_says_gravitys_voltage);
     RUN_TEST(test_it_says_nothing_without_an_angle);
@@ -205,4 +271,6 @@ void suite_rig_feed(void) {
     RUN_TEST(test_sensors_may_stand_wrong);
     RUN_TEST(test_the_wrong_sign_is_survived);
     RUN_TEST(test_lost_marks_take_it_away);
+    RUN_TEST(test_what_is_left_is_found_from_the_split);
+    RUN_TEST(test_the_lockin_is_told);
 }

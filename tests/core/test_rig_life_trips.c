@@ -40,11 +40,12 @@ static wh_refusal clear(void) { return even_order(&even, WH_EVENT_CLEAR, WH_R(0.
 
 /* `clear` waits for rest and leads to idle, never further: the next run takes `arm` and `start`. */
 static void check_clears(void) {
-    for (unsigned i = 0; i < 70000U && !even.rig.rested; i++) {
+    for (unsigned i = 0; i < 20000U && !even.rig.rested; i++) {
         TEST_ASSERT_TRUE(i % 1000U != 0 || clear() == WH_REFUSED_TURNING);
         even_step(&even);
         check_off();
     }
+    even_rest(&even);
     TEST_ASSERT_TRUE(clear() == WH_ALLOWED);
     TEST_ASSERT_TRUE(even.rig.state == WH_LIFE_IDLE && even.rig.guard.trip == WH_TRIP_NONE);
     check_off();
@@ -152,11 +153,25 @@ static void test_a_trip_for_its_pulses_waits_longer(void) {
         even_step(&even);
     }
     check_tripped(WH_TRIP_PULSES);
-    even_steps(&even, 120U * 500U - 1U);
+    even_steps(&even, 20U * 500U - 1U);
     TEST_ASSERT_TRUE(clear() == WH_REFUSED_TURNING && !even.rig.rested);
     even_step(&even);
     TEST_ASSERT_TRUE(even.rig.rested && clear() == WH_ALLOWED);
     TEST_ASSERT_TRUE(even.rig.state == WH_LIFE_IDLE);
+}
+
+/* Nothing more is waited for, but `clear` still is refused to a rotor that turns. */
+static void test_a_turning_rotor_is_not_cleared(void) {
+    even_arm(&even);
+    break_supply(true);
+    even_step(&even);
+    break_supply(false);
+    even_turn_by_hand(&even, WH_R(60.0));
+    even_steps(&even, 25U * 500U);
+    TEST_ASSERT_TRUE(even.rig.rested && clear() == WH_REFUSED_TURNING);
+    check_tripped(WH_TRIP_SUPPLY);
+    even_turn_by_hand(&even, WH_R(0.0));
+    check_clears();
 }
 
 /* --- stop ------------------------------------------------------------------------------------------ */
@@ -255,6 +270,7 @@ void suite_rig_life_trips(void) {
     RUN_TEST(test_trips_latch);
     RUN_TEST(test_a_reset_without_a_trip_is_idle);
     RUN_TEST(test_a_trip_for_its_pulses_waits_longer);
+    RUN_TEST(test_a_turning_rotor_is_not_cleared);
     RUN_TEST(test_stop_is_at_once);
     RUN_TEST(test_a_run_may_outlive_its_host);
     RUN_TEST(test_a_reset_while_the_rotor_turns);

@@ -57,10 +57,12 @@ static void test_a_runaway_is_seen_at_any_place(void) {
             rotor_turn(&kind, &rotor, drive, STEP_TICKS);
             for (unsigned i = 0; i < rotor.marks; i++) {
                 wh_rig_pulse(&config, &rig, rotor.mark_sensor[i], rotor.mark_ticks[i]);
+                wh_guard_rise(&config.guard, &rig.guard, &rig.pulses.speed, nominal_radps);
             }
         }
         rig.run.since_ticks = rig.run.band_ticks = rig.run.ample_ticks = rotor.ticks;
         TEST_ASSERT_TRUE(run_away(&rotor) <= WH_R(0.25));
+        TEST_ASSERT_TRUE(rotor.speed_radps < WH_R(520.0) * EVEN_RPM); /* as docs/rig.md has it */
     }
 }
 

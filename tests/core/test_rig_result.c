@@ -1,5 +1,6 @@
 /* test_rig_result.c: turns merged, against sums done anew; what each reason for doubt needs; the tare. */
 #include "core/rig/datasheet.h"
+#include "core/rig/polar.h"
 #include "core/rig/rig.h"
 
 #include "tests/scattered.h"
@@ -37,13 +38,13 @@ static wh_lockin_turn turn_of(wh_real in_phase, wh_real quadrature, unsigned num
 
 static void begin(void) {
     merge = (wh_merge){.turns = 0};
-    rotor = wh_rig_standard.rotor;
+    rotor = wh_rig_standard.measure.rotor;
     wh_turn_angle_start(&rotor, &angle);
     wh_turn_angle_shape(&rotor, &angle, WH_R(330.0) * WH_RIG_RADPS_PER_RPM);
 }
 
 static void add(const wh_lockin_turn *turn) {
-    wh_merge_add(&wh_rig_standard.result, &rotor, &merge, turn, &angle);
+    wh_merge_add(&wh_rig_standard.measure.result, &rotor, &merge, turn, &angle);
 }
 
 static void conclude(const wh_result_config *config) {
@@ -87,7 +88,7 @@ static void test_the_interval_is_students(void) {
             sums[0] += x[i];
             sums[1] += y[i];
         }
-        wh_result_config config = wh_rig_standard.result;
+        wh_result_config config = wh_rig_standard.measure.result;
         config.amplitude_floor = config.phase_floor_rad = WH_R(0.0);
         rotor.damping_tolerance = WH_R(0.0);
         merge.swing_rad = WH_R(0.0);
@@ -133,7 +134,7 @@ static void test_floors_are_kept(void) {
     }
     rotor.damping_tolerance = WH_R(0.0);
     merge.swing_rad = WH_R(0.0);
-    conclude(&wh_rig_standard.result);
+    conclude(&wh_rig_standard.measure.result);
     TEST_ASSERT_FLOAT_WITHIN(1e-5f, 0.0042f, (float)measured.amplitude_half_N);
     TEST_ASSERT_FLOAT_WITHIN(1e-4f, 0.01f, (float)(measured.phase_half_rad / DEG));
 }
@@ -157,7 +158,7 @@ static void test_jitter_is_found(void) {
         add(&turn);
         late_us = next_us;
     }
-    conclude(&wh_rig_standard.result);
+    conclude(&wh_rig_standard.measure.result);
     TEST_ASSERT_EQUAL_UINT32(399, measured.turns);
     TEST_ASSERT_EQUAL_UINT32(1, measured.left_out);
     /* 399 turns in two rows: 397 differences of the one sensor, 395 of the other's marks */
@@ -180,7 +181,7 @@ static wh_why why_of(wh_real in_phase, wh_real quadrature, wh_lockin_turn like, 
         turn.force_N.at[1] += i % 2U == 0 ? like.force_N.at[1] : -like.force_N.at[1];
         add(&turn);
     }
-    conclude(&wh_rig_standard.result);
+    conclude(&wh_rig_standard.measure.result);
     return measured.why;
 }
 
@@ -235,7 +236,7 @@ static void test_every_reason_has_its_case(void) {
         static const wh_real times[] = {WH_R(1.45), WH_R(0.7), WH_R(1.55), WH_R(0.6)};
         TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), plain, 10, 0) == WH_WHY_NONE);
         angle.inertia_kgm2 = rotor.inertia_kgm2 * times[i];
-        conclude(&wh_rig_standard.result);
+        conclude(&wh_rig_standard.measure.result);
         TEST_ASSERT_TRUE(measured.why == (i < 2U ? WH_WHY_NONE : WH_WHY_ROTOR));
     }
     /* what is not a number is refused */
@@ -246,7 +247,7 @@ static void test_every_reason_has_its_case(void) {
 /* A carriage of three times the masses' weight takes a quarter of the force away. */
 static void test_the_mount_decides_what_is_expected(void) {
     begin();
-    wh_result_config config = wh_rig_standard.result;
+    wh_result_config config = wh_rig_standard.measure.result;
     config.mount_factor = WH_R(0.75);
     for (unsigned i = 0; i < 10; i++) {
         const wh_lockin_turn turn = turn_of(WH_R(0.75) * WH_R(42.146), WH_R(0.0), i);
@@ -297,7 +298,7 @@ static void test_noise_is_no_motion(void) {
         for (unsigned i = 0; i < 250; i++) {
             wh_tare_add(&tare, WH_R(56.0) + size * scatter());
         }
-        TEST_ASSERT_TRUE(wh_tare_is_still(&wh_rig_standard.tare, &tare));
+        TEST_ASSERT_TRUE(wh_tare_is_still(&wh_rig_standard.measure.tare, &tare));
         const wh_real error = size / WH_R(15.811); /* the root of 250 */
         TEST_ASSERT_FLOAT_WITHIN(0.15f * (float)error + 1e-5f, (float)error,
                                  (float)wh_tare_error_N(&tare));
@@ -318,17 +319,17 @@ static void test_motion_is_seen_through_noise(void) {
                                                      : WH_R(-1.0);
             wh_tare_add(&tare, WH_R(56.0) + moved + WH_R(0.33) * scatter());
         }
-        TEST_ASSERT_FALSE(wh_tare_is_still(&wh_rig_standard.tare, &tare));
+        TEST_ASSERT_FALSE(wh_tare_is_still(&wh_rig_standard.measure.tare, &tare));
     }
     wh_tare tare = {.count = 0};
     for (unsigned i = 0; i < 250; i++) {
         wh_tare_add(&tare, WH_R(8.0) * scatter());
     }
-    TEST_ASSERT_FALSE(wh_tare_is_still(&wh_rig_standard.tare, &tare));
+    TEST_ASSERT_FALSE(wh_tare_is_still(&wh_rig_standard.measure.tare, &tare));
     tare = (wh_tare){.count = 0};
-    TEST_ASSERT_FALSE(wh_tare_is_still(&wh_rig_standard.tare, &tare));
+    TEST_ASSERT_FALSE(wh_tare_is_still(&wh_rig_standard.measure.tare, &tare));
     wh_tare_add(&tare, WH_R(1.0));
-    TEST_ASSERT_FALSE(wh_tare_is_still(&wh_rig_standard.tare, &tare));
+    TEST_ASSERT_FALSE(wh_tare_is_still(&wh_rig_standard.measure.tare, &tare));
     TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)wh_tare_error_N(&tare));
 }
 

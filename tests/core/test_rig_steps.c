@@ -4,7 +4,6 @@
 
 #include "even_rig.h"
 #include "unity.h"
-
 void suite_rig_steps(void);
 
 #define RPM EVEN_RPM
@@ -35,10 +34,11 @@ static void stand_in(wh_rig_phase phase) {
     rig.run.phase = phase;
     rig.pulses.speed.known = true;
     rig.pulses.speed.running = true;
+    rig.pulses.alternate = 2; /* it turns round */
     rig.pulses.speed.turn_radps = WH_R(330.0) * RPM;
     rig.run.drive.setpoint_radps = rig.run.drive.target_radps = rig.run.target_radps;
     rig.run.off_radps = WH_R(330.0) * RPM;
-    wh_measure_record(&rig.measure, inputs.now_ticks);
+    wh_measure_record(&config.measure, &rig.measure, rig.run.target_radps, inputs.now_ticks);
 }
 
 static void stand_tripped(wh_trip trip) {
@@ -213,7 +213,7 @@ static void test_the_speed_stays_while_it_is_recorded(void) {
     }
 }
 
-/* 1.5 s without a pulse are rest; after two minutes it will not come. */
+/* 1.5 s without a pulse are rest; after two minutes, or tripped 20 s, it will not come. */
 static void test_rest_is_waited_for(void) {
     for (unsigned i = 0; i < 4; i++) {
         const bool trips = i % 2U == 1;
@@ -234,7 +234,7 @@ static void test_rest_is_waited_for(void) {
             TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)command.volts);
         }
         if (pulses) {
-            TEST_ASSERT_EQUAL_UINT(120U * STEPS_PER_S + 1U, steps);
+            TEST_ASSERT_EQUAL_UINT((trips ? 20U : 120U) * STEPS_PER_S + 1U, steps);
             TEST_ASSERT_TRUE(rig.guard.trip == (trips ? WH_TRIP_OVERSPEED : WH_TRIP_RUNS_ON));
         } else {
             TEST_ASSERT_EQUAL_UINT(3U * STEPS_PER_S / 2U + 1U, steps);

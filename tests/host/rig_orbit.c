@@ -152,8 +152,8 @@ static double uniform(void) { return ((double)(scattered() >> 11) + 0.5) * 0x1p-
 static double normal(void) { return sqrt(-2.0 * log(uniform())) * cos(2.0 * PI * uniform()); }
 
 void rig_measure_config(wh_result_config *result, wh_rotor_config *rotor, wh_cell_config *cell) {
-    *result = wh_rig_standard.result;
-    *rotor = wh_rig_standard.rotor;
+    *result = wh_rig_standard.measure.result;
+    *rotor = wh_rig_standard.measure.rotor;
     rotor->mark_rad[0] = (wh_real)(-(double)HAL_SLOT_LEAD_DEG * PI / 180.0);
     rotor->mark_rad[1] = (wh_real)((90.0 - (double)HAL_SLOT_LEAD_DEG) * PI / 180.0);
     *cell = (wh_cell_config){.newton_per_count = HAL_LOADCELL_N_PER_COUNT,

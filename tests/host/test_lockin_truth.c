@@ -287,6 +287,11 @@ static void test_what_is_fed_does_not_show(void) {
             print_fed(&kinds[i], rpm[k], &noise);
             TEST_ASSERT_DOUBLE_WITHIN(0.01, 0.0, bias(0));
             TEST_ASSERT_DOUBLE_WITHIN((k == 4U ? 1.5 : 1.0) / DEG, 0.0, bias(1));
+            if (slow) { /* and then it is said */
+                TEST_ASSERT_EQUAL_UINT(found.runs, found.covered[1]);
+                TEST_ASSERT_TRUE(found.covered[0] >= found.runs * 9U / 10U);
+                check_below(2.5 * rms(1), median_half(1));
+            }
         }
     }
 }

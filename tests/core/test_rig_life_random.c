@@ -1,0 +1,242 @@
+/* test_rig_life_random.c: whatever is ordered, whatever the inputs say: what always holds of the rig's controller. And
+ * another set-point while it runs, and the result that outlives a trip. */
+#include <stddef.h>
+
+#include "draw.h"
+#include "even_rig.h"
+#include "unity.h"
+
+void suite_rig_life_random(void);
+
+static even_rig even;
+static even_rig stood;
+static uint64_t seed;
+
+/* --- set-points ------------------------------------------------------------------------------------- */
+
+/* In any phase before the result is there: it settles at the new one, and the record begins anew. */
+static void test_another_set_point_while_it_runs(void) {
+    for (wh_rig_phase phase = WH_PHASE_TARE; phase <= WH_PHASE_RECORD; phase++) {
+        even_reach(&even, phase);
+        even_steps(&even, 100); /* what was recorded till then is dropped */
+        TEST_ASSERT_TRUE(even.rig.run.phase == phase);
+        TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_SET, WH_R(250.0) * EVEN_RPM) == WH_ALLOWED);
+        TEST_ASSERT_TRUE(even.rig.run.phase == (phase > WH_PHASE_RAMP ? WH_PHASE_RAMP : phase));
+        even_go_on_until(&even, WH_PHASE_RECORD);
+        const uint32_t begin = even.inputs.now_ticks;
+        TEST_ASSERT_FLOAT_WITHIN(0.5f, 250.0f,
+                                 (float)(even.rig.pulses.speed.turn_radps / EVEN_RPM));
+        even_go_on_until(&even, WH_PHASE_RAMP_DOWN);
+        TEST_ASSERT_TRUE(even.inputs.now_ticks - begin >= 2000000U);
+        even_go_on_until(&even, EVEN_NEVER);
+        TEST_ASSERT_TRUE(even_is_done(&even));
+        const wh_measured *force = &even.rig.result.force;
+        TEST_ASSERT_FLOAT_WITHIN(0.01f, 250.0f, (float)(force->speed_radps / EVEN_RPM));
+        /* whole turns of 2 s at 250 rpm; what the 330 rpm were is not among them */
+        TEST_ASSERT_TRUE(force->turns == 7U || force->turns == 8U);
+        TEST_ASSERT_FLOAT_WITHIN(0.02f, (float)EVEN_LOAD_N, (float)force->amplitude_N);
+    }
+}
+
+/* --- the last good result --------------------------------------------------------------------------- */
+
+static void test_a_result_outlives_what_comes_after(void) {
+    even_run(&even, WH_R(330.0), &(even_failure){.in = EVEN_NEVER});
+    TEST_ASSERT_TRUE(even_is_done(&even));
+    const wh_rig_result result = even.rig.result;
+    for (wh_rig_phase phase = WH_PHASE_TARE; phase <= WH_PHASE_RECORD; phase++) {
+        even_rest(&even);
+        TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_ARM, WH_R(0.0)) == WH_ALLOWED);
+        TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_START, WH_R(250.0) * EVEN_RPM) == WH_ALLOWED);
+        even_go_on_until(&even, phase);
+        even_steps(&even, 200);
+        even.inputs.supply_V = WH_R(0.0);
+        even_step(&even);
+        TEST_ASSERT_TRUE(even.rig.state == WH_LIFE_TRIPPED && even.rig.has_result);
+        even.inputs.supply_V = WH_RIG_RATED_V;
+        even_go_on_until(&even, EVEN_NEVER);
+        TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_CLEAR, WH_R(0.0)) == WH_ALLOWED);
+        const wh_rig_result *kept = &even.rig.result;
+        TEST_ASSERT_TRUE(even.rig.has_result && kept->force.turns == result.force.turns);
+        TEST_ASSERT_FLOAT_WITHIN(0.0f, (float)result.force.amplitude_N,
+                                 (float)kept->force.amplitude_N);
+        TEST_ASSERT_FLOAT_WITHIN(0.0f, (float)result.force.speed_radps,
+                                 (float)kept->force.speed_radps);
+        TEST_ASSERT_FLOAT_WITHIN(0.0f, (float)result.high_N, (float)kept->high_N);
+        TEST_ASSERT_FLOAT_WITHIN(0.0f, (float)result.tare_N, (float)kept->tare_N);
+    }
+}
+
+/* --- anything --------------------------------------------------------------------------------------- */
+
+static wh_real any_value(void) {
+    const wh_real values[] = {WH_R(330.0) * EVEN_RPM,
+                              WH_R(200.0) * EVEN_RPM,
+                              WH_R(360.0) * EVEN_RPM,
+                              WH_R(500.0) * EVEN_RPM,
+                              WH_R(0.0),
+                              WH_R(-35.0),
+                              WH_R(1e30),
+                              (wh_real)__builtin_inff(),
+                              (wh_real)-__builtin_inff(),
+                              (wh_real)__builtin_nanf("")};
+    return values[draw_one_of(&seed, sizeof values / sizeof values[0])];
+}
+
+static wh_real any_supply_V(void) {
+    const wh_real supplies_V[] = {WH_RIG_RATED_V,
+                                  WH_R(12.0),
+                                  WH_R(36.0),
+                                  WH_R(14.0),
+                                  WH_R(0.0),
+                                  WH_R(-24.0),
+                                  WH_R(1e30),
+                                  (wh_real)__builtin_inff(),
+                                  (wh_real)-__builtin_inff(),
+                                  (wh_real)__builtin_nanf("")};
+    return supplies_V[draw_one_of(&seed, sizeof supplies_V / sizeof supplies_V[0])];
+}
+
+/* What a step was given. */
+typedef struct asked {
+    bool arm;
+    bool start;
+    bool clear;
+} asked;
+
+static asked order_anything(void) {
+    asked of = {.arm = false};
+    const unsigned orders = draw_one_in(&seed, 3) ? 1U + draw_one_of(&seed, 5) : 0U;
+    for (unsigned i = 0; i < orders; i++) {
+        const int event = (int)draw_one_of(&seed, (unsigned)WH_EVENTS + 3U) - 1;
+        const bool posted = wh_rig_post(&even.rig, (wh_rig_event)event, any_value());
+        TEST_ASSERT_TRUE(posted == (i < WH_RIG_ORDERS_MOST));
+        of.arm = of.arm || (posted && event == (int)WH_EVENT_ARM);
+        of.start = of.start || (posted && event == (int)WH_EVENT_START);
+        of.clear = of.clear || (posted && event == (int)WH_EVENT_CLEAR);
+    }
+    return of;
+}
+
+static void disturb_anything(void) {
+    even.inputs.supply_V = draw_one_in(&seed, 30) ? any_supply_V() : WH_RIG_RATED_V;
+    even.inputs.stop_pressed = draw_one_in(&seed, 60);
+    even.inputs.clock_is_fallback = draw_one_in(&seed, 20);
+    even.inputs.watchdog_has_cut = draw_one_in(&seed, 300);
+    if (draw_one_in(&seed, 40)) {
+        wh_rig_pulse(&even.config, &even.rig, draw_one_of(&seed, 3),
+                     even.inputs.now_ticks + (uint32_t)(draw_bits(&seed) % EVEN_STEP_TICKS));
+    }
+    if (draw_one_in(&seed, 60)) {
+        wh_rig_load(&even.config, &even.rig, even.inputs.now_ticks,
+                    (int32_t)(draw_bits(&seed) % 70000U) - 35000,
+                    (wh_load_status)draw_one_of(&seed, WH_LOAD_STATUSES));
+    }
+}
+
+static void check_what_always_holds(wh_life before, asked of) {
+    const wh_rig *rig = &even.rig;
+    const wh_rig_command *command = &even.command;
+    const bool drives = command->way == WH_MOTOR_DRIVES;
+    TEST_ASSERT_TRUE(rig->state < WH_LIVES && rig->run.phase < WH_PHASES);
+    TEST_ASSERT_TRUE((rig->state == WH_LIFE_TRIPPED) == (rig->guard.trip != WH_TRIP_NONE));
+    TEST_ASSERT_TRUE(!drives ||
+                     ((rig->state == WH_LIFE_RUNNING || rig->state == WH_LIFE_STOPPING) &&
+                      rig->run.phase >= WH_PHASE_SPIN_UP && rig->run.phase <= WH_PHASE_RAMP_DOWN));
+    TEST_ASSERT_TRUE(rig->state != WH_LIFE_TRIPPED || command->way == WH_MOTOR_COASTS);
+    TEST_ASSERT_FALSE(drives && even.inputs.stop_pressed);
+    TEST_ASSERT_TRUE(command->volts >= WH_R(0.0)); /* NaN is not */
+    TEST_ASSERT_TRUE(drives ? command->volts <= even.inputs.supply_V : command->volts <= WH_R(0.0));
+    /* who may follow whom */
+    TEST_ASSERT_TRUE(rig->state != WH_LIFE_ARMED || before == WH_LIFE_ARMED || of.arm);
+    TEST_ASSERT_TRUE(rig->state != WH_LIFE_RUNNING || before == WH_LIFE_RUNNING ||
+                     (of.start && (before == WH_LIFE_ARMED || of.arm)));
+    TEST_ASSERT_TRUE(before != WH_LIFE_TRIPPED || rig->state == WH_LIFE_TRIPPED || of.clear);
+    TEST_ASSERT_TRUE(before != WH_LIFE_TRIPPED || !drives);
+    TEST_ASSERT_TRUE(before != WH_LIFE_STOPPING || rig->state != WH_LIFE_RUNNING);
+}
+
+#define SEQUENCES 500U /* from each phase */
+#define STEPS 24U
+
+static void go_through_anything(void) {
+    const wh_rig_phase phase = even.rig.run.phase;
+    stood = even;
+    unsigned left = 0; /* sequences that ended elsewhere, or not at all */
+    unsigned drove = 0;
+    for (unsigned sequence = 0; sequence < SEQUENCES; sequence++) {
+        even = stood;
+        even_steps(&even, draw_one_of(&seed, 20));
+        for (unsigned step = 0; step < STEPS; step++) {
+            const wh_life before = even.rig.state;
+            const asked of = order_anything();
+            disturb_anything();
+            even_step(&even);
+            check_what_always_holds(before, of);
+            drove += even.command.way == WH_MOTOR_DRIVES ? 1U : 0U;
+        }
+        left += even.rig.run.phase != phase ? 1U : 0U;
+    }
+    const bool runs = phase > WH_PHASE_NONE && phase < WH_PHASE_OFF;
+    TEST_ASSERT_TRUE(left > (runs ? SEQUENCES / 2U : 0U)); /* it was no idle play */
+    TEST_ASSERT_TRUE(!runs || phase == WH_PHASE_TARE || drove > SEQUENCES);
+}
+
+static void test_what_holds_whatever_is_ordered(void) {
+    seed = 11;
+    even_start(&even);
+    even_rest(&even);
+    go_through_anything();
+    even_arm(&even);
+    go_through_anything();
+    for (wh_rig_phase phase = WH_PHASE_TARE; phase <= WH_PHASE_OFF; phase++) {
+        even_reach(&even, phase);
+        go_through_anything();
+    }
+    even_arm(&even); /* tripped, at rest */
+    even.inputs.supply_V = WH_R(0.0);
+    even_step(&even);
+    even.inputs.supply_V = WH_RIG_RATED_V;
+    even_go_on_until(&even, EVEN_NEVER);
+    go_through_anything();
+}
+
+/* Long ones, in which runs get as far as they get. */
+static void test_what_holds_for_hours(void) {
+    seed = 12;
+    even_start(&even);
+    unsigned results = 0;
+    unsigned trips = 0;
+    for (unsigned step = 0; step < 150000U; step++) {
+        const wh_life before = even.rig.state;
+        asked of = {.arm = false};
+        even.inputs.supply_V = draw_one_in(&seed, 6000) ? any_supply_V() : WH_RIG_RATED_V;
+        even.inputs.stop_pressed = draw_one_in(&seed, 20000);
+        if (draw_one_in(&seed, 20000)) {
+            of = order_anything();
+        } else if (even.rig.state != WH_LIFE_RUNNING && step % 50U == 0) {
+            static const wh_rig_event orders[] = {WH_EVENT_CLEAR, WH_EVENT_ARM, WH_EVENT_START};
+            for (unsigned i = 0; i < 3; i++) {
+                TEST_ASSERT_TRUE(wh_rig_post(&even.rig, orders[i], draw_whole(&seed, 18, 37)));
+            }
+            of = (asked){true, true, true};
+        }
+        if (draw_one_in(&seed, 2000)) {
+            wh_rig_pulse(&even.config, &even.rig, draw_one_of(&seed, 2), even.inputs.now_ticks);
+        }
+        const bool had = even.rig.has_result;
+        even_step(&even);
+        check_what_always_holds(before, of);
+        trips += before != WH_LIFE_TRIPPED && even.rig.state == WH_LIFE_TRIPPED ? 1U : 0U;
+        results += before == WH_LIFE_RUNNING && even.rig.run.phase == WH_PHASE_RAMP_DOWN ? 1U : 0U;
+        TEST_ASSERT_TRUE(even.rig.has_result || !had);
+    }
+    TEST_ASSERT_TRUE(results >= 3U && trips >= 3U);
+}
+
+void suite_rig_life_random(void) {
+    RUN_TEST(test_another_set_point_while_it_runs);
+    RUN_TEST(test_a_result_outlives_what_comes_after);
+    RUN_TEST(test_what_holds_whatever_is_ordered);
+    RUN_TEST(test_what_holds_for_hours);
+}
