@@ -3,21 +3,28 @@
 #ifndef TESTS_FAULTS_H
 #define TESTS_FAULTS_H
 
+#include "hal/frames/rig_frames.h"
 #include "host/pil/fault.h"
 #include "host/pil/lockstep.h"
 
 /* --- the controller's words (faults_words.c) ---------------------------------------------------------------------------*/
 
-/* Where faults begin: the note `state` in these, in order. */
+/* Where faults begin, in order. */
 typedef struct rig_stage {
-    int state;
+    char when[32]; /* NOTE=VALUE */
     const char *word;
     double span_s; /* a healthy run is in it for so long, about */
 } rig_stage;
 
+/* What the firmware tells: told[HAL_NOTES], as hal/frames/rig_frames.h has them. */
+#define NOTE_ONE(name, word, unit) +1
+enum { HAL_NOTES = HAL_NOTE_ROWS(NOTE_ONE) };
+#undef NOTE_ONE
+
 enum { RIG_STAGES_MAX = 16 };
 unsigned rig_stages(rig_stage *stage);
-bool rig_is_tripped(int state);
+int rig_stage_of(const float *note); /* -1: none of them */
+bool rig_is_tripped(const float *note);
 const char *rig_trip_word(int trip);
 /* The shaft's limit. */
 double rig_limit_rpm(void);
@@ -70,7 +77,7 @@ typedef enum outcome {
     OUTCOME_DOUBTFUL,
     OUTCOME_REFUSED,
     OUTCOME_NONE, /* it ended without a result and without a trip */
-    OUTCOME_HANG, /* silent, or not over within a minute */
+    OUTCOME_HANG, /* silent, or after a minute neither over nor with the motor off */
     OUTCOMES
 } outcome;
 
@@ -94,7 +101,8 @@ typedef struct verdict {
     uint64_t overruns;
     uint32_t steps
         [STEP_BINS]; /* answers by what they took until the outputs were set; none where it is not counted */
-    double most; /* instructions of one */
+    double most;   /* instructions of one, */
+    double most_s; /* then */
 } verdict;
 
 enum { JUDGE_TURNS = 64 };
@@ -108,6 +116,8 @@ typedef struct true_turn {
 typedef struct judge {
     const campaign_case *of;
     const fault_plan *plan;
+    double *until_s;
+    double off_since_s; /* tripped and off; -1: it is not */
     const plant *plant;
     bound angle;
     bound rate;
@@ -116,7 +126,7 @@ typedef struct judge {
     bool stepped;     /* it has answered before */
     int at_duty;      /* in orders.output; -1: there is none */
     int at_enable;
-    int at_note[8]; /* as hal/frames/rig_frames.h names them */
+    int at_note[HAL_NOTES];
     /* Of the turn that is under way: */
     double theta;
     double force_N;
@@ -126,7 +136,7 @@ typedef struct judge {
     double last_s;
     true_turn turn[JUDGE_TURNS];
     unsigned turns;
-    float told[8];
+    float told[HAL_NOTES];
     bool driven; /* by the last orders */
     bool has_result;
     bool began;
@@ -134,7 +144,8 @@ typedef struct judge {
     verdict verdict;
 } judge;
 
-tap judge_tap(judge *j, const campaign_case *of, const fault_plan *plan);
+/* *until_s: when the run is let go; nothing more is to be seen some time after a trip, so then it is now. */
+tap judge_tap(judge *j, const campaign_case *of, const fault_plan *plan, double *until_s);
 /* When the run is over. */
 void judge_end(judge *j, const lockstep_report *report);
 

@@ -143,7 +143,7 @@ static void put_channel(text *t, drawing *d, int channel) {
 }
 
 static void put_time(text *t, drawing *d, const rig_stage *stage) {
-    put(t, "@state=%d", stage->state);
+    put(t, "@%s", stage->when);
     put(t, "~%.4g", draw(d) * stage->span_s);
     if (draw(d) < 0.5) {
         put(t, "+%.3g", draw_log(d, 0.02, 3.0));

@@ -3,13 +3,13 @@
 #include <string.h>
 
 #include "faults.h"
-#include "hal/frames/rig_frames.h"
 #include "host/pil/talk.h"
 
 #define TURN_RAD 6.283185307179586477
 #define RPM_PER_RADPS 9.5492965855137202
 #define SHARE 0.01 /* that a good result may be off beside its interval */
 #define LASTING_S 1.0
+#define WATCHED_S 12.0
 #define SHIFTS 3                  /* turns by which its turns may be earlier than the last ones */
 enum { GOOD, DOUBTFUL, REFUSED }; /* wh_quality */
 
@@ -36,13 +36,13 @@ static bool find_outputs(judge *j, const wh_hello *hello) {
     }
     for (unsigned i = 0; i < hello->signals; i++) {
         const wh_signal *s = &hello->signal[i];
-        for (int n = 0; s->kind == WH_SIGNAL_NOTE && n < 8; n++) {
+        for (int n = 0; s->kind == WH_SIGNAL_NOTE && n < HAL_NOTES; n++) {
             j->at_note[n] = strcmp(s->name, notes[n]) == 0 ? outputs + note : j->at_note[n];
         }
         note += s->kind == WH_SIGNAL_NOTE;
     }
     bool all = j->at_duty >= 0 && j->at_enable >= 0;
-    for (int n = 0; n < 8; n++) {
+    for (int n = 0; n < HAL_NOTES; n++) {
         all = all && j->at_note[n] >= 0;
     }
     return all;
@@ -140,31 +140,26 @@ static double off_by(const judge *j, unsigned turns) {
 
 /* --- what the controller says ----------------------------------------------------------------------------------*/
 
-static int stage_of(int state) {
-    rig_stage stage[RIG_STAGES_MAX];
-    const unsigned count = rig_stages(stage);
-    for (unsigned i = 0; i < count; i++) {
-        if (stage[i].state == state) {
-            return (int)i;
-        }
-    }
-    return -1;
-}
-
-static void look_for_fault(judge *j, int state) {
+static void look_for_fault(judge *j) {
     const fault *f = &j->plan->fault[j->plan->count - 1U];
     if (j->plan->count > 1 && f->happened && !j->began) {
         j->began = true;
         j->verdict.happened = true;
-        j->verdict.stage = fault_rows[f->kind].place == FAULT_PARAMETER ? -1 : stage_of(state);
+        j->verdict.stage =
+            fault_rows[f->kind].place == FAULT_PARAMETER ? -1 : rig_stage_of(j->told);
     }
+}
+
+static bool is_of_result(int note) {
+    return note == HAL_NOTE_QUALITY || note == HAL_NOTE_AMPLITUDE || note == HAL_NOTE_PHASE ||
+           note == HAL_NOTE_AMPLITUDE_HALF || note == HAL_NOTE_PHASE_HALF || note == HAL_NOTE_TURNS;
 }
 
 static void take_notes(judge *j, const wh_orders *orders) {
     bool changed = false;
-    for (int n = 0; n < 8; n++) {
+    for (int n = 0; n < HAL_NOTES; n++) {
         const float value = orders->output[j->at_note[n]];
-        changed = changed || (n >= HAL_NOTE_QUALITY && value != j->told[n]);
+        changed = changed || (is_of_result(n) && value != j->told[n]);
         j->told[n] = value;
     }
     const unsigned turns = (unsigned)j->told[HAL_NOTE_TURNS];
@@ -179,27 +174,40 @@ static void take_notes(judge *j, const wh_orders *orders) {
 }
 
 /* The first answer says who it is, before there is a loop. */
-static void count_step(judge *j, const wh_orders *orders) {
+static void count_step(judge *j, double time_s, const wh_orders *orders) {
     const double instructions = (double)orders->acted_timer * j->per_count;
     verdict *v = &j->verdict;
     if (j->stepped && instructions > 0.0) {
         const unsigned bin = (unsigned)(instructions / STEP_BIN);
         v->steps[bin < STEP_BINS ? bin : STEP_BINS - 1]++;
+        v->most_s = instructions > v->most ? time_s : v->most_s;
         v->most = instructions > v->most ? instructions : v->most;
     }
     j->stepped = true;
 }
 
+/* A controller that has tripped may watch the rotor for a long time. */
+static void let_go(judge *j, double time_s) {
+    if (!rig_is_tripped(j->told) || j->driven) {
+        j->off_since_s = -1.0;
+    } else if (j->off_since_s < 0.0) {
+        j->off_since_s = time_s;
+    } else if (time_s > j->off_since_s + WATCHED_S && *j->until_s > time_s) {
+        *j->until_s = time_s;
+    }
+}
+
 static void hear(void *of, double time_s, wh_orders *orders, double *late_s) {
     (void)late_s;
     judge *j = of;
-    look_for_fault(j, (int)j->told[HAL_NOTE_STATE]);
+    look_for_fault(j);
     take_notes(j, orders);
-    count_step(j, orders);
+    count_step(j, time_s, orders);
     const bool enabled = orders->output[j->at_enable] > 0.0F && !j->plant->cut;
     const fault *f = &j->plan->fault[j->plan->count - 1U];
     const bool ignores = j->of->runs_away && f->active;
     j->driven = enabled && (orders->output[j->at_duty] > 0.0F || ignores);
+    let_go(j, time_s);
     if (ignores && f->duration_s >= LASTING_S) {
         j->verdict.lasting = true;
         if (!enabled && j->verdict.off_s < 0.0) {
@@ -209,8 +217,12 @@ static void hear(void *of, double time_s, wh_orders *orders, double *late_s) {
     }
 }
 
-tap judge_tap(judge *j, const campaign_case *of, const fault_plan *plan) {
-    *j = (judge){.of = of, .plan = plan, .verdict = {.row = of->row, .stage = -1, .off_s = -1.0}};
+tap judge_tap(judge *j, const campaign_case *of, const fault_plan *plan, double *until_s) {
+    *j = (judge){.of = of,
+                 .plan = plan,
+                 .until_s = until_s,
+                 .off_since_s = -1.0,
+                 .verdict = {.row = of->row, .stage = -1, .off_s = -1.0}};
     return (tap){.name = "judge", .of = j, .start = start, .orders = hear, .watch = watch};
 }
 
@@ -219,9 +231,10 @@ void judge_end(judge *j, const lockstep_report *report) {
     const int quality = (int)j->told[HAL_NOTE_QUALITY];
     v->time_s = report->time_s;
     v->overruns = report->overruns;
-    if (report->end != LOCKSTEP_DONE) {
+    const bool off = report->end == LOCKSTEP_LET_GO && !j->driven;
+    if (report->end != LOCKSTEP_DONE && !off) {
         v->outcome = OUTCOME_HANG;
-    } else if (rig_is_tripped((int)j->told[HAL_NOTE_STATE])) {
+    } else if (rig_is_tripped(j->told)) {
         v->outcome = OUTCOME_TRIPPED;
     } else if (j->has_result) {
         v->outcome = quality == GOOD       ? OUTCOME_GOOD

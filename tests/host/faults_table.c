@@ -215,20 +215,20 @@ static bool takes_time(const verdict *v) {
 }
 
 /* Where the emulator counts them: until the outputs are set, of runs in which nothing makes computing slower. */
-static void print_steps(FILE *out, const verdict *all, unsigned count) {
+static void print_steps(FILE *out, const campaign *c, const verdict *all, unsigned count) {
     uint64_t steps[STEP_BINS] = {0};
     uint64_t sum = 0;
     uint64_t overruns = 0;
-    double most = 0.0;
+    const verdict *most = NULL;
     for (unsigned i = 0; i < count; i++) {
         for (int bin = 0; bin < STEP_BINS && !takes_time(&all[i]); bin++) {
             steps[bin] += all[i].steps[bin];
             sum += all[i].steps[bin];
         }
         overruns += takes_time(&all[i]) ? 0 : all[i].overruns;
-        most = !takes_time(&all[i]) && all[i].most > most ? all[i].most : most;
+        most = !takes_time(&all[i]) && (most == NULL || all[i].most > most->most) ? &all[i] : most;
     }
-    if (sum == 0) {
+    if (sum == 0 || most == NULL) {
         return;
     }
     fputs("\n| instructions of a control step | steps |\n|---|---|\n", out);
@@ -236,15 +236,17 @@ static void print_steps(FILE *out, const verdict *all, unsigned count) {
         fprintf(out, "| %s%d | %llu |\n", bin == STEP_BINS - 1 ? "from " : "below ",
                 STEP_BIN * (bin + (bin < STEP_BINS - 1)), (unsigned long long)steps[bin]);
     }
-    fprintf(out, "\nThe longest: %.0f instructions. Overruns: %llu.\n", most,
-            (unsigned long long)overruns);
+    fprintf(out, "\nThe longest: %.0f instructions, at t = %.3f s. Overruns: %llu.\n\n    ",
+            most->most, most->most_s, (unsigned long long)overruns);
+    campaign_print_command(out, c, most->run);
+    fputc('\n', out);
 }
 
 int campaign_print(FILE *out, const campaign *c, const verdict *all, unsigned count) {
     print_matrix(out, all, count);
     print_trips(out, all, count);
     print_runaways(out, all, count);
-    print_steps(out, all, count);
+    print_steps(out, c, all, count);
     print_worst(out, c, all, count, "Does not end, or is silent", is_hang, by_speed);
     print_worst(out, c, all, count, "Ends with the motor on, and too fast", runs_on, by_speed);
     print_worst(out, c, all, count, "Called good, and is not", is_lie, by_lie);

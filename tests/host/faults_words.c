@@ -20,17 +20,27 @@ static const struct {
     {PHASE(WH_PHASE_RAMP_DOWN), 2.2},
     {PHASE(WH_PHASE_OFF), 2.5},
 };
+enum { STAGES = sizeof stages / sizeof stages[0] };
 
 unsigned rig_stages(rig_stage *stage) {
-    const unsigned count = sizeof stages / sizeof stages[0];
-    for (unsigned i = 0; i < count; i++) {
-        stage[i] =
-            (rig_stage){(int)stages[i].stage, wh_rig_stage_text(stages[i].stage), stages[i].span_s};
+    for (unsigned i = 0; i < STAGES; i++) {
+        const unsigned which = stages[i].stage;
+        stage[i] = (rig_stage){.word = wh_rig_stage_text(which), .span_s = stages[i].span_s};
+        snprintf(stage[i].when, sizeof stage[i].when, "state=%u", which);
     }
-    return count;
+    return STAGES;
 }
 
-bool rig_is_tripped(int state) { return state == (int)WH_LIFE_TRIPPED; }
+int rig_stage_of(const float *note) {
+    for (int i = 0; i < STAGES; i++) {
+        if (stages[i].stage == (unsigned)note[HAL_NOTE_STATE]) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+bool rig_is_tripped(const float *note) { return (int)note[HAL_NOTE_STATE] == (int)WH_LIFE_TRIPPED; }
 
 const char *rig_trip_word(int trip) { return wh_trip_text((wh_trip)trip); }
 

@@ -85,17 +85,17 @@ static bool run_one(const campaign *c, plants *from, unsigned i, verdict *v) {
         return false;
     }
     const image *im = plant_of(from, &plan);
-    const tap taps[] = {fault_tap(&plan), judge_tap(&j, &one, &plan)};
-    const lockstep_wish wish = {.guest = {.image = c->firmware,
-                                          .board = c->board,
-                                          .mute = true,
-                                          .patience_s = PATIENCE_S,
-                                          .stop = &interrupted},
-                                .plant = {.seed = one.seed, .jitter_s = JITTER_S},
-                                .until_s = UNTIL_S,
-                                .instruction_s = INSTRUCTION_S,
-                                .taps = taps,
-                                .tap_count = 2};
+    lockstep_wish wish = {.guest = {.image = c->firmware,
+                                    .board = c->board,
+                                    .mute = true,
+                                    .patience_s = PATIENCE_S,
+                                    .stop = &interrupted},
+                          .plant = {.seed = one.seed, .jitter_s = JITTER_S},
+                          .until_s = UNTIL_S,
+                          .instruction_s = INSTRUCTION_S};
+    const tap taps[] = {fault_tap(&plan), judge_tap(&j, &one, &plan, &wish.until_s)};
+    wish.taps = taps;
+    wish.tap_count = 2;
     if (im == NULL) {
         return false;
     }
