@@ -39,7 +39,7 @@ static int number_behind(const char *letter, const char *word) {
     const char *digits = word + length;
     const bool is = strncmp(word, letter, length) == 0 && digits[0] != '\0' &&
                     strspn(digits, "0123456789") == strlen(digits);
-    return is ? atoi(digits) : 0;
+    return is ? (int)strtol(digits, NULL, 10) : 0;
 }
 
 /* The names between the brackets, in their order. */
