@@ -29,14 +29,13 @@ void wh_guard_trip(wh_guard *guard, wh_trip reason) {
 
 /* --- the rotor ----------------------------------------------------------------------------------- */
 
+#define REGULATED_PULSES 6U /* running, near the set-point: three turns */
+
 void wh_guard_rise(const wh_guard_config *config, wh_guard *guard, const wh_speed *speed,
                    wh_real setpoint_radps) {
-    if (speed->taken == guard->pulses_risen) {
-        return;
-    }
     const wh_real above = speed->turn_radps - setpoint_radps;
     const bool rises = speed->turn_radps > guard->risen_radps * (WH_R(1.0) + config->rise);
-    if (wh_guard_is_regulated(guard)) {
+    if (guard->regulated >= REGULATED_PULSES) {
         if (rises && above > config->above_radps) {
             wh_guard_trip(guard, WH_TRIP_OVERSPEED);
         }

@@ -77,7 +77,6 @@ typedef struct wh_guard {
 #define wh_guard_trip WH_NAME(wh_guard_trip)
 #define wh_guard_load WH_NAME(wh_guard_load)
 #define wh_guard_rise WH_NAME(wh_guard_rise)
-#define WH_GUARD_REGULATED_PULSES 6U
 #define wh_trip_text WH_NAME(wh_trip_text)
 
 void wh_guard_start(wh_guard *guard, uint32_t now_ticks);
@@ -115,18 +114,14 @@ WH_INLINE void wh_guard_speed(const wh_guard_config *config, wh_guard *guard,
         return;
     }
     /* one early pulse may be a disturbance, two are a speed */
-    if ((speed->known && speed->turn_radps > config->limit_radps) || pulses->fast >= 2U) {
+    const bool sure = !pulses->waits || pulses->fast > 0; /* nothing takes it back */
+    if ((speed->known && sure && speed->turn_radps > config->limit_radps) || pulses->fast >= 2U) {
         wh_guard_trip(guard, reason);
     }
 }
 
-/* Three turns near the set-point, and the loop has the speed in hand. */
-WH_INLINE bool wh_guard_is_regulated(const wh_guard *guard) {
-    return guard->regulated >= WH_GUARD_REGULATED_PULSES;
-}
-
-/* While the loop is closed: over-speed, of a turn that gets faster although it is faster than the set-point already,
- * once the loop has had it in hand. */
+/* At each pulse taken while the loop is closed: over-speed, of a turn that gets faster although it is faster than the set-point already,
+ * once the loop has had it in hand for three turns. */
 void wh_guard_rise(const wh_guard_config *config, wh_guard *guard, const wh_speed *speed,
                    wh_real setpoint_radps);
 

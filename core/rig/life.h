@@ -18,7 +18,7 @@ extern "C" {
 #define WH_LIFE_ROWS(X) \
     X(WH_LIFE_IDLE, "idle")         /* motor off; the rotor is watched */ \
     X(WH_LIFE_ARMED, "armed")       /* motor off; `start` is allowed, for a minute */ \
-    X(WH_LIFE_RUNNING, "running")   /* a test run: run.h has its phases */ \
+    X(WH_LIFE_RUNNING, "running")   /* a test run: phases.h has its phases */ \
     X(WH_LIFE_STOPPING, "stopping") /* slowing down, or motor off, until the rotor rests */ \
     X(WH_LIFE_TRIPPED, "tripped")   /* motor off; latched until `clear` */
 

@@ -35,7 +35,7 @@ static wh_refusal may_turn(const wh_rig_config *config, const wh_rig *rig,
 /* Rest, and the cause gone. Without pulses that can be believed rest is a matter of time. */
 static wh_refusal may_clear(const wh_rig_config *config, const wh_rig *rig,
                             const wh_rig_inputs *inputs) {
-    if (!rig->rested || !rig->guard.quiet) {
+    if (!rig->at_rest || !rig->guard.quiet) {
         return WH_REFUSED_TURNING;
     }
     switch (rig->guard.trip) {

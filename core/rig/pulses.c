@@ -109,7 +109,10 @@ static void decide(wh_pulses *pulses, const wh_pulse *pulse) {
     }
     const bool was_true = with(&pulses->speed, &suspect, &suspected);
     const bool both_are = was_true && with(&suspected, pulse, &both);
-    if (alone_likely && !(both_are && is_likely(pulses, &both))) {
+    /* one that is none, and a true one lost as well: less likely than that both are true, however fast */
+    const bool fits = both_are && both.lost == pulses->speed.lost &&
+                      (is_likely(pulses, &both) || without.lost > pulses->speed.lost);
+    if (alone_likely && !fits) {
         doubt(pulses);
         take_next(pulses, pulse, &without);
         return;

@@ -21,6 +21,7 @@ static void enter(wh_rig *rig, wh_life state, uint32_t now_ticks) {
     rig->state = state;
     rig->since_ticks = now_ticks;
     rig->rested = false;
+    rig->at_rest = false;
 }
 
 void wh_rig_start(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks,
@@ -56,12 +57,11 @@ bool wh_rig_post(wh_rig *rig, wh_rig_event event, wh_real value) {
 #define RAMP_WINDOW WH_R(0.12) /* no mark is sure before */
 #define RECORD_PART WH_R(0.8)  /* of what the record lets the speed be off */
 
-static void expect_pulses(const wh_rig_config *config, wh_rig *rig) {
+static void expect_pulses(const wh_rig_config *config, wh_rig *rig, uint32_t ticks) {
     const wh_rig_phase phase = rig->run.phase;
     const bool from_rest = phase == WH_PHASE_SPIN_UP && !rig->pulses.speed.known;
     rig->pulses.bound_radps = wh_guard_bound_radps(
-        &config->guard,
-        wh_run_base_radps(&config->run, &rig->run, wh_guard_is_regulated(&rig->guard)), !from_rest);
+        &config->guard, wh_run_base_radps(&config->run, &rig->run, ticks), !from_rest);
     rig->pulses.window = phase == WH_PHASE_RECORD
                              ? RECORD_PART * config->run.record_band_radps / rig->run.target_radps
                              : (phase == WH_PHASE_SETTLE ? SETTLE_WINDOW : RAMP_WINDOW);
@@ -70,7 +70,7 @@ static void expect_pulses(const wh_rig_config *config, wh_rig *rig) {
 void wh_rig_pulse(const wh_rig_config *config, wh_rig *rig, unsigned sensor, uint32_t ticks) {
     rig->pulses_ever++;
     rig->busy = true;
-    expect_pulses(config, rig);
+    expect_pulses(config, rig, ticks);
     if (rig->run.phase == WH_PHASE_TARE && sensor < WH_SPEED_SENSORS) {
         rig->run.tare_pulses[sensor]++;
     }
@@ -200,24 +200,31 @@ static wh_real silence_s(const wh_rig_config *config, const wh_rig *rig) {
                                : SILENT_RAD / rig->run.drive.setpoint_radps;
 }
 
+/* With the motor off: what is known of a rotor that rests? */
+static void rest(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
+    wh_guard_quiet(&config->guard, &rig->guard, rig->pulses_ever, now_ticks);
+    if (rig->guard.quiet) {
+        rig->run.off_radps = WH_R(0.0);
+        if (rig->pulses.speed.running) { /* times of old pulses wrap */
+            wh_pulses_start(&rig->pulses, config->impossible_radps);
+        }
+    }
+}
+
 static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
     wh_guard *guard = &rig->guard;
     const bool drives = wh_run_drives(&rig->run);
     if (inputs->watchdog_has_cut) {
         wh_guard_trip(guard, WH_TRIP_WATCHDOG);
     }
-    wh_guard_quiet(&config->guard, guard, rig->pulses_ever, inputs->now_ticks);
-    if (guard->quiet && !drives && rig->pulses.speed.running) { /* times of old pulses wrap */
-        wh_pulses_start(&rig->pulses, config->impossible_radps);
-    }
-    if (guard->quiet && !drives) {
-        rig->run.off_radps = WH_R(0.0);
+    if (!drives) {
+        rest(config, rig, inputs->now_ticks);
     }
     /* with the motor off nothing speeds up a rotor whose speed was known */
     const bool slows = !drives && rig->run.off_radps < config->guard.limit_radps;
     wh_guard_speed(&config->guard, guard, &rig->pulses, slows ? WH_TRIP_RUNS_ON : WH_TRIP_OVERSPEED,
                    drives);
-    if (wh_run_is_closed(&rig->run)) {
+    if (rig->pulses.speed.taken != guard->pulses_risen && wh_run_is_closed(&rig->run)) {
         wh_guard_rise(&config->guard, guard, &rig->pulses.speed, rig->run.drive.setpoint_radps);
     }
     if (drives) {
@@ -270,7 +277,8 @@ static void wait_for_rest(const wh_rig_config *config, wh_rig *rig, const wh_rig
     const bool blind = rig->guard.trip == WH_TRIP_PULSES;
     const bool silent = rig->guard.quiet && passed_s >= config->guard.rest_s;
     if (tripped) {
-        rig->rested = rig->rested || late || (silent && !blind);
+        rig->at_rest = rig->at_rest || (silent && (!blind || passed_s > config->rest_max_s));
+        rig->rested = rig->rested || rig->at_rest || late;
     } else if (silent) {
         finds(config, rig, inputs, WH_EVENT_RESTED);
     } else if (late) {

@@ -14,7 +14,7 @@
 
 #include "feed.h"
 #include "life.h"
-#include "run.h"
+#include "phases.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -95,6 +95,8 @@ typedef struct wh_rig {
     bool
         busy; /* a pulse or a mark is work enough for one step: the measurement waits for the next */
     bool rested; /* motor off, and the rotor rests, or will not: all that can be done is done */
+    bool
+        at_rest; /* it rests: no pulses; where those cannot be believed, after all the time it may take */
     wh_rig_result result; /* of the last run that was through; kept until the next is */
     bool has_result;
     wh_trip_record record; /* of the last trip */

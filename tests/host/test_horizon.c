@@ -340,6 +340,7 @@ static void test_words_and_rows(void) {
     expect_words(&h);
     horizon_free(&h);
     twins_free(t);
+    twins_free(NULL);
     derived_free(&made);
 }
 

@@ -9,6 +9,8 @@
 #include <unistd.h>
 
 #include "command.h"
+#include "host/plot/gnuplot.h"
+#include "host/plot/scatter.h"
 #include "unity.h"
 
 void suite_plot(void);
@@ -148,4 +150,25 @@ static void test_texts_are_no_commands(void) {
     unlink(PICTURE);
 }
 
-void suite_plot(void) { RUN_TEST(test_texts_are_no_commands); }
+/* Where no file can be, or none that can be drawn, a picture is not taken for drawn. */
+static void test_no_picture(void) {
+    if (!gnuplot_is_there()) {
+        TEST_IGNORE_MESSAGE("no gnuplot here");
+    }
+    static const double data[] = {1.0, 2.0, 3.0, 4.0};
+    const scatter_series series[] = {
+        {.name = "light", .x = data, .y = data, .count = 4},
+        {.name = "heavy", .x = data, .y = data, .count = 4, .heavy = true}};
+    const curve curves[] = {{"name", "m", 1}};
+    for (int count = 1; count <= 2; count++) {
+        TEST_ASSERT_TRUE(scatter_draw(PICTURE, "title", "x", "y", series, count));
+        TEST_ASSERT_FALSE(scatter_draw("/dev/null/x.svg", "title", "x", "y", series, count));
+    }
+    TEST_ASSERT_FALSE(plot_draw("/dev/null/x.svg", "title", curves, 1, data, 2, 2, 0.0));
+    unlink(PICTURE);
+}
+
+void suite_plot(void) {
+    RUN_TEST(test_texts_are_no_commands);
+    RUN_TEST(test_no_picture);
+}

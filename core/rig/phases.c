@@ -1,5 +1,5 @@
-/* run.c: a test run of the eccentric-mass rig, phase by phase. */
-#include "run.h"
+/* phases.c: a test run of the eccentric-mass rig, phase by phase. */
+#include "phases.h"
 
 #include "datasheet.h"
 
@@ -32,14 +32,18 @@ void wh_run_off(wh_run *run, wh_real speed_radps, uint32_t now_ticks) {
     enter(run, WH_PHASE_OFF, now_ticks);
 }
 
-wh_real wh_run_base_radps(const wh_run_config *config, const wh_run *run, bool regulated) {
+/* The rotor that is taken over gets faster for so long. */
+#define START_S WH_R(1.5)
+
+wh_real wh_run_base_radps(const wh_run_config *config, const wh_run *run, uint32_t ticks) {
     if (!wh_run_drives(run)) {
         return run->off_radps;
     }
     /* without load the motor goes where the voltage takes it; once the rotor follows it is the set-point that leads */
     const wh_real led = run->volts / config->rated_V * config->no_load_radps;
     const wh_real setpoint = run->drive.setpoint_radps;
-    const bool starts = run->phase == WH_PHASE_SPIN_UP || (!regulated && led > setpoint);
+    const bool starts = run->phase == WH_PHASE_SPIN_UP ||
+                        (led > setpoint && since_s(run->closed_ticks, ticks) < START_S);
     return starts ? led : setpoint;
 }
 
@@ -87,6 +91,7 @@ static void spin_up(wh_run *run, const wh_run_scene *scene) {
     run->volts = wanted < most ? wanted : most;
     if (speed->known && speed->turn_radps >= config->take_over_radps) {
         wh_drive_start(&run->drive, speed->turn_radps, run->volts);
+        run->closed_ticks = scene->now_ticks;
         /* the first turns swing so much that the count of lost pulses means nothing */
         scene->guard->lost_before = speed->lost;
         scene->guard->rejected_before = scene->pulses->rejected;

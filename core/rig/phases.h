@@ -1,9 +1,9 @@
-/* run.h: a test run of the eccentric-mass rig, phase by phase.
+/* phases.h: a test run of the eccentric-mass rig, phase by phase.
  *
  * It repeats Almesallmy (2006), I.3.2.1 and I.3.3: tare, spin up, hold 330 rpm, record the load cell for 2 s at 500
  * samples a second together with the slot pulses, slow down, stop. */
-#ifndef WH_RIG_RUN_H
-#define WH_RIG_RUN_H
+#ifndef WH_RIG_PHASES_H
+#define WH_RIG_PHASES_H
 
 #include "drive.h"
 #include "guard.h"
@@ -49,9 +49,10 @@ typedef struct wh_run_config {
 
 typedef struct wh_run {
     wh_rig_phase phase;
-    uint32_t since_ticks; /* the phase began */
-    uint32_t band_ticks;  /* speed has been within the band since */
-    uint32_t ample_ticks; /* the supply has been enough since */
+    uint32_t since_ticks;  /* the phase began */
+    uint32_t band_ticks;   /* speed has been within the band since */
+    uint32_t closed_ticks; /* the loop was closed */
+    uint32_t ample_ticks;  /* the supply has been enough since */
     wh_real target_radps;
     wh_real volts;     /* mean voltage of the motor that is asked for */
     wh_real off_radps; /* speed when the motor went off */
@@ -102,8 +103,8 @@ WH_INLINE bool wh_run_is_closed(const wh_run *run) {
     return run->phase >= WH_PHASE_RAMP && run->phase <= WH_PHASE_RAMP_DOWN;
 }
 
-/* The fastest that the rotor is led to, for the guard's bound; `regulated`: the loop has had its speed in hand. */
-wh_real wh_run_base_radps(const wh_run_config *config, const wh_run *run, bool regulated);
+/* The fastest that the rotor is led to at a pulse's time, for the guard's bound. */
+wh_real wh_run_base_radps(const wh_run_config *config, const wh_run *run, uint32_t ticks);
 
 /* The voltage that a steady speed takes. */
 wh_real wh_run_needs_V(const wh_run_config *config, wh_real speed_radps);
