@@ -141,7 +141,7 @@ static double off_by(const judge *j, unsigned turns) {
 /* --- what the controller says ----------------------------------------------------------------------------------*/
 
 static void look_for_fault(judge *j) {
-    const fault *f = &j->plan->fault[j->plan->count - 1U];
+    const fault_case *f = &j->plan->fault[j->plan->count - 1U];
     if (j->plan->count > 1 && f->happened && !j->began) {
         j->began = true;
         j->verdict.happened = true;
@@ -206,7 +206,7 @@ static void hear(void *of, double time_s, wh_orders *orders, double *late_s) {
     const bool enabled = orders->output[j->at_enable] > 0.0F && !j->plant->cut;
     j->enabled_s = enabled && !j->enabled ? time_s : j->enabled_s;
     j->enabled = enabled;
-    const fault *f = &j->plan->fault[j->plan->count - 1U];
+    const fault_case *f = &j->plan->fault[j->plan->count - 1U];
     const bool ignores = j->of->runs_away && f->active;
     j->driven = enabled && (orders->output[j->at_duty] > 0.0F || ignores);
     let_go(j, time_s);
