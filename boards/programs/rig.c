@@ -214,7 +214,8 @@ static void obey(const wh_rig_command *command) {
 
 static void control(const wh_rig_config *config) {
     hal_slot_pulse pulse;
-    while (hal_slots_take(&pulse)) {
+    if (hal_slots_take(
+            &pulse)) { /* one a step: a storm must not hold it up, and stamps do not age */
         wh_rig_pulse(config, &rig, pulse.sensor, pulse.ticks);
     }
     hal_load_sample sample;

@@ -60,8 +60,8 @@ static void control(const trial *tried) {
     unsigned sample_count = 0;
     hal_clock_wait_until(hal_clock_ticks() + CONTROL_TICKS);
     hal_watchdog_kick();
-    while (pulse_count < 8U && hal_slots_take(&pulses[pulse_count])) {
-        pulse_count++;
+    if (hal_slots_take(&pulses[0])) { /* as rig.c does */
+        pulse_count = 1;
     }
     while (sample_count < 8U && hal_loadcell_take(&samples[sample_count])) {
         samples[sample_count++].raw += noise_of(tried->noise);

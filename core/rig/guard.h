@@ -16,7 +16,7 @@ extern "C" {
     X(WH_TRIP_NONE, 0, "no fault") \
     X(WH_TRIP_OVERSPEED, 2, "over-speed") \
     X(WH_TRIP_PULSES, 3, "slot pulses are missing, too many or out of order") \
-    X(WH_TRIP_STALLED, 4, "the rotor does not start") \
+    X(WH_TRIP_STALLED, 4, "the rotor does not start, or is not seen") \
     X(WH_TRIP_LOAD_CELL, 5, "the load cell is silent, stuck, overloaded or disconnected") \
     X(WH_TRIP_WATCHDOG, 6, "the watchdog cut the motor") \
     X(WH_TRIP_MOVING, 7, "the rig was not at rest for the tare") \

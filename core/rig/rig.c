@@ -4,7 +4,6 @@
 #include <stddef.h>
 
 #include "datasheet.h"
-#include "orders.h"
 
 void wh_rig_slots(wh_rig_config *config, wh_real lead_rad) {
     config->measure.rotor.mark_rad[0] = -lead_rad;
@@ -163,7 +162,14 @@ static wh_refusal happens(const wh_rig_config *config, wh_rig *rig, const wh_rig
     if (rule.refusal != WH_ALLOWED) {
         return rule.refusal;
     }
-    const wh_refusal refusal = wh_rig_refuses(config, rig, inputs, order);
+    const wh_order_sight sight = {.guarding = &config->guard,
+                                  .running = &config->run,
+                                  .guard = &rig->guard,
+                                  .inputs = inputs,
+                                  .at_rest = rig->at_rest,
+                                  .can_feed = config->feeds != WH_FEED_NEVER &&
+                                              rig->observer.status == WH_OK};
+    const wh_refusal refusal = wh_order_refused(&sight, order);
     if (refusal == WH_ALLOWED && (order->event != WH_EVENT_HOST_LOST || config->host_loss_stops)) {
         follow(config, rig, inputs, order, rule.next);
     }
@@ -229,6 +235,12 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
     if (rig->pulses.speed.taken != guard->pulses_risen && wh_run_is_closed(&rig->run)) {
         wh_guard_rise(&config->guard, guard, &rig->pulses.speed, rig->run.drive.setpoint_radps);
     }
+    if (rig->run.phase == WH_PHASE_SPIN_UP && !rig->pulses.speed.running &&
+        wh_rig_since_s(rig->run.since_ticks, inputs->now_ticks) >
+            config->guard.slow_silence_max_s) {
+        wh_guard_trip(guard,
+                      WH_TRIP_PULSES); /* the rotor does not start, or is not seen: who knows */
+    }
     if (drives) {
         wh_guard_pulses(&config->guard, guard, &rig->pulses, silence_s(config, rig),
                         inputs->now_ticks);
@@ -276,7 +288,7 @@ static void wait_for_rest(const wh_rig_config *config, wh_rig *rig, const wh_rig
     const wh_real passed_s =
         wh_rig_since_s(tripped ? rig->since_ticks : rig->run.since_ticks, inputs->now_ticks);
     const bool late = passed_s > (tripped ? config->tripped_max_s : config->rest_max_s);
-    const bool blind = rig->guard.trip == WH_TRIP_PULSES;
+    const bool blind = rig->guard.trip == WH_TRIP_PULSES || rig->guard.trip == WH_TRIP_STALLED;
     const bool silent = rig->guard.quiet && passed_s >= config->guard.rest_s;
     if (tripped) {
         rig->at_rest = rig->at_rest || (silent && (!blind || passed_s > config->rest_max_s));

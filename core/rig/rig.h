@@ -13,7 +13,7 @@
 #define WH_RIG_RIG_H
 
 #include "feed.h"
-#include "life.h"
+#include "orders.h"
 #include "phases.h"
 
 #ifdef __cplusplus
@@ -46,15 +46,6 @@ typedef struct wh_rig_config {
     bool host_loss_stops; /* a run ends when who gives orders is gone, else it goes on */
 } wh_rig_config;
 
-/* What a control step sees beside pulses, samples and orders. */
-typedef struct wh_rig_inputs {
-    uint32_t now_ticks;
-    wh_real supply_V;
-    bool stop_pressed;
-    bool clock_is_fallback; /* too inexact for a speed */
-    bool watchdog_has_cut;
-} wh_rig_inputs;
-
 typedef enum wh_motor_way { WH_MOTOR_COASTS, WH_MOTOR_BRAKES, WH_MOTOR_DRIVES } wh_motor_way;
 
 typedef struct wh_rig_command {
@@ -71,11 +62,6 @@ typedef struct wh_trip_record {
     wh_real volts;
     wh_real supply_V;
 } wh_trip_record;
-
-typedef struct wh_rig_order {
-    wh_rig_event event;
-    wh_real value;
-} wh_rig_order;
 
 typedef struct wh_rig {
     wh_life state;

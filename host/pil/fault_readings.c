@@ -1,9 +1,17 @@
 /* fault_readings.c: what faults of sensors, of the load cell and of the line make of what the plant says. */
 #include <math.h>
 
+#include "core/hash.h"
 #include "core/noise.h"
 #include "fault.h"
 #include "host/number/functions.h"
+
+double fault_draw(const fault_plan *plan, fault_case *f) {
+    uint64_t hash = wh_hash_u64(WH_HASH_START, plan->seed);
+    hash = wh_hash_u64(hash, (uint64_t)(f - plan->fault));
+    hash = wh_hash_u64(hash, f->draws++);
+    return (double)(hash >> 11) * 0x1p-53;
+}
 
 #define HUM_HZ 60.0
 #define TURN_RAD 6.283185307179586477

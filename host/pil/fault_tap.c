@@ -1,7 +1,6 @@
 /* fault_tap.c: when faults begin and end, and what they do to the plant and to orders. */
 #include <string.h>
 
-#include "core/hash.h"
 #include "fault.h"
 
 /* Which of the scene's inputs, and what becomes of its healthy value. */
@@ -25,13 +24,6 @@ static const struct {
     {FAULT_COUPLING, "k", true, 0.0},
 };
 enum { INPUTS = sizeof inputs / sizeof inputs[0] };
-
-double fault_draw(const fault_plan *plan, fault_case *f) {
-    uint64_t hash = wh_hash_u64(WH_HASH_START, plan->seed);
-    hash = wh_hash_u64(hash, (uint64_t)(f - plan->fault));
-    hash = wh_hash_u64(hash, f->draws++);
-    return (double)(hash >> 11) * 0x1p-53;
-}
 
 /* --- before it begins ----------------------------------------------------------------------------------------*/
 
