@@ -6,10 +6,6 @@
 /* A turn's samples are through within a fraction of the next turn. */
 #define LAST_TURN_MAX_S WH_R(0.5)
 
-static wh_real since_s(uint32_t then_ticks, uint32_t now_ticks) {
-    return (wh_real)(now_ticks - then_ticks) / (wh_real)WH_RIG_TICKS_PER_S;
-}
-
 void wh_measure_start(const wh_measure_config *config, wh_measure *measure) {
     *measure = (wh_measure){.records = false};
     wh_lockin_start(&config->rotor, &measure->lockin);
@@ -30,7 +26,7 @@ void wh_measure_mark(wh_measure *measure, const wh_mark *mark) {
 }
 
 bool wh_measure_lasts(const wh_measure *measure, uint32_t ticks) {
-    return measure->records && since_s(measure->begin_ticks, ticks) <= measure->record_s;
+    return measure->records && wh_rig_since_s(measure->begin_ticks, ticks) <= measure->record_s;
 }
 
 static void see_peaks(wh_measure *measure, wh_real force_N) {
@@ -96,7 +92,7 @@ void wh_measure_record(const wh_measure_config *config, wh_measure *measure, wh_
 
 bool wh_measure_end(wh_measure *measure, uint32_t now_ticks) {
     const bool late =
-        since_s(measure->begin_ticks, now_ticks) > measure->record_s + LAST_TURN_MAX_S;
+        wh_rig_since_s(measure->begin_ticks, now_ticks) > measure->record_s + LAST_TURN_MAX_S;
     if (!measure->ends && (measure->lockin.stage == WH_LOCKIN_WAITS || late) && measure->due == 0) {
         measure->ends = true;
         measure->due = 2;

@@ -3,10 +3,6 @@
 
 #include "datasheet.h"
 
-static wh_real since_s(uint32_t then_ticks, uint32_t now_ticks) {
-    return (wh_real)(now_ticks - then_ticks) / (wh_real)WH_RIG_TICKS_PER_S;
-}
-
 static void enter(wh_run *run, wh_rig_phase phase, uint32_t now_ticks) {
     run->phase = phase;
     run->since_ticks = now_ticks;
@@ -43,7 +39,7 @@ wh_real wh_run_base_radps(const wh_run_config *config, const wh_run *run, uint32
     const wh_real led = run->volts / config->rated_V * config->no_load_radps;
     const wh_real setpoint = run->drive.setpoint_radps;
     const bool starts = run->phase == WH_PHASE_SPIN_UP ||
-                        (led > setpoint && since_s(run->closed_ticks, ticks) < START_S);
+                        (led > setpoint && wh_rig_since_s(run->closed_ticks, ticks) < START_S);
     return starts ? led : setpoint;
 }
 
@@ -55,7 +51,7 @@ wh_real wh_run_needs_V(const wh_run_config *config, wh_real speed_radps) {
 static bool ramp(wh_run *run, const wh_run_scene *scene) {
     const bool allowed = wh_guard_allows(scene->guarding, run->target_radps, scene->fed);
     run->drive.target_radps = allowed ? run->target_radps : scene->guarding->target_min_radps;
-    if (since_s(run->since_ticks, scene->now_ticks) > scene->config->ramp_max_s) {
+    if (wh_rig_since_s(run->since_ticks, scene->now_ticks) > scene->config->ramp_max_s) {
         wh_guard_trip(scene->guard, WH_TRIP_UNSETTLED); /* gravity that cannot be fed, for one */
     }
     return allowed && wh_drive_at_target(&run->drive);
@@ -86,7 +82,8 @@ static void spin_up(wh_run *run, const wh_run_scene *scene) {
     const wh_run_config *config = scene->config;
     const wh_speed *speed = &scene->pulses->speed;
     const wh_real wanted =
-        config->spin_up_V + config->spin_up_V_per_s * since_s(run->since_ticks, scene->now_ticks);
+        config->spin_up_V +
+        config->spin_up_V_per_s * wh_rig_since_s(run->since_ticks, scene->now_ticks);
     const wh_real most = scene->supply_V < config->rated_V ? scene->supply_V : config->rated_V;
     run->volts = wanted < most ? wanted : most;
     if (speed->known && speed->turn_radps >= config->take_over_radps) {
@@ -96,7 +93,7 @@ static void spin_up(wh_run *run, const wh_run_scene *scene) {
         scene->guard->lost_before = speed->lost;
         scene->guard->rejected_before = scene->pulses->rejected;
         enter(run, WH_PHASE_RAMP, scene->now_ticks);
-    } else if (since_s(run->since_ticks, scene->now_ticks) > config->spin_up_max_s) {
+    } else if (wh_rig_since_s(run->since_ticks, scene->now_ticks) > config->spin_up_max_s) {
         wh_guard_trip(scene->guard, WH_TRIP_STALLED);
     }
 }
@@ -111,10 +108,10 @@ static void settle(wh_run *run, const wh_run_scene *scene) {
     if (off_target(run, scene) > config->settle_band_radps) {
         run->band_ticks = now;
     }
-    if (since_s(run->band_ticks, now) >= config->settle_s) {
+    if (wh_rig_since_s(run->band_ticks, now) >= config->settle_s) {
         wh_measure_record(scene->measuring, scene->measure, run->target_radps, now);
         enter(run, WH_PHASE_RECORD, now);
-    } else if (since_s(run->since_ticks, now) > config->settle_max_s) {
+    } else if (wh_rig_since_s(run->since_ticks, now) > config->settle_max_s) {
         wh_guard_trip(scene->guard, WH_TRIP_UNSETTLED);
     }
 }
@@ -153,7 +150,7 @@ static void close_loop(wh_run *run, const wh_run_scene *scene) {
     const bool too_slow = run->drive.setpoint_radps - speed->turn_radps > config->record_band_radps;
     if (!too_slow || run->volts < scene->supply_V) {
         run->ample_ticks = scene->now_ticks;
-    } else if (since_s(run->ample_ticks, scene->now_ticks) > config->short_max_s) {
+    } else if (wh_rig_since_s(run->ample_ticks, scene->now_ticks) > config->short_max_s) {
         wh_guard_trip(scene->guard, WH_TRIP_SUPPLY);
     }
 }

@@ -6,10 +6,6 @@
 #include "datasheet.h"
 #include "orders.h"
 
-static wh_real since_s(uint32_t then_ticks, uint32_t now_ticks) {
-    return (wh_real)(now_ticks - then_ticks) / (wh_real)WH_RIG_TICKS_PER_S;
-}
-
 void wh_rig_slots(wh_rig_config *config, wh_real lead_rad) {
     config->measure.rotor.mark_rad[0] = -lead_rad;
     config->measure.rotor.mark_rad[1] = WH_R(0.25) * WH_RIG_TWO_PI - lead_rad;
@@ -130,6 +126,9 @@ static void follow(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs
         wh_run_set(&rig->run, order->value, now);
         rig->fed = feeds(config, order->value);
         rig->guard.regulated = 0;
+        if (!rig->fed) {
+            wh_lockin_feed(&rig->measure.lockin, false);
+        }
         break;
     case WH_EVENT_STOP:
     case WH_EVENT_HOST_LOST:
@@ -144,7 +143,10 @@ static void follow(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs
         break;
     case WH_EVENT_RESTED:
     case WH_EVENT_EXPIRED: rig->run.phase = WH_PHASE_NONE; break;
-    case WH_EVENT_CLEAR: rig->guard.trip = WH_TRIP_NONE; break;
+    case WH_EVENT_CLEAR:
+        rig->guard.trip = WH_TRIP_NONE;
+        rig->record = (wh_trip_record){.trip = WH_TRIP_NONE}; /* a reset finds none */
+        break;
     case WH_EVENT_ARM: rig->pulses_before = rig->pulses_ever; break;
     case WH_EVENT_DONE:
     case WH_EVENTS: break;
@@ -272,7 +274,7 @@ static wh_real feed_V(const wh_rig_config *config, wh_rig *rig, uint32_t now_tic
 static void wait_for_rest(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
     const bool tripped = rig->state == WH_LIFE_TRIPPED;
     const wh_real passed_s =
-        since_s(tripped ? rig->since_ticks : rig->run.since_ticks, inputs->now_ticks);
+        wh_rig_since_s(tripped ? rig->since_ticks : rig->run.since_ticks, inputs->now_ticks);
     const bool late = passed_s > (tripped ? config->tripped_max_s : config->rest_max_s);
     const bool blind = rig->guard.trip == WH_TRIP_PULSES;
     const bool silent = rig->guard.quiet && passed_s >= config->guard.rest_s;
@@ -291,7 +293,7 @@ static void wait_for_rest(const wh_rig_config *config, wh_rig *rig, const wh_rig
 
 static void live(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
     const bool armed = rig->state == WH_LIFE_ARMED;
-    if (armed && (since_s(rig->since_ticks, inputs->now_ticks) > config->armed_max_s ||
+    if (armed && (wh_rig_since_s(rig->since_ticks, inputs->now_ticks) > config->armed_max_s ||
                   rig->pulses_ever - rig->pulses_before > ARMED_PULSES_MOST)) {
         finds(config, rig, inputs, WH_EVENT_EXPIRED);
     }

@@ -99,7 +99,7 @@ typedef struct wh_rig {
         at_rest; /* it rests: no pulses; where those cannot be believed, after all the time it may take */
     wh_rig_result result; /* of the last run that was through; kept until the next is */
     bool has_result;
-    wh_trip_record record; /* of the last trip */
+    wh_trip_record record; /* of the trip that is latched */
     wh_rig_order order[WH_RIG_ORDERS_MOST];
     unsigned orders;
     wh_rig_event asked; /* the last order that was taken, */

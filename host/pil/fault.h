@@ -114,7 +114,7 @@ typedef struct fault_pending {
     wh_sample sample;
 } fault_pending;
 
-typedef struct fault {
+typedef struct fault_case {
     fault_kind kind;
     int channel; /* -1: none was named */
     double size;
@@ -137,12 +137,12 @@ typedef struct fault {
     wh_sample held;
     unsigned pending_count;
     fault_pending pending[FAULT_PENDING];
-} fault;
+} fault_case;
 
 typedef struct fault_plan {
     uint32_t seed;
     unsigned count;
-    fault fault[FAULTS_MAX];
+    fault_case fault[FAULTS_MAX];
     /* While it runs: */
     plant *plant;
     double ticks_per_s;
@@ -164,9 +164,9 @@ void fault_print_kinds(FILE *out);
 /* --- between the files of faults --------------------------------------------------------------------------------*/
 
 /* From 0 to below 1, another each time. */
-double fault_draw(const fault_plan *plan, fault *f);
+double fault_draw(const fault_plan *plan, fault_case *f);
 
 /* What an active fault, or one that has something to tell yet, makes of readings at time_s. */
-void fault_readings(fault_plan *plan, fault *f, double time_s, wh_readings *r);
+void fault_readings(fault_plan *plan, fault_case *f, double time_s, wh_readings *r);
 
 #endif

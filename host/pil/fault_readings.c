@@ -11,7 +11,7 @@
 #define SPIKES_ONE_IN 50.0
 #define TOLD_S 1e-9 /* of rounding */
 
-static bool is_of(const fault *f, unsigned channel) {
+static bool is_of(const fault_case *f, unsigned channel) {
     const bool samples = fault_rows[f->kind].place == FAULT_SAMPLES;
     return f->channel < 0 ? !samples || channel == 0 : f->channel == (int)channel;
 }
@@ -30,7 +30,7 @@ static void add_edge(wh_readings *r, wh_edge edge) {
     r->edge[at] = edge;
 }
 
-static void tell_later(fault *f, fault_pending what) {
+static void tell_later(fault_case *f, fault_pending what) {
     if (f->pending_count < FAULT_PENDING) {
         f->pending[f->pending_count++] = what;
     }
@@ -41,7 +41,7 @@ static uint32_t ticks_of(const fault_plan *plan, double time_s) {
 }
 
 /* One pulse. False: it does not come. */
-static bool break_edge(const fault_plan *plan, fault *f, double time_s, wh_edge *edge) {
+static bool break_edge(const fault_plan *plan, fault_case *f, double time_s, wh_edge *edge) {
     if (f->kind == FAULT_EDGE_DEAD) {
         return false;
     }
@@ -66,7 +66,7 @@ static bool break_edge(const fault_plan *plan, fault *f, double time_s, wh_edge 
 }
 
 /* Pulses of nothing, since the last readings. */
-static void invent_edges(const fault_plan *plan, fault *f, double time_s, wh_readings *r) {
+static void invent_edges(const fault_plan *plan, fault_case *f, double time_s, wh_readings *r) {
     const bool storm = f->kind == FAULT_EDGE_STORM;
     const uint32_t now_ticks = plant_ticks(plan->plant);
     while (f->next_s <= time_s && (storm || f->left > 0)) {
@@ -80,7 +80,7 @@ static void invent_edges(const fault_plan *plan, fault *f, double time_s, wh_rea
     }
 }
 
-static void break_edges(const fault_plan *plan, fault *f, double time_s, wh_readings *r) {
+static void break_edges(const fault_plan *plan, fault_case *f, double time_s, wh_readings *r) {
     const wh_readings all = *r;
     r->edges = 0;
     for (unsigned i = 0; i < all.edges; i++) {
@@ -119,7 +119,7 @@ static void set_value(const fault_plan *plan, wh_sample *s, double value, bool a
     }
 }
 
-static void change_value(const fault_plan *plan, fault *f, double time_s, wh_sample *s) {
+static void change_value(const fault_plan *plan, fault_case *f, double time_s, wh_sample *s) {
     const double hum = f->size * number_sine(TURN_RAD * HUM_HZ * time_s);
     if (f->kind == FAULT_CELL_PICKUP || f->kind == FAULT_CELL_HUM) {
         set_value(plan, s, hum, f->kind == FAULT_CELL_HUM);
@@ -148,7 +148,7 @@ static void add_sample(wh_readings *r, wh_sample sample) {
     }
 }
 
-static void break_samples(const fault_plan *plan, fault *f, double time_s, wh_readings *r) {
+static void break_samples(const fault_plan *plan, fault_case *f, double time_s, wh_readings *r) {
     const wh_readings all = *r;
     r->samples = 0;
     for (unsigned i = 0; i < all.samples; i++) {
@@ -175,7 +175,7 @@ static void break_samples(const fault_plan *plan, fault *f, double time_s, wh_re
 
 /* --- both ----------------------------------------------------------------------------------------------------*/
 
-static void tell_pending(fault *f, double time_s, wh_readings *r) {
+static void tell_pending(fault_case *f, double time_s, wh_readings *r) {
     unsigned kept = 0;
     for (unsigned i = 0; i < f->pending_count; i++) {
         const fault_pending *p = &f->pending[i];
@@ -190,7 +190,7 @@ static void tell_pending(fault *f, double time_s, wh_readings *r) {
     f->pending_count = kept;
 }
 
-void fault_readings(fault_plan *plan, fault *f, double time_s, wh_readings *r) {
+void fault_readings(fault_plan *plan, fault_case *f, double time_s, wh_readings *r) {
     const fault_place at = fault_rows[f->kind].place;
     if (f->active && at == FAULT_EDGES) {
         break_edges(plan, f, time_s, r);

@@ -26,7 +26,7 @@ static const struct {
 };
 enum { INPUTS = sizeof inputs / sizeof inputs[0] };
 
-double fault_draw(const fault_plan *plan, fault *f) {
+double fault_draw(const fault_plan *plan, fault_case *f) {
     uint64_t hash = wh_hash_u64(WH_HASH_START, plan->seed);
     hash = wh_hash_u64(hash, (uint64_t)(f - plan->fault));
     hash = wh_hash_u64(hash, f->draws++);
@@ -44,7 +44,7 @@ static int input_of(const image *im, const char *name) {
     return -1;
 }
 
-static bool find_inputs(const fault *f, const image *im) {
+static bool find_inputs(const fault_case *f, const image *im) {
     for (int i = 0; i < INPUTS; i++) {
         if (inputs[i].kind == f->kind && input_of(im, inputs[i].input) < 0) {
             fprintf(stderr,
@@ -58,7 +58,7 @@ static bool find_inputs(const fault *f, const image *im) {
 }
 
 /* Notes stand behind the outputs, in their order. */
-static bool find_note(fault *f, const wh_hello *hello) {
+static bool find_note(fault_case *f, const wh_hello *hello) {
     int at = 0;
     for (unsigned i = 0; i < hello->signals; i++) {
         at += hello->signal[i].kind == WH_SIGNAL_OUTPUT;
@@ -78,7 +78,7 @@ static bool find_note(fault *f, const wh_hello *hello) {
     return f->note[0] == '\0';
 }
 
-static bool has_channel(const fault *f, const plant *p) {
+static bool has_channel(const fault_case *f, const plant *p) {
     const fault_place at = fault_rows[f->kind].place;
     const unsigned count = at == FAULT_SAMPLES ? p->binding->samples : p->binding->edges;
     const bool asks = at == FAULT_SAMPLES || at == FAULT_EDGES || at == FAULT_SENSORS;
@@ -92,7 +92,7 @@ static bool has_channel(const fault *f, const plant *p) {
 
 /* --- the plant -----------------------------------------------------------------------------------------------*/
 
-static void set_inputs(const fault_plan *plan, const fault *f, bool broken) {
+static void set_inputs(const fault_plan *plan, const fault_case *f, bool broken) {
     const image *im = plan->plant->image;
     const fault_row *row = &fault_rows[f->kind];
     for (int i = 0; i < INPUTS; i++) {
@@ -108,7 +108,7 @@ static void set_inputs(const fault_plan *plan, const fault *f, bool broken) {
 }
 
 /* Where a sensor stands: degrees of an angle, else SI. */
-static void set_sensors(const fault_plan *plan, const fault *f, bool broken) {
+static void set_sensors(const fault_plan *plan, const fault_case *f, bool broken) {
     plant *p = plan->plant;
     if (f->kind == FAULT_EDGE_JITTER) {
         p->wish.jitter_s += (broken ? 1.0 : -1.0) * f->size * plan->ticks_per_s;
@@ -123,7 +123,7 @@ static void set_sensors(const fault_plan *plan, const fault *f, bool broken) {
     }
 }
 
-static void change(fault_plan *plan, fault *f, double time_s, bool begins) {
+static void change(fault_plan *plan, fault_case *f, double time_s, bool begins) {
     f->active = begins;
     if (begins) {
         f->happened = true;
@@ -142,7 +142,7 @@ static void change(fault_plan *plan, fault *f, double time_s, bool begins) {
 /* Begins a fault whose time has come, and ends one whose time is over. */
 static void look_at_time(fault_plan *plan, double time_s) {
     for (unsigned i = 0; i < plan->count; i++) {
-        fault *f = &plan->fault[i];
+        fault_case *f = &plan->fault[i];
         if (fault_rows[f->kind].place == FAULT_PARAMETER) {
             f->happened = true;
         } else if (!f->happened && f->reached && time_s >= f->begin_s + f->after_s) {
@@ -160,7 +160,7 @@ static bool tap_start(void *of, const wh_hello *hello, plant *p) {
     plan->plant = p;
     plan->ticks_per_s = (double)hello->ticks_per_s;
     for (unsigned i = 0; i < plan->count; i++) {
-        fault *f = &plan->fault[i];
+        fault_case *f = &plan->fault[i];
         if (!find_inputs(f, p->image) || !find_note(f, hello) || !has_channel(f, p)) {
             return false;
         }
@@ -175,7 +175,7 @@ static uint32_t times(uint32_t count, double size) {
     return many < 4e9 ? (uint32_t)many : 4000000000U;
 }
 
-static void take_time(fault *f, wh_orders *orders, double *late_s) {
+static void take_time(fault_case *f, wh_orders *orders, double *late_s) {
     if (f->kind == FAULT_SLOW) {
         orders->acted_timer = times(orders->acted_timer, f->size);
         orders->busy_timer = times(orders->busy_timer, f->size);
@@ -206,7 +206,7 @@ static void tap_orders(void *of, double time_s, wh_orders *orders, double *late_
     fault_plan *plan = of;
     bool lost = false;
     for (unsigned i = 0; i < plan->count; i++) {
-        fault *f = &plan->fault[i];
+        fault_case *f = &plan->fault[i];
         if (!f->reached && orders->output[f->note_at] == (float)f->value) {
             f->reached = true;
             f->begin_s = time_s;
@@ -214,7 +214,7 @@ static void tap_orders(void *of, double time_s, wh_orders *orders, double *late_
     }
     look_at_time(plan, time_s);
     for (unsigned i = 0; i < plan->count; i++) {
-        fault *f = &plan->fault[i];
+        fault_case *f = &plan->fault[i];
         if (f->active && fault_rows[f->kind].place == FAULT_ORDERS) {
             take_time(f, orders, late_s);
         }
@@ -231,7 +231,7 @@ static void tap_readings(void *of, double time_s, wh_readings *readings) {
     fault_plan *plan = of;
     look_at_time(plan, time_s);
     for (unsigned i = 0; i < plan->count; i++) {
-        fault *f = &plan->fault[i];
+        fault_case *f = &plan->fault[i];
         if (f->active || f->pending_count > 0) {
             fault_readings(plan, f, time_s, readings);
         }

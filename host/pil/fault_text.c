@@ -61,7 +61,7 @@ static bool read_time(words_of_fault *w, double *time_s) {
     return *time_s >= 0.0;
 }
 
-static bool read_kind(words_of_fault *w, fault *f) {
+static bool read_kind(words_of_fault *w, fault_case *f) {
     const size_t length = strcspn(w->begin, ":=@+,");
     nearest search = nearest_start(w->begin, length);
     for (int i = 0; i < FAULT_KINDS; i++) {
@@ -81,7 +81,7 @@ static bool read_kind(words_of_fault *w, fault *f) {
     return false;
 }
 
-static bool read_channel(words_of_fault *w, fault *f) {
+static bool read_channel(words_of_fault *w, fault_case *f) {
     const fault_place at = fault_rows[f->kind].place;
     double number;
     f->channel = -1;
@@ -99,7 +99,7 @@ static bool read_channel(words_of_fault *w, fault *f) {
     return true;
 }
 
-static bool read_size(words_of_fault *w, fault *f) {
+static bool read_size(words_of_fault *w, fault_case *f) {
     const fault_row *row = &fault_rows[f->kind];
     if (!takes(w, '=')) {
         return true;
@@ -119,7 +119,7 @@ static bool read_size(words_of_fault *w, fault *f) {
     return true;
 }
 
-static bool read_when(words_of_fault *w, fault *f) {
+static bool read_when(words_of_fault *w, fault_case *f) {
     static const char hint[] = "@1.5s, @state=4, or @state=4~200ms: so long after that";
     if (!takes(w, '@')) {
         return true;
@@ -140,7 +140,7 @@ static bool read_when(words_of_fault *w, fault *f) {
            wrong(w, "no such time", hint);
 }
 
-static bool read_duration(words_of_fault *w, fault *f) {
+static bool read_duration(words_of_fault *w, fault_case *f) {
     f->duration_s = (double)INFINITY;
     if (!takes(w, '+')) {
         return true;
@@ -150,11 +150,11 @@ static bool read_duration(words_of_fault *w, fault *f) {
 }
 
 static bool read_one(fault_plan *plan, words_of_fault *w) {
-    fault *f = &plan->fault[plan->count];
+    fault_case *f = &plan->fault[plan->count];
     if (plan->count == FAULTS_MAX) {
         return wrong(w, "too many faults", "sixteen at most");
     }
-    *f = (fault){.note_at = -1};
+    *f = (fault_case){.note_at = -1};
     if (!read_kind(w, f) || !read_channel(w, f) || !read_size(w, f) || !read_when(w, f) ||
         !read_duration(w, f)) {
         return false;
@@ -177,7 +177,7 @@ bool fault_read(fault_plan *plan, const char *text) {
 }
 
 char *fault_parameter(const fault_plan *plan, unsigned i) {
-    const fault *f = &plan->fault[i];
+    const fault_case *f = &plan->fault[i];
     const fault_row *row = &fault_rows[f->kind];
     return row->place == FAULT_PARAMETER ? room_words("%s=%.17g", row->word, f->size) : NULL;
 }

@@ -38,7 +38,7 @@ static void print_plant(FILE *out, const image *im, const lockstep_report *r) {
 
 static void print_notes(FILE *out, const lockstep_report *r) {
     for (unsigned i = 0; i < r->notes; i++) {
-        const told *note = &r->note[i];
+        const told_note *note = &r->note[i];
         const bool bare = strcmp(note->unit, "1") == 0;
         fprintf(out, "%s%s %.6g%s%s", i == 0 ? "it tells           " : ", ", note->name,
                 note->value, bare ? "" : " ", bare ? "" : note->unit);

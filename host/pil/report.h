@@ -47,11 +47,11 @@ typedef struct peak {
 } peak;
 
 /* What a firmware tells of itself: the last value. */
-typedef struct told {
+typedef struct told_note {
     char name[32];
     char unit[16];
     double value;
-} told;
+} told_note;
 
 typedef struct lockstep_report {
     lockstep_end end;
@@ -59,7 +59,7 @@ typedef struct lockstep_report {
     char program[40];
     char board[40];
     uint64_t exchanges;
-    told note[WH_SIGNALS_MAX];
+    told_note note[WH_SIGNALS_MAX];
     unsigned notes;
     double time_s; /* of the plant */
     double wall_s;

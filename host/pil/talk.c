@@ -147,7 +147,7 @@ static bool hear_hello(talk *t) {
         const wh_signal *s = &t->signal[i];
         t->outputs += s->kind == WH_SIGNAL_OUTPUT || s->kind == WH_SIGNAL_NOTE;
         if (s->kind == WH_SIGNAL_NOTE) {
-            told *note = &t->report->note[t->report->notes++];
+            told_note *note = &t->report->note[t->report->notes++];
             snprintf(note->name, sizeof note->name, "%s", s->name);
             snprintf(note->unit, sizeof note->unit, "%s", s->unit);
         }

@@ -94,7 +94,8 @@ typedef struct verdict {
     double peak_rpm; /* and instant */
     double
         lie; /* a good result is off by so much more than its interval and 1 %; as a share of the truth */
-    bool lasting;      /* a drive that ignores the voltage for longer than it may take to stop it */
+    bool
+        lasting; /* a drive that is on ignores the voltage for longer than it may take to stop it */
     double off_s;      /* from then until the enable was off; -1: it was not */
     double caught_rpm; /* the fastest instant until then */
     double time_s;
@@ -117,6 +118,10 @@ typedef struct judge {
     const campaign_case *of;
     const fault_plan *plan;
     double *until_s;
+    bool enabled;
+    double enabled_s; /* since then */
+    double
+        ignored_s; /* the drive is on and ignores the voltage, since then; -1: it was not so far */
     double off_since_s; /* tripped and off; -1: it is not */
     const plant *plant;
     bound angle;

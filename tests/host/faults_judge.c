@@ -141,7 +141,7 @@ static double off_by(const judge *j, unsigned turns) {
 /* --- what the controller says ----------------------------------------------------------------------------------*/
 
 static void look_for_fault(judge *j) {
-    const fault *f = &j->plan->fault[j->plan->count - 1U];
+    const fault_case *f = &j->plan->fault[j->plan->count - 1U];
     if (j->plan->count > 1 && f->happened && !j->began) {
         j->began = true;
         j->verdict.happened = true;
@@ -204,16 +204,19 @@ static void hear(void *of, double time_s, wh_orders *orders, double *late_s) {
     take_notes(j, orders);
     count_step(j, time_s, orders);
     const bool enabled = orders->output[j->at_enable] > 0.0F && !j->plant->cut;
-    const fault *f = &j->plan->fault[j->plan->count - 1U];
+    j->enabled_s = enabled && !j->enabled ? time_s : j->enabled_s;
+    j->enabled = enabled;
+    const fault_case *f = &j->plan->fault[j->plan->count - 1U];
     const bool ignores = j->of->runs_away && f->active;
     j->driven = enabled && (orders->output[j->at_duty] > 0.0F || ignores);
     let_go(j, time_s);
-    if (ignores && f->duration_s >= LASTING_S) {
-        j->verdict.lasting = true;
-        if (!enabled && j->verdict.off_s < 0.0) {
-            j->verdict.off_s = time_s - f->begin_s;
-            j->verdict.caught_rpm = j->verdict.peak_rpm;
-        }
+    if (ignores && enabled && j->ignored_s < 0.0) {
+        j->ignored_s = f->begin_s > j->enabled_s ? f->begin_s : j->enabled_s;
+        j->verdict.lasting = f->begin_s + f->duration_s - j->ignored_s >= LASTING_S;
+    }
+    if (j->verdict.lasting && !enabled && j->verdict.off_s < 0.0) {
+        j->verdict.off_s = time_s - j->ignored_s;
+        j->verdict.caught_rpm = j->verdict.peak_rpm;
     }
 }
 
@@ -222,6 +225,7 @@ tap judge_tap(judge *j, const campaign_case *of, const fault_plan *plan, double 
                  .plan = plan,
                  .until_s = until_s,
                  .off_since_s = -1.0,
+                 .ignored_s = -1.0,
                  .verdict = {.row = of->row, .stage = -1, .off_s = -1.0}};
     return (tap){.name = "judge", .of = j, .start = start, .orders = hear, .watch = watch};
 }

@@ -87,7 +87,8 @@ typedef struct made_up {
     int quality;
     int turns;
     const char *fault;
-    double off_s; /* the enable goes off */
+    double on_s;  /* the enable is on from here, */
+    double off_s; /* to here */
     bool drives;
     bool calibration;
     bool runs_away;
@@ -129,7 +130,7 @@ static verdict judged(const made_up *m) {
     for (int ms = 0; ms < 3000; ms++) {
         const double now_s = ms * 1e-3;
         wh_orders orders = {.outputs = NOTES_AT + HAL_NOTES,
-                            .output = {0.5F, now_s < m->off_s ? 1.0F : 0.0F}};
+                            .output = {0.5F, now_s >= m->on_s && now_s < m->off_s ? 1.0F : 0.0F}};
         if (now_s >= m->said_s) {
             float *note = orders.output + NOTES_AT;
             note[HAL_NOTE_QUALITY] = (float)m->quality;
@@ -235,6 +236,12 @@ static void test_runaways(void) {
     m.off_s = 99.0;
     v = judged(&m);
     TEST_ASSERT_TRUE(v.lasting && v.off_s < 0.0 && !v.runs_on);
+    m.on_s = 2.4; /* from when it is on */
+    m.off_s = 2.55;
+    v = judged(&m);
+    TEST_ASSERT_TRUE(v.lasting && fabs(v.off_s - 0.15) < 2.1e-3);
+    m.on_s = 0.0;
+    m.off_s = 99.0;
     m.rpm = 420.0; /* such a drive is on with whatever duty */
     TEST_ASSERT_TRUE(judged(&m).runs_on);
     m.fault = "runaway@2+0.3";

@@ -39,7 +39,7 @@ static int number_behind(const char *letter, const char *word) {
     const char *digits = word + length;
     const bool is = strncmp(word, letter, length) == 0 && digits[0] != '\0' &&
                     strspn(digits, "0123456789") == strlen(digits);
-    return is ? atoi(digits) : 0;
+    return is ? (int)strtol(digits, NULL, 10) : 0;
 }
 
 /* The names between the brackets, in their order. */
@@ -60,14 +60,14 @@ static int read_components(const char *line, char *letter, char part[][NAME]) {
 static void check_form(FILE *out, int count) {
     char line[400];
     char letter[NAME] = "";
-    char part[COMPONENTS][NAME];
+    char part[COMPONENTS][NAME] = {{0}};
     int slopes = 0;
     int all = 0;
     rewind(out);
     while (fgets(line, sizeof line, out) != NULL) {
         int of = 0;
         char slope[NAME + 1];
-        char name[NAME];
+        char name[NAME] = "";
         char form[40];
         if (strncmp(line, "first-order form", 16) == 0) {
             all = read_components(line, letter, part);

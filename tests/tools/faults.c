@@ -128,7 +128,16 @@ static int work(const campaign *c, plants *from, int job, int onto) {
     return 0;
 }
 
-static unsigned collect(const campaign *c, int from, verdict *all) {
+/* Whoever interrupts this process alone means all of it. */
+static void pass_on(const campaign *c, const pid_t *worker) {
+    for (int job = 0; job < c->jobs && interrupted; job++) {
+        if (worker[job] > 0) {
+            kill(worker[job], SIGINT);
+        }
+    }
+}
+
+static void collect(const campaign *c, const pid_t *worker, int from, verdict *all) {
     const bool shown = isatty(STDERR_FILENO) == 1;
     unsigned count = 0;
     verdict v;
@@ -140,24 +149,28 @@ static unsigned collect(const campaign *c, int from, verdict *all) {
             count++;
         } else if (got >= 0 || !interrupted) {
             break;
+        } else {
+            pass_on(c, worker);
+            continue;
         }
         if (shown || count % 1000 == 0) {
             fprintf(stderr, shown ? "\r%u of %u" : "%u of %u\n", count, c->runs);
         }
     }
     fputs(shown ? "\n" : "", stderr);
-    return count;
 }
 
 static int run_all(const campaign *c, plants *from) {
     int line[2];
     int worst = 0;
+    pid_t worker[JOBS_MAX] = {0};
     verdict *all = room(c->runs, sizeof *all);
     if (pipe(line) != 0) {
         return 2;
     }
     for (int job = 0; job < c->jobs; job++) {
         const pid_t pid = fork();
+        worker[job] = pid;
         if (pid == 0) {
             close(line[0]);
             _exit(work(c, from, job, line[1]));
@@ -165,7 +178,7 @@ static int run_all(const campaign *c, plants *from) {
         worst = pid < 0 ? 2 : worst;
     }
     close(line[1]);
-    collect(c, line[0], all);
+    collect(c, worker, line[0], all);
     close(line[0]);
     for (int status; wait(&status) > 0;) {
         worst = !WIFEXITED(status) || WEXITSTATUS(status) != 0 ? 2 : worst;
