@@ -238,8 +238,7 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
     if (rig->run.phase == WH_PHASE_SPIN_UP && !rig->pulses.speed.running &&
         wh_rig_since_s(rig->run.since_ticks, inputs->now_ticks) >
             config->guard.slow_silence_max_s) {
-        wh_guard_trip(guard,
-                      WH_TRIP_PULSES); /* the rotor does not start, or is not seen: who knows */
+        wh_guard_trip(guard, WH_TRIP_STALLED); /* or is not seen: it must not get fast */
     }
     if (drives) {
         wh_guard_pulses(&config->guard, guard, &rig->pulses, silence_s(config, rig),
