@@ -84,7 +84,7 @@ static void test_the_table_has_every_pair(void) {
             TEST_ASSERT_TRUE(rule.next == (is_state(letter) ? state_of(letter) : (wh_life)state));
         }
     }
-    static const int strange[] = {-1, 100, INT16_MIN, INT16_MAX};
+    static const int strange[] = {-1, 100, 200, INT16_MAX}; /* none of them 0 in a byte */
     for (unsigned i = 0; i < 4; i++) {
         const wh_life_rule event = wh_life_rule_of(WH_LIFE_ARMED, (wh_rig_event)strange[i]);
         const wh_life_rule state = wh_life_rule_of((wh_life)strange[i], WH_EVENT_ARM);
