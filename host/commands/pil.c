@@ -14,6 +14,7 @@
 #include "host/pil/fault.h"
 #include "host/pil/lockstep.h"
 #include "host/pil/pil_text.h"
+#include "host/pil/taped_csv.h"
 #include "host/run/start.h"
 #include "interrupts.h"
 #include "load.h"
@@ -29,6 +30,7 @@ static const command_usage usage = {
     .head =
         "usage: whirl pil SCENE|MECHANISM[:SCENE]|FILE[:SCENE] --firmware IMAGE [options]\n"
         "       whirl pil --replay TAPE --firmware IMAGE [options]\n"
+        "       whirl pil --read TAPE [--csv FILE]\n"
         "\n"
         "Processor in the loop: IMAGE runs in QEMU (or here, when it is a program of this machine), the\n"
         "scene beside it in double, with a step of its own (50us), and each waits while the other\n"
@@ -44,6 +46,9 @@ static const command_usage usage = {
         "  --tape FILE          keep all that goes over the line\n"
         "  --replay TAPE        no scene: what TAPE has is said to the firmware, whose answers must be\n"
         "                       those of the tape, to the bit\n"
+        "  --read TAPE          what TAPE has, as rows: each edge and sample that the firmware heard, with\n"
+        "                       its time and value, and each change of its outputs and notes\n"
+        "  --csv FILE           of --read: into FILE; - (when left out) is standard output\n"
         "  --bind A=B,...       the firmware's A is the scene's B\n"
         "  --place X,...        so far each edge of the firmware's stands off its place, in its order:\n"
         "                       degrees of an angle, else SI\n"
@@ -74,6 +79,8 @@ typedef struct pil_options {
     const char *board;
     const char *tape;
     const char *replay;
+    const char *read; /* a tape that is shown */
+    const char *csv;
     const char *bind;
     const char *place;
     const char *jitter;
@@ -94,8 +101,9 @@ static bool take_words(int count, char **words, int *at, pil_options *o, bool *b
         const char *option;
         const char **value;
     } rows[] = {{"--firmware", &o->firmware}, {"--board", &o->board}, {"--tape", &o->tape},
-                {"--replay", &o->replay},     {"--bind", &o->bind},   {"--place", &o->place},
-                {"--jitter", &o->jitter},     {"--delay", &o->delay}};
+                {"--replay", &o->replay},     {"--read", &o->read},   {"--csv", &o->csv},
+                {"--bind", &o->bind},         {"--place", &o->place}, {"--jitter", &o->jitter},
+                {"--delay", &o->delay}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0] && !*bad; i++) {
         const char *value = options_value(count, words, at, rows[i].option, bad);
         if (value != NULL) {
@@ -157,10 +165,38 @@ static bool take_one(int count, char **words, int *at, void *options, bool *bad)
     return quiet || kinds;
 }
 
+/* A tape that is shown needs nobody, and nobody hears it. */
+static bool is_read_alone(const pil_options *o) {
+    const char *beside = o->target != NULL     ? "scene"
+                         : o->firmware != NULL ? "--firmware"
+                         : o->tape != NULL     ? "--tape"
+                         : o->replay != NULL   ? "--replay"
+                         : o->faults.count > 0 ? "--fault"
+                                               : NULL;
+    if (beside != NULL) {
+        fprintf(stderr, "whirl pil: error: --read takes no %s: it only shows the tape\n", beside);
+        return false;
+    }
+    if (o->csv != NULL && files_same(o->read, o->csv)) {
+        fputs("whirl pil: error: --csv would be written over the tape\n", stderr);
+        return false;
+    }
+    return true;
+}
+
 /* What stands together, and what does not. */
 static bool go_together(const pil_options *o) {
     if (o->kinds) {
         return true;
+    }
+    if (o->read != NULL) {
+        return is_read_alone(o);
+    }
+    if (o->csv != NULL) {
+        fputs("whirl pil: error: --csv is what --read writes\n"
+              "hint: --tape FILE keeps a run, then: whirl pil --read FILE --csv -\n",
+              stderr);
+        return false;
     }
     if (o->firmware == NULL) {
         fprintf(stderr, "whirl pil: error: no --firmware IMAGE\nhint: make pil-images builds "
@@ -192,10 +228,10 @@ static bool is_known_board(pil_options *o) {
 }
 
 static bool read_options(int count, char **words, pil_options *o) {
-    static const char *const own[] = {"--firmware", "--board",  "--tape",   "--replay",
-                                      "--bind",     "--place",  "--jitter", "--delay",
-                                      "--seed",     "--clock",  "--cycles", "--patience",
-                                      "--fault",    "--faults", "--quiet",  NULL};
+    static const char *const own[] = {"--firmware", "--board", "--tape",   "--replay",   "--read",
+                                      "--csv",      "--bind",  "--place",  "--jitter",   "--delay",
+                                      "--seed",     "--clock", "--cycles", "--patience", "--fault",
+                                      "--faults",   "--quiet", NULL};
     const target_reader reader = {
         .command = "pil", .groups = usage.groups, .own = own, .take = take_one};
     return target_read(&reader, count, words, &o->common, o, &o->target) && is_known_board(o) &&
@@ -399,6 +435,8 @@ int command_pil(int count, char **words) {
         if (o.kinds) {
             fault_print_kinds(stdout);
             code = EXIT_DONE;
+        } else if (o.read != NULL) {
+            code = taped_show(o.read, o.csv) ? EXIT_DONE : EXIT_BAD_INPUT;
         } else if (o.replay != NULL) {
             code = replay(&o);
         } else {

@@ -139,6 +139,53 @@ timeout 60 "$whirl" pil docs/plants/cart.whirl --until 2s --set l=0.5 --firmware
 { tr '\0\n' '\n\0' <"$scratch/cart.tape" | head -n 1001 && tr '\0\n' '\n\0' <"$scratch/long.tape" | tail -n +1002; } | tr '\0\n' '\n\0' >"$scratch/mixed.tape"
 refused 1 'exchange 50[0-9], .*other orders than on the tape' --replay "$scratch/mixed.tape" --firmware "$build/pil_cart"
 
+# --- what a tape has, as rows -------------------------------------------------------------------------------------------
+# rows KIND FILE: so many of that kind
+rows() { awk -F, -v kind="$1" '$3 == kind { n++ } END { print n + 0 }' "$2"; }
+"$whirl" pil --read "$scratch/pc.tape" >"$scratch/rows" 2>"$scratch/err" &&
+    [ "$(head -n 1 "$scratch/rows")" = time,heard,kind,channel,signal,value,unit,status ] &&
+    [ "$(line readings "$scratch/pc")" = "$(rows edge "$scratch/rows") edges, $(rows sample "$scratch/rows") samples, 0 lost" ]
+verdict $? "--read has each edge and sample of the report" "$scratch/pc"
+awk -F, 'NF != 8 || $1 > $2 || ($3 == "sample") != ($8 == "good") || ($3 == "edge") != ($6 == "") ||
+    ($3 == "sample" && $5 == "cell_force" && ($1 != $2 || ++n * 0.002 - $1 > 1e-9 || $1 - n * 0.002 > 1e-9)) { bad++ }
+    END { exit !(NR > 15000 && bad == 1) }' "$scratch/rows" # the header
+verdict $? "its rows have eight columns, and a sample every 2 ms"
+# a supply of 24 V, the tare at rest, pulses in turns, and what the firmware told at last
+awk -F, -v told="$(sed -n 's/^it tells .* amplitude \([0-9.]*\) N.*/\1/p' "$scratch/pc")" '
+    BEGIN { before = -1 }
+    $5 == "supply" && ($6 < 23.98 || $6 > 24.02) { bad++ }
+    $5 == "cell_force" && $1 < 2 && ($6 < 56.05 || $6 > 56.08) { bad++ }
+    $3 == "edge" && $1 > 3 && $1 < 12 { if ($4 == last) bad++; last = $4 }
+    $5 == "amplitude" { amplitude = $6 }
+    $5 == "state" && $6 == before { bad++ }
+    $5 == "state" { before = $6 }
+    END { d = amplitude - told; exit !(bad == 0 && d < 1e-4 && d > -1e-4 && before == 15) }' "$scratch/rows"
+verdict $? "values are those of plant and firmware"
+"$whirl" pil --read "$scratch/pc.tape" --csv "$scratch/rows.csv" && cmp -s "$scratch/rows" "$scratch/rows.csv"
+verdict $? "--csv FILE is the same"
+# shellcheck disable=SC2086
+timeout 60 "$whirl" pil $rig --fault hang=0.1@3s --firmware "$build/pil_rig" --tape "$scratch/hang.tape" >"$scratch/out" 2>"$scratch/err"
+"$whirl" pil --read "$scratch/hang.tape" >"$scratch/rows" 2>"$scratch/err" && [ "$(rows cut "$scratch/rows")" -eq 1 ] &&
+    close_to "$(awk -F, '$3 == "cut" { print $1 }' "$scratch/rows")" 3.1 0.01
+verdict $? "a watchdog that has cut is a row" "$scratch/out"
+# shellcheck disable=SC2086
+timeout 60 "$whirl" pil $rig --fault edge-late=5ms@3s,cell-saturated@6s --firmware "$build/pil_rig" --tape "$scratch/late.tape" >"$scratch/out" 2>"$scratch/err"
+"$whirl" pil --read "$scratch/late.tape" | awk -F, '$3 == "edge" && $1 > 3.1 && $1 < 6 { n++; if ($2 - $1 < 0.005 || $2 - $1 > 0.0091) bad++ }
+    $8 == "saturated" && ($1 < 6 || $4 != 1) { bad++ } $8 == "saturated" { full++ } END { exit !(n > 5 && bad == 0 && full > 1) }'
+verdict $? "what comes late has its stamp, and what is saturated says so" "$scratch/out"
+refused 2 'it is broken' --read "$scratch/cut.tape"
+refused 2 'it is broken' --read "$scratch/flip.tape"
+refused 2 'no tape of this version' --read "$build/pil_rig"
+refused 2 'no tape of this version' --read /dev/zero
+refused 2 'cannot be read' --read "$scratch/none"
+refused 2 'cannot be written' --read "$scratch/pc.tape" --csv "$scratch/no/rows"
+[ ! -c /dev/full ] || refused 2 'cannot be written' --read "$scratch/pc.tape" --csv /dev/full
+refused 2 'over the tape' --read "$scratch/pc.tape" --csv "$scratch/pc.tape"
+refused 2 '--read takes no --firmware' --read "$scratch/pc.tape" --firmware "$build/pil_rig"
+refused 2 '--read takes no scene' --read "$scratch/pc.tape" $rig
+refused 2 '--read takes no --replay' --read "$scratch/pc.tape" --replay "$scratch/pc.tape"
+refused 2 '--csv is what --read writes' $rig --csv - --firmware "$build/pil_rig"
+
 # --- what is refused --------------------------------------------------------------------------------------------------------
 refused 2 'no --firmware' rig_coupled
 refused 2 'no scene' --firmware "$build/pil_rig"
