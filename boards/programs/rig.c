@@ -37,6 +37,16 @@ extern const wh_scene rig_observed;
 #include "hal/frames/rig_frames.h"
 #endif
 
+/* On a carriage, with what an operator has dialled in (pil_carriage.c). */
+#ifndef RIG_CARRIAGE
+#define RIG_CARRIAGE 0
+#endif
+#if RIG_CARRIAGE
+#include "core/rig/carriage.h"
+static wh_carriage carriage;
+static float swing_m; /* of the carriage, by what was measured */
+#endif
+
 _Static_assert(HAL_TICKS_PER_S == WH_RIG_TICKS_PER_S, "one clock");
 _Static_assert((int)HAL_LOAD_SATURATED == (int)WH_LOAD_SATURATED &&
                    (int)HAL_LOAD_DISCONNECTED == (int)WH_LOAD_DISCONNECTED &&
@@ -58,6 +68,7 @@ _Static_assert((int)HAL_LOAD_SATURATED == (int)WH_LOAD_SATURATED &&
 
 /* Static, not on the stack: it holds the samples of a turn. */
 static wh_rig rig;
+static float target_radps = RIG_TARGET_RPM * WH_RIG_RADPS_PER_RPM;
 
 /* To whoever judges a run in the loop (docs/pil.md). */
 static void tell(void) {
@@ -71,6 +82,9 @@ static void tell(void) {
     hal_frames_note(HAL_NOTE_PHASE, force->phase_rad);
     hal_frames_note(HAL_NOTE_PHASE_HALF, force->phase_half_rad);
     hal_frames_note(HAL_NOTE_TURNS, rig.has_result ? (float)force->turns : 0.0f);
+#endif
+#if RIG_CARRIAGE
+    hal_frames_note(HAL_NOTE_SWING, swing_m);
 #endif
 }
 
@@ -149,9 +163,39 @@ static void put_verdict(const wh_measured *force) {
     put("\n");
 }
 
-static void put_result(const wh_rig_result *result) {
-    const float nominal_radps = WH_RIG_NOMINAL_RPM * WH_RIG_RADPS_PER_RPM;
-    const float formula_N = WH_RIG_MASS_MOMENT_KGM * nominal_radps * nominal_radps;
+#if RIG_CARRIAGE
+/* What the operator has dialled in, once the dials have been read. */
+static void take_dials(wh_rig_config *config) {
+    const uint32_t started = hal_clock_ticks();
+    for (uint32_t waited = 0; waited <= HAL_DIAL_TICKS; waited += CONTROL_TICKS) {
+        hal_clock_wait_until(started + waited + CONTROL_TICKS);
+        hal_load_sample none_yet;
+        while (hal_loadcell_take(&none_yet)) {
+        }
+    }
+    carriage = (wh_carriage){.disc_m = hal_frames_dial(HAL_DIAL_RADIUS),
+                             .ratio = hal_frames_dial(HAL_DIAL_RATIO)};
+    target_radps = hal_frames_dial(HAL_DIAL_SPEED);
+    wh_carriage_mount(config, &carriage);
+}
+
+/* Beside the formula for a fixed mount. */
+static void put_carriage(const wh_rig_config *config) {
+    const float part = config->measure.result.mount_factor;
+    const float lever_m = config->measure.rotor.mass_moment_kgm / WH_RIG_ECCENTRIC_KG;
+    put("On a carriage: force as a part of that on a fixed mount, 1/(1 + ratio)\n");
+    put_value("eccentric / carriage weight", carriage.ratio, 4, "");
+    put_value("radius of the discs", 1e3f * carriage.disc_m, 1, "mm");
+    put_value("1/(1 + ratio)", 100.0f * part, 2, "%");
+    put_value("carriage, to either side", 1e3f * swing_m, 3, "mm");
+    put_value("by formula, S/(M + m)", 1e3f * lever_m * (1.0f - part), 3, "mm");
+}
+#endif
+
+static void put_result(const wh_rig_config *config, const wh_rig_result *result) {
+    const float nominal_radps =
+        RIG_CARRIAGE ? target_radps : WH_RIG_NOMINAL_RPM * WH_RIG_RADPS_PER_RPM;
+    const float formula_N = config->measure.rotor.mass_moment_kgm * nominal_radps * nominal_radps;
     const wh_measured *force = &result->force;
     put("Measured, over the whole turns of a record at 500 samples/s\n");
     put_value("turns", (float)force->turns, 0, "");
@@ -175,10 +219,13 @@ static void put_result(const wh_rig_result *result) {
     put_value("slot pulses lost", (float)result->lost, 0, "");
     put_value("slot pulses rejected", (float)result->rejected, 0, "");
     put("Formula, sum of m r w^2 at the nominal speed\n");
-    put_value("speed", WH_RIG_NOMINAL_RPM, 2, "rpm");
+    put_value("speed", nominal_radps * RPM_PER_RADPS, 2, "rpm");
     put_force("force", formula_N);
     put_value("phase", 0.0f, 2, "deg");
     put_value("measured / formula", 100.0f * force->amplitude_N / formula_N, 2, "%");
+#if RIG_CARRIAGE
+    put_carriage(config);
+#endif
 }
 
 #if HAL_VIRTUAL
@@ -245,7 +292,7 @@ static bool operate(operator_step *at, uint32_t waited_ticks) {
         return false;
     case HAS_ARMED:
         *at = HAS_STARTED;
-        (void)wh_rig_post(&rig, WH_EVENT_START, RIG_TARGET_RPM * WH_RIG_RADPS_PER_RPM);
+        (void)wh_rig_post(&rig, WH_EVENT_START, target_radps);
         return rig.state != WH_LIFE_ARMED; /* refused */
     case HAS_STARTED: break;
     }
@@ -266,6 +313,9 @@ static void run(const wh_rig_config *config) {
         due += CONTROL_TICKS;
         hal_clock_wait_until(due);
         control(config);
+#if RIG_CARRIAGE
+        swing_m = rig.has_result ? wh_carriage_swing(config, &carriage, &rig.result.force) : 0.0f;
+#endif
         tell();
         if (wh_rig_stage(&rig) != shown) {
             shown = wh_rig_stage(&rig);
@@ -299,6 +349,9 @@ int main(void) {
     put("Eccentric-mass rig on board ");
     put(board_name);
     put("\n");
+#if RIG_CARRIAGE
+    hal_frames_with_dials();
+#endif
     if (!hal_clock_start()) {
         refuse(why_no_hardware());
     }
@@ -312,6 +365,9 @@ int main(void) {
                                            .raw_max = HAL_LOADCELL_RAW_MAX};
     wh_rig_slots(&config, HAL_SLOT_LEAD_DEG / WH_RIG_DEG_PER_RAD);
     config.observer.scene = &rig_observed;
+#if RIG_CARRIAGE
+    take_dials(&config);
+#endif
     run(&config);
 
     if (rig.state == WH_LIFE_TRIPPED) {
@@ -324,7 +380,7 @@ int main(void) {
         put("; the motor is off\n");
     }
     if (rig.has_result) {
-        put_result(&rig.result);
+        put_result(&config, &rig.result);
     }
 #if HAL_VIRTUAL
     put_plant_hash();

@@ -20,13 +20,27 @@ WH_INLINE wh_real wh_rig_since_s(uint32_t then_ticks, uint32_t now_ticks) {
 #define WH_RIG_DEG_PER_RAD WH_R(57.29577951308232)
 #define WH_RIG_LBF_PER_N WH_R(0.22480894309971047)
 
-/* Sum of mass times radius over both sets: arm 0.152 lb at 7.25/2 in, discs 0.15 lb at 6.5 in. */
+/* Of both sets: arm 0.152 lb, 7.25 in long, discs 0.15 lb; centres of the discs 6.5 in from the shaft, and so many metres
+ * where they are put elsewhere. */
+#define WH_RIG_ECCENTRIC_KG (WH_R(2.0) * (WH_R(0.152) + WH_R(0.15)) * WH_R(0.45359237))
+#define WH_RIG_DISC_RADIUS_M (WH_R(6.5) * WH_R(0.0254))
+
+/* Sum of mass times radius over both sets. */
+#define WH_RIG_MASS_MOMENT_AT_KGM(disc_m) \
+    (WH_R(2.0) * (WH_R(0.152) * (WH_R(3.625) * WH_R(0.0254)) + WH_R(0.15) * (disc_m)) * \
+     WH_R(0.45359237))
 #define WH_RIG_MASS_MOMENT_KGM \
     (WH_R(2.0) * (WH_R(0.152) * WH_R(3.625) + WH_R(0.15) * WH_R(6.5)) * \
      (WH_R(0.45359237) * WH_R(0.0254)))
 
 /* Of all that turns: two sets, the arm a slender rod, the discs points; 5e-4 kg m^2 of motor, couplings and
  * shafts, which is assumed. */
+#define WH_RIG_INERTIA_AT_KGM2(disc_m) \
+    (WH_R(2.0) * \
+         (WH_R(0.152) * (WH_R(17.520833333333332) * WH_R(0.0254) * WH_R(0.0254)) + \
+          WH_R(0.15) * ((disc_m) * (disc_m))) * \
+         WH_R(0.45359237) + \
+     WH_R(5e-4))
 #define WH_RIG_INERTIA_KGM2 \
     (WH_R(2.0) * (WH_R(0.152) * WH_R(17.520833333333332) + WH_R(0.15) * WH_R(42.25)) * \
          (WH_R(0.45359237) * WH_R(0.0254) * WH_R(0.0254)) + \

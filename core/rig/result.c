@@ -76,9 +76,12 @@ void wh_merge_add(const wh_result_config *config, const wh_rotor_config *rotor, 
 
     const wh_real turn_s = (wh_real)turn->turn_ticks / (wh_real)WH_RIG_TICKS_PER_S;
     const wh_real swing2 = angle->swing_rad * angle->swing_rad;
-    /* S <w^2> over the angle: the cube of the speed over time, and so 3/2 of the square of the swing */
+    /* S <w^2> over the angle: the cube of the speed over time, and so 3/2 of the square of the swing; of what goes twice
+     * a turn the speed swings by twice the angle */
+    const wh_real twice2 = WH_R(4.0) * square_of(angle->twice_rad);
     const wh_real expected = config->mount_factor * rotor->mass_moment_kgm *
-                             square_of(WH_RIG_TWO_PI / turn_s) * (WH_R(1.0) + WH_R(1.5) * swing2);
+                             square_of(WH_RIG_TWO_PI / turn_s) *
+                             (WH_R(1.0) + WH_R(1.5) * (swing2 + twice2));
     merge->mean_N += part * (turn->mean_N - merge->mean_N);
     merge->residual_N2 += part * (square_of(turn->residual_N) - merge->residual_N2);
     merge->expected_N += part * (expected - merge->expected_N);
@@ -160,7 +163,8 @@ void wh_merge_mean(const wh_result_config *config, const wh_rotor_config *rotor,
                           (n * merge->turn_s * (wh_real)WH_RIG_TICKS_PER_S);
     const wh_real amplitude2 =
         square_of(config->amplitude_floor) + square_of(WH_R(1.5) * swing * lag) + square_of(third) +
-        square_of(WH_R(3.0) * quadrature * quadrature) + square_of(WH_R(0.04) * cut);
+        square_of(WH_R(3.0) * quadrature * quadrature) + square_of(WH_R(0.04) * cut) +
+        square_of(WH_R(0.5) * angle->twice_rad * rotor->yields_tolerance);
     measured->amplitude_half_N = WH_SQRT(along_N2 + amplitude2 * size2);
     measured->phase_half_rad =
         WH_SQRT(across_N2 / size2 + t2 * marks_rad2(merge, angle, measured->jitter_s) +

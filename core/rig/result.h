@@ -8,7 +8,8 @@
  *     split       (phase) the rotor's inertia, or the part of gravity that is left, comes from marks with the same jitter
  *     reference   what the angle within the turn would be off if the rotor's damping were off by its tolerance,
  *                 and the third order that it leaves out; while gravity is fed, if that were at an angle off by its
- *                 tolerance; and where the motor cannot brake as much as that asks for, what it leaves
+ *                 tolerance; and where the motor cannot brake as much as that asks for, what it leaves; on a carriage
+ *                 (amplitude), if what gives way were off by its tolerance
  *     drift       (phase) the reference runs at a constant mean speed within a turn
  *     floors      calibration: as configured
  *

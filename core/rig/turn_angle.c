@@ -40,6 +40,25 @@ void wh_turn_angle_feed(wh_turn_angle *angle, bool fed) {
     }
 }
 
+/* A carriage that gives way: a wave of twice the angle more. */
+static void add_carriage(const wh_rotor_config *config, wh_turn_angle *angle, wh_real speed_radps) {
+    const wh_real yields = config->yields_kgm2;
+    const wh_real mean = angle->inertia_kgm2 - WH_R(0.5) * yields;
+    const wh_real turning = WH_R(2.0) * mean * speed_radps;
+    const wh_real tangent = config->damping_Nms / turning;
+    if (!(yields > WH_R(0.0)) || !(mean > yields)) { /* else no arms are so light */
+        angle->twice_rad = WH_R(0.0);
+        return;
+    }
+    const wh_real cosine = WH_R(1.0) / WH_SQRT(WH_R(1.0) + tangent * tangent);
+    angle->twice_rad = WH_R(0.125) * yields / mean * cosine;
+    /* u is base + phi + psi - gamma; lambda is small */
+    const wh_wave turned =
+        wave_of(WH_R(2.0) * (config->gravity_rad - angle->lag_rad) + tangent * cosine);
+    angle->second_sine -= angle->twice_rad * turned.cosine;
+    angle->second_cosine -= angle->twice_rad * turned.sine;
+}
+
 void wh_turn_angle_shape(const wh_rotor_config *config, wh_turn_angle *angle, wh_real speed_radps) {
     const wh_real weight_Nm = config->mass_moment_kgm * config->gravity_mps2;
     const wh_real turning = angle->inertia_kgm2 * speed_radps;
@@ -61,6 +80,7 @@ void wh_turn_angle_shape(const wh_rotor_config *config, wh_turn_angle *angle, wh
     const wh_real half = WH_R(0.5) * angle->lag_rad;
     angle->second_sine = second * (WH_R(1.0) - WH_R(0.5) * half * half);
     angle->second_cosine = -second * half * (WH_R(1.0) - half * half * (WH_R(1.0) / WH_R(6.0)));
+    add_carriage(config, angle, speed_radps);
 
     /* base + what is added at the begin is the mark's angle, and u there is base + psi - gamma */
     const wh_real begins = config->mark_rad[0] + angle->lag_rad - config->gravity_rad;

@@ -1,6 +1,6 @@
 /* rig_frames.c: the rig's hal_ functions, on a plant at the other end of a line.
  *
- * Names are those of docs/plants/rig.whirl. Time stands still while the controller computes; how long it took goes
+ * Names are those of docs/plants/rig.whirl, with dials of docs/plants/carriage.whirl. Time stands still while the controller computes; how long it took goes
  * with the outputs, and the plant makes them wait so long. */
 #include "rig_frames.h"
 #include "hal/clock.h"
@@ -27,8 +27,11 @@
         .high = ((deg) + HAL_SLOT_LEAD_DEG) * RAD_PER_DEG \
     }
 
-enum { DUTY, ENABLE };       /* outputs */
-enum { CELL_FORCE, SUPPLY }; /* samples */
+enum { DUTY, ENABLE };              /* outputs */
+enum { CELL_FORCE, SUPPLY, DIALS }; /* samples, the first dial behind them */
+
+/* A dial's converter has 20 bits: what it rounds is less than any bound of a test. */
+#define DIAL_PER_COUNT (1.0f / 1048576.0f)
 
 static const wh_signal signals[] = {
     {.kind = WH_SIGNAL_OUTPUT, .name = "duty", .unit = "1", .low = 0.0f, .high = 1.0f},
@@ -52,27 +55,61 @@ static const wh_signal signals[] = {
 #define ROW(channel, word, si) {.kind = WH_SIGNAL_NOTE, .name = (word), .unit = (si)},
     HAL_NOTE_ROWS(ROW)
 #undef ROW
+#define DIAL(which, word, si, largest) \
+    {.kind = WH_SIGNAL_SAMPLE, \
+     .name = (word), \
+     .unit = (si), \
+     .low = 0.0f, \
+     .high = (largest), \
+     .per_count = (largest)*DIAL_PER_COUNT, \
+     .period_ticks = HAL_DIAL_TICKS},
+        HAL_DIAL_ROWS(DIAL)
+#undef DIAL
+#define ROW(channel, word, si) {.kind = WH_SIGNAL_NOTE, .name = (word), .unit = (si)},
+            HAL_DIAL_NOTE_ROWS(ROW)
+#undef ROW
 };
+
+#define ONE(...) +1U
+enum { SIGNALS_OF_DIALS = HAL_DIAL_ROWS(ONE) HAL_DIAL_NOTE_ROWS(ONE) };
+#undef ONE
+_Static_assert(sizeof signals / sizeof signals[0] <= WH_SIGNALS_MAX, "room for all");
 
 /* The board's one plant: hardware is global. */
 static hal_turns plant;
 static float supply_V = SUPPLY_RATED_V;
+static bool has_dials;
+static float dial[HAL_DIALS];
+
+static void see_dial(const wh_sample *sample) {
+#define LARGEST(which, word, si, largest) (largest),
+    static const float largest[] = {HAL_DIAL_ROWS(LARGEST)};
+#undef LARGEST
+    const unsigned which = (unsigned)sample->channel - DIALS;
+    if (which < HAL_DIALS) {
+        dial[which] = (float)sample->raw * (largest[which] * DIAL_PER_COUNT);
+    }
+}
 
 /* The newest of what is not yet taken. */
 static void see_supply(void) {
     for (unsigned i = plant.sample; i < plant.readings.samples; i++) {
-        if (plant.readings.sample[i].channel == SUPPLY) {
-            supply_V = (float)plant.readings.sample[i].raw * SUPPLY_V_PER_COUNT;
+        const wh_sample *sample = &plant.readings.sample[i];
+        if (sample->channel == SUPPLY) {
+            supply_V = (float)sample->raw * SUPPLY_V_PER_COUNT;
+        } else if (sample->channel >= DIALS) {
+            see_dial(sample);
         }
     }
 }
 
 bool hal_clock_start(void) {
-    const wh_hello hello = {.program = "rig",
+    const unsigned count = sizeof signals / sizeof signals[0];
+    const wh_hello hello = {.program = has_dials ? "rig_dials" : "rig",
                             .ticks_per_s = HAL_TICKS_PER_S,
                             .start_ticks = 0U - WRAP_AFTER_S * HAL_TICKS_PER_S,
                             .signal = signals,
-                            .signals = sizeof signals / sizeof signals[0]};
+                            .signals = has_dials ? count : count - SIGNALS_OF_DIALS};
     return hal_turns_start(&plant, &hello);
 }
 
@@ -104,6 +141,10 @@ void hal_motor_off(hal_motor_off_way way) {
 float hal_motor_supply_V(void) { return supply_V; }
 
 void hal_frames_note(unsigned channel, float value) { hal_turns_note(&plant, channel, value); }
+
+void hal_frames_with_dials(void) { has_dials = true; }
+
+float hal_frames_dial(unsigned which) { return which < HAL_DIALS ? dial[which] : 0.0f; }
 
 bool hal_slots_take(hal_slot_pulse *pulse) {
     wh_edge edge;

@@ -28,6 +28,35 @@ enum {
 /* From now on; it goes with the outputs when the controller waits next. */
 void hal_frames_note(unsigned channel, float value);
 
+/* What an operator dials in before a run, and the notes that go with it: of programs that ask for dials before
+ * hal_clock_start(). X(name, word, unit, largest), the notes above but for the largest. */
+#define HAL_DIAL_ROWS(X) \
+    X(HAL_DIAL_SPEED, "dial_speed", "rad/s", 64.0f) \
+    X(HAL_DIAL_RADIUS, "dial_radius", "m", 1.0f) \
+    X(HAL_DIAL_RATIO, "dial_ratio", "1", 16.0f)
+#define HAL_DIAL_NOTE_ROWS(X) X(HAL_NOTE_SWING, "swing", "m")
+
+enum {
+#define ROW(name, word, unit, largest) name,
+    HAL_DIAL_ROWS(ROW)
+#undef ROW
+        HAL_DIALS
+};
+enum {
+    HAL_NOTES_BEFORE_DIALS = HAL_NOTE_TURNS,
+#define ROW(name, word, unit) name,
+    HAL_DIAL_NOTE_ROWS(ROW)
+#undef ROW
+};
+
+#define HAL_DIAL_TICKS 100000U /* from one reading of a dial to the next */
+
+/* Before hal_clock_start(): the bench has dials. */
+void hal_frames_with_dials(void);
+
+/* As last read; 0 before that. */
+float hal_frames_dial(unsigned which);
+
 #ifdef __cplusplus
 }
 #endif

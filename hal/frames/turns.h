@@ -11,7 +11,7 @@
 extern "C" {
 #endif
 
-#define HAL_HELLO_BYTES 512U /* the longest hello */
+#define HAL_HELLO_BYTES 768U /* the longest hello */
 
 typedef struct hal_turns {
     uint32_t ticks;         /* now */
