@@ -4,7 +4,7 @@ FIGS := $(sort $(wildcard mk/figures/fig*.fig))
 FINDINGS := $(sort $(wildcard mk/figures/finding_*.fig))
 
 .PHONY: figures-now figures-docs octave-check-now
-figures-now: build/whirl
+figures-now: build/whirl build/pil_rig build/pil_carriage
 	@$(call need,gnuplot)
 	@rm -rf $(FIGURES)/data
 	@sh mk/figures/figures.sh build/whirl $(FIGURES) $(FIGS) $(FINDINGS)

@@ -21,8 +21,10 @@ while IFS='|' read -r number drawn x y; do
     verdict $? "$number${wrong:- has its curves and axes}"
 done <<'END'
 11|2|motor's frequency / spring's natural frequency|deflection / deflection at rest
+17|6|time [s]|load [lbf]
 19|2|time [s]|pin force [lbf]
-20|3|eccentric weight / carriage weight|free / fixed pin force
+20|4|eccentric weight / carriage weight|free / fixed pin force
+24|6|time [s]|load and pulses [V]
 26|5|time [s]|carriage [m]
 32|2|time [s]|position [in]
 33|2|time [s]|stretch [in]
@@ -57,6 +59,34 @@ awk -F, 'NR > 1 {
     }
     END { exit !(n == 61 && above > 20 && above < 41 && bad == 0) }' "$scratch"/one/data/sweep-halvorson_smooth*.csv
 verdict $? "11 is a forced oscillation within 0.5 %, at 61 springs"
+
+# The firmware's points of it: force on the carriage by that on a mount that does not move. The speed that the carriage
+# makes ripple lifts it, by 6 A^2 at an A of D/(8 (I - D/2)), D = S^2/(M + m) (docs/rig.md).
+awk -F, 'NR > 1 {
+        n++; x = $1; d = 0.0351631^2 / 0.2739698 * x / (1 + x); a = d / 8 / (0.0057708 - d / 2)
+        off = $2 * (1 + x) / (1 + 6 * a * a) - 1; if (off < -0.001 || off > 0.002 || $2 > before) bad++
+        if (NR > 2 && $2 * (1 + x) < 1.00005 && x > 0.1) bad++
+        before = NR > 1 ? $2 : 2
+    } BEGIN { before = 2 }
+    END { exit !(n == 12 && bad == 0) }' "$scratch"/one/data/table-rig.sh_ratios*.csv
+verdict $? "and what the firmware measures, at 12 ratios, within 0.2 % of that and its ripple"
+
+# Fig. 17: 2 s of samples, without a mean, between the peaks; once a turn it is what the firmware's formula has.
+awk -F, 'NR > 1 {
+        n++; if (n > 1 && ($1 - t < 0.00199 || $1 - t > 0.00201)) bad++; t = $1
+        if (!(low < $2)) low = $2; if (high < $2) high = $2
+        if ($1 < 20 / 11 - 1e-6) { mean += $2; x += $2 * cos(34.5575 * $1); y += $2 * sin(34.5575 * $1); k++ }
+    } BEGIN { low = 1e9; high = -1e9 }
+    END { f = 2 / k * sqrt(x * x + y * y); m = mean / k
+        exit !(n == 1000 && bad == 0 && low < -37.5 && low > -38.8 && high > 45.8 && high < 47 && m < 0.3 && m > -0.3 &&
+            f > 41.6 && f < 42.3) }' "$scratch"/one/data/table-rig.sh_samples*.csv
+verdict $? "17 has 1,000 samples of a force of 42 N, from -38.0 to 46.3"
+
+# Fig. 24: eleven spikes of each sensor, or ten; at the foot of sensor 1's the peak, at that of sensor 2's what theory has, in volts.
+awk -F, 'NR > 1 && NF == 3 && $2 != "" { if (one % 3 != 1) { if ($2 < 6.15 || $2 > 6.35) bad++ } else if ($2 < 16.15 || $2 > 16.35) bad++; one++ }
+    NR > 1 && NF == 3 && $3 != "" { if (two % 3 != 1) { if ($3 < -0.26 || $3 > -0.11) bad++ } else if ($3 < 5.74 || $3 > 5.89) bad++; two++ }
+    END { exit !(bad == 0 && one % 3 == 0 && two % 3 == 0 && one >= 30 && two >= 30) }' "$scratch"/one/data/table-rig.sh_spikes*.csv
+verdict $? "24 has sensor 1's spikes on the peak and sensor 2's 1.4 N below zero"
 
 # Fig. 26: what remains at the end swings by S/(all masses), about a place behind which it no longer comes.
 awk -F, 'NR > 1 && $1 > 55 { if (!n++ || $3 > high) high = $3; if (n == 1 || $3 < low) low = $3 }

@@ -1,0 +1,68 @@
+#!/bin/sh
+# rig.sh WHIRL samples|spikes|ratios|speeds|radii: what the rig's firmware heard and measured, in the loop with its bench
+# (docs/plants), by the tape of the run or by what it tells. build/pil_rig and build/pil_carriage stand beside WHIRL.
+#
+#   samples   the load of 2 s of the record, the tare taken off as the firmware does: time [s], load [N]
+#   spikes    of the same 2 s a spike for each slot pulse, on the load at its time: time [s], of sensor 1 and of sensor 2
+#             as an oscilloscope shows them, which sees 6 V at 10 lbf and pulses of 10 V and of 6 V
+#   ratios    the force on carriages, of that on a mount that does not move: ratio of the weights, part
+#   speeds    the carriage's swing by what the cell feels, over the speed [rpm]: swing [mm], frequency [Hz]
+#   radii     the same, over the radius of the discs [in]
+set -eu
+whirl=$1 what=$2
+build=$(dirname "$whirl")
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+
+# carriage OPTION...: amplitude [N], swing [m] and speed [rpm], as the firmware on the carriage tells them
+carriage() {
+    "$whirl" pil docs/plants/carriage.whirl --with cell_noise --firmware "$build/pil_carriage" "$@" >"$scratch/said" &&
+        awk '$1 == "speed" && !n++ { speed = $2 }
+            /^it tells/ { for (i = 1; i < NF; i++) told[$i] = $(i + 1) }
+            END { print told["amplitude"], told["swing"], speed }' "$scratch/said"
+}
+
+case $what in
+samples | spikes)
+    "$whirl" pil docs/plants/rig.whirl --with cell_noise --jitter 20us --firmware "$build/pil_rig" --tape "$scratch/tape" \
+        >"$scratch/said"
+    "$whirl" pil --read "$scratch/tape" | awk -F, -v what="$what" '
+        function volts(newtons) { return newtons / 4.4482216 * 0.6 }
+        function spike(channel, at, from,    high) {
+            high = from + (channel == 1 ? 10 : 6)
+            printf channel == 1 ? "%.6f,%.4f,\n%.6f,%.4f,\n%.6f,%.4f,\n\n" : "%.6f,,%.4f\n%.6f,,%.4f\n%.6f,,%.4f\n\n",
+                at, from, at, high, at, from
+        }
+        BEGIN { print what == "samples" ? "time,load" : "time,one,two" }
+        $5 == "state" { state = $6; if (state == 13) begin = $1 } # of core/rig: 9 is the tare, 13 the record
+        $5 == "cell_force" && state == 9 { tare += $6; tares++ }
+        state < 13 || $1 - begin > 2 { next }
+        $5 == "cell_force" {
+            load = $6 - tare / tares
+            if (what == "samples") printf "%.6f,%.4f\n", $1 - begin, load
+            else for (i = 1; i <= waiting; i++)
+                spike(channel[i], edge[i] - begin, volts(before + (load - before) * (edge[i] - last) / ($1 - last)))
+            waiting = 0; before = load; last = $1
+        }
+        $3 == "edge" && last > 0 { channel[++waiting] = $4; edge[waiting] = $1 }'
+    ;;
+ratios)
+    echo "ratio,part"
+    held=$(carriage --set ratio=1e-9 | cut -d' ' -f1)
+    for ratio in 0.02 0.05 0.1 0.15 0.2 0.25 0.3 1/3 0.4 0.5 0.75 1; do
+        carriage --set ratio=$ratio | awk -v ratio=$ratio -v held="$held" '
+            { split(ratio, r, "/"); printf "%.4f,%.5f\n", r[1] / (r[2] ? r[2] : 1), $1 / held }'
+    done
+    ;;
+speeds | radii)
+    [ "$what" = speeds ] && echo "speed,swing_mm,frequency_Hz" || echo "radius,swing_mm,frequency_Hz"
+    for value in $([ "$what" = speeds ] && echo 170 200 230 260 300 330 360 || echo 2 3 4 5 6 6.5 7); do
+        carriage --set "$([ "$what" = speeds ] && echo "speed=$value [rpm]" || echo "r_disc=$value [in]")" |
+            awk -v value="$value" '{ printf "%s,%.4f,%.5f\n", value, 1e3 * $2, $3 / 60 }'
+    done
+    ;;
+*)
+    echo "rig.sh: samples, spikes, ratios, speeds or radii, not '$what'" >&2
+    exit 2
+    ;;
+esac
