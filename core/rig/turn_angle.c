@@ -44,17 +44,17 @@ void wh_turn_angle_feed(wh_turn_angle *angle, bool fed) {
 static void add_carriage(const wh_rotor_config *config, wh_turn_angle *angle, wh_real speed_radps) {
     const wh_real yields = config->yields_kgm2;
     const wh_real mean = angle->inertia_kgm2 - WH_R(0.5) * yields;
-    const wh_real turning = WH_R(2.0) * mean * speed_radps;
-    const wh_real tangent = config->damping_Nms / turning;
-    if (!(yields > WH_R(0.0)) || !(mean > yields)) { /* else no arms are so light */
+    if (!(yields > WH_R(0.0)) || !(mean > yields)) { /* fixed, or arms that weigh nothing */
         angle->twice_rad = WH_R(0.0);
         return;
     }
+    const wh_real tangent = config->damping_Nms / (WH_R(2.0) * mean * speed_radps);
     const wh_real cosine = WH_R(1.0) / WH_SQRT(WH_R(1.0) + tangent * tangent);
+    const wh_real sine = tangent * cosine;
+    const wh_real lambda = sine * (WH_R(1.0) + WH_R(0.16666667) * sine * sine);
     angle->twice_rad = WH_R(0.125) * yields / mean * cosine;
-    /* u is base + phi + psi - gamma; lambda is small */
-    const wh_wave turned =
-        wave_of(WH_R(2.0) * (config->gravity_rad - angle->lag_rad) + tangent * cosine);
+    /* u is base + phi + psi - gamma */
+    const wh_wave turned = wave_of(WH_R(2.0) * (config->gravity_rad - angle->lag_rad) + lambda);
     angle->second_sine -= angle->twice_rad * turned.cosine;
     angle->second_cosine -= angle->twice_rad * turned.sine;
 }

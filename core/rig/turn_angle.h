@@ -22,8 +22,9 @@
  *
  *     -A sin(2 (base + phi) + lambda)     A = D/(8 J) cos lambda    tan lambda = c/(2 J omega)    J = I - D/2
  *
- * in it as well. Neither sensor's mark tells of it; D is asked of the user, and I where gravity does not show it. An even
- * angle is off by A/2 of the force: 1.4 % on a carriage three times as heavy as the arms. */
+ * in it as well. Neither sensor's mark tells of it: D and I are asked of the user, and the arms must turn in a level plane
+ * (what gravity's swing and this wave do to each other is not in it). An even angle is off by A/2 of the force: 1.4 % on a
+ * carriage three times as heavy as the arms. */
 #ifndef WH_RIG_TURN_ANGLE_H
 #define WH_RIG_TURN_ANGLE_H
 
@@ -42,7 +43,7 @@ typedef struct wh_rotor_config {
     wh_real fed_tolerance_rad; /* gravity may be fed at an angle that is off by this, at 95 % */
     wh_real inertia_kgm2;      /* to begin with */
     wh_real mark_rad[2];       /* angle theta of the arms at a pulse of each sensor */
-    wh_real yields_kgm2;       /* D; 0: the mount is fixed */
+    wh_real yields_kgm2;       /* D, with no gravity; 0: the mount is fixed */
     wh_real yields_tolerance;  /* D or I may be off by this fraction, at 95 % */
 } wh_rotor_config;
 
