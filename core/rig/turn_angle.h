@@ -23,8 +23,8 @@
  *     -A sin(2 (base + phi) + lambda)     A = D/(8 J) cos lambda    tan lambda = c/(2 J omega)    J = I - D/2
  *
  * in it as well. Neither sensor's mark tells of it: D and I are asked of the user, and the arms must turn in a level plane
- * (what gravity's swing and this wave do to each other is not in it). An even angle is off by A/2 of the force: 1.4 % on a
- * carriage three times as heavy as the arms. */
+ * (what gravity's swing and this wave do to each other is not in it). On a
+ * carriage three times as heavy as the arms an even angle makes the force 0.9 % too large, and its phase 0.11 degrees. */
 #ifndef WH_RIG_TURN_ANGLE_H
 #define WH_RIG_TURN_ANGLE_H
 
