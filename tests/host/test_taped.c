@@ -133,5 +133,5 @@ void suite_taped(void) {
     RUN_TEST(test_rows);
     RUN_TEST(test_words_that_break_rows);
     RUN_TEST(test_channels_that_are_none);
-    remove(name);
+    (void)remove(name);
 }
