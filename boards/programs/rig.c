@@ -1,7 +1,8 @@
 /* rig.c: the firmware of the eccentric-mass rig, the same on every board.
  *
  * The controller of core/rig/rig.h on whatever hardware hal/ offers, and for want of a console the orders for one test run:
- * `arm` as soon as the rotor rests, `start` at 330 rpm; then the report. Exit status 0: done; 1: the guard tripped, an order
+ * `arm` as soon as the rotor rests, `start` at 330 rpm; then the report. After a reset that is no power-on, and once stop
+ * was pressed, it orders nothing. Exit status 0: done; 1: the guard tripped, stop was pressed, it was reset, an order
  * or what was measured is refused, the report says why; 2: not started, for the hardware does not answer or the arithmetic
  * is not that of the tests. */
 #include "core/rig/rig.h"
@@ -17,8 +18,11 @@
 #include "hal/console.h"
 #include "hal/loadcell.h"
 #include "hal/motor.h"
+#include "hal/reset.h"
 #include "hal/slots.h"
+#include "hal/stop.h"
 #include "hal/watchdog.h"
+#include "trip_memory.h"
 
 /* The rig's only hardware so far is played by the model; a real one comes with its own hal. */
 #ifndef HAL_VIRTUAL
@@ -58,6 +62,7 @@ _Static_assert((int)HAL_LOAD_SATURATED == (int)WH_LOAD_SATURATED &&
 
 /* Static, not on the stack: it holds the samples of a turn. */
 static wh_rig rig;
+static trip_memory memory;
 
 /* To whoever judges a run in the loop (docs/pil.md). */
 static void tell(void) {
@@ -71,6 +76,7 @@ static void tell(void) {
     hal_frames_note(HAL_NOTE_PHASE, force->phase_rad);
     hal_frames_note(HAL_NOTE_PHASE_HALF, force->phase_half_rad);
     hal_frames_note(HAL_NOTE_TURNS, rig.has_result ? (float)force->turns : 0.0f);
+    hal_frames_note(HAL_NOTE_RESET, (float)hal_reset_cause());
 #endif
 }
 
@@ -201,6 +207,7 @@ static void put_plant_hash(void) {
 static wh_rig_inputs inputs_now(void) {
     return (wh_rig_inputs){.now_ticks = hal_clock_ticks(),
                            .supply_V = hal_motor_supply_V(),
+                           .stop_pressed = hal_stop_pressed(),
                            .watchdog_has_cut = hal_watchdog_has_cut()};
 }
 
@@ -225,14 +232,25 @@ static void control(const wh_rig_config *config) {
     const wh_rig_inputs inputs = inputs_now();
     const wh_rig_command command = wh_rig_step(config, &rig, &inputs);
     obey(&command);
+    trip_memory_keep(&memory, &rig);
     hal_watchdog_kick(); /* tripped too: a watchdog that resets would start all over */
 }
 
-/* Who gives the orders: `arm` once the rotor rests, then `start`. */
-typedef enum operator_step { WAITS_FOR_REST, HAS_ARMED, HAS_STARTED } operator_step;
+/* Who gives the orders: `arm` once the rotor rests, then `start`. A rig that was reset, or stopped, it leaves alone:
+ * somebody has to look at it first. */
+typedef enum operator_step {
+    WAITS_FOR_REST,
+    HAS_ARMED,
+    HAS_STARTED,
+    WAS_RESET,
+    WAS_STOPPED
+} operator_step;
 
 /* Returns true when there is nothing more to wait for. */
 static bool operate(operator_step *at, uint32_t waited_ticks) {
+    if (hal_stop_pressed()) {
+        *at = WAS_STOPPED;
+    }
     if (rig.state == WH_LIFE_TRIPPED) {
         return rig.rested;
     }
@@ -248,16 +266,20 @@ static bool operate(operator_step *at, uint32_t waited_ticks) {
         (void)wh_rig_post(&rig, WH_EVENT_START, RIG_TARGET_RPM * WH_RIG_RADPS_PER_RPM);
         return rig.state != WH_LIFE_ARMED; /* refused */
     case HAS_STARTED: break;
+    case WAS_RESET:
+    case WAS_STOPPED:
+        return rig.state == WH_LIFE_IDLE && (rig.guard.quiet || waited_ticks > PATIENCE_TICKS);
     }
     return rig.state == WH_LIFE_IDLE || rig.answer != WH_ALLOWED;
 }
 
-/* The control loop, until the run is over. */
-static void run(const wh_rig_config *config) {
+/* The control loop, until the run is over. Returns how far the operator came. */
+static operator_step run(const wh_rig_config *config) {
     const uint32_t started = hal_clock_ticks();
     uint32_t due = started;
-    operator_step operator_at = WAITS_FOR_REST;
-    wh_rig_start(config, &rig, started, NULL);
+    operator_step operator_at =
+        hal_reset_cause() == HAL_RESET_POWER_ON ? WAITS_FOR_REST : WAS_RESET;
+    trip_memory_start(&memory, config, &rig, started);
     unsigned shown = wh_rig_stage(&rig);
     put_state(started);
     tell();
@@ -273,6 +295,7 @@ static void run(const wh_rig_config *config) {
         }
     } while (!operate(&operator_at, hal_clock_ticks() - started));
     hal_motor_off(HAL_MOTOR_COAST);
+    return operator_at;
 }
 
 /* Why hal_clock_start() failed. */
@@ -294,6 +317,29 @@ static void refuse(const char *why) {
     board_exit(2);
 }
 
+/* Why there is no result, or no more than one. */
+static void put_end(operator_step ended) {
+    if (hal_reset_cause() != HAL_RESET_POWER_ON) {
+        put(hal_reset_cause() == HAL_RESET_WATCHDOG ? "RESET by the watchdog" : "RESET");
+        put(": nothing moves by itself\n");
+    }
+    const char *end = NULL;
+    if (rig.state == WH_LIFE_TRIPPED) {
+        put("TRIPPED: ");
+        end = wh_trip_text(rig.guard.trip);
+    } else if (ended == WAS_STOPPED) {
+        put("STOPPED: ");
+        end = "the stop input was pressed";
+    } else if (ended != WAS_RESET && !rig.has_result) {
+        put("REFUSED: ");
+        end = wh_refusal_text(rig.answer);
+    }
+    if (end != NULL) {
+        put(end);
+        put("; the motor is off\n");
+    }
+}
+
 int main(void) {
     board_start();
     put("Eccentric-mass rig on board ");
@@ -312,24 +358,15 @@ int main(void) {
                                            .raw_max = HAL_LOADCELL_RAW_MAX};
     wh_rig_slots(&config, HAL_SLOT_LEAD_DEG / WH_RIG_DEG_PER_RAD);
     config.observer.scene = &rig_observed;
-    run(&config);
-
-    if (rig.state == WH_LIFE_TRIPPED) {
-        put("TRIPPED: ");
-        put(wh_trip_text(rig.guard.trip));
-        put("; the motor is off\n");
-    } else if (!rig.has_result) {
-        put("REFUSED: ");
-        put(wh_refusal_text(rig.answer));
-        put("; the motor is off\n");
-    }
+    const operator_step ended = run(&config);
+    put_end(ended);
     if (rig.has_result) {
         put_result(&rig.result);
     }
 #if HAL_VIRTUAL
     put_plant_hash();
 #endif
-    const bool good =
-        rig.state != WH_LIFE_TRIPPED && rig.has_result && rig.result.force.quality != WH_REFUSED;
+    const bool good = rig.state != WH_LIFE_TRIPPED && ended == HAS_STARTED && rig.has_result &&
+                      rig.result.force.quality != WH_REFUSED;
     board_exit(good ? 0 : 1);
 }

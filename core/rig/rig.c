@@ -114,6 +114,15 @@ static void begin_run(const wh_rig_config *config, wh_rig *rig, wh_real target_r
     wh_run_start(&rig->run, target_radps, now_ticks);
 }
 
+/* How fast it may be now: the last turn of a rotor that still gathers speed is old. */
+static wh_real fastest_radps(const wh_rig_config *config, const wh_rig *rig, uint32_t now_ticks) {
+    const wh_real turn_radps = rig->pulses.speed.turn_radps;
+    const wh_real led_radps = wh_run_drives(&rig->run)
+                                  ? wh_run_base_radps(&config->run, &rig->run, now_ticks)
+                                  : WH_R(0.0);
+    return led_radps > turn_radps ? led_radps : turn_radps;
+}
+
 /* The state is left for `next`, or is begun anew. */
 static void follow(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs,
                    const wh_rig_order *order, wh_life next) {
@@ -132,7 +141,7 @@ static void follow(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs
     case WH_EVENT_STOP:
     case WH_EVENT_HOST_LOST:
         if (moves && rig->run.phase != WH_PHASE_OFF) {
-            wh_run_off(&rig->run, rig->pulses.speed.turn_radps, now);
+            wh_run_off(&rig->run, fastest_radps(config, rig, now), now);
         }
         break;
     case WH_EVENT_TRIP:

@@ -15,6 +15,7 @@
 #include "feed.h"
 #include "orders.h"
 #include "phases.h"
+#include "record.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -52,16 +53,6 @@ typedef struct wh_rig_command {
     wh_motor_way way;
     wh_real volts; /* mean voltage, 0 to the supply; 0 unless the motor drives */
 } wh_rig_command;
-
-/* What a trip leaves for whoever reads it later. Handed to wh_rig_start() after a reset, it is latched again. */
-typedef struct wh_trip_record {
-    wh_trip trip;
-    wh_rig_phase phase;
-    uint32_t ticks;
-    wh_real speed_radps;
-    wh_real volts;
-    wh_real supply_V;
-} wh_trip_record;
 
 typedef struct wh_rig {
     wh_life state;

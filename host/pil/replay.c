@@ -13,7 +13,8 @@ typedef struct tape_reader {
     const char *name;
     FILE *file;
     wh_frame_reader reader;
-    bool endless; /* no frame where there had to be one */
+    bool endless;    /* no frame where there had to be one */
+    double before_s; /* the last reset */
     uint8_t bytes[WH_FRAME_BYTES(GUEST_LINE_BYTES)];
 } tape_reader;
 
@@ -64,22 +65,6 @@ static bool open_tape(tape_reader *t, const char *name, wh_hello *hello, wh_sign
     return true;
 }
 
-/* All that matters to the exchange; not who speaks, nor how it counts. */
-static bool is_same_hello(const wh_hello *one, const wh_hello *other) {
-    bool same = one->ticks_per_s == other->ticks_per_s && one->start_ticks == other->start_ticks &&
-                one->signals == other->signals && strcmp(one->program, other->program) == 0;
-    for (unsigned i = 0; same && i < one->signals; i++) {
-        const wh_signal *a = &one->signal[i];
-        const wh_signal *b = &other->signal[i];
-        same = a->kind == b->kind && strcmp(a->name, b->name) == 0 &&
-               strcmp(a->unit, b->unit) == 0 && memcmp(&a->low, &b->low, sizeof a->low) == 0 &&
-               memcmp(&a->high, &b->high, sizeof a->high) == 0 &&
-               memcmp(&a->per_count, &b->per_count, sizeof a->per_count) == 0 &&
-               a->period_ticks == b->period_ticks;
-    }
-    return same;
-}
-
 static void say_difference(const wh_orders *kept, const wh_orders *now, uint32_t since_ticks,
                            const talk *t) {
     fprintf(stderr, "whirl pil: error: exchange %llu, t = %.6f s: other orders than on the tape\n",
@@ -93,6 +78,29 @@ static void say_difference(const wh_orders *kept, const wh_orders *now, uint32_t
     }
 }
 
+/* The frame is a hello: there was a reset. The next one says which. */
+static bool play_reset(tape_reader *from, talk *t) {
+    wh_frame frame;
+    wh_reset reset;
+    if (!read_frame(from, &frame) || frame.kind != WH_FRAME_RESET ||
+        !wh_reset_get(&reset, frame.payload, frame.length)) {
+        return is_no_tape(from, t->report, "it is broken");
+    }
+    from->before_s += (double)(frame.ticks - t->hello.start_ticks) / (double)t->hello.ticks_per_s;
+    return talk_restart(t, frame.ticks, &reset);
+}
+
+/* The next frame that is not there to be remembered. */
+static bool read_orders(tape_reader *from, talk *t, wh_frame *frame) {
+    while (read_frame(from, frame)) {
+        if (frame->kind != WH_FRAME_REMEMBER) {
+            return true;
+        }
+        t->report->tape_hash = talk_hash_bytes(t->report->tape_hash, frame->payload, frame->length);
+    }
+    return false;
+}
+
 /* One turn. False at the tape's end and when something is wrong, which report->end then says. */
 static bool play(tape_reader *from, talk *t) {
     lockstep_report *r = t->report;
@@ -104,12 +112,15 @@ static bool play(tape_reader *from, talk *t) {
         r->end = LOCKSTEP_LET_GO;
         return is_cut_off(from) ? is_no_tape(from, r, "it is broken") : false;
     }
+    if (frame.kind == WH_FRAME_HELLO) {
+        return play_reset(from, t);
+    }
     const uint32_t ticks = frame.ticks;
     if (frame.kind != WH_FRAME_READINGS || frame.sequence != t->sequence ||
         !wh_readings_get(&readings, frame.payload, frame.length)) {
         return is_no_tape(from, r, "it is broken");
     }
-    const bool more = read_frame(from, &frame);
+    const bool more = read_orders(from, t, &frame);
     if (!more && is_cut_off(from)) {
         return is_no_tape(from, r, "it is broken");
     }
@@ -117,7 +128,8 @@ static bool play(tape_reader *from, talk *t) {
                  !wh_orders_get(&kept, frame.payload, frame.length))) {
         return is_no_tape(from, r, "it is broken");
     }
-    r->time_s = (double)(ticks - t->hello.start_ticks) / (double)t->hello.ticks_per_s;
+    r->time_s =
+        from->before_s + (double)(ticks - t->hello.start_ticks) / (double)t->hello.ticks_per_s;
     if (!talk_tell(t, ticks, &readings) || !talk_hear(t, &now)) {
         if (r->end == LOCKSTEP_DONE && more) {
             fprintf(stderr,
@@ -151,7 +163,7 @@ void lockstep_replay(const lockstep_wish *wish, const char *file, lockstep_repor
     t->guest.down = -1;
     t->report = report;
     if (open_tape(reader, file, &hello, signal, report) && talk_start(t, wish, report, NULL)) {
-        if (!is_same_hello(&hello, &t->hello)) {
+        if (!talk_is_same_hello(&hello, &t->hello)) {
             fprintf(stderr,
                     "%s: error: it is of '%s', whose signals are not those of the firmware '%s'\n",
                     file, hello.program, t->hello.program);

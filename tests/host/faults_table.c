@@ -18,8 +18,12 @@ static bool is_not_caught(const verdict *v) {
     return v->lasting && !(v->off_s >= 0.0 && v->off_s <= CAUGHT_S && v->caught_rpm <= CAUGHT_RPM);
 }
 
+static bool is_not_halted(const verdict *v) { return v->halted && v->halted_s < 0.0; }
+static bool forgets(const verdict *v) { return v->forgets; }
+
 static bool is_violation(const verdict *v) {
-    return is_lie(v) || is_hang(v) || runs_on(v) || is_overspeed(v) || is_not_caught(v);
+    return is_lie(v) || is_hang(v) || runs_on(v) || is_overspeed(v) || is_not_caught(v) ||
+           is_not_halted(v) || forgets(v);
 }
 
 void campaign_print_command(FILE *out, const campaign *c, unsigned i) {
@@ -205,10 +209,38 @@ static void print_runaways(FILE *out, const verdict *all, unsigned count) {
     }
 }
 
+/* Of runs that were stopped or reset: how long the motor was still driven, and how many had tripped before a reset. */
+static void print_halts(FILE *out, const verdict *all, unsigned count) {
+    bool any = false;
+    for (unsigned row = 0; row < campaign_rows(); row++) {
+        unsigned runs = 0;
+        unsigned latched = 0;
+        double off_s = 0.0;
+        for (unsigned i = 0; i < count; i++) {
+            const verdict *v = &all[i];
+            if (v->row == row && v->halted) {
+                runs++;
+                latched += v->latched;
+                off_s = v->halted_s > off_s ? v->halted_s : off_s;
+            }
+        }
+        if (runs > 0) {
+            fputs(
+                any ? ""
+                    : "\n| stopped or reset | runs | motor off after, ms, at most | trips that were "
+                      "latched, and are |\n|---|---|---|---|\n",
+                out);
+            fprintf(out, "| %s | %u | %.3g | %u |\n", campaign_row_word(row), runs, 1e3 * off_s,
+                    latched);
+            any = true;
+        }
+    }
+}
+
 static bool takes_time(const verdict *v) {
-    static const char *const words[] = {"slow", "late", "hang"};
+    static const char *const words[] = {"slow", "late", "hang", "hang-resets"};
     bool takes = false;
-    for (int i = 0; i < 3; i++) {
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
         takes = takes || strcmp(campaign_row_word(v->row), words[i]) == 0;
     }
     return takes;
@@ -246,6 +278,7 @@ int campaign_print(FILE *out, const campaign *c, const verdict *all, unsigned co
     print_matrix(out, all, count);
     print_trips(out, all, count);
     print_runaways(out, all, count);
+    print_halts(out, all, count);
     print_steps(out, c, all, count);
     print_worst(out, c, all, count, "Does not end, or is silent", is_hang, by_speed);
     print_worst(out, c, all, count, "Ends with the motor on, and too fast", runs_on, by_speed);
@@ -253,7 +286,11 @@ int campaign_print(FILE *out, const campaign *c, const verdict *all, unsigned co
     print_worst(out, c, all, count, "Too fast, and the controller's doing", is_overspeed, by_speed);
     print_worst(out, c, all, count, "Ignores the voltage, and is not off in time", is_not_caught,
                 by_off);
+    print_worst(out, c, all, count, "Drives after stop or a reset", is_not_halted, by_speed);
+    print_worst(out, c, all, count, "A reset loses the trip, or is not known of", forgets,
+                by_speed);
     const bool good =
+        count_of(all, count, -1, is_not_halted) == 0 && count_of(all, count, -1, forgets) == 0 &&
         count_of(all, count, -1, is_hang) == 0 && count_of(all, count, -1, runs_on) == 0 &&
         count_of(all, count, -1, is_lie) == 0 && count_of(all, count, -1, is_not_caught) == 0 &&
         count_of(all, count, -1, is_overspeed) <= OVERSPEED_SHARE * count;
