@@ -153,7 +153,7 @@ bool hal_watchdog_has_cut(void) { return hal_turns_is_cut(&plant); }
 
 bool hal_stop_pressed(void) { return stop_pressed; }
 
-_Static_assert((unsigned)HAL_REMEMBER_BYTES <= (unsigned)WH_REMEMBER_MAX, "the line takes them");
+_Static_assert(sizeof plant.reset.remembered >= HAL_REMEMBER_BYTES, "the line takes them");
 
 hal_reset hal_reset_cause(void) {
     return plant.reset.cause == 0                   ? HAL_RESET_POWER_ON

@@ -191,6 +191,6 @@ void fault_print_kinds(FILE *out) {
             snprintf(size, sizeof size, "=%g%s%s", row->size, row->unit[0] != '\0' ? " " : "",
                      row->unit);
         }
-        fprintf(out, "    %-14s%-10s %s\n", row->word, size, row->words);
+        fprintf(out, "    %-16s%-10s %s\n", row->word, size, row->words);
     }
 }
