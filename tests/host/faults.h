@@ -96,6 +96,7 @@ typedef struct verdict {
         lie; /* a good result is off by so much more than its interval and 1 %; as a share of the truth */
     bool
         lasting; /* a drive that is on ignores the voltage for longer than it may take to stop it */
+    double began_rpm;  /* the speed then */
     double off_s;      /* from then until the enable was off; -1: it was not */
     double caught_rpm; /* the fastest instant until then */
     double time_s;

@@ -6,8 +6,10 @@
 #include "host/base/room.h"
 
 #define OVERSPEED_SHARE 0.02 /* of all runs, allowed */
-#define CAUGHT_S 0.35        /* a drive that ignores the voltage is off after so long, from rest, */
-#define CAUGHT_RPM 480.0     /* and no faster, swings within a turn included */
+#define CAUGHT_S 0.25        /* a drive that ignores the voltage is off after so long, */
+#define CAUGHT_REST_S 0.35   /* from rest after so long, */
+#define CAUGHT_RPM 470.0     /* and no faster, swings within a turn included */
+#define TURNING_RPM 250.0    /* slower it is as from rest */
 enum { WORST = 10, TRIPS = 32 };
 
 static bool is_lie(const verdict *v) { return v->lie > 0.0; }
@@ -15,7 +17,8 @@ static bool is_hang(const verdict *v) { return v->outcome == OUTCOME_HANG; }
 static bool runs_on(const verdict *v) { return v->runs_on; }
 static bool is_overspeed(const verdict *v) { return v->overspeed; }
 static bool is_not_caught(const verdict *v) {
-    return v->lasting && !(v->off_s >= 0.0 && v->off_s <= CAUGHT_S && v->caught_rpm <= CAUGHT_RPM);
+    const double most_s = v->began_rpm < TURNING_RPM ? CAUGHT_REST_S : CAUGHT_S;
+    return v->lasting && !(v->off_s >= 0.0 && v->off_s <= most_s && v->caught_rpm <= CAUGHT_RPM);
 }
 
 static bool is_violation(const verdict *v) {
@@ -165,7 +168,8 @@ static void print_worst(FILE *out, const campaign *c, const verdict *all, unsign
         } else if (is == is_not_caught && v->off_s < 0.0) {
             fputs("never off", out);
         } else if (is == is_not_caught) {
-            fprintf(out, "off after %.3f s, by then up to %.1f rpm", v->off_s, v->caught_rpm);
+            fprintf(out, "off after %.3f s, from %.1f rpm, by then up to %.1f rpm", v->off_s,
+                    v->began_rpm, v->caught_rpm);
         } else {
             fprintf(out, "fastest turn %.1f rpm, fastest instant %.1f rpm", v->turn_rpm,
                     v->peak_rpm);
