@@ -5,6 +5,7 @@
 
 #define TWICE_PART WH_R(0.5) /* of a turn, within which a sensor sees the slot but once */
 #define ALERT_PART WH_R(0.005)
+#define CLIMB_PART WH_R(0.01)
 #define BOUNCE_PART WH_R(0.02)
 #define SUDDEN WH_R(1.6)      /* times the bound */
 #define SURE_PART WH_R(0.125) /* of a turn, after which no pulse takes back the last one */
@@ -198,4 +199,6 @@ void wh_pulses_take(wh_pulses *pulses, unsigned sensor, uint32_t ticks) {
     }
     pulses->doubt -= pulses->doubt > 0 ? 1U : 0U;
     take_next(pulses, &pulse, &after);
+    /* a rotor that was to slow down and did not comes early, too */
+    pulses->alert = pulses->alert || pulses->climb_radps > CLIMB_PART * after.turn_radps;
 }

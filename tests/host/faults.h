@@ -60,6 +60,7 @@ typedef struct campaign_case {
     bool drives;      /* the plant itself drives beyond what the controller asks for */
     bool calibration; /* only calibration can tell: a result that is off by it is no lie */
     bool runs_away;   /* the drive ignores the voltage */
+    bool delays;      /* the controller, or what it says: its watchdog may cut */
     char words[400];  /* of --fault: the fault, and the noise that every run has */
 } campaign_case;
 
@@ -90,6 +91,7 @@ typedef struct verdict {
     int trip;
     bool runs_on;    /* ended with the motor commanded on, and too fast */
     bool overspeed;  /* caused by the controller */
+    bool cut;        /* by the watchdog, though nothing was late or lost on its way */
     double turn_rpm; /* the fastest turn, */
     double peak_rpm; /* and instant */
     double

@@ -20,7 +20,7 @@ typedef enum size_drawn {
 } size_drawn;
 
 enum { NO_CHANNEL, ANY_SENSOR, ONE_SENSOR, SUPPLY_CHANNEL };
-enum { DRIVES = 1, RUNS_AWAY = 2, CALIBRATION = 4, COUNTED_ONLY = 8, HEALTHY = 16 };
+enum { DRIVES = 1, RUNS_AWAY = 2, CALIBRATION = 4, COUNTED_ONLY = 8, HEALTHY = 16, DELAYS = 32 };
 
 static const struct {
     fault_kind kind;
@@ -65,12 +65,12 @@ static const struct {
     {FAULT_JAM, LOG, 0.5, 20, NO_CHANNEL, 0},
     {FAULT_COUPLING, LOG, 0.03, 1, NO_CHANNEL, 0},
     {FAULT_INERTIA, ONE_OF_INERTIA, 0, 0, NO_CHANNEL, 0},
-    {FAULT_SLOW, LOG, 5, 50, NO_CHANNEL, COUNTED_ONLY},
-    {FAULT_LATE, LOG, 0.5e-3, 0.03, NO_CHANNEL, 0},
-    {FAULT_HANG, LOG, 5e-3, 1, NO_CHANNEL, 0},
-    {FAULT_UNKICKED, NO_SIZE, 0, 0, NO_CHANNEL, 0},
-    {FAULT_READINGS_LOST, EVEN, 0.01, 0.6, NO_CHANNEL, 0},
-    {FAULT_ORDERS_LOST, EVEN, 0.01, 0.6, NO_CHANNEL, 0},
+    {FAULT_SLOW, LOG, 5, 50, NO_CHANNEL, COUNTED_ONLY | DELAYS},
+    {FAULT_LATE, LOG, 0.5e-3, 0.03, NO_CHANNEL, DELAYS},
+    {FAULT_HANG, LOG, 5e-3, 1, NO_CHANNEL, DELAYS},
+    {FAULT_UNKICKED, NO_SIZE, 0, 0, NO_CHANNEL, DELAYS},
+    {FAULT_READINGS_LOST, EVEN, 0.01, 0.6, NO_CHANNEL, DELAYS},
+    {FAULT_ORDERS_LOST, EVEN, 0.01, 0.6, NO_CHANNEL, DELAYS},
 };
 enum { ROWS = sizeof rows / sizeof rows[0] };
 
@@ -183,6 +183,7 @@ void campaign_draw(campaign_case *one, const campaign *c, unsigned i) {
         put_time(&t, &d, &stage[one->stage]);
     }
     one->runs_away = (is & RUNS_AWAY) != 0;
+    one->delays = (is & DELAYS) != 0 || c->also != NULL;
     one->drives = one->drives || (is & DRIVES) != 0 ||
                   ((kind == FAULT_SUPPLY || kind == FAULT_MOTOR) && size > 1.0);
     one->calibration =

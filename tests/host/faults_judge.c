@@ -250,4 +250,5 @@ void judge_end(judge *j, const lockstep_report *report) {
     }
     v->runs_on = j->driven && j->speed_rpm > rig_limit_rpm();
     v->overspeed = !j->of->drives && v->turn_rpm > rig_limit_rpm();
+    v->cut = report->cut && !j->of->delays;
 }

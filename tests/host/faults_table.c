@@ -16,13 +16,15 @@ static bool is_lie(const verdict *v) { return v->lie > 0.0; }
 static bool is_hang(const verdict *v) { return v->outcome == OUTCOME_HANG; }
 static bool runs_on(const verdict *v) { return v->runs_on; }
 static bool is_overspeed(const verdict *v) { return v->overspeed; }
+static bool is_cut(const verdict *v) { return v->cut; }
 static bool is_not_caught(const verdict *v) {
     const double most_s = v->began_rpm < TURNING_RPM ? CAUGHT_REST_S : CAUGHT_S;
     return v->lasting && !(v->off_s >= 0.0 && v->off_s <= most_s && v->caught_rpm <= CAUGHT_RPM);
 }
 
 static bool is_violation(const verdict *v) {
-    return is_lie(v) || is_hang(v) || runs_on(v) || is_overspeed(v) || is_not_caught(v);
+    return is_lie(v) || is_hang(v) || runs_on(v) || is_overspeed(v) || is_not_caught(v) ||
+           is_cut(v);
 }
 
 void campaign_print_command(FILE *out, const campaign *c, unsigned i) {
@@ -255,11 +257,13 @@ int campaign_print(FILE *out, const campaign *c, const verdict *all, unsigned co
     print_worst(out, c, all, count, "Ends with the motor on, and too fast", runs_on, by_speed);
     print_worst(out, c, all, count, "Called good, and is not", is_lie, by_lie);
     print_worst(out, c, all, count, "Too fast, and the controller's doing", is_overspeed, by_speed);
+    print_worst(out, c, all, count, "Cut by the watchdog, and nothing was late", is_cut, by_speed);
     print_worst(out, c, all, count, "Ignores the voltage, and is not off in time", is_not_caught,
                 by_off);
     const bool good =
         count_of(all, count, -1, is_hang) == 0 && count_of(all, count, -1, runs_on) == 0 &&
         count_of(all, count, -1, is_lie) == 0 && count_of(all, count, -1, is_not_caught) == 0 &&
+        count_of(all, count, -1, is_cut) == 0 &&
         count_of(all, count, -1, is_overspeed) <= OVERSPEED_SHARE * count;
     fprintf(out, "\n%u runs, seed %u, %s: %s\n", count, c->seed, c->firmware,
             good ? "nothing is wrong" : "there are violations");
