@@ -51,8 +51,8 @@ bool wh_rig_post(wh_rig *rig, wh_rig_event event, wh_real value) {
 #define SETTLE_WINDOW WH_R(0.03)
 #define RAMP_WINDOW WH_R(0.12) /* no mark is sure before */
 #define RECORD_PART WH_R(0.8)  /* of what the record lets the speed be off */
-
-#define FIRST_PART WH_R(0.8) /* of where it is led: from rest it takes time to get there */
+#define FIRST_PART WH_R(0.8)   /* of where it is led: from rest it takes time to get there */
+#define SLOW_RADPS WH_R(16.0)  /* a pulse or two of a rotor that brakes are slower */
 
 static void expect_pulses(const wh_rig_config *config, wh_rig *rig, uint32_t ticks) {
     const wh_guard_config *guard = &config->guard;
@@ -60,9 +60,8 @@ static void expect_pulses(const wh_rig_config *config, wh_rig *rig, uint32_t tic
     const wh_speed *speed = &rig->pulses.speed;
     const wh_led led = wh_run_led(&config->run, &rig->run, ticks);
     const bool from_rest = phase == WH_PHASE_SPIN_UP && !speed->known;
-    const bool first = from_rest && speed->taken < 2U;
-    rig->pulses.bound_radps = wh_guard_bound_radps(
-        guard, first ? FIRST_PART * led.base_radps : led.base_radps, !from_rest);
+    const wh_real part = from_rest && speed->taken < 2U ? FIRST_PART : WH_R(1.0);
+    rig->pulses.bound_radps = wh_guard_bound_radps(guard, part * led.base_radps, !from_rest);
     rig->pulses.climb_radps2 =
         led.jumps ? guard->climb_start_radps2
                   : wh_guard_climb_radps2(guard, led.base_radps - speed->turn_radps,
@@ -72,12 +71,9 @@ static void expect_pulses(const wh_rig_config *config, wh_rig *rig, uint32_t tic
                              : (phase == WH_PHASE_SETTLE ? SETTLE_WINDOW : RAMP_WINDOW);
 }
 
-#define SLOW_RADPS WH_R(16.0) /* a pulse or two of a rotor that brakes are slower */
-
 /* With the motor off nothing makes the rotor faster again than it was between its last two pulses, but gravity. A sensor
  * that fires again is one in whose slot it swings, or has missed a pulse: what was known of its speed is nothing now. */
-static void expect_slower(const wh_rig_config *config, wh_rig *rig, unsigned sensor,
-                          uint32_t ticks) {
+static void slower(const wh_rig_config *config, wh_rig *rig, unsigned sensor, uint32_t ticks) {
     static const wh_real moved_rad[] = {WH_R(0.75) * WH_RIG_TWO_PI, WH_R(0.25) * WH_RIG_TWO_PI};
     const wh_pulses *pulses = &rig->pulses;
     if (!pulses->speed.running || sensor >= WH_SPEED_SENSORS) {
@@ -99,7 +95,7 @@ void wh_rig_pulse(const wh_rig_config *config, wh_rig *rig, unsigned sensor, uin
     rig->pulses_ever++;
     rig->busy = true;
     if (!wh_run_drives(&rig->run)) {
-        expect_slower(config, rig, sensor, ticks);
+        slower(config, rig, sensor, ticks);
     }
     expect_pulses(config, rig, ticks);
     if (rig->run.phase == WH_PHASE_TARE && sensor < WH_SPEED_SENSORS) {

@@ -212,6 +212,15 @@ static void test_what_start_and_set_ask_for(void) {
     even.config.feeds = WH_FEED_SLOW;
     TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_START, slowest) == WH_ALLOWED);
     TEST_ASSERT_FALSE(even.rig.fed);
+    for (unsigned never = 0; never < 2;
+         never++) { /* slower ones need an observer, and that it may feed */
+        stand_in(WH_LIFE_ARMED);
+        even.rig.observer.status = WH_OK;
+        even.config.feeds = never == 1 ? WH_FEED_NEVER : WH_FEED_SLOW;
+        TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_START, WH_R(110.0) * EVEN_RPM) ==
+                         (never == 1 ? WH_REFUSED_TARGET : WH_ALLOWED));
+        TEST_ASSERT_TRUE(even.rig.fed == (never == 0));
+    }
     stand_in(WH_LIFE_ARMED); /* the stop input disarms before the order is heard */
     even.inputs.stop_pressed = true;
     check_refused(even_order(&even, WH_EVENT_START, WH_R(330.0) * EVEN_RPM), WH_REFUSED_NOT_ARMED,
