@@ -51,20 +51,52 @@ bool wh_rig_post(wh_rig *rig, wh_rig_event event, wh_real value) {
 #define SETTLE_WINDOW WH_R(0.03)
 #define RAMP_WINDOW WH_R(0.12) /* no mark is sure before */
 #define RECORD_PART WH_R(0.8)  /* of what the record lets the speed be off */
+#define FIRST_PART WH_R(0.8)   /* of where it is led: from rest it takes time to get there */
+#define SLOW_RADPS WH_R(16.0)  /* a pulse or two of a rotor that brakes are slower */
 
 static void expect_pulses(const wh_rig_config *config, wh_rig *rig, uint32_t ticks) {
+    const wh_guard_config *guard = &config->guard;
     const wh_rig_phase phase = rig->run.phase;
-    const bool from_rest = phase == WH_PHASE_SPIN_UP && !rig->pulses.speed.known;
-    rig->pulses.bound_radps = wh_guard_bound_radps(
-        &config->guard, wh_run_base_radps(&config->run, &rig->run, ticks), !from_rest);
+    const wh_speed *speed = &rig->pulses.speed;
+    const wh_led led = wh_run_led(&config->run, &rig->run, ticks);
+    const bool from_rest = phase == WH_PHASE_SPIN_UP && !speed->known;
+    const wh_real part = from_rest && speed->taken < 2U ? FIRST_PART : WH_R(1.0);
+    rig->pulses.bound_radps = wh_guard_bound_radps(guard, part * led.base_radps, !from_rest);
+    rig->pulses.climb_radps2 =
+        led.jumps ? guard->climb_start_radps2
+                  : wh_guard_climb_radps2(guard, led.base_radps - speed->turn_radps,
+                                          wh_run_is_closed(&rig->run));
     rig->pulses.window = phase == WH_PHASE_RECORD
                              ? RECORD_PART * config->run.record_band_radps / rig->run.target_radps
                              : (phase == WH_PHASE_SETTLE ? SETTLE_WINDOW : RAMP_WINDOW);
 }
 
+/* With the motor off nothing makes the rotor faster again than it was between its last two pulses, but gravity. A sensor
+ * that fires again is one in whose slot it swings, or has missed a pulse: what was known of its speed is nothing now. */
+static void slower(const wh_rig_config *config, wh_rig *rig, unsigned sensor, uint32_t ticks) {
+    static const wh_real moved_rad[] = {WH_R(0.75) * WH_RIG_TWO_PI, WH_R(0.25) * WH_RIG_TWO_PI};
+    const wh_pulses *pulses = &rig->pulses;
+    if (!pulses->speed.running || sensor >= WH_SPEED_SENSORS) {
+        return;
+    }
+    const bool again = sensor == pulses->last.pulse.sensor && !pulses->suspects;
+    const wh_real moved = again ? WH_RIG_TWO_PI : moved_rad[sensor];
+    const wh_real passed_s = wh_rig_since_s(pulses->speed.ticks, ticks);
+    if (moved < rig->run.off_radps * passed_s) {
+        rig->run.off_radps = moved / passed_s;
+    }
+    if (again) {
+        wh_pulses_start(&rig->pulses, config->impossible_radps);
+    }
+    rig->pulses.slow = rig->run.phase == WH_PHASE_OFF && rig->run.off_radps < SLOW_RADPS;
+}
+
 void wh_rig_pulse(const wh_rig_config *config, wh_rig *rig, unsigned sensor, uint32_t ticks) {
     rig->pulses_ever++;
     rig->busy = true;
+    if (!wh_run_drives(&rig->run)) {
+        slower(config, rig, sensor, ticks);
+    }
     expect_pulses(config, rig, ticks);
     if (rig->run.phase == WH_PHASE_TARE && sensor < WH_SPEED_SENSORS) {
         rig->run.tare_pulses[sensor]++;
@@ -110,7 +142,6 @@ static void begin_run(const wh_rig_config *config, wh_rig *rig, wh_real target_r
     rig->fed = feeds(config, target_radps);
     rig->guard.lost_before = 0;
     rig->guard.rejected_before = 0;
-    rig->guard.regulated = 0;
     wh_run_start(&rig->run, target_radps, now_ticks);
 }
 
@@ -133,7 +164,6 @@ static void follow(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs
     case WH_EVENT_SET:
         wh_run_set(&rig->run, order->value, now);
         rig->fed = feeds(config, order->value);
-        rig->guard.regulated = 0;
         if (!rig->fed) {
             wh_lockin_feed(&rig->measure.lockin, false);
         }
@@ -241,9 +271,6 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
     const bool slows = !drives && rig->run.off_radps < config->guard.limit_radps;
     wh_guard_speed(&config->guard, guard, &rig->pulses, slows ? WH_TRIP_RUNS_ON : WH_TRIP_OVERSPEED,
                    drives);
-    if (rig->pulses.speed.taken != guard->pulses_risen && wh_run_is_closed(&rig->run)) {
-        wh_guard_rise(&config->guard, guard, &rig->pulses.speed, rig->run.drive.setpoint_radps);
-    }
     if (rig->run.phase == WH_PHASE_SPIN_UP && !rig->pulses.speed.running &&
         wh_rig_since_s(rig->run.since_ticks, inputs->now_ticks) >
             config->guard.slow_silence_max_s) {

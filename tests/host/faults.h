@@ -62,6 +62,7 @@ typedef struct campaign_case {
     bool drives;      /* the plant itself drives beyond what the controller asks for */
     bool calibration; /* only calibration can tell: a result that is off by it is no lie */
     bool runs_away;   /* the drive ignores the voltage */
+    bool delays;      /* the controller, or what it says: its watchdog may cut */
     char words[400];  /* of --fault: the fault, and the noise that every run has */
 } campaign_case;
 
@@ -92,12 +93,14 @@ typedef struct verdict {
     int trip;
     bool runs_on;    /* ended with the motor commanded on, and too fast */
     bool overspeed;  /* caused by the controller */
+    bool cut;        /* by the watchdog, though nothing was late or lost on its way */
     double turn_rpm; /* the fastest turn, */
     double peak_rpm; /* and instant */
     double
         lie; /* a good result is off by so much more than its interval and 1 %; as a share of the truth */
     bool
         lasting; /* a drive that is on ignores the voltage for longer than it may take to stop it */
+    double began_rpm;  /* the speed then */
     double off_s;      /* from then until the enable was off; -1: it was not */
     double caught_rpm; /* the fastest instant until then */
     bool halted;       /* stop was pressed, or the controller reset */

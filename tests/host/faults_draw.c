@@ -27,7 +27,8 @@ enum {
     COUNTED_ONLY = 8,
     HEALTHY = 16,
     AFTER_TRIP = 32, /* something else trips the rig first */
-    STARVED = 64     /* the watchdog resets, and does not cut */
+    STARVED = 64,    /* the watchdog resets, and does not cut */
+    DELAYS = 128     /* so that the watchdog may cut */
 };
 
 static const struct {
@@ -73,16 +74,16 @@ static const struct {
     {FAULT_JAM, LOG, 0.5, 20, NO_CHANNEL, 0},
     {FAULT_COUPLING, LOG, 0.03, 1, NO_CHANNEL, 0},
     {FAULT_INERTIA, ONE_OF_INERTIA, 0, 0, NO_CHANNEL, 0},
-    {FAULT_SLOW, LOG, 5, 50, NO_CHANNEL, COUNTED_ONLY},
-    {FAULT_LATE, LOG, 0.5e-3, 0.03, NO_CHANNEL, 0},
-    {FAULT_HANG, LOG, 5e-3, 1, NO_CHANNEL, 0},
-    {FAULT_UNKICKED, NO_SIZE, 0, 0, NO_CHANNEL, 0},
-    {FAULT_READINGS_LOST, EVEN, 0.01, 0.6, NO_CHANNEL, 0},
-    {FAULT_ORDERS_LOST, EVEN, 0.01, 0.6, NO_CHANNEL, 0},
+    {FAULT_SLOW, LOG, 5, 50, NO_CHANNEL, COUNTED_ONLY | DELAYS},
+    {FAULT_LATE, LOG, 0.5e-3, 0.03, NO_CHANNEL, DELAYS},
+    {FAULT_HANG, LOG, 5e-3, 1, NO_CHANNEL, DELAYS},
+    {FAULT_UNKICKED, NO_SIZE, 0, 0, NO_CHANNEL, DELAYS},
+    {FAULT_READINGS_LOST, EVEN, 0.01, 0.6, NO_CHANNEL, DELAYS},
+    {FAULT_ORDERS_LOST, EVEN, 0.01, 0.6, NO_CHANNEL, DELAYS},
     {FAULT_STOP, NO_SIZE, 0, 0, NO_CHANNEL, 0},
     {FAULT_RESET, LOG, 1e-3, 0.1, NO_CHANNEL, 0},
-    {FAULT_RESET, LOG, 1e-3, 0.1, NO_CHANNEL, AFTER_TRIP},
-    {FAULT_HANG, LOG, 5e-3, 1, NO_CHANNEL, STARVED},
+    {FAULT_RESET, LOG, 1e-3, 0.1, NO_CHANNEL, AFTER_TRIP | DELAYS},
+    {FAULT_HANG, LOG, 5e-3, 1, NO_CHANNEL, STARVED | DELAYS},
 };
 enum { ROWS = sizeof rows / sizeof rows[0] };
 
@@ -215,6 +216,7 @@ void campaign_draw(campaign_case *one, const campaign *c, unsigned i) {
         }
     }
     one->runs_away = (is & RUNS_AWAY) != 0;
+    one->delays = (is & DELAYS) != 0 || c->also != NULL;
     one->drives = one->drives || (is & DRIVES) != 0 ||
                   ((kind == FAULT_SUPPLY || kind == FAULT_MOTOR) && size > 1.0);
     one->calibration =

@@ -267,6 +267,7 @@ static void hear(void *of, double time_s, wh_orders *orders, double *late_s) {
     if (ignores && enabled && j->ignored_s < 0.0) {
         j->ignored_s = f->begin_s > j->enabled_s ? f->begin_s : j->enabled_s;
         j->verdict.lasting = f->begin_s + f->duration_s - j->ignored_s >= LASTING_S;
+        j->verdict.began_rpm = j->speed_rpm;
     }
     if (j->verdict.lasting && !enabled && j->verdict.off_s < 0.0) {
         j->verdict.off_s = time_s - j->ignored_s;
@@ -303,4 +304,5 @@ void judge_end(judge *j, const lockstep_report *report) {
     }
     v->runs_on = j->driven && j->speed_rpm > rig_limit_rpm();
     v->overspeed = !j->of->drives && v->turn_rpm > rig_limit_rpm();
+    v->cut = report->cut && !j->of->delays;
 }

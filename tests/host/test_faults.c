@@ -99,6 +99,8 @@ typedef struct made_up {
     int state_after; /* and after a reset */
     int trip_after;
     int cause;
+    bool delays;
+    bool cut;
     lockstep_end end;
 } made_up;
 
@@ -133,8 +135,10 @@ static verdict judged(const made_up *m) {
     judge j;
     double until_s = 100.0;
     fault_plan plan = {.seed = 1};
-    const campaign_case of = {
-        .drives = m->drives, .calibration = m->calibration, .runs_away = m->runs_away};
+    const campaign_case of = {.drives = m->drives,
+                              .calibration = m->calibration,
+                              .runs_away = m->runs_away,
+                              .delays = m->delays};
     const plant_wish wish = {.seed = 1};
     TEST_ASSERT_TRUE(fault_read(&plan, "unwatched"));
     TEST_ASSERT_TRUE(fault_read(&plan, m->fault));
@@ -174,7 +178,7 @@ static verdict judged(const made_up *m) {
         } while (starts_again(&on));
         taps[1].watch(taps[1].of, (ms + 1) * 1e-3, &on);
     }
-    const lockstep_report report = {.end = m->end, .time_s = 3.0};
+    const lockstep_report report = {.end = m->end, .time_s = 3.0, .cut = m->cut};
     judge_end(&j, &report);
     plant_stop(&on);
     motion_close(&bench);
@@ -260,6 +264,7 @@ static void test_runaways(void) {
     m.off_s = 2.25;
     verdict v = judged(&m);
     TEST_ASSERT_TRUE(v.lasting && fabs(v.off_s - 0.25) < 2.1e-3 && v.happened);
+    TEST_ASSERT_TRUE(fabs(v.began_rpm - 330.0) < 0.1 * 330.0);
     m.off_s = 99.0;
     v = judged(&m);
     TEST_ASSERT_TRUE(v.lasting && v.off_s < 0.0 && !v.runs_on);
@@ -343,6 +348,16 @@ static void test_resets(void) {
     }
 }
 
+/* A watchdog that cuts says that something was late; where nothing was it is the controller's doing. */
+static void test_cuts(void) {
+    for (int i = 0; i < 4; i++) {
+        made_up m = honest;
+        m.cut = i % 2 == 1;
+        m.delays = i >= 2;
+        TEST_ASSERT_TRUE(judged(&m).cut == (i == 1));
+    }
+}
+
 static void test_hangs(void) {
     made_up m = honest;
     m.end = LOCKSTEP_FAILED;
@@ -361,5 +376,6 @@ void suite_faults(void) {
     RUN_TEST(test_runaways);
     RUN_TEST(test_stops);
     RUN_TEST(test_resets);
+    RUN_TEST(test_cuts);
     RUN_TEST(test_hangs);
 }
