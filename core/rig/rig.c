@@ -8,6 +8,7 @@
 void wh_rig_slots(wh_rig_config *config, wh_real lead_rad) {
     config->measure.rotor.mark_rad[0] = -lead_rad;
     config->measure.rotor.mark_rad[1] = WH_R(0.25) * WH_RIG_TWO_PI - lead_rad;
+    config->swing.lead_rad = lead_rad;
     config->observer.mark_rad[0] = config->measure.rotor.mark_rad[0];
     config->observer.mark_rad[1] = config->measure.rotor.mark_rad[1];
 }
@@ -70,6 +71,7 @@ void wh_rig_pulse(const wh_rig_config *config, wh_rig *rig, unsigned sensor, uin
         rig->run.tare_pulses[sensor]++;
     }
     wh_pulses_take(&rig->pulses, sensor, ticks);
+    wh_swing_pulse(&rig->swing, sensor, ticks);
 }
 
 void wh_rig_load(const wh_rig_config *config, wh_rig *rig, uint32_t ticks, int32_t raw,
@@ -107,6 +109,7 @@ static void begin_run(const wh_rig_config *config, wh_rig *rig, wh_real target_r
     wh_measure_begin(&config->measure, &rig->measure);
     wh_observer_forget(&rig->observer);
     rig->observed = 0;
+    rig->brakes = config->stop_brakes && !config->swings;
     rig->fed = feeds(config, target_radps);
     rig->guard.lost_before = 0;
     rig->guard.rejected_before = 0;
@@ -131,6 +134,7 @@ static void follow(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs
         break;
     case WH_EVENT_STOP:
     case WH_EVENT_HOST_LOST:
+        rig->brakes = config->stop_brakes;
         if (moves && rig->run.phase != WH_PHASE_OFF) {
             wh_run_off(&rig->run, rig->pulses.speed.turn_radps, now);
         }
@@ -347,7 +351,7 @@ static wh_rig_command command_of(const wh_rig_config *config, wh_rig *rig,
         const wh_real most = volts < inputs->supply_V ? volts : inputs->supply_V;
         return (wh_rig_command){WH_MOTOR_DRIVES, most > WH_R(0.0) ? most : WH_R(0.0)};
     }
-    const bool brakes = config->stop_brakes && rig->run.phase == WH_PHASE_OFF;
+    const bool brakes = rig->brakes && rig->run.phase == WH_PHASE_OFF;
     return (wh_rig_command){brakes ? WH_MOTOR_BRAKES : WH_MOTOR_COASTS, WH_R(0.0)};
 }
 
@@ -367,6 +371,10 @@ wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_ri
     if (rig->guard.trip != WH_TRIP_NONE && rig->state != WH_LIFE_TRIPPED) {
         finds(config, rig, inputs, WH_EVENT_TRIP);
     }
+    const bool swings = rig->run.phase == WH_PHASE_OFF && !rig->brakes;
+    wh_swing_step(&config->swing, &config->measure.rotor, &rig->swing, swings,
+                  rig->state == WH_LIFE_IDLE);
+    wh_swing_doubt(&config->swing, &rig->swing, &rig->result.force);
     rig->command = command_of(config, rig, inputs);
     return rig->command;
 }

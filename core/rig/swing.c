@@ -1,0 +1,372 @@
+/* swing.c: where the sensors stand, from the swing in which a rotor comes to rest. */
+#include "swing.h"
+
+#include "core/root.h"
+#include "datasheet.h"
+
+enum {
+    Q = WH_FREE_Q,
+    RATE = WH_FREE_RATE,
+    GRAVITY = WH_FREE_GRAVITY,
+    FRICTION = WH_FREE_FRICTION,
+    DRAG = WH_FREE_DRAG,
+    PLACE = WH_FREE_CAUSES, /* of sensor 1; then of sensor 2 */
+    N = WH_NORMAL_UNKNOWNS
+};
+
+static wh_real square_of(wh_real x) { return x * x; }
+
+/* --- what is kept ----------------------------------------------------------------------------------- */
+
+static void begin(wh_swing *swing) {
+    swing->result = (wh_swung){.why = WH_SWING_SWINGS};
+    swing->any = false;
+    swing->forward = true;
+    swing->swings = false;
+    swing->passed = 0;
+    swing->kept = 0;
+}
+
+static void keep(wh_swing *swing, unsigned sensor, uint32_t ticks) {
+    if (!swing->swings && swing->kept > WH_SWING_TURNING) {
+        for (unsigned i = 0; i < WH_SWING_TURNING; i++) {
+            swing->kept_ticks[i] = swing->kept_ticks[i + 1U];
+            swing->kept_sensor[i] = swing->kept_sensor[i + 1U];
+        }
+        swing->kept = WH_SWING_TURNING;
+    }
+    if (swing->kept < WH_SWING_PULSES) {
+        swing->kept_ticks[swing->kept] = ticks;
+        swing->kept_sensor[swing->kept++] = (uint8_t)sensor;
+    }
+}
+
+void wh_swing_pulse(wh_swing *swing, unsigned sensor, uint32_t ticks) {
+    if (swing->result.why != WH_SWING_SWINGS || sensor >= WH_SWING_SENSORS) {
+        return;
+    }
+    /* a sensor that is passed twice running is passed the other way */
+    const bool again = swing->any && sensor == swing->sensor;
+    if (!swing->forward && sensor == 1U && swing->sensor == 0) {
+        swing->forward =
+            true; /* backwards it does not get over the top: a pulse was lost, and it turns */
+        swing->swings = false;
+        swing->kept = 0;
+        swing->passed = 0;
+    } else {
+        swing->forward = swing->forward != again;
+    }
+    swing->any = true;
+    swing->sensor = (uint8_t)sensor;
+    keep(swing, sensor, ticks);
+    if (!swing->swings && sensor == 0 && !swing->forward) {
+        swing->swings = true;
+        swing->first = swing->kept - 1U;
+    }
+    if (swing->swings && sensor == 0) {
+        for (unsigned i = WH_SWING_LAST - 1U; i > 0; i--) {
+            swing->last_ticks[i] = swing->last_ticks[i - 1U];
+        }
+        swing->last_ticks[0] = ticks;
+        swing->passed++;
+    }
+}
+
+#define STEP_TICKS 8000
+
+/* A step towards the next pulse. False: it is there. */
+static bool advance(wh_swing *swing) {
+    const int32_t left = (int32_t)(swing->kept_ticks[swing->at] - swing->ticks);
+    if (left == 0) {
+        return false;
+    }
+    const int32_t ticks = left > STEP_TICKS ? STEP_TICKS : left < -STEP_TICKS ? -STEP_TICKS : left;
+    const wh_real h = (wh_real)ticks / (wh_real)WH_RIG_TICKS_PER_S;
+    wh_free_rotor_step(swing->x, &swing->way, h);
+    swing->ticks += (uint32_t)ticks;
+    return true;
+}
+
+/* --- guesses ------------------------------------------------------------------------------------------ */
+
+/* sin(A/2), from half a swing's time over that of a small one, 2/pi K(sin(A/2)): A = 0, 30, ... 120, 150, 165, 175 deg. */
+static wh_real sine_of_time(wh_real time) {
+    static const wh_real times[] = {WH_R(1.0),    WH_R(1.0174), WH_R(1.0732), WH_R(1.1803),
+                                    WH_R(1.3729), WH_R(1.7622), WH_R(2.1807), WH_R(2.8777)};
+    static const wh_real sines[] = {WH_R(0.0),    WH_R(0.2588), WH_R(0.5),    WH_R(0.7071),
+                                    WH_R(0.8660), WH_R(0.9659), WH_R(0.9914), WH_R(0.9990)};
+    for (unsigned i = 1; i < sizeof times / sizeof times[0]; i++) {
+        if (time < times[i]) {
+            const wh_real part = (time - times[i - 1U]) / (times[i] - times[i - 1U]);
+            return sines[i - 1U] + part * (sines[i] - sines[i - 1U]);
+        }
+    }
+    return WH_R(1.0);
+}
+
+/* sqrt(g) from the last swings: the second shortest period, or the only one. */
+static wh_real guess_root(const wh_swing *swing) {
+    wh_real shortest_s = WH_R(100.0);
+    wh_real second_s = WH_R(100.0);
+    const unsigned count = swing->passed < WH_SWING_LAST ? swing->passed : WH_SWING_LAST;
+    for (unsigned i = 0; i + 2U < count; i++) {
+        const wh_real period_s = wh_rig_since_s(swing->last_ticks[i + 2U], swing->last_ticks[i]);
+        if (period_s < shortest_s) {
+            second_s = shortest_s;
+            shortest_s = period_s;
+        } else if (period_s < second_s) {
+            second_s = period_s;
+        }
+    }
+    return WH_R(1.02) * WH_RIG_TWO_PI / (count > 4U ? second_s : shortest_s);
+}
+
+/* Time from the first passage of the bottom to the next. */
+static wh_real first_s(const wh_swing *swing) {
+    unsigned next = swing->first + 1U;
+    while (next + 1U < swing->kept && swing->kept_sensor[next] != 0) {
+        next++;
+    }
+    return wh_rig_since_s(swing->kept_ticks[swing->first], swing->kept_ticks[next]);
+}
+
+/* The mean of sin^2(q/2) from 0 to 90 deg, times 4. */
+#define FALLEN WH_R(0.727)
+
+#define STARTS 3U
+
+static void guess(const wh_swing_config *config, wh_swing *swing) {
+    wh_real *x = swing->guess;
+    const unsigned first = swing->first;
+    static const wh_real factors[STARTS] = {WH_R(1.0), WH_R(1.04), WH_R(0.98)};
+    const wh_real root = factors[swing->start] * guess_root(swing);
+    const wh_real time = first_s(swing) * root / (WH_R(0.5) * WH_RIG_TWO_PI);
+    wh_real sine = sine_of_time(time);
+    sine = sine > WH_R(0.4) ? sine : WH_R(0.4);
+    if (first > 0 && swing->kept_sensor[first - 1U] == 1U) { /* it has fallen from sensor 2 */
+        const wh_real mean_radps =
+            WH_R(0.25) * WH_RIG_TWO_PI /
+            wh_rig_since_s(swing->kept_ticks[first - 1U], swing->kept_ticks[first]);
+        sine = WH_R(0.5) * WH_SQRT(square_of(mean_radps / root) + FALLEN);
+    }
+    const wh_real gravity = square_of(root);
+    for (unsigned i = 0; i < N; i++) {
+        x[i] = WH_R(0.0);
+        swing->within[i] = WH_R(0.5) * config->most_rad;
+    }
+    x[RATE] = WH_R(-2.0) * root * sine;
+    x[GRAVITY] = gravity;
+    /* a swing loses 2 f/g on either side, in so many halves; A is some 2.3 sin(A/2) */
+    x[FRICTION] = gravity * WH_R(2.3) * sine / (wh_real)(2U * swing->passed + 1U);
+    x[DRAG] = WH_R(0.003) * gravity;
+    swing->within[Q] =
+        WH_SQRT(square_of(config->jitter_s * x[RATE]) + square_of(config->rough_rad));
+    swing->within[RATE] = WH_R(-0.3) * x[RATE];
+    swing->within[GRAVITY] = WH_R(0.3) * gravity;
+    swing->within[FRICTION] = x[FRICTION] + WH_R(0.01) * gravity;
+    swing->within[DRAG] = WH_R(0.005) * gravity;
+    for (unsigned i = 0; i < N; i++) {
+        swing->x[i] = x[i];
+    }
+}
+
+#define PASSES 12U
+#define SOFT_PASSES 6U
+/* from then on a pulse that is far off is none */
+#define SURE_PASSES SOFT_PASSES
+
+/* --- passes -------------------------------------------------------------------------------------------- */
+
+/* Back to the first passage of the bottom, from which it goes on to later pulses, or to earlier ones. */
+static void set_out(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing) {
+    const wh_real leads = rotor->mark_rad[0] + WH_R(2.0) * config->lead_rad;
+    swing->ticks = swing->kept_ticks[swing->first];
+    wh_free_rotor_start(&swing->way, leads - rotor->gravity_rad + swing->x[PLACE] + swing->x[Q],
+                        swing->x[RATE]);
+}
+
+static void begin_pass(const wh_swing_config *config, const wh_rotor_config *rotor,
+                       wh_swing *swing) {
+    wh_real left[N]; /* to the guess */
+    for (unsigned i = 0; i < N; i++) {
+        left[i] = (swing->guess[i] - swing->x[i]) / swing->within[i];
+    }
+    wh_normal_start(&swing->normal, left);
+    /* at first pulses are far from where they should be, and what they tell is not linear */
+    swing->soft_rad2 = swing->pass == 0            ? WH_R(0.0025)
+                       : swing->pass < SOFT_PASSES ? WH_R(0.3) * swing->soft_rad2
+                                                   : WH_R(0.0);
+    swing->fits = 0;
+    swing->strays = 0;
+    swing->swung = 0;
+    swing->solves = false;
+    swing->at = swing->first + 1U;
+    set_out(config, rotor, swing);
+}
+
+static void rest(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing,
+                 bool is_free) {
+    if (!is_free || !(rotor->gravity_mps2 > WH_R(0.0))) {
+        swing->result.why = WH_SWING_NOT_FREE;
+    } else if (swing->passed < 3U || swing->passed <= config->swings_least) {
+        swing->result.why = WH_SWING_FEW;
+    } else {
+        swing->result.why = WH_SWING_WORKS;
+        swing->pass = 0;
+        swing->start = 0;
+        guess(config, swing);
+        begin_pass(config, rotor, swing);
+    }
+}
+
+/* Then it stops within a swing or two, and what stops it is a friction that nobody knows. */
+#define SLOW_RAD WH_R(0.12)
+#define SLOW_FRICTIONS WH_R(1.5)
+
+static bool is_slow(const wh_swing *swing) {
+    const wh_real gravity = swing->x[GRAVITY];
+    const wh_real wide = WH_ABS(swing->way.rate_radps) / WH_SQRT(gravity);
+    return wide < SLOW_RAD || wide * gravity < SLOW_FRICTIONS * swing->x[FRICTION];
+}
+
+#define FAR_RAD WH_R(0.5)
+
+/* A pulse that the rotor has come to on its pass. Returns false when there is no way further. */
+static bool take(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing) {
+    const wh_free_rotor *way = &swing->way;
+    const unsigned sensor = swing->kept_sensor[swing->at];
+    const wh_real lead = way->rate_radps > WH_R(0.0) ? WH_R(0.0) : WH_R(2.0) * config->lead_rad;
+    const wh_real stands =
+        rotor->mark_rad[sensor] + lead - rotor->gravity_rad + swing->x[PLACE + sensor];
+    const wh_real off = wh_free_angle(stands - way->q_rad);
+    if (!(WH_ABS(off) < FAR_RAD)) {
+        if (swing->at < swing->first) { /* did it get over the top? */
+            return false;
+        }
+        swing->strays++;
+        return swing->pass >= SURE_PASSES;
+    }
+    const wh_real weight = WH_R(1.0) / (square_of(config->jitter_s * way->rate_radps) +
+                                        square_of(config->rough_rad) + swing->soft_rad2);
+    wh_real by[N];
+    for (unsigned i = Q; i < PLACE; i++) {
+        by[i] = swing->within[i] * way->q_by[i];
+    }
+    by[PLACE] = swing->within[PLACE] * way->q_by[Q];
+    by[PLACE + 1U] = WH_R(0.0);
+    by[PLACE + sensor] -= swing->within[PLACE + sensor];
+    wh_normal_add(&swing->normal, by, off, weight);
+    swing->fits++;
+    swing->swung += sensor == 0 ? 1U : 0U;
+    return !(swing->at > swing->first && sensor == 0 && is_slow(swing));
+}
+
+static void conclude(const wh_swing_config *config, wh_swing *swing) {
+    wh_swung *result = &swing->result;
+    /* more unknowns than pulses have no misfit */
+    const wh_real freedom = swing->fits > N ? (wh_real)(swing->fits - N) : WH_R(1.0);
+    const wh_real rough = swing->normal.misfit / freedom;
+    const wh_real wider = WH_R(3.84) * (rough > WH_R(1.0) ? rough : WH_R(1.0));
+    for (unsigned i = 0; i < WH_SWING_SENSORS; i++) {
+        const wh_real one =
+            swing->within[PLACE + i] * wh_normal_deviation(&swing->normal, PLACE + i);
+        result->place_rad[i] = swing->x[PLACE + i];
+        result->half_rad[i] = WH_SQRT(wider * one * one + square_of(config->floor_rad));
+    }
+    result->swings = swing->swung;
+    if (swing->strays * 4U > swing->fits) {
+        result->why = WH_SWING_MISFIT;
+    } else if (result->swings < config->swings_least) {
+        result->why = WH_SWING_FEW;
+    } else {
+        result->why =
+            result->half_rad[0] <= config->wide_rad ? WH_SWING_FOUND : WH_SWING_WIDE; /* NaN too */
+    }
+}
+
+#define FOREIGN WH_R(9.0)
+
+/* Gauss's step, but no unknown by more than its guess may be off. */
+static void step(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing) {
+    const wh_real *y = swing->normal.right;
+    wh_normal_solve(&swing->normal);
+    wh_real most = WH_R(0.0);
+    for (unsigned i = RATE; i < N; i++) {
+        most = WH_ABS(y[i]) > most ? WH_ABS(y[i]) : most;
+    }
+    const wh_real part = most > WH_R(1.0) ? WH_R(1.0) / most : WH_R(1.0);
+    for (unsigned i = 0; i < N; i++) {
+        swing->x[i] += part * swing->within[i] * y[i];
+    }
+    swing->x[FRICTION] = swing->x[FRICTION] > WH_R(0.0) ? swing->x[FRICTION] : WH_R(0.0);
+    swing->x[DRAG] = swing->x[DRAG] > WH_R(0.0) ? swing->x[DRAG] : WH_R(0.0);
+    swing->pass++;
+    const bool found =
+        swing->strays * 4U <= swing->fits && swing->normal.misfit < FOREIGN * (wh_real)swing->fits;
+    if (swing->pass == PASSES && !found && swing->start + 1U < STARTS) {
+        swing->start++;
+        swing->pass = 0;
+        guess(config, swing);
+        begin_pass(config, rotor, swing);
+    } else if (swing->pass == PASSES ||
+               (found && swing->pass > SOFT_PASSES && swing->strays == 0 && most < WH_R(2e-3))) {
+        conclude(config, swing);
+    } else {
+        begin_pass(config, rotor, swing);
+    }
+}
+
+static void work(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing) {
+    if (swing->solves) {
+        step(config, rotor, swing);
+        return;
+    }
+    for (unsigned i = 0; i < 4U; i++) {
+        if (!advance(swing)) {
+            const bool later = swing->at > swing->first;
+            bool on = take(config, rotor, swing);
+            on = on && (later ? swing->at + 1U < swing->kept : swing->at > 0);
+            if (on) {
+                swing->at = later ? swing->at + 1U : swing->at - 1U;
+            } else if (later && swing->first > 0) {
+                swing->at = swing->first - 1U;
+                set_out(config, rotor, swing);
+            } else {
+                swing->solves = true;
+            }
+            return;
+        }
+    }
+}
+
+void wh_swing_step(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing,
+                   bool swings, bool rests) {
+    if (swings && !swing->free) {
+        begin(swing);
+    } else if (!swings && swing->free) {
+        rest(config, rotor, swing, rests);
+    } else if (rests && wh_swing_works(swing)) {
+        work(config, rotor, swing);
+    }
+    swing->free = swings;
+}
+
+void wh_swing_doubt(const wh_swing_config *config, const wh_swing *swing, wh_measured *measured) {
+    const wh_swung *swung = &swing->result;
+    if (swung->why == WH_SWING_FOUND && measured->turns > 0 && measured->quality == WH_GOOD &&
+        WH_ABS(swung->place_rad[0]) > swung->half_rad[0] + config->off_rad) {
+        measured->quality = WH_DOUBTFUL;
+        measured->why = WH_WHY_PLACE;
+    }
+}
+
+#define CASE(name, words) \
+    case name: return words;
+
+const char *wh_swing_text(wh_swing_why why) {
+    switch (why) {
+        WH_SWING_ROWS(CASE)
+    case WH_SWING_WHYS: break;
+    }
+    return "unknown reason";
+}
