@@ -199,6 +199,7 @@ static void begin_pass(const wh_swing_config *config, const wh_rotor_config *rot
     swing->fits = 0;
     swing->strays = 0;
     swing->swung = 0;
+    swing->sided = 0;
     swing->solves = false;
     swing->at = swing->first + 1U;
     set_out(config, rotor, swing);
@@ -258,6 +259,7 @@ static bool take(const wh_swing_config *config, const wh_rotor_config *rotor, wh
     wh_normal_add(&swing->normal, by, off, weight);
     swing->fits++;
     swing->swung += sensor == 0 ? 1U : 0U;
+    swing->sided += sensor == 0 ? 0U : 1U;
     return !(swing->at > swing->first && sensor == 0 && is_slow(swing));
 }
 
@@ -278,6 +280,8 @@ static void conclude(const wh_swing_config *config, wh_swing *swing) {
         result->why = WH_SWING_MISFIT;
     } else if (result->swings < config->swings_least) {
         result->why = WH_SWING_FEW;
+    } else if (swing->sided == 0) {
+        result->why = WH_SWING_SIDES;
     } else {
         result->why =
             result->half_rad[0] <= config->wide_rad ? WH_SWING_FOUND : WH_SWING_WIDE; /* NaN too */

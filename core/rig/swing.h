@@ -46,6 +46,7 @@ extern "C" {
     X(WH_SWING_NOT_FREE, "the rotor did not come to rest freely") \
     X(WH_SWING_FEW, "too few swings: friction stops the rotor") \
     X(WH_SWING_MISFIT, "the pulses are not those of a free swing") \
+    X(WH_SWING_SIDES, "nothing tells right from left: sensor 2 was not passed") \
     X(WH_SWING_WIDE, "the swings do not tell it: the interval is too wide")
 
 #define WH_SWING_NAME(name, words) name,
@@ -98,7 +99,8 @@ typedef struct wh_swing {
     wh_real soft_rad2; /* variance that pulses are given beside their own */
     unsigned fits;     /* pulses that were taken on this pass, */
     unsigned strays;   /* that cannot be, */
-    unsigned swung;    /* of sensor 1 */
+    unsigned swung;    /* of sensor 1, */
+    unsigned sided;    /* of sensor 2: a swing seen from sensor 1 alone could be its mirror image */
 } wh_swing;
 
 #define wh_swing_pulse WH_NAME(wh_swing_pulse)
