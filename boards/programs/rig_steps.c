@@ -16,7 +16,7 @@
 #include "hal/motor.h"
 
 #define CONTROL_TICKS UINT32_C(2000)
-#define STEPS_MOST 20000U
+#define STEPS_MOST 60000U
 
 /* rig_fixed of core/models/eccentric.whirl, in control steps (mk/whirl.mk). */
 extern const wh_scene rig_observed;

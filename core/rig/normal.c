@@ -29,7 +29,8 @@ void wh_normal_add(wh_normal *normal, const wh_real row[N], wh_real off, wh_real
 /* Rounding takes so much of a diagonal's 1 where the rows have made it large. */
 #define PIVOT_LEAST WH_R(1e-3)
 
-static void factor(wh_real m[N][N]) {
+void wh_normal_factor(wh_normal *normal) {
+    wh_real(*m)[N] = normal->matrix;
     for (unsigned j = 0; j < N; j++) {
         for (unsigned i = j; i < N; i++) {
             wh_real sum = m[i][j];
@@ -43,7 +44,6 @@ static void factor(wh_real m[N][N]) {
 
 void wh_normal_solve(wh_normal *normal) {
     wh_real *y = normal->right;
-    factor(normal->matrix);
     for (unsigned i = 0; i < N; i++) {
         for (unsigned k = 0; k < i; k++) {
             y[i] -= normal->matrix[i][k] * y[k];

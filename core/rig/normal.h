@@ -23,6 +23,7 @@ typedef struct wh_normal {
 
 #define wh_normal_start WH_NAME(wh_normal_start)
 #define wh_normal_add WH_NAME(wh_normal_add)
+#define wh_normal_factor WH_NAME(wh_normal_factor)
 #define wh_normal_solve WH_NAME(wh_normal_solve)
 #define wh_normal_deviation WH_NAME(wh_normal_deviation)
 
@@ -33,7 +34,8 @@ void wh_normal_start(wh_normal *normal, const wh_real guess[WH_NORMAL_UNKNOWNS])
 void wh_normal_add(wh_normal *normal, const wh_real row[WH_NORMAL_UNKNOWNS], wh_real off,
                    wh_real weight);
 
-/* The unknowns, into normal->right. */
+/* First the factors, some 1,000 instructions; then the unknowns, into normal->right. */
+void wh_normal_factor(wh_normal *normal);
 void wh_normal_solve(wh_normal *normal);
 
 /* Once solved: the standard deviation of an unknown. */

@@ -71,7 +71,9 @@ void wh_rig_pulse(const wh_rig_config *config, wh_rig *rig, unsigned sensor, uin
         rig->run.tare_pulses[sensor]++;
     }
     wh_pulses_take(&rig->pulses, sensor, ticks);
-    wh_swing_pulse(&rig->swing, sensor, ticks);
+    if (!wh_run_drives(&rig->run)) {
+        wh_swing_pulse(&rig->swing, sensor, ticks);
+    }
 }
 
 void wh_rig_load(const wh_rig_config *config, wh_rig *rig, uint32_t ticks, int32_t raw,
@@ -344,6 +346,14 @@ static void measure(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks
     rig->busy = false;
 }
 
+/* Motor off: it swings out after a run, or has, and what that tells is worked on. */
+static void swing(const wh_rig_config *config, wh_rig *rig) {
+    const bool swings = rig->run.phase == WH_PHASE_OFF && !rig->brakes;
+    wh_swing_step(&config->swing, &config->measure.rotor, &rig->swing, swings,
+                  rig->state == WH_LIFE_IDLE);
+    wh_swing_doubt(&config->swing, &rig->swing, &rig->result.force);
+}
+
 static wh_rig_command command_of(const wh_rig_config *config, wh_rig *rig,
                                  const wh_rig_inputs *inputs) {
     if (rig->guard.trip == WH_TRIP_NONE && wh_run_drives(&rig->run)) {
@@ -371,10 +381,9 @@ wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_ri
     if (rig->guard.trip != WH_TRIP_NONE && rig->state != WH_LIFE_TRIPPED) {
         finds(config, rig, inputs, WH_EVENT_TRIP);
     }
-    const bool swings = rig->run.phase == WH_PHASE_OFF && !rig->brakes;
-    wh_swing_step(&config->swing, &config->measure.rotor, &rig->swing, swings,
-                  rig->state == WH_LIFE_IDLE);
-    wh_swing_doubt(&config->swing, &rig->swing, &rig->result.force);
+    if (!wh_run_drives(&rig->run)) {
+        swing(config, rig);
+    }
     rig->command = command_of(config, rig, inputs);
     return rig->command;
 }

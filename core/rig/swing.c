@@ -200,7 +200,7 @@ static void begin_pass(const wh_swing_config *config, const wh_rotor_config *rot
     swing->strays = 0;
     swing->swung = 0;
     swing->sided = 0;
-    swing->solves = false;
+    swing->piece = WH_SWING_GOES;
     swing->at = swing->first + 1U;
     set_out(config, rotor, swing);
 }
@@ -213,10 +213,8 @@ static void rest(const wh_swing_config *config, const wh_rotor_config *rotor, wh
         swing->result.why = WH_SWING_FEW;
     } else {
         swing->result.why = WH_SWING_WORKS;
-        swing->pass = 0;
         swing->start = 0;
-        guess(config, swing);
-        begin_pass(config, rotor, swing);
+        swing->piece = WH_SWING_GUESSES;
     }
 }
 
@@ -290,8 +288,8 @@ static void conclude(const wh_swing_config *config, wh_swing *swing) {
 
 #define FOREIGN WH_R(9.0)
 
-/* Gauss's step, but no unknown by more than its guess may be off. */
-static void step(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing) {
+/* Gauss's step, but no unknown by more than its guess may be off. Returns what is next. */
+static wh_swing_piece move(wh_swing *swing) {
     const wh_real *y = swing->normal.right;
     wh_normal_solve(&swing->normal);
     wh_real most = WH_R(0.0);
@@ -305,41 +303,54 @@ static void step(const wh_swing_config *config, const wh_rotor_config *rotor, wh
     swing->x[FRICTION] = swing->x[FRICTION] > WH_R(0.0) ? swing->x[FRICTION] : WH_R(0.0);
     swing->x[DRAG] = swing->x[DRAG] > WH_R(0.0) ? swing->x[DRAG] : WH_R(0.0);
     swing->pass++;
-    const bool found =
+    const bool fits =
         swing->strays * 4U <= swing->fits && swing->normal.misfit < FOREIGN * (wh_real)swing->fits;
-    if (swing->pass == PASSES && !found && swing->start + 1U < STARTS) {
+    const bool stays = swing->pass > SOFT_PASSES && swing->strays == 0 && most < WH_R(2e-3);
+    if (swing->pass == PASSES && !fits && swing->start + 1U < STARTS) {
         swing->start++;
-        swing->pass = 0;
-        guess(config, swing);
-        begin_pass(config, rotor, swing);
-    } else if (swing->pass == PASSES ||
-               (found && swing->pass > SOFT_PASSES && swing->strays == 0 && most < WH_R(2e-3))) {
-        conclude(config, swing);
+        return WH_SWING_GUESSES;
+    }
+    return swing->pass == PASSES || (fits && stays) ? WH_SWING_ENDS : WH_SWING_PASSES;
+}
+
+/* At a pulse: on to the next, or back to the first passage and on to the ones before it. */
+static void go_on(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing) {
+    const bool later = swing->at > swing->first;
+    const bool any = later ? swing->at + 1U < swing->kept : swing->at > 0;
+    if (take(config, rotor, swing) && any) {
+        swing->at = later ? swing->at + 1U : swing->at - 1U;
+    } else if (later && swing->first > 0) {
+        swing->at = swing->first - 1U;
+        set_out(config, rotor, swing);
     } else {
-        begin_pass(config, rotor, swing);
+        swing->piece = WH_SWING_FACTORS;
     }
 }
 
+#define STEPS 3U /* of the equation */
+
 static void work(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing) {
-    if (swing->solves) {
-        step(config, rotor, swing);
-        return;
-    }
-    for (unsigned i = 0; i < 4U; i++) {
+    switch (swing->piece) {
+    case WH_SWING_GOES:
         if (!advance(swing)) {
-            const bool later = swing->at > swing->first;
-            bool on = take(config, rotor, swing);
-            on = on && (later ? swing->at + 1U < swing->kept : swing->at > 0);
-            if (on) {
-                swing->at = later ? swing->at + 1U : swing->at - 1U;
-            } else if (later && swing->first > 0) {
-                swing->at = swing->first - 1U;
-                set_out(config, rotor, swing);
-            } else {
-                swing->solves = true;
-            }
+            go_on(config, rotor, swing);
             return;
         }
+        for (unsigned i = 1; i < STEPS && advance(swing); i++) {
+        }
+        break;
+    case WH_SWING_FACTORS:
+        wh_normal_factor(&swing->normal);
+        swing->piece = WH_SWING_SOLVES;
+        break;
+    case WH_SWING_SOLVES: swing->piece = move(swing); break;
+    case WH_SWING_PASSES: begin_pass(config, rotor, swing); break;
+    case WH_SWING_GUESSES:
+        swing->pass = 0;
+        guess(config, swing);
+        swing->piece = WH_SWING_PASSES;
+        break;
+    case WH_SWING_ENDS: conclude(config, swing); break;
     }
 }
 

@@ -19,8 +19,8 @@
  *
  * The interval is that of the regression, wider by what the pulses are off more than they should be, and the floor.
  *
- * While the rotor swings its pulses are kept. Once it rests each control step does a piece of a pass: four steps of the
- * equation, or one pulse, or the equations' solution. That takes about a quarter of the swing's time. */
+ * While the rotor swings its pulses are kept. Once it rests each control step does a piece of a pass: three steps of the
+ * equation, or one pulse, or a part of the equations' solution; in all that is some seconds. */
 #ifndef WH_RIG_SWING_H
 #define WH_RIG_SWING_H
 
@@ -36,6 +36,16 @@ extern "C" {
 #define WH_SWING_TURNING 6U /* pulses that are kept from before the swing, */
 #define WH_SWING_PULSES 36U /* and in all */
 #define WH_SWING_LAST 6U    /* of sensor 1's last */
+
+/* Pieces of the work: on the way to a pulse or at it, the equations in two, another pass, another guess, the end. */
+typedef enum wh_swing_piece {
+    WH_SWING_GOES,
+    WH_SWING_FACTORS,
+    WH_SWING_SOLVES,
+    WH_SWING_PASSES,
+    WH_SWING_GUESSES,
+    WH_SWING_ENDS
+} wh_swing_piece;
 
 /* What became of it: X(name, words). */
 #define WH_SWING_ROWS(X) \
@@ -93,14 +103,14 @@ typedef struct wh_swing {
     uint32_t ticks;
     unsigned start; /* guesses before this one led nowhere */
     unsigned pass;
-    unsigned at;       /* the pulse that is next */
-    bool solves;       /* a pass is through */
-    wh_normal normal;  /* equations of this pass, in units of `within` */
-    wh_real soft_rad2; /* variance that pulses are given beside their own */
-    unsigned fits;     /* pulses that were taken on this pass, */
-    unsigned strays;   /* that cannot be, */
-    unsigned swung;    /* of sensor 1, */
-    unsigned sided;    /* of sensor 2: a swing seen from sensor 1 alone could be its mirror image */
+    unsigned at;          /* the pulse that is next */
+    wh_swing_piece piece; /* of the work, that is next */
+    wh_normal normal;     /* equations of this pass, in units of `within` */
+    wh_real soft_rad2;    /* variance that pulses are given beside their own */
+    unsigned fits;        /* pulses that were taken on this pass, */
+    unsigned strays;      /* that cannot be, */
+    unsigned swung;       /* of sensor 1, */
+    unsigned sided; /* of sensor 2: a swing seen from sensor 1 alone could be its mirror image */
 } wh_swing;
 
 #define wh_swing_pulse WH_NAME(wh_swing_pulse)

@@ -309,6 +309,7 @@ static void test_the_regression_finds_what_was_measured(void) {
         }
         wh_normal_add(&normal, row, sum, WH_R(1e4));
     }
+    wh_normal_factor(&normal);
     wh_normal_solve(&normal);
     for (unsigned i = 0; i < WH_NORMAL_UNKNOWNS; i++) {
         TEST_ASSERT_FLOAT_WITHIN(1e-3f, (float)truth[i], (float)normal.right[i]);
