@@ -13,9 +13,9 @@
 #define WH_RIG_RIG_H
 
 #include "feed.h"
+#include "free_swing.h"
 #include "orders.h"
 #include "phases.h"
-#include "swing.h"
 
 #ifdef __cplusplus
 extern "C" {

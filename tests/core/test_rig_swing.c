@@ -1,6 +1,6 @@
 /* test_rig_swing.c: where the sensors stand, from the swing of a made-up rotor (rotor.c) that comes to rest; what is refused,
  * by its name; pulses that are none; and its parts, the equation of motion and the regression. */
-#include "core/rig/swing.h"
+#include "core/rig/free_swing.h"
 
 #include "core/angle.h"
 #include "core/rig/datasheet.h"
@@ -85,7 +85,7 @@ static wh_swung swing_out(const wh_rig_config *config, const drawn *rotor, bool 
     }
     TEST_ASSERT_TRUE(quiet >= REST_TICKS);
     wh_swing_step(&config->swing, &config->measure.rotor, &swing, false, rests);
-    for (unsigned i = 0; i < 20000U && wh_swing_works(&swing); i++) {
+    for (unsigned i = 0; i < 100000U && wh_swing_works(&swing); i++) {
         wh_swing_step(&config->swing, &config->measure.rotor, &swing, false, rests);
     }
     TEST_ASSERT_FALSE(wh_swing_works(&swing));

@@ -1,18 +1,9 @@
-/* swing.c: where the sensors stand, from the swing in which a rotor comes to rest. */
-#include "swing.h"
+/* free_swing.c: where the sensors stand, from the swing in which a rotor comes to rest. */
+#include "free_swing.h"
 
 #include "core/root.h"
 #include "datasheet.h"
-
-enum {
-    Q = WH_FREE_Q,
-    RATE = WH_FREE_RATE,
-    GRAVITY = WH_FREE_GRAVITY,
-    FRICTION = WH_FREE_FRICTION,
-    DRAG = WH_FREE_DRAG,
-    PLACE = WH_FREE_CAUSES, /* of sensor 1; then of sensor 2 */
-    N = WH_NORMAL_UNKNOWNS
-};
+#include "swing_guess.h"
 
 static wh_real square_of(wh_real x) { return x * x; }
 
@@ -87,89 +78,6 @@ static bool advance(wh_swing *swing) {
     return true;
 }
 
-/* --- guesses ------------------------------------------------------------------------------------------ */
-
-/* sin(A/2), from half a swing's time over that of a small one, 2/pi K(sin(A/2)): A = 0, 30, ... 120, 150, 165, 175 deg. */
-static wh_real sine_of_time(wh_real time) {
-    static const wh_real times[] = {WH_R(1.0),    WH_R(1.0174), WH_R(1.0732), WH_R(1.1803),
-                                    WH_R(1.3729), WH_R(1.7622), WH_R(2.1807), WH_R(2.8777)};
-    static const wh_real sines[] = {WH_R(0.0),    WH_R(0.2588), WH_R(0.5),    WH_R(0.7071),
-                                    WH_R(0.8660), WH_R(0.9659), WH_R(0.9914), WH_R(0.9990)};
-    for (unsigned i = 1; i < sizeof times / sizeof times[0]; i++) {
-        if (time < times[i]) {
-            const wh_real part = (time - times[i - 1U]) / (times[i] - times[i - 1U]);
-            return sines[i - 1U] + part * (sines[i] - sines[i - 1U]);
-        }
-    }
-    return WH_R(1.0);
-}
-
-/* sqrt(g) from the last swings: the second shortest period, or the only one. */
-static wh_real guess_root(const wh_swing *swing) {
-    wh_real shortest_s = WH_R(100.0);
-    wh_real second_s = WH_R(100.0);
-    const unsigned count = swing->passed < WH_SWING_LAST ? swing->passed : WH_SWING_LAST;
-    for (unsigned i = 0; i + 2U < count; i++) {
-        const wh_real period_s = wh_rig_since_s(swing->last_ticks[i + 2U], swing->last_ticks[i]);
-        if (period_s < shortest_s) {
-            second_s = shortest_s;
-            shortest_s = period_s;
-        } else if (period_s < second_s) {
-            second_s = period_s;
-        }
-    }
-    return WH_R(1.02) * WH_RIG_TWO_PI / (count > 4U ? second_s : shortest_s);
-}
-
-/* Time from the first passage of the bottom to the next. */
-static wh_real first_s(const wh_swing *swing) {
-    unsigned next = swing->first + 1U;
-    while (next + 1U < swing->kept && swing->kept_sensor[next] != 0) {
-        next++;
-    }
-    return wh_rig_since_s(swing->kept_ticks[swing->first], swing->kept_ticks[next]);
-}
-
-/* The mean of sin^2(q/2) from 0 to 90 deg, times 4. */
-#define FALLEN WH_R(0.727)
-
-#define STARTS 3U
-
-static void guess(const wh_swing_config *config, wh_swing *swing) {
-    wh_real *x = swing->guess;
-    const unsigned first = swing->first;
-    static const wh_real factors[STARTS] = {WH_R(1.0), WH_R(1.04), WH_R(0.98)};
-    const wh_real root = factors[swing->start] * guess_root(swing);
-    const wh_real time = first_s(swing) * root / (WH_R(0.5) * WH_RIG_TWO_PI);
-    wh_real sine = sine_of_time(time);
-    sine = sine > WH_R(0.4) ? sine : WH_R(0.4);
-    if (first > 0 && swing->kept_sensor[first - 1U] == 1U) { /* it has fallen from sensor 2 */
-        const wh_real mean_radps =
-            WH_R(0.25) * WH_RIG_TWO_PI /
-            wh_rig_since_s(swing->kept_ticks[first - 1U], swing->kept_ticks[first]);
-        sine = WH_R(0.5) * WH_SQRT(square_of(mean_radps / root) + FALLEN);
-    }
-    const wh_real gravity = square_of(root);
-    for (unsigned i = 0; i < N; i++) {
-        x[i] = WH_R(0.0);
-        swing->within[i] = WH_R(0.5) * config->most_rad;
-    }
-    x[RATE] = WH_R(-2.0) * root * sine;
-    x[GRAVITY] = gravity;
-    /* a swing loses 2 f/g on either side, in so many halves; A is some 2.3 sin(A/2) */
-    x[FRICTION] = gravity * WH_R(2.3) * sine / (wh_real)(2U * swing->passed + 1U);
-    x[DRAG] = WH_R(0.003) * gravity;
-    swing->within[Q] =
-        WH_SQRT(square_of(config->jitter_s * x[RATE]) + square_of(config->rough_rad));
-    swing->within[RATE] = WH_R(-0.3) * x[RATE];
-    swing->within[GRAVITY] = WH_R(0.3) * gravity;
-    swing->within[FRICTION] = x[FRICTION] + WH_R(0.01) * gravity;
-    swing->within[DRAG] = WH_R(0.005) * gravity;
-    for (unsigned i = 0; i < N; i++) {
-        swing->x[i] = x[i];
-    }
-}
-
 #define PASSES 12U
 #define SOFT_PASSES 6U
 /* from then on a pulse that is far off is none */
@@ -181,14 +89,15 @@ static void guess(const wh_swing_config *config, wh_swing *swing) {
 static void set_out(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing) {
     const wh_real leads = rotor->mark_rad[0] + WH_R(2.0) * config->lead_rad;
     swing->ticks = swing->kept_ticks[swing->first];
-    wh_free_rotor_start(&swing->way, leads - rotor->gravity_rad + swing->x[PLACE] + swing->x[Q],
-                        swing->x[RATE]);
+    wh_free_rotor_start(
+        &swing->way, leads - rotor->gravity_rad + swing->x[WH_SWING_PLACE] + swing->x[WH_SWING_Q],
+        swing->x[WH_SWING_RATE]);
 }
 
 static void begin_pass(const wh_swing_config *config, const wh_rotor_config *rotor,
                        wh_swing *swing) {
-    wh_real left[N]; /* to the guess */
-    for (unsigned i = 0; i < N; i++) {
+    wh_real left[WH_NORMAL_UNKNOWNS]; /* to the guess */
+    for (unsigned i = 0; i < WH_NORMAL_UNKNOWNS; i++) {
         left[i] = (swing->guess[i] - swing->x[i]) / swing->within[i];
     }
     wh_normal_start(&swing->normal, left);
@@ -214,6 +123,7 @@ static void rest(const wh_swing_config *config, const wh_rotor_config *rotor, wh
     } else {
         swing->result.why = WH_SWING_WORKS;
         swing->start = 0;
+        wh_swing_leave_top(config, swing);
         swing->piece = WH_SWING_GUESSES;
     }
 }
@@ -223,9 +133,9 @@ static void rest(const wh_swing_config *config, const wh_rotor_config *rotor, wh
 #define SLOW_FRICTIONS WH_R(1.5)
 
 static bool is_slow(const wh_swing *swing) {
-    const wh_real gravity = swing->x[GRAVITY];
+    const wh_real gravity = swing->x[WH_SWING_GRAVITY];
     const wh_real wide = WH_ABS(swing->way.rate_radps) / WH_SQRT(gravity);
-    return wide < SLOW_RAD || wide * gravity < SLOW_FRICTIONS * swing->x[FRICTION];
+    return wide < SLOW_RAD || wide * gravity < SLOW_FRICTIONS * swing->x[WH_SWING_FRICTION];
 }
 
 #define FAR_RAD WH_R(0.5)
@@ -236,7 +146,7 @@ static bool take(const wh_swing_config *config, const wh_rotor_config *rotor, wh
     const unsigned sensor = swing->kept_sensor[swing->at];
     const wh_real lead = way->rate_radps > WH_R(0.0) ? WH_R(0.0) : WH_R(2.0) * config->lead_rad;
     const wh_real stands =
-        rotor->mark_rad[sensor] + lead - rotor->gravity_rad + swing->x[PLACE + sensor];
+        rotor->mark_rad[sensor] + lead - rotor->gravity_rad + swing->x[WH_SWING_PLACE + sensor];
     const wh_real off = wh_free_angle(stands - way->q_rad);
     if (!(WH_ABS(off) < FAR_RAD)) {
         if (swing->at < swing->first) { /* did it get over the top? */
@@ -247,13 +157,13 @@ static bool take(const wh_swing_config *config, const wh_rotor_config *rotor, wh
     }
     const wh_real weight = WH_R(1.0) / (square_of(config->jitter_s * way->rate_radps) +
                                         square_of(config->rough_rad) + swing->soft_rad2);
-    wh_real by[N];
-    for (unsigned i = Q; i < PLACE; i++) {
+    wh_real by[WH_NORMAL_UNKNOWNS];
+    for (unsigned i = WH_SWING_Q; i < WH_SWING_PLACE; i++) {
         by[i] = swing->within[i] * way->q_by[i];
     }
-    by[PLACE] = swing->within[PLACE] * way->q_by[Q];
-    by[PLACE + 1U] = WH_R(0.0);
-    by[PLACE + sensor] -= swing->within[PLACE + sensor];
+    by[WH_SWING_PLACE] = swing->within[WH_SWING_PLACE] * way->q_by[WH_SWING_Q];
+    by[WH_SWING_PLACE + 1U] = WH_R(0.0);
+    by[WH_SWING_PLACE + sensor] -= swing->within[WH_SWING_PLACE + sensor];
     wh_normal_add(&swing->normal, by, off, weight);
     swing->fits++;
     swing->swung += sensor == 0 ? 1U : 0U;
@@ -264,13 +174,14 @@ static bool take(const wh_swing_config *config, const wh_rotor_config *rotor, wh
 static void conclude(const wh_swing_config *config, wh_swing *swing) {
     wh_swung *result = &swing->result;
     /* more unknowns than pulses have no misfit */
-    const wh_real freedom = swing->fits > N ? (wh_real)(swing->fits - N) : WH_R(1.0);
+    const wh_real freedom =
+        swing->fits > WH_NORMAL_UNKNOWNS ? (wh_real)(swing->fits - WH_NORMAL_UNKNOWNS) : WH_R(1.0);
     const wh_real rough = swing->normal.misfit / freedom;
     const wh_real wider = WH_R(3.84) * (rough > WH_R(1.0) ? rough : WH_R(1.0));
     for (unsigned i = 0; i < WH_SWING_SENSORS; i++) {
-        const wh_real one =
-            swing->within[PLACE + i] * wh_normal_deviation(&swing->normal, PLACE + i);
-        result->place_rad[i] = swing->x[PLACE + i];
+        const wh_real one = swing->within[WH_SWING_PLACE + i] *
+                            wh_normal_deviation(&swing->normal, WH_SWING_PLACE + i);
+        result->place_rad[i] = swing->x[WH_SWING_PLACE + i];
         result->half_rad[i] = WH_SQRT(wider * one * one + square_of(config->floor_rad));
     }
     result->swings = swing->swung;
@@ -293,20 +204,22 @@ static wh_swing_piece move(wh_swing *swing) {
     const wh_real *y = swing->normal.right;
     wh_normal_solve(&swing->normal);
     wh_real most = WH_R(0.0);
-    for (unsigned i = RATE; i < N; i++) {
+    for (unsigned i = WH_SWING_RATE; i < WH_NORMAL_UNKNOWNS; i++) {
         most = WH_ABS(y[i]) > most ? WH_ABS(y[i]) : most;
     }
     const wh_real part = most > WH_R(1.0) ? WH_R(1.0) / most : WH_R(1.0);
-    for (unsigned i = 0; i < N; i++) {
+    for (unsigned i = 0; i < WH_NORMAL_UNKNOWNS; i++) {
         swing->x[i] += part * swing->within[i] * y[i];
     }
-    swing->x[FRICTION] = swing->x[FRICTION] > WH_R(0.0) ? swing->x[FRICTION] : WH_R(0.0);
-    swing->x[DRAG] = swing->x[DRAG] > WH_R(0.0) ? swing->x[DRAG] : WH_R(0.0);
+    swing->x[WH_SWING_FRICTION] =
+        swing->x[WH_SWING_FRICTION] > WH_R(0.0) ? swing->x[WH_SWING_FRICTION] : WH_R(0.0);
+    swing->x[WH_SWING_DRAG] =
+        swing->x[WH_SWING_DRAG] > WH_R(0.0) ? swing->x[WH_SWING_DRAG] : WH_R(0.0);
     swing->pass++;
     const bool fits =
         swing->strays * 4U <= swing->fits && swing->normal.misfit < FOREIGN * (wh_real)swing->fits;
     const bool stays = swing->pass > SOFT_PASSES && swing->strays == 0 && most < WH_R(2e-3);
-    if (swing->pass == PASSES && !fits && swing->start + 1U < STARTS) {
+    if (swing->pass == PASSES && !fits && swing->start + 1U < WH_SWING_STARTS) {
         swing->start++;
         return WH_SWING_GUESSES;
     }
@@ -347,7 +260,7 @@ static void work(const wh_swing_config *config, const wh_rotor_config *rotor, wh
     case WH_SWING_PASSES: begin_pass(config, rotor, swing); break;
     case WH_SWING_GUESSES:
         swing->pass = 0;
-        guess(config, swing);
+        wh_swing_guess(config, swing);
         swing->piece = WH_SWING_PASSES;
         break;
     case WH_SWING_ENDS: conclude(config, swing); break;

@@ -1,4 +1,4 @@
-/* swing.h: where the sensors stand, from the swing in which a rotor comes to rest.
+/* free_swing.h: where the sensors stand, from the swing in which a rotor comes to rest.
  *
  * Nothing that a run measures tells a sensor that stands off its place from a force that is out of line with the masses:
  * the phase is off by as much. What tells is where the arms hang. Once the motor's leads are open nothing but gravity
@@ -21,8 +21,8 @@
  *
  * While the rotor swings its pulses are kept. Once it rests each control step does a piece of a pass: three steps of the
  * equation, or one pulse, or a part of the equations' solution; in all that is some seconds. */
-#ifndef WH_RIG_SWING_H
-#define WH_RIG_SWING_H
+#ifndef WH_RIG_FREE_SWING_H
+#define WH_RIG_FREE_SWING_H
 
 #include "free_rotor.h"
 #include "normal.h"
@@ -35,7 +35,7 @@ extern "C" {
 #define WH_SWING_SENSORS 2U
 #define WH_SWING_TURNING 6U /* pulses that are kept from before the swing, */
 #define WH_SWING_PULSES 36U /* and in all */
-#define WH_SWING_LAST 6U    /* of sensor 1's last */
+#define WH_SWING_LAST 10U   /* of sensor 1's last */
 
 /* Pieces of the work: on the way to a pulse or at it, the equations in two, another pass, another guess, the end. */
 typedef enum wh_swing_piece {
