@@ -177,7 +177,8 @@ static void conclude(const wh_swing_config *config, wh_swing *swing) {
     const wh_real freedom =
         swing->fits > WH_NORMAL_UNKNOWNS ? (wh_real)(swing->fits - WH_NORMAL_UNKNOWNS) : WH_R(1.0);
     const wh_real rough = swing->normal.misfit / freedom;
-    const wh_real wider = WH_R(3.84) * (rough > WH_R(1.0) ? rough : WH_R(1.0));
+    const wh_real student = wh_student((uint32_t)freedom);
+    const wh_real wider = rough > WH_R(1.0) ? student * student * rough : square_of(WH_R(1.96));
     for (unsigned i = 0; i < WH_SWING_SENSORS; i++) {
         const wh_real one = swing->within[WH_SWING_PLACE + i] *
                             wh_normal_deviation(&swing->normal, WH_SWING_PLACE + i);
