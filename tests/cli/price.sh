@@ -82,7 +82,7 @@ usual again "$scratch/spring.whirl" 'x_mm [mm]' '1000 * cos(8 * t)' --of x_mm
 scale=3
 again "$scratch/decay.whirl" y '3 * exp(-2 * t)' --of y
 scale=30
-usual again spherical_flight z '5 * cos(1.25) + (8 * cos(1.25) + 0.75 * 5 * sin(1.25)) * t - 9.81 * t * t / 2' --of z
+usual again spherical_flight z '5 * cos(1.25) + (8 * cos(1.25) + 0.75 * 5 * sin(1.25)) * t - 9.81 * t * t / 2' --of z --horizon 0.25s
 scale=10
 again "$scratch/pendulum.whirl" energy '2 - 8 * cos(1)' --of energy
 
@@ -300,7 +300,7 @@ asked 0 '^  error       0 of the largest value, measured (x' "$scratch/glide.whi
 verdict $? "price of a motion without errors names a component" "$scratch/g.csv"
 asked 0 '^chosen' "$odd:odd_tiny" --of x --error 1mm
 asked 1 'nothing moves' "$odd:odd_rests" --error 1e-3
-usual asked 0 'left out .*: X' laskowitz_shifted --error 1e-2 --horizon 1s
+usual asked 0 'left out .*: X' laskowitz_shifted --error 1e-2 --horizon 0.2s
 # the place of a range where nothing moves is named
 asked 1 'trusted, with --start x=0: nothing moves' "$odd:odd_rings" --error 1e-2 --vary "x=0..1 [m]"
 # what rests at one place of a range alone is not left out

@@ -59,7 +59,7 @@ static double believe(const char *text, bool is_float) {
 static void test_falls_through_a_centre_of_force(void) {
     static const char *const powers[] = {"0.5", "1", "2"};
     dice d = dice_of("falls", 4001);
-    const unsigned cases = dice_cases(few_or_all(12, 30));
+    const unsigned cases = dice_cases(few_or_all(9, 30));
     for (unsigned i = 0; i < cases; i++) {
         const unsigned which = dice_one_of(&d, 3);
         const double power = strtod(powers[which], NULL);
@@ -292,7 +292,7 @@ static void tiny_mechanism(dice *d, double length, double stiffness, char *text,
 static void test_energies_that_are_small_for_float(void) {
     dice d = dice_of("tiny", 3417);
     char text[800];
-    const unsigned rounds = dice_cases(few_or_all(20, 60));
+    const unsigned rounds = dice_cases(few_or_all(8, 60));
     for (unsigned i = 0; i < rounds; i++) {
         tiny_mechanism(&d, pow(10.0, dice_between(&d, -37.0, 1.0)), 1.0, text, sizeof text);
         believe(text, true);

@@ -88,7 +88,7 @@ enum { SUBSTEPS_MOST = 40 };
 /* All settings and substeps below a price (some settings, but for WHIRL_FULL): how many keep everything? */
 static int kept_below(request *q, double price) {
     int kept = 0;
-    for (int i = 0; i < setting_count(); i += (int)few_or_all(usual_or(3, 7), 1)) {
+    for (int i = 0; i < setting_count(); i += (int)few_or_all(7, 1)) {
         const setting s = setting_at(i);
         for (int k = 0; k < CHOICE_SUBSTEPS && choice_substeps(k) <= SUBSTEPS_MOST; k++) {
             bool own;
@@ -108,7 +108,7 @@ static int kept_below(request *q, double price) {
 
 static void test_drawn_requests(void) {
     dice d = dice_of("choice", 501);
-    const unsigned cases = dice_cases(few_or_all(usual_or(4, 3), 20));
+    const unsigned cases = dice_cases(few_or_all(3, 20));
     int found = 0;
     int limited[CHOICE_LIMITS] = {0};
     for (unsigned n = 0; n < cases; n++) {
@@ -156,7 +156,7 @@ static void test_drawn_requests(void) {
 /* How many settings keep everything by some number of substeps? By trying all; with fewer cases some, which are no more. */
 static int fitting(request *q) {
     int count = 0;
-    for (int i = 0; i < setting_count(); i += (int)few_or_all(usual_or(3, 5), 1)) {
+    for (int i = 0; i < setting_count(); i += (int)few_or_all(5, 1)) {
         const setting s = setting_at(i);
         bool fits = false;
         for (int k = 0; k < CHOICE_SUBSTEPS && choice_substeps(k) <= SUBSTEPS_MOST && !fits; k++) {
@@ -180,7 +180,7 @@ static int left_of(const choice *c) {
  * another not. */
 static void test_a_price_is_that_of_its_own_step(void) {
     dice d = dice_of("choice own steps", 505);
-    const unsigned cases = dice_cases(few_or_all(usual_or(4, 2), 20));
+    const unsigned cases = dice_cases(few_or_all(2, 20));
     int others = 0; /* cost something else by the coarsest step */
     for (unsigned n = 0; n < cases; n++) {
         request q;
@@ -391,7 +391,7 @@ static bool is_beaten(const table *made, const table_row *row) {
  * 1e-4 is one, and wherever no other row beats one it is on the front. */
 static void test_linear_scenes_have_the_matrix_on_their_front(void) {
     dice d = dice_of("choice linear", 503);
-    for (unsigned n = 0; n < dice_cases(few_or_all(usual_or(2, 1), 10)); n++) {
+    for (unsigned n = 0; n < dice_cases(few_or_all(1, 10)); n++) {
         char text[700];
         snprintf(text, sizeof text,
                  "mechanism row\ncoordinate x [m]\ncoordinate y [m]\n"
@@ -441,7 +441,7 @@ void suite_choice(void) {
     RUN_TEST(test_drawn_requests);
     RUN_TEST(test_a_price_is_that_of_its_own_step);
     RUN_TEST(test_what_fits_and_is_not_found_was_left);
-    if (usual_or(1, 0) != 0) { /* the sanitizers see the same calls in the tests above, too */
+    if (few_or_all(0, 1) != 0) { /* the same calls are in the tests above */
         RUN_TEST(test_what_would_fit_does);
     }
 }

@@ -266,7 +266,7 @@ static double compare(const comparison *c, int coordinates, uint64_t *seed, cons
 
 static void test_generated_accelerations_are_as_near_as_the_tables(void) {
     double worst = 0.0;
-    const int cases = (int)dice_cases(few_or_all(usual_or(16, 8), 40));
+    const int cases = (int)dice_cases(few_or_all(8, 40));
     for (int n = 0; n < cases; n++) {
         char *text = NULL;
         derived d = drawn_mechanism((unsigned)n, &text);
@@ -323,7 +323,7 @@ static int by_size(const void *x, const void *y) {
 static void test_generated_motions_near_the_exact_ones_by_order(void) {
     enum { MOST = 300 };
     double order[MOST];
-    const int wanted = (int)dice_cases(few_or_all(usual_or(12, 6), 24));
+    const int wanted = (int)dice_cases(few_or_all(6, 24));
     const int cases = wanted < MOST ? wanted : MOST;
     for (int f = 0; f < FORMS; f++) {
         int count = 0;

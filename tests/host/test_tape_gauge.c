@@ -194,7 +194,7 @@ static void tell(const char *what, const tally *all) {
 }
 
 static void test_decimal_mechanisms_lose_their_bias(void) {
-    const int each = (int)few_or_all(10, 30);
+    const int each = (int)few_or_all(4, 30);
     uint64_t seed = 20061;
     for (unsigned kind = 0; kind < 4; kind++) {
         tally all = {0};
@@ -213,7 +213,7 @@ static void test_decimal_mechanisms_lose_their_bias(void) {
 }
 
 static void test_any_mechanism_keeps_its_results(void) {
-    const unsigned cases = few_or_all(40, 120);
+    const unsigned cases = few_or_all(15, 120);
     tally all = {0};
     for (unsigned k = 0; k < cases; k++) {
         char text[MECHANISM_SIZE];
