@@ -2,21 +2,11 @@
 #ifndef WH_RIG_SWING_GUESS_H
 #define WH_RIG_SWING_GUESS_H
 
-#include "free_swing.h"
+#include "swing_state.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-/* The unknowns' places. */
-enum wh_swing_unknown {
-    WH_SWING_Q = WH_FREE_Q,
-    WH_SWING_RATE = WH_FREE_RATE,
-    WH_SWING_GRAVITY = WH_FREE_GRAVITY,
-    WH_SWING_FRICTION = WH_FREE_FRICTION,
-    WH_SWING_DRAG = WH_FREE_DRAG,
-    WH_SWING_PLACE = WH_FREE_CAUSES, /* of sensor 1; then of sensor 2 */
-};
 
 #define WH_SWING_STARTS 3U /* guesses, one after the other */
 
