@@ -53,6 +53,11 @@ _Static_assert((int)HAL_LOAD_SATURATED == (int)WH_LOAD_SATURATED &&
 #define RIG_TARGET_RPM WH_RIG_NOMINAL_RPM
 #endif
 
+/* 1: the run ends in a free swing, which tells where the sensors stand. */
+#ifndef RIG_SWINGS
+#define RIG_SWINGS 0
+#endif
+
 #define CONTROL_TICKS 2000U /* 500 Hz, as wh_rig_standard.step_s */
 #define WATCHDOG_TICKS (10U * CONTROL_TICKS)
 #define RPM_PER_RADPS (1.0f / WH_RIG_RADPS_PER_RPM)
@@ -187,6 +192,25 @@ static void put_result(const wh_rig_result *result) {
     put_value("measured / formula", 100.0f * force->amplitude_N / formula_N, 2, "%");
 }
 
+static void put_place(const char *name, const wh_swung *swung, unsigned sensor) {
+    put_value(name, swung->place_rad[sensor] * WH_RIG_DEG_PER_RAD, 2, "deg off");
+    put_interval("  known to within", swung->half_rad[sensor] * WH_RIG_DEG_PER_RAD, 2, "deg");
+}
+
+/* What the swing says of the sensors, when the run has ended in one. */
+static void put_swung(const wh_swung *swung) {
+    if (swung->why == WH_SWING_NONE) {
+        return;
+    }
+    put("The swing in which it came to rest: ");
+    put(wh_swing_text(swung->why));
+    put("\n");
+    if (swung->why == WH_SWING_FOUND) {
+        put_place("sensor 1 stands", swung, 0);
+        put_place("sensor 2 stands", swung, 1);
+    }
+}
+
 #if HAL_VIRTUAL
 static void put_plant_hash(void) {
     const hal_virtual_rig *plant = hal_virtual_rig_instance();
@@ -270,7 +294,7 @@ static bool operate(operator_step *at, uint32_t waited_ticks) {
     case WAS_STOPPED:
         return rig.state == WH_LIFE_IDLE && (rig.guard.quiet || waited_ticks > PATIENCE_TICKS);
     }
-    return rig.state == WH_LIFE_IDLE || rig.answer != WH_ALLOWED;
+    return (rig.state == WH_LIFE_IDLE && !wh_swing_works(&rig.swing)) || rig.answer != WH_ALLOWED;
 }
 
 /* The control loop, until the run is over. Returns how far the operator came. */
@@ -358,10 +382,12 @@ int main(void) {
                                            .raw_max = HAL_LOADCELL_RAW_MAX};
     wh_rig_slots(&config, HAL_SLOT_LEAD_DEG / WH_RIG_DEG_PER_RAD);
     config.observer.scene = &rig_observed;
+    config.swings = RIG_SWINGS != 0;
     const operator_step ended = run(&config);
     put_end(ended);
     if (rig.has_result) {
         put_result(&rig.result);
+        put_swung(&rig.swing.result);
     }
 #if HAL_VIRTUAL
     put_plant_hash();

@@ -8,6 +8,7 @@
 void wh_rig_slots(wh_rig_config *config, wh_real lead_rad) {
     config->measure.rotor.mark_rad[0] = -lead_rad;
     config->measure.rotor.mark_rad[1] = WH_R(0.25) * WH_RIG_TWO_PI - lead_rad;
+    config->swing.lead_rad = lead_rad;
     config->observer.mark_rad[0] = config->measure.rotor.mark_rad[0];
     config->observer.mark_rad[1] = config->measure.rotor.mark_rad[1];
 }
@@ -102,6 +103,9 @@ void wh_rig_pulse(const wh_rig_config *config, wh_rig *rig, unsigned sensor, uin
         rig->run.tare_pulses[sensor]++;
     }
     wh_pulses_take(&rig->pulses, sensor, ticks);
+    if (!wh_run_drives(&rig->run)) {
+        wh_swing_pulse(&rig->swing, sensor, ticks);
+    }
 }
 
 void wh_rig_load(const wh_rig_config *config, wh_rig *rig, uint32_t ticks, int32_t raw,
@@ -139,6 +143,7 @@ static void begin_run(const wh_rig_config *config, wh_rig *rig, wh_real target_r
     wh_measure_begin(&config->measure, &rig->measure);
     wh_observer_forget(&rig->observer);
     rig->observed = 0;
+    rig->brakes = config->stop_brakes && !config->swings;
     rig->fed = feeds(config, target_radps);
     rig->guard.lost_before = 0;
     rig->guard.rejected_before = 0;
@@ -170,6 +175,7 @@ static void follow(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs
         break;
     case WH_EVENT_STOP:
     case WH_EVENT_HOST_LOST:
+        rig->brakes = config->stop_brakes;
         if (moves && rig->run.phase != WH_PHASE_OFF) {
             wh_run_off(&rig->run, fastest_radps(config, rig, now), now);
         }
@@ -376,6 +382,14 @@ static void measure(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks
     rig->busy = false;
 }
 
+/* Motor off: it swings out after a run, or has, and what that tells is worked on. */
+static void swing(const wh_rig_config *config, wh_rig *rig) {
+    const bool swings = rig->run.phase == WH_PHASE_OFF && !rig->brakes;
+    wh_swing_step(&config->swing, &config->measure.rotor, &rig->swing, swings,
+                  rig->state == WH_LIFE_IDLE);
+    wh_swing_doubt(&config->swing, &rig->swing, &rig->result.force);
+}
+
 static wh_rig_command command_of(const wh_rig_config *config, wh_rig *rig,
                                  const wh_rig_inputs *inputs) {
     if (rig->guard.trip == WH_TRIP_NONE && wh_run_drives(&rig->run)) {
@@ -383,7 +397,7 @@ static wh_rig_command command_of(const wh_rig_config *config, wh_rig *rig,
         const wh_real most = volts < inputs->supply_V ? volts : inputs->supply_V;
         return (wh_rig_command){WH_MOTOR_DRIVES, most > WH_R(0.0) ? most : WH_R(0.0)};
     }
-    const bool brakes = config->stop_brakes && rig->run.phase == WH_PHASE_OFF;
+    const bool brakes = rig->brakes && rig->run.phase == WH_PHASE_OFF;
     return (wh_rig_command){brakes ? WH_MOTOR_BRAKES : WH_MOTOR_COASTS, WH_R(0.0)};
 }
 
@@ -402,6 +416,9 @@ wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_ri
     measure(config, rig, inputs->now_ticks);
     if (rig->guard.trip != WH_TRIP_NONE && rig->state != WH_LIFE_TRIPPED) {
         finds(config, rig, inputs, WH_EVENT_TRIP);
+    }
+    if (!wh_run_drives(&rig->run)) {
+        swing(config, rig);
     }
     rig->command = command_of(config, rig, inputs);
     return rig->command;
