@@ -319,6 +319,8 @@ static operator_step run(const wh_rig_config *config) {
         }
     } while (!operate(&operator_at, hal_clock_ticks() - started));
     hal_motor_off(HAL_MOTOR_COAST);
+    hal_clock_wait_until(due +
+                         CONTROL_TICKS); /* until it is: the motor may be at the end of a line */
     return operator_at;
 }
 

@@ -32,6 +32,7 @@ void wh_rig_start(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks,
     enter(rig, WH_LIFE_IDLE, now_ticks);
     /* who knows how fast the rotor turned before */
     rig->run.off_radps = config->guard.limit_radps;
+    rig->run.since_ticks = now_ticks;
     if (before != NULL && before->trip != WH_TRIP_NONE) {
         rig->record = *before;
         rig->guard.trip = before->trip;

@@ -38,7 +38,9 @@ static void slower(const wh_rig_config *config, wh_rig *rig, unsigned sensor, ui
     const bool again = sensor == pulses->last.pulse.sensor && !pulses->suspects;
     const wh_real moved = again ? WH_RIG_TWO_PI : moved_rad[sensor];
     const wh_real passed_s = wh_rig_since_s(pulses->speed.ticks, ticks);
-    if (moved < rig->run.off_radps * passed_s) {
+    /* over which it was not driven: before that it may have gathered speed */
+    const bool coasted = (int32_t)(pulses->speed.ticks - rig->run.since_ticks) >= 0;
+    if (coasted && moved < rig->run.off_radps * passed_s) {
         rig->run.off_radps = moved / passed_s;
     }
     if (again) {
