@@ -122,3 +122,25 @@ bool wh_readings_get(wh_readings *readings, const uint8_t *bytes, unsigned lengt
     }
     return is_read(&in);
 }
+
+unsigned wh_reset_put(const wh_reset *reset, uint8_t *bytes, unsigned room) {
+    wh_bytes out = {.to = bytes, .room = room};
+    wh_bytes_put(&out, reset->cause, 1);
+    for (unsigned i = 0; i < reset->count; i++) {
+        wh_bytes_put(&out, reset->remembered[i], 1);
+    }
+    return written(&out);
+}
+
+bool wh_reset_get(wh_reset *reset, const uint8_t *bytes, unsigned length) {
+    wh_bytes in = {.from = bytes, .room = length};
+    if (length < 1U || length > WH_RESET_BYTES) {
+        return false;
+    }
+    reset->cause = (uint8_t)wh_bytes_get(&in, 1);
+    reset->count = length - 1U;
+    for (unsigned i = 0; i < reset->count; i++) {
+        reset->remembered[i] = (uint8_t)wh_bytes_get(&in, 1);
+    }
+    return is_read(&in) && (reset->cause == WH_RESET_WATCHDOG || reset->cause == WH_RESET_OTHER);
+}

@@ -5,6 +5,8 @@
  * what its outputs are from now on, and when it wants to be told again (`wh_orders`). Both sides are this file, so that
  * there is one place of what a byte means.
  *
+ * A controller that is reset says hello again, and the plant tells it that, and what it had asked to be remembered.
+ *
  * Times are ticks of the controller's own timer, 32 bits, wrapping; values are SI, as floats; converters give counts.
  */
 #ifndef WH_EXCHANGE_H
@@ -17,11 +19,18 @@ extern "C" {
 #endif
 
 /* What a frame is. */
-enum { WH_FRAME_HELLO = 1, WH_FRAME_ORDERS = 2, WH_FRAME_READINGS = 3 };
+enum {
+    WH_FRAME_HELLO = 1,
+    WH_FRAME_ORDERS = 2,
+    WH_FRAME_READINGS = 3,
+    WH_FRAME_RESET = 4, /* to a controller that starts again, before its first readings: wh_reset */
+    WH_FRAME_REMEMBER =
+        5 /* from the controller, before its orders: bytes that outlive a reset, 0 to WH_REMEMBER_MAX */
+};
 
 #define WH_SIGNALS_MAX 20U /* of all kinds together */
 #define WH_EDGES_MAX 16U   /* in one turn; later ones are lost */
-#define WH_SAMPLES_MAX 16U
+#define WH_SAMPLES_MAX 24U
 
 typedef enum wh_signal_kind {
     WH_SIGNAL_OUTPUT, /* a value that the controller sets, from `low` to `high` */
@@ -98,8 +107,19 @@ typedef struct wh_readings {
     wh_sample sample[WH_SAMPLES_MAX];
 } wh_readings;
 
+#define WH_REMEMBER_MAX 32U
+
+/* Why a controller starts again. Without one it is a power-on. */
+enum { WH_RESET_WATCHDOG = 1, WH_RESET_OTHER = 2 };
+typedef struct wh_reset {
+    uint8_t cause;
+    unsigned count; /* what it had remembered: */
+    uint8_t remembered[WH_REMEMBER_MAX];
+} wh_reset;
+
 /* The longest payloads; of readings it is the longer. */
 #define WH_ORDERS_BYTES (18U + 4U * WH_SIGNALS_MAX)
+#define WH_RESET_BYTES (1U + WH_REMEMBER_MAX)
 #define WH_READINGS_BYTES (3U + 5U * WH_EDGES_MAX + 10U * WH_SAMPLES_MAX)
 
 #define wh_hello_put WH_NAME(wh_hello_put)
@@ -108,17 +128,21 @@ typedef struct wh_readings {
 #define wh_orders_get WH_NAME(wh_orders_get)
 #define wh_readings_put WH_NAME(wh_readings_put)
 #define wh_readings_get WH_NAME(wh_readings_get)
+#define wh_reset_put WH_NAME(wh_reset_put)
+#define wh_reset_get WH_NAME(wh_reset_get)
 
 /* Write a payload into bytes[room]; returns its length, 0 when there is no room. */
 unsigned wh_hello_put(const wh_hello *hello, uint8_t *bytes, unsigned room);
 unsigned wh_orders_put(const wh_orders *orders, uint8_t *bytes, unsigned room);
 unsigned wh_readings_put(const wh_readings *readings, uint8_t *bytes, unsigned room);
+unsigned wh_reset_put(const wh_reset *reset, uint8_t *bytes, unsigned room);
 
 /* Read a payload; false when it is none: too short, too long, or with counts or kinds that there are not. Strings of
  * a hello point into `bytes`; its signals go to signal[WH_SIGNALS_MAX]. */
 bool wh_hello_get(wh_hello *hello, wh_signal *signal, const uint8_t *bytes, unsigned length);
 bool wh_orders_get(wh_orders *orders, const uint8_t *bytes, unsigned length);
 bool wh_readings_get(wh_readings *readings, const uint8_t *bytes, unsigned length);
+bool wh_reset_get(wh_reset *reset, const uint8_t *bytes, unsigned length);
 
 #ifdef __cplusplus
 }

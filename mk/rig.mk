@@ -33,3 +33,12 @@ faults-page: ## docs/rig.md shows what the last make faults found
 	@awk '/<!-- faults: end -->/ { held = 0 } !held { print } \
 	    /<!-- faults: begin -->/ { held = 1; print ""; while ((getline line <"build/faults.md") > 0) print line; print "" }' \
 	    docs/rig.md >build/rig_page.md && cp build/rig_page.md docs/rig.md
+
+# Thirty bugs as somebody would write them, and who notices: the rig's suites, else a small campaign of faults.
+RIG_SUITES := rig rig_guard rig_law rig_run rig_steps rig_life rig_life_trips rig_life_random rig_pulses rig_pulses_fast \
+    rig_result rig_feed rig_observer virtual_rig virtual_rig_faults lockin
+.PHONY: rig-bugs
+rig-bugs: build/tests/core_float build/tools/faults $(B)/pil_rig ## bugs put into the rig's controller: does a test notice? (minutes; in a copy of the tree)
+	@MAKE="$(MAKE)" ROWS=mk/mutants/rig_bugs.rows TOP=build/rig_bugs PROGRAM=build/tests/core_float SUITES="$(RIG_SUITES)" \
+	    MORE="build/tools/faults build/pil_rig" LAST="build/tools/faults --firmware build/pil_rig --runs 60 --seed 1" HELD=95 \
+	    sh mk/mutants/guards.sh

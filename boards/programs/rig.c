@@ -1,7 +1,8 @@
 /* rig.c: the firmware of the eccentric-mass rig, the same on every board.
  *
  * The controller of core/rig/rig.h on whatever hardware hal/ offers, and for want of a console the orders for one test run:
- * `arm` as soon as the rotor rests, `start` at 330 rpm; then the report. Exit status 0: done; 1: the guard tripped, an order
+ * `arm` as soon as the rotor rests, `start` at 330 rpm; then the report. After a reset that is no power-on, and once stop
+ * was pressed, it orders nothing. Exit status 0: done; 1: the guard tripped, stop was pressed, it was reset, an order
  * or what was measured is refused, the report says why; 2: not started, for the hardware does not answer or the arithmetic
  * is not that of the tests. */
 #include "core/rig/rig.h"
@@ -17,8 +18,12 @@
 #include "hal/console.h"
 #include "hal/loadcell.h"
 #include "hal/motor.h"
+#include "hal/reset.h"
 #include "hal/slots.h"
+#include "hal/stop.h"
 #include "hal/watchdog.h"
+#include "rig_report.h"
+#include "trip_memory.h"
 
 /* The rig's only hardware so far is played by the model; a real one comes with its own hal. */
 #ifndef HAL_VIRTUAL
@@ -42,7 +47,6 @@ extern const wh_scene rig_observed;
 #define RIG_CARRIAGE 0
 #endif
 #if RIG_CARRIAGE
-#include "core/rig/carriage.h"
 static wh_carriage carriage;
 static float swing_m; /* of the carriage, by what was measured */
 #endif
@@ -59,15 +63,20 @@ _Static_assert((int)HAL_LOAD_SATURATED == (int)WH_LOAD_SATURATED &&
 #define RIG_TARGET_RPM WH_RIG_NOMINAL_RPM
 #endif
 
+/* 1: the run ends in a free swing, which tells where the sensors stand. */
+#ifndef RIG_SWINGS
+#define RIG_SWINGS 0
+#endif
+
 #define CONTROL_TICKS 2000U /* 500 Hz, as wh_rig_standard.step_s */
 #define WATCHDOG_TICKS (10U * CONTROL_TICKS)
-#define RPM_PER_RADPS (1.0f / WH_RIG_RADPS_PER_RPM)
 
 /* The rotor must rest before `arm`: one that turned on before the reset gets so long. */
 #define PATIENCE_TICKS (120U * HAL_TICKS_PER_S)
 
 /* Static, not on the stack: it holds the samples of a turn. */
 static wh_rig rig;
+static trip_memory memory;
 static float target_radps = RIG_TARGET_RPM * WH_RIG_RADPS_PER_RPM;
 
 /* To whoever judges a run in the loop (docs/pil.md). */
@@ -82,48 +91,11 @@ static void tell(void) {
     hal_frames_note(HAL_NOTE_PHASE, force->phase_rad);
     hal_frames_note(HAL_NOTE_PHASE_HALF, force->phase_half_rad);
     hal_frames_note(HAL_NOTE_TURNS, rig.has_result ? (float)force->turns : 0.0f);
+    hal_frames_note(HAL_NOTE_RESET, (float)hal_reset_cause());
 #endif
 #if RIG_CARRIAGE
     hal_frames_note(HAL_NOTE_SWING, swing_m);
 #endif
-}
-
-static void put(const char *words) {
-    char bytes[96];
-    wh_text text;
-    wh_text_start(&text, bytes, sizeof bytes);
-    wh_text_add(&text, words);
-    hal_console_write(text.bytes, text.length);
-}
-
-/* A line "name value unit", the value with its decimals. */
-static void put_value(const char *name, float value, unsigned decimals, const char *unit) {
-    char bytes[96];
-    wh_text text;
-    wh_text_start(&text, bytes, sizeof bytes);
-    wh_text_add(&text, "  ");
-    wh_text_add(&text, name);
-    while (text.length < 32U) {
-        wh_text_add_char(&text, ' ');
-    }
-    wh_text_add_fixed(&text, value, decimals);
-    if (unit[0] != '\0') {
-        wh_text_add_char(&text, ' ');
-        wh_text_add(&text, unit);
-    }
-    wh_text_add_char(&text, '\n');
-    hal_console_write(text.bytes, text.length);
-}
-
-/* A line of a force: newtons, and pounds-force in brackets. */
-static void put_force(const char *name, float force_N) {
-    char bytes[96];
-    wh_text text;
-    wh_text_start(&text, bytes, sizeof bytes);
-    wh_text_add(&text, "N (");
-    wh_text_add_fixed(&text, force_N * WH_RIG_LBF_PER_N, 2);
-    wh_text_add(&text, " lbf)");
-    put_value(name, force_N, 2, text.bytes);
 }
 
 static void put_state(uint32_t started_ticks) {
@@ -145,24 +117,6 @@ static void put_state(uint32_t started_ticks) {
     hal_console_write(text.bytes, text.length);
 }
 
-/* A line of what is known to within an interval. */
-static void put_interval(const char *name, float half, unsigned decimals, const char *unit) {
-    char bytes[32];
-    wh_text text;
-    wh_text_start(&text, bytes, sizeof bytes);
-    wh_text_add(&text, unit);
-    wh_text_add(&text, ", either way");
-    put_value(name, half, decimals, text.bytes);
-}
-
-static void put_verdict(const wh_measured *force) {
-    put("  verdict                       ");
-    put(wh_quality_text(force->quality));
-    put(": ");
-    put(wh_why_text(force->why));
-    put("\n");
-}
-
 #if RIG_CARRIAGE
 /* What the operator has dialled in, once the dials have been read. */
 static void take_dials(wh_rig_config *config) {
@@ -178,55 +132,7 @@ static void take_dials(wh_rig_config *config) {
     target_radps = hal_frames_dial(HAL_DIAL_SPEED);
     wh_carriage_mount(config, &carriage);
 }
-
-/* Beside the formula for a fixed mount. */
-static void put_carriage(const wh_rig_config *config) {
-    const float part = config->measure.result.mount_factor;
-    const float lever_m = config->measure.rotor.mass_moment_kgm / WH_RIG_ECCENTRIC_KG;
-    put("On a carriage: force as a part of that on a fixed mount, 1/(1 + ratio)\n");
-    put_value("eccentric / carriage weight", carriage.ratio, 4, "");
-    put_value("radius of the discs", 1e3f * carriage.disc_m, 1, "mm");
-    put_value("1/(1 + ratio)", 100.0f * part, 2, "%");
-    put_value("carriage, to either side", 1e3f * swing_m, 3, "mm");
-    put_value("by formula, S/(M + m)", 1e3f * lever_m * (1.0f - part), 3, "mm");
-}
 #endif
-
-static void put_result(const wh_rig_config *config, const wh_rig_result *result) {
-    const float nominal_radps =
-        RIG_CARRIAGE ? target_radps : WH_RIG_NOMINAL_RPM * WH_RIG_RADPS_PER_RPM;
-    const float formula_N = config->measure.rotor.mass_moment_kgm * nominal_radps * nominal_radps;
-    const wh_measured *force = &result->force;
-    put("Measured, over the whole turns of a record at 500 samples/s\n");
-    put_value("turns", (float)force->turns, 0, "");
-    put_value("speed", force->speed_radps * RPM_PER_RADPS, 2, "rpm");
-    put_force("force, once per turn", force->amplitude_N);
-    put_interval("  known to within", force->amplitude_half_N, 3, "N");
-    put_value("its phase to the masses", force->phase_rad * WH_RIG_DEG_PER_RAD, 2, "deg");
-    put_interval("  known to within", force->phase_half_rad * WH_RIG_DEG_PER_RAD, 3, "deg");
-    put_verdict(force);
-    put_force("expected of masses and speed", force->expected_N);
-    put_value("rest of the load, rms", force->residual_N, 3, "N");
-    put_value("samples left out", (float)force->outliers, 0, "");
-    put_value("turns left out", (float)force->left_out, 0, "");
-    put_force("mean force", force->mean_N);
-    put_force("lowest peak", result->low_N);
-    put_force("highest peak", result->high_N);
-    put_force("load at sensor 1's spikes", force->at_mark_N[0]);
-    put_force("load at sensor 2's spikes", force->at_mark_N[1]);
-    put_force("tare taken off", result->tare_N);
-    put_value("motor voltage", result->volts, 2, "V");
-    put_value("slot pulses lost", (float)result->lost, 0, "");
-    put_value("slot pulses rejected", (float)result->rejected, 0, "");
-    put("Formula, sum of m r w^2 at the nominal speed\n");
-    put_value("speed", nominal_radps * RPM_PER_RADPS, 2, "rpm");
-    put_force("force", formula_N);
-    put_value("phase", 0.0f, 2, "deg");
-    put_value("measured / formula", 100.0f * force->amplitude_N / formula_N, 2, "%");
-#if RIG_CARRIAGE
-    put_carriage(config);
-#endif
-}
 
 #if HAL_VIRTUAL
 static void put_plant_hash(void) {
@@ -248,6 +154,7 @@ static void put_plant_hash(void) {
 static wh_rig_inputs inputs_now(void) {
     return (wh_rig_inputs){.now_ticks = hal_clock_ticks(),
                            .supply_V = hal_motor_supply_V(),
+                           .stop_pressed = hal_stop_pressed(),
                            .watchdog_has_cut = hal_watchdog_has_cut()};
 }
 
@@ -272,14 +179,25 @@ static void control(const wh_rig_config *config) {
     const wh_rig_inputs inputs = inputs_now();
     const wh_rig_command command = wh_rig_step(config, &rig, &inputs);
     obey(&command);
+    trip_memory_keep(&memory, &rig);
     hal_watchdog_kick(); /* tripped too: a watchdog that resets would start all over */
 }
 
-/* Who gives the orders: `arm` once the rotor rests, then `start`. */
-typedef enum operator_step { WAITS_FOR_REST, HAS_ARMED, HAS_STARTED } operator_step;
+/* Who gives the orders: `arm` once the rotor rests, then `start`. A rig that was reset, or stopped, it leaves alone:
+ * somebody has to look at it first. */
+typedef enum operator_step {
+    WAITS_FOR_REST,
+    HAS_ARMED,
+    HAS_STARTED,
+    WAS_RESET,
+    WAS_STOPPED
+} operator_step;
 
 /* Returns true when there is nothing more to wait for. */
 static bool operate(operator_step *at, uint32_t waited_ticks) {
+    if (hal_stop_pressed()) {
+        *at = WAS_STOPPED;
+    }
     if (rig.state == WH_LIFE_TRIPPED) {
         return rig.rested;
     }
@@ -295,16 +213,20 @@ static bool operate(operator_step *at, uint32_t waited_ticks) {
         (void)wh_rig_post(&rig, WH_EVENT_START, target_radps);
         return rig.state != WH_LIFE_ARMED; /* refused */
     case HAS_STARTED: break;
+    case WAS_RESET:
+    case WAS_STOPPED:
+        return rig.state == WH_LIFE_IDLE && (rig.guard.quiet || waited_ticks > PATIENCE_TICKS);
     }
-    return rig.state == WH_LIFE_IDLE || rig.answer != WH_ALLOWED;
+    return (rig.state == WH_LIFE_IDLE && !wh_swing_works(&rig.swing)) || rig.answer != WH_ALLOWED;
 }
 
-/* The control loop, until the run is over. */
-static void run(const wh_rig_config *config) {
+/* The control loop, until the run is over. Returns how far the operator came. */
+static operator_step run(const wh_rig_config *config) {
     const uint32_t started = hal_clock_ticks();
     uint32_t due = started;
-    operator_step operator_at = WAITS_FOR_REST;
-    wh_rig_start(config, &rig, started, NULL);
+    operator_step operator_at =
+        hal_reset_cause() == HAL_RESET_POWER_ON ? WAITS_FOR_REST : WAS_RESET;
+    trip_memory_start(&memory, config, &rig, started);
     unsigned shown = wh_rig_stage(&rig);
     put_state(started);
     tell();
@@ -323,6 +245,9 @@ static void run(const wh_rig_config *config) {
         }
     } while (!operate(&operator_at, hal_clock_ticks() - started));
     hal_motor_off(HAL_MOTOR_COAST);
+    hal_clock_wait_until(due +
+                         CONTROL_TICKS); /* until it is: the motor may be at the end of a line */
+    return operator_at;
 }
 
 /* Why hal_clock_start() failed. */
@@ -342,6 +267,29 @@ static void refuse(const char *why) {
     put(why);
     put("; the motor is off\n");
     board_exit(2);
+}
+
+/* Why there is no result, or no more than one. */
+static void put_end(operator_step ended) {
+    if (hal_reset_cause() != HAL_RESET_POWER_ON) {
+        put(hal_reset_cause() == HAL_RESET_WATCHDOG ? "RESET by the watchdog" : "RESET");
+        put(": nothing moves by itself\n");
+    }
+    const char *end = NULL;
+    if (rig.state == WH_LIFE_TRIPPED) {
+        put("TRIPPED: ");
+        end = wh_trip_text(rig.guard.trip);
+    } else if (ended == WAS_STOPPED) {
+        put("STOPPED: ");
+        end = "the stop input was pressed";
+    } else if (ended != WAS_RESET && !rig.has_result) {
+        put("REFUSED: ");
+        end = wh_refusal_text(rig.answer);
+    }
+    if (end != NULL) {
+        put(end);
+        put("; the motor is off\n");
+    }
 }
 
 int main(void) {
@@ -365,27 +313,24 @@ int main(void) {
                                            .raw_max = HAL_LOADCELL_RAW_MAX};
     wh_rig_slots(&config, HAL_SLOT_LEAD_DEG / WH_RIG_DEG_PER_RAD);
     config.observer.scene = &rig_observed;
+    config.swings = RIG_SWINGS != 0;
 #if RIG_CARRIAGE
     take_dials(&config);
 #endif
-    run(&config);
-
-    if (rig.state == WH_LIFE_TRIPPED) {
-        put("TRIPPED: ");
-        put(wh_trip_text(rig.guard.trip));
-        put("; the motor is off\n");
-    } else if (!rig.has_result) {
-        put("REFUSED: ");
-        put(wh_refusal_text(rig.answer));
-        put("; the motor is off\n");
-    }
+    const operator_step ended = run(&config);
+    put_end(ended);
     if (rig.has_result) {
-        put_result(&config, &rig.result);
+        put_result(&config, &rig.result,
+                   RIG_CARRIAGE ? target_radps : WH_RIG_NOMINAL_RPM * WH_RIG_RADPS_PER_RPM);
+#if RIG_CARRIAGE
+        put_carriage(&config, &carriage, swing_m);
+#endif
+        put_swung(&rig.swing.result);
     }
 #if HAL_VIRTUAL
     put_plant_hash();
 #endif
-    const bool good =
-        rig.state != WH_LIFE_TRIPPED && rig.has_result && rig.result.force.quality != WH_REFUSED;
+    const bool good = rig.state != WH_LIFE_TRIPPED && ended == HAS_STARTED && rig.has_result &&
+                      rig.result.force.quality != WH_REFUSED;
     board_exit(good ? 0 : 1);
 }

@@ -16,7 +16,7 @@
 #include "hal/motor.h"
 
 #define CONTROL_TICKS UINT32_C(2000)
-#define STEPS_MOST 20000U
+#define STEPS_MOST 60000U
 
 /* rig_fixed of core/models/eccentric.whirl, in control steps (mk/whirl.mk). */
 extern const wh_scene rig_observed;
@@ -33,6 +33,7 @@ typedef struct trial {
     unsigned lose_samples;
     float noise; /* counts, either way */
     bool fed;    /* gravity forward, though it need not */
+    bool swings; /* at the end, and what that tells is worked on */
 } trial;
 
 static const trial trials[] = {
@@ -42,6 +43,7 @@ static const trial trials[] = {
     {.name = "360_rpm", .target_rpm = 360.0f},
     {.name = "330_rpm_noise", .target_rpm = 330.0f, .noise = 200.0f},
     {.name = "330_rpm_fed", .target_rpm = 330.0f, .fed = true},
+    {.name = "330_rpm_swings", .target_rpm = 330.0f, .swings = true},
     {.name = "330_rpm_lost_marks", .target_rpm = 330.0f, .lose_pulses = {2, 1}},
     {.name = "330_rpm_lost_samples", .target_rpm = 330.0f, .lose_samples = 9},
     {.name = "170_rpm_lost_both", .target_rpm = 170.0f, .lose_pulses = {1, 1}, .lose_samples = 9},
@@ -93,6 +95,7 @@ static bool run(const trial *tried) {
     wh_rig_slots(&config, HAL_SLOT_LEAD_DEG / WH_RIG_DEG_PER_RAD);
     config.observer.scene = &rig_observed;
     config.feeds = tried->fed ? WH_FEED_ALWAYS : wh_rig_standard.feeds;
+    config.swings = tried->swings;
     if (!hal_clock_start()) {
         return false;
     }
@@ -115,7 +118,7 @@ static bool run(const trial *tried) {
             faults->lose_pulses[1] = tried->lose_pulses[1];
             faults->lose_samples = tried->lose_samples;
         }
-        over = rig.has_result && rig.state == WH_LIFE_IDLE;
+        over = rig.has_result && rig.state == WH_LIFE_IDLE && !wh_swing_works(&rig.swing);
     }
     line_begin("run", tried->name);
     line_number(first);

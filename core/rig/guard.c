@@ -27,28 +27,6 @@ void wh_guard_trip(wh_guard *guard, wh_trip reason) {
     }
 }
 
-/* --- the rotor ----------------------------------------------------------------------------------- */
-
-#define REGULATED_PULSES 6U /* running, near the set-point: three turns */
-
-void wh_guard_rise(const wh_guard_config *config, wh_guard *guard, const wh_speed *speed,
-                   wh_real setpoint_radps) {
-    const wh_real above = speed->turn_radps - setpoint_radps;
-    const bool rises = speed->turn_radps > guard->risen_radps * (WH_R(1.0) + config->rise);
-    if (guard->regulated >= REGULATED_PULSES) {
-        if (rises && above > config->above_radps) {
-            wh_guard_trip(guard, WH_TRIP_OVERSPEED);
-        }
-    } else { /* as the rotor is taken over it still gets faster */
-        const bool near = speed->known && WH_ABS(above) < WH_R(0.5) * config->above_radps;
-        guard->regulated = near ? guard->regulated + 1U : 0U;
-    }
-    guard->pulses_risen = speed->taken;
-    guard->risen_radps = speed->turn_radps;
-}
-
-/* --- what it stands on --------------------------------------------------------------------------- */
-
 void wh_guard_load(const wh_guard_config *config, wh_guard *guard, const wh_speed *speed,
                    const wh_load *load, bool turning, bool needed) {
     if (load->status == WH_LOAD_REPEATED) {

@@ -36,8 +36,12 @@ typedef struct wh_guard_config {
     wh_real limit_radps;      /* largest speed, mean of a turn */
     wh_real ripple; /* by how much a part of a turn may be faster, as a fraction, at the limit */
     wh_real over;   /* by how much the speed may be above where it is led, as a fraction */
-    wh_real above_radps; /* so far above the set-point a turn that still gets faster, */
-    wh_real rise;        /* by this fraction in half a turn, is no regulated one */
+    wh_real
+        climb; /* by how much two marks running may raise a turn's speed, as a fraction, beyond */
+    wh_real climb_start_radps2;  /* this, while the rotor is taken over, */
+    wh_real climb_behind_radps2; /* this, while it is behind the set-point by more */
+    wh_real behind_radps;        /* than this, */
+    wh_real climb_there_radps2;  /* and else this */
     wh_real
         fall_radps; /* what gravity makes of standstill at the top: 2 sqrt(S g / I), at the bottom */
     uint32_t lost_max;          /* pulses that may be lost in a run */
@@ -61,9 +65,6 @@ typedef struct wh_guard {
     uint32_t pulse_ticks;     /* of the last pulse, true or not; at first, the start */
     uint32_t lost_before;     /* pulses already lost when the motor began to drive, */
     uint32_t rejected_before; /* or rejected */
-    unsigned regulated;       /* pulses running at which the speed was near the set-point */
-    uint32_t pulses_risen;    /* pulses taken when the speed was */
-    wh_real risen_radps;      /* this */
     uint32_t load_ticks;      /* of the last load sample; at first, the start */
     bool load_good;           /* it was ok */
     uint32_t load_pulses;     /* pulses taken by then */
@@ -76,7 +77,6 @@ typedef struct wh_guard {
 #define wh_guard_bound_radps WH_NAME(wh_guard_bound_radps)
 #define wh_guard_trip WH_NAME(wh_guard_trip)
 #define wh_guard_load WH_NAME(wh_guard_load)
-#define wh_guard_rise WH_NAME(wh_guard_rise)
 #define wh_trip_text WH_NAME(wh_trip_text)
 
 void wh_guard_start(wh_guard *guard, uint32_t now_ticks);
@@ -87,6 +87,16 @@ bool wh_guard_allows(const wh_guard_config *config, wh_real target_radps, bool f
 /* The fastest interval between two pulses of a rotor that is led to no more than base_radps: faster by `over`, and, if it
  * `falls`, by what falling from the top makes of it. From rest at the bottom gravity adds nothing. */
 wh_real wh_guard_bound_radps(const wh_guard_config *config, wh_real base_radps, bool falls);
+
+/* How fast may a turn's speed rise that is so far behind where it is led? Where it is ahead it slows. */
+WH_INLINE wh_real wh_guard_climb_radps2(const wh_guard_config *config, wh_real behind_radps,
+                                        bool is_led) {
+    if (is_led && behind_radps > config->behind_radps) {
+        return config->climb_behind_radps2;
+    }
+    return behind_radps > -config->behind_radps ? config->climb_there_radps2
+                                                : WH_R(-2.0) * config->climb_there_radps2;
+}
 
 /* Stop for this reason, unless there is one already. */
 void wh_guard_trip(wh_guard *guard, wh_trip reason);
@@ -104,26 +114,27 @@ WH_INLINE void wh_guard_quiet(const wh_guard_config *config, wh_guard *guard, ui
     }
 }
 
-/* Each step, in every state: over-speed, of a turn or of two pulse intervals running beyond the bound. `reason` is
- * what that means: WH_TRIP_OVERSPEED, or WH_TRIP_RUNS_ON with the motor off. Where it is not `driven`, a sensor that
+/* Each step, in every state: over-speed, of a turn, of two pulse intervals running beyond the bound, or of a turn that two
+ * marks running find faster than whatever leads it could make it. `reason` is what that means: WH_TRIP_OVERSPEED, or WH_TRIP_RUNS_ON with the motor off. Where it is not `driven`, a sensor that
  * fires again and again is one in whose slot the rotor swings: only pulses that alternate are turns. */
 WH_INLINE void wh_guard_speed(const wh_guard_config *config, wh_guard *guard,
                               const wh_pulses *pulses, wh_trip reason, bool driven) {
     const wh_speed *speed = &pulses->speed;
-    if (!driven && pulses->alternate < 2U) {
+    if (!driven && pulses->alternate == 0) {
         return;
     }
     /* one early pulse may be a disturbance, two are a speed */
     const bool sure = !pulses->waits || pulses->fast > 0; /* nothing takes it back */
-    if ((speed->known && sure && speed->turn_radps > config->limit_radps) || pulses->fast >= 2U) {
+    /* one early pulse may be a disturbance, and a load that goes away lets the rotor climb: both at once are neither */
+    const bool climbs =
+        pulses->fast > 0 && pulses->climb_before_radps > WH_R(0.0) &&
+        pulses->climb_radps > WH_R(0.0) &&
+        pulses->climb_before_radps + pulses->climb_radps > config->climb * speed->turn_radps;
+    if ((speed->known && sure && speed->turn_radps > config->limit_radps) || pulses->fast >= 2U ||
+        climbs) {
         wh_guard_trip(guard, reason);
     }
 }
-
-/* At each pulse taken while the loop is closed: over-speed, of a turn that gets faster although it is faster than the set-point already,
- * once the loop has had it in hand for three turns. */
-void wh_guard_rise(const wh_guard_config *config, wh_guard *guard, const wh_speed *speed,
-                   wh_real setpoint_radps);
 
 /* While the motor drives: lost, invented and doubtful pulses, silence for longer than silence_max_s. */
 WH_INLINE void wh_guard_pulses(const wh_guard_config *config, wh_guard *guard,

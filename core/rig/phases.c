@@ -28,19 +28,21 @@ void wh_run_off(wh_run *run, wh_real speed_radps, uint32_t now_ticks) {
     enter(run, WH_PHASE_OFF, now_ticks);
 }
 
-/* The rotor that is taken over gets faster for so long. */
+/* The rotor that is taken over gets faster for so long: */
 #define START_S WH_R(1.5)
+#define JUMP_S WH_R(0.5) /* by steps, as its first turn's speed is old, for so long */
 
-wh_real wh_run_base_radps(const wh_run_config *config, const wh_run *run, uint32_t ticks) {
+wh_led wh_run_led(const wh_run_config *config, const wh_run *run, uint32_t ticks) {
     if (!wh_run_drives(run)) {
-        return run->off_radps;
+        return (wh_led){.base_radps = run->off_radps};
     }
     /* without load the motor goes where the voltage takes it; once the rotor follows it is the set-point that leads */
     const wh_real led = run->volts / config->rated_V * config->no_load_radps;
     const wh_real setpoint = run->drive.setpoint_radps;
-    const bool starts = run->phase == WH_PHASE_SPIN_UP ||
-                        (led > setpoint && wh_rig_since_s(run->closed_ticks, ticks) < START_S);
-    return starts ? led : setpoint;
+    const bool opens = run->phase == WH_PHASE_SPIN_UP;
+    const wh_real closed_s = wh_rig_since_s(run->closed_ticks, ticks);
+    const bool starts = opens || (led > setpoint && closed_s < START_S);
+    return (wh_led){.base_radps = starts ? led : setpoint, .jumps = opens || closed_s < JUMP_S};
 }
 
 wh_real wh_run_needs_V(const wh_run_config *config, wh_real speed_radps) {

@@ -78,7 +78,7 @@ typedef struct wh_run_scene {
 #define wh_run_set WH_NAME(wh_run_set)
 #define wh_run_off WH_NAME(wh_run_off)
 #define wh_run_step WH_NAME(wh_run_step)
-#define wh_run_base_radps WH_NAME(wh_run_base_radps)
+#define wh_run_led WH_NAME(wh_run_led)
 #define wh_run_needs_V WH_NAME(wh_run_needs_V)
 #define wh_phase_text WH_NAME(wh_phase_text)
 
@@ -103,8 +103,12 @@ WH_INLINE bool wh_run_is_closed(const wh_run *run) {
     return run->phase >= WH_PHASE_RAMP && run->phase <= WH_PHASE_RAMP_DOWN;
 }
 
-/* The fastest that the rotor is led to at a pulse's time, for the guard's bound. */
-wh_real wh_run_base_radps(const wh_run_config *config, const wh_run *run, uint32_t ticks);
+/* Where the rotor is led at a pulse's time, for the guard. */
+typedef struct wh_led {
+    wh_real base_radps; /* no faster than this */
+    bool jumps;         /* its first turns' speeds lie far apart */
+} wh_led;
+wh_led wh_run_led(const wh_run_config *config, const wh_run *run, uint32_t ticks);
 
 /* The voltage that a steady speed takes. */
 wh_real wh_run_needs_V(const wh_run_config *config, wh_real speed_radps);

@@ -5,7 +5,9 @@
 
 #define TWICE_PART WH_R(0.5) /* of a turn, within which a sensor sees the slot but once */
 #define ALERT_PART WH_R(0.005)
+#define CLIMB_PART WH_R(0.01)
 #define BOUNCE_PART WH_R(0.02)
+#define SUDDEN WH_R(1.6)      /* times the bound */
 #define SURE_PART WH_R(0.125) /* of a turn, after which no pulse takes back the last one */
 
 void wh_pulses_start(wh_pulses *pulses, wh_real impossible_radps) {
@@ -59,12 +61,26 @@ static bool is_fast(const wh_pulses *pulses, const wh_speed *speed) {
     return pulses->bound_radps > WH_R(0.0) && speed->interval_radps > pulses->bound_radps;
 }
 
+static bool is_sudden(const wh_pulses *pulses, const wh_speed *speed) {
+    return pulses->slow && speed->interval_radps > SUDDEN * pulses->bound_radps;
+}
+
+/* By how much a turn's speed rose beyond what it may: of two running a disturbance makes but one. */
+static wh_real climb(const wh_pulses *pulses, const wh_speed *after) {
+    const wh_speed *before = &pulses->before;
+    const wh_real may = pulses->climb_radps2 * wh_rig_since_s(before->ticks, after->ticks);
+    const wh_real beyond = after->turn_radps - before->turn_radps - may;
+    return before->known && after->known && beyond > WH_R(0.0) ? beyond : WH_R(0.0);
+}
+
 /* The speed after this pulse; what it replaces is the speed without it, or before the last one where that is taken back. */
 static void accept(wh_pulses *pulses, const wh_pulse *pulse, const wh_speed *after) {
     const wh_speed *before = &pulses->before;
     const bool alternates = after->lost == before->lost && before->running;
-    pulses->fast = is_fast(pulses, after) ? pulses->fast + 1U : 0U;
+    pulses->fast =
+        is_fast(pulses, after) ? pulses->fast + (is_sudden(pulses, after) ? 2U : 1U) : 0U;
     pulses->alternate = alternates ? pulses->alternate + 1U : 0U;
+    pulses->climb_radps = climb(pulses, after);
     pulses->last = (wh_mark){
         .pulse = *pulse, .quarter = after->quarter, .gap = after->restarts != before->restarts};
     pulses->waits = true;
@@ -84,6 +100,7 @@ static bool is_likely(const wh_pulses *pulses, const wh_speed *speed) {
 static void take_next(wh_pulses *pulses, const wh_pulse *pulse, const wh_speed *after) {
     release(pulses);
     pulses->before = pulses->speed;
+    pulses->climb_before_radps = pulses->climb_radps;
     accept(pulses, pulse, after);
 }
 
@@ -172,7 +189,8 @@ void wh_pulses_take(wh_pulses *pulses, unsigned sensor, uint32_t ticks) {
                               ? early_ticks(&pulses->speed, &pulse) / turn_ticks(&pulses->speed)
                               : WH_R(0.0);
     /* where one interval was fast, or the last pulse early, the next is the speed's */
-    const bool trusted = !pulses->speed.running || pulses->fast > 0 || pulses->alert;
+    const bool trusted =
+        !pulses->speed.running || pulses->fast > 0 || pulses->alert || is_sudden(pulses, &after);
     pulses->alert = early > ALERT_PART;
     if (!trusted && (is_fast(pulses, &after) || early > pulses->window)) {
         pulses->suspect = pulse;
@@ -181,4 +199,6 @@ void wh_pulses_take(wh_pulses *pulses, unsigned sensor, uint32_t ticks) {
     }
     pulses->doubt -= pulses->doubt > 0 ? 1U : 0U;
     take_next(pulses, &pulse, &after);
+    /* a rotor that was to slow down and did not comes early, too */
+    pulses->alert = pulses->alert || pulses->climb_radps > CLIMB_PART * after.turn_radps;
 }

@@ -34,13 +34,19 @@ typedef struct wh_pulses {
     wh_speed speed;      /* of the pulses that were taken */
     wh_speed before;     /* the same without the last one */
     wh_real bound_radps; /* a faster interval is not expected; the caller renews it. 0: no bound */
-    wh_real window;      /* so early, as a part of a turn, a pulse may come; ditto */
-    wh_pulse suspect;    /* when `suspects` */
+    bool
+        slow; /* the rotor all but rests, undriven: an interval far beyond the bound is as good as two; ditto */
+    wh_real window;       /* so early, as a part of a turn, a pulse may come; ditto */
+    wh_real climb_radps2; /* a turn's speed may rise by so much each second; ditto */
+    wh_pulse suspect;     /* when `suspects` */
     bool suspects;
     bool waits; /* the last pulse is not sure yet: */
     wh_mark last;
     bool alert;    /* the last pulse came a little early: the next that does is no disturbance */
     unsigned fast; /* intervals beyond the bound, running */
+    wh_real
+        climb_radps; /* by so much more than it may the turn's speed rose with the last pulse, else 0; */
+    wh_real climb_before_radps; /* and with the one before */
     unsigned
         alternate; /* pulses running whose sensor was not the one before's: a rotor that swings has none */
     unsigned

@@ -37,6 +37,7 @@ typedef enum wh_quality { WH_GOOD, WH_DOUBTFUL, WH_REFUSED } wh_quality;
     X(WH_WHY_AMPLITUDE_OFF, WH_DOUBTFUL, \
       "the force is off what masses, speed and mount let expect") \
     X(WH_WHY_PHASE_OFF, WH_DOUBTFUL, "the force is off the line of the masses") \
+    X(WH_WHY_PLACE, WH_DOUBTFUL, "sensor 1 does not stand where the arms hang: the phase is off") \
     X(WH_WHY_LEFT_OUT, WH_DOUBTFUL, "more than a quarter of the turns could not be used") \
     X(WH_WHY_OUTLIERS, WH_DOUBTFUL, "more than one sample in a hundred was left out") \
     X(WH_WHY_RESIDUAL, WH_DOUBTFUL, "noise or other orders than the first are large") \

@@ -4,10 +4,12 @@
 #include <stddef.h>
 
 #include "datasheet.h"
+#include "watch.h"
 
 void wh_rig_slots(wh_rig_config *config, wh_real lead_rad) {
     config->measure.rotor.mark_rad[0] = -lead_rad;
     config->measure.rotor.mark_rad[1] = WH_R(0.25) * WH_RIG_TWO_PI - lead_rad;
+    config->swing.lead_rad = lead_rad;
     config->observer.mark_rad[0] = config->measure.rotor.mark_rad[0];
     config->observer.mark_rad[1] = config->measure.rotor.mark_rad[1];
 }
@@ -30,6 +32,7 @@ void wh_rig_start(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks,
     enter(rig, WH_LIFE_IDLE, now_ticks);
     /* who knows how fast the rotor turned before */
     rig->run.off_radps = config->guard.limit_radps;
+    rig->run.since_ticks = now_ticks;
     if (before != NULL && before->trip != WH_TRIP_NONE) {
         rig->record = *before;
         rig->guard.trip = before->trip;
@@ -47,29 +50,17 @@ bool wh_rig_post(wh_rig *rig, wh_rig_event event, wh_real value) {
     return true;
 }
 
-/* How fast, and how early, may a pulse come? */
-#define SETTLE_WINDOW WH_R(0.03)
-#define RAMP_WINDOW WH_R(0.12) /* no mark is sure before */
-#define RECORD_PART WH_R(0.8)  /* of what the record lets the speed be off */
-
-static void expect_pulses(const wh_rig_config *config, wh_rig *rig, uint32_t ticks) {
-    const wh_rig_phase phase = rig->run.phase;
-    const bool from_rest = phase == WH_PHASE_SPIN_UP && !rig->pulses.speed.known;
-    rig->pulses.bound_radps = wh_guard_bound_radps(
-        &config->guard, wh_run_base_radps(&config->run, &rig->run, ticks), !from_rest);
-    rig->pulses.window = phase == WH_PHASE_RECORD
-                             ? RECORD_PART * config->run.record_band_radps / rig->run.target_radps
-                             : (phase == WH_PHASE_SETTLE ? SETTLE_WINDOW : RAMP_WINDOW);
-}
-
 void wh_rig_pulse(const wh_rig_config *config, wh_rig *rig, unsigned sensor, uint32_t ticks) {
     rig->pulses_ever++;
     rig->busy = true;
-    expect_pulses(config, rig, ticks);
+    wh_rig_expect(config, rig, sensor, ticks);
     if (rig->run.phase == WH_PHASE_TARE && sensor < WH_SPEED_SENSORS) {
         rig->run.tare_pulses[sensor]++;
     }
     wh_pulses_take(&rig->pulses, sensor, ticks);
+    if (!wh_run_drives(&rig->run)) {
+        wh_swing_pulse(&rig->swing, sensor, ticks);
+    }
 }
 
 void wh_rig_load(const wh_rig_config *config, wh_rig *rig, uint32_t ticks, int32_t raw,
@@ -107,11 +98,20 @@ static void begin_run(const wh_rig_config *config, wh_rig *rig, wh_real target_r
     wh_measure_begin(&config->measure, &rig->measure);
     wh_observer_forget(&rig->observer);
     rig->observed = 0;
+    rig->brakes = config->stop_brakes && !config->swings;
     rig->fed = feeds(config, target_radps);
     rig->guard.lost_before = 0;
     rig->guard.rejected_before = 0;
-    rig->guard.regulated = 0;
     wh_run_start(&rig->run, target_radps, now_ticks);
+}
+
+/* How fast it may be now: the last turn of a rotor that still gathers speed is old. */
+static wh_real fastest_radps(const wh_rig_config *config, const wh_rig *rig, uint32_t now_ticks) {
+    const wh_real turn_radps = rig->pulses.speed.turn_radps;
+    const wh_real led_radps = wh_run_drives(&rig->run)
+                                  ? wh_run_led(&config->run, &rig->run, now_ticks).base_radps
+                                  : WH_R(0.0);
+    return led_radps > turn_radps ? led_radps : turn_radps;
 }
 
 /* The state is left for `next`, or is begun anew. */
@@ -124,15 +124,15 @@ static void follow(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs
     case WH_EVENT_SET:
         wh_run_set(&rig->run, order->value, now);
         rig->fed = feeds(config, order->value);
-        rig->guard.regulated = 0;
         if (!rig->fed) {
             wh_lockin_feed(&rig->measure.lockin, false);
         }
         break;
     case WH_EVENT_STOP:
     case WH_EVENT_HOST_LOST:
+        rig->brakes = config->stop_brakes;
         if (moves && rig->run.phase != WH_PHASE_OFF) {
-            wh_run_off(&rig->run, rig->pulses.speed.turn_radps, now);
+            wh_run_off(&rig->run, fastest_radps(config, rig, now), now);
         }
         break;
     case WH_EVENT_TRIP:
@@ -192,65 +192,6 @@ static void take_orders(const wh_rig_config *config, wh_rig *rig, const wh_rig_i
         rig->answers++;
     }
     rig->orders = 0;
-}
-
-/* --- the guard, in every state ------------------------------------------------------------------- */
-
-/* At a slow speed silence is measured in turns: two lost pulses leave nearly two. */
-#define SILENT_RAD WH_R(12.0)
-
-static wh_real silence_s(const wh_rig_config *config, const wh_rig *rig) {
-    if (!wh_run_is_closed(&rig->run)) {
-        return config->guard.slow_silence_max_s;
-    }
-    const wh_real least = config->guard.silence_max_s * rig->run.drive.setpoint_radps;
-    return least >= SILENT_RAD ? config->guard.silence_max_s
-                               : SILENT_RAD / rig->run.drive.setpoint_radps;
-}
-
-/* With the motor off: what is known of a rotor that rests? */
-static void rest(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
-    wh_guard_quiet(&config->guard, &rig->guard, rig->pulses_ever, now_ticks);
-    if (rig->guard.quiet) {
-        rig->run.off_radps = WH_R(0.0);
-        if (rig->pulses.speed.running) { /* times of old pulses wrap */
-            wh_pulses_start(&rig->pulses, config->impossible_radps);
-        }
-    }
-}
-
-static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
-    wh_guard *guard = &rig->guard;
-    const bool drives = wh_run_drives(&rig->run);
-    if (inputs->watchdog_has_cut) {
-        wh_guard_trip(guard, WH_TRIP_WATCHDOG);
-    }
-    if (!drives) {
-        rest(config, rig, inputs->now_ticks);
-    }
-    /* with the motor off nothing speeds up a rotor whose speed was known */
-    const bool slows = !drives && rig->run.off_radps < config->guard.limit_radps;
-    wh_guard_speed(&config->guard, guard, &rig->pulses, slows ? WH_TRIP_RUNS_ON : WH_TRIP_OVERSPEED,
-                   drives);
-    if (rig->pulses.speed.taken != guard->pulses_risen && wh_run_is_closed(&rig->run)) {
-        wh_guard_rise(&config->guard, guard, &rig->pulses.speed, rig->run.drive.setpoint_radps);
-    }
-    if (rig->run.phase == WH_PHASE_SPIN_UP && !rig->pulses.speed.running &&
-        wh_rig_since_s(rig->run.since_ticks, inputs->now_ticks) >
-            config->guard.slow_silence_max_s) {
-        wh_guard_trip(guard, WH_TRIP_STALLED); /* or is not seen: it must not get fast */
-    }
-    if (drives) {
-        wh_guard_pulses(&config->guard, guard, &rig->pulses, silence_s(config, rig),
-                        inputs->now_ticks);
-    }
-    const bool needed = rig->state == WH_LIFE_ARMED || rig->state == WH_LIFE_RUNNING || drives;
-    if (needed && !wh_guard_supply(&config->guard, inputs->supply_V)) {
-        wh_guard_trip(guard, WH_TRIP_SUPPLY);
-    }
-    if (needed && !wh_guard_load_comes(&config->guard, guard, inputs->now_ticks)) {
-        wh_guard_trip(guard, WH_TRIP_LOAD_CELL);
-    }
 }
 
 /* --- where the rotor is --------------------------------------------------------------------------- */
@@ -340,6 +281,14 @@ static void measure(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks
     rig->busy = false;
 }
 
+/* Motor off: it swings out after a run, or has, and what that tells is worked on. */
+static void swing(const wh_rig_config *config, wh_rig *rig) {
+    const bool swings = rig->run.phase == WH_PHASE_OFF && !rig->brakes;
+    wh_swing_step(&config->swing, &config->measure.rotor, &rig->swing, swings,
+                  rig->state == WH_LIFE_IDLE);
+    wh_swing_doubt(&config->swing, &rig->swing, &rig->result.force);
+}
+
 static wh_rig_command command_of(const wh_rig_config *config, wh_rig *rig,
                                  const wh_rig_inputs *inputs) {
     if (rig->guard.trip == WH_TRIP_NONE && wh_run_drives(&rig->run)) {
@@ -347,7 +296,7 @@ static wh_rig_command command_of(const wh_rig_config *config, wh_rig *rig,
         const wh_real most = volts < inputs->supply_V ? volts : inputs->supply_V;
         return (wh_rig_command){WH_MOTOR_DRIVES, most > WH_R(0.0) ? most : WH_R(0.0)};
     }
-    const bool brakes = config->stop_brakes && rig->run.phase == WH_PHASE_OFF;
+    const bool brakes = rig->brakes && rig->run.phase == WH_PHASE_OFF;
     return (wh_rig_command){brakes ? WH_MOTOR_BRAKES : WH_MOTOR_COASTS, WH_R(0.0)};
 }
 
@@ -355,7 +304,7 @@ wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_ri
     if (rig->fed && wh_run_is_closed(&rig->run)) {
         observe(config, rig, inputs->now_ticks);
     }
-    watch(config, rig, inputs);
+    wh_rig_watch(config, rig, inputs);
     if (inputs->stop_pressed) {
         finds(config, rig, inputs, WH_EVENT_STOP);
     }
@@ -366,6 +315,9 @@ wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_ri
     measure(config, rig, inputs->now_ticks);
     if (rig->guard.trip != WH_TRIP_NONE && rig->state != WH_LIFE_TRIPPED) {
         finds(config, rig, inputs, WH_EVENT_TRIP);
+    }
+    if (!wh_run_drives(&rig->run)) {
+        swing(config, rig);
     }
     rig->command = command_of(config, rig, inputs);
     return rig->command;

@@ -13,8 +13,10 @@
 #define WH_RIG_RIG_H
 
 #include "feed.h"
+#include "free_swing.h"
 #include "orders.h"
 #include "phases.h"
+#include "record.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -36,6 +38,7 @@ typedef struct wh_rig_config {
     wh_measure_config measure;
     wh_observer_config observer;
     wh_feed_config feed;
+    wh_swing_config swing;
     wh_feed_when feeds;
     wh_real impossible_radps; /* see wh_speed_start() */
     wh_real armed_max_s;
@@ -43,6 +46,8 @@ typedef struct wh_rig_config {
     wh_real rest_max_s;    /* with the motor off, to come to rest */
     bool
         stop_brakes; /* motor off brakes (a run's end, `stop`), else it coasts; a trip coasts always */
+    bool
+        swings; /* a run that comes to its end coasts all the same, and where its sensors stand is found; `stop` does not */
     bool host_loss_stops; /* a run ends when who gives orders is gone, else it goes on */
 } wh_rig_config;
 
@@ -53,16 +58,6 @@ typedef struct wh_rig_command {
     wh_real volts; /* mean voltage, 0 to the supply; 0 unless the motor drives */
 } wh_rig_command;
 
-/* What a trip leaves for whoever reads it later. Handed to wh_rig_start() after a reset, it is latched again. */
-typedef struct wh_trip_record {
-    wh_trip trip;
-    wh_rig_phase phase;
-    uint32_t ticks;
-    wh_real speed_radps;
-    wh_real volts;
-    wh_real supply_V;
-} wh_trip_record;
-
 typedef struct wh_rig {
     wh_life state;
     wh_run run;
@@ -71,6 +66,8 @@ typedef struct wh_rig {
     wh_measure measure;
     wh_observer observer;
     wh_feed feed;
+    wh_swing swing; /* of the last run that ended in one: swing.result */
+    bool brakes;    /* the motor, when it goes off */
     bool
         fed; /* the run's: the observer goes with the rotor, and once it is valid gravity is fed forward */
     wh_rig_command command; /* since the last step */

@@ -6,7 +6,9 @@
 #include "hal/clock.h"
 #include "hal/loadcell.h"
 #include "hal/motor.h"
+#include "hal/reset.h"
 #include "hal/slots.h"
+#include "hal/stop.h"
 #include "hal/watchdog.h"
 #include "turns.h"
 
@@ -27,8 +29,8 @@
         .high = ((deg) + HAL_SLOT_LEAD_DEG) * RAD_PER_DEG \
     }
 
-enum { DUTY, ENABLE };              /* outputs */
-enum { CELL_FORCE, SUPPLY, DIALS }; /* samples, the first dial behind them */
+enum { DUTY, ENABLE };                    /* outputs */
+enum { CELL_FORCE, SUPPLY, STOP, DIALS }; /* samples, the first dial behind them */
 
 /* A dial's converter has 20 bits: what it rounds is less than any bound of a test. */
 #define DIAL_PER_COUNT (1.0f / 1048576.0f)
@@ -52,6 +54,13 @@ static const wh_signal signals[] = {
      .high = 4095.0f * SUPPLY_V_PER_COUNT,
      .per_count = SUPPLY_V_PER_COUNT,
      .period_ticks = HAL_LOADCELL_PERIOD_TICKS},
+    {.kind = WH_SIGNAL_SAMPLE, /* a pin: 0 or 1 */
+     .name = "stop_input",
+     .unit = "1",
+     .low = -1.0f,
+     .high = 2.0f,
+     .per_count = 1.0f,
+     .period_ticks = HAL_STOP_PERIOD_TICKS},
 #define ROW(channel, word, si) {.kind = WH_SIGNAL_NOTE, .name = (word), .unit = (si)},
     HAL_NOTE_ROWS(ROW)
 #undef ROW
@@ -78,6 +87,7 @@ _Static_assert(sizeof signals / sizeof signals[0] <= WH_SIGNALS_MAX, "room for a
 /* The board's one plant: hardware is global. */
 static hal_turns plant;
 static float supply_V = SUPPLY_RATED_V;
+static bool stop_pressed = true; /* until it is looked at */
 static bool has_dials;
 static float dial[HAL_DIALS];
 
@@ -92,11 +102,13 @@ static void see_dial(const wh_sample *sample) {
 }
 
 /* The newest of what is not yet taken. */
-static void see_supply(void) {
+static void see_levels(void) {
     for (unsigned i = plant.sample; i < plant.readings.samples; i++) {
         const wh_sample *sample = &plant.readings.sample[i];
         if (sample->channel == SUPPLY) {
             supply_V = (float)sample->raw * SUPPLY_V_PER_COUNT;
+        } else if (sample->channel == STOP) {
+            stop_pressed = sample->raw != 0 || sample->status != WH_SAMPLE_GOOD;
         } else if (sample->channel >= DIALS) {
             see_dial(sample);
         }
@@ -118,7 +130,7 @@ uint32_t hal_clock_ticks(void) { return plant.ticks; }
 void hal_clock_wait_until(uint32_t ticks) {
     if ((int32_t)(ticks - plant.ticks) > 0) {
         hal_turns_wait(&plant, ticks);
-        see_supply();
+        see_levels();
     }
 }
 
@@ -178,5 +190,25 @@ void hal_watchdog_start(uint32_t timeout_ticks) { hal_turns_watch(&plant, timeou
 void hal_watchdog_kick(void) { hal_turns_alive(&plant); }
 
 bool hal_watchdog_has_cut(void) { return hal_turns_is_cut(&plant); }
+
+bool hal_stop_pressed(void) { return stop_pressed; }
+
+_Static_assert(sizeof plant.reset.remembered >= HAL_REMEMBER_BYTES, "the line takes them");
+
+hal_reset hal_reset_cause(void) {
+    return plant.reset.cause == 0                   ? HAL_RESET_POWER_ON
+           : plant.reset.cause == WH_RESET_WATCHDOG ? HAL_RESET_WATCHDOG
+                                                    : HAL_RESET_OTHER;
+}
+
+void hal_remember(const void *bytes, unsigned count) { hal_turns_remember(&plant, bytes, count); }
+
+unsigned hal_recall(void *bytes) {
+    uint8_t *to = bytes;
+    for (unsigned i = 0; i < plant.reset.count; i++) {
+        to[i] = plant.reset.remembered[i];
+    }
+    return plant.reset.count;
+}
 
 #endif

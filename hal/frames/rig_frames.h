@@ -8,7 +8,7 @@ extern "C" {
 #endif
 
 /* Notes, in the order of their channels: X(name, word, unit). The state is wh_rig_stage(); its, the trip's and the quality's numbers are those of
- * core/rig; the others are the result's, which is none while it has no turns. */
+ * core/rig, `reset` is hal_reset_cause(); the others are the result's, which is none while it has no turns. */
 #define HAL_NOTE_ROWS(X) \
     X(HAL_NOTE_STATE, "state", "1") \
     X(HAL_NOTE_TRIP, "trip", "1") \
@@ -17,7 +17,8 @@ extern "C" {
     X(HAL_NOTE_AMPLITUDE_HALF, "amplitude_half", "N") \
     X(HAL_NOTE_PHASE, "phase", "rad") \
     X(HAL_NOTE_PHASE_HALF, "phase_half", "rad") \
-    X(HAL_NOTE_TURNS, "turns", "1")
+    X(HAL_NOTE_TURNS, "turns", "1") \
+    X(HAL_NOTE_RESET, "reset", "1")
 
 enum {
 #define ROW(name, word, unit) name,
@@ -43,7 +44,7 @@ enum {
         HAL_DIALS
 };
 enum {
-    HAL_NOTES_BEFORE_DIALS = HAL_NOTE_TURNS,
+    HAL_NOTES_BEFORE_DIALS = HAL_NOTE_RESET,
 #define ROW(name, word, unit) name,
     HAL_DIAL_NOTE_ROWS(ROW)
 #undef ROW

@@ -58,12 +58,21 @@ static void keep(hal_turns *turns, const wh_readings *news) {
     turns->sample = 0;
 }
 
+/* Before the first readings, why we start. */
+static void look_for_reset(hal_turns *turns, const wh_frame *frame) {
+    if (frame->version == WH_FRAME_VERSION && frame->kind == WH_FRAME_RESET &&
+        !wh_reset_get(&turns->reset, frame->payload, frame->length)) {
+        turns->reset = (wh_reset){.cause = WH_RESET_OTHER};
+    }
+}
+
 /* Readings that are not the next ones, or none that this version knows, are not for us. */
 static void hear(hal_turns *turns) {
     wh_frame frame;
     wh_readings news;
     do {
         receive(turns, &frame);
+        look_for_reset(turns, &frame);
     } while (frame.version != WH_FRAME_VERSION || frame.kind != WH_FRAME_READINGS ||
              frame.sequence != turns->sequence ||
              !wh_readings_get(&news, frame.payload, frame.length));
@@ -105,6 +114,17 @@ void hal_turns_note(hal_turns *turns, unsigned channel, float value) {
     if (channel < turns->orders.outputs - turns->outputs) {
         turns->orders.output[turns->outputs + channel] = value;
     }
+}
+
+/* The line takes no time: where there is such memory there is no line. */
+void hal_turns_remember(hal_turns *turns, const uint8_t *bytes, unsigned count) {
+    const uint32_t begun_timer = hal_link_timer();
+    const unsigned all = count < WH_REMEMBER_MAX ? count : WH_REMEMBER_MAX;
+    for (unsigned i = 0; i < all; i++) {
+        turns->payload[i] = bytes[i];
+    }
+    send(turns, WH_FRAME_REMEMBER, turns->sequence, all);
+    turns->arrived_timer += hal_link_timer() - begun_timer;
 }
 
 void hal_turns_wait(hal_turns *turns, uint32_t until_ticks) {

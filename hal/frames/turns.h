@@ -23,7 +23,8 @@ typedef struct hal_turns {
     wh_readings readings; /* what is not yet taken begins at: */
     unsigned edge;
     unsigned sample;
-    uint32_t lost; /* edges and samples for which there was no room */
+    uint32_t lost;  /* edges and samples for which there was no room */
+    wh_reset reset; /* why we start; cause 0: a power-on */
     wh_frame_reader reader;
     uint8_t line[64]; /* read, not yet looked at */
     unsigned line_at;
@@ -42,6 +43,9 @@ void hal_turns_set(hal_turns *turns, unsigned channel, float value);
 
 /* What the controller tells of itself, from now on: a note, of this channel. It takes no time. */
 void hal_turns_note(hal_turns *turns, unsigned channel, float value);
+
+/* What outlives a reset, from now on: then turns->reset has it when we start again. count <= WH_REMEMBER_MAX. */
+void hal_turns_remember(hal_turns *turns, const uint8_t *bytes, unsigned count);
 
 /* Hand over the outputs and wait until `until_ticks`, or for the next word if that is past already. */
 void hal_turns_wait(hal_turns *turns, uint32_t until_ticks);

@@ -2,7 +2,9 @@
 #include "hal/clock.h"
 #include "hal/loadcell.h"
 #include "hal/motor.h"
+#include "hal/reset.h"
 #include "hal/slots.h"
+#include "hal/stop.h"
 #include "hal/watchdog.h"
 #include "virtual_rig.h"
 
@@ -13,7 +15,11 @@ static hal_virtual_rig board_rig;
 
 hal_virtual_rig *hal_virtual_rig_instance(void) { return &board_rig; }
 
-bool hal_clock_start(void) { return hal_virtual_rig_start(&board_rig, &rig_fixed); }
+bool hal_clock_start(void) {
+    const bool again = board_rig.in_reset;
+    board_rig.in_reset = false;
+    return again ? board_rig.status == WH_OK : hal_virtual_rig_start(&board_rig, &rig_fixed);
+}
 
 uint32_t hal_clock_ticks(void) { return board_rig.ticks; }
 
@@ -40,5 +46,25 @@ void hal_watchdog_start(uint32_t timeout_ticks) {
 void hal_watchdog_kick(void) { board_rig.kicked_ticks = board_rig.ticks; }
 
 bool hal_watchdog_has_cut(void) { return board_rig.cut; }
+
+bool hal_stop_pressed(void) { return board_rig.stop_pressed; }
+
+hal_reset hal_reset_cause(void) { return board_rig.cause; }
+
+void hal_remember(const void *bytes, unsigned count) {
+    const uint8_t *from = bytes;
+    board_rig.remembers = count < HAL_REMEMBER_BYTES ? count : HAL_REMEMBER_BYTES;
+    for (unsigned i = 0; i < board_rig.remembers; i++) {
+        board_rig.remembered[i] = from[i];
+    }
+}
+
+unsigned hal_recall(void *bytes) {
+    uint8_t *to = bytes;
+    for (unsigned i = 0; i < board_rig.remembers; i++) {
+        to[i] = board_rig.remembered[i];
+    }
+    return board_rig.remembers;
+}
 
 #endif

@@ -11,6 +11,11 @@
 #define CELL_OUTPUT 0U                    /* cell_force is the model's first output */
 #define OUTPUTS_MAX 8U
 
+static void start_timer(hal_virtual_rig *rig) {
+    rig->ticks = 0U - HAL_VIRTUAL_WRAP_AFTER_S * HAL_TICKS_PER_S;
+    rig->sample_ticks = rig->ticks + HAL_LOADCELL_PERIOD_TICKS;
+}
+
 bool hal_virtual_rig_start(hal_virtual_rig *rig, const wh_scene *scene) {
     const float step_ticks = scene->step_s * (float)HAL_TICKS_PER_S;
     *rig = (hal_virtual_rig){.scene = scene,
@@ -20,10 +25,20 @@ bool hal_virtual_rig_start(hal_virtual_rig *rig, const wh_scene *scene) {
         scene->outputs < 1 || scene->outputs > OUTPUTS_MAX || rig->step_ticks == 0) {
         return false;
     }
-    rig->ticks = 0U - HAL_VIRTUAL_WRAP_AFTER_S * HAL_TICKS_PER_S;
-    rig->sample_ticks = rig->ticks + HAL_LOADCELL_PERIOD_TICKS;
+    start_timer(rig);
     rig->status = wh_scene_start(scene, &rig->state, rig->memory, sizeof rig->memory);
     return rig->status == WH_OK;
+}
+
+void hal_virtual_rig_reset(hal_virtual_rig *rig, hal_reset cause) {
+    hal_virtual_rig_motor_off(rig, HAL_MOTOR_COAST);
+    rig->cause = cause;
+    rig->in_reset = true;
+    rig->watched = false;
+    rig->cut = false;
+    rig->pulses = 0;
+    rig->samples = 0;
+    start_timer(rig);
 }
 
 uint32_t hal_virtual_rig_phase(const hal_virtual_rig *rig) {

@@ -16,6 +16,7 @@
 #include "core/scene.h"
 #include "hal/loadcell.h"
 #include "hal/motor.h"
+#include "hal/reset.h"
 #include "hal/slots.h"
 
 #ifdef __cplusplus
@@ -63,6 +64,11 @@ typedef struct hal_virtual_rig {
     bool cut;     /* it has cut the motor */
     uint32_t watchdog_ticks;
     uint32_t kicked_ticks;
+    bool stop_pressed; /* by whoever stands there: may be set at any time */
+    hal_reset cause;   /* why the processor started, */
+    bool in_reset;     /* or starts: what it controls turns on meanwhile */
+    uint8_t remembered[HAL_REMEMBER_BYTES];
+    unsigned remembers; /* so many */
     hal_virtual_faults faults;
 } hal_virtual_rig;
 
@@ -72,6 +78,10 @@ bool hal_virtual_rig_start(hal_virtual_rig *rig, const wh_scene *scene);
 
 /* Let time pass until `ticks`, in whole steps of the model: may end up to one step later. */
 void hal_virtual_rig_advance(hal_virtual_rig *rig, uint32_t ticks);
+
+/* The processor is reset, for a cause that is no power-on: drive and watchdog are off, pulses and samples that were not taken
+ * are lost, and the timer begins anew; the rotor turns on. hal_clock_start() then starts no other rig. */
+void hal_virtual_rig_reset(hal_virtual_rig *rig, hal_reset cause);
 
 /* As hal_motor_set_voltage(), hal_motor_off(), hal_slots_take(), hal_loadcell_take() on this rig. */
 void hal_virtual_rig_set_voltage(hal_virtual_rig *rig, float volts);

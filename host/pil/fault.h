@@ -1,5 +1,5 @@
 /* fault.h: what breaks in a run in the loop: sensors, load cell, supply, drive stage, mechanism, line, and the time that
- * the controller takes. Never the controller itself.
+ * the controller takes; and who presses stop, or resets its processor. Never the controller itself.
  *
  * A fault is words: KIND[:CHANNEL][=SIZE][@WHEN][+DURATION]. CHANNEL counts from 1, of edges or of samples; left out, it
  * is all edges, or the first sample. WHEN is a time, or NOTE=VALUE, or NOTE=VALUE~TIME: so long after the firmware's note
@@ -16,7 +16,8 @@ typedef enum fault_place {
     FAULT_ORDERS,    /* and how long they take */
     FAULT_LINE,      /* what gets lost on it */
     FAULT_PARAMETER, /* of the scene, for the whole run: whoever loads it asks fault_parameters() */
-    FAULT_SENSORS    /* where edges stand, and their jitter */
+    FAULT_SENSORS,   /* where edges stand, and their jitter */
+    FAULT_PROCESSOR  /* it starts anew */
 } fault_place;
 
 /* X(which, word, place, size when left out, least, most, unit, words). Where least and most are equal there is no size. */
@@ -73,6 +74,11 @@ typedef enum fault_place {
     X(FAULT_COUPLING, "coupling", FAULT_INPUT, 0.1, 0, 100, "", "times the coupling's stiffness") \
     X(FAULT_INERTIA, "inertia", FAULT_PARAMETER, 2, 0.01, 100, "", \
       "times all that turns; the whole run") \
+    X(FAULT_STOP, "stop", FAULT_INPUT, 0, 0, 0, "", "somebody presses stop") \
+    X(FAULT_RESET, "reset", FAULT_PROCESSOR, 0.01, 0, 10, "s", \
+      "the controller is reset, and starts again so much later") \
+    X(FAULT_WATCHDOG_RESETS, "watchdog-resets", FAULT_PROCESSOR, 0.01, 0, 10, "s", \
+      "a starved watchdog resets it, instead of cutting; it starts again so much later") \
     X(FAULT_SLOW, "slow", FAULT_ORDERS, 20, 0, 1e6, "", \
       "computing takes so many times as long, where it is counted") \
     X(FAULT_LATE, "late", FAULT_ORDERS, 3e-3, 0, 10, "s", "every answer takes so much longer") \
@@ -146,7 +152,8 @@ typedef struct fault_plan {
     /* While it runs: */
     plant *plant;
     double ticks_per_s;
-    wh_orders last; /* that got through */
+    wh_orders last;  /* that got through */
+    unsigned resets; /* of the plant's, by now */
 } fault_plan;
 
 /* Adds the faults of `text`, between commas. False, reported. */

@@ -1,4 +1,5 @@
 /* fault_tap.c: when faults begin and end, and what they do to the plant and to orders. */
+#include <math.h>
 #include <string.h>
 
 #include "fault.h"
@@ -22,6 +23,8 @@ static const struct {
     {FAULT_FRICTION, "bearing_friction", false, 0.0},
     {FAULT_JAM, "bearing_friction", false, 0.0},
     {FAULT_COUPLING, "k", true, 0.0},
+    {FAULT_STOP, "stop_pressed", false, 1.0},
+    {FAULT_STOP, "stop_pressed", false, 1.0},
 };
 enum { INPUTS = sizeof inputs / sizeof inputs[0] };
 
@@ -131,18 +134,68 @@ static void change(fault_plan *plan, fault_case *f, double time_s, bool begins) 
     }
 }
 
+/* --- the processor --------------------------------------------------------------------------------------------*/
+
+static double due_ticks(const fault_plan *plan, const fault_case *f) {
+    return (f->begin_s + f->after_s) * plan->ticks_per_s;
+}
+
+/* There was a reset: what was on its way is lost, outputs are 0, and who asked for it is served. */
+static void see_reset(fault_plan *plan) {
+    const double then_ticks = plan->plant->reset.last_ticks;
+    plan->last = (wh_orders){.outputs = plan->last.outputs};
+    for (unsigned i = 0; i < plan->count; i++) {
+        fault_case *f = &plan->fault[i];
+        f->pending_count = 0;
+        if (f->kind == FAULT_RESET && f->reached && !f->happened &&
+            due_ticks(plan, f) <= then_ticks) {
+            f->happened = true;
+            f->begin_s = then_ticks / plan->ticks_per_s;
+        }
+    }
+}
+
+/* The plant is told of the next one beforehand: it need not be when anybody speaks. */
+static void order_reset(fault_plan *plan, const fault_case *f) {
+    plant_resets *r = &plan->plant->reset;
+    if (f->kind == FAULT_RESET && f->reached && !f->happened && due_ticks(plan, f) < r->at_ticks) {
+        r->at_ticks = due_ticks(plan, f);
+        r->takes_ticks = f->size * plan->ticks_per_s;
+    }
+    if (f->kind == FAULT_WATCHDOG_RESETS && f->active) {
+        r->by_watchdog = true;
+        r->watchdog_ticks = f->size * plan->ticks_per_s;
+    }
+}
+
+static void look_for_resets(fault_plan *plan) {
+    plant_resets *r = &plan->plant->reset;
+    if (r->count != plan->resets) {
+        plan->resets = r->count;
+        see_reset(plan);
+    }
+    r->at_ticks = (double)INFINITY;
+    r->by_watchdog = false;
+    for (unsigned i = 0; i < plan->count; i++) {
+        order_reset(plan, &plan->fault[i]);
+    }
+}
+
 /* Begins a fault whose time has come, and ends one whose time is over. */
 static void look_at_time(fault_plan *plan, double time_s) {
     for (unsigned i = 0; i < plan->count; i++) {
         fault_case *f = &plan->fault[i];
         if (fault_rows[f->kind].place == FAULT_PARAMETER) {
             f->happened = true;
+        } else if (f->kind == FAULT_RESET) {
+            continue; /* the plant does it */
         } else if (!f->happened && f->reached && time_s >= f->begin_s + f->after_s) {
             change(plan, f, time_s, true);
         } else if (f->active && time_s >= f->begin_s + f->duration_s) {
             change(plan, f, time_s, false);
         }
     }
+    look_for_resets(plan);
 }
 
 /* --- as a tap ------------------------------------------------------------------------------------------------*/

@@ -145,7 +145,8 @@ static bool read_duration(words_of_fault *w, fault_case *f) {
     if (!takes(w, '+')) {
         return true;
     }
-    return (fault_rows[f->kind].place != FAULT_PARAMETER && read_time(w, &f->duration_s)) ||
+    const bool lasts = fault_rows[f->kind].place != FAULT_PARAMETER && f->kind != FAULT_RESET;
+    return (lasts && read_time(w, &f->duration_s)) ||
            wrong(w, "no such duration", "a time, such as +500ms");
 }
 
@@ -190,6 +191,6 @@ void fault_print_kinds(FILE *out) {
             snprintf(size, sizeof size, "=%g%s%s", row->size, row->unit[0] != '\0' ? " " : "",
                      row->unit);
         }
-        fprintf(out, "    %-14s%-10s %s\n", row->word, size, row->words);
+        fprintf(out, "    %-16s%-10s %s\n", row->word, size, row->words);
     }
 }

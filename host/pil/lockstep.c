@@ -91,7 +91,8 @@ static bool advance(loop *l, double until_ticks) {
     const double most = wish->until_s * l->ticks_per_s;
     const double end = until_ticks < most ? until_ticks : most;
     const double piece = (l->watched ? WATCHED_PIECE_S : PIECE_S) * l->ticks_per_s;
-    while (!plant_has_reached(&l->plant, end)) {
+    const unsigned resets = l->plant.reset.count;
+    while (!plant_has_reached(&l->plant, end) && l->plant.reset.count == resets) {
         const double next = plant_now(&l->plant) + piece;
         if (!plant_advance(&l->plant, next < end ? next : end)) {
             return false;
@@ -100,6 +101,18 @@ static bool advance(loop *l, double until_ticks) {
         if (wish->guest.stop != NULL && *wish->guest.stop != 0) {
             break;
         }
+    }
+    return true;
+}
+
+static bool advance_or_tell(loop *l, double until_ticks) {
+    if (!advance(l, until_ticks)) {
+        fprintf(stderr,
+                "whirl pil: error: the plant left all bounds at t = %.9g s (%s)\n"
+                "hint: a smaller --step, or look at what the firmware told it to do\n",
+                plant_s(l), wh_status_text(l->plant.status));
+        l->report->end = LOCKSTEP_FAILED;
+        return false;
     }
     return true;
 }
@@ -113,18 +126,34 @@ static bool plant_goes_on(loop *l, const wh_orders *orders, double late_s) {
     note_most(&r->busy, busy, plant_s(l));
     const double late = late_s * l->ticks_per_s;
     plant_order(&l->plant, orders, acted * ticks + late);
-    if (!advance(l, next_ticks(l, orders, busy * ticks + late))) {
-        fprintf(stderr,
-                "whirl pil: error: the plant left all bounds at t = %.9g s (%s)\n"
-                "hint: a smaller --step, or look at what the firmware told it to do\n",
-                plant_s(l), wh_status_text(l->plant.status));
-        r->end = LOCKSTEP_FAILED;
+    if (!advance_or_tell(l, next_ticks(l, orders, busy * ticks + late))) {
         return false;
     }
     if (l->plant.cut && !r->cut) {
         r->cut = true;
         r->cut_s = l->plant.cut_ticks / l->ticks_per_s;
     }
+    return true;
+}
+
+static bool is_over(loop *l) {
+    const bool over = plant_s(l) >= l->talk.wish->until_s;
+    l->report->end = over ? LOCKSTEP_LET_GO : l->report->end;
+    return over;
+}
+
+/* The processor was reset: it stays in it for its time, and starts again. */
+static bool restart(loop *l) {
+    plant *p = &l->plant;
+    wh_reset reset = l->talk.remembered;
+    reset.cause = p->reset.starved ? WH_RESET_WATCHDOG : WH_RESET_OTHER;
+    l->report->resets = p->reset.count;
+    l->report->reset_s = p->reset.last_ticks / l->ticks_per_s;
+    if (!advance_or_tell(l, p->reset.last_ticks + p->reset.takes_ticks) || is_over(l) ||
+        !talk_restart(&l->talk, plant_ticks(p), &reset)) {
+        return false;
+    }
+    plant_restart(p);
     return true;
 }
 
@@ -140,11 +169,8 @@ static void take_turns(loop *l) {
         }
         double late_s = 0.0;
         tell_taps_orders(l, &orders, &late_s);
-        if (!plant_goes_on(l, &orders, late_s)) {
-            return;
-        }
-        if (plant_s(l) >= l->talk.wish->until_s) {
-            l->report->end = LOCKSTEP_LET_GO;
+        if (!plant_goes_on(l, &orders, late_s) || is_over(l) ||
+            (l->plant.reset.now && !restart(l))) {
             return;
         }
     }

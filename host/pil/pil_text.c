@@ -53,6 +53,9 @@ void pil_print(FILE *out, const lockstep_wish *wish, const image *im, const lock
         print_plant(out, im, r);
         print_computing(out, wish, r);
     }
+    if (r->resets > 0) {
+        fprintf(out, "resets             %u, the last at t = %.6g s\n", r->resets, r->reset_s);
+    }
     print_notes(out, r);
     fprintf(out, "exchanges          %" PRIu64 " in %.9g s of the plant's time", r->exchanges,
             r->time_s);

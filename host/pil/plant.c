@@ -1,6 +1,7 @@
 /* plant.c: sensors and actuators round a scene. */
 #include "plant.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -31,7 +32,9 @@ void plant_start(plant *p, const image *im, const binding *b, const wh_hello *he
                  .wish = *wish,
                  .run = engine_double.start(im),
                  .step_ticks = im->step_s * (double)hello->ticks_per_s,
-                 .start_ticks = hello->start_ticks};
+                 .start_ticks = hello->start_ticks,
+                 .timer_ticks = hello->start_ticks,
+                 .reset = {.at_ticks = (double)INFINITY}};
     p->wish.jitter_s *= (double)hello->ticks_per_s;
     p->wish.delay_s *= (double)hello->ticks_per_s;
     p->before = room(components(p), sizeof *p->before);
@@ -88,7 +91,12 @@ static void set_inputs(plant *p) {
             const double low = (double)b->signal.low;
             const double high = (double)b->signal.high;
             const double held = value > high ? high : value >= low ? value : low; /* NaN: low */
-            engine_double.set_input(p->run, b->index, p->cut ? 0.0 : held);
+            const double now = p->cut || p->reset.now ? 0.0 : held;
+            engine_double.set_input(p->run, b->index, now);
+            if (now != p->in_effect[b->channel]) {
+                p->in_effect[b->channel] = now;
+                p->since_ticks[b->channel] = plant_now(p);
+            }
         }
     }
 }
@@ -113,10 +121,42 @@ void plant_order(plant *p, const wh_orders *orders, double late_ticks) {
 static void watch(plant *p) {
     if (!p->cut && p->orders.watchdog_ticks > 0 &&
         plant_now(p) - (double)p->alive_ticks > (double)p->orders.watchdog_ticks) {
+        if (p->reset.by_watchdog) {
+            p->reset.starved = true;
+            p->reset.at_ticks = plant_now(p);
+            p->reset.takes_ticks = p->reset.watchdog_ticks;
+            return;
+        }
         p->cut = true;
         p->cut_ticks = plant_now(p);
         set_inputs(p);
     }
+}
+
+/* --- a reset of the controller ----------------------------------------------------------------------------*/
+
+/* True when it is in one. Orders that have not taken effect never do. */
+static bool is_reset(plant *p) {
+    if (!p->reset.now && plant_has_reached(p, p->reset.at_ticks)) {
+        p->reset.now = true;
+        p->reset.at_ticks = (double)INFINITY;
+        p->reset.last_ticks = plant_now(p);
+        p->reset.count++;
+        p->waits = false;
+        p->cut = false;
+        p->orders = (wh_orders){.watchdog_ticks = 0};
+        set_inputs(p);
+        return true;
+    }
+    return false;
+}
+
+void plant_restart(plant *p) {
+    p->reset.now = false;
+    p->reset.starved = false;
+    p->start_ticks = p->timer_ticks - (uint32_t)(uint64_t)number_floor(plant_now(p) + NEARLY);
+    p->edges.count = 0;
+    p->samples.count = 0;
 }
 
 /* --- what the sensors see -----------------------------------------------------------------------------------*/
@@ -278,6 +318,9 @@ bool plant_advance(plant *p, double until_ticks) {
             take_effect(p);
         }
         watch(p);
+        if (is_reset(p)) {
+            return true;
+        }
         if (!step(p)) {
             return false;
         }

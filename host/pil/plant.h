@@ -35,6 +35,18 @@ typedef struct plant_queue {
     unsigned count;
 } plant_queue;
 
+/* Of the controller's processor: in a reset its pins float, and the plant's inputs are 0. */
+typedef struct plant_resets {
+    double at_ticks;    /* it is reset at the first step at or after; infinite: not at all */
+    double takes_ticks; /* so long it is in it */
+    bool by_watchdog;   /* a watchdog that is starved resets it, instead of cutting the outputs, */
+    double watchdog_ticks; /* for so long */
+    bool now;              /* it is in it: somebody has to start it again, see plant_restart() */
+    bool starved;          /* and the watchdog was it */
+    unsigned count;
+    double last_ticks; /* it was reset */
+} plant_resets;
+
 typedef struct plant {
     const image *image;
     const binding *binding;
@@ -43,12 +55,13 @@ typedef struct plant {
     wh_status status;
     uint64_t steps;
     double step_ticks;
-    uint32_t start_ticks;
-    double *before;                  /* [components] angles first */
-    double *after;                   /* [components] */
-    double *output;                  /* [outputs] */
-    double *output_after;            /* [outputs] */
-    bool sees_outputs;               /* an edge is on one */
+    uint32_t start_ticks; /* the controller's timer at the start, were it not set back since */
+    uint32_t timer_ticks; /* what it begins with */
+    double *before;       /* [components] angles first */
+    double *after;        /* [components] */
+    double *output;       /* [outputs] */
+    double *output_after; /* [outputs] */
+    bool sees_outputs;    /* an edge is on one */
     uint64_t period[WH_SIGNALS_MAX]; /* of each sample: ticks, */
     uint64_t due[WH_SIGNALS_MAX];    /* and when the next is */
     wh_orders orders;                /* the last, */
@@ -57,6 +70,9 @@ typedef struct plant {
     uint64_t alive_ticks;            /* the watchdog was kicked */
     bool cut;                        /* it has cut, */
     double cut_ticks;                /* then */
+    plant_resets reset;
+    double in_effect[WH_SIGNALS_MAX];   /* of each output: what it is, */
+    double since_ticks[WH_SIGNALS_MAX]; /* since then */
     plant_queue edges;
     plant_queue samples;
     uint64_t edges_made;
@@ -79,8 +95,12 @@ bool plant_has_reached(const plant *p, double ticks);
 /* Orders that were sent now and take effect `late_ticks` later, or at the next orders if those come before. */
 void plant_order(plant *p, const wh_orders *orders, double late_ticks);
 
-/* To the first step's end at or after until_ticks. False: the scene diverged; plant.status says how. */
+/* To the first step's end at or after until_ticks, or until the processor is reset, whichever is first. False: the scene
+ * diverged; plant.status says how. */
 bool plant_advance(plant *p, double until_ticks);
+
+/* The processor starts again: its timer begins anew, the watchdog hears of no one, and what was not handed out is lost. */
+void plant_restart(plant *p);
 
 /* What is there by now and was not handed out yet. */
 void plant_read(plant *p, wh_readings *readings);

@@ -8,27 +8,9 @@
 #include "talk.h"
 #include "taped.h"
 
-/* All that matters to the exchange; not who speaks, nor how it counts. */
-static bool is_same_hello(const wh_hello *one, const wh_hello *other) {
-    bool same = one->ticks_per_s == other->ticks_per_s && one->start_ticks == other->start_ticks &&
-                one->signals == other->signals && strcmp(one->program, other->program) == 0;
-    for (unsigned i = 0; same && i < one->signals; i++) {
-        const wh_signal *a = &one->signal[i];
-        const wh_signal *b = &other->signal[i];
-        same = a->kind == b->kind && strcmp(a->name, b->name) == 0 &&
-               strcmp(a->unit, b->unit) == 0 && memcmp(&a->low, &b->low, sizeof a->low) == 0 &&
-               memcmp(&a->high, &b->high, sizeof a->high) == 0 &&
-               memcmp(&a->per_count, &b->per_count, sizeof a->per_count) == 0 &&
-               a->period_ticks == b->period_ticks;
-    }
-    return same;
-}
-
-static void say_difference(const wh_orders *kept, const wh_orders *now, uint32_t since_ticks,
-                           const talk *t) {
+static void say_difference(const wh_orders *kept, const wh_orders *now, const talk *t) {
     fprintf(stderr, "whirl pil: error: exchange %llu, t = %.6f s: other orders than on the tape\n",
-            (unsigned long long)t->report->exchanges,
-            (double)since_ticks / (double)t->hello.ticks_per_s);
+            (unsigned long long)t->report->exchanges, t->report->time_s);
     for (unsigned i = 0; i < now->outputs && i < kept->outputs; i++) {
         if (memcmp(&now->output[i], &kept->output[i], sizeof now->output[i]) != 0) {
             fprintf(stderr, "hint: output %u is %.9g, on the tape %.9g\n", i + 1,
@@ -46,8 +28,10 @@ static bool play(taped *from, talk *t) {
         r->end = from->failed ? LOCKSTEP_BAD : LOCKSTEP_LET_GO;
         return false;
     }
-    const uint32_t since = kept.ticks - t->hello.start_ticks;
-    r->time_s = (double)since / (double)t->hello.ticks_per_s;
+    r->time_s = kept.time_s;
+    if (kept.is_reset) {
+        return talk_restart(t, kept.ticks, &kept.reset);
+    }
     if (!talk_tell(t, kept.ticks, &kept.readings) || !talk_hear(t, &now)) {
         if (r->end == LOCKSTEP_DONE && kept.answered) {
             fprintf(stderr,
@@ -62,9 +46,9 @@ static bool play(taped *from, talk *t) {
         r->end = LOCKSTEP_LET_GO;
         return false;
     }
-    r->tape_hash = talk_hash(r->tape_hash, &kept.orders);
+    r->tape_hash = from->hash;
     if (r->tape_hash != r->hash) {
-        say_difference(&kept.orders, &now, since, t);
+        say_difference(&kept.orders, &now, t);
         r->end = LOCKSTEP_DIFFERENT;
         return false;
     }
@@ -81,7 +65,7 @@ void lockstep_replay(const lockstep_wish *wish, const char *file, lockstep_repor
     if (!taped_open(from, file)) {
         report->end = LOCKSTEP_BAD;
     } else if (talk_start(t, wish, report, NULL)) {
-        if (!is_same_hello(&from->hello, &t->hello)) {
+        if (!talk_is_same_hello(&from->hello, &t->hello)) {
             fprintf(stderr,
                     "%s: error: it is of '%s', whose signals are not those of the firmware '%s'\n",
                     file, from->hello.program, t->hello.program);

@@ -73,6 +73,8 @@ typedef struct lockstep_report {
     uint64_t lost;
     bool cut;            /* the watchdog has cut the outputs, */
     double cut_s;        /* then */
+    unsigned resets;     /* of the firmware's processor, */
+    double reset_s;      /* the last then */
     uint64_t hash;       /* of all orders, but for what was counted */
     uint64_t tape_hash;  /* of a tape's */
     uint64_t plant_hash; /* of the scene's last state */

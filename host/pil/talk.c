@@ -57,15 +57,9 @@ static bool fail(talk *t, const char *what) {
     return false;
 }
 
-bool talk_tell(talk *t, uint32_t ticks, const wh_readings *readings) {
-    uint8_t payload[WH_READINGS_BYTES];
+static bool say(talk *t, const wh_frame *frame) {
     uint8_t coded[WH_FRAME_BYTES(WH_READINGS_BYTES)];
-    const wh_frame frame = {.kind = WH_FRAME_READINGS,
-                            .sequence = t->sequence,
-                            .ticks = ticks,
-                            .payload = payload,
-                            .length = wh_readings_put(readings, payload, sizeof payload)};
-    const unsigned count = wh_frame_write(&frame, coded, sizeof coded);
+    const unsigned count = wh_frame_write(frame, coded, sizeof coded);
     keep_on_tape(t, coded, count);
     switch (guest_send(&t->guest, coded, count)) {
     case GUEST_FRAME: return true;
@@ -77,9 +71,36 @@ bool talk_tell(talk *t, uint32_t ticks, const wh_readings *readings) {
     return false;
 }
 
+bool talk_tell(talk *t, uint32_t ticks, const wh_readings *readings) {
+    uint8_t payload[WH_READINGS_BYTES];
+    const wh_frame frame = {.kind = WH_FRAME_READINGS,
+                            .sequence = t->sequence,
+                            .ticks = ticks,
+                            .payload = payload,
+                            .length = wh_readings_put(readings, payload, sizeof payload)};
+    return say(t, &frame);
+}
+
+/* The next frame that is not there to be remembered. */
+static bool hear_past_remembered(talk *t, wh_frame *frame) {
+    while (hear_frame(t, frame)) {
+        if (frame->kind != WH_FRAME_REMEMBER) {
+            return true;
+        }
+        if (frame->length > WH_REMEMBER_MAX) {
+            return fail(t, "more than can be remembered");
+        }
+        keep_heard(t, frame);
+        t->report->hash = talk_hash_bytes(t->report->hash, frame->payload, frame->length);
+        t->remembered.count = frame->length;
+        memcpy(t->remembered.remembered, frame->payload, frame->length);
+    }
+    return false;
+}
+
 bool talk_hear(talk *t, wh_orders *orders) {
     wh_frame frame;
-    if (!hear_frame(t, &frame)) {
+    if (!hear_past_remembered(t, &frame)) {
         return false;
     }
     if (frame.kind != WH_FRAME_ORDERS || frame.sequence != t->sequence) {
@@ -110,6 +131,14 @@ uint64_t talk_hash(uint64_t hash, const wh_orders *orders) {
     return hash;
 }
 
+uint64_t talk_hash_bytes(uint64_t hash, const uint8_t *bytes, unsigned count) {
+    hash = wh_hash_u64(hash, count);
+    for (unsigned i = 0; i < count; i++) {
+        hash = wh_hash_u64(hash, bytes[i]);
+    }
+    return hash;
+}
+
 /* --- beginning and end ------------------------------------------------------------------------------------------*/
 
 /* It ended before it has said anything; what cannot be run at all has been told by what was to become it. */
@@ -128,7 +157,8 @@ static void say_no_hello(talk *t) {
     }
 }
 
-static bool hear_hello(talk *t) {
+/* Into the caller's words and signals. */
+static bool take_hello(talk *t, wh_hello *hello, wh_signal *signal, uint8_t *words, unsigned room) {
     wh_frame frame;
     if (!hear_frame(t, &frame)) {
         if (t->report->end == LOCKSTEP_DONE) { /* before it has said anything */
@@ -136,12 +166,20 @@ static bool hear_hello(talk *t) {
         }
         return false;
     }
-    if (frame.kind != WH_FRAME_HELLO || frame.length > sizeof t->words) {
+    if (frame.kind != WH_FRAME_HELLO || frame.length > room) {
         return fail(t, "no hello");
     }
-    memcpy(t->words, frame.payload, frame.length);
-    if (!wh_hello_get(&t->hello, t->signal, t->words, frame.length) || t->hello.ticks_per_s == 0) {
+    memcpy(words, frame.payload, frame.length);
+    if (!wh_hello_get(hello, signal, words, frame.length) || hello->ticks_per_s == 0) {
         return fail(t, "a hello that is none");
+    }
+    keep_heard(t, &frame);
+    return true;
+}
+
+static bool hear_hello(talk *t) {
+    if (!take_hello(t, &t->hello, t->signal, t->words, sizeof t->words)) {
+        return false;
     }
     for (unsigned i = 0; i < t->hello.signals; i++) {
         const wh_signal *s = &t->signal[i];
@@ -152,10 +190,24 @@ static bool hear_hello(talk *t) {
             snprintf(note->unit, sizeof note->unit, "%s", s->unit);
         }
     }
-    keep_heard(t, &frame);
     snprintf(t->report->program, sizeof t->report->program, "%s", t->hello.program);
     snprintf(t->report->board, sizeof t->report->board, "%s", t->hello.board);
     return true;
+}
+
+bool talk_is_same_hello(const wh_hello *one, const wh_hello *other) {
+    bool same = one->ticks_per_s == other->ticks_per_s && one->start_ticks == other->start_ticks &&
+                one->signals == other->signals && strcmp(one->program, other->program) == 0;
+    for (unsigned i = 0; same && i < one->signals; i++) {
+        const wh_signal *a = &one->signal[i];
+        const wh_signal *b = &other->signal[i];
+        same = a->kind == b->kind && strcmp(a->name, b->name) == 0 &&
+               strcmp(a->unit, b->unit) == 0 && memcmp(&a->low, &b->low, sizeof a->low) == 0 &&
+               memcmp(&a->high, &b->high, sizeof a->high) == 0 &&
+               memcmp(&a->per_count, &b->per_count, sizeof a->per_count) == 0 &&
+               a->period_ticks == b->period_ticks;
+    }
+    return same;
 }
 
 bool talk_start(talk *t, const lockstep_wish *wish, lockstep_report *report, FILE *onto) {
@@ -166,6 +218,31 @@ bool talk_start(talk *t, const lockstep_wish *wish, lockstep_report *report, FIL
         return false;
     }
     return hear_hello(t);
+}
+
+/* How the last one ended counts for nothing. */
+bool talk_restart(talk *t, uint32_t ticks, const wh_reset *reset) {
+    uint8_t words[GUEST_LINE_BYTES];
+    wh_signal signal[WH_SIGNALS_MAX];
+    wh_hello hello;
+    uint8_t payload[WH_RESET_BYTES];
+    const wh_frame frame = {.kind = WH_FRAME_RESET,
+                            .ticks = ticks,
+                            .payload = payload,
+                            .length = wh_reset_put(reset, payload, sizeof payload)};
+    (void)guest_end(&t->guest);
+    if (!guest_start(&t->guest, &t->wish->guest)) {
+        t->report->end = LOCKSTEP_FAILED;
+        return false;
+    }
+    t->sequence = 0;
+    if (!take_hello(t, &hello, signal, words, sizeof words)) {
+        return false;
+    }
+    if (!talk_is_same_hello(&hello, &t->hello)) {
+        return fail(t, "another hello than before its reset");
+    }
+    return say(t, &frame);
 }
 
 double talk_instructions_per_count(const wh_hello *hello) {

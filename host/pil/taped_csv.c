@@ -109,6 +109,15 @@ static void print_orders(rows *r, const wh_orders *orders) {
     r->told = true;
 }
 
+/* The firmware knows of nothing that was before, and its timer begins anew. */
+static void print_reset(rows *r, const wh_reset *reset) {
+    begin_row(r, r->ticks, "reset");
+    fprintf(r->out, ",,,,%s\n", reset->cause == WH_RESET_WATCHDOG ? "watchdog" : "other");
+    r->ticks = r->tape->hello.start_ticks;
+    r->cut = false;
+    r->told = false;
+}
+
 /* False: not all could be read, which was reported, or written. */
 static bool print_rows(taped *t, FILE *out) {
     rows r = {.tape = t, .out = out, .ticks = t->hello.start_ticks};
@@ -120,6 +129,10 @@ static bool print_rows(taped *t, FILE *out) {
     while (ferror(out) == 0 && taped_next(t, &turn)) {
         r.heard += turn.ticks - r.ticks;
         r.ticks = turn.ticks;
+        if (turn.is_reset) {
+            print_reset(&r, &turn.reset);
+            continue;
+        }
         print_readings(&r, &turn.readings);
         if ((turn.readings.flags & WH_READING_CUT) != 0 && !r.cut) {
             begin_row(&r, r.ticks, "cut");

@@ -66,11 +66,34 @@ verdict $? "and so do sensors that die" "$scratch/run"
 run hang=100ms@5s
 grep -aq '^watchdog .* t = 5.02' "$scratch/run" && [ "$(told trip "$scratch/run")" -ne 0 ]
 verdict $? "one that hangs is cut by the watchdog" "$scratch/run"
+run watchdog-resets,hang=100ms@5s
+! grep -aq '^watchdog' "$scratch/run" && grep -aq '^resets  *1, the last at t = 5.02' "$scratch/run" &&
+    grep -aq '^RESET by the watchdog: nothing moves by itself' "$scratch/run" && [ "$(told reset "$scratch/run")" -eq 1 ]
+verdict $? "or is reset by it, and then leaves the rig alone" "$scratch/run"
+run stop@5s+10ms
+grep -aq '^STOPPED: ' "$scratch/run" && grep -aq '^5.002 s  coast' "$scratch/run" && ! grep -aq '^Measured' "$scratch/run"
+verdict $? "stop is heard in the next control step" "$scratch/run"
+run cell-open:3@5s+10ms
+grep -aq '^STOPPED: ' "$scratch/run" && grep -aq '^5.00[024] s  coast' "$scratch/run"
+verdict $? "a stop line that is broken counts as pressed" "$scratch/run"
+run stop@0.5s+10ms
+grep -aq '^STOPPED: ' "$scratch/run" && ! grep -aq armed "$scratch/run"
+verdict $? "and one that was pressed before it armed is not forgotten" "$scratch/run"
+
+# --- stopped, and reset ---------------------------------------------------------------------------------------------------
+# Of each class some, at drawn instants: off at once, idle or tripped as before, and nothing starts by itself.
+few=12
+[ -z "${WHIRL_FULL:-}" ] || few=100
+for only in stop reset reset-tripped hang-resets; do
+    timeout 300 "$build/tools/faults" --firmware "$build/pil_rig" --only $only --runs $few --seed 9 >"$scratch/halts" 2>"$scratch/err" &&
+        grep -q "^| $only | $few |" "$scratch/halts"
+    verdict $? "$few runs of $only" "$scratch/halts"
+done
 
 # --- the campaign -----------------------------------------------------------------------------------------------------
 faults=$build/tools/faults
 for jobs in 2 1; do
-    timeout 300 "$faults" --firmware "$build/pil_rig" --runs $runs --seed 4 --jobs $jobs >"$scratch/campaign.$jobs" 2>"$scratch/err"
+    timeout 300 "$faults" --firmware "$build/pil_rig" --runs $runs --seed 7 --jobs $jobs >"$scratch/campaign.$jobs" 2>"$scratch/err"
     verdict $? "$runs runs on $jobs processes find nothing wrong" "$scratch/campaign.$jobs"
     [ -n "${WHIRL_FULL:-}" ] || break
 done
@@ -82,7 +105,7 @@ fi
 verdict $? "healthy runs are among them" "$scratch/campaign.2"
 m4=build/mps2-an386/pil_rig.elf
 if [ -n "${WHIRL_FULL:-}" ] && command -v qemu-system-arm >/dev/null 2>&1 && [ -f "$m4" ]; then
-    timeout 300 "$faults" --firmware "$m4" --runs 60 --seed 4 >"$scratch/campaign" 2>"$scratch/err"
+    timeout 300 "$faults" --firmware "$m4" --runs 60 --seed 7 >"$scratch/campaign" 2>"$scratch/err"
     verdict $? "nor in the emulator" "$scratch/campaign"
 fi
 for words in '' '--firmware' "--firmware $build/pil_rig --runs x" "--firmware $build/pil_rig --only nothing" '--what 3'; do

@@ -51,7 +51,7 @@ verdict $? "the rig's software on this machine runs to its end"
 close_to "$(number speed "$scratch/pc")" 330 0.5 && close_to "$(number 'measured \/ formula' "$scratch/pc")" 100 0.5 &&
     close_to "$(number 'mean force' "$scratch/pc")" 0 0.05
 verdict $? "330 rpm, and the formula's force" "$scratch/pc"
-grep -aq '^it tells .* quality 0, amplitude .* N, .* turns 10$' "$scratch/pc" &&
+grep -aq '^it tells .* quality 0, amplitude .* N, .* turns 10, reset 0$' "$scratch/pc" &&
     close_to "$(sed -n 's/^it tells .* amplitude \([0-9.]*\) N.*/\1/p' "$scratch/pc")" "$(number 'force, once per turn' "$scratch/pc")" 0.006
 verdict $? "and it tells so" "$scratch/pc"
 
@@ -93,6 +93,24 @@ if [ -n "$boards" ]; then
         [ "$(line 'command stream' "$scratch/out.1.5")" != "$(line 'command stream' "$scratch/out.15")" ]
     verdict $? "what is slower overruns, with as many instructions" "$scratch/out.1.5"
 fi
+
+# --- a trip, then resets --------------------------------------------------------------------------------------------------
+# Reset twice with a trip latched: another program each time, which knows the trip and nothing else; the same on each processor.
+fault='cell-open@6s,reset@6.4003,reset=0.05@7.7'
+# shellcheck disable=SC2086
+timeout 60 "$whirl" pil $rig --step 200us --fault "$fault" --firmware "$build/pil_rig" --tape "$scratch/reset.tape" >"$scratch/reset" 2>"$scratch/err"
+[ $? -eq 1 ] && grep -aq '^TRIPPED: the load cell' "$scratch/reset" && grep -aq '^RESET: nothing moves by itself' "$scratch/reset" &&
+    [ "$(grep -ac '^Eccentric-mass rig on board' "$scratch/reset")" = 3 ] && [ "$(grep -ac '^0.000 s  tripped' "$scratch/reset")" = 2 ] &&
+    grep -aq '^resets  *2, the last at t = 7.7' "$scratch/reset" && grep -aq '^it tells .* state 4, trip 5, .* reset 2$' "$scratch/reset"
+verdict $? "a trip is latched through two resets, and told" "$scratch/reset"
+for board in $boards pc; do
+    image=build/$board/pil_rig.elf
+    [ $board != pc ] || image=$build/pil_rig
+    timeout 60 "$whirl" pil --replay "$scratch/reset.tape" --firmware "$image" --board ${boards%% *} >"$scratch/out" 2>"$scratch/err"
+    [ $? -eq 1 ] && grep -aq "^command stream  *$(line 'command stream' "$scratch/reset"), as on the tape$" "$scratch/out" &&
+        [ "$(line exchanges "$scratch/out" | cut -d' ' -f1-3)" = "$(line exchanges "$scratch/reset" | cut -d' ' -f1-3)" ]
+    verdict $? "its tape gives the same answers on $board" "$scratch/out"
+done
 
 # --- any scene ----------------------------------------------------------------------------------------------------------
 for start in 0.1 -0.1 0.17; do
@@ -159,8 +177,12 @@ awk -F, -v told="$(sed -n 's/^it tells .* amplitude \([0-9.]*\) N.*/\1/p' "$scra
     $5 == "amplitude" { amplitude = $6 }
     $5 == "state" && $6 == before { bad++ }
     $5 == "state" { before = $6 }
-    END { d = amplitude - told; exit !(bad == 0 && d < 1e-4 && d > -1e-4 && before == 15) }' "$scratch/rows"
+    END { d = amplitude - told; exit !(bad == 0 && d < 1e-4 && d > -1e-4 && before == 0) }' "$scratch/rows"
 verdict $? "values are those of plant and firmware"
+"$whirl" pil --read "$scratch/reset.tape" >"$scratch/resets" 2>"$scratch/err" &&
+    awk -F, '$1 < before - 1e-3 { bad++ } { before = $2 } $3 == "reset" { n++; at[n] = $2; bad += $8 != "other" || NF != 8 }
+        END { exit !(n == 2 && bad == 0 && at[1] > 6.4 && at[1] < 6.41 && at[2] > 7.699 && at[2] < 7.701) }' "$scratch/resets"
+verdict $? "resets are rows, and time goes on behind them" "$scratch/resets"
 "$whirl" pil --read "$scratch/pc.tape" --csv "$scratch/rows.csv" && cmp -s "$scratch/rows" "$scratch/rows.csv"
 verdict $? "--csv FILE is the same"
 # shellcheck disable=SC2086

@@ -32,6 +32,7 @@ void plant_control(on_plant *on) {
     }
     const wh_rig_inputs inputs = {.now_ticks = hal_clock_ticks(),
                                   .supply_V = hal_motor_supply_V(),
+                                  .stop_pressed = hal_stop_pressed(),
                                   .watchdog_has_cut = hal_watchdog_has_cut()};
     on->command = wh_rig_step(&on->config, &on->rig, &inputs);
     if (on->command.way == WH_MOTOR_DRIVES) {
@@ -39,6 +40,7 @@ void plant_control(on_plant *on) {
     } else {
         hal_motor_off(on->command.way == WH_MOTOR_BRAKES ? HAL_MOTOR_BRAKE : HAL_MOTOR_COAST);
     }
+    trip_memory_keep(&on->memory, &on->rig);
     hal_watchdog_kick(); /* tripped too */
     const float speed = hal_virtual_rig_speed_radps(hal_virtual_rig_instance());
     on->fastest_radps = speed > on->fastest_radps ? speed : on->fastest_radps;
@@ -50,7 +52,21 @@ wh_refusal plant_order(on_plant *on, wh_rig_event event, float value) {
     return on->rig.answer;
 }
 
-void plant_arm(on_plant *on) {
+static void begin_control(on_plant *on) {
+    TEST_ASSERT_TRUE(hal_clock_start());
+    trip_memory_start(&on->memory, &on->config, &on->rig, hal_clock_ticks());
+    hal_watchdog_start(10U * CONTROL_TICKS);
+}
+
+void plant_reset(on_plant *on, hal_reset cause) {
+    hal_virtual_rig_reset(hal_virtual_rig_instance(), cause);
+    on->rig =
+        (wh_rig){.state = WH_LIFE_ARMED, .run.phase = WH_PHASE_RECORD}; /* no memory is zero */
+    on->memory = (trip_memory){.record.trip = WH_TRIP_NONE};
+    begin_control(on);
+}
+
+void plant_start(on_plant *on) {
     on->config = wh_rig_standard;
     on->config.measure.cell = (wh_cell_config){.newton_per_count = HAL_LOADCELL_N_PER_COUNT,
                                                .period_ticks = HAL_LOADCELL_PERIOD_TICKS,
@@ -60,12 +76,15 @@ void plant_arm(on_plant *on) {
     scattered_state = UINT64_C(0x5eed0041);
     on->fastest_radps = 0.0f;
     on->noise_N = 0.0f;
-    TEST_ASSERT_TRUE(hal_clock_start());
-    wh_rig_start(&on->config, &on->rig, hal_clock_ticks(), NULL);
-    hal_watchdog_start(10U * CONTROL_TICKS);
+    on->memory = (trip_memory){.record.trip = WH_TRIP_NONE};
+    begin_control(on);
     for (unsigned i = 0; i < 1000U && !on->rig.guard.quiet; i++) {
         plant_control(on);
     }
+}
+
+void plant_arm(on_plant *on) {
+    plant_start(on);
     TEST_ASSERT_TRUE(plant_order(on, WH_EVENT_ARM, 0.0f) == WH_ALLOWED);
 }
 

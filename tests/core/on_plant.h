@@ -7,10 +7,12 @@
 
 #if !WH_DOUBLE
 
+#include "boards/programs/trip_memory.h"
 #include "hal/clock.h"
 #include "hal/loadcell.h"
 #include "hal/motor.h"
 #include "hal/slots.h"
+#include "hal/stop.h"
 #include "hal/virtual/virtual_rig.h"
 #include "hal/watchdog.h"
 
@@ -21,6 +23,7 @@ typedef struct on_plant {
     wh_rig rig;
     wh_rig_config config;
     wh_rig_command command;
+    trip_memory memory;
     float fastest_radps; /* of the rotor itself, not as measured */
     float noise_N;       /* standard deviation of what is added to each sample */
 } on_plant;
@@ -31,7 +34,11 @@ void plant_control(on_plant *on);
 /* Post an order, step, and return the answer. */
 wh_refusal plant_order(on_plant *on, wh_rig_event event, float value);
 
-/* The hardware and its controller, armed; or at the tare of a run. */
+/* The processor is reset while the rig is as it is, and starts again. */
+void plant_reset(on_plant *on, hal_reset cause);
+
+/* The hardware and its controller, idle at rest; armed; or at the tare of a run. */
+void plant_start(on_plant *on);
 void plant_arm(on_plant *on);
 void plant_begin(on_plant *on, float target_rpm);
 

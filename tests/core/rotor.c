@@ -44,23 +44,26 @@ static wh_real acceleration(const rotor_kind *kind, wh_real drive, wh_real angle
     return torque / kind->inertia_kgm2;
 }
 
-/* Which sensor was passed between two angles less than half a turn apart, forwards? */
+/* Which sensor was passed between two angles less than half a turn apart? */
 static void watch(const rotor_kind *kind, rotor_state *rotor, wh_real from_rad, wh_real way_rad) {
     for (unsigned sensor = 0; sensor < 2; sensor++) {
-        wh_real to = kind->mark_rad[sensor] - from_rad;
+        const bool back = way_rad < WH_R(0.0) && kind->slot_rad > WH_R(0.0);
+        const wh_real on = kind->mark_rad[sensor] - from_rad;
+        wh_real to = back ? -(on + kind->slot_rad) : on;
         while (to < WH_R(0.0)) {
             to += WH_RIG_TWO_PI;
         }
         while (to >= WH_RIG_TWO_PI) {
             to -= WH_RIG_TWO_PI;
         }
-        if (!(to < way_rad) || rotor->marks == ROTOR_MARKS) {
+        const wh_real way = back ? -way_rad : way_rad;
+        if (!(to < way) || rotor->marks == ROTOR_MARKS) {
             continue;
         }
         const wh_real late_s =
             kind->jitter_s * draw_whole(&rotor->seed, -1000, 1000) / WH_R(1000.0);
         const wh_real ticks =
-            (wh_real)SLICE_TICKS * (to / way_rad) + late_s * (wh_real)WH_RIG_TICKS_PER_S;
+            (wh_real)SLICE_TICKS * (to / way) + late_s * (wh_real)WH_RIG_TICKS_PER_S;
         rotor->mark_sensor[rotor->marks] = sensor;
         rotor->mark_ticks[rotor->marks++] = rotor->ticks + (uint32_t)(int32_t)ticks;
     }

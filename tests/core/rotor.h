@@ -18,6 +18,7 @@ typedef struct rotor_kind {
     wh_real friction_Nm; /* Coulomb's, against the motion */
     bool freewheels;     /* less voltage than the motor's own makes no torque, not a braking one */
     wh_real mark_rad[2]; /* where the sensors really fire */
+    wh_real slot_rad;    /* and going back so much further on; 0: not at all */
     wh_real jitter_s;    /* either way, evenly */
 } rotor_kind;
 

@@ -99,6 +99,33 @@ static void test_readings(void) {
     TEST_ASSERT_FALSE(get_readings(sizeof bytes));
 }
 
+static wh_reset reset_out;
+
+/* Any number of remembered bytes, also none; a cause that there is. */
+static void test_reset(void) {
+    seed = 3;
+    for (unsigned count = 0; count <= WH_REMEMBER_MAX; count++) {
+        wh_reset reset = {.cause = count % 2U ? WH_RESET_WATCHDOG : WH_RESET_OTHER, .count = count};
+        for (unsigned i = 0; i < count; i++) {
+            reset.remembered[i] = (uint8_t)draw_word();
+        }
+        const unsigned length = wh_reset_put(&reset, bytes, WH_RESET_BYTES);
+        TEST_ASSERT_EQUAL_UINT(1U + count, length);
+        TEST_ASSERT_TRUE(wh_reset_get(&reset_out, bytes, length));
+        TEST_ASSERT_EQUAL_UINT(reset.cause, reset_out.cause);
+        TEST_ASSERT_EQUAL_UINT(count, reset_out.count);
+        TEST_ASSERT_EQUAL_INT(0, __builtin_memcmp(reset.remembered, reset_out.remembered, count));
+        TEST_ASSERT_EQUAL_UINT(0, wh_reset_put(&reset, bytes, length - 1U));
+    }
+    TEST_ASSERT_FALSE(wh_reset_get(&reset_out, bytes, 0));
+    TEST_ASSERT_FALSE(wh_reset_get(&reset_out, bytes, WH_RESET_BYTES + 1U));
+    for (unsigned cause = 0; cause < 256; cause++) {
+        bytes[0] = (uint8_t)cause;
+        TEST_ASSERT_TRUE(wh_reset_get(&reset_out, bytes, 5) ==
+                         (cause == WH_RESET_WATCHDOG || cause == WH_RESET_OTHER));
+    }
+}
+
 static const wh_signal signals[] = {
     {WH_SIGNAL_OUTPUT, "duty", "1", 0.0f, 1.0f, 0.0f, 0},
     {WH_SIGNAL_SAMPLE, "cell_force", "N", -222.0f, 222.0f, 0.0068f, 2000},
@@ -164,6 +191,7 @@ static void test_noise(void) {
 void suite_exchange(void) {
     RUN_TEST(test_orders);
     RUN_TEST(test_readings);
+    RUN_TEST(test_reset);
     RUN_TEST(test_hello);
     RUN_TEST(test_noise);
 }

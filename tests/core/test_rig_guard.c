@@ -64,6 +64,39 @@ static void test_over_speed_trips(void) {
     TEST_ASSERT_TRUE(trip_at(WH_R(200.0), 2) == WH_TRIP_RUNS_ON);
 }
 
+/* Two marks that climb and an interval beyond the bound are a runaway; less than that is none. */
+static void test_what_climbs_and_is_fast_trips(void) {
+    const wh_guard_config *config = &wh_rig_standard.guard;
+    const wh_real turn = WH_R(345.0) * RPM;
+    for (unsigned fast = 0; fast < 2U; fast++) {
+        for (unsigned part = 0; part <= 10U; part++) { /* of twice what it may climb */
+            wh_guard guard;
+            wh_guard_start(&guard, 0);
+            wh_pulses pulses;
+            wh_pulses_start(&pulses, WH_R(800.0) * RPM);
+            pulses.fast = fast;
+            pulses.speed.known = true;
+            pulses.speed.turn_radps = turn;
+            pulses.climb_radps = WH_R(2.2) * config->climb * turn * WH_R(0.1) * (wh_real)part;
+            pulses.climb_before_radps = WH_R(2.2) * config->climb * turn - pulses.climb_radps;
+            wh_guard_speed(config, &guard, &pulses, WH_TRIP_OVERSPEED, true);
+            const bool both = part > 0 && part < 10U;
+            TEST_ASSERT_TRUE((guard.trip == WH_TRIP_OVERSPEED) == (both && fast > 0));
+            guard.trip = WH_TRIP_NONE;
+            pulses.climb_radps *= WH_R(0.4);
+            pulses.climb_before_radps *= WH_R(0.4);
+            wh_guard_speed(config, &guard, &pulses, WH_TRIP_OVERSPEED, true);
+            TEST_ASSERT_TRUE(guard.trip == WH_TRIP_NONE);
+        }
+    }
+    TEST_ASSERT_TRUE(wh_guard_climb_radps2(config, WH_R(20.0) * RPM, true) ==
+                     config->climb_behind_radps2);
+    TEST_ASSERT_TRUE(wh_guard_climb_radps2(config, WH_R(20.0) * RPM, false) ==
+                     config->climb_there_radps2);
+    TEST_ASSERT_TRUE(wh_guard_climb_radps2(config, WH_R(0.0), true) == config->climb_there_radps2);
+    TEST_ASSERT_TRUE(wh_guard_climb_radps2(config, WH_R(-20.0) * RPM, true) < WH_R(0.0));
+}
+
 /* A rotor without drive that is led round at the bottom and falls from the top has there what its energy gives it. */
 static void test_the_bound_is_what_gravity_makes_of_a_speed(void) {
     const wh_guard_config *config = &wh_rig_standard.guard;
@@ -214,6 +247,7 @@ void suite_rig_guard(void) {
     RUN_TEST(test_speed_limit_follows_from_the_shaft);
     RUN_TEST(test_guard_refuses_set_points);
     RUN_TEST(test_over_speed_trips);
+    RUN_TEST(test_what_climbs_and_is_fast_trips);
     RUN_TEST(test_lost_pulses_and_silence_trip);
     RUN_TEST(test_the_bound_is_what_gravity_makes_of_a_speed);
     RUN_TEST(test_rest_is_remembered);

@@ -1,4 +1,6 @@
 /* test_rig_law.c: the rig's speed drive against its law, written down once more; and a gap's speed. */
+#include <stddef.h>
+
 #include "core/rig/datasheet.h"
 #include "core/rig/rig.h"
 
@@ -23,6 +25,45 @@ static void test_a_gap_has_no_speed_of_its_own(void) {
     TEST_ASSERT_EQUAL_UINT32(1, speed.restarts);
     TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)speed.interval_radps);
     TEST_ASSERT_FLOAT_WITHIN(0.0f, (float)before, (float)speed.turn_radps);
+}
+
+/* Silence is counted from the last pulse, on whichever side of the timer's wrap either lies; a stamp that is later than the
+ * step's own time is none. */
+static void test_silence_goes_on_over_the_wrap(void) {
+    scattered_state = UINT64_C(0x5eed0017);
+    for (unsigned i = 0; i < 1000U; i++) {
+        const uint32_t then = (uint32_t)(scattered() >> 20) % 4000000U - 2000000U;
+        const uint32_t passed = (uint32_t)(scattered() >> 20) % 4000000U;
+        wh_speed speed;
+        wh_speed_start(&speed, wh_rig_standard.impossible_radps);
+        TEST_ASSERT_TRUE(wh_speed_pulse(&speed, 0, then));
+        TEST_ASSERT_FLOAT_WITHIN(1e-5f, (float)passed * 1e-6f,
+                                 (float)wh_speed_silence_s(&speed, then + passed));
+        TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)wh_speed_silence_s(&speed, then - 1U - passed));
+    }
+}
+
+/* --- the motor's voltage ------------------------------------------------------------------------------------ */
+
+/* A voltage that is held because no pulse comes is more than a supply has that sags meanwhile. */
+static void test_no_more_volts_than_the_supply_has(void) {
+    scattered_state = UINT64_C(0x5eed0006);
+    for (unsigned i = 0; i < 200U; i++) {
+        static wh_rig rig;
+        const wh_real supply_V = WH_R(11.0) + WH_R(0.1) * (wh_real)((scattered() >> 20) % 250U);
+        const wh_real held_V = WH_R(0.15) * (wh_real)((scattered() >> 20) % 250U);
+        const wh_rig_inputs inputs = {.now_ticks = 2000U, .supply_V = supply_V};
+        wh_rig_start(&wh_rig_standard, &rig, 0, NULL);
+        wh_run_start(&rig.run, WH_RIG_NOMINAL_RPM * WH_RIG_RADPS_PER_RPM, 0);
+        rig.state = WH_LIFE_RUNNING;
+        rig.run.phase = WH_PHASE_SETTLE;
+        wh_drive_start(&rig.run.drive, rig.run.target_radps, held_V);
+        rig.run.volts = held_V;
+        const wh_rig_command command = wh_rig_step(&wh_rig_standard, &rig, &inputs);
+        TEST_ASSERT_TRUE(command.way == WH_MOTOR_DRIVES);
+        TEST_ASSERT_FLOAT_WITHIN(1e-5f, (float)(held_V < supply_V ? held_V : supply_V),
+                                 (float)command.volts);
+    }
 }
 
 /* --- the drive, against its law written down once more --------------------------------------------------- */
@@ -76,5 +117,7 @@ static void test_the_drive_keeps_its_law(void) {
 
 void suite_rig_law(void) {
     RUN_TEST(test_a_gap_has_no_speed_of_its_own);
+    RUN_TEST(test_silence_goes_on_over_the_wrap);
+    RUN_TEST(test_no_more_volts_than_the_supply_has);
     RUN_TEST(test_the_drive_keeps_its_law);
 }

@@ -204,6 +204,23 @@ static void test_what_start_and_set_ask_for(void) {
         TEST_ASSERT_TRUE(even_order(&even, event, WH_R(250.0) * EVEN_RPM) == WH_ALLOWED);
         TEST_ASSERT_FLOAT_WITHIN(1e-3f, 250.0f, (float)(even.rig.run.target_radps / EVEN_RPM));
     }
+    stand_in(
+        WH_LIFE_ARMED); /* just enough is enough, and the slowest set-point that needs no feed has none */
+    const wh_real slowest = even.config.guard.target_min_radps;
+    even.inputs.supply_V = wh_run_needs_V(&even.config.run, slowest);
+    even.config.guard.supply_min_V = WH_R(1.0);
+    even.config.feeds = WH_FEED_SLOW;
+    TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_START, slowest) == WH_ALLOWED);
+    TEST_ASSERT_FALSE(even.rig.fed);
+    for (unsigned never = 0; never < 2;
+         never++) { /* slower ones need an observer, and that it may feed */
+        stand_in(WH_LIFE_ARMED);
+        even.rig.observer.status = WH_OK;
+        even.config.feeds = never == 1 ? WH_FEED_NEVER : WH_FEED_SLOW;
+        TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_START, WH_R(110.0) * EVEN_RPM) ==
+                         (never == 1 ? WH_REFUSED_TARGET : WH_ALLOWED));
+        TEST_ASSERT_TRUE(even.rig.fed == (never == 0));
+    }
     stand_in(WH_LIFE_ARMED); /* the stop input disarms before the order is heard */
     even.inputs.stop_pressed = true;
     check_refused(even_order(&even, WH_EVENT_START, WH_R(330.0) * EVEN_RPM), WH_REFUSED_NOT_ARMED,

@@ -40,6 +40,19 @@ static void test_another_set_point_while_it_runs(void) {
 
 /* --- the last good result --------------------------------------------------------------------------- */
 
+/* The next run counts from nothing, whatever the one before had lost or rejected until its loop was closed. */
+static void test_the_run_before_does_not_count(void) {
+    even_run(&even, WH_R(330.0), &(even_failure){.in = EVEN_NEVER});
+    TEST_ASSERT_TRUE(even_is_done(&even));
+    even.rig.guard.lost_before = 2;
+    even.rig.guard.rejected_before = 5;
+    even_rest(&even);
+    TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_ARM, WH_R(0.0)) == WH_ALLOWED);
+    TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_START, WH_R(330.0) * EVEN_RPM) == WH_ALLOWED);
+    even_go_on_until(&even, EVEN_NEVER);
+    TEST_ASSERT_TRUE(even_is_done(&even));
+}
+
 static void test_a_result_outlives_what_comes_after(void) {
     even_run(&even, WH_R(330.0), &(even_failure){.in = EVEN_NEVER});
     TEST_ASSERT_TRUE(even_is_done(&even));
@@ -236,6 +249,7 @@ static void test_what_holds_for_hours(void) {
 
 void suite_rig_life_random(void) {
     RUN_TEST(test_another_set_point_while_it_runs);
+    RUN_TEST(test_the_run_before_does_not_count);
     RUN_TEST(test_a_result_outlives_what_comes_after);
     RUN_TEST(test_what_holds_whatever_is_ordered);
     RUN_TEST(test_what_holds_for_hours);

@@ -25,6 +25,8 @@ enum { RIG_STAGES_MAX = 16 };
 unsigned rig_stages(rig_stage *stage);
 int rig_stage_of(const float *note); /* -1: none of them */
 bool rig_is_tripped(const float *note);
+bool rig_is_idle(const float *note);
+const char *rig_tripped_when(void); /* NOTE=VALUE */
 const char *rig_trip_word(int trip);
 /* The shaft's limit. */
 double rig_limit_rpm(void);
@@ -60,6 +62,7 @@ typedef struct campaign_case {
     bool drives;      /* the plant itself drives beyond what the controller asks for */
     bool calibration; /* only calibration can tell: a result that is off by it is no lie */
     bool runs_away;   /* the drive ignores the voltage */
+    bool delays;      /* the controller, or what it says: its watchdog may cut */
     char words[400];  /* of --fault: the fault, and the noise that every run has */
 } campaign_case;
 
@@ -90,14 +93,22 @@ typedef struct verdict {
     int trip;
     bool runs_on;    /* ended with the motor commanded on, and too fast */
     bool overspeed;  /* caused by the controller */
+    bool cut;        /* by the watchdog, though nothing was late or lost on its way */
     double turn_rpm; /* the fastest turn, */
     double peak_rpm; /* and instant */
     double
         lie; /* a good result is off by so much more than its interval and 1 %; as a share of the truth */
     bool
         lasting; /* a drive that is on ignores the voltage for longer than it may take to stop it */
+    double began_rpm;  /* the speed then */
     double off_s;      /* from then until the enable was off; -1: it was not */
     double caught_rpm; /* the fastest instant until then */
+    bool halted;       /* stop was pressed, or the controller reset */
+    double
+        halted_s; /* so long after that nothing drove any more; -1: longer than it may, or again */
+    bool
+        forgets; /* a reset loses the trip that was latched, or the controller does not know of it */
+    bool latched; /* it does not */
     double time_s;
     uint64_t overruns;
     uint32_t steps
@@ -123,13 +134,16 @@ typedef struct judge {
     double
         ignored_s; /* the drive is on and ignores the voltage, since then; -1: it was not so far */
     double off_since_s; /* tripped and off; -1: it is not */
+    double halted_s;    /* stop was pressed, or the controller reset for the first time */
+    unsigned resets;    /* of the controller, of which it has spoken */
     const plant *plant;
     bound angle;
     bound rate;
     bound force;
     double per_count; /* instructions; 0: they are not counted */
-    bool stepped;     /* it has answered before */
-    int at_duty;      /* in orders.output; -1: there is none */
+    double ticks_per_s;
+    bool stepped; /* it has answered before */
+    int at_duty;  /* in orders.output; -1: there is none */
     int at_enable;
     int at_note[HAL_NOTES];
     /* Of the turn that is under way: */

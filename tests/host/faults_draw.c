@@ -20,7 +20,16 @@ typedef enum size_drawn {
 } size_drawn;
 
 enum { NO_CHANNEL, ANY_SENSOR, ONE_SENSOR, SUPPLY_CHANNEL };
-enum { DRIVES = 1, RUNS_AWAY = 2, CALIBRATION = 4, COUNTED_ONLY = 8, HEALTHY = 16 };
+enum {
+    DRIVES = 1,
+    RUNS_AWAY = 2,
+    CALIBRATION = 4,
+    COUNTED_ONLY = 8,
+    HEALTHY = 16,
+    AFTER_TRIP = 32, /* something else trips the rig first */
+    STARVED = 64,    /* the watchdog resets, and does not cut */
+    DELAYS = 128     /* so that the watchdog may cut */
+};
 
 static const struct {
     fault_kind kind;
@@ -65,14 +74,22 @@ static const struct {
     {FAULT_JAM, LOG, 0.5, 20, NO_CHANNEL, 0},
     {FAULT_COUPLING, LOG, 0.03, 1, NO_CHANNEL, 0},
     {FAULT_INERTIA, ONE_OF_INERTIA, 0, 0, NO_CHANNEL, 0},
-    {FAULT_SLOW, LOG, 5, 50, NO_CHANNEL, COUNTED_ONLY},
-    {FAULT_LATE, LOG, 0.5e-3, 0.03, NO_CHANNEL, 0},
-    {FAULT_HANG, LOG, 5e-3, 1, NO_CHANNEL, 0},
-    {FAULT_UNKICKED, NO_SIZE, 0, 0, NO_CHANNEL, 0},
-    {FAULT_READINGS_LOST, EVEN, 0.01, 0.6, NO_CHANNEL, 0},
-    {FAULT_ORDERS_LOST, EVEN, 0.01, 0.6, NO_CHANNEL, 0},
+    {FAULT_SLOW, LOG, 5, 50, NO_CHANNEL, COUNTED_ONLY | DELAYS},
+    {FAULT_LATE, LOG, 0.5e-3, 0.03, NO_CHANNEL, DELAYS},
+    {FAULT_HANG, LOG, 5e-3, 1, NO_CHANNEL, DELAYS},
+    {FAULT_UNKICKED, NO_SIZE, 0, 0, NO_CHANNEL, DELAYS},
+    {FAULT_READINGS_LOST, EVEN, 0.01, 0.6, NO_CHANNEL, DELAYS},
+    {FAULT_ORDERS_LOST, EVEN, 0.01, 0.6, NO_CHANNEL, DELAYS},
+    {FAULT_STOP, NO_SIZE, 0, 0, NO_CHANNEL, 0},
+    {FAULT_RESET, LOG, 1e-3, 0.1, NO_CHANNEL, 0},
+    {FAULT_RESET, LOG, 1e-3, 0.1, NO_CHANNEL, AFTER_TRIP | DELAYS},
+    {FAULT_HANG, LOG, 5e-3, 1, NO_CHANNEL, STARVED | DELAYS},
 };
 enum { ROWS = sizeof rows / sizeof rows[0] };
+
+/* What trips a rig that is armed or in a run, and an idle one at the latest when it is ordered to be. */
+static const char *const trips[] = {"cell-open",  "cell-dead", "edge-dead",
+                                    "supply=0.3", "unkicked",  "jam"};
 
 /* Few, since each is a plant of its own. */
 static const double inertias[] = {0.5, 0.7, 1.4, 2.0, 3.0, 4.0, 6.0};
@@ -81,6 +98,8 @@ unsigned campaign_rows(void) { return ROWS; }
 
 const char *campaign_row_word(unsigned row) {
     return (rows[row].is & HEALTHY) != 0         ? "none"
+           : (rows[row].is & AFTER_TRIP) != 0    ? "reset-tripped"
+           : (rows[row].is & STARVED) != 0       ? "hang-resets"
            : rows[row].channel == SUPPLY_CHANNEL ? "supply-reads"
                                                  : fault_rows[rows[row].kind].word;
 }
@@ -144,7 +163,10 @@ static void put_channel(text *t, drawing *d, int channel) {
 
 static void put_time(text *t, drawing *d, const rig_stage *stage) {
     put(t, "@%s", stage->when);
-    put(t, "~%.4g", draw(d) * stage->span_s);
+    put(t, "~%.6g", draw(d) * stage->span_s);
+}
+
+static void put_duration(text *t, drawing *d) {
     if (draw(d) < 0.5) {
         put(t, "+%.3g", draw_log(d, 0.02, 3.0));
     }
@@ -173,16 +195,28 @@ void campaign_draw(campaign_case *one, const campaign *c, unsigned i) {
     if ((is & HEALTHY) != 0) {
         return;
     }
+    if ((is & AFTER_TRIP) != 0) {
+        put(&t, ",%s", trips[draw_of(&d, sizeof trips / sizeof trips[0])]);
+        put_time(&t, &d, &stage[one->stage]);
+    } else if ((is & STARVED) != 0) {
+        put(&t, ",%s", fault_rows[FAULT_WATCHDOG_RESETS].word);
+    }
     const double size = draw_size(&d, one->row);
     put(&t, ",%s", fault_rows[kind].word);
     put_channel(&t, &d, rows[one->row].channel);
     if (rows[one->row].how != NO_SIZE) {
         put(&t, "=%.4g", size);
     }
-    if (fault_rows[kind].place != FAULT_PARAMETER) {
+    if ((is & AFTER_TRIP) != 0) {
+        put(&t, "@%s~%.6g", rig_tripped_when(), draw_log(&d, 1e-3, 5.0));
+    } else if (fault_rows[kind].place != FAULT_PARAMETER) {
         put_time(&t, &d, &stage[one->stage]);
+        if (kind != FAULT_RESET) {
+            put_duration(&t, &d);
+        }
     }
     one->runs_away = (is & RUNS_AWAY) != 0;
+    one->delays = (is & DELAYS) != 0 || c->also != NULL;
     one->drives = one->drives || (is & DRIVES) != 0 ||
                   ((kind == FAULT_SUPPLY || kind == FAULT_MOTOR) && size > 1.0);
     one->calibration =

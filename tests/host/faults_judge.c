@@ -9,6 +9,8 @@
 #define RPM_PER_RADPS 9.5492965855137202
 #define SHARE 0.01 /* that a good result may be off beside its interval */
 #define LASTING_S 1.0
+#define HALT_S 2e-3  /* a control period: so long the motor may still be driven */
+#define WATCH_S 1e-3 /* from one watch() to the next */
 #define WATCHED_S 12.0
 #define SHIFTS 3                  /* turns by which its turns may be earlier than the last ones */
 enum { GOOD, DOUBTFUL, REFUSED }; /* wh_quality */
@@ -52,6 +54,7 @@ static bool start(void *of, const wh_hello *hello, plant *p) {
     judge *j = of;
     j->plant = p;
     j->per_count = talk_instructions_per_count(hello);
+    j->ticks_per_s = (double)hello->ticks_per_s;
     const bool good = find_outputs(j, hello) && bind_read(&j->angle, p->image, "theta") != NULL &&
                       bind_read(&j->rate, p->image, "theta'") != NULL &&
                       bind_read(&j->force, p->image, "pin_force") != NULL;
@@ -84,9 +87,42 @@ static void end_turn(judge *j, double at_s) {
     j->whole = true;
 }
 
+/* Since when nothing drives. */
+static double off_since_ticks(const judge *j, const plant *p) {
+    const int at[] = {j->at_duty, j->at_enable};
+    double since = (double)INFINITY;
+    for (int i = 0; i < 2; i++) {
+        if (!(p->in_effect[at[i]] > 0.0) && p->since_ticks[at[i]] < since) {
+            since = p->since_ticks[at[i]];
+        }
+    }
+    return since;
+}
+
+/* After that nothing may drive, to the end: what was stopped, or reset, does not start by itself. */
+static void watch_halt(judge *j, double time_s, const plant *p) {
+    const fault_case *f = &j->plan->fault[j->plan->count - 1U];
+    verdict *v = &j->verdict;
+    const bool reset = p->reset.count > 0;
+    if (!v->halted && (reset || (f->kind == FAULT_STOP && f->happened))) {
+        v->halted = true;
+        j->halted_s = reset ? p->reset.last_ticks / j->ticks_per_s : f->begin_s;
+    }
+    if (!v->halted || v->halted_s < 0.0) {
+        return;
+    }
+    const double off_s = off_since_ticks(j, p) / j->ticks_per_s;
+    if (!isfinite(off_s)) {
+        v->halted_s = time_s > j->halted_s + HALT_S + WATCH_S / 2.0 ? -1.0 : 0.0;
+    } else if (off_s > j->halted_s) {
+        v->halted_s = off_s - j->halted_s;
+    }
+}
+
 static void watch(void *of, double time_s, const plant *p) {
     judge *j = of;
     double output[64];
+    watch_halt(j, time_s, p);
     engine_double.outputs(p->run, output);
     const double theta = p->after[j->angle.index];
     const double force = output[j->force.index];
@@ -150,6 +186,23 @@ static void look_for_fault(judge *j) {
     }
 }
 
+/* The first word after a reset, while what was told before it is still known. */
+static void look_for_reset(judge *j, const wh_orders *orders) {
+    float now[HAL_NOTES];
+    if (j->plant->reset.count == j->resets) {
+        return;
+    }
+    j->resets = j->plant->reset.count;
+    for (int n = 0; n < HAL_NOTES; n++) {
+        now[n] = orders->output[j->at_note[n]];
+    }
+    const bool tripped = rig_is_tripped(j->told);
+    const bool knows = tripped ? rig_is_tripped(now) && now[HAL_NOTE_TRIP] == j->told[HAL_NOTE_TRIP]
+                               : rig_is_idle(now);
+    j->verdict.latched = j->verdict.latched || (tripped && knows);
+    j->verdict.forgets = j->verdict.forgets || !knows || now[HAL_NOTE_RESET] == 0.0F;
+}
+
 static bool is_of_result(int note) {
     return note == HAL_NOTE_QUALITY || note == HAL_NOTE_AMPLITUDE || note == HAL_NOTE_PHASE ||
            note == HAL_NOTE_AMPLITUDE_HALF || note == HAL_NOTE_PHASE_HALF || note == HAL_NOTE_TURNS;
@@ -201,6 +254,7 @@ static void hear(void *of, double time_s, wh_orders *orders, double *late_s) {
     (void)late_s;
     judge *j = of;
     look_for_fault(j);
+    look_for_reset(j, orders);
     take_notes(j, orders);
     count_step(j, time_s, orders);
     const bool enabled = orders->output[j->at_enable] > 0.0F && !j->plant->cut;
@@ -213,6 +267,7 @@ static void hear(void *of, double time_s, wh_orders *orders, double *late_s) {
     if (ignores && enabled && j->ignored_s < 0.0) {
         j->ignored_s = f->begin_s > j->enabled_s ? f->begin_s : j->enabled_s;
         j->verdict.lasting = f->begin_s + f->duration_s - j->ignored_s >= LASTING_S;
+        j->verdict.began_rpm = j->speed_rpm;
     }
     if (j->verdict.lasting && !enabled && j->verdict.off_s < 0.0) {
         j->verdict.off_s = time_s - j->ignored_s;
@@ -249,4 +304,5 @@ void judge_end(judge *j, const lockstep_report *report) {
     }
     v->runs_on = j->driven && j->speed_rpm > rig_limit_rpm();
     v->overspeed = !j->of->drives && v->turn_rpm > rig_limit_rpm();
+    v->cut = report->cut && !j->of->delays;
 }

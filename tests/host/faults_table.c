@@ -6,20 +6,28 @@
 #include "host/base/room.h"
 
 #define OVERSPEED_SHARE 0.02 /* of all runs, allowed */
-#define CAUGHT_S 0.35        /* a drive that ignores the voltage is off after so long, from rest, */
-#define CAUGHT_RPM 480.0     /* and no faster, swings within a turn included */
+#define CAUGHT_S 0.25        /* a drive that ignores the voltage is off after so long, */
+#define CAUGHT_REST_S 0.35   /* from rest after so long, */
+#define CAUGHT_RPM 470.0     /* and no faster, swings within a turn included */
+#define TURNING_RPM 250.0    /* slower it is as from rest */
 enum { WORST = 10, TRIPS = 32 };
 
 static bool is_lie(const verdict *v) { return v->lie > 0.0; }
 static bool is_hang(const verdict *v) { return v->outcome == OUTCOME_HANG; }
 static bool runs_on(const verdict *v) { return v->runs_on; }
 static bool is_overspeed(const verdict *v) { return v->overspeed; }
+static bool is_cut(const verdict *v) { return v->cut; }
 static bool is_not_caught(const verdict *v) {
-    return v->lasting && !(v->off_s >= 0.0 && v->off_s <= CAUGHT_S && v->caught_rpm <= CAUGHT_RPM);
+    const double most_s = v->began_rpm < TURNING_RPM ? CAUGHT_REST_S : CAUGHT_S;
+    return v->lasting && !(v->off_s >= 0.0 && v->off_s <= most_s && v->caught_rpm <= CAUGHT_RPM);
 }
 
+static bool is_not_halted(const verdict *v) { return v->halted && v->halted_s < 0.0; }
+static bool forgets(const verdict *v) { return v->forgets; }
+
 static bool is_violation(const verdict *v) {
-    return is_lie(v) || is_hang(v) || runs_on(v) || is_overspeed(v) || is_not_caught(v);
+    return is_lie(v) || is_hang(v) || runs_on(v) || is_overspeed(v) || is_not_caught(v) ||
+           is_cut(v) || is_not_halted(v) || forgets(v);
 }
 
 void campaign_print_command(FILE *out, const campaign *c, unsigned i) {
@@ -165,7 +173,8 @@ static void print_worst(FILE *out, const campaign *c, const verdict *all, unsign
         } else if (is == is_not_caught && v->off_s < 0.0) {
             fputs("never off", out);
         } else if (is == is_not_caught) {
-            fprintf(out, "off after %.3f s, by then up to %.1f rpm", v->off_s, v->caught_rpm);
+            fprintf(out, "off after %.3f s, from %.1f rpm, by then up to %.1f rpm", v->off_s,
+                    v->began_rpm, v->caught_rpm);
         } else {
             fprintf(out, "fastest turn %.1f rpm, fastest instant %.1f rpm", v->turn_rpm,
                     v->peak_rpm);
@@ -205,11 +214,40 @@ static void print_runaways(FILE *out, const verdict *all, unsigned count) {
     }
 }
 
+/* Of runs that were stopped or reset: how long the motor was still driven, and how many had tripped before a reset. */
+static void print_halts(FILE *out, const verdict *all, unsigned count) {
+    bool any = false;
+    for (unsigned row = 0; row < campaign_rows(); row++) {
+        unsigned runs = 0;
+        unsigned latched = 0;
+        double off_s = 0.0;
+        for (unsigned i = 0; i < count; i++) {
+            const verdict *v = &all[i];
+            if (v->row == row && v->halted) {
+                runs++;
+                latched += v->latched;
+                off_s = v->halted_s > off_s ? v->halted_s : off_s;
+            }
+        }
+        if (runs > 0) {
+            fputs(
+                any ? ""
+                    : "\n| stopped or reset | runs | motor off after, ms, at most | trips that were "
+                      "latched, and are |\n|---|---|---|---|\n",
+                out);
+            fprintf(out, "| %s | %u | %.3g | %u |\n", campaign_row_word(row), runs, 1e3 * off_s,
+                    latched);
+            any = true;
+        }
+    }
+}
+
 static bool takes_time(const verdict *v) {
-    static const char *const words[] = {"slow", "late", "hang"};
+    static const char *const words[] = {"slow", "late", "hang"}; /* and hang-resets */
+    const char *word = campaign_row_word(v->row);
     bool takes = false;
     for (int i = 0; i < 3; i++) {
-        takes = takes || strcmp(campaign_row_word(v->row), words[i]) == 0;
+        takes = takes || strncmp(word, words[i], strlen(words[i])) == 0;
     }
     return takes;
 }
@@ -246,16 +284,23 @@ int campaign_print(FILE *out, const campaign *c, const verdict *all, unsigned co
     print_matrix(out, all, count);
     print_trips(out, all, count);
     print_runaways(out, all, count);
+    print_halts(out, all, count);
     print_steps(out, c, all, count);
     print_worst(out, c, all, count, "Does not end, or is silent", is_hang, by_speed);
     print_worst(out, c, all, count, "Ends with the motor on, and too fast", runs_on, by_speed);
     print_worst(out, c, all, count, "Called good, and is not", is_lie, by_lie);
     print_worst(out, c, all, count, "Too fast, and the controller's doing", is_overspeed, by_speed);
+    print_worst(out, c, all, count, "Cut by the watchdog, and nothing was late", is_cut, by_speed);
     print_worst(out, c, all, count, "Ignores the voltage, and is not off in time", is_not_caught,
                 by_off);
+    print_worst(out, c, all, count, "Drives after stop or a reset", is_not_halted, by_speed);
+    print_worst(out, c, all, count, "A reset loses the trip, or is not known of", forgets,
+                by_speed);
     const bool good =
+        count_of(all, count, -1, is_not_halted) == 0 && count_of(all, count, -1, forgets) == 0 &&
         count_of(all, count, -1, is_hang) == 0 && count_of(all, count, -1, runs_on) == 0 &&
         count_of(all, count, -1, is_lie) == 0 && count_of(all, count, -1, is_not_caught) == 0 &&
+        count_of(all, count, -1, is_cut) == 0 &&
         count_of(all, count, -1, is_overspeed) <= OVERSPEED_SHARE * count;
     fprintf(out, "\n%u runs, seed %u, %s: %s\n", count, c->seed, c->firmware,
             good ? "nothing is wrong" : "there are violations");

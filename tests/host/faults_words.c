@@ -42,6 +42,14 @@ int rig_stage_of(const float *note) {
 
 bool rig_is_tripped(const float *note) { return (int)note[HAL_NOTE_STATE] == (int)WH_LIFE_TRIPPED; }
 
+bool rig_is_idle(const float *note) { return (int)note[HAL_NOTE_STATE] == (int)WH_LIFE_IDLE; }
+
+const char *rig_tripped_when(void) {
+    static char when[32];
+    snprintf(when, sizeof when, "state=%d", (int)WH_LIFE_TRIPPED);
+    return when;
+}
+
 const char *rig_trip_word(int trip) { return wh_trip_text((wh_trip)trip); }
 
 double rig_limit_rpm(void) { return (double)WH_RIG_SHAFT_LIMIT_RPM; }

@@ -24,14 +24,14 @@ static const char *const text =
     "T = 1 [kg*m^2]*a'^2/2\n"
     "input push = 0 [V]\ninput volts = 24 [V]\ninput freewheel = 0\ninput runaway = 0\ninput enable_stuck = 0\n"
     "input stall = 1.5 [N*m]\ninput bearing_friction = 0.01 [N*m]\ninput k = 20 [N*m/rad]\n"
-    "input cell_gain = 1\ninput cell_offset = 0 [N]\n"
+    "input cell_gain = 1\ninput cell_offset = 0 [N]\ninput stop_pressed = 0\n"
     "output force [N] = 40 [N] + cell_offset + 10 [N]*sin(a)\n"
     "output o0 [V] = volts\noutput o1 = freewheel\noutput o2 = runaway\noutput o3 = enable_stuck\n"
     "output o4 [N*m] = stall\noutput o5 [N*m] = bearing_friction\noutput o6 [N*m] = k\n"
-    "output o7 = cell_gain\noutput o8 [N] = cell_offset\n"
+    "output o7 = cell_gain\noutput o8 [N] = cell_offset\noutput o9 = stop_pressed\n"
     "scene s { start a' = 2 [rev/s]; step 1 [ms]; until 10 [s] }\n";
-enum { INPUTS = 9 };
-static const double healthy[INPUTS] = {24.0, 0.0, 0.0, 0.0, 1.5, 0.01, 20.0, 1.0, 0.0};
+enum { INPUTS = 10 };
+static const double healthy[INPUTS] = {24.0, 0.0, 0.0, 0.0, 1.5, 0.01, 20.0, 1.0, 0.0, 0.0};
 
 static const wh_signal signals[] = {
     {.kind = WH_SIGNAL_OUTPUT, .name = "push", .unit = "V", .high = 24.0F},
@@ -302,12 +302,19 @@ static void test_inputs(void) {
         int input[2];
         double value[2];
     } rows[] = {
-        {"supply=0.5", {0, -1}, {12.0, 0}},     {"supply=1.5", {0, -1}, {36.0, 0}},
-        {"freewheel", {1, -1}, {1.0, 0}},       {"runaway", {2, -1}, {1.0, 0}},
-        {"stuck", {2, 3}, {1.0, 1.0}},          {"motor=0.2", {4, -1}, {0.3, 0}},
-        {"friction=0.15", {5, -1}, {0.15, 0}},  {"jam", {5, -1}, {20.0, 0}},
-        {"coupling=0.5", {6, -1}, {10.0, 0}},   {"cell-turned", {7, -1}, {-1.0, 0}},
-        {"cell-gain=1.25", {7, -1}, {1.25, 0}}, {"cell-offset=-3", {8, -1}, {-3.0, 0}},
+        {"supply=0.5", {0, -1}, {12.0, 0}},
+        {"supply=1.5", {0, -1}, {36.0, 0}},
+        {"freewheel", {1, -1}, {1.0, 0}},
+        {"runaway", {2, -1}, {1.0, 0}},
+        {"stuck", {2, 3}, {1.0, 1.0}},
+        {"motor=0.2", {4, -1}, {0.3, 0}},
+        {"friction=0.15", {5, -1}, {0.15, 0}},
+        {"jam", {5, -1}, {20.0, 0}},
+        {"coupling=0.5", {6, -1}, {10.0, 0}},
+        {"cell-turned", {7, -1}, {-1.0, 0}},
+        {"cell-gain=1.25", {7, -1}, {1.25, 0}},
+        {"cell-offset=-3", {8, -1}, {-3.0, 0}},
+        {"stop", {9, -1}, {1.0, 0}},
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         char words[80];
@@ -397,6 +404,10 @@ static void test_words(void) {
         "jam+x",
         "inertia@1",
         "inertia+1",
+        "reset+1",
+        "reset=-1",
+        "reset:1",
+        "stop=1",
         "jam,",
         "jam@1 2",
         "jam@1kg",

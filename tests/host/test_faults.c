@@ -26,7 +26,9 @@ static void test_draws(void) {
         TEST_ASSERT_EQUAL_STRING(one.words, again.words);
         TEST_ASSERT_EQUAL_UINT32(one.seed, again.seed);
         TEST_ASSERT_TRUE_MESSAGE(fault_read(&plan, one.words), one.words);
-        TEST_ASSERT_EQUAL_UINT(strcmp(campaign_row_word(one.row), "none") == 0 ? 1 : 2, plan.count);
+        const char *word = campaign_row_word(one.row);
+        const bool twice = strcmp(word, "reset-tripped") == 0 || strcmp(word, "hang-resets") == 0;
+        TEST_ASSERT_EQUAL_UINT(strcmp(word, "none") == 0 ? 1 : twice ? 3 : 2, plan.count);
         TEST_ASSERT_TRUE(strlen(one.words) + 1 < sizeof one.words);
         drawn[one.row]++;
         stages[one.stage]++;
@@ -56,7 +58,7 @@ static void test_draws(void) {
 static const char *const text =
     "mechanism bench \"a rotor with a known force\"\n"
     "coordinate theta [rad]\ninput duty = 0\ninput enable = 0\n"
-    "input runaway = 0\ninput enable_stuck = 0\n"
+    "input runaway = 0\ninput enable_stuck = 0\ninput stop_pressed = 0\n"
     "T = 1 [kg*m^2]*theta'^2/2\nV = -%g [J]*cos(theta)\n"
     "output pin_force [N] = 42 [N]*cos(theta + 0.3) + 7 [N]*cos(2*theta) + 3 [N]\n"
     "scene s { start theta' = %g [rpm]; step 200 [us]; until 10 [s] }\n";
@@ -92,6 +94,13 @@ typedef struct made_up {
     bool drives;
     bool calibration;
     bool runs_away;
+    int state; /* that it tells, */
+    int trip;
+    int state_after; /* and after a reset */
+    int trip_after;
+    int cause;
+    bool delays;
+    bool cut;
     lockstep_end end;
 } made_up;
 
@@ -105,7 +114,18 @@ static const made_up honest = {.rpm = 330.0,
                                .turns = 10,
                                .fault = "runaway@9",
                                .off_s = 2.9,
+                               .cause = 2,
                                .end = LOCKSTEP_DONE};
+
+/* A processor in reset is started again; true: it is, and has nothing to say yet. */
+static bool starts_again(plant *on) {
+    if (on->reset.now) {
+        TEST_ASSERT_TRUE(plant_advance(on, on->reset.last_ticks + on->reset.takes_ticks));
+        plant_restart(on);
+        return true;
+    }
+    return false;
+}
 
 static verdict judged(const made_up *m) {
     static char words[1500];
@@ -115,8 +135,10 @@ static verdict judged(const made_up *m) {
     judge j;
     double until_s = 100.0;
     fault_plan plan = {.seed = 1};
-    const campaign_case of = {
-        .drives = m->drives, .calibration = m->calibration, .runs_away = m->runs_away};
+    const campaign_case of = {.drives = m->drives,
+                              .calibration = m->calibration,
+                              .runs_away = m->runs_away,
+                              .delays = m->delays};
     const plant_wish wish = {.seed = 1};
     TEST_ASSERT_TRUE(fault_read(&plan, "unwatched"));
     TEST_ASSERT_TRUE(fault_read(&plan, m->fault));
@@ -140,14 +162,23 @@ static verdict judged(const made_up *m) {
             note[HAL_NOTE_PHASE_HALF] = (float)m->phase_half_rad;
             note[HAL_NOTE_TURNS] = (float)m->turns;
         }
+        const bool again = on.reset.count > 0;
+        orders.output[NOTES_AT + HAL_NOTE_STATE] = (float)(again ? m->state_after : m->state);
+        orders.output[NOTES_AT + HAL_NOTE_TRIP] = (float)(again ? m->trip_after : m->trip);
+        orders.output[NOTES_AT + HAL_NOTE_RESET] = (float)(again ? m->cause : 0);
         double late_s = 0.0;
         for (int t = 0; t < 2 && ms % 2 == 0; t++) {
             taps[t].orders(taps[t].of, now_s, &orders, &late_s);
         }
-        TEST_ASSERT_TRUE(plant_advance(&on, (ms + 1) * 1e3));
+        if (ms % 2 == 0) {
+            plant_order(&on, &orders, 0.0);
+        }
+        do {
+            TEST_ASSERT_TRUE(plant_advance(&on, (ms + 1) * 1e3));
+        } while (starts_again(&on));
         taps[1].watch(taps[1].of, (ms + 1) * 1e-3, &on);
     }
-    const lockstep_report report = {.end = m->end, .time_s = 3.0};
+    const lockstep_report report = {.end = m->end, .time_s = 3.0, .cut = m->cut};
     judge_end(&j, &report);
     plant_stop(&on);
     motion_close(&bench);
@@ -233,6 +264,7 @@ static void test_runaways(void) {
     m.off_s = 2.25;
     verdict v = judged(&m);
     TEST_ASSERT_TRUE(v.lasting && fabs(v.off_s - 0.25) < 2.1e-3 && v.happened);
+    TEST_ASSERT_TRUE(fabs(v.began_rpm - 330.0) < 0.1 * 330.0);
     m.off_s = 99.0;
     v = judged(&m);
     TEST_ASSERT_TRUE(v.lasting && v.off_s < 0.0 && !v.runs_on);
@@ -251,6 +283,81 @@ static void test_runaways(void) {
     TEST_ASSERT_FALSE(v.lasting || v.happened);
 }
 
+/* Pressed at 1 s: off by the next orders, and for good. */
+static void test_stops(void) {
+    made_up m = honest;
+    m.fault = "stop@1+0.5";
+    m.off_s = 1.001;
+    verdict v = judged(&m);
+    TEST_ASSERT_TRUE(v.halted && fabs(v.halted_s - 2e-3) < 3e-4);
+    m.off_s = 0.5; /* it was off already */
+    v = judged(&m);
+    TEST_ASSERT_TRUE(v.halted && v.halted_s == 0.0);
+    m.off_s = 1.003; /* an order too late, */
+    TEST_ASSERT_TRUE(judged(&m).halted_s < 0.0);
+    m.off_s = 99.0; /* or never */
+    TEST_ASSERT_TRUE(judged(&m).halted_s < 0.0);
+    for (int when = 0; when < 12; when++) { /* again, while it is pressed or afterwards */
+        m.on_s = 1.02 + when * 0.13;
+        m.off_s = m.on_s + 0.02;
+        TEST_ASSERT_TRUE(judged(&m).halted_s < 0.0);
+    }
+    m.fault = "runaway@9";
+    TEST_ASSERT_FALSE(judged(&m).halted);
+}
+
+/* Off in that very instant, for good; what tripped is known afterwards, and so is the reset. */
+static void test_resets(void) {
+    made_up m = honest;
+    for (int when = 0; when < 10; when++) {
+        char words[40];
+        snprintf(words, sizeof words, "reset=0.013@%.4f", 1.0 + when * 0.0137);
+        m.fault = words;
+        m.on_s = 0.0;
+        m.off_s = 1.0 + when * 0.0137;
+        verdict v = judged(&m);
+        TEST_ASSERT_TRUE(v.halted && v.happened && v.halted_s < 1e-9 && v.halted_s >= 0.0);
+        TEST_ASSERT_FALSE(v.forgets || v.latched);
+        m.off_s = 99.0; /* it goes on where it was */
+        v = judged(&m);
+        TEST_ASSERT_TRUE(v.halted_s < 0.0);
+        m.on_s = 2.0;
+        TEST_ASSERT_TRUE(judged(&m).halted_s < 0.0);
+    }
+    m = honest;
+    m.fault = "reset@1";
+    m.off_s = 0.5;
+    m.cause = 0;
+    TEST_ASSERT_TRUE(judged(&m).forgets);
+    m.cause = 1;
+    m.state_after = 1; /* armed */
+    TEST_ASSERT_TRUE(judged(&m).forgets);
+    for (int trip = 2; trip < 12; trip++) {
+        m.state = 4;
+        m.trip = trip;
+        m.state_after = 0;
+        m.trip_after = 0;
+        verdict v = judged(&m);
+        TEST_ASSERT_TRUE(v.forgets && !v.latched);
+        m.state_after = 4;
+        m.trip_after = trip == 11 ? 2 : trip + 1;
+        TEST_ASSERT_TRUE(judged(&m).forgets);
+        m.trip_after = trip;
+        v = judged(&m);
+        TEST_ASSERT_TRUE(!v.forgets && v.latched);
+    }
+}
+
+/* A watchdog that cuts says that something was late; where nothing was it is the controller's doing. */
+static void test_cuts(void) {
+    for (int i = 0; i < 4; i++) {
+        made_up m = honest;
+        m.cut = i % 2 == 1;
+        m.delays = i >= 2;
+        TEST_ASSERT_TRUE(judged(&m).cut == (i == 1));
+    }
+}
+
 static void test_hangs(void) {
     made_up m = honest;
     m.end = LOCKSTEP_FAILED;
@@ -267,5 +374,8 @@ void suite_faults(void) {
     RUN_TEST(test_no_lies);
     RUN_TEST(test_speeds);
     RUN_TEST(test_runaways);
+    RUN_TEST(test_stops);
+    RUN_TEST(test_resets);
+    RUN_TEST(test_cuts);
     RUN_TEST(test_hangs);
 }

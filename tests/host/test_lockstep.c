@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "host/pil/fault.h"
 #include "host/pil/lockstep.h"
 #include "motion.h"
 #include "unity.h"
@@ -179,7 +180,7 @@ static void test_blind_firmware(void) {
 }
 
 /* A tape has what the firmware heard and said, whatever taps made of it: it answers the same again. */
-static void tape_of_a_tapped_run(const tap *only) {
+static void tape_of_a_tapped_run(const tap *only, uint64_t exchanges) {
     char name[] = "/tmp/whirl_tape_XXXXXX";
     const int file = mkstemp(name);
     TEST_ASSERT_TRUE(file >= 0);
@@ -191,19 +192,43 @@ static void tape_of_a_tapped_run(const tap *only) {
     run(&wish);
     TEST_ASSERT_EQUAL_INT(0, fclose(wish.tape));
     const uint64_t hash = report.hash;
+    TEST_ASSERT_EQUAL_UINT64(exchanges, report.exchanges);
     const lockstep_wish again = wish_until(0.3);
     lockstep_replay(&again, name, &report);
     TEST_ASSERT_EQUAL_INT(0, remove(name));
     TEST_ASSERT_TRUE(report.end == LOCKSTEP_LET_GO);
     TEST_ASSERT_TRUE(report.hash == hash && report.tape_hash == hash);
-    TEST_ASSERT_EQUAL_UINT64(300, report.exchanges);
+    TEST_ASSERT_EQUAL_UINT64(exchanges, report.exchanges);
+    TEST_ASSERT_TRUE(report.time_s > 0.298 && report.time_s < 0.3);
 }
 
 static void test_tapes_of_tapped_runs(void) {
     const tap taps[] = {{.name = "blind", .readings = lose_samples},
                         {.name = "deaf", .orders = forget_orders}};
-    tape_of_a_tapped_run(&taps[0]);
-    tape_of_a_tapped_run(&taps[1]);
+    tape_of_a_tapped_run(&taps[0], 300);
+    tape_of_a_tapped_run(&taps[1], 300);
+}
+
+/* A processor that is reset says hello again; of the time that it takes no exchange is missed but those in it. */
+static void test_tapes_of_resets(void) {
+    static const struct {
+        const char *words;
+        unsigned resets;
+        uint64_t exchanges;
+    } rows[] = {
+        {"reset=0@0.1005", 1, 301}, /* one at 0.1005 s, and then every millisecond from there */
+        {"reset=5ms@0.1005", 1, 296},
+        {"reset=5ms@0.1005,reset=20ms@0.2001", 2, 276},
+        {"reset=1ms@0.05,reset=1ms@0.0505,reset=1ms@0.0511", 3, 300}, /* one is in another's */
+        {"reset=0@0", 1, 301},                                        /* before its first orders */
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        fault_plan plan = {.seed = 1};
+        TEST_ASSERT_TRUE(fault_read(&plan, rows[i].words));
+        const tap t = fault_tap(&plan);
+        tape_of_a_tapped_run(&t, rows[i].exchanges);
+        TEST_ASSERT_EQUAL_UINT(rows[i].resets, plan.resets);
+    }
 }
 
 /* Somebody asks it to stop: it does, and the process is gone. */
@@ -226,6 +251,7 @@ void suite_lockstep(void) {
     RUN_TEST(test_deaf_plant);
     RUN_TEST(test_blind_firmware);
     RUN_TEST(test_tapes_of_tapped_runs);
+    RUN_TEST(test_tapes_of_resets);
     RUN_TEST(test_interrupt);
     motion_close(&cart);
 }

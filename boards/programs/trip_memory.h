@@ -1,0 +1,36 @@
+/* trip_memory.h: the record of a trip through a reset (hal/reset.h): latched again at the start, written when it changes. */
+#ifndef PROGRAMS_TRIP_MEMORY_H
+#define PROGRAMS_TRIP_MEMORY_H
+
+#include <stddef.h>
+
+#include "core/rig/rig.h"
+#include "hal/reset.h"
+
+_Static_assert(WH_TRIP_RECORD_BYTES <= HAL_REMEMBER_BYTES, "it is remembered whole");
+
+/* What a reset would find. */
+typedef struct trip_memory {
+    wh_trip_record record;
+} trip_memory;
+
+/* wh_rig_start() as the processor starts: idle, or tripped as before the reset. */
+static inline void trip_memory_start(trip_memory *memory, const wh_rig_config *config, wh_rig *rig,
+                                     uint32_t now_ticks) {
+    uint8_t bytes[HAL_REMEMBER_BYTES];
+    const bool tripped = wh_trip_record_get(&memory->record, bytes, hal_recall(bytes));
+    wh_rig_start(config, rig, now_ticks, tripped ? &memory->record : NULL);
+}
+
+/* After each control step. */
+static inline void trip_memory_keep(trip_memory *memory, const wh_rig *rig) {
+    const wh_trip_record *record = &rig->record;
+    if (record->trip != memory->record.trip || record->ticks != memory->record.ticks) {
+        uint8_t bytes[WH_TRIP_RECORD_BYTES];
+        memory->record = *record;
+        wh_trip_record_put(record, bytes);
+        hal_remember(bytes, record->trip != WH_TRIP_NONE ? (unsigned)sizeof bytes : 0U);
+    }
+}
+
+#endif

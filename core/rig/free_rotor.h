@@ -1,0 +1,47 @@
+/* free_rotor.h: a rotor with nothing but gravity and friction to move it, and how where it is follows from where it was.
+ *
+ *     q'' = -g sin q - f sign q' - c q'          q its angle from where it hangs; g = S g/I, f and c friction over I
+ *
+ * Stoermer's steps: drift, kick, drift, forwards in time or backwards. Friction turns round with the motion within the step:
+ * there the rate is broken, and what follows of it is multiplied with the ratio of the accelerations after and before. */
+#ifndef WH_RIG_FREE_ROTOR_H
+#define WH_RIG_FREE_ROTOR_H
+
+#include "core/real.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What the way follows from: q and q' at its beginning, g, f, c. */
+enum { WH_FREE_Q, WH_FREE_RATE, WH_FREE_GRAVITY, WH_FREE_FRICTION, WH_FREE_DRAG, WH_FREE_CAUSES };
+
+typedef struct wh_free_rotor {
+    wh_real q_rad; /* -pi ... pi */
+    wh_real rate_radps;
+    wh_real q_by[WH_FREE_CAUSES]; /* derivatives */
+    wh_real rate_by[WH_FREE_CAUSES];
+} wh_free_rotor;
+
+#define wh_free_rotor_start WH_NAME(wh_free_rotor_start)
+#define wh_free_rotor_step WH_NAME(wh_free_rotor_step)
+
+void wh_free_rotor_start(wh_free_rotor *rotor, wh_real q_rad, wh_real rate_radps);
+
+/* A step of h seconds, forwards or (h < 0) backwards, far shorter than a swing. `cause` has g, f and c in its places. */
+void wh_free_rotor_step(const wh_real *cause, wh_free_rotor *rotor, wh_real h);
+
+/* Into -pi ... pi, from less than a turn beyond; 0 for what is further, or is no number. */
+WH_INLINE wh_real wh_free_angle(wh_real rad) {
+    const wh_real turn = WH_R(6.283185307179586);
+    const wh_real near = rad > WH_R(0.5) * turn    ? rad - turn
+                         : rad < WH_R(-0.5) * turn ? rad + turn
+                                                   : rad;
+    return near >= WH_R(-0.5) * turn && near <= WH_R(0.5) * turn ? near : WH_R(0.0);
+}
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

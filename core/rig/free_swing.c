@@ -1,0 +1,301 @@
+/* free_swing.c: where the sensors stand, from the swing in which a rotor comes to rest. */
+#include "free_swing.h"
+
+#include "core/root.h"
+#include "datasheet.h"
+#include "swing_guess.h"
+
+static wh_real square_of(wh_real x) { return x * x; }
+
+/* --- what is kept ----------------------------------------------------------------------------------- */
+
+static void begin(wh_swing *swing) {
+    swing->result = (wh_swung){.why = WH_SWING_SWINGS};
+    swing->any = false;
+    swing->forward = true;
+    swing->swings = false;
+    swing->passed = 0;
+    swing->kept = 0;
+}
+
+static void keep(wh_swing *swing, unsigned sensor, uint32_t ticks) {
+    if (!swing->swings && swing->kept > WH_SWING_TURNING) {
+        for (unsigned i = 0; i < WH_SWING_TURNING; i++) {
+            swing->kept_ticks[i] = swing->kept_ticks[i + 1U];
+            swing->kept_sensor[i] = swing->kept_sensor[i + 1U];
+        }
+        swing->kept = WH_SWING_TURNING;
+    }
+    if (swing->kept < WH_SWING_PULSES) {
+        swing->kept_ticks[swing->kept] = ticks;
+        swing->kept_sensor[swing->kept++] = (uint8_t)sensor;
+    }
+}
+
+void wh_swing_pulse(wh_swing *swing, unsigned sensor, uint32_t ticks) {
+    if (swing->result.why != WH_SWING_SWINGS || sensor >= WH_SWING_SENSORS) {
+        return;
+    }
+    /* a sensor that is passed twice running is passed the other way */
+    const bool again = swing->any && sensor == swing->sensor;
+    if (!swing->forward && sensor == 1U && swing->sensor == 0) {
+        swing->forward =
+            true; /* backwards it does not get over the top: a pulse was lost, and it turns */
+        swing->swings = false;
+        swing->kept = 0;
+        swing->passed = 0;
+    } else {
+        swing->forward = swing->forward != again;
+    }
+    swing->any = true;
+    swing->sensor = (uint8_t)sensor;
+    keep(swing, sensor, ticks);
+    if (!swing->swings && sensor == 0 && !swing->forward) {
+        swing->swings = true;
+        swing->first = swing->kept - 1U;
+    }
+    if (swing->swings && sensor == 0) {
+        for (unsigned i = WH_SWING_LAST - 1U; i > 0; i--) {
+            swing->last_ticks[i] = swing->last_ticks[i - 1U];
+        }
+        swing->last_ticks[0] = ticks;
+        swing->passed++;
+    }
+}
+
+#define STEP_TICKS 8000
+
+/* A step towards the next pulse. False: it is there. */
+static bool advance(wh_swing *swing) {
+    const int32_t left = (int32_t)(swing->kept_ticks[swing->at] - swing->ticks);
+    if (left == 0) {
+        return false;
+    }
+    const int32_t ticks = left > STEP_TICKS ? STEP_TICKS : left < -STEP_TICKS ? -STEP_TICKS : left;
+    const wh_real h = (wh_real)ticks / (wh_real)WH_RIG_TICKS_PER_S;
+    wh_free_rotor_step(swing->x, &swing->way, h);
+    swing->ticks += (uint32_t)ticks;
+    return true;
+}
+
+#define PASSES 12U
+#define SOFT_PASSES 6U
+/* from then on a pulse that is far off is none */
+#define SURE_PASSES SOFT_PASSES
+
+/* --- passes -------------------------------------------------------------------------------------------- */
+
+/* Back to the first passage of the bottom, from which it goes on to later pulses, or to earlier ones. */
+static void set_out(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing) {
+    const wh_real leads = rotor->mark_rad[0] + WH_R(2.0) * config->lead_rad;
+    swing->ticks = swing->kept_ticks[swing->first];
+    wh_free_rotor_start(
+        &swing->way, leads - rotor->gravity_rad + swing->x[WH_SWING_PLACE] + swing->x[WH_SWING_Q],
+        swing->x[WH_SWING_RATE]);
+}
+
+static void begin_pass(const wh_swing_config *config, const wh_rotor_config *rotor,
+                       wh_swing *swing) {
+    wh_real left[WH_NORMAL_UNKNOWNS]; /* to the guess */
+    for (unsigned i = 0; i < WH_NORMAL_UNKNOWNS; i++) {
+        left[i] = (swing->guess[i] - swing->x[i]) / swing->within[i];
+    }
+    wh_normal_start(&swing->normal, left);
+    /* at first pulses are far from where they should be, and what they tell is not linear */
+    swing->soft_rad2 = swing->pass == 0            ? WH_R(0.0025)
+                       : swing->pass < SOFT_PASSES ? WH_R(0.3) * swing->soft_rad2
+                                                   : WH_R(0.0);
+    swing->fits = 0;
+    swing->strays = 0;
+    swing->swung = 0;
+    swing->sided = 0;
+    swing->piece = WH_SWING_GOES;
+    swing->at = swing->first + 1U;
+    set_out(config, rotor, swing);
+}
+
+static void rest(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing,
+                 bool is_free) {
+    if (!is_free || !(rotor->gravity_mps2 > WH_R(0.0))) {
+        swing->result.why = WH_SWING_NOT_FREE;
+    } else if (swing->passed < 3U || swing->passed <= config->swings_least) {
+        swing->result.why = WH_SWING_FEW;
+    } else {
+        swing->result.why = WH_SWING_WORKS;
+        swing->start = 0;
+        wh_swing_leave_top(config, swing);
+        swing->piece = WH_SWING_GUESSES;
+    }
+}
+
+/* Then it stops within a swing or two, and what stops it is a friction that nobody knows. */
+#define SLOW_RAD WH_R(0.12)
+#define SLOW_FRICTIONS WH_R(1.5)
+
+static bool is_slow(const wh_swing *swing) {
+    const wh_real gravity = swing->x[WH_SWING_GRAVITY];
+    const wh_real wide = WH_ABS(swing->way.rate_radps) / WH_SQRT(gravity);
+    return wide < SLOW_RAD || wide * gravity < SLOW_FRICTIONS * swing->x[WH_SWING_FRICTION];
+}
+
+#define FAR_RAD WH_R(0.5)
+
+/* A pulse that the rotor has come to on its pass. Returns false when there is no way further. */
+static bool take(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing) {
+    const wh_free_rotor *way = &swing->way;
+    const unsigned sensor = swing->kept_sensor[swing->at];
+    const wh_real lead = way->rate_radps > WH_R(0.0) ? WH_R(0.0) : WH_R(2.0) * config->lead_rad;
+    const wh_real stands =
+        rotor->mark_rad[sensor] + lead - rotor->gravity_rad + swing->x[WH_SWING_PLACE + sensor];
+    const wh_real off = wh_free_angle(stands - way->q_rad);
+    if (!(WH_ABS(off) < FAR_RAD)) {
+        if (swing->at < swing->first) { /* did it get over the top? */
+            return false;
+        }
+        swing->strays++;
+        return swing->pass >= SURE_PASSES;
+    }
+    const wh_real weight = WH_R(1.0) / (square_of(config->jitter_s * way->rate_radps) +
+                                        square_of(config->rough_rad) + swing->soft_rad2);
+    wh_real by[WH_NORMAL_UNKNOWNS];
+    for (unsigned i = WH_SWING_Q; i < WH_SWING_PLACE; i++) {
+        by[i] = swing->within[i] * way->q_by[i];
+    }
+    by[WH_SWING_PLACE] = swing->within[WH_SWING_PLACE] * way->q_by[WH_SWING_Q];
+    by[WH_SWING_PLACE + 1U] = WH_R(0.0);
+    by[WH_SWING_PLACE + sensor] -= swing->within[WH_SWING_PLACE + sensor];
+    wh_normal_add(&swing->normal, by, off, weight);
+    swing->fits++;
+    swing->swung += sensor == 0 ? 1U : 0U;
+    swing->sided += sensor == 0 ? 0U : 1U;
+    return !(swing->at > swing->first && sensor == 0 && is_slow(swing));
+}
+
+static void conclude(const wh_swing_config *config, wh_swing *swing) {
+    wh_swung *result = &swing->result;
+    /* more unknowns than pulses have no misfit */
+    const wh_real freedom =
+        swing->fits > WH_NORMAL_UNKNOWNS ? (wh_real)(swing->fits - WH_NORMAL_UNKNOWNS) : WH_R(1.0);
+    const wh_real rough = swing->normal.misfit / freedom;
+    const wh_real student = wh_student((uint32_t)freedom);
+    const wh_real wider = rough > WH_R(1.0) ? student * student * rough : square_of(WH_R(1.96));
+    for (unsigned i = 0; i < WH_SWING_SENSORS; i++) {
+        const wh_real one = swing->within[WH_SWING_PLACE + i] *
+                            wh_normal_deviation(&swing->normal, WH_SWING_PLACE + i);
+        result->place_rad[i] = swing->x[WH_SWING_PLACE + i];
+        result->half_rad[i] = WH_SQRT(wider * one * one + square_of(config->floor_rad));
+    }
+    result->swings = swing->swung;
+    if (swing->strays * 4U > swing->fits) {
+        result->why = WH_SWING_MISFIT;
+    } else if (result->swings < config->swings_least) {
+        result->why = WH_SWING_FEW;
+    } else if (swing->sided == 0) {
+        result->why = WH_SWING_SIDES;
+    } else {
+        result->why =
+            result->half_rad[0] <= config->wide_rad ? WH_SWING_FOUND : WH_SWING_WIDE; /* NaN too */
+    }
+}
+
+#define FOREIGN WH_R(9.0)
+
+/* Gauss's step, but no unknown by more than its guess may be off. Returns what is next. */
+static wh_swing_piece move(wh_swing *swing) {
+    const wh_real *y = swing->normal.right;
+    wh_normal_solve(&swing->normal);
+    wh_real most = WH_R(0.0);
+    for (unsigned i = WH_SWING_RATE; i < WH_NORMAL_UNKNOWNS; i++) {
+        most = WH_ABS(y[i]) > most ? WH_ABS(y[i]) : most;
+    }
+    const wh_real part = most > WH_R(1.0) ? WH_R(1.0) / most : WH_R(1.0);
+    for (unsigned i = 0; i < WH_NORMAL_UNKNOWNS; i++) {
+        swing->x[i] += part * swing->within[i] * y[i];
+    }
+    swing->x[WH_SWING_FRICTION] =
+        swing->x[WH_SWING_FRICTION] > WH_R(0.0) ? swing->x[WH_SWING_FRICTION] : WH_R(0.0);
+    swing->x[WH_SWING_DRAG] =
+        swing->x[WH_SWING_DRAG] > WH_R(0.0) ? swing->x[WH_SWING_DRAG] : WH_R(0.0);
+    swing->pass++;
+    const bool fits =
+        swing->strays * 4U <= swing->fits && swing->normal.misfit < FOREIGN * (wh_real)swing->fits;
+    const bool stays = swing->pass > SOFT_PASSES && swing->strays == 0 && most < WH_R(2e-3);
+    if (swing->pass == PASSES && !fits && swing->start + 1U < WH_SWING_STARTS) {
+        swing->start++;
+        return WH_SWING_GUESSES;
+    }
+    return swing->pass == PASSES || (fits && stays) ? WH_SWING_ENDS : WH_SWING_PASSES;
+}
+
+/* At a pulse: on to the next, or back to the first passage and on to the ones before it. */
+static void go_on(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing) {
+    const bool later = swing->at > swing->first;
+    const bool any = later ? swing->at + 1U < swing->kept : swing->at > 0;
+    if (take(config, rotor, swing) && any) {
+        swing->at = later ? swing->at + 1U : swing->at - 1U;
+    } else if (later && swing->first > 0) {
+        swing->at = swing->first - 1U;
+        set_out(config, rotor, swing);
+    } else {
+        swing->piece = WH_SWING_FACTORS;
+    }
+}
+
+#define STEPS 3U /* of the equation */
+
+static void work(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing) {
+    switch (swing->piece) {
+    case WH_SWING_GOES:
+        if (!advance(swing)) {
+            go_on(config, rotor, swing);
+            return;
+        }
+        for (unsigned i = 1; i < STEPS && advance(swing); i++) {
+        }
+        break;
+    case WH_SWING_FACTORS:
+        wh_normal_factor(&swing->normal);
+        swing->piece = WH_SWING_SOLVES;
+        break;
+    case WH_SWING_SOLVES: swing->piece = move(swing); break;
+    case WH_SWING_PASSES: begin_pass(config, rotor, swing); break;
+    case WH_SWING_GUESSES:
+        swing->pass = 0;
+        wh_swing_guess(config, swing);
+        swing->piece = WH_SWING_PASSES;
+        break;
+    case WH_SWING_ENDS: conclude(config, swing); break;
+    }
+}
+
+void wh_swing_step(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing,
+                   bool swings, bool rests) {
+    if (swings && !swing->free) {
+        begin(swing);
+    } else if (!swings && swing->free) {
+        rest(config, rotor, swing, rests);
+    } else if (rests && wh_swing_works(swing)) {
+        work(config, rotor, swing);
+    }
+    swing->free = swings;
+}
+
+void wh_swing_doubt(const wh_swing_config *config, const wh_swing *swing, wh_measured *measured) {
+    const wh_swung *swung = &swing->result;
+    if (swung->why == WH_SWING_FOUND && measured->turns > 0 && measured->quality == WH_GOOD &&
+        WH_ABS(swung->place_rad[0]) > swung->half_rad[0] + config->off_rad) {
+        measured->quality = WH_DOUBTFUL;
+        measured->why = WH_WHY_PLACE;
+    }
+}
+
+#define CASE(name, words) \
+    case name: return words;
+
+const char *wh_swing_text(wh_swing_why why) {
+    switch (why) {
+        WH_SWING_ROWS(CASE)
+    case WH_SWING_WHYS: break;
+    }
+    return "unknown reason";
+}

@@ -1,0 +1,72 @@
+#!/bin/sh
+# swing.sh: a run that ends in a free swing finds where sensor 1 stands, on the bench of docs/plants/rig.whirl, whose coupling
+# bends and whose dry friction sits in bearings and brushes; and its verdict follows. SWINGS=100: so many drawn rotors
+# (default 8; WHIRL_FULL: 60), FRICTION=0.05: the most of either friction, N m.
+. "$(dirname "$0")/../checks.sh"
+
+build=$(dirname "$whirl")
+rig="docs/plants/rig.whirl --firmware $build/pil_swing --step 200us --jitter 60us"
+runs=8
+[ -z "${WHIRL_FULL:-}" ] || runs=60
+runs=${SWINGS:-$runs}
+
+[ -x "$build/pil_swing" ]
+verdict $? "build/pil_swing is there (make pil-images)"
+
+# swing WORD...: a run to its end; its words for what became of the swing in $why
+swing() {
+    # shellcheck disable=SC2086 # words
+    timeout 120 "$whirl" pil $rig "$@" </dev/null >"$scratch/run" 2>"$scratch/err" || [ $? -eq 1 ]
+    ended=$?
+    why=$(sed -n 's/^The swing in which it came to rest: //p' "$scratch/run")
+}
+# value NAME: of the report's line "sensor 1 stands" or of the line behind it
+place() { sed -n 's/^  sensor 1 stands  *\([-0-9.]*\) deg.*/\1/p' "$scratch/run"; }
+half() { sed -n '/^  sensor 1 stands/{n;s/^ *known to within  *\([0-9.]*\) deg.*/\1/p;}' "$scratch/run"; }
+
+for stands in 0 2.5; do
+    swing --place $stands,0
+    [ "$ended" -eq 0 ] && [ "$why" = found ] &&
+        awk -v a="$(place)" -v b=$stands 'BEGIN { d = a - b; exit !(a != "" && d < 0.15 && d > -0.15) }'
+    verdict $? "sensor 1 at $stands degrees is found" "$scratch/run"
+done
+grep -aq 'verdict  *doubtful' "$scratch/run"
+verdict $? "and what it measures is doubtful" "$scratch/run"
+# both turned: the second sensor's marks fit the rotor, and nothing but the swing tells
+swing --place 1.5,1.5
+grep -aq 'verdict  *doubtful: sensor 1 does not stand where the arms hang' "$scratch/run"
+verdict $? "with both sensors turned nothing else tells, and the verdict says so" "$scratch/run"
+swing --place 2,0 --set bearing_friction=0.1
+[ "$why" = 'too few swings: friction stops the rotor' ]
+verdict $? "with too much friction it is refused by name" "$scratch/run"
+
+# Drawn rotors: inertia of half to twice, friction from a tenth of the most on, a coupling of a quarter to twice the
+# stiffness, sensor 1 off by -3 to 3 degrees.
+awk -v runs="$runs" -v most="${FRICTION:-0.025}" '
+function drawn() { x = (x * 16807) % 2147483647; return x / 2147483647 }
+function between(a, b) { return a * exp(drawn() * log(b / a)) }
+BEGIN {
+    x = 20061; drawn()
+    for (i = 1; i <= runs; i++)
+        printf "%.3f %.4f %.4f %.2f %.3f %d\n", between(0.5, 2), between(most / 10, most), between(most / 10, most), between(5, 40), 6 * drawn() - 3, i
+}' >"$scratch/drawn"
+: >"$scratch/found"
+while read -r inertia bearing brush stiff stands seed; do
+    swing --place "$stands,0" --seed "$seed" --set "inertia=$inertia" --set "bearing_friction=$bearing" \
+        --set "motor_friction=$brush" --set "k=$stiff" --until 90s
+    case $why in
+    found) echo "found $(place) $(half) $stands" ;;
+    'too few'*) echo few ;;
+    *) echo "other $why" ;;
+    esac >>"$scratch/found"
+done <"$scratch/drawn"
+awk '
+$1 == "found" { d = $2 - $4; if (d < 0) d = -d; n++; sum += d * d; if (d <= $3) held++; if (d > worst) worst = d }
+$1 == "few" { few++ }
+END {
+    printf "# of %d drawn rotors %d are found, off by %.3f deg rms, %.2f at most; %d intervals hold it; %d have too few swings\n",
+        NR, n, (n ? sqrt(sum / n) : 0), worst, held, few
+    exit !(n > 0 && worst <= 0.3 && held >= 0.85 * n && n + few >= 0.9 * NR)
+}' "$scratch/found"
+verdict $? "drawn rotors: to 0.3 degrees, or refused" "$scratch/found"
+exit $failed

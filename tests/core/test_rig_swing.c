@@ -1,0 +1,333 @@
+/* test_rig_swing.c: where the sensors stand, from the swing of a made-up rotor (rotor.c) that comes to rest; what is refused,
+ * by its name; pulses that are none; and its parts, the equation of motion and the regression. */
+#include "core/rig/free_swing.h"
+
+#include "core/angle.h"
+#include "core/rig/datasheet.h"
+#include "core/rig/rig.h"
+#include "draw.h"
+#include "even_rig.h"
+#include "rotor.h"
+
+#include "unity.h"
+
+void suite_rig_swing(void);
+
+#define DEG (WH_R(1.0) / WH_RIG_DEG_PER_RAD)
+#define STEP_TICKS UINT32_C(2000)
+#define REST_TICKS UINT32_C(1500000)
+
+static wh_swing swing;
+static uint64_t seed;
+
+typedef struct drawn {
+    rotor_kind kind;
+    wh_real place_rad[2];
+    unsigned lose; /* every so manieth pulse, 0: none */
+    unsigned add;  /* behind every so manieth a pulse that is none */
+} drawn;
+
+static wh_real drawn_between(wh_real least, wh_real most) {
+    return least + (most - least) * draw_whole(&seed, 0, 10000) / WH_R(10000.0);
+}
+
+/* A rotor with its motor's leads open. */
+static drawn draw_rotor(wh_real friction_least_Nm, wh_real friction_most_Nm) {
+    drawn rotor = {.kind = rotor_nominal()};
+    rotor.kind.stall_Nm = WH_R(0.0);
+    rotor.kind.inertia_kgm2 *= drawn_between(WH_R(0.5), WH_R(2.0));
+    rotor.kind.drag_Nms = drawn_between(WH_R(0.0), WH_R(0.002));
+    rotor.kind.friction_Nm = drawn_between(friction_least_Nm, friction_most_Nm);
+    rotor.kind.slot_rad = WH_R(2.0) * DEG;
+    rotor.kind.jitter_s = WH_R(104e-6);
+    for (unsigned i = 0; i < 2; i++) {
+        rotor.place_rad[i] = drawn_between(WH_R(-3.0), WH_R(3.0)) * DEG;
+        rotor.kind.mark_rad[i] += rotor.place_rad[i];
+    }
+    return rotor;
+}
+
+static wh_rig_config standard(void) {
+    wh_rig_config config = wh_rig_standard;
+    wh_rig_slots(&config, DEG);
+    return config;
+}
+
+static void give(const wh_rig_config *config, const drawn *rotor, rotor_state *state,
+                 unsigned *pulses, uint32_t *quiet_ticks) {
+    rotor_turn(&rotor->kind, state, WH_R(0.0), STEP_TICKS);
+    *quiet_ticks += STEP_TICKS;
+    for (unsigned i = 0; i < state->marks; i++) {
+        *quiet_ticks = 0;
+        ++*pulses;
+        if (rotor->lose == 0 || *pulses % rotor->lose != 0) {
+            wh_swing_pulse(&swing, state->mark_sensor[i], state->mark_ticks[i]);
+        }
+        if (rotor->add > 0 && *pulses % rotor->add == 0) {
+            wh_swing_pulse(&swing, draw_one_of(&seed, 2), state->mark_ticks[i] + 20000U);
+        }
+    }
+    wh_swing_step(&config->swing, &config->measure.rotor, &swing, true, false);
+}
+
+/* From some turns to rest, and what is made of it. */
+static wh_swung swing_out(const wh_rig_config *config, const drawn *rotor, bool rests) {
+    rotor_state state = {.ticks = UINT32_MAX - 3000000U,
+                         .seed = seed,
+                         .angle_rad = drawn_between(WH_R(0.0), WH_RIG_TWO_PI),
+                         .speed_radps = drawn_between(WH_R(19.0), WH_R(24.0))};
+    unsigned pulses = 0;
+    uint32_t quiet = 0;
+    swing = (wh_swing){.free = false};
+    wh_swing_step(&config->swing, &config->measure.rotor, &swing, true, false);
+    for (unsigned i = 0; i < 30000U && quiet < REST_TICKS; i++) {
+        give(config, rotor, &state, &pulses, &quiet);
+    }
+    TEST_ASSERT_TRUE(quiet >= REST_TICKS);
+    wh_swing_step(&config->swing, &config->measure.rotor, &swing, false, rests);
+    for (unsigned i = 0; i < 100000U && wh_swing_works(&swing); i++) {
+        wh_swing_step(&config->swing, &config->measure.rotor, &swing, false, rests);
+    }
+    TEST_ASSERT_FALSE(wh_swing_works(&swing));
+    return swing.result;
+}
+
+/* --- what is found -------------------------------------------------------------------------------------- */
+
+static void test_places_are_found_of_rotors_that_nobody_knows(void) {
+    const wh_rig_config config = standard();
+    const unsigned runs = 24;
+    unsigned covered = 0;
+    unsigned found = 0;
+    seed = 1;
+    for (unsigned i = 0; i < runs; i++) {
+        const drawn rotor = draw_rotor(WH_R(0.005), WH_R(0.04));
+        const wh_swung swung = swing_out(&config, &rotor, true);
+        if (swung.why != WH_SWING_FOUND) {
+            TEST_ASSERT_TRUE(swung.why >= WH_SWING_FEW);
+            continue;
+        }
+        found++;
+        const wh_real off = swung.place_rad[0] - rotor.place_rad[0];
+        TEST_ASSERT_FLOAT_WITHIN(0.3f, 0.0f, (float)(off / DEG));
+        TEST_ASSERT_TRUE(swung.half_rad[0] >= config.swing.floor_rad &&
+                         swung.half_rad[0] <= config.swing.wide_rad);
+        covered += WH_ABS(off) <= swung.half_rad[0] ? 1U : 0U;
+        TEST_ASSERT_FLOAT_WITHIN(1.0f, 0.0f,
+                                 (float)((swung.place_rad[1] - rotor.place_rad[1]) / DEG));
+    }
+    TEST_ASSERT_TRUE(found * 10U >= runs * 8U);
+    TEST_ASSERT_TRUE(covered * 20U >= found * 18U);
+}
+
+/* A lost pulse, or one too many, is left out or makes the swing no swing; it does not move a sensor. */
+static void test_pulses_that_are_none_move_no_sensor(void) {
+    const wh_rig_config config = standard();
+    unsigned found = 0;
+    seed = 2;
+    for (unsigned i = 0; i < 20U; i++) {
+        drawn rotor = draw_rotor(WH_R(0.005), WH_R(0.03));
+        rotor.lose = i % 2U == 0 ? 13U : 0U;
+        rotor.add = i % 2U == 0 ? 0U : 17U;
+        const wh_swung swung = swing_out(&config, &rotor, true);
+        if (swung.why == WH_SWING_FOUND) {
+            found++;
+            TEST_ASSERT_FLOAT_WITHIN(0.3f, 0.0f,
+                                     (float)((swung.place_rad[0] - rotor.place_rad[0]) / DEG));
+        }
+    }
+    TEST_ASSERT_TRUE(found > 0);
+}
+
+/* --- what is refused ------------------------------------------------------------------------------------- */
+
+static void test_what_is_no_free_swing_is_refused_by_name(void) {
+    wh_rig_config config = standard();
+    seed = 3;
+    for (unsigned i = 0; i < 5U; i++) {
+        drawn rotor = draw_rotor(WH_R(0.15), WH_R(0.2)); /* friction */
+        TEST_ASSERT_TRUE(swing_out(&config, &rotor, true).why == WH_SWING_FEW);
+        rotor = draw_rotor(WH_R(0.01), WH_R(0.02));
+        TEST_ASSERT_TRUE(swing_out(&config, &rotor, false).why == WH_SWING_NOT_FREE);
+        rotor.kind.stall_Nm = WH_RIG_STALL_NM; /* leads that are shorted */
+        TEST_ASSERT_TRUE(swing_out(&config, &rotor, true).why == WH_SWING_FEW);
+    }
+    const drawn rotor = draw_rotor(WH_R(0.01), WH_R(0.02));
+    config.measure.rotor.gravity_mps2 = WH_R(0.0);
+    TEST_ASSERT_TRUE(swing_out(&config, &rotor, true).why == WH_SWING_NOT_FREE);
+}
+
+/* Pulses at any times, of any sensor: no place is found, and the work ends. */
+static void test_pulses_of_no_rotor_find_nothing(void) {
+    const wh_rig_config config = standard();
+    unsigned works = 0;
+    seed = 4;
+    for (unsigned i = 0; i < 100U; i++) {
+        uint32_t ticks = (uint32_t)draw_bits(&seed);
+        swing = (wh_swing){.free = false};
+        wh_swing_step(&config.swing, &config.measure.rotor, &swing, true, false);
+        const unsigned pulses = draw_one_of(&seed, 80);
+        const bool fast = draw_one_in(&seed, 2);
+        for (unsigned k = 0; k < pulses; k++) {
+            ticks += fast ? draw_one_of(&seed, 3) : draw_one_of(&seed, 1400000);
+            wh_swing_pulse(&swing, draw_one_in(&seed, 4) ? 1U : 0U, ticks);
+        }
+        wh_swing_step(&config.swing, &config.measure.rotor, &swing, false, true);
+        for (unsigned k = 0; k < 200000U && wh_swing_works(&swing); k++) {
+            works++;
+            wh_swing_step(&config.swing, &config.measure.rotor, &swing, false, true);
+        }
+        TEST_ASSERT_TRUE(swing.result.why > WH_SWING_FOUND);
+    }
+    TEST_ASSERT_TRUE(works > 0);
+}
+
+static void test_words(void) {
+    for (int i = 0; i <= (int)WH_SWING_WHYS; i++) {
+        TEST_ASSERT_TRUE(wh_swing_text((wh_swing_why)i)[0] != '\0');
+    }
+}
+
+/* --- the rig ----------------------------------------------------------------------------------------------- */
+
+static even_rig even;
+
+/* The end of a run coasts where that is asked for; `stop` brakes all the same, at any time. */
+static void test_a_run_that_ends_in_a_swing_coasts(void) {
+    for (unsigned swings = 0; swings < 2U; swings++) {
+        even_arm(&even);
+        even.config.swings = swings != 0;
+        TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_START, WH_RIG_NOMINAL_RPM * EVEN_RPM) ==
+                         WH_ALLOWED);
+        even_go_on_until(&even, WH_PHASE_OFF);
+        const wh_motor_way way = swings != 0 ? WH_MOTOR_COASTS : WH_MOTOR_BRAKES;
+        TEST_ASSERT_TRUE(even.command.way == way);
+        TEST_ASSERT_TRUE(even.rig.swing.result.why ==
+                         (swings != 0 ? WH_SWING_SWINGS : WH_SWING_NONE));
+        even_steps(&even, 10);
+        TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_STOP, WH_R(0.0)) == WH_ALLOWED);
+        TEST_ASSERT_TRUE(even.command.way == WH_MOTOR_BRAKES);
+        TEST_ASSERT_TRUE(even.rig.swing.result.why ==
+                         (swings != 0 ? WH_SWING_NOT_FREE : WH_SWING_NONE));
+        even_go_on_until(&even, EVEN_NEVER);
+        TEST_ASSERT_TRUE(even_is_done(&even));
+    }
+}
+
+/* A sensor that stands off makes good doubtful, and nothing else. */
+static void test_a_good_result_is_doubtful_where_sensor_1_stands_off(void) {
+    const wh_rig_config config = standard();
+    for (int deg10 = -30; deg10 <= 30; deg10++) {
+        swing.result = (wh_swung){.why = WH_SWING_FOUND, .half_rad = {WH_R(0.25) * DEG}};
+        swing.result.place_rad[0] = (wh_real)deg10 / WH_R(10.0) * DEG;
+        wh_measured measured = {.quality = WH_GOOD, .turns = 10};
+        wh_measured refused = {.quality = WH_REFUSED, .why = WH_WHY_PHASE, .turns = 10};
+        wh_measured none = {.quality = WH_GOOD};
+        wh_swing_doubt(&config.swing, &swing, &measured);
+        wh_swing_doubt(&config.swing, &swing, &refused);
+        wh_swing_doubt(&config.swing, &swing, &none);
+        const bool off = deg10 > 5 || deg10 < -5;
+        TEST_ASSERT_TRUE(measured.quality == (off ? WH_DOUBTFUL : WH_GOOD));
+        TEST_ASSERT_TRUE(measured.why == (off ? WH_WHY_PLACE : WH_WHY_NONE));
+        TEST_ASSERT_TRUE(refused.quality == WH_REFUSED && refused.why == WH_WHY_PHASE);
+        TEST_ASSERT_TRUE(none.quality == WH_GOOD);
+        swing.result.why = WH_SWING_WIDE;
+        measured = (wh_measured){.quality = WH_GOOD, .turns = 10};
+        wh_swing_doubt(&config.swing, &swing, &measured);
+        TEST_ASSERT_TRUE(measured.quality == WH_GOOD);
+    }
+}
+
+/* --- parts ------------------------------------------------------------------------------------------------- */
+
+static wh_free_rotor go(const wh_real *cause, unsigned steps, wh_real h) {
+    wh_free_rotor rotor;
+    wh_free_rotor_start(&rotor, cause[WH_FREE_Q], cause[WH_FREE_RATE]);
+    for (unsigned i = 0; i < steps; i++) {
+        wh_free_rotor_step(cause, &rotor, h);
+    }
+    return rotor;
+}
+
+/* Forwards and backwards, through several turning points: what follows from a little more of each cause. */
+static void test_derivatives_are_what_differences_show(void) {
+    const wh_real little[WH_FREE_CAUSES] = {WH_R(1e-3), WH_R(1e-2), WH_R(3e-2), WH_R(1e-2),
+                                            WH_R(3e-3)};
+    for (unsigned way = 0; way < 2U; way++) {
+        const wh_real h = way == 0 ? WH_R(0.004) : WH_R(-0.004);
+        const wh_real cause[WH_FREE_CAUSES] = {WH_R(0.1), WH_R(-9.0), WH_R(50.0), WH_R(4.0),
+                                               WH_R(0.2)};
+        const unsigned steps = way == 0 ? 400U : 130U;
+        const wh_free_rotor plain = go(cause, steps, h);
+        for (unsigned i = 0; i < WH_FREE_CAUSES; i++) {
+            wh_real more[WH_FREE_CAUSES];
+            wh_real less[WH_FREE_CAUSES];
+            for (unsigned k = 0; k < WH_FREE_CAUSES; k++) {
+                more[k] = cause[k] + (k == i ? little[k] : WH_R(0.0));
+                less[k] = cause[k] - (k == i ? little[k] : WH_R(0.0));
+            }
+            const wh_free_rotor up = go(more, steps, h);
+            const wh_free_rotor down = go(less, steps, h);
+            const wh_real q_by = (up.q_rad - down.q_rad) / (WH_R(2.0) * little[i]);
+            const wh_real rate_by = (up.rate_radps - down.rate_radps) / (WH_R(2.0) * little[i]);
+            const wh_real size = WH_ABS(plain.q_by[i]) + WH_ABS(plain.rate_by[i]) / WH_R(7.0);
+            TEST_ASSERT_FLOAT_WITHIN(0.05f * (float)size, (float)q_by, (float)plain.q_by[i]);
+            TEST_ASSERT_FLOAT_WITHIN(0.35f * (float)size, (float)rate_by, (float)plain.rate_by[i]);
+        }
+    }
+}
+
+/* Without drag energy falls by friction's work; steps back undo it. */
+static void test_steps_back_undo_steps(void) {
+    const wh_real cause[WH_FREE_CAUSES] = {WH_R(0.0), WH_R(-11.0), WH_R(60.0), WH_R(5.0),
+                                           WH_R(0.1)};
+    wh_free_rotor rotor = go(cause, 500, WH_R(0.002));
+    TEST_ASSERT_TRUE(WH_ABS(rotor.rate_radps) < WH_R(9.0));
+    for (unsigned i = 0; i < 500; i++) {
+        wh_free_rotor_step(cause, &rotor, WH_R(-0.002));
+    }
+    TEST_ASSERT_FLOAT_WITHIN(2e-2f, 0.0f, (float)rotor.q_rad);
+    TEST_ASSERT_FLOAT_WITHIN(2e-2f, -11.0f, (float)rotor.rate_radps);
+}
+
+/* Measurements without error: the unknowns, and less than the guess is known by. */
+static void test_the_regression_finds_what_was_measured(void) {
+    wh_normal normal;
+    wh_real truth[WH_NORMAL_UNKNOWNS];
+    const wh_real guess[WH_NORMAL_UNKNOWNS] = {WH_R(0.0)};
+    seed = 5;
+    wh_normal_start(&normal, guess);
+    for (unsigned i = 0; i < WH_NORMAL_UNKNOWNS; i++) {
+        truth[i] = draw_broken(&seed, -2, 2);
+    }
+    for (unsigned k = 0; k < 30U; k++) {
+        wh_real row[WH_NORMAL_UNKNOWNS];
+        wh_real sum = WH_R(0.0);
+        for (unsigned i = 0; i < WH_NORMAL_UNKNOWNS; i++) {
+            row[i] = draw_broken(&seed, -1, 1);
+            sum += row[i] * truth[i];
+        }
+        wh_normal_add(&normal, row, sum, WH_R(1e4));
+    }
+    wh_normal_factor(&normal);
+    wh_normal_solve(&normal);
+    for (unsigned i = 0; i < WH_NORMAL_UNKNOWNS; i++) {
+        TEST_ASSERT_FLOAT_WITHIN(1e-3f, (float)truth[i], (float)normal.right[i]);
+        const wh_real deviation = wh_normal_deviation(&normal, i);
+        /* of 30 rows of variance 1/3: 0.01/sqrt(10) */
+        TEST_ASSERT_TRUE(deviation > WH_R(0.002) && deviation < WH_R(0.008));
+    }
+}
+
+void suite_rig_swing(void) {
+    RUN_TEST(test_places_are_found_of_rotors_that_nobody_knows);
+    RUN_TEST(test_pulses_that_are_none_move_no_sensor);
+    RUN_TEST(test_what_is_no_free_swing_is_refused_by_name);
+    RUN_TEST(test_pulses_of_no_rotor_find_nothing);
+    RUN_TEST(test_words);
+    RUN_TEST(test_a_run_that_ends_in_a_swing_coasts);
+    RUN_TEST(test_a_good_result_is_doubtful_where_sensor_1_stands_off);
+    RUN_TEST(test_derivatives_are_what_differences_show);
+    RUN_TEST(test_steps_back_undo_steps);
+    RUN_TEST(test_the_regression_finds_what_was_measured);
+}
