@@ -4,7 +4,7 @@
 #include <stddef.h>
 
 #include "datasheet.h"
-#include "watch.h"
+#include "expect.h"
 
 void wh_rig_slots(wh_rig_config *config, wh_real lead_rad) {
     config->measure.rotor.mark_rad[0] = -lead_rad;
@@ -53,7 +53,11 @@ bool wh_rig_post(wh_rig *rig, wh_rig_event event, wh_real value) {
 void wh_rig_pulse(const wh_rig_config *config, wh_rig *rig, unsigned sensor, uint32_t ticks) {
     rig->pulses_ever++;
     rig->busy = true;
-    wh_rig_expect(config, rig, sensor, ticks);
+    if (!wh_run_drives(&rig->run)) {
+        wh_expect_slower(&rig->run, &rig->pulses, config->impossible_radps, rig->brakes, sensor,
+                         ticks);
+    }
+    wh_expect_pulses(&config->guard, &config->run, &rig->run, &rig->pulses, ticks);
     if (rig->run.phase == WH_PHASE_TARE && sensor < WH_SPEED_SENSORS) {
         rig->run.tare_pulses[sensor]++;
     }
@@ -194,6 +198,62 @@ static void take_orders(const wh_rig_config *config, wh_rig *rig, const wh_rig_i
     rig->orders = 0;
 }
 
+/* --- the guard, in every state ------------------------------------------------------------------- */
+
+/* At a slow speed silence is measured in turns: two lost pulses leave nearly two. */
+#define SILENT_RAD WH_R(12.0)
+
+static wh_real silence_s(const wh_rig_config *config, const wh_rig *rig) {
+    if (!wh_run_is_closed(&rig->run)) {
+        return config->guard.slow_silence_max_s;
+    }
+    const wh_real least = config->guard.silence_max_s * rig->run.drive.setpoint_radps;
+    return least >= SILENT_RAD ? config->guard.silence_max_s
+                               : SILENT_RAD / rig->run.drive.setpoint_radps;
+}
+
+/* With the motor off: what is known of a rotor that rests? */
+static void rest(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
+    wh_guard_quiet(&config->guard, &rig->guard, rig->pulses_ever, now_ticks);
+    if (rig->guard.quiet) {
+        rig->run.off_radps = WH_R(0.0);
+        if (rig->pulses.speed.running) { /* times of old pulses wrap */
+            wh_pulses_start(&rig->pulses, config->impossible_radps);
+        }
+    }
+}
+
+static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
+    wh_guard *guard = &rig->guard;
+    const bool drives = wh_run_drives(&rig->run);
+    if (inputs->watchdog_has_cut) {
+        wh_guard_trip(guard, WH_TRIP_WATCHDOG);
+    }
+    if (!drives) {
+        rest(config, rig, inputs->now_ticks);
+    }
+    /* with the motor off nothing speeds up a rotor whose speed was known */
+    const bool slows = !drives && rig->run.off_radps < config->guard.limit_radps;
+    wh_guard_speed(&config->guard, guard, &rig->pulses, slows ? WH_TRIP_RUNS_ON : WH_TRIP_OVERSPEED,
+                   drives);
+    if (rig->run.phase == WH_PHASE_SPIN_UP && !rig->pulses.speed.running &&
+        wh_rig_since_s(rig->run.since_ticks, inputs->now_ticks) >
+            config->guard.slow_silence_max_s) {
+        wh_guard_trip(guard, WH_TRIP_STALLED); /* or is not seen: it must not get fast */
+    }
+    if (drives) {
+        wh_guard_pulses(&config->guard, guard, &rig->pulses, silence_s(config, rig),
+                        inputs->now_ticks);
+    }
+    const bool needed = rig->state == WH_LIFE_ARMED || rig->state == WH_LIFE_RUNNING || drives;
+    if (needed && !wh_guard_supply(&config->guard, inputs->supply_V)) {
+        wh_guard_trip(guard, WH_TRIP_SUPPLY);
+    }
+    if (needed && !wh_guard_load_comes(&config->guard, guard, inputs->now_ticks)) {
+        wh_guard_trip(guard, WH_TRIP_LOAD_CELL);
+    }
+}
+
 /* --- where the rotor is --------------------------------------------------------------------------- */
 
 static void observe(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
@@ -304,7 +364,7 @@ wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_ri
     if (rig->fed && wh_run_is_closed(&rig->run)) {
         observe(config, rig, inputs->now_ticks);
     }
-    wh_rig_watch(config, rig, inputs);
+    watch(config, rig, inputs);
     if (inputs->stop_pressed) {
         finds(config, rig, inputs, WH_EVENT_STOP);
     }

@@ -1,0 +1,50 @@
+/* expect.c: how fast, and how early, may the next slot pulse come? */
+#include "expect.h"
+
+#include "datasheet.h"
+
+#define SETTLE_WINDOW WH_R(0.03)
+#define RAMP_WINDOW WH_R(0.12) /* no mark is sure before */
+#define RECORD_PART WH_R(0.8)  /* of what the record lets the speed be off */
+#define FIRST_PART WH_R(0.8)   /* of where it is led: from rest it takes time to get there */
+#define SLOW_RADPS WH_R(16.0)  /* a pulse or two of a rotor that brakes are slower */
+
+void wh_expect_pulses(const wh_guard_config *guard, const wh_run_config *running, const wh_run *run,
+                      wh_pulses *pulses, uint32_t ticks) {
+    const wh_rig_phase phase = run->phase;
+    const wh_speed *speed = &pulses->speed;
+    const wh_led led = wh_run_led(running, run, ticks);
+    const bool from_rest = phase == WH_PHASE_SPIN_UP && !speed->known;
+    const wh_real part = from_rest && speed->taken < 2U ? FIRST_PART : WH_R(1.0);
+    pulses->bound_radps = wh_guard_bound_radps(guard, part * led.base_radps, !from_rest);
+    pulses->climb_radps2 = led.jumps
+                               ? guard->climb_start_radps2
+                               : wh_guard_climb_radps2(guard, led.base_radps - speed->turn_radps,
+                                                       wh_run_is_closed(run));
+    pulses->window = phase == WH_PHASE_RECORD
+                         ? RECORD_PART * running->record_band_radps / run->target_radps
+                         : (phase == WH_PHASE_SETTLE ? SETTLE_WINDOW : RAMP_WINDOW);
+}
+
+/* With the motor off nothing makes the rotor faster again than it was between its last two pulses, but gravity. A sensor
+ * that fires again is one in whose slot it swings, or has missed a pulse: what was known of its speed is nothing now. */
+void wh_expect_slower(wh_run *run, wh_pulses *pulses, wh_real impossible_radps, bool brakes,
+                      unsigned sensor, uint32_t ticks) {
+    static const wh_real moved_rad[] = {WH_R(0.75) * WH_RIG_TWO_PI, WH_R(0.25) * WH_RIG_TWO_PI};
+    if (!pulses->speed.running || sensor >= WH_SPEED_SENSORS) {
+        return;
+    }
+    const bool again = sensor == pulses->last.pulse.sensor && !pulses->suspects;
+    const wh_real moved = again ? WH_RIG_TWO_PI : moved_rad[sensor];
+    const wh_real passed_s = wh_rig_since_s(pulses->speed.ticks, ticks);
+    /* over which it was not driven: before that it may have gathered speed */
+    const bool coasted = (int32_t)(pulses->speed.ticks - run->since_ticks) >= 0;
+    if (coasted && moved < run->off_radps * passed_s) {
+        run->off_radps = moved / passed_s;
+    }
+    if (again) {
+        wh_pulses_start(pulses, impossible_radps);
+    }
+    /* where it brakes: one that swings freely passes the sensors to and fro, and no interval is a speed */
+    pulses->slow = run->phase == WH_PHASE_OFF && brakes && run->off_radps < SLOW_RADPS;
+}
