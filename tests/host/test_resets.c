@@ -80,10 +80,11 @@ static void run_with(const char *words) {
     plant_start(&on, bench.image, &b, &hello, &wish);
     TEST_ASSERT_TRUE(t.start(t.of, &hello, &on));
     for (int i = 1; i <= READS; i++) {
+        const int hundreds = i / 100;
         wh_orders o = {.outputs = 2,
                        .flags = WH_ORDER_ALIVE,
                        .watchdog_ticks = WATCHDOG_TICKS,
-                       .output = {(float)i, (float)(i / 100)}};
+                       .output = {(float)i, (float)hundreds}};
         wh_readings r;
         double late_s = 0.0;
         t.orders(t.of, plant_now(&on) / TICKS_PER_S, &o, &late_s);
