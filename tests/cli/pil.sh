@@ -8,7 +8,7 @@ build=$(dirname "$whirl")
 rig=docs/plants/rig.whirl
 m4=build/mps2-an386/pil_rig.elf
 rounds=1
-[ -z "${WHIRL_FULL:-}" ] || rounds=20
+[ -z "${WHIRL_FULL:-}" ] || rounds=6
 
 [ -x "$build/pil_rig" ] && [ -x "$build/pil_cart" ]
 verdict $? "build/pil_rig and build/pil_cart are there (make pil-images)"

@@ -1,14 +1,12 @@
 #!/bin/sh
 # swing.sh: a run that ends in a free swing finds where sensor 1 stands, on the bench of docs/plants/rig.whirl, whose coupling
 # bends and whose dry friction sits in bearings and brushes; and its verdict follows. SWINGS=100: so many drawn rotors
-# (default 8; WHIRL_FULL: 60), FRICTION=0.05: the most of either friction, N m.
+# (default 8), FRICTION=0.05: the most of either friction, N m.
 . "$(dirname "$0")/../checks.sh"
 
 build=$(dirname "$whirl")
 rig="docs/plants/rig.whirl --firmware $build/pil_swing --step 200us --jitter 60us"
-runs=8
-[ -z "${WHIRL_FULL:-}" ] || runs=60
-runs=${SWINGS:-$runs}
+runs=${SWINGS:-8}
 
 [ -x "$build/pil_swing" ]
 verdict $? "build/pil_swing is there (make pil-images)"
