@@ -41,8 +41,7 @@ $(SINGLE)/bench_matrix_%.elf: $(B)/$(BOARD)/build/matrix/%.o boards/programs/ben
 	$(Q)$(call matrix_link,boards/programs/bench.c)
 
 # What several suites share: each takes what it needs of it.
-$(SINGLE)/shared.a: $(call objects,$(BOARD),tests/core/hand.c tests/core/bench.c \
-    tests/core/exact.c tests/core/exact_law.c)
+$(SINGLE)/shared.a: $(call objects,$(BOARD),$(filter-out tests/core/test_%,$(wildcard tests/core/*.c)))
 	@mkdir -p $(@D)
 	$(say) AR $@
 	$(Q)rm -f $@ && $(AR) rcs $@ $^

@@ -173,7 +173,7 @@ bool even_is_over(const even_rig *even) {
 }
 
 void even_go_on_until(even_rig *even, wh_rig_phase phase) {
-    for (unsigned i = 0; i < 90000U && even->rig.run.phase != phase && !even_is_over(even); i++) {
+    for (uint32_t i = 0; i < 90000U && even->rig.run.phase != phase && !even_is_over(even); i++) {
         even_step(even);
     }
 }

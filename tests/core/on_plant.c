@@ -98,7 +98,7 @@ static bool is_over(const on_plant *on) {
 }
 
 void plant_go_on_until(on_plant *on, wh_rig_phase phase) {
-    for (unsigned i = 0; i < 90000U && on->rig.run.phase != phase && !is_over(on); i++) {
+    for (uint32_t i = 0; i < 90000U && on->rig.run.phase != phase && !is_over(on); i++) {
         plant_control(on);
     }
 }

@@ -220,7 +220,7 @@ static void test_what_holds_for_hours(void) {
     even_start(&even);
     unsigned results = 0;
     unsigned trips = 0;
-    for (unsigned step = 0; step < 150000U; step++) {
+    for (uint32_t step = 0; step < 150000U; step++) {
         const wh_life before = even.rig.state;
         asked of = {.arm = false};
         even.inputs.supply_V = draw_one_in(&seed, 6000) ? any_supply_V() : WH_RIG_RATED_V;

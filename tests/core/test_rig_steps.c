@@ -224,7 +224,7 @@ static void test_rest_is_waited_for(void) {
             stand_in(WH_PHASE_OFF);
         }
         const wh_life state = rig.state;
-        unsigned steps = 0;
+        uint32_t steps = 0;
         for (; steps < 70000U && rig.state == state && !rig.rested; steps++) {
             if (pulses ? steps % 150U == 0 : steps == 0) { /* 200 rpm */
                 wh_rig_pulse(&config, &rig, 0, inputs.now_ticks + STEP_TICKS);
@@ -234,10 +234,10 @@ static void test_rest_is_waited_for(void) {
             TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)command.volts);
         }
         if (pulses) {
-            TEST_ASSERT_EQUAL_UINT((trips ? 20U : 120U) * STEPS_PER_S + 1U, steps);
+            TEST_ASSERT_EQUAL_UINT32((trips ? 20U : 120U) * STEPS_PER_S + 1U, steps);
             TEST_ASSERT_TRUE(rig.guard.trip == (trips ? WH_TRIP_OVERSPEED : WH_TRIP_RUNS_ON));
         } else {
-            TEST_ASSERT_EQUAL_UINT(3U * STEPS_PER_S / 2U + 1U, steps);
+            TEST_ASSERT_EQUAL_UINT32(3U * STEPS_PER_S / 2U + 1U, steps);
             TEST_ASSERT_TRUE(trips ? rig.rested : rig.state == WH_LIFE_IDLE);
         }
     }
@@ -259,7 +259,7 @@ static void test_a_rig_at_rest_stays_so_when_the_timer_wraps(void) {
     for (unsigned i = 0; i < 2; i++) {
         stand_tripped(trips[i]);
         const uint32_t begins = inputs.now_ticks;
-        unsigned waited = 0;
+        uint32_t waited = 0;
         for (; waited < 70000U && !rig.rested; waited++) {
             step();
         }

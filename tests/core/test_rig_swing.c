@@ -85,7 +85,7 @@ static wh_swung swing_out(const wh_rig_config *config, const drawn *rotor, bool 
     }
     TEST_ASSERT_TRUE(quiet >= REST_TICKS);
     wh_swing_step(&config->swing, &config->measure.rotor, &swing, false, rests);
-    for (unsigned i = 0; i < 100000U && wh_swing_works(&swing); i++) {
+    for (uint32_t i = 0; i < 100000U && wh_swing_works(&swing); i++) {
         wh_swing_step(&config->swing, &config->measure.rotor, &swing, false, rests);
     }
     TEST_ASSERT_FALSE(wh_swing_works(&swing));
@@ -160,7 +160,7 @@ static void test_what_is_no_free_swing_is_refused_by_name(void) {
 /* Pulses at any times, of any sensor: no place is found, and the work ends. */
 static void test_pulses_of_no_rotor_find_nothing(void) {
     const wh_rig_config config = standard();
-    unsigned works = 0;
+    uint32_t works = 0;
     seed = 4;
     for (unsigned i = 0; i < 100U; i++) {
         uint32_t ticks = (uint32_t)draw_bits(&seed);
@@ -169,11 +169,11 @@ static void test_pulses_of_no_rotor_find_nothing(void) {
         const unsigned pulses = draw_one_of(&seed, 80);
         const bool fast = draw_one_in(&seed, 2);
         for (unsigned k = 0; k < pulses; k++) {
-            ticks += fast ? draw_one_of(&seed, 3) : draw_one_of(&seed, 1400000);
+            ticks += fast ? draw_one_of(&seed, 3) : 20U * (uint32_t)draw_one_of(&seed, 65535);
             wh_swing_pulse(&swing, draw_one_in(&seed, 4) ? 1U : 0U, ticks);
         }
         wh_swing_step(&config.swing, &config.measure.rotor, &swing, false, true);
-        for (unsigned k = 0; k < 200000U && wh_swing_works(&swing); k++) {
+        for (uint32_t k = 0; k < 200000U && wh_swing_works(&swing); k++) {
             works++;
             wh_swing_step(&config.swing, &config.measure.rotor, &swing, false, true);
         }
