@@ -48,7 +48,7 @@ extern const wh_scene rig_observed;
 #endif
 #if RIG_CARRIAGE
 static wh_carriage carriage;
-static float swing_m; /* of the carriage, by what was measured */
+static float displacement_m; /* of the carriage, by what was measured */
 #endif
 
 _Static_assert(HAL_TICKS_PER_S == WH_RIG_TICKS_PER_S, "one clock");
@@ -94,7 +94,7 @@ static void tell(void) {
     hal_frames_note(HAL_NOTE_RESET, (float)hal_reset_cause());
 #endif
 #if RIG_CARRIAGE
-    hal_frames_note(HAL_NOTE_SWING, swing_m);
+    hal_frames_note(HAL_NOTE_DISPLACEMENT, displacement_m);
 #endif
 }
 
@@ -236,7 +236,9 @@ static operator_step run(const wh_rig_config *config) {
         hal_clock_wait_until(due);
         control(config);
 #if RIG_CARRIAGE
-        swing_m = rig.has_result ? wh_carriage_swing(config, &carriage, &rig.result.force) : 0.0f;
+        displacement_m = rig.has_result
+                             ? wh_carriage_displacement_m(config, &carriage, &rig.result.force)
+                             : 0.0f;
 #endif
         tell();
         if (wh_rig_stage(&rig) != shown) {
@@ -323,7 +325,7 @@ int main(void) {
         put_result(&config, &rig.result,
                    RIG_CARRIAGE ? target_radps : WH_RIG_NOMINAL_RPM * WH_RIG_RADPS_PER_RPM);
 #if RIG_CARRIAGE
-        put_carriage(&config, &carriage, swing_m);
+        put_carriage(&config, &carriage, displacement_m);
 #endif
         put_swung(&rig.swing.result);
     }

@@ -120,14 +120,14 @@ static inline void put_swung(const wh_swung *swung) {
 
 /* Beside the formula for a fixed mount. */
 static inline void put_carriage(const wh_rig_config *config, const wh_carriage *carriage,
-                                float swing_m) {
+                                float displacement_m) {
     const float part = config->measure.result.mount_factor;
     const float lever_m = config->measure.rotor.mass_moment_kgm / WH_RIG_ECCENTRIC_KG;
     put("On a carriage: force as a part of that on a fixed mount, 1/(1 + ratio)\n");
     put_value("eccentric / carriage weight", carriage->ratio, 4, "");
     put_value("radius of the discs", 1e3f * carriage->disc_m, 1, "mm");
     put_value("1/(1 + ratio)", 100.0f * part, 2, "%");
-    put_value("carriage, to either side", 1e3f * swing_m, 3, "mm");
+    put_value("carriage, to either side", 1e3f * displacement_m, 3, "mm");
     put_value("by formula, S/(M + m)", 1e3f * lever_m * (1.0f - part), 3, "mm");
 }
 

@@ -21,8 +21,8 @@ void wh_carriage_mount(wh_rig_config *config, const wh_carriage *carriage) {
     config->feeds = WH_FEED_NEVER;
 }
 
-wh_real wh_carriage_swing(const wh_rig_config *config, const wh_carriage *carriage,
-                          const wh_measured *force) {
+wh_real wh_carriage_displacement_m(const wh_rig_config *config, const wh_carriage *carriage,
+                                   const wh_measured *force) {
     /* what is expected is part S <w^2> */
     const wh_real square = force->expected_N / (config->measure.result.mount_factor *
                                                 config->measure.rotor.mass_moment_kgm);

@@ -18,7 +18,7 @@ typedef struct wh_carriage {
 } wh_carriage;
 
 #define wh_carriage_mount WH_NAME(wh_carriage_mount)
-#define wh_carriage_swing WH_NAME(wh_carriage_swing)
+#define wh_carriage_displacement_m WH_NAME(wh_carriage_displacement_m)
 
 /* wh_rig_standard, or a copy with other cells and sensors, becomes the rig on that carriage. Without gravity there is nothing
  * to observe or to feed. */
@@ -26,8 +26,8 @@ void wh_carriage_mount(wh_rig_config *config, const wh_carriage *carriage);
 
 /* By how much the carriage goes to either side, in m: of what the cell feels F/(M <w^2>), the mean taken over the angle. 0 of a
  * mount that does not move. */
-wh_real wh_carriage_swing(const wh_rig_config *config, const wh_carriage *carriage,
-                          const wh_measured *force);
+wh_real wh_carriage_displacement_m(const wh_rig_config *config, const wh_carriage *carriage,
+                                   const wh_measured *force);
 
 #ifdef __cplusplus
 }

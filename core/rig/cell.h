@@ -28,8 +28,8 @@ typedef enum wh_load_status { WH_LOAD_ROWS(WH_LOAD_NAME) WH_LOAD_STATUSES } wh_l
 typedef struct wh_cell_config {
     wh_real newton_per_count; /* negative for a cell that is mounted the other way round */
     wh_real offset_N;         /* what the cell shows without any force */
-    uint32_t
-        delay_ticks; /* of filter and converter: so long before its stamp the force was there */
+    /* of filter and converter: so long before its stamp the force was there */
+    uint32_t delay_ticks;
     uint32_t period_ticks; /* between samples */
     int32_t raw_max;       /* counts of a full-scale load, either sign: saturated */
 } wh_cell_config;

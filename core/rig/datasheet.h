@@ -29,9 +29,7 @@ WH_INLINE wh_real wh_rig_since_s(uint32_t then_ticks, uint32_t now_ticks) {
 #define WH_RIG_MASS_MOMENT_AT_KGM(disc_m) \
     (WH_R(2.0) * (WH_R(0.152) * (WH_R(3.625) * WH_R(0.0254)) + WH_R(0.15) * (disc_m)) * \
      WH_R(0.45359237))
-#define WH_RIG_MASS_MOMENT_KGM \
-    (WH_R(2.0) * (WH_R(0.152) * WH_R(3.625) + WH_R(0.15) * WH_R(6.5)) * \
-     (WH_R(0.45359237) * WH_R(0.0254)))
+#define WH_RIG_MASS_MOMENT_KGM WH_RIG_MASS_MOMENT_AT_KGM(WH_RIG_DISC_RADIUS_M)
 
 /* Of all that turns: two sets, the arm a slender rod, the discs points; 5e-4 kg m^2 of motor, couplings and
  * shafts, which is assumed. */
@@ -41,10 +39,7 @@ WH_INLINE wh_real wh_rig_since_s(uint32_t then_ticks, uint32_t now_ticks) {
           WH_R(0.15) * ((disc_m) * (disc_m))) * \
          WH_R(0.45359237) + \
      WH_R(5e-4))
-#define WH_RIG_INERTIA_KGM2 \
-    (WH_R(2.0) * (WH_R(0.152) * WH_R(17.520833333333332) + WH_R(0.15) * WH_R(42.25)) * \
-         (WH_R(0.45359237) * WH_R(0.0254) * WH_R(0.0254)) + \
-     WH_R(5e-4))
+#define WH_RIG_INERTIA_KGM2 WH_RIG_INERTIA_AT_KGM2(WH_RIG_DISC_RADIUS_M)
 
 /* The motor's torque line at rated voltage: at standstill, and the speed without load. */
 #define WH_RIG_STALL_NM WH_R(1.5)

@@ -36,22 +36,21 @@ typedef struct wh_guard_config {
     wh_real limit_radps;      /* largest speed, mean of a turn */
     wh_real ripple; /* by how much a part of a turn may be faster, as a fraction, at the limit */
     wh_real over;   /* by how much the speed may be above where it is led, as a fraction */
-    wh_real
-        climb; /* by how much two marks running may raise a turn's speed, as a fraction, beyond */
-    wh_real climb_start_radps2;  /* this, while the rotor is taken over, */
+    wh_real climb;  /* by how much two marks running may raise a turn's speed, as a fraction, */
+    wh_real climb_start_radps2;  /* beyond this, while the rotor is taken over, */
     wh_real climb_behind_radps2; /* this, while it is behind the set-point by more */
     wh_real behind_radps;        /* than this, */
     wh_real climb_there_radps2;  /* and else this */
-    wh_real
-        fall_radps; /* what gravity makes of standstill at the top: 2 sqrt(S g / I), at the bottom */
+    /* what gravity makes of standstill at the top: 2 sqrt(S g / I), at the bottom */
+    wh_real fall_radps;
     uint32_t lost_max;          /* pulses that may be lost in a run */
     unsigned doubt_max;         /* see wh_pulses */
     uint32_t rejected_max;      /* and be none */
     wh_real silence_max_s;      /* longest time without a pulse while the loop is closed */
     wh_real slow_silence_max_s; /* and while the rotor starts */
     wh_real load_silence_max_s; /* longest time without a load sample */
-    wh_real
-        load_still_kgm; /* a load that moves by less than this times the speed's square is still */
+    /* a load that moves by less than this times the speed's square is still */
+    wh_real load_still_kgm;
     uint32_t stuck_pulses; /* slot pulses that come while the load does not move: stuck */
     wh_real supply_min_V;
     wh_real supply_max_V;
@@ -115,8 +114,9 @@ WH_INLINE void wh_guard_quiet(const wh_guard_config *config, wh_guard *guard, ui
 }
 
 /* Each step, in every state: over-speed, of a turn, of two pulse intervals running beyond the bound, or of a turn that two
- * marks running find faster than whatever leads it could make it. `reason` is what that means: WH_TRIP_OVERSPEED, or WH_TRIP_RUNS_ON with the motor off. Where it is not `driven`, a sensor that
- * fires again and again is one in whose slot the rotor swings: only pulses that alternate are turns. */
+ * marks running find faster than whatever leads it could make it. `reason` is what that means: WH_TRIP_OVERSPEED, or
+ * WH_TRIP_RUNS_ON with the motor off. Where it is not `driven`, a sensor that fires again and again is one in whose slot the
+ * rotor swings: only pulses that alternate are turns. */
 WH_INLINE void wh_guard_speed(const wh_guard_config *config, wh_guard *guard,
                               const wh_pulses *pulses, wh_trip reason, bool driven) {
     const wh_speed *speed = &pulses->speed;

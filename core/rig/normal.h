@@ -17,8 +17,8 @@ typedef struct wh_normal {
     wh_real matrix[WH_NORMAL_UNKNOWNS]
                   [WH_NORMAL_UNKNOWNS]; /* its lower triangle; then its factors */
     wh_real right[WH_NORMAL_UNKNOWNS];  /* right side; then the solution */
-    wh_real
-        misfit; /* sum of squares of what is off, over the variances: what the unknowns leave is less */
+    /* sum of squares of what is off, over the variances: what the unknowns leave is less */
+    wh_real misfit;
 } wh_normal;
 
 #define wh_normal_start WH_NAME(wh_normal_start)

@@ -27,8 +27,8 @@ typedef struct wh_observer_config {
         *scene;       /* one angle, its rate, one input: the motor's voltage over the rated one */
     wh_real stall_Nm; /* motor torque at standstill and input 1, > 0 */
     wh_real no_load_radps; /* speed at which input 1 gives no torque, > 0 */
-    bool
-        freewheels; /* the motor's stage: less than the motor's own voltage makes no torque, not a braking one */
+    /* the motor's stage: less than the motor's own voltage makes no torque, not a braking one */
+    bool freewheels;
     wh_real mark_rad[WH_OBSERVER_SENSORS]; /* angle of the arms at a pulse of each sensor */
     /* at a mark of each sensor, of its innovation e (rad), n = speed in turns a second: */
     wh_real angle_gain[WH_OBSERVER_SENSORS];       /* angle += gain e */

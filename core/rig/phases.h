@@ -55,7 +55,7 @@ typedef struct wh_run {
     uint32_t ample_ticks;  /* the supply has been enough since */
     wh_real target_radps;
     wh_real volts;     /* mean voltage of the motor that is asked for */
-    wh_real off_radps; /* speed when the motor went off */
+    wh_real off_radps; /* motor off: no faster than this */
     uint32_t tare_pulses[WH_SPEED_SENSORS];
     wh_drive drive;
 } wh_run;

@@ -34,8 +34,8 @@ typedef struct wh_pulses {
     wh_speed speed;      /* of the pulses that were taken */
     wh_speed before;     /* the same without the last one */
     wh_real bound_radps; /* a faster interval is not expected; the caller renews it. 0: no bound */
-    bool
-        slow; /* the rotor all but rests, undriven: an interval far beyond the bound is as good as two; ditto */
+    /* the rotor all but rests, undriven: an interval far beyond the bound is as good as two; ditto */
+    bool slow;
     wh_real window;       /* so early, as a part of a turn, a pulse may come; ditto */
     wh_real climb_radps2; /* a turn's speed may rise by so much each second; ditto */
     wh_pulse suspect;     /* when `suspects` */
@@ -44,13 +44,13 @@ typedef struct wh_pulses {
     wh_mark last;
     bool alert;    /* the last pulse came a little early: the next that does is no disturbance */
     unsigned fast; /* intervals beyond the bound, running */
-    wh_real
-        climb_radps; /* by so much more than it may the turn's speed rose with the last pulse, else 0; */
+    /* by so much more than it may the turn's speed rose, else 0: */
+    wh_real climb_radps;        /* with the last pulse, */
     wh_real climb_before_radps; /* and with the one before */
-    unsigned
-        alternate; /* pulses running whose sensor was not the one before's: a rotor that swings has none */
-    unsigned
-        doubt; /* grows by two with each pulse whose truth was doubtful and shrinks by one with each that fits */
+    /* pulses running whose sensor was not the one before's: a rotor that swings has none */
+    unsigned alternate;
+    /* grows by two with each pulse whose truth was doubtful and shrinks by one with each that fits */
+    unsigned doubt;
     uint32_t rejected;             /* pulses that are none */
     wh_mark mark[WH_PULSES_MARKS]; /* sure, not yet taken */
     unsigned marks;

@@ -44,10 +44,10 @@ typedef struct wh_rig_config {
     wh_real armed_max_s;
     wh_real tripped_max_s; /* after a trip nothing more can be done than to wait so long */
     wh_real rest_max_s;    /* with the motor off, to come to rest */
-    bool
-        stop_brakes; /* motor off brakes (a run's end, `stop`), else it coasts; a trip coasts always */
-    bool
-        swings; /* a run that comes to its end coasts all the same, and where its sensors stand is found; `stop` does not */
+    /* motor off brakes (a run's end, `stop`), else it coasts; a trip coasts always */
+    bool stop_brakes;
+    /* a run that comes to its end coasts all the same, and where its sensors stand is found; `stop` does not */
+    bool swings;
     bool host_loss_stops; /* a run ends when who gives orders is gone, else it goes on */
 } wh_rig_config;
 
@@ -68,18 +68,18 @@ typedef struct wh_rig {
     wh_feed feed;
     wh_swing swing; /* of the last run that ended in one: swing.result */
     bool brakes;    /* the motor, when it goes off */
-    bool
-        fed; /* the run's: the observer goes with the rotor, and once it is valid gravity is fed forward */
+    /* the run's: the observer goes with the rotor, and once it is valid gravity is fed forward */
+    bool fed;
     wh_rig_command command; /* since the last step */
     uint32_t observed;      /* pulses that the observer has seen */
     uint32_t since_ticks;   /* the state began */
     uint32_t pulses_ever;
     uint32_t pulses_before; /* `arm` */
-    bool
-        busy; /* a pulse or a mark is work enough for one step: the measurement waits for the next */
+    /* a pulse or a mark is work enough for one step: the measurement waits for the next */
+    bool busy;
     bool rested; /* motor off, and the rotor rests, or will not: all that can be done is done */
-    bool
-        at_rest; /* it rests: no pulses; where those cannot be believed, after all the time it may take */
+    /* it rests: no pulses; where those cannot be believed, after all the time it may take */
+    bool at_rest;
     wh_rig_result result; /* of the last run that was through; kept until the next is */
     bool has_result;
     wh_trip_record record; /* of the trip that is latched */

@@ -87,7 +87,8 @@ void wh_turn_angle_feed(wh_turn_angle *angle, bool fed);
 void wh_turn_angle_shape(const wh_rotor_config *config, wh_turn_angle *angle, wh_real speed_radps);
 
 /* Sensor 2's mark came when the part `split` (0 to 1) of the turn's time was over: correct the inertia, or the
- * part of gravity that is left, for which the shape must be that of this turn's speed. Returns by how much the mark was off, rad. */
+ * part of gravity that is left, for which the shape must be that of this turn's speed. Returns by how much the mark was
+ * off, rad. */
 wh_real wh_turn_angle_split(const wh_rotor_config *config, wh_turn_angle *angle, wh_real split);
 
 /* theta when the part `part` (0 to 1) of the turn's time is over. */

@@ -1,7 +1,7 @@
 /* rig_frames.c: the rig's hal_ functions, on a plant at the other end of a line.
  *
- * Names are those of docs/plants/rig.whirl, with dials of docs/plants/carriage.whirl. Time stands still while the controller computes; how long it took goes
- * with the outputs, and the plant makes them wait so long. */
+ * Names are those of docs/plants/rig.whirl, with dials of docs/plants/carriage.whirl. Time stands still while the
+ * controller computes; how long it took goes with the outputs, and the plant makes them wait so long. */
 #include "rig_frames.h"
 #include "hal/clock.h"
 #include "hal/loadcell.h"

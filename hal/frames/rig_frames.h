@@ -7,8 +7,9 @@
 extern "C" {
 #endif
 
-/* Notes, in the order of their channels: X(name, word, unit). The state is wh_rig_stage(); its, the trip's and the quality's numbers are those of
- * core/rig, `reset` is hal_reset_cause(); the others are the result's, which is none while it has no turns. */
+/* Notes, in the order of their channels: X(name, word, unit). The state is wh_rig_stage(); its, the trip's and the
+ * quality's numbers are those of core/rig, `reset` is hal_reset_cause(); the others are the result's, which is none while it
+ * has no turns. */
 #define HAL_NOTE_ROWS(X) \
     X(HAL_NOTE_STATE, "state", "1") \
     X(HAL_NOTE_TRIP, "trip", "1") \
@@ -35,7 +36,7 @@ void hal_frames_note(unsigned channel, float value);
     X(HAL_DIAL_SPEED, "dial_speed", "rad/s", 64.0f) \
     X(HAL_DIAL_RADIUS, "dial_radius", "m", 1.0f) \
     X(HAL_DIAL_RATIO, "dial_ratio", "1", 16.0f)
-#define HAL_DIAL_NOTE_ROWS(X) X(HAL_NOTE_SWING, "swing", "m")
+#define HAL_DIAL_NOTE_ROWS(X) X(HAL_NOTE_DISPLACEMENT, "displacement", "m")
 
 enum {
 #define ROW(name, word, unit, largest) name,

@@ -6,7 +6,7 @@
 #   spikes    of the same 2 s a spike for each slot pulse, on the load at its time: time [s], of sensor 1 and of sensor 2
 #             as an oscilloscope shows them, which sees 6 V at 10 lbf and pulses of 10 V and of 6 V
 #   ratios    the force on carriages, of that on a mount that does not move: ratio of the weights, part
-#   speeds    the carriage's swing by what the cell feels, over the speed [rpm]: swing [mm], frequency [Hz]
+#   speeds    the carriage's displacement by what the cell feels, over the speed [rpm]: displacement [mm], frequency [Hz]
 #   radii     the same, over the radius of the discs [in]
 set -eu
 whirl=$1 what=$2
@@ -14,12 +14,12 @@ build=$(dirname "$whirl")
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
-# carriage OPTION...: amplitude [N], swing [m] and speed [rpm], as the firmware on the carriage tells them
+# carriage OPTION...: amplitude [N], displacement [m] and speed [rpm], as the firmware on the carriage tells them
 carriage() {
     "$whirl" pil docs/plants/carriage.whirl --with cell_noise --firmware "$build/pil_carriage" "$@" >"$scratch/said" &&
         awk '$1 == "speed" && !n++ { speed = $2 }
             /^it tells/ { for (i = 1; i < NF; i++) told[$i] = $(i + 1) }
-            END { print told["amplitude"], told["swing"], speed }' "$scratch/said"
+            END { print told["amplitude"], told["displacement"], speed }' "$scratch/said"
 }
 
 case $what in
@@ -55,7 +55,7 @@ ratios)
     done
     ;;
 speeds | radii)
-    [ "$what" = speeds ] && echo "speed,swing_mm,frequency_Hz" || echo "radius,swing_mm,frequency_Hz"
+    [ "$what" = speeds ] && echo "speed,displacement_mm,frequency_Hz" || echo "radius,displacement_mm,frequency_Hz"
     for value in $([ "$what" = speeds ] && echo 170 200 230 260 300 330 360 || echo 2 3 4 5 6 6.5 7); do
         carriage --set "$([ "$what" = speeds ] && echo "speed=$value [rpm]" || echo "r_disc=$value [in]")" |
             awk -v value="$value" '{ printf "%s,%.4f,%.5f\n", value, 1e3 * $2, $3 / 60 }'

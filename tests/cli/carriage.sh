@@ -1,6 +1,6 @@
 #!/bin/sh
 # carriage.sh: the dissertation's carriage measured by the rig's firmware in the loop (I.3.2.2, I.3.5): force at the pin over the
-# weight ratio, swing over speed and radius, against closed forms; what it is told wrongly; drawn benches (BENCHES=200: so
+# weight ratio, displacement over speed and radius, against closed forms; what it is told wrongly; drawn benches (BENCHES=200: so
 # many); a Cortex-M4F.
 . "$(dirname "$0")/../checks.sh"
 
@@ -19,12 +19,12 @@ awk 'NR == FNR { value[$1] = $2; next } { n++; d = $2 - value[$1]; if (d > 1e-9 
 verdict $? "$plant moves as carriage_free with the same drive" "$scratch/plant"
 
 # --- measuring -----------------------------------------------------------------------------------------------------------
-# measure OPTION...: "force half swing quality turns rpm expected%", of the result that the firmware tells
+# measure OPTION...: "force half displacement quality turns rpm expected%", of the result that the firmware tells
 measure() {
     timeout 60 "$whirl" pil $plant --firmware "$build/pil_carriage" "$@" </dev/null >"$scratch/said" 2>"$scratch/err"
     awk '$1 == "speed" && !n++ { speed = $2 }
         /^it tells/ { for (i = 1; i < NF; i++) { sub(/,$/, "", $(i + 1)); told[$i] = $(i + 1) } }
-        END { print told["amplitude"] + 0, told["amplitude_half"] + 0, told["swing"] + 0, told["quality"] + 0, told["turns"] + 0, speed + 0 }' \
+        END { print told["amplitude"] + 0, told["amplitude_half"] + 0, told["displacement"] + 0, told["quality"] + 0, told["turns"] + 0, speed + 0 }' \
         "$scratch/said"
 }
 # The truth, for awk: the arms' mass, S, and the once-per-turn force at a mean speed of arms that run freely: their energy stays,
@@ -32,7 +32,7 @@ measure() {
 truth='
     function moment(inches) { return 2 * 0.45359237 * 0.0254 * (0.152 * 3.625 + 0.15 * inches) }
     function inertia(inches, drive) { return 2 * 0.45359237 * 0.0254 ^ 2 * (0.152 * 7.25 ^ 2 / 3 + 0.15 * inches ^ 2) + drive }
-    function swing(inches, ratio) { return moment(inches) / 0.273969791 * ratio / (1 + ratio) }
+    function displacement(inches, ratio) { return moment(inches) / 0.273969791 * ratio / (1 + ratio) }
     function force(inches, ratio, drive, rpm,    k, i, s, root, over) {
         k = moment(inches) ^ 2 / 0.273969791 * ratio / (1 + ratio) / inertia(inches, drive)
         for (i = 0; i < 360; i++) { s = 1 - k * sin(i * 0.01745329252) ^ 2; root += sqrt(s) / 360; over += 1 / s / 360 }
@@ -56,24 +56,24 @@ awk "$truth"'{
     END { exit !(n == 7 && !bad) }' "$scratch/ratios" >"$scratch/err"
 verdict $? "S16: the force at the pin falls from 100 % to 75 % as 1/(1 + ratio), and its ripple, within 0.06 %, at 1 within 0.15 %"
 
-# --- S18, test 1: speed changes the frequency, not the swing ---------------------------------------------------------------
+# --- S18, test 1: speed changes the frequency, not the displacement -------------------------------------------------------
 for rpm in 200 260 330 360; do
     echo "$rpm $(measure --set "speed=$rpm [rpm]")"
 done >"$scratch/speeds"
 awk "$truth"'{
         n++
-        if ($5 != 0 || off($4, swing(6.5, 1 / 3)) > 0.001 || off($7, $1) > 0.0005) { bad++; print "#", $0, swing(6.5, 1 / 3) }
+        if ($5 != 0 || off($4, displacement(6.5, 1 / 3)) > 0.001 || off($7, $1) > 0.0005) { bad++; print "#", $0, displacement(6.5, 1 / 3) }
         if (n == 1) first = $4
         if (off($4, first) > 0.0003) bad++
     }
     END { exit !(n == 4 && !bad) }' "$scratch/speeds" >"$scratch/err"
 verdict $? "S18, test 1: at 200 to 360 rpm the carriage swings by S/(M + m) within 0.1 %, and the same within 0.03 %"
 
-# --- S18, test 2: the swing is proportional to the radius of the masses -----------------------------------------------------
+# --- S18, test 2: the displacement is proportional to the radius of the masses ----------------------------------------------
 for inches in 2 3 4 5 6.5; do
     echo "$inches $(measure --set "r_disc=$inches [in]")"
 done >"$scratch/radii"
-awk "$truth"'{ n++; if ($5 != 0 || off($4, swing($1, 1 / 3)) > 0.001 || ($4 < before * 1.1)) { bad++; print "#", $0, swing($1, 1 / 3) } before = $4 }
+awk "$truth"'{ n++; if ($5 != 0 || off($4, displacement($1, 1 / 3)) > 0.001 || ($4 < before * 1.1)) { bad++; print "#", $0, displacement($1, 1 / 3) } before = $4 }
     END { exit !(n == 5 && !bad) }' "$scratch/radii" >"$scratch/err"
 verdict $? "S18, test 2: with the discs at 2 to 6.5 in it swings by S/(M + m) within 0.1 %"
 
@@ -131,7 +131,7 @@ done >"$scratch/drawn"
 awk "$truth"'{
         n++; due = force($2, $1, $3, $9); far = $4 > due ? $4 - due : due - $4
         if ($7 == 0) { good++; if (far > $5 + 0.01 * due) { bad++; print "#", $0, due } }
-        if (off($6, swing($2, $1)) < 0.01) near++
+        if (off($6, displacement($2, $1)) < 0.01) near++
     }
     END { print n, good, near; exit !(n > 0 && !bad && good >= 0.6 * n && near >= 0.6 * n) }' "$scratch/drawn" >"$scratch/err"
 verdict $? "$drawn drawn benches: what is good is right ($(tail -n 1 "$scratch/err"): runs, good ones, swings within 1 %)"

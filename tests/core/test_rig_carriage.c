@@ -158,10 +158,10 @@ static void test_swing(void) {
             const wh_measured force = {.amplitude_N = WH_R(1.1) * part * moment * WH_R(900.0),
                                        .expected_N = part * moment * WH_R(900.0)};
             const wh_real due = WH_R(1.1) * moment * (WH_R(1.0) - part) / WH_RIG_ECCENTRIC_KG;
-            const wh_real off_m = wh_carriage_swing(&config, &carriage, &force) - due;
+            const wh_real off_m = wh_carriage_displacement_m(&config, &carriage, &force) - due;
             TEST_ASSERT_TRUE(WH_ABS(off_m) < WH_R(1e-5) * due);
             const wh_measured none = {.amplitude_N = WH_R(0.0)};
-            TEST_ASSERT_TRUE(wh_carriage_swing(&config, &carriage, &none) == WH_R(0.0));
+            TEST_ASSERT_TRUE(wh_carriage_displacement_m(&config, &carriage, &none) == WH_R(0.0));
         }
     }
 }
