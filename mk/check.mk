@@ -87,7 +87,9 @@ gate-full: $(GEN)/.stamp
 # WHIRL_FEW: a part of the cases of `make test`, of every class some, for an instrumented program takes six times as long;
 # what only compiles generated code, which is not instrumented, is left to `make test`.
 # Generated scenes with contacts take gcc half a minute each when they are optimised and instrumented.
-$(B)/float/$(GEN)/%.o $(B)/double/$(GEN)/%.o: FILE_FLAGS = $(SCENE_OPT)
+# In double scenes are linked with tests alone.
+$(B)/float/$(GEN)/%.o: FILE_FLAGS = $(SCENE_OPT)
+$(B)/double/$(GEN)/%.o: FILE_FLAGS = $(or $(SCENE_OPT),$(LEAST_O2))
 ASAN_BUILD = $(MAKE) MAIN="CC='$(CC)' OPT='$(OPT)' EXTRA='$(EXTRA)'" B=build/asan CC=gcc OPT="-O1 -fno-omit-frame-pointer" SCENE_OPT=-O0 \
     EXTRA="-fsanitize=$(SANITIZE) -fno-sanitize-recover=all"
 

@@ -220,7 +220,7 @@ static void fine_mechanism(dice *d, fine_kind kind, char *text, size_t size) {
 
 static void test_fine_mechanisms_say_nothing(void) {
     dice d = dice_of("fine mechanisms", 4003);
-    const unsigned rounds = dice_cases(few_or_all(usual_or(3, 2), 8));
+    const unsigned rounds = dice_cases(few_or_all(2, 8));
     double worst[2] = {0.0, 0.0};
     for (unsigned i = 0; i < rounds; i++) {
         for (fine_kind kind = SPRING; kind < FINE; kind++) {

@@ -88,7 +88,7 @@ enum { SUBSTEPS_MOST = 40 };
 /* All settings and substeps below a price (some settings, but for WHIRL_FULL): how many keep everything? */
 static int kept_below(request *q, double price) {
     int kept = 0;
-    for (int i = 0; i < setting_count(); i += (int)few_or_all(7, 1)) {
+    for (int i = 0; i < setting_count(); i += (int)few_or_all(14, 1)) {
         const setting s = setting_at(i);
         for (int k = 0; k < CHOICE_SUBSTEPS && choice_substeps(k) <= SUBSTEPS_MOST; k++) {
             bool own;
@@ -156,7 +156,7 @@ static void test_drawn_requests(void) {
 /* How many settings keep everything by some number of substeps? By trying all; with fewer cases some, which are no more. */
 static int fitting(request *q) {
     int count = 0;
-    for (int i = 0; i < setting_count(); i += (int)few_or_all(5, 1)) {
+    for (int i = 0; i < setting_count(); i += (int)few_or_all(12, 1)) {
         const setting s = setting_at(i);
         bool fits = false;
         for (int k = 0; k < CHOICE_SUBSTEPS && choice_substeps(k) <= SUBSTEPS_MOST && !fits; k++) {

@@ -48,7 +48,7 @@ static bool is_the_methods(uint64_t seed, double share) {
 }
 
 static void test_energy_is_accounted_for(void) {
-    const long runs = wanted_runs((long)usual_or(300, 100));
+    const long runs = wanted_runs((long)few_or_all(100, 300));
     double worst = 0.0;
     int beyond = 0;
     int coarse = 0;
@@ -78,7 +78,7 @@ static void test_energy_is_accounted_for(void) {
 
 /* The same in float: a motion with contacts may part from the one in double, but not lose energy. */
 static void test_energy_is_accounted_for_in_float(void) {
-    const long runs = wanted_runs((long)usual_or(300, 100));
+    const long runs = wanted_runs((long)few_or_all(100, 300));
     int beyond = 0;
     double worst = 0.0;
     for (uint64_t seed = 1; seed <= (uint64_t)runs; seed++) {

@@ -113,7 +113,7 @@ static long wanted_runs(long usual) {
 typedef bool draw_moment(uint64_t *seed, double impact_s, drawn *b);
 
 static void check_impacts(draw_moment *draw, const engine_kind *kind, double bound) {
-    const long runs = wanted_runs((long)usual_or(40, 12));
+    const long runs = wanted_runs((long)few_or_all(12, 40));
     uint64_t seed = 79;
     double worst = 0.0;
     double worst_books = 0.0;
@@ -195,7 +195,7 @@ static void draw_rest(uint64_t *seed, drawn *b) {
 
 /* Loads are constant, so are the accelerations: rates a h, places a h^2/2, each contact's impulse lambda h. */
 static void check_forces(const engine_kind *kind, double bound) {
-    const long runs = wanted_runs((long)usual_or(40, 12));
+    const long runs = wanted_runs((long)few_or_all(12, 40));
     uint64_t seed = 72;
     double worst = 0.0;
     double worst_books = 0.0;
@@ -296,7 +296,7 @@ static double broken(const motion *m, const drawn *b, int k, double time_s) {
 }
 
 static void test_no_contact_does_more_than_it_can(void) {
-    const long runs = wanted_runs((long)usual_or(40, 12));
+    const long runs = wanted_runs((long)few_or_all(12, 40));
     uint64_t seed = 73;
     double worst = 0.0;
     int over = 0;

@@ -94,7 +94,7 @@ static double run(const plate *p, bool falls, const engine_kind *kind, double un
 
 static void expect(bool falls, const char *words) {
     dice d = dice_of("redundant", falls ? 15005 : 15006);
-    const unsigned cases = dice_cases(few_or_all(usual_or(40, 10), 100));
+    const unsigned cases = dice_cases(few_or_all(10, 100));
     double worst[2] = {0.0, 0.0};
     for (unsigned i = 0; i < cases; i++) {
         plate p = drawn(&d);

@@ -51,7 +51,7 @@ static double floor_off(double hw, const engine_kind *kind) {
 
 static void test_a_floor_stiffer_than_the_step_bears(void) {
     dice d = dice_of("floors", 15002);
-    const unsigned cases = dice_cases(few_or_all(usual_or(30, 10), 80));
+    const unsigned cases = dice_cases(few_or_all(10, 80));
     unsigned gone = 0;
     unsigned sound = 0;
     for (unsigned i = 0; i < cases; i++) {

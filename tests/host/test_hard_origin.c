@@ -69,7 +69,7 @@ static double passage_off_m(double d_m, double step_s, const engine_kind *kind, 
 
 static void test_past_the_origin_of_polar_coordinates(void) {
     dice d = dice_of("origin", 15001);
-    const unsigned cases = dice_cases(few_or_all(usual_or(24, 8), 60));
+    const unsigned cases = dice_cases(few_or_all(8, 60));
     unsigned off_course = 0;
     unsigned sound = 0;
     double cured_m = 0.0;
@@ -189,7 +189,7 @@ static double flight_off_m(const flight *f, double step_s, const engine_kind *ki
 
 static void test_past_the_origin_of_spherical_coordinates(void) {
     dice d = dice_of("space", 15004);
-    const unsigned cases = dice_cases(few_or_all(usual_or(24, 8), 60));
+    const unsigned cases = dice_cases(few_or_all(8, 60));
     unsigned off_course = 0;
     unsigned sound = 0;
     double cured_m = 0.0;

@@ -15,7 +15,7 @@ void suite_hard_scales(void);
 
 enum { STEPS = 50 };
 
-static unsigned cases(void) { return dice_cases(few_or_all(usual_or(5, 3), 30)); }
+static unsigned cases(void) { return dice_cases(few_or_all(3, 30)); }
 
 typedef struct moved {
     wh_status status;

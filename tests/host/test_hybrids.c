@@ -39,7 +39,7 @@ static double off_at_end(const hybrid *h, const hybrid_motion *wanted, double st
 
 static void test_random_hybrids(void) {
     dice d = dice_of("hybrids", 15);
-    const unsigned cases = dice_cases(few_or_all(usual_or(5, 3), 40));
+    const unsigned cases = dice_cases(few_or_all(3, 40));
     uint64_t seed = d.state;
     double worst = 0.0;
     unsigned aside = 0;

@@ -200,7 +200,7 @@ static void test_springs_of_all_methods(void) {
 /* x' = -a x, which has no energy. */
 static void test_decays_of_all_methods(void) {
     dice d = dice_of("map decays", 1422);
-    const unsigned cases = dice_cases(few_or_all(usual_or(8, 4), 32));
+    const unsigned cases = dice_cases(few_or_all(4, 32));
     tally sum = {0};
     for (unsigned k = 0; k < cases; k++) {
         const int which = (int[]){0, 1, 3, 4}[k % 4];
@@ -281,7 +281,7 @@ static void test_what_bounds_are(void) {
  * speed passed on, half the root mean square of the momentum times the swing of the rate: root 2 of the energy. */
 static void test_where_a_tolerance_and_the_energy_end(void) {
     dice d = dice_of("map tolerance", 1423);
-    const unsigned cases = dice_cases(few_or_all(usual_or(8, 4), 32));
+    const unsigned cases = dice_cases(few_or_all(4, 32));
     unsigned seen[MAP_VERDICTS] = {0};
     for (unsigned k = 0; k < cases; k++) {
         const double w = pow(10.0, dice_between(&d, -1.0, 2.0));

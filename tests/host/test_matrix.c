@@ -132,7 +132,7 @@ static void test_entries_are_the_nearest_doubles(void) {
     static const int stiff[] = {0, 6, 14, 20};
     uint64_t seed = 7003;
     double worst = 0.0;
-    for (unsigned n = 0; n < dice_cases(few_or_all(usual_or(60, 20), 400)); n++) {
+    for (unsigned n = 0; n < dice_cases(few_or_all(20, 400)); n++) {
         static quad step[LINEAR_STATES][LINEAR_COLUMNS];
         char text[TEXT_SIZE];
         linear of;
@@ -158,7 +158,7 @@ static void test_entries_are_the_nearest_doubles(void) {
 static void test_entries_of_full_mass_matrices(void) {
     uint64_t seed = 7004;
     double worst = 0.0;
-    for (unsigned n = 0; n < dice_cases(few_or_all(usual_or(24, 8), 200)); n++) {
+    for (unsigned n = 0; n < dice_cases(few_or_all(8, 200)); n++) {
         static quad step[LINEAR_STATES][LINEAR_COLUMNS];
         static quad larger[LINEAR_STATES][LINEAR_COLUMNS];
         static quad allowed[LINEAR_STATES][LINEAR_COLUMNS];
@@ -253,7 +253,7 @@ static void test_motions_are_those_of_the_exponential(void) {
     for (size_t w = 0; w < sizeof ways / sizeof ways[0]; w++) {
         uint64_t seed = 7005;
         double worst = 0.0;
-        for (unsigned n = 0; n < dice_cases(few_or_all(usual_or(24, 8), 200)); n++) {
+        for (unsigned n = 0; n < dice_cases(few_or_all(8, 200)); n++) {
             char text[TEXT_SIZE];
             linear of;
             motion m;
@@ -278,7 +278,7 @@ static void test_motions_are_those_of_the_exponential(void) {
 static void test_the_matrix_of_rk4_moves_like_its_stages(void) {
     uint64_t seed = 7006;
     double worst = 0.0;
-    for (unsigned n = 0; n < dice_cases(few_or_all(usual_or(24, 8), 200)); n++) {
+    for (unsigned n = 0; n < dice_cases(few_or_all(8, 200)); n++) {
         char text[TEXT_SIZE];
         double angle[1];
         double real[2][LINEAR_STATES];

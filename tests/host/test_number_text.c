@@ -13,6 +13,7 @@
 #include "derived.h"
 #include "host/number/decimal.h"
 #include "host/number/hex.h"
+#include "command.h"
 #include "unity.h"
 
 void suite_number_text(void);
@@ -66,7 +67,7 @@ static size_t put_digits(char *text, size_t at, int count) {
 
 static void test_any_digits(void) {
     static const int longest[] = {3, 20, 40, 900};
-    for (int i = 0; i < count_of(100000); i++) {
+    for (int i = 0; i < count_of((int)few_or_all(20000, 100000)); i++) {
         char text[TEXT] = "";
         const int most = longest[i % 100 == 0 ? 3 : draw(3)];
         size_t at = put_digits(text, (size_t)snprintf(text, TEXT, "%s", draw(4) == 0 ? "-" : ""),
@@ -84,7 +85,7 @@ static void test_any_digits(void) {
 
 /* Any double at all, with 1 to 20 digits. */
 static void test_doubles_again(void) {
-    for (int i = 0; i < count_of(100000); i++) {
+    for (int i = 0; i < count_of((int)few_or_all(20000, 100000)); i++) {
         const double value = of_bits(random_bits(&seed));
         char text[64];
         if (isfinite(value)) {
@@ -128,7 +129,7 @@ static void around_middle(uint64_t lower_bits) {
 }
 
 static void test_halfway(void) {
-    for (int i = 0; i < count_of(4000); i++) {
+    for (int i = 0; i < count_of((int)few_or_all(800, 4000)); i++) {
         around_middle(random_bits(&seed) % (UINT64_C(0x7ff) << 52));
         around_middle(random_bits(&seed) >> (12 + draw(52))); /* below 2^-1022 */
         around_middle((UINT64_C(1) << 52) - 3 + (uint64_t)draw(6));
@@ -211,7 +212,7 @@ static void hex_agrees(uint64_t bits) {
 
 static void test_hexadecimal(void) {
     const uint64_t infinite = UINT64_C(0x7ff) << 52;
-    for (int i = 0; i < count_of(100000); i++) {
+    for (int i = 0; i < count_of((int)few_or_all(20000, 100000)); i++) {
         const uint64_t bits = random_bits(&seed);
         hex_agrees((bits & ~(bits >> 63 << 63)) % infinite | bits >> 63 << 63);
         hex_agrees(bits >> (12 + draw(52)));

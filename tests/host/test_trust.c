@@ -55,7 +55,7 @@ static void expect_near(const char *what, const horizons *h, double least, doubl
 /* `file` with a scene that begins so and ends then, in each arithmetic. */
 static void chaotic(const char *name, bool builtin, const char *file, const char *starts,
                     const double *until_s) {
-    const int count = (int)usual_or(ARITHMETICS, 3);
+    const int count = (int)few_or_all(3, ARITHMETICS);
     for (int i = 0; i < count; i++) {
         const arithmetic *a = &arithmetics[i];
         char more[600];

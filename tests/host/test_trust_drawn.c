@@ -222,7 +222,7 @@ static void test_drawn_mechanisms(void) {
     static double ratio[MOST_CASES];
     static double twin[TWINS][MOST_CASES];
     dice d = dice_of("trust_drawn", 14);
-    const unsigned wanted = dice_cases(few_or_all(usual_or(6, 3), 12));
+    const unsigned wanted = dice_cases(few_or_all(3, 12));
     unsigned count = 0;
     unsigned near = 0;
     unsigned regular = 0;

@@ -46,7 +46,7 @@ static horizons one_of(uint64_t *seed, unsigned n, int ms, horizons_setting how)
 static void test_exact_steps_are_right_to_the_end(void) {
     uint64_t seed = 1408;
     double worst = 0.0;
-    for (unsigned n = 0; n < usual_or(48, 12); n++) {
+    for (unsigned n = 0; n < few_or_all(12, 48); n++) {
         const way *w = &exact[n % EXACT];
         horizons h = one_of(&seed, n, step_ms[n / EXACT % STEPS], w->how);
         TEST_ASSERT_TRUE_MESSAGE(h.true_until_s >= h.twins->end_s, w->words);
@@ -66,7 +66,7 @@ static void test_coarse_steps_until_the_reference_says_so(void) {
     int ended = 0;
     double least = 1.0;
     double most = 1.0;
-    const unsigned cases = dice_cases(usual_or(24, 8));
+    const unsigned cases = dice_cases(few_or_all(8, 24));
     for (unsigned n = 0; n < cases; n++) {
         const way *w = &by_rk4[n % BY_RK4];
         char text[400];

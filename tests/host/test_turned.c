@@ -164,7 +164,7 @@ static void write_mechanism(unsigned number, double drive, double speed, uint64_
 
 /* The share of generated mechanisms in which both forms are apart by more than `within` of the error. */
 static double share_apart(double within, double drive, double speed) {
-    const unsigned cases = dice_cases(200);
+    const unsigned cases = dice_cases(few_or_all(60, 200));
     uint64_t seed = 20261122;
     char text[4096];
     unsigned compared = 0;
@@ -202,7 +202,7 @@ static void test_generated_mechanisms_that_become_fast_go_on(void) {
 /* Systems of first order whose angles' rates depend on them so strongly that a stage is far from where the rates at the begin
  * lead: near the limit of stability, where half a turn more or less is soon another equilibrium. */
 static void test_stiff_angles_of_first_order_move_alike(void) {
-    const unsigned cases = dice_cases(300);
+    const unsigned cases = dice_cases(few_or_all(100, 300));
     uint64_t seed = 20261122;
     char text[400];
     unsigned compared = 0;

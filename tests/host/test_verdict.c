@@ -73,7 +73,7 @@ static void test_a_point_is_judged_as_its_run(void) {
     static const char *const methods[] = {"rk4", "heun", "leapfrog", "semi-implicit-euler",
                                           "nystroem5"};
     dice d = dice_of("verdict", 15004);
-    const unsigned cases = dice_cases(few_or_all(usual_or(60, 20), 120));
+    const unsigned cases = dice_cases(few_or_all(20, 120));
     unsigned of[SAID_KINDS + 1] = {0};
     for (unsigned i = 0; i < cases; i++) {
         char text[TEXT];
