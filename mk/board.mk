@@ -86,7 +86,7 @@ pil-now: $(B)/whirl
 # Only the test framework takes something from a C library: the jump out of a failed test.
 $(ELF)/tests.elf: IMAGE_LIBS := -lc
 $(ELF)/tests.elf: $(call objects,$(BOARD),$(CORE_TEST_PARTS)) $(BOARD_OBJECTS) \
-    $(call libraries,$(BOARD),scenes rig virtual whirl)
+    $(call libraries,$(BOARD),scenes station rig virtual whirl)
 	$(link_board)
 
 emulate = $(call BOARD_EMULATE,$(1))

@@ -46,10 +46,10 @@ $(foreach b,host float double $(BOARD),$(call objects,$(b),$(CORE_TEST_PARTS) $(
     | $(UNITY_DIR)/unity.c
 
 $(B)/tests/core_float: $(call objects,float,$(CORE_TEST_PARTS)) \
-    $(call libraries,float,scenes rig virtual whirl)
+    $(call libraries,float,scenes station rig virtual whirl)
 	$(link)
 
-$(B)/tests/core_double: $(call objects,double,$(CORE_TEST_PARTS)) $(call libraries,double,scenes rig whirl)
+$(B)/tests/core_double: $(call objects,double,$(CORE_TEST_PARTS)) $(call libraries,double,scenes station rig whirl)
 	$(link)
 
 $(B)/tests/host: $(call objects,host,$(HOST_TEST_PARTS)) $(LIB_HOST) \
