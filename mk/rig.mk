@@ -4,7 +4,11 @@
 RIG_STEP_MOST ?= 1500
 $(eval $(call program,rig_steps,boards/programs/rig_steps.c,whirl rig virtual scenes))
 
-.PHONY: rig-steps-now rig-truth-now faults-now
+.PHONY: rig-now rig-steps-now rig-truth-now faults-now
+rig-now: $(GEN)/.stamp
+	@$(MAKE) $(B)/station
+	@exec $(B)/station
+
 rig-steps-now: $(GEN)/.stamp
 	@$(MAKE) $(ELF)/rig_steps.elf $(PLUGIN)
 	@BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) PLUGIN=$(PLUGIN) \

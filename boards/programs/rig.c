@@ -10,31 +10,18 @@
 #include <stddef.h>
 
 #include "boards/board.h"
-#include "core/arithmetic.h"
 #include "core/rig/datasheet.h"
-#include "core/scene.h"
 #include "core/text.h"
 #include "hal/clock.h"
 #include "hal/console.h"
 #include "hal/loadcell.h"
 #include "hal/motor.h"
 #include "hal/reset.h"
-#include "hal/slots.h"
 #include "hal/stop.h"
 #include "hal/watchdog.h"
+#include "rig_control.h"
 #include "rig_report.h"
-#include "trip_memory.h"
 
-/* The rig's only hardware so far is played by the model; a real one comes with its own hal. */
-#ifndef HAL_VIRTUAL
-#define HAL_VIRTUAL 1
-#endif
-#if HAL_VIRTUAL
-#include "hal/virtual/virtual_rig.h"
-#endif
-
-/* The model that goes with the rotor: rig_fixed of core/models/eccentric.whirl, in control steps (mk/whirl.mk). */
-extern const wh_scene rig_observed;
 #ifndef HAL_FRAMES
 #define HAL_FRAMES 0
 #endif
@@ -51,13 +38,6 @@ static wh_carriage carriage;
 static float displacement_m; /* of the carriage, by what was measured */
 #endif
 
-_Static_assert(HAL_TICKS_PER_S == WH_RIG_TICKS_PER_S, "one clock");
-_Static_assert((int)HAL_LOAD_SATURATED == (int)WH_LOAD_SATURATED &&
-                   (int)HAL_LOAD_DISCONNECTED == (int)WH_LOAD_DISCONNECTED &&
-                   (int)HAL_LOAD_LATE == (int)WH_LOAD_LATE &&
-                   (int)HAL_LOAD_REPEATED == (int)WH_LOAD_REPEATED,
-               "one list of a sample's states");
-
 /* The set-point of the run. */
 #ifndef RIG_TARGET_RPM
 #define RIG_TARGET_RPM WH_RIG_NOMINAL_RPM
@@ -68,15 +48,9 @@ _Static_assert((int)HAL_LOAD_SATURATED == (int)WH_LOAD_SATURATED &&
 #define RIG_SWINGS 0
 #endif
 
-#define CONTROL_TICKS 2000U /* 500 Hz, as wh_rig_standard.step_s */
-#define WATCHDOG_TICKS (10U * CONTROL_TICKS)
-
 /* The rotor must rest before `arm`: one that turned on before the reset gets so long. */
 #define PATIENCE_TICKS (120U * HAL_TICKS_PER_S)
 
-/* Static, not on the stack: it holds the samples of a turn. */
-static wh_rig rig;
-static trip_memory memory;
 static float target_radps = RIG_TARGET_RPM * WH_RIG_RADPS_PER_RPM;
 
 /* To whoever judges a run in the loop (docs/pil.md). */
@@ -151,38 +125,6 @@ static void put_plant_hash(void) {
 }
 #endif
 
-static wh_rig_inputs inputs_now(void) {
-    return (wh_rig_inputs){.now_ticks = hal_clock_ticks(),
-                           .supply_V = hal_motor_supply_V(),
-                           .stop_pressed = hal_stop_pressed(),
-                           .watchdog_has_cut = hal_watchdog_has_cut()};
-}
-
-static void obey(const wh_rig_command *command) {
-    switch (command->way) {
-    case WH_MOTOR_DRIVES: hal_motor_set_voltage(command->volts); break;
-    case WH_MOTOR_BRAKES: hal_motor_off(HAL_MOTOR_BRAKE); break;
-    case WH_MOTOR_COASTS: hal_motor_off(HAL_MOTOR_COAST); break;
-    }
-}
-
-static void control(const wh_rig_config *config) {
-    hal_slot_pulse pulse;
-    if (hal_slots_take(
-            &pulse)) { /* one a step: a storm must not hold it up, and stamps do not age */
-        wh_rig_pulse(config, &rig, pulse.sensor, pulse.ticks);
-    }
-    hal_load_sample sample;
-    while (hal_loadcell_take(&sample)) {
-        wh_rig_load(config, &rig, sample.ticks, sample.raw, (wh_load_status)sample.status);
-    }
-    const wh_rig_inputs inputs = inputs_now();
-    const wh_rig_command command = wh_rig_step(config, &rig, &inputs);
-    obey(&command);
-    trip_memory_keep(&memory, &rig);
-    hal_watchdog_kick(); /* tripped too: a watchdog that resets would start all over */
-}
-
 /* Who gives the orders: `arm` once the rotor rests, then `start`. A rig that was reset, or stopped, it leaves alone:
  * somebody has to look at it first. */
 typedef enum operator_step {
@@ -252,17 +194,6 @@ static operator_step run(const wh_rig_config *config) {
     return operator_at;
 }
 
-/* Why hal_clock_start() failed. */
-static const char *why_no_hardware(void) {
-#if HAL_VIRTUAL
-    const wh_status status = hal_virtual_rig_instance()->status;
-    if (status != WH_OK) {
-        return wh_status_text(status);
-    }
-#endif
-    return "the hardware does not answer";
-}
-
 /* Before anything has moved. */
 static void refuse(const char *why) {
     put("NOT STARTED: ");
@@ -302,19 +233,11 @@ int main(void) {
 #if RIG_CARRIAGE
     hal_frames_with_dials();
 #endif
-    if (!hal_clock_start()) {
-        refuse(why_no_hardware());
+    const char *why = why_not_started();
+    if (why != NULL) {
+        refuse(why);
     }
-    if (wh_arithmetic_wrong(wh_arithmetic) != WH_PROBED_COUNT) {
-        hal_motor_off(HAL_MOTOR_COAST);
-        refuse(wh_status_text(WH_E_ARITHMETIC));
-    }
-    wh_rig_config config = wh_rig_standard;
-    config.measure.cell = (wh_cell_config){.newton_per_count = HAL_LOADCELL_N_PER_COUNT,
-                                           .period_ticks = HAL_LOADCELL_PERIOD_TICKS,
-                                           .raw_max = HAL_LOADCELL_RAW_MAX};
-    wh_rig_slots(&config, HAL_SLOT_LEAD_DEG / WH_RIG_DEG_PER_RAD);
-    config.observer.scene = &rig_observed;
+    wh_rig_config config = rig_configuration();
     config.swings = RIG_SWINGS != 0;
 #if RIG_CARRIAGE
     take_dials(&config);
