@@ -21,8 +21,8 @@ FAULTS_BOARD := $(if $(filter command environment,$(firstword $(origin BOARD))),
 RUNS ?= $(if $(FAULTS_BOARD),2000,20000)
 FAULTS_OUT := build/faults$(addprefix _,$(FAULTS_BOARD)).md
 faults-now: $(GEN)/.stamp
-	@$(MAKE) build/tools/faults $(if $(FAULTS_BOARD),$(ELF)/pil_rig.elf,$(B)/pil_rig)
-	@build/tools/faults --firmware $(if $(FAULTS_BOARD),$(ELF)/pil_rig.elf --board $(BOARD),$(B)/pil_rig) \
+	@$(MAKE) build/tools/faults $(if $(FAULTS_BOARD),$(ELF)/pil_dialled.elf,$(B)/pil_dialled)
+	@build/tools/faults --firmware $(if $(FAULTS_BOARD),$(ELF)/pil_dialled.elf --board $(BOARD),$(B)/pil_dialled) \
 	    --runs $(RUNS) --seed $(SEED) >$(FAULTS_OUT); code=$$?; cat $(FAULTS_OUT); exit $$code
 
 # What the last campaign on this machine found, between the marks of docs/rig.md.

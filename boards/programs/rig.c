@@ -46,6 +46,10 @@ extern const wh_scene rig_observed;
 #ifndef RIG_CARRIAGE
 #define RIG_CARRIAGE 0
 #endif
+/* At other set-points than one, and with gravity fed forward in parts (pil_dialled.c). */
+#ifndef RIG_DIALLED
+#define RIG_DIALLED 0
+#endif
 #if RIG_CARRIAGE
 static wh_carriage carriage;
 static float displacement_m; /* of the carriage, by what was measured */
@@ -70,6 +74,7 @@ _Static_assert((int)HAL_LOAD_SATURATED == (int)WH_LOAD_SATURATED &&
 
 #define CONTROL_TICKS 2000U /* 500 Hz, as wh_rig_standard.step_s */
 #define WATCHDOG_TICKS (10U * CONTROL_TICKS)
+#define SAMPLES_MOST 2U /* a step; what a late one finds waiting goes to the next */
 
 /* The rotor must rest before `arm`: one that turned on before the reset gets so long. */
 #define PATIENCE_TICKS (120U * HAL_TICKS_PER_S)
@@ -117,9 +122,8 @@ static void put_state(uint32_t started_ticks) {
     hal_console_write(text.bytes, text.length);
 }
 
-#if RIG_CARRIAGE
-/* What the operator has dialled in, once the dials have been read. */
-static void take_dials(wh_rig_config *config) {
+#if RIG_CARRIAGE || RIG_DIALLED
+static void wait_for_dials(void) {
     const uint32_t started = hal_clock_ticks();
     for (uint32_t waited = 0; waited <= HAL_DIAL_TICKS; waited += CONTROL_TICKS) {
         hal_clock_wait_until(started + waited + CONTROL_TICKS);
@@ -127,10 +131,30 @@ static void take_dials(wh_rig_config *config) {
         while (hal_loadcell_take(&none_yet)) {
         }
     }
+}
+#endif
+
+/* What the operator has dialled in. */
+#if RIG_CARRIAGE
+static void take_dials(wh_rig_config *config) {
+    wait_for_dials();
     carriage = (wh_carriage){.disc_m = hal_frames_dial(HAL_DIAL_RADIUS),
                              .ratio = hal_frames_dial(HAL_DIAL_RATIO)};
     target_radps = hal_frames_dial(HAL_DIAL_SPEED);
     wh_carriage_mount(config, &carriage);
+}
+#elif RIG_DIALLED
+static void take_dials(wh_rig_config *config) {
+    if (hal_reset_cause() != HAL_RESET_POWER_ON) {
+        return; /* nothing will be ordered, and what has tripped is to be told at once */
+    }
+    wait_for_dials();
+    target_radps = hal_frames_dial(HAL_DIAL_TARGET);
+    const float fed = hal_frames_dial(HAL_DIAL_FEED);
+    if (fed < 0.0f || fed > 0.0f) {
+        config->feeds = WH_FEED_ALWAYS;
+        config->feed.weight_Nm *= fed;
+    }
 }
 #endif
 
@@ -166,18 +190,35 @@ static void obey(const wh_rig_command *command) {
     }
 }
 
+static wh_rig_command step(const wh_rig_config *config, const hal_slot_pulse *pulse,
+                           const hal_load_sample *sample, unsigned samples) {
+    const wh_rig_inputs inputs = inputs_now();
+#if HAL_FRAMES
+    hal_frames_step_begins();
+#endif
+    if (pulse != NULL) {
+        wh_rig_pulse(config, &rig, pulse->sensor, pulse->ticks);
+    }
+    for (unsigned i = 0; i < samples; i++) {
+        wh_rig_load(config, &rig, sample[i].ticks, sample[i].raw, (wh_load_status)sample[i].status);
+    }
+    const wh_rig_command command = wh_rig_step(config, &rig, &inputs);
+#if HAL_FRAMES
+    hal_frames_step_ends();
+#endif
+    return command;
+}
+
 static void control(const wh_rig_config *config) {
     hal_slot_pulse pulse;
-    if (hal_slots_take(
-            &pulse)) { /* one a step: a storm must not hold it up, and stamps do not age */
-        wh_rig_pulse(config, &rig, pulse.sensor, pulse.ticks);
+    hal_load_sample sample[SAMPLES_MOST];
+    unsigned samples = 0;
+    /* one a step: a storm must not hold it up, and stamps do not age */
+    const bool pulsed = hal_slots_take(&pulse);
+    while (samples < SAMPLES_MOST && hal_loadcell_take(&sample[samples])) {
+        samples++;
     }
-    hal_load_sample sample;
-    while (hal_loadcell_take(&sample)) {
-        wh_rig_load(config, &rig, sample.ticks, sample.raw, (wh_load_status)sample.status);
-    }
-    const wh_rig_inputs inputs = inputs_now();
-    const wh_rig_command command = wh_rig_step(config, &rig, &inputs);
+    const wh_rig_command command = step(config, pulsed ? &pulse : NULL, sample, samples);
     obey(&command);
     trip_memory_keep(&memory, &rig);
     hal_watchdog_kick(); /* tripped too: a watchdog that resets would start all over */
@@ -301,6 +342,8 @@ int main(void) {
     put("\n");
 #if RIG_CARRIAGE
     hal_frames_with_dials();
+#elif RIG_DIALLED
+    hal_frames_with_bench_dials();
 #endif
     if (!hal_clock_start()) {
         refuse(why_no_hardware());
@@ -316,14 +359,15 @@ int main(void) {
     wh_rig_slots(&config, HAL_SLOT_LEAD_DEG / WH_RIG_DEG_PER_RAD);
     config.observer.scene = &rig_observed;
     config.swings = RIG_SWINGS != 0;
-#if RIG_CARRIAGE
+#if RIG_CARRIAGE || RIG_DIALLED
     take_dials(&config);
 #endif
     const operator_step ended = run(&config);
     put_end(ended);
     if (rig.has_result) {
         put_result(&config, &rig.result,
-                   RIG_CARRIAGE ? target_radps : WH_RIG_NOMINAL_RPM * WH_RIG_RADPS_PER_RPM);
+                   RIG_CARRIAGE || RIG_DIALLED ? target_radps
+                                               : WH_RIG_NOMINAL_RPM * WH_RIG_RADPS_PER_RPM);
 #if RIG_CARRIAGE
         put_carriage(&config, &carriage, displacement_m);
 #endif
