@@ -74,7 +74,8 @@ _Static_assert((int)HAL_LOAD_SATURATED == (int)WH_LOAD_SATURATED &&
 
 #define CONTROL_TICKS 2000U /* 500 Hz, as wh_rig_standard.step_s */
 #define WATCHDOG_TICKS (10U * CONTROL_TICKS)
-#define SAMPLES_MOST 2U /* a step; what a late one finds waiting goes to the next */
+#define SAMPLES_MOST \
+    2U /* a step, beside a pulse one; what else a late one finds goes to the next */
 
 /* The rotor must rest before `arm`: one that turned on before the reset gets so long. */
 #define PATIENCE_TICKS (120U * HAL_TICKS_PER_S)
@@ -215,8 +216,8 @@ static void control(const wh_rig_config *config) {
     unsigned samples = 0;
     /* one a step: a storm must not hold it up, and stamps do not age */
     const bool pulsed = hal_slots_take(&pulse);
-    while (samples < SAMPLES_MOST && hal_loadcell_take(&sample[samples])) {
-        samples++;
+    while (samples < (pulsed ? 1U : SAMPLES_MOST) && hal_loadcell_take(&sample[samples])) {
+        samples += sample[samples].status != HAL_LOAD_REPEATED ? 1U : 0U;
     }
     const wh_rig_command command = step(config, pulsed ? &pulse : NULL, sample, samples);
     obey(&command);

@@ -7,7 +7,7 @@
 
 #define PI WH_R(3.141592653589793)
 /* Of gravity, fed forward: then it is fed wrongly, or does not reach the arms, and what turns them is not known. */
-#define FED_LEFT_MOST WH_R(0.2)
+#define FED_LEFT_MOST WH_R(0.15)
 
 static wh_real square_of(wh_real x) { return x * x; }
 

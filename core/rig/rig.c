@@ -69,9 +69,6 @@ void wh_rig_pulse(const wh_rig_config *config, wh_rig *rig, unsigned sensor, uin
 
 void wh_rig_load(const wh_rig_config *config, wh_rig *rig, uint32_t ticks, int32_t raw,
                  wh_load_status status) {
-    if (rig->guard.load_good && ticks - config->measure.cell.delay_ticks == rig->guard.load_ticks) {
-        return; /* the same once more */
-    }
     const wh_load load = wh_cell_load(&config->measure.cell, ticks, raw, status);
     rig->loads++;
     const bool needed = rig->state == WH_LIFE_ARMED || rig->run.phase != WH_PHASE_NONE;
@@ -261,8 +258,12 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
 /* --- where the rotor is --------------------------------------------------------------------------- */
 
 static void observe(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
+    const uint32_t before_ticks = rig->observer.ticks;
     wh_observer_step(&config->observer, &rig->observer, now_ticks,
                      rig->command.volts / config->run.rated_V);
+    if (rig->observer.ticks - before_ticks > rig->observer.step_ticks) {
+        rig->loads++; /* two steps of it are as much as a sample more */
+    }
     if (!rig->busy && rig->pulses.speed.taken != rig->observed) {
         rig->busy = true;
         rig->observed = rig->pulses.speed.taken;
@@ -325,6 +326,7 @@ static void live(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *
                                 .impossible_radps = config->impossible_radps,
                                 .supply_V = inputs->supply_V,
                                 .fed = rig->feed.part >= WH_R(1.0),
+                                .busy = rig->busy,
                                 .now_ticks = inputs->now_ticks};
     if (wh_run_step(&rig->run, &scene)) {
         rig->result = rig->measure.result;

@@ -95,6 +95,8 @@ _Static_assert(SIGNALS + BENCH_SIGNALS <= WH_SIGNALS_MAX, "room for all");
 static hal_turns plant;
 static float supply_V = SUPPLY_RATED_V;
 static bool stop_pressed = true; /* until it is looked at */
+static uint32_t load_ticks;      /* stamp of the last sample of the load, */
+static bool load_seen;           /* when there was one */
 static const wh_signal *dials;   /* and notes; NULL: it has none */
 static unsigned dial_signals;
 static float dial[HAL_DIALS];
@@ -207,8 +209,12 @@ bool hal_loadcell_take(hal_load_sample *sample) {
             return false;
         }
     } while (one.channel != CELL_FORCE);
-    *sample =
-        (hal_load_sample){.ticks = one.ticks, .raw = one.raw, .status = load_status(one.status)};
+    const bool again = load_seen && one.ticks == load_ticks;
+    load_seen = true;
+    load_ticks = one.ticks;
+    *sample = (hal_load_sample){.ticks = one.ticks,
+                                .raw = one.raw,
+                                .status = again ? HAL_LOAD_REPEATED : load_status(one.status)};
     return true;
 }
 

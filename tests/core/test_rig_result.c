@@ -245,7 +245,7 @@ static void test_every_reason_has_its_case(void) {
             TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), plain, 10, 0) == WH_WHY_NONE);
             const wh_real part = WH_ABS(merge.swing_rad) / angle.whole_rad;
             angle.fed = true;
-            merge.swing_rad *= (wh_real)side * (i == 0 ? WH_R(0.19) : WH_R(0.21)) / part;
+            merge.swing_rad *= (wh_real)side * (i == 0 ? WH_R(0.14) : WH_R(0.16)) / part;
             conclude(&wh_rig_standard.measure.result);
             TEST_ASSERT_TRUE(measured.why == (i == 0 ? WH_WHY_NONE : WH_WHY_FED));
             angle.fed = false;

@@ -142,9 +142,13 @@ typedef struct drawing {
     uint64_t count;
 } drawing;
 
-/* From 0 to below 1. */
+/* From 0 to below 1. The hash alone is all but linear in the run's number: runs with one draw in common would have them all
+ * (Stafford's thirteenth mix; test_campaign.c looks for it). */
 static double draw(drawing *d) {
-    const uint64_t bits = wh_hash_u64(wh_hash_u64(d->hash, d->count++), 0x64726177U);
+    uint64_t bits = wh_hash_u64(wh_hash_u64(d->hash, d->count++), 0x64726177U);
+    bits = (bits ^ (bits >> 30)) * UINT64_C(0xBF58476D1CE4E5B9);
+    bits = (bits ^ (bits >> 27)) * UINT64_C(0x94D049BB133111EB);
+    bits ^= bits >> 31;
     return (double)(bits >> 11) * 0x1p-53;
 }
 

@@ -1,5 +1,6 @@
 /* test_campaign.c: what a campaign of faults draws, and how fast what it draws may get. */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "faults.h"
@@ -61,6 +62,34 @@ static void test_draws(void) {
     }
 }
 
+/* Runs whose set-points are close have nothing else in common: of pairs within 0.02 rad/s a twentieth has times of the same
+ * fault within a twentieth of each other, not most. */
+static void test_draws_are_independent(void) {
+    enum { RUNS = 4000 };
+    static double target[RUNS];
+    static double after[RUNS];
+    const campaign c = {.firmware = "pil_dialled", .seed = 4, .only = "late"};
+    unsigned pairs = 0;
+    unsigned close = 0;
+    for (unsigned i = 0; i < RUNS; i++) {
+        campaign_case one;
+        campaign_draw(&one, &c, i);
+        rig_stage stage[RIG_STAGES_MAX];
+        rig_stages(stage);
+        const char *when = strchr(one.words, '~');
+        target[i] = one.target_rpm;
+        after[i] = when != NULL ? atof(when + 1) / stage[one.stage].span_s : 0.0;
+        for (unsigned other = 0; other < i; other++) {
+            const bool near =
+                fabs(target[i] - target[other]) < 0.2 && fabs(target[i] - 330.0) > 1.0;
+            pairs += near;
+            close += near && fabs(after[i] - after[other]) < 0.025;
+        }
+    }
+    TEST_ASSERT_TRUE(pairs > 2000);
+    TEST_ASSERT_TRUE(close > pairs / 40 && close < pairs / 10);
+}
+
 /* What cannot be drawn is refused: rows of an emulator's counts, or of an operator's dials. */
 static void test_what_there_is_to_draw(void) {
     const char *const words[] = {NULL, "jam", "slow", "feed-part", "two faults", "nothing"};
@@ -100,6 +129,7 @@ static void test_how_fast_a_runaway_may_get(void) {
 
 void suite_campaign(void) {
     RUN_TEST(test_draws);
+    RUN_TEST(test_draws_are_independent);
     RUN_TEST(test_what_there_is_to_draw);
     RUN_TEST(test_how_fast_a_runaway_may_get);
 }
