@@ -168,12 +168,12 @@ void wh_merge_mean(const wh_result_config *config, const wh_rotor_config *rotor,
                           (n * merge->turn_s * (wh_real)WH_RIG_TICKS_PER_S);
     const wh_real amplitude2 =
         square_of(config->amplitude_floor) + square_of(WH_R(1.5) * swing * lag) + square_of(third) +
-        square_of(WH_R(3.0) * quadrature * quadrature) + square_of(WH_R(0.04) * cut) +
+        square_of(WH_R(3.0) * quadrature * quadrature) + square_of(WH_R(0.01) * cut) +
         square_of(WH_R(0.5) * angle->twice_rad * rotor->yields_tolerance);
     measured->amplitude_half_N = WH_SQRT(along_N2 + amplitude2 * size2);
     measured->phase_half_rad =
         WH_SQRT(across_N2 / size2 + t2 * marks_rad2(merge, angle, measured->jitter_s) +
-                square_of(lag) + square_of(third) + square_of(turned) + square_of(WH_R(0.4) * cut) +
+                square_of(lag) + square_of(third) + square_of(turned) + square_of(WH_R(0.1) * cut) +
                 square_of(drift) + square_of(config->phase_floor_rad));
 }
 
