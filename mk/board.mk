@@ -81,9 +81,10 @@ $(ELF)/$(1).elf: $(call objects,$(BOARD),$(2) $(BOARD_LINK)) $(BOARD_OBJECTS) $(
 endef
 $(eval $(call pil_program,pil_rig,boards/programs/pil_rig.c,frames rig whirl scenes))
 $(eval $(call pil_program,pil_swing,boards/programs/pil_swing.c,frames rig whirl scenes))
+$(eval $(call pil_program,pil_dialled,boards/programs/pil_dialled.c,frames rig whirl scenes))
 $(eval $(call pil_program,pil_carriage,boards/programs/pil_carriage.c,frames rig whirl scenes))
 $(eval $(call pil_program,pil_cart,boards/programs/pil_cart.c,frames whirl))
-PIL_PROGRAMS := pil_rig pil_swing pil_carriage pil_cart
+PIL_PROGRAMS := pil_rig pil_swing pil_dialled pil_carriage pil_cart
 PIL_IMAGES := $(if $(BOARD_LINK),$(PIL_PROGRAMS:%=$(ELF)/%.elf))
 
 # On BOARD and on an M3: the tape of one on the other.

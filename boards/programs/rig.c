@@ -22,16 +22,13 @@
 #include "rig_control.h"
 #include "rig_report.h"
 
-#ifndef HAL_FRAMES
-#define HAL_FRAMES 0
-#endif
-#if HAL_FRAMES
-#include "hal/frames/rig_frames.h"
-#endif
-
 /* On a carriage, with what an operator has dialled in (pil_carriage.c). */
 #ifndef RIG_CARRIAGE
 #define RIG_CARRIAGE 0
+#endif
+/* At other set-points than one, and with gravity fed forward in parts (pil_dialled.c). */
+#ifndef RIG_DIALLED
+#define RIG_DIALLED 0
 #endif
 #if RIG_CARRIAGE
 static wh_carriage carriage;
@@ -91,9 +88,8 @@ static void put_state(uint32_t started_ticks) {
     hal_console_write(text.bytes, text.length);
 }
 
-#if RIG_CARRIAGE
-/* What the operator has dialled in, once the dials have been read. */
-static void take_dials(wh_rig_config *config) {
+#if RIG_CARRIAGE || RIG_DIALLED
+static void wait_for_dials(void) {
     const uint32_t started = hal_clock_ticks();
     for (uint32_t waited = 0; waited <= HAL_DIAL_TICKS; waited += CONTROL_TICKS) {
         hal_clock_wait_until(started + waited + CONTROL_TICKS);
@@ -101,10 +97,30 @@ static void take_dials(wh_rig_config *config) {
         while (hal_loadcell_take(&none_yet)) {
         }
     }
+}
+#endif
+
+/* What the operator has dialled in. */
+#if RIG_CARRIAGE
+static void take_dials(wh_rig_config *config) {
+    wait_for_dials();
     carriage = (wh_carriage){.disc_m = hal_frames_dial(HAL_DIAL_RADIUS),
                              .ratio = hal_frames_dial(HAL_DIAL_RATIO)};
     target_radps = hal_frames_dial(HAL_DIAL_SPEED);
     wh_carriage_mount(config, &carriage);
+}
+#elif RIG_DIALLED
+static void take_dials(wh_rig_config *config) {
+    if (hal_reset_cause() != HAL_RESET_POWER_ON) {
+        return; /* nothing will be ordered, and what has tripped is to be told at once */
+    }
+    wait_for_dials();
+    target_radps = hal_frames_dial(HAL_DIAL_TARGET);
+    const float fed = hal_frames_dial(HAL_DIAL_FEED);
+    if (fed < 0.0f || fed > 0.0f) {
+        config->feeds = WH_FEED_ALWAYS;
+        config->feed.weight_Nm *= fed;
+    }
 }
 #endif
 
@@ -232,6 +248,8 @@ int main(void) {
     put("\n");
 #if RIG_CARRIAGE
     hal_frames_with_dials();
+#elif RIG_DIALLED
+    hal_frames_with_bench_dials();
 #endif
     const char *why = why_not_started();
     if (why != NULL) {
@@ -239,14 +257,15 @@ int main(void) {
     }
     wh_rig_config config = rig_configuration();
     config.swings = RIG_SWINGS != 0;
-#if RIG_CARRIAGE
+#if RIG_CARRIAGE || RIG_DIALLED
     take_dials(&config);
 #endif
     const operator_step ended = run(&config);
     put_end(ended);
     if (rig.has_result) {
         put_result(&config, &rig.result,
-                   RIG_CARRIAGE ? target_radps : WH_RIG_NOMINAL_RPM * WH_RIG_RADPS_PER_RPM);
+                   RIG_CARRIAGE || RIG_DIALLED ? target_radps
+                                               : WH_RIG_NOMINAL_RPM * WH_RIG_RADPS_PER_RPM);
 #if RIG_CARRIAGE
         put_carriage(&config, &carriage, displacement_m);
 #endif

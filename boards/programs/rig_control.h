@@ -23,6 +23,12 @@
 #if HAL_VIRTUAL
 #include "hal/virtual/virtual_rig.h"
 #endif
+#ifndef HAL_FRAMES
+#define HAL_FRAMES 0
+#endif
+#if HAL_FRAMES
+#include "hal/frames/rig_frames.h"
+#endif
 
 /* The model that goes with the rotor: rig_fixed of core/models/eccentric.whirl, in control steps (mk/whirl.mk). */
 extern const wh_scene rig_observed;
@@ -36,6 +42,8 @@ _Static_assert((int)HAL_LOAD_SATURATED == (int)WH_LOAD_SATURATED &&
 
 #define CONTROL_TICKS 2000U /* 500 Hz, as wh_rig_standard.step_s */
 #define WATCHDOG_TICKS (10U * CONTROL_TICKS)
+#define SAMPLES_MOST \
+    2U /* a step, beside a pulse one; what else a late one finds goes to the next */
 
 /* Static, not on the stack: it holds the samples of a turn. */
 static wh_rig rig;
@@ -56,18 +64,35 @@ static void obey(const wh_rig_command *command) {
     }
 }
 
+static wh_rig_command step(const wh_rig_config *config, const hal_slot_pulse *pulse,
+                           const hal_load_sample *sample, unsigned samples) {
+    const wh_rig_inputs inputs = inputs_now();
+#if HAL_FRAMES
+    hal_frames_step_begins();
+#endif
+    if (pulse != NULL) {
+        wh_rig_pulse(config, &rig, pulse->sensor, pulse->ticks);
+    }
+    for (unsigned i = 0; i < samples; i++) {
+        wh_rig_load(config, &rig, sample[i].ticks, sample[i].raw, (wh_load_status)sample[i].status);
+    }
+    const wh_rig_command command = wh_rig_step(config, &rig, &inputs);
+#if HAL_FRAMES
+    hal_frames_step_ends();
+#endif
+    return command;
+}
+
 static void control(const wh_rig_config *config) {
     hal_slot_pulse pulse;
+    hal_load_sample sample[SAMPLES_MOST];
+    unsigned samples = 0;
     /* one a step: a storm must not hold it up, and stamps do not age */
-    if (hal_slots_take(&pulse)) {
-        wh_rig_pulse(config, &rig, pulse.sensor, pulse.ticks);
+    const bool pulsed = hal_slots_take(&pulse);
+    while (samples < (pulsed ? 1U : SAMPLES_MOST) && hal_loadcell_take(&sample[samples])) {
+        samples += sample[samples].status != HAL_LOAD_REPEATED ? 1U : 0U;
     }
-    hal_load_sample sample;
-    while (hal_loadcell_take(&sample)) {
-        wh_rig_load(config, &rig, sample.ticks, sample.raw, (wh_load_status)sample.status);
-    }
-    const wh_rig_inputs inputs = inputs_now();
-    const wh_rig_command command = wh_rig_step(config, &rig, &inputs);
+    const wh_rig_command command = step(config, pulsed ? &pulse : NULL, sample, samples);
     obey(&command);
     trip_memory_keep(&memory, &rig);
     hal_watchdog_kick(); /* tripped too: a watchdog that resets would start all over */

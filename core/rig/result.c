@@ -6,6 +6,8 @@
 #include "polar.h"
 
 #define PI WH_R(3.141592653589793)
+/* Of gravity, fed forward: then it is fed wrongly, or does not reach the arms, and what turns them is not known. */
+#define FED_LEFT_MOST WH_R(0.15)
 
 static wh_real square_of(wh_real x) { return x * x; }
 
@@ -131,6 +133,9 @@ void wh_merge_mean(const wh_result_config *config, const wh_rotor_config *rotor,
     measured->at_mark_N[0] = merge->at_mark_N[0] - tare_N;
     measured->at_mark_N[1] = merge->split_turns > 0 ? merge->at_mark_N[1] - tare_N : WH_R(0.0);
     measured->residual_N = WH_SQRT(merge->residual_N2);
+    if (angle->fed && angle->whole_rad > WH_R(0.0)) {
+        measured->left_part = WH_ABS(merge->swing_rad) / angle->whole_rad;
+    }
     const wh_real x = merge->in_phase_N;
     const wh_real y = -merge->quadrature_N;
     wh_polar(x, y, &measured->amplitude_N, &measured->phase_rad);
@@ -217,6 +222,9 @@ static wh_why reason(const wh_result_config *config, const wh_rotor_config *roto
     if (WH_ABS(merge->swing_rad) > WH_R(0.0) &&
         (merge->split_turns == 0 || !(heavier <= WH_R(1.0) + config->inertia_off))) {
         return WH_WHY_ROTOR;
+    }
+    if (measured->left_part >= FED_LEFT_MOST) {
+        return WH_WHY_FED;
     }
     if (WH_ABS(measured->mean_N) > config->mean_off * expected) {
         return WH_WHY_MEAN;
