@@ -19,11 +19,11 @@ $(foreach b,host float double $(BOARD),$(eval $(B)/$(b)/tests/%.o: FILE_FLAGS = 
 # The programs of tests are not what is measured, and most of them compile longer than they run: what double computes is asked
 # without optimisation, the portable suites in float and the host's at -O1, on boards (and so warned of) at the level of the
 # programs; a file of all methods by all forms takes -O2 four times as long as -O1.
-# At -O1 gcc takes values for uninitialized and texts for cut off that are not, and says nothing at -O2.
-QUIET_O1 = -O1 $(if $(findstring clang,$(CC)),,-Wno-maybe-uninitialized -Wno-format-truncation)
-LESS = $(if $(filter -O0,$(OPT)),,$(QUIET_O1))
-LESS_O2 = $(if $(filter -O2,$(OPT)),$(QUIET_O1))
-LEAST_O2 = $(if $(filter -O2,$(OPT)),-O0)
+# Below -O2 gcc takes values for uninitialized and texts for cut off that are not, and says nothing at -O2.
+QUIET = $(if $(findstring clang,$(CC)),,-Wno-maybe-uninitialized -Wno-format-truncation)
+LESS = $(if $(filter -O0,$(OPT)),,-O1 $(QUIET))
+LESS_O2 = $(if $(filter -O2,$(OPT)),-O1 $(QUIET))
+LEAST_O2 = $(if $(filter -O2,$(OPT)),-O0 $(QUIET))
 $(B)/double/tests/core/%.o: FILE_FLAGS = $(UNITY_FLAGS) $(LEAST_O2)
 $(B)/float/tests/core/%.o $(B)/host/tests/host/%.o: FILE_FLAGS = $(UNITY_FLAGS) $(LESS_O2)
 $(patsubst %,$(B)/$(BOARD)/tests/core/%.o,test_stage_turn test_stage_turn_ledger): FILE_FLAGS = $(UNITY_FLAGS) $(LESS)
