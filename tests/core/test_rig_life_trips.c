@@ -294,7 +294,8 @@ static void test_rest_may_last_any_time(void) {
         const uint32_t rejected = even.rig.pulses.rejected;
         even_rest(&even);
         TEST_ASSERT_FALSE(even.rig.pulses.speed.running);
-        const uint32_t wakes = last + (i % 3U == 0 ? UINT32_C(0x80000000) : 0U) + UINT32_C(5000) * i;
+        const uint32_t wakes =
+            last + (i % 3U == 0 ? UINT32_C(0x80000000) : 0U) + UINT32_C(5000) * i;
         for (unsigned s = 0; s < 4294U; s++) { /* a second each */
             even.inputs.now_ticks += 1000000U - EVEN_STEP_TICKS;
             even_step(&even);
