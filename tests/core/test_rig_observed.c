@@ -86,7 +86,29 @@ static void test_a_result_says_the_voltage(void) {
     }
 }
 
+/* A pulse is work enough for one control step: the turn that is worked on waits for the next one. */
+static void test_a_step_with_a_pulse_works_on_no_turn(void) {
+    unsigned pulses = 0;
+    unsigned works = 0;
+    even_reach(&even, WH_PHASE_SETTLE);
+    const wh_lockin *lockin = &even.rig.measure.lockin;
+    while (even.rig.run.phase <= WH_PHASE_RECORD) {
+        const wh_lockin_stage stage = lockin->stage;
+        const wh_lockin_place place = lockin->place;
+        const wh_real part = lockin->last.part;
+        const uint32_t ever = even.rig.pulses_ever;
+        even_step(&even);
+        const bool stays = (stage == lockin->stage || stage == WH_LOCKIN_WAITS) &&
+                           place == lockin->place && part == lockin->last.part;
+        TEST_ASSERT_TRUE(stays || even.rig.pulses_ever == ever);
+        pulses += even.rig.pulses_ever != ever ? 1U : 0U;
+        works += stays ? 0U : 1U;
+    }
+    TEST_ASSERT_TRUE(pulses > 40U && works > 400U);
+}
+
 void suite_rig_observed(void) {
+    RUN_TEST(test_a_step_with_a_pulse_works_on_no_turn);
     RUN_TEST(test_each_pulse_is_told_once);
     RUN_TEST(test_each_run_begins_with_an_observer_that_knows_nothing);
     RUN_TEST(test_a_result_says_the_voltage);

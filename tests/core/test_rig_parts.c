@@ -6,6 +6,7 @@
 #include "core/rig/free_swing.h"
 #include "core/rig/polar.h"
 #include "core/rig/rig.h"
+#include "core/root.h"
 #include "draw.h"
 
 #include "unity.h"
@@ -272,7 +273,7 @@ static void test_limits_of_a_verdict_are_allowed(void) {
             {right, WH_WHY_UNSURE},    {right, WH_WHY_AMPLITUDE_OFF}, {right, WH_WHY_PHASE_OFF},
             {right, WH_WHY_LEFT_OUT},  {right, WH_WHY_OUTLIERS},      {right, WH_WHY_RESIDUAL},
             {right, WH_WHY_ROTOR},     {right, WH_WHY_MEAN},          {right, WH_WHY_WIDE},
-            {right, WH_WHY_FEW_TURNS}};
+            {right, WH_WHY_FEW_TURNS}, {right, WH_WHY_POLARITY}};
         rows[0].measured.amplitude_N = WH_R(64.0) + WH_R(16.0) * by;
         rows[1].measured.phase_rad = config.phase_wrong_rad * by;
         rows[2].measured.amplitude_half_N = WH_R(16.0) * by;
@@ -286,6 +287,7 @@ static void test_limits_of_a_verdict_are_allowed(void) {
         rows[10].measured.mean_N = WH_R(-8.0) * by;
         rows[11].measured.amplitude_half_N = WH_R(0.05) * rows[11].measured.amplitude_N * by;
         rows[12].measured.turns = 3U - beyond;
+        rows[13].measured.phase_rad = WH_R(-0.5) * WH_R(3.141592653589793) * by;
         for (unsigned i = 0; i < sizeof rows / sizeof rows[0]; i++) {
             wh_merge_judge(&config, &rotor, &merge, &rows[i].measured);
             TEST_ASSERT_TRUE((rows[i].measured.why == rows[i].why) == (beyond > 0));
@@ -312,6 +314,8 @@ static void test_verdict_of_a_swing(void) {
         const bool wide = draw_one_in(&seed, 2);
         swing.within[WH_SWING_PLACE] = config.wide_rad * (wide ? WH_R(0.52) : WH_R(0.4));
         swing.within[WH_SWING_PLACE + 1] = config.wide_rad;
+        swing.x[WH_SWING_PLACE] = draw_broken(&seed, -1, 1);
+        swing.x[WH_SWING_PLACE + 1] = draw_broken(&seed, -1, 1);
         wh_swing_step(&config, rotor, &swing, false, true);
         const wh_swing_why wanted = swing.strays * 4U > swing.fits      ? WH_SWING_MISFIT
                                     : swing.swung < config.swings_least ? WH_SWING_FEW
@@ -320,6 +324,15 @@ static void test_verdict_of_a_swing(void) {
                                                                         : WH_SWING_FOUND;
         TEST_ASSERT_TRUE(swing.result.why == wanted);
         TEST_ASSERT_EQUAL_UINT(swing.swung, swing.result.swings);
+        for (unsigned k = 0; k < WH_SWING_SENSORS;
+             k++) { /* without misfit, the normal distribution's */
+            const wh_real deviation = WH_R(1.96) * swing.within[WH_SWING_PLACE + k];
+            const wh_real half =
+                WH_SQRT(deviation * deviation + config.floor_rad * config.floor_rad);
+            TEST_ASSERT_FLOAT_WITHIN(1e-5f * (float)half, (float)half,
+                                     (float)swing.result.half_rad[k]);
+            TEST_ASSERT_TRUE(swing.result.place_rad[k] == swing.x[WH_SWING_PLACE + k]);
+        }
         times[wanted]++;
     }
     TEST_ASSERT_TRUE(times[WH_SWING_MISFIT] > 50U && times[WH_SWING_FEW] > 50U);
